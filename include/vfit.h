@@ -1,0 +1,549 @@
+/* vfit.h - C ABI of the vfit virtual-fitting SDK.                  SPDX-License-Identifier: Apache-2.0
+ *
+ * FLOW     open sensor    vfit_sensor_open, vfit_sensor_acquire        -> frame (or vfit_frame_create)
+ *          track          vfit_tracker_update, vfit_tracker_submit     -> user map, bodies
+ *          measure        vfit_scan_add, vfit_scan_measure             -> measurements with sigma
+ *          get size       vfit_size_recommend                          -> labels with probability
+ *          step motion    vfit_motion_step                             -> pose (bones, contacts)
+ *          step cloth     vfit_avatar_pose, vfit_cloth_step            -> mesh, colliders, garment
+ *          fetch buffers  vfit_avatar_acquire, vfit_cloth_acquire, vfit_frame_view, vfit_frame_write
+ * RESULT   0 success; > 0 success with news (nothing new, timed out); < 0 error. On error no output
+ *          is written but a null handle; vfit_last_error() tells this thread why. No exception
+ *          leaves the library and no call ends the process.
+ * STRUCT   A struct passed by pointer starts with struct_size: get it from <type>_init(). Fields are
+ *          only appended; a zero input field means "default". A struct larger than the library knows
+ *          is accepted if the unknown tail is zero, else VFIT_ERROR_UNSUPPORTED; of an output struct
+ *          only struct_size bytes are written. In arrays the stride argument takes its place; where it
+ *          is larger than the library knows, the tail of each item is zeroed. No implicit padding.
+ * HANDLE   64-bit id (kind, slot, generation), by value, 0 is null. A stale or foreign handle gives
+ *          VFIT_ERROR_HANDLE, never a crash. Destroying null is a no-op. A parent takes its children
+ *          with it. Destroy may come from any thread (a finalizer) and takes effect after the step
+ *          that is running. The one process-wide thing in the library is the table of handles.
+ * FRAME    The one carrier of bulk data: an immutable, reference counted bundle of views with one
+ *          time stamp. acquire gives a reference, retain adds one, release drops one; a view lives
+ *          as long as any reference, so it needs no lock. Pools are bounded: hold too many frames
+ *          and a sensor drops new ones, a step returns VFIT_ERROR_BUSY and changes nothing.
+ * LIST     Lists come item by item: items null sets *count; else up to *count items of stride bytes
+ *          are filled and *count is the number filled. A short array gives VFIT_ERROR_CAPACITY with
+ *          *count holding the need.
+ * TEXT     Calls that fill a char buffer return the length of the whole text (without its end); what
+ *          does not fit is cut, and the buffer always ends with 0.
+ * MEMORY   vfit never frees your memory and you never free vfit's.
+ * THREADS  [any]  any thread at any time, also concurrently on the same object
+ *          [read] concurrent with other [read] calls on the object, never with an [excl] one
+ *          [excl] one thread at a time per object; distinct objects run in parallel. A breach gives
+ *                 VFIT_ERROR_BUSY.
+ * CALLBACK Runs on any thread; may call [any] functions only; must not unwind. Never called again
+ *          once the destroy of its context has returned.
+ * SPACE    World: origin on the floor below the camera, +Y up, right-handed, a person who faces the
+ *          camera faces +Z. Bodies, poses, colliders and meshes are in world space. Camera: x right,
+ *          y down, z forward, not mirrored. desc.axes changes what vfit writes, so that no binding
+ *          converts per vertex: UNITY metre, Y up, left-handed; UNREAL centimetre, Z up, X forward,
+ *          left-handed; in left-handed output the winding is reversed; uv origin bottom-left for
+ *          UNITY, else top-left. VFIT_CONTEXT_MIRROR swaps left and right of what is written.
+ * UNITS    Metre, second, radian; time stamps in ns on one monotonic clock per context; quaternion
+ *          xyzw; matrix column-major.
+ * TARGETS  64-bit little-endian; cdecl; UTF-8; boolean = uint32_t 0/1; enum = 32 bits.
+ * VERSION  0.x may change. From 1.0 on, within one MAJOR, a program built with an older header runs on
+ *          a newer library.                                                                           */
+#ifndef VFIT_H
+#define VFIT_H
+#include <stdint.h>
+
+#define VFIT_MAKE_VERSION(a, b, c) (((uint32_t)(a) << 22) | ((uint32_t)(b) << 12) | (uint32_t)(c))
+#define VFIT_VERSION VFIT_MAKE_VERSION(0, 1, 0)
+
+#if defined(_WIN32) && defined(vfit_EXPORTS)
+#define VFIT_EXPORT __declspec(dllexport)
+#elif defined(_WIN32) && !defined(VFIT_STATIC)
+#define VFIT_EXPORT __declspec(dllimport)
+#elif defined(__GNUC__)
+#define VFIT_EXPORT __attribute__((visibility("default")))
+#else
+#define VFIT_EXPORT
+#endif
+#ifdef __cplusplus
+#define VFIT_API extern "C" VFIT_EXPORT
+#define VFIT_ZERO {}
+#else
+#define VFIT_API extern VFIT_EXPORT
+#define VFIT_ZERO {0}
+#endif
+/* Inline on purpose: sizeof is that of the caller's header, not of the library's.                    */
+#define VFIT_STRUCT(T) static inline T T##_init(void) \
+    { T s = VFIT_ZERO; s.struct_size = (uint32_t)sizeof(T); return s; }
+#define VFIT_HANDLE(T) typedef struct T { uint64_t id; } T
+
+typedef int32_t vfit_result;
+enum {
+    VFIT_OK = 0, VFIT_NOT_READY = 1, VFIT_TIMEOUT = 2, VFIT_INCOMPLETE = 3, VFIT_END_OF_STREAM = 4,
+    VFIT_ERROR_UNKNOWN = -1,        VFIT_ERROR_ARGUMENT = -2,
+    VFIT_ERROR_HANDLE = -3,         /* null, destroyed, or of another kind                           */
+    VFIT_ERROR_STATE = -4,          /* right call, wrong moment                                      */
+    VFIT_ERROR_BUSY = -5,
+    VFIT_ERROR_CAPACITY = -6,       /* array or target too small; *count holds the need              */
+    VFIT_ERROR_UNSUPPORTED = -7,    VFIT_ERROR_VERSION = -8,
+    VFIT_ERROR_OUT_OF_MEMORY = -9,  VFIT_ERROR_IO = -10,
+    VFIT_ERROR_DATA = -11,          /* file, frame or garment content is malformed                   */
+    VFIT_ERROR_DEVICE_LOST = -12,   VFIT_ERROR_PLUGIN = -13 };
+
+VFIT_HANDLE(vfit_context); VFIT_HANDLE(vfit_sensor);  VFIT_HANDLE(vfit_frame);
+VFIT_HANDLE(vfit_tracker); VFIT_HANDLE(vfit_scan);    VFIT_HANDLE(vfit_size_chart);
+VFIT_HANDLE(vfit_motion);  VFIT_HANDLE(vfit_avatar);  VFIT_HANDLE(vfit_garment);
+VFIT_HANDLE(vfit_cloth);   VFIT_HANDLE(vfit_recorder);
+
+/* ---- context ------------------------------------------------------------------------------------ */
+typedef int32_t vfit_axes;
+enum { VFIT_AXES_RH_Y_UP = 0, VFIT_AXES_UNITY = 1, VFIT_AXES_UNREAL = 2 };
+typedef int32_t vfit_log_level;
+enum { VFIT_LOG_ERROR = 0, VFIT_LOG_WARNING = 1, VFIT_LOG_INFO = 2, VFIT_LOG_DEBUG = 3 };
+typedef void (*vfit_log_fn)(void* user, vfit_log_level level, const char* message);
+/* The host's job system: submit starts count items and returns a job, wait returns when all have run.
+ * Both are called only on a thread that is inside a vfit call. An item never waits for one that has not
+ * started; one worker alone completes any step. A null job means that all items have run already.    */
+typedef void (*vfit_task_fn)(void* task, uint32_t index);
+typedef void* (*vfit_submit_fn)(void* user, vfit_task_fn fn, void* task, uint32_t count);
+typedef void (*vfit_wait_fn)(void* user, void* job);
+/* DETERMINISTIC: equal bits for equal input, binary and SIMD level, any worker count; no time budget.  */
+enum { VFIT_CONTEXT_VALIDATE = 1,       /* slower checks: every float of every input is finite        */
+       VFIT_CONTEXT_DETERMINISTIC = 2, VFIT_CONTEXT_MIRROR = 4 };
+
+typedef struct vfit_context_desc {
+    uint32_t struct_size;
+    uint32_t api_version;               /* required: VFIT_VERSION                                    */
+    uint32_t flags;                     /* VFIT_CONTEXT_*                                            */
+    vfit_axes axes;
+    vfit_log_fn log;                    /* null: errors and warnings to stderr                       */
+    vfit_submit_fn submit;              /* null: own small pool                                      */
+    vfit_wait_fn wait;
+    void* user;                         /* first argument of all three                               */
+    const char* plugin_dir;             /* null: vfit_plugins beside the library                     */
+    const char* data_dir;               /* null: vfit_data beside the library                        */
+    uint32_t worker_count;              /* 0: physical cores less one                                */
+    uint32_t reserved;
+} vfit_context_desc;
+typedef struct vfit_library_info {
+    uint32_t struct_size, version;
+    char simd[16];                      /* instruction set in use: "AVX2", "SSE4", "SCALAR", ...       */
+    char build[112];                    /* compiler, build type, libraries                            */
+} vfit_library_info;
+typedef struct vfit_plugin_info { uint32_t struct_size, version; char name[64], schemes[64], path[256]; }
+    vfit_plugin_info;
+typedef struct vfit_context_stats {
+    uint32_t struct_size, handle_count, frame_count, worker_count;
+    uint64_t frame_bytes;               /* held by this context's frames, pools included              */
+} vfit_context_stats;
+/* Time spent in one stage since the context was created (or since vfit_profile_reset).               */
+typedef struct vfit_profile { uint32_t struct_size, calls; double last_ms, mean_ms, max_ms; char stage[32]; }
+    vfit_profile;
+VFIT_STRUCT(vfit_context_desc) VFIT_STRUCT(vfit_library_info) VFIT_STRUCT(vfit_plugin_info)
+VFIT_STRUCT(vfit_context_stats) VFIT_STRUCT(vfit_profile)
+
+VFIT_API uint32_t    vfit_version(void);                                                   /* [any]  */
+VFIT_API vfit_result vfit_library_describe(vfit_library_info* out);                        /* [any]  */
+VFIT_API const char* vfit_result_name(vfit_result result);                                 /* [any]  */
+VFIT_API uint32_t    vfit_last_error(char* buffer, uint32_t capacity);                     /* [any]  */
+VFIT_API vfit_result vfit_context_create(const vfit_context_desc* desc, vfit_context* out);/* [any]  */
+VFIT_API vfit_result vfit_context_destroy(vfit_context context);    /* joins all threads      [excl] */
+VFIT_API vfit_result vfit_shutdown(void);       /* all contexts; for a host that reloads      [excl] */
+VFIT_API vfit_result vfit_context_describe(vfit_context context, vfit_context_stats* out); /* [any]  */
+/* Now, on the clock of all time stamps of this context.                                       [any]   */
+VFIT_API vfit_result vfit_context_time(vfit_context context, int64_t* time_ns);
+VFIT_API vfit_result vfit_profile_list(vfit_context context, vfit_profile* items, uint32_t stride,
+                                       uint32_t* count);                                   /* [any]  */
+VFIT_API vfit_result vfit_profile_reset(vfit_context context);                             /* [any]  */
+/* The next log line where no callback is wanted (Unity reloads, Python); VFIT_NOT_READY: none. [any]   */
+VFIT_API vfit_result vfit_log_next(vfit_context context, vfit_log_level* level, char* buffer,
+                                   uint32_t capacity);
+VFIT_API vfit_result vfit_plugin_load(vfit_context context, const char* path);             /* [excl] */
+VFIT_API vfit_result vfit_plugin_list(vfit_context context, vfit_plugin_info* items, uint32_t stride,
+                                      uint32_t* count);                                    /* [any]  */
+
+/* ---- vocabularies: joints (what a sensor sees), bones (what a character has) ----------------------- */
+/* One meaning everywhere: SHOULDER is the head of the humerus, HAND the palm, FOOT the ankle joint;
+ * LEFT is the person's own left.                                                                      */
+typedef int32_t vfit_joint_id;
+enum { VFIT_JOINT_HEAD = 0, VFIT_JOINT_NECK = 1, VFIT_JOINT_TORSO = 2,
+    VFIT_JOINT_LEFT_SHOULDER = 3, VFIT_JOINT_RIGHT_SHOULDER = 4, VFIT_JOINT_LEFT_ELBOW = 5,
+    VFIT_JOINT_RIGHT_ELBOW = 6, VFIT_JOINT_LEFT_HAND = 7, VFIT_JOINT_RIGHT_HAND = 8,
+    VFIT_JOINT_LEFT_HIP = 9, VFIT_JOINT_RIGHT_HIP = 10, VFIT_JOINT_LEFT_KNEE = 11,
+    VFIT_JOINT_RIGHT_KNEE = 12, VFIT_JOINT_LEFT_FOOT = 13, VFIT_JOINT_RIGHT_FOOT = 14, /* the paper's 15 */
+    VFIT_JOINT_PELVIS = 15, VFIT_JOINT_CHEST = 16, VFIT_JOINT_LEFT_CLAVICLE = 17,
+    VFIT_JOINT_RIGHT_CLAVICLE = 18, VFIT_JOINT_LEFT_WRIST = 19, VFIT_JOINT_RIGHT_WRIST = 20,
+    VFIT_JOINT_LEFT_TOES = 21, VFIT_JOINT_RIGHT_TOES = 22 };
+#define VFIT_JOINT_COUNT 23u
+/* VRM humanoid bones; parents stand before children.                                                  */
+typedef int32_t vfit_bone_id;
+enum { VFIT_BONE_HIPS = 0, VFIT_BONE_SPINE = 1, VFIT_BONE_CHEST = 2, VFIT_BONE_UPPER_CHEST = 3,
+    VFIT_BONE_NECK = 4, VFIT_BONE_HEAD = 5,
+    VFIT_BONE_LEFT_SHOULDER = 6, VFIT_BONE_LEFT_UPPER_ARM = 7, VFIT_BONE_LEFT_LOWER_ARM = 8,
+    VFIT_BONE_LEFT_HAND = 9, VFIT_BONE_RIGHT_SHOULDER = 10, VFIT_BONE_RIGHT_UPPER_ARM = 11,
+    VFIT_BONE_RIGHT_LOWER_ARM = 12, VFIT_BONE_RIGHT_HAND = 13,
+    VFIT_BONE_LEFT_UPPER_LEG = 14, VFIT_BONE_LEFT_LOWER_LEG = 15, VFIT_BONE_LEFT_FOOT = 16,
+    VFIT_BONE_LEFT_TOES = 17, VFIT_BONE_RIGHT_UPPER_LEG = 18, VFIT_BONE_RIGHT_LOWER_LEG = 19,
+    VFIT_BONE_RIGHT_FOOT = 20, VFIT_BONE_RIGHT_TOES = 21 };
+#define VFIT_BONE_COUNT 22u
+/* Names "HEAD", "LEFT_ELBOW"; "hips", "leftUpperArm". An unknown id gives length 0 and an empty text.
+ * The parent of the first bone is -1; of an unknown one -2.                                            */
+VFIT_API uint32_t    vfit_joint_name(vfit_joint_id joint, char* buffer, uint32_t capacity);/* [any]  */
+VFIT_API uint32_t    vfit_bone_name(vfit_bone_id bone, char* buffer, uint32_t capacity);   /* [any]  */
+VFIT_API int32_t     vfit_bone_parent(vfit_bone_id bone);                                  /* [any]  */
+/* Key ("chest_girth_m") and one-line definition of the measure at index; length 0 past the last.      */
+VFIT_API uint32_t    vfit_measure_key(uint32_t index, char* buffer, uint32_t capacity);    /* [any]  */
+VFIT_API uint32_t    vfit_measure_text(uint32_t index, char* buffer, uint32_t capacity);   /* [any]  */
+
+/* ---- frame -------------------------------------------------------------------------------------- */
+typedef int32_t vfit_stream;
+enum { VFIT_STREAM_DEPTH = 0,           /* U16 in units of vfit_camera.depth_unit_m, 0: no reading     */
+    VFIT_STREAM_COLOR = 1,              /* RGBA8, registered to depth                                 */
+    VFIT_STREAM_USER_MAP = 2,           /* U8: 0 background, else the body's id                        */
+    VFIT_STREAM_POSITION = 16, VFIT_STREAM_NORMAL = 17, VFIT_STREAM_UV = 18,      /* one a vertex       */
+    VFIT_STREAM_INDEX = 19,             /* U32, three a triangle                                      */
+    VFIT_STREAM_BONE_MATRIX = 20,       /* skinning matrices, one a rig bone                           */
+    VFIT_STREAM_SKIN_BONES = 21,        /* U16X8: rig bones that carry a vertex                        */
+    VFIT_STREAM_SKIN_WEIGHTS = 22,      /* F32X8: their weights, sum 1, zero where unused               */
+    VFIT_STREAM_STRAIN = 23 };          /* F32, mean edge strain at a vertex, 0 = unstretched           */
+typedef int32_t vfit_format;
+enum { VFIT_FORMAT_NONE = 0, VFIT_FORMAT_U8 = 1, VFIT_FORMAT_U16 = 2,
+    VFIT_FORMAT_U32 = 3, VFIT_FORMAT_F32 = 4, VFIT_FORMAT_RGBA8 = 5, VFIT_FORMAT_F32X2 = 6,
+    VFIT_FORMAT_F32X3 = 7, VFIT_FORMAT_F32X16 = 8, VFIT_FORMAT_U16X8 = 9, VFIT_FORMAT_F32X8 = 10 };
+
+typedef struct vfit_view {
+    uint32_t struct_size;
+    vfit_format format;
+    const void* data;                   /* 16-byte aligned, 16 readable bytes past the last item     */
+    uint32_t width, height;             /* items; height is 1 for vertex data                        */
+    uint32_t item_stride, row_stride;   /* bytes                                                     */
+    int64_t  time_ns;
+    uint64_t serial;                    /* equal serials of one stream: equal content                */
+} vfit_view;
+/* Where vfit_frame_write writes: item i at data + i * item_stride (0: packed); capacity in bytes.      */
+typedef struct vfit_target { uint32_t struct_size; vfit_format format; void* data; uint64_t capacity;
+                             uint32_t item_stride, reserved; } vfit_target;
+typedef struct vfit_intrinsics { uint32_t struct_size, width, height, reserved;
+                                 float fx, fy, cx, cy, distortion[8]; } vfit_intrinsics;
+typedef int32_t vfit_floor_state;
+enum { VFIT_FLOOR_DEFAULT = 0,          /* nobody knows: level camera, 1 m above the floor              */
+    VFIT_FLOOR_ESTIMATED = 1,           /* level camera, height from the first body's feet              */
+    VFIT_FLOOR_GIVEN = 2 };             /* by the sensor, the recording or the host                     */
+typedef struct vfit_camera {            /* where the camera stands                                     */
+    uint32_t struct_size;
+    vfit_floor_state floor_state;
+    float depth_unit_m;                 /* 0: 0.001                                                  */
+    float height_m, tilt_rad, roll_rad; /* above the floor; tilt > 0 looks down. Outputs only          */
+    float floor_normal[3];              /* in camera space, pointing up: normal . p + distance = 0      */
+    float floor_distance_m;
+    float world_from_camera[16];        /* output only; bodies are carried by it; metres whatever axes  */
+} vfit_camera;
+VFIT_STRUCT(vfit_view) VFIT_STRUCT(vfit_target) VFIT_STRUCT(vfit_intrinsics) VFIT_STRUCT(vfit_camera)
+
+/* A frame from pixels of the host (its own camera): views[i] is stream streams[i]. The pixels are
+ * copied unless release is given, which is then called once, from any thread, when the last
+ * reference has gone (and not at all where the call fails).                                           */
+typedef void (*vfit_release_fn)(void* user);
+typedef struct vfit_frame_desc {
+    uint32_t struct_size, count;
+    const vfit_stream* streams;         /* DEPTH, COLOR, USER_MAP; depth is required                    */
+    const vfit_view* views;             /* count items                                               */
+    const vfit_intrinsics* intrinsics;  /* of the depth image                                        */
+    const vfit_camera* camera;          /* null: 1 mm units, floor unknown                             */
+    int64_t time_ns;                    /* 0: now                                                    */
+    vfit_release_fn release;
+    void* user;
+} vfit_frame_desc;
+VFIT_STRUCT(vfit_frame_desc)
+VFIT_API vfit_result vfit_frame_create(vfit_context context, const vfit_frame_desc* desc,
+                                       vfit_frame* out);                                   /* [any]  */
+VFIT_API vfit_result vfit_frame_retain(vfit_frame frame);                                  /* [any]  */
+VFIT_API vfit_result vfit_frame_release(vfit_frame frame);                                 /* [any]  */
+VFIT_API vfit_result vfit_frame_streams(vfit_frame frame, vfit_stream* items, uint32_t* count);
+                                                                                           /* [any]  */
+VFIT_API vfit_result vfit_frame_view(vfit_frame frame, vfit_stream stream, vfit_view* out);/* [any]  */
+VFIT_API vfit_result vfit_frame_intrinsics(vfit_frame frame, vfit_intrinsics* out);        /* [any]  */
+VFIT_API vfit_result vfit_frame_camera(vfit_frame frame, vfit_camera* out);                /* [any]  */
+/* What the source says beside the pixels, one JSON document a key: "measures" (ground truth of a virtual
+ * person, {"stature_m": ...}), "contacts" ({"left": 0, "right": 1}), "index" (the number of a recorded
+ * frame). *length is the whole text's; no such key: VFIT_NOT_READY.                            [any]   */
+VFIT_API vfit_result vfit_frame_meta(vfit_frame frame, const char* key, char* buffer, uint32_t capacity,
+                                     uint32_t* length);
+/* Copies into memory of the engine (mapped vertex buffer, NativeArray) at its own format and stride;
+ * VFIT_NOT_READY and no copy if *serial is already that of the frame. serial may be null.     [any]   */
+VFIT_API vfit_result vfit_frame_write(vfit_frame frame, vfit_stream stream, const vfit_target* target,
+                                      uint64_t* serial);
+
+/* ---- sensor: "recording:PATH", "virtual:", "openni2:...", all of them plug-ins --------------------- */
+typedef struct vfit_sensor_info { uint32_t struct_size, caps; char uri[256], name[64], plugin[64]; }
+    vfit_sensor_info;
+typedef struct vfit_sensor_mode { uint32_t struct_size, width, height; float rate_hz; char name[64]; }
+    vfit_sensor_mode;
+typedef struct vfit_sensor_option { uint32_t struct_size, reserved; char key[32], value[96], text[128]; }
+    vfit_sensor_option;
+typedef struct vfit_sensor_stats {
+    uint32_t struct_size, running;
+    vfit_result state;                  /* OK, END_OF_STREAM, DEVICE_LOST or the plug-in's error       */
+    uint32_t reserved;
+    uint64_t received, taken, dropped;  /* frames pushed, acquired, replaced before they were acquired  */
+    int64_t latency_ns;                 /* of the last acquire: from time stamp to hand-over            */
+} vfit_sensor_stats;
+VFIT_STRUCT(vfit_sensor_info) VFIT_STRUCT(vfit_sensor_mode) VFIT_STRUCT(vfit_sensor_option)
+VFIT_STRUCT(vfit_sensor_stats)
+VFIT_API vfit_result vfit_sensor_list(vfit_context context, vfit_sensor_info* items, uint32_t stride,
+                                      uint32_t* count);                                    /* [any]  */
+VFIT_API vfit_result vfit_sensor_open(vfit_context context, const char* uri, vfit_sensor* out);
+                                                                                           /* [any]  */
+VFIT_API vfit_result vfit_sensor_modes(vfit_sensor sensor, vfit_sensor_mode* items, uint32_t stride,
+                                       uint32_t* count);                                   /* [read] */
+VFIT_API vfit_result vfit_sensor_options(vfit_sensor sensor, vfit_sensor_option* items, uint32_t stride,
+                                         uint32_t* count);                                 /* [read] */
+/* Options of every sensor: "mode" (a name from vfit_sensor_modes) and "pace": "realtime" drops as a
+ * camera does; "none" (the default of recordings and of the virtual person) makes a push wait until the
+ * frame before was taken, so that nothing is dropped.                                         [excl]   */
+VFIT_API vfit_result vfit_sensor_set_option(vfit_sensor sensor, const char* key, const char* value);
+VFIT_API vfit_result vfit_sensor_start(vfit_sensor sensor);                                /* [excl] */
+VFIT_API vfit_result vfit_sensor_stop(vfit_sensor sensor);      /* wakes waiting acquires     [excl] */
+VFIT_API vfit_result vfit_sensor_close(vfit_sensor sensor);                                /* [excl] */
+/* The newest frame, once; VFIT_END_OF_STREAM when a replay has ended; the error of the stream when it
+ * failed. timeout_ns 0 never waits: call it so from a render loop; < 0 waits without end.     [any]   */
+VFIT_API vfit_result vfit_sensor_acquire(vfit_sensor sensor, int64_t timeout_ns, vfit_frame* out);
+VFIT_API vfit_result vfit_sensor_describe(vfit_sensor sensor, vfit_sensor_stats* out);     /* [any]  */
+
+/* ---- recorder: writes the recording folder (docs/recording.md) ------------------------------------- */
+typedef struct vfit_recorder_desc {
+    uint32_t struct_size, reserved;
+    const char* sensor_name;            /* for camera.json; null: "unknown"                            */
+    float rate_hz;                      /* 0: 30                                                     */
+    uint32_t segmented;                 /* the background was removed already                           */
+} vfit_recorder_desc;
+VFIT_STRUCT(vfit_recorder_desc)
+/* path must not exist or be an empty folder. What was written stays readable if the process dies: each
+ * file is complete before its name appears.                                                           */
+VFIT_API vfit_result vfit_recorder_create(vfit_context context, const char* path,
+                                          const vfit_recorder_desc* desc, vfit_recorder* out); /* [any] */
+VFIT_API vfit_result vfit_recorder_write(vfit_recorder recorder, vfit_frame frame);        /* [excl] */
+VFIT_API vfit_result vfit_recorder_destroy(vfit_recorder recorder);                        /* [excl] */
+
+/* ---- bodies and tracker ---------------------------------------------------------------------------- */
+typedef int32_t vfit_joint_state;
+enum { VFIT_JOINT_NOT_SEEN = 0, VFIT_JOINT_INFERRED = 1, VFIT_JOINT_MEASURED = 2 };
+/* rotation: of the joint in world space, relative to a T-pose that faces +Z; all zero: unknown.        */
+typedef struct vfit_joint { uint32_t struct_size; vfit_joint_id joint; vfit_joint_state state;
+                            float confidence, position[3], rotation[4]; uint32_t reserved; } vfit_joint;
+enum { VFIT_BODY_CAMERA_SPACE = 1,      /* input only: positions are in camera space                    */
+       VFIT_BODY_PARTLY_OUT_OF_VIEW = 2 };
+typedef struct vfit_body { uint32_t struct_size, body_id; int64_t time_ns; uint32_t flags, reserved; }
+    vfit_body;
+typedef struct vfit_tracker_desc {
+    uint32_t struct_size, reserved;
+    const vfit_camera* floor;           /* where the floor is, if the frames do not say; null: unknown  */
+} vfit_tracker_desc;
+VFIT_STRUCT(vfit_joint) VFIT_STRUCT(vfit_body) VFIT_STRUCT(vfit_tracker_desc)
+/* Bodies are part of a tracked frame (or of a recording's, or of the host's own).              [any]   */
+VFIT_API vfit_result vfit_frame_bodies(vfit_frame frame, vfit_body* items, uint32_t stride,
+                                       uint32_t* count);
+/* Only joints that are seen or inferred are listed.                                            [any]   */
+VFIT_API vfit_result vfit_frame_joints(vfit_frame frame, uint32_t body_id, vfit_joint* items,
+                                       uint32_t stride, uint32_t* count);
+VFIT_API vfit_result vfit_tracker_create(vfit_context context, const vfit_tracker_desc* desc,
+                                         vfit_tracker* out);                               /* [any]  */
+VFIT_API vfit_result vfit_tracker_destroy(vfit_tracker tracker);                           /* [any]  */
+/* *tracked shares the images of frame and adds the user map (from "segmented" depth where the source has
+ * no map) and the bodies that the source supplies. A frame that brings neither bodies nor a submitter
+ * gives VFIT_ERROR_UNSUPPORTED: this version finds no skeleton by itself.                     [excl]   */
+VFIT_API vfit_result vfit_tracker_update(vfit_tracker tracker, vfit_frame frame, vfit_frame* tracked);
+/* The host's own middleware in place of the built-in tracker, one call a body; frame may be a *tracked
+ * of the call before, to add a second body. A joint that is not finite gives VFIT_ERROR_DATA.  [excl]  */
+VFIT_API vfit_result vfit_tracker_submit(vfit_tracker tracker, vfit_frame frame, const vfit_body* body,
+                                         const vfit_joint* items, uint32_t stride, uint32_t count,
+                                         vfit_frame* tracked);
+VFIT_API vfit_result vfit_tracker_reset(vfit_tracker tracker);                             /* [excl] */
+
+/* ---- scan -> measurements -> size ---------------------------------------------------------------- */
+typedef int32_t vfit_sex;
+enum { VFIT_SEX_UNKNOWN = 0, VFIT_SEX_FEMALE = 1, VFIT_SEX_MALE = 2 };
+typedef int32_t vfit_scan_method;
+enum { VFIT_SCAN_DEFAULT = 0, VFIT_SCAN_PROPORTIONS = 1 };  /* PROPORTIONS: the paper's                 */
+typedef int32_t vfit_guidance;
+enum { VFIT_GUIDANCE_NONE = 0, VFIT_GUIDANCE_STEP_BACK = 1, VFIT_GUIDANCE_STEP_CLOSER = 2,
+    VFIT_GUIDANCE_ARMS_OUT = 3, VFIT_GUIDANCE_HOLD_STILL = 4, VFIT_GUIDANCE_TURN_SIDEWAYS = 5,
+    VFIT_GUIDANCE_FEET_NOT_VISIBLE = 6, VFIT_GUIDANCE_ONE_PERSON_ONLY = 7,
+    VFIT_GUIDANCE_NOBODY = 8, VFIT_GUIDANCE_JOINTS_MISSING = 9 };
+typedef struct vfit_scan_desc { uint32_t struct_size; vfit_scan_method method;
+                                uint32_t frame_count;                     /* 0: 30, as in the paper    */
+                                vfit_sex sex; } vfit_scan_desc;
+typedef struct vfit_scan_state {
+    uint32_t struct_size, frames_taken, frames_wanted;
+    vfit_guidance guidance;             /* why the last frame was not taken                            */
+    float correction_m;                 /* mean absolute change of depth by the filter (Fig. 9)          */
+    float compute_ms;                   /* of the last frame                                         */
+} vfit_scan_state;
+/* key: "stature_m", "chest_girth_m", ... (vfit_measure_key); observed 0: inferred from others. sigma is
+ * one standard deviation of value; 0: unknown.                                                        */
+typedef struct vfit_measurement { uint32_t struct_size, observed; float value, sigma; char key[48]; }
+    vfit_measurement;
+/* A sphere (joint_b -1), or the tapered capsule of two spheres.                                        */
+typedef struct vfit_collider { uint32_t struct_size; vfit_joint_id joint; float center[3], radius;
+                               vfit_joint_id joint_b; float center_b[3], radius_b; uint32_t reserved; }
+    vfit_collider;
+/* Algorithm 3: x and y relative to the nominal width and height of a garment kind ("short_sleeves",
+ * "long_sleeves", "trousers"); apply to body and garment as a whole, width and depth by x.             */
+typedef struct vfit_scale { uint32_t struct_size; float x, y, sigma_x, sigma_y, width_m, height_m; uint32_t reserved; }
+    vfit_scale;
+typedef struct vfit_size { uint32_t struct_size; float probability; char label[32]; } vfit_size;
+typedef struct vfit_size_row { uint32_t struct_size, measure_count; char garment_kind[32], label[32]; }
+    vfit_size_row;
+VFIT_STRUCT(vfit_scan_desc) VFIT_STRUCT(vfit_scan_state) VFIT_STRUCT(vfit_measurement)
+VFIT_STRUCT(vfit_scale) VFIT_STRUCT(vfit_size) VFIT_STRUCT(vfit_size_row) VFIT_STRUCT(vfit_collider)
+VFIT_API vfit_result vfit_scan_create(vfit_context context, const vfit_scan_desc* desc,
+                                      vfit_scan* out);                                     /* [any]  */
+VFIT_API vfit_result vfit_scan_destroy(vfit_scan scan);         /* wipes the body data        [any]  */
+VFIT_API vfit_result vfit_scan_reset(vfit_scan scan);                                      /* [excl] */
+/* VFIT_INCOMPLETE: the frame was not taken, state->guidance says why. VFIT_NOT_READY: taken, more are
+ * wanted. VFIT_OK: the scan is complete (further frames are ignored). state may be null.      [excl]   */
+VFIT_API vfit_result vfit_scan_add(vfit_scan scan, vfit_frame tracked, uint32_t body_id,
+                                   vfit_scan_state* state);
+/* From the first frame on; the values settle with each. No frame yet: VFIT_ERROR_STATE.        [read]  */
+VFIT_API vfit_result vfit_scan_measure(vfit_scan scan, vfit_measurement* items, uint32_t stride,
+                                       uint32_t* count);
+VFIT_API vfit_result vfit_scan_colliders(vfit_scan scan, vfit_collider* items, uint32_t stride,
+                                         uint32_t* count);  /* centres are those of the last frame [read] */
+VFIT_API vfit_result vfit_scan_scale(vfit_scan scan, const char* garment_kind, vfit_scale* out);
+                                                                                           /* [read] */
+/* A chart as JSON (docs/size-charts.md), or by the name of a file in data_dir/charts.          [any]   */
+VFIT_API vfit_result vfit_size_chart_load(vfit_context context, const void* bytes, uint64_t byte_count,
+                                          vfit_size_chart* out);
+VFIT_API vfit_result vfit_size_chart_open(vfit_context context, const char* name, vfit_size_chart* out);
+VFIT_API vfit_result vfit_size_chart_destroy(vfit_size_chart chart);                       /* [any]  */
+VFIT_API vfit_result vfit_size_chart_rows(vfit_size_chart chart, vfit_size_row* items, uint32_t stride,
+                                          uint32_t* count);                                /* [read] */
+/* Every label of that garment kind with its probability, best first; they sum to 1.          [read]  */
+VFIT_API vfit_result vfit_size_recommend(vfit_size_chart chart, const char* garment_kind,
+                                         const vfit_measurement* items, uint32_t stride, uint32_t count,
+                                         vfit_size* sizes, uint32_t size_stride, uint32_t* size_count);
+
+/* ---- motion: raw body in, clean pose out; usable alone with the game's own rig --------------------- */
+/* rotation is local to the parent and relative to a T-pose in which every bone has the axes of the world
+ * (so that rest is the identity); position is the hips' in world space, else the offset from the parent
+ * in that T-pose.                                                                                      */
+typedef struct vfit_bone { uint32_t struct_size; vfit_bone_id bone; float rotation[4], position[3];
+                           uint32_t reserved; } vfit_bone;
+enum { VFIT_CONTACT_LEFT = 1, VFIT_CONTACT_RIGHT = 2 };
+typedef struct vfit_pose {
+    uint32_t struct_size, contact_flags;
+    int64_t time_ns;
+    float root_correction[3];           /* what the foot stage moved the root by (Alg. 6, d_root)        */
+    float foot_correction_m;            /* how far it moved the planted foot (Fig. 11)                   */
+} vfit_pose;
+enum { VFIT_MOTION_NO_FILTER = 1,       /* positions as they come                                     */
+       VFIT_MOTION_NO_LIMITS = 2,       /* no joint limits                                            */
+       VFIT_MOTION_NO_SMOOTHING = 4,    /* no rotation smoothing (Eq. 8-10)                            */
+       VFIT_MOTION_NO_FEET = 8 };       /* no foot-skate correction (Alg. 5 and 6)                      */
+/* Holt's double exponential filter by the five names of the Kinect SDK. smoothing, correction and
+ * prediction < 0 mean 0.                                                                              */
+typedef struct vfit_motion_desc {
+    uint32_t struct_size, flags;        /* VFIT_MOTION_*                                              */
+    float smoothing, correction, prediction;            /* 0..1; default 0.5, 0.5, 0.5                  */
+    float jitter_radius_m, max_deviation_radius_m;      /* default 0.05, 0.04                          */
+    float rotation_divisor;             /* k of Eq. 10 at 30 Hz; default 2                            */
+    float rotation_divisor_switched;    /* k right after the planted foot changed; default 4            */
+    uint32_t reserved;
+} vfit_motion_desc;
+VFIT_STRUCT(vfit_bone) VFIT_STRUCT(vfit_pose) VFIT_STRUCT(vfit_motion_desc)
+VFIT_API vfit_result vfit_motion_create(vfit_context context, const vfit_motion_desc* desc,
+                                        vfit_motion* out);                                 /* [any]  */
+VFIT_API vfit_result vfit_motion_destroy(vfit_motion motion);                              /* [any]  */
+VFIT_API vfit_result vfit_motion_reset(vfit_motion motion);                                /* [excl] */
+/* The proportions that the feet are planted with; without: those of the tracked person.       [excl]   */
+VFIT_API vfit_result vfit_motion_bind(vfit_motion motion, vfit_avatar avatar);
+/* A body whose time_ns differs from the last is new; the same or a null frame: the filter predicts to
+ * now_ns, so that a 30 Hz camera drives a 600 Hz renderer. Body not in the frame: VFIT_NOT_READY, the
+ * pose holds.                                                                                [excl]  */
+VFIT_API vfit_result vfit_motion_step(vfit_motion motion, vfit_frame tracked, uint32_t body_id,
+                                      int64_t now_ns);
+VFIT_API vfit_result vfit_motion_pose(vfit_motion motion, vfit_pose* pose, vfit_bone* items,
+                                      uint32_t stride, uint32_t* count);                   /* [read] */
+/* The filtered joints behind the pose, feet corrected.                                         [read]  */
+VFIT_API vfit_result vfit_motion_joints(vfit_motion motion, vfit_joint* items, uint32_t stride,
+                                        uint32_t* count);
+
+/* ---- avatar and cloth: pose, step, then acquire, once per rendered frame --------------------------- */
+enum { VFIT_AVATAR_PAPER_COLLIDERS = 1, /* radii of Algorithm 2 as they are, not clamped to the skin    */
+       VFIT_AVATAR_SINGLE_BONES = 2 };  /* no twist bones in the limbs (Fig. 7a)                       */
+typedef struct vfit_avatar_desc {
+    uint32_t struct_size, flags;
+    vfit_sex sex;                       /* which default body; UNKNOWN: halfway                        */
+    uint32_t detail;                    /* 0: 13.7k vertices, 1: 54.8k, 2: 219k                          */
+} vfit_avatar_desc;
+/* key: a phenotype ("gender", "age", "muscle", "weight", "height", "proportions", in 0..1; weight up to
+ * 1.15) or a local slider ("measure-waist-circ", in -1..1); see vfit_shape_list.                       */
+typedef struct vfit_shape_value { uint32_t struct_size; float value, minimum, maximum; char key[48]; }
+    vfit_shape_value;
+typedef struct vfit_rig_bone {
+    uint32_t struct_size;
+    int32_t parent;                     /* -1: root; parents stand before children                     */
+    vfit_bone_id bone;                  /* the humanoid bone that it is, or -1                          */
+    float rest_position[3];             /* of the bone's head, in the space of the rest mesh             */
+    char name[48];
+} vfit_rig_bone;
+VFIT_STRUCT(vfit_avatar_desc) VFIT_STRUCT(vfit_shape_value) VFIT_STRUCT(vfit_rig_bone)
+VFIT_API vfit_result vfit_shape_list(vfit_context context, vfit_shape_value* items, uint32_t stride,
+                                     uint32_t* count);                                     /* [any]  */
+/* A body of that shape; keys that are not given keep the value of the sex's default body.       [any]  */
+VFIT_API vfit_result vfit_avatar_create_from_shape(vfit_context context, const vfit_avatar_desc* desc,
+                                                   const vfit_shape_value* items, uint32_t stride,
+                                                   uint32_t count, vfit_avatar* out);
+/* The default body scaled to stature_m and, where given, shoulder_breadth_m.                    [any]  */
+VFIT_API vfit_result vfit_avatar_create(vfit_context context, const vfit_avatar_desc* desc,
+                                        const vfit_measurement* items, uint32_t stride, uint32_t count,
+                                        vfit_avatar* out);
+/* Size and collider radii of the scanned person.                                       [read] on scan  */
+VFIT_API vfit_result vfit_avatar_create_from_scan(vfit_context context, const vfit_avatar_desc* desc,
+                                                  vfit_scan scan, vfit_avatar* out);
+VFIT_API vfit_result vfit_avatar_destroy(vfit_avatar avatar);                              /* [any]  */
+VFIT_API vfit_result vfit_avatar_pose(vfit_avatar avatar, const vfit_pose* pose, const vfit_bone* items,
+                                      uint32_t stride, uint32_t count);                    /* [excl] */
+VFIT_API vfit_result vfit_avatar_colliders(vfit_avatar avatar, vfit_collider* items, uint32_t stride,
+                                           uint32_t* count);                               /* [read] */
+/* Every joint of the posed avatar, at the avatar's own true place.                             [read]  */
+VFIT_API vfit_result vfit_avatar_joints(vfit_avatar avatar, vfit_joint* items, uint32_t stride,
+                                        uint32_t* count);
+VFIT_API vfit_result vfit_avatar_rig(vfit_avatar avatar, vfit_rig_bone* items, uint32_t stride,
+                                     uint32_t* count);                                     /* [read] */
+/* Tape measures of the avatar's own body, in the posture of each definition, taken on its mesh. [read] */
+VFIT_API vfit_result vfit_avatar_measure(vfit_avatar avatar, vfit_measurement* items, uint32_t stride,
+                                         uint32_t* count);
+/* Posed mesh: POSITION, NORMAL, UV, INDEX, BONE_MATRIX, SKIN_BONES, SKIN_WEIGHTS.              [any]   */
+VFIT_API vfit_result vfit_avatar_acquire(vfit_avatar avatar, vfit_frame* out);
+/* The same streams of the unposed mesh that the rig binds to.                                  [any]   */
+VFIT_API vfit_result vfit_avatar_acquire_rest(vfit_avatar avatar, vfit_frame* out);
+
+/* A garment as JSON (docs/garments.md), or by the name of a file in data_dir/garments.          [any]  */
+VFIT_API vfit_result vfit_garment_load(vfit_context context, const void* bytes, uint64_t byte_count,
+                                       vfit_garment* out);
+VFIT_API vfit_result vfit_garment_open(vfit_context context, const char* name, vfit_garment* out);
+VFIT_API vfit_result vfit_garment_destroy(vfit_garment garment);                           /* [any]  */
+typedef struct vfit_cloth_desc {
+    uint32_t struct_size, substeps;     /* 0: 8 a 1/60 s                                             */
+    float gravity[3];                   /* all zero: 0, -9.81, 0                                     */
+    float friction;                     /* 0: the fabric's; < 0: none                                  */
+    float damping;                      /* share of speed lost a second, 0: 0.5; < 0: none               */
+    float thickness_m;                  /* kept from the colliders, 0: 0.004                            */
+    const char* size_label;             /* null: made to the avatar                                    */
+} vfit_cloth_desc;
+typedef struct vfit_cloth_stats { uint32_t struct_size, vertex_count, simulated_count, constraint_count;
+                                  float strain_mean, strain_p99, strain_max, step_ms; } vfit_cloth_stats;
+VFIT_STRUCT(vfit_cloth_desc) VFIT_STRUCT(vfit_cloth_stats)
+VFIT_API vfit_result vfit_cloth_create(vfit_avatar avatar, vfit_garment garment,
+                                       const vfit_cloth_desc* desc, vfit_cloth* out);/* [excl] on avatar */
+VFIT_API vfit_result vfit_cloth_destroy(vfit_cloth cloth);                                 /* [any]  */
+/* Back to the draped rest shape on the avatar as it is posed now.                              [excl]  */
+VFIT_API vfit_result vfit_cloth_reset(vfit_cloth cloth);
+/* Fixed sub-steps inside; dt above 0.1 s is clamped. Reads the avatar: pose that one first. begin
+ * hands the work to a worker and returns, end waits: between the two the engine renders.     [excl]  */
+VFIT_API vfit_result vfit_cloth_step(vfit_cloth cloth, float dt);
+VFIT_API vfit_result vfit_cloth_begin_step(vfit_cloth cloth, float dt);
+VFIT_API vfit_result vfit_cloth_end_step(vfit_cloth cloth);
+/* POSITION, NORMAL, UV, INDEX, STRAIN.                                                         [any]   */
+VFIT_API vfit_result vfit_cloth_acquire(vfit_cloth cloth, vfit_frame* out);
+VFIT_API vfit_result vfit_cloth_describe(vfit_cloth cloth, vfit_cloth_stats* out);         /* [read] */
+VFIT_API vfit_result vfit_cloth_state_hash(vfit_cloth cloth, uint64_t* out);               /* [read] */
+#endif

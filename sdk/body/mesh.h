@@ -1,0 +1,22 @@
+// A triangle mesh: right-handed, counter-clockwise seen from outside, metres.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "math/types.h"
+
+namespace vfit {
+
+struct Mesh {
+    std::vector<Vec3> positions;
+    std::vector<Vec3> normals;  // empty, or one a vertex, unit length
+    std::vector<Vec2> uvs;      // empty, or one a vertex; v = 0 at the top of the picture
+    std::vector<uint32_t> indices;  // three a triangle
+};
+
+/// Area-weighted vertex normals into `normals` (resized to the vertex count; no other allocation).
+void compute_normals(const std::vector<Vec3>& positions, const std::vector<uint32_t>& indices,
+                     std::vector<Vec3>& normals);
+
+}  // namespace vfit

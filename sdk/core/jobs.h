@@ -1,0 +1,35 @@
+// Work in parallel: items 0..count-1 on a small pool of threads, or on the host's job system. An item never
+// waits for another; one worker alone completes any call. The calling thread works too.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "vfit.h"
+
+namespace vfit {
+
+class Jobs {
+public:
+    /// Own pool; workers beside the calling thread. 0 workers: everything runs in the caller.
+    static std::unique_ptr<Jobs> own(uint32_t workers);
+    /// The host's job system (vfit_context_desc).
+    static std::unique_ptr<Jobs> host(vfit_submit_fn submit, vfit_wait_fn wait, void* user, uint32_t workers);
+    virtual ~Jobs() = default;
+
+    using Task = void (*)(void* data, uint32_t index);
+    /// Runs task(data, i) for every i < count and returns when all have run. The first exception of an
+    /// item is thrown again here. Does not allocate.
+    virtual void run(Task task, void* data, uint32_t count) = 0;
+    /// Threads that can work at the same time, the caller included.
+    virtual uint32_t concurrency() const = 0;
+};
+
+template <typename Body>
+void parallel_for(Jobs& jobs, uint32_t count, Body&& body) {
+    using Function = std::remove_reference_t<Body>;
+    jobs.run([](void* data, uint32_t i) { (*static_cast<Function*>(data))(i); },
+             const_cast<void*>(static_cast<const void*>(&body)), count);
+}
+
+}  // namespace vfit
