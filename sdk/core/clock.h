@@ -1,0 +1,24 @@
+// The monotonic clock of all time stamps.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+namespace vfit {
+
+inline int64_t now_ns() {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(
+               std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+/// Milliseconds since it was made.
+class Stopwatch {
+public:
+    double ms() const { return double(now_ns() - start_) * 1e-6; }
+
+private:
+    int64_t start_ = now_ns();
+};
+
+}  // namespace vfit
