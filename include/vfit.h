@@ -346,9 +346,8 @@ VFIT_API vfit_result vfit_frame_joints(vfit_frame frame, uint32_t body_id, vfit_
 VFIT_API vfit_result vfit_tracker_create(vfit_context context, const vfit_tracker_desc* desc,
                                          vfit_tracker* out);                               /* [any]  */
 VFIT_API vfit_result vfit_tracker_destroy(vfit_tracker tracker);                           /* [any]  */
-/* *tracked shares the images of frame and adds the user map (from "segmented" depth where the source has
- * no map) and the bodies that the source supplies. A frame that brings neither bodies nor a submitter
- * gives VFIT_ERROR_UNSUPPORTED: this version finds no skeleton by itself.                     [excl]   */
+/* *tracked shares the images and user map of frame and holds the bodies that its source supplies. A frame
+ * that brings no bodies gives VFIT_ERROR_UNSUPPORTED: this version finds no skeleton by itself. [excl]  */
 VFIT_API vfit_result vfit_tracker_update(vfit_tracker tracker, vfit_frame frame, vfit_frame* tracked);
 /* The host's own middleware in place of the built-in tracker, one call a body; frame may be a *tracked
  * of the call before, to add a second body. A joint that is not finite gives VFIT_ERROR_DATA.  [excl]  */

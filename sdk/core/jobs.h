@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <memory>
+#include <type_traits>
 
 #include "vfit.h"
 
@@ -23,6 +25,27 @@ public:
     virtual void run(Task task, void* data, uint32_t count) = 0;
     /// Threads that can work at the same time, the caller included.
     virtual uint32_t concurrency() const = 0;
+
+    /// One task that runs beside the caller. It stays where it is until end() has returned.
+    class Later {
+    public:
+        Task task = nullptr;  // called with index 0
+        void* data = nullptr;
+
+    private:
+        friend class PoolJobs;
+        friend class HostJobs;
+        enum class State { idle, waiting, running, done };
+        State state = State::idle;
+        Later* following = nullptr;
+        void* job = nullptr;
+        std::exception_ptr error;
+        void run() noexcept;
+    };
+    /// Hands the task over and returns; without a free thread it runs in end(). Does not allocate.
+    virtual void begin(Later& later) = 0;
+    /// Returns when the task has run, and throws what it threw.
+    virtual void end(Later& later) = 0;
 };
 
 template <typename Body>

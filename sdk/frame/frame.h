@@ -59,6 +59,7 @@ public:
     Camera camera;              // of the depth image; of no meaning in a mesh frame
     std::vector<Body> bodies;   // world space
     Ref<Frame> base;            // a tracked frame shares its images
+    Ref<Object> owner;          // keeps alive what views of add_view point to
     vfit_release_fn host_release = nullptr;  // pixels lent by the host
     void* host_user = nullptr;
 

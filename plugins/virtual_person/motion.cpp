@@ -1,0 +1,81 @@
+// The table of scripted motions, and the small movements of a living body that are laid over each of them.
+#include "motion.h"
+
+#include <cmath>
+
+#include "error.h"
+#include "keys.h"
+#include "random.h"
+
+namespace vfit::virtual_person {
+
+namespace {
+
+struct NamedScript {
+    const char* name;
+    Script (*make)();
+};
+constexpr NamedScript kScripts[] = {{"scan", scan_script},   {"sway", sway_script}, {"turn", turn_script},
+                                    {"walk", walk_script},   {"wave", wave_script}, {"reach", reach_script},
+                                    {"squat", squat_script}, {"demo", demo_script}};
+
+// Quiet standing: the centre of mass wanders a few millimetres at some tenths of a hertz (posturography), and
+// 15 breaths a minute lift the chest.
+class Idle {
+public:
+    explicit Idle(uint64_t seed) {
+        for (uint64_t i = 0; i < phase_s_.size(); ++i) phase_s_[i] = 20.0f * uniform(random_bits(0x69646C65, seed), i);
+    }
+    void add_to(Figure& figure, float t) const {
+        figure.root.x += 0.004f * wave(0.21f, t + phase_s_[0]) + 0.002f * wave(0.47f, t + phase_s_[1]);
+        figure.root.y += 0.005f * wave(0.17f, t + phase_s_[2]) + 0.002f * wave(0.39f, t + phase_s_[3]);
+        const float breath = wave(0.25f, t + phase_s_[4]);
+        auto& chest = figure.rotation[VFIT_BONE_CHEST];
+        auto& neck = figure.rotation[VFIT_BONE_NECK];
+        chest = chest * rotate_x(-0.6f * breath);
+        neck = neck * rotate_x(0.6f * breath);
+    }
+
+private:
+    std::array<float, 5> phase_s_{};
+};
+
+class ScriptedMotion : public Motion {
+public:
+    ScriptedMotion(Script script, const Proportions& proportions, uint64_t seed)
+        : script_(std::move(script)), proportions_(proportions), idle_(seed) {}
+
+    BonePose at(double t) const override {
+        Figure figure = script_.figure(static_cast<float>(std::fmod(t, double{script_.period_s})));
+        idle_.add_to(figure, static_cast<float>(t));
+        return solve(proportions_, figure);
+    }
+
+private:
+    Script script_;
+    Proportions proportions_;
+    Idle idle_;
+};
+
+}  // namespace
+
+std::string motion_names() {
+    std::string names;
+    for (const NamedScript& s : kScripts) names += (names.empty() ? "" : ", ") + std::string(s.name);
+    return names;
+}
+
+bool is_motion(const std::string& name) {
+    for (const NamedScript& s : kScripts)
+        if (name == s.name) return true;
+    return false;
+}
+
+std::unique_ptr<Motion> make_scripted_motion(const std::string& name, const Proportions& proportions,
+                                             uint64_t seed) {
+    for (const NamedScript& s : kScripts)
+        if (name == s.name) return std::make_unique<ScriptedMotion>(s.make(), proportions, seed);
+    fail(VFIT_ERROR_ARGUMENT, "virtual: unknown motion '", name, "'; known are ", motion_names());
+}
+
+}  // namespace vfit::virtual_person

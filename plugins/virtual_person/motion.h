@@ -1,0 +1,43 @@
+// How the person moves: a pose for each instant, with the feet exactly on the floor.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "figure.h"
+
+namespace vfit::virtual_person {
+
+class Motion {
+public:
+    virtual ~Motion() = default;
+    /// t from 0 on, in seconds; goes on without end.
+    virtual BonePose at(double t) const = 0;
+};
+
+/// A scripted motion: a figure for each instant of one round, which is then repeated.
+struct Script {
+    std::function<Figure(float)> figure;
+    float period_s = 1.0f;
+};
+
+Script scan_script();
+Script sway_script();
+Script turn_script();
+Script walk_script();
+Script wave_script();
+Script reach_script();
+Script squat_script();
+Script demo_script();
+
+/// "scan, sway, turn, ...", for messages.
+std::string motion_names();
+bool is_motion(const std::string& name);
+/// A scripted motion, with the small sway and breath of a standing person, which the seed shifts in time.
+std::unique_ptr<Motion> make_scripted_motion(const std::string& name, const Proportions& proportions,
+                                             uint64_t seed);
+/// The motion of a BVH file carried over to those proportions.
+std::unique_ptr<Motion> make_bvh_motion(const std::string& path, const Proportions& proportions);
+
+}  // namespace vfit::virtual_person

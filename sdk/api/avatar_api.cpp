@@ -1,0 +1,210 @@
+// vfit.h, part "avatar".
+#include <cmath>
+
+#include "api/avatar_object.h"
+#include "api/bodies.h"
+#include "api/guard.h"
+#include "api/measurements.h"
+#include "api/scan_object.h"
+
+using namespace vfit;
+using namespace vfit::api;
+
+namespace {
+
+constexpr uint32_t kMaxDetail = kBodyLevels - 1;
+// Scales beyond these are no people: a wrong unit, or a scan gone wrong.
+constexpr float kMinScale = 0.3f, kMaxScale = 2.0f;
+
+AvatarDesc avatar_desc(const vfit_avatar_desc* desc) {
+    const vfit_avatar_desc d = read_or_default(desc, "desc");
+    check_flags(d.flags, VFIT_AVATAR_PAPER_COLLIDERS | VFIT_AVATAR_SINGLE_BONES, "desc.flags");
+    check_enum(d.sex, VFIT_SEX_MALE, "desc.sex");
+    if (d.detail > kMaxDetail) fail(VFIT_ERROR_ARGUMENT, "desc.detail ", d.detail, " is more than ", kMaxDetail);
+    AvatarDesc out;
+    out.sex = d.sex;
+    out.detail = d.detail;
+    out.single_bones = (d.flags & VFIT_AVATAR_SINGLE_BONES) != 0;
+    out.paper_colliders = (d.flags & VFIT_AVATAR_PAPER_COLLIDERS) != 0;
+    return out;
+}
+
+float scale_of(const char* what, float measured, float nominal) {
+    const float scale = measured / nominal;
+    if (!(scale >= kMinScale && scale <= kMaxScale))
+        fail(VFIT_ERROR_DATA, what, " of ", measured, " m cannot be reached from a body of ", nominal, " m");
+    return scale;
+}
+
+/// Algorithm 3 applied to the body: the default body's own height and shoulder breadth are the nominal ones.
+Vec2 scale_to(Context& context, vfit_sex sex, const std::vector<Measurement>& measured) {
+    const auto& nominal = context.default_measures(sex);
+    const Measurement* stature = find(measured, "stature_m");
+    const Measurement* breadth = find(measured, "shoulder_breadth_m");
+    if (!stature) fail(VFIT_ERROR_DATA, "stature_m is not among the measurements");
+    Vec2 scale;
+    scale.y = scale_of("stature_m", stature->value, find(nominal, "stature_m")->value);
+    // Without a breadth the body keeps its proportions.
+    scale.x = breadth ? scale_of("shoulder_breadth_m", breadth->value, find(nominal, "shoulder_breadth_m")->value)
+                      : scale.y;
+    return scale;
+}
+
+void publish(Context& context, const Ref<AvatarObject>& avatar, vfit_avatar* out) {
+    out->id = context.publish(Kind::avatar, avatar);
+}
+
+vfit_result acquire(const Ref<Frame>& frame, Context& context, vfit_frame* out) {
+    out->id = context.publish(Kind::frame, frame);
+    return VFIT_OK;
+}
+
+}  // namespace
+
+vfit_result vfit_shape_list(vfit_context handle, vfit_shape_value* items, uint32_t stride, uint32_t* count) {
+    return guard([&] {
+        UseContext<Mode::any> context(handle);
+        const auto model = context->body_model();
+        const auto& parameters = model->parameters();
+        const std::vector<float> halfway = model->default_shape(VFIT_SEX_UNKNOWN);
+        return write_list(items, stride, count, parameters.size(), [&](size_t i) {
+            vfit_shape_value v{};
+            v.value = halfway[i];
+            v.minimum = parameters[i].minimum;
+            v.maximum = parameters[i].maximum;
+            set_text(v.key, parameters[i].key);
+            return v;
+        });
+    });
+}
+
+vfit_result vfit_avatar_create_from_shape(vfit_context handle, const vfit_avatar_desc* desc,
+                                          const vfit_shape_value* items, uint32_t stride, uint32_t count,
+                                          vfit_avatar* out) {
+    return guard([&] {
+        check_pointer(out, "out");
+        out->id = 0;
+        UseContext<Mode::any> context(handle);
+        const AvatarDesc d = avatar_desc(desc);
+        const auto model = context->body_model();
+        std::vector<float> shape = model->default_shape(d.sex);
+        for (const vfit_shape_value& v : read_array(items, stride, count, "items")) {
+            const std::string key = get_text(v.key);
+            const int i = model->parameter(key);
+            if (i < 0) fail(VFIT_ERROR_ARGUMENT, "\"", key, "\" is no shape value; see vfit_shape_list");
+            const ShapeParameter& p = model->parameters()[static_cast<size_t>(i)];
+            if (!(v.value >= p.minimum && v.value <= p.maximum))
+                fail(VFIT_ERROR_ARGUMENT, key, ": ", v.value, " is not in ", p.minimum, "..", p.maximum);
+            shape[static_cast<size_t>(i)] = v.value;
+        }
+        publish(*context, make<AvatarObject>(context.ref(), d, shape, Vec2(1.0f)), out);
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_avatar_create(vfit_context handle, const vfit_avatar_desc* desc, const vfit_measurement* items,
+                               uint32_t stride, uint32_t count, vfit_avatar* out) {
+    return guard([&] {
+        check_pointer(out, "out");
+        out->id = 0;
+        UseContext<Mode::any> context(handle);
+        const AvatarDesc d = avatar_desc(desc);
+        const Vec2 scale = scale_to(*context, d.sex, measurements_in(items, stride, count));
+        publish(*context, make<AvatarObject>(context.ref(), d, std::span<const float>{}, scale), out);
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_avatar_create_from_scan(vfit_context handle, const vfit_avatar_desc* desc, vfit_scan scan_handle,
+                                         vfit_avatar* out) {
+    return guard([&] {
+        check_pointer(out, "out");
+        out->id = 0;
+        UseContext<Mode::any> context(handle);
+        Use<ScanObject, Mode::read> scan(scan_handle.id);
+        AvatarDesc d = avatar_desc(desc);
+        if (d.sex == VFIT_SEX_UNKNOWN) d.sex = scan->sex;
+        const Vec2 scale = scale_to(*context, d.sex, scan->scan.measurements());
+        auto avatar = make<AvatarObject>(context.ref(), d, std::span<const float>{}, scale);
+        avatar->avatar.set_collider_radii(scan->scan.radii());
+        publish(*context, avatar, out);
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_avatar_destroy(vfit_avatar avatar) {
+    return guard([&] {
+        Handles::instance().destroy(avatar.id, Kind::avatar);
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_avatar_pose(vfit_avatar handle, const vfit_pose* pose, const vfit_bone* items, uint32_t stride,
+                             uint32_t count) {
+    return guard([&] {
+        Use<AvatarObject, Mode::exclusive> avatar(handle.id);
+        const vfit_pose p = read(pose, "pose");
+        avatar->pose(pose_in(p, read_array(items, stride, count, "items"), avatar->context->axes));
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_avatar_colliders(vfit_avatar handle, vfit_collider* items, uint32_t stride, uint32_t* count) {
+    return guard([&] {
+        Use<AvatarObject, Mode::read> avatar(handle.id);
+        std::vector<Collider> colliders;
+        avatar->avatar.colliders(colliders);
+        return write_colliders(colliders, avatar->context->axes, items, stride, count);
+    });
+}
+
+vfit_result vfit_avatar_joints(vfit_avatar handle, vfit_joint* items, uint32_t stride, uint32_t* count) {
+    return guard([&] {
+        Use<AvatarObject, Mode::read> avatar(handle.id);
+        return write_joints(avatar->avatar.joints(), avatar->context->axes, items, stride, count);
+    });
+}
+
+vfit_result vfit_avatar_rig(vfit_avatar handle, vfit_rig_bone* items, uint32_t stride, uint32_t* count) {
+    return guard([&] {
+        Use<AvatarObject, Mode::read> avatar(handle.id);
+        const auto& bones = avatar->avatar.rig_bones();
+        const Axes& axes = avatar->context->axes;
+        return write_list(items, stride, count, bones.size(), [&](size_t i) {
+            vfit_rig_bone bone{};
+            bone.parent = bones[i].parent;
+            bone.bone = bones[i].bone < 0 ? -1 : axes.bone_out(bones[i].bone);
+            const Vec3 head = axes.point_out(bones[i].rest_head);
+            bone.rest_position[0] = head.x;
+            bone.rest_position[1] = head.y;
+            bone.rest_position[2] = head.z;
+            set_text(bone.name, bones[i].name);
+            return bone;
+        });
+    });
+}
+
+vfit_result vfit_avatar_measure(vfit_avatar handle, vfit_measurement* items, uint32_t stride, uint32_t* count) {
+    return guard([&] {
+        Use<AvatarObject, Mode::read> avatar(handle.id);
+        return write_measurements(avatar->measures(), items, stride, count);
+    });
+}
+
+vfit_result vfit_avatar_acquire(vfit_avatar handle, vfit_frame* out) {
+    return guard([&] {
+        check_pointer(out, "out");
+        out->id = 0;
+        Use<AvatarObject, Mode::any> avatar(handle.id);
+        return acquire(avatar->posed.latest(), *avatar->context, out);
+    });
+}
+
+vfit_result vfit_avatar_acquire_rest(vfit_avatar handle, vfit_frame* out) {
+    return guard([&] {
+        check_pointer(out, "out");
+        out->id = 0;
+        Use<AvatarObject, Mode::any> avatar(handle.id);
+        return acquire(avatar->rest.latest(), *avatar->context, out);
+    });
+}

@@ -1,0 +1,30 @@
+// The object behind vfit_avatar.
+#pragma once
+
+#include "api/mesh_frame.h"
+#include "avatar/avatar.h"
+#include "measure/measurement.h"
+
+namespace vfit::api {
+
+struct AvatarObject : ContextChild {
+    static constexpr Kind kKind = Kind::avatar;
+    AvatarObject(Ref<Context> owner, const AvatarDesc& desc, std::span<const float> shape, const Vec2& scale);
+
+    Avatar avatar;
+    const vfit_sex sex;
+    MeshOutput posed, rest;
+
+    /// Poses the avatar and publishes its mesh; nothing changes where it fails.
+    void pose(const Pose& pose);
+    /// Tape measures of its own body; taken when first asked for.
+    const std::vector<Measurement>& measures();
+
+private:
+    void fill(MeshOutput& output, Frame& frame, std::span<const Vec3> positions, std::span<const Vec3> normals,
+              std::span<const Mat4> matrices, int64_t time_ns) const;
+    std::mutex measures_mutex_;
+    std::vector<Measurement> measures_;
+};
+
+}  // namespace vfit::api

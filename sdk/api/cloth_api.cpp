@@ -1,0 +1,284 @@
+// vfit.h, part "garment and cloth".
+#include <cmath>
+
+#include "api/avatar_object.h"
+#include "api/guard.h"
+#include "api/structs.h"
+#include "cloth/cloth.h"
+#include "cloth/dress.h"
+#include "cloth/garment.h"
+#include "core/files.h"
+
+using namespace vfit;
+using namespace vfit::api;
+
+namespace {
+
+constexpr size_t kMaxGarmentBytes = 256u << 20;
+
+struct GarmentObject : ContextChild {
+    static constexpr Kind kKind = Kind::garment;
+    GarmentObject(Ref<Context> owner, Garment g, FabricMaterial m)
+        : ContextChild(std::move(owner)), garment(std::move(g)), material(m) {}
+    const Garment garment;
+    const FabricMaterial material;
+};
+
+FabricLibrary fabrics_of(const Context& context) {
+    return FabricLibrary::parse(read_file(context.data_dir + "/fabrics.json"));
+}
+
+Ref<GarmentObject> parse(const Ref<Context>& context, std::span<const std::byte> bytes) {
+    const FabricLibrary fabrics = fabrics_of(*context);
+    Garment garment = parse_garment(bytes, fabrics);
+    const FabricMaterial material = fabrics.get(garment.fabric);
+    return make<GarmentObject>(context, std::move(garment), material);
+}
+
+float setting(float given, float preset) { return given == 0.0f ? preset : std::max(given, 0.0f); }
+
+ClothSettings cloth_settings(const vfit_cloth_desc& d, const FabricMaterial& material) {
+    constexpr uint32_t kMaxSubsteps = 256;
+    for (const float x : {d.gravity[0], d.gravity[1], d.gravity[2], d.friction, d.damping, d.thickness_m})
+        if (!std::isfinite(x)) fail(VFIT_ERROR_ARGUMENT, "desc: a number is not finite");
+    if (d.substeps > kMaxSubsteps)
+        fail(VFIT_ERROR_ARGUMENT, "desc.substeps ", d.substeps, " is more than ", kMaxSubsteps);
+    if (d.damping > 1.0f) fail(VFIT_ERROR_ARGUMENT, "desc.damping ", d.damping, " is more than 1");
+    if (d.thickness_m < 0.0f || d.thickness_m > 0.1f)
+        fail(VFIT_ERROR_ARGUMENT, "desc.thickness_m ", d.thickness_m, " is not in 0..0.1 m");
+    ClothSettings s;
+    if (d.substeps) s.substeps = d.substeps;
+    if (d.gravity[0] != 0.0f || d.gravity[1] != 0.0f || d.gravity[2] != 0.0f)
+        s.gravity = {d.gravity[0], d.gravity[1], d.gravity[2]};
+    s.friction = setting(d.friction, material.friction);
+    s.damping = setting(d.damping, s.damping);
+    if (d.thickness_m > 0.0f) s.thickness_m = d.thickness_m;
+    return s;
+}
+
+Dress make_dress(Context& context, const Garment& garment, const FabricMaterial& material, AvatarObject& avatar,
+                 const char* size_label, float thickness_m) {
+    const auto model = context.body_model();
+    const BodyTopology& topology = avatar.avatar.topology();
+    const uint32_t count = topology.vertex_count;
+    EvaluatedBody authored;
+    model->evaluate(model->default_shape(garment.body_sex), authored);
+    std::vector<Vec3> fine;
+    if (authored.positions.size() != count) {
+        for (uint32_t level = 1; level < kBodyLevels; ++level)
+            if (model->topology(level).vertex_count == count) model->subdivide(level, authored.positions, fine);
+    }
+    DressBody body;
+    body.authored = fine.empty() ? authored.positions : fine;
+    body.rest = {avatar.avatar.rest().positions.data(), count};
+    body.indices = topology.indices;
+    body.skin_bones = avatar.avatar.skin_bones().first(count);
+    body.skin_weights = avatar.avatar.skin_weights().first(count);
+    body.parts = avatar.avatar.parts().first(count);
+    const float ratio = size_label ? size_ratio(garment, size_label, avatar.measures()) : 1.0f;
+    return Dress(garment, material, body, ratio, thickness_m);
+}
+
+struct ClothObject : ContextChild {
+    static constexpr Kind kKind = Kind::cloth;
+    ClothObject(Ref<AvatarObject> avatar_object, Dress d, const ClothSettings& settings)
+        : ContextChild(avatar_object->context),
+          avatar(std::move(avatar_object)),
+          dress(std::move(d)),
+          cloth(dress.fabric(), settings, skinned()) {
+        output.topology().set_indices(dress.indices(), context->axes);
+        output.topology().set_uvs(dress.uvs(), context->axes);
+        avatar->avatar.colliders(colliders);
+        publish(output.begin());
+        later.task = [](void* self, uint32_t) { static_cast<ClothObject*>(self)->step(); };
+        later.data = this;
+    }
+    ~ClothObject() override {
+        if (stepping) finish();
+    }
+
+    const Ref<AvatarObject> avatar;
+    Dress dress;
+    std::vector<Vec3> targets;
+    Cloth cloth;
+    std::vector<Collider> colliders;
+    MeshOutput output;
+
+    // One step between begin and end; inputs are taken at begin, so that the avatar may move on.
+    bool stepping = false;
+    float dt = 0.0f;
+    Ref<Frame> next;
+    Jobs::Later later;
+
+    const std::vector<Vec3>& skinned() {
+        dress.skin(avatar->avatar.skinning_matrices(), targets);
+        return targets;
+    }
+    void prepare(float step_dt) {
+        if (stepping) fail(VFIT_ERROR_STATE, "a step has begun already: end it first");
+        if (!std::isfinite(step_dt) || step_dt < 0.0f) fail(VFIT_ERROR_ARGUMENT, "dt ", step_dt, " is no time");
+        avatar->access.begin_read("avatar");
+        const auto done = std::unique_ptr<Access, void (*)(Access*)>(&avatar->access, [](Access* a) { a->end_read(); });
+        next = output.begin();
+        skinned();
+        avatar->avatar.colliders(colliders);
+        dt = step_dt;
+    }
+    void step() {
+        Profile::Scope time(context->profile, Stage::cloth);
+        cloth.step(dt, targets, colliders, *context->jobs);
+    }
+    void finish() {
+        stepping = false;
+        context->jobs->end(later);
+    }
+    void publish(Ref<Frame> frame) {
+        output.fill(*frame, cloth.positions(), cloth.normals(), context->axes, avatar->avatar.time_ns());
+        const auto& strain = cloth.strain();
+        void* to = frame->add_stream(VFIT_STREAM_STRAIN, VFIT_FORMAT_F32, static_cast<uint32_t>(strain.size()), 1);
+        std::memcpy(to, strain.data(), strain.size() * sizeof(float));
+        output.publish(std::move(frame));
+    }
+    void require_no_step() const {
+        if (stepping) fail(VFIT_ERROR_STATE, "a step is running: end it first");
+    }
+};
+
+}  // namespace
+
+vfit_result vfit_garment_load(vfit_context handle, const void* bytes, uint64_t byte_count, vfit_garment* out) {
+    return guard([&] {
+        check_pointer(out, "out");
+        out->id = 0;
+        UseContext<Mode::any> context(handle);
+        check_pointer(bytes, "bytes");
+        if (byte_count > kMaxGarmentBytes) fail(VFIT_ERROR_ARGUMENT, "byte_count ", byte_count, " is too large");
+        const std::span<const std::byte> span(static_cast<const std::byte*>(bytes), static_cast<size_t>(byte_count));
+        out->id = context->publish(Kind::garment, parse(context.ref(), span));
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_garment_open(vfit_context handle, const char* name, vfit_garment* out) {
+    return guard([&] {
+        check_pointer(out, "out");
+        out->id = 0;
+        UseContext<Mode::any> context(handle);
+        check_pointer(name, "name");
+        const auto bytes = read_file(data_file(context->data_dir, "garments", name), kMaxGarmentBytes);
+        out->id = context->publish(Kind::garment, parse(context.ref(), bytes));
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_garment_destroy(vfit_garment garment) {
+    return guard([&] {
+        Handles::instance().destroy(garment.id, Kind::garment);
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_cloth_create(vfit_avatar avatar_handle, vfit_garment garment_handle, const vfit_cloth_desc* desc,
+                              vfit_cloth* out) {
+    return guard([&] {
+        check_pointer(out, "out");
+        out->id = 0;
+        Use<AvatarObject, Mode::exclusive> avatar(avatar_handle.id);
+        Use<GarmentObject, Mode::read> garment(garment_handle.id);
+        if (avatar->context != garment->context)
+            fail(VFIT_ERROR_HANDLE, "avatar and garment belong to different contexts");
+        const vfit_cloth_desc d = read_or_default(desc, "desc");
+        const ClothSettings settings = cloth_settings(d, garment->material);
+        Dress dress = make_dress(*avatar->context, garment->garment, garment->material, *avatar, d.size_label,
+                                 settings.thickness_m);
+        auto cloth = make<ClothObject>(avatar.ref(), std::move(dress), settings);
+        out->id = avatar->context->publish(Kind::cloth, cloth, avatar_handle.id);
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_cloth_destroy(vfit_cloth cloth) {
+    return guard([&] {
+        Handles::instance().destroy(cloth.id, Kind::cloth);
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_cloth_reset(vfit_cloth handle) {
+    return guard([&] {
+        Use<ClothObject, Mode::exclusive> cloth(handle.id);
+        cloth->prepare(0.0f);
+        cloth->cloth.reset(cloth->targets);
+        cloth->publish(std::move(cloth->next));
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_cloth_step(vfit_cloth handle, float dt) {
+    return guard([&] {
+        Use<ClothObject, Mode::exclusive> cloth(handle.id);
+        cloth->prepare(dt);
+        cloth->step();
+        cloth->publish(std::move(cloth->next));
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_cloth_begin_step(vfit_cloth handle, float dt) {
+    return guard([&] {
+        Use<ClothObject, Mode::exclusive> cloth(handle.id);
+        cloth->prepare(dt);
+        cloth->stepping = true;
+        cloth->context->jobs->begin(cloth->later);
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_cloth_end_step(vfit_cloth handle) {
+    return guard([&] {
+        Use<ClothObject, Mode::exclusive> cloth(handle.id);
+        if (!cloth->stepping) fail(VFIT_ERROR_STATE, "no step has begun");
+        cloth->finish();
+        cloth->publish(std::move(cloth->next));
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_cloth_acquire(vfit_cloth handle, vfit_frame* out) {
+    return guard([&] {
+        check_pointer(out, "out");
+        out->id = 0;
+        Use<ClothObject, Mode::any> cloth(handle.id);
+        out->id = cloth->context->publish(Kind::frame, cloth->output.latest());
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_cloth_describe(vfit_cloth handle, vfit_cloth_stats* out) {
+    return guard([&] {
+        Use<ClothObject, Mode::read> cloth(handle.id);
+        check_output(out, "out");
+        cloth->require_no_step();
+        const ClothStats s = cloth->cloth.stats();
+        vfit_cloth_stats stats{};
+        stats.vertex_count = s.vertex_count;
+        stats.simulated_count = s.simulated_count;
+        stats.constraint_count = s.constraint_count;
+        stats.strain_mean = s.strain_mean;
+        stats.strain_p99 = s.strain_p99;
+        stats.strain_max = s.strain_max;
+        stats.step_ms = s.step_ms;
+        write(out, stats);
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_cloth_state_hash(vfit_cloth handle, uint64_t* out) {
+    return guard([&] {
+        Use<ClothObject, Mode::read> cloth(handle.id);
+        check_pointer(out, "out");
+        cloth->require_no_step();
+        *out = cloth->cloth.state_hash();
+        return VFIT_OK;
+    });
+}

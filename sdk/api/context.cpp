@@ -1,0 +1,83 @@
+#include "api/context.h"
+
+#include "avatar/avatar_measures.h"
+#include "core/platform.h"
+
+namespace vfit::api {
+
+namespace {
+
+// Frames that a host may hold at a time before tracking gets VFIT_ERROR_BUSY.
+constexpr uint32_t kHostFrames = 32;
+
+std::unique_ptr<Jobs> make_jobs(const vfit_context_desc& desc) {
+    const uint32_t workers = desc.worker_count ? desc.worker_count : physical_cores() - 1;
+    if (desc.submit) return Jobs::host(desc.submit, desc.wait, desc.user, workers);
+    return Jobs::own(workers);
+}
+
+std::string folder_or_default(const char* given, const char* beside_library) {
+    return given ? std::string(given) : library_folder() + "/" + beside_library;
+}
+
+}  // namespace
+
+Inside::Inside(Ref<Context> context) : context_(std::move(context)) {
+    std::lock_guard lock(context_->mutex_);
+    ++context_->inside_;
+}
+
+Inside::~Inside() {
+    std::lock_guard lock(context_->mutex_);
+    if (--context_->inside_ == 0) context_->idle_.notify_all();
+}
+
+Context::Context(const vfit_context_desc& desc)
+    : flags(desc.flags),
+      axes(desc.axes, (desc.flags & VFIT_CONTEXT_MIRROR) != 0),
+      log(desc.log, desc.user),
+      jobs(make_jobs(desc)),
+      data_dir(folder_or_default(desc.data_dir, "vfit_data")),
+      plugin_dir(folder_or_default(desc.plugin_dir, "vfit_plugins")),
+      frames(make<FramePool>(kHostFrames)),
+      plugins_(std::make_unique<PluginHost>(log, [this] { return id; })) {
+    plugins_->load_folder(plugin_dir);
+}
+
+std::shared_ptr<const BodyModel> Context::body_model() {
+    std::lock_guard lock(model_mutex_);
+    if (!model_) model_ = BodyModel::load(data_dir + "/body.bin");
+    return model_;
+}
+
+const std::vector<Measurement>& Context::default_measures(vfit_sex sex) {
+    const auto model = body_model();
+    std::lock_guard lock(model_mutex_);
+    auto& measures = default_measures_[static_cast<size_t>(sex)];
+    if (measures.empty()) {
+        AvatarDesc desc;
+        desc.sex = sex;
+        measures = measure_avatar(Avatar(model, desc, {}, Vec2(1.0f)), sex);
+    }
+    return measures;
+}
+
+uint64_t Context::publish(Kind kind, Ref<Object> object, uint64_t parent) {
+    return Handles::instance().add(kind, std::move(object), parent ? parent : id);
+}
+
+Ref<Frame> Context::take_frame(FramePool& pool) {
+    Ref<Frame> frame = pool.take();
+    if (!frame) fail(VFIT_ERROR_BUSY, "all ", pool.out(), " frames of the pool are held; release some");
+    return frame;
+}
+
+void Context::close() {
+    // No new call enters through a handle; closing the sensors wakes those that wait inside.
+    Handles::instance().destroy(id, Kind::context);
+    plugins_->shutdown();
+    std::unique_lock lock(mutex_);
+    idle_.wait(lock, [this] { return inside_ == 0; });
+}
+
+}  // namespace vfit::api

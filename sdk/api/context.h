@@ -1,0 +1,105 @@
+// The object behind vfit_context: settings of the host and what all stages share.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "api/access.h"
+#include "body/body_model.h"
+#include "core/jobs.h"
+#include "core/log.h"
+#include "core/profile.h"
+#include "frame/axes.h"
+#include "frame/frame.h"
+#include "measure/measurement.h"
+#include "sensor/plugin_host.h"
+#include "vfit.h"
+
+namespace vfit::api {
+
+class Context : public Object {
+public:
+    static constexpr Kind kKind = Kind::context;
+
+    explicit Context(const vfit_context_desc& desc);
+
+    uint64_t id = 0;  // of its own handle
+    const uint32_t flags;
+    const Axes axes;
+    Log log;
+    Profile profile;
+    const std::unique_ptr<Jobs> jobs;
+    const std::string data_dir, plugin_dir;
+    const Ref<FramePool> frames;  // of the host's own and of tracked frames
+    Access access;
+
+    bool validates() const { return (flags & VFIT_CONTEXT_VALIDATE) != 0; }
+
+    /// The baked body, loaded when first asked for.
+    std::shared_ptr<const BodyModel> body_model();
+    /// Tape measures of the default body of that sex, taken when first asked for.
+    const std::vector<Measurement>& default_measures(vfit_sex sex);
+    PluginHost& plugins() { return *plugins_; }
+
+    /// A new handle below this context.
+    uint64_t publish(Kind kind, Ref<Object> object, uint64_t parent = 0);
+    /// A frame from a pool, or VFIT_ERROR_BUSY.
+    static Ref<Frame> take_frame(FramePool& pool);
+
+    /// Kills the handles, closes the sensors and waits until no call is inside.
+    void close();
+
+private:
+    friend class Inside;
+    std::mutex mutex_;
+    std::condition_variable idle_;
+    uint32_t inside_ = 0;
+    std::mutex model_mutex_;
+    std::shared_ptr<const BodyModel> model_;
+    std::array<std::vector<Measurement>, VFIT_SEX_MALE + 1> default_measures_;
+    std::unique_ptr<PluginHost> plugins_;
+};
+
+/// The context of a handle.
+template <Mode kMode>
+class UseContext {
+public:
+    explicit UseContext(vfit_context handle)
+        : context_(static_cast<Context*>(Handles::instance().get(handle.id, Kind::context).get())),
+          inside_(context_) {
+        if constexpr (kMode == Mode::exclusive) context_->access.begin_exclusive("context");
+    }
+    ~UseContext() {
+        if constexpr (kMode == Mode::exclusive) context_->access.end_exclusive();
+    }
+    UseContext(const UseContext&) = delete;
+    UseContext& operator=(const UseContext&) = delete;
+
+    Context* operator->() const { return context_.get(); }
+    Context& operator*() const { return *context_; }
+    const Ref<Context>& ref() const { return context_; }
+
+private:
+    Ref<Context> context_;
+    Inside inside_;
+};
+
+/// A frame and the context it belongs to.
+class UseFrame {
+public:
+    explicit UseFrame(vfit_frame handle)
+        : frame_(static_cast<Frame*>(Handles::instance().get(handle.id, Kind::frame).get())),
+          context_(vfit_context{Handles::instance().parent_of(handle.id)}) {}
+
+    Frame* operator->() const { return frame_.get(); }
+    Frame& operator*() const { return *frame_; }
+    const Ref<Frame>& ref() const { return frame_; }
+    Context& context() const { return *context_; }
+
+private:
+    Ref<Frame> frame_;
+    UseContext<Mode::any> context_;
+};
+
+}  // namespace vfit::api

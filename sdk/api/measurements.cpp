@@ -1,0 +1,34 @@
+#include "api/measurements.h"
+
+#include <cmath>
+
+#include "measure/measure_keys.h"
+
+namespace vfit::api {
+
+std::vector<Measurement> measurements_in(const vfit_measurement* items, uint32_t stride, uint32_t count) {
+    std::vector<Measurement> out;
+    for (const vfit_measurement& m : read_array(items, stride, count, "items")) {
+        const std::string key = get_text(m.key);
+        if (measure_index(key) < 0) fail(VFIT_ERROR_DATA, "\"", key, "\" is no measure; see vfit_measure_key");
+        if (!std::isfinite(m.value) || m.value <= 0.0f)
+            fail(VFIT_ERROR_DATA, key, ": value ", m.value, " is not a positive length in metres");
+        if (!std::isfinite(m.sigma) || m.sigma < 0.0f) fail(VFIT_ERROR_DATA, key, ": sigma ", m.sigma);
+        out.push_back({key, m.value, m.sigma, m.observed != 0});
+    }
+    return out;
+}
+
+vfit_result write_measurements(const std::vector<Measurement>& list, vfit_measurement* items, uint32_t stride,
+                               uint32_t* count) {
+    return write_list(items, stride, count, list.size(), [&](size_t i) {
+        vfit_measurement m{};
+        m.observed = list[i].observed;
+        m.value = list[i].value;
+        m.sigma = list[i].sigma;
+        set_text(m.key, list[i].key);
+        return m;
+    });
+}
+
+}  // namespace vfit::api

@@ -1,0 +1,120 @@
+// vfit.h, part "motion".
+#include <algorithm>
+
+#include "api/avatar_object.h"
+#include "api/bodies.h"
+#include "api/guard.h"
+#include "motion/motion.h"
+
+using namespace vfit;
+using namespace vfit::api;
+
+namespace {
+
+struct MotionObject : ContextChild {
+    static constexpr Kind kKind = Kind::motion;
+    MotionObject(Ref<Context> owner, const MotionSettings& settings)
+        : ContextChild(std::move(owner)), motion(settings) {}
+
+    Motion motion;
+    bool seen = false;  // somebody was there: the pose means something
+};
+
+/// A zero field means "default", a negative one zero.
+float setting(float given, float preset) { return given == 0.0f ? preset : std::max(given, 0.0f); }
+
+MotionSettings motion_settings(const vfit_motion_desc& d) {
+    check_flags(d.flags, VFIT_MOTION_NO_FILTER | VFIT_MOTION_NO_LIMITS | VFIT_MOTION_NO_SMOOTHING | VFIT_MOTION_NO_FEET,
+                "desc.flags");
+    MotionSettings s;
+    s.flags = d.flags;
+    s.holt.smoothing = setting(d.smoothing, s.holt.smoothing);
+    s.holt.correction = setting(d.correction, s.holt.correction);
+    s.holt.prediction = setting(d.prediction, s.holt.prediction);
+    s.holt.jitter_radius_m = setting(d.jitter_radius_m, s.holt.jitter_radius_m);
+    s.holt.max_deviation_radius_m = setting(d.max_deviation_radius_m, s.holt.max_deviation_radius_m);
+    s.rotation_divisor = setting(d.rotation_divisor, s.rotation_divisor);
+    s.rotation_divisor_switched = setting(d.rotation_divisor_switched, s.rotation_divisor_switched);
+    return s;
+}
+
+void require_pose(const MotionObject& motion) {
+    if (!motion.seen) fail(VFIT_ERROR_STATE, "the motion has seen nobody yet");
+}
+
+}  // namespace
+
+vfit_result vfit_motion_create(vfit_context handle, const vfit_motion_desc* desc, vfit_motion* out) {
+    return guard([&] {
+        check_pointer(out, "out");
+        out->id = 0;
+        UseContext<Mode::any> context(handle);
+        const MotionSettings settings = motion_settings(read_or_default(desc, "desc"));
+        out->id = context->publish(Kind::motion, make<MotionObject>(context.ref(), settings));
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_motion_destroy(vfit_motion motion) {
+    return guard([&] {
+        Handles::instance().destroy(motion.id, Kind::motion);
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_motion_reset(vfit_motion handle) {
+    return guard([&] {
+        Use<MotionObject, Mode::exclusive> motion(handle.id);
+        motion->motion.reset();
+        motion->seen = false;
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_motion_bind(vfit_motion handle, vfit_avatar avatar_handle) {
+    return guard([&] {
+        Use<MotionObject, Mode::exclusive> motion(handle.id);
+        Use<AvatarObject, Mode::read> avatar(avatar_handle.id);
+        motion->motion.bind(avatar->avatar.skeleton());
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_motion_step(vfit_motion handle, vfit_frame tracked, uint32_t body_id, int64_t now_ns) {
+    return guard([&]() -> vfit_result {
+        Use<MotionObject, Mode::exclusive> motion(handle.id);
+        Profile::Scope time(motion->context->profile, Stage::motion);
+        bool there = true;
+        if (tracked.id == 0) {
+            motion->seen = motion->motion.step(nullptr, now_ns);
+        } else {
+            UseFrame frame(tracked);
+            const Body* body = frame->body(body_id);
+            there = body != nullptr;
+            motion->seen = motion->motion.step(body, now_ns);
+        }
+        return there && motion->seen ? VFIT_OK : VFIT_NOT_READY;
+    });
+}
+
+vfit_result vfit_motion_pose(vfit_motion handle, vfit_pose* pose, vfit_bone* items, uint32_t stride,
+                             uint32_t* count) {
+    return guard([&] {
+        Use<MotionObject, Mode::read> motion(handle.id);
+        require_pose(*motion);
+        if (pose) check_output(pose, "pose");
+        const Axes& axes = motion->context->axes;
+        const vfit_result result =
+            write_bones(motion->motion.pose(), motion->motion.skeleton(), axes, items, stride, count);
+        if (pose) write(pose, pose_out(motion->motion.pose(), axes));
+        return result;
+    });
+}
+
+vfit_result vfit_motion_joints(vfit_motion handle, vfit_joint* items, uint32_t stride, uint32_t* count) {
+    return guard([&] {
+        Use<MotionObject, Mode::read> motion(handle.id);
+        require_pose(*motion);
+        return write_joints(motion->motion.joints(), motion->context->axes, items, stride, count);
+    });
+}

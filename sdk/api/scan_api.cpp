@@ -1,0 +1,133 @@
+// vfit.h, part "scan -> measurements -> size": the scan.
+#include "api/bodies.h"
+#include "api/guard.h"
+#include "api/measurements.h"
+#include "api/scan_object.h"
+#include "frame/floor.h"
+
+using namespace vfit;
+using namespace vfit::api;
+
+namespace {
+
+constexpr uint32_t kPaperFrames = 30;  // Alg. 4
+constexpr uint32_t kMaxFrames = 3000;
+
+void require_frames(const ScanObject& scan) {
+    if (scan.scan.frames_taken() == 0) fail(VFIT_ERROR_STATE, "the scan has taken no frame yet");
+}
+
+}  // namespace
+
+vfit_result vfit_scan_create(vfit_context handle, const vfit_scan_desc* desc, vfit_scan* out) {
+    return guard([&] {
+        check_pointer(out, "out");
+        out->id = 0;
+        UseContext<Mode::any> context(handle);
+        const vfit_scan_desc d = read_or_default(desc, "desc");
+        check_enum(d.method, VFIT_SCAN_PROPORTIONS, "method");
+        check_enum(d.sex, VFIT_SEX_MALE, "sex");
+        if (d.frame_count > kMaxFrames)
+            fail(VFIT_ERROR_ARGUMENT, "frame_count ", d.frame_count, " is more than ", kMaxFrames);
+        ScanDesc settings;
+        settings.frame_count = d.frame_count ? d.frame_count : kPaperFrames;
+        settings.sex = d.sex;
+        out->id = context->publish(Kind::scan, make<ScanObject>(context.ref(), settings));
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_scan_destroy(vfit_scan scan) {
+    return guard([&] {
+        Handles::instance().destroy(scan.id, Kind::scan);
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_scan_reset(vfit_scan handle) {
+    return guard([&] {
+        Use<ScanObject, Mode::exclusive> scan(handle.id);
+        scan->scan.reset();
+        scan->last_colliders.clear();
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_scan_add(vfit_scan handle, vfit_frame tracked, uint32_t body_id, vfit_scan_state* state) {
+    return guard([&]() -> vfit_result {
+        Use<ScanObject, Mode::exclusive> scan(handle.id);
+        UseFrame frame(tracked);
+        if (state) check_output(state, "state");
+        vfit_scan_state out{};
+        out.frames_wanted = scan->frames_wanted;
+        out.frames_taken = scan->scan.frames_taken();
+        vfit_result result = VFIT_OK;
+        if (out.frames_taken < out.frames_wanted) {
+            Profile::Scope time(scan->context->profile, Stage::measure);
+            const DepthImage image = frame->depth_image();
+            if (!image.users)
+                fail(VFIT_ERROR_UNSUPPORTED, "the frame has no user map: its source supplies none, and this "
+                                             "version does not find people by itself");
+            Body camera_space;
+            const Body* body = frame->body(body_id);
+            if (body) camera_space = to_camera(*body, frame->camera);
+            ScanFrame in{};
+            in.image = image;
+            in.body = body ? &camera_space : nullptr;
+            in.person_count = static_cast<uint32_t>(frame->bodies.size());
+            const ScanProgress progress = scan->scan.add(in);
+            out.frames_taken = progress.frames_taken;
+            out.guidance = progress.guidance;
+            out.correction_m = progress.correction_m;
+            out.compute_ms = static_cast<float>(progress.compute_ms);
+            if (progress.taken) {
+                scan->last_colliders.clear();
+                for (int id = 0; id < kPaperJointCount; ++id)
+                    if (body->has(id)) scan->last_colliders.push_back({id, body->at(id), 0.0f, -1, Vec3(0.0f), 0.0f});
+            }
+            result = !progress.taken                               ? VFIT_INCOMPLETE
+                     : progress.frames_taken < out.frames_wanted ? VFIT_NOT_READY
+                                                                   : VFIT_OK;
+        }
+        if (state) write(state, out);
+        return result;
+    });
+}
+
+vfit_result vfit_scan_measure(vfit_scan handle, vfit_measurement* items, uint32_t stride, uint32_t* count) {
+    return guard([&] {
+        Use<ScanObject, Mode::read> scan(handle.id);
+        require_frames(*scan);
+        return write_measurements(scan->scan.measurements(), items, stride, count);
+    });
+}
+
+vfit_result vfit_scan_colliders(vfit_scan handle, vfit_collider* items, uint32_t stride, uint32_t* count) {
+    return guard([&] {
+        Use<ScanObject, Mode::read> scan(handle.id);
+        require_frames(*scan);
+        std::vector<Collider> spheres = scan->last_colliders;
+        const auto radii = scan->scan.radii();
+        for (Collider& c : spheres) c.radius = radii[static_cast<size_t>(c.joint)];
+        return write_colliders(spheres, scan->context->axes, items, stride, count);
+    });
+}
+
+vfit_result vfit_scan_scale(vfit_scan handle, const char* garment_kind, vfit_scale* out) {
+    return guard([&] {
+        Use<ScanObject, Mode::read> scan(handle.id);
+        check_pointer(garment_kind, "garment_kind");
+        check_output(out, "out");
+        require_frames(*scan);
+        const Scan::Scale s = scan->scan.scale(garment_kind);
+        vfit_scale scale{};
+        scale.x = s.x;
+        scale.y = s.y;
+        scale.sigma_x = s.sigma_x;
+        scale.sigma_y = s.sigma_y;
+        scale.width_m = s.width_m;
+        scale.height_m = s.height_m;
+        write(out, scale);
+        return VFIT_OK;
+    });
+}

@@ -1,0 +1,125 @@
+// A body that moves: made from the body model once, posed each frame, it gives the skin, the bones, the
+// joints and the colliders of that pose.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "avatar/rig.h"
+#include "avatar/skin.h"
+#include "body/body_model.h"
+#include "body/collider.h"
+#include "body/mesh.h"
+#include "body/skeleton.h"
+#include "core/jobs.h"
+#include "frame/body.h"
+
+namespace vfit {
+
+struct AvatarDesc {
+    vfit_sex sex = VFIT_SEX_UNKNOWN;  // the shape where none is given
+    uint32_t detail = 0;              // level of the body model
+    bool single_bones = false;        // one bone a limb (Fig. 7a of the paper)
+    bool paper_colliders = false;     // radii of Algorithm 2 as they are
+    // Steps in which a limb's twist grows from its near to its far joint; 1 is the paper's two bones, whose
+    // linear blend pinches the limb's middle, 4 keeps 97 % of its section at a quarter turn.
+    uint32_t twist_steps = 4;
+};
+
+/// Standing upright, arms hanging beside the body: the posture in which tape measures are taken.
+struct MeasuringPosture {
+    float arm_angle_rad = 0.2617994f;  // of the upper arms from the vertical: 15 degrees
+    float feet_apart_m = 0.25f;        // between the ankle joints; feet never stand closer than touching
+    bool operator==(const MeasuringPosture&) const = default;
+};
+/// Feet together: the posture of stature (ISO 8559-1).
+inline constexpr MeasuringPosture kStaturePosture{0.2617994f, 0.0f};
+/// Upper arms at 5 degrees: the posture of bideltoid breadth.
+inline constexpr MeasuringPosture kBideltoidPosture{0.0872665f, 0.25f};
+
+/// The 15 spheres of the paper's joints, then 16 capsules.
+inline constexpr int kColliderCount = 31;
+
+class Avatar {
+public:
+    /// `shape` has one value a parameter of the model (empty: the default body of desc.sex). `scale` is
+    /// Algorithm 3's, of the body as a whole: width and depth by x, height by y. Stands in the T-pose, facing
+    /// +Z over the world's origin, until the first pose().
+    Avatar(std::shared_ptr<const BodyModel> model, const AvatarDesc& desc, std::span<const float> shape,
+           const Vec2& scale);
+
+    /// Radii of Algorithm 2 by joint; 0, not measured: the largest sphere about the joint inside the skin.
+    /// Measured ones are taken as they are with desc.paper_colliders, else cut to that sphere.
+    void set_collider_radii(std::span<const float, kPaperJointCount> radii);
+
+    /// Moves skin, bones, joints and colliders. VFIT_ERROR_DATA, and nothing moves, where the pose is not
+    /// finite. Does not allocate.
+    void pose(const Pose& pose, Jobs& jobs);
+    int64_t time_ns() const { return time_ns_; }  // of the last pose
+
+    /// Proportions that motion is bound to: forward_kinematics(skeleton(), pose) gives the places of the
+    /// posed avatar's bones.
+    const Skeleton& skeleton() const { return rig_.skeleton(); }
+    const PosedSkeleton& posed_skeleton() const { return posed_; }
+
+    /// The unposed mesh in the model's own posture, soles on y = 0: render vertices, seam copies included.
+    const Mesh& rest() const { return rest_; }
+    /// Posed render vertices, world; index and uv are rest()'s.
+    const std::vector<Vec3>& positions() const { return positions_; }
+    const std::vector<Vec3>& normals() const { return normals_; }
+
+    const std::vector<AvatarBone>& rig_bones() const { return rig_.bones(); }
+    const std::vector<LimbChain>& limbs() const { return rig_.limbs(); }
+    /// world = M * rest, one a rig bone.
+    std::span<const Mat4> skinning_matrices() const { return matrices_; }
+    /// One a render vertex.
+    std::span<const SkinBones> skin_bones() const { return skin_bones_; }
+    std::span<const SkinWeights> skin_weights() const { return skin_weights_; }
+    std::span<const BodyPart> parts() const { return topology_->parts; }
+    /// The closed surface behind the mesh; its vertices are the first of positions().
+    const BodyTopology& topology() const { return *topology_; }
+
+    /// Every joint of the posed avatar, world, with rotation, state measured.
+    Body joints() const;
+
+    /// Posed: spheres by joint, then capsules. Does not allocate where `out` has room for kColliderCount.
+    void colliders(std::vector<Collider>& out) const;
+
+    /// The body in a measuring posture: geometric vertices (as topology().indices has them) without normals,
+    /// facing +Z, soles on y = 0; and its joints where asked for.
+    Mesh measuring_mesh(const MeasuringPosture& posture = {}, Body* joints = nullptr) const;
+
+    /// Floor to crown, feet together.
+    float stature() const { return stature_m_; }
+
+private:
+    struct Parts;
+    Avatar(std::shared_ptr<const BodyModel> model, const AvatarDesc& desc, Parts parts);
+    void place_joints();
+    void measure_inner_spheres();
+    Pose measuring_pose(const MeasuringPosture& posture) const;
+    float touching_feet_m() const;
+    Vec3 joint_position(int joint, std::span<const Mat4> matrices) const;
+    Body joints_of(const PosedSkeleton& posed, std::span<const Mat4> matrices) const;
+
+    std::shared_ptr<const BodyModel> model_;
+    const BodyTopology* topology_;
+    bool paper_colliders_;
+    Mesh rest_;
+    AvatarRig rig_;
+    std::vector<SkinBones> skin_bones_;
+    std::vector<SkinWeights> skin_weights_;
+    Skin skin_;
+    std::array<Vec3, kJointCount> anchors_{};  // joints in the rest mesh
+    std::array<float, kPaperJointCount> inner_radii_{}, radii_{};
+    float stature_m_ = 0.0f;
+
+    int64_t time_ns_ = 0;
+    PosedSkeleton posed_;
+    std::vector<Mat4> matrices_;
+    std::vector<Vec3> positions_, normals_;
+};
+
+}  // namespace vfit

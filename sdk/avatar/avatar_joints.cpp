@@ -1,0 +1,116 @@
+// The avatar's joints and colliders: where each of VFIT_JOINT_* lies in the body, and the spheres about them.
+#include <algorithm>
+#include <cmath>
+
+#include "avatar/avatar.h"
+#include "core/error.h"
+#include "measure/mesh_query.h"
+
+namespace vfit {
+
+namespace {
+
+// The humanoid bone whose start each joint is (HEAD and HAND lie on theirs).
+constexpr int kBoneOfJoint[kJointCount] = {
+    VFIT_BONE_HEAD,            VFIT_BONE_NECK,            VFIT_BONE_CHEST,          VFIT_BONE_LEFT_UPPER_ARM,
+    VFIT_BONE_RIGHT_UPPER_ARM, VFIT_BONE_LEFT_LOWER_ARM,  VFIT_BONE_RIGHT_LOWER_ARM, VFIT_BONE_LEFT_HAND,
+    VFIT_BONE_RIGHT_HAND,      VFIT_BONE_LEFT_UPPER_LEG,  VFIT_BONE_RIGHT_UPPER_LEG, VFIT_BONE_LEFT_LOWER_LEG,
+    VFIT_BONE_RIGHT_LOWER_LEG, VFIT_BONE_LEFT_FOOT,       VFIT_BONE_RIGHT_FOOT,     VFIT_BONE_HIPS,
+    VFIT_BONE_UPPER_CHEST,     VFIT_BONE_LEFT_SHOULDER,   VFIT_BONE_RIGHT_SHOULDER, VFIT_BONE_LEFT_HAND,
+    VFIT_BONE_RIGHT_HAND,      VFIT_BONE_LEFT_TOES,       VFIT_BONE_RIGHT_TOES};
+
+struct CapsuleEnds {
+    int a, b;
+};
+
+constexpr CapsuleEnds kCapsules[] = {
+    {VFIT_JOINT_HEAD, VFIT_JOINT_NECK},
+    {VFIT_JOINT_NECK, VFIT_JOINT_TORSO},
+    {VFIT_JOINT_NECK, VFIT_JOINT_LEFT_SHOULDER},
+    {VFIT_JOINT_NECK, VFIT_JOINT_RIGHT_SHOULDER},
+    {VFIT_JOINT_LEFT_SHOULDER, VFIT_JOINT_LEFT_ELBOW},
+    {VFIT_JOINT_RIGHT_SHOULDER, VFIT_JOINT_RIGHT_ELBOW},
+    {VFIT_JOINT_LEFT_ELBOW, VFIT_JOINT_LEFT_HAND},
+    {VFIT_JOINT_RIGHT_ELBOW, VFIT_JOINT_RIGHT_HAND},
+    {VFIT_JOINT_TORSO, VFIT_JOINT_LEFT_HIP},
+    {VFIT_JOINT_TORSO, VFIT_JOINT_RIGHT_HIP},
+    {VFIT_JOINT_LEFT_HIP, VFIT_JOINT_LEFT_KNEE},
+    {VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_RIGHT_KNEE},
+    {VFIT_JOINT_LEFT_KNEE, VFIT_JOINT_LEFT_FOOT},
+    {VFIT_JOINT_RIGHT_KNEE, VFIT_JOINT_RIGHT_FOOT},
+    {VFIT_JOINT_LEFT_SHOULDER, VFIT_JOINT_RIGHT_SHOULDER},
+    {VFIT_JOINT_LEFT_HIP, VFIT_JOINT_RIGHT_HIP},
+};
+static_assert(kPaperJointCount + int(std::size(kCapsules)) == kColliderCount);
+
+}  // namespace
+
+void Avatar::place_joints() {
+    for (int j = 0; j < kJointCount; ++j) {
+        const AvatarBone& bone = rig_bones()[static_cast<size_t>(rig_.rig_bone(kBoneOfJoint[j]))];
+        const bool middle = j == VFIT_JOINT_HEAD || j == VFIT_JOINT_LEFT_HAND || j == VFIT_JOINT_RIGHT_HAND;
+        anchors_[static_cast<size_t>(j)] = middle ? 0.5f * (bone.rest_head + bone.rest_tail) : bone.rest_head;
+    }
+}
+
+void Avatar::measure_inner_spheres() {
+    const MeshQuery skin(std::span<const Vec3>(rest_.positions).first(topology_->vertex_count), topology_->indices);
+    for (size_t j = 0; j < kPaperJointCount; ++j) inner_radii_[j] = largest_inner_sphere(skin, anchors_[j]);
+    radii_ = inner_radii_;
+}
+
+void Avatar::set_collider_radii(std::span<const float, kPaperJointCount> radii) {
+    for (size_t j = 0; j < kPaperJointCount; ++j)
+        if (!std::isfinite(radii[j]) || radii[j] < 0.0f)
+            fail(VFIT_ERROR_ARGUMENT, "the collider radius of ", joint_name(int(j)), " is ", radii[j],
+                 ", not finite and at least 0");
+    for (size_t j = 0; j < kPaperJointCount; ++j) {
+        if (radii[j] == 0.0f)
+            radii_[j] = inner_radii_[j];
+        else
+            radii_[j] = paper_colliders_ ? radii[j] : std::min(radii[j], inner_radii_[j]);
+    }
+}
+
+Vec3 Avatar::joint_position(int joint, std::span<const Mat4> matrices) const {
+    const auto rig = static_cast<size_t>(rig_.rig_bone(kBoneOfJoint[joint]));
+    return Vec3(matrices[rig] * Vec4(anchors_[static_cast<size_t>(joint)], 1.0f));
+}
+
+Body Avatar::joints_of(const PosedSkeleton& posed, std::span<const Mat4> matrices) const {
+    Body body;
+    for (int j = 0; j < kJointCount; ++j) {
+        body.set(j, joint_position(j, matrices));
+        Joint& joint = body.joints[static_cast<size_t>(j)];
+        joint.rotation = posed.rotation[static_cast<size_t>(kBoneOfJoint[j])];
+        joint.has_rotation = true;
+    }
+    return body;
+}
+
+Body Avatar::joints() const {
+    Body body = joints_of(posed_, matrices_);
+    body.time_ns = time_ns_;
+    return body;
+}
+
+void Avatar::colliders(std::vector<Collider>& out) const {
+    out.clear();
+    for (int j = 0; j < kPaperJointCount; ++j) {
+        Collider sphere;
+        sphere.joint = j;
+        sphere.center = joint_position(j, matrices_);
+        sphere.radius = radii_[static_cast<size_t>(j)];
+        out.push_back(sphere);
+    }
+    for (const CapsuleEnds& ends : kCapsules) {
+        Collider capsule = out[static_cast<size_t>(ends.a)];
+        const Collider far_end = out[static_cast<size_t>(ends.b)];
+        capsule.joint_b = ends.b;
+        capsule.center_b = far_end.center;
+        capsule.radius_b = far_end.radius;
+        out.push_back(capsule);
+    }
+}
+
+}  // namespace vfit

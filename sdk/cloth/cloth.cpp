@@ -1,0 +1,293 @@
+#include "cloth/cloth.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "body/mesh.h"
+#include "cloth/contact.h"
+#include "cloth/rigid_motion.h"
+#include "cloth/solver.h"
+#include "core/clock.h"
+#include "core/error.h"
+#include "math/finite.h"
+
+namespace vfit {
+
+namespace {
+
+// Kinetic over static friction of cotton on skin: 0.25/0.31 at the forearm, 0.79/0.90 at the chest (Temel 2022).
+constexpr float kKineticShare = 0.84f;
+// How fast a vertex that is already inside a collider comes out: brisk against the fastest body (about the
+// speed of a walking foot), slow enough not to be shot away.
+constexpr float kMaxDepenetration_m_s = 3.0f;
+constexpr float kSubstepRate_hz = 60.0f;  // settings.substeps are per 1/60 s
+
+void check(const ClothSettings& s) {
+    if (s.substeps == 0 || s.substeps > 1000) fail(VFIT_ERROR_ARGUMENT, "substeps must be 1..1000, is ", s.substeps);
+    if (!finite(s.gravity)) fail(VFIT_ERROR_ARGUMENT, "gravity is not finite");
+    if (!finite(s.friction) || s.friction < 0.0f) fail(VFIT_ERROR_ARGUMENT, "friction is ", s.friction);
+    if (!finite(s.damping) || s.damping < 0.0f || s.damping > 1.0f)
+        fail(VFIT_ERROR_ARGUMENT, "damping must be 0..1, is ", s.damping);
+    if (!finite(s.thickness_m) || s.thickness_m < 0.0f) fail(VFIT_ERROR_ARGUMENT, "thickness is ", s.thickness_m);
+    if (!finite(s.teleport_m) || s.teleport_m <= 0.0f)
+        fail(VFIT_ERROR_ARGUMENT, "teleport distance is ", s.teleport_m);
+}
+
+void check_points(std::span<const Vec3> points, uint32_t count, const char* what) {
+    if (points.size() != count)
+        fail(VFIT_ERROR_ARGUMENT, points.size(), " ", what, " for a garment of ", count, " vertices");
+    for (size_t i = 0; i < points.size(); ++i)
+        if (!finite(points[i])) fail(VFIT_ERROR_DATA, what, " ", i, " is not finite");
+}
+
+void check_colliders(std::span<const Collider> colliders) {
+    for (size_t i = 0; i < colliders.size(); ++i) {
+        const Collider& c = colliders[i];
+        const bool whole = finite(c.center) && finite(c.radius) &&
+                           (!c.is_capsule() || (finite(c.center_b) && finite(c.radius_b)));
+        if (!whole) fail(VFIT_ERROR_DATA, "collider ", i, " is not finite");
+        if (c.radius < 0.0f || (c.is_capsule() && c.radius_b < 0.0f))
+            fail(VFIT_ERROR_DATA, "collider ", i, " has a negative radius");
+    }
+}
+
+/// FNV-1a over 32-bit words.
+uint64_t hash(uint64_t state, std::span<const Vec3> values) {
+    for (const Vec3& v : values)
+        for (int k = 0; k < 3; ++k) {
+            uint32_t bits;
+            std::memcpy(&bits, &v[k], sizeof bits);
+            state = (state ^ bits) * 0x100000001b3ull;
+        }
+    return state;
+}
+
+}  // namespace
+
+struct Cloth::State {
+    std::shared_ptr<const Fabric> fabric;
+    ClothSettings settings;
+
+    std::vector<Particle> particles;
+    std::vector<Vec3> starts;      // places at the begin of the sub-step
+    std::vector<Vec3> velocities;  // of simulated vertices
+    std::vector<Vec3> previous_targets, previous_skin_normals, skin_normals;
+    std::vector<Capsule> previous_capsules, capsules;
+    std::vector<SweptCapsule> swept;
+    std::vector<Backstop> backstops;
+
+    std::vector<Vec3> positions, normals;  // what callers read
+    std::vector<float> edge_strains, strains;
+    std::vector<float> inverse_edge_count;  // of a vertex; 0: none
+    float step_ms = 0.0f;
+
+    void reset(std::span<const Vec3> start);
+    void accept_colliders(std::span<const Collider> colliders);
+    void teleport(std::span<const Vec3> targets);
+    void substep(float h, float from, float to, std::span<const Vec3> targets, Jobs& jobs);
+    void solve_backstops(float h, float from, float to, std::span<const Vec3> targets);
+    void publish();
+};
+
+Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings, std::span<const Vec3> start)
+    : state_(std::make_unique<State>()) {
+    if (!fabric) fail(VFIT_ERROR_ARGUMENT, "a cloth needs a fabric");
+    check(settings);
+    State& s = *state_;
+    s.settings = settings;
+    const uint32_t n = fabric->vertex_count();
+    const FabricData& data = fabric->data();
+    s.particles.resize(n);
+    for (uint32_t i = 0; i < n; ++i) s.particles[i].inverse_mass = data.inverse_mass[i];
+    for (auto* list : {&s.starts, &s.velocities, &s.previous_targets, &s.positions}) list->resize(n);
+    s.strains.resize(n);
+    s.edge_strains.resize(data.edges.size());
+    s.inverse_edge_count.resize(n);
+    for (const DistanceConstraint& e : data.edges)
+        for (uint32_t v : {e.a, e.b}) s.inverse_edge_count[v] += 1.0f;
+    for (float& count : s.inverse_edge_count) count = count > 0.0f ? 1.0f / count : 0.0f;
+    for (uint32_t i = 0; i < data.backstop_slack_m.size(); ++i)
+        if (data.backstop_slack_m[i] >= 0.0f && data.inverse_mass[i] > 0.0f)
+            s.backstops.push_back({i, data.backstop_slack_m[i]});
+    s.fabric = std::move(fabric);
+    reset(start);
+}
+
+Cloth::~Cloth() = default;
+
+void Cloth::reset(std::span<const Vec3> positions) {
+    check_points(positions, state_->fabric->vertex_count(), "start positions");
+    state_->reset(positions);
+}
+
+void Cloth::State::reset(std::span<const Vec3> start) {
+    for (size_t i = 0; i < start.size(); ++i) {
+        particles[i].x = start[i];
+        velocities[i] = Vec3(0.0f);
+        previous_targets[i] = start[i];
+    }
+    previous_capsules.clear();
+    compute_normals(previous_targets, fabric->data().indices, previous_skin_normals);
+    publish();
+}
+
+void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<const Collider> colliders, Jobs& jobs) {
+    State& s = *state_;
+    if (!finite(dt) || dt < 0.0f) fail(VFIT_ERROR_ARGUMENT, "the step is ", dt, " s long");
+    check_points(skinned_targets, s.fabric->vertex_count(), "skinned targets");
+    check_colliders(colliders);
+    if (dt == 0.0f) return;
+    const Stopwatch watch;
+    dt = std::min(dt, kMaxStep_s);
+
+    s.accept_colliders(colliders);
+    s.teleport(skinned_targets);
+    if (!s.backstops.empty()) {
+        s.starts.assign(skinned_targets.begin(), skinned_targets.end());  // compute_normals takes a vector
+        compute_normals(s.starts, s.fabric->data().indices, s.skin_normals);
+    }
+    const auto substeps = std::max(1, int(std::lround(dt * kSubstepRate_hz * float(s.settings.substeps))));
+    const float h = dt / float(substeps);
+    for (int i = 0; i < substeps; ++i)
+        s.substep(h, float(i) / float(substeps), float(i + 1) / float(substeps), skinned_targets, jobs);
+
+    std::copy(skinned_targets.begin(), skinned_targets.end(), s.previous_targets.begin());
+    std::swap(s.previous_skin_normals, s.skin_normals);
+    std::swap(s.previous_capsules, s.capsules);
+    s.publish();
+    s.step_ms = float(watch.ms());
+}
+
+/// Colliders that were not there at the last call are taken as standing still.
+void Cloth::State::accept_colliders(std::span<const Collider> colliders) {
+    capsules.resize(colliders.size());
+    for (size_t i = 0; i < colliders.size(); ++i) capsules[i] = capsule_of(colliders[i], settings.thickness_m);
+    if (previous_capsules.size() != capsules.size()) previous_capsules = capsules;
+    for (size_t i = 0; i < capsules.size(); ++i) {
+        // A capsule that became a ball, or the reverse, has no way between the two.
+        if ((previous_capsules[i].a == previous_capsules[i].b) != (capsules[i].a == capsules[i].b))
+            previous_capsules[i] = capsules[i];
+    }
+    swept.resize(capsules.size());
+}
+
+/// A jump of the body is no motion: the cloth goes along as it hangs, and nothing is swept through it.
+void Cloth::State::teleport(std::span<const Vec3> targets) {
+    const std::vector<uint32_t>& fixed = fabric->kinematic_vertices();
+    float distance = 0.0f;
+    for (uint32_t i : fixed) distance += glm::length(targets[i] - previous_targets[i]);
+    if (fixed.empty() || distance <= settings.teleport_m * float(fixed.size())) return;
+    const RigidMotion motion = fit_rigid_motion(fixed, previous_targets, targets);
+    for (size_t i = 0; i < particles.size(); ++i) {
+        particles[i].x = motion.point(particles[i].x);
+        velocities[i] = motion.direction(velocities[i]);
+        previous_targets[i] = motion.point(previous_targets[i]);
+        previous_skin_normals[i] = motion.direction(previous_skin_normals[i]);
+    }
+    previous_capsules = capsules;
+}
+
+void Cloth::State::substep(float h, float from, float to, std::span<const Vec3> targets, Jobs& jobs) {
+    const FabricData& data = fabric->data();
+    // The half step of gravity on both ends makes free fall exact, not only of first order.
+    const Vec3 fall = settings.gravity * (0.5f * h);
+    for (uint32_t i : fabric->simulated_vertices()) {
+        starts[i] = particles[i].x;
+        particles[i].x += (velocities[i] + fall) * h;
+    }
+    for (uint32_t i : fabric->kinematic_vertices()) {
+        starts[i] = particles[i].x;
+        particles[i].x = previous_targets[i] + (targets[i] - previous_targets[i]) * to;
+    }
+    solve_distances(data.bends, h, particles);
+    solve_distances(data.edges, h, particles);
+    solve_tethers(data.tethers, particles);
+
+    for (size_t i = 0; i < swept.size(); ++i) swept[i] = sweep(previous_capsules[i], capsules[i], from, to);
+    const ContactSettings contact{settings.friction, settings.friction * kKineticShare, kMaxDepenetration_m_s * h};
+    solve_backstops(h, from, to, targets);
+    ContactPass{fabric->simulated_vertices(), swept, starts, contact}.run(particles, jobs);
+
+    const float keep = std::pow(1.0f - settings.damping, h);
+    for (uint32_t i : fabric->simulated_vertices())
+        velocities[i] = ((particles[i].x - starts[i]) / h + fall) * keep;
+}
+
+/// Balls below the skin, tangent to it `slack` under the vertex's skinned place.
+void Cloth::State::solve_backstops(float h, float from, float to, std::span<const Vec3> targets) {
+    const ContactSettings contact{settings.friction, settings.friction * kKineticShare, kMaxDepenetration_m_s * h};
+    for (const Backstop& b : backstops) {
+        const auto center = [&](float t) {
+            const Vec3& was = previous_skin_normals[b.vertex];
+            const Vec3 normal = was + (skin_normals[b.vertex] - was) * t;
+            const Vec3 place = previous_targets[b.vertex] + (targets[b.vertex] - previous_targets[b.vertex]) * t;
+            return place - normal * (b.slack_m + kBackstopRadius_m);
+        };
+        const Vec3 center_to = center(to);
+        Vec3& x = particles[b.vertex].x;
+        const Vec3 d = x - center_to;
+        const float distance2 = glm::dot(d, d);
+        if (distance2 >= kBackstopRadius_m * kBackstopRadius_m || distance2 == 0.0f) continue;
+        const float distance = std::sqrt(distance2);
+        const Vec3 center_from = center(from);
+        const float begin = kBackstopRadius_m - glm::length(starts[b.vertex] - center_from);
+        const float depth = kBackstopRadius_m - distance - std::max(0.0f, begin - contact.max_depenetration_m);
+        if (depth <= 0.0f) continue;
+        x += d * (depth / distance);
+        apply_friction(starts[b.vertex], center_to - center_from, d / distance, depth, contact, x);
+    }
+}
+
+void Cloth::State::publish() {
+    for (size_t i = 0; i < particles.size(); ++i) positions[i] = particles[i].x;
+    compute_normals(positions, fabric->data().indices, normals);
+    const std::vector<DistanceConstraint>& edges = fabric->data().edges;
+    distance_strains(edges, particles, edge_strains);
+    std::fill(strains.begin(), strains.end(), 0.0f);
+    for (size_t i = 0; i < edges.size(); ++i) {
+        strains[edges[i].a] += edge_strains[i];
+        strains[edges[i].b] += edge_strains[i];
+    }
+    for (size_t i = 0; i < strains.size(); ++i) strains[i] *= inverse_edge_count[i];
+}
+
+const std::vector<Vec3>& Cloth::positions() const { return state_->positions; }
+const std::vector<Vec3>& Cloth::normals() const { return state_->normals; }
+const std::vector<float>& Cloth::strain() const { return state_->strains; }
+const Fabric& Cloth::fabric() const { return *state_->fabric; }
+
+uint64_t Cloth::state_hash() const {
+    constexpr uint64_t kOffset = 0xcbf29ce484222325ull;
+    return hash(hash(kOffset, state_->positions), state_->velocities);
+}
+
+ClothStats Cloth::stats() const {
+    const State& s = *state_;
+    ClothStats out;
+    out.vertex_count = s.fabric->vertex_count();
+    out.simulated_count = s.fabric->simulated_count();
+    out.constraint_count = s.fabric->constraint_count();
+    out.step_ms = s.step_ms;
+    if (s.edge_strains.empty()) return out;
+    // A histogram finds the percentile without sorting a copy.
+    constexpr float kBin = 0.001f;
+    constexpr int kBins = 2000, kZero = 1000;
+    std::array<uint32_t, kBins> histogram{};
+    double sum = 0.0;
+    for (float strain : s.edge_strains) {
+        sum += std::abs(strain);
+        out.strain_max = std::max(out.strain_max, strain);
+        ++histogram[size_t(std::clamp(std::floor(strain / kBin) + kZero, 0.0f, float(kBins - 1)))];
+    }
+    out.strain_mean = float(sum / double(s.edge_strains.size()));
+    const auto rank = uint64_t(0.99 * double(s.edge_strains.size()));
+    uint64_t below = 0;
+    int bin = 0;
+    while (bin < kBins - 1 && (below += histogram[size_t(bin)]) <= rank) ++bin;
+    out.strain_p99 = std::min(out.strain_max, float(bin - kZero + 1) * kBin);
+    return out;
+}
+
+}  // namespace vfit

@@ -1,0 +1,66 @@
+// Cloth: one simulated instance of a fabric. Small sub-steps of one XPBD pass (Macklin et al. 2019), swept
+// collision with spheres and tapered capsules, friction, tethers and backstops. One thread at a time.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "body/collider.h"
+#include "cloth/fabric.h"
+#include "core/jobs.h"
+#include "math/types.h"
+
+namespace vfit {
+
+inline constexpr float kMaxStep_s = 0.1f;  // a longer step is clamped (vfit_cloth_step)
+
+struct ClothSettings {
+    uint32_t substeps = 8;        // per 1/60 s
+    Vec3 gravity{0, -9.81f, 0};   // m/s2
+    float friction = 0.3f;        // static Coulomb coefficient against colliders
+    float damping = 0.5f;         // share of speed lost in a second, 0..1
+    float thickness_m = 0.004f;   // kept between vertices and colliders
+    float teleport_m = 0.5f;      // targets that move further in one step (mean) carry the cloth along rigidly
+};
+
+struct ClothStats {
+    uint32_t vertex_count = 0, simulated_count = 0, constraint_count = 0;
+    float strain_mean = 0.0f;  // of the edges: mean of the magnitude
+    float strain_p99 = 0.0f;   // 99th percentile, to 0.001
+    float strain_max = 0.0f;
+    float step_ms = 0.0f;      // the last step
+};
+
+class Cloth {
+public:
+    Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings, std::span<const Vec3> start);
+    ~Cloth();
+
+    /// At rest at these places.
+    void reset(std::span<const Vec3> positions);
+
+    /// Advances by dt. skinned_targets: one a vertex, where the skinned garment is at the END of the step
+    /// (moves the fixed vertices, carries the backstops; a free vertex without backstop ignores its own).
+    /// colliders: at the end of the step, in the same order each call. Both are interpolated from the
+    /// previous call over the sub-steps. Fails without changing anything: VFIT_ERROR_DATA for a value that is
+    /// not finite, VFIT_ERROR_ARGUMENT for a wrong count or a dt that is negative or not finite. Does not
+    /// allocate while the number of colliders stays.
+    void step(float dt, std::span<const Vec3> skinned_targets, std::span<const Collider> colliders, Jobs& jobs);
+
+    const std::vector<Vec3>& positions() const;
+    const std::vector<Vec3>& normals() const;
+    /// Mean strain of the edges at each vertex; 0: unstretched.
+    const std::vector<float>& strain() const;
+    /// Of positions and velocities, bit by bit.
+    uint64_t state_hash() const;
+    ClothStats stats() const;
+    const Fabric& fabric() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace vfit

@@ -1,0 +1,75 @@
+// Fabric: all of a cloth that does not change while it is simulated (masses, constraints, topology), cooked
+// once and shared by every instance of that cloth.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cloth/fabric_library.h"
+#include "math/types.h"
+
+namespace vfit {
+
+/// |xa - xb| = rest_m with that compliance (XPBD; Macklin, Mueller, Chentanez 2016).
+struct DistanceConstraint {
+    uint32_t a, b;
+    float rest_m;
+    float compliance_m_n;
+};
+
+/// |x - anchor| <= length_m: long range attachment (Kim, Chentanez, Mueller 2012).
+struct Tether {
+    uint32_t vertex, anchor;
+    float length_m;
+};
+
+/// The parts of a fabric as explicit data, in any order.
+struct FabricData {
+    std::vector<float> inverse_mass;  // 1/kg, one a vertex; 0: moved by its target
+    std::vector<uint32_t> indices;    // three a triangle, for the normals
+    std::vector<DistanceConstraint> edges;
+    std::vector<DistanceConstraint> bends;
+    std::vector<Tether> tethers;
+    std::vector<float> backstop_slack_m;  // empty, or one a vertex: how far below its skinned place it may
+                                          // come; < 0: no backstop
+};
+
+/// Immutable and cooked: constraints sorted for the solver. Made by cook_fabric or from explicit data.
+class Fabric {
+public:
+    /// Fails with VFIT_ERROR_DATA, naming the constraint, where the data do not fit together.
+    explicit Fabric(FabricData data);
+
+    uint32_t vertex_count() const { return uint32_t(data_.inverse_mass.size()); }
+    uint32_t simulated_count() const { return uint32_t(simulated_.size()); }
+    /// Distance constraints: edges and bends.
+    uint32_t constraint_count() const { return uint32_t(data_.edges.size() + data_.bends.size()); }
+    const FabricData& data() const { return data_; }
+    const std::vector<uint32_t>& simulated_vertices() const { return simulated_; }
+    const std::vector<uint32_t>& kinematic_vertices() const { return kinematic_; }
+
+private:
+    FabricData data_;
+    std::vector<uint32_t> simulated_, kinematic_;
+};
+
+/// The shape a fabric is cut to: positions at rest, triangles, uvs (v runs along the warp; empty: Y is the
+/// warp), and which vertices are simulated.
+struct FabricShape {
+    std::span<const Vec3> positions;
+    std::span<const uint32_t> indices;
+    std::span<const Vec2> uvs;
+    std::span<const uint8_t> simulated;
+    float horizontal_scale = 1.0f;  // of the rest lengths' X and Z: the size of the garment over the shape's
+};
+
+/// Constraints and masses of that material on that shape. Only edges with a simulated end become constraints.
+FabricData cook_fabric(const FabricShape& shape, const FabricMaterial& material);
+
+/// A tether from each free vertex that is connected to a fixed one (inverse mass 0), as long as the
+/// shortest path along the edges.
+std::vector<Tether> cook_tethers(std::span<const float> inverse_mass, std::span<const DistanceConstraint> edges);
+
+}  // namespace vfit

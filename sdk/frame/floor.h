@@ -1,0 +1,18 @@
+// Where the floor is when nobody says so: below the feet of the first body that is seen.
+#pragma once
+
+#include "frame/body.h"
+#include "frame/camera.h"
+
+namespace vfit {
+
+/// Puts the floor of a level camera below that body's feet (joints in camera space) and marks it ESTIMATED.
+/// False, and nothing changed, where no foot is seen.
+bool estimate_floor(Camera& camera, const Body& body);
+
+/// The body's positions and rotations carried from camera space to world space by the camera's floor.
+Body to_world(const Body& camera_space, const Camera& camera);
+/// And back.
+Body to_camera(const Body& world, const Camera& camera);
+
+}  // namespace vfit

@@ -1,0 +1,86 @@
+// The scan of one person by the paper's method: filtered depth (Algorithm 1), collision spheres (Algorithm 2),
+// body dimensions (Algorithm 3) and their average over the frames of one second (Algorithm 4).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "frame/body.h"
+#include "frame/depth_image.h"
+#include "measure/measurement.h"
+#include "measure/proportions.h"
+#include "vfit.h"
+
+namespace vfit {
+
+struct ScanDesc {
+    uint32_t frame_count = 30;  // Algorithm 4: one second at 30 Hz
+    vfit_sex sex = VFIT_SEX_UNKNOWN;
+    RatioTable ratios = RatioTable::kAnthropometric;
+    Combination combination = Combination::kInverseVariance;
+    static ScanDesc as_printed() {
+        ScanDesc desc;
+        desc.ratios = RatioTable::kCanon;
+        desc.combination = Combination::kMean;
+        return desc;
+    }
+};
+
+struct ScanFrame {
+    DepthImage image;
+    const Body* body = nullptr;  // joints in camera space; null: nobody is tracked
+    uint32_t person_count = 1;
+};
+
+struct ScanProgress {
+    bool taken = false;
+    vfit_guidance guidance = VFIT_GUIDANCE_NONE;  // why the frame was not taken
+    float correction_m = 0.0f;                    // Fig. 9
+    double compute_ms = 0.0;
+    uint32_t frames_taken = 0;
+};
+
+class Scan {
+public:
+    /// VFIT_ERROR_ARGUMENT unless 1 to 3600 frames are wanted and the enums are known.
+    explicit Scan(const ScanDesc& desc);
+    /// Overwrites all body data.
+    ~Scan();
+    Scan(const Scan&) = delete;
+    Scan& operator=(const Scan&) = delete;
+
+    /// Ignores frames once the scan is complete. Does not allocate after the first frame of a size.
+    ScanProgress add(const ScanFrame& frame);
+    /// Forgets the person.
+    void reset();
+
+    uint32_t frames_taken() const;
+    uint32_t frames_wanted() const;
+    bool complete() const { return frames_taken() >= frames_wanted(); }
+
+    /// Every dimension that was seen at least once, and the estimates of Algorithm 3 in place of stature_m and
+    /// shoulder_breadth_m. No frame yet: VFIT_ERROR_STATE.
+    std::vector<Measurement> measurements() const;
+
+    /// Radii of the paper's 15 joints and their deviations over the frames; 0: never measured.
+    std::array<float, kPaperJointCount> radii() const;
+    std::array<float, kPaperJointCount> radii_sigma() const;
+
+    struct Scale {
+        float x = 1, y = 1, sigma_x = 0, sigma_y = 0;  // relative to the garment kind's nominal size
+        float width_m = 0, height_m = 0;               // the primary dimensions of Table 2
+    };
+    /// Algorithm 3 for "short_sleeves", "long_sleeves" or "trousers"; another kind is a VFIT_ERROR_ARGUMENT
+    /// that names the three. No frame yet: VFIT_ERROR_STATE; a primary dimension that cannot be estimated:
+    /// VFIT_ERROR_DATA.
+    Scale scale(const std::string& garment_kind) const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace vfit

@@ -1,0 +1,100 @@
+#include "measure/silhouette.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace vfit {
+
+namespace {
+
+// Reach of the 5 x 5 Gaussian, in pixels: a step of depth is spread over twice as many, and depth that close
+// to the edge of the mask is partly the background's.
+constexpr int kKernelReach = 2;
+constexpr int kSpan = 2 * kKernelReach;
+
+int nearest(float x) { return int(std::floor(x + 0.5f)); }
+
+}  // namespace
+
+Walk walk_to_contour(const FilteredDepth& depth, Vec2 start, Vec2 direction) {
+    Walk walk;
+    const float longest = std::max(std::abs(direction.x), std::abs(direction.y));
+    const Vec2 origin(std::floor(start.x + 0.5f), std::floor(start.y + 0.5f));
+    if (!(longest > 0.0f) || !depth.inside(int(origin.x), int(origin.y))) return walk;
+    walk.inside = true;
+
+    const Vec2 step = direction / longest;
+    const auto end_at = [&](float steps) {
+        walk.edge = origin + step * steps;
+        walk.length_px = std::max(0.0f, glm::dot(walk.edge - start, glm::normalize(step)));
+    };
+    const auto pixel = [&](int i) {
+        return std::array<int, 2>{nearest(origin.x + step.x * float(i)), nearest(origin.y + step.y * float(i))};
+    };
+    const auto in_image = [&](const std::array<int, 2>& p) {
+        return p[0] >= 0 && p[1] >= 0 && p[0] < int(depth.width) && p[1] < int(depth.height);
+    };
+
+    std::array<float, kSpan> before;  // depth of the last steps, a ring
+    before.fill(depth.at(int(origin.x), int(origin.y)));
+    for (int i = 1;; ++i) {
+        const auto p = pixel(i);
+        if (!in_image(p)) {
+            walk.border = true;
+            end_at(float(i) - 0.5f);
+            return walk;
+        }
+        if (!depth.inside(p[0], p[1])) {
+            end_at(float(i) - 0.5f);
+            return walk;
+        }
+        const float here = depth.at(p[0], p[1]);
+        float& oldest = before[size_t(i) % kSpan];
+        if (std::abs(here - oldest) > kContourJump_m) {
+            // Near the edge of the mask the jump is the filter's background, and the edge the contour.
+            for (int ahead = 1; ahead <= kKernelReach; ++ahead) {
+                const auto next = pixel(i + ahead);
+                if (in_image(next) && !depth.inside(next[0], next[1])) {
+                    end_at(float(i + ahead) - 0.5f);
+                    return walk;
+                }
+            }
+            end_at(std::max(0.5f, float(i) - 0.5f * kSpan));
+            return walk;
+        }
+        oldest = here;
+    }
+}
+
+FrontalPlane::FrontalPlane(const Camera& camera, const Vec3& through) : camera_(camera), up_(camera.floor_normal) {
+    const Vec3 view(0, 0, 1);
+    forward_ = view - up_ * glm::dot(view, up_);
+    // A camera that looks straight down has no level view direction: its own plane serves.
+    forward_ = glm::length(forward_) > 0.1f ? glm::normalize(forward_) : view;
+    right_ = glm::normalize(glm::cross(forward_, up_));
+    distance_ = glm::dot(forward_, through);
+}
+
+Vec3 FrontalPlane::point(Vec2 pixel) const {
+    const Vec3 ray = camera_.unproject(pixel.x, pixel.y, 1.0f);
+    return ray * (distance_ / glm::dot(forward_, ray));
+}
+
+float FrontalPlane::elevation_rad(Vec2 pixel) const {
+    const Vec3 ray = glm::normalize(camera_.unproject(pixel.x, pixel.y, 1.0f));
+    return std::asin(std::clamp(glm::dot(ray, up_), -1.0f, 1.0f));
+}
+
+FrontalPlane::Reach FrontalPlane::reach(const FilteredDepth& depth, const Vec3& from, const Vec3& direction) const {
+    Reach reach;
+    if (!(from.z > 0.0f)) return reach;
+    constexpr float kAhead_m = 0.05f;  // far enough to tell the direction in the image
+    const Vec2 start = camera_.project(from);
+    const Vec2 ahead = camera_.project(from + direction * kAhead_m);
+    static_cast<Walk&>(reach) = walk_to_contour(depth, start, ahead - start);
+    if (reach.inside) reach.point = point(reach.edge);
+    return reach;
+}
+
+}  // namespace vfit

@@ -1,0 +1,80 @@
+#include "motion/body_filter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vfit {
+
+namespace {
+
+float seconds(int64_t ns) { return static_cast<float>(static_cast<double>(ns) * 1e-9); }
+
+}  // namespace
+
+void BodyFilter::reset() { *this = BodyFilter(); }
+
+Vec3 BodyFilter::shown(const Track& track, int64_t time_ns) {
+    // The trend is damped exponentially, so that its sum is bounded: the joint holds without a kink.
+    const float age = std::max(0.0f, seconds(time_ns - track.seen_ns));
+    const float reach = kTrendTimeS * (1.0f - std::exp(-age / kTrendTimeS));
+    const float fade = std::exp(-std::max(0.0f, seconds(time_ns - track.return_ns)) / kReturnTimeS);
+    return track.joint.position + track.velocity * reach + track.return_offset * fade;
+}
+
+void BodyFilter::update(const Body& body, const HoltSettings* settings) {
+    for (size_t i = 0; i < tracks_.size(); ++i) {
+        Track& track = tracks_[i];
+        const Joint& reading = body.joints[i];
+        if (!reading.seen()) {
+            track.lost = track.seen;
+            continue;
+        }
+        if (!settings) {
+            track.joint = reading;
+            track.seen_ns = body.time_ns;
+            track.seen = true;
+            track.lost = false;
+            continue;
+        }
+        const float gap = seconds(body.time_ns - track.seen_ns);
+        const bool returns = track.seen && (track.lost || gap > kBridgeTimeS);
+        const Vec3 before = returns ? shown(track, body.time_ns) : Vec3(0.0f);
+        if (gap > kBridgeTimeS) track.holt.reset();
+        const float frames = track.holt.empty() ? 1.0f : gap * kHoltRateHz;
+        const bool inferred = reading.state == VFIT_JOINT_INFERRED;
+        const Vec3 position = track.holt.update(*settings, reading.position, inferred, frames);
+        track.joint = reading;
+        track.joint.position = position;
+        track.velocity = track.holt.trend() * kHoltRateHz;
+        track.seen_ns = body.time_ns;
+        track.seen = true;
+        track.lost = false;
+        if (returns) {
+            track.return_offset = before - position;
+            track.return_ns = body.time_ns;
+        }
+    }
+    last_.id = body.id;
+    last_.flags = body.flags;
+}
+
+void BodyFilter::sample(int64_t time_ns, Body& out) const {
+    out.id = last_.id;
+    out.flags = last_.flags;
+    out.time_ns = time_ns;
+    for (size_t i = 0; i < tracks_.size(); ++i) {
+        const Track& track = tracks_[i];
+        if (!track.seen) {
+            out.joints[i] = Joint();
+            continue;
+        }
+        out.joints[i] = track.joint;
+        out.joints[i].position = shown(track, time_ns);
+        if (track.lost) {
+            out.joints[i].state = VFIT_JOINT_INFERRED;
+            out.joints[i].has_rotation = false;
+        }
+    }
+}
+
+}  // namespace vfit

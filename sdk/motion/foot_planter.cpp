@@ -1,0 +1,90 @@
+#include "motion/foot_planter.h"
+
+#include <cmath>
+
+#include "motion/two_bone_ik.h"
+
+namespace vfit {
+
+namespace {
+
+// Over the last 0.2 % of its length a leg eases into full extension: at most 1 mm of a long leg, which the
+// root takes, against a knee that snaps.
+constexpr float kSoftness = 0.002f;
+constexpr int kRootPasses = 12;          // two legs at the end of their reach pull the root in turns
+constexpr float kReachedM = 5e-5f;       // 0.05 mm: closer is not seen
+
+size_t at(int id) { return static_cast<size_t>(id); }
+
+struct Leg {
+    const LimbParts* parts;
+    const RestLimb* rest;
+    Vec3 hip{0.0f}, target{0.0f}, knee_axis{1, 0, 0};
+
+    TwoBoneSolution solve(const Vec3& shift) const {
+        const Vec3 root = hip + shift;
+        // The knee's front: square to its axis and to the leg. This keeps the tracked swivel even where the leg is
+        // straight and the knee itself tells nothing.
+        const Vec3 front = glm::cross(target - root, knee_axis);
+        return solve_two_bone(root, rest->upper_m, rest->lower_m, target, front, kSoftness);
+    }
+};
+
+void turn_leg(const Leg& leg, const Vec3& shift, const PosedSkeleton& posed, Pose& pose) {
+    const TwoBoneSolution ik = leg.solve(shift);
+    const Quat upper_was = posed.rotation[at(leg.parts->upper)];
+    const Quat lower_was = posed.rotation[at(leg.parts->lower)];
+    const Quat upper = align_pairs(upper_was * leg.rest->upper, leg.knee_axis, ik.middle - leg.hip - shift,
+                                   leg.knee_axis) * upper_was;
+    const Quat lower =
+        align_pairs(lower_was * leg.rest->lower, leg.knee_axis, ik.end - ik.middle, leg.knee_axis) * lower_was;
+    const Quat hips = posed.rotation[VFIT_BONE_HIPS];
+    const Quat foot = posed.rotation[at(leg.parts->last)];  // stays as it is in the world
+    pose.rotation[at(leg.parts->upper)] = glm::normalize(glm::conjugate(hips) * upper);
+    pose.rotation[at(leg.parts->lower)] = glm::normalize(glm::conjugate(upper) * lower);
+    pose.rotation[at(leg.parts->last)] = glm::normalize(glm::conjugate(lower) * foot);
+}
+
+}  // namespace
+
+void FootPlanter::apply(const Skeleton& skeleton, const RestPose& rest, const bool planted[2], float dt_s,
+                        Pose& pose) {
+    const PosedSkeleton posed = forward_kinematics(skeleton, pose);
+    Leg legs[2];
+    bool moved = false;
+    pose.contacts = 0;
+    pose.foot_correction_m = 0;
+    for (int side = 0; side < 2; ++side) {
+        Leg& leg = legs[side];
+        leg.parts = &kLimbParts[kLeftLeg + side];
+        leg.rest = &rest.limbs[at(kLeftLeg + side)];
+        leg.hip = posed.position[at(leg.parts->upper)];
+        leg.knee_axis = posed.rotation[at(leg.parts->upper)] * leg.rest->hinge;
+        FootPin& pin = pins_[at(side)];
+        leg.target = pin.update(posed.position[at(leg.parts->last)], planted[side], skeleton.ankle_height, dt_s);
+        moved = moved || pin.planted() || pin.offset() != Vec3(0.0f);
+        if (!pin.planted()) continue;
+        pose.contacts |= side == 0 ? VFIT_CONTACT_LEFT : VFIT_CONTACT_RIGHT;
+        pose.foot_correction_m = std::max(pose.foot_correction_m, glm::length(pin.offset()));
+    }
+
+    root_shift_ *= std::exp(-dt_s / FootPin::kGlideTimeS);
+    for (int pass = 0; pass < kRootPasses; ++pass) {
+        bool reached = true;
+        for (int side = 0; side < 2; ++side) {
+            if (!planted[side]) continue;
+            const Vec3 residual = legs[side].target - legs[side].solve(root_shift_).end;  // Alg. 6, line 10
+            if (glm::length(residual) < kReachedM) continue;
+            root_shift_ += residual;
+            reached = false;
+        }
+        if (reached) break;
+    }
+    if (glm::length(root_shift_) < kReachedM) root_shift_ = Vec3(0.0f);
+    pose.root_correction = root_shift_;
+    if (!moved && root_shift_ == Vec3(0.0f)) return;
+    for (const Leg& leg : legs) turn_leg(leg, root_shift_, posed, pose);
+    pose.hips_position += root_shift_;
+}
+
+}  // namespace vfit

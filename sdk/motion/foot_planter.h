@@ -1,0 +1,24 @@
+// Foot-skate correction on the character (paper, Algorithm 6): planted feet are held where they were
+// recorded, hips and knees follow by inverse kinematics, and the root takes what the legs cannot reach.
+#pragma once
+
+#include <array>
+
+#include "motion/foot_pin.h"
+#include "motion/rest_pose.h"
+
+namespace vfit {
+
+class FootPlanter {
+public:
+    void reset() { *this = FootPlanter(); }
+
+    /// Changes the legs and the root of `pose` and fills its contacts, root_correction and foot_correction_m.
+    void apply(const Skeleton& skeleton, const RestPose& rest, const bool planted[2], float dt_s, Pose& pose);
+
+private:
+    std::array<FootPin, 2> pins_;
+    Vec3 root_shift_{0.0f};  // d_root; fades when no leg needs it
+};
+
+}  // namespace vfit

@@ -1,0 +1,13 @@
+// Joint limits on local bone rotations (paper 3.3.2): swing and twist held in the natural ranges of human
+// joints.
+#pragma once
+
+#include "motion/bone_solver.h"
+
+namespace vfit {
+
+/// Clamps in place. Inside the ranges nothing changes. A foot that stands on the floor (`planted`, left and
+/// right) is left alone: body weight bends an ankle further than its free range.
+void apply_joint_limits(const RestPose& rest, const bool planted[2], BoneRotations& local);
+
+}  // namespace vfit

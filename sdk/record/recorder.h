@@ -1,0 +1,56 @@
+// Writes frames as a recording folder (docs/recording.md) that stays readable if the process dies: a picture
+// is complete before its name appears, and the rows of a frame follow its pictures.
+#pragma once
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "frame/frame.h"
+#include "record/png_writer.h"
+
+namespace vfit {
+
+struct RecorderDesc {
+    std::string sensor_name = "unknown";
+    float rate_hz = 30.0f;
+    bool segmented = false;  // the background was removed already
+};
+
+class Recorder {
+public:
+    /// path must not exist or be an empty folder: VFIT_ERROR_ARGUMENT; VFIT_ERROR_IO where it cannot be made.
+    Recorder(const std::string& path, const RecorderDesc& desc);
+    ~Recorder();
+
+    /// Fails with VFIT_ERROR_DATA where the frame differs in size, streams or intrinsics from the first, with
+    /// VFIT_ERROR_IO where the disk does not take it; a frame that failed is not part of the recording.
+    void write(const Frame& frame);
+    void close();
+
+    uint32_t frame_count() const { return count_; }
+
+private:
+    void check(const Frame& frame) const;
+    void begin(const Frame& frame);
+    void write_camera(const Frame& frame);
+    void write_images(const Frame& frame);
+    void write_joints(const Frame& frame);
+    void write_row(std::ofstream& file, const std::string& name, const std::string& header);
+    void write_contacts(const Frame& frame);
+    void write_measures(const Frame& frame);
+    std::string image_name(const char* folder) const;
+
+    const std::string path_;
+    const RecorderDesc desc_;
+    PngWriter png_;
+    uint32_t count_ = 0;
+    Camera camera_;  // of the first frame
+    bool has_mask_ = false, has_color_ = false, has_measures_ = false, closed_ = false;
+    std::vector<int> joints_;  // columns of joints.csv
+    std::ofstream timestamps_, joints_file_, contacts_;
+    std::string row_;
+    std::vector<uint8_t> mask_;
+};
+
+}  // namespace vfit

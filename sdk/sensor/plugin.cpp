@@ -1,0 +1,137 @@
+#include "sensor/plugin.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "core/error.h"
+#include "sensor/sensor.h"
+#include "sensor/sized_struct.h"
+
+namespace vfit {
+
+namespace {
+
+constexpr size_t kMaxName = 63;       // characters, the room of vfit_plugin_info
+constexpr size_t kMaxMessage = 1024;  // characters of last_error that are kept
+
+bool is_scheme(const std::string& scheme) {
+    return !scheme.empty() && std::all_of(scheme.begin(), scheme.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '+';
+    });
+}
+
+std::vector<std::string> split_schemes(const std::string& list) {
+    std::vector<std::string> out;
+    std::stringstream stream(list);
+    for (std::string item; std::getline(stream, item, ',');) out.push_back(item);
+    return out;
+}
+
+/// The table, with room for one of a newer header: such a plug-in may fill fields that are unknown here.
+struct NegotiatedTable {
+    vfit_plugin table;
+    unsigned char newer[256];
+};
+
+}  // namespace
+
+Plugin::Plugin(Log& log, std::function<uint64_t()> context_id, std::string path,
+               std::unique_ptr<DynamicLibrary> library, vfit_plugin_negotiate_fn negotiate)
+    : log_(log), host_(log, std::move(context_id)), library_(std::move(library)) {
+    info_.path = std::move(path);
+    host_.set_name(info_.path);
+    NegotiatedTable negotiated{};
+    negotiated.table.struct_size = sizeof(vfit_plugin);
+    const vfit_result result = negotiate(host_.table(), &negotiated.table);
+    const std::string needs =
+        text(info_.path, ": needs another plug-in ABI than ", VFIT_PLUGIN_ABI, ", which this library has");
+    if (result == VFIT_ERROR_VERSION) fail(VFIT_ERROR_VERSION, needs);
+    if (result != VFIT_OK) fail(VFIT_ERROR_PLUGIN, info_.path, ": refuses to load, result ", result);
+    if (negotiated.table.abi != VFIT_PLUGIN_ABI)
+        fail(VFIT_ERROR_VERSION, needs, "; it asks for ", negotiated.table.abi);
+    check_table(negotiated.table);
+    table_ = negotiated.table;
+    host_.set_name(info_.name);
+}
+
+void Plugin::check_table(const vfit_plugin& table) {
+    const auto refuse = [&](const auto&... why) { fail(VFIT_ERROR_PLUGIN, info_.path, ": ", why...); };
+    info_.name = bounded_text(table.name, kMaxName + 1);
+    info_.schemes = bounded_text(table.schemes, kMaxName + 1);
+    info_.version = table.version;
+    info_.caps = table.caps;
+    if (info_.name.empty() || info_.name.size() > kMaxName) refuse("has no name of 1 to ", kMaxName, " characters");
+    if (info_.schemes.size() > kMaxName) refuse("its list of schemes is longer than ", kMaxName, " characters");
+    schemes_ = split_schemes(info_.schemes);
+    if (schemes_.empty()) refuse("names no URI scheme that it opens");
+    for (const std::string& scheme : schemes_)
+        if (!is_scheme(scheme)) refuse("'", scheme, "' is not a URI scheme (a-z, 0-9, _ - +)");
+    if (!table.open) refuse("has no open function");
+    if (!table.start) refuse("has no start function");
+    if (!table.stop) refuse("has no stop function");
+    if (!table.close) refuse("has no close function");
+}
+
+bool Plugin::serves(const std::string& scheme) const {
+    return std::find(schemes_.begin(), schemes_.end(), scheme) != schemes_.end();
+}
+
+void Plugin::fail_with_last_error(vfit_result result, const std::string& what) {
+    std::string message = table_.last_error ? bounded_text(table_.last_error(table_.self), kMaxMessage) : "";
+    if (message.empty()) message = text("plug-in ", info_.name, ": ", what, " failed, result ", result);
+    const bool known = result < 0 && result >= VFIT_ERROR_PLUGIN;
+    fail(known ? result : VFIT_ERROR_PLUGIN, message);
+}
+
+std::vector<vfit_sensor_info> Plugin::discover() {
+    std::lock_guard lock(calls_);
+    if (down_ || !table_.discover) return host_.sensors();
+    host_.begin_discovery();
+    const vfit_result result = table_.discover(table_.self);
+    host_.end_discovery(result == VFIT_OK);
+    if (result != VFIT_OK) host_.complain(text("discover failed, result ", result));
+    return host_.sensors();
+}
+
+Ref<Sensor> Plugin::open(const std::string& uri) {
+    std::lock_guard lock(calls_);
+    if (down_) fail(VFIT_ERROR_STATE, "plug-in ", info_.name, " was shut down");
+    auto stream = make<SensorStream>();
+    void* token = host_.add_stream(stream);
+    void* device = nullptr;
+    try {
+        const vfit_result result = table_.open(table_.self, uri.c_str(), token, &device);
+        if (result != VFIT_OK) fail_with_last_error(result, text("opening ", uri));
+        if (!device) fail(VFIT_ERROR_PLUGIN, "plug-in ", info_.name, " opened ", uri, " but gave no device");
+        Ref<Sensor> sensor = make<Sensor>(Ref<Plugin>(this), uri, stream, token, device);
+        sensor->read_default_pace();
+        sensors_.push_back(sensor);
+        return sensor;
+    } catch (...) {
+        if (device) table_.close(device);
+        host_.remove_stream(token);
+        throw;
+    }
+}
+
+void Plugin::forget(Sensor* sensor) {
+    std::erase_if(sensors_, [&](const Ref<Sensor>& s) { return s.get() == sensor; });
+}
+
+void Plugin::shutdown() {
+    std::vector<Ref<Sensor>> open;
+    {
+        std::lock_guard lock(calls_);
+        if (down_) return;
+        down_ = true;
+        open = sensors_;
+    }
+    for (const Ref<Sensor>& sensor : open) sensor->close();
+    std::lock_guard lock(calls_);
+    if (table_.shutdown) table_.shutdown(table_.self);
+    host_.retire();
+    table_ = {};
+    library_.reset();
+}
+
+}  // namespace vfit

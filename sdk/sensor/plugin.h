@@ -1,0 +1,58 @@
+// One loaded plug-in: its negotiated table, its devices, and its end.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "core/object.h"
+#include "core/platform.h"
+#include "sensor/host_table.h"
+
+namespace vfit {
+
+class Sensor;
+
+struct PluginInfo {
+    std::string name, schemes, path;
+    uint32_t version = 0, caps = 0;
+};
+
+class Plugin : public Object {
+public:
+    /// Negotiates; fails with VFIT_ERROR_PLUGIN or VFIT_ERROR_VERSION, naming the file and the cause.
+    Plugin(Log& log, std::function<uint64_t()> context_id, std::string path,
+           std::unique_ptr<DynamicLibrary> library, vfit_plugin_negotiate_fn negotiate);
+
+    const PluginInfo& info() const { return info_; }
+    const std::vector<std::string>& schemes() const { return schemes_; }
+    bool serves(const std::string& scheme) const;
+
+    std::vector<vfit_sensor_info> discover();
+    Ref<Sensor> open(const std::string& uri);
+    void shutdown();
+
+private:
+    friend class Sensor;
+    void check_table(const vfit_plugin& table);
+    /// Turns a failed call's result into an Error with the plug-in's own words.
+    [[noreturn]] void fail_with_last_error(vfit_result result, const std::string& what);
+    void forget(Sensor* sensor);
+
+    Log& log_;
+    HostTable host_;
+    std::unique_ptr<DynamicLibrary> library_;
+    vfit_plugin table_{};
+    PluginInfo info_;
+    std::vector<std::string> schemes_;
+
+    // One thread at a time inside the plug-in, so that its last_error belongs to the call that failed. Never
+    // taken by a callback of the host table: a plug-in may join its threads inside stop.
+    std::mutex calls_;
+    std::vector<Ref<Sensor>> sensors_;
+    bool down_ = false;
+};
+
+}  // namespace vfit

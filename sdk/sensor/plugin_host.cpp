@@ -1,0 +1,137 @@
+#include "sensor/plugin_host.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/error.h"
+
+namespace vfit {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr size_t kMaxUri = 4096;  // characters
+
+std::string scheme_of(const std::string& uri) {
+    const size_t colon = uri.find(':');
+    // One letter before a colon is a drive of Windows.
+    return colon == std::string::npos || colon < 2 ? std::string() : uri.substr(0, colon);
+}
+
+}  // namespace
+
+PluginHost::PluginHost(Log& log, std::function<uint64_t()> context_id)
+    : log_(log), context_id_(std::move(context_id)) {}
+
+PluginHost::~PluginHost() { shutdown(); }
+
+void PluginHost::load(const std::string& path) {
+    auto library = std::make_unique<DynamicLibrary>(path);
+    void* symbol = library->symbol("vfit_plugin_negotiate");
+    if (!symbol) fail(VFIT_ERROR_PLUGIN, path, ": is no plug-in, it exports no vfit_plugin_negotiate");
+    add(path, std::move(library), reinterpret_cast<vfit_plugin_negotiate_fn>(symbol));
+}
+
+void PluginHost::attach(const std::string& name, vfit_plugin_negotiate_fn negotiate) {
+    add(name, nullptr, negotiate);
+}
+
+void PluginHost::add(std::string path, std::unique_ptr<DynamicLibrary> library,
+                     vfit_plugin_negotiate_fn negotiate) {
+    const auto plugin = make<Plugin>(log_, context_id_, path, std::move(library), negotiate);
+    try {
+        std::lock_guard lock(mutex_);
+        if (down_) fail(VFIT_ERROR_STATE, path, ": plug-ins were shut down");
+        for (const Ref<Plugin>& other : plugins_)
+            for (const std::string& scheme : plugin->schemes())
+                if (other->serves(scheme))
+                    fail(VFIT_ERROR_PLUGIN, path, ": the scheme '", scheme, "' is served by ", other->info().path,
+                         " already");
+        plugins_.push_back(plugin);
+    } catch (...) {
+        plugin->shutdown();
+        throw;
+    }
+}
+
+void PluginHost::load_folder(const std::string& folder) {
+    std::vector<std::string> paths;
+    std::error_code error;
+    for (fs::directory_iterator file(fs::path(folder), error), end; !error && file != end; file.increment(error)) {
+        const fs::path& path = file->path();
+        if (path.filename().string().rfind("vfit_", 0) == 0 && path.extension() == library_suffix())
+            paths.push_back(path.string());
+    }
+    std::sort(paths.begin(), paths.end());
+    for (const std::string& path : paths) {
+        try {
+            load(path);
+        } catch (const Error& e) {
+            log_.warning("plug-in skipped: ", e.what());
+        }
+    }
+}
+
+std::vector<Ref<Plugin>> PluginHost::all() const {
+    std::lock_guard lock(mutex_);
+    return plugins_;
+}
+
+std::vector<PluginInfo> PluginHost::plugins() const {
+    std::vector<PluginInfo> out;
+    for (const Ref<Plugin>& plugin : all()) out.push_back(plugin->info());
+    return out;
+}
+
+std::vector<vfit_sensor_info> PluginHost::discover() {
+    std::vector<vfit_sensor_info> out;
+    for (const Ref<Plugin>& plugin : all()) {
+        const auto found = plugin->discover();
+        out.insert(out.end(), found.begin(), found.end());
+    }
+    return out;
+}
+
+Ref<Plugin> PluginHost::serving(const std::string& scheme) const {
+    for (const Ref<Plugin>& plugin : all())
+        if (plugin->serves(scheme)) return plugin;
+    return nullptr;
+}
+
+/// The URI with its scheme, also where only a path was given.
+std::string PluginHost::complete(const std::string& uri) const {
+    if (serving(scheme_of(uri))) return uri;
+    std::error_code ignored;
+    const fs::path path(uri);
+    if (fs::is_directory(path, ignored)) return "recording:" + uri;
+    const std::string extension = path.extension().string();
+    if (extension.size() > 1 && serving(extension.substr(1)) && fs::is_regular_file(path, ignored))
+        return extension.substr(1) + ":" + uri;
+    return uri;
+}
+
+Ref<Sensor> PluginHost::open(const std::string& uri) {
+    if (uri.empty() || uri.size() > kMaxUri)
+        fail(VFIT_ERROR_ARGUMENT, "a sensor's URI has 1 to ", kMaxUri, " characters");
+    const std::string whole = complete(uri);
+    const std::string scheme = scheme_of(whole);
+    if (const Ref<Plugin> plugin = serving(scheme)) return plugin->open(whole);
+    std::string known;
+    for (const Ref<Plugin>& plugin : all()) known += (known.empty() ? "" : ", ") + plugin->info().schemes;
+    if (known.empty()) known = "none";
+    if (scheme.empty())
+        fail(VFIT_ERROR_UNSUPPORTED, uri, ": is neither an existing folder nor a sensor's URI; known schemes: ",
+             known);
+    fail(VFIT_ERROR_UNSUPPORTED, uri, ": no plug-in serves the scheme '", scheme, "'; known schemes: ", known);
+}
+
+void PluginHost::shutdown() {
+    {
+        std::lock_guard lock(mutex_);
+        down_ = true;
+    }
+    for (const Ref<Plugin>& plugin : all()) plugin->shutdown();
+}
+
+}  // namespace vfit

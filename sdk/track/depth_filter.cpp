@@ -1,0 +1,184 @@
+#include "track/depth_filter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/imgproc.hpp>
+
+#include "core/error.h"
+
+namespace vfit {
+
+namespace {
+
+// Two readings of one surface a few pixels apart differ by less: five times the random error of a Kinect v1
+// at 3.5 m (Khoshelham and Elberink 2012: 17 mm).
+constexpr float kSameSurface_m = 0.085f;
+
+/// Index into a line of `count` pixels, mirrored about its end pixels (gfedcb|abcdefgh|gfedcba).
+int reflect(int i, int count) {
+    if (count == 1) return 0;
+    while (i < 0 || i >= count) i = i < 0 ? -i : 2 * count - 2 - i;
+    return i;
+}
+
+}  // namespace
+
+DepthFilter::DepthFilter(int kernel_px) {
+    if (kernel_px < 1 || kernel_px > 31 || kernel_px % 2 == 0)
+        fail(VFIT_ERROR_ARGUMENT, "depth filter: a kernel of ", kernel_px, " pixels is not odd and in 1 to 31");
+    const cv::Mat kernel = cv::getGaussianKernel(kernel_px, 0.0, CV_32F);
+    for (int i = kernel_px / 2; i < kernel_px; ++i) weights_.push_back(kernel.at<float>(i));
+}
+
+DepthFilter::~DepthFilter() { wipe(); }
+
+void DepthFilter::wipe() {
+    // volatile: the stores must survive although the buffers may be freed next.
+    for (std::vector<float>* buffer : {&depth_, &rows_, &smooth_})
+        for (volatile float& value : *buffer) value = 0.0f;
+    for (volatile uint8_t& value : mask_) value = 0;
+}
+
+FilteredDepth DepthFilter::run(const DepthImage& image, uint32_t user_id) {
+    FilteredDepth out;
+    out.width = image.width();
+    out.height = image.height();
+    const size_t count = size_t(out.width) * out.height;
+    if (depth_.size() < count) {
+        depth_.resize(count);
+        rows_.resize(count);
+        smooth_.resize(count);
+        mask_.resize(count);
+    }
+    out.depth_m = smooth_.data();
+    out.mask = mask_.data();
+
+    extract(image, user_id, out);
+    smooth(out);
+    return out;
+}
+
+// Lines 1 to 12 of Algorithm 1.
+void DepthFilter::extract(const DepthImage& image, uint32_t user_id, FilteredDepth& out) {
+    const int width = int(out.width), height = int(out.height);
+    const float unit = image.camera.depth_unit_m;
+    const bool possible = image.depth && image.users && user_id > 0 && user_id <= 255;
+    PixelBox box{width, height, 0, 0};
+    uint64_t sum = 0;
+
+    for (int y = 0; y < height; ++y) {
+        const size_t row = size_t(y) * out.width;
+        uint8_t* const mask = mask_.data() + row;
+        float* const depth = depth_.data() + row;
+        std::fill_n(mask, width, uint8_t(FilteredDepth::kBackground));
+        if (!possible) continue;
+
+        const uint16_t* const raw = image.depth + row;
+        const uint8_t* const users = image.users + row;
+        int first = width, last = -1;
+        for (int x = 0; x < width; ++x) {
+            if (users[x] != user_id || raw[x] == 0) continue;
+            mask[x] = FilteredDepth::kMeasured;
+            depth[x] = float(raw[x]) * unit;
+            sum += raw[x];
+            ++out.pixels;
+            first = std::min(first, x);
+            last = x;
+        }
+        if (last < 0) continue;
+        box = {std::min(box.x0, first), std::min(box.y0, y), std::max(box.x1, last + 1), y + 1};
+        patch_row(uint32_t(y), image, user_id, out);
+    }
+
+    out.box = out.pixels > 0 ? box : PixelBox{};
+    out.mean_m = out.pixels > 0 ? float(double(sum) / out.pixels * unit) : 0.0f;
+    const size_t count = size_t(width) * size_t(height);
+    for (size_t i = 0; i < count; ++i)
+        if (mask_[i] == FilteredDepth::kBackground) depth_[i] = out.mean_m;
+}
+
+void DepthFilter::patch_row(uint32_t y, const DepthImage& image, uint32_t user_id, FilteredDepth& out) {
+    const int width = int(out.width);
+    const size_t row = size_t(y) * out.width;
+    uint8_t* const mask = mask_.data() + row;
+    float* const depth = depth_.data() + row;
+    const int longest_hole = 2 * int(weights_.size()) - 1;
+
+    int left = -1;  // the last reading so far
+    for (int x = 0; x < width; ++x) {
+        if (mask[x] != FilteredDepth::kMeasured) continue;
+        const int hole = x - left - 1;
+        if (left >= 0 && hole > 0) {
+            bool empty = true, marked = true;
+            for (int i = left + 1; i < x; ++i) {
+                empty = empty && image.depth[row + size_t(i)] == 0;
+                marked = marked && image.users[row + size_t(i)] == user_id;
+            }
+            const bool speckle = hole <= longest_hole && std::abs(depth[x] - depth[left]) < kSameSurface_m;
+            if (empty && (marked || speckle)) {
+                const float slope = (depth[x] - depth[left]) / float(hole + 1);
+                for (int i = left + 1; i < x; ++i) {
+                    depth[i] = depth[left] + slope * float(i - left);
+                    mask[i] = FilteredDepth::kPatched;
+                }
+                out.patched += uint32_t(hole);
+            }
+        }
+        left = x;
+    }
+}
+
+// Eq. 2. The two passes are written out because cv::GaussianBlur allocates in every call; the weights are
+// OpenCV's. Beyond the kernel's reach around the person the image is constant and stays so.
+void DepthFilter::smooth(FilteredDepth& out) {
+    const int width = int(out.width), height = int(out.height);
+    std::fill_n(smooth_.data(), size_t(width) * size_t(height), out.mean_m);
+    if (out.pixels == 0) return;
+
+    const int reach = int(weights_.size()) - 1;
+    const int x0 = std::max(0, out.box.x0 - reach), x1 = std::min(width, out.box.x1 + reach);
+    const int y0 = std::max(0, out.box.y0 - reach), y1 = std::min(height, out.box.y1 + reach);
+
+    const int inner0 = std::clamp(reach, x0, x1), inner1 = std::clamp(width - reach, inner0, x1);
+    for (int y = std::max(0, y0 - reach); y < std::min(height, y1 + reach); ++y) {
+        const float* const in = depth_.data() + size_t(y) * out.width;
+        float* const to = rows_.data() + size_t(y) * out.width;
+        const auto at_border = [&](int x) {
+            float value = weights_[0] * in[x];
+            for (int k = 1; k <= reach; ++k)
+                value += weights_[size_t(k)] * (in[reflect(x - k, width)] + in[reflect(x + k, width)]);
+            to[x] = value;
+        };
+        for (int x = x0; x < inner0; ++x) at_border(x);
+        for (int x = inner1; x < x1; ++x) at_border(x);
+        for (int x = inner0; x < inner1; ++x) to[x] = weights_[0] * in[x];
+        for (int k = 1; k <= reach; ++k) {
+            const float weight = weights_[size_t(k)];
+            for (int x = inner0; x < inner1; ++x) to[x] += weight * (in[x - k] + in[x + k]);
+        }
+    }
+
+    double correction = 0.0;
+    for (int y = y0; y < y1; ++y) {
+        const size_t row = size_t(y) * out.width;
+        float* const to = smooth_.data() + row;
+        const float* const centre = rows_.data() + row;
+        for (int x = x0; x < x1; ++x) to[x] = weights_[0] * centre[x];
+        for (int k = 1; k <= reach; ++k) {
+            const float weight = weights_[size_t(k)];
+            const float* const above = rows_.data() + size_t(reflect(y - k, height)) * out.width;
+            const float* const below = rows_.data() + size_t(reflect(y + k, height)) * out.width;
+            for (int x = x0; x < x1; ++x) to[x] += weight * (above[x] + below[x]);
+        }
+        float row_correction = 0.0f;
+        for (int x = x0; x < x1; ++x) {
+            const float change = std::abs(to[x] - depth_[row + size_t(x)]);
+            row_correction += mask_[row + size_t(x)] == FilteredDepth::kMeasured ? change : 0.0f;
+        }
+        correction += row_correction;
+    }
+    out.correction_m = float(correction / out.pixels);
+}
+
+}  // namespace vfit
