@@ -1,5 +1,5 @@
-# The parametric body: vfit_body_data runs scripts/bake_body.py into VFIT_DATA_DIR/body.bin. The source wheel and
-# finished binaries are kept in VFIT_CACHE, so that a second build folder only copies.
+# The parametric body: vfit_body_data runs scripts/bake_body.py into VFIT_DATA_DIR/body.bin. The source wheel
+# and finished binaries are kept in VFIT_CACHE, so that a second build folder only copies.
 if(DEFINED ENV{VFIT_CACHE})
   set(vfit_default_cache "$ENV{VFIT_CACHE}")
 elseif(WIN32)
@@ -14,7 +14,8 @@ find_program(VFIT_BAKE_PYTHON NAMES python3 python
   HINTS ENV VIRTUAL_ENV PATH_SUFFIXES bin Scripts
   DOC "Python 3.9 or newer with numpy, for baking the body")
 foreach(python IN ITEMS "${Python3_EXECUTABLE}" "${VFIT_BAKE_PYTHON}" /usr/bin/python3)
-  execute_process(COMMAND "${python}" -c "import numpy" RESULT_VARIABLE vfit_no_numpy OUTPUT_QUIET ERROR_QUIET)
+  execute_process(COMMAND "${python}" -c "import numpy"
+    RESULT_VARIABLE vfit_no_numpy OUTPUT_QUIET ERROR_QUIET)
   if(vfit_no_numpy EQUAL 0)
     set(VFIT_BAKE_PYTHON "${python}" CACHE FILEPATH "" FORCE)
     break()

@@ -520,6 +520,14 @@ VFIT_API vfit_result vfit_garment_load(vfit_context context, const void* bytes, 
                                        vfit_garment* out);
 VFIT_API vfit_result vfit_garment_open(vfit_context context, const char* name, vfit_garment* out);
 VFIT_API vfit_result vfit_garment_destroy(vfit_garment garment);                           /* [any]  */
+/* garment_kind: as size charts name it.                                                                */
+typedef struct vfit_garment_info { uint32_t struct_size, vertex_count, simulated_count, size_count;
+                                   char name[64], garment_kind[32], fabric[32]; } vfit_garment_info;
+VFIT_STRUCT(vfit_garment_info)
+VFIT_API vfit_result vfit_garment_describe(vfit_garment garment, vfit_garment_info* out);  /* [read] */
+/* The label of the size at index; length 0 past the last.                                      [read]  */
+VFIT_API uint32_t    vfit_garment_size_label(vfit_garment garment, uint32_t index, char* buffer,
+                                             uint32_t capacity);
 typedef struct vfit_cloth_desc {
     uint32_t struct_size, substeps;     /* 0: 8 a 1/60 s                                             */
     float gravity[3];                   /* all zero: 0, -9.81, 0                                     */

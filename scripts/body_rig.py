@@ -7,11 +7,13 @@ import numpy as np
 
 # Order of VFIT_BONE_* in vfit.h.
 HUMANOID = (["root", "spine05", "spine03", "spine01", "neck01", "head"]
-            + [bone + side for side in (".L", ".R") for bone in ("clavicle", "upperarm01", "lowerarm01", "wrist")]
+            + [bone + side for side in (".L", ".R")
+               for bone in ("clavicle", "upperarm01", "lowerarm01", "wrist")]
             + [bone + side for side in (".L", ".R") for bone in ("upperleg01", "lowerleg01", "foot", "toes")])
 # Order of BodyPart in body_model.h, and the bones (without digits and side) that make each up.
 PARTS = [("head", ""), ("torso", ""),
-         ("upper_arm", ".L"), ("forearm", ".L"), ("hand", ".L"), ("upper_arm", ".R"), ("forearm", ".R"), ("hand", ".R"),
+         ("upper_arm", ".L"), ("forearm", ".L"), ("hand", ".L"),
+         ("upper_arm", ".R"), ("forearm", ".R"), ("hand", ".R"),
          ("thigh", ".L"), ("shank", ".L"), ("foot", ".L"), ("thigh", ".R"), ("shank", ".R"), ("foot", ".R")]
 PART_OF = {"neck": "head", "head": "head", "root": "torso", "spine": "torso", "pelvis": "torso",
            "clavicle": "torso", "shoulder": "torso", "upperarm": "upper_arm", "lowerarm": "forearm",
@@ -63,8 +65,7 @@ def build_rig(data):
             bones.append(Bone(name, parent, mean_of([place(name, "head")]), mean_of([place(name, "tail")])))
         toes = sorted(child for child in children.get(name, []) if child.startswith("toe"))
         if toes:  # the row of the ball joints to the row of the tips
-            tips = [max((n for n in file_bones if n[:4] == toe[:4] and n[-2:] == toe[-2:]), key=lambda n: n[5])
-                    for toe in toes]
+            tips = [max(n for n in file_bones if n[:4] == toe[:4] and n[-2:] == toe[-2:]) for toe in toes]
             bones.append(Bone("toes" + name[-2:], index, mean_of([place(toe, "head") for toe in toes]),
                               mean_of([place(tip, "tail") for tip in tips])))
             for toe in file_bones:
@@ -79,7 +80,7 @@ def build_rig(data):
 
 
 def skin(data, bones, target, vertices):
-    """Bones [n, 8] heaviest first, weights [n, 8] in 1/65535 that sum to 65535, and the largest share lost."""
+    """Bones [n, 8] heaviest first, weights [n, 8] in 1/65535 that sum to 65535, the largest share lost."""
     row_of = {int(v): row for row, v in enumerate(vertices)}
     dense = np.zeros((len(vertices), len(bones)))
     for name, pairs in data.weights().items():

@@ -23,11 +23,12 @@ PHENOTYPES = {
     "cupsize": [(0.0, "mincup"), (0.5, "averagecup"), (1.0, "maxcup")],
     "firmness": [(0.0, "minfirmness"), (0.5, "averagefirmness"), (1.0, "maxfirmness")],
 }
-RANGE = {"age": (0.1875, 1.0), "weight": (0.0, 1.15)}  # the rest: 0 to 1; weight extrapolates to about BMI 30
+# The rest: 0 to 1. Weight may go a little beyond its last anchor; further, bodies look lumpy.
+RANGE = {"age": (0.1875, 1.0), "weight": (0.0, 1.15)}
 ANCESTRIES = ("african", "asian", "caucasian")  # no parameter: their mean is part of the universal shapes
 
-# Local sliders: those that change what a garment meets. Pose-like shifts of hands, feet and head, single
-# fingers and skin detail are left out.
+# Local sliders: those that change what a garment meets. Pose-like shifts of hands, feet and head, fingers and
+# skin detail are left out.
 SLIDER_FOLDERS = ("arms", "breast", "buttocks", "hip", "legs", "neck", "pelvis", "stomach", "torso", "feet",
                   "hands", "head")
 LEFT_OUT = ("nipple", "foot-trans", "hand-trans", "hand-fingers", "head-trans", "head-angle", "head-age")

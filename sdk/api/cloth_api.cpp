@@ -178,6 +178,36 @@ vfit_result vfit_garment_destroy(vfit_garment garment) {
     });
 }
 
+vfit_result vfit_garment_describe(vfit_garment handle, vfit_garment_info* out) {
+    return guard([&] {
+        Use<GarmentObject, Mode::read> garment(handle.id);
+        check_output(out, "out");
+        const Garment& g = garment->garment;
+        vfit_garment_info info{};
+        info.vertex_count = g.vertex_count();
+        info.simulated_count = g.simulated_count();
+        info.size_count = static_cast<uint32_t>(g.sizes.size());
+        set_text(info.name, g.name);
+        set_text(info.garment_kind, g.kind);
+        set_text(info.fabric, g.fabric);
+        write(out, info);
+        return VFIT_OK;
+    });
+}
+
+uint32_t vfit_garment_size_label(vfit_garment handle, uint32_t index, char* buffer, uint32_t capacity) {
+    uint32_t length = 0;
+    const vfit_result result = guard([&] {
+        Use<GarmentObject, Mode::read> garment(handle.id);
+        const auto& sizes = garment->garment.sizes;
+        const std::string label = index < sizes.size() ? sizes[index].label : "";
+        length = write_text(label.data(), label.size(), buffer, capacity);
+        return VFIT_OK;
+    });
+    if (result != VFIT_OK) write_text("", 0, buffer, capacity);
+    return length;
+}
+
 vfit_result vfit_cloth_create(vfit_avatar avatar_handle, vfit_garment garment_handle, const vfit_cloth_desc* desc,
                               vfit_cloth* out) {
     return guard([&] {

@@ -23,9 +23,10 @@ struct AvatarDesc {
     uint32_t detail = 0;              // level of the body model
     bool single_bones = false;        // one bone a limb (Fig. 7a of the paper)
     bool paper_colliders = false;     // radii of Algorithm 2 as they are
-    // Steps in which a limb's twist grows from its near to its far joint; 1 is the paper's two bones, whose
-    // linear blend pinches the limb's middle, 4 keeps 97 % of its section at a quarter turn.
-    uint32_t twist_steps = 4;
+    // Steps in which a limb's twist grows from its near to its far joint, each linearly blended. 1 is the
+    // paper's two bones: at a quarter turn the blend pinches the limb's middle to half its section. With 6 a
+    // forearm loses less of its volume than it does as a single bone (2 % against 3 %).
+    uint32_t twist_steps = 6;
 };
 
 /// Standing upright, arms hanging beside the body: the posture in which tape measures are taken.

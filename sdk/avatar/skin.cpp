@@ -61,7 +61,7 @@ void split_limb_weights(std::span<const Vec3> rest, const std::vector<LimbChain>
 
 Skin::Skin(std::span<const SkinBones> bones, std::span<const SkinWeights> weights) {
     first_.reserve(bones.size() + 1);
-    influences_.reserve(bones.size() * 4);  // a vertex of the body has 3 to 4 bones on average
+    influences_.reserve(bones.size() * 3);  // the body's vertices have 2.3 bones on average
     for (size_t v = 0; v < bones.size(); ++v) {
         first_.push_back(static_cast<uint32_t>(influences_.size()));
         for (size_t k = 0; k < kSkinBones; ++k)

@@ -87,7 +87,8 @@ public:
     std::vector<T> array(const char* name, size_t count) const {
         const auto found = sections_.find(name);
         if (found == sections_.end()) refuse(text("has no section ", name));
-        if (found->second.size() != count * sizeof(T)) refuse(text("has a section ", name, " of the wrong size"));
+        if (found->second.size() != count * sizeof(T))
+            refuse(text("has a section ", name, " of the wrong size"));
         std::vector<T> items(count);
         if (count > 0) std::memcpy(items.data(), found->second.data(), count * sizeof(T));
         return items;
@@ -203,15 +204,16 @@ void read_fields(const Reader& file, const Counts& counts, BodyData& data) {
 BodyData read_body_data(const std::string& path) {
     const Reader file(path);
     const Counts counts = file.array<Counts>("COUNTS", 1)[0];
-    for (uint32_t count : {counts.vertices, counts.points, counts.quads, counts.uvs, counts.parameters, counts.bones,
-                           counts.terms, counts.fields, counts.tiles})
+    for (uint32_t count : {counts.vertices, counts.points, counts.quads, counts.uvs, counts.parameters,
+                           counts.bones, counts.terms, counts.fields, counts.tiles})
         file.require(count > 0 && count < kMostItems, "an unsound count");
     BodyData data;
     data.vertex_count = counts.vertices;
     data.point_count = counts.points;
     data.tile_count = counts.tiles;
     file.require(counts.points == counts.vertices + 2 * counts.bones, "not two points a bone");
-    file.require(counts.points <= uint64_t(counts.tiles) * kTileBlocks * kLanes, "too few tiles for its points");
+    file.require(counts.points <= uint64_t(counts.tiles) * kTileBlocks * kLanes,
+                 "too few tiles for its points");
     read_parameters(file, counts.parameters, data);
     read_bones(file, counts.bones, data);
     data.quads = file.array<Quad>("QUADS", counts.quads);

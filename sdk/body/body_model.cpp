@@ -33,14 +33,17 @@ const std::vector<RigBone>& BodyModel::bones() const { return data_->body.bones;
 
 int BodyModel::parameter(const std::string& key) const {
     const auto& all = data_->body.parameters;
-    const auto found = std::find_if(all.begin(), all.end(), [&](const ShapeParameter& p) { return p.key == key; });
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const ShapeParameter& p) { return p.key == key; });
     return found == all.end() ? -1 : static_cast<int>(found - all.begin());
 }
 
 int BodyModel::rig_bone(int humanoid_bone) const {
     const auto& all = data_->body.bones;
-    const auto found = std::find_if(all.begin(), all.end(), [&](const RigBone& b) { return b.bone == humanoid_bone; });
-    if (humanoid_bone < 0 || found == all.end()) fail(VFIT_ERROR_ARGUMENT, "no humanoid bone ", humanoid_bone);
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const RigBone& b) { return b.bone == humanoid_bone; });
+    if (humanoid_bone < 0 || found == all.end())
+        fail(VFIT_ERROR_ARGUMENT, "no humanoid bone ", humanoid_bone);
     return static_cast<int>(found - all.begin());
 }
 
@@ -50,7 +53,8 @@ std::vector<float> BodyModel::default_shape(vfit_sex sex) const {
     const float male = sex == VFIT_SEX_MALE ? 1.0f : sex == VFIT_SEX_FEMALE ? 0.0f : 0.5f;
     std::vector<float> shape;
     shape.reserve(data_->body.parameters.size());
-    for (const ShapeParameter& p : data_->body.parameters) shape.push_back((1.0f - male) * p.female + male * p.male);
+    for (const ShapeParameter& p : data_->body.parameters)
+        shape.push_back((1.0f - male) * p.female + male * p.male);
     return shape;
 }
 
@@ -66,39 +70,50 @@ void hat_functions(const Anchors& anchors, float value, float* hats) {
     hats[i + 1] = t;
 }
 
-struct ActiveField {
-    uint32_t field;
-    float scale;  // coefficient times metres of a step
-};
-
 void add_steps(float* sum, const int16_t* steps, uint32_t count, float scale) {
     for (uint32_t i = 0; i < count; ++i) sum[i] += scale * static_cast<float>(steps[i]);
 }
 
-/// The sum of the base and all active fields over one tile.
-void sum_tile(const BodyData& body, uint32_t tile, std::span<const ActiveField> active, float* sum) {
+/// The base and all fields, each times its scale, over one tile.
+void sum_tile(const BodyData& body, uint32_t tile, const float* scales, float* sum) {
     std::copy_n(body.base.data() + size_t(tile) * kTileFloats, kTileFloats, sum);
-    for (const ActiveField& a : active) {
-        const size_t cell = size_t(a.field) * body.tile_count + tile;
-        const int16_t* steps = body.steps.data() + size_t(body.offsets[cell]) * kBlockFloats;
+    for (size_t field = 0; field < body.scales.size(); ++field) {
+        const size_t cell = field * body.tile_count + tile;
         const uint64_t mask = body.masks[cell];
+        if (scales[field] == 0.0f || mask == 0) continue;
+        const int16_t* steps = body.steps.data() + size_t(body.offsets[cell]) * kBlockFloats;
         if (mask == ~uint64_t(0)) {
-            add_steps(sum, steps, kTileFloats, a.scale);
+            add_steps(sum, steps, kTileFloats, scales[field]);
             continue;
         }
         for (uint64_t rest = mask; rest != 0; rest &= rest - 1, steps += kBlockFloats)
-            add_steps(sum + std::countr_zero(rest) * kBlockFloats, steps, kBlockFloats, a.scale);
+            add_steps(sum + std::countr_zero(rest) * kBlockFloats, steps, kBlockFloats, scales[field]);
     }
 }
 
-/// Points that a vertex array and then pairs of bone ends receive.
-void store_point(const BodyData& body, uint32_t point, const Vec3& p, EvaluatedBody& out) {
-    if (point < body.vertex_count) {
-        out.positions[point] = p;
-    } else {
-        const uint32_t end = point - body.vertex_count;
-        (end % 2 == 0 ? out.bone_heads : out.bone_tails)[end / 2] = p;
+/// Sums of one tile into the arrays that its points belong to.
+void store_tile(const BodyData& body, uint32_t tile, const float* sum, EvaluatedBody& out) {
+    const uint32_t first = tile * kTileBlocks * kLanes;
+    const uint32_t count =
+        std::min(kTileBlocks * kLanes, body.point_count - std::min(first, body.point_count));
+    for (uint32_t i = 0; i < count; ++i) {
+        const float* x = sum + (i / kLanes) * kBlockFloats + i % kLanes;
+        const Vec3 p(x[0], x[kLanes], x[2 * kLanes]);
+        const uint32_t point = first + i;
+        if (point < body.vertex_count) {
+            out.positions[point] = p;
+        } else {
+            const uint32_t end = point - body.vertex_count;
+            (end % 2 == 0 ? out.bone_heads : out.bone_tails)[end / 2] = p;
+        }
     }
+}
+
+void put_on_floor(EvaluatedBody& out) {
+    float floor_y = std::numeric_limits<float>::max();
+    for (const Vec3& p : out.positions) floor_y = std::min(floor_y, p.y);
+    for (auto* points : {&out.positions, &out.bone_heads, &out.bone_tails})
+        for (Vec3& p : *points) p.y -= floor_y;
 }
 
 }  // namespace
@@ -106,14 +121,15 @@ void store_point(const BodyData& body, uint32_t point, const Vec3& p, EvaluatedB
 void BodyModel::evaluate(std::span<const float> shape, EvaluatedBody& out) const {
     const BodyData& body = data_->body;
     if (shape.size() != body.parameters.size())
-        fail(VFIT_ERROR_ARGUMENT, "a shape of ", shape.size(), " values where the body has ", body.parameters.size());
+        fail(VFIT_ERROR_ARGUMENT, "a shape of ", shape.size(), " values where the body has ",
+             body.parameters.size());
     out.positions.resize(body.vertex_count);
     out.bone_heads.resize(body.bones.size());
     out.bone_tails.resize(body.bones.size());
     const size_t hat_count = kMaxAnchors * shape.size();
     out.scratch.resize(hat_count + body.scales.size());
     float* hats = out.scratch.data();
-    float* coefficients = hats + hat_count;
+    float* scales = hats + hat_count;  // one a field: its coefficient times the metres of a step
 
     for (size_t i = 0; i < shape.size(); ++i) {
         if (!std::isfinite(shape[i]))
@@ -121,14 +137,19 @@ void BodyModel::evaluate(std::span<const float> shape, EvaluatedBody& out) const
         const float value = std::clamp(shape[i], body.parameters[i].minimum, body.parameters[i].maximum);
         hat_functions(body.anchors[i], value, hats + kMaxAnchors * i);
     }
-    std::fill_n(coefficients, body.scales.size(), 0.0f);
+    std::fill_n(scales, body.scales.size(), 0.0f);
     for (const Term& term : body.terms) {
-        float product = 1.0f;
+        float product = body.scales[term.field];
         for (uint32_t i = 0; i < term.factor_count; ++i)
             product *= hats[kMaxAnchors * term.factors[i].parameter + term.factors[i].anchor];
-        coefficients[term.field] += product;
+        scales[term.field] += product;
     }
-    out.active.clear();
+    std::array<float, kTileFloats> sum;
+    for (uint32_t tile = 0; tile < body.tile_count; ++tile) {
+        sum_tile(body, tile, scales, sum.data());
+        store_tile(body, tile, sum.data(), out);
+    }
+    put_on_floor(out);
 }
 
 const BodyTopology& BodyModel::topology(uint32_t level) const { return data_->surface.topology(level); }

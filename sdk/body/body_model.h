@@ -1,6 +1,7 @@
 // The parametric human body: shape values in, skin and joints out, from the binary that
-// scripts/bake_body.py makes of the CC0 MakeHuman data. The body stands in the data's own rest posture (arms out
-// at about 45 degrees, elbows a little bent), metres, Y up, facing +Z, its left on +X, soles on y = 0.
+// scripts/bake_body.py makes of the CC0 MakeHuman data. The body stands in the data's own rest posture
+// (arms out at about 45 degrees, elbows a little bent), metres, Y up, facing +Z, its left on +X, soles on
+// y = 0.
 #pragma once
 
 #include <array>

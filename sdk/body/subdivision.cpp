@@ -2,6 +2,7 @@
 #include "body/subdivision.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/error.h"
 
@@ -49,8 +50,8 @@ Refinement make_refinement(uint32_t vertex_count, std::vector<Quad> quads) {
         } else if (result.edges.back().right < 0) {
             result.edges.back().right = face;
         } else {
-            fail(VFIT_ERROR_DATA, "more than two faces share the edge between vertices ", sides[i].low, " and ",
-                 sides[i].high);
+            fail(VFIT_ERROR_DATA, "more than two faces share the edge between vertices ", sides[i].low,
+                 " and ", sides[i].high);
         }
     }
     return result;

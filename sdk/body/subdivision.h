@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -36,8 +38,8 @@ void refine_smooth(const Refinement& mesh, const T* coarse, T* fine) {
     T* edge_points = fine + mesh.vertex_count;
     T* face_points = edge_points + mesh.edges.size();
     for (uint32_t v = 0; v < mesh.vertex_count; ++v) fine[v] = T(0.0f);
-    // A coarse vertex of valence n goes to (F / n + 2 M / n + (n - 3) P) / n, where F and M are the sums of the
-    // face points and edge midpoints around it: both are gathered in fine[v] first.
+    // A coarse vertex of valence n goes to (F / n + 2 M / n + (n - 3) P) / n, where F and M are the sums of
+    // the face points and edge midpoints around it: both are gathered in fine[v] first.
     for (size_t f = 0; f < mesh.quads.size(); ++f) {
         const Quad& q = mesh.quads[f];
         face_points[f] = 0.25f * (coarse[q[0]] + coarse[q[1]] + coarse[q[2]] + coarse[q[3]]);

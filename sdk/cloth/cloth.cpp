@@ -75,6 +75,7 @@ struct Cloth::State {
     std::vector<Vec3> velocities;  // of simulated vertices
     std::vector<Vec3> previous_targets, previous_skin_normals, skin_normals;
     std::vector<Capsule> previous_capsules, capsules;
+    std::vector<uint32_t> needed;  // capsules that are not part of another
     std::vector<SweptCapsule> swept;
     std::vector<Backstop> backstops;
 
@@ -85,6 +86,7 @@ struct Cloth::State {
 
     void reset(std::span<const Vec3> start);
     void accept_colliders(std::span<const Collider> colliders);
+    bool is_end_of_another(uint32_t ball) const;
     void teleport(std::span<const Vec3> targets);
     void substep(float h, float from, float to, std::span<const Vec3> targets, Jobs& jobs);
     void solve_backstops(float h, float from, float to, std::span<const Vec3> targets);
@@ -165,12 +167,26 @@ void Cloth::State::accept_colliders(std::span<const Collider> colliders) {
     capsules.resize(colliders.size());
     for (size_t i = 0; i < colliders.size(); ++i) capsules[i] = capsule_of(colliders[i], settings.thickness_m);
     if (previous_capsules.size() != capsules.size()) previous_capsules = capsules;
-    for (size_t i = 0; i < capsules.size(); ++i) {
+    needed.clear();
+    for (uint32_t i = 0; i < capsules.size(); ++i) {
         // A capsule that became a ball, or the reverse, has no way between the two.
-        if ((previous_capsules[i].a == previous_capsules[i].b) != (capsules[i].a == capsules[i].b))
-            previous_capsules[i] = capsules[i];
+        if (previous_capsules[i].is_ball() != capsules[i].is_ball()) previous_capsules[i] = capsules[i];
+        if (!is_end_of_another(i)) needed.push_back(i);
     }
-    swept.resize(capsules.size());
+    swept.resize(needed.size());
+}
+
+/// A ball that a capsule has at one of its ends, now and before, adds nothing to that capsule.
+bool Cloth::State::is_end_of_another(uint32_t ball) const {
+    if (!capsules[ball].is_ball()) return false;
+    const auto end_of = [&](const Capsule& c, const Capsule& other) {
+        return (c.a == other.a && c.radius_a <= other.radius_a) || (c.a == other.b && c.radius_a <= other.radius_b);
+    };
+    for (size_t i = 0; i < capsules.size(); ++i)
+        if (!capsules[i].is_ball() && end_of(capsules[ball], capsules[i]) &&
+            end_of(previous_capsules[ball], previous_capsules[i]))
+            return true;
+    return false;
 }
 
 /// A jump of the body is no motion: the cloth goes along as it hangs, and nothing is swept through it.
@@ -205,7 +221,8 @@ void Cloth::State::substep(float h, float from, float to, std::span<const Vec3> 
     solve_distances(data.edges, h, particles);
     solve_tethers(data.tethers, particles);
 
-    for (size_t i = 0; i < swept.size(); ++i) swept[i] = sweep(previous_capsules[i], capsules[i], from, to);
+    for (size_t i = 0; i < needed.size(); ++i)
+        swept[i] = sweep(previous_capsules[needed[i]], capsules[needed[i]], from, to);
     const ContactSettings contact{settings.friction, settings.friction * kKineticShare, kMaxDepenetration_m_s * h};
     solve_backstops(h, from, to, targets);
     ContactPass{fabric->simulated_vertices(), swept, starts, contact}.run(particles, jobs);

@@ -8,10 +8,6 @@ namespace {
 
 Vec3 lerp(const Vec3& a, const Vec3& b, float t) { return a + (b - a) * t; }
 
-Capsule lerp(const Capsule& a, const Capsule& b, float t) {
-    return {lerp(a.a, b.a, t), lerp(a.b, b.b, t), b.radius_a, b.radius_b};
-}
-
 /// First time in (0, 1) at which a relative path q0 -> q1 that begins outside enters a radius that goes from
 /// r0 to r1: (m00 - 2 m01 + m11) t^2 + 2 (m01 - m00) t + m00 = 0, the smaller root.
 std::optional<float> entry_time(const Vec3& q0, const Vec3& q1, float r0, float r1) {
@@ -32,9 +28,9 @@ struct Hit {
 };
 
 std::optional<Hit> hit_ball(const SweptCapsule& c, const Vec3& start, const Vec3& end, float along) {
-    const Vec3 q0 = start - lerp(c.from.a, c.from.b, along);
-    const Vec3 q1 = end - lerp(c.to.a, c.to.b, along);
-    const float radius = c.to.radius_a + (c.to.radius_b - c.to.radius_a) * along;
+    const Vec3 q0 = start - c.from.center(along);
+    const Vec3 q1 = end - c.to.center(along);
+    const float radius = c.to.radius_at(along);
     const std::optional<float> t = entry_time(q0, q1, radius, radius);
     if (!t) return {};
     return Hit{along, glm::normalize(lerp(q0, q1, *t))};
@@ -45,25 +41,25 @@ struct BesideAxis {
     Vec3 square;
     float radius;
 };
-BesideAxis beside_axis(const Capsule& c, const Vec3& p) {
-    const Vec3 axis = c.b - c.a;
-    const float length = glm::length(axis);
-    const Vec3 unit = axis / length;
-    const float difference = c.radius_b - c.radius_a;
-    const float side = std::sqrt(length * length - difference * difference);
-    const float along = glm::dot(p - c.a, unit);
-    const float middle_radius = 0.5f * (c.radius_a + c.radius_b) * length / side;
-    const float radius = middle_radius + (along - 0.5f * length) * difference / side;
-    return {p - c.a - unit * along, std::max(radius, 0.0f)};
+BesideAxis beside_axis(const CapsuleShape& c, const Vec3& p) {
+    const Vec3 from_a = p - c.a;
+    const float along = glm::dot(from_a, c.axis) * c.inverse_length2;
+    // length / side = sqrt(1 + lean^2), as side^2 = length^2 - taper^2
+    const float radius = (c.radius + 0.5f * c.taper) * std::sqrt(1.0f + c.lean * c.lean) +
+                         (along - 0.5f) * c.lean / std::sqrt(c.inverse_length2);
+    return {from_a - c.axis * along, std::max(radius, 0.0f)};
 }
 
 /// Where the way from start to end first meets the swept collider. The cone's polynomial of degree six is
 /// replaced by a quadratic: length and slope of the capsule stay constant over the sub-step.
 std::optional<Hit> first_hit(const SweptCapsule& c, const Vec3& start, const Vec3& end) {
-    if (c.to.a == c.to.b) return hit_ball(c, start, end, 0.0f);
+    if (c.to.inverse_length2 == 0.0f) return hit_ball(c, start, end, 0.0f);
     const BesideAxis from = beside_axis(c.from, start), to = beside_axis(c.to, end);
     if (const std::optional<float> t = entry_time(from.square, to.square, from.radius, to.radius)) {
-        const NearestBall ball = nearest_ball(lerp(c.from, c.to, *t), lerp(start, end, *t));
+        CapsuleShape at = c.to;
+        at.a = lerp(c.from.a, c.to.a, *t);
+        at.axis = lerp(c.from.axis, c.to.axis, *t);
+        const NearestBall ball = nearest_ball(at, lerp(start, end, *t));
         if (ball.along > 0.0f && ball.along < 1.0f) return Hit{ball.along, ball.normal};
     }
     std::optional<Hit> hit = hit_ball(c, start, end, 0.0f);
@@ -84,37 +80,37 @@ Capsule capsule_of(const Collider& collider, float thickness_m) {
     return c;
 }
 
+CapsuleShape::CapsuleShape(const Capsule& c)
+    : a(c.a), axis(c.b - c.a), radius(c.radius_a), taper(c.radius_b - c.radius_a), inverse_length2(0.0f), lean(0.0f) {
+    if (c.is_ball()) return;
+    const float length2 = glm::dot(axis, axis);
+    inverse_length2 = 1.0f / length2;
+    lean = taper / std::sqrt(length2 - taper * taper);
+}
+
 SweptCapsule sweep(const Capsule& previous, const Capsule& current, float from, float to) {
-    SweptCapsule s{lerp(previous, current, from), lerp(previous, current, to), 0.0f, {}};
-    s.travel_m = std::max(glm::length(s.to.a - s.from.a), glm::length(s.to.b - s.from.b));
-    for (const Vec3& p : {s.from.a, s.to.a}) {
-        s.bounds.add(p - s.to.radius_a);
-        s.bounds.add(p + s.to.radius_a);
-    }
-    for (const Vec3& p : {s.from.b, s.to.b}) {
-        s.bounds.add(p - s.to.radius_b);
-        s.bounds.add(p + s.to.radius_b);
+    const auto at = [&](float t) {
+        return Capsule{lerp(previous.a, current.a, t), lerp(previous.b, current.b, t), current.radius_a,
+                       current.radius_b};
+    };
+    const Capsule begin = at(from), end = at(to);
+    SweptCapsule s{CapsuleShape(begin), CapsuleShape(end), 0.0f, {}};
+    s.travel_m = std::max(glm::length(end.a - begin.a), glm::length(end.b - begin.b));
+    for (const Capsule& c : {begin, end}) {
+        s.bounds.add(c.a - c.radius_a);
+        s.bounds.add(c.a + c.radius_a);
+        s.bounds.add(c.b - c.radius_b);
+        s.bounds.add(c.b + c.radius_b);
     }
     return s;
 }
 
-NearestBall nearest_ball(const Capsule& c, const Vec3& p) {
-    const Vec3 axis = c.b - c.a;
-    const Vec3 from_a = p - c.a;
-    float along = 0.0f;
-    const float length2 = glm::dot(axis, axis);
-    if (length2 > 0.0f) {
-        // The ball that touches p's side of the cone stands (r_b - r_a) / side * d_perp further along.
-        const float dot = glm::dot(from_a, axis);
-        const float difference = c.radius_b - c.radius_a;
-        const float square = std::sqrt(std::max(0.0f, glm::dot(from_a, from_a) * length2 - dot * dot));
-        const float side = std::sqrt(length2 - difference * difference);
-        along = std::clamp((dot + square * difference / side) / length2, 0.0f, 1.0f);
-    }
-    const Vec3 from_center = from_a - axis * along;
+NearestBall nearest_ball(const CapsuleShape& c, const Vec3& p) {
+    const float along = nearest_along(c, p);
+    const Vec3 from_center = p - c.center(along);
     const float distance = glm::length(from_center);
     const Vec3 normal = distance > 1e-9f ? from_center / distance : Vec3(0, 1, 0);
-    return {along, normal, distance - (c.radius_a + (c.radius_b - c.radius_a) * along)};
+    return {along, normal, distance - c.radius_at(along)};
 }
 
 void apply_friction(const Vec3& start, const Vec3& surface_motion, const Vec3& normal, float depth_m,
@@ -143,8 +139,8 @@ bool resolve_contact(const SweptCapsule& c, const Vec3& start, const ContactSett
             return false;
         }
     }
-    const Vec3 center_from = lerp(c.from.a, c.from.b, hit.along), center_to = lerp(c.to.a, c.to.b, hit.along);
-    const float radius = c.to.radius_a + (c.to.radius_b - c.to.radius_a) * hit.along;
+    const Vec3 center_from = c.from.center(hit.along), center_to = c.to.center(hit.along);
+    const float radius = c.to.radius_at(hit.along);
     const float residue = std::max(0.0f, -begin.distance - settings.max_depenetration_m);
     const float depth = radius - glm::dot(p - center_to, hit.normal) - residue;
     if (depth <= 0.0f) return false;
@@ -152,11 +148,10 @@ bool resolve_contact(const SweptCapsule& c, const Vec3& start, const ContactSett
 
     // The surface moves with its ball and turns with the axis: w x n r = dA (A.n) - A (dA.n), times r.
     Vec3 surface_motion = center_to - center_from;
-    const Vec3 axis_to = c.to.b - c.to.a;
-    if (const float length = glm::length(axis_to); length > 0.0f) {
-        const Vec3 unit = axis_to / length;
-        const Vec3 turned = (axis_to - (c.from.b - c.from.a)) / length;
-        surface_motion += radius * (turned * glm::dot(unit, hit.normal) - unit * glm::dot(turned, hit.normal));
+    if (const float inverse_length2 = c.to.inverse_length2; inverse_length2 > 0.0f) {
+        const Vec3 turned = c.to.axis - c.from.axis;
+        surface_motion += radius * inverse_length2 *
+                          (turned * glm::dot(c.to.axis, hit.normal) - c.to.axis * glm::dot(turned, hit.normal));
     }
     apply_friction(start, surface_motion, hit.normal, depth, settings, p);
     return true;

@@ -67,6 +67,32 @@ void sort_for_solver(std::vector<DistanceConstraint>& list, const std::vector<fl
     list = std::move(sorted);
 }
 
+/// The vertices in an order in which runs of kPatch are neighbours on the cloth, so that a run has a small box.
+std::vector<uint32_t> compact_patches(const std::vector<uint32_t>& vertices, const FabricData& data) {
+    constexpr size_t kPatch = 16;  // as many as the contact pass culls together
+    std::vector<std::vector<uint32_t>> neighbours(data.inverse_mass.size());
+    for (const DistanceConstraint& e : data.edges) {
+        neighbours[e.a].push_back(e.b);
+        neighbours[e.b].push_back(e.a);
+    }
+    std::vector<uint8_t> taken(data.inverse_mass.size(), 1);
+    for (uint32_t v : vertices) taken[v] = 0;
+    std::vector<uint32_t> order;
+    for (uint32_t seed : vertices) {
+        if (taken[seed]) continue;
+        const size_t begin = order.size();
+        order.push_back(seed);
+        taken[seed] = 1;
+        for (size_t i = begin; i < order.size() && order.size() - begin < kPatch; ++i)
+            for (uint32_t next : neighbours[order[i]])
+                if (!taken[next] && order.size() - begin < kPatch) {
+                    order.push_back(next);
+                    taken[next] = 1;
+                }
+    }
+    return order;
+}
+
 }  // namespace
 
 Fabric::Fabric(FabricData data) : data_(std::move(data)) {
@@ -75,6 +101,7 @@ Fabric::Fabric(FabricData data) : data_(std::move(data)) {
         (data_.inverse_mass[i] > 0.0f ? simulated_ : kinematic_).push_back(i);
     sort_for_solver(data_.edges, data_.inverse_mass);
     sort_for_solver(data_.bends, data_.inverse_mass);
+    simulated_ = compact_patches(simulated_, data_);
     std::erase_if(data_.tethers, [&](const Tether& t) { return data_.inverse_mass[t.vertex] == 0.0f; });
 }
 

@@ -57,14 +57,23 @@ void ContactPass::run(std::span<Particle> particles, Jobs& jobs) const {
 
 void ContactPass::run_block(std::span<const uint32_t> block, std::span<Particle> particles) const {
     Bounds bounds;
+    float travel2 = 0.0f;
+    const auto account_for = [&](uint32_t v) {
+        const Vec3 way = particles[v].x - starts[v];
+        travel2 = std::max(travel2, glm::dot(way, way));
+        bounds.add(particles[v].x);
+    };
     for (uint32_t v : block) {
         bounds.add(starts[v]);
-        bounds.add(particles[v].x);
+        account_for(v);
     }
     for (const SweptCapsule& collider : colliders) {
         if (!bounds.overlaps(collider.bounds)) continue;
+        const float travel = std::sqrt(travel2);
         for (uint32_t v : block)
-            if (resolve_contact(collider, starts[v], settings, particles[v].x)) bounds.add(particles[v].x);
+            if (may_touch(collider, particles[v].x, travel) &&
+                resolve_contact(collider, starts[v], settings, particles[v].x))
+                account_for(v);
     }
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,26 +15,22 @@ namespace vfit {
 
 struct SundressSpec {
     std::string name, kind, fabric;
-    uint32_t columns = 0;       // vertices around the body, even
-    uint32_t bodice_rows = 0, skirt_rows = 0;
-    uint32_t strap_columns = 0, strap_rows = 0;
-    float neckline = 0.0f;      // top edge at the side: share of the way from the bust up to the shoulder
-    float hem = 0.0f;           // share of the way from the knee up (> 0) or down (< 0) to the crotch's height
+    // Vertices. Around the body (even, so that front and back have a middle), down, and across and along a strap.
+    uint32_t columns = 0, bodice_rows = 0, skirt_rows = 0, strap_columns = 0, strap_rows = 0;
+    // Height of the bodice's top edge: share of the way from the bust up to the shoulder joint.
+    float top_center = 0.0f, top_strap = 0.0f, top_side = 0.0f, top_back = 0.0f;
+    float strap_place = 0.0f;  // of the strap's middle: share of the way from the body's middle to the shoulder joint
+    float hem = 0.0f;          // share of the way from the knee down to the ankle
     float bodice_ease_m = 0.0f;  // between skin and bodice
-    float hip_ease_m = 0.0f;     // between skin and skirt where the hips are widest
-    float flare = 0.0f;          // growth of the skirt's radius per metre below the hips, m/m
-    float back_drop_m = 0.0f;    // how much lower the top edge is at the back
-    float neckline_curve_m = 0.0f;  // how much the top edge rises towards the straps in front
-    float strap_offset = 0.0f;   // strap's distance from the middle: share of half the shoulder width
+    float skirt_ease_m = 0.0f;   // between the widest section above and the skirt, reached at the hips
+    float flare = 0.0f;          // what the skirt's radius grows by below the waist, metres a metre
     std::vector<GarmentSize> sizes;
 };
 
 /// Format "vfit-sundress" version 1; VFIT_ERROR_DATA names the field.
 SundressSpec parse_sundress(std::span<const std::byte> json);
 
+/// On the model's default female body. VFIT_ERROR_DATA where the design does not go onto it.
 Garment cook_sundress(const BodyModel& model, const SundressSpec& spec);
-
-/// The garment file; floats with 5 decimals.
-std::string write_garment(const Garment& garment);
 
 }  // namespace vfit

@@ -1,5 +1,6 @@
 // Crown, floor and the head: the lines that the silhouette shows along the up axis.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -53,24 +54,27 @@ Estimate crown_height(const FilteredDepth& depth, const Camera& camera, const Bo
     const FrontalPlane plane(camera, head.centre);
     const float pixel_m = footprint(camera, head.centre.z);
 
-    // The middle of the vertex: further out the skull falls away.
+    // The middle of the vertex: further out the skull falls away. Its higher half of columns, so that neither a
+    // head joint beside the middle nor single noisy pixels above the crown decide.
     constexpr float kHalfVertex_m = 0.04f;
-    float highest = -std::numeric_limits<float>::max();
-    Vec2 edge(0.0f);
-    for (float offset = -kHalfVertex_m; offset <= kHalfVertex_m; offset += pixel_m) {
+    constexpr size_t kMostColumns = 64;
+    std::array<FrontalPlane::Reach, kMostColumns> columns;
+    size_t count = 0;
+    const float step_m = std::max(pixel_m, 2.0f * kHalfVertex_m / float(kMostColumns - 1));
+    for (float offset = -kHalfVertex_m; offset <= kHalfVertex_m && count < kMostColumns; offset += step_m) {
         const auto reach = plane.reach(depth, head.centre + plane.right() * offset, plane.up());
-        if (!reach.seen()) continue;
-        const float height = plane.height(reach.point);
-        if (height > highest) {
-            highest = height;
-            edge = reach.edge;
-        }
+        if (reach.seen()) columns[count++] = reach;
     }
-    if (highest == -std::numeric_limits<float>::max()) return {};
+    if (count == 0) return {};
+    std::sort(columns.begin(), columns.begin() + std::ptrdiff_t(count),
+              [&](const auto& a, const auto& b) { return plane.height(a.point) > plane.height(b.point); });
+    const size_t kept = (count + 1) / 2;
+    float height = 0.0f;
+    for (size_t i = 0; i < kept; ++i) height += plane.height(columns[i].point) / float(kept);
 
     // The line of sight that touches a sphere passes its vertical axis above the top by R (1 / cos e - 1).
-    const float cosine = std::max(0.5f, std::cos(plane.elevation_rad(edge)));
-    const float crown = highest - kHalfHeadLength_m * (1.0f / cosine - 1.0f);
+    const float cosine = std::max(0.5f, std::cos(plane.elevation_rad(columns[0].edge)));
+    const float crown = height - kHalfHeadLength_m * (1.0f / cosine - 1.0f);
     return {crown, hypotenuse(kCrownSigma_m, quantisation(pixel_m)), true};
 }
 

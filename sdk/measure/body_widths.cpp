@@ -55,6 +55,28 @@ float deltoid_overhang(const FilteredDepth& depth, const Camera& camera, const V
     return overhang;
 }
 
+/// From the palm to the furthest contour within the wrist's reach to either side of the forearm's direction; 0
+/// where that is no hand's length.
+float fingertip_distance(const FilteredDepth& depth, const FrontalPlane& plane, const Vec3& palm, const Vec3& forearm) {
+    constexpr float kWrist_rad = 30.0f * kPi / 180.0f;  // relaxed hands hang at up to that angle
+    constexpr int kDirections = 9;
+    const Vec2 along = glm::normalize(frontal(plane, forearm));
+    float furthest = 0.0f;
+    for (int i = 0; i < kDirections; ++i) {
+        const float angle = kWrist_rad * (2.0f * float(i) / float(kDirections - 1) - 1.0f);
+        const float c = std::cos(angle), s = std::sin(angle);
+        const Vec3 direction =
+            plane.right() * (c * along.x - s * along.y) + plane.up() * (s * along.x + c * along.y);
+        const auto reach = plane.reach(depth, palm, direction);
+        if (!reach.seen()) return 0.0f;
+        furthest = std::max(furthest, glm::length(frontal(plane, reach.point - palm)));
+    }
+    // Palm to fingertip is half to two thirds of a hand (194 mm men, 181 mm women, ANSUR II): a longer way to the
+    // contour runs on over the thigh, a shorter one is a fist or a tracker's error.
+    constexpr float kShortest_m = 0.06f, kLongest_m = 0.16f;
+    return furthest >= kShortest_m && furthest <= kLongest_m ? furthest : 0.0f;
+}
+
 }  // namespace
 
 Estimate shoulder_width(const FilteredDepth& depth, const Camera& camera, const Body& body) {
@@ -132,13 +154,8 @@ Estimate elbow_fingertip(const FilteredDepth& depth, const Camera& camera, const
         const FrontalPlane plane(camera, body.at(hand));
         const float cosine = glm::length(frontal(plane, forearm)) / std::max(1e-3f, glm::length(forearm));
         if (cosine < std::cos(kForeshortened_rad)) continue;
-        const auto reach = plane.reach(depth, body.at(hand), forearm);
-        if (!reach.seen()) continue;
-        const float fingers = glm::length(frontal(plane, reach.point - body.at(hand))) / cosine;
-        // Palm to fingertip is half to two thirds of a hand (194 mm men, 181 mm women, ANSUR II): a longer way to
-        // the contour runs on over the thigh, a shorter one is a fist or a tracker's error.
-        constexpr float kShortest_m = 0.06f, kLongest_m = 0.15f;
-        if (fingers < kShortest_m || fingers > kLongest_m) continue;
+        const float fingers = fingertip_distance(depth, plane, body.at(hand), forearm) / cosine;
+        if (fingers <= 0.0f) continue;
         sum += glm::length(body.at(hand) - body.at(from_wrist ? wrist : elbow)) + fingers;
         ++sides;
     }

@@ -20,8 +20,8 @@ constexpr MeasureKey kKeys[] = {
     {"upper_arm_girth_m", "largest girth of the hanging upper arm, square to it"},
     {"inside_leg_m", "crotch to floor, feet slightly apart"},
     {"arm_length_m", "acromion over the slightly bent elbow to the wrist bone"},
-    {"torso_height_m", "vertical distance from the NECK joint to the PELVIS joint"},
-    {"hip_height_m", "hip joint to floor"},
+    {"torso_height_m", "from the NECK joint to the PELVIS joint"},
+    {"hip_height_m", "height of the hip joints above the floor"},
     {"hip_breadth_m", "horizontal extent from side to side of the section of hip_girth_m"},
     {"elbow_fingertip_m", "elbow to the tip of the middle finger"},
     {"head_height_m", "chin to crown, vertical"},
@@ -31,6 +31,7 @@ constexpr MeasureKey kKeys[] = {
     {"waist_breadth_m", "horizontal extent from side to side of the section of waist_girth_m"},
     {"waist_depth_m", "horizontal extent from front to back of the section of waist_girth_m"},
     {"hip_depth_m", "horizontal extent from front to back of the section of hip_girth_m"},
+    {"hand_length_m", "wrist to the tip of the middle finger"},
 };
 
 }  // namespace

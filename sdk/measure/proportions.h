@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "vfit.h"
@@ -66,8 +67,11 @@ Estimate estimate_primary(const Lines& measured, Line primary, RatioTable table,
 /// Table 2 and the size at which a garment of that kind is drawn.
 struct GarmentKind {
     const char* name;
-    Line height, width;
-    float nominal_height_m, nominal_width_m;
+    Line height;
+    std::array<Line, 2> widths;  // the first is the garment's width; x_s is the mean over all of them
+    size_t width_count;
+    float nominal_height_m;
+    std::array<float, 2> nominal_widths_m;
 };
 /// VFIT_ERROR_ARGUMENT naming the known kinds.
 const GarmentKind& garment_kind(const std::string& name);

@@ -1,5 +1,6 @@
 #include "motion/foot_planter.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "motion/two_bone_ik.h"

@@ -31,25 +31,30 @@ public:
     uint32_t frame_count() const { return count_; }
 
 private:
+    /// Ground truth that a virtual person's frame brings along, as text.
+    struct Truth {
+        std::string contacts;  // ",1,0"; empty: none
+        std::string measures;  // JSON; empty: none, or written already
+    };
+
     void check(const Frame& frame) const;
+    Truth read_truth(const Frame& frame) const;
     void begin(const Frame& frame);
-    void write_camera(const Frame& frame);
     void write_images(const Frame& frame);
+    void write_rows(const Frame& frame, const Truth& truth);
     void write_joints(const Frame& frame);
-    void write_row(std::ofstream& file, const std::string& name, const std::string& header);
-    void write_contacts(const Frame& frame);
-    void write_measures(const Frame& frame);
-    std::string image_name(const char* folder) const;
+    void append_row(std::ofstream& file, const char* name, const std::string& header);
+    std::string image_path(const char* folder) const;
 
     const std::string path_;
-    const RecorderDesc desc_;
+    RecorderDesc desc_;
     PngWriter png_;
     uint32_t count_ = 0;
     Camera camera_;  // of the first frame
     bool has_mask_ = false, has_color_ = false, has_measures_ = false, closed_ = false;
     std::vector<int> joints_;  // columns of joints.csv
     std::ofstream timestamps_, joints_file_, contacts_;
-    std::string row_;
+    std::string joints_header_, row_;
     std::vector<uint8_t> mask_;
 };
 

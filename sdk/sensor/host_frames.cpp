@@ -58,8 +58,7 @@ Body read_body(const vfit_body* in, const vfit_joint* items, uint32_t stride, ui
 
 vfit_result HostTable::frame_begin(void* self, void* token, const vfit_frame_layout* layouts, uint32_t stride,
                                    uint32_t count, vfit_frame* out) {
-    HostTable& t = of(self);
-    return t.guard("frame_begin", [&] {
+    return enter(self, "frame_begin", [&](HostTable& t) {
         if (!out) fail(VFIT_ERROR_ARGUMENT, "out is null");
         out->id = 0;
         Ref<Frame> frame = t.stream(token)->begin(layouts, stride, count);
@@ -78,8 +77,7 @@ vfit_result HostTable::frame_begin(void* self, void* token, const vfit_frame_lay
 
 vfit_result HostTable::frame_pixels(void* self, vfit_frame handle, vfit_stream kind, void** pixels,
                                     uint32_t* row_stride) {
-    HostTable& t = of(self);
-    return t.guard("frame_pixels", [&] {
+    return enter(self, "frame_pixels", [&](HostTable& t) {
         if (!pixels) fail(VFIT_ERROR_ARGUMENT, "pixels is null");
         std::lock_guard lock(t.mutex_);
         const Stream* stream = t.filling(handle).frame->find(kind);
@@ -90,8 +88,7 @@ vfit_result HostTable::frame_pixels(void* self, vfit_frame handle, vfit_stream k
 }
 
 vfit_result HostTable::frame_intrinsics(void* self, vfit_frame handle, const vfit_intrinsics* intrinsics) {
-    HostTable& t = of(self);
-    return t.guard("frame_intrinsics", [&] {
+    return enter(self, "frame_intrinsics", [&](HostTable& t) {
         const vfit_intrinsics in = read_sized(intrinsics, "intrinsics");
         std::lock_guard lock(t.mutex_);
         Filling& filling = t.filling(handle);
@@ -112,8 +109,7 @@ vfit_result HostTable::frame_intrinsics(void* self, vfit_frame handle, const vfi
 }
 
 vfit_result HostTable::frame_camera(void* self, vfit_frame handle, const vfit_camera* given) {
-    HostTable& t = of(self);
-    return t.guard("frame_camera", [&] {
+    return enter(self, "frame_camera", [&](HostTable& t) {
         const vfit_camera in = read_sized(given, "camera");
         if (in.floor_state < VFIT_FLOOR_DEFAULT || in.floor_state > VFIT_FLOOR_GIVEN)
             fail(VFIT_ERROR_ARGUMENT, "camera: floor_state ", in.floor_state, " is not one of its values");
@@ -137,8 +133,7 @@ vfit_result HostTable::frame_camera(void* self, vfit_frame handle, const vfit_ca
 
 vfit_result HostTable::frame_body(void* self, vfit_frame handle, const vfit_body* body, const vfit_joint* items,
                                   uint32_t stride, uint32_t count) {
-    HostTable& t = of(self);
-    return t.guard("frame_body", [&] {
+    return enter(self, "frame_body", [&](HostTable& t) {
         const Body value = read_body(body, items, stride, count);
         std::lock_guard lock(t.mutex_);
         std::vector<Body>& bodies = t.filling(handle).frame->bodies;
@@ -153,8 +148,7 @@ vfit_result HostTable::frame_body(void* self, vfit_frame handle, const vfit_body
 }
 
 vfit_result HostTable::frame_meta(void* self, vfit_frame handle, const char* key, const char* json) {
-    HostTable& t = of(self);
-    return t.guard("frame_meta", [&] {
+    return enter(self, "frame_meta", [&](HostTable& t) {
         if (!key || !json) fail(VFIT_ERROR_ARGUMENT, "key or json is null");
         const size_t key_length = bounded_length(key, kMaxMetaKey + 1);
         const size_t json_length = bounded_length(json, kMaxMetaJson + 1);
@@ -170,8 +164,7 @@ vfit_result HostTable::frame_meta(void* self, vfit_frame handle, const char* key
 }
 
 vfit_result HostTable::frame_push(void* self, void* token, vfit_frame handle, int64_t time_ns) {
-    HostTable& t = of(self);
-    return t.guard("frame_push", [&] {
+    return enter(self, "frame_push", [&](HostTable& t) {
         Filling filling = t.take_filling(handle);
         // From here on the plug-in's id is dead, whatever comes.
         Handles::instance().release(filling.id, Kind::frame);
@@ -181,8 +174,7 @@ vfit_result HostTable::frame_push(void* self, void* token, vfit_frame handle, in
 }
 
 void HostTable::frame_drop(void* self, vfit_frame handle) {
-    HostTable& t = of(self);
-    t.guard("frame_drop", [&] {
+    enter(self, "frame_drop", [&](HostTable& t) {
         const Filling filling = t.take_filling(handle);
         Handles::instance().release(filling.id, Kind::frame);
     });

@@ -146,8 +146,7 @@ HostTable::Filling HostTable::take_filling(vfit_frame frame) {
 }
 
 void HostTable::log(void* self, vfit_log_level level, const char* message) {
-    HostTable& t = of(self);
-    t.guard("log", [&] {
+    enter(self, "log", [&](HostTable& t) {
         std::string line;
         {
             std::lock_guard lock(t.mutex_);
@@ -159,8 +158,7 @@ void HostTable::log(void* self, vfit_log_level level, const char* message) {
 }
 
 void HostTable::sensor_added(void* self, const vfit_sensor_info* info) {
-    HostTable& t = of(self);
-    t.guard("sensor_added", [&] {
+    enter(self, "sensor_added", [&](HostTable& t) {
         vfit_sensor_info in = read_sized(info, "info");
         end_text(in.uri);
         end_text(in.name);
@@ -180,8 +178,7 @@ void HostTable::sensor_added(void* self, const vfit_sensor_info* info) {
 }
 
 void HostTable::sensor_removed(void* self, const char* uri) {
-    HostTable& t = of(self);
-    t.guard("sensor_removed", [&] {
+    enter(self, "sensor_removed", [&](HostTable& t) {
         const std::string gone = bounded_text(uri, sizeof vfit_sensor_info{}.uri);
         std::lock_guard lock(t.mutex_);
         std::erase_if(t.sensors_, [&](const KnownSensor& s) { return gone == s.info.uri; });
@@ -191,8 +188,7 @@ void HostTable::sensor_removed(void* self, const char* uri) {
 int64_t HostTable::time_ns(void*) { return now_ns(); }
 
 void HostTable::stream_state(void* self, void* token, vfit_result state, const char* message) {
-    HostTable& t = of(self);
-    t.guard("stream_state", [&] {
+    enter(self, "stream_state", [&](HostTable& t) {
         if (state > 0 && state != VFIT_END_OF_STREAM)
             fail(VFIT_ERROR_ARGUMENT, "state ", state, " is neither an error nor the end of the stream");
         std::string sentence = bounded_text(message, kMaxMessage);

@@ -55,17 +55,19 @@ private:
         bool fresh = false;
     };
 
-    static HostTable& of(void* self) { return *static_cast<HostTable*>(self); }
+    /// Every callback runs inside: nothing that is thrown reaches the plug-in.
     template <typename Body>
-    vfit_result guard(const char* what, Body&& body) noexcept {
+    static vfit_result enter(void* self, const char* what, Body&& body) noexcept {
+        if (!self) return VFIT_ERROR_ARGUMENT;
+        HostTable& table = *static_cast<HostTable*>(self);
         try {
             try {
-                body();
+                body(table);
                 return VFIT_OK;
             } catch (const Error& error) {
                 // Everyday answers: no frame is free, or the host is stopping the stream.
                 if (error.code() != VFIT_ERROR_BUSY && error.code() != VFIT_ERROR_STATE)
-                    complain(text(what, ": ", error.what()));
+                    table.complain(text(what, ": ", error.what()));
                 return error.code();
             } catch (const std::bad_alloc&) {
                 return VFIT_ERROR_OUT_OF_MEMORY;

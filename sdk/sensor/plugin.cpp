@@ -49,7 +49,12 @@ Plugin::Plugin(Log& log, std::function<uint64_t()> context_id, std::string path,
     if (result != VFIT_OK) fail(VFIT_ERROR_PLUGIN, info_.path, ": refuses to load, result ", result);
     if (negotiated.table.abi != VFIT_PLUGIN_ABI)
         fail(VFIT_ERROR_VERSION, needs, "; it asks for ", negotiated.table.abi);
-    check_table(negotiated.table);
+    try {
+        check_table(negotiated.table);
+    } catch (const Error&) {
+        if (negotiated.table.shutdown) negotiated.table.shutdown(negotiated.table.self);
+        throw;
+    }
     table_ = negotiated.table;
     host_.set_name(info_.name);
 }

@@ -22,6 +22,20 @@ int reflect(int i, int count) {
     return i;
 }
 
+/// Marks the person's readings of one row and counts them. Free of branches, so that it is vectorised.
+uint32_t mark_row(const DepthImage& image, size_t row, uint32_t user_id, uint8_t* mask) {
+    const uint16_t* const raw = image.depth + row;
+    const uint8_t* const users = image.users + row;
+    const uint8_t id = uint8_t(user_id);
+    uint32_t count = 0;
+    for (uint32_t x = 0; x < image.width(); ++x) {
+        const uint8_t measured = uint8_t(users[x] == id) & uint8_t(raw[x] != 0);
+        mask[x] = measured;
+        count += measured;
+    }
+    return count;
+}
+
 }  // namespace
 
 DepthFilter::DepthFilter(int kernel_px) {
@@ -70,46 +84,51 @@ void DepthFilter::extract(const DepthImage& image, uint32_t user_id, FilteredDep
     for (int y = 0; y < height; ++y) {
         const size_t row = size_t(y) * out.width;
         uint8_t* const mask = mask_.data() + row;
-        float* const depth = depth_.data() + row;
-        std::fill_n(mask, width, uint8_t(FilteredDepth::kBackground));
-        if (!possible) continue;
+        const uint32_t count = possible ? mark_row(image, row, user_id, mask) : 0;
+        if (count == 0) {
+            std::fill_n(mask, width, uint8_t(FilteredDepth::kBackground));
+            continue;
+        }
+        const auto measured = [](uint8_t m) { return m != FilteredDepth::kBackground; };
+        const int first = int(std::find_if(mask, mask + width, measured) - mask);
+        int last = width - 1;
+        while (!measured(mask[last])) --last;
 
         const uint16_t* const raw = image.depth + row;
-        const uint8_t* const users = image.users + row;
-        int first = width, last = -1;
-        for (int x = 0; x < width; ++x) {
-            if (users[x] != user_id || raw[x] == 0) continue;
-            mask[x] = FilteredDepth::kMeasured;
+        float* const depth = depth_.data() + row;
+        uint32_t row_sum = 0;
+        for (int x = first; x <= last; ++x) {
             depth[x] = float(raw[x]) * unit;
-            sum += raw[x];
-            ++out.pixels;
-            first = std::min(first, x);
-            last = x;
+            row_sum += mask[x] * uint32_t(raw[x]);  // kMeasured is 1
         }
-        if (last < 0) continue;
+        sum += row_sum;
+        out.pixels += count;
         box = {std::min(box.x0, first), std::min(box.y0, y), std::max(box.x1, last + 1), y + 1};
-        patch_row(uint32_t(y), image, user_id, out);
+        if (count < uint32_t(last - first + 1)) patch_row(image, row, first, last, user_id, out);
     }
 
     out.box = out.pixels > 0 ? box : PixelBox{};
     out.mean_m = out.pixels > 0 ? float(double(sum) / out.pixels * unit) : 0.0f;
-    const size_t count = size_t(width) * size_t(height);
-    for (size_t i = 0; i < count; ++i)
-        if (mask_[i] == FilteredDepth::kBackground) depth_[i] = out.mean_m;
+    const int reach = 2 * int(weights_.size()) - 2;  // as far as smooth() looks beyond the box
+    const int x0 = std::max(0, out.box.x0 - reach), x1 = std::min(width, out.box.x1 + reach);
+    for (int y = std::max(0, out.box.y0 - reach); y < std::min(height, out.box.y1 + reach); ++y) {
+        const size_t row = size_t(y) * out.width;
+        for (size_t i = row + size_t(x0); i < row + size_t(x1); ++i)
+            depth_[i] = mask_[i] == FilteredDepth::kBackground ? out.mean_m : depth_[i];
+    }
 }
 
-void DepthFilter::patch_row(uint32_t y, const DepthImage& image, uint32_t user_id, FilteredDepth& out) {
-    const int width = int(out.width);
-    const size_t row = size_t(y) * out.width;
+void DepthFilter::patch_row(const DepthImage& image, size_t row, int first, int last, uint32_t user_id,
+                            FilteredDepth& out) {
     uint8_t* const mask = mask_.data() + row;
     float* const depth = depth_.data() + row;
     const int longest_hole = 2 * int(weights_.size()) - 1;
 
-    int left = -1;  // the last reading so far
-    for (int x = 0; x < width; ++x) {
+    int left = first;  // the last reading so far
+    for (int x = first + 1; x <= last; ++x) {
         if (mask[x] != FilteredDepth::kMeasured) continue;
         const int hole = x - left - 1;
-        if (left >= 0 && hole > 0) {
+        if (hole > 0) {
             bool empty = true, marked = true;
             for (int i = left + 1; i < x; ++i) {
                 empty = empty && image.depth[row + size_t(i)] == 0;

@@ -57,7 +57,7 @@ public:
 
 private:
     void extract(const DepthImage& image, uint32_t user_id, FilteredDepth& out);
-    void patch_row(uint32_t y, const DepthImage& image, uint32_t user_id, FilteredDepth& out);
+    void patch_row(const DepthImage& image, size_t row, int first, int last, uint32_t user_id, FilteredDepth& out);
     void smooth(FilteredDepth& out);
 
     std::vector<float> weights_;            // one side of the symmetric kernel, centre first

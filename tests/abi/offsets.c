@@ -258,6 +258,15 @@ OFFSET(vfit_rig_bone, rest_position, 12);
 OFFSET(vfit_rig_bone, name, 24);
 SIZE(vfit_rig_bone, 72);
 
+OFFSET(vfit_garment_info, struct_size, 0);
+OFFSET(vfit_garment_info, vertex_count, 4);
+OFFSET(vfit_garment_info, simulated_count, 8);
+OFFSET(vfit_garment_info, size_count, 12);
+OFFSET(vfit_garment_info, name, 16);
+OFFSET(vfit_garment_info, garment_kind, 80);
+OFFSET(vfit_garment_info, fabric, 112);
+SIZE(vfit_garment_info, 144);
+
 OFFSET(vfit_cloth_desc, struct_size, 0);
 OFFSET(vfit_cloth_desc, substeps, 4);
 OFFSET(vfit_cloth_desc, gravity, 8);

@@ -65,7 +65,7 @@ TEST(SplitLimbWeights, KeepTheShareOfOtherBonesAndSumToOne) {
         for (size_t k = 0; k < kSkinBones; ++k) {
             sum += tube.weights[v][k];
             if (tube.bones[v][k] == hand) of_hand += tube.weights[v][k];
-            if (k > 0) EXPECT_LE(tube.weights[v][k], tube.weights[v][k - 1]);
+            EXPECT_LE(tube.weights[v][k], tube.weights[v][k > 0 ? k - 1 : 0]);
         }
         EXPECT_NEAR(sum, 1.0f, 1e-6f);
         EXPECT_NEAR(of_hand, 0.4f, 1e-6f);

@@ -1,0 +1,69 @@
+#include "cook/garment_writer.h"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace vfit {
+
+namespace {
+
+void add(std::string& out, float value) {
+    char buffer[48];
+    const int length = std::snprintf(buffer, sizeof buffer, "%.5f", double(value));
+    out.append(buffer, size_t(length));
+}
+void add(std::string& out, uint32_t value) { out += std::to_string(value); }
+void add(std::string& out, uint8_t value) { out += char('0' + value); }
+void add(std::string& out, const Vec2& v) {
+    add(out, v.x);
+    out += ',';
+    add(out, v.y);
+}
+void add(std::string& out, const Vec3& v) {
+    add(out, Vec2(v));
+    out += ',';
+    add(out, v.z);
+}
+
+template <typename T>
+void add_array(std::string& out, const char* key, const std::vector<T>& values) {
+    out += std::string(" \"") + key + "\": [";
+    for (size_t i = 0; i < values.size(); ++i) {
+        if (i > 0) out += ',';
+        add(out, values[i]);
+    }
+    out += "]";
+}
+
+}  // namespace
+
+std::string write_garment(const Garment& garment) {
+    const auto quoted = [](const std::string& s) { return nlohmann::json(s).dump(); };
+    std::string out = "{\n \"format\": \"vfit-garment\", \"version\": 1,\n";
+    out += " \"name\": " + quoted(garment.name) + ", \"kind\": " + quoted(garment.kind);
+    out += ", \"fabric\": " + quoted(garment.fabric);
+    out += std::string(", \"body_sex\": \"") + (garment.body_sex == VFIT_SEX_MALE ? "m" : "f") + "\",\n";
+    out += " \"sizes\": [";
+    for (size_t i = 0; i < garment.sizes.size(); ++i) {
+        out += (i > 0 ? ", " : "") + std::string("{\"label\": ") + quoted(garment.sizes[i].label);
+        for (const Measurement& m : garment.sizes[i].nominal) {
+            out += ", " + quoted(m.key) + ": ";
+            add(out, m.value);
+        }
+        out += "}";
+    }
+    out += "],\n";
+    add_array(out, "positions", garment.mesh.positions);
+    out += ",\n";
+    add_array(out, "uvs", garment.mesh.uvs);
+    out += ",\n";
+    add_array(out, "indices", garment.mesh.indices);
+    out += ",\n";
+    add_array(out, "simulated", garment.simulated);
+    out += ",\n";
+    add_array(out, "backstop", garment.backstop);
+    out += "\n}\n";
+    return out;
+}
+
+}  // namespace vfit

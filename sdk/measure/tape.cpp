@@ -1,0 +1,131 @@
+// Reads every measure off a body's landmarks and sections.
+#include "measure/tape.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "measure/measure_keys.h"
+#include "measure/tape_landmarks.h"
+
+namespace vfit {
+
+namespace {
+
+constexpr Side kSides[] = {Side::kLeft, Side::kRight};
+
+/// Mean of the two sides.
+template <typename Function>
+float both(const Function& value) {
+    return 0.5f * (value(Side::kLeft) + value(Side::kRight));
+}
+
+struct Joints {
+    int shoulder, elbow, wrist, hip;
+};
+Joints joints_of(Side side) {
+    if (side == Side::kLeft)
+        return {VFIT_JOINT_LEFT_SHOULDER, VFIT_JOINT_LEFT_ELBOW, VFIT_JOINT_LEFT_WRIST, VFIT_JOINT_LEFT_HIP};
+    return {VFIT_JOINT_RIGHT_SHOULDER, VFIT_JOINT_RIGHT_ELBOW, VFIT_JOINT_RIGHT_WRIST, VFIT_JOINT_RIGHT_HIP};
+}
+
+/// Collects in the order of measure_keys().
+class Sheet {
+public:
+    void set(const char* key, float value) { list_.push_back({key, value, 0.0f, true}); }
+    std::vector<Measurement> sorted() && {
+        std::sort(list_.begin(), list_.end(), [](const Measurement& a, const Measurement& b) {
+            return measure_index(a.key) < measure_index(b.key);
+        });
+        return std::move(list_);
+    }
+
+private:
+    std::vector<Measurement> list_;
+};
+
+void measure_trunk(const TapeMesh& body, Sheet& sheet) {
+    const float crotch = crotch_height(body), armpit = armpit_height(body), waist = waist_height(body);
+    const auto girth = [&](const char* girth_key, const char* breadth_key, const char* depth_key, float y) {
+        const std::vector<Vec2> outline = body.trunk(y).points();
+        const Extent size = extent(outline);
+        sheet.set(girth_key, hull_perimeter(outline));
+        sheet.set(breadth_key, size.breadth());
+        sheet.set(depth_key, size.depth());
+    };
+    girth("chest_girth_m", "chest_breadth_m", "chest_depth_m", chest_height(body, armpit));
+    girth("waist_girth_m", "waist_breadth_m", "waist_depth_m", waist);
+    girth("hip_girth_m", "hip_breadth_m", "hip_depth_m", hip_height(body, crotch, waist));
+    const float underbust = underbust_height(body, armpit, waist);
+    sheet.set("underbust_girth_m", hull_perimeter(body.trunk(underbust).points()));
+    sheet.set("inside_leg_m", crotch - body.floor());
+    sheet.set("hip_height_m", both([&](Side s) { return body.joint(joints_of(s).hip).y; }) - body.floor());
+    sheet.set("torso_height_m", glm::distance(body.joint(VFIT_JOINT_NECK), body.joint(VFIT_JOINT_PELVIS)));
+}
+
+void measure_limbs(const TapeMesh& body, Sheet& sheet) {
+    // Below these shares knee and elbow begin.
+    constexpr float kThighShare = 0.6f, kUpperArmShare = 0.7f;
+    const Axis spine = body.spine();
+    sheet.set("thigh_girth_m", both([&](Side s) {
+        return largest_limb_girth(body, body.thigh(s), kThighShare,
+                                  body.thigh(s == Side::kLeft ? Side::kRight : Side::kLeft));
+    }));
+    sheet.set("upper_arm_girth_m",
+              both([&](Side s) { return largest_limb_girth(body, body.upper_arm(s), kUpperArmShare, spine); }));
+    const auto between = [&](int a, int b) { return glm::distance(body.joint(a), body.joint(b)); };
+    sheet.set("arm_length_m", both([&](Side s) {
+        const Joints j = joints_of(s);
+        return glm::distance(acromion(body, s), body.joint(j.elbow)) + between(j.elbow, j.wrist);
+    }));
+    const auto hand = [&](Side s) { return glm::distance(body.joint(joints_of(s).wrist), fingertip(body, s)); };
+    sheet.set("hand_length_m", both(hand));
+    sheet.set("elbow_fingertip_m",
+              both([&](Side s) { return between(joints_of(s).elbow, joints_of(s).wrist) + hand(s); }));
+}
+
+void measure_head(const TapeMesh& body, Sheet& sheet) {
+    const Axis neck = neck_axis(body);
+    const Vec3 place = neck.start + neck_place(body) * neck.direction();
+    const Section section = body.across(place, neck.direction());
+    const auto* loop = loop_about(section, place);
+    if (!loop) fail(VFIT_ERROR_DATA, "the body has no neck about the line from its NECK to its HEAD joint");
+    sheet.set("neck_girth_m", hull_perimeter(*loop));
+    const float chin = chin_height(body);
+    sheet.set("head_height_m", body.crown() - chin);
+    sheet.set("head_width_m", skull_breadth(body, chin));
+}
+
+/// Largest horizontal breadth over the deltoids: the outermost points of the two upper arms' upper halves (the
+/// deltoid ends at the middle of the humerus).
+float bideltoid_breadth(const TapeMesh& body) {
+    const TapeBody& b = body.body();
+    float breadth = 0.0f;
+    for (const Side side : kSides) {
+        const Axis arm = body.upper_arm(side);
+        const BodyPart part = side == Side::kLeft ? BodyPart::kLeftUpperArm : BodyPart::kRightUpperArm;
+        const float lowest = arm.at(0.5f).y, sign = side == Side::kLeft ? 1.0f : -1.0f;
+        float outermost = sign * arm.start.x;
+        for (size_t i = 0; i < b.positions.size(); ++i)
+            if (b.parts[i] == part && b.positions[i].y >= lowest)
+                outermost = std::max(outermost, sign * b.positions[i].x);
+        breadth += outermost;
+    }
+    return breadth;
+}
+
+}  // namespace
+
+std::vector<Measurement> tape_measures(const TapePostures& postures) {
+    const TapeMesh body(postures.arms_out), arms_down(postures.arms_down), feet_together(postures.feet_together);
+    Sheet sheet;
+    sheet.set("stature_m", feet_together.height());
+    sheet.set("shoulder_breadth_m", bideltoid_breadth(arms_down));
+    sheet.set("biacromial_breadth_m", glm::distance(acromion(arms_down, Side::kLeft), acromion(arms_down, Side::kRight)));
+    measure_trunk(body, sheet);
+    measure_limbs(body, sheet);
+    measure_head(body, sheet);
+    return std::move(sheet).sorted();
+}
+
+}  // namespace vfit

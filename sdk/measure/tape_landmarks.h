@@ -1,0 +1,61 @@
+// Landmarks and levels of a body's skin, each by a stated rule. Heights are in the body's own space.
+// VFIT_ERROR_DATA where a body has none such.
+#pragma once
+
+#include "measure/tape_mesh.h"
+
+namespace vfit {
+
+/// Where the legs part: the highest level whose sections of the two thighs are two loops.
+float crotch_height(const TapeMesh& body);
+
+/// Where the arm leaves the trunk: the highest level whose sections of arm and trunk are two loops, the lower
+/// of the two sides.
+float armpit_height(const TapeMesh& body);
+
+/// Midway between the lowest rib and the iliac crest (ISO 8559-1 5.3.10). A mesh shows neither: the level is
+/// taken at the share of the way from the hip joints to the joint at the foot of the neck at which it lies
+/// in people. The narrowest level is another: it lies near the lowest rib, and stout bodies have none.
+float waist_height(const TapeMesh& body);
+
+/// The bust point of the side: most forward point of the chest between the rib arch and the armpit.
+Vec3 bust_point(const TapeMesh& body, Side side, float armpit);
+
+/// Men: level of the largest girth between the rib arch and the armpit. Women: of the bust points.
+float chest_height(const TapeMesh& body, float armpit);
+
+/// Directly below the breast: the place of the front's profile, through the bust point, that lies deepest behind
+/// the straight line from the bust point down to the waist.
+float underbust_height(const TapeMesh& body, float armpit, float waist);
+
+/// Level of the largest girth between the crotch and halfway from the hip joints up to the waist.
+float hip_height(const TapeMesh& body, float crotch, float waist);
+
+/// From the joint at the foot of the neck to the middle of the head.
+Axis neck_axis(const TapeMesh& body);
+
+/// Where along the neck's axis the girth square to it is smallest. Trapezius and jaw lie to its two sides, and both
+/// are wider.
+float neck_place(const TapeMesh& body);
+
+/// Outermost point of the acromion, on the skin: where the shoulder's outline, seen from the front, turns from
+/// the top to the side.
+Vec3 acromion(const TapeMesh& body, Side side);
+
+/// Lowest point of the chin: of the head in front of the plane halfway between throat and tip of the nose.
+float chin_height(const TapeMesh& body);
+
+/// Largest breadth of the skull above the ears.
+float skull_breadth(const TapeMesh& body, float chin);
+
+/// Tip of the middle finger: the point of the hand farthest from the wrist.
+Vec3 fingertip(const TapeMesh& body, Side side);
+
+/// Tape about a limb, square to its axis, that many metres along it; 0 where the section is not of the limb
+/// alone, but holds the trunk's or the other limb's axis as well.
+float limb_girth(const TapeMesh& body, const Axis& limb, float along_m, const Axis& apart);
+
+/// The largest limb_girth between the limb's start and that share of its length.
+float largest_limb_girth(const TapeMesh& body, const Axis& limb, float share, const Axis& apart);
+
+}  // namespace vfit

@@ -1,0 +1,94 @@
+// Checks a body mesh and cuts it.
+#include "measure/tape_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "math/finite.h"
+
+namespace vfit {
+
+namespace {
+
+const Vec3 kUp(0, 1, 0);
+
+constexpr int kNeededJoints[] = {
+    VFIT_JOINT_HEAD,          VFIT_JOINT_NECK,       VFIT_JOINT_TORSO,       VFIT_JOINT_PELVIS,
+    VFIT_JOINT_LEFT_SHOULDER, VFIT_JOINT_LEFT_ELBOW, VFIT_JOINT_LEFT_WRIST,  VFIT_JOINT_LEFT_HIP,
+    VFIT_JOINT_LEFT_KNEE,     VFIT_JOINT_LEFT_FOOT,  VFIT_JOINT_RIGHT_FOOT,  VFIT_JOINT_RIGHT_SHOULDER,
+    VFIT_JOINT_RIGHT_ELBOW,   VFIT_JOINT_RIGHT_WRIST, VFIT_JOINT_RIGHT_HIP,  VFIT_JOINT_RIGHT_KNEE};
+
+bool is_arm(BodyPart part) {
+    switch (part) {
+        case BodyPart::kLeftUpperArm:
+        case BodyPart::kLeftForearm:
+        case BodyPart::kLeftHand:
+        case BodyPart::kRightUpperArm:
+        case BodyPart::kRightForearm:
+        case BodyPart::kRightHand: return true;
+        default: return false;
+    }
+}
+
+void check(const TapeBody& body) {
+    if (body.positions.empty() || body.indices.empty()) fail(VFIT_ERROR_DATA, "the body has no mesh to measure");
+    if (body.indices.size() % 3 != 0) fail(VFIT_ERROR_DATA, "the body's indices are not three a triangle");
+    if (body.parts.size() < body.positions.size())
+        fail(VFIT_ERROR_DATA, "the body has parts for ", body.parts.size(), " of ", body.positions.size(), " vertices");
+    for (const Vec3& p : body.positions)
+        if (!finite(p)) fail(VFIT_ERROR_DATA, "the body has a vertex that is not finite");
+    for (const uint32_t i : body.indices)
+        if (i >= body.positions.size())
+            fail(VFIT_ERROR_DATA, "a triangle names vertex ", i, " of ", body.positions.size());
+    for (const int joint : kNeededJoints)
+        if (!body.joints.has(joint) || !finite(body.joints.at(joint)))
+            fail(VFIT_ERROR_DATA, "the body to measure has no joint ", joint_name(joint));
+}
+
+}  // namespace
+
+TapeMesh::TapeMesh(const TapeBody& body) : body_(body) {
+    check(body);
+    trunk_indices_.reserve(body.indices.size());
+    for (size_t t = 0; t < body.indices.size(); t += 3) {
+        int arm_corners = 0;
+        for (size_t k = t; k < t + 3; ++k) arm_corners += is_arm(body.parts[body.indices[k]]);
+        if (arm_corners < 2)
+            trunk_indices_.insert(trunk_indices_.end(), body.indices.begin() + std::ptrdiff_t(t),
+                                  body.indices.begin() + std::ptrdiff_t(t) + 3);
+    }
+    const auto [low, high] = std::minmax_element(body.positions.begin(), body.positions.end(),
+                                                 [](const Vec3& a, const Vec3& b) { return a.y < b.y; });
+    floor_ = low->y;
+    crown_ = high->y;
+}
+
+Axis TapeMesh::upper_arm(Side side) const {
+    return side == Side::kLeft ? Axis{joint(VFIT_JOINT_LEFT_SHOULDER), joint(VFIT_JOINT_LEFT_ELBOW)}
+                               : Axis{joint(VFIT_JOINT_RIGHT_SHOULDER), joint(VFIT_JOINT_RIGHT_ELBOW)};
+}
+
+Axis TapeMesh::thigh(Side side) const {
+    return side == Side::kLeft ? Axis{joint(VFIT_JOINT_LEFT_HIP), joint(VFIT_JOINT_LEFT_KNEE)}
+                               : Axis{joint(VFIT_JOINT_RIGHT_HIP), joint(VFIT_JOINT_RIGHT_KNEE)};
+}
+
+Axis TapeMesh::spine() const { return {joint(VFIT_JOINT_PELVIS), joint(VFIT_JOINT_NECK)}; }
+
+Section TapeMesh::level(float y) const { return cut(body_.positions, body_.indices, {0, y, 0}, kUp); }
+Section TapeMesh::trunk(float y) const { return cut(body_.positions, trunk_indices_, {0, y, 0}, kUp); }
+Section TapeMesh::across(const Vec3& place, const Vec3& axis) const {
+    return cut(body_.positions, body_.indices, place, axis);
+}
+
+const std::vector<Vec2>* loop_about(const Section& section, const Vec3& place) {
+    const Vec3 p = place - section.origin;
+    const Vec2 in_plane(glm::dot(p, section.u), glm::dot(p, section.v));
+    const std::vector<Vec2>* best = nullptr;
+    for (const auto& loop : section.loops)
+        if (encloses(loop, in_plane) && (!best || std::abs(area(loop)) < std::abs(area(*best)))) best = &loop;
+    return best;
+}
+
+}  // namespace vfit

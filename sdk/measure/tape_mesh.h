@@ -1,0 +1,85 @@
+// A checked body mesh, ready to be cut: which triangles are trunk, where the limbs' axes run.
+#pragma once
+
+#include <vector>
+
+#include "measure/section.h"
+#include "measure/tape.h"
+
+namespace vfit {
+
+struct Axis {
+    Vec3 start, end;
+
+    Vec3 direction() const { return glm::normalize(end - start); }
+    Vec3 at(float share) const { return glm::mix(start, end, share); }
+    /// Where the line passes that height.
+    Vec3 at_height(float y) const { return at((y - start.y) / (end.y - start.y)); }
+};
+
+enum class Side { kLeft, kRight };
+
+class TapeMesh {
+public:
+    /// VFIT_ERROR_DATA as tape_measures says. The body must outlive it.
+    explicit TapeMesh(const TapeBody& body);
+
+    const TapeBody& body() const { return body_; }
+    const Vec3& joint(int id) const { return body_.joints.at(id); }
+    Axis upper_arm(Side side) const;
+    Axis thigh(Side side) const;
+    /// Through pelvis and neck, straight: inside the trunk at every height between.
+    Axis spine() const;
+
+    float floor() const { return floor_; }
+    float crown() const { return crown_; }
+    float height() const { return crown_ - floor_; }
+
+    /// Horizontal section of the whole body.
+    Section level(float y) const;
+    /// Horizontal section of the body without its arms: triangles carried mostly by upper arm, forearm and
+    /// hand are left out.
+    Section trunk(float y) const;
+    /// Section of the whole body.
+    Section across(const Vec3& place, const Vec3& axis) const;
+
+private:
+    const TapeBody& body_;
+    std::vector<uint32_t> trunk_indices_;
+    float floor_ = 0.0f, crown_ = 0.0f;
+};
+
+/// The smallest loop about the place; null where none encloses it.
+const std::vector<Vec2>* loop_about(const Section& section, const Vec3& place);
+
+/// The place between low and high where the function is largest: a scan of even steps, then the best step's
+/// surroundings again, down to half a millimetre.
+template <typename Function>
+float place_of_largest(float low, float high, const Function& value) {
+    constexpr int kSteps = 12;
+    constexpr float kFine_m = 0.0005f;  // a fifth of the tape's own reading error
+    for (;;) {
+        const float step = (high - low) / kSteps;
+        float best = low, best_value = value(low);
+        for (int i = 1; i <= kSteps; ++i) {
+            const float at = low + step * static_cast<float>(i), here = value(at);
+            if (here > best_value) best = at, best_value = here;
+        }
+        if (step <= kFine_m) return best;
+        low = best - step < low ? low : best - step;
+        high = best + step > high ? high : best + step;
+    }
+}
+
+/// The border between low, where the condition holds, and high, where it does not, to a tenth of a millimetre.
+template <typename Condition>
+float border(float low, float high, const Condition& holds) {
+    constexpr float kFine_m = 0.0001f;
+    while (std::abs(high - low) > kFine_m) {
+        const float middle = 0.5f * (low + high);
+        (holds(middle) ? low : high) = middle;
+    }
+    return low;
+}
+
+}  // namespace vfit

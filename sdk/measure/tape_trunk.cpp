@@ -1,0 +1,125 @@
+// Levels of the trunk: crotch, hip, waist, chest, armpit.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "measure/tape_landmarks.h"
+
+namespace vfit {
+
+namespace {
+
+/// Height of the waist's level as a share of the way from the hip joint to the foot of the neck, from the mean
+/// heights of ANSUR II: trochanterion, cervicale, and the mean of tenth rib and iliac crest.
+/// Women (0.630 - 0.519) / (0.857 - 0.519), men (0.621 - 0.513) / (0.864 - 0.513) of stature.
+constexpr float kWaistShareWomen = 0.328f, kWaistShareMen = 0.308f;
+
+/// The rib arch as a share of the way from the waist to the foot of the neck; the breasts lie above it. By the
+/// same tables the chest's level lies at 0.39 (women, 0.719 of stature) and 0.47 (men, 0.735).
+constexpr float kRibArchShare = 0.2f;
+
+float hip_joints_height(const TapeMesh& body) {
+    return 0.5f * (body.joint(VFIT_JOINT_LEFT_HIP).y + body.joint(VFIT_JOINT_RIGHT_HIP).y);
+}
+
+float rib_arch_height(const TapeMesh& body) {
+    return glm::mix(waist_height(body), body.joint(VFIT_JOINT_NECK).y, kRibArchShare);
+}
+
+float trunk_girth(const TapeMesh& body, float y) { return hull_perimeter(body.trunk(y).points()); }
+
+bool legs_apart(const TapeMesh& body, float y) {
+    const Section section = body.trunk(y);
+    const auto* left = loop_about(section, body.thigh(Side::kLeft).at_height(y));
+    const auto* right = loop_about(section, body.thigh(Side::kRight).at_height(y));
+    return left && right && left != right;
+}
+
+bool arm_apart(const TapeMesh& body, Side side, float y) {
+    const Section section = body.level(y);
+    const auto* arm = loop_about(section, body.upper_arm(side).at_height(y));
+    return arm && arm != loop_about(section, body.spine().at_height(y));
+}
+
+float armpit_height(const TapeMesh& body, Side side) {
+    const Axis arm = body.upper_arm(side);
+    // Just above the elbow's joint, whose own level may cut the forearm of a bent arm.
+    const float low = arm.at(0.9f).y, high = arm.start.y;
+    if (!(low < high) || !arm_apart(body, side, low) || arm_apart(body, side, high))
+        fail(VFIT_ERROR_DATA, "the body's arms do not hang clear of its trunk");
+    return border(low, high, [&](float y) { return arm_apart(body, side, y); });
+}
+
+/// The frontmost z at which an outline in the plane x = constant passes that height; -infinity where none does.
+float front_at(const Section& profile, float y) {
+    float front = -std::numeric_limits<float>::infinity();
+    for (const auto& loop : profile.loops)
+        for (size_t i = 0; i < loop.size(); ++i) {
+            const Vec3 a = profile.lift(loop[i]), b = profile.lift(loop[(i + 1) % loop.size()]);
+            if ((a.y > y) != (b.y > y)) front = std::max(front, glm::mix(a.z, b.z, (y - a.y) / (b.y - a.y)));
+        }
+    return front;
+}
+
+}  // namespace
+
+float crotch_height(const TapeMesh& body) {
+    const float high = hip_joints_height(body);
+    const float knees = 0.5f * (body.joint(VFIT_JOINT_LEFT_KNEE).y + body.joint(VFIT_JOINT_RIGHT_KNEE).y);
+    const float low = 0.5f * (high + knees);
+    if (!(low < high) || !legs_apart(body, low) || legs_apart(body, high))
+        fail(VFIT_ERROR_DATA, "the body's legs do not part between its hips and the middle of its thighs");
+    return border(low, high, [&](float y) { return legs_apart(body, y); });
+}
+
+float armpit_height(const TapeMesh& body) {
+    return std::min(armpit_height(body, Side::kLeft), armpit_height(body, Side::kRight));
+}
+
+float waist_height(const TapeMesh& body) {
+    const vfit_sex sex = body.body().sex;
+    const float share = sex == VFIT_SEX_FEMALE ? kWaistShareWomen
+                        : sex == VFIT_SEX_MALE ? kWaistShareMen
+                                               : 0.5f * (kWaistShareWomen + kWaistShareMen);
+    return glm::mix(hip_joints_height(body), body.joint(VFIT_JOINT_NECK).y, share);
+}
+
+Vec3 bust_point(const TapeMesh& body, Side side, float armpit) {
+    const float low = rib_arch_height(body), middle = body.joint(VFIT_JOINT_NECK).x;
+    const TapeBody& b = body.body();
+    const Vec3* best = nullptr;
+    for (size_t i = 0; i < b.positions.size(); ++i) {
+        const Vec3& p = b.positions[i];
+        if (b.parts[i] != BodyPart::kTorso || p.y < low || p.y > armpit || (p.x > middle) != (side == Side::kLeft)) continue;
+        if (!best || p.z > best->z) best = &p;
+    }
+    if (!best) fail(VFIT_ERROR_DATA, "the body has no chest between its ribs and its armpits");
+    return *best;
+}
+
+float chest_height(const TapeMesh& body, float armpit) {
+    if (body.body().sex == VFIT_SEX_FEMALE)
+        return 0.5f * (bust_point(body, Side::kLeft, armpit).y + bust_point(body, Side::kRight, armpit).y);
+    return place_of_largest(rib_arch_height(body), armpit, [&](float y) { return trunk_girth(body, y); });
+}
+
+float underbust_height(const TapeMesh& body, float armpit, float waist) {
+    float height = 0.0f;
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+        const Vec3 bust = bust_point(body, side, armpit);
+        const Section profile = body.across(bust, Vec3(1, 0, 0));
+        const float slope = (bust.z - front_at(profile, waist)) / (bust.y - waist);
+        height += 0.5f * place_of_largest(waist, bust.y, [&](float y) {
+            return bust.z + slope * (y - bust.y) - front_at(profile, y);
+        });
+    }
+    return height;
+}
+
+float hip_height(const TapeMesh& body, float crotch, float waist) {
+    const float high = 0.5f * (hip_joints_height(body) + waist);
+    return place_of_largest(crotch, high, [&](float y) { return trunk_girth(body, y); });
+}
+
+}  // namespace vfit

@@ -1,0 +1,255 @@
+#include "motion/motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "math/finite.h"
+#include "math/quaternion.h"
+#include "motion/body_filter.h"
+#include "motion/bone_solver.h"
+#include "motion/foot_contact.h"
+#include "motion/foot_planter.h"
+#include "motion/joint_feet.h"
+#include "motion/joint_limits.h"
+#include "motion/proportions.h"
+#include "motion/rotation_smoothing.h"
+
+namespace vfit {
+
+namespace {
+
+// For so long after a foot was planted the larger divisor smooths (paper 3.3.4, step 4): half the double
+// support of a slow gait.
+constexpr int64_t kSwitchTimeNs = 250'000'000;
+
+size_t at(int id) { return static_cast<size_t>(id); }
+
+void check_share(float value, const char* name) {
+    if (!(value >= 0.0f && value <= 1.0f))
+        fail(VFIT_ERROR_ARGUMENT, "motion ", name, " is ", value, ", not in 0..1");
+}
+
+void check_radius(float value, const char* name) {
+    if (!(value >= 0.0f) || !std::isfinite(value))
+        fail(VFIT_ERROR_ARGUMENT, "motion ", name, " is ", value, " m, not a length");
+}
+
+void check_divisor(float value, const char* name) {
+    if (!(value >= 1.0f) || !std::isfinite(value))
+        fail(VFIT_ERROR_ARGUMENT, "motion ", name, " is ", value, ", less than 1");
+}
+
+void validate(const MotionSettings& s) {
+    check_share(s.holt.smoothing, "smoothing");
+    check_share(s.holt.correction, "correction");
+    check_share(s.holt.prediction, "prediction");
+    check_radius(s.holt.jitter_radius_m, "jitter_radius_m");
+    check_radius(s.holt.max_deviation_radius_m, "max_deviation_radius_m");
+    check_divisor(s.rotation_divisor, "rotation_divisor");
+    check_divisor(s.rotation_divisor_switched, "rotation_divisor_switched");
+}
+
+void validate(const Body& body) {
+    for (int i = 0; i < kJointCount; ++i) {
+        const Joint& joint = body.joints[at(i)];
+        if (!joint.seen()) continue;
+        if (!finite(joint.position) || !finite(joint.confidence))
+            fail(VFIT_ERROR_DATA, "joint ", joint_name(i), " of body ", body.id, " is not finite");
+        if (joint.has_rotation && (!finite(joint.rotation) || glm::length(joint.rotation) < 1e-3f))
+            fail(VFIT_ERROR_DATA, "joint ", joint_name(i), " of body ", body.id, " has no valid rotation");
+    }
+}
+
+void validate(const Skeleton& skeleton) {
+    for (int bone = 0; bone < kBoneCount; ++bone)
+        if (!finite(skeleton.offset[at(bone)]))
+            fail(VFIT_ERROR_DATA, "bone ", bone_name(bone), " of the skeleton is not finite");
+    const RestPose rest(skeleton);
+    for (int leg : {kLeftLeg, kRightLeg})
+        if (rest.limbs[at(leg)].upper_m < 1e-3f || rest.limbs[at(leg)].lower_m < 1e-3f)
+            fail(VFIT_ERROR_DATA, "the skeleton has a leg without length");
+}
+
+void to_local(const BoneRotations& world, BoneRotations& local) {
+    for (int b = 0; b < kBoneCount; ++b) {
+        const int parent = bone_parent(b);
+        local[at(b)] =
+            parent < 0 ? world[at(b)] : glm::normalize(glm::conjugate(world[at(parent)]) * world[at(b)]);
+    }
+}
+
+void to_world(const BoneRotations& local, BoneRotations& world) {
+    for (int b = 0; b < kBoneCount; ++b) {
+        const int parent = bone_parent(b);
+        world[at(b)] = parent < 0 ? local[at(b)] : glm::normalize(world[at(parent)] * local[at(b)]);
+    }
+}
+
+}  // namespace
+
+struct Motion::State {
+    explicit State(const MotionSettings& s) : settings(s) { joints.joints.fill(Joint()); }
+
+    MotionSettings settings;
+    bool bound = false;
+    Skeleton skeleton;
+    RestPose rest;
+
+    Proportions person;
+    BodyFilter filter;
+    FootContact contact;
+    BoneSolver solver;
+    RotationSmoother smoother;
+    FootPlanter planter;
+    JointFeet joint_feet;
+
+    Pose pose;
+    Body joints;
+    bool has_body = false, seen = false;
+    uint32_t body_id = 0;
+    int64_t body_ns = 0, now_ns = 0, switched_ns = 0;
+    bool switched = false;
+
+    bool enabled(uint32_t no_flag) const { return (settings.flags & no_flag) == 0; }
+    void take(const Body& body);
+    void adopt_person();
+    Vec3 hip_middle(const Trunk& trunk) const;
+    bool update_pose(float dt_s);
+    void reset();
+};
+
+void Motion::State::reset() {
+    person.reset();
+    filter.reset();
+    contact.reset();
+    solver.reset();
+    smoother.reset();
+    planter.reset();
+    joint_feet.reset();
+    pose = Pose();
+    joints = Body();
+    has_body = seen = switched = false;
+}
+
+/// One new body through the stages that run once a body.
+void Motion::State::take(const Body& body) {
+    filter.update(body, enabled(VFIT_MOTION_NO_FILTER) ? &settings.holt : nullptr);
+    body_id = body.id;
+    body_ns = body.time_ns;
+    has_body = true;
+
+    filter.sample(body.time_ns, joints);
+    person.update(joints);
+    const Vec3 ankles[2] = {joints.at(VFIT_JOINT_LEFT_FOOT), joints.at(VFIT_JOINT_RIGHT_FOOT)};
+    const bool known[2] = {joints.has(VFIT_JOINT_LEFT_FOOT), joints.has(VFIT_JOINT_RIGHT_FOOT)};
+    contact.update(ankles, known, body.time_ns);
+    if (contact.switched()) {
+        switched = true;
+        switched_ns = body.time_ns;
+    }
+    if (enabled(VFIT_MOTION_NO_FEET)) {
+        const bool planted[2] = {contact.planted(0), contact.planted(1)};
+        solver.learn_flat_feet(joints, planted);
+    }
+    if (!bound) adopt_person();
+}
+
+/// The person's own skeleton stands at the height at which the sensor sees the person stand.
+void Motion::State::adopt_person() {
+    skeleton = person.skeleton();
+    const float level = contact.ankle_level(skeleton.ankle_height);
+    skeleton.offset[VFIT_BONE_HIPS].y += level - skeleton.ankle_height;
+    skeleton.ankle_height = level;
+    rest = RestPose(skeleton);
+}
+
+/// The midpoint of the character's hip joints: as the person's in the plane, its height above the standing
+/// ankle scaled by leg length, so that other legs stand on the same floor.
+Vec3 Motion::State::hip_middle(const Trunk& trunk) const {
+    const RestPose person_rest(person.skeleton());
+    const float ratio = bound ? rest.leg_m() / person_rest.leg_m() : 1.0f;
+    const float ankle = contact.ankle_level(person.skeleton().ankle_height);
+    return {trunk.hip_middle.x, skeleton.ankle_height + ratio * (trunk.hip_middle.y - ankle),
+            trunk.hip_middle.z};
+}
+
+bool Motion::State::update_pose(float dt_s) {
+    filter.sample(now_ns, joints);
+    Trunk trunk;
+    if (!find_trunk(joints, trunk)) return seen;
+
+    const bool feet = enabled(VFIT_MOTION_NO_FEET);
+    const bool planted[2] = {feet && contact.planted(0), feet && contact.planted(1)};
+    BoneRotations world, local;
+    solver.solve(skeleton, rest, joints, trunk, planted, world);
+    if (enabled(VFIT_MOTION_NO_LIMITS)) {
+        to_local(world, local);
+        apply_joint_limits(rest, planted, local);
+        to_world(local, world);
+    }
+    if (enabled(VFIT_MOTION_NO_SMOOTHING)) {
+        const bool recent = feet && switched && now_ns - switched_ns < kSwitchTimeNs;
+        smoother.apply(world, recent ? settings.rotation_divisor_switched : settings.rotation_divisor, dt_s);
+    }
+    to_local(world, local);
+
+    const BoneRotations before = pose.rotation;
+    pose.time_ns = now_ns;
+    pose.rotation = local;
+    pose.hips_position = hip_middle(trunk) - world[VFIT_BONE_HIPS] * rest.hip_middle;
+    pose.contacts = 0;
+    pose.root_correction = Vec3(0.0f);
+    pose.foot_correction_m = 0.0f;
+    if (feet) {
+        planter.apply(skeleton, rest, planted, dt_s, pose);
+        const Vec3 fronts[2] = {world[VFIT_BONE_LEFT_UPPER_LEG] * Vec3(0, 0, 1),
+                                world[VFIT_BONE_RIGHT_UPPER_LEG] * Vec3(0, 0, 1)};
+        joint_feet.apply(planted, fronts, contact.ankle_level(skeleton.ankle_height), dt_s, joints);
+    }
+    for (size_t i = 0; i < before.size(); ++i) pose.rotation[i] = same_hemisphere(pose.rotation[i], before[i]);
+    seen = true;
+    return true;
+}
+
+Motion::Motion(const MotionSettings& settings) {
+    validate(settings);
+    state_ = std::make_unique<State>(settings);
+    state_->adopt_person();
+}
+
+Motion::~Motion() = default;
+Motion::Motion(Motion&&) noexcept = default;
+Motion& Motion::operator=(Motion&&) noexcept = default;
+
+void Motion::bind(const Skeleton& skeleton) {
+    validate(skeleton);
+    state_->skeleton = skeleton;
+    state_->rest = RestPose(skeleton);
+    state_->bound = true;
+    state_->planter.reset();
+}
+
+bool Motion::step(const Body* body, int64_t now_ns) {
+    State& s = *state_;
+    if (body) {
+        validate(*body);
+        if (s.has_body && (body->id != s.body_id || body->time_ns < s.body_ns)) s.reset();
+        if (!s.has_body || body->time_ns != s.body_ns) s.take(*body);
+    }
+    if (!s.has_body) return false;
+    const int64_t before = s.seen ? s.now_ns : s.body_ns;
+    s.now_ns = std::max(now_ns, s.body_ns);
+    const float dt_s = static_cast<float>(static_cast<double>(s.now_ns - before) * 1e-9);
+    return s.update_pose(std::max(0.0f, dt_s));
+}
+
+const Pose& Motion::pose() const { return state_->pose; }
+const Body& Motion::joints() const { return state_->joints; }
+const Skeleton& Motion::skeleton() const { return state_->skeleton; }
+void Motion::reset() {
+    state_->reset();
+    if (!state_->bound) state_->adopt_person();
+}
+
+}  // namespace vfit

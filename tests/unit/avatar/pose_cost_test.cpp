@@ -1,0 +1,80 @@
+// What posing costs: no allocation once the avatar stands, and the time of a frame, printed.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <new>
+
+#include "body_fixture.h"
+#include "core/clock.h"
+
+namespace {
+
+std::atomic<uint64_t> g_allocations{0};
+
+void* counted(std::size_t size) {
+    ++g_allocations;
+    if (void* p = std::malloc(size > 0 ? size : 1)) return p;
+    throw std::bad_alloc();
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return counted(size); }
+void* operator new[](std::size_t size) { return counted(size); }
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete[](void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+void operator delete[](void* p, std::size_t) noexcept { std::free(p); }
+
+namespace vfit {
+namespace {
+
+Pose step_of_a_walk(const Avatar& avatar, int frame) {
+    const float phase = 0.2f * float(frame);
+    Pose pose;
+    pose.hips_position = avatar.skeleton().offset[VFIT_BONE_HIPS] + Vec3(0, 0, 0.02f * float(frame));
+    pose.rotation[VFIT_BONE_LEFT_UPPER_LEG] = glm::angleAxis(0.5f * std::sin(phase), Vec3(1, 0, 0));
+    pose.rotation[VFIT_BONE_RIGHT_UPPER_LEG] = glm::angleAxis(-0.5f * std::sin(phase), Vec3(1, 0, 0));
+    pose.rotation[VFIT_BONE_LEFT_HAND] = glm::angleAxis(std::sin(phase), Vec3(1, 0, 0));
+    return pose;
+}
+
+TEST(PoseCost, NothingIsAllocatedPerFrame) {
+    Avatar avatar = make_avatar();
+    const auto jobs = Jobs::own(1);
+    std::vector<Collider> colliders;
+    colliders.reserve(kColliderCount);
+    avatar.pose(step_of_a_walk(avatar, 0), *jobs);
+    const uint64_t before = g_allocations;
+    for (int frame = 1; frame <= 20; ++frame) {
+        avatar.pose(step_of_a_walk(avatar, frame), *jobs);
+        avatar.colliders(colliders);
+        EXPECT_GT(avatar.joints().at(VFIT_JOINT_HEAD).y, 1.0f);
+    }
+    EXPECT_EQ(g_allocations - before, 0u);
+}
+
+TEST(PoseCost, MedianTimeOfAFrameOnOneCore) {
+    const auto jobs = Jobs::own(0);
+    for (const uint32_t detail : {0u, 1u}) {
+        AvatarDesc desc;
+        desc.detail = detail;
+        Avatar avatar = make_avatar(desc);
+        std::vector<double> ms;
+        for (int frame = 0; frame < 200; ++frame) {
+            const Pose pose = step_of_a_walk(avatar, frame);
+            const Stopwatch watch;
+            avatar.pose(pose, *jobs);
+            ms.push_back(watch.ms());
+        }
+        std::nth_element(ms.begin(), ms.begin() + 100, ms.end());
+        std::printf("pose, detail %u, %zu vertices: median %.3f ms\n", detail, avatar.positions().size(), ms[100]);
+        EXPECT_GT(ms[100], 0.0);
+    }
+}
+
+}  // namespace
+}  // namespace vfit

@@ -1,0 +1,136 @@
+// Rotations from positions: a known pose comes back, whatever joints a source has.
+#include <gtest/gtest.h>
+
+#include "math/finite.h"
+#include "math/quaternion.h"
+#include "motion_support.h"
+
+namespace vfit {
+namespace {
+
+using testing::frame_ns;
+using testing::kAllOff;
+
+Pose recovered(const Skeleton& skeleton, const Body& body) {
+    MotionSettings settings;
+    settings.flags = kAllOff;
+    Motion motion(settings);
+    motion.bind(skeleton);
+    EXPECT_TRUE(motion.step(&body, body.time_ns));
+    return motion.pose();
+}
+
+TEST(BoneRotations, ReproduceTheJointsOfRandomPosesWithinAMillimetre) {
+    const Skeleton skeleton = testing::test_skeleton();
+    testing::RandomPose random(11);
+    for (int i = 0; i < 500; ++i) {
+        const Pose pose = random.next(skeleton);
+        const Pose found = recovered(skeleton, testing::joints_of(skeleton, pose, 0));
+        ASSERT_LT(testing::largest_joint_error(skeleton, pose, found), 1e-3f) << "pose " << i;
+    }
+}
+
+TEST(BoneRotations, ReproduceBendAndTwistOfBentLimbs) {
+    const Skeleton skeleton = testing::test_skeleton();
+    testing::RandomPose random(12);
+    for (int i = 0; i < 300; ++i) {
+        const Pose pose = random.next(skeleton);
+        const Pose found = recovered(skeleton, testing::joints_of(skeleton, pose, 0));
+        const PosedSkeleton a = forward_kinematics(skeleton, pose), b = forward_kinematics(skeleton, found);
+        for (int bone : {VFIT_BONE_LEFT_UPPER_ARM, VFIT_BONE_RIGHT_UPPER_ARM, VFIT_BONE_LEFT_UPPER_LEG,
+                         VFIT_BONE_RIGHT_UPPER_LEG}) {
+            const Quat bend = pose.rotation[size_t(bone) + 1];
+            if (angle_of(bend) < 25 * testing::kDeg) continue;
+            // The limbs of this skeleton slope by up to 3 degrees against each other in the T-pose.
+            ASSERT_LT(angle_of(a.rotation[size_t(bone)] * glm::conjugate(b.rotation[size_t(bone)])),
+                      10 * testing::kDeg) << "pose " << i << " " << bone_name(bone);
+        }
+    }
+}
+
+TEST(BoneRotations, FindATPoseAsIdentitiesAndATurnedPersonAsTurnedHips) {
+    const Skeleton skeleton = testing::test_skeleton();
+    for (float yaw : {0.0f, 90.0f, 180.0f, -120.0f}) {
+        Pose pose;
+        pose.hips_position = {0, 0.96f, -2};
+        pose.rotation[VFIT_BONE_HIPS] = glm::angleAxis(yaw * testing::kDeg, Vec3(0, 1, 0));
+        testing::stand_on_floor(skeleton, pose);
+        const Pose found = recovered(skeleton, testing::joints_of(skeleton, pose, 0));
+        for (size_t b = 0; b < size_t(kBoneCount); ++b)
+            EXPECT_LT(angle_of(found.rotation[b] * glm::conjugate(pose.rotation[b])), 2 * testing::kDeg)
+                << bone_name(int(b)) << " at " << yaw;
+    }
+}
+
+TEST(BoneRotations, ManageWithTheFifteenJointsOfThePaper) {
+    const Skeleton skeleton = testing::test_skeleton();
+    testing::RandomPose random(13);
+    for (int i = 0; i < 100; ++i) {
+        const Pose pose = random.next(skeleton);
+        Body body = testing::joints_of(skeleton, pose, 0);
+        for (size_t j = kPaperJointCount; j < size_t(kJointCount); ++j) body.joints[j] = Joint();
+        body.joints[VFIT_JOINT_TORSO] = Joint();
+        const Pose found = recovered(skeleton, body);
+        const Body again = testing::joints_of(skeleton, found, 0);
+        for (int j : {VFIT_JOINT_LEFT_ELBOW, VFIT_JOINT_RIGHT_ELBOW, VFIT_JOINT_LEFT_KNEE, VFIT_JOINT_RIGHT_FOOT,
+                      VFIT_JOINT_NECK})
+            ASSERT_LT(glm::length(again.at(j) - body.at(j)), 1e-3f) << joint_name(j);
+    }
+}
+
+TEST(BoneRotations, PlaceAPersonSeenToTheWaistOnly) {
+    const Skeleton skeleton = testing::test_skeleton();
+    Body body = testing::joints_of(skeleton, Pose(), 0);
+    for (int j = VFIT_JOINT_LEFT_HIP; j <= VFIT_JOINT_RIGHT_FOOT; ++j) body.joints[size_t(j)] = Joint();
+    for (int j : {VFIT_JOINT_PELVIS, VFIT_JOINT_TORSO, VFIT_JOINT_NECK, VFIT_JOINT_LEFT_TOES, VFIT_JOINT_RIGHT_TOES})
+        body.joints[size_t(j)] = Joint();
+    const Pose found = recovered(skeleton, body);
+    EXPECT_TRUE(finite(found.hips_position));
+    for (const Quat& q : found.rotation) EXPECT_TRUE(finite(q));
+    EXPECT_LT(angle_of(found.rotation[VFIT_BONE_HIPS]), 3 * testing::kDeg);
+}
+
+TEST(BoneRotations, TakeTheRotationsThatJointsCarry) {
+    const Skeleton skeleton = testing::test_skeleton();
+    testing::RandomPose random(14);
+    const Pose pose = random.next(skeleton);
+    const PosedSkeleton posed = forward_kinematics(skeleton, pose);
+    Body body = testing::joints_of(skeleton, pose, 0);
+    const Quat twisted = posed.rotation[VFIT_BONE_LEFT_LOWER_ARM] * glm::angleAxis(0.7f, Vec3(1, 0, 0));
+    body.joints[VFIT_JOINT_LEFT_ELBOW].rotation = twisted;
+    body.joints[VFIT_JOINT_LEFT_ELBOW].has_rotation = true;
+    const PosedSkeleton found = forward_kinematics(skeleton, recovered(skeleton, body));
+    EXPECT_LT(angle_of(found.rotation[VFIT_BONE_LEFT_LOWER_ARM] * glm::conjugate(twisted)), 1e-3f);
+}
+
+TEST(BoneRotations, HoldThePlaneOfAnArmThatIsStretchedOut) {
+    // The arm straightens with noise: its twist must not follow the noise round.
+    const Skeleton skeleton = testing::test_skeleton();
+    MotionSettings settings;
+    settings.flags = kAllOff;
+    Motion motion(settings);
+    motion.bind(skeleton);
+    testing::RandomPose random(15);
+    Quat bent(1, 0, 0, 0);
+    for (int f = 0; f < 200; ++f) {
+        Pose pose;
+        testing::stand_on_floor(skeleton, pose);
+        const float flexion = f < 30 ? 60.0f - 2.0f * static_cast<float>(f) : 0.0f;
+        pose.rotation[VFIT_BONE_LEFT_UPPER_ARM] = glm::angleAxis(-40 * testing::kDeg, Vec3(1, 0, 0));
+        pose.rotation[VFIT_BONE_LEFT_LOWER_ARM] = glm::angleAxis(-flexion * testing::kDeg, Vec3(0, 1, 0));
+        Body body = testing::joints_of(skeleton, pose, frame_ns(f));
+        if (f >= 30)
+            for (int j : {VFIT_JOINT_LEFT_ELBOW, VFIT_JOINT_LEFT_WRIST})
+                body.joints[size_t(j)].position +=
+                    0.003f * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+        motion.step(&body, body.time_ns);
+        const Quat now = motion.pose().rotation[VFIT_BONE_LEFT_UPPER_ARM];
+        if (f == 20) bent = now;
+        if (f > 20) {
+            ASSERT_LT(angle_of(now * glm::conjugate(bent)), 45 * testing::kDeg) << f;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace vfit

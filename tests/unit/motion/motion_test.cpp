@@ -1,0 +1,201 @@
+// The stages together: errors, time, persons, continuity, no allocation.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <limits>
+#include <new>
+
+#include "core/error.h"
+#include "synthetic_walk.h"
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+// The whole test program counts, so that any allocation inside step is seen.
+void* operator new(std::size_t size) {
+    ++allocations;
+    if (void* p = std::malloc(size ? size : 1)) return p;
+    throw std::bad_alloc();
+}
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+
+namespace vfit {
+namespace {
+
+using testing::frame_ns;
+
+Body standing(int64_t time_ns, uint32_t id = 1) {
+    const Skeleton skeleton = testing::test_skeleton();
+    Pose pose;
+    testing::stand_on_floor(skeleton, pose);
+    Body body = testing::joints_of(skeleton, pose, time_ns);
+    body.id = id;
+    return body;
+}
+
+vfit_result code_of(Motion& motion, const Body& body, std::string& message) {
+    try {
+        motion.step(&body, body.time_ns);
+    } catch (const Error& e) {
+        message = e.what();
+        return e.code();
+    }
+    return VFIT_OK;
+}
+
+TEST(Motion, SaysThatNobodyWasSeen) {
+    Motion motion{MotionSettings{}};
+    EXPECT_FALSE(motion.step(nullptr, 0));
+    Body empty;
+    EXPECT_FALSE(motion.step(&empty, 0));
+    const Body body = standing(frame_ns(1));
+    EXPECT_TRUE(motion.step(&body, body.time_ns));
+    EXPECT_TRUE(motion.step(nullptr, frame_ns(2)));
+    EXPECT_EQ(motion.pose().time_ns, frame_ns(2));
+    motion.reset();
+    EXPECT_FALSE(motion.step(nullptr, frame_ns(3)));
+}
+
+TEST(Motion, RefusesAJointThatIsNotFiniteAndNamesIt) {
+    Motion motion{MotionSettings{}};
+    Body body = standing(0);
+    motion.step(&body, 0);
+    const Vec3 hips = motion.pose().hips_position;
+    body = standing(frame_ns(1));
+    body.joints[VFIT_JOINT_LEFT_ELBOW].position.y = std::numeric_limits<float>::quiet_NaN();
+    std::string message;
+    EXPECT_EQ(code_of(motion, body, message), VFIT_ERROR_DATA);
+    EXPECT_NE(message.find("LEFT_ELBOW"), std::string::npos) << message;
+    EXPECT_EQ(motion.pose().hips_position, hips);
+    EXPECT_EQ(motion.pose().time_ns, 0);
+
+    body = standing(frame_ns(1));
+    body.joints[VFIT_JOINT_HEAD].has_rotation = true;
+    body.joints[VFIT_JOINT_HEAD].rotation = Quat(0, 0, 0, 0);
+    EXPECT_EQ(code_of(motion, body, message), VFIT_ERROR_DATA);
+    EXPECT_NE(message.find("HEAD"), std::string::npos) << message;
+}
+
+TEST(Motion, RefusesSettingsOutOfRangeAndNamesThem) {
+    const auto message_of = [](auto&& change) -> std::string {
+        MotionSettings settings;
+        change(settings);
+        try {
+            Motion motion(settings);
+        } catch (const Error& e) {
+            EXPECT_EQ(e.code(), VFIT_ERROR_ARGUMENT);
+            return e.what();
+        }
+        return "";
+    };
+    EXPECT_NE(message_of([](auto& s) { s.holt.smoothing = 2; }).find("smoothing"), std::string::npos);
+    EXPECT_NE(message_of([](auto& s) { s.holt.jitter_radius_m = -1; }).find("jitter_radius_m"), std::string::npos);
+    EXPECT_NE(message_of([](auto& s) { s.rotation_divisor = 0.5f; }).find("rotation_divisor"), std::string::npos);
+    EXPECT_EQ(message_of([](auto&) {}), "");
+}
+
+TEST(Motion, RefusesASkeletonThatCannotStand) {
+    Motion motion{MotionSettings{}};
+    EXPECT_THROW(motion.bind(Skeleton()), Error);
+    Skeleton broken = testing::test_skeleton();
+    broken.offset[VFIT_BONE_CHEST].x = std::numeric_limits<float>::infinity();
+    EXPECT_THROW(motion.bind(broken), Error);
+}
+
+TEST(Motion, KeepsAStillPersonStill) {
+    Motion motion{MotionSettings{}};
+    Body body = standing(0);
+    motion.step(&body, 0);
+    const Pose first = motion.pose();
+    for (int f = 1; f < 120; ++f) {
+        body = standing(frame_ns(f));
+        motion.step(&body, body.time_ns);
+        ASSERT_LT(glm::length(motion.pose().hips_position - first.hips_position), 1e-3f);
+        ASSERT_EQ(motion.pose().contacts, 3u);
+    }
+}
+
+TEST(Motion, MeasuresThePersonWhereNoCharacterIsBound) {
+    const Skeleton truth = testing::test_skeleton();
+    Motion motion{MotionSettings{}};
+    for (int f = 0; f < 30; ++f) {
+        const Body body = standing(frame_ns(f));
+        motion.step(&body, body.time_ns);
+    }
+    const Skeleton& s = motion.skeleton();
+    for (int bone : {VFIT_BONE_LEFT_LOWER_ARM, VFIT_BONE_RIGHT_HAND, VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_RIGHT_FOOT,
+                     VFIT_BONE_LEFT_TOES})
+        EXPECT_NEAR(glm::length(s.offset[size_t(bone)]), glm::length(truth.offset[size_t(bone)]), 1e-3f)
+            << bone_name(bone);
+    EXPECT_NEAR(s.ankle_height, truth.ankle_height, 1e-3f);
+}
+
+TEST(Motion, StartsAnewWithAnotherPersonAndWhenTimeGoesBack) {
+    for (const bool other : {true, false}) {
+        Motion motion{MotionSettings{}};
+        for (int f = 10; f < 20; ++f) {
+            const Body body = standing(frame_ns(f));
+            motion.step(&body, body.time_ns);
+        }
+        Body moved = standing(other ? frame_ns(20) : 0, other ? 2 : 1);
+        for (Joint& joint : moved.joints) joint.position.x += 1.5f;
+        motion.step(&moved, moved.time_ns);
+        EXPECT_NEAR(motion.pose().hips_position.x, 1.5f, 1e-4f);  // no glide from the one before
+    }
+}
+
+TEST(Motion, KeepsTheSignOfEveryQuaternion) {
+    const Skeleton skeleton = testing::test_skeleton();
+    Motion motion{MotionSettings{}};
+    motion.bind(skeleton);
+    std::array<Quat, kBoneCount> before{};
+    for (int f = 0; f < 240; ++f) {
+        Pose pose;
+        pose.rotation[VFIT_BONE_HIPS] =
+            glm::angleAxis(3 * static_cast<float>(f) * testing::kDeg, Vec3(0, 1, 0));  // two full turns
+        pose.rotation[VFIT_BONE_LEFT_UPPER_ARM] =
+            glm::angleAxis(70 * testing::kDeg * std::sin(0.1f * static_cast<float>(f)), Vec3(0, 0, 1));
+        testing::stand_on_floor(skeleton, pose);
+        const Body body = testing::joints_of(skeleton, pose, frame_ns(f));
+        motion.step(&body, body.time_ns);
+        for (size_t b = 0; f > 0 && b < before.size(); ++b)
+            ASSERT_GT(glm::dot(motion.pose().rotation[b], before[b]), 0.9f) << bone_name(int(b)) << " at " << f;
+        before = motion.pose().rotation;
+    }
+}
+
+TEST(Motion, StepDoesNotAllocate) {
+    const Skeleton skeleton = testing::test_skeleton();
+    testing::SyntheticWalk walk(skeleton);
+    for (const bool bound : {false, true}) {
+        Motion motion{MotionSettings{}};
+        if (bound) motion.bind(skeleton);
+        const long before = allocations.load();
+        for (int f = 0; f < 200; ++f) {
+            const testing::WalkFrame frame = walk.at(f / 2);
+            motion.step(f % 4 == 3 ? nullptr : &frame.body, frame_ns(f, 60));
+        }
+        EXPECT_EQ(allocations.load() - before, 0);
+    }
+}
+
+TEST(Motion, StepsFasterThanThePapersHalfMillisecond) {
+    const Skeleton skeleton = testing::test_skeleton();
+    testing::SyntheticWalk walk(skeleton);
+    std::vector<Body> bodies;
+    for (int f = 0; f < 300; ++f) bodies.push_back(walk.at(f).body);
+    Motion motion{MotionSettings{}};
+    motion.bind(skeleton);
+    const auto start = std::chrono::steady_clock::now();
+    for (const Body& body : bodies) motion.step(&body, body.time_ns);
+    const std::chrono::duration<double, std::micro> spent = std::chrono::steady_clock::now() - start;
+    std::printf("%.2f us a step with a new body\n", spent.count() / 300);
+    EXPECT_LT(spent.count() / 300, 520.0);
+}
+
+}  // namespace
+}  // namespace vfit

@@ -1,0 +1,98 @@
+#include "client/client.h"
+
+namespace vfit::tools {
+
+std::string last_error() {
+    std::string message(vfit_last_error(nullptr, 0), '\0');
+    vfit_last_error(message.data(), static_cast<uint32_t>(message.size() + 1));
+    return message;
+}
+
+vfit_result check(vfit_result result) {
+    if (result < 0) {
+        const std::string message = last_error();
+        throw Failure(message.empty() ? vfit_result_name(result) : message);
+    }
+    return result;
+}
+
+std::string joint_name(vfit_joint_id joint) {
+    char name[32];
+    vfit_joint_name(joint, name, sizeof name);
+    return name;
+}
+
+std::string bone_name(vfit_bone_id bone) {
+    char name[32];
+    vfit_bone_name(bone, name, sizeof name);
+    return name;
+}
+
+Context open_context(uint32_t flags) {
+    vfit_context_desc desc = vfit_context_desc_init();
+    desc.api_version = VFIT_VERSION;
+    desc.flags = flags;
+    Context context;
+    check(vfit_context_create(&desc, context.out()));
+    return context;
+}
+
+Source::Source(vfit_context context, const std::string& uri) {
+    check(vfit_sensor_open(context, uri.c_str(), sensor_.out()));
+    check(vfit_sensor_start(sensor_.get()));
+}
+
+std::optional<Frame> Source::next() {
+    Frame frame;
+    if (check(vfit_sensor_acquire(sensor_.get(), -1, frame.out())) != VFIT_OK) return std::nullopt;
+    ++taken_;
+    return frame;
+}
+
+uint32_t first_body(vfit_frame frame) {
+    const auto bodies =
+        list<vfit_body>([&](auto* items, uint32_t stride, uint32_t* n) { return vfit_frame_bodies(frame, items, stride, n); });
+    return bodies.empty() ? 0 : bodies.front().body_id;
+}
+
+std::vector<vfit_joint> joints_of(vfit_frame frame, uint32_t body_id) {
+    return list<vfit_joint>([&](auto* items, uint32_t stride, uint32_t* n) {
+        return vfit_frame_joints(frame, body_id, items, stride, n);
+    });
+}
+
+vfit_camera camera_of(vfit_frame frame) {
+    vfit_camera camera = vfit_camera_init();
+    check(vfit_frame_camera(frame, &camera));
+    return camera;
+}
+
+vfit_view view_of(vfit_frame frame, vfit_stream stream) {
+    vfit_view view = vfit_view_init();
+    check(vfit_frame_view(frame, stream, &view));
+    return view;
+}
+
+bool has_stream(vfit_frame frame, vfit_stream stream) {
+    vfit_view view = vfit_view_init();
+    return vfit_frame_view(frame, stream, &view) == VFIT_OK;
+}
+
+Point to_camera(const vfit_camera& camera, const float (&world)[3]) {
+    // The inverse of a rigid transform: columns of the rotation dotted with what is left of the translation.
+    const float* m = camera.world_from_camera;
+    const float d[3] = {world[0] - m[12], world[1] - m[13], world[2] - m[14]};
+    const auto column = [&](int c) { return m[4 * c] * d[0] + m[4 * c + 1] * d[1] + m[4 * c + 2] * d[2]; };
+    return {column(0), column(1), column(2)};
+}
+
+Json joints_json(const std::vector<vfit_joint>& joints, const vfit_camera& camera) {
+    Json out = Json::object();
+    for (const vfit_joint& joint : joints) {
+        const Point p = to_camera(camera, joint.position);
+        out[joint_name(joint.joint)] = {p.x, p.y, p.z, joint.confidence};
+    }
+    return out;
+}
+
+}  // namespace vfit::tools

@@ -1,0 +1,112 @@
+// The C ABI as the tools use it: errors as exceptions, handles that let go of themselves, lists as vectors.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "vfit.h"
+
+namespace vfit::tools {
+
+using Json = nlohmann::ordered_json;
+
+/// A failed call, with the library's own sentence.
+class Failure : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// Passes news (>= 0) through; throws Failure for an error.
+vfit_result check(vfit_result result);
+
+/// A handle with its destroy function.
+template <typename T, vfit_result (*kDestroy)(T)>
+class Handle {
+public:
+    Handle() = default;
+    explicit Handle(T value) : value_(value) {}
+    Handle(Handle&& other) noexcept : value_(std::exchange(other.value_, T{})) {}
+    Handle& operator=(Handle&& other) noexcept {
+        std::swap(value_, other.value_);
+        return *this;
+    }
+    ~Handle() {
+        if (value_.id) kDestroy(value_);
+    }
+    T get() const { return value_; }
+    T* out() {
+        if (value_.id) kDestroy(value_);
+        value_ = T{};
+        return &value_;
+    }
+    explicit operator bool() const { return value_.id != 0; }
+
+private:
+    T value_{};
+};
+
+using Context = Handle<vfit_context, vfit_context_destroy>;
+using Sensor = Handle<vfit_sensor, vfit_sensor_close>;
+using Frame = Handle<vfit_frame, vfit_frame_release>;
+using Tracker = Handle<vfit_tracker, vfit_tracker_destroy>;
+using Scan = Handle<vfit_scan, vfit_scan_destroy>;
+using SizeChart = Handle<vfit_size_chart, vfit_size_chart_destroy>;
+using Motion = Handle<vfit_motion, vfit_motion_destroy>;
+using Avatar = Handle<vfit_avatar, vfit_avatar_destroy>;
+using Garment = Handle<vfit_garment, vfit_garment_destroy>;
+using Cloth = Handle<vfit_cloth, vfit_cloth_destroy>;
+using Recorder = Handle<vfit_recorder, vfit_recorder_destroy>;
+
+/// All items of a list call: list<vfit_joint>([&](auto* items, uint32_t stride, uint32_t* count) {...}).
+template <typename T, typename Call>
+std::vector<T> list(Call&& call) {
+    uint32_t count = 0;
+    check(call(static_cast<T*>(nullptr), static_cast<uint32_t>(sizeof(T)), &count));
+    std::vector<T> items(count);
+    if (count > 0) check(call(items.data(), static_cast<uint32_t>(sizeof(T)), &count));
+    items.resize(count);
+    return items;
+}
+
+std::string joint_name(vfit_joint_id joint);
+std::string bone_name(vfit_bone_id bone);
+std::string last_error();
+
+/// A context with the settings of the command line.
+Context open_context(uint32_t flags = 0);
+
+/// Frames of a recording or sensor, one after the other.
+class Source {
+public:
+    Source(vfit_context context, const std::string& uri);
+    /// The next frame, tracked: with bodies where the source supplies them. Nothing at the end.
+    std::optional<Frame> next();
+    uint32_t taken() const { return taken_; }
+    vfit_sensor sensor() const { return sensor_.get(); }
+
+private:
+    Sensor sensor_;
+    uint32_t taken_ = 0;
+};
+
+/// The id of the person to follow: the first body of the frame; 0: nobody.
+uint32_t first_body(vfit_frame frame);
+std::vector<vfit_joint> joints_of(vfit_frame frame, uint32_t body_id);
+vfit_camera camera_of(vfit_frame frame);
+vfit_view view_of(vfit_frame frame, vfit_stream stream);
+bool has_stream(vfit_frame frame, vfit_stream stream);
+
+/// A world-space point in the camera space of that camera.
+struct Point {
+    float x, y, z;
+};
+Point to_camera(const vfit_camera& camera, const float (&world)[3]);
+
+/// {"HEAD": [x, y, z, confidence], ...} in camera space.
+Json joints_json(const std::vector<vfit_joint>& joints, const vfit_camera& camera);
+
+}  // namespace vfit::tools

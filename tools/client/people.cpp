@@ -1,0 +1,123 @@
+#include "client/people.h"
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace vfit::tools {
+
+namespace {
+
+// A source without end must not be waited on for ever: ten times the frames that are wanted.
+constexpr uint32_t kPatience = 10;
+
+}  // namespace
+
+const char* guidance_text(vfit_guidance guidance) {
+    switch (guidance) {
+        case VFIT_GUIDANCE_NONE: return "nothing is wrong";
+        case VFIT_GUIDANCE_STEP_BACK: return "the person is too close, or cut by the image border";
+        case VFIT_GUIDANCE_STEP_CLOSER: return "the person is too far away";
+        case VFIT_GUIDANCE_ARMS_OUT: return "the arms are not clear of the body";
+        case VFIT_GUIDANCE_HOLD_STILL: return "the person moves, or does not stand upright";
+        case VFIT_GUIDANCE_TURN_SIDEWAYS: return "a side view is wanted";
+        case VFIT_GUIDANCE_FEET_NOT_VISIBLE: return "the feet are not visible";
+        case VFIT_GUIDANCE_ONE_PERSON_ONLY: return "more than one person is in view";
+        case VFIT_GUIDANCE_NOBODY: return "nobody is in view";
+        case VFIT_GUIDANCE_JOINTS_MISSING: return "joints are missing";
+        default: return "unknown reason";
+    }
+}
+
+ScanRun run_scan(vfit_context context, Source& source, const ScanOptions& options, Frame* last_frame) {
+    Tracker tracker;
+    check(vfit_tracker_create(context, nullptr, tracker.out()));
+    ScanRun run;
+    vfit_scan_desc desc = vfit_scan_desc_init();
+    desc.frame_count = options.frames;
+    desc.sex = options.sex;
+    check(vfit_scan_create(context, &desc, run.scan.out()));
+    vfit_scan_state state = vfit_scan_state_init();
+    uint32_t seen = 0;
+    while (auto frame = source.next()) {
+        Frame tracked;
+        check(vfit_tracker_update(tracker.get(), frame->get(), tracked.out()));
+        run.body_id = first_body(tracked.get());
+        const vfit_result result = check(vfit_scan_add(run.scan.get(), tracked.get(), run.body_id, &state));
+        run.frames_wanted = state.frames_wanted;
+        if (result != VFIT_INCOMPLETE) {
+            run.compute_ms += state.compute_ms;
+            run.corrections_m.push_back(state.correction_m);
+            if (last_frame) *last_frame = std::move(tracked);
+        }
+        run.frames_taken = state.frames_taken;
+        if (result == VFIT_OK || ++seen == kPatience * state.frames_wanted) break;
+    }
+    if (run.frames_taken == 0)
+        throw Failure(seen == 0 ? "the source has no frames"
+                                : std::string("no frame could be measured: ") + guidance_text(state.guidance));
+    return run;
+}
+
+Json measurements_json(const std::vector<vfit_measurement>& measurements) {
+    Json out = Json::object();
+    for (const vfit_measurement& m : measurements)
+        out[m.key] = {{"value", m.value}, {"sigma", m.sigma}, {"observed", m.observed != 0}};
+    return out;
+}
+
+std::vector<vfit_measurement> measurements_of(vfit_scan scan) {
+    return list<vfit_measurement>(
+        [&](auto* items, uint32_t stride, uint32_t* n) { return vfit_scan_measure(scan, items, stride, n); });
+}
+
+std::vector<vfit_measurement> measurements_from(const Json& json) {
+    const Json& all = json.is_object() && json.contains("measurements") ? json["measurements"] : json;
+    if (!all.is_object()) throw Failure("the measures are not a JSON object");
+    std::vector<vfit_measurement> out;
+    for (const auto& [key, value] : all.items()) {
+        vfit_measurement m = vfit_measurement_init();
+        if (key.size() >= sizeof m.key) throw Failure("\"" + key + "\" is no measure");
+        std::memcpy(m.key, key.data(), key.size());
+        const Json& number = value.is_object() && value.contains("value") ? value["value"] : value;
+        if (!number.is_number()) throw Failure(key + ": not a number");
+        m.value = number.get<float>();
+        if (value.is_object() && value.contains("sigma") && value["sigma"].is_number()) m.sigma = value["sigma"];
+        m.observed = 1;
+        out.push_back(m);
+    }
+    return out;
+}
+
+Json sizes_json(vfit_size_chart chart, const std::string& garment_kind,
+                const std::vector<vfit_measurement>& measurements) {
+    const auto sizes = list<vfit_size>([&](auto* items, uint32_t stride, uint32_t* n) {
+        return vfit_size_recommend(chart, garment_kind.c_str(), measurements.data(), sizeof(vfit_measurement),
+                                   static_cast<uint32_t>(measurements.size()), items, stride, n);
+    });
+    Json out = Json::array();
+    for (const vfit_size& s : sizes) out.push_back({{"label", s.label}, {"probability", s.probability}});
+    return out;
+}
+
+SizeChart open_chart(vfit_context context, const std::string& name_or_path) {
+    SizeChart chart;
+    if (std::filesystem::is_regular_file(name_or_path)) {
+        std::ifstream file(name_or_path, std::ios::binary);
+        std::stringstream text;
+        text << file.rdbuf();
+        const std::string bytes = text.str();
+        check(vfit_size_chart_load(context, bytes.data(), bytes.size(), chart.out()));
+    } else {
+        check(vfit_size_chart_open(context, name_or_path.c_str(), chart.out()));
+    }
+    return chart;
+}
+
+vfit_sex sex_from(const std::string& option) {
+    return option == "f" ? VFIT_SEX_FEMALE : option == "m" ? VFIT_SEX_MALE : VFIT_SEX_UNKNOWN;
+}
+
+}  // namespace vfit::tools

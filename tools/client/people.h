@@ -1,0 +1,41 @@
+// The steps that several commands share: scan a person, name the size.
+#pragma once
+
+#include "client/client.h"
+
+namespace vfit::tools {
+
+struct ScanOptions {
+    uint32_t frames = 0;  // 0: the library's default
+    vfit_sex sex = VFIT_SEX_UNKNOWN;
+};
+
+struct ScanRun {
+    Scan scan;
+    uint32_t frames_taken = 0, frames_wanted = 0;
+    uint32_t body_id = 0;
+    double compute_ms = 0.0;              // of all frames taken
+    std::vector<float> corrections_m;     // one a frame taken (Fig. 9)
+    bool complete() const { return frames_taken == frames_wanted; }
+};
+
+/// Feeds frames into a scan until it is complete or the source ends. Fails where not one frame could be
+/// taken, saying why. last_frame, where given, gets the tracked frame that was taken last.
+ScanRun run_scan(vfit_context context, Source& source, const ScanOptions& options, Frame* last_frame = nullptr);
+
+const char* guidance_text(vfit_guidance guidance);
+
+Json measurements_json(const std::vector<vfit_measurement>& measurements);
+std::vector<vfit_measurement> measurements_of(vfit_scan scan);
+/// From measurements_json, or a plain {"stature_m": 1.7}; sigma 0 where it is not given.
+std::vector<vfit_measurement> measurements_from(const Json& json);
+
+/// [{"label", "probability"}, ...], best first.
+Json sizes_json(vfit_size_chart chart, const std::string& garment_kind,
+                const std::vector<vfit_measurement>& measurements);
+/// A chart by the path of its file, or by name.
+SizeChart open_chart(vfit_context context, const std::string& name_or_path);
+
+vfit_sex sex_from(const std::string& option);
+
+}  // namespace vfit::tools

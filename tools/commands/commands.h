@@ -1,0 +1,22 @@
+// The commands of the vfit command line. Each adds itself to the parser; its callback does the work and
+// throws Failure.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace vfit::tools {
+
+void add_info(CLI::App& app);
+void add_measure(CLI::App& app);
+void add_size(CLI::App& app);
+void add_track(CLI::App& app);
+void add_motion(CLI::App& app);
+void add_fit(CLI::App& app);
+void add_record(CLI::App& app);
+void add_cook(CLI::App& app);
+void add_plot(CLI::App& app);
+
+/// "--joints" and "--user-map" take "recorded" alone until there is a tracker.
+void add_source_options(CLI::App& command);
+
+}  // namespace vfit::tools

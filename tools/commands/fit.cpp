@@ -1,0 +1,190 @@
+// vfit fit: the whole chain on one source; leaves result.json, pictures and an animated GLB.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "client/fitting.h"
+#include "commands/commands.h"
+#include "export/glb.h"
+#include "picture/contact_sheet.h"
+#include "picture/depth_picture.h"
+#include "picture/dressed_picture.h"
+
+namespace vfit::tools {
+
+namespace {
+
+constexpr int kPictureWidth = 620, kPictureHeight = 930;  // of the dressed avatar, pixels
+constexpr size_t kPortraits = 4;                           // moments of the motion
+constexpr double kKeyInterval_s = 0.1;                     // of the GLB's key frames
+constexpr size_t kMaxKeys = 60;
+
+struct Options {
+    FittingOptions fitting;
+    std::string sex = "f", out;
+    bool json = false;
+};
+
+/// What is kept of a moment until the pictures are drawn.
+struct Moment {
+    double time_s;
+    std::vector<RenderMesh> meshes;
+    glm::vec3 centre;
+};
+
+Json timings(vfit_context context) {
+    Json out = Json::object();
+    for (const auto& p : list<vfit_profile>([&](auto* items, uint32_t stride, uint32_t* n) {
+             return vfit_profile_list(context, items, stride, n);
+         }))
+        out[p.stage] = {{"calls", p.calls}, {"mean", p.mean_ms}, {"max", p.max_ms}};
+    return out;
+}
+
+Json cloth_json(vfit_cloth cloth) {
+    vfit_cloth_stats s = vfit_cloth_stats_init();
+    check(vfit_cloth_describe(cloth, &s));
+    return {{"vertices", s.vertex_count},      {"simulated", s.simulated_count}, {"constraints", s.constraint_count},
+            {"strain_mean", s.strain_mean}, {"strain_p99", s.strain_p99},     {"strain_max", s.strain_max}};
+}
+
+/// Pictures are scaled up so that a 320 x 240 image is not a stamp.
+int depth_scale(vfit_frame frame) { return view_of(frame, VFIT_STREAM_DEPTH).width <= 400 ? 4 : 2; }
+
+class Album {
+public:
+    explicit Album(std::string folder) : folder_(std::move(folder)) { std::filesystem::create_directories(folder_); }
+    void add(const std::string& name, const Canvas& picture) {
+        picture.write_png(folder_ + "/" + name);
+        names_.push_back(name);
+    }
+    const std::vector<std::string>& names() const { return names_; }
+    std::string path(const std::string& name) const { return folder_ + "/" + name; }
+
+private:
+    std::string folder_;
+    std::vector<std::string> names_;
+};
+
+/// Moments spread over the motion; which ones is known only at its end, so every candidate is weighed.
+std::vector<Moment> spread(std::vector<Moment>& all) {
+    std::vector<Moment> out;
+    for (size_t k = 0; k < kPortraits && !all.empty(); ++k)
+        out.push_back(all[k * (all.size() - 1) / std::max<size_t>(1, kPortraits - 1)]);
+    return out;
+}
+
+void draw_all(Album& album, const Fitting& fitting, std::vector<Moment> moments, const std::string& title) {
+    const vfit_frame frame = fitting.scan_frame();
+    const int scale = depth_scale(frame);
+    Canvas depth = draw_depth(frame, scale);
+    album.add("depth.png", depth);
+    Canvas skeleton = depth;
+    const auto joints = joints_of(frame, fitting.body_id());
+    const auto colliders = list<vfit_collider>([&](auto* items, uint32_t stride, uint32_t* n) {
+        return vfit_scan_colliders(fitting.scan().scan.get(), items, stride, n);
+    });
+    draw_colliders(skeleton, frame, colliders, scale);
+    draw_skeleton(skeleton, frame, joints, scale);
+    album.add("skeleton.png", skeleton);
+    std::vector<std::vector<SheetItem>> rows(2);
+    rows[0] = {{depth, "depth and user map"}, {skeleton, "joints and collision spheres of the scan"}};
+    for (size_t k = 0; k < moments.size(); ++k) {
+        const Canvas picture = draw_dressed(moments[k].meshes, moments[k].centre, 0.35f, kPictureWidth, kPictureHeight);
+        album.add("dressed_" + std::to_string(k) + ".png", picture);
+        char caption[32];
+        std::snprintf(caption, sizeof caption, "%.1f s", moments[k].time_s);
+        rows[1].push_back({picture, caption});
+    }
+    const Moment& last = moments.back();
+    const Canvas back = draw_dressed(last.meshes, last.centre, 3.5f, kPictureWidth, kPictureHeight);
+    album.add("dressed_back.png", back);
+    rows[1].push_back({back, "from behind"});
+    album.add("contact_sheet.png", contact_sheet(title, rows, 620));
+}
+
+std::string title_of(const Json& result) {
+    char text[160];
+    const auto& m = result["measurements"];
+    std::snprintf(text, sizeof text, "%s: %.1f cm tall, shoulders %.1f cm, size %s (%.0f %%)",
+                  result["garment"].get<std::string>().c_str(), 100.0 * m["stature_m"]["value"].get<double>(),
+                  100.0 * m["shoulder_breadth_m"]["value"].get<double>(),
+                  result["sizes"][0]["label"].get<std::string>().c_str(),
+                  100.0 * result["sizes"][0]["probability"].get<double>());
+    return text;
+}
+
+Json fit(const Options& options) {
+    const Context context = open_context();
+    FittingOptions chain = options.fitting;
+    chain.scan.sex = sex_from(options.sex);
+    Fitting fitting(context.get(), chain);
+    GlbAnimation animation(fitting.avatar(), fitting.cloth());
+    std::vector<Moment> moments;
+    size_t keys = 0;
+    fitting.play([&](vfit_frame, double time_s) {
+        if (time_s < double(keys) * kKeyInterval_s || keys == kMaxKeys) return;
+        animation.add_key(static_cast<float>(time_s));
+        ++keys;
+        Moment moment{time_s, dressed_meshes(fitting.avatar(), fitting.cloth()), {}};
+        moment.centre = centre_of(moment.meshes[0]);
+        moments.push_back(std::move(moment));
+    });
+
+    Json result;
+    result["source"] = chain.source;
+    result["garment"] = chain.garment;
+    result["size"] = chain.size.empty() ? Json("made to measure") : Json(chain.size);
+    result["scan_frames"] = fitting.scan().frames_taken;
+    result["measurements"] = measurements_json(measurements_of(fitting.scan().scan.get()));
+    vfit_scale scale = vfit_scale_init();
+    check(vfit_scan_scale(fitting.scan().scan.get(), fitting.garment_kind().c_str(), &scale));
+    result["scale"] = {{"x", scale.x}, {"y", scale.y}};
+    result["chart"] = chain.chart;
+    result["sizes"] = fitting.sizes();
+    result["frames"] = fitting.frames_played();
+    result["cloth"] = cloth_json(fitting.cloth());
+    result["dress_ms"] = fitting.dress_ms();
+    result["stage_ms"] = timings(context.get());
+
+    Album album(options.out);
+    draw_all(album, fitting, spread(moments), title_of(result));
+    animation.write(album.path("avatar.glb"));
+    result["pictures"] = album.names();
+    result["animation"] = "avatar.glb";
+    std::ofstream file(album.path("result.json"));
+    file << result.dump(2) << "\n";
+    if (!file.flush()) throw Failure(album.path("result.json") + ": cannot be written");
+    return result;
+}
+
+}  // namespace
+
+void add_fit(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("fit", "Scan, size, move and dress; leaves pictures and a GLB");
+    auto o = std::make_shared<Options>();
+    o->fitting.chart = "paper";
+    command->add_option("source", o->fitting.source, "Recording folder or sensor URI")->required();
+    command->add_option("--garment", o->fitting.garment, "Garment by name (default sundress)");
+    command->add_option("--size", o->fitting.size, "A label of the garment; default: made to measure");
+    command->add_option("--chart", o->fitting.chart, "Size chart by name or file (default paper)");
+    command->add_option("--sex", o->sex, "Whose default body: f, m or unknown")
+        ->check(CLI::IsMember({"f", "m", "unknown"}));
+    command->add_option("--frames", o->fitting.max_frames, "Play that many frames at most");
+    command->add_option("--detail", o->fitting.detail, "Level of detail of the avatar: 0, 1 or 2")
+        ->check(CLI::Range(0, 2));
+    command->add_option("--out", o->out, "Folder for the results")->required();
+    command->add_flag("--json", o->json, "Print the result as JSON");
+    add_source_options(*command);
+    command->callback([o] {
+        const Json result = fit(*o);
+        if (o->json)
+            std::cout << result.dump(2) << "\n";
+        else
+            std::cout << title_of(result) << "\nin " << o->out << ": result.json, contact_sheet.png, avatar.glb, "
+                      << result["pictures"].size() - 1 << " pictures\n";
+    });
+}
+
+}  // namespace vfit::tools

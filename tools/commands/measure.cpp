@@ -1,0 +1,82 @@
+// vfit measure: scans the person of a recording and prints the measures.
+#include <iomanip>
+#include <iostream>
+
+#include "client/people.h"
+#include "commands/commands.h"
+
+namespace vfit::tools {
+
+namespace {
+
+struct Options {
+    std::string source, method = "paper", garment = "short_sleeves", sex = "unknown";
+    uint32_t frames = 0;
+    bool json = false;
+};
+
+Json measure(const Options& options) {
+    if (options.method == "fit")
+        throw Failure("--method fit: this version measures by the paper's method alone (--method paper)");
+    const Context context = open_context();
+    Source source(context.get(), options.source);
+    const ScanRun run = run_scan(context.get(), source, {options.frames, sex_from(options.sex)});
+    Json out;
+    out["method"] = options.method;
+    out["frames"] = run.frames_taken;
+    out["measurements"] = measurements_json(measurements_of(run.scan.get()));
+    out["colliders"] = Json::array();
+    for (const auto& c : list<vfit_collider>([&](auto* items, uint32_t stride, uint32_t* n) {
+             return vfit_scan_colliders(run.scan.get(), items, stride, n);
+         }))
+        out["colliders"].push_back({{"joint", joint_name(c.joint)}, {"radius_m", c.radius}});
+    vfit_scale scale = vfit_scale_init();
+    check(vfit_scan_scale(run.scan.get(), options.garment.c_str(), &scale));
+    out["scale"] = {{"x", scale.x}, {"y", scale.y}};
+    out["compute_ms"] = {{"total", run.compute_ms}, {"per_frame", run.compute_ms / run.frames_taken}};
+    return out;
+}
+
+void print(const Json& result) {
+    std::cout << result["frames"] << " frames, " << std::fixed << std::setprecision(2)
+              << result["compute_ms"]["total"].get<double>() << " ms\n";
+    for (const auto& [key, m] : result["measurements"].items())
+        std::cout << std::left << std::setw(24) << key << std::right << std::setprecision(3) << std::setw(7)
+                  << m["value"].get<float>() << " m  +- " << m["sigma"].get<float>()
+                  << (m["observed"].get<bool>() ? "" : "  (inferred)") << "\n";
+}
+
+}  // namespace
+
+void add_source_options(CLI::App& command) {
+    for (const char* name : {"--joints", "--user-map"})
+        command.add_option_function<std::string>(
+            name,
+            [name](const std::string& value) {
+                if (value == "tracked")
+                    throw Failure(std::string(name) + " tracked: this version has no tracker; the source's own are used");
+                if (value != "recorded") throw CLI::ValidationError(name, "must be recorded or tracked");
+            },
+            "recorded: what the source supplies (the default); tracked: needs a tracker");
+}
+
+void add_measure(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("measure", "Measure the person of a recording or sensor");
+    auto o = std::make_shared<Options>();
+    command->add_option("source", o->source, "Recording folder or sensor URI")->required();
+    command->add_option("--method", o->method, "How to measure")->check(CLI::IsMember({"fit", "paper"}));
+    command->add_option("--garment", o->garment, "Garment kind that the scale is for");
+    command->add_option("--frames", o->frames, "Frames to average (default 30)")->check(CLI::Range(1, 3000));
+    command->add_option("--sex", o->sex, "f or m, where known")->check(CLI::IsMember({"f", "m", "unknown"}));
+    command->add_flag("--json", o->json, "Print JSON");
+    add_source_options(*command);
+    command->callback([o] {
+        const Json result = measure(*o);
+        if (o->json)
+            std::cout << result.dump(2) << "\n";
+        else
+            print(result);
+    });
+}
+
+}  // namespace vfit::tools

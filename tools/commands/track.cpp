@@ -1,0 +1,70 @@
+// vfit track: the bodies of each frame, as JSON lines in the recording's camera space.
+#include <chrono>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+
+#include "client/client.h"
+#include "commands/commands.h"
+#include "picture/canvas.h"
+
+namespace vfit::tools {
+
+namespace {
+
+struct Options {
+    std::string source, map_folder;
+    bool json = false;
+};
+
+void write_user_map(vfit_frame frame, const std::string& folder, uint32_t index) {
+    const vfit_view map = view_of(frame, VFIT_STREAM_USER_MAP);
+    char name[16];
+    std::snprintf(name, sizeof name, "%06u.png", index);
+    write_grey_png(folder + "/" + name, static_cast<const uint8_t*>(map.data), map.width, map.height, map.row_stride);
+}
+
+Json bodies_json(vfit_frame frame) {
+    const vfit_camera camera = camera_of(frame);
+    Json out = Json::array();
+    for (const auto& body : list<vfit_body>([&](auto* items, uint32_t stride, uint32_t* n) {
+             return vfit_frame_bodies(frame, items, stride, n);
+         }))
+        out.push_back({{"id", body.body_id}, {"joints", joints_json(joints_of(frame, body.body_id), camera)}});
+    return out;
+}
+
+void track(const Options& options) {
+    const Context context = open_context();
+    Source source(context.get(), options.source);
+    Tracker tracker;
+    check(vfit_tracker_create(context.get(), nullptr, tracker.out()));
+    if (!options.map_folder.empty()) std::filesystem::create_directories(options.map_folder);
+    while (const auto frame = source.next()) {
+        const uint32_t index = source.taken() - 1;
+        const auto start = std::chrono::steady_clock::now();
+        Frame tracked;
+        check(vfit_tracker_update(tracker.get(), frame->get(), tracked.out()));
+        const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        if (!options.map_folder.empty()) write_user_map(tracked.get(), options.map_folder, index);
+        const Json bodies = bodies_json(tracked.get());
+        if (options.json)
+            std::cout << Json{{"frame", index}, {"bodies", bodies}, {"ms", ms}}.dump() << "\n";
+        else
+            std::cout << "frame " << index << ": " << bodies.size() << (bodies.size() == 1 ? " body\n" : " bodies\n");
+    }
+}
+
+}  // namespace
+
+void add_track(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("track", "Print the bodies of each frame");
+    auto o = std::make_shared<Options>();
+    command->add_option("source", o->source, "Recording folder or sensor URI")->required();
+    command->add_option("--user-map-out", o->map_folder, "Write each frame's user map there as PNG");
+    command->add_flag("--json", o->json, "Print JSON lines");
+    add_source_options(*command);
+    command->callback([o] { track(*o); });
+}
+
+}  // namespace vfit::tools

@@ -1,0 +1,306 @@
+#include "export/glb.h"
+
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#include <tiny_gltf.h>
+
+#include <cstring>
+#include <glm/gtc/quaternion.hpp>
+#include <map>
+
+namespace vfit::tools {
+
+namespace {
+
+using glm::mat4;
+using glm::quat;
+using glm::vec3;
+
+template <typename T>
+std::vector<T> stream(vfit_frame frame, vfit_stream kind) {
+    const vfit_view view = view_of(frame, kind);
+    const auto* data = static_cast<const T*>(view.data);
+    return {data, data + size_t(view.width) * view.height};
+}
+
+/// Builds one GLB with a single binary buffer.
+class Writer {
+public:
+    Writer() {
+        model_.asset.version = "2.0";
+        model_.asset.generator = "vfit";
+        model_.buffers.emplace_back();
+    }
+    tinygltf::Model& model() { return model_; }
+
+    template <typename T>
+    int add(const std::vector<T>& items, int type, int component, int target, bool bounds = false) {
+        auto& bytes = model_.buffers[0].data;
+        while (bytes.size() % 4) bytes.push_back(0);
+        tinygltf::BufferView view;
+        view.buffer = 0;
+        view.byteOffset = bytes.size();
+        view.byteLength = items.size() * sizeof(T);
+        view.target = target;
+        const auto* from = reinterpret_cast<const unsigned char*>(items.data());
+        bytes.insert(bytes.end(), from, from + view.byteLength);
+        model_.bufferViews.push_back(view);
+        tinygltf::Accessor accessor;
+        accessor.bufferView = static_cast<int>(model_.bufferViews.size()) - 1;
+        accessor.componentType = component;
+        accessor.type = type;
+        accessor.count = items.size() * sizeof(T) / size_of(type, component);
+        if (bounds) set_bounds(accessor, reinterpret_cast<const float*>(items.data()));
+        model_.accessors.push_back(accessor);
+        return static_cast<int>(model_.accessors.size()) - 1;
+    }
+    int add_vectors(const std::vector<vec3>& v, bool bounds) {
+        return add(v, TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TARGET_ARRAY_BUFFER, bounds);
+    }
+    int add_times(const std::vector<float>& t) {
+        return add(t, TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_FLOAT, 0, true);
+    }
+    int add_indices(const std::vector<uint32_t>& indices) {
+        return add(indices, TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+                   TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    }
+    int add_material(const std::string& name, const std::vector<double>& color, double roughness, bool two_sided) {
+        tinygltf::Material material;
+        material.name = name;
+        material.pbrMetallicRoughness.baseColorFactor = color;
+        material.pbrMetallicRoughness.metallicFactor = 0.0;
+        material.pbrMetallicRoughness.roughnessFactor = roughness;
+        material.doubleSided = two_sided;
+        model_.materials.push_back(material);
+        return static_cast<int>(model_.materials.size()) - 1;
+    }
+    int add_node(tinygltf::Node node) {
+        model_.nodes.push_back(std::move(node));
+        return static_cast<int>(model_.nodes.size()) - 1;
+    }
+
+private:
+    static size_t size_of(int type, int component) {
+        return static_cast<size_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(type)) *
+                                   tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(component)));
+    }
+    static void set_bounds(tinygltf::Accessor& accessor, const float* values) {
+        const int n = tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor.type));
+        accessor.minValues.assign(static_cast<size_t>(n), 1e30);
+        accessor.maxValues.assign(static_cast<size_t>(n), -1e30);
+        for (size_t i = 0; i < accessor.count; ++i)
+            for (int c = 0; c < n; ++c) {
+                const double x = values[i * static_cast<size_t>(n) + static_cast<size_t>(c)];
+                auto& low = accessor.minValues[static_cast<size_t>(c)];
+                auto& high = accessor.maxValues[static_cast<size_t>(c)];
+                low = std::min(low, x);
+                high = std::max(high, x);
+            }
+    }
+    tinygltf::Model model_;
+};
+
+/// Place of a joint relative to its parent.
+struct Local {
+    quat rotation;
+    vec3 translation;
+};
+
+mat4 joint_world(const vfit_rig_bone& bone, const mat4& skinning) {
+    mat4 m = skinning;
+    m[3] = skinning * glm::vec4(bone.rest_position[0], bone.rest_position[1], bone.rest_position[2], 1.0f);
+    return m;
+}
+
+std::vector<Local> locals(const std::vector<vfit_rig_bone>& rig, const std::vector<mat4>& skinning) {
+    std::vector<mat4> world(rig.size());
+    std::vector<Local> out(rig.size());
+    for (size_t i = 0; i < rig.size(); ++i) {
+        world[i] = joint_world(rig[i], skinning[i]);
+        const mat4 local = rig[i].parent < 0 ? world[i] : glm::inverse(world[size_t(rig[i].parent)]) * world[i];
+        out[i] = {glm::normalize(glm::quat_cast(glm::mat3(local))), vec3(local[3])};
+    }
+    return out;
+}
+
+std::vector<double> values(const vec3& v) { return {v.x, v.y, v.z}; }
+std::vector<double> values(const quat& q) { return {q.x, q.y, q.z, q.w}; }
+
+/// Joint indices and weights 4 by 4; an unused place names joint 0 with weight 0.
+void add_skin_attributes(Writer& writer, tinygltf::Primitive& primitive, vfit_frame rest) {
+    struct Bones { uint16_t bone[8]; };
+    struct Weights { float weight[8]; };
+    const auto bones = stream<Bones>(rest, VFIT_STREAM_SKIN_BONES);
+    const auto weights = stream<Weights>(rest, VFIT_STREAM_SKIN_WEIGHTS);
+    for (int set = 0; set < 2; ++set) {
+        std::vector<uint16_t> b;
+        std::vector<float> w;
+        for (size_t i = 0; i < bones.size(); ++i)
+            for (int k = 4 * set; k < 4 * set + 4; ++k) {
+                w.push_back(weights[i].weight[k]);
+                b.push_back(weights[i].weight[k] > 0.0f ? bones[i].bone[k] : uint16_t(0));
+            }
+        const std::string suffix = std::to_string(set);
+        primitive.attributes["JOINTS_" + suffix] =
+            writer.add(b, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TARGET_ARRAY_BUFFER);
+        primitive.attributes["WEIGHTS_" + suffix] =
+            writer.add(w, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TARGET_ARRAY_BUFFER);
+    }
+}
+
+void add_channel(tinygltf::Animation& animation, int node, const char* path, int times, int output) {
+    tinygltf::AnimationSampler sampler;
+    sampler.input = times;
+    sampler.output = output;
+    sampler.interpolation = "LINEAR";
+    animation.samplers.push_back(sampler);
+    tinygltf::AnimationChannel channel;
+    channel.sampler = static_cast<int>(animation.samplers.size()) - 1;
+    channel.target_node = node;
+    channel.target_path = path;
+    animation.channels.push_back(channel);
+}
+
+}  // namespace
+
+GlbAnimation::GlbAnimation(vfit_avatar avatar, vfit_cloth cloth) : avatar_(avatar), cloth_(cloth) {
+    rig_ = list<vfit_rig_bone>(
+        [&](auto* items, uint32_t stride, uint32_t* n) { return vfit_avatar_rig(avatar, items, stride, n); });
+}
+
+void GlbAnimation::add_key(float time_s) {
+    Frame body, garment;
+    check(vfit_avatar_acquire(avatar_, body.out()));
+    check(vfit_cloth_acquire(cloth_, garment.out()));
+    GlbKey key;
+    key.time_s = time_s;
+    key.bone_matrices = stream<mat4>(body.get(), VFIT_STREAM_BONE_MATRIX);
+    key.garment_positions = stream<vec3>(garment.get(), VFIT_STREAM_POSITION);
+    key.garment_normals = stream<vec3>(garment.get(), VFIT_STREAM_NORMAL);
+    keys_.push_back(std::move(key));
+}
+
+void GlbAnimation::write(const std::string& path) const {
+    if (keys_.empty()) throw Failure("the animation has no key frame");
+    Writer writer;
+    tinygltf::Model& model = writer.model();
+    Frame rest, garment;
+    check(vfit_avatar_acquire_rest(avatar_, rest.out()));
+    check(vfit_cloth_acquire(cloth_, garment.out()));
+    const int skin_material = writer.add_material("skin", {0.80, 0.60, 0.48, 1.0}, 0.6, false);
+    const int cloth_material = writer.add_material("garment", {0.75, 0.20, 0.28, 1.0}, 0.85, true);
+
+    std::vector<float> times;
+    for (const GlbKey& key : keys_) times.push_back(key.time_s);
+    const int time_accessor = writer.add_times(times);
+    tinygltf::Animation animation;
+    animation.name = "motion";
+
+    // The rig: one node a bone, in the pose of the first key.
+    const std::vector<Local> first = locals(rig_, keys_[0].bone_matrices);
+    tinygltf::Skin skin;
+    skin.name = "rig";
+    std::vector<mat4> inverse_bind;
+    std::vector<int> roots;
+    for (size_t i = 0; i < rig_.size(); ++i) {
+        tinygltf::Node node;
+        node.name = rig_[i].name;
+        node.rotation = values(first[i].rotation);
+        node.translation = values(first[i].translation);
+        skin.joints.push_back(writer.add_node(node));
+        mat4 bind(1.0f);
+        bind[3] = glm::vec4(-rig_[i].rest_position[0], -rig_[i].rest_position[1], -rig_[i].rest_position[2], 1.0f);
+        inverse_bind.push_back(bind);
+        if (rig_[i].parent < 0)
+            roots.push_back(skin.joints.back());
+        else
+            model.nodes[size_t(skin.joints[size_t(rig_[i].parent)])].children.push_back(skin.joints.back());
+    }
+    skin.inverseBindMatrices = writer.add(inverse_bind, TINYGLTF_TYPE_MAT4, TINYGLTF_COMPONENT_TYPE_FLOAT, 0);
+    model.skins.push_back(skin);
+
+    std::vector<std::vector<quat>> rotations(rig_.size());
+    std::vector<std::vector<vec3>> translations(rig_.size());
+    for (const GlbKey& key : keys_) {
+        const auto local = locals(rig_, key.bone_matrices);
+        for (size_t i = 0; i < rig_.size(); ++i) {
+            quat q = local[i].rotation;
+            if (!rotations[i].empty() && glm::dot(q, rotations[i].back()) < 0.0f) q = -q;
+            rotations[i].push_back(q);
+            translations[i].push_back(local[i].translation);
+        }
+    }
+    for (size_t i = 0; i < rig_.size(); ++i) {
+        // GLM keeps x, y, z, w in memory, as glTF does.
+        const int r = writer.add(rotations[i], TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_FLOAT, 0);
+        add_channel(animation, skin.joints[i], "rotation", time_accessor, r);
+        if (rig_[i].parent < 0) {
+            const int t = writer.add(translations[i], TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_FLOAT, 0);
+            add_channel(animation, skin.joints[i], "translation", time_accessor, t);
+        }
+    }
+
+    tinygltf::Mesh body_mesh;
+    body_mesh.name = "body";
+    tinygltf::Primitive body;
+    body.mode = TINYGLTF_MODE_TRIANGLES;
+    body.material = skin_material;
+    body.attributes["POSITION"] = writer.add_vectors(stream<vec3>(rest.get(), VFIT_STREAM_POSITION), true);
+    body.attributes["NORMAL"] = writer.add_vectors(stream<vec3>(rest.get(), VFIT_STREAM_NORMAL), false);
+    body.attributes["TEXCOORD_0"] =
+        writer.add(stream<glm::vec2>(rest.get(), VFIT_STREAM_UV), TINYGLTF_TYPE_VEC2, TINYGLTF_COMPONENT_TYPE_FLOAT,
+                   TINYGLTF_TARGET_ARRAY_BUFFER);
+    add_skin_attributes(writer, body, rest.get());
+    body.indices = writer.add_indices(stream<uint32_t>(rest.get(), VFIT_STREAM_INDEX));
+    body_mesh.primitives.push_back(body);
+    model.meshes.push_back(body_mesh);
+
+    tinygltf::Mesh cloth_mesh;
+    cloth_mesh.name = "garment";
+    tinygltf::Primitive cloth;
+    cloth.mode = TINYGLTF_MODE_TRIANGLES;
+    cloth.material = cloth_material;
+    cloth.attributes["POSITION"] = writer.add_vectors(keys_[0].garment_positions, true);
+    cloth.attributes["NORMAL"] = writer.add_vectors(keys_[0].garment_normals, false);
+    cloth.indices = writer.add_indices(stream<uint32_t>(garment.get(), VFIT_STREAM_INDEX));
+    const size_t targets = keys_.size() - 1;
+    for (size_t k = 1; k < keys_.size(); ++k) {
+        std::vector<vec3> moved(keys_[k].garment_positions.size()), turned(moved.size());
+        for (size_t i = 0; i < moved.size(); ++i) {
+            moved[i] = keys_[k].garment_positions[i] - keys_[0].garment_positions[i];
+            turned[i] = keys_[k].garment_normals[i] - keys_[0].garment_normals[i];
+        }
+        cloth.targets.push_back(
+            {{"POSITION", writer.add_vectors(moved, true)}, {"NORMAL", writer.add_vectors(turned, false)}});
+    }
+    cloth_mesh.weights.assign(targets, 0.0);
+    cloth_mesh.primitives.push_back(cloth);
+    model.meshes.push_back(cloth_mesh);
+
+    tinygltf::Node body_node, cloth_node;
+    body_node.name = "body";
+    body_node.mesh = 0;
+    body_node.skin = 0;
+    cloth_node.name = "garment";
+    cloth_node.mesh = 1;
+    const int body_index = writer.add_node(body_node), cloth_index = writer.add_node(cloth_node);
+    if (targets > 0) {
+        // At key k the target k - 1 counts alone; between two keys they blend.
+        std::vector<float> weights(keys_.size() * targets, 0.0f);
+        for (size_t k = 1; k < keys_.size(); ++k) weights[k * targets + k - 1] = 1.0f;
+        const int w = writer.add(weights, TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_FLOAT, 0);
+        add_channel(animation, cloth_index, "weights", time_accessor, w);
+        model.animations.push_back(animation);
+    }
+    tinygltf::Scene scene;
+    scene.nodes = roots;
+    scene.nodes.push_back(body_index);
+    scene.nodes.push_back(cloth_index);
+    model.scenes.push_back(scene);
+    model.defaultScene = 0;
+
+    tinygltf::TinyGLTF gltf;
+    if (!gltf.WriteGltfSceneToFile(&model, path, true, true, false, true)) throw Failure(path + ": cannot be written");
+}
+
+}  // namespace vfit::tools

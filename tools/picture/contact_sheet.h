@@ -1,0 +1,19 @@
+// Several pictures on one sheet, with captions.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "picture/canvas.h"
+
+namespace vfit::tools {
+
+struct SheetItem {
+    Canvas picture;
+    std::string caption;
+};
+
+/// `title` over rows of `columns` pictures, each `cell_height` pixels high, its width by its own shape.
+Canvas contact_sheet(const std::string& title, const std::vector<std::vector<SheetItem>>& rows, int cell_height);
+
+}  // namespace vfit::tools

@@ -1,0 +1,91 @@
+#include "picture/dressed_picture.h"
+
+#include <cmath>
+
+#include "picture/hide_skin.h"
+
+namespace vfit::tools {
+
+namespace {
+
+constexpr Color kSkin{0.86f, 0.67f, 0.56f};
+constexpr Color kCloth{0.80f, 0.27f, 0.30f};
+constexpr float kClothSheen = 0.35f;
+
+template <typename T>
+std::vector<T> stream(vfit_frame frame, vfit_stream kind) {
+    const vfit_view view = view_of(frame, kind);
+    const auto* data = static_cast<const T*>(view.data);
+    return {data, data + size_t(view.width) * view.height};
+}
+
+RenderMesh mesh_of(vfit_frame frame, const Color& color) {
+    RenderMesh mesh;
+    mesh.positions = stream<glm::vec3>(frame, VFIT_STREAM_POSITION);
+    mesh.normals = stream<glm::vec3>(frame, VFIT_STREAM_NORMAL);
+    mesh.indices = stream<uint32_t>(frame, VFIT_STREAM_INDEX);
+    mesh.color = color;
+    return mesh;
+}
+
+bool of_arm_or_head(vfit_bone_id bone) {
+    return bone == VFIT_BONE_NECK || bone == VFIT_BONE_HEAD ||
+           (bone >= VFIT_BONE_LEFT_UPPER_ARM && bone <= VFIT_BONE_LEFT_HAND) ||
+           (bone >= VFIT_BONE_RIGHT_UPPER_ARM && bone <= VFIT_BONE_RIGHT_HAND);
+}
+
+/// 0 for vertices that arms and head carry most: they only come near the garment.
+std::vector<uint8_t> coverable(vfit_avatar avatar, vfit_frame body) {
+    const auto rig = list<vfit_rig_bone>(
+        [&](auto* items, uint32_t stride, uint32_t* n) { return vfit_avatar_rig(avatar, items, stride, n); });
+    std::vector<uint8_t> bone_ok(rig.size(), 1);
+    for (size_t i = 0; i < rig.size(); ++i)
+        bone_ok[i] = !of_arm_or_head(rig[i].bone) && (rig[i].parent < 0 || bone_ok[size_t(rig[i].parent)]);
+    struct Bones { uint16_t bone[8]; };
+    const auto bones = stream<Bones>(body, VFIT_STREAM_SKIN_BONES);
+    std::vector<uint8_t> out;
+    for (const Bones& b : bones) out.push_back(bone_ok[b.bone[0]]);  // heaviest first
+    return out;
+}
+
+}  // namespace
+
+std::vector<RenderMesh> dressed_meshes(vfit_avatar avatar, vfit_cloth cloth) {
+    Frame body_frame;
+    check(vfit_avatar_acquire(avatar, body_frame.out()));
+    std::vector<RenderMesh> meshes{mesh_of(body_frame.get(), kSkin)};
+    if (cloth.id) {
+        Frame cloth_frame;
+        check(vfit_cloth_acquire(cloth, cloth_frame.out()));
+        meshes.push_back(mesh_of(cloth_frame.get(), kCloth));
+        meshes[1].sheen = kClothSheen;
+        meshes[0].indices = visible_triangles(meshes[0], meshes[1], coverable(avatar, body_frame.get()));
+    }
+    return meshes;
+}
+
+glm::vec3 centre_of(const RenderMesh& mesh) {
+    glm::vec3 low(1e9f), high(-1e9f);
+    for (const auto& p : mesh.positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    return {0.5f * (low.x + high.x), 0.0f, 0.5f * (low.z + high.z)};
+}
+
+Canvas draw_dressed(const std::vector<RenderMesh>& meshes, const glm::vec3& centre, float yaw, int width, int height) {
+    // The floor of the picture is the world's: meshes move under the camera, not the camera over them.
+    std::vector<RenderMesh> moved = meshes;
+    for (RenderMesh& mesh : moved)
+        for (glm::vec3& p : mesh.positions) p -= centre;
+    RenderView view;
+    view.width = width;
+    view.height = height;
+    constexpr float kDistance = 5.2f, kEyeHeight = 1.35f, kTargetHeight = 0.92f;
+    view.eye = {kDistance * std::sin(yaw), kEyeHeight, kDistance * std::cos(yaw)};
+    view.target = {0.0f, kTargetHeight, 0.0f};
+    view.fov_y_rad = 0.43f;
+    return render(moved, view);
+}
+
+}  // namespace vfit::tools
