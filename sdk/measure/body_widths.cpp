@@ -1,6 +1,10 @@
 // Shoulder and hip width, and the forearm with the hand: joints plus the way from them to the contour.
 #include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
 #include <cmath>
+#include <initializer_list>
 
 #include "measure/body_lines.h"
 #include "measure/silhouette.h"
@@ -13,6 +17,24 @@ namespace {
 constexpr float kForeshortened_rad = 40.0f * kPi / 180.0f;
 // The posture of the bideltoid breadth: upper arms 5 degrees from the vertical.
 constexpr float kHangingArm_rad = 5.0f * kPi / 180.0f;
+
+/// The largest of a row of extents, each taken as the mean of itself and its neighbours: the largest of many
+/// single contour pixels would be the noisiest one. Negative entries are unseen; none seen: -1.
+template <size_t N>
+float largest(const std::array<float, N>& extents, size_t count) {
+    float best = -1.0f;
+    for (size_t i = 0; i < count; ++i) {
+        float sum = 0.0f;
+        int seen = 0;
+        for (size_t k = i > 0 ? i - 1 : 0; k <= i + 1 && k < count; ++k) {
+            if (extents[k] < 0.0f) continue;
+            sum += extents[k];
+            ++seen;
+        }
+        if (extents[i] >= 0.0f) best = std::max(best, sum / float(seen));
+    }
+    return best;
+}
 
 bool has_all(const Body& body, std::initializer_list<int> joints) {
     return std::all_of(joints.begin(), joints.end(),
@@ -41,18 +63,19 @@ float deltoid_overhang(const FilteredDepth& depth, const Camera& camera, const V
 
     // The deltoid ends at about half of the upper arm; its bulk lies in the first third.
     constexpr float kDeltoid_arm = 0.35f;
-    constexpr int kSteps = 6;
-    float overhang = -1.0f;
-    for (int i = 0; i <= kSteps; ++i) {
-        const float share = kDeltoid_arm * float(i) / float(kSteps);
+    constexpr size_t kSteps = 10;
+    std::array<float, kSteps> overhang;
+    overhang.fill(-1.0f);
+    for (size_t i = 0; i < kSteps; ++i) {
+        const float share = kDeltoid_arm * float(i) / float(kSteps - 1);
         const Vec3 from = shoulder + (elbow - shoulder) * share;
         const auto reach = plane.reach(depth, from, outward);
         if (!reach.seen()) continue;
         const FrontalPlane here(camera, from);
         const float extent = glm::dot(here.point(reach.edge) - from, outward);
-        overhang = std::max(overhang, extent * std::cos(kHangingArm_rad) + share * length * std::sin(kHangingArm_rad));
+        overhang[i] = extent * std::cos(kHangingArm_rad) + share * length * std::sin(kHangingArm_rad);
     }
-    return overhang;
+    return largest(overhang, kSteps);
 }
 
 /// From the palm to the furthest contour within the wrist's reach to either side of the forearm's direction; 0
@@ -71,9 +94,10 @@ float fingertip_distance(const FilteredDepth& depth, const FrontalPlane& plane, 
         if (!reach.seen()) return 0.0f;
         furthest = std::max(furthest, glm::length(frontal(plane, reach.point - palm)));
     }
-    // Palm to fingertip is half to two thirds of a hand (194 mm men, 181 mm women, ANSUR II): a longer way to the
+    // Palm to fingertip is two thirds to three quarters of a hand (194 mm men, 181 mm women, ANSUR II): a longer way to the
     // contour runs on over the thigh, a shorter one is a fist or a tracker's error.
-    constexpr float kShortest_m = 0.06f, kLongest_m = 0.16f;
+    constexpr float kShortest_m = 0.06f, kLongest_m = 0.18f;
+    if(getenv("DBG"))fprintf(stderr,"f %.3f\n",furthest);
     return furthest >= kShortest_m && furthest <= kLongest_m ? furthest : 0.0f;
 }
 
@@ -110,12 +134,18 @@ Estimate hip_width(const FilteredDepth& depth, const Camera& camera, const Body&
     // From the hip joint (0.530 of stature, Drillis and Contini) down to the crotch (0.481, ANSUR II), of 1.69 m.
     constexpr float kRows_m = 0.08f;
     constexpr float kHalfForearm_m = 0.05f;
+    constexpr size_t kMostRows = 32;
+    const float step_m = std::max(pixel_m, kRows_m / float(kMostRows - 1));
     float sides[2] = {-1.0f, -1.0f};
+    bool hidden = false;
     for (int s = 0; s < 2; ++s) {
+        std::array<float, kMostRows> extents;
+        size_t rows = 0;
         const int elbow = s == 0 ? VFIT_JOINT_LEFT_ELBOW : VFIT_JOINT_RIGHT_ELBOW;
         const int hand = s == 0 ? VFIT_JOINT_LEFT_HAND : VFIT_JOINT_RIGHT_HAND;
         const float side = glm::dot(hips[s] - hips[1 - s], plane.right()) > 0.0f ? 1.0f : -1.0f;
-        for (float below = 0.0f; below <= kRows_m; below += pixel_m) {
+        for (float below = 0.0f; below <= kRows_m && rows < kMostRows; below += step_m) {
+            extents[rows++] = -1.0f;
             const auto reach = plane.reach(depth, hips[s] - plane.up() * below, plane.right() * side);
             if (!reach.seen()) continue;
             const float extent = glm::dot(reach.point - hips[s], plane.right()) * side;
@@ -132,15 +162,17 @@ Estimate hip_width(const FilteredDepth& depth, const Camera& camera, const Body&
                     is_arm = extent > arm - 0.5f * kHalfForearm_m;
                 }
             }
-            if (!is_arm) sides[s] = std::max(sides[s], extent);
+            if (is_arm) hidden = true;
+            else extents[rows - 1] = extent;
         }
+        sides[s] = largest(extents, rows);
     }
     if (sides[0] < 0.0f && sides[1] < 0.0f) return {};
     const float between = glm::length(hips[0] - hips[1]);
-    constexpr float kBothSigma_m = 0.015f, kOneSigma_m = 0.025f;  // clothes; a side taken from the other one
+    constexpr float kBothSigma_m = 0.015f, kOneSigma_m = 0.025f;  // clothes; a side that the arm hides wholly or partly
     if (sides[0] < 0.0f) return {between + 2.0f * sides[1], kOneSigma_m, true};
     if (sides[1] < 0.0f) return {between + 2.0f * sides[0], kOneSigma_m, true};
-    return {between + sides[0] + sides[1], kBothSigma_m, true};
+    return {between + sides[0] + sides[1], hidden ? kOneSigma_m : kBothSigma_m, true};
 }
 
 Estimate elbow_fingertip(const FilteredDepth& depth, const Camera& camera, const Body& body, bool from_wrist) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "core/error.h"
 #include "math/finite.h"
@@ -34,15 +35,13 @@ void set_axes(Section& section, const Vec3& point, const Vec3& normal) {
 /// Ends of the segments of all crossed triangles. Each triangle is crossed from the edge where its boundary goes
 /// down through the plane to the one where it comes up: with counter-clockwise triangles that leads round
 /// the body counter-clockwise.
-std::vector<End> crossings(std::span<const uint32_t> indices, std::span<const float> height,
+std::vector<End> crossings(std::span<const uint32_t> indices, const float* height,
                            std::span<const uint8_t> skip_triangle) {
     std::vector<End> ends;
     for (size_t t = 0; t < indices.size() / 3; ++t) {
-        if (!skip_triangle.empty() && skip_triangle[t]) continue;
+        if (indices.size() % 3 != 0) fail(VFIT_ERROR_DATA, "the mesh has ", indices.size(), " indices, not three a triangle");
+    if (!skip_triangle.empty() && skip_triangle[t]) continue;
         const uint32_t* v = &indices[3 * t];
-        for (int k = 0; k < 3; ++k)
-            if (v[k] >= height.size())
-                fail(VFIT_ERROR_DATA, "triangle ", t, " names vertex ", v[k], " of ", height.size());
         const bool above[3] = {height[v[0]] >= 0.0f, height[v[1]] >= 0.0f, height[v[2]] >= 0.0f};
         if (above[0] == above[1] && above[1] == above[2]) continue;
         uint64_t down = 0, up = 0;
@@ -102,15 +101,20 @@ Section cut(std::span<const Vec3> positions, std::span<const uint32_t> indices, 
     const float length = glm::length(normal);
     if (!finite(point) || !std::isfinite(length) || !(length > 0.0f))
         fail(VFIT_ERROR_ARGUMENT, "the cutting plane has no place or no direction");
+    if (indices.size() % 3 != 0) fail(VFIT_ERROR_DATA, "the mesh has ", indices.size(), " indices, not three a triangle");
     if (!skip_triangle.empty() && skip_triangle.size() != indices.size() / 3)
         fail(VFIT_ERROR_ARGUMENT, "there are ", skip_triangle.size(), " flags for ", indices.size() / 3, " triangles");
     const Vec3 unit = normal / length;
     Section section;
     set_axes(section, point, unit);
 
-    std::vector<float> height(positions.size());
-    for (size_t i = 0; i < positions.size(); ++i) height[i] = glm::dot(unit, positions[i] - point);
-    const std::vector<End> ends = crossings(indices, height, skip_triangle);
+    // Of the named vertices only: a cut of a few triangles of a large mesh is as fast as of a small mesh.
+    const auto height = std::make_unique_for_overwrite<float[]>(positions.size());
+    for (const uint32_t i : indices) {
+        if (i >= positions.size()) fail(VFIT_ERROR_DATA, "a triangle names vertex ", i, " of ", positions.size());
+        height[i] = glm::dot(unit, positions[i] - point);
+    }
+    const std::vector<End> ends = crossings(indices, height.get(), skip_triangle);
     const std::vector<uint32_t> partner = link(ends);
 
     const auto place = [&](uint32_t end) {

@@ -85,13 +85,8 @@ void measure_limbs(const TapeMesh& body, Sheet& sheet) {
 }
 
 void measure_head(const TapeMesh& body, Sheet& sheet) {
-    const Axis neck = neck_axis(body);
-    const Vec3 place = neck.start + neck_place(body) * neck.direction();
-    const Section section = body.across(place, neck.direction());
-    const auto* loop = loop_about(section, place);
-    if (!loop) fail(VFIT_ERROR_DATA, "the body has no neck about the line from its NECK to its HEAD joint");
-    sheet.set("neck_girth_m", hull_perimeter(*loop));
-    const float chin = chin_height(body);
+    const float narrowest_m = narrowest_neck(body), chin = chin_height(body, narrowest_m);
+    sheet.set("neck_girth_m", length(neck_loop(body, larynx_place(body, narrowest_m, chin))));
     sheet.set("head_height_m", body.crown() - chin);
     sheet.set("head_width_m", skull_breadth(body, chin));
 }

@@ -34,16 +34,28 @@ float hip_height(const TapeMesh& body, float crotch, float waist);
 /// From the joint at the foot of the neck to the middle of the head.
 Axis neck_axis(const TapeMesh& body);
 
-/// Where along the neck's axis the girth square to it is smallest. Trapezius and jaw lie to its two sides, and both
-/// are wider.
-float neck_place(const TapeMesh& body);
+/// Length of a closed line.
+float length(const std::vector<Vec3>& loop);
+
+/// Tape about the neck, square to its axis, that many metres along it. VFIT_ERROR_DATA where the axis does not
+/// run inside the neck.
+std::vector<Vec3> neck_loop(const TapeMesh& body, float along_m);
+
+/// Where along its axis the neck is narrowest: trapezius and jaw lie to the two sides, and both are wider.
+float narrowest_neck(const TapeMesh& body);
+
+/// Where along the neck's axis the tape lies just below the larynx: its front is a third of the way down from the
+/// chin to the collar bones. The chin is level with C3, the notch between the collar bones with T2 to T3, the
+/// larynx ends at C5: two of six and a half vertebrae.
+float larynx_place(const TapeMesh& body, float narrowest_m, float chin);
 
 /// Outermost point of the acromion, on the skin: where the shoulder's outline, seen from the front, turns from
 /// the top to the side.
 Vec3 acromion(const TapeMesh& body, Side side);
 
-/// Lowest point of the chin: of the head in front of the plane halfway between throat and tip of the nose.
-float chin_height(const TapeMesh& body);
+/// Lowest point of the chin: of what lies above the throat and in front of the plane halfway between it and the tip
+/// of the nose.
+float chin_height(const TapeMesh& body, float narrowest_m);
 
 /// Largest breadth of the skull above the ears.
 float skull_breadth(const TapeMesh& body, float chin);

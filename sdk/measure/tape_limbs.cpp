@@ -1,6 +1,7 @@
 // Landmarks of head, neck and limbs.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/error.h"
 #include "measure/tape_landmarks.h"
@@ -9,42 +10,43 @@ namespace vfit {
 
 namespace {
 
-/// Elevation of the outline's normal at the acromion.
-constexpr float kAcromionNormal_rad = kPi / 4.0f;
+/// Elevation of the outline's normal at the acromion. Along the trapezius the normal stands at about 60 degrees, on
+/// the deltoid it falls to 0; in people biacromial breadth is 0.81 of the bideltoid (ANSUR II, both sexes), and
+/// bodies of both sexes come nearest to that between 50 and 60 degrees.
+constexpr float kAcromionNormal_rad = 50.0f * kPi / 180.0f;
 
 /// Upper share of the head that holds no ear. The ear's middle (tragion) lies 0.56 of head height below the crown,
 /// the ear is 0.27 of head height long (Farkas 1994): its top is at 0.42.
 constexpr float kSkullShare = 0.4f;
 
-/// The vertex of these parts that lies farthest along the direction; null where there is none.
-const Vec3* farthest(const TapeMesh& body, std::initializer_list<BodyPart> parts, const Vec3& direction, float above) {
+/// The vertex of the highest score, of those that have one; null where none has.
+template <typename Score>
+const Vec3* best_vertex(const TapeMesh& body, const Score& score) {
     const TapeBody& b = body.body();
     const Vec3* best = nullptr;
+    float best_score = 0.0f;
     for (size_t i = 0; i < b.positions.size(); ++i) {
-        const Vec3& p = b.positions[i];
-        if (p.y < above || std::find(parts.begin(), parts.end(), b.parts[i]) == parts.end()) continue;
-        if (!best || glm::dot(p, direction) > glm::dot(*best, direction)) best = &p;
+        const std::optional<float> here = score(b.positions[i], b.parts[i]);
+        if (here && (!best || *here > best_score)) best = &b.positions[i], best_score = *here;
     }
     return best;
 }
 
-float girth_about(const TapeMesh& body, const Axis& axis, float along_m, const Axis* apart) {
-    const Vec3 direction = axis.direction(), place = axis.start + along_m * direction;
-    const Section section = body.across(place, direction);
-    const auto* loop = loop_about(section, place);
-    if (!loop) return 0.0f;
-    if (apart) {
-        const Vec3 other = apart->end - apart->start;
-        const float share = glm::dot(place - apart->start, direction) / glm::dot(other, direction);
-        if (std::isfinite(share) && loop == loop_about(section, apart->at(share))) return 0.0f;
-    }
-    return hull_perimeter(*loop);
+const Vec3& frontmost(const std::vector<Vec3>& points) {
+    return *std::max_element(points.begin(), points.end(), [](const Vec3& a, const Vec3& b) { return a.z < b.z; });
 }
 
 }  // namespace
 
 float limb_girth(const TapeMesh& body, const Axis& limb, float along_m, const Axis& apart) {
-    return girth_about(body, limb, along_m, &apart);
+    const Vec3 direction = limb.direction(), place = limb.start + along_m * direction;
+    const Section section = body.across(place, direction);
+    const auto* loop = loop_about(section, place);
+    if (!loop) return 0.0f;
+    const float share =
+        glm::dot(place - apart.start, direction) / glm::dot(apart.end - apart.start, direction);
+    if (std::isfinite(share) && loop == loop_about(section, apart.at(share))) return 0.0f;
+    return hull_perimeter(*loop);
 }
 
 float largest_limb_girth(const TapeMesh& body, const Axis& limb, float share, const Axis& apart) {
@@ -56,42 +58,58 @@ float largest_limb_girth(const TapeMesh& body, const Axis& limb, float share, co
 
 Axis neck_axis(const TapeMesh& body) { return {body.joint(VFIT_JOINT_NECK), body.joint(VFIT_JOINT_HEAD)}; }
 
-float neck_place(const TapeMesh& body) {
+float length(const std::vector<Vec3>& loop) {
+    float sum = 0.0f;
+    for (size_t i = 0; i < loop.size(); ++i) sum += glm::distance(loop[i], loop[(i + 1) % loop.size()]);
+    return sum;
+}
+
+std::vector<Vec3> neck_loop(const TapeMesh& body, float along_m) {
     const Axis neck = neck_axis(body);
-    const auto tightness = [&](float along_m) {
-        const float girth = girth_about(body, neck, along_m, nullptr);
-        return girth > 0.0f ? -girth : -body.height();  // longer than any neck
-    };
-    return place_of_largest(0.0f, glm::distance(neck.start, neck.end), tightness);
+    const Vec3 direction = neck.direction(), place = neck.start + along_m * direction;
+    const Section section = body.across(place, direction);
+    const auto* loop = loop_about(section, place);
+    if (!loop) fail(VFIT_ERROR_DATA, "the line from the NECK to the HEAD joint does not run inside the body");
+    std::vector<Vec3> tape;
+    for (const Vec2& p : convex_hull(*loop)) tape.push_back(section.lift(p));
+    return tape;
+}
+
+float narrowest_neck(const TapeMesh& body) {
+    const Axis neck = neck_axis(body);
+    return place_of_largest(0.0f, glm::distance(neck.start, neck.end),
+                            [&](float along_m) { return -length(neck_loop(body, along_m)); });
+}
+
+float larynx_place(const TapeMesh& body, float narrowest_m, float chin) {
+    const float collar_bones =
+        0.5f * (body.joint(VFIT_JOINT_LEFT_CLAVICLE).y + body.joint(VFIT_JOINT_RIGHT_CLAVICLE).y);
+    const float larynx = glm::mix(chin, collar_bones, 1.0f / 3.0f);
+    // No neck reaches as far below its joint as the joint lies above the collar bones' own level.
+    const float lowest_m = std::min(0.0f, collar_bones - neck_axis(body).start.y);
+    return border(narrowest_m, lowest_m,
+                  [&](float along_m) { return frontmost(neck_loop(body, along_m)).y > larynx; });
 }
 
 Vec3 acromion(const TapeMesh& body, Side side) {
-    const float sign = side == Side::kLeft ? 1.0f : -1.0f;
+    const float sign = side == Side::kLeft ? 1.0f : -1.0f, joint = body.upper_arm(side).start.x;
     const BodyPart arm = side == Side::kLeft ? BodyPart::kLeftUpperArm : BodyPart::kRightUpperArm;
     const Vec3 outwards(sign * std::cos(kAcromionNormal_rad), std::sin(kAcromionNormal_rad), 0.0f);
-    // On the slope from the neck, points high above the shoulder would win: look beside the joint only.
-    const TapeBody& b = body.body();
-    const float joint = body.upper_arm(side).start.x;
-    const Vec3* best = nullptr;
-    for (size_t i = 0; i < b.positions.size(); ++i) {
-        const Vec3& p = b.positions[i];
-        if ((b.parts[i] != arm && b.parts[i] != BodyPart::kTorso) || sign * (p.x - joint) < 0.0f) continue;
-        if (!best || glm::dot(p, outwards) > glm::dot(*best, outwards)) best = &p;
-    }
-    if (!best) fail(VFIT_ERROR_DATA, "the body has no skin outside its shoulder joint");
-    return *best;
+    const Vec3* found = best_vertex(body, [&](const Vec3& p, BodyPart part) -> std::optional<float> {
+        // Only outside the joint: the slope up to the neck would win.
+        if ((part != arm && part != BodyPart::kTorso) || sign * (p.x - joint) < 0.0f) return std::nullopt;
+        return glm::dot(p, outwards);
+    });
+    if (!found) fail(VFIT_ERROR_DATA, "the body has no skin outside its shoulder joint");
+    return *found;
 }
 
-float chin_height(const TapeMesh& body) {
-    const Axis neck = neck_axis(body);
-    const Vec3 place = neck.start + neck_place(body) * neck.direction();
-    const Section section = body.across(place, neck.direction());
-    const auto* loop = loop_about(section, place);
-    const Vec3* nose = farthest(body, {BodyPart::kHead}, Vec3(0, 0, 1), place.y);
-    if (!loop || !nose) fail(VFIT_ERROR_DATA, "the body has no head on its neck");
-    Vec3 throat = section.lift(loop->front());
-    for (const Vec2& p : *loop)
-        if (section.lift(p).z > throat.z) throat = section.lift(p);
+float chin_height(const TapeMesh& body, float narrowest_m) {
+    const Vec3 throat = frontmost(neck_loop(body, narrowest_m));
+    const Vec3* nose = best_vertex(body, [&](const Vec3& p, BodyPart part) -> std::optional<float> {
+        return part == BodyPart::kHead && p.y > throat.y ? std::optional(p.z) : std::nullopt;
+    });
+    if (!nose) fail(VFIT_ERROR_DATA, "the body has no head on its neck");
     const float front = 0.5f * (throat.z + nose->z);
     float chin = nose->y;
     for (const Vec3& p : body.body().positions)
@@ -109,14 +127,11 @@ Vec3 fingertip(const TapeMesh& body, Side side) {
     const bool left = side == Side::kLeft;
     const Vec3 wrist = body.joint(left ? VFIT_JOINT_LEFT_WRIST : VFIT_JOINT_RIGHT_WRIST);
     const BodyPart hand = left ? BodyPart::kLeftHand : BodyPart::kRightHand;
-    const TapeBody& b = body.body();
-    const Vec3* best = nullptr;
-    for (size_t i = 0; i < b.positions.size(); ++i)
-        if (b.parts[i] == hand &&
-            (!best || glm::distance(b.positions[i], wrist) > glm::distance(*best, wrist)))
-            best = &b.positions[i];
-    if (!best) fail(VFIT_ERROR_DATA, "the body has no hand");
-    return *best;
+    const Vec3* found = best_vertex(body, [&](const Vec3& p, BodyPart part) -> std::optional<float> {
+        return part == hand ? std::optional(glm::distance(p, wrist)) : std::nullopt;
+    });
+    if (!found) fail(VFIT_ERROR_DATA, "the body has no hand");
+    return *found;
 }
 
 }  // namespace vfit

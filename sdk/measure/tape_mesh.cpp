@@ -16,7 +16,7 @@ const Vec3 kUp(0, 1, 0);
 constexpr int kNeededJoints[] = {
     VFIT_JOINT_HEAD,          VFIT_JOINT_NECK,       VFIT_JOINT_TORSO,       VFIT_JOINT_PELVIS,
     VFIT_JOINT_LEFT_SHOULDER, VFIT_JOINT_LEFT_ELBOW, VFIT_JOINT_LEFT_WRIST,  VFIT_JOINT_LEFT_HIP,
-    VFIT_JOINT_LEFT_KNEE,     VFIT_JOINT_LEFT_FOOT,  VFIT_JOINT_RIGHT_FOOT,  VFIT_JOINT_RIGHT_SHOULDER,
+    VFIT_JOINT_LEFT_KNEE,     VFIT_JOINT_LEFT_CLAVICLE, VFIT_JOINT_RIGHT_CLAVICLE,  VFIT_JOINT_RIGHT_SHOULDER,
     VFIT_JOINT_RIGHT_ELBOW,   VFIT_JOINT_RIGHT_WRIST, VFIT_JOINT_RIGHT_HIP,  VFIT_JOINT_RIGHT_KNEE};
 
 bool is_arm(BodyPart part) {
@@ -50,18 +50,46 @@ void check(const TapeBody& body) {
 
 TapeMesh::TapeMesh(const TapeBody& body) : body_(body) {
     check(body);
-    trunk_indices_.reserve(body.indices.size());
-    for (size_t t = 0; t < body.indices.size(); t += 3) {
-        int arm_corners = 0;
-        for (size_t k = t; k < t + 3; ++k) arm_corners += is_arm(body.parts[body.indices[k]]);
-        if (arm_corners < 2)
-            trunk_indices_.insert(trunk_indices_.end(), body.indices.begin() + std::ptrdiff_t(t),
-                                  body.indices.begin() + std::ptrdiff_t(t) + 3);
-    }
+    whole_ = layers(true);
+    trunk_ = layers(false);
     const auto [low, high] = std::minmax_element(body.positions.begin(), body.positions.end(),
                                                  [](const Vec3& a, const Vec3& b) { return a.y < b.y; });
     floor_ = low->y;
     crown_ = high->y;
+}
+
+TapeMesh::Layers TapeMesh::layers(bool with_arms) const {
+    struct Triangle {
+        float lowest;
+        uint32_t first;
+    };
+    Layers result;
+    std::vector<Triangle> order;
+    order.reserve(body_.indices.size() / 3);
+    for (uint32_t t = 0; t < body_.indices.size(); t += 3) {
+        const uint32_t* v = &body_.indices[t];
+        int arm_corners = 0;
+        for (int k = 0; k < 3; ++k) arm_corners += is_arm(body_.parts[v[k]]);
+        if (!with_arms && arm_corners >= 2) continue;
+        const auto [low, high] =
+            std::minmax({body_.positions[v[0]].y, body_.positions[v[1]].y, body_.positions[v[2]].y});
+        order.push_back({low, t});
+        result.tallest = std::max(result.tallest, high - low);
+    }
+    std::sort(order.begin(), order.end(), [](const Triangle& a, const Triangle& b) {
+        return a.lowest != b.lowest ? a.lowest < b.lowest : a.first < b.first;
+    });
+    for (const Triangle& triangle : order) {
+        result.lowest.push_back(triangle.lowest);
+        for (uint32_t k = 0; k < 3; ++k) result.indices.push_back(body_.indices[triangle.first + k]);
+    }
+    return result;
+}
+
+std::span<const uint32_t> TapeMesh::Layers::between(float low, float high) const {
+    const auto first = std::lower_bound(lowest.begin(), lowest.end(), low - tallest);
+    const auto last = std::upper_bound(first, lowest.end(), high);
+    return std::span(indices).subspan(3 * size_t(first - lowest.begin()), 3 * size_t(last - first));
 }
 
 Axis TapeMesh::upper_arm(Side side) const {
@@ -76,10 +104,16 @@ Axis TapeMesh::thigh(Side side) const {
 
 Axis TapeMesh::spine() const { return {joint(VFIT_JOINT_PELVIS), joint(VFIT_JOINT_NECK)}; }
 
-Section TapeMesh::level(float y) const { return cut(body_.positions, body_.indices, {0, y, 0}, kUp); }
-Section TapeMesh::trunk(float y) const { return cut(body_.positions, trunk_indices_, {0, y, 0}, kUp); }
+Section TapeMesh::level(float y) const { return cut(body_.positions, whole_.between(y, y), {0, y, 0}, kUp); }
+Section TapeMesh::trunk(float y) const { return cut(body_.positions, trunk_.between(y, y), {0, y, 0}, kUp); }
+
 Section TapeMesh::across(const Vec3& place, const Vec3& axis) const {
-    return cut(body_.positions, body_.indices, place, axis);
+    constexpr float kReach_m = 0.2f;  // a hand's length: more than any limb is thick
+    return cut(body_.positions, whole_.between(place.y - kReach_m, place.y + kReach_m), place, axis);
+}
+
+Section TapeMesh::profile(float x) const {
+    return cut(body_.positions, body_.indices, {x, 0, 0}, Vec3(1, 0, 0));
 }
 
 const std::vector<Vec2>* loop_about(const Section& section, const Vec3& place) {

@@ -21,7 +21,7 @@ enum class Side { kLeft, kRight };
 
 class TapeMesh {
 public:
-    /// VFIT_ERROR_DATA as tape_measures says. The body must outlive it.
+    /// VFIT_ERROR_DATA as tape_measures says. What the body's spans view must outlive it.
     explicit TapeMesh(const TapeBody& body);
 
     const TapeBody& body() const { return body_; }
@@ -40,12 +40,24 @@ public:
     /// Horizontal section of the body without its arms: triangles carried mostly by upper arm, forearm and
     /// hand are left out.
     Section trunk(float y) const;
-    /// Section of the whole body.
+    /// Section of the whole body near the place: what of it lies more than a hand's length above or below is left
+    /// out. For limbs and neck, which stand rather than lie.
     Section across(const Vec3& place, const Vec3& axis) const;
+    /// Section of the whole body by the plane x = constant.
+    Section profile(float x) const;
 
 private:
-    const TapeBody& body_;
-    std::vector<uint32_t> trunk_indices_;
+    /// Triangles in the order of their lowest corner, so that those that reach a height lie side by side.
+    struct Layers {
+        std::vector<uint32_t> indices;
+        std::vector<float> lowest;  // one a triangle
+        float tallest = 0.0f;       // of all triangles
+        std::span<const uint32_t> between(float low, float high) const;
+    };
+    Layers layers(bool with_arms) const;
+
+    TapeBody body_;
+    Layers whole_, trunk_;
     float floor_ = 0.0f, crown_ = 0.0f;
 };
 

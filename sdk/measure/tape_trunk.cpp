@@ -91,8 +91,8 @@ Vec3 bust_point(const TapeMesh& body, Side side, float armpit) {
     const Vec3* best = nullptr;
     for (size_t i = 0; i < b.positions.size(); ++i) {
         const Vec3& p = b.positions[i];
-        if (b.parts[i] != BodyPart::kTorso || p.y < low || p.y > armpit || (p.x > middle) != (side == Side::kLeft)) continue;
-        if (!best || p.z > best->z) best = &p;
+        const bool chest = b.parts[i] == BodyPart::kTorso && p.y >= low && p.y <= armpit;
+        if (chest && (p.x > middle) == (side == Side::kLeft) && (!best || p.z > best->z)) best = &p;
     }
     if (!best) fail(VFIT_ERROR_DATA, "the body has no chest between its ribs and its armpits");
     return *best;
@@ -108,7 +108,7 @@ float underbust_height(const TapeMesh& body, float armpit, float waist) {
     float height = 0.0f;
     for (const Side side : {Side::kLeft, Side::kRight}) {
         const Vec3 bust = bust_point(body, side, armpit);
-        const Section profile = body.across(bust, Vec3(1, 0, 0));
+        const Section profile = body.profile(bust.x);
         const float slope = (bust.z - front_at(profile, waist)) / (bust.y - waist);
         height += 0.5f * place_of_largest(waist, bust.y, [&](float y) {
             return bust.z + slope * (y - bust.y) - front_at(profile, y);

@@ -6,6 +6,7 @@ namespace vfit {
 
 Vec3 FootPin::update(const Vec3& tracked, bool planted, float floor_y, float dt_s) {
     const float decay = std::exp(-dt_s / kGlideTimeS);
+    drag_ = Vec3(0.0f);
     if (!planted) {
         planted_ = false;
         offset_ *= decay;
@@ -17,9 +18,10 @@ Vec3 FootPin::update(const Vec3& tracked, bool planted, float floor_y, float dt_
     recorded_.y = floor_y + (recorded_.y - floor_y) * decay;
     offset_ = recorded_ - tracked;
     const float length = glm::length(offset_);
-    if (length > kLeashM) {
-        offset_ *= kLeashM / length;
-        recorded_ = tracked + offset_;
+    if (length > leash_m_) {
+        drag_ = offset_ * (leash_m_ / length - 1.0f);
+        offset_ += drag_;
+        recorded_ += drag_;
     }
     return tracked + offset_;
 }

@@ -8,22 +8,27 @@ namespace vfit {
 
 class FootPin {
 public:
-    void reset() { *this = FootPin(); }
+    /// A planted foot that is tracked further than `leash_m` from its place is dragged along.
+    explicit FootPin(float leash_m) : leash_m_(leash_m) {}
 
     /// The place to show for a foot tracked at `tracked`. While planted it settles to `floor_y` in height.
     Vec3 update(const Vec3& tracked, bool planted, float floor_y, float dt_s);
 
+    /// Moves the recorded place.
+    void move(const Vec3& by) { recorded_ += by; }
+
     bool planted() const { return planted_; }
     /// From the tracked place to the shown one.
     const Vec3& offset() const { return offset_; }
+    /// How far the last update dragged the recorded place.
+    const Vec3& drag() const { return drag_; }
 
     static constexpr float kGlideTimeS = 0.1f;  // time constant of release and of settling
-    // A planted foot that is tracked further away is dragged along: the person slides it.
-    static constexpr float kLeashM = 0.15f;
 
 private:
+    float leash_m_;
     bool planted_ = false;
-    Vec3 recorded_{0.0f}, offset_{0.0f};
+    Vec3 recorded_{0.0f}, offset_{0.0f}, drag_{0.0f};
 };
 
 }  // namespace vfit

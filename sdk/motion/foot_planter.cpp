@@ -48,8 +48,8 @@ void turn_leg(const Leg& leg, const Vec3& shift, const PosedSkeleton& posed, Pos
 
 }  // namespace
 
-void FootPlanter::apply(const Skeleton& skeleton, const RestPose& rest, const bool planted[2], float dt_s,
-                        Pose& pose) {
+void FootPlanter::apply(const Skeleton& skeleton, const RestPose& rest, const bool planted[2],
+                        const Vec3 drags[2], float dt_s, Pose& pose) {
     const PosedSkeleton posed = forward_kinematics(skeleton, pose);
     Leg legs[2];
     bool moved = false;
@@ -62,6 +62,7 @@ void FootPlanter::apply(const Skeleton& skeleton, const RestPose& rest, const bo
         leg.hip = posed.position[at(leg.parts->upper)];
         leg.knee_axis = posed.rotation[at(leg.parts->upper)] * leg.rest->hinge;
         FootPin& pin = pins_[at(side)];
+        pin.move(drags[side]);
         leg.target = pin.update(posed.position[at(leg.parts->last)], planted[side], skeleton.ankle_height, dt_s);
         moved = moved || pin.planted() || pin.offset() != Vec3(0.0f);
         if (!pin.planted()) continue;

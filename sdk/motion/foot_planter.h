@@ -9,15 +9,21 @@
 
 namespace vfit {
 
+// Where a body's limbs foreshorten (a squat), the character's tracked foot strays from the person's by a good
+// part of a shank; further than this something else is wrong and the foot follows.
+inline constexpr float kCharacterLeashM = 0.4f;
+
 class FootPlanter {
 public:
     void reset() { *this = FootPlanter(); }
 
     /// Changes the legs and the root of `pose` and fills its contacts, root_correction and foot_correction_m.
-    void apply(const Skeleton& skeleton, const RestPose& rest, const bool planted[2], float dt_s, Pose& pose);
+    /// `drags`: how far the person slid each planted foot since the last call.
+    void apply(const Skeleton& skeleton, const RestPose& rest, const bool planted[2], const Vec3 drags[2],
+               float dt_s, Pose& pose);
 
 private:
-    std::array<FootPin, 2> pins_;
+    std::array<FootPin, 2> pins_{FootPin(kCharacterLeashM), FootPin(kCharacterLeashM)};
     Vec3 root_shift_{0.0f};  // d_root; fades when no leg needs it
 };
 

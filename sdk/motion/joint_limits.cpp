@@ -40,8 +40,7 @@ Quat limit_bone(const Quat& q, const Vec3& bone, rom::Interval twist, ClampDirec
     const Vec3 direction = parts.swing * bone;
     const Vec3 allowed = clamp_direction(direction);
     if (limited == angle && allowed == direction) return q;
-    Quat swing = parts.swing;
-    if (allowed != direction) swing = shortest_arc(direction, allowed) * swing;
+    const Quat swing = allowed == direction ? parts.swing : shortest_arc(bone, allowed);
     return glm::normalize(swing * glm::angleAxis(limited, bone));
 }
 

@@ -142,7 +142,7 @@ void Motion::State::take(const Body& body) {
     filter.sample(body.time_ns, joints);
     person.update(joints);
     const Vec3 ankles[2] = {joints.at(VFIT_JOINT_LEFT_FOOT), joints.at(VFIT_JOINT_RIGHT_FOOT)};
-    const bool known[2] = {joints.has(VFIT_JOINT_LEFT_FOOT), joints.has(VFIT_JOINT_RIGHT_FOOT)};
+    const bool known[2] = {body.has(VFIT_JOINT_LEFT_FOOT), body.has(VFIT_JOINT_RIGHT_FOOT)};
     contact.update(ankles, known, body.time_ns);
     if (contact.switched()) {
         switched = true;
@@ -202,10 +202,11 @@ bool Motion::State::update_pose(float dt_s) {
     pose.root_correction = Vec3(0.0f);
     pose.foot_correction_m = 0.0f;
     if (feet) {
-        planter.apply(skeleton, rest, planted, dt_s, pose);
         const Vec3 fronts[2] = {world[VFIT_BONE_LEFT_UPPER_LEG] * Vec3(0, 0, 1),
                                 world[VFIT_BONE_RIGHT_UPPER_LEG] * Vec3(0, 0, 1)};
         joint_feet.apply(planted, fronts, contact.ankle_level(skeleton.ankle_height), dt_s, joints);
+        const Vec3 drags[2] = {joint_feet.drag(0), joint_feet.drag(1)};
+        planter.apply(skeleton, rest, planted, drags, dt_s, pose);
     }
     for (size_t i = 0; i < before.size(); ++i) pose.rotation[i] = same_hemisphere(pose.rotation[i], before[i]);
     seen = true;

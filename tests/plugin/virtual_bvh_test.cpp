@@ -124,7 +124,7 @@ TEST_P(CapturedWalk, KeepsItsFeetOnTheFloorAndFacesWhereItGoes) {
     std::array<int, 2> standing{0, 0}, landings{0, 0};
     double along = 0;
     Vec3 hips_before(0.0f);
-    float lowest_head = 10;
+    float lowest_hips_m = 10;
     for (int i = 0; i < frames; ++i) {
         const BonePose pose = motion->at(i / 120.0);
         for (size_t side = 0; side < 2; ++side) {
@@ -150,10 +150,10 @@ TEST_P(CapturedWalk, KeepsItsFeetOnTheFloorAndFacesWhereItGoes) {
         const Vec3 forward = pose.rotation[VFIT_BONE_HIPS] * Vec3(0, 0, 1);
         if (i > 0) along += glm::dot(forward, pose.hips - hips_before);
         hips_before = pose.hips;
-        lowest_head = std::min(lowest_head, pose.hips.y);
+        lowest_hips_m = std::min(lowest_hips_m, pose.hips.y);
     }
     EXPECT_GT(along, 1.5) << "the walk goes backwards";
-    EXPECT_GT(lowest_head, 0.5f);
+    EXPECT_GT(lowest_hips_m, 0.3f) << "one of the clips crouches, none lies down";
     for (size_t side = 0; side < 2; ++side) {
         EXPECT_GE(landings[side], 2) << side;
         EXPECT_GT(standing[side], frames / 5) << side;

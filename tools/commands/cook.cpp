@@ -5,6 +5,7 @@
 #include "body/body_model.h"
 #include "commands/commands.h"
 #include "cook/sundress.h"
+#include "core/error.h"
 #include "core/files.h"
 #include "core/platform.h"
 

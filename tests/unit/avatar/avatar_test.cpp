@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 
 #include "body_fixture.h"
 #include "core/error.h"
@@ -70,7 +73,8 @@ TEST(Avatar, StandsInATPoseUntilPosed) {
         if (!left && !right) continue;
         const Vec3& elbow = joints.at(left ? VFIT_JOINT_LEFT_ELBOW : VFIT_JOINT_RIGHT_ELBOW);
         // Beyond the shoulder, and within half a hand's length of the arm's axis.
-        EXPECT_GT(left ? p.x : -p.x, left ? joints.at(VFIT_JOINT_LEFT_SHOULDER).x : -joints.at(VFIT_JOINT_RIGHT_SHOULDER).x);
+        EXPECT_GT(std::abs(p.x), joints.at(VFIT_JOINT_LEFT_SHOULDER).x);
+        EXPECT_EQ(left, p.x > 0.0f);
         EXPECT_LT(std::abs(p.y - elbow.y), 0.08f);
         EXPECT_LT(std::abs(p.z - elbow.z), 0.09f);
     }
@@ -80,11 +84,12 @@ TEST(Avatar, StandsInATPoseUntilPosed) {
 
 TEST(Avatar, TPoseKeepsThePalmsDownAndTheSolesOnTheFloor) {
     const Avatar avatar = make_avatar();
+    const Body joints = avatar.joints();
     for (size_t i = 0; i < avatar.rig_bones().size(); ++i) {
         const AvatarBone& bone = avatar.rig_bones()[i];
         if (bone.name != "finger1-1.L" && bone.name != "finger1-1.R") continue;
         const Vec3 thumb(avatar.skinning_matrices()[i] * Vec4(bone.rest_head, 1.0f));
-        const Vec3& palm = avatar.joints().at(bone.name.back() == 'L' ? VFIT_JOINT_LEFT_HAND : VFIT_JOINT_RIGHT_HAND);
+        const Vec3& palm = joints.at(bone.name.back() == 'L' ? VFIT_JOINT_LEFT_HAND : VFIT_JOINT_RIGHT_HAND);
         EXPECT_GT(thumb.z - palm.z, std::abs(thumb.y - palm.y)) << bone.name;
     }
     float low = 1.0f;

@@ -37,8 +37,9 @@ TEST(AvatarColliders, DefaultSpheresAreTheLargestInsideTheSkin) {
     }
     // The knee's joint in the rest mesh is the start of its bone.
     for (const AvatarBone& bone : avatar.rig_bones())
-        if (bone.bone == VFIT_BONE_LEFT_LOWER_LEG)
+        if (bone.bone == VFIT_BONE_LEFT_LOWER_LEG) {
             EXPECT_NEAR(colliders[VFIT_JOINT_LEFT_KNEE].radius, -skin.signed_distance(bone.rest_head), 1e-5f);
+        }
 }
 
 TEST(AvatarColliders, MeasuredRadiiAreCutToTheSkin) {

@@ -99,13 +99,13 @@ public:
             Quat& lower = r[static_cast<size_t>(parts.lower)];
             Quat& last = r[static_cast<size_t>(parts.last)];
             if (parts.leg) {
-                upper = glm::angleAxis(-degrees(-20, 110), x) * glm::angleAxis(s * degrees(-20, 35), z) *
-                        glm::angleAxis(degrees(-30, 30), limb.upper);
+                upper = glm::angleAxis(-degrees(-20, 90), x) * glm::angleAxis(s * degrees(-15, 25), z) *
+                        glm::angleAxis(degrees(-10, 10), limb.upper);
                 lower = glm::angleAxis(degrees(8, 120), limb.hinge);
                 last = glm::angleAxis(degrees(-15, 40), x) * glm::angleAxis(degrees(-20, 20), y);
             } else {
-                upper = glm::angleAxis(-s * degrees(-70, 80), y) * glm::angleAxis(s * degrees(-80, 60), z);
-                upper = upper * glm::angleAxis(degrees(-60, 60), limb.upper);
+                upper = glm::angleAxis(-s * degrees(-50, 80), y) * glm::angleAxis(s * degrees(-80, 60), z);
+                upper = upper * glm::angleAxis(degrees(-30, 30), limb.upper);
                 lower = glm::angleAxis(degrees(8, 130), limb.hinge);
                 last = glm::angleAxis(s * degrees(-40, 40), z) * glm::angleAxis(degrees(-15, 15), y);
             }
