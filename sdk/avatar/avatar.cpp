@@ -16,7 +16,8 @@ constexpr uint32_t kMaxTwistSteps = 16;
 void check(const BodyModel* model, const AvatarDesc& desc, std::span<const float> shape, const Vec2& scale) {
     if (!model) fail(VFIT_ERROR_ARGUMENT, "an avatar needs a body model");
     if (desc.detail >= kBodyLevels)
-        fail(VFIT_ERROR_ARGUMENT, "detail ", desc.detail, " is not a level of the body (0 to ", kBodyLevels - 1, ")");
+        fail(VFIT_ERROR_ARGUMENT, "detail ", desc.detail, " is not a level of the body (0 to ",
+            kBodyLevels - 1, ")");
     if (desc.twist_steps < 1 || desc.twist_steps > kMaxTwistSteps)
         fail(VFIT_ERROR_ARGUMENT, "twist_steps is ", desc.twist_steps, ", not 1 to ", kMaxTwistSteps);
     if (!shape.empty() && shape.size() != model->parameters().size())
@@ -28,7 +29,8 @@ void check(const BodyModel* model, const AvatarDesc& desc, std::span<const float
         fail(VFIT_ERROR_ARGUMENT, "the scale ", scale.x, ", ", scale.y, " is not positive and finite");
 }
 
-EvaluatedBody scaled_body(const BodyModel& model, vfit_sex sex, std::span<const float> shape, const Vec2& scale) {
+EvaluatedBody scaled_body(const BodyModel& model, vfit_sex sex, std::span<const float> shape,
+        const Vec2& scale) {
     EvaluatedBody body;
     if (shape.empty())
         model.evaluate(model.default_shape(sex), body);
@@ -97,7 +99,8 @@ struct Avatar::Parts {
         const EvaluatedBody body = scaled_body(*model, desc.sex, shape, scale);
         const BodyTopology& topology = model->topology(desc.detail);
         Mesh rest = rest_mesh(*model, desc.detail, body);
-        AvatarRig rig = make_rig(*model, body, lowest(rest.positions), desc.single_bones ? 0 : desc.twist_steps);
+        AvatarRig rig = make_rig(*model, body, lowest(rest.positions), desc.single_bones ? 0 :
+            desc.twist_steps);
         std::vector<SkinBones> bones = topology.skin_bones;
         std::vector<SkinWeights> weights = topology.skin_weights;
         if (!desc.single_bones) split_limb_weights(rest.positions, rig.limbs(), bones, weights);

@@ -28,7 +28,8 @@ float Avatar::touching_feet_m() const {
 
 Pose Avatar::measuring_pose(const MeasuringPosture& posture) const {
     if (!(posture.arm_angle_rad >= 0.0f && posture.arm_angle_rad <= 0.5f * kPi))
-        fail(VFIT_ERROR_ARGUMENT, "the arm angle ", posture.arm_angle_rad, " is not between 0 and a right angle");
+        fail(VFIT_ERROR_ARGUMENT, "the arm angle ", posture.arm_angle_rad,
+            " is not between 0 and a right angle");
     if (!(posture.feet_apart_m >= 0.0f && posture.feet_apart_m <= 1.0f))
         fail(VFIT_ERROR_ARGUMENT, "feet ", posture.feet_apart_m, " m apart: not between 0 and 1 m");
 
@@ -46,7 +47,8 @@ Pose Avatar::measuring_pose(const MeasuringPosture& posture) const {
         pose.rotation[leg] = glm::angleAxis(sign * tilt, kForward);
         pose.rotation[ankle] = glm::angleAxis(-sign * tilt, kForward);
     };
-    side(1.0f, VFIT_BONE_LEFT_UPPER_ARM, VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_LEFT_FOOT);
+    side(1.0f, VFIT_BONE_LEFT_UPPER_ARM, VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_LEFT_LOWER_LEG,
+        VFIT_BONE_LEFT_FOOT);
     side(-1.0f, VFIT_BONE_RIGHT_UPPER_ARM, VFIT_BONE_RIGHT_UPPER_LEG, VFIT_BONE_RIGHT_LOWER_LEG,
          VFIT_BONE_RIGHT_FOOT);
     return pose;

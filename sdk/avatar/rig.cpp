@@ -46,7 +46,8 @@ Pose checked(const Pose& pose) {
         const float length = std::sqrt(glm::dot(q, q));
         if (!finite(q) || !std::isfinite(length))
             fail(VFIT_ERROR_DATA, "the pose's rotation of bone ", bone_name(b), " is not finite");
-        if (length < 1e-6f) fail(VFIT_ERROR_DATA, "the pose's rotation of bone ", bone_name(b), " has no length");
+        if (length < 1e-6f)
+            fail(VFIT_ERROR_DATA, "the pose's rotation of bone ", bone_name(b), " has no length");
         q = q / length;
     }
     return unit;
@@ -86,7 +87,8 @@ void AvatarRig::map_humanoid_bones() {
         if (!finite(b.rest_head) || !finite(b.rest_tail))
             fail(VFIT_ERROR_DATA, "the rig's bone ", b.name, " is not at a finite place");
         if (b.bone < 0) continue;
-        if (b.bone >= kBoneCount) fail(VFIT_ERROR_DATA, "the rig's bone ", b.name, " is no known humanoid bone");
+        if (b.bone >= kBoneCount)
+            fail(VFIT_ERROR_DATA, "the rig's bone ", b.name, " is no known humanoid bone");
         int& rig = rig_of_[static_cast<size_t>(b.bone)];
         if (rig >= 0) fail(VFIT_ERROR_DATA, "the rig has bone ", bone_name(b.bone), " twice");
         rig = static_cast<int>(i);
@@ -110,7 +112,8 @@ void AvatarRig::build_limbs(uint32_t twist_steps) {
         int extension = bones_[static_cast<size_t>(end)].parent;
         limb.rig_bones = {original};
         const auto append = [&](uint32_t step) {
-            const float near_t = float(step) / float(twist_steps), far_t = float(step + 1) / float(twist_steps);
+            const float near_t = float(step) / float(twist_steps), far_t = float(step +
+                1) / float(twist_steps);
             const AvatarBone& o = bones_[static_cast<size_t>(original)];
             bones_.push_back({text(o.name, ".twist", step), original, -1,
                               glm::mix(limb.near_joint, limb.far_joint, near_t),
@@ -151,7 +154,8 @@ void AvatarRig::build_t_pose(float floor_y) {
 
     for (int b = 1; b < kBoneCount; ++b) {
         const int parent = bone_parent(b);
-        skeleton_.offset[static_cast<size_t>(b)] = t_pose_[static_cast<size_t>(parent)] * (head(b) - head(parent));
+        skeleton_.offset[static_cast<size_t>(b)] =
+            t_pose_[static_cast<size_t>(parent)] * (head(b) - head(parent));
     }
     const Vec3 ankles = 0.5f * (head(VFIT_BONE_LEFT_FOOT) + head(VFIT_BONE_RIGHT_FOOT));
     skeleton_.ankle_height = ankles.y - floor_y;

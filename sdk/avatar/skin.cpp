@@ -30,15 +30,18 @@ void split_limb_weights(std::span<const Vec3> rest, const std::vector<LimbChain>
         for (const LimbChain& limb : limbs) {
             float carried = 0.0f;
             for (Share& share : shares)
-                if (std::find(limb.rig_bones.begin(), limb.rig_bones.end(), share.bone) != limb.rig_bones.end()) {
+                if (std::find(limb.rig_bones.begin(), limb.rig_bones.end(), share.bone) !=
+                        limb.rig_bones.end()) {
                     carried += share.weight;
                     share.weight = 0.0f;
                 }
             if (carried == 0.0f) continue;
             const Vec3 axis = limb.far_joint - limb.near_joint;
-            const float t = std::clamp(glm::dot(rest[v] - limb.near_joint, axis) / glm::dot(axis, axis), 0.0f, 1.0f);
+            const float t = std::clamp(glm::dot(rest[v] - limb.near_joint, axis) / glm::dot(axis, axis),
+                0.0f, 1.0f);
             const size_t steps = limb.rig_bones.size() - 1;
-            const size_t step = std::min(static_cast<size_t>(t * float(steps)), std::max<size_t>(steps, 1) - 1);
+            const size_t step = std::min(static_cast<size_t>(t * float(steps)), std::max<size_t>(steps,
+                1) - 1);
             const float far_share = t * float(steps) - float(step);
             shares.push_back({static_cast<uint16_t>(limb.rig_bones[step]), carried * (1.0f - far_share)});
             if (step < steps)
@@ -71,7 +74,8 @@ Skin::Skin(std::span<const SkinBones> bones, std::span<const SkinWeights> weight
     first_.push_back(static_cast<uint32_t>(influences_.size()));
 }
 
-void Skin::pose(std::span<const Mat4> matrices, std::span<const Vec3> rest, std::span<const Vec3> rest_normals,
+void Skin::pose(std::span<const Mat4> matrices, std::span<const Vec3> rest,
+    std::span<const Vec3> rest_normals,
                 std::span<Vec3> positions, std::span<Vec3> normals, Jobs& jobs) const {
     const uint32_t count = vertex_count();
     parallel_for(jobs, (count + kChunk - 1) / kChunk, [&](uint32_t chunk) {

@@ -1,8 +1,6 @@
 // Shoulder and hip width, and the forearm with the hand: joints plus the way from them to the contour.
 #include <algorithm>
 #include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <cmath>
 #include <initializer_list>
 
@@ -15,6 +13,8 @@ namespace {
 
 // Directions out of the frontal plane by more than this are too foreshortened to measure along (cos 40 = 0.77).
 constexpr float kForeshortened_rad = 40.0f * kPi / 180.0f;
+// Only the fingers are seen in that plane, the rest of the forearm comes from the joints: more is allowed.
+constexpr float kBentForearm_rad = 50.0f * kPi / 180.0f;
 // The posture of the bideltoid breadth: upper arms 5 degrees from the vertical.
 constexpr float kHangingArm_rad = 5.0f * kPi / 180.0f;
 
@@ -97,7 +97,6 @@ float fingertip_distance(const FilteredDepth& depth, const FrontalPlane& plane, 
     // Palm to fingertip is two thirds to three quarters of a hand (194 mm men, 181 mm women, ANSUR II): a longer way to the
     // contour runs on over the thigh, a shorter one is a fist or a tracker's error.
     constexpr float kShortest_m = 0.06f, kLongest_m = 0.18f;
-    if(getenv("DBG"))fprintf(stderr,"f %.3f\n",furthest);
     return furthest >= kShortest_m && furthest <= kLongest_m ? furthest : 0.0f;
 }
 
@@ -185,7 +184,7 @@ Estimate elbow_fingertip(const FilteredDepth& depth, const Camera& camera, const
         const Vec3 forearm = body.at(hand) - body.at(elbow);
         const FrontalPlane plane(camera, body.at(hand));
         const float cosine = glm::length(frontal(plane, forearm)) / std::max(1e-3f, glm::length(forearm));
-        if (cosine < std::cos(kForeshortened_rad)) continue;
+        if (cosine < std::cos(kBentForearm_rad)) continue;
         const float fingers = fingertip_distance(depth, plane, body.at(hand), forearm) / cosine;
         if (fingers <= 0.0f) continue;
         sum += glm::length(body.at(hand) - body.at(from_wrist ? wrist : elbow)) + fingers;

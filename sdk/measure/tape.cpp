@@ -112,9 +112,11 @@ float bideltoid_breadth(const TapeMesh& body) {
 }  // namespace
 
 std::vector<Measurement> tape_measures(const TapePostures& postures) {
-    const TapeMesh body(postures.arms_out), arms_down(postures.arms_down), feet_together(postures.feet_together);
+    const TapeMesh body(postures.arms_out), arms_down(postures.arms_down);
+    check(postures.feet_together);
+    const HeightRange standing = height_range(postures.feet_together.positions);
     Sheet sheet;
-    sheet.set("stature_m", feet_together.height());
+    sheet.set("stature_m", standing.crown - standing.floor);
     sheet.set("shoulder_breadth_m", bideltoid_breadth(arms_down));
     sheet.set("biacromial_breadth_m", glm::distance(acromion(arms_down, Side::kLeft), acromion(arms_down, Side::kRight)));
     measure_trunk(body, sheet);

@@ -49,8 +49,8 @@ float narrowest_neck(const TapeMesh& body);
 /// larynx ends at C5: two of six and a half vertebrae.
 float larynx_place(const TapeMesh& body, float narrowest_m, float chin);
 
-/// Outermost point of the acromion, on the skin: where the shoulder's outline, seen from the front, turns from
-/// the top to the side.
+/// The skin over the outer edge of the acromion: where the line from the centre of the shoulder joint through the
+/// bone's edge leaves the body.
 Vec3 acromion(const TapeMesh& body, Side side);
 
 /// Lowest point of the chin: of what lies above the throat and in front of the plane halfway between it and the tip

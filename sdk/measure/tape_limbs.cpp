@@ -10,10 +10,10 @@ namespace vfit {
 
 namespace {
 
-/// Elevation of the outline's normal at the acromion. Along the trapezius the normal stands at about 60 degrees, on
-/// the deltoid it falls to 0; in people biacromial breadth is 0.81 of the bideltoid (ANSUR II, both sexes), and
-/// bodies of both sexes come nearest to that between 50 and 60 degrees.
-constexpr float kAcromionNormal_rad = 50.0f * kPi / 180.0f;
+/// From the centre of the humeral head the outer edge of the acromion lies 12 mm outwards and 33 mm up: the head's
+/// radius is 24 mm, the gap above it 9 mm, and the acromion covers 0.68 of the head (acromion index, Nyffeler
+/// 2006).
+constexpr float kAcromionOutwards = 12.0f, kAcromionUp = 33.0f;
 
 /// Upper share of the head that holds no ear. The ear's middle (tragion) lies 0.56 of head height below the crown,
 /// the ear is 0.27 of head height long (Farkas 1994): its top is at 0.42.
@@ -92,16 +92,23 @@ float larynx_place(const TapeMesh& body, float narrowest_m, float chin) {
 }
 
 Vec3 acromion(const TapeMesh& body, Side side) {
-    const float sign = side == Side::kLeft ? 1.0f : -1.0f, joint = body.upper_arm(side).start.x;
-    const BodyPart arm = side == Side::kLeft ? BodyPart::kLeftUpperArm : BodyPart::kRightUpperArm;
-    const Vec3 outwards(sign * std::cos(kAcromionNormal_rad), std::sin(kAcromionNormal_rad), 0.0f);
-    const Vec3* found = best_vertex(body, [&](const Vec3& p, BodyPart part) -> std::optional<float> {
-        // Only outside the joint: the slope up to the neck would win.
-        if ((part != arm && part != BodyPart::kTorso) || sign * (p.x - joint) < 0.0f) return std::nullopt;
-        return glm::dot(p, outwards);
-    });
-    if (!found) fail(VFIT_ERROR_DATA, "the body has no skin outside its shoulder joint");
-    return *found;
+    const Vec3 joint = body.upper_arm(side).start;
+    const Vec3 direction =
+        glm::normalize(Vec3(side == Side::kLeft ? kAcromionOutwards : -kAcromionOutwards, kAcromionUp, 0.0f));
+    // In the frontal plane through the joint: the outline's farthest crossing of the line to the bone's edge.
+    const Section frontal = body.across(joint, Vec3(0, 0, 1));
+    const Vec2 along(glm::dot(direction, frontal.u), glm::dot(direction, frontal.v)), square(-along.y, along.x);
+    float farthest = 0.0f;
+    const auto visit = [&](const Vec2& a, const Vec2& b) {
+        const float sa = glm::dot(a, square), sb = glm::dot(b, square);
+        if ((sa > 0.0f) != (sb > 0.0f)) farthest = std::max(farthest, glm::dot(glm::mix(a, b, sa / (sa - sb)), along));
+    };
+    for (const auto& loop : frontal.loops)
+        for (size_t i = 0; i < loop.size(); ++i) visit(loop[i], loop[(i + 1) % loop.size()]);
+    for (const auto& chain : frontal.chains)
+        for (size_t i = 0; i + 1 < chain.size(); ++i) visit(chain[i], chain[i + 1]);
+    if (!(farthest > 0.0f)) fail(VFIT_ERROR_DATA, "the body has no skin above its shoulder joint");
+    return joint + farthest * direction;
 }
 
 float chin_height(const TapeMesh& body, float narrowest_m) {

@@ -31,6 +31,8 @@ bool is_arm(BodyPart part) {
     }
 }
 
+}  // namespace
+
 void check(const TapeBody& body) {
     if (body.positions.empty() || body.indices.empty()) fail(VFIT_ERROR_DATA, "the body has no mesh to measure");
     if (body.indices.size() % 3 != 0) fail(VFIT_ERROR_DATA, "the body's indices are not three a triangle");
@@ -46,19 +48,20 @@ void check(const TapeBody& body) {
             fail(VFIT_ERROR_DATA, "the body to measure has no joint ", joint_name(joint));
 }
 
-}  // namespace
+HeightRange height_range(std::span<const Vec3> positions) {
+    const auto [low, high] =
+        std::minmax_element(positions.begin(), positions.end(), [](const Vec3& a, const Vec3& b) { return a.y < b.y; });
+    return {low->y, high->y};
+}
 
 TapeMesh::TapeMesh(const TapeBody& body) : body_(body) {
     check(body);
-    whole_ = layers(true);
-    trunk_ = layers(false);
-    const auto [low, high] = std::minmax_element(body.positions.begin(), body.positions.end(),
-                                                 [](const Vec3& a, const Vec3& b) { return a.y < b.y; });
-    floor_ = low->y;
-    crown_ = high->y;
+    whole_ = sorted_layers();
+    trunk_ = without_arms(whole_);
+    range_ = height_range(body.positions);
 }
 
-TapeMesh::Layers TapeMesh::layers(bool with_arms) const {
+TapeMesh::Layers TapeMesh::sorted_layers() const {
     struct Triangle {
         float lowest;
         uint32_t first;
@@ -68,9 +71,6 @@ TapeMesh::Layers TapeMesh::layers(bool with_arms) const {
     order.reserve(body_.indices.size() / 3);
     for (uint32_t t = 0; t < body_.indices.size(); t += 3) {
         const uint32_t* v = &body_.indices[t];
-        int arm_corners = 0;
-        for (int k = 0; k < 3; ++k) arm_corners += is_arm(body_.parts[v[k]]);
-        if (!with_arms && arm_corners >= 2) continue;
         const auto [low, high] =
             std::minmax({body_.positions[v[0]].y, body_.positions[v[1]].y, body_.positions[v[2]].y});
         order.push_back({low, t});
@@ -82,6 +82,18 @@ TapeMesh::Layers TapeMesh::layers(bool with_arms) const {
     for (const Triangle& triangle : order) {
         result.lowest.push_back(triangle.lowest);
         for (uint32_t k = 0; k < 3; ++k) result.indices.push_back(body_.indices[triangle.first + k]);
+    }
+    return result;
+}
+
+TapeMesh::Layers TapeMesh::without_arms(const Layers& whole) const {
+    Layers result;
+    result.tallest = whole.tallest;
+    for (size_t t = 0; t < whole.lowest.size(); ++t) {
+        const uint32_t* v = &whole.indices[3 * t];
+        if (is_arm(body_.parts[v[0]]) + is_arm(body_.parts[v[1]]) + is_arm(body_.parts[v[2]]) >= 2) continue;
+        result.lowest.push_back(whole.lowest[t]);
+        result.indices.insert(result.indices.end(), v, v + 3);
     }
     return result;
 }
@@ -108,7 +120,8 @@ Section TapeMesh::level(float y) const { return cut(body_.positions, whole_.betw
 Section TapeMesh::trunk(float y) const { return cut(body_.positions, trunk_.between(y, y), {0, y, 0}, kUp); }
 
 Section TapeMesh::across(const Vec3& place, const Vec3& axis) const {
-    constexpr float kReach_m = 0.2f;  // a hand's length: more than any limb is thick
+    // A thigh 0.3 m thick that leans by 30 degrees spans 0.15 m of height.
+    constexpr float kReach_m = 0.1f;
     return cut(body_.positions, whole_.between(place.y - kReach_m, place.y + kReach_m), place, axis);
 }
 

@@ -19,9 +19,17 @@ struct Axis {
 
 enum class Side { kLeft, kRight };
 
+/// VFIT_ERROR_DATA where the mesh is broken or lacks a joint that a landmark needs.
+void check(const TapeBody& body);
+
+struct HeightRange {
+    float floor, crown;
+};
+HeightRange height_range(std::span<const Vec3> positions);
+
 class TapeMesh {
 public:
-    /// VFIT_ERROR_DATA as tape_measures says. What the body's spans view must outlive it.
+    /// Checks the body. What its spans view must outlive it.
     explicit TapeMesh(const TapeBody& body);
 
     const TapeBody& body() const { return body_; }
@@ -31,17 +39,16 @@ public:
     /// Through pelvis and neck, straight: inside the trunk at every height between.
     Axis spine() const;
 
-    float floor() const { return floor_; }
-    float crown() const { return crown_; }
-    float height() const { return crown_ - floor_; }
+    float floor() const { return range_.floor; }
+    float crown() const { return range_.crown; }
 
     /// Horizontal section of the whole body.
     Section level(float y) const;
     /// Horizontal section of the body without its arms: triangles carried mostly by upper arm, forearm and
     /// hand are left out.
     Section trunk(float y) const;
-    /// Section of the whole body near the place: what of it lies more than a hand's length above or below is left
-    /// out. For limbs and neck, which stand rather than lie.
+    /// Section of the whole body near the place: what lies more than 0.1 m above or below it is left out. For limbs
+    /// and neck, which stand rather than lie.
     Section across(const Vec3& place, const Vec3& axis) const;
     /// Section of the whole body by the plane x = constant.
     Section profile(float x) const;
@@ -54,11 +61,12 @@ private:
         float tallest = 0.0f;       // of all triangles
         std::span<const uint32_t> between(float low, float high) const;
     };
-    Layers layers(bool with_arms) const;
+    Layers sorted_layers() const;
+    Layers without_arms(const Layers& whole) const;
 
     TapeBody body_;
     Layers whole_, trunk_;
-    float floor_ = 0.0f, crown_ = 0.0f;
+    HeightRange range_;
 };
 
 /// The smallest loop about the place; null where none encloses it.

@@ -1,4 +1,5 @@
-// The avatar of the baked body: its T-pose, rigid motion, symmetry, scale and agreement with forward kinematics.
+// The avatar of the baked body: its T-pose, rigid motion, symmetry, scale and agreement with forward
+// kinematics.
 #include "avatar/avatar.h"
 
 #include <gtest/gtest.h>
@@ -139,7 +140,8 @@ TEST(Avatar, JointsStandWhereForwardKinematicsPutsTheBones) {
         EXPECT_TRUE(j.has_rotation);
         EXPECT_GT(std::abs(glm::dot(j.rotation, expected.rotation[static_cast<size_t>(bone)])), 1.0f - 1e-5f);
     }
-    for (int j = 0; j < kJointCount; ++j) EXPECT_EQ(joints.joints[static_cast<size_t>(j)].state, VFIT_JOINT_MEASURED);
+    for (int j = 0; j < kJointCount; ++j)
+        EXPECT_EQ(joints.joints[static_cast<size_t>(j)].state, VFIT_JOINT_MEASURED);
 }
 
 TEST(Avatar, JointsLieInsideTheBody) {
@@ -216,7 +218,8 @@ TEST(Avatar, NormalsAreUnitAndCloseToThoseOfThePosedSurface) {
     Avatar avatar = make_avatar();
     avatar.pose(lively(avatar), *Jobs::own(0));
     const size_t count = avatar.topology().vertex_count;
-    const std::vector<Vec3> posed(avatar.positions().begin(), avatar.positions().begin() + std::ptrdiff_t(count));
+    const std::vector<Vec3> posed(avatar.positions().begin(), avatar.positions().begin() +
+        std::ptrdiff_t(count));
     std::vector<Vec3> recomputed;
     compute_normals(posed, avatar.topology().indices, recomputed);
     double cosines = 0.0;

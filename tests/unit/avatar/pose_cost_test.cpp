@@ -72,7 +72,8 @@ TEST(PoseCost, MedianTimeOfAFrameOnOneCore) {
             ms.push_back(watch.ms());
         }
         std::nth_element(ms.begin(), ms.begin() + 100, ms.end());
-        std::printf("pose, detail %u, %zu vertices: median %.3f ms\n", detail, avatar.positions().size(), ms[100]);
+        std::printf("pose, detail %u, %zu vertices: median %.3f ms\n", detail, avatar.positions().size(),
+            ms[100]);
         EXPECT_GT(ms[100], 0.0);
     }
 }

@@ -41,7 +41,8 @@ Pose lively_pose() {
     pose.hips_position = Vec3(0.4f, 0.9f, -1.5f);
     for (int b = 0; b < kBoneCount; ++b)
         pose.rotation[static_cast<size_t>(b)] =
-            glm::angleAxis(0.2f + 0.05f * float(b), glm::normalize(Vec3(float(b % 3) - 1.0f, 0.6f, float(b % 5) - 2.0f)));
+            glm::angleAxis(0.2f + 0.05f * float(b), glm::normalize(Vec3(float(b % 3) - 1.0f, 0.6f,
+                float(b % 5) - 2.0f)));
     return pose;
 }
 
@@ -69,7 +70,8 @@ TEST(AvatarRig, TPoseStandsOnTheFloor) {
     const Posed posed = run(rig, pose);
     EXPECT_NEAR(posed.skeleton.position[VFIT_BONE_LEFT_FOOT].y, 0.09f, kRoundingM);
     EXPECT_NEAR(rig.skeleton().ankle_height, 0.09f, kRoundingM);
-    const Vec3 between = posed.skeleton.position[VFIT_BONE_LEFT_FOOT] + posed.skeleton.position[VFIT_BONE_RIGHT_FOOT];
+    const Vec3 between = posed.skeleton.position[VFIT_BONE_LEFT_FOOT] +
+        posed.skeleton.position[VFIT_BONE_RIGHT_FOOT];
     EXPECT_NEAR(between.x, 0.0f, kRoundingM);
     EXPECT_NEAR(between.z, 0.0f, kRoundingM);
 }
@@ -83,7 +85,8 @@ TEST(AvatarRig, BonesStandWhereForwardKinematicsPutsThem) {
         for (int b = 0; b < kBoneCount; ++b) {
             const int bone = rig.rig_bone(b);
             const Vec3 at = carried(rig, posed, bone, rig.bones()[static_cast<size_t>(bone)].rest_head);
-            EXPECT_LT(glm::distance(at, expected.position[static_cast<size_t>(b)]), kRoundingM) << bone_name(b);
+            EXPECT_LT(glm::distance(at, expected.position[static_cast<size_t>(b)]),
+                kRoundingM) << bone_name(b);
         }
     }
 }
@@ -94,7 +97,8 @@ TEST(AvatarRig, ChildrenStayAttachedToTheirLimb) {
     for (const LimbChain& limb : rig.limbs())
         for (const int bone : limb.rig_bones) {
             const Vec3 end = carried(rig, posed, bone, limb.far_joint);
-            EXPECT_LT(glm::distance(end, posed.skeleton.position[static_cast<size_t>(limb.end_bone)]), kRoundingM)
+            EXPECT_LT(glm::distance(end, posed.skeleton.position[static_cast<size_t>(limb.end_bone)]),
+                kRoundingM)
                 << rig.bones()[static_cast<size_t>(bone)].name;
         }
 }
@@ -119,7 +123,8 @@ TEST(AvatarRig, OriginalBoneKeepsPitchAndRollAndExtensionTakesTheTwist) {
     Pose still, swung, twisted;
     swung.rotation[VFIT_BONE_LEFT_UPPER_ARM] = swing;
     twisted.rotation[VFIT_BONE_LEFT_UPPER_ARM] = swing * twist;
-    const auto original = static_cast<size_t>(arm.rig_bones[0]), extension = static_cast<size_t>(arm.rig_bones[1]);
+    const auto original = static_cast<size_t>(arm.rig_bones[0]), extension =
+        static_cast<size_t>(arm.rig_bones[1]);
     const Posed a = run(rig, swung), b = run(rig, twisted);
     EXPECT_NEAR(angle_between(turn_of(a.matrices[original]), turn_of(b.matrices[original])), 0.0f, 1e-3f);
     EXPECT_NEAR(angle_between(turn_of(a.matrices[extension]), turn_of(b.matrices[extension])), 0.6f, 1e-3f);

@@ -22,11 +22,13 @@ struct Tube {
 Tube tube_about(const LimbChain& limb) {
     Tube tube;
     const Vec3 axis = limb.far_joint - limb.near_joint;
-    const Vec3 a = glm::normalize(glm::cross(axis, Vec3(0, 1, 0.3f))), b = glm::normalize(glm::cross(axis, a));
+    const Vec3 a = glm::normalize(glm::cross(axis, Vec3(0, 1, 0.3f))), b = glm::normalize(glm::cross(axis,
+        a));
     for (int i = 0; i <= 10; ++i)
         for (int k = 0; k < 8; ++k) {
             const float t = 0.1f * float(i), angle = 0.25f * kPi * float(k);
-            tube.rest.push_back(limb.near_joint + axis * t + 0.04f * (std::cos(angle) * a + std::sin(angle) * b));
+            tube.rest.push_back(limb.near_joint + axis * t + 0.04f * (std::cos(angle) * a +
+                std::sin(angle) * b));
             tube.bones.push_back({static_cast<uint16_t>(limb.rig_bones[0])});
             tube.weights.push_back({1.0f});
             tube.t.push_back(t);
@@ -56,7 +58,8 @@ TEST(SplitLimbWeights, KeepTheShareOfOtherBonesAndSumToOne) {
     const auto hand = static_cast<uint16_t>(rig.rig_bone(VFIT_BONE_LEFT_HAND));
     Tube tube = tube_about(limb);
     for (size_t v = 0; v < tube.rest.size(); ++v) {
-        tube.bones[v] = {static_cast<uint16_t>(limb.rig_bones[0]), static_cast<uint16_t>(limb.rig_bones.back()), hand};
+        tube.bones[v] = {static_cast<uint16_t>(limb.rig_bones[0]),
+            static_cast<uint16_t>(limb.rig_bones.back()), hand};
         tube.weights[v] = {0.3f, 0.3f, 0.4f};
     }
     split_limb_weights(tube.rest, rig.limbs(), tube.bones, tube.weights);
@@ -81,7 +84,8 @@ TEST(Skin, OneBoneMovesItsVerticesRigidly) {
     PosedSkeleton posed;
     std::vector<Mat4> matrices(rig.bones().size());
     rig.pose(pose, posed, matrices);
-    std::vector<Vec3> normals(tube.rest.size(), Vec3(0, 1, 0)), out(tube.rest.size()), out_normals(tube.rest.size());
+    std::vector<Vec3> normals(tube.rest.size(), Vec3(0, 1, 0)), out(tube.rest.size()),
+        out_normals(tube.rest.size());
     const auto jobs = Jobs::own(0);
     skin.pose(matrices, tube.rest, normals, out, out_normals, *jobs);
     for (size_t v = 1; v < out.size(); ++v) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "motion/foot_contact.h"
 #include "synthetic_walk.h"
 
 namespace vfit {

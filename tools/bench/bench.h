@@ -1,0 +1,44 @@
+// What vfit-bench measures with: pinned threads, medians, and the parts it is made of.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "client/client.h"
+
+namespace vfit::tools {
+
+/// Keeps this thread, and those it starts, on that many cores from core 0 on (Linux; elsewhere nothing).
+void pin_to_cores(unsigned count);
+
+class Timer {
+public:
+    double ms() const {
+        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Samples of one time, in milliseconds.
+class Samples {
+public:
+    void add(double ms) { values_.push_back(ms); }
+    bool empty() const { return values_.empty(); }
+    double quantile(double q) const;
+    /// {"median", "p95", "n"}
+    Json json() const;
+
+private:
+    std::vector<double> values_;
+};
+
+void add_stages(CLI::App& app);
+void add_people(CLI::App& app);
+void add_recordings(CLI::App& app);
+void add_cloth(CLI::App& app);
+
+}  // namespace vfit::tools

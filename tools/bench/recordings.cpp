@@ -1,0 +1,124 @@
+// vfit-bench recordings: stature of real people over several recordings each. True heights are not known:
+// what can be judged is how well recordings of one person agree, and whether people differ as their masks do.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <map>
+
+#include "bench/bench.h"
+#include "client/people.h"
+
+namespace vfit::tools {
+
+namespace {
+
+struct Options {
+    std::string folder;
+    bool json = false;
+};
+
+struct Person {
+    std::vector<double> stature_m, mask_m;
+};
+
+/// Height of the user map in metres at the person's median depth: the crude figure to hold the method against.
+double mask_height(vfit_frame frame) {
+    const vfit_view depth = view_of(frame, VFIT_STREAM_DEPTH), map = view_of(frame, VFIT_STREAM_USER_MAP);
+    vfit_intrinsics k = vfit_intrinsics_init();
+    check(vfit_frame_intrinsics(frame, &k));
+    const auto* d = static_cast<const uint16_t*>(depth.data);
+    const auto* m = static_cast<const uint8_t*>(map.data);
+    std::vector<uint16_t> z;
+    uint32_t top = depth.height, bottom = 0;
+    for (uint32_t y = 0; y < depth.height; ++y)
+        for (uint32_t x = 0; x < depth.width; ++x) {
+            const size_t i = size_t(y) * depth.width + x;
+            if (!m[i] || !d[i]) continue;
+            z.push_back(d[i]);
+            top = std::min(top, y);
+            bottom = std::max(bottom, y);
+        }
+    if (z.empty()) return 0.0;
+    std::nth_element(z.begin(), z.begin() + long(z.size() / 2), z.end());
+    return double(bottom - top + 1) * z[z.size() / 2] * camera_of(frame).depth_unit_m / k.fy;
+}
+
+/// Tallest mask of a recording: people bend, jump and squat, but nobody grows.
+double tallest_mask(const std::string& recording) {
+    const Context context = open_context();
+    Source source(context.get(), recording);
+    std::vector<double> heights;
+    while (const auto frame = source.next()) heights.push_back(mask_height(frame->get()));
+    if (heights.empty()) throw Failure(recording + ": no frames");
+    std::sort(heights.begin(), heights.end());
+    return heights[heights.size() * 9 / 10];
+}
+
+/// "kinect1_s5_squat_1" is person s5.
+std::string person_of(const std::string& name) {
+    const size_t a = name.find("_s"), b = name.find('_', a + 1);
+    return a == std::string::npos ? name : name.substr(a + 1, b - a - 1);
+}
+
+double mean(const std::vector<double>& v) {
+    double sum = 0.0;
+    for (const double x : v) sum += x;
+    return sum / double(v.size());
+}
+
+double deviation(const std::vector<double>& v) {
+    const double m = mean(v);
+    double sum = 0.0;
+    for (const double x : v) sum += (x - m) * (x - m);
+    return v.size() > 1 ? std::sqrt(sum / double(v.size() - 1)) : 0.0;
+}
+
+}  // namespace
+
+void add_recordings(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("recordings", "Stature of real people over their recordings");
+    auto o = std::make_shared<Options>();
+    command->add_option("folder", o->folder, "Folder of recordings named ..._s<person>_...")->required();
+    command->add_flag("--json", o->json, "Print JSON");
+    command->callback([o] {
+        std::vector<std::filesystem::path> paths;
+        for (const auto& entry : std::filesystem::directory_iterator(o->folder))
+            if (entry.is_directory()) paths.push_back(entry.path());
+        std::sort(paths.begin(), paths.end());
+        std::map<std::string, Person> people;
+        Json rows = Json::array();
+        for (const auto& path : paths) {
+            const Context context = open_context();
+            Source source(context.get(), path.string());
+            const ScanRun run = run_scan(context.get(), source, {});
+            double stature = 0.0;
+            for (const auto& m : measurements_of(run.scan.get()))
+                if (std::string(m.key) == "stature_m") stature = m.value;
+            const double mask = tallest_mask(path.string());
+            const std::string name = path.filename().string();
+            people[person_of(name)].stature_m.push_back(stature);
+            people[person_of(name)].mask_m.push_back(mask);
+            rows.push_back({{"recording", name}, {"frames", run.frames_taken}, {"stature_m", stature}, {"mask_m", mask}});
+            if (!o->json)
+                std::cout << std::left << std::setw(32) << name << std::right << std::setw(3) << run.frames_taken
+                          << " frames  stature " << std::fixed << std::setprecision(3) << stature << " m  mask " << mask << " m\n";
+        }
+        Json summary = Json::object();
+        for (const auto& [name, p] : people) {
+            summary[name] = {{"recordings", p.stature_m.size()},
+                             {"stature_m", mean(p.stature_m)},
+                             {"stature_sd_m", deviation(p.stature_m)},
+                             {"mask_m", mean(p.mask_m)},
+                             {"mask_sd_m", deviation(p.mask_m)}};
+            if (!o->json)
+                std::cout << name << ": stature " << mean(p.stature_m) << " m, SD " << deviation(p.stature_m)
+                          << " m over " << p.stature_m.size() << " recordings; mask " << mean(p.mask_m) << " m, SD "
+                          << deviation(p.mask_m) << " m\n";
+        }
+        if (o->json) std::cout << Json{{"recordings", rows}, {"people", summary}}.dump(2) << "\n";
+    });
+}
+
+}  // namespace vfit::tools
