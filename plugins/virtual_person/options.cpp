@@ -34,7 +34,7 @@ constexpr Entry kEntries[] = {
     {"rate", Kind::kNumber, "30", 1, 240, "Frames a second of the person's time"},
     {"pace", Kind::kPace, "none", 0, 0, "none: as fast as frames are taken; realtime: at rate"},
     {"sex", Kind::kSex, "", 0, 0, "Default body: f, m, or empty for one halfway"},
-    {"distance", Kind::kNumber, "2.4", 0.5, 10, "From the camera to where the person stands, in metres"},
+    {"distance", Kind::kNumber, "2.7", 0.5, 10, "From the camera to where the person stands, in metres"},
     {"facing", Kind::kNumber, "0", -360, 360, "Turns person and motion to their left, in degrees; 0 faces the camera"},
     {"camera_height", Kind::kNumber, "1", 0.1, 5, "Of the camera above the floor, in metres"},
     {"tilt", Kind::kNumber, "0", -60, 60, "Of the camera, in degrees; above 0 it looks down"},

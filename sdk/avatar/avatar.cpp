@@ -17,7 +17,7 @@ void check(const BodyModel* model, const AvatarDesc& desc, std::span<const float
     if (!model) fail(VFIT_ERROR_ARGUMENT, "an avatar needs a body model");
     if (desc.detail >= kBodyLevels)
         fail(VFIT_ERROR_ARGUMENT, "detail ", desc.detail, " is not a level of the body (0 to ",
-            kBodyLevels - 1, ")");
+             kBodyLevels - 1, ")");
     if (desc.twist_steps < 1 || desc.twist_steps > kMaxTwistSteps)
         fail(VFIT_ERROR_ARGUMENT, "twist_steps is ", desc.twist_steps, ", not 1 to ", kMaxTwistSteps);
     if (!shape.empty() && shape.size() != model->parameters().size())
@@ -30,7 +30,7 @@ void check(const BodyModel* model, const AvatarDesc& desc, std::span<const float
 }
 
 EvaluatedBody scaled_body(const BodyModel& model, vfit_sex sex, std::span<const float> shape,
-        const Vec2& scale) {
+                          const Vec2& scale) {
     EvaluatedBody body;
     if (shape.empty())
         model.evaluate(model.default_shape(sex), body);

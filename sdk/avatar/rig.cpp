@@ -112,8 +112,8 @@ void AvatarRig::build_limbs(uint32_t twist_steps) {
         int extension = bones_[static_cast<size_t>(end)].parent;
         limb.rig_bones = {original};
         const auto append = [&](uint32_t step) {
-            const float near_t = float(step) / float(twist_steps), far_t = float(step +
-                1) / float(twist_steps);
+            const float near_t = float(step) / float(twist_steps);
+            const float far_t = float(step + 1) / float(twist_steps);
             const AvatarBone& o = bones_[static_cast<size_t>(original)];
             bones_.push_back({text(o.name, ".twist", step), original, -1,
                               glm::mix(limb.near_joint, limb.far_joint, near_t),

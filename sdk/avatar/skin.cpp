@@ -28,24 +28,22 @@ void split_limb_weights(std::span<const Vec3> rest, const std::vector<LimbChain>
             if (weights[v][k] > 0.0f) shares.push_back({bones[v][k], weights[v][k]});
 
         for (const LimbChain& limb : limbs) {
+            if (limb.rig_bones.size() < 2) continue;
             float carried = 0.0f;
             for (Share& share : shares)
-                if (std::find(limb.rig_bones.begin(), limb.rig_bones.end(), share.bone) !=
-                        limb.rig_bones.end()) {
+                if (std::count(limb.rig_bones.begin(), limb.rig_bones.end(), share.bone) > 0) {
                     carried += share.weight;
                     share.weight = 0.0f;
                 }
             if (carried == 0.0f) continue;
             const Vec3 axis = limb.far_joint - limb.near_joint;
-            const float t = std::clamp(glm::dot(rest[v] - limb.near_joint, axis) / glm::dot(axis, axis),
-                0.0f, 1.0f);
+            const float along = glm::dot(rest[v] - limb.near_joint, axis) / glm::dot(axis, axis);
             const size_t steps = limb.rig_bones.size() - 1;
-            const size_t step = std::min(static_cast<size_t>(t * float(steps)), std::max<size_t>(steps,
-                1) - 1);
-            const float far_share = t * float(steps) - float(step);
+            const float place = std::clamp(along, 0.0f, 1.0f) * float(steps);
+            const size_t step = std::min(static_cast<size_t>(place), steps - 1);
+            const float far_share = place - float(step);
             shares.push_back({static_cast<uint16_t>(limb.rig_bones[step]), carried * (1.0f - far_share)});
-            if (step < steps)
-                shares.push_back({static_cast<uint16_t>(limb.rig_bones[step + 1]), carried * far_share});
+            shares.push_back({static_cast<uint16_t>(limb.rig_bones[step + 1]), carried * far_share});
         }
 
         std::sort(shares.begin(), shares.end(), [](const Share& a, const Share& b) {
@@ -75,8 +73,8 @@ Skin::Skin(std::span<const SkinBones> bones, std::span<const SkinWeights> weight
 }
 
 void Skin::pose(std::span<const Mat4> matrices, std::span<const Vec3> rest,
-    std::span<const Vec3> rest_normals,
-                std::span<Vec3> positions, std::span<Vec3> normals, Jobs& jobs) const {
+                std::span<const Vec3> rest_normals, std::span<Vec3> positions, std::span<Vec3> normals,
+                Jobs& jobs) const {
     const uint32_t count = vertex_count();
     parallel_for(jobs, (count + kChunk - 1) / kChunk, [&](uint32_t chunk) {
         const uint32_t end = std::min(count, (chunk + 1) * kChunk);

@@ -96,11 +96,13 @@ BodyOutline::BodyOutline(const BodyModel& model, vfit_sex sex)
     levels_.knee = joint(VFIT_BONE_LEFT_LOWER_LEG).y;
     levels_.ankle = joint(VFIT_BONE_LEFT_FOOT).y;
     const float hips = joint(VFIT_BONE_LEFT_UPPER_LEG).y, chest = joint(VFIT_BONE_UPPER_CHEST).y;
-    axis_z_ = 0.5f * (joint(VFIT_BONE_HIPS).z + joint(VFIT_BONE_CHEST).z);
     // Bust: where the front stands out most; waist: the smallest girth; hip: the largest.
     levels_.bust = find(joint(VFIT_BONE_CHEST).y, glm::mix(chest, levels_.shoulder, 0.7f), true, &BodyOutline::front);
     levels_.waist = find(hips, levels_.bust, false, &BodyOutline::girth);
     levels_.hip = find(hips - 0.25f * (levels_.waist - hips), levels_.waist, true, &BodyOutline::girth);
+    // The middle of the thinnest section lies well inside the others.
+    const Extent waist = extent(points_at(levels_.waist));
+    axis_z_ = 0.5f * (waist.minimum.y + waist.maximum.y);
 }
 
 std::vector<Vec2> BodyOutline::points_at(float y) const {

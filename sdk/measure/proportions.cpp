@@ -38,19 +38,13 @@ constexpr Row kTable1[kLineCount] = {
 
 const Row& row(Line line) { return kTable1[static_cast<size_t>(line)]; }
 
-// Table 2, and as nominal size the means of ANSUR II's men and women, halfway between the sexes: stature 1.756
-// and 1.629 m, bideltoid breadth 0.510 and 0.450 m, hip breadth 0.197 and 0.217 of stature. Hip height is 0.530
-// of stature (Drillis and Contini); neck joint to pelvis is 0.32 of it on the body model's own skeleton.
-constexpr float kNominalStature_m = 1.6925f;
-constexpr float kNominalShoulders_m = 0.480f;
-constexpr float kNominalHips_m = 0.350f;
+// Table 2, and as nominal size that of the default body halfway between the sexes, measured on the body model:
+// stature, hip joint above the floor, neck to hips, bideltoid breadth with the arms at 5 degrees, hip breadth,
+// elbow joint to fingertip.
 constexpr GarmentKind kTable2[] = {
-    {"trousers", Line::kHipHeight, {Line::kHipWidth, Line::kHipWidth}, 1,
-     0.530f * kNominalStature_m, {kNominalHips_m, 0.0f}},
-    {"long_sleeves", Line::kBodyHeight, {Line::kShoulderWidth, Line::kElbowFingertip}, 2,
-     kNominalStature_m, {kNominalShoulders_m, 0.254f * kNominalStature_m}},
-    {"short_sleeves", Line::kTorsoHeight, {Line::kShoulderWidth, Line::kShoulderWidth}, 1,
-     0.32f * kNominalStature_m, {kNominalShoulders_m, 0.0f}},
+    {"trousers", Line::kHipHeight, {Line::kHipWidth, Line::kHipWidth}, 1, 0.886f, {0.367f, 0.0f}},
+    {"long_sleeves", Line::kBodyHeight, {Line::kShoulderWidth, Line::kElbowFingertip}, 2, 1.691f, {0.450f, 0.428f}},
+    {"short_sleeves", Line::kTorsoHeight, {Line::kShoulderWidth, Line::kShoulderWidth}, 1, 0.558f, {0.450f, 0.0f}},
 };
 
 Estimate mean(const Estimate* estimates, size_t count, Combination combination) {
@@ -84,6 +78,7 @@ Estimate estimate_primary(const Lines& measured, Line primary, RatioTable table,
     std::array<Estimate, kLineCount> estimates;
     size_t count = 0;
     const Ratio to = ratio(table, sex, primary);
+    const Estimate& direct = at(measured, primary);
     // An estimate cannot be surer than this: keeps a weight finite where a caller gives no sigma.
     constexpr float kSurest_m = 0.001f;
 
@@ -99,7 +94,13 @@ Estimate estimate_primary(const Lines& measured, Line primary, RatioTable table,
         const float factor = to.heads / from.heads;  // R of Eq. 6
         const float value = line.value_m * factor;
         const float spread = value * std::hypot(from.relative_sd, to.relative_sd);
-        estimates[count++] = {value, std::max(std::hypot(line.sigma_m * factor, spread), kSurest_m), true};
+        const float sigma = std::max(std::hypot(line.sigma_m * factor, spread), kSurest_m);
+        // A line that contradicts the direct measure was mismeasured.
+        constexpr float kContradiction_sigma = 3.0f;
+        if (combination == Combination::kInverseVariance && direct.known &&
+            std::abs(value - direct.value_m) > kContradiction_sigma * std::hypot(sigma, direct.sigma_m))
+            continue;
+        estimates[count++] = {value, sigma, true};
     }
     return mean(estimates.data(), count, combination);
 }

@@ -56,8 +56,10 @@ void measure_trunk(const TapeMesh& body, Sheet& sheet) {
     girth("chest_girth_m", "chest_breadth_m", "chest_depth_m", chest_height(body, armpit));
     girth("waist_girth_m", "waist_breadth_m", "waist_depth_m", waist);
     girth("hip_girth_m", "hip_breadth_m", "hip_depth_m", hip_height(body, crotch, waist));
-    const float underbust = underbust_height(body, armpit, waist);
-    sheet.set("underbust_girth_m", hull_perimeter(body.trunk(underbust).points()));
+    if (body.body().sex == VFIT_SEX_FEMALE) {
+        const float underbust = underbust_height(body, armpit, waist);
+        sheet.set("underbust_girth_m", hull_perimeter(body.trunk(underbust).points()));
+    }
     sheet.set("inside_leg_m", crotch - body.floor());
     sheet.set("hip_height_m", both([&](Side s) { return body.joint(joints_of(s).hip).y; }) - body.floor());
     sheet.set("torso_height_m", glm::distance(body.joint(VFIT_JOINT_NECK), body.joint(VFIT_JOINT_PELVIS)));

@@ -19,7 +19,7 @@ struct TapeBody {
     std::span<const uint32_t> indices;   // three a triangle
     std::span<const BodyPart> parts;     // one a vertex at least
     Body joints;                         // in the space of the positions
-    vfit_sex sex = VFIT_SEX_UNKNOWN;     // unknown: the chest is measured as a man's
+    vfit_sex sex = VFIT_SEX_UNKNOWN;     // unknown: the chest as a man's
 };
 
 /// The postures that the definitions ask for. The same mesh in three postures, or, where only one is to be had,
@@ -30,8 +30,9 @@ struct TapePostures {
     TapeBody feet_together;  // stature
 };
 
-/// Every measure of measure_keys.h, sigma 0, in its order. VFIT_ERROR_DATA where a mesh is broken, a joint that
-/// a landmark needs is missing, or the body has not the form of a person (legs that never part).
+/// Every measure of measure_keys.h (underbust_girth_m of women only), sigma 0, in its order. VFIT_ERROR_DATA where
+/// a mesh is broken, a joint that a landmark needs is missing, or the body has not the form of a person (legs
+/// that never part).
 std::vector<Measurement> tape_measures(const TapePostures& body);
 
 }  // namespace vfit

@@ -18,13 +18,16 @@ float armpit_height(const TapeMesh& body);
 /// in people. The narrowest level is another: it lies near the lowest rib, and stout bodies have none.
 float waist_height(const TapeMesh& body);
 
-/// The bust point of the side: most forward point of the chest between the rib arch and the armpit.
+/// The bust point of the side: what of the chest stands out farthest before the straight line from the front of the
+/// waist to the front between the armpits. Of a flat belly it is the most forward point; a round one does not
+/// win over it.
 Vec3 bust_point(const TapeMesh& body, Side side, float armpit);
 
-/// Men: level of the largest girth between the rib arch and the armpit. Women: of the bust points.
+/// Women: level of the bust points. Others: of the largest girth between the rib arch and a tape's half width
+/// below the armpit.
 float chest_height(const TapeMesh& body, float armpit);
 
-/// Directly below the breast: the place of the front's profile, through the bust point, that lies deepest behind
+/// Directly below the breasts: the place of the front's profile, through the bust point, that lies deepest behind
 /// the straight line from the bust point down to the waist.
 float underbust_height(const TapeMesh& body, float armpit, float waist);
 

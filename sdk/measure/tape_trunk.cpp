@@ -15,9 +15,12 @@ namespace {
 /// Women (0.630 - 0.519) / (0.857 - 0.519), men (0.621 - 0.513) / (0.864 - 0.513) of stature.
 constexpr float kWaistShareWomen = 0.328f, kWaistShareMen = 0.308f;
 
-/// The rib arch as a share of the way from the waist to the foot of the neck; the breasts lie above it. By the
-/// same tables the chest's level lies at 0.39 (women, 0.719 of stature) and 0.47 (men, 0.735).
+/// The rib arch as a share of the way from the waist to the foot of the neck; a man's chest lies above it, by the
+/// same tables at 0.47 (0.735 of stature).
 constexpr float kRibArchShare = 0.2f;
+
+/// A tape is 20 mm wide: with its upper edge in the armpit its middle lies this much lower.
+constexpr float kTapeHalfWidth_m = 0.01f;
 
 float hip_joints_height(const TapeMesh& body) {
     return 0.5f * (body.joint(VFIT_JOINT_LEFT_HIP).y + body.joint(VFIT_JOINT_RIGHT_HIP).y);
@@ -86,22 +89,28 @@ float waist_height(const TapeMesh& body) {
 }
 
 Vec3 bust_point(const TapeMesh& body, Side side, float armpit) {
-    const float low = rib_arch_height(body), middle = body.joint(VFIT_JOINT_NECK).x;
+    const float waist = waist_height(body), middle = body.joint(VFIT_JOINT_NECK).x;
+    const auto front_of_trunk = [&](float y) { return -extent(body.trunk(y).points()).minimum.y; };
+    const float foot = front_of_trunk(waist), slope = (front_of_trunk(armpit) - foot) / (armpit - waist);
     const TapeBody& b = body.body();
     const Vec3* best = nullptr;
+    float best_prominence = 0.0f;
     for (size_t i = 0; i < b.positions.size(); ++i) {
         const Vec3& p = b.positions[i];
-        const bool chest = b.parts[i] == BodyPart::kTorso && p.y >= low && p.y <= armpit;
-        if (chest && (p.x > middle) == (side == Side::kLeft) && (!best || p.z > best->z)) best = &p;
+        const bool chest = b.parts[i] == BodyPart::kTorso && p.y > waist && p.y < armpit;
+        if (!chest || (p.x > middle) != (side == Side::kLeft)) continue;
+        const float prominence = p.z - (foot + slope * (p.y - waist));
+        if (!best || prominence > best_prominence) best = &p, best_prominence = prominence;
     }
-    if (!best) fail(VFIT_ERROR_DATA, "the body has no chest between its ribs and its armpits");
+    if (!best) fail(VFIT_ERROR_DATA, "the body has no chest between its waist and its armpits");
     return *best;
 }
 
 float chest_height(const TapeMesh& body, float armpit) {
     if (body.body().sex == VFIT_SEX_FEMALE)
         return 0.5f * (bust_point(body, Side::kLeft, armpit).y + bust_point(body, Side::kRight, armpit).y);
-    return place_of_largest(rib_arch_height(body), armpit, [&](float y) { return trunk_girth(body, y); });
+    return place_of_largest(rib_arch_height(body), armpit - kTapeHalfWidth_m,
+                            [&](float y) { return trunk_girth(body, y); });
 }
 
 float underbust_height(const TapeMesh& body, float armpit, float waist) {

@@ -162,7 +162,8 @@ void BoneSolver::solve_limb(int index, const RestPose& rest, const Body& body, B
         lower_rotation =
             has_lower ? align_pairs(limb.lower, limb.hinge, lower, hinge) : upper_rotation;
     } else {
-        upper_rotation = parts.leg ? parent : parent * glm::angleAxis(-parts.side * kHangingRad, Vec3(0, 0, 1));
+        const float lowered = parts.leg ? 0.0f : -parts.side * kHangingRad;
+        upper_rotation = parent * glm::angleAxis(lowered, Vec3(0, 0, 1));
         lower_rotation = upper_rotation;
     }
     rotation_of(body, parts.root, upper_rotation);
@@ -187,8 +188,8 @@ void BoneSolver::solve_foot(int side, const RestPose& rest, const Body& body, bo
 
     Vec3 toes;
     float length = 0;
-    if (rotation_of(body, parts.end, foot)) {
-    } else if (direction_between(body, parts.end, parts.tip, toes, length)) {
+    const bool given = rotation_of(body, parts.end, foot);
+    if (!given && direction_between(body, parts.end, parts.tip, toes, length)) {
         const FlatFoot& flat = flat_feet_[at(side)];
         const Vec3 rest_toes = rest.toes[at(side)];
         const Vec3 level(toes.x, 0.0f, toes.z);
@@ -202,7 +203,7 @@ void BoneSolver::solve_foot(int side, const RestPose& rest, const Body& body, bo
         Vec3 across = glm::cross(up, toes);
         if (glm::length(across) < 0.1f) across = shank * Vec3(1, 0, 0);
         foot = align_pairs(rest_toes, glm::cross(floor_up, rest_toes), toes, across);
-    } else {
+    } else if (!given) {
         // Toes that nobody sees: the foot is level and points where the knee bends.
         const Vec3 across = shank * Vec3(1, 0, 0);
         const Vec3 level(across.x, 0.0f, across.z);

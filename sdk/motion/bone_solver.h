@@ -16,8 +16,8 @@ class BoneSolver {
 public:
     void reset();
 
-    /// Learns what direction from ankle to toes this source reports for a foot that stands on the floor. Once a
-    /// body.
+    /// Learns what direction from ankle to toes this source reports for a foot that stands on the floor.
+    /// To be called once a body.
     void learn_flat_feet(const Body& body, const bool planted[2]);
 
     /// `planted`: the foot stands on the floor, left and right.

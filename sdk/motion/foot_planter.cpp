@@ -24,8 +24,8 @@ struct Leg {
 
     TwoBoneSolution solve(const Vec3& shift) const {
         const Vec3 root = hip + shift;
-        // The knee's front: square to its axis and to the leg. This keeps the tracked swivel even where the leg is
-        // straight and the knee itself tells nothing.
+        // The knee's front: square to its axis and to the leg. This keeps the tracked swivel even where the
+        // leg is straight and the knee itself tells nothing.
         const Vec3 front = glm::cross(target - root, knee_axis);
         return solve_two_bone(root, rest->upper_m, rest->lower_m, target, front, kSoftness);
     }
@@ -37,8 +37,8 @@ void turn_leg(const Leg& leg, const Vec3& shift, const PosedSkeleton& posed, Pos
     const Quat lower_was = posed.rotation[at(leg.parts->lower)];
     const Quat upper = align_pairs(upper_was * leg.rest->upper, leg.knee_axis, ik.middle - leg.hip - shift,
                                    leg.knee_axis) * upper_was;
-    const Quat lower =
-        align_pairs(lower_was * leg.rest->lower, leg.knee_axis, ik.end - ik.middle, leg.knee_axis) * lower_was;
+    const Quat lower = align_pairs(lower_was * leg.rest->lower, leg.knee_axis, ik.end - ik.middle,
+                                   leg.knee_axis) * lower_was;
     const Quat hips = posed.rotation[VFIT_BONE_HIPS];
     const Quat foot = posed.rotation[at(leg.parts->last)];  // stays as it is in the world
     pose.rotation[at(leg.parts->upper)] = glm::normalize(glm::conjugate(hips) * upper);
@@ -63,7 +63,8 @@ void FootPlanter::apply(const Skeleton& skeleton, const RestPose& rest, const bo
         leg.knee_axis = posed.rotation[at(leg.parts->upper)] * leg.rest->hinge;
         FootPin& pin = pins_[at(side)];
         pin.move(drags[side]);
-        leg.target = pin.update(posed.position[at(leg.parts->last)], planted[side], skeleton.ankle_height, dt_s);
+        const Vec3 ankle = posed.position[at(leg.parts->last)];
+        leg.target = pin.update(ankle, planted[side], skeleton.ankle_height, dt_s);
         moved = moved || pin.planted() || pin.offset() != Vec3(0.0f);
         if (!pin.planted()) continue;
         pose.contacts |= side == 0 ? VFIT_CONTACT_LEFT : VFIT_CONTACT_RIGHT;

@@ -63,7 +63,7 @@ Vec3 clamp_shoulder(Vec3 d, float side) {
     return d;
 }
 
-/// A direction given by an angle in a plane (from `forward` towards `turn`) and one out of it (towards `out`).
+/// A direction as an angle in a plane (from `forward` towards `turn`) and one out of it (towards `out`).
 Vec3 clamp_planar(const Vec3& d, const Vec3& forward, const Vec3& turn, const Vec3& out, rom::Interval planar,
                   rom::Interval off_plane) {
     const float angle = std::atan2(glm::dot(d, turn), glm::dot(d, forward));
@@ -101,7 +101,8 @@ void limit_limb(int index, const RestLimb& rest, BoneRotations& local) {
     const float side = parts.side;
     Quat& upper = local[at(parts.upper)];
     if (parts.leg) {
-        upper = limit_bone(upper, rest.upper, sided(-rom::kHipExternal, rom::kHipInternal, side), [&](Vec3 d) {
+        const rom::Interval turn = sided(-rom::kHipExternal, rom::kHipInternal, side);
+        upper = limit_bone(upper, rest.upper, turn, [&](Vec3 d) {
             return clamp_planar(d, {0, -1, 0}, {0, 0, 1}, {side, 0, 0}, rom::kHipFlexion, rom::kHipAbduction);
         });
     } else {
@@ -114,8 +115,8 @@ void limit_limb(int index, const RestLimb& rest, BoneRotations& local) {
     // Angles count from the straight limb; the T-pose may be bent a little.
     const rom::Interval off_plane{out_deg - rom::kHingePlay, out_deg + rom::kHingePlay};
     const rom::Interval bend{std::min(flexion.least_deg, bend_deg), flexion.most_deg};
-    const rom::Interval twist = parts.leg ? rom::Interval{-rom::kHingePlay, rom::kHingePlay}
-                                          : sided(-rom::kForearmSupination, rom::kForearmPronation, side);
+    const rom::Interval pronation = sided(-rom::kForearmSupination, rom::kForearmPronation, side);
+    const rom::Interval twist = parts.leg ? rom::Interval{-rom::kHingePlay, rom::kHingePlay} : pronation;
     Quat& lower = local[at(parts.lower)];
     lower = limit_bone(lower, rest.lower, twist, [&](Vec3 d) {
         return clamp_planar(d, rest.upper, glm::cross(rest.hinge, rest.upper), rest.hinge, bend, off_plane);
@@ -123,7 +124,7 @@ void limit_limb(int index, const RestLimb& rest, BoneRotations& local) {
     if (parts.leg) return;
 
     Quat& hand = local[at(parts.last)];
-    hand = limit_bone(hand, rest.lower, sided(-rom::kForearmSupination, rom::kForearmPronation, side), [&](Vec3 d) {
+    hand = limit_bone(hand, rest.lower, pronation, [&](Vec3 d) {
         return clamp_planar(d, {side, 0, 0}, {0, -1, 0}, {0, 0, 1}, rom::kWristFlexion, rom::kWristRadial);
     });
 }
@@ -153,10 +154,11 @@ void limit_neck(BoneRotations& local) {
 }
 
 void limit_ankle(float side, Quat& foot) {
-    // Positions of a straight leg do not show its axial turn, so that a toe turned out by the hip appears at the
-    // ankle: the hip's range holds.
-    foot = limit_upright(foot, rom::kAnklePlantarflexion, sided(-rom::kAnkleInversion, rom::kAnkleEversion, side),
-                         sided(-rom::kHipInternal, rom::kHipExternal, side));
+    // Positions of a straight leg do not show its axial turn, so that a toe turned out by the hip appears at
+    // the ankle: the hip's range holds.
+    const rom::Interval lean = sided(-rom::kAnkleInversion, rom::kAnkleEversion, side);
+    const rom::Interval turn = sided(-rom::kHipInternal, rom::kHipExternal, side);
+    foot = limit_upright(foot, rom::kAnklePlantarflexion, lean, turn);
 }
 
 }  // namespace

@@ -208,7 +208,8 @@ bool Motion::State::update_pose(float dt_s) {
         const Vec3 drags[2] = {joint_feet.drag(0), joint_feet.drag(1)};
         planter.apply(skeleton, rest, planted, drags, dt_s, pose);
     }
-    for (size_t i = 0; i < before.size(); ++i) pose.rotation[i] = same_hemisphere(pose.rotation[i], before[i]);
+    for (size_t i = 0; i < before.size(); ++i)
+        pose.rotation[i] = same_hemisphere(pose.rotation[i], before[i]);
     seen = true;
     return true;
 }

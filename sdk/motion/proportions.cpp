@@ -47,16 +47,18 @@ void Proportions::add(Segment segment, float length_m) {
 }
 
 void Proportions::add_between(const Body& body, Segment segment, int from, int to, float share) {
-    if (measured(body, from) && measured(body, to)) add(segment, share * glm::length(body.at(to) - body.at(from)));
+    if (measured(body, from) && measured(body, to))
+        add(segment, share * glm::length(body.at(to) - body.at(from)));
 }
 
 void Proportions::update(const Body& body) {
-    const bool shoulders = measured(body, VFIT_JOINT_LEFT_SHOULDER) && measured(body, VFIT_JOINT_RIGHT_SHOULDER);
+    const int left = VFIT_JOINT_LEFT_SHOULDER, right = VFIT_JOINT_RIGHT_SHOULDER;
+    const bool shoulders = measured(body, left) && measured(body, right);
     Trunk trunk;
     if (find_trunk(body, trunk) && trunk.hips_seen) {
         add(kTrunk, glm::length(trunk.neck - trunk.hip_middle));
         if (shoulders) {
-            const Vec3 middle = 0.5f * (body.at(VFIT_JOINT_LEFT_SHOULDER) + body.at(VFIT_JOINT_RIGHT_SHOULDER));
+            const Vec3 middle = 0.5f * (body.at(left) + body.at(right));
             add(kShoulderDrop, glm::dot(trunk.neck - middle, trunk.up()));
         }
     }

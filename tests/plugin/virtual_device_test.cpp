@@ -262,7 +262,10 @@ TEST(VirtualPerson, PersonHasNoHoles) {
             for (uint32_t x = 1; x + 1 < f.width; ++x) {
                 const size_t i = size_t{y} * f.width + x;
                 person += f.user[i];
-                holes += !f.user[i] && f.user[i - 1] && f.user[i + 1] && f.user[i - f.width] && f.user[i + f.width];
+                if (f.user[i] || !f.user[i - 1] || !f.user[i + 1] || !f.user[i - f.width] || !f.user[i + f.width]) continue;
+                // A gap between arm and trunk may be one pixel wide; a hole lies within one surface.
+                const auto [near, far] = std::minmax({f.depth[i - 1], f.depth[i + 1], f.depth[i - f.width], f.depth[i + f.width]});
+                holes += far - near < 30;
             }
         EXPECT_GT(person, 15000);
         EXPECT_EQ(holes, 0);
@@ -420,7 +423,7 @@ TEST(VirtualPerson, IsASensorOfLibvfit) {
         EXPECT_EQ(count, VFIT_JOINT_COUNT);
         for (const vfit_joint& j : joints) {
             EXPECT_GT(j.position[1], 0.0f) << "world space: above the floor";
-            EXPECT_NEAR(j.position[2], -2.4f, 0.5f);
+            EXPECT_NEAR(j.position[2], -2.7f, 0.5f);
         }
         char meta[64];
         uint32_t length = 0;

@@ -38,7 +38,7 @@ TEST(VirtualUri, AnotherSchemeOrAWordWithoutValueIsRefused) {
 TEST(VirtualOptions, HaveDefaultsAndTexts) {
     const Options options;
     EXPECT_EQ(options.text("sensor"), "kinect_v1");
-    EXPECT_EQ(options.number("distance"), 2.4);
+    EXPECT_EQ(options.number("distance"), 2.7);
     EXPECT_EQ(options.whole("frames"), 0u);
     ASSERT_GE(options.count(), 15u);
     for (uint32_t i = 0; i < options.count(); ++i) {
@@ -84,7 +84,7 @@ TEST(VirtualOptions, ABadValueNamesTheOptionAndWhatItTakes) {
     EXPECT_NE(set("seed", "1.5").find("whole"), std::string::npos);
     EXPECT_NE(set("seed", "-1").find("seed"), std::string::npos);
     EXPECT_NE(set("frames", "").find("frames"), std::string::npos);
-    EXPECT_EQ(options.number("distance"), 2.4) << "a refused value changes nothing";
+    EXPECT_EQ(options.number("distance"), 2.7) << "a refused value changes nothing";
 }
 
 TEST(VirtualOptions, KeysOutsideTheTableAreLeftToTheCaller) {

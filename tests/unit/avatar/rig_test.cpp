@@ -39,10 +39,10 @@ float angle_between(const Quat& a, const Quat& b) { return angle_of(glm::conjuga
 Pose lively_pose() {
     Pose pose;
     pose.hips_position = Vec3(0.4f, 0.9f, -1.5f);
-    for (int b = 0; b < kBoneCount; ++b)
-        pose.rotation[static_cast<size_t>(b)] =
-            glm::angleAxis(0.2f + 0.05f * float(b), glm::normalize(Vec3(float(b % 3) - 1.0f, 0.6f,
-                float(b % 5) - 2.0f)));
+    for (int b = 0; b < kBoneCount; ++b) {
+        const Vec3 axis(float(b % 3) - 1.0f, 0.6f, float(b % 5) - 2.0f);
+        pose.rotation[static_cast<size_t>(b)] = glm::angleAxis(0.2f + 0.05f * float(b), glm::normalize(axis));
+    }
     return pose;
 }
 
