@@ -1,16 +1,27 @@
 /* vfit_plugin.h - what a sensor plug-in exports and what the host lends it.   SPDX-License-Identifier: Apache-2.0
  *
  * A plug-in is a shared library with one symbol, vfit_plugin_negotiate. C only, no C++ classes cross the
- * border. It may use vfit.h as any program does, with a context of its own.
+ * border. It may use vfit.h as any program does, with a context of its own. Each context of the host
+ * negotiates once: keep what belongs to one behind vfit_plugin.self, not in globals.
  *
- * THREADS  The host calls a device from one thread at a time; a plug-in pushes from any thread of its own.
- * FRAMES   frame_begin gives a pooled frame with room for its streams; fill the pixels in place, add
- *          intrinsics, camera, bodies and meta, then frame_push (hands the frame over, whatever it
- *          returns) or frame_drop. Nothing is copied afterwards.
- * PACE     With pace=none a push waits until the frame before was taken or the stream stops; then it
- *          returns VFIT_ERROR_STATE and the plug-in ends its loop.
- * SPACE    Bodies are pushed in camera space (x right, y down, z forward, metres); the host carries them
- *          to world space by the frame's camera.                                                       */
+ * THREADS  The host calls one function of a plug-in at a time, for all its devices together, so that
+ *          last_error belongs to the call that failed; a plug-in calls the host from any thread of its own.
+ *          The host calls nothing after shutdown, and the plug-in nothing once shutdown has returned.
+ * STREAMS  A stream is a token for the host's functions, not a pointer; it dies with close.
+ * FRAMES   frame_begin gives a pooled frame with room for its streams: DEPTH U16, COLOR RGBA8, USER_MAP U8
+ *          of the size of DEPTH, at most 16384 pixels a side. Fill the pixels in place (they hold what was
+ *          there before), add intrinsics (of the depth image's size; required with DEPTH), camera, bodies
+ *          and meta, then frame_push (hands the frame over, whatever it returns) or frame_drop. Nothing is
+ *          copied afterwards. stop takes unfinished frames back. Misuse gives an error code.
+ * PACE     A plug-in whose option list has an entry "pace" sets the default by its value, "realtime" or
+ *          "none", and is told when the host changes it; without one it is realtime. With pace=none a push
+ *          waits until the frame before was taken, and frame_begin until one is free, or until the stream
+ *          stops; then they return VFIT_ERROR_STATE and the plug-in ends its loop.
+ * SPACE    Bodies are pushed in camera space (x right, y down, z forward, metres), with ids 1..255; a
+ *          rotation turns a T-pose that has Y up and faces +Z into camera space. The host carries them to
+ *          world space by the frame's camera, or, where its floor_state is DEFAULT, by a floor estimated
+ *          below the feet of the stream's first body. A body that is not finite is refused with
+ *          VFIT_ERROR_DATA, and the frame goes on without it.                                          */
 #ifndef VFIT_PLUGIN_H
 #define VFIT_PLUGIN_H
 #include "vfit.h"
@@ -46,14 +57,18 @@ typedef struct vfit_host {              /* valid from negotiate until shutdown r
     vfit_result (*frame_body)(void* self, vfit_frame frame, const vfit_body* body, const vfit_joint* items,
                               uint32_t stride, uint32_t count);
     vfit_result (*frame_meta)(void* self, vfit_frame frame, const char* key, const char* json);
+    /* time_ns 0: now. The frame's handle is dead afterwards.                                             */
     vfit_result (*frame_push)(void* self, void* stream, vfit_frame frame, int64_t time_ns);
     void (*frame_drop)(void* self, vfit_frame frame);
-    /* END_OF_STREAM, DEVICE_LOST, OK, or the error that ended the stream, with its one sentence.         */
+    /* END_OF_STREAM, DEVICE_LOST, OK (after DEVICE_LOST), or the error that ended the stream, with its one
+     * sentence. A frame that waits is taken first.                                                      */
     void (*stream_state)(void* self, void* stream, vfit_result state, const char* message);
     int64_t (*time_ns)(void* self);     /* now, on the clock that frame_push expects                   */
 } vfit_host;
 
-typedef struct vfit_plugin {            /* filled by the plug-in; functions that it lacks stay null   */
+/* Filled by the plug-in; functions that it lacks stay null. Required: abi, name, schemes, open, start,
+ * stop, close. struct_size holds the host's size before.                                               */
+typedef struct vfit_plugin {
     uint32_t struct_size, abi, version, caps;
     const char* name;
     const char* schemes;                /* "recording" or "openni2,oni": the URIs that it opens         */

@@ -25,7 +25,8 @@ json read_object(const std::filesystem::path& path) {
     std::string text(kMaxBytes + 1, '\0');
     file.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<size_t>(file.gcount()));
-    if (text.size() > kMaxBytes) fail(VFIT_ERROR_DATA, path.string(), ": is longer than ", kMaxBytes, " bytes");
+    if (text.size() > kMaxBytes)
+        fail(VFIT_ERROR_DATA, path.string(), ": is longer than ", kMaxBytes, " bytes");
     json value;
     try {
         value = json::parse(text);
@@ -109,7 +110,8 @@ void read_floor(const Fields& fields, const std::string& file, vfit_camera& came
         set_floor(camera, normal, floor.positive("distance_m", kHighest));
     } else if (fields.has("camera_height_m") && fields.has("tilt_deg")) {
         const double tilt = fields.number("tilt_deg", -90.0, 90.0) * kPi / 180.0;
-        set_floor(camera, {0.0, -std::cos(tilt), -std::sin(tilt)}, fields.positive("camera_height_m", kHighest));
+        set_floor(camera, {0.0, -std::cos(tilt), -std::sin(tilt)},
+                  fields.positive("camera_height_m", kHighest));
     }
 }
 
@@ -121,7 +123,8 @@ CameraFile read_camera_file(const std::filesystem::path& path) {
     const Fields fields(object, file);
     if (fields.string("format") != "vfit-recording") fields.refuse("format", "is not \"vfit-recording\"");
     const uint32_t version = fields.count("version", UINT32_MAX);
-    if (version != 1) fail(VFIT_ERROR_VERSION, file, ": field \"version\" is ", version, ", this reader knows 1");
+    if (version != 1)
+        fail(VFIT_ERROR_VERSION, file, ": field \"version\" is ", version, ", this reader knows 1");
 
     CameraFile out;
     out.sensor = fields.has("sensor") ? fields.string("sensor") : "unknown";

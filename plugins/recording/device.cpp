@@ -208,7 +208,8 @@ void Device::fill_meta(vfit_frame handle, uint32_t frame) {
         check(host_.frame_meta(host_.self, handle, "contacts", json), "its contacts", frame);
     }
     if (!folder_.measures.empty())
-        check(host_.frame_meta(host_.self, handle, "measures", folder_.measures.c_str()), "its measures", frame);
+        check(host_.frame_meta(host_.self, handle, "measures", folder_.measures.c_str()), "its measures",
+              frame);
 }
 
 }  // namespace recording

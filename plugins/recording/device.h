@@ -20,7 +20,9 @@ public:
     Device& operator=(const Device&) = delete;
 
     void set_option(const std::string& key, const std::string& value);
-    bool describe_option(uint32_t index, vfit_sensor_option& out) const { return options_.describe(index, out); }
+    bool describe_option(uint32_t index, vfit_sensor_option& out) const {
+        return options_.describe(index, out);
+    }
     bool describe_mode(uint32_t index, vfit_sensor_mode& out) const;
     void start();
     void stop();

@@ -53,8 +53,8 @@ uint32_t count_pictures(const fs::path& folder) {
 bool has_pictures(const fs::path& folder, uint32_t frame_count) {
     const uint32_t count = count_pictures(folder);
     if (count > 0 && count < frame_count)
-        fail(VFIT_ERROR_DATA, (folder / picture_name(count)).string(), ": is missing, there are ", frame_count,
-             " depth images");
+        fail(VFIT_ERROR_DATA, (folder / picture_name(count)).string(), ": is missing, there are ",
+             frame_count, " depth images");
     return count > 0;
 }
 
@@ -71,7 +71,8 @@ std::string find_measures(const fs::path& folder) {
     std::error_code ignored;
     const fs::path whole = fs::weakly_canonical(folder, ignored);
     for (const fs::path& place : {whole, whole.parent_path()})
-        if (fs::is_regular_file(place / "measures.json", ignored)) return read_measures_file(place / "measures.json");
+        if (fs::is_regular_file(place / "measures.json", ignored))
+            return read_measures_file(place / "measures.json");
     return {};
 }
 
@@ -90,7 +91,8 @@ Folder open_folder(const fs::path& path) {
     folder.camera = read_camera_file(path / "camera.json");
     folder.frame_count = count_pictures(path / "depth");
     if (folder.frame_count == 0)
-        fail(VFIT_ERROR_DATA, (path / "depth").string(), ": holds no depth images (000000.png, 000001.png, ...)");
+        fail(VFIT_ERROR_DATA, (path / "depth").string(),
+             ": holds no depth images (000000.png, 000001.png, ...)");
     folder.has_mask = has_pictures(path / "mask", folder.frame_count);
     folder.has_color = has_pictures(path / "color", folder.frame_count);
     folder.joints = open_rows<JointsFile>(path / "joints.csv");

@@ -33,11 +33,13 @@ void JointsFile::read_header() {
         const std::string& column = columns[i];
         const size_t stem = column.size() < 3 ? 0 : column.size() - 2;
         const auto name = std::find(names.begin(), names.end(), column.substr(0, stem));
-        const size_t axis = column.size() < 3 ? std::string::npos : std::string("_x_y_z_c").find(column.substr(stem));
+        const size_t axis =
+            column.size() < 3 ? std::string::npos : std::string("_x_y_z_c").find(column.substr(stem));
         if (name == names.end() || axis == std::string::npos || axis % 2 != 0)
             csv_.refuse("column '", column.substr(0, 64), "' is not a joint's _x, _y, _z or _c");
         const auto joint = static_cast<vfit_joint_id>(name - names.begin());
-        auto group = std::find_if(joints_.begin(), joints_.end(), [&](const auto& j) { return j.joint == joint; });
+        auto group = std::find_if(joints_.begin(), joints_.end(),
+                                  [&](const auto& j) { return j.joint == joint; });
         if (group == joints_.end()) {
             JointColumns fresh;
             fresh.joint = joint;
@@ -51,7 +53,8 @@ void JointsFile::read_header() {
     if (joints_.empty()) csv_.refuse("the header names no joint");
     for (const JointColumns& j : joints_)
         if (j.x < 0 || j.y < 0 || j.z < 0)
-            csv_.refuse("joint ", names[static_cast<size_t>(j.joint)], " lacks one of its columns _x, _y, _z");
+            csv_.refuse("joint ", names[static_cast<size_t>(j.joint)],
+                        " lacks one of its columns _x, _y, _z");
 }
 
 void JointsFile::check() {
@@ -95,13 +98,15 @@ bool JointsFile::read_joint(const JointColumns& columns, vfit_joint& joint) cons
         const auto column = static_cast<size_t>(axes[axis]);
         if (csv_.empty(column)) return false;  // not seen
         const double value = csv_.number(column);
-        if (std::abs(value) > kFarthest) csv_.refuse("column ", csv_.columns()[column], ": ", value, " m is no place");
+        if (std::abs(value) > kFarthest)
+            csv_.refuse("column ", csv_.columns()[column], ": ", value, " m is no place");
         joint.position[axis] = static_cast<float>(value);
         zero = zero && value == 0.0;
     }
     if (columns.c >= 0) {
         const double confidence = csv_.number(static_cast<size_t>(columns.c));
-        if (confidence < 0.0 || confidence > 1.0) csv_.refuse("a confidence of ", confidence, " is not in 0..1");
+        if (confidence < 0.0 || confidence > 1.0)
+            csv_.refuse("a confidence of ", confidence, " is not in 0..1");
         joint.confidence = static_cast<float>(confidence);
     }
     return !zero;  // no joint lies in the camera's centre: not seen

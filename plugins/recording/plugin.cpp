@@ -42,6 +42,8 @@ vfit_result guard(Plugin& plugin, Body&& body) noexcept {
     }
 }
 
+vfit_result listed(bool there) { return there ? VFIT_OK : VFIT_END_OF_STREAM; }
+
 OpenDevice& device_of(void* device) { return *static_cast<OpenDevice*>(device); }
 
 const char* last_error(void* self) { return static_cast<Plugin*>(self)->error.c_str(); }
@@ -67,12 +69,12 @@ vfit_result set_option(void* device, const char* key, const char* value) {
 
 vfit_result mode(void* device, uint32_t index, vfit_sensor_mode* out) {
     OpenDevice& d = device_of(device);
-    return guard(d.plugin, [&] { return d.device.describe_mode(index, *out) ? VFIT_OK : VFIT_END_OF_STREAM; });
+    return guard(d.plugin, [&] { return listed(d.device.describe_mode(index, *out)); });
 }
 
 vfit_result option(void* device, uint32_t index, vfit_sensor_option* out) {
     OpenDevice& d = device_of(device);
-    return guard(d.plugin, [&] { return d.device.describe_option(index, *out) ? VFIT_OK : VFIT_END_OF_STREAM; });
+    return guard(d.plugin, [&] { return listed(d.device.describe_option(index, *out)); });
 }
 
 vfit_result start(void* device) {

@@ -50,15 +50,15 @@ void check_header(png_structp png, png_infop info, const Picture& want) {
     char why[128];
     const uint32_t width = png_get_image_width(png, info), height = png_get_image_height(png, info);
     if (width != want.width || height != want.height) {
-        std::snprintf(why, sizeof why, "has %u x %u pixels, camera.json says %u x %u", width, height, want.width,
-                      want.height);
+        std::snprintf(why, sizeof why, "has %u x %u pixels, camera.json says %u x %u", width, height,
+                      want.width, want.height);
         png_error(png, why);
     }
     if (want.bit_depth == kColor) return;
     const int depth = png_get_bit_depth(png, info);
     if (png_get_color_type(png, info) == PNG_COLOR_TYPE_GRAY && depth == want.bit_depth) return;
-    std::snprintf(why, sizeof why, "is not %d-bit grey (it has %d bits, colour type %d)", want.bit_depth, depth,
-                  png_get_color_type(png, info));
+    std::snprintf(why, sizeof why, "is not %d-bit grey (it has %d bits, colour type %d)", want.bit_depth,
+                  depth, png_get_color_type(png, info));
     png_error(png, why);
 }
 
@@ -88,7 +88,8 @@ bool decode(Source* source, const Picture& want) {
     const size_t row_bytes = png_get_rowbytes(png, info);
     if (row_bytes > want.row_stride) png_error(png, "has rows that are too long");
     for (int pass = 0; pass < passes; ++pass)
-        for (uint32_t y = 0; y < want.height; ++y) png_read_row(png, want.pixels + y * want.row_stride, nullptr);
+        for (uint32_t y = 0; y < want.height; ++y)
+            png_read_row(png, want.pixels + y * want.row_stride, nullptr);
     png_read_end(png, nullptr);
     png_destroy_read_struct(&png, &info, nullptr);
     return true;
@@ -108,12 +109,13 @@ void PngReader::read_file(const std::filesystem::path& path, size_t largest) {
     if (!file) fail(VFIT_ERROR_IO, path.string(), ": cannot be read");
 }
 
-void PngReader::read(const std::filesystem::path& path, uint32_t width, uint32_t height, int bit_depth, void* pixels,
-                     size_t row_stride) {
+void PngReader::read(const std::filesystem::path& path, uint32_t width, uint32_t height, int bit_depth,
+                     void* pixels, size_t row_stride) {
     read_file(path, size_t(width) * height * 8 + kFileAllowance);
     Source source{bytes_.data(), bytes_.size(), 0, "out of memory"};
     const Picture want{width, height, bit_depth, static_cast<unsigned char*>(pixels), row_stride};
-    if (!decode(&source, want)) fail(VFIT_ERROR_DATA, path.string(), ": is no sound picture: ", source.message);
+    if (!decode(&source, want))
+        fail(VFIT_ERROR_DATA, path.string(), ": is no sound picture: ", source.message);
 }
 
 void PngReader::read_grey16(const std::filesystem::path& path, uint32_t width, uint32_t height, void* pixels,

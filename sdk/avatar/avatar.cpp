@@ -99,8 +99,8 @@ struct Avatar::Parts {
         const EvaluatedBody body = scaled_body(*model, desc.sex, shape, scale);
         const BodyTopology& topology = model->topology(desc.detail);
         Mesh rest = rest_mesh(*model, desc.detail, body);
-        AvatarRig rig = make_rig(*model, body, lowest(rest.positions), desc.single_bones ? 0 :
-            desc.twist_steps);
+        const uint32_t twist_steps = desc.single_bones ? 0 : desc.twist_steps;
+        AvatarRig rig = make_rig(*model, body, lowest(rest.positions), twist_steps);
         std::vector<SkinBones> bones = topology.skin_bones;
         std::vector<SkinWeights> weights = topology.skin_weights;
         if (!desc.single_bones) split_limb_weights(rest.positions, rig.limbs(), bones, weights);

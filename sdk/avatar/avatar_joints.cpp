@@ -55,7 +55,7 @@ void Avatar::place_joints() {
 
 void Avatar::measure_inner_spheres() {
     const MeshQuery skin(std::span<const Vec3>(rest_.positions).first(topology_->vertex_count),
-        topology_->indices);
+                         topology_->indices);
     for (size_t j = 0; j < kPaperJointCount; ++j) inner_radii_[j] = largest_inner_sphere(skin, anchors_[j]);
     radii_ = inner_radii_;
 }

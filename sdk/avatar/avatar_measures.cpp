@@ -23,12 +23,9 @@ struct Posed {
 }  // namespace
 
 std::vector<Measurement> measure_avatar(const Avatar& avatar, vfit_sex sex) {
-    const Posed arms_out(avatar, MeasuringPosture{}, sex), arms_down(avatar, kBideltoidPosture, sex);
-    std::vector<Measurement> measures = tape_measures({arms_out.tape, arms_down.tape});
-    // Stature is taken with the feet together (ISO 8559-1), which the avatar can do.
-    for (Measurement& m : measures)
-        if (m.key == "stature_m") m.value = avatar.stature();
-    return measures;
+    const Posed arms_out(avatar, MeasuringPosture{}, sex), arms_down(avatar, kBideltoidPosture, sex),
+        feet_together(avatar, kStaturePosture, sex);
+    return tape_measures({arms_out.tape, arms_down.tape, feet_together.tape});
 }
 
 }  // namespace vfit

@@ -48,7 +48,7 @@ Pose Avatar::measuring_pose(const MeasuringPosture& posture) const {
         pose.rotation[ankle] = glm::angleAxis(-sign * tilt, kForward);
     };
     side(1.0f, VFIT_BONE_LEFT_UPPER_ARM, VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_LEFT_LOWER_LEG,
-        VFIT_BONE_LEFT_FOOT);
+         VFIT_BONE_LEFT_FOOT);
     side(-1.0f, VFIT_BONE_RIGHT_UPPER_ARM, VFIT_BONE_RIGHT_UPPER_LEG, VFIT_BONE_RIGHT_LOWER_LEG,
          VFIT_BONE_RIGHT_FOOT);
     return pose;

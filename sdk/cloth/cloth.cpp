@@ -73,11 +73,11 @@ struct Cloth::State {
     std::vector<Particle> particles;
     std::vector<Vec3> starts;      // places at the begin of the sub-step
     std::vector<Vec3> velocities;  // of simulated vertices
-    std::vector<Vec3> previous_targets, previous_skin_normals, skin_normals;
+    std::vector<Vec3> previous_targets;  // one a vertex, then one a backstop
+    bool backstops_placed = false;       // previous_targets holds the backstops as well
     std::vector<Capsule> previous_capsules, capsules;
     std::vector<uint32_t> needed;  // capsules that are not part of another
     std::vector<SweptCapsule> swept;
-    std::vector<Backstop> backstops;
 
     std::vector<Vec3> positions, normals;  // what callers read
     std::vector<float> edge_strains, strains;
@@ -89,7 +89,7 @@ struct Cloth::State {
     bool is_end_of_another(uint32_t ball) const;
     void teleport(std::span<const Vec3> targets);
     void substep(float h, float from, float to, std::span<const Vec3> targets, Jobs& jobs);
-    void solve_backstops(float h, float from, float to, std::span<const Vec3> targets);
+    void solve_backstops(const ContactSettings& contact, float from, float to, std::span<const Vec3> targets);
     void publish();
 };
 
@@ -103,16 +103,14 @@ Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings
     const FabricData& data = fabric->data();
     s.particles.resize(n);
     for (uint32_t i = 0; i < n; ++i) s.particles[i].inverse_mass = data.inverse_mass[i];
-    for (auto* list : {&s.starts, &s.velocities, &s.previous_targets, &s.positions}) list->resize(n);
+    for (auto* list : {&s.starts, &s.velocities, &s.positions}) list->resize(n);
+    s.previous_targets.resize(fabric->target_count());
     s.strains.resize(n);
     s.edge_strains.resize(data.edges.size());
     s.inverse_edge_count.resize(n);
     for (const DistanceConstraint& e : data.edges)
         for (uint32_t v : {e.a, e.b}) s.inverse_edge_count[v] += 1.0f;
     for (float& count : s.inverse_edge_count) count = count > 0.0f ? 1.0f / count : 0.0f;
-    for (uint32_t i = 0; i < data.backstop_slack_m.size(); ++i)
-        if (data.backstop_slack_m[i] >= 0.0f && data.inverse_mass[i] > 0.0f)
-            s.backstops.push_back({i, data.backstop_slack_m[i]});
     s.fabric = std::move(fabric);
     reset(start);
 }
@@ -120,25 +118,27 @@ Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings
 Cloth::~Cloth() = default;
 
 void Cloth::reset(std::span<const Vec3> positions) {
-    check_points(positions, state_->fabric->vertex_count(), "start positions");
+    const Fabric& fabric = *state_->fabric;
+    check_points(positions, positions.size() == fabric.vertex_count() ? fabric.vertex_count() : fabric.target_count(),
+                 "start positions");
     state_->reset(positions);
 }
 
 void Cloth::State::reset(std::span<const Vec3> start) {
-    for (size_t i = 0; i < start.size(); ++i) {
+    std::copy(start.begin(), start.end(), previous_targets.begin());
+    backstops_placed = start.size() == previous_targets.size();
+    for (size_t i = 0; i < particles.size(); ++i) {
         particles[i].x = start[i];
         velocities[i] = Vec3(0.0f);
-        previous_targets[i] = start[i];
     }
     previous_capsules.clear();
-    compute_normals(previous_targets, fabric->data().indices, previous_skin_normals);
     publish();
 }
 
 void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<const Collider> colliders, Jobs& jobs) {
     State& s = *state_;
     if (!finite(dt) || dt < 0.0f) fail(VFIT_ERROR_ARGUMENT, "the step is ", dt, " s long");
-    check_points(skinned_targets, s.fabric->vertex_count(), "skinned targets");
+    check_points(skinned_targets, s.fabric->target_count(), "skinned targets");
     check_colliders(colliders);
     if (dt == 0.0f) return;
     const Stopwatch watch;
@@ -146,9 +146,10 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
 
     s.accept_colliders(colliders);
     s.teleport(skinned_targets);
-    if (!s.backstops.empty()) {
-        s.starts.assign(skinned_targets.begin(), skinned_targets.end());  // compute_normals takes a vector
-        compute_normals(s.starts, s.fabric->data().indices, s.skin_normals);
+    if (!s.backstops_placed) {
+        const uint32_t vertices = s.fabric->vertex_count();
+        std::copy(skinned_targets.begin() + vertices, skinned_targets.end(), s.previous_targets.begin() + vertices);
+        s.backstops_placed = true;
     }
     const auto substeps = std::max(1, int(std::lround(dt * kSubstepRate_hz * float(s.settings.substeps))));
     const float h = dt / float(substeps);
@@ -156,7 +157,6 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
         s.substep(h, float(i) / float(substeps), float(i + 1) / float(substeps), skinned_targets, jobs);
 
     std::copy(skinned_targets.begin(), skinned_targets.end(), s.previous_targets.begin());
-    std::swap(s.previous_skin_normals, s.skin_normals);
     std::swap(s.previous_capsules, s.capsules);
     s.publish();
     s.step_ms = float(watch.ms());
@@ -199,9 +199,8 @@ void Cloth::State::teleport(std::span<const Vec3> targets) {
     for (size_t i = 0; i < particles.size(); ++i) {
         particles[i].x = motion.point(particles[i].x);
         velocities[i] = motion.direction(velocities[i]);
-        previous_targets[i] = motion.point(previous_targets[i]);
-        previous_skin_normals[i] = motion.direction(previous_skin_normals[i]);
     }
+    for (Vec3& target : previous_targets) target = motion.point(target);
     previous_capsules = capsules;
 }
 
@@ -224,7 +223,7 @@ void Cloth::State::substep(float h, float from, float to, std::span<const Vec3> 
     for (size_t i = 0; i < needed.size(); ++i)
         swept[i] = sweep(previous_capsules[needed[i]], capsules[needed[i]], from, to);
     const ContactSettings contact{settings.friction, settings.friction * kKineticShare, kMaxDepenetration_m_s * h};
-    solve_backstops(h, from, to, targets);
+    solve_backstops(contact, from, to, targets);
     ContactPass{fabric->simulated_vertices(), swept, starts, contact}.run(particles, jobs);
 
     const float keep = std::pow(1.0f - settings.damping, h);
@@ -232,28 +231,26 @@ void Cloth::State::substep(float h, float from, float to, std::span<const Vec3> 
         velocities[i] = ((particles[i].x - starts[i]) / h + fall) * keep;
 }
 
-/// Balls below the skin, tangent to it `slack` under the vertex's skinned place.
-void Cloth::State::solve_backstops(float h, float from, float to, std::span<const Vec3> targets) {
-    const ContactSettings contact{settings.friction, settings.friction * kKineticShare, kMaxDepenetration_m_s * h};
-    for (const Backstop& b : backstops) {
-        const auto center = [&](float t) {
-            const Vec3& was = previous_skin_normals[b.vertex];
-            const Vec3 normal = was + (skin_normals[b.vertex] - was) * t;
-            const Vec3 place = previous_targets[b.vertex] + (targets[b.vertex] - previous_targets[b.vertex]) * t;
-            return place - normal * (b.slack_m + kBackstopRadius_m);
-        };
-        const Vec3 center_to = center(to);
-        Vec3& x = particles[b.vertex].x;
-        const Vec3 d = x - center_to;
+void Cloth::State::solve_backstops(const ContactSettings& contact, float from, float to,
+                                   std::span<const Vec3> targets) {
+    const std::vector<Backstop>& backstops = fabric->data().backstops;
+    const uint32_t first = fabric->vertex_count();
+    for (uint32_t i = 0; i < backstops.size(); ++i) {
+        const Vec3& was = previous_targets[first + i];
+        const Vec3 way = targets[first + i] - was;
+        const Vec3 center = was + way * to;
+        const uint32_t vertex = backstops[i].vertex;
+        const float radius = backstops[i].radius_m + settings.thickness_m;
+        Vec3& x = particles[vertex].x;
+        const Vec3 d = x - center;
         const float distance2 = glm::dot(d, d);
-        if (distance2 >= kBackstopRadius_m * kBackstopRadius_m || distance2 == 0.0f) continue;
+        if (distance2 >= radius * radius || distance2 == 0.0f) continue;
         const float distance = std::sqrt(distance2);
-        const Vec3 center_from = center(from);
-        const float begin = kBackstopRadius_m - glm::length(starts[b.vertex] - center_from);
-        const float depth = kBackstopRadius_m - distance - std::max(0.0f, begin - contact.max_depenetration_m);
+        const float begin = radius - glm::length(starts[vertex] - (was + way * from));
+        const float depth = radius - distance - std::max(0.0f, begin - contact.max_depenetration_m);
         if (depth <= 0.0f) continue;
         x += d * (depth / distance);
-        apply_friction(starts[b.vertex], center_to - center_from, d / distance, depth, contact, x);
+        apply_friction(starts[vertex], way * (to - from), d / distance, depth, contact, x);
     }
 }
 

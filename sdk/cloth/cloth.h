@@ -35,15 +35,15 @@ struct ClothStats {
 
 class Cloth {
 public:
+    /// start: as for reset.
     Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings, std::span<const Vec3> start);
     ~Cloth();
 
-    /// At rest at these places.
+    /// At rest at these places: one a vertex, or the fabric's target_count() as Dress::skin gives them.
     void reset(std::span<const Vec3> positions);
 
-    /// Advances by dt. skinned_targets: one a vertex, where the skinned garment is at the END of the step
-    /// (moves the fixed vertices, carries the backstops; a free vertex without backstop ignores its own).
-    /// colliders: at the end of the step, in the same order each call. Both are interpolated from the
+    /// Advances by dt. skinned_targets: the fabric's target_count(), where the skinned garment and the backstops
+    /// are at the END of the step; a free vertex ignores its own. colliders: at the end of the step, in the same order each call. Both are interpolated from the
     /// previous call over the sub-steps. Fails without changing anything: VFIT_ERROR_DATA for a value that is
     /// not finite, VFIT_ERROR_ARGUMENT for a wrong count or a dt that is negative or not finite. Does not
     /// allocate while the number of colliders stays.

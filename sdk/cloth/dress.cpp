@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 #include "core/error.h"
@@ -59,21 +58,58 @@ std::vector<std::vector<uint32_t>> neighbours_of(const Mesh& mesh) {
     return lists;
 }
 
-/// Hanging cloth is bound to whichever leg is nearer; between them the carried shape must not tear. Averages
-/// each simulated vertex's shift with its neighbours'; the skinned ones keep theirs.
-void smooth_shifts(const Garment& garment, std::vector<Vec3>& shifts) {
-    constexpr int kRounds = 20;  // reaches about 4 rows of vertices: the width of the gap between the legs
+/// Rows of numbers, one row a vertex.
+struct Table {
+    size_t width;
+    std::vector<float> values;
+
+    Table(size_t rows, size_t columns) : width(columns), values(rows * columns, 0.0f) {}
+    std::span<float> row(size_t i) { return {values.data() + i * width, width}; }
+};
+
+/// Hanging cloth is bound to whichever leg is nearer; between them it must not tear. Moves each simulated vertex's
+/// row to the mean of its neighbours', again and again; the skinned ones keep theirs.
+void smooth_simulated(const Garment& garment, Table& table) {
+    constexpr int kRounds = 100;  // spreads over about 10 vertices: the gap between the legs
     const std::vector<std::vector<uint32_t>> neighbours = neighbours_of(garment.mesh);
-    std::vector<Vec3> next = shifts;
-    for (int round = 0; round < kRounds; ++round) {
-        for (size_t i = 0; i < shifts.size(); ++i) {
+    for (int round = 0; round < kRounds; ++round)
+        for (size_t i = 0; i < neighbours.size(); ++i) {
             if (!garment.simulated[i] || neighbours[i].empty()) continue;
-            Vec3 sum(0.0f);
-            for (uint32_t j : neighbours[i]) sum += shifts[j];
-            next[i] = 0.5f * (shifts[i] + sum / float(neighbours[i].size()));
+            const std::span<float> row = table.row(i);
+            std::fill(row.begin(), row.end(), 0.0f);
+            const float share = 1.0f / float(neighbours[i].size());
+            for (uint32_t j : neighbours[i])
+                for (size_t k = 0; k < table.width; ++k) row[k] += share * table.row(j)[k];
         }
-        std::swap(shifts, next);
-    }
+}
+
+/// Weight of each bone at a place on the body.
+void add_bone_weights(const DressBody& body, const Binding& binding, std::span<float> bones) {
+    for (int k = 0; k < 3; ++k)
+        for (size_t j = 0; j < kSkinBones; ++j)
+            bones[body.skin_bones[binding.corner[k]][j]] +=
+                body.skin_weights[binding.corner[k]][j] * binding.weight[k];
+}
+
+Binding bind(const MeshQuery& body, std::span<const uint32_t> triangles, const Vec3& p) {
+    const MeshQuery::Closest closest = body.closest(p);
+    const uint32_t* v = &triangles[closest.triangle * 3];
+    return {{v[0], v[1], v[2]}, {1.0f - closest.uv.x - closest.uv.y, closest.uv.x, closest.uv.y}};
+}
+
+/// The ball inside the body that touches the skin below p: half as thick as the body there, at most as wide as the
+/// trunk's rounding, so that a vertex that slid sideways finds the skin curve away below it.
+struct BodyBall {
+    Vec3 center;
+    float radius_m;
+};
+BodyBall ball_below(const MeshQuery& skin, const Vec3& p) {
+    constexpr float kSmallest_m = 0.02f, kLargest_m = 0.1f;
+    const MeshQuery::Closest closest = skin.closest(p);
+    const Vec3 inward = closest.distance > 1e-6f ? (closest.point - p) / closest.distance : -closest.normal;
+    const auto far_side = skin.cast(closest.point + inward * 1e-3f, inward, 2.0f * kLargest_m);
+    const float radius = far_side ? std::max(kSmallest_m, 0.5f * far_side->distance) : kLargest_m;
+    return {closest.point + inward * radius, radius};
 }
 
 /// Out of the body, to at least that clearance.
@@ -96,61 +132,75 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
              float thickness_m)
     : indices_(garment.mesh.indices), uvs_(garment.mesh.uvs) {
     check(garment, body);
-    const std::vector<uint32_t> triangles = bindable_triangles(body);
-    const MeshQuery authored(body.authored, triangles);
     const uint32_t n = garment.vertex_count();
-    std::vector<Vec3> shifts(n);
-    first_influence_.push_back(0);
-    for (uint32_t i = 0; i < n; ++i) {
-        const MeshQuery::Closest closest = authored.closest(garment.mesh.positions[i]);
-        const uint32_t* v = &triangles[closest.triangle * 3];
-        const Binding binding{{v[0], v[1], v[2]},
-                              {1.0f - closest.uv.x - closest.uv.y, closest.uv.x, closest.uv.y}};
-        // Both bodies stand in the same pose: what lies off the skin is carried as it is, so that ease and
-        // flare stay what they were cut to.
-        shifts[i] = binding.on(body.rest) - binding.on(body.authored);
+    uint32_t bones = 0;
+    for (const auto& list : body.skin_bones)
+        for (uint16_t bone : list) bones = std::max(bones, uint32_t(bone) + 1);
+    const std::vector<uint32_t> triangles = bindable_triangles(body);
 
-        std::map<uint16_t, float> weights;
-        for (int k = 0; k < 3; ++k)
-            for (int j = 0; j < kSkinBones; ++j)
-                if (const float w = body.skin_weights[v[k]][size_t(j)] * binding.weight[k]; w > 0.0f)
-                    weights[body.skin_bones[v[k]][size_t(j)]] += w;
-        std::vector<Influence> list;
-        for (const auto& [bone, weight] : weights) list.push_back({bone, weight});
-        std::stable_sort(list.begin(), list.end(),
-                         [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
-        if (list.size() > kSkinBones) list.resize(kSkinBones);
-        float sum = 0.0f;
-        for (const Influence& influence : list) sum += influence.weight;
-        if (!(sum > 0.0f)) fail(VFIT_ERROR_DATA, "garment ", garment.name, ": vertex ", i, " is bound to no bone");
-        for (Influence& influence : list) {
-            influence.weight /= sum;
-            bone_count_ = std::max(bone_count_, uint32_t(influence.bone) + 1);
+    // Both bodies stand in the same pose: what lies off the skin is carried as it is, so that ease and flare stay
+    // what they were cut to.
+    Table shifts(n, 3), weights(n, bones);
+    {
+        const MeshQuery authored(body.authored, triangles);
+        for (uint32_t i = 0; i < n; ++i) {
+            const Binding binding = bind(authored, triangles, garment.mesh.positions[i]);
+            const Vec3 shift = binding.on(body.rest) - binding.on(body.authored);
+            for (int k = 0; k < 3; ++k) shifts.row(i)[size_t(k)] = shift[k];
+            add_bone_weights(body, binding, weights.row(i));
         }
-        influences_.insert(influences_.end(), list.begin(), list.end());
-        first_influence_.push_back(uint32_t(influences_.size()));
     }
-
-    smooth_shifts(garment, shifts);
-    rest_ = garment.mesh.positions;
-    for (uint32_t i = 0; i < n; ++i) rest_[i] += shifts[i];
+    smooth_simulated(garment, shifts);
+    smooth_simulated(garment, weights);
+    for (uint32_t i = 0; i < n; ++i) {
+        const std::span<const float> shift = shifts.row(i);
+        rest_.push_back(garment.mesh.positions[i] + Vec3(shift[0], shift[1], shift[2]));
+    }
     const MeshQuery skin(body.rest, body.indices);
     push_out(skin, thickness_m, rest_);
 
     FabricData data = cook_fabric({rest_, indices_, uvs_, garment.simulated, size_ratio}, material);
-    data.backstop_slack_m.assign(n, -1.0f);
-    for (uint32_t i = 0; i < n; ++i)
-        if (garment.backstop[i] && garment.simulated[i])
-            data.backstop_slack_m[i] = std::max(0.0f, skin.signed_distance(rest_[i]) - thickness_m);
+    first_influence_.push_back(0);
+    for (uint32_t i = 0; i < n; ++i) add_skinned(rest_[i], weights.row(i));
+    const MeshQuery bound(body.rest, triangles);
+    std::vector<float> bone_weights(bones);
+    for (uint32_t i = 0; i < n; ++i) {
+        if (!garment.backstop[i] || !garment.simulated[i]) continue;
+        const BodyBall ball = ball_below(bound, rest_[i]);
+        std::fill(bone_weights.begin(), bone_weights.end(), 0.0f);
+        add_bone_weights(body, bind(bound, triangles, rest_[i]), bone_weights);
+        add_skinned(ball.center, bone_weights);
+        data.backstops.push_back({i, ball.radius_m});
+    }
     fabric_ = std::make_shared<const Fabric>(std::move(data));
+}
+
+/// One more skinned place, carried by the heaviest bones of that list.
+void Dress::add_skinned(const Vec3& rest, std::span<const float> bone_weights) {
+    std::vector<Influence> list;
+    for (size_t bone = 0; bone < bone_weights.size(); ++bone)
+        if (bone_weights[bone] > 0.0f) list.push_back({uint16_t(bone), bone_weights[bone]});
+    std::stable_sort(list.begin(), list.end(),
+                     [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
+    if (list.size() > kSkinBones) list.resize(kSkinBones);
+    float sum = 0.0f;
+    for (const Influence& influence : list) sum += influence.weight;
+    if (!(sum > 0.0f)) fail(VFIT_ERROR_DATA, "the body below the garment has a vertex that no bone carries");
+    for (Influence& influence : list) {
+        influence.weight /= sum;
+        bone_count_ = std::max(bone_count_, uint32_t(influence.bone) + 1);
+    }
+    skinned_rest_.push_back(rest);
+    influences_.insert(influences_.end(), list.begin(), list.end());
+    first_influence_.push_back(uint32_t(influences_.size()));
 }
 
 void Dress::skin(std::span<const Mat4> matrices, std::vector<Vec3>& targets) const {
     if (matrices.size() < bone_count_)
         fail(VFIT_ERROR_ARGUMENT, matrices.size(), " skinning matrices, the garment needs ", bone_count_);
-    targets.resize(rest_.size());
-    for (size_t i = 0; i < rest_.size(); ++i) {
-        const Vec4 p(rest_[i], 1.0f);
+    targets.resize(skinned_rest_.size());
+    for (size_t i = 0; i < skinned_rest_.size(); ++i) {
+        const Vec4 p(skinned_rest_[i], 1.0f);
         Vec3 sum(0.0f);
         for (uint32_t k = first_influence_[i]; k < first_influence_[i + 1]; ++k)
             sum += influences_[k].weight * Vec3(matrices[influences_[k].bone] * p);

@@ -38,8 +38,8 @@ public:
     const std::vector<uint32_t>& indices() const { return indices_; }
     const std::vector<Vec2>& uvs() const { return uvs_; }
 
-    /// The garment's vertices carried by the avatar's skinning matrices (posed from rest, one a rig bone):
-    /// start and targets of a Cloth. targets is resized once; no other allocation.
+    /// The garment's vertices, then the backstops' centres, carried by the avatar's skinning matrices (posed from
+    /// rest, one a rig bone): start and targets of a Cloth. targets is resized once; no other allocation.
     void skin(std::span<const Mat4> matrices, std::vector<Vec3>& targets) const;
 
 private:
@@ -47,11 +47,13 @@ private:
         uint16_t bone;
         float weight;
     };
+    void add_skinned(const Vec3& rest, std::span<const float> bone_weights);
     std::shared_ptr<const Fabric> fabric_;
     std::vector<Vec3> rest_;
     std::vector<uint32_t> indices_;
     std::vector<Vec2> uvs_;
-    std::vector<uint32_t> first_influence_;  // one a vertex, and the end
+    std::vector<Vec3> skinned_rest_;         // rest_, then the backstops' centres
+    std::vector<uint32_t> first_influence_;  // one a skinned place, and the end
     std::vector<Influence> influences_;
     uint32_t bone_count_ = 0;  // highest bone in use + 1
 };

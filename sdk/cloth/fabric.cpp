@@ -36,10 +36,9 @@ void check(const FabricData& d) {
     for (const Tether& t : d.tethers)
         if (t.vertex >= n || t.anchor >= n || !(t.length_m > 0.0f) || !std::isfinite(t.length_m))
             fail(VFIT_ERROR_DATA, "tether of vertex ", t.vertex, " to ", t.anchor, " of length ", t.length_m, " m");
-    if (!d.backstop_slack_m.empty() && d.backstop_slack_m.size() != n)
-        fail(VFIT_ERROR_DATA, d.backstop_slack_m.size(), " backstops for ", n, " vertices");
-    for (float slack : d.backstop_slack_m)
-        if (!std::isfinite(slack)) fail(VFIT_ERROR_DATA, "a backstop is not finite");
+    for (const Backstop& b : d.backstops)
+        if (b.vertex >= n || d.inverse_mass[b.vertex] == 0.0f || !(b.radius_m > 0.0f) || !std::isfinite(b.radius_m))
+            fail(VFIT_ERROR_DATA, "backstop of vertex ", b.vertex, " with radius ", b.radius_m, " m");
 }
 
 /// Constraints between two fixed vertices do nothing; the others go into batches in which no vertex occurs

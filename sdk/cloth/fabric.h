@@ -25,6 +25,12 @@ struct Tether {
     float length_m;
 };
 
+/// A ball below the skin that one vertex stays out of: where colliders are too coarse, the body's own shape.
+struct Backstop {
+    uint32_t vertex;
+    float radius_m;
+};
+
 /// The parts of a fabric as explicit data, in any order.
 struct FabricData {
     std::vector<float> inverse_mass;  // 1/kg, one a vertex; 0: moved by its target
@@ -32,8 +38,7 @@ struct FabricData {
     std::vector<DistanceConstraint> edges;
     std::vector<DistanceConstraint> bends;
     std::vector<Tether> tethers;
-    std::vector<float> backstop_slack_m;  // empty, or one a vertex: how far below its skinned place it may
-                                          // come; < 0: no backstop
+    std::vector<Backstop> backstops;
 };
 
 /// Immutable and cooked: constraints sorted for the solver. Made by cook_fabric or from explicit data.
@@ -44,6 +49,8 @@ public:
 
     uint32_t vertex_count() const { return uint32_t(data_.inverse_mass.size()); }
     uint32_t simulated_count() const { return uint32_t(simulated_.size()); }
+    /// Places that a step wants: one a vertex, then the centre of each backstop.
+    uint32_t target_count() const { return vertex_count() + uint32_t(data_.backstops.size()); }
     /// Distance constraints: edges and bends.
     uint32_t constraint_count() const { return uint32_t(data_.edges.size() + data_.bends.size()); }
     const FabricData& data() const { return data_; }

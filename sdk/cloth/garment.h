@@ -28,7 +28,7 @@ struct Garment {
     vfit_sex body_sex = VFIT_SEX_FEMALE;
     Mesh mesh;  // positions on that body, indices, uvs
     std::vector<uint8_t> simulated;  // one a vertex: 1 simulated, 0 skinned with the body
-    std::vector<uint8_t> backstop;   // one a vertex: 1 kept outside the skinned skin below it
+    std::vector<uint8_t> backstop;   // one a vertex: 1 kept out of the body below it
     std::vector<GarmentSize> sizes;
 
     uint32_t vertex_count() const { return uint32_t(mesh.positions.size()); }

@@ -28,15 +28,6 @@ void distance_strains(std::span<const DistanceConstraint> constraints, std::span
 
 void solve_tethers(std::span<const Tether> tethers, std::span<Particle> particles);
 
-/// A ball below the skin that stops a vertex. Radius: about that of hips and trunk in section, so that a vertex
-/// that slid sideways finds the skin curve away below it.
-inline constexpr float kBackstopRadius_m = 0.12f;
-
-struct Backstop {
-    uint32_t vertex;
-    float slack_m;
-};
-
 /// All contacts of a sub-step. Vertices are independent of each other: chunks of them run in parallel and give
 /// the same bits for any number of workers.
 struct ContactPass {

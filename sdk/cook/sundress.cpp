@@ -116,10 +116,17 @@ private:
             widest.cover(body_.at(y));
             Outline outline = widest;
             const float to_hip = smooth((levels_.waist - y) / (levels_.waist - levels_.hip));
-            outline.grow(glm::mix(spec_.bodice_ease_m, spec_.skirt_ease_m, to_hip) +
-                         spec_.flare * (levels_.waist - y) * to_hip);
-            add_ring(places(outline, y), true, y >= levels_.hip);
+            outline.grow(glm::mix(spec_.bodice_ease_m, spec_.skirt_ease_m, to_hip) + flare_at(y));
+            add_ring(places(outline, y), true, y >= levels_.knee);
         }
+    }
+
+    /// Nothing at the waist; grows evenly from halfway to the hips on, with a soft start.
+    float flare_at(float y) const {
+        const float middle = 0.5f * (levels_.waist + levels_.hip), soft = levels_.waist - middle;
+        const float below = (middle - y) / soft;
+        const float softened = below <= -1.0f ? 0.0f : below >= 1.0f ? below : 0.25f * (below + 1.0f) * (below + 1.0f);
+        return spec_.flare * soft * softened;
     }
 
     /// One row around the body, joined to the row above it. UVs in metres: u along the row from the middle front

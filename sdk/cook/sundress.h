@@ -10,6 +10,7 @@
 
 #include "body/body_model.h"
 #include "cloth/garment.h"
+#include "cook/garment_writer.h"
 
 namespace vfit {
 
@@ -23,7 +24,7 @@ struct SundressSpec {
     float hem = 0.0f;          // share of the way from the knee down to the ankle
     float bodice_ease_m = 0.0f;  // between skin and bodice
     float skirt_ease_m = 0.0f;   // between the widest section above and the skirt, reached at the hips
-    float flare = 0.0f;          // what the skirt's radius grows by below the waist, metres a metre
+    float flare = 0.0f;          // what the skirt's radius grows by below the hips, metres a metre
     std::vector<GarmentSize> sizes;
 };
 

@@ -49,7 +49,8 @@ float narrowest_neck(const TapeMesh& body);
 
 /// Where along the neck's axis the tape lies just below the larynx: its front is a third of the way down from the
 /// chin to the collar bones. The chin is level with C3, the notch between the collar bones with T2 to T3, the
-/// larynx ends at C5: two of six and a half vertebrae.
+/// larynx ends at C5: two of six and a half vertebrae. A neck
+/// that is narrowest below that is measured there.
 float larynx_place(const TapeMesh& body, float narrowest_m, float chin);
 
 /// The skin over the outer edge of the acromion: where the line from the centre of the shoulder joint through the
@@ -70,7 +71,8 @@ Vec3 fingertip(const TapeMesh& body, Side side);
 /// alone, but holds the trunk's or the other limb's axis as well.
 float limb_girth(const TapeMesh& body, const Axis& limb, float along_m, const Axis& apart);
 
-/// The largest limb_girth between the limb's start and that share of its length.
+/// The largest limb_girth between a tape's half width below where the limb leaves the body and that share of its
+/// length.
 float largest_limb_girth(const TapeMesh& body, const Axis& limb, float share, const Axis& apart);
 
 }  // namespace vfit

@@ -51,9 +51,10 @@ float limb_girth(const TapeMesh& body, const Axis& limb, float along_m, const Ax
 
 float largest_limb_girth(const TapeMesh& body, const Axis& limb, float share, const Axis& apart) {
     const auto girth = [&](float along_m) { return limb_girth(body, limb, along_m, apart); };
-    const float largest = girth(place_of_largest(0.0f, share * glm::distance(limb.start, limb.end), girth));
-    if (!(largest > 0.0f)) fail(VFIT_ERROR_DATA, "a limb of the body is nowhere apart from the rest");
-    return largest;
+    const float last = share * glm::distance(limb.start, limb.end);
+    if (!(girth(last) > 0.0f)) fail(VFIT_ERROR_DATA, "a limb of the body is nowhere apart from the rest");
+    const float first = border(last, 0.0f, [&](float along_m) { return girth(along_m) > 0.0f; });
+    return girth(place_of_largest(std::min(first + kTapeHalfWidth_m, last), last, girth));
 }
 
 Axis neck_axis(const TapeMesh& body) { return {body.joint(VFIT_JOINT_NECK), body.joint(VFIT_JOINT_HEAD)}; }

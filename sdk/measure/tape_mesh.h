@@ -8,6 +8,9 @@
 
 namespace vfit {
 
+/// A tape is 20 mm wide: with its edge in the armpit or the crotch its middle lies this much lower.
+inline constexpr float kTapeHalfWidth_m = 0.01f;
+
 struct Axis {
     Vec3 start, end;
 

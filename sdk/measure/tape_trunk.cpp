@@ -19,9 +19,6 @@ constexpr float kWaistShareWomen = 0.328f, kWaistShareMen = 0.308f;
 /// same tables at 0.47 (0.735 of stature).
 constexpr float kRibArchShare = 0.2f;
 
-/// A tape is 20 mm wide: with its upper edge in the armpit its middle lies this much lower.
-constexpr float kTapeHalfWidth_m = 0.01f;
-
 float hip_joints_height(const TapeMesh& body) {
     return 0.5f * (body.joint(VFIT_JOINT_LEFT_HIP).y + body.joint(VFIT_JOINT_RIGHT_HIP).y);
 }

@@ -54,8 +54,8 @@ bool encode(Sink* sink, const unsigned char* pixels, uint32_t width, uint32_t he
     png_set_write_fn(png, sink, append, nullptr);
     png_set_compression_level(png, kCompressionLevel);
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
-    png_set_IHDR(png, info, width, height, bit_depth, color_type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-                 PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, info, width, height, bit_depth, color_type, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_write_info(png, info);
     if (bit_depth == 16) png_set_swap(png);  // PNG is big-endian, the targets are little-endian
     for (uint32_t y = 0; y < height; ++y) png_write_row(png, pixels + y * row_stride);
@@ -83,7 +83,8 @@ void PngWriter::write(const std::string& path, const void* pixels, uint32_t widt
                       size_t row_stride, int color_type, int bit_depth) {
     encoded_.clear();
     Sink sink{&encoded_, "out of memory"};
-    if (!encode(&sink, static_cast<const unsigned char*>(pixels), width, height, row_stride, color_type, bit_depth))
+    if (!encode(&sink, static_cast<const unsigned char*>(pixels), width, height, row_stride, color_type,
+                bit_depth))
         fail(VFIT_ERROR_IO, path, ": cannot be encoded: ", sink.message);
     write_file_atomically(path, encoded_.data(), encoded_.size());
 }

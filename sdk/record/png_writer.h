@@ -18,8 +18,8 @@ public:
                      size_t row_stride);
 
 private:
-    void write(const std::string& path, const void* pixels, uint32_t width, uint32_t height, size_t row_stride,
-               int color_type, int bit_depth);
+    void write(const std::string& path, const void* pixels, uint32_t width, uint32_t height,
+               size_t row_stride, int color_type, int bit_depth);
 
     std::vector<unsigned char> encoded_;  // keeps its memory from picture to picture
 };

@@ -57,7 +57,8 @@ Recorder::Recorder(const std::string& path, const RecorderDesc& desc) : path_(pa
         if (!fs::is_directory(folder, error)) fail(VFIT_ERROR_ARGUMENT, path, ": is not a folder");
         const bool empty = fs::is_empty(folder, error);
         if (error) fail(VFIT_ERROR_IO, path, ": ", error.message());
-        if (!empty) fail(VFIT_ERROR_ARGUMENT, path, ": the folder is not empty; a recording starts in a new one");
+        if (!empty)
+            fail(VFIT_ERROR_ARGUMENT, path, ": the folder is not empty; a recording starts in a new one");
     }
     // With the first picture's folder at once, so that a place that cannot be written is known early.
     fs::create_directories(folder / "depth", error);
@@ -68,7 +69,8 @@ Recorder::~Recorder() = default;
 
 void Recorder::write(const Frame& frame) {
     if (closed_) fail(VFIT_ERROR_STATE, path_, ": the recording is closed");
-    if (count_ == kMaxFrames) fail(VFIT_ERROR_CAPACITY, path_, ": a recording has at most ", kMaxFrames, " frames");
+    if (count_ == kMaxFrames)
+        fail(VFIT_ERROR_CAPACITY, path_, ": a recording has at most ", kMaxFrames, " frames");
     check(frame);
     const Truth truth = read_truth(frame);
     if (count_ == 0) begin(frame);
@@ -199,7 +201,8 @@ void Recorder::write_joints(const Frame& frame) {
         for (const int j : joints_) {
             const Joint& joint = body.joints[static_cast<size_t>(j)];
             // All zero: not seen. No joint lies in the camera's centre.
-            for (int axis = 0; axis < 3; ++axis) append_decimal(row_, joint.seen() ? joint.position[axis] : 0.0f);
+            for (int axis = 0; axis < 3; ++axis)
+                append_decimal(row_, joint.seen() ? joint.position[axis] : 0.0f);
             append_decimal(row_, joint.seen() ? glm::clamp(joint.confidence, 0.0f, 1.0f) : 0.0f);
         }
         append_row(joints_file_, "/joints.csv", joints_header_);

@@ -38,7 +38,8 @@ Joint read_joint(const vfit_joint& in) {
 Body read_body(const vfit_body* in, const vfit_joint* items, uint32_t stride, uint32_t count) {
     const vfit_body b = read_sized(in, "body");
     // The user map has 8 bits a pixel, and 0 is the background.
-    if (b.body_id == 0 || b.body_id > 255) fail(VFIT_ERROR_ARGUMENT, "body_id ", b.body_id, " is not in 1..255");
+    if (b.body_id == 0 || b.body_id > 255)
+        fail(VFIT_ERROR_ARGUMENT, "body_id ", b.body_id, " is not in 1..255");
     if (count == 0 || count > kMaxJoints) fail(VFIT_ERROR_ARGUMENT, "a body of ", count, " joints");
     if (!items) fail(VFIT_ERROR_ARGUMENT, "joints is null");
     Body body;
@@ -131,8 +132,8 @@ vfit_result HostTable::frame_camera(void* self, vfit_frame handle, const vfit_ca
     });
 }
 
-vfit_result HostTable::frame_body(void* self, vfit_frame handle, const vfit_body* body, const vfit_joint* items,
-                                  uint32_t stride, uint32_t count) {
+vfit_result HostTable::frame_body(void* self, vfit_frame handle, const vfit_body* body,
+                                  const vfit_joint* items, uint32_t stride, uint32_t count) {
     return enter(self, "frame_body", [&](HostTable& t) {
         const Body value = read_body(body, items, stride, count);
         std::lock_guard lock(t.mutex_);
@@ -142,7 +143,8 @@ vfit_result HostTable::frame_body(void* self, vfit_frame handle, const vfit_body
                 known = value;
                 return;
             }
-        if (bodies.size() == kMaxBodies) fail(VFIT_ERROR_CAPACITY, "a frame holds at most ", kMaxBodies, " bodies");
+        if (bodies.size() == kMaxBodies)
+            fail(VFIT_ERROR_CAPACITY, "a frame holds at most ", kMaxBodies, " bodies");
         bodies.push_back(value);
     });
 }

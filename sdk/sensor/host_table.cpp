@@ -127,7 +127,8 @@ Ref<SensorStream> HostTable::stream(void* token) const {
 }
 
 bool HostTable::is_open(void* token) const {
-    return std::any_of(streams_.begin(), streams_.end(), [&](const OpenStream& s) { return s.token == token; });
+    return std::any_of(streams_.begin(), streams_.end(),
+                       [&](const OpenStream& s) { return s.token == token; });
 }
 
 HostTable::Filling& HostTable::filling(vfit_frame frame) {

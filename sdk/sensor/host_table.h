@@ -80,14 +80,14 @@ private:
     static void log(void* self, vfit_log_level level, const char* message);
     static void sensor_added(void* self, const vfit_sensor_info* info);
     static void sensor_removed(void* self, const char* uri);
-    static vfit_result frame_begin(void* self, void* stream, const vfit_frame_layout* layouts, uint32_t stride,
-                                   uint32_t count, vfit_frame* out);
+    static vfit_result frame_begin(void* self, void* stream, const vfit_frame_layout* layouts,
+                                   uint32_t stride, uint32_t count, vfit_frame* out);
     static vfit_result frame_pixels(void* self, vfit_frame frame, vfit_stream kind, void** pixels,
                                     uint32_t* row_stride);
     static vfit_result frame_intrinsics(void* self, vfit_frame frame, const vfit_intrinsics* intrinsics);
     static vfit_result frame_camera(void* self, vfit_frame frame, const vfit_camera* camera);
-    static vfit_result frame_body(void* self, vfit_frame frame, const vfit_body* body, const vfit_joint* items,
-                                  uint32_t stride, uint32_t count);
+    static vfit_result frame_body(void* self, vfit_frame frame, const vfit_body* body,
+                                  const vfit_joint* items, uint32_t stride, uint32_t count);
     static vfit_result frame_meta(void* self, vfit_frame frame, const char* key, const char* json);
     static vfit_result frame_push(void* self, void* stream, vfit_frame frame, int64_t time_ns);
     static void frame_drop(void* self, vfit_frame frame);

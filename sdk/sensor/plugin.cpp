@@ -65,8 +65,10 @@ void Plugin::check_table(const vfit_plugin& table) {
     info_.schemes = bounded_text(table.schemes, kMaxName + 1);
     info_.version = table.version;
     info_.caps = table.caps;
-    if (info_.name.empty() || info_.name.size() > kMaxName) refuse("has no name of 1 to ", kMaxName, " characters");
-    if (info_.schemes.size() > kMaxName) refuse("its list of schemes is longer than ", kMaxName, " characters");
+    if (info_.name.empty() || info_.name.size() > kMaxName)
+        refuse("has no name of 1 to ", kMaxName, " characters");
+    if (info_.schemes.size() > kMaxName)
+        refuse("its list of schemes is longer than ", kMaxName, " characters");
     schemes_ = split_schemes(info_.schemes);
     if (schemes_.empty()) refuse("names no URI scheme that it opens");
     for (const std::string& scheme : schemes_)

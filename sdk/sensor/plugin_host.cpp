@@ -46,8 +46,8 @@ void PluginHost::add(std::string path, std::unique_ptr<DynamicLibrary> library,
         for (const Ref<Plugin>& other : plugins_)
             for (const std::string& scheme : plugin->schemes())
                 if (other->serves(scheme))
-                    fail(VFIT_ERROR_PLUGIN, path, ": the scheme '", scheme, "' is served by ", other->info().path,
-                         " already");
+                    fail(VFIT_ERROR_PLUGIN, path, ": the scheme '", scheme, "' is served by ",
+                         other->info().path, " already");
         plugins_.push_back(plugin);
     } catch (...) {
         plugin->shutdown();
@@ -58,7 +58,8 @@ void PluginHost::add(std::string path, std::unique_ptr<DynamicLibrary> library,
 void PluginHost::load_folder(const std::string& folder) {
     std::vector<std::string> paths;
     std::error_code error;
-    for (fs::directory_iterator file(fs::path(folder), error), end; !error && file != end; file.increment(error)) {
+    fs::directory_iterator file(fs::path(folder), error);
+    for (; !error && file != fs::directory_iterator(); file.increment(error)) {
         const fs::path& path = file->path();
         if (path.filename().string().rfind("vfit_", 0) == 0 && path.extension() == library_suffix())
             paths.push_back(path.string());
@@ -121,9 +122,11 @@ Ref<Sensor> PluginHost::open(const std::string& uri) {
     for (const Ref<Plugin>& plugin : all()) known += (known.empty() ? "" : ", ") + plugin->info().schemes;
     if (known.empty()) known = "none";
     if (scheme.empty())
-        fail(VFIT_ERROR_UNSUPPORTED, uri, ": is neither an existing folder nor a sensor's URI; known schemes: ",
+        fail(VFIT_ERROR_UNSUPPORTED, uri,
+             ": is neither an existing folder nor a sensor's URI; known schemes: ",
              known);
-    fail(VFIT_ERROR_UNSUPPORTED, uri, ": no plug-in serves the scheme '", scheme, "'; known schemes: ", known);
+    fail(VFIT_ERROR_UNSUPPORTED, uri, ": no plug-in serves the scheme '", scheme, "'; known schemes: ",
+         known);
 }
 
 void PluginHost::shutdown() {

@@ -51,7 +51,8 @@ bool lists(const std::vector<vfit_sensor_option>& options, const std::string& ke
 }  // namespace
 
 Sensor::Sensor(Ref<Plugin> plugin, std::string uri, Ref<SensorStream> stream, void* token, void* device)
-    : plugin_(std::move(plugin)), uri_(std::move(uri)), stream_(std::move(stream)), token_(token), device_(device) {}
+    : plugin_(std::move(plugin)), uri_(std::move(uri)), stream_(std::move(stream)), token_(token),
+      device_(device) {}
 
 void Sensor::check_open() const {
     if (!device_) fail(VFIT_ERROR_STATE, "the sensor ", uri_, " is closed");
@@ -138,13 +139,15 @@ std::vector<vfit_sensor_option> Sensor::options() {
         options.push_back(option);
     };
     const std::vector<vfit_sensor_mode> modes = read_modes();
-    add("mode", mode_.empty() && !modes.empty() ? modes.front().name : mode_, "a name from the list of modes");
+    add("mode", mode_.empty() && !modes.empty() ? modes.front().name : mode_,
+        "a name from the list of modes");
     add("pace", pace_name(stream_->queue.pace()), "realtime: the newest frame; none: every frame");
     return options;
 }
 
 void Sensor::forward_option(const std::string& key, const std::string& value) {
-    if (!plugin_->table_.set_option) fail(VFIT_ERROR_UNSUPPORTED, "the sensor ", uri_, " has no option '", key, "'");
+    if (!plugin_->table_.set_option)
+        fail(VFIT_ERROR_UNSUPPORTED, "the sensor ", uri_, " has no option '", key, "'");
     const vfit_result result = plugin_->table_.set_option(device_, key.c_str(), value.c_str());
     if (result != VFIT_OK) plugin_->fail_with_last_error(result, text("option ", key));
 }

@@ -25,7 +25,8 @@ vfit_format wanted_format(vfit_stream kind) {
 
 void check(const vfit_frame_layout& layout) {
     const vfit_format wanted = wanted_format(layout.stream);
-    if (wanted == VFIT_FORMAT_NONE) fail(VFIT_ERROR_ARGUMENT, "stream ", layout.stream, " is none of a sensor");
+    if (wanted == VFIT_FORMAT_NONE)
+        fail(VFIT_ERROR_ARGUMENT, "stream ", layout.stream, " is none of a sensor");
     if (layout.format != wanted)
         fail(VFIT_ERROR_ARGUMENT, "stream ", layout.stream, " has format ", layout.format, ", not ", wanted);
     if (layout.width == 0 || layout.height == 0 || layout.width > kMaxSide || layout.height > kMaxSide)
@@ -49,8 +50,8 @@ Ref<Frame> SensorStream::begin(const vfit_frame_layout* layouts, uint32_t stride
     vfit_frame_layout checked[kMaxStreams];
     for (uint32_t i = 0; i < count; ++i) {
         if (!layouts) fail(VFIT_ERROR_ARGUMENT, "layouts is null");
-        checked[i] = read_sized<vfit_frame_layout>(reinterpret_cast<const char*>(layouts) + size_t(i) * stride,
-                                                   stride, "layout");
+        const char* item = reinterpret_cast<const char*>(layouts) + size_t(i) * stride;
+        checked[i] = read_sized<vfit_frame_layout>(item, stride, "layout");
         check(checked[i]);
     }
     if (!queue.is_open()) fail(VFIT_ERROR_STATE, "the stream is not running");

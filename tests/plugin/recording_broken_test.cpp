@@ -38,11 +38,13 @@ TEST_F(RecordingBroken, EachFieldOfTheCameraFileIsCheckedByName) {
         record(1);
         edit("camera.json", from, to);
         const Replay replay = play();
-        EXPECT_TRUE(replay.end == VFIT_ERROR_DATA || replay.end == VFIT_ERROR_VERSION) << from << " -> " << to;
+        EXPECT_TRUE(replay.end == VFIT_ERROR_DATA || replay.end == VFIT_ERROR_VERSION)
+            << from << " -> " << to;
         EXPECT_TRUE(replay.says("camera.json")) << replay.message;
         return replay;
     };
-    for (const char* field : {"format", "version", "width", "height", "fx", "fy", "cx", "cy", "fps", "depth_unit_m"}) {
+    for (const char* field : {"format", "version", "width", "height", "fx", "fy", "cx", "cy", "fps",
+                              "depth_unit_m"}) {
         const Replay missing = broken("\"" + std::string(field) + "\"", "\"absent\"");
         EXPECT_TRUE(missing.says("\"" + std::string(field) + "\" is missing")) << missing.message;
     }

@@ -94,7 +94,8 @@ TEST_F(RecordingTest, OptionsAreChecked) {
     sensor->start();
     EXPECT_EQ(code("start", "0"), VFIT_ERROR_STATE);
     std::string keys;
-    for (const vfit_sensor_option& option : sensor->options()) keys += std::string(option.key) + "=" + option.value + " ";
+    for (const vfit_sensor_option& option : sensor->options())
+        keys += std::string(option.key) + "=" + option.value + " ";
     EXPECT_EQ(keys, "pace=none loop=0 start=2 count=0 mode=32x24@30 ");
     sensor->close();
 }
@@ -138,8 +139,10 @@ TEST_F(RecordingTest, SegmentedDepthIsTheUserMapWhereThereIsNoMask) {
 
 TEST_F(RecordingTest, MaskAndColourComeBackAsTheyWere) {
     const auto frame = synthetic_frame(0);
-    auto* users = static_cast<uint8_t*>(frame->add_stream(VFIT_STREAM_USER_MAP, VFIT_FORMAT_U8, kWidth, kHeight));
-    auto* color = static_cast<uint8_t*>(frame->add_stream(VFIT_STREAM_COLOR, VFIT_FORMAT_RGBA8, kWidth, kHeight));
+    auto* users = static_cast<uint8_t*>(frame->add_stream(VFIT_STREAM_USER_MAP, VFIT_FORMAT_U8, kWidth,
+                                                          kHeight));
+    auto* color = static_cast<uint8_t*>(frame->add_stream(VFIT_STREAM_COLOR, VFIT_FORMAT_RGBA8, kWidth,
+                                                          kHeight));
     for (uint32_t i = 0; i < kWidth * kHeight; ++i) users[i] = static_cast<uint8_t>(i % 255);
     for (uint32_t i = 0; i < 4 * kWidth * kHeight; ++i) color[i] = static_cast<uint8_t>(i * 7);
     Recorder(folder_.string(), {}).write(*frame);
@@ -186,7 +189,8 @@ TEST_F(RecordingTest, ATableWithoutItsLastLineEndIsReadWhole) {
     record(2);
     write("joints.csv", "frame,HEAD_x,HEAD_y,HEAD_z\n0,0.1250,0,2.1250\n1,0.1250,0,2.2500");
     EXPECT_EQ(play().frames.at(1)->bodies.size(), 1u);
-    write("joints.csv", "frame,HEAD_x,HEAD_y,HEAD_z\n0,0.1250,0,2.1250\n1,0.1250,0,2.25");  // cut, as it seems
+    // Cut, as it seems.
+    write("joints.csv", "frame,HEAD_x,HEAD_y,HEAD_z\n0,0.1250,0,2.1250\n1,0.1250,0,2.25");
     EXPECT_EQ(play().frames.at(1)->bodies.size(), 0u);
 }
 
@@ -199,7 +203,8 @@ TEST_F(RecordingTest, TwoContextsPlayAtTheSameTime) {
         const Ref<Sensor> sensor = host.open(folder_.string());
         sensor->start();
         Ref<Frame> frame;
-        for (uint32_t i = 0; sensor->acquire(20'000'000'000, frame) == VFIT_OK; ++i) counted += depth_is_synthetic(*frame, i);
+        for (uint32_t i = 0; sensor->acquire(20'000'000'000, frame) == VFIT_OK; ++i)
+            counted += depth_is_synthetic(*frame, i);
         sensor->close();
     };
     std::thread second([&] { run(other); });

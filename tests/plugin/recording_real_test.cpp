@@ -36,7 +36,8 @@ protected:
 };
 
 size_t depth_files(const fs::path& recording) {
-    return static_cast<size_t>(std::distance(fs::directory_iterator(recording / "depth"), fs::directory_iterator()));
+    return static_cast<size_t>(std::distance(fs::directory_iterator(recording / "depth"),
+                                             fs::directory_iterator()));
 }
 
 TEST_F(RecordingReal, EveryFrameOfEveryRecordingIsRead) {

@@ -4,6 +4,7 @@
 
 #include "body/body_model.h"
 #include "commands/commands.h"
+#include "cook/garment_writer.h"
 #include "cook/sundress.h"
 #include "core/error.h"
 #include "core/files.h"

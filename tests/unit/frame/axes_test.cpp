@@ -48,7 +48,9 @@ TEST_P(AxesTest, TrianglesTurnOverExactlyWhenHandednessDoes) {
 TEST_P(AxesTest, MirroredBonesComeInPairs) {
     for (int bone = 0; bone < kBoneCount; ++bone) {
         EXPECT_EQ(axes.bone_out(axes.bone_out(bone)), bone);
-        if (!axes.mirrored()) EXPECT_EQ(axes.bone_out(bone), bone);
+        if (!axes.mirrored()) {
+            EXPECT_EQ(axes.bone_out(bone), bone);
+        }
     }
     for (int joint = 0; joint < kJointCount; ++joint) EXPECT_EQ(axes.joint_out(axes.joint_out(joint)), joint);
 }

@@ -44,7 +44,8 @@ protected:
 
 Ref<Frame> frame_of(uint16_t seed, uint32_t width = 5, uint32_t height = 3) {
     auto frame = make<Frame>();
-    auto* depth = static_cast<uint16_t*>(frame->add_stream(VFIT_STREAM_DEPTH, VFIT_FORMAT_U16, width, height));
+    auto* depth = static_cast<uint16_t*>(frame->add_stream(VFIT_STREAM_DEPTH, VFIT_FORMAT_U16, width,
+                                                           height));
     for (uint32_t i = 0; i < width * height; ++i) depth[i] = static_cast<uint16_t>(seed * 257u + i * 4099u);
     frame->time_ns = 1000 + seed;
     frame->camera.width = width;
@@ -164,8 +165,8 @@ TEST_F(RecorderTest, JointsAreInCameraSpaceWithConfidenceAndId) {
     EXPECT_EQ(second, "1,3,0.100000,-0.500000,2.900000,0.750000,0.000000,0.000000,0.000000,0.000000");
     int number = 0, id = 0;
     float v[8] = {};
-    ASSERT_EQ(std::sscanf(first.c_str(), "%d,%d,%f,%f,%f,%f,%f,%f,%f,%f", &number, &id, v, v + 1, v + 2, v + 3,
-                          v + 4, v + 5, v + 6, v + 7), 10);
+    ASSERT_EQ(std::sscanf(first.c_str(), "%d,%d,%f,%f,%f,%f,%f,%f,%f,%f", &number, &id, v, v + 1, v + 2,
+                          v + 3, v + 4, v + 5, v + 6, v + 7), 10);
     const float wanted[8] = {0.1f, -0.5f, 2.9f, 0.75f, 0.2f, 1.0f, 3.0f, 1.0f};
     for (int i = 0; i < 8; ++i) EXPECT_NEAR(v[i], wanted[i], 2e-6f) << i;
 }
@@ -192,7 +193,8 @@ TEST_F(RecorderTest, TimeStampsContactsAndMeasuresGoToTheirFiles) {
     Recorder recorder(path(), {});
     for (uint16_t i = 0; i < 2; ++i) {
         const auto frame = frame_of(i);
-        frame->set_meta("contacts", i == 0 ? R"({"left": 1, "right": 0})" : R"({"left": false, "right": true})");
+        const char* const contacts[] = {R"({"left": 1, "right": 0})", R"({"left": false, "right": true})"};
+        frame->set_meta("contacts", contacts[i]);
         frame->set_meta("measures", R"({"stature_m": 1.8})");
         recorder.write(*frame);
     }

@@ -44,7 +44,8 @@ struct FakePlugin {
         };
         table.set_option = [](void* self, const char* key, const char* value) -> vfit_result {
             of(self).set.emplace_back(key, value);
-            return std::string(key) == "gain" || std::string(key) == "pace" ? VFIT_OK : VFIT_ERROR_UNSUPPORTED;
+            const std::string name = key;
+            return name == "gain" || name == "pace" ? VFIT_OK : VFIT_ERROR_UNSUPPORTED;
         };
         table.mode = [](void*, uint32_t index, vfit_sensor_mode* out) -> vfit_result {
             if (index > 0) return VFIT_END_OF_STREAM;

@@ -61,14 +61,19 @@ TEST(HostTable, NullAndInventedArgumentsAreErrors) {
     vfit_frame frame{};
     const vfit_frame_layout layout{sizeof layout, VFIT_STREAM_DEPTH, VFIT_FORMAT_U16, 4, 2, 0};
     int on_the_stack = 0;
-    EXPECT_EQ(h.frame_begin(h.self, fake.plugin.stream, nullptr, sizeof layout, 1, &frame), VFIT_ERROR_ARGUMENT);
-    EXPECT_EQ(h.frame_begin(h.self, fake.plugin.stream, &layout, sizeof layout, 1, nullptr), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(h.frame_begin(h.self, fake.plugin.stream, nullptr, sizeof layout, 1, &frame),
+              VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(h.frame_begin(h.self, fake.plugin.stream, &layout, sizeof layout, 1, nullptr),
+              VFIT_ERROR_ARGUMENT);
     EXPECT_EQ(h.frame_begin(h.self, fake.plugin.stream, &layout, 0, 1, &frame), VFIT_ERROR_ARGUMENT);
-    EXPECT_EQ(h.frame_begin(h.self, fake.plugin.stream, &layout, sizeof layout, 0, &frame), VFIT_ERROR_ARGUMENT);
-    EXPECT_EQ(h.frame_begin(h.self, fake.plugin.stream, &layout, sizeof layout, 99, &frame), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(h.frame_begin(h.self, fake.plugin.stream, &layout, sizeof layout, 0, &frame),
+              VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(h.frame_begin(h.self, fake.plugin.stream, &layout, sizeof layout, 99, &frame),
+              VFIT_ERROR_ARGUMENT);
     EXPECT_EQ(h.frame_begin(h.self, nullptr, &layout, sizeof layout, 1, &frame), VFIT_ERROR_HANDLE);
     EXPECT_EQ(h.frame_begin(h.self, &on_the_stack, &layout, sizeof layout, 1, &frame), VFIT_ERROR_HANDLE);
-    EXPECT_EQ(h.frame_begin(nullptr, fake.plugin.stream, &layout, sizeof layout, 1, &frame), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(h.frame_begin(nullptr, fake.plugin.stream, &layout, sizeof layout, 1, &frame),
+              VFIT_ERROR_ARGUMENT);
     ASSERT_EQ(fake.plugin.begin(frame), VFIT_OK);
     EXPECT_EQ(h.frame_pixels(h.self, frame, VFIT_STREAM_DEPTH, nullptr, nullptr), VFIT_ERROR_ARGUMENT);
     EXPECT_EQ(h.frame_intrinsics(h.self, frame, nullptr), VFIT_ERROR_ARGUMENT);
@@ -104,8 +109,10 @@ TEST(HostTable, LayoutsMustBeThoseOfASensor) {
     const vfit_frame_layout unequal[2] = {{sizeof twice[0], VFIT_STREAM_DEPTH, VFIT_FORMAT_U16, 4, 2, 0},
                                           {sizeof twice[0], VFIT_STREAM_USER_MAP, VFIT_FORMAT_U8, 2, 2, 0}};
     vfit_frame frame{};
-    EXPECT_EQ(h.frame_begin(h.self, fake.plugin.stream, twice, sizeof twice[0], 2, &frame), VFIT_ERROR_ARGUMENT);
-    EXPECT_EQ(h.frame_begin(h.self, fake.plugin.stream, unequal, sizeof twice[0], 2, &frame), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(h.frame_begin(h.self, fake.plugin.stream, twice, sizeof twice[0], 2, &frame),
+              VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(h.frame_begin(h.self, fake.plugin.stream, unequal, sizeof twice[0], 2, &frame),
+              VFIT_ERROR_ARGUMENT);
     EXPECT_EQ(fake.plugin.push_frame(1), VFIT_OK) << "refused frames went back to the pool";
 }
 
