@@ -12,7 +12,8 @@
  *          of the size of DEPTH, at most 16384 pixels a side. Fill the pixels in place (they hold what was
  *          there before), add intrinsics (of the depth image's size; required with DEPTH), camera, bodies
  *          and meta, then frame_push (hands the frame over, whatever it returns) or frame_drop. Nothing is
- *          copied afterwards. stop takes unfinished frames back. Misuse gives an error code.
+ *          copied afterwards. A frame that was begun is the plug-in's until it pushes or drops it, also
+ *          after stop and close. Misuse gives an error code.
  * PACE     A plug-in whose option list has an entry "pace" sets the default by its value, "realtime" or
  *          "none", and is told when the host changes it; without one it is realtime. With pace=none a push
  *          waits until the frame before was taken, and frame_begin until one is free, or until the stream

@@ -35,6 +35,8 @@ struct DepthCamera::Embree {
         device = rtcNewDevice("threads=1");
         if (!device) fail(VFIT_ERROR_UNKNOWN, "virtual: Embree gives no device");
         scene = rtcNewScene(device);
+        // Low build quality is the two-level structure, the one whose meshes can be refitted.
+        rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_LOW);
         rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST));
     }
     ~Embree() {

@@ -107,9 +107,13 @@ bool Renderer::is_visible(const vfit_joint& joint, const Vec3& p, bool& in_view)
 
 const std::vector<vfit_joint>& Renderer::joints(vfit_body& body) {
     joints_.assign(person_.joints().begin(), person_.joints().end());
+    const Quat to_camera = glm::quat_cast(glm::transpose(camera_.world_from_camera()));
     for (vfit_joint& joint : joints_) {
         const Vec3 p = camera_.to_camera({joint.position[0], joint.position[1], joint.position[2]});
         for (int k = 0; k < 3; ++k) joint.position[k] = p[k];
+        const Quat turned = to_camera * Quat(joint.rotation[3], joint.rotation[0], joint.rotation[1], joint.rotation[2]);
+        joint.rotation[0] = turned.x, joint.rotation[1] = turned.y;
+        joint.rotation[2] = turned.z, joint.rotation[3] = turned.w;
         bool in_view = false;
         const bool seen = is_visible(joint, p, in_view);
         joint.state = seen ? VFIT_JOINT_MEASURED : VFIT_JOINT_INFERRED;

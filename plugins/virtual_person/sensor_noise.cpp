@@ -11,38 +11,68 @@ namespace vfit::virtual_person {
 
 namespace {
 
-constexpr uint32_t kAngleBins = 4096;
+constexpr uint32_t kAngleBins = 1024;
 
 // Two looked-up depths that differ by more than the slant of the surface explains belong to two surfaces. The
 // factor leaves room for curvature, the offset for facets.
 constexpr float kSlantSlack = 1.5f, kEdgeJump_m = 0.02f;
 
+constexpr float kNearest_m = 0.01f, kFarthest_m = 20.0f;  // where structured light is computed: beyond every range
+
 // A time-of-flight pixel mixes what its lens blurs into it: centre, side and corner weights of a Gaussian of
 // 0.5 px, the usual blur of such lenses at the pixel pitch.
 constexpr float kBlurCentre = 0.619f, kBlurSide = 0.084f, kBlurCorner = 0.011f;
+
 constexpr float kMixingJump_m = 0.03f;          // below, the mixture is the mean within a few millimetres
 constexpr float kModulation_hz = 16.0e6f;       // lowest of the Kinect v2: unambiguous to 9.4 m
 constexpr float kLightSpeed_m_s = 2.99792458e8f;
 constexpr float kLeastCoherence = 0.4f;         // of |sum| to the sum of amplitudes: below, no depth is reported
 
-inline float normal_of(uint64_t bits) { return normal_quantiles()[bits & 0xffff]; }
+// No look-up goes farther than one tile.
+constexpr uint32_t kTile = 16;  // px
+constexpr float kMostLateral_px = kTile / 4.3f;
+
+// Rounds to the nearest whole number, for values above -64: a plain conversion, where std::lrint is a call.
+inline int round_offset(float x) { return static_cast<int>(x + 64.5f) - 64; }
 
 }  // namespace
 
 SensorNoise::SensorNoise(const SensorModel& model, const NoiseSettings& settings)
-    : model_(model), settings_(settings), angle_(kAngleBins), shadow_(model.width) {
+    : model_(model),
+      settings_(settings),
+      angle_(kAngleBins),
+      shadow_(model.width),
+      tiles_x_((model.width + kTile - 1) / kTile),
+      tiles_y_((model.height + kTile - 1) / kTile) {
+    tile_least_.resize(size_t{tiles_x_} * tiles_y_), tile_most_ = tile_least_, calm_.resize(tile_least_.size());
     for (uint32_t i = 0; i < kAngleBins; ++i) {
         const float theta = std::acos((static_cast<float>(i) + 0.5f) / kAngleBins);
         // The slant term is separable: what is left at z = 1 m, where its factor of z is 1.
         const float frontal = axial_sigma_m(model.principle, 1.0f, 0.0f);
         AngleTerms& t = angle_[i];
         t.axial = axial_sigma_m(model.principle, 1.0f, theta) - frontal;
-        t.lateral_px = lateral_sigma_px(model.principle, theta) * settings.scale;
+        t.lateral_px = std::min(kMostLateral_px, lateral_sigma_px(model.principle, theta) * settings.scale);
         t.tangent = std::tan(theta);
         const float share = std::min(1.0f, dropout_probability(model.principle, theta) * settings.scale);
         t.dropout = static_cast<uint32_t>(std::lround(share * 65536.0f));
     }
+    if (model.principle != DepthPrinciple::kStructuredLight) return;
+    for (int mm = 0; mm <= static_cast<int>(kFarthest_m * 1000.0f); ++mm)
+        frontal_sigma_m_.push_back(light_sigma_m((static_cast<float>(mm) + 0.5f) * 0.001f, 0.0f));
+    const auto steps = static_cast<size_t>(1.0f / (model.range_min_m * kDisparityQuantumPerM)) + 2;
+    for (size_t n = 0; n < steps; ++n)
+        step_depth_mm_.push_back(n == 0 ? uint16_t{0} : report(1.0f / (static_cast<float>(n) * kDisparityQuantumPerM)));
 }
+
+// sigma_z was measured on quantised depth: rounding to a step adds step^2 / 12 to the variance, which is taken
+// off before.
+float SensorNoise::light_sigma_m(float z, float axial) const {
+    const float sigma = settings_.scale * (0.0012f + 0.0019f * (z - 0.4f) * (z - 0.4f) + axial / std::sqrt(z));
+    if (!settings_.quantise) return sigma;
+    const float step = quantum_m(z);
+    return std::sqrt(std::max(0.0f, sigma * sigma - step * step * (1.0f / 12.0f)));
+}
+
 
 const SensorNoise::AngleTerms& SensorNoise::terms(float cosine) const {
     const auto bin = static_cast<uint32_t>(std::max(0.0f, cosine) * kAngleBins);
@@ -56,6 +86,7 @@ uint16_t SensorNoise::report(float z) const {
 
 void SensorNoise::apply(const CleanImage& clean, uint64_t frame, uint16_t* depth_mm, uint32_t row_stride) {
     const uint64_t key = frame_key(settings_.seed, frame);
+    if (model_.principle == DepthPrinciple::kStructuredLight) mark_calm_tiles(clean);
     for (uint32_t y = 0; y < clean.height; ++y) {
         auto* row = reinterpret_cast<uint16_t*>(reinterpret_cast<uint8_t*>(depth_mm) + size_t{y} * row_stride);
         switch (model_.principle) {
@@ -92,24 +123,52 @@ void SensorNoise::mark_shadow(const CleanImage& clean, uint32_t y) {
     }
 }
 
+void SensorNoise::mark_calm_tiles(const CleanImage& clean) {
+    std::fill(tile_least_.begin(), tile_least_.end(), std::numeric_limits<float>::max());
+    std::fill(tile_most_.begin(), tile_most_.end(), 0.0f);
+    for (uint32_t y = 0; y < clean.height; ++y) {
+        const float* depth = clean.depth_m.data() + size_t{y} * clean.width;
+        for (uint32_t tx = 0; tx < tiles_x_; ++tx) {
+            float least = depth[size_t{tx} * kTile], most = least;
+            for (uint32_t x = tx * kTile; x < std::min(clean.width, (tx + 1) * kTile); ++x)
+                least = std::min(least, depth[x]), most = std::max(most, depth[x]);
+            const size_t tile = size_t{y / kTile} * tiles_x_ + tx;
+            tile_least_[tile] = std::min(tile_least_[tile], least);
+            tile_most_[tile] = std::max(tile_most_[tile], most);
+        }
+    }
+    for (uint32_t ty = 0; ty < tiles_y_; ++ty) {
+        for (uint32_t tx = 0; tx < tiles_x_; ++tx) {
+            float least = std::numeric_limits<float>::max(), most = 0.0f;
+            for (uint32_t y = ty - (ty > 0); y <= std::min(ty + 1, tiles_y_ - 1); ++y) {
+                for (uint32_t x = tx - (tx > 0); x <= std::min(tx + 1, tiles_x_ - 1); ++x) {
+                    least = std::min(least, tile_least_[size_t{y} * tiles_x_ + x]);
+                    most = std::max(most, tile_most_[size_t{y} * tiles_x_ + x]);
+                }
+            }
+            calm_[size_t{ty} * tiles_x_ + tx] = most - least <= kEdgeJump_m;
+        }
+    }
+}
+
 void SensorNoise::structured_light_row(const CleanImage& clean, uint64_t key, uint32_t y, uint16_t* row) const {
+    const float* normal = normal_quantiles();
+    const uint8_t* calm = calm_.data() + size_t{y / kTile} * tiles_x_;
     const size_t first = size_t{y} * clean.width;
     const float pixel_angle = 1.0f / model_.fx;
     const int last_x = static_cast<int>(clean.width) - 1, last_y = static_cast<int>(clean.height) - 1;
     for (uint32_t x = 0; x < clean.width; ++x) {
+        row[x] = 0;
         float z = clean.depth_m[first + x];
-        if (z <= 0.0f || (settings_.shadow && shadow_[x])) {
-            row[x] = 0;
-            continue;
-        }
+        if (settings_.shadow && shadow_[x]) continue;
         const AngleTerms* t = &terms(clean.cosine[first + x]);
         const uint64_t bits = random_bits(key, first + x);
 
         // Edges are seen sigma_L off their place. Within one surface the look-up stays: what its slant adds to
         // the noise is part of the measured sigma_z.
-        const auto dx = static_cast<int>(std::lrint(t->lateral_px * normal_of(bits >> 16)));
-        const auto dy = static_cast<int>(std::lrint(t->lateral_px * normal_of(bits >> 32)));
-        if (dx != 0 || dy != 0) {
+        if (!calm[x / kTile]) {
+            const int dx = round_offset(t->lateral_px * normal[bits >> 16 & 0xffff]);
+            const int dy = round_offset(t->lateral_px * normal[bits >> 32 & 0xffff]);
             const int sx = std::clamp(static_cast<int>(x) + dx, 0, last_x);
             const int sy = std::clamp(static_cast<int>(y) + dy, 0, last_y);
             const size_t seen = size_t(sy) * clean.width + size_t(sx);
@@ -122,25 +181,17 @@ void SensorNoise::structured_light_row(const CleanImage& clean, uint64_t key, ui
                 }
             }
         }
-        if ((bits >> 48) < t->dropout || z <= 0.0f) {
-            row[x] = 0;
-            continue;
-        }
+        if ((bits >> 48) < t->dropout || !(z > 0.0f && z < kFarthest_m)) continue;
 
-        float sigma = 0.0012f + 0.0019f * (z - 0.4f) * (z - 0.4f);
-        if (t->axial > 0.0f) sigma += t->axial / std::sqrt(z);
-        sigma *= settings_.scale;
-        if (settings_.quantise) {
-            // sigma_z was measured on quantised depth: rounding to a step adds step^2 / 12 to the variance.
-            const float step = kDisparityQuantumPerM * z * z;
-            sigma = std::sqrt(std::max(0.0f, sigma * sigma - step * step * (1.0f / 12.0f)));
-            z += sigma * normal_of(bits);
-            const float disparity_steps = std::nearbyint(1.0f / (z * kDisparityQuantumPerM));
-            z = 1.0f / (disparity_steps * kDisparityQuantumPerM);
+        const float sigma = t->axial > 0.0f ? light_sigma_m(z, t->axial)
+                                            : frontal_sigma_m_[static_cast<size_t>(z * 1000.0f)];
+        z += sigma * normal[bits & 0xffff];
+        if (!settings_.quantise) {
+            row[x] = report(z);
         } else {
-            z += sigma * normal_of(bits);
+            const float step = 1.0f / (std::max(z, kNearest_m) * kDisparityQuantumPerM);
+            row[x] = step_depth_mm_[std::min(static_cast<size_t>(step + 0.5f), step_depth_mm_.size() - 1)];
         }
-        row[x] = report(z);
     }
 }
 
@@ -191,7 +242,7 @@ void SensorNoise::time_of_flight_row(const CleanImage& clean, uint64_t key, uint
             if (jump > kMixingJump_m + kSlantSlack * z / model_.fx * t.tangent) z = mixed_depth(clean, x, y);
         }
         const float sigma = 0.001f * (1.5f - 0.5f * z + 0.3f * z * z) + t.axial * z * std::sqrt(z);
-        row[x] = report(z + settings_.scale * sigma * normal_of(bits));
+        row[x] = report(z + settings_.scale * sigma * normal_quantiles()[bits & 0xffff]);
     }
 }
 

@@ -41,7 +41,7 @@ HeadAxis head_axis(const FilteredDepth& depth, const Camera& camera, const Body&
     HeadAxis axis;
     if (!body.has(VFIT_JOINT_HEAD) || !(body.at(VFIT_JOINT_HEAD).z > 0.0f)) return axis;
     const Vec2 pixel = camera.project(body.at(VFIT_JOINT_HEAD));
-    const int x = int(std::floor(pixel.x + 0.5f)), y = int(std::floor(pixel.y + 0.5f));
+    const auto [x, y] = nearest_pixel(pixel);
     if (!depth.inside(x, y)) return axis;
     axis.known = true;
     axis.centre = camera.unproject(pixel.x, pixel.y, depth.at(x, y) + kHalfHeadLength_m);
@@ -93,7 +93,7 @@ float lowest_near(const FilteredDepth& depth, const Camera& camera, const Vec3& 
         const Vec2 start = camera.project(from);
         const Vec2 back = glm::length(start - reach.edge) > kInward_px
                               ? reach.edge + glm::normalize(start - reach.edge) * kInward_px : start;
-        const int x = int(std::floor(back.x + 0.5f)), y = int(std::floor(back.y + 0.5f));
+        const auto [x, y] = nearest_pixel(back);
         if (!depth.inside(x, y)) continue;
         const Vec3 point = camera.unproject(reach.edge.x, reach.edge.y, depth.at(x, y));
         lowest = std::min(lowest, plane.height(point));
@@ -168,7 +168,7 @@ Estimate head_height(const FilteredDepth& depth, const Camera& camera, const Bod
     const auto surface = [&](float below) {
         const Vec3 p = head.centre + plane.up() * (upright.crown.value_m - below - plane.height(head.centre));
         const Vec2 pixel = camera.project(p);
-        const int x = int(std::floor(pixel.x + 0.5f)), y = int(std::floor(pixel.y + 0.5f));
+        const auto [x, y] = nearest_pixel(pixel);
         return depth.inside(x, y) ? depth.at(x, y) : std::numeric_limits<float>::quiet_NaN();
     };
     float deepest = kSetBack_m, chin = 0.0f;

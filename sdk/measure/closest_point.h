@@ -14,6 +14,14 @@ struct TrianglePoint {
     Vec2 uv;  // barycentric weights of b and c
 };
 
+/// Square of the distance to the triangle's box, which is not larger than that to the triangle: cheap to
+/// have.
+inline float box_distance2(const TriangleCorners& t, const Vec3& p) {
+    const Vec3 low = glm::min(t.a, glm::min(t.b, t.c)), high = glm::max(t.a, glm::max(t.b, t.c));
+    const Vec3 outside = glm::max(glm::max(low - p, p - high), Vec3(0.0f));
+    return glm::dot(outside, outside);
+}
+
 /// Weight of the end q of the segment p q at its point closest to the origin; 0 where p = q.
 inline float closest_on_segment(const Vec3& p, const Vec3& q) {
     const Vec3 d = q - p;

@@ -1,8 +1,11 @@
 #include "measure/guidance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
+
+#include "measure/silhouette.h"
 
 namespace vfit {
 
@@ -29,12 +32,11 @@ bool all_seen(const Body& body, std::initializer_list<int> joints) {
 }
 
 bool on_person(const FilteredDepth& depth, const Camera& camera, const Vec3& joint) {
-    const Vec2 pixel = camera.project(joint);
-    return depth.inside(int(std::floor(pixel.x + 0.5f)), int(std::floor(pixel.y + 0.5f)));
+    const Pixel pixel = nearest_pixel(camera.project(joint));
+    return depth.inside(pixel.x, pixel.y);
 }
 
-/// The lines of sight past the middle of the top and bottom edge of a level image; of a portrait-mounted
-/// camera those are the sides.
+/// At the top or the bottom of the view; for a camera that is mounted on its side those are the image's sides.
 bool cut_vertically(const FilteredDepth& depth, const Camera& camera) {
     const Vec3& up = camera.floor_normal;
     if (std::abs(up.x) > std::abs(up.y)) return depth.box.x0 <= 0 || depth.box.x1 >= int(depth.width);

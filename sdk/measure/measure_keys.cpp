@@ -5,13 +5,16 @@ namespace vfit {
 
 namespace {
 
-// Definitions after ISO 8559-1:2017 (item numbers where one stands); girths are taut tapes: the convex hull of
-// the section. New keys are appended: the index is part of the ABI.
+// Definitions after ISO 8559-1:2017 (item numbers where one stands); girths are taut tapes: the convex hull
+// of the section. New keys are appended: the index is part of the ABI.
 constexpr MeasureKey kKeys[] = {
-    {"stature_m", "height: floor to crown, barefoot, feet together, head level, without hair (ISO 8559-1 5.1.1)"},
-    {"shoulder_breadth_m", "bideltoid: largest breadth over the deltoids, upper arms 5 degrees from vertical"},
+    {"stature_m",
+     "height: floor to crown, barefoot, feet together, head level, without hair (ISO 8559-1 5.1.1)"},
+    {"shoulder_breadth_m",
+     "bideltoid: largest breadth over the deltoids, upper arms 5 degrees from vertical"},
     {"biacromial_breadth_m", "breadth between the outermost points of the two acromia"},
-    {"chest_girth_m", "men: largest horizontal girth of the chest (5.3.4); women: over the bust points; no arms"},
+    {"chest_girth_m",
+     "men: largest horizontal girth of the chest (5.3.4); women: over the bust points; no arms"},
     {"underbust_girth_m", "horizontal girth directly below the breasts"},
     {"waist_girth_m", "horizontal girth midway between lowest rib and iliac crest (5.3.10)"},
     {"hip_girth_m", "largest horizontal girth over the buttocks (5.3.13)"},

@@ -102,14 +102,17 @@ MeshQuery::MeshQuery(std::span<const Vec3> positions, std::span<const uint32_t> 
     s.geometry.reset(rtcNewGeometry(s.device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
     s.scene.reset(rtcNewScene(s.device.get()));
     check_device(s.device.get());
-    rtcSetSharedGeometryBuffer(s.geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, s.positions.data(),
-                               0, sizeof(Vec3), positions.size());
-    rtcSetSharedGeometryBuffer(s.geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, s.indices.data(), 0,
-                               3 * sizeof(uint32_t), indices.size() / 3);
+    rtcSetSharedGeometryBuffer(s.geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                               s.positions.data(), 0, sizeof(Vec3), positions.size());
+    rtcSetSharedGeometryBuffer(s.geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, s.indices.data(),
+                               0, 3 * sizeof(uint32_t), indices.size() / 3);
     rtcSetGeometryBuildQuality(s.geometry.get(), RTC_BUILD_QUALITY_REFIT);
     rtcCommitGeometry(s.geometry.get());
-    // ROBUST: no ray slips through the edge that two triangles share.
-    rtcSetSceneFlags(s.scene.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC));
+    // LOW: the kind of tree that Embree can refit. ROBUST: no ray slips through the edge that two triangles
+    // share.
+    rtcSetSceneBuildQuality(s.scene.get(), RTC_BUILD_QUALITY_LOW);
+    rtcSetSceneFlags(s.scene.get(),
+                     static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC));
     rtcAttachGeometry(s.scene.get(), s.geometry.get());
     rtcCommitScene(s.scene.get());
     check_device(s.device.get());
@@ -131,7 +134,9 @@ void MeshQuery::update(std::span<const Vec3> positions) {
     check_device(s.device.get());
 }
 
-std::span<const Vec3> MeshQuery::positions() const { return {scene_->positions.data(), scene_->vertex_count()}; }
+std::span<const Vec3> MeshQuery::positions() const {
+    return {scene_->positions.data(), scene_->vertex_count()};
+}
 std::span<const uint32_t> MeshQuery::indices() const { return scene_->indices; }
 
 MeshQuery::Closest MeshQuery::closest(const Vec3& p) const {
@@ -152,7 +157,9 @@ MeshQuery::Closest MeshQuery::closest(const Vec3& p) const {
     rtcInitPointQueryContext(&context);
     const auto visit = [](RTCPointQueryFunctionArguments* arguments) {
         Search& found = *static_cast<Search*>(arguments->userPtr);
-        const TrianglePoint point = closest_point(found.scene.corners(arguments->primID), found.p);
+        const TriangleCorners corners = found.scene.corners(arguments->primID);
+        if (box_distance2(corners, found.p) > found.distance2 * (1.0f + kTieMargin)) return false;
+        const TrianglePoint point = closest_point(corners, found.p);
         const Vec3 offset = point.position - found.p;
         const float distance2 = glm::dot(offset, offset);
         const bool nearer = distance2 < found.distance2;
@@ -165,8 +172,8 @@ MeshQuery::Closest MeshQuery::closest(const Vec3& p) const {
         return true;
     };
     rtcPointQuery(scene_->scene.get(), &query, &context, visit, &search);
-    return {search.best.position, scene_->normal(search.triangle), std::sqrt(search.distance2), search.triangle,
-            search.best.uv};
+    return {search.best.position, scene_->normal(search.triangle), std::sqrt(search.distance2),
+            search.triangle, search.best.uv};
 }
 
 std::optional<MeshQuery::Hit> MeshQuery::Scene::cast(const Vec3& origin, const Vec3& direction, float near,

@@ -31,7 +31,8 @@ public:
     /// edge) the first is named.
     Closest closest(const Vec3& p) const;
 
-    /// For a closed mesh; where parts of it overlap, the inside of any part is inside. Small holes do no harm.
+    /// For a closed mesh; where parts of it overlap, the inside of any part is inside. Small holes do no
+    /// harm.
     bool inside(const Vec3& p) const;
     /// Distance to the surface, negative inside.
     float signed_distance(const Vec3& p) const;

@@ -56,7 +56,8 @@ std::vector<Vec2> convex_hull(std::span<const Vec2> points) {
     const auto side = [&](auto first, auto last) {
         const size_t start = hull.size();
         for (auto p = first; p != last; ++p) {
-            while (hull.size() >= start + 2 && turn(hull[hull.size() - 2], hull.back(), *p) <= 0.0) hull.pop_back();
+            while (hull.size() >= start + 2 && turn(hull[hull.size() - 2], hull.back(), *p) <= 0.0)
+                hull.pop_back();
             hull.push_back(*p);
         }
         hull.pop_back();  // the other side begins with it

@@ -32,15 +32,14 @@ void set_axes(Section& section, const Vec3& point, const Vec3& normal) {
     section.v = glm::cross(normal, section.u);
 }
 
-/// Ends of the segments of all crossed triangles. Each triangle is crossed from the edge where its boundary goes
-/// down through the plane to the one where it comes up: with counter-clockwise triangles that leads round
-/// the body counter-clockwise.
+/// Ends of the segments of all crossed triangles. Each triangle is crossed from the edge where its boundary
+/// goes down through the plane to the one where it comes up: with counter-clockwise triangles that leads
+/// round the body counter-clockwise.
 std::vector<End> crossings(std::span<const uint32_t> indices, const float* height,
                            std::span<const uint8_t> skip_triangle) {
     std::vector<End> ends;
     for (size_t t = 0; t < indices.size() / 3; ++t) {
-        if (indices.size() % 3 != 0) fail(VFIT_ERROR_DATA, "the mesh has ", indices.size(), " indices, not three a triangle");
-    if (!skip_triangle.empty() && skip_triangle[t]) continue;
+        if (!skip_triangle.empty() && skip_triangle[t]) continue;
         const uint32_t* v = &indices[3 * t];
         const bool above[3] = {height[v[0]] >= 0.0f, height[v[1]] >= 0.0f, height[v[2]] >= 0.0f};
         if (above[0] == above[1] && above[1] == above[2]) continue;
@@ -56,8 +55,8 @@ std::vector<End> crossings(std::span<const uint32_t> indices, const float* heigh
     return ends;
 }
 
-/// For each end the end of another segment on the same edge, kNone at a border. Where more than two meet (a mesh
-/// that is no surface) they are paired as they come.
+/// For each end the end of another segment on the same edge, kNone at a border. Where more than two meet (a
+/// mesh that is no surface) they are paired as they come.
 std::vector<uint32_t> link(const std::vector<End>& ends) {
     std::vector<End> sorted = ends;
     std::sort(sorted.begin(), sorted.end(),
@@ -78,11 +77,12 @@ std::vector<uint32_t> link(const std::vector<End>& ends) {
 /// Follows linked segments from one end on, marking them as used. Appends the point of every end it leaves
 /// from and, where the line ends at a border, of the last one.
 template <typename Place>
-void follow(uint32_t from, const std::vector<uint32_t>& partner, std::vector<uint8_t>& used, const Place& place,
-            std::vector<Vec2>& line) {
+void follow(uint32_t from, const std::vector<uint32_t>& partner, std::vector<uint8_t>& used,
+            const Place& place, std::vector<Vec2>& line) {
     const auto add = [&](uint32_t end) {
         const Vec2 p = place(end);
-        if (line.empty() || line.back() != p) line.push_back(p);  // several edges meet in a vertex on the plane
+        if (line.empty() || line.back() != p)
+            line.push_back(p);  // several edges meet in a vertex on the plane
     };
     uint32_t at = from;
     while (at != kNone && !used[at / 2]) {
@@ -101,9 +101,11 @@ Section cut(std::span<const Vec3> positions, std::span<const uint32_t> indices, 
     const float length = glm::length(normal);
     if (!finite(point) || !std::isfinite(length) || !(length > 0.0f))
         fail(VFIT_ERROR_ARGUMENT, "the cutting plane has no place or no direction");
-    if (indices.size() % 3 != 0) fail(VFIT_ERROR_DATA, "the mesh has ", indices.size(), " indices, not three a triangle");
+    if (indices.size() % 3 != 0)
+        fail(VFIT_ERROR_DATA, "the mesh has ", indices.size(), " indices, not three a triangle");
     if (!skip_triangle.empty() && skip_triangle.size() != indices.size() / 3)
-        fail(VFIT_ERROR_ARGUMENT, "there are ", skip_triangle.size(), " flags for ", indices.size() / 3, " triangles");
+        fail(VFIT_ERROR_ARGUMENT, "there are ", skip_triangle.size(), " flags for ", indices.size() / 3,
+             " triangles");
     const Vec3 unit = normal / length;
     Section section;
     set_axes(section, point, unit);
@@ -111,14 +113,16 @@ Section cut(std::span<const Vec3> positions, std::span<const uint32_t> indices, 
     // Of the named vertices only: a cut of a few triangles of a large mesh is as fast as of a small mesh.
     const auto height = std::make_unique_for_overwrite<float[]>(positions.size());
     for (const uint32_t i : indices) {
-        if (i >= positions.size()) fail(VFIT_ERROR_DATA, "a triangle names vertex ", i, " of ", positions.size());
+        if (i >= positions.size())
+            fail(VFIT_ERROR_DATA, "a triangle names vertex ", i, " of ", positions.size());
         height[i] = glm::dot(unit, positions[i] - point);
     }
     const std::vector<End> ends = crossings(indices, height.get(), skip_triangle);
     const std::vector<uint32_t> partner = link(ends);
 
     const auto place = [&](uint32_t end) {
-        const uint32_t a = static_cast<uint32_t>(ends[end].edge >> 32), b = static_cast<uint32_t>(ends[end].edge);
+        const uint32_t a = static_cast<uint32_t>(ends[end].edge >> 32),
+                       b = static_cast<uint32_t>(ends[end].edge);
         const Vec3 p = glm::mix(positions[a], positions[b], height[a] / (height[a] - height[b])) - point;
         return Vec2(glm::dot(p, section.u), glm::dot(p, section.v));
     };

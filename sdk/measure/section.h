@@ -22,10 +22,10 @@ struct Section {
     std::vector<Vec2> points() const;
 };
 
-/// Cuts the mesh with the plane through `point` square to `normal` (any length). A vertex exactly in the plane
-/// counts as above it, so that a closed mesh always gives closed loops. skip_triangle: empty, or one flag a
-/// triangle. VFIT_ERROR_ARGUMENT where the plane is none or the flags do not match, VFIT_ERROR_DATA where an
-/// index is out of range.
+/// Cuts the mesh with the plane through `point` square to `normal` (any length). A vertex exactly in the
+/// plane counts as above it, so that a closed mesh always gives closed loops. skip_triangle: empty, or one
+/// flag a triangle. VFIT_ERROR_ARGUMENT where the plane is none or the flags do not match, VFIT_ERROR_DATA
+/// where an index is out of range.
 Section cut(std::span<const Vec3> positions, std::span<const uint32_t> indices, const Vec3& point,
             const Vec3& normal, std::span<const uint8_t> skip_triangle = {});
 

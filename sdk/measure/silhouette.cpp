@@ -13,31 +13,53 @@ namespace {
 constexpr int kKernelReach = 2;
 constexpr int kSpan = 2 * kKernelReach;
 
-int nearest(float x) { return int(std::floor(x + 0.5f)); }
+int nearest(float x) {
+    constexpr float kFarOutside = 1e6f;
+    return x > -kFarOutside && x < kFarOutside ? int(std::floor(x + 0.5f)) : -int(kFarOutside);
+}
 
 }  // namespace
+
+Pixel nearest_pixel(Vec2 place) { return {nearest(place.x), nearest(place.y)}; }
 
 Walk walk_to_contour(const FilteredDepth& depth, Vec2 start, Vec2 direction) {
     Walk walk;
     const float longest = std::max(std::abs(direction.x), std::abs(direction.y));
-    const Vec2 origin(std::floor(start.x + 0.5f), std::floor(start.y + 0.5f));
-    if (!(longest > 0.0f) || !depth.inside(int(origin.x), int(origin.y))) return walk;
+    const Pixel first = nearest_pixel(start);
+    if (!(longest > 0.0f) || !depth.inside(first.x, first.y)) return walk;
     walk.inside = true;
 
+    const Vec2 origin(float(first.x), float(first.y));
     const Vec2 step = direction / longest;
     const auto end_at = [&](float steps) {
         walk.edge = origin + step * steps;
         walk.length_px = std::max(0.0f, glm::dot(walk.edge - start, glm::normalize(step)));
     };
     const auto pixel = [&](int i) {
-        return std::array<int, 2>{nearest(origin.x + step.x * float(i)), nearest(origin.y + step.y * float(i))};
+        return nearest_pixel(origin + step * float(i));
     };
-    const auto in_image = [&](const std::array<int, 2>& p) {
-        return p[0] >= 0 && p[1] >= 0 && p[0] < int(depth.width) && p[1] < int(depth.height);
+    const auto in_image = [&](Pixel p) {
+        return p.x >= 0 && p.y >= 0 && p.x < int(depth.width) && p.y < int(depth.height);
+    };
+
+    // The filter has spread the jump over its kernel: it stood where the depth changes fastest. Near the edge of
+    // the mask it is the filter's background that jumps, and the edge is the contour.
+    const auto edge_of_jump = [&](int found) {
+        float steepest = -1.0f, place = 0.0f;
+        for (int k = std::max(1, found - kSpan + 1); k <= found + kKernelReach; ++k) {
+            const auto a = pixel(k - 1), b = pixel(k);
+            if (!depth.inside(b.x, b.y)) return float(k) - 0.5f;
+            const float change = std::abs(depth.at(b.x, b.y) - depth.at(a.x, a.y));
+            if (change > steepest) {
+                steepest = change;
+                place = float(k) - 0.5f;
+            }
+        }
+        return place;
     };
 
     std::array<float, kSpan> before;  // depth of the last steps, a ring
-    before.fill(depth.at(int(origin.x), int(origin.y)));
+    before.fill(depth.at(first.x, first.y));
     for (int i = 1;; ++i) {
         const auto p = pixel(i);
         if (!in_image(p)) {
@@ -45,22 +67,14 @@ Walk walk_to_contour(const FilteredDepth& depth, Vec2 start, Vec2 direction) {
             end_at(float(i) - 0.5f);
             return walk;
         }
-        if (!depth.inside(p[0], p[1])) {
+        if (!depth.inside(p.x, p.y)) {
             end_at(float(i) - 0.5f);
             return walk;
         }
-        const float here = depth.at(p[0], p[1]);
+        const float here = depth.at(p.x, p.y);
         float& oldest = before[size_t(i) % kSpan];
         if (std::abs(here - oldest) > kContourJump_m) {
-            // Near the edge of the mask the jump is the filter's background, and the edge the contour.
-            for (int ahead = 1; ahead <= kKernelReach; ++ahead) {
-                const auto next = pixel(i + ahead);
-                if (in_image(next) && !depth.inside(next[0], next[1])) {
-                    end_at(float(i + ahead) - 0.5f);
-                    return walk;
-                }
-            }
-            end_at(std::max(0.5f, float(i) - 0.5f * kSpan));
+            end_at(edge_of_jump(i));
             return walk;
         }
         oldest = here;

@@ -11,6 +11,13 @@ namespace vfit {
 /// Kinect v1 scatters by 0.02 m there (Khoshelham and Elberink 2012).
 inline constexpr float kContourJump_m = 0.10f;
 
+struct Pixel {
+    int x, y;
+};
+
+/// Pixel centres lie on integers. Far outside every image where the place is far outside, or not finite.
+Pixel nearest_pixel(Vec2 place);
+
 struct Walk {
     bool inside = false;     // the start lies on the person
     bool border = false;     // the image ended first: the contour was not seen
@@ -20,7 +27,7 @@ struct Walk {
     bool seen() const { return inside && !border; }
 };
 
-/// Walks pixel by pixel in `direction` (pixels, need not be a unit vector). Pixel centres lie on integers.
+/// Walks pixel by pixel in `direction` (pixels, need not be a unit vector).
 Walk walk_to_contour(const FilteredDepth& depth, Vec2 start, Vec2 direction);
 
 /// The vertical plane that faces the camera at some distance: lengths are measured in it, level or upright

@@ -1,7 +1,6 @@
 #include "measure/sphere_fit.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "measure/silhouette.h"
@@ -11,7 +10,7 @@ namespace vfit {
 float fit_sphere(const FilteredDepth& depth, const Camera& camera, const Vec3& joint) {
     if (!(joint.z > 0.0f)) return 0.0f;
     const Vec2 pixel = camera.project(joint);
-    const int x = int(std::floor(pixel.x + 0.5f)), y = int(std::floor(pixel.y + 0.5f));
+    const auto [x, y] = nearest_pixel(pixel);
     if (!depth.inside(x, y)) return 0.0f;
 
     constexpr float kNone = std::numeric_limits<float>::max();

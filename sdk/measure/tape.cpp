@@ -73,14 +73,17 @@ void measure_limbs(const TapeMesh& body, Sheet& sheet) {
         return largest_limb_girth(body, body.thigh(s), kThighShare,
                                   body.thigh(s == Side::kLeft ? Side::kRight : Side::kLeft));
     }));
-    sheet.set("upper_arm_girth_m",
-              both([&](Side s) { return largest_limb_girth(body, body.upper_arm(s), kUpperArmShare, spine); }));
+    sheet.set("upper_arm_girth_m", both([&](Side s) {
+                  return largest_limb_girth(body, body.upper_arm(s), kUpperArmShare, spine);
+              }));
     const auto between = [&](int a, int b) { return glm::distance(body.joint(a), body.joint(b)); };
     sheet.set("arm_length_m", both([&](Side s) {
         const Joints j = joints_of(s);
         return glm::distance(acromion(body, s), body.joint(j.elbow)) + between(j.elbow, j.wrist);
     }));
-    const auto hand = [&](Side s) { return glm::distance(body.joint(joints_of(s).wrist), fingertip(body, s)); };
+    const auto hand = [&](Side s) {
+        return glm::distance(body.joint(joints_of(s).wrist), fingertip(body, s));
+    };
     sheet.set("hand_length_m", both(hand));
     sheet.set("elbow_fingertip_m",
               both([&](Side s) { return between(joints_of(s).elbow, joints_of(s).wrist) + hand(s); }));
@@ -93,8 +96,8 @@ void measure_head(const TapeMesh& body, Sheet& sheet) {
     sheet.set("head_width_m", skull_breadth(body, chin));
 }
 
-/// Largest horizontal breadth over the deltoids: the outermost points of the two upper arms' upper halves (the
-/// deltoid ends at the middle of the humerus).
+/// Largest horizontal breadth over the deltoids: the outermost points of the two upper arms' upper halves
+/// (the deltoid ends at the middle of the humerus).
 float bideltoid_breadth(const TapeMesh& body) {
     const TapeBody& b = body.body();
     float breadth = 0.0f;
@@ -120,7 +123,8 @@ std::vector<Measurement> tape_measures(const TapePostures& postures) {
     Sheet sheet;
     sheet.set("stature_m", standing.crown - standing.floor);
     sheet.set("shoulder_breadth_m", bideltoid_breadth(arms_down));
-    sheet.set("biacromial_breadth_m", glm::distance(acromion(arms_down, Side::kLeft), acromion(arms_down, Side::kRight)));
+    sheet.set("biacromial_breadth_m",
+              glm::distance(acromion(arms_down, Side::kLeft), acromion(arms_down, Side::kRight)));
     measure_trunk(body, sheet);
     measure_limbs(body, sheet);
     measure_head(body, sheet);

@@ -18,17 +18,17 @@ float armpit_height(const TapeMesh& body);
 /// in people. The narrowest level is another: it lies near the lowest rib, and stout bodies have none.
 float waist_height(const TapeMesh& body);
 
-/// The bust point of the side: what of the chest stands out farthest before the straight line from the front of the
-/// waist to the front between the armpits. Of a flat belly it is the most forward point; a round one does not
-/// win over it.
+/// The bust point of the side: what of the chest stands out farthest before the straight line from the front
+/// of the waist to the front between the armpits. Of a flat belly it is the most forward point; a round one
+/// does not win over it.
 Vec3 bust_point(const TapeMesh& body, Side side, float armpit);
 
 /// Women: level of the bust points. Others: of the largest girth between the rib arch and a tape's half width
 /// below the armpit.
 float chest_height(const TapeMesh& body, float armpit);
 
-/// Directly below the breasts: the place of the front's profile, through the bust point, that lies deepest behind
-/// the straight line from the bust point down to the waist.
+/// Directly below the breasts: the place of the front's profile, through the bust point, that lies deepest
+/// behind the straight line from the bust point down to the waist.
 float underbust_height(const TapeMesh& body, float armpit, float waist);
 
 /// Level of the largest girth between the crotch and halfway from the hip joints up to the waist.
@@ -40,25 +40,25 @@ Axis neck_axis(const TapeMesh& body);
 /// Length of a closed line.
 float length(const std::vector<Vec3>& loop);
 
-/// Tape about the neck, square to its axis, that many metres along it. VFIT_ERROR_DATA where the axis does not
-/// run inside the neck.
+/// Tape about the neck, square to its axis, that many metres along it. VFIT_ERROR_DATA where the axis does
+/// not run inside the neck.
 std::vector<Vec3> neck_loop(const TapeMesh& body, float along_m);
 
 /// Where along its axis the neck is narrowest: trapezius and jaw lie to the two sides, and both are wider.
 float narrowest_neck(const TapeMesh& body);
 
-/// Where along the neck's axis the tape lies just below the larynx: its front is a third of the way down from the
-/// chin to the collar bones. The chin is level with C3, the notch between the collar bones with T2 to T3, the
-/// larynx ends at C5: two of six and a half vertebrae. A neck
-/// that is narrowest below that is measured there.
+/// Where along the neck's axis the tape lies just below the larynx: its front is a third of the way down from
+/// the chin to the collar bones. The chin is level with C3, the notch between the collar bones with T2 to T3,
+/// the larynx ends at C5: two of six and a half vertebrae. A neck that is narrowest below that is measured
+/// there.
 float larynx_place(const TapeMesh& body, float narrowest_m, float chin);
 
-/// The skin over the outer edge of the acromion: where the line from the centre of the shoulder joint through the
-/// bone's edge leaves the body.
+/// The skin over the outer edge of the acromion: where the line from the centre of the shoulder joint through
+/// the bone's edge leaves the body.
 Vec3 acromion(const TapeMesh& body, Side side);
 
-/// Lowest point of the chin: of what lies above the throat and in front of the plane halfway between it and the tip
-/// of the nose.
+/// Lowest point of the chin: of what lies above the throat and in front of the plane halfway between it and
+/// the tip of the nose.
 float chin_height(const TapeMesh& body, float narrowest_m);
 
 /// Largest breadth of the skull above the ears.
@@ -71,8 +71,8 @@ Vec3 fingertip(const TapeMesh& body, Side side);
 /// alone, but holds the trunk's or the other limb's axis as well.
 float limb_girth(const TapeMesh& body, const Axis& limb, float along_m, const Axis& apart);
 
-/// The largest limb_girth between a tape's half width below where the limb leaves the body and that share of its
-/// length.
+/// The largest limb_girth between a tape's half width below where the limb leaves the body and that share of
+/// its length.
 float largest_limb_girth(const TapeMesh& body, const Axis& limb, float share, const Axis& apart);
 
 }  // namespace vfit

@@ -10,13 +10,13 @@ namespace vfit {
 
 namespace {
 
-/// From the centre of the humeral head the outer edge of the acromion lies 12 mm outwards and 33 mm up: the head's
-/// radius is 24 mm, the gap above it 9 mm, and the acromion covers 0.68 of the head (acromion index, Nyffeler
-/// 2006).
+/// From the centre of the humeral head the outer edge of the acromion lies 12 mm outwards and 33 mm up: the
+/// head's radius is 24 mm, the gap above it 9 mm, and the acromion covers 0.68 of the head (acromion index,
+/// Nyffeler 2006).
 constexpr float kAcromionOutwards = 12.0f, kAcromionUp = 33.0f;
 
-/// Upper share of the head that holds no ear. The ear's middle (tragion) lies 0.56 of head height below the crown,
-/// the ear is 0.27 of head height long (Farkas 1994): its top is at 0.42.
+/// Upper share of the head that holds no ear. The ear's middle (tragion) lies 0.56 of head height below the
+/// crown, the ear is 0.27 of head height long (Farkas 1994): its top is at 0.42.
 constexpr float kSkullShare = 0.4f;
 
 /// The vertex of the highest score, of those that have one; null where none has.
@@ -33,7 +33,8 @@ const Vec3* best_vertex(const TapeMesh& body, const Score& score) {
 }
 
 const Vec3& frontmost(const std::vector<Vec3>& points) {
-    return *std::max_element(points.begin(), points.end(), [](const Vec3& a, const Vec3& b) { return a.z < b.z; });
+    return *std::max_element(points.begin(), points.end(),
+                             [](const Vec3& a, const Vec3& b) { return a.z < b.z; });
 }
 
 }  // namespace
@@ -98,11 +99,13 @@ Vec3 acromion(const TapeMesh& body, Side side) {
         glm::normalize(Vec3(side == Side::kLeft ? kAcromionOutwards : -kAcromionOutwards, kAcromionUp, 0.0f));
     // In the frontal plane through the joint: the outline's farthest crossing of the line to the bone's edge.
     const Section frontal = body.across(joint, Vec3(0, 0, 1));
-    const Vec2 along(glm::dot(direction, frontal.u), glm::dot(direction, frontal.v)), square(-along.y, along.x);
+    const Vec2 along(glm::dot(direction, frontal.u), glm::dot(direction, frontal.v)),
+        square(-along.y, along.x);
     float farthest = 0.0f;
     const auto visit = [&](const Vec2& a, const Vec2& b) {
         const float sa = glm::dot(a, square), sb = glm::dot(b, square);
-        if ((sa > 0.0f) != (sb > 0.0f)) farthest = std::max(farthest, glm::dot(glm::mix(a, b, sa / (sa - sb)), along));
+        if ((sa > 0.0f) != (sb > 0.0f))
+            farthest = std::max(farthest, glm::dot(glm::mix(a, b, sa / (sa - sb)), along));
     };
     for (const auto& loop : frontal.loops)
         for (size_t i = 0; i < loop.size(); ++i) visit(loop[i], loop[(i + 1) % loop.size()]);

@@ -34,10 +34,12 @@ bool is_arm(BodyPart part) {
 }  // namespace
 
 void check(const TapeBody& body) {
-    if (body.positions.empty() || body.indices.empty()) fail(VFIT_ERROR_DATA, "the body has no mesh to measure");
+    if (body.positions.empty() || body.indices.empty())
+        fail(VFIT_ERROR_DATA, "the body has no mesh to measure");
     if (body.indices.size() % 3 != 0) fail(VFIT_ERROR_DATA, "the body's indices are not three a triangle");
     if (body.parts.size() < body.positions.size())
-        fail(VFIT_ERROR_DATA, "the body has parts for ", body.parts.size(), " of ", body.positions.size(), " vertices");
+        fail(VFIT_ERROR_DATA, "the body has parts for ", body.parts.size(), " of ", body.positions.size(),
+             " vertices");
     for (const Vec3& p : body.positions)
         if (!finite(p)) fail(VFIT_ERROR_DATA, "the body has a vertex that is not finite");
     for (const uint32_t i : body.indices)
@@ -49,8 +51,8 @@ void check(const TapeBody& body) {
 }
 
 HeightRange height_range(std::span<const Vec3> positions) {
-    const auto [low, high] =
-        std::minmax_element(positions.begin(), positions.end(), [](const Vec3& a, const Vec3& b) { return a.y < b.y; });
+    const auto [low, high] = std::minmax_element(positions.begin(), positions.end(),
+                                                 [](const Vec3& a, const Vec3& b) { return a.y < b.y; });
     return {low->y, high->y};
 }
 

@@ -50,8 +50,8 @@ public:
     /// Horizontal section of the body without its arms: triangles carried mostly by upper arm, forearm and
     /// hand are left out.
     Section trunk(float y) const;
-    /// Section of the whole body near the place: what lies more than 0.1 m above or below it is left out. For limbs
-    /// and neck, which stand rather than lie.
+    /// Section of the whole body near the place: what lies more than 0.1 m above or below it is left out. For
+    /// limbs and neck, which stand rather than lie.
     Section across(const Vec3& place, const Vec3& axis) const;
     /// Section of the whole body by the plane x = constant.
     Section profile(float x) const;
@@ -94,7 +94,8 @@ float place_of_largest(float low, float high, const Function& value) {
     }
 }
 
-/// The border between low, where the condition holds, and high, where it does not, to a tenth of a millimetre.
+/// The border between low, where the condition holds, and high, where it does not, to a tenth of a
+/// millimetre.
 template <typename Condition>
 float border(float low, float high, const Condition& holds) {
     constexpr float kFine_m = 0.0001f;

@@ -10,13 +10,13 @@ namespace vfit {
 
 namespace {
 
-/// Height of the waist's level as a share of the way from the hip joint to the foot of the neck, from the mean
-/// heights of ANSUR II: trochanterion, cervicale, and the mean of tenth rib and iliac crest.
-/// Women (0.630 - 0.519) / (0.857 - 0.519), men (0.621 - 0.513) / (0.864 - 0.513) of stature.
+/// Height of the waist's level as a share of the way from the hip joint to the foot of the neck, from the
+/// mean heights of ANSUR II: trochanterion, cervicale, and the mean of tenth rib and iliac crest. Women
+/// (0.630 - 0.519) / (0.857 - 0.519), men (0.621 - 0.513) / (0.864 - 0.513) of stature.
 constexpr float kWaistShareWomen = 0.328f, kWaistShareMen = 0.308f;
 
-/// The rib arch as a share of the way from the waist to the foot of the neck; a man's chest lies above it, by the
-/// same tables at 0.47 (0.735 of stature).
+/// The rib arch as a share of the way from the waist to the foot of the neck; a man's chest lies above it, by
+/// the same tables at 0.47 (0.735 of stature).
 constexpr float kRibArchShare = 0.2f;
 
 float hip_joints_height(const TapeMesh& body) {
@@ -51,7 +51,8 @@ float armpit_height(const TapeMesh& body, Side side) {
     return border(low, high, [&](float y) { return arm_apart(body, side, y); });
 }
 
-/// The frontmost z at which an outline in the plane x = constant passes that height; -infinity where none does.
+/// The frontmost z at which an outline in the plane x = constant passes that height; -infinity where none
+/// does.
 float front_at(const Section& profile, float y) {
     float front = -std::numeric_limits<float>::infinity();
     for (const auto& loop : profile.loops)

@@ -52,27 +52,8 @@ void* HostTable::add_stream(Ref<SensorStream> stream) {
 }
 
 void HostTable::remove_stream(void* token) {
-    drop_frames(token);
     std::lock_guard lock(mutex_);
     std::erase_if(streams_, [&](const OpenStream& s) { return s.token == token; });
-}
-
-void HostTable::drop_frames(void* token) {
-    std::vector<Filling> dropped;
-    {
-        std::lock_guard lock(mutex_);
-        const auto kept = std::stable_partition(filling_.begin(), filling_.end(),
-                                                [&](const Filling& f) { return f.token != token; });
-        std::move(kept, filling_.end(), std::back_inserter(dropped));
-        filling_.erase(kept, filling_.end());
-    }
-    for (const Filling& f : dropped) {
-        try {
-            Handles::instance().release(f.id, Kind::frame);
-        } catch (const Error&) {
-            // The context took the handle with it, or the plug-in released it by itself.
-        }
-    }
 }
 
 void HostTable::begin_discovery() {
@@ -94,15 +75,21 @@ std::vector<vfit_sensor_info> HostTable::sensors() const {
 
 void HostTable::retire() {
     std::vector<OpenStream> streams;
+    std::vector<Filling> unfinished;
     {
         std::lock_guard lock(mutex_);
         retired_ = true;
-        streams = streams_;
+        streams.swap(streams_);
+        unfinished.swap(filling_);
         sensors_.clear();
     }
-    for (const OpenStream& s : streams) {
-        s.stream->queue.close();
-        remove_stream(s.token);
+    for (const OpenStream& s : streams) s.stream->queue.close();
+    for (const Filling& f : unfinished) {
+        try {
+            Handles::instance().release(f.id, Kind::frame);
+        } catch (const Error&) {
+            // The context took the handle with it, or the plug-in released it by itself.
+        }
     }
 }
 

@@ -24,17 +24,17 @@ public:
     /// For log lines, and as the plug-in of the sensors it reports.
     void set_name(const std::string& name);
 
-    /// A token for the stream, never a pointer; remove() makes it unknown and drops its unfinished frames.
+    /// A token for the stream, never a pointer; remove() makes it unknown. Frames that are being filled stay
+    /// the plug-in's until it pushes or drops them, or is retired: a thread of it may still write to them.
     void* add_stream(Ref<SensorStream> stream);
     void remove_stream(void* token);
-    void drop_frames(void* token);
 
     /// Sensors that were reported and not removed. Between begin and end those that are reported again stay.
     void begin_discovery();
     void end_discovery(bool forget_others);
     std::vector<vfit_sensor_info> sensors() const;
 
-    /// No callback has an effect any more.
+    /// Takes back all frames and streams; nothing can be begun any more.
     void retire();
 
     /// Logs what the plug-in did wrong: each sentence once, and not more than a few.

@@ -69,7 +69,6 @@ void Sensor::start() {
         return;
     }
     stream_->queue.close();
-    plugin_->host_.drop_frames(token_);
     plugin_->fail_with_last_error(result, text("starting ", uri_));
 }
 
@@ -85,7 +84,6 @@ void Sensor::stop_device() {
     if (!running_) return;
     running_ = false;
     const vfit_result result = plugin_->table_.stop(device_);
-    plugin_->host_.drop_frames(token_);
     if (result != VFIT_OK) plugin_->host_.complain(text("stopping ", uri_, " failed, result ", result));
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include <opencv2/imgproc.hpp>
 
@@ -22,18 +23,36 @@ int reflect(int i, int count) {
     return i;
 }
 
-/// Marks the person's readings of one row and counts them. Free of branches, so that it is vectorised.
+/// Marks the person's readings of one row and counts them. The loop is free of branches, so that it is vectorised.
 uint32_t mark_row(const DepthImage& image, size_t row, uint32_t user_id, uint8_t* mask) {
+    const uint32_t width = image.width();
     const uint16_t* const raw = image.depth + row;
     const uint8_t* const users = image.users + row;
     const uint8_t id = uint8_t(user_id);
+    const void* const found = std::memchr(users, id, width);
+    const uint32_t first = found ? uint32_t(static_cast<const uint8_t*>(found) - users) : width;
+    std::fill_n(mask, first, uint8_t(FilteredDepth::kBackground));
     uint32_t count = 0;
-    for (uint32_t x = 0; x < image.width(); ++x) {
+    for (uint32_t x = first; x < width; ++x) {
         const uint8_t measured = uint8_t(users[x] == id) & uint8_t(raw[x] != 0);
         mask[x] = measured;
         count += measured;
     }
     return count;
+}
+
+/// Rows without a reading of the person, above and below a pixel that has none, itself included; counted to one
+/// more than `most`. The image's edge ends no gap.
+int gap_height(const DepthImage& image, size_t pixel, uint32_t user_id, int most) {
+    const auto person = [&](size_t i) { return image.users[i] == user_id && image.depth[i] != 0; };
+    const size_t width = image.width(), count = width * image.height();
+    int rows = 1;
+    size_t i = pixel;
+    for (; rows <= most && i >= width && !person(i - width); i -= width) ++rows;
+    if (i < width) return most + 1;
+    i = pixel;
+    for (; rows <= most && i + width < count && !person(i + width); i += width) ++rows;
+    return i + width >= count ? most + 1 : rows;
 }
 
 }  // namespace
@@ -84,11 +103,12 @@ void DepthFilter::extract(const DepthImage& image, uint32_t user_id, FilteredDep
     for (int y = 0; y < height; ++y) {
         const size_t row = size_t(y) * out.width;
         uint8_t* const mask = mask_.data() + row;
-        const uint32_t count = possible ? mark_row(image, row, user_id, mask) : 0;
-        if (count == 0) {
+        if (!possible) {
             std::fill_n(mask, width, uint8_t(FilteredDepth::kBackground));
             continue;
         }
+        const uint32_t count = mark_row(image, row, user_id, mask);
+        if (count == 0) continue;
         const auto measured = [](uint8_t m) { return m != FilteredDepth::kBackground; };
         const int first = int(std::find_if(mask, mask + width, measured) - mask);
         int last = width - 1;
@@ -134,7 +154,8 @@ void DepthFilter::patch_row(const DepthImage& image, size_t row, int first, int 
                 empty = empty && image.depth[row + size_t(i)] == 0;
                 marked = marked && image.users[row + size_t(i)] == user_id;
             }
-            const bool speckle = hole <= longest_hole && std::abs(depth[x] - depth[left]) < kSameSurface_m;
+            const bool speckle = hole <= longest_hole && std::abs(depth[x] - depth[left]) < kSameSurface_m &&
+                                 gap_height(image, row + size_t(left + 1 + hole / 2), user_id, longest_hole) <= longest_hole;
             if (empty && (marked || speckle)) {
                 const float slope = (depth[x] - depth[left]) / float(hole + 1);
                 for (int i = left + 1; i < x; ++i) {

@@ -5,7 +5,8 @@
 //
 // A pixel without a reading (depth 0) is never a source of data. It is patched on its way along the row, by
 // linear interpolation between the person's readings on both sides, if the user map calls it the person's, or
-// if it is a hole no longer than the kernel whose two sides lie on one surface. Every other one is background.
+// if it lies in a hole no wider and no higher than the kernel whose two sides lie on one surface (the long gap
+// between arm and trunk is no hole). Every other one is background.
 #pragma once
 
 #include <cstdint>

@@ -1,16 +1,53 @@
 #include "client/fitting.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace vfit::tools {
 
 namespace {
 
 constexpr double kClothStep_s = 1.0 / 60.0;
-// Before the first frame the garment hangs for a while, so that it does not fall into the picture.
-constexpr int kSettleSteps = 90;
+// Before the first frame the garment hangs for a while, so that it does not fall into the picture: first with
+// the arms held out, then they come in from there, or a hand beside the thigh would start inside the skirt.
+constexpr int kHangSteps = 30, kArmSteps = 45, kSettleSteps = 15;
+constexpr float kArmsOut_rad = 0.9f;  // of the upper arms below the T-pose's level
 
 double seconds(int64_t ns) { return double(ns) * 1e-9; }
+
+/// A turn about Z.
+void set_turn(float (&q)[4], float angle) {
+    q[0] = q[1] = 0.0f;
+    q[2] = std::sin(0.5f * angle);
+    q[3] = std::cos(0.5f * angle);
+}
+
+/// From rotation a to b on the short way: normalised linear blend.
+void blend(float (&a)[4], const float (&b)[4], float t) {
+    float dot = 0.0f, length2 = 0.0f, out[4];
+    for (int i = 0; i < 4; ++i) dot += a[i] * b[i];
+    for (int i = 0; i < 4; ++i) {
+        out[i] = a[i] * (1.0f - t) + (dot < 0.0f ? -b[i] : b[i]) * t;
+        length2 += out[i] * out[i];
+    }
+    for (int i = 0; i < 4; ++i) a[i] = out[i] / std::sqrt(length2);
+}
+
+/// The pose with its arms that share of the way from held out to where they are.
+std::vector<vfit_bone> with_arms(std::vector<vfit_bone> bones, float share) {
+    for (vfit_bone& bone : bones) {
+        const bool left = bone.bone >= VFIT_BONE_LEFT_UPPER_ARM && bone.bone <= VFIT_BONE_LEFT_HAND;
+        const bool right = bone.bone >= VFIT_BONE_RIGHT_UPPER_ARM && bone.bone <= VFIT_BONE_RIGHT_HAND;
+        if (!left && !right) continue;
+        const bool upper = bone.bone == VFIT_BONE_LEFT_UPPER_ARM || bone.bone == VFIT_BONE_RIGHT_UPPER_ARM;
+        float held_out[4];
+        set_turn(held_out, upper ? (left ? -kArmsOut_rad : kArmsOut_rad) : 0.0f);
+        blend(held_out, bone.rotation, share);
+        std::copy(std::begin(held_out), std::end(held_out), bone.rotation);
+    }
+    return bones;
+}
 
 }  // namespace
 
@@ -37,7 +74,7 @@ void Fitting::dress() {
     check(vfit_motion_bind(motion_.get(), avatar_.get()));
     const vfit_view depth = view_of(scan_frame_.get(), VFIT_STREAM_DEPTH);
     check(vfit_motion_step(motion_.get(), scan_frame_.get(), scan_.body_id, depth.time_ns));
-    pose_avatar();
+    pose_avatar(1.0f);
     vfit_cloth_desc cloth = vfit_cloth_desc_init();
     if (!options_.size.empty()) cloth.size_label = options_.size.c_str();
     check(vfit_cloth_create(avatar_.get(), garment_.get(), &cloth, cloth_.out()));
@@ -46,12 +83,25 @@ void Fitting::dress() {
     check(vfit_cloth_acquire(cloth_.get(), garment.out()));
 }
 
-void Fitting::pose_avatar() {
-    vfit_pose pose = vfit_pose_init();
-    const auto bones = list<vfit_bone>([&](auto* items, uint32_t stride, uint32_t* n) {
+std::vector<vfit_bone> Fitting::bones(vfit_pose& pose) const {
+    return list<vfit_bone>([&](auto* items, uint32_t stride, uint32_t* n) {
         return vfit_motion_pose(motion_.get(), &pose, items, stride, n);
     });
-    check(vfit_avatar_pose(avatar_.get(), &pose, bones.data(), sizeof(vfit_bone), static_cast<uint32_t>(bones.size())));
+}
+
+void Fitting::pose_avatar(float arms) {
+    vfit_pose pose = vfit_pose_init();
+    const auto posed = with_arms(bones(pose), arms);
+    check(vfit_avatar_pose(avatar_.get(), &pose, posed.data(), sizeof(vfit_bone), static_cast<uint32_t>(posed.size())));
+}
+
+void Fitting::settle() {
+    pose_avatar(0.0f);
+    check(vfit_cloth_reset(cloth_.get()));
+    for (int i = 0; i < kHangSteps + kArmSteps + kSettleSteps; ++i) {
+        pose_avatar(std::clamp(float(i - kHangSteps) / kArmSteps, 0.0f, 1.0f));
+        check(vfit_cloth_step(cloth_.get(), float(kClothStep_s)));
+    }
 }
 
 void Fitting::play(const std::function<void(vfit_frame, double)>& on_frame) {
@@ -68,12 +118,11 @@ void Fitting::play(const std::function<void(vfit_frame, double)>& on_frame) {
         if (body == 0) body = first_body(tracked.get());
         const int64_t now_ns = view_of(tracked.get(), VFIT_STREAM_DEPTH).time_ns;
         if (check(vfit_motion_step(motion_.get(), tracked.get(), body, now_ns)) == VFIT_OK) {
-            pose_avatar();
             if (frames_played_++ == 0) {
                 first_ns = now_ns;
-                check(vfit_cloth_reset(cloth_.get()));
-                for (int i = 0; i < kSettleSteps; ++i) check(vfit_cloth_step(cloth_.get(), float(kClothStep_s)));
+                settle();
             }
+            pose_avatar(1.0f);
             const double time = seconds(now_ns - first_ns);
             for (; cloth_time < time; cloth_time += kClothStep_s) check(vfit_cloth_step(cloth_.get(), float(kClothStep_s)));
             on_frame(tracked.get(), time);

@@ -38,7 +38,10 @@ public:
 
 private:
     void dress();
-    void pose_avatar();
+    std::vector<vfit_bone> bones(vfit_pose& pose) const;
+    /// arms: 1 as tracked, 0 held out.
+    void pose_avatar(float arms);
+    void settle();
 
     vfit_context context_;
     FittingOptions options_;

@@ -1,4 +1,5 @@
 // vfit fit: the whole chain on one source; leaves result.json, pictures and an animated GLB.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -18,7 +19,7 @@ namespace {
 constexpr int kPictureWidth = 620, kPictureHeight = 930;  // of the dressed avatar, pixels
 constexpr size_t kPortraits = 4;                           // moments of the motion
 constexpr double kKeyInterval_s = 0.1;                     // of the GLB's key frames
-constexpr size_t kMaxKeys = 60;
+constexpr size_t kMaxKeys = 80;
 
 struct Options {
     FittingOptions fitting;
@@ -67,11 +68,33 @@ private:
     std::vector<std::string> names_;
 };
 
-/// Moments spread over the motion; which ones is known only at its end, so every candidate is weighed.
-std::vector<Moment> spread(std::vector<Moment>& all) {
+/// How differently the person stands in two moments: mean distance of the skin over the floor's centre.
+float difference(const Moment& a, const Moment& b) {
+    const auto &p = a.meshes[0].positions, &q = b.meshes[0].positions;
+    float sum = 0.0f;
+    for (size_t i = 0; i < p.size(); i += 16) sum += glm::length((p[i] - a.centre) - (q[i] - b.centre));
+    return sum;
+}
+
+/// The first moment, and those that differ most from each other, in the order of time.
+std::vector<Moment> choose(const std::vector<Moment>& all) {
+    std::vector<size_t> chosen{0};
+    while (chosen.size() < std::min(kPortraits, all.size())) {
+        size_t best = 0;
+        float widest = -1.0f;
+        for (size_t i = 0; i < all.size(); ++i) {
+            float nearest = 1e9f;
+            for (const size_t c : chosen) nearest = std::min(nearest, difference(all[i], all[c]));
+            if (nearest > widest) {
+                widest = nearest;
+                best = i;
+            }
+        }
+        chosen.push_back(best);
+    }
+    std::sort(chosen.begin(), chosen.end());
     std::vector<Moment> out;
-    for (size_t k = 0; k < kPortraits && !all.empty(); ++k)
-        out.push_back(all[k * (all.size() - 1) / std::max<size_t>(1, kPortraits - 1)]);
+    for (const size_t i : chosen) out.push_back(all[i]);
     return out;
 }
 
@@ -149,7 +172,7 @@ Json fit(const Options& options) {
     result["stage_ms"] = timings(context.get());
 
     Album album(options.out);
-    draw_all(album, fitting, spread(moments), title_of(result));
+    draw_all(album, fitting, choose(moments), title_of(result));
     animation.write(album.path("avatar.glb"));
     result["pictures"] = album.names();
     result["animation"] = "avatar.glb";

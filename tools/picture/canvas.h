@@ -19,6 +19,13 @@ inline Color mix(const Color& a, const Color& b, float t) {
 class Canvas {
 public:
     Canvas(int width, int height, const Color& background = {});
+    // cv::Mat shares its pixels when copied; a picture does not.
+    Canvas(const Canvas& other) : image_(other.image_.clone()) {}
+    Canvas(Canvas&&) = default;
+    Canvas& operator=(Canvas other) {
+        image_ = other.image_;
+        return *this;
+    }
 
     int width() const { return image_.cols; }
     int height() const { return image_.rows; }

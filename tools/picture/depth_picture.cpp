@@ -66,20 +66,17 @@ struct Range {
     float near, far;
 };
 
-/// Where most of the readings lie, so that one far speck does not darken the room.
-Range depth_range(const vfit_view& depth) {
-    std::vector<uint16_t> seen;
-    const auto* d = static_cast<const uint16_t*>(depth.data);
-    for (size_t i = 0; i < size_t(depth.width) * depth.height; i += 7)
-        if (d[i] > 0) seen.push_back(d[i]);
+/// Where all but `share` of the readings on either side lie, so that a few specks do not flatten the picture.
+Range depth_range(std::vector<uint16_t> seen, double share) {
     if (seen.empty()) return {0.0f, 1.0f};
     std::sort(seen.begin(), seen.end());
-    const float near = seen[seen.size() / 100], far = seen[seen.size() - 1 - seen.size() / 100];
+    const auto cut = static_cast<size_t>(double(seen.size()) * share);
+    const float near = seen[cut], far = seen[seen.size() - 1 - cut];
     return {near, std::max(far, near + 1.0f)};
 }
 
 Color room_color(float t) { return mix({0.62f, 0.68f, 0.78f}, {0.12f, 0.14f, 0.22f}, t); }
-Color person_color(float t) { return mix({1.00f, 0.88f, 0.66f}, {0.42f, 0.16f, 0.30f}, t); }
+Color person_color(float t) { return mix({1.00f, 0.90f, 0.70f}, {0.52f, 0.22f, 0.36f}, t); }
 
 Color side_color(vfit_joint_id joint) {
     const std::string name = joint_name(joint);
@@ -95,22 +92,18 @@ Canvas draw_depth(vfit_frame frame, int scale) {
     if (has_stream(frame, VFIT_STREAM_USER_MAP))
         users = static_cast<const uint8_t*>(view_of(frame, VFIT_STREAM_USER_MAP).data);
     const int w = static_cast<int>(depth.width), h = static_cast<int>(depth.height);
-    const Range room = depth_range(depth);
-    float near = 1e9f, far = 0.0f;  // of the person
-    for (size_t i = 0; users && i < size_t(w) * h; ++i)
-        if (users[i] && d[i]) {
-            near = std::min<float>(near, d[i]);
-            far = std::max<float>(far, d[i]);
-        }
+    std::vector<uint16_t> of_room, of_person;
+    for (size_t i = 0; i < size_t(w) * h; ++i)
+        if (d[i]) (users && users[i] ? of_person : of_room).push_back(d[i]);
+    const Range room = depth_range(std::move(of_room), 0.01), body = depth_range(std::move(of_person), 0.08);
     Canvas canvas(w * scale, h * scale);
     for (int y = 0; y < h * scale; ++y)
         for (int x = 0; x < w * scale; ++x) {
             const size_t i = size_t(y / scale) * w + x / scale;
             if (d[i] == 0) continue;
             const bool person = users && users[i];
-            const float t = person ? (d[i] - near) / std::max(far - near, 1.0f)
-                                   : (d[i] - room.near) / (room.far - room.near);
-            const float s = std::clamp(t, 0.0f, 1.0f);
+            const Range& range = person ? body : room;
+            const float s = std::clamp((d[i] - range.near) / (range.far - range.near), 0.0f, 1.0f);
             canvas.set(x, y, person ? person_color(s) : room_color(s));
         }
     return canvas;

@@ -7,7 +7,7 @@ namespace vfit::tools {
 namespace {
 
 constexpr float kAbove = 0.08f;  // m: cloth that far over the skin covers it
-constexpr float kBelow = 0.04f;  // m: skin that sticks out of the cloth by that much is covered too
+constexpr float kBelow = 0.09f;  // m: skin that sticks out of the cloth by that much is covered too
 
 }  // namespace
 

@@ -42,8 +42,9 @@ struct Range {
 };
 
 TEST(TapeOnBody, DefaultBodiesLieWithinTheAdultRange) {
-    // Mean -+ 3 standard deviations of ANSUR II where it has the measure, lengths by its share of stature -+ 10 %.
-    // The default bodies are slim: the lower ends of waist and hip are those of EN 13402-3's smallest sizes.
+    // Mean -+ 3 standard deviations of ANSUR II where it has the measure, lengths by its share of stature -+
+    // 10 %. The default bodies are slim: the lower ends of waist and hip are those of EN 13402-3's smallest
+    // sizes.
     const Range ranges[] = {
         {"stature_m", 1.44f, 1.82f, 1.55f, 1.96f},        {"chest_girth_m", 0.80f, 1.05f, 0.80f, 1.32f},
         {"underbust_girth_m", 0.60f, 0.90f, 0.0f, 0.0f},  {"waist_girth_m", 0.60f, 1.00f, 0.68f, 1.10f},
@@ -83,7 +84,9 @@ struct Follower {
 
 TEST(TapeOnBody, EachMeasureRisesWithItsSliderAndLeavesTheOthers) {
     const Follower followers[] = {
-        {"measure-waist-circ", "waist_girth_m", {"hip_girth_m", "neck_girth_m", "thigh_girth_m", "inside_leg_m"}},
+        {"measure-waist-circ",
+         "waist_girth_m",
+         {"hip_girth_m", "neck_girth_m", "thigh_girth_m", "inside_leg_m"}},
         {"measure-hips-circ", "hip_girth_m", {"waist_girth_m", "chest_girth_m", "neck_girth_m"}},
         {"measure-bust-circ", "chest_girth_m", {"hip_girth_m", "neck_girth_m", "inside_leg_m"}},
         {"measure-neck-circ", "neck_girth_m", {"chest_girth_m", "waist_girth_m", "hip_girth_m"}},
@@ -97,7 +100,8 @@ TEST(TapeOnBody, EachMeasureRisesWithItsSliderAndLeavesTheOthers) {
             float before = 0.0f;
             for (const float s : {-1.0f, -0.5f, 0.0f, 0.5f, 1.0f}) {
                 const auto m = measures(sex, {{follower.slider, s}});
-                EXPECT_GT(value(m, follower.key), before + 0.002f) << follower.slider << " at " << s << " sex " << sex;
+                EXPECT_GT(value(m, follower.key), before + 0.002f)
+                    << follower.slider << " at " << s << " sex " << sex;
                 before = value(m, follower.key);
                 for (const char* key : follower.unmoved)
                     EXPECT_NEAR(value(m, key), value(middle, key), 0.002f)
@@ -121,10 +125,18 @@ TEST(TapeOnBody, MeasuresChangeWithoutJumps) {
 
 TEST(TapeOnBody, StoutBodiesCanBeMeasured) {
     for (const vfit_sex sex : kSexes) {
-        const auto slim = measures(sex, {{"weight", 0.2f}}), stout = measures(sex, {{"weight", 1.15f}, {"age", 0.8f}});
-        for (const char* key : {"chest_girth_m", "waist_girth_m", "hip_girth_m", "thigh_girth_m", "upper_arm_girth_m"})
+        const auto slim = measures(sex, {{"weight", 0.2f}}), stout = measures(sex, {{"weight", 1.15f}});
+        for (const char* key :
+             {"chest_girth_m", "waist_girth_m", "hip_girth_m", "thigh_girth_m", "upper_arm_girth_m"})
             EXPECT_GT(value(stout, key), value(slim, key) + 0.02f) << key;
     }
+}
+
+TEST(TapeOnBody, ABellyIsNotTakenForTheBust) {
+    const auto middle = measures(VFIT_SEX_FEMALE),
+               belly = measures(VFIT_SEX_FEMALE, {{"measure-waist-circ", 1.0f}});
+    EXPECT_GT(value(belly, "waist_girth_m"), value(middle, "waist_girth_m") + 0.05f);
+    EXPECT_NEAR(value(belly, "chest_girth_m"), value(middle, "chest_girth_m"), 0.005f);
 }
 
 TEST(TapeOnBody, FinerMeshesHaveTheSameMeasures) {
@@ -132,7 +144,8 @@ TEST(TapeOnBody, FinerMeshesHaveTheSameMeasures) {
         AvatarDesc fine;
         fine.sex = sex;
         fine.detail = 1;
-        const auto coarse = measures(sex), m = measure_avatar(Avatar(body_model(), fine, {}, Vec2(1.0f)), sex);
+        const auto coarse = measures(sex),
+                   m = measure_avatar(Avatar(body_model(), fine, {}, Vec2(1.0f)), sex);
         // Subdivision rounds the faces: a few millimetres.
         for (const Measurement& measure : m)
             EXPECT_NEAR(measure.value, value(coarse, measure.key), 0.012f) << measure.key << " sex " << sex;

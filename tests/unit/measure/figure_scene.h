@@ -31,6 +31,9 @@ inline constexpr float kStature_m = 1.70f, kHeadRadius_m = 0.10f, kShoulderJoint
                        kHipHalfBreadth_m = 0.16f, kHipHeight_m = 0.90f, kElbow_y = 1.10f, kShoulder_y = 1.40f,
                        kFingertip_y = 0.68f, kTorso_m = 0.46f;
 
+/// What a camera sees of a trunk that is 0.10 m deep to either side: its front edges, 2.7 m away.
+inline constexpr float kSeenHipBreadth_m = 2.0f * kHipHalfBreadth_m * 2.8f / 2.7f;
+
 /// Arms hanging straight down, clear of the trunk, at distance z before the camera.
 inline Figure standing_figure(float z = 2.8f) {
     Figure f;

@@ -42,12 +42,14 @@ Mesh implicit_mesh(const Vec3& low, const Vec3& high, float step, const Field& f
         return found->second;
     };
     const auto triangle = [&](uint32_t a, uint32_t b, uint32_t c, const Vec3& outside) {
-        const Vec3 pa = mesh.positions[a], normal = glm::cross(mesh.positions[b] - pa, mesh.positions[c] - pa);
+        const Vec3 pa = mesh.positions[a],
+                   normal = glm::cross(mesh.positions[b] - pa, mesh.positions[c] - pa);
         if (glm::dot(normal, outside - pa) < 0.0f) std::swap(b, c);
         mesh.indices.insert(mesh.indices.end(), {a, b, c});
     };
     // Six tetrahedra about the cell's diagonal.
-    constexpr int kTetrahedra[6][4] = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
+    constexpr int kTetrahedra[6][4] = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7},
+                                       {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
     for (uint32_t z = 0; z + 1 < n.z; ++z)
         for (uint32_t y = 0; y + 1 < n.y; ++y)
             for (uint32_t x = 0; x + 1 < n.x; ++x)
@@ -59,12 +61,14 @@ Mesh implicit_mesh(const Vec3& low, const Vec3& high, float step, const Field& f
                         (value[i] < 0.0f ? in[size_t(ins++)] : out[size_t(outs++)]) = i;
                     }
                     if (ins == 1)
-                        triangle(vertex(in[0], out[0]), vertex(in[0], out[1]), vertex(in[0], out[2]), corner[out[0]]);
+                        triangle(vertex(in[0], out[0]), vertex(in[0], out[1]), vertex(in[0], out[2]),
+                                 corner[out[0]]);
                     if (ins == 3)
-                        triangle(vertex(in[0], out[0]), vertex(in[1], out[0]), vertex(in[2], out[0]), corner[out[0]]);
+                        triangle(vertex(in[0], out[0]), vertex(in[1], out[0]), vertex(in[2], out[0]),
+                                 corner[out[0]]);
                     if (ins == 2) {
-                        const uint32_t a = vertex(in[0], out[0]), b = vertex(in[0], out[1]), c = vertex(in[1], out[1]),
-                                       d = vertex(in[1], out[0]);
+                        const uint32_t a = vertex(in[0], out[0]), b = vertex(in[0], out[1]),
+                                       c = vertex(in[1], out[1]), d = vertex(in[1], out[0]);
                         triangle(a, b, c, corner[out[1]]);
                         triangle(a, c, d, corner[out[0]]);
                     }

@@ -30,10 +30,12 @@ TEST(MeasureKeys, AreFoundByName) {
 
 TEST(MeasureKeys, HoldEveryDocumentedKey) {
     for (const char* key :
-         {"stature_m", "chest_girth_m", "underbust_girth_m", "waist_girth_m", "hip_girth_m", "neck_girth_m",
-          "thigh_girth_m", "upper_arm_girth_m", "shoulder_breadth_m", "biacromial_breadth_m", "hip_breadth_m",
-          "inside_leg_m", "arm_length_m", "torso_height_m", "hip_height_m", "elbow_fingertip_m", "head_height_m",
-          "head_width_m", "chest_breadth_m", "waist_breadth_m", "chest_depth_m", "waist_depth_m", "hip_depth_m"})
+         {"stature_m",          "chest_girth_m",        "underbust_girth_m", "waist_girth_m",
+          "hip_girth_m",        "neck_girth_m",         "thigh_girth_m",     "upper_arm_girth_m",
+          "shoulder_breadth_m", "biacromial_breadth_m", "hip_breadth_m",     "inside_leg_m",
+          "arm_length_m",       "torso_height_m",       "hip_height_m",      "elbow_fingertip_m",
+          "head_height_m",      "head_width_m",         "chest_breadth_m",   "waist_breadth_m",
+          "chest_depth_m",      "waist_depth_m",        "hip_depth_m"})
         EXPECT_GE(measure_index(key), 0) << key;
 }
 

@@ -59,15 +59,16 @@ TEST(MeshQuery, ClosestPointIsTheBestOfAllTriangles) {
         const Vec3 p = random_point(random, 0.6f);
         float best = kInfinity;
         for (size_t t = 0; t < mesh.indices.size(); t += 3) {
-            const TriangleCorners corners{mesh.positions[mesh.indices[t]], mesh.positions[mesh.indices[t + 1]],
+            const TriangleCorners corners{mesh.positions[mesh.indices[t]],
+                                          mesh.positions[mesh.indices[t + 1]],
                                           mesh.positions[mesh.indices[t + 2]]};
             best = std::min(best, glm::distance(closest_point(corners, p).position, p));
         }
         const MeshQuery::Closest c = q.closest(p);
         EXPECT_NEAR(c.distance, best, 1e-7f);
         const uint32_t* corner = &mesh.indices[3 * c.triangle];
-        const Vec3 named = (1.0f - c.uv.x - c.uv.y) * mesh.positions[corner[0]] + c.uv.x * mesh.positions[corner[1]] +
-                           c.uv.y * mesh.positions[corner[2]];
+        const Vec3 named = (1.0f - c.uv.x - c.uv.y) * mesh.positions[corner[0]] +
+                           c.uv.x * mesh.positions[corner[1]] + c.uv.y * mesh.positions[corner[2]];
         EXPECT_LT(glm::distance(named, c.point), 1e-6f);
     }
 }
@@ -98,7 +99,9 @@ TEST(MeshQuery, OfTrianglesThatTieTheFirstIsNamed) {
         for (uint32_t t = 0; t < q.indices().size() / 3; ++t) {
             const uint32_t* v = &q.indices()[3 * t];
             const Vec3 offset =
-                closest_point({q.positions()[v[0]], q.positions()[v[1]], q.positions()[v[2]]}, corner).position - corner;
+                closest_point({q.positions()[v[0]], q.positions()[v[1]], q.positions()[v[2]]}, corner)
+                    .position -
+                corner;
             if (glm::dot(offset, offset) < best) best = glm::dot(offset, offset), first = t;
         }
         EXPECT_EQ(q.closest(corner).triangle, first);
@@ -131,7 +134,8 @@ TEST(MeshQuery, InsideHoldsForPointsInLineWithVerticesAndEdges) {
     for (float x = -0.9f; x < 1.0f; x += 0.1f)
         for (float z = -0.9f; z < 1.0f; z += 0.1f)
             for (const float y : {-0.5f, 0.25f, 0.5f, 1.5f}) {
-                const bool inside = y > 0.0f && y < 1.0f && std::max(std::abs(x), std::abs(z)) < std::sqrt(0.5f);
+                const bool inside =
+                    y > 0.0f && y < 1.0f && std::max(std::abs(x), std::abs(z)) < std::sqrt(0.5f);
                 EXPECT_EQ(q.inside({x, y, z}), inside) << x << ' ' << y << ' ' << z;
             }
 }

@@ -15,7 +15,8 @@ Mesh grid(uint32_t rows, uint32_t columns, bool ring, const Place& place) {
     Mesh mesh;
     const uint32_t levels = ring ? rows : rows + 1;
     for (uint32_t r = 0; r < levels; ++r)
-        for (uint32_t c = 0; c < columns; ++c) mesh.positions.push_back(place(float(r) / float(rows), float(c) / float(columns)));
+        for (uint32_t c = 0; c < columns; ++c)
+            mesh.positions.push_back(place(float(r) / float(rows), float(c) / float(columns)));
     for (uint32_t r = 0; r < rows; ++r)
         for (uint32_t c = 0; c < columns; ++c) {
             const uint32_t above = (r + 1) % levels, next = (c + 1) % columns;
@@ -30,7 +31,8 @@ Mesh grid(uint32_t rows, uint32_t columns, bool ring, const Place& place) {
 inline void close_ends(Mesh& mesh, uint32_t columns) {
     const uint32_t count = static_cast<uint32_t>(mesh.positions.size());
     for (const bool top : {false, true}) {
-        const uint32_t first = top ? count - columns : 0, center = static_cast<uint32_t>(mesh.positions.size());
+        const uint32_t first = top ? count - columns : 0,
+                       center = static_cast<uint32_t>(mesh.positions.size());
         Vec3 mean(0.0f);
         for (uint32_t c = 0; c < columns; ++c) mean += mesh.positions[first + c] / float(columns);
         mesh.positions.push_back(mean);
@@ -61,7 +63,8 @@ inline Mesh cylinder(float radius, float height, uint32_t rows, uint32_t columns
 /// About the origin.
 inline Mesh ellipsoid(const Vec3& radii, uint32_t rows, uint32_t columns) {
     Mesh mesh = grid(rows, columns, false, [&](float r, float c) {
-        const float rows_f = float(rows), polar = kPi * (r * rows_f + 0.5f) / (rows_f + 1.0f), a = 2.0f * kPi * c;
+        const float rows_f = float(rows), polar = kPi * (r * rows_f + 0.5f) / (rows_f + 1.0f),
+                    a = 2.0f * kPi * c;
         return radii * Vec3(std::sin(polar) * std::cos(a), -std::cos(polar), std::sin(polar) * std::sin(a));
     });
     close_ends(mesh, columns);
@@ -82,7 +85,8 @@ inline Mesh torus(float ring, float pipe, uint32_t rows, uint32_t columns) {
 /// Ramanujan's second formula; below 1e-9 relative for the axes used here.
 inline float ellipse_perimeter(float a, float b) {
     const double h = std::pow((double(a) - b) / (double(a) + b), 2.0);
-    return static_cast<float>(double(kPi) * (double(a) + b) * (1.0 + 3.0 * h / (10.0 + std::sqrt(4.0 - 3.0 * h))));
+    return static_cast<float>(double(kPi) * (double(a) + b) *
+                              (1.0 + 3.0 * h / (10.0 + std::sqrt(4.0 - 3.0 * h))));
 }
 
 }  // namespace vfit::test

@@ -120,6 +120,7 @@ TEST(Section, RefusesBadInput) {
     const Mesh mesh = cylinder(0.2f, 1.0f, 8, 64);
     EXPECT_THROW(cut_mesh(mesh, {0, 0, 0}, {0, 0, 0}), Error);
     EXPECT_THROW(cut_mesh(mesh, {0, 0, 0}, {0, std::nanf(""), 0}), Error);
+    EXPECT_THROW(cut(mesh.positions, std::vector<uint32_t>{0, 1}, {0, 0.5f, 0}, {0, 1, 0}), Error);
     EXPECT_THROW(cut(mesh.positions, std::vector<uint32_t>{0, 1, 9999}, {0, 0.5f, 0}, {0, 1, 0}), Error);
     EXPECT_THROW(cut(mesh.positions, mesh.indices, {0, 0.5f, 0}, {0, 1, 0}, std::vector<uint8_t>(3)), Error);
 }

@@ -37,13 +37,13 @@ TEST(SphereFit, FindsTheRadiusOfASphere) {
 
 TEST(SphereFit, TakesTheSmallestOfTheFiveDirections) {
     Figure slab;
-    const Vec3 center(0.0f, 1.0f, -2.0f);
-    slab.boxes.push_back({center - Vec3(0.06f, 0.30f, 0.20f), center + Vec3(0.06f, 0.30f, 0.20f)});
+    const Vec3 center(0.0f, 0.70f, -2.0f);  // its upper edge level with the camera: no perspective there
+    slab.boxes.push_back({center - Vec3(0.06f, 0.30f, 0.10f), center + Vec3(0.06f, 0.30f, 0.10f)});
     Fitted fit(slab, straight_camera());
     EXPECT_NEAR(fit.at(center), 0.06f, 0.005f) << "side to side";
     EXPECT_NEAR(fit.at(center + Vec3(0.03f, 0, 0)), 0.03f, 0.005f) << "off the middle";
     EXPECT_NEAR(fit.at(center + Vec3(0, 0.28f, 0)), 0.02f, 0.005f) << "below the upper edge";
-    EXPECT_NEAR(fit.at(center + Vec3(0, 0, 0.17f)), 0.03f, 0.005f) << "behind the surface, Eq. 3";
+    EXPECT_NEAR(fit.at(center + Vec3(0, 0, 0.07f)), 0.03f, 0.005f) << "behind the surface, Eq. 3";
 }
 
 TEST(SphereFit, EndsWhereTheDepthJumpsWithinThePerson) {
@@ -51,7 +51,7 @@ TEST(SphereFit, EndsWhereTheDepthJumpsWithinThePerson) {
     const Vec3 center(0.0f, 1.0f, -1.8f);
     arm.boxes.push_back({{-0.30f, 0.6f, -2.3f}, {0.30f, 1.4f, -2.2f}});  // the trunk behind
     arm.boxes.push_back({center - Vec3(0.04f, 0.30f, 0.06f), center + Vec3(0.04f, 0.30f, 0.06f)});
-    EXPECT_NEAR(Fitted(arm, straight_camera()).at(center), 0.04f, 0.007f);
+    EXPECT_NEAR(Fitted(arm, straight_camera()).at(center), 0.04f, 0.004f);
 }
 
 TEST(SphereFit, DiscardsDirectionsThatReachTheBorderOfTheImage) {
@@ -72,6 +72,7 @@ TEST(SphereFit, DoesNotMeasureJointsOutsideThePerson) {
     EXPECT_EQ(fit.at({1.0f, 1.0f, -2.8f}), 0.0f);
     EXPECT_EQ(fit.at({0.0f, 1.0f, 1.0f}), 0.0f) << "behind the camera";
     EXPECT_EQ(fit.at({40.0f, 1.0f, -2.8f}), 0.0f) << "outside the image";
+    EXPECT_EQ(fit_sphere(fit.depth, fit.picture.camera, {1.0f, 1.0f, 1e-30f}), 0.0f) << "in the camera";
 }
 
 TEST(SphereFit, FitsTheFifteenJointsAndLeavesOutTheUnseen) {

@@ -25,7 +25,8 @@ const Vec3 kBust(0.06f, 1.20f, 0.09f);
 constexpr float kBustRadius = 0.05f, kHand = 0.10f;
 
 float cylinder_field(const Vec3& p, float a, float b, float low, float high) {
-    return std::max((glm::length(Vec2(p.x / a, p.z / b)) - 1.0f) * std::min(a, b), std::max(low - p.y, p.y - high));
+    return std::max((glm::length(Vec2(p.x / a, p.z / b)) - 1.0f) * std::min(a, b),
+                    std::max(low - p.y, p.y - high));
 }
 float ellipsoid_field(const Vec3& p, const Vec3& radii) {
     return (glm::length(p / radii) - 1.0f) * std::min(radii.x, std::min(radii.y, radii.z));
@@ -47,11 +48,13 @@ struct Person {
             const Vec3 q(std::abs(p.x), p.y, p.z);
             float d = std::min(cylinder_field(q, kTrunkA, kTrunkB, kCrotch, kTrunkTop),
                                cylinder_field(q, kNeck, kNeck, kTrunkTop - 0.02f, kHead.y));
-            d = std::min(d, std::max(ellipsoid_field(q - Vec3(0, 0.92f, 0), Vec3(kHipA, 0.1f, kHipB)), kCrotch - q.y));
+            d = std::min(
+                d, std::max(ellipsoid_field(q - Vec3(0, 0.92f, 0), Vec3(kHipA, 0.1f, kHipB)), kCrotch - q.y));
             return sex == VFIT_SEX_FEMALE ? std::min(d, glm::distance(q, kBust) - kBustRadius) : d;
         };
         const auto leg = [](const Vec3& p) {
-            return cylinder_field(Vec3(std::abs(p.x) - 0.1f, p.y, p.z), kThigh, kThigh, 0.0f, kCrotch + 0.05f);
+            return cylinder_field(Vec3(std::abs(p.x) - 0.1f, p.y, p.z), kThigh, kThigh, 0.0f,
+                                  kCrotch + 0.05f);
         };
         const auto upper_arm = [](const Vec3& p) {
             return capsule_field({std::abs(p.x), p.y, p.z}, kShoulder, kElbow, kArm);
@@ -59,15 +62,17 @@ struct Person {
         const auto lower_arm = [hand](const Vec3& p) {
             return capsule_field({std::abs(p.x), p.y, p.z}, kElbow, hand, 0.03f);
         };
-        mesh = implicit_mesh(Vec3(-0.52f, -0.033f, -0.18f), Vec3(0.52f, 1.8f, 0.18f), 0.0117f, [&](const Vec3& p) {
-            return std::min({head(p), trunk(p), leg(p), upper_arm(p), lower_arm(p)});
-        });
+        mesh = implicit_mesh(Vec3(-0.52f, -0.033f, -0.18f), Vec3(0.52f, 1.8f, 0.18f), 0.0117f,
+                             [&](const Vec3& p) {
+                                 return std::min({head(p), trunk(p), leg(p), upper_arm(p), lower_arm(p)});
+                             });
         for (const Vec3& p : mesh.positions) {
             const bool left = p.x > 0.0f;
             BodyPart part = BodyPart::kTorso;
             if (std::abs(head(p)) < 1e-4f && p.y > kTrunkTop) part = BodyPart::kHead;
             if (std::abs(leg(p)) < 1e-4f) part = left ? BodyPart::kLeftThigh : BodyPart::kRightThigh;
-            if (std::abs(upper_arm(p)) < 1e-4f) part = left ? BodyPart::kLeftUpperArm : BodyPart::kRightUpperArm;
+            if (std::abs(upper_arm(p)) < 1e-4f)
+                part = left ? BodyPart::kLeftUpperArm : BodyPart::kRightUpperArm;
             if (std::abs(lower_arm(p)) < 1e-4f)
                 part = p.y < kWrist.y ? (left ? BodyPart::kLeftHand : BodyPart::kRightHand)
                                       : (left ? BodyPart::kLeftForearm : BodyPart::kRightForearm);
@@ -152,7 +157,8 @@ TEST(Tape, LengthsRunBetweenTheLandmarks) {
     EXPECT_NEAR(value(m, "elbow_fingertip_m"), forearm + kHand + 0.03f, 1e-3f);
     // Over the middle of the upper arms, whose outside leans.
     const float lean = std::cos(std::atan2(kElbow.x - kShoulder.x, kShoulder.y - kElbow.y));
-    EXPECT_NEAR(value(m, "shoulder_breadth_m"), 2.0f * (0.5f * (kShoulder.x + kElbow.x) + kArm / lean), 0.01f);
+    EXPECT_NEAR(value(m, "shoulder_breadth_m"), 2.0f * (0.5f * (kShoulder.x + kElbow.x) + kArm / lean),
+                0.01f);
 }
 
 TEST(Tape, HeadIsMeasuredFromTheChinAndAboveTheEars) {
@@ -163,7 +169,8 @@ TEST(Tape, HeadIsMeasuredFromTheChinAndAboveTheEars) {
     const float crown = kHead.y + kHeadRadii.y;
     EXPECT_NEAR(value(m, "head_height_m"), crown - chin, 6e-3f);
     const float ears = crown - 0.4f * (crown - chin);
-    EXPECT_NEAR(value(m, "head_width_m"), 2.0f * kHeadRadii.x * radius_at((ears - kHead.y) / kHeadRadii.y), 3e-3f);
+    EXPECT_NEAR(value(m, "head_width_m"), 2.0f * kHeadRadii.x * radius_at((ears - kHead.y) / kHeadRadii.y),
+                3e-3f);
 }
 
 TEST(Tape, WomensChestIsTakenOverTheBustPointsAndBelowThem) {

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <future>
 #include <thread>
 
@@ -181,9 +182,16 @@ TEST(HostTable, PushAfterStopAndAfterCloseIsRefused) {
     vfit_frame frame{};
     fake.plugin.begin(frame);
     sensor->stop();
-    EXPECT_EQ(fake.plugin.push(frame), VFIT_ERROR_HANDLE) << "stop took the unfinished frame back";
+    fake.plugin.set_intrinsics(frame);
+    EXPECT_EQ(fake.plugin.push(frame), VFIT_ERROR_STATE);
     EXPECT_EQ(fake.plugin.begin(frame), VFIT_ERROR_STATE);
+    sensor->start();
+    fake.plugin.begin(frame);
     sensor->close();
+    void* pixels = nullptr;
+    fake.plugin.host->frame_pixels(fake.plugin.host->self, frame, VFIT_STREAM_DEPTH, &pixels, nullptr);
+    std::memset(pixels, 0xFF, 16);  // the plug-in's thread was late: its frame is still its own
+    EXPECT_EQ(fake.plugin.push(frame), VFIT_ERROR_HANDLE);
     EXPECT_EQ(fake.plugin.begin(frame), VFIT_ERROR_HANDLE);
     fake.plugin.end_stream(VFIT_END_OF_STREAM);
 }

@@ -85,7 +85,8 @@ TEST(DepthFilter, AgreesWithOpenCvOnAnyImageAlsoAtItsBorders) {
 
 TEST(DepthFilter, PatchesHolesOfThePersonAlongTheRow) {
     Image image(12, 3);
-    for (uint32_t x = 0; x < 12; ++x) image.set(x, 1, uint16_t(2000 + 10 * x), 1);
+    for (uint32_t y = 0; y < 3; ++y)
+        for (uint32_t x = 0; x < 12; ++x) image.set(x, y, uint16_t(2000 + 10 * x), 1);
     image.set(4, 1, 0, 1);
     image.set(5, 1, 0, 0);  // a speckle that the user map does not mark
     image.set(6, 1, 0, 1);
@@ -97,21 +98,38 @@ TEST(DepthFilter, PatchesHolesOfThePersonAlongTheRow) {
     image.users[12 + 5] = 1;
     const FilteredDepth out = plain.run(image.view(), 1);
     EXPECT_EQ(out.patched, 3u);
-    EXPECT_EQ(out.pixels, 9u);
+    EXPECT_EQ(out.pixels, 33u);
     EXPECT_NEAR(out.at(5, 1), 2.05f, 1e-6f);
     EXPECT_EQ(out.mask[12 + 5], FilteredDepth::kPatched);
-    EXPECT_NEAR(out.mean_m, 2.0f + 0.01f * (66.0f - 15.0f) / 9.0f, 1e-6f) << "patched pixels are no readings";
+    EXPECT_NEAR(out.mean_m, 2.0f + 0.01f * (3 * 66.0f - 15.0f) / 33.0f, 1e-6f) << "patched pixels are no readings";
+}
+
+TEST(DepthFilter, DoesNotPatchTheGapBetweenArmAndTrunk) {
+    Image image(20, 20);
+    for (uint32_t y = 0; y < 20; ++y)
+        for (uint32_t x = 0; x < 20; ++x)
+            if (x != 10) image.set(x, y, 2000, 1);
+    DepthFilter filter;
+    EXPECT_EQ(filter.run(image.view(), 1).patched, 0u) << "as wide as a hole, but through the whole image";
+    for (uint32_t y = 0; y < 20; ++y)
+        if (y != 7 && y != 8) image.set(10, y, 2000, 1);
+    EXPECT_EQ(filter.run(image.view(), 1).patched, 2u);
+    for (uint32_t y = 1; y < 9; ++y) image.set(10, y, 0, 0);
+    EXPECT_EQ(filter.run(image.view(), 1).patched, 0u) << "eight rows";
 }
 
 TEST(DepthFilter, DoesNotPatchBetweenTwoSurfacesNorOverAnotherReading) {
-    Image image(9, 1);
-    for (uint32_t x = 0; x < 9; ++x) image.set(x, 0, x < 4 ? 2000 : 2400, 1);
-    image.set(4, 0, 0, 0);  // between arm and trunk
+    Image image(9, 3);
+    for (uint32_t y = 0; y < 3; ++y)
+        for (uint32_t x = 0; x < 9; ++x) image.set(x, y, x < 4 ? 2000 : 2400, 1);
+    image.set(4, 1, 0, 0);  // the edge of an arm before the trunk
     DepthFilter filter;
     EXPECT_EQ(filter.run(image.view(), 1).patched, 0u);
-    EXPECT_FALSE(filter.run(image.view(), 1).inside(4, 0));
-    for (uint32_t x = 0; x < 9; ++x) image.set(x, 0, 2000, 1);
-    image.set(4, 0, 3500, 0);  // the wall seen through
+    EXPECT_FALSE(filter.run(image.view(), 1).inside(4, 1));
+    for (uint32_t x = 0; x < 9; ++x) image.set(x, 1, 2000, 1);
+    image.set(4, 1, 0, 0);
+    EXPECT_EQ(filter.run(image.view(), 1).patched, 1u);
+    image.set(4, 1, 3500, 0);  // the wall seen through
     EXPECT_EQ(filter.run(image.view(), 1).patched, 0u);
 }
 

@@ -1,0 +1,125 @@
+// Garment and Cloth: a garment on an avatar, simulated.
+#include <array>
+#include <limits>
+
+#include "avatar.h"
+#include "context.h"
+#include "frame.h"
+
+namespace vfit_python {
+
+namespace {
+
+class Garment : public Owned<vfit_garment, vfit_garment_destroy> {
+public:
+    using Owned::Owned;
+};
+
+class Cloth : public Owned<vfit_cloth, vfit_cloth_destroy> {
+public:
+    using Owned::Owned;
+};
+
+std::shared_ptr<Garment> open(const Context& context, const std::string& name) {
+    vfit_garment handle{};
+    run([&, h = context.handle()] { return vfit_garment_open(h, name.c_str(), &handle); });
+    return make<Garment>(context.core(), handle);
+}
+
+std::shared_ptr<Garment> load(const Context& context, const std::string& json) {
+    vfit_garment handle{};
+    run([&, h = context.handle()] { return vfit_garment_load(h, json.data(), json.size(), &handle); });
+    return make<Garment>(context.core(), handle);
+}
+
+py::object info(const Garment& garment) {
+    vfit_garment_info i = vfit_garment_info_init();
+    const vfit_garment handle = garment.get();
+    check(vfit_garment_describe(handle, &i));
+    py::list sizes;
+    for (uint32_t n = 0; n < i.size_count; ++n)
+        sizes.append(text([&](char* b, uint32_t c) { return vfit_garment_size_label(handle, n, b, c); }));
+    return value("GarmentInfo", field(i.name), field(i.garment_kind), field(i.fabric), i.vertex_count,
+                 i.simulated_count, py::tuple(sizes));
+}
+
+std::shared_ptr<Cloth> create(const Avatar& avatar, const Garment& garment,
+                              const std::optional<std::string>& size, uint32_t substeps,
+                              const std::optional<std::array<float, 3>>& gravity,
+                              const std::optional<float>& friction, const std::optional<float>& damping,
+                              float thickness_m) {
+    vfit_cloth_desc desc = vfit_cloth_desc_init();
+    desc.size_label = size ? size->c_str() : nullptr;
+    desc.substeps = substeps;
+    if (gravity) {
+        std::copy(gravity->begin(), gravity->end(), desc.gravity);
+        // The library takes all zero for its default; this is no gravity to a float, but not all zero.
+        if (*gravity == std::array<float, 3>{}) desc.gravity[1] = -std::numeric_limits<float>::min();
+    }
+    desc.friction = setting(friction);
+    desc.damping = setting(damping);
+    desc.thickness_m = thickness_m;
+    vfit_cloth handle{};
+    run([&, a = avatar.get(), g = garment.get()] { return vfit_cloth_create(a, g, &desc, &handle); });
+    return make<Cloth>(avatar.core(), handle);
+}
+
+std::unique_ptr<Frame> acquire(const Cloth& cloth) {
+    vfit_frame frame{};
+    run([&, c = cloth.get()] { return vfit_cloth_acquire(c, &frame); });
+    return std::make_unique<Frame>(cloth.core(), frame);
+}
+
+py::object stats(const Cloth& cloth) {
+    vfit_cloth_stats s = vfit_cloth_stats_init();
+    check(vfit_cloth_describe(cloth.get(), &s));
+    return value("ClothStats", s.vertex_count, s.simulated_count, s.constraint_count, s.strain_mean,
+                 s.strain_p99, s.strain_max, s.step_ms);
+}
+
+uint64_t state_hash(const Cloth& cloth) {
+    uint64_t hash = 0;
+    run([&, c = cloth.get()] { return vfit_cloth_state_hash(c, &hash); });
+    return hash;
+}
+
+constexpr float kStep_s = 1.0f / 60.0f;
+
+}  // namespace
+
+void bind_cloth(py::module_& m) {
+    closable(
+        py::class_<Garment, std::shared_ptr<Garment>>(m, "Garment",
+                                                      "A garment that can be worn (docs/garments.md).")
+            .def_static("open", &open, "context"_a, "name"_a, "A garment that comes with vfit, by its name.")
+            .def_static("load", &load, "context"_a, "json"_a, "A garment of your own, as JSON text.")
+            .def_property_readonly("info", &info));
+    closable(
+        py::class_<Cloth, std::shared_ptr<Cloth>>(m, "Cloth",
+                                                  "A garment on an avatar. Pose the avatar first, then step.")
+            .def(py::init(&create), py::keep_alive<1, 2>(), "avatar"_a, "garment"_a, py::kw_only(),
+                 "size"_a = py::none(), "substeps"_a = 0, "gravity"_a = py::none(), "friction"_a = py::none(),
+                 "damping"_a = py::none(), "thickness_m"_a = 0.0f,
+                 "size None: made to the avatar. substeps 0: 8 a 1/60 s.")
+            .def(
+                "step",
+                [](const Cloth& c, float dt) { run([h = c.get(), dt] { return vfit_cloth_step(h, dt); }); },
+                "dt"_a = kStep_s)
+            .def(
+                "begin_step",
+                [](const Cloth& c, float dt) {
+                    run([h = c.get(), dt] { return vfit_cloth_begin_step(h, dt); });
+                },
+                "dt"_a = kStep_s, "Starts a step on a worker and returns.")
+            .def(
+                "end_step", [](const Cloth& c) { run([h = c.get()] { return vfit_cloth_end_step(h); }); },
+                "Waits for the step that was begun.")
+            .def(
+                "reset", [](const Cloth& c) { run([h = c.get()] { return vfit_cloth_reset(h); }); },
+                "Back to the draped rest shape on the avatar as it is posed now.")
+            .def("acquire", &acquire, "positions, normals, uvs, triangles and strain.")
+            .def("stats", &stats)
+            .def("state_hash", &state_hash, "Equal hashes mean an equal state."));
+}
+
+}  // namespace vfit_python

@@ -1,0 +1,58 @@
+#include "scan.h"
+
+#include "context.h"
+#include "joints.h"
+
+namespace vfit_python {
+
+namespace {
+
+std::shared_ptr<Scan> create(const Context& context, uint32_t frames, const py::object& sex, int method) {
+    vfit_scan_desc desc = vfit_scan_desc_init();
+    desc.frame_count = frames;
+    desc.sex = sex_in(sex);
+    desc.method = method;
+    vfit_scan handle{};
+    run([&, h = context.handle()] { return vfit_scan_create(h, &desc, &handle); });
+    return make<Scan>(context.core(), handle);
+}
+
+py::object add(const Scan& scan, const Frame& frame, const std::optional<uint32_t>& body_id) {
+    vfit_scan_state state = vfit_scan_state_init();
+    const uint32_t body = body_or_first(frame, body_id);
+    const vfit_result result =
+        run([&, s = scan.get(), f = frame.get()] { return vfit_scan_add(s, f, body, &state); });
+    return value("ScanState", result != VFIT_INCOMPLETE, result == VFIT_OK, state.frames_taken,
+                 state.frames_wanted, value("Guidance", state.guidance), state.correction_m,
+                 state.compute_ms);
+}
+
+py::dict measure(const Scan& scan) { return measurements_out(list(vfit_scan_measure, scan.get())); }
+
+py::list colliders(const Scan& scan) { return colliders_out(list(vfit_scan_colliders, scan.get())); }
+
+py::object scale(const Scan& scan, const std::string& garment_kind) {
+    vfit_scale s = vfit_scale_init();
+    run([&, h = scan.get()] { return vfit_scan_scale(h, garment_kind.c_str(), &s); });
+    return value("Scale", s.x, s.y, s.sigma_x, s.sigma_y, s.width_m, s.height_m);
+}
+
+}  // namespace
+
+void bind_scan(py::module_& m) {
+    closable(py::class_<Scan, std::shared_ptr<Scan>>(
+                 m, "Scan", "Measures one person over several frames; closing it wipes the body data.")
+                 .def(py::init(&create), "context"_a, py::kw_only(), "frames"_a = 0, "sex"_a = py::none(),
+                      "method"_a = 0, "frames 0: 30, as in the paper.")
+                 .def("add", &add, "frame"_a, "body_id"_a = py::none(),
+                      "One tracked frame; the state says whether it was taken, and if not why. Default: its "
+                      "first body.")
+                 .def("measure", &measure,
+                      "key -> Measurement, from the first frame on; the values settle with each.")
+                 .def("colliders", &colliders, "Spheres of the person, centres as in the last frame.")
+                 .def("scale", &scale, "garment_kind"_a,
+                      "Algorithm 3 for \"short_sleeves\", \"long_sleeves\" or \"trousers\".")
+                 .def("reset", [](const Scan& s) { check(vfit_scan_reset(s.get())); }));
+}
+
+}  // namespace vfit_python

@@ -1,0 +1,59 @@
+// Tracker: bodies into frames, from the frame's own source or from the host.
+#include "context.h"
+#include "joints.h"
+
+namespace vfit_python {
+
+namespace {
+
+class Tracker : public Owned<vfit_tracker, vfit_tracker_destroy> {
+public:
+    using Owned::Owned;
+};
+
+std::shared_ptr<Tracker> create(const Context& context, const py::object& floor) {
+    const vfit_camera camera = floor.is_none() ? vfit_camera_init() : camera_in(floor);
+    vfit_tracker_desc desc = vfit_tracker_desc_init();
+    if (!floor.is_none()) desc.floor = &camera;
+    vfit_tracker handle{};
+    run([&, h = context.handle()] { return vfit_tracker_create(h, &desc, &handle); });
+    return make<Tracker>(context.core(), handle);
+}
+
+std::unique_ptr<Frame> update(const Tracker& tracker, const Frame& frame) {
+    vfit_frame tracked{};
+    run([&, t = tracker.get(), f = frame.get()] { return vfit_tracker_update(t, f, &tracked); });
+    return std::make_unique<Frame>(tracker.core(), tracked);
+}
+
+std::unique_ptr<Frame> submit(const Tracker& tracker, const Frame& frame, const py::object& joints,
+                              uint32_t body_id, int64_t time_ns, bool camera_space, bool partly_out_of_view) {
+    const std::vector<vfit_joint> items = joints_in(joints);
+    vfit_body body = vfit_body_init();
+    body.body_id = body_id;
+    body.time_ns = time_ns;
+    body.flags =
+        flag(camera_space, VFIT_BODY_CAMERA_SPACE) | flag(partly_out_of_view, VFIT_BODY_PARTLY_OUT_OF_VIEW);
+    vfit_frame tracked{};
+    run([&, t = tracker.get(), f = frame.get()] {
+        return vfit_tracker_submit(t, f, &body, items.data(), sizeof(vfit_joint),
+                                   static_cast<uint32_t>(items.size()), &tracked);
+    });
+    return std::make_unique<Frame>(tracker.core(), tracked);
+}
+
+}  // namespace
+
+void bind_tracker(py::module_& m) {
+    closable(py::class_<Tracker, std::shared_ptr<Tracker>>(
+                 m, "Tracker", "Makes tracked frames: images, user map and bodies.")
+                 .def(py::init(&create), "context"_a, py::kw_only(), "floor"_a = py::none(),
+                      "floor: a Camera that says where the floor is, if the frames do not.")
+                 .def("update", &update, "frame"_a, "The frame with the bodies that its source supplies.")
+                 .def("submit", &submit, "frame"_a, "joints"_a, py::kw_only(), "body_id"_a = 1,
+                      "time_ns"_a = 0, "camera_space"_a = false, "partly_out_of_view"_a = false,
+                      "The frame with a body of your own; submit to the result to add a second one.")
+                 .def("reset", [](const Tracker& t) { check(vfit_tracker_reset(t.get())); }));
+}
+
+}  // namespace vfit_python

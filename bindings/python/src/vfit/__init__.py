@@ -1,0 +1,84 @@
+"""vfit: one depth camera becomes a fitting room. Measures, sizes, an avatar that follows, cloth on it.
+
+>>> import vfit
+>>> with vfit.Context() as ctx:
+...     tracker, scan = vfit.Tracker(ctx), vfit.Scan(ctx, sex="f")
+...     for frame in ctx.open("virtual:motion=demo&sex=f&frames=60"):
+...         if scan.add(tracker.update(frame)).complete:
+...             break
+...     print(scan.measure()["stature_m"])
+"""
+
+from ._vfit import (
+    BONE_NAMES,
+    BONE_PARENTS,
+    MEASURES,
+    Avatar,
+    Axes,
+    Bone,
+    Cloth,
+    Context,
+    FloorState,
+    Frame,
+    Garment,
+    Guidance,
+    Joint,
+    JointState,
+    LogLevel,
+    Motion,
+    Recorder,
+    ResultCode,
+    Scan,
+    ScanMethod,
+    Sensor,
+    Sex,
+    SizeChart,
+    Stream,
+    Tracker,
+    __version__,
+    info,
+)
+from .errors import (
+    ArgumentError,
+    BusyError,
+    CapacityError,
+    DataError,
+    DeviceLostError,
+    Error,
+    FileError,
+    HandleError,
+    OutOfMemoryError,
+    PluginError,
+    StateError,
+    UnsupportedError,
+    VersionError,
+)
+from .values import (
+    Body,
+    Camera,
+    ClothStats,
+    Collider,
+    ContextStats,
+    GarmentInfo,
+    Intrinsics,
+    JointPoint,
+    Joints,
+    LibraryInfo,
+    LogLine,
+    Measurement,
+    PluginInfo,
+    Pose,
+    RigBone,
+    Scale,
+    ScanState,
+    SensorInfo,
+    SensorMode,
+    SensorOption,
+    SensorStats,
+    ShapeValue,
+    Size,
+    SizeRow,
+    StageTime,
+)
+
+__all__ = [name for name in dir() if not name.startswith("_") and name not in ("errors", "values")]

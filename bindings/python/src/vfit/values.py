@@ -1,0 +1,285 @@
+"""Plain values that come out of vfit or go into it. Lengths in metres, times in nanoseconds where a name ends
+in _ns, angles in radians, quaternions as x, y, z, w."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Iterator, Mapping, NamedTuple, Optional, Tuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._vfit import (
+    BONE_NAMES,
+    Bone,
+    FloorState,
+    Guidance,
+    Joint,
+    JointState,
+    LogLevel,
+    ResultCode,
+)
+
+__all__ = [
+    "Body", "Camera", "ClothStats", "Collider", "ContextStats", "GarmentInfo", "Intrinsics", "JointPoint", "Joints",
+    "LibraryInfo", "LogLine", "Measurement", "PluginInfo", "Pose", "RigBone", "Scale", "ScanState", "SensorInfo",
+    "SensorMode", "SensorOption", "SensorStats", "ShapeValue", "Size", "SizeRow", "StageTime",
+]
+
+Vector = Tuple[float, float, float]
+
+
+class LibraryInfo(NamedTuple):
+    version: str
+    simd: str
+    """Instruction set in use: "AVX2", "SSE4", "SCALAR", ..."""
+    build: str
+
+
+class PluginInfo(NamedTuple):
+    name: str
+    version: str
+    schemes: str
+    path: str
+
+
+class ContextStats(NamedTuple):
+    handle_count: int
+    frame_count: int
+    """Frames that somebody holds."""
+    worker_count: int
+    frame_bytes: int
+
+
+class StageTime(NamedTuple):
+    calls: int
+    last_ms: float
+    mean_ms: float
+    max_ms: float
+
+
+class LogLine(NamedTuple):
+    level: LogLevel
+    message: str
+
+
+class SensorInfo(NamedTuple):
+    uri: str
+    name: str
+    plugin: str
+    caps: int
+
+
+class SensorMode(NamedTuple):
+    name: str
+    width: int
+    height: int
+    rate_hz: float
+
+
+class SensorOption(NamedTuple):
+    value: str
+    text: str
+    """What the option means."""
+
+
+class SensorStats(NamedTuple):
+    running: bool
+    state: ResultCode
+    received: int
+    taken: int
+    dropped: int
+    latency_ns: int
+
+
+class Intrinsics(NamedTuple):
+    """Pinhole camera in pixels. Width and height 0: those of the image."""
+
+    fx: float
+    fy: float
+    cx: float
+    cy: float
+    width: int = 0
+    height: int = 0
+    distortion: Tuple[float, ...] = ()
+
+
+class Camera(NamedTuple):
+    """Where a camera stands. To give a floor: Camera.over(normal, distance_m)."""
+
+    floor_state: FloorState = FloorState.DEFAULT
+    depth_unit_m: float = 0.001
+    height_m: float = 0.0
+    tilt_rad: float = 0.0
+    """Above 0 it looks down."""
+    roll_rad: float = 0.0
+    floor_normal: Vector = (0.0, 0.0, 0.0)
+    floor_distance_m: float = 0.0
+    world_from_camera: Optional[NDArray[np.float32]] = None
+    """4 x 4, world = world_from_camera @ (x, y, z, 1)."""
+
+    @classmethod
+    def over(cls, normal: Vector, distance_m: float, depth_unit_m: float = 0.001) -> "Camera":
+        """Of a known floor: normal . p + distance = 0 in camera space, the normal pointing up."""
+        return cls(FloorState.GIVEN, depth_unit_m, floor_normal=normal, floor_distance_m=distance_m)
+
+
+class JointPoint(NamedTuple):
+    x: float
+    y: float
+    z: float
+    confidence: float
+
+
+class Joints(Mapping[str, JointPoint]):
+    """Joints by name ("LEFT_ELBOW": (x, y, z, confidence)), and as arrays with one row a joint."""
+
+    __slots__ = ("ids", "positions", "confidence", "states", "rotations", "_rows")
+
+    def __init__(self, ids: NDArray[np.int32], positions: NDArray[np.float32], confidence: NDArray[np.float32],
+                 states: NDArray[np.int32], rotations: NDArray[np.float32]) -> None:
+        self.ids = ids
+        self.positions = positions
+        self.confidence = confidence
+        self.states = states
+        self.rotations = rotations
+        """In world space relative to a T-pose that faces +Z; all zero: unknown."""
+        self._rows = {Joint(int(joint)).name: row for row, joint in enumerate(ids)}
+
+    def __getitem__(self, name: str) -> JointPoint:
+        row = self._rows[name.name if isinstance(name, Joint) else name]
+        x, y, z = self.positions[row].tolist()
+        return JointPoint(x, y, z, float(self.confidence[row]))
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._rows)
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    def state(self, name: str) -> JointState:
+        """How the joint was found."""
+        return JointState(int(self.states[self._rows[name]]))
+
+    def __repr__(self) -> str:
+        return f"Joints({dict(self)})"
+
+
+class Body(NamedTuple):
+    id: int
+    time_ns: int
+    partly_out_of_view: bool
+    joints: Joints
+
+
+class ScanState(NamedTuple):
+    taken: bool
+    """The frame counts; else guidance says why not."""
+    complete: bool
+    frames_taken: int
+    frames_wanted: int
+    guidance: Guidance
+    correction_m: float
+    """Mean absolute change of depth by the filter (Fig. 9)."""
+    compute_ms: float
+
+
+class Measurement(NamedTuple):
+    value: float
+    sigma: float = 0.0
+    """One standard deviation of value; 0: unknown."""
+    observed: bool = True
+    """False: inferred from other measures."""
+
+
+class Collider(NamedTuple):
+    """A sphere, or the tapered capsule of two spheres."""
+
+    joint: Joint
+    center: Vector
+    radius: float
+    joint_b: Optional[Joint]
+    center_b: Optional[Vector]
+    radius_b: float
+
+
+class Scale(NamedTuple):
+    x: float
+    y: float
+    sigma_x: float
+    sigma_y: float
+    width_m: float
+    height_m: float
+
+
+class Size(NamedTuple):
+    label: str
+    probability: float
+
+
+class SizeRow(NamedTuple):
+    garment_kind: str
+    label: str
+    measure_count: int
+
+
+class ShapeValue(NamedTuple):
+    value: float
+    minimum: float
+    maximum: float
+
+
+class RigBone(NamedTuple):
+    name: str
+    parent: int
+    """-1: root."""
+    bone: Optional[Bone]
+    rest_position: Vector
+
+
+class GarmentInfo(NamedTuple):
+    name: str
+    garment_kind: str
+    fabric: str
+    vertex_count: int
+    simulated_count: int
+    sizes: Tuple[str, ...]
+
+
+class ClothStats(NamedTuple):
+    vertex_count: int
+    simulated_count: int
+    constraint_count: int
+    strain_mean: float
+    strain_p99: float
+    strain_max: float
+    step_ms: float
+
+
+def _rest_rotations() -> NDArray[np.float32]:
+    rotations = np.zeros((len(BONE_NAMES), 4), np.float32)
+    rotations[:, 3] = 1.0
+    return rotations
+
+
+def _rest_positions() -> NDArray[np.float32]:
+    return np.zeros((len(BONE_NAMES), 3), np.float32)
+
+
+@dataclass(eq=False)
+class Pose:
+    """One row a bone, in the order of vfit.Bone. The default is the T-pose with the hips in the origin."""
+
+    rotations: NDArray[np.float32] = field(default_factory=_rest_rotations)
+    """Local to the parent, relative to a T-pose in which every bone has the axes of the world."""
+    positions: NDArray[np.float32] = field(default_factory=_rest_positions)
+    """The hips' in world space; of other bones the offset from the parent in the T-pose."""
+    time_ns: int = 0
+    contacts: Tuple[bool, bool] = (False, False)
+    """Left and right foot are planted."""
+    root_correction: Vector = (0.0, 0.0, 0.0)
+    foot_correction_m: float = 0.0
+
+    def as_dict(self) -> "dict[str, Tuple[float, ...]]":
+        """VRM bone name -> rotation."""
+        return {name: tuple(row) for name, row in zip(BONE_NAMES, self.rotations.tolist())}

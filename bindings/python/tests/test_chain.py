@@ -1,0 +1,160 @@
+"""The whole chain on the virtual person: scan, size, avatar, motion, cloth, buffers."""
+
+import numpy as np
+import pytest
+
+import vfit
+
+SOURCE = "virtual:motion=demo&sex=f&frames=60&seed=7"
+
+
+@pytest.fixture(scope="module")
+def fitted():
+    """Scan, avatar and the pose of the last frame of one pass over the source."""
+    ctx = vfit.Context()
+    tracker, scan, motion = vfit.Tracker(ctx), vfit.Scan(ctx, sex="f"), vfit.Motion(ctx)
+    states, truth = [], None
+    for frame in ctx.open(SOURCE):
+        tracked = tracker.update(frame)
+        truth = truth or frame.meta("measures")
+        states.append(scan.add(tracked))
+        assert motion.step(tracked)
+    avatar = vfit.Avatar.from_scan(scan)
+    motion.bind(avatar)
+    yield ctx, scan, states, truth, avatar, motion
+    ctx.close()
+
+
+def test_the_scan_completes_and_tells_how_far_it_is(fitted):
+    _, _, states, _, _, _ = fitted
+    assert states[-1].complete and states[-1].frames_taken == states[-1].frames_wanted == 30
+    assert any(state.taken and state.guidance is vfit.Guidance.NONE for state in states)
+
+
+def test_measures_come_with_sigma_and_near_the_truth(fitted):
+    _, scan, _, truth, _, _ = fitted
+    measures = scan.measure()
+    stature = measures["stature_m"]
+    assert isinstance(stature, vfit.Measurement) and stature.observed and 0 < stature.sigma < 0.1
+    assert stature.value == pytest.approx(truth["stature_m"], abs=0.06)
+    assert set(measures) <= set(vfit.MEASURES)
+    assert all(np.isfinite(m.value) for m in measures.values())
+    scale = scan.scale("short_sleeves")
+    assert 0.5 < scale.x < 2 and 0.5 < scale.y < 2
+    with pytest.raises(vfit.ArgumentError):
+        scan.scale("cape")
+    assert all(c.radius > 0 and c.joint_b is None for c in scan.colliders())
+
+
+def test_sizes_are_probabilities_best_first(fitted):
+    ctx, scan, _, _, _, _ = fitted
+    chart = vfit.SizeChart.open(ctx, "en13402_women")
+    kind = chart.rows()[0].garment_kind
+    sizes = chart.recommend(kind, scan.measure())
+    assert {label for label, _ in sizes} == {row.label for row in chart.rows() if row.garment_kind == kind}
+    chances = [size.probability for size in sizes]
+    assert sum(chances) == pytest.approx(1, abs=1e-4) and chances == sorted(chances, reverse=True)
+    plain = {key: m.value for key, m in scan.measure().items()}
+    assert {s.label for s in chart.recommend(kind, plain)} == {s.label for s in sizes}
+
+
+def test_the_pose_is_arrays_and_can_be_given_back(fitted):
+    _, _, _, _, avatar, motion = fitted
+    pose = motion.pose()
+    assert pose.rotations.shape == (22, 4) and pose.positions.shape == (22, 3)
+    assert np.allclose(np.linalg.norm(pose.rotations, axis=1), 1, atol=1e-3)
+    assert set(pose.as_dict()) == set(vfit.BONE_NAMES)
+    assert motion.joints()["HEAD"].y > motion.joints()["LEFT_FOOT"].y
+    avatar.pose(pose)
+    moved = avatar.acquire().positions.copy()
+    pose.positions[vfit.Bone.HIPS] += (1, 0, 0)
+    avatar.pose(pose)
+    assert np.allclose(avatar.acquire().positions - moved, (1, 0, 0), atol=1e-3)
+    with pytest.raises(vfit.ArgumentError, match="22"):
+        avatar.pose(vfit.Pose(rotations=np.zeros((3, 4), np.float32)))
+    with pytest.raises(vfit.DataError):
+        avatar.pose(vfit.Pose(rotations=np.full((22, 4), np.nan, np.float32)))
+    avatar.pose(vfit.Pose())
+
+
+def test_the_avatar_is_a_skinned_mesh(fitted):
+    _, _, _, _, avatar, _ = fitted
+    rest, posed, rig = avatar.acquire_rest(), avatar.acquire(), avatar.rig()
+    n = len(rest.positions)
+    assert rest.positions.shape == rest.normals.shape == (n, 3) and rest.uvs.shape == (n, 2)
+    assert rest.triangles.shape[1] == 3 and rest.triangles.max() < n
+    assert rest.skin_bones.shape == rest.skin_weights.shape == (n, 8)
+    assert np.allclose(rest.skin_weights.sum(axis=1), 1, atol=1e-4)
+    matrices = posed.bone_matrices
+    assert matrices.shape == (len(rig), 4, 4) and np.allclose(matrices[:, 3], [0, 0, 0, 1])
+    assert rig[0].parent == -1 and {b.bone for b in rig} >= set(vfit.Bone)
+    # Skinned here from the same frame: the matrices' rows and columns are the right way round.
+    homogeneous = np.c_[rest.positions, np.ones(n, np.float32)]
+    skinned = np.einsum("nk,nkij,nj->ni", rest.skin_weights, matrices[rest.skin_bones], homogeneous)[:, :3]
+    assert np.abs(skinned - posed.positions).max() < 2e-3
+    assert avatar.measure()["stature_m"].value > 1
+    assert any(c.joint_b is not None for c in avatar.colliders()) or avatar.colliders()
+    assert avatar.joints()["HEAD"].y > 0
+
+
+def test_cloth_hangs_on_the_avatar(fitted):
+    ctx, _, _, _, avatar, motion = fitted
+    avatar.pose(motion.pose())
+    garment = vfit.Garment.open(ctx, "sundress")
+    info = garment.info
+    assert info.garment_kind and info.vertex_count >= info.simulated_count > 0
+    cloth = vfit.Cloth(avatar, garment)
+    start = cloth.state_hash()
+    for _ in range(10):
+        cloth.step()
+    cloth.begin_step(1 / 60)
+    with pytest.raises(vfit.StateError):
+        cloth.begin_step()
+    cloth.end_step()
+    assert cloth.state_hash() != start
+    frame = cloth.acquire()
+    for array in (frame.positions, frame.normals, frame.uvs, frame.strain):
+        assert len(array) == info.vertex_count and np.isfinite(array).all()
+    assert frame.triangles.max() < info.vertex_count
+    assert cloth.stats().step_ms > 0 and np.isfinite(cloth.stats().strain_max)
+    body = avatar.acquire().positions
+    assert (frame.positions.min(0) > body.min(0) - 0.5).all() and (frame.positions.max(0) < body.max(0) + 0.5).all()
+    buffer = np.zeros((info.vertex_count, 8), np.float32)
+    frame.write(vfit.Stream.POSITION, buffer[:, :3])
+    frame.write(vfit.Stream.NORMAL, buffer[:, 3:6])
+    assert np.array_equal(buffer[:, :3], frame.positions) and np.array_equal(buffer[:, 3:6], frame.normals)
+    assert not buffer[:, 6:].any()
+    short = np.zeros(frame.triangles.size, np.uint16)
+    if info.vertex_count <= 65535:
+        frame.write(vfit.Stream.INDEX, short)
+        assert np.array_equal(short.reshape(-1, 3), frame.triangles)
+
+
+def test_equal_contexts_make_equal_cloth():
+    hashes = []
+    for workers in (1, 2):
+        with vfit.Context(deterministic=True, workers=workers) as ctx:
+            cloth = vfit.Cloth(vfit.Avatar.from_measures(ctx, {"stature_m": 1.68}, sex="f"), vfit.Garment.open(ctx, "sundress"))
+            for _ in range(5):
+                cloth.step()
+            hashes.append(cloth.state_hash())
+    assert hashes[0] == hashes[1]
+
+
+def test_a_cloth_goes_with_its_avatar(ctx):
+    avatar = vfit.Avatar.from_shape(ctx, {"weight": 0.6}, sex="m")
+    assert "weight" in ctx.shape_values()
+    cloth = vfit.Cloth(avatar, vfit.Garment.open(ctx, "sundress"))
+    avatar.close()
+    with pytest.raises(vfit.HandleError):
+        cloth.step()
+    cloth.close()
+    assert cloth.closed
+
+
+def test_unity_axes_mirror_the_handedness():
+    with vfit.Context() as right, vfit.Context(axes=vfit.Axes.UNITY) as left:
+        a, b = (vfit.Avatar.from_measures(c, {"stature_m": 1.7}).acquire_rest() for c in (right, left))
+        volumes = [np.einsum("ni,ni->n", f.positions[f.triangles[:, 0]],
+                             np.cross(f.positions[f.triangles[:, 1]], f.positions[f.triangles[:, 2]])).sum() for f in (a, b)]
+    assert volumes[0] > 0 > volumes[1]

@@ -1,0 +1,67 @@
+"""Recordings: iterated, written and read again."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+import vfit
+
+
+def test_a_real_recording_is_iterated_to_its_end(ctx, recordings):
+    folder = recordings[0]
+    wanted = len(list((folder / "depth").glob("*.png")))
+    sensor = ctx.open(folder)
+    times, indices = [], []
+    for frame in sensor:
+        assert frame.depth.shape == (frame.intrinsics.height, frame.intrinsics.width)
+        times.append(frame.time_ns)
+        indices.append(frame.meta("index"))
+    assert len(times) == wanted and sensor.ended
+    assert all(a < b for a, b in itertools.pairwise(times))
+    assert indices == list(range(wanted))
+    assert sensor.acquire(timeout_s=0) is None
+    stats = sensor.stats()
+    assert stats.taken == wanted and stats.dropped == 0
+
+
+def test_every_real_recording_is_measured(ctx, recordings):
+    for folder in recordings:
+        tracker, scan = vfit.Tracker(ctx), vfit.Scan(ctx, frames=5)
+        for frame in ctx.open(f"recording:{folder}"):
+            if scan.add(tracker.update(frame)).complete:
+                break
+        measures = scan.measure()
+        assert 1.2 < measures["stature_m"].value < 2.2, folder.name
+
+
+def test_what_is_recorded_is_played(ctx, tmp_path):
+    depth, joints = [], []
+    with vfit.Recorder(ctx, tmp_path / "out", sensor_name="virtual") as recorder:
+        for frame in ctx.open("virtual:motion=demo&frames=5"):
+            recorder.write(frame)
+            depth.append(frame.depth.copy())
+            joints.append(frame.joints())
+    played = 0
+    for frame in ctx.open(tmp_path / "out"):
+        assert np.array_equal(frame.depth, depth[played])
+        assert set(frame.joints()) == set(joints[played])
+        played += 1
+    assert played == 5
+
+
+def test_options_modes_and_info(ctx):
+    sensor = ctx.open("virtual:", motion="stand", frames=2, noise=0, shadow=False)
+    options = sensor.options()
+    assert (options["motion"].value, options["frames"].value, options["shadow"].value) == ("stand", "2", "0")
+    assert options["motion"].text
+    assert all(mode.width > 0 and mode.rate_hz > 0 for mode in sensor.modes())
+    with pytest.raises(vfit.Error, match="motion"):
+        sensor.set_option("motion", "fly")
+    assert sum(1 for _ in sensor) == 2
+    assert frame_measures(ctx)["stature_m"] > 1
+    assert {p.name for p in ctx.plugins()}
+
+
+def frame_measures(ctx):
+    return next(ctx.open("virtual:motion=stand&frames=1")).meta("measures")

@@ -1,0 +1,217 @@
+#!/usr/bin/env python3
+"""The command-line contract: keys, units, exit codes and one clear line for every failure.
+
+    cli_test.py VFIT [SHARED]
+
+SHARED is the folder of real data; tests that need it are skipped by name where it is absent.
+"""
+import json
+import math
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+VFIT = sys.argv[1]
+SHARED = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else pathlib.Path("/nonexistent")
+RECORDINGS = sorted(p for p in (SHARED / "data" / "recordings").glob("*") if p.is_dir())
+VIRTUAL = "virtual:motion=demo&sex=f&sensor=kinect_v1_320&seed=3&frames=60"
+PAPER_JOINTS = 15
+
+
+def run(*args):
+    return subprocess.run([VFIT, *map(str, args)], capture_output=True, text=True, timeout=300)
+
+
+def document(test, *args):
+    done = run(*args)
+    test.assertEqual(done.returncode, 0, done.stderr)
+    return json.loads(done.stdout)
+
+
+def lines(test, *args):
+    done = run(*args)
+    test.assertEqual(done.returncode, 0, done.stderr)
+    return [json.loads(line) for line in done.stdout.splitlines()]
+
+
+def numbers(value):
+    if isinstance(value, dict):
+        for v in value.values():
+            yield from numbers(v)
+    elif isinstance(value, list):
+        for v in value:
+            yield from numbers(v)
+    elif isinstance(value, (int, float)) and not isinstance(value, bool):
+        yield value
+
+
+class Contract(unittest.TestCase):
+    def check_failure(self, done, *words):
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        self.assertEqual(done.stdout, "")
+        self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
+        for word in words:
+            self.assertIn(word, done.stderr)
+
+    def test_info_names_version_simd_and_plug_ins(self):
+        info = document(self, "info", "--json")
+        self.assertRegex(info["version"], r"^\d+\.\d+\.\d+$")
+        self.assertTrue(info["simd"])
+        self.assertEqual({p["name"] for p in info["plugins"]} & {"recording", "virtual_person"},
+                         {"recording", "virtual_person"})
+
+    def test_measure_prints_the_contract(self):
+        result = document(self, "measure", VIRTUAL, "--method", "paper", "--garment", "short_sleeves", "--json")
+        self.assertEqual(result["method"], "paper")
+        self.assertEqual(result["frames"], 30)
+        for key in ("stature_m", "shoulder_breadth_m"):
+            self.assertEqual(set(result["measurements"][key]), {"value", "sigma", "observed"})
+        self.assertTrue(1.5 < result["measurements"]["stature_m"]["value"] < 1.75)
+        self.assertEqual(len(result["colliders"]), PAPER_JOINTS)
+        self.assertEqual(set(result["colliders"][0]), {"joint", "radius_m"})
+        self.assertEqual(set(result["scale"]), {"x", "y"})
+        self.assertGreater(result["compute_ms"]["total"], 0)
+        self.assertTrue(all(math.isfinite(x) for x in numbers(result)))
+
+    def test_measures_feed_size(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "measures.json"
+            path.write_text(run("measure", VIRTUAL, "--json").stdout)
+            result = document(self, "size", path, "--chart", "paper", "--garment", "short_sleeves", "--json")
+            self.assertEqual((result["chart"], result["garment"]), ("paper", "short_sleeves"))
+            p = [s["probability"] for s in result["sizes"]]
+            self.assertAlmostEqual(sum(p), 1, places=4)
+            self.assertEqual(p, sorted(p, reverse=True))
+            path.write_text('{"chest_girth_m": 0.98}')
+            result = document(self, "size", path, "--chart", "en13402_men", "--garment", "short_sleeves", "--json")
+            self.assertEqual(result["sizes"][0]["label"], "M")
+
+    def test_track_prints_each_frame_in_camera_space_and_writes_the_map(self):
+        with tempfile.TemporaryDirectory() as folder:
+            frames = lines(self, "track", VIRTUAL, "--user-map-out", folder, "--json")
+            self.assertEqual([f["frame"] for f in frames], list(range(60)))
+            head = frames[0]["bodies"][0]["joints"]["HEAD"]
+            self.assertEqual(len(head), 4)
+            self.assertTrue(2.0 < head[2] < 2.8, "z is the distance from the camera")
+            self.assertLess(head[1], 0, "y points down and the head is above the camera")
+            self.assertEqual(len(list(pathlib.Path(folder).glob("*.png"))), 60)
+
+    def test_motion_prints_pose_and_contacts(self):
+        frames = lines(self, "motion", VIRTUAL, "--json")
+        self.assertEqual(len(frames), 60)
+        self.assertEqual(set(frames[9]), {"frame", "joints", "bones", "root", "contacts", "ms"})
+        self.assertEqual(set(frames[9]["contacts"]), {"left", "right"})
+        for q in frames[9]["bones"].values():
+            self.assertAlmostEqual(sum(x * x for x in q), 1, places=3)
+        self.assertTrue(all(math.isfinite(x) for f in frames for x in numbers(f)))
+        raw = lines(self, "motion", VIRTUAL, "--raw", "--json")
+        self.assertNotEqual(raw[30]["joints"], frames[30]["joints"])
+
+    def test_a_recording_of_a_sensor_measures_as_the_sensor_does(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "rec"
+            self.assertEqual(document(self, "record", VIRTUAL, path, "--frames", 40, "--json")["frames"], 40)
+            direct = document(self, "measure", VIRTUAL, "--json")["measurements"]
+            replay = document(self, "measure", path, "--json")["measurements"]
+            for key, m in direct.items():
+                self.assertAlmostEqual(m["value"], replay[key]["value"], places=3, msg=key)
+            self.check_failure(run("record", VIRTUAL, path, "--frames", 1), str(path))
+
+    def test_plot_draws_the_papers_curves(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for what in ("depth", "feet"):
+                path = pathlib.Path(folder) / f"{what}.png"
+                plotted = document(self, "plot", VIRTUAL, "--what", what, "--out", path, "--json")
+                self.assertGreater(plotted["points"], 20)
+                self.assertEqual(path.read_bytes()[:4], b"\x89PNG")
+
+    def test_fit_leaves_everything_it_promises(self):
+        with tempfile.TemporaryDirectory() as folder:
+            document(self, "fit", VIRTUAL, "--garment", "sundress", "--frames", 8, "--out", folder, "--json")
+            out = pathlib.Path(folder)
+            result = json.loads((out / "result.json").read_text())
+            for name in result["pictures"] + ["avatar.glb"]:
+                self.assertGreater((out / name).stat().st_size, 1000, name)
+            self.assertIn("contact_sheet.png", result["pictures"])
+            self.assertEqual(result["cloth"]["simulated"], 3096)
+            glb = (out / "avatar.glb").read_bytes()
+            self.assertEqual(struct.unpack("<4sII", glb[:12]), (b"glTF", 2, len(glb)))
+
+    def test_a_garment_size_changes_the_dress(self):
+        with tempfile.TemporaryDirectory() as folder:
+            result = document(self, "fit", VIRTUAL, "--size", "XL", "--frames", 2, "--out", folder, "--json")
+            self.assertEqual(result["size"], "XL")
+            self.check_failure(run("fit", VIRTUAL, "--size", "QQ", "--out", folder), "QQ")
+
+    def test_wrong_usage_exits_2(self):
+        for args in ((), ("dance",), ("measure",), ("measure", VIRTUAL, "--method", "guess"),
+                     ("measure", VIRTUAL, "--frames", "0"), ("size", "x.json"), ("measure", VIRTUAL, "--nonsense"),
+                     ("measure", VIRTUAL, "--joints", "sideways")):
+            self.assertEqual(run(*args).returncode, 2, args)
+        self.assertEqual(run("--help").returncode, 0)
+        for command in ("info", "measure", "size", "track", "motion", "fit", "record", "cook", "plot"):
+            self.assertEqual(run(command, "--help").returncode, 0, command)
+
+    def test_failures_exit_1_with_one_line_that_names_the_cause(self):
+        self.check_failure(run("measure", "/no/such/recording", "--json"), "/no/such/recording")
+        self.check_failure(run("measure", "recording:/no/such", "--json"), "/no/such")
+        self.check_failure(run("measure", "teapot:x", "--json"), "teapot", "virtual")
+        self.check_failure(run("measure", VIRTUAL, "--joints", "tracked", "--json"), "tracker")
+        self.check_failure(run("measure", VIRTUAL, "--user-map", "tracked", "--json"), "tracker")
+        self.check_failure(run("measure", VIRTUAL, "--garment", "spacesuit", "--json"), "spacesuit", "trousers")
+        self.check_failure(run("measure", VIRTUAL + "&motion=fly", "--json"), "fly")
+        self.check_failure(run("fit", VIRTUAL, "--garment", "toga", "--out", "/tmp/x"), "toga", "sundress")
+        self.check_failure(run("size", "/no/file.json", "--chart", "paper", "--garment", "x"), "/no/file.json")
+        with tempfile.TemporaryDirectory() as folder:
+            self.check_failure(run("measure", folder), "camera.json")
+            measures = pathlib.Path(folder) / "m.json"
+            for text, word in (("{", "JSON"), ('{"stature_m": "tall"}', "stature_m"), ('{"wingspan_m": 2}', "wingspan_m"),
+                               ('{"stature_m": -1}', "stature_m")):
+                measures.write_text(text)
+                self.check_failure(run("size", measures, "--chart", "paper", "--garment", "short_sleeves"), word)
+            measures.write_text('{"stature_m": 1.7}')
+            self.check_failure(run("size", measures, "--chart", "nowhere", "--garment", "x"), "nowhere", "paper")
+            chart = pathlib.Path(folder) / "chart.json"
+            chart.write_text('{"format": "vfit-size-chart", "version": 1, "name": "x", "unit": "cm", "garments": [{"kind": '
+                             '"dress", "measures": ["stature_m"], "sizes": [{"label": "S", "ranges": {"stature_m": '
+                             '[150, 170]}}, {"label": "M", "ranges": {"stature_m": [160, 180]}}]}]}')
+            self.check_failure(run("size", measures, "--chart", chart, "--garment", "dress"), "dress", "M")
+
+
+@unittest.skipUnless(RECORDINGS, f"real recordings are not at {SHARED}")
+class RealRecordings(unittest.TestCase):
+    def test_every_recording_is_measured_and_dressed(self):
+        for recording in RECORDINGS:
+            with self.subTest(recording.name), tempfile.TemporaryDirectory() as folder:
+                measured = document(self, "measure", recording, "--json")
+                self.assertGreaterEqual(measured["frames"], 10)
+                self.assertTrue(1.4 < measured["measurements"]["stature_m"]["value"] < 2.1)
+                result = document(self, "fit", recording, "--frames", 6, "--out", folder, "--json")
+                self.assertTrue(all(math.isfinite(x) for x in numbers(result)))
+
+    def test_motion_of_every_recording_is_finite(self):
+        for recording in RECORDINGS:
+            with self.subTest(recording.name):
+                frames = lines(self, "motion", recording, "--json")
+                self.assertEqual(len(frames), len(list((recording / "depth").glob("*.png"))))
+                self.assertTrue(all(math.isfinite(x) for f in frames for x in numbers(f)))
+
+    def test_a_cut_picture_ends_with_its_name(self):
+        with tempfile.TemporaryDirectory() as folder:
+            copy = pathlib.Path(folder) / "rec"
+            shutil.copytree(RECORDINGS[0], copy)
+            picture = copy / "depth" / "000003.png"
+            picture.chmod(0o644)
+            picture.write_bytes(picture.read_bytes()[:200])
+            done = run("track", copy, "--json")
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("000003.png", done.stderr)
+            self.assertEqual(len(done.stdout.splitlines()), 3, "frames before the cut one are printed")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
