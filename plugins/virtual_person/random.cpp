@@ -9,7 +9,7 @@ namespace {
 
 // Newton's method on the normal integral from the last quantile, which lies close by.
 std::vector<float> make_quantiles() {
-    constexpr int kCount = 1 << 16;
+    constexpr int kCount = kQuantileCount;
     constexpr double kSqrtHalf = 0.70710678118654752440, kDensityAtZero = 0.39894228040143267794;
     std::vector<float> table(kCount);
     double x = 0.0;

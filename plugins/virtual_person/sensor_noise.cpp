@@ -28,9 +28,8 @@ constexpr float kModulation_hz = 16.0e6f;       // lowest of the Kinect v2: unam
 constexpr float kLightSpeed_m_s = 2.99792458e8f;
 constexpr float kLeastCoherence = 0.4f;         // of |sum| to the sum of amplitudes: below, no depth is reported
 
-// No look-up goes farther than one tile.
-constexpr uint32_t kTile = 16;  // px
-constexpr float kMostLateral_px = kTile / 4.3f;
+// A look-up goes no farther than 64 px, which only a noise scale above 10 would ask for.
+constexpr float kMostLateral_px = 14.0f;
 
 // Rounds to the nearest whole number, for values above -64: a plain conversion, where std::lrint is a call.
 inline int round_offset(float x) { return static_cast<int>(x + 64.5f) - 64; }
@@ -38,13 +37,7 @@ inline int round_offset(float x) { return static_cast<int>(x + 64.5f) - 64; }
 }  // namespace
 
 SensorNoise::SensorNoise(const SensorModel& model, const NoiseSettings& settings)
-    : model_(model),
-      settings_(settings),
-      angle_(kAngleBins),
-      shadow_(model.width),
-      tiles_x_((model.width + kTile - 1) / kTile),
-      tiles_y_((model.height + kTile - 1) / kTile) {
-    tile_least_.resize(size_t{tiles_x_} * tiles_y_), tile_most_ = tile_least_, calm_.resize(tile_least_.size());
+    : model_(model), settings_(settings), angle_(kAngleBins), shadow_(model.width) {
     for (uint32_t i = 0; i < kAngleBins; ++i) {
         const float theta = std::acos((static_cast<float>(i) + 0.5f) / kAngleBins);
         // The slant term is separable: what is left at z = 1 m, where its factor of z is 1.
@@ -75,8 +68,8 @@ float SensorNoise::light_sigma_m(float z, float axial) const {
 
 
 const SensorNoise::AngleTerms& SensorNoise::terms(float cosine) const {
-    const auto bin = static_cast<uint32_t>(std::max(0.0f, cosine) * kAngleBins);
-    return angle_[std::min(bin, kAngleBins - 1)];
+    const auto bin = static_cast<int>(std::max(0.0f, cosine) * kAngleBins);
+    return angle_[static_cast<uint32_t>(std::min(bin, static_cast<int>(kAngleBins) - 1))];
 }
 
 uint16_t SensorNoise::report(float z) const {
@@ -86,7 +79,6 @@ uint16_t SensorNoise::report(float z) const {
 
 void SensorNoise::apply(const CleanImage& clean, uint64_t frame, uint16_t* depth_mm, uint32_t row_stride) {
     const uint64_t key = frame_key(settings_.seed, frame);
-    if (model_.principle == DepthPrinciple::kStructuredLight) mark_calm_tiles(clean);
     for (uint32_t y = 0; y < clean.height; ++y) {
         auto* row = reinterpret_cast<uint16_t*>(reinterpret_cast<uint8_t*>(depth_mm) + size_t{y} * row_stride);
         switch (model_.principle) {
@@ -123,39 +115,11 @@ void SensorNoise::mark_shadow(const CleanImage& clean, uint32_t y) {
     }
 }
 
-void SensorNoise::mark_calm_tiles(const CleanImage& clean) {
-    std::fill(tile_least_.begin(), tile_least_.end(), std::numeric_limits<float>::max());
-    std::fill(tile_most_.begin(), tile_most_.end(), 0.0f);
-    for (uint32_t y = 0; y < clean.height; ++y) {
-        const float* depth = clean.depth_m.data() + size_t{y} * clean.width;
-        for (uint32_t tx = 0; tx < tiles_x_; ++tx) {
-            float least = depth[size_t{tx} * kTile], most = least;
-            for (uint32_t x = tx * kTile; x < std::min(clean.width, (tx + 1) * kTile); ++x)
-                least = std::min(least, depth[x]), most = std::max(most, depth[x]);
-            const size_t tile = size_t{y / kTile} * tiles_x_ + tx;
-            tile_least_[tile] = std::min(tile_least_[tile], least);
-            tile_most_[tile] = std::max(tile_most_[tile], most);
-        }
-    }
-    for (uint32_t ty = 0; ty < tiles_y_; ++ty) {
-        for (uint32_t tx = 0; tx < tiles_x_; ++tx) {
-            float least = std::numeric_limits<float>::max(), most = 0.0f;
-            for (uint32_t y = ty - (ty > 0); y <= std::min(ty + 1, tiles_y_ - 1); ++y) {
-                for (uint32_t x = tx - (tx > 0); x <= std::min(tx + 1, tiles_x_ - 1); ++x) {
-                    least = std::min(least, tile_least_[size_t{y} * tiles_x_ + x]);
-                    most = std::max(most, tile_most_[size_t{y} * tiles_x_ + x]);
-                }
-            }
-            calm_[size_t{ty} * tiles_x_ + tx] = most - least <= kEdgeJump_m;
-        }
-    }
-}
-
 void SensorNoise::structured_light_row(const CleanImage& clean, uint64_t key, uint32_t y, uint16_t* row) const {
     const float* normal = normal_quantiles();
-    const uint8_t* calm = calm_.data() + size_t{y / kTile} * tiles_x_;
     const size_t first = size_t{y} * clean.width;
     const float pixel_angle = 1.0f / model_.fx;
+    const int last_step = static_cast<int>(step_depth_mm_.size()) - 1;
     const int last_x = static_cast<int>(clean.width) - 1, last_y = static_cast<int>(clean.height) - 1;
     for (uint32_t x = 0; x < clean.width; ++x) {
         row[x] = 0;
@@ -166,31 +130,29 @@ void SensorNoise::structured_light_row(const CleanImage& clean, uint64_t key, ui
 
         // Edges are seen sigma_L off their place. Within one surface the look-up stays: what its slant adds to
         // the noise is part of the measured sigma_z.
-        if (!calm[x / kTile]) {
-            const int dx = round_offset(t->lateral_px * normal[bits >> 16 & 0xffff]);
-            const int dy = round_offset(t->lateral_px * normal[bits >> 32 & 0xffff]);
-            const int sx = std::clamp(static_cast<int>(x) + dx, 0, last_x);
-            const int sy = std::clamp(static_cast<int>(y) + dy, 0, last_y);
-            const size_t seen = size_t(sy) * clean.width + size_t(sx);
-            const float other = clean.depth_m[seen], jump = std::abs(other - z);
-            if (jump > kEdgeJump_m) {
-                const float steps = static_cast<float>(std::abs(dx) + std::abs(dy));
-                if (jump > kEdgeJump_m + kSlantSlack * steps * z * pixel_angle * t->tangent) {
-                    z = other;
-                    t = &terms(clean.cosine[seen]);
-                }
+        const int dx = round_offset(t->lateral_px * normal[(bits >> 16) % kQuantileCount]);
+        const int dy = round_offset(t->lateral_px * normal[(bits >> 32) % kQuantileCount]);
+        const int sx = std::clamp(static_cast<int>(x) + dx, 0, last_x);
+        const int sy = std::clamp(static_cast<int>(y) + dy, 0, last_y);
+        const size_t seen = size_t(sy) * clean.width + size_t(sx);
+        const float other = clean.depth_m[seen], jump = std::abs(other - z);
+        if (jump > kEdgeJump_m) {
+            const float steps = static_cast<float>(std::abs(dx) + std::abs(dy));
+            if (jump > kEdgeJump_m + kSlantSlack * steps * z * pixel_angle * t->tangent) {
+                z = other;
+                t = &terms(clean.cosine[seen]);
             }
         }
         if ((bits >> 48) < t->dropout || !(z > 0.0f && z < kFarthest_m)) continue;
 
         const float sigma = t->axial > 0.0f ? light_sigma_m(z, t->axial)
-                                            : frontal_sigma_m_[static_cast<size_t>(z * 1000.0f)];
-        z += sigma * normal[bits & 0xffff];
+                                            : frontal_sigma_m_[static_cast<uint32_t>(static_cast<int>(z * 1000.0f))];
+        z += sigma * normal[bits % kQuantileCount];
         if (!settings_.quantise) {
             row[x] = report(z);
         } else {
-            const float step = 1.0f / (std::max(z, kNearest_m) * kDisparityQuantumPerM);
-            row[x] = step_depth_mm_[std::min(static_cast<size_t>(step + 0.5f), step_depth_mm_.size() - 1)];
+            const auto step = static_cast<int>(1.0f / (std::max(z, kNearest_m) * kDisparityQuantumPerM) + 0.5f);
+            row[x] = step_depth_mm_[static_cast<uint32_t>(std::min(step, last_step))];
         }
     }
 }
@@ -242,7 +204,7 @@ void SensorNoise::time_of_flight_row(const CleanImage& clean, uint64_t key, uint
             if (jump > kMixingJump_m + kSlantSlack * z / model_.fx * t.tangent) z = mixed_depth(clean, x, y);
         }
         const float sigma = 0.001f * (1.5f - 0.5f * z + 0.3f * z * z) + t.axial * z * std::sqrt(z);
-        row[x] = report(z + settings_.scale * sigma * normal_quantiles()[bits & 0xffff]);
+        row[x] = report(z + settings_.scale * sigma * normal_quantiles()[bits % kQuantileCount]);
     }
 }
 

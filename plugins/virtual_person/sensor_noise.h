@@ -36,7 +36,6 @@ private:
     void time_of_flight_row(const CleanImage& clean, uint64_t key, uint32_t y, uint16_t* row) const;
     void ideal_row(const CleanImage& clean, uint32_t y, uint16_t* row) const;
     void mark_shadow(const CleanImage& clean, uint32_t y);
-    void mark_calm_tiles(const CleanImage& clean);
     float mixed_depth(const CleanImage& clean, uint32_t x, uint32_t y) const;
     const AngleTerms& terms(float cosine) const;
     float light_sigma_m(float z_m, float axial) const;
@@ -48,10 +47,6 @@ private:
     std::vector<float> frontal_sigma_m_;    // structured light, head-on, before rounding: one a millimetre of depth
     std::vector<uint16_t> step_depth_mm_;   // what the n-th disparity step reports, 0 out of range
     std::vector<uint8_t> shadow_;  // of the current row
-    // Tiles about which depth changes too little for an edge: nothing to look up there.
-    std::vector<float> tile_least_, tile_most_;
-    std::vector<uint8_t> calm_;
-    uint32_t tiles_x_, tiles_y_;
 };
 
 }  // namespace vfit::virtual_person

@@ -23,7 +23,7 @@ Averaged average(std::vector<float>& values) {
     for (const float v : values) distances.push_back(std::abs(v - centre));
     constexpr float kSigmaPerMad = 1.4826f;  // of a normal distribution
     constexpr float kOutlier_sigma = 3.0f;
-    constexpr float kRounding_m = 0.005f;    // values that differ by a fraction of a pixel are no outliers
+    constexpr float kRounding_m = 0.005f;  // values that differ by a fraction of a pixel are no outliers
     const float limit = std::max(kOutlier_sigma * kSigmaPerMad * median(distances), kRounding_m);
 
     double sum = 0.0;

@@ -1,8 +1,8 @@
 // Algorithm 4: mean and deviation of a quantity over the frames of a scan.
 //
-// A person who moves gives single frames that are plainly wrong (an arm before the trunk, a bent knee), which a
-// plain mean takes in. Values further from the median than three robust deviations are left out: of normally
-// scattered values, which the paper's mean is made for, that is one in 370.
+// A person who moves gives single frames that are plainly wrong (an arm before the trunk, a bent knee), which
+// a plain mean takes in. Values further from the median than three robust deviations are left out: of
+// normally scattered values, which the paper's mean is made for, that is one in 370.
 #pragma once
 
 #include <cstddef>

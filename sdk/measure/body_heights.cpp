@@ -33,7 +33,7 @@ float hypotenuse(float a, float b, float c = 0.0f) { return std::sqrt(a * a + b 
 
 struct HeadAxis {
     bool known = false;
-    Vec3 centre{0.0f};   // the head joint, moved to the middle of the skull in depth
+    Vec3 centre{0.0f};  // the head joint, moved to the middle of the skull in depth
 };
 
 /// The face's reading places the head better in depth than the joints of most trackers do.
@@ -54,8 +54,8 @@ Estimate crown_height(const FilteredDepth& depth, const Camera& camera, const Bo
     const FrontalPlane plane(camera, head.centre);
     const float pixel_m = footprint(camera, head.centre.z);
 
-    // The middle of the vertex: further out the skull falls away. Its higher half of columns, so that neither a
-    // head joint beside the middle nor single noisy pixels above the crown decide.
+    // The middle of the vertex: further out the skull falls away. Its higher half of columns, so that neither
+    // a head joint beside the middle nor single noisy pixels above the crown decide.
     constexpr float kHalfVertex_m = 0.04f;
     constexpr size_t kMostColumns = 64;
     std::array<FrontalPlane::Reach, kMostColumns> columns;
@@ -92,7 +92,8 @@ float lowest_near(const FilteredDepth& depth, const Camera& camera, const Vec3& 
         if (!reach.seen()) continue;
         const Vec2 start = camera.project(from);
         const Vec2 back = glm::length(start - reach.edge) > kInward_px
-                              ? reach.edge + glm::normalize(start - reach.edge) * kInward_px : start;
+                              ? reach.edge + glm::normalize(start - reach.edge) * kInward_px
+                              : start;
         const auto [x, y] = nearest_pixel(back);
         if (!depth.inside(x, y)) continue;
         const Vec3 point = camera.unproject(reach.edge.x, reach.edge.y, depth.at(x, y));
@@ -101,7 +102,8 @@ float lowest_near(const FilteredDepth& depth, const Camera& camera, const Vec3& 
     return lowest;
 }
 
-Estimate floor_height(const FilteredDepth& depth, const Camera& camera, const Body& body, const Estimate& crown) {
+Estimate floor_height(const FilteredDepth& depth, const Camera& camera, const Body& body,
+                      const Estimate& crown) {
     if (camera.floor_state == VFIT_FLOOR_GIVEN) return {-camera.floor_distance_m, kGivenFloorSigma_m, true};
 
     constexpr float kUnknown = std::numeric_limits<float>::max();
@@ -117,7 +119,8 @@ Estimate floor_height(const FilteredDepth& depth, const Camera& camera, const Bo
     // A user map that was cut above the sole ends too high for the ankle that stands in it.
     float floor = mask;
     if (ankle != kUnknown && crown.known)
-        floor = std::min(floor, (ankle - kAnkleHeight_stature * crown.value_m) / (1.0f - kAnkleHeight_stature));
+        floor =
+            std::min(floor, (ankle - kAnkleHeight_stature * crown.value_m) / (1.0f - kAnkleHeight_stature));
     return {floor, hypotenuse(kSoleSigma_m, quantisation(footprint(camera, z))), true};
 }
 
@@ -130,15 +133,17 @@ Upright measure_upright(const FilteredDepth& depth, const Camera& camera, const 
     return upright;
 }
 
-Estimate head_width(const FilteredDepth& depth, const Camera& camera, const Body& body, const Upright& upright) {
+Estimate head_width(const FilteredDepth& depth, const Camera& camera, const Body& body,
+                    const Upright& upright) {
     const HeadAxis head = head_axis(depth, camera, body);
     if (!head.known || !upright.crown.known) return {};
     const FrontalPlane plane(camera, head.centre);
     const float pixel_m = footprint(camera, head.centre.z);
 
     // The skull is broadest above the ears, a third to a half of the head below the crown.
-    const float head_m = kHeadHeight_stature * (upright.floor.known ? upright.crown.value_m - upright.floor.value_m
-                                                                   : 1.69f);  // mean of ANSUR II's sexes
+    const float head_m =
+        kHeadHeight_stature * (upright.floor.known ? upright.crown.value_m - upright.floor.value_m
+                                                   : 1.69f);  // mean of ANSUR II's sexes
     float sum = 0.0f;
     int rows = 0;
     for (float below = head_m / 3.0f; below <= head_m / 2.0f; below += pixel_m) {
@@ -156,7 +161,8 @@ Estimate head_width(const FilteredDepth& depth, const Camera& camera, const Body
 }
 
 // The chin is where, going down the middle of the face, the surface steps back to the throat.
-Estimate head_height(const FilteredDepth& depth, const Camera& camera, const Body& body, const Upright& upright) {
+Estimate head_height(const FilteredDepth& depth, const Camera& camera, const Body& body,
+                     const Upright& upright) {
     const HeadAxis head = head_axis(depth, camera, body);
     if (!head.known || !upright.crown.known || !upright.floor.known) return {};
     const FrontalPlane plane(camera, head.centre);

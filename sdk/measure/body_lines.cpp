@@ -39,7 +39,8 @@ Estimate hip_height(const Camera& camera, const Body& body, const Upright& uprig
         ++hips;
     }
     if (hips == 0) return {};
-    return {sum / float(hips) - upright.floor.value_m, std::hypot(kJointSigma_m, upright.floor.sigma_m), true};
+    return {sum / float(hips) - upright.floor.value_m, std::hypot(kJointSigma_m, upright.floor.sigma_m),
+            true};
 }
 
 Estimate torso_height(const Body& body) {
@@ -61,7 +62,8 @@ Lines measure_lines(const FilteredDepth& depth, const Camera& camera, const Body
         const float height = upright.crown.value_m - upright.floor.value_m + spread_loss(camera, body);
         constexpr float kPostureSigma_m = 0.006f;  // how upright a person stands from day to day
         at(lines, Line::kBodyHeight) = {
-            height, std::hypot(std::hypot(upright.crown.sigma_m, upright.floor.sigma_m), kPostureSigma_m), true};
+            height, std::hypot(std::hypot(upright.crown.sigma_m, upright.floor.sigma_m), kPostureSigma_m),
+            true};
     }
     at(lines, Line::kHeadWidth) = head_width(depth, camera, body, upright);
     at(lines, Line::kHeadHeight) = head_height(depth, camera, body, upright);

@@ -1,5 +1,5 @@
-// The lines of Fig. 4 on one frame, in metres: crown, soles and contours from the filtered depth map, the rest
-// from the joints (the "measurement source" column of Table 1).
+// The lines of Fig. 4 on one frame, in metres: crown, soles and contours from the filtered depth map, the
+// rest from the joints (the "measurement source" column of Table 1).
 #pragma once
 
 #include "frame/body.h"
@@ -20,8 +20,10 @@ struct Upright {
 Upright measure_upright(const FilteredDepth& depth, const Camera& camera, const Body& body);
 
 // The lines one by one.
-Estimate head_width(const FilteredDepth& depth, const Camera& camera, const Body& body, const Upright& upright);
-Estimate head_height(const FilteredDepth& depth, const Camera& camera, const Body& body, const Upright& upright);
+Estimate head_width(const FilteredDepth& depth, const Camera& camera, const Body& body,
+                    const Upright& upright);
+Estimate head_height(const FilteredDepth& depth, const Camera& camera, const Body& body,
+                     const Upright& upright);
 Estimate shoulder_width(const FilteredDepth& depth, const Camera& camera, const Body& body);
 Estimate hip_width(const FilteredDepth& depth, const Camera& camera, const Body& body);
 Estimate elbow_fingertip(const FilteredDepth& depth, const Camera& camera, const Body& body, bool from_wrist);

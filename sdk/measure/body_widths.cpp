@@ -11,7 +11,8 @@ namespace vfit {
 
 namespace {
 
-// Directions out of the frontal plane by more than this are too foreshortened to measure along (cos 40 = 0.77).
+// Directions out of the frontal plane by more than this are too foreshortened to measure along (cos 40 =
+// 0.77).
 constexpr float kForeshortened_rad = 40.0f * kPi / 180.0f;
 // Only the fingers are seen in that plane, the rest of the forearm comes from the joints: more is allowed.
 constexpr float kBentForearm_rad = 50.0f * kPi / 180.0f;
@@ -42,21 +43,24 @@ bool has_all(const Body& body, std::initializer_list<int> joints) {
 }
 
 /// In the frontal plane: its level and its upright part.
-Vec2 frontal(const FrontalPlane& plane, const Vec3& v) { return {glm::dot(v, plane.right()), glm::dot(v, plane.up())}; }
+Vec2 frontal(const FrontalPlane& plane, const Vec3& v) {
+    return {glm::dot(v, plane.right()), glm::dot(v, plane.up())};
+}
 
 /// How far the deltoid stands out beyond the shoulder joint once the arm hangs; negative: not seen.
 ///
 /// The outside of the upper arm is measured square to the arm as it is held, then turned to where it hangs:
 /// the breadth so obtained changes little with the angle of the arm.
-float deltoid_overhang(const FilteredDepth& depth, const Camera& camera, const Vec3& shoulder, const Vec3& elbow,
-                       const Vec3& other_shoulder) {
+float deltoid_overhang(const FilteredDepth& depth, const Camera& camera, const Vec3& shoulder,
+                       const Vec3& elbow, const Vec3& other_shoulder) {
     const FrontalPlane plane(camera, shoulder);
     const Vec2 arm = frontal(plane, elbow - shoulder);
     const float length = glm::length(elbow - shoulder);
     if (length < 1e-3f || glm::length(arm) < length * std::cos(kForeshortened_rad)) return -1.0f;
 
     const Vec2 along = glm::normalize(arm);
-    // Of the two sides of the arm the one away from the trunk: outside where it hangs, on top where it is out.
+    // Of the two sides of the arm the one away from the trunk: outside where it hangs, on top where it is
+    // out.
     const float side = frontal(plane, shoulder - other_shoulder).x > 0.0f ? 1.0f : -1.0f;
     const Vec2 square(-along.y * side, along.x * side);
     const Vec3 outward = plane.right() * square.x + plane.up() * square.y;
@@ -78,9 +82,10 @@ float deltoid_overhang(const FilteredDepth& depth, const Camera& camera, const V
     return largest(overhang, kSteps);
 }
 
-/// From the palm to the furthest contour within the wrist's reach to either side of the forearm's direction; 0
-/// where that is no hand's length.
-float fingertip_distance(const FilteredDepth& depth, const FrontalPlane& plane, const Vec3& palm, const Vec3& forearm) {
+/// From the palm to the furthest contour within the wrist's reach to either side of the forearm's direction;
+/// 0 where that is no hand's length.
+float fingertip_distance(const FilteredDepth& depth, const FrontalPlane& plane, const Vec3& palm,
+                         const Vec3& forearm) {
     constexpr float kWrist_rad = 30.0f * kPi / 180.0f;  // relaxed hands hang at up to that angle
     constexpr int kDirections = 9;
     const Vec2 along = glm::normalize(frontal(plane, forearm));
@@ -94,8 +99,8 @@ float fingertip_distance(const FilteredDepth& depth, const FrontalPlane& plane, 
         if (!reach.seen()) return 0.0f;
         furthest = std::max(furthest, glm::length(frontal(plane, reach.point - palm)));
     }
-    // Palm to fingertip is two thirds to three quarters of a hand (194 mm men, 181 mm women, ANSUR II): a longer way to the
-    // contour runs on over the thigh, a shorter one is a fist or a tracker's error.
+    // Palm to fingertip is two thirds to three quarters of a hand (194 mm men, 181 mm women, ANSUR II): a
+    // longer way to the contour runs on over the thigh, a shorter one is a fist or a tracker's error.
     constexpr float kShortest_m = 0.06f, kLongest_m = 0.18f;
     return furthest >= kShortest_m && furthest <= kLongest_m ? furthest : 0.0f;
 }
@@ -107,7 +112,8 @@ Estimate shoulder_width(const FilteredDepth& depth, const Camera& camera, const 
     const Vec3& left = body.at(VFIT_JOINT_LEFT_SHOULDER);
     const Vec3& right = body.at(VFIT_JOINT_RIGHT_SHOULDER);
     const float between = glm::length(left - right);
-    if (std::abs(glm::dot(glm::normalize(right - left), Vec3(0, 0, 1))) > std::sin(kForeshortened_rad)) return {};
+    if (std::abs(glm::dot(glm::normalize(right - left), Vec3(0, 0, 1))) > std::sin(kForeshortened_rad))
+        return {};
 
     float sides[2] = {-1.0f, -1.0f};
     if (has_all(body, {VFIT_JOINT_LEFT_ELBOW}))
@@ -130,7 +136,8 @@ Estimate hip_width(const FilteredDepth& depth, const Camera& camera, const Body&
     const FrontalPlane plane(camera, centre);
     const float pixel_m = centre.z / camera.fx;
 
-    // From the hip joint (0.530 of stature, Drillis and Contini) down to the crotch (0.481, ANSUR II), of 1.69 m.
+    // From the hip joint (0.530 of stature, Drillis and Contini) down to the crotch (0.481, ANSUR II),
+    // of 1.69 m.
     constexpr float kRows_m = 0.08f;
     constexpr float kHalfForearm_m = 0.05f;
     constexpr size_t kMostRows = 32;
@@ -161,20 +168,24 @@ Estimate hip_width(const FilteredDepth& depth, const Camera& camera, const Body&
                     is_arm = extent > arm - 0.5f * kHalfForearm_m;
                 }
             }
-            if (is_arm) hidden = true;
-            else extents[rows - 1] = extent;
+            if (is_arm)
+                hidden = true;
+            else
+                extents[rows - 1] = extent;
         }
         sides[s] = largest(extents, rows);
     }
     if (sides[0] < 0.0f && sides[1] < 0.0f) return {};
     const float between = glm::length(hips[0] - hips[1]);
-    constexpr float kBothSigma_m = 0.015f, kOneSigma_m = 0.025f;  // clothes; a side that the arm hides wholly or partly
+    constexpr float kBothSigma_m = 0.015f,
+                    kOneSigma_m = 0.025f;  // clothes; a side that the arm hides wholly or partly
     if (sides[0] < 0.0f) return {between + 2.0f * sides[1], kOneSigma_m, true};
     if (sides[1] < 0.0f) return {between + 2.0f * sides[0], kOneSigma_m, true};
     return {between + sides[0] + sides[1], hidden ? kOneSigma_m : kBothSigma_m, true};
 }
 
-Estimate elbow_fingertip(const FilteredDepth& depth, const Camera& camera, const Body& body, bool from_wrist) {
+Estimate elbow_fingertip(const FilteredDepth& depth, const Camera& camera, const Body& body,
+                         bool from_wrist) {
     float sum = 0.0f;
     int sides = 0;
     const int arms[2][3] = {{VFIT_JOINT_LEFT_ELBOW, VFIT_JOINT_LEFT_WRIST, VFIT_JOINT_LEFT_HAND},

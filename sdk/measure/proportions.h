@@ -16,15 +16,15 @@ namespace vfit {
 
 /// The lines of Fig. 4, in the order of Table 1.
 enum class Line : uint8_t {
-    kHeadWidth,        // (1)
-    kHeadHeight,       // (2)
-    kBodyHeight,       // (3)
-    kHipHeight,        // (4)
-    kElbowFingertip,   // (5)
-    kWristFingertip,   // (6)
-    kShoulderWidth,    // (7)
-    kHipWidth,         // (8)
-    kTorsoHeight,      // (9)
+    kHeadWidth,       // (1)
+    kHeadHeight,      // (2)
+    kBodyHeight,      // (3)
+    kHipHeight,       // (4)
+    kElbowFingertip,  // (5)
+    kWristFingertip,  // (6)
+    kShoulderWidth,   // (7)
+    kHipWidth,        // (8)
+    kTorsoHeight,     // (9)
 };
 inline constexpr size_t kLineCount = 9;
 
@@ -42,7 +42,7 @@ enum class Combination : uint8_t {
 
 /// A line's length in units of the head (Table 1), and the relative deviation of that ratio over people.
 struct Ratio {
-    float heads = 0.0f;      // 0: no standard ratio; the line affects no other (section 3.2.2)
+    float heads = 0.0f;  // 0: no standard ratio; the line affects no other (section 3.2.2)
     float relative_sd = 0.0f;
 };
 Ratio ratio(RatioTable table, vfit_sex sex, Line line);

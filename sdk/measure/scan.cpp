@@ -43,8 +43,8 @@ struct Scan::State {
         if (frames.empty()) fail(VFIT_ERROR_STATE, "scan: no frame has been taken yet");
     }
 
-    /// The frames of one second share most of their error (posture, calibration, user map), so that their mean
-    /// is credited with no less uncertainty than one of them.
+    /// The frames of one second share most of their error (posture, calibration, user map), so that their
+    /// mean is credited with no less uncertainty than one of them.
     Lines averaged_lines() const {
         Lines lines{};
         std::vector<float> values;
@@ -114,7 +114,8 @@ ScanProgress Scan::add(const ScanFrame& frame) {
     if (frame.body) state.last = *frame.body;
 
     if (progress.guidance == VFIT_GUIDANCE_NONE) {
-        state.frames.push_back({measure_lines(depth, camera, *frame.body), fit_spheres(depth, camera, *frame.body)});
+        state.frames.push_back(
+            {measure_lines(depth, camera, *frame.body), fit_spheres(depth, camera, *frame.body)});
         progress.taken = true;
         progress.frames_taken = frames_taken();
     }
@@ -157,7 +158,8 @@ Scan::Scale Scan::scale(const std::string& name) const {
     const Lines lines = state_->averaged_lines();
     const auto require = [&](Line line) {
         const Estimate e = state_->primary(lines, line);
-        if (!e.known) fail(VFIT_ERROR_DATA, "scan: ", line_key(line), ", the scale of ", name, ", was not seen");
+        if (!e.known)
+            fail(VFIT_ERROR_DATA, "scan: ", line_key(line), ", the scale of ", name, ", was not seen");
         return e;
     };
 

@@ -1,5 +1,5 @@
-// The scan of one person by the paper's method: filtered depth (Algorithm 1), collision spheres (Algorithm 2),
-// body dimensions (Algorithm 3) and their average over the frames of one second (Algorithm 4).
+// The scan of one person by the paper's method: filtered depth (Algorithm 1), collision spheres (Algorithm
+// 2), body dimensions (Algorithm 3) and their average over the frames of one second (Algorithm 4).
 #pragma once
 
 #include <array>
@@ -16,9 +16,10 @@
 
 namespace vfit {
 
-/// The defaults of `ratios` and `combination` are those with the smaller error: on 20 rendered bodies of known size
-/// (Kinect-like noise, floor known) they come within 0.2 % of stature and 1 to 2 % of bideltoid breadth on average;
-/// the paper as printed, as_printed(), within 9 % (its canon knows no real person's hips and hands) and 2.5 %.
+/// The defaults of `ratios` and `combination` are those with the smaller error: on 20 rendered bodies of
+/// known size (Kinect-like noise, floor known) they come within 0.2 % of stature and 1 to 2 % of bideltoid
+/// breadth on average; the paper as printed, as_printed(), within 9 % (its canon knows no real person's hips
+/// and hands) and 2.5 %.
 struct ScanDesc {
     uint32_t frame_count = 30;  // Algorithm 4: one second at 30 Hz
     vfit_sex sex = VFIT_SEX_UNKNOWN;
@@ -64,8 +65,8 @@ public:
     uint32_t frames_wanted() const;
     bool complete() const { return frames_taken() >= frames_wanted(); }
 
-    /// Every dimension that was seen at least once, and the estimates of Algorithm 3 in place of stature_m and
-    /// shoulder_breadth_m. No frame yet: VFIT_ERROR_STATE.
+    /// Every dimension that was seen at least once, and the estimates of Algorithm 3 in place of stature_m
+    /// and shoulder_breadth_m. No frame yet: VFIT_ERROR_STATE.
     std::vector<Measurement> measurements() const;
 
     /// Radii of the paper's 15 joints and their deviations over the frames; 0: never measured.

@@ -35,15 +35,13 @@ Walk walk_to_contour(const FilteredDepth& depth, Vec2 start, Vec2 direction) {
         walk.edge = origin + step * steps;
         walk.length_px = std::max(0.0f, glm::dot(walk.edge - start, glm::normalize(step)));
     };
-    const auto pixel = [&](int i) {
-        return nearest_pixel(origin + step * float(i));
-    };
+    const auto pixel = [&](int i) { return nearest_pixel(origin + step * float(i)); };
     const auto in_image = [&](Pixel p) {
         return p.x >= 0 && p.y >= 0 && p.x < int(depth.width) && p.y < int(depth.height);
     };
 
-    // The filter has spread the jump over its kernel: it stood where the depth changes fastest. Near the edge of
-    // the mask it is the filter's background that jumps, and the edge is the contour.
+    // The filter has spread the jump over its kernel: it stood where the depth changes fastest. Near the edge
+    // of the mask it is the filter's background that jumps, and the edge is the contour.
     const auto edge_of_jump = [&](int found) {
         float steepest = -1.0f, place = 0.0f;
         for (int k = std::max(1, found - kSpan + 1); k <= found + kKernelReach; ++k) {
@@ -81,7 +79,8 @@ Walk walk_to_contour(const FilteredDepth& depth, Vec2 start, Vec2 direction) {
     }
 }
 
-FrontalPlane::FrontalPlane(const Camera& camera, const Vec3& through) : camera_(camera), up_(camera.floor_normal) {
+FrontalPlane::FrontalPlane(const Camera& camera, const Vec3& through)
+    : camera_(camera), up_(camera.floor_normal) {
     const Vec3 view(0, 0, 1);
     forward_ = view - up_ * glm::dot(view, up_);
     // A camera that looks straight down has no level view direction: its own plane serves.
@@ -100,7 +99,8 @@ float FrontalPlane::elevation_rad(Vec2 pixel) const {
     return std::asin(std::clamp(glm::dot(ray, up_), -1.0f, 1.0f));
 }
 
-FrontalPlane::Reach FrontalPlane::reach(const FilteredDepth& depth, const Vec3& from, const Vec3& direction) const {
+FrontalPlane::Reach FrontalPlane::reach(const FilteredDepth& depth, const Vec3& from,
+                                        const Vec3& direction) const {
     Reach reach;
     if (!(from.z > 0.0f)) return reach;
     constexpr float kAhead_m = 0.05f;  // far enough to tell the direction in the image

@@ -18,9 +18,13 @@ float fit_sphere(const FilteredDepth& depth, const Camera& camera, const Vec3& j
     const float behind = joint.z - depth.at(x, y);
     if (behind > 0.0f) radius = behind;
 
-    const struct { Vec2 direction; float metres_per_px; } directions[] = {
-        {{-1, 0}, joint.z / camera.fx}, {{1, 0}, joint.z / camera.fx},
-        {{0, -1}, joint.z / camera.fy}, {{0, 1}, joint.z / camera.fy}};
+    const struct {
+        Vec2 direction;
+        float metres_per_px;
+    } directions[] = {{{-1, 0}, joint.z / camera.fx},
+                      {{1, 0}, joint.z / camera.fx},
+                      {{0, -1}, joint.z / camera.fy},
+                      {{0, 1}, joint.z / camera.fy}};
     for (const auto& d : directions) {
         const Walk walk = walk_to_contour(depth, pixel, d.direction);
         if (walk.seen()) radius = std::min(radius, walk.length_px * d.metres_per_px);
@@ -28,7 +32,8 @@ float fit_sphere(const FilteredDepth& depth, const Camera& camera, const Vec3& j
     return radius == kNone ? 0.0f : radius;
 }
 
-std::array<float, kPaperJointCount> fit_spheres(const FilteredDepth& depth, const Camera& camera, const Body& body) {
+std::array<float, kPaperJointCount> fit_spheres(const FilteredDepth& depth, const Camera& camera,
+                                                const Body& body) {
     std::array<float, kPaperJointCount> radii{};
     for (int joint = 0; joint < kPaperJointCount; ++joint)
         if (body.has(joint)) radii[size_t(joint)] = fit_sphere(depth, camera, body.at(joint));

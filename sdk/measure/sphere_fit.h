@@ -20,6 +20,7 @@ namespace vfit {
 float fit_sphere(const FilteredDepth& depth, const Camera& camera, const Vec3& joint);
 
 /// For the paper's 15 joints.
-std::array<float, kPaperJointCount> fit_spheres(const FilteredDepth& depth, const Camera& camera, const Body& body);
+std::array<float, kPaperJointCount> fit_spheres(const FilteredDepth& depth, const Camera& camera,
+                                                const Body& body);
 
 }  // namespace vfit

@@ -40,7 +40,8 @@ Bounds bounds(const GarmentSizes& garment, size_t row, size_t measure) {
         return 0.5 * (double(garment.sizes[below].ranges[measure].high_m) +
                       double(garment.sizes[below + 1].ranges[measure].low_m));
     };
-    return {row == 0 ? -kInfinity : middle(row - 1), row + 1 == garment.sizes.size() ? kInfinity : middle(row)};
+    return {row == 0 ? -kInfinity : middle(row - 1),
+            row + 1 == garment.sizes.size() ? kInfinity : middle(row)};
 }
 
 void check(const Measurement& m) {
@@ -64,15 +65,16 @@ std::vector<SizeProbability> recommend(const SizeChart& chart, const std::string
         if (!measurement) continue;
         check(*measurement);
         any = true;
-        const double value = measurement->value, sigma = std::max(double(measurement->sigma), kSmallestSigma_m);
+        const double value = measurement->value,
+                     sigma = std::max(double(measurement->sigma), kSmallestSigma_m);
         for (size_t row = 0; row < score.size(); ++row) {
             const Bounds range = bounds(garment, row, m);
             score[row] += log_between((range.low - value) / sigma, (range.high - value) / sigma);
         }
     }
     if (!any)
-        fail(VFIT_ERROR_DATA, "size chart \"", chart.name(), "\": ", garment_kind, " needs at least one of ", wanted,
-             "; none was given");
+        fail(VFIT_ERROR_DATA, "size chart \"", chart.name(), "\": ", garment_kind, " needs at least one of ",
+             wanted, "; none was given");
 
     const double best = *std::max_element(score.begin(), score.end());
     double sum = 0.0;

@@ -15,15 +15,16 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int kVersion = 1;
-constexpr size_t kLongestName = 31;    // vfit_size.label and vfit_size_row.garment_kind hold 32 bytes
-constexpr float kLargest_m = 10.0f;    // no body measure is longer: the unit is wrong
-constexpr float kRounding_m = 1e-5f;   // 94 cm is not exact in binary
+constexpr size_t kLongestName = 31;   // vfit_size.label and vfit_size_row.garment_kind hold 32 bytes
+constexpr float kLargest_m = 10.0f;   // no body measure is longer: the unit is wrong
+constexpr float kRounding_m = 1e-5f;  // 94 cm is not exact in binary
 
 const Json& field(const Json& object, const char* name, Json::value_t type, const char* type_name,
                   const std::string& where) {
     const auto it = object.find(name);
     if (it == object.end()) fail(VFIT_ERROR_DATA, "size chart: ", where, " has no \"", name, "\"");
-    if (it->type() != type) fail(VFIT_ERROR_DATA, "size chart: \"", name, "\" of ", where, " is not ", type_name);
+    if (it->type() != type)
+        fail(VFIT_ERROR_DATA, "size chart: \"", name, "\" of ", where, " is not ", type_name);
     return *it;
 }
 
@@ -40,7 +41,8 @@ const std::string& string_field(const Json& object, const char* name, const std:
 std::string short_name(const Json& object, const char* name, const std::string& where) {
     const std::string& value = string_field(object, name, where);
     if (value.empty() || value.size() > kLongestName)
-        fail(VFIT_ERROR_DATA, "size chart: \"", name, "\" of ", where, " must have 1 to ", kLongestName, " bytes");
+        fail(VFIT_ERROR_DATA, "size chart: \"", name, "\" of ", where, " must have 1 to ", kLongestName,
+             " bytes");
     return value;
 }
 
@@ -71,7 +73,8 @@ MeasureRange parse_range(const Json& ranges, const std::string& key, float unit_
     const double low = (*it)[0].get<double>() * unit_m, high = (*it)[1].get<double>() * unit_m;
     if (!std::isfinite(low) || !std::isfinite(high) || low < 0.0 || high > kLargest_m)
         fail(VFIT_ERROR_DATA, "size chart: the range of ", place, " is not within 0 and ", kLargest_m, " m");
-    if (low >= high) fail(VFIT_ERROR_DATA, "size chart: the range of ", place, " is empty: low is not below high");
+    if (low >= high)
+        fail(VFIT_ERROR_DATA, "size chart: the range of ", place, " is empty: low is not below high");
     return {key, float(low), float(high)};
 }
 
@@ -85,10 +88,12 @@ SizeRow parse_row(const Json& item, const GarmentSizes& garment, float unit_m, c
 
     const Json& ranges = field(item, "ranges", Json::value_t::object, "an object", place);
     for (const auto& range : ranges.items())
-        if (std::find(garment.measures.begin(), garment.measures.end(), range.key()) == garment.measures.end())
+        if (std::find(garment.measures.begin(), garment.measures.end(), range.key()) ==
+            garment.measures.end())
             fail(VFIT_ERROR_DATA, "size chart: ", place, " gives a range of \"", range.key(),
                  "\", which the garment's measures do not name");
-    for (const std::string& key : garment.measures) row.ranges.push_back(parse_range(ranges, key, unit_m, place));
+    for (const std::string& key : garment.measures)
+        row.ranges.push_back(parse_range(ranges, key, unit_m, place));
 
     if (!garment.sizes.empty()) {
         const SizeRow& before = garment.sizes.back();
@@ -99,7 +104,8 @@ SizeRow parse_row(const Json& item, const GarmentSizes& garment, float unit_m, c
                 fail(VFIT_ERROR_DATA, "size chart: ", place, ", ", b.key, " is not above that of label ",
                      before.label, ": sizes must stand in ascending order");
             if (b.low_m < a.high_m - kRounding_m)
-                fail(VFIT_ERROR_DATA, "size chart: ", place, ", ", b.key, " overlaps that of label ", before.label);
+                fail(VFIT_ERROR_DATA, "size chart: ", place, ", ", b.key, " overlaps that of label ",
+                     before.label);
         }
     }
     return row;
@@ -145,7 +151,8 @@ SizeChart SizeChart::parse(std::string_view json) {
     if (version == chart.end() || !version->is_number_integer())
         fail(VFIT_ERROR_DATA, "size chart: the chart has no whole number \"version\"");
     if (*version != kVersion)
-        fail(VFIT_ERROR_VERSION, "size chart: version ", version->dump(), " is unknown; this library reads ", kVersion);
+        fail(VFIT_ERROR_VERSION, "size chart: version ", version->dump(), " is unknown; this library reads ",
+             kVersion);
 
     SizeChart result;
     result.name_ = string_field(chart, "name", "the chart");
@@ -162,7 +169,8 @@ const GarmentSizes& SizeChart::garment(const std::string& kind) const {
         if (garment.kind == kind) return garment;
         known += text(known.empty() ? "" : ", ", garment.kind);
     }
-    fail(VFIT_ERROR_ARGUMENT, "size chart \"", name_, "\" has no garment kind \"", kind, "\"; it has: ", known);
+    fail(VFIT_ERROR_ARGUMENT, "size chart \"", name_, "\" has no garment kind \"", kind,
+         "\"; it has: ", known);
 }
 
 }  // namespace vfit

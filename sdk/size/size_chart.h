@@ -1,4 +1,5 @@
-// Size charts as data: which label of which garment serves which range of which measures (docs/size-charts.md).
+// Size charts as data: which label of which garment serves which range of which measures
+// (docs/size-charts.md).
 #pragma once
 
 #include <string>
@@ -18,9 +19,9 @@ struct SizeRow {
 };
 
 struct GarmentSizes {
-    std::string kind;                   // "short_sleeves"
+    std::string kind;  // "short_sleeves"
     std::vector<std::string> measures;
-    std::vector<SizeRow> sizes;         // smallest first
+    std::vector<SizeRow> sizes;  // smallest first
 };
 
 class SizeChart {

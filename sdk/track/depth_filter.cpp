@@ -23,7 +23,8 @@ int reflect(int i, int count) {
     return i;
 }
 
-/// Marks the person's readings of one row and counts them. The loop is free of branches, so that it is vectorised.
+/// Marks the person's readings of one row and counts them. The loop is free of branches, so that it is
+/// vectorised.
 uint32_t mark_row(const DepthImage& image, size_t row, uint32_t user_id, uint8_t* mask) {
     const uint32_t width = image.width();
     const uint16_t* const raw = image.depth + row;
@@ -41,8 +42,8 @@ uint32_t mark_row(const DepthImage& image, size_t row, uint32_t user_id, uint8_t
     return count;
 }
 
-/// Rows without a reading of the person, above and below a pixel that has none, itself included; counted to one
-/// more than `most`. The image's edge ends no gap.
+/// Rows without a reading of the person, above and below a pixel that has none, itself included; counted to
+/// one more than `most`. The image's edge ends no gap.
 int gap_height(const DepthImage& image, size_t pixel, uint32_t user_id, int most) {
     const auto person = [&](size_t i) { return image.users[i] == user_id && image.depth[i] != 0; };
     const size_t width = image.width(), count = width * image.height();
@@ -59,7 +60,8 @@ int gap_height(const DepthImage& image, size_t pixel, uint32_t user_id, int most
 
 DepthFilter::DepthFilter(int kernel_px) {
     if (kernel_px < 1 || kernel_px > 31 || kernel_px % 2 == 0)
-        fail(VFIT_ERROR_ARGUMENT, "depth filter: a kernel of ", kernel_px, " pixels is not odd and in 1 to 31");
+        fail(VFIT_ERROR_ARGUMENT, "depth filter: a kernel of ", kernel_px,
+             " pixels is not odd and in 1 to 31");
     const cv::Mat kernel = cv::getGaussianKernel(kernel_px, 0.0, CV_32F);
     for (int i = kernel_px / 2; i < kernel_px; ++i) weights_.push_back(kernel.at<float>(i));
 }
@@ -154,8 +156,9 @@ void DepthFilter::patch_row(const DepthImage& image, size_t row, int first, int 
                 empty = empty && image.depth[row + size_t(i)] == 0;
                 marked = marked && image.users[row + size_t(i)] == user_id;
             }
-            const bool speckle = hole <= longest_hole && std::abs(depth[x] - depth[left]) < kSameSurface_m &&
-                                 gap_height(image, row + size_t(left + 1 + hole / 2), user_id, longest_hole) <= longest_hole;
+            const bool speckle =
+                hole <= longest_hole && std::abs(depth[x] - depth[left]) < kSameSurface_m &&
+                gap_height(image, row + size_t(left + 1 + hole / 2), user_id, longest_hole) <= longest_hole;
             if (empty && (marked || speckle)) {
                 const float slope = (depth[x] - depth[left]) / float(hole + 1);
                 for (int i = left + 1; i < x; ++i) {

@@ -50,16 +50,16 @@ struct Case {
 
 TEST(NormalQuantiles, HaveMeanZeroAndUnitVariance) {
     double sum = 0, squares = 0, fourth = 0;
-    for (int i = 0; i < 65536; ++i) {
+    for (uint32_t i = 0; i < kQuantileCount; ++i) {
         const double x = normal_quantiles()[i];
         sum += x, squares += x * x, fourth += x * x * x * x;
     }
-    EXPECT_NEAR(sum / 65536, 0.0, 1e-6);
-    EXPECT_NEAR(squares / 65536, 1.0, 1e-3);
-    EXPECT_NEAR(fourth / 65536, 3.0, 2e-2);
+    EXPECT_NEAR(sum / kQuantileCount, 0.0, 1e-6);
+    EXPECT_NEAR(squares / kQuantileCount, 1.0, 1e-3);
+    EXPECT_NEAR(fourth / kQuantileCount, 3.0, 3e-2);
     // Tabulated values of the normal distribution: 97.5 % and 99.865 %.
-    EXPECT_NEAR(normal_quantiles()[static_cast<int>(0.975 * 65536)], 1.95996, 2e-4);
-    EXPECT_NEAR(normal_quantiles()[static_cast<int>(0.998650 * 65536)], 3.0, 4e-3);
+    EXPECT_NEAR(normal_quantiles()[static_cast<int>(0.975 * kQuantileCount)], 1.95996, 2e-4);
+    EXPECT_NEAR(normal_quantiles()[static_cast<int>(0.998650 * kQuantileCount)], 3.0, 4e-3);
 }
 
 TEST(StructuredLight, SdOfDepthFollowsNguyenWhereNothingIsQuantised) {

@@ -15,13 +15,13 @@ namespace {
 struct Options {
     uint32_t count = 20, seed = 1;
     std::string sensor = "kinect_v1";
-    double distance_m = 2.6;
+    double distance_m = 2.8;
     bool json = false;
 };
 
 struct Row {
     std::string sex;
-    double height_true, height, height_sigma, shoulder_true, shoulder, shoulder_sigma, compute_ms;
+    double height_true, height, height_sigma, shoulder_true, shoulder, shoulder_sigma, compute_ms, last_ms;
 };
 
 /// Bodies spread over the model's range of height and build.
@@ -74,6 +74,7 @@ Row measure(const std::string& uri, bool male) {
     row.height = value_of(measured, "stature_m", &row.height_sigma);
     row.shoulder = value_of(measured, "shoulder_breadth_m", &row.shoulder_sigma);
     row.compute_ms = run.compute_ms;
+    row.last_ms = run.last_ms;
     return row;
 }
 
@@ -92,7 +93,7 @@ void add_people(CLI::App& app) {
     command->callback([o] {
         std::mt19937 random(o->seed);
         Json rows = Json::array();
-        double height = 0.0, shoulder = 0.0, height_bias = 0.0, shoulder_bias = 0.0, worst_ms = 0.0, mean_ms = 0.0;
+        double height = 0.0, shoulder = 0.0, height_bias = 0.0, shoulder_bias = 0.0, last_ms = 0.0, mean_ms = 0.0;
         if (!o->json)
             std::cout << " #    height real   est.  error    sd | shoulder real   est.  error    sd |   ms  (cm)\n";
         for (uint32_t i = 0; i < o->count; ++i) {
@@ -102,7 +103,7 @@ void add_people(CLI::App& app) {
             shoulder += se / o->count;
             height_bias += 100.0 * (r.height - r.height_true) / o->count;
             shoulder_bias += 100.0 * (r.shoulder - r.shoulder_true) / o->count;
-            worst_ms = std::max(worst_ms, r.compute_ms);
+            last_ms += r.last_ms / o->count;
             mean_ms += r.compute_ms / o->count;
             rows.push_back({{"sex", r.sex}, {"height_m", {r.height_true, r.height, r.height_sigma}},
                             {"shoulder_m", {r.shoulder_true, r.shoulder, r.shoulder_sigma}},
@@ -122,14 +123,15 @@ void add_people(CLI::App& app) {
                               {"height_bias_cm", height_bias},
                               {"shoulder_bias_cm", shoulder_bias},
                               {"paper", {{"height_error_percent", 1.5}, {"shoulder_error_percent", 4.2}}},
-                              {"compute_ms", {{"mean", mean_ms}, {"max", worst_ms}}}}
+                              {"compute_ms", {{"all_frames", mean_ms}, {"after_the_last_frame", last_ms}}}}
                              .dump(2)
                       << "\n";
             return;
         }
         std::cout << std::setprecision(2) << "mean absolute error: height " << height << " % (paper 1.5 %), shoulder "
                   << shoulder << " % (paper 4.2 %); bias " << height_bias << " and " << shoulder_bias
-                  << " cm; beyond capture " << mean_ms << " ms (paper 5 ms)\n";
+                  << " cm; work " << mean_ms << " ms while the frames come, " << last_ms
+                  << " ms beyond capture (paper 5 ms)\n";
     });
 }
 

@@ -49,6 +49,7 @@ ScanRun run_scan(vfit_context context, Source& source, const ScanOptions& option
         run.frames_wanted = state.frames_wanted;
         if (result != VFIT_INCOMPLETE) {
             run.compute_ms += state.compute_ms;
+            run.last_ms = state.compute_ms;
             run.corrections_m.push_back(state.correction_m);
             if (last_frame) *last_frame = std::move(tracked);
         }

@@ -15,6 +15,7 @@ struct ScanRun {
     uint32_t frames_taken = 0, frames_wanted = 0;
     uint32_t body_id = 0;
     double compute_ms = 0.0;              // of all frames taken
+    double last_ms = 0.0;                 // of the last: what is left to do when capture ends
     std::vector<float> corrections_m;     // one a frame taken (Fig. 9)
     bool complete() const { return frames_taken == frames_wanted; }
 };

@@ -16,7 +16,7 @@ namespace vfit::tools {
 
 namespace {
 
-constexpr int kPictureWidth = 620, kPictureHeight = 930;  // of the dressed avatar, pixels
+constexpr PortraitStyle kFine{620, 930, 3}, kDraft{310, 465, 1};
 constexpr size_t kPortraits = 4;                           // moments of the motion
 constexpr double kKeyInterval_s = 0.1;                     // of the GLB's key frames
 constexpr size_t kMaxKeys = 80;
@@ -24,7 +24,7 @@ constexpr size_t kMaxKeys = 80;
 struct Options {
     FittingOptions fitting;
     std::string sex = "f", out;
-    bool json = false;
+    bool json = false, draft = false;
 };
 
 /// What is kept of a moment until the pictures are drawn.
@@ -98,7 +98,8 @@ std::vector<Moment> choose(const std::vector<Moment>& all) {
     return out;
 }
 
-void draw_all(Album& album, const Fitting& fitting, std::vector<Moment> moments, const std::string& title) {
+void draw_all(Album& album, const Fitting& fitting, const std::vector<Moment>& moments, const std::string& title,
+              const PortraitStyle& style) {
     const vfit_frame frame = fitting.scan_frame();
     const int scale = depth_scale(frame);
     Canvas depth = draw_depth(frame, scale);
@@ -114,14 +115,14 @@ void draw_all(Album& album, const Fitting& fitting, std::vector<Moment> moments,
     std::vector<std::vector<SheetItem>> rows(2);
     rows[0] = {{depth, "depth and user map"}, {skeleton, "joints and collision spheres of the scan"}};
     for (size_t k = 0; k < moments.size(); ++k) {
-        const Canvas picture = draw_dressed(moments[k].meshes, moments[k].centre, 0.35f, kPictureWidth, kPictureHeight);
+        const Canvas picture = draw_dressed(moments[k].meshes, moments[k].centre, 0.35f, style);
         album.add("dressed_" + std::to_string(k) + ".png", picture);
         char caption[32];
         std::snprintf(caption, sizeof caption, "%.1f s", moments[k].time_s);
         rows[1].push_back({picture, caption});
     }
     const Moment& last = moments.back();
-    const Canvas back = draw_dressed(last.meshes, last.centre, 3.5f, kPictureWidth, kPictureHeight);
+    const Canvas back = draw_dressed(last.meshes, last.centre, 3.5f, style);
     album.add("dressed_back.png", back);
     rows[1].push_back({back, "from behind"});
     album.add("contact_sheet.png", contact_sheet(title, rows, 620));
@@ -172,7 +173,7 @@ Json fit(const Options& options) {
     result["stage_ms"] = timings(context.get());
 
     Album album(options.out);
-    draw_all(album, fitting, choose(moments), title_of(result));
+    draw_all(album, fitting, choose(moments), title_of(result), options.draft ? kDraft : kFine);
     animation.write(album.path("avatar.glb"));
     result["pictures"] = album.names();
     result["animation"] = "avatar.glb";
@@ -198,6 +199,7 @@ void add_fit(CLI::App& app) {
     command->add_option("--detail", o->fitting.detail, "Level of detail of the avatar: 0, 1 or 2")
         ->check(CLI::Range(0, 2));
     command->add_option("--out", o->out, "Folder for the results")->required();
+    command->add_flag("--draft", o->draft, "Small, grainy pictures in a tenth of the time");
     command->add_flag("--json", o->json, "Print the result as JSON");
     add_source_options(*command);
     command->callback([o] {

@@ -73,14 +73,16 @@ glm::vec3 centre_of(const RenderMesh& mesh) {
     return {0.5f * (low.x + high.x), 0.0f, 0.5f * (low.z + high.z)};
 }
 
-Canvas draw_dressed(const std::vector<RenderMesh>& meshes, const glm::vec3& centre, float yaw, int width, int height) {
+Canvas draw_dressed(const std::vector<RenderMesh>& meshes, const glm::vec3& centre, float yaw,
+                    const PortraitStyle& style) {
     // The floor of the picture is the world's: meshes move under the camera, not the camera over them.
     std::vector<RenderMesh> moved = meshes;
     for (RenderMesh& mesh : moved)
         for (glm::vec3& p : mesh.positions) p -= centre;
     RenderView view;
-    view.width = width;
-    view.height = height;
+    view.width = style.width;
+    view.height = style.height;
+    view.samples = style.samples;
     constexpr float kDistance = 5.2f, kEyeHeight = 1.35f, kTargetHeight = 0.92f;
     view.eye = {kDistance * std::sin(yaw), kEyeHeight, kDistance * std::cos(yaw)};
     view.target = {0.0f, kTargetHeight, 0.0f};

@@ -47,8 +47,7 @@ TEST(BodyLines, MeasureTheFigure) {
     EXPECT_NEAR(value(lines, Line::kElbowFingertip), kElbow_y - kFingertip_y, 0.02f);
     EXPECT_NEAR(value(lines, Line::kWristFingertip), 0.87f - kFingertip_y, 0.02f);
     EXPECT_NEAR(value(lines, Line::kTorsoHeight), kTorso_m, 0.001f);
-    for (const Estimate& line : lines)
-        EXPECT_TRUE(!line.known || line.sigma_m > 0.0f);
+    for (const Estimate& line : lines) EXPECT_TRUE(!line.known || line.sigma_m > 0.0f);
 }
 
 TEST(BodyLines, StandInTheWorldWhereTheCameraIsTiltedOrOnItsSide) {
@@ -121,7 +120,8 @@ TEST(BodyLines, TakeAnUnseenSideFromTheOtherAndSaySo) {
 
 TEST(BodyLines, AreNotTheHandsWhereThoseTouchTheHips) {
     Figure figure = standing_figure();
-    figure.boxes.push_back({{0.1f, 0.80f, -2.84f}, {kArmOutside_x, 0.90f, -2.76f}});  // a hand on the hip's side
+    figure.boxes.push_back(
+        {{0.1f, 0.80f, -2.84f}, {kArmOutside_x, 0.90f, -2.76f}});  // a hand on the hip's side
     const Lines lines = measure(take_picture(figure, level_camera()));
     EXPECT_NEAR(value(lines, Line::kHipWidth), kSeenHipBreadth_m, kPixel_m);
 }

@@ -1,4 +1,5 @@
-// A person of spheres and boxes before a pinhole camera, seen ray by ray: every measure is known by construction.
+// A person of spheres and boxes before a pinhole camera, seen ray by ray: every measure is known by
+// construction.
 #pragma once
 
 #include <cmath>
@@ -27,9 +28,9 @@ struct Figure {
 };
 
 // Lengths of standing_figure().
-inline constexpr float kStature_m = 1.70f, kHeadRadius_m = 0.10f, kShoulderJoint_x = 0.18f, kArmOutside_x = 0.23f,
-                       kHipHalfBreadth_m = 0.16f, kHipHeight_m = 0.90f, kElbow_y = 1.10f, kShoulder_y = 1.40f,
-                       kFingertip_y = 0.68f, kTorso_m = 0.46f;
+inline constexpr float kStature_m = 1.70f, kHeadRadius_m = 0.10f, kShoulderJoint_x = 0.18f,
+                       kArmOutside_x = 0.23f, kHipHalfBreadth_m = 0.16f, kHipHeight_m = 0.90f,
+                       kElbow_y = 1.10f, kShoulder_y = 1.40f, kFingertip_y = 0.68f, kTorso_m = 0.46f;
 
 /// What a camera sees of a trunk that is 0.10 m deep to either side: its front edges, 2.7 m away.
 inline constexpr float kSeenHipBreadth_m = 2.0f * kHipHalfBreadth_m * 2.8f / 2.7f;
@@ -42,10 +43,10 @@ inline Figure standing_figure(float z = 2.8f) {
         f.boxes.push_back({{-x1, y0, -z - half}, {-x0, y1, -z + half}});
     };
     f.spheres.push_back({{0, kStature_m - kHeadRadius_m, -z}, kHeadRadius_m});
-    box(0, 0.05f, 1.40f, 1.55f, 0.05f);                  // neck
-    box(0, kHipHalfBreadth_m, 0.84f, 1.44f, 0.10f);      // trunk
-    box(0.02f, kHipHalfBreadth_m, 0.0f, 0.84f, 0.07f);   // legs
-    box(0.13f, kArmOutside_x, 1.36f, 1.44f, 0.05f);      // shoulders
+    box(0, 0.05f, 1.40f, 1.55f, 0.05f);                      // neck
+    box(0, kHipHalfBreadth_m, 0.84f, 1.44f, 0.10f);          // trunk
+    box(0.02f, kHipHalfBreadth_m, 0.0f, 0.84f, 0.07f);       // legs
+    box(0.13f, kArmOutside_x, 1.36f, 1.44f, 0.05f);          // shoulders
     box(0.185f, kArmOutside_x, kFingertip_y, 1.40f, 0.04f);  // arms
     const auto joint = [&](int id, float x, float y) { f.joints.set(id, {x, y, -z}); };
     joint(VFIT_JOINT_HEAD, 0, 1.60f);
@@ -66,7 +67,8 @@ inline Figure standing_figure(float z = 2.8f) {
     return f;
 }
 
-inline Camera level_camera(uint32_t width = 640, uint32_t height = 480, float tilt_rad = 0.0f, float roll_rad = 0.0f) {
+inline Camera level_camera(uint32_t width = 640, uint32_t height = 480, float tilt_rad = 0.0f,
+                           float roll_rad = 0.0f) {
     Camera camera;
     camera.width = width;
     camera.height = height;

@@ -12,23 +12,25 @@ namespace {
 
 constexpr vfit_sex kAnybody = VFIT_SEX_UNKNOWN;
 
-void set(Lines& lines, Line line, float value, float sigma = 0.01f) { at(lines, line) = {value, sigma, true}; }
+void set(Lines& lines, Line line, float value, float sigma = 0.01f) {
+    at(lines, line) = {value, sigma, true};
+}
 
 TEST(Proportions, HoldTheCanonOfTable1) {
     const std::pair<Line, float> rows[] = {
-        {Line::kHeadWidth, 1}, {Line::kHeadHeight, 1}, {Line::kBodyHeight, 7}, {Line::kHipHeight, 4},
-        {Line::kElbowFingertip, 2}, {Line::kWristFingertip, 1}, {Line::kShoulderWidth, 3}, {Line::kHipWidth, 0},
-        {Line::kTorsoHeight, 0}};
+        {Line::kHeadWidth, 1},     {Line::kHeadHeight, 1},     {Line::kBodyHeight, 7},
+        {Line::kHipHeight, 4},     {Line::kElbowFingertip, 2}, {Line::kWristFingertip, 1},
+        {Line::kShoulderWidth, 3}, {Line::kHipWidth, 0},       {Line::kTorsoHeight, 0}};
     for (const auto& [line, heads] : rows) EXPECT_EQ(ratio(RatioTable::kCanon, kAnybody, line).heads, heads);
 }
 
 TEST(Proportions, AverageTheDirectAndTheDerivedEstimatesAsEq7Does) {
     Lines lines{};
     set(lines, Line::kBodyHeight, 1.70f);
-    set(lines, Line::kHipHeight, 0.92f);        // 0.92 x 7 / 4 = 1.61
-    set(lines, Line::kElbowFingertip, 0.46f);   // 0.46 x 7 / 2 = 1.61
-    set(lines, Line::kWristFingertip, 0.19f);   // 0.19 x 7     = 1.33
-    set(lines, Line::kHeadHeight, 0.22f);       // 0.22 x 7     = 1.54
+    set(lines, Line::kHipHeight, 0.92f);       // 0.92 x 7 / 4 = 1.61
+    set(lines, Line::kElbowFingertip, 0.46f);  // 0.46 x 7 / 2 = 1.61
+    set(lines, Line::kWristFingertip, 0.19f);  // 0.19 x 7     = 1.33
+    set(lines, Line::kHeadHeight, 0.22f);      // 0.22 x 7     = 1.54
     const Estimate e =
         estimate_primary(lines, Line::kBodyHeight, RatioTable::kCanon, kAnybody, Combination::kMean);
     ASSERT_TRUE(e.known);
@@ -58,8 +60,8 @@ TEST(Proportions, WeighEstimatesByTheirCertainty) {
     ASSERT_FLOAT_EQ(r.heads, 3.31f);
     const double derived = 0.16 * 3.31;
     const double s1 = 0.02 * 0.02, s2 = std::pow(0.01 * 3.31, 2) + std::pow(derived * r.relative_sd, 2);
-    const Estimate e = estimate_primary(lines, Line::kShoulderWidth, RatioTable::kAnthropometric, VFIT_SEX_MALE,
-                                        Combination::kInverseVariance);
+    const Estimate e = estimate_primary(lines, Line::kShoulderWidth, RatioTable::kAnthropometric,
+                                        VFIT_SEX_MALE, Combination::kInverseVariance);
     EXPECT_NEAR(e.value_m, (0.48 / s1 + derived / s2) / (1 / s1 + 1 / s2), 1e-5);
     EXPECT_NEAR(e.sigma_m, std::sqrt(1 / (1 / s1 + 1 / s2)), 1e-5);
 }
@@ -77,7 +79,8 @@ TEST(Proportions, DropAWeighedLineThatContradictsTheDirectMeasure) {
 
 TEST(Proportions, InferAPrimaryThatWasNotSeen) {
     Lines lines{};
-    EXPECT_FALSE(estimate_primary(lines, Line::kBodyHeight, RatioTable::kCanon, kAnybody, Combination::kMean).known);
+    EXPECT_FALSE(
+        estimate_primary(lines, Line::kBodyHeight, RatioTable::kCanon, kAnybody, Combination::kMean).known);
     set(lines, Line::kHipHeight, 0.90f, 0.01f);
     const Estimate e = estimate_primary(lines, Line::kBodyHeight, RatioTable::kAnthropometric, kAnybody,
                                         Combination::kInverseVariance);

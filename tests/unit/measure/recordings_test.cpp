@@ -1,5 +1,5 @@
-// Real people before a Kinect v1: the scan completes on every recording, and one person's stature is the same in
-// all of theirs. The heights themselves are not known.
+// Real people before a Kinect v1: the scan completes on every recording, and one person's stature is the same
+// in all of theirs. The heights themselves are not known.
 #include <gtest/gtest.h>
 #include <png.h>
 
@@ -43,7 +43,8 @@ std::vector<uint16_t> read_png(const fs::path& path, uint32_t width, uint32_t he
     EXPECT_EQ(png_get_image_width(png, info), width);
     EXPECT_EQ(png_get_bit_depth(png, info), 16);
     png_set_swap(png);  // PNG is big-endian
-    for (uint32_t y = 0; y < height; ++y) png_read_row(png, reinterpret_cast<png_bytep>(&pixels[size_t(y) * width]), nullptr);
+    for (uint32_t y = 0; y < height; ++y)
+        png_read_row(png, reinterpret_cast<png_bytep>(&pixels[size_t(y) * width]), nullptr);
     png_destroy_read_struct(&png, &info, nullptr);
     std::fclose(file);
     return pixels;

@@ -98,7 +98,8 @@ TEST(Scan, GivesThePapersMeanWhereAsked) {
     // Every other line takes part with the weight of the direct measure: the canon's bias is in the result.
     double sum = kStature_m + 7.0 / 4 * kHipHeight_m;
     int count = 2;
-    for (const auto& [key, factor] : {std::pair{"elbow_fingertip_m", 7.0 / 2}, {"hand_length_m", 7.0}, {"head_height_m", 7.0}})
+    for (const auto& [key, factor] :
+         {std::pair{"elbow_fingertip_m", 7.0 / 2}, {"hand_length_m", 7.0}, {"head_height_m", 7.0}})
         if (const Measurement* m = find(list, key); m && m->observed) {
             sum += factor * m->value;
             ++count;
@@ -176,7 +177,8 @@ TEST(Guidance, NamesWhyAFrameIsOfNoUse) {
 
     EXPECT_EQ(guidance(take_picture(standing_figure(1.3f), level_camera())), VFIT_GUIDANCE_STEP_BACK);
     EXPECT_EQ(guidance(take_picture(standing_figure(5.9f), level_camera())), VFIT_GUIDANCE_STEP_CLOSER);
-    EXPECT_EQ(guidance(take_picture(standing_figure(4.0f), level_camera(160, 120))), VFIT_GUIDANCE_STEP_CLOSER);
+    EXPECT_EQ(guidance(take_picture(standing_figure(4.0f), level_camera(160, 120))),
+              VFIT_GUIDANCE_STEP_CLOSER);
 }
 
 TEST(Guidance, KnowsThePortraitCamerasTopAndBottom) {
@@ -204,7 +206,8 @@ TEST(Guidance, MissesJointsAndFeet) {
 
 TEST(Guidance, AsksToStandStillAndUpright) {
     Picture squat = standing();
-    for (const int j : {VFIT_JOINT_LEFT_KNEE, VFIT_JOINT_RIGHT_KNEE}) squat.body.joints[size_t(j)].position.z -= 0.25f;
+    for (const int j : {VFIT_JOINT_LEFT_KNEE, VFIT_JOINT_RIGHT_KNEE})
+        squat.body.joints[size_t(j)].position.z -= 0.25f;
     EXPECT_EQ(guidance(squat), VFIT_GUIDANCE_HOLD_STILL);
 
     Picture bow = standing();

@@ -12,7 +12,8 @@ namespace vfit {
 namespace {
 
 SizeChart chart() {
-    return SizeChart::parse(R"({"format": "vfit-size-chart", "version": 1, "name": "t", "unit": "cm", "garments": [
+    return SizeChart::parse(
+        R"({"format": "vfit-size-chart", "version": 1, "name": "t", "unit": "cm", "garments": [
       {"kind": "top", "measures": ["chest_girth_m"], "sizes": [
         {"label": "S", "ranges": {"chest_girth_m": [86, 94]}},
         {"label": "M", "ranges": {"chest_girth_m": [94, 102]}},
@@ -36,7 +37,8 @@ Measurement chest(float value, float sigma) { return {"chest_girth_m", value, si
 TEST(Recommend, IntegratesTheNormalDistributionOverEachRange) {
     const auto sizes = recommend(chart(), "top", {chest(0.97f, 0.03f)});
     EXPECT_NEAR(of(sizes, "S"), normal_cdf(-1.0), 1e-5) << "with the open tail below";
-    EXPECT_NEAR(of(sizes, "M"), normal_cdf((1.04 - 0.97) / 0.03) - normal_cdf(-1.0), 1e-5) << "to the gap's middle";
+    EXPECT_NEAR(of(sizes, "M"), normal_cdf((1.04 - 0.97) / 0.03) - normal_cdf(-1.0), 1e-5)
+        << "to the gap's middle";
     EXPECT_NEAR(of(sizes, "L"), 1 - normal_cdf((1.04 - 0.97) / 0.03), 1e-5);
     EXPECT_EQ(sizes[0].label, "M");
 }
@@ -82,7 +84,8 @@ TEST(Recommend, MultipliesTheMeasuresThatAreGiven) {
 }
 
 TEST(Recommend, StaysFiniteWhereMeasuresContradictEachOther) {
-    const auto sizes = recommend(chart(), "dress", {chest(0.60f, 0.0f), {"waist_girth_m", 1.40f, 0.0f, true}});
+    const auto sizes =
+        recommend(chart(), "dress", {chest(0.60f, 0.0f), {"waist_girth_m", 1.40f, 0.0f, true}});
     EXPECT_NEAR(sizes[0].probability + sizes[1].probability, 1.0f, 1e-5f);
     EXPECT_EQ(sizes[0].label, "M") << "the waist is further outside S than the chest outside M";
 }
@@ -99,7 +102,8 @@ TEST(Recommend, NamesTheMeasuresThatItNeeds) {
 
 TEST(Recommend, RefusesUnknownGarmentsAndBrokenMeasurements) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    for (const Measurement& m : {chest(nan, 0.01f), chest(-1.0f, 0.01f), chest(0.9f, nan), chest(0.9f, -0.1f)}) {
+    for (const Measurement& m :
+         {chest(nan, 0.01f), chest(-1.0f, 0.01f), chest(0.9f, nan), chest(0.9f, -0.1f)}) {
         try {
             recommend(chart(), "top", {m});
             ADD_FAILURE() << m.value << ' ' << m.sigma;

@@ -12,7 +12,8 @@
 namespace vfit {
 namespace {
 
-const std::string kGood = R"({"format": "vfit-size-chart", "version": 1, "name": "test", "unit": "cm", "garments": [
+const std::string kGood =
+    R"({"format": "vfit-size-chart", "version": 1, "name": "test", "unit": "cm", "garments": [
   {"kind": "trousers", "measures": ["waist_girth_m", "hip_girth_m"], "sizes": [
     {"label": "S", "ranges": {"waist_girth_m": [74, 82], "hip_girth_m": [90, 98]}},
     {"label": "M", "ranges": {"waist_girth_m": [82, 90], "hip_girth_m": [99, 106.5]}}]}]})";
@@ -31,7 +32,8 @@ void expect_refused(const std::string& json, std::initializer_list<const char*> 
         FAIL() << "taken: " << json;
     } catch (const Error& e) {
         EXPECT_EQ(e.code(), code) << e.what();
-        for (const char* word : words) EXPECT_NE(std::string(e.what()).find(word), std::string::npos) << e.what();
+        for (const char* word : words)
+            EXPECT_NE(std::string(e.what()).find(word), std::string::npos) << e.what();
     }
 }
 
@@ -59,14 +61,17 @@ TEST(SizeChart, RefusesWhatIsNoChart) {
     expect_refused(with("\"cm\"", "\"mm\""), {"unit", "mm"});
     expect_refused(with("\"name\": \"test\", ", ""), {"name"});
     expect_refused(with("[\n  {\"kind\"", "[7, {\"kind\""), {"garment", "not an object"});
-    expect_refused(R"({"format": "vfit-size-chart", "version": 1, "name": "t", "unit": "cm", "garments": []})", {"garments", "empty"});
+    expect_refused(
+        R"({"format": "vfit-size-chart", "version": 1, "name": "t", "unit": "cm", "garments": []})",
+        {"garments", "empty"});
 }
 
 TEST(SizeChart, NamesGarmentLabelAndMeasureOfABrokenRange) {
     const std::initializer_list<const char*> place = {"trousers", "label M", "hip_girth_m"};
     expect_refused(with("[99, 106.5]", "[106.5, 99]"), place);
     expect_refused(with("[99, 106.5]", "[99, 99]"), place);
-    expect_refused(with("[99, 106.5]", "[97, 106.5]"), {"trousers", "label M", "hip_girth_m", "overlaps", "label S"});
+    expect_refused(with("[99, 106.5]", "[97, 106.5]"),
+                   {"trousers", "label M", "hip_girth_m", "overlaps", "label S"});
     expect_refused(with("[99, 106.5]", "[80, 86]"), {"trousers", "label M", "hip_girth_m", "ascending"});
     expect_refused(with("[99, 106.5]", "[-5, 106.5]"), place);
     expect_refused(with("[99, 106.5]", "[99, 10650]"), place);
@@ -78,14 +83,18 @@ TEST(SizeChart, NamesGarmentLabelAndMeasureOfABrokenRange) {
 }
 
 TEST(SizeChart, RefusesUnknownDoubleAndEmptyEntries) {
-    expect_refused(with("\"measures\": [\"waist_girth_m\"", "\"measures\": [\"waist_m\""), {"trousers", "waist_m"});
-    expect_refused(with("[\"waist_girth_m\", \"hip", "[\"hip_girth_m\", \"hip"), {"trousers", "hip_girth_m", "twice"});
+    expect_refused(with("\"measures\": [\"waist_girth_m\"", "\"measures\": [\"waist_m\""),
+                   {"trousers", "waist_m"});
+    expect_refused(with("[\"waist_girth_m\", \"hip", "[\"hip_girth_m\", \"hip"),
+                   {"trousers", "hip_girth_m", "twice"});
     expect_refused(with("[\"waist_girth_m\", \"hip_girth_m\"]", "[]"), {"trousers", "measures", "empty"});
-    expect_refused(with("[\"waist_girth_m\", \"hip_girth_m\"]", "[\"waist_girth_m\"]"), {"label S", "hip_girth_m"});
+    expect_refused(with("[\"waist_girth_m\", \"hip_girth_m\"]", "[\"waist_girth_m\"]"),
+                   {"label S", "hip_girth_m"});
     expect_refused(with("\"label\": \"M\"", "\"label\": \"S\""), {"trousers", "label S", "twice"});
     expect_refused(with("\"label\": \"M\"", "\"label\": \"\""), {"trousers", "label"});
     expect_refused(with("\"label\": \"M\"", "\"label\": \"a label of thirty-two bytes length\""), {"label"});
-    const std::string garment = kGood.substr(kGood.find("{\"kind\""), kGood.rfind("]}") - kGood.find("{\"kind\""));
+    const std::string garment =
+        kGood.substr(kGood.find("{\"kind\""), kGood.rfind("]}") - kGood.find("{\"kind\""));
     expect_refused(with(garment, garment + ", " + garment), {"trousers", "twice"});
 }
 
@@ -111,7 +120,8 @@ TEST(SizeChart, ShipsChartsThatFollowTheRules) {
         const SizeChart chart = SizeChart::parse(content.str());
         EXPECT_EQ(chart.name(), file.path().stem().string());
         EXPECT_FALSE(chart.source().empty()) << "says where its numbers come from";
-        for (const char* kind : {"short_sleeves", "long_sleeves", "trousers"}) EXPECT_NO_THROW(chart.garment(kind));
+        for (const char* kind : {"short_sleeves", "long_sleeves", "trousers"})
+            EXPECT_NO_THROW(chart.garment(kind));
         ++charts;
     }
     EXPECT_GE(charts, 3);

@@ -72,14 +72,16 @@ TEST(DepthFilter, AgreesWithOpenCvOnAnyImageAlsoAtItsBorders) {
         cv::Mat expected(29, 37, CV_32F);
         for (uint32_t y = 0; y < 29; ++y)
             for (uint32_t x = 0; x < 37; ++x)
-                image.set(x, y, uint16_t(1500 + random() % 1500), uint8_t(x + y < 40 && x * y % 7 != 3 ? 2 : 0));
+                image.set(x, y, uint16_t(1500 + random() % 1500),
+                          uint8_t(x + y < 40 && x * y % 7 != 3 ? 2 : 0));
         DepthFilter filter(kernel), plain(1);
         const FilteredDepth raw = plain.run(image.view(), 2);
         const cv::Mat d1(29, 37, CV_32F, const_cast<float*>(raw.depth_m));
         cv::GaussianBlur(d1, expected, {kernel, kernel}, 0.0);
         const FilteredDepth out = filter.run(image.view(), 2);
         for (int y = 0; y < 29; ++y)
-            for (int x = 0; x < 37; ++x) ASSERT_NEAR(out.at(x, y), expected.at<float>(y, x), 1e-5f) << x << ' ' << y;
+            for (int x = 0; x < 37; ++x)
+                ASSERT_NEAR(out.at(x, y), expected.at<float>(y, x), 1e-5f) << x << ' ' << y;
     }
 }
 
@@ -101,7 +103,8 @@ TEST(DepthFilter, PatchesHolesOfThePersonAlongTheRow) {
     EXPECT_EQ(out.pixels, 33u);
     EXPECT_NEAR(out.at(5, 1), 2.05f, 1e-6f);
     EXPECT_EQ(out.mask[12 + 5], FilteredDepth::kPatched);
-    EXPECT_NEAR(out.mean_m, 2.0f + 0.01f * (3 * 66.0f - 15.0f) / 33.0f, 1e-6f) << "patched pixels are no readings";
+    EXPECT_NEAR(out.mean_m, 2.0f + 0.01f * (3 * 66.0f - 15.0f) / 33.0f, 1e-6f)
+        << "patched pixels are no readings";
 }
 
 TEST(DepthFilter, DoesNotPatchTheGapBetweenArmAndTrunk) {

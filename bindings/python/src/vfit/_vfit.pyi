@@ -32,7 +32,152 @@ MEASURES: Final[dict[str, str]]
 def info() -> LibraryInfo:
     """Version, instruction set in use and build of the library."""
 
-@ENUMS@
+class ResultCode(IntEnum):
+    """Result codes; errors are negative."""
+
+    END_OF_STREAM = 4
+    INCOMPLETE = 3
+    TIMEOUT = 2
+    NOT_READY = 1
+    OK = 0
+    ERROR_UNKNOWN = -1
+    ERROR_ARGUMENT = -2
+    ERROR_HANDLE = -3
+    ERROR_STATE = -4
+    ERROR_BUSY = -5
+    ERROR_CAPACITY = -6
+    ERROR_UNSUPPORTED = -7
+    ERROR_VERSION = -8
+    ERROR_OUT_OF_MEMORY = -9
+    ERROR_IO = -10
+    ERROR_DATA = -11
+    ERROR_DEVICE_LOST = -12
+    ERROR_PLUGIN = -13
+
+class Axes(IntEnum):
+    """Convention of everything that a context reads and writes."""
+
+    RH_Y_UP = 0
+    UNITY = 1
+    UNREAL = 2
+
+class LogLevel(IntEnum):
+    """Weight of a log line."""
+
+    ERROR = 0
+    WARNING = 1
+    INFO = 2
+    DEBUG = 3
+
+class Stream(IntEnum):
+    """The kinds of data in a frame."""
+
+    DEPTH = 0
+    COLOR = 1
+    USER_MAP = 2
+    POSITION = 16
+    NORMAL = 17
+    UV = 18
+    INDEX = 19
+    BONE_MATRIX = 20
+    SKIN_BONES = 21
+    SKIN_WEIGHTS = 22
+    STRAIN = 23
+
+class FloorState(IntEnum):
+    """Who says where the floor is."""
+
+    DEFAULT = 0
+    ESTIMATED = 1
+    GIVEN = 2
+
+class JointState(IntEnum):
+    """How a joint was found."""
+
+    NOT_SEEN = 0
+    INFERRED = 1
+    MEASURED = 2
+
+class Sex(IntEnum):
+    """Which default body; UNKNOWN: halfway."""
+
+    UNKNOWN = 0
+    FEMALE = 1
+    MALE = 2
+
+class ScanMethod(IntEnum):
+    """How a scan measures; PROPORTIONS is the paper's way."""
+
+    DEFAULT = 0
+    PROPORTIONS = 1
+
+class Guidance(IntEnum):
+    """Why a scan did not take a frame."""
+
+    NONE = 0
+    STEP_BACK = 1
+    STEP_CLOSER = 2
+    ARMS_OUT = 3
+    HOLD_STILL = 4
+    TURN_SIDEWAYS = 5
+    FEET_NOT_VISIBLE = 6
+    ONE_PERSON_ONLY = 7
+    NOBODY = 8
+    JOINTS_MISSING = 9
+
+class Joint(IntEnum):
+    """What a sensor sees. LEFT is the person's own left."""
+
+    HEAD = 0
+    NECK = 1
+    TORSO = 2
+    LEFT_SHOULDER = 3
+    RIGHT_SHOULDER = 4
+    LEFT_ELBOW = 5
+    RIGHT_ELBOW = 6
+    LEFT_HAND = 7
+    RIGHT_HAND = 8
+    LEFT_HIP = 9
+    RIGHT_HIP = 10
+    LEFT_KNEE = 11
+    RIGHT_KNEE = 12
+    LEFT_FOOT = 13
+    RIGHT_FOOT = 14
+    PELVIS = 15
+    CHEST = 16
+    LEFT_CLAVICLE = 17
+    RIGHT_CLAVICLE = 18
+    LEFT_WRIST = 19
+    RIGHT_WRIST = 20
+    LEFT_TOES = 21
+    RIGHT_TOES = 22
+
+class Bone(IntEnum):
+    """Humanoid bones by their VRM names, parents before children."""
+
+    HIPS = 0
+    SPINE = 1
+    CHEST = 2
+    UPPER_CHEST = 3
+    NECK = 4
+    HEAD = 5
+    LEFT_SHOULDER = 6
+    LEFT_UPPER_ARM = 7
+    LEFT_LOWER_ARM = 8
+    LEFT_HAND = 9
+    RIGHT_SHOULDER = 10
+    RIGHT_UPPER_ARM = 11
+    RIGHT_LOWER_ARM = 12
+    RIGHT_HAND = 13
+    LEFT_UPPER_LEG = 14
+    LEFT_LOWER_LEG = 15
+    LEFT_FOOT = 16
+    LEFT_TOES = 17
+    RIGHT_UPPER_LEG = 18
+    RIGHT_LOWER_LEG = 19
+    RIGHT_FOOT = 20
+    RIGHT_TOES = 21
+
 class _Closable:
     @property
     def closed(self) -> bool: ...

@@ -1,0 +1,167 @@
+// Dressing: carried to another body, kept outside of it, sized, and moved by its bones.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "cloth/dress.h"
+#include "cloth_support.h"
+
+namespace vfit {
+namespace {
+
+using namespace test;
+
+constexpr uint32_t kRound = 32, kLevels = 21;
+
+/// A closed post about the Y axis from 0 to 1 m; bone 0 carries its lower half, bone 1 the upper.
+struct Post {
+    std::vector<Vec3> positions;
+    std::vector<uint32_t> indices;
+    std::vector<std::array<uint16_t, kSkinBones>> bones;
+    std::vector<std::array<float, kSkinBones>> weights;
+
+    explicit Post(float radius) {
+        for (uint32_t level = 0; level < kLevels; ++level)
+            for (uint32_t i = 0; i < kRound; ++i) add(radius, i, float(level) / float(kLevels - 1));
+        add(0.0f, 0, 0.0f);
+        add(0.0f, 0, 1.0f);
+        const uint32_t bottom = kRound * kLevels, top = bottom + 1;
+        for (uint32_t i = 0; i < kRound; ++i) {
+            const uint32_t next = (i + 1) % kRound;
+            indices.insert(indices.end(), {bottom, next, i});
+            indices.insert(indices.end(), {top, (kLevels - 1) * kRound + i, (kLevels - 1) * kRound + next});
+            for (uint32_t level = 0; level + 1 < kLevels; ++level) {
+                const uint32_t a = level * kRound + i, b = level * kRound + next;
+                indices.insert(indices.end(), {a, b, a + kRound, b, b + kRound, a + kRound});
+            }
+        }
+    }
+    DressBody dressed_by(const Post& authored) const {
+        return {authored.positions, positions, indices, bones, weights, {}};
+    }
+
+private:
+    void add(float radius, uint32_t i, float y) {
+        const float angle = 2.0f * kPi * float(i) / float(kRound);
+        positions.emplace_back(radius * std::sin(angle), y, radius * std::cos(angle));
+        bones.push_back({});
+        bones.back()[0] = y < 0.5f ? 0 : 1;
+        weights.push_back({});
+        weights.back()[0] = 1.0f;
+    }
+};
+
+/// A sleeve about the post from 0.3 to 0.7 m; its upper row is skinned, the rest simulated.
+Garment sleeve(float radius) {
+    constexpr uint32_t kRows = 9;
+    Garment g;
+    g.name = "sleeve";
+    g.kind = "dress";
+    g.fabric = "cotton";
+    for (uint32_t r = 0; r < kRows; ++r)
+        for (uint32_t i = 0; i < kRound; ++i) {
+            const float angle = 2.0f * kPi * float(i) / float(kRound);
+            g.mesh.positions.emplace_back(radius * std::sin(angle), 0.7f - 0.05f * float(r), radius * std::cos(angle));
+            g.mesh.uvs.emplace_back(float(i), float(r));
+            g.simulated.push_back(r > 0);
+            g.backstop.push_back(1);
+        }
+    for (uint32_t r = 0; r + 1 < kRows; ++r)
+        for (uint32_t i = 0; i < kRound; ++i) {
+            const uint32_t a = r * kRound + i, b = r * kRound + (i + 1) % kRound;
+            g.mesh.indices.insert(g.mesh.indices.end(), {a, a + kRound, b, b, a + kRound, b + kRound});
+        }
+    return g;
+}
+
+float radius_of(const Vec3& p) { return std::hypot(p.x, p.z); }
+
+TEST(Dress, IsCarriedToAWiderBodyWithItsEase) {
+    const Post thin(0.1f), wide(0.15f);
+    const Garment g = sleeve(0.12f);
+    validate_garment(g, library());
+    const Dress same(g, cotton(), thin.dressed_by(thin)), wider(g, cotton(), wide.dressed_by(thin));
+    for (size_t i = 0; i < g.vertex_count(); ++i) {
+        ASSERT_LT(glm::length(same.rest()[i] - g.mesh.positions[i]), 1e-5f);
+        ASSERT_NEAR(radius_of(wider.rest()[i]), 0.17f, 1e-3f);
+        ASSERT_NEAR(wider.rest()[i].y, g.mesh.positions[i].y, 1e-4f);
+    }
+    EXPECT_EQ(wider.fabric()->simulated_count(), 8 * kRound);
+}
+
+TEST(Dress, IsPushedOutOfTheBody) {
+    const Post post(0.1f);
+    const Dress dress(sleeve(0.09f), cotton(), post.dressed_by(post), 1.0f, 0.005f);
+    const float flat = std::cos(kPi / float(kRound));  // the post's sides are flat
+    for (const Vec3& p : dress.rest()) ASSERT_GT(radius_of(p), 0.1f * flat + 0.0045f);
+}
+
+TEST(Dress, SizeScalesRestLengthsAroundTheBodyOnly) {
+    const Post post(0.1f);
+    const Garment g = sleeve(0.12f);
+    const auto lengths = [&](float ratio) {
+        const Dress dress(g, cotton(), post.dressed_by(post), ratio);
+        float level = 0.0f, upright = 0.0f;
+        for (const DistanceConstraint& e : dress.fabric()->data().edges) {
+            if (e.a / kRound == 4 && e.b / kRound == 4) level += e.rest_m;
+            if (e.b == e.a + kRound) upright += e.rest_m;
+        }
+        return Vec2(level, upright);
+    };
+    const Vec2 own = lengths(1.0f), large = lengths(1.2f);
+    ASSERT_GT(own.x, 0.5f);
+    EXPECT_NEAR(large.x / own.x, 1.2f, 1e-3f);
+    EXPECT_NEAR(large.y / own.y, 1.0f, 1e-5f);
+}
+
+TEST(Dress, FollowsItsBones) {
+    const Post post(0.1f);
+    const Dress dress(sleeve(0.12f), cotton(), post.dressed_by(post));
+    const std::vector<Mat4> moved{Mat4(1.0f), glm::translate(Mat4(1.0f), Vec3(0.3f, 0, 0))};
+    std::vector<Vec3> targets;
+    dress.skin(moved, targets);
+    ASSERT_EQ(targets.size(), dress.fabric()->target_count());
+    EXPECT_LT(glm::length(targets[0] - (dress.rest()[0] + Vec3(0.3f, 0, 0))), 1e-5f);
+    const auto end = targets.begin() + std::ptrdiff_t(dress.rest().size());
+    // A hanging row between both bones is led by both: no tear.
+    for (size_t i = kRound; i < dress.rest().size(); ++i)
+        ASSERT_LT(glm::length(targets[i] - targets[i - kRound]), 0.25f) << i;
+    // Backstops lie on the post's axis, half a post's breadth below the skin.
+    for (auto ball = end; ball != targets.end(); ++ball)
+        ASSERT_LT(std::min(radius_of(*ball), radius_of(*ball - Vec3(0.3f, 0, 0))), 0.01f);
+    EXPECT_EQ(error_of([&] { dress.skin(std::span(moved).first(1), targets); }),
+              "-2 1 skinning matrices, the garment needs 2");
+}
+
+TEST(Dress, HangsOnThePostAndStaysOutsideIt) {
+    const auto jobs = Jobs::own(0);
+    const Post post(0.1f);
+    const Dress dress(sleeve(0.115f), cotton(), post.dressed_by(post));
+    std::vector<Vec3> targets;
+    const std::vector<Mat4> still(2, Mat4(1.0f));
+    dress.skin(still, targets);
+    Cloth cloth(dress.fabric(), {}, targets);
+    for (int frame = 0; frame < 120; ++frame) {
+        const std::vector<Mat4> sway(2, glm::translate(Mat4(1.0f), Vec3(0.1f * std::sin(0.2f * float(frame)), 0, 0)));
+        dress.skin(sway, targets);
+        cloth.step(kFrame_s, targets, {}, *jobs);
+        const float x = 0.1f * std::sin(0.2f * float(frame));
+        // Without any collider, the backstops alone keep the post free.
+        for (const Vec3& p : cloth.positions()) ASSERT_GT(radius_of(p - Vec3(x, 0, 0)), 0.1f) << "frame " << frame;
+    }
+    EXPECT_LT(cloth.stats().strain_mean, 0.02f);
+}
+
+TEST(Dress, RefusesABodyOfAnotherTopology) {
+    const Post post(0.1f);
+    DressBody body = post.dressed_by(post);
+    body.rest = body.rest.first(10);
+    EXPECT_EQ(error_of([&] { Dress(sleeve(0.12f), cotton(), body); }),
+              "-2 garment sleeve: authored body and avatar differ in topology");
+}
+
+}  // namespace
+}  // namespace vfit

@@ -1,0 +1,143 @@
+// Garment files and fabrics: what is read, and what is refused with which words.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "cloth_support.h"
+
+namespace vfit {
+namespace {
+
+using namespace test;
+
+/// Two triangles, the lower vertices simulated.
+const char* const kGarment = R"({"format": "vfit-garment", "version": 1, "name": "scarf", "kind": "dress",
+ "fabric": "cotton", "body_sex": "f",
+ "sizes": [{"label": "S", "chest_girth_m": 0.8}, {"label": "L", "chest_girth_m": 1.0, "hip_girth_m": 1.2}],
+ "positions": [0,1,0, 1,1,0, 0,0,0, 1,0,0], "uvs": [0,0, 1,0, 0,1, 1,1], "indices": [0,2,1, 1,2,3],
+ "simulated": [0,0,1,1], "backstop": [0,0,1,0]})";
+
+Garment parse(const std::string& text) { return parse_garment(bytes_of(text), library()); }
+
+std::string with(const std::string& from, const std::string& to) {
+    std::string text = kGarment;
+    const size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return text.replace(at, from.size(), to);
+}
+
+std::string refusal(const std::string& from, const std::string& to) {
+    return error_of([&] { parse(with(from, to)); });
+}
+
+TEST(Garment, IsReadWhole) {
+    const Garment g = parse(kGarment);
+    EXPECT_EQ(g.name, "scarf");
+    EXPECT_EQ(g.kind, "dress");
+    EXPECT_EQ(g.fabric, "cotton");
+    EXPECT_EQ(g.body_sex, VFIT_SEX_FEMALE);
+    EXPECT_EQ(g.vertex_count(), 4u);
+    EXPECT_EQ(g.simulated_count(), 2u);
+    EXPECT_EQ(g.mesh.positions[1], Vec3(1, 1, 0));
+    EXPECT_EQ(g.mesh.uvs[2], Vec2(0, 1));
+    EXPECT_EQ(g.mesh.indices, (std::vector<uint32_t>{0, 2, 1, 1, 2, 3}));
+    EXPECT_EQ(g.backstop, (std::vector<uint8_t>{0, 0, 1, 0}));
+    EXPECT_NEAR(g.mesh.normals[0].z, 1.0f, 1e-6f);
+    ASSERT_EQ(g.sizes.size(), 2u);
+    EXPECT_EQ(g.sizes[1].nominal.size(), 2u);
+}
+
+TEST(Garment, RefusesBadMeshesByName) {
+    EXPECT_EQ(refusal("[0,2,1, 1,2,3]", "[0,2,2, 1,2,3]"), "-11 garment: triangle 0 names a vertex twice");
+    EXPECT_EQ(refusal("[0,2,1, 1,2,3]", "[0,2,1, 1,2,4]"), "-11 garment: triangle 1 names vertex 4 of 4");
+    EXPECT_EQ(refusal("[0,2,1, 1,2,3]", "[0,2,1, 1,2]"), "-11 garment: 5 indices are no list of triangles");
+    EXPECT_EQ(refusal("[0,2,1, 1,2,3]", "[]"), "-11 garment: 0 indices are no list of triangles");
+    EXPECT_EQ(refusal("[0,2,1, 1,2,3]", "[0,2,1, -1,2,3]"), "-11 garment: indices[3] is not an index");
+    EXPECT_EQ(refusal("0,0,0, 1,0,0]", "0.5,1,0, 1,0,0]"), "-11 garment: triangle 0 is degenerate");
+    EXPECT_EQ(refusal("[0,2,1, 1,2,3]", "[0,2,1, 2,1,3]"),
+              "-11 garment: edge 2-1 of triangle 1 is not manifold: triangle 0 runs along it in the same direction");
+    EXPECT_EQ(refusal("[0,2,1, 1,2,3]", "[0,2,1, 1,2,3, 1,2,0]"),
+              "-11 garment: edge 1-2 of triangle 2 is not manifold: triangle 1 runs along it in the same direction");
+}
+
+TEST(Garment, RefusesBadFieldsByName) {
+    EXPECT_EQ(refusal("\"fabric\": \"cotton\"", "\"fabric\": \"tin\""),
+              "-11 unknown fabric \"tin\"; there are: cotton");
+    EXPECT_EQ(refusal("[0,1,0, 1,1,0,", "[1e99,1,0, 1,1,0,"), "-11 garment: position 0 is not finite");
+    EXPECT_EQ(refusal("[0,1,0, 1,1,0,", "[\"x\",1,0, 1,1,0,"), "-11 garment: positions[0] is not a number");
+    EXPECT_EQ(refusal("[0,0,1,1]", "[0,0,1]"), "-11 garment: \"simulated\" has 3 flags for 4 vertices");
+    EXPECT_EQ(refusal("[0,0,1,1]", "[0,0,1,2]"), "-11 garment: simulated[3] is neither 0 nor 1");
+    EXPECT_EQ(refusal("[0,0, 1,0, 0,1, 1,1]", "[0,0, 1,0]"), "-11 garment: 2 uvs for 4 vertices");
+    EXPECT_EQ(refusal("\"uvs\"", "\"vus\""), "-11 garment: field \"uvs\" is missing");
+    EXPECT_EQ(refusal("\"body_sex\": \"f\"", "\"body_sex\": \"x\""),
+              "-11 garment: body_sex is neither \"f\" nor \"m\"");
+    EXPECT_EQ(refusal("\"label\": \"L\"", "\"label\": \"S\""), "-11 garment: size S occurs twice");
+    EXPECT_EQ(refusal("\"hip_girth_m\"", "\"tail_girth_m\""),
+              "-11 garment: size L names the unknown measure tail_girth_m");
+    EXPECT_EQ(refusal("0.8}", "-0.8}"), "-11 garment: chest_girth_m of size S is -0.8 m");
+    EXPECT_EQ(refusal("\"version\": 1", "\"version\": 2"), "-8 garment: version 2 is not known, 1 is");
+    EXPECT_EQ(refusal("vfit-garment", "garment"), "-11 garment: format is not \"vfit-garment\"");
+}
+
+TEST(Garment, RefusesEveryCutOfItsText) {
+    const std::string text = kGarment;
+    for (size_t length = 0; length < text.size(); ++length)
+        ASSERT_EQ(error_of([&] { parse(text.substr(0, length)); }), "-11 garment: not complete JSON") << length;
+    EXPECT_EQ(error_of([] { parse("[]"); }), "-11 garment: not a JSON object");
+}
+
+TEST(Garment, SizeRatioIsTheMeanOverCommonGirths) {
+    const Garment g = parse(kGarment);
+    const std::vector<Measurement> body{{"chest_girth_m", 0.9f}, {"hip_girth_m", 1.0f}};
+    EXPECT_NEAR(size_ratio(g, "S", body), 0.8f / 0.9f, 1e-6f);
+    EXPECT_NEAR(size_ratio(g, "L", body), 0.5f * (1.0f / 0.9f + 1.2f), 1e-6f);
+    EXPECT_EQ(error_of([&] { size_ratio(g, "XS", body); }), "-2 garment scarf has no size \"XS\"; there are: S, L");
+    EXPECT_EQ(error_of([&] { size_ratio(g, "S", {}); }), "-11 size S: none of its girths is known of the body");
+}
+
+TEST(Fabrics, ThoseOfTheProjectAreRead) {
+    std::ifstream file(VFIT_SOURCE_DIR "/assets/fabrics.json");
+    const std::string text((std::istreambuf_iterator<char>(file)), {});
+    const FabricLibrary fabrics = FabricLibrary::parse(bytes_of(text));
+    EXPECT_FLOAT_EQ(fabrics.get("denim").density_kg_m2, 0.324f);
+    EXPECT_FLOAT_EQ(fabrics.get("light_woven").friction, 0.3f);
+    EXPECT_TRUE(fabrics.has("silk"));
+    EXPECT_FALSE(fabrics.has("tin"));
+}
+
+TEST(Fabrics, RefusesBadNumbersByName) {
+    const std::string start = R"({"format": "vfit-fabrics", "version": 1, "fabrics": {"felt": {"density_kg_m2": )";
+    EXPECT_EQ(error_of([&] { FabricLibrary::parse(bytes_of(start + "0}}}")); }),
+              "-11 fabric felt: density_kg_m2 must be above zero, is 0");
+    EXPECT_EQ(error_of([&] { FabricLibrary::parse(bytes_of(start + "1}}}")); }),
+              "-11 fabric felt: stretch_warp_n_m is not a number");
+    EXPECT_EQ(error_of([&] { FabricLibrary::parse(bytes_of(start)); }), "-11 fabrics: not a complete JSON object");
+}
+
+TEST(FabricCooking, RefusesExplicitDataThatDoNotFit) {
+    const auto cook = [](auto change) {
+        FabricData data;
+        data.inverse_mass = {0.0f, 1.0f};
+        data.edges = {{0, 1, 1.0f, 0.0f}};
+        change(data);
+        return error_of([&] { Fabric fabric(std::move(data)); });
+    };
+    EXPECT_EQ(cook([](FabricData&) {}), "");
+    EXPECT_EQ(cook([](FabricData& d) { d.edges[0].b = 2; }), "-11 edge 0 joins vertices 0 and 2 of 2");
+    EXPECT_EQ(cook([](FabricData& d) { d.edges[0].rest_m = 0; }), "-11 edge 0 has rest length 0 m");
+    EXPECT_EQ(cook([](FabricData& d) { d.inverse_mass[0] = -1; }), "-11 vertex 0 has inverse mass -1");
+    EXPECT_EQ(cook([](FabricData& d) { d.indices = {0, 1}; }), "-11 the fabric's indices are not whole triangles");
+    EXPECT_EQ(cook([](FabricData& d) { d.backstops = {{0, 0.1f}}; }), "-11 backstop of vertex 0 with radius 0.1 m");
+    EXPECT_EQ(cook([](FabricData& d) { d.inverse_mass.clear(); }), "-11 the fabric has no vertices");
+}
+
+TEST(FabricCooking, MassIsDensityTimesArea) {
+    const Sheet sheet(11, 6, 0.02f);
+    double mass = 0.0;
+    for (const float w : sheet.cook(cotton()).inverse_mass) mass += 1.0 / double(w);
+    EXPECT_NEAR(mass, 0.2 * 0.2 * 0.1, 1e-6);
+}
+
+}  // namespace
+}  // namespace vfit

@@ -1,0 +1,183 @@
+// The solver against mechanics: free fall, momentum, stretch under a weight, tethers, frame rate.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cloth_support.h"
+
+namespace vfit {
+namespace {
+
+using namespace test;
+
+ClothSettings undamped() {
+    ClothSettings s;
+    s.damping = 0.0f;
+    return s;
+}
+
+TEST(ClothSolver, FreeFallIsExact) {
+    const auto jobs = Jobs::own(0);
+    const std::vector<Vec3> start{{0, 10, 0}};
+    Cloth cloth(lone_vertex(), undamped(), start);
+    for (int frame = 0; frame < 60; ++frame) cloth.step(kFrame_s, start, {}, *jobs);
+    EXPECT_NEAR(cloth.positions()[0].y, 10.0f - 0.5f * 9.81f, 2e-4f);
+}
+
+TEST(ClothSolver, FreeFallDoesNotDependOnStepOrSubsteps) {
+    const auto jobs = Jobs::own(0);
+    const std::vector<Vec3> start{{0, 10, 0}};
+    for (const uint32_t substeps : {1u, 3u, 20u}) {
+        ClothSettings settings = undamped();
+        settings.substeps = substeps;
+        Cloth cloth(lone_vertex(), settings, start);
+        for (int frame = 0; frame < 20; ++frame) cloth.step(0.05f, start, {}, *jobs);
+        EXPECT_NEAR(cloth.positions()[0].y, 10.0f - 0.5f * 9.81f, 2e-4f) << substeps << " sub-steps";
+    }
+}
+
+TEST(ClothSolver, DampingTakesItsShareOfSpeedInASecond) {
+    const auto jobs = Jobs::own(0);
+    const std::vector<Vec3> start{{0, 0, 0}};
+    ClothSettings settings;
+    settings.damping = 0.75f;
+    settings.gravity = Vec3(0, -1, 0);
+    Cloth cloth(lone_vertex(), settings, start);
+    for (int frame = 0; frame < 20 * 60; ++frame) cloth.step(kFrame_s, start, {}, *jobs);
+    const float before = cloth.positions()[0].y;
+    for (int frame = 0; frame < 60; ++frame) cloth.step(kFrame_s, start, {}, *jobs);
+    // Terminal speed of v' = g - c v with exp(-c) = 1 - 0.75.
+    EXPECT_NEAR(before - cloth.positions()[0].y, 1.0f / std::log(4.0f), 0.01f);
+}
+
+TEST(ClothSolver, ConstraintsKeepTheCentreOfMassWhereItIs) {
+    const auto jobs = Jobs::own(0);
+    const Sheet sheet(8, 8, 0.02f);
+    ClothSettings settings = undamped();
+    settings.gravity = Vec3(0.0f);
+    std::vector<Vec3> start = sheet.positions;
+    for (size_t i = 0; i < start.size(); ++i)  // crumpled: every constraint is violated
+        start[i] += 0.004f * Vec3(std::sin(7.0f * float(i)), std::cos(5.0f * float(i)), std::sin(3.0f * float(i)));
+    const auto data = fabric(sheet.cook(cotton()));
+    const auto center = [&](const std::vector<Vec3>& x) {
+        glm::dvec3 sum(0.0);
+        double mass = 0.0;
+        for (size_t i = 0; i < x.size(); ++i) {
+            const double m = 1.0 / double(data->data().inverse_mass[i]);
+            sum += glm::dvec3(x[i]) * m;
+            mass += m;
+        }
+        return sum / mass;
+    };
+    Cloth cloth(data, settings, start);
+    for (int frame = 0; frame < 60; ++frame) cloth.step(kFrame_s, start, {}, *jobs);
+    EXPECT_LT(glm::length(center(cloth.positions()) - center(start)), 1e-5);
+    EXPECT_GT(glm::length(cloth.positions()[0] - start[0]), 1e-4f);  // it did move
+}
+
+TEST(ClothSolver, StripStretchesAsItsModulusSays) {
+    const auto jobs = Jobs::own(0);
+    Sheet strip(17, 6, 0.02f);
+    strip.pin_top();
+    FabricMaterial material = cotton();
+    material.stretch_warp_n_m = 300.0f;
+    FabricData data = strip.cook(material);
+    data.tethers.clear();
+    const float load_kg = 0.03f, width = 0.1f, length = 0.32f;
+    for (uint32_t c = 0; c < strip.columns; ++c) {
+        const float share = c == 0 || c + 1 == strip.columns ? 0.5f : 1.0f;
+        float& w = data.inverse_mass[strip.at(strip.rows - 1, c)];
+        w = 1.0f / (1.0f / w + load_kg * share / float(strip.columns - 1));
+    }
+    ClothSettings settings;
+    settings.damping = 0.95f;
+    settings.substeps = 32;
+    Cloth cloth(fabric(std::move(data)), settings, strip.positions);
+    for (int frame = 0; frame < 300; ++frame) cloth.step(kFrame_s, strip.positions, {}, *jobs);
+    float lowest = 0.0f;
+    for (uint32_t c = 0; c < strip.columns; ++c)
+        lowest += cloth.positions()[strip.at(strip.rows - 1, c)].y / float(strip.columns);
+    // The strip carries the load and, on average, half of itself.
+    const float force = 9.81f * (load_kg + 0.5f * material.density_kg_m2 * width * length);
+    const float expected = length * force / (material.stretch_warp_n_m * width);
+    EXPECT_NEAR(-lowest - length, expected, 0.1f * expected);
+}
+
+TEST(ClothSolver, StretchHardlyDependsOnSubsteps) {
+    const auto jobs = Jobs::own(0);
+    FabricData data;  // one spring of 20 N/m with 50 g
+    data.inverse_mass = {0.0f, 20.0f};
+    data.edges = {{0, 1, 0.5f, 0.05f}};
+    const auto spring = fabric(std::move(data));
+    const std::vector<Vec3> start{{0, 0, 0}, {0, -0.5f, 0}};
+    for (const uint32_t substeps : {4u, 32u}) {
+        ClothSettings settings;
+        settings.substeps = substeps;
+        settings.damping = 0.99f;
+        Cloth cloth(spring, settings, start);
+        for (int frame = 0; frame < 600; ++frame) cloth.step(kFrame_s, start, {}, *jobs);
+        EXPECT_NEAR(-cloth.positions()[1].y - 0.5f, 0.05f * 9.81f / 20.0f, 1e-3f) << substeps << " sub-steps";
+    }
+}
+
+TEST(ClothSolver, TetherHoldsWhatItsEdgesDoNot) {
+    const auto jobs = Jobs::own(0);
+    FabricData data;
+    data.inverse_mass = {0.0f, 10.0f, 10.0f};
+    data.edges = {{0, 1, 0.2f, 10.0f}, {1, 2, 0.2f, 10.0f}};  // 0.1 N/m: as good as nothing
+    data.tethers = cook_tethers(data.inverse_mass, data.edges);
+    ASSERT_EQ(data.tethers.size(), 2u);
+    EXPECT_FLOAT_EQ(data.tethers[1].length_m, 0.4f);
+    const std::vector<Vec3> start{{0, 0, 0}, {0.2f, 0, 0}, {0.4f, 0, 0}};
+    Cloth cloth(fabric(std::move(data)), undamped(), start);
+    for (int frame = 0; frame < 300; ++frame) {
+        cloth.step(kFrame_s, start, {}, *jobs);
+        ASSERT_LE(glm::length(cloth.positions()[1]), 0.2f * 1.00001f);
+        ASSERT_LE(glm::length(cloth.positions()[2]), 0.4f * 1.00001f);
+    }
+}
+
+TEST(ClothSolver, BendingKeepsACantileverUp) {
+    // Peirce's cantilever: a strip of given B and weight bends by itself; ten times the B droops less.
+    const auto jobs = Jobs::own(0);
+    const auto droop = [&](float bend) {
+        Sheet strip(9, 3, 0.01f);
+        for (Vec3& p : strip.positions) p = Vec3(p.x, 0.0f, -p.y);  // level, along +Z
+        for (uint32_t c = 0; c < 6; ++c) strip.simulated[c] = 0;    // two rows held
+        FabricMaterial material = cotton();
+        material.bend_n_m = bend;
+        Cloth cloth(fabric(strip.cook(material)), {}, strip.positions);
+        for (int frame = 0; frame < 300; ++frame) cloth.step(kFrame_s, strip.positions, {}, *jobs);
+        return -cloth.positions()[strip.at(8, 1)].y;
+    };
+    const float soft = droop(1e-5f), stiff = droop(1e-3f);
+    EXPECT_GT(soft, 0.02f);
+    EXPECT_LT(stiff, 0.5f * soft);
+}
+
+TEST(ClothSolver, LongStepIsClamped) {
+    const auto jobs = Jobs::own(0);
+    const std::vector<Vec3> start{{0, 10, 0}};
+    Cloth tenth(lone_vertex(), undamped(), start), minute(lone_vertex(), undamped(), start);
+    tenth.step(0.1f, start, {}, *jobs);
+    minute.step(60.0f, start, {}, *jobs);
+    EXPECT_EQ(tenth.state_hash(), minute.state_hash());
+}
+
+TEST(ClothSolver, StrainIsZeroAtRestAndOnePercentWhenPulledByOnePercent) {
+    const Sheet sheet(4, 4, 0.02f);
+    const auto data = fabric(sheet.cook(cotton()));
+    Cloth cloth(data, {}, sheet.positions);
+    for (const float strain : cloth.strain()) EXPECT_NEAR(strain, 0.0f, 1e-5f);
+    std::vector<Vec3> pulled = sheet.positions;
+    for (Vec3& p : pulled) p *= 1.01f;
+    cloth.reset(pulled);
+    for (const float strain : cloth.strain()) EXPECT_NEAR(strain, 0.01f, 1e-4f);
+    EXPECT_NEAR(cloth.stats().strain_mean, 0.01f, 1e-4f);
+    EXPECT_NEAR(cloth.stats().strain_max, 0.01f, 1e-4f);
+    EXPECT_NEAR(cloth.stats().strain_p99, 0.01f, 1.1e-3f);
+    EXPECT_EQ(cloth.stats().simulated_count, 16u);
+}
+
+}  // namespace
+}  // namespace vfit
