@@ -38,7 +38,7 @@ constexpr Entry kEntries[] = {
     {"facing", Kind::kNumber, "0", -360, 360, "Turns person and motion to their left, in degrees; 0 faces the camera"},
     {"camera_height", Kind::kNumber, "1", 0.1, 5, "Of the camera above the floor, in metres"},
     {"tilt", Kind::kNumber, "0", -60, 60, "Of the camera, in degrees; above 0 it looks down"},
-    {"wall", Kind::kNumber, "1.4", 0, 50, "From the person to the wall behind, in metres; 0: none"},
+    {"wall", Kind::kNumber, "1.2", 0, 50, "From the person to the wall behind, in metres; 0: none"},
     {"side_wall", Kind::kNumber, "1.7", 0, 50, "From the camera to the wall on the image's left, in metres; 0: none"},
     {"noise", Kind::kNumber, "1", 0, 10, "Scale of noise and drop-out; 0 leaves depth exact but for its steps"},
     {"quantise", Kind::kWhole, "1", 0, 1, "Depth in steps of 1/8 px of disparity (kinect_v1)"},

@@ -46,13 +46,14 @@ Script turn_script() {
             4 * quarter_s};
 }
 
-// Ten steps round a circle to the left, at 0.6 m/s: slow enough for a shop, long enough for heels to rise.
+// Eight steps round a circle to the left, at 0.6 m/s: slow enough for a shop, long enough for heels to rise. The
+// circle lies about the place where the other motions stand.
 Script walk_script() {
-    constexpr int step_count = 10;
-    constexpr float radius_m = 0.55f, half_width_m = 0.07f, step_s = 0.58f, swing_s = 0.42f;
+    constexpr int step_count = 8;
+    constexpr float radius_m = 0.45f, half_width_m = 0.085f, step_s = 0.58f, swing_s = 0.42f;
     constexpr float period_s = step_count * step_s, turn_rate = 2.0f * kPi / period_s;
-    const auto on_circle = [](float angle, float r) { return Vec2(-r * std::cos(angle), r * std::sin(angle)) + Vec2(radius_m, 0); };
-    // The circle's centre lies on the person's left; heading grows with the angle.
+    // The centre lies on the person's left; the heading is the angle.
+    const auto on_circle = [](float angle, float r) { return Vec2(-r * std::cos(angle), r * std::sin(angle)); };
     const auto foothold = [on_circle](int side, float angle) {
         return Foothold{on_circle(angle, radius_m - side_sign(side) * half_width_m),
                         angle + side_sign(side) * 0.08f};

@@ -27,9 +27,9 @@ constexpr SensorModel kModels[] = {
 constexpr float kRightAngle = kPi / 2;
 constexpr float kSteepestAngle = kRightAngle - 0.01f;  // rad; the formulas grow without end at 90 degrees
 
-// A grazing surface sends back too little: from 70 degrees on pixels are lost, at 80 all of them (the range
-// in which published generators place the cut).
-constexpr float kDropoutStart = 70.0f * kPi / 180.0f, kDropoutEnd = 80.0f * kPi / 180.0f;
+// A grazing surface sends back too little. Published generators cut at 70 to 80 degrees; here pixels get lost
+// from 75 degrees on, all of them at 85, so that the cut is at 80 on average and not sharp.
+constexpr float kDropoutStart = 75.0f * kPi / 180.0f, kDropoutEnd = 85.0f * kPi / 180.0f;
 
 }  // namespace
 

@@ -13,6 +13,16 @@ namespace {
 constexpr uint32_t kPaperFrames = 30;  // Alg. 4
 constexpr uint32_t kMaxFrames = 3000;
 
+/// What the scanned person's avatar will need is made ready before the capture, so that the person does not
+/// wait for it after. A context without a body can still scan; it will be told when it asks for an avatar.
+void prepare_avatar(Context& context, vfit_sex sex) {
+    try {
+        context.default_measures(sex);
+    } catch (const Error& error) {
+        context.log.info("no avatar can be made of this scan: ", error.what());
+    }
+}
+
 void require_frames(const ScanObject& scan) {
     if (scan.scan.frames_taken() == 0) fail(VFIT_ERROR_STATE, "the scan has taken no frame yet");
 }
@@ -32,6 +42,7 @@ vfit_result vfit_scan_create(vfit_context handle, const vfit_scan_desc* desc, vf
         ScanDesc settings;
         settings.frame_count = d.frame_count ? d.frame_count : kPaperFrames;
         settings.sex = d.sex;
+        prepare_avatar(*context, d.sex);
         out->id = context->publish(Kind::scan, make<ScanObject>(context.ref(), settings));
         return VFIT_OK;
     });

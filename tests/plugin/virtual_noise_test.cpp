@@ -63,7 +63,7 @@ TEST(NormalQuantiles, HaveMeanZeroAndUnitVariance) {
 }
 
 TEST(StructuredLight, SdOfDepthFollowsNguyenWhereNothingIsQuantised) {
-    for (const Case c : {Case{1, 0}, Case{2, 0}, Case{3, 0}, Case{1, 45}, Case{2, 45}, Case{3, 45}, Case{2, 69}, Case{3, 69}}) {
+    for (const Case c : {Case{1, 0}, Case{2, 0}, Case{3, 0}, Case{1, 45}, Case{2, 45}, Case{3, 45}, Case{2, 70}, Case{3, 70}}) {
         NoiseSettings settings;
         settings.quantise = false;
         const Statistics s = statistics(sense("kinect_v1", flat(c.z_m, c.theta_deg), settings));
@@ -110,8 +110,8 @@ TEST(StructuredLight, NoiseScaleTwoDoublesTheSd) {
     EXPECT_NEAR(s.sd_m / (2 * axial_sigma_m(DepthPrinciple::kStructuredLight, 2, 0)), 1.0, 0.02);
 }
 
-TEST(StructuredLight, DropOutGrowsFromSeventyToEightyDegrees) {
-    const std::map<float, double> expected = {{0, 0}, {60, 0}, {69, 0}, {72.5f, 0.25}, {75, 0.5}, {78, 0.8}, {82, 1}};
+TEST(StructuredLight, DropOutGrowsFrom75To85Degrees) {
+    const std::map<float, double> expected = {{0, 0}, {60, 0}, {74, 0}, {77.5f, 0.25}, {80, 0.5}, {83, 0.8}, {86, 1}};
     for (const auto& [theta, share] : expected) {
         const Statistics s = statistics(sense("kinect_v1", flat(2, theta), {}));
         EXPECT_NEAR(1.0 - double(s.count) / (kWidth * kHeight), share, 0.01) << theta;
@@ -189,7 +189,7 @@ TEST(StructuredLight, SlantedSurfacesAreNotTakenForEdges) {
 }
 
 TEST(TimeOfFlight, SdOfDepthFollowsFankhauser) {
-    for (const Case c : {Case{1, 0}, Case{2, 0}, Case{3, 0}, Case{1, 45}, Case{2, 45}, Case{3, 45}, Case{2, 69}, Case{3, 69}}) {
+    for (const Case c : {Case{1, 0}, Case{2, 0}, Case{3, 0}, Case{1, 45}, Case{2, 45}, Case{3, 45}, Case{2, 70}, Case{3, 70}}) {
         const Statistics s = statistics(sense("tof", flat(c.z_m, c.theta_deg, 512, 424), {}));
         const double theta = c.theta_deg * kPi / 180, slant = theta / (kPi / 2 - theta), z = c.z_m;
         const double expected = 0.001 * (1.5 - 0.5 * z + 0.3 * z * z + 0.1 * std::pow(z, 1.5) * slant * slant);
