@@ -64,8 +64,10 @@ Script reach_script() {
                 Figure f = standing();
                 const float ahead = track({{0, 0}, {0.4f, 0}, {1.4f, 1}, {2, 1}, {3, 0}, {6, 0}}, t);
                 const float above = track({{0, 0}, {3.2f, 0}, {4.2f, 1}, {4.8f, 1}, {5.8f, 0}, {6, 0}}, t);
-                set_arm(f.rotation, kRight, {12 - 8 * ahead, 3 + 85 * ahead, 14 - 4 * ahead + 40 * hump((t - 0.4f) / 2.6f), 0});
-                set_arm(f.rotation, kLeft, {12 + 10 * above, 3 + 150 * above, 14 + 30 * hump((t - 3.2f) / 2.6f), 0});
+                // On the way the elbow is bent, at the shelf the arm is all but straight.
+                const float bent_ahead = 120 * ahead * (1 - ahead), bent_above = 100 * above * (1 - above);
+                set_arm(f.rotation, kRight, {12 - 8 * ahead, 3 + 77 * ahead, 14 - 6 * ahead + bent_ahead, 0});
+                set_arm(f.rotation, kLeft, {12 + 10 * above, 3 + 150 * above, 14 - 6 * above + bent_above, 0});
                 f.root.y = 0.03f * ahead;
                 set_trunk(f, 14 * ahead - 4 * above, -4 * above, 14 * ahead - 8 * above);
                 f.rotation[VFIT_BONE_NECK] = rotate_x(-5 * ahead - 12 * above);

@@ -50,7 +50,7 @@ Script turn_script() {
 // circle lies about the place where the other motions stand.
 Script walk_script() {
     constexpr int step_count = 8;
-    constexpr float radius_m = 0.45f, half_width_m = 0.085f, step_s = 0.58f, swing_s = 0.42f;
+    constexpr float radius_m = 0.45f, half_width_m = 0.10f, step_s = 0.58f, swing_s = 0.42f;
     constexpr float period_s = step_count * step_s, turn_rate = 2.0f * kPi / period_s;
     // The centre lies on the person's left; the heading is the angle.
     const auto on_circle = [](float angle, float r) { return Vec2(-r * std::cos(angle), r * std::sin(angle)); };

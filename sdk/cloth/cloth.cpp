@@ -72,6 +72,7 @@ struct Cloth::State {
 
     std::vector<Particle> particles;
     std::vector<Vec3> starts;      // places at the begin of the sub-step
+    std::vector<Vec3> predicted;   // places that it would end at without constraints
     std::vector<Vec3> velocities;  // of simulated vertices
     std::vector<Vec3> previous_targets;  // one a vertex, then one a backstop
     bool backstops_placed = false;       // previous_targets holds the backstops as well
@@ -103,7 +104,7 @@ Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings
     const FabricData& data = fabric->data();
     s.particles.resize(n);
     for (uint32_t i = 0; i < n; ++i) s.particles[i].inverse_mass = data.inverse_mass[i];
-    for (auto* list : {&s.starts, &s.velocities, &s.positions}) list->resize(n);
+    for (auto* list : {&s.starts, &s.predicted, &s.velocities, &s.positions}) list->resize(n);
     s.previous_targets.resize(fabric->target_count());
     s.strains.resize(n);
     s.edge_strains.resize(data.edges.size());
@@ -210,7 +211,9 @@ void Cloth::State::substep(float h, float from, float to, std::span<const Vec3> 
     const Vec3 fall = settings.gravity * (0.5f * h);
     for (uint32_t i : fabric->simulated_vertices()) {
         starts[i] = particles[i].x;
-        particles[i].x += (velocities[i] + fall) * h;
+        velocities[i] += fall;
+        particles[i].x += velocities[i] * h;
+        predicted[i] = particles[i].x;
     }
     for (uint32_t i : fabric->kinematic_vertices()) {
         starts[i] = particles[i].x;
@@ -226,9 +229,10 @@ void Cloth::State::substep(float h, float from, float to, std::span<const Vec3> 
     solve_backstops(contact, from, to, targets);
     ContactPass{fabric->simulated_vertices(), swept, starts, contact}.run(particles, jobs);
 
+    // What the constraints changed, rather than the whole way over h: rounding of places stays out of the speed.
     const float keep = std::pow(1.0f - settings.damping, h);
     for (uint32_t i : fabric->simulated_vertices())
-        velocities[i] = ((particles[i].x - starts[i]) / h + fall) * keep;
+        velocities[i] = (velocities[i] + (particles[i].x - predicted[i]) / h + fall) * keep;
 }
 
 void Cloth::State::solve_backstops(const ContactSettings& contact, float from, float to,

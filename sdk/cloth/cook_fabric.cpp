@@ -35,10 +35,13 @@ float warp_cosine2(const FabricShape& shape, uint32_t a, uint32_t b) {
 }
 
 /// Modulus (N/m) of an orthotropic sheet at an angle to its warp: 1/E = c^4/E1 + s^4/E2 + c^2 s^2/G
-/// (Jones, Mechanics of Composite Materials, off-axis modulus, Poisson's ratio taken as zero).
+/// (Jones, Mechanics of Composite Materials, off-axis modulus, Poisson's ratio taken as zero). Pulled along an axis,
+/// the diagonals add G to it: that much is taken off first, but never more than half.
 float modulus(const FabricMaterial& m, float c2) {
     const float s2 = 1.0f - c2;
-    return 1.0f / (c2 * c2 / m.stretch_warp_n_m + s2 * s2 / m.stretch_weft_n_m + c2 * s2 / m.shear_n_m);
+    const float warp = std::max(m.stretch_warp_n_m - m.shear_n_m, 0.5f * m.stretch_warp_n_m);
+    const float weft = std::max(m.stretch_weft_n_m - m.shear_n_m, 0.5f * m.stretch_weft_n_m);
+    return 1.0f / (c2 * c2 / warp + s2 * s2 / weft + c2 * s2 / m.shear_n_m);
 }
 
 /// Compliance of the distance between the two vertices opposite a fold edge of that length, from the

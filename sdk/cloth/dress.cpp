@@ -67,17 +67,20 @@ struct Table {
     std::span<float> row(size_t i) { return {values.data() + i * width, width}; }
 };
 
-/// Hanging cloth is bound to whichever leg is nearer; between them it must not tear. Moves each simulated vertex's
-/// row to the mean of its neighbours', again and again; the skinned ones keep theirs.
-void smooth_simulated(const Garment& garment, Table& table) {
-    constexpr int kRounds = 100;  // spreads over about 10 vertices: the gap between the legs
+/// Hanging cloth is bound to whichever leg is nearer; between them it must not tear. Evens the rows of simulated
+/// vertices out over their neighbours, the more the further they hang from the skin; the skinned ones keep theirs.
+void smooth_hanging(const Garment& garment, std::span<const float> skin_distances, Table& table) {
+    constexpr int kRounds = 100;           // spreads over about 10 vertices: the gap between the legs
+    constexpr float kCloseToSkin_m = 0.02f;  // a common ease: closer than that, cloth goes where its skin goes
     const std::vector<std::vector<uint32_t>> neighbours = neighbours_of(garment.mesh);
+    Table own = table;
     for (int round = 0; round < kRounds; ++round)
         for (size_t i = 0; i < neighbours.size(); ++i) {
             if (!garment.simulated[i] || neighbours[i].empty()) continue;
+            const float kept = std::exp(-skin_distances[i] / kCloseToSkin_m);
             const std::span<float> row = table.row(i);
-            std::fill(row.begin(), row.end(), 0.0f);
-            const float share = 1.0f / float(neighbours[i].size());
+            for (size_t k = 0; k < table.width; ++k) row[k] = kept * own.row(i)[k];
+            const float share = (1.0f - kept) / float(neighbours[i].size());
             for (uint32_t j : neighbours[i])
                 for (size_t k = 0; k < table.width; ++k) row[k] += share * table.row(j)[k];
         }
@@ -91,8 +94,7 @@ void add_bone_weights(const DressBody& body, const Binding& binding, std::span<f
                 body.skin_weights[binding.corner[k]][j] * binding.weight[k];
 }
 
-Binding bind(const MeshQuery& body, std::span<const uint32_t> triangles, const Vec3& p) {
-    const MeshQuery::Closest closest = body.closest(p);
+Binding binding_of(const MeshQuery::Closest& closest, std::span<const uint32_t> triangles) {
     const uint32_t* v = &triangles[closest.triangle * 3];
     return {{v[0], v[1], v[2]}, {1.0f - closest.uv.x - closest.uv.y, closest.uv.x, closest.uv.y}};
 }
@@ -141,17 +143,20 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
     // Both bodies stand in the same pose: what lies off the skin is carried as it is, so that ease and flare stay
     // what they were cut to.
     Table shifts(n, 3), weights(n, bones);
+    std::vector<float> skin_distances(n);
     {
         const MeshQuery authored(body.authored, triangles);
         for (uint32_t i = 0; i < n; ++i) {
-            const Binding binding = bind(authored, triangles, garment.mesh.positions[i]);
+            const MeshQuery::Closest closest = authored.closest(garment.mesh.positions[i]);
+            skin_distances[i] = closest.distance;
+            const Binding binding = binding_of(closest, triangles);
             const Vec3 shift = binding.on(body.rest) - binding.on(body.authored);
             for (int k = 0; k < 3; ++k) shifts.row(i)[size_t(k)] = shift[k];
             add_bone_weights(body, binding, weights.row(i));
         }
     }
-    smooth_simulated(garment, shifts);
-    smooth_simulated(garment, weights);
+    smooth_hanging(garment, skin_distances, shifts);
+    smooth_hanging(garment, skin_distances, weights);
     for (uint32_t i = 0; i < n; ++i) {
         const std::span<const float> shift = shifts.row(i);
         rest_.push_back(garment.mesh.positions[i] + Vec3(shift[0], shift[1], shift[2]));
@@ -168,7 +173,7 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
         if (!garment.backstop[i] || !garment.simulated[i]) continue;
         const BodyBall ball = ball_below(bound, rest_[i]);
         std::fill(bone_weights.begin(), bone_weights.end(), 0.0f);
-        add_bone_weights(body, bind(bound, triangles, rest_[i]), bone_weights);
+        add_bone_weights(body, binding_of(bound.closest(rest_[i]), triangles), bone_weights);
         add_skinned(ball.center, bone_weights);
         data.backstops.push_back({i, ball.radius_m});
     }

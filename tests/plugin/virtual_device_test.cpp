@@ -267,7 +267,7 @@ TEST(VirtualPerson, PersonHasNoHoles) {
                 const auto [near, far] = std::minmax({f.depth[i - 1], f.depth[i + 1], f.depth[i - f.width], f.depth[i + f.width]});
                 holes += far - near < 30;
             }
-        EXPECT_GT(person, 15000);
+        EXPECT_GT(person, 12000);
         EXPECT_EQ(holes, 0);
     }
 }

@@ -1,6 +1,7 @@
 // Garment files and fabrics: what is read, and what is refused with which words.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
@@ -130,6 +131,18 @@ TEST(FabricCooking, RefusesExplicitDataThatDoNotFit) {
     EXPECT_EQ(cook([](FabricData& d) { d.indices = {0, 1}; }), "-11 the fabric's indices are not whole triangles");
     EXPECT_EQ(cook([](FabricData& d) { d.backstops = {{0, 0.1f}}; }), "-11 backstop of vertex 0 with radius 0.1 m");
     EXPECT_EQ(cook([](FabricData& d) { d.inverse_mass.clear(); }), "-11 the fabric has no vertices");
+}
+
+TEST(FabricCooking, BendSpringHasTheHingesEnergyAtThirtyDegrees) {
+    Sheet sheet(2, 2, 0.02f);  // one fold: the diagonal
+    const FabricData data = sheet.cook(cotton());
+    ASSERT_EQ(data.bends.size(), 1u);
+    const DistanceConstraint& bend = data.bends[0];
+    const float length = 0.02f * std::sqrt(2.0f), fold = kPi / 6.0f;
+    const float hinge = 3.0f * cotton().bend_n_m * length * length / (0.02f * 0.02f);
+    // The two corners stand length/2 off the fold; folded, their distance is 2 (length/2) cos(fold/2).
+    const float shorter = bend.rest_m - length * std::cos(0.5f * fold);
+    EXPECT_NEAR(shorter * shorter / bend.compliance_m_n, hinge * fold * fold, 0.05f * hinge * fold * fold);
 }
 
 TEST(FabricCooking, MassIsDensityTimesArea) {
