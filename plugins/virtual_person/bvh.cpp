@@ -161,7 +161,8 @@ Bvh parse_bvh(std::string_view text, const std::string& file_name) {
         reader.error("a frame time of ", bvh.frame_time_s, " s is out of range");
     // Each value takes two characters at least: a count that the file cannot hold reserves no memory.
     if (bvh.frame_count > text.size() / (2 * bvh.channel_count) + 1)
-        reader.error("the file is too short for ", bvh.frame_count, " frames of ", bvh.channel_count, " values");
+        reader.error("the file is too short for ", bvh.frame_count, " frames of ", bvh.channel_count,
+                     " values");
     bvh.values.resize(bvh.frame_count * bvh.channel_count);
     for (float& value : bvh.values) value = static_cast<float>(reader.number("a motion value"));
     if (!reader.next().empty())

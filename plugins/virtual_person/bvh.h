@@ -12,16 +12,16 @@ namespace vfit::virtual_person {
 struct BvhJoint {
     std::string name;
     int parent = -1;
-    Vec3 offset{0.0f};           // file units
-    std::string channels;        // in file order: 'x' 'y' 'z' rotations, 'X' 'Y' 'Z' positions
-    size_t first_channel = 0;    // of a frame's values
+    Vec3 offset{0.0f};         // file units
+    std::string channels;      // in file order: 'x' 'y' 'z' rotations, 'X' 'Y' 'Z' positions
+    size_t first_channel = 0;  // of a frame's values
 };
 
 struct Bvh {
     std::vector<BvhJoint> joints;  // parents stand before children; end sites are left out
     size_t frame_count = 0, channel_count = 0;
     double frame_time_s = 0;
-    std::vector<float> values;     // frame_count x channel_count, degrees and file units
+    std::vector<float> values;  // frame_count x channel_count, degrees and file units
 
     /// -1 if there is no such joint.
     int find(std::string_view name) const;

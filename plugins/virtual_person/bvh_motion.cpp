@@ -1,5 +1,5 @@
-// Carries a captured motion over to the person: rotations relative to the T-pose, the path scaled by the length
-// of the legs and centred, the feet planted on the floor.
+// Carries a captured motion over to the person: rotations relative to the T-pose, the path scaled by the
+// length of the legs and centred, the feet planted on the floor.
 #include <algorithm>
 #include <cmath>
 
@@ -56,13 +56,18 @@ Quat shortest_arc(const Vec3& from, const Vec3& to) {
     return glm::normalize(Quat(w, glm::cross(a, b)));
 }
 
-int leg_bone(int side, int part) { return (side == kLeft ? VFIT_BONE_LEFT_UPPER_LEG : VFIT_BONE_RIGHT_UPPER_LEG) + part; }
-int arm_bone(int side, int part) { return (side == kLeft ? VFIT_BONE_LEFT_SHOULDER : VFIT_BONE_RIGHT_SHOULDER) + part; }
+int leg_bone(int side, int part) {
+    return (side == kLeft ? VFIT_BONE_LEFT_UPPER_LEG : VFIT_BONE_RIGHT_UPPER_LEG) + part;
+}
+int arm_bone(int side, int part) {
+    return (side == kLeft ? VFIT_BONE_LEFT_SHOULDER : VFIT_BONE_RIGHT_SHOULDER) + part;
+}
 
 class Retarget {
 public:
     Retarget(const Bvh& bvh, const std::string& name, const Proportions& proportions)
-        : bvh_(bvh), proportions_(proportions) {
+        : bvh_(bvh),
+          proportions_(proportions) {
         const bool upleg_form = bvh.find("LeftUpLeg") >= 0;
         for (const BoneSource& s : kSources) {
             const char* wanted = upleg_form ? s.upleg_form : s.hip_form;
@@ -79,7 +84,8 @@ public:
             correct(arm_bone(side, 1), arm_bone(side, 2), proportions.upper_arm[i], name);
             correct(arm_bone(side, 2), arm_bone(side, 3), proportions.forearm[i], name);
             correction_[size_t(arm_bone(side, 3))] = correction_[size_t(arm_bone(side, 2))];
-            source_leg += glm::length(rest_offset(leg_bone(side, 1))) + glm::length(rest_offset(leg_bone(side, 2)));
+            source_leg +=
+                glm::length(rest_offset(leg_bone(side, 1))) + glm::length(rest_offset(leg_bone(side, 2)));
             person_leg += glm::length(leg.thigh) + glm::length(leg.shank);
         }
         scale_ = person_leg / source_leg;
@@ -105,7 +111,8 @@ private:
     void correct(int bone, int child, const Vec3& t_pose, const std::string& name) {
         const Vec3 rest = rest_offset(child);
         if (!(glm::length(rest) > 1e-6f))
-            fail(VFIT_ERROR_DATA, name, ": ", bvh_.joints[size_t(joint_[size_t(bone)])].name, " has no length");
+            fail(VFIT_ERROR_DATA, name, ": ", bvh_.joints[size_t(joint_[size_t(bone)])].name,
+                 " has no length");
         correction_[size_t(bone)] = shortest_arc(t_pose, rest);
     }
 
@@ -122,9 +129,12 @@ private:
             const Quat& pelvis = world_[i][VFIT_BONE_HIPS];
             // The middle of the hip joints is the same point in both bodies; the root is not.
             const Vec3 middle = (source.position[size_t(joint_[VFIT_BONE_LEFT_UPPER_LEG])] +
-                                 source.position[size_t(joint_[VFIT_BONE_RIGHT_UPPER_LEG])]) * 0.5f;
-            hips_[i] = middle * scale_ - pelvis * ((proportions_.leg[0].hip + proportions_.leg[1].hip) * 0.5f);
-            low = glm::min(low, Vec2(hips_[i].x, hips_[i].z)), high = glm::max(high, Vec2(hips_[i].x, hips_[i].z));
+                                 source.position[size_t(joint_[VFIT_BONE_RIGHT_UPPER_LEG])]) *
+                                0.5f;
+            hips_[i] =
+                middle * scale_ - pelvis * ((proportions_.leg[0].hip + proportions_.leg[1].hip) * 0.5f);
+            low = glm::min(low, Vec2(hips_[i].x, hips_[i].z)),
+            high = glm::max(high, Vec2(hips_[i].x, hips_[i].z));
         }
         const Vec2 middle = (low + high) * 0.5f;
         for (size_t i = 0; i < n; ++i) {
@@ -144,7 +154,8 @@ private:
     // The file's floor is nowhere stated: it lies where the lower ankle of a frame usually is at rest.
     void ground() {
         std::vector<float> lower(hips_.size());
-        for (size_t i = 0; i < lower.size(); ++i) lower[i] = std::min(foot_[0].ankle[i].y, foot_[1].ankle[i].y);
+        for (size_t i = 0; i < lower.size(); ++i)
+            lower[i] = std::min(foot_[0].ankle[i].y, foot_[1].ankle[i].y);
         auto median = lower.begin() + static_cast<std::ptrdiff_t>(lower.size() / 2);
         std::nth_element(lower.begin(), median, lower.end());
         const float down = *median - proportions_.ankle_height_m;
@@ -154,8 +165,8 @@ private:
         }
     }
 
-    // A swinging foot keeps ball and heel above the floor. The heel reaches back about a third of the way from
-    // ankle to ball.
+    // A swinging foot keeps ball and heel above the floor. The heel reaches back about a third of the way
+    // from ankle to ball.
     void keep_above_floor(FootTrack& f) const {
         const Leg& leg = proportions_.leg[size_t(&f - foot_.data())];
         const float sole = -proportions_.ankle_height_m;
@@ -166,22 +177,26 @@ private:
         }
     }
 
-    // Lowers the hips where a leg cannot reach its foot. Largest need within a window, then the mean over the same
-    // window: smooth, and never less than what is needed.
+    // Lowers the hips where a leg cannot reach its foot. Largest need within a window, then the mean over the
+    // same window: smooth, and never less than what is needed.
     void give_way() {
         const size_t n = hips_.size();
         std::vector<float> need(n, 0.0f), most(n);
         for (size_t i = 0; i < n; ++i) {
             for (const int side : {kLeft, kRight}) {
                 const Leg& leg = proportions_.leg[size_t(side)];
-                const Vec3 hip = hips_[i] + world_[i][VFIT_BONE_HIPS] * leg.hip, &ankle = foot_[size_t(side)].ankle[i];
-                const float reach = standing_reach_m(leg), aside = glm::length(Vec2(ankle.x - hip.x, ankle.z - hip.z));
+                const Vec3 hip = hips_[i] + world_[i][VFIT_BONE_HIPS] * leg.hip,
+                           &ankle = foot_[size_t(side)].ankle[i];
+                const float reach = standing_reach_m(leg),
+                            aside = glm::length(Vec2(ankle.x - hip.x, ankle.z - hip.z));
                 const float limit = ankle.y + std::sqrt(std::max(0.0f, reach * reach - aside * aside));
                 need[i] = std::max(need[i], hip.y - limit);
             }
         }
         const auto half = static_cast<size_t>(std::lround(kHipSmoothing_s / bvh_.frame_time_s));
-        const auto window = [&](size_t i) { return std::pair(i > half ? i - half : 0, std::min(n, i + half + 1)); };
+        const auto window = [&](size_t i) {
+            return std::pair(i > half ? i - half : 0, std::min(n, i + half + 1));
+        };
         for (size_t i = 0; i < n; ++i) {
             const auto [a, b] = window(i);
             most[i] = *std::max_element(need.begin() + std::ptrdiff_t(a), need.begin() + std::ptrdiff_t(b));
@@ -210,9 +225,10 @@ private:
                 const FootTrack& f = foot_[size_t(side)];
                 const Vec3 hip = hips_[i] + world[VFIT_BONE_HIPS] * leg.hip;
                 const Vec3 knee_forward = world[size_t(leg_bone(side, 0))] * Vec3(0, 0, 1);
-                const Quat toes = f.planted[i] ? f.rotation[i] : f.rotation[i] * pose.rotation[size_t(leg_bone(side, 3))];
-                set_leg(pose.rotation, side, world[VFIT_BONE_HIPS], reach_ankle(leg, hip, f.ankle[i], knee_forward),
-                        f.rotation[i], toes);
+                const Quat toes =
+                    f.planted[i] ? f.rotation[i] : f.rotation[i] * pose.rotation[size_t(leg_bone(side, 3))];
+                set_leg(pose.rotation, side, world[VFIT_BONE_HIPS],
+                        reach_ankle(leg, hip, f.ankle[i], knee_forward), f.rotation[i], toes);
                 pose.contact[size_t(side)] = f.planted[i] != 0;
             }
         }
@@ -232,7 +248,9 @@ private:
 // Played forwards and backwards in turn, so that the person never jumps.
 class BvhMotion : public Motion {
 public:
-    BvhMotion(std::vector<BonePose> poses, double frame_time_s) : poses_(std::move(poses)), frame_time_s_(frame_time_s) {}
+    BvhMotion(std::vector<BonePose> poses, double frame_time_s)
+        : poses_(std::move(poses)),
+          frame_time_s_(frame_time_s) {}
 
     BonePose at(double t) const override {
         const double last = static_cast<double>(poses_.size() - 1);
@@ -244,7 +262,8 @@ public:
         const BonePose &a = poses_[i], &b = poses_[i + 1];
         BonePose pose;
         pose.hips = a.hips + (b.hips - a.hips) * s;
-        for (size_t k = 0; k < pose.rotation.size(); ++k) pose.rotation[k] = glm::slerp(a.rotation[k], b.rotation[k], s);
+        for (size_t k = 0; k < pose.rotation.size(); ++k)
+            pose.rotation[k] = glm::slerp(a.rotation[k], b.rotation[k], s);
         for (size_t side = 0; side < 2; ++side) pose.contact[side] = a.contact[side] && b.contact[side];
         return pose;
     }

@@ -9,9 +9,9 @@ namespace vfit::virtual_person {
 
 struct CleanImage {
     uint32_t width = 0, height = 0;
-    std::vector<float> depth_m;   // along the optical axis; 0: nothing
-    std::vector<float> cosine;    // between the line of sight and the surface normal, 0..1
-    std::vector<uint8_t> user;    // 0 room, 1 person
+    std::vector<float> depth_m;  // along the optical axis; 0: nothing
+    std::vector<float> cosine;   // between the line of sight and the surface normal, 0..1
+    std::vector<uint8_t> user;   // 0 room, 1 person
 
     void resize(uint32_t w, uint32_t h) {
         width = w, height = h;

@@ -105,9 +105,11 @@ void DepthCamera::solve_room(const Room& room) {
 }
 
 void DepthCamera::set_triangles(std::span<const uint32_t> indices, uint32_t vertex_count) {
-    if (indices.empty() || indices.size() % 3 != 0) fail(VFIT_ERROR_DATA, "virtual: the body's mesh has no triangles");
+    if (indices.empty() || indices.size() % 3 != 0)
+        fail(VFIT_ERROR_DATA, "virtual: the body's mesh has no triangles");
     for (const uint32_t i : indices)
-        if (i >= vertex_count) fail(VFIT_ERROR_DATA, "virtual: the body's mesh names vertex ", i, " of ", vertex_count);
+        if (i >= vertex_count)
+            fail(VFIT_ERROR_DATA, "virtual: the body's mesh names vertex ", i, " of ", vertex_count);
     indices_.assign(indices.begin(), indices.end());
     vertex_count_ = vertex_count;
     pixels_.resize(vertex_count);
@@ -115,11 +117,12 @@ void DepthCamera::set_triangles(std::span<const uint32_t> indices, uint32_t vert
     Embree& e = *embree_;
     e.mesh = rtcNewGeometry(e.device, RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetGeometryBuildQuality(e.mesh, RTC_BUILD_QUALITY_REFIT);
-    e.vertices = static_cast<float*>(rtcSetNewGeometryBuffer(e.mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                            3 * sizeof(float), vertex_count));
+    e.vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
+        e.mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertex_count));
     void* triangles = rtcSetNewGeometryBuffer(e.mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                               3 * sizeof(uint32_t), indices.size() / 3);
-    if (!e.vertices || !triangles) fail(VFIT_ERROR_OUT_OF_MEMORY, "virtual: Embree has no room for the body's mesh");
+    if (!e.vertices || !triangles)
+        fail(VFIT_ERROR_OUT_OF_MEMORY, "virtual: Embree has no room for the body's mesh");
     std::memcpy(triangles, indices.data(), indices.size_bytes());
     rtcAttachGeometry(e.scene, e.mesh);
 }

@@ -1,5 +1,5 @@
-// A pinhole depth camera in a plain room: floor, back wall, side wall and one triangle mesh. The room is static
-// and solved once; the mesh is ray cast where its triangles fall on the image.
+// A pinhole depth camera in a plain room: floor, back wall, side wall and one triangle mesh. The room is
+// static and solved once; the mesh is ray cast where its triangles fall on the image.
 #pragma once
 
 #include <cstdint>
@@ -55,8 +55,8 @@ private:
     Mat3 rotation_;
     CleanImage room_;
     std::vector<uint32_t> indices_;
-    std::vector<Vec3> pixels_;      // of the vertices: u, v, z
-    std::vector<uint8_t> tiles_;    // 1 where a triangle's box touches
+    std::vector<Vec3> pixels_;    // of the vertices: u, v, z
+    std::vector<uint8_t> tiles_;  // 1 where a triangle's box touches
     uint32_t tiles_x_, tiles_y_;
     uint32_t vertex_count_ = 0;
     std::unique_ptr<Embree> embree_;

@@ -16,12 +16,15 @@ constexpr std::chrono::milliseconds kNap{2};  // between looks at the clock, so 
 }  // namespace
 
 Device::Device(const vfit_host* host, void* stream, const std::string& uri)
-    : host_(host), stream_(stream), shape_keys_(shape_list(context_.get())) {
+    : host_(host),
+      stream_(stream),
+      shape_keys_(shape_list(context_.get())) {
     for (const auto& [key, value] : parse_uri(uri)) set_option(key, value);
 }
 
 void Device::set_option(const std::string& key, const std::string& value) {
-    if (thread_.joinable()) fail(VFIT_ERROR_STATE, "virtual: option ", key, " cannot change while the stream runs");
+    if (thread_.joinable())
+        fail(VFIT_ERROR_STATE, "virtual: option ", key, " cannot change while the stream runs");
     if (options_.set(key, value)) return;
     for (const vfit_shape_value& shape : shape_keys_) {
         if (key != shape.key) continue;
@@ -122,7 +125,8 @@ vfit_result Device::push_frame(uint64_t index, int64_t time_ns) {
     void* const self = host_->self;
     vfit_frame frame{};
     const vfit_result begun = host_->frame_begin(self, stream_, layouts, sizeof layouts[0], 2, &frame);
-    if (begun == VFIT_ERROR_BUSY) return VFIT_OK;  // the reader holds every frame of the pool: this one is lost
+    if (begun == VFIT_ERROR_BUSY)
+        return VFIT_OK;  // the reader holds every frame of the pool: this one is lost
     if (begun < 0) return begun;
     try {
         const auto need = [](vfit_result result, const char* what) {

@@ -8,10 +8,11 @@ namespace vfit::virtual_person {
 namespace {
 
 constexpr float kMostExtension = 0.999f;  // of the leg's length: a knee that is locked has no direction
-// The lower of two reach limits, rounded over this range where they cross, so that the hips move without a kink.
+// The lower of two reach limits, rounded over this range where they cross, so that the hips move without a
+// kink.
 constexpr float kLimitBlend_m = 0.012f;
-// Beyond 60 degrees of elevation the shoulder blade takes about a third (scapulo-humeral rhythm, Inman 1944: one
-// degree in three).
+// Beyond 60 degrees of elevation the shoulder blade takes about a third (scapulo-humeral rhythm, Inman 1944:
+// one degree in three).
 constexpr float kScapulaStart_deg = 60.0f, kScapulaShare = 1.0f / 3.0f;
 
 float smooth_min(float a, float b, float range) {
@@ -26,7 +27,9 @@ Mat3 limb_frame(const Vec3& along, const Vec3& hinge) {
     return Mat3(x, y, glm::cross(x, y));
 }
 
-Quat turn_frame(const Mat3& from, const Mat3& to) { return glm::normalize(glm::quat_cast(to * glm::transpose(from))); }
+Quat turn_frame(const Mat3& from, const Mat3& to) {
+    return glm::normalize(glm::quat_cast(to * glm::transpose(from)));
+}
 
 struct LegBones {
     int thigh, shank, foot, toes;

@@ -1,5 +1,5 @@
-// From what a motion says (where the feet are, how pelvis and trunk turn) to bone rotations: the legs follow by
-// inverse kinematics, so that a planted foot stays exactly where it is.
+// From what a motion says (where the feet are, how pelvis and trunk turn) to bone rotations: the legs follow
+// by inverse kinematics, so that a planted foot stays exactly where it is.
 #pragma once
 
 #include <array>
@@ -11,19 +11,19 @@ namespace vfit::virtual_person {
 
 /// Where a foot is. Floor coordinates are (x, z).
 struct FootState {
-    Vec2 place{0, 0};      // of the ankle
-    float yaw_rad = 0;     // 0: toes to +Z
-    float lift_m = 0;      // of the sole above the floor
-    float heel_rad = 0;    // > 0: heel up, over the ball of the foot; < 0: toes up
+    Vec2 place{0, 0};    // of the ankle
+    float yaw_rad = 0;   // 0: toes to +Z
+    float lift_m = 0;    // of the sole above the floor
+    float heel_rad = 0;  // > 0: heel up, over the ball of the foot; < 0: toes up
     bool planted = true;
 };
 
 /// What a motion says about one instant.
 struct Figure {
-    Vec2 root{0, 0};           // floor point below the pelvis
-    float heading_rad = 0;     // of the pelvis; 0: faces +Z
+    Vec2 root{0, 0};            // floor point below the pelvis
+    float heading_rad = 0;      // of the pelvis; 0: faces +Z
     Quat pelvis = kNoRotation;  // in the heading's frame
-    float drop_m = 0;          // how far the hips are below the highest place that the legs allow
+    float drop_m = 0;           // how far the hips are below the highest place that the legs allow
     std::array<FootState, 2> foot;
     std::array<Quat, VFIT_BONE_COUNT> rotation;  // local; legs and hips are overwritten by solve
     Figure() { rotation.fill(kNoRotation); }
@@ -49,15 +49,17 @@ LegPose reach_ankle(const Leg& leg, const Vec3& hip, const Vec3& ankle, const Ve
 void set_leg(std::array<Quat, VFIT_BONE_COUNT>& rotation, int side, const Quat& pelvis, const LegPose& leg,
              const Quat& foot_world, const Quat& toes_world);
 
-/// The farthest that the ankle of a standing person is from the hip: as in the T-pose, short of full extension.
+/// The farthest that the ankle of a standing person is from the hip: as in the T-pose, short of full
+/// extension.
 float standing_reach_m(const Leg& leg);
 
-/// How one arm is held: a few anatomical angles, in degrees from the arm that hangs straight down, palm inwards.
+/// How one arm is held: a few anatomical angles, in degrees from the arm that hangs straight down, palm
+/// inwards.
 struct ArmAngles {
     float abduct = 0;  // away from the trunk, sideways
     float flex = 0;    // forwards
     float elbow = 0;
-    float turn = 0;    // of the upper arm about itself, outwards
+    float turn = 0;  // of the upper arm about itself, outwards
 };
 void set_arm(std::array<Quat, VFIT_BONE_COUNT>& rotation, int side, const ArmAngles& arm);
 

@@ -9,7 +9,8 @@ namespace vfit::virtual_person {
 
 namespace {
 
-// A standing foot is slower than a slow walk's swing by ten, and stays within the roll of the foot of the floor.
+// A standing foot is slower than a slow walk's swing by ten, and stays within the roll of the foot of the
+// floor.
 constexpr float kStill_m_s = 0.20f, kLow_m = 0.04f;
 constexpr double kShortestContact_s = 0.10, kShortestGap_s = 0.05;
 constexpr double kFade_s = 0.20;
@@ -39,7 +40,8 @@ float low_height(const std::vector<Vec3>& points) {
 float speed(const std::vector<Vec3>& points, size_t i, double frame_time_s) {
     const size_t reach = std::max<size_t>(1, static_cast<size_t>(0.02 / frame_time_s));
     const size_t a = i > reach ? i - reach : 0, b = std::min(points.size() - 1, i + reach);
-    return b == a ? 0.0f : glm::length(points[b] - points[a]) / static_cast<float>(double(b - a) * frame_time_s);
+    return b == a ? 0.0f
+                  : glm::length(points[b] - points[a]) / static_cast<float>(double(b - a) * frame_time_s);
 }
 
 float yaw_of(const Quat& q) {
@@ -69,8 +71,8 @@ void find_contacts(FootTrack& foot, double frame_time_s) {
                       foot.planted.begin() + std::ptrdiff_t(found[k].begin), char{1});
     for (const Span& s : spans_of(foot.planted))
         if (double(s.end - s.begin) * frame_time_s < kShortestContact_s)
-            std::fill(foot.planted.begin() + std::ptrdiff_t(s.begin), foot.planted.begin() + std::ptrdiff_t(s.end),
-                      char{0});
+            std::fill(foot.planted.begin() + std::ptrdiff_t(s.begin),
+                      foot.planted.begin() + std::ptrdiff_t(s.end), char{0});
 }
 
 void plant(FootTrack& foot, double frame_time_s, float ankle_height_m) {

@@ -1,5 +1,5 @@
-// Finds when the feet of a captured motion stand, and plants them: in each contact the ankle gets one place and
-// the foot lies flat; before and after the correction fades.
+// Finds when the feet of a captured motion stand, and plants them: in each contact the ankle gets one place
+// and the foot lies flat; before and after the correction fades.
 #pragma once
 
 #include <cstddef>
@@ -11,9 +11,9 @@ namespace vfit::virtual_person {
 
 /// One foot over all frames.
 struct FootTrack {
-    std::vector<Vec3> ankle, ball;   // world, metres
-    std::vector<Quat> rotation;      // world
-    std::vector<char> planted;       // output
+    std::vector<Vec3> ankle, ball;  // world, metres
+    std::vector<Quat> rotation;     // world
+    std::vector<char> planted;      // output
 };
 
 /// Contacts of one foot: ankle and ball slow and low. Floor heights are those of its own lowest frames.

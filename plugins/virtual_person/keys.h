@@ -16,7 +16,8 @@ inline float track(std::initializer_list<Key> keys, float t) {
     const Key* before = keys.begin();
     for (const Key& key : keys) {
         if (t < key.t_s)
-            return before->value + (key.value - before->value) * ease((t - before->t_s) / (key.t_s - before->t_s));
+            return before->value +
+                   (key.value - before->value) * ease((t - before->t_s) / (key.t_s - before->t_s));
         before = &key;
     }
     return before->value;

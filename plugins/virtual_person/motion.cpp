@@ -24,7 +24,8 @@ constexpr NamedScript kScripts[] = {{"scan", scan_script},   {"sway", sway_scrip
 class Idle {
 public:
     explicit Idle(uint64_t seed) {
-        for (uint64_t i = 0; i < phase_s_.size(); ++i) phase_s_[i] = 20.0f * uniform(random_bits(0x69646C65, seed), i);
+        for (uint64_t i = 0; i < phase_s_.size(); ++i)
+            phase_s_[i] = 20.0f * uniform(random_bits(0x69646C65, seed), i);
     }
     void add_to(Figure& figure, float t) const {
         figure.root.x += 0.004f * wave(0.21f, t + phase_s_[0]) + 0.002f * wave(0.47f, t + phase_s_[1]);
@@ -43,7 +44,9 @@ private:
 class ScriptedMotion : public Motion {
 public:
     ScriptedMotion(Script script, const Proportions& proportions, uint64_t seed)
-        : script_(std::move(script)), proportions_(proportions), idle_(seed) {}
+        : script_(std::move(script)),
+          proportions_(proportions),
+          idle_(seed) {}
 
     BonePose at(double t) const override {
         Figure figure = script_.figure(static_cast<float>(std::fmod(t, double{script_.period_s})));

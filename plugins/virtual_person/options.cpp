@@ -18,15 +18,17 @@ enum class Kind { kNumber, kWhole, kSensor, kMotion, kSex, kPace, kFile };
 struct Entry {
     const char* key;
     Kind kind;
-    const char* value;      // default
-    double least, most;     // of numbers
+    const char* value;   // default
+    double least, most;  // of numbers
     const char* text;
 };
 
 constexpr double kMostWhole = 9.0e15;  // below 2^53: a double holds it exactly
 constexpr Entry kEntries[] = {
-    {"sensor", Kind::kSensor, "kinect_v1", 0, 0, "Depth camera that is played: kinect_v1, kinect_v1_320, azure, tof, ideal"},
-    {"mode", Kind::kSensor, "kinect_v1", 0, 0, "The same as sensor, by the name that every sensor of vfit has for it"},
+    {"sensor", Kind::kSensor, "kinect_v1", 0, 0,
+     "Depth camera that is played: kinect_v1, kinect_v1_320, azure, tof, ideal"},
+    {"mode", Kind::kSensor, "kinect_v1", 0, 0,
+     "The same as sensor, by the name that every sensor of vfit has for it"},
     {"motion", Kind::kMotion, "scan", 0, 0, "scan, sway, turn, walk, wave, reach, squat or demo"},
     {"bvh", Kind::kFile, "", 0, 0, "Motion capture file to play instead of motion (CMU joint names)"},
     {"seed", Kind::kWhole, "1", 0, kMostWhole, "Of noise, sway and breath; equal seeds give equal bits"},
@@ -35,12 +37,15 @@ constexpr Entry kEntries[] = {
     {"pace", Kind::kPace, "none", 0, 0, "none: as fast as frames are taken; realtime: at rate"},
     {"sex", Kind::kSex, "", 0, 0, "Default body: f, m, or empty for one halfway"},
     {"distance", Kind::kNumber, "2.7", 0.5, 10, "From the camera to where the person stands, in metres"},
-    {"facing", Kind::kNumber, "0", -360, 360, "Turns person and motion to their left, in degrees; 0 faces the camera"},
+    {"facing", Kind::kNumber, "0", -360, 360,
+     "Turns person and motion to their left, in degrees; 0 faces the camera"},
     {"camera_height", Kind::kNumber, "1", 0.1, 5, "Of the camera above the floor, in metres"},
     {"tilt", Kind::kNumber, "0", -60, 60, "Of the camera, in degrees; above 0 it looks down"},
     {"wall", Kind::kNumber, "1.2", 0, 50, "From the person to the wall behind, in metres; 0: none"},
-    {"side_wall", Kind::kNumber, "1.7", 0, 50, "From the camera to the wall on the image's left, in metres; 0: none"},
-    {"noise", Kind::kNumber, "1", 0, 10, "Scale of noise and drop-out; 0 leaves depth exact but for its steps"},
+    {"side_wall", Kind::kNumber, "1.7", 0, 50,
+     "From the camera to the wall on the image's left, in metres; 0: none"},
+    {"noise", Kind::kNumber, "1", 0, 10,
+     "Scale of noise and drop-out; 0 leaves depth exact but for its steps"},
     {"quantise", Kind::kWhole, "1", 0, 1, "Depth in steps of 1/8 px of disparity (kinect_v1)"},
     {"shadow", Kind::kWhole, "1", 0, 1, "No depth where the projector's light does not reach (kinect_v1)"},
     {"detail", Kind::kWhole, "0", 0, 2, "Vertices of the body: 0 13.7k, 1 54.8k, 2 219k"},
@@ -59,14 +64,13 @@ size_t index_of(const char* key) {
 }
 
 void check_choice(const std::string& key, const std::string& value, bool known, const std::string& choices) {
-    if (!known) fail(VFIT_ERROR_ARGUMENT, "virtual: option ", key, ": unknown '", value, "'; known are ", choices);
+    if (!known)
+        fail(VFIT_ERROR_ARGUMENT, "virtual: option ", key, ": unknown '", value, "'; known are ", choices);
 }
 
 void check_value(const Entry& e, const std::string& value) {
     switch (e.kind) {
-        case Kind::kNumber:
-            parse_number(e.key, value, e.least, e.most);
-            break;
+        case Kind::kNumber: parse_number(e.key, value, e.least, e.most); break;
         case Kind::kWhole:
             if (const double v = parse_number(e.key, value, e.least, e.most); v != std::floor(v))
                 fail(VFIT_ERROR_ARGUMENT, "virtual: option ", e.key, ": '", value, "' is not a whole number");
@@ -74,17 +78,15 @@ void check_value(const Entry& e, const std::string& value) {
         case Kind::kSensor:
             check_choice(e.key, value, find_sensor_model(value) != nullptr, sensor_model_names());
             break;
-        case Kind::kMotion:
-            check_choice(e.key, value, is_motion(value), motion_names());
-            break;
+        case Kind::kMotion: check_choice(e.key, value, is_motion(value), motion_names()); break;
         case Kind::kSex:
-            check_choice(e.key, value, value.empty() || value == "f" || value == "m", "f, m and the empty text");
+            check_choice(e.key, value, value.empty() || value == "f" || value == "m",
+                         "f, m and the empty text");
             break;
         case Kind::kPace:
             check_choice(e.key, value, value == "none" || value == "realtime", "none, realtime");
             break;
-        case Kind::kFile:
-            break;
+        case Kind::kFile: break;
     }
 }
 
@@ -98,7 +100,8 @@ int hex_digit(char c) {
 std::string unescape(const std::string& text) {
     std::string out;
     for (size_t i = 0; i < text.size(); ++i) {
-        const bool escape = text[i] == '%' && i + 2 < text.size() && hex_digit(text[i + 1]) >= 0 && hex_digit(text[i + 2]) >= 0;
+        const bool escape = text[i] == '%' && i + 2 < text.size() && hex_digit(text[i + 1]) >= 0 &&
+                            hex_digit(text[i + 2]) >= 0;
         if (escape) {
             out += static_cast<char>(hex_digit(text[i + 1]) * 16 + hex_digit(text[i + 2]));
             i += 2;
@@ -122,7 +125,8 @@ double parse_number(const std::string& key, const std::string& value, double lea
     stream.imbue(std::locale::classic());
     double v = 0;
     if (!(stream >> v) || stream.peek() != std::char_traits<char>::eof() || !(v >= least && v <= most))
-        fail(VFIT_ERROR_ARGUMENT, "virtual: option ", key, ": '", value, "' is not a number from ", least, " to ", most);
+        fail(VFIT_ERROR_ARGUMENT, "virtual: option ", key, ": '", value, "' is not a number from ", least,
+             " to ", most);
     return v;
 }
 
@@ -167,7 +171,8 @@ std::string Options::names() {
 
 std::vector<KeyValue> parse_uri(const std::string& uri) {
     const std::string scheme = "virtual:";
-    if (uri.compare(0, scheme.size(), scheme) != 0) fail(VFIT_ERROR_ARGUMENT, "virtual: '", uri, "' does not start with virtual:");
+    if (uri.compare(0, scheme.size(), scheme) != 0)
+        fail(VFIT_ERROR_ARGUMENT, "virtual: '", uri, "' does not start with virtual:");
     std::vector<KeyValue> pairs;
     std::string rest = uri.substr(scheme.size());
     if (!rest.empty() && rest[0] == '?') rest.erase(0, 1);
@@ -177,7 +182,8 @@ std::vector<KeyValue> parse_uri(const std::string& uri) {
         at = end + 1;
         if (part.empty()) continue;
         const size_t equals = part.find('=');
-        if (equals == std::string::npos) fail(VFIT_ERROR_ARGUMENT, "virtual: '", part, "' in the URI is not key=value");
+        if (equals == std::string::npos)
+            fail(VFIT_ERROR_ARGUMENT, "virtual: '", part, "' in the URI is not key=value");
         pairs.emplace_back(unescape(part.substr(0, equals)), unescape(part.substr(equals + 1)));
     }
     return pairs;

@@ -1,4 +1,5 @@
-// What can be said about a virtual person, in its URI or by set_option: one table of keys, defaults and texts.
+// What can be said about a virtual person, in its URI or by set_option: one table of keys, defaults and
+// texts.
 #pragma once
 
 #include <cstdint>

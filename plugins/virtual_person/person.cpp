@@ -25,7 +25,8 @@ std::vector<vfit_shape_value> shape_list(vfit_context context) {
     return values;
 }
 
-Person::Person(vfit_context context, vfit_sex sex, uint32_t detail, const std::map<std::string, float>& shape) {
+Person::Person(vfit_context context, vfit_sex sex, uint32_t detail,
+               const std::map<std::string, float>& shape) {
     std::vector<vfit_shape_value> values;
     for (const auto& [key, value] : shape) {
         vfit_shape_value v = vfit_shape_value_init();
@@ -73,7 +74,8 @@ void Person::pose(const BonePose& pose, const Vec3& offset) {
     vfit_pose header = vfit_pose_init();
     if (pose.contact[kLeft]) header.contact_flags |= VFIT_CONTACT_LEFT;
     if (pose.contact[kRight]) header.contact_flags |= VFIT_CONTACT_RIGHT;
-    check(vfit_avatar_pose(avatar_, &header, bones.data(), sizeof(vfit_bone), VFIT_BONE_COUNT), "vfit_avatar_pose");
+    check(vfit_avatar_pose(avatar_, &header, bones.data(), sizeof(vfit_bone), VFIT_BONE_COUNT),
+          "vfit_avatar_pose");
 
     if (mesh_.id) vfit_frame_release(mesh_);
     mesh_ = {};
@@ -89,7 +91,8 @@ const float* Person::positions() const { return static_cast<const float*>(positi
 void Person::read_joints() {
     auto count = static_cast<uint32_t>(joints_.size());
     check(vfit_avatar_joints(avatar_, joints_.data(), sizeof(vfit_joint), &count), "vfit_avatar_joints");
-    if (count != VFIT_JOINT_COUNT) fail(VFIT_ERROR_DATA, "virtual: the body has ", count, " joints, not ", VFIT_JOINT_COUNT);
+    if (count != VFIT_JOINT_COUNT)
+        fail(VFIT_ERROR_DATA, "virtual: the body has ", count, " joints, not ", VFIT_JOINT_COUNT);
 }
 
 void Person::read_triangles() {
@@ -114,7 +117,9 @@ void Person::read_proportions() {
     for (uint32_t i = 0; i < vertex_count_; ++i) lowest = std::min(lowest, positions()[3 * i + 1]);
     float ankle = 0;
     for (const int side : {kLeft, kRight}) {
-        const auto at = [&](vfit_joint_id left) { return joint_place(left + side); };  // the right one follows the left
+        const auto at = [&](vfit_joint_id left) {
+            return joint_place(left + side);
+        };  // the right one follows the left
         Leg& leg = proportions_.leg[size_t(side)];
         leg.hip = at(VFIT_JOINT_LEFT_HIP) - hips;
         leg.thigh = at(VFIT_JOINT_LEFT_KNEE) - at(VFIT_JOINT_LEFT_HIP);
@@ -131,13 +136,15 @@ void Person::read_measures() {
     uint32_t count = 0;
     check(vfit_avatar_measure(avatar_, nullptr, sizeof(vfit_measurement), &count), "vfit_avatar_measure");
     std::vector<vfit_measurement> items(count, vfit_measurement_init());
-    check(vfit_avatar_measure(avatar_, items.data(), sizeof(vfit_measurement), &count), "vfit_avatar_measure");
+    check(vfit_avatar_measure(avatar_, items.data(), sizeof(vfit_measurement), &count),
+          "vfit_avatar_measure");
     measures_json_.assign(1, '{');
     for (uint32_t i = 0; i < count; ++i) {
         // Whole tenths of a millimetre, written with a point whatever the locale.
         const auto tenths = static_cast<long long>(items[i].value * 10000.0 + 0.5);
         char text[80];
-        std::snprintf(text, sizeof text, "%s\"%s\": %lld.%04lld", i ? ", " : "", items[i].key, tenths / 10000, tenths % 10000);
+        std::snprintf(text, sizeof text, "%s\"%s\": %lld.%04lld", i ? ", " : "", items[i].key, tenths / 10000,
+                      tenths % 10000);
         measures_json_ += text;
     }
     measures_json_ += '}';

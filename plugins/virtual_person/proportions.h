@@ -21,8 +21,8 @@ struct Proportions {
     float ankle_height_m = 0.08f;            // above the sole of the flat foot
 };
 
-/// A person of average build, where no avatar is at hand: segment lengths for a stature of 1.75 m by the ratios
-/// of Drillis and Contini 1966 (thigh 0.245, shank 0.246, foot height 0.039 of the stature).
+/// A person of average build, where no avatar is at hand: segment lengths for a stature of 1.75 m by the
+/// ratios of Drillis and Contini 1966 (thigh 0.245, shank 0.246, foot height 0.039 of the stature).
 Proportions average_proportions();
 
 }  // namespace vfit::virtual_person

@@ -21,10 +21,8 @@ float thickness_m(vfit_joint_id joint) {
         case VFIT_JOINT_LEFT_HIP:
         case VFIT_JOINT_RIGHT_HIP:
         case VFIT_JOINT_LEFT_CLAVICLE:
-        case VFIT_JOINT_RIGHT_CLAVICLE:
-            return kTrunkThickness_m;
-        default:
-            return kLimbThickness_m;
+        case VFIT_JOINT_RIGHT_CLAVICLE: return kTrunkThickness_m;
+        default: return kLimbThickness_m;
     }
 }
 
@@ -34,7 +32,8 @@ vfit_sex sex_of(const Options& options) {
 }
 
 CameraPlace place_of(const Options& options) {
-    return {static_cast<float>(options.number("camera_height")), glm::radians(static_cast<float>(options.number("tilt")))};
+    return {static_cast<float>(options.number("camera_height")),
+            glm::radians(static_cast<float>(options.number("tilt")))};
 }
 
 Room room_of(const Options& options) {
@@ -59,13 +58,15 @@ Renderer::Renderer(vfit_context context, const Options& options, const std::map<
       camera_(model_, place_of(options), room_of(options)),
       noise_(model_, noise_of(options)) {
     const std::string& bvh = options.text("bvh");
-    motion_ = bvh.empty() ? make_scripted_motion(options.text("motion"), person_.proportions(), options.whole("seed"))
-                          : make_bvh_motion(bvh, person_.proportions());
+    motion_ = bvh.empty()
+                  ? make_scripted_motion(options.text("motion"), person_.proportions(), options.whole("seed"))
+                  : make_bvh_motion(bvh, person_.proportions());
     camera_.set_triangles(person_.triangles(), person_.vertex_count());
 
     intrinsics_ = vfit_intrinsics_init();
     intrinsics_.width = model_.width, intrinsics_.height = model_.height;
-    intrinsics_.fx = model_.fx, intrinsics_.fy = model_.fy, intrinsics_.cx = model_.cx, intrinsics_.cy = model_.cy;
+    intrinsics_.fx = model_.fx, intrinsics_.fy = model_.fy, intrinsics_.cx = model_.cx,
+    intrinsics_.cy = model_.cy;
 
     const CameraPlace place = place_of(options);
     camera_info_ = vfit_camera_init();
@@ -86,11 +87,14 @@ void Renderer::advance(uint64_t frame) {
     camera_.render(person_.positions(), clean_);
 }
 
-void Renderer::write_depth(uint16_t* pixels, uint32_t row_stride) { noise_.apply(clean_, frame_, pixels, row_stride); }
+void Renderer::write_depth(uint16_t* pixels, uint32_t row_stride) {
+    noise_.apply(clean_, frame_, pixels, row_stride);
+}
 
 void Renderer::write_user_map(uint8_t* pixels, uint32_t row_stride) const {
     for (uint32_t y = 0; y < clean_.height; ++y)
-        std::memcpy(pixels + size_t{y} * row_stride, clean_.user.data() + size_t{y} * clean_.width, clean_.width);
+        std::memcpy(pixels + size_t{y} * row_stride, clean_.user.data() + size_t{y} * clean_.width,
+                    clean_.width);
 }
 
 bool Renderer::is_visible(const vfit_joint& joint, const Vec3& p, bool& in_view) const {
@@ -111,7 +115,8 @@ const std::vector<vfit_joint>& Renderer::joints(vfit_body& body) {
     for (vfit_joint& joint : joints_) {
         const Vec3 p = camera_.to_camera({joint.position[0], joint.position[1], joint.position[2]});
         for (int k = 0; k < 3; ++k) joint.position[k] = p[k];
-        const Quat turned = to_camera * Quat(joint.rotation[3], joint.rotation[0], joint.rotation[1], joint.rotation[2]);
+        const Quat turned =
+            to_camera * Quat(joint.rotation[3], joint.rotation[0], joint.rotation[1], joint.rotation[2]);
         joint.rotation[0] = turned.x, joint.rotation[1] = turned.y;
         joint.rotation[2] = turned.z, joint.rotation[3] = turned.w;
         bool in_view = false;
@@ -124,8 +129,9 @@ const std::vector<vfit_joint>& Renderer::joints(vfit_body& body) {
 }
 
 const char* Renderer::contacts_json() const {
-    static constexpr const char* kTexts[2][2] = {{R"({"left": 0, "right": 0})", R"({"left": 0, "right": 1})"},
-                                                 {R"({"left": 1, "right": 0})", R"({"left": 1, "right": 1})"}};
+    static constexpr const char* kTexts[2][2] = {
+        {R"({"left": 0, "right": 0})", R"({"left": 0, "right": 1})"},
+        {R"({"left": 1, "right": 0})", R"({"left": 1, "right": 1})"}};
     return kTexts[pose_.contact[kLeft]][pose_.contact[kRight]];
 }
 

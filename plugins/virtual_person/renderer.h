@@ -41,7 +41,7 @@ private:
 
     const SensorModel& model_;
     double frame_time_s_;
-    Vec3 stand_;   // where the motion's origin is
+    Vec3 stand_;  // where the motion's origin is
     Quat facing_;
     Person person_;
     std::unique_ptr<Motion> motion_;

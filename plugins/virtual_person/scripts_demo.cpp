@@ -1,5 +1,5 @@
-// The demonstration: stands for the scan, then shows what cloth does: sway, swinging arms, a turn to both sides,
-// steps, swinging hips, arms up.
+// The demonstration: stands for the scan, then shows what cloth does: sway, swinging arms, a turn to both
+// sides, steps, swinging hips, arms up.
 #include "keys.h"
 #include "motion.h"
 
@@ -59,8 +59,10 @@ Script demo_script() {
                 const float swing = during(kSwing, kTurn, t) * wave(0.75f, t - kSwing);
                 const float march = during(kSteps, kHips, t) * wave(0.5f / 0.58f, t - kSteps - 0.16f);
                 const float hips = during(kHips, kArmsUp, t);
-                const float sideways = hips * wave(0.9f, t - kHips), twist = hips * wave(0.9f, t - kHips + 0.28f);
-                const float up = track({{kArmsUp, 0}, {kArmsUp + 1.2f, 1}, {kArmsUp + 1.6f, 1}, {kEnd - 0.5f, 0}}, t);
+                const float sideways = hips * wave(0.9f, t - kHips),
+                            twist = hips * wave(0.9f, t - kHips + 0.28f);
+                const float up =
+                    track({{kArmsUp, 0}, {kArmsUp + 1.2f, 1}, {kArmsUp + 1.6f, 1}, {kEnd - 0.5f, 0}}, t);
 
                 const Vec2 to_left(std::cos(f.heading_rad), -std::sin(f.heading_rad));
                 f.root = plan.root(t) + to_left * (0.045f * sway + 0.06f * sideways);
@@ -68,7 +70,8 @@ Script demo_script() {
                 f.drop_m = 0.006f * (during(kSway, kSwing, t) + hips);
                 set_trunk(f, 0, -3 * sway - 7 * sideways, -12 * twist + 8 * swing);
 
-                const float scan_arms = track({{0, 35}, {1.4f, 35}, {2.2f, 14}, {kEnd - 0.9f, 14}, {kEnd, 35}}, t);
+                const float scan_arms =
+                    track({{0, 35}, {1.4f, 35}, {2.2f, 14}, {kEnd - 0.9f, 14}, {kEnd, 35}}, t);
                 for (const int side : {kLeft, kRight}) {
                     const float s = side_sign(side);
                     set_arm(f.rotation, side,

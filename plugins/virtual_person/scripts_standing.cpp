@@ -49,7 +49,8 @@ Script wave_script() {
     return {[](float t) {
                 Figure f = standing();
                 const float up = track({{0, 0}, {0.5f, 0}, {1.3f, 1}, {3.7f, 1}, {4.6f, 0}, {5, 0}}, t);
-                const float swing = track({{0, 0}, {1.2f, 0}, {1.6f, 1}, {3.4f, 1}, {3.8f, 0}}, t) * wave(1.5f, t);
+                const float swing =
+                    track({{0, 0}, {1.2f, 0}, {1.6f, 1}, {3.4f, 1}, {3.8f, 0}}, t) * wave(1.5f, t);
                 set_arm(f.rotation, kRight, {12 + 68 * up, 3 + 12 * up, 14 + 86 * up + 18 * swing, 80 * up});
                 f.root.x = 0.012f * up;
                 set_trunk(f, 0, 2.0f * up, 0);
@@ -67,7 +68,8 @@ Script reach_script() {
                 // On the way the elbow is bent, at the shelf the arm is all but straight.
                 const float bent_ahead = 120 * ahead * (1 - ahead), bent_above = 100 * above * (1 - above);
                 set_arm(f.rotation, kRight, {12 - 8 * ahead, 3 + 77 * ahead, 14 - 6 * ahead + bent_ahead, 0});
-                set_arm(f.rotation, kLeft, {12 + 10 * above, 3 + 150 * above, 14 - 6 * above + bent_above, 0});
+                set_arm(f.rotation, kLeft,
+                        {12 + 10 * above, 3 + 150 * above, 14 - 6 * above + bent_above, 0});
                 f.root.y = 0.03f * ahead;
                 set_trunk(f, 14 * ahead - 4 * above, -4 * above, 14 * ahead - 8 * above);
                 f.rotation[VFIT_BONE_NECK] = rotate_x(-5 * ahead - 12 * above);

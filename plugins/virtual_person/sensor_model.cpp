@@ -19,7 +19,8 @@ constexpr SensorModel kModels[] = {
      121.11957f, 0.8f, 4.0f, 0.075f},
     {"azure", DepthPrinciple::kTimeOfFlight, 640, 576, 503.92764f, 503.97873f, 332.06427f, 325.88062f, 0.5f,
      3.86f, 0.0f},
-    {"tof", DepthPrinciple::kTimeOfFlight, 512, 424, 365.456f, 365.456f, 254.878f, 205.395f, 0.5f, 4.5f, 0.0f},
+    {"tof", DepthPrinciple::kTimeOfFlight, 512, 424, 365.456f, 365.456f, 254.878f, 205.395f, 0.5f, 4.5f,
+     0.0f},
     {"ideal", DepthPrinciple::kIdeal, 640, 480, 594.21434f, 591.04054f, 339.30781f, 242.73914f, 0.1f, 65.0f,
      0.0f},
 };
@@ -53,8 +54,7 @@ float axial_sigma_m(DepthPrinciple principle, float z, float theta) {
     theta = std::clamp(theta, 0.0f, kSteepestAngle);
     const float slant = theta / (kRightAngle - theta);
     switch (principle) {
-        case DepthPrinciple::kIdeal:
-            return 0.0f;
+        case DepthPrinciple::kIdeal: return 0.0f;
         case DepthPrinciple::kStructuredLight: {  // Nguyen, Izadi and Lovell 2012
             const float frontal = 0.0012f + 0.0019f * (z - 0.4f) * (z - 0.4f);
             return theta < kPi / 3 ? frontal : frontal + 0.0001f / std::sqrt(z) * slant * slant;

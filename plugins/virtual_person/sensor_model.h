@@ -1,5 +1,5 @@
-// The depth cameras that can be played: size, intrinsics, range, and how depth errs (formulas and their sources
-// in docs/virtual-person.md).
+// The depth cameras that can be played: size, intrinsics, range, and how depth errs (formulas and their
+// sources in docs/virtual-person.md).
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@ struct SensorModel {
     const char* name;
     DepthPrinciple principle;
     uint32_t width, height;
-    float fx, fy, cx, cy;            // px; pixel centres lie at whole numbers
+    float fx, fy, cx, cy;  // px; pixel centres lie at whole numbers
     float range_min_m, range_max_m;
-    float baseline_m;                // projector to camera, the projector at +x; 0: none
+    float baseline_m;  // projector to camera, the projector at +x; 0: none
 };
 
 uint32_t sensor_model_count();

@@ -8,9 +8,9 @@ namespace vfit::virtual_person {
 
 namespace {
 
-constexpr float kToeOut_rad = 0.10f;      // about 6 degrees, the usual foot angle of quiet standing
-constexpr float kWeightShift = 0.35f;     // of the way from mid-stance to the carrying foot
-constexpr float kShiftLead_s = 0.25f;     // the weight moves before the foot lifts
+constexpr float kToeOut_rad = 0.10f;   // about 6 degrees, the usual foot angle of quiet standing
+constexpr float kWeightShift = 0.35f;  // of the way from mid-stance to the carrying foot
+constexpr float kShiftLead_s = 0.25f;  // the weight moves before the foot lifts
 
 Foothold mix(const Foothold& a, const Foothold& b, float s) {
     return {a.place + (b.place - a.place) * s, a.yaw_rad + (b.yaw_rad - a.yaw_rad) * s};
@@ -32,7 +32,8 @@ std::array<Foothold, 2> stand(const Vec2& centre, float heading, float apart_m) 
 }
 
 StepPlan::StepPlan(const Foothold& left, const Foothold& right, std::vector<Step> steps)
-    : start_{left, right}, steps_(std::move(steps)) {}
+    : start_{left, right},
+      steps_(std::move(steps)) {}
 
 FootState StepPlan::foot(int side, float t) const {
     Foothold hold = start_[static_cast<size_t>(side)];

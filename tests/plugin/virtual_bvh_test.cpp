@@ -56,7 +56,8 @@ TEST(Bvh, JointsChannelsAndFramesAreRead) {
 }
 
 TEST(Bvh, EveryCutOfTheFileIsRefusedByLine) {
-    for (size_t length = 0; length + 3 < kTwoJoints.size(); length += 3) refusal(kTwoJoints.substr(0, length));
+    for (size_t length = 0; length + 3 < kTwoJoints.size(); length += 3)
+        refusal(kTwoJoints.substr(0, length));
 }
 
 TEST(Bvh, WhatIsWrongIsNamed) {
@@ -70,7 +71,8 @@ TEST(Bvh, WhatIsWrongIsNamed) {
     EXPECT_NE(refusal(with("Frames: 2", "Frames: 1999999")).find("too short"), std::string::npos);
     EXPECT_NE(refusal(with("CHANNELS 3", "CHANNELS 9")).find("channel count"), std::string::npos);
     EXPECT_NE(refusal(with("CHANNELS 3", "CHANNELS 4")).find("unknown channel"), std::string::npos);
-    EXPECT_NE(refusal(with("Yrotation Xrotation\n JOINT", "Yrotation Wrotation\n JOINT")).find("Wrotation"), std::string::npos);
+    EXPECT_NE(refusal(with("Yrotation Xrotation\n JOINT", "Yrotation Wrotation\n JOINT")).find("Wrotation"),
+              std::string::npos);
     EXPECT_NE(refusal(with(".0083333", "0")).find("frame time"), std::string::npos);
     EXPECT_NE(refusal(with("OFFSET 1 -2", "OFFSET 1")).find("offset"), std::string::npos);
     EXPECT_NE(refusal(with("HIERARCHY", "GLTF")).find("HIERARCHY"), std::string::npos);

@@ -22,7 +22,8 @@ Mesh sphere(const Vec3& centre, float radius, uint32_t rings) {
     for (uint32_t i = 0; i <= rings; ++i) {
         for (uint32_t j = 0; j <= columns; ++j) {
             const float a = kPi * float(i) / float(rings), b = 2 * kPi * float(j) / float(columns);
-            const Vec3 p = centre + radius * Vec3(std::sin(a) * std::cos(b), std::cos(a), std::sin(a) * std::sin(b));
+            const Vec3 p =
+                centre + radius * Vec3(std::sin(a) * std::cos(b), std::cos(a), std::sin(a) * std::sin(b));
             mesh.positions.insert(mesh.positions.end(), {p.x, p.y, p.z});
         }
     }
@@ -86,7 +87,8 @@ TEST(DepthCamera, WallsStandWhereTheyAreSaidToStand) {
 
 TEST(DepthCamera, DepthOfAPlaneIsExact) {
     // A board at z = -2, slanted by 45 degrees about the vertical: its depth is 2 - x in world coordinates.
-    const Mesh mesh = quad({-0.5f, 0.2f, -2.5f}, {0.5f, 0.2f, -1.5f}, {0.5f, 1.8f, -1.5f}, {-0.5f, 1.8f, -2.5f});
+    const Mesh mesh =
+        quad({-0.5f, 0.2f, -2.5f}, {0.5f, 0.2f, -1.5f}, {0.5f, 1.8f, -1.5f}, {-0.5f, 1.8f, -2.5f});
     const CleanImage image = render({1.0f, 0}, {5.0f, 0}, mesh);
     size_t seen = 0;
     for (uint32_t y = 0; y < kIdeal.height; ++y) {

@@ -30,7 +30,8 @@ struct Taken {
 
     Vec3 unproject(uint32_t x, uint32_t y) const {
         const float z = depth[size_t{y} * width + x] * camera.depth_unit_m;
-        return {(float(x) - intrinsics.cx) / intrinsics.fx * z, (float(y) - intrinsics.cy) / intrinsics.fy * z, z};
+        return {(float(x) - intrinsics.cx) / intrinsics.fx * z,
+                (float(y) - intrinsics.cy) / intrinsics.fy * z, z};
     }
     Vec2 project(const vfit_joint& j) const {
         return {j.position[0] / j.position[2] * intrinsics.fx + intrinsics.cx,
@@ -46,9 +47,12 @@ public:
         host_.abi_min = host_.abi_max = VFIT_PLUGIN_ABI;
         host_.self = this;
         host_.log = [](void*, vfit_log_level, const char*) {};
-        host_.sensor_added = [](void* self, const vfit_sensor_info* info) { me(self).found.push_back(*info); };
+        host_.sensor_added = [](void* self, const vfit_sensor_info* info) {
+            me(self).found.push_back(*info);
+        };
         host_.sensor_removed = [](void*, const char*) {};
-        host_.frame_begin = [](void* self, void*, const vfit_frame_layout* layouts, uint32_t, uint32_t count, vfit_frame* out) {
+        host_.frame_begin = [](void* self, void*, const vfit_frame_layout* layouts, uint32_t, uint32_t count,
+                               vfit_frame* out) {
             Taken& f = me(self).filling;
             f = {};
             f.width = layouts[0].width, f.height = layouts[0].height;
@@ -57,7 +61,8 @@ public:
             out->id = 1;
             return vfit_result{VFIT_OK};
         };
-        host_.frame_pixels = [](void* self, vfit_frame, vfit_stream kind, void** pixels, uint32_t* row_stride) {
+        host_.frame_pixels = [](void* self, vfit_frame, vfit_stream kind, void** pixels,
+                                uint32_t* row_stride) {
             Taken& f = me(self).filling;
             const bool depth = kind == VFIT_STREAM_DEPTH;
             *pixels = depth ? static_cast<void*>(f.depth.data()) : f.user.data();
@@ -72,7 +77,8 @@ public:
             me(self).filling.camera = *in;
             return vfit_result{VFIT_OK};
         };
-        host_.frame_body = [](void* self, vfit_frame, const vfit_body* body, const vfit_joint* items, uint32_t, uint32_t count) {
+        host_.frame_body = [](void* self, vfit_frame, const vfit_body* body, const vfit_joint* items,
+                              uint32_t, uint32_t count) {
             me(self).filling.body = *body;
             me(self).filling.joints.assign(items, items + count);
             return vfit_result{VFIT_OK};
@@ -107,12 +113,14 @@ public:
         frames.clear(), push_times.clear();
         state = VFIT_OK;
         void* device = nullptr;
-        EXPECT_EQ(plugin.open(plugin.self, uri.c_str(), this, &device), VFIT_OK) << plugin.last_error(plugin.self);
+        EXPECT_EQ(plugin.open(plugin.self, uri.c_str(), this, &device), VFIT_OK)
+            << plugin.last_error(plugin.self);
         if (!device) return {};
         EXPECT_EQ(plugin.start(device), VFIT_OK) << plugin.last_error(plugin.self);
         {
             std::unique_lock lock(mutex);
-            EXPECT_TRUE(changed.wait_for(lock, std::chrono::seconds(60), [&] { return state != VFIT_OK || frames.size() >= capacity; }));
+            EXPECT_TRUE(changed.wait_for(lock, std::chrono::seconds(60),
+                                         [&] { return state != VFIT_OK || frames.size() >= capacity; }));
         }
         EXPECT_TRUE(state == VFIT_END_OF_STREAM || frames.size() >= capacity) << message;
         EXPECT_EQ(plugin.stop(device), VFIT_OK);
@@ -142,7 +150,9 @@ int distance_to_person(const Taken& f, const Vec2& p, int reach) {
     for (int r = 0; r <= reach; ++r)
         for (int y = cy - r; y <= cy + r; ++y)
             for (int x = cx - r; x <= cx + r; ++x)
-                if (x >= 0 && y >= 0 && x < int(f.width) && y < int(f.height) && f.user[size_t(y) * f.width + size_t(x)]) return r;
+                if (x >= 0 && y >= 0 && x < int(f.width) && y < int(f.height) &&
+                    f.user[size_t(y) * f.width + size_t(x)])
+                    return r;
     return reach + 1;
 }
 
@@ -195,7 +205,9 @@ TEST(VirtualPerson, JointsOfTheScanAreMeasuredAndOnTheirOwnSide) {
     EXPECT_EQ(f.body.flags & VFIT_BODY_PARTLY_OUT_OF_VIEW, 0u);
     for (const vfit_joint& j : f.joints) {
         EXPECT_EQ(j.state, VFIT_JOINT_MEASURED) << j.joint;
-        const float z = f.depth[size_t(std::lround(f.project(j).y)) * f.width + size_t(std::lround(f.project(j).x))] * 0.001f;
+        const float z =
+            f.depth[size_t(std::lround(f.project(j).y)) * f.width + size_t(std::lround(f.project(j).x))] *
+            0.001f;
         EXPECT_GT(j.position[2], z - 0.01f) << "joint " << j.joint << " lies before the skin";
     }
     // The person faces the camera: their left is on the right of the image.
@@ -214,7 +226,8 @@ TEST(VirtualPerson, JointsBehindTheBodyAreInferred) {
 
 TEST(VirtualPerson, FloorPixelsLieOnTheFloorThatTheCameraStates) {
     TestHost host;
-    for (const char* uri : {"virtual:sensor=ideal&frames=1", "virtual:sensor=ideal&frames=1&tilt=12&camera_height=1.7"}) {
+    for (const char* uri :
+         {"virtual:sensor=ideal&frames=1", "virtual:sensor=ideal&frames=1&tilt=12&camera_height=1.7"}) {
         const auto frames = host.run(uri);
         ASSERT_EQ(frames.size(), 1u);
         const Taken& f = frames[0];
@@ -236,8 +249,9 @@ TEST(VirtualPerson, FloorPixelsLieOnTheFloorThatTheCameraStates) {
 
 TEST(VirtualPerson, StandsOnTheFloorWithBothSoles) {
     TestHost host;
-    for (const char* uri : {"virtual:sensor=ideal&frames=1&tilt=15", "virtual:sensor=ideal&frames=1&tilt=15&sex=f&height=0.2",
-                            "virtual:sensor=ideal&frames=1&tilt=15&sex=m&height=0.9&weight=1"}) {
+    for (const char* uri :
+         {"virtual:sensor=ideal&frames=1&tilt=15", "virtual:sensor=ideal&frames=1&tilt=15&sex=f&height=0.2",
+          "virtual:sensor=ideal&frames=1&tilt=15&sex=m&height=0.9&weight=1"}) {
         const auto frames = host.run(uri);
         ASSERT_EQ(frames.size(), 1u);
         const Taken& f = frames[0];
@@ -246,7 +260,8 @@ TEST(VirtualPerson, StandsOnTheFloorWithBothSoles) {
             for (uint32_t x = 0; x < f.width; ++x)
                 if (f.user[size_t{y} * f.width + x]) {
                     const Vec3 p = f.unproject(x, y);
-                    lowest = std::min(lowest, f.camera.floor_normal[1] * p.y + f.camera.floor_normal[2] * p.z + f.camera.floor_distance_m);
+                    lowest = std::min(lowest, f.camera.floor_normal[1] * p.y +
+                                                  f.camera.floor_normal[2] * p.z + f.camera.floor_distance_m);
                 }
         EXPECT_GT(lowest, -0.002f) << uri;
         EXPECT_LT(lowest, 0.010f) << uri;
@@ -262,9 +277,12 @@ TEST(VirtualPerson, PersonHasNoHoles) {
             for (uint32_t x = 1; x + 1 < f.width; ++x) {
                 const size_t i = size_t{y} * f.width + x;
                 person += f.user[i];
-                if (f.user[i] || !f.user[i - 1] || !f.user[i + 1] || !f.user[i - f.width] || !f.user[i + f.width]) continue;
+                if (f.user[i] || !f.user[i - 1] || !f.user[i + 1] || !f.user[i - f.width] ||
+                    !f.user[i + f.width])
+                    continue;
                 // A gap between arm and trunk may be one pixel wide; a hole lies within one surface.
-                const auto [near, far] = std::minmax({f.depth[i - 1], f.depth[i + 1], f.depth[i - f.width], f.depth[i + f.width]});
+                const auto [near, far] =
+                    std::minmax({f.depth[i - 1], f.depth[i + 1], f.depth[i - f.width], f.depth[i + f.width]});
                 holes += far - near < 30;
             }
         EXPECT_GT(person, 12000);
@@ -274,7 +292,8 @@ TEST(VirtualPerson, PersonHasNoHoles) {
 
 TEST(VirtualPerson, EqualSeedsGiveEqualBitsAndOthersDiffer) {
     TestHost host;
-    const auto a = host.run("virtual:seed=7&frames=3&motion=walk"), b = host.run("virtual:seed=7&frames=3&motion=walk"),
+    const auto a = host.run("virtual:seed=7&frames=3&motion=walk"),
+               b = host.run("virtual:seed=7&frames=3&motion=walk"),
                c = host.run("virtual:seed=8&frames=3&motion=walk");
     for (size_t i = 0; i < 3; ++i) {
         EXPECT_EQ(a[i].depth, b[i].depth);
@@ -291,14 +310,17 @@ TEST(VirtualPerson, PlantedFeetDoNotSlideInCameraSpace) {
         std::array<Vec3, 2> before{};
         std::array<bool, 2> stood{false, false};
         int contacts = 0;
-        for (const Taken& f : host.run(std::string("virtual:sensor=kinect_v1_320&frames=300&motion=") + motion)) {
+        for (const Taken& f :
+             host.run(std::string("virtual:sensor=kinect_v1_320&frames=300&motion=") + motion)) {
             const std::string& text = f.meta.at("contacts");
             for (size_t side = 0; side < 2; ++side) {
                 const float* p = f.joints[VFIT_JOINT_LEFT_FOOT + side].position;
                 const Vec3 ankle(p[0], p[1], p[2]);
-                const bool stands = text.find(side == 0 ? "\"left\": 1" : "\"right\": 1") != std::string::npos;
+                const bool stands =
+                    text.find(side == 0 ? "\"left\": 1" : "\"right\": 1") != std::string::npos;
                 if (stands && stood[side]) {
-                    EXPECT_LT(glm::distance(ankle, before[side]), 0.001f) << motion << " " << f.meta.at("index");
+                    EXPECT_LT(glm::distance(ankle, before[side]), 0.001f)
+                        << motion << " " << f.meta.at("index");
                     ++contacts;
                 }
                 stood[side] = stands, before[side] = ankle;
@@ -317,11 +339,13 @@ TEST(VirtualPerson, MeasuresFollowTheShape) {
         EXPECT_NE(at, std::string::npos) << json;
         return at == std::string::npos ? 0.0 : std::stod(json.substr(at + key.size() + 4));
     };
-    const double short_m = value("virtual:frames=1&height=0.2", "stature_m"), tall_m = value("virtual:frames=1&height=0.8", "stature_m");
+    const double short_m = value("virtual:frames=1&height=0.2", "stature_m"),
+                 tall_m = value("virtual:frames=1&height=0.8", "stature_m");
     EXPECT_GT(tall_m, short_m + 0.1);
     EXPECT_GT(short_m, 1.3);
     EXPECT_LT(tall_m, 2.2);
-    EXPECT_GT(value("virtual:frames=1&weight=1", "waist_girth_m"), value("virtual:frames=1&weight=0.3", "waist_girth_m") + 0.05);
+    EXPECT_GT(value("virtual:frames=1&weight=1", "waist_girth_m"),
+              value("virtual:frames=1&weight=0.3", "waist_girth_m") + 0.05);
 }
 
 TEST(VirtualPerson, StandsAsTallAsItsMeasureSays) {
@@ -331,7 +355,8 @@ TEST(VirtualPerson, StandsAsTallAsItsMeasureSays) {
     float top = 0;
     for (uint32_t y = 0; y < f.height; ++y)
         for (uint32_t x = 0; x < f.width; ++x)
-            if (f.user[size_t{y} * f.width + x]) top = std::max(top, f.camera.floor_distance_m - f.unproject(x, y).y);
+            if (f.user[size_t{y} * f.width + x])
+                top = std::max(top, f.camera.floor_distance_m - f.unproject(x, y).y);
     const std::string& json = f.meta.at("measures");
     const double stature = std::stod(json.substr(json.find("\"stature_m\": ") + 13));
     // With the feet 0.25 m apart a person stands a few millimetres lower; half a pixel is 2 mm.
@@ -372,7 +397,8 @@ TEST(VirtualPerson, ListsModesAndOptions) {
     EXPECT_EQ(host.plugin.mode(device, 99, &mode), VFIT_END_OF_STREAM);
     std::map<std::string, std::string> options;
     vfit_sensor_option option = vfit_sensor_option_init();
-    for (uint32_t i = 0; host.plugin.option(device, i, &option) == VFIT_OK; ++i) options[option.key] = option.value;
+    for (uint32_t i = 0; host.plugin.option(device, i, &option) == VFIT_OK; ++i)
+        options[option.key] = option.value;
     EXPECT_EQ(options.at("sensor"), "kinect_v1");
     EXPECT_EQ(options.at("weight"), "0.7");
     EXPECT_LT(options.size(), 256u) << "a host reads no more";
@@ -398,9 +424,11 @@ TEST(VirtualPerson, ReportsTheTimeOfAFrame) {
     host.run("virtual:frames=90&motion=demo");
     std::vector<double> ms;
     for (size_t i = 1; i < host.push_times.size(); ++i)
-        ms.push_back(std::chrono::duration<double, std::milli>(host.push_times[i] - host.push_times[i - 1]).count());
+        ms.push_back(
+            std::chrono::duration<double, std::milli>(host.push_times[i] - host.push_times[i - 1]).count());
     std::sort(ms.begin(), ms.end());
-    std::printf("640 x 480, all in: median %.2f ms, 95 %% %.2f ms a frame (target: under 15)\n", ms[ms.size() / 2], ms[ms.size() * 95 / 100]);
+    std::printf("640 x 480, all in: median %.2f ms, 95 %% %.2f ms a frame (target: under 15)\n",
+                ms[ms.size() / 2], ms[ms.size() * 95 / 100]);
     RecordProperty("median_ms", std::to_string(ms[ms.size() / 2]));
     EXPECT_EQ(ms.size(), 89u);
 }

@@ -115,7 +115,8 @@ TEST(ScanMotion, ArmsAreHeldOutAndFeetAQuarterMetreApart) {
     EXPECT_NEAR(feet.ankle[0].x - feet.ankle[1].x, 0.25f, 0.001f);
     for (const int side : {kLeft, kRight}) {
         const int clavicle = side == kLeft ? VFIT_BONE_LEFT_SHOULDER : VFIT_BONE_RIGHT_SHOULDER;
-        const Vec3 arm = pose.rotation[size_t(clavicle)] * (pose.rotation[size_t(clavicle) + 1] * p.upper_arm[size_t(side)]);
+        const Vec3 arm = pose.rotation[size_t(clavicle)] *
+                         (pose.rotation[size_t(clavicle) + 1] * p.upper_arm[size_t(side)]);
         const float from_down = glm::degrees(std::acos(glm::dot(glm::normalize(arm), Vec3(0, -1, 0))));
         EXPECT_NEAR(from_down, 35.0f, 1.0f);
         EXPECT_GT(arm.x * side_sign(side), 0.0f);
@@ -146,7 +147,8 @@ TEST(WalkMotion, FollowsACircleThatClosesAtTheStart) {
 
 TEST(Motions, SeedsShiftTheSwayAndNothingElse) {
     const Proportions p = average_proportions();
-    const BonePose a = make_scripted_motion("scan", p, 1)->at(2.0), b = make_scripted_motion("scan", p, 2)->at(2.0),
+    const BonePose a = make_scripted_motion("scan", p, 1)->at(2.0),
+                   b = make_scripted_motion("scan", p, 2)->at(2.0),
                    c = make_scripted_motion("scan", p, 1)->at(2.0);
     EXPECT_EQ(a.hips, c.hips);
     EXPECT_NE(a.hips, b.hips);

@@ -22,7 +22,8 @@ CleanImage flat(float z, float theta_deg, uint32_t width = kWidth, uint32_t heig
     return image;
 }
 
-std::vector<uint16_t> sense(const char* sensor, const CleanImage& image, const NoiseSettings& settings, uint64_t frame = 0) {
+std::vector<uint16_t> sense(const char* sensor, const CleanImage& image, const NoiseSettings& settings,
+                            uint64_t frame = 0) {
     SensorNoise noise(*find_sensor_model(sensor), settings);
     std::vector<uint16_t> depth(image.pixel_count());
     noise.apply(image, frame, depth.data(), image.width * 2);
@@ -59,11 +60,13 @@ TEST(NormalQuantiles, HaveMeanZeroAndUnitVariance) {
     EXPECT_NEAR(fourth / kQuantileCount, 3.0, 3e-2);
     // Tabulated values of the normal distribution: 97.5 % and 99.865 %.
     EXPECT_NEAR(normal_quantiles()[static_cast<int>(0.975 * kQuantileCount)], 1.95996, 2e-4);
-    EXPECT_NEAR(normal_quantiles()[static_cast<int>(0.998650 * kQuantileCount)], 3.0, 0.015) << "one step of the table";
+    EXPECT_NEAR(normal_quantiles()[static_cast<int>(0.998650 * kQuantileCount)], 3.0, 0.015)
+        << "one step of the table";
 }
 
 TEST(StructuredLight, SdOfDepthFollowsNguyenWhereNothingIsQuantised) {
-    for (const Case c : {Case{1, 0}, Case{2, 0}, Case{3, 0}, Case{1, 45}, Case{2, 45}, Case{3, 45}, Case{2, 70}, Case{3, 70}}) {
+    for (const Case c : {Case{1, 0}, Case{2, 0}, Case{3, 0}, Case{1, 45}, Case{2, 45}, Case{3, 45},
+                         Case{2, 70}, Case{3, 70}}) {
         NoiseSettings settings;
         settings.quantise = false;
         const Statistics s = statistics(sense("kinect_v1", flat(c.z_m, c.theta_deg), settings));
@@ -111,7 +114,8 @@ TEST(StructuredLight, NoiseScaleTwoDoublesTheSd) {
 }
 
 TEST(StructuredLight, DropOutGrowsFrom75To85Degrees) {
-    const std::map<float, double> expected = {{0, 0}, {60, 0}, {74, 0}, {77.5f, 0.25}, {80, 0.5}, {83, 0.8}, {86, 1}};
+    const std::map<float, double> expected = {{0, 0},    {60, 0},   {74, 0}, {77.5f, 0.25},
+                                              {80, 0.5}, {83, 0.8}, {86, 1}};
     for (const auto& [theta, share] : expected) {
         const Statistics s = statistics(sense("kinect_v1", flat(2, theta), {}));
         EXPECT_NEAR(1.0 - double(s.count) / (kWidth * kHeight), share, 0.01) << theta;
@@ -120,12 +124,13 @@ TEST(StructuredLight, DropOutGrowsFrom75To85Degrees) {
 
 TEST(StructuredLight, NothingIsReportedOutOfRange) {
     for (const float z : {0.5f, 0.7f, 4.6f, 8.0f})
-        for (const uint16_t d : sense("kinect_v1", flat(z, 0), {})) ASSERT_TRUE(d == 0 || (d >= 800 && d <= 4000)) << z;
+        for (const uint16_t d : sense("kinect_v1", flat(z, 0), {}))
+            ASSERT_TRUE(d == 0 || (d >= 800 && d <= 4000)) << z;
     EXPECT_EQ(statistics(sense("kinect_v1", flat(0.5f, 0), {})).count, 0u);
 }
 
-// A board at z1 before a wall at z2: the strip on its left that the projector, 75 mm to the right, cannot reach is
-// f b (1/z1 - 1/z2) wide.
+// A board at z1 before a wall at z2: the strip on its left that the projector, 75 mm to the right, cannot
+// reach is f b (1/z1 - 1/z2) wide.
 TEST(StructuredLight, ProjectorShadowHasTheWidthOfTheDisparityDifference) {
     const float z1 = 1.5f, z2 = 3.0f;
     CleanImage image = flat(z2, 0);
@@ -172,7 +177,8 @@ TEST(StructuredLight, SlantedSurfacesAreNotTakenForEdges) {
     CleanImage image = flat(2, 65);
     for (uint32_t y = 0; y < kHeight; ++y)
         for (uint32_t x = 0; x < kWidth; ++x)
-            image.depth_m[size_t{y} * kWidth + x] = 2.0f / (1.0f - (float(x) - 320.0f) / 594.2f * std::tan(glm::radians(65.0f)) * 0.4f);
+            image.depth_m[size_t{y} * kWidth + x] =
+                2.0f / (1.0f - (float(x) - 320.0f) / 594.2f * std::tan(glm::radians(65.0f)) * 0.4f);
     NoiseSettings settings;
     settings.quantise = false;
     const auto depth = sense("kinect_v1", image, settings);
@@ -181,7 +187,8 @@ TEST(StructuredLight, SlantedSurfacesAreNotTakenForEdges) {
     for (size_t i = 0; i < depth.size(); ++i) {
         const float z = image.depth_m[i];
         if (!depth[i] || z < 1.8f || z > 2.2f) continue;
-        const double error = (depth[i] * 0.001 - z) / axial_sigma_m(DepthPrinciple::kStructuredLight, z, glm::radians(65.0f));
+        const double error =
+            (depth[i] * 0.001 - z) / axial_sigma_m(DepthPrinciple::kStructuredLight, z, glm::radians(65.0f));
         squares += error * error, ++n;
     }
     ASSERT_GT(n, 10000u);
@@ -189,13 +196,16 @@ TEST(StructuredLight, SlantedSurfacesAreNotTakenForEdges) {
 }
 
 TEST(TimeOfFlight, SdOfDepthFollowsFankhauser) {
-    for (const Case c : {Case{1, 0}, Case{2, 0}, Case{3, 0}, Case{1, 45}, Case{2, 45}, Case{3, 45}, Case{2, 70}, Case{3, 70}}) {
+    for (const Case c : {Case{1, 0}, Case{2, 0}, Case{3, 0}, Case{1, 45}, Case{2, 45}, Case{3, 45},
+                         Case{2, 70}, Case{3, 70}}) {
         const Statistics s = statistics(sense("tof", flat(c.z_m, c.theta_deg, 512, 424), {}));
         const double theta = c.theta_deg * kPi / 180, slant = theta / (kPi / 2 - theta), z = c.z_m;
-        const double expected = 0.001 * (1.5 - 0.5 * z + 0.3 * z * z + 0.1 * std::pow(z, 1.5) * slant * slant);
+        const double expected =
+            0.001 * (1.5 - 0.5 * z + 0.3 * z * z + 0.1 * std::pow(z, 1.5) * slant * slant);
         ASSERT_GE(s.count, 100000u);
         // Whole millimetres add 1/12 mm^2.
-        EXPECT_NEAR(s.sd_m / std::sqrt(expected * expected + 1e-6 / 12), 1.0, 0.05) << z << " m, " << c.theta_deg;
+        EXPECT_NEAR(s.sd_m / std::sqrt(expected * expected + 1e-6 / 12), 1.0, 0.05)
+            << z << " m, " << c.theta_deg;
     }
 }
 

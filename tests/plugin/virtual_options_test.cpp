@@ -32,7 +32,8 @@ TEST(VirtualUri, GivesItsPairsInOrder) {
 
 TEST(VirtualUri, AnotherSchemeOrAWordWithoutValueIsRefused) {
     message_of([] { parse_uri("recording:x"); }, VFIT_ERROR_ARGUMENT);
-    EXPECT_NE(message_of([] { parse_uri("virtual:fast"); }, VFIT_ERROR_ARGUMENT).find("fast"), std::string::npos);
+    EXPECT_NE(message_of([] { parse_uri("virtual:fast"); }, VFIT_ERROR_ARGUMENT).find("fast"),
+              std::string::npos);
 }
 
 TEST(VirtualOptions, HaveDefaultsAndTexts) {
