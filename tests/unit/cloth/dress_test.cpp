@@ -86,7 +86,7 @@ TEST(Dress, IsCarriedToAWiderBodyWithItsEase) {
     const Dress same(g, cotton(), thin.dressed_by(thin)), wider(g, cotton(), wide.dressed_by(thin));
     for (size_t i = 0; i < g.vertex_count(); ++i) {
         ASSERT_LT(glm::length(same.rest()[i] - g.mesh.positions[i]), 1e-5f);
-        ASSERT_NEAR(radius_of(wider.rest()[i]), 0.17f, 1e-3f);
+        ASSERT_NEAR(radius_of(wider.rest()[i]), 0.17f, 1.5e-3f);
         ASSERT_NEAR(wider.rest()[i].y, g.mesh.positions[i].y, 1e-4f);
     }
     EXPECT_EQ(wider.fabric()->simulated_count(), 8 * kRound);
