@@ -528,6 +528,8 @@ VFIT_API vfit_result vfit_garment_describe(vfit_garment garment, vfit_garment_in
 /* The label of the size at index; length 0 past the last.                                      [read]  */
 VFIT_API uint32_t    vfit_garment_size_label(vfit_garment garment, uint32_t index, char* buffer,
                                              uint32_t capacity);
+enum { VFIT_CLOTH_NO_HANDS = 1 };       /* forearms and hands pass through: a hand beside the thigh catches
+                                         * a skirt, and 15 spheres know no fingers to let it slip            */
 typedef struct vfit_cloth_desc {
     uint32_t struct_size, substeps;     /* 0: 8 a 1/60 s                                             */
     float gravity[3];                   /* all zero: 0, -9.81, 0                                     */
@@ -535,6 +537,7 @@ typedef struct vfit_cloth_desc {
     float damping;                      /* share of speed lost a second, 0: 0.5; < 0: none               */
     float thickness_m;                  /* kept from the colliders, 0: 0.004                            */
     const char* size_label;             /* null: made to the avatar                                    */
+    uint32_t flags, reserved;           /* VFIT_CLOTH_*                                              */
 } vfit_cloth_desc;
 typedef struct vfit_cloth_stats { uint32_t struct_size, vertex_count, simulated_count, constraint_count;
                                   float strain_mean, strain_p99, strain_max, step_ms; } vfit_cloth_stats;

@@ -18,8 +18,7 @@ namespace vfit::virtual_person {
 
 namespace {
 
-constexpr uint32_t kTile = 8;        // px; a multiple of the packet's 4 x 4
-constexpr uint32_t kPacket = 4;      // px a side, 16 rays
+constexpr uint32_t kTile = 4;        // px a side: one packet of 16 rays
 constexpr float kNearest_m = 0.05f;  // a vertex nearer than this cannot be projected: the whole image is cast
 
 }  // namespace
@@ -161,37 +160,34 @@ void DepthCamera::mark_tiles() {
 
 void DepthCamera::cast_tile(uint32_t tile_x, uint32_t tile_y, CleanImage& out) {
     const Vec3 origin(0, place_.height_m, 0);
-    for (uint32_t block = 0; block < (kTile / kPacket) * (kTile / kPacket); ++block) {
-        const uint32_t x0 = tile_x * kTile + block % (kTile / kPacket) * kPacket;
-        const uint32_t y0 = tile_y * kTile + block / (kTile / kPacket) * kPacket;
-        alignas(64) RTCRayHit16 packet;
-        alignas(64) int valid[16];
-        for (uint32_t k = 0; k < 16; ++k) {
-            const uint32_t x = x0 + k % kPacket, y = y0 + k / kPacket;
-            valid[k] = x < model_.width && y < model_.height ? -1 : 0;
-            if (!valid[k]) continue;
-            const Vec3 d = rotation_ * Vec3((static_cast<float>(x) - model_.cx) / model_.fx,
-                                            (static_cast<float>(y) - model_.cy) / model_.fy, 1.0f);
-            const float wall = room_.depth_m[size_t{y} * model_.width + x];
-            packet.ray.org_x[k] = origin.x, packet.ray.org_y[k] = origin.y, packet.ray.org_z[k] = origin.z;
-            packet.ray.dir_x[k] = d.x, packet.ray.dir_y[k] = d.y, packet.ray.dir_z[k] = d.z;
-            packet.ray.tnear[k] = 0.0f, packet.ray.time[k] = 0.0f;
-            packet.ray.tfar[k] = wall > 0.0f ? wall : std::numeric_limits<float>::infinity();
-            packet.ray.mask[k] = ~0u, packet.ray.id[k] = k, packet.ray.flags[k] = 0;
-            packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
-            packet.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
-        }
-        embree_->intersect(valid, &packet);
-        for (uint32_t k = 0; k < 16; ++k) {
-            if (!valid[k] || packet.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) continue;
-            const size_t i = size_t{y0 + k / kPacket} * model_.width + x0 + k % kPacket;
-            const Vec3 normal(packet.hit.Ng_x[k], packet.hit.Ng_y[k], packet.hit.Ng_z[k]);
-            const Vec3 d(packet.ray.dir_x[k], packet.ray.dir_y[k], packet.ray.dir_z[k]);
-            const float lengths = std::sqrt(glm::dot(normal, normal) * glm::dot(d, d));
-            out.depth_m[i] = packet.ray.tfar[k];
-            out.cosine[i] = lengths > 0.0f ? std::abs(glm::dot(normal, d)) / lengths : 0.0f;
-            out.user[i] = 1;
-        }
+    const uint32_t x0 = tile_x * kTile, y0 = tile_y * kTile;
+    alignas(64) RTCRayHit16 packet;
+    alignas(64) int valid[16];
+    for (uint32_t k = 0; k < 16; ++k) {
+        const uint32_t x = x0 + k % kTile, y = y0 + k / kTile;
+        valid[k] = x < model_.width && y < model_.height ? -1 : 0;
+        if (!valid[k]) continue;
+        const Vec3 d = rotation_ * Vec3((static_cast<float>(x) - model_.cx) / model_.fx,
+                                        (static_cast<float>(y) - model_.cy) / model_.fy, 1.0f);
+        const float wall = room_.depth_m[size_t{y} * model_.width + x];
+        packet.ray.org_x[k] = origin.x, packet.ray.org_y[k] = origin.y, packet.ray.org_z[k] = origin.z;
+        packet.ray.dir_x[k] = d.x, packet.ray.dir_y[k] = d.y, packet.ray.dir_z[k] = d.z;
+        packet.ray.tnear[k] = 0.0f, packet.ray.time[k] = 0.0f;
+        packet.ray.tfar[k] = wall > 0.0f ? wall : std::numeric_limits<float>::infinity();
+        packet.ray.mask[k] = ~0u, packet.ray.id[k] = k, packet.ray.flags[k] = 0;
+        packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+        packet.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+    }
+    embree_->intersect(valid, &packet);
+    for (uint32_t k = 0; k < 16; ++k) {
+        if (!valid[k] || packet.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) continue;
+        const size_t i = size_t{y0 + k / kTile} * model_.width + x0 + k % kTile;
+        const Vec3 normal(packet.hit.Ng_x[k], packet.hit.Ng_y[k], packet.hit.Ng_z[k]);
+        const Vec3 d(packet.ray.dir_x[k], packet.ray.dir_y[k], packet.ray.dir_z[k]);
+        const float lengths = std::sqrt(glm::dot(normal, normal) * glm::dot(d, d));
+        out.depth_m[i] = packet.ray.tfar[k];
+        out.cosine[i] = lengths > 0.0f ? std::abs(glm::dot(normal, d)) / lengths : 0.0f;
+        out.user[i] = 1;
     }
 }
 

@@ -25,7 +25,7 @@ with vfit.Context() as ctx:
         print(f"  {key:22} {m.value:.3f} +- {m.sigma:.3f} m{'' if m.observed else '  (inferred)'}")
 
     # Size: every label with its probability.
-    chart, garment = vfit.SizeChart.open(ctx, "en13402_women"), vfit.Garment.open(ctx, "sundress")
+    chart, garment = vfit.SizeChart.open(ctx, "paper"), vfit.Garment.open(ctx, "sundress")
     for label, probability in chart.recommend(garment.info.garment_kind, measures)[:3]:
         print(f"size {label}: {probability:.0%}")
 

@@ -52,7 +52,7 @@ static void print_size(vfit_context context, vfit_scan scan, const char* garment
     check(vfit_scan_measure(scan, measures, sizeof measures[0], &measure_count), "measure");
     for (i = 0; i < measure_count; ++i)
         printf("  %-22s %.3f +- %.3f m\n", measures[i].key, measures[i].value, measures[i].sigma);
-    check(vfit_size_chart_open(context, "en13402_women", &chart), "chart");
+    check(vfit_size_chart_open(context, "paper", &chart), "chart");
     check(vfit_size_recommend(chart, garment_kind, measures, sizeof measures[0], measure_count, sizes,
                               sizeof sizes[0], &size_count), "size");
     if (size_count > 0) printf("size %s, %.0f %%\n", sizes[0].label, 100.0 * sizes[0].probability);

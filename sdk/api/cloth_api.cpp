@@ -79,16 +79,22 @@ Dress make_dress(Context& context, const Garment& garment, const FabricMaterial&
     return Dress(garment, material, body, ratio, thickness_m);
 }
 
+/// A forearm or a hand: sphere or capsule that starts or ends at a hand.
+bool of_hand(const Collider& c) {
+    const auto hand = [](int joint) { return joint == VFIT_JOINT_LEFT_HAND || joint == VFIT_JOINT_RIGHT_HAND; };
+    return hand(c.joint) || hand(c.joint_b);
+}
+
 struct ClothObject : ContextChild {
     static constexpr Kind kKind = Kind::cloth;
-    ClothObject(Ref<AvatarObject> avatar_object, Dress d, const ClothSettings& settings)
+    ClothObject(Ref<AvatarObject> avatar_object, Dress d, const ClothSettings& settings, bool hands)
         : ContextChild(avatar_object->context),
           avatar(std::move(avatar_object)),
+          with_hands(hands),
           dress(std::move(d)),
           cloth(dress.fabric(), settings, skinned()) {
         output.topology().set_indices(dress.indices(), context->axes);
         output.topology().set_uvs(dress.uvs(), context->axes);
-        avatar->avatar.colliders(colliders);
         publish(output.begin());
         later.task = [](void* self, uint32_t) { static_cast<ClothObject*>(self)->step(); };
         later.data = this;
@@ -98,6 +104,7 @@ struct ClothObject : ContextChild {
     }
 
     const Ref<AvatarObject> avatar;
+    const bool with_hands;
     Dress dress;
     std::vector<Vec3> targets;
     Cloth cloth;
@@ -122,6 +129,7 @@ struct ClothObject : ContextChild {
         next = output.begin();
         skinned();
         avatar->avatar.colliders(colliders);
+        if (!with_hands) std::erase_if(colliders, of_hand);
         dt = step_dt;
     }
     void step() {
@@ -218,10 +226,11 @@ vfit_result vfit_cloth_create(vfit_avatar avatar_handle, vfit_garment garment_ha
         if (avatar->context != garment->context)
             fail(VFIT_ERROR_HANDLE, "avatar and garment belong to different contexts");
         const vfit_cloth_desc d = read_or_default(desc, "desc");
+        check_flags(d.flags, VFIT_CLOTH_NO_HANDS, "desc.flags");
         const ClothSettings settings = cloth_settings(d, garment->material);
         Dress dress = make_dress(*avatar->context, garment->garment, garment->material, *avatar, d.size_label,
                                  settings.thickness_m);
-        auto cloth = make<ClothObject>(avatar.ref(), std::move(dress), settings);
+        auto cloth = make<ClothObject>(avatar.ref(), std::move(dress), settings, (d.flags & VFIT_CLOTH_NO_HANDS) == 0);
         out->id = avatar->context->publish(Kind::cloth, cloth, avatar_handle.id);
         return VFIT_OK;
     });

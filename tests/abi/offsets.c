@@ -274,7 +274,9 @@ OFFSET(vfit_cloth_desc, friction, 20);
 OFFSET(vfit_cloth_desc, damping, 24);
 OFFSET(vfit_cloth_desc, thickness_m, 28);
 OFFSET(vfit_cloth_desc, size_label, 32);
-SIZE(vfit_cloth_desc, 40);
+OFFSET(vfit_cloth_desc, flags, 40);
+OFFSET(vfit_cloth_desc, reserved, 44);
+SIZE(vfit_cloth_desc, 48);
 
 OFFSET(vfit_cloth_stats, struct_size, 0);
 OFFSET(vfit_cloth_stats, vertex_count, 4);

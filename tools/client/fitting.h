@@ -11,6 +11,7 @@ struct FittingOptions {
     std::string source, garment = "sundress", size, chart;
     ScanOptions scan;
     uint32_t detail = 0;
+    bool hands = false;       // forearms and hands push the garment
     uint32_t max_frames = 0;  // of the moving part; 0: all
 };
 

@@ -199,6 +199,7 @@ void add_fit(CLI::App& app) {
     command->add_option("--detail", o->fitting.detail, "Level of detail of the avatar: 0, 1 or 2")
         ->check(CLI::Range(0, 2));
     command->add_option("--out", o->out, "Folder for the results")->required();
+    command->add_flag("--hands", o->fitting.hands, "Let forearms and hands push the garment");
     command->add_flag("--draft", o->draft, "Small, grainy pictures in a tenth of the time");
     command->add_flag("--json", o->json, "Print the result as JSON");
     add_source_options(*command);

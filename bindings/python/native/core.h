@@ -177,10 +177,13 @@ void set_field(char (&chars)[N], const std::string& value, const char* what) {
     value.copy(chars, N - 1);
 }
 
-/// A class of vfit/values.py, or an enum of vocabulary.cpp, called with arguments.
+/// A class of the package: of vfit/values.py, or an enum of vocabulary.cpp.
+inline py::object type(const char* name) { return py::module_::import("vfit").attr(name); }
+
+/// An object of it.
 template <typename... Arguments>
 py::object value(const char* name, Arguments&&... arguments) {
-    return py::module_::import("vfit.values").attr(name)(std::forward<Arguments>(arguments)...);
+    return type(name)(std::forward<Arguments>(arguments)...);
 }
 
 /// An optional number where the library takes 0 for "default" and a negative one for 0.

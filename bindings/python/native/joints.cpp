@@ -6,7 +6,7 @@ namespace {
 
 vfit_joint_id joint_id(const py::handle& key) {
     if (!py::isinstance<py::str>(key)) return key.cast<int>();
-    const py::object members = value("Joint").attr("__members__");
+    const py::object members = type("Joint").attr("__members__");
     if (!members.contains(key)) fail(VFIT_ERROR_ARGUMENT, "\"" + key.cast<std::string>() + "\" is no joint");
     return members[key].cast<int>();
 }
@@ -36,7 +36,7 @@ py::object joints_of(const Frame& frame, uint32_t body_id) {
 
 std::vector<vfit_joint> joints_in(const py::object& joints) {
     std::vector<vfit_joint> out;
-    if (py::isinstance(joints, value("Joints"))) {
+    if (py::isinstance(joints, type("Joints"))) {
         const auto ids = joints.attr("ids").cast<std::vector<int>>();
         const auto states = joints.attr("states").cast<std::vector<int>>();
         const auto positions = FloatArray::ensure(joints.attr("positions"));

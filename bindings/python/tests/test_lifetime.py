@@ -22,9 +22,9 @@ def test_an_array_outlives_frame_sensor_and_context():
     depth = frame.depth
     before = depth.copy()
     assert before.any()
-    references = sys.getrefcount(depth.base)
+    gone = weakref.ref(frame)
     del frame
-    assert sys.getrefcount(depth.base) == references, "the array needs no Frame object"
+    assert gone() is None, "the array needs no Frame object"
     for _ in range(5):
         next(sensor)
     sensor.close()
@@ -55,9 +55,6 @@ def test_the_last_array_frees_the_context():
     assert ctx.closed and ctx.stats().frame_count == 1
     del view
     assert ctx.stats().frame_count == 0
-    gone = weakref.ref(ctx.__class__)  # the class is not collected: only the object goes
-    del ctx
-    assert gone() is vfit.Context
 
 
 def test_closing_the_context_closes_its_objects(frame, ctx):
@@ -90,24 +87,24 @@ def test_two_hundred_acquires_leave_nothing_behind(ctx):
     assert ctx.stats().frame_count == 0
 
 
-def test_recording_cycles_do_not_grow_the_process():
+def test_contexts_do_not_grow_the_process():
     resource = pytest.importorskip("resource")
 
     def cycle(count):
         for _ in range(count):
             with vfit.Context() as ctx:
-                for frame in ctx.open("virtual:motion=stand&frames=3"):
+                for frame in ctx.open("virtual:motion=scan&frames=3"):
                     frame.depth.sum()
         gc.collect()
         return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 
-    settled = cycle(10)
-    grown_kib = cycle(30) - settled
-    assert grown_kib < 20 * 1024, f"{grown_kib} KiB more after 30 contexts"
+    settled = cycle(6)
+    grown_kib = cycle(12) - settled
+    assert grown_kib < 20 * 1024, f"{grown_kib} KiB more after 12 contexts"
 
 
 def test_another_thread_runs_while_one_waits(ctx, images):
-    sensor = ctx.open("virtual:motion=stand", pace="realtime", rate=1)
+    sensor = ctx.open("virtual:motion=scan", pace="realtime", rate=1)
     sensor.start()
     sensor.acquire()
     ticks, done = 0, threading.Event()
@@ -125,7 +122,7 @@ def test_another_thread_runs_while_one_waits(ctx, images):
 
 
 def test_closing_wakes_a_thread_that_waits(ctx):
-    sensor = ctx.open("virtual:motion=stand", pace="realtime", rate=1)
+    sensor = ctx.open("virtual:motion=scan", pace="realtime", rate=1)
     sensor.start()
     sensor.acquire()
     sensor.acquire()

@@ -51,9 +51,9 @@ def test_what_is_recorded_is_played(ctx, tmp_path):
 
 
 def test_options_modes_and_info(ctx):
-    sensor = ctx.open("virtual:", motion="stand", frames=2, noise=0, shadow=False)
+    sensor = ctx.open("virtual:", motion="scan", frames=2, noise=0, shadow=False)
     options = sensor.options()
-    assert (options["motion"].value, options["frames"].value, options["shadow"].value) == ("stand", "2", "0")
+    assert (options["motion"].value, options["frames"].value, options["shadow"].value) == ("scan", "2", "0")
     assert options["motion"].text
     assert all(mode.width > 0 and mode.rate_hz > 0 for mode in sensor.modes())
     with pytest.raises(vfit.Error, match="motion"):
@@ -64,4 +64,4 @@ def test_options_modes_and_info(ctx):
 
 
 def frame_measures(ctx):
-    return next(ctx.open("virtual:motion=stand&frames=1")).meta("measures")
+    return next(ctx.open("virtual:motion=scan&frames=1")).meta("measures")

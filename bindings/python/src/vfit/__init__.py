@@ -81,4 +81,13 @@ from .values import (
     StageTime,
 )
 
-__all__ = [name for name in dir() if not name.startswith("_") and name not in ("errors", "values")]
+__all__ = [
+    "ArgumentError", "Avatar", "Axes", "BONE_NAMES", "BONE_PARENTS", "Body", "Bone", "BusyError", "Camera",
+    "CapacityError", "Cloth", "ClothStats", "Collider", "Context", "ContextStats", "DataError",
+    "DeviceLostError", "Error", "FileError", "FloorState", "Frame", "Garment", "GarmentInfo", "Guidance",
+    "HandleError", "Intrinsics", "Joint", "JointPoint", "JointState", "Joints", "LibraryInfo", "LogLevel",
+    "LogLine", "MEASURES", "Measurement", "Motion", "OutOfMemoryError", "PluginError", "PluginInfo", "Pose",
+    "Recorder", "ResultCode", "RigBone", "Scale", "Scan", "ScanMethod", "ScanState", "Sensor", "SensorInfo",
+    "SensorMode", "SensorOption", "SensorStats", "Sex", "ShapeValue", "Size", "SizeChart", "SizeRow",
+    "StageTime", "StateError", "Stream", "Tracker", "UnsupportedError", "VersionError", "__version__", "info",
+]
