@@ -9,9 +9,10 @@ namespace vfit::tools {
 namespace {
 
 constexpr double kClothStep_s = 1.0 / 60.0;
-// Before the first frame the garment hangs for a while, so that it does not fall into the picture: first with
-// the arms held out, then they come in from there, or a hand beside the thigh would start inside the skirt.
-constexpr int kHangSteps = 30, kArmSteps = 45, kSettleSteps = 15;
+// Before the first frame the garment hangs for a while, so that it does not fall into the picture: first on a
+// body that stands straight with its arms held out, which then moves into the pose. Put on in the pose, a skirt
+// would start between two legs that step, or around a hand.
+constexpr int kHangSteps = 30, kMoveSteps = 45, kSettleSteps = 15;
 constexpr float kArmsOut_rad = 0.9f;  // of the upper arms below the T-pose's level
 
 double seconds(int64_t ns) { return double(ns) * 1e-9; }
@@ -34,17 +35,17 @@ void blend(float (&a)[4], const float (&b)[4], float t) {
     for (int i = 0; i < 4; ++i) a[i] = out[i] / std::sqrt(length2);
 }
 
-/// The pose with its arms that share of the way from held out to where they are.
-std::vector<vfit_bone> with_arms(std::vector<vfit_bone> bones, float share) {
+/// That share of the way from standing straight, arms held out, to the pose; hips stay where they are.
+std::vector<vfit_bone> on_the_way(std::vector<vfit_bone> bones, float share) {
     for (vfit_bone& bone : bones) {
-        const bool left = bone.bone >= VFIT_BONE_LEFT_UPPER_ARM && bone.bone <= VFIT_BONE_LEFT_HAND;
-        const bool right = bone.bone >= VFIT_BONE_RIGHT_UPPER_ARM && bone.bone <= VFIT_BONE_RIGHT_HAND;
-        if (!left && !right) continue;
-        const bool upper = bone.bone == VFIT_BONE_LEFT_UPPER_ARM || bone.bone == VFIT_BONE_RIGHT_UPPER_ARM;
-        float held_out[4];
-        set_turn(held_out, upper ? (left ? -kArmsOut_rad : kArmsOut_rad) : 0.0f);
-        blend(held_out, bone.rotation, share);
-        std::copy(std::begin(held_out), std::end(held_out), bone.rotation);
+        if (bone.bone == VFIT_BONE_HIPS) continue;
+        const float turn = bone.bone == VFIT_BONE_LEFT_UPPER_ARM    ? -kArmsOut_rad
+                           : bone.bone == VFIT_BONE_RIGHT_UPPER_ARM ? kArmsOut_rad
+                                                                      : 0.0f;
+        float straight[4];
+        set_turn(straight, turn);
+        blend(straight, bone.rotation, share);
+        std::copy(std::begin(straight), std::end(straight), bone.rotation);
     }
     return bones;
 }
@@ -90,17 +91,17 @@ std::vector<vfit_bone> Fitting::bones(vfit_pose& pose) const {
     });
 }
 
-void Fitting::pose_avatar(float arms) {
+void Fitting::pose_avatar(float share) {
     vfit_pose pose = vfit_pose_init();
-    const auto posed = with_arms(bones(pose), arms);
+    const auto posed = on_the_way(bones(pose), share);
     check(vfit_avatar_pose(avatar_.get(), &pose, posed.data(), sizeof(vfit_bone), static_cast<uint32_t>(posed.size())));
 }
 
 void Fitting::settle() {
     pose_avatar(0.0f);
     check(vfit_cloth_reset(cloth_.get()));
-    for (int i = 0; i < kHangSteps + kArmSteps + kSettleSteps; ++i) {
-        pose_avatar(std::clamp(float(i - kHangSteps) / kArmSteps, 0.0f, 1.0f));
+    for (int i = 0; i < kHangSteps + kMoveSteps + kSettleSteps; ++i) {
+        pose_avatar(std::clamp(float(i - kHangSteps) / kMoveSteps, 0.0f, 1.0f));
         check(vfit_cloth_step(cloth_.get(), float(kClothStep_s)));
     }
 }

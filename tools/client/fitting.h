@@ -40,8 +40,8 @@ public:
 private:
     void dress();
     std::vector<vfit_bone> bones(vfit_pose& pose) const;
-    /// arms: 1 as tracked, 0 held out.
-    void pose_avatar(float arms);
+    /// share: 1 as tracked; 0 standing straight, arms held out.
+    void pose_avatar(float share);
     void settle();
 
     vfit_context context_;
