@@ -43,10 +43,10 @@ public:
     void reset(std::span<const Vec3> positions);
 
     /// Advances by dt. skinned_targets: the fabric's target_count(), where the skinned garment and the backstops
-    /// are at the END of the step; a free vertex ignores its own. colliders: at the end of the step, in the same order each call. Both are interpolated from the
-    /// previous call over the sub-steps. Fails without changing anything: VFIT_ERROR_DATA for a value that is
-    /// not finite, VFIT_ERROR_ARGUMENT for a wrong count or a dt that is negative or not finite. Does not
-    /// allocate while the number of colliders stays.
+    /// are at the END of the step; a free vertex ignores its own. colliders: at the end of the step, in the same
+    /// order each call. Both are interpolated from the previous call over the sub-steps. Fails without changing
+    /// anything: VFIT_ERROR_DATA for a value that is not finite, VFIT_ERROR_ARGUMENT for a wrong count or a dt
+    /// that is negative or not finite. Does not allocate while the number of colliders stays.
     void step(float dt, std::span<const Vec3> skinned_targets, std::span<const Collider> colliders, Jobs& jobs);
 
     const std::vector<Vec3>& positions() const;

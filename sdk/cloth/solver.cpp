@@ -70,6 +70,9 @@ void ContactPass::run_block(std::span<const uint32_t> block, std::span<Particle>
     for (const SweptCapsule& collider : colliders) {
         if (!bounds.overlaps(collider.bounds)) continue;
         const float travel = std::sqrt(travel2);
+        // The box is loose about a slanting limb; the ball about the block's box is a second, cheap look.
+        const float reach = 0.5f * glm::length(bounds.high - bounds.low) + travel;
+        if (!may_touch(collider, 0.5f * (bounds.low + bounds.high), reach)) continue;
         for (uint32_t v : block)
             if (may_touch(collider, particles[v].x, travel) &&
                 resolve_contact(collider, starts[v], settings, particles[v].x))

@@ -2,7 +2,10 @@
 #   1. VFIT_BUILD_DIR, a CMake or environment variable: a build folder of vfit
 #   2. ../../build, where this folder lies in the source tree and that was built
 #   3. an installed vfit (find_package)
-set(VFIT_BUILD_DIR "$ENV{VFIT_BUILD_DIR}" CACHE PATH "Build folder of vfit to take the library from")
+set(VFIT_BUILD_DIR "" CACHE PATH "Build folder of vfit to take the library from")
+if(NOT VFIT_BUILD_DIR)
+  set(VFIT_BUILD_DIR "$ENV{VFIT_BUILD_DIR}")
+endif()
 get_filename_component(vfit_source_dir ${CMAKE_CURRENT_SOURCE_DIR}/../.. ABSOLUTE)
 
 # Sets `out` to the library of a build folder, or to nothing.
