@@ -25,17 +25,17 @@ static void scan_person(vfit_context context, const char* uri, vfit_scan scan, v
     check(vfit_tracker_create(context, NULL, &tracker), "tracker");
     check(vfit_sensor_start(sensor), "start");
     while (done != VFIT_OK) {
-        vfit_body body = vfit_body_init();
+        vfit_body bodies[8] = {{0}};
         vfit_view depth = vfit_view_init();
-        uint32_t count = 1;
+        uint32_t count = 8;
         const vfit_result got = vfit_sensor_acquire(sensor, -1, &frame);
         check(got, "acquire");
         if (got != VFIT_OK) break;  /* the source has ended */
         check(vfit_tracker_update(tracker, frame, &tracked), "track");
-        check(vfit_frame_bodies(tracked, &body, sizeof body, &count), "bodies");
+        check(vfit_frame_bodies(tracked, bodies, sizeof bodies[0], &count), "bodies");
         check(vfit_frame_view(tracked, VFIT_STREAM_DEPTH, &depth), "depth");
-        check(vfit_motion_step(motion, tracked, body.body_id, depth.time_ns), "motion");
-        check(done = vfit_scan_add(scan, tracked, body.body_id, &state), "scan");
+        check(vfit_motion_step(motion, tracked, bodies[0].body_id, depth.time_ns), "motion");
+        check(done = vfit_scan_add(scan, tracked, bodies[0].body_id, &state), "scan");
         vfit_frame_release(tracked);
         vfit_frame_release(frame);
     }
