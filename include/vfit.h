@@ -263,7 +263,7 @@ VFIT_API vfit_result vfit_frame_intrinsics(vfit_frame frame, vfit_intrinsics* ou
 VFIT_API vfit_result vfit_frame_camera(vfit_frame frame, vfit_camera* out);                /* [any]  */
 /* What the source says beside the pixels, one JSON document a key: "measures" (ground truth of a virtual
  * person, {"stature_m": ...}), "contacts" ({"left": 0, "right": 1}), "index" (the number of a recorded
- * frame). *length is the whole text's; no such key: VFIT_NOT_READY.                            [any]   */
+ * frame), "bodies" (true: the source tells its bodies, also when nobody is in view). *length is the whole text's; no such key: VFIT_NOT_READY.                            [any]   */
 VFIT_API vfit_result vfit_frame_meta(vfit_frame frame, const char* key, char* buffer, uint32_t capacity,
                                      uint32_t* length);
 /* Copies into memory of the engine (mapped vertex buffer, NativeArray) at its own format and stride;
@@ -347,7 +347,7 @@ VFIT_API vfit_result vfit_tracker_create(vfit_context context, const vfit_tracke
                                          vfit_tracker* out);                               /* [any]  */
 VFIT_API vfit_result vfit_tracker_destroy(vfit_tracker tracker);                           /* [any]  */
 /* *tracked shares the images and user map of frame and holds the bodies that its source supplies. A frame
- * that brings no bodies gives VFIT_ERROR_UNSUPPORTED: this version finds no skeleton by itself. [excl]  */
+ * whose source tells no bodies gives VFIT_ERROR_UNSUPPORTED: this version finds none by itself. [excl]  */
 VFIT_API vfit_result vfit_tracker_update(vfit_tracker tracker, vfit_frame frame, vfit_frame* tracked);
 /* The host's own middleware in place of the built-in tracker, one call a body; frame may be a *tracked
  * of the call before, to add a second body. A joint that is not finite gives VFIT_ERROR_DATA.  [excl]  */

@@ -203,6 +203,7 @@ void Device::fill_meta(vfit_frame handle, uint32_t frame) {
     char json[64];
     std::snprintf(json, sizeof json, "%u", frame);
     check(host_.frame_meta(host_.self, handle, "index", json), "its index", frame);
+    if (folder_.joints) check(host_.frame_meta(host_.self, handle, "bodies", "true"), "its kind", frame);
     if (const auto contacts = folder_.contacts ? folder_.contacts->contacts(frame) : std::nullopt) {
         std::snprintf(json, sizeof json, "{\"left\": %d, \"right\": %d}", contacts->left, contacts->right);
         check(host_.frame_meta(host_.self, handle, "contacts", json), "its contacts", frame);

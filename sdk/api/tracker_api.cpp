@@ -106,7 +106,8 @@ vfit_result vfit_tracker_update(vfit_tracker handle, vfit_frame frame_handle, vf
         Use<TrackerObject, Mode::exclusive> tracker(handle.id);
         UseFrame frame(frame_handle);
         Profile::Scope time(tracker->context->profile, Stage::track);
-        if (frame->bodies.empty())
+        // A source that tells its bodies may have nobody in view; one that knows of none needs a tracker.
+        if (frame->bodies.empty() && !frame->meta("bodies"))
             fail(VFIT_ERROR_UNSUPPORTED,
                  "the frame's source supplies no bodies, and this version finds no skeleton by itself: "
                  "use a source with joints, or vfit_tracker_submit");

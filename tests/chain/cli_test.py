@@ -121,6 +121,18 @@ class Contract(unittest.TestCase):
                 self.assertAlmostEqual(m["value"], replay[key]["value"], places=3, msg=key)
             self.check_failure(run("record", VIRTUAL, path, "--frames", 1), str(path))
 
+    def test_a_person_who_leaves_and_returns_does_not_end_the_chain(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "rec"
+            document(self, "record", VIRTUAL, path, "--frames", 20, "--json")
+            rows = (path / "joints.csv").read_text().splitlines(keepends=True)
+            (path / "joints.csv").write_text("".join(r for r in rows if r.split(",")[0] not in ("7", "8", "9")))
+            bodies = [len(f["bodies"]) for f in lines(self, "track", path, "--json")]
+            self.assertEqual(bodies, [1] * 7 + [0] * 3 + [1] * 10)
+            self.assertEqual([f["frame"] for f in lines(self, "motion", path, "--json")],
+                             [i for i in range(20) if i not in (7, 8, 9)])
+            self.assertEqual(document(self, "measure", path, "--json")["frames"], 17)
+
     def test_plot_draws_the_papers_curves(self):
         with tempfile.TemporaryDirectory() as folder:
             for what in ("depth", "feet"):

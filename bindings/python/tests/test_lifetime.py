@@ -1,6 +1,7 @@
 """Who keeps what alive: arrays outlive frames, sensors and contexts, and nothing is left behind."""
 
 import gc
+import signal
 import subprocess
 import sys
 import threading
@@ -153,3 +154,23 @@ def test_holding_too_many_frames_is_an_error_not_a_hang(ctx):
     sensor = ctx.open(VIRTUAL)
     with pytest.raises(vfit.BusyError, match="copy"):
         list(sensor)
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="no interval timers here")
+def test_a_signal_gets_through_while_a_frame_is_awaited(ctx):
+    class Interrupted(Exception):
+        pass
+
+    def interrupt(number, stack):
+        raise Interrupted
+
+    sensor = ctx.open("virtual:motion=scan", pace="realtime", rate=1)
+    sensor.start()
+    before = signal.signal(signal.SIGALRM, interrupt)
+    signal.setitimer(signal.ITIMER_REAL, 0.3)
+    try:
+        with pytest.raises(Interrupted):
+            while True:
+                sensor.acquire()
+    finally:
+        signal.signal(signal.SIGALRM, before)

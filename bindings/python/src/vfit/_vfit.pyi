@@ -3,7 +3,7 @@
 from enum import IntEnum
 from os import PathLike
 from types import TracebackType
-from typing import Any, Final, Iterator, Mapping, Optional, Sequence, Tuple, Type, TypeVar, Union, overload
+from typing import Any, Final, Iterator, Mapping, Optional, Sequence, Tuple, Type, TypeVar, Union
 
 import numpy as np
 from numpy.typing import NDArray
