@@ -104,8 +104,8 @@ typedef void (*vfit_log_fn)(void* user, vfit_log_level level, const char* messag
 typedef void (*vfit_task_fn)(void* task, uint32_t index);
 typedef void* (*vfit_submit_fn)(void* user, vfit_task_fn fn, void* task, uint32_t count);
 typedef void (*vfit_wait_fn)(void* user, void* job);
-/* DETERMINISTIC: equal bits for equal input, binary and SIMD level, any worker count; no time budget.  */
-enum { VFIT_CONTEXT_VALIDATE = 1,       /* slower checks: every float of every input is finite        */
+/* DETERMINISTIC: equal bits for equal input, binary and SIMD level, any worker count. Always so as yet. */
+enum { VFIT_CONTEXT_VALIDATE = 1,       /* reserved for slower checks; this version's are always on      */
        VFIT_CONTEXT_DETERMINISTIC = 2, VFIT_CONTEXT_MIRROR = 4 };
 
 typedef struct vfit_context_desc {

@@ -34,7 +34,6 @@ public:
     const Ref<FramePool> frames;  // of the host's own and of tracked frames
     Access access;
 
-    bool validates() const { return (flags & VFIT_CONTEXT_VALIDATE) != 0; }
 
     /// The baked body, loaded when first asked for.
     std::shared_ptr<const BodyModel> body_model();

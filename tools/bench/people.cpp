@@ -91,6 +91,7 @@ void add_people(CLI::App& app) {
     command->add_option("--distance", o->distance_m, "From camera to person, m");
     command->add_flag("--json", o->json, "Print JSON");
     command->callback([o] {
+        pin_to_cores(1);
         std::mt19937 random(o->seed);
         Json rows = Json::array();
         double height = 0.0, shoulder = 0.0, height_bias = 0.0, shoulder_bias = 0.0, last_ms = 0.0, mean_ms = 0.0;

@@ -2,33 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <new>
 
 #include "body_fixture.h"
 #include "core/clock.h"
-
-namespace {
-
-std::atomic<uint64_t> g_allocations{0};
-
-void* counted(std::size_t size) {
-    ++g_allocations;
-    if (void* p = std::malloc(size > 0 ? size : 1)) return p;
-    throw std::bad_alloc();
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) { return counted(size); }
-void* operator new[](std::size_t size) { return counted(size); }
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete[](void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-void operator delete[](void* p, std::size_t) noexcept { std::free(p); }
+#include "support/allocations.h"
 
 namespace vfit {
 namespace {
@@ -49,13 +28,13 @@ TEST(PoseCost, NothingIsAllocatedPerFrame) {
     std::vector<Collider> colliders;
     colliders.reserve(kColliderCount);
     avatar.pose(step_of_a_walk(avatar, 0), *jobs);
-    const uint64_t before = g_allocations;
+    const uint64_t before = test::allocations;
     for (int frame = 1; frame <= 20; ++frame) {
         avatar.pose(step_of_a_walk(avatar, frame), *jobs);
         avatar.colliders(colliders);
         EXPECT_GT(avatar.joints().at(VFIT_JOINT_HEAD).y, 1.0f);
     }
-    EXPECT_EQ(g_allocations - before, 0u);
+    EXPECT_EQ(test::allocations - before, 0u);
 }
 
 TEST(PoseCost, MedianTimeOfAFrameOnOneCore) {

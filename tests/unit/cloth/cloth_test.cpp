@@ -1,37 +1,11 @@
 // The instance: determinism, hash, reset, teleport, refusals, and what a step costs.
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
-#include <new>
 
 #include "cloth_support.h"
-
-namespace {
-
-std::atomic<uint64_t> g_allocations{0};
-
-void* counted(std::size_t size) {
-    ++g_allocations;
-    if (void* p = std::malloc(size > 0 ? size : 1)) return p;
-    throw std::bad_alloc();
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) { return counted(size); }
-void* operator new[](std::size_t size) { return counted(size); }
-// std::stable_sort asks for its buffer this way and gives it back the other.
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-    ++g_allocations;
-    return std::malloc(size > 0 ? size : 1);
-}
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete[](void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-void operator delete[](void* p, std::size_t) noexcept { std::free(p); }
+#include "support/allocations.h"
 
 namespace vfit {
 namespace {
@@ -89,10 +63,10 @@ TEST(Cloth, StepDoesNotAllocate) {
     Cloth cloth(curtain.data, {}, curtain.sheet.positions);
     const auto colliders = Curtain::ball(0);
     cloth.step(kFrame_s, curtain.sheet.positions, colliders, *jobs);
-    const uint64_t before = g_allocations;
+    const uint64_t before = allocations;
     for (int frame = 0; frame < 30; ++frame) cloth.step(kFrame_s, curtain.sheet.positions, colliders, *jobs);
     const ClothStats stats = cloth.stats();
-    EXPECT_EQ(g_allocations - before, 0u);
+    EXPECT_EQ(allocations - before, 0u);
     EXPECT_GT(stats.step_ms, 0.0f);
 }
 

@@ -1,27 +1,12 @@
 // The stages together: errors, time, persons, continuity, no allocation.
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <chrono>
-#include <cstdlib>
 #include <limits>
-#include <new>
 
 #include "core/error.h"
+#include "support/allocations.h"
 #include "synthetic_walk.h"
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-// The whole test program counts, so that any allocation inside step is seen.
-void* operator new(std::size_t size) {
-    ++allocations;
-    if (void* p = std::malloc(size ? size : 1)) return p;
-    throw std::bad_alloc();
-}
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 
 namespace vfit {
 namespace {
@@ -174,12 +159,12 @@ TEST(Motion, StepDoesNotAllocate) {
     for (const bool bound : {false, true}) {
         Motion motion{MotionSettings{}};
         if (bound) motion.bind(skeleton);
-        const long before = allocations.load();
+        const uint64_t before = test::allocations.load();
         for (int f = 0; f < 200; ++f) {
             const testing::WalkFrame frame = walk.at(f / 2);
             motion.step(f % 4 == 3 ? nullptr : &frame.body, frame_ns(f, 60));
         }
-        EXPECT_EQ(allocations.load() - before, 0);
+        EXPECT_EQ(test::allocations.load() - before, 0u);
     }
 }
 
