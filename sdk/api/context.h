@@ -34,7 +34,6 @@ public:
     const Ref<FramePool> frames;  // of the host's own and of tracked frames
     Access access;
 
-
     /// The baked body, loaded when first asked for.
     std::shared_ptr<const BodyModel> body_model();
     /// Tape measures of the default body of that sex, taken when first asked for.
