@@ -1,0 +1,146 @@
+#include "sample.h"
+
+#include <algorithm>
+#include <map>
+
+#include "clutter.h"
+#include "posture.h"
+
+namespace vfit::training {
+
+namespace {
+
+struct Sensor {
+    uint32_t width, height;
+    float focal_px;
+    Light light;
+    float weight;
+};
+// Kinect v1 at both sizes, Kinect v2, a stereo camera with a wide view, Azure Kinect (narrow).
+constexpr std::array<Sensor, 5> kSensors = {{{320, 240, 285.0f, Light::kStructured, 0.40f},
+                                             {640, 480, 575.0f, Light::kStructured, 0.22f},
+                                             {512, 424, 365.0f, Light::kTimeOfFlight, 0.18f},
+                                             {640, 480, 385.0f, Light::kStructured, 0.10f},
+                                             {640, 576, 505.0f, Light::kTimeOfFlight, 0.10f}}};
+
+std::vector<float> random_shape(const BodyModel& model, Random& random) {
+    std::vector<float> shape = model.default_shape(VFIT_SEX_UNKNOWN);
+    std::map<std::string, float> sides;  // left and right share their value
+    for (size_t i = 0; i < shape.size(); ++i) {
+        const ShapeParameter& p = model.parameters()[i];
+        float value;
+        if (p.key == "gender") value = random.chance(0.5f) ? random.between(0, 0.25f) : random.between(0.75f, 1);
+        else if (p.key == "age") value = random.between(0.4f, 0.9f);
+        else if (p.minimum >= 0.0f) value = std::clamp(random.normal(0.5f, 0.2f), 0.05f, 1.0f);
+        else {
+            const bool sided = p.key.size() > 2 && p.key[1] == '-';
+            const std::string key = sided ? p.key.substr(2) : p.key;
+            const auto known = sides.find(key);
+            value = known != sides.end() ? known->second : std::clamp(random.normal(0, 0.22f), -0.7f, 0.7f);
+            sides[key] = value;
+        }
+        shape[i] = value;
+    }
+    return shape;
+}
+
+}  // namespace
+
+void Sampler::make_person(uint64_t number) {
+    if (number == person_) return;
+    person_ = number;
+    Random random(seed_ ^ 0xB0D1E5ull, number);
+    const std::vector<float> shape = random_shape(*model_, random);
+    AvatarDesc desc;
+    desc.twist_steps = 2;
+    avatar_ = std::make_unique<Avatar>(model_, desc, shape, Vec2(1.0f));
+    // Statures of grown-ups, now and then of a child.
+    const float stature = random.chance(0.08f) ? random.between(1.2f, 1.5f) : std::clamp(random.normal(1.70f, 0.1f), 1.45f, 2.05f);
+    const float scale = stature / avatar_->stature();
+    if (std::abs(scale - 1.0f) > 0.02f)
+        avatar_ = std::make_unique<Avatar>(model_, desc, shape, Vec2(scale * random.between(0.97f, 1.03f), scale));
+    outfit_ = std::make_unique<Outfit>(*avatar_, random);
+}
+
+void Sampler::make(uint64_t index, Sample& out) {
+    make_person(index / kPostures);
+    for (uint64_t attempt = 0;; ++attempt) {
+        Random random(seed_, (index << 8) + attempt);
+        if (try_once(random, out)) return;
+    }
+}
+
+bool Sampler::try_once(Random& random, Sample& out) {
+    const bool person = random.chance(0.93f);
+    // Mostly towards the sensor; every other way now and then.
+    const float yaw = random.chance(0.68f) ? std::clamp(random.normal(0, glm::radians(22.0f)), -1.2f, 1.2f)
+                                           : random.between(-kPi, kPi);
+    const Sensor& sensor = kSensors[random.pick({kSensors[0].weight, kSensors[1].weight, kSensors[2].weight,
+                                                 kSensors[3].weight, kSensors[4].weight})];
+    const float distance = random.chance(0.8f) ? random.between(1.9f, 3.6f) : random.between(1.3f, 4.3f);
+    const float height = random.chance(0.7f) ? random.between(0.6f, 1.3f) : random.between(0.2f, 2.2f);
+    const Vec3 place(random.normal(0, 0.12f) * distance, 0.0f, -distance);
+    if (person)
+        stand_person(yaw + std::atan2(place.x, distance), place, random);
+    else {
+        random_clutter(random, mesh_);
+        for (Vec3& p : mesh_.positions) p += place;
+    }
+
+    Camera camera;
+    camera.width = sensor.width, camera.height = sensor.height;
+    camera.fx = camera.fy = sensor.focal_px * random.between(0.97f, 1.03f);
+    camera.cx = 0.5f * float(sensor.width - 1), camera.cy = 0.5f * float(sensor.height - 1);
+    // Aimed at the person's middle, more or less; a wide miss cuts feet or head.
+    const float aim = 0.9f + random.normal(0, random.chance(0.1f) ? 0.45f : 0.1f);
+    const float portrait = random.chance(0.05f) ? (random.chance(0.5f) ? 90.0f : -90.0f) : 0.0f;
+    const float roll = glm::radians(random.normal(portrait, 2.0f));
+    set_floor(camera, height, std::atan2(height - aim, distance), roll, VFIT_FLOOR_GIVEN);
+    if (!take_shot(mesh_, camera, 12, shot_)) return false;
+    look_real(shot_, sensor.light, distance + random.between(0.3f, 3.0f), random, real_);
+
+    // What the tracker believes to be up is a little wrong.
+    const Vec2 up = glm::normalize(Vec2(camera.floor_normal.x, camera.floor_normal.y));
+    const float wrong = random.normal(0, glm::radians(3.0f)), c = std::cos(wrong), s = std::sin(wrong);
+    values_.resize(out.crop.size());
+    CropView view;
+    if (!cropper_.run(real_.image(), 1, {}, {up.x * c - up.y * s, up.x * s + up.y * c}, view, values_.data()))
+        return false;
+    for (size_t i = 0; i < values_.size(); ++i) out.crop[i] = int16_t(std::lround(values_[i] * 32767.0f));
+
+    out.joints.fill(0.0f), out.inside.fill(0.0f);
+    out.yaw_rad = yaw;
+    out.person = person ? 1.0f : 0.0f;
+    if (person) label(camera, view, out);
+    return true;
+}
+
+/// Poses and dresses the body at that place of the floor.
+void Sampler::stand_person(float turn, const Vec3& place, Random& random) {
+    Pose pose = random_posture(avatar_->skeleton(), random);
+    pose.rotation[VFIT_BONE_HIPS] = glm::angleAxis(turn, Vec3(0, 1, 0)) * pose.rotation[VFIT_BONE_HIPS];
+    pose.hips_position = Vec3(0, 1, 0);
+    avatar_->pose(pose, *jobs_);
+    float lowest = 1e9f;
+    for (const Vec3& p : avatar_->positions()) lowest = std::min(lowest, p.y);
+    const float jump = random.chance(0.05f) ? random.between(0, 0.3f) : 0.0f;
+    pose.hips_position = place + Vec3(0, 1.0f - lowest + jump, 0);
+    avatar_->pose(pose, *jobs_);
+    outfit_->dress(*avatar_, random, mesh_);
+}
+
+/// `camera` is the whole sensor's; the crop was cut from the window in shot_.
+void Sampler::label(const Camera& camera, const CropView& view, Sample& out) const {
+    const Body joints = avatar_->joints();
+    const Mat4 to_camera = camera.camera_from_world();
+    for (int j = 0; j < kJointCount; ++j) {
+        const Vec3 p = transform_point(to_camera, joints.at(j));
+        const Vec3 c = view.from_camera(shot_.camera, p);
+        for (int k = 0; k < 3; ++k) out.joints[size_t(3 * j + k)] = c[k];
+        const Vec2 q = camera.project(p);
+        out.inside[size_t(j)] =
+            p.z > 0.3f && q.x >= 0 && q.y >= 0 && q.x < float(camera.width) && q.y < float(camera.height) ? 1.0f : 0.0f;
+    }
+}
+
+}  // namespace vfit::training
