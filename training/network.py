@@ -22,7 +22,7 @@ class Network(nn.Module):
     """[n, 1, 128, 128] -> maps [n, 2 * COUNT, 32, 32] (heat logits, then depth) and logits [n, 2]:
     faces away, is a person."""
 
-    def __init__(self, stages=(32, 64, 96, 128), fine=32):
+    def __init__(self, stages=(24, 48, 96, 128), fine=32):
         super().__init__()
         a, b, c, d = stages
         self.stem = convolution(1, 16, 2, 5)                                        # 64
