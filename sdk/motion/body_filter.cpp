@@ -7,6 +7,10 @@ namespace vfit {
 
 namespace {
 
+// Two bodies within a millisecond are one moment read twice: a trend per frame taken from them would throw the
+// joint out of the room.
+constexpr float kLeastFrames = 0.03f;
+
 float seconds(int64_t ns) { return static_cast<float>(static_cast<double>(ns) * 1e-9); }
 
 }  // namespace
@@ -40,7 +44,7 @@ void BodyFilter::update(const Body& body, const HoltSettings* settings) {
         const bool returns = track.seen && (track.lost || gap > kBridgeTimeS);
         const Vec3 before = returns ? shown(track, body.time_ns) : Vec3(0.0f);
         if (gap > kBridgeTimeS) track.holt.reset();
-        const float frames = track.holt.empty() ? 1.0f : gap * kHoltRateHz;
+        const float frames = track.holt.empty() ? 1.0f : std::max(gap * kHoltRateHz, kLeastFrames);
         const bool inferred = reading.state == VFIT_JOINT_INFERRED;
         const Vec3 position = track.holt.update(*settings, reading.position, inferred, frames);
         track.joint = reading;

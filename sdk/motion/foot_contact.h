@@ -1,5 +1,6 @@
 // Which feet stand on the floor (paper, Algorithm 5), by height and speed thresholds with hysteresis that
-// adapt to the sensor and to where the floor seems to be. Either foot, both, or neither (a jump).
+// adapt to the sensor and to where the floor seems to be. Either foot, both, or neither (a jump); and a foot is
+// free when it is higher or faster, where the paper's line 10 waits for both and so holds a foot that slides.
 #pragma once
 
 #include <array>

@@ -111,7 +111,8 @@ void limit_limb(int index, const RestLimb& rest, BoneRotations& local) {
     }
 
     const rom::Interval flexion = parts.leg ? rom::kKneeFlexion : rom::kElbowFlexion;
-    const float bend_deg = rest.bend_rad / kRad, out_deg = std::asin(glm::dot(rest.lower, rest.hinge)) / kRad;
+    const float bend_deg = rest.bend_rad / kRad;
+    const float out_deg = std::asin(std::clamp(glm::dot(rest.lower, rest.hinge), -1.0f, 1.0f)) / kRad;
     // Angles count from the straight limb; the T-pose may be bent a little.
     const rom::Interval off_plane{out_deg - rom::kHingePlay, out_deg + rom::kHingePlay};
     const rom::Interval bend{std::min(flexion.least_deg, bend_deg), flexion.most_deg};

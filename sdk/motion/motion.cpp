@@ -23,7 +23,20 @@ namespace {
 // support of a slow gait.
 constexpr int64_t kSwitchTimeNs = 250'000'000;
 
+// A joint further from the origin, or a rotation with larger numbers, is a broken reading: its square would soon
+// be infinite, and one such body would stay in the filters for good.
+constexpr float kFarthestM = 1e4f, kLongestQuaternion = 1e3f;
+
 size_t at(int id) { return static_cast<size_t>(id); }
+
+bool is_place(const Vec3& p) {
+    return std::abs(p.x) <= kFarthestM && std::abs(p.y) <= kFarthestM && std::abs(p.z) <= kFarthestM;
+}
+
+bool is_rotation(const Quat& q) {
+    const float length = glm::length(q);
+    return length >= 1e-3f && length <= kLongestQuaternion;
+}
 
 void check_share(float value, const char* name) {
     if (!(value >= 0.0f && value <= 1.0f))
@@ -56,15 +69,19 @@ void validate(const Body& body) {
         if (!joint.seen()) continue;
         if (!finite(joint.position) || !finite(joint.confidence))
             fail(VFIT_ERROR_DATA, "joint ", joint_name(i), " of body ", body.id, " is not finite");
-        if (joint.has_rotation && (!finite(joint.rotation) || glm::length(joint.rotation) < 1e-3f))
+        if (!is_place(joint.position))
+            fail(VFIT_ERROR_DATA, "joint ", joint_name(i), " of body ", body.id, " is more than ", kFarthestM,
+                 " m away");
+        if (joint.has_rotation && !is_rotation(joint.rotation))
             fail(VFIT_ERROR_DATA, "joint ", joint_name(i), " of body ", body.id, " has no valid rotation");
     }
 }
 
 void validate(const Skeleton& skeleton) {
     for (int bone = 0; bone < kBoneCount; ++bone)
-        if (!finite(skeleton.offset[at(bone)]))
-            fail(VFIT_ERROR_DATA, "bone ", bone_name(bone), " of the skeleton is not finite");
+        if (!is_place(skeleton.offset[at(bone)]))
+            fail(VFIT_ERROR_DATA, "bone ", bone_name(bone), " of the skeleton is not finite, or too long");
+    if (!finite(skeleton.ankle_height)) fail(VFIT_ERROR_DATA, "the skeleton's ankle height is not finite");
     const RestPose rest(skeleton);
     for (int leg : {kLeftLeg, kRightLeg})
         if (rest.limbs[at(leg)].upper_m < 1e-3f || rest.limbs[at(leg)].lower_m < 1e-3f)

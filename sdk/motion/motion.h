@@ -32,7 +32,8 @@ public:
     /// Takes a body in world space if its time differs from the last one's; body null or not new: predicts
     /// to now_ns. A body of another id, or one that goes back in time, starts anew. Returns false, and the
     /// pose is the T-pose, while nobody was seen whose trunk can be placed. Fails with VFIT_ERROR_DATA naming
-    /// the joint that is not finite; the state is then unchanged. Does not allocate.
+    /// the joint that is not finite, far outside of any room, or has no valid rotation; the state is then
+    /// unchanged. Does not allocate.
     bool step(const Body* body, int64_t now_ns);
 
     const Pose& pose() const;

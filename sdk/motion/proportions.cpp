@@ -21,6 +21,9 @@ constexpr float kThighShare = 0.245f, kShankShare = 0.246f, kAnkleShare = 0.039f
 constexpr float kToesForwardShare = 0.070f;   // of the foot's .152: ankle to toe joint
 
 constexpr int kMeanCount = 300;         // readings that a mean spans: 10 s at 30 Hz
+// Two joints of a segment that lie closer are one reading given twice: a leg without length would put the
+// character's hips nowhere.
+constexpr float kLeastSegmentM = 0.01f;
 constexpr float kClavicleStart = 0.15f; // its inner end, share of the half breadth: the sternum's half
 
 bool measured(const Body& body, int joint) {
@@ -47,8 +50,9 @@ void Proportions::add(Segment segment, float length_m) {
 }
 
 void Proportions::add_between(const Body& body, Segment segment, int from, int to, float share) {
-    if (measured(body, from) && measured(body, to))
-        add(segment, share * glm::length(body.at(to) - body.at(from)));
+    if (!measured(body, from) || !measured(body, to)) return;
+    const float length_m = glm::length(body.at(to) - body.at(from));
+    if (length_m >= kLeastSegmentM) add(segment, share * length_m);
 }
 
 void Proportions::update(const Body& body) {

@@ -73,6 +73,18 @@ TEST(BodyFilter, BringsALostJointBackWithoutAJump) {
     EXPECT_NEAR(last, target, 0.002f);
 }
 
+TEST(BodyFilter, TwoReadingsOfOneMomentDoNotThrowTheJoint) {
+    BodyFilter filter;
+    HoltSettings raw;  // the trend as it is read
+    raw.smoothing = 0.0f;
+    raw.correction = 1.0f;
+    Body out;
+    filter.update(with_hand(0.0f, 0), &raw);
+    filter.update(with_hand(0.01f, 1'000), &raw);  // a centimetre in a microsecond
+    filter.sample(100'000'000, out);
+    EXPECT_LT(std::abs(out.at(kHand).x), 1.0f);
+}
+
 TEST(BodyFilter, PassesReadingsThroughWithoutSettings) {
     BodyFilter filter;
     Body out;

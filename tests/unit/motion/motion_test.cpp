@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "math/finite.h"
 #include "support/allocations.h"
 #include "synthetic_walk.h"
 
@@ -65,6 +66,38 @@ TEST(Motion, RefusesAJointThatIsNotFiniteAndNamesIt) {
     EXPECT_NE(message.find("HEAD"), std::string::npos) << message;
 }
 
+TEST(Motion, RefusesAJointOutsideOfAnyRoomAndGoesOn) {
+    Motion motion{MotionSettings{}};
+    Body body = standing(0);
+    motion.step(&body, 0);
+    body = standing(frame_ns(1));
+    body.joints[VFIT_JOINT_LEFT_FOOT].position.z = 1e25f;  // finite, its square is not
+    std::string message;
+    EXPECT_EQ(code_of(motion, body, message), VFIT_ERROR_DATA);
+    EXPECT_NE(message.find("LEFT_FOOT"), std::string::npos) << message;
+    body = standing(frame_ns(1));
+    body.joints[VFIT_JOINT_HEAD].has_rotation = true;
+    body.joints[VFIT_JOINT_HEAD].rotation = Quat(1e25f, 0, 0, 0);
+    EXPECT_EQ(code_of(motion, body, message), VFIT_ERROR_DATA);
+    body = standing(frame_ns(2));
+    EXPECT_TRUE(motion.step(&body, body.time_ns));
+    for (const Quat& q : motion.pose().rotation) EXPECT_TRUE(finite(q));
+}
+
+TEST(Motion, StandsWhereAllJointsOfTheLegsAreOnePoint) {
+    // What some sources report of legs that they cannot see.
+    Motion motion{MotionSettings{}};
+    motion.bind(testing::test_skeleton());
+    for (int f = 0; f < 10; ++f) {
+        Body body = standing(frame_ns(f));
+        for (int j = VFIT_JOINT_LEFT_HIP; j <= VFIT_JOINT_RIGHT_FOOT; ++j)
+            body.joints[size_t(j)].position = Vec3(0, 0.9f, 0);
+        for (int j : {VFIT_JOINT_LEFT_TOES, VFIT_JOINT_RIGHT_TOES}) body.joints[size_t(j)] = Joint();
+        EXPECT_TRUE(motion.step(&body, body.time_ns));
+        ASSERT_TRUE(finite(motion.pose().hips_position)) << f;
+    }
+}
+
 TEST(Motion, RefusesSettingsOutOfRangeAndNamesThem) {
     const auto message_of = [](auto&& change) -> std::string {
         MotionSettings settings;
@@ -88,6 +121,9 @@ TEST(Motion, RefusesASkeletonThatCannotStand) {
     EXPECT_THROW(motion.bind(Skeleton()), Error);
     Skeleton broken = testing::test_skeleton();
     broken.offset[VFIT_BONE_CHEST].x = std::numeric_limits<float>::infinity();
+    EXPECT_THROW(motion.bind(broken), Error);
+    broken = testing::test_skeleton();
+    broken.ankle_height = std::numeric_limits<float>::quiet_NaN();
     EXPECT_THROW(motion.bind(broken), Error);
 }
 
