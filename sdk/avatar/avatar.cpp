@@ -137,7 +137,7 @@ Avatar::Avatar(std::shared_ptr<const BodyModel> model, const AvatarDesc& desc, P
 
 void Avatar::pose(const Pose& pose, Jobs& jobs) {
     rig_.pose(pose, posed_, matrices_);
-    time_ns_ = pose.time_ns;
+    pose_ = pose;
     const size_t count = topology_->vertex_count;
     skin_.pose(matrices_, rest_.positions, rest_.normals, positions_, normals_, jobs);
     for (size_t i = 0; i < topology_->seam_sources.size(); ++i) {

@@ -58,7 +58,7 @@ public:
     /// Moves skin, bones, joints and colliders. VFIT_ERROR_DATA, and nothing moves, where the pose is not
     /// finite. Does not allocate.
     void pose(const Pose& pose, Jobs& jobs);
-    int64_t time_ns() const { return time_ns_; }  // of the last pose
+    int64_t time_ns() const { return pose_.time_ns; }  // of the last pose
 
     /// Proportions that motion is bound to: forward_kinematics(skeleton(), pose) gives the places of the
     /// posed avatar's bones.
@@ -88,6 +88,10 @@ public:
     /// Posed: spheres by joint, then capsules. Does not allocate where `out` has room for kColliderCount.
     void colliders(std::vector<Collider>& out) const;
 
+    /// Skinning matrices (one a rig bone) and colliders of a body that gets dressed: that share of the way from
+    /// standing straight, arms held out (0), to the pose (1). The hips are where the pose has them.
+    void while_dressing(float share, std::span<Mat4> matrices, std::vector<Collider>& out) const;
+
     /// The body in a measuring posture: geometric vertices (as topology().indices has them) without normals,
     /// facing +Z, soles on y = 0; and its joints where asked for.
     Mesh measuring_mesh(const MeasuringPosture& posture = {}, Body* joints = nullptr) const;
@@ -103,6 +107,7 @@ private:
     Pose measuring_pose(const MeasuringPosture& posture) const;
     float touching_feet_m() const;
     Vec3 joint_position(int joint, std::span<const Mat4> matrices) const;
+    void colliders_of(std::span<const Mat4> matrices, std::vector<Collider>& out) const;
     Body joints_of(const PosedSkeleton& posed, std::span<const Mat4> matrices) const;
 
     std::shared_ptr<const BodyModel> model_;
@@ -117,7 +122,7 @@ private:
     std::array<float, kPaperJointCount> inner_radii_{}, radii_{};
     float stature_m_ = 0.0f;
 
-    int64_t time_ns_ = 0;
+    Pose pose_;
     PosedSkeleton posed_;
     std::vector<Mat4> matrices_;
     std::vector<Vec3> positions_, normals_;

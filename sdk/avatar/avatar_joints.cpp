@@ -91,16 +91,18 @@ Body Avatar::joints_of(const PosedSkeleton& posed, std::span<const Mat4> matrice
 
 Body Avatar::joints() const {
     Body body = joints_of(posed_, matrices_);
-    body.time_ns = time_ns_;
+    body.time_ns = time_ns();
     return body;
 }
 
-void Avatar::colliders(std::vector<Collider>& out) const {
+void Avatar::colliders(std::vector<Collider>& out) const { colliders_of(matrices_, out); }
+
+void Avatar::colliders_of(std::span<const Mat4> matrices, std::vector<Collider>& out) const {
     out.clear();
     for (int j = 0; j < kPaperJointCount; ++j) {
         Collider sphere;
         sphere.joint = j;
-        sphere.center = joint_position(j, matrices_);
+        sphere.center = joint_position(j, matrices);
         sphere.radius = radii_[static_cast<size_t>(j)];
         out.push_back(sphere);
     }

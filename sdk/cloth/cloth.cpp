@@ -24,6 +24,12 @@ constexpr float kKineticShare = 0.84f;
 constexpr float kMaxDepenetration_m_s = 3.0f;
 constexpr float kSubstepRate_hz = 60.0f;  // settings.substeps are per 1/60 s
 
+// Putting on, in frames of 1/60 s: hanging, going along into the pose, settling. Fast enough for a limb (a leg
+// takes two thirds of a second for its stride), short enough not to be waited for. Half the default sub-steps: what
+// it leaves of stretch is gone after the first frames.
+constexpr int kHangFrames = 15, kMoveFrames = 40, kSettleFrames = 10;
+constexpr int kPutOnSubsteps = 4;
+
 void check(const ClothSettings& s) {
     if (s.substeps == 0 || s.substeps > 1000) fail(VFIT_ERROR_ARGUMENT, "substeps must be 1..1000, is ", s.substeps);
     if (!finite(s.gravity)) fail(VFIT_ERROR_ARGUMENT, "gravity is not finite");
@@ -85,7 +91,10 @@ struct Cloth::State {
     std::vector<float> inverse_edge_count;  // of a vertex; 0: none
     float step_ms = 0.0f;
 
+    void check_body(std::span<const Vec3> targets, std::span<const Collider> colliders) const;
     void reset(std::span<const Vec3> start);
+    void advance(float dt, int substeps, std::span<const Vec3> targets, std::span<const Collider> colliders,
+                 Jobs& jobs);
     void accept_colliders(std::span<const Collider> colliders);
     bool is_end_of_another(uint32_t ball) const;
     void teleport(std::span<const Vec3> targets);
@@ -136,31 +145,55 @@ void Cloth::State::reset(std::span<const Vec3> start) {
     publish();
 }
 
+void Cloth::put_on(const BodyOnItsWay& body, Jobs& jobs) {
+    State& s = *state_;
+    std::vector<Vec3> targets;
+    std::vector<Collider> colliders;
+    body(0.0f, targets, colliders);
+    s.check_body(targets, colliders);
+    s.reset(targets);
+    for (int frame = 1; frame <= kHangFrames + kMoveFrames + kSettleFrames; ++frame) {
+        const int moved = std::clamp(frame - kHangFrames, 0, kMoveFrames);
+        body(float(moved) / float(kMoveFrames), targets, colliders);
+        s.check_body(targets, colliders);
+        s.advance(1.0f / kSubstepRate_hz, kPutOnSubsteps, targets, colliders, jobs);
+    }
+    std::fill(s.velocities.begin(), s.velocities.end(), Vec3(0.0f));
+    s.publish();
+}
+
 void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<const Collider> colliders, Jobs& jobs) {
     State& s = *state_;
     if (!finite(dt) || dt < 0.0f) fail(VFIT_ERROR_ARGUMENT, "the step is ", dt, " s long");
-    check_points(skinned_targets, s.fabric->target_count(), "skinned targets");
-    check_colliders(colliders);
+    s.check_body(skinned_targets, colliders);
     if (dt == 0.0f) return;
     const Stopwatch watch;
-    dt = std::min(dt, kMaxStep_s);
-
-    s.accept_colliders(colliders);
-    s.teleport(skinned_targets);
-    if (!s.backstops_placed) {
-        const uint32_t vertices = s.fabric->vertex_count();
-        std::copy(skinned_targets.begin() + vertices, skinned_targets.end(), s.previous_targets.begin() + vertices);
-        s.backstops_placed = true;
-    }
+    dt = std::clamp(dt, kMinStep_s, kMaxStep_s);
     const auto substeps = std::max(1, int(std::lround(dt * kSubstepRate_hz * float(s.settings.substeps))));
-    const float h = dt / float(substeps);
-    for (int i = 0; i < substeps; ++i)
-        s.substep(h, float(i) / float(substeps), float(i + 1) / float(substeps), skinned_targets, jobs);
-
-    std::copy(skinned_targets.begin(), skinned_targets.end(), s.previous_targets.begin());
-    std::swap(s.previous_capsules, s.capsules);
+    s.advance(dt, substeps, skinned_targets, colliders, jobs);
     s.publish();
     s.step_ms = float(watch.ms());
+}
+
+void Cloth::State::check_body(std::span<const Vec3> targets, std::span<const Collider> colliders) const {
+    check_points(targets, fabric->target_count(), "skinned targets");
+    check_colliders(colliders);
+}
+
+void Cloth::State::advance(float dt, int substeps, std::span<const Vec3> targets,
+                           std::span<const Collider> colliders, Jobs& jobs) {
+    accept_colliders(colliders);
+    teleport(targets);
+    if (!backstops_placed) {
+        const uint32_t vertices = fabric->vertex_count();
+        std::copy(targets.begin() + vertices, targets.end(), previous_targets.begin() + vertices);
+        backstops_placed = true;
+    }
+    const float h = dt / float(substeps);
+    for (int i = 0; i < substeps; ++i)
+        substep(h, float(i) / float(substeps), float(i + 1) / float(substeps), targets, jobs);
+    std::copy(targets.begin(), targets.end(), previous_targets.begin());
+    std::swap(previous_capsules, capsules);
 }
 
 /// Colliders that were not there at the last call are taken as standing still.
@@ -169,6 +202,8 @@ void Cloth::State::accept_colliders(std::span<const Collider> colliders) {
     for (size_t i = 0; i < colliders.size(); ++i) capsules[i] = capsule_of(colliders[i], settings.thickness_m);
     if (previous_capsules.size() != capsules.size()) previous_capsules = capsules;
     needed.clear();
+    needed.reserve(capsules.size());
+    swept.reserve(capsules.size());
     for (uint32_t i = 0; i < capsules.size(); ++i) {
         // A capsule that became a ball, or the reverse, has no way between the two.
         if (previous_capsules[i].is_ball() != capsules[i].is_ball()) previous_capsules[i] = capsules[i];
@@ -297,7 +332,8 @@ ClothStats Cloth::stats() const {
     for (float strain : s.edge_strains) {
         sum += std::abs(strain);
         out.strain_max = std::max(out.strain_max, strain);
-        ++histogram[size_t(std::clamp(std::floor(strain / kBin) + kZero, 0.0f, float(kBins - 1)))];
+        const float bin = std::floor(strain / kBin) + kZero;
+        ++histogram[bin > 0.0f ? size_t(std::min(bin, float(kBins - 1))) : 0];
     }
     out.strain_mean = float(sum / double(s.edge_strains.size()));
     const auto rank = uint64_t(0.99 * double(s.edge_strains.size()));

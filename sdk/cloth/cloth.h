@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -15,6 +16,7 @@
 namespace vfit {
 
 inline constexpr float kMaxStep_s = 0.1f;  // a longer step is clamped (vfit_cloth_step)
+inline constexpr float kMinStep_s = 1e-4f;  // a shorter one too: a body that moves in no time has no speed
 
 struct ClothSettings {
     uint32_t substeps = 8;        // per 1/60 s
@@ -41,6 +43,13 @@ public:
 
     /// At rest at these places: one a vertex, or the fabric's target_count() as Dress::skin gives them.
     void reset(std::span<const Vec3> positions);
+
+    /// Fills skinned targets and colliders, as for step, of a body at that share of its way into a pose.
+    using BodyOnItsWay = std::function<void(float share, std::vector<Vec3>& targets, std::vector<Collider>& colliders)>;
+
+    /// Put on a body that first stands as at share 0 and then goes to 1: what it meets pushes the cloth aside,
+    /// instead of ending up inside of it. Ends at rest. Always the same number of sub-steps, whatever the settings.
+    void put_on(const BodyOnItsWay& body, Jobs& jobs);
 
     /// Advances by dt. skinned_targets: the fabric's target_count(), where the skinned garment and the backstops
     /// are at the END of the step; a free vertex ignores its own. colliders: at the end of the step, in the same

@@ -6,6 +6,8 @@ namespace vfit {
 
 namespace {
 
+constexpr float kLeastLength_m = 1e-6f;  // shorter ones have no direction
+
 Vec3 lerp(const Vec3& a, const Vec3& b, float t) { return a + (b - a) * t; }
 
 /// First time in (0, 1) at which a relative path q0 -> q1 that begins outside enters a radius that goes from
@@ -33,7 +35,10 @@ std::optional<Hit> hit_ball(const SweptCapsule& c, const Vec3& start, const Vec3
     const float radius = c.to.radius_at(along);
     const std::optional<float> t = entry_time(q0, q1, radius, radius);
     if (!t) return {};
-    return Hit{along, glm::normalize(lerp(q0, q1, *t))};
+    const Vec3 normal = lerp(q0, q1, *t);
+    const float length = glm::length(normal);
+    if (length < kLeastLength_m) return {};  // a ball without a radius, met in its middle
+    return Hit{along, normal / length};
 }
 
 /// Part of p square to the unit axis, and the radius of the (endless) cone where p stands beside it.
@@ -82,8 +87,15 @@ Capsule capsule_of(const Collider& collider, float thickness_m) {
 
 CapsuleShape::CapsuleShape(const Capsule& c)
     : a(c.a), axis(c.b - c.a), radius(c.radius_a), taper(c.radius_b - c.radius_a), inverse_length2(0.0f), lean(0.0f) {
-    if (c.is_ball()) return;
     const float length2 = glm::dot(axis, axis);
+    // On the way of a capsule that turns round, its ends come too close for a cone: the bigger ball is left.
+    if (length2 <= 1.0001f * taper * taper || length2 < kLeastLength_m * kLeastLength_m) {
+        if (taper > 0.0f) a = c.b;
+        radius = std::max(c.radius_a, c.radius_b);
+        axis = Vec3(0.0f);
+        taper = 0.0f;
+        return;
+    }
     inverse_length2 = 1.0f / length2;
     lean = taper / std::sqrt(length2 - taper * taper);
 }

@@ -18,10 +18,6 @@ struct Bounds {
         low = glm::min(low, p);
         high = glm::max(high, p);
     }
-    void grow(float by) {
-        low -= by;
-        high += by;
-    }
     bool overlaps(const Bounds& o) const {
         return low.x <= o.high.x && o.low.x <= high.x && low.y <= o.high.y && o.low.y <= high.y &&
                low.z <= o.high.z && o.low.z <= high.z;

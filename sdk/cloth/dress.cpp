@@ -65,6 +65,27 @@ struct Table {
 
     Table(size_t rows, size_t columns) : width(columns), values(rows * columns, 0.0f) {}
     std::span<float> row(size_t i) { return {values.data() + i * width, width}; }
+    size_t rows() const { return values.size() / width; }
+
+    std::vector<size_t> columns_in_use() {
+        std::vector<size_t> used;
+        for (size_t k = 0; k < width; ++k) {
+            bool any = false;
+            for (size_t i = k; i < values.size() && !any; i += width) any = values[i] != 0.0f;
+            if (any) used.push_back(k);
+        }
+        return used;
+    }
+    Table of_columns(std::span<const size_t> columns) {
+        Table packed(rows(), columns.size());
+        for (size_t i = 0; i < rows(); ++i)
+            for (size_t k = 0; k < columns.size(); ++k) packed.row(i)[k] = row(i)[columns[k]];
+        return packed;
+    }
+    void set_columns(std::span<const size_t> columns, Table& packed) {
+        for (size_t i = 0; i < rows(); ++i)
+            for (size_t k = 0; k < columns.size(); ++k) row(i)[columns[k]] = packed.row(i)[k];
+    }
 };
 
 /// Hanging cloth is bound to whichever leg is nearer; between them it must not tear. Evens the rows of simulated
@@ -73,17 +94,22 @@ void smooth_hanging(const Garment& garment, std::span<const float> skin_distance
     constexpr int kRounds = 100;           // spreads over about 10 vertices: the gap between the legs
     constexpr float kCloseToSkin_m = 0.02f;  // a common ease: closer than that, cloth goes where its skin goes
     const std::vector<std::vector<uint32_t>> neighbours = neighbours_of(garment.mesh);
-    Table own = table;
+    const std::vector<size_t> columns = table.columns_in_use();  // of the body's bones a dress has a fourth
+    Table own = table.of_columns(columns), smooth = own;
+    const size_t width = columns.size();
     for (int round = 0; round < kRounds; ++round)
         for (size_t i = 0; i < neighbours.size(); ++i) {
             if (!garment.simulated[i] || neighbours[i].empty()) continue;
             const float kept = std::exp(-skin_distances[i] / kCloseToSkin_m);
-            const std::span<float> row = table.row(i);
-            for (size_t k = 0; k < table.width; ++k) row[k] = kept * own.row(i)[k];
+            const std::span<float> row = smooth.row(i), own_row = own.row(i);
+            for (size_t k = 0; k < width; ++k) row[k] = kept * own_row[k];
             const float share = (1.0f - kept) / float(neighbours[i].size());
-            for (uint32_t j : neighbours[i])
-                for (size_t k = 0; k < table.width; ++k) row[k] += share * table.row(j)[k];
+            for (uint32_t j : neighbours[i]) {
+                const std::span<float> other = smooth.row(j);
+                for (size_t k = 0; k < width; ++k) row[k] += share * other[k];
+            }
         }
+    table.set_columns(columns, smooth);
 }
 
 /// Weight of each bone at a place on the body.

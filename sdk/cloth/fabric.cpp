@@ -66,9 +66,8 @@ void sort_for_solver(std::vector<DistanceConstraint>& list, const std::vector<fl
     list = std::move(sorted);
 }
 
-/// The vertices in an order in which runs of kPatch are neighbours on the cloth, so that a run has a small box.
+/// The vertices in an order in which runs of kContactBlock are neighbours on the cloth, so that a run has a small box.
 std::vector<uint32_t> compact_patches(const std::vector<uint32_t>& vertices, const FabricData& data) {
-    constexpr size_t kPatch = 16;  // as many as the contact pass culls together
     std::vector<std::vector<uint32_t>> neighbours(data.inverse_mass.size());
     for (const DistanceConstraint& e : data.edges) {
         neighbours[e.a].push_back(e.b);
@@ -82,9 +81,9 @@ std::vector<uint32_t> compact_patches(const std::vector<uint32_t>& vertices, con
         const size_t begin = order.size();
         order.push_back(seed);
         taken[seed] = 1;
-        for (size_t i = begin; i < order.size() && order.size() - begin < kPatch; ++i)
+        for (size_t i = begin; i < order.size() && order.size() - begin < kContactBlock; ++i)
             for (uint32_t next : neighbours[order[i]])
-                if (!taken[next] && order.size() - begin < kPatch) {
+                if (!taken[next] && order.size() - begin < kContactBlock) {
                     order.push_back(next);
                     taken[next] = 1;
                 }

@@ -2,6 +2,7 @@
 // once and shared by every instance of that cloth.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -40,6 +41,10 @@ struct FabricData {
     std::vector<Tether> tethers;
     std::vector<Backstop> backstops;
 };
+
+/// Simulated vertices that the contact pass culls together; they come in runs of neighbours of about that length:
+/// small enough for tight boxes.
+inline constexpr size_t kContactBlock = 16;
 
 /// Immutable and cooked: constraints sorted for the solver. Made by cook_fabric or from explicit data.
 class Fabric {

@@ -38,10 +38,8 @@ void solve_tethers(std::span<const Tether> tethers, std::span<Particle> particle
 
 namespace {
 
-// Vertices culled together against the colliders' boxes, and vertices worked on by one job: small enough for
-// tight boxes, large enough to outweigh the hand-over (about 10 us).
-constexpr size_t kBlock = 16;
-constexpr size_t kChunk = 1024;
+// Vertices worked on by one job: enough to outweigh the hand-over (about 10 us). Whole blocks.
+constexpr size_t kChunk = 64 * kContactBlock;
 
 }  // namespace
 
@@ -50,8 +48,8 @@ void ContactPass::run(std::span<Particle> particles, Jobs& jobs) const {
     const auto chunk_count = uint32_t((vertices.size() + kChunk - 1) / kChunk);
     parallel_for(jobs, chunk_count, [&](uint32_t chunk) {
         const size_t end = std::min(vertices.size(), (chunk + 1) * kChunk);
-        for (size_t i = chunk * kChunk; i < end; i += kBlock)
-            run_block(vertices.subspan(i, std::min(kBlock, end - i)), particles);
+        for (size_t i = chunk * kChunk; i < end; i += kContactBlock)
+            run_block(vertices.subspan(i, std::min(kContactBlock, end - i)), particles);
     });
 }
 

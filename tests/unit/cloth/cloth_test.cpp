@@ -1,6 +1,7 @@
 // The instance: determinism, hash, reset, teleport, refusals, and what a step costs.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -68,6 +69,77 @@ TEST(Cloth, StepDoesNotAllocate) {
     const ClothStats stats = cloth.stats();
     EXPECT_EQ(allocations - before, 0u);
     EXPECT_GT(stats.step_ms, 0.0f);
+}
+
+TEST(Cloth, StepDoesNotAllocateWhenCollidersPart) {
+    const auto jobs = Jobs::own(0);
+    const Curtain curtain;
+    Cloth cloth(curtain.data, {}, curtain.sheet.positions);
+    const Collider limb = capsule({0.1f, -0.3f, 0.3f}, 0.05f, {0.5f, -0.3f, 0.3f}, 0.05f);
+    // First the ball is an end of the capsule and not needed; then it is a collider of its own.
+    const std::vector<Collider> joined{limb, sphere(limb.center, 0.05f)}, parted{limb, sphere({0, -0.9f, 0}, 0.05f)};
+    cloth.step(kFrame_s, curtain.sheet.positions, joined, *jobs);
+    const uint64_t before = allocations;
+    cloth.step(kFrame_s, curtain.sheet.positions, parted, *jobs);
+    EXPECT_EQ(allocations - before, 0u);
+}
+
+TEST(Cloth, StepOfNextToNoTimeDoesNotShootTheClothAway) {
+    const auto jobs = Jobs::own(0);
+    const Curtain curtain;
+    Cloth cloth(curtain.data, {}, curtain.sheet.positions);
+    cloth.step(kFrame_s, curtain.sheet.positions, Curtain::ball(0), *jobs);
+    for (const float dt : {1e-30f, 1e-20f, 1e-7f}) {
+        std::vector<Vec3> targets = curtain.sheet.positions;
+        for (Vec3& t : targets) t.z += 0.01f;
+        cloth.step(dt, targets, Curtain::ball(2), *jobs);
+    }
+    for (int frame = 0; frame < 60; ++frame)
+        cloth.step(kFrame_s, curtain.sheet.positions, Curtain::ball(2), *jobs);
+    for (const Vec3& p : cloth.positions()) ASSERT_LT(glm::length(p), 2.0f);
+    EXPECT_LT(cloth.stats().strain_p99, 0.1f);
+}
+
+TEST(Cloth, PutOnGoesTheWholeWayAndEndsAtRest) {
+    const auto jobs = Jobs::own(0);
+    const Curtain curtain;
+    std::vector<float> shares;
+    const auto body = [&](float share, std::vector<Vec3>& targets, std::vector<Collider>& colliders) {
+        shares.push_back(share);
+        targets = curtain.sheet.positions;
+        for (Vec3& t : targets) t.x += 0.2f * share;
+        colliders = {sphere({0.3f, -0.3f, 0.2f - 0.2f * share}, 0.1f)};
+    };
+    size_t calls = 0;
+    for (const uint32_t substeps : {1u, 1000u}) {
+        ClothSettings settings;
+        settings.substeps = substeps;
+        Cloth cloth(curtain.data, settings, curtain.sheet.positions);
+        shares.clear();
+        cloth.put_on(body, *jobs);
+        EXPECT_EQ(shares.front(), 0.0f);
+        EXPECT_EQ(shares.back(), 1.0f);
+        EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+        EXPECT_EQ(cloth.positions()[0], curtain.sheet.positions[0] + Vec3(0.2f, 0, 0));
+        // The ball pushed the curtain before it.
+        for (const Vec3& p : cloth.positions()) ASSERT_GT(glm::length(p - Vec3(0.3f, -0.3f, 0)), 0.1f);
+        if (calls == 0) calls = shares.size();
+        EXPECT_EQ(shares.size(), calls);  // what it costs does not depend on the settings
+        EXPECT_LE(calls, 80u);
+    }
+}
+
+TEST(Cloth, PutOnRefusesABodyThatIsNotFinite) {
+    const auto jobs = Jobs::own(0);
+    const Curtain curtain;
+    Cloth cloth(curtain.data, {}, curtain.sheet.positions);
+    const uint64_t begin = cloth.state_hash();
+    const auto body = [&](float, std::vector<Vec3>& targets, std::vector<Collider>&) {
+        targets = curtain.sheet.positions;
+        targets[3].x = INFINITY;
+    };
+    EXPECT_EQ(error_of([&] { cloth.put_on(body, *jobs); }), "-11 skinned targets 3 is not finite");
+    EXPECT_EQ(cloth.state_hash(), begin);
 }
 
 TEST(Cloth, PinsFollowTheirTargets) {

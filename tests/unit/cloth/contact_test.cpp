@@ -107,6 +107,43 @@ TEST(Contact, TurningCapsuleSweepsItsWayClear) {
     EXPECT_GT(distance_to(leg(0.4f), cloth.positions()[0]), -1e-3f);
 }
 
+TEST(Contact, CapsuleThatTurnsRoundInOneStepLeavesTheClothWhole) {
+    // Left and right taken for each other: at half way both ends are one point.
+    const auto jobs = Jobs::own(0);
+    Sheet sheet(20, 20, 0.02f);
+    sheet.pin_top();
+    for (Vec3& p : sheet.positions) p += Vec3(-0.19f, 0.19f, 0.13f);
+    Cloth cloth(fabric(sheet.cook(cotton())), {}, sheet.positions);
+    const Collider hips = capsule({-0.1f, 0, 0}, 0.1f, {0.1f, 0, 0}, 0.12f);
+    const Collider turned = capsule({0.1f, 0, 0}, 0.1f, {-0.1f, 0, 0}, 0.12f);
+    for (int frame = 0; frame < 40; ++frame) {
+        cloth.step(kFrame_s, sheet.positions, std::vector{frame % 10 < 5 ? hips : turned}, *jobs);
+        for (const Vec3& p : cloth.positions()) ASSERT_LT(glm::length(p), 0.5f) << frame;
+    }
+    EXPECT_LT(cloth.stats().strain_p99, 0.1f);
+}
+
+TEST(Contact, ShapeWhoseEndsAreTooCloseForAConeIsTheBiggerBall) {
+    for (const float length : {0.0f, 1e-12f, 0.005f}) {
+        const CapsuleShape shape({{0, 0, 0}, {length, 0, 0}, 0.1f, 0.11f});
+        const NearestBall ball = nearest_ball(shape, {length, 0.2f, 0});
+        EXPECT_NEAR(ball.distance, 0.09f, 1e-6f) << length;
+        EXPECT_NEAR(ball.normal.y, 1.0f, 1e-6f) << length;
+    }
+}
+
+TEST(Contact, ColliderWithoutExtentLeavesVerticesFinite) {
+    const auto jobs = Jobs::own(0);
+    ClothSettings settings = bare();
+    settings.gravity = Vec3(0.0f);
+    settings.substeps = 1;
+    const std::vector<Vec3> start{{0, 0, 0}};
+    Cloth cloth(lone_vertex(), settings, start);
+    cloth.step(kFrame_s, start, std::vector{sphere({-1, 0, 0}, 0.0f)}, *jobs);
+    cloth.step(kFrame_s, start, std::vector{sphere({1, 0, 0}, 0.0f)}, *jobs);  // right through it
+    EXPECT_EQ(cloth.positions()[0], start[0]);
+}
+
 TEST(Contact, SheetFallsOnASphereAndStaysOutside) {
     const auto jobs = Jobs::own(0);
     Sheet sheet(20, 20, 0.02f);
