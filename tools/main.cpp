@@ -1,7 +1,5 @@
-// vfit: the command line. Exit 0: done; 1: failed, with one line that says why; 2: wrong usage.
-#include <cstdio>
-
-#include "client/client.h"
+// vfit: the command line.
+#include "client/program.h"
 #include "commands/commands.h"
 
 int main(int argc, char** argv) {
@@ -18,13 +16,5 @@ int main(int argc, char** argv) {
     add_record(app);
     add_cook(app);
     add_plot(app);
-    try {
-        app.parse(argc, argv);
-        return 0;
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "vfit: %s\n", error.what());
-        return 1;
-    }
+    return run_program(app, "vfit", argc, argv);
 }

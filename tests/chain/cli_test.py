@@ -7,6 +7,7 @@ SHARED is the folder of real data; tests that need it are skipped by name where 
 """
 import json
 import math
+import os
 import pathlib
 import shutil
 import struct
@@ -14,6 +15,11 @@ import subprocess
 import sys
 import tempfile
 import unittest
+
+try:
+    import pty
+except ImportError:  # Windows
+    pty = None
 
 VFIT = sys.argv[1]
 SHARED = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else pathlib.Path("/nonexistent")
@@ -23,7 +29,7 @@ PAPER_JOINTS = 15
 
 
 def run(*args):
-    return subprocess.run([VFIT, *map(str, args)], capture_output=True, text=True, timeout=300)
+    return subprocess.run([VFIT, *map(str, args)], capture_output=True, text=True, errors="replace", timeout=300)
 
 
 def document(test, *args):
@@ -39,7 +45,9 @@ def lines(test, *args):
 
 
 def numbers(value):
-    if isinstance(value, dict):
+    if value is None:
+        yield math.nan  # as JSON spells what is no number
+    elif isinstance(value, dict):
         for v in value.values():
             yield from numbers(v)
     elif isinstance(value, list):
@@ -132,6 +140,36 @@ class Contract(unittest.TestCase):
             self.assertEqual([f["frame"] for f in lines(self, "motion", path, "--json")],
                              [i for i in range(20) if i not in (7, 8, 9)])
             self.assertEqual(document(self, "measure", path, "--json")["frames"], 17)
+            # Gone for good before the scan is complete: what there is of the person is fitted.
+            (path / "joints.csv").write_text("".join(r for r in rows if r.split(",")[0] not in ("18", "19")))
+            fitted = document(self, "fit", path, "--draft", "--out", path.with_name("out"), "--json")
+            self.assertEqual((fitted["scan_frames"], fitted["frames"]), (18, 18))
+
+    def test_a_second_person_is_not_averaged_into_the_first(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "rec"
+            document(self, "record", VIRTUAL, path, "--frames", 20, "--json")
+            rows = (path / "joints.csv").read_text().splitlines(keepends=True)
+            self.assertEqual(rows[1].split(",")[:2], ["0", "1"])
+            (path / "joints.csv").write_text("".join(rows[:11]) + "".join(r.replace(",1,", ",2,", 1) for r in rows[11:]))
+            self.assertEqual(document(self, "measure", path, "--json")["frames"], 10)
+
+    def test_a_pause_in_the_time_stamps_costs_no_time(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "rec"
+            document(self, "record", VIRTUAL, path, "--frames", 12, "--json")
+            head, *rows = (path / "timestamps.csv").read_text().splitlines()
+            week_ns = 7 * 86400 * 10**9
+            rows = [f"{n},{int(t) + (week_ns if int(n) > 5 else 0)}" for n, t in (r.split(",") for r in rows)]
+            (path / "timestamps.csv").write_text("\n".join([head, *rows]) + "\n")
+            result = document(self, "fit", path, "--draft", "--out", path.with_name("out"), "--json")
+            self.assertEqual(result["frames"], 12)
+            self.assertTrue(all(math.isfinite(x) for x in numbers(result)))
+
+    def test_a_source_without_end_is_fitted_in_a_moment(self):
+        with tempfile.TemporaryDirectory() as folder:
+            result = document(self, "fit", VIRTUAL.replace("frames=60", "rate=5"), "--draft", "--out", folder, "--json")
+            self.assertEqual(result["frames"], 41, "eight seconds at 5 Hz")
 
     def test_plot_draws_the_papers_curves(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -159,10 +197,72 @@ class Contract(unittest.TestCase):
             self.assertEqual(result["size"], "XL")
             self.check_failure(run("fit", VIRTUAL, "--size", "QQ", "--out", folder), "QQ")
 
+    def test_a_garment_of_ones_own_is_cooked_and_worn(self):
+        design = pathlib.Path(__file__).resolve().parents[2] / "assets" / "garments" / "sundress.json"
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            text = design.read_text().replace('"name": "sundress"', '"name": "\\"mine\\""')
+            (folder / "design.json").write_text(text)
+            cooked = document(self, "cook", folder / "design.json", "--out", folder / "mine.json", "--json")
+            self.assertEqual(cooked["garment"], '"mine"')
+            result = document(self, "fit", VIRTUAL, "--garment", folder / "mine.json", "--draft", "--frames", 2,
+                              "--out", folder / "out", "--json")
+            self.assertEqual(result["cloth"]["vertices"], cooked["vertices"])
+            self.check_failure(run("cook", folder / "design.json", "--out", folder / "no" / "x.json"), "x.json")
+            self.check_failure(run("cook", folder, "--out", folder / "x.json"), str(folder))
+            (folder / "design.json").write_text("{")
+            self.check_failure(run("cook", folder / "design.json", "--out", folder / "x.json"))
+            self.check_failure(run("fit", VIRTUAL, "--garment", folder / "gone.json", "--out", folder), "gone.json")
+            self.check_failure(run("fit", VIRTUAL, "--garment", folder / "design.json", "--out", folder), "design.json")
+
+    def test_what_cannot_be_written_is_told_before_the_work(self):
+        with tempfile.NamedTemporaryFile() as file:
+            inside = pathlib.Path(file.name) / "x"
+            self.check_failure(run("fit", VIRTUAL, "--out", inside), str(inside))
+            self.check_failure(run("track", VIRTUAL, "--user-map-out", inside), str(inside))
+            self.check_failure(run("record", VIRTUAL, inside), str(inside))
+            self.check_failure(run("plot", VIRTUAL, "--what", "depth", "--out", inside), str(inside))
+        if pathlib.Path("/dev/full").exists():
+            for args in (("info",), ("info", "--json"), ("track", VIRTUAL, "--json")):
+                with open("/dev/full", "w") as full:
+                    done = subprocess.run([VFIT, *args], stdout=full, stderr=subprocess.PIPE, text=True, timeout=300)
+                self.assertEqual(done.returncode, 1, args)
+                self.assertIn("standard output", done.stderr)
+
+    def test_a_name_that_is_no_utf_8_costs_nothing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / os.fsdecode(b"r\xe9c")
+            self.assertEqual(run("record", VIRTUAL, path, "--frames", 3).returncode, 0)
+            plotted = document(self, "plot", path, "--what", "feet", "--out", f"{path}.png", "--json")
+            self.assertIn("r\ufffdc", plotted["plot"])
+
+    @unittest.skipUnless(pty, "no pseudo-terminals here")
+    def test_long_work_shows_how_far_it_is_on_a_terminal_only(self):
+        args = [VFIT, "measure", VIRTUAL.replace("demo", "scan").replace("frames=60", "pace=realtime"), "--frames", "60", "--json"]
+        master, terminal = pty.openpty()
+        done = subprocess.Popen(args, stdout=subprocess.PIPE, stderr=terminal)
+        os.close(terminal)
+        shown = b""
+        try:
+            while chunk := os.read(master, 4096):
+                shown += chunk
+        except OSError:
+            pass  # Linux says EIO where the other end is closed
+        os.close(master)
+        self.assertEqual(json.loads(done.communicate()[0])["frames"], 60)
+        self.assertRegex(shown, rb"scanning \[#+\.+\] \d+/60")
+        self.assertTrue(shown.endswith(b"\r\x1b[K"), "the bar is wiped")
+        self.assertEqual(run(*args[1:]).stderr, "")
+
     def test_wrong_usage_exits_2(self):
         for args in ((), ("dance",), ("measure",), ("measure", VIRTUAL, "--method", "guess"),
                      ("measure", VIRTUAL, "--frames", "0"), ("size", "x.json"), ("measure", VIRTUAL, "--nonsense"),
-                     ("measure", VIRTUAL, "--joints", "sideways")):
+                     ("measure", VIRTUAL, "--joints", "sideways"), ("measure", VIRTUAL, "--frames", "-1"),
+                     ("measure", VIRTUAL, "--frames", "nan"), ("measure", VIRTUAL, "--frames", "99999999999"),
+                     ("fit", VIRTUAL, "--out", "x", "--frames", "-1"), ("fit", VIRTUAL, "--out", "x", "--detail", "3"),
+                     ("fit", VIRTUAL, "--out", "x", "--frames", "1e99"), ("fit", VIRTUAL),
+                     ("record", VIRTUAL, "x", "--frames", "0"), ("plot", VIRTUAL, "--what", "feet", "--out", "x", "--frames", "0"),
+                     ("plot", VIRTUAL, "--what", "hats", "--out", "x")):
             self.assertEqual(run(*args).returncode, 2, args)
         self.assertEqual(run("--help").returncode, 0)
         for command in ("info", "measure", "size", "track", "motion", "fit", "record", "cook", "plot"):
@@ -176,22 +276,33 @@ class Contract(unittest.TestCase):
         self.check_failure(run("measure", VIRTUAL, "--user-map", "tracked", "--json"), "tracker")
         self.check_failure(run("measure", VIRTUAL, "--garment", "spacesuit", "--json"), "spacesuit", "trousers")
         self.check_failure(run("measure", VIRTUAL + "&motion=fly", "--json"), "fly")
-        self.check_failure(run("fit", VIRTUAL, "--garment", "toga", "--out", "/tmp/x"), "toga", "sundress")
+        self.check_failure(run("measure", VIRTUAL + "&distance=nan"), "distance")
+        self.check_failure(run("measure", VIRTUAL + "&height=1e9"), "height")
+        self.check_failure(run("measure", VIRTUAL + "&frames=-3"), "frames")
         self.check_failure(run("size", "/no/file.json", "--chart", "paper", "--garment", "x"), "/no/file.json")
         with tempfile.TemporaryDirectory() as folder:
             self.check_failure(run("measure", folder), "camera.json")
+            self.check_failure(run("size", folder, "--chart", "paper", "--garment", "short_sleeves"), folder)
+            self.check_failure(run("fit", VIRTUAL, "--garment", "toga", "--out", folder), "toga", "sundress")
             measures = pathlib.Path(folder) / "m.json"
             for text, word in (("{", "JSON"), ('{"stature_m": "tall"}', "stature_m"), ('{"wingspan_m": 2}', "wingspan_m"),
-                               ('{"stature_m": -1}', "stature_m")):
+                               ('{"stature_m": -1}', "stature_m"), ('{"stature_m": 1e300}', "stature_m"),
+                               ('{"stature_m": null}', "stature_m"), ('{"stature_m": NaN}', "JSON"), ("[]", "object"),
+                               ('{"stature_m": {"sigma": 0.1}}', "stature_m"), ('{"measurements": 3}', "object"),
+                               ('{"stature_m": {"value": 1.7, "sigma": "small"}}', "sigma"),
+                               ('{"stature_m": {"value": 1.7, "sigma": -1}}', "sigma"), ("", "JSON"),
+                               ('{"' + "k" * 900 + '": 1}', "is no measure")):
                 measures.write_text(text)
                 self.check_failure(run("size", measures, "--chart", "paper", "--garment", "short_sleeves"), word)
             measures.write_text('{"stature_m": 1.7}')
             self.check_failure(run("size", measures, "--chart", "nowhere", "--garment", "x"), "nowhere", "paper")
+            gone = pathlib.Path(folder) / "gone.json"
+            self.check_failure(run("size", measures, "--chart", gone, "--garment", "x"), str(gone))
             chart = pathlib.Path(folder) / "chart.json"
             chart.write_text('{"format": "vfit-size-chart", "version": 1, "name": "x", "unit": "cm", "garments": [{"kind": '
                              '"dress", "measures": ["stature_m"], "sizes": [{"label": "S", "ranges": {"stature_m": '
                              '[150, 170]}}, {"label": "M", "ranges": {"stature_m": [160, 180]}}]}]}')
-            self.check_failure(run("size", measures, "--chart", chart, "--garment", "dress"), "dress", "M")
+            self.check_failure(run("size", measures, "--chart", chart, "--garment", "dress"), "dress", "M", str(chart))
 
 
 @unittest.skipUnless(RECORDINGS, f"real recordings are not at {SHARED}")

@@ -11,10 +11,17 @@ namespace vfit::tools {
 
 void pin_to_cores(unsigned count) {
 #if defined(__linux__)
-    cpu_set_t cores;
+    // A container may own any cores: core 0 need not be among them.
+    cpu_set_t allowed, cores;
     CPU_ZERO(&cores);
-    for (unsigned i = 0; i < count; ++i) CPU_SET(i, &cores);
-    if (sched_setaffinity(0, sizeof cores, &cores) != 0) throw Failure("the thread cannot be pinned to a core");
+    bool pinned = sched_getaffinity(0, sizeof allowed, &allowed) == 0;
+    for (unsigned i = 0; pinned && i < CPU_SETSIZE && count > 0; ++i)
+        if (CPU_ISSET(i, &allowed)) {
+            CPU_SET(i, &cores);
+            --count;
+        }
+    pinned = pinned && sched_setaffinity(0, sizeof cores, &cores) == 0;
+    if (!pinned) throw Failure("the thread cannot be pinned to a core");
 #else
     (void)count;
 #endif

@@ -5,6 +5,7 @@
 
 #include "bench/bench.h"
 #include "bench/cloth_scene.h"
+#include "client/output.h"
 
 namespace vfit::tools {
 
@@ -31,11 +32,9 @@ void run(const Options& options) {
     Samples samples;
     for (const double ms : result.frame_ms) samples.add(ms);
     if (options.json)
-        std::cout << Json{{"ms_per_frame", {{"median", samples.quantile(0.5)}, {"p95", samples.quantile(0.95)}}},
-                          {"vertices", result.last.vertex_count},
-                          {"constraints", result.last.constraint_count}}
-                         .dump()
-                  << "\n";
+        print_line({{"ms_per_frame", {{"median", samples.quantile(0.5)}, {"p95", samples.quantile(0.95)}}},
+                    {"vertices", result.last.vertex_count},
+                    {"constraints", result.last.constraint_count}});
     else
         std::cout << options.scene << ": " << samples.quantile(0.5) << " ms a frame (p95 " << samples.quantile(0.95)
                   << "), " << result.last.vertex_count << " vertices, " << result.last.constraint_count

@@ -1,7 +1,6 @@
-// vfit-bench: speed and accuracy figures. Exit codes as vfit's.
-#include <cstdio>
-
+// vfit-bench: speed and accuracy figures.
 #include "bench/bench.h"
+#include "client/program.h"
 
 int main(int argc, char** argv) {
     CLI::App app{"Speed and accuracy figures of vfit, each printed by one command."};
@@ -11,13 +10,5 @@ int main(int argc, char** argv) {
     add_people(app);
     add_recordings(app);
     add_cloth(app);
-    try {
-        app.parse(argc, argv);
-        return 0;
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "vfit-bench: %s\n", error.what());
-        return 1;
-    }
+    return run_program(app, "vfit-bench", argc, argv);
 }

@@ -4,8 +4,10 @@
 #include <iomanip>
 #include <iostream>
 #include <random>
+#include <sstream>
 
 #include "bench/bench.h"
+#include "client/output.h"
 #include "client/people.h"
 
 namespace vfit::tools {
@@ -118,15 +120,13 @@ void add_people(CLI::App& app) {
                           << 100 * r.shoulder_sigma << " |" << std::setprecision(1) << std::setw(6) << r.compute_ms << "\n";
         }
         if (o->json) {
-            std::cout << Json{{"people", rows},
-                              {"height_error_percent", height},
-                              {"shoulder_error_percent", shoulder},
-                              {"height_bias_cm", height_bias},
-                              {"shoulder_bias_cm", shoulder_bias},
-                              {"paper", {{"height_error_percent", 1.5}, {"shoulder_error_percent", 4.2}}},
-                              {"compute_ms", {{"all_frames", mean_ms}, {"after_the_last_frame", last_ms}}}}
-                             .dump(2)
-                      << "\n";
+            print_document({{"people", rows},
+                            {"height_error_percent", height},
+                            {"shoulder_error_percent", shoulder},
+                            {"height_bias_cm", height_bias},
+                            {"shoulder_bias_cm", shoulder_bias},
+                            {"paper", {{"height_error_percent", 1.5}, {"shoulder_error_percent", 4.2}}},
+                            {"compute_ms", {{"all_frames", mean_ms}, {"after_the_last_frame", last_ms}}}});
             return;
         }
         std::cout << std::setprecision(2) << "mean absolute error: height " << height << " % (paper 1.5 %), shoulder "

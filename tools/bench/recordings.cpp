@@ -8,6 +8,7 @@
 #include <map>
 
 #include "bench/bench.h"
+#include "client/output.h"
 #include "client/people.h"
 
 namespace vfit::tools {
@@ -28,15 +29,13 @@ double mask_height(vfit_frame frame) {
     const vfit_view depth = view_of(frame, VFIT_STREAM_DEPTH), map = view_of(frame, VFIT_STREAM_USER_MAP);
     vfit_intrinsics k = vfit_intrinsics_init();
     check(vfit_frame_intrinsics(frame, &k));
-    const auto* d = static_cast<const uint16_t*>(depth.data);
-    const auto* m = static_cast<const uint8_t*>(map.data);
     std::vector<uint16_t> z;
     uint32_t top = depth.height, bottom = 0;
     for (uint32_t y = 0; y < depth.height; ++y)
         for (uint32_t x = 0; x < depth.width; ++x) {
-            const size_t i = size_t(y) * depth.width + x;
-            if (!m[i] || !d[i]) continue;
-            z.push_back(d[i]);
+            const uint16_t d = row_of<uint16_t>(depth, y)[x];
+            if (!row_of<uint8_t>(map, y)[x] || !d) continue;
+            z.push_back(d);
             top = std::min(top, y);
             bottom = std::max(bottom, y);
         }
@@ -86,6 +85,7 @@ void add_recordings(CLI::App& app) {
         std::vector<std::filesystem::path> paths;
         for (const auto& entry : std::filesystem::directory_iterator(o->folder))
             if (entry.is_directory()) paths.push_back(entry.path());
+        if (paths.empty()) throw Failure(o->folder + ": holds no recordings");
         std::sort(paths.begin(), paths.end());
         std::map<std::string, Person> people;
         Json rows = Json::array();
@@ -117,7 +117,7 @@ void add_recordings(CLI::App& app) {
                           << " m over " << p.stature_m.size() << " recordings; mask " << mean(p.mask_m) << " m, SD "
                           << deviation(p.mask_m) << " m\n";
         }
-        if (o->json) std::cout << Json{{"recordings", rows}, {"people", summary}}.dump(2) << "\n";
+        if (o->json) print_document({{"recordings", rows}, {"people", summary}});
     });
 }
 

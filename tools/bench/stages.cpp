@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "bench/bench.h"
+#include "client/output.h"
 #include "client/people.h"
 
 namespace vfit::tools {
@@ -23,11 +24,6 @@ struct Options {
 struct Stages {
     std::map<std::string, Samples> per_frame, per_person;
 };
-
-std::vector<vfit_bone> pose_of(vfit_motion motion, vfit_pose& pose) {
-    return list<vfit_bone>(
-        [&](auto* items, uint32_t stride, uint32_t* n) { return vfit_motion_pose(motion, &pose, items, stride, n); });
-}
 
 /// The sensor's thread makes a frame ahead and then sleeps. It shares the pinned core and would be timed with
 /// whatever runs beside it, so it is given the time to finish.
@@ -64,8 +60,8 @@ Dressed dress(vfit_context context, vfit_scan scan, vfit_frame tracked, uint32_t
     check(vfit_motion_bind(d.motion.get(), d.avatar.get()));
     check(vfit_motion_step(d.motion.get(), tracked, body, view_of(tracked, VFIT_STREAM_DEPTH).time_ns));
     vfit_pose pose = vfit_pose_init();
-    const auto bones = pose_of(d.motion.get(), pose);
-    check(vfit_avatar_pose(d.avatar.get(), &pose, bones.data(), sizeof(vfit_bone), static_cast<uint32_t>(bones.size())));
+    const auto bones = bones_of(d.motion.get(), pose);
+    set_pose(d.avatar.get(), pose, bones);
     const Timer garment;
     check(vfit_garment_open(context, "sundress", d.garment.out()));
     stages.per_person["garment load"].add(garment.ms());
@@ -101,8 +97,9 @@ void run(const Options& options, bool with_frames, Stages& stages) {
         let_sensor_finish();
         const Timer timer;
         result = check(vfit_scan_add(scan.get(), tracked.get(), body, nullptr));
-        scan_ms += timer.ms();
-        if (with_frames) stages.per_frame["scan (paper)"].add(timer.ms());
+        const double ms = timer.ms();
+        scan_ms += ms;
+        if (with_frames) stages.per_frame["scan (paper)"].add(ms);
     }
     stages.per_person["scan of 30 frames beyond capture"].add(scan_ms);
     Dressed d = dress(context.get(), scan.get(), tracked.get(), body, stages);
@@ -126,10 +123,10 @@ void run(const Options& options, bool with_frames, Stages& stages) {
         check(vfit_motion_step(d.motion.get(), tracked.get(), body, now_ns));
         stages.per_frame["motion"].add(motion.ms());
         vfit_pose pose = vfit_pose_init();
-        const auto bones = pose_of(d.motion.get(), pose);
+        const auto bones = bones_of(d.motion.get(), pose);
         const auto pose_timed = [&](vfit_avatar avatar, const char* name) {
             const Timer timer;
-            check(vfit_avatar_pose(avatar, &pose, bones.data(), sizeof(vfit_bone), static_cast<uint32_t>(bones.size())));
+            set_pose(avatar, pose, bones);
             stages.per_frame[name].add(timer.ms());
         };
         pose_timed(d.avatar.get(), "avatar 13.7k vertices");
@@ -171,7 +168,7 @@ void add_stages(CLI::App& app) {
         Json out;
         for (const auto& [name, s] : stages.per_frame) out["per_frame_ms"][name] = s.json();
         for (const auto& [name, s] : stages.per_person) out["per_person_ms"][name] = s.json();
-        std::cout << out.dump(2) << "\n";
+        print_document(out);
     });
 }
 

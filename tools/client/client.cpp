@@ -28,10 +28,9 @@ std::string bone_name(vfit_bone_id bone) {
     return name;
 }
 
-Context open_context(uint32_t flags) {
+Context open_context() {
     vfit_context_desc desc = vfit_context_desc_init();
     desc.api_version = VFIT_VERSION;
-    desc.flags = flags;
     Context context;
     check(vfit_context_create(&desc, context.out()));
     return context;
@@ -76,6 +75,20 @@ vfit_view view_of(vfit_frame frame, vfit_stream stream) {
 bool has_stream(vfit_frame frame, vfit_stream stream) {
     vfit_view view = vfit_view_init();
     return vfit_frame_view(frame, stream, &view) == VFIT_OK;
+}
+
+std::vector<vfit_rig_bone> rig_of(vfit_avatar avatar) {
+    return list<vfit_rig_bone>(
+        [&](auto* items, uint32_t stride, uint32_t* n) { return vfit_avatar_rig(avatar, items, stride, n); });
+}
+
+std::vector<vfit_bone> bones_of(vfit_motion motion, vfit_pose& pose) {
+    return list<vfit_bone>(
+        [&](auto* items, uint32_t stride, uint32_t* n) { return vfit_motion_pose(motion, &pose, items, stride, n); });
+}
+
+void set_pose(vfit_avatar avatar, const vfit_pose& pose, const std::vector<vfit_bone>& bones) {
+    check(vfit_avatar_pose(avatar, &pose, bones.data(), sizeof(vfit_bone), static_cast<uint32_t>(bones.size())));
 }
 
 Point to_camera(const vfit_camera& camera, const float (&world)[3]) {

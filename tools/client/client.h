@@ -1,6 +1,7 @@
 // The C ABI as the tools use it: errors as exceptions, handles that let go of themselves, lists as vectors.
 #pragma once
 
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
@@ -77,16 +78,15 @@ std::string bone_name(vfit_bone_id bone);
 std::string last_error();
 
 /// A context with the settings of the command line.
-Context open_context(uint32_t flags = 0);
+Context open_context();
 
 /// Frames of a recording or sensor, one after the other.
 class Source {
 public:
     Source(vfit_context context, const std::string& uri);
-    /// The next frame, tracked: with bodies where the source supplies them. Nothing at the end.
+    /// The next frame; nothing at the end.
     std::optional<Frame> next();
     uint32_t taken() const { return taken_; }
-    vfit_sensor sensor() const { return sensor_.get(); }
 
 private:
     Sensor sensor_;
@@ -99,6 +99,27 @@ std::vector<vfit_joint> joints_of(vfit_frame frame, uint32_t body_id);
 vfit_camera camera_of(vfit_frame frame);
 vfit_view view_of(vfit_frame frame, vfit_stream stream);
 bool has_stream(vfit_frame frame, vfit_stream stream);
+
+/// A row of an image.
+template <typename T>
+const T* row_of(const vfit_view& view, uint32_t y) {
+    return reinterpret_cast<const T*>(static_cast<const unsigned char*>(view.data) + size_t(y) * view.row_stride);
+}
+
+/// A copy of vertex data.
+template <typename T>
+std::vector<T> items_of(vfit_frame frame, vfit_stream stream) {
+    const vfit_view view = view_of(frame, stream);
+    std::vector<T> items(view.width);
+    for (size_t i = 0; i < items.size(); ++i)
+        std::memcpy(&items[i], static_cast<const unsigned char*>(view.data) + i * view.item_stride, sizeof(T));
+    return items;
+}
+
+std::vector<vfit_rig_bone> rig_of(vfit_avatar avatar);
+/// The bones of the pose as it is now; the rest of it in `pose`.
+std::vector<vfit_bone> bones_of(vfit_motion motion, vfit_pose& pose);
+void set_pose(vfit_avatar avatar, const vfit_pose& pose, const std::vector<vfit_bone>& bones);
 
 /// A world-space point in the camera space of that camera.
 struct Point {

@@ -19,12 +19,11 @@ class Fitting {
 public:
     Fitting(vfit_context context, const FittingOptions& options);
 
-    /// The first person-frame, for pictures: the tracked frame the scan ended on.
+    /// The tracked frame that the scan took last, for pictures.
     vfit_frame scan_frame() const { return scan_frame_.get(); }
     const ScanRun& scan() const { return scan_; }
     vfit_avatar avatar() const { return avatar_.get(); }
     vfit_cloth cloth() const { return cloth_.get(); }
-    vfit_motion motion() const { return motion_.get(); }
     uint32_t body_id() const { return scan_.body_id; }
     /// From the last scan frame to the first buffer of the dressed avatar.
     double dress_ms() const { return dress_ms_; }
@@ -33,16 +32,14 @@ public:
     const Json& sizes() const { return sizes_; }
 
     /// Plays the source from its start: each frame moves the avatar and the garment, which runs at 60 Hz.
-    /// on_frame sees the tracked frame and the seconds since the first.
-    void play(const std::function<void(vfit_frame tracked, double time_s)>& on_frame);
+    /// on_frame sees the tracked frame and the seconds since the first, long pauses cut short; false ends the
+    /// play.
+    void play(const std::function<bool(vfit_frame tracked, double time_s)>& on_frame);
     uint32_t frames_played() const { return frames_played_; }
 
 private:
     void dress();
-    std::vector<vfit_bone> bones(vfit_pose& pose) const;
-    /// share: 1 as tracked; 0 standing straight, arms held out.
-    void pose_avatar(float share);
-    void settle();
+    void pose_avatar();
 
     vfit_context context_;
     FittingOptions options_;

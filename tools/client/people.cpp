@@ -1,10 +1,8 @@
 #include "client/people.h"
 
-#include <cmath>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
+
+#include "client/progress.h"
 
 namespace vfit::tools {
 
@@ -12,6 +10,11 @@ namespace {
 
 // A source without end must not be waited on for ever: ten times the frames that are wanted.
 constexpr uint32_t kPatience = 10;
+
+float number_of(const Json& value, const std::string& what) {
+    if (!value.is_number()) throw Failure(what + ": not a number");
+    return value.get<float>();
+}
 
 }  // namespace
 
@@ -41,19 +44,23 @@ ScanRun run_scan(vfit_context context, Source& source, const ScanOptions& option
     check(vfit_scan_create(context, &desc, run.scan.out()));
     vfit_scan_state state = vfit_scan_state_init();
     uint32_t seen = 0;
+    Progress progress("scanning");
     while (auto frame = source.next()) {
         Frame tracked;
         check(vfit_tracker_update(tracker.get(), frame->get(), tracked.out()));
-        run.body_id = first_body(tracked.get());
-        const vfit_result result = check(vfit_scan_add(run.scan.get(), tracked.get(), run.body_id, &state));
+        // Frames of one person alone are averaged, also where somebody else takes their place.
+        const uint32_t body = run.body_id ? run.body_id : first_body(tracked.get());
+        const vfit_result result = check(vfit_scan_add(run.scan.get(), tracked.get(), body, &state));
         run.frames_wanted = state.frames_wanted;
         if (result != VFIT_INCOMPLETE) {
+            run.body_id = body;
             run.compute_ms += state.compute_ms;
             run.last_ms = state.compute_ms;
             run.corrections_m.push_back(state.correction_m);
             if (last_frame) *last_frame = std::move(tracked);
         }
         run.frames_taken = state.frames_taken;
+        progress.at(run.frames_taken, run.frames_wanted);
         if (result == VFIT_OK || ++seen == kPatience * state.frames_wanted) break;
     }
     if (run.frames_taken == 0)
@@ -80,13 +87,16 @@ std::vector<vfit_measurement> measurements_from(const Json& json) {
     std::vector<vfit_measurement> out;
     for (const auto& [key, value] : all.items()) {
         vfit_measurement m = vfit_measurement_init();
-        if (key.size() >= sizeof m.key) throw Failure("\"" + key + "\" is no measure");
+        if (key.size() >= sizeof m.key) throw Failure(key + " is no measure");
         std::memcpy(m.key, key.data(), key.size());
-        const Json& number = value.is_object() && value.contains("value") ? value["value"] : value;
-        if (!number.is_number()) throw Failure(key + ": not a number");
-        m.value = number.get<float>();
-        if (value.is_object() && value.contains("sigma") && value["sigma"].is_number()) m.sigma = value["sigma"];
         m.observed = 1;
+        if (value.is_object()) {
+            m.value = number_of(value.contains("value") ? value["value"] : Json(), key);
+            if (value.contains("sigma")) m.sigma = number_of(value["sigma"], key + ": sigma");
+            if (value.contains("observed")) m.observed = value["observed"] != Json(false);
+        } else {
+            m.value = number_of(value, key);
+        }
         out.push_back(m);
     }
     return out;
@@ -101,20 +111,6 @@ Json sizes_json(vfit_size_chart chart, const std::string& garment_kind,
     Json out = Json::array();
     for (const vfit_size& s : sizes) out.push_back({{"label", s.label}, {"probability", s.probability}});
     return out;
-}
-
-SizeChart open_chart(vfit_context context, const std::string& name_or_path) {
-    SizeChart chart;
-    if (std::filesystem::is_regular_file(name_or_path)) {
-        std::ifstream file(name_or_path, std::ios::binary);
-        std::stringstream text;
-        text << file.rdbuf();
-        const std::string bytes = text.str();
-        check(vfit_size_chart_load(context, bytes.data(), bytes.size(), chart.out()));
-    } else {
-        check(vfit_size_chart_open(context, name_or_path.c_str(), chart.out()));
-    }
-    return chart;
 }
 
 vfit_sex sex_from(const std::string& option) {

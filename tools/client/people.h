@@ -13,11 +13,10 @@ struct ScanOptions {
 struct ScanRun {
     Scan scan;
     uint32_t frames_taken = 0, frames_wanted = 0;
-    uint32_t body_id = 0;
+    uint32_t body_id = 0;                 // who was scanned: the first that a frame was taken of
     double compute_ms = 0.0;              // of all frames taken
     double last_ms = 0.0;                 // of the last: what is left to do when capture ends
     std::vector<float> corrections_m;     // one a frame taken (Fig. 9)
-    bool complete() const { return frames_taken == frames_wanted; }
 };
 
 /// Feeds frames into a scan until it is complete or the source ends. Fails where not one frame could be
@@ -28,14 +27,12 @@ const char* guidance_text(vfit_guidance guidance);
 
 Json measurements_json(const std::vector<vfit_measurement>& measurements);
 std::vector<vfit_measurement> measurements_of(vfit_scan scan);
-/// From measurements_json, or a plain {"stature_m": 1.7}; sigma 0 where it is not given.
+/// From a report of vfit measure, or a plain {"stature_m": 1.7}; sigma 0 where it is not given.
 std::vector<vfit_measurement> measurements_from(const Json& json);
 
 /// [{"label", "probability"}, ...], best first.
 Json sizes_json(vfit_size_chart chart, const std::string& garment_kind,
                 const std::vector<vfit_measurement>& measurements);
-/// A chart by the path of its file, or by name.
-SizeChart open_chart(vfit_context context, const std::string& name_or_path);
 
 vfit_sex sex_from(const std::string& option);
 

@@ -1,5 +1,5 @@
-// The commands of the vfit command line. Each adds itself to the parser; its callback does the work and
-// throws Failure.
+// The commands of the vfit command line. Each adds itself to the parser; its callback does the work, and an
+// exception it throws ends the program (client/program.h).
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,12 +1,13 @@
 // vfit cook: makes a garment file from its design, offline.
-#include <fstream>
+#include <filesystem>
 #include <iostream>
 
 #include "body/body_model.h"
+#include "client/files.h"
+#include "client/output.h"
 #include "commands/commands.h"
 #include "cook/garment_writer.h"
 #include "cook/sundress.h"
-#include "core/error.h"
 #include "core/files.h"
 #include "core/platform.h"
 
@@ -19,17 +20,21 @@ struct Options {
     bool json = false;
 };
 
+/// The body beside the program: of a build, or of an installation with its own name for lib.
+std::string default_body() {
+    const std::string prefix = library_folder() + "/../", file = "/vfit_data/body.bin";
+    const std::string built = prefix + "lib" + file;
+    return std::filesystem::exists(built) ? built : prefix + VFIT_LIBDIR + file;
+}
+
 void cook(const Options& options) {
-    // Beside the program when it is installed or built: bin/ and lib/ are neighbours.
-    const std::string body = options.body.empty() ? library_folder() + "/../lib/vfit_data/body.bin" : options.body;
-    const auto model = BodyModel::load(body);
-    const Garment garment = cook_sundress(*model, parse_sundress(read_file(options.design)));
-    std::ofstream file(options.out, std::ios::binary);
-    file << write_garment(garment);
-    if (!file.flush()) fail(VFIT_ERROR_IO, options.out, ": cannot be written");
+    const auto model = BodyModel::load(options.body.empty() ? default_body() : options.body);
+    const vfit::Garment garment = cook_sundress(*model, parse_sundress(read_file(options.design)));
+    write_text(options.out, write_garment(garment));
     if (options.json)
-        std::cout << "{\"garment\": \"" << garment.name << "\", \"vertices\": " << garment.vertex_count()
-                  << ", \"simulated\": " << garment.simulated_count() << "}\n";
+        print_document({{"garment", garment.name},
+                        {"vertices", garment.vertex_count()},
+                        {"simulated", garment.simulated_count()}});
     else
         std::cout << garment.name << ": " << garment.vertex_count() << " vertices, " << garment.simulated_count()
                   << " of them simulated, in " << options.out << "\n";

@@ -1,11 +1,12 @@
 // vfit fit: the whole chain on one source; leaves result.json, pictures and an animated GLB.
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 
+#include "client/files.h"
 #include "client/fitting.h"
+#include "client/output.h"
+#include "client/progress.h"
 #include "commands/commands.h"
 #include "export/glb.h"
 #include "picture/contact_sheet.h"
@@ -17,9 +18,9 @@ namespace vfit::tools {
 namespace {
 
 constexpr PortraitStyle kFine{620, 930, 3}, kDraft{310, 465, 1};
-constexpr size_t kPortraits = 4;                           // moments of the motion
-constexpr double kKeyInterval_s = 0.1;                     // of the GLB's key frames
-constexpr size_t kMaxKeys = 80;
+constexpr size_t kPortraits = 4;        // moments of the motion
+constexpr double kKeyInterval_s = 0.1;  // of the GLB's key frames
+constexpr double kLength_s = 8.0;       // a key frame is a morph target of the garment, and a sensor may have no end
 
 struct Options {
     FittingOptions fitting;
@@ -55,7 +56,7 @@ int depth_scale(vfit_frame frame) { return view_of(frame, VFIT_STREAM_DEPTH).wid
 
 class Album {
 public:
-    explicit Album(std::string folder) : folder_(std::move(folder)) { std::filesystem::create_directories(folder_); }
+    explicit Album(std::string folder) : folder_(std::move(folder)) { create_folder(folder_); }
     void add(const std::string& name, const Canvas& picture) {
         picture.write_png(folder_ + "/" + name);
         names_.push_back(name);
@@ -114,7 +115,9 @@ void draw_all(Album& album, const Fitting& fitting, const std::vector<Moment>& m
     album.add("skeleton.png", skeleton);
     std::vector<std::vector<SheetItem>> rows(2);
     rows[0] = {{depth, "depth and user map"}, {skeleton, "joints and collision spheres of the scan"}};
+    Progress progress("drawing");
     for (size_t k = 0; k < moments.size(); ++k) {
+        progress.at(k, moments.size() + 1);
         const Canvas picture = draw_dressed(moments[k].meshes, moments[k].centre, 0.35f, style);
         album.add("dressed_" + std::to_string(k) + ".png", picture);
         char caption[32];
@@ -130,31 +133,38 @@ void draw_all(Album& album, const Fitting& fitting, const std::vector<Moment>& m
 
 std::string title_of(const Json& result) {
     char text[160];
-    const auto& m = result["measurements"];
+    const auto centimetres = [&](const char* key) {
+        return 100.0 * result.at("measurements").at(key).at("value").get<double>();
+    };
+    const Json& best = result.at("sizes").at(0);
     std::snprintf(text, sizeof text, "%s: %.1f cm tall, shoulders %.1f cm, size %s (%.0f %%)",
-                  result["garment"].get<std::string>().c_str(), 100.0 * m["stature_m"]["value"].get<double>(),
-                  100.0 * m["shoulder_breadth_m"]["value"].get<double>(),
-                  result["sizes"][0]["label"].get<std::string>().c_str(),
-                  100.0 * result["sizes"][0]["probability"].get<double>());
+                  result.at("garment").get<std::string>().c_str(), centimetres("stature_m"),
+                  centimetres("shoulder_breadth_m"), best.at("label").get<std::string>().c_str(),
+                  100.0 * best.at("probability").get<double>());
     return text;
 }
 
 Json fit(const Options& options) {
+    Album album(options.out);
     const Context context = open_context();
     FittingOptions chain = options.fitting;
     chain.scan.sex = sex_from(options.sex);
     Fitting fitting(context.get(), chain);
     GlbAnimation animation(fitting.avatar(), fitting.cloth());
     std::vector<Moment> moments;
-    size_t keys = 0;
-    fitting.play([&](vfit_frame, double time_s) {
-        if (time_s < double(keys) * kKeyInterval_s || keys == kMaxKeys) return;
-        animation.add_key(static_cast<float>(time_s));
-        ++keys;
-        Moment moment{time_s, dressed_meshes(fitting.avatar(), fitting.cloth()), {}};
-        moment.centre = centre_of(moment.meshes[0]);
-        moments.push_back(std::move(moment));
-    });
+    {
+        Progress progress("moving");
+        fitting.play([&](vfit_frame, double time_s) {
+            progress.at(fitting.frames_played(), chain.max_frames);
+            if (time_s >= kLength_s) return false;
+            if (time_s < double(moments.size()) * kKeyInterval_s) return true;
+            animation.add_key(static_cast<float>(time_s));
+            Moment moment{time_s, dressed_meshes(fitting.avatar(), fitting.cloth()), {}};
+            moment.centre = centre_of(moment.meshes[0]);
+            moments.push_back(std::move(moment));
+            return true;
+        });
+    }
 
     Json result;
     result["source"] = chain.source;
@@ -172,14 +182,11 @@ Json fit(const Options& options) {
     result["dress_ms"] = fitting.dress_ms();
     result["stage_ms"] = timings(context.get());
 
-    Album album(options.out);
     draw_all(album, fitting, choose(moments), title_of(result), options.draft ? kDraft : kFine);
     animation.write(album.path("avatar.glb"));
     result["pictures"] = album.names();
     result["animation"] = "avatar.glb";
-    std::ofstream file(album.path("result.json"));
-    file << result.dump(2) << "\n";
-    if (!file.flush()) throw Failure(album.path("result.json") + ": cannot be written");
+    write_text(album.path("result.json"), document_text(result));
     return result;
 }
 
@@ -190,12 +197,13 @@ void add_fit(CLI::App& app) {
     auto o = std::make_shared<Options>();
     o->fitting.chart = "paper";
     command->add_option("source", o->fitting.source, "Recording folder or sensor URI")->required();
-    command->add_option("--garment", o->fitting.garment, "Garment by name (default sundress)");
+    command->add_option("--garment", o->fitting.garment, "Garment by name or file (default sundress)");
     command->add_option("--size", o->fitting.size, "A label of the garment; default: made to measure");
     command->add_option("--chart", o->fitting.chart, "Size chart by name or file (default paper)");
     command->add_option("--sex", o->sex, "Whose default body: f, m or unknown")
         ->check(CLI::IsMember({"f", "m", "unknown"}));
-    command->add_option("--frames", o->fitting.max_frames, "Play that many frames at most");
+    command->add_option("--frames", o->fitting.max_frames, "Play that many frames at most (8 seconds at most)")
+        ->check(CLI::PositiveNumber);
     command->add_option("--detail", o->fitting.detail, "Level of detail of the avatar: 0, 1 or 2")
         ->check(CLI::Range(0, 2));
     command->add_option("--out", o->out, "Folder for the results")->required();
@@ -206,7 +214,7 @@ void add_fit(CLI::App& app) {
     command->callback([o] {
         const Json result = fit(*o);
         if (o->json)
-            std::cout << result.dump(2) << "\n";
+            print_document(result);
         else
             std::cout << title_of(result) << "\nin " << o->out << ": result.json, contact_sheet.png, avatar.glb, "
                       << result["pictures"].size() - 1 << " pictures\n";

@@ -1,7 +1,7 @@
 // vfit info: version, build, SIMD level, plug-ins and sensors.
 #include <iostream>
 
-#include "client/client.h"
+#include "client/output.h"
 #include "commands/commands.h"
 
 namespace vfit::tools {
@@ -52,7 +52,7 @@ void add_info(CLI::App& app) {
     command->callback([json] {
         const Json info = describe();
         if (*json)
-            std::cout << info.dump(2) << "\n";
+            print_document(info);
         else
             print(info);
     });

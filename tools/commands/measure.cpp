@@ -2,6 +2,7 @@
 #include <iomanip>
 #include <iostream>
 
+#include "client/output.h"
 #include "client/people.h"
 #include "commands/commands.h"
 
@@ -73,7 +74,7 @@ void add_measure(CLI::App& app) {
     command->callback([o] {
         const Json result = measure(*o);
         if (o->json)
-            std::cout << result.dump(2) << "\n";
+            print_document(result);
         else
             print(result);
     });

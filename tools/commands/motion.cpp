@@ -2,7 +2,8 @@
 #include <chrono>
 #include <iostream>
 
-#include "client/client.h"
+#include "client/output.h"
+#include "client/progress.h"
 #include "commands/commands.h"
 
 namespace vfit::tools {
@@ -22,9 +23,7 @@ struct Step {
 
 Step read_step(vfit_motion motion) {
     Step step;
-    step.bones = list<vfit_bone>([&](auto* items, uint32_t stride, uint32_t* n) {
-        return vfit_motion_pose(motion, &step.pose, items, stride, n);
-    });
+    step.bones = bones_of(motion, step.pose);
     step.joints = list<vfit_joint>(
         [&](auto* items, uint32_t stride, uint32_t* n) { return vfit_motion_joints(motion, items, stride, n); });
     return step;
@@ -58,6 +57,7 @@ void motion(const Options& options) {
     Motion motion;
     check(vfit_motion_create(context.get(), &desc, motion.out()));
     uint32_t body = 0;
+    Progress progress("frames", true);
     while (const auto frame = source.next()) {
         Frame tracked;
         check(vfit_tracker_update(tracker.get(), frame->get(), tracked.out()));
@@ -67,13 +67,14 @@ void motion(const Options& options) {
         const vfit_result result = check(vfit_motion_step(motion.get(), tracked.get(), body, depth.time_ns));
         const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         const uint32_t index = source.taken() - 1;
+        progress.at(source.taken(), 0);
         if (result == VFIT_NOT_READY) {
             if (!options.json) std::cout << "frame " << index << ": nobody\n";
             continue;
         }
         const Step step = read_step(motion.get());
         if (options.json)
-            std::cout << step_json(step, camera_of(tracked.get()), index, ms).dump() << "\n";
+            print_line(step_json(step, camera_of(tracked.get()), index, ms));
         else
             std::cout << "frame " << index << ": contacts " << (step.pose.contact_flags & VFIT_CONTACT_LEFT ? "L" : "-")
                       << (step.pose.contact_flags & VFIT_CONTACT_RIGHT ? "R" : "-") << "\n";

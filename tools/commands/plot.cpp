@@ -2,7 +2,9 @@
 // the planted foot.
 #include <iostream>
 
+#include "client/output.h"
 #include "client/people.h"
+#include "client/progress.h"
 #include "commands/commands.h"
 #include "picture/line_plot.h"
 
@@ -10,15 +12,17 @@ namespace vfit::tools {
 
 namespace {
 
+constexpr uint32_t kFeetFrames = 300;
+
 struct Options {
     std::string source, what, out;
-    uint32_t frames = 300;
+    uint32_t frames = 0;
     bool json = false;
 };
 
 Curve depth_correction(vfit_context context, const Options& options) {
     Source source(context, options.source);
-    const ScanRun run = run_scan(context, source, {});
+    const ScanRun run = run_scan(context, source, {options.frames});
     Curve curve{"Depth map correction (Fig. 9)", "frame", "mean absolute change, mm", {}};
     for (size_t i = 0; i < run.corrections_m.size(); ++i)
         curve.points.emplace_back(float(i), 1000.0f * run.corrections_m[i]);
@@ -34,7 +38,10 @@ Curve foot_correction(vfit_context context, const Options& options) {
     Curve curve{"Displacement of the planted foot (Fig. 11)", "s", "corrected displacement, mm", {}};
     int64_t first_ns = -1;
     uint32_t body = 0;
-    while (source.taken() < options.frames) {
+    const uint32_t wanted = options.frames ? options.frames : kFeetFrames;
+    Progress progress("frames");
+    while (source.taken() < wanted) {
+        progress.at(source.taken(), wanted);
         const auto frame = source.next();
         if (!frame) break;
         Frame tracked;
@@ -61,7 +68,7 @@ void plot(const Options& options) {
     for (const auto& p : curve.points) sum += p.second;
     const double mean = sum / double(curve.points.size());
     if (options.json)
-        std::cout << Json{{"plot", options.out}, {"points", curve.points.size()}, {"mean_m", 1e-3 * mean}}.dump() << "\n";
+        print_document({{"plot", options.out}, {"points", curve.points.size()}, {"mean_m", 1e-3 * mean}});
     else
         std::cout << curve.title << ": mean " << mean << " mm over " << curve.points.size() << " frames, in "
                   << options.out << "\n";
@@ -77,7 +84,8 @@ void add_plot(CLI::App& app) {
         ->required()
         ->check(CLI::IsMember({"depth", "feet"}));
     command->add_option("--out", o->out, "PNG file to write")->required();
-    command->add_option("--frames", o->frames, "Stop after that many frames (default 300)");
+    command->add_option("--frames", o->frames, "Frames to scan (default 30), or to follow the feet for (default 300)")
+        ->check(CLI::Range(1, 3000));
     command->add_flag("--json", o->json, "Print JSON");
     command->callback([o] { plot(*o); });
 }

@@ -1,7 +1,8 @@
 // vfit record: writes what a sensor sees as a recording folder.
 #include <iostream>
 
-#include "client/client.h"
+#include "client/output.h"
+#include "client/progress.h"
 #include "commands/commands.h"
 
 namespace vfit::tools {
@@ -21,13 +22,15 @@ void record(const Options& options) {
     desc.sensor_name = options.source.c_str();
     Recorder recorder;
     check(vfit_recorder_create(context.get(), options.out.c_str(), &desc, recorder.out()));
+    Progress progress("recording");
     while (options.frames == 0 || source.taken() < options.frames) {
         const auto frame = source.next();
         if (!frame) break;
         check(vfit_recorder_write(recorder.get(), frame->get()));
+        progress.at(source.taken(), options.frames);
     }
     if (options.json)
-        std::cout << Json{{"recording", options.out}, {"frames", source.taken()}}.dump() << "\n";
+        print_document({{"recording", options.out}, {"frames", source.taken()}});
     else
         std::cout << source.taken() << " frames in " << options.out << "\n";
 }
@@ -39,7 +42,8 @@ void add_record(CLI::App& app) {
     auto o = std::make_shared<Options>();
     command->add_option("source", o->source, "Sensor URI or recording folder")->required();
     command->add_option("out", o->out, "Folder to write; must be new or empty")->required();
-    command->add_option("--frames", o->frames, "Stop after that many frames (default: at the end)");
+    command->add_option("--frames", o->frames, "Stop after that many frames (default: at the end)")
+        ->check(CLI::PositiveNumber);
     command->add_flag("--json", o->json, "Print JSON");
     command->callback([o] { record(*o); });
 }

@@ -1,8 +1,10 @@
 // vfit size: labels with probabilities from a file of measures.
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 
+#include "client/assets.h"
+#include "client/files.h"
+#include "client/output.h"
 #include "client/people.h"
 #include "commands/commands.h"
 
@@ -16,9 +18,7 @@ struct Options {
 };
 
 Json size(const Options& options) {
-    std::ifstream file(options.measures);
-    if (!file) throw Failure(options.measures + ": cannot be read");
-    const Json document = Json::parse(file, nullptr, false);
+    const Json document = Json::parse(read_text(options.measures), nullptr, false);
     if (document.is_discarded()) throw Failure(options.measures + ": not JSON");
     const Context context = open_context();
     const SizeChart chart = open_chart(context.get(), options.chart);
@@ -41,7 +41,7 @@ void add_size(CLI::App& app) {
     command->callback([o] {
         const Json result = size(*o);
         if (o->json) {
-            std::cout << result.dump(2) << "\n";
+            print_document(result);
             return;
         }
         for (const Json& s : result["sizes"])

@@ -1,10 +1,10 @@
 // vfit track: the bodies of each frame, as JSON lines in the recording's camera space.
 #include <chrono>
-#include <filesystem>
-#include <iomanip>
 #include <iostream>
 
-#include "client/client.h"
+#include "client/files.h"
+#include "client/output.h"
+#include "client/progress.h"
 #include "commands/commands.h"
 #include "picture/canvas.h"
 
@@ -39,9 +39,11 @@ void track(const Options& options) {
     Source source(context.get(), options.source);
     Tracker tracker;
     check(vfit_tracker_create(context.get(), nullptr, tracker.out()));
-    if (!options.map_folder.empty()) std::filesystem::create_directories(options.map_folder);
+    if (!options.map_folder.empty()) create_folder(options.map_folder);
+    Progress progress("frames", true);
     while (const auto frame = source.next()) {
         const uint32_t index = source.taken() - 1;
+        progress.at(source.taken(), 0);
         const auto start = std::chrono::steady_clock::now();
         Frame tracked;
         check(vfit_tracker_update(tracker.get(), frame->get(), tracked.out()));
@@ -49,7 +51,7 @@ void track(const Options& options) {
         if (!options.map_folder.empty()) write_user_map(tracked.get(), options.map_folder, index);
         const Json bodies = bodies_json(tracked.get());
         if (options.json)
-            std::cout << Json{{"frame", index}, {"bodies", bodies}, {"ms", ms}}.dump() << "\n";
+            print_line({{"frame", index}, {"bodies", bodies}, {"ms", ms}});
         else
             std::cout << "frame " << index << ": " << bodies.size() << (bodies.size() == 1 ? " body\n" : " bodies\n");
     }

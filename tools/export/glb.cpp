@@ -4,9 +4,8 @@
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #include <tiny_gltf.h>
 
-#include <cstring>
+#include <algorithm>
 #include <glm/gtc/quaternion.hpp>
-#include <map>
 
 namespace vfit::tools {
 
@@ -15,13 +14,6 @@ namespace {
 using glm::mat4;
 using glm::quat;
 using glm::vec3;
-
-template <typename T>
-std::vector<T> stream(vfit_frame frame, vfit_stream kind) {
-    const vfit_view view = view_of(frame, kind);
-    const auto* data = static_cast<const T*>(view.data);
-    return {data, data + size_t(view.width) * view.height};
-}
 
 /// Builds one GLB with a single binary buffer.
 class Writer {
@@ -130,8 +122,8 @@ std::vector<double> values(const quat& q) { return {q.x, q.y, q.z, q.w}; }
 void add_skin_attributes(Writer& writer, tinygltf::Primitive& primitive, vfit_frame rest) {
     struct Bones { uint16_t bone[8]; };
     struct Weights { float weight[8]; };
-    const auto bones = stream<Bones>(rest, VFIT_STREAM_SKIN_BONES);
-    const auto weights = stream<Weights>(rest, VFIT_STREAM_SKIN_WEIGHTS);
+    const auto bones = items_of<Bones>(rest, VFIT_STREAM_SKIN_BONES);
+    const auto weights = items_of<Weights>(rest, VFIT_STREAM_SKIN_WEIGHTS);
     for (int set = 0; set < 2; ++set) {
         std::vector<uint16_t> b;
         std::vector<float> w;
@@ -163,10 +155,8 @@ void add_channel(tinygltf::Animation& animation, int node, const char* path, int
 
 }  // namespace
 
-GlbAnimation::GlbAnimation(vfit_avatar avatar, vfit_cloth cloth) : avatar_(avatar), cloth_(cloth) {
-    rig_ = list<vfit_rig_bone>(
-        [&](auto* items, uint32_t stride, uint32_t* n) { return vfit_avatar_rig(avatar, items, stride, n); });
-}
+GlbAnimation::GlbAnimation(vfit_avatar avatar, vfit_cloth cloth)
+    : avatar_(avatar), cloth_(cloth), rig_(rig_of(avatar)) {}
 
 void GlbAnimation::add_key(float time_s) {
     Frame body, garment;
@@ -174,9 +164,9 @@ void GlbAnimation::add_key(float time_s) {
     check(vfit_cloth_acquire(cloth_, garment.out()));
     GlbKey key;
     key.time_s = time_s;
-    key.bone_matrices = stream<mat4>(body.get(), VFIT_STREAM_BONE_MATRIX);
-    key.garment_positions = stream<vec3>(garment.get(), VFIT_STREAM_POSITION);
-    key.garment_normals = stream<vec3>(garment.get(), VFIT_STREAM_NORMAL);
+    key.bone_matrices = items_of<mat4>(body.get(), VFIT_STREAM_BONE_MATRIX);
+    key.garment_positions = items_of<vec3>(garment.get(), VFIT_STREAM_POSITION);
+    key.garment_normals = items_of<vec3>(garment.get(), VFIT_STREAM_NORMAL);
     keys_.push_back(std::move(key));
 }
 
@@ -245,13 +235,13 @@ void GlbAnimation::write(const std::string& path) const {
     tinygltf::Primitive body;
     body.mode = TINYGLTF_MODE_TRIANGLES;
     body.material = skin_material;
-    body.attributes["POSITION"] = writer.add_vectors(stream<vec3>(rest.get(), VFIT_STREAM_POSITION), true);
-    body.attributes["NORMAL"] = writer.add_vectors(stream<vec3>(rest.get(), VFIT_STREAM_NORMAL), false);
+    body.attributes["POSITION"] = writer.add_vectors(items_of<vec3>(rest.get(), VFIT_STREAM_POSITION), true);
+    body.attributes["NORMAL"] = writer.add_vectors(items_of<vec3>(rest.get(), VFIT_STREAM_NORMAL), false);
     body.attributes["TEXCOORD_0"] =
-        writer.add(stream<glm::vec2>(rest.get(), VFIT_STREAM_UV), TINYGLTF_TYPE_VEC2, TINYGLTF_COMPONENT_TYPE_FLOAT,
+        writer.add(items_of<glm::vec2>(rest.get(), VFIT_STREAM_UV), TINYGLTF_TYPE_VEC2, TINYGLTF_COMPONENT_TYPE_FLOAT,
                    TINYGLTF_TARGET_ARRAY_BUFFER);
     add_skin_attributes(writer, body, rest.get());
-    body.indices = writer.add_indices(stream<uint32_t>(rest.get(), VFIT_STREAM_INDEX));
+    body.indices = writer.add_indices(items_of<uint32_t>(rest.get(), VFIT_STREAM_INDEX));
     body_mesh.primitives.push_back(body);
     model.meshes.push_back(body_mesh);
 
@@ -262,7 +252,7 @@ void GlbAnimation::write(const std::string& path) const {
     cloth.material = cloth_material;
     cloth.attributes["POSITION"] = writer.add_vectors(keys_[0].garment_positions, true);
     cloth.attributes["NORMAL"] = writer.add_vectors(keys_[0].garment_normals, false);
-    cloth.indices = writer.add_indices(stream<uint32_t>(garment.get(), VFIT_STREAM_INDEX));
+    cloth.indices = writer.add_indices(items_of<uint32_t>(garment.get(), VFIT_STREAM_INDEX));
     const size_t targets = keys_.size() - 1;
     for (size_t k = 1; k < keys_.size(); ++k) {
         std::vector<vec3> moved(keys_[k].garment_positions.size()), turned(moved.size());

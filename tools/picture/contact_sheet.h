@@ -13,7 +13,8 @@ struct SheetItem {
     std::string caption;
 };
 
-/// `title` over rows of `columns` pictures, each `cell_height` pixels high, its width by its own shape.
+/// `title` over rows of pictures, each as wide as its own shape wants. The widest row is `cell_height` pixels high;
+/// the others grow to its width.
 Canvas contact_sheet(const std::string& title, const std::vector<std::vector<SheetItem>>& rows, int cell_height);
 
 }  // namespace vfit::tools

@@ -87,23 +87,23 @@ Color side_color(vfit_joint_id joint) {
 
 Canvas draw_depth(vfit_frame frame, int scale) {
     const vfit_view depth = view_of(frame, VFIT_STREAM_DEPTH);
-    const auto* d = static_cast<const uint16_t*>(depth.data);
-    const uint8_t* users = nullptr;
-    if (has_stream(frame, VFIT_STREAM_USER_MAP))
-        users = static_cast<const uint8_t*>(view_of(frame, VFIT_STREAM_USER_MAP).data);
-    const int w = static_cast<int>(depth.width), h = static_cast<int>(depth.height);
+    vfit_view map = vfit_view_init();
+    if (has_stream(frame, VFIT_STREAM_USER_MAP)) map = view_of(frame, VFIT_STREAM_USER_MAP);
+    const auto is_person = [&](uint32_t x, uint32_t y) { return map.data && row_of<uint8_t>(map, y)[x]; };
     std::vector<uint16_t> of_room, of_person;
-    for (size_t i = 0; i < size_t(w) * h; ++i)
-        if (d[i]) (users && users[i] ? of_person : of_room).push_back(d[i]);
+    for (uint32_t y = 0; y < depth.height; ++y)
+        for (uint32_t x = 0; x < depth.width; ++x)
+            if (const uint16_t d = row_of<uint16_t>(depth, y)[x]) (is_person(x, y) ? of_person : of_room).push_back(d);
     const Range room = depth_range(std::move(of_room), 0.01), body = depth_range(std::move(of_person), 0.08);
-    Canvas canvas(w * scale, h * scale);
-    for (int y = 0; y < h * scale; ++y)
-        for (int x = 0; x < w * scale; ++x) {
-            const size_t i = size_t(y / scale) * w + x / scale;
-            if (d[i] == 0) continue;
-            const bool person = users && users[i];
+    Canvas canvas(static_cast<int>(depth.width) * scale, static_cast<int>(depth.height) * scale);
+    for (int y = 0; y < canvas.height(); ++y)
+        for (int x = 0; x < canvas.width(); ++x) {
+            const auto column = static_cast<uint32_t>(x / scale), row = static_cast<uint32_t>(y / scale);
+            const uint16_t d = row_of<uint16_t>(depth, row)[column];
+            if (d == 0) continue;
+            const bool person = is_person(column, row);
             const Range& range = person ? body : room;
-            const float s = std::clamp((d[i] - range.near) / (range.far - range.near), 0.0f, 1.0f);
+            const float s = std::clamp((d - range.near) / (range.far - range.near), 0.0f, 1.0f);
             canvas.set(x, y, person ? person_color(s) : room_color(s));
         }
     return canvas;

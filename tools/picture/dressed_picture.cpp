@@ -12,18 +12,11 @@ constexpr Color kSkin{0.86f, 0.67f, 0.56f};
 constexpr Color kCloth{0.80f, 0.27f, 0.30f};
 constexpr float kClothSheen = 0.35f;
 
-template <typename T>
-std::vector<T> stream(vfit_frame frame, vfit_stream kind) {
-    const vfit_view view = view_of(frame, kind);
-    const auto* data = static_cast<const T*>(view.data);
-    return {data, data + size_t(view.width) * view.height};
-}
-
 RenderMesh mesh_of(vfit_frame frame, const Color& color) {
     RenderMesh mesh;
-    mesh.positions = stream<glm::vec3>(frame, VFIT_STREAM_POSITION);
-    mesh.normals = stream<glm::vec3>(frame, VFIT_STREAM_NORMAL);
-    mesh.indices = stream<uint32_t>(frame, VFIT_STREAM_INDEX);
+    mesh.positions = items_of<glm::vec3>(frame, VFIT_STREAM_POSITION);
+    mesh.normals = items_of<glm::vec3>(frame, VFIT_STREAM_NORMAL);
+    mesh.indices = items_of<uint32_t>(frame, VFIT_STREAM_INDEX);
     mesh.color = color;
     return mesh;
 }
@@ -36,13 +29,12 @@ bool of_arm_or_head(vfit_bone_id bone) {
 
 /// 0 for vertices that arms and head carry most: they only come near the garment.
 std::vector<uint8_t> coverable(vfit_avatar avatar, vfit_frame body) {
-    const auto rig = list<vfit_rig_bone>(
-        [&](auto* items, uint32_t stride, uint32_t* n) { return vfit_avatar_rig(avatar, items, stride, n); });
+    const auto rig = rig_of(avatar);
     std::vector<uint8_t> bone_ok(rig.size(), 1);
     for (size_t i = 0; i < rig.size(); ++i)
         bone_ok[i] = !of_arm_or_head(rig[i].bone) && (rig[i].parent < 0 || bone_ok[size_t(rig[i].parent)]);
     struct Bones { uint16_t bone[8]; };
-    const auto bones = stream<Bones>(body, VFIT_STREAM_SKIN_BONES);
+    const auto bones = items_of<Bones>(body, VFIT_STREAM_SKIN_BONES);
     std::vector<uint8_t> out;
     for (const Bones& b : bones) out.push_back(bone_ok[b.bone[0]]);  // heaviest first
     return out;

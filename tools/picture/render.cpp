@@ -1,11 +1,10 @@
 #include "picture/render.h"
 
-#include <embree3/rtcore.h>
-
 #include <atomic>
 #include <cmath>
-#include <memory>
 #include <thread>
+
+#include "picture/ray_scene.h"
 
 namespace vfit::tools {
 
@@ -15,6 +14,7 @@ using glm::vec3;
 
 constexpr float kPi = 3.14159265f;
 constexpr float kFar = 100.0f;       // m
+constexpr float kShadowReach = 3.0f; // m, farther things throw no shadow
 constexpr float kOffset = 1e-4f;     // m, off the surface that a shadow ray leaves
 constexpr int kShadowRays = 3, kSkyRays = 5;  // a primary ray
 const vec3 kKeyLight = glm::normalize(vec3(-0.45f, 0.85f, 0.75f));
@@ -62,30 +62,10 @@ vec3 backdrop(const vec3& direction) {
 
 class Scene {
 public:
-    explicit Scene(const std::vector<RenderMesh>& meshes)
-        : meshes_(meshes), device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
-        for (const RenderMesh& mesh : meshes_) {
-            RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-            auto* vertices = static_cast<vec3*>(
-                rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3),
-                                        mesh.positions.size()));
-            std::copy(mesh.positions.begin(), mesh.positions.end(), vertices);
-            auto* indices = static_cast<uint32_t*>(
-                rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t),
-                                        mesh.indices.size() / 3));
-            std::copy(mesh.indices.begin(), mesh.indices.end(), indices);
-            rtcCommitGeometry(geometry);
-            rtcAttachGeometry(scene_, geometry);
-            rtcReleaseGeometry(geometry);
-        }
-        rtcCommitScene(scene_);
+    explicit Scene(const std::vector<RenderMesh>& meshes) : meshes_(meshes) {
+        for (const RenderMesh& mesh : meshes_) rays_.add(mesh.positions, mesh.indices);
+        rays_.commit();
     }
-    ~Scene() {
-        rtcReleaseScene(scene_);
-        rtcReleaseDevice(device_);
-    }
-    Scene(const Scene&) = delete;
-    Scene& operator=(const Scene&) = delete;
 
     struct Surface {
         vec3 point, normal, albedo;
@@ -93,17 +73,12 @@ public:
     };
 
     bool hit(const vec3& origin, const vec3& direction, Surface& out) const {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        RTCRayHit query{};
-        query.ray = ray(origin, direction, kFar);
-        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect1(scene_, &context, &query);
-        if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-        const RenderMesh& mesh = meshes_[query.hit.geomID];
-        const uint32_t* t = &mesh.indices[3 * size_t(query.hit.primID)];
-        const float u = query.hit.u, v = query.hit.v, w = 1.0f - u - v;
-        out.point = origin + direction * query.ray.tfar;
+        const auto found = rays_.first_hit(origin, direction, kFar);
+        if (!found) return false;
+        const RenderMesh& mesh = meshes_[found->mesh];
+        const uint32_t* t = &mesh.indices[3 * size_t(found->triangle)];
+        const float u = found->u, v = found->v, w = 1.0f - u - v;
+        out.point = origin + direction * found->distance;
         out.normal = glm::normalize(mesh.normals[t[0]] * w + mesh.normals[t[1]] * u + mesh.normals[t[2]] * v);
         if (glm::dot(out.normal, direction) > 0.0f) out.normal = -out.normal;  // the inside of a cloth
         out.albedo = linear(mesh.color);
@@ -114,14 +89,6 @@ public:
         return true;
     }
 
-    bool blocked(const vec3& origin, const vec3& direction) const {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        RTCRay query = ray(origin, direction, 3.0f);
-        rtcOccluded1(scene_, &context, &query);
-        return query.tfar < 0.0f;
-    }
-
     vec3 light(const Surface& s, const vec3& towards_eye, Noise& noise) const {
         const vec3 start = s.point + s.normal * kOffset;
         float key = 0.0f;
@@ -129,13 +96,13 @@ public:
             const vec3 spread(noise.next() - 0.5f, noise.next() - 0.5f, noise.next() - 0.5f);
             const vec3 to_light = glm::normalize(kKeyLight + spread * (2.0f * kKeySpread));
             const float cosine = glm::dot(s.normal, to_light);
-            if (cosine > 0.0f && !blocked(start, to_light)) key += cosine;
+            if (cosine > 0.0f && !rays_.blocked(start, to_light, kShadowReach)) key += cosine;
         }
         float sky = 0.0f;
         for (int i = 0; i < kSkyRays; ++i) {
             const vec3 direction = cosine_direction(s.normal, noise);
             // Light from below is what the floor sends back.
-            if (!blocked(start, direction)) sky += direction.y > 0.0f ? 1.0f : 0.45f;
+            if (!rays_.blocked(start, direction, kShadowReach)) sky += direction.y > 0.0f ? 1.0f : 0.45f;
         }
         const float grazing = std::pow(1.0f - glm::clamp(glm::dot(s.normal, towards_eye), 0.0f, 1.0f), 4.0f);
         const vec3 diffuse = kKeyColor * (key / kShadowRays) + kSkyColor * (sky / kSkyRays);
@@ -143,22 +110,8 @@ public:
     }
 
 private:
-    static RTCRay ray(const vec3& o, const vec3& d, float far) {
-        RTCRay r{};
-        r.org_x = o.x;
-        r.org_y = o.y;
-        r.org_z = o.z;
-        r.dir_x = d.x;
-        r.dir_y = d.y;
-        r.dir_z = d.z;
-        r.tfar = far;
-        r.mask = ~0u;
-        return r;
-    }
-
     const std::vector<RenderMesh>& meshes_;
-    RTCDevice device_;
-    RTCScene scene_;
+    RayScene rays_;
 };
 
 class Camera {

@@ -1,0 +1,14 @@
+// Size charts and garments: by name those that come with vfit, by path one's own.
+#pragma once
+
+#include <string>
+
+#include "client/client.h"
+
+namespace vfit::tools {
+
+/// A path has a slash in it or ends in ".json"; anything else is a name.
+SizeChart open_chart(vfit_context context, const std::string& name_or_path);
+Garment open_garment(vfit_context context, const std::string& name_or_path);
+
+}  // namespace vfit::tools
