@@ -1,6 +1,7 @@
 // Reads the baked body binary. Nothing in it is trusted: sizes and indices are checked before they are used.
 #include "body/body_data.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -116,18 +117,23 @@ private:
     std::map<std::string, std::span<const std::byte>> sections_;
 };
 
-bool all_finite(const std::vector<float>& values) {
-    for (float x : values)
-        if (!std::isfinite(x)) return false;
-    return true;
+// Bounds that no body comes near; within them no shape adds up to an infinite position.
+constexpr float kFarthest_m = 10.0f;
+constexpr float kLargestValue = 10.0f;  // of a shape parameter
+constexpr float kNearestAnchors = 0.01f;
+
+/// False for NaN as well.
+bool within(const std::vector<float>& values, float bound) {
+    return std::all_of(values.begin(), values.end(), [=](float x) { return std::abs(x) <= bound; });
 }
 
 void read_parameters(const Reader& file, uint32_t count, BodyData& data) {
     for (const ParameterRecord& r : file.array<ParameterRecord>("PARAMS", count)) {
         bool sound = r.anchor_count >= 2 && r.anchor_count <= kMaxAnchors;
         for (uint32_t i = 0; sound && i < r.anchor_count; ++i)
-            sound = std::isfinite(r.anchors[i]) && (i == 0 || r.anchors[i] > r.anchors[i - 1]);
-        sound = sound && std::isfinite(r.minimum) && std::isfinite(r.maximum);
+            sound = std::abs(r.anchors[i]) <= kLargestValue &&
+                    (i == 0 || r.anchors[i] - r.anchors[i - 1] >= kNearestAnchors);
+        sound = sound && std::abs(r.minimum) <= kLargestValue && std::abs(r.maximum) <= kLargestValue;
         for (float value : {r.female, r.male}) sound = sound && value >= r.minimum && value <= r.maximum;
         file.require(sound, "a shape parameter with an unsound range");
         data.parameters.push_back({string_of(r.key), r.minimum, r.maximum, r.female, r.male});
@@ -185,7 +191,8 @@ void read_fields(const Reader& file, const Counts& counts, BodyData& data) {
     }
     data.base = file.array<float>("BASE", size_t(counts.tiles) * kTileFloats);
     data.scales = file.array<float>("SCALES", counts.fields);
-    file.require(all_finite(data.base) && all_finite(data.scales), "numbers that are not finite");
+    file.require(within(data.base, kFarthest_m) && within(data.scales, kFarthest_m / 32767.0f),
+                 "lengths that no body has");
     data.masks = file.array<uint64_t>("MASKS", size_t(counts.fields) * counts.tiles);
     data.offsets = file.array<uint32_t>("OFFSETS", data.masks.size());
     const size_t block_bytes = kBlockFloats * sizeof(int16_t);
@@ -219,6 +226,8 @@ BodyData read_body_data(const std::string& path) {
     data.quads = file.array<Quad>("QUADS", counts.quads);
     data.uv_quads = file.array<Quad>("QUADUVS", counts.quads);
     data.uvs = file.array<Vec2>("UVS", counts.uvs);
+    for (const Vec2& uv : data.uvs)
+        file.require(std::isfinite(uv.x) && std::isfinite(uv.y), "a UV that is not finite");
     check_indices(file, data.quads, counts.vertices, "a face with an unknown vertex");
     check_indices(file, data.uv_quads, counts.uvs, "a face with an unknown UV");
     read_skin(file, data);

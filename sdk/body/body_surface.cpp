@@ -175,6 +175,8 @@ void BodySurface::build(uint32_t index, Level& now) const {
         now.uv_to_next = make_refinement(static_cast<uint32_t>(now.uvs.size()), std::move(uv_quads));
         for (const Refinement::Edge& edge : now.to_next.edges)
             if (edge.right < 0) fail(VFIT_ERROR_DATA, "the body's surface has a hole at vertex ", edge.a);
+        for (uint32_t v = 0; v < out.vertex_count; ++v)
+            if (now.to_next.valence[v] == 0) fail(VFIT_ERROR_DATA, "no face of the body has vertex ", v);
     } else {
         now.positions = {};
         now.uvs = {};

@@ -15,7 +15,7 @@ inline constexpr int kBoneCount = VFIT_BONE_COUNT;
 
 /// "leftUpperArm" for VFIT_BONE_LEFT_UPPER_ARM; null for an unknown id.
 const char* bone_name(int bone);
-/// -1 for hips; parents stand before children.
+/// -1 for hips, -2 for an unknown id; parents stand before children.
 int bone_parent(int bone);
 
 /// Proportions: where each bone starts, from its parent's start, in the T-pose. offset[HIPS] is the

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <random>
+#include <tuple>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -106,9 +107,21 @@ TEST_F(BodyFile, OfAnotherKindOrVersionIsRefused) {
 TEST_F(BodyFile, WithSealedNonsenseIsRefused) {
     const std::pair<const char*, size_t> spots[] = {
         {"COUNTS", 0}, {"COUNTS", 16}, {"COUNTS", 28}, {"QUADS", 0}, {"QUADUVS", 8}, {"SKINBONE", 0},
-        {"SKINWGT", 2}, {"TERMS", 0}, {"TERMS", 4}, {"OFFSETS", 0}, {"SCALES", 0}, {"BASE", 0}};
+        {"SKINWGT", 2}, {"TERMS", 0}, {"TERMS", 4}, {"OFFSETS", 0}, {"SCALES", 0}, {"BASE", 0}, {"UVS", 4}};
     for (const auto& [name, offset] : spots) {
         std::memset(bytes_.data() + section(name) + offset, 0xFF, 4);
+        seal();
+        EXPECT_EQ(load(), VFIT_ERROR_DATA) << name << " + " << offset;
+        bytes_ = read_file(kBodyPath);
+    }
+}
+
+TEST_F(BodyFile, WithNumbersThatNoBodyHasIsRefused) {
+    // Of PARAMS: the end of the first parameter's range, and its second anchor brought up to the first.
+    const std::tuple<const char*, size_t, float> spots[] = {
+        {"BASE", 0, 1e6f}, {"SCALES", 0, 1e30f}, {"PARAMS", 52, 1e30f}, {"PARAMS", 72, 1e-30f}};
+    for (const auto& [name, offset, value] : spots) {
+        std::memcpy(bytes_.data() + section(name) + offset, &value, 4);
         seal();
         EXPECT_EQ(load(), VFIT_ERROR_DATA) << name << " + " << offset;
         bytes_ = read_file(kBodyPath);
