@@ -24,7 +24,8 @@ double log_above(double x) {
 
 /// Logarithm of the share between a and b.
 double log_between(double a, double b) {
-    if (a < 0.0 && b > 0.0) return std::log1p(-std::exp(log_above(b)) - std::exp(log_above(-a)));
+    // About the middle both parts add up, so that even a sliver of a very wide distribution keeps its share.
+    if (a < 0.0 && b > 0.0) return std::log(0.5 * (std::erf(b / std::sqrt(2.0)) + std::erf(-a / std::sqrt(2.0))));
     const double near = a >= 0.0 ? a : -b, far = a >= 0.0 ? b : -a;
     if (far == kInfinity) return log_above(near);
     return log_above(near) + std::log1p(-std::exp(log_above(far) - log_above(near)));

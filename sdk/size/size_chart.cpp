@@ -15,6 +15,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int kVersion = 1;
+constexpr int kDeepest = 8;           // nesting; a chart has seven levels down to a range's numbers
 constexpr size_t kLongestName = 31;   // vfit_size.label and vfit_size_row.garment_kind hold 32 bytes
 constexpr float kLargest_m = 10.0f;   // no body measure is longer: the unit is wrong
 constexpr float kRounding_m = 1e-5f;  // 94 cm is not exact in binary
@@ -43,6 +44,10 @@ std::string short_name(const Json& object, const char* name, const std::string& 
     if (value.empty() || value.size() > kLongestName)
         fail(VFIT_ERROR_DATA, "size chart: \"", name, "\" of ", where, " must have 1 to ", kLongestName,
              " bytes");
+    // A name with a 0 inside would end there for every reader in C, and two could be told apart no more.
+    const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20; };
+    if (std::any_of(value.begin(), value.end(), control))
+        fail(VFIT_ERROR_DATA, "size chart: \"", name, "\" of ", where, " holds a control character");
     return value;
 }
 
@@ -132,8 +137,13 @@ float parse_unit(const Json& chart) {
 }
 
 Json parse_json(std::string_view text) {
+    // Millions of brackets would cost gigabytes before anything looks at them.
+    const auto shallow = [](int depth, Json::parse_event_t, const Json&) {
+        if (depth > kDeepest) fail(VFIT_ERROR_DATA, "size chart: nested deeper than any chart");
+        return true;
+    };
     try {
-        return Json::parse(text);
+        return Json::parse(text, shallow);
     } catch (const Json::exception& e) {
         fail(VFIT_ERROR_DATA, "size chart: not JSON: ", e.what());
     }

@@ -90,6 +90,18 @@ TEST(Recommend, StaysFiniteWhereMeasuresContradictEachOther) {
     EXPECT_EQ(sizes[0].label, "M") << "the waist is further outside S than the chest outside M";
 }
 
+TEST(Recommend, StaysFiniteForMeasuresThatSayNothing) {
+    for (const float sigma : {1e6f, 1e12f, 1e15f, 1e30f, std::numeric_limits<float>::max()})
+        for (const float value : {0.9f, 0.98f, 1e10f, std::numeric_limits<float>::max()}) {
+            float sum = 0;
+            for (const SizeProbability& s : recommend(chart(), "top", {chest(value, sigma)})) {
+                EXPECT_GE(s.probability, 0.0f);
+                sum += s.probability;
+            }
+            EXPECT_NEAR(sum, 1.0f, 1e-5f) << value << ' ' << sigma;
+        }
+}
+
 TEST(Recommend, NamesTheMeasuresThatItNeeds) {
     try {
         recommend(chart(), "dress", {{"stature_m", 1.7f, 0.01f, true}});

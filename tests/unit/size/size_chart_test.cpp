@@ -66,6 +66,18 @@ TEST(SizeChart, RefusesWhatIsNoChart) {
         {"garments", "empty"});
 }
 
+TEST(SizeChart, RefusesEndlessNestingAtOnce) {
+    expect_refused(std::string(1u << 22, '['), {"nested"});
+    std::string objects;
+    for (int i = 0; i < 100'000; ++i) objects += "{\"a\":";
+    expect_refused(objects, {"nested"});
+}
+
+TEST(SizeChart, RefusesNamesThatNoReaderInCCanTell) {
+    expect_refused(with("\"label\": \"M\"", "\"label\": \"S\\u0000M\""), {"label", "control"});
+    expect_refused(with("\"kind\": \"trousers\"", "\"kind\": \"trousers\\n\""), {"kind", "control"});
+}
+
 TEST(SizeChart, NamesGarmentLabelAndMeasureOfABrokenRange) {
     const std::initializer_list<const char*> place = {"trousers", "label M", "hip_girth_m"};
     expect_refused(with("[99, 106.5]", "[106.5, 99]"), place);
