@@ -1,6 +1,6 @@
 #include "cook/garment_writer.h"
 
-#include <cstdio>
+#include <charconv>
 #include <nlohmann/json.hpp>
 
 namespace vfit {
@@ -8,9 +8,10 @@ namespace vfit {
 namespace {
 
 void add(std::string& out, float value) {
+    // Not printf, whose decimal point may be a comma.
     char buffer[48];
-    const int length = std::snprintf(buffer, sizeof buffer, "%.5f", double(value));
-    out.append(buffer, size_t(length));
+    const auto written = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, 5);
+    out.append(buffer, written.ptr);
 }
 void add(std::string& out, uint32_t value) { out += std::to_string(value); }
 void add(std::string& out, uint8_t value) { out += char('0' + value); }

@@ -82,6 +82,9 @@ private:
         if (quarter < spec_.strap_columns) fail(VFIT_ERROR_DATA, "sundress: the straps are too wide");
         strap_front_ = nearest(spec_.strap_columns / 2, quarter);
         strap_back_ = nearest(quarter, columns() / 2 - spec_.strap_columns);
+        if (strap_front_ + spec_.strap_columns > strap_back_)
+            fail(VFIT_ERROR_DATA,
+                 "sundress: the straps leave no armhole: \"strap_place\" or \"strap_columns\" is too large");
     }
 
     /// Height of the top edge at a column: from the middle front up to the strap, down to the side, to the back.

@@ -10,7 +10,6 @@
 
 #include "body/body_model.h"
 #include "cloth/garment.h"
-#include "cook/garment_writer.h"
 
 namespace vfit {
 

@@ -4,6 +4,7 @@
 
 #include "cook/sundress.h"
 #include "core/error.h"
+#include "measure/measure_keys.h"
 
 namespace vfit {
 
@@ -28,7 +29,8 @@ uint32_t count(const Json& root, const char* key, uint32_t low, uint32_t high) {
 
 std::string text_of(const Json& root, const char* key) {
     const auto it = root.find(key);
-    if (it == root.end() || !it->is_string()) fail(VFIT_ERROR_DATA, "sundress: \"", key, "\" is not a text");
+    if (it == root.end() || !it->is_string() || it->get_ref<const std::string&>().empty())
+        fail(VFIT_ERROR_DATA, "sundress: \"", key, "\" is not a text");
     return it->get<std::string>();
 }
 
@@ -65,8 +67,12 @@ SundressSpec parse_sundress(std::span<const std::byte> json) {
     for (const Json& entry : *sizes) {
         GarmentSize size;
         size.label = text_of(entry, "label");
-        for (const auto& [key, value] : entry.items())
-            if (key != "label") size.nominal.push_back({key, number(entry, key.c_str(), 0.1f, 5.0f)});
+        for (const auto& [key, value] : entry.items()) {
+            if (key == "label") continue;
+            if (measure_index(key) < 0)
+                fail(VFIT_ERROR_DATA, "sundress: size ", size.label, " names the unknown measure ", key);
+            size.nominal.push_back({key, number(entry, key.c_str(), 0.1f, 5.0f)});
+        }
         spec.sizes.push_back(std::move(size));
     }
     return spec;

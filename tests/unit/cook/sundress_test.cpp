@@ -184,6 +184,10 @@ TEST(SundressDesign, RefusesBadParametersByName) {
     EXPECT_EQ(refusal("\"flare\"", "\"flair\""), "sundress: \"flare\" is not a number");
     EXPECT_EQ(refusal("\"version\": 1", "\"version\": 3"), "sundress: version is not 1");
     EXPECT_EQ(refusal("{", ""), "sundress: not a complete JSON object");
+    EXPECT_EQ(refusal("\"name\": \"sundress\"", "\"name\": \"\""), "sundress: \"name\" is not a text");
+    EXPECT_EQ(refusal("\"chest_girth_m\": 0.78", "\"chest_m\": 0.78"),
+              "sundress: size XS names the unknown measure chest_m");
+    EXPECT_EQ(refusal("{\"label\": \"XS\"", "7, {\"label\": \"XS\""), "sundress: \"label\" is not a text");
 }
 
 TEST(BodyOutline, SpreadsPointsEvenlyAlongACircle) {
