@@ -73,8 +73,11 @@ bool Cropper::look(const DepthImage& image, uint8_t user, const PixelBox& box, c
 
 bool Cropper::run(const DepthImage& image, uint8_t user, const PixelBox& within, const Vec2& up, CropView& view,
                   float* values) {
-    const PixelBox box = within.empty() ? PixelBox{0, 0, int(image.width()), int(image.height())} : within;
-    if (!image.users || !look(image, user, box, up, view)) return false;
+    const int width = int(image.width()), height = int(image.height());
+    const PixelBox box = within.empty() ? PixelBox{0, 0, width, height}
+                                        : PixelBox{std::max(within.x0, 0), std::max(within.y0, 0),
+                                                   std::min(within.x1, width), std::min(within.y1, height)};
+    if (!image.depth || !image.users || !look(image, user, box, up, view)) return false;
 
     constexpr int n = CropView::kPixels;
     // Where a crop pixel covers several image pixels a small grid of them is read.

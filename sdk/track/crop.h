@@ -10,8 +10,8 @@
 
 namespace vfit {
 
-/// Where a crop looks. Its picture is seen by the sensor, resampled so that a pixel is kCropSide_m / kCropPixels
-/// wide at the person's depth, and turned so that the world's up is the picture's up.
+/// Where a crop looks. Its picture is seen by the sensor, resampled so that a pixel is kSide_m / kPixels wide
+/// at the person's depth, and turned so that the world's up is the picture's up.
 struct CropView {
     static constexpr int kPixels = 128;
     static constexpr float kSide_m = 2.3f;
@@ -28,9 +28,10 @@ struct CropView {
 
 class Cropper {
 public:
-    /// Pixels of `users` equal to `user` inside `box` (empty: the whole image) into kPixels x kPixels values of
-    /// crop z; 1 where the person is not. `up`: the world's up in image axes (x right, y down). False where fewer
-    /// than kFewestPixels pixels have a reading. Does not allocate after its first run.
+    /// Pixels of `users` equal to `user` inside `box` (what of it lies in the image; empty: all of the image)
+    /// into kPixels x kPixels values of crop z; 1 where the person is not. `up`: the world's up in image axes
+    /// (x right, y down), unit length. False where fewer than kFewestPixels pixels have a reading. Does not
+    /// allocate after its first run.
     bool run(const DepthImage& image, uint8_t user, const PixelBox& box, const Vec2& up, CropView& view,
              float* values);
 

@@ -1,0 +1,94 @@
+// The picture that the skeleton network reads, of a person whose place is known.
+#include "track/crop.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace vfit {
+namespace {
+
+constexpr int kPixels = CropView::kPixels;
+
+/// A flat person of 0.6 by 1.6 m, 3 m away, in the middle of what the camera sees.
+struct Image {
+    Image() : depth(320 * 240, 4000), users(320 * 240, 0) {
+        camera.width = 320;
+        camera.height = 240;
+        camera.fx = camera.fy = 300.0f;
+        camera.cx = 159.5f;
+        camera.cy = 119.5f;
+        for (uint32_t y = 40; y < 200; ++y)
+            for (uint32_t x = 130; x < 190; ++x) depth[y * 320 + x] = 3000, users[y * 320 + x] = 1;
+    }
+    DepthImage view() const { return {depth.data(), users.data(), camera}; }
+
+    std::vector<uint16_t> depth;
+    std::vector<uint8_t> users;
+    Camera camera;
+};
+
+struct Crop {
+    Crop(const DepthImage& image, const Vec2& up, const PixelBox& box = {}) : values(kPixels * kPixels) {
+        made = Cropper().run(image, 1, box, up, view, values.data());
+    }
+    float at(float x, float y) const {
+        const auto pixel = [](float c) { return int(0.5f * (c + 1.0f) * float(kPixels)); };
+        return values[size_t(pixel(y) * kPixels + pixel(x))];
+    }
+    bool made = false;
+    CropView view;
+    std::vector<float> values;
+};
+
+TEST(Crop, ShowsThePersonInTheMiddleAndNothingElse) {
+    const Image image;
+    const Crop crop(image.view(), {0, -1});
+    ASSERT_TRUE(crop.made);
+    EXPECT_NEAR(crop.view.depth_m, 3.0f, 0.01f);
+    EXPECT_NEAR(crop.view.centre.x, 159.5f, 1.0f);
+    EXPECT_NEAR(crop.view.centre.y, 119.5f, 1.0f);
+    EXPECT_NEAR(crop.at(0.0f, 0.0f), 0.0f, 0.01f);
+    EXPECT_NEAR(crop.at(0.0f, 0.65f), 0.0f, 0.01f);
+    EXPECT_EQ(crop.at(0.65f, 0.0f), 1.0f) << "the wall";
+}
+
+TEST(Crop, TurnsThePictureUpright) {
+    const Image image;
+    const Crop crop(image.view(), {1, 0});  // a camera on its side
+    ASSERT_TRUE(crop.made);
+    EXPECT_EQ(crop.at(0.0f, 0.65f), 1.0f);
+    EXPECT_NEAR(crop.at(0.65f, 0.0f), 0.0f, 0.01f);
+}
+
+TEST(Crop, LeadsToCameraSpaceAndBack) {
+    const Image image;
+    for (const Vec2& up : {Vec2(0, -1), Vec2(0.6f, -0.8f)}) {
+        const Crop crop(image.view(), up);
+        const Vec3 place(-0.2f, 0.4f, 2.9f);
+        const Vec3 there = crop.view.from_camera(image.camera, place);
+        EXPECT_LT(glm::distance(crop.view.to_camera(image.camera, there), place), 1e-4f);
+    }
+}
+
+TEST(Crop, LooksOnlyAtWhatOfTheBoxLiesInTheImage) {
+    const Image image;
+    const Crop beyond(image.view(), {0, -1}, {-50, -50, 1000, 1000});
+    ASSERT_TRUE(beyond.made);
+    EXPECT_EQ(beyond.values, Crop(image.view(), {0, -1}).values);
+    EXPECT_FALSE(Crop(image.view(), {0, -1}, {400, 0, 500, 100}).made);
+}
+
+TEST(Crop, NeedsAPersonWithReadings) {
+    Image image;
+    DepthImage view = image.view();
+    view.users = nullptr;
+    EXPECT_FALSE(Crop(view, {0, -1}).made);
+    EXPECT_FALSE(Crop(image.view(), {0, -1}, {130, 40, 137, 49}).made) << "63 pixels";
+    std::fill(image.depth.begin(), image.depth.end(), uint16_t(0));
+    EXPECT_FALSE(Crop(image.view(), {0, -1}).made);
+}
+
+}  // namespace
+}  // namespace vfit
