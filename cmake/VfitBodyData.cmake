@@ -9,11 +9,11 @@ else()
 endif()
 set(VFIT_CACHE "${vfit_default_cache}" CACHE PATH "Folder of downloaded and baked data")
 
-# The interpreter that CMake prefers may be one without numpy.
+# The interpreter that CMake prefers may be one without numpy; one that the user names comes first.
 find_program(VFIT_BAKE_PYTHON NAMES python3 python
   HINTS ENV VIRTUAL_ENV PATH_SUFFIXES bin Scripts
   DOC "Python 3.9 or newer with numpy, for baking the body")
-foreach(python IN ITEMS "${Python3_EXECUTABLE}" "${VFIT_BAKE_PYTHON}" /usr/bin/python3)
+foreach(python IN ITEMS "${VFIT_BAKE_PYTHON}" "${Python3_EXECUTABLE}" /usr/bin/python3)
   execute_process(COMMAND "${python}" -c "import numpy"
     RESULT_VARIABLE vfit_no_numpy OUTPUT_QUIET ERROR_QUIET)
   if(vfit_no_numpy EQUAL 0)
