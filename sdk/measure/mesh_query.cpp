@@ -240,21 +240,4 @@ float largest_inner_sphere(const MeshQuery& skin, const Vec3& center) {
     return skin.inside(center) ? skin.closest(center).distance : 0.0f;
 }
 
-void contour_distances(const MeshQuery& skin, const Vec3& place, const Vec3& axis, std::span<float> out) {
-    if (!(glm::length(axis) > 0.0f)) fail(VFIT_ERROR_ARGUMENT, "the axis has no direction");
-    const Vec3 along = glm::normalize(axis);
-    // The world axis furthest from the bone's gives a stable square direction.
-    const Vec3 size = glm::abs(along);
-    const Vec3 other = size.x <= size.y && size.x <= size.z ? Vec3(1, 0, 0)
-                       : size.z <= size.y                   ? Vec3(0, 0, 1)
-                                                            : Vec3(0, 1, 0);
-    const Vec3 a = glm::normalize(other - along * glm::dot(along, other));
-    const Vec3 b = glm::cross(along, a);
-    for (size_t i = 0; i < out.size(); ++i) {
-        const float angle = 2.0f * kPi * static_cast<float>(i) / static_cast<float>(out.size());
-        const auto hit = skin.cast(place, std::cos(angle) * a + std::sin(angle) * b, kInfinity);
-        out[i] = hit ? hit->distance : kInfinity;
-    }
-}
-
 }  // namespace vfit

@@ -61,8 +61,4 @@ private:
 /// Radius of the largest sphere about the centre that stays inside the skin; 0 where the centre lies outside.
 float largest_inner_sphere(const MeshQuery& skin, const Vec3& center);
 
-/// Distances from a place on a bone's axis outwards to the skin, in out.size() directions square to the axis,
-/// evenly spread and counter-clockwise about it. Infinity where a ray leaves through a hole.
-void contour_distances(const MeshQuery& skin, const Vec3& place, const Vec3& axis, std::span<float> out);
-
 }  // namespace vfit

@@ -35,11 +35,9 @@ void set_axes(Section& section, const Vec3& point, const Vec3& normal) {
 /// Ends of the segments of all crossed triangles. Each triangle is crossed from the edge where its boundary
 /// goes down through the plane to the one where it comes up: with counter-clockwise triangles that leads
 /// round the body counter-clockwise.
-std::vector<End> crossings(std::span<const uint32_t> indices, const float* height,
-                           std::span<const uint8_t> skip_triangle) {
+std::vector<End> crossings(std::span<const uint32_t> indices, const float* height) {
     std::vector<End> ends;
     for (size_t t = 0; t < indices.size() / 3; ++t) {
-        if (!skip_triangle.empty() && skip_triangle[t]) continue;
         const uint32_t* v = &indices[3 * t];
         const bool above[3] = {height[v[0]] >= 0.0f, height[v[1]] >= 0.0f, height[v[2]] >= 0.0f};
         if (above[0] == above[1] && above[1] == above[2]) continue;
@@ -97,15 +95,12 @@ void follow(uint32_t from, const std::vector<uint32_t>& partner, std::vector<uin
 }  // namespace
 
 Section cut(std::span<const Vec3> positions, std::span<const uint32_t> indices, const Vec3& point,
-            const Vec3& normal, std::span<const uint8_t> skip_triangle) {
+            const Vec3& normal) {
     const float length = glm::length(normal);
     if (!finite(point) || !std::isfinite(length) || !(length > 0.0f))
         fail(VFIT_ERROR_ARGUMENT, "the cutting plane has no place or no direction");
     if (indices.size() % 3 != 0)
         fail(VFIT_ERROR_DATA, "the mesh has ", indices.size(), " indices, not three a triangle");
-    if (!skip_triangle.empty() && skip_triangle.size() != indices.size() / 3)
-        fail(VFIT_ERROR_ARGUMENT, "there are ", skip_triangle.size(), " flags for ", indices.size() / 3,
-             " triangles");
     const Vec3 unit = normal / length;
     Section section;
     set_axes(section, point, unit);
@@ -117,7 +112,7 @@ Section cut(std::span<const Vec3> positions, std::span<const uint32_t> indices, 
             fail(VFIT_ERROR_DATA, "a triangle names vertex ", i, " of ", positions.size());
         height[i] = glm::dot(unit, positions[i] - point);
     }
-    const std::vector<End> ends = crossings(indices, height.get(), skip_triangle);
+    const std::vector<End> ends = crossings(indices, height.get());
     const std::vector<uint32_t> partner = link(ends);
 
     const auto place = [&](uint32_t end) {

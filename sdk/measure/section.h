@@ -14,7 +14,7 @@ namespace vfit {
 /// left and v its back. Outer outlines run counter-clockwise, holes clockwise.
 struct Section {
     std::vector<std::vector<Vec2>> loops;   // closed; the first point is not repeated
-    std::vector<std::vector<Vec2>> chains;  // end at a border of the mesh or at skipped triangles
+    std::vector<std::vector<Vec2>> chains;  // end at a border of the mesh
     Vec3 origin{0.0f}, u{1, 0, 0}, v{0, 0, -1};
 
     Vec3 lift(const Vec2& p) const { return origin + u * p.x + v * p.y; }
@@ -23,11 +23,10 @@ struct Section {
 };
 
 /// Cuts the mesh with the plane through `point` square to `normal` (any length). A vertex exactly in the
-/// plane counts as above it, so that a closed mesh always gives closed loops. skip_triangle: empty, or one
-/// flag a triangle. VFIT_ERROR_ARGUMENT where the plane is none or the flags do not match, VFIT_ERROR_DATA
-/// where an index is out of range.
+/// plane counts as above it, so that a closed mesh always gives closed loops. VFIT_ERROR_ARGUMENT where the
+/// plane is none, VFIT_ERROR_DATA where an index is out of range.
 Section cut(std::span<const Vec3> positions, std::span<const uint32_t> indices, const Vec3& point,
-            const Vec3& normal, std::span<const uint8_t> skip_triangle = {});
+            const Vec3& normal);
 
 /// Length of the closed line.
 float perimeter(std::span<const Vec2> loop);

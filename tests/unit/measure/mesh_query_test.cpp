@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -170,22 +169,6 @@ TEST(MeshQuery, LargestInnerSphereInACylinderIsItsRadius) {
     EXPECT_NEAR(largest_inner_sphere(q, {0.05f, 1, 0}), 0.15f, 1e-4f);
     EXPECT_NEAR(largest_inner_sphere(q, {0, 1.9f, 0}), 0.1f, 1e-5f);  // the lid is nearer
     EXPECT_EQ(largest_inner_sphere(q, {0.3f, 1, 0}), 0.0f);
-}
-
-TEST(MeshQuery, ContourDistancesAreSquareToTheAxis) {
-    const MeshQuery q = query(cylinder(0.2f, 2.0f, 40, 360));
-    std::array<float, 24> out{};
-    contour_distances(q, {0, 1, 0}, {0, 3, 0}, out);
-    for (const float d : out) EXPECT_NEAR(d, 0.2f, 1e-4f);
-    // Across the tube: an ellipse of a rectangle, up and down to the lids, sideways to the wall.
-    std::array<float, 4> across{};
-    contour_distances(q, {0, 1, 0}, {1, 0, 0}, across);
-    EXPECT_NEAR(across[0] + across[2], across[0] < 0.5f ? 0.4f : 2.0f, 1e-3f);
-    EXPECT_NEAR(across[0] + across[1] + across[2] + across[3], 2.4f, 1e-3f);
-    EXPECT_THROW(contour_distances(q, {0, 1, 0}, {0, 0, 0}, across), Error);
-    const MeshQuery open = query(tube(0.2f, 2.0f, 4, 36));
-    contour_distances(open, {0, 1, 0}, {1, 0, 0}, across);
-    EXPECT_EQ(std::max(across[0], across[1]), kInfinity);
 }
 
 TEST(MeshQuery, FollowsTheMeshWhenItMoves) {
