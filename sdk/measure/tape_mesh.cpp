@@ -19,6 +19,15 @@ constexpr int kNeededJoints[] = {
     VFIT_JOINT_LEFT_KNEE,     VFIT_JOINT_LEFT_CLAVICLE, VFIT_JOINT_RIGHT_CLAVICLE,  VFIT_JOINT_RIGHT_SHOULDER,
     VFIT_JOINT_RIGHT_ELBOW,   VFIT_JOINT_RIGHT_WRIST, VFIT_JOINT_RIGHT_HIP,  VFIT_JOINT_RIGHT_KNEE};
 
+/// Joints that an axis runs between.
+constexpr int kAxes[][2] = {
+    {VFIT_JOINT_NECK, VFIT_JOINT_HEAD},
+    {VFIT_JOINT_PELVIS, VFIT_JOINT_NECK},
+    {VFIT_JOINT_LEFT_SHOULDER, VFIT_JOINT_LEFT_ELBOW},
+    {VFIT_JOINT_RIGHT_SHOULDER, VFIT_JOINT_RIGHT_ELBOW},
+    {VFIT_JOINT_LEFT_HIP, VFIT_JOINT_LEFT_KNEE},
+    {VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_RIGHT_KNEE}};
+
 bool is_arm(BodyPart part) {
     switch (part) {
         case BodyPart::kLeftUpperArm:
@@ -48,6 +57,9 @@ void check(const TapeBody& body) {
     for (const int joint : kNeededJoints)
         if (!body.joints.has(joint) || !finite(body.joints.at(joint)))
             fail(VFIT_ERROR_DATA, "the body to measure has no joint ", joint_name(joint));
+    for (const auto& [from, to] : kAxes)
+        if (!(glm::distance(body.joints.at(from), body.joints.at(to)) > 0.0f))
+            fail(VFIT_ERROR_DATA, "the body's joints ", joint_name(from), " and ", joint_name(to), " are one place");
 }
 
 HeightRange height_range(std::span<const Vec3> positions) {

@@ -22,7 +22,7 @@ struct Axis {
 
 enum class Side { kLeft, kRight };
 
-/// VFIT_ERROR_DATA where the mesh is broken or lacks a joint that a landmark needs.
+/// VFIT_ERROR_DATA where the mesh is broken, lacks a joint that a landmark needs, or has two of them in one place.
 void check(const TapeBody& body);
 
 struct HeightRange {
@@ -88,7 +88,8 @@ float place_of_largest(float low, float high, const Function& value) {
             const float at = low + step * static_cast<float>(i), here = value(at);
             if (here > best_value) best = at, best_value = here;
         }
-        if (step <= kFine_m) return best;
+        // Far from the origin floats may lie further apart than that.
+        if (!(step > kFine_m && low + step > low)) return best;
         low = best - step < low ? low : best - step;
         high = best + step > high ? high : best + step;
     }
@@ -101,6 +102,7 @@ float border(float low, float high, const Condition& holds) {
     constexpr float kFine_m = 0.0001f;
     while (std::abs(high - low) > kFine_m) {
         const float middle = 0.5f * (low + high);
+        if (middle == low || middle == high) break;  // no float lies between
         (holds(middle) ? low : high) = middle;
     }
     return low;

@@ -205,6 +205,16 @@ TEST(Tape, DoesNotCareWhereTheBodyStands) {
     for (size_t i = 0; i < here.size(); ++i) EXPECT_NEAR(here[i].value, there[i].value, 1e-3f) << here[i].key;
 }
 
+TEST(Tape, EndsWhereFloatsLieFarApart) {
+    for (const float far : {1e4f, 1e6f, 1e30f}) {
+        Person moved(VFIT_SEX_MALE);
+        for (Vec3& p : moved.mesh.positions) p.y += far;
+        for (Joint& joint : moved.body.joints.joints) joint.position.y += far;
+        const vfit_result result = error_of(moved.body);
+        EXPECT_TRUE(result == VFIT_OK || result == VFIT_ERROR_DATA) << result;
+    }
+}
+
 TEST(Tape, RefusesWhatIsNoMeasurableBody) {
     TapeBody body = man().body;
     body.indices = {};
@@ -222,6 +232,11 @@ TEST(Tape, RefusesWhatIsNoMeasurableBody) {
     body.joints.set(VFIT_JOINT_LEFT_HIP, {0.1f, 0.7f, 0});  // below the crotch: legs never one
     body.joints.set(VFIT_JOINT_RIGHT_HIP, {-0.1f, 0.7f, 0});
     EXPECT_EQ(error_of(body), VFIT_ERROR_DATA);
+    for (const int joint : {VFIT_JOINT_HEAD, VFIT_JOINT_PELVIS}) {
+        body = man().body;
+        body.joints.set(joint, body.joints.at(VFIT_JOINT_NECK));
+        EXPECT_EQ(error_of(body), VFIT_ERROR_DATA);
+    }
     const std::vector<uint32_t> wrong = {0, 1, 99999999};
     body = man().body;
     body.indices = wrong;
