@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace vfit {
 
@@ -13,18 +14,24 @@ float median(std::vector<float>& values) {
     return *middle;
 }
 
-}  // namespace
-
-Averaged average(std::vector<float>& values) {
-    if (values.empty()) return {};
-    const float centre = median(values);
+/// How far from that median a value may lie without being plainly wrong.
+float outlier_distance(const std::vector<float>& values, float centre) {
     std::vector<float> distances;
     distances.reserve(values.size());
     for (const float v : values) distances.push_back(std::abs(v - centre));
     constexpr float kSigmaPerMad = 1.4826f;  // of a normal distribution
     constexpr float kOutlier_sigma = 3.0f;
     constexpr float kRounding_m = 0.005f;  // values that differ by a fraction of a pixel are no outliers
-    const float limit = std::max(kOutlier_sigma * kSigmaPerMad * median(distances), kRounding_m);
+    return std::max(kOutlier_sigma * kSigmaPerMad * median(distances), kRounding_m);
+}
+
+}  // namespace
+
+Averaged average(std::vector<float>& values, Outliers outliers) {
+    if (values.empty()) return {};
+    const float centre = median(values);
+    const float limit = outliers == Outliers::kKeep ? std::numeric_limits<float>::infinity()
+                                                    : outlier_distance(values, centre);
 
     double sum = 0.0;
     Averaged result;

@@ -26,6 +26,13 @@ constexpr float kSoleSigma_m = 0.012f;        // user maps end up to a few pixel
 /// Metres that one pixel covers at that depth.
 float footprint(const Camera& camera, float z) { return z / std::min(camera.fx, camera.fy); }
 
+/// Step from low to high that misses no pixel, yet ends soon where a pixel covers next to nothing (a joint
+/// right before the lens) or a wrong floor makes the way long.
+float step_over(float low, float high, float pixel_m) {
+    constexpr float kMostSteps = 256.0f;  // a foot's length at 0.8 m is 160 pixels of an Azure Kinect
+    return std::max(pixel_m, (high - low) / kMostSteps);
+}
+
 /// A quantity that is rounded to pixels (uniform error).
 float quantisation(float footprint_m) { return footprint_m / std::sqrt(12.0f); }
 
@@ -86,7 +93,8 @@ float lowest_near(const FilteredDepth& depth, const Camera& camera, const Vec3& 
     constexpr float kHalfFoot_m = 0.13f;
     constexpr float kInward_px = 2.5f;  // off the contour, where the filter mixes in the background
     float lowest = std::numeric_limits<float>::max();
-    for (float offset = -kHalfFoot_m; offset <= kHalfFoot_m; offset += pixel_m) {
+    const float step_m = step_over(-kHalfFoot_m, kHalfFoot_m, pixel_m);
+    for (float offset = -kHalfFoot_m; offset <= kHalfFoot_m; offset += step_m) {
         const Vec3 from = ankle + plane.right() * offset;
         const auto reach = plane.reach(depth, from, -plane.up());
         if (!reach.seen()) continue;
@@ -144,9 +152,10 @@ Estimate head_width(const FilteredDepth& depth, const Camera& camera, const Body
     const float head_m =
         kHeadHeight_stature * (upright.floor.known ? upright.crown.value_m - upright.floor.value_m
                                                    : 1.69f);  // mean of ANSUR II's sexes
+    const float highest = head_m / 3.0f, lowest = head_m / 2.0f, step_m = step_over(highest, lowest, pixel_m);
     float sum = 0.0f;
     int rows = 0;
-    for (float below = head_m / 3.0f; below <= head_m / 2.0f; below += pixel_m) {
+    for (float below = highest; below <= lowest; below += step_m) {
         const Vec3 from =
             head.centre + plane.up() * (upright.crown.value_m - below - plane.height(head.centre));
         const auto left = plane.reach(depth, from, -plane.right());
@@ -179,7 +188,9 @@ Estimate head_height(const FilteredDepth& depth, const Camera& camera, const Bod
     };
     float deepest = kSetBack_m, chin = 0.0f;
     // Four standard deviations of the head's share about its mean (ANSUR II, menton to sellion: 6 %).
-    for (float below = 0.76f * typical; below <= 1.24f * typical; below += 0.5f * pixel_m) {
+    const float highest = 0.76f * typical, lowest = 1.24f * typical;
+    const float step_m = step_over(highest, lowest, 0.5f * pixel_m);
+    for (float below = highest; below <= lowest; below += step_m) {
         const float step = surface(below + 0.5f * kStep_m) - surface(below - 0.5f * kStep_m);
         if (step > deepest) {
             deepest = step;

@@ -112,8 +112,7 @@ Estimate shoulder_width(const FilteredDepth& depth, const Camera& camera, const 
     const Vec3& left = body.at(VFIT_JOINT_LEFT_SHOULDER);
     const Vec3& right = body.at(VFIT_JOINT_RIGHT_SHOULDER);
     const float between = glm::length(left - right);
-    if (std::abs(glm::dot(glm::normalize(right - left), Vec3(0, 0, 1))) > std::sin(kForeshortened_rad))
-        return {};
+    if (!(std::abs(right.z - left.z) < between * std::sin(kForeshortened_rad))) return {};
 
     float sides[2] = {-1.0f, -1.0f};
     if (has_all(body, {VFIT_JOINT_LEFT_ELBOW}))
@@ -195,7 +194,7 @@ Estimate elbow_fingertip(const FilteredDepth& depth, const Camera& camera, const
         const Vec3 forearm = body.at(hand) - body.at(elbow);
         const FrontalPlane plane(camera, body.at(hand));
         const float cosine = glm::length(frontal(plane, forearm)) / std::max(1e-3f, glm::length(forearm));
-        if (cosine < std::cos(kBentForearm_rad)) continue;
+        if (!(cosine >= std::cos(kBentForearm_rad))) continue;
         const float fingers = fingertip_distance(depth, plane, body.at(hand), forearm) / cosine;
         if (fingers <= 0.0f) continue;
         sum += glm::length(body.at(hand) - body.at(from_wrist ? wrist : elbow)) + fingers;

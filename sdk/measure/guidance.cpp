@@ -45,9 +45,10 @@ bool cut_vertically(const FilteredDepth& depth, const Camera& camera) {
     return depth.box.y0 <= 0 || depth.box.y1 >= int(depth.height);
 }
 
-/// Share of its length that the straighter leg stands upright; 1 where no leg can be judged.
+/// Share of its length that the straighter leg stands upright (-1: upside down); 1 where no leg can be judged.
 float leg_uprightness(const Vec3& up, const Body& body) {
-    float best = -1.0f;
+    constexpr float kNoLeg = -2.0f;
+    float best = kNoLeg;
     for (const auto& [hip, knee, foot] :
          {std::array{VFIT_JOINT_LEFT_HIP, VFIT_JOINT_LEFT_KNEE, VFIT_JOINT_LEFT_FOOT},
           std::array{VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_RIGHT_KNEE, VFIT_JOINT_RIGHT_FOOT}}) {
@@ -56,7 +57,7 @@ float leg_uprightness(const Vec3& up, const Body& body) {
             glm::length(body.at(hip) - body.at(knee)) + glm::length(body.at(knee) - body.at(foot));
         if (length > 0.0f) best = std::max(best, glm::dot(body.at(hip) - body.at(foot), up) / length);
     }
-    return best < 0.0f ? 1.0f : best;
+    return best == kNoLeg ? 1.0f : best;
 }
 
 bool upright(const Vec3& up, const Body& body) {
@@ -74,8 +75,9 @@ bool moved(const Body& body, const Body& previous) {
         sum += glm::length(body.at(j) - previous.at(j));
         ++joints;
     }
-    const int64_t elapsed_ns = body.time_ns - previous.time_ns;
-    const float elapsed_s = elapsed_ns > 0 ? float(double(elapsed_ns) * 1e-9) : kFrameTime_s;
+    // In double, because a host's own times may lie further apart than an int64_t holds.
+    const double elapsed_ns = double(body.time_ns) - double(previous.time_ns);
+    const float elapsed_s = elapsed_ns > 0.0 ? float(elapsed_ns * 1e-9) : kFrameTime_s;
     return joints > 0 && sum / float(joints) > kFastest_m_s * elapsed_s;
 }
 

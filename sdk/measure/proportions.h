@@ -33,7 +33,7 @@ const char* line_key(Line line);
 
 enum class RatioTable : uint8_t {
     kCanon,          // Table 1: the seven-head canon of figure drawing
-    kAnthropometric  // ratios of real people: ANSUR II means, Drillis and Contini 1966 where ANSUR has none
+    kAnthropometric  // ratios of real people: breadths by ANSUR II, lengths by Drillis and Contini 1966
 };
 enum class Combination : uint8_t {
     kMean,            // Eq. 7

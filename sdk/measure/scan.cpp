@@ -6,7 +6,6 @@
 
 #include "core/clock.h"
 #include "core/error.h"
-#include "measure/averaging.h"
 #include "measure/body_lines.h"
 #include "measure/guidance.h"
 #include "measure/sphere_fit.h"
@@ -58,17 +57,17 @@ struct Scan::State {
             }
             if (values.empty()) continue;
             rule_sigma /= double(values.size());
-            const Averaged line = average(values);
+            const Averaged line = average(values, desc.outliers);
             lines[i] = {line.mean, float(std::hypot(line.deviation, rule_sigma)), true};
         }
         return lines;
     }
 
-    Averaged averaged_radius(size_t joint) const {
+    float averaged_radius(size_t joint) const {
         std::vector<float> values;
         for (const FrameValues& f : frames)
             if (f.radii[joint] > 0.0f) values.push_back(f.radii[joint]);
-        return average(values);
+        return average(values, desc.outliers).mean;
     }
 
     Estimate primary(const Lines& lines, Line line) const {
@@ -108,8 +107,9 @@ ScanProgress Scan::add(const ScanFrame& frame) {
     const Camera& camera = frame.image.camera;
     const FilteredDepth depth = state.filter.run(frame.image, frame.body ? frame.body->id : 0);
     progress.correction_m = depth.correction_m;
+    const bool same_person = state.has_last && frame.body && state.last.id == frame.body->id;
     progress.guidance =
-        check_frame(depth, camera, frame.body, state.has_last ? &state.last : nullptr, frame.person_count);
+        check_frame(depth, camera, frame.body, same_person ? &state.last : nullptr, frame.person_count);
     state.has_last = frame.body != nullptr;
     if (frame.body) state.last = *frame.body;
 
@@ -140,18 +140,12 @@ std::vector<Measurement> Scan::measurements() const {
 
 std::array<float, kPaperJointCount> Scan::radii() const {
     std::array<float, kPaperJointCount> radii{};
-    for (size_t i = 0; i < radii.size(); ++i) radii[i] = state_->averaged_radius(i).mean;
+    for (size_t i = 0; i < radii.size(); ++i) radii[i] = state_->averaged_radius(i);
     return radii;
 }
 
-std::array<float, kPaperJointCount> Scan::radii_sigma() const {
-    std::array<float, kPaperJointCount> sigma{};
-    for (size_t i = 0; i < sigma.size(); ++i) sigma[i] = state_->averaged_radius(i).deviation;
-    return sigma;
-}
-
 // Algorithm 3. The paper averages x_s and y_s over the frames; its means are linear, so that averaging the
-// lines first gives the same where every frame shows every line.
+// lines first gives the same where every frame shows every line and no outlier is left out.
 Scan::Scale Scan::scale(const std::string& name) const {
     const GarmentKind& kind = garment_kind(name);
     state_->require_frames();

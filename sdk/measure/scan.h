@@ -1,5 +1,6 @@
 // The scan of one person by the paper's method: filtered depth (Algorithm 1), collision spheres (Algorithm
-// 2), body dimensions (Algorithm 3) and their average over the frames of one second (Algorithm 4).
+// 2), body dimensions (Algorithm 3) and their average over the frames of one second (Algorithm 4, whose array
+// of 16 radii a frame is taken to mean the 15 joints of Fig. 3).
 #pragma once
 
 #include <array>
@@ -10,6 +11,7 @@
 
 #include "frame/body.h"
 #include "frame/depth_image.h"
+#include "measure/averaging.h"
 #include "measure/measurement.h"
 #include "measure/proportions.h"
 #include "vfit.h"
@@ -25,10 +27,12 @@ struct ScanDesc {
     vfit_sex sex = VFIT_SEX_UNKNOWN;
     RatioTable ratios = RatioTable::kAnthropometric;
     Combination combination = Combination::kInverseVariance;
+    Outliers outliers = Outliers::kLeaveOut;
     static ScanDesc as_printed() {
         ScanDesc desc;
         desc.ratios = RatioTable::kCanon;
         desc.combination = Combination::kMean;
+        desc.outliers = Outliers::kKeep;
         return desc;
     }
 };
@@ -69,9 +73,8 @@ public:
     /// and shoulder_breadth_m. No frame yet: VFIT_ERROR_STATE.
     std::vector<Measurement> measurements() const;
 
-    /// Radii of the paper's 15 joints and their deviations over the frames; 0: never measured.
+    /// Radii of the paper's 15 joints; 0: never measured.
     std::array<float, kPaperJointCount> radii() const;
-    std::array<float, kPaperJointCount> radii_sigma() const;
 
     struct Scale {
         float x = 1, y = 1, sigma_x = 0, sigma_y = 0;  // relative to the garment kind's nominal size

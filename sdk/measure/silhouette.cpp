@@ -84,8 +84,9 @@ FrontalPlane::FrontalPlane(const Camera& camera, const Vec3& through)
     const Vec3 view(0, 0, 1);
     forward_ = view - up_ * glm::dot(view, up_);
     // A camera that looks straight down has no level view direction: its own plane serves.
-    forward_ = glm::length(forward_) > 0.1f ? glm::normalize(forward_) : view;
-    right_ = glm::normalize(glm::cross(forward_, up_));
+    const bool level = glm::length(forward_) > 0.1f;
+    forward_ = level ? glm::normalize(forward_) : view;
+    right_ = level ? glm::normalize(glm::cross(forward_, up_)) : Vec3(1, 0, 0);
     distance_ = glm::dot(forward_, through);
 }
 

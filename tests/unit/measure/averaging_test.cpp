@@ -23,6 +23,13 @@ TEST(Averaging, LeavesOutFramesThatArePlainlyWrong) {
     EXPECT_NEAR(a.mean, 0.4714f, 1e-4f);
 }
 
+TEST(Averaging, TakesThemInWhereThePapersPlainMeanIsAsked) {
+    std::vector<float> values{0.4f, 0.5f, 0.6f, 2.5f};
+    const Averaged a = average(values, Outliers::kKeep);
+    EXPECT_EQ(a.kept, 4u);
+    EXPECT_FLOAT_EQ(a.mean, 1.0f);
+}
+
 TEST(Averaging, KeepsValuesThatDifferByRounding) {
     std::vector<float> values{1.700f, 1.700f, 1.700f, 1.704f};
     EXPECT_EQ(average(values).kept, 4u);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/error.h"
 #include "figure_scene.h"
 
@@ -107,6 +109,32 @@ TEST(BodyLines, LeaveOutWhatCannotBeSeen) {
                             Line::kElbowFingertip, Line::kHipWidth, Line::kTorsoHeight})
         EXPECT_FALSE(at(lines, line).known) << line_key(line);
     EXPECT_TRUE(at(lines, Line::kHipHeight).known);
+}
+
+TEST(BodyLines, AreFiniteUnderACameraThatLooksStraightDown) {
+    Picture picture = take_picture(standing_figure(), level_camera());
+    set_floor(picture.camera, 2.5f, 0.5f * kPi, 0.0f, VFIT_FLOOR_GIVEN);
+    for (const Estimate& line : measure(picture))
+        if (line.known) {
+            EXPECT_TRUE(std::isfinite(line.value_m));
+            EXPECT_TRUE(std::isfinite(line.sigma_m));
+        }
+}
+
+TEST(BodyLines, EndWhereAJointLiesBeforeTheLensOrTheFloorFarBelow) {
+    Picture picture = take_picture(standing_figure(), level_camera());
+    picture.body.joints[VFIT_JOINT_LEFT_FOOT].position = {0.0f, 0.0f, 1e-7f};
+    picture.camera.floor_state = VFIT_FLOOR_DEFAULT;
+    EXPECT_TRUE(at(measure(picture), Line::kBodyHeight).known);
+    picture.camera.floor_state = VFIT_FLOOR_GIVEN;
+    picture.camera.floor_distance_m = 1e9f;
+    measure(picture);
+}
+
+TEST(BodyLines, HaveNoShoulderWidthWhereBothShouldersAreOnePlace) {
+    Picture picture = take_picture(standing_figure(), level_camera());
+    picture.body.joints[VFIT_JOINT_LEFT_SHOULDER] = picture.body.joints[VFIT_JOINT_RIGHT_SHOULDER];
+    EXPECT_FALSE(at(measure(picture), Line::kShoulderWidth).known);
 }
 
 TEST(BodyLines, TakeAnUnseenSideFromTheOtherAndSaySo) {
