@@ -4,7 +4,9 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace vfit {
@@ -39,6 +41,20 @@ struct Batch {
     }
 };
 
+/// This thread runs an item for a host.
+thread_local bool inside_host_item = false;
+
+class HostItem {
+public:
+    HostItem() : before_(std::exchange(inside_host_item, true)) {}
+    ~HostItem() { inside_host_item = before_; }
+    HostItem(const HostItem&) = delete;
+    HostItem& operator=(const HostItem&) = delete;
+
+private:
+    const bool before_;
+};
+
 }  // namespace
 
 void Jobs::Later::run() noexcept {
@@ -53,7 +69,11 @@ class PoolJobs final : public Jobs {
 public:
     explicit PoolJobs(uint32_t workers) {
         threads_.reserve(workers);
-        for (uint32_t i = 0; i < workers; ++i) threads_.emplace_back([this] { serve(); });
+        try {
+            for (uint32_t i = 0; i < workers; ++i) threads_.emplace_back([this] { serve(); });
+        } catch (const std::system_error&) {
+            // No more threads are to be had: those that are there, and the caller, do the same work.
+        }
     }
     ~PoolJobs() override {
         {
@@ -164,11 +184,15 @@ public:
 
     void run(Task task, void* data, uint32_t count) override {
         Batch batch(task, data, count);
-        if (count < 2) {
+        if (count < 2 || inside_host_item) {
             batch.work();
             return batch.rethrow();
         }
-        void* job = submit_(user_, [](void* b, uint32_t i) { static_cast<Batch*>(b)->item(i); }, &batch, count);
+        const auto item = [](void* b, uint32_t i) {
+            HostItem inside;
+            static_cast<Batch*>(b)->item(i);
+        };
+        void* job = submit_(user_, item, &batch, count);
         if (job) wait_(user_, job);
         batch.rethrow();
     }
@@ -177,7 +201,11 @@ public:
 
     void begin(Later& later) override {
         later.error = nullptr;
-        later.job = submit_(user_, [](void* l, uint32_t) { static_cast<Later*>(l)->run(); }, &later, 1);
+        const auto item = [](void* l, uint32_t) {
+            HostItem inside;
+            static_cast<Later*>(l)->run();
+        };
+        later.job = submit_(user_, item, &later, 1);
     }
 
     void end(Later& later) override {

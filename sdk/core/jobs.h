@@ -1,5 +1,5 @@
 // Work in parallel: items 0..count-1 on a small pool of threads, or on the host's job system. An item never
-// waits for another; one worker alone completes any call. The calling thread works too.
+// waits for one that has not started; one worker alone completes any call.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,11 @@ namespace vfit {
 
 class Jobs {
 public:
-    /// Own pool; workers beside the calling thread. 0 workers: everything runs in the caller.
+    /// Own pool; workers beside the calling thread, which works too. 0 workers, or none that the system gives:
+    /// everything runs in the caller.
     static std::unique_ptr<Jobs> own(uint32_t workers);
-    /// The host's job system (vfit_context_desc).
+    /// The host's job system (vfit_context_desc). What an item starts runs inside that item: only a thread in a
+    /// vfit call may submit and wait.
     static std::unique_ptr<Jobs> host(vfit_submit_fn submit, vfit_wait_fn wait, void* user, uint32_t workers);
     virtual ~Jobs() = default;
 

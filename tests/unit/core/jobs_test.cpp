@@ -2,7 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#if defined(__linux__)
+#include <sys/resource.h>
+#include <unistd.h>
+#endif
+
 #include <atomic>
+#include <cstdlib>
+#include <fstream>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -99,6 +106,55 @@ TEST(HostJobs, TheHostRunsTheItemsInAnyOrder) {
     for (const int n : runs) EXPECT_EQ(n, 1);
     EXPECT_THROW(parallel_for(*jobs, 3, [](uint32_t) { throw std::runtime_error("item"); }), std::runtime_error);
 }
+
+TEST(HostJobs, WhatAnItemStartsRunsInsideIt) {
+    LazyHost host;
+    const auto jobs = Jobs::host(LazyHost::submit, LazyHost::wait, &host, 2);
+    std::atomic<int> sum{0};
+    parallel_for(*jobs, 4, [&](uint32_t) { parallel_for(*jobs, 8, [&](uint32_t) { ++sum; }); });
+    EXPECT_EQ(sum.load(), 32);
+    EXPECT_EQ(host.submits, 1u);
+    parallel_for(*jobs, 4, [&](uint32_t) { ++sum; });
+    EXPECT_EQ(host.submits, 2u) << "after an item its thread submits again";
+}
+
+TEST(HostJobs, ATaskThatRunsBesideTheCallerSubmitsNothing) {
+    LazyHost host;
+    const auto jobs = Jobs::host(LazyHost::submit, LazyHost::wait, &host, 2);
+    struct Task {
+        Jobs* jobs;
+        int sum = 0;
+    } task{jobs.get()};
+    Jobs::Later later;
+    later.task = [](void* data, uint32_t) {
+        auto* t = static_cast<Task*>(data);
+        parallel_for(*t->jobs, 8, [&](uint32_t) { ++t->sum; });
+    };
+    later.data = &task;
+    jobs->begin(later);
+    jobs->end(later);
+    EXPECT_EQ(task.sum, 8);
+    EXPECT_EQ(host.submits, 1u);
+}
+
+#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+/// Runs in a process of its own.
+void work_without_memory_for_threads() {
+    rlimit limit{};
+    size_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    limit.rlim_cur = limit.rlim_max = pages * static_cast<size_t>(sysconf(_SC_PAGESIZE)) + (size_t(64) << 20);
+    if (setrlimit(RLIMIT_AS, &limit) != 0) std::exit(2);
+    const auto jobs = Jobs::own(256);
+    std::atomic<int> sum{0};
+    parallel_for(*jobs, 100, [&](uint32_t) { ++sum; });
+    std::exit(sum.load() == 100 && jobs->concurrency() < 257 ? 0 : 1);
+}
+
+TEST(JobsDeathTest, ASystemThatGivesNoMoreThreadsCostsSpeedAlone) {
+    EXPECT_EXIT(work_without_memory_for_threads(), testing::ExitedWithCode(0), "");
+}
+#endif
 
 }  // namespace
 }  // namespace vfit
