@@ -68,15 +68,15 @@ bool encode(Sink* sink, const unsigned char* pixels, uint32_t width, uint32_t he
 
 void write_file_atomically(const std::string& path, const void* bytes, size_t size) {
     const std::string temporary = path + ".part";
-    {
-        std::ofstream file(std::filesystem::path(temporary), std::ios::binary | std::ios::trunc);
-        file.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(size));
-        file.flush();
-        if (!file) fail(VFIT_ERROR_IO, path, ": cannot be written");
-    }
-    std::error_code error;
-    std::filesystem::rename(temporary, path, error);
+    std::ofstream file(std::filesystem::path(temporary), std::ios::binary | std::ios::trunc);
+    file.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(size));
+    file.close();
+    std::error_code error, ignored;
+    if (file) std::filesystem::rename(temporary, path, error);
+    if (file && !error) return;
+    std::filesystem::remove(temporary, ignored);  // on a full disk the half-written file takes the last room
     if (error) fail(VFIT_ERROR_IO, path, ": cannot be renamed into place: ", error.message());
+    fail(VFIT_ERROR_IO, path, ": cannot be written");
 }
 
 void PngWriter::write(const std::string& path, const void* pixels, uint32_t width, uint32_t height,

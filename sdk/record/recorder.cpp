@@ -31,6 +31,17 @@ void append_decimal(std::string& row, float value) {
     row += digits;
 }
 
+/// Every joint, for one that the first body hides may be seen later.
+const std::string& joints_header() {
+    static const std::string header = [] {
+        std::string text = "frame,id";
+        for (int j = 0; j < kJointCount; ++j)
+            for (const char* column : {"_x", "_y", "_z", "_c"}) text += "," + std::string(joint_name(j)) + column;
+        return text;
+    }();
+    return header;
+}
+
 nlohmann::json object_from(const std::string& json, const char* key) {
     nlohmann::json value = nlohmann::json::parse(json, nullptr, false);
     if (!value.is_object()) fail(VFIT_ERROR_DATA, "the frame's \"", key, "\" is not a JSON object");
@@ -184,36 +195,32 @@ void Recorder::write_rows(const Frame& frame, const Truth& truth) {
 }
 
 void Recorder::write_joints(const Frame& frame) {
-    if (frame.bodies.empty()) return;
-    if (joints_.empty()) {
-        for (int j = 0; j < kJointCount; ++j)
-            for (const Body& body : frame.bodies)
-                if (body.has(j) && (joints_.empty() || joints_.back() != j)) joints_.push_back(j);
-        if (joints_.empty()) return;
-        joints_header_ = "frame,id";
-        for (const int j : joints_)
-            for (const char* column : {"_x", "_y", "_z", "_c"})
-                joints_header_ += "," + std::string(joint_name(j)) + column;
-    }
+    // A table without rows: the source tells its bodies, and nobody was there.
+    if (frame.meta("bodies")) open_table(joints_file_, "/joints.csv", joints_header());
     for (const Body& world : frame.bodies) {
         const Body body = to_camera(world, frame.camera);
         row_ = std::to_string(count_) + "," + std::to_string(body.id);
-        for (const int j : joints_) {
-            const Joint& joint = body.joints[static_cast<size_t>(j)];
+        for (const Joint& joint : body.joints) {
             // All zero: not seen. No joint lies in the camera's centre.
             for (int axis = 0; axis < 3; ++axis)
                 append_decimal(row_, joint.seen() ? joint.position[axis] : 0.0f);
             append_decimal(row_, joint.seen() ? glm::clamp(joint.confidence, 0.0f, 1.0f) : 0.0f);
         }
-        append_row(joints_file_, "/joints.csv", joints_header_);
+        append_row(joints_file_, "/joints.csv", joints_header());
     }
 }
 
+void Recorder::open_table(std::ofstream& file, const char* name, const std::string& header) {
+    if (file.is_open()) return;
+    // The header as a whole or not at all: a table without one could not be read.
+    const std::string first = header + '\n';
+    write_file_atomically(path_ + name, first.data(), first.size());
+    file.open(fs::path(path_ + name), std::ios::binary | std::ios::app);
+    if (!file) fail(VFIT_ERROR_IO, path_, name, ": cannot be written");
+}
+
 void Recorder::append_row(std::ofstream& file, const char* name, const std::string& header) {
-    if (!file.is_open()) {
-        file.open(fs::path(path_ + name), std::ios::binary | std::ios::trunc);
-        file << header << '\n';
-    }
+    open_table(file, name, header);
     row_ += '\n';
     file.write(row_.data(), static_cast<std::streamsize>(row_.size()));
     file.flush();

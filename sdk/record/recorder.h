@@ -43,6 +43,7 @@ private:
     void write_images(const Frame& frame);
     void write_rows(const Frame& frame, const Truth& truth);
     void write_joints(const Frame& frame);
+    void open_table(std::ofstream& file, const char* name, const std::string& header);
     void append_row(std::ofstream& file, const char* name, const std::string& header);
     std::string image_path(const char* folder) const;
 
@@ -52,9 +53,8 @@ private:
     uint32_t count_ = 0;
     Camera camera_;  // of the first frame
     bool has_mask_ = false, has_color_ = false, has_measures_ = false, closed_ = false;
-    std::vector<int> joints_;  // columns of joints.csv
     std::ofstream timestamps_, joints_file_, contacts_;
-    std::string joints_header_, row_;
+    std::string row_;
     std::vector<uint8_t> mask_;
 };
 

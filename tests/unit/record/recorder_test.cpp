@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -62,6 +63,13 @@ Body body_in_camera(uint32_t id) {
     body.set(VFIT_JOINT_HEAD, {0.1f, -0.5f, 2.9f}, VFIT_JOINT_MEASURED, 0.75f);
     body.set(VFIT_JOINT_LEFT_FOOT, {0.2f, 1.0f, 3.0f});
     return body;
+}
+
+std::vector<std::string> fields_of(const std::string& row) {
+    std::vector<std::string> out;
+    std::stringstream fields(row);
+    for (std::string field; std::getline(fields, field, ',');) out.push_back(field);
+    return out;
 }
 
 /// Pixels of a PNG file, in the machine's byte order.
@@ -151,24 +159,62 @@ TEST_F(RecorderTest, JointsAreInCameraSpaceWithConfidenceAndId) {
     set_floor(frame->camera, 1.3f, 0.1f, 0.05f, VFIT_FLOOR_GIVEN);
     frame->bodies = {to_world(body_in_camera(3), frame->camera)};
     recorder.write(*frame);
-    Body footless = body_in_camera(3);
-    footless.joints[VFIT_JOINT_LEFT_FOOT].state = VFIT_JOINT_NOT_SEEN;
+    Body next_body = body_in_camera(3);
+    next_body.joints[VFIT_JOINT_LEFT_FOOT].state = VFIT_JOINT_NOT_SEEN;
+    next_body.set(VFIT_JOINT_RIGHT_TOES, {-0.2f, 1.1f, 2.8f});  // of a joint that the first frame does not show
     const auto next = frame_of(2);
-    next->bodies = {to_world(footless, next->camera)};
+    next->bodies = {to_world(next_body, next->camera)};
     recorder.write(*next);
     std::stringstream rows(text("joints.csv"));
     std::string header, first, second;
     std::getline(rows, header);
     std::getline(rows, first);
     std::getline(rows, second);
-    EXPECT_EQ(header, "frame,id,HEAD_x,HEAD_y,HEAD_z,HEAD_c,LEFT_FOOT_x,LEFT_FOOT_y,LEFT_FOOT_z,LEFT_FOOT_c");
-    EXPECT_EQ(second, "1,3,0.100000,-0.500000,2.900000,0.750000,0.000000,0.000000,0.000000,0.000000");
-    int number = 0, id = 0;
-    float v[8] = {};
-    ASSERT_EQ(std::sscanf(first.c_str(), "%d,%d,%f,%f,%f,%f,%f,%f,%f,%f", &number, &id, v, v + 1, v + 2,
-                          v + 3, v + 4, v + 5, v + 6, v + 7), 10);
-    const float wanted[8] = {0.1f, -0.5f, 2.9f, 0.75f, 0.2f, 1.0f, 3.0f, 1.0f};
-    for (int i = 0; i < 8; ++i) EXPECT_NEAR(v[i], wanted[i], 2e-6f) << i;
+    const auto columns = fields_of(header), one = fields_of(first), two = fields_of(second);
+    ASSERT_EQ(columns.size(), 2u + 4u * VFIT_JOINT_COUNT);
+    ASSERT_EQ(one.size(), columns.size());
+    ASSERT_EQ(two.size(), columns.size());
+    const auto number = [&](const std::vector<std::string>& row, const std::string& column) {
+        const auto at = std::find(columns.begin(), columns.end(), column);
+        EXPECT_NE(at, columns.end()) << column;
+        return std::stof(row.at(static_cast<size_t>(at - columns.begin())));
+    };
+    EXPECT_EQ(number(one, "id"), 3.0f);
+    EXPECT_NEAR(number(one, "HEAD_x"), 0.1f, 2e-6f);
+    EXPECT_NEAR(number(one, "HEAD_y"), -0.5f, 2e-6f);
+    EXPECT_NEAR(number(one, "HEAD_z"), 2.9f, 2e-6f);
+    EXPECT_NEAR(number(one, "HEAD_c"), 0.75f, 2e-6f);
+    EXPECT_NEAR(number(one, "LEFT_FOOT_y"), 1.0f, 2e-6f);
+    EXPECT_EQ(number(one, "RIGHT_TOES_z"), 0.0f);
+    EXPECT_EQ(number(two, "frame"), 1.0f);
+    EXPECT_EQ(number(two, "LEFT_FOOT_z"), 0.0f) << "not seen";
+    EXPECT_EQ(number(two, "LEFT_FOOT_c"), 0.0f);
+    EXPECT_NEAR(number(two, "RIGHT_TOES_z"), 2.8f, 2e-6f);
+}
+
+TEST_F(RecorderTest, ASourceThatTellsItsBodiesHasATableAlsoWhereNobodyIs) {
+    Recorder recorder(path(), {});
+    recorder.write(*frame_of(1));
+    EXPECT_FALSE(fs::exists(folder_ / "joints.csv"));
+    const auto frame = frame_of(2);
+    frame->set_meta("bodies", "true");
+    recorder.write(*frame);
+    recorder.write(*frame);
+    EXPECT_EQ(text("joints.csv").find("frame,id,HEAD_x"), 0u);
+    const std::string rows = text("joints.csv");
+    EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 1);
+}
+
+TEST_F(RecorderTest, APictureThatCannotBeWrittenLeavesNothingBehind) {
+    Recorder recorder(path(), {});
+    recorder.write(*frame_of(1));
+    const fs::path taken = folder_ / "depth" / "000001.png";
+    fs::create_directories(taken / "in the way");
+    EXPECT_EQ(code_of([&] { recorder.write(*frame_of(2)); }), VFIT_ERROR_IO);
+    EXPECT_FALSE(fs::exists(taken.string() + ".part"));
+    fs::remove_all(taken);
+    recorder.write(*frame_of(2));
+    EXPECT_EQ(recorder.frame_count(), 2u);
 }
 
 TEST_F(RecorderTest, PersonOneIsWhiteInTheMaskAndOtherIdsStay) {
