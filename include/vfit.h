@@ -125,7 +125,7 @@ typedef struct vfit_context_desc {
 typedef struct vfit_library_info {
     uint32_t struct_size, version;
     char simd[16];                      /* instruction set in use: "AVX2", "SSE4", "SCALAR", ...       */
-    char build[112];                    /* compiler, build type, libraries                            */
+    char build[112];                    /* compiler and build type                                    */
 } vfit_library_info;
 typedef struct vfit_plugin_info { uint32_t struct_size, version; char name[64], schemes[64], path[256]; }
     vfit_plugin_info;
@@ -211,7 +211,8 @@ enum { VFIT_FORMAT_NONE = 0, VFIT_FORMAT_U8 = 1, VFIT_FORMAT_U16 = 2,
 typedef struct vfit_view {
     uint32_t struct_size;
     vfit_format format;
-    const void* data;                   /* 16-byte aligned, 16 readable bytes past the last item     */
+    const void* data;                   /* 16-byte aligned, 16 readable bytes past the last item; where a
+                                         * host lent the pixels: as it lent them                         */
     uint32_t width, height;             /* items; height is 1 for vertex data                        */
     uint32_t item_stride, row_stride;   /* bytes                                                     */
     int64_t  time_ns;
@@ -239,12 +240,13 @@ VFIT_STRUCT(vfit_view) VFIT_STRUCT(vfit_target) VFIT_STRUCT(vfit_intrinsics) VFI
 
 /* A frame from pixels of the host (its own camera): views[i] is stream streams[i]. The pixels are
  * copied unless release is given, which is then called once, from any thread, when the last
- * reference has gone (and not at all where the call fails).                                           */
+ * reference has gone (and not at all where the call fails). Lent pixels are packed and aligned to their
+ * format.                                                                                             */
 typedef void (*vfit_release_fn)(void* user);
 typedef struct vfit_frame_desc {
     uint32_t struct_size, count;
     const vfit_stream* streams;         /* DEPTH, COLOR, USER_MAP; depth is required                    */
-    const vfit_view* views;             /* count items                                               */
+    const vfit_view* views;             /* count items, struct_size of the first apart                */
     const vfit_intrinsics* intrinsics;  /* of the depth image                                        */
     const vfit_camera* camera;          /* null: 1 mm units, floor unknown                             */
     int64_t time_ns;                    /* 0: now                                                    */
@@ -263,7 +265,8 @@ VFIT_API vfit_result vfit_frame_intrinsics(vfit_frame frame, vfit_intrinsics* ou
 VFIT_API vfit_result vfit_frame_camera(vfit_frame frame, vfit_camera* out);                /* [any]  */
 /* What the source says beside the pixels, one JSON document a key: "measures" (ground truth of a virtual
  * person, {"stature_m": ...}), "contacts" ({"left": 0, "right": 1}), "index" (the number of a recorded
- * frame), "bodies" (true: the source tells its bodies, also when nobody is in view). *length is the whole text's; no such key: VFIT_NOT_READY.                            [any]   */
+ * frame), "bodies" (true: the source tells its bodies, also when nobody is in view). *length is the whole
+ * text's; no such key: VFIT_NOT_READY.                                                         [any]   */
 VFIT_API vfit_result vfit_frame_meta(vfit_frame frame, const char* key, char* buffer, uint32_t capacity,
                                      uint32_t* length);
 /* Copies into memory of the engine (mapped vertex buffer, NativeArray) at its own format and stride;
@@ -532,7 +535,7 @@ enum { VFIT_CLOTH_NO_HANDS = 1 };       /* forearms and hands pass through: a ha
                                          * a skirt, and 15 spheres know no fingers to let it slip            */
 typedef struct vfit_cloth_desc {
     uint32_t struct_size, substeps;     /* 0: 8 a 1/60 s                                             */
-    float gravity[3];                   /* all zero: 0, -9.81, 0                                     */
+    float gravity[3];                   /* in the context's axes and unit; all zero: 9.81 m/s2 down   */
     float friction;                     /* 0: the fabric's; < 0: none                                  */
     float damping;                      /* share of speed lost a second, 0: 0.5; < 0: none               */
     float thickness_m;                  /* kept from the colliders, 0: 0.004                            */
@@ -545,10 +548,14 @@ VFIT_STRUCT(vfit_cloth_desc) VFIT_STRUCT(vfit_cloth_stats)
 VFIT_API vfit_result vfit_cloth_create(vfit_avatar avatar, vfit_garment garment,
                                        const vfit_cloth_desc* desc, vfit_cloth* out);/* [excl] on avatar */
 VFIT_API vfit_result vfit_cloth_destroy(vfit_cloth cloth);                                 /* [any]  */
-/* Back to the draped rest shape on the avatar as it is posed now.                              [excl]  */
+/* Put on anew: simulated on a body that stands straight, arms held out, and goes into the pose that the
+ * avatar has now, so that limbs push the cloth aside. create carries it into the pose as it is, at once:
+ * right for somebody who stands, not for a stride or a hand at the hip. Takes as long as some 35 steps
+ * (the sundress 0.1 s), whatever the settings.                                                [excl]  */
 VFIT_API vfit_result vfit_cloth_reset(vfit_cloth cloth);
-/* Fixed sub-steps inside; dt above 0.1 s is clamped. Reads the avatar: pose that one first. begin
- * hands the work to a worker and returns, end waits: between the two the engine renders.     [excl]  */
+/* Fixed sub-steps inside; dt is clamped to 0.1 ms..0.1 s, 0 changes nothing. Reads the avatar: pose that
+ * one first. begin hands the work to a worker and returns, end waits: between the two the engine renders.
+ * To a host's job system such a step is one item.                                             [excl]  */
 VFIT_API vfit_result vfit_cloth_step(vfit_cloth cloth, float dt);
 VFIT_API vfit_result vfit_cloth_begin_step(vfit_cloth cloth, float dt);
 VFIT_API vfit_result vfit_cloth_end_step(vfit_cloth cloth);

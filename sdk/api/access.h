@@ -44,10 +44,13 @@ public:
     Access access;
 };
 
-/// A call that is inside a context: its destruction waits for these.
+/// A call that is inside a context: its destruction waits for these. A call is counted under the lock of the
+/// handles' table, so that none gets in once the context's own handle is dead.
 class Inside {
 public:
-    explicit Inside(Ref<Context> context);
+    static void enter(Context& context);
+    /// Takes over what enter() counted.
+    explicit Inside(Ref<Context> entered);
     ~Inside();
     Inside(const Inside&) = delete;
     Inside& operator=(const Inside&) = delete;
@@ -62,11 +65,7 @@ enum class Mode { any, read, exclusive };
 template <typename T, Mode kMode>
 class Use {
 public:
-    explicit Use(uint64_t id)
-        : object_(static_cast<T*>(Handles::instance().get(id, T::kKind).get())), inside_(object_->context) {
-        if constexpr (kMode == Mode::read) object_->access.begin_read(kind_name(T::kKind));
-        if constexpr (kMode == Mode::exclusive) object_->access.begin_exclusive(kind_name(T::kKind));
-    }
+    explicit Use(uint64_t id) : Use(entered(id)) {}
     ~Use() {
         if constexpr (kMode == Mode::read) object_->access.end_read();
         if constexpr (kMode == Mode::exclusive) object_->access.end_exclusive();
@@ -79,8 +78,27 @@ public:
     const Ref<T>& ref() const { return object_; }
 
 private:
-    Ref<T> object_;
-    Inside inside_;
+    static Ref<T> entered(uint64_t id) {
+        const auto enter = [](const Handles::Entry& entry) {
+            Inside::enter(*static_cast<T&>(*entry.object).context);
+        };
+        return Ref<T>(static_cast<T*>(Handles::instance().find(id, T::kKind, enter).object.get()));
+    }
+    explicit Use(Ref<T>&& object) : inside_(object->context), object_(std::move(object)) {
+        if constexpr (kMode == Mode::read) object_->access.begin_read(kind_name(T::kKind));
+        if constexpr (kMode == Mode::exclusive) object_->access.begin_exclusive(kind_name(T::kKind));
+    }
+
+    const Inside inside_;
+    Ref<T> object_;  // let go of inside the context: it may be the last to know the object
 };
+
+/// Kills a handle and all below it; null is a no-op.
+template <typename T>
+void destroy(uint64_t id) {
+    if (id == 0) return;
+    Use<T, Mode::any> last(id);
+    Handles::instance().destroy(id, T::kKind);
+}
 
 }  // namespace vfit::api

@@ -88,14 +88,16 @@ vfit_result vfit_avatar_create_from_shape(vfit_context handle, const vfit_avatar
         const AvatarDesc d = avatar_desc(desc);
         const auto model = context->body_model();
         std::vector<float> shape = model->default_shape(d.sex);
-        for (const vfit_shape_value& v : read_array(items, stride, count, "items")) {
+        const Items<vfit_shape_value> values(items, stride, count, "items");
+        for (uint32_t i = 0; i < values.size(); ++i) {
+            const vfit_shape_value v = values[i];
             const std::string key = get_text(v.key);
-            const int i = model->parameter(key);
-            if (i < 0) fail(VFIT_ERROR_ARGUMENT, "\"", key, "\" is no shape value; see vfit_shape_list");
-            const ShapeParameter& p = model->parameters()[static_cast<size_t>(i)];
+            const int parameter = model->parameter(key);
+            if (parameter < 0) fail(VFIT_ERROR_ARGUMENT, "\"", key, "\" is no shape value; see vfit_shape_list");
+            const ShapeParameter& p = model->parameters()[static_cast<size_t>(parameter)];
             if (!(v.value >= p.minimum && v.value <= p.maximum))
                 fail(VFIT_ERROR_ARGUMENT, key, ": ", v.value, " is not in ", p.minimum, "..", p.maximum);
-            shape[static_cast<size_t>(i)] = v.value;
+            shape[static_cast<size_t>(parameter)] = v.value;
         }
         publish(*context, make<AvatarObject>(context.ref(), d, shape, Vec2(1.0f)), out);
         return VFIT_OK;
@@ -134,7 +136,7 @@ vfit_result vfit_avatar_create_from_scan(vfit_context handle, const vfit_avatar_
 
 vfit_result vfit_avatar_destroy(vfit_avatar avatar) {
     return guard([&] {
-        Handles::instance().destroy(avatar.id, Kind::avatar);
+        destroy<AvatarObject>(avatar.id);
         return VFIT_OK;
     });
 }
@@ -144,7 +146,7 @@ vfit_result vfit_avatar_pose(vfit_avatar handle, const vfit_pose* pose, const vf
     return guard([&] {
         Use<AvatarObject, Mode::exclusive> avatar(handle.id);
         const vfit_pose p = read(pose, "pose");
-        avatar->pose(pose_in(p, read_array(items, stride, count, "items"), avatar->context->axes));
+        avatar->pose(pose_in(p, Items<vfit_bone>(items, stride, count, "items"), avatar->context->axes));
         return VFIT_OK;
     });
 }

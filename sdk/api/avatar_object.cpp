@@ -6,7 +6,11 @@ namespace vfit::api {
 
 AvatarObject::AvatarObject(Ref<Context> owner, const AvatarDesc& desc, std::span<const float> shape,
                            const Vec2& scale)
-    : ContextChild(std::move(owner)), avatar(context->body_model(), desc, shape, scale), sex(desc.sex) {
+    : ContextChild(std::move(owner)),
+      avatar(context->body_model(), desc, shape, scale),
+      sex(desc.sex),
+      posed(*context),
+      rest(*context) {
     const size_t vertices = avatar.rest().positions.size();
     for (MeshOutput* output : {&posed, &rest}) {
         StaticStreams& topology = output->topology();

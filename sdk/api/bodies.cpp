@@ -16,8 +16,7 @@ void set_vector(float (&to)[3], const Vec3& v) {
     to[2] = v.z;
 }
 
-}  // namespace
-
+/// Seen joints, in the order in which they are listed; the count is returned.
 int listed_joints(const Body& body, int (&ids)[kJointCount]) {
     int n = 0;
     for (int id = 0; id < kJointCount; ++id)
@@ -41,6 +40,14 @@ vfit_joint joint_out(int id, const Joint& joint, const Axes& axes) {
     return out;
 }
 
+uint32_t contacts_seen(uint32_t contacts, const Axes& axes) {
+    const uint32_t left = contacts & VFIT_CONTACT_LEFT, right = contacts & VFIT_CONTACT_RIGHT;
+    if (!axes.mirrored()) return left | right;
+    return (left ? uint32_t(VFIT_CONTACT_RIGHT) : 0u) | (right ? uint32_t(VFIT_CONTACT_LEFT) : 0u);
+}
+
+}  // namespace
+
 vfit_result write_joints(const Body& body, const Axes& axes, vfit_joint* items, uint32_t stride, uint32_t* count) {
     int ids[kJointCount];
     const int n = listed_joints(body, ids);
@@ -49,44 +56,37 @@ vfit_result write_joints(const Body& body, const Axes& axes, vfit_joint* items, 
     });
 }
 
-Body body_in(const vfit_body& in, const std::vector<vfit_joint>& joints, const Axes& axes) {
+Body body_in(const vfit_body& in, const Items<vfit_joint>& joints, const Axes& axes) {
     // The user map has 8 bits a pixel, and 0 is the background.
     if (in.body_id == 0 || in.body_id > 255) fail(VFIT_ERROR_ARGUMENT, "body_id ", in.body_id, " is not in 1..255");
     check_flags(in.flags, VFIT_BODY_CAMERA_SPACE | VFIT_BODY_PARTLY_OUT_OF_VIEW, "body flags");
-    if (joints.empty()) fail(VFIT_ERROR_ARGUMENT, "body ", in.body_id, " has no joints");
+    if (joints.size() == 0) fail(VFIT_ERROR_ARGUMENT, "body ", in.body_id, " has no joints");
     const bool camera_space = (in.flags & VFIT_BODY_CAMERA_SPACE) != 0;
     Body body;
     body.id = in.body_id;
     body.time_ns = in.time_ns;
     body.flags = in.flags;
-    for (const vfit_joint& j : joints) {
-        const char* name = joint_name(j.joint);
-        if (!name) fail(VFIT_ERROR_ARGUMENT, "joint ", j.joint, " is not one of VFIT_JOINT_*");
-        check_enum(j.state, VFIT_JOINT_MEASURED, "joint state");
-        const Vec3 position(j.position[0], j.position[1], j.position[2]);
-        const Quat rotation(j.rotation[3], j.rotation[0], j.rotation[1], j.rotation[2]);
-        if (!finite(position) || !finite(rotation) || !finite(j.confidence))
-            fail(VFIT_ERROR_DATA, "joint ", name, " is not finite");
-        const int id = camera_space ? j.joint : axes.joint_out(j.joint);
-        Joint& joint = body.joints[static_cast<size_t>(id)];
-        joint.state = j.state;
-        joint.confidence = j.confidence;
-        joint.position = camera_space ? position : axes.point_in(position);
-        const float length = glm::length(rotation);
-        if (length > 0.5f) {
-            joint.rotation = (camera_space ? rotation : axes.rotation_in(rotation)) / length;
-            joint.has_rotation = true;
+    for (uint32_t i = 0; i < joints.size(); ++i) {
+        const vfit_joint given = joints[i];
+        Joint joint = joint_in(given);
+        int id = given.joint;
+        if (!camera_space) {
+            id = axes.joint_out(id);
+            joint.position = axes.point_in(joint.position);
+            joint.rotation = axes.rotation_in(joint.rotation);
         }
+        body.joints[static_cast<size_t>(id)] = joint;
     }
     return body;
 }
 
-Pose pose_in(const vfit_pose& in, const std::vector<vfit_bone>& bones, const Axes& axes) {
+Pose pose_in(const vfit_pose& in, const Items<vfit_bone>& bones, const Axes& axes) {
     Pose pose;
     pose.time_ns = in.time_ns;
-    pose.contacts = in.contact_flags;
+    pose.contacts = contacts_seen(in.contact_flags, axes);
     bool hips = false;
-    for (const vfit_bone& b : bones) {
+    for (uint32_t i = 0; i < bones.size(); ++i) {
+        const vfit_bone b = bones[i];
         const char* name = bone_name(b.bone);
         if (!name) fail(VFIT_ERROR_ARGUMENT, "bone ", b.bone, " is not one of VFIT_BONE_*");
         const Quat rotation(b.rotation[3], b.rotation[0], b.rotation[1], b.rotation[2]);
@@ -107,10 +107,7 @@ Pose pose_in(const vfit_pose& in, const std::vector<vfit_bone>& bones, const Axe
 
 vfit_pose pose_out(const Pose& pose, const Axes& axes) {
     vfit_pose out{};
-    const bool left = (pose.contacts & VFIT_CONTACT_LEFT) != 0, right = (pose.contacts & VFIT_CONTACT_RIGHT) != 0;
-    const bool swapped = axes.mirrored();
-    out.contact_flags = ((swapped ? right : left) ? uint32_t(VFIT_CONTACT_LEFT) : 0u) |
-                        ((swapped ? left : right) ? uint32_t(VFIT_CONTACT_RIGHT) : 0u);
+    out.contact_flags = contacts_seen(pose.contacts, axes);
     out.time_ns = pose.time_ns;
     set_vector(out.root_correction, axes.point_out(pose.root_correction));
     out.foot_correction_m = pose.foot_correction_m;

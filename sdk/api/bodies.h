@@ -1,6 +1,8 @@
 // Joints, bodies, bones and colliders between their internal values and the C structs, in the host's axes.
 #pragma once
 
+#include <vector>
+
 #include "api/structs.h"
 #include "body/collider.h"
 #include "body/skeleton.h"
@@ -9,18 +11,15 @@
 
 namespace vfit::api {
 
-/// Seen joints of a body, in the order in which they are listed; the count is returned.
-int listed_joints(const Body& body, int (&ids)[kJointCount]);
-
-vfit_joint joint_out(int id, const Joint& joint, const Axes& axes);
+/// The joints of a body that are seen.
 vfit_result write_joints(const Body& body, const Axes& axes, vfit_joint* items, uint32_t stride, uint32_t* count);
 
 /// A body of the host, in world space, or in camera space as it stands where flags say so (axes do not
 /// apply there). Fails with VFIT_ERROR_ARGUMENT or VFIT_ERROR_DATA, naming the joint.
-Body body_in(const vfit_body& body, const std::vector<vfit_joint>& joints, const Axes& axes);
+Body body_in(const vfit_body& body, const Items<vfit_joint>& joints, const Axes& axes);
 
 /// A pose of the host: bones that are not listed rest. Fails with VFIT_ERROR_DATA, naming the bone.
-Pose pose_in(const vfit_pose& pose, const std::vector<vfit_bone>& bones, const Axes& axes);
+Pose pose_in(const vfit_pose& pose, const Items<vfit_bone>& bones, const Axes& axes);
 vfit_pose pose_out(const Pose& pose, const Axes& axes);
 vfit_result write_bones(const Pose& pose, const Skeleton& skeleton, const Axes& axes, vfit_bone* items,
                         uint32_t stride, uint32_t* count);

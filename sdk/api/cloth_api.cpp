@@ -35,9 +35,7 @@ Ref<GarmentObject> parse(const Ref<Context>& context, std::span<const std::byte>
     return make<GarmentObject>(context, std::move(garment), material);
 }
 
-float setting(float given, float preset) { return given == 0.0f ? preset : std::max(given, 0.0f); }
-
-ClothSettings cloth_settings(const vfit_cloth_desc& d, const FabricMaterial& material) {
+ClothSettings cloth_settings(const vfit_cloth_desc& d, const FabricMaterial& material, const Axes& axes) {
     constexpr uint32_t kMaxSubsteps = 256;
     for (const float x : {d.gravity[0], d.gravity[1], d.gravity[2], d.friction, d.damping, d.thickness_m})
         if (!std::isfinite(x)) fail(VFIT_ERROR_ARGUMENT, "desc: a number is not finite");
@@ -49,7 +47,7 @@ ClothSettings cloth_settings(const vfit_cloth_desc& d, const FabricMaterial& mat
     ClothSettings s;
     if (d.substeps) s.substeps = d.substeps;
     if (d.gravity[0] != 0.0f || d.gravity[1] != 0.0f || d.gravity[2] != 0.0f)
-        s.gravity = {d.gravity[0], d.gravity[1], d.gravity[2]};
+        s.gravity = axes.point_in({d.gravity[0], d.gravity[1], d.gravity[2]});
     s.friction = setting(d.friction, material.friction);
     s.damping = setting(d.damping, s.damping);
     if (d.thickness_m > 0.0f) s.thickness_m = d.thickness_m;
@@ -92,7 +90,9 @@ struct ClothObject : ContextChild {
           avatar(std::move(avatar_object)),
           with_hands(hands),
           dress(std::move(d)),
-          cloth(dress.fabric(), settings, skinned()) {
+          cloth(dress.fabric(), settings, skinned()),
+          output(*context) {
+        time_ns = avatar->avatar.time_ns();
         output.topology().set_indices(dress.indices(), context->axes);
         output.topology().set_uvs(dress.uvs(), context->axes);
         publish(output.begin());
@@ -100,7 +100,11 @@ struct ClothObject : ContextChild {
         later.data = this;
     }
     ~ClothObject() override {
-        if (stepping) finish();
+        try {
+            if (stepping) finish();
+        } catch (...) {
+            // The step failed, and nobody is left to tell.
+        }
     }
 
     const Ref<AvatarObject> avatar;
@@ -114,6 +118,7 @@ struct ClothObject : ContextChild {
     // One step between begin and end; inputs are taken at begin, so that the avatar may move on.
     bool stepping = false;
     float dt = 0.0f;
+    int64_t time_ns = 0;  // of the pose
     Ref<Frame> next;
     Jobs::Later later;
 
@@ -121,16 +126,34 @@ struct ClothObject : ContextChild {
         dress.skin(avatar->avatar.skinning_matrices(), targets);
         return targets;
     }
+    auto read_avatar() {
+        avatar->access.begin_read("avatar");
+        return std::unique_ptr<Access, void (*)(Access*)>(&avatar->access, [](Access* a) { a->end_read(); });
+    }
     void prepare(float step_dt) {
         if (stepping) fail(VFIT_ERROR_STATE, "a step has begun already: end it first");
         if (!std::isfinite(step_dt) || step_dt < 0.0f) fail(VFIT_ERROR_ARGUMENT, "dt ", step_dt, " is no time");
-        avatar->access.begin_read("avatar");
-        const auto done = std::unique_ptr<Access, void (*)(Access*)>(&avatar->access, [](Access* a) { a->end_read(); });
+        const auto reading = read_avatar();
         next = output.begin();
         skinned();
         avatar->avatar.colliders(colliders);
         if (!with_hands) std::erase_if(colliders, of_hand);
+        time_ns = avatar->avatar.time_ns();
         dt = step_dt;
+    }
+    /// On a body that stands straight and then goes into the avatar's pose.
+    void put_on() {
+        require_no_step();
+        const auto reading = read_avatar();
+        next = output.begin();
+        time_ns = avatar->avatar.time_ns();
+        std::vector<Mat4> matrices(avatar->avatar.skinning_matrices().size());
+        const auto body = [&](float share, std::vector<Vec3>& places, std::vector<Collider>& limbs) {
+            avatar->avatar.while_dressing(share, matrices, limbs);
+            if (!with_hands) std::erase_if(limbs, of_hand);
+            dress.skin(matrices, places);
+        };
+        cloth.put_on(body, *context->jobs);
     }
     void step() {
         Profile::Scope time(context->profile, Stage::cloth);
@@ -141,7 +164,7 @@ struct ClothObject : ContextChild {
         context->jobs->end(later);
     }
     void publish(Ref<Frame> frame) {
-        output.fill(*frame, cloth.positions(), cloth.normals(), context->axes, avatar->avatar.time_ns());
+        output.fill(*frame, cloth.positions(), cloth.normals(), context->axes, time_ns);
         const auto& strain = cloth.strain();
         void* to = frame->add_stream(VFIT_STREAM_STRAIN, VFIT_FORMAT_F32, static_cast<uint32_t>(strain.size()), 1);
         std::memcpy(to, strain.data(), strain.size() * sizeof(float));
@@ -181,7 +204,7 @@ vfit_result vfit_garment_open(vfit_context handle, const char* name, vfit_garmen
 
 vfit_result vfit_garment_destroy(vfit_garment garment) {
     return guard([&] {
-        Handles::instance().destroy(garment.id, Kind::garment);
+        destroy<GarmentObject>(garment.id);
         return VFIT_OK;
     });
 }
@@ -227,7 +250,7 @@ vfit_result vfit_cloth_create(vfit_avatar avatar_handle, vfit_garment garment_ha
             fail(VFIT_ERROR_HANDLE, "avatar and garment belong to different contexts");
         const vfit_cloth_desc d = read_or_default(desc, "desc");
         check_flags(d.flags, VFIT_CLOTH_NO_HANDS, "desc.flags");
-        const ClothSettings settings = cloth_settings(d, garment->material);
+        const ClothSettings settings = cloth_settings(d, garment->material, avatar->context->axes);
         Dress dress = make_dress(*avatar->context, garment->garment, garment->material, *avatar, d.size_label,
                                  settings.thickness_m);
         auto cloth = make<ClothObject>(avatar.ref(), std::move(dress), settings, (d.flags & VFIT_CLOTH_NO_HANDS) == 0);
@@ -238,7 +261,7 @@ vfit_result vfit_cloth_create(vfit_avatar avatar_handle, vfit_garment garment_ha
 
 vfit_result vfit_cloth_destroy(vfit_cloth cloth) {
     return guard([&] {
-        Handles::instance().destroy(cloth.id, Kind::cloth);
+        destroy<ClothObject>(cloth.id);
         return VFIT_OK;
     });
 }
@@ -246,8 +269,7 @@ vfit_result vfit_cloth_destroy(vfit_cloth cloth) {
 vfit_result vfit_cloth_reset(vfit_cloth handle) {
     return guard([&] {
         Use<ClothObject, Mode::exclusive> cloth(handle.id);
-        cloth->prepare(0.0f);
-        cloth->cloth.reset(cloth->targets);
+        cloth->put_on();
         cloth->publish(std::move(cloth->next));
         return VFIT_OK;
     });

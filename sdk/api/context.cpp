@@ -22,10 +22,12 @@ std::string folder_or_default(const char* given, const char* beside_library) {
 
 }  // namespace
 
-Inside::Inside(Ref<Context> context) : context_(std::move(context)) {
-    std::lock_guard lock(context_->mutex_);
-    ++context_->inside_;
+void Inside::enter(Context& context) {
+    std::lock_guard lock(context.mutex_);
+    ++context.inside_;
 }
+
+Inside::Inside(Ref<Context> entered) : context_(std::move(entered)) {}
 
 Inside::~Inside() {
     std::lock_guard lock(context_->mutex_);
@@ -39,8 +41,9 @@ Context::Context(const vfit_context_desc& desc)
       jobs(make_jobs(desc)),
       data_dir(folder_or_default(desc.data_dir, "vfit_data")),
       plugin_dir(folder_or_default(desc.plugin_dir, "vfit_plugins")),
-      frames(make<FramePool>(kHostFrames)),
-      plugins_(std::make_unique<PluginHost>(log, [this] { return id; })) {
+      frame_bytes(make<FrameBytes>()),
+      frames(make<FramePool>(kHostFrames, frame_bytes)),
+      plugins_(std::make_unique<PluginHost>(log, [this] { return id; }, frame_bytes)) {
     plugins_->load_folder(plugin_dir);
 }
 
@@ -73,11 +76,19 @@ Ref<Frame> Context::take_frame(FramePool& pool) {
 }
 
 void Context::close() {
-    // No new call enters through a handle; closing the sensors wakes those that wait inside.
-    Handles::instance().destroy(id, Kind::context);
+    {
+        std::lock_guard lock(mutex_);
+        if (closing_) fail(VFIT_ERROR_BUSY, "the context is being destroyed on another thread");
+        closing_ = true;
+    }
+    // Wakes the calls that wait for a frame. First, so that no plug-in works on frames whose handles are dead.
     plugins_->shutdown();
+    // From here on no new call enters.
+    Handles::instance().destroy(id, Kind::context);
+    std::unique_ptr<Jobs> last;
     std::unique_lock lock(mutex_);
     idle_.wait(lock, [this] { return inside_ == 0; });
+    last = std::move(jobs);
 }
 
 }  // namespace vfit::api

@@ -29,9 +29,10 @@ public:
     const Axes axes;
     Log log;
     Profile profile;
-    const std::unique_ptr<Jobs> jobs;
+    std::unique_ptr<Jobs> jobs;  // until close()
     const std::string data_dir, plugin_dir;
-    const Ref<FramePool> frames;  // of the host's own and of tracked frames
+    const Ref<FrameBytes> frame_bytes;  // of all pools
+    const Ref<FramePool> frames;        // of the host's own and of tracked frames
     Access access;
 
     /// The baked body, loaded when first asked for.
@@ -45,7 +46,8 @@ public:
     /// A frame from a pool, or VFIT_ERROR_BUSY.
     static Ref<Frame> take_frame(FramePool& pool);
 
-    /// Kills the handles, closes the sensors and waits until no call is inside.
+    /// Closes the sensors, kills the handles, waits until no call is inside and joins the workers. Nothing of
+    /// the host's is called afterwards. A second thread that asks gets VFIT_ERROR_BUSY.
     void close();
 
 private:
@@ -53,6 +55,7 @@ private:
     std::mutex mutex_;
     std::condition_variable idle_;
     uint32_t inside_ = 0;
+    bool closing_ = false;
     std::mutex model_mutex_;
     std::shared_ptr<const BodyModel> model_;
     std::array<std::vector<Measurement>, VFIT_SEX_MALE + 1> default_measures_;
@@ -63,11 +66,7 @@ private:
 template <Mode kMode>
 class UseContext {
 public:
-    explicit UseContext(vfit_context handle)
-        : context_(static_cast<Context*>(Handles::instance().get(handle.id, Kind::context).get())),
-          inside_(context_) {
-        if constexpr (kMode == Mode::exclusive) context_->access.begin_exclusive("context");
-    }
+    explicit UseContext(vfit_context handle) : UseContext(entered(handle)) {}
     ~UseContext() {
         if constexpr (kMode == Mode::exclusive) context_->access.end_exclusive();
     }
@@ -79,16 +78,23 @@ public:
     const Ref<Context>& ref() const { return context_; }
 
 private:
-    Ref<Context> context_;
-    Inside inside_;
+    static Ref<Context> entered(vfit_context handle) {
+        const auto enter = [](const Handles::Entry& entry) { Inside::enter(static_cast<Context&>(*entry.object)); };
+        return Ref<Context>(
+            static_cast<Context*>(Handles::instance().find(handle.id, Kind::context, enter).object.get()));
+    }
+    explicit UseContext(Ref<Context>&& context) : context_(std::move(context)), inside_(context_) {
+        if constexpr (kMode == Mode::exclusive) context_->access.begin_exclusive("context");
+    }
+
+    const Ref<Context> context_;
+    const Inside inside_;
 };
 
 /// A frame and the context it belongs to.
 class UseFrame {
 public:
-    explicit UseFrame(vfit_frame handle)
-        : frame_(static_cast<Frame*>(Handles::instance().get(handle.id, Kind::frame).get())),
-          context_(vfit_context{Handles::instance().parent_of(handle.id)}) {}
+    explicit UseFrame(vfit_frame handle) : UseFrame(Handles::instance().find(handle.id, Kind::frame, enter)) {}
 
     Frame* operator->() const { return frame_.get(); }
     Frame& operator*() const { return *frame_; }
@@ -96,8 +102,17 @@ public:
     Context& context() const { return *context_; }
 
 private:
-    Ref<Frame> frame_;
-    UseContext<Mode::any> context_;
+    static void enter(const Handles::Entry& entry) { Inside::enter(static_cast<Context&>(*entry.parent)); }
+    explicit UseFrame(Handles::Entry&& entry)
+        : context_(static_cast<Context*>(entry.parent.get())),
+          inside_(context_),
+          frame_(static_cast<Frame*>(entry.object.get())) {
+        entry.object = nullptr;
+    }
+
+    const Ref<Context> context_;
+    const Inside inside_;
+    const Ref<Frame> frame_;  // let go of inside the context: the host's release may be called then
 };
 
 }  // namespace vfit::api

@@ -87,7 +87,8 @@ vfit_result vfit_shutdown(void) {
         vfit_result first = VFIT_OK;
         for (const uint64_t id : Handles::instance().children(0, Kind::context)) {
             const vfit_result result = vfit_context_destroy(vfit_context{id});
-            if (first == VFIT_OK) first = result;
+            // A plug-in's own context goes with the device that made it, which may have been just now.
+            if (first == VFIT_OK && result != VFIT_ERROR_HANDLE) first = result;
         }
         return first;
     });
@@ -102,7 +103,7 @@ vfit_result vfit_context_describe(vfit_context handle, vfit_context_stats* out) 
         const auto frames = Handles::instance().children(handle.id, Kind::frame);
         stats.frame_count = static_cast<uint32_t>(frames.size());
         stats.worker_count = context->jobs->concurrency() - 1;
-        stats.frame_bytes = context->frames->bytes();
+        stats.frame_bytes = context->frame_bytes->count.load();
         write(out, stats);
         return VFIT_OK;
     });
@@ -123,9 +124,9 @@ vfit_result vfit_profile_list(vfit_context handle, vfit_profile* items, uint32_t
         return write_list(items, stride, count, Profile::kStages, [&](size_t i) {
             const StageTimes times = context->profile.get(i);
             vfit_profile p{};
-            p.calls = times.calls;
+            p.calls = static_cast<uint32_t>(std::min<uint64_t>(times.calls, UINT32_MAX));
             p.last_ms = times.last_ms;
-            p.mean_ms = times.calls ? times.sum_ms / times.calls : 0.0;
+            p.mean_ms = times.calls ? times.sum_ms / static_cast<double>(times.calls) : 0.0;
             p.max_ms = times.max_ms;
             set_text(p.stage, Profile::name(i));
             return p;

@@ -1,10 +1,9 @@
 // vfit.h, part "frame".
-#include <cmath>
-
 #include "api/context.h"
 #include "api/guard.h"
 #include "api/structs.h"
 #include "core/clock.h"
+#include "frame/camera_struct.h"
 
 using namespace vfit;
 using namespace vfit::api;
@@ -14,24 +13,9 @@ namespace {
 constexpr uint32_t kMaxHostStreams = 3;
 
 Camera read_camera(const vfit_frame_desc& desc) {
-    const vfit_intrinsics k = read(desc.intrinsics, "intrinsics");
-    const vfit_camera c = read_or_default(desc.camera, "camera");
     Camera camera;
-    camera.width = k.width;
-    camera.height = k.height;
-    camera.fx = k.fx;
-    camera.fy = k.fy;
-    camera.cx = k.cx;
-    camera.cy = k.cy;
-    std::copy(std::begin(k.distortion), std::end(k.distortion), camera.distortion);
-    if (c.depth_unit_m != 0.0f) camera.depth_unit_m = c.depth_unit_m;
-    check_enum(c.floor_state, VFIT_FLOOR_GIVEN, "camera.floor_state");
-    if (c.floor_state == VFIT_FLOOR_GIVEN) {
-        camera.floor_state = c.floor_state;
-        camera.floor_normal = {c.floor_normal[0], c.floor_normal[1], c.floor_normal[2]};
-        camera.floor_distance_m = c.floor_distance_m;
-    }
-    validate(camera);
+    set_intrinsics(camera, read(desc.intrinsics, "intrinsics"));
+    set_placement(camera, read_or_default(desc.camera, "camera"));
     return camera;
 }
 
@@ -82,13 +66,27 @@ void lend_pixels(Frame& frame, const HostStream& s) {
     const uint32_t size = format_size(s.view.format);
     if (s.item != size || s.row != size * s.view.width)
         fail(VFIT_ERROR_UNSUPPORTED, "pixels that are lent (release given) must be tightly packed");
+    if (reinterpret_cast<uintptr_t>(s.view.data) % size != 0)
+        fail(VFIT_ERROR_ARGUMENT, "pixels that are lent must lie at a multiple of ", size, " bytes");
     frame.add_view({s.kind, s.view.format, s.view.width, s.view.height, size, s.row, s.view.data,
                     Frame::next_serial()});
+}
+
+void require_camera(const Frame& frame) {
+    if (frame.camera.width == 0) fail(VFIT_ERROR_ARGUMENT, "the frame has no depth image");
 }
 
 bool can_write(vfit_format from, vfit_format to) {
     return from == to || (from == VFIT_FORMAT_U32 && to == VFIT_FORMAT_U16) ||
            (from == VFIT_FORMAT_U16 && to == VFIT_FORMAT_F32);
+}
+
+/// Before the first item is written: a failed call leaves the target as it is.
+void check_narrow(const Stream& s) {
+    const auto* indices = s.as<uint32_t>();
+    for (size_t i = 0; i < s.items(); ++i)
+        if (indices[i] > UINT16_MAX)
+            fail(VFIT_ERROR_CAPACITY, "index ", indices[i], " does not fit the target's 16 bits");
 }
 
 /// One item in the target's format, one of those of can_write.
@@ -98,8 +96,6 @@ void write_converted(vfit_format from, const unsigned char* in, vfit_format to, 
     } else if (from == VFIT_FORMAT_U32) {
         uint32_t value;
         std::memcpy(&value, in, sizeof value);
-        if (value > UINT16_MAX)
-            fail(VFIT_ERROR_CAPACITY, "index ", value, " does not fit the target's 16 bits");
         const auto narrow = static_cast<uint16_t>(value);
         std::memcpy(out, &narrow, sizeof narrow);
     } else {
@@ -122,11 +118,13 @@ vfit_result vfit_frame_create(vfit_context handle, const vfit_frame_desc* desc, 
             fail(VFIT_ERROR_ARGUMENT, "desc: ", d.count, " streams; 1 to 3 are possible");
         check_pointer(d.streams, "desc.streams");
         check_pointer(d.views, "desc.views");
+        // The caller's own struct size is the distance of its views.
+        const Items<vfit_view> views(d.views, d.views->struct_size, d.count, "desc.views");
         const Camera camera = read_camera(d);
         HostStream streams[kMaxHostStreams];
         bool depth = false;
         for (uint32_t i = 0; i < d.count; ++i) {
-            streams[i] = check_host_stream(d.streams[i], read(&d.views[i], "view"), camera);
+            streams[i] = check_host_stream(d.streams[i], views[i], camera);
             depth = depth || d.streams[i] == VFIT_STREAM_DEPTH;
         }
         if (!depth) fail(VFIT_ERROR_ARGUMENT, "desc: a depth stream is required");
@@ -154,9 +152,11 @@ vfit_result vfit_frame_retain(vfit_frame frame) {
     });
 }
 
-vfit_result vfit_frame_release(vfit_frame frame) {
+vfit_result vfit_frame_release(vfit_frame handle) {
     return guard([&] {
-        if (frame.id != 0) Handles::instance().release(frame.id, Kind::frame);
+        if (handle.id == 0) return VFIT_OK;
+        UseFrame frame(handle);
+        Handles::instance().release(handle.id, Kind::frame);
         return VFIT_OK;
     });
 }
@@ -200,17 +200,8 @@ vfit_result vfit_frame_intrinsics(vfit_frame handle, vfit_intrinsics* out) {
     return guard([&] {
         UseFrame frame(handle);
         check_output(out, "out");
-        const Camera& c = frame->camera;
-        if (c.width == 0) fail(VFIT_ERROR_ARGUMENT, "the frame has no depth image");
-        vfit_intrinsics k{};
-        k.width = c.width;
-        k.height = c.height;
-        k.fx = c.fx;
-        k.fy = c.fy;
-        k.cx = c.cx;
-        k.cy = c.cy;
-        std::copy(std::begin(c.distortion), std::end(c.distortion), k.distortion);
-        write(out, k);
+        require_camera(*frame);
+        write(out, intrinsics_out(frame->camera));
         return VFIT_OK;
     });
 }
@@ -219,19 +210,8 @@ vfit_result vfit_frame_camera(vfit_frame handle, vfit_camera* out) {
     return guard([&] {
         UseFrame frame(handle);
         check_output(out, "out");
-        const Camera& c = frame->camera;
-        if (c.width == 0) fail(VFIT_ERROR_ARGUMENT, "the frame has no depth image");
-        vfit_camera camera{};
-        camera.floor_state = c.floor_state;
-        camera.depth_unit_m = c.depth_unit_m;
-        camera.height_m = c.camera_height_m();
-        camera.tilt_rad = c.tilt_rad();
-        camera.roll_rad = c.roll_rad();
-        std::memcpy(camera.floor_normal, &c.floor_normal, sizeof camera.floor_normal);
-        camera.floor_distance_m = c.floor_distance_m;
-        const Mat4 m = c.world_from_camera();
-        std::memcpy(camera.world_from_camera, &m, sizeof camera.world_from_camera);
-        write(out, camera);
+        require_camera(*frame);
+        write(out, placement_out(frame->camera));
         return VFIT_OK;
     });
 }
@@ -270,6 +250,7 @@ vfit_result vfit_frame_write(vfit_frame handle, vfit_stream stream, const vfit_t
         if (!can_write(s->format, format))
             fail(VFIT_ERROR_UNSUPPORTED, "stream ", stream, " of format ", s->format,
                  " cannot be written as format ", format);
+        if (s->format == VFIT_FORMAT_U32 && format == VFIT_FORMAT_U16) check_narrow(*s);
         const auto* from = static_cast<const unsigned char*>(s->data);
         auto* to = static_cast<unsigned char*>(t.data);
         if (format == s->format && stride == size && s->item_stride == size) {

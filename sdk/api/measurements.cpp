@@ -8,7 +8,9 @@ namespace vfit::api {
 
 std::vector<Measurement> measurements_in(const vfit_measurement* items, uint32_t stride, uint32_t count) {
     std::vector<Measurement> out;
-    for (const vfit_measurement& m : read_array(items, stride, count, "items")) {
+    const Items<vfit_measurement> list(items, stride, count, "items");
+    for (uint32_t i = 0; i < list.size(); ++i) {
+        const vfit_measurement m = list[i];
         const std::string key = get_text(m.key);
         if (measure_index(key) < 0) fail(VFIT_ERROR_DATA, "\"", key, "\" is no measure; see vfit_measure_key");
         if (!std::isfinite(m.value) || m.value <= 0.0f)

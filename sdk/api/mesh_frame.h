@@ -32,7 +32,8 @@ private:
 /// The newest mesh of an object, handed out by acquire while the object is posed on another thread.
 class MeshOutput {
 public:
-    MeshOutput() : pool_(make<FramePool>(kFrames)), topology_(make<StaticStreams>()) {}
+    explicit MeshOutput(const Context& context)
+        : pool_(make<FramePool>(kFrames, context.frame_bytes)), topology_(make<StaticStreams>()) {}
 
     StaticStreams& topology() { return *topology_; }
     /// An empty frame; VFIT_ERROR_BUSY when the host holds all.

@@ -1,6 +1,4 @@
 // vfit.h, part "motion".
-#include <algorithm>
-
 #include "api/avatar_object.h"
 #include "api/bodies.h"
 #include "api/guard.h"
@@ -19,9 +17,6 @@ struct MotionObject : ContextChild {
     Motion motion;
     bool seen = false;  // somebody was there: the pose means something
 };
-
-/// A zero field means "default", a negative one zero.
-float setting(float given, float preset) { return given == 0.0f ? preset : std::max(given, 0.0f); }
 
 MotionSettings motion_settings(const vfit_motion_desc& d) {
     check_flags(d.flags, VFIT_MOTION_NO_FILTER | VFIT_MOTION_NO_LIMITS | VFIT_MOTION_NO_SMOOTHING | VFIT_MOTION_NO_FEET,
@@ -57,7 +52,7 @@ vfit_result vfit_motion_create(vfit_context handle, const vfit_motion_desc* desc
 
 vfit_result vfit_motion_destroy(vfit_motion motion) {
     return guard([&] {
-        Handles::instance().destroy(motion.id, Kind::motion);
+        destroy<MotionObject>(motion.id);
         return VFIT_OK;
     });
 }

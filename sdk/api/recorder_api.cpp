@@ -51,10 +51,8 @@ vfit_result vfit_recorder_write(vfit_recorder handle, vfit_frame frame_handle) {
 vfit_result vfit_recorder_destroy(vfit_recorder handle) {
     return guard([&] {
         if (handle.id == 0) return VFIT_OK;
-        {
-            Use<RecorderObject, Mode::exclusive> recorder(handle.id);
-            recorder->recorder.close();
-        }
+        Use<RecorderObject, Mode::exclusive> recorder(handle.id);
+        recorder->recorder.close();
         Handles::instance().destroy(handle.id, Kind::recorder);
         return VFIT_OK;
     });

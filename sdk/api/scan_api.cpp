@@ -50,7 +50,7 @@ vfit_result vfit_scan_create(vfit_context handle, const vfit_scan_desc* desc, vf
 
 vfit_result vfit_scan_destroy(vfit_scan scan) {
     return guard([&] {
-        Handles::instance().destroy(scan.id, Kind::scan);
+        destroy<ScanObject>(scan.id);
         return VFIT_OK;
     });
 }
@@ -58,8 +58,7 @@ vfit_result vfit_scan_destroy(vfit_scan scan) {
 vfit_result vfit_scan_reset(vfit_scan handle) {
     return guard([&] {
         Use<ScanObject, Mode::exclusive> scan(handle.id);
-        scan->scan.reset();
-        scan->last_colliders.clear();
+        scan->forget();
         return VFIT_OK;
     });
 }

@@ -85,10 +85,8 @@ vfit_result vfit_sensor_stop(vfit_sensor handle) {
 vfit_result vfit_sensor_close(vfit_sensor handle) {
     return guard([&] {
         if (handle.id == 0) return VFIT_OK;
-        {
-            Use<SensorObject, Mode::any> sensor(handle.id);
-            sensor->sensor->close();
-        }
+        Use<SensorObject, Mode::any> sensor(handle.id);
+        sensor->sensor->close();
         Handles::instance().destroy(handle.id, Kind::sensor);
         return VFIT_OK;
     });

@@ -54,7 +54,7 @@ vfit_result vfit_size_chart_open(vfit_context handle, const char* name, vfit_siz
 
 vfit_result vfit_size_chart_destroy(vfit_size_chart chart) {
     return guard([&] {
-        Handles::instance().destroy(chart.id, Kind::size_chart);
+        destroy<SizeChartObject>(chart.id);
         return VFIT_OK;
     });
 }

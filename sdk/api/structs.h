@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
-#include <vector>
+#include <string>
 
 #include "core/error.h"
 #include "vfit.h"
@@ -77,19 +77,26 @@ inline void check_stride(uint32_t stride, const char* name) {
         fail(VFIT_ERROR_ARGUMENT, name, ": stride ", stride, " is not the size of a struct");
 }
 
-/// An input array of structs.
+/// An input array of structs, read item by item, so that a step allocates nothing for it.
 template <typename T>
-std::vector<T> read_array(const T* items, uint32_t stride, uint32_t count, const char* name) {
-    std::vector<T> out;
-    if (count == 0) return out;
-    check_pointer(items, name);
-    check_stride(stride, name);
-    if (count > kMaxItems) fail(VFIT_ERROR_ARGUMENT, name, ": count ", count, " is out of range");
-    out.reserve(count);
-    const auto* bytes = reinterpret_cast<const unsigned char*>(items);
-    for (uint32_t i = 0; i < count; ++i) out.push_back(read_item<T>(bytes + size_t(i) * stride, stride, name));
-    return out;
-}
+class Items {
+public:
+    Items(const T* items, uint32_t stride, uint32_t count, const char* name)
+        : bytes_(reinterpret_cast<const unsigned char*>(items)), stride_(stride), count_(count), name_(name) {
+        if (count == 0) return;
+        check_pointer(items, name);
+        check_stride(stride, name);
+        if (count > kMaxItems) fail(VFIT_ERROR_ARGUMENT, name, ": count ", count, " is out of range");
+    }
+
+    uint32_t size() const { return count_; }
+    T operator[](uint32_t i) const { return read_item<T>(bytes_ + size_t(i) * stride_, stride_, name_); }
+
+private:
+    const unsigned char* bytes_;
+    uint32_t stride_, count_;
+    const char* name_;
+};
 
 /// An output list of `total` items; item(i) makes each.
 template <typename T, typename Item>
@@ -133,6 +140,9 @@ template <size_t N>
 std::string get_text(const char (&field)[N]) {
     return {field, strnlen(field, N)};
 }
+
+/// A setting of a description: zero means "default", a negative number zero.
+inline float setting(float given, float preset) { return given == 0.0f ? preset : std::max(given, 0.0f); }
 
 inline void check_enum(int32_t value, int32_t last, const char* name) {
     if (value < 0 || value > last) fail(VFIT_ERROR_ARGUMENT, name, ": ", value, " is not one of its values");

@@ -1,8 +1,10 @@
 // vfit.h, part "bodies and tracker".
+#include <algorithm>
+
 #include "api/bodies.h"
 #include "api/context.h"
 #include "api/guard.h"
-#include "core/clock.h"
+#include "frame/camera_struct.h"
 #include "frame/floor.h"
 
 using namespace vfit;
@@ -16,24 +18,34 @@ struct TrackerObject : ContextChild {
     static constexpr Kind kKind = Kind::tracker;
     using ContextChild::ContextChild;
 
-    bool has_floor = false;  // of the description, or estimated from the first body
-    Camera floor;
+    Camera floor;  // its floor_state says whose: GIVEN by the description, ESTIMATED from the first body
 
-    /// The camera of a frame whose source does not know the floor gets the tracker's.
+    /// Where the tracker knows more of the floor than the frame's source, the tracker's is taken.
     void place(Camera& camera) const {
-        if (!has_floor || camera.floor_state == VFIT_FLOOR_GIVEN) return;
+        if (floor.floor_state <= camera.floor_state) return;
         camera.floor_state = floor.floor_state;
         camera.floor_normal = floor.floor_normal;
         camera.floor_distance_m = floor.floor_distance_m;
     }
 };
 
-Ref<Frame> tracked_frame(Context& context, const Ref<Frame>& base) {
-    Ref<Frame> tracked = Context::take_frame(*context.frames);
-    tracked->base = base;
-    tracked->time_ns = base->time_ns;
-    tracked->camera = base->camera;
-    return tracked;
+/// Shares the images of `base` and has its bodies, on the floor that the tracker knows.
+void track(const TrackerObject& tracker, const Ref<Frame>& base, Frame& tracked) {
+    tracked.base = base;
+    tracked.time_ns = base->time_ns;
+    tracked.camera = base->camera;
+    tracker.place(tracked.camera);
+    tracked.bodies = base->bodies;
+    // Bodies of the source stand on the source's floor. An estimate moves nobody: it is made where bodies that
+    // the host put into the world may be there already.
+    if (tracked.camera.floor_state == VFIT_FLOOR_GIVEN && base->camera.floor_state != VFIT_FLOOR_GIVEN)
+        for (Body& body : tracked.bodies) body = to_world(to_camera(body, base->camera), tracked.camera);
+}
+
+/// A tracked frame keeps its images alive, so both must go with one context.
+void require_same_context(const TrackerObject& tracker, const UseFrame& frame) {
+    if (&frame.context() != tracker.context.get())
+        fail(VFIT_ERROR_HANDLE, "the frame belongs to another context than the tracker");
 }
 
 }  // namespace
@@ -70,14 +82,9 @@ vfit_result vfit_tracker_create(vfit_context handle, const vfit_tracker_desc* de
         const vfit_tracker_desc d = read_or_default(desc, "desc");
         auto tracker = make<TrackerObject>(context.ref());
         if (d.floor) {
-            const vfit_camera c = read(d.floor, "desc.floor");
-            tracker->floor.width = tracker->floor.height = 1;  // only the floor counts here
-            tracker->floor.fx = tracker->floor.fy = 1.0f;
-            tracker->floor.floor_state = VFIT_FLOOR_GIVEN;
-            tracker->floor.floor_normal = {c.floor_normal[0], c.floor_normal[1], c.floor_normal[2]};
-            tracker->floor.floor_distance_m = c.floor_distance_m;
-            validate(tracker->floor);
-            tracker->has_floor = true;
+            vfit_camera floor = read(d.floor, "desc.floor");
+            floor.floor_state = VFIT_FLOOR_GIVEN;
+            set_placement(tracker->floor, floor);
         }
         out->id = context->publish(Kind::tracker, tracker);
         return VFIT_OK;
@@ -86,7 +93,7 @@ vfit_result vfit_tracker_create(vfit_context handle, const vfit_tracker_desc* de
 
 vfit_result vfit_tracker_destroy(vfit_tracker tracker) {
     return guard([&] {
-        Handles::instance().destroy(tracker.id, Kind::tracker);
+        destroy<TrackerObject>(tracker.id);
         return VFIT_OK;
     });
 }
@@ -94,7 +101,7 @@ vfit_result vfit_tracker_destroy(vfit_tracker tracker) {
 vfit_result vfit_tracker_reset(vfit_tracker handle) {
     return guard([&] {
         Use<TrackerObject, Mode::exclusive> tracker(handle.id);
-        if (tracker->floor.floor_state != VFIT_FLOOR_GIVEN) tracker->has_floor = false;
+        if (tracker->floor.floor_state != VFIT_FLOOR_GIVEN) tracker->floor = Camera{};
         return VFIT_OK;
     });
 }
@@ -105,14 +112,15 @@ vfit_result vfit_tracker_update(vfit_tracker handle, vfit_frame frame_handle, vf
         tracked->id = 0;
         Use<TrackerObject, Mode::exclusive> tracker(handle.id);
         UseFrame frame(frame_handle);
+        require_same_context(*tracker, frame);
         Profile::Scope time(tracker->context->profile, Stage::track);
         // A source that tells its bodies may have nobody in view; one that knows of none needs a tracker.
         if (frame->bodies.empty() && !frame->meta("bodies"))
             fail(VFIT_ERROR_UNSUPPORTED,
                  "the frame's source supplies no bodies, and this version finds no skeleton by itself: "
                  "use a source with joints, or vfit_tracker_submit");
-        Ref<Frame> out = tracked_frame(*tracker->context, frame.ref());
-        out->bodies = frame->bodies;
+        Ref<Frame> out = Context::take_frame(*tracker->context->frames);
+        track(*tracker, frame.ref(), *out);
         tracked->id = tracker->context->publish(Kind::frame, out);
         return VFIT_OK;
     });
@@ -126,26 +134,21 @@ vfit_result vfit_tracker_submit(vfit_tracker handle, vfit_frame frame_handle, co
         tracked->id = 0;
         Use<TrackerObject, Mode::exclusive> tracker(handle.id);
         UseFrame frame(frame_handle);
+        require_same_context(*tracker, frame);
         Profile::Scope time(tracker->context->profile, Stage::track);
-        Body in = body_in(read(body, "body"), read_array(items, stride, count, "items"), tracker->context->axes);
+        Body in = body_in(read(body, "body"), Items<vfit_joint>(items, stride, count, "items"), tracker->context->axes);
         if (frame->body(in.id)) fail(VFIT_ERROR_ARGUMENT, "the frame has a body ", in.id, " already");
         if (frame->bodies.size() == kMaxBodies)
             fail(VFIT_ERROR_CAPACITY, "a frame holds at most ", kMaxBodies, " bodies");
         if (in.time_ns == 0) in.time_ns = frame->time_ns;
 
-        Ref<Frame> out = tracked_frame(*tracker->context, frame.ref());
-        if ((in.flags & VFIT_BODY_CAMERA_SPACE) != 0) {
-            in.flags &= ~uint32_t(VFIT_BODY_CAMERA_SPACE);
-            if (!tracker->has_floor && out->camera.floor_state == VFIT_FLOOR_DEFAULT) {
-                tracker->floor = out->camera;
-                tracker->has_floor = estimate_floor(tracker->floor, in);
-            }
-            tracker->place(out->camera);
-            in = to_world(in, out->camera);
-        } else {
-            tracker->place(out->camera);
-        }
-        out->bodies = frame->bodies;
+        Ref<Frame> out = Context::take_frame(*tracker->context->frames);
+        const bool camera_space = (in.flags & VFIT_BODY_CAMERA_SPACE) != 0;
+        in.flags &= ~uint32_t(VFIT_BODY_CAMERA_SPACE);
+        const bool nobody_knows = std::max(tracker->floor.floor_state, frame->camera.floor_state) == VFIT_FLOOR_DEFAULT;
+        if (camera_space && nobody_knows) estimate_floor(tracker->floor, in);
+        track(*tracker, frame.ref(), *out);
+        if (camera_space) in = to_world(in, out->camera);
         out->bodies.push_back(in);
         tracked->id = tracker->context->publish(Kind::frame, out);
         return VFIT_OK;

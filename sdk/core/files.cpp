@@ -9,8 +9,10 @@ namespace vfit {
 
 std::vector<std::byte> read_file(const std::string& path, size_t max_bytes) {
     std::ifstream file(std::filesystem::path(path), std::ios::binary | std::ios::ate);
-    if (!file || std::filesystem::is_directory(path)) fail(VFIT_ERROR_IO, path, ": cannot be read");
-    const auto size = static_cast<size_t>(file.tellg());
+    std::error_code ignored;
+    const std::streamoff end = file ? std::streamoff(file.tellg()) : -1;  // -1 as well: a pipe has no length
+    if (end < 0 || std::filesystem::is_directory(path, ignored)) fail(VFIT_ERROR_IO, path, ": cannot be read");
+    const auto size = static_cast<size_t>(end);
     if (size > max_bytes) fail(VFIT_ERROR_IO, path, ": ", size, " bytes are more than the ", max_bytes, " allowed");
     std::vector<std::byte> bytes(size);
     file.seekg(0);
@@ -23,9 +25,9 @@ std::string data_file(const std::string& data_dir, const std::string& kind, cons
     const bool plain = !name.empty() && name.find_first_of("/\\:") == std::string::npos && name[0] != '.';
     if (!plain) fail(VFIT_ERROR_ARGUMENT, "\"", name, "\" is not the name of a file in ", kind);
     const std::string path = data_dir + "/" + kind + "/" + name + ".json";
-    if (std::filesystem::exists(path)) return path;
-    std::string known;
     std::error_code ignored;
+    if (std::filesystem::exists(path, ignored)) return path;
+    std::string known;
     for (const auto& entry : std::filesystem::directory_iterator(data_dir + "/" + kind, ignored))
         if (entry.path().extension() == ".json") known += (known.empty() ? "" : ", ") + entry.path().stem().string();
     fail(VFIT_ERROR_IO, "there is no \"", name, "\" in ", kind, "; there are: ", known.empty() ? "none" : known);

@@ -60,18 +60,24 @@ struct Handles::State {
         return slots[key.slot];
     }
 
+    /// Takes one id out of the table and hands out its object, to be let go of outside the lock.
+    Ref<Object> take(uint32_t index) {
+        Slot& slot = slots[index];
+        Ref<Object> object = std::move(slot.object);
+        slot.kind = Kind::none;
+        slot.generation = slot.generation == kGenerationMask ? 1 : slot.generation + 1;
+        free.push_back(index);
+        return object;
+    }
+
     /// Takes the id and everything below it out of the table; the objects are left in `out`, so that their
     /// destructors run outside the lock. Children come before parents.
     void remove(uint32_t index, std::vector<Ref<Object>>& out) {
         const uint64_t id = pack(index, slots[index].generation, slots[index].kind);
         for (uint32_t i = 0; i < slots.size(); ++i)
             if (slots[i].kind != Kind::none && slots[i].parent == id) remove(i, out);
-        Slot& slot = slots[index];
-        out.push_back(std::move(slot.object));
-        slot.object = nullptr;
-        slot.kind = Kind::none;
-        slot.generation = slot.generation == kGenerationMask ? 1 : slot.generation + 1;
-        free.push_back(index);
+        out.emplace_back();  // may throw, and must do so before the object is taken
+        out.back() = take(index);
     }
 };
 
@@ -108,6 +114,15 @@ Ref<Object> Handles::get(uint64_t id, Kind kind) const {
     return state_->live(id, kind).object;
 }
 
+Handles::Entry Handles::find(uint64_t id, Kind kind, Enter enter) const {
+    std::shared_lock lock(state_->mutex);
+    const Slot& slot = state_->live(id, kind);
+    Entry entry{slot.object, nullptr};
+    if (slot.parent != 0) entry.parent = state_->slots[unpack(slot.parent).slot].object;
+    enter(entry);
+    return entry;
+}
+
 void Handles::retain(uint64_t id, Kind kind) {
     std::unique_lock lock(state_->mutex);
     Slot& slot = state_->live(id, kind);
@@ -122,12 +137,7 @@ void Handles::release(uint64_t id, Kind kind) {
         Slot& slot = state_->live(id, kind);
         if (--slot.count > 0) return;
         // Counted kinds (frames) have nothing below them: no walk through the table.
-        const uint32_t index = unpack(id).slot;
-        last = std::move(slot.object);
-        slot.object = nullptr;
-        slot.kind = Kind::none;
-        slot.generation = slot.generation == kGenerationMask ? 1 : slot.generation + 1;
-        state_->free.push_back(index);
+        last = state_->take(unpack(id).slot);
     }
 }
 
@@ -161,11 +171,6 @@ uint32_t Handles::count_below(uint64_t parent) const {
         count += above != 0;
     }
     return count;
-}
-
-uint64_t Handles::parent_of(uint64_t id) const {
-    std::shared_lock lock(state_->mutex);
-    return state_->live(id, unpack(id).kind).parent;
 }
 
 }  // namespace vfit

@@ -25,6 +25,14 @@ public:
     /// The object of a live id of that kind; else fails with VFIT_ERROR_HANDLE, naming null, stale or foreign.
     Ref<Object> get(uint64_t id, Kind kind) const;
 
+    /// The same with its parent's object (null: none). `enter` runs under the table's lock: what it counts is
+    /// counted before anybody can destroy the id.
+    struct Entry {
+        Ref<Object> object, parent;
+    };
+    using Enter = void (*)(const Entry& entry);
+    Entry find(uint64_t id, Kind kind, Enter enter) const;
+
     /// One more count on the id; one less, and the id dies with the last.
     void retain(uint64_t id, Kind kind);
     void release(uint64_t id, Kind kind);
@@ -35,7 +43,6 @@ public:
     /// Live ids of one kind below a parent, and how many ids live below it at all.
     std::vector<uint64_t> children(uint64_t parent, Kind kind) const;
     uint32_t count_below(uint64_t parent) const;
-    uint64_t parent_of(uint64_t id) const;
 
 private:
     Handles();

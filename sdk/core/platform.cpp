@@ -1,5 +1,6 @@
 #include "core/platform.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -18,7 +19,7 @@ namespace vfit {
 #if defined(_WIN32)
 
 DynamicLibrary::DynamicLibrary(const std::string& path)
-    : handle_(LoadLibraryW(std::filesystem::u8path(path).c_str())) {
+    : handle_(LoadLibraryW(std::filesystem::path(std::u8string(path.begin(), path.end())).c_str())) {
     if (!handle_) fail(VFIT_ERROR_PLUGIN, path, ": cannot be loaded, error ", GetLastError());
 }
 DynamicLibrary::~DynamicLibrary() { FreeLibrary(static_cast<HMODULE>(handle_)); }
@@ -31,7 +32,8 @@ std::string library_folder() {
                        reinterpret_cast<LPCWSTR>(&library_folder), &module);
     wchar_t path[32768];
     GetModuleFileNameW(module, path, 32768);
-    return std::filesystem::path(path).parent_path().u8string();
+    const std::u8string folder = std::filesystem::path(path).parent_path().u8string();
+    return {folder.begin(), folder.end()};
 }
 const char* library_suffix() { return ".dll"; }
 

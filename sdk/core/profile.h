@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <mutex>
 
 #include "core/clock.h"
@@ -11,7 +12,7 @@ namespace vfit {
 enum class Stage { track, measure, motion, avatar, cloth, count };
 
 struct StageTimes {
-    uint32_t calls = 0;
+    uint64_t calls = 0;
     double last_ms = 0, sum_ms = 0, max_ms = 0;
 };
 

@@ -45,6 +45,10 @@ const char* joint_name(int joint);
 /// The id of a joint name, or -1.
 int joint_from_name(const char* name);
 
+/// A joint of the C ABI, as it stands: no space is changed. Fails with VFIT_ERROR_ARGUMENT for an unknown id or
+/// state, with VFIT_ERROR_DATA naming the joint where a number is not finite.
+Joint joint_in(const vfit_joint& in);
+
 /// The joint of the other side; middle joints are their own mirror.
 int mirrored_joint(int joint);
 

@@ -33,14 +33,29 @@ float Camera::tilt_rad() const { return std::asin(glm::clamp(-floor_normal.z, -1
 
 float Camera::roll_rad() const { return std::atan2(-floor_normal.x, -floor_normal.y); }
 
+namespace {
+
+bool positive(float x) { return std::isfinite(x) && x > 0.0f; }
+
+}  // namespace
+
 void validate(const Camera& c) {
-    const auto positive = [](float x) { return std::isfinite(x) && x > 0.0f; };
+    validate_lens(c);
+    validate_placement(c);
+}
+
+void validate_lens(const Camera& c) {
     if (c.width == 0 || c.height == 0 || c.width > 16384 || c.height > 16384)
         fail(VFIT_ERROR_ARGUMENT, "intrinsics: image size ", c.width, " x ", c.height, " is out of range");
     if (!positive(c.fx) || !positive(c.fy))
         fail(VFIT_ERROR_ARGUMENT, "intrinsics: focal length ", c.fx, ", ", c.fy, " must be positive");
     if (!finite(c.cx) || !finite(c.cy))
         fail(VFIT_ERROR_ARGUMENT, "intrinsics: principal point ", c.cx, ", ", c.cy, " is not finite");
+    for (const float k : c.distortion)
+        if (!finite(k)) fail(VFIT_ERROR_ARGUMENT, "intrinsics: distortion is not finite");
+}
+
+void validate_placement(const Camera& c) {
     if (!positive(c.depth_unit_m) || c.depth_unit_m > 1.0f)
         fail(VFIT_ERROR_ARGUMENT, "camera: depth_unit_m ", c.depth_unit_m, " is not in (0, 1]");
     if (!finite(c.floor_normal) || std::abs(glm::length(c.floor_normal) - 1.0f) > 1e-2f)

@@ -31,9 +31,11 @@ struct Camera {
     float roll_rad() const;  // > 0: turned clockwise as the camera sees
 };
 
-/// Fails with VFIT_ERROR_ARGUMENT naming the field unless sizes and focal lengths make sense, the depth
-/// unit is in (0, 1] m and the floor normal is a unit vector.
+/// Fails with VFIT_ERROR_ARGUMENT naming the field unless sizes and focal lengths make sense (the lens), the
+/// depth unit is in (0, 1] m and the floor normal is a unit vector (the placement).
 void validate(const Camera& camera);
+void validate_lens(const Camera& camera);
+void validate_placement(const Camera& camera);
 
 /// A camera that looks down by tilt and is turned by roll, at that height; sets the floor plane.
 void set_floor(Camera& camera, float height_m, float tilt_rad, float roll_rad, vfit_floor_state state);

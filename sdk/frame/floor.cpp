@@ -29,7 +29,8 @@ bool estimate_floor(Camera& camera, const Body& body) {
         if (body.has(foot)) lowest = std::max(lowest, body.at(foot).y + kAnkleHeight);
     for (const int toes : {VFIT_JOINT_LEFT_TOES, VFIT_JOINT_RIGHT_TOES})
         if (body.has(toes)) lowest = std::max(lowest, body.at(toes).y + kToesHeight);
-    if (lowest == -1e9f) return false;
+    // A camera below the feet is no camera in a room: such joints say nothing about the floor.
+    if (lowest <= 0.0f) return false;
     set_floor(camera, lowest, 0.0f, 0.0f, VFIT_FLOOR_ESTIMATED);
     return true;
 }

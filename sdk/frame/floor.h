@@ -7,7 +7,7 @@
 namespace vfit {
 
 /// Puts the floor of a level camera below that body's feet (joints in camera space) and marks it ESTIMATED.
-/// False, and nothing changed, where no foot is seen.
+/// False, and nothing changed, where no foot is seen below the camera.
 bool estimate_floor(Camera& camera, const Body& body);
 
 /// The body's positions and rotations carried from camera space to world space by the camera's floor.

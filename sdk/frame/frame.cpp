@@ -60,9 +60,13 @@ void* Frame::add_stream(vfit_stream kind, vfit_format format, uint32_t width, ui
     if (find(kind)) fail(VFIT_ERROR_ARGUMENT, "stream ", kind, " is in the frame already");
     if (stream_count_ == kMaxStreams)
         fail(VFIT_ERROR_ARGUMENT, "a frame holds at most ", kMaxStreams, " streams");
+    const uint64_t row_bytes = uint64_t(item) * width;
+    if (row_bytes > UINT32_MAX) fail(VFIT_ERROR_ARGUMENT, "stream ", kind, ": ", width, " items are too many");
     Slot& slot = slots_[stream_count_];
-    const uint32_t row = item * width;
+    const auto row = static_cast<uint32_t>(row_bytes);
+    const size_t before = slot.buffer.capacity();
     slot.buffer.resize(size_t(row) * height);
+    if (pool_) pool_->count_bytes(slot.buffer.capacity() - before);
     slot.stream = {kind, format, width, height, item, row, slot.buffer.data(), next_serial()};
     ++stream_count_;
     return slot.buffer.data();
@@ -119,12 +123,6 @@ DepthImage Frame::depth_image() const {
     return {depth->as<uint16_t>(), users ? users->as<uint8_t>() : nullptr, camera};
 }
 
-uint64_t Frame::bytes() const {
-    uint64_t sum = 0;
-    for (const Slot& slot : slots_) sum += slot.buffer.capacity();
-    return sum;
-}
-
 void Frame::clear() {
     if (host_release) host_release(host_user);
     host_release = nullptr;
@@ -175,13 +173,13 @@ void FramePool::give_back(Frame* frame) {
     out_.fetch_sub(1);
 }
 
-uint64_t FramePool::bytes() const {
-    std::lock_guard lock(mutex_);
-    uint64_t sum = 0;
-    for (const auto& frame : frames_) sum += frame->bytes();
-    return sum;
+void FramePool::count_bytes(uint64_t more) {
+    bytes_.fetch_add(more);
+    if (total_) total_->count.fetch_add(more);
 }
 
-FramePool::~FramePool() = default;
+FramePool::~FramePool() {
+    if (total_) total_->count.fetch_sub(bytes_.load());
+}
 
 }  // namespace vfit

@@ -51,6 +51,12 @@ struct Stream {
     size_t items() const { return size_t(width) * height; }
 };
 
+/// Bytes of frame data, counted over several pools.
+class FrameBytes : public Object {
+public:
+    std::atomic<uint64_t> count{0};
+};
+
 class FramePool;
 
 class Frame : public Object {
@@ -82,7 +88,6 @@ public:
 
     /// A number that no other stream has had: equal serials mean equal content.
     static uint64_t next_serial();
-    uint64_t bytes() const;
 
 private:
     friend class FramePool;
@@ -104,21 +109,26 @@ private:
 /// A bounded pool. Frames that are out keep it alive.
 class FramePool : public Object {
 public:
-    explicit FramePool(uint32_t capacity) : capacity_(capacity) {}
+    /// The memory of its frames is counted in `total` as well.
+    explicit FramePool(uint32_t capacity, Ref<FrameBytes> total = nullptr)
+        : capacity_(capacity), total_(std::move(total)) {}
 
     /// An empty frame, or null when `capacity` frames are out.
     Ref<Frame> take();
     uint32_t out() const { return out_.load(); }
-    uint64_t bytes() const;
+    uint64_t bytes() const { return bytes_.load(); }
 
 private:
     friend class Frame;
     ~FramePool() override;
     void give_back(Frame* frame);
+    void count_bytes(uint64_t more);
 
     const uint32_t capacity_;
+    const Ref<FrameBytes> total_;
+    std::atomic<uint64_t> bytes_{0};
     std::atomic<uint32_t> out_{0};
-    mutable std::mutex mutex_;
+    std::mutex mutex_;
     std::vector<std::unique_ptr<Frame>> frames_;
     std::vector<Frame*> idle_;
 };

@@ -2,7 +2,7 @@
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/handles.h"
-#include "math/finite.h"
+#include "frame/camera_struct.h"
 #include "sensor/host_table.h"
 #include "sensor/sized_struct.h"
 
@@ -14,26 +14,6 @@ constexpr uint32_t kMaxJoints = 1024;     // of one body in one call
 constexpr uint32_t kMaxBodies = 64;       // of one frame
 constexpr size_t kMaxMetaKey = 64;        // characters
 constexpr size_t kMaxMetaJson = 1 << 20;  // characters
-
-Joint read_joint(const vfit_joint& in) {
-    const char* name = joint_name(in.joint);
-    if (!name) fail(VFIT_ERROR_ARGUMENT, "joint ", in.joint, " is not one of VFIT_JOINT_*");
-    if (in.state < VFIT_JOINT_NOT_SEEN || in.state > VFIT_JOINT_MEASURED)
-        fail(VFIT_ERROR_ARGUMENT, "joint ", name, ": state ", in.state, " is not one of its values");
-    Joint joint;
-    joint.state = in.state;
-    joint.confidence = in.confidence;
-    joint.position = {in.position[0], in.position[1], in.position[2]};
-    const Quat rotation(in.rotation[3], in.rotation[0], in.rotation[1], in.rotation[2]);
-    if (!finite(joint.position) || !finite(rotation) || !finite(joint.confidence))
-        fail(VFIT_ERROR_DATA, "joint ", name, " is not finite; the body was dropped");
-    const float length = glm::length(rotation);
-    if (length > 0.5f && finite(length)) {  // all zero: unknown
-        joint.rotation = rotation / length;
-        joint.has_rotation = true;
-    }
-    return joint;
-}
 
 Body read_body(const vfit_body* in, const vfit_joint* items, uint32_t stride, uint32_t count) {
     const vfit_body b = read_sized(in, "body");
@@ -49,7 +29,7 @@ Body read_body(const vfit_body* in, const vfit_joint* items, uint32_t stride, ui
     for (uint32_t i = 0; i < count; ++i) {
         const auto joint = read_sized<vfit_joint>(reinterpret_cast<const char*>(items) + size_t(i) * stride,
                                                   stride, "joint");
-        const Joint value = read_joint(joint);
+        const Joint value = joint_in(joint);
         body.joints[static_cast<size_t>(joint.joint)] = value;
     }
     return body;
@@ -92,43 +72,15 @@ vfit_result HostTable::frame_intrinsics(void* self, vfit_frame handle, const vfi
     return enter(self, "frame_intrinsics", [&](HostTable& t) {
         const vfit_intrinsics in = read_sized(intrinsics, "intrinsics");
         std::lock_guard lock(t.mutex_);
-        Filling& filling = t.filling(handle);
-        Camera camera = filling.frame->camera;
-        camera.width = in.width;
-        camera.height = in.height;
-        camera.fx = in.fx;
-        camera.fy = in.fy;
-        camera.cx = in.cx;
-        camera.cy = in.cy;
-        for (int i = 0; i < 8; ++i) {
-            if (!finite(in.distortion[i])) fail(VFIT_ERROR_ARGUMENT, "intrinsics: distortion is not finite");
-            camera.distortion[i] = in.distortion[i];
-        }
-        validate(camera);
-        filling.frame->camera = camera;
+        set_intrinsics(t.filling(handle).frame->camera, in);
     });
 }
 
 vfit_result HostTable::frame_camera(void* self, vfit_frame handle, const vfit_camera* given) {
     return enter(self, "frame_camera", [&](HostTable& t) {
         const vfit_camera in = read_sized(given, "camera");
-        if (in.floor_state < VFIT_FLOOR_DEFAULT || in.floor_state > VFIT_FLOOR_GIVEN)
-            fail(VFIT_ERROR_ARGUMENT, "camera: floor_state ", in.floor_state, " is not one of its values");
-        Camera checked;
-        checked.width = checked.height = 1;  // only the unit and the floor are checked here
-        checked.fx = checked.fy = 1.0f;
-        if (in.depth_unit_m != 0.0f) checked.depth_unit_m = in.depth_unit_m;
-        if (in.floor_state != VFIT_FLOOR_DEFAULT) {
-            checked.floor_normal = {in.floor_normal[0], in.floor_normal[1], in.floor_normal[2]};
-            checked.floor_distance_m = in.floor_distance_m;
-        }
-        validate(checked);
         std::lock_guard lock(t.mutex_);
-        Camera& camera = t.filling(handle).frame->camera;
-        camera.depth_unit_m = checked.depth_unit_m;
-        camera.floor_state = in.floor_state;
-        camera.floor_normal = glm::normalize(checked.floor_normal);
-        camera.floor_distance_m = checked.floor_distance_m;
+        set_placement(t.filling(handle).frame->camera, in);
     });
 }
 

@@ -35,9 +35,9 @@ struct NegotiatedTable {
 
 }  // namespace
 
-Plugin::Plugin(Log& log, std::function<uint64_t()> context_id, std::string path,
+Plugin::Plugin(Log& log, std::function<uint64_t()> context_id, Ref<FrameBytes> frame_bytes, std::string path,
                std::unique_ptr<DynamicLibrary> library, vfit_plugin_negotiate_fn negotiate)
-    : log_(log), host_(log, std::move(context_id)), library_(std::move(library)) {
+    : frame_bytes_(std::move(frame_bytes)), host_(log, std::move(context_id)), library_(std::move(library)) {
     info_.path = std::move(path);
     host_.set_name(info_.path);
     NegotiatedTable negotiated{};
@@ -51,7 +51,7 @@ Plugin::Plugin(Log& log, std::function<uint64_t()> context_id, std::string path,
         fail(VFIT_ERROR_VERSION, needs, "; it asks for ", negotiated.table.abi);
     try {
         check_table(negotiated.table);
-    } catch (const Error&) {
+    } catch (...) {
         if (negotiated.table.shutdown) negotiated.table.shutdown(negotiated.table.self);
         throw;
     }
@@ -103,12 +103,15 @@ std::vector<vfit_sensor_info> Plugin::discover() {
 Ref<Sensor> Plugin::open(const std::string& uri) {
     std::lock_guard lock(calls_);
     if (down_) fail(VFIT_ERROR_STATE, "plug-in ", info_.name, " was shut down");
-    auto stream = make<SensorStream>();
+    auto stream = make<SensorStream>(frame_bytes_);
     void* token = host_.add_stream(stream);
     void* device = nullptr;
     try {
         const vfit_result result = table_.open(table_.self, uri.c_str(), token, &device);
-        if (result != VFIT_OK) fail_with_last_error(result, text("opening ", uri));
+        if (result != VFIT_OK) {
+            device = nullptr;  // whatever it wrote there: a failed open leaves nothing to close
+            fail_with_last_error(result, text("opening ", uri));
+        }
         if (!device) fail(VFIT_ERROR_PLUGIN, "plug-in ", info_.name, " opened ", uri, " but gave no device");
         Ref<Sensor> sensor = make<Sensor>(Ref<Plugin>(this), uri, stream, token, device);
         sensor->read_default_pace();

@@ -23,7 +23,7 @@ struct PluginInfo {
 class Plugin : public Object {
 public:
     /// Negotiates; fails with VFIT_ERROR_PLUGIN or VFIT_ERROR_VERSION, naming the file and the cause.
-    Plugin(Log& log, std::function<uint64_t()> context_id, std::string path,
+    Plugin(Log& log, std::function<uint64_t()> context_id, Ref<FrameBytes> frame_bytes, std::string path,
            std::unique_ptr<DynamicLibrary> library, vfit_plugin_negotiate_fn negotiate);
 
     const PluginInfo& info() const { return info_; }
@@ -41,7 +41,7 @@ private:
     [[noreturn]] void fail_with_last_error(vfit_result result, const std::string& what);
     void forget(Sensor* sensor);
 
-    Log& log_;
+    const Ref<FrameBytes> frame_bytes_;
     HostTable host_;
     std::unique_ptr<DynamicLibrary> library_;
     vfit_plugin table_{};

@@ -21,8 +21,8 @@ std::string scheme_of(const std::string& uri) {
 
 }  // namespace
 
-PluginHost::PluginHost(Log& log, std::function<uint64_t()> context_id)
-    : log_(log), context_id_(std::move(context_id)) {}
+PluginHost::PluginHost(Log& log, std::function<uint64_t()> context_id, Ref<FrameBytes> frame_bytes)
+    : log_(log), context_id_(std::move(context_id)), frame_bytes_(std::move(frame_bytes)) {}
 
 PluginHost::~PluginHost() { shutdown(); }
 
@@ -39,7 +39,7 @@ void PluginHost::attach(const std::string& name, vfit_plugin_negotiate_fn negoti
 
 void PluginHost::add(std::string path, std::unique_ptr<DynamicLibrary> library,
                      vfit_plugin_negotiate_fn negotiate) {
-    const auto plugin = make<Plugin>(log_, context_id_, path, std::move(library), negotiate);
+    const auto plugin = make<Plugin>(log_, context_id_, frame_bytes_, path, std::move(library), negotiate);
     try {
         std::lock_guard lock(mutex_);
         if (down_) fail(VFIT_ERROR_STATE, path, ": plug-ins were shut down");

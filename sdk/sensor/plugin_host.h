@@ -14,8 +14,9 @@ namespace vfit {
 
 class PluginHost {
 public:
-    /// context_id: the handle below which frames live while a plug-in fills them.
-    PluginHost(Log& log, std::function<uint64_t()> context_id);
+    /// context_id: the handle below which frames live while a plug-in fills them. The memory of all its frames is
+    /// counted in frame_bytes.
+    PluginHost(Log& log, std::function<uint64_t()> context_id, Ref<FrameBytes> frame_bytes = nullptr);
     ~PluginHost();
     PluginHost(const PluginHost&) = delete;
     PluginHost& operator=(const PluginHost&) = delete;
@@ -45,6 +46,7 @@ private:
 
     Log& log_;
     const std::function<uint64_t()> context_id_;
+    const Ref<FrameBytes> frame_bytes_;
     mutable std::mutex mutex_;
     std::vector<Ref<Plugin>> plugins_;
     bool down_ = false;

@@ -83,11 +83,15 @@ void Sensor::stop() {
 void Sensor::stop_device() {
     if (!running_) return;
     running_ = false;
+    // Once more under the lock: a start on another thread may have opened it since, and the plug-in's stop waits
+    // for a push that waits for the host.
+    stream_->queue.close();
     const vfit_result result = plugin_->table_.stop(device_);
     if (result != VFIT_OK) plugin_->host_.complain(text("stopping ", uri_, " failed, result ", result));
 }
 
 void Sensor::close() {
+    const Ref<Sensor> self(this);  // the plug-in's list may hold the last reference
     stream_->queue.close();
     std::lock_guard lock(plugin_->calls_);
     if (!device_) return;
@@ -95,7 +99,6 @@ void Sensor::close() {
     plugin_->table_.close(device_);
     device_ = nullptr;
     plugin_->host_.remove_stream(token_);
-    const Ref<Sensor> self(this);  // the plug-in's list may hold the last reference
     plugin_->forget(this);
 }
 

@@ -96,8 +96,7 @@ void SensorStream::find_floor(Frame& frame) {
     std::lock_guard lock(floor_mutex_);
     if (!has_floor_ && !frame.bodies.empty()) {
         floor_ = Camera{};
-        // A camera below the feet is no camera in a room: such joints say nothing about the floor.
-        has_floor_ = estimate_floor(floor_, frame.bodies.front()) && floor_.floor_distance_m > 0.0f;
+        has_floor_ = estimate_floor(floor_, frame.bodies.front());
     }
     if (!has_floor_) return;
     frame.camera.floor_state = floor_.floor_state;

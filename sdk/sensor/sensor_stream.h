@@ -12,7 +12,8 @@ namespace vfit {
 
 class SensorStream : public Object {
 public:
-    SensorStream() : pool_(make<FramePool>(kPoolFrames)) {}
+    explicit SensorStream(Ref<FrameBytes> total = nullptr)
+        : pool_(make<FramePool>(kPoolFrames, std::move(total))) {}
 
     FrameQueue queue;
 

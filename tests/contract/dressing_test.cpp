@@ -266,6 +266,48 @@ TEST_F(DressingTest, WrongStepsAndSettingsAreRefused) {
     EXPECT_EQ(other.id, 0u);
 }
 
+TEST_F(DressingTest, GravityIsReadInTheContextsAxes) {
+    ASSERT_EQ(vfit_context_destroy(context), VFIT_OK);
+    vfit_context_desc desc = contract::context_desc();
+    desc.axes = VFIT_AXES_UNREAL;  // centimetres, Z up
+    ASSERT_EQ(vfit_context_create(&desc, &context), VFIT_OK);
+    const vfit_avatar avatar = make_avatar();
+    const auto mean_height = [&](float gravity_z) {
+        vfit_cloth_desc cloth_desc = vfit_cloth_desc_init();
+        cloth_desc.gravity[2] = gravity_z;
+        const vfit_cloth cloth = make_cloth(avatar, &cloth_desc);
+        for (int i = 0; i < 10; ++i) EXPECT_EQ(vfit_cloth_step(cloth, 1.0f / 60.0f), VFIT_OK);
+        vfit_frame frame{};
+        EXPECT_EQ(vfit_cloth_acquire(cloth, &frame), VFIT_OK);
+        vfit_view view = vfit_view_init();
+        EXPECT_EQ(vfit_frame_view(frame, VFIT_STREAM_POSITION, &view), VFIT_OK);
+        double sum = 0.0;
+        for (uint32_t i = 0; i < view.width; ++i) sum += static_cast<const float*>(view.data)[3 * i + 2];
+        return sum / view.width;
+    };
+    const double by_default = mean_height(0.0f);
+    EXPECT_NEAR(mean_height(-981.0f), by_default, 0.01);
+    EXPECT_GT(mean_height(981.0f), by_default + 0.5) << "upwards";
+}
+
+TEST_F(DressingTest, AnIndexThatDoesNotFitSixteenBitsLeavesTheTargetAsItIs) {
+    vfit_frame frame{};
+    ASSERT_EQ(vfit_avatar_acquire(make_avatar(2), &frame), VFIT_OK);  // 219k vertices
+    std::vector<uint16_t> narrow(width_of(frame, VFIT_STREAM_INDEX), 0xABCD);
+    vfit_target target = vfit_target_init();
+    target.format = VFIT_FORMAT_U16;
+    target.data = narrow.data();
+    target.capacity = narrow.size() * sizeof(uint16_t);
+    EXPECT_EQ(vfit_frame_write(frame, VFIT_STREAM_INDEX, &target, nullptr), VFIT_ERROR_CAPACITY);
+    for (const uint16_t index : narrow) ASSERT_EQ(index, 0xABCD);
+    ASSERT_EQ(vfit_avatar_acquire(make_avatar(0), &frame), VFIT_OK);
+    ASSERT_EQ(vfit_frame_write(frame, VFIT_STREAM_INDEX, &target, nullptr), VFIT_OK) << contract::last_error();
+    vfit_view wide = vfit_view_init();
+    ASSERT_EQ(vfit_frame_view(frame, VFIT_STREAM_INDEX, &wide), VFIT_OK);
+    for (uint32_t i = 0; i < wide.width; ++i)
+        ASSERT_EQ(narrow[i], static_cast<const uint32_t*>(wide.data)[i]);
+}
+
 TEST_F(DressingTest, DestroyingAnAvatarTakesItsClothWithIt) {
     const vfit_avatar avatar = make_avatar();
     const vfit_cloth cloth = make_cloth(avatar);

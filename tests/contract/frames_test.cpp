@@ -130,6 +130,9 @@ TEST_F(FrameTest, WrongCamerasAreRefusedByName) {
     camera = vfit_camera_init();
     camera.depth_unit_m = 7.0f;
     EXPECT_EQ(create(desc), VFIT_ERROR_ARGUMENT);
+    image.intrinsics.distortion[3] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(create(image.desc()), VFIT_ERROR_ARGUMENT);
+    EXPECT_NE(contract::last_error().find("distortion"), std::string::npos);
 }
 
 TEST_F(FrameTest, TheCameraTellsItsHeightAndTilt) {
@@ -186,6 +189,52 @@ TEST_F(FrameTest, WritesAtTheHostsStrideAndFormatAndSkipsWhatItHas) {
     target.format = VFIT_FORMAT_NONE;
     target.data = nullptr;
     EXPECT_EQ(vfit_frame_write(frame, VFIT_STREAM_DEPTH, &target, nullptr), VFIT_ERROR_ARGUMENT);
+}
+
+TEST_F(FrameTest, ViewsOfALaterCallersSizeAreFoundOneAfterTheOther) {
+    struct NewerView {
+        vfit_view known;
+        uint64_t more;
+    } views[2] = {{image.views[0], 0}, {image.views[1], 0}};
+    for (NewerView& view : views) view.known.struct_size = sizeof view;
+    vfit_frame_desc desc = image.desc();
+    desc.views = &views[0].known;
+    EXPECT_EQ(create(desc), VFIT_OK) << contract::last_error();
+    views[1].more = 1;
+    EXPECT_EQ(create(desc), VFIT_ERROR_UNSUPPORTED);
+    views[0].known.struct_size = 0;
+    EXPECT_EQ(create(desc), VFIT_ERROR_ARGUMENT);
+}
+
+TEST_F(FrameTest, LentPixelsMustLieWhereTheirFormatCanBeRead) {
+    vfit_frame_desc desc = image.desc();
+    desc.release = [](void*) { ADD_FAILURE() << "a failed create must not release"; };
+    image.views[0].data = reinterpret_cast<const char*>(image.depth.data()) + 1;
+    EXPECT_EQ(create(desc), VFIT_ERROR_ARGUMENT);
+}
+
+TEST_F(FrameTest, AHostMayHandOnTheEstimatedFloorOfAnotherFrame) {
+    vfit_camera camera = vfit_camera_init();
+    camera.floor_state = VFIT_FLOOR_ESTIMATED;
+    camera.floor_normal[1] = -1.0f;
+    camera.floor_distance_m = 1.3f;
+    vfit_frame_desc desc = image.desc();
+    desc.camera = &camera;
+    vfit_frame frame{};
+    ASSERT_EQ(vfit_frame_create(context, &desc, &frame), VFIT_OK) << contract::last_error();
+    vfit_camera out = vfit_camera_init();
+    ASSERT_EQ(vfit_frame_camera(frame, &out), VFIT_OK);
+    EXPECT_EQ(out.floor_state, VFIT_FLOOR_ESTIMATED);
+    EXPECT_FLOAT_EQ(out.height_m, 1.3f);
+}
+
+TEST_F(FrameTest, TheContextTellsTheMemoryOfItsFrames) {
+    vfit_context_stats stats = vfit_context_stats_init();
+    ASSERT_EQ(vfit_context_describe(context, &stats), VFIT_OK);
+    EXPECT_EQ(stats.frame_bytes, 0u);
+    make_frame();
+    ASSERT_EQ(vfit_context_describe(context, &stats), VFIT_OK);
+    EXPECT_EQ(stats.frame_bytes, HostImage::kWidth * HostImage::kHeight * 3u);
 }
 
 TEST_F(FrameTest, ThePoolIsBoundedAndSaysSo) {
@@ -314,6 +363,51 @@ TEST_F(SubmitTest, JointsInCameraSpaceAreCarriedToTheFloorBelowTheFeet) {
     EXPECT_EQ(got.flags & VFIT_BODY_CAMERA_SPACE, 0u) << "bodies of a frame are in world space";
 }
 
+TEST_F(SubmitTest, TheTrackersFloorCarriesTheBodiesOfASourceThatKnowsNone) {
+    for (vfit_joint& j : joints) {
+        j.position[1] = 1.2f - j.position[1];
+        j.position[2] = -j.position[2];
+    }
+    body.flags = VFIT_BODY_CAMERA_SPACE;
+    ASSERT_EQ(submit(frame), VFIT_OK) << contract::last_error();
+    const vfit_frame estimated = tracked;
+    vfit_camera floor = vfit_camera_init();
+    floor.floor_normal[1] = -1.0f;
+    floor.floor_distance_m = 2.2f;
+    vfit_tracker_desc desc = vfit_tracker_desc_init();
+    desc.floor = &floor;
+    vfit_tracker knows{};
+    ASSERT_EQ(vfit_tracker_create(context, &desc, &knows), VFIT_OK) << contract::last_error();
+    vfit_frame placed{};
+    ASSERT_EQ(vfit_tracker_update(knows, estimated, &placed), VFIT_OK) << contract::last_error();
+    vfit_camera camera = vfit_camera_init();
+    ASSERT_EQ(vfit_frame_camera(placed, &camera), VFIT_OK);
+    EXPECT_EQ(camera.floor_state, VFIT_FLOOR_GIVEN);
+    EXPECT_FLOAT_EQ(camera.height_m, 2.2f);
+    uint32_t count = VFIT_JOINT_COUNT;
+    std::vector<vfit_joint> out(count);
+    ASSERT_EQ(vfit_frame_joints(placed, 1, out.data(), sizeof(vfit_joint), &count), VFIT_OK);
+    EXPECT_NEAR(out[0].position[1], 2.60f, 1e-4f) << "the camera is a metre higher, and so is the person";
+    EXPECT_NEAR(out[0].position[2], -2.0f, 1e-4f);
+    // A frame whose source knows its floor is left as it is.
+    vfit_frame again{};
+    ASSERT_EQ(vfit_tracker_update(tracker, placed, &again), VFIT_OK);
+    ASSERT_EQ(vfit_frame_camera(again, &camera), VFIT_OK);
+    EXPECT_FLOAT_EQ(camera.height_m, 2.2f);
+}
+
+TEST_F(SubmitTest, AFrameOfAnotherContextIsForeign) {
+    const vfit_context_desc desc = contract::context_desc();
+    vfit_context other{};
+    ASSERT_EQ(vfit_context_create(&desc, &other), VFIT_OK);
+    const vfit_frame_desc frame_desc = image.desc();
+    vfit_frame foreign{};
+    ASSERT_EQ(vfit_frame_create(other, &frame_desc, &foreign), VFIT_OK);
+    EXPECT_EQ(submit(foreign), VFIT_ERROR_HANDLE);
+    EXPECT_EQ(vfit_tracker_update(tracker, foreign, &tracked), VFIT_ERROR_HANDLE);
+    EXPECT_EQ(vfit_context_destroy(other), VFIT_OK);
+}
+
 TEST_F(SubmitTest, AScanOfAHostsFrameTellsWhyItDoesNotTakeOne) {
     vfit_scan scan{};
     ASSERT_EQ(vfit_scan_create(context, nullptr, &scan), VFIT_OK);
@@ -321,6 +415,8 @@ TEST_F(SubmitTest, AScanOfAHostsFrameTellsWhyItDoesNotTakeOne) {
     EXPECT_EQ(vfit_scan_measure(scan, nullptr, 0, &count), VFIT_ERROR_STATE);
     vfit_scale scale = vfit_scale_init();
     EXPECT_EQ(vfit_scan_scale(scan, "trousers", &scale), VFIT_ERROR_STATE);
+    vfit_avatar avatar{};
+    EXPECT_EQ(vfit_avatar_create_from_scan(context, nullptr, scan, &avatar), VFIT_ERROR_STATE);
     ASSERT_EQ(submit(frame), VFIT_OK);
     vfit_scan_state state = vfit_scan_state_init();
     EXPECT_EQ(vfit_scan_add(scan, tracked, 5, &state), VFIT_INCOMPLETE);

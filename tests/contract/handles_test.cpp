@@ -206,6 +206,17 @@ TEST(Contract, ShutdownEndsEveryContext) {
     EXPECT_EQ(vfit_shutdown(), VFIT_OK);
 }
 
+TEST(Contract, ShutdownIsWellAlsoWhereAPlugInHasAContextOfItsOwn) {
+    const vfit_context_desc desc = contract::context_desc();
+    vfit_context context{};
+    ASSERT_EQ(vfit_context_create(&desc, &context), VFIT_OK);
+    vfit_sensor sensor{};
+    ASSERT_EQ(vfit_sensor_open(context, "virtual:sensor=kinect_v1_320", &sensor), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_sensor_start(sensor), VFIT_OK);
+    EXPECT_EQ(vfit_shutdown(), VFIT_OK) << contract::last_error();
+    EXPECT_EQ(vfit_profile_reset(context), VFIT_ERROR_HANDLE);
+}
+
 TEST_F(ContextTest, HandlesAreMadeAndDestroyedFromManyThreadsAtOnce) {
     std::vector<std::thread> threads;
     for (int t = 0; t < 4; ++t)

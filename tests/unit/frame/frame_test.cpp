@@ -48,6 +48,28 @@ TEST(FramePool, IsBoundedAndReusesMemory) {
     EXPECT_NE(a->find(VFIT_STREAM_DEPTH)->serial, serial);
 }
 
+TEST(Frame, ARowThatFourBytesCannotCountIsRefused) {
+    const Ref<Frame> frame(new Frame);
+    EXPECT_THROW(frame->add_stream(VFIT_STREAM_BONE_MATRIX, VFIT_FORMAT_F32X16, 1u << 26, 1), Error);
+    EXPECT_THROW(frame->add_stream(VFIT_STREAM_SKIN_BONES, VFIT_FORMAT_U16X8, 1u << 28, 1), Error);
+    EXPECT_TRUE(frame->kinds().empty());
+}
+
+TEST(FramePool, CountsTheMemoryOfItsFramesAlsoTogetherWithOtherPools) {
+    auto total = make<FrameBytes>();
+    auto a = make<FramePool>(2u, total), b = make<FramePool>(1u, total);
+    Ref<Frame> frame = a->take();
+    frame->add_stream(VFIT_STREAM_DEPTH, VFIT_FORMAT_U16, 10, 10);
+    b->take()->add_stream(VFIT_STREAM_DEPTH, VFIT_FORMAT_U16, 10, 20);
+    EXPECT_EQ(a->bytes(), 200u);
+    EXPECT_EQ(total->count.load(), 600u);
+    frame = nullptr;
+    a->take()->add_stream(VFIT_STREAM_DEPTH, VFIT_FORMAT_U16, 5, 5);
+    EXPECT_EQ(a->bytes(), 200u) << "the memory is used again";
+    a = nullptr;
+    EXPECT_EQ(total->count.load(), 400u);
+}
+
 TEST(FramePool, FramesOutliveThePoolsOwner) {
     auto pool = make<FramePool>(1u);
     Ref<Frame> frame = pool->take();

@@ -51,6 +51,44 @@ TEST(SensorOpen, ThePluginsOwnWordsComeThrough) {
     EXPECT_EQ(failure_of([&] { fake.host.open("fake:1"); }).code, VFIT_ERROR_PLUGIN);
 }
 
+TEST(SensorOpen, AFailedOpenLeavesNothingToClose) {
+    FakeHost fake;
+    fake.plugin.table.open = [](void* self, const char*, void*, void** device) -> vfit_result {
+        *device = self;  // of a device that was taken down again
+        return VFIT_ERROR_IO;
+    };
+    fake.attach();
+    EXPECT_EQ(failure_of([&] { fake.host.open("fake:1"); }).code, VFIT_ERROR_IO);
+    EXPECT_TRUE(fake.plugin.calls.empty());
+}
+
+TEST(Sensor, ClosingBesideAStartEndsThePushThatWaits) {
+    // A device whose stop waits for its thread, as devices do; its second push waits for the host.
+    static FakePlugin* device = nullptr;
+    static std::thread pusher;
+    for (int round = 0; round < 200; ++round) {
+        FakeHost fake;
+        device = &fake.plugin;
+        fake.plugin.table.start = [](void*) -> vfit_result {
+            pusher = std::thread([] {
+                while (device->push_frame(1) == VFIT_OK) {
+                }
+            });
+            return VFIT_OK;
+        };
+        fake.plugin.table.stop = [](void*) -> vfit_result {
+            pusher.join();
+            return VFIT_OK;
+        };
+        fake.attach();
+        const Ref<Sensor> sensor = fake.host.open("fake:1");
+        std::thread starts([&] { failure_of([&] { sensor->start(); }); });
+        sensor->close();
+        starts.join();
+        sensor->close();
+    }
+}
+
 TEST(Sensor, AcquireBeforeStartAndAfterStopIsAStateError) {
     FakeHost fake;
     fake.attach();
