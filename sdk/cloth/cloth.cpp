@@ -24,11 +24,14 @@ constexpr float kKineticShare = 0.84f;
 constexpr float kMaxDepenetration_m_s = 3.0f;
 constexpr float kSubstepRate_hz = 60.0f;  // settings.substeps are per 1/60 s
 
-// Putting on, in frames of 1/60 s: hanging, going along into the pose, settling. Fast enough for a limb (a leg
-// takes two thirds of a second for its stride), short enough not to be waited for. Half the default sub-steps: what
-// it leaves of stretch is gone after the first frames.
-constexpr int kHangFrames = 15, kMoveFrames = 40, kSettleFrames = 10;
-constexpr int kPutOnSubsteps = 4;
+// Putting on: frames of 1/60 s in which the cloth hangs, goes along into the pose (as fast as a leg steps) and
+// settles, and the sub-steps of one. On the way half the usual ones do; the last frames take out the stretch that they
+// leave. Damped so that hardly any speed outlives a second: a skirt that swings folds itself between the legs.
+struct PutOnPhase {
+    int frames, substeps;
+};
+constexpr PutOnPhase kHang{15, 4}, kMove{40, 4}, kSettle{10, 8};
+constexpr float kPutOnDamping = 0.99f;
 
 void check(const ClothSettings& s) {
     if (s.substeps == 0 || s.substeps > 1000) fail(VFIT_ERROR_ARGUMENT, "substeps must be 1..1000, is ", s.substeps);
@@ -93,12 +96,12 @@ struct Cloth::State {
 
     void check_body(std::span<const Vec3> targets, std::span<const Collider> colliders) const;
     void reset(std::span<const Vec3> start);
-    void advance(float dt, int substeps, std::span<const Vec3> targets, std::span<const Collider> colliders,
-                 Jobs& jobs);
+    void advance(float dt, int substeps, float damping, std::span<const Vec3> targets,
+                 std::span<const Collider> colliders, Jobs& jobs);
     void accept_colliders(std::span<const Collider> colliders);
     bool is_end_of_another(uint32_t ball) const;
     void teleport(std::span<const Vec3> targets);
-    void substep(float h, float from, float to, std::span<const Vec3> targets, Jobs& jobs);
+    void substep(float h, float damping, float from, float to, std::span<const Vec3> targets, Jobs& jobs);
     void solve_backstops(const ContactSettings& contact, float from, float to, std::span<const Vec3> targets);
     void publish();
 };
@@ -152,12 +155,14 @@ void Cloth::put_on(const BodyOnItsWay& body, Jobs& jobs) {
     body(0.0f, targets, colliders);
     s.check_body(targets, colliders);
     s.reset(targets);
-    for (int frame = 1; frame <= kHangFrames + kMoveFrames + kSettleFrames; ++frame) {
-        const int moved = std::clamp(frame - kHangFrames, 0, kMoveFrames);
-        body(float(moved) / float(kMoveFrames), targets, colliders);
+    const auto frame = [&](const PutOnPhase& phase, float share) {
+        body(share, targets, colliders);
         s.check_body(targets, colliders);
-        s.advance(1.0f / kSubstepRate_hz, kPutOnSubsteps, targets, colliders, jobs);
-    }
+        s.advance(1.0f / kSubstepRate_hz, phase.substeps, kPutOnDamping, targets, colliders, jobs);
+    };
+    for (int i = 0; i < kHang.frames; ++i) frame(kHang, 0.0f);
+    for (int i = 1; i <= kMove.frames; ++i) frame(kMove, float(i) / float(kMove.frames));
+    for (int i = 0; i < kSettle.frames; ++i) frame(kSettle, 1.0f);
     std::fill(s.velocities.begin(), s.velocities.end(), Vec3(0.0f));
     s.publish();
 }
@@ -170,7 +175,7 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
     const Stopwatch watch;
     dt = std::clamp(dt, kMinStep_s, kMaxStep_s);
     const auto substeps = std::max(1, int(std::lround(dt * kSubstepRate_hz * float(s.settings.substeps))));
-    s.advance(dt, substeps, skinned_targets, colliders, jobs);
+    s.advance(dt, substeps, s.settings.damping, skinned_targets, colliders, jobs);
     s.publish();
     s.step_ms = float(watch.ms());
 }
@@ -180,7 +185,7 @@ void Cloth::State::check_body(std::span<const Vec3> targets, std::span<const Col
     check_colliders(colliders);
 }
 
-void Cloth::State::advance(float dt, int substeps, std::span<const Vec3> targets,
+void Cloth::State::advance(float dt, int substeps, float damping, std::span<const Vec3> targets,
                            std::span<const Collider> colliders, Jobs& jobs) {
     accept_colliders(colliders);
     teleport(targets);
@@ -191,7 +196,7 @@ void Cloth::State::advance(float dt, int substeps, std::span<const Vec3> targets
     }
     const float h = dt / float(substeps);
     for (int i = 0; i < substeps; ++i)
-        substep(h, float(i) / float(substeps), float(i + 1) / float(substeps), targets, jobs);
+        substep(h, damping, float(i) / float(substeps), float(i + 1) / float(substeps), targets, jobs);
     std::copy(targets.begin(), targets.end(), previous_targets.begin());
     std::swap(previous_capsules, capsules);
 }
@@ -240,7 +245,7 @@ void Cloth::State::teleport(std::span<const Vec3> targets) {
     previous_capsules = capsules;
 }
 
-void Cloth::State::substep(float h, float from, float to, std::span<const Vec3> targets, Jobs& jobs) {
+void Cloth::State::substep(float h, float damping, float from, float to, std::span<const Vec3> targets, Jobs& jobs) {
     const FabricData& data = fabric->data();
     // The half step of gravity on both ends makes free fall exact, not only of first order.
     const Vec3 fall = settings.gravity * (0.5f * h);
@@ -265,7 +270,7 @@ void Cloth::State::substep(float h, float from, float to, std::span<const Vec3> 
     ContactPass{fabric->simulated_vertices(), swept, starts, contact}.run(particles, jobs);
 
     // What the constraints changed, rather than the whole way over h: rounding of places stays out of the speed.
-    const float keep = std::pow(1.0f - settings.damping, h);
+    const float keep = std::pow(1.0f - damping, h);
     for (uint32_t i : fabric->simulated_vertices())
         velocities[i] = (velocities[i] + (particles[i].x - predicted[i]) / h + fall) * keep;
 }

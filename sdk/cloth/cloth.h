@@ -48,7 +48,8 @@ public:
     using BodyOnItsWay = std::function<void(float share, std::vector<Vec3>& targets, std::vector<Collider>& colliders)>;
 
     /// Put on a body that first stands as at share 0 and then goes to 1: what it meets pushes the cloth aside,
-    /// instead of ending up inside of it. Ends at rest. Always the same number of sub-steps, whatever the settings.
+    /// instead of ending up inside of it. Ends at rest. The number of sub-steps is always the same, whatever the
+    /// settings.
     void put_on(const BodyOnItsWay& body, Jobs& jobs);
 
     /// Advances by dt. skinned_targets: the fabric's target_count(), where the skinned garment and the backstops
