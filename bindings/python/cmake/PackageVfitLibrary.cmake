@@ -12,7 +12,7 @@ get_filename_component(vfit_packaged_name "${VFIT_LIBRARY_FILE}" NAME)
 if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
   find_program(PATCHELF patchelf REQUIRED)
   # A wheel holds no links: the file goes by the one name that the loader asks for.
-  execute_process(COMMAND ${PATCHELF} --print-soname "${vfit_real_library}"
+  execute_process(COMMAND "${PATCHELF}" --print-soname "${vfit_real_library}"
     OUTPUT_VARIABLE vfit_packaged_name OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
 endif()
 
@@ -23,7 +23,7 @@ if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
   # No path of the machine that built it stays in the package.
   install(CODE "
     file(GLOB plugins \"\${CMAKE_INSTALL_PREFIX}/vfit_plugins/*.so\")
-    execute_process(COMMAND ${PATCHELF} --set-rpath \\\$ORIGIN/.. \${plugins} COMMAND_ERROR_IS_FATAL ANY)
-    execute_process(COMMAND ${PATCHELF} --set-rpath \\\$ORIGIN \"\${CMAKE_INSTALL_PREFIX}/${vfit_packaged_name}\"
+    execute_process(COMMAND \"${PATCHELF}\" --set-rpath \\\$ORIGIN/.. \${plugins} COMMAND_ERROR_IS_FATAL ANY)
+    execute_process(COMMAND \"${PATCHELF}\" --set-rpath \\\$ORIGIN \"\${CMAKE_INSTALL_PREFIX}/${vfit_packaged_name}\"
                     COMMAND_ERROR_IS_FATAL ANY)")
 endif()

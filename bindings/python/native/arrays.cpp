@@ -1,5 +1,7 @@
 #include "arrays.h"
 
+#include <limits>
+
 namespace vfit_python {
 
 namespace {
@@ -113,6 +115,8 @@ vfit_target target_in(const py::array& out, vfit_format stream_format) {
     vfit_target target = vfit_target_init();
     target.format = target_format(out, stream_format, numbers);
     if (!out.writeable()) fail(VFIT_ERROR_ARGUMENT, "out is read-only");
+    target.data = const_cast<void*>(out.data());
+    if (out.size() == 0) return target;
     py::ssize_t dimensions = out.ndim();
     if (numbers > 1) {
         --dimensions;
@@ -126,13 +130,12 @@ vfit_target target_in(const py::array& out, vfit_format stream_format) {
     for (py::ssize_t i = dimensions - 1; i >= 0; --i) {
         if (out.shape(i) == 1) continue;
         if (stride == 0) stride = out.strides(i);
-        if (out.strides(i) != stride * items || stride < 0)
+        // A stride of 0 (np.broadcast_to) makes many items of one place in memory.
+        if (out.strides(i) != stride * items || stride <= 0 || stride > std::numeric_limits<uint32_t>::max())
             fail(VFIT_ERROR_ARGUMENT, "out: its items do not lie one stride apart");
         items *= out.shape(i);
     }
-    if (items == 0) return target.data = const_cast<void*>(out.data()), target;
     if (stride == 0) stride = numbers * out.itemsize();
-    target.data = const_cast<void*>(out.data());
     target.item_stride = static_cast<uint32_t>(stride);
     target.capacity = static_cast<uint64_t>((items - 1) * stride + numbers * out.itemsize());
     return target;

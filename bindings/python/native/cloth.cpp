@@ -47,7 +47,7 @@ std::shared_ptr<Cloth> create(const Avatar& avatar, const Garment& garment,
                               const std::optional<std::string>& size, uint32_t substeps,
                               const std::optional<std::array<float, 3>>& gravity,
                               const std::optional<float>& friction, const std::optional<float>& damping,
-                              float thickness_m) {
+                              float thickness_m, bool hands) {
     vfit_cloth_desc desc = vfit_cloth_desc_init();
     desc.size_label = size ? size->c_str() : nullptr;
     desc.substeps = substeps;
@@ -59,6 +59,7 @@ std::shared_ptr<Cloth> create(const Avatar& avatar, const Garment& garment,
     desc.friction = setting(friction);
     desc.damping = setting(damping);
     desc.thickness_m = thickness_m;
+    desc.flags = flag(!hands, VFIT_CLOTH_NO_HANDS);
     vfit_cloth handle{};
     run([&, a = avatar.get(), g = garment.get()] { return vfit_cloth_create(a, g, &desc, &handle); });
     return make<Cloth>(avatar.core(), handle);
@@ -99,8 +100,9 @@ void bind_cloth(py::module_& m) {
                                                   "A garment on an avatar. Pose the avatar first, then step.")
             .def(py::init(&create), py::keep_alive<1, 2>(), "avatar"_a, "garment"_a, py::kw_only(),
                  "size"_a = py::none(), "substeps"_a = 0, "gravity"_a = py::none(), "friction"_a = py::none(),
-                 "damping"_a = py::none(), "thickness_m"_a = 0.0f,
-                 "size None: made to the avatar. substeps 0: 8 a 1/60 s.")
+                 "damping"_a = py::none(), "thickness_m"_a = 0.0f, "hands"_a = true,
+                 "size None: made to the avatar. substeps 0: 8 a 1/60 s. hands False: forearms and hands pass "
+                 "through the garment.")
             .def(
                 "step",
                 [](const Cloth& c, float dt) { run([h = c.get(), dt] { return vfit_cloth_step(h, dt); }); },
@@ -116,7 +118,7 @@ void bind_cloth(py::module_& m) {
                 "Waits for the step that was begun.")
             .def(
                 "reset", [](const Cloth& c) { run([h = c.get()] { return vfit_cloth_reset(h); }); },
-                "Back to the draped rest shape on the avatar as it is posed now.")
+                "Put on anew, on a body that stands straight and goes into the avatar's pose: about 0.1 s.")
             .def("acquire", &acquire, "positions, normals, uvs, triangles and strain.")
             .def("stats", &stats)
             .def("state_hash", &state_hash, "Equal hashes mean an equal state."));

@@ -1,5 +1,7 @@
 #include "joints.h"
 
+#include <algorithm>
+
 namespace vfit_python {
 
 namespace {
@@ -9,6 +11,14 @@ vfit_joint_id joint_id(const py::handle& key) {
     const py::object members = type("Joint").attr("__members__");
     if (!members.contains(key)) fail(VFIT_ERROR_ARGUMENT, "\"" + key.cast<std::string>() + "\" is no joint");
     return members[key].cast<int>();
+}
+
+/// An array of Joints, which anybody may have made.
+FloatArray rows_of(const py::object& joints, const char* name, const std::vector<py::ssize_t>& shape) {
+    auto array = FloatArray::ensure(joints.attr(name));
+    if (!array || !std::equal(shape.begin(), shape.end(), array.shape(), array.shape() + array.ndim()))
+        fail(VFIT_ERROR_ARGUMENT, std::string("joints: ") + name + " has not one row of numbers a joint");
+    return array;
 }
 
 }  // namespace
@@ -39,9 +49,11 @@ std::vector<vfit_joint> joints_in(const py::object& joints) {
     if (py::isinstance(joints, type("Joints"))) {
         const auto ids = joints.attr("ids").cast<std::vector<int>>();
         const auto states = joints.attr("states").cast<std::vector<int>>();
-        const auto positions = FloatArray::ensure(joints.attr("positions"));
-        const auto rotations = FloatArray::ensure(joints.attr("rotations"));
-        const auto confidence = FloatArray::ensure(joints.attr("confidence"));
+        const auto rows = static_cast<py::ssize_t>(ids.size());
+        const auto positions = rows_of(joints, "positions", {rows, 3});
+        const auto rotations = rows_of(joints, "rotations", {rows, 4});
+        const auto confidence = rows_of(joints, "confidence", {rows});
+        if (states.size() != ids.size()) fail(VFIT_ERROR_ARGUMENT, "joints: states and ids differ in length");
         for (size_t i = 0; i < ids.size(); ++i) {
             vfit_joint j = vfit_joint_init();
             j.joint = ids[i];

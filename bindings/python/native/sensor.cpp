@@ -14,6 +14,7 @@ constexpr int64_t kSlice_ns = 100'000'000;
 // A sensor that waits for its pool never goes on by itself: this long without a frame, with this many held.
 constexpr int64_t kStarved_ns = 5'000'000'000;
 constexpr uint32_t kManyFrames = 4;
+constexpr double kLongest_s = 1e9;  // of a timeout: a lifetime, and it still fits in 64 bits of nanoseconds
 
 class Sensor : public Owned<vfit_sensor, vfit_sensor_close> {
 public:
@@ -76,7 +77,8 @@ std::unique_ptr<Frame> take(const Sensor& sensor, int64_t timeout_ns, vfit_resul
 std::unique_ptr<Frame> acquire(const Sensor& sensor, const std::optional<double>& timeout_s) {
     if (timeout_s && !std::isfinite(*timeout_s)) fail(VFIT_ERROR_ARGUMENT, "timeout_s is not finite");
     vfit_result result;
-    return take(sensor, timeout_s ? static_cast<int64_t>(std::max(0.0, *timeout_s) * 1e9) : -1, result);
+    if (!timeout_s) return take(sensor, -1, result);
+    return take(sensor, static_cast<int64_t>(std::clamp(*timeout_s, 0.0, kLongest_s) * 1e9), result);
 }
 
 std::unique_ptr<Frame> next(const Sensor& sensor) {

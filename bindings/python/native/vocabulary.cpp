@@ -104,7 +104,8 @@ void bind_vocabulary(py::module_& m) {
              "How a joint was found.");
     add_enum(m, "Sex", {{"UNKNOWN", VFIT_SEX_UNKNOWN}, {"FEMALE", VFIT_SEX_FEMALE}, {"MALE", VFIT_SEX_MALE}},
              "Which default body; UNKNOWN: halfway.");
-    add_enum(m, "ScanMethod", {{"DEFAULT", VFIT_SCAN_DEFAULT}, {"PROPORTIONS", VFIT_SCAN_PROPORTIONS}},
+    add_enum(m, "ScanMethod", {{"DEFAULT", VFIT_SCAN_DEFAULT}, {"PROPORTIONS", VFIT_SCAN_PROPORTIONS},
+              {"PROPORTIONS_AS_PRINTED", VFIT_SCAN_PROPORTIONS_AS_PRINTED}},
              "How a scan measures; PROPORTIONS is the paper's way.");
     add_enum(m, "Guidance",
              {{"NONE", VFIT_GUIDANCE_NONE},

@@ -132,6 +132,22 @@ def test_cloth_hangs_on_the_avatar(fitted):
         assert np.array_equal(short.reshape(-1, 3), frame.triangles)
 
 
+def test_hands_may_be_let_through(ctx):
+    def settled(hands):
+        avatar = vfit.Avatar.from_measures(ctx, {"stature_m": 1.68}, sex="f")
+        pose = vfit.Pose()
+        pose.positions[vfit.Bone.HIPS] = avatar.joints()["PELVIS"][:3]
+        for bone, turn in ((vfit.Bone.LEFT_UPPER_ARM, -1.5), (vfit.Bone.RIGHT_UPPER_ARM, 1.5)):
+            pose.rotations[bone] = (0, 0, np.sin(turn / 2), np.cos(turn / 2))
+        avatar.pose(pose)
+        cloth = vfit.Cloth(avatar, vfit.Garment.open(ctx, "sundress"), hands=hands)
+        for _ in range(5):
+            cloth.step()
+        return cloth.state_hash()
+
+    assert settled(True) == settled(True) != settled(False)
+
+
 def test_equal_contexts_make_equal_cloth():
     hashes = []
     for workers in (1, 2):

@@ -101,6 +101,9 @@ def test_write_refuses_what_does_not_fit(frame):
         frame.write(Stream.DEPTH, np.zeros((120, 200), np.uint16)[:, :160])
     with pytest.raises(vfit.ArgumentError, match="float64"):
         frame.write(Stream.DEPTH, np.zeros((120, 160)))
+    one_place = np.lib.stride_tricks.as_strided(np.zeros(1, np.uint16), (120 * 160,), (0,))
+    with pytest.raises(vfit.ArgumentError, match="one stride"):
+        frame.write(Stream.DEPTH, one_place)
 
 
 def test_submitted_joints_come_back_by_name_and_as_arrays(ctx, frame, standing):
@@ -130,6 +133,12 @@ def test_bad_joints_are_refused(ctx, frame, standing):
         tracker.submit(frame, {"TAIL": (0, 0, 0)})
     with pytest.raises(vfit.ArgumentError, match="HEAD"):
         tracker.submit(frame, {"HEAD": (0, 0)})
+    good = tracker.submit(frame, standing).joints()
+    for name in ("positions", "rotations", "confidence", "states"):
+        bad = vfit.Joints(good.ids, good.positions, good.confidence, good.states, good.rotations)
+        setattr(bad, name, getattr(bad, name)[:3])
+        with pytest.raises(vfit.ArgumentError, match=name):
+            tracker.submit(frame, bad)
     with pytest.raises(vfit.ArgumentError, match="no joints"):
         tracker.submit(frame, {})
     with pytest.raises(vfit.UnsupportedError, match="no bodies"):

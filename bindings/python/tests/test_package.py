@@ -47,7 +47,7 @@ def test_library_plugins_and_data_lie_in_the_package():
 def test_only_the_library_in_the_package_is_loaded():
     script = "import vfit; vfit.Context(); print(open('/proc/self/maps').read())"
     maps = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout
-    files = {line.split()[-1] for line in maps.splitlines() if "vfit" in line.split()[-1].rpartition("/")[2]}
+    files = {line.split()[-1] for line in maps.split("\n") if "vfit" in line.rpartition("/")[2]}
     assert any("libvfit" in file for file in files)
     assert all(Path(file).is_relative_to(PACKAGE) for file in files), files
 

@@ -59,6 +59,7 @@ def test_options_modes_and_info(ctx):
     with pytest.raises(vfit.Error, match="motion"):
         sensor.set_option("motion", "fly")
     assert sum(1 for _ in sensor) == 2
+    assert sensor.acquire(timeout_s=1e300) is None and sensor.ended
     assert frame_measures(ctx)["stature_m"] > 1
     assert {p.name for p in ctx.plugins()}
 

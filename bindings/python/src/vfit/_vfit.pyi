@@ -110,6 +110,7 @@ class ScanMethod(IntEnum):
 
     DEFAULT = 0
     PROPORTIONS = 1
+    PROPORTIONS_AS_PRINTED = 2
 
 class Guidance(IntEnum):
     """Why a scan did not take a frame."""
@@ -365,7 +366,8 @@ class Cloth(_Closable):
 
     def __init__(self, avatar: Avatar, garment: Garment, *, size: Optional[str] = None, substeps: int = 0,
                  gravity: Optional[Tuple[float, float, float]] = None, friction: Optional[float] = None,
-                 damping: Optional[float] = None, thickness_m: float = 0.0) -> None: ...
+                 damping: Optional[float] = None, thickness_m: float = 0.0, hands: bool = True) -> None:
+        """hands False: forearms and hands pass through, so that none catches a skirt."""
     def step(self, dt: float = ...) -> None: ...
     def begin_step(self, dt: float = ...) -> None: ...
     def end_step(self) -> None: ...
