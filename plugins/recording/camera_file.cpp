@@ -15,7 +15,7 @@ using nlohmann::json;
 
 constexpr uintmax_t kMaxBytes = 1 << 20;  // of a JSON file; camera.json has less than 1 kB
 constexpr uint32_t kMaxSide = 16384;      // pixels
-constexpr double kMaxFps = 1000.0;        // Hz
+constexpr double kMinFps = 0.01, kMaxFps = 1000.0;  // Hz
 constexpr double kUnitTolerance = 0.01;   // of the floor normal's length, for hand-written files
 constexpr double kPi = 3.14159265358979323846;
 
@@ -128,7 +128,7 @@ CameraFile read_camera_file(const std::filesystem::path& path) {
 
     CameraFile out;
     out.sensor = fields.has("sensor") ? fields.string("sensor") : "unknown";
-    out.fps = fields.positive("fps", kMaxFps);
+    out.fps = fields.number("fps", kMinFps, kMaxFps);
     constexpr double kFar = 1e6;  // pixels, for focal lengths and principal points
     vfit_intrinsics& in = out.intrinsics;
     in.struct_size = sizeof in;

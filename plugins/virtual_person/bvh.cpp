@@ -3,7 +3,6 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <locale>
 #include <sstream>
 
@@ -15,6 +14,8 @@ namespace {
 
 // Bounds against files that only pretend: far above any real capture.
 constexpr size_t kMostJoints = 1024, kMostFrames = 2'000'000;
+constexpr std::streamoff kMostBytes = 1 << 29;
+constexpr double kMost = 1e7;  // degrees and file units: a skeleton of such bones still adds up in floats
 
 class Reader {
 public:
@@ -48,7 +49,7 @@ public:
         stream_.clear();
         stream_.str(std::string(token));
         double value = 0;
-        if (!(stream_ >> value) || stream_.peek() != std::char_traits<char>::eof() || !std::isfinite(value))
+        if (!(stream_ >> value) || stream_.peek() != std::char_traits<char>::eof() || !(std::abs(value) <= kMost))
             error("'", token, "' is not a number for ", what);
         return value;
     }
@@ -171,10 +172,14 @@ Bvh parse_bvh(std::string_view text, const std::string& file_name) {
 }
 
 Bvh read_bvh(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
+    std::ifstream file(path, std::ios::binary | std::ios::ate);
     if (!file) fail(VFIT_ERROR_IO, path, ": cannot be opened");
-    const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-    if (file.bad()) fail(VFIT_ERROR_IO, path, ": cannot be read");
+    const std::streamoff size = file.tellg();
+    if (size < 0 || size > kMostBytes)
+        fail(VFIT_ERROR_DATA, path, ": is no file of at most ", kMostBytes, " bytes");
+    std::string text(static_cast<size_t>(size), '\0');
+    file.seekg(0);
+    if (size > 0 && !file.read(text.data(), size)) fail(VFIT_ERROR_IO, path, ": cannot be read");
     return parse_bvh(text, path);
 }
 

@@ -87,7 +87,12 @@ void Device::run() {
         const bool realtime = options_.text("pace") == "realtime";
         const int64_t begin_ns = host_->time_ns(host_->self);
         for (uint64_t i = 0; result == VFIT_OK && !stopping_; ++i) {
-            if (frames != 0 && i == frames) {
+            // Where a frame takes longer than a camera's, frames are lost as a camera loses them: otherwise the
+            // person would fall behind the clock for ever.
+            if (realtime)
+                i = std::max(i, static_cast<uint64_t>(
+                                    static_cast<double>(host_->time_ns(host_->self) - begin_ns) / frame_time_ns));
+            if (frames != 0 && i >= frames) {
                 result = VFIT_END_OF_STREAM;
                 break;
             }

@@ -19,6 +19,10 @@ constexpr NamedScript kScripts[] = {{"scan", scan_script},   {"sway", sway_scrip
                                     {"walk", walk_script},   {"wave", wave_script}, {"reach", reach_script},
                                     {"squat", squat_script}, {"demo", demo_script}};
 
+// All frequencies below are multiples of 0.01 Hz: after this time they are where they began. Without it a float of
+// seconds is too coarse for a frame after some days.
+constexpr double kIdlePeriod_s = 100.0;
+
 // Quiet standing: the centre of mass wanders a few millimetres at some tenths of a hertz (posturography), and
 // 15 breaths a minute lift the chest.
 class Idle {
@@ -50,7 +54,7 @@ public:
 
     BonePose at(double t) const override {
         Figure figure = script_.figure(static_cast<float>(std::fmod(t, double{script_.period_s})));
-        idle_.add_to(figure, static_cast<float>(t));
+        idle_.add_to(figure, static_cast<float>(std::fmod(t, kIdlePeriod_s)));
         return solve(proportions_, figure);
     }
 

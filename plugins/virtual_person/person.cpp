@@ -13,6 +13,7 @@ OwnContext::OwnContext() {
     desc.api_version = VFIT_VERSION;
     desc.flags = VFIT_CONTEXT_DETERMINISTIC;
     desc.worker_count = 1;
+    desc.plugin_dir = "";  // none: it only shapes and poses a body
     check(vfit_context_create(&desc, &context_), "vfit_context_create");
 }
 

@@ -117,7 +117,9 @@ void shutdown(void* self) { delete static_cast<Plugin*>(self); }
 
 vfit_result vfit_plugin_negotiate(const vfit_host* host, vfit_plugin* out) {
     if (!host || !out) return VFIT_ERROR_ARGUMENT;
-    if (VFIT_PLUGIN_ABI < host->abi_min || VFIT_PLUGIN_ABI > host->abi_max) return VFIT_ERROR_VERSION;
+    if (VFIT_PLUGIN_ABI < host->abi_min || VFIT_PLUGIN_ABI > host->abi_max ||
+        host->struct_size < sizeof(vfit_host) || out->struct_size < sizeof(vfit_plugin))
+        return VFIT_ERROR_VERSION;
     auto* plugin = new (std::nothrow) Plugin{host, {}};
     if (!plugin) return VFIT_ERROR_OUT_OF_MEMORY;
     out->abi = VFIT_PLUGIN_ABI;

@@ -58,6 +58,7 @@ TEST_F(RecordingBroken, EachFieldOfTheCameraFileIsCheckedByName) {
     EXPECT_TRUE(broken("\"fx\": 28.5", "\"fx\": NaN").says("no valid JSON"));
     EXPECT_TRUE(broken("\"fx\": 28.5", "\"fx\": 1e999").says("camera.json"));
     EXPECT_TRUE(broken("\"fps\": 30", "\"fps\": 0").says("\"fps\""));
+    EXPECT_TRUE(broken("\"fps\": 30", "\"fps\": 1e-300").says("\"fps\"")) << "its period is no number";
     EXPECT_TRUE(broken("\"distance_m\": 1.2", "\"distance_m\": -1.2").says("\"floor.distance_m\""));
     EXPECT_TRUE(broken("\"normal\"", "\"other\"").says("\"floor.normal\" is missing"));
     EXPECT_TRUE(broken("{", "[").says("no valid JSON"));

@@ -107,6 +107,14 @@ TEST(BvhMotion, AJointThatIsMissingIsNamed) {
     std::filesystem::remove(path);
 }
 
+TEST(Bvh, NumbersThatNoSkeletonHasAreRefused) {
+    const std::string text = "HIERARCHY ROOT Hips { OFFSET 0 0 0 CHANNELS 1 Xposition End Site { OFFSET 0 1 0 } } "
+                             "MOTION Frames: 1 Frame Time: 0.01 ";
+    EXPECT_EQ(parse_bvh(text + "12.5", "walk.bvh").values.at(0), 12.5f);
+    for (const char* value : {"1e30", "-1e300", "nan", "inf"})
+        EXPECT_THROW(parse_bvh(text + value, "walk.bvh"), Error) << value;
+}
+
 std::filesystem::path shared_folder() {
     if (const char* given = std::getenv("VFIT_SHARED")) return given;
     return std::filesystem::path(VFIT_SOURCE_DIR) / ".." / "shared";

@@ -96,6 +96,17 @@ TEST(VirtualPerson, ListsModesAndOptions) {
     host.plugin.close(device);
 }
 
+TEST(VirtualPerson, InRealTimeASlowMachineLosesFramesAndDoesNotFallBehind) {
+    TestHost host;
+    host.tick_ns = 10'000'000;  // the clock is read twice a frame, so that each takes 20 ms and not 10
+    const auto frames = host.run("virtual:sensor=kinect_v1_320&rate=100&frames=40&pace=realtime");
+    EXPECT_EQ(host.state, VFIT_END_OF_STREAM);
+    ASSERT_GT(frames.size(), 4u);
+    EXPECT_LT(frames.size(), 40u);
+    for (size_t i = 1; i < frames.size(); ++i) EXPECT_GT(frames[i].time_ns, frames[i - 1].time_ns);
+    EXPECT_LT(host.now_ns - frames.back().time_ns, 100'000'000) << "the last frame is of the present";
+}
+
 TEST(VirtualPerson, StopsInTheMiddleOfAnEndlessStream) {
     TestHost host;
     host.capacity = 3;

@@ -1,6 +1,7 @@
 // A host of the tests' own for the virtual person: takes every frame that the plug-in pushes.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -103,7 +104,11 @@ public:
             h.state = state, h.message = message;
             h.changed.notify_all();
         };
-        host_.time_ns = [](void*) { return int64_t{1'000'000'000}; };
+        host_.time_ns = [](void* self) {
+            TestHost& h = me(self);
+            return h.now_ns += h.tick_ns;
+        };
+        plugin.struct_size = sizeof plugin;
         EXPECT_EQ(vfit_plugin_negotiate(&host_, &plugin), VFIT_OK);
     }
     ~TestHost() { plugin.shutdown(plugin.self); }
@@ -134,6 +139,8 @@ public:
     std::vector<std::chrono::steady_clock::time_point> push_times;
     Taken filling;
     size_t capacity = 1000;
+    std::atomic<int64_t> now_ns{1'000'000'000};
+    int64_t tick_ns = 0;  // that the clock goes on each time it is read
     vfit_result state = VFIT_OK;
     std::string message;
 
