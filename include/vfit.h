@@ -363,7 +363,9 @@ VFIT_API vfit_result vfit_tracker_reset(vfit_tracker tracker);                  
 typedef int32_t vfit_sex;
 enum { VFIT_SEX_UNKNOWN = 0, VFIT_SEX_FEMALE = 1, VFIT_SEX_MALE = 2 };
 typedef int32_t vfit_scan_method;
-enum { VFIT_SCAN_DEFAULT = 0, VFIT_SCAN_PROPORTIONS = 1 };  /* PROPORTIONS: the paper's                 */
+enum { VFIT_SCAN_DEFAULT = 0,           /* PROPORTIONS as yet                                         */
+    VFIT_SCAN_PROPORTIONS = 1,          /* the paper's, with anthropometric ratios, weighted means, outliers left out */
+    VFIT_SCAN_PROPORTIONS_AS_PRINTED = 2 };  /* the artists' canon and plain means of the paper's text     */
 typedef int32_t vfit_guidance;
 enum { VFIT_GUIDANCE_NONE = 0, VFIT_GUIDANCE_STEP_BACK = 1, VFIT_GUIDANCE_STEP_CLOSER = 2,
     VFIT_GUIDANCE_ARMS_OUT = 3, VFIT_GUIDANCE_HOLD_STILL = 4, VFIT_GUIDANCE_TURN_SIDEWAYS = 5,

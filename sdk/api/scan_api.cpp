@@ -35,11 +35,11 @@ vfit_result vfit_scan_create(vfit_context handle, const vfit_scan_desc* desc, vf
         out->id = 0;
         UseContext<Mode::any> context(handle);
         const vfit_scan_desc d = read_or_default(desc, "desc");
-        check_enum(d.method, VFIT_SCAN_PROPORTIONS, "method");
+        check_enum(d.method, VFIT_SCAN_PROPORTIONS_AS_PRINTED, "method");
         check_enum(d.sex, VFIT_SEX_MALE, "sex");
         if (d.frame_count > kMaxFrames)
             fail(VFIT_ERROR_ARGUMENT, "frame_count ", d.frame_count, " is more than ", kMaxFrames);
-        ScanDesc settings;
+        ScanDesc settings = d.method == VFIT_SCAN_PROPORTIONS_AS_PRINTED ? ScanDesc::as_printed() : ScanDesc{};
         settings.frame_count = d.frame_count ? d.frame_count : kPaperFrames;
         settings.sex = d.sex;
         prepare_avatar(*context, d.sex);

@@ -16,7 +16,7 @@ namespace {
 
 struct Options {
     uint32_t count = 20, seed = 1;
-    std::string sensor = "kinect_v1";
+    std::string sensor = "kinect_v1", method = "paper";
     double distance_m = 2.8;
     bool json = false;
 };
@@ -63,11 +63,11 @@ Json truth_of(const std::string& uri) {
     return Json::parse(text);
 }
 
-Row measure(const std::string& uri, bool male) {
+Row measure(const std::string& uri, bool male, vfit_scan_method method) {
     const Json truth = truth_of(uri);
     const Context context = open_context();
     Source source(context.get(), uri);
-    const ScanRun run = run_scan(context.get(), source, {});
+    const ScanRun run = run_scan(context.get(), source, {0, VFIT_SEX_UNKNOWN, method});
     const auto measured = measurements_of(run.scan.get());
     Row row;
     row.sex = male ? "m" : "f";
@@ -91,6 +91,8 @@ void add_people(CLI::App& app) {
     command->add_option("--seed", o->seed, "Of bodies and noise");
     command->add_option("--sensor", o->sensor, "Noise model of the virtual sensor");
     command->add_option("--distance", o->distance_m, "From camera to person, m");
+    command->add_option("--method", o->method, "paper, or paper-as-printed: canon ratios and plain means")
+        ->check(CLI::IsMember({"paper", "paper-as-printed"}));
     command->add_flag("--json", o->json, "Print JSON");
     command->callback([o] {
         pin_to_cores(1);
@@ -100,7 +102,7 @@ void add_people(CLI::App& app) {
         if (!o->json)
             std::cout << " #    height real   est.  error    sd | shoulder real   est.  error    sd |   ms  (cm)\n";
         for (uint32_t i = 0; i < o->count; ++i) {
-            const Row r = measure(uri_of(*o, i, random), i % 2 == 1);
+            const Row r = measure(uri_of(*o, i, random), i % 2 == 1, scan_method_from(o->method));
             const double he = error(r.height_true, r.height), se = error(r.shoulder_true, r.shoulder);
             height += he / o->count;
             shoulder += se / o->count;

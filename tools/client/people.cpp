@@ -41,6 +41,7 @@ ScanRun run_scan(vfit_context context, Source& source, const ScanOptions& option
     vfit_scan_desc desc = vfit_scan_desc_init();
     desc.frame_count = options.frames;
     desc.sex = options.sex;
+    desc.method = options.method;
     check(vfit_scan_create(context, &desc, run.scan.out()));
     vfit_scan_state state = vfit_scan_state_init();
     uint32_t seen = 0;
@@ -111,6 +112,12 @@ Json sizes_json(vfit_size_chart chart, const std::string& garment_kind,
     Json out = Json::array();
     for (const vfit_size& s : sizes) out.push_back({{"label", s.label}, {"probability", s.probability}});
     return out;
+}
+
+vfit_scan_method scan_method_from(const std::string& option) {
+    if (option == "fit")
+        throw Failure("--method fit: this version measures by the paper's method alone (--method paper)");
+    return option == "paper-as-printed" ? VFIT_SCAN_PROPORTIONS_AS_PRINTED : VFIT_SCAN_PROPORTIONS;
 }
 
 vfit_sex sex_from(const std::string& option) {

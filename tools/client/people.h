@@ -8,6 +8,7 @@ namespace vfit::tools {
 struct ScanOptions {
     uint32_t frames = 0;  // 0: the library's default
     vfit_sex sex = VFIT_SEX_UNKNOWN;
+    vfit_scan_method method = VFIT_SCAN_DEFAULT;
 };
 
 struct ScanRun {
@@ -35,5 +36,7 @@ Json sizes_json(vfit_size_chart chart, const std::string& garment_kind,
                 const std::vector<vfit_measurement>& measurements);
 
 vfit_sex sex_from(const std::string& option);
+/// "paper" or "paper-as-printed"; Failure for "fit", which this version lacks.
+vfit_scan_method scan_method_from(const std::string& option);
 
 }  // namespace vfit::tools

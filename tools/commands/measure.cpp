@@ -17,11 +17,10 @@ struct Options {
 };
 
 Json measure(const Options& options) {
-    if (options.method == "fit")
-        throw Failure("--method fit: this version measures by the paper's method alone (--method paper)");
+    const vfit_scan_method method = scan_method_from(options.method);
     const Context context = open_context();
     Source source(context.get(), options.source);
-    const ScanRun run = run_scan(context.get(), source, {options.frames, sex_from(options.sex)});
+    const ScanRun run = run_scan(context.get(), source, {options.frames, sex_from(options.sex), method});
     Json out;
     out["method"] = options.method;
     out["frames"] = run.frames_taken;
@@ -65,7 +64,7 @@ void add_measure(CLI::App& app) {
     CLI::App* command = app.add_subcommand("measure", "Measure the person of a recording or sensor");
     auto o = std::make_shared<Options>();
     command->add_option("source", o->source, "Recording folder or sensor URI")->required();
-    command->add_option("--method", o->method, "How to measure")->check(CLI::IsMember({"fit", "paper"}));
+    command->add_option("--method", o->method, "How to measure")->check(CLI::IsMember({"fit", "paper", "paper-as-printed"}));
     command->add_option("--garment", o->garment, "Garment kind that the scale is for");
     command->add_option("--frames", o->frames, "Frames to average (default 30)")->check(CLI::Range(1, 3000));
     command->add_option("--sex", o->sex, "f or m, where known")->check(CLI::IsMember({"f", "m", "unknown"}));
