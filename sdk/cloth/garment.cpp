@@ -110,7 +110,7 @@ void validate_triangles(const Mesh& mesh) {
             fail(VFIT_ERROR_DATA, "garment: triangle ", triangle, " names a vertex twice");
         const Vec3& a = mesh.positions[v[0]];
         const float area = 0.5f * glm::length(glm::cross(mesh.positions[v[1]] - a, mesh.positions[v[2]] - a));
-        if (area < kSmallestArea_m2) fail(VFIT_ERROR_DATA, "garment: triangle ", triangle, " is degenerate");
+        if (!(area >= kSmallestArea_m2)) fail(VFIT_ERROR_DATA, "garment: triangle ", triangle, " is degenerate");
         for (int k = 0; k < 3; ++k) {
             const auto [other, fresh] = edges.insert({{v[k], v[(k + 1) % 3]}, triangle});
             if (!fresh)
@@ -119,6 +119,8 @@ void validate_triangles(const Mesh& mesh) {
         }
     }
 }
+
+constexpr float kFarthest_m = 10.0f;  // a garment in centimetres or millimetres is a mistake
 
 }  // namespace
 
@@ -138,6 +140,8 @@ void validate_garment(const Garment& g, const FabricLibrary& fabrics) {
         fail(VFIT_ERROR_DATA, "garment: \"backstop\" has ", g.backstop.size(), " flags for ", n, " vertices");
     for (size_t i = 0; i < n; ++i) {
         if (!finite(g.mesh.positions[i])) fail(VFIT_ERROR_DATA, "garment: position ", i, " is not finite");
+        if (glm::length(g.mesh.positions[i]) > kFarthest_m)
+            fail(VFIT_ERROR_DATA, "garment: position ", i, " is more than ", kFarthest_m, " m from the body: positions are metres");
         if (!finite(g.mesh.uvs[i].x) || !finite(g.mesh.uvs[i].y))
             fail(VFIT_ERROR_DATA, "garment: uv ", i, " is not finite");
     }

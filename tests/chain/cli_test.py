@@ -72,6 +72,14 @@ class Contract(unittest.TestCase):
         self.assertEqual({p["name"] for p in info["plugins"]} & {"recording", "virtual_person"},
                          {"recording", "virtual_person"})
 
+    def test_the_paper_as_printed_is_another_estimate(self):
+        stature = {}
+        for method in ("paper", "paper-as-printed"):
+            result = document(self, "measure", VIRTUAL, "--method", method, "--json")
+            self.assertEqual(result["method"], method)
+            stature[method] = result["measurements"]["stature_m"]["value"]
+        self.assertGreater(abs(stature["paper"] - stature["paper-as-printed"]), 0.01)
+
     def test_measure_prints_the_contract(self):
         result = document(self, "measure", VIRTUAL, "--method", "paper", "--garment", "short_sleeves", "--json")
         self.assertEqual(result["method"], "paper")

@@ -66,6 +66,8 @@ TEST(Garment, RefusesBadFieldsByName) {
     EXPECT_EQ(refusal("\"fabric\": \"cotton\"", "\"fabric\": \"tin\""),
               "-11 unknown fabric \"tin\"; there are: cotton");
     EXPECT_EQ(refusal("[0,1,0, 1,1,0,", "[1e99,1,0, 1,1,0,"), "-11 garment: position 0 is not finite");
+    EXPECT_EQ(refusal("[0,1,0, 1,1,0,", "[0,100,0, 1,1,0,"),
+              "-11 garment: position 0 is more than 10 m from the body: positions are metres");
     EXPECT_EQ(refusal("[0,1,0, 1,1,0,", "[\"x\",1,0, 1,1,0,"), "-11 garment: positions[0] is not a number");
     EXPECT_EQ(refusal("[0,0,1,1]", "[0,0,1]"), "-11 garment: \"simulated\" has 3 flags for 4 vertices");
     EXPECT_EQ(refusal("[0,0,1,1]", "[0,0,1,2]"), "-11 garment: simulated[3] is neither 0 nor 1");
