@@ -24,6 +24,16 @@ function(vfit_quick_to_compile target)
   target_precompile_headers(${target} PRIVATE ${ARGN})
 endfunction()
 
+# A build under sanitizers is for running tests, not for working in: several sources at once, so that their headers
+# are read once.
+function(vfit_together_under_sanitizers target)
+  # These hold code for several SIMD targets, or the same names in several sources.
+  set(apart vfit_math vfit_cloth vfit_sensor vfit_track vfit_motion)
+  if(VFIT_SANITIZE AND NOT target IN_LIST apart)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  endif()
+endfunction()
+
 # One room of sdk/ as a static library vfit_<room>: every .cpp in it. Further arguments: what it links.
 function(vfit_add_room room)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/sdk/${room}/*.cpp)
@@ -35,6 +45,7 @@ function(vfit_add_room room)
   add_library(vfit_${room} STATIC ${sources})
   target_include_directories(vfit_${room} PUBLIC ${CMAKE_SOURCE_DIR}/sdk ${CMAKE_SOURCE_DIR}/include)
   target_link_libraries(vfit_${room} PRIVATE vfit_settings PUBLIC ${ARGN})
+  vfit_together_under_sanitizers(vfit_${room})
 endfunction()
 
 # The unit tests of one room: every .cpp in tests/unit/<room>, as unit_<room>. Further arguments: what they link.
