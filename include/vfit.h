@@ -335,9 +335,13 @@ enum { VFIT_BODY_CAMERA_SPACE = 1,      /* input only: positions are in camera s
        VFIT_BODY_PARTLY_OUT_OF_VIEW = 2 };
 typedef struct vfit_body { uint32_t struct_size, body_id; int64_t time_ns; uint32_t flags, reserved; }
     vfit_body;
+typedef int32_t vfit_track_source;
+enum { VFIT_TRACK_AUTO = 0,             /* the source's where it tells them, else the built-in tracker's */
+       VFIT_TRACK_BUILT_IN = 1 };
 typedef struct vfit_tracker_desc {
     uint32_t struct_size, reserved;
     const vfit_camera* floor;           /* where the floor is, if the frames do not say; null: unknown  */
+    vfit_track_source joints, user_map;
 } vfit_tracker_desc;
 VFIT_STRUCT(vfit_joint) VFIT_STRUCT(vfit_body) VFIT_STRUCT(vfit_tracker_desc)
 /* Bodies are part of a tracked frame (or of a recording's, or of the host's own).              [any]   */
@@ -349,8 +353,9 @@ VFIT_API vfit_result vfit_frame_joints(vfit_frame frame, uint32_t body_id, vfit_
 VFIT_API vfit_result vfit_tracker_create(vfit_context context, const vfit_tracker_desc* desc,
                                          vfit_tracker* out);                               /* [any]  */
 VFIT_API vfit_result vfit_tracker_destroy(vfit_tracker tracker);                           /* [any]  */
-/* *tracked shares the images and user map of frame and holds the bodies that its source supplies. A frame
- * whose source tells no bodies gives VFIT_ERROR_UNSUPPORTED: this version finds none by itself. [excl]  */
+/* *tracked shares the images and user map of frame and holds the bodies that its source supplies, or those
+ * that the tracker sees in it. VFIT_ERROR_UNSUPPORTED where they are to be seen by the tracker and the
+ * frame has no user map, or the network module is not installed.                             [excl]  */
 VFIT_API vfit_result vfit_tracker_update(vfit_tracker tracker, vfit_frame frame, vfit_frame* tracked);
 /* The host's own middleware in place of the built-in tracker, one call a body; frame may be a *tracked
  * of the call before, to add a second body. A joint that is not finite gives VFIT_ERROR_DATA.  [excl]  */

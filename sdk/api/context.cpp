@@ -47,6 +47,10 @@ Context::Context(const vfit_context_desc& desc)
     plugins_->load_folder(plugin_dir);
 }
 
+std::string Context::module_path(const std::string& name) const {
+    return library_folder() + "/vfit_modules/" + name + library_suffix();
+}
+
 std::shared_ptr<const BodyModel> Context::body_model() {
     std::lock_guard lock(model_mutex_);
     if (!model_) model_ = BodyModel::load(data_dir + "/body.bin");

@@ -31,6 +31,8 @@ public:
     Profile profile;
     std::unique_ptr<Jobs> jobs;  // until close()
     const std::string data_dir, plugin_dir;
+    /// File of a loadable module beside the library.
+    std::string module_path(const std::string& name) const;
     const Ref<FrameBytes> frame_bytes;  // of all pools
     const Ref<FramePool> frames;        // of the host's own and of tracked frames
     Access access;

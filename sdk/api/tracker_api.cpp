@@ -6,6 +6,7 @@
 #include "api/guard.h"
 #include "frame/camera_struct.h"
 #include "frame/floor.h"
+#include "track/tracker.h"
 
 using namespace vfit;
 using namespace vfit::api;
@@ -19,6 +20,9 @@ struct TrackerObject : ContextChild {
     using ContextChild::ContextChild;
 
     Camera floor;  // its floor_state says whose: GIVEN by the description, ESTIMATED from the first body
+    vfit_track_source joints = VFIT_TRACK_AUTO, user_map = VFIT_TRACK_AUTO;
+    std::unique_ptr<Tracker> own;  // made when first needed
+    std::vector<TrackTarget> targets;
 
     /// Where the tracker knows more of the floor than the frame's source, the tracker's is taken.
     void place(Camera& camera) const {
@@ -26,6 +30,27 @@ struct TrackerObject : ContextChild {
         camera.floor_state = floor.floor_state;
         camera.floor_normal = floor.floor_normal;
         camera.floor_distance_m = floor.floor_distance_m;
+    }
+    bool nobody_knows_the_floor(const Camera& camera) const {
+        return std::max(floor.floor_state, camera.floor_state) == VFIT_FLOOR_DEFAULT;
+    }
+    /// Finds the bodies in the images of `base`.
+    void see(const Ref<Frame>& base, Frame& tracked) {
+        const DepthImage image = base->depth_image();
+        if (!image.users)
+            fail(VFIT_ERROR_UNSUPPORTED, "the frame has no user map, and this version makes none by itself");
+        if (!own)
+            own = std::make_unique<Tracker>(std::make_unique<JointNetwork>(
+                context->module_path("vfit_joint_network"), context->data_dir + "/networks/joints.onnx"));
+        tracked.base = base;
+        tracked.time_ns = base->time_ns;
+        tracked.camera = base->camera;
+        find_targets(image, kMaxBodies, targets);
+        own->run(image, base->time_ns, targets, tracked.bodies);
+        if (!tracked.bodies.empty() && nobody_knows_the_floor(base->camera))
+            estimate_floor(floor, tracked.bodies.front());
+        place(tracked.camera);
+        for (Body& body : tracked.bodies) body = to_world(body, tracked.camera);
     }
 };
 
@@ -46,6 +71,12 @@ void track(const TrackerObject& tracker, const Ref<Frame>& base, Frame& tracked)
 void require_same_context(const TrackerObject& tracker, const UseFrame& frame) {
     if (&frame.context() != tracker.context.get())
         fail(VFIT_ERROR_HANDLE, "the frame belongs to another context than the tracker");
+}
+
+vfit_track_source check_source(vfit_track_source source, const char* name) {
+    if (source != VFIT_TRACK_AUTO && source != VFIT_TRACK_BUILT_IN)
+        fail(VFIT_ERROR_ARGUMENT, "desc.", name, ": unknown track source ", source);
+    return source;
 }
 
 }  // namespace
@@ -81,6 +112,8 @@ vfit_result vfit_tracker_create(vfit_context handle, const vfit_tracker_desc* de
         UseContext<Mode::any> context(handle);
         const vfit_tracker_desc d = read_or_default(desc, "desc");
         auto tracker = make<TrackerObject>(context.ref());
+        tracker->joints = check_source(d.joints, "joints");
+        tracker->user_map = check_source(d.user_map, "user_map");
         if (d.floor) {
             vfit_camera floor = read(d.floor, "desc.floor");
             floor.floor_state = VFIT_FLOOR_GIVEN;
@@ -102,6 +135,7 @@ vfit_result vfit_tracker_reset(vfit_tracker handle) {
     return guard([&] {
         Use<TrackerObject, Mode::exclusive> tracker(handle.id);
         if (tracker->floor.floor_state != VFIT_FLOOR_GIVEN) tracker->floor = Camera{};
+        if (tracker->own) tracker->own->reset();
         return VFIT_OK;
     });
 }
@@ -114,13 +148,13 @@ vfit_result vfit_tracker_update(vfit_tracker handle, vfit_frame frame_handle, vf
         UseFrame frame(frame_handle);
         require_same_context(*tracker, frame);
         Profile::Scope time(tracker->context->profile, Stage::track);
-        // A source that tells its bodies may have nobody in view; one that knows of none needs a tracker.
-        if (frame->bodies.empty() && !frame->meta("bodies"))
-            fail(VFIT_ERROR_UNSUPPORTED,
-                 "the frame's source supplies no bodies, and this version finds no skeleton by itself: "
-                 "use a source with joints, or vfit_tracker_submit");
         Ref<Frame> out = Context::take_frame(*tracker->context->frames);
-        track(*tracker, frame.ref(), *out);
+        // A source that tells its bodies may have nobody in view.
+        const bool told = !frame->bodies.empty() || frame->meta("bodies");
+        if (told && tracker->joints == VFIT_TRACK_AUTO)
+            track(*tracker, frame.ref(), *out);
+        else
+            tracker->see(frame.ref(), *out);
         tracked->id = tracker->context->publish(Kind::frame, out);
         return VFIT_OK;
     });
@@ -145,8 +179,7 @@ vfit_result vfit_tracker_submit(vfit_tracker handle, vfit_frame frame_handle, co
         Ref<Frame> out = Context::take_frame(*tracker->context->frames);
         const bool camera_space = (in.flags & VFIT_BODY_CAMERA_SPACE) != 0;
         in.flags &= ~uint32_t(VFIT_BODY_CAMERA_SPACE);
-        const bool nobody_knows = std::max(tracker->floor.floor_state, frame->camera.floor_state) == VFIT_FLOOR_DEFAULT;
-        if (camera_space && nobody_knows) estimate_floor(tracker->floor, in);
+        if (camera_space && tracker->nobody_knows_the_floor(frame->camera)) estimate_floor(tracker->floor, in);
         track(*tracker, frame.ref(), *out);
         if (camera_space) in = to_world(in, out->camera);
         out->bodies.push_back(in);

@@ -40,6 +40,7 @@ private:
 void add_stages(CLI::App& app);
 void add_people(CLI::App& app);
 void add_recordings(CLI::App& app);
+void add_track(CLI::App& app);
 void add_cloth(CLI::App& app);
 
 }  // namespace vfit::tools

@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
     add_stages(app);
     add_people(app);
     add_recordings(app);
+    add_track(app);
     add_cloth(app);
     return run_program(app, "vfit-bench", argc, argv);
 }

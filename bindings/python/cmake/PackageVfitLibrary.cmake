@@ -1,7 +1,7 @@
-# Puts the library, vfit_plugins and vfit_data into the package folder. The library looks for the two folders
+# Puts the library, vfit_plugins, vfit_modules and vfit_data into the package folder. The library looks for the folders
 # beside itself, the plug-ins for the library one folder up.
 get_filename_component(vfit_library_dir "${VFIT_LIBRARY_FILE}" DIRECTORY)
-foreach(folder IN ITEMS vfit_plugins vfit_data)
+foreach(folder IN ITEMS vfit_plugins vfit_modules vfit_data)
   if(NOT IS_DIRECTORY "${vfit_library_dir}/${folder}")
     message(FATAL_ERROR "${folder} is missing beside ${VFIT_LIBRARY_FILE}: build all of vfit first.")
   endif()
@@ -17,7 +17,7 @@ if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
 endif()
 
 install(FILES "${vfit_real_library}" DESTINATION . RENAME ${vfit_packaged_name})
-install(DIRECTORY "${vfit_library_dir}/vfit_plugins" "${vfit_library_dir}/vfit_data" DESTINATION .)
+install(DIRECTORY "${vfit_library_dir}/vfit_plugins" "${vfit_library_dir}/vfit_modules" "${vfit_library_dir}/vfit_data" DESTINATION .)
 
 if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
   # No path of the machine that built it stays in the package.

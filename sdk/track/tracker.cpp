@@ -1,0 +1,84 @@
+#include "track/tracker.h"
+
+#include <algorithm>
+#include <array>
+
+namespace vfit {
+
+namespace {
+
+constexpr float kBeliefShare = 0.3f;     // of the newest answer
+constexpr float kLeastBelief = -0.5f;    // logit
+constexpr float kMeasured = 0.5f, kInferred = 0.15f;  // least confidence of a joint's state
+
+vfit_joint_state state_of(float confidence) {
+    return confidence >= kMeasured ? VFIT_JOINT_MEASURED : confidence >= kInferred ? VFIT_JOINT_INFERRED : VFIT_JOINT_NOT_SEEN;
+}
+
+}  // namespace
+
+void find_targets(const DepthImage& image, size_t most, std::vector<TrackTarget>& out) {
+    struct Found {
+        uint32_t pixels = 0;
+        PixelBox box{1 << 20, 1 << 20, 0, 0};
+    };
+    std::array<Found, 256> found{};
+    for (int y = 0; y < int(image.height()); ++y) {
+        const uint8_t* row = image.users + image.index(0, uint32_t(y));
+        for (int x = 0; x < int(image.width()); ++x) {
+            if (row[x] == 0) continue;
+            Found& f = found[row[x]];
+            ++f.pixels;
+            f.box = {std::min(f.box.x0, x), std::min(f.box.y0, y), std::max(f.box.x1, x + 1), std::max(f.box.y1, y + 1)};
+        }
+    }
+    out.clear();
+    for (uint32_t id = 1; id < found.size(); ++id)
+        if (found[id].pixels >= Cropper::kFewestPixels) out.push_back({id, found[id].box, 0});
+    std::sort(out.begin(), out.end(),
+              [&](const TrackTarget& a, const TrackTarget& b) { return found[a.id].pixels > found[b.id].pixels; });
+    if (out.size() > most) out.resize(most);
+}
+
+void Tracker::run(const DepthImage& image, int64_t time_ns, std::span<const TrackTarget> targets,
+                  std::vector<Body>& out) {
+    out.clear();
+    std::erase_if(people_, [&](const auto& entry) {
+        return time_ns - entry.second.seen_ns > kForget_ns || time_ns < entry.second.seen_ns;
+    });
+    Vec2 up(image.camera.floor_normal.x, image.camera.floor_normal.y);
+    // Nobody knows the floor, or the camera looks straight down: the image's own up.
+    const float length = glm::length(up);
+    up = image.camera.floor_state == VFIT_FLOOR_DEFAULT || length < 0.2f ? Vec2(0, -1) : up / length;
+    for (const TrackTarget& target : targets) {
+        Body body;
+        if (see(image, time_ns, target, up, people_[target.id], body)) out.push_back(body);
+    }
+}
+
+bool Tracker::see(const DepthImage& image, int64_t time_ns, const TrackTarget& target, const Vec2& up,
+                  Person& person, Body& out) {
+    crop_.resize(size_t(CropView::kPixels) * CropView::kPixels);
+    CropView view;
+    if (!cropper_.run(image, uint8_t(target.id), target.box, up, view, crop_.data())) return false;
+    network_->run(crop_.data(), maps_);
+    person.belief = person.fresh ? maps_.person : person.belief + kBeliefShare * (maps_.person - person.belief);
+    SeenJoints joints;
+    read_maps(maps_, view, image.camera, joints);
+    person.facing.apply(maps_.away, joints);
+    person.steady.run(time_ns, joints);
+    person.seen_ns = time_ns;
+    person.fresh = false;
+    if (person.belief < kLeastBelief) return false;
+
+    out.id = target.id;
+    out.time_ns = time_ns;
+    out.flags = target.flags;
+    for (int j = 0; j < kJointCount; ++j) {
+        const SeenJoint& seen = joints[size_t(j)];
+        out.set(j, seen.position, state_of(seen.confidence), seen.confidence);
+    }
+    return true;
+}
+
+}  // namespace vfit

@@ -1,0 +1,55 @@
+// The whole tracker after the user map: each labelled person to joints, with state, confidence and a steady side.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "track/joint_network.h"
+#include "track/joint_steady.h"
+#include "track/skeleton.h"
+
+namespace vfit {
+
+/// One person of the user map.
+struct TrackTarget {
+    uint32_t id = 0;
+    PixelBox box;        // empty: anywhere in the image
+    uint32_t flags = 0;  // VFIT_BODY_*
+};
+
+/// The people of a user map with enough pixels to be tracked, largest first, at most `most`.
+void find_targets(const DepthImage& image, size_t most, std::vector<TrackTarget>& out);
+
+class Tracker {
+public:
+    explicit Tracker(std::shared_ptr<JointNetwork> network) : network_(std::move(network)) {}
+
+    /// Joints of every target that the network takes for a person, in camera space. A person unseen for
+    /// kForget_ns is forgotten: whoever gets that id then starts afresh.
+    void run(const DepthImage& image, int64_t time_ns, std::span<const TrackTarget> targets, std::vector<Body>& out);
+    /// Forgets everybody.
+    void reset() { people_.clear(); }
+
+    static constexpr int64_t kForget_ns = 2'000'000'000;
+
+private:
+    struct Person {
+        Facing facing;
+        JointSteady steady;
+        float belief = 0.0f;  // that it is a person: the network's logits, smoothed
+        int64_t seen_ns = 0;
+        bool fresh = true;
+    };
+    bool see(const DepthImage& image, int64_t time_ns, const TrackTarget& target, const Vec2& up, Person& person,
+             Body& out);
+
+    std::shared_ptr<JointNetwork> network_;
+    std::map<uint32_t, Person> people_;
+    Cropper cropper_;
+    std::vector<float> crop_;
+    JointMaps maps_;
+};
+
+}  // namespace vfit
