@@ -1,0 +1,165 @@
+// Maps to joints, sides that stay with the person, and joints that do not tremble.
+#include "track/skeleton.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <random>
+
+#include "track/joint_steady.h"
+#include "track/tracker.h"
+
+namespace vfit {
+namespace {
+
+Camera camera_320() {
+    Camera camera;
+    camera.width = 320, camera.height = 240;
+    camera.fx = camera.fy = 285.0f;
+    camera.cx = 159.5f, camera.cy = 119.5f;
+    return camera;
+}
+
+CropView view_at(float depth_m) {
+    CropView view;
+    view.centre = {160.0f, 120.0f};
+    view.depth_m = depth_m;
+    const float step = CropView::kSide_m / CropView::kPixels / depth_m * 285.0f;
+    view.right = {step, 0.0f};
+    view.down = {0.0f, step};
+    return view;
+}
+
+/// Heat in one cell, the depth map flat.
+void peak(JointMaps& maps, int joint, int x, int y, float z) {
+    const size_t first = size_t(joint) * JointMaps::kCells;
+    maps.heat[first + size_t(y * JointMaps::kSide + x)] = 30.0f;
+    std::fill_n(maps.depth.begin() + std::ptrdiff_t(first), JointMaps::kCells, z);
+}
+
+/// A person who stands: left joints on the image's right.
+SeenJoints standing() {
+    SeenJoints joints;
+    for (int j = 0; j < kJointCount; ++j) {
+        const float side = mirrored_joint(j) == j ? 0.0f : mirrored_joint(j) > j ? 0.2f : -0.2f;
+        joints[size_t(j)] = {Vec3(side, 0.05f * float(j), 2.5f), 1.0f};
+    }
+    return joints;
+}
+
+SeenJoints exchanged(const SeenJoints& joints) {
+    SeenJoints out = joints;
+    for (int j = 0; j < kJointCount; ++j) out[size_t(j)] = joints[size_t(mirrored_joint(j))];
+    return out;
+}
+
+TEST(ReadMaps, APeakIsTheJointAndAllItsHeatIsNear) {
+    auto maps = std::make_unique<JointMaps>();
+    for (int j = 0; j < kJointCount; ++j) peak(*maps, j, 20, 10, 0.1f);
+    SeenJoints joints;
+    const Camera camera = camera_320();
+    const CropView view = view_at(2.5f);
+    read_maps(*maps, view, camera, joints);
+    const Vec3 crop = view.from_camera(camera, joints[VFIT_JOINT_HEAD].position);
+    EXPECT_NEAR(crop.x, 20.5f / 16.0f - 1.0f, 1e-4f);
+    EXPECT_NEAR(crop.y, 10.5f / 16.0f - 1.0f, 1e-4f);
+    EXPECT_NEAR(joints[VFIT_JOINT_HEAD].position.z, 2.5f + 0.1f * 1.15f, 1e-4f);
+    EXPECT_NEAR(joints[VFIT_JOINT_HEAD].confidence, 1.0f, 1e-5f);
+}
+
+TEST(ReadMaps, HeatInTwoPlacesIsNoConfidence) {
+    auto maps = std::make_unique<JointMaps>();
+    peak(*maps, VFIT_JOINT_LEFT_HAND, 4, 10, 0.0f);
+    peak(*maps, VFIT_JOINT_LEFT_HAND, 28, 10, 0.0f);
+    SeenJoints joints;
+    read_maps(*maps, view_at(2.5f), camera_320(), joints);
+    EXPECT_LT(joints[VFIT_JOINT_LEFT_HAND].confidence, 0.05f);
+    EXPECT_LT(joints[VFIT_JOINT_HEAD].confidence, 0.1f);  // a map without any peak
+}
+
+TEST(Facing, OneWrongAnswerDoesNotTurnAnybody) {
+    Facing facing;
+    for (int frame = 0; frame < 100; ++frame) {
+        SeenJoints joints = standing();
+        facing.apply(frame % 7 == 3 ? 3.0f : -2.0f, joints);
+        ASSERT_GT(joints[VFIT_JOINT_LEFT_HAND].position.x, 0.0f) << frame;
+    }
+}
+
+TEST(Facing, FirmAnswersTurnThemInAThirdOfASecond) {
+    Facing facing;
+    SeenJoints joints = standing();
+    facing.apply(-3.0f, joints);
+    int frame = 0;
+    do {
+        joints = standing();
+        facing.apply(3.0f, joints);
+    } while (joints[VFIT_JOINT_LEFT_HAND].position.x > 0.0f && ++frame < 100);
+    EXPECT_GE(frame, 5);
+    EXPECT_LE(frame, 10);
+    EXPECT_TRUE(facing.away());
+}
+
+TEST(Facing, WhoTurnsPastTheSideViewKeepsTheirLeft) {
+    Facing facing;
+    SeenJoints joints = standing();
+    facing.apply(-3.0f, joints);
+    // At the side view the same limbs take the labels of the other side.
+    joints = exchanged(standing());
+    facing.apply(0.0f, joints);
+    EXPECT_TRUE(facing.away());
+    EXPECT_GT(joints[VFIT_JOINT_LEFT_HAND].position.x, 0.0f);
+}
+
+TEST(JointSteady, TremblingShrinksAndAMovingJointIsFollowed) {
+    JointSteady steady;
+    std::mt19937 random(1);
+    float before = 0.0f, after = 0.0f, lag = 0.0f;
+    for (int frame = 0; frame < 200; ++frame) {
+        SeenJoints joints = standing();
+        const float noise = 0.01f * (float(random()) / float(std::mt19937::max()) - 0.5f);
+        joints[VFIT_JOINT_HEAD].position.x += noise;
+        const float place = float(frame) / 30.0f;  // 1 m/s
+        joints[VFIT_JOINT_LEFT_HAND].position.x = place;
+        steady.run(int64_t(frame) * 33'333'333, joints);
+        if (frame < 20) continue;
+        before += noise * noise;
+        after += joints[VFIT_JOINT_HEAD].position.x * joints[VFIT_JOINT_HEAD].position.x;
+        lag = std::max(lag, place - joints[VFIT_JOINT_LEFT_HAND].position.x);
+    }
+    EXPECT_LT(after, 0.5f * before);
+    EXPECT_LT(lag, 0.025f);
+}
+
+TEST(JointSteady, AJointThatNobodyIsSureOfHardlyMoves) {
+    JointSteady steady;
+    SeenJoints joints = standing();
+    steady.run(0, joints);
+    joints = standing();
+    joints[VFIT_JOINT_LEFT_HAND].position.x += 1.0f;
+    joints[VFIT_JOINT_LEFT_HAND].confidence = 0.02f;
+    steady.run(33'333'333, joints);
+    EXPECT_LT(joints[VFIT_JOINT_LEFT_HAND].position.x, 0.2f + 0.15f);
+}
+
+TEST(FindTargets, GivesEachPersonTheirBoxTheLargestFirst) {
+    std::vector<uint16_t> depth(320 * 240, 2000);
+    std::vector<uint8_t> users(320 * 240, 0);
+    for (int y = 50; y < 60; ++y)
+        for (int x = 10; x < 30; ++x) users[size_t(y * 320 + x)] = 3;
+    for (int y = 100; y < 130; ++y)
+        for (int x = 200; x < 240; ++x) users[size_t(y * 320 + x)] = 7;
+    users[0] = 9;  // too few
+    std::vector<TrackTarget> targets;
+    find_targets({depth.data(), users.data(), camera_320()}, 8, targets);
+    ASSERT_EQ(targets.size(), 2u);
+    EXPECT_EQ(targets[0].id, 7u);
+    EXPECT_EQ(targets[1].id, 3u);
+    EXPECT_EQ(targets[1].box.x0, 10);
+    EXPECT_EQ(targets[1].box.y1, 60);
+    find_targets({depth.data(), users.data(), camera_320()}, 1, targets);
+    EXPECT_EQ(targets.size(), 1u);
+}
+
+}  // namespace
+}  // namespace vfit
