@@ -337,7 +337,8 @@ typedef struct vfit_body { uint32_t struct_size, body_id; int64_t time_ns; uint3
     vfit_body;
 typedef int32_t vfit_track_source;
 enum { VFIT_TRACK_AUTO = 0,             /* the source's where it tells them, else the built-in tracker's */
-       VFIT_TRACK_BUILT_IN = 1 };
+       VFIT_TRACK_BUILT_IN = 1,
+       VFIT_TRACK_GIVEN = 2 };          /* the source's alone: UNSUPPORTED where it tells none           */
 typedef struct vfit_tracker_desc {
     uint32_t struct_size, reserved;
     const vfit_camera* floor;           /* where the floor is, if the frames do not say; null: unknown  */

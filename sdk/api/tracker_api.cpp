@@ -74,7 +74,7 @@ void require_same_context(const TrackerObject& tracker, const UseFrame& frame) {
 }
 
 vfit_track_source check_source(vfit_track_source source, const char* name) {
-    if (source != VFIT_TRACK_AUTO && source != VFIT_TRACK_BUILT_IN)
+    if (source < VFIT_TRACK_AUTO || source > VFIT_TRACK_GIVEN)
         fail(VFIT_ERROR_ARGUMENT, "desc.", name, ": unknown track source ", source);
     return source;
 }
@@ -151,7 +151,9 @@ vfit_result vfit_tracker_update(vfit_tracker handle, vfit_frame frame_handle, vf
         Ref<Frame> out = Context::take_frame(*tracker->context->frames);
         // A source that tells its bodies may have nobody in view.
         const bool told = !frame->bodies.empty() || frame->meta("bodies");
-        if (told && tracker->joints == VFIT_TRACK_AUTO)
+        if (!told && tracker->joints == VFIT_TRACK_GIVEN)
+            fail(VFIT_ERROR_UNSUPPORTED, "the frame's source supplies no joints, and the tracker was told to find none");
+        if (told && tracker->joints != VFIT_TRACK_BUILT_IN)
             track(*tracker, frame.ref(), *out);
         else
             tracker->see(frame.ref(), *out);

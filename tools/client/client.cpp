@@ -36,6 +36,15 @@ Context open_context() {
     return context;
 }
 
+Tracker open_tracker(vfit_context context, const TrackOptions& options) {
+    vfit_tracker_desc desc = vfit_tracker_desc_init();
+    desc.joints = options.joints;
+    desc.user_map = options.user_map;
+    Tracker tracker;
+    check(vfit_tracker_create(context, &desc, tracker.out()));
+    return tracker;
+}
+
 Source::Source(vfit_context context, const std::string& uri) {
     check(vfit_sensor_open(context, uri.c_str(), sensor_.out()));
     check(vfit_sensor_start(sensor_.get()));

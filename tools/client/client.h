@@ -80,6 +80,12 @@ std::string last_error();
 /// A context with the settings of the command line.
 Context open_context();
 
+/// Whose joints and user map are taken.
+struct TrackOptions {
+    vfit_track_source joints = VFIT_TRACK_AUTO, user_map = VFIT_TRACK_AUTO;
+};
+Tracker open_tracker(vfit_context context, const TrackOptions& options);
+
 /// Frames of a recording or sensor, one after the other.
 class Source {
 public:

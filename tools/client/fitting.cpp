@@ -57,8 +57,7 @@ void Fitting::pose_avatar() {
 
 void Fitting::play(const std::function<bool(vfit_frame, double)>& on_frame) {
     Source source(context_, options_.source);
-    Tracker tracker;
-    check(vfit_tracker_create(context_, nullptr, tracker.out()));
+    const Tracker tracker = open_tracker(context_, options_.scan.track);
     check(vfit_motion_reset(motion_.get()));
     int64_t first_ns = 0, last_ns = 0;
     double cloth_time = 0.0;

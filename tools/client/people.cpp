@@ -35,8 +35,7 @@ const char* guidance_text(vfit_guidance guidance) {
 }
 
 ScanRun run_scan(vfit_context context, Source& source, const ScanOptions& options, Frame* last_frame) {
-    Tracker tracker;
-    check(vfit_tracker_create(context, nullptr, tracker.out()));
+    const Tracker tracker = open_tracker(context, options.track);
     ScanRun run;
     vfit_scan_desc desc = vfit_scan_desc_init();
     desc.frame_count = options.frames;

@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "client/client.h"
+
 namespace vfit::tools {
 
 void add_info(CLI::App& app);
@@ -16,7 +18,7 @@ void add_record(CLI::App& app);
 void add_cook(CLI::App& app);
 void add_plot(CLI::App& app);
 
-/// "--joints" and "--user-map" take "recorded" alone until there is a tracker.
-void add_source_options(CLI::App& command);
+/// "--joints" and "--user-map".
+void add_track_options(CLI::App& command, TrackOptions& options);
 
 }  // namespace vfit::tools

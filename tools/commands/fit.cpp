@@ -26,6 +26,7 @@ struct Options {
     FittingOptions fitting;
     std::string sex = "f", out;
     bool json = false, draft = false;
+    TrackOptions track;
 };
 
 /// What is kept of a moment until the pictures are drawn.
@@ -149,6 +150,7 @@ Json fit(const Options& options) {
     const Context context = open_context();
     FittingOptions chain = options.fitting;
     chain.scan.sex = sex_from(options.sex);
+    chain.scan.track = options.track;
     Fitting fitting(context.get(), chain);
     GlbAnimation animation(fitting.avatar(), fitting.cloth());
     std::vector<Moment> moments;
@@ -210,7 +212,7 @@ void add_fit(CLI::App& app) {
     command->add_flag("--hands", o->fitting.hands, "Let forearms and hands push the garment");
     command->add_flag("--draft", o->draft, "Small, grainy pictures in a tenth of the time");
     command->add_flag("--json", o->json, "Print the result as JSON");
-    add_source_options(*command);
+    add_track_options(*command, o->track);
     command->callback([o] {
         const Json result = fit(*o);
         if (o->json)

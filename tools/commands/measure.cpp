@@ -14,13 +14,14 @@ struct Options {
     std::string source, method = "paper", garment = "short_sleeves", sex = "unknown";
     uint32_t frames = 0;
     bool json = false;
+    TrackOptions track;
 };
 
 Json measure(const Options& options) {
     const vfit_scan_method method = scan_method_from(options.method);
     const Context context = open_context();
     Source source(context.get(), options.source);
-    const ScanRun run = run_scan(context.get(), source, {options.frames, sex_from(options.sex), method});
+    const ScanRun run = run_scan(context.get(), source, {options.frames, sex_from(options.sex), method, options.track});
     Json out;
     out["method"] = options.method;
     out["frames"] = run.frames_taken;
@@ -48,16 +49,15 @@ void print(const Json& result) {
 
 }  // namespace
 
-void add_source_options(CLI::App& command) {
-    for (const char* name : {"--joints", "--user-map"})
+void add_track_options(CLI::App& command, TrackOptions& options) {
+    const auto add = [&](const char* name, vfit_track_source& source) {
         command.add_option_function<std::string>(
-            name,
-            [name](const std::string& value) {
-                if (value == "tracked")
-                    throw Failure(std::string(name) + " tracked: this version has no tracker; the source's own are used");
-                if (value != "recorded") throw CLI::ValidationError(name, "must be recorded or tracked");
-            },
-            "recorded: what the source supplies (the default); tracked: needs a tracker");
+                   name, [&source](const std::string& value) { source = value == "tracked" ? VFIT_TRACK_BUILT_IN : VFIT_TRACK_GIVEN; },
+                   "recorded: the source's own; tracked: the tracker's (default: the source's where it has them)")
+            ->check(CLI::IsMember({"recorded", "tracked"}));
+    };
+    add("--joints", options.joints);
+    add("--user-map", options.user_map);
 }
 
 void add_measure(CLI::App& app) {
@@ -69,7 +69,7 @@ void add_measure(CLI::App& app) {
     command->add_option("--frames", o->frames, "Frames to average (default 30)")->check(CLI::Range(1, 3000));
     command->add_option("--sex", o->sex, "f or m, where known")->check(CLI::IsMember({"f", "m", "unknown"}));
     command->add_flag("--json", o->json, "Print JSON");
-    add_source_options(*command);
+    add_track_options(*command, o->track);
     command->callback([o] {
         const Json result = measure(*o);
         if (o->json)

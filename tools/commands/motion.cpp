@@ -13,6 +13,7 @@ namespace {
 struct Options {
     std::string source;
     bool raw = false, json = false;
+    TrackOptions track;
 };
 
 struct Step {
@@ -49,8 +50,7 @@ Json step_json(const Step& step, const vfit_camera& camera, uint32_t index, doub
 void motion(const Options& options) {
     const Context context = open_context();
     Source source(context.get(), options.source);
-    Tracker tracker;
-    check(vfit_tracker_create(context.get(), nullptr, tracker.out()));
+    const Tracker tracker = open_tracker(context.get(), options.track);
     vfit_motion_desc desc = vfit_motion_desc_init();
     if (options.raw)
         desc.flags = VFIT_MOTION_NO_FILTER | VFIT_MOTION_NO_LIMITS | VFIT_MOTION_NO_SMOOTHING | VFIT_MOTION_NO_FEET;
@@ -89,7 +89,7 @@ void add_motion(CLI::App& app) {
     command->add_option("source", o->source, "Recording folder or sensor URI")->required();
     command->add_flag("--raw", o->raw, "Without filter, limits, smoothing and foot planting");
     command->add_flag("--json", o->json, "Print JSON lines");
-    add_source_options(*command);
+    add_track_options(*command, o->track);
     command->callback([o] { motion(*o); });
 }
 

@@ -15,6 +15,7 @@ namespace {
 struct Options {
     std::string source, map_folder;
     bool json = false;
+    TrackOptions track;
 };
 
 void write_user_map(vfit_frame frame, const std::string& folder, uint32_t index) {
@@ -37,8 +38,7 @@ Json bodies_json(vfit_frame frame) {
 void track(const Options& options) {
     const Context context = open_context();
     Source source(context.get(), options.source);
-    Tracker tracker;
-    check(vfit_tracker_create(context.get(), nullptr, tracker.out()));
+    const Tracker tracker = open_tracker(context.get(), options.track);
     if (!options.map_folder.empty()) create_folder(options.map_folder);
     Progress progress("frames", true);
     while (const auto frame = source.next()) {
@@ -65,7 +65,7 @@ void add_track(CLI::App& app) {
     command->add_option("source", o->source, "Recording folder or sensor URI")->required();
     command->add_option("--user-map-out", o->map_folder, "Write each frame's user map there as PNG");
     command->add_flag("--json", o->json, "Print JSON lines");
-    add_source_options(*command);
+    add_track_options(*command, o->track);
     command->callback([o] { track(*o); });
 }
 
