@@ -42,5 +42,6 @@ void add_people(CLI::App& app);
 void add_recordings(CLI::App& app);
 void add_track(CLI::App& app);
 void add_cloth(CLI::App& app);
+void add_user_map(CLI::App& app);
 
 }  // namespace vfit::tools

@@ -11,5 +11,6 @@ int main(int argc, char** argv) {
     add_recordings(app);
     add_track(app);
     add_cloth(app);
+    add_user_map(app);
     return run_program(app, "vfit-bench", argc, argv);
 }

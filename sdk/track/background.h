@@ -1,0 +1,39 @@
+// What the scene looks like without people, learned cell by cell: a reading that stays the same for seconds and
+// belongs to nobody, or an empty scene that the host shows.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "track/depth_grid.h"
+
+namespace vfit {
+
+class BackgroundModel {
+public:
+    /// Forgets everything where the grid's size has changed.
+    void fit(const DepthGrid& grid);
+    void reset();
+
+    /// The scene is empty now: what is seen is background. Several such frames average.
+    void learn_empty(const DepthGrid& grid);
+    /// Cells with people[i] != 0 are left out. dt_s: since the last call.
+    void learn(const DepthGrid& grid, const uint8_t* people, float dt_s);
+    /// Cells of something that stands there and is no person.
+    void add(const DepthGrid& grid, size_t cell);
+
+    /// A reading there is no news: at the known background's depth, or beyond it.
+    bool covers(size_t cell, float z) const {
+        return settled_s_[cell] >= kSettled_s && z > depth_[cell] - same_surface_m(z);
+    }
+    /// Of a cell that is covered.
+    float depth(size_t cell) const { return depth_[cell]; }
+
+private:
+    static constexpr float kSettled_s = 1.0f;
+    std::vector<float> depth_, settled_s_;     // known background, and for how long it has been seen
+    std::vector<float> candidate_, steady_s_;  // what may become it
+    uint32_t width_ = 0, height_ = 0;
+};
+
+}  // namespace vfit

@@ -1,0 +1,67 @@
+#include "track/components.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vfit {
+
+namespace {
+constexpr uint32_t kNone = ~0u;
+}
+
+uint32_t Components::root(uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];  // path halving
+    return i;
+}
+
+void Components::join(uint32_t a, uint32_t b) {
+    a = root(a);
+    b = root(b);
+    // The earlier cell becomes the root: components come out in the order of their first cells.
+    if (a < b) parent_[b] = a;
+    if (b < a) parent_[a] = b;
+}
+
+void Components::run(const DepthGrid& grid, const uint8_t* wanted, uint32_t fewest_cells) {
+    const uint32_t width = grid.width(), cells = grid.cells();
+    const float* const z = grid.depth().data();
+    parent_.resize(cells);
+    count_.resize(cells);
+    order_.resize(cells);
+    starts_.reserve(cells / std::max(1u, fewest_cells) + 2);
+
+    for (uint32_t y = 0, i = 0; y < grid.height(); ++y) {
+        for (uint32_t x = 0; x < width; ++x, ++i) {
+            count_[i] = 0;
+            if (!wanted[i]) {
+                parent_[i] = kNone;
+                continue;
+            }
+            const float same = same_surface_m(z[i]);
+            const auto joined = [&](uint32_t j) { return wanted[j] && std::abs(z[j] - z[i]) < same; };
+            // A cell without a reading is stepped over.
+            const uint32_t left = x > 0 && z[i - 1] > 0.0f ? i - 1 : x > 1 ? i - 2 : kNone;
+            const uint32_t above = y > 0 && z[i - width] > 0.0f ? i - width : y > 1 ? i - 2 * width : kNone;
+            parent_[i] = left != kNone && joined(left) ? root(left) : i;
+            if (above != kNone && joined(above)) join(i, above);
+        }
+    }
+
+    for (uint32_t i = 0; i < cells; ++i)
+        if (parent_[i] != kNone) ++count_[parent_[i] = root(i)];
+    starts_.assign(1, 0);
+    for (uint32_t i = 0; i < cells; ++i) {
+        if (parent_[i] != i) continue;
+        if (count_[i] < fewest_cells) {
+            count_[i] = kNone;
+        } else {
+            const uint32_t first = starts_.back();
+            starts_.push_back(first + count_[i]);
+            count_[i] = first;  // where the next of its cells goes
+        }
+    }
+    for (uint32_t i = 0; i < cells; ++i)
+        if (parent_[i] != kNone && count_[parent_[i]] != kNone) order_[count_[parent_[i]]++] = i;
+}
+
+}  // namespace vfit

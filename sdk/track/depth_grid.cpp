@@ -1,0 +1,96 @@
+#include "track/depth_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vfit {
+
+namespace {
+
+// Readings of one cell are of one surface where they differ from its nearest by less than z / 32 and 10 units:
+// 7 sigma at 3 m, written so that whole rows can be done in 16-bit lanes.
+constexpr int kDepthShift = 5;
+constexpr uint16_t kFewUnits = 10;
+
+/// One row of cells, out of kStride image rows. Arithmetic stays in 16 bits so that compilers use vectors.
+template <uint32_t kStride>
+void reduce_row(const uint16_t* const* rows, uint32_t width, uint16_t* nearest, uint16_t* extra,
+                uint16_t* count) {
+    // No reading becomes the farthest reading: 0 - 1 wraps to 65535.
+    for (uint32_t x = 0; x < width; ++x) {
+        uint16_t least = 65535;
+        for (uint32_t j = 0; j < kStride; ++j)
+            for (uint32_t i = 0; i < kStride; ++i)
+                least = std::min(least, uint16_t(rows[j][x * kStride + i] - 1));
+        nearest[x] = least;
+    }
+    for (uint32_t x = 0; x < width; ++x) {
+        const uint16_t least = nearest[x];
+        const uint16_t band = uint16_t((least >> kDepthShift) + kFewUnits);
+        uint16_t sum = 0, n = 0;
+        for (uint32_t j = 0; j < kStride; ++j)
+            for (uint32_t i = 0; i < kStride; ++i) {
+                const uint16_t over = uint16_t(uint16_t(rows[j][x * kStride + i] - 1) - least);
+                const uint16_t taken = over <= band ? 0xffff : 0;
+                sum = uint16_t(sum + (over & taken));
+                n = uint16_t(n + (taken & 1));
+            }
+        extra[x] = sum;
+        count[x] = n;
+    }
+}
+
+}  // namespace
+
+void DepthGrid::rays(const Camera& camera) {
+    // Where the cell's middle lies: pixel centres are at whole coordinates.
+    const float middle = 0.5f * float(stride_ - 1);
+    for (uint32_t x = 0; x < width_; ++x) ray_x_[x] = (float(x * stride_) + middle - camera.cx) / camera.fx;
+    for (uint32_t y = 0; y < height_; ++y) ray_y_[y] = (float(y * stride_) + middle - camera.cy) / camera.fy;
+    cell_area_ = float(stride_ * stride_) / (camera.fx * camera.fy);
+    cell_side_ = float(stride_) / camera.fx;
+}
+
+void DepthGrid::run(const DepthImage& image) {
+    stride_ = 1;
+    while (image.width() / stride_ > kMostColumns) stride_ = stride_ < 4 ? stride_ + 1 : stride_ * 2;
+    width_ = image.width() / stride_;
+    height_ = image.height() / stride_;
+    depth_.resize(cells());
+    ray_x_.resize(width_);
+    ray_y_.resize(height_);
+    nearest_.resize(width_);
+    extra_.resize(width_);
+    count_.resize(width_);
+    rays(image.camera);
+
+    const float unit = image.camera.depth_unit_m;
+    for (uint32_t y = 0; y < height_; ++y) {
+        // Cells of more than 3 x 3 pixels are sampled by their first ones: enough to average the noise.
+        const uint16_t* rows[3];
+        for (uint32_t j = 0; j < 3; ++j)
+            rows[j] = image.depth + image.index(0, std::min(y * stride_ + j, image.height() - 1));
+        float* const out = depth_.data() + size_t(y) * width_;
+        if (stride_ == 1) {
+            for (uint32_t x = 0; x < width_; ++x) out[x] = float(rows[0][x]) * unit;
+            continue;
+        }
+        if (stride_ == 2) {
+            reduce_row<2>(rows, width_, nearest_.data(), extra_.data(), count_.data());
+        } else if (stride_ == 3) {
+            reduce_row<3>(rows, width_, nearest_.data(), extra_.data(), count_.data());
+        } else {
+            for (uint32_t x = 0; x < width_; ++x) {
+                const uint32_t first = x * stride_;
+                const uint16_t* const one[2] = {rows[0] + first, rows[1] + first};
+                reduce_row<2>(one, 1, &nearest_[x], &extra_[x], &count_[x]);
+            }
+        }
+        for (uint32_t x = 0; x < width_; ++x) {
+            const float z = (float(nearest_[x]) + 1.0f + float(extra_[x]) / float(count_[x])) * unit;
+            out[x] = nearest_[x] == 65535 ? 0.0f : z;
+        }
+    }
+}
+
+}  // namespace vfit

@@ -1,0 +1,269 @@
+#include "track/floor_finder.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vfit {
+
+namespace {
+
+constexpr uint32_t kSampleStep = 4;     // cells between samples: 80 x 60 of them for a 640 x 480 image
+constexpr float kFarthest_m = 8.0f;     // beyond, a reading of a structured-light camera says nothing
+// Spread of 1 / z, 1/m: depth_sigma_m(z) / z^2 is 1.5e-3 to 1.9e-3 from 1 to 4 m.
+constexpr float kInverseSigma = 1.6e-3f;
+constexpr float kSigmas = 2.5f;         // taken for the floor: 99 % of its readings
+constexpr float kUneven_m = 0.012f;     // carpets, tiles and the bow of a real floor
+constexpr float kBelow_m = 0.10f;       // a table has readings below it, a floor has none
+
+// Where a camera for people can stand and look.
+constexpr float kLowest_m = 0.1f, kHighest_m = 4.0f;
+constexpr float kMostTilt_rad = 50.0f * kPi / 180.0f, kMostRoll_rad = 20.0f * kPi / 180.0f;
+
+constexpr uint32_t kTries = 400;        // finds a floor of 5 % of the samples in 99 of 100 frames
+constexpr int kWindow = 12;             // samples: the three of a try lie on one surface more often than not
+constexpr float kFewestShare = 0.012f;  // of the image: a strip below the feet
+constexpr uint32_t kFewest = 40;        // samples
+constexpr float kMostBelow = 0.3f;      // readings below the plane per reading on it
+constexpr double kMemory = 0.9;         // of the last frame's sums: a third of a second at 30 Hz
+constexpr uint32_t kLookAgain = 60;     // frames: a better plane may come into view
+constexpr uint32_t kRetry = 5;          // frames between searches while there is none
+constexpr float kBetter = 1.5f;
+
+// What stands on a floor: a person, from a child to a tall man with the arms up (ANSUR II: stature to 2.0 m).
+constexpr float kStandsBelow_m = 0.2f, kShortest_m = 0.9f, kTallest_m = 2.4f, kWidest_m = 1.2f;
+constexpr float kSameThing_m = 0.25f;   // between neighbouring samples, 4 cells apart
+constexpr uint32_t kThing = 20;         // samples
+
+const Vec3 kUps[] = {{0, -1, 0}, {1, 0, 0}, {-1, 0, 0}};  // landscape, portrait both ways
+
+bool plausible(const Vec3& plane, const Vec3& up) {
+    const float length = glm::length(plane);
+    if (!(length > 1.0f / kHighest_m && length < 1.0f / kLowest_m)) return false;
+    const Vec3 normal = -plane / length;
+    if (std::abs(normal.z) > std::sin(kMostTilt_rad)) return false;
+    const float along = normal.x * up.x + normal.y * up.y, across = normal.x * up.y - normal.y * up.x;
+    return std::abs(std::atan2(across, along)) < kMostRoll_rad;
+}
+
+}  // namespace
+
+void FloorFinder::Sums::add(const Sample& s) {
+    const double x = s.x, y = s.y, v = s.inverse;
+    product[0] += x * x;
+    product[1] += x * y;
+    product[2] += x;
+    product[3] += y * y;
+    product[4] += y;
+    product[5] += 1.0;
+    side[0] += x * v;
+    side[1] += y * v;
+    side[2] += v;
+}
+
+void FloorFinder::Sums::decay(double share) {
+    for (double& p : product) p *= share;
+    for (double& s : side) s *= share;
+}
+
+bool FloorFinder::Sums::solve(Plane& plane) const {
+    const auto& p = product;
+    const glm::dmat3 m(p[0], p[1], p[2], p[1], p[3], p[4], p[2], p[4], p[5]);
+    // A single line of readings leaves the plane's slope across it open.
+    if (!(std::abs(glm::determinant(m)) > 1e-9 * p[5] * p[5] * p[5])) return false;
+    plane = Plane(glm::inverse(m) * glm::dvec3(side[0], side[1], side[2]));
+    return true;
+}
+
+void FloorFinder::reset() {
+    found_ = false;
+    frames_ = unseen_ = 0;
+    seed_ = 0;
+}
+
+uint32_t FloorFinder::random(uint32_t below) {
+    seed_ = seed_ * 6364136223846793005ull + 1442695040888963407ull;  // Knuth, MMIX
+    return uint32_t((seed_ >> 33) * below >> 31);
+}
+
+void FloorFinder::take_samples(const DepthGrid& grid) {
+    columns_ = std::max(1u, grid.width() / kSampleStep);
+    rows_ = std::max(1u, grid.height() / kSampleStep);
+    samples_.resize(size_t(columns_) * rows_);
+    for (uint32_t y = 0; y < rows_; ++y) {
+        // The rows take turns, so that all cells serve in a few frames.
+        const uint32_t cy = std::min(y * kSampleStep + frames_ % kSampleStep, grid.height() - 1);
+        const float* const depth = grid.depth().data() + size_t(cy) * grid.width();
+        for (uint32_t x = 0; x < columns_; ++x) {
+            const uint32_t cx = std::min(x * kSampleStep + (y + frames_ / kSampleStep) % kSampleStep, grid.width() - 1);
+            const float z = depth[cx];
+            samples_[size_t(y) * columns_ + x] = {grid.ray_x()[cx], grid.ray_y()[cy],
+                                                  z > 0.0f && z < kFarthest_m ? 1.0f / z : 0.0f};
+        }
+    }
+}
+
+// Height of a sample above the plane, in units of its own depth: h / z = d (1/z - a . r).
+float FloorFinder::score(const Plane& plane) const {
+    const float d = 1.0f / glm::length(plane), noise = kSigmas * kInverseSigma * d;
+    uint32_t on = 0, below = 0;
+    for (const Sample& s : samples_) {
+        const float h = d * (s.inverse - plane.x * s.x - plane.y * s.y - plane.z);
+        const float band = kUneven_m * s.inverse + noise;
+        const uint32_t valid = s.inverse > 0.0f;
+        on += valid & uint32_t(std::abs(h) < band);
+        below += valid & uint32_t(h < -(band + kBelow_m * s.inverse));
+    }
+    const float fewest = std::max(float(kFewest), kFewestShare * float(samples_.size()));
+    if (float(on) < fewest || float(below) > kMostBelow * float(on)) return 0.0f;
+    return float(on) - float(below);
+}
+
+size_t FloorFinder::gather(const Plane& plane, float slack_m, Sums& sums) const {
+    const float d = 1.0f / glm::length(plane), noise = kSigmas * kInverseSigma * d;
+    size_t count = 0;
+    for (const Sample& s : samples_) {
+        const float h = d * (s.inverse - plane.x * s.x - plane.y * s.y - plane.z);
+        if (s.inverse <= 0.0f || std::abs(h) > slack_m * s.inverse + noise) continue;
+        sums.add(s);
+        ++count;
+    }
+    return count;
+}
+
+FloorFinder::Fit FloorFinder::search(const Vec3& up) {
+    Fit best;
+    for (uint32_t i = 0; i < kTries; ++i) {
+        const uint32_t first = random(uint32_t(samples_.size()));
+        const int x = int(first % columns_), y = int(first / columns_);
+        Sums sums;
+        bool whole = true;
+        for (int k = 0; k < 3 && whole; ++k) {
+            const int dx = k == 0 ? 0 : int(random(2 * kWindow + 1)) - kWindow;
+            const int dy = k == 0 ? 0 : int(random(2 * kWindow + 1)) - kWindow;
+            const int sx = std::clamp(x + dx, 0, int(columns_) - 1), sy = std::clamp(y + dy, 0, int(rows_) - 1);
+            const Sample& s = samples_[size_t(sy) * columns_ + size_t(sx)];
+            whole = s.inverse > 0.0f;
+            sums.add(s);
+        }
+        Plane plane;
+        if (!whole || !sums.solve(plane) || !plausible(plane, up)) continue;
+        const float points = score(plane);
+        if (points > best.score) best = {plane, points};
+    }
+    for (const float slack : {2.0f * kUneven_m, kUneven_m, kUneven_m}) {
+        Sums sums;
+        Plane plane;
+        if (!best.valid() || gather(best.plane, slack, sums) < kFewest || !sums.solve(plane) ||
+            !plausible(plane, up))
+            break;
+        if (const float points = score(plane); points > 0.0f) best = {plane, points};
+    }
+    return best;
+}
+
+// How many things of a person's size stand on the plane: tells a floor from a side wall, which is a floor to a
+// camera on its side.
+uint32_t FloorFinder::standing(const Plane& plane) {
+    const float d = 1.0f / glm::length(plane), noise = kSigmas * kInverseSigma * d;
+    Camera camera;
+    camera.floor_normal = -plane * d;
+    camera.floor_distance_m = d;
+    const Vec3 right = Vec3(glm::transpose(camera.world_from_camera())[0]);
+    height_.resize(samples_.size());
+    pending_.resize(samples_.size());
+    for (size_t i = 0; i < samples_.size(); ++i) {
+        const Sample& s = samples_[i];
+        const float h = d * (s.inverse - plane.x * s.x - plane.y * s.y - plane.z);
+        const bool off = s.inverse > 0.0f && h > 2.0f * (kUneven_m * s.inverse + noise);
+        height_[i] = off ? h / s.inverse : -1.0f;
+    }
+    uint32_t count = 0;
+    for (size_t start = 0; start < samples_.size(); ++start) {
+        if (height_[start] < 0.0f) continue;
+        uint32_t things = 0, waiting = 0;
+        float low = 1e9f, high = 0.0f, left = 1e9f, far_right = -1e9f;
+        const auto take = [&](size_t i) {
+            low = std::min(low, height_[i]);
+            high = std::max(high, height_[i]);
+            const Sample& s = samples_[i];
+            const float x = (right.x * s.x + right.y * s.y + right.z) / s.inverse;
+            left = std::min(left, x);
+            far_right = std::max(far_right, x);
+            height_[i] = -1.0f;
+            pending_[waiting++] = uint32_t(i);
+            ++things;
+        };
+        take(start);
+        while (waiting > 0) {
+            const uint32_t i = pending_[--waiting];
+            const uint32_t x = i % columns_, y = i / columns_;
+            const float z = 1.0f / samples_[i].inverse;
+            const auto visit = [&](size_t n) {
+                if (height_[n] >= 0.0f && std::abs(1.0f / samples_[n].inverse - z) < kSameThing_m) take(n);
+            };
+            if (x > 0) visit(i - 1);
+            if (x + 1 < columns_) visit(i + 1);
+            if (y > 0) visit(i - columns_);
+            if (y + 1 < rows_) visit(i + columns_);
+        }
+        count += things >= kThing && low < kStandsBelow_m && high > kShortest_m && high < kTallest_m &&
+                 far_right - left < kWidest_m;
+    }
+    return count;
+}
+
+FloorFinder::Fit FloorFinder::choose() {
+    Fit best;
+    uint32_t most = 0;
+    for (const Vec3& up : kUps) {
+        const Fit fit = search(up);
+        if (!fit.valid()) continue;
+        const uint32_t things = standing(fit.plane);
+        const bool landscape = up.y != 0.0f;
+        if ((landscape && !best.valid()) || things > most) {
+            best = fit;
+            most = things;
+        }
+    }
+    return best;
+}
+
+bool FloorFinder::run(const DepthGrid& grid, Camera& camera) {
+    take_samples(grid);
+    ++frames_;
+    if (camera.floor_state == VFIT_FLOOR_GIVEN) {
+        if (camera.floor_distance_m < kLowest_m) return false;
+        return score(-camera.floor_normal / camera.floor_distance_m) > 0.0f;
+    }
+
+    bool seen = false;
+    if (found_) {
+        Sums now = sums_;
+        now.decay(kMemory);
+        seen = gather(plane_, kUneven_m, now) >= kFewest && score(plane_) > 0.0f;
+        Plane refined;
+        if (seen && now.solve(refined) && score(refined) > 0.0f) {
+            plane_ = refined;
+            sums_ = now;
+        }
+        unseen_ = seen ? 0 : unseen_ + 1;
+    }
+    if (seen ? frames_ % kLookAgain == 0 : frames_ == 1 || frames_ % kRetry == 0) {
+        const Fit fit = choose();
+        if (fit.valid() && (!seen || fit.score > kBetter * score(plane_))) {
+            plane_ = fit.plane;
+            sums_ = {};
+            gather(plane_, kUneven_m, sums_);
+            found_ = seen = true;
+            unseen_ = 0;
+        }
+    }
+    if (!found_) return false;
+    const float d = 1.0f / glm::length(plane_);
+    camera.floor_normal = -plane_ * d;
+    camera.floor_distance_m = d;
+    camera.floor_state = VFIT_FLOOR_ESTIMATED;
+    return seen;
+}
+
+}  // namespace vfit

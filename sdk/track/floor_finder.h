@@ -1,0 +1,66 @@
+// The floor plane from depth alone, without calibration.
+//
+// A plane n . p + d = 0 is linear in what the sensor measures: with the ray r = (x/z, y/z, 1) of a pixel,
+// 1 / z = a r, where a = -n / d. Noise of 1 / z hardly depends on distance (structured light measures it
+// directly), so planes are fitted there by plain least squares, and a plane is kept from frame to frame as the
+// decayed sums of its normal equations.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "track/depth_grid.h"
+
+namespace vfit {
+
+class FloorFinder {
+public:
+    /// Looks for the floor in this frame. Once found, sets the camera's floor (VFIT_FLOOR_ESTIMATED) in every
+    /// call and refines it over the frames; a camera whose floor is VFIT_FLOOR_GIVEN is left alone. True where
+    /// the floor was seen in this frame. Does not allocate after its first run.
+    bool run(const DepthGrid& grid, Camera& camera);
+
+    /// A floor is known, though perhaps out of sight now.
+    bool found() const { return found_; }
+    void reset();
+
+private:
+    using Plane = Vec3;  // a: 1 / z = a . (x/z, y/z, 1)
+
+    struct Sample {
+        float x, y, inverse;  // ray, 1 / z
+    };
+    struct Fit {
+        Plane plane{0.0f};
+        float score = 0.0f;
+        bool valid() const { return score > 0.0f; }
+    };
+    struct Sums {  // normal equations of the fit in a
+        std::array<double, 6> product{};  // xx xy x yy y 1
+        std::array<double, 3> side{};     // x/z y/z 1/z
+        void add(const Sample& s);
+        void decay(double share);
+        bool solve(Plane& plane) const;
+    };
+
+    void take_samples(const DepthGrid& grid);
+    Fit search(const Vec3& up);
+    Fit choose();
+    float score(const Plane& plane) const;
+    uint32_t standing(const Plane& plane);
+    size_t gather(const Plane& plane, float slack_m, Sums& sums) const;
+    uint32_t random(uint32_t below);
+
+    std::vector<Sample> samples_;
+    std::vector<float> height_;        // of a coarse picture of the scene above a plane
+    std::vector<uint32_t> pending_;
+    Sums sums_;
+    Plane plane_{0.0f};
+    bool found_ = false;
+    uint32_t frames_ = 0, unseen_ = 0;
+    uint32_t columns_ = 0, rows_ = 0;  // of the coarse picture
+    uint64_t seed_ = 0;
+};
+
+}  // namespace vfit

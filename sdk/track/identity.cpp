@@ -1,0 +1,91 @@
+#include "track/identity.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vfit {
+
+namespace {
+
+constexpr float kRemembered_s = 2.5f;  // a short exit, or a moment behind something
+constexpr float kReach_m = 0.5f;       // a step that is not foreseen
+constexpr float kWalk_mps = 1.2f;      // while away: comfortable walking speed is 1.2 to 1.4 m/s
+constexpr float kSameHeight_m = 0.15f;
+constexpr float kSpeedShare = 0.3f;    // of the newest velocity in the kept one
+constexpr float kFastest_mps = 4.0f;
+constexpr float kForesight_s = 0.3f;   // beyond, people turn
+constexpr uint32_t kIds = 254;
+
+float seconds(int64_t ns) { return float(double(ns) * 1e-9); }
+
+}  // namespace
+
+void Identity::reset() {
+    tracks_ = {};
+    last_id_ = 0;
+}
+
+void Identity::begin(int64_t time_ns) {
+    for (PersonTrack& t : tracks_) {
+        t.seen = false;
+        if (t.id != 0 && seconds(time_ns - t.seen_ns) > kRemembered_s) t = {};
+    }
+}
+
+uint32_t Identity::adopt(const Shape& shape, int64_t time_ns) {
+    uint32_t best = kMost, free = kMost;
+    float least = 1e9f;
+    for (uint32_t i = 0; i < kMost; ++i) {
+        const PersonTrack& t = tracks_[i];
+        if (t.id == 0) {
+            free = std::min(free, i);
+            continue;
+        }
+        if (t.seen) continue;
+        const float away_s = seconds(time_ns - t.seen_ns);
+        const Vec3 foreseen = t.centre + t.velocity * std::min(away_s, kForesight_s);
+        const Vec3 step = shape.centre - foreseen;
+        const float distance = std::sqrt(step.x * step.x + step.z * step.z);
+        const bool whole = (shape.out_of_view & (kOutOfViewTop | kOutOfViewFeet)) == 0;
+        const float taller = whole ? std::abs(shape.high_m - t.height_m) : 0.0f;
+        if (distance > kReach_m + kWalk_mps * away_s || taller > 2.0f * kSameHeight_m) continue;
+        const float cost = distance + taller / kSameHeight_m * kReach_m;
+        if (cost < least) {
+            least = cost;
+            best = i;
+        }
+    }
+    if (best == kMost && free < kMost) {
+        // Numbers go round, so that a number that has just become free is not given to somebody else.
+        bool used = true;
+        while (used) {
+            last_id_ = last_id_ % kIds + 1;
+            used = std::any_of(tracks_.begin(), tracks_.end(), [&](const auto& t) { return t.id == last_id_; });
+        }
+        best = free;
+        tracks_[best] = {};
+        tracks_[best].id = last_id_;
+        tracks_[best].first_ns = time_ns;
+    }
+    return best;
+}
+
+void Identity::see(uint32_t slot, const Shape& shape, int64_t time_ns) {
+    PersonTrack& t = tracks_[slot];
+    const float dt_s = seconds(time_ns - t.seen_ns);
+    if (t.cells > 0 && dt_s > 1e-3f && dt_s < 1.0f) {
+        Vec3 velocity = (shape.centre - t.centre) / dt_s;
+        if (const float speed = glm::length(velocity); speed > kFastest_mps) velocity *= kFastest_mps / speed;
+        t.velocity += kSpeedShare * (velocity - t.velocity);
+    } else if (dt_s >= 1.0f) {
+        t.velocity = Vec3(0.0f);
+    }
+    t.centre = shape.centre;
+    t.height_m = t.cells > 0 ? t.height_m + 0.1f * (shape.high_m - t.height_m) : shape.high_m;
+    t.area_m2 = shape.area_m2;
+    t.cells = shape.cells;
+    t.seen_ns = time_ns;
+    t.seen = true;
+}
+
+}  // namespace vfit

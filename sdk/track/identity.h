@@ -1,0 +1,44 @@
+// Who is who from frame to frame: people keep their number while they are seen, through a crossing, and when they
+// come back within two seconds.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "track/person_shape.h"
+
+namespace vfit {
+
+struct PersonTrack {
+    uint32_t id = 0;               // 1..254; 0: the slot is free
+    Vec3 centre{0.0f}, velocity{0.0f};  // world, m and m/s
+    float height_m = 0.0f, area_m2 = 0.0f;
+    uint32_t cells = 0;            // when last seen
+    int64_t first_ns = 0, seen_ns = 0;
+    bool seen = false;             // in the last frame
+};
+
+class Identity {
+public:
+    /// More people than a room before one camera holds.
+    static constexpr uint32_t kMost = 24;
+
+    const PersonTrack& track(uint32_t slot) const { return tracks_[slot]; }
+    bool taken(uint32_t slot) const { return tracks_[slot].id != 0; }
+
+    /// Frees the slots of people who have been away for too long, and marks all as not seen.
+    void begin(int64_t time_ns);
+    /// The slot of somebody who is away and may have come back as this shape; else a new one. kMost: no slot is free.
+    uint32_t adopt(const Shape& shape, int64_t time_ns);
+    /// The person in that slot is seen there.
+    void see(uint32_t slot, const Shape& shape, int64_t time_ns);
+    void forget(uint32_t slot) { tracks_[slot] = {}; }
+    void reset();
+
+private:
+    std::array<PersonTrack, kMost> tracks_;
+    uint32_t last_id_ = 0;
+};
+
+}  // namespace vfit

@@ -1,0 +1,103 @@
+// The user map: which pixels are people, and which of them is who, from depth alone and without calibration.
+//
+// Floor and background are taken away, what remains falls into connected components, shapes that people cannot
+// have are left out, people who touch are taken apart by where they were, and numbers are kept from frame to
+// frame. Each step is a file of its own; this one strings them together.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "track/background.h"
+#include "track/components.h"
+#include "track/depth_filter.h"
+#include "track/floor_finder.h"
+#include "track/identity.h"
+#include "track/person_shape.h"
+#include "track/splitter.h"
+
+namespace vfit {
+
+struct PersonRegion {
+    uint32_t id = 0;           // 1..254
+    PixelBox box;              // in pixels of the image
+    Vec3 centre{0.0f};         // world, mean of what is seen
+    float height_m = 0.0f;     // of the topmost point above the floor; from end to end where no floor is known
+    float width_m = 0.0f;      // 5th to 95th percentile across the view
+    uint32_t pixels = 0;
+    uint32_t out_of_view = 0;  // OutOfView
+};
+
+struct PeopleMapOptions {
+    float farthest_m = 5.0f;      // people beyond are not looked for
+    bool learn_background = true;
+};
+
+class PeopleMap {
+public:
+    explicit PeopleMap(const PeopleMapOptions& options = {}) : options_(options) {}
+
+    /// Labels people: one byte a pixel of `users` (0: nobody, else the person's id). The regions stay valid until
+    /// the next run. Does not allocate while images are no larger than the largest before.
+    std::span<const PersonRegion> run(const DepthImage& image, int64_t time_ns, uint8_t* users);
+
+    /// The image's camera with the floor, given or found (floor_state); the space of the regions' centres.
+    const Camera& camera() const { return camera_; }
+    /// The floor was seen in the last frame.
+    bool floor_seen() const { return floor_seen_; }
+
+    /// Nobody is in view.
+    void learn_background(const DepthImage& image);
+    /// That region of the last run was no person: it becomes background.
+    void reject(uint32_t id);
+    /// Forgets people, floor and background.
+    void reset();
+
+private:
+    /// A component, or a part of one that was split.
+    struct Piece {
+        std::span<const uint32_t> cells;
+        Shape shape;
+        uint32_t slot = 0;    // of Identity; kNew, kFragment or kThing
+        uint32_t home = 0;    // slot that a fragment goes to
+    };
+    static constexpr uint32_t kNew = 1000, kFragment = 1001, kThing = 1002;
+
+    void look(const DepthImage& image);
+    void find_view();
+    void cut_floor_and_background();
+    void sort_components();
+    void sort_component(std::span<const uint32_t> cells);
+    void split_by_tracks(std::span<const uint32_t> cells, std::span<const uint32_t> slots, float farthest_m);
+    bool split_by_heads(std::span<const uint32_t> cells, uint8_t fewest);
+    void classify_new(std::span<const uint32_t> cells, const Shape& shape);
+    void add_piece(std::span<const uint32_t> cells, const Shape& shape, uint32_t slot);
+    void name_people(int64_t time_ns);
+    void attach_fragments();
+    void report(const DepthImage& image, int64_t time_ns, uint8_t* users);
+    Shape measure(std::span<const uint32_t> cells) const;
+    bool person_like(std::span<const uint32_t> cells, const Shape& shape) const;
+    bool feet_hidden(std::span<const uint32_t> cells) const;
+
+    PeopleMapOptions options_;
+    Camera camera_;
+    bool floor_seen_ = false;
+    int64_t time_ns_ = 0;
+    std::array<int, 4> filled_{}, view_{};  // cells: ever filled by the sensor, taken for its view
+    DepthGrid grid_;
+    FloorFinder floor_;
+    BackgroundModel background_;
+    Components components_;
+    Splitter splitter_;
+    Identity identity_;
+    std::vector<uint8_t> wanted_, slots_, last_slots_, labels_;  // by cell; slots count from 1
+    std::vector<float> last_depth_;
+    std::vector<uint32_t> pool_;  // cells of split components
+    size_t pool_used_ = 0;
+    std::vector<Piece> pieces_;
+    std::vector<PersonRegion> regions_;
+};
+
+}  // namespace vfit

@@ -1,0 +1,112 @@
+// The floor plane from one depth image: whatever way the camera stands, and nothing where no floor is seen.
+#include "track/floor_finder.h"
+
+#include <gtest/gtest.h>
+
+#include "track/room_scene.h"
+
+namespace vfit {
+namespace {
+
+using testing::RoomScene;
+using testing::standing_person;
+
+double degrees_off(const Camera& a, const Camera& b) {
+    return std::acos(std::min(1.0f, glm::dot(a.floor_normal, b.floor_normal))) * 180.0 / double(kPi);
+}
+
+/// One image; the camera as the finder leaves it.
+bool find(RoomScene& scene, Camera& camera) {
+    scene.render();
+    const DepthImage image = scene.bare();
+    DepthGrid grid;
+    grid.run(image);
+    camera = image.camera;
+    FloorFinder finder;
+    return finder.run(grid, camera);
+}
+
+struct Stand {
+    float height_m, tilt_deg, roll_deg;
+};
+
+class FloorOfCamera : public ::testing::TestWithParam<Stand> {};
+
+TEST_P(FloorOfCamera, IsFoundWithinOneDegreeAndThreeCentimetresInOneImage) {
+    RoomScene scene;
+    scene.stand(GetParam().height_m, GetParam().tilt_deg, GetParam().roll_deg);
+    scene.people.push_back(standing_person(0.1f, -2.7f));
+    scene.side_x = 1.8f;
+    Camera camera;
+    ASSERT_TRUE(find(scene, camera));
+    EXPECT_EQ(camera.floor_state, VFIT_FLOOR_ESTIMATED);
+    EXPECT_LT(degrees_off(camera, scene.camera), 1.0);
+    EXPECT_NEAR(camera.floor_distance_m, scene.camera.floor_distance_m, 0.03f);
+}
+
+INSTANTIATE_TEST_SUITE_P(Stands, FloorOfCamera,
+                         ::testing::Values(Stand{1.0f, 0, 0}, Stand{0.4f, -8, 0}, Stand{0.6f, 0, 5},
+                                           Stand{1.6f, 20, 0}, Stand{2.2f, 45, -6}, Stand{2.4f, 30, 0},
+                                           Stand{1.0f, 0, 90}, Stand{1.4f, 12, -90}, Stand{0.8f, -5, 86}));
+
+TEST(FloorFinder, SaysSoWhereNoFloorIsInView) {
+    RoomScene scene;
+    scene.floor = false;
+    scene.side_x = 1.5f;
+    scene.people.push_back(standing_person(0.0f, -2.0f));
+    Camera camera;
+    EXPECT_FALSE(find(scene, camera));
+    EXPECT_EQ(camera.floor_state, VFIT_FLOOR_DEFAULT);
+    EXPECT_FLOAT_EQ(camera.floor_distance_m, 1.0f);
+}
+
+TEST(FloorFinder, DoesNotTakeATableForTheFloorBelowIt) {
+    RoomScene scene;
+    scene.stand(1.5f, 25, 0);
+    scene.things.push_back({{-1.0f, 0.70f, -2.6f}, {0.8f, 0.74f, -1.2f}});
+    Camera camera;
+    ASSERT_TRUE(find(scene, camera));
+    EXPECT_NEAR(camera.floor_distance_m, 1.5f, 0.03f);
+}
+
+TEST(FloorFinder, LeavesAFloorAloneThatIsGiven) {
+    RoomScene scene;
+    scene.render();
+    DepthImage image = scene.bare();
+    set_floor(image.camera, 1.02f, 0.01f, 0.0f, VFIT_FLOOR_GIVEN);
+    const Camera given = image.camera;
+    DepthGrid grid;
+    grid.run(image);
+    FloorFinder finder;
+    finder.run(grid, image.camera);
+    EXPECT_EQ(image.camera.floor_distance_m, given.floor_distance_m);
+    EXPECT_EQ(image.camera.floor_normal, given.floor_normal);
+    EXPECT_EQ(image.camera.floor_state, VFIT_FLOOR_GIVEN);
+}
+
+TEST(FloorFinder, RemembersTheFloorWhileItIsHiddenAndFollowsACameraThatIsTurned) {
+    RoomScene scene;
+    FloorFinder finder;
+    DepthGrid grid;
+    const auto look = [&](uint32_t seed, Camera& camera) {
+        scene.render(seed);
+        const DepthImage image = scene.bare();
+        camera = image.camera;
+        grid.run(image);
+        return finder.run(grid, camera);
+    };
+    Camera camera;
+    ASSERT_TRUE(look(1, camera));
+    scene.things.push_back({{-3.0f, 0.0f, -1.0f}, {3.0f, 3.0f, -0.9f}});  // somebody before the lens
+    EXPECT_FALSE(look(2, camera));
+    EXPECT_EQ(camera.floor_state, VFIT_FLOOR_ESTIMATED);
+    EXPECT_NEAR(camera.floor_distance_m, 1.0f, 0.03f);
+    scene.things.clear();
+    scene.stand(1.3f, 15, 0);
+    for (uint32_t i = 0; i < 30; ++i) look(3 + i, camera);
+    EXPECT_LT(degrees_off(camera, scene.camera), 0.5);
+    EXPECT_NEAR(camera.floor_distance_m, 1.3f, 0.015f);
+}
+
+}  // namespace
+}  // namespace vfit

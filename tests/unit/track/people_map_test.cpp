@@ -1,0 +1,264 @@
+// The user map on scenes that are known by construction: people are found and keep their numbers, furniture is not.
+#include "track/people_map.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "support/allocations.h"
+#include "track/room_scene.h"
+
+namespace vfit {
+namespace {
+
+using testing::Block;
+using testing::RoomScene;
+using testing::standing_person;
+
+constexpr int64_t kFrame_ns = 33'333'333;
+
+/// Plays a scene frame by frame at 30 Hz.
+class People {
+public:
+    explicit People(const PeopleMapOptions& options = {}) : map(options) {}
+
+    std::span<const PersonRegion> see(RoomScene& scene) {
+        scene.render(uint32_t(time_ns / kFrame_ns) + 1);
+        users.resize(scene.depth.size());
+        time_ns += kFrame_ns;
+        return map.run(scene.bare(), time_ns, users.data());
+    }
+
+    /// Of person number `who` of the scene, against the label that covers most of them.
+    double iou(const RoomScene& scene, uint8_t who = 1) const {
+        const uint8_t label = label_of(scene, who);
+        size_t both = 0, either = 0;
+        for (size_t i = 0; i < users.size(); ++i) {
+            const bool truth = scene.truth[i] == who, found = label != 0 && users[i] == label;
+            both += truth && found;
+            either += truth || found;
+        }
+        return either ? double(both) / double(either) : 0.0;
+    }
+
+    uint8_t label_of(const RoomScene& scene, uint8_t who) const {
+        std::array<size_t, 256> count{};
+        for (size_t i = 0; i < users.size(); ++i)
+            if (scene.truth[i] == who && users[i]) ++count[users[i]];
+        const auto most = std::max_element(count.begin(), count.end());
+        return *most ? uint8_t(most - count.begin()) : uint8_t(0);
+    }
+
+    PeopleMap map;
+    std::vector<uint8_t> users;
+    int64_t time_ns = 0;
+};
+
+TEST(PeopleMap, FindsOnePersonInTheFirstImageWithoutCalibration) {
+    RoomScene scene;
+    scene.people.push_back(standing_person(0.2f, -2.6f));
+    People people;
+    const auto regions = people.see(scene);
+    ASSERT_EQ(regions.size(), 1u);
+    EXPECT_GT(people.iou(scene), 0.95);
+    EXPECT_NEAR(regions[0].height_m, 1.72f, 0.04f);
+    EXPECT_NEAR(regions[0].centre.x, 0.2f, 0.05f);
+    EXPECT_NEAR(regions[0].centre.z, -2.5f, 0.15f);
+    EXPECT_EQ(regions[0].out_of_view, 0u);
+    EXPECT_EQ(people.map.camera().floor_state, VFIT_FLOOR_ESTIMATED);
+}
+
+TEST(PeopleMap, KeepsTheFeet) {
+    RoomScene scene;
+    scene.stand(1.5f, 15, 0);
+    scene.people.push_back(standing_person(0.0f, -2.6f));
+    People people;
+    for (int i = 0; i < 5; ++i) people.see(scene);
+    size_t feet = 0, found = 0;
+    const Mat4 world = scene.camera.world_from_camera();
+    for (uint32_t v = 0; v < 240; ++v)
+        for (uint32_t u = 0; u < 320; ++u) {
+            const size_t i = size_t(v) * 320 + u;
+            if (!scene.truth[i]) continue;
+            const Vec3 p = scene.camera.unproject(float(u), float(v), float(scene.depth[i]) * 0.001f);
+            if (transform_point(world, p).y > 0.1f) continue;
+            ++feet;
+            found += people.users[i] != 0;
+        }
+    EXPECT_GT(double(found), 0.9 * double(feet));
+}
+
+TEST(PeopleMap, WorksWithTheCameraOnItsSide) {
+    for (const float roll : {90.0f, -90.0f}) {
+        RoomScene scene;
+        scene.stand(1.1f, 5, roll);
+        scene.people.push_back(standing_person(0.0f, -2.4f));
+        People people;
+        const auto regions = people.see(scene);
+        ASSERT_EQ(regions.size(), 1u) << roll;
+        EXPECT_GT(people.iou(scene), 0.93);
+        EXPECT_NEAR(regions[0].height_m, 1.72f, 0.05f);
+    }
+}
+
+TEST(PeopleMap, ReportsNobodyInARoomWithFurniture) {
+    RoomScene scene;
+    scene.side_x = 1.6f;
+    scene.things = {
+        {{-1.2f, 0.0f, -2.6f}, {-0.7f, 1.5f, -2.1f}},    // cupboard
+        {{0.2f, 0.4f, -2.4f}, {0.65f, 0.46f, -2.0f}},    // chair: seat, back, legs
+        {{0.2f, 0.46f, -2.4f}, {0.65f, 0.95f, -2.36f}},
+        {{0.22f, 0.0f, -2.04f}, {0.25f, 0.4f, -2.01f}},
+        {{0.6f, 0.0f, -2.04f}, {0.63f, 0.4f, -2.01f}},
+        {{-0.22f, 0.0f, -2.52f}, {-0.18f, 1.7f, -2.48f}},  // coat rack: pole, coat
+        {{-0.38f, 1.0f, -2.6f}, {-0.02f, 1.6f, -2.4f}},
+        {{-1.6f, 0.0f, -3.7f}, {1.0f, 2.2f, -3.68f}},    // curtain
+    };
+    People people;
+    for (int i = 0; i < 5; ++i) EXPECT_EQ(people.see(scene).size(), 0u);
+}
+
+TEST(PeopleMap, PeopleWhoCrossKeepTheirNumbers) {
+    RoomScene scene;
+    scene.people.resize(2);
+    People people;
+    uint8_t first = 0, second = 0;
+    for (int i = 0; i <= 60; ++i) {
+        const float x = -0.9f + 0.03f * float(i);
+        scene.people[0] = standing_person(x, -2.2f);
+        scene.people[1] = standing_person(-x, -2.9f);
+        people.see(scene);
+        if (i == 0) {
+            first = people.label_of(scene, 1);
+            second = people.label_of(scene, 2);
+            ASSERT_NE(first, 0);
+            ASSERT_NE(second, 0);
+            ASSERT_NE(first, second);
+        }
+    }
+    EXPECT_EQ(people.label_of(scene, 1), first);
+    EXPECT_EQ(people.label_of(scene, 2), second);
+}
+
+TEST(PeopleMap, PeopleWhoTouchStayTwo) {
+    RoomScene scene;
+    scene.people.resize(2);
+    People people;
+    for (int i = 0; i < 30; ++i) {
+        const float x = 0.7f - 0.014f * float(i);  // to an overlap of the arms
+        scene.people[0] = standing_person(-x, -2.5f);
+        scene.people[1] = standing_person(x, -2.5f);
+        EXPECT_EQ(people.see(scene).size(), 2u) << i;
+    }
+    EXPECT_GT(people.iou(scene, 1), 0.85);
+    EXPECT_GT(people.iou(scene, 2), 0.85);
+}
+
+TEST(PeopleMap, TwoWhoTouchInTheFirstImageAreTwo) {
+    RoomScene scene;
+    scene.people = {standing_person(-0.29f, -2.6f), standing_person(0.29f, -2.6f)};
+    People people;
+    EXPECT_EQ(people.see(scene).size(), 2u);
+    EXPECT_GT(people.iou(scene, 1), 0.85);
+}
+
+TEST(PeopleMap, WhoComesBackWithinTwoSecondsIsTheSame) {
+    RoomScene scene;
+    scene.people.push_back(standing_person(0.3f, -2.6f));
+    People people;
+    uint32_t id = 0;
+    for (int i = 0; i < 10; ++i) id = people.see(scene)[0].id;
+    scene.people.clear();
+    for (int i = 0; i < 50; ++i) EXPECT_EQ(people.see(scene).size(), 0u);
+    scene.people.push_back(standing_person(-0.3f, -2.6f));
+    ASSERT_EQ(people.see(scene).size(), 1u);
+    EXPECT_EQ(people.map.run(scene.bare(), people.time_ns + 1, people.users.data())[0].id, id);
+    scene.people.clear();
+    for (int i = 0; i < 100; ++i) people.see(scene);
+    scene.people.push_back(standing_person(0.3f, -2.6f));
+    ASSERT_EQ(people.see(scene).size(), 1u);
+    EXPECT_NE(people.map.run(scene.bare(), people.time_ns + 1, people.users.data())[0].id, id) << "three seconds later";
+}
+
+TEST(PeopleMap, ABoxBeforeThePersonForASecondDoesNotChangeTheNumber) {
+    RoomScene scene;
+    scene.people.push_back(standing_person(0.0f, -2.6f));
+    People people;
+    uint32_t id = 0;
+    for (int i = 0; i < 10; ++i) id = people.see(scene)[0].id;
+    scene.things.push_back({{-0.5f, 0.0f, -1.7f}, {0.5f, 1.9f, -1.6f}});
+    for (int i = 0; i < 30; ++i) people.see(scene);
+    scene.things.clear();
+    for (int i = 0; i < 5; ++i) people.see(scene);
+    EXPECT_EQ(people.label_of(scene, 1), id);
+    EXPECT_GT(people.iou(scene), 0.95);
+}
+
+TEST(PeopleMap, SaysWhichPartsAreOutOfView) {
+    RoomScene scene;
+    scene.people.push_back(standing_person(0.0f, -1.4f));
+    People people;
+    auto regions = people.see(scene);
+    ASSERT_EQ(regions.size(), 1u);
+    EXPECT_TRUE(regions[0].out_of_view & kOutOfViewFeet);
+    scene.people[0] = standing_person(-1.25f, -2.4f);  // x grows to the image's right
+    People again;
+    regions = again.see(scene);
+    ASSERT_EQ(regions.size(), 1u);
+    EXPECT_EQ(regions[0].out_of_view, uint32_t(kOutOfViewLeft));
+}
+
+TEST(PeopleMap, ASegmentedImageNeedsNoFloor) {
+    RoomScene scene;
+    scene.people.push_back(standing_person(0.0f, -2.5f));
+    scene.render();
+    for (size_t i = 0; i < scene.depth.size(); ++i)
+        if (!scene.truth[i]) scene.depth[i] = 0;
+    PeopleMap map;
+    std::vector<uint8_t> users(scene.depth.size());
+    ASSERT_EQ(map.run(scene.bare(), kFrame_ns, users.data()).size(), 1u);
+    EXPECT_EQ(map.camera().floor_state, VFIT_FLOOR_DEFAULT);
+    size_t missed = 0, all = 0;
+    for (size_t i = 0; i < users.size(); ++i) {
+        all += scene.truth[i] != 0;
+        missed += scene.truth[i] != 0 && !users[i];
+    }
+    EXPECT_LT(missed, all / 100);
+}
+
+TEST(PeopleMap, AnEmptySceneTakesAwayWhatThePersonTouches) {
+    RoomScene scene;
+    scene.things.push_back({{0.15f, 0.0f, -2.75f}, {1.2f, 1.0f, -2.45f}});  // a counter beside the person
+    scene.render();
+    People people;
+    people.map.learn_background(scene.bare());
+    scene.people.push_back(standing_person(0.0f, -2.6f));
+    ASSERT_EQ(people.see(scene).size(), 1u);
+    EXPECT_GT(people.iou(scene), 0.93);
+}
+
+TEST(PeopleMap, WhatIsRejectedDoesNotComeBack) {
+    RoomScene scene;
+    scene.people.push_back(standing_person(0.0f, -2.6f));  // a shop-window dummy
+    People people;
+    const auto regions = people.see(scene);
+    ASSERT_EQ(regions.size(), 1u);
+    people.map.reject(regions[0].id);
+    for (int i = 0; i < 5; ++i) EXPECT_EQ(people.see(scene).size(), 0u);
+}
+
+TEST(PeopleMap, DoesNotAllocateAfterItsFirstImages) {
+    RoomScene scene;
+    scene.people = {standing_person(-0.5f, -2.6f), standing_person(0.4f, -2.3f)};
+    People people;
+    for (int i = 0; i < 3; ++i) people.see(scene);
+    scene.people[1] = standing_person(-0.1f, -2.55f);  // touching: the splitter has to work
+    scene.render(9);
+    const DepthImage image = scene.bare();
+    const uint64_t before = test::allocations.load();
+    people.map.run(image, people.time_ns + kFrame_ns, people.users.data());
+    EXPECT_EQ(test::allocations.load(), before);
+}
+
+}  // namespace
+}  // namespace vfit
