@@ -8,11 +8,13 @@ namespace vfit {
 namespace {
 
 constexpr uint32_t kSampleStep = 4;     // cells between samples: 80 x 60 of them for a 640 x 480 image
-constexpr float kFarthest_m = 8.0f;     // beyond, a reading of a structured-light camera says nothing
+constexpr float kFarthest_m = 6.0f;     // beyond, a reading of a structured-light camera says nothing
 // Spread of 1 / z, 1/m: depth_sigma_m(z) / z^2 is 1.5e-3 to 1.9e-3 from 1 to 4 m.
 constexpr float kInverseSigma = 1.6e-3f;
 constexpr float kSigmas = 2.5f;         // taken for the floor: 99 % of its readings
 constexpr float kUneven_m = 0.012f;     // carpets, tiles and the bow of a real floor
+constexpr float kThings = 0.3f;          // of that band: above, feet and cables begin
+constexpr double kThingsWeight = 0.3;
 constexpr float kBelow_m = 0.10f;       // a table has readings below it, a floor has none
 
 // Where a camera for people can stand and look.
@@ -47,17 +49,17 @@ bool plausible(const Vec3& plane, const Vec3& up) {
 
 }  // namespace
 
-void FloorFinder::Sums::add(const Sample& s) {
+void FloorFinder::Sums::add(const Sample& s, double weight) {
     const double x = s.x, y = s.y, v = s.inverse;
-    product[0] += x * x;
-    product[1] += x * y;
-    product[2] += x;
-    product[3] += y * y;
-    product[4] += y;
-    product[5] += 1.0;
-    side[0] += x * v;
-    side[1] += y * v;
-    side[2] += v;
+    product[0] += weight * x * x;
+    product[1] += weight * x * y;
+    product[2] += weight * x;
+    product[3] += weight * y * y;
+    product[4] += weight * y;
+    product[5] += weight;
+    side[0] += weight * x * v;
+    side[1] += weight * y * v;
+    side[2] += weight * v;
 }
 
 void FloorFinder::Sums::decay(double share) {
@@ -85,16 +87,16 @@ uint32_t FloorFinder::random(uint32_t below) {
     return uint32_t((seed_ >> 33) * below >> 31);
 }
 
-void FloorFinder::take_samples(const DepthGrid& grid) {
+// The cells of each square of samples take turns, so that all of them serve in sixteen frames.
+void FloorFinder::take_samples(const DepthGrid& grid, uint32_t turn) {
     columns_ = std::max(1u, grid.width() / kSampleStep);
     rows_ = std::max(1u, grid.height() / kSampleStep);
     samples_.resize(size_t(columns_) * rows_);
     for (uint32_t y = 0; y < rows_; ++y) {
-        // The rows take turns, so that all cells serve in a few frames.
-        const uint32_t cy = std::min(y * kSampleStep + frames_ % kSampleStep, grid.height() - 1);
+        const uint32_t cy = std::min(y * kSampleStep + turn % kSampleStep, grid.height() - 1);
         const float* const depth = grid.depth().data() + size_t(cy) * grid.width();
         for (uint32_t x = 0; x < columns_; ++x) {
-            const uint32_t cx = std::min(x * kSampleStep + (y + frames_ / kSampleStep) % kSampleStep, grid.width() - 1);
+            const uint32_t cx = std::min(x * kSampleStep + turn / kSampleStep % kSampleStep, grid.width() - 1);
             const float z = depth[cx];
             samples_[size_t(y) * columns_ + x] = {grid.ray_x()[cx], grid.ray_y()[cy],
                                                   z > 0.0f && z < kFarthest_m ? 1.0f / z : 0.0f};
@@ -124,7 +126,8 @@ size_t FloorFinder::gather(const Plane& plane, float slack_m, Sums& sums) const 
     for (const Sample& s : samples_) {
         const float h = d * (s.inverse - plane.x * s.x - plane.y * s.y - plane.z);
         if (s.inverse <= 0.0f || std::abs(h) > slack_m * s.inverse + noise) continue;
-        sums.add(s);
+        // What lies on the floor is above it, and nothing is below.
+        sums.add(s, h > kThings * (slack_m * s.inverse + noise) ? kThingsWeight : 1.0);
         ++count;
     }
     return count;
@@ -228,9 +231,21 @@ FloorFinder::Fit FloorFinder::choose() {
     return best;
 }
 
+// All cells instead of a sixteenth: the first image has to be right already.
+void FloorFinder::fit_whole(const DepthGrid& grid) {
+    for (int pass = 0; pass < 3; ++pass) {
+        sums_ = {};
+        for (uint32_t turn = 0; turn < kSampleStep * kSampleStep; ++turn) {
+            take_samples(grid, turn);
+            gather(plane_, kUneven_m, sums_);
+        }
+        Plane refined;
+        if (sums_.solve(refined) && score(refined) > 0.0f) plane_ = refined;
+    }
+}
+
 bool FloorFinder::run(const DepthGrid& grid, Camera& camera) {
-    take_samples(grid);
-    ++frames_;
+    take_samples(grid, frames_++);
     if (camera.floor_state == VFIT_FLOOR_GIVEN) {
         if (camera.floor_distance_m < kLowest_m) return false;
         return score(-camera.floor_normal / camera.floor_distance_m) > 0.0f;
@@ -252,8 +267,7 @@ bool FloorFinder::run(const DepthGrid& grid, Camera& camera) {
         const Fit fit = choose();
         if (fit.valid() && (!seen || fit.score > kBetter * score(plane_))) {
             plane_ = fit.plane;
-            sums_ = {};
-            gather(plane_, kUneven_m, sums_);
+            fit_whole(grid);
             found_ = seen = true;
             unseen_ = 0;
         }

@@ -39,12 +39,13 @@ private:
     struct Sums {  // normal equations of the fit in a
         std::array<double, 6> product{};  // xx xy x yy y 1
         std::array<double, 3> side{};     // x/z y/z 1/z
-        void add(const Sample& s);
+        void add(const Sample& s, double weight = 1.0);
         void decay(double share);
         bool solve(Plane& plane) const;
     };
 
-    void take_samples(const DepthGrid& grid);
+    void take_samples(const DepthGrid& grid, uint32_t turn);
+    void fit_whole(const DepthGrid& grid);
     Fit search(const Vec3& up);
     Fit choose();
     float score(const Plane& plane) const;

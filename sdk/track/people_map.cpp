@@ -21,14 +21,25 @@ constexpr uint32_t kFewestVotes = 10;
 constexpr float kVoteShare = 0.1f;
 constexpr float kGrowth = 1.4f, kGrowth_m2 = 0.15f;  // of the seen area from frame to frame; more is somebody else's
 constexpr float kGrowthPath_m = 0.3f;         // a hand's way in a frame: 9 m/s at 30 Hz
+constexpr float kReach_m = 1.2f;              // from the trunk to the fingertips, and a step
+constexpr float kWall_m2 = 2.5f;              // more than two people: looked at now and then only
+constexpr uint32_t kWallTurn = 10;            // frames
 constexpr float kSplitArea_m2 = 0.3f;         // below, nobody stands in front of anything
 constexpr float kTwoWide_m = 0.55f;           // of two side by side; one with hanging arms is 0.45 to 0.6 m wide
 constexpr float kHeadReach_m = 1.1f;          // along the surface from the axis to the hands or feet
 constexpr float kLeastSeen_m2 = 0.05f;        // of somebody known: head and a shoulder
 // From a fragment to the person it is of: a hand before the trunk hides the forearm; what is behind is wall.
-constexpr float kInFront_m = 0.7f, kBehind_m = 0.15f, kAside_m = 0.9f;
+constexpr float kInFront_m = 0.7f, kBehind_m = 0.15f, kAside_m = 0.9f, kBeside_m = 0.05f;
+// Soles: cells of the floor cut that are higher than the floor after all, a few cells around the feet.
+constexpr float kFeetBelow_m = 0.12f, kSole_m = 0.007f, kSoleSigmas = 0.5f;
+constexpr int kSoleSteps = 5;
 constexpr int kFragmentGap = 4;               // cells
 constexpr float kMostBorder = 0.08f;          // of the image, that a sensor leaves without readings
+
+bool within_reach(const Vec3& p, const PersonTrack& track) {
+    const Vec3 away = p - track.centre;
+    return away.x * away.x + away.z * away.z < kReach_m * kReach_m;
+}
 
 float seconds(int64_t ns) { return float(double(ns) * 1e-9); }
 
@@ -51,6 +62,7 @@ void PeopleMap::look(const DepthImage& image) {
     for (auto* v : {&wanted_, &slots_, &last_slots_, &labels_}) v->assign(grid_.cells(), 0);
     last_depth_.assign(grid_.cells(), 0.0f);
     pool_.resize(grid_.cells());
+    frontier_.resize(grid_.cells());
     pieces_.reserve(grid_.cells() / kFewestCells + 1);
     regions_.reserve(Identity::kMost);
     filled_ = {};
@@ -147,11 +159,13 @@ void PeopleMap::classify_new(std::span<const uint32_t> cells, const Shape& shape
 // Every cell goes to the person whose last place is nearest along the surface.
 void PeopleMap::split_by_tracks(std::span<const uint32_t> cells, std::span<const uint32_t> slots, float farthest_m) {
     splitter_.begin(grid_, cells);
+    const ShapeMeter meter(grid_, camera_, view_);
     for (const uint32_t cell : cells) {
         const uint8_t last = last_slots_[cell];
         if (last == 0 || std::abs(grid_.depth()[cell] - last_depth_[cell]) > kSamePlace_m) continue;
         for (size_t k = 0; k < slots.size(); ++k)
-            if (slots[k] + 1 == last) splitter_.seed(cell, uint8_t(k + 1));
+            if (slots[k] + 1 == last && within_reach(meter.world(cell), identity_.track(slots[k])))
+                splitter_.seed(cell, uint8_t(k + 1));
     }
     splitter_.grow(farthest_m);
     for (size_t k = 0; k <= slots.size(); ++k) {
@@ -187,9 +201,12 @@ bool PeopleMap::split_by_heads(std::span<const uint32_t> cells, uint8_t fewest) 
 
 void PeopleMap::sort_component(std::span<const uint32_t> cells) {
     std::array<uint32_t, Identity::kMost + 1> votes{};
+    float area_m2 = 0.0f;
     for (const uint32_t cell : cells) {
         const uint8_t last = last_slots_[cell];
-        if (last != 0 && std::abs(grid_.depth()[cell] - last_depth_[cell]) < kSamePlace_m) ++votes[last];
+        const float z = grid_.depth()[cell];
+        area_m2 += grid_.area_m2(z);
+        if (last != 0 && std::abs(z - last_depth_[cell]) < kSamePlace_m) ++votes[last];
     }
     std::array<uint32_t, Splitter::kMostSeeds> slots;
     size_t count = 0;
@@ -199,15 +216,19 @@ void PeopleMap::sort_component(std::span<const uint32_t> cells) {
             float(votes[slot + 1]) >= kVoteShare * float(most))
             slots[count++] = slot;
     }
-    const Shape shape = measure(cells);
+    const bool wall = area_m2 > kWall_m2;
     if (count >= 2) {
-        split_by_tracks(cells, {slots.data(), count}, std::numeric_limits<float>::max());
-    } else if (count == 1) {
-        const PersonTrack& track = identity_.track(slots[0]);
-        if (shape.area_m2 > kGrowth * track.area_m2 + kGrowth_m2)
-            split_by_tracks(cells, {slots.data(), 1}, kGrowthPath_m);
-        else
-            add_piece(cells, shape, slots[0]);
+        split_by_tracks(cells, {slots.data(), count}, wall ? kGrowthPath_m : std::numeric_limits<float>::max());
+        return;
+    }
+    if (count == 1 && area_m2 > kGrowth * identity_.track(slots[0]).area_m2 + kGrowth_m2) {
+        split_by_tracks(cells, {slots.data(), 1}, kGrowthPath_m);
+        return;
+    }
+    if (count == 0 && wall && frames_ % kWallTurn != 1) return;
+    const Shape shape = measure(cells);
+    if (count == 1) {
+        add_piece(cells, shape, slots[0]);
     } else {
         // Two who stand close can pass for one broad person, and one at a table for none.
         const bool whole = shape.area_m2 < kSplitArea_m2 || person_like(cells, shape);
@@ -229,12 +250,15 @@ void PeopleMap::name_people(int64_t time_ns) {
         if (p.slot < Identity::kMost) area[p.slot] += p.shape.area_m2;
     for (Piece& p : pieces_)
         if (p.slot < Identity::kMost && area[p.slot] < kLeastSeen_m2) p.slot = kFragment;
-    // The largest piece of each stands for them.
+    // The largest piece of each stands for them; what they have left behind is theirs no more.
     for (uint32_t slot = 0; slot < Identity::kMost; ++slot) {
         const Piece* largest = nullptr;
         for (const Piece& p : pieces_)
             if (p.slot == slot && (!largest || p.shape.area_m2 > largest->shape.area_m2)) largest = &p;
-        if (largest) identity_.see(slot, largest->shape, time_ns);
+        if (!largest) continue;
+        identity_.see(slot, largest->shape, time_ns);
+        for (Piece& p : pieces_)
+            if (p.slot == slot && !within_reach(p.shape.centre, identity_.track(slot))) p.slot = kThing;
     }
     for (Piece& p : pieces_) {
         if (p.slot != kNew) continue;
@@ -259,14 +283,16 @@ void PeopleMap::attach_fragments() {
     for (Piece& p : pieces_) {
         p.home = Identity::kMost;
         if (p.slot != kFragment) continue;
-        std::array<uint32_t, Identity::kMost + 1> votes{};
+        std::array<float, Identity::kMost + 1> votes{};
         for (const uint32_t cell : p.cells) {
             const int x = int(cell) % width, y = int(cell) / width;
             const auto visit = [&](int nx, int ny) {
                 if (nx < 0 || ny < 0 || nx >= width || ny >= height) return;
                 const size_t next = size_t(ny) * size_t(width) + size_t(nx);
                 const float behind = grid_.depth()[cell] - grid_.depth()[next];
-                if (slots_[next] && behind < kBehind_m && behind > -kInFront_m) ++votes[slots_[next]];
+                // A hand before somebody else's chest is near its own arm.
+                if (slots_[next] && behind < kBehind_m && behind > -kInFront_m)
+                    votes[slots_[next]] += 1.0f / (std::abs(behind) + kBeside_m);
             };
             for (int k = 1; k <= kFragmentGap; ++k) {
                 visit(x - k, y);
@@ -275,7 +301,7 @@ void PeopleMap::attach_fragments() {
                 visit(x, y + k);
             }
         }
-        uint32_t most = 0;
+        float most = 0.0f;
         for (uint32_t slot = 0; slot < Identity::kMost; ++slot) {
             if (votes[slot + 1] <= most) continue;
             const Vec3 away = p.shape.centre - identity_.track(slot).centre;
@@ -289,6 +315,57 @@ void PeopleMap::attach_fragments() {
             for (const uint32_t cell : p.cells) slots_[cell] = uint8_t(p.home + 1);
 }
 
+// The floor cut takes the soles with it. Around feet the mean height of 3 x 3 cells, which is less noisy than the
+// single one, tells them from the floor.
+void PeopleMap::grow_feet() {
+    if (!floor_seen_ && !floor_.found()) return;
+    const int width = int(grid_.width()), height = int(grid_.height());
+    const Vec3 n = camera_.floor_normal;
+    const float d = camera_.floor_distance_m;
+    const auto height_of = [&](int x, int y) {
+        const float z = grid_.depth()[size_t(y * width + x)];
+        return z * (n.x * grid_.ray_x()[size_t(x)] + n.y * grid_.ray_y()[size_t(y)] + n.z) + d;
+    };
+    const auto floor_like = [&](int x, int y) {
+        const size_t i = size_t(y * width + x);
+        const float z = grid_.depth()[i];
+        return z > 0.0f && !wanted_[i] &&
+               std::abs(height_of(x, y)) < 2.0f * (kFloorSlack_m + kFloorSigmas * kInverseSigma * d * z);
+    };
+    size_t count = 0;
+    for (int y = 0, i = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x, ++i)
+            if (slots_[size_t(i)] && height_of(x, y) < kFeetBelow_m) frontier_[count++] = uint32_t(i);
+    size_t first = 0;
+    for (int step = 0; step < kSoleSteps; ++step) {
+        const size_t last = count;
+        for (; first < last; ++first) {
+            const int from = int(frontier_[first]), fx = from % width, fy = from / width;
+            const float z = grid_.depth()[size_t(from)];
+            const auto visit = [&](int x, int y) {
+                if (x < 1 || y < 1 || x >= width - 1 || y >= height - 1) return;
+                const size_t i = size_t(y * width + x);
+                if (slots_[i] || !floor_like(x, y) || std::abs(grid_.depth()[i] - z) > same_surface_m(z)) return;
+                float sum = 0.0f;
+                int cells = 0;
+                for (int b = -1; b <= 1; ++b)
+                    for (int a = -1; a <= 1; ++a)
+                        if (floor_like(x + a, y + b)) {
+                            sum += height_of(x + a, y + b);
+                            ++cells;
+                        }
+                if (sum < float(cells) * (kSole_m + kSoleSigmas * kInverseSigma * d * z)) return;
+                slots_[i] = slots_[size_t(from)];
+                frontier_[count++] = uint32_t(i);
+            };
+            visit(fx - 1, fy);
+            visit(fx + 1, fy);
+            visit(fx, fy - 1);
+            visit(fx, fy + 1);
+        }
+    }
+}
+
 void PeopleMap::report(const DepthImage& image, int64_t time_ns, uint8_t* users) {
     const bool floor = camera_.floor_state != VFIT_FLOOR_DEFAULT;
     regions_.clear();
@@ -298,10 +375,18 @@ void PeopleMap::report(const DepthImage& image, int64_t time_ns, uint8_t* users)
         if (!identity_.track(slot).seen) continue;
         ids[slot + 1] = uint8_t(identity_.track(slot).id);
         ShapeMeter meter(grid_, camera_, view_);
+        const Piece* only = nullptr;
+        size_t parts = 0;
         for (const Piece& p : pieces_)
-            if (p.slot == slot || (p.slot == kFragment && p.home == slot)) meter.add(p.cells);
-        const Shape shape = meter.finish();
-        if (shape.cells == 0) continue;
+            if (p.slot == slot || (p.slot == kFragment && p.home == slot)) {
+                only = &p;
+                ++parts;
+            }
+        if (parts > 1)
+            for (const Piece& p : pieces_)
+                if (p.slot == slot || (p.slot == kFragment && p.home == slot)) meter.add(p.cells);
+        if (parts == 0) continue;
+        const Shape shape = parts == 1 ? only->shape : meter.finish();
         identity_.see(slot, shape, time_ns);
         PersonRegion r;
         r.id = identity_.track(slot).id;
@@ -319,6 +404,7 @@ void PeopleMap::report(const DepthImage& image, int64_t time_ns, uint8_t* users)
 
 std::span<const PersonRegion> PeopleMap::run(const DepthImage& image, int64_t time_ns, uint8_t* users) {
     look(image);
+    ++frames_;
     find_view();
     cut_floor_and_background();
     components_.run(grid_, wanted_.data(), kFewestCells);
@@ -326,6 +412,7 @@ std::span<const PersonRegion> PeopleMap::run(const DepthImage& image, int64_t ti
     sort_components();
     name_people(time_ns);
     attach_fragments();
+    grow_feet();
     report(image, time_ns, users);
     if (options_.learn_background) {
         const float dt_s = std::clamp(seconds(time_ns - time_ns_), 0.0f, 0.1f);

@@ -76,6 +76,7 @@ private:
     void add_piece(std::span<const uint32_t> cells, const Shape& shape, uint32_t slot);
     void name_people(int64_t time_ns);
     void attach_fragments();
+    void grow_feet();
     void report(const DepthImage& image, int64_t time_ns, uint8_t* users);
     Shape measure(std::span<const uint32_t> cells) const;
     bool person_like(std::span<const uint32_t> cells, const Shape& shape) const;
@@ -85,6 +86,7 @@ private:
     Camera camera_;
     bool floor_seen_ = false;
     int64_t time_ns_ = 0;
+    uint32_t frames_ = 0;
     std::array<int, 4> filled_{}, view_{};  // cells: ever filled by the sensor, taken for its view
     DepthGrid grid_;
     FloorFinder floor_;
@@ -94,6 +96,7 @@ private:
     Identity identity_;
     std::vector<uint8_t> wanted_, slots_, last_slots_, labels_;  // by cell; slots count from 1
     std::vector<float> last_depth_;
+    std::vector<uint32_t> frontier_;  // of growing feet
     std::vector<uint32_t> pool_;  // cells of split components
     size_t pool_used_ = 0;
     std::vector<Piece> pieces_;

@@ -9,6 +9,7 @@ namespace {
 
 constexpr float kBin_m = 0.025f;          // 160 of them: 4 m of height, and 2 m to both sides
 constexpr int kTopBins = 8;               // 20 cm
+constexpr int kBorderCells = 2;           // an image border is rarely straight
 constexpr uint32_t kFewCells = 2;         // above which there is only speckle
 constexpr float kLegsFrom_m = 0.2f, kLegsTo_m = 0.6f;
 
@@ -17,10 +18,11 @@ constexpr float kLegsFrom_m = 0.2f, kLegsTo_m = 0.6f;
 // side, 1 m2 a heavy one from the front; a part of a person is no less than head and shoulders.
 constexpr float kShortest_m = 0.9f, kTallest_m = 2.35f;
 constexpr float kFeetBelow_m = 0.35f;
-constexpr float kLeastArea_m2 = 0.12f, kLeastPart_m2 = 0.07f, kMostArea_m2 = 1.5f;
-constexpr float kLeastPart_m = 0.35f;
+constexpr float kLeastArea_m2 = 0.12f, kLeastPart_m2 = 0.085f, kLeastBehind_m2 = 0.2f, kMostArea_m2 = 1.5f;
+constexpr float kLeastPart_m = 0.4f;
 constexpr float kWidestTrunk_m = 0.85f, kNarrowest_m = 0.14f, kThickest_m = 1.1f;
 constexpr float kFlat_m = 0.014f;         // a trunk's front alone bends by more than 3 cm
+constexpr float kFlatNoise = 1.2f;        // of what noise makes of a plane
 constexpr float kFlatArea_m2 = 0.15f;     // below, a flat thing may be a forearm
 constexpr float kMostTop_m2 = 0.085f;     // head with hair or hat: 0.05; a box as wide as a trunk: 0.1
 constexpr float kLeastLegs_m = 0.07f;     // one shin; a coat rack's pole is 3 to 5 cm
@@ -82,11 +84,17 @@ void ShapeMeter::add(std::span<const uint32_t> cells) {
     if (cells.empty()) return;
     // Bins and products are taken around a point of the set: floats keep millimetres there.
     if (shape_.cells == 0) origin_ = world(cells[cells.size() / 2]);
+    const Vec3 offset = Vec3(0, floor_m_, 0) - origin_;
+    uint32_t row = 0, y = 0;  // cells come row by row: no division in the loop
+    std::array<float, 6> products{};
     for (const uint32_t cell : cells) {
-        const int x = int(cell % grid_.width()), y = int(cell / grid_.width());
+        if (cell < row || cell - row >= grid_.width()) {
+            y = cell / grid_.width();
+            row = y * grid_.width();
+        }
+        const uint32_t x = cell - row;
         const float z = grid_.depth()[cell], area = grid_.area_m2(z);
-        const Vec3 p = rotation_ * grid_.point(uint32_t(x), uint32_t(y)) + Vec3(0, floor_m_, 0);
-        const Vec3 r = p - origin_;
+        const Vec3 r = rotation_ * Vec3(grid_.ray_x()[x] * z, grid_.ray_y()[y] * z, z) + offset;
         const auto bin = [](float v) { return size_t(std::clamp(int(v / kBin_m), 0, kBins - 1)); };
         constexpr float kMiddle = 0.5f * kBins * kBin_m;
         // The floor of a camera that knows none may lie anywhere: heights are binned around the origin too.
@@ -96,19 +104,21 @@ void ShapeMeter::add(std::span<const uint32_t> cells) {
         along_[bin(r.z + kMiddle)] += area;
         sum_ += area * r;
         shape_.area_m2 += area;
-        products_[0] += area * r.x * r.x;
-        products_[1] += area * r.x * r.y;
-        products_[2] += area * r.x * r.z;
-        products_[3] += area * r.y * r.y;
-        products_[4] += area * r.y * r.z;
-        products_[5] += area * r.z * r.z;
-        shape_.x0 = std::min(shape_.x0, x);
-        shape_.y0 = std::min(shape_.y0, y);
-        shape_.x1 = std::max(shape_.x1, x + 1);
-        shape_.y1 = std::max(shape_.y1, y + 1);
-        const float h = p.y;
+        shape_.depth_m += area * z;
+        products[0] += area * r.x * r.x;
+        products[1] += area * r.x * r.y;
+        products[2] += area * r.x * r.z;
+        products[3] += area * r.y * r.y;
+        products[4] += area * r.y * r.z;
+        products[5] += area * r.z * r.z;
+        shape_.x0 = std::min(shape_.x0, int(x));
+        shape_.y0 = std::min(shape_.y0, int(y));
+        shape_.x1 = std::max(shape_.x1, int(x) + 1);
+        shape_.y1 = std::max(shape_.y1, int(y) + 1);
+        const float h = r.y + origin_.y;
         if (h >= kLegsFrom_m && h < kLegsTo_m) shape_.leg_width_m += area / (kLegsTo_m - kLegsFrom_m);
     }
+    for (size_t i = 0; i < products.size(); ++i) products_[i] += double(products[i]);
     shape_.cells += uint32_t(cells.size());
 }
 
@@ -119,6 +129,7 @@ Shape ShapeMeter::finish() {
     const float total = s.area_m2;
     const Vec3 mean = sum_ / total;
     s.centre = origin_ + mean;
+    s.depth_m /= total;
     std::array<double, 6> m = products_;
     for (double& v : m) v /= total;
     m[0] -= double(mean.x) * mean.x;
@@ -144,7 +155,8 @@ Shape ShapeMeter::finish() {
 
     // Image borders as the upright person sees them.
     const int width = int(grid_.width());
-    const bool left = s.x0 <= view_[0], top = s.y0 <= view_[1], right = s.x1 >= view_[2], bottom = s.y1 >= view_[3];
+    const bool left = s.x0 < view_[0] + kBorderCells, right = s.x1 > view_[2] - kBorderCells;
+    const bool top = s.y0 < view_[1] + kBorderCells, bottom = s.y1 > view_[3] - kBorderCells;
     const auto flag = [](bool on, uint32_t bit) { return on ? bit : 0u; };
     if (down_ == width)
         s.out_of_view = flag(left, kOutOfViewLeft) | flag(right, kOutOfViewRight) | flag(top, kOutOfViewTop) |
@@ -167,7 +179,9 @@ bool looks_like_person(const Shape& s, bool floor_known, bool feet_hidden) {
     if (s.area_m2 < (cut ? kLeastPart_m2 : kLeastArea_m2) || s.area_m2 > kMostArea_m2) return false;
     if (s.trunk_width_m > kWidestTrunk_m || s.thickness_m > kThickest_m) return false;
     if (s.width_m < kNarrowest_m) return false;
-    if (s.flatness_m < kFlat_m && s.area_m2 > kFlatArea_m2) return false;
+    if (feet_hidden && s.area_m2 < kLeastBehind_m2) return false;
+    const float flat = kFlatNoise * std::hypot(kFlat_m, depth_sigma_m(s.depth_m));
+    if (s.flatness_m < flat && s.area_m2 > kFlatArea_m2) return false;
     if (!(s.out_of_view & kOutOfViewTop) && s.top_area_m2 > kMostTop_m2) return false;
     if (s.height_m() < (cut ? kLeastPart_m : kShortest_m)) return false;
     if (s.height_m() > kTallest_m) return false;

@@ -6,26 +6,84 @@
 
 namespace vfit {
 
-void write_user_map(const DepthImage& image, const DepthGrid& grid, const uint8_t* labels, uint8_t* users) {
-    const uint32_t stride = grid.stride(), width = grid.width();
-    const float unit = image.camera.depth_unit_m;
-    std::memset(users, 0, size_t(image.width()) * image.height());
-    for (uint32_t y = 0; y < grid.height(); ++y) {
-        const uint8_t* const label = labels + size_t(y) * width;
-        const float* const depth = grid.depth().data() + size_t(y) * width;
-        for (uint32_t x = 0; x < width; ++x) {
-            if (label[x] == 0) continue;
-            const float z = depth[x];
-            const int middle = int(z / unit), band = int(same_surface_m(z) / unit);
-            for (uint32_t j = 0; j < stride; ++j) {
-                const size_t first = image.index(x * stride, y * stride + j);
-                for (uint32_t i = 0; i < stride; ++i) {
-                    const int d = image.depth[first + i];
-                    if (d != 0 && std::abs(d - middle) <= band) users[first + i] = label[x];
+namespace {
+
+// Of the way from the person to what is behind. The nearer surface sends back more light, so that half of each
+// reads as less than half of the way.
+constexpr float kMixedShare = 0.5f;
+
+class Writer {
+public:
+    Writer(const DepthImage& image, const DepthGrid& grid, const uint8_t* labels, uint8_t* users)
+        : image_(image), grid_(grid), labels_(labels), users_(users), width_(int(image.width())),
+          height_(int(image.height())), stride_(int(grid.stride())) {}
+
+    void run() {
+        std::memset(users_, 0, size_t(width_) * size_t(height_));
+        for_each_labelled([this](int x, int y, int middle, int band, uint8_t label) {
+            for (int v = y; v < y + stride_; ++v)
+                for (int u = x; u < x + stride_; ++u) {
+                    const int d = at(u, v);
+                    if (d != 0 && std::abs(d - middle) <= band) users_[index(u, v)] = label;
                 }
-            }
-        }
+        });
+        const int columns = int(grid_.width()), rows = int(grid_.height());
+        for_each_labelled([&](int x, int y, int middle, int band, uint8_t label) {
+            const int cx = x / stride_, cy = y / stride_;
+            const size_t cell = size_t(cy) * size_t(columns) + size_t(cx);
+            const bool inside = cx > 0 && cy > 0 && cx + 1 < columns && cy + 1 < rows && labels_[cell - 1] == label &&
+                                labels_[cell + 1] == label && labels_[cell - size_t(columns)] == label &&
+                                labels_[cell + size_t(columns)] == label;
+            if (inside) return;
+            for (int v = y; v < y + stride_; ++v)
+                for (int u = x; u < x + stride_; ++u) {
+                    if (std::abs(at(u, v) - middle) > band) continue;
+                    mixed(u, v, 1, 0, middle, band, label);
+                    mixed(u, v, -1, 0, middle, band, label);
+                    mixed(u, v, 0, 1, middle, band, label);
+                    mixed(u, v, 0, -1, middle, band, label);
+                }
+        });
     }
+
+private:
+    size_t index(int u, int v) const { return size_t(v) * size_t(width_) + size_t(u); }
+    int at(int u, int v) const { return image_.depth[index(u, v)]; }
+
+    /// visit(x and y of the first pixel, the surface's depth and the band around it in the image's units, label)
+    template <typename Visit>
+    void for_each_labelled(const Visit& visit) const {
+        const float per_metre = 1.0f / image_.camera.depth_unit_m;
+        const uint8_t* label = labels_;
+        const float* depth = grid_.depth().data();
+        for (int y = 0; y < int(grid_.height()); ++y)
+            for (int x = 0; x < int(grid_.width()); ++x, ++label, ++depth)
+                if (*label != 0)
+                    visit(x * stride_, y * stride_, int(*depth * per_metre), int(same_surface_m(*depth) * per_metre),
+                          *label);
+    }
+
+    /// The pixel beside (u, v), if it lies between that pixel's surface and the one beyond.
+    void mixed(int u, int v, int du, int dv, int middle, int band, uint8_t label) {
+        const int bu = u + 2 * du, bv = v + 2 * dv;
+        if (bu < 0 || bv < 0 || bu >= width_ || bv >= height_) return;
+        const size_t next = index(u + du, v + dv);
+        const int d = image_.depth[next], beyond = at(bu, bv);
+        if (users_[next] != 0 || d <= middle + band || beyond <= middle + 2 * band) return;
+        if (float(d - middle) < kMixedShare * float(beyond - middle)) users_[next] = label;
+    }
+
+    const DepthImage& image_;
+    const DepthGrid& grid_;
+    const uint8_t* labels_;
+    uint8_t* users_;
+    int width_, height_, stride_;
+};
+
+}  // namespace
+
+void write_user_map(const DepthImage& image, const DepthGrid& grid, const uint8_t* labels, uint8_t* users) {
+    Writer(image, grid, labels, users).run();
 }
 
 }  // namespace vfit

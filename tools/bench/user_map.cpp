@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
@@ -72,9 +73,9 @@ Figures judge(const Scene& scene, const Options& o) {
         image.camera.floor_normal = Vec3(0, -1, 0);
         image.camera.floor_distance_m = 1.0f;
         users.resize(shot.depth.size());
-        const Timer timer;
+        const std::clock_t start = std::clock();  // of the processor: other programs do not count
         map.run(image, shot.time_ns, users.data());
-        f.ms.add(timer.ms());
+        f.ms.add(double(std::clock() - start) * 1e3 / CLOCKS_PER_SEC);
 
         std::array<size_t, 256> overlap{};
         for (size_t i = 0; i < users.size(); ++i)

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "track/room_scene.h"
+#include "room_scene.h"
 
 namespace vfit {
 namespace {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "support/allocations.h"
-#include "track/room_scene.h"
+#include "room_scene.h"
 
 namespace vfit {
 namespace {
@@ -56,14 +56,14 @@ public:
 
 TEST(PeopleMap, FindsOnePersonInTheFirstImageWithoutCalibration) {
     RoomScene scene;
-    scene.people.push_back(standing_person(0.2f, -2.6f));
+    scene.people.push_back(standing_person(0.2f, -2.8f));
     People people;
     const auto regions = people.see(scene);
     ASSERT_EQ(regions.size(), 1u);
     EXPECT_GT(people.iou(scene), 0.95);
     EXPECT_NEAR(regions[0].height_m, 1.72f, 0.04f);
     EXPECT_NEAR(regions[0].centre.x, 0.2f, 0.05f);
-    EXPECT_NEAR(regions[0].centre.z, -2.5f, 0.15f);
+    EXPECT_NEAR(regions[0].centre.z, -2.7f, 0.15f);
     EXPECT_EQ(regions[0].out_of_view, 0u);
     EXPECT_EQ(people.map.camera().floor_state, VFIT_FLOOR_ESTIMATED);
 }
@@ -71,7 +71,7 @@ TEST(PeopleMap, FindsOnePersonInTheFirstImageWithoutCalibration) {
 TEST(PeopleMap, KeepsTheFeet) {
     RoomScene scene;
     scene.stand(1.5f, 15, 0);
-    scene.people.push_back(standing_person(0.0f, -2.6f));
+    scene.people.push_back(standing_person(0.0f, -2.8f));
     People people;
     for (int i = 0; i < 5; ++i) people.see(scene);
     size_t feet = 0, found = 0;
@@ -156,7 +156,7 @@ TEST(PeopleMap, PeopleWhoTouchStayTwo) {
 
 TEST(PeopleMap, TwoWhoTouchInTheFirstImageAreTwo) {
     RoomScene scene;
-    scene.people = {standing_person(-0.29f, -2.6f), standing_person(0.29f, -2.6f)};
+    scene.people = {standing_person(-0.29f, -2.8f), standing_person(0.29f, -2.8f)};
     People people;
     EXPECT_EQ(people.see(scene).size(), 2u);
     EXPECT_GT(people.iou(scene, 1), 0.85);
@@ -164,25 +164,25 @@ TEST(PeopleMap, TwoWhoTouchInTheFirstImageAreTwo) {
 
 TEST(PeopleMap, WhoComesBackWithinTwoSecondsIsTheSame) {
     RoomScene scene;
-    scene.people.push_back(standing_person(0.3f, -2.6f));
+    scene.people.push_back(standing_person(0.3f, -2.8f));
     People people;
     uint32_t id = 0;
     for (int i = 0; i < 10; ++i) id = people.see(scene)[0].id;
     scene.people.clear();
     for (int i = 0; i < 50; ++i) EXPECT_EQ(people.see(scene).size(), 0u);
-    scene.people.push_back(standing_person(-0.3f, -2.6f));
+    scene.people.push_back(standing_person(-0.3f, -2.8f));
     ASSERT_EQ(people.see(scene).size(), 1u);
     EXPECT_EQ(people.map.run(scene.bare(), people.time_ns + 1, people.users.data())[0].id, id);
     scene.people.clear();
     for (int i = 0; i < 100; ++i) people.see(scene);
-    scene.people.push_back(standing_person(0.3f, -2.6f));
+    scene.people.push_back(standing_person(0.3f, -2.8f));
     ASSERT_EQ(people.see(scene).size(), 1u);
     EXPECT_NE(people.map.run(scene.bare(), people.time_ns + 1, people.users.data())[0].id, id) << "three seconds later";
 }
 
 TEST(PeopleMap, ABoxBeforeThePersonForASecondDoesNotChangeTheNumber) {
     RoomScene scene;
-    scene.people.push_back(standing_person(0.0f, -2.6f));
+    scene.people.push_back(standing_person(0.0f, -2.8f));
     People people;
     uint32_t id = 0;
     for (int i = 0; i < 10; ++i) id = people.see(scene)[0].id;
@@ -201,7 +201,7 @@ TEST(PeopleMap, SaysWhichPartsAreOutOfView) {
     auto regions = people.see(scene);
     ASSERT_EQ(regions.size(), 1u);
     EXPECT_TRUE(regions[0].out_of_view & kOutOfViewFeet);
-    scene.people[0] = standing_person(-1.25f, -2.4f);  // x grows to the image's right
+    scene.people[0] = standing_person(-1.45f, -2.8f);  // x grows to the image's right
     People again;
     regions = again.see(scene);
     ASSERT_EQ(regions.size(), 1u);
@@ -228,18 +228,18 @@ TEST(PeopleMap, ASegmentedImageNeedsNoFloor) {
 
 TEST(PeopleMap, AnEmptySceneTakesAwayWhatThePersonTouches) {
     RoomScene scene;
-    scene.things.push_back({{0.15f, 0.0f, -2.75f}, {1.2f, 1.0f, -2.45f}});  // a counter beside the person
+    scene.things.push_back({{0.15f, 0.0f, -2.95f}, {1.2f, 1.0f, -2.65f}});  // a counter beside the person
     scene.render();
     People people;
     people.map.learn_background(scene.bare());
-    scene.people.push_back(standing_person(0.0f, -2.6f));
+    scene.people.push_back(standing_person(0.0f, -2.8f));
     ASSERT_EQ(people.see(scene).size(), 1u);
     EXPECT_GT(people.iou(scene), 0.93);
 }
 
 TEST(PeopleMap, WhatIsRejectedDoesNotComeBack) {
     RoomScene scene;
-    scene.people.push_back(standing_person(0.0f, -2.6f));  // a shop-window dummy
+    scene.people.push_back(standing_person(0.0f, -2.8f));  // a shop-window dummy
     People people;
     const auto regions = people.see(scene);
     ASSERT_EQ(regions.size(), 1u);
@@ -249,7 +249,7 @@ TEST(PeopleMap, WhatIsRejectedDoesNotComeBack) {
 
 TEST(PeopleMap, DoesNotAllocateAfterItsFirstImages) {
     RoomScene scene;
-    scene.people = {standing_person(-0.5f, -2.6f), standing_person(0.4f, -2.3f)};
+    scene.people = {standing_person(-0.5f, -2.8f), standing_person(0.4f, -2.3f)};
     People people;
     for (int i = 0; i < 3; ++i) people.see(scene);
     scene.people[1] = standing_person(-0.1f, -2.55f);  // touching: the splitter has to work
