@@ -44,7 +44,16 @@ void BackgroundModel::learn_empty(const DepthGrid& grid) {
 
 void BackgroundModel::learn(const DepthGrid& grid, const uint8_t* people, float dt_s) {
     fit(grid);
-    for (size_t i = 0; i < grid.cells(); ++i) {
+    // A quarter of the rows takes its turn: seconds are counted here, not frames.
+    waiting_s_ += dt_s;
+    if (turn_ == 0) {
+        passed_s_ = waiting_s_;
+        waiting_s_ = 0.0f;
+    }
+    const size_t first = size_t(height_) * turn_ / kTurns * width_, last = size_t(height_) * (turn_ + 1) / kTurns * width_;
+    turn_ = (turn_ + 1) % kTurns;
+    dt_s = passed_s_;
+    for (size_t i = first; i < last; ++i) {
         const float z = grid.depth()[i];
         if (z <= 0.0f || people[i] != 0) continue;
         const float same = same_surface_m(z);

@@ -31,9 +31,11 @@ public:
 
 private:
     static constexpr float kSettled_s = 1.0f;
+    static constexpr uint32_t kTurns = 4;
     std::vector<float> depth_, settled_s_;     // known background, and for how long it has been seen
     std::vector<float> candidate_, steady_s_;  // what may become it
-    uint32_t width_ = 0, height_ = 0;
+    uint32_t width_ = 0, height_ = 0, turn_ = 0;
+    float waiting_s_ = 0.0f, passed_s_ = 0.0f;
 };
 
 }  // namespace vfit

@@ -42,13 +42,14 @@ void Components::run(const DepthGrid& grid, const uint8_t* wanted, uint32_t fewe
             // A cell without a reading is stepped over.
             const uint32_t left = x > 0 && z[i - 1] > 0.0f ? i - 1 : x > 1 ? i - 2 : kNone;
             const uint32_t above = y > 0 && z[i - width] > 0.0f ? i - width : y > 1 ? i - 2 * width : kNone;
-            parent_[i] = left != kNone && joined(left) ? root(left) : i;
-            if (above != kNone && joined(above)) join(i, above);
+            parent_[i] = left != kNone && joined(left) ? parent_[left] : i;
+            if (above != kNone && joined(above) && parent_[above] != parent_[i]) join(i, above);
         }
     }
 
+    // A parent comes before its child, so that one step leads to the root.
     for (uint32_t i = 0; i < cells; ++i)
-        if (parent_[i] != kNone) ++count_[parent_[i] = root(i)];
+        if (parent_[i] != kNone) ++count_[parent_[i] = parent_[parent_[i]]];
     starts_.assign(1, 0);
     for (uint32_t i = 0; i < cells; ++i) {
         if (parent_[i] != i) continue;

@@ -10,7 +10,7 @@ namespace {
 constexpr float kRemembered_s = 2.5f;  // a short exit, or a moment behind something
 constexpr float kReach_m = 0.5f;       // a step that is not foreseen
 constexpr float kWalk_mps = 1.2f;      // while away: comfortable walking speed is 1.2 to 1.4 m/s
-constexpr float kSameHeight_m = 0.15f;
+constexpr float kGrown_m = 0.3f;       // arms up excepted: a head's height and more
 constexpr float kSpeedShare = 0.3f;    // of the newest velocity in the kept one
 constexpr float kFastest_mps = 4.0f;
 constexpr float kForesight_s = 0.3f;   // beyond, people turn
@@ -46,10 +46,10 @@ uint32_t Identity::adopt(const Shape& shape, int64_t time_ns) {
         const Vec3 foreseen = t.centre + t.velocity * std::min(away_s, kForesight_s);
         const Vec3 step = shape.centre - foreseen;
         const float distance = std::sqrt(step.x * step.x + step.z * step.z);
-        const bool whole = (shape.out_of_view & (kOutOfViewTop | kOutOfViewFeet)) == 0;
-        const float taller = whole ? std::abs(shape.high_m - t.height_m) : 0.0f;
-        if (distance > kReach_m + kWalk_mps * away_s || taller > 2.0f * kSameHeight_m) continue;
-        const float cost = distance + taller / kSameHeight_m * kReach_m;
+        // Who comes from behind something shows an arm first, but nobody has grown.
+        const float taller = shape.high_m - t.height_m;
+        if (distance > kReach_m + kWalk_mps * away_s || taller > kGrown_m) continue;
+        const float cost = distance + std::abs(taller);
         if (cost < least) {
             least = cost;
             best = i;

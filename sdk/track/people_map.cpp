@@ -23,16 +23,19 @@ constexpr float kGrowth = 1.4f, kGrowth_m2 = 0.15f;  // of the seen area from fr
 constexpr float kGrowthPath_m = 0.3f;         // a hand's way in a frame: 9 m/s at 30 Hz
 constexpr float kReach_m = 1.2f;              // from the trunk to the fingertips, and a step
 constexpr float kWall_m2 = 2.5f;              // more than two people: looked at now and then only
+constexpr float kOnlyWall_m2 = 6.0f;
 constexpr uint32_t kWallTurn = 10;            // frames
+constexpr float kTwo_m2 = 0.7f;               // seen of two people who were taken for one
+constexpr uint32_t kTwoTurn = 5;              // frames
 constexpr float kSplitArea_m2 = 0.3f;         // below, nobody stands in front of anything
 constexpr float kTwoWide_m = 0.55f;           // of two side by side; one with hanging arms is 0.45 to 0.6 m wide
 constexpr float kHeadReach_m = 1.1f;          // along the surface from the axis to the hands or feet
 constexpr float kLeastSeen_m2 = 0.05f;        // of somebody known: head and a shoulder
 // From a fragment to the person it is of: a hand before the trunk hides the forearm; what is behind is wall.
-constexpr float kInFront_m = 0.7f, kBehind_m = 0.15f, kAside_m = 0.9f, kBeside_m = 0.05f;
+constexpr float kInFront_m = 0.7f, kBehind_m = 0.08f, kAside_m = 0.9f, kBeside_m = 0.05f;
 // Soles: cells of the floor cut that are higher than the floor after all, a few cells around the feet.
-constexpr float kFeetBelow_m = 0.12f, kSole_m = 0.007f, kSoleSigmas = 0.5f;
-constexpr int kSoleSteps = 5;
+constexpr float kFeetBelow_m = 0.12f, kSole_m = 0.0045f, kSoleSigmas = 0.3f;
+constexpr int kSoleSteps = 4;
 constexpr int kFragmentGap = 4;               // cells
 constexpr float kMostBorder = 0.08f;          // of the image, that a sensor leaves without readings
 
@@ -183,18 +186,33 @@ void PeopleMap::split_by_tracks(std::span<const uint32_t> cells, std::span<const
     }
 }
 
-bool PeopleMap::split_by_heads(std::span<const uint32_t> cells, uint8_t fewest) {
+// slot: whose component it was until now; the largest share of their last place keeps their number.
+bool PeopleMap::split_by_heads(std::span<const uint32_t> cells, uint8_t fewest, uint32_t slot) {
     splitter_.begin(grid_, cells);
     const uint8_t heads = splitter_.seed_heads(ShapeMeter(grid_, camera_, {}));
     if (heads < fewest) return false;
     splitter_.grow(kHeadReach_m);
+    uint8_t keeper = 0;
+    size_t most = 0;
+    for (uint8_t k = 1; k <= heads && slot != kNew; ++k) {
+        const auto piece = splitter_.piece(k);
+        const auto votes = size_t(std::count_if(piece.begin(), piece.end(),
+                                                [&](uint32_t cell) { return last_slots_[cell] == slot + 1; }));
+        if (votes > most) {
+            most = votes;
+            keeper = k;
+        }
+    }
     for (uint8_t k = 1; k <= heads; ++k) {
         const auto piece = splitter_.piece(k);
+        if (piece.empty()) continue;
         std::copy(piece.begin(), piece.end(), pool_.begin() + std::ptrdiff_t(pool_used_));
         const std::span<const uint32_t> kept(pool_.data() + pool_used_, piece.size());
         pool_used_ += piece.size();
-        if (kept.empty()) continue;
-        classify_new(kept, measure(kept));
+        if (k == keeper)
+            add_piece(kept, measure(kept), slot);
+        else
+            classify_new(kept, measure(kept));
     }
     return true;
 }
@@ -225,10 +243,11 @@ void PeopleMap::sort_component(std::span<const uint32_t> cells) {
         split_by_tracks(cells, {slots.data(), 1}, kGrowthPath_m);
         return;
     }
-    if (count == 0 && wall && frames_ % kWallTurn != 1) return;
+    if (count == 0 && wall && (area_m2 > kOnlyWall_m2 || frames_ % kWallTurn != 1)) return;
     const Shape shape = measure(cells);
     if (count == 1) {
-        add_piece(cells, shape, slots[0]);
+        const bool two = shape.width_m > kTwoWide_m && shape.area_m2 > kTwo_m2 && frames_ % kTwoTurn == 1;
+        if (!two || !split_by_heads(cells, 2, slots[0])) add_piece(cells, shape, slots[0]);
     } else {
         // Two who stand close can pass for one broad person, and one at a table for none.
         const bool whole = shape.area_m2 < kSplitArea_m2 || person_like(cells, shape);

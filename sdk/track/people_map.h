@@ -71,7 +71,7 @@ private:
     void sort_components();
     void sort_component(std::span<const uint32_t> cells);
     void split_by_tracks(std::span<const uint32_t> cells, std::span<const uint32_t> slots, float farthest_m);
-    bool split_by_heads(std::span<const uint32_t> cells, uint8_t fewest);
+    bool split_by_heads(std::span<const uint32_t> cells, uint8_t fewest, uint32_t slot = kNew);
     void classify_new(std::span<const uint32_t> cells, const Shape& shape);
     void add_piece(std::span<const uint32_t> cells, const Shape& shape, uint32_t slot);
     void name_people(int64_t time_ns);

@@ -10,7 +10,11 @@ namespace {
 // Heads are looked for in the outline's upper edge, from a column of 4 cm to the next.
 constexpr float kColumn_m = 0.04f;
 constexpr int kColumns = 128;             // 5 m
-constexpr float kHeadsApart_m = 0.34f;    // two people shoulder to shoulder, the one half behind the other
+constexpr float kHeadsApart_m = 0.28f;    // two people shoulder to shoulder, the one half behind the other
+constexpr float kSameTop_m = 0.05f;       // below the peak: the crown, whose middle is the axis
+constexpr int kCrownHalf = 3;             // columns
+constexpr int kShoulderFrom = 3, kShoulderTo = 7;  // slices below the top
+constexpr float kShoulder_m = 0.09f;      // breadth to either side of the axis; a raised arm has none outside
 constexpr float kNeck_m = 0.10f;          // that the outline falls between two heads
 constexpr float kLowestHead_m = 0.9f;
 constexpr int kBodyHalf = 5;              // columns: 0.2 m to both sides of the axis
@@ -111,9 +115,18 @@ uint8_t Splitter::seed_heads(const ShapeMeter& meter) {
                 (best < 0 || top[size_t(c)] > top[size_t(best)]))
                 best = c;
         if (best < 0) break;
+        const int peak = best;
+        float middle_of_crown = 0.0f;
+        int crown = 0;
+        for (int c = std::max(0, peak - kCrownHalf); c <= std::min(kColumns - 1, peak + kCrownHalf); ++c)
+            if (top[size_t(c)] > top[size_t(peak)] - kSameTop_m) {
+                middle_of_crown += float(c);
+                ++crown;
+            }
+        best = int(std::lround(middle_of_crown / float(crown)));
         // What belongs to this peak is not tried again.
         const int apart = int(kHeadsApart_m / kColumn_m);
-        for (int c = std::max(0, best - apart / 2); c <= std::min(kColumns - 1, best + apart / 2); ++c)
+        for (int c = std::max(0, peak - apart / 2); c <= std::min(kColumns - 1, peak + apart / 2); ++c)
             tried[size_t(c)] = true;
 
         bool separate = true;
@@ -121,21 +134,30 @@ uint8_t Splitter::seed_heads(const ShapeMeter& meter) {
             const int a = std::min(best, heads[size_t(k)]), b = std::max(best, heads[size_t(k)]);
             float valley = 1e9f;
             for (int c = a; c <= b; ++c) valley = std::min(valley, top[size_t(c)]);
-            separate = b - a >= apart && valley < top[size_t(best)] - kNeck_m;
+            separate = b - a >= apart && valley < top[size_t(peak)] - kNeck_m;
         }
         if (!separate) continue;
-        // A hand that is raised has no body below it.
+        // A hand that is raised has no body below it, and no shoulder outside.
+        const int highest = int(top[size_t(peak)] / kSlice_m);
+        float left = 0.0f, right = 0.0f;
+        for (int slice = std::max(0, highest - kShoulderTo); slice < std::min(kSlices, highest - kShoulderFrom); ++slice)
+            for (int k = 1; k <= kBodyHalf; ++k) {
+                if (best - k >= 0) left += filled[size_t((best - k) * kSlices + slice)];
+                if (best + k < kColumns) right += filled[size_t((best + k) * kSlices + slice)];
+            }
+        const float shoulder = kShoulder_m * kSlice_m * float(kShoulderTo - kShoulderFrom);
+        if (left < shoulder || right < shoulder) continue;
         float trunk = 0.0f;
         const float breadth_area = kLeastSlice_m * kSlice_m;
-        for (int slice = int(top[size_t(best)] / kSlice_m) - 1; slice >= 0; --slice) {
+        for (int slice = std::min(highest, kSlices) - 1; slice >= 0; --slice) {
             float area = 0.0f;
             for (int c = std::max(0, best - kBodyHalf); c <= std::min(kColumns - 1, best + kBodyHalf); ++c)
                 area += filled[size_t(c * kSlices + slice)];
             if (area < breadth_area) break;
             trunk += kSlice_m;
         }
-        const float wanted = std::max(kLeastTrunk_m, 0.75f * (top[size_t(best)] - std::max(0.0f, lowest)));
-        if (trunk < wanted && trunk < 0.9f * top[size_t(best)] - 0.3f) continue;
+        const float wanted = std::max(kLeastTrunk_m, 0.75f * (top[size_t(peak)] - std::max(0.0f, lowest)));
+        if (trunk < wanted && trunk < 0.9f * top[size_t(peak)] - 0.3f) continue;
         heads[count++] = best;
     }
     for (const uint32_t cell : cells_) {

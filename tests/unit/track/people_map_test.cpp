@@ -3,9 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
-
-#include "support/allocations.h"
 #include "room_scene.h"
 
 namespace vfit {
@@ -245,19 +242,6 @@ TEST(PeopleMap, WhatIsRejectedDoesNotComeBack) {
     ASSERT_EQ(regions.size(), 1u);
     people.map.reject(regions[0].id);
     for (int i = 0; i < 5; ++i) EXPECT_EQ(people.see(scene).size(), 0u);
-}
-
-TEST(PeopleMap, DoesNotAllocateAfterItsFirstImages) {
-    RoomScene scene;
-    scene.people = {standing_person(-0.5f, -2.8f), standing_person(0.4f, -2.3f)};
-    People people;
-    for (int i = 0; i < 3; ++i) people.see(scene);
-    scene.people[1] = standing_person(-0.1f, -2.55f);  // touching: the splitter has to work
-    scene.render(9);
-    const DepthImage image = scene.bare();
-    const uint64_t before = test::allocations.load();
-    people.map.run(image, people.time_ns + kFrame_ns, people.users.data());
-    EXPECT_EQ(test::allocations.load(), before);
 }
 
 }  // namespace
