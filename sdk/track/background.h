@@ -24,9 +24,9 @@ public:
 
     /// A reading there is no news: at the known background's depth, or beyond it.
     bool covers(size_t cell, float z) const {
-        return settled_s_[cell] >= kSettled_s && z > depth_[cell] - same_surface_m(z);
+        return int(settled_s_[cell] >= kSettled_s) & int(z > depth_[cell] - same_surface_m(z));
     }
-    /// Of a cell that is covered.
+    /// Of what is known there, 0: nothing.
     float depth(size_t cell) const { return depth_[cell]; }
 
 private:

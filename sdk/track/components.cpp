@@ -28,15 +28,15 @@ void Components::run(const DepthGrid& grid, const uint8_t* wanted, uint32_t fewe
     parent_.resize(cells);
     count_.resize(cells);
     order_.resize(cells);
+    list_.resize(cells);
+    size_t listed = 0;
     starts_.reserve(cells / std::max(1u, fewest_cells) + 2);
 
     for (uint32_t y = 0, i = 0; y < grid.height(); ++y) {
         for (uint32_t x = 0; x < width; ++x, ++i) {
+            if (!wanted[i]) continue;
+            list_[listed++] = i;
             count_[i] = 0;
-            if (!wanted[i]) {
-                parent_[i] = kNone;
-                continue;
-            }
             const float same = same_surface_m(z[i]);
             const auto joined = [&](uint32_t j) { return wanted[j] && std::abs(z[j] - z[i]) < same; };
             // A cell without a reading is stepped over.
@@ -48,10 +48,10 @@ void Components::run(const DepthGrid& grid, const uint8_t* wanted, uint32_t fewe
     }
 
     // A parent comes before its child, so that one step leads to the root.
-    for (uint32_t i = 0; i < cells; ++i)
-        if (parent_[i] != kNone) ++count_[parent_[i] = parent_[parent_[i]]];
+    const std::span<const uint32_t> list(list_.data(), listed);
+    for (const uint32_t i : list) ++count_[parent_[i] = parent_[parent_[i]]];
     starts_.assign(1, 0);
-    for (uint32_t i = 0; i < cells; ++i) {
+    for (const uint32_t i : list) {
         if (parent_[i] != i) continue;
         if (count_[i] < fewest_cells) {
             count_[i] = kNone;
@@ -61,8 +61,8 @@ void Components::run(const DepthGrid& grid, const uint8_t* wanted, uint32_t fewe
             count_[i] = first;  // where the next of its cells goes
         }
     }
-    for (uint32_t i = 0; i < cells; ++i)
-        if (parent_[i] != kNone && count_[parent_[i]] != kNone) order_[count_[parent_[i]]++] = i;
+    for (const uint32_t i : list)
+        if (count_[parent_[i]] != kNone) order_[count_[parent_[i]]++] = i;
 }
 
 }  // namespace vfit

@@ -26,6 +26,7 @@ private:
     uint32_t root(uint32_t i);
     void join(uint32_t a, uint32_t b);
     std::vector<uint32_t> parent_;  // of each cell
+    std::vector<uint32_t> list_;    // wanted cells
     std::vector<uint32_t> count_, order_, starts_;
 };
 

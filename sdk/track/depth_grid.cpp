@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace vfit {
 
@@ -37,6 +38,31 @@ void reduce_row(const uint16_t* const* rows, uint32_t width, uint16_t* nearest, 
             }
         extra[x] = sum;
         count[x] = n;
+    }
+}
+
+/// The same for 2 x 2 pixels, the common case, two pixels to a 32-bit word.
+void reduce_pairs(const uint16_t* above, const uint16_t* below, uint32_t width, float unit, float* out) {
+    for (uint32_t x = 0; x < width; ++x) {
+        uint32_t a, b;
+        std::memcpy(&a, above + 2 * x, sizeof a);
+        std::memcpy(&b, below + 2 * x, sizeof b);
+        const int32_t p0 = int32_t((a - 1) & 0xffff), p1 = int32_t(((a >> 16) - 1) & 0xffff);
+        const int32_t p2 = int32_t((b - 1) & 0xffff), p3 = int32_t(((b >> 16) - 1) & 0xffff);
+        const int32_t least = std::min(std::min(p0, p1), std::min(p2, p3));
+        const int32_t band = (least >> kDepthShift) + kFewUnits;
+        int32_t sum = 0, n = 0;
+        const auto add = [&](int32_t p) {
+            const int32_t taken = p - least <= band ? -1 : 0;
+            sum += (p - least) & taken;
+            n -= taken;
+        };
+        add(p0);
+        add(p1);
+        add(p2);
+        add(p3);
+        const float z = (float(least + 1) + float(sum) / float(n)) * unit;
+        out[x] = least == 65535 ? 0.0f : z;
     }
 }
 
@@ -76,8 +102,10 @@ void DepthGrid::run(const DepthImage& image) {
             continue;
         }
         if (stride_ == 2) {
-            reduce_row<2>(rows, width_, nearest_.data(), extra_.data(), count_.data());
-        } else if (stride_ == 3) {
+            reduce_pairs(rows[0], rows[1], width_, unit, out);
+            continue;
+        }
+        if (stride_ == 3) {
             reduce_row<3>(rows, width_, nearest_.data(), extra_.data(), count_.data());
         } else {
             for (uint32_t x = 0; x < width_; ++x) {

@@ -32,7 +32,7 @@ constexpr float kTwoWide_m = 0.55f;           // of two side by side; one with h
 constexpr float kHeadReach_m = 1.1f;          // along the surface from the axis to the hands or feet
 constexpr float kLeastSeen_m2 = 0.05f;        // of somebody known: head and a shoulder
 // From a fragment to the person it is of: a hand before the trunk hides the forearm; what is behind is wall.
-constexpr float kInFront_m = 0.7f, kBehind_m = 0.08f, kAside_m = 0.9f, kBeside_m = 0.05f;
+constexpr float kInFront_m = 0.7f, kBehind_m = 0.4f, kSeenThrough_m = 0.08f, kAside_m = 0.9f, kBeside_m = 0.05f;
 // Soles: cells of the floor cut that are higher than the floor after all, a few cells around the feet.
 constexpr float kFeetBelow_m = 0.12f, kSole_m = 0.0045f, kSoleSigmas = 0.3f;
 constexpr int kSoleSteps = 4;
@@ -66,6 +66,7 @@ void PeopleMap::look(const DepthImage& image) {
     last_depth_.assign(grid_.cells(), 0.0f);
     pool_.resize(grid_.cells());
     frontier_.resize(grid_.cells());
+    splitter_.fit(grid_);
     pieces_.reserve(grid_.cells() / kFewestCells + 1);
     regions_.reserve(Identity::kMost);
     filled_ = {};
@@ -98,18 +99,20 @@ void PeopleMap::cut_floor_and_background() {
     const float d = camera_.floor_distance_m, noise = kFloorSigmas * kInverseSigma * d;
     background_.fit(grid_);
     const float farthest = options_.farthest_m;
-    for (uint32_t y = 0, i = 0; y < grid_.height(); ++y) {
+    for (uint32_t y = 0; y < grid_.height(); ++y) {
         const float row = n.y * grid_.ray_y()[y] + n.z;
-        for (uint32_t x = 0; x < grid_.width(); ++x, ++i) {
-            const float z = grid_.depth()[i];
-            const float slope = n.x * grid_.ray_x()[x] + row;
-            const bool above = !floor || z * slope + d > kFloorSlack_m + noise * z;
-            wanted_[i] = z > 0.0f && z < farthest && above && !background_.covers(i, z);
+        const size_t first = size_t(y) * grid_.width();
+        const float* const depth = grid_.depth().data() + first;
+        const float* const ray = grid_.ray_x().data();
+        uint8_t* const wanted = wanted_.data() + first;
+        for (uint32_t x = 0; x < grid_.width(); ++x) {  // without branches, for vectors
+            const float z = depth[x], slope = n.x * ray[x] + row, b = background_.depth(first + x);
+            const int known = background_.covers(first + x, z);
+            const int above = z * slope + d > kFloorSlack_m + noise * z;
             // The floor itself is known better than as background: a learned one must not take the toes.
-            if (floor && above && !wanted_[i] && z < farthest && z > 0.0f) {
-                const float b = background_.depth(i);
-                wanted_[i] = b * slope + d < kFloorSlack_m + noise * b;
-            }
+            const int on_floor = b * slope + d < kFloorSlack_m + noise * b;
+            wanted[x] = uint8_t(int(z > 0.0f) & int(z < farthest) & (above | int(!floor)) &
+                                ((known ^ 1) | (int(floor) & on_floor)));
         }
     }
 }
@@ -295,6 +298,23 @@ void PeopleMap::name_people(int64_t time_ns) {
             for (const uint32_t cell : p.cells) slots_[cell] = uint8_t(p.slot + 1);
 }
 
+// A patch of wall between the legs: beside the person the same depth goes on.
+bool PeopleMap::part_of_scene(const Shape& s) const {
+    const int width = int(grid_.width()), height = int(grid_.height());
+    const int x = (s.x0 + s.x1) / 2, y = (s.y0 + s.y1) / 2;
+    const auto goes_on = [&](int fx, int fy, int dx, int dy) {
+        for (; fx >= 0 && fy >= 0 && fx < width && fy < height; fx += dx, fy += dy) {
+            const size_t i = size_t(fy * width + fx);
+            const float z = grid_.depth()[i];
+            if (slots_[i] || z == 0.0f) continue;
+            return std::abs(z - s.depth_m) < kBeside_m + same_surface_m(z);
+        }
+        return false;
+    };
+    return goes_on(s.x0 - 1, y, -1, 0) || goes_on(s.x1, y, 1, 0) || goes_on(x, s.y0 - 1, 0, -1) ||
+           goes_on(x, s.y1, 0, 1);
+}
+
 // A hand before the trunk, a head above a dark collar: what lies beside a person in the image and near them in
 // space is theirs.
 void PeopleMap::attach_fragments() {
@@ -303,6 +323,7 @@ void PeopleMap::attach_fragments() {
         p.home = Identity::kMost;
         if (p.slot != kFragment) continue;
         std::array<float, Identity::kMost + 1> votes{};
+        float behind_sum = 0.0f, neighbours = 0.0f;
         for (const uint32_t cell : p.cells) {
             const int x = int(cell) % width, y = int(cell) / width;
             const auto visit = [&](int nx, int ny) {
@@ -310,8 +331,10 @@ void PeopleMap::attach_fragments() {
                 const size_t next = size_t(ny) * size_t(width) + size_t(nx);
                 const float behind = grid_.depth()[cell] - grid_.depth()[next];
                 // A hand before somebody else's chest is near its own arm.
-                if (slots_[next] && behind < kBehind_m && behind > -kInFront_m)
-                    votes[slots_[next]] += 1.0f / (std::abs(behind) + kBeside_m);
+                if (!slots_[next] || behind > kBehind_m || behind < -kInFront_m) return;
+                votes[slots_[next]] += 1.0f / (std::abs(behind) + kBeside_m);
+                behind_sum += behind;
+                ++neighbours;
             };
             for (int k = 1; k <= kFragmentGap; ++k) {
                 visit(x - k, y);
@@ -320,6 +343,7 @@ void PeopleMap::attach_fragments() {
                 visit(x, y + k);
             }
         }
+        if (behind_sum > kSeenThrough_m * neighbours && part_of_scene(p.shape)) continue;
         float most = 0.0f;
         for (uint32_t slot = 0; slot < Identity::kMost; ++slot) {
             if (votes[slot + 1] <= most) continue;

@@ -76,6 +76,7 @@ private:
     void add_piece(std::span<const uint32_t> cells, const Shape& shape, uint32_t slot);
     void name_people(int64_t time_ns);
     void attach_fragments();
+    bool part_of_scene(const Shape& shape) const;
     void grow_feet();
     void report(const DepthImage& image, int64_t time_ns, uint8_t* users);
     Shape measure(std::span<const uint32_t> cells) const;

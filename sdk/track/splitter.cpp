@@ -23,39 +23,40 @@ constexpr int kSlices = 26;
 constexpr float kLeastSlice_m = 0.07f;    // breadth: a shin
 constexpr float kLeastTrunk_m = 0.55f;    // of slices in a row below the head
 constexpr int kSeedHalf = 2;              // columns
+constexpr float kSmoothShare = 0.35f;     // of same_surface_m: two sigma and a slant, 3 cm at 2.5 m
 
 }  // namespace
 
-void Splitter::begin(const DepthGrid& grid, std::span<const uint32_t> cells) {
-    if (owner_.size() != grid.cells()) {
-        owner_.assign(grid.cells(), kOutside);
-        cells_ = {};
-    }
+void Splitter::fit(const DepthGrid& grid) {
+    if (owner_.size() == grid.cells()) return;
+    owner_.assign(grid.cells(), kOutside);
+    members_.resize(grid.cells());
     queue_.resize(grid.cells());
     sorted_.resize(grid.cells());
     path_m_.resize(grid.cells());
+    cells_ = {};
+}
+
+void Splitter::begin(const DepthGrid& grid, std::span<const uint32_t> cells) {
+    fit(grid);
     for (const uint32_t cell : cells_) owner_[cell] = kOutside;  // of the last component
-    members_.resize(grid.cells());
     std::copy(cells.begin(), cells.end(), members_.begin());
     grid_ = &grid;
     cells_ = {members_.data(), cells.size()};
     for (const uint32_t cell : cells) owner_[cell] = kFree;
 }
 
-void Splitter::grow(float farthest_m) {
+void Splitter::spread(float farthest_m, float share) {
     const uint32_t width = grid_->width(), height = grid_->height();
     const float* const z = grid_->depth().data();
     size_t head = 0, tail = 0;
     for (const uint32_t cell : cells_)
-        if (owner_[cell] != kFree) {
-            path_m_[cell] = 0.0f;
-            queue_[tail++] = cell;
-        }
+        if (owner_[cell] != kFree) queue_[tail++] = cell;
     // First in, first out: all seeds advance by one cell in turn.
     while (head < tail) {
         const uint32_t cell = queue_[head++];
         const uint32_t x = cell % width, y = cell / width;
-        const float same = same_surface_m(z[cell]), path = path_m_[cell] + grid_->cell_m(z[cell]);
+        const float same = share * same_surface_m(z[cell]), path = path_m_[cell] + grid_->cell_m(z[cell]);
         if (path > farthest_m) continue;
         const auto visit = [&](uint32_t next) {
             if (owner_[next] != kFree || std::abs(z[next] - z[cell]) > same) return;
@@ -70,6 +71,12 @@ void Splitter::grow(float farthest_m) {
         if (y + 1 < height)
             z[cell + width] > 0.0f ? visit(cell + width) : y + 2 < height ? visit(cell + 2 * width) : void();
     }
+}
+
+void Splitter::grow(float farthest_m) {
+    for (const uint32_t cell : cells_) path_m_[cell] = 0.0f;
+    spread(farthest_m, kSmoothShare);
+    spread(farthest_m, 1.0f);
 
     std::array<uint32_t, kMostSeeds + 2> counts{};
     for (const uint32_t cell : cells_) ++counts[owner_[cell]];

@@ -16,11 +16,14 @@ class Splitter {
 public:
     static constexpr uint8_t kMostSeeds = 8;
 
+    /// Makes room for a grid of that size.
+    void fit(const DepthGrid& grid);
     /// Starts with the cells of one component, none of them a seed.
     void begin(const DepthGrid& grid, std::span<const uint32_t> cells);
     /// Seeds are numbered from 1.
     void seed(uint32_t cell, uint8_t number) { owner_[cell] = number; }
-    /// Grows the seeds over the component, no farther than that along the surface.
+    /// Grows the seeds over the component, no farther than that along the surface: first over steps in depth that
+    /// noise explains, then over the rest, so that an outline before somebody else is a border.
     void grow(float farthest_m);
     /// Cells of a seed; of 0: what no seed has reached.
     std::span<const uint32_t> piece(uint8_t number) const;
@@ -30,6 +33,7 @@ public:
     uint8_t seed_heads(const ShapeMeter& meter);
 
 private:
+    void spread(float farthest_m, float share);
     static constexpr uint8_t kOutside = 255, kFree = 0;
     const DepthGrid* grid_ = nullptr;
     std::span<const uint32_t> cells_;  // of members_

@@ -56,11 +56,18 @@ private:
         const float per_metre = 1.0f / image_.camera.depth_unit_m;
         const uint8_t* label = labels_;
         const float* depth = grid_.depth().data();
-        for (int y = 0; y < int(grid_.height()); ++y)
-            for (int x = 0; x < int(grid_.width()); ++x, ++label, ++depth)
-                if (*label != 0)
-                    visit(x * stride_, y * stride_, int(*depth * per_metre), int(same_surface_m(*depth) * per_metre),
-                          *label);
+        const int width = int(grid_.width());
+        for (int y = 0; y < int(grid_.height()); ++y, label += width, depth += width)
+            for (int x = 0; x < width; ++x) {
+                uint64_t eight = 1;
+                if (x + 8 <= width) std::memcpy(&eight, label + x, sizeof eight);
+                if (eight == 0) {
+                    x += 7;
+                } else if (label[x] != 0) {
+                    const float z = depth[x];
+                    visit(x * stride_, y * stride_, int(z * per_metre), int(same_surface_m(z) * per_metre), label[x]);
+                }
+            }
     }
 
     /// The pixel beside (u, v), if it lies between that pixel's surface and the one beyond.

@@ -169,8 +169,8 @@ void play_in_still(const std::string& recording, const Shot& still, const std::f
                 p += Vec3(kStillX_m - stand.mean_x, 0.0f, kStillZ_m + stand.near_z);
                 p = transform_point(into, p);
                 const Vec2 at = still.camera.project(p);
-                // A pixel of the recording covers this many of the still.
-                const float half = 0.5f * still.camera.fx / from.fx * d / p.z;
+                // A pixel of the recording covers this many of the still, and a little more so that none is left out.
+                const float half = 0.6f * still.camera.fx / from.fx * d / p.z;
                 for (int y = int(std::ceil(at.y - half)); float(y) < at.y + half; ++y)
                     for (int x = int(std::ceil(at.x - half)); float(x) < at.x + half; ++x) {
                         if (x < 0 || y < 0 || x >= int(still.camera.width) || y >= int(still.camera.height)) continue;
