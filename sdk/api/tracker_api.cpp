@@ -6,6 +6,7 @@
 #include "api/guard.h"
 #include "frame/camera_struct.h"
 #include "frame/floor.h"
+#include "track/people_map.h"
 #include "track/tracker.h"
 
 using namespace vfit;
@@ -21,7 +22,8 @@ struct TrackerObject : ContextChild {
 
     Camera floor;  // its floor_state says whose: GIVEN by the description, ESTIMATED from the first body
     vfit_track_source joints = VFIT_TRACK_AUTO, user_map = VFIT_TRACK_AUTO;
-    std::unique_ptr<Tracker> own;  // made when first needed
+    std::unique_ptr<Tracker> own;  // made when first needed, as are people
+    std::unique_ptr<PeopleMap> people;
     std::vector<TrackTarget> targets;
 
     /// Where the tracker knows more of the floor than the frame's source, the tracker's is taken.
@@ -36,21 +38,41 @@ struct TrackerObject : ContextChild {
     }
     /// Finds the bodies in the images of `base`.
     void see(const Ref<Frame>& base, Frame& tracked) {
-        const DepthImage image = base->depth_image();
-        if (!image.users)
-            fail(VFIT_ERROR_UNSUPPORTED, "the frame has no user map, and this version makes none by itself");
+        DepthImage image = base->depth_image();
+        const bool own_map = user_map == VFIT_TRACK_BUILT_IN || (user_map == VFIT_TRACK_AUTO && !image.users);
+        if (!own_map && !image.users)
+            fail(VFIT_ERROR_UNSUPPORTED, "the frame's source supplies no user map, and the tracker was told to make none");
         if (!own)
             own = std::make_unique<Tracker>(std::make_unique<JointNetwork>(
                 context->module_path("vfit_joint_network"), context->data_dir + "/networks/joints.onnx"));
         tracked.base = base;
         tracked.time_ns = base->time_ns;
-        tracked.camera = base->camera;
-        find_targets(image, kMaxBodies, targets);
+        place(image.camera);
+        if (own_map)
+            map_people(image, tracked);
+        else
+            find_targets(image, kMaxBodies, targets);
         own->run(image, base->time_ns, targets, tracked.bodies);
-        if (!tracked.bodies.empty() && nobody_knows_the_floor(base->camera))
+        if (own_map)
+            for (const TrackTarget& target : targets)
+                if (own->surely_no_person(target.id)) people->reject(target.id);
+        if (!tracked.bodies.empty() && nobody_knows_the_floor(image.camera))
             estimate_floor(floor, tracked.bodies.front());
+        tracked.camera = image.camera;
         place(tracked.camera);
         for (Body& body : tracked.bodies) body = to_world(body, tracked.camera);
+    }
+    /// Gives `tracked` a user map, and `image` that map and the floor that was found.
+    void map_people(DepthImage& image, Frame& tracked) {
+        if (!people) people = std::make_unique<PeopleMap>();
+        auto* users = static_cast<uint8_t*>(
+            tracked.add_stream(VFIT_STREAM_USER_MAP, VFIT_FORMAT_U8, image.width(), image.height()));
+        targets.clear();
+        for (const PersonRegion& region : people->run(image, tracked.time_ns, users))
+            if (targets.size() < kMaxBodies)
+                targets.push_back({region.id, region.box, region.out_of_view ? uint32_t(VFIT_BODY_PARTLY_OUT_OF_VIEW) : 0u});
+        image.users = users;
+        image.camera = people->camera();
     }
 };
 
@@ -136,6 +158,7 @@ vfit_result vfit_tracker_reset(vfit_tracker handle) {
         Use<TrackerObject, Mode::exclusive> tracker(handle.id);
         if (tracker->floor.floor_state != VFIT_FLOOR_GIVEN) tracker->floor = Camera{};
         if (tracker->own) tracker->own->reset();
+        if (tracker->people) tracker->people->reset();
         return VFIT_OK;
     });
 }
@@ -153,7 +176,10 @@ vfit_result vfit_tracker_update(vfit_tracker handle, vfit_frame frame_handle, vf
         const bool told = !frame->bodies.empty() || frame->meta("bodies");
         if (!told && tracker->joints == VFIT_TRACK_GIVEN)
             fail(VFIT_ERROR_UNSUPPORTED, "the frame's source supplies no joints, and the tracker was told to find none");
-        if (told && tracker->joints != VFIT_TRACK_BUILT_IN)
+        const bool given = told && tracker->joints != VFIT_TRACK_BUILT_IN;
+        if (given && tracker->user_map == VFIT_TRACK_BUILT_IN)
+            fail(VFIT_ERROR_UNSUPPORTED, "the source's joints do not go with the tracker's own user map: take its joints too");
+        if (given)
             track(*tracker, frame.ref(), *out);
         else
             tracker->see(frame.ref(), *out);

@@ -9,6 +9,7 @@ namespace {
 
 constexpr float kBeliefShare = 0.3f;     // of the newest answer
 constexpr float kLeastBelief = -0.5f;    // logit
+constexpr float kSurelyNot = -2.5f;      // logit: one in twelve
 constexpr float kMeasured = 0.5f, kInferred = 0.15f;  // least confidence of a joint's state
 
 vfit_joint_state state_of(float confidence) {
@@ -54,6 +55,11 @@ void Tracker::run(const DepthImage& image, int64_t time_ns, std::span<const Trac
         Body body;
         if (see(image, time_ns, target, up, people_[target.id], body)) out.push_back(body);
     }
+}
+
+bool Tracker::surely_no_person(uint32_t id) const {
+    const auto found = people_.find(id);
+    return found != people_.end() && found->second.belief < kSurelyNot;
 }
 
 bool Tracker::see(const DepthImage& image, int64_t time_ns, const TrackTarget& target, const Vec2& up,

@@ -29,6 +29,8 @@ public:
     /// Joints of every target that the network takes for a person, in camera space. A person unseen for
     /// kForget_ns is forgotten: whoever gets that id then starts afresh.
     void run(const DepthImage& image, int64_t time_ns, std::span<const TrackTarget> targets, std::vector<Body>& out);
+    /// The network has said for a while that this target is something else.
+    bool surely_no_person(uint32_t id) const;
     /// Forgets everybody.
     void reset() { people_.clear(); }
 
