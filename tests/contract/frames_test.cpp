@@ -280,10 +280,31 @@ protected:
 
 }  // namespace
 
-TEST_F(SubmitTest, AFrameWithoutBodiesIsUnsupportedWithAClearMessage) {
-    EXPECT_EQ(vfit_tracker_update(tracker, frame, &tracked), VFIT_ERROR_UNSUPPORTED);
-    EXPECT_NE(contract::last_error().find("vfit_tracker_submit"), std::string::npos);
+TEST_F(SubmitTest, AFrameWithoutBodiesIsUnsupportedWhereTheyMustBeTheSources) {
+    vfit_tracker_desc desc = vfit_tracker_desc_init();
+    desc.joints = VFIT_TRACK_GIVEN;
+    vfit_tracker given{};
+    ASSERT_EQ(vfit_tracker_create(context, &desc, &given), VFIT_OK);
+    EXPECT_EQ(vfit_tracker_update(given, frame, &tracked), VFIT_ERROR_UNSUPPORTED);
+    EXPECT_NE(contract::last_error().find("no joints"), std::string::npos);
     EXPECT_EQ(tracked.id, 0u);
+    desc.joints = 9;
+    EXPECT_EQ(vfit_tracker_create(context, &desc, &given), VFIT_ERROR_ARGUMENT);
+    EXPECT_NE(contract::last_error().find("joints"), std::string::npos);
+}
+
+TEST_F(SubmitTest, TheTrackerFindsNobodyInAnImageOfNobody) {
+    vfit_frame_desc desc = image.desc();
+    desc.count = 1;  // without a user map
+    vfit_frame bare{};
+    ASSERT_EQ(vfit_frame_create(context, &desc, &bare), VFIT_OK);
+    ASSERT_EQ(vfit_tracker_update(tracker, bare, &tracked), VFIT_OK) << contract::last_error();
+    uint32_t count = 9;
+    EXPECT_EQ(vfit_frame_bodies(tracked, nullptr, 0, &count), VFIT_OK);
+    EXPECT_EQ(count, 0u);
+    vfit_view map = vfit_view_init();
+    EXPECT_EQ(vfit_frame_view(tracked, VFIT_STREAM_USER_MAP, &map), VFIT_OK);
+    EXPECT_EQ(vfit_tracker_reset(tracker), VFIT_OK);
 }
 
 TEST_F(SubmitTest, SubmittedJointsComeBackWithTheImagesShared) {

@@ -292,7 +292,7 @@ class Tracker(_Closable):
 
     def __init__(self, context: Context, *, floor: Optional[Camera] = None) -> None: ...
     def update(self, frame: Frame) -> Frame:
-        """The frame with the bodies that its source supplies."""
+        """The frame with the bodies that its source supplies, or those that the tracker finds."""
     def submit(self, frame: Frame, joints: _JointsIn, *, body_id: int = 1, time_ns: int = 0,
                camera_space: bool = False, partly_out_of_view: bool = False) -> Frame:
         """The frame with a body of your own; submit to the result to add a second one."""
