@@ -49,7 +49,7 @@ void bind_tracker(py::module_& m) {
                  m, "Tracker", "Makes tracked frames: images, user map and bodies.")
                  .def(py::init(&create), "context"_a, py::kw_only(), "floor"_a = py::none(),
                       "floor: a Camera that says where the floor is, if the frames do not.")
-                 .def("update", &update, "frame"_a, "The frame with the bodies that its source supplies.")
+                 .def("update", &update, "frame"_a, "The frame with the bodies that its source supplies, or those that the tracker finds.")
                  .def("submit", &submit, "frame"_a, "joints"_a, py::kw_only(), "body_id"_a = 1,
                       "time_ns"_a = 0, "camera_space"_a = false, "partly_out_of_view"_a = false,
                       "The frame with a body of your own; submit to the result to add a second one.")
