@@ -18,7 +18,8 @@ struct Network {
 };
 
 void say(char* error, uint32_t capacity, const char* what) {
-    if (error && capacity > 0) std::snprintf(error, capacity, "%s", what);
+    // OpenCV's sentences end in a new line.
+    if (error && capacity > 0) std::snprintf(error, capacity, "%.*s", int(std::strcspn(what, "\n")), what);
 }
 
 void* open_network(const char* path, char* error, uint32_t capacity) {
