@@ -50,7 +50,8 @@ void BackgroundModel::learn(const DepthGrid& grid, const uint8_t* people, float 
         passed_s_ = waiting_s_;
         waiting_s_ = 0.0f;
     }
-    const size_t first = size_t(height_) * turn_ / kTurns * width_, last = size_t(height_) * (turn_ + 1) / kTurns * width_;
+    const size_t first = size_t(height_) * turn_ / kTurns * width_;
+    const size_t last = size_t(height_) * (turn_ + 1) / kTurns * width_;
     turn_ = (turn_ + 1) % kTurns;
     dt_s = passed_s_;
     for (size_t i = first; i < last; ++i) {

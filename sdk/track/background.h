@@ -1,5 +1,5 @@
-// What the scene looks like without people, learned cell by cell: a reading that stays the same for seconds and
-// belongs to nobody, or an empty scene that the host shows.
+// What the scene looks like without people, learned cell by cell: a reading that stays the same for seconds
+// and belongs to nobody, or an empty scene that the host shows.
 #pragma once
 
 #include <cstdint>

@@ -8,8 +8,8 @@ namespace vfit {
 
 namespace {
 
-// Readings of one cell are of one surface where they differ from its nearest by less than z / 32 and 10 units:
-// 7 sigma at 3 m, written so that whole rows can be done in 16-bit lanes.
+// Readings of one cell are of one surface where they differ from its nearest by less than z / 32 and 10
+// units: 7 sigma at 3 m, written so that whole rows can be done in 16-bit lanes.
 constexpr int kDepthShift = 5;
 constexpr uint16_t kFewUnits = 10;
 

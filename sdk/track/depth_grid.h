@@ -1,5 +1,5 @@
-// The depth image on a coarser grid: what floor, background and people are looked for on. A cell is a square of
-// 1, 2, ... pixels, so that the grid is at most about 360 cells wide and costs the same for every camera.
+// The depth image on a coarser grid: what floor, background and people are looked for on. A cell is a square
+// of 1, 2, ... pixels, so that the grid is at most about 360 cells wide and costs the same for every camera.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace vfit {
 
-/// Spread of a depth reading at z metres: Nguyen, Izadi and Lovell 2012, Kinect v1. Time-of-flight cameras are
-/// better than that at every distance.
+/// Spread of a depth reading at z metres: Nguyen, Izadi and Lovell 2012, Kinect v1. Time-of-flight cameras
+/// are better than that at every distance.
 inline float depth_sigma_m(float z) { return 0.0012f + 0.0019f * (z - 0.4f) * (z - 0.4f); }
 
 /// Two neighbouring cells are of one surface where their depths differ by less: five sigma of noise, and what
@@ -30,8 +30,8 @@ public:
     /// Pixels along a cell's side; what is left over at the right and lower border belongs to no cell.
     uint32_t stride() const { return stride_; }
 
-    /// Depth of each cell in metres, 0 where none of its pixels has a reading: the mean of the readings that are
-    /// on the surface nearest to the camera, so that no finger between two pixels gets lost.
+    /// Depth of each cell in metres, 0 where none of its pixels has a reading: the mean of the readings that
+    /// are on the surface nearest to the camera, so that no finger between two pixels gets lost.
     const std::vector<float>& depth() const { return depth_; }
     /// x / z of a column's cells, y / z of a row's.
     const std::vector<float>& ray_x() const { return ray_x_; }

@@ -9,8 +9,6 @@ namespace {
 
 constexpr uint32_t kSampleStep = 4;     // cells between samples: 80 x 60 of them for a 640 x 480 image
 constexpr float kFarthest_m = 6.0f;     // beyond, a reading of a structured-light camera says nothing
-// Spread of 1 / z, 1/m: depth_sigma_m(z) / z^2 is 1.5e-3 to 1.9e-3 from 1 to 4 m.
-constexpr float kInverseSigma = 1.6e-3f;
 constexpr float kSigmas = 2.5f;         // taken for the floor: 99 % of its readings
 constexpr float kUneven_m = 0.012f;     // carpets, tiles and the bow of a real floor
 constexpr float kThings = 0.3f;          // of that band: above, feet and cables begin
@@ -106,7 +104,7 @@ void FloorFinder::take_samples(const DepthGrid& grid, uint32_t turn) {
 
 // Height of a sample above the plane, in units of its own depth: h / z = d (1/z - a . r).
 float FloorFinder::score(const Plane& plane) const {
-    const float d = 1.0f / glm::length(plane), noise = kSigmas * kInverseSigma * d;
+    const float d = 1.0f / glm::length(plane), noise = kSigmas * kInverseDepthSigma * d;
     uint32_t on = 0, below = 0;
     for (const Sample& s : samples_) {
         const float h = d * (s.inverse - plane.x * s.x - plane.y * s.y - plane.z);
@@ -121,7 +119,7 @@ float FloorFinder::score(const Plane& plane) const {
 }
 
 size_t FloorFinder::gather(const Plane& plane, float slack_m, Sums& sums) const {
-    const float d = 1.0f / glm::length(plane), noise = kSigmas * kInverseSigma * d;
+    const float d = 1.0f / glm::length(plane), noise = kSigmas * kInverseDepthSigma * d;
     size_t count = 0;
     for (const Sample& s : samples_) {
         const float h = d * (s.inverse - plane.x * s.x - plane.y * s.y - plane.z);
@@ -164,10 +162,10 @@ FloorFinder::Fit FloorFinder::search(const Vec3& up) {
     return best;
 }
 
-// How many things of a person's size stand on the plane: tells a floor from a side wall, which is a floor to a
-// camera on its side.
+// How many things of a person's size stand on the plane: tells a floor from a side wall, which is a floor to
+// a camera on its side.
 uint32_t FloorFinder::standing(const Plane& plane) {
-    const float d = 1.0f / glm::length(plane), noise = kSigmas * kInverseSigma * d;
+    const float d = 1.0f / glm::length(plane), noise = kSigmas * kInverseDepthSigma * d;
     Camera camera;
     camera.floor_normal = -plane * d;
     camera.floor_distance_m = d;

@@ -2,8 +2,8 @@
 //
 // A plane n . p + d = 0 is linear in what the sensor measures: with the ray r = (x/z, y/z, 1) of a pixel,
 // 1 / z = a r, where a = -n / d. Noise of 1 / z hardly depends on distance (structured light measures it
-// directly), so planes are fitted there by plain least squares, and a plane is kept from frame to frame as the
-// decayed sums of its normal equations.
+// directly), so planes are fitted there by plain least squares, and a plane is kept from frame to frame as
+// the decayed sums of its normal equations.
 #pragma once
 
 #include <array>
@@ -14,11 +14,20 @@
 
 namespace vfit {
 
+/// Spread of 1 / z in 1/m: depth_sigma_m(z) / z^2 is 1.5e-3 to 1.9e-3 from 1 to 4 m.
+inline constexpr float kInverseDepthSigma = 1.6e-3f;
+
+/// Height below which a single reading at depth z is taken for the floor: a centimetre for the unevenness of
+/// floor and plane, and two sigma of the reading. h = d z (1/z - a . r), see above.
+inline float floor_cut_m(float floor_distance_m, float z) {
+    return 0.010f + 2.0f * kInverseDepthSigma * floor_distance_m * z;
+}
+
 class FloorFinder {
 public:
     /// Looks for the floor in this frame. Once found, sets the camera's floor (VFIT_FLOOR_ESTIMATED) in every
-    /// call and refines it over the frames; a camera whose floor is VFIT_FLOOR_GIVEN is left alone. True where
-    /// the floor was seen in this frame. Does not allocate after its first run.
+    /// call and refines it over the frames; a camera whose floor is VFIT_FLOOR_GIVEN is left alone. True
+    /// where the floor was seen in this frame. Does not allocate after its first run.
     bool run(const DepthGrid& grid, Camera& camera);
 
     /// A floor is known, though perhaps out of sight now.

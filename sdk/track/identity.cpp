@@ -8,7 +8,8 @@ namespace vfit {
 namespace {
 
 constexpr float kRemembered_s = 2.5f;  // a short exit, or a moment behind something
-constexpr float kReach_m = 0.5f;       // a step that is not foreseen
+constexpr float kStep_m = 0.5f;        // that is not foreseen
+constexpr float kReach_m = 1.2f;       // from the trunk to the fingertips, and a step
 constexpr float kWalk_mps = 1.2f;      // while away: comfortable walking speed is 1.2 to 1.4 m/s
 constexpr float kGrown_m = 0.3f;       // arms up excepted: a head's height and more
 constexpr float kSpeedShare = 0.3f;    // of the newest velocity in the kept one
@@ -19,6 +20,11 @@ constexpr uint32_t kIds = 254;
 float seconds(int64_t ns) { return float(double(ns) * 1e-9); }
 
 }  // namespace
+
+bool Identity::within_reach(uint32_t slot, const Vec3& p) const {
+    const Vec3 away = p - tracks_[slot].centre;
+    return away.x * away.x + away.z * away.z < kReach_m * kReach_m;
+}
 
 void Identity::reset() {
     tracks_ = {};
@@ -48,7 +54,7 @@ uint32_t Identity::adopt(const Shape& shape, int64_t time_ns) {
         const float distance = std::sqrt(step.x * step.x + step.z * step.z);
         // Who comes from behind something shows an arm first, but nobody has grown.
         const float taller = shape.high_m - t.height_m;
-        if (distance > kReach_m + kWalk_mps * away_s || taller > kGrown_m) continue;
+        if (distance > kStep_m + kWalk_mps * away_s || taller > kGrown_m) continue;
         const float cost = distance + std::abs(taller);
         if (cost < least) {
             least = cost;

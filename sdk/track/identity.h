@@ -1,5 +1,5 @@
-// Who is who from frame to frame: people keep their number while they are seen, through a crossing, and when they
-// come back within two seconds.
+// Who is who from frame to frame: people keep their number while they are seen, through a crossing, and when
+// they come back within two seconds.
 #pragma once
 
 #include <array>
@@ -25,11 +25,14 @@ public:
     static constexpr uint32_t kMost = 24;
 
     const PersonTrack& track(uint32_t slot) const { return tracks_[slot]; }
+    /// That point may be a part of the person where they were last seen.
+    bool within_reach(uint32_t slot, const Vec3& p) const;
     bool taken(uint32_t slot) const { return tracks_[slot].id != 0; }
 
     /// Frees the slots of people who have been away for too long, and marks all as not seen.
     void begin(int64_t time_ns);
-    /// The slot of somebody who is away and may have come back as this shape; else a new one. kMost: no slot is free.
+    /// The slot of somebody who is away and may have come back as this shape; else a new one. kMost: no slot
+    /// is free.
     uint32_t adopt(const Shape& shape, int64_t time_ns);
     /// The person in that slot is seen there.
     void see(uint32_t slot, const Shape& shape, int64_t time_ns);

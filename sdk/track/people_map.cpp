@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "track/user_map.h"
 
@@ -10,39 +9,9 @@ namespace vfit {
 
 namespace {
 
-// The cut above the floor: unevenness of floor and plane, and two sigma of a reading's noise as height.
-constexpr float kFloorSlack_m = 0.010f, kFloorSigmas = 2.0f;
-constexpr float kInverseSigma = 1.6e-3f;      // of 1 / z in 1/m, as in floor_finder.cpp
-
-constexpr uint32_t kFewestCells = 6;          // a finger at 3 m
-constexpr float kFragment_m2 = 0.12f;         // a forearm and hand, or a shank, seen by themselves
-constexpr float kSamePlace_m = 0.2f;          // along the view, from frame to frame: 6 m/s at 30 Hz
-constexpr uint32_t kFewestVotes = 10;
-constexpr float kVoteShare = 0.1f;
-constexpr float kGrowth = 1.4f, kGrowth_m2 = 0.15f;  // of the seen area from frame to frame; more is somebody else's
-constexpr float kGrowthPath_m = 0.3f;         // a hand's way in a frame: 9 m/s at 30 Hz
-constexpr float kReach_m = 1.2f;              // from the trunk to the fingertips, and a step
-constexpr float kWall_m2 = 2.5f;              // more than two people: looked at now and then only
-constexpr float kOnlyWall_m2 = 6.0f;
-constexpr uint32_t kWallTurn = 10;            // frames
-constexpr float kTwo_m2 = 0.7f;               // seen of two people who were taken for one
-constexpr uint32_t kTwoTurn = 5;              // frames
-constexpr float kSplitArea_m2 = 0.3f;         // below, nobody stands in front of anything
-constexpr float kTwoWide_m = 0.55f;           // of two side by side; one with hanging arms is 0.45 to 0.6 m wide
-constexpr float kHeadReach_m = 1.1f;          // along the surface from the axis to the hands or feet
-constexpr float kLeastSeen_m2 = 0.05f;        // of somebody known: head and a shoulder
-// From a fragment to the person it is of: a hand before the trunk hides the forearm; what is behind is wall.
-constexpr float kInFront_m = 0.7f, kBehind_m = 0.4f, kSeenThrough_m = 0.08f, kAside_m = 0.9f, kBeside_m = 0.05f;
-// Soles: cells of the floor cut that are higher than the floor after all, a few cells around the feet.
-constexpr float kFeetBelow_m = 0.12f, kSole_m = 0.0045f, kSoleSigmas = 0.3f;
-constexpr int kSoleSteps = 4;
-constexpr int kFragmentGap = 4;               // cells
-constexpr float kMostBorder = 0.08f;          // of the image, that a sensor leaves without readings
-
-bool within_reach(const Vec3& p, const PersonTrack& track) {
-    const Vec3 away = p - track.centre;
-    return away.x * away.x + away.z * away.z < kReach_m * kReach_m;
-}
+constexpr uint32_t kFewestCells = 6;    // a finger at 3 m
+constexpr float kLeastSeen_m2 = 0.05f;  // of somebody known: head and a shoulder
+constexpr float kMostBorder = 0.08f;    // of the image, that a sensor leaves without readings
 
 float seconds(int64_t ns) { return float(double(ns) * 1e-9); }
 
@@ -96,7 +65,7 @@ void PeopleMap::find_view() {
 void PeopleMap::cut_floor_and_background() {
     const bool floor = floor_seen_ || floor_.found();
     const Vec3 n = camera_.floor_normal;
-    const float d = camera_.floor_distance_m, noise = kFloorSigmas * kInverseSigma * d;
+    const float d = camera_.floor_distance_m;
     background_.fit(grid_);
     const float farthest = options_.farthest_m;
     for (uint32_t y = 0; y < grid_.height(); ++y) {
@@ -108,9 +77,9 @@ void PeopleMap::cut_floor_and_background() {
         for (uint32_t x = 0; x < grid_.width(); ++x) {  // without branches, for vectors
             const float z = depth[x], slope = n.x * ray[x] + row, b = background_.depth(first + x);
             const int known = background_.covers(first + x, z);
-            const int above = z * slope + d > kFloorSlack_m + noise * z;
+            const int above = z * slope + d > floor_cut_m(d, z);
             // The floor itself is known better than as background: a learned one must not take the toes.
-            const int on_floor = b * slope + d < kFloorSlack_m + noise * b;
+            const int on_floor = b * slope + d < floor_cut_m(d, b);
             wanted[x] = uint8_t(int(z > 0.0f) & int(z < farthest) & (above | int(!floor)) &
                                 ((known ^ 1) | (int(floor) & on_floor)));
         }
@@ -121,148 +90,6 @@ Shape PeopleMap::measure(std::span<const uint32_t> cells) const {
     ShapeMeter meter(grid_, camera_, view_);
     meter.add(cells);
     return meter.finish();
-}
-
-bool PeopleMap::feet_hidden(std::span<const uint32_t> cells) const {
-    const ShapeMeter meter(grid_, camera_, {});
-    const int down = meter.down();
-    const int width = int(grid_.width());
-    uint32_t nearer = 0, farther = 0;
-    for (const uint32_t cell : cells) {
-        const float z = grid_.depth()[cell], same = same_surface_m(z);
-        for (int k = 1; k <= 3; ++k) {
-            const int next = int(cell) + k * down;
-            if (next < 0 || next >= int(grid_.cells())) break;
-            if (std::abs(down) == 1 && next / width != int(cell) / width) break;
-            const float other = grid_.depth()[size_t(next)];
-            if (other == 0.0f) continue;
-            nearer += other < z - same;
-            farther += other > z + same;
-            break;
-        }
-    }
-    return nearer > farther && nearer >= 6;
-}
-
-bool PeopleMap::person_like(std::span<const uint32_t> cells, const Shape& shape) const {
-    const bool floor = camera_.floor_state != VFIT_FLOOR_DEFAULT;
-    if (looks_like_person(shape, floor, false)) return true;
-    return looks_like_person(shape, floor, true) && feet_hidden(cells);
-}
-
-void PeopleMap::add_piece(std::span<const uint32_t> cells, const Shape& shape, uint32_t slot) {
-    if (!cells.empty() && pieces_.size() < pieces_.capacity()) pieces_.push_back({cells, shape, slot, 0});
-}
-
-void PeopleMap::classify_new(std::span<const uint32_t> cells, const Shape& shape) {
-    if (cells.empty()) return;
-    if (person_like(cells, shape))
-        add_piece(cells, shape, kNew);
-    else
-        add_piece(cells, shape, shape.area_m2 < kFragment_m2 ? kFragment : kThing);
-}
-
-// Every cell goes to the person whose last place is nearest along the surface.
-void PeopleMap::split_by_tracks(std::span<const uint32_t> cells, std::span<const uint32_t> slots, float farthest_m) {
-    splitter_.begin(grid_, cells);
-    const ShapeMeter meter(grid_, camera_, view_);
-    for (const uint32_t cell : cells) {
-        const uint8_t last = last_slots_[cell];
-        if (last == 0 || std::abs(grid_.depth()[cell] - last_depth_[cell]) > kSamePlace_m) continue;
-        for (size_t k = 0; k < slots.size(); ++k)
-            if (slots[k] + 1 == last && within_reach(meter.world(cell), identity_.track(slots[k])))
-                splitter_.seed(cell, uint8_t(k + 1));
-    }
-    splitter_.grow(farthest_m);
-    for (size_t k = 0; k <= slots.size(); ++k) {
-        const auto piece = splitter_.piece(uint8_t(k));
-        const auto begin = pool_.begin() + std::ptrdiff_t(pool_used_);
-        std::copy(piece.begin(), piece.end(), begin);
-        const std::span<const uint32_t> kept(pool_.data() + pool_used_, piece.size());
-        pool_used_ += piece.size();
-        if (kept.empty()) continue;
-        const Shape shape = measure(kept);
-        if (k == 0)
-            classify_new(kept, shape);
-        else
-            add_piece(kept, shape, slots[k - 1]);
-    }
-}
-
-// slot: whose component it was until now; the largest share of their last place keeps their number.
-bool PeopleMap::split_by_heads(std::span<const uint32_t> cells, uint8_t fewest, uint32_t slot) {
-    splitter_.begin(grid_, cells);
-    const uint8_t heads = splitter_.seed_heads(ShapeMeter(grid_, camera_, {}));
-    if (heads < fewest) return false;
-    splitter_.grow(kHeadReach_m);
-    uint8_t keeper = 0;
-    size_t most = 0;
-    for (uint8_t k = 1; k <= heads && slot != kNew; ++k) {
-        const auto piece = splitter_.piece(k);
-        const auto votes = size_t(std::count_if(piece.begin(), piece.end(),
-                                                [&](uint32_t cell) { return last_slots_[cell] == slot + 1; }));
-        if (votes > most) {
-            most = votes;
-            keeper = k;
-        }
-    }
-    for (uint8_t k = 1; k <= heads; ++k) {
-        const auto piece = splitter_.piece(k);
-        if (piece.empty()) continue;
-        std::copy(piece.begin(), piece.end(), pool_.begin() + std::ptrdiff_t(pool_used_));
-        const std::span<const uint32_t> kept(pool_.data() + pool_used_, piece.size());
-        pool_used_ += piece.size();
-        if (k == keeper)
-            add_piece(kept, measure(kept), slot);
-        else
-            classify_new(kept, measure(kept));
-    }
-    return true;
-}
-
-void PeopleMap::sort_component(std::span<const uint32_t> cells) {
-    std::array<uint32_t, Identity::kMost + 1> votes{};
-    float area_m2 = 0.0f;
-    for (const uint32_t cell : cells) {
-        const uint8_t last = last_slots_[cell];
-        const float z = grid_.depth()[cell];
-        area_m2 += grid_.area_m2(z);
-        if (last != 0 && std::abs(z - last_depth_[cell]) < kSamePlace_m) ++votes[last];
-    }
-    std::array<uint32_t, Splitter::kMostSeeds> slots;
-    size_t count = 0;
-    for (uint32_t slot = 0; slot < Identity::kMost && count < slots.size(); ++slot) {
-        const uint32_t most = std::min(identity_.track(slot).cells, uint32_t(cells.size()));
-        if (identity_.taken(slot) && votes[slot + 1] >= kFewestVotes &&
-            float(votes[slot + 1]) >= kVoteShare * float(most))
-            slots[count++] = slot;
-    }
-    const bool wall = area_m2 > kWall_m2;
-    if (count >= 2) {
-        split_by_tracks(cells, {slots.data(), count}, wall ? kGrowthPath_m : std::numeric_limits<float>::max());
-        return;
-    }
-    if (count == 1 && area_m2 > kGrowth * identity_.track(slots[0]).area_m2 + kGrowth_m2) {
-        split_by_tracks(cells, {slots.data(), 1}, kGrowthPath_m);
-        return;
-    }
-    if (count == 0 && wall && (area_m2 > kOnlyWall_m2 || frames_ % kWallTurn != 1)) return;
-    const Shape shape = measure(cells);
-    if (count == 1) {
-        const bool two = shape.width_m > kTwoWide_m && shape.area_m2 > kTwo_m2 && frames_ % kTwoTurn == 1;
-        if (!two || !split_by_heads(cells, 2, slots[0])) add_piece(cells, shape, slots[0]);
-    } else {
-        // Two who stand close can pass for one broad person, and one at a table for none.
-        const bool whole = shape.area_m2 < kSplitArea_m2 || person_like(cells, shape);
-        if ((whole && shape.width_m < kTwoWide_m) || !split_by_heads(cells, whole ? 2 : 1))
-            classify_new(cells, shape);
-    }
-}
-
-void PeopleMap::sort_components() {
-    pieces_.clear();
-    pool_used_ = 0;
-    for (size_t i = 0; i < components_.size(); ++i) sort_component(components_.cells(i));
 }
 
 // People keep their slots; newcomers get one, or that of somebody who has come back.
@@ -280,7 +107,7 @@ void PeopleMap::name_people(int64_t time_ns) {
         if (!largest) continue;
         identity_.see(slot, largest->shape, time_ns);
         for (Piece& p : pieces_)
-            if (p.slot == slot && !within_reach(p.shape.centre, identity_.track(slot))) p.slot = kThing;
+            if (p.slot == slot && !identity_.within_reach(slot, p.shape.centre)) p.slot = kThing;
     }
     for (Piece& p : pieces_) {
         if (p.slot != kNew) continue;
@@ -296,117 +123,6 @@ void PeopleMap::name_people(int64_t time_ns) {
     for (const Piece& p : pieces_)
         if (p.slot < Identity::kMost)
             for (const uint32_t cell : p.cells) slots_[cell] = uint8_t(p.slot + 1);
-}
-
-// A patch of wall between the legs: beside the person the same depth goes on.
-bool PeopleMap::part_of_scene(const Shape& s) const {
-    const int width = int(grid_.width()), height = int(grid_.height());
-    const int x = (s.x0 + s.x1) / 2, y = (s.y0 + s.y1) / 2;
-    const auto goes_on = [&](int fx, int fy, int dx, int dy) {
-        for (; fx >= 0 && fy >= 0 && fx < width && fy < height; fx += dx, fy += dy) {
-            const size_t i = size_t(fy * width + fx);
-            const float z = grid_.depth()[i];
-            if (slots_[i] || z == 0.0f) continue;
-            return std::abs(z - s.depth_m) < kBeside_m + same_surface_m(z);
-        }
-        return false;
-    };
-    return goes_on(s.x0 - 1, y, -1, 0) || goes_on(s.x1, y, 1, 0) || goes_on(x, s.y0 - 1, 0, -1) ||
-           goes_on(x, s.y1, 0, 1);
-}
-
-// A hand before the trunk, a head above a dark collar: what lies beside a person in the image and near them in
-// space is theirs.
-void PeopleMap::attach_fragments() {
-    const int width = int(grid_.width()), height = int(grid_.height());
-    for (Piece& p : pieces_) {
-        p.home = Identity::kMost;
-        if (p.slot != kFragment) continue;
-        std::array<float, Identity::kMost + 1> votes{};
-        float behind_sum = 0.0f, neighbours = 0.0f;
-        for (const uint32_t cell : p.cells) {
-            const int x = int(cell) % width, y = int(cell) / width;
-            const auto visit = [&](int nx, int ny) {
-                if (nx < 0 || ny < 0 || nx >= width || ny >= height) return;
-                const size_t next = size_t(ny) * size_t(width) + size_t(nx);
-                const float behind = grid_.depth()[cell] - grid_.depth()[next];
-                // A hand before somebody else's chest is near its own arm.
-                if (!slots_[next] || behind > kBehind_m || behind < -kInFront_m) return;
-                votes[slots_[next]] += 1.0f / (std::abs(behind) + kBeside_m);
-                behind_sum += behind;
-                ++neighbours;
-            };
-            for (int k = 1; k <= kFragmentGap; ++k) {
-                visit(x - k, y);
-                visit(x + k, y);
-                visit(x, y - k);
-                visit(x, y + k);
-            }
-        }
-        if (behind_sum > kSeenThrough_m * neighbours && part_of_scene(p.shape)) continue;
-        float most = 0.0f;
-        for (uint32_t slot = 0; slot < Identity::kMost; ++slot) {
-            if (votes[slot + 1] <= most) continue;
-            const Vec3 away = p.shape.centre - identity_.track(slot).centre;
-            if (std::sqrt(away.x * away.x + away.z * away.z) > kAside_m) continue;
-            most = votes[slot + 1];
-            p.home = slot;
-        }
-    }
-    for (const Piece& p : pieces_)
-        if (p.slot == kFragment && p.home < Identity::kMost)
-            for (const uint32_t cell : p.cells) slots_[cell] = uint8_t(p.home + 1);
-}
-
-// The floor cut takes the soles with it. Around feet the mean height of 3 x 3 cells, which is less noisy than the
-// single one, tells them from the floor.
-void PeopleMap::grow_feet() {
-    if (!floor_seen_ && !floor_.found()) return;
-    const int width = int(grid_.width()), height = int(grid_.height());
-    const Vec3 n = camera_.floor_normal;
-    const float d = camera_.floor_distance_m;
-    const auto height_of = [&](int x, int y) {
-        const float z = grid_.depth()[size_t(y * width + x)];
-        return z * (n.x * grid_.ray_x()[size_t(x)] + n.y * grid_.ray_y()[size_t(y)] + n.z) + d;
-    };
-    const auto floor_like = [&](int x, int y) {
-        const size_t i = size_t(y * width + x);
-        const float z = grid_.depth()[i];
-        return z > 0.0f && !wanted_[i] &&
-               std::abs(height_of(x, y)) < 2.0f * (kFloorSlack_m + kFloorSigmas * kInverseSigma * d * z);
-    };
-    size_t count = 0;
-    for (int y = 0, i = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x, ++i)
-            if (slots_[size_t(i)] && height_of(x, y) < kFeetBelow_m) frontier_[count++] = uint32_t(i);
-    size_t first = 0;
-    for (int step = 0; step < kSoleSteps; ++step) {
-        const size_t last = count;
-        for (; first < last; ++first) {
-            const int from = int(frontier_[first]), fx = from % width, fy = from / width;
-            const float z = grid_.depth()[size_t(from)];
-            const auto visit = [&](int x, int y) {
-                if (x < 1 || y < 1 || x >= width - 1 || y >= height - 1) return;
-                const size_t i = size_t(y * width + x);
-                if (slots_[i] || !floor_like(x, y) || std::abs(grid_.depth()[i] - z) > same_surface_m(z)) return;
-                float sum = 0.0f;
-                int cells = 0;
-                for (int b = -1; b <= 1; ++b)
-                    for (int a = -1; a <= 1; ++a)
-                        if (floor_like(x + a, y + b)) {
-                            sum += height_of(x + a, y + b);
-                            ++cells;
-                        }
-                if (sum < float(cells) * (kSole_m + kSoleSigmas * kInverseSigma * d * z)) return;
-                slots_[i] = slots_[size_t(from)];
-                frontier_[count++] = uint32_t(i);
-            };
-            visit(fx - 1, fy);
-            visit(fx + 1, fy);
-            visit(fx, fy - 1);
-            visit(fx, fy + 1);
-        }
-    }
 }
 
 void PeopleMap::report(const DepthImage& image, int64_t time_ns, uint8_t* users) {

@@ -1,8 +1,8 @@
 // The user map: which pixels are people, and which of them is who, from depth alone and without calibration.
 //
-// Floor and background are taken away, what remains falls into connected components, shapes that people cannot
-// have are left out, people who touch are taken apart by where they were, and numbers are kept from frame to
-// frame. Each step is a file of its own; this one strings them together.
+// Floor and background are taken away, what remains falls into connected components, shapes that people
+// cannot have are left out, people who touch are taken apart by where they were, and numbers are kept from
+// frame to frame. Each step is a file of its own; this one strings them together.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct PersonRegion {
     Vec3 centre{0.0f};         // world, mean of what is seen
     float height_m = 0.0f;     // of the topmost point above the floor; from end to end where no floor is known
     float width_m = 0.0f;      // 5th to 95th percentile across the view
-    uint32_t pixels = 0;
+    uint32_t pixels = 0;       // of the cells that are theirs
     uint32_t out_of_view = 0;  // OutOfView
 };
 
@@ -39,8 +39,8 @@ class PeopleMap {
 public:
     explicit PeopleMap(const PeopleMapOptions& options = {}) : options_(options) {}
 
-    /// Labels people: one byte a pixel of `users` (0: nobody, else the person's id). The regions stay valid until
-    /// the next run. Does not allocate while images are no larger than the largest before.
+    /// Labels people: one byte a pixel of `users` (0: nobody, else the person's id). The regions stay valid
+    /// until the next run. Does not allocate while images are no larger than the largest before.
     std::span<const PersonRegion> run(const DepthImage& image, int64_t time_ns, uint8_t* users);
 
     /// The image's camera with the floor, given or found (floor_state); the space of the regions' centres.

@@ -13,9 +13,9 @@ constexpr int kBorderCells = 2;           // an image border is rarely straight
 constexpr uint32_t kFewCells = 2;         // above which there is only speckle
 constexpr float kLegsFrom_m = 0.2f, kLegsTo_m = 0.6f;
 
-// A standing or sitting person. Statures and breadths: ANSUR II (smallest woman to largest man), with a margin
-// for children, shoes, hats and loose clothes. Areas seen by the camera: 0.35 m2 is a slim person from the
-// side, 1 m2 a heavy one from the front; a part of a person is no less than head and shoulders.
+// A standing or sitting person. Statures and breadths: ANSUR II (smallest woman to largest man), with a
+// margin for children, shoes, hats and loose clothes. Areas seen by the camera: 0.35 m2 is a slim person from
+// the side, 1 m2 a heavy one from the front; a part of a person is no less than head and shoulders.
 constexpr float kShortest_m = 0.9f, kTallest_m = 2.35f;
 constexpr float kFeetBelow_m = 0.35f;
 constexpr float kLeastArea_m2 = 0.12f, kLeastPart_m2 = 0.085f, kLeastBehind_m2 = 0.2f, kMostArea_m2 = 1.5f;

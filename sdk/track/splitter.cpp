@@ -147,7 +147,8 @@ uint8_t Splitter::seed_heads(const ShapeMeter& meter) {
         // A hand that is raised has no body below it, and no shoulder outside.
         const int highest = int(top[size_t(peak)] / kSlice_m);
         float left = 0.0f, right = 0.0f;
-        for (int slice = std::max(0, highest - kShoulderTo); slice < std::min(kSlices, highest - kShoulderFrom); ++slice)
+        const int last_slice = std::min(kSlices, highest - kShoulderFrom);
+        for (int slice = std::max(0, highest - kShoulderTo); slice < last_slice; ++slice)
             for (int k = 1; k <= kBodyHalf; ++k) {
                 if (best - k >= 0) left += filled[size_t((best - k) * kSlices + slice)];
                 if (best + k < kColumns) right += filled[size_t((best + k) * kSlices + slice)];

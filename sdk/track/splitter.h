@@ -1,5 +1,5 @@
-// Takes people apart who touch each other, or something else: every cell goes to the seed that is nearest along
-// the surface.
+// Takes people apart who touch each other, or something else: every cell goes to the seed that is nearest
+// along the surface.
 #pragma once
 
 #include <array>
@@ -22,8 +22,8 @@ public:
     void begin(const DepthGrid& grid, std::span<const uint32_t> cells);
     /// Seeds are numbered from 1.
     void seed(uint32_t cell, uint8_t number) { owner_[cell] = number; }
-    /// Grows the seeds over the component, no farther than that along the surface: first over steps in depth that
-    /// noise explains, then over the rest, so that an outline before somebody else is a border.
+    /// Grows the seeds over the component, no farther than that along the surface: first over steps in depth
+    /// that noise explains, then over the rest, so that an outline before somebody else is a border.
     void grow(float farthest_m);
     /// Cells of a seed; of 0: what no seed has reached.
     std::span<const uint32_t> piece(uint8_t number) const;

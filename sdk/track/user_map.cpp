@@ -8,8 +8,8 @@ namespace vfit {
 
 namespace {
 
-// Of the way from the person to what is behind. The nearer surface sends back more light, so that half of each
-// reads as less than half of the way.
+// Of the way from the person to what is behind. The nearer surface sends back more light, so that half of
+// each reads as less than half of the way.
 constexpr float kMixedShare = 0.5f;
 
 class Writer {
@@ -50,7 +50,8 @@ private:
     size_t index(int u, int v) const { return size_t(v) * size_t(width_) + size_t(u); }
     int at(int u, int v) const { return image_.depth[index(u, v)]; }
 
-    /// visit(x and y of the first pixel, the surface's depth and the band around it in the image's units, label)
+    /// visit(x and y of the first pixel, the surface's depth and the band around it in the image's units,
+    /// label)
     template <typename Visit>
     void for_each_labelled(const Visit& visit) const {
         const float per_metre = 1.0f / image_.camera.depth_unit_m;

@@ -1,4 +1,5 @@
-// The user map on scenes that are known by construction: people are found and keep their numbers, furniture is not.
+// The user map on scenes that are known by construction: people are found and keep their numbers, furniture
+// is not.
 #include "track/people_map.h"
 
 #include <gtest/gtest.h>

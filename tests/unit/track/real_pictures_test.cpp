@@ -1,4 +1,5 @@
-// Real depth pictures of the shared folder: the people in them are found, and the floor where it was measured.
+// Real depth pictures of the shared folder: the people in them are found, and the floor where it was
+// measured.
 #include <gtest/gtest.h>
 #include <png.h>
 

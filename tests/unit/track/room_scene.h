@@ -1,5 +1,6 @@
-// A room with people of capsules and things of boxes before a pinhole camera, seen ray by ray with the noise of a
-// Kinect v1 (Nguyen, Izadi and Lovell 2012; steps: Khoshelham and Elberink 2012): the truth is known by construction.
+// A room with people of capsules and things of boxes before a pinhole camera, seen ray by ray with the noise
+// of a Kinect v1 (Nguyen, Izadi and Lovell 2012; steps: Khoshelham and Elberink 2012): the truth is known by
+// construction.
 #pragma once
 
 #include <algorithm>

@@ -1,0 +1,173 @@
+// The part of PeopleMap that makes pieces of components: whose each is, what looks like a new person, and
+// what has to be taken apart first.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "track/people_map.h"
+
+namespace vfit {
+
+namespace {
+
+constexpr float kFragment_m2 = 0.12f;  // a forearm and hand, or a shank, seen by themselves
+constexpr float kSamePlace_m = 0.2f;   // along the view, from frame to frame: 6 m/s at 30 Hz
+constexpr uint32_t kFewestVotes = 10;  // cells in the same place
+constexpr float kVoteShare = 0.1f;     // of the person's cells
+// Of the seen area from frame to frame; more is somebody else's.
+constexpr float kGrowth = 1.4f, kGrowth_m2 = 0.15f;
+constexpr float kGrowthPath_m = 0.3f;  // a hand's way in a frame: 9 m/s at 30 Hz
+// More than two people: looked at now and then only; more than a crowd: never.
+constexpr float kWall_m2 = 2.5f, kOnlyWall_m2 = 6.0f;
+constexpr uint32_t kWallTurn = 10;     // frames
+constexpr float kTwo_m2 = 0.7f;        // seen of two people who were taken for one
+constexpr uint32_t kTwoTurn = 5;       // frames
+constexpr float kTwoWide_m = 0.55f;    // of two side by side; one with hanging arms is 0.45 to 0.6 m wide
+constexpr float kSplitArea_m2 = 0.3f;  // below, nobody stands in front of anything
+constexpr float kHeadReach_m = 1.1f;   // along the surface from the axis to the hands or feet
+
+}  // namespace
+
+bool PeopleMap::feet_hidden(std::span<const uint32_t> cells) const {
+    const ShapeMeter meter(grid_, camera_, {});
+    const int down = meter.down();
+    const int width = int(grid_.width());
+    uint32_t nearer = 0, farther = 0;
+    for (const uint32_t cell : cells) {
+        const float z = grid_.depth()[cell], same = same_surface_m(z);
+        for (int k = 1; k <= 3; ++k) {
+            const int next = int(cell) + k * down;
+            if (next < 0 || next >= int(grid_.cells())) break;
+            if (std::abs(down) == 1 && next / width != int(cell) / width) break;
+            const float other = grid_.depth()[size_t(next)];
+            if (other == 0.0f) continue;
+            nearer += other < z - same;
+            farther += other > z + same;
+            break;
+        }
+    }
+    return nearer > farther && nearer >= 6;
+}
+
+bool PeopleMap::person_like(std::span<const uint32_t> cells, const Shape& shape) const {
+    const bool floor = camera_.floor_state != VFIT_FLOOR_DEFAULT;
+    if (looks_like_person(shape, floor, false)) return true;
+    return looks_like_person(shape, floor, true) && feet_hidden(cells);
+}
+
+void PeopleMap::add_piece(std::span<const uint32_t> cells, const Shape& shape, uint32_t slot) {
+    if (!cells.empty() && pieces_.size() < pieces_.capacity()) pieces_.push_back({cells, shape, slot, 0});
+}
+
+void PeopleMap::classify_new(std::span<const uint32_t> cells, const Shape& shape) {
+    if (cells.empty()) return;
+    if (person_like(cells, shape))
+        add_piece(cells, shape, kNew);
+    else
+        add_piece(cells, shape, shape.area_m2 < kFragment_m2 ? kFragment : kThing);
+}
+
+// Every cell goes to the person whose last place is nearest along the surface.
+void PeopleMap::split_by_tracks(std::span<const uint32_t> cells, std::span<const uint32_t> slots, float farthest_m) {
+    splitter_.begin(grid_, cells);
+    const ShapeMeter meter(grid_, camera_, view_);
+    for (const uint32_t cell : cells) {
+        const uint8_t last = last_slots_[cell];
+        if (last == 0 || std::abs(grid_.depth()[cell] - last_depth_[cell]) > kSamePlace_m) continue;
+        for (size_t k = 0; k < slots.size(); ++k)
+            if (slots[k] + 1 == last && identity_.within_reach(slots[k], meter.world(cell)))
+                splitter_.seed(cell, uint8_t(k + 1));
+    }
+    splitter_.grow(farthest_m);
+    for (size_t k = 0; k <= slots.size(); ++k) {
+        const auto piece = splitter_.piece(uint8_t(k));
+        const auto begin = pool_.begin() + std::ptrdiff_t(pool_used_);
+        std::copy(piece.begin(), piece.end(), begin);
+        const std::span<const uint32_t> kept(pool_.data() + pool_used_, piece.size());
+        pool_used_ += piece.size();
+        if (kept.empty()) continue;
+        const Shape shape = measure(kept);
+        if (k == 0)
+            classify_new(kept, shape);
+        else
+            add_piece(kept, shape, slots[k - 1]);
+    }
+}
+
+// slot: whose component it was until now; the largest share of their last place keeps their number.
+bool PeopleMap::split_by_heads(std::span<const uint32_t> cells, uint8_t fewest, uint32_t slot) {
+    splitter_.begin(grid_, cells);
+    const uint8_t heads = splitter_.seed_heads(ShapeMeter(grid_, camera_, {}));
+    if (heads < fewest) return false;
+    splitter_.grow(kHeadReach_m);
+    uint8_t keeper = 0;
+    size_t most = 0;
+    for (uint8_t k = 1; k <= heads && slot != kNew; ++k) {
+        const auto piece = splitter_.piece(k);
+        const auto votes = size_t(std::count_if(piece.begin(), piece.end(),
+                                                [&](uint32_t cell) { return last_slots_[cell] == slot + 1; }));
+        if (votes > most) {
+            most = votes;
+            keeper = k;
+        }
+    }
+    for (uint8_t k = 1; k <= heads; ++k) {
+        const auto piece = splitter_.piece(k);
+        if (piece.empty()) continue;
+        std::copy(piece.begin(), piece.end(), pool_.begin() + std::ptrdiff_t(pool_used_));
+        const std::span<const uint32_t> kept(pool_.data() + pool_used_, piece.size());
+        pool_used_ += piece.size();
+        if (k == keeper)
+            add_piece(kept, measure(kept), slot);
+        else
+            classify_new(kept, measure(kept));
+    }
+    return true;
+}
+
+void PeopleMap::sort_component(std::span<const uint32_t> cells) {
+    std::array<uint32_t, Identity::kMost + 1> votes{};
+    float area_m2 = 0.0f;
+    for (const uint32_t cell : cells) {
+        const uint8_t last = last_slots_[cell];
+        const float z = grid_.depth()[cell];
+        area_m2 += grid_.area_m2(z);
+        if (last != 0 && std::abs(z - last_depth_[cell]) < kSamePlace_m) ++votes[last];
+    }
+    std::array<uint32_t, Splitter::kMostSeeds> slots;
+    size_t count = 0;
+    for (uint32_t slot = 0; slot < Identity::kMost && count < slots.size(); ++slot) {
+        const uint32_t most = std::min(identity_.track(slot).cells, uint32_t(cells.size()));
+        if (identity_.taken(slot) && votes[slot + 1] >= kFewestVotes &&
+            float(votes[slot + 1]) >= kVoteShare * float(most))
+            slots[count++] = slot;
+    }
+    const bool wall = area_m2 > kWall_m2;
+    if (count >= 2) {
+        split_by_tracks(cells, {slots.data(), count}, wall ? kGrowthPath_m : std::numeric_limits<float>::max());
+        return;
+    }
+    if (count == 1 && area_m2 > kGrowth * identity_.track(slots[0]).area_m2 + kGrowth_m2) {
+        split_by_tracks(cells, {slots.data(), 1}, kGrowthPath_m);
+        return;
+    }
+    if (count == 0 && wall && (area_m2 > kOnlyWall_m2 || frames_ % kWallTurn != 1)) return;
+    const Shape shape = measure(cells);
+    if (count == 1) {
+        const bool two = shape.width_m > kTwoWide_m && shape.area_m2 > kTwo_m2 && frames_ % kTwoTurn == 1;
+        if (!two || !split_by_heads(cells, 2, slots[0])) add_piece(cells, shape, slots[0]);
+    } else {
+        // Two who stand close can pass for one broad person, and one at a table for none.
+        const bool whole = shape.area_m2 < kSplitArea_m2 || person_like(cells, shape);
+        if ((whole && shape.width_m < kTwoWide_m) || !split_by_heads(cells, whole ? 2 : 1))
+            classify_new(cells, shape);
+    }
+}
+
+void PeopleMap::sort_components() {
+    pieces_.clear();
+    pool_used_ = 0;
+    for (size_t i = 0; i < components_.size(); ++i) sort_component(components_.cells(i));
+}
+
+}  // namespace vfit
