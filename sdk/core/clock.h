@@ -12,6 +12,11 @@ inline int64_t now_ns() {
         .count();
 }
 
+/// Time stamps come from hosts too: however far apart, their difference does not overflow.
+inline double seconds_between(int64_t earlier_ns, int64_t later_ns) {
+    return (double(later_ns) - double(earlier_ns)) * 1e-9;
+}
+
 /// Milliseconds since it was made.
 class Stopwatch {
 public:

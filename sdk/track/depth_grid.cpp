@@ -79,7 +79,9 @@ void DepthGrid::rays(const Camera& camera) {
 
 void DepthGrid::run(const DepthImage& image) {
     stride_ = 1;
-    while (image.width() / stride_ > kMostColumns) stride_ = stride_ < 4 ? stride_ + 1 : stride_ * 2;
+    const auto next = [](uint32_t stride) { return stride < 4 ? stride + 1 : stride * 2; };
+    // An image of a few rows keeps them: the grid is never empty.
+    while (image.width() / stride_ > kMostColumns && next(stride_) <= image.height()) stride_ = next(stride_);
     width_ = image.width() / stride_;
     height_ = image.height() / stride_;
     depth_.resize(cells());

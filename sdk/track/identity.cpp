@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/clock.h"
+
 namespace vfit {
 
 namespace {
@@ -16,8 +18,6 @@ constexpr float kSpeedShare = 0.3f;    // of the newest velocity in the kept one
 constexpr float kFastest_mps = 4.0f;
 constexpr float kForesight_s = 0.3f;   // beyond, people turn
 constexpr uint32_t kIds = 254;
-
-float seconds(int64_t ns) { return float(double(ns) * 1e-9); }
 
 }  // namespace
 
@@ -34,7 +34,9 @@ void Identity::reset() {
 void Identity::begin(int64_t time_ns) {
     for (PersonTrack& t : tracks_) {
         t.seen = false;
-        if (t.id != 0 && seconds(time_ns - t.seen_ns) > kRemembered_s) t = {};
+        // A source that starts again tells earlier times: nobody of before is in it.
+        const double away_s = seconds_between(t.seen_ns, time_ns);
+        if (t.id != 0 && (away_s > kRemembered_s || away_s < 0.0)) t = {};
     }
 }
 
@@ -48,7 +50,7 @@ uint32_t Identity::adopt(const Shape& shape, int64_t time_ns) {
             continue;
         }
         if (t.seen) continue;
-        const float away_s = seconds(time_ns - t.seen_ns);
+        const float away_s = float(seconds_between(t.seen_ns, time_ns));
         const Vec3 foreseen = t.centre + t.velocity * std::min(away_s, kForesight_s);
         const Vec3 step = shape.centre - foreseen;
         const float distance = std::sqrt(step.x * step.x + step.z * step.z);
@@ -78,7 +80,7 @@ uint32_t Identity::adopt(const Shape& shape, int64_t time_ns) {
 
 void Identity::see(uint32_t slot, const Shape& shape, int64_t time_ns) {
     PersonTrack& t = tracks_[slot];
-    const float dt_s = seconds(time_ns - t.seen_ns);
+    const float dt_s = float(seconds_between(t.seen_ns, time_ns));
     if (t.cells > 0 && dt_s > 1e-3f && dt_s < 1.0f) {
         Vec3 velocity = (shape.centre - t.centre) / dt_s;
         if (const float speed = glm::length(velocity); speed > kFastest_mps) velocity *= kFastest_mps / speed;

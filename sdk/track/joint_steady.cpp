@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/clock.h"
+
 namespace vfit {
 
 namespace {
@@ -20,7 +22,7 @@ float share(float cutoff_hz, float dt) {
 }  // namespace
 
 void JointSteady::run(int64_t time_ns, SeenJoints& joints) {
-    const float dt = 1e-9f * float(time_ns - last_ns_);
+    const float dt = float(seconds_between(last_ns_, time_ns));
     const bool start = last_ns_ < 0 || dt <= 0.0f || dt > kLongestGap_s;
     last_ns_ = time_ns;
     for (size_t j = 0; j < joints.size(); ++j) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/clock.h"
 #include "track/user_map.h"
 
 namespace vfit {
@@ -12,8 +13,6 @@ namespace {
 constexpr uint32_t kFewestCells = 6;    // a finger at 3 m
 constexpr float kLeastSeen_m2 = 0.05f;  // of somebody known: head and a shoulder
 constexpr float kMostBorder = 0.08f;    // of the image, that a sensor leaves without readings
-
-float seconds(int64_t ns) { return float(double(ns) * 1e-9); }
 
 }  // namespace
 
@@ -30,7 +29,8 @@ void PeopleMap::look(const DepthImage& image) {
     grid_.run(image);
     camera_ = image.camera;
     floor_seen_ = floor_.run(grid_, camera_);
-    if (wanted_.size() == grid_.cells()) return;
+    if (columns_ == grid_.width() && wanted_.size() == grid_.cells()) return;
+    columns_ = grid_.width();
     for (auto* v : {&wanted_, &slots_, &last_slots_, &labels_}) v->assign(grid_.cells(), 0);
     last_depth_.assign(grid_.cells(), 0.0f);
     pool_.resize(grid_.cells());
@@ -174,7 +174,7 @@ std::span<const PersonRegion> PeopleMap::run(const DepthImage& image, int64_t ti
     grow_feet();
     report(image, time_ns, users);
     if (options_.learn_background) {
-        const float dt_s = std::clamp(seconds(time_ns - time_ns_), 0.0f, 0.1f);
+        const float dt_s = std::clamp(float(seconds_between(time_ns_, time_ns)), 0.0f, 0.1f);
         background_.learn(grid_, slots_.data(), time_ns_ == 0 ? 0.0f : dt_s);
     }
     std::swap(slots_, last_slots_);

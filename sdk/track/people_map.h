@@ -88,6 +88,7 @@ private:
     bool floor_seen_ = false;
     int64_t time_ns_ = 0;
     uint32_t frames_ = 0;
+    uint32_t columns_ = 0;  // of the last grid
     std::array<int, 4> filled_{}, view_{};  // cells: ever filled by the sensor, taken for its view
     DepthGrid grid_;
     FloorFinder floor_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/clock.h"
+
 namespace vfit {
 
 namespace {
@@ -10,6 +12,7 @@ namespace {
 constexpr float kBeliefShare = 0.3f;     // of the newest answer
 constexpr float kLeastBelief = -0.5f;    // logit
 constexpr float kSurelyNot = -2.5f;      // logit: one in twelve
+constexpr uint32_t kSureAfter = 15;      // frames: whoever walks in shows an arm first
 constexpr float kMeasured = 0.5f, kInferred = 0.15f;  // least confidence of a joint's state
 
 vfit_joint_state state_of(float confidence) {
@@ -45,7 +48,7 @@ void Tracker::run(const DepthImage& image, int64_t time_ns, std::span<const Trac
                   std::vector<Body>& out) {
     out.clear();
     std::erase_if(people_, [&](const auto& entry) {
-        return time_ns - entry.second.seen_ns > kForget_ns || time_ns < entry.second.seen_ns;
+        return time_ns < entry.second.seen_ns || seconds_between(entry.second.seen_ns, time_ns) > kForget_s;
     });
     Vec2 up(image.camera.floor_normal.x, image.camera.floor_normal.y);
     // Nobody knows the floor, or the camera looks straight down: the image's own up.
@@ -59,7 +62,7 @@ void Tracker::run(const DepthImage& image, int64_t time_ns, std::span<const Trac
 
 bool Tracker::surely_no_person(uint32_t id) const {
     const auto found = people_.find(id);
-    return found != people_.end() && found->second.belief < kSurelyNot;
+    return found != people_.end() && found->second.frames >= kSureAfter && found->second.belief < kSurelyNot;
 }
 
 bool Tracker::see(const DepthImage& image, int64_t time_ns, const TrackTarget& target, const Vec2& up,
@@ -68,13 +71,13 @@ bool Tracker::see(const DepthImage& image, int64_t time_ns, const TrackTarget& t
     CropView view;
     if (!cropper_.run(image, uint8_t(target.id), target.box, up, view, crop_.data())) return false;
     network_->run(crop_.data(), maps_);
-    person.belief = person.fresh ? maps_.person : person.belief + kBeliefShare * (maps_.person - person.belief);
+    person.belief = person.frames == 0 ? maps_.person : person.belief + kBeliefShare * (maps_.person - person.belief);
     SeenJoints joints;
     read_maps(maps_, view, image.camera, joints);
     person.facing.apply(maps_.away, joints);
     person.steady.run(time_ns, joints);
     person.seen_ns = time_ns;
-    person.fresh = false;
+    ++person.frames;
     if (person.belief < kLeastBelief) return false;
 
     out.id = target.id;

@@ -27,14 +27,14 @@ public:
     explicit Tracker(std::shared_ptr<JointNetwork> network) : network_(std::move(network)) {}
 
     /// Joints of every target that the network takes for a person, in camera space. A person unseen for
-    /// kForget_ns is forgotten: whoever gets that id then starts afresh.
+    /// kForget_s is forgotten: whoever gets that id then starts afresh.
     void run(const DepthImage& image, int64_t time_ns, std::span<const TrackTarget> targets, std::vector<Body>& out);
     /// The network has said for a while that this target is something else.
     bool surely_no_person(uint32_t id) const;
     /// Forgets everybody.
     void reset() { people_.clear(); }
 
-    static constexpr int64_t kForget_ns = 2'000'000'000;
+    static constexpr double kForget_s = 2.0;
 
 private:
     struct Person {
@@ -42,7 +42,7 @@ private:
         JointSteady steady;
         float belief = 0.0f;  // that it is a person: the network's logits, smoothed
         int64_t seen_ns = 0;
-        bool fresh = true;
+        uint32_t frames = 0;
     };
     bool see(const DepthImage& image, int64_t time_ns, const TrackTarget& target, const Vec2& up, Person& person,
              Body& out);

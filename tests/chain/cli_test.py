@@ -10,6 +10,7 @@ import math
 import os
 import pathlib
 import shutil
+import statistics
 import struct
 import subprocess
 import sys
@@ -115,6 +116,23 @@ class Contract(unittest.TestCase):
             self.assertTrue(2.0 < head[2] < 2.8, "z is the distance from the camera")
             self.assertLess(head[1], 0, "y points down and the head is above the camera")
             self.assertEqual(len(list(pathlib.Path(folder).glob("*.png"))), 60)
+
+    def test_the_tracker_finds_people_and_joints_by_itself(self):
+        given = lines(self, "track", VIRTUAL, "--json")
+        for extra in (("--joints", "tracked"), ("--joints", "tracked", "--user-map", "tracked")):
+            found = lines(self, "track", VIRTUAL, *extra, "--json")
+            self.assertEqual(len(found), len(given))
+            errors, ids = [], set()
+            for f, g in zip(found, given):
+                self.assertEqual(len(f["bodies"]), 1, extra)
+                ids.add(f["bodies"][0]["id"])
+                joints, truth = f["bodies"][0]["joints"], g["bodies"][0]["joints"]
+                errors += [math.dist(joints[n][:3], truth[n][:3]) for n in truth if n in joints]
+            self.assertEqual(len(ids), 1)
+            self.assertNotEqual(found, given)
+            self.assertLess(statistics.median(errors), 0.06, extra)
+            self.assertGreater(sum(e < 0.1 for e in errors), 0.8 * len(errors), extra)
+        self.check_failure(run("track", VIRTUAL, "--user-map", "tracked", "--joints", "recorded"), "user map")
 
     def test_motion_prints_pose_and_contacts(self):
         frames = lines(self, "motion", VIRTUAL, "--json")
@@ -325,6 +343,17 @@ class RealRecordings(unittest.TestCase):
                 self.assertTrue(1.4 < measured["measurements"]["stature_m"]["value"] < 2.1)
                 result = document(self, "fit", recording, "--draft", "--frames", 6, "--out", folder, "--json")
                 self.assertTrue(all(math.isfinite(x) for x in numbers(result)))
+
+    def test_real_people_are_tracked_from_depth_alone(self):
+        """Against the joints of the recordings' own middleware, whose definitions differ by up to 10 cm."""
+        for path in RECORDINGS:
+            given, found = lines(self, "track", path, "--json"), lines(self, "track", path, "--joints", "tracked", "--json")
+            errors = []
+            for f, g in zip(found, given):
+                self.assertEqual(len(f["bodies"]), 1, path)
+                joints, reference = f["bodies"][0]["joints"], g["bodies"][0]["joints"]
+                errors += [math.dist(joints[n][:3], reference[n][:3]) for n in reference if n in joints]
+            self.assertLess(statistics.median(errors), 0.08, path)
 
     def test_motion_of_every_recording_is_finite(self):
         for recording in RECORDINGS:

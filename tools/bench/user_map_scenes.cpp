@@ -205,9 +205,10 @@ void play_source(const std::string& uri, const std::function<void(const Shot&)>&
 }
 
 Shot load_still(const std::string& path, float focal_px, float cx, float cy) {
-    const fs::path folder = fs::temp_directory_path() / "vfit-bench-still";
-    fs::remove_all(folder);
-    fs::create_directories(folder / "depth");
+    // A name of its own: two runs at a time must not share the folder.
+    const fs::path folder = fs::temp_directory_path() / ("vfit-bench-still-" + std::to_string(std::random_device{}()));
+    if (!fs::create_directory(folder)) throw Failure(folder.string() + ": is there already");
+    fs::create_directory(folder / "depth");
     fs::copy_file(path, folder / "depth" / "000000.png");
     std::ofstream(folder / "camera.json") << Json{{"format", "vfit-recording"}, {"version", 1}, {"sensor", "kinect_v1"},
         {"width", 640}, {"height", 480}, {"fx", focal_px}, {"fy", focal_px}, {"cx", cx}, {"cy", cy}, {"fps", 30},

@@ -11,8 +11,11 @@ namespace vfit::training {
 
 class Random {
 public:
-    Random(uint64_t seed, uint64_t index) : state_(seed * 0x9E3779B97F4A7C15ull + index) {
-        for (int i = 0; i < 4; ++i) bits();
+    /// The seed is mixed before the index is added and once more after, so that neither neighbouring seeds nor
+    /// neighbouring indices give the same sequence a step apart.
+    Random(uint64_t seed, uint64_t index) : state_(seed) {
+        state_ = bits() + index;
+        state_ = bits();
     }
 
     /// SplitMix64 (Steele, Lea, Flood 2014).

@@ -37,6 +37,19 @@ TEST(DepthGrid, IsAsFineAsTheImageAllowsAndNoWiderThanItsLimit) {
     }
 }
 
+TEST(DepthGrid, IsNeverEmptyHoweverThinTheImage) {
+    for (const auto& [width, height] : {std::pair{16384u, 1u}, {16384u, 2u}, {1000u, 2u}, {1u, 1u}, {1u, 3000u}, {721u, 5u}}) {
+        Picture picture(width, height, 2000);
+        DepthGrid grid;
+        grid.run(picture.view());
+        ASSERT_GE(grid.width(), 1u) << width << " x " << height;
+        ASSERT_GE(grid.height(), 1u) << width << " x " << height;
+        ASSERT_LE(grid.width() * grid.stride(), width);
+        ASSERT_LE(grid.height() * grid.stride(), height);
+        EXPECT_NEAR(grid.depth()[grid.cells() - 1], 2.0f, 1e-4f);
+    }
+}
+
 TEST(DepthGrid, ACellIsTheMeanOfItsNearestSurface) {
     Picture picture(640, 480, 3000);
     picture.at(10, 10) = 2000;

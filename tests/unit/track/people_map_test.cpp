@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "room_scene.h"
 
 namespace vfit {
@@ -64,6 +66,40 @@ TEST(PeopleMap, FindsOnePersonInTheFirstImageWithoutCalibration) {
     EXPECT_NEAR(regions[0].centre.z, -2.7f, 0.15f);
     EXPECT_EQ(regions[0].out_of_view, 0u);
     EXPECT_EQ(people.map.camera().floor_state, VFIT_FLOOR_ESTIMATED);
+}
+
+TEST(PeopleMap, TakesImagesOfAnyShapeOneAfterTheOther) {
+    PeopleMap map;
+    int64_t time_ns = 0;
+    for (const auto& [width, height] : {std::pair{320u, 240u}, {240u, 320u}, {16384u, 1u}, {1000u, 2u}, {1u, 1u}, {1u, 500u}, {320u, 240u}}) {
+        std::vector<uint16_t> depth(size_t(width) * height, 2000);
+        std::vector<uint8_t> users(depth.size(), 9);
+        DepthImage image;
+        image.depth = depth.data();
+        image.camera.width = width, image.camera.height = height;
+        image.camera.fx = image.camera.fy = 285.0f;
+        image.camera.cx = 0.5f * float(width), image.camera.cy = 0.5f * float(height);
+        for (int frame = 0; frame < 3; ++frame) {
+            EXPECT_EQ(map.run(image, time_ns += kFrame_ns, users.data()).size(), 0u) << width << " x " << height;
+            EXPECT_EQ(users.front() | users.back(), 0);
+        }
+    }
+}
+
+TEST(PeopleMap, ASourceThatStartsAgainIsSeenAfresh) {
+    RoomScene scene;
+    scene.people.push_back(standing_person(0.2f, -2.8f));
+    People people;
+    for (const int64_t start : {int64_t(0), std::numeric_limits<int64_t>::max() - 10 * kFrame_ns,
+                                std::numeric_limits<int64_t>::min(), int64_t(5) * kFrame_ns}) {
+        people.time_ns = start;
+        scene.render(1);
+        people.users.resize(scene.depth.size());
+        for (int frame = 0; frame < 3; ++frame) {
+            people.time_ns += kFrame_ns;
+            ASSERT_EQ(people.map.run(scene.bare(), people.time_ns, people.users.data()).size(), 1u) << start;
+        }
+    }
 }
 
 TEST(PeopleMap, KeepsTheFeet) {
