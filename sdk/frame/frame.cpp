@@ -57,7 +57,7 @@ void* Frame::add_stream(vfit_stream kind, vfit_format format, uint32_t width, ui
     if (item == 0) fail(VFIT_ERROR_ARGUMENT, "stream ", kind, ": unknown format ", format);
     if (width == 0 || height == 0 || (height > 1 ? width > kMaxSide || height > kMaxSide : width > kMaxItems))
         fail(VFIT_ERROR_ARGUMENT, "stream ", kind, ": size ", width, " x ", height, " is out of range");
-    if (find(kind)) fail(VFIT_ERROR_ARGUMENT, "stream ", kind, " is in the frame already");
+    if (own(kind)) fail(VFIT_ERROR_ARGUMENT, "stream ", kind, " is in the frame already");
     if (stream_count_ == kMaxStreams)
         fail(VFIT_ERROR_ARGUMENT, "a frame holds at most ", kMaxStreams, " streams");
     const uint64_t row_bytes = uint64_t(item) * width;
@@ -73,21 +73,27 @@ void* Frame::add_stream(vfit_stream kind, vfit_format format, uint32_t width, ui
 }
 
 void Frame::add_view(const Stream& stream) {
-    if (find(stream.kind)) fail(VFIT_ERROR_ARGUMENT, "stream ", stream.kind, " is in the frame already");
+    if (own(stream.kind)) fail(VFIT_ERROR_ARGUMENT, "stream ", stream.kind, " is in the frame already");
     if (stream_count_ == kMaxStreams)
         fail(VFIT_ERROR_ARGUMENT, "a frame holds at most ", kMaxStreams, " streams");
     slots_[stream_count_++].stream = stream;
 }
 
-const Stream* Frame::find(vfit_stream kind) const {
+const Stream* Frame::own(vfit_stream kind) const {
     for (size_t i = 0; i < stream_count_; ++i)
         if (slots_[i].stream.kind == kind) return &slots_[i].stream;
-    return base ? base->find(kind) : nullptr;
+    return nullptr;
+}
+
+const Stream* Frame::find(vfit_stream kind) const {
+    const Stream* here = own(kind);
+    return here || !base ? here : base->find(kind);
 }
 
 std::vector<vfit_stream> Frame::kinds() const {
     std::vector<vfit_stream> out = base ? base->kinds() : std::vector<vfit_stream>{};
-    for (size_t i = 0; i < stream_count_; ++i) out.push_back(slots_[i].stream.kind);
+    for (size_t i = 0; i < stream_count_; ++i)
+        if (!base || !base->find(slots_[i].stream.kind)) out.push_back(slots_[i].stream.kind);
     return out;
 }
 

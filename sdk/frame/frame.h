@@ -70,13 +70,13 @@ public:
     void* host_user = nullptr;
 
     /// A stream with pixels of its own to fill before the frame is published; at most kMaxStreams. Fails with
-    /// VFIT_ERROR_ARGUMENT where the kind is there already or the size is not sane.
+    /// VFIT_ERROR_ARGUMENT where the frame has one of its own already or the size is not sane. It hides the base's.
     void* add_stream(vfit_stream kind, vfit_format format, uint32_t width, uint32_t height);
     /// A stream over memory that outlives the frame (lent by the host, or static topology of a model).
     void add_view(const Stream& stream);
     /// The stream of that kind, here or in the base; null if there is none.
     const Stream* find(vfit_stream kind) const;
-    /// Kinds in the order they were added, the base's first.
+    /// Kinds in the order they were added, the base's first, each once.
     std::vector<vfit_stream> kinds() const;
 
     void set_meta(const std::string& key, const std::string& json);
@@ -91,6 +91,7 @@ public:
 
 private:
     friend class FramePool;
+    const Stream* own(vfit_stream kind) const;
     static constexpr size_t kMaxStreams = 8;
     void unreferenced() override;
     void clear();

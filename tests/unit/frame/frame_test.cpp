@@ -93,5 +93,16 @@ TEST(Frame, ATrackedFrameSeesItsBasesStreamsAndMeta) {
     EXPECT_EQ(tracked->kinds(), (std::vector<vfit_stream>{VFIT_STREAM_DEPTH, VFIT_STREAM_USER_MAP}));
 }
 
+TEST(Frame, AStreamOfItsOwnHidesTheBasesOne) {
+    auto pool = make<FramePool>(2u);
+    Ref<Frame> base = pool->take();
+    base->add_stream(VFIT_STREAM_USER_MAP, VFIT_FORMAT_U8, 4, 4);
+    Ref<Frame> tracked = pool->take();
+    tracked->base = base;
+    const void* pixels = tracked->add_stream(VFIT_STREAM_USER_MAP, VFIT_FORMAT_U8, 4, 4);
+    EXPECT_EQ(tracked->find(VFIT_STREAM_USER_MAP)->data, pixels);
+    EXPECT_EQ(tracked->kinds(), std::vector<vfit_stream>{VFIT_STREAM_USER_MAP});
+}
+
 }  // namespace
 }  // namespace vfit
