@@ -16,12 +16,16 @@ set(CMAKE_C_VISIBILITY_PRESET hidden)
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 
 # For programs around the library whose own speed does not matter but whose templates are slow to compile: little
-# optimisation, and these headers compiled once.
+# optimisation, and these headers (or REUSE_FROM a target with the same options) compiled once.
 function(vfit_quick_to_compile target)
   if(NOT MSVC)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
-  target_precompile_headers(${target} PRIVATE ${ARGN})
+  if(ARGV1 STREQUAL REUSE_FROM)
+    target_precompile_headers(${target} REUSE_FROM ${ARGV2})
+  else()
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+  endif()
 endfunction()
 
 # A build under sanitizers is for running tests, not for working in: several sources at once, so that their headers
@@ -50,6 +54,21 @@ function(vfit_add_room room)
   vfit_together_under_sanitizers(vfit_${room})
 endfunction()
 
+# A program of tests. Undefined behaviour is looked for in the code under test: in the tests' own templates it would
+# double the time to compile them.
+function(vfit_test_program target)
+  if(VFIT_SANITIZE MATCHES undefined)
+    target_compile_options(${target} PRIVATE -fno-sanitize=undefined)
+  endif()
+  target_compile_definitions(${target} PRIVATE VFIT_SOURCE_DIR="${CMAKE_SOURCE_DIR}" VFIT_DATA_DIR="${VFIT_DATA_DIR}"
+    VFIT_PLUGIN_DIR="${CMAKE_BINARY_DIR}/lib/vfit_plugins")
+  if(target STREQUAL unit_core)
+    vfit_quick_to_compile(${target} <gtest/gtest.h> <algorithm> <string> <vector>)
+  else()
+    vfit_quick_to_compile(${target} REUSE_FROM unit_core)
+  endif()
+endfunction()
+
 # The unit tests of one room: every .cpp in tests/unit/<room>, as unit_<room>. Further arguments: what they link.
 function(vfit_add_unit_test room)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/unit/${room}/*.cpp)
@@ -59,9 +78,7 @@ function(vfit_add_unit_test room)
   add_executable(unit_${room} ${sources})
   target_include_directories(unit_${room} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
   target_link_libraries(unit_${room} PRIVATE vfit_settings vfit_${room} ${ARGN} GTest::gtest_main)
-  target_compile_definitions(unit_${room} PRIVATE
-    VFIT_SOURCE_DIR="${CMAKE_SOURCE_DIR}" VFIT_DATA_DIR="${VFIT_DATA_DIR}")
-  vfit_quick_to_compile(unit_${room} <gtest/gtest.h> <algorithm> <string> <vector>)
+  vfit_test_program(unit_${room})
   add_test(NAME unit_${room} COMMAND unit_${room})
   set_tests_properties(unit_${room} PROPERTIES LABELS unit)
 endfunction()

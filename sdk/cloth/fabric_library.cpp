@@ -1,15 +1,15 @@
 #include "cloth/fabric_library.h"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/json.h"
 
 namespace vfit {
 
 namespace {
 
-float positive_number(const nlohmann::json& preset, const std::string& name, const char* key) {
+float positive_number(const Json& preset, const std::string& name, const char* key) {
     const auto it = preset.find(key);
     if (it == preset.end() || !it->is_number()) fail(VFIT_ERROR_DATA, "fabric ", name, ": ", key, " is not a number");
     const float value = it->get<float>();
@@ -21,12 +21,11 @@ float positive_number(const nlohmann::json& preset, const std::string& name, con
 }  // namespace
 
 FabricLibrary FabricLibrary::parse(std::span<const std::byte> json) {
-    const auto* text = reinterpret_cast<const char*>(json.data());
-    const nlohmann::json root = nlohmann::json::parse(text, text + json.size(), nullptr, false);
-    if (!root.is_object()) fail(VFIT_ERROR_DATA, "fabrics: not a complete JSON object");
-    if (root.value("format", nlohmann::json()) != "vfit-fabrics")
+    const Json root = parse_json(json, "fabrics");
+    if (!root.is_object()) fail(VFIT_ERROR_DATA, "fabrics: not a JSON object");
+    if (root.value("format", Json()) != "vfit-fabrics")
         fail(VFIT_ERROR_DATA, "fabrics: format is not \"vfit-fabrics\"");
-    if (root.value("version", nlohmann::json()) != 1) fail(VFIT_ERROR_VERSION, "fabrics: version is not 1");
+    if (root.value("version", Json()) != 1) fail(VFIT_ERROR_VERSION, "fabrics: version is not 1");
     const auto presets = root.find("fabrics");
     if (presets == root.end() || !presets->is_object() || presets->empty())
         fail(VFIT_ERROR_DATA, "fabrics: \"fabrics\" is missing or empty");

@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "core/error.h"
+#include "core/json.h"
 #include "math/finite.h"
 #include "measure/measure_keys.h"
 
 namespace vfit {
 
 namespace {
-
-using Json = nlohmann::json;
 
 const Json& field(const Json& object, const char* key) {
     const auto it = object.find(key);
@@ -151,9 +149,7 @@ void validate_garment(const Garment& g, const FabricLibrary& fabrics) {
 }
 
 Garment parse_garment(std::span<const std::byte> json, const FabricLibrary& fabrics) {
-    const auto* begin = reinterpret_cast<const char*>(json.data());
-    const Json root = Json::parse(begin, begin + json.size(), nullptr, false);
-    if (root.is_discarded()) fail(VFIT_ERROR_DATA, "garment: not complete JSON");
+    const Json root = parse_json(json, "garment");
     if (!root.is_object()) fail(VFIT_ERROR_DATA, "garment: not a JSON object");
     if (text_field(root, "format") != "vfit-garment")
         fail(VFIT_ERROR_DATA, "garment: format is not \"vfit-garment\"");

@@ -1,7 +1,8 @@
 #include "cook/garment_writer.h"
 
 #include <charconv>
-#include <nlohmann/json.hpp>
+
+#include "core/json.h"
 
 namespace vfit {
 
@@ -39,7 +40,7 @@ void add_array(std::string& out, const char* key, const std::vector<T>& values) 
 }  // namespace
 
 std::string write_garment(const Garment& garment) {
-    const auto quoted = [](const std::string& s) { return nlohmann::json(s).dump(); };
+    const auto quoted = [](const std::string& s) { return json_text(s); };
     std::string out = "{\n \"format\": \"vfit-garment\", \"version\": 1,\n";
     out += " \"name\": " + quoted(garment.name) + ", \"kind\": " + quoted(garment.kind);
     out += ", \"fabric\": " + quoted(garment.fabric);

@@ -1,16 +1,14 @@
 // Reads the design parameters of a sundress.
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "cook/sundress.h"
 #include "core/error.h"
+#include "core/json.h"
 #include "measure/measure_keys.h"
 
 namespace vfit {
 
 namespace {
-
-using Json = nlohmann::json;
 
 float number(const Json& root, const char* key, float low, float high) {
     const auto it = root.find(key);
@@ -37,9 +35,8 @@ std::string text_of(const Json& root, const char* key) {
 }  // namespace
 
 SundressSpec parse_sundress(std::span<const std::byte> json) {
-    const auto* begin = reinterpret_cast<const char*>(json.data());
-    const Json root = Json::parse(begin, begin + json.size(), nullptr, false);
-    if (!root.is_object()) fail(VFIT_ERROR_DATA, "sundress: not a complete JSON object");
+    const Json root = parse_json(json, "sundress");
+    if (!root.is_object()) fail(VFIT_ERROR_DATA, "sundress: not a JSON object");
     if (text_of(root, "format") != "vfit-sundress") fail(VFIT_ERROR_DATA, "sundress: format is not \"vfit-sundress\"");
     if (count(root, "version", 1, 1u << 20) != 1) fail(VFIT_ERROR_VERSION, "sundress: version is not 1");
 

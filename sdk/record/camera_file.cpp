@@ -8,13 +8,15 @@ namespace vfit {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;  // fields in the order of the format
 
 /// The shortest decimal that reads back as the same float: 0.001, not 0.0010000000474974513.
 Json number(float x) {
     char digits[32];
     const auto end = std::to_chars(digits, digits + sizeof digits, x).ptr;
-    return Json::parse(digits, end);
+    double shortest = x;
+    std::from_chars(digits, end, shortest);
+    return shortest;
 }
 
 }  // namespace

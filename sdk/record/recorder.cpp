@@ -3,9 +3,9 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/json.h"
 #include "frame/floor.h"
 #include "math/finite.h"
 #include "record/camera_file.h"
@@ -42,13 +42,13 @@ const std::string& joints_header() {
     return header;
 }
 
-nlohmann::json object_from(const std::string& json, const char* key) {
-    nlohmann::json value = nlohmann::json::parse(json, nullptr, false);
+Json object_from(const std::string& json, const char* key) {
+    Json value = parse_json(json, key);
     if (!value.is_object()) fail(VFIT_ERROR_DATA, "the frame's \"", key, "\" is not a JSON object");
     return value;
 }
 
-bool is_set(const nlohmann::json& object, const char* key) {
+bool is_set(const Json& object, const char* key) {
     const auto value = object.find(key);
     if (value != object.end() && value->is_boolean()) return value->get<bool>();
     if (value != object.end() && value->is_number()) return value->get<double>() != 0.0;
@@ -170,12 +170,12 @@ void Recorder::write_images(const Frame& frame) {
 Recorder::Truth Recorder::read_truth(const Frame& frame) const {
     Truth truth;
     if (const std::string* json = frame.meta("contacts")) {
-        const nlohmann::json contacts = object_from(*json, "contacts");
+        const Json contacts = object_from(*json, "contacts");
         truth.contacts = is_set(contacts, "left") ? ",1" : ",0";
         truth.contacts += is_set(contacts, "right") ? ",1" : ",0";
     }
     const std::string* json = has_measures_ ? nullptr : frame.meta("measures");
-    if (json) truth.measures = object_from(*json, "measures").dump(1) + "\n";
+    if (json) truth.measures = json_text(object_from(*json, "measures"), 1) + "\n";
     return truth;
 }
 

@@ -3,19 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/json.h"
 #include "measure/measure_keys.h"
 
 namespace vfit {
 
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr int kVersion = 1;
-constexpr int kDeepest = 8;           // nesting; a chart has seven levels down to a range's numbers
 constexpr size_t kLongestName = 31;   // vfit_size.label and vfit_size_row.garment_kind hold 32 bytes
 constexpr float kLargest_m = 10.0f;   // no body measure is longer: the unit is wrong
 constexpr float kRounding_m = 1e-5f;  // 94 cm is not exact in binary
@@ -136,23 +133,10 @@ float parse_unit(const Json& chart) {
     fail(VFIT_ERROR_DATA, "size chart: unknown unit \"", unit, "\"; known: cm, in");
 }
 
-Json parse_json(std::string_view text) {
-    // Millions of brackets would cost gigabytes before anything looks at them.
-    const auto shallow = [](int depth, Json::parse_event_t, const Json&) {
-        if (depth > kDeepest) fail(VFIT_ERROR_DATA, "size chart: nested deeper than any chart");
-        return true;
-    };
-    try {
-        return Json::parse(text, shallow);
-    } catch (const Json::exception& e) {
-        fail(VFIT_ERROR_DATA, "size chart: not JSON: ", e.what());
-    }
-}
-
 }  // namespace
 
 SizeChart SizeChart::parse(std::string_view json) {
-    const Json chart = parse_json(json);
+    const Json chart = parse_json(json, "size chart");
     require_object(chart, "the chart");
     const std::string& format = string_field(chart, "format", "the chart");
     if (format != "vfit-size-chart")
@@ -161,7 +145,7 @@ SizeChart SizeChart::parse(std::string_view json) {
     if (version == chart.end() || !version->is_number_integer())
         fail(VFIT_ERROR_DATA, "size chart: the chart has no whole number \"version\"");
     if (*version != kVersion)
-        fail(VFIT_ERROR_VERSION, "size chart: version ", version->dump(), " is unknown; this library reads ",
+        fail(VFIT_ERROR_VERSION, "size chart: version ", version->get<int64_t>(), " is unknown; this library reads ",
              kVersion);
 
     SizeChart result;

@@ -1,12 +1,12 @@
 // What vfit-bench measures with: pinned threads, medians, and the parts it is made of.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <string>
 #include <vector>
 
 #include "client/client.h"
+#include "client/command_line.h"
 
 namespace vfit::tools {
 
@@ -37,11 +37,11 @@ private:
     std::vector<double> values_;
 };
 
-void add_stages(CLI::App& app);
-void add_people(CLI::App& app);
-void add_recordings(CLI::App& app);
-void add_track(CLI::App& app);
-void add_cloth(CLI::App& app);
-void add_user_map(CLI::App& app);
+void add_stages(Command& app);
+void add_people(Command& app);
+void add_recordings(Command& app);
+void add_track(Command& app);
+void add_cloth(Command& app);
+void add_user_map(Command& app);
 
 }  // namespace vfit::tools

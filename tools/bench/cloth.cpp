@@ -43,16 +43,16 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_cloth(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("cloth", "The common cloth scene");
+void add_cloth(Command& app) {
+    Command command = app.add_subcommand("cloth", "The common cloth scene");
     auto o = std::make_shared<Options>();
-    command->add_option("folder", o->folder, "Folder with mesh.bin and motion_<scene>.bin")->required();
-    command->add_option("scene", o->scene, "walk, kick, arm, kick8 or kick16")->required();
-    command->add_option("--substeps", o->substeps, "Sub-steps of 1/60 s")->check(CLI::Range(1, 256));
-    command->add_option("--threads", o->threads, "Threads, pinned to as many cores")->check(CLI::Range(1, 64));
-    command->add_option("--positions", o->positions, "Write the positions after each frame there");
-    command->add_flag("--json", o->json, "Print JSON");
-    command->callback([o] { run(*o); });
+    command.add_option("folder", o->folder, "Folder with mesh.bin and motion_<scene>.bin").required();
+    command.add_option("scene", o->scene, "walk, kick, arm, kick8 or kick16").required();
+    command.add_option("--substeps", o->substeps, "Sub-steps of 1/60 s").within(1, 256);
+    command.add_option("--threads", o->threads, "Threads, pinned to as many cores").within(1, 64);
+    command.add_option("--positions", o->positions, "Write the positions after each frame there");
+    command.add_flag("--json", o->json, "Print JSON");
+    command.callback([o] { run(*o); });
 }
 
 }  // namespace vfit::tools

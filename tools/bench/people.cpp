@@ -84,17 +84,16 @@ double error(double real, double estimated) { return 100.0 * std::abs(estimated 
 
 }  // namespace
 
-void add_people(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("people", "Table 3 of the paper on virtual people (synthetic)");
+void add_people(Command& app) {
+    Command command = app.add_subcommand("people", "Table 3 of the paper on virtual people (synthetic)");
     auto o = std::make_shared<Options>();
-    command->add_option("--count", o->count, "How many people")->check(CLI::Range(2, 1000));
-    command->add_option("--seed", o->seed, "Of bodies and noise");
-    command->add_option("--sensor", o->sensor, "Noise model of the virtual sensor");
-    command->add_option("--distance", o->distance_m, "From camera to person, m");
-    command->add_option("--method", o->method, "paper, or paper-as-printed: canon ratios and plain means")
-        ->check(CLI::IsMember({"paper", "paper-as-printed"}));
-    command->add_flag("--json", o->json, "Print JSON");
-    command->callback([o] {
+    command.add_option("--count", o->count, "How many people").within(2, 1000);
+    command.add_option("--seed", o->seed, "Of bodies and noise");
+    command.add_option("--sensor", o->sensor, "Noise model of the virtual sensor");
+    command.add_option("--distance", o->distance_m, "From camera to person, m");
+    command.add_option("--method", o->method, "paper, or paper-as-printed: canon ratios and plain means").one_of({"paper", "paper-as-printed"});
+    command.add_flag("--json", o->json, "Print JSON");
+    command.callback([o] {
         pin_to_cores(1);
         std::mt19937 random(o->seed);
         Json rows = Json::array();

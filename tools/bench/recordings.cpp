@@ -76,12 +76,12 @@ double deviation(const std::vector<double>& v) {
 
 }  // namespace
 
-void add_recordings(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("recordings", "Stature of real people over their recordings");
+void add_recordings(Command& app) {
+    Command command = app.add_subcommand("recordings", "Stature of real people over their recordings");
     auto o = std::make_shared<Options>();
-    command->add_option("folder", o->folder, "Folder of recordings named ..._s<person>_...")->required();
-    command->add_flag("--json", o->json, "Print JSON");
-    command->callback([o] {
+    command.add_option("folder", o->folder, "Folder of recordings named ..._s<person>_...").required();
+    command.add_flag("--json", o->json, "Print JSON");
+    command.callback([o] {
         std::vector<std::filesystem::path> paths;
         for (const auto& entry : std::filesystem::directory_iterator(o->folder))
             if (entry.is_directory()) paths.push_back(entry.path());

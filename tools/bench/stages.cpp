@@ -149,13 +149,13 @@ void print(const char* title, const std::map<std::string, Samples>& samples) {
 
 }  // namespace
 
-void add_stages(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("stages", "Milliseconds of every stage, one pinned core");
+void add_stages(Command& app) {
+    Command command = app.add_subcommand("stages", "Milliseconds of every stage, one pinned core");
     auto o = std::make_shared<Options>();
-    command->add_option("--source", o->source, "Sensor URI; must supply joints and a user map");
-    command->add_option("--frames", o->frames, "Frames after the scan");
-    command->add_flag("--json", o->json, "Print JSON");
-    command->callback([o] {
+    command.add_option("--source", o->source, "Sensor URI; must supply joints and a user map");
+    command.add_option("--frames", o->frames, "Frames after the scan");
+    command.add_flag("--json", o->json, "Print JSON");
+    command.callback([o] {
         pin_to_cores(1);
         Stages stages;
         time_sensor(*o, stages);

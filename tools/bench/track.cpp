@@ -208,12 +208,12 @@ void real_part(const Options& o) {
 
 }  // namespace
 
-void add_track(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("track", "The tracker's joints on real recordings");
+void add_track(Command& app) {
+    Command command = app.add_subcommand("track", "The tracker's joints on real recordings");
     auto o = std::make_shared<Options>();
-    command->add_option("folder", o->folder, "Folder of recordings named ..._s<person>_...")->required();
-    command->add_flag("--json", o->json, "Print JSON");
-    command->callback([o] {
+    command.add_option("folder", o->folder, "Folder of recordings named ..._s<person>_...").required();
+    command.add_flag("--json", o->json, "Print JSON");
+    command.callback([o] {
         pin_to_cores(1);
         real_part(*o);
     });

@@ -237,15 +237,15 @@ void run(const Options& o) {
 
 }  // namespace
 
-void add_user_map(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("user_map", "User map: overlap with the truth, feet, floor, time");
+void add_user_map(Command& app) {
+    Command command = app.add_subcommand("user_map", "User map: overlap with the truth, feet, floor, time");
     auto o = std::make_shared<Options>();
-    command->add_option("shared", o->shared, "Folder with data/recordings and data/scenes: judges real people too");
-    command->add_option("--frames", o->frames, "Images of each virtual sequence");
-    command->add_option("--only", o->only, "Scenes whose name contains this");
-    command->add_option("--pictures", o->pictures, "Write every 15th image there, truth and error in colour");
-    command->add_flag("--json", o->json, "Print JSON");
-    command->callback([o] { run(*o); });
+    command.add_option("shared", o->shared, "Folder with data/recordings and data/scenes: judges real people too");
+    command.add_option("--frames", o->frames, "Images of each virtual sequence");
+    command.add_option("--only", o->only, "Scenes whose name contains this");
+    command.add_option("--pictures", o->pictures, "Write every 15th image there, truth and error in colour");
+    command.add_flag("--json", o->json, "Print JSON");
+    command.callback([o] { run(*o); });
 }
 
 }  // namespace vfit::tools

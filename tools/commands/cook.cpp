@@ -42,14 +42,14 @@ void cook(const Options& options) {
 
 }  // namespace
 
-void add_cook(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("cook", "Make a garment file from a design");
+void add_cook(Command& app) {
+    Command command = app.add_subcommand("cook", "Make a garment file from a design");
     auto o = std::make_shared<Options>();
-    command->add_option("design", o->design, "Design file (docs/garments.md)")->required();
-    command->add_option("--out", o->out, "Garment file to write")->required();
-    command->add_option("--body", o->body, "Baked body (default: the one beside the program)");
-    command->add_flag("--json", o->json, "Print JSON");
-    command->callback([o] { cook(*o); });
+    command.add_option("design", o->design, "Design file (docs/garments.md)").required();
+    command.add_option("--out", o->out, "Garment file to write").required();
+    command.add_option("--body", o->body, "Baked body (default: the one beside the program)");
+    command.add_flag("--json", o->json, "Print JSON");
+    command.callback([o] { cook(*o); });
 }
 
 }  // namespace vfit::tools

@@ -194,26 +194,23 @@ Json fit(const Options& options) {
 
 }  // namespace
 
-void add_fit(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("fit", "Scan, size, move and dress; leaves pictures and a GLB");
+void add_fit(Command& app) {
+    Command command = app.add_subcommand("fit", "Scan, size, move and dress; leaves pictures and a GLB");
     auto o = std::make_shared<Options>();
     o->fitting.chart = "paper";
-    command->add_option("source", o->fitting.source, "Recording folder or sensor URI")->required();
-    command->add_option("--garment", o->fitting.garment, "Garment by name or file (default sundress)");
-    command->add_option("--size", o->fitting.size, "A label of the garment; default: made to measure");
-    command->add_option("--chart", o->fitting.chart, "Size chart by name or file (default paper)");
-    command->add_option("--sex", o->sex, "Whose default body: f, m or unknown")
-        ->check(CLI::IsMember({"f", "m", "unknown"}));
-    command->add_option("--frames", o->fitting.max_frames, "Play that many frames at most (8 seconds at most)")
-        ->check(CLI::PositiveNumber);
-    command->add_option("--detail", o->fitting.detail, "Level of detail of the avatar: 0, 1 or 2")
-        ->check(CLI::Range(0, 2));
-    command->add_option("--out", o->out, "Folder for the results")->required();
-    command->add_flag("--hands", o->fitting.hands, "Let forearms and hands push the garment");
-    command->add_flag("--draft", o->draft, "Small, grainy pictures in a tenth of the time");
-    command->add_flag("--json", o->json, "Print the result as JSON");
-    add_track_options(*command, o->track);
-    command->callback([o] {
+    command.add_option("source", o->fitting.source, "Recording folder or sensor URI").required();
+    command.add_option("--garment", o->fitting.garment, "Garment by name or file (default sundress)");
+    command.add_option("--size", o->fitting.size, "A label of the garment; default: made to measure");
+    command.add_option("--chart", o->fitting.chart, "Size chart by name or file (default paper)");
+    command.add_option("--sex", o->sex, "Whose default body: f, m or unknown").one_of({"f", "m", "unknown"});
+    command.add_option("--frames", o->fitting.max_frames, "Play that many frames at most (8 seconds at most)").positive();
+    command.add_option("--detail", o->fitting.detail, "Level of detail of the avatar: 0, 1 or 2").within(0, 2);
+    command.add_option("--out", o->out, "Folder for the results").required();
+    command.add_flag("--hands", o->fitting.hands, "Let forearms and hands push the garment");
+    command.add_flag("--draft", o->draft, "Small, grainy pictures in a tenth of the time");
+    command.add_flag("--json", o->json, "Print the result as JSON");
+    add_track_options(command, o->track);
+    command.callback([o] {
         const Json result = fit(*o);
         if (o->json)
             print_document(result);

@@ -45,11 +45,11 @@ void print(const Json& info) {
 
 }  // namespace
 
-void add_info(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("info", "Version, build, SIMD level, plug-ins and sensors");
+void add_info(Command& app) {
+    Command command = app.add_subcommand("info", "Version, build, SIMD level, plug-ins and sensors");
     auto json = std::make_shared<bool>(false);
-    command->add_flag("--json", *json, "Print JSON");
-    command->callback([json] {
+    command.add_flag("--json", *json, "Print JSON");
+    command.callback([json] {
         const Json info = describe();
         if (*json)
             print_document(info);

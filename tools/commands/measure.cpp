@@ -49,28 +49,31 @@ void print(const Json& result) {
 
 }  // namespace
 
-void add_track_options(CLI::App& command, TrackOptions& options) {
+void add_track_options(Command& command, TrackOptions& options) {
     const auto add = [&](const char* name, vfit_track_source& source) {
-        command.add_option_function<std::string>(
-                   name, [&source](const std::string& value) { source = value == "tracked" ? VFIT_TRACK_BUILT_IN : VFIT_TRACK_GIVEN; },
+        const auto set = [&source](const std::string& value) {
+            source = value == "tracked" ? VFIT_TRACK_BUILT_IN : VFIT_TRACK_GIVEN;
+        };
+        command.add_option(
+                   name, set,
                    "recorded: the source's own; tracked: the tracker's (default: the source's where it has them)")
-            ->check(CLI::IsMember({"recorded", "tracked"}));
+            .one_of({"recorded", "tracked"});
     };
     add("--joints", options.joints);
     add("--user-map", options.user_map);
 }
 
-void add_measure(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("measure", "Measure the person of a recording or sensor");
+void add_measure(Command& app) {
+    Command command = app.add_subcommand("measure", "Measure the person of a recording or sensor");
     auto o = std::make_shared<Options>();
-    command->add_option("source", o->source, "Recording folder or sensor URI")->required();
-    command->add_option("--method", o->method, "How to measure")->check(CLI::IsMember({"fit", "paper", "paper-as-printed"}));
-    command->add_option("--garment", o->garment, "Garment kind that the scale is for");
-    command->add_option("--frames", o->frames, "Frames to average (default 30)")->check(CLI::Range(1, 3000));
-    command->add_option("--sex", o->sex, "f or m, where known")->check(CLI::IsMember({"f", "m", "unknown"}));
-    command->add_flag("--json", o->json, "Print JSON");
-    add_track_options(*command, o->track);
-    command->callback([o] {
+    command.add_option("source", o->source, "Recording folder or sensor URI").required();
+    command.add_option("--method", o->method, "How to measure").one_of({"fit", "paper", "paper-as-printed"});
+    command.add_option("--garment", o->garment, "Garment kind that the scale is for");
+    command.add_option("--frames", o->frames, "Frames to average (default 30)").within(1, 3000);
+    command.add_option("--sex", o->sex, "f or m, where known").one_of({"f", "m", "unknown"});
+    command.add_flag("--json", o->json, "Print JSON");
+    add_track_options(command, o->track);
+    command.callback([o] {
         const Json result = measure(*o);
         if (o->json)
             print_document(result);

@@ -83,14 +83,14 @@ void motion(const Options& options) {
 
 }  // namespace
 
-void add_motion(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("motion", "Print the clean pose of each frame");
+void add_motion(Command& app) {
+    Command command = app.add_subcommand("motion", "Print the clean pose of each frame");
     auto o = std::make_shared<Options>();
-    command->add_option("source", o->source, "Recording folder or sensor URI")->required();
-    command->add_flag("--raw", o->raw, "Without filter, limits, smoothing and foot planting");
-    command->add_flag("--json", o->json, "Print JSON lines");
-    add_track_options(*command, o->track);
-    command->callback([o] { motion(*o); });
+    command.add_option("source", o->source, "Recording folder or sensor URI").required();
+    command.add_flag("--raw", o->raw, "Without filter, limits, smoothing and foot planting");
+    command.add_flag("--json", o->json, "Print JSON lines");
+    add_track_options(command, o->track);
+    command.callback([o] { motion(*o); });
 }
 
 }  // namespace vfit::tools

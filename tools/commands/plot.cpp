@@ -76,18 +76,15 @@ void plot(const Options& options) {
 
 }  // namespace
 
-void add_plot(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("plot", "Draw the paper's curves of a recording");
+void add_plot(Command& app) {
+    Command command = app.add_subcommand("plot", "Draw the paper's curves of a recording");
     auto o = std::make_shared<Options>();
-    command->add_option("source", o->source, "Recording folder or sensor URI")->required();
-    command->add_option("--what", o->what, "depth (Fig. 9) or feet (Fig. 11)")
-        ->required()
-        ->check(CLI::IsMember({"depth", "feet"}));
-    command->add_option("--out", o->out, "PNG file to write")->required();
-    command->add_option("--frames", o->frames, "Frames to scan (default 30), or to follow the feet for (default 300)")
-        ->check(CLI::Range(1, 3000));
-    command->add_flag("--json", o->json, "Print JSON");
-    command->callback([o] { plot(*o); });
+    command.add_option("source", o->source, "Recording folder or sensor URI").required();
+    command.add_option("--what", o->what, "depth (Fig. 9) or feet (Fig. 11)").required().one_of({"depth", "feet"});
+    command.add_option("--out", o->out, "PNG file to write").required();
+    command.add_option("--frames", o->frames, "Frames to scan (default 30), or to follow the feet for (default 300)").within(1, 3000);
+    command.add_flag("--json", o->json, "Print JSON");
+    command.callback([o] { plot(*o); });
 }
 
 }  // namespace vfit::tools

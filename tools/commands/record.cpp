@@ -37,15 +37,14 @@ void record(const Options& options) {
 
 }  // namespace
 
-void add_record(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("record", "Record a sensor, or copy a recording");
+void add_record(Command& app) {
+    Command command = app.add_subcommand("record", "Record a sensor, or copy a recording");
     auto o = std::make_shared<Options>();
-    command->add_option("source", o->source, "Sensor URI or recording folder")->required();
-    command->add_option("out", o->out, "Folder to write; must be new or empty")->required();
-    command->add_option("--frames", o->frames, "Stop after that many frames (default: at the end)")
-        ->check(CLI::PositiveNumber);
-    command->add_flag("--json", o->json, "Print JSON");
-    command->callback([o] { record(*o); });
+    command.add_option("source", o->source, "Sensor URI or recording folder").required();
+    command.add_option("out", o->out, "Folder to write; must be new or empty").required();
+    command.add_option("--frames", o->frames, "Stop after that many frames (default: at the end)").positive();
+    command.add_flag("--json", o->json, "Print JSON");
+    command.callback([o] { record(*o); });
 }
 
 }  // namespace vfit::tools

@@ -31,14 +31,14 @@ Json size(const Options& options) {
 
 }  // namespace
 
-void add_size(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("size", "Name the clothing size from measures");
+void add_size(Command& app) {
+    Command command = app.add_subcommand("size", "Name the clothing size from measures");
     auto o = std::make_shared<Options>();
-    command->add_option("measures", o->measures, "JSON file as vfit measure prints it")->required();
-    command->add_option("--chart", o->chart, "Chart name, or file")->required();
-    command->add_option("--garment", o->garment, "Garment kind of the chart")->required();
-    command->add_flag("--json", o->json, "Print JSON");
-    command->callback([o] {
+    command.add_option("measures", o->measures, "JSON file as vfit measure prints it").required();
+    command.add_option("--chart", o->chart, "Chart name, or file").required();
+    command.add_option("--garment", o->garment, "Garment kind of the chart").required();
+    command.add_flag("--json", o->json, "Print JSON");
+    command.callback([o] {
         const Json result = size(*o);
         if (o->json) {
             print_document(result);

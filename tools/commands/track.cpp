@@ -59,14 +59,14 @@ void track(const Options& options) {
 
 }  // namespace
 
-void add_track(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("track", "Print the bodies of each frame");
+void add_track(Command& app) {
+    Command command = app.add_subcommand("track", "Print the bodies of each frame");
     auto o = std::make_shared<Options>();
-    command->add_option("source", o->source, "Recording folder or sensor URI")->required();
-    command->add_option("--user-map-out", o->map_folder, "Write each frame's user map there as PNG");
-    command->add_flag("--json", o->json, "Print JSON lines");
-    add_track_options(*command, o->track);
-    command->callback([o] { track(*o); });
+    command.add_option("source", o->source, "Recording folder or sensor URI").required();
+    command.add_option("--user-map-out", o->map_folder, "Write each frame's user map there as PNG");
+    command.add_flag("--json", o->json, "Print JSON lines");
+    add_track_options(command, o->track);
+    command.callback([o] { track(*o); });
 }
 
 }  // namespace vfit::tools

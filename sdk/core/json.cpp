@@ -1,0 +1,47 @@
+#include "core/json.h"
+
+#include "core/error.h"
+
+namespace vfit {
+
+namespace {
+
+constexpr int kDeepest = 32;  // levels; the deepest file, a size chart, has 7
+
+bool nests_too_deep(std::string_view text) {
+    int depth = 0;
+    bool quoted = false;
+    for (size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (quoted) {
+            if (c == '\\') ++i;
+            quoted = c != '"';
+        } else if (c == '"') {
+            quoted = true;
+        } else if (c == '{' || c == '[') {
+            if (++depth > kDeepest) return true;
+        } else if (c == '}' || c == ']') {
+            --depth;
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
+Json parse_json(std::string_view text, const char* what) {
+    if (nests_too_deep(text)) fail(VFIT_ERROR_DATA, what, ": nested deeper than ", kDeepest, " levels");
+    try {
+        return Json::parse(text);
+    } catch (const Json::exception& e) {
+        fail(VFIT_ERROR_DATA, what, ": not JSON: ", e.what());
+    }
+}
+
+Json parse_json(std::span<const std::byte> text, const char* what) {
+    return parse_json(std::string_view(reinterpret_cast<const char*>(text.data()), text.size()), what);
+}
+
+std::string json_text(const Json& value, int indent) { return value.dump(indent); }
+
+}  // namespace vfit
