@@ -189,6 +189,7 @@ void PeopleMap::learn_background(const DepthImage& image) {
 }
 
 void PeopleMap::reject(uint32_t id) {
+    if (id == 0) return;  // every free slot's
     for (uint32_t slot = 0; slot < Identity::kMost; ++slot) {
         if (identity_.track(slot).id != id) continue;
         for (size_t i = 0; i < last_slots_.size(); ++i) {

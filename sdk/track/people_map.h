@@ -50,7 +50,7 @@ public:
 
     /// Nobody is in view.
     void learn_background(const DepthImage& image);
-    /// That region of the last run was no person: it becomes background.
+    /// That region of the last run was no person: it becomes background. Numbers that nobody has are ignored.
     void reject(uint32_t id);
     /// Forgets people, floor and background.
     void reset();

@@ -281,5 +281,21 @@ TEST(PeopleMap, WhatIsRejectedDoesNotComeBack) {
     for (int i = 0; i < 5; ++i) EXPECT_EQ(people.see(scene).size(), 0u);
 }
 
+TEST(PeopleMap, RejectingNobodyChangesNothing) {
+    RoomScene scene;
+    scene.people.push_back(standing_person(0.0f, -2.8f));
+    People told, untold;
+    for (const uint32_t nobody : {0u, 7u, 255u, 1000u}) {
+        told.map.reject(nobody);
+        const auto regions = told.see(scene);
+        ASSERT_EQ(regions.size(), 1u);
+        EXPECT_EQ(regions[0].id, untold.see(scene)[0].id);
+        EXPECT_EQ(told.users, untold.users);
+    }
+    told.map.reset();
+    told.map.reject(0);
+    EXPECT_EQ(told.see(scene).size(), 1u);
+}
+
 }  // namespace
 }  // namespace vfit
