@@ -197,7 +197,7 @@ TEST_F(RecordingTest, ATableWithoutItsLastLineEndIsReadWhole) {
 TEST_F(RecordingTest, TwoContextsPlayAtTheSameTime) {
     record(30);
     PluginHost other(log_, [] { return uint64_t(0); });
-    other.load(std::string(VFIT_PLUGIN_DIR) + "/vfit_recording" + library_suffix());
+    other.load(std::string(VFIT_PLUGIN_DIR "/vfit_recording") + library_suffix());
     std::atomic<int> counted{0};
     const auto run = [&](PluginHost& host) {
         const Ref<Sensor> sensor = host.open(folder_.string());

@@ -68,7 +68,7 @@ protected:
         const auto* test = testing::UnitTest::GetInstance()->current_test_info();
         folder_ = fs::temp_directory_path() / ("vfit_recording_" + std::string(test->name()));
         fs::remove_all(folder_);
-        host_.load(std::string(VFIT_PLUGIN_DIR) + "/vfit_recording" + library_suffix());
+        host_.load(std::string(VFIT_PLUGIN_DIR "/vfit_recording") + library_suffix());
     }
     void TearDown() override {
         host_.shutdown();

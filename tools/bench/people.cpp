@@ -67,7 +67,9 @@ Row measure(const std::string& uri, bool male, vfit_scan_method method) {
     const Json truth = truth_of(uri);
     const Context context = open_context();
     Source source(context.get(), uri);
-    const ScanRun run = run_scan(context.get(), source, {0, VFIT_SEX_UNKNOWN, method});
+    ScanOptions scan;
+    scan.method = method;
+    const ScanRun run = run_scan(context.get(), source, scan);
     const auto measured = measurements_of(run.scan.get());
     Row row;
     row.sex = male ? "m" : "f";
