@@ -1,13 +1,13 @@
 // A pinhole depth camera in a plain room: floor, back wall, side wall and one triangle mesh. The room is
-// static and solved once; the mesh is ray cast where its triangles fall on the image.
+// static and solved once; the mesh is drawn into it.
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "clean_image.h"
+#include "mesh_raster.h"
 #include "sensor_model.h"
 #include "types.h"
 
@@ -27,9 +27,6 @@ struct Room {
 class DepthCamera {
 public:
     DepthCamera(const SensorModel& model, const CameraPlace& place, const Room& room);
-    ~DepthCamera();
-    DepthCamera(const DepthCamera&) = delete;
-    DepthCamera& operator=(const DepthCamera&) = delete;
 
     /// Rotation part of world-from-camera; its origin is (0, height, 0).
     const Mat3& world_from_camera() const { return rotation_; }
@@ -43,23 +40,14 @@ public:
     void render(const float* positions, CleanImage& out);
 
 private:
-    struct Embree;
-
     void solve_room(const Room& room);
-    void move_vertices(const float* positions);
-    void mark_tiles();
-    void cast_tile(uint32_t tile_x, uint32_t tile_y, CleanImage& out);
 
     SensorModel model_;
     CameraPlace place_;
     Mat3 rotation_;
     CleanImage room_;
-    std::vector<uint32_t> indices_;
-    std::vector<Vec3> pixels_;    // of the vertices: u, v, z
-    std::vector<uint8_t> tiles_;  // 1 where a triangle's box touches
-    uint32_t tiles_x_, tiles_y_;
-    uint32_t vertex_count_ = 0;
-    std::unique_ptr<Embree> embree_;
+    MeshRaster mesh_;
+    std::vector<Vec3> points_;  // vertices in camera space
 };
 
 }  // namespace vfit::virtual_person

@@ -76,6 +76,4 @@ float dropout_probability(DepthPrinciple principle, float theta) {
     return std::clamp((theta - kDropoutStart) / (kDropoutEnd - kDropoutStart), 0.0f, 1.0f);
 }
 
-float quantum_m(float z) { return kDisparityQuantumPerM * z * z; }
-
 }  // namespace vfit::virtual_person

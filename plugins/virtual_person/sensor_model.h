@@ -32,9 +32,8 @@ float lateral_sigma_px(DepthPrinciple principle, float theta_rad);
 /// Probability that a surface at that angle returns no depth.
 float dropout_probability(DepthPrinciple principle, float theta_rad);
 /// Distance between neighbouring depth values of a structured-light sensor at z.
-float quantum_m(float z_m);
-
 /// dZ = kDisparityQuantum * Z^2: 2.85e-5 / cm (Khoshelham and Elberink 2012), 1/8 px of disparity.
 inline constexpr float kDisparityQuantumPerM = 2.85e-3f;
+inline float quantum_m(float z_m) { return kDisparityQuantumPerM * z_m * z_m; }
 
 }  // namespace vfit::virtual_person

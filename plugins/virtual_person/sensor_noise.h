@@ -2,6 +2,7 @@
 // pixels, range.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -26,28 +27,54 @@ public:
     void apply(const CleanImage& clean, uint64_t frame, uint16_t* depth_mm, uint32_t row_stride);
 
 private:
-    struct AngleTerms {  // of the model, tabulated over the cosine
-        float axial;     // added to sigma_z, to be multiplied by a function of z alone
-        float lateral_px, tangent;
-        uint32_t dropout;  // of 65536
+    static constexpr uint32_t kAngleBins = 1024;
+    // Two looked-up depths that differ by more than the slant of the surface explains belong to two surfaces; the
+    // factor leaves room for curvature.
+    static constexpr float kSlantSlack = 1.5f;
+
+    struct Terms {  // of the model, tabulated over the cosine
+        std::vector<float> axial;  // added to sigma_z, to be multiplied by a function of z alone
+        std::vector<float> lateral_px, tangent;
+        std::vector<uint32_t> dropout;  // of 65536
+    };
+    struct Row {  // in the making, one item a pixel
+        std::vector<float> along;         // normal numbers: of the depth
+        std::vector<float> across, down;  // of the place on the image, then pixels
+        std::vector<uint32_t> luck;       // of 65536
+        std::vector<uint32_t> bin;        // of Terms
+        std::vector<float> sigma_px, place;  // lateral; as the projector sees it
+        std::vector<int> seen;               // index of the pixel looked at
+        std::vector<uint32_t> lit, alive;    // 1: by the projector; reports depth
+        std::vector<float> depth_m, sigma_m, axial;
+        std::vector<int> step;  // of disparity
     };
 
-    void structured_light_row(const CleanImage& clean, uint64_t key, uint32_t y, uint16_t* row) const;
+    static uint32_t bin_of(float cosine) {
+        const float bin = std::clamp(cosine * kAngleBins, 0.0f, kAngleBins - 1.0f);
+        return static_cast<uint32_t>(static_cast<int>(bin));
+    }
+
+    // Structured light.
+    void prepare_light();
+    void find_shadow(const float* depth, uint32_t width);
+    void draw_numbers(uint64_t key, uint64_t first, uint32_t width);
+    void jitter(const float* cosine, uint32_t width, uint32_t height, uint32_t y);
+    void look_past_edges(const CleanImage& clean, uint32_t y);
+    void find_sigma(uint32_t width);
+    void structured_light_row(const CleanImage& clean, uint64_t key, uint32_t y, uint16_t* row);
+
     void time_of_flight_row(const CleanImage& clean, uint64_t key, uint32_t y, uint16_t* row) const;
     void ideal_row(const CleanImage& clean, uint32_t y, uint16_t* row) const;
-    void mark_shadow(const CleanImage& clean, uint32_t y);
     float mixed_depth(const CleanImage& clean, uint32_t x, uint32_t y) const;
-    const AngleTerms& terms(float cosine) const;
-    float light_sigma_m(float z_m, float axial) const;
     uint16_t report(float z_m) const;
 
     SensorModel model_;
     NoiseSettings settings_;
-    std::vector<AngleTerms> angle_;
+    Terms terms_;
     std::vector<float>
         frontal_sigma_m_;  // structured light, head-on, before rounding: one a millimetre of depth
     std::vector<uint16_t> step_depth_mm_;  // what the n-th disparity step reports, 0 out of range
-    std::vector<uint8_t> shadow_;          // of the current row
+    Row row_;
 };
 
 }  // namespace vfit::virtual_person
