@@ -49,6 +49,13 @@ TEST(Garment, IsReadWhole) {
     EXPECT_EQ(g.sizes[1].nominal.size(), 2u);
 }
 
+TEST(Garment, RefusesEndlessNestingAtOnce) {
+    const char* const message = "-11 garment: nested deeper than 32 levels";
+    EXPECT_EQ(error_of([] { parse(std::string(1u << 22, '[')); }), message);
+    EXPECT_EQ(refusal("\"scarf\"", "\"scarf\", \"maker\": " + std::string(32, '[') + std::string(32, ']')), message);
+    parse(with("\"scarf\"", "\"" + std::string(99, '[') + "\", \"maker\": [[{\"name\": []}]]"));
+}
+
 TEST(Garment, RefusesBadMeshesByName) {
     EXPECT_EQ(refusal("[0,2,1, 1,2,3]", "[0,2,2, 1,2,3]"), "-11 garment: triangle 0 names a vertex twice");
     EXPECT_EQ(refusal("[0,2,1, 1,2,3]", "[0,2,1, 1,2,4]"), "-11 garment: triangle 1 names vertex 4 of 4");
