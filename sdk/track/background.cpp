@@ -17,6 +17,7 @@ constexpr float kLongest_s = 60.0f;
 void BackgroundModel::reset() {
     std::fill(settled_s_.begin(), settled_s_.end(), 0.0f);
     std::fill(steady_s_.begin(), steady_s_.end(), 0.0f);
+    std::fill(known_.begin(), known_.end(), kNothing);
 }
 
 void BackgroundModel::fit(const DepthGrid& grid) {
@@ -24,12 +25,16 @@ void BackgroundModel::fit(const DepthGrid& grid) {
     width_ = grid.width();
     height_ = grid.height();
     for (auto* v : {&depth_, &settled_s_, &candidate_, &steady_s_}) v->assign(grid.cells(), 0.0f);
+    known_.assign(grid.cells(), kNothing);
 }
 
-void BackgroundModel::add(const DepthGrid& grid, size_t cell) {
-    depth_[cell] = grid.depth()[cell];
-    settled_s_[cell] = kSettled_s;
+void BackgroundModel::set(size_t cell, float depth, float settled_s) {
+    depth_[cell] = depth;
+    settled_s_[cell] = settled_s;
+    known_[cell] = settled_s >= kSettled_s ? depth : kNothing;
 }
+
+void BackgroundModel::add(const DepthGrid& grid, size_t cell) { set(cell, grid.depth()[cell], kSettled_s); }
 
 void BackgroundModel::learn_empty(const DepthGrid& grid) {
     fit(grid);
@@ -37,8 +42,7 @@ void BackgroundModel::learn_empty(const DepthGrid& grid) {
         const float z = grid.depth()[i];
         if (z <= 0.0f) continue;
         const bool same = settled_s_[i] > 0.0f && std::abs(z - depth_[i]) < same_surface_m(z);
-        depth_[i] = same ? depth_[i] + kAverage * (z - depth_[i]) : z;
-        settled_s_[i] = kLongest_s;
+        set(i, same ? depth_[i] + kAverage * (z - depth_[i]) : z, kLongest_s);
     }
 }
 
@@ -59,17 +63,13 @@ void BackgroundModel::learn(const DepthGrid& grid, const uint8_t* people, float 
         if (z <= 0.0f || people[i] != 0) continue;
         const float same = same_surface_m(z);
         if (std::abs(z - depth_[i]) < same) {
-            depth_[i] += kAverage * (z - depth_[i]);
-            settled_s_[i] = std::min(settled_s_[i] + dt_s, kLongest_s);
+            set(i, depth_[i] + kAverage * (z - depth_[i]), std::min(settled_s_[i] + dt_s, kLongest_s));
             steady_s_[i] = 0.0f;
         } else if (std::abs(z - candidate_[i]) < same) {
             candidate_[i] += kAverage * (z - candidate_[i]);
             steady_s_[i] += dt_s;
             // The first thing ever seen there need not wait: nobody has been known to stand before it.
-            if (steady_s_[i] > (settled_s_[i] > 0.0f ? kReplaced_s : kSettled_s)) {
-                depth_[i] = candidate_[i];
-                settled_s_[i] = kSettled_s;
-            }
+            if (steady_s_[i] > (settled_s_[i] > 0.0f ? kReplaced_s : kSettled_s)) set(i, candidate_[i], kSettled_s);
         } else {
             candidate_[i] = z;
             steady_s_[i] = 0.0f;

@@ -22,17 +22,16 @@ public:
     /// Cells of something that stands there and is no person.
     void add(const DepthGrid& grid, size_t cell);
 
-    /// A reading there is no news: at the known background's depth, or beyond it.
-    bool covers(size_t cell, float z) const {
-        return int(settled_s_[cell] >= kSettled_s) & int(z > depth_[cell] - same_surface_m(z));
-    }
-    /// Of what is known there, 0: nothing.
-    float depth(size_t cell) const { return depth_[cell]; }
+    /// Depth of each cell's background; kNothing where none is known yet. A reading there, or beyond, is no news.
+    const std::vector<float>& known() const { return known_; }
+    static constexpr float kNothing = 1e9f;
 
 private:
     static constexpr float kSettled_s = 1.0f;
     static constexpr uint32_t kTurns = 4;
-    std::vector<float> depth_, settled_s_;     // known background, and for how long it has been seen
+    void set(size_t cell, float depth, float settled_s);
+    std::vector<float> depth_, settled_s_;     // background, and for how long it has been seen
+    std::vector<float> known_;                 // the same where that was long enough
     std::vector<float> candidate_, steady_s_;  // what may become it
     uint32_t width_ = 0, height_ = 0, turn_ = 0;
     float waiting_s_ = 0.0f, passed_s_ = 0.0f;

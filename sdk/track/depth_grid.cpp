@@ -41,28 +41,23 @@ void reduce_row(const uint16_t* const* rows, uint32_t width, uint16_t* nearest, 
     }
 }
 
-/// The same for 2 x 2 pixels, the common case, two pixels to a 32-bit word.
+/// The same for 2 x 2 pixels, the common case, two pixels to a 32-bit word. Without comparisons and with an index
+/// that cannot wrap, so that compilers use vectors.
 void reduce_pairs(const uint16_t* above, const uint16_t* below, uint32_t width, float unit, float* out) {
-    for (uint32_t x = 0; x < width; ++x) {
+    const auto less = [](int32_t a, int32_t b) { return a < b ? a : b; };
+    for (size_t x = 0; x < width; ++x) {
         uint32_t a, b;
         std::memcpy(&a, above + 2 * x, sizeof a);
         std::memcpy(&b, below + 2 * x, sizeof b);
         const int32_t p0 = int32_t((a - 1) & 0xffff), p1 = int32_t(((a >> 16) - 1) & 0xffff);
         const int32_t p2 = int32_t((b - 1) & 0xffff), p3 = int32_t(((b >> 16) - 1) & 0xffff);
-        const int32_t least = std::min(std::min(p0, p1), std::min(p2, p3));
-        const int32_t band = (least >> kDepthShift) + kFewUnits;
-        int32_t sum = 0, n = 0;
-        const auto add = [&](int32_t p) {
-            const int32_t taken = p - least <= band ? -1 : 0;
-            sum += (p - least) & taken;
-            n -= taken;
-        };
-        add(p0);
-        add(p1);
-        add(p2);
-        add(p3);
-        const float z = (float(least + 1) + float(sum) / float(n)) * unit;
-        out[x] = least == 65535 ? 0.0f : z;
+        const int32_t least = less(less(p0, p1), less(p2, p3));
+        const int32_t most = least + (least >> kDepthShift) + kFewUnits;
+        const auto taken = [&](int32_t p) { return ~((most - p) >> 31); };  // all bits or none
+        const int32_t t0 = taken(p0), t1 = taken(p1), t2 = taken(p2), t3 = taken(p3);
+        const int32_t sum = (p0 & t0) + (p1 & t1) + (p2 & t2) + (p3 & t3), count = -(t0 + t1 + t2 + t3);
+        const float none = float((65534 - least) >> 31);  // -1: no reading in the cell
+        out[x] = (float(sum) / float(count) + 1.0f) * (unit + unit * none);
     }
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "frame/depth_image.h"
@@ -36,6 +37,19 @@ public:
     /// x / z of a column's cells, y / z of a row's.
     const std::vector<float>& ray_x() const { return ray_x_; }
     const std::vector<float>& ray_y() const { return ray_y_; }
+
+    /// visit(cell, x, y) for each of these cells; quick where they come row by row.
+    template <typename Visit>
+    void for_each(std::span<const uint32_t> cells, const Visit& visit) const {
+        uint32_t row = 0, y = 0;
+        for (const uint32_t cell : cells) {
+            if (cell - row >= width_) {  // wraps where the cell lies before the row
+                y = cell / width_;
+                row = y * width_;
+            }
+            visit(cell, cell - row, y);
+        }
+    }
 
     Vec3 point(uint32_t x, uint32_t y) const {
         const float z = depth_[size_t(y) * width_ + x];

@@ -100,9 +100,9 @@ void PeopleMap::grow_feet() {
                std::abs(height_of(x, y)) < 2.0f * floor_cut_m(d, z);
     };
     size_t count = 0;
-    for (int y = 0, i = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x, ++i)
-            if (slots_[size_t(i)] && height_of(x, y) < kFeetBelow_m) frontier_[count++] = uint32_t(i);
+    for_each_labelled(slots_, [&](size_t i) {
+        if (height_of(int(i) % width, int(i) / width) < kFeetBelow_m) frontier_[count++] = uint32_t(i);
+    });
     size_t first = 0;
     for (int step = 0; step < kSoleSteps; ++step) {
         const size_t last = count;

@@ -63,25 +63,27 @@ void PeopleMap::find_view() {
 }
 
 void PeopleMap::cut_floor_and_background() {
+    background_.fit(grid_);
     const bool floor = floor_seen_ || floor_.found();
     const Vec3 n = camera_.floor_normal;
     const float d = camera_.floor_distance_m;
-    background_.fit(grid_);
-    const float farthest = options_.farthest_m;
+    // Above the floor cut, which is linear in z: z slope + d > floor_cut_m(d, z). Without a floor all is above it.
+    const float cut = floor_cut_m(d, 0.0f), rise = floor_cut_m(d, 1.0f) - cut;
+    const float least = floor ? cut - d : -1e9f, farthest = options_.farthest_m;
+    const uint32_t width = grid_.width();
     for (uint32_t y = 0; y < grid_.height(); ++y) {
-        const float row = n.y * grid_.ray_y()[y] + n.z;
-        const size_t first = size_t(y) * grid_.width();
-        const float* const depth = grid_.depth().data() + first;
+        const float row = n.y * grid_.ray_y()[y] + n.z - rise, across = n.x;
+        const float* const depth = grid_.depth().data() + size_t(y) * width;
+        const float* const known = background_.known().data() + size_t(y) * width;
         const float* const ray = grid_.ray_x().data();
-        uint8_t* const wanted = wanted_.data() + first;
-        for (uint32_t x = 0; x < grid_.width(); ++x) {  // without branches, for vectors
-            const float z = depth[x], slope = n.x * ray[x] + row, b = background_.depth(first + x);
-            const int known = background_.covers(first + x, z);
-            const int above = z * slope + d > floor_cut_m(d, z);
+        uint8_t* const wanted = wanted_.data() + size_t(y) * width;
+        for (uint32_t x = 0; x < width; ++x) {  // without branches, for vectors
+            const float z = depth[x], b = known[x], slope = across * ray[x] + row;
+            const float news = b - same_surface_m(z) - z;  // > 0: before the background
             // The floor itself is known better than as background: a learned one must not take the toes.
-            const int on_floor = b * slope + d < floor_cut_m(d, b);
-            wanted[x] = uint8_t(int(z > 0.0f) & int(z < farthest) & (above | int(!floor)) &
-                                ((known ^ 1) | (int(floor) & on_floor)));
+            const float on_floor = floor ? least - b * slope : -1.0f;
+            wanted[x] = uint8_t(int(z > 0.0f) & int(z < farthest) & int(z * slope > least) &
+                                (int(news >= 0.0f) | int(on_floor > 0.0f)));
         }
     }
 }
@@ -157,7 +159,8 @@ void PeopleMap::report(const DepthImage& image, int64_t time_ns, uint8_t* users)
         r.out_of_view = shape.out_of_view;
         regions_.push_back(r);
     }
-    for (size_t i = 0; i < slots_.size(); ++i) labels_[i] = ids[slots_[i]];
+    std::fill(labels_.begin(), labels_.end(), uint8_t(0));
+    for_each_labelled(slots_, [&](size_t i) { labels_[i] = ids[slots_[i]]; });
     write_user_map(image, grid_, labels_.data(), users);
 }
 

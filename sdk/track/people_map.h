@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,19 @@
 #include "track/splitter.h"
 
 namespace vfit {
+
+/// visit(i) for every i with labels[i] != 0, in order; most cells are nobody's, and are left out eight at a time.
+template <typename Visit>
+void for_each_labelled(const std::vector<uint8_t>& labels, const Visit& visit) {
+    for (size_t i = 0; i < labels.size(); ++i) {
+        uint64_t eight = 1;
+        if (i + 8 <= labels.size()) std::memcpy(&eight, labels.data() + i, sizeof eight);
+        if (eight == 0)
+            i += 7;
+        else if (labels[i] != 0)
+            visit(i);
+    }
+}
 
 struct PersonRegion {
     uint32_t id = 0;           // 1..254
@@ -71,6 +85,7 @@ private:
     void sort_components();
     void sort_component(std::span<const uint32_t> cells);
     void split_by_tracks(std::span<const uint32_t> cells, std::span<const uint32_t> slots, float farthest_m);
+    bool disputed(uint32_t cell, uint32_t column, uint32_t row) const;
     bool split_by_heads(std::span<const uint32_t> cells, uint8_t fewest, uint32_t slot = kNew);
     void classify_new(std::span<const uint32_t> cells, const Shape& shape);
     void add_piece(std::span<const uint32_t> cells, const Shape& shape, uint32_t slot);

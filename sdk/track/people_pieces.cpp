@@ -16,6 +16,7 @@ constexpr uint32_t kFewestVotes = 10;  // cells in the same place
 constexpr float kVoteShare = 0.1f;     // of the person's cells
 // Of the seen area from frame to frame; more is somebody else's.
 constexpr float kGrowth = 1.4f, kGrowth_m2 = 0.15f;
+constexpr float kBorder_m = 0.08f;     // a forearm
 constexpr float kGrowthPath_m = 0.3f;  // a hand's way in a frame: 9 m/s at 30 Hz
 // More than two people: looked at now and then only; more than a crowd: never.
 constexpr float kWall_m2 = 2.5f, kOnlyWall_m2 = 6.0f;
@@ -67,17 +68,41 @@ void PeopleMap::classify_new(std::span<const uint32_t> cells, const Shape& shape
         add_piece(cells, shape, shape.area_m2 < kFragment_m2 ? kFragment : kThing);
 }
 
+// Where two people are one surface, the border of the last frame is no more than a guess: it is drawn afresh.
+bool PeopleMap::disputed(uint32_t cell, uint32_t column, uint32_t row) const {
+    const int width = int(grid_.width()), height = int(grid_.height());
+    const int x = int(column), y = int(row);
+    const float z = grid_.depth()[cell], same = same_surface_m(z);
+    const int reach = std::max(1, int(kBorder_m / grid_.cell_m(z)));
+    const auto other = [&](int nx, int ny) {
+        if (nx < 0 || ny < 0 || nx >= width || ny >= height) return false;
+        const size_t i = size_t(ny * width + nx);
+        return last_slots_[i] != 0 && last_slots_[i] != last_slots_[cell] && std::abs(grid_.depth()[i] - z) < same;
+    };
+    for (const int r : {reach, (reach + 1) / 2})
+        if (other(x - r, y) || other(x + r, y) || other(x, y - r) || other(x, y + r)) return true;
+    return false;
+}
+
 // Every cell goes to the person whose last place is nearest along the surface.
 void PeopleMap::split_by_tracks(std::span<const uint32_t> cells, std::span<const uint32_t> slots, float farthest_m) {
     splitter_.begin(grid_, cells);
     const ShapeMeter meter(grid_, camera_, view_);
-    for (const uint32_t cell : cells) {
-        const uint8_t last = last_slots_[cell];
-        if (last == 0 || std::abs(grid_.depth()[cell] - last_depth_[cell]) > kSamePlace_m) continue;
-        for (size_t k = 0; k < slots.size(); ++k)
-            if (slots[k] + 1 == last && identity_.within_reach(slots[k], meter.world(cell)))
-                splitter_.seed(cell, uint8_t(k + 1));
-    }
+    std::array<bool, Splitter::kMostSeeds> sure{};
+    const auto seed = [&](bool again) {
+        grid_.for_each(cells, [&](uint32_t cell, uint32_t x, uint32_t y) {
+            const uint8_t last = last_slots_[cell];
+            if (last == 0 || std::abs(grid_.depth()[cell] - last_depth_[cell]) > kSamePlace_m) return;
+            const auto k = size_t(std::find(slots.begin(), slots.end(), last - 1u) - slots.begin());
+            if (k == slots.size() || (again && sure[k]) || !identity_.within_reach(slots[k], meter.world(x, y))) return;
+            if (!again && slots.size() > 1 && disputed(cell, x, y)) return;
+            if (!again) sure[k] = true;
+            splitter_.seed(cell, uint8_t(k + 1));
+        });
+    };
+    seed(false);
+    // Of somebody who shows no more than a strip beside others, all is disputed.
+    if (std::find(sure.begin(), sure.begin() + std::ptrdiff_t(slots.size()), false) != sure.end()) seed(true);
     splitter_.grow(farthest_m);
     for (size_t k = 0; k <= slots.size(); ++k) {
         const auto piece = splitter_.piece(uint8_t(k));

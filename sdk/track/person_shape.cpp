@@ -74,34 +74,27 @@ void ShapeMeter::start() {
 }
 
 Vec3 ShapeMeter::world(uint32_t cell) const {
-    const uint32_t x = cell % grid_.width(), y = cell / grid_.width();
-    return rotation_ * grid_.point(x, y) + Vec3(0, floor_m_, 0);
+    return world(cell % grid_.width(), cell / grid_.width());
 }
 
-float ShapeMeter::height(uint32_t cell) const { return world(cell).y; }
+Vec3 ShapeMeter::world(uint32_t x, uint32_t y) const { return rotation_ * grid_.point(x, y) + Vec3(0, floor_m_, 0); }
 
 void ShapeMeter::add(std::span<const uint32_t> cells) {
     if (cells.empty()) return;
     // Bins and products are taken around a point of the set: floats keep millimetres there.
     if (shape_.cells == 0) origin_ = world(cells[cells.size() / 2]);
     const Vec3 offset = Vec3(0, floor_m_, 0) - origin_;
-    uint32_t row = 0, y = 0;  // cells come row by row: no division in the loop
     std::array<float, 6> products{};
-    for (const uint32_t cell : cells) {
-        if (cell < row || cell - row >= grid_.width()) {
-            y = cell / grid_.width();
-            row = y * grid_.width();
-        }
-        const uint32_t x = cell - row;
+    grid_.for_each(cells, [&](uint32_t cell, uint32_t x, uint32_t y) {
         const float z = grid_.depth()[cell], area = grid_.area_m2(z);
-        const Vec3 r = rotation_ * Vec3(grid_.ray_x()[x] * z, grid_.ray_y()[y] * z, z) + offset;
-        const auto bin = [](float v) { return size_t(std::clamp(int(v / kBin_m), 0, kBins - 1)); };
-        constexpr float kMiddle = 0.5f * kBins * kBin_m;
+        const Vec3 r = rotation_ * grid_.point(x, y) + offset;
+        const auto bin = [](float v) { return size_t(std::clamp(int(v * (1.0f / kBin_m) + 0.5f * kBins), 0, kBins - 1)); };
         // The floor of a camera that knows none may lie anywhere: heights are binned around the origin too.
-        heights_[bin(r.y + kMiddle)] += area;
-        ++height_cells_[bin(r.y + kMiddle)];
-        across_[bin(r.x + kMiddle)] += area;
-        along_[bin(r.z + kMiddle)] += area;
+        const size_t level = bin(r.y);
+        heights_[level] += area;
+        ++height_cells_[level];
+        across_[bin(r.x)] += area;
+        along_[bin(r.z)] += area;
         sum_ += area * r;
         shape_.area_m2 += area;
         shape_.depth_m += area * z;
@@ -117,7 +110,7 @@ void ShapeMeter::add(std::span<const uint32_t> cells) {
         shape_.y1 = std::max(shape_.y1, int(y) + 1);
         const float h = r.y + origin_.y;
         if (h >= kLegsFrom_m && h < kLegsTo_m) shape_.leg_width_m += area / (kLegsTo_m - kLegsFrom_m);
-    }
+    });
     for (size_t i = 0; i < products.size(); ++i) products_[i] += double(products[i]);
     shape_.cells += uint32_t(cells.size());
 }

@@ -47,7 +47,7 @@ public:
     Shape finish();
 
     Vec3 world(uint32_t cell) const;
-    float height(uint32_t cell) const;
+    Vec3 world(uint32_t x, uint32_t y) const;
     /// Image neighbour that is further down in the world: +-1 or +-width.
     int down() const { return down_; }
 

@@ -7,14 +7,18 @@ namespace vfit {
 
 namespace {
 
+// Of a metre climbed along the view, against a metre across: the flank of a body is 15 cm deep and 5 cm wide.
+constexpr float kClimbWeight = 4.0f;
+
 // Heads are looked for in the outline's upper edge, from a column of 4 cm to the next.
 constexpr float kColumn_m = 0.04f;
 constexpr int kColumns = 128;             // 5 m
 constexpr float kHeadsApart_m = 0.28f;    // two people shoulder to shoulder, the one half behind the other
 constexpr float kSameTop_m = 0.05f;       // below the peak: the crown, whose middle is the axis
 constexpr int kCrownHalf = 3;             // columns
-constexpr int kShoulderFrom = 3, kShoulderTo = 7;  // slices below the top
-constexpr float kShoulder_m = 0.09f;      // breadth to either side of the axis; a raised arm has none outside
+// Shoulders and elbows below the top, and the breadth there to either side of the axis, as shares of the height (ANSUR
+// II, with a margin): a raised arm has none outside.
+constexpr float kShoulderFrom = 0.18f, kShoulderTo = 0.41f, kShoulder = 0.052f;
 constexpr float kNeck_m = 0.10f;          // that the outline falls between two heads
 constexpr float kLowestHead_m = 0.9f;
 constexpr int kBodyHalf = 5;              // columns: 0.2 m to both sides of the axis
@@ -23,17 +27,17 @@ constexpr int kSlices = 26;
 constexpr float kLeastSlice_m = 0.07f;    // breadth: a shin
 constexpr float kLeastTrunk_m = 0.55f;    // of slices in a row below the head
 constexpr int kSeedHalf = 2;              // columns
-constexpr float kSmoothShare = 0.35f;     // of same_surface_m: two sigma and a slant, 3 cm at 2.5 m
+constexpr float kSeedDepth_m = 0.45f;     // before and behind the head: a trunk that leans, a foot set forward
+constexpr float kHeadBelow_m = 0.2f;      // from the crown to the chin
 
 }  // namespace
 
 void Splitter::fit(const DepthGrid& grid) {
     if (owner_.size() == grid.cells()) return;
     owner_.assign(grid.cells(), kOutside);
-    members_.resize(grid.cells());
-    queue_.resize(grid.cells());
-    sorted_.resize(grid.cells());
+    for (auto* v : {&members_, &sorted_, &effort_mm_, &next_, &previous_}) v->resize(grid.cells());
     path_m_.resize(grid.cells());
+    points_.resize(grid.cells());
     cells_ = {};
 }
 
@@ -46,37 +50,69 @@ void Splitter::begin(const DepthGrid& grid, std::span<const uint32_t> cells) {
     for (const uint32_t cell : cells) owner_[cell] = kFree;
 }
 
-void Splitter::spread(float farthest_m, float share) {
-    const uint32_t width = grid_->width(), height = grid_->height();
-    const float* const z = grid_->depth().data();
-    size_t head = 0, tail = 0;
-    for (const uint32_t cell : cells_)
-        if (owner_[cell] != kFree) queue_[tail++] = cell;
-    // First in, first out: all seeds advance by one cell in turn.
-    while (head < tail) {
-        const uint32_t cell = queue_[head++];
-        const uint32_t x = cell % width, y = cell / width;
-        const float same = share * same_surface_m(z[cell]), path = path_m_[cell] + grid_->cell_m(z[cell]);
-        if (path > farthest_m) continue;
-        const auto visit = [&](uint32_t next) {
-            if (owner_[next] != kFree || std::abs(z[next] - z[cell]) > same) return;
-            owner_[next] = owner_[cell];
-            path_m_[next] = path;
-            queue_[tail++] = next;
-        };
-        // As in Components, one cell without a reading is stepped over.
-        if (x > 0) z[cell - 1] > 0.0f ? visit(cell - 1) : x > 1 ? visit(cell - 2) : void();
-        if (x + 1 < width) z[cell + 1] > 0.0f ? visit(cell + 1) : x + 2 < width ? visit(cell + 2) : void();
-        if (y > 0) z[cell - width] > 0.0f ? visit(cell - width) : y > 1 ? visit(cell - 2 * width) : void();
-        if (y + 1 < height)
-            z[cell + width] > 0.0f ? visit(cell + width) : y + 2 < height ? visit(cell + 2 * width) : void();
-    }
+void Splitter::queue(uint32_t cell, uint32_t effort) {
+    uint32_t& first = buckets_[effort % kBuckets];
+    effort_mm_[cell] = effort;
+    next_[cell] = first;
+    previous_[cell] = kNone;
+    if (first != kNone) previous_[first] = cell;
+    first = cell;
+    ++waiting_;
 }
 
+void Splitter::leave_queue(uint32_t cell) {
+    const uint32_t before = previous_[cell], after = next_[cell];
+    (before != kNone ? next_[before] : buckets_[effort_mm_[cell] % kBuckets]) = after;
+    if (after != kNone) previous_[after] = before;
+    --waiting_;
+}
+
+// Offers the cell's neighbours its own seed.
+void Splitter::offer(uint32_t cell, float farthest_m) {
+    const uint32_t width = grid_->width(), height = grid_->height();
+    const float* const depth = grid_->depth().data();
+    const uint32_t x = cell % width, y = cell / width;
+    const float z = depth[cell], same = same_surface_m(z), noise = depth_sigma_m(z), side = grid_->cell_m(z);
+    const auto visit = [&](uint32_t to, float way) {
+        const float step = std::abs(depth[to] - z), path = path_m_[cell] + way;
+        if (owner_[to] == kOutside || step > same || path > farthest_m) return;
+        const float climb = kClimbWeight * std::max(0.0f, step - noise);
+        const uint32_t cost = std::min(uint32_t(1000.0f * (way + climb)) + 1, kBuckets - 1);
+        const uint32_t effort = effort_mm_[cell] + cost;
+        if (effort >= effort_mm_[to]) return;
+        if (effort_mm_[to] != kNone) leave_queue(to);
+        owner_[to] = owner_[cell];
+        path_m_[to] = path;
+        queue(to, effort);
+    };
+    // As in Components, one cell without a reading is stepped over.
+    const auto look = [&](uint32_t next, bool inside, uint32_t beyond, bool beyond_inside) {
+        if (inside && depth[next] > 0.0f)
+            visit(next, side);
+        else if (inside && beyond_inside)
+            visit(beyond, 2.0f * side);
+    };
+    look(cell - 1, x > 0, cell - 2, x > 1);
+    look(cell + 1, x + 1 < width, cell + 2, x + 2 < width);
+    look(cell - width, y > 0, cell - 2 * width, y > 1);
+    look(cell + width, y + 1 < height, cell + 2 * width, y + 2 < height);
+}
+
+// Shortest ways from all seeds at once (Dijkstra 1959), queued in buckets of equal effort (Dial 1969).
 void Splitter::grow(float farthest_m) {
-    for (const uint32_t cell : cells_) path_m_[cell] = 0.0f;
-    spread(farthest_m, kSmoothShare);
-    spread(farthest_m, 1.0f);
+    buckets_.fill(kNone);
+    waiting_ = 0;
+    for (const uint32_t cell : cells_) {
+        path_m_[cell] = 0.0f;
+        effort_mm_[cell] = owner_[cell] == kFree ? kNone : 0;
+    }
+    for (const uint32_t cell : cells_)
+        if (effort_mm_[cell] == 0) offer(cell, farthest_m);
+    for (uint32_t effort = 0; waiting_ > 0; ++effort)
+        for (uint32_t cell; (cell = buckets_[effort % kBuckets]) != kNone;) {
+            leave_queue(cell);
+            offer(cell, farthest_m);
+        }
 
     std::array<uint32_t, kMostSeeds + 2> counts{};
     for (const uint32_t cell : cells_) ++counts[owner_[cell]];
@@ -101,16 +137,16 @@ uint8_t Splitter::seed_heads(const ShapeMeter& meter) {
     static_assert(kColumns * kSlices < 4096);
     std::array<float, kColumns * kSlices> filled{};  // m2
     float lowest = 1e9f;
-    for (const uint32_t cell : cells_) {
-        const Vec3 p = meter.world(cell);
+    grid_->for_each(cells_, [&](uint32_t cell, uint32_t x, uint32_t y) {
+        const Vec3 p = points_[cell] = meter.world(x, y);
         const int c = column_of(p);
-        if (c < 0 || c >= kColumns) continue;
+        if (c < 0 || c >= kColumns) return;
         top[size_t(c)] = std::max(top[size_t(c)], p.y);
         lowest = std::min(lowest, p.y);
         const int slice = int(std::floor(p.y / kSlice_m));
         if (slice >= 0 && slice < kSlices)
             filled[size_t(c * kSlices + slice)] += grid_->area_m2(grid_->depth()[cell]);
-    }
+    });
 
     std::array<int, kMostSeeds> heads{};
     uint8_t count = 0;
@@ -147,13 +183,15 @@ uint8_t Splitter::seed_heads(const ShapeMeter& meter) {
         // A hand that is raised has no body below it, and no shoulder outside.
         const int highest = int(top[size_t(peak)] / kSlice_m);
         float left = 0.0f, right = 0.0f;
-        const int last_slice = std::min(kSlices, highest - kShoulderFrom);
-        for (int slice = std::max(0, highest - kShoulderTo); slice < last_slice; ++slice)
+        const float tall = top[size_t(peak)];
+        const int first_slice = std::max(0, highest - int(std::lround(kShoulderTo * tall / kSlice_m)));
+        const int last_slice = std::min(kSlices, highest - int(std::lround(kShoulderFrom * tall / kSlice_m)));
+        for (int slice = first_slice; slice < last_slice; ++slice)
             for (int k = 1; k <= kBodyHalf; ++k) {
                 if (best - k >= 0) left += filled[size_t((best - k) * kSlices + slice)];
                 if (best + k < kColumns) right += filled[size_t((best + k) * kSlices + slice)];
             }
-        const float shoulder = kShoulder_m * kSlice_m * float(kShoulderTo - kShoulderFrom);
+        const float shoulder = kShoulder * tall * kSlice_m * float(last_slice - first_slice);
         if (left < shoulder || right < shoulder) continue;
         float trunk = 0.0f;
         const float breadth_area = kLeastSlice_m * kSlice_m;
@@ -168,11 +206,24 @@ uint8_t Splitter::seed_heads(const ShapeMeter& meter) {
         if (trunk < wanted && trunk < 0.9f * top[size_t(peak)] - 0.3f) continue;
         heads[count++] = best;
     }
-    for (const uint32_t cell : cells_) {
-        const int c = column_of(meter.world(cell));
-        for (uint8_t k = 0; k < count; ++k)
-            if (std::abs(c - heads[k]) <= kSeedHalf) seed(cell, uint8_t(k + 1));
-    }
+    // Who stands behind another's head is not below it.
+    std::array<float, kMostSeeds> depth{}, weight{};
+    const auto each_seed = [&](const auto& visit) {
+        for (const uint32_t cell : cells_) {
+            const Vec3& p = points_[cell];
+            const int c = column_of(p);
+            for (uint8_t k = 0; k < count; ++k)
+                if (std::abs(c - heads[k]) <= kSeedHalf) visit(cell, p, k);
+        }
+    };
+    each_seed([&](uint32_t, const Vec3& p, uint8_t k) {
+        if (p.y < top[size_t(heads[k])] - kHeadBelow_m) return;
+        depth[k] += p.z;
+        weight[k] += 1.0f;
+    });
+    each_seed([&](uint32_t cell, const Vec3& p, uint8_t k) {
+        if (std::abs(p.z - depth[k] / weight[k]) < kSeedDepth_m) seed(cell, uint8_t(k + 1));
+    });
     return count;
 }
 

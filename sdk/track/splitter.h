@@ -1,5 +1,7 @@
-// Takes people apart who touch each other, or something else: every cell goes to the seed that is nearest
-// along the surface.
+// Takes people apart who touch each other, or something else: every cell goes to the seed from which it is
+// reached with the least effort, where a way along the surface costs its length and, several times over, what
+// it climbs. So borders come to lie on the outlines of who stands in front, and in the crease between two who
+// stand side by side.
 #pragma once
 
 #include <array>
@@ -22,8 +24,7 @@ public:
     void begin(const DepthGrid& grid, std::span<const uint32_t> cells);
     /// Seeds are numbered from 1.
     void seed(uint32_t cell, uint8_t number) { owner_[cell] = number; }
-    /// Grows the seeds over the component, no farther than that along the surface: first over steps in depth
-    /// that noise explains, then over the rest, so that an outline before somebody else is a border.
+    /// Grows the seeds over the component, no farther than that along the surface.
     void grow(float farthest_m);
     /// Cells of a seed; of 0: what no seed has reached.
     std::span<const uint32_t> piece(uint8_t number) const;
@@ -33,13 +34,23 @@ public:
     uint8_t seed_heads(const ShapeMeter& meter);
 
 private:
-    void spread(float farthest_m, float share);
+    void queue(uint32_t cell, uint32_t effort);
+    void leave_queue(uint32_t cell);
+    void offer(uint32_t cell, float farthest_m);
+
     static constexpr uint8_t kOutside = 255, kFree = 0;
+    static constexpr uint32_t kNone = ~0u;
+    static constexpr uint32_t kBuckets = 2048;  // of 1 mm of effort; more than one step costs
     const DepthGrid* grid_ = nullptr;
     std::span<const uint32_t> cells_;  // of members_
     std::vector<uint8_t> owner_;
-    std::vector<uint32_t> members_, queue_, sorted_;
-    std::vector<float> path_m_;
+    std::vector<uint32_t> members_, sorted_;
+    std::vector<float> path_m_;                // from the seed
+    std::vector<uint32_t> effort_mm_;          // the same with what is climbed
+    std::vector<uint32_t> next_, previous_;    // cells of a bucket
+    std::array<uint32_t, kBuckets> buckets_{};  // Dial's queue: first cell of each effort, modulo its size
+    uint32_t waiting_ = 0;
+    std::vector<Vec3> points_;                 // world
     std::array<uint32_t, kMostSeeds + 2> starts_{};
 };
 

@@ -11,63 +11,100 @@ namespace {
 // Of the way from the person to what is behind. The nearer surface sends back more light, so that half of
 // each reads as less than half of the way.
 constexpr float kMixedShare = 0.5f;
+constexpr int kChunk = 256;  // pixels that are written at a time; more than the widest cell
 
 class Writer {
 public:
     Writer(const DepthImage& image, const DepthGrid& grid, const uint8_t* labels, uint8_t* users)
         : image_(image), grid_(grid), labels_(labels), users_(users), width_(int(image.width())),
-          height_(int(image.height())), stride_(int(grid.stride())) {}
+          height_(int(image.height())), stride_(int(grid.stride())), per_metre_(1.0f / image.camera.depth_unit_m) {}
 
     void run() {
         std::memset(users_, 0, size_t(width_) * size_t(height_));
-        for_each_labelled([this](int x, int y, int middle, int band, uint8_t label) {
-            for (int v = y; v < y + stride_; ++v)
-                for (int u = x; u < x + stride_; ++u) {
-                    const int d = at(u, v);
-                    if (d != 0 && std::abs(d - middle) <= band) users_[index(u, v)] = label;
-                }
-        });
         const int columns = int(grid_.width()), rows = int(grid_.height());
-        for_each_labelled([&](int x, int y, int middle, int band, uint8_t label) {
-            const int cx = x / stride_, cy = y / stride_;
-            const size_t cell = size_t(cy) * size_t(columns) + size_t(cx);
-            const bool inside = cx > 0 && cy > 0 && cx + 1 < columns && cy + 1 < rows && labels_[cell - 1] == label &&
-                                labels_[cell + 1] == label && labels_[cell - size_t(columns)] == label &&
-                                labels_[cell + size_t(columns)] == label;
-            if (inside) return;
-            for (int v = y; v < y + stride_; ++v)
-                for (int u = x; u < x + stride_; ++u) {
-                    if (std::abs(at(u, v) - middle) > band) continue;
-                    mixed(u, v, 1, 0, middle, band, label);
-                    mixed(u, v, -1, 0, middle, band, label);
-                    mixed(u, v, 0, 1, middle, band, label);
-                    mixed(u, v, 0, -1, middle, band, label);
+        const int chunk = std::max(1, kChunk / stride_);
+        for (int y = 0; y < rows; ++y)
+            for (int x = 0; x < columns; x += chunk) fill(x, y, std::min(chunk, columns - x));
+        for (int y = 0; y < rows; ++y)
+            for (int x = 0; x < columns; ++x) {
+                // Eight cells at a time are left out where nobody is, or nobody but one.
+                if (x > 0 && x + 9 <= columns && y > 0 && y + 1 < rows && alike(x, y)) {
+                    x += 7;
+                    continue;
                 }
-        });
+                if (at_cell(x, y) != 0 && !surrounded(x, y)) outline(x, y);
+            }
     }
 
 private:
     size_t index(int u, int v) const { return size_t(v) * size_t(width_) + size_t(u); }
     int at(int u, int v) const { return image_.depth[index(u, v)]; }
 
-    /// visit(x and y of the first pixel, the surface's depth and the band around it in the image's units,
-    /// label)
-    template <typename Visit>
-    void for_each_labelled(const Visit& visit) const {
-        const float per_metre = 1.0f / image_.camera.depth_unit_m;
-        const uint8_t* label = labels_;
-        const float* depth = grid_.depth().data();
-        const int width = int(grid_.width());
-        for (int y = 0; y < int(grid_.height()); ++y, label += width, depth += width)
-            for (int x = 0; x < width; ++x) {
-                uint64_t eight = 1;
-                if (x + 8 <= width) std::memcpy(&eight, label + x, sizeof eight);
-                if (eight == 0) {
-                    x += 7;
-                } else if (label[x] != 0) {
-                    const float z = depth[x];
-                    visit(x * stride_, y * stride_, int(z * per_metre), int(same_surface_m(z) * per_metre), label[x]);
-                }
+    uint8_t at_cell(int x, int y) const { return labels_[size_t(y) * grid_.width() + size_t(x)]; }
+
+    uint64_t eight(int x, int y) const {
+        uint64_t labels;
+        std::memcpy(&labels, labels_ + size_t(y) * grid_.width() + size_t(x), sizeof labels);
+        return labels;
+    }
+    bool alike(int x, int y) const {
+        const uint64_t same = at_cell(x, y) * 0x0101010101010101ull;
+        return eight(x, y) == same &&
+               (same == 0 || (eight(x - 1, y) == same && eight(x + 1, y) == same && eight(x, y - 1) == same &&
+                              eight(x, y + 1) == same));
+    }
+    bool surrounded(int x, int y) const {
+        const uint8_t label = at_cell(x, y);
+        return x > 0 && y > 0 && x + 1 < int(grid_.width()) && y + 1 < int(grid_.height()) &&
+               at_cell(x - 1, y) == label && at_cell(x + 1, y) == label && at_cell(x, y - 1) == label &&
+               at_cell(x, y + 1) == label;
+    }
+
+    /// A cell's surface in the image's units, and how far a reading of it may be off.
+    void surface(int x, int y, int& middle, int& band) const {
+        const float z = grid_.depth()[size_t(y) * grid_.width() + size_t(x)];
+        middle = int(z * per_metre_);
+        band = int(same_surface_m(z) * per_metre_);
+    }
+
+    /// The pixels of so many cells of a row.
+    void fill(int x, int y, int cells) {
+        uint8_t any = 0;
+        for (int k = 0; k < cells; ++k) any |= at_cell(x + k, y);
+        if (any == 0) return;
+        // A reading from `low` to `low + span` is labelled.
+        uint16_t low[kChunk], span[kChunk];
+        uint8_t label[kChunk];
+        int pixels = 0;
+        for (int k = 0; k < cells; ++k) {
+            int middle, band;
+            surface(x + k, y, middle, band);
+            const int least = std::clamp(middle - band, 1, 65535), most = std::clamp(middle + band, least, 65535);
+            for (int i = 0; i < stride_ && pixels < kChunk; ++i, ++pixels) {
+                low[pixels] = uint16_t(least);
+                span[pixels] = uint16_t(most - least);
+                label[pixels] = at_cell(x + k, y);
+            }
+        }
+        for (int v = y * stride_; v < (y + 1) * stride_; ++v) {
+            const uint16_t* const depth = image_.depth + index(x * stride_, v);
+            uint8_t* const users = users_ + index(x * stride_, v);
+            for (int i = 0; i < pixels; ++i)
+                users[i] = uint16_t(depth[i] - low[i]) <= span[i] ? label[i] : uint8_t(0);
+        }
+    }
+
+    void outline(int x, int y) {
+        int middle, band;
+        surface(x, y, middle, band);
+        const uint8_t label = at_cell(x, y);
+        for (int v = y * stride_; v < (y + 1) * stride_; ++v)
+            for (int u = x * stride_; u < (x + 1) * stride_; ++u) {
+                if (std::abs(at(u, v) - middle) > band) continue;
+                mixed(u, v, 1, 0, middle, band, label);
+                mixed(u, v, -1, 0, middle, band, label);
+                mixed(u, v, 0, 1, middle, band, label);
+                mixed(u, v, 0, -1, middle, band, label);
             }
     }
 
@@ -86,6 +123,7 @@ private:
     const uint8_t* labels_;
     uint8_t* users_;
     int width_, height_, stride_;
+    float per_metre_;
 };
 
 }  // namespace

@@ -16,11 +16,24 @@ namespace fs = std::filesystem;
 
 namespace {
 
+using Show = std::function<void(const Shot&)>;
+
+constexpr int64_t kFrame_ns = 33'333'333;  // every source here runs at 30 Hz
 constexpr float kRoom_m = 0.9f;        // from the person to the wall behind
 constexpr float kSideWall_m = 1.7f;    // from the camera
 constexpr float kKinectRange_m = 4.0f;  // default mode, from the maker
-// Person in the still: between the two on the left and the two in the middle.
-constexpr float kStillX_m = -0.3f, kStillZ_m = -2.6f;
+/// Where the recorded person is put into the still: world x and z.
+struct Place {
+    const char *name, *means;
+    float x_m, z_m;
+};
+// Five people stand there. Of the places where the feet are in view, the first is the farthest from everybody: 0.36 m
+// from its axis to the nearest of their surfaces (a body goes 0.2 m deeper than what is seen of it). The second has
+// 0.16 m: arms touch those of who stands beside. The third has 0.05 m: the bodies are inside each other, and hands come
+// out of somebody's back.
+constexpr Place kPlaces[] = {{"free", "where nobody stands", 0.0f, -2.2f},
+                             {"beside", "arm against arm with others", -0.15f, -2.6f},
+                             {"into", "in part inside another body", -0.3f, -2.6f}};
 constexpr float kStillFocal_px = 525.0f, kStillCx = 319.5f, kStillCy = 239.5f;
 const Vec3 kStillNormal{0.01036f, -0.99701f, -0.07656f};  // published with the picture, y down
 constexpr float kStillDistance_m = 1.26614f;
@@ -133,7 +146,7 @@ Stand stand_of(const std::string& recording) {
     return s;
 }
 
-void play_in_room(const std::string& recording, const std::function<void(const Shot&)>& show) {
+void play_in_room(const std::string& recording, const Show& show) {
     const Stand stand = stand_of(recording);
     std::optional<Room> room;
     std::vector<uint16_t> empty;
@@ -153,36 +166,140 @@ void play_in_room(const std::string& recording, const std::function<void(const S
     });
 }
 
-void play_in_still(const std::string& recording, const Shot& still, const std::function<void(const Shot&)>& show) {
+/// Puts a recorded person into the picture by depth test: their floor on its floor, their mean to x and z.
+void put(const Shot& source, const Stand& stand, float x_m, float z_m, uint8_t number, Shot& shot) {
+    Camera from = source.camera;
+    set_floor(from, stand.height_m, 0.0f, 0.0f, VFIT_FLOOR_GIVEN);
+    const Camera& to = shot.camera;
+    const Mat4 world = from.world_from_camera(), into = to.camera_from_world();
+    for (uint32_t v = 0; v < from.height; ++v)
+        for (uint32_t u = 0; u < from.width; ++u) {
+            const float d = float(source.depth[size_t(v) * from.width + u]) * from.depth_unit_m;
+            if (d <= 0.0f) continue;
+            Vec3 p = transform_point(world, from.unproject(float(u), float(v), d));
+            p += Vec3(x_m - stand.mean_x, 0.0f, z_m + stand.near_z);
+            p = transform_point(into, p);
+            const Vec2 at = to.project(p);
+            // A pixel of the recording covers this many of the picture, and a little more so that none is left out.
+            const float half = 0.6f * to.fx / from.fx * d / p.z;
+            for (int y = int(std::ceil(at.y - half)); float(y) < at.y + half; ++y)
+                for (int x = int(std::ceil(at.x - half)); float(x) < at.x + half; ++x) {
+                    if (x < 0 || y < 0 || x >= int(to.width) || y >= int(to.height)) continue;
+                    const size_t i = size_t(y) * to.width + size_t(x);
+                    const auto units = uint16_t(std::lround(p.z / to.depth_unit_m));
+                    if (shot.depth[i] != 0 && shot.depth[i] <= units) continue;
+                    shot.depth[i] = units;
+                    shot.truth[i] = number;
+                }
+        }
+}
+
+void play_in_still(const std::string& recording, const Shot& still, const Place& place, const Show& show) {
     const Stand stand = stand_of(recording);
     play_source(recording, [&](const Shot& source) {
         Shot shot = still;
         shot.time_ns = source.time_ns;
-        Camera from = source.camera;
-        set_floor(from, stand.height_m, 0.0f, 0.0f, VFIT_FLOOR_GIVEN);
-        const Mat4 world = from.world_from_camera(), into = still.camera.camera_from_world();
-        for (uint32_t v = 0; v < from.height; ++v)
-            for (uint32_t u = 0; u < from.width; ++u) {
-                const float d = float(source.depth[size_t(v) * from.width + u]) * from.depth_unit_m;
-                if (d <= 0.0f) continue;
-                Vec3 p = transform_point(world, from.unproject(float(u), float(v), d));
-                p += Vec3(kStillX_m - stand.mean_x, 0.0f, kStillZ_m + stand.near_z);
-                p = transform_point(into, p);
-                const Vec2 at = still.camera.project(p);
-                // A pixel of the recording covers this many of the still, and a little more so that none is left out.
-                const float half = 0.6f * still.camera.fx / from.fx * d / p.z;
-                for (int y = int(std::ceil(at.y - half)); float(y) < at.y + half; ++y)
-                    for (int x = int(std::ceil(at.x - half)); float(x) < at.x + half; ++x) {
-                        if (x < 0 || y < 0 || x >= int(still.camera.width) || y >= int(still.camera.height)) continue;
-                        const size_t i = size_t(y) * still.camera.width + size_t(x);
-                        const auto units = uint16_t(std::lround(p.z / still.camera.depth_unit_m));
-                        if (shot.depth[i] != 0 && shot.depth[i] <= units) continue;
-                        shot.depth[i] = units;
-                        shot.truth[i] = 1;
-                    }
-            }
+        put(source, stand, place.x_m, place.z_m, 1, shot);
         show(shot);
     });
+}
+
+/// A recorded person and the way they are carried, to and fro if they return.
+struct Walker {
+    const char* recording;
+    float x_m, z_m, to_x_m, to_z_m;
+    bool returns = false;
+};
+
+struct Crowd {
+    const char* name;
+    std::vector<Walker> people;
+};
+
+const std::vector<Crowd>& crowds() {
+    static const std::vector<Crowd> all = {
+        {"one", {{"s1_walking_1", 0.0f, -2.5f, 0.0f, -2.5f}}},
+        {"three side by side",
+         {{"s1_jogging_1", -0.85f, -2.4f, -0.85f, -2.4f},
+          {"s5_front_clap_1", 0.0f, -2.75f, 0.0f, -2.75f},
+          {"s6_walking_1", 0.85f, -2.4f, 0.85f, -2.4f}}},
+        {"five in two rows",
+         {{"s1_squat_1", -0.9f, -2.3f, -0.9f, -2.3f},
+          {"s2_cross_arms_1", -0.45f, -2.9f, -0.45f, -2.9f},
+          {"s5_walking_1", 0.0f, -2.3f, 0.0f, -2.3f},
+          {"s6_swipe_left_1", 0.45f, -2.9f, 0.45f, -2.9f},
+          {"s1_front_clap_1", 0.9f, -2.3f, 0.9f, -2.3f}}},
+        {"two who cross",
+         {{"s1_walking_1", -0.8f, -2.2f, 0.8f, -2.2f}, {"s2_walking_1", 0.8f, -2.8f, -0.8f, -2.8f}}},
+        {"two who cross close by",
+         {{"s5_walking_1", -0.8f, -2.4f, 0.8f, -2.4f}, {"s6_walking_1", 0.8f, -2.75f, -0.8f, -2.75f}}},
+        {"two who meet and part",
+         {{"s1_walking_1", -0.7f, -2.5f, -0.18f, -2.5f, true}, {"s6_walking_1", 0.7f, -2.5f, 0.18f, -2.5f, true}}},
+        {"one who leaves for a second and comes back",
+         {{"s5_walking_1", 0.0f, -2.5f, 2.6f, -2.5f, true}, {"s2_walking_1", -0.7f, -2.7f, -0.7f, -2.7f}}},
+    };
+    return all;
+}
+
+constexpr uint32_t kCrowdFrames = 90;
+
+/// Several recorded people before a Kinect v1 at its full size, in a room.
+void play_crowd(const Crowd& crowd, const std::string& folder, const Show& show) {
+    std::vector<Stand> stands;
+    std::vector<std::vector<Shot>> recordings;
+    for (const Walker& walker : crowd.people) {
+        const std::string path = folder + "/kinect1_" + walker.recording;
+        stands.push_back(stand_of(path));
+        play_source(path, [&, &shots = recordings.emplace_back()](const Shot& shot) { shots.push_back(shot); });
+    }
+    Camera camera = recordings[0][0].camera;
+    camera.width *= 2, camera.height *= 2;
+    camera.fx *= 2, camera.fy *= 2;
+    camera.cx = 2 * camera.cx + 0.5f, camera.cy = 2 * camera.cy + 0.5f;
+    set_floor(camera, 1.0f, 0.0f, 0.0f, VFIT_FLOOR_GIVEN);
+    const Room room(camera, -3.8f);
+    std::mt19937 random(1);
+    for (uint32_t frame = 0; frame < kCrowdFrames; ++frame) {
+        Shot shot;
+        shot.camera = camera;
+        shot.floor_known = true;
+        shot.time_ns = int64_t(frame + 1) * kFrame_ns;
+        room.render(shot.depth, random);
+        shot.truth.assign(shot.depth.size(), 0);
+        for (size_t i = 0; i < crowd.people.size(); ++i) {
+            const Walker& w = crowd.people[i];
+            float way = float(frame) / float(kCrowdFrames - 1);
+            if (w.returns) way = 1.0f - std::abs(2.0f * way - 1.0f);
+            const float x = w.x_m + way * (w.to_x_m - w.x_m), z = w.z_m + way * (w.to_z_m - w.z_m);
+            // To and fro through the recording, so that nobody jumps.
+            const auto length = uint32_t(recordings[i].size()), turn = frame % (2 * length);
+            put(recordings[i][turn < length ? turn : 2 * length - 1 - turn], stands[i], x, z, uint8_t(i + 1), shot);
+        }
+        show(shot);
+    }
+}
+
+/// The same seen by a camera that lies on its side: the picture turned clockwise.
+Shot on_its_side(const Shot& shot) {
+    Shot turned;
+    turned.time_ns = shot.time_ns;
+    turned.floor_known = shot.floor_known;
+    Camera& c = turned.camera = shot.camera;
+    const uint32_t width = shot.camera.width, height = shot.camera.height;
+    c.width = height, c.height = width;
+    c.fx = shot.camera.fy, c.fy = shot.camera.fx;
+    c.cx = float(height - 1) - shot.camera.cy, c.cy = shot.camera.cx;
+    const Vec3 n = shot.camera.floor_normal;
+    c.floor_normal = Vec3(-n.y, n.x, n.z);
+    turned.depth.resize(shot.depth.size());
+    turned.truth.resize(shot.truth.size());
+    for (uint32_t v = 0; v < height; ++v)
+        for (uint32_t u = 0; u < width; ++u) {
+            const size_t from = size_t(v) * width + u, to = size_t(u) * height + (height - 1 - v);
+            turned.depth[to] = shot.depth[from];
+            turned.truth[to] = shot.truth[from];
+        }
+    return turned;
 }
 
 }  // namespace
@@ -199,7 +316,7 @@ void play_source(const std::string& uri, const std::function<void(const Shot&)>&
         shot.truth.assign(shot.depth.size(), 0);
         if (has_stream(frame->get(), VFIT_STREAM_USER_MAP))
             copy_pixels(view_of(frame->get(), VFIT_STREAM_USER_MAP), shot.truth);
-        shot.time_ns += 33'333'333;  // every source here runs at 30 Hz
+        shot.time_ns += kFrame_ns;
         show(shot);
     }
 }
@@ -220,7 +337,7 @@ Shot load_still(const std::string& path, float focal_px, float cx, float cy) {
     return still;
 }
 
-std::vector<Scene> virtual_scenes(uint32_t frames) {
+SceneGroup virtual_scenes(uint32_t frames) {
     // What changes from one to the next: motion, distance, where the camera stands, the room, the body.
     const char* const kCases[] = {
         "motion=scan&distance=2.7",
@@ -234,48 +351,68 @@ std::vector<Scene> virtual_scenes(uint32_t frames) {
         "motion=turn&distance=2.7&camera_height=0.4&tilt=-12&seed=9",
         "motion=turn&distance=2.5&wall=0.35&sex=m&weight=0.8&seed=10",
         "motion=demo&distance=2.7&side_wall=1.1&seed=11",
+        "motion=walk&distance=2.4&camera_height=2.2&tilt=30&sex=f&seed=12",
+        "motion=wave&distance=2.5&camera_height=0.9&tilt=-30&seed=13",  // no floor in view
     };
-    std::vector<Scene> scenes;
-    for (const char* sensor : {"kinect_v1", "tof"})
-        for (const char* options : kCases) {
-            const std::string uri =
-                std::string("virtual:sensor=") + sensor + "&" + options + "&frames=" + std::to_string(frames);
-            scenes.push_back({std::string(sensor) + " " + options, false, true,
-                              [uri](const std::function<void(const Shot&)>& show) { play_source(uri, show); }});
-        }
-    return scenes;
+    const char* const kOnItsSide[] = {
+        "motion=scan&distance=2.1&seed=14",
+        "motion=squat&distance=2.3&camera_height=2.2&tilt=30&sex=m&seed=15",
+    };
+    SceneGroup group{"virtual person (synthetic)", {}};
+    for (const char* sensor : {"kinect_v1", "tof"}) {
+        const auto uri = [&](const char* options) {
+            return std::string("virtual:sensor=") + sensor + "&" + options + "&frames=" + std::to_string(frames);
+        };
+        for (const char* options : kCases)
+            group.scenes.push_back({std::string(sensor) + " " + options, true,
+                                    [uri = uri(options)](const Show& show) { play_source(uri, show); }});
+        for (const char* options : kOnItsSide)
+            group.scenes.push_back({std::string(sensor) + " on its side " + options, true,
+                                    [uri = uri(options)](const Show& show) {
+                                        play_source(uri, [&](const Shot& shot) { show(on_its_side(shot)); });
+                                    }});
+    }
+    return group;
 }
 
-std::vector<Scene> real_scenes(const std::string& recordings, const std::string& still_path) {
+std::vector<SceneGroup> real_scenes(const std::string& recordings, const std::string& still_path) {
     std::vector<fs::path> paths;
     for (const auto& entry : fs::directory_iterator(recordings))
         if (entry.is_directory()) paths.push_back(entry.path());
     std::sort(paths.begin(), paths.end());
-    std::shared_ptr<Shot> still;
-    if (!still_path.empty()) {
-        still = std::make_shared<Shot>(load_still(still_path, kStillFocal_px, kStillCx, kStillCy));
+    SceneGroup alone{"real people, alone", {}}, rooms{"real people, in virtual rooms", {}};
+    for (const auto& path : paths) {
+        const std::string name = path.filename().string(), uri = path.string();
+        alone.scenes.push_back({"alone " + name, true, [uri](const Show& show) {
+                                    play_source(uri, [&](const Shot& source) {
+                                        Shot shot = source;
+                                        for (size_t i = 0; i < shot.depth.size(); ++i)
+                                            shot.truth[i] = shot.depth[i] != 0;
+                                        shot.floor_known = false;
+                                        show(shot);
+                                    });
+                                }});
+        rooms.scenes.push_back({"room " + name, true, [uri](const Show& show) { play_in_room(uri, show); }});
+    }
+    std::vector<SceneGroup> groups = {std::move(alone), std::move(rooms)};
+    if (fs::exists(still_path)) {
+        const auto still = std::make_shared<Shot>(load_still(still_path, kStillFocal_px, kStillCx, kStillCy));
         still->camera.floor_normal = glm::normalize(kStillNormal);
         still->camera.floor_distance_m = kStillDistance_m;
         still->floor_known = true;
+        for (const Place& place : kPlaces) {
+            SceneGroup& group = groups.emplace_back(SceneGroup{std::string("real people, in the still ") + place.means, {}});
+            for (const auto& path : paths)
+                group.scenes.push_back(
+                    {std::string("still, ") + place.name + " " + path.filename().string(), false,
+                     [uri = path.string(), still, &place](const Show& show) { play_in_still(uri, *still, place, show); }});
+        }
     }
-    std::vector<Scene> scenes;
-    using Show = std::function<void(const Shot&)>;
-    for (const auto& path : paths) {
-        const std::string name = path.filename().string(), uri = path.string();
-        scenes.push_back({"alone " + name, true, true, [uri](const Show& show) {
-                              play_source(uri, [&](const Shot& source) {
-                                  Shot shot = source;
-                                  for (size_t i = 0; i < shot.depth.size(); ++i) shot.truth[i] = shot.depth[i] != 0;
-                                  shot.floor_known = false;
-                                  show(shot);
-                              });
-                          }});
-        scenes.push_back({"room " + name, true, true, [uri](const Show& show) { play_in_room(uri, show); }});
-        if (still)
-            scenes.push_back(
-                {"still " + name, true, false, [uri, still](const Show& show) { play_in_still(uri, *still, show); }});
-    }
-    return scenes;
+    SceneGroup& several = groups.emplace_back(SceneGroup{"real people, several in a virtual room", {}});
+    for (const Crowd& crowd : crowds())
+        several.scenes.push_back({std::string("several, ") + crowd.name, crowd.people.size() == 1,
+                                  [&crowd, recordings](const Show& show) { play_crowd(crowd, recordings, show); }});
+    return groups;
 }
 
 }  // namespace vfit::tools

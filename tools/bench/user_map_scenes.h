@@ -14,7 +14,7 @@ namespace vfit::tools {
 /// One depth image with the truth beside it; the tracker gets the depth alone.
 struct Shot {
     std::vector<uint16_t> depth;
-    std::vector<uint8_t> truth;  // not 0: the person
+    std::vector<uint8_t> truth;  // number of the person from 1, 0: nobody who is known
     Camera camera;               // with the true floor, where somebody knows it
     int64_t time_ns = 0;
     bool floor_known = false;
@@ -22,15 +22,20 @@ struct Shot {
 
 struct Scene {
     std::string name;
-    bool real = false;        // the person is a real one
-    bool alone = true;        // nobody else is in the picture: whatever else is labelled is wrong
+    bool alone = true;        // one person and nobody else in the picture: whatever else is labelled is wrong
     std::function<void(const std::function<void(const Shot&)>&)> play;
 };
 
+struct SceneGroup {
+    std::string name;
+    std::vector<Scene> scenes;
+};
+
 /// Motions, distances and cameras of the virtual person, `frames` images each.
-std::vector<Scene> virtual_scenes(uint32_t frames);
-/// Every recording below the folder: alone, in rooms, and (where the file exists) in the still.
-std::vector<Scene> real_scenes(const std::string& recordings, const std::string& still);
+SceneGroup virtual_scenes(uint32_t frames);
+/// Every recording below the folder, alone, in rooms, and (where the file exists) in the still; and several of them
+/// at a time in one room.
+std::vector<SceneGroup> real_scenes(const std::string& recordings, const std::string& still);
 
 /// The frames of a sensor or recording as shots; the truth is its user map.
 void play_source(const std::string& uri, const std::function<void(const Shot&)>& show);

@@ -47,7 +47,21 @@ TEST_P(FloorOfCamera, IsFoundWithinOneDegreeAndThreeCentimetresInOneImage) {
 INSTANTIATE_TEST_SUITE_P(Stands, FloorOfCamera,
                          ::testing::Values(Stand{1.0f, 0, 0}, Stand{0.4f, -8, 0}, Stand{0.6f, 0, 5},
                                            Stand{1.6f, 20, 0}, Stand{2.2f, 45, -6}, Stand{2.4f, 30, 0},
-                                           Stand{1.0f, 0, 90}, Stand{1.4f, 12, -90}, Stand{0.8f, -5, 86}));
+                                           Stand{1.0f, 0, 90}, Stand{1.4f, 12, -90}, Stand{0.8f, -5, 86},
+                                           Stand{0.4f, -12, 0}, Stand{0.4f, 30, 0}, Stand{1.0f, 30, 0},
+                                           Stand{2.2f, 30, 0}, Stand{2.2f, 15, 0}, Stand{0.4f, -20, 90},
+                                           Stand{2.2f, 30, 90}, Stand{1.2f, 30, -90}));
+
+TEST(FloorFinder, ACameraThatLooksUpSeesNone) {
+    for (const float roll : {0.0f, 90.0f}) {
+        RoomScene scene;
+        scene.stand(1.0f, -30, roll);
+        scene.side_x = 1.5f;
+        scene.people.push_back(standing_person(0.0f, -2.2f));
+        Camera camera;
+        EXPECT_FALSE(find(scene, camera)) << roll;
+    }
+}
 
 TEST(FloorFinder, SaysSoWhereNoFloorIsInView) {
     RoomScene scene;

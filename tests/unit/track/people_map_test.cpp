@@ -6,53 +6,15 @@
 
 #include <limits>
 
-#include "room_scene.h"
+#include "people_player.h"
 
 namespace vfit {
 namespace {
 
-using testing::Block;
+using testing::kFrame_ns;
+using testing::People;
 using testing::RoomScene;
 using testing::standing_person;
-
-constexpr int64_t kFrame_ns = 33'333'333;
-
-/// Plays a scene frame by frame at 30 Hz.
-class People {
-public:
-    explicit People(const PeopleMapOptions& options = {}) : map(options) {}
-
-    std::span<const PersonRegion> see(RoomScene& scene) {
-        scene.render(uint32_t(time_ns / kFrame_ns) + 1);
-        users.resize(scene.depth.size());
-        time_ns += kFrame_ns;
-        return map.run(scene.bare(), time_ns, users.data());
-    }
-
-    /// Of person number `who` of the scene, against the label that covers most of them.
-    double iou(const RoomScene& scene, uint8_t who = 1) const {
-        const uint8_t label = label_of(scene, who);
-        size_t both = 0, either = 0;
-        for (size_t i = 0; i < users.size(); ++i) {
-            const bool truth = scene.truth[i] == who, found = label != 0 && users[i] == label;
-            both += truth && found;
-            either += truth || found;
-        }
-        return either ? double(both) / double(either) : 0.0;
-    }
-
-    uint8_t label_of(const RoomScene& scene, uint8_t who) const {
-        std::array<size_t, 256> count{};
-        for (size_t i = 0; i < users.size(); ++i)
-            if (scene.truth[i] == who && users[i]) ++count[users[i]];
-        const auto most = std::max_element(count.begin(), count.end());
-        return *most ? uint8_t(most - count.begin()) : uint8_t(0);
-    }
-
-    PeopleMap map;
-    std::vector<uint8_t> users;
-    int64_t time_ns = 0;
-};
 
 TEST(PeopleMap, FindsOnePersonInTheFirstImageWithoutCalibration) {
     RoomScene scene;
@@ -240,6 +202,17 @@ TEST(PeopleMap, SaysWhichPartsAreOutOfView) {
     regions = again.see(scene);
     ASSERT_EQ(regions.size(), 1u);
     EXPECT_EQ(regions[0].out_of_view, uint32_t(kOutOfViewLeft));
+    scene.people[0] = standing_person(1.45f, -2.8f);
+    People once_more;
+    regions = once_more.see(scene);
+    ASSERT_EQ(regions.size(), 1u);
+    EXPECT_EQ(regions[0].out_of_view, uint32_t(kOutOfViewRight));
+    scene.stand(0.5f, 0, 0);
+    scene.people[0] = standing_person(0.0f, -2.2f);
+    People headless;
+    regions = headless.see(scene);
+    ASSERT_EQ(regions.size(), 1u);
+    EXPECT_EQ(regions[0].out_of_view, uint32_t(kOutOfViewTop));
 }
 
 TEST(PeopleMap, ASegmentedImageNeedsNoFloor) {

@@ -28,6 +28,7 @@ struct RoomScene {
     float wall_z = -4.0f;  // behind; 0: none
     float side_x = 0.0f;   // wall on the image's right; 0: none
     std::vector<std::vector<Capsule>> people;
+    std::vector<std::vector<Capsule>> dummies;  // of a person's shape, and nobody
     std::vector<Block> things;
     bool noise = true;
 
@@ -75,6 +76,8 @@ struct RoomScene {
                 if (wall_z < 0 && ray.z < 0) hit(wall_z / ray.z, 0);
                 if (side_x > 0 && ray.x > 0) hit(side_x / ray.x, 0);
                 for (const Block& b : things) hit(meet(eye, ray, b), 0);
+                for (const auto& dummy : dummies)
+                    for (const Capsule& c : dummy) hit(meet(eye, ray, c), 0);
                 for (size_t i = 0; i < people.size(); ++i)
                     for (const Capsule& c : people[i]) hit(meet(eye, ray, c), uint8_t(i + 1));
                 if (z > 6.0f) continue;
@@ -118,25 +121,77 @@ private:
     }
 };
 
-/// Upright, 1.72 m tall, facing the camera; arms hang a little off the trunk.
-inline std::vector<Capsule> standing_person(float x, float z) {
-    std::vector<Capsule> p = {
+using Figure = std::vector<Capsule>;
+
+/// Scaled about the floor, then put to x and z.
+inline Figure placed(Figure p, float x, float z, float scale = 1.0f) {
+    for (Capsule& c : p) {
+        c.a = scale * c.a + Vec3(x, 0, z);
+        c.b = scale * c.b + Vec3(x, 0, z);
+        c.radius *= scale;
+    }
+    return p;
+}
+
+/// Head, neck, shoulders and trunk of somebody 1.72 m tall; `lower` lowers them all, for those who sit.
+inline Figure upper_body(float lower = 0.0f) {
+    Figure p = {
         {{0, 1.60f, 0}, {0, 1.62f, 0}, 0.10f},        // head
         {{0, 1.42f, 0}, {0, 1.52f, 0}, 0.06f},        // neck
         {{-0.10f, 1.30f, 0}, {0.10f, 1.30f, 0}, 0.13f},  // shoulders
         {{0, 0.98f, 0}, {0, 1.28f, 0}, 0.15f},        // trunk
         {{-0.06f, 0.93f, 0}, {0.06f, 0.93f, 0}, 0.12f},  // hips
     };
+    for (Capsule& c : p) c.a.y -= lower, c.b.y -= lower;
+    return p;
+}
+
+inline Figure standing_legs() {
+    Figure p;
     for (const float s : {-1.0f, 1.0f}) {
-        p.push_back({{s * 0.09f, 0.88f, 0}, {s * 0.11f, 0.10f, 0}, 0.065f});          // leg
+        p.push_back({{s * 0.09f, 0.88f, 0}, {s * 0.11f, 0.10f, 0}, 0.065f});
         p.push_back({{s * 0.11f, 0.05f, -0.03f}, {s * 0.12f, 0.04f, 0.14f}, 0.04f});  // foot
-        p.push_back({{s * 0.20f, 1.36f, 0}, {s * 0.30f, 0.80f, 0.03f}, 0.045f});      // arm
-    }
-    for (Capsule& c : p) {
-        c.a += Vec3(x, 0, z);
-        c.b += Vec3(x, 0, z);
     }
     return p;
+}
+
+/// Both arms from the shoulders over the elbows to hands at (+-hand.x, hand.y, hand.z); z: before the trunk's axis.
+inline Figure arms(const Vec3& elbow, const Vec3& hand, float lower = 0.0f) {
+    Figure p;
+    for (const float s : {-1.0f, 1.0f}) {
+        const Vec3 side(s, 1, 1);
+        p.push_back({{s * 0.20f, 1.36f - lower, 0}, elbow * side, 0.045f});
+        p.push_back({elbow * side, hand * side, 0.04f});
+    }
+    return p;
+}
+
+inline Figure operator+(Figure a, const Figure& b) {
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+}
+
+/// Upright, 1.72 m tall, facing the camera; arms hang a little off the trunk.
+inline Figure standing_person(float x, float z, float scale = 1.0f) {
+    Figure p = upper_body() + standing_legs();
+    for (const float s : {-1.0f, 1.0f}) p.push_back({{s * 0.20f, 1.36f, 0}, {s * 0.30f, 0.80f, 0.03f}, 0.045f});
+    return placed(p, x, z, scale);
+}
+
+/// Upright, forearms forward: to a table, around a box.
+inline Figure reaching_person(float x, float z, const Vec3& hand) {
+    return placed(upper_body() + standing_legs() + arms({0.27f, 1.05f, 0.08f}, hand), x, z);
+}
+
+/// On a seat 0.45 m high, hands on the knees.
+inline Figure sitting_person(float x, float z) {
+    Figure p = upper_body(0.40f) + arms({0.27f, 0.70f, 0.05f}, {0.13f, 0.62f, 0.38f}, 0.40f);
+    for (const float s : {-1.0f, 1.0f}) {
+        p.push_back({{s * 0.09f, 0.53f, 0}, {s * 0.11f, 0.50f, 0.42f}, 0.07f});
+        p.push_back({{s * 0.11f, 0.50f, 0.42f}, {s * 0.11f, 0.10f, 0.42f}, 0.055f});
+        p.push_back({{s * 0.11f, 0.05f, 0.40f}, {s * 0.12f, 0.04f, 0.57f}, 0.04f});
+    }
+    return placed(p, x, z);
 }
 
 }  // namespace vfit::testing
