@@ -25,8 +25,10 @@ constexpr float kFewestShare = 0.012f;  // of the image: a strip below the feet
 constexpr uint32_t kFewest = 40;        // samples
 constexpr float kMostBelow = 0.3f;      // readings below the plane per reading on it
 constexpr double kMemory = 0.9;         // of the last frame's sums: a third of a second at 30 Hz
-constexpr uint32_t kLookAgain = 60;     // frames: a better plane may come into view
-constexpr uint32_t kRetry = 5;          // frames between searches while there is none
+// After the first frame: this many tries now and then, so that no frame takes longer than others, until they show that
+// a whole search is worth it. While a floor is seen, a better one may come into view.
+constexpr uint32_t kFewTries = 24;
+constexpr uint32_t kLookAgain = 4;      // frames, while a floor is seen
 constexpr float kBetter = 1.5f;
 
 // What stands on a floor: a person, from a child to a tall man with the arms up (ANSUR II: stature to 2.0 m).
@@ -76,7 +78,7 @@ bool FloorFinder::Sums::solve(Plane& plane) const {
 
 void FloorFinder::reset() {
     found_ = false;
-    frames_ = unseen_ = 0;
+    frames_ = 0;
     seed_ = 0;
 }
 
@@ -89,15 +91,17 @@ uint32_t FloorFinder::random(uint32_t below) {
 void FloorFinder::take_samples(const DepthGrid& grid, uint32_t turn) {
     columns_ = std::max(1u, grid.width() / kSampleStep);
     rows_ = std::max(1u, grid.height() / kSampleStep);
-    samples_.resize(size_t(columns_) * rows_);
+    for (auto* v : {&x_, &y_, &inverse_}) v->resize(size_t(columns_) * rows_);
     for (uint32_t y = 0; y < rows_; ++y) {
         const uint32_t cy = std::min(y * kSampleStep + turn % kSampleStep, grid.height() - 1);
         const float* const depth = grid.depth().data() + size_t(cy) * grid.width();
         for (uint32_t x = 0; x < columns_; ++x) {
             const uint32_t cx = std::min(x * kSampleStep + turn / kSampleStep % kSampleStep, grid.width() - 1);
             const float z = depth[cx];
-            samples_[size_t(y) * columns_ + x] = {grid.ray_x()[cx], grid.ray_y()[cy],
-                                                  z > 0.0f && z < kFarthest_m ? 1.0f / z : 0.0f};
+            const size_t i = size_t(y) * columns_ + x;
+            x_[i] = grid.ray_x()[cx];
+            y_[i] = grid.ray_y()[cy];
+            inverse_[i] = z > 0.0f && z < kFarthest_m ? 1.0f / z : 0.0f;
         }
     }
 }
@@ -105,15 +109,16 @@ void FloorFinder::take_samples(const DepthGrid& grid, uint32_t turn) {
 // Height of a sample above the plane, in units of its own depth: h / z = d (1/z - a . r).
 float FloorFinder::score(const Plane& plane) const {
     const float d = 1.0f / glm::length(plane), noise = kSigmas * kInverseDepthSigma * d;
-    uint32_t on = 0, below = 0;
-    for (const Sample& s : samples_) {
-        const float h = d * (s.inverse - plane.x * s.x - plane.y * s.y - plane.z);
-        const float band = kUneven_m * s.inverse + noise;
-        const uint32_t valid = s.inverse > 0.0f;
-        on += valid & uint32_t(std::abs(h) < band);
-        below += valid & uint32_t(h < -(band + kBelow_m * s.inverse));
+    const Plane a = plane * d;
+    int32_t on = 0, below = 0;
+    for (size_t i = 0; i < inverse_.size(); ++i) {  // without branches, for vectors
+        const float inverse = inverse_[i], h = d * inverse - a.x * x_[i] - a.y * y_[i] - a.z;
+        const float band = kUneven_m * inverse + noise;
+        const int32_t valid = inverse > 0.0f;
+        on += valid & int32_t(std::abs(h) < band);
+        below += valid & int32_t(h < -(band + kBelow_m * inverse));
     }
-    const float fewest = std::max(float(kFewest), kFewestShare * float(samples_.size()));
+    const float fewest = std::max(float(kFewest), kFewestShare * float(inverse_.size()));
     if (float(on) < fewest || float(below) > kMostBelow * float(on)) return 0.0f;
     return float(on) - float(below);
 }
@@ -121,7 +126,8 @@ float FloorFinder::score(const Plane& plane) const {
 size_t FloorFinder::gather(const Plane& plane, float slack_m, Sums& sums) const {
     const float d = 1.0f / glm::length(plane), noise = kSigmas * kInverseDepthSigma * d;
     size_t count = 0;
-    for (const Sample& s : samples_) {
+    for (size_t i = 0; i < inverse_.size(); ++i) {
+        const Sample s = sample(i);
         const float h = d * (s.inverse - plane.x * s.x - plane.y * s.y - plane.z);
         if (s.inverse <= 0.0f || std::abs(h) > slack_m * s.inverse + noise) continue;
         // What lies on the floor is above it, and nothing is below.
@@ -131,10 +137,10 @@ size_t FloorFinder::gather(const Plane& plane, float slack_m, Sums& sums) const 
     return count;
 }
 
-FloorFinder::Fit FloorFinder::search(const Vec3& up) {
+FloorFinder::Fit FloorFinder::search(const Vec3& up, uint32_t tries) {
     Fit best;
-    for (uint32_t i = 0; i < kTries; ++i) {
-        const uint32_t first = random(uint32_t(samples_.size()));
+    for (uint32_t i = 0; i < tries; ++i) {
+        const uint32_t first = random(uint32_t(inverse_.size()));
         const int x = int(first % columns_), y = int(first / columns_);
         Sums sums;
         bool whole = true;
@@ -142,7 +148,7 @@ FloorFinder::Fit FloorFinder::search(const Vec3& up) {
             const int dx = k == 0 ? 0 : int(random(2 * kWindow + 1)) - kWindow;
             const int dy = k == 0 ? 0 : int(random(2 * kWindow + 1)) - kWindow;
             const int sx = std::clamp(x + dx, 0, int(columns_) - 1), sy = std::clamp(y + dy, 0, int(rows_) - 1);
-            const Sample& s = samples_[size_t(sy) * columns_ + size_t(sx)];
+            const Sample s = sample(size_t(sy) * columns_ + size_t(sx));
             whole = s.inverse > 0.0f;
             sums.add(s);
         }
@@ -170,23 +176,23 @@ uint32_t FloorFinder::standing(const Plane& plane) {
     camera.floor_normal = -plane * d;
     camera.floor_distance_m = d;
     const Vec3 right = Vec3(glm::transpose(camera.world_from_camera())[0]);
-    height_.resize(samples_.size());
-    pending_.resize(samples_.size());
-    for (size_t i = 0; i < samples_.size(); ++i) {
-        const Sample& s = samples_[i];
+    height_.resize(inverse_.size());
+    pending_.resize(inverse_.size());
+    for (size_t i = 0; i < inverse_.size(); ++i) {
+        const Sample s = sample(i);
         const float h = d * (s.inverse - plane.x * s.x - plane.y * s.y - plane.z);
         const bool off = s.inverse > 0.0f && h > 2.0f * (kUneven_m * s.inverse + noise);
         height_[i] = off ? h / s.inverse : -1.0f;
     }
     uint32_t count = 0;
-    for (size_t start = 0; start < samples_.size(); ++start) {
+    for (size_t start = 0; start < inverse_.size(); ++start) {
         if (height_[start] < 0.0f) continue;
         uint32_t things = 0, waiting = 0;
         float low = 1e9f, high = 0.0f, left = 1e9f, far_right = -1e9f;
         const auto take = [&](size_t i) {
             low = std::min(low, height_[i]);
             high = std::max(high, height_[i]);
-            const Sample& s = samples_[i];
+            const Sample s = sample(i);
             const float x = (right.x * s.x + right.y * s.y + right.z) / s.inverse;
             left = std::min(left, x);
             far_right = std::max(far_right, x);
@@ -198,9 +204,9 @@ uint32_t FloorFinder::standing(const Plane& plane) {
         while (waiting > 0) {
             const uint32_t i = pending_[--waiting];
             const uint32_t x = i % columns_, y = i / columns_;
-            const float z = 1.0f / samples_[i].inverse;
+            const float z = 1.0f / inverse_[i];
             const auto visit = [&](size_t n) {
-                if (height_[n] >= 0.0f && std::abs(1.0f / samples_[n].inverse - z) < kSameThing_m) take(n);
+                if (height_[n] >= 0.0f && std::abs(1.0f / inverse_[n] - z) < kSameThing_m) take(n);
             };
             if (x > 0) visit(i - 1);
             if (x + 1 < columns_) visit(i + 1);
@@ -217,7 +223,7 @@ FloorFinder::Fit FloorFinder::choose() {
     Fit best;
     uint32_t most = 0;
     for (const Vec3& up : kUps) {
-        const Fit fit = search(up);
+        const Fit fit = search(up, kTries);
         if (!fit.valid()) continue;
         const uint32_t things = standing(fit.plane);
         const bool landscape = up.y != 0.0f;
@@ -242,6 +248,20 @@ void FloorFinder::fit_whole(const DepthGrid& grid) {
     }
 }
 
+bool FloorFinder::worth_a_search(bool seen) {
+    if (frames_ == 1) return true;
+    if (seen && frames_ % kLookAgain != 0) return false;
+    // A floor that is seen says which side is up; else landscape every other time.
+    const Vec3* up = &kUps[frames_ % 2 == 0 ? 0 : 1 + frames_ / 2 % 2];
+    if (seen)
+        for (const Vec3& other : kUps)
+            if (plausible(plane_, other)) up = &other;
+    const Fit hint = search(*up, kFewTries);
+    if (!hint.valid()) return false;
+    // To a camera on its side a wall is a floor, but nobody stands on it.
+    return seen ? hint.score > kBetter * score(plane_) : up->y != 0.0f || standing(hint.plane) > 0;
+}
+
 bool FloorFinder::run(const DepthGrid& grid, Camera& camera) {
     take_samples(grid, frames_++);
     if (camera.floor_state == VFIT_FLOOR_GIVEN) {
@@ -259,15 +279,13 @@ bool FloorFinder::run(const DepthGrid& grid, Camera& camera) {
             plane_ = refined;
             sums_ = now;
         }
-        unseen_ = seen ? 0 : unseen_ + 1;
     }
-    if (seen ? frames_ % kLookAgain == 0 : frames_ == 1 || frames_ % kRetry == 0) {
+    if (worth_a_search(seen)) {
         const Fit fit = choose();
         if (fit.valid() && (!seen || fit.score > kBetter * score(plane_))) {
             plane_ = fit.plane;
             fit_whole(grid);
             found_ = seen = true;
-            unseen_ = 0;
         }
     }
     if (!found_) return false;

@@ -55,20 +55,22 @@ private:
 
     void take_samples(const DepthGrid& grid, uint32_t turn);
     void fit_whole(const DepthGrid& grid);
-    Fit search(const Vec3& up);
+    Sample sample(size_t i) const { return {x_[i], y_[i], inverse_[i]}; }
+    Fit search(const Vec3& up, uint32_t tries);
     Fit choose();
+    bool worth_a_search(bool seen);
     float score(const Plane& plane) const;
     uint32_t standing(const Plane& plane);
     size_t gather(const Plane& plane, float slack_m, Sums& sums) const;
     uint32_t random(uint32_t below);
 
-    std::vector<Sample> samples_;
+    std::vector<float> x_, y_, inverse_;  // of the samples
     std::vector<float> height_;        // of a coarse picture of the scene above a plane
     std::vector<uint32_t> pending_;
     Sums sums_;
     Plane plane_{0.0f};
     bool found_ = false;
-    uint32_t frames_ = 0, unseen_ = 0;
+    uint32_t frames_ = 0;
     uint32_t columns_ = 0, rows_ = 0;  // of the coarse picture
     uint64_t seed_ = 0;
 };
