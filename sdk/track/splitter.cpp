@@ -68,14 +68,14 @@ void Splitter::leave_queue(uint32_t cell) {
 }
 
 // Offers the cell's neighbours its own seed.
-void Splitter::offer(uint32_t cell, float farthest_m) {
+void Splitter::offer(uint32_t cell, uint32_t x, uint32_t y, float farthest_m) {
     const uint32_t width = grid_->width(), height = grid_->height();
     const float* const depth = grid_->depth().data();
-    const uint32_t x = cell % width, y = cell / width;
     const float z = depth[cell], same = same_surface_m(z), noise = depth_sigma_m(z), side = grid_->cell_m(z);
     const auto visit = [&](uint32_t to, float way) {
+        if (owner_[to] == kOutside || effort_mm_[to] <= effort_mm_[cell]) return;
         const float step = std::abs(depth[to] - z), path = path_m_[cell] + way;
-        if (owner_[to] == kOutside || step > same || path > farthest_m) return;
+        if (step > same || path > farthest_m) return;
         const float climb = kClimbWeight * std::max(0.0f, step - noise);
         const uint32_t cost = std::min(uint32_t(1000.0f * (way + climb)) + 1, kBuckets - 1);
         const uint32_t effort = effort_mm_[cell] + cost;
@@ -106,12 +106,13 @@ void Splitter::grow(float farthest_m) {
         path_m_[cell] = 0.0f;
         effort_mm_[cell] = owner_[cell] == kFree ? kNone : 0;
     }
-    for (const uint32_t cell : cells_)
-        if (effort_mm_[cell] == 0) offer(cell, farthest_m);
+    grid_->for_each(cells_, [&](uint32_t cell, uint32_t x, uint32_t y) {
+        if (effort_mm_[cell] == 0) offer(cell, x, y, farthest_m);
+    });
     for (uint32_t effort = 0; waiting_ > 0; ++effort)
         for (uint32_t cell; (cell = buckets_[effort % kBuckets]) != kNone;) {
             leave_queue(cell);
-            offer(cell, farthest_m);
+            offer(cell, cell % grid_->width(), cell / grid_->width(), farthest_m);
         }
 
     std::array<uint32_t, kMostSeeds + 2> counts{};

@@ -36,7 +36,7 @@ public:
 private:
     void queue(uint32_t cell, uint32_t effort);
     void leave_queue(uint32_t cell);
-    void offer(uint32_t cell, float farthest_m);
+    void offer(uint32_t cell, uint32_t x, uint32_t y, float farthest_m);
 
     static constexpr uint8_t kOutside = 255, kFree = 0;
     static constexpr uint32_t kNone = ~0u;
