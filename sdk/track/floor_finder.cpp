@@ -91,7 +91,8 @@ uint32_t FloorFinder::random(uint32_t below) {
 void FloorFinder::take_samples(const DepthGrid& grid, uint32_t turn) {
     columns_ = std::max(1u, grid.width() / kSampleStep);
     rows_ = std::max(1u, grid.height() / kSampleStep);
-    for (auto* v : {&x_, &y_, &inverse_}) v->resize(size_t(columns_) * rows_);
+    for (auto* v : {&x_, &y_, &inverse_, &height_}) v->resize(size_t(columns_) * rows_);
+    pending_.resize(size_t(columns_) * rows_);
     for (uint32_t y = 0; y < rows_; ++y) {
         const uint32_t cy = std::min(y * kSampleStep + turn % kSampleStep, grid.height() - 1);
         const float* const depth = grid.depth().data() + size_t(cy) * grid.width();
@@ -176,8 +177,6 @@ uint32_t FloorFinder::standing(const Plane& plane) {
     camera.floor_normal = -plane * d;
     camera.floor_distance_m = d;
     const Vec3 right = Vec3(glm::transpose(camera.world_from_camera())[0]);
-    height_.resize(inverse_.size());
-    pending_.resize(inverse_.size());
     for (size_t i = 0; i < inverse_.size(); ++i) {
         const Sample s = sample(i);
         const float h = d * (s.inverse - plane.x * s.x - plane.y * s.y - plane.z);

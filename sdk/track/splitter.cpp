@@ -7,8 +7,9 @@ namespace vfit {
 
 namespace {
 
-// Of a metre climbed along the view, against a metre across: the flank of a body is 15 cm deep and 5 cm wide.
-constexpr float kClimbWeight = 4.0f;
+// Effort of a metre across, and of a metre climbed along the view beyond what noise does.
+constexpr float kWayWeight = 0.3f, kClimbWeight = 4.0f;
+constexpr float kEffortUnit_m = 0.25e-3f;
 
 // Heads are looked for in the outline's upper edge, from a column of 4 cm to the next.
 constexpr float kColumn_m = 0.04f;
@@ -35,7 +36,7 @@ constexpr float kHeadBelow_m = 0.2f;      // from the crown to the chin
 void Splitter::fit(const DepthGrid& grid) {
     if (owner_.size() == grid.cells()) return;
     owner_.assign(grid.cells(), kOutside);
-    for (auto* v : {&members_, &sorted_, &effort_mm_, &next_, &previous_}) v->resize(grid.cells());
+    for (auto* v : {&members_, &sorted_, &effort_, &next_, &previous_}) v->resize(grid.cells());
     path_m_.resize(grid.cells());
     points_.resize(grid.cells());
     cells_ = {};
@@ -52,7 +53,7 @@ void Splitter::begin(const DepthGrid& grid, std::span<const uint32_t> cells) {
 
 void Splitter::queue(uint32_t cell, uint32_t effort) {
     uint32_t& first = buckets_[effort % kBuckets];
-    effort_mm_[cell] = effort;
+    effort_[cell] = effort;
     next_[cell] = first;
     previous_[cell] = kNone;
     if (first != kNone) previous_[first] = cell;
@@ -62,7 +63,7 @@ void Splitter::queue(uint32_t cell, uint32_t effort) {
 
 void Splitter::leave_queue(uint32_t cell) {
     const uint32_t before = previous_[cell], after = next_[cell];
-    (before != kNone ? next_[before] : buckets_[effort_mm_[cell] % kBuckets]) = after;
+    (before != kNone ? next_[before] : buckets_[effort_[cell] % kBuckets]) = after;
     if (after != kNone) previous_[after] = before;
     --waiting_;
 }
@@ -73,14 +74,14 @@ void Splitter::offer(uint32_t cell, uint32_t x, uint32_t y, float farthest_m) {
     const float* const depth = grid_->depth().data();
     const float z = depth[cell], same = same_surface_m(z), noise = depth_sigma_m(z), side = grid_->cell_m(z);
     const auto visit = [&](uint32_t to, float way) {
-        if (owner_[to] == kOutside || effort_mm_[to] <= effort_mm_[cell]) return;
+        if (owner_[to] == kOutside || effort_[to] <= effort_[cell]) return;
         const float step = std::abs(depth[to] - z), path = path_m_[cell] + way;
         if (step > same || path > farthest_m) return;
         const float climb = kClimbWeight * std::max(0.0f, step - noise);
-        const uint32_t cost = std::min(uint32_t(1000.0f * (way + climb)) + 1, kBuckets - 1);
-        const uint32_t effort = effort_mm_[cell] + cost;
-        if (effort >= effort_mm_[to]) return;
-        if (effort_mm_[to] != kNone) leave_queue(to);
+        const float cost = (kWayWeight * way + climb) / kEffortUnit_m;
+        const uint32_t effort = effort_[cell] + std::min(uint32_t(cost) + 1, kBuckets - 1);
+        if (effort >= effort_[to]) return;
+        if (effort_[to] != kNone) leave_queue(to);
         owner_[to] = owner_[cell];
         path_m_[to] = path;
         queue(to, effort);
@@ -104,10 +105,10 @@ void Splitter::grow(float farthest_m) {
     waiting_ = 0;
     for (const uint32_t cell : cells_) {
         path_m_[cell] = 0.0f;
-        effort_mm_[cell] = owner_[cell] == kFree ? kNone : 0;
+        effort_[cell] = owner_[cell] == kFree ? kNone : 0;
     }
     grid_->for_each(cells_, [&](uint32_t cell, uint32_t x, uint32_t y) {
-        if (effort_mm_[cell] == 0) offer(cell, x, y, farthest_m);
+        if (effort_[cell] == 0) offer(cell, x, y, farthest_m);
     });
     for (uint32_t effort = 0; waiting_ > 0; ++effort)
         for (uint32_t cell; (cell = buckets_[effort % kBuckets]) != kNone;) {

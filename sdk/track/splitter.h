@@ -40,13 +40,13 @@ private:
 
     static constexpr uint8_t kOutside = 255, kFree = 0;
     static constexpr uint32_t kNone = ~0u;
-    static constexpr uint32_t kBuckets = 2048;  // of 1 mm of effort; more than one step costs
+    static constexpr uint32_t kBuckets = 8192;  // of a unit of effort each; more than one step costs
     const DepthGrid* grid_ = nullptr;
     std::span<const uint32_t> cells_;  // of members_
     std::vector<uint8_t> owner_;
     std::vector<uint32_t> members_, sorted_;
     std::vector<float> path_m_;                // from the seed
-    std::vector<uint32_t> effort_mm_;          // the same with what is climbed
+    std::vector<uint32_t> effort_;          // the same with what is climbed
     std::vector<uint32_t> next_, previous_;    // cells of a bucket
     std::array<uint32_t, kBuckets> buckets_{};  // Dial's queue: first cell of each effort, modulo its size
     uint32_t waiting_ = 0;
