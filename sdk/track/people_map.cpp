@@ -33,7 +33,7 @@ void PeopleMap::look(const DepthImage& image) {
     columns_ = grid_.width();
     for (auto* v : {&wanted_, &slots_, &last_slots_, &labels_}) v->assign(grid_.cells(), 0);
     last_depth_.assign(grid_.cells(), 0.0f);
-    pool_.resize(grid_.cells());
+    pool_.resize(2 * size_t(grid_.cells()));  // a component may be split by tracks, and its parts by heads
     frontier_.resize(grid_.cells());
     splitter_.fit(grid_);
     pieces_.reserve(grid_.cells() / kFewestCells + 1);

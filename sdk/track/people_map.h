@@ -87,6 +87,8 @@ private:
     void split_by_tracks(std::span<const uint32_t> cells, std::span<const uint32_t> slots, float farthest_m);
     bool disputed(uint32_t cell, uint32_t column, uint32_t row) const;
     bool split_by_heads(std::span<const uint32_t> cells, uint8_t fewest, uint32_t slot = kNew);
+    void add_person(std::span<const uint32_t> cells, uint32_t slot);
+    std::span<const uint32_t> keep(std::span<const uint32_t> cells);
     void classify_new(std::span<const uint32_t> cells, const Shape& shape);
     void add_piece(std::span<const uint32_t> cells, const Shape& shape, uint32_t slot);
     void name_people(int64_t time_ns);

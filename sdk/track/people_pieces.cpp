@@ -104,19 +104,26 @@ void PeopleMap::split_by_tracks(std::span<const uint32_t> cells, std::span<const
     // Of somebody who shows no more than a strip beside others, all is disputed.
     if (std::find(sure.begin(), sure.begin() + std::ptrdiff_t(slots.size()), false) != sure.end()) seed(true);
     splitter_.grow(farthest_m);
-    for (size_t k = 0; k <= slots.size(); ++k) {
-        const auto piece = splitter_.piece(uint8_t(k));
-        const auto begin = pool_.begin() + std::ptrdiff_t(pool_used_);
-        std::copy(piece.begin(), piece.end(), begin);
-        const std::span<const uint32_t> kept(pool_.data() + pool_used_, piece.size());
-        pool_used_ += piece.size();
-        if (kept.empty()) continue;
-        const Shape shape = measure(kept);
-        if (k == 0)
-            classify_new(kept, shape);
-        else
-            add_piece(kept, shape, slots[k - 1]);
-    }
+    std::array<std::span<const uint32_t>, Splitter::kMostSeeds + 1> kept;
+    for (size_t k = 0; k <= slots.size(); ++k) kept[k] = keep(splitter_.piece(uint8_t(k)));
+    if (!kept[0].empty()) classify_new(kept[0], measure(kept[0]));
+    for (size_t k = 1; k <= slots.size(); ++k)
+        if (!kept[k].empty()) add_person(kept[k], slots[k - 1]);
+}
+
+// The splitter's pieces live until it splits the next component.
+std::span<const uint32_t> PeopleMap::keep(std::span<const uint32_t> cells) {
+    const std::span<uint32_t> room(pool_.data() + pool_used_, cells.size());
+    std::copy(cells.begin(), cells.end(), room.begin());
+    pool_used_ += cells.size();
+    return room;
+}
+
+// Somebody known, who may have been two all the time.
+void PeopleMap::add_person(std::span<const uint32_t> cells, uint32_t slot) {
+    const Shape shape = measure(cells);
+    const bool two = shape.width_m > kTwoWide_m && shape.area_m2 > kTwo_m2 && frames_ % kTwoTurn == 1;
+    if (!two || !split_by_heads(cells, 2, slot)) add_piece(cells, shape, slot);
 }
 
 // slot: whose component it was until now; the largest share of their last place keeps their number.
@@ -137,11 +144,8 @@ bool PeopleMap::split_by_heads(std::span<const uint32_t> cells, uint8_t fewest, 
         }
     }
     for (uint8_t k = 1; k <= heads; ++k) {
-        const auto piece = splitter_.piece(k);
-        if (piece.empty()) continue;
-        std::copy(piece.begin(), piece.end(), pool_.begin() + std::ptrdiff_t(pool_used_));
-        const std::span<const uint32_t> kept(pool_.data() + pool_used_, piece.size());
-        pool_used_ += piece.size();
+        const auto kept = keep(splitter_.piece(k));
+        if (kept.empty()) continue;
         if (k == keeper)
             add_piece(kept, measure(kept), slot);
         else
@@ -177,16 +181,14 @@ void PeopleMap::sort_component(std::span<const uint32_t> cells) {
         return;
     }
     if (count == 0 && wall && (area_m2 > kOnlyWall_m2 || frames_ % kWallTurn != 1)) return;
-    const Shape shape = measure(cells);
     if (count == 1) {
-        const bool two = shape.width_m > kTwoWide_m && shape.area_m2 > kTwo_m2 && frames_ % kTwoTurn == 1;
-        if (!two || !split_by_heads(cells, 2, slots[0])) add_piece(cells, shape, slots[0]);
-    } else {
-        // Two who stand close can pass for one broad person, and one at a table for none.
-        const bool whole = shape.area_m2 < kSplitArea_m2 || person_like(cells, shape);
-        if ((whole && shape.width_m < kTwoWide_m) || !split_by_heads(cells, whole ? 2 : 1))
-            classify_new(cells, shape);
+        add_person(cells, slots[0]);
+        return;
     }
+    // Two who stand close can pass for one broad person, and one at a table for none.
+    const Shape shape = measure(cells);
+    const bool whole = shape.area_m2 < kSplitArea_m2 || person_like(cells, shape);
+    if ((whole && shape.width_m < kTwoWide_m) || !split_by_heads(cells, whole ? 2 : 1)) classify_new(cells, shape);
 }
 
 void PeopleMap::sort_components() {
