@@ -14,6 +14,8 @@ constexpr float kStep_m = 0.5f;        // that is not foreseen
 constexpr float kReach_m = 1.2f;       // from the trunk to the fingertips, and a step
 constexpr float kWalk_mps = 1.2f;      // while away: comfortable walking speed is 1.2 to 1.4 m/s
 constexpr float kGrown_m = 0.3f;       // arms up excepted: a head's height and more
+constexpr float kHidden = 0.3f;        // of the usual area is seen, at most: another part may come out elsewhere
+constexpr float kUsualShare = 0.1f;    // of the newest height and area in the usual ones
 constexpr float kSpeedShare = 0.3f;    // of the newest velocity in the kept one
 constexpr float kFastest_mps = 4.0f;
 constexpr float kForesight_s = 0.3f;   // beyond, people turn
@@ -49,7 +51,7 @@ uint32_t Identity::adopt(const Shape& shape, int64_t time_ns) {
             free = std::min(free, i);
             continue;
         }
-        if (t.seen) continue;
+        if (t.seen && t.area_m2 > kHidden * t.usual_area_m2) continue;
         const float away_s = float(seconds_between(t.seen_ns, time_ns));
         const Vec3 foreseen = t.centre + t.velocity * std::min(away_s, kForesight_s);
         const Vec3 step = shape.centre - foreseen;
@@ -89,7 +91,14 @@ void Identity::see(uint32_t slot, const Shape& shape, int64_t time_ns) {
         t.velocity = Vec3(0.0f);
     }
     t.centre = shape.centre;
-    t.height_m = t.cells > 0 ? t.height_m + 0.1f * (shape.high_m - t.height_m) : shape.high_m;
+    // Who is nearly hidden keeps the height and area of before.
+    if (t.cells == 0) {
+        t.height_m = shape.high_m;
+        t.usual_area_m2 = shape.area_m2;
+    } else if (shape.area_m2 > kHidden * t.usual_area_m2) {
+        t.height_m += kUsualShare * (shape.high_m - t.height_m);
+        t.usual_area_m2 += kUsualShare * (shape.area_m2 - t.usual_area_m2);
+    }
     t.area_m2 = shape.area_m2;
     t.cells = shape.cells;
     t.seen_ns = time_ns;

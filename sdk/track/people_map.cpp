@@ -180,6 +180,10 @@ std::span<const PersonRegion> PeopleMap::run(const DepthImage& image, int64_t ti
         const float dt_s = std::clamp(float(seconds_between(time_ns_, time_ns)), 0.0f, 0.1f);
         background_.learn(grid_, slots_.data(), time_ns_ == 0 ? 0.0f : dt_s);
     }
+    // A fragment is anybody's again in the next image: it may be the first that is seen of somebody else.
+    for (const Piece& p : pieces_)
+        if (p.slot == kFragment)
+            for (const uint32_t cell : p.cells) slots_[cell] = 0;
     std::swap(slots_, last_slots_);
     std::copy(grid_.depth().begin(), grid_.depth().begin() + std::ptrdiff_t(grid_.cells()), last_depth_.begin());
     time_ns_ = time_ns;

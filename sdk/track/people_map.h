@@ -98,6 +98,7 @@ private:
     void report(const DepthImage& image, int64_t time_ns, uint8_t* users);
     Shape measure(std::span<const uint32_t> cells) const;
     bool person_like(std::span<const uint32_t> cells, const Shape& shape) const;
+    bool background_goes_on(std::span<const uint32_t> cells) const;
     bool feet_hidden(std::span<const uint32_t> cells) const;
 
     PeopleMapOptions options_;

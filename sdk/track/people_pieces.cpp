@@ -24,6 +24,7 @@ constexpr uint32_t kWallTurn = 10;     // frames
 constexpr float kTwo_m2 = 0.7f;        // seen of two people who were taken for one
 constexpr uint32_t kTwoTurn = 5;       // frames
 constexpr float kTwoWide_m = 0.55f;    // of two side by side; one with hanging arms is 0.45 to 0.6 m wide
+constexpr uint32_t kFewestRim = 12;    // cells beside the known background
 constexpr float kSplitArea_m2 = 0.3f;  // below, nobody stands in front of anything
 constexpr float kHeadReach_m = 1.1f;   // along the surface from the axis to the hands or feet
 
@@ -60,9 +61,29 @@ void PeopleMap::add_piece(std::span<const uint32_t> cells, const Shape& shape, u
     if (!cells.empty() && pieces_.size() < pieces_.capacity()) pieces_.push_back({cells, shape, slot, 0});
 }
 
+// A patch of wall or floor that somebody has hidden until now: the known background goes on beside it. Around a person
+// there is a step in depth.
+bool PeopleMap::background_goes_on(std::span<const uint32_t> cells) const {
+    const uint32_t width = grid_.width(), height = grid_.height();
+    const float* const known = background_.known().data();
+    uint32_t joined = 0, stepped = 0;
+    grid_.for_each(cells, [&](uint32_t cell, uint32_t x, uint32_t y) {
+        const float z = grid_.depth()[cell], same = same_surface_m(z);
+        const auto look = [&](uint32_t next) {
+            if (wanted_[next] || known[next] == BackgroundModel::kNothing) return;
+            ++(std::abs(known[next] - z) < same ? joined : stepped);
+        };
+        if (x > 0) look(cell - 1);
+        if (x + 1 < width) look(cell + 1);
+        if (y > 0) look(cell - width);
+        if (y + 1 < height) look(cell + width);
+    });
+    return joined > stepped && joined >= kFewestRim;
+}
+
 void PeopleMap::classify_new(std::span<const uint32_t> cells, const Shape& shape) {
     if (cells.empty()) return;
-    if (person_like(cells, shape))
+    if (person_like(cells, shape) && !background_goes_on(cells))
         add_piece(cells, shape, kNew);
     else
         add_piece(cells, shape, shape.area_m2 < kFragment_m2 ? kFragment : kThing);

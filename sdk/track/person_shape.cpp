@@ -10,6 +10,7 @@ namespace {
 constexpr float kBin_m = 0.025f;          // 160 of them: 4 m of height, and 2 m to both sides
 constexpr int kTopBins = 8;               // 20 cm
 constexpr int kBorderCells = 2;           // an image border is rarely straight
+constexpr size_t kSample = 2048;          // cells
 constexpr uint32_t kFewCells = 2;         // above which there is only speckle
 constexpr float kLegsFrom_m = 0.2f, kLegsTo_m = 0.6f;
 
@@ -73,44 +74,54 @@ void ShapeMeter::start() {
     sides_ = 0;
 }
 
-Vec3 ShapeMeter::world(uint32_t cell) const {
-    return world(cell % grid_.width(), cell / grid_.width());
-}
-
-Vec3 ShapeMeter::world(uint32_t x, uint32_t y) const { return rotation_ * grid_.point(x, y) + Vec3(0, floor_m_, 0); }
-
 void ShapeMeter::add(std::span<const uint32_t> cells) {
     if (cells.empty()) return;
     // Bins and products are taken around a point of the set: floats keep millimetres there.
-    if (shape_.cells == 0) origin_ = world(cells[cells.size() / 2]);
+    if (shape_.cells == 0) {
+        const uint32_t middle = cells[cells.size() / 2];
+        origin_ = world(middle % grid_.width(), middle / grid_.width());
+    }
     const Vec3 offset = Vec3(0, floor_m_, 0) - origin_;
+    // Extent in the image and height are of all cells; sums and breadths, of a large set, of a sample that is enough.
+    const size_t step = std::max<size_t>(1, cells.size() / kSample);
+    size_t turn = 0;
+    int left = shape_.x0, right = shape_.x1;
+    float area_sum = 0.0f, depth_sum = 0.0f, legs = 0.0f;
+    Vec3 sum(0.0f);
     std::array<float, 6> products{};
+    const auto bin = [](float v) { return size_t(std::clamp(int(v * (1.0f / kBin_m) + 0.5f * kBins), 0, kBins - 1)); };
     grid_.for_each(cells, [&](uint32_t cell, uint32_t x, uint32_t y) {
-        const float z = grid_.depth()[cell], area = grid_.area_m2(z);
+        left = std::min(left, int(x));
+        right = std::max(right, int(x) + 1);
         const Vec3 r = rotation_ * grid_.point(x, y) + offset;
-        const auto bin = [](float v) { return size_t(std::clamp(int(v * (1.0f / kBin_m) + 0.5f * kBins), 0, kBins - 1)); };
         // The floor of a camera that knows none may lie anywhere: heights are binned around the origin too.
         const size_t level = bin(r.y);
-        heights_[level] += area;
         ++height_cells_[level];
+        if (++turn < step) return;
+        turn = 0;
+        const float z = grid_.depth()[cell], area = grid_.area_m2(z) * float(step);
+        heights_[level] += area;
         across_[bin(r.x)] += area;
         along_[bin(r.z)] += area;
-        sum_ += area * r;
-        shape_.area_m2 += area;
-        shape_.depth_m += area * z;
+        sum += area * r;
+        area_sum += area;
+        depth_sum += area * z;
         products[0] += area * r.x * r.x;
         products[1] += area * r.x * r.y;
         products[2] += area * r.x * r.z;
         products[3] += area * r.y * r.y;
         products[4] += area * r.y * r.z;
         products[5] += area * r.z * r.z;
-        shape_.x0 = std::min(shape_.x0, int(x));
-        shape_.y0 = std::min(shape_.y0, int(y));
-        shape_.x1 = std::max(shape_.x1, int(x) + 1);
-        shape_.y1 = std::max(shape_.y1, int(y) + 1);
         const float h = r.y + origin_.y;
-        if (h >= kLegsFrom_m && h < kLegsTo_m) shape_.leg_width_m += area / (kLegsTo_m - kLegsFrom_m);
+        legs += h >= kLegsFrom_m && h < kLegsTo_m ? area : 0.0f;
     });
+    shape_.x0 = left, shape_.x1 = right;
+    shape_.y0 = std::min(shape_.y0, int(cells.front() / grid_.width()));
+    shape_.y1 = std::max(shape_.y1, int(cells.back() / grid_.width()) + 1);
+    shape_.area_m2 += area_sum;
+    shape_.depth_m += depth_sum;
+    shape_.leg_width_m += legs / (kLegsTo_m - kLegsFrom_m);
+    sum_ += sum;
     for (size_t i = 0; i < products.size(); ++i) products_[i] += double(products[i]);
     shape_.cells += uint32_t(cells.size());
 }

@@ -43,11 +43,11 @@ public:
     /// view: the cells that the sensor fills at all (x0, y0, x1, y1; half open).
     ShapeMeter(const DepthGrid& grid, const Camera& camera, const std::array<int, 4>& view);
     void start();
+    /// Row by row.
     void add(std::span<const uint32_t> cells);
     Shape finish();
 
-    Vec3 world(uint32_t cell) const;
-    Vec3 world(uint32_t x, uint32_t y) const;
+    Vec3 world(uint32_t x, uint32_t y) const { return rotation_ * grid_.point(x, y) + Vec3(0, floor_m_, 0); }
     /// Image neighbour that is further down in the world: +-1 or +-width.
     int down() const { return down_; }
 

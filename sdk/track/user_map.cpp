@@ -67,31 +67,37 @@ private:
         band = int(same_surface_m(z) * per_metre_);
     }
 
-    /// The pixels of so many cells of a row.
+    /// The pixels of so many cells of a row. Written in passes without branches, for vectors.
     void fill(int x, int y, int cells) {
+        const uint8_t* const labels = labels_ + size_t(y) * grid_.width() + size_t(x);
+        const float* const depth = grid_.depth().data() + size_t(y) * grid_.width() + size_t(x);
         uint8_t any = 0;
-        for (int k = 0; k < cells; ++k) any |= at_cell(x + k, y);
+        for (int k = 0; k < cells; ++k) any |= labels[k];
         if (any == 0) return;
         // A reading from `low` to `low + span` is labelled.
-        uint16_t low[kChunk], span[kChunk];
-        uint8_t label[kChunk];
-        int pixels = 0;
+        int low[kChunk], span[kChunk];
         for (int k = 0; k < cells; ++k) {
-            int middle, band;
-            surface(x + k, y, middle, band);
-            const int least = std::clamp(middle - band, 1, 65535), most = std::clamp(middle + band, least, 65535);
-            for (int i = 0; i < stride_ && pixels < kChunk; ++i, ++pixels) {
-                low[pixels] = uint16_t(least);
-                span[pixels] = uint16_t(most - least);
-                label[pixels] = at_cell(x + k, y);
-            }
+            const int middle = int(depth[k] * per_metre_), band = int(same_surface_m(depth[k]) * per_metre_);
+            const int least = middle - band > 1 ? middle - band : 1, most = middle + band < 65535 ? middle + band : 65535;
+            low[k] = least;
+            span[k] = most - least;
         }
         for (int v = y * stride_; v < (y + 1) * stride_; ++v) {
-            const uint16_t* const depth = image_.depth + index(x * stride_, v);
-            uint8_t* const users = users_ + index(x * stride_, v);
-            for (int i = 0; i < pixels; ++i)
-                users[i] = uint16_t(depth[i] - low[i]) <= span[i] ? label[i] : uint8_t(0);
+            const uint16_t* const from = image_.depth + index(x * stride_, v);
+            uint8_t* const to = users_ + index(x * stride_, v);
+            if (stride_ == 2) {
+                for (int k = 0; k < cells; ++k)
+                    for (int i = 0; i < 2; ++i) to[2 * k + i] = label(from[2 * k + i], low[k], span[k], labels[k]);
+            } else {
+                for (int k = 0; k < cells; ++k)
+                    for (int i = 0; i < stride_; ++i)
+                        to[stride_ * k + i] = label(from[stride_ * k + i], low[k], span[k], labels[k]);
+            }
         }
+    }
+    static uint8_t label(int reading, int low, int span, uint8_t of_cell) {
+        const uint32_t above = uint32_t(reading - low);  // huge where it is below
+        return above <= uint32_t(span) ? of_cell : uint8_t(0);
     }
 
     void outline(int x, int y) {
