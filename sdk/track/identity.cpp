@@ -14,6 +14,7 @@ constexpr float kStep_m = 0.5f;        // that is not foreseen
 constexpr float kReach_m = 1.2f;       // from the trunk to the fingertips, and a step
 constexpr float kWalk_mps = 1.2f;      // while away: comfortable walking speed is 1.2 to 1.4 m/s
 constexpr float kGrown_m = 0.3f;       // arms up excepted: a head's height and more
+constexpr float kMoment_s = 1.0f;      // behind somebody who passes
 constexpr float kHidden = 0.3f;        // of the usual area is seen, at most: another part may come out elsewhere
 constexpr float kUsualShare = 0.1f;    // of the newest height and area in the usual ones
 constexpr float kSpeedShare = 0.3f;    // of the newest velocity in the kept one
@@ -26,6 +27,23 @@ constexpr uint32_t kIds = 254;
 bool Identity::within_reach(uint32_t slot, const Vec3& p) const {
     const Vec3 away = p - tracks_[slot].centre;
     return away.x * away.x + away.z * away.z < kReach_m * kReach_m;
+}
+
+Vec3 Identity::foreseen(const PersonTrack& t, int64_t time_ns) const {
+    return t.centre + t.velocity * std::min(float(seconds_between(t.seen_ns, time_ns)), kForesight_s);
+}
+
+uint32_t Identity::hidden_near(const Shape& shape, float nearer_than_m, int64_t time_ns) const {
+    uint32_t best = kMost;
+    for (uint32_t i = 0; i < kMost; ++i) {
+        const PersonTrack& t = tracks_[i];
+        if (t.id == 0 || t.seen || seconds_between(t.seen_ns, time_ns) > kMoment_s) continue;
+        const float distance = floor_distance(shape.centre, foreseen(t, time_ns));
+        if (distance > std::min(nearer_than_m, kStep_m)) continue;
+        nearer_than_m = distance;
+        best = i;
+    }
+    return best;
 }
 
 void Identity::reset() {
@@ -53,9 +71,7 @@ uint32_t Identity::adopt(const Shape& shape, int64_t time_ns) {
         }
         if (t.seen && t.area_m2 > kHidden * t.usual_area_m2) continue;
         const float away_s = float(seconds_between(t.seen_ns, time_ns));
-        const Vec3 foreseen = t.centre + t.velocity * std::min(away_s, kForesight_s);
-        const Vec3 step = shape.centre - foreseen;
-        const float distance = std::sqrt(step.x * step.x + step.z * step.z);
+        const float distance = floor_distance(shape.centre, foreseen(t, time_ns));
         // Who comes from behind something shows an arm first, but nobody has grown.
         const float taller = shape.high_m - t.height_m;
         if (distance > kStep_m + kWalk_mps * away_s || taller > kGrown_m) continue;

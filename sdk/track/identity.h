@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -20,6 +21,11 @@ struct PersonTrack {
     bool seen = false;             // in the last frame
 };
 
+/// Between two points of the world, on the floor.
+inline float floor_distance(const Vec3& a, const Vec3& b) {
+    return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.z - b.z) * (a.z - b.z));
+}
+
 class Identity {
 public:
     /// More people than a room before one camera holds.
@@ -35,12 +41,15 @@ public:
     /// The slot of somebody who is away, or hidden but for a little, and may have come back as this shape; else a new
     /// one. kMost: no slot is free.
     uint32_t adopt(const Shape& shape, int64_t time_ns);
+    /// The slot of somebody who was hidden a moment ago nearer to that shape than so far; kMost: nobody was.
+    uint32_t hidden_near(const Shape& shape, float nearer_than_m, int64_t time_ns) const;
     /// The person in that slot is seen there.
     void see(uint32_t slot, const Shape& shape, int64_t time_ns);
     void forget(uint32_t slot) { tracks_[slot] = {}; }
     void reset();
 
 private:
+    Vec3 foreseen(const PersonTrack& t, int64_t time_ns) const;
     std::array<PersonTrack, kMost> tracks_;
     uint32_t last_id_ = 0;
 };

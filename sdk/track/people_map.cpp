@@ -12,6 +12,8 @@ namespace {
 
 constexpr uint32_t kFewestCells = 6;    // a finger at 3 m
 constexpr float kLeastSeen_m2 = 0.05f;  // of somebody known: head and a shoulder
+// Seen of two people in two places who were taken for one.
+constexpr float kWhole_m2 = 0.2f, kTwoApart_m = 0.35f;
 constexpr float kMostBorder = 0.08f;    // of the image, that a sensor leaves without readings
 
 }  // namespace
@@ -94,6 +96,17 @@ Shape PeopleMap::measure(std::span<const uint32_t> cells) const {
     return meter.finish();
 }
 
+// A part of somebody that does not hang together with the rest: it may be somebody else, who comes out from behind.
+uint32_t PeopleMap::owner_of_part(const Piece& p, const std::array<const Piece*, Identity::kMost>& largest,
+                                  int64_t time_ns) {
+    const float away = floor_distance(p.shape.centre, largest[p.slot]->shape.centre);
+    const uint32_t hidden = identity_.hidden_near(p.shape, away, time_ns);
+    if (hidden != Identity::kMost && p.shape.area_m2 > kLeastSeen_m2) return hidden;
+    if (p.shape.area_m2 > kWhole_m2 && away > kTwoApart_m && person_like(p.cells, p.shape)) return kNew;
+    // What they have left behind is theirs no more.
+    return identity_.within_reach(p.slot, p.shape.centre) ? p.slot : kThing;
+}
+
 // People keep their slots; newcomers get one, or that of somebody who has come back.
 void PeopleMap::name_people(int64_t time_ns) {
     std::array<float, Identity::kMost> area{};
@@ -101,16 +114,18 @@ void PeopleMap::name_people(int64_t time_ns) {
         if (p.slot < Identity::kMost) area[p.slot] += p.shape.area_m2;
     for (Piece& p : pieces_)
         if (p.slot < Identity::kMost && area[p.slot] < kLeastSeen_m2) p.slot = kFragment;
-    // The largest piece of each stands for them; what they have left behind is theirs no more.
-    for (uint32_t slot = 0; slot < Identity::kMost; ++slot) {
-        const Piece* largest = nullptr;
-        for (const Piece& p : pieces_)
-            if (p.slot == slot && (!largest || p.shape.area_m2 > largest->shape.area_m2)) largest = &p;
-        if (!largest) continue;
-        identity_.see(slot, largest->shape, time_ns);
-        for (Piece& p : pieces_)
-            if (p.slot == slot && !identity_.within_reach(slot, p.shape.centre)) p.slot = kThing;
-    }
+    // The largest piece of each stands for them.
+    std::array<const Piece*, Identity::kMost> largest{};
+    for (const Piece& p : pieces_)
+        if (p.slot < Identity::kMost && (!largest[p.slot] || p.shape.area_m2 > largest[p.slot]->shape.area_m2))
+            largest[p.slot] = &p;
+    for (uint32_t slot = 0; slot < Identity::kMost; ++slot)
+        if (largest[slot]) identity_.see(slot, largest[slot]->shape, time_ns);
+    for (Piece& p : pieces_)
+        if (p.slot < Identity::kMost && &p != largest[p.slot]) p.slot = owner_of_part(p, largest, time_ns);
+    for (const Piece& p : pieces_)
+        if (p.slot < Identity::kMost && !largest[p.slot] && !identity_.track(p.slot).seen)
+            identity_.see(p.slot, p.shape, time_ns);
     for (Piece& p : pieces_) {
         if (p.slot != kNew) continue;
         const uint32_t slot = identity_.adopt(p.shape, time_ns);
