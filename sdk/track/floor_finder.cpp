@@ -47,6 +47,10 @@ bool plausible(const Vec3& plane, const Vec3& up) {
     return std::abs(std::atan2(across, along)) < kMostRoll_rad;
 }
 
+bool plausible(const Vec3& plane) {
+    return std::any_of(std::begin(kUps), std::end(kUps), [&](const Vec3& up) { return plausible(plane, up); });
+}
+
 }  // namespace
 
 void FloorFinder::Sums::add(const Sample& s, double weight) {
@@ -161,9 +165,9 @@ FloorFinder::Fit FloorFinder::search(const Vec3& up, uint32_t tries) {
     for (const float slack : {2.0f * kUneven_m, kUneven_m, kUneven_m}) {
         Sums sums;
         Plane plane;
-        if (!best.valid() || gather(best.plane, slack, sums) < kFewest || !sums.solve(plane) ||
-            !plausible(plane, up))
-            break;
+        if (!best.valid() || gather(best.plane, slack, sums) < kFewest || !sums.solve(plane)) break;
+        // The lowest strip of a wall is near many planes, yet lies in its own.
+        if (!plausible(plane, up)) return {};
         if (const float points = score(plane); points > 0.0f) best = {plane, points};
     }
     return best;
@@ -243,7 +247,7 @@ void FloorFinder::fit_whole(const DepthGrid& grid) {
             gather(plane_, kUneven_m, sums_);
         }
         Plane refined;
-        if (sums_.solve(refined) && score(refined) > 0.0f) plane_ = refined;
+        if (sums_.solve(refined) && plausible(refined) && score(refined) > 0.0f) plane_ = refined;
     }
 }
 
@@ -274,7 +278,7 @@ bool FloorFinder::run(const DepthGrid& grid, Camera& camera) {
         now.decay(kMemory);
         seen = gather(plane_, kUneven_m, now) >= kFewest && score(plane_) > 0.0f;
         Plane refined;
-        if (seen && now.solve(refined) && score(refined) > 0.0f) {
+        if (seen && now.solve(refined) && plausible(refined) && score(refined) > 0.0f) {
             plane_ = refined;
             sums_ = now;
         }

@@ -16,6 +16,9 @@ constexpr float kAside_m = 0.9f;         // from the person's middle, on the flo
 constexpr float kBeside_m = 0.05f;       // hardly a step in depth
 constexpr int kFragmentGap = 4;          // cells
 
+// Parts of one person, the one above the other.
+constexpr float kSamePlace_m = 0.25f, kOverlap_m = 0.15f, kMostPart_m2 = 0.35f;
+
 // Soles: cells of the floor cut that are higher than the floor after all, a few cells around the feet.
 constexpr float kFeetBelow_m = 0.12f, kSole_m = 0.0045f, kSoleSigmas = 0.3f;
 constexpr int kSoleSteps = 4;
@@ -37,6 +40,22 @@ bool PeopleMap::part_of_scene(const Shape& s) const {
     };
     return goes_on(s.x0 - 1, y, -1, 0) || goes_on(s.x1, y, 1, 0) || goes_on(x, s.y0 - 1, 0, -1) ||
            goes_on(x, s.y1, 0, 1);
+}
+
+// Head and shoulders over a box that is carried, legs below a table: what stands in the same place, where the rest of
+// the person ends.
+uint32_t PeopleMap::above_or_below(const Shape& part) const {
+    uint32_t best = Identity::kMost;
+    float least = kSamePlace_m;
+    for (const Piece& p : pieces_) {
+        if (p.slot >= Identity::kMost) continue;
+        const bool above = part.low_m > p.shape.high_m - kOverlap_m, below = part.high_m < p.shape.low_m + kOverlap_m;
+        const float away = floor_distance(part.centre, p.shape.centre);
+        if ((!above && !below) || away > least) continue;
+        least = away;
+        best = p.slot;
+    }
+    return best;
 }
 
 // A hand before the trunk, a head above a dark collar: what lies beside a person in the image and near them
@@ -76,6 +95,12 @@ void PeopleMap::attach_fragments() {
             most = votes[slot + 1];
             p.home = slot;
         }
+    }
+    for (Piece& p : pieces_) {
+        const bool part = p.slot == kThing && p.shape.area_m2 < kMostPart_m2;
+        if (!part && !(p.slot == kFragment && p.home == Identity::kMost)) continue;
+        p.home = above_or_below(p.shape);
+        if (p.home < Identity::kMost) p.slot = kFragment;
     }
     for (const Piece& p : pieces_)
         if (p.slot == kFragment && p.home < Identity::kMost)

@@ -95,12 +95,13 @@ private:
     uint32_t owner_of_part(const Piece& piece, const std::array<const Piece*, Identity::kMost>& largest, int64_t time_ns);
     void attach_fragments();
     bool part_of_scene(const Shape& shape) const;
+    uint32_t above_or_below(const Shape& shape) const;
     void grow_feet();
     void report(const DepthImage& image, int64_t time_ns, uint8_t* users);
     Shape measure(std::span<const uint32_t> cells) const;
     bool person_like(std::span<const uint32_t> cells, const Shape& shape) const;
     bool background_goes_on(std::span<const uint32_t> cells) const;
-    bool feet_hidden(std::span<const uint32_t> cells) const;
+    bool feet_hidden(std::span<const uint32_t> cells, const Shape& shape) const;
 
     PeopleMapOptions options_;
     Camera camera_;

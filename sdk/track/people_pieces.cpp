@@ -10,6 +10,8 @@ namespace vfit {
 
 namespace {
 
+constexpr float kLowerEnd_m = 0.15f;   // where it is looked what is below
+constexpr float kFloorBelow_m = 0.3f;  // feet do not stand on what is higher
 constexpr float kFragment_m2 = 0.12f;  // a forearm and hand, or a shank, seen by themselves
 constexpr float kSamePlace_m = 0.2f;   // along the view, from frame to frame: 6 m/s at 30 Hz
 constexpr uint32_t kFewestVotes = 10;  // cells in the same place
@@ -30,31 +32,33 @@ constexpr float kHeadReach_m = 1.1f;   // along the surface from the axis to the
 
 }  // namespace
 
-bool PeopleMap::feet_hidden(std::span<const uint32_t> cells) const {
+// Below the lower end something stands that is nearer, or the person is at a piece of furniture that is known.
+bool PeopleMap::feet_hidden(std::span<const uint32_t> cells, const Shape& shape) const {
     const ShapeMeter meter(grid_, camera_, {});
     const int down = meter.down();
     const int width = int(grid_.width());
     uint32_t nearer = 0, farther = 0;
-    for (const uint32_t cell : cells) {
+    grid_.for_each(cells, [&](uint32_t cell, uint32_t x, uint32_t y) {
+        if (meter.world(x, y).y > shape.low_m + kLowerEnd_m) return;
         const float z = grid_.depth()[cell], same = same_surface_m(z);
         for (int k = 1; k <= 3; ++k) {
             const int next = int(cell) + k * down;
             if (next < 0 || next >= int(grid_.cells())) break;
-            if (std::abs(down) == 1 && next / width != int(cell) / width) break;
+            if (std::abs(down) == 1 && next / width != int(y)) break;
             const float other = grid_.depth()[size_t(next)];
             if (other == 0.0f) continue;
-            nearer += other < z - same;
+            nearer += other < z - same || (!wanted_[size_t(next)] && other < z + same && shape.low_m > kFloorBelow_m);
             farther += other > z + same;
             break;
         }
-    }
+    });
     return nearer > farther && nearer >= 6;
 }
 
 bool PeopleMap::person_like(std::span<const uint32_t> cells, const Shape& shape) const {
     const bool floor = camera_.floor_state != VFIT_FLOOR_DEFAULT;
     if (looks_like_person(shape, floor, false)) return true;
-    return looks_like_person(shape, floor, true) && feet_hidden(cells);
+    return looks_like_person(shape, floor, true) && feet_hidden(cells, shape);
 }
 
 void PeopleMap::add_piece(std::span<const uint32_t> cells, const Shape& shape, uint32_t slot) {
