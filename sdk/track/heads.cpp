@@ -19,6 +19,7 @@ constexpr float kLowestHead_m = 0.9f;
 // The head itself: from below the crown to the chin, to both sides of the axis. A forearm held up is half as broad.
 constexpr float kFaceFrom_m = 0.05f, kFaceTo_m = 0.20f, kLeastFace_m = 0.12f;
 constexpr int kFaceHalf = 2;              // columns
+constexpr float kHeadDeep_m = 0.17f;      // from the crown to the face, and less than between two heads
 // Shoulders and elbows below the top, and the breadth there to either side of the axis, as shares of the height (ANSUR
 // II, with a margin): a raised arm has none outside.
 constexpr float kShoulderFrom = 0.18f, kShoulderTo = 0.41f, kShoulder = 0.052f;
@@ -69,15 +70,19 @@ int HeadFinder::middle_of_crown(int peak) const {
 
 // Where the head is; returns what is seen of its face.
 float HeadFinder::look(std::span<const Vec4> points, int axis, Head& head) const {
-    float sum = 0.0f, area = 0.0f, face = 0.0f;
+    head.x_m = left_m_ + (float(axis) + 0.5f) * kColumn_m;
+    float sum = 0.0f, area = 0.0f;
     for (const Vec4& p : points) {
-        if (p.y < head.top_m - kFaceTo_m || p.y > head.top_m || std::abs(column(p.x) - axis) > kFaceHalf) continue;
+        if (p.y < head.top_m - kFaceFrom_m || p.y > head.top_m || std::abs(column(p.x) - axis) > kFaceHalf) continue;
         sum += p.w * p.z;
         area += p.w;
-        if (p.y < head.top_m - kFaceFrom_m) face += p.w;
     }
-    head.x_m = left_m_ + (float(axis) + 0.5f) * kColumn_m;
     head.z_m = sum / std::max(area, 1e-9f);
+    float face = 0.0f;
+    for (const Vec4& p : points) {
+        const bool high = p.y > head.top_m - kFaceTo_m && p.y < head.top_m - kFaceFrom_m;
+        if (high && std::abs(column(p.x) - axis) <= kFaceHalf && std::abs(p.z - head.z_m) < kHeadDeep_m) face += p.w;
+    }
     return face;
 }
 
@@ -87,9 +92,10 @@ bool HeadFinder::separate(int axis, const Head& head, float face_m2) const {
         const int a = std::min(axis, axes_[k]), b = std::max(axis, axes_[k]);
         if (b - a < kLeastApart) return false;
         const float valley = *std::min_element(top_.begin() + a, top_.begin() + b + 1);
-        if (valley > head.top_m - kNeck_m) return false;
-        if (float(b - a) * kColumn_m >= kHeadsApart_m) continue;
-        // Side by side in the view, but the one behind the other: there an arm held up is no head.
+        const bool neck = valley < head.top_m - kNeck_m, step = std::abs(head.z_m - heads_[k].z_m) > kHeadDeep_m;
+        if (!neck && !step) return false;
+        if (neck && float(b - a) * kColumn_m >= kHeadsApart_m) continue;
+        // Close in the view, the one behind the other: there an arm held up is no head.
         if (std::hypot(head.x_m - heads_[k].x_m, head.z_m - heads_[k].z_m) < kHeadsApart_m ||
             face_m2 < kLeastFace_m * (kFaceTo_m - kFaceFrom_m))
             return false;

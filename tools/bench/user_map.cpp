@@ -22,6 +22,9 @@ namespace vfit::tools {
 namespace {
 
 constexpr float kJudgedTo_m = 3.0f;  // pixels with a reading up to there count
+constexpr size_t kMostPeople = 8;
+// Who is hidden but for this share of their largest view so far is not judged: nobody could say whose hand that is.
+constexpr double kHiddenShare = 0.1;
 constexpr float kFoot_m = 0.10f;     // pixels of the person below that height above the true floor
 
 struct Options {
@@ -33,7 +36,8 @@ struct Options {
 /// Counts over a sequence; with several people in it, each of them counts in each image.
 struct Figures {
     double iou_sum = 0.0, iou_worst = 1.0;
-    uint32_t views = 0, missed = 0;  // a person in an image: with pixels that are judged; without a label
+    uint32_t views = 0, missed = 0;  // a person in an image, unless hidden; without a label
+    std::array<size_t, kMostPeople + 1> largest{};  // view of each person so far, pixels
     size_t foot = 0, foot_found = 0, hit = 0, truth = 0, labelled = 0;
     std::map<int, std::set<int>> ids;  // labels of each person
     double floor_deg = 0.0, floor_m = 0.0;  // of the last frame
@@ -54,8 +58,6 @@ Samples samples(const std::vector<double>& ms) {
     for (const double value : ms) s.add(value);
     return s;
 }
-
-constexpr size_t kMostPeople = 8;
 
 /// Pixels of one person in one image: with a reading, and no farther than judged.
 struct View {
@@ -104,12 +106,13 @@ void judge(const Shot& shot, const std::vector<uint8_t>& users, bool alone, Figu
         f.hit += v.hit;
         f.truth += v.truth;
         f.labelled += v.labelled;
-        if (v.truth == 0) continue;
+        f.largest[k] = std::max(f.largest[k], v.truth);
+        if (double(v.truth) <= kHiddenShare * double(f.largest[k])) continue;
         f.iou_sum += v.iou();
         f.iou_worst = std::min(f.iou_worst, v.iou());
         ++f.views;
         f.missed += v.hit == 0;
-        if (own[k]) f.ids[int(k)].insert(own[k]);
+        if (own[k] && 2 * v.hit > v.truth) f.ids[int(k)].insert(own[k]);
     }
 }
 
