@@ -16,11 +16,10 @@ uint32_t Components::root(uint32_t i) {
 }
 
 void Components::join(uint32_t a, uint32_t b) {
-    a = root(a);
-    b = root(b);
-    // The earlier cell becomes the root: components come out in the order of their first cells.
-    if (a < b) parent_[b] = a;
-    if (b < a) parent_[a] = b;
+    const uint32_t ra = root(a), rb = root(b);
+    // The earlier cell becomes the root: components come out in the order of their first cells. Both point to it now,
+    // so that their neighbours find it at once.
+    parent_[a] = parent_[b] = parent_[ra] = parent_[rb] = std::min(ra, rb);
 }
 
 void Components::run(const DepthGrid& grid, const uint8_t* wanted, uint32_t fewest_cells) {

@@ -20,8 +20,9 @@ constexpr float kVoteShare = 0.1f;     // of the person's cells
 constexpr float kGrowth = 1.4f, kGrowth_m2 = 0.15f;
 constexpr float kBorder_m = 0.08f;     // a forearm
 constexpr float kGrowthPath_m = 0.3f;  // a hand's way in a frame: 9 m/s at 30 Hz
-// More than two people: looked at now and then only; more than a crowd: never.
-constexpr float kWall_m2 = 2.5f, kOnlyWall_m2 = 6.0f;
+// More than one person: looked at now and then only; more than two: nobody's limbs reach everywhere; more than a crowd:
+// a wall.
+constexpr float kWall_m2 = 1.5f, kCrowd_m2 = 2.5f, kOnlyWall_m2 = 6.0f;
 constexpr uint32_t kWallTurn = 10;     // frames
 constexpr float kTwo_m2 = 0.7f;        // seen of two people who were taken for one
 constexpr uint32_t kTwoTurn = 5;       // frames
@@ -196,16 +197,15 @@ void PeopleMap::sort_component(std::span<const uint32_t> cells) {
             float(votes[slot + 1]) >= kVoteShare * float(most))
             slots[count++] = slot;
     }
-    const bool wall = area_m2 > kWall_m2;
     if (count >= 2) {
-        split_by_tracks(cells, {slots.data(), count}, wall ? kGrowthPath_m : std::numeric_limits<float>::max());
+        split_by_tracks(cells, {slots.data(), count}, area_m2 > kCrowd_m2 ? kGrowthPath_m : std::numeric_limits<float>::max());
         return;
     }
     if (count == 1 && area_m2 > kGrowth * identity_.track(slots[0]).area_m2 + kGrowth_m2) {
         split_by_tracks(cells, {slots.data(), 1}, kGrowthPath_m);
         return;
     }
-    if (count == 0 && wall && (area_m2 > kOnlyWall_m2 || frames_ % kWallTurn != 1)) return;
+    if (count == 0 && area_m2 > kWall_m2 && (area_m2 > kOnlyWall_m2 || frames_ % kWallTurn != 1)) return;
     if (count == 1) {
         add_person(cells, slots[0]);
         return;
@@ -213,7 +213,8 @@ void PeopleMap::sort_component(std::span<const uint32_t> cells) {
     // Two who stand close can pass for one broad person, and one at a table for none.
     const Shape shape = measure(cells);
     const bool whole = shape.area_m2 < kSplitArea_m2 || person_like(cells, shape);
-    if ((whole && shape.width_m < kTwoWide_m) || !split_by_heads(cells, whole ? 2 : 1)) classify_new(cells, shape);
+    const bool one = whole && shape.width_m < kTwoWide_m;
+    if (one || frames_ % kTwoTurn != 1 || !split_by_heads(cells, whole ? 2 : 1)) classify_new(cells, shape);
 }
 
 void PeopleMap::sort_components() {

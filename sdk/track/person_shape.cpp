@@ -10,7 +10,7 @@ namespace {
 constexpr float kBin_m = 0.025f;          // 160 of them: 4 m of height, and 2 m to both sides
 constexpr int kTopBins = 8;               // 20 cm
 constexpr int kBorderCells = 2;           // an image border is rarely straight
-constexpr size_t kSample = 2048;          // cells
+constexpr size_t kSample = 1024;          // cells
 constexpr uint32_t kFewCells = 2;         // above which there is only speckle
 constexpr float kLegsFrom_m = 0.2f, kLegsTo_m = 0.6f;
 
