@@ -70,12 +70,12 @@ vfit_format target_format(const py::array& out, vfit_format from, py::ssize_t& n
 }
 
 ImageArray image_in(const char* name, const py::array& given, const py::dtype& type, py::ssize_t channels,
-                    vfit_format format) {
+                    vfit_format format, const char* hint = "") {
     const bool shaped = channels == 1 ? given.ndim() == 2 : given.ndim() == 3 && given.shape(2) == channels;
     if (!given.dtype().equal(type) || !shaped)
         fail(VFIT_ERROR_ARGUMENT, std::string(name) + ": wanted is " + py::str(type).cast<std::string>() +
                                       (channels == 1 ? " (height, width)" : " (height, width, 4)") +
-                                      ", given is " + dtype_text(given) + " " + shape_text(given));
+                                      ", given is " + dtype_text(given) + " " + shape_text(given) + hint);
     ImageArray out{py::array::ensure(given, py::array::c_style), vfit_view_init()};
     out.view.format = format;
     out.view.data = out.pixels.data();
@@ -142,7 +142,9 @@ vfit_target target_in(const py::array& out, vfit_format stream_format) {
 }
 
 ImageArray depth_in(const py::array& depth) {
-    return image_in("depth", depth, py::dtype::of<uint16_t>(), 1, VFIT_FORMAT_U16);
+    const bool metres = depth.dtype().kind() == 'f';
+    return image_in("depth", depth, py::dtype::of<uint16_t>(), 1, VFIT_FORMAT_U16,
+                    metres ? "; of metres: (1000 * np.nan_to_num(depth)).astype(np.uint16)" : "");
 }
 
 ImageArray users_in(const py::array& users) {

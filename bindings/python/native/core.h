@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstring>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <optional>
@@ -188,6 +189,17 @@ py::object value(const char* name, Arguments&&... arguments) {
 
 /// An optional number where the library takes 0 for "default" and a negative one for 0.
 float setting(const std::optional<float>& given);
+
+/// The value of a word; an unknown word fails, naming the argument and all words.
+inline int32_t choice(const std::string& word, const char* name,
+                      std::initializer_list<std::pair<const char*, int32_t>> words) {
+    std::string known;
+    for (const auto& [text, value] : words) {
+        if (word == text) return value;
+        known += std::string(known.empty() ? "\"" : ", \"") + text + "\"";
+    }
+    fail(VFIT_ERROR_ARGUMENT, std::string(name) + ": \"" + word + "\" is none of " + known);
+}
 
 inline uint32_t flag(bool on, uint32_t bit) { return on ? bit : 0u; }
 

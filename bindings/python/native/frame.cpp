@@ -97,6 +97,19 @@ vfit_intrinsics intrinsics_in(const py::sequence& given, uint32_t width, uint32_
 std::unique_ptr<Frame> from_numpy(const Context& context, const py::array& depth,
                                   const py::sequence& intrinsics, const py::object& users,
                                   const py::object& color, const py::object& camera, int64_t time_ns) {
+    return frame_from_numpy(context.core(), depth, intrinsics, users, color, camera, time_ns);
+}
+
+template <vfit_stream kStream>
+py::array get(const Frame& frame) {
+    return array_of(frame, kStream, view_of(frame, kStream));
+}
+
+}  // namespace
+
+std::unique_ptr<Frame> frame_from_numpy(const std::shared_ptr<Core>& core, const py::array& depth,
+                                        const py::sequence& intrinsics, const py::object& users,
+                                        const py::object& color, const py::object& camera, int64_t time_ns) {
     std::vector<py::array> pixels;  // keeps the copies that were needed
     std::vector<vfit_stream> kinds;
     std::vector<vfit_view> views;
@@ -118,16 +131,9 @@ std::unique_ptr<Frame> from_numpy(const Context& context, const py::array& depth
     desc.camera = &c;
     desc.time_ns = time_ns;
     vfit_frame frame{};
-    run([&, h = context.handle()] { return vfit_frame_create(h, &desc, &frame); });
-    return std::make_unique<Frame>(context.core(), frame);
+    run([&, h = core->open_handle()] { return vfit_frame_create(h, &desc, &frame); });
+    return std::make_unique<Frame>(core, frame);
 }
-
-template <vfit_stream kStream>
-py::array get(const Frame& frame) {
-    return array_of(frame, kStream, view_of(frame, kStream));
-}
-
-}  // namespace
 
 int64_t time_ns_of(const Frame& frame) {
     const auto kinds = streams_of(frame);

@@ -40,6 +40,11 @@ public:
     FrameReference reference;
 };
 
+/// A frame of the host's pixels; None where there is no user map, colour or camera.
+std::unique_ptr<Frame> frame_from_numpy(const std::shared_ptr<Core>& core, const py::array& depth,
+                                        const py::sequence& intrinsics, const py::object& users,
+                                        const py::object& color, const py::object& camera, int64_t time_ns);
+
 int64_t time_ns_of(const Frame& frame);
 
 /// The body to follow where none is named: the first of the frame; 0: nobody.

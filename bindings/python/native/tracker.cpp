@@ -11,10 +11,17 @@ public:
     using Owned::Owned;
 };
 
-std::shared_ptr<Tracker> create(const Context& context, const py::object& floor) {
+vfit_track_source source_in(const std::string& given, const char* name) {
+    return choice(given, name, {{"auto", VFIT_TRACK_AUTO}, {"built_in", VFIT_TRACK_BUILT_IN}, {"given", VFIT_TRACK_GIVEN}});
+}
+
+std::shared_ptr<Tracker> create(const Context& context, const py::object& floor, const std::string& joints,
+                                const std::string& user_map) {
     const vfit_camera camera = floor.is_none() ? vfit_camera_init() : camera_in(floor);
     vfit_tracker_desc desc = vfit_tracker_desc_init();
     if (!floor.is_none()) desc.floor = &camera;
+    desc.joints = source_in(joints, "joints");
+    desc.user_map = source_in(user_map, "user_map");
     vfit_tracker handle{};
     run([&, h = context.handle()] { return vfit_tracker_create(h, &desc, &handle); });
     return make<Tracker>(context.core(), handle);
@@ -24,6 +31,11 @@ std::unique_ptr<Frame> update(const Tracker& tracker, const Frame& frame) {
     vfit_frame tracked{};
     run([&, t = tracker.get(), f = frame.get()] { return vfit_tracker_update(t, f, &tracked); });
     return std::make_unique<Frame>(tracker.core(), tracked);
+}
+
+std::unique_ptr<Frame> track(const Tracker& tracker, const py::array& depth, const py::sequence& intrinsics,
+                             const py::object& users, const py::object& camera, int64_t time_ns) {
+    return update(tracker, *frame_from_numpy(tracker.core(), depth, intrinsics, users, py::none(), camera, time_ns));
 }
 
 std::unique_ptr<Frame> submit(const Tracker& tracker, const Frame& frame, const py::object& joints,
@@ -47,9 +59,15 @@ std::unique_ptr<Frame> submit(const Tracker& tracker, const Frame& frame, const 
 void bind_tracker(py::module_& m) {
     closable(py::class_<Tracker, std::shared_ptr<Tracker>>(
                  m, "Tracker", "Makes tracked frames: images, user map and bodies.")
-                 .def(py::init(&create), "context"_a, py::kw_only(), "floor"_a = py::none(),
-                      "floor: a Camera that says where the floor is, if the frames do not.")
+                 .def(py::init(&create), "context"_a, py::kw_only(), "floor"_a = py::none(), "joints"_a = "auto",
+                      "user_map"_a = "auto",
+                      "floor: a Camera that says where the floor is, if the frames do not. joints, user_map: \"auto\" "
+                      "(the source's where it tells them, else the tracker's), \"built_in\" or \"given\".")
                  .def("update", &update, "frame"_a, "The frame with the bodies that its source supplies, or those that the tracker finds.")
+                 .def("track", &track, "depth"_a, "intrinsics"_a, py::kw_only(), "users"_a = py::none(),
+                      "camera"_a = py::none(), "time_ns"_a = 0,
+                      "From a depth image (height, width) uint16 in millimetres and (fx, fy, cx, cy) to the frame with "
+                      "user map and bodies.")
                  .def("submit", &submit, "frame"_a, "joints"_a, py::kw_only(), "body_id"_a = 1,
                       "time_ns"_a = 0, "camera_space"_a = false, "partly_out_of_view"_a = false,
                       "The frame with a body of your own; submit to the result to add a second one.")

@@ -3,7 +3,7 @@
 from enum import IntEnum
 from os import PathLike
 from types import TracebackType
-from typing import Any, Final, Iterator, Mapping, Optional, Sequence, Tuple, Type, TypeVar, Union
+from typing import Any, Final, Iterator, Literal, Mapping, Optional, Sequence, Tuple, Type, TypeVar, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,7 @@ _Sex = Union["Sex", str, None]
 """A Sex, "f", "m" or None."""
 _Measures = Mapping[str, Union[Measurement, Tuple[float, ...], float]]
 _JointsIn = Union[Joints, Mapping[str, Sequence[float]], Mapping["Joint", Sequence[float]]]
+_TrackSource = Literal["auto", "built_in", "given"]
 _Self = TypeVar("_Self", bound="_Closable")
 
 __version__: Final[str]
@@ -288,11 +289,22 @@ class Recorder(_Closable):
     def write(self, frame: Frame) -> None: ...
 
 class Tracker(_Closable):
-    """Makes tracked frames: images, user map and bodies."""
+    """Makes tracked frames: images, user map and bodies.
 
-    def __init__(self, context: Context, *, floor: Optional[Camera] = None) -> None: ...
+    floor says where the floor is, if the frames do not. joints and user_map say whose are taken: "auto" is the
+    source's where it tells them, else the tracker's own; "given" is the source's alone (UnsupportedError where it
+    tells none)."""
+
+    def __init__(self, context: Context, *, floor: Optional[Camera] = None, joints: _TrackSource = "auto",
+                 user_map: _TrackSource = "auto") -> None: ...
     def update(self, frame: Frame) -> Frame:
         """The frame with the bodies that its source supplies, or those that the tracker finds."""
+    def track(self, depth: NDArray[np.uint16], intrinsics: Union[Intrinsics, Sequence[Any]], *,
+              users: Union[NDArray[np.uint8], NDArray[np.bool_], None] = None, camera: Optional[Camera] = None,
+              time_ns: int = 0) -> Frame:
+        """User map (`.users`) and people (`.bodies()`) of a depth image (h, w) in millimetres, 0 where there is no
+        reading; intrinsics are fx, fy, cx, cy in pixels. Images that follow each other want their time stamps:
+        people keep their ids and joints are steadied over time. time_ns 0: now."""
     def submit(self, frame: Frame, joints: _JointsIn, *, body_id: int = 1, time_ns: int = 0,
                camera_space: bool = False, partly_out_of_view: bool = False) -> Frame:
         """The frame with a body of your own; submit to the result to add a second one."""

@@ -103,6 +103,11 @@ class Intrinsics(NamedTuple):
     height: int = 0
     distortion: Tuple[float, ...] = ()
 
+    def project(self, points: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Pixels (n, 2) of camera-space points (n, 3). Pixel centres lie at whole coordinates."""
+        p = np.asarray(points, np.float32)
+        return p[..., :2] / p[..., 2:] * np.float32((self.fx, self.fy)) + np.float32((self.cx, self.cy))
+
 
 class Camera(NamedTuple):
     """Where a camera stands. To give a floor: Camera.over(normal, distance_m)."""
@@ -122,6 +127,15 @@ class Camera(NamedTuple):
     def over(cls, normal: Vector, distance_m: float, depth_unit_m: float = 0.001) -> "Camera":
         """Of a known floor: normal . p + distance = 0 in camera space, the normal pointing up."""
         return cls(FloorState.GIVEN, depth_unit_m, floor_normal=normal, floor_distance_m=distance_m)
+
+    def from_world(self, points: NDArray[np.float32]) -> NDArray[np.float32]:
+        """World-space points (n, 3), such as Joints.positions, in camera space: x right, y down, z forward. World
+        space is that of a context with the default axes."""
+        if self.world_from_camera is None:
+            raise ValueError("this camera is none of a frame: it has no world_from_camera")
+        turn, shift = self.world_from_camera[:3, :3], self.world_from_camera[:3, 3]
+        out: NDArray[np.float32] = (np.asarray(points, np.float32) - shift) @ turn
+        return out
 
 
 class JointPoint(NamedTuple):

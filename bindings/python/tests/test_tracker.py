@@ -1,0 +1,119 @@
+"""The tracker on numpy arrays: depth in, user map and joints out; whose joints and user map are taken."""
+
+import numpy as np
+import pytest
+
+import vfit
+from conftest import INTRINSICS
+
+SOURCE = "virtual:motion=demo&sex=f&sensor=kinect_v1_320&seed=3"
+
+
+def in_camera(frame, joints):
+    return frame.camera.from_world(joints.positions)
+
+
+def test_a_depth_image_becomes_a_user_map_and_a_body(ctx):
+    truth = next(ctx.open(SOURCE))
+    tracked = vfit.Tracker(ctx).track(truth.depth, truth.intrinsics)
+    (body,) = tracked.bodies()
+    assert tracked.users.shape == truth.depth.shape and tracked.users.dtype == np.uint8
+    found, person = tracked.users == body.id, truth.users == 1
+    assert (found & person).sum() / (found | person).sum() > 0.9
+    assert body.joints.positions.shape == (len(body.joints), 3) and len(body.joints) > 15
+    told = truth.joints()
+    errors = [np.linalg.norm(a - b) for name, a in zip(body.joints, in_camera(tracked, body.joints))
+              for b in [in_camera(truth, told)[list(told).index(name)]]]
+    assert np.median(errors) < 0.08
+    # Joints drawn into the depth image lie on the person.
+    pixels = tracked.intrinsics.project(in_camera(tracked, body.joints))
+    column, row = pixels[list(body.joints).index("TORSO")].round().astype(int)
+    assert tracked.users[row, column] == body.id
+
+
+def test_images_that_follow_each_other_keep_the_person(ctx):
+    tracker, ids, height = vfit.Tracker(ctx), set(), []
+    for frame in ctx.open(SOURCE, frames=12):
+        tracked = tracker.track(frame.depth, tuple(frame.intrinsics)[:4], time_ns=frame.time_ns)
+        assert tracked.time_ns == frame.time_ns
+        ids |= {body.id for body in tracked.bodies()}
+        height.append(tracked.joints()["HEAD"].y)
+    assert len(ids) == 1
+    assert 1.2 < height[-1] < 1.9, "world space: metres above the floor"
+
+
+def test_a_map_of_ones_own_is_taken(ctx):
+    frame = next(ctx.open(SOURCE))
+    tracked = vfit.Tracker(ctx).track(frame.depth, frame.intrinsics, users=(frame.users == 1), camera=frame.camera)
+    assert np.array_equal(tracked.users, frame.users)
+    (body,) = tracked.bodies()
+    assert body.id == 1
+    assert np.allclose(tracked.camera.world_from_camera, frame.camera.world_from_camera)
+
+
+def test_an_empty_room_has_nobody(ctx):
+    tracked = vfit.Tracker(ctx).track(np.zeros((240, 320), np.uint16), (285, 285, 159.5, 119.5))
+    assert tracked.bodies() == [] and not tracked.users.any()
+
+
+def test_wrong_images_and_cameras_are_refused_by_name(ctx, images):
+    tracker, depth = vfit.Tracker(ctx), images[0]
+    metres = depth.astype(np.float32) / 1000
+    metres[0, 0] = np.nan
+    cases = [
+        (metres, INTRINSICS, r"depth: wanted is uint16 \(height, width\).*float32.*metres"),
+        (depth.astype(np.int16), INTRINSICS, "depth: wanted is uint16.*int16"),
+        (depth[None], INTRINSICS, r"depth: .*\(1, 120, 160\)"),
+        (depth[:0], INTRINSICS, "0|size"),
+        (depth, (-120, 120, 80, 60), "fx|focal"),
+        (depth, (0, 120, 80, 60), "fx|focal"),
+        (depth, (120, float("nan"), 80, 60), "fy|focal|finite"),
+        (depth, (120, 120, float("inf"), 60), "c|finite"),
+        (depth, (120, 120), "intrinsics"),
+        (depth, INTRINSICS._replace(width=320, height=240), "320"),
+    ]
+    for image, intrinsics, message in cases:
+        with pytest.raises(vfit.ArgumentError, match=message):
+            tracker.track(image, intrinsics)
+    with pytest.raises(vfit.ArgumentError, match="depth_unit"):
+        tracker.track(depth, INTRINSICS, camera=vfit.Camera(depth_unit_m=-1.0))
+    assert ctx.stats().frame_count == 0
+
+
+def test_whose_joints_and_map_are_taken_is_a_choice(ctx):
+    frame = next(ctx.open(SOURCE))
+    told = frame.joints().positions
+    assert np.array_equal(vfit.Tracker(ctx).update(frame).joints().positions, told)
+    assert np.array_equal(vfit.Tracker(ctx, joints="given", user_map="given").update(frame).joints().positions, told)
+    found = vfit.Tracker(ctx, joints="built_in").update(frame)
+    assert not np.array_equal(found.joints().positions, told)
+    assert np.array_equal(found.users, frame.users)
+    own = vfit.Tracker(ctx, joints="built_in", user_map="built_in").update(frame)
+    assert not np.array_equal(own.users, frame.users) and len(own.bodies()) == 1
+    with pytest.raises(vfit.ArgumentError, match='joints: "mine" is none of "auto", "built_in", "given"'):
+        vfit.Tracker(ctx, joints="mine")
+    with pytest.raises(vfit.ArgumentError, match="user_map"):
+        vfit.Tracker(ctx, user_map="")
+    with pytest.raises(TypeError):
+        vfit.Tracker(ctx, joints=None)
+
+
+def test_given_joints_that_are_not_there_are_unsupported(frame, ctx, images):
+    with pytest.raises(vfit.UnsupportedError, match="no joints"):
+        vfit.Tracker(ctx, joints="given").update(frame)
+    bare = vfit.Frame.from_numpy(ctx, images[0], INTRINSICS)
+    with pytest.raises(vfit.UnsupportedError, match="no user map"):
+        vfit.Tracker(ctx, user_map="given").update(bare)
+
+
+def test_points_go_to_camera_space_and_to_pixels(ctx, images):
+    frame = vfit.Frame.from_numpy(ctx, images[0], INTRINSICS,
+                                  camera=vfit.Camera.over((0.0, -np.cos(0.2), -np.sin(0.2)), 1.5))
+    points = np.array([(0.1, 0.9, -2.0), (-0.4, 1.6, -2.5)], np.float32)
+    camera = frame.camera.from_world(points)
+    back = (frame.camera.world_from_camera @ np.c_[camera, np.ones(2)].T).T[:, :3]
+    assert np.allclose(back, points, atol=1e-5)
+    x, y, z = camera[0]
+    assert np.allclose(frame.intrinsics.project(camera)[0], (x / z * 120 + 79.5, y / z * 120 + 59.5), atol=1e-3)
+    with pytest.raises(ValueError, match="world_from_camera"):
+        vfit.Camera().from_world(points)
