@@ -16,6 +16,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import zlib
 
 try:
     import pty
@@ -43,6 +44,31 @@ def lines(test, *args):
     done = run(*args)
     test.assertEqual(done.returncode, 0, done.stderr)
     return [json.loads(line) for line in done.stdout.splitlines()]
+
+
+def picture(path):
+    """Width, height and RGB bytes of a PNG file as the tools write it: eight bits, not interlaced."""
+    data, parts, at = path.read_bytes(), b"", 8
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + length]
+        if kind == b"IHDR":
+            width, height, depth, colour = struct.unpack(">IIBB", body[:10])
+            assert (depth, colour) == (8, 2), path
+        elif kind == b"IDAT":
+            parts += body
+        at += 12 + length
+    raw, row, out = zlib.decompress(parts), 3 * width, bytearray()
+    before = bytearray(row)
+    for y in range(height):
+        kind, line = raw[y * (row + 1)], bytearray(raw[y * (row + 1) + 1:(y + 1) * (row + 1)])
+        for i in range(row):
+            a, b, c = line[i - 3] if i > 2 else 0, before[i], before[i - 3] if i > 2 else 0
+            paeth = min((abs(b - c), 0, a), (abs(a - c), 1, b), (abs(a + b - 2 * c), 2, c))[2]
+            line[i] = (line[i] + (0, a, b, (a + b) // 2, paeth)[kind]) & 255
+        out += line
+        before = line
+    return width, height, bytes(out)
 
 
 def numbers(value):
@@ -116,6 +142,27 @@ class Contract(unittest.TestCase):
             self.assertTrue(2.0 < head[2] < 2.8, "z is the distance from the camera")
             self.assertLess(head[1], 0, "y points down and the head is above the camera")
             self.assertEqual(len(list(pathlib.Path(folder).glob("*.png"))), 60)
+
+    def test_track_draws_what_it_saw(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            source = VIRTUAL.replace("frames=60", "frames=3")
+            tracked = ("--joints", "tracked", "--user-map", "tracked", "--json")
+            lines(self, "track", source, "--pictures", folder / "told", "--user-map-out", folder / "maps", "--json")
+            lines(self, "track", source, "--pictures", folder / "found", *tracked)
+            lines(self, "track", source + "&distance=6", "--pictures", folder / "empty", *tracked)  # out of reach
+            files = [folder / run / name for run in ("told", "found", "empty") for name in ("000000.png", "000001.png", "000002.png")]
+            self.assertEqual(sorted(files), sorted(folder.glob("[tfe]*/*")))
+            self.assertEqual(len({file.read_bytes() for file in files}), 9, "no two are alike")
+            shares = []
+            for file in files[::3]:
+                width, height, pixels = picture(file)
+                self.assertEqual((width, height > 720), (960, True), "three times the image, and a line of text")
+                # The first person's colour, which is nowhere in a grey room.
+                shares.append(sum(r > b + 60 for r, b in zip(pixels[::3], pixels[2::3])) / (width * height))
+            self.assertGreater(min(shares[:2]), 0.02)
+            self.assertLess(shares[2], 0.001)
+            self.check_failure(run("track", source, "--pictures", folder, "--user-map-out", folder), "two folders")
 
     def test_the_tracker_finds_people_and_joints_by_itself(self):
         given = lines(self, "track", VIRTUAL, "--json")
@@ -246,6 +293,7 @@ class Contract(unittest.TestCase):
             inside = pathlib.Path(file.name) / "x"
             self.check_failure(run("fit", VIRTUAL, "--out", inside), str(inside))
             self.check_failure(run("track", VIRTUAL, "--user-map-out", inside), str(inside))
+            self.check_failure(run("track", VIRTUAL, "--pictures", inside), str(inside))
             self.check_failure(run("record", VIRTUAL, inside), str(inside))
             self.check_failure(run("plot", VIRTUAL, "--what", "depth", "--out", inside), str(inside))
         if pathlib.Path("/dev/full").exists():

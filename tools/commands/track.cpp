@@ -1,28 +1,51 @@
-// vfit track: the bodies of each frame, as JSON lines in the recording's camera space.
+// vfit track: the bodies of each frame, as JSON lines in the recording's camera space, and as pictures.
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 
 #include "client/files.h"
 #include "client/output.h"
 #include "client/progress.h"
 #include "commands/commands.h"
-#include "picture/canvas.h"
+#include "picture/tracked_picture.h"
 
 namespace vfit::tools {
 
 namespace {
 
 struct Options {
-    std::string source, map_folder;
+    std::string source, map_folder, picture_folder;
     bool json = false;
     TrackOptions track;
 };
 
-void write_user_map(vfit_frame frame, const std::string& folder, uint32_t index) {
-    const vfit_view map = view_of(frame, VFIT_STREAM_USER_MAP);
+constexpr uint32_t kPictureWidth = 900;  // at least, in pixels
+
+std::string picture_path(const std::string& folder, uint32_t index) {
     char name[16];
     std::snprintf(name, sizeof name, "%06u.png", index);
-    write_grey_png(folder + "/" + name, static_cast<const uint8_t*>(map.data), map.width, map.height, map.row_stride);
+    return folder + "/" + name;
+}
+
+void write_user_map(vfit_frame frame, const std::string& path) {
+    const vfit_view map = view_of(frame, VFIT_STREAM_USER_MAP);
+    write_grey_png(path, static_cast<const uint8_t*>(map.data), map.width, map.height, map.row_stride);
+}
+
+void write_picture(vfit_frame frame, const std::string& path, uint32_t index, size_t people) {
+    const uint32_t width = view_of(frame, VFIT_STREAM_DEPTH).width;
+    const std::string who = people == 0 ? "nobody" : people == 1 ? "1 person" : std::to_string(people) + " people";
+    draw_tracked(frame, static_cast<int>((kPictureWidth + width - 1) / width), "frame " + std::to_string(index) + "   " + who)
+        .write_png(path);
+}
+
+void create_folders(const Options& options) {
+    if (!options.map_folder.empty()) create_folder(options.map_folder);
+    if (!options.picture_folder.empty()) create_folder(options.picture_folder);
+    std::error_code error;
+    if (!options.map_folder.empty() && !options.picture_folder.empty() &&
+        std::filesystem::equivalent(options.map_folder, options.picture_folder, error))
+        throw Failure(options.picture_folder + ": --pictures and --user-map-out name their files alike and need two folders");
 }
 
 Json bodies_json(vfit_frame frame) {
@@ -39,7 +62,7 @@ void track(const Options& options) {
     const Context context = open_context();
     Source source(context.get(), options.source);
     const Tracker tracker = open_tracker(context.get(), options.track);
-    if (!options.map_folder.empty()) create_folder(options.map_folder);
+    create_folders(options);
     Progress progress("frames", true);
     while (const auto frame = source.next()) {
         const uint32_t index = source.taken() - 1;
@@ -48,8 +71,10 @@ void track(const Options& options) {
         Frame tracked;
         check(vfit_tracker_update(tracker.get(), frame->get(), tracked.out()));
         const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-        if (!options.map_folder.empty()) write_user_map(tracked.get(), options.map_folder, index);
         const Json bodies = bodies_json(tracked.get());
+        if (!options.map_folder.empty()) write_user_map(tracked.get(), picture_path(options.map_folder, index));
+        if (!options.picture_folder.empty())
+            write_picture(tracked.get(), picture_path(options.picture_folder, index), index, bodies.size());
         if (options.json)
             print_line({{"frame", index}, {"bodies", bodies}, {"ms", ms}});
         else
@@ -64,6 +89,7 @@ void add_track(Command& app) {
     auto o = std::make_shared<Options>();
     command.add_option("source", o->source, "Recording folder or sensor URI").required();
     command.add_option("--user-map-out", o->map_folder, "Write each frame's user map there as PNG");
+    command.add_option("--pictures", o->picture_folder, "Draw each frame there as PNG: depth, people, skeletons");
     command.add_flag("--json", o->json, "Print JSON lines");
     add_track_options(command, o->track);
     command.callback([o] { track(*o); });

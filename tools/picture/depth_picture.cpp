@@ -1,66 +1,17 @@
 #include "picture/depth_picture.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
+
+#include "picture/projection.h"
 
 namespace vfit::tools {
 
 namespace {
 
-constexpr std::array<std::pair<int, int>, 22> kBones = {{
-    {VFIT_JOINT_HEAD, VFIT_JOINT_NECK},
-    {VFIT_JOINT_NECK, VFIT_JOINT_TORSO},
-    {VFIT_JOINT_TORSO, VFIT_JOINT_PELVIS},
-    {VFIT_JOINT_NECK, VFIT_JOINT_LEFT_SHOULDER},
-    {VFIT_JOINT_NECK, VFIT_JOINT_RIGHT_SHOULDER},
-    {VFIT_JOINT_LEFT_SHOULDER, VFIT_JOINT_LEFT_ELBOW},
-    {VFIT_JOINT_RIGHT_SHOULDER, VFIT_JOINT_RIGHT_ELBOW},
-    {VFIT_JOINT_LEFT_ELBOW, VFIT_JOINT_LEFT_WRIST},
-    {VFIT_JOINT_RIGHT_ELBOW, VFIT_JOINT_RIGHT_WRIST},
-    {VFIT_JOINT_LEFT_WRIST, VFIT_JOINT_LEFT_HAND},
-    {VFIT_JOINT_RIGHT_WRIST, VFIT_JOINT_RIGHT_HAND},
-    {VFIT_JOINT_PELVIS, VFIT_JOINT_LEFT_HIP},
-    {VFIT_JOINT_PELVIS, VFIT_JOINT_RIGHT_HIP},
-    {VFIT_JOINT_LEFT_HIP, VFIT_JOINT_LEFT_KNEE},
-    {VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_RIGHT_KNEE},
-    {VFIT_JOINT_LEFT_KNEE, VFIT_JOINT_LEFT_FOOT},
-    {VFIT_JOINT_RIGHT_KNEE, VFIT_JOINT_RIGHT_FOOT},
-    {VFIT_JOINT_LEFT_FOOT, VFIT_JOINT_LEFT_TOES},
-    {VFIT_JOINT_RIGHT_FOOT, VFIT_JOINT_RIGHT_TOES},
-    // Of a source that has only the paper's 15 joints:
-    {VFIT_JOINT_TORSO, VFIT_JOINT_LEFT_HIP},
-    {VFIT_JOINT_TORSO, VFIT_JOINT_RIGHT_HIP},
-    {VFIT_JOINT_LEFT_HIP, VFIT_JOINT_RIGHT_HIP},
-}};
-
 constexpr Color kBone{0.98f, 0.98f, 0.95f};
 constexpr Color kLeft{0.35f, 0.80f, 1.00f}, kRight{1.00f, 0.60f, 0.25f}, kMiddle{0.55f, 0.95f, 0.45f};
 constexpr Color kSphere{1.00f, 0.85f, 0.30f}, kCapsule{0.95f, 0.65f, 0.20f};
-
-/// The intrinsics and the way into the picture.
-class View {
-public:
-    View(vfit_frame frame, int scale) : camera_(camera_of(frame)), scale_(scale) {
-        check(vfit_frame_intrinsics(frame, &k_));
-    }
-    struct Pixel {
-        float x, y, per_metre;
-    };
-    std::optional<Pixel> project(const float (&world)[3]) const {
-        const Point p = to_camera(camera_, world);
-        if (p.z < 0.05f) return std::nullopt;
-        const auto s = static_cast<float>(scale_);
-        return Pixel{(p.x / p.z * k_.fx + k_.cx + 0.5f) * s, (p.y / p.z * k_.fy + k_.cy + 0.5f) * s,
-                     k_.fx / p.z * s};
-    }
-
-private:
-    vfit_camera camera_;
-    vfit_intrinsics k_ = vfit_intrinsics_init();
-    int scale_;
-};
 
 struct Range {
     float near, far;
@@ -110,31 +61,24 @@ Canvas draw_depth(vfit_frame frame, int scale) {
 }
 
 void draw_skeleton(Canvas& canvas, vfit_frame frame, const std::vector<vfit_joint>& joints, int scale) {
-    const View view(frame, scale);
-    std::array<std::optional<View::Pixel>, VFIT_JOINT_COUNT> at;
-    for (const vfit_joint& j : joints) at[static_cast<size_t>(j.joint)] = view.project(j.position);
-    const bool pelvis = at[VFIT_JOINT_PELVIS].has_value();
-    for (const auto& [a, b] : kBones) {
-        const auto& p = at[static_cast<size_t>(a)];
-        const auto& q = at[static_cast<size_t>(b)];
-        const bool spare = a == VFIT_JOINT_TORSO && b != VFIT_JOINT_PELVIS;
-        if (p && q && !(spare && pelvis)) canvas.line(p->x, p->y, q->x, q->y, std::max(1, 3 * scale / 2), kBone);
-    }
+    const JointPixels at = project_joints(Projection(frame, scale), joints);
+    const auto pixel = [&](vfit_joint_id joint) { return at[static_cast<size_t>(joint)]; };
+    for (const auto& [a, b] : drawn_bones(at))
+        canvas.line(pixel(a)->x, pixel(a)->y, pixel(b)->x, pixel(b)->y, std::max(1, 3 * scale / 2), kBone);
     for (const vfit_joint& j : joints)
-        if (const auto& p = at[static_cast<size_t>(j.joint)])
-            canvas.disc(p->x, p->y, 2.2f * static_cast<float>(scale), side_color(j.joint));
+        if (const auto p = pixel(j.joint)) canvas.disc(p->x, p->y, 2.2f * static_cast<float>(scale), side_color(j.joint));
 }
 
 void draw_colliders(Canvas& canvas, vfit_frame frame, const std::vector<vfit_collider>& colliders, int scale) {
-    const View view(frame, scale);
+    const Projection project(frame, scale);
     for (const vfit_collider& c : colliders) {
-        const auto p = view.project(c.center);
+        const auto p = project(c.center);
         if (!p || c.radius <= 0.0f) continue;
         if (c.joint_b < 0) {
             canvas.ring(p->x, p->y, c.radius * p->per_metre, std::max(1, scale), kSphere);
             continue;
         }
-        const auto q = view.project(c.center_b);
+        const auto q = project(c.center_b);
         if (!q) continue;
         const float dx = q->x - p->x, dy = q->y - p->y, length = std::hypot(dx, dy);
         const float ra = c.radius * p->per_metre, rb = c.radius_b * q->per_metre;
