@@ -339,10 +339,22 @@ typedef int32_t vfit_track_source;
 enum { VFIT_TRACK_AUTO = 0,             /* the source's where it tells them, else the built-in tracker's */
        VFIT_TRACK_BUILT_IN = 1,
        VFIT_TRACK_GIVEN = 2 };          /* the source's alone: UNSUPPORTED where it tells none           */
+/* The active person, whom a mirror serves. Somebody else becomes it who has been better by 0.3 m for one
+ * second without a break; who is out of sight is waited for two seconds.                               */
+typedef int32_t vfit_follow;
+enum { VFIT_FOLLOW_NEAREST = 0,         /* to the camera                                             */
+       VFIT_FOLLOW_CENTRED = 1,         /* least to the side of the camera's axis                    */
+       VFIT_FOLLOW_FIRST = 2,           /* who came first, as long as they stay                      */
+       VFIT_FOLLOW_CHOSEN = 3 };        /* nobody but whom vfit_tracker_set_active names             */
+typedef int32_t vfit_active_state;
+enum { VFIT_ACTIVE_NOBODY = 0, VFIT_ACTIVE_BY_RULE = 1, VFIT_ACTIVE_CHOSEN = 2,
+       VFIT_ACTIVE_LOST = 3 };          /* out of sight, waited for: the frame has no such body      */
 typedef struct vfit_tracker_desc {
     uint32_t struct_size, reserved;
     const vfit_camera* floor;           /* where the floor is, if the frames do not say; null: unknown  */
     vfit_track_source joints, user_map;
+    vfit_follow follow;                 /* the rule of the active person                             */
+    uint32_t reserved2;
 } vfit_tracker_desc;
 VFIT_STRUCT(vfit_joint) VFIT_STRUCT(vfit_body) VFIT_STRUCT(vfit_tracker_desc)
 /* Bodies are part of a tracked frame (or of a recording's, or of the host's own).              [any]   */
@@ -363,7 +375,14 @@ VFIT_API vfit_result vfit_tracker_update(vfit_tracker tracker, vfit_frame frame,
 VFIT_API vfit_result vfit_tracker_submit(vfit_tracker tracker, vfit_frame frame, const vfit_body* body,
                                          const vfit_joint* items, uint32_t stride, uint32_t count,
                                          vfit_frame* tracked);
-VFIT_API vfit_result vfit_tracker_reset(vfit_tracker tracker);                             /* [excl] */
+/* Forgets people, room and choice.                                                              [excl] */
+VFIT_API vfit_result vfit_tracker_reset(vfit_tracker tracker);
+/* From the next update or submit on that person is the active one, whatever the rule; 0: by the rule again.
+ * Who is not in view is waited for, then the rule holds again; with VFIT_FOLLOW_CHOSEN for ever.  [excl] */
+VFIT_API vfit_result vfit_tracker_set_active(vfit_tracker tracker, uint32_t body_id);
+/* The body to hand to vfit_scan_add and vfit_motion_step: the active one; 0: nobody. Of a frame that no
+ * tracker made: its first body. state may be null.                                             [any]   */
+VFIT_API vfit_result vfit_frame_active_body(vfit_frame frame, uint32_t* body_id, vfit_active_state* state);
 
 /* ---- scan -> measurements -> size ---------------------------------------------------------------- */
 typedef int32_t vfit_sex;

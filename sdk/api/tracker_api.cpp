@@ -6,6 +6,7 @@
 #include "api/guard.h"
 #include "frame/camera_struct.h"
 #include "frame/floor.h"
+#include "track/active_person.h"
 #include "track/people_map.h"
 #include "track/tracker.h"
 
@@ -25,7 +26,10 @@ struct TrackerObject : ContextChild {
     std::unique_ptr<Tracker> own;  // made when first needed, as are people
     std::unique_ptr<PeopleMap> people;
     std::vector<TrackTarget> targets;
+    ActivePerson active;
 
+    /// The frame is complete as far as it goes.
+    void choose_active(Frame& tracked) { tracked.active = active.update(tracked.time_ns, tracked.bodies, tracked.camera); }
     /// Where the tracker knows more of the floor than the frame's source, the tracker's is taken.
     void place(Camera& camera) const {
         if (floor.floor_state <= camera.floor_state) return;
@@ -127,6 +131,30 @@ vfit_result vfit_frame_joints(vfit_frame handle, uint32_t body_id, vfit_joint* i
     });
 }
 
+vfit_result vfit_frame_active_body(vfit_frame handle, uint32_t* body_id, vfit_active_state* state) {
+    return guard([&] {
+        check_pointer(body_id, "body_id");
+        UseFrame frame(handle);
+        ActiveBody active;
+        if (frame->active)
+            active = *frame->active;
+        else if (!frame->bodies.empty())
+            active = {frame->bodies.front().id, VFIT_ACTIVE_BY_RULE};
+        *body_id = active.id;
+        if (state) *state = active.state;
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_tracker_set_active(vfit_tracker handle, uint32_t body_id) {
+    return guard([&] {
+        Use<TrackerObject, Mode::exclusive> tracker(handle.id);
+        if (body_id > 255) fail(VFIT_ERROR_ARGUMENT, "body_id ", body_id, " is not in 0..255");
+        tracker->active.choose(body_id);
+        return VFIT_OK;
+    });
+}
+
 vfit_result vfit_tracker_create(vfit_context handle, const vfit_tracker_desc* desc, vfit_tracker* out) {
     return guard([&] {
         check_pointer(out, "out");
@@ -136,6 +164,8 @@ vfit_result vfit_tracker_create(vfit_context handle, const vfit_tracker_desc* de
         auto tracker = make<TrackerObject>(context.ref());
         tracker->joints = check_source(d.joints, "joints");
         tracker->user_map = check_source(d.user_map, "user_map");
+        check_enum(d.follow, VFIT_FOLLOW_CHOSEN, "desc.follow");
+        tracker->active = ActivePerson(d.follow);
         if (d.floor) {
             vfit_camera floor = read(d.floor, "desc.floor");
             floor.floor_state = VFIT_FLOOR_GIVEN;
@@ -159,6 +189,7 @@ vfit_result vfit_tracker_reset(vfit_tracker handle) {
         if (tracker->floor.floor_state != VFIT_FLOOR_GIVEN) tracker->floor = Camera{};
         if (tracker->own) tracker->own->reset();
         if (tracker->people) tracker->people->reset();
+        tracker->active.reset();
         return VFIT_OK;
     });
 }
@@ -183,6 +214,7 @@ vfit_result vfit_tracker_update(vfit_tracker handle, vfit_frame frame_handle, vf
             track(*tracker, frame.ref(), *out);
         else
             tracker->see(frame.ref(), *out);
+        tracker->choose_active(*out);
         tracked->id = tracker->context->publish(Kind::frame, out);
         return VFIT_OK;
     });
@@ -211,6 +243,7 @@ vfit_result vfit_tracker_submit(vfit_tracker handle, vfit_frame frame_handle, co
         track(*tracker, frame.ref(), *out);
         if (camera_space) in = to_world(in, out->camera);
         out->bodies.push_back(in);
+        tracker->choose_active(*out);
         tracked->id = tracker->context->publish(Kind::frame, out);
         return VFIT_OK;
     });

@@ -39,6 +39,12 @@ struct Body {
     }
 };
 
+/// Whom a tracker serves.
+struct ActiveBody {
+    uint32_t id = 0;  // 0: nobody
+    vfit_active_state state = VFIT_ACTIVE_NOBODY;
+};
+
 /// "LEFT_ELBOW" for VFIT_JOINT_LEFT_ELBOW; null for an unknown id.
 const char* joint_name(int joint);
 

@@ -136,6 +136,7 @@ void Frame::clear() {
     time_ns = 0;
     camera = Camera{};
     bodies.clear();
+    active.reset();
     base = nullptr;
     owner = nullptr;
     stream_count_ = 0;

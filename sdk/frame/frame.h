@@ -6,6 +6,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -64,6 +65,7 @@ public:
     int64_t time_ns = 0;
     Camera camera;              // of the depth image; of no meaning in a mesh frame
     std::vector<Body> bodies;   // world space
+    std::optional<ActiveBody> active;  // what the tracker says that made the frame
     Ref<Frame> base;            // a tracked frame shares its images
     Ref<Object> owner;          // keeps alive what views of add_view point to
     vfit_release_fn host_release = nullptr;  // pixels lent by the host

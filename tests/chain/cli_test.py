@@ -227,6 +227,35 @@ class Contract(unittest.TestCase):
             (path / "joints.csv").write_text("".join(rows[:11]) + "".join(r.replace(",1,", ",2,", 1) for r in rows[11:]))
             self.assertEqual(document(self, "measure", path, "--json")["frames"], 10)
 
+    def test_the_active_person_is_followed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "rec"
+            document(self, "record", VIRTUAL, path, "--frames", 40, "--json")
+            head, *rows = (path / "joints.csv").read_text().splitlines(keepends=True)
+            # A second person, half a metre behind and a metre to the side of the first.
+            names = head.strip().split(",")
+            def moved(row):
+                shift = {"_x": 1.0, "_z": 0.5}
+                cells = zip(names, row.strip().split(","))
+                return ",".join("2" if n == "id" else str(float(c) + shift[n[-2:]]) if n[-2:] in shift and c else c
+                                for n, c in cells) + "\n"
+            (path / "joints.csv").write_text(head + "".join(r + moved(r) for r in rows))
+            def follow(*args):
+                return [f["joints"]["TORSO"] for f in lines(self, "motion", path, "--json", *args)]
+            nearest, second = follow(), follow("--active", "2")
+            self.assertEqual(follow("--active", "nearest"), nearest)
+            self.assertEqual(follow("--active", "centred"), nearest)
+            self.assertEqual(follow("--active", "first"), nearest)
+            self.assertEqual(len(second), 40)
+            self.assertTrue(all(b[0] - a[0] > 0.8 for a, b in zip(nearest, second)))
+            self.assertEqual(follow("--active", "9"), [])
+            frames = lines(self, "track", path, "--active", "2", "--json")
+            self.assertEqual({f["active"] for f in frames}, {2})
+            self.assertEqual({len(f["bodies"]) for f in frames}, {2})
+            self.check_failure(run("measure", path, "--active", "2", "--json"), "more than one person")
+        for wrong in ("", "0", "256", "-1", "tallest", "1.5", "99999999999"):
+            self.assertEqual(run("track", VIRTUAL, "--active", wrong).returncode, 2, wrong)
+
     def test_a_pause_in_the_time_stamps_costs_no_time(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "rec"

@@ -40,8 +40,10 @@ Tracker open_tracker(vfit_context context, const TrackOptions& options) {
     vfit_tracker_desc desc = vfit_tracker_desc_init();
     desc.joints = options.joints;
     desc.user_map = options.user_map;
+    desc.follow = options.chosen ? VFIT_FOLLOW_CHOSEN : options.follow;
     Tracker tracker;
     check(vfit_tracker_create(context, &desc, tracker.out()));
+    check(vfit_tracker_set_active(tracker.get(), options.chosen));
     return tracker;
 }
 
@@ -61,6 +63,12 @@ uint32_t first_body(vfit_frame frame) {
     const auto bodies =
         list<vfit_body>([&](auto* items, uint32_t stride, uint32_t* n) { return vfit_frame_bodies(frame, items, stride, n); });
     return bodies.empty() ? 0 : bodies.front().body_id;
+}
+
+uint32_t active_body(vfit_frame frame) {
+    uint32_t id = 0;
+    check(vfit_frame_active_body(frame, &id, nullptr));
+    return id;
 }
 
 std::vector<vfit_joint> joints_of(vfit_frame frame, uint32_t body_id) {

@@ -80,9 +80,12 @@ std::string last_error();
 /// A context with the settings of the command line.
 Context open_context();
 
-/// Whose joints and user map are taken.
+/// Whose joints and user map are taken, and who is the active person.
 struct TrackOptions {
     vfit_track_source joints = VFIT_TRACK_AUTO, user_map = VFIT_TRACK_AUTO;
+    vfit_follow follow = VFIT_FOLLOW_NEAREST;
+    uint32_t chosen = 0;  // nobody else, where it is not 0
+    bool asked = false;   // to follow somebody in particular
 };
 Tracker open_tracker(vfit_context context, const TrackOptions& options);
 
@@ -99,8 +102,10 @@ private:
     uint32_t taken_ = 0;
 };
 
-/// The id of the person to follow: the first body of the frame; 0: nobody.
+/// The id of the first body of the frame; 0: nobody.
 uint32_t first_body(vfit_frame frame);
+/// The id of the person to follow, who may be out of sight for a moment; 0: nobody.
+uint32_t active_body(vfit_frame frame);
 std::vector<vfit_joint> joints_of(vfit_frame frame, uint32_t body_id);
 vfit_camera camera_of(vfit_frame frame);
 vfit_view view_of(vfit_frame frame, vfit_stream stream);

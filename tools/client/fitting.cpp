@@ -65,7 +65,7 @@ void Fitting::play(const std::function<bool(vfit_frame, double)>& on_frame) {
     while (const auto frame = source.next()) {
         Frame tracked;
         check(vfit_tracker_update(tracker.get(), frame->get(), tracked.out()));
-        if (body == 0) body = first_body(tracked.get());
+        if (body == 0) body = active_body(tracked.get());
         const int64_t now_ns = view_of(tracked.get(), VFIT_STREAM_DEPTH).time_ns;
         if (check(vfit_motion_step(motion_.get(), tracked.get(), body, now_ns)) == VFIT_OK) {
             pose_avatar();

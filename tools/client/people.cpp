@@ -49,7 +49,7 @@ ScanRun run_scan(vfit_context context, Source& source, const ScanOptions& option
         Frame tracked;
         check(vfit_tracker_update(tracker.get(), frame->get(), tracked.out()));
         // Frames of one person alone are averaged, also where somebody else takes their place.
-        const uint32_t body = run.body_id ? run.body_id : first_body(tracked.get());
+        const uint32_t body = run.body_id ? run.body_id : active_body(tracked.get());
         const vfit_result result = check(vfit_scan_add(run.scan.get(), tracked.get(), body, &state));
         run.frames_wanted = state.frames_wanted;
         if (result != VFIT_INCOMPLETE) {

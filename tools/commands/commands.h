@@ -18,7 +18,7 @@ void add_record(Command& app);
 void add_cook(Command& app);
 void add_plot(Command& app);
 
-/// "--joints" and "--user-map".
+/// "--joints", "--user-map" and "--active".
 void add_track_options(Command& command, TrackOptions& options);
 
 }  // namespace vfit::tools

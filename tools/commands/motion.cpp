@@ -56,15 +56,13 @@ void motion(const Options& options) {
         desc.flags = VFIT_MOTION_NO_FILTER | VFIT_MOTION_NO_LIMITS | VFIT_MOTION_NO_SMOOTHING | VFIT_MOTION_NO_FEET;
     Motion motion;
     check(vfit_motion_create(context.get(), &desc, motion.out()));
-    uint32_t body = 0;
     Progress progress("frames", true);
     while (const auto frame = source.next()) {
         Frame tracked;
         check(vfit_tracker_update(tracker.get(), frame->get(), tracked.out()));
-        if (body == 0) body = first_body(tracked.get());
         const vfit_view depth = view_of(tracked.get(), VFIT_STREAM_DEPTH);
         const auto start = std::chrono::steady_clock::now();
-        const vfit_result result = check(vfit_motion_step(motion.get(), tracked.get(), body, depth.time_ns));
+        const vfit_result result = check(vfit_motion_step(motion.get(), tracked.get(), active_body(tracked.get()), depth.time_ns));
         const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         const uint32_t index = source.taken() - 1;
         progress.at(source.taken(), 0);

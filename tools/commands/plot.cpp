@@ -46,7 +46,7 @@ Curve foot_correction(vfit_context context, const Options& options) {
         if (!frame) break;
         Frame tracked;
         check(vfit_tracker_update(tracker.get(), frame->get(), tracked.out()));
-        if (body == 0) body = first_body(tracked.get());
+        if (body == 0) body = active_body(tracked.get());
         const int64_t now_ns = view_of(tracked.get(), VFIT_STREAM_DEPTH).time_ns;
         if (check(vfit_motion_step(motion.get(), tracked.get(), body, now_ns)) != VFIT_OK) continue;
         if (first_ns < 0) first_ns = now_ns;

@@ -58,6 +58,19 @@ Json bodies_json(vfit_frame frame) {
     return out;
 }
 
+void print(const Options& options, uint32_t index, vfit_frame tracked, const Json& bodies, double ms) {
+    if (options.json) {
+        Json line = {{"frame", index}, {"bodies", bodies}};
+        if (options.track.asked) line["active"] = active_body(tracked);
+        line["ms"] = ms;
+        print_line(line);
+        return;
+    }
+    std::cout << "frame " << index << ": " << bodies.size() << (bodies.size() == 1 ? " body" : " bodies");
+    if (options.track.asked) std::cout << ", active " << active_body(tracked);
+    std::cout << "\n";
+}
+
 void track(const Options& options) {
     const Context context = open_context();
     Source source(context.get(), options.source);
@@ -75,10 +88,7 @@ void track(const Options& options) {
         if (!options.map_folder.empty()) write_user_map(tracked.get(), picture_path(options.map_folder, index));
         if (!options.picture_folder.empty())
             write_picture(tracked.get(), picture_path(options.picture_folder, index), index, bodies.size());
-        if (options.json)
-            print_line({{"frame", index}, {"bodies", bodies}, {"ms", ms}});
-        else
-            std::cout << "frame " << index << ": " << bodies.size() << (bodies.size() == 1 ? " body\n" : " bodies\n");
+        print(options, index, tracked.get(), bodies, ms);
     }
 }
 

@@ -132,8 +132,8 @@ void draw_joint(Canvas& canvas, float x, float y, float radius, bool measured, c
     if (!measured) canvas.disc(x, y, 0.55f * radius, kDark);
 }
 
-/// The id on a round label, above the highest joint.
-void draw_id(Canvas& canvas, const JointPixels& at, uint32_t id, int scale) {
+/// The id on a round label, above the highest joint; with a ring where it is the active person's.
+void draw_id(Canvas& canvas, const JointPixels& at, uint32_t id, bool active, int scale) {
     float x = 0.0f, y = 1e9f;
     for (const auto& p : at)
         if (p && p->y < y) x = p->x, y = p->y;
@@ -147,10 +147,11 @@ void draw_id(Canvas& canvas, const JointPixels& at, uint32_t id, int scale) {
     y = std::max(y - above - radius, radius + 2.0f);
     canvas.disc(x, y, radius + 2.0f, kDark);
     canvas.disc(x, y, radius, person_color(id));
+    if (active) canvas.ring(x, y, radius + 2.0f * float(scale), std::max(2, scale), kBone);
     canvas.text(int(x) - width / 2, int(y) + height / 2, text, height, kDark);
 }
 
-void draw_person(Canvas& canvas, vfit_frame frame, uint32_t id, int scale) {
+void draw_person(Canvas& canvas, vfit_frame frame, uint32_t id, bool active, int scale) {
     const auto joints = joints_of(frame, id);
     const JointPixels at = project_joints(Projection(frame, scale), joints);
     std::array<bool, VFIT_JOINT_COUNT> measured{};
@@ -160,7 +161,7 @@ void draw_person(Canvas& canvas, vfit_frame frame, uint32_t id, int scale) {
     for (const vfit_joint& j : joints)
         if (const auto& p = at[size_t(j.joint)])
             draw_joint(canvas, p->x, p->y, 1.9f * float(scale), measured[size_t(j.joint)], person_color(id));
-    draw_id(canvas, at, id, scale);
+    draw_id(canvas, at, id, active, scale);
 }
 
 /// The caption, and what the dots mean.
@@ -185,10 +186,10 @@ Canvas draw_tracked(vfit_frame frame, int scale, const std::string& caption) {
     const int width = scene.width() * scale, height = scene.height() * scale, footer = std::max(24, height / 26);
     Canvas canvas(width, height + footer, kDark);
     canvas.blit(scene, 0, 0, width, height);
-    for (const auto& body : list<vfit_body>([&](auto* items, uint32_t stride, uint32_t* n) {
-             return vfit_frame_bodies(frame, items, stride, n);
-         }))
-        draw_person(canvas, frame, body.body_id, scale);
+    const auto bodies =
+        list<vfit_body>([&](auto* items, uint32_t stride, uint32_t* n) { return vfit_frame_bodies(frame, items, stride, n); });
+    const uint32_t active = bodies.size() > 1 ? active_body(frame) : 0;
+    for (const vfit_body& body : bodies) draw_person(canvas, frame, body.body_id, body.body_id == active, scale);
     draw_footer(canvas, height, footer, scale, caption);
     return canvas;
 }

@@ -59,6 +59,17 @@ py::object meta(const Frame& frame, const std::string& key) {
     return py::module_::import("json").attr("loads")(json);
 }
 
+struct Active {
+    uint32_t id = 0;
+    vfit_active_state state = VFIT_ACTIVE_NOBODY;
+};
+
+Active active_of(const Frame& frame) {
+    Active out;
+    check(vfit_frame_active_body(frame.get(), &out.id, &out.state));
+    return out;
+}
+
 py::list bodies(const Frame& frame) {
     py::list out;
     for (const vfit_body& b : list(vfit_frame_bodies, frame.get()))
@@ -140,10 +151,8 @@ int64_t time_ns_of(const Frame& frame) {
     return kinds.empty() ? 0 : view_of(frame, kinds.front()).time_ns;
 }
 
-uint32_t body_or_first(const Frame& frame, const std::optional<uint32_t>& body_id) {
-    if (body_id) return *body_id;
-    const auto all = list(vfit_frame_bodies, frame.get());
-    return all.empty() ? 0 : all.front().body_id;
+uint32_t body_or_active(const Frame& frame, const std::optional<uint32_t>& body_id) {
+    return body_id ? *body_id : active_of(frame).id;
 }
 
 vfit_camera camera_in(const py::object& given) {
@@ -195,9 +204,17 @@ void bind_frame(py::module_& m) {
         .def(
             "joints",
             [](const Frame& f, const std::optional<uint32_t>& id) {
-                return joints_of(f, body_or_first(f, id));
+                return joints_of(f, body_or_active(f, id));
             },
-            "body_id"_a = py::none(), "The joints of one body, by default of the first.")
+            "body_id"_a = py::none(), "The joints of one body, by default of the active one.")
+        .def_property_readonly(
+            "active_body",
+            [](const Frame& f) {
+                const uint32_t id = active_of(f).id;
+                return id ? py::object(py::int_(id)) : py::none();
+            },
+            "The id of the person to follow, who may be out of sight (ActiveState.LOST); None: nobody.")
+        .def_property_readonly("active_state", [](const Frame& f) { return value("ActiveState", active_of(f).state); })
         .def(
             "close", [](Frame& f) { f.reference.release(); }, "Gives the frame back before it is collected.")
         .def_property_readonly("closed", [](const Frame& f) { return f.reference.released(); })

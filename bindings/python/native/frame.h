@@ -47,8 +47,8 @@ std::unique_ptr<Frame> frame_from_numpy(const std::shared_ptr<Core>& core, const
 
 int64_t time_ns_of(const Frame& frame);
 
-/// The body to follow where none is named: the first of the frame; 0: nobody.
-uint32_t body_or_first(const Frame& frame, const std::optional<uint32_t>& body_id);
+/// The body to follow where none is named: the active one, who may be out of sight; 0: nobody.
+uint32_t body_or_active(const Frame& frame, const std::optional<uint32_t>& body_id);
 
 vfit_camera camera_in(const py::object& camera);
 

@@ -43,7 +43,7 @@ bool step(const Motion& motion, const Frame* frame, const std::optional<uint32_t
         now = time_ns_of(*frame);
     else
         check(vfit_context_time(motion.core()->handle(), &now));
-    const uint32_t body = frame ? body_or_first(*frame, body_id) : body_id.value_or(0);
+    const uint32_t body = frame ? body_or_active(*frame, body_id) : body_id.value_or(0);
     const vfit_frame handle = frame ? frame->get() : vfit_frame{};
     return run([&, m = motion.get()] { return vfit_motion_step(m, handle, body, now); }) == VFIT_OK;
 }

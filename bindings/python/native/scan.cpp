@@ -19,7 +19,7 @@ std::shared_ptr<Scan> create(const Context& context, uint32_t frames, const py::
 
 py::object add(const Scan& scan, const Frame& frame, const std::optional<uint32_t>& body_id) {
     vfit_scan_state state = vfit_scan_state_init();
-    const uint32_t body = body_or_first(frame, body_id);
+    const uint32_t body = body_or_active(frame, body_id);
     const vfit_result result =
         run([&, s = scan.get(), f = frame.get()] { return vfit_scan_add(s, f, body, &state); });
     return value("ScanState", result != VFIT_INCOMPLETE, result == VFIT_OK, state.frames_taken,
@@ -46,7 +46,7 @@ void bind_scan(py::module_& m) {
                       "method"_a = 0, "frames 0: 30, as in the paper.")
                  .def("add", &add, "frame"_a, "body_id"_a = py::none(),
                       "One tracked frame; the state says whether it was taken, and if not why. Default: its "
-                      "first body.")
+                      "active body.")
                  .def("measure", &measure,
                       "key -> Measurement, from the first frame on; the values settle with each.")
                  .def("colliders", &colliders, "Spheres of the person, centres as in the last frame.")

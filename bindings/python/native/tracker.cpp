@@ -16,12 +16,14 @@ vfit_track_source source_in(const std::string& given, const char* name) {
 }
 
 std::shared_ptr<Tracker> create(const Context& context, const py::object& floor, const std::string& joints,
-                                const std::string& user_map) {
+                                const std::string& user_map, const std::string& follow) {
     const vfit_camera camera = floor.is_none() ? vfit_camera_init() : camera_in(floor);
     vfit_tracker_desc desc = vfit_tracker_desc_init();
     if (!floor.is_none()) desc.floor = &camera;
     desc.joints = source_in(joints, "joints");
     desc.user_map = source_in(user_map, "user_map");
+    desc.follow = choice(follow, "follow", {{"nearest", VFIT_FOLLOW_NEAREST}, {"centred", VFIT_FOLLOW_CENTRED},
+                                            {"first", VFIT_FOLLOW_FIRST}, {"chosen", VFIT_FOLLOW_CHOSEN}});
     vfit_tracker handle{};
     run([&, h = context.handle()] { return vfit_tracker_create(h, &desc, &handle); });
     return make<Tracker>(context.core(), handle);
@@ -36,6 +38,10 @@ std::unique_ptr<Frame> update(const Tracker& tracker, const Frame& frame) {
 std::unique_ptr<Frame> track(const Tracker& tracker, const py::array& depth, const py::sequence& intrinsics,
                              const py::object& users, const py::object& camera, int64_t time_ns) {
     return update(tracker, *frame_from_numpy(tracker.core(), depth, intrinsics, users, py::none(), camera, time_ns));
+}
+
+void choose(const Tracker& tracker, const std::optional<uint32_t>& body_id) {
+    run([&, t = tracker.get()] { return vfit_tracker_set_active(t, body_id.value_or(0)); });
 }
 
 std::unique_ptr<Frame> submit(const Tracker& tracker, const Frame& frame, const py::object& joints,
@@ -60,14 +66,17 @@ void bind_tracker(py::module_& m) {
     closable(py::class_<Tracker, std::shared_ptr<Tracker>>(
                  m, "Tracker", "Makes tracked frames: images, user map and bodies.")
                  .def(py::init(&create), "context"_a, py::kw_only(), "floor"_a = py::none(), "joints"_a = "auto",
-                      "user_map"_a = "auto",
+                      "user_map"_a = "auto", "follow"_a = "nearest",
                       "floor: a Camera that says where the floor is, if the frames do not. joints, user_map: \"auto\" "
-                      "(the source's where it tells them, else the tracker's), \"built_in\" or \"given\".")
+                      "(the source's where it tells them, else the tracker's), \"built_in\" or \"given\". follow: who is the active person, "
+                      "\"nearest\", \"centred\", \"first\" or \"chosen\".")
                  .def("update", &update, "frame"_a, "The frame with the bodies that its source supplies, or those that the tracker finds.")
                  .def("track", &track, "depth"_a, "intrinsics"_a, py::kw_only(), "users"_a = py::none(),
                       "camera"_a = py::none(), "time_ns"_a = 0,
                       "From a depth image (height, width) uint16 in millimetres and (fx, fy, cx, cy) to the frame with "
                       "user map and bodies.")
+                 .def("choose", &choose, "body_id"_a,
+                      "That person is the active one from the next frame on; None: by the rule again.")
                  .def("submit", &submit, "frame"_a, "joints"_a, py::kw_only(), "body_id"_a = 1,
                       "time_ns"_a = 0, "camera_space"_a = false, "partly_out_of_view"_a = false,
                       "The frame with a body of your own; submit to the result to add a second one.")

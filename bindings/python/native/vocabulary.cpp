@@ -102,6 +102,12 @@ void bind_vocabulary(py::module_& m) {
               {"INFERRED", VFIT_JOINT_INFERRED},
               {"MEASURED", VFIT_JOINT_MEASURED}},
              "How a joint was found.");
+    add_enum(m, "ActiveState",
+             {{"NOBODY", VFIT_ACTIVE_NOBODY},
+              {"BY_RULE", VFIT_ACTIVE_BY_RULE},
+              {"CHOSEN", VFIT_ACTIVE_CHOSEN},
+              {"LOST", VFIT_ACTIVE_LOST}},
+             "Why somebody is the active person; LOST: out of sight and waited for.");
     add_enum(m, "Sex", {{"UNKNOWN", VFIT_SEX_UNKNOWN}, {"FEMALE", VFIT_SEX_FEMALE}, {"MALE", VFIT_SEX_MALE}},
              "Which default body; UNKNOWN: halfway.");
     add_enum(m, "ScanMethod", {{"DEFAULT", VFIT_SCAN_DEFAULT}, {"PROPORTIONS", VFIT_SCAN_PROPORTIONS},

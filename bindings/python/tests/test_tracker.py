@@ -117,3 +117,38 @@ def test_points_go_to_camera_space_and_to_pixels(ctx, images):
     assert np.allclose(frame.intrinsics.project(camera)[0], (x / z * 120 + 79.5, y / z * 120 + 59.5), atol=1e-3)
     with pytest.raises(ValueError, match="world_from_camera"):
         vfit.Camera().from_world(points)
+
+
+def placed(tracker, frame, standing, people):
+    """The frame with people in it: id -> (to the side, closer)."""
+    for body, (aside, closer) in people.items():
+        joints = {name: (x + aside, y, z + closer) for name, (x, y, z) in standing.items()}
+        frame = tracker.submit(frame, joints, body_id=body)
+    return frame
+
+
+def test_the_active_person_is_followed(ctx, images, standing):
+    def frame(index):
+        return vfit.Frame.from_numpy(ctx, images[0], INTRINSICS, users=images[1], time_ns=index * 33_333_333)
+
+    people = {1: (-0.5, 0.0), 2: (0.9, 0.6)}
+    for follow, wanted in (("nearest", 2), ("centred", 1), ("first", 1), ("chosen", None)):
+        tracked = placed(vfit.Tracker(ctx, follow=follow), frame(1), standing, people)
+        assert tracked.active_body == wanted, follow
+    tracker, motion = vfit.Tracker(ctx), vfit.Motion(ctx)
+    tracked = placed(tracker, frame(1), standing, people)
+    assert tracked.active_state is vfit.ActiveState.BY_RULE
+    assert tracked.joints()["TORSO"].x == pytest.approx(0.9)
+    assert motion.step(tracked)
+    tracker.choose(1)
+    tracked = placed(tracker, frame(2), standing, people)
+    assert (tracked.active_body, tracked.active_state) == (1, vfit.ActiveState.CHOSEN)
+    tracked = placed(tracker, frame(3), standing, {2: people[2]})
+    assert (tracked.active_body, tracked.active_state) == (1, vfit.ActiveState.LOST)
+    assert not motion.step(tracked)
+    tracker.choose(None)
+    assert frame(4).active_body is None and frame(4).active_state is vfit.ActiveState.NOBODY
+    with pytest.raises(vfit.ArgumentError, match="follow"):
+        vfit.Tracker(ctx, follow="tallest")
+    with pytest.raises(vfit.ArgumentError, match="256"):
+        tracker.choose(256)

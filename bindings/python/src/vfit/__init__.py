@@ -13,6 +13,7 @@ from ._vfit import (
     BONE_NAMES,
     BONE_PARENTS,
     MEASURES,
+    ActiveState,
     Avatar,
     Axes,
     Bone,
@@ -82,7 +83,7 @@ from .values import (
 )
 
 __all__ = [
-    "ArgumentError", "Avatar", "Axes", "BONE_NAMES", "BONE_PARENTS", "Body", "Bone", "BusyError", "Camera",
+    "ActiveState", "ArgumentError", "Avatar", "Axes", "BONE_NAMES", "BONE_PARENTS", "Body", "Bone", "BusyError", "Camera",
     "CapacityError", "Cloth", "ClothStats", "Collider", "Context", "ContextStats", "DataError",
     "DeviceLostError", "Error", "FileError", "FloorState", "Frame", "Garment", "GarmentInfo", "Guidance",
     "HandleError", "Intrinsics", "Joint", "JointPoint", "JointState", "Joints", "LibraryInfo", "LogLevel",

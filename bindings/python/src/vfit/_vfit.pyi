@@ -99,6 +99,14 @@ class JointState(IntEnum):
     INFERRED = 1
     MEASURED = 2
 
+class ActiveState(IntEnum):
+    """Why somebody is the active person; LOST: out of sight and waited for."""
+
+    NOBODY = 0
+    BY_RULE = 1
+    CHOSEN = 2
+    LOST = 3
+
 class Sex(IntEnum):
     """Which default body; UNKNOWN: halfway."""
 
@@ -262,7 +270,13 @@ class Frame(_Closable):
         """What the source says beside the pixels ("measures", "contacts", "index"), or None."""
     def bodies(self) -> list[Body]: ...
     def joints(self, body_id: Optional[int] = None) -> Joints:
-        """Of one body, by default of the first."""
+        """Of one body, by default of the active one."""
+    @property
+    def active_body(self) -> Optional[int]:
+        """The id of the person to follow, who may be out of sight (ActiveState.LOST); None: nobody. What Scan.add and
+        Motion.step take by default. Of a frame that no tracker made: the first body."""
+    @property
+    def active_state(self) -> ActiveState: ...
 
 class Sensor(_Closable):
     """A camera, a recording or a virtual person; iterate it for its frames. Its pool holds few frames: copy what
@@ -293,10 +307,12 @@ class Tracker(_Closable):
 
     floor says where the floor is, if the frames do not. joints and user_map say whose are taken: "auto" is the
     source's where it tells them, else the tracker's own; "given" is the source's alone (UnsupportedError where it
-    tells none)."""
+    tells none). follow is the rule of the active person: "nearest" to the camera, most "centred", who came "first",
+    or nobody but the one "chosen"."""
 
     def __init__(self, context: Context, *, floor: Optional[Camera] = None, joints: _TrackSource = "auto",
-                 user_map: _TrackSource = "auto") -> None: ...
+                 user_map: _TrackSource = "auto",
+                 follow: Literal["nearest", "centred", "first", "chosen"] = "nearest") -> None: ...
     def update(self, frame: Frame) -> Frame:
         """The frame with the bodies that its source supplies, or those that the tracker finds."""
     def track(self, depth: NDArray[np.uint16], intrinsics: Union[Intrinsics, Sequence[Any]], *,
@@ -305,6 +321,9 @@ class Tracker(_Closable):
         """User map (`.users`) and people (`.bodies()`) of a depth image (h, w) in millimetres, 0 where there is no
         reading; intrinsics are fx, fy, cx, cy in pixels. Images that follow each other want their time stamps:
         people keep their ids and joints are steadied over time. time_ns 0: now."""
+    def choose(self, body_id: Optional[int]) -> None:
+        """That person is the active one from the next frame on; when they have left for two seconds the rule holds
+        again. None: by the rule again."""
     def submit(self, frame: Frame, joints: _JointsIn, *, body_id: int = 1, time_ns: int = 0,
                camera_space: bool = False, partly_out_of_view: bool = False) -> Frame:
         """The frame with a body of your own; submit to the result to add a second one."""
