@@ -339,6 +339,13 @@ typedef int32_t vfit_track_source;
 enum { VFIT_TRACK_AUTO = 0,             /* the source's where it tells them, else the built-in tracker's */
        VFIT_TRACK_BUILT_IN = 1,
        VFIT_TRACK_GIVEN = 2 };          /* the source's alone: UNSUPPORTED where it tells none           */
+/* Joints steadied over time by a one-Euro filter, their states lowered to what their confidence bears out:
+ * MEASURED from 0.5 on, INFERRED from 0.15 on; where a body has states and no confidence those stand for it. */
+typedef int32_t vfit_joint_filter;
+enum { VFIT_FILTER_AUTO = 0,            /* the tracker's own joints and submitted ones; a source's own stay as
+                                         * they are (a recording's, the truth of a virtual person)       */
+       VFIT_FILTER_ON = 1,              /* a source's own too                                        */
+       VFIT_FILTER_OFF = 2 };           /* none                                                      */
 /* The active person, whom a mirror serves. Somebody else becomes it who has been better by 0.3 m for one
  * second without a break; who is out of sight is waited for two seconds.                               */
 typedef int32_t vfit_follow;
@@ -354,7 +361,7 @@ typedef struct vfit_tracker_desc {
     const vfit_camera* floor;           /* where the floor is, if the frames do not say; null: unknown  */
     vfit_track_source joints, user_map;
     vfit_follow follow;                 /* the rule of the active person                             */
-    uint32_t reserved2;
+    vfit_joint_filter filter;
 } vfit_tracker_desc;
 VFIT_STRUCT(vfit_joint) VFIT_STRUCT(vfit_body) VFIT_STRUCT(vfit_tracker_desc)
 /* Bodies are part of a tracked frame (or of a recording's, or of the host's own).              [any]   */
@@ -371,7 +378,8 @@ VFIT_API vfit_result vfit_tracker_destroy(vfit_tracker tracker);                
  * VFIT_ERROR_PLUGIN where the tracker has to find joints and the network module is not installed. [excl] */
 VFIT_API vfit_result vfit_tracker_update(vfit_tracker tracker, vfit_frame frame, vfit_frame* tracked);
 /* The host's own middleware in place of the built-in tracker, one call a body; frame may be a *tracked
- * of the call before, to add a second body. A joint that is not finite gives VFIT_ERROR_DATA.  [excl]  */
+ * of the call before, to add a second body. A joint that is not finite gives VFIT_ERROR_DATA. Positions are
+ * filtered over the calls with one body_id, by time_ns, unless desc.filter is OFF.             [excl]  */
 VFIT_API vfit_result vfit_tracker_submit(vfit_tracker tracker, vfit_frame frame, const vfit_body* body,
                                          const vfit_joint* items, uint32_t stride, uint32_t count,
                                          vfit_frame* tracked);

@@ -8,6 +8,7 @@
 #include "frame/floor.h"
 #include "track/active_person.h"
 #include "track/people_map.h"
+#include "track/steady_bodies.h"
 #include "track/tracker.h"
 
 using namespace vfit;
@@ -27,6 +28,8 @@ struct TrackerObject : ContextChild {
     std::unique_ptr<PeopleMap> people;
     std::vector<TrackTarget> targets;
     ActivePerson active;
+    vfit_joint_filter filter = VFIT_FILTER_AUTO;
+    SteadyBodies steady;  // joints that are not the tracker's own
 
     /// The frame is complete as far as it goes.
     void choose_active(Frame& tracked) { tracked.active = active.update(tracked.time_ns, tracked.bodies, tracked.camera); }
@@ -47,8 +50,9 @@ struct TrackerObject : ContextChild {
         if (!own_map && !image.users)
             fail(VFIT_ERROR_UNSUPPORTED, "the frame's source supplies no user map, and the tracker was told to make none");
         if (!own)
-            own = std::make_unique<Tracker>(std::make_unique<JointNetwork>(
-                context->module_path("vfit_joint_network"), context->data_dir + "/networks/joints.onnx"));
+            own = std::make_unique<Tracker>(
+                std::make_unique<JointNetwork>(context->module_path("vfit_joint_network"), context->data_dir + "/networks/joints.onnx"),
+                filter != VFIT_FILTER_OFF);
         tracked.base = base;
         tracked.time_ns = base->time_ns;
         place(image.camera);
@@ -166,6 +170,8 @@ vfit_result vfit_tracker_create(vfit_context handle, const vfit_tracker_desc* de
         tracker->user_map = check_source(d.user_map, "user_map");
         check_enum(d.follow, VFIT_FOLLOW_CHOSEN, "desc.follow");
         tracker->active = ActivePerson(d.follow);
+        check_enum(d.filter, VFIT_FILTER_OFF, "desc.filter");
+        tracker->filter = d.filter;
         if (d.floor) {
             vfit_camera floor = read(d.floor, "desc.floor");
             floor.floor_state = VFIT_FLOOR_GIVEN;
@@ -190,6 +196,7 @@ vfit_result vfit_tracker_reset(vfit_tracker handle) {
         if (tracker->own) tracker->own->reset();
         if (tracker->people) tracker->people->reset();
         tracker->active.reset();
+        tracker->steady.reset();
         return VFIT_OK;
     });
 }
@@ -210,10 +217,13 @@ vfit_result vfit_tracker_update(vfit_tracker handle, vfit_frame frame_handle, vf
         const bool given = told && tracker->joints != VFIT_TRACK_BUILT_IN;
         if (given && tracker->user_map == VFIT_TRACK_BUILT_IN)
             fail(VFIT_ERROR_UNSUPPORTED, "the source's joints do not go with the tracker's own user map: take its joints too");
-        if (given)
+        if (given) {
             track(*tracker, frame.ref(), *out);
-        else
+            if (tracker->filter == VFIT_FILTER_ON)
+                for (Body& body : out->bodies) tracker->steady.run(body);
+        } else {
             tracker->see(frame.ref(), *out);
+        }
         tracker->choose_active(*out);
         tracked->id = tracker->context->publish(Kind::frame, out);
         return VFIT_OK;
@@ -242,6 +252,7 @@ vfit_result vfit_tracker_submit(vfit_tracker handle, vfit_frame frame_handle, co
         if (camera_space && tracker->nobody_knows_the_floor(frame->camera)) estimate_floor(tracker->floor, in);
         track(*tracker, frame.ref(), *out);
         if (camera_space) in = to_world(in, out->camera);
+        if (tracker->filter != VFIT_FILTER_OFF) tracker->steady.run(in);
         out->bodies.push_back(in);
         tracker->choose_active(*out);
         tracked->id = tracker->context->publish(Kind::frame, out);

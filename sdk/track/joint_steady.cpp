@@ -22,15 +22,15 @@ float share(float cutoff_hz, float dt) {
 }  // namespace
 
 void JointSteady::run(int64_t time_ns, SeenJoints& joints) {
-    const float dt = float(seconds_between(last_ns_, time_ns));
-    const bool start = last_ns_ < 0 || dt <= 0.0f || dt > kLongestGap_s;
-    last_ns_ = time_ns;
     for (size_t j = 0; j < joints.size(); ++j) {
+        if (joints[j].confidence <= 0.0f) continue;
         Channel& c = channels_[j];
-        if (start) {
-            c = {joints[j].position, Vec3(0.0f)};
+        const float dt = float(seconds_between(c.seen_ns, time_ns));
+        if (!c.known || dt <= 0.0f || dt > kLongestGap_s) {
+            c = {joints[j].position, Vec3(0.0f), time_ns, true};
             continue;
         }
+        c.seen_ns = time_ns;
         const float trust = std::clamp(joints[j].confidence / kSure, 0.05f, 1.0f);
         const Vec3 speed = (joints[j].position - c.place) / dt;
         c.speed += trust * share(kSpeedCutoff_hz, dt) * (speed - c.speed);

@@ -13,11 +13,6 @@ constexpr float kBeliefShare = 0.3f;     // of the newest answer
 constexpr float kLeastBelief = -0.5f;    // logit
 constexpr float kSurelyNot = -2.5f;      // logit: one in twelve
 constexpr uint32_t kSureAfter = 15;      // frames: whoever walks in shows an arm first
-constexpr float kMeasured = 0.5f, kInferred = 0.15f;  // least confidence of a joint's state
-
-vfit_joint_state state_of(float confidence) {
-    return confidence >= kMeasured ? VFIT_JOINT_MEASURED : confidence >= kInferred ? VFIT_JOINT_INFERRED : VFIT_JOINT_NOT_SEEN;
-}
 
 }  // namespace
 
@@ -75,7 +70,7 @@ bool Tracker::see(const DepthImage& image, int64_t time_ns, const TrackTarget& t
     SeenJoints joints;
     read_maps(maps_, view, image.camera, joints);
     person.facing.apply(maps_.away, joints);
-    person.steady.run(time_ns, joints);
+    if (steady_) person.steady.run(time_ns, joints);
     person.seen_ns = time_ns;
     ++person.frames;
     if (person.belief < kLeastBelief) return false;
@@ -85,7 +80,7 @@ bool Tracker::see(const DepthImage& image, int64_t time_ns, const TrackTarget& t
     out.flags = target.flags;
     for (int j = 0; j < kJointCount; ++j) {
         const SeenJoint& seen = joints[size_t(j)];
-        out.set(j, seen.position, state_of(seen.confidence), seen.confidence);
+        out.set(j, seen.position, joint_state_of(seen.confidence), seen.confidence);
     }
     return true;
 }

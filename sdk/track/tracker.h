@@ -24,7 +24,9 @@ void find_targets(const DepthImage& image, size_t most, std::vector<TrackTarget>
 
 class Tracker {
 public:
-    explicit Tracker(std::shared_ptr<JointNetwork> network) : network_(std::move(network)) {}
+    /// steady: joints are filtered over time.
+    explicit Tracker(std::shared_ptr<JointNetwork> network, bool steady = true)
+        : network_(std::move(network)), steady_(steady) {}
 
     /// Joints of every target that the network takes for a person, in camera space. A person unseen for
     /// kForget_s is forgotten: whoever gets that id then starts afresh.
@@ -48,6 +50,7 @@ private:
              Body& out);
 
     std::shared_ptr<JointNetwork> network_;
+    bool steady_;
     std::map<uint32_t, Person> people_;
     Cropper cropper_;
     std::vector<float> crop_;

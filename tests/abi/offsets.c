@@ -161,7 +161,7 @@ OFFSET(vfit_tracker_desc, floor, 8);
 OFFSET(vfit_tracker_desc, joints, 16);
 OFFSET(vfit_tracker_desc, user_map, 20);
 OFFSET(vfit_tracker_desc, follow, 24);
-OFFSET(vfit_tracker_desc, reserved2, 28);
+OFFSET(vfit_tracker_desc, filter, 28);
 SIZE(vfit_tracker_desc, 32);
 
 OFFSET(vfit_scan_desc, struct_size, 0);

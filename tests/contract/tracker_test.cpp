@@ -1,4 +1,4 @@
-// What a host may ask of a tracker beside bodies: whom it serves.
+// What a host may ask of a tracker beside bodies: whom it serves, and whether joints are steadied.
 #include <cmath>
 
 #include "contract/support.h"
@@ -133,4 +133,89 @@ TEST_F(TrackerTest, WrongRulesAndIdsAreRefusedByName) {
     EXPECT_NE(contract::last_error().find("256"), std::string::npos);
     const vfit_frame frame = make_frame(kFrame_ns);
     EXPECT_EQ(vfit_frame_active_body(frame, nullptr, nullptr), VFIT_ERROR_ARGUMENT);
+}
+
+namespace {
+
+/// Submits somebody frame by frame whose head jumps to and fro by a centimetre.
+class FilterTest : public TrackerTest {
+protected:
+    vfit_joint head_after(vfit_joint_filter filter, int frames, float confidence = 1.0f) {
+        vfit_tracker_desc desc = vfit_tracker_desc_init();
+        desc.filter = filter;
+        const vfit_tracker tracker = make_tracker(desc);
+        vfit_joint head = vfit_joint_init();
+        for (int i = 1; i <= frames; ++i) {
+            std::vector<vfit_joint> joints = contract::standing_joints();
+            joints[0].position[0] = i % 2 ? 0.005f : -0.005f;
+            joints[0].confidence = confidence;
+            vfit_body body = vfit_body_init();
+            body.body_id = 1;
+            const vfit_frame frame = make_frame(i * kFrame_ns);
+            vfit_frame tracked{};
+            EXPECT_EQ(vfit_tracker_submit(tracker, frame, &body, joints.data(), sizeof(vfit_joint), 15, &tracked), VFIT_OK)
+                << contract::last_error();
+            std::vector<vfit_joint> out(VFIT_JOINT_COUNT);
+            uint32_t count = VFIT_JOINT_COUNT;
+            EXPECT_EQ(vfit_frame_joints(tracked, 1, out.data(), sizeof(vfit_joint), &count), VFIT_OK);
+            head = out[0];
+            vfit_frame_release(tracked);
+            vfit_frame_release(frame);
+        }
+        return head;
+    }
+};
+
+}  // namespace
+
+TEST_F(FilterTest, SubmittedJointsAreSteadiedUnlessTheHostWantsThemRaw) {
+    EXPECT_LT(std::abs(head_after(VFIT_FILTER_AUTO, 30).position[0]), 0.004f);
+    EXPECT_LT(std::abs(head_after(VFIT_FILTER_ON, 30).position[0]), 0.004f);
+    EXPECT_FLOAT_EQ(head_after(VFIT_FILTER_OFF, 30).position[0], -0.005f);
+}
+
+TEST_F(FilterTest, TheirStatesFollowTheirConfidence) {
+    EXPECT_EQ(head_after(VFIT_FILTER_AUTO, 2, 0.8f).state, VFIT_JOINT_MEASURED);
+    EXPECT_EQ(head_after(VFIT_FILTER_AUTO, 2, 0.2f).state, VFIT_JOINT_INFERRED);
+    EXPECT_EQ(head_after(VFIT_FILTER_AUTO, 2, 0.0f).joint, VFIT_JOINT_NECK) << "a head that nobody is sure of is not listed";
+    EXPECT_EQ(head_after(VFIT_FILTER_OFF, 2, 0.0f).state, VFIT_JOINT_MEASURED);
+}
+
+TEST_F(FilterTest, JointsOfASourceStayAsTheyAreUnlessTheHostWantsThemSteadied) {
+    for (const vfit_joint_filter filter : {VFIT_FILTER_AUTO, VFIT_FILTER_ON}) {
+        vfit_sensor sensor{};
+        ASSERT_EQ(vfit_sensor_open(context, "virtual:motion=wave&frames=12&sensor=kinect_v1_320", &sensor), VFIT_OK);
+        ASSERT_EQ(vfit_sensor_start(sensor), VFIT_OK);
+        vfit_tracker_desc desc = vfit_tracker_desc_init();
+        desc.filter = filter;
+        const vfit_tracker tracker = make_tracker(desc);
+        float moved = 0.0f;
+        vfit_frame frame{};
+        while (vfit_sensor_acquire(sensor, -1, &frame) == VFIT_OK) {
+            vfit_frame tracked{};
+            ASSERT_EQ(vfit_tracker_update(tracker, frame, &tracked), VFIT_OK) << contract::last_error();
+            uint32_t before = VFIT_JOINT_COUNT, after = VFIT_JOINT_COUNT;
+            std::vector<vfit_joint> a(before), b(after);
+            ASSERT_EQ(vfit_frame_joints(frame, 1, a.data(), sizeof(vfit_joint), &before), VFIT_OK);
+            ASSERT_EQ(vfit_frame_joints(tracked, 1, b.data(), sizeof(vfit_joint), &after), VFIT_OK);
+            ASSERT_EQ(before, after);
+            for (uint32_t i = 0; i < before; ++i)
+                for (int axis = 0; axis < 3; ++axis) moved = std::max(moved, std::abs(a[i].position[axis] - b[i].position[axis]));
+            vfit_frame_release(tracked);
+            vfit_frame_release(frame);
+        }
+        if (filter == VFIT_FILTER_AUTO)
+            EXPECT_EQ(moved, 0.0f);
+        else
+            EXPECT_GT(moved, 0.001f);
+        EXPECT_EQ(vfit_sensor_close(sensor), VFIT_OK);
+    }
+}
+
+TEST_F(FilterTest, AWrongFilterIsRefusedByName) {
+    vfit_tracker_desc desc = vfit_tracker_desc_init();
+    desc.filter = 3;
+    vfit_tracker none{};
+    EXPECT_EQ(vfit_tracker_create(context, &desc, &none), VFIT_ERROR_ARGUMENT);
+    EXPECT_NE(contract::last_error().find("filter"), std::string::npos);
 }

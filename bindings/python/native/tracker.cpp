@@ -16,7 +16,7 @@ vfit_track_source source_in(const std::string& given, const char* name) {
 }
 
 std::shared_ptr<Tracker> create(const Context& context, const py::object& floor, const std::string& joints,
-                                const std::string& user_map, const std::string& follow) {
+                                const std::string& user_map, const std::string& follow, const std::string& filter) {
     const vfit_camera camera = floor.is_none() ? vfit_camera_init() : camera_in(floor);
     vfit_tracker_desc desc = vfit_tracker_desc_init();
     if (!floor.is_none()) desc.floor = &camera;
@@ -24,6 +24,7 @@ std::shared_ptr<Tracker> create(const Context& context, const py::object& floor,
     desc.user_map = source_in(user_map, "user_map");
     desc.follow = choice(follow, "follow", {{"nearest", VFIT_FOLLOW_NEAREST}, {"centred", VFIT_FOLLOW_CENTRED},
                                             {"first", VFIT_FOLLOW_FIRST}, {"chosen", VFIT_FOLLOW_CHOSEN}});
+    desc.filter = choice(filter, "filter", {{"auto", VFIT_FILTER_AUTO}, {"on", VFIT_FILTER_ON}, {"off", VFIT_FILTER_OFF}});
     vfit_tracker handle{};
     run([&, h = context.handle()] { return vfit_tracker_create(h, &desc, &handle); });
     return make<Tracker>(context.core(), handle);
@@ -66,10 +67,11 @@ void bind_tracker(py::module_& m) {
     closable(py::class_<Tracker, std::shared_ptr<Tracker>>(
                  m, "Tracker", "Makes tracked frames: images, user map and bodies.")
                  .def(py::init(&create), "context"_a, py::kw_only(), "floor"_a = py::none(), "joints"_a = "auto",
-                      "user_map"_a = "auto", "follow"_a = "nearest",
+                      "user_map"_a = "auto", "follow"_a = "nearest", "filter"_a = "auto",
                       "floor: a Camera that says where the floor is, if the frames do not. joints, user_map: \"auto\" "
                       "(the source's where it tells them, else the tracker's), \"built_in\" or \"given\". follow: who is the active person, "
-                      "\"nearest\", \"centred\", \"first\" or \"chosen\".")
+                      "\"nearest\", \"centred\", \"first\" or \"chosen\". filter: joints steadied over time, \"auto\" (not "
+                      "those of the source), \"on\" or \"off\".")
                  .def("update", &update, "frame"_a, "The frame with the bodies that its source supplies, or those that the tracker finds.")
                  .def("track", &track, "depth"_a, "intrinsics"_a, py::kw_only(), "users"_a = py::none(),
                       "camera"_a = py::none(), "time_ns"_a = 0,

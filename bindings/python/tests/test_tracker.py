@@ -152,3 +152,18 @@ def test_the_active_person_is_followed(ctx, images, standing):
         vfit.Tracker(ctx, follow="tallest")
     with pytest.raises(vfit.ArgumentError, match="256"):
         tracker.choose(256)
+
+
+def test_submitted_joints_are_steadied_unless_wanted_raw(ctx, images, standing):
+    def last_head(filter):
+        tracker = vfit.Tracker(ctx, filter=filter)
+        for index in range(1, 20):
+            frame = vfit.Frame.from_numpy(ctx, images[0], INTRINSICS, time_ns=index * 33_333_333)
+            joints = {**standing, "HEAD": (0.005 * (-1) ** index, 1.6, -2.0)}
+            tracked = tracker.submit(frame, joints)
+        return tracked.joints()["HEAD"].x
+
+    assert last_head("off") == pytest.approx(-0.005)
+    assert abs(last_head("auto")) < 0.004
+    with pytest.raises(vfit.ArgumentError, match="filter"):
+        vfit.Tracker(ctx, filter="kalman")

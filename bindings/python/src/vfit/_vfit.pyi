@@ -308,11 +308,13 @@ class Tracker(_Closable):
     floor says where the floor is, if the frames do not. joints and user_map say whose are taken: "auto" is the
     source's where it tells them, else the tracker's own; "given" is the source's alone (UnsupportedError where it
     tells none). follow is the rule of the active person: "nearest" to the camera, most "centred", who came "first",
-    or nobody but the one "chosen"."""
+    or nobody but the one "chosen". filter: joints are steadied over time and their states follow their confidence,
+    "auto" for the tracker's own and submitted ones, "on" for the source's too, "off"."""
 
     def __init__(self, context: Context, *, floor: Optional[Camera] = None, joints: _TrackSource = "auto",
                  user_map: _TrackSource = "auto",
-                 follow: Literal["nearest", "centred", "first", "chosen"] = "nearest") -> None: ...
+                 follow: Literal["nearest", "centred", "first", "chosen"] = "nearest",
+                 filter: Literal["auto", "on", "off"] = "auto") -> None: ...
     def update(self, frame: Frame) -> Frame:
         """The frame with the bodies that its source supplies, or those that the tracker finds."""
     def track(self, depth: NDArray[np.uint16], intrinsics: Union[Intrinsics, Sequence[Any]], *,
