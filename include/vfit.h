@@ -363,7 +363,15 @@ typedef struct vfit_tracker_desc {
     vfit_follow follow;                 /* the rule of the active person                             */
     vfit_joint_filter filter;
 } vfit_tracker_desc;
-VFIT_STRUCT(vfit_joint) VFIT_STRUCT(vfit_body) VFIT_STRUCT(vfit_tracker_desc)
+/* Where a joint is in the depth image, as a pose network sees it in a registered colour image. LEFT is the
+ * person's own left, whatever the context mirrors.                                                     */
+typedef struct vfit_joint_hint {
+    uint32_t struct_size, body_id;      /* 0: of whose pixel it is                                   */
+    vfit_joint_id joint;
+    float x, y;                         /* pixel; centres lie at whole coordinates                   */
+    float confidence;                   /* 0..1: the chance that it is right                         */
+} vfit_joint_hint;
+VFIT_STRUCT(vfit_joint) VFIT_STRUCT(vfit_body) VFIT_STRUCT(vfit_tracker_desc) VFIT_STRUCT(vfit_joint_hint)
 /* Bodies are part of a tracked frame (or of a recording's, or of the host's own).              [any]   */
 VFIT_API vfit_result vfit_frame_bodies(vfit_frame frame, vfit_body* items, uint32_t stride,
                                        uint32_t* count);
@@ -383,6 +391,12 @@ VFIT_API vfit_result vfit_tracker_update(vfit_tracker tracker, vfit_frame frame,
 VFIT_API vfit_result vfit_tracker_submit(vfit_tracker tracker, vfit_frame frame, const vfit_body* body,
                                          const vfit_joint* items, uint32_t stride, uint32_t count,
                                          vfit_frame* tracked);
+/* For the next update alone, in place of earlier ones: where the tracker's own network wavers between places
+ * of a joint, the hinted one counts more. Does little where the network is sure, and nothing far from
+ * anybody or where the joints are the source's. Bad items: VFIT_ERROR_ARGUMENT or VFIT_ERROR_DATA, none of
+ * them is taken.                                                                              [excl]   */
+VFIT_API vfit_result vfit_tracker_hint(vfit_tracker tracker, const vfit_joint_hint* items, uint32_t stride,
+                                       uint32_t count);
 /* Forgets people, room and choice.                                                              [excl] */
 VFIT_API vfit_result vfit_tracker_reset(vfit_tracker tracker);
 /* From the next update or submit on that person is the active one, whatever the rule; 0: by the rule again.

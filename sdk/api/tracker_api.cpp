@@ -1,5 +1,6 @@
 // vfit.h, part "bodies and tracker".
 #include <algorithm>
+#include <cmath>
 
 #include "api/bodies.h"
 #include "api/context.h"
@@ -30,6 +31,7 @@ struct TrackerObject : ContextChild {
     ActivePerson active;
     vfit_joint_filter filter = VFIT_FILTER_AUTO;
     SteadyBodies steady;  // joints that are not the tracker's own
+    std::vector<JointHint> hints;  // for the next update
 
     /// The frame is complete as far as it goes.
     void choose_active(Frame& tracked) { tracked.active = active.update(tracked.time_ns, tracked.bodies, tracked.camera); }
@@ -60,7 +62,7 @@ struct TrackerObject : ContextChild {
             map_people(image, tracked);
         else
             find_targets(image, kMaxBodies, targets);
-        own->run(image, base->time_ns, targets, tracked.bodies);
+        own->run(image, base->time_ns, targets, tracked.bodies, hints);
         if (own_map)
             for (const TrackTarget& target : targets)
                 if (own->surely_no_person(target.id)) people->reject(target.id);
@@ -107,6 +109,16 @@ vfit_track_source check_source(vfit_track_source source, const char* name) {
     if (source < VFIT_TRACK_AUTO || source > VFIT_TRACK_GIVEN)
         fail(VFIT_ERROR_ARGUMENT, "desc.", name, ": unknown track source ", source);
     return source;
+}
+
+void check_hint(const vfit_joint_hint& hint) {
+    const char* name = joint_name(hint.joint);
+    if (!name) fail(VFIT_ERROR_ARGUMENT, "hint: joint ", hint.joint, " is not one of VFIT_JOINT_*");
+    if (hint.body_id > 255) fail(VFIT_ERROR_ARGUMENT, "hint of ", name, ": body_id ", hint.body_id, " is not in 0..255");
+    if (!std::isfinite(hint.x) || !std::isfinite(hint.y) || !std::isfinite(hint.confidence))
+        fail(VFIT_ERROR_DATA, "hint of ", name, " is not finite");
+    if (hint.confidence < 0.0f || hint.confidence > 1.0f)
+        fail(VFIT_ERROR_ARGUMENT, "hint of ", name, ": confidence ", hint.confidence, " is not in 0..1");
 }
 
 }  // namespace
@@ -197,6 +209,7 @@ vfit_result vfit_tracker_reset(vfit_tracker handle) {
         if (tracker->people) tracker->people->reset();
         tracker->active.reset();
         tracker->steady.reset();
+        tracker->hints.clear();
         return VFIT_OK;
     });
 }
@@ -224,8 +237,24 @@ vfit_result vfit_tracker_update(vfit_tracker handle, vfit_frame frame_handle, vf
         } else {
             tracker->see(frame.ref(), *out);
         }
+        tracker->hints.clear();
         tracker->choose_active(*out);
         tracked->id = tracker->context->publish(Kind::frame, out);
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_tracker_hint(vfit_tracker handle, const vfit_joint_hint* items, uint32_t stride, uint32_t count) {
+    return guard([&] {
+        Use<TrackerObject, Mode::exclusive> tracker(handle.id);
+        const Items<vfit_joint_hint> given(items, stride, count, "items");
+        if (count > kMaxBodies * kJointCount) fail(VFIT_ERROR_ARGUMENT, "items: ", count, " hints, at most ", kMaxBodies * kJointCount);
+        for (uint32_t i = 0; i < count; ++i) check_hint(given[i]);
+        tracker->hints.clear();
+        for (uint32_t i = 0; i < count; ++i) {
+            const vfit_joint_hint h = given[i];
+            tracker->hints.push_back({h.joint, h.x, h.y, h.confidence, h.body_id});
+        }
         return VFIT_OK;
     });
 }

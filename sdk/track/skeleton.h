@@ -30,6 +30,8 @@ public:
     /// Exchanges left and right in `joints` where the person faces away.
     void apply(float away_logit, SeenJoints& joints);
     bool away() const { return away_; }
+    /// The decision as it stands; of somebody new what the network says.
+    bool away(float away_logit) const { return known_ ? away_ : away_logit > 0.0f; }
 
 private:
     bool known_ = false, away_ = false;

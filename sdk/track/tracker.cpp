@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/clock.h"
 
@@ -40,8 +41,9 @@ void find_targets(const DepthImage& image, size_t most, std::vector<TrackTarget>
 }
 
 void Tracker::run(const DepthImage& image, int64_t time_ns, std::span<const TrackTarget> targets,
-                  std::vector<Body>& out) {
+                  std::vector<Body>& out, std::span<const JointHint> hints) {
     out.clear();
+    give_hints(image, targets, hints);
     std::erase_if(people_, [&](const auto& entry) {
         return time_ns < entry.second.seen_ns || seconds_between(entry.second.seen_ns, time_ns) > kForget_s;
     });
@@ -52,6 +54,25 @@ void Tracker::run(const DepthImage& image, int64_t time_ns, std::span<const Trac
     for (const TrackTarget& target : targets) {
         Body body;
         if (see(image, time_ns, target, up, people_[target.id], body)) out.push_back(body);
+    }
+}
+
+/// A hint is of the person that it names, or whose pixel it is, or in whose box alone it lies.
+void Tracker::give_hints(const DepthImage& image, std::span<const TrackTarget> targets, std::span<const JointHint> hints) {
+    hints_.clear();
+    for (JointHint hint : hints) {
+        const int x = int(std::floor(std::clamp(hint.x, -1.0f, 1e6f) + 0.5f)), y = int(std::floor(std::clamp(hint.y, -1.0f, 1e6f) + 0.5f));
+        const bool inside = x >= 0 && y >= 0 && x < int(image.width()) && y < int(image.height());
+        const uint32_t label = inside ? image.users[image.index(uint32_t(x), uint32_t(y))] : 0;
+        uint32_t boxes = 0, owner = 0;
+        for (const TrackTarget& target : targets) {
+            if (!near_box(hint, target.box) || (hint.person && hint.person != target.id)) continue;
+            ++boxes;
+            if (owner == 0 || target.id == label) owner = target.id;
+        }
+        if (boxes > 1 && owner != label) continue;  // whose it is nobody can tell
+        hint.person = owner;
+        if (owner) hints_.push_back(hint);
     }
 }
 
@@ -67,6 +88,10 @@ bool Tracker::see(const DepthImage& image, int64_t time_ns, const TrackTarget& t
     if (!cropper_.run(image, uint8_t(target.id), target.box, up, view, crop_.data())) return false;
     network_->run(crop_.data(), maps_);
     person.belief = person.frames == 0 ? maps_.person : person.belief + kBeliefShare * (maps_.person - person.belief);
+    hints_of_one_.clear();
+    for (const JointHint& hint : hints_)
+        if (hint.person == target.id) hints_of_one_.push_back(hint);
+    apply_hints(hints_of_one_, view, person.facing.away(maps_.away), maps_);
     SeenJoints joints;
     read_maps(maps_, view, image.camera, joints);
     person.facing.apply(maps_.away, joints);

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "track/joint_hints.h"
 #include "track/joint_network.h"
 #include "track/joint_steady.h"
 #include "track/skeleton.h"
@@ -30,7 +31,8 @@ public:
 
     /// Joints of every target that the network takes for a person, in camera space. A person unseen for
     /// kForget_s is forgotten: whoever gets that id then starts afresh.
-    void run(const DepthImage& image, int64_t time_ns, std::span<const TrackTarget> targets, std::vector<Body>& out);
+    void run(const DepthImage& image, int64_t time_ns, std::span<const TrackTarget> targets, std::vector<Body>& out,
+             std::span<const JointHint> hints = {});
     /// The network has said for a while that this target is something else.
     bool surely_no_person(uint32_t id) const;
     /// Forgets everybody.
@@ -46,12 +48,14 @@ private:
         int64_t seen_ns = 0;
         uint32_t frames = 0;
     };
+    void give_hints(const DepthImage& image, std::span<const TrackTarget> targets, std::span<const JointHint> hints);
     bool see(const DepthImage& image, int64_t time_ns, const TrackTarget& target, const Vec2& up, Person& person,
              Body& out);
 
     std::shared_ptr<JointNetwork> network_;
     bool steady_;
     std::map<uint32_t, Person> people_;
+    std::vector<JointHint> hints_, hints_of_one_;  // of this image, with the person that each is of
     Cropper cropper_;
     std::vector<float> crop_;
     JointMaps maps_;

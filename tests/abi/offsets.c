@@ -164,6 +164,14 @@ OFFSET(vfit_tracker_desc, follow, 24);
 OFFSET(vfit_tracker_desc, filter, 28);
 SIZE(vfit_tracker_desc, 32);
 
+OFFSET(vfit_joint_hint, struct_size, 0);
+OFFSET(vfit_joint_hint, body_id, 4);
+OFFSET(vfit_joint_hint, joint, 8);
+OFFSET(vfit_joint_hint, x, 12);
+OFFSET(vfit_joint_hint, y, 16);
+OFFSET(vfit_joint_hint, confidence, 20);
+SIZE(vfit_joint_hint, 24);
+
 OFFSET(vfit_scan_desc, struct_size, 0);
 OFFSET(vfit_scan_desc, method, 4);
 OFFSET(vfit_scan_desc, frame_count, 8);

@@ -79,6 +79,7 @@ std::vector<Call> calls() {
         {"tracker_destroy", [](uint64_t h) { return vfit_tracker_destroy({h}); }},
         {"tracker_update", [](uint64_t h) { return vfit_tracker_update({h}, {h}, &frame_out); }},
         {"tracker_submit", [](uint64_t h) { return vfit_tracker_submit({h}, {h}, nullptr, nullptr, 0, 0, &frame_out); }},
+        {"tracker_hint", [](uint64_t h) { return vfit_tracker_hint({h}, nullptr, 0, 0); }},
         {"tracker_set_active", [](uint64_t h) { return vfit_tracker_set_active({h}, 1); }},
         {"frame_active_body", [](uint64_t h) { return vfit_frame_active_body({h}, &count, nullptr); }},
         {"tracker_reset", [](uint64_t h) { return vfit_tracker_reset({h}); }},

@@ -6,13 +6,6 @@ namespace vfit_python {
 
 namespace {
 
-vfit_joint_id joint_id(const py::handle& key) {
-    if (!py::isinstance<py::str>(key)) return key.cast<int>();
-    const py::object members = type("Joint").attr("__members__");
-    if (!members.contains(key)) fail(VFIT_ERROR_ARGUMENT, "\"" + key.cast<std::string>() + "\" is no joint");
-    return members[key].cast<int>();
-}
-
 /// An array of Joints, which anybody may have made.
 FloatArray rows_of(const py::object& joints, const char* name, const std::vector<py::ssize_t>& shape) {
     auto array = FloatArray::ensure(joints.attr(name));
@@ -22,6 +15,13 @@ FloatArray rows_of(const py::object& joints, const char* name, const std::vector
 }
 
 }  // namespace
+
+vfit_joint_id joint_id(const py::handle& key) {
+    if (!py::isinstance<py::str>(key)) return key.cast<int>();
+    const py::object members = type("Joint").attr("__members__");
+    if (!members.contains(key)) fail(VFIT_ERROR_ARGUMENT, "\"" + key.cast<std::string>() + "\" is no joint");
+    return members[key].cast<int>();
+}
 
 py::object joints_out(const std::vector<vfit_joint>& joints) {
     const auto n = static_cast<py::ssize_t>(joints.size());

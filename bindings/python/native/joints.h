@@ -5,6 +5,9 @@
 
 namespace vfit_python {
 
+/// From "LEFT_HAND" or Joint.LEFT_HAND.
+vfit_joint_id joint_id(const py::handle& key);
+
 /// vfit.Joints of a list.
 py::object joints_out(const std::vector<vfit_joint>& joints);
 py::object joints_of(const Frame& frame, uint32_t body_id);

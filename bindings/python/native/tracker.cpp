@@ -41,6 +41,25 @@ std::unique_ptr<Frame> track(const Tracker& tracker, const py::array& depth, con
     return update(tracker, *frame_from_numpy(tracker.core(), depth, intrinsics, users, py::none(), camera, time_ns));
 }
 
+void hint(const Tracker& tracker, const py::dict& hints, uint32_t body_id) {
+    std::vector<vfit_joint_hint> items;
+    for (const auto& [key, given] : hints) {
+        const auto numbers = given.cast<std::vector<float>>();
+        if (numbers.size() != 2 && numbers.size() != 3)
+            fail(VFIT_ERROR_ARGUMENT, "hint of " + py::str(key).cast<std::string>() + ": wanted is (x, y) or (x, y, confidence)");
+        vfit_joint_hint item = vfit_joint_hint_init();
+        item.body_id = body_id;
+        item.joint = joint_id(key);
+        item.x = numbers[0];
+        item.y = numbers[1];
+        item.confidence = numbers.size() == 3 ? numbers[2] : 1.0f;
+        items.push_back(item);
+    }
+    run([&, t = tracker.get()] {
+        return vfit_tracker_hint(t, items.data(), sizeof(vfit_joint_hint), static_cast<uint32_t>(items.size()));
+    });
+}
+
 void choose(const Tracker& tracker, const std::optional<uint32_t>& body_id) {
     run([&, t = tracker.get()] { return vfit_tracker_set_active(t, body_id.value_or(0)); });
 }
@@ -77,6 +96,9 @@ void bind_tracker(py::module_& m) {
                       "camera"_a = py::none(), "time_ns"_a = 0,
                       "From a depth image (height, width) uint16 in millimetres and (fx, fy, cx, cy) to the frame with "
                       "user map and bodies.")
+                 .def("hint", &hint, "hints"_a, py::kw_only(), "body_id"_a = 0,
+                      "Joints that you see in the image, name -> (x, y) or (x, y, confidence) in pixels, for the next "
+                      "update alone.")
                  .def("choose", &choose, "body_id"_a,
                       "That person is the active one from the next frame on; None: by the rule again.")
                  .def("submit", &submit, "frame"_a, "joints"_a, py::kw_only(), "body_id"_a = 1,

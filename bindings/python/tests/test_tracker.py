@@ -167,3 +167,21 @@ def test_submitted_joints_are_steadied_unless_wanted_raw(ctx, images, standing):
     assert abs(last_head("auto")) < 0.004
     with pytest.raises(vfit.ArgumentError, match="filter"):
         vfit.Tracker(ctx, filter="kalman")
+
+
+def test_hints_are_for_one_update(ctx):
+    frame = next(ctx.open(SOURCE))
+    plain = vfit.Tracker(ctx, joints="built_in").update(frame).joints()["LEFT_HAND"]
+    tracker = vfit.Tracker(ctx, joints="built_in")
+    at = frame.intrinsics.project(frame.camera.from_world(np.array([plain[:3]], np.float32)))[0]
+    tracker.hint({"LEFT_HAND": (at[0] + 8, at[1], 0.9)})
+    hinted = tracker.update(frame).joints()["LEFT_HAND"]
+    assert hinted.x != plain.x
+    tracker.reset()
+    assert tracker.update(frame).joints()["LEFT_HAND"] == plain
+    for wrong, kind, message in (({"TAIL": (1, 2)}, vfit.ArgumentError, "TAIL"), ({"HEAD": (1,)}, vfit.ArgumentError, "HEAD"),
+                                 ({"HEAD": (1, 2, 3)}, vfit.ArgumentError, "confidence"),
+                                 ({vfit.Joint.HEAD: (1, float("nan"))}, vfit.DataError, "HEAD")):
+        with pytest.raises(kind, match=message):
+            tracker.hint(wrong)
+    tracker.hint({})

@@ -323,6 +323,10 @@ class Tracker(_Closable):
         """User map (`.users`) and people (`.bodies()`) of a depth image (h, w) in millimetres, 0 where there is no
         reading; intrinsics are fx, fy, cx, cy in pixels. Images that follow each other want their time stamps:
         people keep their ids and joints are steadied over time. time_ns 0: now."""
+    def hint(self, hints: Union[Mapping[str, Sequence[float]], Mapping[Joint, Sequence[float]]], *,
+             body_id: int = 0) -> None:
+        """Joints that you see in the image, as (x, y) or (x, y, confidence) in pixels of the depth image, for the
+        next update or track alone. body_id 0: of whose pixel each is."""
     def choose(self, body_id: Optional[int]) -> None:
         """That person is the active one from the next frame on; when they have left for two seconds the rule holds
         again. None: by the rule again."""

@@ -1,0 +1,148 @@
+// Hints of a pose network in the colour image: right ones help where a limb is hidden, wrong ones do limited harm, those
+// of nobody do nothing.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "contract/support.h"
+
+namespace {
+
+constexpr vfit_joint_id kHinted[] = {VFIT_JOINT_LEFT_HAND, VFIT_JOINT_RIGHT_HAND, VFIT_JOINT_LEFT_ELBOW, VFIT_JOINT_RIGHT_ELBOW};
+
+struct Errors {
+    std::vector<double> hidden, seen;  // m, of the hinted joints by what the camera sees of them
+    static double mean(const std::vector<double>& of) {
+        double sum = 0.0;
+        for (const double e : of) sum += e;
+        return sum / double(std::max<size_t>(1, of.size()));
+    }
+};
+
+class HintsTest : public contract::ContextTest {
+protected:
+    std::vector<vfit_joint> joints_of(vfit_frame frame, uint32_t body) {
+        std::vector<vfit_joint> out(VFIT_JOINT_COUNT);
+        uint32_t count = VFIT_JOINT_COUNT;
+        EXPECT_EQ(vfit_frame_joints(frame, body, out.data(), sizeof(vfit_joint), &count), VFIT_OK);
+        out.resize(count);
+        return out;
+    }
+    /// The pixel of a joint in that frame's image.
+    vfit_joint_hint hint_of(vfit_frame frame, const vfit_joint& joint) {
+        vfit_camera camera = vfit_camera_init();
+        vfit_intrinsics k = vfit_intrinsics_init();
+        EXPECT_EQ(vfit_frame_camera(frame, &camera), VFIT_OK);
+        EXPECT_EQ(vfit_frame_intrinsics(frame, &k), VFIT_OK);
+        const float* m = camera.world_from_camera;
+        float p[3];
+        for (int column = 0; column < 3; ++column) {
+            p[column] = 0.0f;
+            for (int row = 0; row < 3; ++row) p[column] += m[4 * column + row] * (joint.position[row] - m[12 + row]);
+        }
+        vfit_joint_hint hint = vfit_joint_hint_init();
+        hint.joint = joint.joint;
+        hint.x = p[0] / p[2] * k.fx + k.cx;
+        hint.y = p[1] / p[2] * k.fy + k.cy;
+        return hint;
+    }
+    /// Somebody turns about, so that one arm after the other is behind the body; hints `off` pixels from the truth.
+    Errors run(float confidence, float off) {
+        Errors errors;
+        vfit_sensor sensor{};
+        EXPECT_EQ(vfit_sensor_open(context, "virtual:motion=turn&rate=6&frames=78&sensor=kinect_v1_320&seed=5", &sensor), VFIT_OK);
+        EXPECT_EQ(vfit_sensor_start(sensor), VFIT_OK);
+        vfit_tracker_desc desc = vfit_tracker_desc_init();
+        desc.joints = VFIT_TRACK_BUILT_IN;
+        vfit_tracker tracker{};
+        EXPECT_EQ(vfit_tracker_create(context, &desc, &tracker), VFIT_OK);
+        vfit_frame frame{};
+        for (int index = 0; vfit_sensor_acquire(sensor, -1, &frame) == VFIT_OK; ++index) {
+            const auto truth = joints_of(frame, 1);
+            std::vector<vfit_joint_hint> hints;
+            for (const vfit_joint_id id : kHinted) {
+                hints.push_back(hint_of(frame, truth[size_t(id)]));
+                hints.back().confidence = confidence;
+                hints.back().x += off * std::cos(2.4f * float(index));
+                hints.back().y += off * std::sin(2.4f * float(index));
+            }
+            if (confidence > 0.0f) {
+                EXPECT_EQ(vfit_tracker_hint(tracker, hints.data(), sizeof hints[0], uint32_t(hints.size())), VFIT_OK)
+                    << contract::last_error();
+            }
+            vfit_frame tracked{};
+            EXPECT_EQ(vfit_tracker_update(tracker, frame, &tracked), VFIT_OK) << contract::last_error();
+            uint32_t bodies = 0;
+            EXPECT_EQ(vfit_frame_bodies(tracked, nullptr, 0, &bodies), VFIT_OK);
+            if (bodies == 1)
+                for (const vfit_joint& j : joints_of(tracked, 1))
+                    if (std::find(std::begin(kHinted), std::end(kHinted), j.joint) != std::end(kHinted)) {
+                        const vfit_joint& t = truth[size_t(j.joint)];
+                        const double e = std::hypot(j.position[0] - t.position[0], j.position[1] - t.position[1], j.position[2] - t.position[2]);
+                        (t.state == VFIT_JOINT_MEASURED ? errors.seen : errors.hidden).push_back(e);
+                    }
+            vfit_frame_release(tracked);
+            vfit_frame_release(frame);
+        }
+        EXPECT_EQ(vfit_sensor_close(sensor), VFIT_OK);
+        EXPECT_EQ(vfit_tracker_destroy(tracker), VFIT_OK);
+        return errors;
+    }
+};
+
+}  // namespace
+
+TEST_F(HintsTest, RightOnesHelpWhereAnArmIsHiddenAndWrongOnesDoLimitedHarm) {
+    const Errors without = run(0.0f, 0.0f), right = run(0.9f, 0.0f), wrong = run(0.5f, 40.0f);
+    ASSERT_GT(without.hidden.size(), 20u);
+    ASSERT_GT(without.seen.size(), 100u);
+    for (const auto& [name, errors] : {std::pair{"without", &without}, {"right", &right}, {"wrong by 40 pixels", &wrong}})
+        std::printf("%s: hidden %.0f mm (%zu), seen %.0f mm (%zu)\n", name, 1000 * Errors::mean(errors->hidden),
+                    errors->hidden.size(), 1000 * Errors::mean(errors->seen), errors->seen.size());
+    EXPECT_LT(Errors::mean(right.hidden), 0.8 * Errors::mean(without.hidden));
+    EXPECT_LT(Errors::mean(right.seen), Errors::mean(without.seen));
+    EXPECT_LT(Errors::mean(wrong.hidden), Errors::mean(without.hidden) + 0.04);
+    EXPECT_LT(Errors::mean(wrong.seen), Errors::mean(without.seen) + 0.02);
+}
+
+TEST_F(HintsTest, FarFromAnybodyTheyChangeNothing) {
+    const Errors without = run(0.0f, 0.0f), far = run(1.0f, 600.0f);
+    EXPECT_EQ(without.hidden, far.hidden);
+    EXPECT_EQ(without.seen, far.seen);
+}
+
+TEST_F(HintsTest, BadOnesAreRefusedByNameAndNoneIsTaken) {
+    vfit_tracker tracker{};
+    ASSERT_EQ(vfit_tracker_create(context, nullptr, &tracker), VFIT_OK);
+    vfit_joint_hint hints[2] = {vfit_joint_hint_init(), vfit_joint_hint_init()};
+    hints[1].joint = VFIT_JOINT_LEFT_HAND;
+    hints[1].confidence = 0.5f;
+    const auto give = [&] { return vfit_tracker_hint(tracker, hints, sizeof hints[0], 2); };
+    EXPECT_EQ(give(), VFIT_OK) << contract::last_error();
+    const vfit_joint_hint good = hints[1];
+    hints[1].joint = 23;
+    EXPECT_EQ(give(), VFIT_ERROR_ARGUMENT);
+    EXPECT_NE(contract::last_error().find("23"), std::string::npos);
+    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()})
+        for (float vfit_joint_hint::* field : {&vfit_joint_hint::x, &vfit_joint_hint::y, &vfit_joint_hint::confidence}) {
+            hints[1] = good;
+            hints[1].*field = bad;
+            EXPECT_EQ(give(), VFIT_ERROR_DATA);
+            EXPECT_NE(contract::last_error().find("LEFT_HAND"), std::string::npos);
+        }
+    for (const float bad : {-0.1f, 1.1f}) {
+        hints[1] = good;
+        hints[1].confidence = bad;
+        EXPECT_EQ(give(), VFIT_ERROR_ARGUMENT);
+    }
+    hints[1] = good;
+    hints[1].body_id = 256;
+    EXPECT_EQ(give(), VFIT_ERROR_ARGUMENT);
+    hints[1] = good;
+    EXPECT_EQ(vfit_tracker_hint(tracker, nullptr, sizeof hints[0], 2), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_tracker_hint(tracker, hints, 3, 2), VFIT_ERROR_ARGUMENT);
+    const std::vector<vfit_joint_hint> many(500, good);
+    EXPECT_EQ(vfit_tracker_hint(tracker, many.data(), sizeof many[0], 500), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_tracker_hint(tracker, nullptr, 0, 0), VFIT_OK);
+}
