@@ -382,7 +382,8 @@ VFIT_API vfit_result vfit_tracker_create(vfit_context context, const vfit_tracke
                                          vfit_tracker* out);                               /* [any]  */
 VFIT_API vfit_result vfit_tracker_destroy(vfit_tracker tracker);                           /* [any]  */
 /* *tracked shares the images and user map of frame and holds the bodies that its source supplies, or those
- * that the tracker sees in it. Where it looks for people by itself *tracked has a user map of its own.
+ * that the tracker sees in it. Where it looks for people by itself *tracked has a user map of its own, with
+ * the ids of its source's bodies where those are taken.
  * VFIT_ERROR_PLUGIN where the tracker has to find joints and the network module is not installed. [excl] */
 VFIT_API vfit_result vfit_tracker_update(vfit_tracker tracker, vfit_frame frame, vfit_frame* tracked);
 /* The host's own middleware in place of the built-in tracker, one call a body; frame may be a *tracked

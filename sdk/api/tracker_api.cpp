@@ -8,6 +8,7 @@
 #include "frame/camera_struct.h"
 #include "frame/floor.h"
 #include "track/active_person.h"
+#include "track/match_bodies.h"
 #include "track/people_map.h"
 #include "track/steady_bodies.h"
 #include "track/tracker.h"
@@ -28,6 +29,8 @@ struct TrackerObject : ContextChild {
     std::unique_ptr<Tracker> own;  // made when first needed, as are people
     std::unique_ptr<PeopleMap> people;
     std::vector<TrackTarget> targets;
+    uint8_t* map = nullptr;  // of the frame that is being made
+    std::vector<Body> in_camera;
     ActivePerson active;
     vfit_joint_filter filter = VFIT_FILTER_AUTO;
     SteadyBodies steady;  // joints that are not the tracker's own
@@ -45,10 +48,13 @@ struct TrackerObject : ContextChild {
     bool nobody_knows_the_floor(const Camera& camera) const {
         return std::max(floor.floor_state, camera.floor_state) == VFIT_FLOOR_DEFAULT;
     }
+    bool makes_map(const DepthImage& image) const {
+        return user_map == VFIT_TRACK_BUILT_IN || (user_map == VFIT_TRACK_AUTO && !image.users);
+    }
     /// Finds the bodies in the images of `base`.
     void see(const Ref<Frame>& base, Frame& tracked) {
         DepthImage image = base->depth_image();
-        const bool own_map = user_map == VFIT_TRACK_BUILT_IN || (user_map == VFIT_TRACK_AUTO && !image.users);
+        const bool own_map = makes_map(image);
         if (!own_map && !image.users)
             fail(VFIT_ERROR_UNSUPPORTED, "the frame's source supplies no user map, and the tracker was told to make none");
         if (!own)
@@ -72,16 +78,29 @@ struct TrackerObject : ContextChild {
         place(tracked.camera);
         for (Body& body : tracked.bodies) body = to_world(body, tracked.camera);
     }
+    /// Gives `tracked`, which has its source's bodies, a user map of the tracker's own with their numbers.
+    void map_given_bodies(const Frame& base, Frame& tracked) {
+        DepthImage image = base.depth_image();
+        if (!makes_map(image)) return;
+        place(image.camera);
+        const auto found = run_people(image, tracked);
+        in_camera.clear();
+        for (const Body& body : tracked.bodies) in_camera.push_back(to_camera(body, tracked.camera));
+        number_by_bodies(in_camera, image.camera, found, map);
+    }
+    std::span<const PersonRegion> run_people(const DepthImage& image, Frame& tracked) {
+        if (!people) people = std::make_unique<PeopleMap>();
+        map = static_cast<uint8_t*>(
+            tracked.add_stream(VFIT_STREAM_USER_MAP, VFIT_FORMAT_U8, image.width(), image.height()));
+        return people->run(image, tracked.time_ns, map);
+    }
     /// Gives `tracked` a user map, and `image` that map and the floor that was found.
     void map_people(DepthImage& image, Frame& tracked) {
-        if (!people) people = std::make_unique<PeopleMap>();
-        auto* users = static_cast<uint8_t*>(
-            tracked.add_stream(VFIT_STREAM_USER_MAP, VFIT_FORMAT_U8, image.width(), image.height()));
         targets.clear();
-        for (const PersonRegion& region : people->run(image, tracked.time_ns, users))
+        for (const PersonRegion& region : run_people(image, tracked))
             if (targets.size() < kMaxBodies)
                 targets.push_back({region.id, region.box, region.out_of_view ? uint32_t(VFIT_BODY_PARTLY_OUT_OF_VIEW) : 0u});
-        image.users = users;
+        image.users = map;
         image.camera = people->camera();
     }
 };
@@ -228,10 +247,9 @@ vfit_result vfit_tracker_update(vfit_tracker handle, vfit_frame frame_handle, vf
         if (!told && tracker->joints == VFIT_TRACK_GIVEN)
             fail(VFIT_ERROR_UNSUPPORTED, "the frame's source supplies no joints, and the tracker was told to find none");
         const bool given = told && tracker->joints != VFIT_TRACK_BUILT_IN;
-        if (given && tracker->user_map == VFIT_TRACK_BUILT_IN)
-            fail(VFIT_ERROR_UNSUPPORTED, "the source's joints do not go with the tracker's own user map: take its joints too");
         if (given) {
             track(*tracker, frame.ref(), *out);
+            tracker->map_given_bodies(*frame, *out);
             if (tracker->filter == VFIT_FILTER_ON)
                 for (Body& body : out->bodies) tracker->steady.run(body);
         } else {

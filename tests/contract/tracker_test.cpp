@@ -219,3 +219,34 @@ TEST_F(FilterTest, AWrongFilterIsRefusedByName) {
     EXPECT_EQ(vfit_tracker_create(context, &desc, &none), VFIT_ERROR_ARGUMENT);
     EXPECT_NE(contract::last_error().find("filter"), std::string::npos);
 }
+
+TEST_F(TrackerTest, AMapOfItsOwnHasTheIdsOfTheSourcesBodies) {
+    vfit_sensor sensor{};
+    ASSERT_EQ(vfit_sensor_open(context, "virtual:motion=wave&frames=10&sensor=kinect_v1_320", &sensor), VFIT_OK);
+    ASSERT_EQ(vfit_sensor_start(sensor), VFIT_OK);
+    vfit_tracker_desc desc = vfit_tracker_desc_init();
+    desc.user_map = VFIT_TRACK_BUILT_IN;
+    const vfit_tracker tracker = make_tracker(desc);
+    vfit_frame frame{};
+    while (vfit_sensor_acquire(sensor, -1, &frame) == VFIT_OK) {
+        vfit_frame tracked{};
+        ASSERT_EQ(vfit_tracker_update(tracker, frame, &tracked), VFIT_OK) << contract::last_error();
+        vfit_view truth = vfit_view_init(), found = vfit_view_init();
+        ASSERT_EQ(vfit_frame_view(frame, VFIT_STREAM_USER_MAP, &truth), VFIT_OK);
+        ASSERT_EQ(vfit_frame_view(tracked, VFIT_STREAM_USER_MAP, &found), VFIT_OK);
+        EXPECT_NE(truth.data, found.data);
+        double both = 0.0, either = 0.0;
+        for (size_t i = 0; i < size_t(truth.width) * truth.height; ++i) {
+            const bool a = static_cast<const uint8_t*>(truth.data)[i] == 1, b = static_cast<const uint8_t*>(found.data)[i] == 1;
+            both += a && b;
+            either += a || b;
+        }
+        EXPECT_GT(both / either, 0.9);
+        uint32_t joints = 0;
+        EXPECT_EQ(vfit_frame_joints(tracked, 1, nullptr, 0, &joints), VFIT_OK);
+        EXPECT_EQ(joints, VFIT_JOINT_COUNT);
+        vfit_frame_release(tracked);
+        vfit_frame_release(frame);
+    }
+    EXPECT_EQ(vfit_sensor_close(sensor), VFIT_OK);
+}
