@@ -80,6 +80,7 @@ struct TrackerObject : ContextChild {
     }
     /// Gives `tracked`, which has its source's bodies, a user map of the tracker's own with their numbers.
     void map_given_bodies(const Frame& base, Frame& tracked) {
+        if (!base.find(VFIT_STREAM_DEPTH)) return;
         DepthImage image = base.depth_image();
         if (!makes_map(image)) return;
         place(image.camera);

@@ -106,7 +106,9 @@ class Intrinsics(NamedTuple):
     def project(self, points: NDArray[np.float32]) -> NDArray[np.float32]:
         """Pixels (n, 2) of camera-space points (n, 3). Pixel centres lie at whole coordinates."""
         p = np.asarray(points, np.float32)
-        return p[..., :2] / p[..., 2:] * np.float32((self.fx, self.fy)) + np.float32((self.cx, self.cy))
+        focal, centre = np.array((self.fx, self.fy), np.float32), np.array((self.cx, self.cy), np.float32)
+        out: NDArray[np.float32] = p[..., :2] / p[..., 2:] * focal + centre
+        return out
 
 
 class Camera(NamedTuple):
