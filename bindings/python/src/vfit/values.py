@@ -107,8 +107,7 @@ class Intrinsics(NamedTuple):
         """Pixels (n, 2) of camera-space points (n, 3). Pixel centres lie at whole coordinates."""
         p = np.asarray(points, np.float32)
         focal, centre = np.array((self.fx, self.fy), np.float32), np.array((self.cx, self.cy), np.float32)
-        out: NDArray[np.float32] = p[..., :2] / p[..., 2:] * focal + centre
-        return out
+        return (p[..., :2] / p[..., 2:] * focal + centre).astype(np.float32)
 
 
 class Camera(NamedTuple):
