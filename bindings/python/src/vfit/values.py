@@ -135,8 +135,7 @@ class Camera(NamedTuple):
         if self.world_from_camera is None:
             raise ValueError("this camera is none of a frame: it has no world_from_camera")
         turn, shift = self.world_from_camera[:3, :3], self.world_from_camera[:3, 3]
-        out: NDArray[np.float32] = (np.asarray(points, np.float32) - shift) @ turn
-        return out
+        return ((np.asarray(points, np.float32) - shift) @ turn).astype(np.float32)
 
 
 class JointPoint(NamedTuple):
