@@ -76,8 +76,9 @@ vfit_result vfit_scan_add(vfit_scan handle, vfit_frame tracked, uint32_t body_id
             Profile::Scope time(scan->context->profile, Stage::measure);
             const DepthImage image = frame->depth_image();
             if (!image.users)
-                fail(VFIT_ERROR_UNSUPPORTED, "the frame has no user map: its source supplies none, and "
-                                             "vfit_tracker_update, which makes one, did not see it");
+                fail(VFIT_ERROR_UNSUPPORTED,
+                     "the frame has no user map: its source supplies none, and "
+                     "vfit_tracker_update, which makes one, did not see it");
             Body camera_space;
             const Body* body = frame->body(body_id);
             if (body) camera_space = to_camera(*body, frame->camera);

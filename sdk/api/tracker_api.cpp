@@ -33,11 +33,13 @@ struct TrackerObject : ContextChild {
     std::vector<Body> in_camera;
     ActivePerson active;
     vfit_joint_filter filter = VFIT_FILTER_AUTO;
-    SteadyBodies steady;  // joints that are not the tracker's own
+    SteadyBodies steady;           // joints that are not the tracker's own
     std::vector<JointHint> hints;  // for the next update
 
     /// The frame is complete as far as it goes.
-    void choose_active(Frame& tracked) { tracked.active = active.update(tracked.time_ns, tracked.bodies, tracked.camera); }
+    void choose_active(Frame& tracked) {
+        tracked.active = active.update(tracked.time_ns, tracked.bodies, tracked.camera);
+    }
     /// Where the tracker knows more of the floor than the frame's source, the tracker's is taken.
     void place(Camera& camera) const {
         if (floor.floor_state <= camera.floor_state) return;
@@ -59,7 +61,8 @@ struct TrackerObject : ContextChild {
             fail(VFIT_ERROR_UNSUPPORTED, "the frame's source supplies no user map, and the tracker was told to make none");
         if (!own)
             own = std::make_unique<Tracker>(
-                std::make_unique<JointNetwork>(context->module_path("vfit_joint_network"), context->data_dir + "/networks/joints.onnx"),
+                std::make_unique<JointNetwork>(context->module_path("vfit_joint_network"),
+                                               context->data_dir + "/networks/joints.onnx"),
                 filter != VFIT_FILTER_OFF);
         tracked.base = base;
         tracked.time_ns = base->time_ns;
@@ -134,7 +137,8 @@ vfit_track_source check_source(vfit_track_source source, const char* name) {
 void check_hint(const vfit_joint_hint& hint) {
     const char* name = joint_name(hint.joint);
     if (!name) fail(VFIT_ERROR_ARGUMENT, "hint: joint ", hint.joint, " is not one of VFIT_JOINT_*");
-    if (hint.body_id > 255) fail(VFIT_ERROR_ARGUMENT, "hint of ", name, ": body_id ", hint.body_id, " is not in 0..255");
+    if (hint.body_id > 255)
+        fail(VFIT_ERROR_ARGUMENT, "hint of ", name, ": body_id ", hint.body_id, " is not in 0..255");
     if (!std::isfinite(hint.x) || !std::isfinite(hint.y) || !std::isfinite(hint.confidence))
         fail(VFIT_ERROR_DATA, "hint of ", name, " is not finite");
     if (hint.confidence < 0.0f || hint.confidence > 1.0f)
@@ -263,11 +267,13 @@ vfit_result vfit_tracker_update(vfit_tracker handle, vfit_frame frame_handle, vf
     });
 }
 
-vfit_result vfit_tracker_hint(vfit_tracker handle, const vfit_joint_hint* items, uint32_t stride, uint32_t count) {
+vfit_result vfit_tracker_hint(vfit_tracker handle, const vfit_joint_hint* items, uint32_t stride,
+                              uint32_t count) {
     return guard([&] {
         Use<TrackerObject, Mode::exclusive> tracker(handle.id);
         const Items<vfit_joint_hint> given(items, stride, count, "items");
-        if (count > kMaxBodies * kJointCount) fail(VFIT_ERROR_ARGUMENT, "items: ", count, " hints, at most ", kMaxBodies * kJointCount);
+        if (count > kMaxBodies * kJointCount)
+            fail(VFIT_ERROR_ARGUMENT, "items: ", count, " hints, at most ", kMaxBodies * kJointCount);
         for (uint32_t i = 0; i < count; ++i) check_hint(given[i]);
         tracker->hints.clear();
         for (uint32_t i = 0; i < count; ++i) {

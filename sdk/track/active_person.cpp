@@ -13,8 +13,8 @@ namespace {
 Vec3 middle_of(const Body& body, const Camera& camera) {
     Vec3 sum(0.0f);
     float count = 0.0f;
-    for (const int joint : {VFIT_JOINT_TORSO, VFIT_JOINT_NECK, VFIT_JOINT_LEFT_SHOULDER, VFIT_JOINT_RIGHT_SHOULDER,
-                            VFIT_JOINT_LEFT_HIP, VFIT_JOINT_RIGHT_HIP})
+    for (const int joint : {VFIT_JOINT_TORSO, VFIT_JOINT_NECK, VFIT_JOINT_LEFT_SHOULDER,
+                            VFIT_JOINT_RIGHT_SHOULDER, VFIT_JOINT_LEFT_HIP, VFIT_JOINT_RIGHT_HIP})
         if (body.has(joint)) sum += body.at(joint), ++count;
     for (int joint = 0; count == 0.0f && joint < kJointCount; ++joint)
         if (body.has(joint)) sum = body.at(joint), count = 1.0f;
@@ -34,7 +34,8 @@ float ActivePerson::cost_of(const Body& body, const Camera& camera) const {
     return 0.0f;
 }
 
-ActivePerson::Person ActivePerson::find(std::span<const Body> bodies, uint32_t id, const Camera& camera) const {
+ActivePerson::Person ActivePerson::find(std::span<const Body> bodies, uint32_t id,
+                                        const Camera& camera) const {
     for (const Body& body : bodies)
         if (body.id == id) return {id, cost_of(body, camera), true};
     return {};
@@ -60,7 +61,8 @@ void ActivePerson::note_arrivals(int64_t time_ns, std::span<const Body> bodies) 
     now_ns_ = time_ns;
     for (const Body& body : bodies) {
         Visit& visit = visits_[body.id];
-        if (visit.last_ns == kNever || seconds_between(visit.last_ns, time_ns) > kWait_s) visit.first_ns = time_ns;
+        if (visit.last_ns == kNever || seconds_between(visit.last_ns, time_ns) > kWait_s)
+            visit.first_ns = time_ns;
         visit.last_ns = time_ns;
     }
 }
@@ -88,8 +90,10 @@ ActiveBody ActivePerson::by_rule(int64_t time_ns, std::span<const Body> bodies, 
     if (active_ && !now.there && !waited_long(time_ns)) return {active_, VFIT_ACTIVE_LOST};
 
     const bool beaten = now.there && rule_ != VFIT_FOLLOW_FIRST && other.cost_m < now.cost_m - kMargin_m;
-    if (!beaten) beaten_ns_ = kNever;
-    else if (beaten_ns_ == kNever) beaten_ns_ = time_ns;
+    if (!beaten)
+        beaten_ns_ = kNever;
+    else if (beaten_ns_ == kNever)
+        beaten_ns_ = time_ns;
     const bool enough = beaten && seconds_between(beaten_ns_, time_ns) >= kPatience_s;
     // Of the people of one moment the first to be told of is not yet the chosen one.
     const bool same_moment = now.there && picked_ns_ == time_ns && other.cost_m < now.cost_m;

@@ -8,13 +8,13 @@ namespace vfit {
 namespace {
 
 constexpr int kSide = JointMaps::kSide;
-// How far a right hint lies from the joint. Pose networks on colour images place joints to about a tenth of the head's
-// length in the image; definitions of a joint differ by more.
+// How far a right hint lies from the joint as this network defines it; chosen, as are the shares below, so that
+// right hints help and wrong ones do little (tests/contract/hints_test.cpp).
 constexpr float kSigma_m = 0.08f;
-constexpr float kSigma = kSigma_m / (0.5f * CropView::kSide_m);  // in crop coordinates, which run from -1 to 1
-constexpr float kWrongHeat = 0.02f;   // share of the cases in which the joint is not where the network's heat is
-constexpr float kSurest = 0.98f;      // no hint is certain
-constexpr float kGrow = 0.25f;        // of the box's size
+constexpr float kSigma = kSigma_m / (0.5f * CropView::kSide_m);  // in crop coordinates, from -1 to 1
+constexpr float kWrongHeat = 0.02f;  // share of cases in which the joint is not where the network's heat is
+constexpr float kSurest = 0.98f;     // no hint is certain
+constexpr float kGrow = 0.25f;       // of the box's size
 
 float place_of(int cell) { return (float(cell) + 0.5f) / (0.5f * kSide) - 1.0f; }
 
@@ -52,8 +52,8 @@ void apply_hints(std::span<const JointHint> hints, const CropView& view, bool aw
 bool near_box(const JointHint& hint, const PixelBox& box) {
     if (box.empty()) return true;  // anywhere
     const float more = kGrow * float(std::max(box.x1 - box.x0, box.y1 - box.y0));
-    return hint.x >= float(box.x0) - more && hint.x <= float(box.x1) + more && hint.y >= float(box.y0) - more &&
-           hint.y <= float(box.y1) + more;
+    return hint.x >= float(box.x0) - more && hint.x <= float(box.x1) + more &&
+           hint.y >= float(box.y0) - more && hint.y <= float(box.y1) + more;
 }
 
 }  // namespace vfit

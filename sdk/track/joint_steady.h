@@ -18,8 +18,8 @@ inline vfit_joint_state joint_state_of(float confidence) {
 
 class JointSteady {
 public:
-    /// In place, always in the same space. A joint of confidence 0 is not there. Where a joint's time does not grow, or
-    /// it was away for over half a second, it starts afresh.
+    /// In place, always in the same space. A joint of confidence 0 is not there. Where a joint's time does
+    /// not grow, or it was away for over half a second, it starts afresh.
     void run(int64_t time_ns, SeenJoints& joints);
 
 private:

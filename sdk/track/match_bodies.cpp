@@ -16,7 +16,8 @@ uint8_t label_under(const Body& body, const Camera& camera, const uint8_t* users
     for (int j = 0; j < kJointCount; ++j) {
         if (!body.has(j) || body.at(j).z < 0.1f) continue;
         const Vec2 q = camera.project(body.at(j)) + 0.5f;
-        if (!(q.x >= 0.0f && q.y >= 0.0f && q.x < float(camera.width) && q.y < float(camera.height))) continue;
+        if (!(q.x >= 0.0f && q.y >= 0.0f && q.x < float(camera.width) && q.y < float(camera.height)))
+            continue;
         ++inside;
         ++votes[users[size_t(q.y) * camera.width + size_t(q.x)]];
     }
@@ -45,14 +46,16 @@ private:
 
 }  // namespace
 
-void number_by_bodies(std::span<const Body> bodies, const Camera& camera, std::span<const PersonRegion> people, uint8_t* users) {
+void number_by_bodies(std::span<const Body> bodies, const Camera& camera,
+                      std::span<const PersonRegion> people, uint8_t* users) {
     Numbers numbers;
     std::array<bool, 256> used{true};
     for (const PersonRegion& person : people) used[person.id] = true;
     for (const Body& body : bodies) {
         size_t label = label_under(body, camera, users);
         if (label == 0 || numbers.given(label)) {
-            // Nobody, or somebody's already: no person may have that number, so that a label nobody has takes it.
+            // Nobody, or somebody's already: no person may have that number, so that a label nobody has takes
+            // it.
             label = used.size() - 1;
             while (label > 0 && used[label]) --label;
             if (label == 0) continue;

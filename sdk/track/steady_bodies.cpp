@@ -9,7 +9,8 @@ namespace vfit {
 namespace {
 
 constexpr double kForget_s = 2.0;
-constexpr float kConfidenceOfInferred = 0.3f;  // where the middleware has states alone: between the two limits
+// Where the middleware has states alone: between the two limits.
+constexpr float kConfidenceOfInferred = 0.3f;
 
 }  // namespace
 

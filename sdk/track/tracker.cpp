@@ -58,10 +58,12 @@ void Tracker::run(const DepthImage& image, int64_t time_ns, std::span<const Trac
 }
 
 /// A hint is of the person that it names, or whose pixel it is, or in whose box alone it lies.
-void Tracker::give_hints(const DepthImage& image, std::span<const TrackTarget> targets, std::span<const JointHint> hints) {
+void Tracker::give_hints(const DepthImage& image, std::span<const TrackTarget> targets,
+                         std::span<const JointHint> hints) {
     hints_.clear();
     for (JointHint hint : hints) {
-        const int x = int(std::floor(std::clamp(hint.x, -1.0f, 1e6f) + 0.5f)), y = int(std::floor(std::clamp(hint.y, -1.0f, 1e6f) + 0.5f));
+        const int x = int(std::floor(std::clamp(hint.x, -1.0f, 1e6f) + 0.5f)),
+                  y = int(std::floor(std::clamp(hint.y, -1.0f, 1e6f) + 0.5f));
         const bool inside = x >= 0 && y >= 0 && x < int(image.width()) && y < int(image.height());
         const uint32_t label = inside ? image.users[image.index(uint32_t(x), uint32_t(y))] : 0;
         uint32_t boxes = 0, owner = 0;

@@ -31,8 +31,8 @@ public:
 
     /// Joints of every target that the network takes for a person, in camera space. A person unseen for
     /// kForget_s is forgotten: whoever gets that id then starts afresh.
-    void run(const DepthImage& image, int64_t time_ns, std::span<const TrackTarget> targets, std::vector<Body>& out,
-             std::span<const JointHint> hints = {});
+    void run(const DepthImage& image, int64_t time_ns, std::span<const TrackTarget> targets,
+             std::vector<Body>& out, std::span<const JointHint> hints = {});
     /// The network has said for a while that this target is something else.
     bool surely_no_person(uint32_t id) const;
     /// Forgets everybody.
@@ -48,7 +48,8 @@ private:
         int64_t seen_ns = 0;
         uint32_t frames = 0;
     };
-    void give_hints(const DepthImage& image, std::span<const TrackTarget> targets, std::span<const JointHint> hints);
+    void give_hints(const DepthImage& image, std::span<const TrackTarget> targets,
+                    std::span<const JointHint> hints);
     bool see(const DepthImage& image, int64_t time_ns, const TrackTarget& target, const Vec2& up, Person& person,
              Body& out);
 

@@ -158,7 +158,7 @@ class Contract(unittest.TestCase):
             lines(self, "track", source, "--pictures", folder / "told", "--user-map-out", folder / "maps", "--json")
             lines(self, "track", source, "--pictures", folder / "found", *tracked)
             lines(self, "track", source + "&distance=6", "--pictures", folder / "empty", *tracked)  # out of reach
-            files = [folder / run / name for run in ("told", "found", "empty") for name in ("000000.png", "000001.png", "000002.png")]
+            files = [folder / name / f"00000{index}.png" for name in ("told", "found", "empty") for index in range(3)]
             self.assertEqual(sorted(files), sorted(folder.glob("[tfe]*/*")))
             self.assertEqual(len({file.read_bytes() for file in files}), 9, "no two are alike")
             shares = []

@@ -1,5 +1,5 @@
-// Hints of a pose network in the colour image: right ones help where a limb is hidden, wrong ones do limited harm, those
-// of nobody do nothing.
+// Hints of a pose network in the colour image: right ones help where a limb is hidden, wrong ones do limited
+// harm, those of nobody do nothing.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -9,7 +9,8 @@
 
 namespace {
 
-constexpr vfit_joint_id kHinted[] = {VFIT_JOINT_LEFT_HAND, VFIT_JOINT_RIGHT_HAND, VFIT_JOINT_LEFT_ELBOW, VFIT_JOINT_RIGHT_ELBOW};
+constexpr vfit_joint_id kHinted[] = {VFIT_JOINT_LEFT_HAND, VFIT_JOINT_RIGHT_HAND, VFIT_JOINT_LEFT_ELBOW,
+                                     VFIT_JOINT_RIGHT_ELBOW};
 
 struct Errors {
     std::vector<double> hidden, seen;  // m, of the hinted joints by what the camera sees of them
@@ -39,7 +40,8 @@ protected:
         float p[3];
         for (int column = 0; column < 3; ++column) {
             p[column] = 0.0f;
-            for (int row = 0; row < 3; ++row) p[column] += m[4 * column + row] * (joint.position[row] - m[12 + row]);
+            for (int row = 0; row < 3; ++row)
+                p[column] += m[4 * column + row] * (joint.position[row] - m[12 + row]);
         }
         vfit_joint_hint hint = vfit_joint_hint_init();
         hint.joint = joint.joint;
@@ -47,11 +49,14 @@ protected:
         hint.y = p[1] / p[2] * k.fy + k.cy;
         return hint;
     }
-    /// Somebody turns about, so that one arm after the other is behind the body; hints `off` pixels from the truth.
+    /// Somebody turns about, so that one arm after the other is behind the body; hints `off` pixels from the
+    /// truth.
     Errors run(float confidence, float off) {
         Errors errors;
         vfit_sensor sensor{};
-        EXPECT_EQ(vfit_sensor_open(context, "virtual:motion=turn&rate=6&frames=78&sensor=kinect_v1_320&seed=5", &sensor), VFIT_OK);
+        EXPECT_EQ(vfit_sensor_open(
+                      context, "virtual:motion=turn&rate=6&frames=78&sensor=kinect_v1_320&seed=5", &sensor),
+                  VFIT_OK);
         EXPECT_EQ(vfit_sensor_start(sensor), VFIT_OK);
         vfit_tracker_desc desc = vfit_tracker_desc_init();
         desc.joints = VFIT_TRACK_BUILT_IN;
@@ -68,7 +73,8 @@ protected:
                 hints.back().y += off * std::sin(2.4f * float(index));
             }
             if (confidence > 0.0f) {
-                EXPECT_EQ(vfit_tracker_hint(tracker, hints.data(), sizeof hints[0], uint32_t(hints.size())), VFIT_OK)
+                EXPECT_EQ(vfit_tracker_hint(tracker, hints.data(), sizeof hints[0], uint32_t(hints.size())),
+                          VFIT_OK)
                     << contract::last_error();
             }
             vfit_frame tracked{};
@@ -79,7 +85,9 @@ protected:
                 for (const vfit_joint& j : joints_of(tracked, 1))
                     if (std::find(std::begin(kHinted), std::end(kHinted), j.joint) != std::end(kHinted)) {
                         const vfit_joint& t = truth[size_t(j.joint)];
-                        const double e = std::hypot(j.position[0] - t.position[0], j.position[1] - t.position[1], j.position[2] - t.position[2]);
+                        const double e =
+                            std::hypot(j.position[0] - t.position[0], j.position[1] - t.position[1],
+                                       j.position[2] - t.position[2]);
                         (t.state == VFIT_JOINT_MEASURED ? errors.seen : errors.hidden).push_back(e);
                     }
             vfit_frame_release(tracked);
@@ -97,9 +105,11 @@ TEST_F(HintsTest, RightOnesHelpWhereAnArmIsHiddenAndWrongOnesDoLimitedHarm) {
     const Errors without = run(0.0f, 0.0f), right = run(0.9f, 0.0f), wrong = run(0.5f, 40.0f);
     ASSERT_GT(without.hidden.size(), 20u);
     ASSERT_GT(without.seen.size(), 100u);
-    for (const auto& [name, errors] : {std::pair{"without", &without}, {"right", &right}, {"wrong by 40 pixels", &wrong}})
-        std::printf("%s: hidden %.0f mm (%zu), seen %.0f mm (%zu)\n", name, 1000 * Errors::mean(errors->hidden),
-                    errors->hidden.size(), 1000 * Errors::mean(errors->seen), errors->seen.size());
+    for (const auto& [name, errors] :
+         {std::pair{"without", &without}, {"right", &right}, {"wrong by 40 pixels", &wrong}})
+        std::printf("%s: hidden %.0f mm (%zu), seen %.0f mm (%zu)\n", name,
+                    1000 * Errors::mean(errors->hidden), errors->hidden.size(),
+                    1000 * Errors::mean(errors->seen), errors->seen.size());
     EXPECT_LT(Errors::mean(right.hidden), 0.8 * Errors::mean(without.hidden));
     EXPECT_LT(Errors::mean(right.seen), Errors::mean(without.seen));
     EXPECT_LT(Errors::mean(wrong.hidden), Errors::mean(without.hidden) + 0.04);
@@ -125,7 +135,8 @@ TEST_F(HintsTest, BadOnesAreRefusedByNameAndNoneIsTaken) {
     EXPECT_EQ(give(), VFIT_ERROR_ARGUMENT);
     EXPECT_NE(contract::last_error().find("23"), std::string::npos);
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()})
-        for (float vfit_joint_hint::* field : {&vfit_joint_hint::x, &vfit_joint_hint::y, &vfit_joint_hint::confidence}) {
+        for (float vfit_joint_hint::*field :
+             {&vfit_joint_hint::x, &vfit_joint_hint::y, &vfit_joint_hint::confidence}) {
             hints[1] = good;
             hints[1].*field = bad;
             EXPECT_EQ(give(), VFIT_ERROR_DATA);

@@ -24,8 +24,8 @@ protected:
         EXPECT_EQ(vfit_frame_create(context, &desc, &out), VFIT_OK) << contract::last_error();
         return out;
     }
-    /// The frame with somebody more in it, who stands that far to the side of standing_joints and closer by that;
-    /// `to` is given back.
+    /// The frame with somebody more in it, who stands that far to the side of standing_joints and closer by
+    /// that; `to` is given back.
     vfit_frame with(vfit_tracker tracker, vfit_frame to, uint32_t id, float aside, float closer) {
         std::vector<vfit_joint> joints = contract::standing_joints();
         for (vfit_joint& j : joints) {
@@ -35,8 +35,10 @@ protected:
         vfit_body body = vfit_body_init();
         body.body_id = id;
         vfit_frame out{};
-        EXPECT_EQ(vfit_tracker_submit(tracker, to, &body, joints.data(), sizeof(vfit_joint), uint32_t(joints.size()), &out),
-                  VFIT_OK) << contract::last_error();
+        EXPECT_EQ(vfit_tracker_submit(tracker, to, &body, joints.data(), sizeof(vfit_joint),
+                                      uint32_t(joints.size()), &out),
+                  VFIT_OK)
+            << contract::last_error();
         EXPECT_EQ(vfit_frame_release(to), VFIT_OK);
         return out;
     }
@@ -70,18 +72,22 @@ TEST_F(TrackerTest, TheActiveBodyMayBeTheMostCentredOrTheFirst) {
     vfit_tracker_desc desc = vfit_tracker_desc_init();
     desc.follow = VFIT_FOLLOW_CENTRED;
     const vfit_tracker centred = make_tracker(desc);
-    EXPECT_EQ(active_of(with(centred, with(centred, make_frame(kFrame_ns), 1, -0.2f, 0.0f), 2, 0.8f, 0.5f)).id, 1u);
+    EXPECT_EQ(
+        active_of(with(centred, with(centred, make_frame(kFrame_ns), 1, -0.2f, 0.0f), 2, 0.8f, 0.5f)).id, 1u);
     desc.follow = VFIT_FOLLOW_FIRST;
     const vfit_tracker first = make_tracker(desc);
     EXPECT_EQ(active_of(with(first, make_frame(kFrame_ns), 7, 0.0f, -1.0f)).id, 7u);
     for (int i = 2; i < 100; ++i)
-        ASSERT_EQ(active_of(with(first, with(first, make_frame(i * kFrame_ns), 1, 0.0f, 0.5f), 7, 0.0f, -1.0f)).id, 7u);
+        ASSERT_EQ(
+            active_of(with(first, with(first, make_frame(i * kFrame_ns), 1, 0.0f, 0.5f), 7, 0.0f, -1.0f)).id,
+            7u);
 }
 
 TEST_F(TrackerTest, AChosenBodyIsActiveUntilItHasLeft) {
     const vfit_tracker tracker = make_tracker(vfit_tracker_desc_init());
     ASSERT_EQ(vfit_tracker_set_active(tracker, 1), VFIT_OK);
-    Active active = active_of(with(tracker, with(tracker, make_frame(kFrame_ns), 1, -0.6f, 0.0f), 2, 0.8f, 0.5f));
+    Active active =
+        active_of(with(tracker, with(tracker, make_frame(kFrame_ns), 1, -0.6f, 0.0f), 2, 0.8f, 0.5f));
     EXPECT_EQ(active.id, 1u);
     EXPECT_EQ(active.state, VFIT_ACTIVE_CHOSEN);
     active = active_of(with(tracker, make_frame(2 * kFrame_ns), 2, 0.8f, 0.5f));
@@ -153,7 +159,9 @@ protected:
             body.body_id = 1;
             const vfit_frame frame = make_frame(i * kFrame_ns);
             vfit_frame tracked{};
-            EXPECT_EQ(vfit_tracker_submit(tracker, frame, &body, joints.data(), sizeof(vfit_joint), 15, &tracked), VFIT_OK)
+            EXPECT_EQ(
+                vfit_tracker_submit(tracker, frame, &body, joints.data(), sizeof(vfit_joint), 15, &tracked),
+                VFIT_OK)
                 << contract::last_error();
             std::vector<vfit_joint> out(VFIT_JOINT_COUNT);
             uint32_t count = VFIT_JOINT_COUNT;
@@ -177,14 +185,16 @@ TEST_F(FilterTest, SubmittedJointsAreSteadiedUnlessTheHostWantsThemRaw) {
 TEST_F(FilterTest, TheirStatesFollowTheirConfidence) {
     EXPECT_EQ(head_after(VFIT_FILTER_AUTO, 2, 0.8f).state, VFIT_JOINT_MEASURED);
     EXPECT_EQ(head_after(VFIT_FILTER_AUTO, 2, 0.2f).state, VFIT_JOINT_INFERRED);
-    EXPECT_EQ(head_after(VFIT_FILTER_AUTO, 2, 0.0f).joint, VFIT_JOINT_NECK) << "a head that nobody is sure of is not listed";
+    EXPECT_EQ(head_after(VFIT_FILTER_AUTO, 2, 0.0f).joint, VFIT_JOINT_NECK)
+        << "a head that nobody is sure of is not listed";
     EXPECT_EQ(head_after(VFIT_FILTER_OFF, 2, 0.0f).state, VFIT_JOINT_MEASURED);
 }
 
 TEST_F(FilterTest, JointsOfASourceStayAsTheyAreUnlessTheHostWantsThemSteadied) {
     for (const vfit_joint_filter filter : {VFIT_FILTER_AUTO, VFIT_FILTER_ON}) {
         vfit_sensor sensor{};
-        ASSERT_EQ(vfit_sensor_open(context, "virtual:motion=wave&frames=12&sensor=kinect_v1_320", &sensor), VFIT_OK);
+        ASSERT_EQ(vfit_sensor_open(context, "virtual:motion=wave&frames=12&sensor=kinect_v1_320", &sensor),
+                  VFIT_OK);
         ASSERT_EQ(vfit_sensor_start(sensor), VFIT_OK);
         vfit_tracker_desc desc = vfit_tracker_desc_init();
         desc.filter = filter;
@@ -200,7 +210,8 @@ TEST_F(FilterTest, JointsOfASourceStayAsTheyAreUnlessTheHostWantsThemSteadied) {
             ASSERT_EQ(vfit_frame_joints(tracked, 1, b.data(), sizeof(vfit_joint), &after), VFIT_OK);
             ASSERT_EQ(before, after);
             for (uint32_t i = 0; i < before; ++i)
-                for (int axis = 0; axis < 3; ++axis) moved = std::max(moved, std::abs(a[i].position[axis] - b[i].position[axis]));
+                for (int axis = 0; axis < 3; ++axis)
+                    moved = std::max(moved, std::abs(a[i].position[axis] - b[i].position[axis]));
             vfit_frame_release(tracked);
             vfit_frame_release(frame);
         }
@@ -222,7 +233,8 @@ TEST_F(FilterTest, AWrongFilterIsRefusedByName) {
 
 TEST_F(TrackerTest, AMapOfItsOwnHasTheIdsOfTheSourcesBodies) {
     vfit_sensor sensor{};
-    ASSERT_EQ(vfit_sensor_open(context, "virtual:motion=wave&frames=10&sensor=kinect_v1_320", &sensor), VFIT_OK);
+    ASSERT_EQ(vfit_sensor_open(context, "virtual:motion=wave&frames=10&sensor=kinect_v1_320", &sensor),
+              VFIT_OK);
     ASSERT_EQ(vfit_sensor_start(sensor), VFIT_OK);
     vfit_tracker_desc desc = vfit_tracker_desc_init();
     desc.user_map = VFIT_TRACK_BUILT_IN;
@@ -237,7 +249,8 @@ TEST_F(TrackerTest, AMapOfItsOwnHasTheIdsOfTheSourcesBodies) {
         EXPECT_NE(truth.data, found.data);
         double both = 0.0, either = 0.0;
         for (size_t i = 0; i < size_t(truth.width) * truth.height; ++i) {
-            const bool a = static_cast<const uint8_t*>(truth.data)[i] == 1, b = static_cast<const uint8_t*>(found.data)[i] == 1;
+            const bool a = static_cast<const uint8_t*>(truth.data)[i] == 1,
+                       b = static_cast<const uint8_t*>(found.data)[i] == 1;
             both += a && b;
             either += a || b;
         }

@@ -61,21 +61,28 @@ void add_track_options(Command& command, TrackOptions& options) {
     };
     add("--joints", options.joints);
     add("--user-map", options.user_map);
-    const auto is_rule = [](const std::string& value) { return value == "nearest" || value == "centred" || value == "first"; };
-    command.add_option_function<std::string>(
-               "--active",
-               [&options, is_rule](const std::string& value) {
-                   if (is_rule(value))
-                       options.follow = value == "nearest" ? VFIT_FOLLOW_NEAREST : value == "centred" ? VFIT_FOLLOW_CENTRED : VFIT_FOLLOW_FIRST;
-                   else
-                       options.chosen = static_cast<uint32_t>(std::stoul(value));
-                   options.asked = true;
-               },
-               "Whom to follow: nearest (default), centred, first, or the id of a person")
+    const auto is_rule = [](const std::string& value) {
+        return value == "nearest" || value == "centred" || value == "first";
+    };
+    command
+        .add_option_function<std::string>(
+            "--active",
+            [&options, is_rule](const std::string& value) {
+                if (is_rule(value))
+                    options.follow = value == "nearest"   ? VFIT_FOLLOW_NEAREST
+                                     : value == "centred" ? VFIT_FOLLOW_CENTRED
+                                                          : VFIT_FOLLOW_FIRST;
+                else
+                    options.chosen = static_cast<uint32_t>(std::stoul(value));
+                options.asked = true;
+            },
+            "Whom to follow: nearest (default), centred, first, or the id of a person")
         ->check([is_rule](const std::string& value) {
-            const bool digits = !value.empty() && value.size() <= 3 && value.find_first_not_of("0123456789") == std::string::npos;
+            const bool digits = !value.empty() && value.size() <= 3 &&
+                                value.find_first_not_of("0123456789") == std::string::npos;
             const bool id = digits && std::stoul(value) >= 1 && std::stoul(value) <= 255;
-            return is_rule(value) || id ? std::string() : "\"" + value + "\" is none of nearest, centred, first, 1..255";
+            return is_rule(value) || id ? std::string()
+                                        : "\"" + value + "\" is none of nearest, centred, first, 1..255";
         });
 }
 

@@ -62,7 +62,8 @@ void motion(const Options& options) {
         check(vfit_tracker_update(tracker.get(), frame->get(), tracked.out()));
         const vfit_view depth = view_of(tracked.get(), VFIT_STREAM_DEPTH);
         const auto start = std::chrono::steady_clock::now();
-        const vfit_result result = check(vfit_motion_step(motion.get(), tracked.get(), active_body(tracked.get()), depth.time_ns));
+        const vfit_result result =
+            check(vfit_motion_step(motion.get(), tracked.get(), active_body(tracked.get()), depth.time_ns));
         const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         const uint32_t index = source.taken() - 1;
         progress.at(source.taken(), 0);

@@ -34,8 +34,11 @@ void write_user_map(vfit_frame frame, const std::string& path) {
 
 void write_picture(vfit_frame frame, const std::string& path, uint32_t index, size_t people) {
     const uint32_t width = view_of(frame, VFIT_STREAM_DEPTH).width;
-    const std::string who = people == 0 ? "nobody" : people == 1 ? "1 person" : std::to_string(people) + " people";
-    draw_tracked(frame, static_cast<int>((kPictureWidth + width - 1) / width), "frame " + std::to_string(index) + "   " + who)
+    const std::string who = people == 0   ? "nobody"
+                            : people == 1 ? "1 person"
+                                          : std::to_string(people) + " people";
+    draw_tracked(frame, static_cast<int>((kPictureWidth + width - 1) / width),
+                 "frame " + std::to_string(index) + "   " + who)
         .write_png(path);
 }
 
@@ -45,7 +48,8 @@ void create_folders(const Options& options) {
     std::error_code error;
     if (!options.map_folder.empty() && !options.picture_folder.empty() &&
         std::filesystem::equivalent(options.map_folder, options.picture_folder, error))
-        throw Failure(options.picture_folder + ": --pictures and --user-map-out name their files alike and need two folders");
+        throw Failure(options.picture_folder +
+                      ": --pictures and --user-map-out name their files alike and need two folders");
 }
 
 Json bodies_json(vfit_frame frame) {
@@ -83,9 +87,11 @@ void track(const Options& options) {
         const auto start = std::chrono::steady_clock::now();
         Frame tracked;
         check(vfit_tracker_update(tracker.get(), frame->get(), tracked.out()));
-        const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        const double ms =
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         const Json bodies = bodies_json(tracked.get());
-        if (!options.map_folder.empty()) write_user_map(tracked.get(), picture_path(options.map_folder, index));
+        if (!options.map_folder.empty())
+            write_user_map(tracked.get(), picture_path(options.map_folder, index));
         if (!options.picture_folder.empty())
             write_picture(tracked.get(), picture_path(options.picture_folder, index), index, bodies.size());
         print(options, index, tracked.get(), bodies, ms);
@@ -99,7 +105,8 @@ void add_track(Command& app) {
     auto o = std::make_shared<Options>();
     command.add_option("source", o->source, "Recording folder or sensor URI").required();
     command.add_option("--user-map-out", o->map_folder, "Write each frame's user map there as PNG");
-    command.add_option("--pictures", o->picture_folder, "Draw each frame there as PNG: depth, people, skeletons");
+    command.add_option("--pictures", o->picture_folder,
+                        "Draw each frame there as PNG: depth, people, skeletons");
     command.add_flag("--json", o->json, "Print JSON lines");
     add_track_options(command, o->track);
     command.callback([o] { track(*o); });

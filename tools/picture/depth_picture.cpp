@@ -66,7 +66,8 @@ void draw_skeleton(Canvas& canvas, vfit_frame frame, const std::vector<vfit_join
     for (const auto& [a, b] : drawn_bones(at))
         canvas.line(pixel(a)->x, pixel(a)->y, pixel(b)->x, pixel(b)->y, std::max(1, 3 * scale / 2), kBone);
     for (const vfit_joint& j : joints)
-        if (const auto p = pixel(j.joint)) canvas.disc(p->x, p->y, 2.2f * static_cast<float>(scale), side_color(j.joint));
+        if (const auto p = pixel(j.joint))
+            canvas.disc(p->x, p->y, 2.2f * static_cast<float>(scale), side_color(j.joint));
 }
 
 void draw_colliders(Canvas& canvas, vfit_frame frame, const std::vector<vfit_collider>& colliders, int scale) {

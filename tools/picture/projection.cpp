@@ -45,7 +45,8 @@ std::optional<Projection::Pixel> Projection::operator()(const float (&world)[3])
     const Point p = to_camera(camera_, world);
     if (p.z < 0.05f) return std::nullopt;
     const auto s = static_cast<float>(scale_);
-    return Pixel{(p.x / p.z * k_.fx + k_.cx + 0.5f) * s, (p.y / p.z * k_.fy + k_.cy + 0.5f) * s, k_.fx / p.z * s};
+    return Pixel{(p.x / p.z * k_.fx + k_.cx + 0.5f) * s, (p.y / p.z * k_.fy + k_.cy + 0.5f) * s,
+                 k_.fx / p.z * s};
 }
 
 JointPixels project_joints(const Projection& projection, const std::vector<vfit_joint>& joints) {

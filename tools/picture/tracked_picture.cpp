@@ -20,9 +20,11 @@ constexpr std::array<Color, 7> kPeople = {{{0.99f, 0.72f, 0.25f},
                                            {0.98f, 0.52f, 0.32f},
                                            {0.60f, 0.66f, 1.00f}}};
 constexpr Color kNoReading{0.045f, 0.050f, 0.065f}, kNear{0.60f, 0.65f, 0.73f}, kFar{0.13f, 0.15f, 0.21f};
-constexpr Color kBone{1.00f, 0.99f, 0.96f}, kDark{0.06f, 0.065f, 0.08f}, kInk{0.88f, 0.89f, 0.92f}, kSoftInk{0.58f, 0.60f, 0.66f};
+constexpr Color kBone{1.00f, 0.99f, 0.96f}, kDark{0.06f, 0.065f, 0.08f}, kInk{0.88f, 0.89f, 0.92f},
+    kSoftInk{0.58f, 0.60f, 0.66f};
 
-// The room's colour runs from this to that depth; the same in all frames, so that a film of them does not flicker.
+// The room's colour runs from this to that depth; the same in all frames, so that a film of them does not
+// flicker.
 constexpr float kNearest_m = 0.6f, kFarthest_m = 4.5f;
 // Smoothing before the surface's slope is taken: as far as a depth camera's noise reaches.
 constexpr int kSmoothing_px = 7;
@@ -52,7 +54,8 @@ cv::Mat smooth_depth(vfit_frame frame) {
 
 /// Slope of the depth along one axis, in metres a pixel, from the neighbours on the same surface.
 float slope(float before, float here, float after) {
-    const bool b = before > 0.0f && std::abs(before - here) < kEdge_m, a = after > 0.0f && std::abs(after - here) < kEdge_m;
+    const bool b =
+        before > 0.0f && std::abs(before - here)<kEdge_m, a = after> 0.0f && std::abs(after - here) < kEdge_m;
     return a && b ? 0.5f * (after - before) : a ? after - here : b ? here - before : 0.0f;
 }
 
@@ -63,7 +66,9 @@ cv::Mat relief(const cv::Mat& depth, const vfit_intrinsics& k) {
         for (int x = 0; x < depth.cols; ++x) {
             const float z = depth.at<float>(y, x);
             if (z == 0.0f) continue;
-            const auto at = [&](int u, int v) { return depth.at<float>(std::clamp(v, 0, depth.rows - 1), std::clamp(u, 0, depth.cols - 1)); };
+            const auto at = [&](int u, int v) {
+                return depth.at<float>(std::clamp(v, 0, depth.rows - 1), std::clamp(u, 0, depth.cols - 1));
+            };
             const float gx = slope(at(x - 1, y), z, at(x + 1, y)) * k.fx / z;
             const float gy = slope(at(x, y - 1), z, at(x, y + 1)) * k.fy / z;
             const float length = std::sqrt(gx * gx + gy * gy + 1.0f);  // of the normal (gx, gy, -1)
@@ -115,14 +120,15 @@ Canvas draw_scene(vfit_frame frame) {
 }
 
 /// A line with a dark rim, in dashes where asked for.
-void draw_bone(Canvas& canvas, const Projection::Pixel& a, const Projection::Pixel& b, int width, bool dashed) {
+void draw_bone(Canvas& canvas, const Projection::Pixel& a, const Projection::Pixel& b, int width,
+               bool dashed) {
     const float length = std::hypot(b.x - a.x, b.y - a.y);
     const int parts = dashed ? std::max(1, int(length / (6.0f * float(width)) + 0.5f)) * 2 + 1 : 1;
     for (const bool rim : {true, false})
         for (int part = 0; part < parts; part += 2) {
             const float t0 = float(part) / float(parts), t1 = float(part + 1) / float(parts);
-            canvas.line(a.x + (b.x - a.x) * t0, a.y + (b.y - a.y) * t0, a.x + (b.x - a.x) * t1, a.y + (b.y - a.y) * t1,
-                        rim ? width + 3 : width, rim ? kDark : kBone);
+            canvas.line(a.x + (b.x - a.x) * t0, a.y + (b.y - a.y) * t0, a.x + (b.x - a.x) * t1,
+                        a.y + (b.y - a.y) * t1, rim ? width + 3 : width, rim ? kDark : kBone);
         }
 }
 
@@ -157,7 +163,8 @@ void draw_person(Canvas& canvas, vfit_frame frame, uint32_t id, bool active, int
     std::array<bool, VFIT_JOINT_COUNT> measured{};
     for (const vfit_joint& j : joints) measured[size_t(j.joint)] = j.state == VFIT_JOINT_MEASURED;
     for (const auto& [a, b] : drawn_bones(at))
-        draw_bone(canvas, *at[size_t(a)], *at[size_t(b)], scale + 1, !measured[size_t(a)] || !measured[size_t(b)]);
+        draw_bone(canvas, *at[size_t(a)], *at[size_t(b)], scale + 1,
+                  !measured[size_t(a)] || !measured[size_t(b)]);
     for (const vfit_joint& j : joints)
         if (const auto& p = at[size_t(j.joint)])
             draw_joint(canvas, p->x, p->y, 1.9f * float(scale), measured[size_t(j.joint)], person_color(id));
@@ -183,13 +190,16 @@ void draw_footer(Canvas& canvas, int top, int height, int scale, const std::stri
 
 Canvas draw_tracked(vfit_frame frame, int scale, const std::string& caption) {
     const Canvas scene = draw_scene(frame);
-    const int width = scene.width() * scale, height = scene.height() * scale, footer = std::max(24, height / 26);
+    const int width = scene.width() * scale, height = scene.height() * scale,
+              footer = std::max(24, height / 26);
     Canvas canvas(width, height + footer, kDark);
     canvas.blit(scene, 0, 0, width, height);
-    const auto bodies =
-        list<vfit_body>([&](auto* items, uint32_t stride, uint32_t* n) { return vfit_frame_bodies(frame, items, stride, n); });
+    const auto bodies = list<vfit_body>([&](auto* items, uint32_t stride, uint32_t* n) {
+        return vfit_frame_bodies(frame, items, stride, n);
+    });
     const uint32_t active = bodies.size() > 1 ? active_body(frame) : 0;
-    for (const vfit_body& body : bodies) draw_person(canvas, frame, body.body_id, body.body_id == active, scale);
+    for (const vfit_body& body : bodies)
+        draw_person(canvas, frame, body.body_id, body.body_id == active, scale);
     draw_footer(canvas, height, footer, scale, caption);
     return canvas;
 }

@@ -214,7 +214,8 @@ void bind_frame(py::module_& m) {
                 return id ? py::object(py::int_(id)) : py::none();
             },
             "The id of the person to follow, who may be out of sight (ActiveState.LOST); None: nobody.")
-        .def_property_readonly("active_state", [](const Frame& f) { return value("ActiveState", active_of(f).state); })
+        .def_property_readonly("active_state",
+                               [](const Frame& f) { return value("ActiveState", active_of(f).state); })
         .def(
             "close", [](Frame& f) { f.reference.release(); }, "Gives the frame back before it is collected.")
         .def_property_readonly("closed", [](const Frame& f) { return f.reference.released(); })

@@ -12,19 +12,26 @@ public:
 };
 
 vfit_track_source source_in(const std::string& given, const char* name) {
-    return choice(given, name, {{"auto", VFIT_TRACK_AUTO}, {"built_in", VFIT_TRACK_BUILT_IN}, {"given", VFIT_TRACK_GIVEN}});
+    return choice(
+        given, name,
+        {{"auto", VFIT_TRACK_AUTO}, {"built_in", VFIT_TRACK_BUILT_IN}, {"given", VFIT_TRACK_GIVEN}});
 }
 
 std::shared_ptr<Tracker> create(const Context& context, const py::object& floor, const std::string& joints,
-                                const std::string& user_map, const std::string& follow, const std::string& filter) {
+                                const std::string& user_map, const std::string& follow,
+                                const std::string& filter) {
     const vfit_camera camera = floor.is_none() ? vfit_camera_init() : camera_in(floor);
     vfit_tracker_desc desc = vfit_tracker_desc_init();
     if (!floor.is_none()) desc.floor = &camera;
     desc.joints = source_in(joints, "joints");
     desc.user_map = source_in(user_map, "user_map");
-    desc.follow = choice(follow, "follow", {{"nearest", VFIT_FOLLOW_NEAREST}, {"centred", VFIT_FOLLOW_CENTRED},
-                                            {"first", VFIT_FOLLOW_FIRST}, {"chosen", VFIT_FOLLOW_CHOSEN}});
-    desc.filter = choice(filter, "filter", {{"auto", VFIT_FILTER_AUTO}, {"on", VFIT_FILTER_ON}, {"off", VFIT_FILTER_OFF}});
+    desc.follow = choice(follow, "follow",
+                         {{"nearest", VFIT_FOLLOW_NEAREST},
+                          {"centred", VFIT_FOLLOW_CENTRED},
+                          {"first", VFIT_FOLLOW_FIRST},
+                          {"chosen", VFIT_FOLLOW_CHOSEN}});
+    desc.filter = choice(filter, "filter",
+                         {{"auto", VFIT_FILTER_AUTO}, {"on", VFIT_FILTER_ON}, {"off", VFIT_FILTER_OFF}});
     vfit_tracker handle{};
     run([&, h = context.handle()] { return vfit_tracker_create(h, &desc, &handle); });
     return make<Tracker>(context.core(), handle);
@@ -38,7 +45,8 @@ std::unique_ptr<Frame> update(const Tracker& tracker, const Frame& frame) {
 
 std::unique_ptr<Frame> track(const Tracker& tracker, const py::array& depth, const py::sequence& intrinsics,
                              const py::object& users, const py::object& camera, int64_t time_ns) {
-    return update(tracker, *frame_from_numpy(tracker.core(), depth, intrinsics, users, py::none(), camera, time_ns));
+    return update(tracker,
+                  *frame_from_numpy(tracker.core(), depth, intrinsics, users, py::none(), camera, time_ns));
 }
 
 void hint(const Tracker& tracker, const py::dict& hints, uint32_t body_id) {
@@ -46,7 +54,8 @@ void hint(const Tracker& tracker, const py::dict& hints, uint32_t body_id) {
     for (const auto& [key, given] : hints) {
         const auto numbers = given.cast<std::vector<float>>();
         if (numbers.size() != 2 && numbers.size() != 3)
-            fail(VFIT_ERROR_ARGUMENT, "hint of " + py::str(key).cast<std::string>() + ": wanted is (x, y) or (x, y, confidence)");
+            fail(VFIT_ERROR_ARGUMENT,
+                 "hint of " + py::str(key).cast<std::string>() + ": wanted is (x, y) or (x, y, confidence)");
         vfit_joint_hint item = vfit_joint_hint_init();
         item.body_id = body_id;
         item.joint = joint_id(key);
@@ -56,7 +65,8 @@ void hint(const Tracker& tracker, const py::dict& hints, uint32_t body_id) {
         items.push_back(item);
     }
     run([&, t = tracker.get()] {
-        return vfit_tracker_hint(t, items.data(), sizeof(vfit_joint_hint), static_cast<uint32_t>(items.size()));
+        return vfit_tracker_hint(t, items.data(), sizeof(vfit_joint_hint),
+                                 static_cast<uint32_t>(items.size()));
     });
 }
 
@@ -85,20 +95,22 @@ std::unique_ptr<Frame> submit(const Tracker& tracker, const Frame& frame, const 
 void bind_tracker(py::module_& m) {
     closable(py::class_<Tracker, std::shared_ptr<Tracker>>(
                  m, "Tracker", "Makes tracked frames: images, user map and bodies.")
-                 .def(py::init(&create), "context"_a, py::kw_only(), "floor"_a = py::none(), "joints"_a = "auto",
-                      "user_map"_a = "auto", "follow"_a = "nearest", "filter"_a = "auto",
-                      "floor: a Camera that says where the floor is, if the frames do not. joints, user_map: \"auto\" "
-                      "(the source's where it tells them, else the tracker's), \"built_in\" or \"given\". follow: who is the active person, "
-                      "\"nearest\", \"centred\", \"first\" or \"chosen\". filter: joints steadied over time, \"auto\" (not "
-                      "those of the source), \"on\" or \"off\".")
-                 .def("update", &update, "frame"_a, "The frame with the bodies that its source supplies, or those that the tracker finds.")
+                 .def(py::init(&create), "context"_a, py::kw_only(), "floor"_a = py::none(),
+                      "joints"_a = "auto", "user_map"_a = "auto", "follow"_a = "nearest", "filter"_a = "auto",
+                      "floor: a Camera that says where the floor is, if the frames do not. joints, user_map: "
+                      "\"auto\" (the source's where it tells them, else the tracker's), \"built_in\" or "
+                      "\"given\". follow: who is the active person, \"nearest\", \"centred\", \"first\" or "
+                      "\"chosen\". filter: joints steadied over time, \"auto\" (not those of the source), "
+                      "\"on\" or \"off\".")
+                 .def("update", &update, "frame"_a,
+                      "The frame with the bodies that its source supplies, or those that the tracker finds.")
                  .def("track", &track, "depth"_a, "intrinsics"_a, py::kw_only(), "users"_a = py::none(),
                       "camera"_a = py::none(), "time_ns"_a = 0,
-                      "From a depth image (height, width) uint16 in millimetres and (fx, fy, cx, cy) to the frame with "
-                      "user map and bodies.")
+                      "From a depth image (height, width) uint16 in millimetres and (fx, fy, cx, cy) to the "
+                      "frame with user map and bodies.")
                  .def("hint", &hint, "hints"_a, py::kw_only(), "body_id"_a = 0,
-                      "Joints that you see in the image, name -> (x, y) or (x, y, confidence) in pixels, for the next "
-                      "update alone.")
+                      "Joints that you see in the image, name -> (x, y) or (x, y, confidence) in pixels, for "
+                      "the next update alone.")
                  .def("choose", &choose, "body_id"_a,
                       "That person is the active one from the next frame on; None: by the rule again.")
                  .def("submit", &submit, "frame"_a, "joints"_a, py::kw_only(), "body_id"_a = 1,

@@ -179,7 +179,8 @@ def test_hints_are_for_one_update(ctx):
     assert hinted.x != plain.x
     tracker.reset()
     assert tracker.update(frame).joints()["LEFT_HAND"] == plain
-    for wrong, kind, message in (({"TAIL": (1, 2)}, vfit.ArgumentError, "TAIL"), ({"HEAD": (1,)}, vfit.ArgumentError, "HEAD"),
+    for wrong, kind, message in (({"TAIL": (1, 2)}, vfit.ArgumentError, "TAIL"),
+                                 ({"HEAD": (1,)}, vfit.ArgumentError, "HEAD"),
                                  ({"HEAD": (1, 2, 3)}, vfit.ArgumentError, "confidence"),
                                  ({vfit.Joint.HEAD: (1, float("nan"))}, vfit.DataError, "HEAD")):
         with pytest.raises(kind, match=message):

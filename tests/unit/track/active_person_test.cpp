@@ -14,13 +14,16 @@ constexpr int64_t kFrame_ns = 33'333'333;
 Body person(uint32_t id, float x, float distance) {
     Body body;
     body.id = id;
-    for (const int joint : {VFIT_JOINT_TORSO, VFIT_JOINT_LEFT_HIP, VFIT_JOINT_RIGHT_HIP}) body.set(joint, {x, 1.0f, -distance});
+    for (const int joint : {VFIT_JOINT_TORSO, VFIT_JOINT_LEFT_HIP, VFIT_JOINT_RIGHT_HIP})
+        body.set(joint, {x, 1.0f, -distance});
     return body;
 }
 
 class ActivePersonTest : public testing::Test {
 protected:
-    ActiveBody step(const std::vector<Body>& bodies) { return active.update(time += kFrame_ns, bodies, Camera()); }
+    ActiveBody step(const std::vector<Body>& bodies) {
+        return active.update(time += kFrame_ns, bodies, Camera());
+    }
     ActiveBody steps(int count, const std::vector<Body>& bodies) {
         ActiveBody last;
         for (int i = 0; i < count; ++i) last = step(bodies);
@@ -87,7 +90,8 @@ TEST_F(ActivePersonTest, TwoWhoAreBothNearerDoNotKeepEachOtherOut) {
     uint32_t served = 1;
     for (int i = 0; i < 40; ++i) {
         const float sway = i % 2 ? 0.1f : -0.1f;
-        served = step({person(1, 0.0f, 3.0f), person(2, 0.5f, 1.5f + sway), person(3, -0.5f, 1.5f - sway)}).id;
+        served =
+            step({person(1, 0.0f, 3.0f), person(2, 0.5f, 1.5f + sway), person(3, -0.5f, 1.5f - sway)}).id;
     }
     EXPECT_NE(served, 1u);
 }

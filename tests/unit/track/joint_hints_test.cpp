@@ -76,7 +76,8 @@ TEST_F(JointHintsTest, HardlyMoveAJointThatTheNetworkIsSureOf) {
         auto copy = std::make_unique<JointMaps>(*maps);
         apply_hints(hints, view, false, *copy);
         std::swap(copy, maps);
-        EXPECT_NEAR(place(VFIT_JOINT_LEFT_HAND).x, before, 0.09f) << "10 cm, for a hint a metre off; " << confidence;
+        EXPECT_NEAR(place(VFIT_JOINT_LEFT_HAND).x, before, 0.09f)
+            << "10 cm, for a hint a metre off; " << confidence;
         std::swap(copy, maps);
     }
 }
@@ -84,7 +85,8 @@ TEST_F(JointHintsTest, HardlyMoveAJointThatTheNetworkIsSureOf) {
 TEST_F(JointHintsTest, ChangeNothingWithoutConfidenceAndOutsideTheCrop) {
     add_heat(*maps, VFIT_JOINT_LEFT_HAND, -0.4f, 0.0f, 1.0f);
     const JointMaps before = *maps;
-    const JointHint hints[] = {hint(VFIT_JOINT_LEFT_HAND, 0.3f, 0.0f, 0.0f), hint(VFIT_JOINT_LEFT_HAND, 1.2f, 0.0f, 1.0f),
+    const JointHint hints[] = {hint(VFIT_JOINT_LEFT_HAND, 0.3f, 0.0f, 0.0f),
+                               hint(VFIT_JOINT_LEFT_HAND, 1.2f, 0.0f, 1.0f),
                                {VFIT_JOINT_LEFT_HAND, 1e30f, -1e30f, 1.0f, 0}};
     apply_hints(hints, view, false, *maps);
     EXPECT_EQ(maps->heat, before.heat);

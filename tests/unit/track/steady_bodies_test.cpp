@@ -1,10 +1,10 @@
-// Joints of somebody else's middleware: judged by their confidence, steadied, and let go where they were away.
+// Joints of somebody else's middleware: judged by their confidence, steadied, and let go where they were
+// away.
 #include "track/steady_bodies.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
-
 
 namespace vfit {
 namespace {
@@ -36,7 +36,8 @@ TEST(JudgeStates, FollowTheConfidenceDownwards) {
     EXPECT_EQ(state(VFIT_JOINT_HEAD), VFIT_JOINT_MEASURED);
     EXPECT_EQ(state(VFIT_JOINT_NECK), VFIT_JOINT_INFERRED);
     EXPECT_EQ(state(VFIT_JOINT_TORSO), VFIT_JOINT_NOT_SEEN);
-    EXPECT_EQ(state(VFIT_JOINT_LEFT_HIP), VFIT_JOINT_INFERRED) << "what the middleware only infers is not measured";
+    EXPECT_EQ(state(VFIT_JOINT_LEFT_HIP), VFIT_JOINT_INFERRED)
+        << "what the middleware only infers is not measured";
     EXPECT_EQ(state(VFIT_JOINT_RIGHT_HIP), VFIT_JOINT_NOT_SEEN);
     EXPECT_EQ(state(VFIT_JOINT_LEFT_KNEE), VFIT_JOINT_NOT_SEEN);
     EXPECT_EQ(body.joints[VFIT_JOINT_RIGHT_KNEE].confidence, 1.0f);
@@ -98,7 +99,8 @@ TEST(SteadyBodies, AJointThatWasNotSeenStartsWhereItIsSeenAgain) {
 
 TEST(SteadyBodies, APauseAndAnEarlierTimeStartAfresh) {
     SteadyBodies steady;
-    for (const int64_t next : {10 * kFrame_ns, 11 * kFrame_ns, 30 * kFrame_ns, 29 * kFrame_ns, 1000 * kFrame_ns, int64_t(0), INT64_MAX, INT64_MIN}) {
+    for (const int64_t next : {10 * kFrame_ns, 11 * kFrame_ns, 30 * kFrame_ns, 29 * kFrame_ns,
+                               1000 * kFrame_ns, int64_t(0), INT64_MAX, INT64_MIN}) {
         Body body = body_at(next, float(next % 7));
         steady.run(body);
         if (next != 11 * kFrame_ns) {
