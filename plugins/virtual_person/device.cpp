@@ -10,7 +10,6 @@ namespace vfit::virtual_person {
 
 namespace {
 
-constexpr uint32_t kBodyId = 1;
 constexpr std::chrono::milliseconds kNap{2};  // between looks at the clock, so that a stop is noticed
 
 }  // namespace
@@ -146,14 +145,18 @@ vfit_result Device::push_frame(uint64_t index, int64_t time_ns) {
         need(host_->frame_intrinsics(self, frame, &r.intrinsics()), "intrinsics");
         need(host_->frame_camera(self, frame, &r.camera()), "camera");
 
-        vfit_body body = vfit_body_init();
-        body.body_id = kBodyId, body.time_ns = time_ns;
-        const std::vector<vfit_joint>& joints = r.joints(body);
-        need(host_->frame_body(self, frame, &body, joints.data(), sizeof(vfit_joint),
-                               static_cast<uint32_t>(joints.size())),
-             "body");
-        need(host_->frame_meta(self, frame, "contacts", r.contacts_json()), "contacts");
-        need(host_->frame_meta(self, frame, "measures", r.measures_json().c_str()), "measures");
+        for (const SeenBody& seen : r.bodies()) {
+            vfit_body body = vfit_body_init();
+            body.body_id = seen.id, body.time_ns = time_ns, body.flags = seen.flags;
+            need(host_->frame_body(self, frame, &body, seen.joints.data(), sizeof(vfit_joint),
+                                   static_cast<uint32_t>(seen.joints.size())),
+                 "body");
+        }
+        need(host_->frame_meta(self, frame, "bodies", "true"), "kind");  // nobody in view is an answer as well
+        if (r.has_person()) {
+            need(host_->frame_meta(self, frame, "contacts", r.contacts_json()), "contacts");
+            need(host_->frame_meta(self, frame, "measures", r.measures_json().c_str()), "measures");
+        }
         need(host_->frame_meta(self, frame, "index", std::to_string(index).c_str()), "index");
     } catch (...) {
         host_->frame_drop(self, frame);

@@ -15,6 +15,9 @@ constexpr float kLimitBlend_m = 0.012f;
 // one degree in three).
 constexpr float kScapulaStart_deg = 60.0f, kScapulaShare = 1.0f / 3.0f;
 
+// Of the hip joints above the seat of one who sits (trochanterion height, sitting: 0.08 to 0.1 m).
+constexpr float kHipOverSeat_m = 0.09f;
+
 float smooth_min(float a, float b, float range) {
     const float h = std::max(range - std::abs(a - b), 0.0f) / range;
     return std::min(a, b) - h * h * range * 0.25f;
@@ -99,6 +102,10 @@ BonePose solve(const Proportions& proportions, const Figure& figure) {
         limit[i] = ankle[i].y + std::sqrt(std::max(0.0f, reach * reach - aside * aside)) - hip[i].y;
     }
     pose.hips.y = smooth_min(limit[0], limit[1], kLimitBlend_m) - figure.drop_m;
+    if (figure.seated > 0.0f) {
+        const float sitting = figure.seat_m + kHipOverSeat_m - 0.5f * (hip[0].y + hip[1].y);
+        pose.hips.y += figure.seated * (sitting - pose.hips.y);
+    }
 
     for (const int side : {kLeft, kRight}) {
         const auto i = static_cast<size_t>(side);

@@ -33,4 +33,25 @@ inline void set_trunk(Figure& figure, float forward_deg, float left_deg, float t
         figure.rotation[static_cast<size_t>(bone)] = third;
 }
 
+/// Upright, feet 0.25 m apart, arms hanging.
+inline Figure standing() {
+    constexpr float apart_m = 0.25f;
+    Figure f;
+    const auto feet = stand({0, 0}, 0, apart_m);
+    for (size_t i = 0; i < 2; ++i) f.foot[i].place = feet[i].place, f.foot[i].yaw_rad = feet[i].yaw_rad;
+    for (const int side : {kLeft, kRight}) set_arm(f.rotation, side, {12, 3, 14, 0});
+    return f;
+}
+
+/// `a` at s = 0, `b` at s = 1.
+inline ArmAngles mix(const ArmAngles& a, const ArmAngles& b, float s) {
+    return {a.abduct + (b.abduct - a.abduct) * s, a.flex + (b.flex - a.flex) * s, a.elbow + (b.elbow - a.elbow) * s,
+            a.turn + (b.turn - a.turn) * s};
+}
+
+/// The feet of a plan at that time.
+inline void place_feet(Figure& figure, const StepPlan& plan, float t) {
+    for (const int side : {kLeft, kRight}) figure.foot[static_cast<size_t>(side)] = plan.foot(side, t);
+}
+
 }  // namespace vfit::virtual_person

@@ -17,7 +17,10 @@ struct NamedScript {
 };
 constexpr NamedScript kScripts[] = {{"scan", scan_script},   {"sway", sway_script}, {"turn", turn_script},
                                     {"walk", walk_script},   {"wave", wave_script}, {"reach", reach_script},
-                                    {"squat", squat_script}, {"demo", demo_script}};
+                                    {"squat", squat_script}, {"demo", demo_script},
+                                    {"cross", cross_script}, {"clap", clap_script}, {"forward", forward_script},
+                                    {"sit", sit_script},     {"spin", spin_script}, {"jog", jog_script},
+                                    {"visit", visit_script}};
 
 // All frequencies below are multiples of 0.01 Hz: after this time they are where they began. Without it a float of
 // seconds is too coarse for a frame after some days.

@@ -30,6 +30,13 @@ Script wave_script();
 Script reach_script();
 Script squat_script();
 Script demo_script();
+Script cross_script();
+Script clap_script();
+Script forward_script();
+Script sit_script();
+Script spin_script();
+Script jog_script();
+Script visit_script();
 
 /// "scan, sway, turn, ...", for messages.
 std::string motion_names();

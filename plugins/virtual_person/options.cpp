@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "error.h"
+#include "furniture.h"
 #include "motion.h"
 #include "sensor_model.h"
 
@@ -13,7 +14,7 @@ namespace vfit::virtual_person {
 
 namespace {
 
-enum class Kind { kNumber, kWhole, kSensor, kMotion, kSex, kPace, kFile };
+enum class Kind { kNumber, kWhole, kSensor, kMotion, kSex, kPace, kFile, kFurniture, kFloor };
 
 struct Entry {
     const char* key;
@@ -29,7 +30,7 @@ constexpr Entry kEntries[] = {
      "Depth camera that is played: kinect_v1, kinect_v1_320, azure, tof, ideal"},
     {"mode", Kind::kSensor, "kinect_v1", 0, 0,
      "The same as sensor, by the name that every sensor of vfit has for it"},
-    {"motion", Kind::kMotion, "scan", 0, 0, "scan, sway, turn, walk, wave, reach, squat or demo"},
+    {"motion", Kind::kMotion, "scan", 0, 0, "What the person does: scan, walk, sit, ...; a wrong name is answered by the list"},
     {"bvh", Kind::kFile, "", 0, 0, "Motion capture file to play instead of motion (CMU joint names)"},
     {"seed", Kind::kWhole, "1", 0, kMostWhole, "Of noise, sway and breath; equal seeds give equal bits"},
     {"frames", Kind::kWhole, "0", 0, kMostWhole, "Frames until the end of the stream; 0: without end"},
@@ -48,6 +49,15 @@ constexpr Entry kEntries[] = {
      "Scale of noise and drop-out; 0 leaves depth exact but for its steps"},
     {"quantise", Kind::kWhole, "1", 0, 1, "Depth in steps of 1/8 px of disparity (kinect_v1)"},
     {"shadow", Kind::kWhole, "1", 0, 1, "No depth where the projector's light does not reach (kinect_v1)"},
+    {"body", Kind::kWhole, "0", 0, kMostWhole,
+     "Draws an adult's sex, stature and build by this number; what is set itself stays; 0: the default body"},
+    {"clothing", Kind::kNumber, "0", 0, 0.1,
+     "Mean thickness of top and trousers, in metres: uneven, by seed; the joints stay the body's"},
+    {"people", Kind::kWhole, "1", 0, 3, "How many; those beside the first are drawn by seed; 0: an empty room"},
+    {"furniture", Kind::kFurniture, "", 0, 0, "In the room: any of chair, rack, stool, separated by commas"},
+    {"occluder", Kind::kNumber, "0", 0, 1e6,
+     "Second from which a passing box hides the person for about 1 s; 0: none"},
+    {"floor", Kind::kFloor, "given", 0, 0, "given: frames tell where the floor is; unknown: as most cameras"},
     {"detail", Kind::kWhole, "0", 0, 2, "Vertices of the body: 0 13.7k, 1 54.8k, 2 219k"},
 };
 
@@ -85,6 +95,10 @@ void check_value(const Entry& e, const std::string& value) {
             break;
         case Kind::kPace:
             check_choice(e.key, value, value == "none" || value == "realtime", "none, realtime");
+            break;
+        case Kind::kFurniture: check_choice(e.key, value, is_furniture(value), furniture_names()); break;
+        case Kind::kFloor:
+            check_choice(e.key, value, value == "given" || value == "unknown", "given, unknown");
             break;
         case Kind::kFile: break;
     }

@@ -81,13 +81,29 @@ void Person::pose(const BonePose& pose, const Vec3& offset) {
     if (mesh_.id) vfit_frame_release(mesh_);
     mesh_ = {};
     check(vfit_avatar_acquire(avatar_, &mesh_), "vfit_avatar_acquire");
-    positions_view_ = vfit_view_init();
-    check(vfit_frame_view(mesh_, VFIT_STREAM_POSITION, &positions_view_), "vfit_frame_view");
-    vertex_count_ = positions_view_.width;
+    const vfit_view skin = vertices(VFIT_STREAM_POSITION);
+    vertex_count_ = skin.width;
+    skin_ = static_cast<const float*>(skin.data);
+    surface_ = clothing_ ? clothing_->dress(skin_, static_cast<const float*>(vertices(VFIT_STREAM_NORMAL).data)) : skin_;
     read_joints();
 }
 
-const float* Person::positions() const { return static_cast<const float*>(positions_view_.data); }
+vfit_view Person::vertices(vfit_stream stream) const {
+    vfit_view view = vfit_view_init();
+    check(vfit_frame_view(mesh_, stream, &view), "vfit_frame_view");
+    if (view.format != VFIT_FORMAT_F32X3 || view.item_stride != 3 * sizeof(float))
+        fail(VFIT_ERROR_UNSUPPORTED, "virtual: the body's vertices are not packed floats");
+    return view;
+}
+
+void Person::wear(float mean_m, uint64_t seed) {
+    clothing_.reset();
+    if (mean_m <= 0.0f) return;
+    const BodyLandmarks landmarks{joint_place(VFIT_JOINT_NECK).y, joint_place(VFIT_JOINT_TORSO).y,
+                                  joint_place(VFIT_JOINT_LEFT_FOOT).y, joint_place(VFIT_JOINT_LEFT_WRIST).x,
+                                  joint_place(VFIT_JOINT_LEFT_SHOULDER).x};
+    clothing_.emplace(std::span(skin_, size_t{3} * vertex_count_), triangles_, landmarks, mean_m, seed);
+}
 
 void Person::read_joints() {
     auto count = static_cast<uint32_t>(joints_.size());
@@ -97,8 +113,6 @@ void Person::read_joints() {
 }
 
 void Person::read_triangles() {
-    if (positions_view_.format != VFIT_FORMAT_F32X3 || positions_view_.item_stride != 3 * sizeof(float))
-        fail(VFIT_ERROR_UNSUPPORTED, "virtual: the body's positions are not packed floats");
     vfit_view view = vfit_view_init();
     check(vfit_frame_view(mesh_, VFIT_STREAM_INDEX, &view), "vfit_frame_view");
     const auto* indices = static_cast<const uint32_t*>(view.data);
@@ -114,8 +128,8 @@ Vec3 Person::joint_place(vfit_joint_id joint) const {
 // From the T-pose with the hips at (0, 1, 0).
 void Person::read_proportions() {
     const Vec3 hips(0, 1, 0);
-    float lowest = positions()[1];
-    for (uint32_t i = 0; i < vertex_count_; ++i) lowest = std::min(lowest, positions()[3 * i + 1]);
+    float lowest = skin_[1];
+    for (uint32_t i = 0; i < vertex_count_; ++i) lowest = std::min(lowest, skin_[3 * i + 1]);
     float ankle = 0;
     for (const int side : {kLeft, kRight}) {
         const auto at = [&](vfit_joint_id left) {

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "clothing.h"
 #include "figure.h"
 #include "proportions.h"
 #include "vfit.h"
@@ -34,6 +36,9 @@ public:
     Person(const Person&) = delete;
     Person& operator=(const Person&) = delete;
 
+    /// Clothes of that mean thickness; 0: none. Before the first pose: it is fitted in the T-pose.
+    void wear(float mean_m, uint64_t seed);
+
     const Proportions& proportions() const { return proportions_; }
     const std::vector<uint32_t>& triangles() const { return triangles_; }
     uint32_t vertex_count() const { return vertex_count_; }
@@ -42,11 +47,12 @@ public:
 
     /// Poses the body and moves it by `offset`. Valid until the next call: positions() and joints().
     void pose(const BonePose& pose, const Vec3& offset);
-    /// Packed x, y, z in world space.
-    const float* positions() const;
+    /// The surface with its clothes, packed x, y, z in world space.
+    const float* positions() const { return surface_; }
     std::span<const vfit_joint> joints() const { return joints_; }
 
 private:
+    vfit_view vertices(vfit_stream stream) const;  // packed Vec3
     void read_triangles();
     void read_proportions();
     void read_measures();
@@ -55,7 +61,9 @@ private:
 
     vfit_avatar avatar_{};
     vfit_frame mesh_{};
-    vfit_view positions_view_{};
+    const float* skin_ = nullptr;     // of mesh_
+    const float* surface_ = nullptr;  // skin_ or its clothes
+    std::optional<Clothing> clothing_;
     std::vector<uint32_t> triangles_;
     std::vector<vfit_joint> joints_;
     uint32_t vertex_count_ = 0;

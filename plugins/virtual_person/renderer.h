@@ -10,7 +10,9 @@
 #include "motion.h"
 #include "options.h"
 #include "person.h"
+#include "random_body.h"
 #include "sensor_noise.h"
+#include "surroundings.h"
 
 namespace vfit::virtual_person {
 
@@ -19,6 +21,8 @@ public:
     Renderer(vfit_context context, const Options& options, const std::map<std::string, float>& shape);
 
     const SensorModel& model() const { return model_; }
+    /// False: the room is shown without the person of the options.
+    bool has_person() const { return has_person_; }
     const std::string& measures_json() const { return person_.measures_json(); }
     const vfit_intrinsics& intrinsics() const { return intrinsics_; }
     const vfit_camera& camera() const { return camera_info_; }
@@ -28,29 +32,33 @@ public:
     /// Of the current frame. Strides in bytes.
     void write_depth(uint16_t* pixels, uint32_t row_stride);
     void write_user_map(uint8_t* pixels, uint32_t row_stride) const;
-    /// All joints in camera space, with their states; flags of the body in body.flags.
-    const std::vector<vfit_joint>& joints(vfit_body& body);
+    /// Everybody of whom a joint falls into the image, joints in camera space.
+    const std::vector<SeenBody>& bodies();
     /// {"left": 1, "right": 0}
     const char* contacts_json() const;
 
-    const CleanImage& clean() const { return clean_; }
+    /// The picture before noise, with everything in it.
+    const CleanImage& clean() const { return *picture_; }
     const Person& person() const { return person_; }
 
 private:
-    bool is_visible(const vfit_joint& joint, const Vec3& camera_point, bool& in_view) const;
+    Renderer(vfit_context context, const Options& options, const RandomBody& body);
 
     const SensorModel& model_;
     double frame_time_s_;
     Vec3 stand_;  // where the motion's origin is
     Quat facing_;
+    bool has_person_;
     Person person_;
     std::unique_ptr<Motion> motion_;
     DepthCamera camera_;
     SensorNoise noise_;
-    CleanImage clean_;
+    CleanImage clean_;  // the person of the options in the bare room
+    Surroundings surroundings_;
+    const CleanImage* picture_ = &clean_;
     BonePose pose_;
     uint64_t frame_ = 0;
-    std::vector<vfit_joint> joints_;
+    std::vector<SeenBody> bodies_;
     vfit_intrinsics intrinsics_;
     vfit_camera camera_info_;
 };

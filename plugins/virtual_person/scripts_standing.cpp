@@ -4,21 +4,6 @@
 
 namespace vfit::virtual_person {
 
-namespace {
-
-constexpr float kFeetApart_m = 0.25f;
-constexpr ArmAngles kRelaxedArm{12, 3, 14, 0};
-
-Figure standing() {
-    Figure f;
-    const auto feet = stand({0, 0}, 0, kFeetApart_m);
-    for (size_t i = 0; i < 2; ++i) f.foot[i].place = feet[i].place, f.foot[i].yaw_rad = feet[i].yaw_rad;
-    for (const int side : {kLeft, kRight}) set_arm(f.rotation, side, kRelaxedArm);
-    return f;
-}
-
-}  // namespace
-
 Script scan_script() {
     return {[](float) {
                 Figure f = standing();

@@ -6,14 +6,6 @@
 
 namespace vfit::virtual_person {
 
-namespace {
-
-void place_feet(Figure& figure, const StepPlan& plan, float t) {
-    for (const int side : {kLeft, kRight}) figure.foot[static_cast<size_t>(side)] = plan.foot(side, t);
-}
-
-}  // namespace
-
 // A quarter turn to the left is four steps of 0.45 s, then a second of standing still.
 Script turn_script() {
     constexpr float apart_m = 0.22f, swing_s = 0.45f, step_s = 0.5f, quarter_s = 3.2f, start_s = 0.6f;

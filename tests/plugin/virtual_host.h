@@ -1,6 +1,7 @@
 // A host of the tests' own for the virtual person: takes every frame that the plug-in pushes.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -24,8 +25,9 @@ struct Taken {
     std::vector<uint8_t> user;
     vfit_intrinsics intrinsics{};
     vfit_camera camera{};
-    vfit_body body{};
+    vfit_body body{};  // the first, with its joints
     std::vector<vfit_joint> joints;
+    std::map<uint32_t, std::vector<vfit_joint>> everybody;  // by id
     std::map<std::string, std::string> meta;
     int64_t time_ns = 0;
 
@@ -34,6 +36,7 @@ struct Taken {
         return {(float(x) - intrinsics.cx) / intrinsics.fx * z,
                 (float(y) - intrinsics.cy) / intrinsics.fy * z, z};
     }
+    size_t pixels_of(uint8_t id) const { return size_t(std::count(user.begin(), user.end(), id)); }
     Vec2 project(const vfit_joint& j) const {
         return {j.position[0] / j.position[2] * intrinsics.fx + intrinsics.cx,
                 j.position[1] / j.position[2] * intrinsics.fy + intrinsics.cy};
@@ -80,8 +83,9 @@ public:
         };
         host_.frame_body = [](void* self, vfit_frame, const vfit_body* body, const vfit_joint* items,
                               uint32_t, uint32_t count) {
-            me(self).filling.body = *body;
-            me(self).filling.joints.assign(items, items + count);
+            Taken& f = me(self).filling;
+            if (f.everybody.empty()) f.body = *body, f.joints.assign(items, items + count);
+            f.everybody[body->body_id].assign(items, items + count);
             return vfit_result{VFIT_OK};
         };
         host_.frame_meta = [](void* self, vfit_frame, const char* key, const char* json) {

@@ -105,7 +105,8 @@ TEST_P(EveryMotion, NoJointJumps) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scripts, EveryMotion,
-                         ::testing::Values("scan", "sway", "turn", "walk", "wave", "reach", "squat", "demo"),
+                         ::testing::Values("scan", "sway", "turn", "walk", "wave", "reach", "squat", "demo",
+                                           "cross", "clap", "forward", "sit", "spin", "jog", "visit"),
                          [](const auto& info) { return std::string(info.param); });
 
 TEST(ScanMotion, ArmsAreHeldOutAndFeetAQuarterMetreApart) {

@@ -82,6 +82,13 @@ TEST(VirtualOptions, ABadValueNamesTheOptionAndWhatItTakes) {
     EXPECT_NE(set("pace", "slow").find("realtime"), std::string::npos);
     EXPECT_NE(set("distance", "nan").find("0.5 to 10"), std::string::npos);
     EXPECT_NE(set("distance", "2.4m").find("2.4m"), std::string::npos);
+    EXPECT_NE(set("clothing", "0.5").find("0 to 0.1"), std::string::npos);
+    EXPECT_NE(set("clothing", "-0.01").find("clothing"), std::string::npos);
+    EXPECT_NE(set("people", "4").find("0 to 3"), std::string::npos);
+    EXPECT_NE(set("furniture", "chair,sofa").find("known are chair, rack, stool"), std::string::npos);
+    EXPECT_NE(set("occluder", "soon").find("soon"), std::string::npos);
+    EXPECT_NE(set("floor", "0").find("given, unknown"), std::string::npos);
+    EXPECT_NE(set("body", "-3").find("body"), std::string::npos);
     EXPECT_NE(set("seed", "1.5").find("whole"), std::string::npos);
     EXPECT_NE(set("seed", "-1").find("seed"), std::string::npos);
     EXPECT_NE(set("frames", "").find("frames"), std::string::npos);

@@ -62,6 +62,46 @@ Joints with_sides_exchanged(const Joints& joints) {
     return out;
 }
 
+bool sides_are_exchanged(const Joints& tracked, const Joints& reference) {
+    const auto sum = [&](const Joints& joints) {
+        double total = 0.0;
+        for (int j = VFIT_JOINT_LEFT_SHOULDER; j < kScored; ++j)
+            if (const double d = distance(joints, reference, j); std::isfinite(d)) total += d;
+        return total;
+    };
+    return sum(with_sides_exchanged(tracked)) < sum(tracked);
+}
+
+double turned_away_rad(const Joints& joints) {
+    // The person's left is on the image's right while they face the camera.
+    const Vec left = minus(joints.at[VFIT_JOINT_LEFT_HIP], joints.at[VFIT_JOINT_RIGHT_HIP]);
+    return std::acos(std::clamp(left[0] / std::hypot(left[0], left[2]), -1.0, 1.0));
+}
+
+void Errors::add_all(const Joints* tracked, const Joints& reference) {
+    for (int j = 0; j < kScored; ++j) {
+        if (!reference.has(j)) continue;
+        if (tracked && tracked->has(j))
+            add(j, distance(*tracked, reference, j));
+        else
+            add_missing(j);
+    }
+}
+
+void Errors::merge(const Errors& other) {
+    for (size_t j = 0; j < kScored; ++j) {
+        values_[j].insert(values_[j].end(), other.values_[j].begin(), other.values_[j].end());
+        missing_[j] += other.missing_[j];
+    }
+}
+
+size_t Errors::missing(int joint) const {
+    if (joint >= 0) return missing_[size_t(joint)];
+    size_t sum = 0;
+    for (const size_t n : missing_) sum += n;
+    return sum;
+}
+
 Offsets Offsets::fit(const std::vector<Pair>& pairs) {
     std::array<std::array<std::vector<double>, 3>, kScored> found;
     for (const Pair& pair : pairs) {
@@ -108,16 +148,18 @@ double Errors::mean(int joint) const {
 double Errors::within(double metres, int joint) const {
     const auto v = values(joint);
     const auto near = std::count_if(v.begin(), v.end(), [&](double x) { return x <= metres; });
-    return v.empty() ? 0.0 : double(near) / double(v.size());
+    const size_t all = v.size() + missing(joint);
+    return all == 0 ? 0.0 : double(near) / double(all);
 }
 
 Json Errors::json() const {
     const auto one = [&](int j) {
-        return Json{{"median_m", median(j)}, {"mean_m", mean(j)}, {"within_10cm", within(0.1, j)}, {"n", values(j).size()}};
+        return Json{{"median_m", median(j)}, {"mean_m", mean(j)}, {"within_10cm", within(0.1, j)},
+                    {"n", values(j).size()}, {"missing", missing(j)}};
     };
     Json out = one(-1);
     for (int j = 0; j < kScored; ++j)
-        if (!values_[size_t(j)].empty()) out["joints"][joint_name(j)] = one(j);
+        if (!values_[size_t(j)].empty() || missing(j)) out["joints"][joint_name(j)] = one(j);
     return out;
 }
 

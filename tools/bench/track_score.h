@@ -23,6 +23,11 @@ struct Joints {
 Joints joints_in_camera(vfit_frame frame, uint32_t body_id, const vfit_camera& camera);
 double distance(const Joints& a, const Joints& b, int joint);
 Joints with_sides_exchanged(const Joints& joints);
+/// Whether shoulders, arms and legs lie nearer to the reference with left and right exchanged.
+bool sides_are_exchanged(const Joints& tracked, const Joints& reference);
+/// How far the hips are turned away from a camera that looks at them, 0 (faces it) to pi; not a number where a hip is
+/// missing.
+double turned_away_rad(const Joints& joints);
 
 /// A frame of a recording: what was tracked and what the reference says.
 struct Pair {
@@ -46,16 +51,25 @@ private:
 class Errors {
 public:
     void add(int joint, double metres) { values_[size_t(joint)].push_back(metres); }
+    /// A joint that was not found: it is not within any distance, and has none to add to mean and median.
+    void add_missing(int joint) { ++missing_[size_t(joint)]; }
+    /// Every joint of the reference; null: nothing was found.
+    void add_all(const Joints* tracked, const Joints& reference);
+    void merge(const Errors& other);
     size_t count() const;
+    size_t count_of(int joint) const { return values_[size_t(joint)].size(); }
+    size_t missing(int joint = -1) const;
     double median(int joint = -1) const;  // -1: of all
     double mean(int joint = -1) const;
+    /// Share of all that were to be found.
     double within(double metres, int joint = -1) const;
-    /// {"median_m", "mean_m", "within_10cm", "n", "joints": {"HEAD": {...}, ...}}
+    /// {"median_m", "mean_m", "within_10cm", "n", "missing", "joints": {"HEAD": {...}, ...}}
     Json json() const;
 
 private:
     std::vector<double> values(int joint) const;
     std::array<std::vector<double>, kScored> values_;
+    std::array<size_t, kScored> missing_{};
 };
 
 }  // namespace vfit::tools

@@ -1,0 +1,69 @@
+// Scripted motions of quick feet on one spot: spin (once round without a stop) and jog.
+#include <cmath>
+
+#include "keys.h"
+#include "motion.h"
+
+namespace vfit::virtual_person {
+
+// To the right, 45 degrees by each pair of steps, round in 7.2 s.
+Script spin_script() {
+    constexpr float apart_m = 0.24f, step_s = 0.45f, swing_s = 0.38f;
+    constexpr int pairs = 8;
+    std::vector<Step> steps;
+    for (int i = 0; i < 2 * pairs; ++i) {
+        Step step;
+        step.side = i % 2 == 0 ? kRight : kLeft;
+        step.lift_s = step_s * static_cast<float>(i) + (step_s - swing_s) / 2, step.land_s = step.lift_s + swing_s;
+        const float heading = -2.0f * kPi * static_cast<float>(i / 2 + 1) / pairs;
+        step.to = stand({0, 0}, heading, apart_m)[static_cast<size_t>(step.side)];
+        step.heel_rad = 0.2f;
+        steps.push_back(step);
+    }
+    const auto feet = stand({0, 0}, 0, apart_m);
+    const StepPlan plan(feet[0], feet[1], std::move(steps));
+    return {[plan](float t) {
+                Figure f;
+                place_feet(f, plan, t);
+                f.root = plan.root(t);
+                f.heading_rad = plan.heading_rad(t);
+                f.drop_m = 0.006f;
+                for (const int side : {kLeft, kRight})
+                    set_arm(f.rotation, side, {20, 4, 20 + 6 * wave(1.0f / (2 * step_s), t), 0});
+                return f;
+            },
+            step_s * 2 * pairs};
+}
+
+// On the spot, one foot always on the floor, forearms level and swinging against the legs.
+Script jog_script() {
+    constexpr float step_s = 0.40f, swing_s = 0.34f;
+    constexpr int step_count = 10;
+    std::vector<Step> steps;
+    for (int i = 0; i < step_count; ++i) {
+        Step step;
+        step.side = i % 2 == 0 ? kLeft : kRight;
+        step.lift_s = step_s * static_cast<float>(i) + (step_s - swing_s) / 2, step.land_s = step.lift_s + swing_s;
+        step.to = stand({0, 0}, 0, 0.2f)[static_cast<size_t>(step.side)];
+        step.clearance_m = 0.16f, step.heel_rad = 0.5f;
+        steps.push_back(step);
+    }
+    const auto feet = stand({0, 0}, 0, 0.2f);
+    const StepPlan plan(feet[0], feet[1], std::move(steps));
+    return {[plan](float t) {
+                Figure f;
+                place_feet(f, plan, t);
+                const float left_swings = wave(0.5f / step_s, t);
+                f.root = {-0.025f * left_swings, 0.02f};
+                f.drop_m = 0.012f - 0.012f * std::cos(4.0f * kPi * 0.5f / step_s * t);
+                f.pelvis = rotate_z(-2.0f * left_swings);
+                set_trunk(f, 5, 2.0f * left_swings, 6.0f * left_swings);
+                for (const int side : {kLeft, kRight})
+                    set_arm(f.rotation, side,
+                            {14, 5 - 28 * side_sign(side) * left_swings, 88 - 10 * side_sign(side) * left_swings, -12});
+                return f;
+            },
+            step_s * step_count};
+}
+
+}  // namespace vfit::virtual_person

@@ -1,0 +1,29 @@
+// The parts of vfit-bench track. Each prints its table, unless it is told to be quiet, and returns it as JSON.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "bench/targets.h"
+#include "client/client.h"
+
+namespace vfit::tools {
+
+struct VirtualOptions {
+    uint32_t seed = 1;
+    bool long_run = false;  // every case with both sensors and several people
+    bool quiet = false;
+};
+
+/// REAL: recordings below the folder.
+Json judge_real(const std::string& folder, bool quiet);
+/// REAL: the stills of five people and of one who is too close.
+Json judge_stills(const std::string& folder, bool quiet, Targets& targets);
+/// SYNTHETIC: joints of virtual people.
+Json judge_virtual(const VirtualOptions& options, Targets& targets);
+/// SYNTHETIC: people who come, go and are hidden, and rooms without anybody.
+Json judge_events(const VirtualOptions& options, Targets& targets);
+/// SYNTHETIC: time of the whole tracker a frame, and from a frame's time stamp to the pose.
+Json judge_time(const VirtualOptions& options, Targets& targets);
+
+}  // namespace vfit::tools

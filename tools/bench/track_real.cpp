@@ -1,0 +1,197 @@
+// The tracker's own joints against those of another middleware on real recordings.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+
+#include "bench/bench.h"
+#include "bench/track_parts.h"
+#include "bench/track_score.h"
+
+namespace vfit::tools {
+
+namespace {
+
+struct Run {
+    std::string name, person;
+    std::vector<Pair> pairs;
+    uint32_t frames = 0, missed = 0, longest_swap = 0, jumps = 0;
+};
+
+constexpr double kBoneTolerance = 0.15;  // of the recording's median, beyond which a reference frame is left out
+constexpr int kSilhouettePixels = 3;
+
+/// The bones by which the reference's frames are judged.
+constexpr std::array<std::pair<int, int>, 9> kBones = {
+    {{VFIT_JOINT_LEFT_SHOULDER, VFIT_JOINT_LEFT_ELBOW}, {VFIT_JOINT_RIGHT_SHOULDER, VFIT_JOINT_RIGHT_ELBOW},
+     {VFIT_JOINT_LEFT_ELBOW, VFIT_JOINT_LEFT_HAND}, {VFIT_JOINT_RIGHT_ELBOW, VFIT_JOINT_RIGHT_HAND},
+     {VFIT_JOINT_LEFT_HIP, VFIT_JOINT_LEFT_KNEE}, {VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_RIGHT_KNEE},
+     {VFIT_JOINT_LEFT_KNEE, VFIT_JOINT_LEFT_FOOT}, {VFIT_JOINT_RIGHT_KNEE, VFIT_JOINT_RIGHT_FOOT},
+     {VFIT_JOINT_NECK, VFIT_JOINT_TORSO}}};
+
+double bone_length(const Joints& joints, size_t bone) {
+    double sum = 0.0;
+    for (size_t k = 0; k < 3; ++k) {
+        const double d = joints.at[size_t(kBones[bone].first)][k] - joints.at[size_t(kBones[bone].second)][k];
+        sum += d * d;
+    }
+    return std::sqrt(sum);
+}
+
+void mark_usable(std::vector<Pair>& pairs) {
+    for (size_t bone = 0; bone < kBones.size(); ++bone) {
+        std::vector<double> lengths;
+        for (const Pair& p : pairs)
+            if (const double l = bone_length(p.reference, bone); std::isfinite(l)) lengths.push_back(l);
+        if (lengths.empty()) continue;
+        std::nth_element(lengths.begin(), lengths.begin() + long(lengths.size() / 2), lengths.end());
+        const double usual = lengths[lengths.size() / 2];
+        for (Pair& p : pairs)
+            if (std::abs(bone_length(p.reference, bone) / usual - 1.0) > kBoneTolerance) p.usable = false;
+    }
+}
+
+/// Whether the reference joint lies on the person's pixels, or a few beside them.
+bool on_silhouette(vfit_frame frame, const vfit_intrinsics& k, const std::array<double, 3>& p) {
+    const vfit_view map = view_of(frame, VFIT_STREAM_USER_MAP);
+    const int u = int(std::lround(p[0] / p[2] * k.fx + k.cx)), v = int(std::lround(p[1] / p[2] * k.fy + k.cy));
+    for (int y = v - kSilhouettePixels; y <= v + kSilhouettePixels; ++y)
+        for (int x = u - kSilhouettePixels; x <= u + kSilhouettePixels; ++x)
+            if (x >= 0 && y >= 0 && x < int(map.width) && y < int(map.height) && row_of<uint8_t>(map, uint32_t(y))[x]) return true;
+    return false;
+}
+
+Run track(const std::string& path, Samples& times) {
+    Run run;
+    run.name = std::filesystem::path(path).filename().string();
+    const Context context = open_context();
+    Source source(context.get(), path);
+    vfit_tracker_desc desc = vfit_tracker_desc_init();
+    desc.joints = VFIT_TRACK_BUILT_IN;
+    Tracker tracker;
+    check(vfit_tracker_create(context.get(), &desc, tracker.out()));
+    while (const auto frame = source.next()) {
+        const uint32_t reference_id = first_body(frame->get());
+        const Timer timer;
+        Frame tracked;
+        check(vfit_tracker_update(tracker.get(), frame->get(), tracked.out()));
+        times.add(timer.ms());
+        ++run.frames;
+        const uint32_t id = first_body(tracked.get());
+        if (!reference_id) continue;
+        if (!id) {
+            ++run.missed;
+            continue;
+        }
+        Pair pair;
+        pair.reference = joints_in_camera(frame->get(), reference_id, camera_of(frame->get()));
+        pair.tracked = joints_in_camera(tracked.get(), id, camera_of(tracked.get()));
+        vfit_intrinsics k = vfit_intrinsics_init();
+        check(vfit_frame_intrinsics(frame->get(), &k));
+        for (int j = 0; j < kScored; ++j)
+            if (pair.reference.has(j)) pair.on_body[size_t(j)] = on_silhouette(tracked.get(), k, pair.reference.at[size_t(j)]);
+        run.pairs.push_back(pair);
+    }
+    mark_usable(run.pairs);
+    return run;
+}
+
+void count_swaps_and_jumps(Run& run) {
+    uint32_t swapped = 0;
+    for (size_t i = 0; i < run.pairs.size(); ++i) {
+        const Pair& p = run.pairs[i];
+        swapped = sides_are_exchanged(p.tracked, p.reference) ? swapped + 1 : 0;
+        run.longest_swap = std::max(run.longest_swap, swapped);
+        if (i == 0) continue;
+        for (int j = 0; j < kScored; ++j)
+            if (distance(p.tracked, run.pairs[i - 1].tracked, j) > 0.20 && distance(p.reference, run.pairs[i - 1].reference, j) < 0.05)
+                ++run.jumps;
+    }
+}
+
+/// Errors of the runs with the tracked joints `shift` frames earlier than the reference.
+Errors errors_of(const std::vector<Run>& runs, const Offsets& offsets, bool others_only, size_t shift, bool on_body_only) {
+    Errors errors;
+    for (const Run& run : runs) {
+        if (others_only && run.person == "s1") continue;
+        for (size_t i = shift; i < run.pairs.size(); ++i) {
+            const Pair& p = run.pairs[i];
+            if (!p.usable) continue;
+            const Joints found = offsets.apply(run.pairs[i - shift].tracked);
+            for (int j = 0; j < kScored; ++j)
+                if (const double d = distance(found, p.reference, j); std::isfinite(d) && (!on_body_only || p.on_body[size_t(j)]))
+                    errors.add(j, d);
+        }
+    }
+    return errors;
+}
+
+void print_errors(const char* title, const Errors& e) {
+    std::cout << std::left << std::setw(62) << title << std::right << " median " << std::setw(4) << std::lround(1000 * e.median())
+              << " mm  within 10 cm " << std::fixed << std::setprecision(3) << e.within(0.1) << "  (" << e.count() << " joints)\n";
+}
+
+void print_table(const Errors& raw, const Errors& off, const Errors& best) {
+    std::cout << "                   raw            offset         offset, shift, on the silhouette   (median mm, within 10 cm)\n";
+    for (int j = 0; j < kScored; ++j) {
+        std::cout << "  " << std::left << std::setw(16) << joint_name(j) << std::right;
+        for (const Errors* e : {&raw, &off, &best})
+            std::cout << std::setw(5) << std::lround(1000 * e->median(j)) << "  " << std::setprecision(2) << e->within(0.1, j) << "    ";
+        std::cout << "\n";
+    }
+}
+
+}  // namespace
+
+Json judge_real(const std::string& folder, bool quiet) {
+    std::vector<std::filesystem::path> paths;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        if (entry.is_directory()) paths.push_back(entry.path());
+    if (paths.empty()) throw Failure(folder + ": holds no recordings");
+    std::sort(paths.begin(), paths.end());
+    std::vector<Run> runs;
+    Samples times;
+    for (const auto& path : paths) {
+        Run run = track(path.string(), times);
+        const size_t a = run.name.find("_s"), b = run.name.find('_', a + 1);
+        run.person = a == std::string::npos ? run.name : run.name.substr(a + 1, b - a - 1);
+        count_swaps_and_jumps(run);
+        runs.push_back(std::move(run));
+    }
+    std::vector<Pair> first;
+    for (const Run& run : runs)
+        if (run.person == "s1") first.insert(first.end(), run.pairs.begin(), run.pairs.end());
+    const Offsets none{}, offsets = Offsets::fit(first);
+    const Errors raw = errors_of(runs, none, false, 0, false), off = errors_of(runs, offsets, true, 0, false);
+    size_t shift = 0;
+    Errors best = errors_of(runs, offsets, true, 0, true);
+    for (size_t s = 1; s <= 2; ++s)
+        if (const Errors e = errors_of(runs, offsets, true, s, true); e.median() < best.median()) best = e, shift = s;
+
+    Json rows = Json::array();
+    for (const Run& run : runs)
+        rows.push_back({{"recording", run.name}, {"frames", run.frames}, {"missed", run.missed},
+                        {"longest_swap", run.longest_swap}, {"jumps", run.jumps},
+                        {"raw", errors_of({run}, none, false, 0, false).json()}});
+    const Json report = {{"update_ms", times.json()}, {"raw", raw.json()}, {"offset", off.json()}, {"shift_frames", shift},
+                         {"offset_shift_on_body", best.json()}, {"recordings", rows}};
+    if (quiet) return report;
+    std::cout << "REAL recordings, own joints against those of the recordings' middleware, which err by 5 to 10 cm themselves\n";
+    for (size_t i = 0; i < runs.size(); ++i) {
+        const Errors e = errors_of({runs[i]}, none, false, 0, false);
+        std::cout << "  " << std::left << std::setw(28) << runs[i].name << std::right << std::setw(4) << runs[i].frames << " frames, "
+                  << runs[i].missed << " missed, raw median " << std::setw(4) << std::lround(1000 * e.median()) << " mm, within 10 cm "
+                  << std::fixed << std::setprecision(2) << e.within(0.1) << ", longest swap " << runs[i].longest_swap << ", jumps "
+                  << runs[i].jumps << "\n";
+    }
+    print_errors("raw, everybody", raw);
+    print_errors("offset per joint fitted on s1, the others", off);
+    print_errors(("same, " + std::to_string(shift) + " frames later, reference on the silhouette").c_str(), best);
+    print_table(raw, off, best);
+    std::cout << "  update: median " << times.quantile(0.5) << " ms, p95 " << times.quantile(0.95)
+              << " ms while the reader of the files shares the core\n";
+    return report;
+}
+
+}  // namespace vfit::tools
