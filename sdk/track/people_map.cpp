@@ -85,7 +85,7 @@ void PeopleMap::cut_floor_and_background() {
             // The floor itself is known better than as background: a learned one must not take the toes.
             const float on_floor = floor ? least - b * slope : -1.0f;
             wanted[x] = uint8_t(int(z > 0.0f) & int(z < farthest) & int(z * slope > least) &
-                                (int(news >= 0.0f) | int(on_floor > 0.0f)));
+                                (int(news >= 0.0f) | int(z > b + BackgroundModel::kGone_m) | int(on_floor > 0.0f)));
         }
     }
 }

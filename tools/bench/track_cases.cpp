@@ -14,19 +14,19 @@ struct Play {
     const char* what;
     const char* motion;
     double facing_deg;
-    uint32_t frames;      // until what the motion is about has been seen
-    double room_m = 0.0;  // how much farther away, for motions that leave their spot
+    uint32_t frames;  // until what the motion is about has been seen
+    double room_m;    // how much farther away, for motions that leave their spot
 };
 constexpr Play kPlays[] = {
-    {"waving", "wave", 0, 120},          {"reaching to a shelf", "reach", 20, 160},
-    {"squatting", "squat", -15, 110},    {"clapping", "clap", 10, 110},
-    {"reaching ahead", "forward", 0, 90}, {"jogging", "jog", -20, 80},
-    {"arms crossed", "cross", 0, 120},   {"arms crossed", "cross", -25, 120},
-    {"sitting down", "sit", 15, 140},    {"sitting down", "sit", -30, 140},
-    {"walking in a circle", "walk", 0, 150, 0.4}, {"turning round", "spin", 0, 216},
-    {"seen from the left", "wave", -90, 100},     {"seen from the right", "jog", 90, 80},
-    {"seen from the left", "sway", -90, 60},      {"seen from the right", "forward", 90, 80},
-    {"seen from behind", "wave", 180, 100},       {"seen from behind", "jog", 180, 80},
+    {"waving", "wave", 0, 120, 0},          {"reaching to a shelf", "reach", 20, 160, 0},
+    {"squatting", "squat", -15, 110, 0},    {"clapping", "clap", 10, 110, 0},
+    {"reaching ahead", "forward", 0, 90, 0}, {"jogging", "jog", -20, 80, 0},
+    {"arms crossed", "cross", 0, 120, 0},   {"arms crossed", "cross", -25, 120, 0},
+    {"sitting down", "sit", 15, 140, 0},    {"sitting down", "sit", -30, 140, 0},
+    {"walking in a circle", "walk", 0, 150, 0.4}, {"turning round", "spin", 0, 216, 0},
+    {"seen from the left", "wave", -90, 100, 0},     {"seen from the right", "jog", 90, 80, 0},
+    {"seen from the left", "sway", -90, 60, 0},      {"seen from the right", "forward", 90, 80, 0},
+    {"seen from behind", "wave", 180, 100, 0},       {"seen from behind", "jog", 180, 80, 0},
 };
 
 class Draw {
@@ -51,7 +51,8 @@ TrackCase make_case(const Play& play, const char* sensor, uint32_t body, Draw& d
     const std::string motion = play.motion;
     std::string furniture = motion == "sit" ? "stool" : "";
     for (const char* piece : {"chair", "rack"})
-        if (draw.chance(0.25)) furniture += (furniture.empty() ? "" : ",") + std::string(piece);
+        if (play.room_m == 0.0 && draw.chance(0.25))  // who walks would walk into it
+            furniture += (furniture.empty() ? "" : ",") + std::string(piece);
     std::ostringstream uri;
     uri << "virtual:sensor=" << sensor << "&motion=" << motion << "&facing=" << play.facing_deg + draw.between(-5, 5)
         << "&body=" << body << "&seed=" << body << "&clothing=" << draw.between(0.01, 0.03) << "&distance=" << distance

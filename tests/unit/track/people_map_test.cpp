@@ -30,6 +30,27 @@ TEST(PeopleMap, FindsOnePersonInTheFirstImageWithoutCalibration) {
     EXPECT_EQ(people.map.camera().floor_state, VFIT_FLOOR_ESTIMATED);
 }
 
+TEST(PeopleMap, WhoStandsBehindAThingIsFoundAgainWhenItHasGone) {
+    // The wall is out of the sensor's range, so that the thing is the first that is ever seen there.
+    RoomScene scene;
+    scene.wall_z = 0.0f;
+    scene.people.push_back(standing_person(0.0f, -3.0f));
+    People people;
+    for (int i = 0; i < 15; ++i) people.see(scene);
+    ASSERT_EQ(people.map.camera().floor_state, VFIT_FLOOR_ESTIMATED);
+    const uint8_t before = people.label_of(scene, 1);
+    ASSERT_NE(before, 0);
+    for (int i = 0; i < 45; ++i) {  // slides from left to right, a second and a half before the person
+        const float x = -1.3f + 0.05f * float(i);
+        scene.things = {Block{{x - 0.6f, 0, -2.3f}, {x + 0.6f, 2.1f, -2.1f}}};
+        people.see(scene);
+    }
+    scene.things.clear();
+    for (int i = 0; i < 5; ++i) people.see(scene);
+    EXPECT_GT(people.iou(scene), 0.9);
+    EXPECT_EQ(people.label_of(scene, 1), before);
+}
+
 TEST(PeopleMap, TakesImagesOfAnyShapeOneAfterTheOther) {
     PeopleMap map;
     int64_t time_ns = 0;
