@@ -37,7 +37,7 @@ Script spin_script() {
 
 // On the spot, one foot always on the floor, forearms level and swinging against the legs.
 Script jog_script() {
-    constexpr float step_s = 0.40f, swing_s = 0.34f;
+    constexpr float step_s = 0.44f, swing_s = 0.40f;
     constexpr int step_count = 10;
     std::vector<Step> steps;
     for (int i = 0; i < step_count; ++i) {
@@ -45,7 +45,7 @@ Script jog_script() {
         step.side = i % 2 == 0 ? kLeft : kRight;
         step.lift_s = step_s * static_cast<float>(i) + (step_s - swing_s) / 2, step.land_s = step.lift_s + swing_s;
         step.to = stand({0, 0}, 0, 0.2f)[static_cast<size_t>(step.side)];
-        step.clearance_m = 0.16f, step.heel_rad = 0.5f;
+        step.clearance_m = 0.10f, step.heel_rad = 0.4f;
         steps.push_back(step);
     }
     const auto feet = stand({0, 0}, 0, 0.2f);
@@ -55,7 +55,7 @@ Script jog_script() {
                 place_feet(f, plan, t);
                 const float left_swings = wave(0.5f / step_s, t);
                 f.root = {-0.025f * left_swings, 0.02f};
-                f.drop_m = 0.012f - 0.012f * std::cos(4.0f * kPi * 0.5f / step_s * t);
+                f.drop_m = 0.04f - 0.012f * std::cos(4.0f * kPi * 0.5f / step_s * t);
                 f.pelvis = rotate_z(-2.0f * left_swings);
                 set_trunk(f, 5, 2.0f * left_swings, 6.0f * left_swings);
                 for (const int side : {kLeft, kRight})

@@ -45,14 +45,14 @@ TEST(Clothing, MovesTheCoveredSurfaceByItsThicknessOnAverage) {
                 const Vec3 a = d.skin(triangles[i]), b = d.skin(triangles[i + 1]), c = d.skin(triangles[i + 2]);
                 // Trunk and thighs, well within the hems.
                 const Vec3 middle = (a + b + c) / 3.0f;
-                if (std::abs(middle.x) > 0.3f || middle.y > 1.35f || middle.y < 0.2f) continue;
+                if (std::abs(middle.x) > 0.3f || middle.y > 1.35f || middle.y < 0.3f) continue;
                 const float size = glm::length(glm::cross(b - a, c - a));
                 for (size_t k = 0; k < 3; ++k) {
                     const float moved = d.moved(triangles[i + k]);
                     area += double(size), sum += double(size * moved), most = std::max(most, moved);
                 }
             }
-            EXPECT_NEAR(sum / area, double(mean_m), 0.2 * double(mean_m)) << "seed " << seed;
+            EXPECT_NEAR(sum / area, double(mean_m), 0.25 * double(mean_m)) << "seed " << seed;
             EXPECT_GT(most, 1.25f * mean_m) << "cloth is uneven";
             EXPECT_LT(most, 3.0f * mean_m);
         }

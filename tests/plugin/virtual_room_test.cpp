@@ -107,7 +107,7 @@ TEST(VirtualRoom, ThePersonSitsOnTheStool) {
 
 TEST(VirtualRoom, ABoxHidesThePersonForAboutASecond) {
     TestHost host;
-    const auto frames = host.run("virtual:frames=60&rate=10&occluder=2.5&sensor=kinect_v1_320");
+    const auto frames = host.run("virtual:frames=60&rate=10&occluder=2.5&motion=sway&sensor=kinect_v1_320");
     const size_t whole = frames.at(0).pixels_of(1);
     ASSERT_GT(whole, 3000u);
     int hidden = 0;

@@ -67,7 +67,7 @@ TEST(Errors, MergedAreAsIfAddedToOne) {
     b.add(3, 0.20), both.add(3, 0.20);
     b.add_missing(4), both.add_missing(4);
     a.merge(b);
-    EXPECT_EQ(a.json(), both.json());
+    EXPECT_EQ(a.json().dump(), both.json().dump());
 }
 
 TEST(Sides, ExchangedOnesAreNoticed) {
