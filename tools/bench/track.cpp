@@ -46,10 +46,10 @@ void add_track(Command& app) {
     Command command = app.add_subcommand("track", "The built-in tracker: joints, events and time, real and synthetic apart");
     auto o = std::make_shared<Options>();
     command.add_option("recordings", o->recordings, "Folder of recordings named ..._s<person>_...: judges real people too")
-        ->check(CLI::ExistingDirectory);
+        .existing_folder();
     command.add_option("--scenes", o->scenes, "Folder of the real stills (default: scenes beside the recordings)")
-        ->check(CLI::ExistingDirectory);
-    command.add_option("--seed", o->people.seed, "Of bodies, rooms and noise").within(1u, 1'000'000u);
+        .existing_folder();
+    command.add_option("--seed", o->people.seed, "Of bodies, rooms and noise").within(1, 1'000'000);
     command.add_flag("--long", o->people.long_run, "Each motion with both sensors and three people");
     command.add_option("--only", o->only, "One part").one_of({"time", "joints", "events", "stills", "recordings"});
     command.add_flag("--json", o->people.quiet, "Print JSON");

@@ -20,6 +20,7 @@ CLI::App& app_of(void* app) { return *static_cast<CLI::App*>(app); }
 Argument& Argument::required() { return option_of(option_).required(), *this; }
 Argument& Argument::positive() { return option_of(option_).check(CLI::PositiveNumber), *this; }
 Argument& Argument::within(int low, int high) { return option_of(option_).check(CLI::Range(low, high)), *this; }
+Argument& Argument::existing_folder() { return option_of(option_).check(CLI::ExistingDirectory), *this; }
 Argument& Argument::one_of(const std::vector<std::string>& values) {
     return option_of(option_).check(CLI::IsMember(values)), *this;
 }

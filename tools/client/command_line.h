@@ -16,6 +16,7 @@ public:
     Argument& required();
     Argument& positive();
     Argument& within(int low, int high);
+    Argument& existing_folder();
     Argument& one_of(const std::vector<std::string>& values);
 
 private:
