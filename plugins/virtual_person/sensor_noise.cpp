@@ -48,6 +48,7 @@ uint16_t SensorNoise::report(float z) const {
 
 void SensorNoise::apply(const CleanImage& clean, uint64_t frame, uint16_t* depth_mm, uint32_t row_stride) {
     const uint64_t key = frame_key(settings_.seed, frame);
+    if (model_.principle == DepthPrinciple::kStructuredLight) edges_.find(clean, kEdgeJump_m, least_cosine_);
     for (uint32_t y = 0; y < clean.height; ++y) {
         auto* row =
             reinterpret_cast<uint16_t*>(reinterpret_cast<uint8_t*>(depth_mm) + size_t{y} * row_stride);

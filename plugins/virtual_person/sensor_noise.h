@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "clean_image.h"
+#include "edge_tiles.h"
 #include "sensor_model.h"
 
 namespace vfit::virtual_person {
@@ -28,9 +29,9 @@ public:
 
 private:
     static constexpr uint32_t kAngleBins = 1024;
-    // Two looked-up depths that differ by more than the slant of the surface explains belong to two surfaces; the
-    // factor leaves room for curvature.
-    static constexpr float kSlantSlack = 1.5f;
+    // Two looked-up depths that differ by more than the slant of the surface explains belong to two surfaces. The
+    // factor leaves room for curvature, the offset for facets.
+    static constexpr float kSlantSlack = 1.5f, kEdgeJump_m = 0.02f;
 
     struct Terms {  // of the model, tabulated over the cosine
         std::vector<float> axial;  // added to sigma_z, to be multiplied by a function of z alone
@@ -38,12 +39,12 @@ private:
         std::vector<uint32_t> dropout;  // of 65536
     };
     struct Row {  // in the making, one item a pixel
-        std::vector<float> along;         // normal numbers: of the depth
-        std::vector<float> across, down;  // of the place on the image, then pixels
-        std::vector<uint32_t> luck;       // of 65536
-        std::vector<uint32_t> bin;        // of Terms
-        std::vector<float> sigma_px, place;  // lateral; as the projector sees it
+        std::vector<uint64_t> bits;          // random
+        std::vector<float> along;            // normal numbers
+        std::vector<uint32_t> bin;           // of Terms
+        std::vector<float> across, down;     // px, how far the look goes aside
         std::vector<int> seen;               // index of the pixel looked at
+        std::vector<float> place;            // as the projector sees it
         std::vector<uint32_t> lit, alive;    // 1: by the projector; reports depth
         std::vector<float> depth_m, sigma_m, axial;
         std::vector<int> step;  // of disparity
@@ -58,8 +59,8 @@ private:
     void prepare_light();
     void find_shadow(const float* depth, uint32_t width);
     void draw_numbers(uint64_t key, uint64_t first, uint32_t width);
-    void jitter(const float* cosine, uint32_t width, uint32_t height, uint32_t y);
-    void look_past_edges(const CleanImage& clean, uint32_t y);
+    void jitter(uint32_t begin, uint32_t end, const CleanImage& clean, uint32_t y);
+    void look_past_edges(uint32_t begin, uint32_t end, const CleanImage& clean, uint32_t y);
     void find_sigma(uint32_t width);
     void structured_light_row(const CleanImage& clean, uint64_t key, uint32_t y, uint16_t* row);
 
@@ -74,6 +75,8 @@ private:
     std::vector<float>
         frontal_sigma_m_;  // structured light, head-on, before rounding: one a millimetre of depth
     std::vector<uint16_t> step_depth_mm_;  // what the n-th disparity step reports, 0 out of range
+    EdgeTiles edges_;
+    float least_cosine_ = 0.0f;  // of surfaces whose jitter stays within EdgeTiles::kReach
     Row row_;
 };
 

@@ -11,7 +11,6 @@ namespace vfit::virtual_person {
 
 namespace {
 
-constexpr float kEdgeJump_m = 0.02f;  // between facets of one surface depth jumps by less
 constexpr float kNearest_m = 0.01f, kFarthest_m = 20.0f;  // where noise is computed: beyond every range
 
 // Rounds to the nearest whole number, for values above -64: a plain conversion, where std::lrint is a call.
@@ -29,11 +28,15 @@ inline float light_sigma_m(const NoiseSettings& settings, float z, float axial) 
 
 void SensorNoise::prepare_light() {
     const uint32_t width = model_.width;
-    for (auto* v : {&row_.along, &row_.across, &row_.down, &row_.sigma_px, &row_.place, &row_.depth_m, &row_.sigma_m,
-                    &row_.axial})
+    for (auto* v : {&row_.along, &row_.across, &row_.down, &row_.place, &row_.depth_m, &row_.sigma_m, &row_.axial})
         v->resize(width);
-    for (auto* v : {&row_.luck, &row_.bin, &row_.lit, &row_.alive}) v->assign(width, 1);
-    row_.seen.resize(width), row_.step.resize(width);
+    for (auto* v : {&row_.bin, &row_.lit, &row_.alive}) v->assign(width, 1);
+    row_.bits.resize(width), row_.seen.resize(width), row_.step.resize(width);
+    // Steeper surfaces may look farther than the tiles tell of; at a large noise scale all do.
+    const float farthest = normal_quantiles()[kQuantileCount - 1];
+    uint32_t bin = kAngleBins;
+    while (bin > 0 && round_offset(terms_.lateral_px[bin - 1] * farthest) <= EdgeTiles::kReach) --bin;
+    least_cosine_ = static_cast<float>(bin) / kAngleBins;
     for (int mm = 0; mm <= static_cast<int>(kFarthest_m * 1000.0f); ++mm)
         frontal_sigma_m_.push_back(light_sigma_m(settings_, (static_cast<float>(mm) + 0.5f) * 0.001f, 0.0f));
     const auto steps = static_cast<size_t>(1.0f / (model_.range_min_m * kDisparityQuantumPerM)) + 2;
@@ -62,31 +65,31 @@ void SensorNoise::find_shadow(const float* depth, uint32_t width) {
 
 void SensorNoise::draw_numbers(uint64_t key, uint64_t first, uint32_t width) {
     const float* const normal = normal_quantiles();
-    float *const along = row_.along.data(), *const across = row_.across.data(), *const down = row_.down.data();
-    uint32_t* const luck = row_.luck.data();
+    uint64_t* const bits = row_.bits.data();
+    float* const along = row_.along.data();
     for (uint32_t x = 0; x < width; ++x) {
-        const uint64_t bits = random_bits(key, first + x);
-        along[x] = normal[bits % kQuantileCount];
-        across[x] = normal[(bits >> 16) % kQuantileCount];
-        down[x] = normal[(bits >> 32) % kQuantileCount];
-        luck[x] = static_cast<uint32_t>(bits >> 48);
+        bits[x] = random_bits(key, first + x);
+        along[x] = normal[bits[x] % kQuantileCount];
     }
 }
 
 // Which pixel each one looks at: edges are seen sigma_L off their place.
-void SensorNoise::jitter(const float* cosine, uint32_t width, uint32_t height, uint32_t y) {
-    uint32_t* const bin = row_.bin.data();
-    float *const sigma_px = row_.sigma_px.data(), *const across = row_.across.data(), *const down = row_.down.data();
-    const float* const lateral_px = terms_.lateral_px.data();
-    for (uint32_t x = 0; x < width; ++x) bin[x] = bin_of(cosine[x]);
-    for (uint32_t x = 0; x < width; ++x) sigma_px[x] = lateral_px[bin[x]];
+void SensorNoise::jitter(uint32_t begin, uint32_t end, const CleanImage& clean, uint32_t y) {
+    const float *const normal = normal_quantiles(), *const lateral_px = terms_.lateral_px.data();
+    const uint64_t* const bits = row_.bits.data();
+    const uint32_t* const bin = row_.bin.data();
+    float *const across = row_.across.data(), *const down = row_.down.data();
+    for (uint32_t x = begin; x < end; ++x) {
+        const float sigma_px = lateral_px[bin[x]];
+        across[x] = sigma_px * normal[(bits[x] >> 16) % kQuantileCount];
+        down[x] = sigma_px * normal[(bits[x] >> 32) % kQuantileCount];
+    }
     int* const seen = row_.seen.data();
     // Whole numbers in floats, for which every processor has vectors: an index stays far below 2^24.
-    const float row = static_cast<float>(y), columns = static_cast<float>(width);
-    const float last_x = columns - 1.0f, last_y = static_cast<float>(height) - 1.0f;
-    const int end = static_cast<int>(width);
-    for (int x = 0; x < end; ++x) {
-        across[x] = round_offset(sigma_px[x] * across[x]), down[x] = round_offset(sigma_px[x] * down[x]);
+    const float row = static_cast<float>(y), columns = static_cast<float>(clean.width);
+    const float last_x = columns - 1.0f, last_y = static_cast<float>(clean.height) - 1.0f;
+    for (int x = static_cast<int>(begin); x < static_cast<int>(end); ++x) {
+        across[x] = round_offset(across[x]), down[x] = round_offset(down[x]);
         const float sx = std::min(std::max(static_cast<float>(x) + across[x], 0.0f), last_x);
         const float sy = std::min(std::max(row + down[x], 0.0f), last_y);
         seen[x] = static_cast<int>(sy * columns + sx);
@@ -94,13 +97,11 @@ void SensorNoise::jitter(const float* cosine, uint32_t width, uint32_t height, u
 }
 
 // Within one surface the look-up stays: what its slant adds to the noise is part of the measured sigma_z.
-void SensorNoise::look_past_edges(const CleanImage& clean, uint32_t y) {
-    const uint32_t width = clean.width;
+void SensorNoise::look_past_edges(uint32_t begin, uint32_t end, const CleanImage& clean, uint32_t y) {
     const float* const image = clean.depth_m.data();
-    const float* const depth = image + size_t{y} * width;
-    std::copy(depth, depth + width, row_.depth_m.begin());
+    const float* const depth = image + size_t{y} * clean.width;
     const int* const seen = row_.seen.data();
-    for (uint32_t x = 0; x < width; ++x) {
+    for (uint32_t x = begin; x < end; ++x) {
         const float z = depth[x], other = image[seen[x]], jump = std::abs(other - z);
         if (jump <= kEdgeJump_m) continue;  // nearly always
         const float steps = std::abs(row_.across[x]) + std::abs(row_.down[x]);
@@ -112,7 +113,8 @@ void SensorNoise::look_past_edges(const CleanImage& clean, uint32_t y) {
 
 void SensorNoise::find_sigma(uint32_t width) {
     float *const depth = row_.depth_m.data(), *const sigma = row_.sigma_m.data(), *const axial = row_.axial.data();
-    const uint32_t *const bin = row_.bin.data(), *const luck = row_.luck.data(), *const lit = row_.lit.data();
+    const uint32_t *const bin = row_.bin.data(), *const lit = row_.lit.data();
+    const uint64_t* const bits = row_.bits.data();
     uint32_t* const alive = row_.alive.data();
     for (uint32_t x = 0; x < width; ++x) {
         const uint32_t there = uint32_t{depth[x] > 0.0f} & uint32_t{depth[x] < kFarthest_m};
@@ -120,14 +122,20 @@ void SensorNoise::find_sigma(uint32_t width) {
         alive[x] = there & lit[x];
     }
     for (uint32_t x = 0; x < width; ++x) {
-        alive[x] &= luck[x] >= terms_.dropout[bin[x]];
+        alive[x] &= static_cast<uint32_t>(bits[x] >> 48) >= terms_.dropout[bin[x]];
         axial[x] = terms_.axial[bin[x]];
         sigma[x] = frontal_sigma_m_[static_cast<uint32_t>(static_cast<int>(depth[x] * 1000.0f))];
     }
     const NoiseSettings settings = settings_;
-    for (uint32_t x = 0; x < width; ++x) {
-        const float slanted = light_sigma_m(settings, depth[x], axial[x]);
-        sigma[x] = axial[x] > 0.0f ? slanted : sigma[x];
+    // A wall that is met head-on is so over many pixels: there the slant's roots are spared.
+    constexpr uint32_t kStretch = 32;
+    for (uint32_t begin = 0; begin < width; begin += kStretch) {
+        const uint32_t end = std::min(begin + kStretch, width);
+        if (std::all_of(axial + begin, axial + end, [](float a) { return a <= 0.0f; })) continue;
+        for (uint32_t x = begin; x < end; ++x) {
+            const float slanted = light_sigma_m(settings, depth[x], axial[x]);
+            sigma[x] = axial[x] > 0.0f ? slanted : sigma[x];
+        }
     }
 }
 
@@ -135,8 +143,19 @@ void SensorNoise::structured_light_row(const CleanImage& clean, uint64_t key, ui
     const uint32_t width = clean.width;
     if (settings_.shadow) find_shadow(clean.depth_m.data() + size_t{y} * width, width);
     draw_numbers(key, uint64_t{y} * width, width);
-    jitter(clean.cosine.data() + size_t{y} * width, width, clean.height, y);
-    look_past_edges(clean, y);
+    const float *const clean_depth = clean.depth_m.data() + size_t{y} * width,
+                *const cosine = clean.cosine.data() + size_t{y} * width;
+    std::copy(clean_depth, clean_depth + width, row_.depth_m.begin());
+    uint32_t* const bin = row_.bin.data();
+    for (uint32_t x = 0; x < width; ++x) bin[x] = bin_of(cosine[x]);
+    for (uint32_t begin = 0, end; begin < width; begin = end) {
+        const bool edges = edges_.marked(begin, y);
+        for (end = begin; end < width && edges_.marked(end, y) == edges;) end += EdgeTiles::kWidth;
+        end = std::min(end, width);
+        if (!edges) continue;
+        jitter(begin, end, clean, y);
+        look_past_edges(begin, end, clean, y);
+    }
     find_sigma(width);
     const float *const depth = row_.depth_m.data(), *const sigma = row_.sigma_m.data(),
                 *const along = row_.along.data();
