@@ -8,10 +8,10 @@ namespace vfit {
 
 namespace {
 
-using Json = nlohmann::ordered_json;  // fields in the order of the format
+using OrderedJson = nlohmann::ordered_json;  // fields in the order of the format
 
 /// The shortest decimal that reads back as the same float: 0.001, not 0.0010000000474974513.
-Json number(float x) {
+OrderedJson number(float x) {
     char digits[32];
     const auto end = std::to_chars(digits, digits + sizeof digits, x).ptr;
     double shortest = x;
@@ -22,7 +22,7 @@ Json number(float x) {
 }  // namespace
 
 std::string camera_json(const Camera& camera, const std::string& sensor_name, float rate_hz, bool segmented) {
-    Json json;
+    OrderedJson json;
     json["format"] = "vfit-recording";
     json["version"] = 1;
     json["sensor"] = sensor_name;
@@ -46,7 +46,7 @@ std::string camera_json(const Camera& camera, const std::string& sensor_name, fl
         json["tilt_deg"] = number(camera.tilt_rad() * 180.0f / kPi);
     }
     // A name that is not UTF-8 must not end a recording.
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json.dump(1, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 }  // namespace vfit

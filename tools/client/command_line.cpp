@@ -40,7 +40,7 @@ template Argument Command::add_option(const char*, uint64_t&, const char*);
 template Argument Command::add_option(const char*, float&, const char*);
 template Argument Command::add_option(const char*, double&, const char*);
 
-Argument Command::add_option(const char* name, std::function<void(const std::string&)> set, const char* help) {
+Argument Command::add_option_function(const char* name, std::function<void(const std::string&)> set, const char* help) {
     return Argument(app_of(app_).add_option_function<std::string>(name, std::move(set), help));
 }
 

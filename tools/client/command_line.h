@@ -32,7 +32,7 @@ public:
     /// T: a text, a whole number or a floating-point number.
     template <typename T>
     Argument add_option(const char* name, T& value, const char* help);
-    Argument add_option(const char* name, std::function<void(const std::string&)> set, const char* help);
+    Argument add_option_function(const char* name, std::function<void(const std::string&)> set, const char* help);
     void add_flag(const char* name, bool& value, const char* help);
     void callback(std::function<void()> work);
 

@@ -54,9 +54,10 @@ void add_track_options(Command& command, TrackOptions& options) {
         const auto set = [&source](const std::string& value) {
             source = value == "tracked" ? VFIT_TRACK_BUILT_IN : VFIT_TRACK_GIVEN;
         };
-        command.add_option(
-                   name, set,
-                   "recorded: the source's own; tracked: the tracker's (default: the source's where it has them)")
+        command
+            .add_option_function(
+                name, set,
+                "recorded: the source's own; tracked: the tracker's (default: the source's where it has them)")
             .one_of({"recorded", "tracked"});
     };
     add("--joints", options.joints);
@@ -65,7 +66,7 @@ void add_track_options(Command& command, TrackOptions& options) {
         return value == "nearest" || value == "centred" || value == "first";
     };
     command
-        .add_option_function<std::string>(
+        .add_option_function(
             "--active",
             [&options, is_rule](const std::string& value) {
                 if (is_rule(value))
