@@ -24,6 +24,9 @@ Argument& Argument::existing_folder() { return option_of(option_).check(CLI::Exi
 Argument& Argument::one_of(const std::vector<std::string>& values) {
     return option_of(option_).check(CLI::IsMember(values)), *this;
 }
+Argument& Argument::check(std::function<std::string(const std::string&)> fault) {
+    return option_of(option_).check(std::move(fault)), *this;
+}
 
 Command Command::add_subcommand(const char* name, const char* help) {
     return Command(app_of(app_).add_subcommand(name, help));

@@ -18,6 +18,8 @@ public:
     Argument& within(int low, int high);
     Argument& existing_folder();
     Argument& one_of(const std::vector<std::string>& values);
+    /// The fault of a value; empty: none.
+    Argument& check(std::function<std::string(const std::string&)> fault);
 
 private:
     void* option_;

@@ -78,7 +78,7 @@ void add_track_options(Command& command, TrackOptions& options) {
                 options.asked = true;
             },
             "Whom to follow: nearest (default), centred, first, or the id of a person")
-        ->check([is_rule](const std::string& value) {
+        .check([is_rule](const std::string& value) {
             const bool digits = !value.empty() && value.size() <= 3 &&
                                 value.find_first_not_of("0123456789") == std::string::npos;
             const bool id = digits && std::stoul(value) >= 1 && std::stoul(value) <= 255;
