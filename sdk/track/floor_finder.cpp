@@ -28,6 +28,7 @@ constexpr double kMemory = 0.9;         // of the last frame's sums: a third of 
 // After the first frame: this many tries now and then, so that no frame takes longer than others, until they show that
 // a whole search is worth it. While a floor is seen, a better one may come into view.
 constexpr uint32_t kFewTries = 24;
+constexpr uint32_t kLeastRest = 4, kMostRest = 64;  // frames after a whole search, longer each time it was in vain
 constexpr uint32_t kLookAgain = 4;      // frames, while a floor is seen
 constexpr float kBetter = 1.5f;
 
@@ -82,7 +83,8 @@ bool FloorFinder::Sums::solve(Plane& plane) const {
 
 void FloorFinder::reset() {
     found_ = false;
-    frames_ = 0;
+    frames_ = next_search_ = 0;
+    rest_ = kLeastRest;
     seed_ = 0;
 }
 
@@ -253,7 +255,7 @@ void FloorFinder::fit_whole(const DepthGrid& grid) {
 
 bool FloorFinder::worth_a_search(bool seen) {
     if (frames_ == 1) return true;
-    if (seen && frames_ % kLookAgain != 0) return false;
+    if (frames_ < next_search_ || (seen && frames_ % kLookAgain != 0)) return false;
     // A floor that is seen says which side is up; else landscape every other time.
     const Vec3* up = &kUps[frames_ % 2 == 0 ? 0 : 1 + frames_ / 2 % 2];
     if (seen)
@@ -285,6 +287,8 @@ bool FloorFinder::run(const DepthGrid& grid, Camera& camera) {
     }
     if (worth_a_search(seen)) {
         const Fit fit = choose();
+        next_search_ = frames_ + rest_;
+        rest_ = fit.valid() ? kLeastRest : std::min(2 * rest_, kMostRest);
         if (fit.valid() && (!seen || fit.score > kBetter * score(plane_))) {
             plane_ = fit.plane;
             fit_whole(grid);

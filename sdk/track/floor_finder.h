@@ -70,7 +70,7 @@ private:
     Sums sums_;
     Plane plane_{0.0f};
     bool found_ = false;
-    uint32_t frames_ = 0;
+    uint32_t frames_ = 0, next_search_ = 0, rest_ = 1;
     uint32_t columns_ = 0, rows_ = 0;  // of the coarse picture
     uint64_t seed_ = 0;
 };

@@ -41,7 +41,7 @@ void HeadFinder::project(std::span<const Vec4> points) {
     for (const Vec4& p : points) {
         const int c = column(p.x);
         if (c < 0 || c >= kColumns) continue;
-        top_[size_t(c)] = std::max(top_[size_t(c)], p.y);
+        if (p.y > top_[size_t(c)]) top_[size_t(c)] = p.y, top_z_[size_t(c)] = p.z;
         lowest_m_ = std::min(lowest_m_, p.y);
         const int slice = int(std::floor(p.y / kSlice_m));
         if (slice >= 0 && slice < kSlices) filled_[size_t(c * kSlices + slice)] += p.w;
@@ -86,13 +86,26 @@ float HeadFinder::look(std::span<const Vec4> points, int axis, Head& head) const
     return face;
 }
 
+// What the outline alone can say of it: the points need not be gone through for every bump of a wall's edge.
+bool HeadFinder::may_be_separate(int axis, float top) const {
+    for (size_t k = 0; k < count_; ++k) {
+        const int a = std::min(axis, axes_[k]), b = std::max(axis, axes_[k]);
+        const bool step = std::abs(top_z_[size_t(axis)] - heads_[k].z_m) > 0.5f * kHeadDeep_m;
+        if (b - a < kLeastApart || (!step && valley(a, b) > top - kNeck_m)) return false;
+    }
+    return true;
+}
+
+float HeadFinder::valley(int from, int to) const {
+    return *std::min_element(top_.begin() + from, top_.begin() + to + 1);
+}
+
 // From the heads that were found before, which are higher.
 bool HeadFinder::separate(int axis, const Head& head, float face_m2) const {
     for (size_t k = 0; k < count_; ++k) {
         const int a = std::min(axis, axes_[k]), b = std::max(axis, axes_[k]);
         if (b - a < kLeastApart) return false;
-        const float valley = *std::min_element(top_.begin() + a, top_.begin() + b + 1);
-        const bool neck = valley < head.top_m - kNeck_m, step = std::abs(head.z_m - heads_[k].z_m) > kHeadDeep_m;
+        const bool neck = valley(a, b) < head.top_m - kNeck_m, step = std::abs(head.z_m - heads_[k].z_m) > kHeadDeep_m;
         if (!neck && !step) return false;
         if (neck && float(b - a) * kColumn_m >= kHeadsApart_m) continue;
         // Close in the view, the one behind the other: there an arm held up is no head.
@@ -144,8 +157,9 @@ std::span<const Head> HeadFinder::run(std::span<const Vec4> points) {
         Head head;
         head.top_m = top_[size_t(peak)];
         const int axis = middle_of_crown(peak);
+        if (!has_shoulders(axis, head.top_m) || !has_body(axis, head.top_m) || !may_be_separate(axis, head.top_m)) continue;
         const float face_m2 = look(points, axis, head);
-        if (!separate(axis, head, face_m2) || !has_shoulders(axis, head.top_m) || !has_body(axis, head.top_m)) continue;
+        if (!separate(axis, head, face_m2)) continue;
         axes_[count_] = axis;
         heads_[count_++] = head;
     }

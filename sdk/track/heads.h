@@ -30,12 +30,14 @@ private:
     int highest_untried() const;
     int middle_of_crown(int peak) const;
     float look(std::span<const Vec4> points, int axis, Head& head) const;
+    bool may_be_separate(int axis, float top) const;
+    float valley(int from, int to) const;
     bool separate(int axis, const Head& head, float area_m2) const;
     bool has_shoulders(int axis, float top) const;
     bool has_body(int axis, float top) const;
     float filled(int column, int slice) const { return filled_[size_t(column * kSlices + slice)]; }
 
-    std::array<float, kColumns> top_{};
+    std::array<float, kColumns> top_{}, top_z_{};  // highest point
     std::array<float, kColumns * kSlices> filled_{};  // m2
     std::array<bool, kColumns> tried_{};
     std::array<Head, kMost> heads_{};

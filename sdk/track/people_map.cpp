@@ -174,9 +174,9 @@ void PeopleMap::report(const DepthImage& image, int64_t time_ns, uint8_t* users)
         r.out_of_view = shape.out_of_view;
         regions_.push_back(r);
     }
-    std::fill(labels_.begin(), labels_.end(), uint8_t(0));
     for_each_labelled(slots_, [&](size_t i) { labels_[i] = ids[slots_[i]]; });
     write_user_map(image, grid_, labels_.data(), users);
+    std::fill(labels_.begin(), labels_.end(), uint8_t(0));
 }
 
 std::span<const PersonRegion> PeopleMap::run(const DepthImage& image, int64_t time_ns, uint8_t* users) {

@@ -100,7 +100,7 @@ private:
     void report(const DepthImage& image, int64_t time_ns, uint8_t* users);
     Shape measure(std::span<const uint32_t> cells) const;
     bool person_like(std::span<const uint32_t> cells, const Shape& shape) const;
-    bool background_goes_on(std::span<const uint32_t> cells) const;
+    bool surface_goes_on(std::span<const uint32_t> cells);
     bool feet_hidden(std::span<const uint32_t> cells, const Shape& shape) const;
 
     PeopleMapOptions options_;
@@ -116,7 +116,8 @@ private:
     Components components_;
     Splitter splitter_;
     Identity identity_;
-    std::vector<uint8_t> wanted_, slots_, last_slots_, labels_;  // by cell; slots count from 1
+    std::vector<uint8_t> wanted_, slots_, last_slots_;  // by cell; slots count from 1
+    std::vector<uint8_t> labels_;  // ids by cell, in the end; until then marks, all 0
     std::vector<float> last_depth_;
     std::vector<uint32_t> frontier_;  // of growing feet
     std::vector<uint32_t> pool_;  // cells of split components

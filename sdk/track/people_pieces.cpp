@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/clock.h"
 #include "track/people_map.h"
 
 namespace vfit {
@@ -23,11 +24,12 @@ constexpr float kGrowthPath_m = 0.3f;  // a hand's way in a frame: 9 m/s at 30 H
 // More than one person: looked at now and then only; more than two: nobody's limbs reach everywhere; more than a crowd:
 // a wall.
 constexpr float kWall_m2 = 1.5f, kCrowd_m2 = 2.5f, kOnlyWall_m2 = 6.0f;
-constexpr uint32_t kWallTurn = 10;     // frames
+constexpr uint32_t kWallTurn = 30;     // frames
 constexpr float kTwo_m2 = 0.7f;        // seen of two people who were taken for one
 constexpr uint32_t kTwoTurn = 5;       // frames
 constexpr float kTwoWide_m = 0.55f;    // of two side by side; one with hanging arms is 0.45 to 0.6 m wide
-constexpr uint32_t kFewestRim = 12;    // cells beside the known background
+constexpr uint32_t kFewestRim = 12;    // cells
+constexpr float kYoung_s = 1.0f;       // until then who has been found is still doubted
 constexpr float kSplitArea_m2 = 0.3f;  // below, nobody stands in front of anything
 constexpr float kHeadReach_m = 1.1f;   // along the surface from the axis to the hands or feet
 
@@ -66,29 +68,30 @@ void PeopleMap::add_piece(std::span<const uint32_t> cells, const Shape& shape, u
     if (!cells.empty() && pieces_.size() < pieces_.capacity()) pieces_.push_back({cells, shape, slot, 0});
 }
 
-// A patch of wall or floor that somebody has hidden until now: the known background goes on beside it. Around a person
-// there is a step in depth.
-bool PeopleMap::background_goes_on(std::span<const uint32_t> cells) const {
+// A patch of wall or floor, that somebody has hidden until now or that was cut out of more of it: the same surface goes
+// on beside it. Around a person there is a step in depth.
+bool PeopleMap::surface_goes_on(std::span<const uint32_t> cells) {
     const uint32_t width = grid_.width(), height = grid_.height();
-    const float* const known = background_.known().data();
+    const float* const depth = grid_.depth().data();
+    for (const uint32_t cell : cells) labels_[cell] = 1;
     uint32_t joined = 0, stepped = 0;
     grid_.for_each(cells, [&](uint32_t cell, uint32_t x, uint32_t y) {
-        const float z = grid_.depth()[cell], same = same_surface_m(z);
+        const float z = depth[cell], same = same_surface_m(z);
         const auto look = [&](uint32_t next) {
-            if (wanted_[next] || known[next] == BackgroundModel::kNothing) return;
-            ++(std::abs(known[next] - z) < same ? joined : stepped);
+            if (!labels_[next] && depth[next] > 0.0f) ++(std::abs(depth[next] - z) < same ? joined : stepped);
         };
         if (x > 0) look(cell - 1);
         if (x + 1 < width) look(cell + 1);
         if (y > 0) look(cell - width);
         if (y + 1 < height) look(cell + width);
     });
+    for (const uint32_t cell : cells) labels_[cell] = 0;
     return joined > stepped && joined >= kFewestRim;
 }
 
 void PeopleMap::classify_new(std::span<const uint32_t> cells, const Shape& shape) {
     if (cells.empty()) return;
-    if (person_like(cells, shape) && !background_goes_on(cells))
+    if (person_like(cells, shape) && !surface_goes_on(cells))
         add_piece(cells, shape, kNew);
     else
         add_piece(cells, shape, shape.area_m2 < kFragment_m2 ? kFragment : kThing);
@@ -148,6 +151,12 @@ std::span<const uint32_t> PeopleMap::keep(std::span<const uint32_t> cells) {
 // Somebody known, who may have been two all the time.
 void PeopleMap::add_person(std::span<const uint32_t> cells, uint32_t slot) {
     const Shape shape = measure(cells);
+    // A wedge of wall between arm and trunk can pass for a person, until the arm moves and more of the wall is seen.
+    const bool young = seconds_between(identity_.track(slot).first_ns, identity_.track(slot).seen_ns) < kYoung_s;
+    if (young && (is_flat(shape) || surface_goes_on(cells))) {
+        add_piece(cells, shape, kThing);
+        return;
+    }
     const bool two = shape.width_m > kTwoWide_m && shape.area_m2 > kTwo_m2 && frames_ % kTwoTurn == 1;
     if (!two || !split_by_heads(cells, 2, slot)) add_piece(cells, shape, slot);
 }
@@ -214,7 +223,7 @@ void PeopleMap::sort_component(std::span<const uint32_t> cells) {
     const Shape shape = measure(cells);
     const bool whole = shape.area_m2 < kSplitArea_m2 || person_like(cells, shape);
     const bool one = whole && shape.width_m < kTwoWide_m;
-    if (one || frames_ % kTwoTurn != 1 || !split_by_heads(cells, whole ? 2 : 1)) classify_new(cells, shape);
+    if (one || is_flat(shape) || frames_ % kTwoTurn != 1 || !split_by_heads(cells, whole ? 2 : 1)) classify_new(cells, shape);
 }
 
 void PeopleMap::sort_components() {

@@ -177,6 +177,10 @@ Shape ShapeMeter::finish() {
     return s;
 }
 
+bool is_flat(const Shape& s) {
+    return s.flatness_m < kFlatNoise * std::hypot(kFlat_m, depth_sigma_m(s.depth_m)) && s.area_m2 > kFlatArea_m2;
+}
+
 bool looks_like_person(const Shape& s, bool floor_known, bool feet_hidden) {
     const bool feet_cut = feet_hidden || (s.out_of_view & kOutOfViewFeet) != 0;
     const bool cut = feet_cut || s.out_of_view != 0;
@@ -184,8 +188,7 @@ bool looks_like_person(const Shape& s, bool floor_known, bool feet_hidden) {
     if (s.trunk_width_m > kWidestTrunk_m || s.thickness_m > kThickest_m) return false;
     if (s.width_m < kNarrowest_m) return false;
     if (feet_hidden && s.area_m2 < kLeastBehind_m2) return false;
-    const float flat = kFlatNoise * std::hypot(kFlat_m, depth_sigma_m(s.depth_m));
-    if (s.flatness_m < flat && s.area_m2 > kFlatArea_m2) return false;
+    if (is_flat(s)) return false;
     if (!(s.out_of_view & kOutOfViewTop) && s.top_area_m2 > kMostTop_m2) return false;
     if (s.height_m() < (cut ? kLeastPart_m : kShortest_m)) return false;
     if (s.height_m() > kTallest_m) return false;

@@ -68,6 +68,9 @@ private:
     uint32_t sides_ = 0;
 };
 
+/// As a wall or the side of a box, but for noise, and too large for a forearm.
+bool is_flat(const Shape& shape);
+
 /// feet_hidden: something nearer stands before the lower end.
 bool looks_like_person(const Shape& shape, bool floor_known, bool feet_hidden);
 

