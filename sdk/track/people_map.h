@@ -100,6 +100,10 @@ private:
     void report(const DepthImage& image, int64_t time_ns, uint8_t* users);
     Shape measure(std::span<const uint32_t> cells) const;
     bool person_like(std::span<const uint32_t> cells, const Shape& shape) const;
+    /// Cells whose neighbours need no step in depth: of the piece itself, and of people it may touch.
+    enum Mark : uint8_t { kOwn = 1, kTracked = 2, kBelowHead = 4 };
+    void mark(std::span<const uint32_t> cells, Mark m);
+    void unmark(std::span<const uint32_t> cells, Mark m);
     bool surface_goes_on(std::span<const uint32_t> cells);
     bool feet_hidden(std::span<const uint32_t> cells, const Shape& shape) const;
 
@@ -117,7 +121,7 @@ private:
     Splitter splitter_;
     Identity identity_;
     std::vector<uint8_t> wanted_, slots_, last_slots_;  // by cell; slots count from 1
-    std::vector<uint8_t> labels_;  // ids by cell, in the end; until then marks, all 0
+    std::vector<uint8_t> labels_;  // ids by cell, in the end; until then Marks
     std::vector<float> last_depth_;
     std::vector<uint32_t> frontier_;  // of growing feet
     std::vector<uint32_t> pool_;  // cells of split components

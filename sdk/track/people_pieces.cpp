@@ -68,25 +68,35 @@ void PeopleMap::add_piece(std::span<const uint32_t> cells, const Shape& shape, u
     if (!cells.empty() && pieces_.size() < pieces_.capacity()) pieces_.push_back({cells, shape, slot, 0});
 }
 
+void PeopleMap::mark(std::span<const uint32_t> cells, Mark m) {
+    for (const uint32_t cell : cells) labels_[cell] |= m;
+}
+
+void PeopleMap::unmark(std::span<const uint32_t> cells, Mark m) {
+    for (const uint32_t cell : cells) labels_[cell] &= uint8_t(~m);
+}
+
 // A patch of wall or floor, that somebody has hidden until now or that was cut out of more of it: the same surface goes
-// on beside it. Around a person there is a step in depth.
+// on beside it. Around a person the scene lies farther away. What is nearer says nothing: it hides whatever there is.
 bool PeopleMap::surface_goes_on(std::span<const uint32_t> cells) {
     const uint32_t width = grid_.width(), height = grid_.height();
     const float* const depth = grid_.depth().data();
-    for (const uint32_t cell : cells) labels_[cell] = 1;
-    uint32_t joined = 0, stepped = 0;
+    mark(cells, kOwn);
+    uint32_t joined = 0, farther = 0;
     grid_.for_each(cells, [&](uint32_t cell, uint32_t x, uint32_t y) {
         const float z = depth[cell], same = same_surface_m(z);
         const auto look = [&](uint32_t next) {
-            if (!labels_[next] && depth[next] > 0.0f) ++(std::abs(depth[next] - z) < same ? joined : stepped);
+            if (labels_[next] || depth[next] == 0.0f) return;
+            joined += std::abs(depth[next] - z) < same;
+            farther += depth[next] - z >= same;
         };
         if (x > 0) look(cell - 1);
         if (x + 1 < width) look(cell + 1);
         if (y > 0) look(cell - width);
         if (y + 1 < height) look(cell + width);
     });
-    for (const uint32_t cell : cells) labels_[cell] = 0;
-    return joined > stepped && joined >= kFewestRim;
+    unmark(cells, kOwn);
+    return joined > farther && joined >= kFewestRim;
 }
 
 void PeopleMap::classify_new(std::span<const uint32_t> cells, const Shape& shape) {
@@ -135,9 +145,11 @@ void PeopleMap::split_by_tracks(std::span<const uint32_t> cells, std::span<const
     splitter_.grow(farthest_m);
     std::array<std::span<const uint32_t>, Splitter::kMostSeeds + 1> kept;
     for (size_t k = 0; k <= slots.size(); ++k) kept[k] = keep(splitter_.piece(uint8_t(k)));
+    for (size_t k = 1; k <= slots.size(); ++k) mark(kept[k], kTracked);
     if (!kept[0].empty()) classify_new(kept[0], measure(kept[0]));
     for (size_t k = 1; k <= slots.size(); ++k)
         if (!kept[k].empty()) add_person(kept[k], slots[k - 1]);
+    for (size_t k = 1; k <= slots.size(); ++k) unmark(kept[k], kTracked);
 }
 
 // The splitter's pieces live until it splits the next component.
@@ -178,14 +190,16 @@ bool PeopleMap::split_by_heads(std::span<const uint32_t> cells, uint8_t fewest, 
             keeper = k;
         }
     }
+    std::array<std::span<const uint32_t>, Splitter::kMostSeeds + 1> kept;
+    for (uint8_t k = 1; k <= heads; ++k) mark(kept[k] = keep(splitter_.piece(k)), kBelowHead);
     for (uint8_t k = 1; k <= heads; ++k) {
-        const auto kept = keep(splitter_.piece(k));
-        if (kept.empty()) continue;
+        if (kept[k].empty()) continue;
         if (k == keeper)
-            add_piece(kept, measure(kept), slot);
+            add_piece(kept[k], measure(kept[k]), slot);
         else
-            classify_new(kept, measure(kept));
+            classify_new(kept[k], measure(kept[k]));
     }
+    for (uint8_t k = 1; k <= heads; ++k) unmark(kept[k], kBelowHead);
     return true;
 }
 

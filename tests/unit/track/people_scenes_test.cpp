@@ -136,6 +136,48 @@ TEST(HardScene, AForearmBeforeSomebodyElseStaysWithItsOwner) {
     EXPECT_GT(people.iou(scene, 2), 0.85);
 }
 
+TEST(HardScene, OneHalfBehindTheOtherAreTwoInTheFirstImage) {
+    RoomScene scene;
+    scene.people = {standing_person(-0.13f, -2.5f), standing_person(0.13f, -2.8f)};
+    scene.people[1].push_back({{-0.05f, 1.15f, -2.5f}, {0.13f, 1.15f, -2.7f}, 0.05f});  // a hand on the other's back
+    People people;
+    EXPECT_EQ(people.see(scene).size(), 2u);
+    EXPECT_GT(people.iou(scene, 1), 0.85);
+    EXPECT_GT(people.iou(scene, 2), 0.75) << "the arm that joins them is seen whole, its owner is not";
+}
+
+TEST(HardScene, WhoPassesCloseBehindSomebodyKeepsTheNumber) {
+    RoomScene scene;
+    scene.people.resize(2);
+    People people;
+    uint8_t first = 0, second = 0;
+    for (int i = 0; i <= 70; ++i) {
+        const float x = -0.7f + 0.02f * float(i);
+        scene.people[0] = standing_person(x, -2.4f);
+        scene.people[1] = standing_person(-x, -2.75f);
+        people.see(scene);
+        if (i == 0) first = people.label_of(scene, 1), second = people.label_of(scene, 2);
+    }
+    ASSERT_NE(first, 0);
+    ASSERT_NE(second, 0);
+    EXPECT_EQ(people.label_of(scene, 1), first);
+    EXPECT_EQ(people.label_of(scene, 2), second);
+    EXPECT_GT(people.iou(scene, 1), 0.95);
+    EXPECT_GT(people.iou(scene, 2), 0.95);
+}
+
+TEST(HardScene, TheWallBehindWhoWalksAwayIsNobody) {
+    RoomScene scene;
+    scene.wall_z = -3.2f;
+    scene.side_x = 1.1f;
+    scene.people.resize(1);
+    People people;
+    for (int i = 0; i < 120; ++i) {
+        scene.people[0] = standing_person(0.7f - 0.025f * float(std::max(0, i - 50)), -2.6f);
+        ASSERT_EQ(people.see(scene).size(), 1u) << i;
+    }
+}
+
 TEST(HardScene, WhoEntersIsNotTakenForWhoHasLeft) {
     RoomScene scene;
     scene.people.push_back(standing_person(-0.8f, -2.6f));

@@ -64,6 +64,9 @@ struct RoomScene {
         std::normal_distribution<float> normal;
         const Mat3 turn(camera.world_from_camera());
         const Vec3 eye(0, camera.floor_distance_m, 0);
+        std::vector<Shown> shown;
+        for (const auto& dummy : dummies) shown.emplace_back(dummy, uint8_t(0));
+        for (size_t i = 0; i < people.size(); ++i) shown.emplace_back(people[i], uint8_t(i + 1));
         for (uint32_t v = 0; v < camera.height; ++v)
             for (uint32_t u = 0; u < camera.width; ++u) {
                 const Vec3 ray = turn * camera.unproject(float(u), float(v), 1.0f);
@@ -76,10 +79,9 @@ struct RoomScene {
                 if (wall_z < 0 && ray.z < 0) hit(wall_z / ray.z, 0);
                 if (side_x > 0 && ray.x > 0) hit(side_x / ray.x, 0);
                 for (const Block& b : things) hit(meet(eye, ray, b), 0);
-                for (const auto& dummy : dummies)
-                    for (const Capsule& c : dummy) hit(meet(eye, ray, c), 0);
-                for (size_t i = 0; i < people.size(); ++i)
-                    for (const Capsule& c : people[i]) hit(meet(eye, ray, c), uint8_t(i + 1));
+                for (const Shown& f : shown)
+                    if (f.near(eye, ray))
+                        for (const Capsule& c : *f.figure) hit(meet(eye, ray, c), f.who);
                 if (z > 6.0f) continue;
                 if (noise) {
                     z += normal(random) * (0.0012f + 0.0019f * (z - 0.4f) * (z - 0.4f));
@@ -93,6 +95,24 @@ struct RoomScene {
     }
 
 private:
+    /// A figure and a sphere around it, outside of which no ray need look for it.
+    struct Shown {
+        const std::vector<Capsule>* figure;
+        uint8_t who;
+        Vec3 centre{0.0f};
+        float radius = 0.0f;
+        Shown(const std::vector<Capsule>& capsules, uint8_t number) : figure(&capsules), who(number) {
+            for (const Capsule& c : capsules) centre += (c.a + c.b) / (2.0f * float(capsules.size()));
+            for (const Capsule& c : capsules)
+                radius = std::max({radius, glm::distance(centre, c.a) + c.radius, glm::distance(centre, c.b) + c.radius});
+        }
+        bool near(const Vec3& eye, const Vec3& ray) const {
+            const Vec3 to = centre - eye;
+            const float along = glm::dot(to, ray);
+            return glm::dot(to, to) - along * along / glm::dot(ray, ray) < radius * radius;
+        }
+    };
+
     static float meet(const Vec3& eye, const Vec3& ray, const Block& b) {
         float near = 0.0f, far = 1e9f;
         for (int k = 0; k < 3; ++k) {
