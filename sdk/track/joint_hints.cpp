@@ -18,34 +18,66 @@ constexpr float kGrow = 0.25f;       // of the box's size
 
 float place_of(int cell) { return (float(cell) + 0.5f) / (0.5f * kSide) - 1.0f; }
 
-void apply(const Vec2& place, float confidence, float* logits) {
+/// A hint in the crop.
+struct Evidence {
+    Evidence(const JointHint& hint, const CropView& view) : confidence(std::min(hint.confidence, kSurest)) {
+        const Vec2 from_centre = Vec2(hint.x, hint.y) - view.centre;
+        const float half = 0.5f * CropView::kPixels;
+        place = {glm::dot(from_centre, view.right) / glm::dot(view.right, view.right) / half,
+                 glm::dot(from_centre, view.down) / glm::dot(view.down, view.down) / half};
+    }
+    bool counts() const { return confidence > 0.0f && std::abs(place.x) <= 1.0f && std::abs(place.y) <= 1.0f; }
+    /// Density of the hint for a joint in that cell.
+    float of(int x, int y) const {
+        const float dx = (place_of(x) - place.x) / kSigma, dy = (place_of(y) - place.y) / kSigma;
+        const float anywhere = 0.25f * (1.0f - confidence);  // over the crop, whose area is 4
+        return anywhere + confidence / (2.0f * kPi * kSigma * kSigma) * std::exp(-0.5f * (dx * dx + dy * dy));
+    }
+
+    float confidence;
+    Vec2 place{0.0f};
+};
+
+/// visit(logit, belief that the joint is there) for each cell.
+template <typename Logit, typename Visit>
+void for_each_cell(Logit* logits, const Visit& visit) {
     const float highest = *std::max_element(logits, logits + JointMaps::kCells);
     float sum = 0.0f;
     for (int i = 0; i < JointMaps::kCells; ++i) sum += std::exp(logits[i] - highest);
-    const float anywhere = 0.25f * (1.0f - confidence);  // density over the crop, whose area is 4
-    const float near = confidence / (2.0f * kPi * kSigma * kSigma);
     for (int y = 0; y < kSide; ++y)
         for (int x = 0; x < kSide; ++x) {
-            float& logit = logits[y * kSide + x];
-            const float heat = std::exp(logit - highest) / sum;
-            const float dx = (place_of(x) - place.x) / kSigma, dy = (place_of(y) - place.y) / kSigma;
-            const float believed = (1.0f - kWrongHeat) * heat + kWrongHeat / JointMaps::kCells;
-            logit = std::log(believed * (anywhere + near * std::exp(-0.5f * (dx * dx + dy * dy))));
+            Logit& logit = logits[y * kSide + x];
+            visit(x, y, logit,
+                  (1.0f - kWrongHeat) * std::exp(logit - highest) / sum + kWrongHeat / JointMaps::kCells);
         }
+}
+
+float log_chance(const Evidence& evidence, const JointMaps& maps, int joint) {
+    float chance = 0.0f;
+    for_each_cell(maps.heat.data() + size_t(joint) * JointMaps::kCells,
+                  [&](int x, int y, float, float belief) { chance += belief * evidence.of(x, y); });
+    return std::log(chance);
 }
 
 }  // namespace
 
+void answer_facing(std::span<const JointHint> hints, const CropView& view, JointMaps& maps) {
+    for (const JointHint& hint : hints) {
+        const int other = mirrored_joint(hint.joint);
+        const Evidence evidence(hint, view);
+        if (other != hint.joint && evidence.counts())
+            maps.away += log_chance(evidence, maps, other) - log_chance(evidence, maps, hint.joint);
+    }
+}
+
 void apply_hints(std::span<const JointHint> hints, const CropView& view, bool away, JointMaps& maps) {
     for (const JointHint& hint : hints) {
-        const Vec2 from_centre = Vec2(hint.x, hint.y) - view.centre;
-        const float half = 0.5f * CropView::kPixels;
-        const Vec2 place(glm::dot(from_centre, view.right) / glm::dot(view.right, view.right) / half,
-                         glm::dot(from_centre, view.down) / glm::dot(view.down, view.down) / half);
-        const float confidence = std::min(hint.confidence, kSurest);
-        if (confidence <= 0.0f || !(std::abs(place.x) <= 1.0f && std::abs(place.y) <= 1.0f)) continue;
+        const Evidence evidence(hint, view);
+        if (!evidence.counts()) continue;
         const int joint = away ? mirrored_joint(hint.joint) : hint.joint;
-        apply(place, confidence, maps.heat.data() + size_t(joint) * JointMaps::kCells);
+        for_each_cell(
+            maps.heat.data() + size_t(joint) * JointMaps::kCells,
+            [&](int x, int y, float& logit, float belief) { logit = std::log(belief * evidence.of(x, y)); });
     }
 }
 

@@ -93,6 +93,7 @@ bool Tracker::see(const DepthImage& image, int64_t time_ns, const TrackTarget& t
     hints_of_one_.clear();
     for (const JointHint& hint : hints_)
         if (hint.person == target.id) hints_of_one_.push_back(hint);
+    answer_facing(hints_of_one_, view, maps_);
     apply_hints(hints_of_one_, view, person.facing.away(maps_.away), maps_);
     SeenJoints joints;
     read_maps(maps_, view, image.camera, joints);

@@ -51,12 +51,12 @@ protected:
     }
     /// Somebody turns about, so that one arm after the other is behind the body; hints `off` pixels from the
     /// truth.
-    Errors run(float confidence, float off) {
+    Errors run(float confidence, float off, int frames) {
         Errors errors;
         vfit_sensor sensor{};
-        EXPECT_EQ(vfit_sensor_open(
-                      context, "virtual:motion=turn&rate=6&frames=78&sensor=kinect_v1_320&seed=5", &sensor),
-                  VFIT_OK);
+        const std::string uri =
+            "virtual:motion=turn&rate=15&sensor=kinect_v1_320&seed=5&frames=" + std::to_string(frames);
+        EXPECT_EQ(vfit_sensor_open(context, uri.c_str(), &sensor), VFIT_OK);
         EXPECT_EQ(vfit_sensor_start(sensor), VFIT_OK);
         vfit_tracker_desc desc = vfit_tracker_desc_init();
         desc.joints = VFIT_TRACK_BUILT_IN;
@@ -102,7 +102,7 @@ protected:
 }  // namespace
 
 TEST_F(HintsTest, RightOnesHelpWhereAnArmIsHiddenAndWrongOnesDoLimitedHarm) {
-    const Errors without = run(0.0f, 0.0f), right = run(0.9f, 0.0f), wrong = run(0.5f, 40.0f);
+    const Errors without = run(0.0f, 0.0f, 190), right = run(0.9f, 0.0f, 190), wrong = run(0.5f, 40.0f, 190);
     ASSERT_GT(without.hidden.size(), 20u);
     ASSERT_GT(without.seen.size(), 100u);
     for (const auto& [name, errors] :
@@ -111,13 +111,13 @@ TEST_F(HintsTest, RightOnesHelpWhereAnArmIsHiddenAndWrongOnesDoLimitedHarm) {
                     1000 * Errors::mean(errors->hidden), errors->hidden.size(),
                     1000 * Errors::mean(errors->seen), errors->seen.size());
     EXPECT_LT(Errors::mean(right.hidden), 0.8 * Errors::mean(without.hidden));
-    EXPECT_LT(Errors::mean(right.seen), Errors::mean(without.seen));
+    EXPECT_LT(Errors::mean(right.seen), Errors::mean(without.seen) + 0.002);
     EXPECT_LT(Errors::mean(wrong.hidden), Errors::mean(without.hidden) + 0.04);
-    EXPECT_LT(Errors::mean(wrong.seen), Errors::mean(without.seen) + 0.02);
+    EXPECT_LT(Errors::mean(wrong.seen), Errors::mean(without.seen) + 0.04);
 }
 
 TEST_F(HintsTest, FarFromAnybodyTheyChangeNothing) {
-    const Errors without = run(0.0f, 0.0f), far = run(1.0f, 600.0f);
+    const Errors without = run(0.0f, 0.0f, 30), far = run(1.0f, 600.0f, 30);
     EXPECT_EQ(without.hidden, far.hidden);
     EXPECT_EQ(without.seen, far.seen);
 }

@@ -193,7 +193,7 @@ TEST_F(FilterTest, TheirStatesFollowTheirConfidence) {
 TEST_F(FilterTest, JointsOfASourceStayAsTheyAreUnlessTheHostWantsThemSteadied) {
     for (const vfit_joint_filter filter : {VFIT_FILTER_AUTO, VFIT_FILTER_ON}) {
         vfit_sensor sensor{};
-        ASSERT_EQ(vfit_sensor_open(context, "virtual:motion=wave&frames=12&sensor=kinect_v1_320", &sensor),
+        ASSERT_EQ(vfit_sensor_open(context, "virtual:motion=wave&frames=45&sensor=kinect_v1_320", &sensor),
                   VFIT_OK);
         ASSERT_EQ(vfit_sensor_start(sensor), VFIT_OK);
         vfit_tracker_desc desc = vfit_tracker_desc_init();

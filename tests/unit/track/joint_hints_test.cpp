@@ -103,6 +103,20 @@ TEST_F(JointHintsTest, OfSomebodyWhoFacesAwayGoToTheOtherSidesMap) {
     EXPECT_NEAR(place(VFIT_JOINT_RIGHT_HAND).x, 0.4f, 0.05f);
 }
 
+TEST_F(JointHintsTest, SayWhichSideSomebodyFaces) {
+    add_heat(*maps, VFIT_JOINT_LEFT_HAND, 0.4f, 0.0f, 1.0f);
+    add_heat(*maps, VFIT_JOINT_RIGHT_HAND, -0.4f, 0.0f, 1.0f);
+    maps->away = 0.0f;
+    const JointHint as_drawn[] = {hint(VFIT_JOINT_LEFT_HAND, 0.4f, 0.0f, 0.8f)};
+    answer_facing(as_drawn, view, *maps);
+    EXPECT_LT(maps->away, -2.0f);
+    maps->away = 0.0f;
+    const JointHint exchanged[] = {hint(VFIT_JOINT_LEFT_HAND, -0.4f, 0.0f, 0.8f),
+                                   hint(VFIT_JOINT_HEAD, 0.0f, 0.0f, 0.8f)};
+    answer_facing(exchanged, view, *maps);
+    EXPECT_GT(maps->away, 2.0f);
+}
+
 TEST_F(JointHintsTest, AreOfABoxWithSomeRoomAroundIt) {
     const PixelBox box{100, 40, 160, 200};
     EXPECT_TRUE(near_box({0, 130.0f, 100.0f, 1.0f, 0}, box));
