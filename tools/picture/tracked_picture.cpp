@@ -107,17 +107,27 @@ Canvas draw_scene(vfit_frame frame) {
             const float z = depth.at<float>(y, x);
             if (z == 0.0f) continue;
             const float t = std::clamp((z - kNearest_m) / (kFarthest_m - kNearest_m), 0.0f, 1.0f);
-            const float lit = 0.30f + 0.85f * light.at<float>(y, x);
+            const float lit = light.at<float>(y, x);
             const uint8_t id = users.at(x, y);
             if (id == 0)
-                canvas.set(x, y, times(mix(kNear, kFar, std::sqrt(t)), lit));
+                canvas.set(x, y, times(mix(kNear, kFar, std::sqrt(t)), 0.75f + 0.35f * lit));
             else if (users.outline(x, y))
                 canvas.set(x, y, person_color(id));
             else
-                canvas.set(x, y, times(mix(person_color(id), kNear, 0.25f), 0.78f * lit));
+                canvas.set(x, y, times(mix(person_color(id), kNear, 0.15f), 0.30f + 0.70f * lit));
         }
     return canvas;
 }
+
+/// Sizes of lines and letters, in pixels, go with the picture's width.
+struct Pen {
+    explicit Pen(const Canvas& canvas) : unit(float(canvas.width()) / 320.0f) {}
+    int line() const { return int(std::lround(1.2f * unit)); }
+    float dot() const { return 1.9f * unit; }
+    int letters() const { return int(std::lround(6.0f * unit)); }
+    float label() const { return 6.0f * unit; }
+    float unit;
+};
 
 /// A line with a dark rim, in dashes where asked for.
 void draw_bone(Canvas& canvas, const Projection::Pixel& a, const Projection::Pixel& b, int width,
@@ -139,21 +149,22 @@ void draw_joint(Canvas& canvas, float x, float y, float radius, bool measured, c
 }
 
 /// The id on a round label, above the highest joint; with a ring where it is the active person's.
-void draw_id(Canvas& canvas, const JointPixels& at, uint32_t id, bool active, int scale) {
+void draw_id(Canvas& canvas, const JointPixels& at, uint32_t id, bool active) {
     float x = 0.0f, y = 1e9f;
     for (const auto& p : at)
         if (p && p->y < y) x = p->x, y = p->y;
     if (y > 1e8f) return;
     const auto& head = at[VFIT_JOINT_HEAD];
-    const float above = 0.24f * (head ? head->per_metre : 0.0f);  // the top of the head and some air
+    const float above = 0.17f * (head ? head->per_metre : 0.0f);  // the top of the head and some air
     const std::string text = std::to_string(id);
-    const int height = 7 * scale, width = Canvas::text_width(text, height);
-    const float radius = 7.0f * float(scale);
+    const Pen pen(canvas);
+    const int height = pen.letters(), width = Canvas::text_width(text, height);
+    const float radius = pen.label();
     x = std::clamp(x, 2.0f * radius, float(canvas.width()) - 2.0f * radius);
     y = std::max(y - above - radius, radius + 2.0f);
     canvas.disc(x, y, radius + 2.0f, kDark);
     canvas.disc(x, y, radius, person_color(id));
-    if (active) canvas.ring(x, y, radius + 2.0f * float(scale), std::max(2, scale), kBone);
+    if (active) canvas.ring(x, y, radius + 2.0f * pen.unit, pen.line(), kBone);
     canvas.text(int(x) - width / 2, int(y) + height / 2, text, height, kDark);
 }
 
@@ -162,17 +173,22 @@ void draw_person(Canvas& canvas, vfit_frame frame, uint32_t id, bool active, int
     const JointPixels at = project_joints(Projection(frame, scale), joints);
     std::array<bool, VFIT_JOINT_COUNT> measured{};
     for (const vfit_joint& j : joints) measured[size_t(j.joint)] = j.state == VFIT_JOINT_MEASURED;
-    for (const auto& [a, b] : drawn_bones(at))
-        draw_bone(canvas, *at[size_t(a)], *at[size_t(b)], scale + 1,
+    const Pen pen(canvas);
+    std::array<bool, VFIT_JOINT_COUNT> on_a_bone{};  // others would be loose dots: chest and clavicles
+    for (const auto& [a, b] : drawn_bones(at)) {
+        on_a_bone[size_t(a)] = on_a_bone[size_t(b)] = true;
+        draw_bone(canvas, *at[size_t(a)], *at[size_t(b)], pen.line(),
                   !measured[size_t(a)] || !measured[size_t(b)]);
+    }
     for (const vfit_joint& j : joints)
-        if (const auto& p = at[size_t(j.joint)])
-            draw_joint(canvas, p->x, p->y, 1.9f * float(scale), measured[size_t(j.joint)], person_color(id));
-    draw_id(canvas, at, id, active, scale);
+        if (on_a_bone[size_t(j.joint)])
+            draw_joint(canvas, at[size_t(j.joint)]->x, at[size_t(j.joint)]->y, pen.dot(),
+                       measured[size_t(j.joint)], person_color(id));
+    draw_id(canvas, at, id, active);
 }
 
 /// The caption, and what the dots mean.
-void draw_footer(Canvas& canvas, int top, int height, int scale, const std::string& caption) {
+void draw_footer(Canvas& canvas, int top, int height, const std::string& caption) {
     const int letters = height * 3 / 8, base = top + (height + letters) / 2, middle = top + height / 2;
     canvas.fill_rect(0, top, canvas.width(), height, kDark);
     canvas.text(height / 2, base, caption, letters, kInk);
@@ -181,7 +197,7 @@ void draw_footer(Canvas& canvas, int top, int height, int scale, const std::stri
         x -= Canvas::text_width(text, letters);
         canvas.text(x, base, text, letters, kSoftInk);
         x -= height / 2;
-        draw_joint(canvas, float(x), float(middle), 1.9f * float(scale), measured, kInk);
+        draw_joint(canvas, float(x), float(middle), Pen(canvas).dot(), measured, kInk);
         x -= height * 3 / 4;
     }
 }
@@ -200,7 +216,7 @@ Canvas draw_tracked(vfit_frame frame, int scale, const std::string& caption) {
     const uint32_t active = bodies.size() > 1 ? active_body(frame) : 0;
     for (const vfit_body& body : bodies)
         draw_person(canvas, frame, body.body_id, body.body_id == active, scale);
-    draw_footer(canvas, height, footer, scale, caption);
+    draw_footer(canvas, height, footer, caption);
     return canvas;
 }
 
