@@ -3,21 +3,13 @@
 #include <cmath>
 
 #include "avatar/avatar.h"
+#include "body/joint_bones.h"
 #include "core/error.h"
 #include "measure/mesh_query.h"
 
 namespace vfit {
 
 namespace {
-
-// The humanoid bone whose start each joint is (HEAD and HAND lie on theirs).
-constexpr int kBoneOfJoint[kJointCount] = {
-    VFIT_BONE_HEAD,            VFIT_BONE_NECK,            VFIT_BONE_CHEST,          VFIT_BONE_LEFT_UPPER_ARM,
-    VFIT_BONE_RIGHT_UPPER_ARM, VFIT_BONE_LEFT_LOWER_ARM,  VFIT_BONE_RIGHT_LOWER_ARM, VFIT_BONE_LEFT_HAND,
-    VFIT_BONE_RIGHT_HAND,      VFIT_BONE_LEFT_UPPER_LEG,  VFIT_BONE_RIGHT_UPPER_LEG, VFIT_BONE_LEFT_LOWER_LEG,
-    VFIT_BONE_RIGHT_LOWER_LEG, VFIT_BONE_LEFT_FOOT,       VFIT_BONE_RIGHT_FOOT,     VFIT_BONE_HIPS,
-    VFIT_BONE_UPPER_CHEST,     VFIT_BONE_LEFT_SHOULDER,   VFIT_BONE_RIGHT_SHOULDER, VFIT_BONE_LEFT_HAND,
-    VFIT_BONE_RIGHT_HAND,      VFIT_BONE_LEFT_TOES,       VFIT_BONE_RIGHT_TOES};
 
 struct CapsuleEnds {
     int a, b;
@@ -47,9 +39,9 @@ static_assert(kPaperJointCount + int(std::size(kCapsules)) == kColliderCount);
 
 void Avatar::place_joints() {
     for (int j = 0; j < kJointCount; ++j) {
-        const AvatarBone& bone = rig_bones()[static_cast<size_t>(rig_.rig_bone(kBoneOfJoint[j]))];
-        const bool middle = j == VFIT_JOINT_HEAD || j == VFIT_JOINT_LEFT_HAND || j == VFIT_JOINT_RIGHT_HAND;
-        anchors_[static_cast<size_t>(j)] = middle ? 0.5f * (bone.rest_head + bone.rest_tail) : bone.rest_head;
+        const JointPlace place = kJointPlaces[static_cast<size_t>(j)];
+        const AvatarBone& bone = rig_bones()[static_cast<size_t>(rig_.rig_bone(place.bone))];
+        anchors_[static_cast<size_t>(j)] = place.middle ? 0.5f * (bone.rest_head + bone.rest_tail) : bone.rest_head;
     }
 }
 
@@ -74,7 +66,7 @@ void Avatar::set_collider_radii(std::span<const float, kPaperJointCount> radii) 
 }
 
 Vec3 Avatar::joint_position(int joint, std::span<const Mat4> matrices) const {
-    const auto rig = static_cast<size_t>(rig_.rig_bone(kBoneOfJoint[joint]));
+    const auto rig = static_cast<size_t>(rig_.rig_bone(kJointPlaces[static_cast<size_t>(joint)].bone));
     return Vec3(matrices[rig] * Vec4(anchors_[static_cast<size_t>(joint)], 1.0f));
 }
 
@@ -83,7 +75,7 @@ Body Avatar::joints_of(const PosedSkeleton& posed, std::span<const Mat4> matrice
     for (int j = 0; j < kJointCount; ++j) {
         body.set(j, joint_position(j, matrices));
         Joint& joint = body.joints[static_cast<size_t>(j)];
-        joint.rotation = posed.rotation[static_cast<size_t>(kBoneOfJoint[j])];
+        joint.rotation = posed.rotation[static_cast<size_t>(kJointPlaces[static_cast<size_t>(j)].bone)];
         joint.has_rotation = true;
     }
     return body;

@@ -43,5 +43,6 @@ void add_recordings(Command& app);
 void add_track(Command& app);
 void add_cloth(Command& app);
 void add_user_map(Command& app);
+void add_fit(Command& app);
 
 }  // namespace vfit::tools

@@ -1,0 +1,269 @@
+#include "fit/body_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/clock.h"
+#include "math/finite.h"
+
+namespace vfit {
+
+namespace {
+
+constexpr float kUsualLayer = 0.8f, kLayerSpread = 1.0f;  // units of kLayerUnit_m
+constexpr float kLeastConfidence = 0.15f;                 // of a joint that is used at all
+// One frame's information about the shape that counts: the errors of frames that follow each other are much the same.
+constexpr double kFrameShare = 0.5;
+constexpr int kShapeFrames = 300;        // then the shape moves by 1/150 of what a frame says
+constexpr float kGoodIou = 0.70f, kGoodMedian_m = 0.04f;
+constexpr float kFrame_s = 1.0f / 30.0f;
+constexpr float kLongestStep_rad = 0.6f, kLongestStep_m = 0.3f;
+constexpr double kDamping = 1.0;         // rad^-2 and m^-2: for directions that nothing holds
+constexpr int kReachSteps = 3, kReachStepsAtFirst = 25;
+constexpr float kWideRobust_m = 0.10f;
+constexpr float kBetter = 0.97f;         // of the cost: the other start has to win by this
+
+bool good(const FitScore& score) { return score.iou >= kGoodIou && score.median_m <= kGoodMedian_m; }
+
+bool finite(const FitState& state) {
+    for (const Quat& q : state.rotation)
+        if (!vfit::finite(q)) return false;
+    for (const float s : state.shape)
+        if (!std::isfinite(s)) return false;
+    return vfit::finite(state.hips);
+}
+
+/// The step cut where it is longer than what the linear equations hold for.
+void limit(FitVector& step) {
+    double scale = 1.0;
+    for (size_t i = 0; i < size_t(kFitPoseUnknowns); ++i) {
+        const double most = i < size_t(kFitHipsColumn) ? kLongestStep_rad : kLongestStep_m;
+        if (std::abs(step[i]) * scale > most) scale = most / std::abs(step[i]);
+    }
+    for (double& x : step) x *= scale;
+}
+
+/// Lower triangle of the inverse's diagonal by Cholesky; `matrix` is positive definite.
+FitShape standard_deviations(const FitShapeMatrix& matrix) {
+    constexpr size_t n = kFitShapes;
+    FitShapeMatrix factor{};
+    for (size_t i = 0; i < n; ++i)
+        for (size_t j = 0; j <= i; ++j) {
+            double sum = matrix[i][j];
+            for (size_t k = 0; k < j; ++k) sum -= factor[i][k] * factor[j][k];
+            factor[i][j] = i == j ? std::sqrt(std::max(sum, 1e-12)) : sum / factor[j][j];
+        }
+    FitShape out{};
+    for (size_t column = 0; column < n; ++column) {
+        // Solve L y = e: the diagonal of the inverse is the sum of the squares of y's.
+        std::array<double, n> y{};
+        for (size_t i = column; i < n; ++i) {
+            double sum = i == column ? 1.0 : 0.0;
+            for (size_t k = column; k < i; ++k) sum -= factor[i][k] * y[k];
+            y[i] = sum / factor[i][i];
+        }
+        double squares = 0.0;
+        for (const double v : y) squares += v * v;
+        out[column] = float(std::sqrt(squares));
+    }
+    return out;
+}
+
+}  // namespace
+
+FitShape usual_shape() {
+    FitShape shape{};
+    for (size_t i = kFitComponents; i < size_t(kFitShapes); ++i) shape[i] = kUsualLayer;
+    return shape;
+}
+
+BodyFit::BodyFit(std::shared_ptr<const FitModel> model, const BodyFitOptions& options)
+    : model_(std::move(model)), options_(options), body_(*model_) {
+    targets_.reserve(model_->vertex_count());
+    reset();
+}
+
+void BodyFit::reset() {
+    tracked_ = false;
+    shape_ = usual_shape();
+    seen_ = {};
+    shape_frames_ = 0;
+    out_ = BodyFitOutput{};
+}
+
+FitShapeMatrix BodyFit::shape_knowledge() const {
+    FitShapeMatrix out = seen_;
+    const double share = kFrameShare * double(shape_frames_);
+    for (auto& row : out)
+        for (double& x : row) x *= share;
+    for (size_t i = 0; i < size_t(kFitShapes); ++i)
+        out[i][i] += i < size_t(kFitComponents) ? 1.0 : 1.0 / double(kLayerSpread * kLayerSpread);
+    return out;
+}
+
+bool BodyFit::start_from_joints(const FitJoints& joints, FitState& state) const {
+    const auto at = [&](int j) { return joints[size_t(j)].place; };
+    for (const int j : {VFIT_JOINT_LEFT_SHOULDER, VFIT_JOINT_RIGHT_SHOULDER, VFIT_JOINT_LEFT_HIP, VFIT_JOINT_RIGHT_HIP})
+        if (joints[size_t(j)].confidence <= 0.0f) return false;
+    const Vec3 hips = 0.5f * (at(VFIT_JOINT_LEFT_HIP) + at(VFIT_JOINT_RIGHT_HIP));
+    const Vec3 shoulders = 0.5f * (at(VFIT_JOINT_LEFT_SHOULDER) + at(VFIT_JOINT_RIGHT_SHOULDER));
+    Vec3 up = shoulders - hips;
+    Vec3 left = at(VFIT_JOINT_LEFT_SHOULDER) - at(VFIT_JOINT_RIGHT_SHOULDER) + at(VFIT_JOINT_LEFT_HIP) - at(VFIT_JOINT_RIGHT_HIP);
+    if (glm::length(up) < 0.05f || glm::length(left) < 0.02f) return false;
+    up = glm::normalize(up);
+    left -= glm::dot(left, up) * up;
+    if (glm::length(left) < 0.01f) return false;
+    left = glm::normalize(left);
+    state = FitState{};
+    state.shape = shape_;
+    state.hips = hips;
+    state.rotation[VFIT_BONE_HIPS] = glm::normalize(glm::quat_cast(Mat3(left, up, glm::cross(left, up))));
+    const Quat lowered(std::cos(0.6f), 0.0f, 0.0f, -std::sin(0.6f));  // 1.2 rad: arms hang
+    state.rotation[VFIT_BONE_LEFT_UPPER_ARM] = lowered;
+    state.rotation[VFIT_BONE_RIGHT_UPPER_ARM] = glm::conjugate(lowered);
+    return true;
+}
+
+void BodyFit::reach_for_joints(const FitJoints& joints, int steps, FitState& state) {
+    const FitShapeMatrix knowledge = shape_knowledge();
+    for (int i = 0; i < steps; ++i) {
+        body_.place(state);
+        equations_.start(body_);
+        add_joint_rows(joints, body_, options_.weights, equations_);
+        equations_.finish();
+        add_pose_priors(state, equations_);
+        std::array<double, kFitShapes> back;
+        for (size_t s = 0; s < back.size(); ++s) back[s] = double(shape_[s] - state.shape[s]);
+        equations_.add_shape_prior(knowledge, back);
+        for (int c = 0; c < kFitPoseUnknowns; ++c) equations_.add_prior(c, 0.0, 10.0 * kDamping);
+        FitVector step;
+        if (!equations_.solve(step)) return;
+        limit(step);
+        if (!options_.shape) std::fill(step.begin() + kFitPoseUnknowns, step.end(), 0.0);
+        apply_step(step, state);
+    }
+}
+
+FitScore BodyFit::score_of(const FitState& state) {
+    body_.place(state);
+    raster_.draw(body_, view_);
+    return raster_.score(view_);
+}
+
+bool BodyFit::step(const BodyFitInput& input, const FitState* last, float frames, float robust_m, FitState& state) {
+    body_.place(state);
+    raster_.draw(body_, view_);
+    FitWeights weights = options_.weights;
+    weights.robust_m = robust_m;
+    equations_.start(body_);
+    out_.matched = options_.depth_rows ? add_depth_rows(view_, body_, raster_, weights, targets_, equations_) : 0;
+    if (options_.outline_rows) add_outline_rows(view_, body_, weights, equations_);
+    if (options_.joint_rows) add_joint_rows(input.joints, body_, weights, equations_);
+    equations_.finish();
+    add_pose_priors(state, equations_);
+    if (last) add_motion_priors(state, *last, frames, equations_);
+    std::array<double, kFitShapes> back;
+    for (size_t s = 0; s < back.size(); ++s) back[s] = double(shape_[s] - state.shape[s]);
+    equations_.add_shape_prior(shape_knowledge(), back);
+    for (int c = 0; c < kFitPoseUnknowns; ++c) equations_.add_prior(c, 0.0, kDamping);
+    FitVector change;
+    if (!equations_.solve(change)) return false;
+    limit(change);
+    if (!options_.shape) std::fill(change.begin() + kFitPoseUnknowns, change.end(), 0.0);
+    apply_step(change, state);
+    return true;
+}
+
+void BodyFit::learn_shape(const FitShape& shape) {
+    // What the last step's equations know beyond what was known before it.
+    const FitShapeMatrix& now = equations_.shape_information();
+    const FitShapeMatrix before = shape_knowledge();
+    shape_frames_ = std::min(shape_frames_ + 1, kShapeFrames);
+    for (size_t i = 0; i < size_t(kFitShapes); ++i)
+        for (size_t j = 0; j < size_t(kFitShapes); ++j)
+            seen_[i][j] += (now[i][j] - before[i][j] - seen_[i][j]) / double(shape_frames_);
+    shape_ = shape;
+}
+
+const BodyFitOutput& BodyFit::run(const BodyFitInput& input_as_given) {
+    BodyFitInput input = input_as_given;
+    for (FitJoint& joint : input.joints)
+        if (!vfit::finite(joint.place) || !(joint.confidence >= kLeastConfidence)) joint.confidence = 0.0f;
+    out_.state = BodyFitState::kNothing;
+    out_.matched = 0;
+    out_.score = out_.start_score = FitScore{};
+    const double gap_s = seconds_between(last_ns_, input.time_ns);
+    const float frames = float(gap_s) / kFrame_s;
+    const bool follow = tracked_ && gap_s > 0.0 && gap_s < 0.5;
+    if (!view_.look(input.image, input.user, input.box)) {
+        tracked_ = false;
+        return out_;
+    }
+
+    FitState state;
+    bool started = false;
+    out_.from_last = false;
+    if (follow) {
+        FitState reached = last_;
+        reach_for_joints(input.joints, kReachSteps, reached);
+        const FitScore from_last = score_of(last_), from_joints = score_of(reached);
+        out_.from_last = from_last.cost * kBetter <= from_joints.cost;
+        state = out_.from_last ? last_ : reached;
+        out_.start_score = out_.from_last ? from_last : from_joints;
+        started = true;
+    }
+    if (!started || !good(out_.start_score)) {
+        FitState afresh;
+        if (start_from_joints(input.joints, afresh)) {
+            reach_for_joints(input.joints, kReachStepsAtFirst, afresh);
+            const FitScore score = score_of(afresh);
+            if (!started || score.cost < kBetter * out_.start_score.cost) {
+                state = afresh;
+                out_.start_score = score;
+                out_.from_last = false;
+            }
+            started = true;
+        }
+    }
+    if (!started) {
+        tracked_ = false;
+        return out_;
+    }
+
+    const bool calm = follow && good(out_.start_score);
+    const int steps = calm ? options_.steps : options_.steps_at_first;
+    bool solved = true;
+    for (int i = 0; solved && i < steps; ++i) {
+        const float robust_m = !calm && i < 2 ? kWideRobust_m : options_.weights.robust_m;
+        solved = step(input, follow ? &last_ : nullptr, frames, robust_m, state);
+    }
+    if (!solved || !finite(state)) {
+        tracked_ = false;
+        return out_;
+    }
+    out_.score = score_of(state);
+    out_.state = good(out_.score) ? BodyFitState::kGood : BodyFitState::kPoor;
+    if (out_.state == BodyFitState::kGood && options_.shape) {
+        learn_shape(state.shape);
+    } else if (options_.shape) {
+        state.shape = shape_;  // one bad picture does not change a body
+    }
+    tracked_ = out_.state == BodyFitState::kGood;
+    last_ = state;
+    last_ns_ = input.time_ns;
+    tell(input);
+    return out_;
+}
+
+void BodyFit::tell(const BodyFitInput& input) {
+    body_.place(last_);
+    out_.pose = last_;
+    out_.joints = body_.joints();
+    for (size_t j = 0; j < size_t(kJointCount); ++j) {
+        out_.rotations[j] = body_.bone_rotations()[size_t(kJointPlaces[j].bone)];
+        out_.confidence[j] = input.joints[j].confidence;
+    }
+    out_.shape_sd = standard_deviations(shape_knowledge());
+}
+
+}  // namespace vfit
