@@ -127,7 +127,7 @@ bool BodyFit::start_from_joints(const FitJoints& joints, FitState& state) const 
 void BodyFit::reach_for_joints(const FitJoints& joints, int steps, FitState& state) {
     const FitShapeMatrix knowledge = shape_knowledge();
     for (int i = 0; i < steps; ++i) {
-        body_.place(state);
+        body_.place_bones(state);
         equations_.start(body_);
         add_joint_rows(joints, body_, options_.weights, equations_);
         equations_.finish();

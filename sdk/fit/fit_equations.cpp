@@ -66,7 +66,8 @@ void FitEquations::start(const FitBody& body) {
     if (model_ != &body.model()) find_movers(body.model());
     for (Group& group : groups_) {
         group.count = 0;
-        std::fill(group.product.begin(), group.product.end(), 0.0f);
+        if (group.used) std::fill(group.product.begin(), group.product.end(), 0.0f);
+        group.used = false;
     }
     for (auto& row : matrix_) row.fill(0.0);
     right_.fill(0.0);
@@ -83,6 +84,7 @@ void FitEquations::start(const FitBody& body) {
 
 float* FitEquations::new_row(Group& group) {
     if (group.count == kRowsAtOnce) flush(group);
+    group.used = true;
     float* row = group.rows.data() + group.count++ * group.columns;
     std::fill_n(row, group.columns, 0.0f);
     return row;
@@ -163,6 +165,7 @@ void FitEquations::scatter(const Group& group) {
 
 void FitEquations::finish() {
     for (Group& group : groups_) {
+        if (!group.used) continue;
         flush(group);
         scatter(group);
     }
@@ -208,39 +211,36 @@ void FitEquations::add_shape_prior(const FitShapeMatrix& information, const std:
 }
 
 bool FitEquations::solve(FitVector& step) {
+    // Cholesky, matrix = U^T U with U in the upper triangle, by rows: the inner loop runs along memory.
     constexpr size_t n = kFitUnknowns;
     constexpr size_t pose = kFitPoseUnknowns;
-    for (size_t i = 0; i < n; ++i) {
-        double* row = factor_[i].data();
-        for (size_t j = 0; j <= i; ++j) {
-            const double* other = factor_[j].data();
-            double sum = matrix_[i][j];
-            for (size_t k = 0; k < j; ++k) sum -= row[k] * other[k];
-            if (i != j) {
-                row[j] = sum / other[j];
-            } else {
-                if (!(sum > 1e-9) || !std::isfinite(sum)) return false;
-                row[j] = std::sqrt(sum);
-            }
+    for (size_t i = 0; i < n; ++i) std::copy(matrix_[i].begin() + std::ptrdiff_t(i), matrix_[i].end(), factor_[i].begin() + std::ptrdiff_t(i));
+    FitVector y = right_;
+    for (size_t k = 0; k < n; ++k) {
+        double* pivot = factor_[k].data();
+        if (!(pivot[k] > 1e-9) || !std::isfinite(pivot[k])) return false;
+        const double inverse = 1.0 / std::sqrt(pivot[k]);
+        for (size_t j = k; j < n; ++j) pivot[j] *= inverse;
+        y[k] *= inverse;  // of U^T y = right side
+        for (size_t i = k + 1; i < n; ++i) {
+            const double share = pivot[i];
+            if (share == 0.0) continue;  // limbs know nothing of each other
+            double* row = factor_[i].data();
+            for (size_t j = i; j < n; ++j) row[j] -= share * pivot[j];
+            y[i] -= share * y[k];
         }
-    }
-    FitVector y;
-    for (size_t i = 0; i < n; ++i) {
-        double sum = right_[i];
-        for (size_t k = 0; k < i; ++k) sum -= factor_[i][k] * y[k];
-        y[i] = sum / factor_[i][i];
     }
     for (size_t i = n; i-- > 0;) {
         double sum = y[i];
-        for (size_t k = i + 1; k < n; ++k) sum -= factor_[k][i] * step[k];
+        for (size_t k = i + 1; k < n; ++k) sum -= factor_[i][k] * step[k];
         step[i] = sum / factor_[i][i];
         if (!std::isfinite(step[i])) return false;
     }
     // The pose's unknowns stand first, so that the factor's last block is the factor of the Schur complement.
     for (size_t i = 0; i < size_t(kFitShapes); ++i)
-        for (size_t j = 0; j <= i; ++j) {
+        for (size_t j = i; j < size_t(kFitShapes); ++j) {
             double sum = 0.0;
-            for (size_t k = 0; k <= j; ++k) sum += factor_[pose + i][pose + k] * factor_[pose + j][pose + k];
+            for (size_t k = 0; k <= i; ++k) sum += factor_[pose + k][pose + i] * factor_[pose + k][pose + j];
             shape_information_[i][j] = shape_information_[j][i] = sum;
         }
     return true;

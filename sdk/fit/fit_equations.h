@@ -46,6 +46,7 @@ private:
         std::array<int, kBoneCount> place{};  // of a bone among them; -1
         size_t columns = 0;                   // padded
         size_t count = 0;
+        bool used = true;  // product is not zero
         std::vector<float> rows, product;
     };
     /// Which bone moves how much of a vertex.

@@ -38,15 +38,12 @@ FitBody::FitBody(const FitModel& model)
       normals_(model.vertex_count()),
       carried_(model.places().size()) {}
 
-void FitBody::place(const FitState& state) {
-    if (!shaped_ || shape_ != state.shape) {
-        shape_ = state.shape;
-        shaped_ = true;
-        for (size_t v = 0; v < positions_.size(); ++v)
-            for (size_t k = 0; k < size_t(model_.vertices()[v].influence_count); ++k)
-                places_[v * kFitInfluences + k] = model_.places()[v * kFitInfluences + k].at(shape_);
-        for (size_t b = 0; b < offsets_.size(); ++b) offsets_[b] = model_.offsets()[b].at(shape_);
-        for (size_t j = 0; j < joint_places_.size(); ++j) joint_places_[j] = model_.joints()[j].at(shape_);
+void FitBody::place_bones(const FitState& state) {
+    if (!bones_shaped_ || bone_shape_ != state.shape) {
+        bone_shape_ = state.shape;
+        bones_shaped_ = true;
+        for (size_t b = 0; b < offsets_.size(); ++b) offsets_[b] = model_.offsets()[b].at(bone_shape_);
+        for (size_t j = 0; j < joint_places_.size(); ++j) joint_places_[j] = model_.joints()[j].at(bone_shape_);
     }
     for (int b = 0; b < kBoneCount; ++b) {
         const auto i = size_t(b);
@@ -60,6 +57,21 @@ void FitBody::place(const FitState& state) {
             bone_places_[i] = bone_places_[p] + bone_turns_[p] * offsets_[i];
         }
         bone_turns_[i] = glm::mat3_cast(bone_rotations_[i]);
+    }
+    for (size_t j = 0; j < joints_.size(); ++j) {
+        const auto b = size_t(kJointPlaces[j].bone);
+        joints_[j] = bone_places_[b] + bone_turns_[b] * joint_places_[j];
+    }
+}
+
+void FitBody::place(const FitState& state) {
+    place_bones(state);
+    if (!skin_shaped_ || skin_shape_ != state.shape) {
+        skin_shape_ = state.shape;
+        skin_shaped_ = true;
+        for (size_t v = 0; v < positions_.size(); ++v)
+            for (size_t k = 0; k < size_t(model_.vertices()[v].influence_count); ++k)
+                places_[v * kFitInfluences + k] = model_.places()[v * kFitInfluences + k].at(skin_shape_);
     }
     const auto& vertices = model_.vertices();
     for (size_t v = 0; v < vertices.size(); ++v) {
@@ -75,10 +87,6 @@ void FitBody::place(const FitState& state) {
         positions_[v] = position;
         const float length = glm::length(normal);
         normals_[v] = length > 1e-6f ? normal / length : Vec3(0, 0, -1);
-    }
-    for (size_t j = 0; j < joints_.size(); ++j) {
-        const auto b = size_t(kJointPlaces[j].bone);
-        joints_[j] = bone_places_[b] + bone_turns_[b] * joint_places_[j];
     }
 }
 

@@ -42,8 +42,10 @@ class FitBody {
 public:
     explicit FitBody(const FitModel& model);
 
-    /// Does not allocate. The shape is evaluated anew only where it has changed.
+    /// Bones, joints and skin. Does not allocate. The shape is evaluated anew only where it has changed.
     void place(const FitState& state);
+    /// Bones and joints alone: the skin stays where it was.
+    void place_bones(const FitState& state);
 
     const FitModel& model() const { return model_; }
     const std::vector<Vec3>& positions() const { return positions_; }
@@ -57,8 +59,8 @@ public:
 
 private:
     const FitModel& model_;
-    FitShape shape_{};
-    bool shaped_ = false;
+    FitShape skin_shape_{}, bone_shape_{};  // that places_ and offsets_ are of
+    bool skin_shaped_ = false, bones_shaped_ = false;
     std::vector<Vec3> places_;  // kFitInfluences a vertex, in bone frames
     std::array<Vec3, kBoneCount> offsets_{};
     std::array<Vec3, kJointCount> joint_places_{};

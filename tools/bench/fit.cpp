@@ -168,14 +168,16 @@ private:
     std::vector<Body> bodies_;
 };
 
-Errors errors_of(const std::vector<Sequence>& all, std::vector<Pair> Sequence::*pairs, const Offsets& offsets, bool others_only) {
+/// `shift`: frames that the reference lags behind the depth.
+Errors errors_of(const std::vector<Sequence>& all, std::vector<Pair> Sequence::*pairs, const Offsets& offsets, bool others_only,
+                 size_t shift = 0) {
     Errors errors;
     for (const Sequence& s : all) {
         if (others_only && s.person == "s1") continue;
-        for (const Pair& p : s.*pairs) {
-            const Joints found = offsets.apply(p.tracked);
+        for (size_t i = shift; i < (s.*pairs).size(); ++i) {
+            const Joints found = offsets.apply((s.*pairs)[i - shift].tracked);
             for (int j = 0; j < kScored; ++j)
-                if (const double d = distance(found, p.reference, j); std::isfinite(d)) errors.add(j, d);
+                if (const double d = distance(found, (s.*pairs)[i].reference, j); std::isfinite(d)) errors.add(j, d);
         }
     }
     return errors;
@@ -251,6 +253,11 @@ Json report(const std::string& title, const std::vector<Sequence>& all, const Sa
     if (offsets) {
         print_errors("network, offsets fitted on s1, the others", off_network);
         print_errors("network and fit, the same", off_fit);
+        for (const size_t shift : {size_t(1), size_t(2)}) {
+            const std::string later = ", reference " + std::to_string(shift) + " later";
+            print_errors(("network" + later).c_str(), errors_of(all, &Sequence::network, offsets_of(all, &Sequence::network), true, shift));
+            print_errors(("network and fit" + later).c_str(), errors_of(all, &Sequence::fitted, offsets_of(all, &Sequence::fitted), true, shift));
+        }
     }
     std::cout << "    median mm by joint, network -> fit" << (offsets ? " (offsets: network -> fit)" : "") << "\n";
     for (int j = 0; j < kScored; ++j) {

@@ -136,7 +136,7 @@ TEST(BodyFit, TheShapeSettlesAndIsForgottenOnReset) {
         if (i == 30) at_second = out.pose.shape;
         later = out.pose.shape;
     }
-    const FitShape& sd = fit.output().shape_sd;
+    const FitShape sd = fit.output().shape_sd;
     for (size_t s = 0; s < size_t(kFitShapes); ++s) {
         EXPECT_LT(sd[s], first_sd[s]);
         EXPECT_NEAR(later[s], at_second[s], 0.1f) << s;
