@@ -215,7 +215,8 @@ bool FitEquations::solve(FitVector& step) {
     constexpr size_t n = kFitUnknowns;
     constexpr size_t pose = kFitPoseUnknowns;
     for (size_t i = 0; i < n; ++i) std::copy(matrix_[i].begin() + std::ptrdiff_t(i), matrix_[i].end(), factor_[i].begin() + std::ptrdiff_t(i));
-    FitVector y = right_;
+    FitVector& y = half_solved_;
+    y = right_;
     for (size_t k = 0; k < n; ++k) {
         double* pivot = factor_[k].data();
         if (!(pivot[k] > 1e-9) || !std::isfinite(pivot[k])) return false;
@@ -230,12 +231,14 @@ bool FitEquations::solve(FitVector& step) {
             y[i] -= share * y[k];
         }
     }
-    for (size_t i = n; i-- > 0;) {
+    for (size_t i = n; i-- > pose;) {
         double sum = y[i];
         for (size_t k = i + 1; k < n; ++k) sum -= factor_[i][k] * step[k];
         step[i] = sum / factor_[i][i];
-        if (!std::isfinite(step[i])) return false;
     }
+    solve_pose(step);
+    for (const double x : step)
+        if (!std::isfinite(x)) return false;
     // The pose's unknowns stand first, so that the factor's last block is the factor of the Schur complement.
     for (size_t i = 0; i < size_t(kFitShapes); ++i)
         for (size_t j = i; j < size_t(kFitShapes); ++j) {
@@ -243,7 +246,19 @@ bool FitEquations::solve(FitVector& step) {
             for (size_t k = 0; k <= i; ++k) sum += factor_[pose + k][pose + i] * factor_[pose + k][pose + j];
             shape_information_[i][j] = shape_information_[j][i] = sum;
         }
+    for (size_t i = 0; i < size_t(kFitShapes); ++i) {
+        shape_right_[i] = 0.0;
+        for (size_t k = 0; k <= i; ++k) shape_right_[i] += factor_[pose + k][pose + i] * y[pose + k];
+    }
     return true;
+}
+
+void FitEquations::solve_pose(FitVector& step) const {
+    for (size_t i = size_t(kFitPoseUnknowns); i-- > 0;) {
+        double sum = half_solved_[i];
+        for (size_t k = i + 1; k < size_t(kFitUnknowns); ++k) sum -= factor_[i][k] * step[k];
+        step[i] = sum / factor_[i][i];
+    }
 }
 
 }  // namespace vfit

@@ -33,8 +33,12 @@ public:
 
     /// The step to the least sum of squares. False where there is none: nothing holds some unknown.
     bool solve(FitVector& step);
-    /// After solve: second derivatives of half the least sum of squares by the shape, pose eliminated (Schur).
+    /// After solve, with the pose eliminated (Schur complement): information . shape step = right side. Those of many
+    /// frames of one person add up to the equations of their common shape.
     const FitShapeMatrix& shape_information() const { return shape_information_; }
+    const std::array<double, kFitShapes>& shape_right_side() const { return shape_right_; }
+    /// After solve: the best step of the pose where the shape's is given; `step` holds it in its last places.
+    void solve_pose(FitVector& step) const;
 
     double matrix(int row, int column) const { return matrix_[size_t(row)][size_t(column)]; }  // after finish
     double right_side(int row) const { return right_[size_t(row)]; }
@@ -69,8 +73,9 @@ private:
     // Of bones' starts by shape, padded as FitPoint::fields; hips first, and they do not move.
     std::array<std::array<float, 3 * kFitShapeLanes>, kBoneCount> start_fields_{};
     std::array<std::array<double, kFitUnknowns>, kFitUnknowns> matrix_{}, factor_{};
-    FitVector right_{};
+    FitVector right_{}, half_solved_{};  // half_solved: U^-T right
     FitShapeMatrix shape_information_{};
+    std::array<double, kFitShapes> shape_right_{};
 };
 
 }  // namespace vfit

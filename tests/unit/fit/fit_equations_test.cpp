@@ -106,6 +106,33 @@ TEST(FitEquations, AStepFromManyRowsBringsThePointsHome) {
     for (size_t s = 0; s < size_t(kFitShapes); ++s) EXPECT_GT(equations.shape_information()[s][s], 1.0);
 }
 
+TEST(FitEquations, TheShapesOwnEquationsHaveTheSameSolution) {
+    FitBody body(*fit_model());
+    body.place(bent_state());
+    FitEquations equations;
+    equations.start(body);
+    for (uint32_t v = 0; v < fit_model()->vertex_count(); ++v)
+        equations.add_vertex_row(v, body.normals()[v], 0.01f * std::sin(float(v)), 1000.0f);
+    equations.finish();
+    for (int c = 0; c < kFitUnknowns; ++c) equations.add_prior(c, 0.01, 1.0);
+    FitVector step, again{};
+    ASSERT_TRUE(equations.solve(step));
+    for (size_t i = 0; i < size_t(kFitShapes); ++i) {
+        double sum = 0.0;
+        for (size_t j = 0; j < size_t(kFitShapes); ++j) sum += equations.shape_information()[i][j] * step[kFitPoseUnknowns + j];
+        EXPECT_NEAR(sum, equations.shape_right_side()[i], 1e-6 * (1.0 + std::abs(sum)));
+        again[kFitPoseUnknowns + i] = step[kFitPoseUnknowns + i];
+    }
+    equations.solve_pose(again);
+    for (size_t i = 0; i < size_t(kFitUnknowns); ++i) EXPECT_NEAR(again[i], step[i], 1e-9);
+    // And it is the solution: the matrix times it is the right side.
+    for (int i = 0; i < kFitUnknowns; ++i) {
+        double sum = 0.0;
+        for (int j = 0; j < kFitUnknowns; ++j) sum += equations.matrix(i, j) * step[size_t(j)];
+        EXPECT_NEAR(sum, equations.right_side(i), 1e-6 * (1.0 + std::abs(sum)));
+    }
+}
+
 TEST(FitEquations, NoRowsHaveNoSolution) {
     FitBody body(*fit_model());
     body.place(bent_state());
