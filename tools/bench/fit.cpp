@@ -346,21 +346,21 @@ void run(const Options& o) {
 
 }  // namespace
 
-void add_fit(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("fit", "The body model fitted to people: depth, outline, joints, time");
+void add_fit(Command& app) {
+    Command command = app.add_subcommand("fit", "The body model fitted to people: depth, outline, joints, time");
     auto o = std::make_shared<Options>();
-    command->add_option("folder", o->folder, "Folder of recordings named ..._s<person>_...: judges real people too");
-    command->add_option("--people", o->people, "Virtual people; 0: none");
-    command->add_option("--frames", o->frames, "Frames of each virtual person");
-    command->add_option("--only", o->only, "Sequences whose name contains this");
-    command->add_flag("--naked", o->naked, "Virtual people without clothes");
-    command->add_option("--steps", o->fit.steps, "Gauss-Newton steps a frame");
-    command->add_option("--depth-share", o->fit.weights.depth_share, "How much of a depth row counts");
-    command->add_option("--reach-share", o->fit.weights.reach_share, "How much of a row to a point aside counts");
-    command->add_option("--outline-share", o->fit.weights.outline_share, "How much of an outline row counts");
-    command->add_option("--joint-sd", o->fit.weights.joint_m, "Standard deviation of the network's joints, metres");
-    command->add_flag("--json", o->json, "Print JSON");
-    command->callback([o] { run(*o); });
+    command.add_option("folder", o->folder, "Folder of recordings named ..._s<person>_...: judges real people too");
+    command.add_option("--people", o->people, "Virtual people; 0: none");
+    command.add_option("--frames", o->frames, "Frames of each virtual person");
+    command.add_option("--only", o->only, "Sequences whose name contains this");
+    command.add_flag("--naked", o->naked, "Virtual people without clothes");
+    command.add_option("--steps", o->fit.steps, "Gauss-Newton steps a frame");
+    command.add_option("--depth-share", o->fit.weights.depth_share, "How much of a depth row counts");
+    command.add_option("--reach-share", o->fit.weights.reach_share, "How much of a row to a point aside counts");
+    command.add_option("--outline-share", o->fit.weights.outline_share, "How much of an outline row counts");
+    command.add_option("--joint-sd", o->fit.weights.joint_m, "Standard deviation of the network's joints, metres");
+    command.add_flag("--json", o->json, "Print JSON");
+    command.callback([o] { run(*o); });
 }
 
 }  // namespace vfit::tools
