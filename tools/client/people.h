@@ -9,7 +9,7 @@ struct ScanOptions {
     uint32_t frames = 0;  // 0: the library's default
     vfit_sex sex = VFIT_SEX_UNKNOWN;
     vfit_scan_method method = VFIT_SCAN_DEFAULT;
-    TrackOptions track;
+    TrackOptions track{};
 };
 
 struct ScanRun {
