@@ -81,9 +81,12 @@ void PeopleMap::unmark(std::span<const uint32_t> cells, Mark m) {
 bool PeopleMap::surface_goes_on(std::span<const uint32_t> cells) {
     const uint32_t width = grid_.width(), height = grid_.height();
     const float* const depth = grid_.depth().data();
+    const ShapeMeter meter(grid_, camera_, {});
+    const bool floor = camera_.floor_state != VFIT_FLOOR_DEFAULT;
     mark(cells, kOwn);
     uint32_t joined = 0, farther = 0;
     grid_.for_each(cells, [&](uint32_t cell, uint32_t x, uint32_t y) {
+        if (floor && meter.world(x, y).y < kLowerEnd_m) return;  // feet join the floor
         const float z = depth[cell], same = same_surface_m(z);
         const auto look = [&](uint32_t next) {
             if (labels_[next] || depth[next] == 0.0f) return;

@@ -178,6 +178,15 @@ TEST(HardScene, TheWallBehindWhoWalksAwayIsNobody) {
     }
 }
 
+TEST(HardScene, BeforeNothingThatTheSensorReaches) {
+    RoomScene scene;
+    scene.wall_z = -9.0f;
+    scene.people.push_back(standing_person(0.0f, -2.6f));
+    People people;
+    for (int i = 0; i < 60; ++i) ASSERT_EQ(people.see(scene).size(), 1u) << i;
+    EXPECT_GT(people.iou(scene), 0.95);
+}
+
 TEST(HardScene, WhoEntersIsNotTakenForWhoHasLeft) {
     RoomScene scene;
     scene.people.push_back(standing_person(-0.8f, -2.6f));
