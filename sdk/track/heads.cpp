@@ -10,7 +10,8 @@ namespace {
 // Heads are looked for in the outline's upper edge, from a column of 4 cm to the next, over 5 m.
 constexpr float kColumn_m = 0.04f;
 constexpr float kNothing_m = -1e9f;       // top of an empty column
-constexpr float kHeadsApart_m = 0.28f;    // on the floor: two people shoulder to shoulder, the one half behind the other
+// On the floor: two people shoulder to shoulder, the one half behind the other.
+constexpr float kHeadsApart_m = 0.28f;
 constexpr int kLeastApart = 4;            // columns between them in the view
 constexpr float kSameTop_m = 0.05f;       // below the peak: the crown, whose middle is the axis
 constexpr int kCrownHalf = 3;             // columns
@@ -157,7 +158,8 @@ std::span<const Head> HeadFinder::run(std::span<const Vec4> points) {
         Head head;
         head.top_m = top_[size_t(peak)];
         const int axis = middle_of_crown(peak);
-        if (!has_shoulders(axis, head.top_m) || !has_body(axis, head.top_m) || !may_be_separate(axis, head.top_m)) continue;
+        if (!has_shoulders(axis, head.top_m) || !has_body(axis, head.top_m)) continue;
+        if (!may_be_separate(axis, head.top_m)) continue;
         const float face_m2 = look(points, axis, head);
         if (!separate(axis, head, face_m2)) continue;
         axes_[count_] = axis;

@@ -19,7 +19,8 @@ class HeadFinder {
 public:
     static constexpr size_t kMost = 8;
 
-    /// Each point carries the square metres that it stands for in w. Highest heads come first; valid until the next run.
+    /// Each point carries the square metres that it stands for in w. Highest heads come first; valid until the next
+    /// run.
     std::span<const Head> run(std::span<const Vec4> points);
 
 private:

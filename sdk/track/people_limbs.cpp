@@ -125,10 +125,10 @@ void PeopleMap::grow_feet() {
                std::abs(height_of(x, y)) < 2.0f * floor_cut_m(d, z);
     };
     size_t count = 0;
-    int y = 0, row = 0;  // of the last one: they come in order
+    int line = 0, row = 0;  // of the last one: they come in order
     for_each_labelled(slots_, [&](size_t i) {
-        while (int(i) >= row + width) row += width, ++y;
-        if (height_of(int(i) - row, y) < kFeetBelow_m) frontier_[count++] = uint32_t(i);
+        while (int(i) >= row + width) row += width, ++line;
+        if (height_of(int(i) - row, line) < kFeetBelow_m) frontier_[count++] = uint32_t(i);
     });
     size_t first = 0;
     for (int step = 0; step < kSoleSteps; ++step) {

@@ -92,7 +92,8 @@ private:
     void classify_new(std::span<const uint32_t> cells, const Shape& shape);
     void add_piece(std::span<const uint32_t> cells, const Shape& shape, uint32_t slot);
     void name_people(int64_t time_ns);
-    uint32_t owner_of_part(const Piece& piece, const std::array<const Piece*, Identity::kMost>& largest, int64_t time_ns);
+    uint32_t owner_of_part(const Piece& piece, const std::array<const Piece*, Identity::kMost>& largest,
+                           int64_t time_ns);
     void attach_fragments();
     bool part_of_scene(const Shape& shape) const;
     uint32_t above_or_below(const Shape& shape) const;

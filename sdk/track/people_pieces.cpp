@@ -224,7 +224,8 @@ void PeopleMap::sort_component(std::span<const uint32_t> cells) {
             slots[count++] = slot;
     }
     if (count >= 2) {
-        split_by_tracks(cells, {slots.data(), count}, area_m2 > kCrowd_m2 ? kGrowthPath_m : std::numeric_limits<float>::max());
+        const float farthest_m = area_m2 > kCrowd_m2 ? kGrowthPath_m : std::numeric_limits<float>::max();
+        split_by_tracks(cells, {slots.data(), count}, farthest_m);
         return;
     }
     if (count == 1 && area_m2 > kGrowth * identity_.track(slots[0]).area_m2 + kGrowth_m2) {
@@ -240,7 +241,8 @@ void PeopleMap::sort_component(std::span<const uint32_t> cells) {
     const Shape shape = measure(cells);
     const bool whole = shape.area_m2 < kSplitArea_m2 || person_like(cells, shape);
     const bool one = whole && shape.width_m < kTwoWide_m;
-    if (one || is_flat(shape) || frames_ % kTwoTurn != 1 || !split_by_heads(cells, whole ? 2 : 1)) classify_new(cells, shape);
+    if (one || is_flat(shape) || frames_ % kTwoTurn != 1 || !split_by_heads(cells, whole ? 2 : 1))
+        classify_new(cells, shape);
 }
 
 void PeopleMap::sort_components() {

@@ -78,7 +78,8 @@ private:
         int low[kChunk], span[kChunk];
         for (int k = 0; k < cells; ++k) {
             const int middle = int(depth[k] * per_metre_), band = int(same_surface_m(depth[k]) * per_metre_);
-            const int least = middle - band > 1 ? middle - band : 1, most = middle + band < 65535 ? middle + band : 65535;
+            const int least = middle - band > 1 ? middle - band : 1;
+            const int most = middle + band < 65535 ? middle + band : 65535;
             low[k] = least;
             span[k] = most - least;
         }

@@ -130,7 +130,8 @@ void write_picture(const std::string& path, const Shot& shot, const std::vector<
         if (is && d && users[i] && users[i] == own[is]) rgb[0] = uint8_t(30 * (is - 1)), rgb[1] = 255;
         else if (is && d) rgb[0] = 255;
         else if (users[i] && std::find(own.begin() + 1, own.end(), users[i]) != own.end()) rgb[2] = 255;
-        else if (users[i]) rgb[0] = uint8_t(60 + 40 * (users[i] % 5)), rgb[1] = 0, rgb[2] = uint8_t(120 + 60 * (users[i] % 3));
+        else if (users[i])
+            rgb[0] = uint8_t(60 + 40 * (users[i] % 5)), rgb[1] = 0, rgb[2] = uint8_t(120 + 60 * (users[i] % 3));
         file.write(reinterpret_cast<const char*>(rgb), 3);
     }
 }
@@ -206,7 +207,8 @@ Json summary(const std::string& group, const std::vector<Figures>& all, bool jso
     }
     const double mean = sum / double(std::max<size_t>(1, all.size())), feet = foot ? double(found) / double(foot) : 1.0;
     if (!json)
-        std::cout << std::setprecision(3) << group << ": " << all.size() << " sequences, IoU mean " << mean << ", worst "
+        std::cout << std::setprecision(3) << group << ": " << all.size() << " sequences, IoU mean " << mean
+                  << ", worst "
                   << worst << ", foot recall " << feet << ", sequences with a changed id " << ids << ", "
                   << std::setprecision(2) << ms.quantile(0.5) << " ms an image (p95 " << ms.quantile(0.95) << ")\n\n";
     return {{"sequences", all.size()}, {"iou", mean}, {"iou_worst_sequence", worst}, {"foot_recall", feet},

@@ -401,11 +401,14 @@ std::vector<SceneGroup> real_scenes(const std::string& recordings, const std::st
         still->camera.floor_distance_m = kStillDistance_m;
         still->floor_known = true;
         for (const Place& place : kPlaces) {
-            SceneGroup& group = groups.emplace_back(SceneGroup{std::string("real people, in the still ") + place.means, {}});
+            SceneGroup& group = groups.emplace_back();
+            group.name = std::string("real people, in the still ") + place.means;
             for (const auto& path : paths)
                 group.scenes.push_back(
                     {std::string("still, ") + place.name + " " + path.filename().string(), false,
-                     [uri = path.string(), still, &place](const Show& show) { play_in_still(uri, *still, place, show); }});
+                     [uri = path.string(), still, &place](const Show& show) {
+                         play_in_still(uri, *still, place, show);
+                     }});
         }
     }
     SceneGroup& several = groups.emplace_back(SceneGroup{"real people, several in a virtual room", {}});

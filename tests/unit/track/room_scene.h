@@ -104,7 +104,7 @@ private:
         Shown(const std::vector<Capsule>& capsules, uint8_t number) : figure(&capsules), who(number) {
             for (const Capsule& c : capsules) centre += (c.a + c.b) / (2.0f * float(capsules.size()));
             for (const Capsule& c : capsules)
-                radius = std::max({radius, glm::distance(centre, c.a) + c.radius, glm::distance(centre, c.b) + c.radius});
+                for (const Vec3& end : {c.a, c.b}) radius = std::max(radius, glm::distance(centre, end) + c.radius);
         }
         bool near(const Vec3& eye, const Vec3& ray) const {
             const Vec3 to = centre - eye;
