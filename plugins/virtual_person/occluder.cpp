@@ -9,7 +9,7 @@ namespace {
 // As wide as a cupboard that is carried past, taller than a person.
 constexpr float kHalfWidth_m = 0.55f, kHalfHeight_m = 1.05f, kHalfDepth_m = 0.25f;
 constexpr float kNearer_m = 0.8f;  // than the person
-constexpr float kPerson_m = 0.6f;  // width of one who stands with hanging arms (elbow breadth 0.4 to 0.6 m)
+constexpr float kPerson_m = 0.35f;  // width of a trunk (chest breadth 0.28 to 0.38 m)
 constexpr float kHidden_s = 1.0f;
 
 }  // namespace

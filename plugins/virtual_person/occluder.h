@@ -7,7 +7,7 @@ namespace vfit::virtual_person {
 
 class Occluder {
 public:
-    /// begin_s: when the box begins to hide the person's whole width; `stand`: where they are.
+    /// begin_s: when the box begins to hide the whole trunk; `stand`: where they are.
     Occluder(float begin_s, const Vec3& stand) : begin_s_(begin_s), stand_(stand) {}
 
     Solid at(double t_s) const;

@@ -13,7 +13,7 @@ namespace {
 constexpr float kBeliefShare = 0.3f;     // of the newest answer
 constexpr float kLeastBelief = -0.5f;    // logit
 constexpr float kSurelyNot = -2.5f;      // logit: one in twelve
-constexpr uint32_t kSureAfter = 15;      // frames: whoever walks in shows an arm first
+constexpr uint32_t kSureAfter = 15;      // frames in a row: who walks in or is being hidden shows an arm alone
 
 }  // namespace
 
@@ -80,7 +80,7 @@ void Tracker::give_hints(const DepthImage& image, std::span<const TrackTarget> t
 
 bool Tracker::surely_no_person(uint32_t id) const {
     const auto found = people_.find(id);
-    return found != people_.end() && found->second.frames >= kSureAfter && found->second.belief < kSurelyNot;
+    return found != people_.end() && found->second.doubts >= kSureAfter;
 }
 
 bool Tracker::see(const DepthImage& image, int64_t time_ns, const TrackTarget& target, const Vec2& up,
@@ -101,6 +101,7 @@ bool Tracker::see(const DepthImage& image, int64_t time_ns, const TrackTarget& t
     if (steady_) person.steady.run(time_ns, joints);
     person.seen_ns = time_ns;
     ++person.frames;
+    person.doubts = person.belief < kSurelyNot ? person.doubts + 1 : 0;
     if (person.belief < kLeastBelief) return false;
 
     out.id = target.id;

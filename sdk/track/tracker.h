@@ -47,6 +47,7 @@ private:
         float belief = 0.0f;  // that it is a person: the network's logits, smoothed
         int64_t seen_ns = 0;
         uint32_t frames = 0;
+        uint32_t doubts = 0;  // frames in a row in which it was surely none
     };
     void give_hints(const DepthImage& image, std::span<const TrackTarget> targets,
                     std::span<const JointHint> hints);
