@@ -1,6 +1,8 @@
 #include "clothing.h"
 
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "smooth_field.h"
 #include "steps.h"
@@ -30,12 +32,21 @@ std::vector<float> areas_of(std::span<const float> rest, std::span<const uint32_
     return areas;
 }
 
+std::vector<uint32_t> first_at_same_place(std::span<const float> rest) {
+    std::map<std::array<float, 3>, uint32_t> places;
+    std::vector<uint32_t> first(rest.size() / 3);
+    for (uint32_t v = 0; v < first.size(); ++v)
+        first[v] = places.try_emplace({rest[3 * v], rest[3 * v + 1], rest[3 * v + 2]}, v).first->second;
+    return first;
+}
+
 }  // namespace
 
 Clothing::Clothing(std::span<const float> rest, std::span<const uint32_t> triangles, const BodyLandmarks& l,
                    float mean_m, uint64_t seed)
     : offsets_m_(rest.size() / 3),
-      surface_(rest.size()) {
+      surface_(rest.size()),
+      same_place_(first_at_same_place(rest)) {
     const uint64_t key = random_bits(0x636C6F746865ull, seed);
     const float looser = kLooseness * (2.0f * uniform(key, 0) - 1.0f);
     const std::vector<float> areas = areas_of(rest, triangles);
@@ -60,8 +71,10 @@ Clothing::Clothing(std::span<const float> rest, std::span<const uint32_t> triang
 }
 
 const float* Clothing::dress(const float* skin, const float* normals) {
+    // One normal for all vertices of a place: the cloth must not tear there.
     for (size_t v = 0; v < offsets_m_.size(); ++v)
-        for (size_t k = 3 * v; k < 3 * v + 3; ++k) surface_[k] = skin[k] + offsets_m_[v] * normals[k];
+        for (size_t k = 0; k < 3; ++k)
+            surface_[3 * v + k] = skin[3 * v + k] + offsets_m_[v] * normals[3 * same_place_[v] + k];
     return surface_.data();
 }
 

@@ -30,6 +30,7 @@ public:
 
 private:
     std::vector<float> offsets_m_, surface_;
+    std::vector<uint32_t> same_place_;  // the first vertex at that place: seams of the texture double some
 };
 
 }  // namespace vfit::virtual_person
