@@ -10,9 +10,9 @@ namespace vfit::virtual_person {
 
 namespace {
 
-// Out of every sensor's view at the distances where people stand (half a field of 70 degrees at 3.4 m).
-constexpr float kOutside_m = 3.2f;
-constexpr int kSteps = 7;  // of one way
+// Out of every sensor's view at the distances where people stand (half a field of 70 degrees at 3.4 m, and half a person).
+constexpr float kOutside_m = 2.9f;
+constexpr int kSteps = 8;  // of one way
 constexpr float kStep_s = 0.55f, kSwing_s = 0.42f;
 constexpr float kHalfWidth_m = 0.1f;
 constexpr float kWait_s = 0.5f, kStand_s = 2.0f;

@@ -112,13 +112,14 @@ TEST_F(PeopleTest, WhoWasHiddenForASecondIsTheSamePersonSoonAfter) {
     const size_t back = first_where(moments, hidden, [](const Moment& m) { return m.seen >= 8; });
     ASSERT_LT(back, 170u);
     ASSERT_GT(back, hidden + 25);
-    const auto before = ids(moments, 0, hidden);
+    const auto before = ids(moments, 0, 20);  // the box is not in view yet
     ASSERT_EQ(before.size(), 1u);
     const auto has_them = [&](const Moment& m) {
         for (const vfit_body& body : m.tracked)
             if (body.body_id == *before.begin()) return true;
         return false;
     };
+    EXPECT_TRUE(has_them(moments[hidden - 20])) << "the box has not come before them yet";
     EXPECT_LE(first_where(moments, back, has_them), back + kSoon);
     EXPECT_TRUE(has_them(moments.back()));
 }
