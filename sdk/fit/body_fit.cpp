@@ -14,14 +14,14 @@ constexpr float kUsualLayer = 0.8f, kLayerSpread = 1.0f;  // units of kLayerUnit
 constexpr float kLeastConfidence = 0.15f;                 // of a joint that is used at all
 // One frame's information about the shape that counts: the errors of frames that follow each other are much the same.
 constexpr double kFrameShare = 0.5;
-constexpr int kShapeFrames = 300;        // then the shape moves by 1/150 of what a frame says
+constexpr int kShapeFrames = 300;  // then the shape moves by 1/150 of what a frame says
 constexpr float kGoodIou = 0.70f, kGoodMedian_m = 0.04f;
 constexpr float kFrame_s = 1.0f / 30.0f;
 constexpr float kLongestStep_rad = 0.6f, kLongestStep_m = 0.3f;
-constexpr double kDamping = 1.0;         // rad^-2 and m^-2: for directions that nothing holds
+constexpr double kDamping = 1.0;  // rad^-2 and m^-2: for directions that nothing holds
 constexpr int kReachSteps = 3, kReachStepsAtFirst = 25;
 constexpr float kWideRobust_m = 0.10f;
-constexpr float kBetter = 0.97f;         // of the cost: the other start has to win by this
+constexpr float kBetter = 0.97f;  // of the cost: the other start has to win by this
 
 bool good(const FitScore& score) { return score.iou >= kGoodIou && score.median_m <= kGoodMedian_m; }
 
@@ -108,7 +108,8 @@ bool BodyFit::start_from_joints(const FitJoints& joints, FitState& state) const 
     const Vec3 hips = 0.5f * (at(VFIT_JOINT_LEFT_HIP) + at(VFIT_JOINT_RIGHT_HIP));
     const Vec3 shoulders = 0.5f * (at(VFIT_JOINT_LEFT_SHOULDER) + at(VFIT_JOINT_RIGHT_SHOULDER));
     Vec3 up = shoulders - hips;
-    Vec3 left = at(VFIT_JOINT_LEFT_SHOULDER) - at(VFIT_JOINT_RIGHT_SHOULDER) + at(VFIT_JOINT_LEFT_HIP) - at(VFIT_JOINT_RIGHT_HIP);
+    Vec3 left = at(VFIT_JOINT_LEFT_SHOULDER) - at(VFIT_JOINT_RIGHT_SHOULDER) + at(VFIT_JOINT_LEFT_HIP) -
+                at(VFIT_JOINT_RIGHT_HIP);
     if (glm::length(up) < 0.05f || glm::length(left) < 0.02f) return false;
     up = glm::normalize(up);
     left -= glm::dot(left, up) * up;

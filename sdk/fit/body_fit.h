@@ -11,11 +11,11 @@
 namespace vfit {
 
 struct BodyFitInput {
-    DepthImage image;      // with a user map
-    uint8_t user = 0;      // the person's id in it
-    PixelBox box;          // where they are; empty: anywhere
+    DepthImage image;  // with a user map
+    uint8_t user = 0;  // the person's id in it
+    PixelBox box;      // where they are; empty: anywhere
     int64_t time_ns = 0;
-    FitJoints joints;      // camera space
+    FitJoints joints;  // camera space
 };
 
 enum class BodyFitState {
@@ -26,21 +26,21 @@ enum class BodyFitState {
 
 struct BodyFitOutput {
     BodyFitState state = BodyFitState::kNothing;
-    FitState pose;                                   // camera space
-    std::array<Vec3, kJointCount> joints{};          // camera space
-    std::array<Quat, kJointCount> rotations{};       // of the joint's bone, from the T-pose's axes to the camera's
-    std::array<float, kJointCount> confidence{};     // 0 to 1
-    FitShape shape_sd{};                             // standard deviations of the shape so far
-    FitScore score;                                  // how well the camera's picture is met
-    FitScore start_score;                            // of the start that was taken
-    uint32_t matched = 0;                            // depth points in the last step
-    bool from_last = false;                          // started from the last frame, not from the joints alone
+    FitState pose;                                // camera space
+    std::array<Vec3, kJointCount> joints{};       // camera space
+    std::array<Quat, kJointCount> rotations{};    // of the joint's bone, from the T-pose's axes to the camera's
+    std::array<float, kJointCount> confidence{};  // 0 to 1
+    FitShape shape_sd{};                          // standard deviations of the shape so far
+    FitScore score;                               // how well the camera's picture is met
+    FitScore start_score;                         // of the start that was taken
+    uint32_t matched = 0;                         // depth points in the last step
+    bool from_last = false;                       // started from the last frame, not from the joints alone
 };
 
 struct BodyFitOptions {
     FitWeights weights;
-    int steps_at_first = 8;   // Gauss-Newton steps where there is no good last frame
-    int steps = 2;            // after one
+    int steps_at_first = 8;  // Gauss-Newton steps where there is no good last frame
+    int steps = 2;           // after one
     bool depth_rows = true, outline_rows = true, joint_rows = true, shape = true;  // for judging each one's part
 };
 
@@ -74,11 +74,11 @@ private:
     FitEquations equations_;
     BodyFitOutput out_;
 
-    bool tracked_ = false;       // the last frame's fit was good
+    bool tracked_ = false;  // the last frame's fit was good
     FitState last_;
     int64_t last_ns_ = 0;
-    FitShape shape_{};           // best so far
-    FitShapeMatrix seen_{};      // mean information of a frame about the shape
+    FitShape shape_{};       // best so far
+    FitShapeMatrix seen_{};  // mean information of a frame about the shape
     int shape_frames_ = 0;
 };
 

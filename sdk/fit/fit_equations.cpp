@@ -14,7 +14,8 @@ constexpr size_t kTail = 3 + kFitShapes + 1;  // columns behind the bones': plac
 /// Adds direction . (turn * field) for every shape: `turned` is the direction in the field's frame.
 void add_fields(const float* fields, const Vec3& turned, float* out) {
     for (size_t s = 0; s < size_t(kFitShapeLanes); ++s)
-        out[s] += turned.x * fields[s] + turned.y * fields[kFitShapeLanes + s] + turned.z * fields[2 * kFitShapeLanes + s];
+        out[s] +=
+            turned.x * fields[s] + turned.y * fields[kFitShapeLanes + s] + turned.z * fields[2 * kFitShapeLanes + s];
 }
 
 bool is_ancestor(int ancestor, int bone) {
@@ -78,7 +79,8 @@ void FitEquations::start(const FitBody& body) {
         auto& out = start_fields_[size_t(b)];
         out = start_fields_[parent];
         for (int axis = 0; axis < 3; ++axis)
-            add_fields(offset.data(), Vec3(turn[0][axis], turn[1][axis], turn[2][axis]), out.data() + axis * kFitShapeLanes);
+            add_fields(offset.data(), Vec3(turn[0][axis], turn[1][axis], turn[2][axis]),
+                       out.data() + axis * kFitShapeLanes);
     }
 }
 
@@ -198,7 +200,8 @@ void FitEquations::add_turn_prior(int column, const Mat3& derivative, const Vec3
         for (int i = 0; i < 3; ++i) {
             const double di = double(derivative[i][value]) * double(weight[value]);  // column-major: [unknown][value]
             right_[size_t(column + i)] += di * double(residual[value]);
-            for (int j = 0; j < 3; ++j) matrix_[size_t(column + i)][size_t(column + j)] += di * double(derivative[j][value]);
+            for (int j = 0; j < 3; ++j)
+                matrix_[size_t(column + i)][size_t(column + j)] += di * double(derivative[j][value]);
         }
 }
 
@@ -214,7 +217,8 @@ bool FitEquations::solve(FitVector& step) {
     // Cholesky, matrix = U^T U with U in the upper triangle, by rows: the inner loop runs along memory.
     constexpr size_t n = kFitUnknowns;
     constexpr size_t pose = kFitPoseUnknowns;
-    for (size_t i = 0; i < n; ++i) std::copy(matrix_[i].begin() + std::ptrdiff_t(i), matrix_[i].end(), factor_[i].begin() + std::ptrdiff_t(i));
+    for (size_t i = 0; i < n; ++i)
+        std::copy(matrix_[i].begin() + std::ptrdiff_t(i), matrix_[i].end(), factor_[i].begin() + std::ptrdiff_t(i));
     FitVector& y = half_solved_;
     y = right_;
     for (size_t k = 0; k < n; ++k) {

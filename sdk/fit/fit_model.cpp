@@ -22,16 +22,18 @@ constexpr float kLeastWeight = 0.05f;  // skin weights below are left out
 
 enum Limb { kTrunk, kLeftArm, kRightArm, kLeftLeg, kRightLeg };
 
-constexpr int kTrunkBones[] = {VFIT_BONE_HIPS, VFIT_BONE_SPINE, VFIT_BONE_CHEST, VFIT_BONE_UPPER_CHEST, VFIT_BONE_NECK,
-                               VFIT_BONE_HEAD, VFIT_BONE_LEFT_SHOULDER, VFIT_BONE_LEFT_UPPER_ARM,
-                               VFIT_BONE_RIGHT_SHOULDER, VFIT_BONE_RIGHT_UPPER_ARM, VFIT_BONE_LEFT_UPPER_LEG,
-                               VFIT_BONE_RIGHT_UPPER_LEG};
-constexpr int kLeftArmBones[] = {VFIT_BONE_HIPS, VFIT_BONE_SPINE, VFIT_BONE_CHEST, VFIT_BONE_UPPER_CHEST,
-                                 VFIT_BONE_LEFT_SHOULDER, VFIT_BONE_LEFT_UPPER_ARM, VFIT_BONE_LEFT_LOWER_ARM,
-                                 VFIT_BONE_LEFT_HAND};
-constexpr int kRightArmBones[] = {VFIT_BONE_HIPS, VFIT_BONE_SPINE, VFIT_BONE_CHEST, VFIT_BONE_UPPER_CHEST,
-                                  VFIT_BONE_RIGHT_SHOULDER, VFIT_BONE_RIGHT_UPPER_ARM, VFIT_BONE_RIGHT_LOWER_ARM,
-                                  VFIT_BONE_RIGHT_HAND};
+constexpr int kTrunkBones[] = {VFIT_BONE_HIPS,           VFIT_BONE_SPINE,
+                               VFIT_BONE_CHEST,          VFIT_BONE_UPPER_CHEST,
+                               VFIT_BONE_NECK,           VFIT_BONE_HEAD,
+                               VFIT_BONE_LEFT_SHOULDER,  VFIT_BONE_LEFT_UPPER_ARM,
+                               VFIT_BONE_RIGHT_SHOULDER, VFIT_BONE_RIGHT_UPPER_ARM,
+                               VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_RIGHT_UPPER_LEG};
+constexpr int kLeftArmBones[] = {VFIT_BONE_HIPS,           VFIT_BONE_SPINE,         VFIT_BONE_CHEST,
+                                 VFIT_BONE_UPPER_CHEST,    VFIT_BONE_LEFT_SHOULDER, VFIT_BONE_LEFT_UPPER_ARM,
+                                 VFIT_BONE_LEFT_LOWER_ARM, VFIT_BONE_LEFT_HAND};
+constexpr int kRightArmBones[] = {
+    VFIT_BONE_HIPS,           VFIT_BONE_SPINE,           VFIT_BONE_CHEST,           VFIT_BONE_UPPER_CHEST,
+    VFIT_BONE_RIGHT_SHOULDER, VFIT_BONE_RIGHT_UPPER_ARM, VFIT_BONE_RIGHT_LOWER_ARM, VFIT_BONE_RIGHT_HAND};
 constexpr int kLeftLegBones[] = {VFIT_BONE_HIPS, VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_LEFT_LOWER_LEG,
                                  VFIT_BONE_LEFT_FOOT};
 constexpr int kRightLegBones[] = {VFIT_BONE_HIPS, VFIT_BONE_RIGHT_UPPER_LEG, VFIT_BONE_RIGHT_LOWER_LEG,
@@ -39,10 +41,18 @@ constexpr int kRightLegBones[] = {VFIT_BONE_HIPS, VFIT_BONE_RIGHT_UPPER_LEG, VFI
 
 int limb_of(int bone) {
     switch (bone) {
-        case VFIT_BONE_LEFT_UPPER_ARM: case VFIT_BONE_LEFT_LOWER_ARM: case VFIT_BONE_LEFT_HAND: return kLeftArm;
-        case VFIT_BONE_RIGHT_UPPER_ARM: case VFIT_BONE_RIGHT_LOWER_ARM: case VFIT_BONE_RIGHT_HAND: return kRightArm;
-        case VFIT_BONE_LEFT_UPPER_LEG: case VFIT_BONE_LEFT_LOWER_LEG: case VFIT_BONE_LEFT_FOOT: return kLeftLeg;
-        case VFIT_BONE_RIGHT_UPPER_LEG: case VFIT_BONE_RIGHT_LOWER_LEG: case VFIT_BONE_RIGHT_FOOT: return kRightLeg;
+        case VFIT_BONE_LEFT_UPPER_ARM:
+        case VFIT_BONE_LEFT_LOWER_ARM:
+        case VFIT_BONE_LEFT_HAND: return kLeftArm;
+        case VFIT_BONE_RIGHT_UPPER_ARM:
+        case VFIT_BONE_RIGHT_LOWER_ARM:
+        case VFIT_BONE_RIGHT_HAND: return kRightArm;
+        case VFIT_BONE_LEFT_UPPER_LEG:
+        case VFIT_BONE_LEFT_LOWER_LEG:
+        case VFIT_BONE_LEFT_FOOT: return kLeftLeg;
+        case VFIT_BONE_RIGHT_UPPER_LEG:
+        case VFIT_BONE_RIGHT_LOWER_LEG:
+        case VFIT_BONE_RIGHT_FOOT: return kRightLeg;
         default: return kTrunk;
     }
 }
@@ -56,7 +66,9 @@ int without_toes(int bone) {
 std::vector<int> humanoid_of_rig(const BodyModel& model) {
     std::vector<int> out;
     for (const RigBone& bone : model.bones())
-        out.push_back(bone.bone >= 0 ? without_toes(bone.bone) : bone.parent < 0 ? int(VFIT_BONE_HIPS) : out[size_t(bone.parent)]);
+        out.push_back(bone.bone >= 0    ? without_toes(bone.bone)
+                      : bone.parent < 0 ? int(VFIT_BONE_HIPS)
+                                        : out[size_t(bone.parent)]);
     return out;
 }
 
@@ -77,12 +89,18 @@ public:
             const ShapeParameter& p = model.parameters()[i];
             const float usual = (1.0f - gender) * p.female + gender * p.male;
             float value = 0.0f;
-            if (p.key == "gender") value = gender;
-            else if (p.key == "age") value = 0.4f + 0.45f * unit();
-            else if (p.key == "height") value = usual + 0.13f * normal();
-            else if (p.key == "weight") value = usual + 0.25f * normal();
-            else if (p.minimum >= 0.0f) value = usual + 0.18f * normal();
-            else if (p.key.rfind("measure-", 0) == 0) value = 0.25f * normal();
+            if (p.key == "gender")
+                value = gender;
+            else if (p.key == "age")
+                value = 0.4f + 0.45f * unit();
+            else if (p.key == "height")
+                value = usual + 0.13f * normal();
+            else if (p.key == "weight")
+                value = usual + 0.25f * normal();
+            else if (p.minimum >= 0.0f)
+                value = usual + 0.18f * normal();
+            else if (p.key.rfind("measure-", 0) == 0)
+                value = 0.25f * normal();
             shape[i] = std::clamp(value, p.minimum, p.maximum);
         }
         return shape;
@@ -165,7 +183,8 @@ std::span<const int> FitModel::limb_bones(int limb) {
 
 FitModel::FitModel(const BodyModel& model, uint32_t vertices) {
     if (vertices < 100 || vertices > model.topology(0).vertex_count)
-        fail(VFIT_ERROR_ARGUMENT, "a fitted body of ", vertices, " vertices: not 100 to ", model.topology(0).vertex_count);
+        fail(VFIT_ERROR_ARGUMENT, "a fitted body of ", vertices, " vertices: not 100 to ",
+             model.topology(0).vertex_count);
     choose_vertices(model, vertices);
     find_influences(model);
     sort_by_limb();
@@ -196,12 +215,14 @@ void FitModel::choose_vertices(const BodyModel& model, uint32_t count) {
     model.evaluate(model.default_shape(VFIT_SEX_UNKNOWN), body);
     const BodyTopology& topology = model.topology(0);
     std::vector<float> density(topology.vertex_count, 1.0f);
-    for (uint32_t v = 0; v < topology.vertex_count; ++v)
-        switch (topology.parts[v]) {
+    for (uint32_t v = 0; v < topology.vertex_count; ++v) switch (topology.parts[v]) {
             // Thin parts need more for their curvature, fingers fewer than they have surface for.
-            case BodyPart::kLeftForearm: case BodyPart::kRightForearm: density[v] = 1.35f; break;
-            case BodyPart::kLeftUpperArm: case BodyPart::kRightUpperArm: density[v] = 1.2f; break;
-            case BodyPart::kLeftHand: case BodyPart::kRightHand: density[v] = 0.9f; break;
+            case BodyPart::kLeftForearm:
+            case BodyPart::kRightForearm: density[v] = 1.35f; break;
+            case BodyPart::kLeftUpperArm:
+            case BodyPart::kRightUpperArm: density[v] = 1.2f; break;
+            case BodyPart::kLeftHand:
+            case BodyPart::kRightHand: density[v] = 0.9f; break;
             default: break;
         }
     CoarseSurface surface = coarse_surface(body.positions, topology.indices, density, count);
@@ -216,7 +237,8 @@ void FitModel::choose_vertices(const BodyModel& model, uint32_t count) {
 void FitModel::sort_by_limb() {
     std::vector<uint32_t> order(vertices_.size()), place(vertices_.size());
     for (uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return vertices_[a].limb < vertices_[b].limb; });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](uint32_t a, uint32_t b) { return vertices_[a].limb < vertices_[b].limb; });
     std::vector<Vertex> sorted;
     for (uint32_t i = 0; i < order.size(); ++i) {
         sorted.push_back(vertices_[order[i]]);
@@ -251,7 +273,8 @@ void FitModel::find_influences(const BodyModel& model) {
         for (int b = 0; b < kBoneCount; ++b)
             if (weights[size_t(b)] >= kLeastWeight && std::find(bones.begin(), bones.end(), b) != bones.end())
                 found.push_back({b, weights[size_t(b)]});
-        std::sort(found.begin(), found.end(), [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
+        std::sort(found.begin(), found.end(),
+                  [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
         vertex.influence_count = int(std::min<size_t>(found.size(), kFitInfluences));
         float sum = 0.0f;
         for (int k = 0; k < vertex.influence_count; ++k) sum += found[size_t(k)].weight;
@@ -332,7 +355,8 @@ void FitModel::add_layers() {
 void FitModel::body_shape(const BodyModel& model, const FitShape& shape, std::span<float> out) const {
     for (size_t p = 0; p < parameter_means_.size(); ++p) {
         float value = parameter_means_[p];
-        for (size_t c = 0; c < size_t(kFitComponents); ++c) value += parameter_fields_[p * kFitComponents + c] * shape[c];
+        for (size_t c = 0; c < size_t(kFitComponents); ++c)
+            value += parameter_fields_[p * kFitComponents + c] * shape[c];
         out[p] = std::clamp(value, model.parameters()[p].minimum, model.parameters()[p].maximum);
     }
 }

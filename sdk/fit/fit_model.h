@@ -19,8 +19,8 @@ inline constexpr int kFitLayers = 3;       // clothing on trunk, arms, legs: one
 inline constexpr int kFitShapes = kFitComponents + kFitLayers;
 inline constexpr int kFitShapeLanes = 16;  // kFitShapes, padded for vector arithmetic
 inline constexpr float kLayerUnit_m = 0.01f;
-inline constexpr int kFitInfluences = 3;   // bones of a vertex at most
-inline constexpr int kFitLimbs = 5;        // trunk with head, two arms, two legs
+inline constexpr int kFitInfluences = 3;  // bones of a vertex at most
+inline constexpr int kFitLimbs = 5;       // trunk with head, two arms, two legs
 
 using FitShape = std::array<float, kFitShapes>;
 
@@ -40,7 +40,7 @@ public:
     FitModel refined(const BodyModel& model) const;
 
     struct Influence {
-        int bone = 0;       // VFIT_BONE_*; every further one lies on a bone of the same limb
+        int bone = 0;  // VFIT_BONE_*; every further one lies on a bone of the same limb
         float weight = 0.0f;
     };
     struct Vertex {

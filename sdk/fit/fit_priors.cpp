@@ -12,8 +12,8 @@ namespace rom = range_of_motion;
 namespace {
 
 constexpr float kRad = kPi / 180.0f;
-constexpr float kWall_rad = 0.05f;   // standard deviation beyond a natural range
-constexpr float kFree = 1e3f;        // radians: no wall
+constexpr float kWall_rad = 0.05f;  // standard deviation beyond a natural range
+constexpr float kFree = 1e3f;       // radians: no wall
 
 struct BonePrior {
     int bone;
@@ -29,10 +29,14 @@ struct Priors {
     Priors() {
         const Vec3 free(kFree);
         // The spine's range is that of its three bones together.
-        const Vec3 spine_least(rom::kSpineFlexion.least_deg / 3 * kRad, -rom::kSpineRotation / 3 * kRad, -rom::kSpineLateral / 3 * kRad);
-        const Vec3 spine_most(rom::kSpineFlexion.most_deg / 3 * kRad, rom::kSpineRotation / 3 * kRad, rom::kSpineLateral / 3 * kRad);
-        const Vec3 neck_least(rom::kNeckFlexion.least_deg / 2 * kRad, -rom::kNeckRotation / 2 * kRad, -rom::kNeckLateral / 2 * kRad);
-        const Vec3 neck_most(rom::kNeckFlexion.most_deg / 2 * kRad, rom::kNeckRotation / 2 * kRad, rom::kNeckLateral / 2 * kRad);
+        const Vec3 spine_least(rom::kSpineFlexion.least_deg / 3 * kRad, -rom::kSpineRotation / 3 * kRad,
+                               -rom::kSpineLateral / 3 * kRad);
+        const Vec3 spine_most(rom::kSpineFlexion.most_deg / 3 * kRad, rom::kSpineRotation / 3 * kRad,
+                              rom::kSpineLateral / 3 * kRad);
+        const Vec3 neck_least(rom::kNeckFlexion.least_deg / 2 * kRad, -rom::kNeckRotation / 2 * kRad,
+                              -rom::kNeckLateral / 2 * kRad);
+        const Vec3 neck_most(rom::kNeckFlexion.most_deg / 2 * kRad, rom::kNeckRotation / 2 * kRad,
+                             rom::kNeckLateral / 2 * kRad);
         size_t n = 0;
         for (const int b : {VFIT_BONE_SPINE, VFIT_BONE_CHEST, VFIT_BONE_UPPER_CHEST})
             bones[n++] = middle(b, Vec3(0.15f, 0.10f, 0.08f), spine_least, spine_most);
@@ -46,19 +50,23 @@ struct Priors {
                 const Vec3 a = sided(least), b = sided(most);
                 bones[n++] = {id, sided(mean), spread, glm::min(a, b), glm::max(a, b)};
             };
-            add(bone(VFIT_BONE_LEFT_SHOULDER, VFIT_BONE_RIGHT_SHOULDER), Vec3(0.0f), Vec3(0.08f, 0.12f, 0.12f), -free, free);
+            add(bone(VFIT_BONE_LEFT_SHOULDER, VFIT_BONE_RIGHT_SHOULDER), Vec3(0.0f), Vec3(0.08f, 0.12f, 0.12f), -free,
+                free);
             // Arms mostly hang. The range of a ball joint is no box of turn vectors: no walls.
-            add(bone(VFIT_BONE_LEFT_UPPER_ARM, VFIT_BONE_RIGHT_UPPER_ARM), Vec3(0, 0, -1.1f), Vec3(0.6f, 0.9f, 0.8f), -free, free);
+            add(bone(VFIT_BONE_LEFT_UPPER_ARM, VFIT_BONE_RIGHT_UPPER_ARM), Vec3(0, 0, -1.1f), Vec3(0.6f, 0.9f, 0.8f),
+                -free, free);
             // The elbow: flexion about y, pronation about x; little else.
             add(bone(VFIT_BONE_LEFT_LOWER_ARM, VFIT_BONE_RIGHT_LOWER_ARM), Vec3(0, -0.4f, 0), Vec3(0.4f, 0.9f, 0.10f),
                 Vec3(-rom::kForearmSupination * kRad, -rom::kElbowFlexion.most_deg * kRad, -kFree),
                 Vec3(rom::kForearmPronation * kRad, -rom::kElbowFlexion.least_deg * kRad, kFree));
             add(bone(VFIT_BONE_LEFT_HAND, VFIT_BONE_RIGHT_HAND), Vec3(0.0f), Vec3(0.05f, 0.20f, 0.25f), -free, free);
-            add(bone(VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_RIGHT_UPPER_LEG), Vec3(-0.1f, 0.05f, 0.04f), Vec3(0.7f, 0.25f, 0.25f),
+            add(bone(VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_RIGHT_UPPER_LEG), Vec3(-0.1f, 0.05f, 0.04f),
+                Vec3(0.7f, 0.25f, 0.25f),
                 Vec3(-rom::kHipFlexion.most_deg * kRad, -kFree, rom::kHipAbduction.least_deg * kRad),
                 Vec3(-rom::kHipFlexion.least_deg * kRad, kFree, rom::kHipAbduction.most_deg * kRad));
             add(bone(VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_RIGHT_LOWER_LEG), Vec3(0.15f, 0, 0), Vec3(0.8f, 0.06f, 0.05f),
-                Vec3(rom::kKneeFlexion.least_deg * kRad, -kFree, -kFree), Vec3(rom::kKneeFlexion.most_deg * kRad, kFree, kFree));
+                Vec3(rom::kKneeFlexion.least_deg * kRad, -kFree, -kFree),
+                Vec3(rom::kKneeFlexion.most_deg * kRad, kFree, kFree));
             add(bone(VFIT_BONE_LEFT_FOOT, VFIT_BONE_RIGHT_FOOT), Vec3(0.0f), Vec3(0.30f, 0.20f, 0.12f),
                 Vec3(rom::kAnklePlantarflexion.least_deg * kRad, -kFree, -kFree),
                 Vec3(rom::kAnklePlantarflexion.most_deg * kRad, kFree, kFree));
@@ -84,7 +92,8 @@ Mat3 turn_derivative(const Vec3& v) {
     const Mat3 cross(Vec3(0, v.z, -v.y), Vec3(-v.z, 0, v.x), Vec3(v.y, -v.x, 0));
     // 1 / angle^2 - (1 + cos) / (2 angle sin); its limit at 0 is 1/12.
     const float c = angle < 1e-2f ? 1.0f / 12.0f
-                                  : 1.0f / (angle * angle) - (1.0f + std::cos(angle)) / (2.0f * angle * std::max(1e-4f, std::sin(angle)));
+                                  : 1.0f / (angle * angle) -
+                                        (1.0f + std::cos(angle)) / (2.0f * angle * std::max(1e-4f, std::sin(angle)));
     return Mat3(1.0f) + 0.5f * cross + c * (cross * cross);
 }
 

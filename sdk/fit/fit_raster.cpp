@@ -7,12 +7,12 @@ namespace vfit {
 
 namespace {
 
-constexpr float kNearest_m = 0.25f;       // of what is drawn
-constexpr float kLeastCosine = 0.1f;      // of a visible vertex's normal to the line of sight
-constexpr float kBehind_m = 0.04f;        // a vertex this far behind the drawn surface is hidden
-constexpr float kHiding_m = 0.05f;        // a reading this far before the model hides it
+constexpr float kNearest_m = 0.25f;   // of what is drawn
+constexpr float kLeastCosine = 0.1f;  // of a visible vertex's normal to the line of sight
+constexpr float kBehind_m = 0.04f;    // a vertex this far behind the drawn surface is hidden
+constexpr float kHiding_m = 0.05f;    // a reading this far before the model hides it
 constexpr float kWorst_m = 0.10f;
-constexpr size_t kBins = 256;             // of a millimetre
+constexpr size_t kBins = 256;  // of a millimetre
 
 }  // namespace
 

@@ -12,8 +12,8 @@ constexpr float kGate_m2 = 0.06f;        // of the matching score: farther point
 constexpr float kLeastAgreement = 0.2f;  // cosine between the normals of a match
 // Points this far aside of their vertex are not covered by the model: half the side of its triangles, and some.
 constexpr float kBeside_m = 0.035f;
-constexpr int kFarthestCells = 16;       // from the outline: about 20 cm
-constexpr float kHiding_m = 0.05f;       // a reading this far before a vertex hides it
+constexpr int kFarthestCells = 16;  // from the outline: about 20 cm
+constexpr float kHiding_m = 0.05f;  // a reading this far before a vertex hides it
 constexpr float kNearest_m = 0.25f;
 
 float robust(float residual, float width) {
@@ -74,7 +74,8 @@ uint32_t add_depth_rows(const FitView& view, const FitBody& body, const FitRaste
     return matched;
 }
 
-uint32_t add_outline_rows(const FitView& view, const FitBody& body, const FitWeights& weights, FitEquations& equations) {
+uint32_t add_outline_rows(const FitView& view, const FitBody& body, const FitWeights& weights,
+                          FitEquations& equations) {
     const float weight = weights.outline_share / (weights.outline_m * weights.outline_m);
     uint32_t rows = 0;
     for (uint32_t v = 0; v < body.model().vertex_count(); ++v) {

@@ -25,7 +25,7 @@ struct FitWeights {
     float reach_m = 0.03f, reach_share = 0.05f;
     float outline_m = 0.015f, outline_share = 0.15f;
     float joint_m = 0.05f;
-    float robust_m = 0.05f;        // residuals of this size count a quarter (Geman & McClure 1987)
+    float robust_m = 0.05f;  // residuals of this size count a quarter (Geman & McClure 1987)
     float joint_robust_m = 0.10f;
 };
 

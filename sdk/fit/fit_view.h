@@ -11,9 +11,9 @@
 namespace vfit {
 
 enum class FitCell : uint8_t {
-    kFree,    // no reading
+    kFree,  // no reading
     kPerson,
-    kOther,   // a reading that is not the person's: behind them, or hiding them
+    kOther,  // a reading that is not the person's: behind them, or hiding them
 };
 
 struct FitDepthPoint {
@@ -30,9 +30,7 @@ public:
     int height() const { return height_; }
     size_t index(int x, int y) const { return size_t(y) * size_t(width_) + size_t(x); }
     /// Cell coordinates (whole at a cell's centre) of a camera-space point before the camera.
-    Vec2 project(const Vec3& p) const {
-        return {p.x / p.z * focal_.x + centre_.x, p.y / p.z * focal_.y + centre_.y};
-    }
+    Vec2 project(const Vec3& p) const { return {p.x / p.z * focal_.x + centre_.x, p.y / p.z * focal_.y + centre_.y}; }
     /// The direction, with z = 1, that a cell's centre looks into.
     Vec3 ray(float x, float y) const { return {(x - centre_.x) / focal_.x, (y - centre_.y) / focal_.y, 1.0f}; }
     bool inside(int x, int y) const { return x >= 0 && y >= 0 && x < width_ && y < height_; }
@@ -56,9 +54,9 @@ private:
     void fill_cells(const DepthImage& image, uint8_t user);
     void find_points();
 
-    int width_ = 0, height_ = 0, step_ = 1;     // step: pixels a cell
-    int left_ = 0, top_ = 0;                    // of the grid, pixels
-    Vec2 focal_{1.0f}, centre_{0.0f};           // in cells
+    int width_ = 0, height_ = 0, step_ = 1;  // step: pixels a cell
+    int left_ = 0, top_ = 0;                 // of the grid, pixels
+    Vec2 focal_{1.0f}, centre_{0.0f};        // in cells
     float image_left_ = 0, image_top_ = 0, image_right_ = 0, image_bottom_ = 0;
     uint32_t person_cells_ = 0;
     size_t most_cells_ = 0;

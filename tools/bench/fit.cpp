@@ -169,8 +169,8 @@ private:
 };
 
 /// `shift`: frames that the reference lags behind the depth.
-Errors errors_of(const std::vector<Sequence>& all, std::vector<Pair> Sequence::*pairs, const Offsets& offsets, bool others_only,
-                 size_t shift = 0) {
+Errors errors_of(const std::vector<Sequence>& all, std::vector<Pair> Sequence::*pairs, const Offsets& offsets,
+                 bool others_only, size_t shift = 0) {
     Errors errors;
     for (const Sequence& s : all) {
         if (others_only && s.person == "s1") continue;
@@ -208,12 +208,13 @@ double tremble(const std::vector<Sequence>& all, std::vector<Pair> Sequence::*pa
 }
 
 void print_errors(const char* title, const Errors& e) {
-    std::cout << "  " << std::left << std::setw(44) << title << std::right << " mean " << std::fixed << std::setprecision(1)
-              << 1000 * e.mean() << "  median " << 1000 * e.median() << " mm  within 10 cm " << std::setprecision(3)
-              << e.within(0.1) << "\n";
+    std::cout << "  " << std::left << std::setw(44) << title << std::right << " mean " << std::fixed
+              << std::setprecision(1) << 1000 * e.mean() << "  median " << 1000 * e.median() << " mm  within 10 cm "
+              << std::setprecision(3) << e.within(0.1) << "\n";
 }
 
-Json report(const std::string& title, const std::vector<Sequence>& all, const Samples& times, bool offsets, const Options& o) {
+Json report(const std::string& title, const std::vector<Sequence>& all, const Samples& times, bool offsets,
+            const Options& o) {
     std::vector<double> iou, median_m;
     uint32_t frames = 0, poor = 0, nothing = 0, from_last = 0;
     for (const Sequence& s : all) {
@@ -222,11 +223,20 @@ Json report(const std::string& title, const std::vector<Sequence>& all, const Sa
         frames += s.frames, poor += s.poor, nothing += s.nothing, from_last += s.from_last;
     }
     const Offsets none{};
-    const Errors raw_network = errors_of(all, &Sequence::network, none, false), raw_fit = errors_of(all, &Sequence::fitted, none, false);
-    Json out = {{"input", title}, {"frames", frames}, {"poor", poor}, {"nothing", nothing}, {"from_last", from_last},
-                {"depth_median_m", median(median_m)}, {"iou_mean", mean(iou)}, {"network", raw_network.json()},
-                {"fit", raw_fit.json()}, {"tremble_network_m", tremble(all, &Sequence::network)},
-                {"tremble_fit_m", tremble(all, &Sequence::fitted)}, {"fit_ms", times.json()}};
+    const Errors raw_network = errors_of(all, &Sequence::network, none, false),
+                 raw_fit = errors_of(all, &Sequence::fitted, none, false);
+    Json out = {{"input", title},
+                {"frames", frames},
+                {"poor", poor},
+                {"nothing", nothing},
+                {"from_last", from_last},
+                {"depth_median_m", median(median_m)},
+                {"iou_mean", mean(iou)},
+                {"network", raw_network.json()},
+                {"fit", raw_fit.json()},
+                {"tremble_network_m", tremble(all, &Sequence::network)},
+                {"tremble_fit_m", tremble(all, &Sequence::fitted)},
+                {"fit_ms", times.json()}};
     Errors off_network, off_fit;
     if (offsets) {
         off_network = errors_of(all, &Sequence::network, offsets_of(all, &Sequence::network), true);
@@ -235,18 +245,24 @@ Json report(const std::string& title, const std::vector<Sequence>& all, const Sa
         out["fit_offset"] = off_fit.json();
     }
     for (const Sequence& s : all)
-        out["sequences"].push_back({{"name", s.name}, {"frames", s.frames}, {"poor", s.poor}, {"nothing", s.nothing},
-                                    {"depth_median_m", median(s.median_m)}, {"iou_mean", mean(s.iou)},
+        out["sequences"].push_back({{"name", s.name},
+                                    {"frames", s.frames},
+                                    {"poor", s.poor},
+                                    {"nothing", s.nothing},
+                                    {"depth_median_m", median(s.median_m)},
+                                    {"iou_mean", mean(s.iou)},
                                     {"network", errors_of({s}, &Sequence::network, none, false).mean()},
                                     {"fit", errors_of({s}, &Sequence::fitted, none, false).mean()}});
     if (o.json) return out;
     std::cout << title << ": " << frames << " frames, " << poor << " poor, " << nothing << " without, " << from_last
-              << " from the last\n" << std::fixed << std::setprecision(1) << "  depth difference on covered pixels: median "
+              << " from the last\n"
+              << std::fixed << std::setprecision(1) << "  depth difference on covered pixels: median "
               << 1000 * median(median_m) << " mm; outline IoU: mean " << std::setprecision(3) << mean(iou) << "\n";
     for (const Sequence& s : all)
-        std::cout << "    " << std::left << std::setw(28) << s.name << std::right << std::setprecision(1) << std::setw(5)
-                  << 1000 * median(s.median_m) << " mm, IoU " << std::setprecision(3) << mean(s.iou) << ", joints mean "
-                  << std::setprecision(1) << 1000 * errors_of({s}, &Sequence::network, none, false).mean() << " -> "
+        std::cout << "    " << std::left << std::setw(28) << s.name << std::right << std::setprecision(1)
+                  << std::setw(5) << 1000 * median(s.median_m) << " mm, IoU " << std::setprecision(3) << mean(s.iou)
+                  << ", joints mean " << std::setprecision(1)
+                  << 1000 * errors_of({s}, &Sequence::network, none, false).mean() << " -> "
                   << 1000 * errors_of({s}, &Sequence::fitted, none, false).mean() << " mm, poor " << s.poor << "\n";
     print_errors("network, as it is", raw_network);
     print_errors("network and fit, as it is", raw_fit);
@@ -255,22 +271,27 @@ Json report(const std::string& title, const std::vector<Sequence>& all, const Sa
         print_errors("network and fit, the same", off_fit);
         for (const size_t shift : {size_t(1), size_t(2)}) {
             const std::string later = ", reference " + std::to_string(shift) + " later";
-            print_errors(("network" + later).c_str(), errors_of(all, &Sequence::network, offsets_of(all, &Sequence::network), true, shift));
-            print_errors(("network and fit" + later).c_str(), errors_of(all, &Sequence::fitted, offsets_of(all, &Sequence::fitted), true, shift));
+            print_errors(("network" + later).c_str(),
+                         errors_of(all, &Sequence::network, offsets_of(all, &Sequence::network), true, shift));
+            print_errors(("network and fit" + later).c_str(),
+                         errors_of(all, &Sequence::fitted, offsets_of(all, &Sequence::fitted), true, shift));
         }
     }
     std::cout << "    median mm by joint, network -> fit" << (offsets ? " (offsets: network -> fit)" : "") << "\n";
     for (int j = 0; j < kScored; ++j) {
         std::cout << "      " << std::left << std::setw(16) << joint_name(j) << std::right << std::setw(4)
-                  << std::lround(1000 * raw_network.median(j)) << " -> " << std::setw(4) << std::lround(1000 * raw_fit.median(j));
+                  << std::lround(1000 * raw_network.median(j)) << " -> " << std::setw(4)
+                  << std::lround(1000 * raw_fit.median(j));
         if (offsets)
             std::cout << "    (" << std::setw(4) << std::lround(1000 * off_network.median(j)) << " -> " << std::setw(4)
                       << std::lround(1000 * off_fit.median(j)) << ")";
         std::cout << "\n";
     }
     std::cout << std::setprecision(1) << "  trembling (median second difference): network "
-              << 1000 * tremble(all, &Sequence::network) << " mm, fit " << 1000 * tremble(all, &Sequence::fitted) << " mm\n"
-              << std::setprecision(2) << "  fit: median " << times.quantile(0.5) << " ms, p95 " << times.quantile(0.95) << " ms\n\n";
+              << 1000 * tremble(all, &Sequence::network) << " mm, fit " << 1000 * tremble(all, &Sequence::fitted)
+              << " mm\n"
+              << std::setprecision(2) << "  fit: median " << times.quantile(0.5) << " ms, p95 " << times.quantile(0.95)
+              << " ms\n\n";
     return out;
 }
 
@@ -313,7 +334,8 @@ Json real(const Models& models, const Options& o) {
         std::vector<uint8_t> map;
         while (const auto frame = source.next()) {
             if (!has_stream(frame->get(), VFIT_STREAM_USER_MAP)) throw Failure(s.name + ": has no mask");
-            const vfit_view d = view_of(frame->get(), VFIT_STREAM_DEPTH), u = view_of(frame->get(), VFIT_STREAM_USER_MAP);
+            const vfit_view d = view_of(frame->get(), VFIT_STREAM_DEPTH),
+                            u = view_of(frame->get(), VFIT_STREAM_USER_MAP);
             depth.clear(), map.clear();
             for (uint32_t y = 0; y < d.height; ++y) {
                 depth.insert(depth.end(), row_of<uint16_t>(d, y), row_of<uint16_t>(d, y) + d.width);
@@ -332,7 +354,8 @@ Json real(const Models& models, const Options& o) {
         }
         all.push_back(std::move(s));
     }
-    return all.empty() ? Json{} : report("real people (recordings) against their middleware's joints", all, times, true, o);
+    return all.empty() ? Json{}
+                       : report("real people (recordings) against their middleware's joints", all, times, true, o);
 }
 
 void run(const Options& o) {

@@ -76,10 +76,14 @@ std::vector<float> random_shape(const BodyModel& model, Random& random) {
         const ShapeParameter& p = model.parameters()[i];
         const float usual = (1.0f - gender) * p.female + gender * p.male;
         float value = usual;
-        if (p.key == "gender") value = gender;
-        else if (p.key == "age") value = random.between(0.45f, 0.75f);
-        else if (p.minimum >= 0.0f) value = usual + 0.15f * random.normal();
-        else if (p.key.rfind("measure-", 0) == 0) value = 0.2f * random.normal();
+        if (p.key == "gender")
+            value = gender;
+        else if (p.key == "age")
+            value = random.between(0.45f, 0.75f);
+        else if (p.minimum >= 0.0f)
+            value = usual + 0.15f * random.normal();
+        else if (p.key.rfind("measure-", 0) == 0)
+            value = 0.2f * random.normal();
         shape[i] = std::clamp(value, p.minimum, p.maximum);
     }
     return shape;
@@ -103,10 +107,14 @@ std::vector<float> clothes_of(const vfit::Avatar& avatar, Random& random) {
         switch (avatar.parts()[v]) {
             case BodyPart::kHead: layer = p.y > crown - 0.14f || p.z < -0.02f ? hair : 0.0f; break;
             case BodyPart::kTorso: layer = top; break;
-            case BodyPart::kLeftUpperArm: case BodyPart::kRightUpperArm:
-            case BodyPart::kLeftForearm: case BodyPart::kRightForearm: layer = sleeves; break;
-            case BodyPart::kLeftHand: case BodyPart::kRightHand: break;
-            case BodyPart::kLeftFoot: case BodyPart::kRightFoot: layer = shoes; break;
+            case BodyPart::kLeftUpperArm:
+            case BodyPart::kRightUpperArm:
+            case BodyPart::kLeftForearm:
+            case BodyPart::kRightForearm: layer = sleeves; break;
+            case BodyPart::kLeftHand:
+            case BodyPart::kRightHand: break;
+            case BodyPart::kLeftFoot:
+            case BodyPart::kRightFoot: layer = shoes; break;
             default: layer = trousers;
         }
         out[v] = layer * folds;
@@ -123,7 +131,8 @@ void make_noisy(const std::vector<float>& exact, Random& random, FitShot& shot) 
     int x0 = w, y0 = h, x1 = 0, y1 = 0;
     for (int y = 0; y < h; ++y)
         for (int x = 0; x < w; ++x)
-            if (exact[size_t(y * w + x)] > 0.0f) x0 = std::min(x0, x), x1 = std::max(x1, x), y0 = std::min(y0, y), y1 = y;
+            if (exact[size_t(y * w + x)] > 0.0f)
+                x0 = std::min(x0, x), x1 = std::max(x1, x), y0 = std::min(y0, y), y1 = y;
     for (int y = std::max(0, y0 - kReach); y <= std::min(h - 1, y1 + kReach); ++y)
         for (int x = std::max(0, x0 - kReach); x <= std::min(w - 1, x1 + kReach); ++x) {
             const int sx = std::clamp(x + int(std::lround(0.8f * random.normal())), 0, w - 1);
@@ -165,8 +174,8 @@ void draw_depth(const std::vector<Vec3>& positions, const std::vector<uint32_t>&
     }
 }
 
-void play_person(const std::shared_ptr<const BodyModel>& model, const std::string& motion, uint32_t seed, uint32_t frames,
-                 bool clothes, const std::function<void(const FitShot&)>& sink) {
+void play_person(const std::shared_ptr<const BodyModel>& model, const std::string& motion, uint32_t seed,
+                 uint32_t frames, bool clothes, const std::function<void(const FitShot&)>& sink) {
     Random random(seed);
     vfit::Avatar avatar(model, {}, random_shape(*model, random), Vec2(1.0f));
     std::vector<float> layers = clothes_of(avatar, random);

@@ -13,7 +13,8 @@ struct Person {
     Avatar avatar;
     FitScene scene;
     explicit Person(const std::vector<float>& components = {})
-        : avatar(body_model(), {}, shape_of(components), Vec2(1.0f)), scene(shoot(avatar, easy_pose(avatar.skeleton()))) {}
+        : avatar(body_model(), {}, shape_of(components), Vec2(1.0f)),
+          scene(shoot(avatar, easy_pose(avatar.skeleton()))) {}
 };
 
 TEST(BodyFit, RecoversAPersonFromJointsThatAreWrong) {
@@ -34,8 +35,10 @@ TEST(BodyFit, TellsHowJointsAreTurned) {
     Person person;
     BodyFit fit(fit_model());
     const BodyFitOutput* out = nullptr;
-    for (int i = 0; i < 5; ++i) out = &fit.run(input_of(person.scene, person.scene.seen(0.02f, uint32_t(i)), i * kFrameNs));
-    for (const int j : {VFIT_JOINT_PELVIS, VFIT_JOINT_CHEST, VFIT_JOINT_LEFT_KNEE, VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_LEFT_SHOULDER}) {
+    for (int i = 0; i < 5; ++i)
+        out = &fit.run(input_of(person.scene, person.scene.seen(0.02f, uint32_t(i)), i * kFrameNs));
+    for (const int j :
+         {VFIT_JOINT_PELVIS, VFIT_JOINT_CHEST, VFIT_JOINT_LEFT_KNEE, VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_LEFT_SHOULDER}) {
         const Quat& truth = person.scene.joints.joints[size_t(j)].rotation;
         const float angle = glm::length(log_of(glm::conjugate(truth) * out->rotations[size_t(j)]));
         EXPECT_LT(angle, 0.35f) << joint_name(j);
@@ -67,7 +70,8 @@ TEST(BodyFit, TheOutlinePullsAnArmThatDepthDoesNotShow) {
     // Joints put the left arm 12 cm too high; without depth rows only the outline can lower it.
     Person person;
     FitJoints joints = person.scene.seen();
-    for (const int j : {VFIT_JOINT_LEFT_ELBOW, VFIT_JOINT_LEFT_HAND, VFIT_JOINT_LEFT_WRIST}) joints[size_t(j)].place.y -= 0.12f;
+    for (const int j : {VFIT_JOINT_LEFT_ELBOW, VFIT_JOINT_LEFT_HAND, VFIT_JOINT_LEFT_WRIST})
+        joints[size_t(j)].place.y -= 0.12f;
     const auto error = [&](bool outline) {
         BodyFitOptions options;
         options.depth_rows = false;

@@ -16,7 +16,8 @@ FitState bent_state() {
     FitState state;
     state.hips = Vec3(0.1f, 0.2f, 2.5f);
     for (int b = 0; b < kBoneCount; ++b)
-        state.rotation[size_t(b)] = exp_of(0.3f * Vec3(std::sin(float(b)), std::cos(2.0f * float(b)), std::sin(3.0f * float(b))));
+        state.rotation[size_t(b)] =
+            exp_of(0.3f * Vec3(std::sin(float(b)), std::cos(2.0f * float(b)), std::sin(3.0f * float(b))));
     state.rotation[VFIT_BONE_HIPS] = exp_of(Vec3(kPi - 0.2f, 0.1f, 0.2f));  // upright before a camera
     for (size_t s = 0; s < state.shape.size(); ++s) state.shape[s] = 0.3f * float(s % 4) - 0.4f;
     return state;
@@ -91,7 +92,8 @@ TEST(FitEquations, AStepFromManyRowsBringsThePointsHome) {
             for (int axis = 0; axis < 3; ++axis) {
                 Vec3 direction(0.0f);
                 direction[axis] = 1.0f;
-                equations.add_vertex_row(v, direction, target.positions()[v][axis] - body.positions()[v][axis], 1000.0f);
+                equations.add_vertex_row(v, direction, target.positions()[v][axis] - body.positions()[v][axis],
+                                         1000.0f);
             }
         equations.finish();
         for (int c = 0; c < kFitUnknowns; ++c) equations.add_prior(c, 0.0, 1e-4);
@@ -119,7 +121,8 @@ TEST(FitEquations, TheShapesOwnEquationsHaveTheSameSolution) {
     ASSERT_TRUE(equations.solve(step));
     for (size_t i = 0; i < size_t(kFitShapes); ++i) {
         double sum = 0.0;
-        for (size_t j = 0; j < size_t(kFitShapes); ++j) sum += equations.shape_information()[i][j] * step[kFitPoseUnknowns + j];
+        for (size_t j = 0; j < size_t(kFitShapes); ++j)
+            sum += equations.shape_information()[i][j] * step[kFitPoseUnknowns + j];
         EXPECT_NEAR(sum, equations.shape_right_side()[i], 1e-6 * (1.0 + std::abs(sum)));
         again[kFitPoseUnknowns + i] = step[kFitPoseUnknowns + i];
     }
@@ -171,7 +174,8 @@ TEST(FitKernels, TheNearestIsThatOfAPlainLoop) {
             }
             EXPECT_NEAR(score, best, 1e-5f);
             const Vec3 d = place - places[found - 100];
-            EXPECT_NEAR(glm::dot(d, d) + FitTargets::kBend_m2 * (1.0f - glm::dot(n, normals[found - 100])), best, 1e-5f);
+            EXPECT_NEAR(glm::dot(d, d) + FitTargets::kBend_m2 * (1.0f - glm::dot(n, normals[found - 100])), best,
+                        1e-5f);
         }
     }
 }

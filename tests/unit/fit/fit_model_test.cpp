@@ -27,7 +27,8 @@ TEST(FitModel, ItsTrianglesCloseTheSurfaceButForAFewSeams) {
 TEST(FitModel, StandsOnTheAvatarsSkinInAnyPose) {
     AvatarDesc desc;
     desc.single_bones = true;
-    for (const std::vector<float>& components : {std::vector<float>{}, {1.2f, -0.8f, 0.5f}, {-1.5f, 1.0f, 0.0f, 0.8f}}) {
+    for (const std::vector<float>& components :
+         {std::vector<float>{}, {1.2f, -0.8f, 0.5f}, {-1.5f, 1.0f, 0.0f, 0.8f}}) {
         Avatar avatar(body_model(), desc, shape_of(components), Vec2(1.0f));
         const Pose pose = easy_pose(avatar.skeleton());
         avatar.pose(pose, *Jobs::own(0));
