@@ -22,6 +22,53 @@ std::pair<size_t, size_t> extent(const std::vector<uint32_t>& bins, size_t count
     return {first, last};
 }
 
+/// Columns of a crop row through `at` (its middle) that come within `margin` pixels of the box; others see nothing.
+std::pair<int, int> columns_in(const PixelBox& box, const Vec2& at, const Vec2& right, float margin) {
+    constexpr float n = CropView::kPixels;
+    float first = 0.0f, last = n;
+    const float low[2] = {float(box.x0) - margin - 1, float(box.y0) - margin - 1};
+    const float high[2] = {float(box.x1) + margin, float(box.y1) + margin};
+    for (int k = 0; k < 2; ++k) {
+        if (std::abs(right[k]) < 1e-6f) {
+            if (at[k] < low[k] || at[k] > high[k]) return {0, 0};
+            continue;
+        }
+        const float a = (low[k] - at[k]) / right[k] + 0.5f * n, b = (high[k] - at[k]) / right[k] + 0.5f * n;
+        first = std::max(first, std::floor(std::min(a, b)));
+        last = std::min(last, std::ceil(std::max(a, b)) + 1.0f);
+    }
+    return first < last ? std::pair(int(first), int(last)) : std::pair(0, 0);
+}
+
+/// What one crop pixel sees of the person; 1: nothing.
+float read(const DepthImage& image, uint8_t user, const PixelBox& box, const CropView& view, int i, int j, int grid) {
+    constexpr float n = CropView::kPixels;
+    uint32_t depths[9], nearest = ~0u;
+    int count = 0;
+    for (int b = 0; b < grid; ++b) {
+        const float cj = float(j) + (float(b) + 0.5f) / float(grid) - 0.5f * n;
+        for (int a = 0; a < grid; ++a) {
+            const float ci = float(i) + (float(a) + 0.5f) / float(grid) - 0.5f * n;
+            const Vec2 q = view.centre + view.right * ci + view.down * cj;
+            // Rounded; the box starts at 0 or later, and so what a cast takes the wrong way lies outside it.
+            const int x = int(q.x + 0.5f), y = int(q.y + 0.5f);
+            if (q.x < -0.5f || q.y < -0.5f || x < box.x0 || y < box.y0 || x >= box.x1 || y >= box.y1) continue;
+            const size_t p = image.index(uint32_t(x), uint32_t(y));
+            const uint32_t depth = image.depth[p];
+            if (image.users[p] != user || depth == 0) continue;
+            depths[count++] = depth;
+            nearest = std::min(nearest, depth);
+        }
+    }
+    if (count == 0) return 1.0f;
+    const uint32_t limit = nearest + uint32_t(kSameSurface_m / image.camera.depth_unit_m);
+    uint32_t sum = 0, same = 0;
+    for (int k = 0; k < count; ++k)
+        if (depths[k] <= limit) sum += depths[k], ++same;
+    const float metres = float(sum) / float(same) * image.camera.depth_unit_m;
+    return std::clamp((metres - view.depth_m) / (0.5f * CropView::kSide_m), -1.0f, 1.0f);
+}
+
 }  // namespace
 
 Vec3 CropView::from_camera(const Camera& camera, const Vec3& p) const {
@@ -44,14 +91,18 @@ bool Cropper::look(const DepthImage& image, uint8_t user, const PixelBox& box, c
     depths_.assign(kDepthBins, 0);
     across_.assign(2 * reach, 0), along_.assign(2 * reach, 0);
     uint32_t count = 0;
+    uint32_t *const depths = depths_.data(), *const across = across_.data(), *const along = along_.data();
+    const float bins = image.camera.depth_unit_m / kBin_m;
     for (int y = box.y0; y < box.y1; ++y) {
         const size_t row = image.index(0, uint32_t(y));
+        const float across_y = float(reach) + right.y * float(y), along_y = float(reach) + down.y * float(y);
         for (int x = box.x0; x < box.x1; ++x) {
-            if (image.users[row + size_t(x)] != user || image.depth[row + size_t(x)] == 0) continue;
+            const uint16_t depth = image.depth[row + size_t(x)];
+            if (image.users[row + size_t(x)] != user || depth == 0) continue;
             ++count;
-            ++depths_[std::min(kDepthBins - 1, size_t(image.metres(row + size_t(x)) / kBin_m))];
-            ++across_[size_t(float(reach) + right.x * float(x) + right.y * float(y))];
-            ++along_[size_t(float(reach) + down.x * float(x) + down.y * float(y))];
+            ++depths[std::min(int(kDepthBins) - 1, int(float(depth) * bins))];
+            ++across[int(across_y + right.x * float(x))];
+            ++along[int(along_y + down.x * float(x))];
         }
     }
     if (count < kFewestPixels) return false;
@@ -79,35 +130,18 @@ bool Cropper::run(const DepthImage& image, uint8_t user, const PixelBox& within,
                                                    std::min(within.x1, width), std::min(within.y1, height)};
     if (!image.depth || !image.users || !look(image, user, box, up, view)) return false;
 
-    constexpr int n = CropView::kPixels;
     // Where a crop pixel covers several image pixels a small grid of them is read.
     const float covered = std::max(std::abs(view.right.x) + std::abs(view.down.x),
                                    std::abs(view.right.y) + std::abs(view.down.y));
     const int grid = std::clamp(int(std::lround(covered)), 1, 3);
-    for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) {
-            float nearest = 1e9f, sum = 0.0f;
-            float read[9];
-            int reads = 0;
-            for (int b = 0; b < grid; ++b)
-                for (int a = 0; a < grid; ++a) {
-                    const float ci = float(i) + (float(a) + 0.5f) / float(grid) - 0.5f * n;
-                    const float cj = float(j) + (float(b) + 0.5f) / float(grid) - 0.5f * n;
-                    const Vec2 q = view.centre + view.right * ci + view.down * cj;
-                    const int x = int(std::floor(q.x + 0.5f)), y = int(std::floor(q.y + 0.5f));
-                    if (x < box.x0 || y < box.y0 || x >= box.x1 || y >= box.y1) continue;
-                    const size_t p = image.index(uint32_t(x), uint32_t(y));
-                    if (image.users[p] != user || image.depth[p] == 0) continue;
-                    read[reads] = image.metres(p);
-                    nearest = std::min(nearest, read[reads++]);
-                }
-            int same = 0;
-            for (int k = 0; k < reads; ++k)
-                if (read[k] <= nearest + kSameSurface_m) sum += read[k], ++same;
-            values[j * n + i] =
-                same == 0 ? 1.0f
-                          : std::clamp((sum / float(same) - view.depth_m) / (0.5f * CropView::kSide_m), -1.0f, 1.0f);
-        }
+    constexpr int n = CropView::kPixels;
+    for (int j = 0; j < n; ++j) {
+        const float row = float(j) + 0.5f - 0.5f * n;
+        const Vec2 at = view.centre + view.down * row;
+        const auto [first, last] = columns_in(box, at, view.right, covered);
+        std::fill_n(values + j * n, n, 1.0f);
+        for (int i = first; i < last; ++i) values[j * n + i] = read(image, user, box, view, i, j, grid);
+    }
     return true;
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace vfit {
@@ -60,6 +61,20 @@ TEST(Crop, TurnsThePictureUpright) {
     ASSERT_TRUE(crop.made);
     EXPECT_EQ(crop.at(0.0f, 0.65f), 1.0f);
     EXPECT_NEAR(crop.at(0.65f, 0.0f), 0.0f, 0.01f);
+}
+
+TEST(Crop, SeesAllOfThePersonHoweverTheCameraIsTurned) {
+    const Image image;
+    const auto seen = [&](const Vec2& up) {
+        const Crop crop(image.view(), up, {130, 40, 190, 200});
+        EXPECT_TRUE(crop.made);
+        return kPixels * kPixels - std::count(crop.values.begin(), crop.values.end(), 1.0f);
+    };
+    // 60 x 160 pixels of 10 mm are 33 x 89 of 18 mm.
+    for (int degrees = 0; degrees < 360; degrees += 15) {
+        const float a = glm::radians(float(degrees));
+        EXPECT_NEAR(double(seen({std::sin(a), -std::cos(a)})), 2971.0, 300.0) << degrees << " degrees";
+    }
 }
 
 TEST(Crop, LeadsToCameraSpaceAndBack) {
