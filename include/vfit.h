@@ -160,8 +160,8 @@ VFIT_API vfit_result vfit_plugin_list(vfit_context context, vfit_plugin_info* it
                                       uint32_t* count);                                    /* [any]  */
 
 /* ---- vocabularies: joints (what a sensor sees), bones (what a character has) ----------------------- */
-/* One meaning everywhere: SHOULDER is the head of the humerus, HAND the palm, FOOT the ankle joint;
- * LEFT is the person's own left.                                                                      */
+/* One meaning everywhere: SHOULDER is the head of the humerus, HIP that of the femur, HAND the hand's centre
+ * of mass in the palm (some 7 cm from the wrist), FOOT the ankle joint; LEFT is the person's own left. */
 typedef int32_t vfit_joint_id;
 enum { VFIT_JOINT_HEAD = 0, VFIT_JOINT_NECK = 1, VFIT_JOINT_TORSO = 2,
     VFIT_JOINT_LEFT_SHOULDER = 3, VFIT_JOINT_RIGHT_SHOULDER = 4, VFIT_JOINT_LEFT_ELBOW = 5,

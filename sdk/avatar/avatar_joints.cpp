@@ -41,7 +41,7 @@ void Avatar::place_joints() {
     for (int j = 0; j < kJointCount; ++j) {
         const JointPlace place = kJointPlaces[static_cast<size_t>(j)];
         const AvatarBone& bone = rig_bones()[static_cast<size_t>(rig_.rig_bone(place.bone))];
-        anchors_[static_cast<size_t>(j)] = place.middle ? 0.5f * (bone.rest_head + bone.rest_tail) : bone.rest_head;
+        anchors_[static_cast<size_t>(j)] = glm::mix(bone.rest_head, bone.rest_tail, place.along);
     }
 }
 

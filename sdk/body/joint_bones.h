@@ -1,4 +1,4 @@
-// Where each joint of VFIT_JOINT_* lies in a body: at the start of a humanoid bone, or in its middle.
+// Where each joint of VFIT_JOINT_* lies in a body: on a humanoid bone.
 #pragma once
 
 #include <array>
@@ -9,34 +9,38 @@ namespace vfit {
 
 struct JointPlace {
     int bone;     // VFIT_BONE_*
-    bool middle;  // of the bone; else its start
+    float along;  // from its start to its end, share of it
 };
+
+/// The hand's centre of mass: .506 of the way from the wrist to the second knuckle of the middle finger (Dempster, in
+/// Winter), which in this rig lies 4/3 as far from the wrist as the finger's root, where the bone ends.
+inline constexpr float kHandCentre = 0.506f * 4.0f / 3.0f;
 
 /// By joint id.
 inline constexpr std::array<JointPlace, VFIT_JOINT_COUNT> kJointPlaces = {{
-    {VFIT_BONE_HEAD, true},
-    {VFIT_BONE_NECK, false},
-    {VFIT_BONE_CHEST, false},
-    {VFIT_BONE_LEFT_UPPER_ARM, false},
-    {VFIT_BONE_RIGHT_UPPER_ARM, false},
-    {VFIT_BONE_LEFT_LOWER_ARM, false},
-    {VFIT_BONE_RIGHT_LOWER_ARM, false},
-    {VFIT_BONE_LEFT_HAND, true},
-    {VFIT_BONE_RIGHT_HAND, true},
-    {VFIT_BONE_LEFT_UPPER_LEG, false},
-    {VFIT_BONE_RIGHT_UPPER_LEG, false},
-    {VFIT_BONE_LEFT_LOWER_LEG, false},
-    {VFIT_BONE_RIGHT_LOWER_LEG, false},
-    {VFIT_BONE_LEFT_FOOT, false},
-    {VFIT_BONE_RIGHT_FOOT, false},
-    {VFIT_BONE_HIPS, false},
-    {VFIT_BONE_UPPER_CHEST, false},
-    {VFIT_BONE_LEFT_SHOULDER, false},
-    {VFIT_BONE_RIGHT_SHOULDER, false},
-    {VFIT_BONE_LEFT_HAND, false},
-    {VFIT_BONE_RIGHT_HAND, false},
-    {VFIT_BONE_LEFT_TOES, false},
-    {VFIT_BONE_RIGHT_TOES, false},
+    {VFIT_BONE_HEAD, 0.5f},
+    {VFIT_BONE_NECK, 0.0f},
+    {VFIT_BONE_CHEST, 0.0f},
+    {VFIT_BONE_LEFT_UPPER_ARM, 0.0f},
+    {VFIT_BONE_RIGHT_UPPER_ARM, 0.0f},
+    {VFIT_BONE_LEFT_LOWER_ARM, 0.0f},
+    {VFIT_BONE_RIGHT_LOWER_ARM, 0.0f},
+    {VFIT_BONE_LEFT_HAND, kHandCentre},
+    {VFIT_BONE_RIGHT_HAND, kHandCentre},
+    {VFIT_BONE_LEFT_UPPER_LEG, 0.0f},
+    {VFIT_BONE_RIGHT_UPPER_LEG, 0.0f},
+    {VFIT_BONE_LEFT_LOWER_LEG, 0.0f},
+    {VFIT_BONE_RIGHT_LOWER_LEG, 0.0f},
+    {VFIT_BONE_LEFT_FOOT, 0.0f},
+    {VFIT_BONE_RIGHT_FOOT, 0.0f},
+    {VFIT_BONE_HIPS, 0.0f},
+    {VFIT_BONE_UPPER_CHEST, 0.0f},
+    {VFIT_BONE_LEFT_SHOULDER, 0.0f},
+    {VFIT_BONE_RIGHT_SHOULDER, 0.0f},
+    {VFIT_BONE_LEFT_HAND, 0.0f},
+    {VFIT_BONE_RIGHT_HAND, 0.0f},
+    {VFIT_BONE_LEFT_TOES, 0.0f},
+    {VFIT_BONE_RIGHT_TOES, 0.0f},
 }};
 
 }  // namespace vfit

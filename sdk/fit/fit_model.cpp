@@ -154,7 +154,7 @@ BodyInBones in_bones(const BodyModel& model, const EvaluatedBody& body, const st
     for (int b = 0; b < kBoneCount; ++b) out.points.push_back(b == 0 ? Vec3(0.0f) : rig.skeleton().offset[size_t(b)]);
     for (const JointPlace& place : kJointPlaces) {
         const AvatarBone& bone = rig.bones()[size_t(rig.rig_bone(place.bone))];
-        const Vec3 at = place.middle ? 0.5f * (bone.rest_head + bone.rest_tail) : bone.rest_head;
+        const Vec3 at = glm::mix(bone.rest_head, bone.rest_tail, place.along);
         out.points.push_back(out.t_pose[size_t(place.bone)] * (at - bone.rest_head));
     }
     return out;

@@ -16,7 +16,8 @@ constexpr float kHipHalfShare = 0.0955f / 2;  // joint centres: half of the hip 
 constexpr float kShoulderHalfShare = 0.1295f; // half of biacromial .259
 constexpr float kShoulderDropShare = 0.0f;
 constexpr float kNeckShare = 0.052f;          // .870 (chin) less .818
-constexpr float kUpperArmShare = 0.186f, kForearmShare = 0.146f, kHandShare = 0.108f;
+constexpr float kUpperArmShare = 0.186f, kForearmShare = 0.146f;
+constexpr float kPalmShare = 0.040f;          // wrist to the hand's centre of mass, as on the avatar
 constexpr float kThighShare = 0.245f, kShankShare = 0.246f, kAnkleShare = 0.039f;
 constexpr float kToesForwardShare = 0.070f;   // of the foot's .152: ankle to toe joint
 
@@ -74,9 +75,9 @@ void Proportions::update(const Body& body) {
         add_between(body, kUpperArm, VFIT_JOINT_LEFT_SHOULDER + side, VFIT_JOINT_LEFT_ELBOW + side, 1.0f);
         if (body.has(VFIT_JOINT_LEFT_WRIST + side))
             add_between(body, kForearm, VFIT_JOINT_LEFT_ELBOW + side, VFIT_JOINT_LEFT_WRIST + side, 1.0f);
-        else  // the palm lies half a hand beyond the wrist
+        else
             add_between(body, kForearm, VFIT_JOINT_LEFT_ELBOW + side, VFIT_JOINT_LEFT_HAND + side,
-                        kForearmShare / (kForearmShare + 0.5f * kHandShare));
+                        kForearmShare / (kForearmShare + kPalmShare));
         add_between(body, kThigh, VFIT_JOINT_LEFT_HIP + side, VFIT_JOINT_LEFT_KNEE + side, 1.0f);
         add_between(body, kShank, VFIT_JOINT_LEFT_KNEE + side, VFIT_JOINT_LEFT_FOOT + side, 1.0f);
         add_between(body, kFoot, VFIT_JOINT_LEFT_FOOT + side, VFIT_JOINT_LEFT_TOES + side, 1.0f);

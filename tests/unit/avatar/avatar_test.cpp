@@ -98,6 +98,19 @@ TEST(Avatar, TPoseKeepsThePalmsDownAndTheSolesOnTheFloor) {
     EXPECT_NEAR(low, 0.0f, 0.005f);  // the skin of the ankle gives a little when the legs straighten
 }
 
+// Winter: the hand's centre of mass lies .506 of the way from the wrist to the middle finger's second knuckle, and
+// wrist to fingertip is .108 of stature.
+TEST(Avatar, HandJointLiesInThePalmAThirdOfTheHandFromTheWrist) {
+    const Avatar avatar = make_avatar();
+    const Body joints = avatar.joints();
+    for (const int side : {0, 1}) {
+        const Vec3 wrist = joints.at(VFIT_JOINT_LEFT_WRIST + side), hand = joints.at(VFIT_JOINT_LEFT_HAND + side);
+        const Vec3 elbow = joints.at(VFIT_JOINT_LEFT_ELBOW + side);
+        EXPECT_NEAR(glm::distance(wrist, hand), 0.38f * 0.108f * avatar.stature(), 0.006f);
+        EXPECT_GT(glm::dot(glm::normalize(hand - wrist), glm::normalize(wrist - elbow)), 0.9f);
+    }
+}
+
 TEST(Avatar, HipsMoveTheWholeBodyRigidly) {
     Avatar avatar = make_avatar();
     const auto jobs = Jobs::own(1);
