@@ -20,7 +20,7 @@ class Stream:
     """Batches without end. The pool is filled once and then renewed piece by piece: crops that come slower than
     they are used are used again (`reuse` times on average)."""
 
-    def __init__(self, command, body, seed, first, processes, pool=24576, reuse=1):
+    def __init__(self, command, body, seed, first, processes, pool=16384, reuse=1):
         self.pool = np.empty(pool, RECORD)
         self.random = np.random.default_rng(seed + first)
         self.reuse, self.next, self.debt = reuse, 0, 0.0

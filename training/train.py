@@ -24,23 +24,25 @@ def joint_weights():
     weight = torch.ones(COUNT)
     for i, name in enumerate(JOINTS):
         if "ELBOW" in name:
-            weight[i] = 1.5
-        if "HAND" in name or "WRIST" in name:
             weight[i] = 2.0
+        if "HAND" in name or "WRIST" in name:
+            weight[i] = 2.5
     return weight
 
 
 def loss_of(network, batch, weight):
     crop, joints, inside, away, person = batch
     maps, answers = network(crop)
-    found, heat = decode(maps)
+    found, _ = decode(maps)
     each = (found - joints).abs().sum(-1) * inside * weight
     place = (torch.arange(MAP) + 0.5) / (MAP / 2) - 1
-    dx = (place[None, None, None, :] - joints[..., 0, None, None]) ** 2
-    dy = (place[None, None, :, None] - joints[..., 1, None, None]) ** 2
-    wanted = torch.exp(-(dx + dy) / (2 * HEAT_SIGMA**2)).flatten(2)
+    # A Gaussian about the joint; its cross-entropy with the heat from the logits, without the heat's logarithm.
+    across = torch.exp(-((place - joints[..., 0, None]) ** 2) / (2 * HEAT_SIGMA**2))
+    along = torch.exp(-((place - joints[..., 1, None]) ** 2) / (2 * HEAT_SIGMA**2))
+    wanted = (along[..., :, None] * across[..., None, :]).flatten(2)
     wanted = wanted / wanted.sum(-1, keepdim=True).clamp_min(1e-3)
-    cross = -(wanted * heat.clamp_min(1e-9).log()).sum(-1) * inside * weight
+    logits = maps[:, :COUNT].flatten(2)
+    cross = (wanted.sum(-1) * logits.logsumexp(-1) - (wanted * logits).sum(-1)) * inside * weight
     total = each.mean() + 0.02 * cross.mean()
     bce = nn.functional.binary_cross_entropy_with_logits
     return total + 0.02 * (bce(answers[:, 0], away, weight=person) + bce(answers[:, 1], person))

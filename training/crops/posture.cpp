@@ -166,13 +166,14 @@ private:
     void usual_arms() {
         const Side busy = random_.chance(0.5f) ? kLeft : kRight;
         const Side other = busy == kLeft ? kRight : kLeft;
-        switch (random_.pick({0.19f, 0.27f, 0.14f, 0.15f, 0.09f, 0.08f, 0.08f})) {
+        switch (random_.pick({0.16f, 0.25f, 0.14f, 0.14f, 0.11f, 0.08f, 0.05f, 0.07f})) {
             case 0: hang(kLeft), hang(kRight); break;
             case 1: reach(busy), hang(other); break;
             case 2: clap(); break;
             case 3: cross(); break;
             case 4: jog(); break;
             case 5: hands_on_self(); break;
+            case 6: at_work(); break;
             default: any_arm(kLeft), any_arm(kRight); break;
         }
         for (const Side side : {kLeft, kRight})
@@ -286,6 +287,19 @@ private:
             const float s = sign_of(side);
             place_wrist(side, keep_ahead(at, before_chest(at, -s * (over + random_.normal(0, 0.05f)), up + random_.normal(0, 0.08f),
                                                           ahead + (side == kLeft ? 0.08f : 0.0f))));
+        }
+    }
+
+    /// Hands held before the trunk, each for itself.
+    void at_work() {
+        const PosedSkeleton at = placed();
+        for (const Side side : {kLeft, kRight}) {
+            if (random_.chance(0.3f)) {
+                hang(side);
+                continue;
+            }
+            const float out = sign_of(side) * random_.between(-0.3f, 0.5f), ahead = random_.between(0.35f, 0.85f);
+            place_wrist(side, keep_ahead(at, before_chest(at, out, random_.between(-0.85f, 0.1f), ahead)));
         }
     }
 

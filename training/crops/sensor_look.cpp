@@ -160,8 +160,8 @@ private:
 
     /// Segmentation takes the feet's lowest part for floor, raggedly.
     void cut_feet() {
-        if (!random_.chance(0.7f)) return;
-        const float most = random_.between(0.0f, 0.055f);
+        if (!random_.chance(0.6f)) return;
+        const float most = random_.between(0.0f, 0.045f);
         const int block = std::max(1, int(std::lround((random_.chance(0.5f) ? 4.0f : 1.5f) * scale_)));
         const Corner a(random_);
         for (int y = height_ / 2; y < height_; ++y)
