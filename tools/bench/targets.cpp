@@ -9,7 +9,7 @@ namespace vfit::tools {
 
 namespace {
 
-constexpr int kNameWidth = 62, kFigureWidth = 10;
+constexpr int kNameWidth = 76, kFigureWidth = 10;
 
 std::string number(double value, int digits, const char* unit) {
     std::ostringstream text;
