@@ -84,7 +84,8 @@ void Person::pose(const BonePose& pose, const Vec3& offset) {
     const vfit_view skin = vertices(VFIT_STREAM_POSITION);
     vertex_count_ = skin.width;
     skin_ = static_cast<const float*>(skin.data);
-    surface_ = clothing_ ? clothing_->dress(skin_, static_cast<const float*>(vertices(VFIT_STREAM_NORMAL).data)) : skin_;
+    surface_ = skin_;
+    if (clothing_) surface_ = clothing_->dress(skin_, static_cast<const float*>(vertices(VFIT_STREAM_NORMAL).data));
     read_joints();
 }
 

@@ -10,7 +10,7 @@ namespace vfit::virtual_person {
 
 namespace {
 
-// Out of every sensor's view at the distances where people stand (half a field of 70 degrees at 3.4 m, and half a person).
+// Out of every sensor's view where people stand (half a field of 70 degrees at 3.4 m, and half a person).
 constexpr float kOutside_m = 2.9f;
 constexpr int kSteps = 8;  // of one way
 constexpr float kStep_s = 0.55f, kSwing_s = 0.42f;

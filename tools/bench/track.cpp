@@ -26,7 +26,8 @@ void run(const Options& o) {
     if (wants(o, "time")) report["synthetic"]["time"] = judge_time(o.people, targets);
     if (wants(o, "joints")) report["synthetic"]["joints"] = judge_virtual(o.people, targets);
     if (wants(o, "events")) report["synthetic"]["events"] = judge_events(o.people, targets);
-    if (!o.scenes.empty() && wants(o, "stills")) report["real"]["stills"] = judge_stills(o.scenes, o.people.quiet, targets);
+    if (!o.scenes.empty() && wants(o, "stills"))
+        report["real"]["stills"] = judge_stills(o.scenes, o.people.quiet, targets);
     if (!o.recordings.empty() && wants(o, "recordings")) {
         if (!o.people.quiet) std::cout << "\n";
         report["real"]["recordings"] = judge_real(o.recordings, o.people.quiet);
@@ -43,9 +44,9 @@ void run(const Options& o) {
 }  // namespace
 
 void add_track(Command& app) {
-    Command command = app.add_subcommand("track", "The built-in tracker: joints, events and time, real and synthetic apart");
+    Command command = app.add_subcommand("track", "The tracker: joints, events and time, real and synthetic apart");
     auto o = std::make_shared<Options>();
-    command.add_option("recordings", o->recordings, "Folder of recordings named ..._s<person>_...: judges real people too")
+    command.add_option("recordings", o->recordings, "Folder of recordings named ..._s<person>_...: real people too")
         .existing_folder();
     command.add_option("--scenes", o->scenes, "Folder of the real stills (default: scenes beside the recordings)")
         .existing_folder();

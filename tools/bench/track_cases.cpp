@@ -57,7 +57,8 @@ TrackCase make_case(const Play& play, const char* sensor, uint32_t body, Draw& d
     uri << "virtual:sensor=" << sensor << "&motion=" << motion << "&facing=" << play.facing_deg + draw.between(-5, 5)
         << "&body=" << body << "&seed=" << body << "&clothing=" << draw.between(0.01, 0.03) << "&distance=" << distance
         << "&camera_height=" << height << "&tilt=" << tilt << "&wall=" << draw.between(0.4, 1.4)
-        << "&side_wall=" << draw.between(1.3, 2.2) << "&furniture=" << furniture << "&floor=unknown&frames=" << play.frames;
+        << "&side_wall=" << draw.between(1.3, 2.2) << "&furniture=" << furniture
+        << "&floor=unknown&frames=" << play.frames;
     return {play.what, sensor, uri.str()};
 }
 

@@ -63,10 +63,15 @@ size_t first_where(const std::vector<Moment>& moments, size_t begin, Is&& is) {
 
 bool is_tracked(const Moment& m) { return m.id != 0 && m.trunk_m < kRecovered_m; }
 
+/// A body of this part's own, dressed; and no word of the floor.
+std::string person(uint32_t bodies, const VirtualOptions& options) {
+    return "&clothing=0.02&floor=unknown&body=" + std::to_string(bodies + options.seed) +
+           "&seed=" + std::to_string(options.seed);
+}
+
 Json visit(const std::string& sensor, const VirtualOptions& options, Targets& targets) {
     // The visit is over after 17 s; what remains is the turn outside.
-    const auto moments = watch("virtual:sensor=" + sensor + "&motion=visit&distance=3&clothing=0.02&floor=unknown&frames=480" +
-                               "&body=" + std::to_string(9000 + options.seed) + "&seed=" + std::to_string(options.seed));
+    const auto moments = watch("virtual:sensor=" + sensor + "&motion=visit&distance=3&frames=480" + person(9000, options));
     const size_t whole = first_where(moments, 0, [](const Moment& m) { return m.whole; });
     const size_t part = first_where(moments, whole, [](const Moment& m) { return !m.whole; });
     const size_t gone = first_where(moments, part, [](const Moment& m) { return !m.in_view; });
@@ -77,16 +82,18 @@ Json visit(const std::string& sensor, const VirtualOptions& options, Targets& ta
     for (size_t i = 0; i < whole; ++i) before += moments[i].bodies > 0 && !moments[i].in_view;
     const uint32_t found = frames_until(moments, whole, part, is_tracked);
     const uint32_t left = frames_until(moments, gone, moments.size(), [](const Moment& m) { return m.bodies == 0; });
-    targets.judge(sensor + ": a person comes in: tracked, frames after all of them is seen", found, Aim::at_most, kLastFrames);
+    targets.judge(sensor + ": a person comes in: tracked, frames after all of them is seen", found, Aim::at_most,
+                  kLastFrames);
     targets.judge(sensor + ": ids while they are in full view", double(ids.size()), Aim::exactly, 1);
-    targets.judge(sensor + ": they leave: no body, frames after the last joint left", left, Aim::at_most, kLastFrames);
+    targets.judge(sensor + ": they leave: no body, frames after the last joint left", left, Aim::at_most,
+                  kLastFrames);
     targets.judge(sensor + ": frames with a body before anybody was in view", before, Aim::exactly, 0);
     return {{"event", "visit"}, {"sensor", sensor}, {"found_after", found}, {"ids", ids.size()}, {"gone_after", left}};
 }
 
 Json occlusion(const std::string& sensor, const VirtualOptions& options, Targets& targets) {
-    const auto moments = watch("virtual:sensor=" + sensor + "&motion=sway&distance=2.9&clothing=0.02&floor=unknown&occluder=3" +
-                               "&frames=195&body=" + std::to_string(9100 + options.seed) + "&seed=" + std::to_string(options.seed));
+    const auto moments =
+        watch("virtual:sensor=" + sensor + "&motion=sway&distance=2.9&occluder=3&frames=195" + person(9100, options));
     const auto hidden = [](const Moment& m) { return m.seen == 0; };
     const auto half_seen = [](const Moment& m) { return m.seen >= kSeenJoints; };
     const size_t begin = first_where(moments, 0, hidden), end = first_where(moments, begin, half_seen);
@@ -99,7 +106,8 @@ Json occlusion(const std::string& sensor, const VirtualOptions& options, Targets
     for (const Moment& m : moments) boxes += m.bodies > (m.id ? 1u : 0u);
     const uint32_t recovered = frames_until(moments, end, moments.size(), is_tracked);
     const bool same = before.size() == 1 && before == after;
-    targets.judge(sensor + ": hidden by a box for " + std::to_string(end - begin) + " frames: tracked again, frames after half is seen",
+    targets.judge(sensor + ": hidden by a box for " + std::to_string(end - begin) +
+                      " frames: tracked, frames after half is seen",
                   recovered, Aim::at_most, kLastFrames);
     targets.judge(sensor + ": same id before and after the box (1: yes)", same, Aim::exactly, 1);
     targets.judge(sensor + ": frames in which the box is a body", boxes, Aim::exactly, 0);
@@ -107,7 +115,8 @@ Json occlusion(const std::string& sensor, const VirtualOptions& options, Targets
             {"same_id", same}, {"frames_with_box_as_body", boxes}};
 }
 
-Json nobody(const std::string& sensor, const char* furniture, const char* name, const VirtualOptions& options, Targets& targets) {
+Json nobody(const std::string& sensor, const char* furniture, const char* name, const VirtualOptions& options,
+            Targets& targets) {
     uint32_t with_body = 0;
     play_tracked("virtual:sensor=" + sensor + "&people=0&floor=unknown&frames=90&furniture=" + furniture +
                      "&seed=" + std::to_string(options.seed),
@@ -155,7 +164,8 @@ Json judge_stills(const std::string& folder, bool quiet, Targets& targets) {
     constexpr std::array<double, 3> kNormal = {0.01036, -0.99701, -0.07656};
     constexpr double kDistance_m = 1.26614;
     if (!quiet) std::cout << "\nREAL stills\n";
-    const StillView five = look_at(folder + "/five_people_depth_mm.png"), one = look_at(folder + "/person_depth_mm.png");
+    const StillView five = look_at(folder + "/five_people_depth_mm.png");
+    const StillView one = look_at(folder + "/person_depth_mm.png");
     double cosine = 0.0;
     for (size_t k = 0; k < 3; ++k) cosine += kNormal[k] * double(five.camera.floor_normal[k]);
     const bool known = five.camera.floor_state != VFIT_FLOOR_DEFAULT;

@@ -25,14 +25,16 @@ void play_tracked(const std::string& uri, const std::function<void(vfit_frame fr
 }
 
 std::vector<vfit_body> bodies_of(vfit_frame frame) {
-    return list<vfit_body>([&](auto* items, uint32_t stride, uint32_t* n) { return vfit_frame_bodies(frame, items, stride, n); });
+    return list<vfit_body>(
+        [&](auto* items, uint32_t stride, uint32_t* n) { return vfit_frame_bodies(frame, items, stride, n); });
 }
 
 uint32_t body_near(vfit_frame tracked, const Joints& reference) {
     uint32_t best = 0;
     double nearest = kSamePerson_m;
     for (const vfit_body& body : bodies_of(tracked)) {
-        const double d = distance(joints_in_camera(tracked, body.body_id, camera_of(tracked)), reference, VFIT_JOINT_TORSO);
+        const Joints joints = joints_in_camera(tracked, body.body_id, camera_of(tracked));
+        const double d = distance(joints, reference, VFIT_JOINT_TORSO);
         if (d < nearest) nearest = d, best = body.body_id;
     }
     return best;

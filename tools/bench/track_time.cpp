@@ -77,7 +77,8 @@ Times play(const Reel& reel) {
 }
 
 Json json(const char* name, const Times& t) {
-    return {{"scene", name}, {"update_ms", t.update.json()}, {"latency_ms", t.latency.json()}, {"bodies", t.bodies.quantile(0.5)}};
+    return {{"scene", name}, {"update_ms", t.update.json()}, {"latency_ms", t.latency.json()},
+            {"bodies", t.bodies.quantile(0.5)}};
 }
 
 }  // namespace
@@ -91,9 +92,9 @@ Json judge_time(const VirtualOptions& options, Targets& targets) {
     const Times three = play(take(common + "&motion=wave&people=3&distance=3"));
     targets.judge("one person: bodies tracked", one.bodies.quantile(0.5), Aim::exactly, 1);
     targets.judge("one person: whole tracker a frame, median", one.update.quantile(0.5), Aim::at_most, 8, 1, " ms");
-    targets.judge("one person: whole tracker a frame, 95th percentile", one.update.quantile(0.95), Aim::at_most, 12, 1, " ms");
+    targets.judge("one person: whole tracker a frame, p95", one.update.quantile(0.95), Aim::at_most, 12, 1, " ms");
     targets.judge("one person: time stamp to pose, median", one.latency.quantile(0.5), Aim::at_most, 12, 1, " ms");
-    targets.judge("one person: time stamp to pose, 95th percentile", one.latency.quantile(0.95), Aim::at_most, 12, 1, " ms");
+    targets.judge("one person: time stamp to pose, p95", one.latency.quantile(0.95), Aim::at_most, 12, 1, " ms");
     targets.judge("three people: bodies tracked", three.bodies.quantile(0.5), Aim::exactly, 3);
     targets.judge("three people: whole tracker a frame, median", three.update.quantile(0.5), Aim::at_most, 16, 1, " ms");
     return Json::array({json("one person", one), json("three people", three)});
