@@ -13,7 +13,7 @@ constexpr vfit_joint_id kHinted[] = {VFIT_JOINT_LEFT_HAND, VFIT_JOINT_RIGHT_HAND
                                      VFIT_JOINT_RIGHT_ELBOW};
 
 struct Errors {
-    std::vector<double> hidden, seen;  // m, of the hinted joints by what the camera sees of them
+    std::vector<double> hidden, seen;  // m across the view, of the hinted joints by what the camera sees
     static double mean(const std::vector<double>& of) {
         double sum = 0.0;
         for (const double e : of) sum += e;
@@ -85,9 +85,8 @@ protected:
                 for (const vfit_joint& j : joints_of(tracked, 1))
                     if (std::find(std::begin(kHinted), std::end(kHinted), j.joint) != std::end(kHinted)) {
                         const vfit_joint& t = truth[size_t(j.joint)];
-                        const double e =
-                            std::hypot(j.position[0] - t.position[0], j.position[1] - t.position[1],
-                                       j.position[2] - t.position[2]);
+                        // Across the view of the level camera: a hint says nothing of depth.
+                        const double e = std::hypot(j.position[0] - t.position[0], j.position[1] - t.position[1]);
                         (t.state == VFIT_JOINT_MEASURED ? errors.seen : errors.hidden).push_back(e);
                     }
             vfit_frame_release(tracked);
