@@ -393,9 +393,9 @@ VFIT_API vfit_result vfit_tracker_submit(vfit_tracker tracker, vfit_frame frame,
                                          const vfit_joint* items, uint32_t stride, uint32_t count,
                                          vfit_frame* tracked);
 /* For the next update alone, in place of earlier ones: where the tracker's own network wavers between places
- * of a joint, the hinted one counts more (across the view; depth is the depth image's). Does little where the network is sure, and nothing far from
- * anybody or where the joints are the source's. Bad items: VFIT_ERROR_ARGUMENT or VFIT_ERROR_DATA, none of
- * them is taken.                                                                              [excl]   */
+ * of a joint, the hinted one counts more (across the view; depth is the depth image's). Does little where
+ * the network is sure, and nothing far from anybody or where the joints are the source's. Bad items:
+ * VFIT_ERROR_ARGUMENT or VFIT_ERROR_DATA, none of them is taken.                               [excl]   */
 VFIT_API vfit_result vfit_tracker_hint(vfit_tracker tracker, const vfit_joint_hint* items, uint32_t stride,
                                        uint32_t count);
 /* Forgets people, room and choice.                                                              [excl] */
