@@ -42,7 +42,7 @@ TEST(PeopleMap, WhoStandsBehindAThingIsFoundAgainWhenItHasGone) {
     ASSERT_NE(before, 0);
     for (int i = 0; i < 45; ++i) {  // slides from left to right, a second and a half before the person
         const float x = -1.3f + 0.05f * float(i);
-        scene.things = {Block{{x - 0.6f, 0, -2.3f}, {x + 0.6f, 2.1f, -2.1f}}};
+        scene.things = {testing::Block{{x - 0.6f, 0, -2.3f}, {x + 0.6f, 2.1f, -2.1f}}};
         people.see(scene);
     }
     scene.things.clear();
