@@ -8,26 +8,11 @@ namespace vfit {
 namespace {
 
 constexpr int kSide = JointMaps::kSide;
-// Crop units about the strongest cell: on virtual people hands came out best at 0.2, the other joints at 0.3 and more.
-constexpr float kWindow = 0.3f;
 constexpr float kKeep = 0.9f;          // of the doubt, a frame
 constexpr float kAnswerLimit = 3.0f;   // one frame's logit counts no more
 constexpr float kTurnAbout = 18.0f;    // doubt at which the decision falls: nine frames of firm answers
 
 float place_of(int cell) { return (float(cell) + 0.5f) / (0.5f * kSide) - 1.0f; }
-
-/// Calls each(x, y, cell) for the cells whose middle lies within `radius` of a place.
-template <class Each>
-void for_cells_within(float radius, float at_x, float at_y, Each&& each) {
-    for (int y = 0; y < kSide; ++y) {
-        const float dy = place_of(y) - at_y;
-        if (std::abs(dy) > radius) continue;
-        for (int x = 0; x < kSide; ++x) {
-            const float dx = place_of(x) - at_x;
-            if (dx * dx + dy * dy <= radius * radius) each(place_of(x), place_of(y), size_t(y * kSide + x));
-        }
-    }
-}
 
 void exchange_sides(SeenJoints& joints) {
     for (int j = 0; j < kJointCount; ++j)
@@ -51,23 +36,29 @@ void read_maps(const JointMaps& maps, const CropView& view, const Camera& camera
     for (size_t j = 0; j < size_t(kJointCount); ++j) {
         const float* logits = maps.heat.data() + j * JointMaps::kCells;
         const float* depth = maps.depth.data() + j * JointMaps::kCells;
-        const auto strongest = int(std::max_element(logits, logits + JointMaps::kCells) - logits);
+        const float highest = *std::max_element(logits, logits + JointMaps::kCells);
         float sum = 0.0f;
-        for (size_t i = 0; i < heat.size(); ++i) {
-            const float below = logits[i] - logits[strongest];
-            sum += heat[i] = below > -20.0f ? std::exp(below) : 0.0f;
-        }
-        // The mean about the strongest cell: what lies far off, the other hand say, would draw the joint inwards.
         Vec3 place(0.0f);
-        float about = 0.0f;
-        const auto add = [&](float x, float y, size_t i) {
-            place += heat[i] * Vec3(x, y, depth[i]);
-            about += heat[i];
-        };
-        for_cells_within(kWindow, place_of(strongest % kSide), place_of(strongest / kSide), add);
-        place /= about;
+        for (int y = 0; y < kSide; ++y) {
+            float row = 0.0f;
+            for (int x = 0; x < kSide; ++x) {
+                const size_t i = size_t(y * kSide + x);
+                const float below = logits[i] - highest;
+                const float h = heat[i] = below > -20.0f ? std::exp(below) : 0.0f;
+                row += h;
+                place.x += h * place_of(x);
+                place.z += h * depth[i];
+            }
+            place.y += row * place_of(y);
+            sum += row;
+        }
+        place /= sum;
         float close = 0.0f;
-        for_cells_within(near, place.x, place.y, [&](float, float, size_t i) { close += heat[i]; });
+        for (int y = 0; y < kSide; ++y)
+            for (int x = 0; x < kSide; ++x) {
+                const float dx = place_of(x) - place.x, dy = place_of(y) - place.y;
+                if (dx * dx + dy * dy <= near * near) close += heat[size_t(y * kSide + x)];
+            }
         out[j] = {view.to_camera(camera, place), close / sum};
     }
 }
