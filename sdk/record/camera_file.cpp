@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace vfit {
@@ -10,12 +11,14 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;  // fields in the order of the format
 
-/// The shortest decimal that reads back as the same float: 0.001, not 0.0010000000474974513.
+/// The shortest decimal that reads back as the same float: 0.001, not 0.0010000000474974513; and 30, not 30.0.
 OrderedJson number(float x) {
     char digits[32];
     const auto end = std::to_chars(digits, digits + sizeof digits, x).ptr;
     double shortest = x;
     std::from_chars(digits, end, shortest);
+    const auto whole = static_cast<int64_t>(std::abs(x) < 1e6f ? x : 0.5f);
+    if (static_cast<float>(whole) == x) return whole;
     return shortest;
 }
 
