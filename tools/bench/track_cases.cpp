@@ -52,7 +52,7 @@ TrackCase make_case(const Play& play, const char* sensor, uint32_t body, Draw& d
     std::string furniture = motion == "sit" ? "stool" : "";
     for (const char* piece : {"chair", "rack"})
         if (play.room_m == 0.0 && draw.chance(0.25))  // who walks would walk into it
-            furniture += (furniture.empty() ? "" : ",") + std::string(piece);
+            furniture.append(furniture.empty() ? "" : ",").append(piece);
     std::ostringstream uri;
     uri << "virtual:sensor=" << sensor << "&motion=" << motion << "&facing=" << play.facing_deg + draw.between(-5, 5)
         << "&body=" << body << "&seed=" << body << "&clothing=" << draw.between(0.01, 0.03) << "&distance=" << distance
