@@ -57,19 +57,15 @@ endfunction()
 # A program of tests. Under sanitizers its own templates would take most of the time to compile: undefined behaviour is
 # looked for in the code under test, and the tests are not optimised.
 function(vfit_test_program target)
-  set(own_headers unit_core)
   if(VFIT_SANITIZE)
-    list(APPEND own_headers unit_track)  # renders its scenes itself, so it is optimised
-    if(NOT target STREQUAL unit_track)
-      target_compile_options(${target} PRIVATE -O0)
-    endif()
+    target_compile_options(${target} PRIVATE -O0)
   endif()
   if(VFIT_SANITIZE MATCHES undefined)
     target_compile_options(${target} PRIVATE -fno-sanitize=undefined)
   endif()
   target_compile_definitions(${target} PRIVATE VFIT_SOURCE_DIR="${CMAKE_SOURCE_DIR}" VFIT_DATA_DIR="${VFIT_DATA_DIR}"
     VFIT_PLUGIN_DIR="${CMAKE_BINARY_DIR}/lib/vfit_plugins")
-  if(target IN_LIST own_headers)
+  if(target STREQUAL unit_core)
     vfit_quick_to_compile(${target} <gtest/gtest.h> <algorithm> <string> <vector>)
   else()
     vfit_quick_to_compile(${target} REUSE_FROM unit_core)
@@ -88,9 +84,4 @@ function(vfit_add_unit_test room)
   vfit_test_program(unit_${room})
   add_test(NAME unit_${room} COMMAND unit_${room})
   set_tests_properties(unit_${room} PROPERTIES LABELS unit)
-  if(VFIT_SANITIZE)
-    # Long studies of behaviour; shorter tests run the same code.
-    set_tests_properties(unit_${room} PROPERTIES ENVIRONMENT
-      "GTEST_FILTER=-HardScene.*:TapeOnBody.*:PoseCost.*:Recordings.*")
-  endif()
 endfunction()

@@ -14,7 +14,9 @@ constexpr float kUsualLayer = 0.8f, kLayerSpread = 1.0f;  // units of kLayerUnit
 constexpr float kLeastConfidence = 0.15f;                 // of a joint that is used at all
 // One frame's information about the shape that counts: the errors of frames that follow each other are much the same.
 constexpr double kFrameShare = 0.5;
-constexpr int kShapeFrames = 300;  // then the shape moves by 1/150 of what a frame says
+constexpr int kShapeFrames = 300;   // then the shape moves by 1/150 of what a frame says
+constexpr int kSettledFrames = 30;  // a second: then the shape is held
+constexpr double kHold = 5.0;       // times as firmly as what is known of it would
 constexpr float kGoodIou = 0.70f, kGoodMedian_m = 0.04f;
 constexpr float kFrame_s = 1.0f / 30.0f;
 constexpr float kLongestStep_rad = 0.6f, kLongestStep_m = 0.3f;
@@ -101,6 +103,14 @@ FitShapeMatrix BodyFit::shape_knowledge() const {
     return out;
 }
 
+FitShapeMatrix BodyFit::shape_hold() const {
+    FitShapeMatrix out = shape_knowledge();
+    if (shape_frames_ >= kSettledFrames)
+        for (auto& row : out)
+            for (double& x : row) x *= kHold;
+    return out;
+}
+
 bool BodyFit::start_from_joints(const FitJoints& joints, FitState& state) const {
     const auto at = [&](int j) { return joints[size_t(j)].place; };
     for (const int j : {VFIT_JOINT_LEFT_SHOULDER, VFIT_JOINT_RIGHT_SHOULDER, VFIT_JOINT_LEFT_HIP, VFIT_JOINT_RIGHT_HIP})
@@ -126,7 +136,7 @@ bool BodyFit::start_from_joints(const FitJoints& joints, FitState& state) const 
 }
 
 void BodyFit::reach_for_joints(const FitJoints& joints, int steps, FitState& state) {
-    const FitShapeMatrix knowledge = shape_knowledge();
+    const FitShapeMatrix hold = shape_hold();
     for (int i = 0; i < steps; ++i) {
         body_.place_bones(state);
         equations_.start(body_);
@@ -135,7 +145,7 @@ void BodyFit::reach_for_joints(const FitJoints& joints, int steps, FitState& sta
         add_pose_priors(state, equations_);
         std::array<double, kFitShapes> back;
         for (size_t s = 0; s < back.size(); ++s) back[s] = double(shape_[s] - state.shape[s]);
-        equations_.add_shape_prior(knowledge, back);
+        equations_.add_shape_prior(hold, back);
         for (int c = 0; c < kFitPoseUnknowns; ++c) equations_.add_prior(c, 0.0, 10.0 * kDamping);
         FitVector step;
         if (!equations_.solve(step)) return;
@@ -165,7 +175,7 @@ bool BodyFit::step(const BodyFitInput& input, const FitState* last, float frames
     if (last) add_motion_priors(state, *last, frames, equations_);
     std::array<double, kFitShapes> back;
     for (size_t s = 0; s < back.size(); ++s) back[s] = double(shape_[s] - state.shape[s]);
-    equations_.add_shape_prior(shape_knowledge(), back);
+    equations_.add_shape_prior(shape_hold(), back);
     for (int c = 0; c < kFitPoseUnknowns; ++c) equations_.add_prior(c, 0.0, kDamping);
     FitVector change;
     if (!equations_.solve(change)) return false;
@@ -178,7 +188,7 @@ bool BodyFit::step(const BodyFitInput& input, const FitState* last, float frames
 void BodyFit::learn_shape(const FitShape& shape) {
     // What the last step's equations know beyond what was known before it.
     const FitShapeMatrix& now = equations_.shape_information();
-    const FitShapeMatrix before = shape_knowledge();
+    const FitShapeMatrix before = shape_hold();
     shape_frames_ = std::min(shape_frames_ + 1, kShapeFrames);
     for (size_t i = 0; i < size_t(kFitShapes); ++i)
         for (size_t j = 0; j < size_t(kFitShapes); ++j)

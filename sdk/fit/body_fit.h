@@ -63,7 +63,8 @@ private:
     FitScore score_of(const FitState& state);
     void learn_shape(const FitShape& shape);
     void tell(const BodyFitInput& input);
-    FitShapeMatrix shape_knowledge() const;
+    FitShapeMatrix shape_knowledge() const;  // information, of the frames so far and of bodies in general
+    FitShapeMatrix shape_hold() const;       // the weight that keeps the shape where it is
 
     std::shared_ptr<const FitModel> model_;
     BodyFitOptions options_;
