@@ -1,5 +1,7 @@
 """Streams of training crops: processes of vfit-crops, mixed in a pool so that one body's crops are spread out."""
+import queue
 import subprocess
+import threading
 
 import numpy as np
 import torch
@@ -26,12 +28,19 @@ class Stream:
         self.reuse, self.next, self.debt = reuse, 0, 0.0
         self.pipes = [subprocess.Popen([command, body, str(seed), str(first + k * 10**9), str(10**9)],
                                        stdout=subprocess.PIPE, bufsize=1 << 22) for k in range(processes)]
+        # A pipe holds two crops: read ahead, or training and the making of crops would wait for each other.
+        self.ahead = queue.Queue(1024)
+        for pipe in self.pipes:
+            threading.Thread(target=self.read_ahead, args=(pipe.stdout,), daemon=True).start()
         for i in range(pool):
             self.renew()
 
+    def read_ahead(self, source):
+        while len(data := source.read(RECORD.itemsize)) == RECORD.itemsize:
+            self.ahead.put(np.frombuffer(data, RECORD)[0])
+
     def renew(self):
-        pipe = self.pipes[self.next % len(self.pipes)]
-        self.pool[self.next % len(self.pool)] = np.frombuffer(pipe.stdout.read(RECORD.itemsize), RECORD)[0]
+        self.pool[self.next % len(self.pool)] = self.ahead.get(timeout=60)
         self.next += 1
 
     def batch(self, size):
@@ -46,11 +55,16 @@ class Stream:
             pipe.kill()
 
 
+SIDE = 0.64  # cosine of 50 degrees
+
+
 def tensors(records, random=None):
-    """crop [n, 1, 128, 128], joints [n, COUNT, 3], weight [n, COUNT], away [n], person [n]. With `random` half are mirrored.
+    """crop [n, 1, 128, 128], joints [n, COUNT, 3], weight [n, COUNT], away [n], person [n], side [n]. With `random`
+    half are mirrored.
 
     A person who faces away is labelled as if they faced the sensor (left and right exchanged) and marked `away`:
     front and back look alike in depth, and so the network need not decide before it can say where joints are.
+    `side` marks side views, in which either way of labelling will do.
     """
     crop = torch.from_numpy(records["crop"].astype(np.float32) / 32767.0)[:, None]
     joints, inside = torch.from_numpy(records["joints"].copy()), torch.from_numpy(records["inside"].copy())
@@ -63,4 +77,5 @@ def tensors(records, random=None):
         joints[flip] = joints[flip][:, MIRROR] * torch.tensor([-1.0, 1.0, 1.0])
         inside[flip] = inside[flip][:, MIRROR]
     person = torch.from_numpy(records["person"].copy())
-    return crop, joints, (0.25 + 0.75 * inside) * person[:, None], away, person
+    side = torch.from_numpy(np.abs(np.cos(records["yaw"])) < SIDE)
+    return crop, joints, (0.25 + 0.75 * inside) * person[:, None], away, person, side

@@ -14,7 +14,7 @@ import torch
 from torch import nn
 
 import crops
-from network import COUNT, CROP, JOINTS, MAP, Network, decode
+from network import COUNT, CROP, JOINTS, MAP, MIRROR, Network, decode
 
 METRE = 1.15  # of one crop unit
 HEAT_SIGMA = 0.06
@@ -30,12 +30,29 @@ def joint_weights():
     return weight
 
 
+@torch.no_grad()
+def as_labelled(found, batch):
+    """The batch with left and right of side views exchanged where `found` has them so.
+
+    Who turns about changes from one labelling to the other somewhere on the way. With the change set at 90 degrees,
+    where no picture tells 89 from 91, the network would answer the mean of both: both shoulders in the spine.
+    """
+    crop, joints, inside, away, person, side = batch
+
+    def error(wanted, weight):
+        return ((found - wanted).abs().sum(-1) * weight).sum(-1)
+    other, other_inside = joints[:, MIRROR], inside[:, MIRROR]
+    turn = side & (error(other, other_inside) < error(joints, inside))
+    return (crop, torch.where(turn[:, None, None], other, joints), torch.where(turn[:, None], other_inside, inside),
+            torch.where(turn, 1 - away, away), person, side)
+
+
 def loss_of(network, batch, weight):
-    crop, joints, inside, away, person = batch
-    maps, answers = network(crop)
+    maps, answers = network(batch[0])
     found, _ = decode(maps)
+    crop, joints, inside, away, person, side = as_labelled(found, batch)
     each = (found - joints).abs().sum(-1) * inside * weight
-    place = (torch.arange(MAP) + 0.5) / (MAP / 2) - 1
+    place = (torch.arange(MAP, device=maps.device) + 0.5) / (MAP / 2) - 1
     # A Gaussian about the joint; its cross-entropy with the heat from the logits, without the heat's logarithm.
     across = torch.exp(-((place - joints[..., 0, None]) ** 2) / (2 * HEAT_SIGMA**2))
     along = torch.exp(-((place - joints[..., 1, None]) ** 2) / (2 * HEAT_SIGMA**2))
@@ -53,14 +70,15 @@ def judge(network, batch):
     """Mean error in metres and share within 10 cm of the joints in view (a crop unit is METRE only at the person's
     own depth), shares of right answers to facing and to person."""
     network.eval()
-    crop, joints, inside, away, person = batch
-    error, answers = [], []
-    for part in range(0, len(crop), 64):
-        maps, logits = network(crop[part:part + 64])
-        error.append((decode(maps)[0] - joints[part:part + 64]).norm(dim=-1) * METRE)
+    found, answers = [], []
+    for part in range(0, len(batch[0]), 64):
+        maps, logits = network(batch[0][part:part + 64])
+        found.append(decode(maps)[0])
         answers.append(logits > 0)
-    error, answers = torch.cat(error)[inside > 0.9], torch.cat(answers)
     network.train()
+    found, answers = torch.cat(found), torch.cat(answers)
+    _, joints, inside, away, person, _ = as_labelled(found, batch)
+    error = ((found - joints).norm(dim=-1) * METRE)[inside > 0.9]
     some = person > 0
     return [f"{1000 * error.mean():.1f}", f"{(error < 0.1).float().mean():.4f}",
             f"{(answers[some, 0] == (away[some] > 0)).float().mean():.4f}",
@@ -73,6 +91,7 @@ def main():
     parser.add_argument("--body", required=True, help="the baked body binary")
     parser.add_argument("--run", type=Path, required=True, help="folder of state and log")
     parser.add_argument("--steps", type=int, default=20000, help="length of the schedule")
+    parser.add_argument("--clock", type=float, help="length of the schedule in minutes of training, in place of --steps")
     parser.add_argument("--minutes", type=float, default=1e9, help="stop after this time; run again to go on")
     parser.add_argument("--batch", type=int, default=64)
     parser.add_argument("--rate", type=float, default=2e-3)
@@ -80,46 +99,55 @@ def main():
     parser.add_argument("--processes", type=int, default=1)
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--reuse", type=float, default=1.0, help="how often a crop is used on average")
+    parser.add_argument("--pool", type=int, default=16384, help="crops that batches are drawn from")
     parser.add_argument("--start", type=Path, help="weights to start from")
     arguments = parser.parse_args()
     torch.set_num_threads(arguments.threads)
     torch.manual_seed(arguments.seed)
     arguments.run.mkdir(parents=True, exist_ok=True)
 
-    network = Network().to(memory_format=torch.channels_last)
-    average = Network()
+    device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
+    network = Network().to(device, memory_format=torch.channels_last)
+    average = Network().to(device)
     if arguments.start:
-        network.load_state_dict(torch.load(arguments.start)["average"])
+        network.load_state_dict(torch.load(arguments.start, map_location=device)["average"])
     average.load_state_dict(network.state_dict())
     optimiser = torch.optim.AdamW(network.parameters(), arguments.rate, weight_decay=1e-4)
-    step, state_file = 0, arguments.run / "state.pt"
+    step, seconds, state_file = 0, 0.0, arguments.run / "state.pt"  # seconds of training so far
     if state_file.exists():
-        state = torch.load(state_file)
+        state = torch.load(state_file, map_location=device)
         network.load_state_dict(state["network"])
         average.load_state_dict(state["average"])
         optimiser.load_state_dict(state["optimiser"])
-        step = state["step"]
+        step, seconds = state["step"], state["seconds"]
 
     def save():
         part = state_file.with_suffix(".part")
         torch.save({"network": network.state_dict(), "average": average.state_dict(),
-                    "optimiser": optimiser.state_dict(), "step": step}, part)
+                    "optimiser": optimiser.state_dict(), "step": step,
+                    "seconds": seconds + time.time() - begin}, part)
         part.replace(state_file)
 
-    unseen = crops.tensors(crops.read(arguments.crops, arguments.body, 1000003, 0, 1440))
+    def on_device(batch):
+        return (batch[0].to(device).contiguous(memory_format=torch.channels_last), *(x.to(device) for x in batch[1:]))
+
+    unseen = on_device(crops.tensors(crops.read(arguments.crops, arguments.body, 1000003, 0, 1440)))
     stream = crops.Stream(arguments.crops, arguments.body, arguments.seed, step * arguments.batch,
-                          arguments.processes, reuse=arguments.reuse)
-    weight, begin, last, running = joint_weights(), time.time(), time.time(), []
+                          arguments.processes, arguments.pool, arguments.reuse)
+    weight, begin, last, running = joint_weights().to(device), time.time(), time.time(), []
     log = (arguments.run / "curve.csv").open("a", newline="")
     writer = csv.writer(log)
     if step == 0:
         writer.writerow(["step", "minutes", "loss", "mean_mm", "within_10cm", "facing", "person"])
-    while step < arguments.steps and time.time() - begin < 60 * arguments.minutes:
+    while time.time() - begin < 60 * arguments.minutes:
         warm, t = min(1.0, (step + 1) / 200), step / arguments.steps
+        if arguments.clock:
+            t = (seconds + time.time() - begin) / (60 * arguments.clock)
+        if t >= 1.0:
+            break
         for group in optimiser.param_groups:
             group["lr"] = arguments.rate * warm * (0.5 + 0.5 * math.cos(math.pi * t)) + 1e-6
-        batch = stream.batch(arguments.batch)
-        batch = (batch[0].contiguous(memory_format=torch.channels_last), *batch[1:])
+        batch = on_device(stream.batch(arguments.batch))
         loss = loss_of(network, batch, weight)
         optimiser.zero_grad(set_to_none=True)
         loss.backward()

@@ -33,13 +33,15 @@ inline void set_trunk(Figure& figure, float forward_deg, float left_deg, float t
         figure.rotation[static_cast<size_t>(bone)] = third;
 }
 
+inline constexpr ArmAngles kHanging{12, 3, 14, 0};
+
 /// Upright, feet 0.25 m apart, arms hanging.
 inline Figure standing() {
     constexpr float apart_m = 0.25f;
     Figure f;
     const auto feet = stand({0, 0}, 0, apart_m);
     for (size_t i = 0; i < 2; ++i) f.foot[i].place = feet[i].place, f.foot[i].yaw_rad = feet[i].yaw_rad;
-    for (const int side : {kLeft, kRight}) set_arm(f.rotation, side, {12, 3, 14, 0});
+    for (const int side : {kLeft, kRight}) set_arm(f.rotation, side, kHanging);
     return f;
 }
 

@@ -9,7 +9,6 @@ namespace vfit::virtual_person {
 namespace {
 
 // Angles that bring the wrists of an arm of usual proportions where the comments say.
-constexpr ArmAngles kHanging{12, 3, 14, 0};
 constexpr ArmAngles kFolded[2] = {{1, 44, 79, -82},   // left: before the other, wrist at the right ribs
                                   {5, 33, 86, -90}};  // right: below it, wrist at the left ribs
 constexpr ArmAngles kPalmsApart{7, 33, 78, 18}, kPalmsTogether{1, 38, 75, -39};  // wrists 0.37 m ahead

@@ -8,7 +8,7 @@ namespace vfit::virtual_person {
 namespace {
 
 constexpr float kHipsBack_m = 0.40f;  // of the ankles: about a thigh's length, so that the shanks stand upright
-constexpr ArmAngles kHanging{12, 3, 14, 0}, kOnLap{2, 20, 40, -22};
+constexpr ArmAngles kOnLap{2, 20, 40, -22};
 
 }  // namespace
 

@@ -7,7 +7,7 @@ namespace vfit::virtual_person {
 
 namespace {
 
-constexpr float kNearest_m = 0.05f;  // a corner nearer than this cannot be projected: the whole image is tried
+constexpr float kNearestCorner_m = 0.05f;  // a corner nearer than this cannot be projected: the whole image is tried
 
 struct Hit {
     float depth = 0.0f;  // 0: none
@@ -58,7 +58,7 @@ SolidPainter::Window SolidPainter::window_of(const Solid& solid) const {
     for (int corner = 0; corner < 8; ++corner) {
         const Vec3 sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
         const Vec3 p = glm::transpose(rotation_) * (solid.centre + solid.axes * sign - eye_);
-        if (p.z < kNearest_m) return all;
+        if (p.z < kNearestCorner_m) return all;
         const Vec2 pixel(p.x / p.z * model_.fx + model_.cx, p.y / p.z * model_.fy + model_.cy);
         low = glm::min(low, pixel), high = glm::max(high, pixel);
     }

@@ -7,11 +7,11 @@ namespace vfit::virtual_person {
 
 namespace {
 
-constexpr float kBeside_m = 0.85f, kBehind_m = 0.3f;  // of the others, from the person
+constexpr float kOthersBeside_m = 0.85f, kOthersBehind_m = 0.3f;  // of the others, from the person
 constexpr const char* kMotions[] = {"sway", "wave"};  // of the second and the third person
 
 Vec3 beside(const Vec3& stand, size_t index) {
-    return stand + Vec3(index % 2 == 0 ? -kBeside_m : kBeside_m, 0, -kBehind_m);
+    return stand + Vec3(index % 2 == 0 ? -kOthersBeside_m : kOthersBeside_m, 0, -kOthersBehind_m);
 }
 
 }  // namespace

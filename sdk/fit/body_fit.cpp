@@ -24,6 +24,7 @@ constexpr double kDamping = 1.0;  // rad^-2 and m^-2: for directions that nothin
 constexpr int kReachSteps = 3, kReachStepsAtFirst = 25;
 constexpr float kWideRobust_m = 0.10f;
 constexpr float kBetter = 0.97f;  // of the cost: the other start has to win by this
+constexpr float kAgree_m = 0.10f;  // from the last frame's joints: the network says nothing else
 
 bool good(const FitScore& score) { return score.iou >= kGoodIou && score.median_m <= kGoodMedian_m; }
 
@@ -155,20 +156,59 @@ void BodyFit::reach_for_joints(const FitJoints& joints, int steps, FitState& sta
     }
 }
 
-FitScore BodyFit::score_of(const FitState& state) {
+void BodyFit::draw(const FitState& state) {
     body_.place(state);
     raster_.draw(body_, view_);
+}
+
+FitScore BodyFit::score_of(const FitState& state) {
+    draw(state);
     return raster_.score(view_);
 }
 
+/// The last frame's pose, that pose moved to the joints, or one made from the joints alone: whichever meets the picture
+/// best, the later ones tried only where there is a reason.
+bool BodyFit::find_start(const BodyFitInput& input, bool follow, FitState& state) {
+    bool started = false;
+    const auto consider = [&](const FitState& candidate, bool from_last) {
+        const FitScore score = score_of(candidate);
+        drawn_ = !started || score.cost < kBetter * out_.start_score.cost;
+        if (!drawn_) return;
+        state = candidate;
+        out_.start_score = score;
+        out_.from_last = from_last;
+        started = true;
+    };
+    if (follow) {
+        consider(last_, true);
+        if (!good(out_.start_score) || !agrees_with(input.joints)) {
+            FitState reached = last_;
+            reach_for_joints(input.joints, kReachSteps, reached);
+            consider(reached, false);
+        }
+    }
+    FitState afresh;
+    if ((!started || !good(out_.start_score)) && start_from_joints(input.joints, afresh)) {
+        reach_for_joints(input.joints, kReachStepsAtFirst, afresh);
+        consider(afresh, false);
+    }
+    return started;
+}
+
+/// Whether every joint that the network is sure of lies near the body's as it is placed.
+bool BodyFit::agrees_with(const FitJoints& joints) const {
+    for (size_t j = 0; j < size_t(kJointCount); ++j)
+        if (joints[j].confidence > 0.3f && glm::distance(joints[j].place, body_.joints()[j]) > kAgree_m) return false;
+    return true;
+}
+
+/// From `state` as it was drawn.
 bool BodyFit::step(const BodyFitInput& input, const FitState* last, float frames, float robust_m, FitState& state) {
-    body_.place(state);
-    raster_.draw(body_, view_);
     FitWeights weights = options_.weights;
     weights.robust_m = robust_m;
     equations_.start(body_);
     out_.matched = options_.depth_rows ? add_depth_rows(view_, body_, raster_, weights, targets_, equations_) : 0;
-    if (options_.outline_rows) add_outline_rows(view_, body_, weights, equations_);
+    if (options_.outline_rows) add_outline_rows(view_, body_, raster_, weights, equations_);
     if (options_.joint_rows) add_joint_rows(input.joints, body_, weights, equations_);
     equations_.finish();
     add_pose_priors(state, equations_);
@@ -203,6 +243,7 @@ const BodyFitOutput& BodyFit::run(const BodyFitInput& input_as_given) {
     out_.state = BodyFitState::kNothing;
     out_.matched = 0;
     out_.score = out_.start_score = FitScore{};
+    out_.from_last = false;
     const double gap_s = seconds_between(last_ns_, input.time_ns);
     const float frames = float(gap_s) / kFrame_s;
     const bool follow = tracked_ && gap_s > 0.0 && gap_s < 0.5;
@@ -212,31 +253,7 @@ const BodyFitOutput& BodyFit::run(const BodyFitInput& input_as_given) {
     }
 
     FitState state;
-    bool started = false;
-    out_.from_last = false;
-    if (follow) {
-        FitState reached = last_;
-        reach_for_joints(input.joints, kReachSteps, reached);
-        const FitScore from_last = score_of(last_), from_joints = score_of(reached);
-        out_.from_last = from_last.cost * kBetter <= from_joints.cost;
-        state = out_.from_last ? last_ : reached;
-        out_.start_score = out_.from_last ? from_last : from_joints;
-        started = true;
-    }
-    if (!started || !good(out_.start_score)) {
-        FitState afresh;
-        if (start_from_joints(input.joints, afresh)) {
-            reach_for_joints(input.joints, kReachStepsAtFirst, afresh);
-            const FitScore score = score_of(afresh);
-            if (!started || score.cost < kBetter * out_.start_score.cost) {
-                state = afresh;
-                out_.start_score = score;
-                out_.from_last = false;
-            }
-            started = true;
-        }
-    }
-    if (!started) {
+    if (!find_start(input, follow, state)) {
         tracked_ = false;
         return out_;
     }
@@ -246,6 +263,8 @@ const BodyFitOutput& BodyFit::run(const BodyFitInput& input_as_given) {
     bool solved = true;
     for (int i = 0; solved && i < steps; ++i) {
         const float robust_m = !calm && i < 2 ? kWideRobust_m : options_.weights.robust_m;
+        if (!drawn_) draw(state);
+        drawn_ = false;
         solved = step(input, follow ? &last_ : nullptr, frames, robust_m, state);
     }
     if (!solved || !finite(state)) {

@@ -59,7 +59,10 @@ public:
 private:
     bool start_from_joints(const FitJoints& joints, FitState& state) const;
     void reach_for_joints(const FitJoints& joints, int steps, FitState& state);
+    bool find_start(const BodyFitInput& input, bool follow, FitState& state);
+    bool agrees_with(const FitJoints& joints) const;
     bool step(const BodyFitInput& input, const FitState* last, float frames, float robust_m, FitState& state);
+    void draw(const FitState& state);
     FitScore score_of(const FitState& state);
     void learn_shape(const FitShape& shape);
     void tell(const BodyFitInput& input);
@@ -75,6 +78,7 @@ private:
     FitEquations equations_;
     BodyFitOutput out_;
 
+    bool drawn_ = false;    // body and raster are of the state to start from
     bool tracked_ = false;  // the last frame's fit was good
     FitState last_;
     int64_t last_ns_ = 0;

@@ -79,6 +79,16 @@ int clothing_layer_of(int limb, int bone) {
     return limb == kTrunk ? 0 : limb == kLeftArm || limb == kRightArm ? 1 : 2;
 }
 
+/// Of a bone's vertex with that normal, T-pose.
+bool between_legs(int bone, const Vec3& normal) {
+    switch (bone) {
+        case VFIT_BONE_LEFT_UPPER_LEG: return normal.x < -0.3f || normal.y < -0.5f;
+        case VFIT_BONE_RIGHT_UPPER_LEG: return normal.x > 0.3f || normal.y < -0.5f;
+        case VFIT_BONE_HIPS: return normal.y < -0.5f;
+        default: return false;
+    }
+}
+
 /// Random grown-ups. Gaussian numbers by Box and Muller: the standard library's differ between platforms.
 class Bodies {
 public:
@@ -254,9 +264,11 @@ void FitModel::place_normals(const BodyModel& model) {
     std::vector<Vec3> all_normals;
     compute_normals(body.positions, model.topology(0).indices, all_normals);
     const BodyInBones frames = in_bones(model, body, vertices_);
-    for (const Vertex& vertex : vertices_)
+    for (Vertex& vertex : vertices_) {
         for (const Influence& influence : vertex.influences)
             normals_.push_back(frames.t_pose[size_t(influence.bone)] * all_normals[vertex.source]);
+        vertex.bridged = between_legs(vertex.influences.front().bone, normals_[normals_.size() - kFitInfluences]);
+    }
 }
 
 void FitModel::find_influences(const BodyModel& model) {

@@ -47,7 +47,8 @@ public:
         std::array<Influence, kFitInfluences> influences{};
         int influence_count = 0;
         int limb = 0;
-        uint32_t source = 0;  // vertex of the body model, level 0
+        bool bridged = false;  // between the legs, where cloth spans from one to the other: no outline of the body's
+        uint32_t source = 0;   // vertex of the body model, level 0
     };
 
     uint32_t vertex_count() const { return static_cast<uint32_t>(vertices_.size()); }

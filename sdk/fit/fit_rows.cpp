@@ -15,6 +15,9 @@ constexpr float kBeside_m = 0.035f;
 constexpr int kFarthestCells = 16;  // from the outline: about 20 cm
 constexpr float kHiding_m = 0.05f;  // a reading this far before a vertex hides it
 constexpr float kNearest_m = 0.25f;
+constexpr float kRimCosine = 0.35f;  // of a normal to the line of sight: the vertex is on the model's own outline
+constexpr int kOutwardCells = 8;     // about 10 cm
+constexpr float kSameLimb_m = 0.12f;  // in depth
 
 float robust(float residual, float width) {
     const float ratio = 1.0f / (1.0f + residual * residual / (width * width));
@@ -36,6 +39,25 @@ bool nearest_person_cell(const FitView& view, int x, int y, int& found_x, int& f
             look(x - r, y + i), look(x + r, y + i);
         }
     return best < limit;
+}
+
+/// How far outwards of a rim vertex the person goes on uncovered by the model, in cells along `step`.
+float uncovered_cells(const FitView& view, const FitRaster& raster, const Vec2& from, const Vec2& step, float depth_m) {
+    float last = 0.0f;
+    for (int i = 1; i <= kOutwardCells; ++i) {
+        const int x = int(std::lround(from.x + float(i) * step.x)), y = int(std::lround(from.y + float(i) * step.y));
+        if (i == 1 && view.inside(x, y) && raster.depth(view, x, y) > 0.0f) continue;  // the vertex's own edge
+        if (!view.inside(x, y) || view.cell(x, y) != FitCell::kPerson || raster.depth(view, x, y) > 0.0f ||
+            std::abs(view.depth(x, y) - depth_m) > kSameLimb_m)
+            break;
+        last = float(i);
+    }
+    return last;
+}
+
+/// Of z |(x/z, y/z) - a ray| by the point, the ray's depth moving along; `unit` points from the ray to the point.
+Vec3 away_from_ray(const Vec2& unit, const Vec3& p) {
+    return Vec3(unit.x, unit.y, -(unit.x * p.x + unit.y * p.y) / p.z);
 }
 
 }  // namespace
@@ -65,6 +87,7 @@ uint32_t add_depth_rows(const FitView& view, const FitBody& body, const FitRaste
         const Vec3 apart = point.place - body.positions()[v];
         const float residual = glm::dot(direction, apart);
         equations.add_vertex_row(v, direction, residual, depth_weight * robust(residual, weights.robust_m));
+        if (body.model().vertices()[v].bridged) continue;
         const Vec3 aside = apart - residual * direction;
         const float distance = glm::length(aside);
         if (distance > kBeside_m)
@@ -74,9 +97,10 @@ uint32_t add_depth_rows(const FitView& view, const FitBody& body, const FitRaste
     return matched;
 }
 
-uint32_t add_outline_rows(const FitView& view, const FitBody& body, const FitWeights& weights,
+uint32_t add_outline_rows(const FitView& view, const FitBody& body, const FitRaster& raster, const FitWeights& weights,
                           FitEquations& equations) {
     const float weight = weights.outline_share / (weights.outline_m * weights.outline_m);
+    const float cell_angle = view.ray(1.0f, 0.0f).x - view.ray(0.0f, 0.0f).x;
     uint32_t rows = 0;
     for (uint32_t v = 0; v < body.model().vertex_count(); ++v) {
         const Vec3& p = body.positions()[v];
@@ -86,20 +110,29 @@ uint32_t add_outline_rows(const FitView& view, const FitBody& body, const FitWei
         const int x = int(std::lround(at.x)), y = int(std::lround(at.y));
         if (!view.inside(x, y)) continue;  // farther than any row reaches
         const FitCell cell = view.cell(x, y);
-        if (cell == FitCell::kPerson || (cell == FitCell::kOther && view.depth(x, y) < p.z - kHiding_m)) continue;
+        const float cell_m = p.z * cell_angle;
+        if (cell == FitCell::kPerson) {
+            if (body.model().vertices()[v].bridged) continue;
+            const Vec3& n = body.normals()[v];
+            const Vec3 look = glm::normalize(p), across = n - glm::dot(n, look) * look;
+            if (std::abs(glm::dot(n, look)) > kRimCosine) continue;
+            const Vec2 unit = glm::normalize(Vec2(across.x - p.x / p.z * across.z, across.y - p.y / p.z * across.z));
+            const float beyond = cell_m * uncovered_cells(view, raster, at, unit, p.z);
+            if (beyond == 0.0f) continue;
+            equations.add_vertex_row(v, away_from_ray(unit, p), beyond, weight * robust(beyond, weights.robust_m));
+            ++rows;
+            continue;
+        }
+        if (cell == FitCell::kOther && view.depth(x, y) < p.z - kHiding_m) continue;
         int found_x = 0, found_y = 0;
         if (!nearest_person_cell(view, x, y, found_x, found_y)) continue;
         const Vec3 edge = view.ray(float(found_x), float(found_y));
         const Vec2 out(p.x / p.z - edge.x, p.y / p.z - edge.y);
         const float angle = glm::length(out);
         // Half a cell belongs to the person's side.
-        const float cell_m = p.z * (view.ray(1.0f, 0.0f).x - view.ray(0.0f, 0.0f).x);
         const float outside = p.z * angle - 0.5f * cell_m;
         if (outside <= 0.0f || angle < 1e-6f) continue;
-        const Vec2 unit = out / angle;
-        // Of z |(x/z, y/z) - edge| by the point, the edge's depth moving along.
-        const Vec3 direction(unit.x, unit.y, -(unit.x * p.x + unit.y * p.y) / p.z);
-        equations.add_vertex_row(v, direction, -outside, weight * robust(outside, weights.robust_m));
+        equations.add_vertex_row(v, away_from_ray(out / angle, p), -outside, weight * robust(outside, weights.robust_m));
         ++rows;
     }
     return rows;

@@ -10,7 +10,7 @@ namespace {
 constexpr float kCell_m = 0.012f;        // at the person's depth: a third of the model's triangles' sides
 constexpr float kMargin_m = 0.25f;       // about the person, where the model may reach in error
 constexpr float kSameSurface_m = 0.05f;  // readings of one cell, or of a normal's window, that belong together
-constexpr size_t kMostPoints = 1000;
+constexpr size_t kMostPoints = 600;
 constexpr int kWindow = 2;  // cells to either side that a normal is fitted to
 constexpr int kFewestInWindow = 8;
 constexpr float kSteepestCosine = 0.15f;  // depth of surfaces turned further away is mostly error

@@ -12,7 +12,7 @@ namespace vfit {
 namespace {
 
 constexpr size_t kMaxName = 63;       // characters, the room of vfit_plugin_info
-constexpr size_t kMaxMessage = 1024;  // characters of last_error that are kept
+constexpr size_t kMaxLastError = 1024;  // characters of last_error that are kept
 
 bool is_scheme(const std::string& scheme) {
     return !scheme.empty() && std::all_of(scheme.begin(), scheme.end(), [](char c) {
@@ -84,7 +84,7 @@ bool Plugin::serves(const std::string& scheme) const {
 }
 
 void Plugin::fail_with_last_error(vfit_result result, const std::string& what) {
-    std::string message = table_.last_error ? bounded_text(table_.last_error(table_.self), kMaxMessage) : "";
+    std::string message = table_.last_error ? bounded_text(table_.last_error(table_.self), kMaxLastError) : "";
     if (message.empty()) message = text("plug-in ", info_.name, ": ", what, " failed, result ", result);
     const bool known = result < 0 && result >= VFIT_ERROR_PLUGIN;
     fail(known ? result : VFIT_ERROR_PLUGIN, message);

@@ -7,7 +7,6 @@ namespace vfit {
 
 namespace {
 
-constexpr int kSide = JointMaps::kSide;
 // How far a right hint lies from the joint as this network defines it; chosen, as are the shares below, so that
 // right hints help and wrong ones do little (tests/contract/hints_test.cpp).
 constexpr float kSigma_m = 0.08f;
@@ -15,8 +14,6 @@ constexpr float kSigma = kSigma_m / (0.5f * CropView::kSide_m);  // in crop coor
 constexpr float kWrongHeat = 0.02f;  // share of cases in which the joint is not where the network's heat is
 constexpr float kSurest = 0.98f;     // no hint is certain
 constexpr float kGrow = 0.25f;       // of the box's size
-
-float place_of(int cell) { return (float(cell) + 0.5f) / (0.5f * kSide) - 1.0f; }
 
 /// A hint in the crop.
 struct Evidence {
@@ -29,7 +26,7 @@ struct Evidence {
     bool counts() const { return confidence > 0.0f && std::abs(place.x) <= 1.0f && std::abs(place.y) <= 1.0f; }
     /// Density of the hint for a joint in that cell.
     float of(int x, int y) const {
-        const float dx = (place_of(x) - place.x) / kSigma, dy = (place_of(y) - place.y) / kSigma;
+        const float dx = (JointMaps::place_of(x) - place.x) / kSigma, dy = (JointMaps::place_of(y) - place.y) / kSigma;
         const float anywhere = 0.25f * (1.0f - confidence);  // over the crop, whose area is 4
         return anywhere + confidence / (2.0f * kPi * kSigma * kSigma) * std::exp(-0.5f * (dx * dx + dy * dy));
     }
@@ -44,9 +41,9 @@ void for_each_cell(Logit* logits, const Visit& visit) {
     const float highest = *std::max_element(logits, logits + JointMaps::kCells);
     float sum = 0.0f;
     for (int i = 0; i < JointMaps::kCells; ++i) sum += std::exp(logits[i] - highest);
-    for (int y = 0; y < kSide; ++y)
-        for (int x = 0; x < kSide; ++x) {
-            Logit& logit = logits[y * kSide + x];
+    for (int y = 0; y < JointMaps::kSide; ++y)
+        for (int x = 0; x < JointMaps::kSide; ++x) {
+            Logit& logit = logits[y * JointMaps::kSide + x];
             visit(x, y, logit,
                   (1.0f - kWrongHeat) * std::exp(logit - highest) / sum + kWrongHeat / JointMaps::kCells);
         }

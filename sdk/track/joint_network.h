@@ -17,6 +17,8 @@ namespace vfit {
 struct JointMaps {
     static constexpr int kSide = 32;
     static constexpr int kCells = kSide * kSide;
+    /// Crop coordinate, -1 to 1, of the middle of a cell's column or row.
+    static float place_of(int cell) { return (float(cell) + 0.5f) / (0.5f * kSide) - 1.0f; }
     std::array<float, size_t(kJointCount) * kCells> heat;   // logits, one map a joint
     std::array<float, size_t(kJointCount) * kCells> depth;  // crop z
     float away, person;  // logits: faces away from the sensor; is a person at all

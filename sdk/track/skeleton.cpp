@@ -7,12 +7,9 @@ namespace vfit {
 
 namespace {
 
-constexpr int kSide = JointMaps::kSide;
 constexpr float kKeep = 0.9f;          // of the doubt, a frame
 constexpr float kAnswerLimit = 3.0f;   // one frame's logit counts no more
 constexpr float kTurnAbout = 18.0f;    // doubt at which the decision falls: nine frames of firm answers
-
-float place_of(int cell) { return (float(cell) + 0.5f) / (0.5f * kSide) - 1.0f; }
 
 void exchange_sides(SeenJoints& joints) {
     for (int j = 0; j < kJointCount; ++j)
@@ -39,25 +36,25 @@ void read_maps(const JointMaps& maps, const CropView& view, const Camera& camera
         const float highest = *std::max_element(logits, logits + JointMaps::kCells);
         float sum = 0.0f;
         Vec3 place(0.0f);
-        for (int y = 0; y < kSide; ++y) {
+        for (int y = 0; y < JointMaps::kSide; ++y) {
             float row = 0.0f;
-            for (int x = 0; x < kSide; ++x) {
-                const size_t i = size_t(y * kSide + x);
+            for (int x = 0; x < JointMaps::kSide; ++x) {
+                const size_t i = size_t(y * JointMaps::kSide + x);
                 const float below = logits[i] - highest;
                 const float h = heat[i] = below > -20.0f ? std::exp(below) : 0.0f;
                 row += h;
-                place.x += h * place_of(x);
+                place.x += h * JointMaps::place_of(x);
                 place.z += h * depth[i];
             }
-            place.y += row * place_of(y);
+            place.y += row * JointMaps::place_of(y);
             sum += row;
         }
         place /= sum;
         float close = 0.0f;
-        for (int y = 0; y < kSide; ++y)
-            for (int x = 0; x < kSide; ++x) {
-                const float dx = place_of(x) - place.x, dy = place_of(y) - place.y;
-                if (dx * dx + dy * dy <= near * near) close += heat[size_t(y * kSide + x)];
+        for (int y = 0; y < JointMaps::kSide; ++y)
+            for (int x = 0; x < JointMaps::kSide; ++x) {
+                const float dx = JointMaps::place_of(x) - place.x, dy = JointMaps::place_of(y) - place.y;
+                if (dx * dx + dy * dy <= near * near) close += heat[size_t(y * JointMaps::kSide + x)];
             }
         out[j] = {view.to_camera(camera, place), close / sum};
     }

@@ -30,7 +30,7 @@ void run(const Options& o) {
         report["real"]["stills"] = judge_stills(o.scenes, o.people.quiet, targets);
     if (!o.recordings.empty() && wants(o, "recordings")) {
         if (!o.people.quiet) std::cout << "\n";
-        report["real"]["recordings"] = judge_real(o.recordings, o.people.quiet);
+        report["real"]["recordings"] = judge_real(o.recordings, o.people.quiet, targets);
     }
     report["targets"] = targets.json();
     if (o.people.quiet) {

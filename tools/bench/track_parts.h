@@ -16,7 +16,7 @@ struct VirtualOptions {
 };
 
 /// REAL: recordings below the folder.
-Json judge_real(const std::string& folder, bool quiet);
+Json judge_real(const std::string& folder, bool quiet, Targets& targets);
 /// REAL: the stills of five people and of one who is too close.
 Json judge_stills(const std::string& folder, bool quiet, Targets& targets);
 /// SYNTHETIC: joints of virtual people.

@@ -132,19 +132,60 @@ void print_errors(const char* title, const Errors& e) {
               << " mm  within 10 cm " << std::fixed << std::setprecision(3) << e.within(0.1) << "  (" << e.count() << " joints)\n";
 }
 
-void print_table(const Errors& raw, const Errors& off, const Errors& best) {
-    std::cout << "                   raw            offset         offset, shift, on the silhouette   (median mm, within 10 cm)\n";
+void print_table(const Errors& raw, const Errors& off, const Errors& best, const Offsets& offsets) {
+    std::cout << "                   raw            offset         offset, shift, on the silhouette   (median mm, within 10 cm);"
+                 "   the offset to the left, up, ahead (mm)\n";
     for (int j = 0; j < kScored; ++j) {
         std::cout << "  " << std::left << std::setw(16) << joint_name(j) << std::right;
         for (const Errors* e : {&raw, &off, &best})
             std::cout << std::setw(5) << std::lround(1000 * e->median(j)) << "  " << std::setprecision(2) << e->within(0.1, j) << "    ";
+        for (const double x : offsets.of(j)) std::cout << std::setw(6) << std::lround(1000 * x);
         std::cout << "\n";
     }
 }
 
+void print(const std::vector<Run>& runs, const Errors& raw, const Errors& off, const Errors& best,
+           const Offsets& offsets, size_t shift, const Samples& times) {
+    std::cout << "REAL recordings, own joints against those of the recordings' middleware, which err by 5 to 10 cm themselves\n";
+    for (size_t i = 0; i < runs.size(); ++i) {
+        const Errors e = errors_of({runs[i]}, Offsets{}, false, 0, false);
+        std::cout << "  " << std::left << std::setw(28) << runs[i].name << std::right << std::setw(4) << runs[i].frames << " frames, "
+                  << runs[i].missed << " missed, raw median " << std::setw(4) << std::lround(1000 * e.median()) << " mm, within 10 cm "
+                  << std::fixed << std::setprecision(2) << e.within(0.1) << ", longest swap " << runs[i].longest_swap << ", jumps "
+                  << runs[i].jumps << "\n";
+    }
+    print_errors("raw, everybody", raw);
+    print_errors("offset per joint fitted on s1, the others", off);
+    print_errors(("same, " + std::to_string(shift) + " frames later, reference on the silhouette").c_str(), best);
+    print_table(raw, off, best, offsets);
+    std::cout << "  update: median " << times.quantile(0.5) << " ms, p95 " << times.quantile(0.95)
+              << " ms while the reader of the files shares the core\n";
+}
+
+void judge_errors(const std::vector<Run>& runs, const Errors& raw, const Errors& off, const Errors& best, Targets& targets) {
+    uint32_t swap = 0, jumps = 0;
+    for (const Run& run : runs) swap = std::max(swap, run.longest_swap), jumps += run.jumps;
+    double hands = 0.0, others = 0.0;
+    for (int j = 0; j < kScored; ++j) {
+        double& worst = j == VFIT_JOINT_LEFT_HAND || j == VFIT_JOINT_RIGHT_HAND ? hands : others;
+        worst = std::max(worst, 1000 * best.median(j));
+    }
+    const auto both = [&](const std::string& what, const Errors& e, double median_mm, double within) {
+        targets.judge(what + ": median", 1000 * e.median(), Aim::at_most, median_mm, 1, " mm");
+        targets.judge(what + ": joints within 10 cm", e.within(0.1), Aim::at_least, within, 3);
+    };
+    both("raw", raw, 50, 0.90);
+    both("offset fitted on s1", off, 28, 0.95);
+    both("offset, shift, on the silhouette", best, 25, 0.98);
+    targets.judge("same: worse hand, median", hands, Aim::at_most, 45, 1, " mm");
+    targets.judge("same: worst other joint, median", others, Aim::at_most, 35, 1, " mm");
+    targets.judge("left and right exchanged, frames at a time", swap, Aim::at_most, 3);
+    targets.judge("jumps over 20 cm where the reference moves under 5", jumps, Aim::exactly, 0);
+}
+
 }  // namespace
 
-Json judge_real(const std::string& folder, bool quiet) {
+Json judge_real(const std::string& folder, bool quiet, Targets& targets) {
     std::vector<std::filesystem::path> paths;
     for (const auto& entry : std::filesystem::directory_iterator(folder))
         if (entry.is_directory()) paths.push_back(entry.path());
@@ -176,21 +217,8 @@ Json judge_real(const std::string& folder, bool quiet) {
                         {"raw", errors_of({run}, none, false, 0, false).json()}});
     const Json report = {{"update_ms", times.json()}, {"raw", raw.json()}, {"offset", off.json()}, {"shift_frames", shift},
                          {"offset_shift_on_body", best.json()}, {"recordings", rows}};
-    if (quiet) return report;
-    std::cout << "REAL recordings, own joints against those of the recordings' middleware, which err by 5 to 10 cm themselves\n";
-    for (size_t i = 0; i < runs.size(); ++i) {
-        const Errors e = errors_of({runs[i]}, none, false, 0, false);
-        std::cout << "  " << std::left << std::setw(28) << runs[i].name << std::right << std::setw(4) << runs[i].frames << " frames, "
-                  << runs[i].missed << " missed, raw median " << std::setw(4) << std::lround(1000 * e.median()) << " mm, within 10 cm "
-                  << std::fixed << std::setprecision(2) << e.within(0.1) << ", longest swap " << runs[i].longest_swap << ", jumps "
-                  << runs[i].jumps << "\n";
-    }
-    print_errors("raw, everybody", raw);
-    print_errors("offset per joint fitted on s1, the others", off);
-    print_errors(("same, " + std::to_string(shift) + " frames later, reference on the silhouette").c_str(), best);
-    print_table(raw, off, best);
-    std::cout << "  update: median " << times.quantile(0.5) << " ms, p95 " << times.quantile(0.95)
-              << " ms while the reader of the files shares the core\n";
+    if (!quiet) print(runs, raw, off, best, offsets, shift, times);
+    judge_errors(runs, raw, off, best, targets);
     return report;
 }
 

@@ -42,6 +42,8 @@ public:
     /// Component-wise medians over the pairs.
     static Offsets fit(const std::vector<Pair>& pairs);
     Joints apply(const Joints& tracked) const;
+    /// Metres to the person's left, up and ahead.
+    const std::array<double, 3>& of(int joint) const { return by_joint_[size_t(joint)]; }
 
 private:
     std::array<std::array<double, 3>, kScored> by_joint_{};

@@ -56,6 +56,13 @@ void add_pile(Random& random, Mesh& out) {
     }
 }
 
+/// A board, a door, a screen on its feet: as tall and as wide as a person.
+void add_board(Random& random, Mesh& out) {
+    const float height = random.between(0.6f, 2.0f), foot = random.chance(0.6f) ? 0.0f : random.between(0.1f, 0.7f);
+    add_box({0, 0.5f * (foot + height), 0}, size(random.between(0.15f, 0.6f), 0.5f * (height - foot) + 0.05f, random.between(0.01f, 0.15f)), out);
+    if (foot > 0.0f) add_box({0, 0.5f * foot, 0}, size(0.03f, 0.5f * foot, 0.03f), out);
+}
+
 void add_anything(Random& random, Mesh& out) {
     const uint32_t count = 2 + random.below(7);
     for (uint32_t i = 0; i < count; ++i) {
@@ -70,11 +77,12 @@ void add_anything(Random& random, Mesh& out) {
 
 void random_clutter(Random& random, Mesh& out) {
     out.positions.clear(), out.indices.clear();
-    switch (random.below(5)) {
+    switch (random.below(6)) {
         case 0: add_chair(random, out); break;
         case 1: add_rack(random, out); break;
         case 2: add_plant(random, out); break;
         case 3: add_pile(random, out); break;
+        case 4: add_board(random, out); break;
         default: add_anything(random, out);
     }
     const Quat turn = glm::angleAxis(random.between(0, 2 * kPi), Vec3(0, 1, 0));

@@ -55,7 +55,7 @@ private:
     Quat& rotation(int bone) { return pose_.rotation[static_cast<size_t>(bone)]; }
 
     void usual_legs() {
-        switch (random_.pick({0.46f, 0.20f, 0.16f, 0.11f, 0.07f})) {
+        switch (random_.pick({0.44f, 0.19f, 0.16f, 0.11f, 0.10f})) {
             case 0: standing(); break;
             case 1: walking(); break;
             case 2: squat(); break;
@@ -166,14 +166,16 @@ private:
     void usual_arms() {
         const Side busy = random_.chance(0.5f) ? kLeft : kRight;
         const Side other = busy == kLeft ? kRight : kLeft;
-        switch (random_.pick({0.16f, 0.25f, 0.14f, 0.14f, 0.11f, 0.08f, 0.05f, 0.07f})) {
+        switch (random_.pick({0.13f, 0.21f, 0.14f, 0.10f, 0.11f, 0.06f, 0.09f, 0.06f, 0.05f, 0.05f})) {
             case 0: hang(kLeft), hang(kRight); break;
             case 1: reach(busy), hang(other); break;
             case 2: clap(); break;
             case 3: cross(); break;
-            case 4: jog(); break;
-            case 5: hands_on_self(); break;
-            case 6: at_work(); break;
+            case 4: fold(busy); break;
+            case 5: sweep(busy), hang(other); break;
+            case 6: jog(); break;
+            case 7: hands_on_self(); break;
+            case 8: at_work(); break;
             default: any_arm(kLeft), any_arm(kRight); break;
         }
         for (const Side side : {kLeft, kRight})
@@ -288,6 +290,24 @@ private:
             place_wrist(side, keep_ahead(at, before_chest(at, -s * (over + random_.normal(0, 0.05f)), up + random_.normal(0, 0.08f),
                                                           ahead + (side == kLeft ? 0.08f : 0.0f))));
         }
+    }
+
+    /// Arms folded: the forearms level before the trunk, each hand at or under the other arm.
+    void fold(Side upper) {
+        const PosedSkeleton at = placed();
+        const float up = random_.between(-0.62f, -0.28f), ahead = random_.between(0.26f, 0.42f);
+        for (const Side side : {kLeft, kRight}) {
+            const float over = random_.between(0.12f, 0.48f), level = random_.normal(0, 0.05f);
+            const float on_top = side == upper ? random_.between(0.04f, 0.16f) : 0.0f;
+            place_wrist(side, keep_ahead(at, before_chest(at, -sign_of(side) * over, up + level + 0.5f * on_top, ahead + on_top)));
+        }
+    }
+
+    /// A hand that passes before the body from its own side to beyond the other.
+    void sweep(Side side) {
+        const PosedSkeleton at = placed();
+        const float out = sign_of(side) * random_.between(-0.75f, 0.6f);
+        place_wrist(side, keep_ahead(at, before_chest(at, out, random_.normal(-0.1f, 0.2f), random_.between(0.35f, 0.95f))));
     }
 
     /// Hands held before the trunk, each for itself.

@@ -82,7 +82,7 @@ void Sampler::make(uint64_t index, Sample& out) {
 bool Sampler::try_once(Random& random, Sample& out) {
     const bool person = random.chance(0.93f);
     // Mostly towards the sensor; every other way now and then.
-    const float yaw = random.chance(0.68f) ? std::clamp(random.normal(0, glm::radians(22.0f)), -1.2f, 1.2f)
+    const float yaw = random.chance(0.64f) ? std::clamp(random.normal(0, glm::radians(22.0f)), -1.2f, 1.2f)
                                            : random.between(-kPi, kPi);
     const Sensor& sensor = kSensors[random.pick({kSensors[0].weight, kSensors[1].weight, kSensors[2].weight,
                                                  kSensors[3].weight, kSensors[4].weight})];

@@ -6,28 +6,13 @@
 #include <cmath>
 #include <memory>
 
+#include "crop_scene.h"
 #include "track/skeleton.h"
 
 namespace vfit {
 namespace {
 
-Camera camera_320() {
-    Camera camera;
-    camera.width = 320, camera.height = 240;
-    camera.fx = camera.fy = 285.0f;
-    camera.cx = 159.5f, camera.cy = 119.5f;
-    return camera;
-}
-
-CropView view_at(float depth_m) {
-    CropView view;
-    view.centre = {160.0f, 120.0f};
-    view.depth_m = depth_m;
-    const float step = CropView::kSide_m / CropView::kPixels / depth_m * 285.0f;
-    view.right = {step, 0.0f};
-    view.down = {0.0f, step};
-    return view;
-}
+using testing::camera_320, testing::view_at;
 
 /// Heat as the network draws it, a Gaussian of 7 cm, at a place of the crop.
 void add_heat(JointMaps& maps, int joint, float cx, float cy, float share) {
@@ -40,7 +25,7 @@ void add_heat(JointMaps& maps, int joint, float cx, float cy, float share) {
         }
 }
 
-class JointHintsTest : public testing::Test {
+class JointHintsTest : public ::testing::Test {
 protected:
     JointHintsTest() { maps->heat.fill(-16.0f), maps->depth.fill(0.0f); }
     JointHint hint(int joint, float cx, float cy, float confidence) const {

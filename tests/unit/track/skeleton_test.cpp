@@ -6,29 +6,14 @@
 #include <memory>
 #include <random>
 
+#include "crop_scene.h"
 #include "track/joint_steady.h"
 #include "track/tracker.h"
 
 namespace vfit {
 namespace {
 
-Camera camera_320() {
-    Camera camera;
-    camera.width = 320, camera.height = 240;
-    camera.fx = camera.fy = 285.0f;
-    camera.cx = 159.5f, camera.cy = 119.5f;
-    return camera;
-}
-
-CropView view_at(float depth_m) {
-    CropView view;
-    view.centre = {160.0f, 120.0f};
-    view.depth_m = depth_m;
-    const float step = CropView::kSide_m / CropView::kPixels / depth_m * 285.0f;
-    view.right = {step, 0.0f};
-    view.down = {0.0f, step};
-    return view;
-}
+using testing::camera_320, testing::view_at;
 
 /// Heat in one cell, the depth map flat.
 void peak(JointMaps& maps, int joint, int x, int y, float z) {
