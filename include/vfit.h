@@ -356,12 +356,21 @@ enum { VFIT_FOLLOW_NEAREST = 0,         /* to the camera                        
 typedef int32_t vfit_active_state;
 enum { VFIT_ACTIVE_NOBODY = 0, VFIT_ACTIVE_BY_RULE = 1, VFIT_ACTIVE_CHOSEN = 2,
        VFIT_ACTIVE_LOST = 3 };          /* out of sight, waited for: the frame has no such body      */
+/* The body model fitted to a person's depth and outline, where the tracker finds the joints by itself: they move
+ * to the fitted body's and get rotations, as long as it meets the picture. The first frame with a person may take
+ * half a second longer.                                                                               */
+typedef int32_t vfit_track_fit;
+enum { VFIT_FIT_AUTO = 0,               /* of the active person                                      */
+       VFIT_FIT_OFF = 1,                /* of nobody                                                 */
+       VFIT_FIT_EVERYBODY = 2 };        /* some 2.5 ms a person                                      */
 typedef struct vfit_tracker_desc {
     uint32_t struct_size, reserved;
     const vfit_camera* floor;           /* where the floor is, if the frames do not say; null: unknown  */
     vfit_track_source joints, user_map;
     vfit_follow follow;                 /* the rule of the active person                             */
     vfit_joint_filter filter;
+    vfit_track_fit fit;
+    uint32_t reserved2;
 } vfit_tracker_desc;
 /* Where a joint is in the depth image, as a pose network sees it in a registered colour image. LEFT is the
  * person's own left, whatever the context mirrors.                                                     */

@@ -57,6 +57,15 @@ std::shared_ptr<const BodyModel> Context::body_model() {
     return model_;
 }
 
+std::shared_future<std::shared_ptr<const FitModel>> Context::fit_model() {
+    std::lock_guard lock(model_mutex_);
+    if (!fit_model_.valid())
+        fit_model_ = std::async(std::launch::async, [model = model_, file = data_dir + "/body.bin"] {
+            return std::shared_ptr<const FitModel>(std::make_shared<FitModel>(model ? *model : *BodyModel::load(file)));
+        });
+    return fit_model_;
+}
+
 const std::vector<Measurement>& Context::default_measures(vfit_sex sex) {
     const auto model = body_model();
     std::lock_guard lock(model_mutex_);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <future>
 #include <memory>
 #include <string>
 
@@ -10,6 +11,7 @@
 #include "core/jobs.h"
 #include "core/log.h"
 #include "core/profile.h"
+#include "fit/fit_model.h"
 #include "frame/axes.h"
 #include "frame/frame.h"
 #include "measure/measurement.h"
@@ -39,6 +41,8 @@ public:
 
     /// The baked body, loaded when first asked for.
     std::shared_ptr<const BodyModel> body_model();
+    /// The reduced body that is fitted to people: asked for first, it is made beside the caller's thread.
+    std::shared_future<std::shared_ptr<const FitModel>> fit_model();
     /// Tape measures of the default body of that sex, taken when first asked for.
     const std::vector<Measurement>& default_measures(vfit_sex sex);
     PluginHost& plugins() { return *plugins_; }
@@ -60,6 +64,7 @@ private:
     bool closing_ = false;
     std::mutex model_mutex_;
     std::shared_ptr<const BodyModel> model_;
+    std::shared_future<std::shared_ptr<const FitModel>> fit_model_;
     std::array<std::vector<Measurement>, VFIT_SEX_MALE + 1> default_measures_;
     std::unique_ptr<PluginHost> plugins_;
 };

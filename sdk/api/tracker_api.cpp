@@ -5,6 +5,7 @@
 #include "api/bodies.h"
 #include "api/context.h"
 #include "api/guard.h"
+#include "fit/people_fit.h"
 #include "frame/camera_struct.h"
 #include "frame/floor.h"
 #include "track/active_person.h"
@@ -35,6 +36,9 @@ struct TrackerObject : ContextChild {
     vfit_joint_filter filter = VFIT_FILTER_AUTO;
     SteadyBodies steady;           // joints that are not the tracker's own
     std::vector<JointHint> hints;  // for the next update
+    vfit_track_fit fit = VFIT_FIT_AUTO;
+    std::shared_future<std::shared_ptr<const FitModel>> fit_model;
+    std::unique_ptr<PeopleFit> fits;  // made for the first person
 
     /// The frame is complete as far as it goes.
     void choose_active(Frame& tracked) {
@@ -79,7 +83,23 @@ struct TrackerObject : ContextChild {
             estimate_floor(floor, tracked.bodies.front());
         tracked.camera = image.camera;
         place(tracked.camera);
+        in_camera = tracked.bodies;
         for (Body& body : tracked.bodies) body = to_world(body, tracked.camera);
+        if (fit != VFIT_FIT_OFF) fit_bodies(image, tracked);
+    }
+    /// Moves bodies, as they are in_camera, to those that are fitted to the image.
+    void fit_bodies(const DepthImage& image, Frame& tracked) {
+        if (!fit_model.valid()) fit_model = context->fit_model();
+        if (in_camera.empty()) return;
+        if (!fits) fits = std::make_unique<PeopleFit>(fit_model.get());
+        choose_active(tracked);
+        for (size_t i = 0; i < in_camera.size(); ++i) {
+            if (fit == VFIT_FIT_AUTO && in_camera[i].id != tracked.active->id) continue;
+            const auto target = std::find_if(targets.begin(), targets.end(),
+                                             [&](const TrackTarget& t) { return t.id == in_camera[i].id; });
+            fits->run(image, target == targets.end() ? PixelBox{} : target->box, in_camera[i]);
+            tracked.bodies[i] = to_world(in_camera[i], tracked.camera);
+        }
     }
     /// Gives `tracked`, which has its source's bodies, a user map of the tracker's own with their numbers.
     void map_given_bodies(const Frame& base, Frame& tracked) {
@@ -208,6 +228,8 @@ vfit_result vfit_tracker_create(vfit_context handle, const vfit_tracker_desc* de
         tracker->active = ActivePerson(d.follow);
         check_enum(d.filter, VFIT_FILTER_OFF, "desc.filter");
         tracker->filter = d.filter;
+        check_enum(d.fit, VFIT_FIT_EVERYBODY, "desc.fit");
+        tracker->fit = d.fit;
         if (d.floor) {
             vfit_camera floor = read(d.floor, "desc.floor");
             floor.floor_state = VFIT_FLOOR_GIVEN;
@@ -230,6 +252,7 @@ vfit_result vfit_tracker_reset(vfit_tracker handle) {
         Use<TrackerObject, Mode::exclusive> tracker(handle.id);
         if (tracker->floor.floor_state != VFIT_FLOOR_GIVEN) tracker->floor = Camera{};
         if (tracker->own) tracker->own->reset();
+        if (tracker->fits) tracker->fits->reset();
         if (tracker->people) tracker->people->reset();
         tracker->active.reset();
         tracker->steady.reset();

@@ -6,31 +6,39 @@
 
 namespace vfit {
 
-void PeopleFit::run(const DepthImage& image, int64_t time_ns, std::span<const TrackTarget> targets, bool places,
-                    std::vector<Body>& bodies) {
+namespace {
+
+constexpr float kShareStep = 0.25f;  // a frame
+
+}  // namespace
+
+void PeopleFit::run(const DepthImage& image, const PixelBox& box, Body& body) {
     std::erase_if(people_, [&](const auto& entry) {
-        return time_ns < entry.second.seen_ns || seconds_between(entry.second.seen_ns, time_ns) > Tracker::kForget_s;
+        return body.time_ns < entry.second.seen_ns || seconds_between(entry.second.seen_ns, body.time_ns) > kForget_s;
     });
-    for (Body& body : bodies) {
-        Person& person = people_[body.id];
-        if (!person.fit) person.fit = std::make_unique<BodyFit>(model_);
-        person.seen_ns = time_ns;
-        BodyFitInput input;
-        input.image = image;
-        input.user = uint8_t(body.id);
-        input.time_ns = time_ns;
-        for (const TrackTarget& target : targets)
-            if (target.id == body.id) input.box = target.box;
-        for (int j = 0; j < kJointCount; ++j)
-            if (body.has(j)) input.joints[size_t(j)] = {body.at(j), body.joints[size_t(j)].confidence};
-        const BodyFitOutput& fit = person.fit->run(input);
-        if (fit.state != BodyFitState::kGood) continue;
-        for (int j = 0; j < kJointCount; ++j) {
-            Joint& joint = body.joints[size_t(j)];
-            joint.rotation = fit.rotations[size_t(j)];
+    const bool is_new = !people_.contains(body.id);
+    Person& person = people_[body.id];
+    if (is_new) person.fit = std::make_unique<BodyFit>(model_);
+    person.seen_ns = body.time_ns;
+    BodyFitInput input;
+    input.image = image;
+    input.user = uint8_t(body.id);
+    input.time_ns = body.time_ns;
+    input.box = box;
+    for (int j = 0; j < kJointCount; ++j)
+        if (body.has(j)) input.joints[size_t(j)] = {body.at(j), body.joints[size_t(j)].confidence};
+    const BodyFitOutput& fit = person.fit->run(input);
+    const bool good = fit.state == BodyFitState::kGood;
+    person.share = is_new && good ? 1.0f : std::clamp(person.share + (good ? kShareStep : -kShareStep), 0.0f, 1.0f);
+    for (size_t j = 0; j < size_t(kJointCount); ++j) {
+        Joint& joint = body.joints[j];
+        if (!joint.seen()) continue;
+        if (good) {
+            person.moved[j] = fit.joints[j] - joint.position;
+            joint.rotation = fit.rotations[j];
             joint.has_rotation = true;
-            if (places) joint.position = fit.joints[size_t(j)];
         }
+        joint.position += person.share * person.moved[j];
     }
 }
 

@@ -1,14 +1,11 @@
-// The body fit of everybody in view: bodies that the tracker found get rotations and, where wanted, places of the
-// body that was fitted to them.
+// The body fit of whoever is to be fitted: bodies that the tracker found get places and rotations of the body that
+// was fitted to them.
 #pragma once
 
 #include <map>
 #include <memory>
-#include <span>
-#include <vector>
 
 #include "fit/body_fit.h"
-#include "track/tracker.h"
 
 namespace vfit {
 
@@ -16,16 +13,20 @@ class PeopleFit {
 public:
     explicit PeopleFit(std::shared_ptr<const FitModel> model) : model_(std::move(model)) {}
 
-    /// `bodies`: camera space, as Tracker::run found them for `targets`; `places`: their joints move to the fitted
-    /// body's. Those that cannot be fitted stay as they are.
-    void run(const DepthImage& image, int64_t time_ns, std::span<const TrackTarget> targets, bool places,
-             std::vector<Body>& bodies);
+    /// One person of an image with a user map. `body`: camera space, as Tracker::run found it; its id is its label in
+    /// the map. A fit that comes or goes moves the joints over a few frames; a body that cannot be fitted stays as it
+    /// is. A person unseen for kForget_s starts afresh.
+    void run(const DepthImage& image, const PixelBox& box, Body& body);
     /// Forgets everybody.
     void reset() { people_.clear(); }
+
+    static constexpr double kForget_s = 2.0;
 
 private:
     struct Person {
         std::unique_ptr<BodyFit> fit;
+        std::array<Vec3, kJointCount> moved{};  // from the tracker's joints, when the fit was good last
+        float share = 0.0f;                     // of that which counts
         int64_t seen_ns = 0;
     };
     std::shared_ptr<const FitModel> model_;

@@ -162,7 +162,9 @@ OFFSET(vfit_tracker_desc, joints, 16);
 OFFSET(vfit_tracker_desc, user_map, 20);
 OFFSET(vfit_tracker_desc, follow, 24);
 OFFSET(vfit_tracker_desc, filter, 28);
-SIZE(vfit_tracker_desc, 32);
+OFFSET(vfit_tracker_desc, fit, 32);
+OFFSET(vfit_tracker_desc, reserved2, 36);
+SIZE(vfit_tracker_desc, 40);
 
 OFFSET(vfit_joint_hint, struct_size, 0);
 OFFSET(vfit_joint_hint, body_id, 4);

@@ -134,6 +134,13 @@ TEST_F(TrackerTest, WrongRulesAndIdsAreRefusedByName) {
         EXPECT_EQ(vfit_tracker_create(context, &desc, &none), VFIT_ERROR_ARGUMENT) << rule;
         EXPECT_NE(contract::last_error().find("follow"), std::string::npos);
     }
+    desc = vfit_tracker_desc_init();
+    for (const int32_t fit : {-1, 3, 1000}) {
+        desc.fit = fit;
+        vfit_tracker none{};
+        EXPECT_EQ(vfit_tracker_create(context, &desc, &none), VFIT_ERROR_ARGUMENT) << fit;
+        EXPECT_NE(contract::last_error().find("desc.fit"), std::string::npos);
+    }
     const vfit_tracker tracker = make_tracker(vfit_tracker_desc_init());
     EXPECT_EQ(vfit_tracker_set_active(tracker, 256), VFIT_ERROR_ARGUMENT);
     EXPECT_NE(contract::last_error().find("256"), std::string::npos);

@@ -13,7 +13,7 @@ namespace {
 
 struct Options {
     std::string recordings, scenes, only;
-    VirtualOptions people;
+    JudgeOptions people;
 };
 
 bool wants(const Options& o, const char* part) { return o.only.empty() || o.only == part; }
@@ -30,7 +30,7 @@ void run(const Options& o) {
         report["real"]["stills"] = judge_stills(o.scenes, o.people.quiet, targets);
     if (!o.recordings.empty() && wants(o, "recordings")) {
         if (!o.people.quiet) std::cout << "\n";
-        report["real"]["recordings"] = judge_real(o.recordings, o.people.quiet, targets);
+        report["real"]["recordings"] = judge_real(o.recordings, o.people, targets);
     }
     report["targets"] = targets.json();
     if (o.people.quiet) {
@@ -53,6 +53,13 @@ void add_track(Command& app) {
     command.add_option("--seed", o->people.seed, "Of bodies, rooms and noise").within(1, 1'000'000);
     command.add_flag("--long", o->people.long_run, "Each motion with both sensors and three people");
     command.add_option("--only", o->only, "One part").one_of({"time", "joints", "events", "stills", "recordings"});
+    command.add_option_function(
+               "--fit",
+               [o](const std::string& value) {
+                   o->people.fit = value == "off" ? VFIT_FIT_OFF : value == "everybody" ? VFIT_FIT_EVERYBODY : VFIT_FIT_AUTO;
+               },
+               "Whose joints the body fit moves, in joints and recordings (default: auto)")
+        .one_of({"auto", "off", "everybody"});
     command.add_flag("--json", o->people.quiet, "Print JSON");
     command.callback([o] {
         if (o->scenes.empty() && !o->recordings.empty()) {

@@ -30,7 +30,7 @@ struct Moment {
 
 std::vector<Moment> watch(const std::string& uri) {
     std::vector<Moment> moments;
-    play_tracked(uri, [&](vfit_frame frame, vfit_frame tracked) {
+    play_tracked(uri, VFIT_FIT_AUTO, [&](vfit_frame frame, vfit_frame tracked) {
         Moment m;
         const Joints truth = truth_of(frame);
         for (const vfit_body& body : bodies_of(frame)) {
@@ -64,12 +64,12 @@ size_t first_where(const std::vector<Moment>& moments, size_t begin, Is&& is) {
 bool is_tracked(const Moment& m) { return m.id != 0 && m.trunk_m < kRecovered_m; }
 
 /// A body of this part's own, dressed; and no word of the floor.
-std::string person(uint32_t bodies, const VirtualOptions& options) {
+std::string person(uint32_t bodies, const JudgeOptions& options) {
     return "&clothing=0.02&floor=unknown&body=" + std::to_string(bodies + options.seed) +
            "&seed=" + std::to_string(options.seed);
 }
 
-Json visit(const std::string& sensor, const VirtualOptions& options, Targets& targets) {
+Json visit(const std::string& sensor, const JudgeOptions& options, Targets& targets) {
     // The visit is over after 17 s; what remains is the turn outside.
     const auto moments = watch("virtual:sensor=" + sensor + "&motion=visit&distance=3&frames=480" + person(9000, options));
     const size_t whole = first_where(moments, 0, [](const Moment& m) { return m.whole; });
@@ -91,7 +91,7 @@ Json visit(const std::string& sensor, const VirtualOptions& options, Targets& ta
     return {{"event", "visit"}, {"sensor", sensor}, {"found_after", found}, {"ids", ids.size()}, {"gone_after", left}};
 }
 
-Json occlusion(const std::string& sensor, const VirtualOptions& options, Targets& targets) {
+Json occlusion(const std::string& sensor, const JudgeOptions& options, Targets& targets) {
     const auto moments =
         watch("virtual:sensor=" + sensor + "&motion=sway&distance=2.9&occluder=3&frames=195" + person(9100, options));
     const auto hidden = [](const Moment& m) { return m.seen == 0; };
@@ -115,12 +115,12 @@ Json occlusion(const std::string& sensor, const VirtualOptions& options, Targets
             {"same_id", same}, {"frames_with_box_as_body", boxes}};
 }
 
-Json nobody(const std::string& sensor, const char* furniture, const char* name, const VirtualOptions& options,
+Json nobody(const std::string& sensor, const char* furniture, const char* name, const JudgeOptions& options,
             Targets& targets) {
     uint32_t with_body = 0;
     play_tracked("virtual:sensor=" + sensor + "&people=0&floor=unknown&frames=90&furniture=" + furniture +
                      "&seed=" + std::to_string(options.seed),
-                 [&](vfit_frame, vfit_frame tracked) { with_body += !bodies_of(tracked).empty(); });
+                 VFIT_FIT_AUTO, [&](vfit_frame, vfit_frame tracked) { with_body += !bodies_of(tracked).empty(); });
     targets.judge(sensor + ": " + name + ": frames with a body", with_body, Aim::exactly, 0);
     return {{"event", name}, {"sensor", sensor}, {"frames_with_body", with_body}};
 }
@@ -182,7 +182,7 @@ Json judge_stills(const std::string& folder, bool quiet, Targets& targets) {
             {"too_close", {{"bodies", one.bodies.size()}, {"partly_out_of_view", cut}}}};
 }
 
-Json judge_events(const VirtualOptions& options, Targets& targets) {
+Json judge_events(const JudgeOptions& options, Targets& targets) {
     if (!options.quiet) std::cout << "\nSYNTHETIC: people who come and go\n";
     Json rows = Json::array();
     for (const std::string sensor : {"kinect_v1", "tof"}) {

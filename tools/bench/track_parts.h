@@ -9,21 +9,22 @@
 
 namespace vfit::tools {
 
-struct VirtualOptions {
+struct JudgeOptions {
     uint32_t seed = 1;
     bool long_run = false;  // every case with both sensors and several people
     bool quiet = false;
+    vfit_track_fit fit = VFIT_FIT_AUTO;  // where joints are judged
 };
 
 /// REAL: recordings below the folder.
-Json judge_real(const std::string& folder, bool quiet, Targets& targets);
+Json judge_real(const std::string& folder, const JudgeOptions& options, Targets& targets);
 /// REAL: the stills of five people and of one who is too close.
 Json judge_stills(const std::string& folder, bool quiet, Targets& targets);
 /// SYNTHETIC: joints of virtual people.
-Json judge_virtual(const VirtualOptions& options, Targets& targets);
+Json judge_virtual(const JudgeOptions& options, Targets& targets);
 /// SYNTHETIC: people who come, go and are hidden, and rooms without anybody.
-Json judge_events(const VirtualOptions& options, Targets& targets);
+Json judge_events(const JudgeOptions& options, Targets& targets);
 /// SYNTHETIC: time of the whole tracker a frame, and from a frame's time stamp to the pose.
-Json judge_time(const VirtualOptions& options, Targets& targets);
+Json judge_time(const JudgeOptions& options, Targets& targets);
 
 }  // namespace vfit::tools

@@ -9,14 +9,18 @@ constexpr uint32_t kFirst = 1;         // id of the virtual person whom the opti
 
 }  // namespace
 
-Tracker open_own_tracker(vfit_context context) {
-    return open_tracker(context, {VFIT_TRACK_BUILT_IN, VFIT_TRACK_BUILT_IN});
+Tracker open_own_tracker(vfit_context context, vfit_track_fit fit) {
+    TrackOptions options;
+    options.joints = options.user_map = VFIT_TRACK_BUILT_IN;
+    options.fit = fit;
+    return open_tracker(context, options);
 }
 
-void play_tracked(const std::string& uri, const std::function<void(vfit_frame frame, vfit_frame tracked)>& show) {
+void play_tracked(const std::string& uri, vfit_track_fit fit,
+                  const std::function<void(vfit_frame frame, vfit_frame tracked)>& show) {
     const Context context = open_context();
     Source source(context.get(), uri);
-    const Tracker tracker = open_own_tracker(context.get());
+    const Tracker tracker = open_own_tracker(context.get(), fit);
     while (const auto frame = source.next()) {
         Frame tracked;
         check(vfit_tracker_update(tracker.get(), frame->get(), tracked.out()));

@@ -62,13 +62,14 @@ bool on_silhouette(vfit_frame frame, const vfit_intrinsics& k, const std::array<
     return false;
 }
 
-Run track(const std::string& path, Samples& times) {
+Run track(const std::string& path, vfit_track_fit fit, Samples& times) {
     Run run;
     run.name = std::filesystem::path(path).filename().string();
     const Context context = open_context();
     Source source(context.get(), path);
     vfit_tracker_desc desc = vfit_tracker_desc_init();
     desc.joints = VFIT_TRACK_BUILT_IN;
+    desc.fit = fit;
     Tracker tracker;
     check(vfit_tracker_create(context.get(), &desc, tracker.out()));
     while (const auto frame = source.next()) {
@@ -185,7 +186,7 @@ void judge_errors(const std::vector<Run>& runs, const Errors& raw, const Errors&
 
 }  // namespace
 
-Json judge_real(const std::string& folder, bool quiet, Targets& targets) {
+Json judge_real(const std::string& folder, const JudgeOptions& options, Targets& targets) {
     std::vector<std::filesystem::path> paths;
     for (const auto& entry : std::filesystem::directory_iterator(folder))
         if (entry.is_directory()) paths.push_back(entry.path());
@@ -194,7 +195,7 @@ Json judge_real(const std::string& folder, bool quiet, Targets& targets) {
     std::vector<Run> runs;
     Samples times;
     for (const auto& path : paths) {
-        Run run = track(path.string(), times);
+        Run run = track(path.string(), options.fit, times);
         const size_t a = run.name.find("_s"), b = run.name.find('_', a + 1);
         run.person = a == std::string::npos ? run.name : run.name.substr(a + 1, b - a - 1);
         count_swaps_and_jumps(run);
@@ -217,7 +218,7 @@ Json judge_real(const std::string& folder, bool quiet, Targets& targets) {
                         {"raw", errors_of({run}, none, false, 0, false).json()}});
     const Json report = {{"update_ms", times.json()}, {"raw", raw.json()}, {"offset", off.json()}, {"shift_frames", shift},
                          {"offset_shift_on_body", best.json()}, {"recordings", rows}};
-    if (!quiet) print(runs, raw, off, best, offsets, shift, times);
+    if (!options.quiet) print(runs, raw, off, best, offsets, shift, times);
     judge_errors(runs, raw, off, best, targets);
     return report;
 }

@@ -83,7 +83,7 @@ Json json(const char* name, const Times& t) {
 
 }  // namespace
 
-Json judge_time(const VirtualOptions& options, Targets& targets) {
+Json judge_time(const JudgeOptions& options, Targets& targets) {
     if (!options.quiet) std::cout << "\nSYNTHETIC: time on one core at 640 x 480, frames at 30 Hz\n";
     const std::string common = "virtual:sensor=kinect_v1&clothing=0.02&seed=" + std::to_string(options.seed) +
                                "&body=" + std::to_string(9200 + options.seed) +

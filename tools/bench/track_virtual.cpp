@@ -48,10 +48,10 @@ struct Views {
     void merge(const Views& v) { all.merge(v.all), front.merge(v.front), side.merge(v.side), back.merge(v.back); }
 };
 
-Views play(const TrackCase& one) {
+Views play(const TrackCase& one, vfit_track_fit fit) {
     Views views;
     uint32_t index = 0, swapped = 0, last_id = 0;
-    play_tracked(one.uri, [&](vfit_frame frame, vfit_frame tracked) {
+    play_tracked(one.uri, fit, [&](vfit_frame frame, vfit_frame tracked) {
         if (index++ < kWarmUp) return;
         const Joints truth = truth_of(frame);
         if (!truth.has(VFIT_JOINT_TORSO)) return;
@@ -106,7 +106,7 @@ double pair_within(const Errors& e, int left) {
 
 }  // namespace
 
-Json judge_virtual(const VirtualOptions& options, Targets& targets) {
+Json judge_virtual(const JudgeOptions& options, Targets& targets) {
     const std::vector<TrackCase> cases = track_cases(options.seed, options.long_run);
     Views everything;
     std::map<std::string, Views> by_sensor;
@@ -117,7 +117,7 @@ Json judge_virtual(const VirtualOptions& options, Targets& targets) {
                   << "seed " << options.seed << "\n"
                   << "  what                                   mAP     mean   median  frames  no body  swapped longest\n";
     for (const TrackCase& one : cases) {
-        const Views views = play(one);
+        const Views views = play(one, options.fit);
         rows.push_back({{"what", one.what}, {"sensor", one.sensor}, {"uri", one.uri}, {"all", views.all.json()}});
         everything.merge(views);
         by_sensor[one.sensor].merge(views);

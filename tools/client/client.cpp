@@ -40,6 +40,7 @@ Tracker open_tracker(vfit_context context, const TrackOptions& options) {
     vfit_tracker_desc desc = vfit_tracker_desc_init();
     desc.joints = options.joints;
     desc.user_map = options.user_map;
+    desc.fit = options.fit;
     desc.follow = options.chosen ? VFIT_FOLLOW_CHOSEN : options.follow;
     Tracker tracker;
     check(vfit_tracker_create(context, &desc, tracker.out()));

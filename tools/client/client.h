@@ -84,6 +84,7 @@ Context open_context();
 struct TrackOptions {
     vfit_track_source joints = VFIT_TRACK_AUTO, user_map = VFIT_TRACK_AUTO;
     vfit_follow follow = VFIT_FOLLOW_NEAREST;
+    vfit_track_fit fit = VFIT_FIT_AUTO;
     uint32_t chosen = 0;  // nobody else, where it is not 0
     bool asked = false;   // to follow somebody in particular
 };

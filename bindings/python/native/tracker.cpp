@@ -19,7 +19,7 @@ vfit_track_source source_in(const std::string& given, const char* name) {
 
 std::shared_ptr<Tracker> create(const Context& context, const py::object& floor, const std::string& joints,
                                 const std::string& user_map, const std::string& follow,
-                                const std::string& filter) {
+                                const std::string& filter, const std::string& fit) {
     const vfit_camera camera = floor.is_none() ? vfit_camera_init() : camera_in(floor);
     vfit_tracker_desc desc = vfit_tracker_desc_init();
     if (!floor.is_none()) desc.floor = &camera;
@@ -32,6 +32,8 @@ std::shared_ptr<Tracker> create(const Context& context, const py::object& floor,
                           {"chosen", VFIT_FOLLOW_CHOSEN}});
     desc.filter = choice(filter, "filter",
                          {{"auto", VFIT_FILTER_AUTO}, {"on", VFIT_FILTER_ON}, {"off", VFIT_FILTER_OFF}});
+    desc.fit = choice(fit, "fit",
+                      {{"auto", VFIT_FIT_AUTO}, {"off", VFIT_FIT_OFF}, {"everybody", VFIT_FIT_EVERYBODY}});
     vfit_tracker handle{};
     run([&, h = context.handle()] { return vfit_tracker_create(h, &desc, &handle); });
     return make<Tracker>(context.core(), handle);
@@ -97,11 +99,13 @@ void bind_tracker(py::module_& m) {
                  m, "Tracker", "Makes tracked frames: images, user map and bodies.")
                  .def(py::init(&create), "context"_a, py::kw_only(), "floor"_a = py::none(),
                       "joints"_a = "auto", "user_map"_a = "auto", "follow"_a = "nearest", "filter"_a = "auto",
+                      "fit"_a = "auto",
                       "floor: a Camera that says where the floor is, if the frames do not. joints, user_map: "
                       "\"auto\" (the source's where it tells them, else the tracker's), \"built_in\" or "
                       "\"given\". follow: who is the active person, \"nearest\", \"centred\", \"first\" or "
                       "\"chosen\". filter: joints steadied over time, \"auto\" (not those of the source), "
-                      "\"on\" or \"off\".")
+                      "\"on\" or \"off\". fit: whose joints are those of a body fitted to the depth, \"auto\" "
+                      "(the active person's), \"off\" or \"everybody\".")
                  .def("update", &update, "frame"_a,
                       "The frame with the bodies that its source supplies, or those that the tracker finds.")
                  .def("track", &track, "depth"_a, "intrinsics"_a, py::kw_only(), "users"_a = py::none(),

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "fit_scene.h"
+#include "track/tracker.h"
 
 namespace vfit {
 namespace {
@@ -17,41 +18,75 @@ Body seen_body(const FitScene& scene, uint32_t id, float error_m, int64_t time_n
     return body;
 }
 
-TEST(PeopleFit, GivesRotationsAndLeavesPlacesUnlessTheyAreWanted) {
-    Avatar avatar(body_model(), {}, shape_of({}), Vec2(1.0f));
-    const FitScene scene = shoot(avatar, easy_pose(avatar.skeleton()));
-    std::vector<TrackTarget> targets;
-    find_targets(scene.image(), 8, targets);
-    ASSERT_EQ(targets.size(), 1u);
-    for (const bool places : {false, true}) {
-        PeopleFit people(fit_model());
-        float before = 0.0f, after = 0.0f;
-        for (int i = 1; i <= 4; ++i) {
-            const Body seen = seen_body(scene, 1, 0.06f, i * kFrameNs);
-            std::vector<Body> bodies = {seen};
-            people.run(scene.image(), i * kFrameNs, targets, places, bodies);
-            for (int j = 0; j < kPaperJointCount; ++j) {
-                ASSERT_TRUE(bodies[0].joints[size_t(j)].has_rotation);
-                before += glm::distance(seen.at(j), scene.joints.at(j));
-                after += glm::distance(bodies[0].at(j), scene.joints.at(j));
-            }
-        }
-        if (places)
-            EXPECT_LT(after, 0.6f * before);
-        else
-            EXPECT_EQ(after, before);
-    }
+/// Mean distance of the paper's joints to the truth, metres.
+float error_of(const Body& body, const FitScene& scene) {
+    float sum = 0.0f;
+    for (int j = 0; j < kPaperJointCount; ++j) sum += glm::distance(body.at(j), scene.joints.at(j));
+    return sum / float(kPaperJointCount);
 }
 
-TEST(PeopleFit, ABodyWithoutPixelsStaysAsItIs) {
-    Avatar avatar(body_model(), {}, shape_of({}), Vec2(1.0f));
-    const FitScene scene = shoot(avatar, easy_pose(avatar.skeleton()));
-    PeopleFit people(fit_model());
-    std::vector<TrackTarget> targets = {{1, {}, 0}, {2, {}, 0}};
-    std::vector<Body> bodies = {seen_body(scene, 2, 0.0f, kFrameNs), seen_body(scene, 1, 0.0f, kFrameNs)};
-    people.run(scene.image(), kFrameNs, targets, true, bodies);
-    EXPECT_FALSE(bodies[0].joints[0].has_rotation);
-    EXPECT_TRUE(bodies[1].joints[0].has_rotation);
+class PeopleFitTest : public ::testing::Test {
+protected:
+    PixelBox box() const {
+        std::vector<TrackTarget> targets;
+        find_targets(scene.image(), 8, targets);
+        return targets.front().box;
+    }
+    Avatar avatar{body_model(), {}, shape_of({}), Vec2(1.0f)};
+    FitScene scene = shoot(avatar, easy_pose(avatar.skeleton()));
+    PeopleFit people{fit_model()};
+};
+
+TEST_F(PeopleFitTest, BringsJointsNearerAndGivesThemRotations) {
+    float before = 0.0f, after = 0.0f;
+    for (int i = 1; i <= 4; ++i) {
+        const Body seen = seen_body(scene, 1, 0.06f, i * kFrameNs);
+        Body body = seen;
+        people.run(scene.image(), box(), body);
+        for (const Joint& joint : body.joints) ASSERT_TRUE(joint.has_rotation);
+        before += error_of(seen, scene);
+        after += error_of(body, scene);
+    }
+    EXPECT_LT(after, 0.6f * before);
+}
+
+TEST_F(PeopleFitTest, ABodyWithoutPixelsStaysAsItIs) {
+    const Body seen = seen_body(scene, 2, 0.0f, kFrameNs);
+    Body body = seen;
+    people.run(scene.image(), {}, body);
+    EXPECT_FALSE(body.joints[0].has_rotation);
+    EXPECT_EQ(error_of(body, scene), error_of(seen, scene));
+}
+
+TEST_F(PeopleFitTest, JointsThatAreNotSeenStayUnseen) {
+    Body body = seen_body(scene, 1, 0.02f, kFrameNs);
+    body.joints[VFIT_JOINT_LEFT_HAND] = Joint{};
+    people.run(scene.image(), box(), body);
+    EXPECT_TRUE(body.joints[VFIT_JOINT_RIGHT_HAND].has_rotation);
+    EXPECT_FALSE(body.has(VFIT_JOINT_LEFT_HAND));
+    EXPECT_EQ(body.at(VFIT_JOINT_LEFT_HAND), Vec3(0.0f));
+}
+
+TEST_F(PeopleFitTest, AFitThatGoesBadLetsGoOfTheJointsStepByStep) {
+    Body seen = seen_body(scene, 1, 0.0f, kFrameNs);
+    for (Joint& joint : seen.joints) joint.position.x += 0.04f;  // what the fit takes back
+    const auto moved_by_fit = [&](int frame) {
+        Body body = seen;
+        body.time_ns = frame * kFrameNs;
+        people.run(scene.image(), {}, body);
+        EXPECT_EQ(body.joints[0].has_rotation, frame <= 4);
+        return glm::distance(body.at(VFIT_JOINT_CHEST), seen.at(VFIT_JOINT_CHEST));
+    };
+    for (int frame = 1; frame < 4; ++frame) moved_by_fit(frame);
+    const float whole = moved_by_fit(4);
+    EXPECT_GT(whole, 0.015f);
+    // A board in the person's place.
+    for (size_t i = 0; i < scene.depth.size(); ++i) {
+        scene.users[i] = i % 640 > 200 && i % 640 < 500 && i / 640 > 150 && i / 640 < 300;
+        if (scene.users[i]) scene.depth[i] = 2000;
+    }
+    for (int frame = 5; frame <= 9; ++frame)
+        EXPECT_NEAR(moved_by_fit(frame), whole * std::max(0.0f, 1.0f - 0.25f * float(frame - 4)), 1e-5f) << frame;
 }
 
 }  // namespace

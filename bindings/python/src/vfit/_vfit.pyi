@@ -309,12 +309,14 @@ class Tracker(_Closable):
     source's where it tells them, else the tracker's own; "given" is the source's alone (UnsupportedError where it
     tells none). follow is the rule of the active person: "nearest" to the camera, most "centred", who came "first",
     or nobody but the one "chosen". filter: joints are steadied over time and their states follow their confidence,
-    "auto" for the tracker's own and submitted ones, "on" for the source's too, "off"."""
+    "auto" for the tracker's own and submitted ones, "on" for the source's too, "off". fit: the body model fitted to
+    depth and outline moves the joints that the tracker finds and gives them rotations; "auto" is the active person's."""
 
     def __init__(self, context: Context, *, floor: Optional[Camera] = None, joints: _TrackSource = "auto",
                  user_map: _TrackSource = "auto",
                  follow: Literal["nearest", "centred", "first", "chosen"] = "nearest",
-                 filter: Literal["auto", "on", "off"] = "auto") -> None: ...
+                 filter: Literal["auto", "on", "off"] = "auto",
+                 fit: Literal["auto", "off", "everybody"] = "auto") -> None: ...
     def update(self, frame: Frame) -> Frame:
         """The frame with the bodies that its source supplies, or those that the tracker finds."""
     def track(self, depth: NDArray[np.uint16], intrinsics: Union[Intrinsics, Sequence[Any]], *,

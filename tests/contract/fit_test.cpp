@@ -1,0 +1,95 @@
+// The body fit of the built-in tracker: whose joints it moves, and that it moves them to where they are.
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "contract/support.h"
+
+namespace {
+
+class FitTest : public contract::ContextTest {
+protected:
+    /// Mean over the last frames of the first person's paper joints, metres, and who has rotations in the last one.
+    struct Outcome {
+        double error_m = 0.0;
+        std::map<uint32_t, bool> rotations;
+        uint32_t active = 0;
+    };
+
+    std::vector<vfit_joint> joints_of(vfit_frame frame, uint32_t body) {
+        std::vector<vfit_joint> out(VFIT_JOINT_COUNT);
+        uint32_t count = VFIT_JOINT_COUNT;
+        EXPECT_EQ(vfit_frame_joints(frame, body, out.data(), sizeof(vfit_joint), &count), VFIT_OK);
+        out.resize(count);
+        return out;
+    }
+    static bool has_rotation(const vfit_joint& j) {
+        const float* q = j.rotation;
+        const float length = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+        if (length != 0.0f) {
+            EXPECT_NEAR(length, 1.0f, 1e-3f);
+        }
+        return length != 0.0f;
+    }
+
+    Outcome run(vfit_track_fit fit, int people) {
+        Outcome out;
+        vfit_sensor sensor{};
+        const std::string uri = "virtual:motion=reach&rate=30&sensor=kinect_v1_320&clothing=0.02&seed=6&frames=24&people=" +
+                                std::to_string(people);
+        EXPECT_EQ(vfit_sensor_open(context, uri.c_str(), &sensor), VFIT_OK) << contract::last_error();
+        EXPECT_EQ(vfit_sensor_start(sensor), VFIT_OK);
+        vfit_tracker_desc desc = vfit_tracker_desc_init();
+        desc.joints = VFIT_TRACK_BUILT_IN;  // with the source's user map, so that ids are the truth's
+        desc.fit = fit;
+        vfit_tracker tracker{};
+        EXPECT_EQ(vfit_tracker_create(context, &desc, &tracker), VFIT_OK);
+        vfit_frame frame{};
+        size_t counted = 0;
+        for (int index = 0; vfit_sensor_acquire(sensor, -1, &frame) == VFIT_OK; ++index) {
+            vfit_frame tracked{};
+            EXPECT_EQ(vfit_tracker_update(tracker, frame, &tracked), VFIT_OK) << contract::last_error();
+            std::array<vfit_body, 8> bodies{};
+            uint32_t count = 8;
+            EXPECT_EQ(vfit_frame_bodies(tracked, bodies.data(), sizeof(vfit_body), &count), VFIT_OK);
+            EXPECT_EQ(vfit_frame_active_body(tracked, &out.active, nullptr), VFIT_OK);
+            out.rotations.clear();
+            for (uint32_t b = 0; b < count; ++b) {
+                const auto joints = joints_of(tracked, bodies[b].body_id);
+                out.rotations[bodies[b].body_id] = !joints.empty() && has_rotation(joints.front());
+                if (bodies[b].body_id != 1 || index < 8) continue;
+                const auto truth = joints_of(frame, 1);
+                for (const vfit_joint& j : joints) {
+                    if (j.joint >= 15) continue;
+                    const float* a = j.position;
+                    const float* b2 = truth[size_t(j.joint)].position;
+                    out.error_m += std::hypot(a[0] - b2[0], a[1] - b2[1], a[2] - b2[2]);
+                    ++counted;
+                }
+            }
+            EXPECT_EQ(vfit_frame_release(tracked), VFIT_OK);
+            EXPECT_EQ(vfit_frame_release(frame), VFIT_OK);
+        }
+        EXPECT_GT(counted, 150u);
+        out.error_m /= double(counted);
+        EXPECT_EQ(vfit_sensor_close(sensor), VFIT_OK);
+        EXPECT_EQ(vfit_tracker_destroy(tracker), VFIT_OK);
+        return out;
+    }
+};
+
+}  // namespace
+
+TEST_F(FitTest, BringsJointsNearerToTheTruth) {
+    const Outcome without = run(VFIT_FIT_OFF, 1), with = run(VFIT_FIT_AUTO, 1);
+    EXPECT_FALSE(without.rotations.at(1));
+    EXPECT_TRUE(with.rotations.at(1));
+    EXPECT_LT(with.error_m, 0.8 * without.error_m);
+}
+
+TEST_F(FitTest, IsOfTheActivePersonOrOfEverybody) {
+    const Outcome active = run(VFIT_FIT_AUTO, 2), all = run(VFIT_FIT_EVERYBODY, 2);
+    ASSERT_EQ(active.rotations.size(), 2u);
+    for (const auto& [id, rotated] : active.rotations) EXPECT_EQ(rotated, id == active.active) << id;
+    for (const auto& [id, rotated] : all.rotations) EXPECT_TRUE(rotated) << id;
+}
