@@ -19,6 +19,13 @@ constexpr float kRimCosine = 0.35f;  // of a normal to the line of sight: the ve
 constexpr int kOutwardCells = 8;     // about 10 cm
 constexpr float kSameLimb_m = 0.12f;  // in depth
 
+// Of the weight of other joints: under clothes the network takes the trousers' crotch for the body's.
+constexpr float kHipShare = 0.1f;
+
+bool about_the_hips(int joint) {
+    return joint == VFIT_JOINT_LEFT_HIP || joint == VFIT_JOINT_RIGHT_HIP || joint == VFIT_JOINT_PELVIS;
+}
+
 float robust(float residual, float width) {
     const float ratio = 1.0f / (1.0f + residual * residual / (width * width));
     return ratio * ratio;
@@ -144,7 +151,7 @@ void add_joint_rows(const FitJoints& joints, const FitBody& body, const FitWeigh
         const FitJoint& seen = joints[size_t(j)];
         if (seen.confidence <= 0.0f) continue;
         const Vec3 apart = seen.place - body.joints()[size_t(j)];
-        const float w = weight * seen.confidence * seen.confidence * robust(glm::length(apart), weights.joint_robust_m);
+        const float w = (about_the_hips(j) ? kHipShare : 1.0f) * weight * seen.confidence * seen.confidence * robust(glm::length(apart), weights.joint_robust_m);
         for (int axis = 0; axis < 3; ++axis) {
             Vec3 direction(0.0f);
             direction[axis] = 1.0f;
