@@ -7,6 +7,7 @@
 
 #include "avatar/rig.h"
 #include "body/mesh.h"
+#include "body/usual_shape.h"
 #include "core/error.h"
 #include "fit/fit_surface.h"
 #include "fit/principal_components.h"
@@ -110,7 +111,7 @@ public:
             else if (p.minimum >= 0.0f)
                 value = usual + 0.18f * normal();
             else if (p.key.rfind("measure-", 0) == 0)
-                value = 0.25f * normal();
+                value = usual_measure(p.key) + 0.25f * normal();
             shape[i] = std::clamp(value, p.minimum, p.maximum);
         }
         return shape;

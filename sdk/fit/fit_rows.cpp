@@ -151,7 +151,8 @@ void add_joint_rows(const FitJoints& joints, const FitBody& body, const FitWeigh
         const FitJoint& seen = joints[size_t(j)];
         if (seen.confidence <= 0.0f) continue;
         const Vec3 apart = seen.place - body.joints()[size_t(j)];
-        const float w = (about_the_hips(j) ? kHipShare : 1.0f) * weight * seen.confidence * seen.confidence * robust(glm::length(apart), weights.joint_robust_m);
+        const float share = (about_the_hips(j) ? kHipShare : 1.0f) * seen.confidence * seen.confidence;
+        const float w = share * weight * robust(glm::length(apart), weights.joint_robust_m);
         for (int axis = 0; axis < 3; ++axis) {
             Vec3 direction(0.0f);
             direction[axis] = 1.0f;

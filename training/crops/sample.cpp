@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "body/usual_shape.h"
 #include "clutter.h"
 #include "posture.h"
 
@@ -23,14 +24,6 @@ constexpr std::array<Sensor, 5> kSensors = {{{320, 240, 285.0f, Light::kStructur
                                              {640, 480, 385.0f, Light::kStructured, 0.10f},
                                              {640, 576, 505.0f, Light::kTimeOfFlight, 0.10f}}};
 
-/// The default body's arms are short: shoulder to elbow .147 of stature, where ANSUR II has acromion to radiale .191,
-/// of which some .027 lie above the one joint's centre and below the other's.
-float usual_value(const std::string& key) {
-    if (key == "measure-upperarm-length") return 0.3f;   // +.012
-    if (key == "measure-lowerarm-length") return 0.15f;  // +.005
-    return 0.0f;
-}
-
 std::vector<float> random_shape(const BodyModel& model, Random& random) {
     std::vector<float> shape = model.default_shape(VFIT_SEX_UNKNOWN);
     std::map<std::string, float> sides;  // left and right share their value
@@ -45,7 +38,7 @@ std::vector<float> random_shape(const BodyModel& model, Random& random) {
             const std::string key = sided ? p.key.substr(2) : p.key;
             const auto known = sides.find(key);
             value = known != sides.end() ? known->second
-                                         : std::clamp(random.normal(usual_value(p.key), 0.22f), -0.7f, 0.9f);
+                                         : std::clamp(random.normal(usual_measure(p.key), 0.22f), -0.7f, 0.9f);
             sides[key] = value;
         }
         shape[i] = value;
