@@ -186,3 +186,12 @@ def test_hints_are_for_one_update(ctx):
         with pytest.raises(kind, match=message):
             tracker.hint(wrong)
     tracker.hint({})
+
+
+def test_the_body_fit_gives_the_active_person_rotations(ctx):
+    for fit, wanted in (("auto", True), ("everybody", True), ("off", False)):
+        tracker = vfit.Tracker(ctx, joints="built_in", fit=fit)
+        tracked = tracker.update(next(ctx.open(SOURCE)))
+        assert bool(tracked.joints().rotations.any()) is wanted, fit
+    with pytest.raises(vfit.ArgumentError, match="fit"):
+        vfit.Tracker(ctx, fit="all")
