@@ -15,10 +15,9 @@ constexpr float kBeside_m = 0.035f;
 constexpr int kFarthestCells = 16;  // from the outline: about 20 cm
 constexpr float kHiding_m = 0.05f;  // a reading this far before a vertex hides it
 constexpr float kNearest_m = 0.25f;
-constexpr float kRimCosine = 0.35f;  // of a normal to the line of sight: the vertex is on the model's own outline
-constexpr int kOutwardCells = 8;     // about 10 cm
+constexpr float kRimCosine = 0.35f;   // of a normal to the line of sight: the vertex is on the model's own outline
+constexpr int kOutwardCells = 8;      // about 10 cm
 constexpr float kSameLimb_m = 0.12f;  // in depth
-
 // Of the weight of other joints: under clothes the network takes the trousers' crotch for the body's.
 constexpr float kHipShare = 0.1f;
 
