@@ -9,6 +9,9 @@ namespace vfit {
 namespace {
 
 constexpr float kShareStep = 0.25f;  // a frame
+// A joint that was wrong comes back at this pace instead of in a leap; hands are seldom faster outside of sports.
+constexpr float kFastest_m_s = 5.5f;
+constexpr double kGap_s = 0.2;  // after a longer one places are taken as they are
 
 }  // namespace
 
@@ -19,6 +22,8 @@ void PeopleFit::run(const DepthImage& image, const PixelBox& box, Body& body) {
     const bool is_new = !people_.contains(body.id);
     Person& person = people_[body.id];
     if (is_new) person.fit = std::make_unique<BodyFit>(model_);
+    const double passed_s = is_new ? 2.0 * kGap_s : seconds_between(person.seen_ns, body.time_ns);
+    const float farthest_m = passed_s < kGap_s ? kFastest_m_s * float(passed_s) : 1e9f;
     person.seen_ns = body.time_ns;
     BodyFitInput input;
     input.image = image;
@@ -39,7 +44,12 @@ void PeopleFit::run(const DepthImage& image, const PixelBox& box, Body& body) {
             joint.has_rotation = true;
         }
         joint.position += person.share * person.moved[j];
+        const Vec3 way = joint.position - person.places[j];
+        if (const float length = glm::length(way); person.told[j] && length > farthest_m)
+            joint.position = person.places[j] + way * (farthest_m / length);
+        person.places[j] = joint.position;
     }
+    for (size_t j = 0; j < size_t(kJointCount); ++j) person.told[j] = body.joints[j].seen();
 }
 
 }  // namespace vfit

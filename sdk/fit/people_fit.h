@@ -25,8 +25,10 @@ public:
 private:
     struct Person {
         std::unique_ptr<BodyFit> fit;
-        std::array<Vec3, kJointCount> moved{};  // from the tracker's joints, when the fit was good last
-        float share = 0.0f;                     // of that which counts
+        std::array<Vec3, kJointCount> moved{};   // from the tracker's joints, when the fit was good last
+        float share = 0.0f;                      // of that which counts
+        std::array<Vec3, kJointCount> places{};  // of the last frame, where it told them
+        std::array<bool, kJointCount> told{};
         int64_t seen_ns = 0;
     };
     std::shared_ptr<const FitModel> model_;
