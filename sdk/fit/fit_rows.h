@@ -26,7 +26,7 @@ struct FitWeights {
     float outline_m = 0.015f, outline_share = 0.3f;
     float joint_m = 0.025f;
     float robust_m = 0.05f;  // residuals of this size count a quarter (Geman & McClure 1987)
-    float joint_robust_m = 0.20f;
+    float joint_robust_m = 0.25f;
 };
 
 /// Matches depth points to visible vertices. `targets` is room to work in. Returns how many were matched.
