@@ -32,7 +32,7 @@ endfunction()
 # are read once.
 function(vfit_together_under_sanitizers target)
   # These hold code for several SIMD targets, or the same names in several sources.
-  set(apart vfit_math vfit_motion vfit_fit)
+  set(apart vfit_math vfit_motion)
   if(VFIT_SANITIZE AND NOT target IN_LIST apart)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
     # An unnamed namespace is then one of an included file, which GCC warns of.
