@@ -16,13 +16,6 @@ protected:
         uint32_t active = 0;
     };
 
-    std::vector<vfit_joint> joints_of(vfit_frame frame, uint32_t body) {
-        std::vector<vfit_joint> out(VFIT_JOINT_COUNT);
-        uint32_t count = VFIT_JOINT_COUNT;
-        EXPECT_EQ(vfit_frame_joints(frame, body, out.data(), sizeof(vfit_joint), &count), VFIT_OK);
-        out.resize(count);
-        return out;
-    }
     static bool has_rotation(const vfit_joint& j) {
         const float* q = j.rotation;
         const float length = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
@@ -55,10 +48,10 @@ protected:
             EXPECT_EQ(vfit_frame_active_body(tracked, &out.active, nullptr), VFIT_OK);
             out.rotations.clear();
             for (uint32_t b = 0; b < count; ++b) {
-                const auto joints = joints_of(tracked, bodies[b].body_id);
+                const auto joints = contract::joints_of(tracked, bodies[b].body_id);
                 out.rotations[bodies[b].body_id] = !joints.empty() && has_rotation(joints.front());
                 if (bodies[b].body_id != 1 || index < 8) continue;
-                const auto truth = joints_of(frame, 1);
+                const auto truth = contract::joints_of(frame, 1);
                 for (const vfit_joint& j : joints) {
                     if (j.joint >= 15) continue;
                     const float* a = j.position;

@@ -23,13 +23,6 @@ struct Errors {
 
 class HintsTest : public contract::ContextTest {
 protected:
-    std::vector<vfit_joint> joints_of(vfit_frame frame, uint32_t body) {
-        std::vector<vfit_joint> out(VFIT_JOINT_COUNT);
-        uint32_t count = VFIT_JOINT_COUNT;
-        EXPECT_EQ(vfit_frame_joints(frame, body, out.data(), sizeof(vfit_joint), &count), VFIT_OK);
-        out.resize(count);
-        return out;
-    }
     /// The pixel of a joint in that frame's image.
     vfit_joint_hint hint_of(vfit_frame frame, const vfit_joint& joint) {
         vfit_camera camera = vfit_camera_init();
@@ -65,7 +58,7 @@ protected:
         EXPECT_EQ(vfit_tracker_create(context, &desc, &tracker), VFIT_OK);
         vfit_frame frame{};
         for (int index = 0; vfit_sensor_acquire(sensor, -1, &frame) == VFIT_OK; ++index) {
-            const auto truth = joints_of(frame, 1);
+            const auto truth = contract::joints_of(frame, 1);
             std::vector<vfit_joint_hint> hints;
             for (const vfit_joint_id id : kHinted) {
                 hints.push_back(hint_of(frame, truth[size_t(id)]));
@@ -83,7 +76,7 @@ protected:
             uint32_t bodies = 0;
             EXPECT_EQ(vfit_frame_bodies(tracked, nullptr, 0, &bodies), VFIT_OK);
             if (bodies == 1)
-                for (const vfit_joint& j : joints_of(tracked, 1))
+                for (const vfit_joint& j : contract::joints_of(tracked, 1))
                     if (std::find(std::begin(kHinted), std::end(kHinted), j.joint) != std::end(kHinted)) {
                         const vfit_joint& t = truth[size_t(j.joint)];
                         // Across the view of the level camera: a hint says nothing of depth.
@@ -103,7 +96,7 @@ protected:
 
 TEST_F(HintsTest, RightOnesHelpWhereAnArmIsHiddenAndWrongOnesDoLimitedHarm) {
     for (const vfit_track_fit fit : {VFIT_FIT_OFF, VFIT_FIT_AUTO}) {
-        const int frames = fit == VFIT_FIT_OFF ? 190 : 110;
+        const int frames = fit == VFIT_FIT_OFF ? 190 : 110;  // half the turn is enough for the second
         const Errors without = run(0.0f, 0.0f, frames, fit), right = run(0.9f, 0.0f, frames, fit);
         const Errors wrong = run(0.5f, 40.0f, frames, fit);
         ASSERT_GT(without.hidden.size(), 20u);
@@ -113,8 +106,7 @@ TEST_F(HintsTest, RightOnesHelpWhereAnArmIsHiddenAndWrongOnesDoLimitedHarm) {
             std::printf("%s, %s: hidden %.0f mm (%zu), seen %.0f mm (%zu)\n", fit == VFIT_FIT_OFF ? "network" : "fit",
                         name, 1000 * Errors::mean(errors->hidden), errors->hidden.size(),
                         1000 * Errors::mean(errors->seen), errors->seen.size());
-        // The fitted body holds on to what the picture shows: hints move it less, right and wrong.
-        EXPECT_LT(Errors::mean(right.hidden), (fit == VFIT_FIT_OFF ? 0.8 : 0.9) * Errors::mean(without.hidden));
+        EXPECT_LT(Errors::mean(right.hidden), 0.8 * Errors::mean(without.hidden));
         EXPECT_LT(Errors::mean(right.seen), Errors::mean(without.seen) + 0.002);
         EXPECT_LT(Errors::mean(wrong.hidden), Errors::mean(without.hidden) + 0.02);
         EXPECT_LT(Errors::mean(wrong.seen), Errors::mean(without.seen) + 0.02);

@@ -84,6 +84,14 @@ inline vfit_joint joint(vfit_joint_id id, float x, float y, float z) {
     return j;
 }
 
+inline std::vector<vfit_joint> joints_of(vfit_frame frame, uint32_t body) {
+    std::vector<vfit_joint> out(VFIT_JOINT_COUNT);
+    uint32_t count = VFIT_JOINT_COUNT;
+    EXPECT_EQ(vfit_frame_joints(frame, body, out.data(), sizeof(vfit_joint), &count), VFIT_OK) << last_error();
+    out.resize(count);
+    return out;
+}
+
 /// The paper's 15 joints of someone 1.7 m tall in a T-pose, world space, 2 m before the camera.
 inline std::vector<vfit_joint> standing_joints() {
     const float z = -2.0f;
