@@ -393,7 +393,8 @@ VFIT_API vfit_result vfit_tracker_destroy(vfit_tracker tracker);                
 /* *tracked shares the images and user map of frame and holds the bodies that its source supplies, or those
  * that the tracker sees in it. Where it looks for people by itself *tracked has a user map of its own, with
  * the ids of its source's bodies where those are taken.
- * VFIT_ERROR_PLUGIN where the tracker has to find joints and the network module is not installed. [excl] */
+ * VFIT_ERROR_PLUGIN where the tracker has to find joints and the network module is not installed;
+ * VFIT_ERROR_IO or VFIT_ERROR_DATA, naming the file, where weights or body data cannot be read. [excl] */
 VFIT_API vfit_result vfit_tracker_update(vfit_tracker tracker, vfit_frame frame, vfit_frame* tracked);
 /* The host's own middleware in place of the built-in tracker, one call a body; frame may be a *tracked
  * of the call before, to add a second body. A joint that is not finite gives VFIT_ERROR_DATA. Positions are

@@ -1,5 +1,8 @@
 """The tracker on numpy arrays: depth in, user map and joints out; whose joints and user map are taken."""
 
+import shutil
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -195,3 +198,17 @@ def test_the_body_fit_gives_the_active_person_rotations(ctx):
         assert bool(tracked.joints().rotations.any()) is wanted, fit
     with pytest.raises(vfit.ArgumentError, match="fit"):
         vfit.Tracker(ctx, fit="all")
+
+
+def test_body_data_that_cannot_be_read_is_named_and_not_needed_without_the_fit(ctx, tmp_path):
+    frame = next(ctx.open(SOURCE))
+    depth, intrinsics = frame.depth, frame.intrinsics
+    data = Path(vfit.__file__).parent / "vfit_data"
+    shutil.copytree(data / "networks", tmp_path / "networks")
+    with vfit.Context(data_dir=str(tmp_path)) as bare:
+        with pytest.raises(vfit.FileError, match="body.bin"):
+            vfit.Tracker(bare).track(depth, intrinsics)
+        assert vfit.Tracker(bare, fit="off").track(depth, intrinsics).bodies()
+        (tmp_path / "body.bin").write_bytes((data / "body.bin").read_bytes()[:100000])
+        with vfit.Context(data_dir=str(tmp_path)) as again, pytest.raises(vfit.DataError, match="is cut"):
+            vfit.Tracker(again).track(depth, intrinsics)
