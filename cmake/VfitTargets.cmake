@@ -65,6 +65,7 @@ function(vfit_test_program target)
   endif()
   target_compile_definitions(${target} PRIVATE VFIT_SOURCE_DIR="${CMAKE_SOURCE_DIR}" VFIT_DATA_DIR="${VFIT_DATA_DIR}"
     VFIT_PLUGIN_DIR="${CMAKE_BINARY_DIR}/lib/vfit_plugins")
+  vfit_together_under_sanitizers(${target})
   if(target STREQUAL unit_core)
     vfit_quick_to_compile(${target} <gtest/gtest.h> <algorithm> <string> <vector>)
   else()

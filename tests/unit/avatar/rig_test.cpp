@@ -13,7 +13,7 @@
 namespace vfit {
 namespace {
 
-constexpr float kRoundingM = 2e-6f;  // float rounding of a chain of ten bones of a metre
+constexpr float kChainRoundingM = 2e-6f;  // float rounding of a chain of ten bones of a metre
 
 struct Posed {
     PosedSkeleton skeleton;
@@ -68,12 +68,12 @@ TEST(AvatarRig, TPoseStandsOnTheFloor) {
     Pose pose;
     pose.hips_position = rig.skeleton().offset[VFIT_BONE_HIPS];
     const Posed posed = run(rig, pose);
-    EXPECT_NEAR(posed.skeleton.position[VFIT_BONE_LEFT_FOOT].y, 0.09f, kRoundingM);
-    EXPECT_NEAR(rig.skeleton().ankle_height, 0.09f, kRoundingM);
+    EXPECT_NEAR(posed.skeleton.position[VFIT_BONE_LEFT_FOOT].y, 0.09f, kChainRoundingM);
+    EXPECT_NEAR(rig.skeleton().ankle_height, 0.09f, kChainRoundingM);
     const Vec3 between = posed.skeleton.position[VFIT_BONE_LEFT_FOOT] +
         posed.skeleton.position[VFIT_BONE_RIGHT_FOOT];
-    EXPECT_NEAR(between.x, 0.0f, kRoundingM);
-    EXPECT_NEAR(between.z, 0.0f, kRoundingM);
+    EXPECT_NEAR(between.x, 0.0f, kChainRoundingM);
+    EXPECT_NEAR(between.z, 0.0f, kChainRoundingM);
 }
 
 TEST(AvatarRig, BonesStandWhereForwardKinematicsPutsThem) {
@@ -86,7 +86,7 @@ TEST(AvatarRig, BonesStandWhereForwardKinematicsPutsThem) {
             const int bone = rig.rig_bone(b);
             const Vec3 at = carried(rig, posed, bone, rig.bones()[static_cast<size_t>(bone)].rest_head);
             EXPECT_LT(glm::distance(at, expected.position[static_cast<size_t>(b)]),
-                kRoundingM) << bone_name(b);
+                kChainRoundingM) << bone_name(b);
         }
     }
 }
@@ -98,7 +98,7 @@ TEST(AvatarRig, ChildrenStayAttachedToTheirLimb) {
         for (const int bone : limb.rig_bones) {
             const Vec3 end = carried(rig, posed, bone, limb.far_joint);
             EXPECT_LT(glm::distance(end, posed.skeleton.position[static_cast<size_t>(limb.end_bone)]),
-                kRoundingM)
+                kChainRoundingM)
                 << rig.bones()[static_cast<size_t>(bone)].name;
         }
 }

@@ -19,7 +19,7 @@ Body person(uint32_t id, float x, float distance) {
     return body;
 }
 
-class ActivePersonTest : public testing::Test {
+class ActivePersonTest : public ::testing::Test {
 protected:
     ActiveBody step(const std::vector<Body>& bodies) {
         return active.update(time += kFrame_ns, bodies, Camera());

@@ -13,8 +13,8 @@ namespace {
 constexpr int kPixels = CropView::kPixels;
 
 /// A flat person of 0.6 by 1.6 m, 3 m away, in the middle of what the camera sees.
-struct Image {
-    Image() : depth(320 * 240, 4000), users(320 * 240, 0) {
+struct CropImage {
+    CropImage() : depth(320 * 240, 4000), users(320 * 240, 0) {
         camera.width = 320;
         camera.height = 240;
         camera.fx = camera.fy = 300.0f;
@@ -44,7 +44,7 @@ struct Crop {
 };
 
 TEST(Crop, ShowsThePersonInTheMiddleAndNothingElse) {
-    const Image image;
+    const CropImage image;
     const Crop crop(image.view(), {0, -1});
     ASSERT_TRUE(crop.made);
     EXPECT_NEAR(crop.view.depth_m, 3.0f, 0.01f);
@@ -56,7 +56,7 @@ TEST(Crop, ShowsThePersonInTheMiddleAndNothingElse) {
 }
 
 TEST(Crop, TurnsThePictureUpright) {
-    const Image image;
+    const CropImage image;
     const Crop crop(image.view(), {1, 0});  // a camera on its side
     ASSERT_TRUE(crop.made);
     EXPECT_EQ(crop.at(0.0f, 0.65f), 1.0f);
@@ -64,7 +64,7 @@ TEST(Crop, TurnsThePictureUpright) {
 }
 
 TEST(Crop, SeesAllOfThePersonHoweverTheCameraIsTurned) {
-    const Image image;
+    const CropImage image;
     const auto seen = [&](const Vec2& up) {
         const Crop crop(image.view(), up, {130, 40, 190, 200});
         EXPECT_TRUE(crop.made);
@@ -78,7 +78,7 @@ TEST(Crop, SeesAllOfThePersonHoweverTheCameraIsTurned) {
 }
 
 TEST(Crop, LeadsToCameraSpaceAndBack) {
-    const Image image;
+    const CropImage image;
     for (const Vec2& up : {Vec2(0, -1), Vec2(0.6f, -0.8f)}) {
         const Crop crop(image.view(), up);
         const Vec3 place(-0.2f, 0.4f, 2.9f);
@@ -88,7 +88,7 @@ TEST(Crop, LeadsToCameraSpaceAndBack) {
 }
 
 TEST(Crop, LooksOnlyAtWhatOfTheBoxLiesInTheImage) {
-    const Image image;
+    const CropImage image;
     const Crop beyond(image.view(), {0, -1}, {-50, -50, 1000, 1000});
     ASSERT_TRUE(beyond.made);
     EXPECT_EQ(beyond.values, Crop(image.view(), {0, -1}).values);
@@ -96,7 +96,7 @@ TEST(Crop, LooksOnlyAtWhatOfTheBoxLiesInTheImage) {
 }
 
 TEST(Crop, NeedsAPersonWithReadings) {
-    Image image;
+    CropImage image;
     DepthImage view = image.view();
     view.users = nullptr;
     EXPECT_FALSE(Crop(view, {0, -1}).made);

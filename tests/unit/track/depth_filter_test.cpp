@@ -12,8 +12,8 @@
 namespace vfit {
 namespace {
 
-struct Image {
-    Image(uint32_t width, uint32_t height) : depth(width * height, 0), users(width * height, 0) {
+struct SmallImage {
+    SmallImage(uint32_t width, uint32_t height) : depth(width * height, 0), users(width * height, 0) {
         camera.width = width;
         camera.height = height;
         camera.fx = camera.fy = 100.0f;
@@ -30,7 +30,7 @@ struct Image {
 };
 
 TEST(DepthFilter, SetsEverythingButThePersonToTheirMean) {
-    Image image(4, 3);
+    SmallImage image(4, 3);
     for (uint32_t i = 0; i < 12; ++i) image.depth[i] = 5000;  // the wall
     image.set(1, 1, 2000, 7);
     image.set(2, 1, 2600, 7);
@@ -51,7 +51,7 @@ TEST(DepthFilter, SetsEverythingButThePersonToTheirMean) {
 }
 
 TEST(DepthFilter, SmoothsByTheBinomialKernelAndReportsTheCorrection) {
-    Image image(9, 9);
+    SmallImage image(9, 9);
     image.set(4, 4, 2000, 1);
     image.set(5, 4, 3000, 1);
     DepthFilter filter;
@@ -68,7 +68,7 @@ TEST(DepthFilter, SmoothsByTheBinomialKernelAndReportsTheCorrection) {
 TEST(DepthFilter, AgreesWithOpenCvOnAnyImageAlsoAtItsBorders) {
     std::mt19937 random(3);
     for (const int kernel : {3, 5, 9}) {
-        Image image(37, 29);
+        SmallImage image(37, 29);
         cv::Mat expected(29, 37, CV_32F);
         for (uint32_t y = 0; y < 29; ++y)
             for (uint32_t x = 0; x < 37; ++x)
@@ -86,7 +86,7 @@ TEST(DepthFilter, AgreesWithOpenCvOnAnyImageAlsoAtItsBorders) {
 }
 
 TEST(DepthFilter, PatchesHolesOfThePersonAlongTheRow) {
-    Image image(12, 3);
+    SmallImage image(12, 3);
     for (uint32_t y = 0; y < 3; ++y)
         for (uint32_t x = 0; x < 12; ++x) image.set(x, y, uint16_t(2000 + 10 * x), 1);
     image.set(4, 1, 0, 1);
@@ -108,7 +108,7 @@ TEST(DepthFilter, PatchesHolesOfThePersonAlongTheRow) {
 }
 
 TEST(DepthFilter, DoesNotPatchTheGapBetweenArmAndTrunk) {
-    Image image(20, 20);
+    SmallImage image(20, 20);
     for (uint32_t y = 0; y < 20; ++y)
         for (uint32_t x = 0; x < 20; ++x)
             if (x != 10) image.set(x, y, 2000, 1);
@@ -122,7 +122,7 @@ TEST(DepthFilter, DoesNotPatchTheGapBetweenArmAndTrunk) {
 }
 
 TEST(DepthFilter, DoesNotPatchBetweenTwoSurfacesNorOverAnotherReading) {
-    Image image(9, 3);
+    SmallImage image(9, 3);
     for (uint32_t y = 0; y < 3; ++y)
         for (uint32_t x = 0; x < 9; ++x) image.set(x, y, x < 4 ? 2000 : 2400, 1);
     image.set(4, 1, 0, 0);  // the edge of an arm before the trunk
@@ -137,7 +137,7 @@ TEST(DepthFilter, DoesNotPatchBetweenTwoSurfacesNorOverAnotherReading) {
 }
 
 TEST(DepthFilter, FindsNobodyWithoutAUserMapOrWithAnotherId) {
-    Image image(4, 4);
+    SmallImage image(4, 4);
     image.set(1, 1, 2000, 1);
     DepthFilter filter;
     EXPECT_EQ(filter.run(image.view(), 3).pixels, 0u);
@@ -152,7 +152,7 @@ TEST(DepthFilter, FindsNobodyWithoutAUserMapOrWithAnotherId) {
 }
 
 TEST(DepthFilter, ForgetsTheFrameBefore) {
-    Image large(40, 30), small(10, 10);
+    SmallImage large(40, 30), small(10, 10);
     for (uint32_t y = 5; y < 25; ++y)
         for (uint32_t x = 5; x < 35; ++x) large.set(x, y, 1500, 1);
     small.set(5, 5, 2000, 1);

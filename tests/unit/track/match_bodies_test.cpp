@@ -8,7 +8,7 @@
 namespace vfit {
 namespace {
 
-class MatchBodiesTest : public testing::Test {
+class MatchBodiesTest : public ::testing::Test {
 protected:
     MatchBodiesTest() : users(160 * 120, 0) {
         camera.width = 160, camera.height = 120;

@@ -9,7 +9,7 @@
 namespace vfit {
 namespace {
 
-constexpr int64_t kFrame_ns = 33'333'333;
+constexpr int64_t kStep_ns = 33'333'333;
 
 Body body_at(int64_t time_ns, float hand_x = 0.5f, float confidence = 1.0f) {
     Body body;
@@ -55,7 +55,7 @@ TEST(JudgeStates, StandForTheConfidenceWhereThereIsNone) {
 
 TEST(SteadyBodies, TheFirstPlaceIsTakenAsItIs) {
     SteadyBodies steady;
-    Body body = body_at(kFrame_ns);
+    Body body = body_at(kStep_ns);
     steady.run(body);
     EXPECT_EQ(hand_x(body), 0.5f);
 }
@@ -67,7 +67,7 @@ TEST(SteadyBodies, TremblingShrinksAndAJumpIsHeldBack) {
     int64_t time = 0;
     for (int frame = 0; frame < 200; ++frame) {
         const float noise = 0.02f * (float(random()) / float(std::mt19937::max()) - 0.5f);
-        Body body = body_at(time += kFrame_ns, 0.5f + noise);
+        Body body = body_at(time += kStep_ns, 0.5f + noise);
         steady.run(body);
         if (frame < 20) continue;
         before += double(noise) * noise;
@@ -75,7 +75,7 @@ TEST(SteadyBodies, TremblingShrinksAndAJumpIsHeldBack) {
     }
     EXPECT_LT(after, 0.5 * before);
     // One wrong frame of low confidence, then back.
-    Body body = body_at(time += kFrame_ns, 1.5f, 0.16f);
+    Body body = body_at(time += kStep_ns, 1.5f, 0.16f);
     steady.run(body);
     EXPECT_LT(hand_x(body), 0.8f);
 }
@@ -84,26 +84,26 @@ TEST(SteadyBodies, AJointThatWasNotSeenStartsWhereItIsSeenAgain) {
     SteadyBodies steady;
     int64_t time = 0;
     for (int frame = 0; frame < 10; ++frame) {
-        Body body = body_at(time += kFrame_ns);
+        Body body = body_at(time += kStep_ns);
         steady.run(body);
     }
     for (int frame = 0; frame < 20; ++frame) {
-        Body body = body_at(time += kFrame_ns, 0.0f, 0.0f);
+        Body body = body_at(time += kStep_ns, 0.0f, 0.0f);
         steady.run(body);
         EXPECT_FALSE(body.has(VFIT_JOINT_LEFT_HAND));
     }
-    Body body = body_at(time += kFrame_ns, 1.0f);
+    Body body = body_at(time += kStep_ns, 1.0f);
     steady.run(body);
     EXPECT_EQ(hand_x(body), 1.0f);
 }
 
 TEST(SteadyBodies, APauseAndAnEarlierTimeStartAfresh) {
     SteadyBodies steady;
-    for (const int64_t next : {10 * kFrame_ns, 11 * kFrame_ns, 30 * kFrame_ns, 29 * kFrame_ns,
-                               1000 * kFrame_ns, int64_t(0), INT64_MAX, INT64_MIN}) {
+    for (const int64_t next : {10 * kStep_ns, 11 * kStep_ns, 30 * kStep_ns, 29 * kStep_ns,
+                               1000 * kStep_ns, int64_t(0), INT64_MAX, INT64_MIN}) {
         Body body = body_at(next, float(next % 7));
         steady.run(body);
-        if (next != 11 * kFrame_ns) {
+        if (next != 11 * kStep_ns) {
             EXPECT_EQ(hand_x(body), float(next % 7)) << next;
         }
     }
@@ -112,7 +112,7 @@ TEST(SteadyBodies, APauseAndAnEarlierTimeStartAfresh) {
 TEST(SteadyBodies, PeopleDoNotPullAtEachOther) {
     SteadyBodies steady;
     for (int frame = 1; frame < 50; ++frame) {
-        Body one = body_at(frame * kFrame_ns, 0.5f), two = body_at(frame * kFrame_ns, -0.5f);
+        Body one = body_at(frame * kStep_ns, 0.5f), two = body_at(frame * kStep_ns, -0.5f);
         two.id = 2;
         steady.run(one);
         steady.run(two);
