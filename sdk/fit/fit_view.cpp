@@ -70,45 +70,53 @@ void FitView::choose_grid(const DepthImage& image, const PixelBox& person, float
     image_bottom_ = (float(int(camera.height) - 1 - top_) - half) / s;
 }
 
-void FitView::fill_cells(const DepthImage& image, uint8_t user) {
+template <int fixed>
+void FitView::fill_cells_of(const DepthImage& image, uint8_t user) {
+    const int step = fixed ? fixed : step_;
     const size_t count = size_t(width_) * size_t(height_);
     cells_.reserve(most_cells_);
     depths_.reserve(most_cells_);
     cells_.resize(count);
     depths_.resize(count);
+    const float unit_m = image.camera.depth_unit_m;
+    const auto reach = uint32_t(kSameSurface_m / unit_m);
     for (int cy = 0; cy < height_; ++cy)
         for (int cx = 0; cx < width_; ++cx) {
-            float nearest = 1e9f, other = 0.0f;
-            int own = 0, others = 0;
-            for (int y = top_ + cy * step_; y < top_ + (cy + 1) * step_; ++y) {
-                const size_t row = image.index(uint32_t(left_ + cx * step_), uint32_t(y));
-                for (size_t i = row; i < row + size_t(step_); ++i) {
-                    if (image.depth[i] == 0) continue;
-                    const float z = image.metres(i);
-                    if (image.users[i] == user)
-                        ++own, nearest = std::min(nearest, z);
-                    else
-                        ++others, other += z;
+            const size_t cell = index(cx, cy), first = image.index(uint32_t(left_ + cx * step), uint32_t(top_ + cy * step));
+            uint32_t nearest = ~0u, own = 0, others = 0;
+            uint64_t other = 0;
+            for (int y = 0; y < step; ++y)
+                for (int x = 0; x < step; ++x) {
+                    const size_t i = first + size_t(y) * image.width() + size_t(x);
+                    const uint32_t z = image.depth[i];
+                    const bool seen = z != 0, mine = seen & (image.users[i] == user), theirs = seen & !mine;
+                    own += mine, others += theirs;
+                    other += theirs ? z : 0;
+                    nearest = std::min(nearest, mine ? z : ~0u);
                 }
-            }
-            const size_t cell = index(cx, cy);
             cells_[cell] = own > others ? FitCell::kPerson : others > 0 ? FitCell::kOther : FitCell::kFree;
-            depths_[cell] = 0.0f;
-            if (cells_[cell] == FitCell::kOther) depths_[cell] = other / float(others);
+            depths_[cell] = cells_[cell] == FitCell::kOther ? float(other) / float(others) * unit_m : 0.0f;
             if (cells_[cell] != FitCell::kPerson) continue;
-            float sum = 0.0f;
-            int same = 0;
-            for (int y = top_ + cy * step_; y < top_ + (cy + 1) * step_; ++y) {
-                const size_t row = image.index(uint32_t(left_ + cx * step_), uint32_t(y));
-                for (size_t i = row; i < row + size_t(step_); ++i) {
-                    if (image.depth[i] == 0 || image.users[i] != user) continue;
-                    const float z = image.metres(i);
-                    if (z <= nearest + kSameSurface_m) sum += z, ++same;
+            uint64_t sum = 0;
+            uint32_t same = 0;
+            for (int y = 0; y < step; ++y)
+                for (int x = 0; x < step; ++x) {
+                    const size_t i = first + size_t(y) * image.width() + size_t(x);
+                    const uint32_t z = image.depth[i];
+                    const bool belongs = (z != 0) & (image.users[i] == user) & (z <= nearest + reach);
+                    sum += belongs ? z : 0, same += belongs;
                 }
-            }
-            depths_[cell] = sum / float(same);
+            depths_[cell] = float(sum) / float(same) * unit_m;
             ++person_cells_;
         }
+}
+
+void FitView::fill_cells(const DepthImage& image, uint8_t user) {
+    // Steps as they are at a few metres: a cell's loops are then unrolled.
+    if (step_ == 1) return fill_cells_of<1>(image, user);
+    if (step_ == 2) return fill_cells_of<2>(image, user);
+    if (step_ == 3) return fill_cells_of<3>(image, user);
+    fill_cells_of<0>(image, user);
 }
 
 void FitView::find_points() {

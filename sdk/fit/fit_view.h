@@ -52,6 +52,9 @@ public:
 private:
     void choose_grid(const DepthImage& image, const PixelBox& person, float depth_m);
     void fill_cells(const DepthImage& image, uint8_t user);
+    /// `fixed`: step_, or 0.
+    template <int fixed>
+    void fill_cells_of(const DepthImage& image, uint8_t user);
     void find_points();
 
     int width_ = 0, height_ = 0, step_ = 1;  // step: pixels a cell

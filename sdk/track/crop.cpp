@@ -1,6 +1,7 @@
 #include "track/crop.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace vfit {
@@ -40,33 +41,48 @@ std::pair<int, int> columns_in(const PixelBox& box, const Vec2& at, const Vec2& 
     return first < last ? std::pair(int(first), int(last)) : std::pair(0, 0);
 }
 
-/// What one crop pixel sees of the person; 1: nothing.
-float read(const DepthImage& image, uint8_t user, const PixelBox& box, const CropView& view, int i, int j, int grid) {
-    constexpr float n = CropView::kPixels;
-    uint32_t depths[9], nearest = ~0u;
-    int count = 0;
+/// One row of the crop, from `first` to before `last`: the mean of the nearest surface that `grid` x `grid` points
+/// of each pixel see of the person; 1: nothing. All points are read alike, without branches, as most lie on the person.
+template <int grid>
+void read_row(const DepthImage& image, uint8_t user, const PixelBox& box, const CropView& view, int j, int first, int last,
+              float* out) {
+    constexpr int n = CropView::kPixels;
+    constexpr uint32_t nothing = ~0u;
+    std::array<uint32_t, size_t(grid) * grid * n> depths;
     for (int b = 0; b < grid; ++b) {
         const float cj = float(j) + (float(b) + 0.5f) / float(grid) - 0.5f * n;
-        for (int a = 0; a < grid; ++a) {
-            const float ci = float(i) + (float(a) + 0.5f) / float(grid) - 0.5f * n;
-            const Vec2 q = view.centre + view.right * ci + view.down * cj;
+        const Vec2 at = view.centre + view.down * cj;
+        uint32_t* const row = depths.data() + b * grid * n;
+        for (int k = first * grid; k < last * grid; ++k) {
+            const float ci = (float(k) + 0.5f) / float(grid) - 0.5f * n;
+            const float u = at.x + view.right.x * ci, v = at.y + view.right.y * ci;
             // Rounded; the box starts at 0 or later, and so what a cast takes the wrong way lies outside it.
-            const int x = int(q.x + 0.5f), y = int(q.y + 0.5f);
-            if (q.x < -0.5f || q.y < -0.5f || x < box.x0 || y < box.y0 || x >= box.x1 || y >= box.y1) continue;
-            const size_t p = image.index(uint32_t(x), uint32_t(y));
+            const int x = int(u + 0.5f), y = int(v + 0.5f);
+            const bool inside = (u >= -0.5f) & (v >= -0.5f) & (x >= box.x0) & (y >= box.y0) & (x < box.x1) & (y < box.y1);
+            const size_t p = inside ? image.index(uint32_t(x), uint32_t(y)) : 0;
             const uint32_t depth = image.depth[p];
-            if (image.users[p] != user || depth == 0) continue;
-            depths[count++] = depth;
-            nearest = std::min(nearest, depth);
+            row[k] = inside & (image.users[p] == user) & (depth != 0) ? depth : nothing;
         }
     }
-    if (count == 0) return 1.0f;
-    const uint32_t limit = nearest + uint32_t(kSameSurface_m / image.camera.depth_unit_m);
-    uint32_t sum = 0, same = 0;
-    for (int k = 0; k < count; ++k)
-        if (depths[k] <= limit) sum += depths[k], ++same;
-    const float metres = float(sum) / float(same) * image.camera.depth_unit_m;
-    return std::clamp((metres - view.depth_m) / (0.5f * CropView::kSide_m), -1.0f, 1.0f);
+    const auto reach = uint32_t(kSameSurface_m / image.camera.depth_unit_m);
+    for (int i = first; i < last; ++i) {
+        uint32_t nearest = nothing;
+        for (int b = 0; b < grid; ++b)
+            for (int a = 0; a < grid; ++a) nearest = std::min(nearest, depths[size_t((b * n + i) * grid + a)]);
+        if (nearest == nothing) {
+            out[i] = 1.0f;
+            continue;
+        }
+        uint32_t sum = 0, same = 0;
+        for (int b = 0; b < grid; ++b)
+            for (int a = 0; a < grid; ++a) {
+                const uint32_t depth = depths[size_t((b * n + i) * grid + a)];
+                const bool belongs = depth <= nearest + reach;
+                sum += belongs ? depth : 0, same += belongs;
+            }
+        const float metres = float(sum) / float(same) * image.camera.depth_unit_m;
+        out[i] = std::clamp((metres - view.depth_m) / (0.5f * CropView::kSide_m), -1.0f, 1.0f);
+    }
 }
 
 }  // namespace
@@ -134,13 +150,14 @@ bool Cropper::run(const DepthImage& image, uint8_t user, const PixelBox& within,
     const float covered = std::max(std::abs(view.right.x) + std::abs(view.down.x),
                                    std::abs(view.right.y) + std::abs(view.down.y));
     const int grid = std::clamp(int(std::lround(covered)), 1, 3);
+    const auto read_pixels = grid == 3 ? read_row<3> : grid == 2 ? read_row<2> : read_row<1>;
     constexpr int n = CropView::kPixels;
     for (int j = 0; j < n; ++j) {
         const float row = float(j) + 0.5f - 0.5f * n;
         const Vec2 at = view.centre + view.down * row;
         const auto [first, last] = columns_in(box, at, view.right, covered);
         std::fill_n(values + j * n, n, 1.0f);
-        for (int i = first; i < last; ++i) values[j * n + i] = read(image, user, box, view, i, j, grid);
+        read_pixels(image, user, box, view, j, first, last, values + j * n);
     }
     return true;
 }

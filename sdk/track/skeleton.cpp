@@ -2,14 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace vfit {
 
 namespace {
 
+constexpr float kLeastHeat = -14.0f;   // logit below the highest: all cells of a map together then weigh under 0.001
 constexpr float kKeep = 0.9f;          // of the doubt, a frame
 constexpr float kAnswerLimit = 3.0f;   // one frame's logit counts no more
 constexpr float kTurnAbout = 18.0f;    // doubt at which the decision falls: nine frames of firm answers
+
+/// The first cell whose middle may lie within `reach` of `place`, and the one after the last.
+std::pair<int, int> cells_within(float place, float reach) {
+    constexpr float half = 0.5f * JointMaps::kSide;
+    return {int(std::max(0.0f, (place - reach + 1.0f) * half - 1.0f)),
+            int(std::min(2.0f * half, (place + reach + 1.0f) * half + 1.0f))};
+}
 
 void exchange_sides(SeenJoints& joints) {
     for (int j = 0; j < kJointCount; ++j)
@@ -41,7 +50,11 @@ void read_maps(const JointMaps& maps, const CropView& view, const Camera& camera
             for (int x = 0; x < JointMaps::kSide; ++x) {
                 const size_t i = size_t(y * JointMaps::kSide + x);
                 const float below = logits[i] - highest;
-                const float h = heat[i] = below > -20.0f ? std::exp(below) : 0.0f;
+                if (below < kLeastHeat) {
+                    heat[i] = 0.0f;
+                    continue;
+                }
+                const float h = heat[i] = std::exp(below);
                 row += h;
                 place.x += h * JointMaps::place_of(x);
                 place.z += h * depth[i];
@@ -51,8 +64,10 @@ void read_maps(const JointMaps& maps, const CropView& view, const Camera& camera
         }
         place /= sum;
         float close = 0.0f;
-        for (int y = 0; y < JointMaps::kSide; ++y)
-            for (int x = 0; x < JointMaps::kSide; ++x) {
+        const auto [y0, y1] = cells_within(place.y, near);
+        const auto [x0, x1] = cells_within(place.x, near);
+        for (int y = y0; y < y1; ++y)
+            for (int x = x0; x < x1; ++x) {
                 const float dx = JointMaps::place_of(x) - place.x, dy = JointMaps::place_of(y) - place.y;
                 if (dx * dx + dy * dy <= near * near) close += heat[size_t(y * JointMaps::kSide + x)];
             }
