@@ -49,20 +49,24 @@ void read_row(const DepthImage& image, uint8_t user, const PixelBox& box, const 
               float* out) {
     constexpr int n = CropView::kPixels;
     constexpr uint32_t nothing = ~0u;
+    constexpr float apart = 1.0f / float(grid), first_at = 0.5f * apart - 0.5f * n;
+    const uint16_t* const depth_of = image.depth;
+    const uint8_t* const user_of = image.users;
+    const Vec2 right = view.right;
+    const int x0 = box.x0, y0 = box.y0, x1 = box.x1, y1 = box.y1;
     std::array<uint32_t, size_t(grid) * grid * n> depths;
     for (int b = 0; b < grid; ++b) {
-        const float cj = float(j) + (float(b) + 0.5f) / float(grid) - 0.5f * n;
-        const Vec2 at = view.centre + view.down * cj;
+        const Vec2 at = view.centre + view.down * (float(j) + float(b) * apart + first_at);
         uint32_t* const row = depths.data() + b * grid * n;
         for (int k = first * grid; k < last * grid; ++k) {
-            const float ci = (float(k) + 0.5f) / float(grid) - 0.5f * n;
-            const float u = at.x + view.right.x * ci, v = at.y + view.right.y * ci;
+            const float ci = float(k) * apart + first_at;
+            const float u = at.x + right.x * ci, v = at.y + right.y * ci;
             // Rounded; the box starts at 0 or later, and so what a cast takes the wrong way lies outside it.
             const int x = int(u + 0.5f), y = int(v + 0.5f);
-            const bool inside = (u >= -0.5f) & (v >= -0.5f) & (x >= box.x0) & (y >= box.y0) & (x < box.x1) & (y < box.y1);
+            const bool inside = (u >= -0.5f) & (v >= -0.5f) & (x >= x0) & (y >= y0) & (x < x1) & (y < y1);
             const size_t p = inside ? image.index(uint32_t(x), uint32_t(y)) : 0;
-            const uint32_t depth = image.depth[p];
-            row[k] = inside & (image.users[p] == user) & (depth != 0) ? depth : nothing;
+            const uint32_t depth = depth_of[p];
+            row[k] = inside & (user_of[p] == user) & (depth != 0) ? depth : nothing;
         }
     }
     const auto reach = uint32_t(kSameSurface_m / image.camera.depth_unit_m);
