@@ -28,15 +28,19 @@ function(vfit_quick_to_compile target)
   endif()
 endfunction()
 
-# A build under sanitizers is for running tests, not for working in: several sources at once, so that their headers
-# are read once.
+# Several sources at once, so that their headers are read once.
+function(vfit_together target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  # An unnamed namespace is then one of an included file, which GCC warns of.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endfunction()
+
+# A build under sanitizers is for running tests, not for working in.
 function(vfit_together_under_sanitizers target)
   # These hold code for several SIMD targets, or the same names in several sources.
   set(apart vfit_math vfit_motion)
   if(VFIT_SANITIZE AND NOT target IN_LIST apart)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
-    # An unnamed namespace is then one of an included file, which GCC warns of.
-    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+    vfit_together(${target})
   endif()
 endfunction()
 
@@ -65,7 +69,7 @@ function(vfit_test_program target)
   endif()
   target_compile_definitions(${target} PRIVATE VFIT_SOURCE_DIR="${CMAKE_SOURCE_DIR}" VFIT_DATA_DIR="${VFIT_DATA_DIR}"
     VFIT_PLUGIN_DIR="${CMAKE_BINARY_DIR}/lib/vfit_plugins")
-  vfit_together_under_sanitizers(${target})
+  vfit_together(${target})
   if(target STREQUAL unit_core)
     vfit_quick_to_compile(${target} <gtest/gtest.h> <algorithm> <string> <vector>)
   else()
