@@ -34,6 +34,7 @@ struct Pair {
     Joints tracked, reference;
     bool usable = true;                      // the reference's bones have their usual lengths
     std::array<bool, kScored> on_body{};     // the reference joint lies on the silhouette
+    std::array<bool, kScored> on_surface{};  // and, an arm's, near the depth that was measured there
 };
 
 /// A constant place of each joint in the body's own axes that carries tracked joints to the reference's definition.
