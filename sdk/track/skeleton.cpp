@@ -50,7 +50,7 @@ void read_maps(const JointMaps& maps, const CropView& view, const Camera& camera
             for (int x = 0; x < JointMaps::kSide; ++x) {
                 const size_t i = size_t(y * JointMaps::kSide + x);
                 const float below = logits[i] - highest;
-                if (below < kLeastHeat) {
+                if (!(below >= kLeastHeat)) {  // or not a number
                     heat[i] = 0.0f;
                     continue;
                 }

@@ -113,7 +113,9 @@ Run track(const std::string& path, vfit_track_fit fit, Samples& times) {
             if (!pair.reference.has(j)) continue;
             pair.on_body[size_t(j)] = on_silhouette(tracked.get(), k, pair.reference.at[size_t(j)]);
             // Joints of trunk and head may lie deep in the body.
-            pair.on_surface[size_t(j)] = !is_of_lower_arm(j) || on_surface(tracked.get(), k, camera_of(tracked.get()).depth_unit_m, pair.reference.at[size_t(j)]);
+            pair.on_surface[size_t(j)] =
+                !is_of_lower_arm(j) ||
+                on_surface(tracked.get(), k, camera_of(tracked.get()).depth_unit_m, pair.reference.at[size_t(j)]);
         }
         run.pairs.push_back(pair);
     }

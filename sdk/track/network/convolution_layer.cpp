@@ -1,6 +1,7 @@
 #include "track/network/convolution_layer.h"
 
-#include <opencv2/dnn.hpp>
+#include <algorithm>
+
 #include <opencv2/dnn/all_layers.hpp>
 #include <opencv2/dnn/layer.hpp>
 
@@ -22,6 +23,8 @@ public:
                          std::vector<cv::dnn::MatShape>&) const override {
         const cv::dnn::MatShape& in = inputs.at(0);
         if (in.size() != 4 || in[1] != shape_.inputs) CV_Error(cv::Error::StsBadSize, name + ": its input has another shape");
+        if (std::min(in[2], in[3]) + 2 * shape_.pad < shape_.kernel)
+            CV_Error(cv::Error::StsBadSize, name + ": its input is smaller than its kernel");
         outputs.assign(1, {in[0], shape_.outputs, convolution_.out_size(in[2]), convolution_.out_size(in[3])});
         return false;  // not in place
     }
@@ -74,6 +77,14 @@ cv::Ptr<cv::dnn::Layer> make(cv::dnn::LayerParams& params) {
 }
 
 }  // namespace
+
+cv::dnn::Net read_network(const std::string& path) {
+    const UseOwnConvolution use;
+    cv::dnn::Net net = cv::dnn::readNetFromONNX(path);
+    // Layers are made when they are first asked for.
+    for (const cv::String& name : net.getLayerNames()) net.getLayer(net.getLayerId(name));
+    return net;
+}
 
 // The factory keeps a stack of makers for each kind of layer, and asks the last.
 UseOwnConvolution::UseOwnConvolution() {

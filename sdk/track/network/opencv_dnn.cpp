@@ -26,12 +26,9 @@ void say(char* error, uint32_t capacity, const char* what) {
 void* open_network(const char* path, char* error, uint32_t capacity) {
     try {
         auto network = std::make_unique<Network>();
-        const vfit::UseOwnConvolution use_own;
-        network->net = cv::dnn::readNetFromONNX(path);
+        network->net = vfit::read_network(path);
         network->net.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
         network->net.setPreferableTarget(cv::dnn::DNN_TARGET_CPU);
-        for (const cv::String& name : network->net.getLayerNames())  // makes the layers, with our convolutions
-            network->net.getLayer(network->net.getLayerId(name));
         return network.release();
     } catch (const std::exception& e) {
         say(error, capacity, e.what());

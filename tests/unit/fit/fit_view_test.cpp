@@ -9,15 +9,15 @@
 namespace vfit {
 namespace {
 
-/// A tilted board of the person's: z = 2.5 + slope x (x in metres to the right).
-FitScene board(float slope) {
+/// A tilted board of the person's: z = distance + slope x (x in metres to the right).
+FitScene board(float slope, float distance_m = 2.5f) {
     FitScene scene;
-    scene.depth.assign(640 * 480, 4000);
+    scene.depth.assign(640 * 480, 6000);
     scene.users.assign(640 * 480, 0);
     for (int y = 140; y < 340; ++y)
         for (int x = 220; x < 420; ++x) {
             const float a = (float(x) - scene.camera.cx) / scene.camera.fx;
-            const float z = 2.5f / (1.0f - slope * a);
+            const float z = distance_m / (1.0f - slope * a);
             scene.depth[size_t(y * 640 + x)] = uint16_t(std::lround(z * 1000.0f));
             scene.users[size_t(y * 640 + x)] = 1;
         }
@@ -38,6 +38,32 @@ TEST(FitView, PointsLieOnTheBoardWithItsNormal) {
             sum += glm::dot(p.normal, normal);
         }
         EXPECT_GT(sum / float(view.points().size()), 0.995f) << slope;
+    }
+}
+
+TEST(FitView, CellsHoldThePersonsMeanDepthFromNearAndFar) {
+    // Cells of one, two, three and more pixels.
+    for (const float distance_m : {4.5f, 2.5f, 1.8f, 1.2f}) {
+        FitScene scene = board(0.0f, distance_m);
+        for (int y = 140; y < 340; ++y)
+            for (int x = 220; x < 420; ++x) scene.depth[size_t(y * 640 + x)] += uint16_t(x % 2 ? 4 : 0);
+        FitView view;
+        ASSERT_TRUE(view.look(scene.image(), 1, {}));
+        uint32_t people = 0, others = 0;
+        float sum = 0.0f;
+        for (int y = 0; y < view.height(); ++y)
+            for (int x = 0; x < view.width(); ++x) {
+                if (view.cell(x, y) == FitCell::kPerson) {
+                    ++people, sum += view.depth(x, y);
+                    EXPECT_NEAR(view.depth(x, y), distance_m + 0.002f, 0.0021f);
+                } else if (view.cell(x, y) == FitCell::kOther) {
+                    ++others;
+                    EXPECT_NEAR(view.depth(x, y), 6.0f, 1e-3f);
+                }
+            }
+        EXPECT_EQ(people, view.person_cells());
+        EXPECT_GT(others, 0u);
+        EXPECT_NEAR(sum / float(people), distance_m + 0.002f, 5e-4f) << distance_m;
     }
 }
 

@@ -45,14 +45,7 @@ std::vector<float> by_definition(const ConvolutionShape& s, const std::vector<fl
     return out;
 }
 
-cv::dnn::Net network(bool own) {
-    const auto read = [] { return cv::dnn::readNetFromONNX(VFIT_SOURCE_DIR "/assets/networks/joints.onnx"); };
-    if (!own) return read();
-    const UseOwnConvolution use;
-    cv::dnn::Net net = read();
-    for (const cv::String& name : net.getLayerNames()) net.getLayer(net.getLayerId(name));
-    return net;
-}
+const char* const kWeights = VFIT_SOURCE_DIR "/assets/networks/joints.onnx";
 
 /// How many of a network's convolutions are OpenCV's own.
 int count_theirs(cv::dnn::Net net) {
@@ -102,7 +95,7 @@ TEST(Convolution, TakesPicturesOfAnotherSize) {
 }
 
 TEST(ConvolutionLayer, GivesTheSkeletonNetworkTheSameAnswers) {
-    cv::dnn::Net own = network(true), theirs = network(false);
+    cv::dnn::Net own = read_network(kWeights), theirs = cv::dnn::readNetFromONNX(kWeights);
     EXPECT_EQ(count_theirs(own), 0);
     EXPECT_GT(count_theirs(theirs), 10);
     const std::vector<cv::String> outputs = {"maps", "answers"};
@@ -125,10 +118,27 @@ TEST(ConvolutionLayer, LeavesTheNetworksOfOthersAlone) {
     {
         const UseOwnConvolution use;
         int theirs = 0;
-        std::thread([&] { theirs = count_theirs(network(false)); }).join();
+        std::thread([&] { theirs = count_theirs(cv::dnn::readNetFromONNX(kWeights)); }).join();
         EXPECT_GT(theirs, 10) << "another thread's, meanwhile";
     }
-    EXPECT_GT(count_theirs(network(false)), 10) << "afterwards";
+    EXPECT_GT(count_theirs(cv::dnn::readNetFromONNX(kWeights)), 10) << "afterwards";
+}
+
+TEST(ConvolutionLayer, RefusesPicturesSmallerThanItsKernel) {
+    cv::dnn::LayerParams params;
+    params.name = "convolution";
+    params.set("num_output", 1);
+    params.set("kernel_size", 5);
+    params.set("bias_term", false);
+    const int kernel[] = {1, 1, 5, 5};
+    params.blobs.push_back(cv::Mat(4, kernel, CV_32F, 0.5f));
+    const UseOwnConvolution use;
+    const auto layer = cv::dnn::LayerFactory::createLayerInstance("Convolution", params);
+    std::vector<cv::dnn::MatShape> outputs, internals;
+    EXPECT_THROW(layer->getMemoryShapes({{1, 1, 4, 9}}, 1, outputs, internals), cv::Exception);
+    EXPECT_THROW(layer->getMemoryShapes({{1, 2, 9, 9}}, 1, outputs, internals), cv::Exception);
+    layer->getMemoryShapes({{1, 1, 5, 9}}, 1, outputs, internals);
+    EXPECT_EQ(outputs.at(0), (cv::dnn::MatShape{1, 1, 1, 5}));
 }
 
 TEST(ConvolutionLayer, LeavesWhatItCannotDoToOpenCv) {

@@ -55,6 +55,27 @@ TEST(Crop, ShowsThePersonInTheMiddleAndNothingElse) {
     EXPECT_EQ(crop.at(0.65f, 0.0f), 1.0f) << "the wall";
 }
 
+TEST(Crop, OfATallPersonIsLookedForInEverySecondRow) {
+    // 0.6 by 1.6 m at 2 m, larger than the rows that are looked at one by one.
+    std::vector<uint16_t> depth(640 * 480, 4000);
+    std::vector<uint8_t> users(640 * 480, 0);
+    for (uint32_t y = 31; y < 450; ++y)
+        for (uint32_t x = 251; x < 408; ++x) depth[y * 640 + x] = 2000, users[y * 640 + x] = 1;
+    Camera camera;
+    camera.width = 640, camera.height = 480;
+    camera.fx = camera.fy = 525.0f;
+    camera.cx = 319.5f, camera.cy = 239.5f;
+    const Crop crop({depth.data(), users.data(), camera}, {0, -1}, {251, 31, 408, 450});
+    ASSERT_TRUE(crop.made);
+    EXPECT_NEAR(crop.view.depth_m, 2.0f, 0.01f);
+    EXPECT_NEAR(crop.view.centre.x, 329.0f, 1.5f);
+    EXPECT_NEAR(crop.view.centre.y, 240.0f, 1.5f);
+    // 157 x 419 pixels of 3.8 mm are 33 x 89 of 18 mm.
+    const auto seen = kPixels * kPixels - std::count(crop.values.begin(), crop.values.end(), 1.0f);
+    EXPECT_NEAR(float(seen), 33.3f * 88.8f, 130.0f);
+    EXPECT_EQ(crop.at(0.35f, 0.0f), 1.0f) << "the wall";
+}
+
 TEST(Crop, TurnsThePictureUpright) {
     const CropImage image;
     const Crop crop(image.view(), {1, 0});  // a camera on its side

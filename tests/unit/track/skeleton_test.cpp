@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <memory>
 #include <random>
 
@@ -60,6 +61,18 @@ TEST(ReadMaps, HeatInTwoPlacesIsNoConfidence) {
     read_maps(*maps, view_at(2.5f), camera_320(), joints);
     EXPECT_LT(joints[VFIT_JOINT_LEFT_HAND].confidence, 0.05f);
     EXPECT_LT(joints[VFIT_JOINT_HEAD].confidence, 0.1f);  // a map without any peak
+}
+
+TEST(ReadMaps, ACellThatIsNoNumberDoesNotCount) {
+    auto maps = std::make_unique<JointMaps>();
+    peak(*maps, VFIT_JOINT_HEAD, 20, 10, 0.0f);
+    maps->heat[size_t(VFIT_JOINT_HEAD) * JointMaps::kCells + 77] = std::numeric_limits<float>::quiet_NaN();
+    SeenJoints joints;
+    const Camera camera = camera_320();
+    const CropView view = view_at(2.5f);
+    read_maps(*maps, view, camera, joints);
+    EXPECT_NEAR(view.from_camera(camera, joints[VFIT_JOINT_HEAD].position).x, 20.5f / 16.0f - 1.0f, 1e-4f);
+    EXPECT_NEAR(joints[VFIT_JOINT_HEAD].confidence, 1.0f, 1e-5f);
 }
 
 TEST(Facing, OneWrongAnswerDoesNotTurnAnybody) {
