@@ -13,12 +13,21 @@ namespace vfit::tools {
 
 namespace {
 
+// The reference's joints and the depth were stored by clocks of their own: how many frames later the depth shows what a
+// reference frame says.
+constexpr int kMostLead = 2;
+using ByLead = std::array<std::vector<Pair>, 2 * kMostLead + 1>;
+
 struct Run {
     std::string name, person;
-    std::vector<Pair> pairs;
+    ByLead by_lead;
     uint32_t frames = 0, missed = 0, longest_swap = 0, jumps = 0;
+
+    std::vector<Pair>& at(int lead) { return by_lead[size_t(lead + kMostLead)]; }
+    const std::vector<Pair>& at(int lead) const { return by_lead[size_t(lead + kMostLead)]; }
 };
 
+constexpr const char* kFirstPerson = "s1";
 constexpr double kBoneTolerance = 0.15;  // of the recording's median, beyond which a reference frame is left out
 constexpr int kSilhouettePixels = 3;
 constexpr double kSurface_m = 0.12;  // of an arm's joint to its skin, and the sensor's error
@@ -81,9 +90,22 @@ bool on_surface(vfit_frame frame, const vfit_intrinsics& k, double unit_m, const
     return nearest != 65535 && std::abs(p[2] - double(nearest) * unit_m) <= kSurface_m;
 }
 
+/// The reference's joints of each frame, in camera space; without any where it saw nobody.
+std::vector<Joints> references_of(const std::string& path) {
+    std::vector<Joints> out;
+    const Context context = open_context();
+    Source source(context.get(), path);
+    while (const auto frame = source.next()) {
+        const uint32_t id = first_body(frame->get());
+        out.push_back(id ? joints_in_camera(frame->get(), id, camera_of(frame->get())) : Joints{});
+    }
+    return out;
+}
+
 Run track(const std::string& path, vfit_track_fit fit, Samples& times) {
     Run run;
     run.name = std::filesystem::path(path).filename().string();
+    const std::vector<Joints> references = references_of(path);
     const Context context = open_context();
     Source source(context.get(), path);
     vfit_tracker_desc desc = vfit_tracker_desc_init();
@@ -92,46 +114,49 @@ Run track(const std::string& path, vfit_track_fit fit, Samples& times) {
     Tracker tracker;
     check(vfit_tracker_create(context.get(), &desc, tracker.out()));
     while (const auto frame = source.next()) {
-        const uint32_t reference_id = first_body(frame->get());
         const Timer timer;
         Frame tracked;
         check(vfit_tracker_update(tracker.get(), frame->get(), tracked.out()));
         times.add(timer.ms());
-        ++run.frames;
+        const int index = int(run.frames++);
         const uint32_t id = first_body(tracked.get());
-        if (!reference_id) continue;
         if (!id) {
-            ++run.missed;
+            run.missed += references[size_t(index)].has(VFIT_JOINT_TORSO);
             continue;
         }
         Pair pair;
-        pair.reference = joints_in_camera(frame->get(), reference_id, camera_of(frame->get()));
         pair.tracked = joints_in_camera(tracked.get(), id, camera_of(tracked.get()));
         vfit_intrinsics k = vfit_intrinsics_init();
         check(vfit_frame_intrinsics(frame->get(), &k));
-        for (int j = 0; j < kScored; ++j) {
-            if (!pair.reference.has(j)) continue;
-            pair.on_body[size_t(j)] = on_silhouette(tracked.get(), k, pair.reference.at[size_t(j)]);
-            // Joints of trunk and head may lie deep in the body.
-            pair.on_surface[size_t(j)] =
-                !is_of_lower_arm(j) ||
-                on_surface(tracked.get(), k, camera_of(tracked.get()).depth_unit_m, pair.reference.at[size_t(j)]);
+        for (int lead = -kMostLead; lead <= kMostLead; ++lead) {
+            const int i = index - lead;
+            if (i < 0 || i >= int(references.size()) || !references[size_t(i)].has(VFIT_JOINT_TORSO)) continue;
+            pair.reference = references[size_t(i)];
+            for (int j = 0; j < kScored; ++j) {
+                if (!pair.reference.has(j)) continue;
+                pair.on_body[size_t(j)] = on_silhouette(tracked.get(), k, pair.reference.at[size_t(j)]);
+                // Joints of trunk and head may lie deep in the body.
+                pair.on_surface[size_t(j)] =
+                    !is_of_lower_arm(j) ||
+                    on_surface(tracked.get(), k, camera_of(tracked.get()).depth_unit_m, pair.reference.at[size_t(j)]);
+            }
+            run.at(lead).push_back(pair);
         }
-        run.pairs.push_back(pair);
     }
-    mark_usable(run.pairs);
+    for (auto& pairs : run.by_lead) mark_usable(pairs);
     return run;
 }
 
 void count_swaps_and_jumps(Run& run) {
     uint32_t swapped = 0;
-    for (size_t i = 0; i < run.pairs.size(); ++i) {
-        const Pair& p = run.pairs[i];
+    const std::vector<Pair>& pairs = run.at(0);
+    for (size_t i = 0; i < pairs.size(); ++i) {
+        const Pair& p = pairs[i];
         swapped = sides_are_exchanged(p.tracked, p.reference) ? swapped + 1 : 0;
         run.longest_swap = std::max(run.longest_swap, swapped);
         if (i == 0) continue;
         for (int j = 0; j < kScored; ++j)
-            if (distance(p.tracked, run.pairs[i - 1].tracked, j) > 0.20 && distance(p.reference, run.pairs[i - 1].reference, j) < 0.05)
+            if (distance(p.tracked, pairs[i - 1].tracked, j) > 0.20 && distance(p.reference, pairs[i - 1].reference, j) < 0.05)
                 ++run.jumps;
     }
 }
@@ -143,15 +168,21 @@ bool counts(const Pair& p, size_t joint, Which which) {
     return which == Which::kAll || (p.on_body[joint] && (which == Which::kOnSilhouette || p.on_surface[joint]));
 }
 
-/// Errors of the runs with the tracked joints `shift` frames earlier than the reference.
-Errors errors_of(const std::vector<Run>& runs, const Offsets& offsets, bool others_only, size_t shift, Which which) {
+/// Whose runs.
+enum class Whose { kEverybody, kFirst, kOthers };
+
+bool counts(const Run& run, Whose whose) {
+    return whose == Whose::kEverybody || (run.person == kFirstPerson) == (whose == Whose::kFirst);
+}
+
+/// Errors of the runs where the depth shows the reference that many frames later.
+Errors errors_of(const std::vector<Run>& runs, Whose whose, const Offsets& offsets, int lead, Which which) {
     Errors errors;
     for (const Run& run : runs) {
-        if (others_only && run.person == "s1") continue;
-        for (size_t i = shift; i < run.pairs.size(); ++i) {
-            const Pair& p = run.pairs[i];
+        if (!counts(run, whose)) continue;
+        for (const Pair& p : run.at(lead)) {
             if (!p.usable) continue;
-            const Joints found = offsets.apply(run.pairs[i - shift].tracked);
+            const Joints found = offsets.apply(p.tracked);
             for (int j = 0; j < kScored; ++j)
                 if (const double d = distance(found, p.reference, j); std::isfinite(d) && counts(p, size_t(j), which))
                     errors.add(j, d);
@@ -160,13 +191,48 @@ Errors errors_of(const std::vector<Run>& runs, const Offsets& offsets, bool othe
     return errors;
 }
 
+/// The constant differences between the two middlewares, fitted on the first person.
+struct Definition {
+    int lead = 0;
+    Offsets offsets;
+};
+
+Offsets offsets_of(const std::vector<Run>& runs, int lead) {
+    std::vector<Pair> pairs;
+    for (const Run& run : runs)
+        if (counts(run, Whose::kFirst)) pairs.insert(pairs.end(), run.at(lead).begin(), run.at(lead).end());
+    return Offsets::fit(pairs);
+}
+
+Definition definition_of(const std::vector<Run>& runs) {
+    Definition best;
+    double most = -1.0;
+    for (int lead = -kMostLead; lead <= kMostLead; ++lead) {
+        const Offsets offsets = offsets_of(runs, lead);
+        const double within = errors_of(runs, Whose::kFirst, offsets, lead, Which::kOnSilhouette).within(0.1);
+        if (within > most) most = within, best = {lead, offsets};
+    }
+    return best;
+}
+
+/// Of the reference's hands and elbows: how many lie on the depth that was measured that many frames later. It owes
+/// nothing to our joints.
+double on_surface_share(const std::vector<Run>& runs, int lead) {
+    size_t all = 0, on = 0;
+    for (const Run& run : runs)
+        for (const Pair& p : run.at(lead))
+            for (int j = 0; j < kScored; ++j)
+                if (is_of_lower_arm(j) && p.reference.has(j)) ++all, on += p.on_surface[size_t(j)];
+    return all ? double(on) / double(all) : 0.0;
+}
+
 void print_errors(const char* title, const Errors& e) {
     std::cout << std::left << std::setw(62) << title << std::right << " median " << std::setw(4) << std::lround(1000 * e.median())
               << " mm  within 10 cm " << std::fixed << std::setprecision(3) << e.within(0.1) << "  (" << e.count() << " joints)\n";
 }
 
 void print_table(const Errors& raw, const Errors& off, const Errors& best, const Offsets& offsets) {
-    std::cout << "                   raw            offset         offset, shift, on the silhouette   (median mm, within 10 cm);"
+    std::cout << "                   raw            offset         offset, lead, on the silhouette   (median mm, within 10 cm);"
                  "   the offset to the left, up, ahead (mm)\n";
     for (int j = 0; j < kScored; ++j) {
         std::cout << "  " << std::left << std::setw(16) << joint_name(j) << std::right;
@@ -178,20 +244,25 @@ void print_table(const Errors& raw, const Errors& off, const Errors& best, const
 }
 
 void print(const std::vector<Run>& runs, const Errors& raw, const Errors& off, const Errors& best, const Errors& surface,
-           const Offsets& offsets, size_t shift, const Samples& times) {
+           const Definition& definition, const Samples& times) {
     std::cout << "REAL recordings, own joints against those of the recordings' middleware, which err by 5 to 10 cm themselves\n";
-    for (size_t i = 0; i < runs.size(); ++i) {
-        const Errors e = errors_of({runs[i]}, Offsets{}, false, 0, Which::kAll);
-        std::cout << "  " << std::left << std::setw(28) << runs[i].name << std::right << std::setw(4) << runs[i].frames << " frames, "
-                  << runs[i].missed << " missed, raw median " << std::setw(4) << std::lround(1000 * e.median()) << " mm, within 10 cm "
-                  << std::fixed << std::setprecision(2) << e.within(0.1) << ", longest swap " << runs[i].longest_swap << ", jumps "
-                  << runs[i].jumps << "\n";
+    for (const Run& run : runs) {
+        const Errors e = errors_of({run}, Whose::kEverybody, Offsets{}, 0, Which::kAll);
+        std::cout << "  " << std::left << std::setw(28) << run.name << std::right << std::setw(4) << run.frames << " frames, "
+                  << run.missed << " missed, raw median " << std::setw(4) << std::lround(1000 * e.median()) << " mm, within 10 cm "
+                  << std::fixed << std::setprecision(2) << e.within(0.1) << ", longest swap " << run.longest_swap << ", jumps "
+                  << run.jumps << "\n";
     }
+    std::cout << "the reference's hands and elbows on the depth of the frame";
+    for (int lead = -kMostLead; lead <= kMostLead; ++lead)
+        std::cout << (lead == -kMostLead ? " " : ", ") << std::showpos << lead << std::noshowpos << ": " << std::setprecision(3)
+                  << on_surface_share(runs, lead);
+    std::cout << "\n";
     print_errors("raw, everybody", raw);
     print_errors("offset per joint fitted on s1, the others", off);
-    print_errors(("same, " + std::to_string(shift) + " frames later, reference on the silhouette").c_str(), best);
+    print_errors(("same, depth " + std::to_string(definition.lead) + " frames later (by s1), reference on it").c_str(), best);
     print_errors("same, not judged: without arms that hang in the air", surface);
-    print_table(raw, off, best, offsets);
+    print_table(raw, off, best, definition.offsets);
     std::cout << "  update: median " << times.quantile(0.5) << " ms, p95 " << times.quantile(0.95)
               << " ms while the reader of the files shares the core\n";
 }
@@ -210,7 +281,7 @@ void judge_errors(const std::vector<Run>& runs, const Errors& raw, const Errors&
     };
     both("raw", raw, 50, 0.90);
     both("offset fitted on s1", off, 28, 0.95);
-    both("offset, shift, on the silhouette", best, 25, 0.98);
+    both("offset, lead, on the silhouette", best, 25, 0.98);
     targets.judge("same: worse hand, median", hands, Aim::at_most, 45, 1, " mm");
     targets.judge("same: worst other joint, median", others, Aim::at_most, 35, 1, " mm");
     targets.judge("left and right exchanged, frames at a time", swap, Aim::at_most, 3);
@@ -234,26 +305,22 @@ Json judge_real(const std::string& folder, const JudgeOptions& options, Targets&
         count_swaps_and_jumps(run);
         runs.push_back(std::move(run));
     }
-    std::vector<Pair> first;
-    for (const Run& run : runs)
-        if (run.person == "s1") first.insert(first.end(), run.pairs.begin(), run.pairs.end());
-    const Offsets none{}, offsets = Offsets::fit(first);
-    const Errors raw = errors_of(runs, none, false, 0, Which::kAll), off = errors_of(runs, offsets, true, 0, Which::kAll);
-    size_t shift = 0;
-    Errors best = errors_of(runs, offsets, true, 0, Which::kOnSilhouette);
-    for (size_t s = 1; s <= 2; ++s)
-        if (const Errors e = errors_of(runs, offsets, true, s, Which::kOnSilhouette); e.median() < best.median()) best = e, shift = s;
-    // Says how much of what is missed is the reference's own: some of its hands hang in the air.
-    const Errors surface = errors_of(runs, offsets, true, shift, Which::kOnSurface);
+    const Offsets none{};
+    const Definition definition = definition_of(runs);
+    const Errors raw = errors_of(runs, Whose::kEverybody, none, 0, Which::kAll),
+                 off = errors_of(runs, Whose::kOthers, offsets_of(runs, 0), 0, Which::kAll),
+                 best = errors_of(runs, Whose::kOthers, definition.offsets, definition.lead, Which::kOnSilhouette),
+                 // Says how much of what is missed is the reference's own: some of its hands hang in the air.
+                 surface = errors_of(runs, Whose::kOthers, definition.offsets, definition.lead, Which::kOnSurface);
 
     Json rows = Json::array();
     for (const Run& run : runs)
         rows.push_back({{"recording", run.name}, {"frames", run.frames}, {"missed", run.missed},
                         {"longest_swap", run.longest_swap}, {"jumps", run.jumps},
-                        {"raw", errors_of({run}, none, false, 0, Which::kAll).json()}});
-    const Json report = {{"update_ms", times.json()}, {"raw", raw.json()}, {"offset", off.json()}, {"shift_frames", shift},
-                         {"offset_shift_on_body", best.json()}, {"on_surface", surface.json()}, {"recordings", rows}};
-    if (!options.quiet) print(runs, raw, off, best, surface, offsets, shift, times);
+                        {"raw", errors_of({run}, Whose::kEverybody, none, 0, Which::kAll).json()}});
+    const Json report = {{"update_ms", times.json()}, {"raw", raw.json()}, {"offset", off.json()}, {"lead_frames", definition.lead},
+                         {"offset_lead_on_body", best.json()}, {"on_surface", surface.json()}, {"recordings", rows}};
+    if (!options.quiet) print(runs, raw, off, best, surface, definition, times);
     judge_errors(runs, raw, off, best, targets);
     return report;
 }
