@@ -268,13 +268,15 @@ const BodyFitOutput& BodyFit::run(const BodyFitInput& input_as_given) {
         const float robust_m = !calm && i < 2 ? kWideRobust_m : options_.weights.robust_m;
         if (!drawn_) draw(state);
         drawn_ = false;
+        // Where little moves, the picture before the last step is judged: one less to draw.
+        if (calm && i + 1 == steps) out_.score = raster_.score(view_);
         solved = step(input, follow ? &last_ : nullptr, frames, robust_m, state);
     }
     if (!solved || !finite(state)) {
         tracked_ = false;
         return out_;
     }
-    out_.score = score_of(state);
+    if (!calm) out_.score = score_of(state);
     out_.state = good(out_.score) ? BodyFitState::kGood : BodyFitState::kPoor;
     if (out_.state == BodyFitState::kGood && options_.shape) {
         learn_shape(state.shape);

@@ -12,7 +12,7 @@ constexpr float kBin_m = 0.01f;
 constexpr size_t kDepthBins = 1000;  // to 10 m
 // The person's extent is taken without this share of the pixels on either side: single wrong ones.
 constexpr float kStray = 0.002f;
-constexpr int kManyRows = 240;  // of which every second tells where the person is
+constexpr int kManyRows = 240;  // of which every second pixel of every second one tells where the person is
 // Readings within this of the nearest one under a crop pixel are averaged; those behind are another surface.
 constexpr float kSameSurface_m = 0.08f;
 
@@ -118,7 +118,7 @@ bool Cropper::look(const DepthImage& image, uint8_t user, const PixelBox& box, c
     for (int y = box.y0; y < box.y1; y += apart) {
         const size_t row = image.index(0, uint32_t(y));
         const float across_y = float(reach) + right.y * float(y), along_y = float(reach) + down.y * float(y);
-        for (int x = box.x0; x < box.x1; ++x) {
+        for (int x = box.x0; x < box.x1; x += apart) {
             const uint16_t depth = image.depth[row + size_t(x)];
             if (image.users[row + size_t(x)] != user || depth == 0) continue;
             ++count;
@@ -127,7 +127,7 @@ bool Cropper::look(const DepthImage& image, uint8_t user, const PixelBox& box, c
             ++along[int(along_y + down.x * float(x))];
         }
     }
-    if (count * uint32_t(apart) < kFewestPixels) return false;
+    if (count * uint32_t(apart * apart) < kFewestPixels) return false;
 
     size_t median = 0;
     for (uint32_t sum = depths_[0]; 2 * sum < count; sum += depths_[median]) ++median;

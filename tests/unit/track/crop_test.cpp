@@ -55,7 +55,7 @@ TEST(Crop, ShowsThePersonInTheMiddleAndNothingElse) {
     EXPECT_EQ(crop.at(0.65f, 0.0f), 1.0f) << "the wall";
 }
 
-TEST(Crop, OfATallPersonIsLookedForInEverySecondRow) {
+TEST(Crop, OfATallPersonIsLookedForInAQuarterOfThePixels) {
     // 0.6 by 1.6 m at 2 m, larger than the rows that are looked at one by one.
     std::vector<uint16_t> depth(640 * 480, 4000);
     std::vector<uint8_t> users(640 * 480, 0);
