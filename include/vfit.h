@@ -423,20 +423,28 @@ enum { VFIT_SEX_UNKNOWN = 0, VFIT_SEX_FEMALE = 1, VFIT_SEX_MALE = 2 };
 typedef int32_t vfit_scan_method;
 enum { VFIT_SCAN_DEFAULT = 0,           /* PROPORTIONS as yet                                         */
     VFIT_SCAN_PROPORTIONS = 1,          /* the paper's, with anthropometric ratios, weighted means, outliers left out */
-    VFIT_SCAN_PROPORTIONS_AS_PRINTED = 2 };  /* the artists' canon and plain means of the paper's text     */
+    VFIT_SCAN_PROPORTIONS_AS_PRINTED = 2,   /* the artists' canon and plain means of the paper's text     */
+    VFIT_SCAN_FIT = 3 };                /* a body fitted to all frames, measures learnt from it        */
 typedef int32_t vfit_guidance;
 enum { VFIT_GUIDANCE_NONE = 0, VFIT_GUIDANCE_STEP_BACK = 1, VFIT_GUIDANCE_STEP_CLOSER = 2,
     VFIT_GUIDANCE_ARMS_OUT = 3, VFIT_GUIDANCE_HOLD_STILL = 4, VFIT_GUIDANCE_TURN_SIDEWAYS = 5,
     VFIT_GUIDANCE_FEET_NOT_VISIBLE = 6, VFIT_GUIDANCE_ONE_PERSON_ONLY = 7,
-    VFIT_GUIDANCE_NOBODY = 8, VFIT_GUIDANCE_JOINTS_MISSING = 9 };
+    VFIT_GUIDANCE_NOBODY = 8, VFIT_GUIDANCE_JOINTS_MISSING = 9, VFIT_GUIDANCE_FACE_CAMERA = 10 };
+enum { VFIT_SCAN_BARE = 1 };            /* bit of flags: bare feet and no hair on the crown. Otherwise the deviation
+                                         * of FIT's stature allows for both                             */
 typedef struct vfit_scan_desc { uint32_t struct_size; vfit_scan_method method;
                                 uint32_t frame_count;                     /* 0: 30, as in the paper    */
-                                vfit_sex sex; } vfit_scan_desc;
+                                vfit_sex sex;
+                                uint32_t side_frame_count;   /* of FIT: frames from the side, 15 are enough; 0: none
+                                                              * are waited for                                      */
+                                uint32_t flags;              /* VFIT_SCAN_*                                        */
+                              } vfit_scan_desc;
 typedef struct vfit_scan_state {
     uint32_t struct_size, frames_taken, frames_wanted;
     vfit_guidance guidance;             /* why the last frame was not taken                            */
     float correction_m;                 /* mean absolute change of depth by the filter (Fig. 9)          */
     float compute_ms;                   /* of the last frame                                         */
+    uint32_t side_frames_taken, side_frames_wanted;  /* frames_taken: from the front                  */
 } vfit_scan_state;
 /* key: "stature_m", "chest_girth_m", ... (vfit_measure_key); observed 0: inferred from others. sigma is
  * one standard deviation of value; 0: unknown.                                                        */

@@ -43,7 +43,7 @@ std::vector<uint32_t> first_at_same_place(std::span<const float> rest) {
 }  // namespace
 
 Clothing::Clothing(std::span<const float> rest, std::span<const uint32_t> triangles, const BodyLandmarks& l,
-                   float mean_m, uint64_t seed)
+                   const Thickness& thickness, uint64_t seed)
     : offsets_m_(rest.size() / 3),
       surface_(rest.size()),
       same_place_(first_at_same_place(rest)) {
@@ -62,11 +62,18 @@ Clothing::Clothing(std::span<const float> rest, std::span<const uint32_t> triang
         const uint64_t garment = random_bits(key, top ? 1 : 2);
         const float uneven = 1.0f + kFoldShare * smooth_field(garment, p / kFold_m) +
                              kWrinkleShare * smooth_field(garment + 1, p / kWrinkle_m);
+        if (thickness.by_zone()) {
+            const float sleeve = inside(std::abs(p.x) - l.shoulder_x);
+            const float on_top = glm::mix(thickness.top(), thickness.sleeves(), sleeve);
+            offsets_m_[v] = cover * uneven * (top ? on_top : thickness.trousers());
+            continue;
+        }
         offsets_m_[v] = cover * uneven * (top ? 1.0f + looser : 1.0f - looser);
         covered += double(areas[v] * cover);
         moved += double(areas[v] * offsets_m_[v]);
     }
-    const auto scale = static_cast<float>(moved > 0.0 ? double(mean_m) * covered / moved : 0.0);
+    if (thickness.by_zone()) return;
+    const auto scale = static_cast<float>(moved > 0.0 ? double(thickness.mean_m) * covered / moved : 0.0);
     for (float& offset : offsets_m_) offset *= scale;
 }
 

@@ -16,11 +16,25 @@ struct BodyLandmarks {
     float shoulder_x;
 };
 
+/// How thick clothes are, in metres.
+struct Thickness {
+    static constexpr float kUnsaid = -1.0f;
+    float mean_m = 0.0f;                                            // of all; top and trousers differ from it by chance
+    float top_m = kUnsaid, sleeves_m = kUnsaid, trousers_m = kUnsaid;  // where said, about this each
+
+    bool by_zone() const { return top_m >= 0.0f || sleeves_m >= 0.0f || trousers_m >= 0.0f; }
+    bool any() const { return mean_m > 0.0f || top_m > 0.0f || sleeves_m > 0.0f || trousers_m > 0.0f; }
+    float top() const { return top_m >= 0.0f ? top_m : mean_m; }
+    float sleeves() const { return sleeves_m >= 0.0f ? sleeves_m : mean_m; }
+    float trousers() const { return trousers_m >= 0.0f ? trousers_m : mean_m; }
+};
+
 class Clothing {
 public:
-    /// `rest`: the skin in the T-pose, packed x, y, z. The mean offset of the covered surface is `mean_m`.
+    /// `rest`: the skin in the T-pose, packed x, y, z. The mean offset of the covered surface is thickness.mean_m, unless
+    /// zones have their own.
     Clothing(std::span<const float> rest, std::span<const uint32_t> triangles, const BodyLandmarks& landmarks,
-             float mean_m, uint64_t seed);
+             const Thickness& thickness, uint64_t seed);
 
     /// The dressed surface of the posed body, as long as it is not called again. `normals` as `skin`.
     const float* dress(const float* skin, const float* normals);

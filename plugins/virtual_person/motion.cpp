@@ -15,7 +15,8 @@ struct NamedScript {
     const char* name;
     Script (*make)();
 };
-constexpr NamedScript kScripts[] = {{"scan", scan_script},   {"sway", sway_script}, {"turn", turn_script},
+constexpr NamedScript kScripts[] = {{"scan", scan_script},   {"side", side_script},
+                                    {"sway", sway_script},   {"turn", turn_script},
                                     {"walk", walk_script},   {"wave", wave_script}, {"reach", reach_script},
                                     {"squat", squat_script}, {"demo", demo_script},
                                     {"cross", cross_script}, {"clap", clap_script}, {"forward", forward_script},

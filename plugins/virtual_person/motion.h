@@ -23,6 +23,7 @@ struct Script {
 };
 
 Script scan_script();
+Script side_script();
 Script sway_script();
 Script turn_script();
 Script walk_script();

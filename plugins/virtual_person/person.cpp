@@ -97,13 +97,13 @@ vfit_view Person::vertices(vfit_stream stream) const {
     return view;
 }
 
-void Person::wear(float mean_m, uint64_t seed) {
+void Person::wear(const Thickness& thickness, uint64_t seed) {
     clothing_.reset();
-    if (mean_m <= 0.0f) return;
+    if (!thickness.any()) return;
     const BodyLandmarks landmarks{joint_place(VFIT_JOINT_NECK).y, joint_place(VFIT_JOINT_TORSO).y,
                                   joint_place(VFIT_JOINT_LEFT_FOOT).y, joint_place(VFIT_JOINT_LEFT_WRIST).x,
                                   joint_place(VFIT_JOINT_LEFT_SHOULDER).x};
-    clothing_.emplace(std::span(skin_, size_t{3} * vertex_count_), triangles_, landmarks, mean_m, seed);
+    clothing_.emplace(std::span(skin_, size_t{3} * vertex_count_), triangles_, landmarks, thickness, seed);
 }
 
 void Person::read_joints() {

@@ -36,8 +36,8 @@ public:
     Person(const Person&) = delete;
     Person& operator=(const Person&) = delete;
 
-    /// Clothes of that mean thickness; 0: none. Before the first pose: it is fitted in the T-pose.
-    void wear(float mean_m, uint64_t seed);
+    /// Clothes of that thickness; 0: none. Before the first pose: it is fitted in the T-pose.
+    void wear(const Thickness& thickness, uint64_t seed);
 
     const Proportions& proportions() const { return proportions_; }
     const std::vector<uint32_t>& triangles() const { return triangles_; }

@@ -52,7 +52,8 @@ Renderer::Renderer(vfit_context context, const Options& options, const RandomBod
     motion_ = bvh.empty()
                   ? make_scripted_motion(options.text("motion"), person_.proportions(), options.whole("seed"))
                   : make_bvh_motion(bvh, person_.proportions());
-    person_.wear(static_cast<float>(options.number("clothing")), options.whole("seed"));
+    const auto metres = [&](const char* key) { return static_cast<float>(options.number(key)); };
+    person_.wear({metres("clothing"), metres("top"), metres("sleeves"), metres("trousers")}, options.whole("seed"));
     if (has_person_) camera_.set_triangles(person_.triangles(), person_.vertex_count());
 
     intrinsics_ = vfit_intrinsics_init();

@@ -1,4 +1,4 @@
-// Scripted motions on two planted feet: scan, sway, wave, reach, squat.
+// Scripted motions on two planted feet: scan, side, sway, wave, reach, squat.
 #include "keys.h"
 #include "motion.h"
 
@@ -8,6 +8,16 @@ Script scan_script() {
     return {[](float) {
                 Figure f = standing();
                 for (const int side : {kLeft, kRight}) set_arm(f.rotation, side, {35, 0, 6, 0});
+                return f;
+            },
+            10.0f};
+}
+
+// For a side view (facing=90): the arms hang before the trunk, so that its outline is free.
+Script side_script() {
+    return {[](float) {
+                Figure f = standing();
+                for (const int side : {kLeft, kRight}) set_arm(f.rotation, side, {6, 37, 6, 0});
                 return f;
             },
             10.0f};

@@ -26,7 +26,7 @@ struct Surroundings::Other {
           person(context, body.sex, static_cast<uint32_t>(options.whole("detail")), body.shape),
           motion(make_scripted_motion(kMotions[index % std::size(kMotions)], person.proportions(), seed)),
           camera(model, place, {}) {
-        person.wear(static_cast<float>(options.number("clothing")), seed);
+        person.wear({static_cast<float>(options.number("clothing"))}, seed);
         camera.set_triangles(person.triangles(), person.vertex_count());
         seen.id = static_cast<uint32_t>(2 + index);
     }

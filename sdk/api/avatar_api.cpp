@@ -128,7 +128,7 @@ vfit_result vfit_avatar_create_from_scan(vfit_context handle, const vfit_avatar_
         if (d.sex == VFIT_SEX_UNKNOWN) d.sex = scan->sex;
         const Vec2 scale = scale_to(*context, d.sex, scan->scan.measurements());
         auto avatar = make<AvatarObject>(context.ref(), d, std::span<const float>{}, scale);
-        avatar->avatar.set_collider_radii(scan->scan.radii());
+        avatar->avatar.set_collider_radii(scan->scan.paper().radii());
         publish(*context, avatar, out);
         return VFIT_OK;
     });

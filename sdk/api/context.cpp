@@ -66,6 +66,12 @@ std::shared_future<std::shared_ptr<const FitModel>> Context::fit_model() {
     return fit_model_;
 }
 
+std::shared_ptr<const MeasureModel> Context::measure_model() {
+    std::lock_guard lock(model_mutex_);
+    if (!measure_model_) measure_model_ = MeasureModel::load(data_dir + "/measures.json");
+    return measure_model_;
+}
+
 const std::vector<Measurement>& Context::default_measures(vfit_sex sex) {
     const auto model = body_model();
     std::lock_guard lock(model_mutex_);

@@ -15,6 +15,7 @@
 #include "frame/axes.h"
 #include "frame/frame.h"
 #include "measure/measurement.h"
+#include "scan/measure_model.h"
 #include "sensor/plugin_host.h"
 #include "vfit.h"
 
@@ -43,6 +44,8 @@ public:
     std::shared_ptr<const BodyModel> body_model();
     /// The reduced body that is fitted to people: asked for first, it is made beside the caller's thread.
     std::shared_future<std::shared_ptr<const FitModel>> fit_model();
+    /// What scans by the fitted body estimate measures with, loaded when first asked for.
+    std::shared_ptr<const MeasureModel> measure_model();
     /// Tape measures of the default body of that sex, taken when first asked for.
     const std::vector<Measurement>& default_measures(vfit_sex sex);
     PluginHost& plugins() { return *plugins_; }
@@ -65,6 +68,7 @@ private:
     std::mutex model_mutex_;
     std::shared_ptr<const BodyModel> model_;
     std::shared_future<std::shared_ptr<const FitModel>> fit_model_;
+    std::shared_ptr<const MeasureModel> measure_model_;
     std::array<std::vector<Measurement>, VFIT_SEX_MALE + 1> default_measures_;
     std::unique_ptr<PluginHost> plugins_;
 };

@@ -35,13 +35,21 @@ vfit_result vfit_scan_create(vfit_context handle, const vfit_scan_desc* desc, vf
         out->id = 0;
         UseContext<Mode::any> context(handle);
         const vfit_scan_desc d = read_or_default(desc, "desc");
-        check_enum(d.method, VFIT_SCAN_PROPORTIONS_AS_PRINTED, "method");
+        check_enum(d.method, VFIT_SCAN_FIT, "method");
         check_enum(d.sex, VFIT_SEX_MALE, "sex");
-        if (d.frame_count > kMaxFrames)
-            fail(VFIT_ERROR_ARGUMENT, "frame_count ", d.frame_count, " is more than ", kMaxFrames);
-        ScanDesc settings = d.method == VFIT_SCAN_PROPORTIONS_AS_PRINTED ? ScanDesc::as_printed() : ScanDesc{};
-        settings.frame_count = d.frame_count ? d.frame_count : kPaperFrames;
-        settings.sex = d.sex;
+        for (const auto& [name, count] : {std::pair("frame_count", d.frame_count), {"side_frame_count", d.side_frame_count}})
+            if (count > kMaxFrames) fail(VFIT_ERROR_ARGUMENT, name, " ", count, " is more than ", kMaxFrames);
+        if (d.flags & ~uint32_t{VFIT_SCAN_BARE}) fail(VFIT_ERROR_ARGUMENT, "flags ", d.flags, ": unknown bits");
+        PersonScanDesc settings;
+        if (d.method == VFIT_SCAN_PROPORTIONS_AS_PRINTED) settings.paper = ScanDesc::as_printed();
+        settings.paper.frame_count = d.frame_count ? d.frame_count : kPaperFrames;
+        settings.paper.sex = d.sex;
+        if (d.method == VFIT_SCAN_FIT) {
+            settings.measure_model = context->measure_model();
+            settings.fit_model = context->fit_model().get();
+            settings.side_frame_count = d.side_frame_count;
+            settings.bare = (d.flags & VFIT_SCAN_BARE) != 0;
+        }
         prepare_avatar(*context, d.sex);
         out->id = context->publish(Kind::scan, make<ScanObject>(context.ref(), settings));
         return VFIT_OK;
@@ -69,10 +77,12 @@ vfit_result vfit_scan_add(vfit_scan handle, vfit_frame tracked, uint32_t body_id
         UseFrame frame(tracked);
         if (state) check_output(state, "state");
         vfit_scan_state out{};
-        out.frames_wanted = scan->frames_wanted;
+        out.frames_wanted = scan->scan.frames_wanted();
         out.frames_taken = scan->scan.frames_taken();
+        out.side_frames_wanted = scan->scan.side_frames_wanted();
+        out.side_frames_taken = scan->scan.side_frames_taken();
         vfit_result result = VFIT_OK;
-        if (out.frames_taken < out.frames_wanted) {
+        if (!scan->scan.complete()) {
             Profile::Scope time(scan->context->profile, Stage::measure);
             const DepthImage image = frame->depth_image();
             if (!image.users)
@@ -88,6 +98,7 @@ vfit_result vfit_scan_add(vfit_scan handle, vfit_frame tracked, uint32_t body_id
             in.person_count = static_cast<uint32_t>(frame->bodies.size());
             const ScanProgress progress = scan->scan.add(in);
             out.frames_taken = progress.frames_taken;
+            out.side_frames_taken = scan->scan.side_frames_taken();
             out.guidance = progress.guidance;
             out.correction_m = progress.correction_m;
             out.compute_ms = static_cast<float>(progress.compute_ms);
@@ -96,9 +107,9 @@ vfit_result vfit_scan_add(vfit_scan handle, vfit_frame tracked, uint32_t body_id
                 for (int id = 0; id < kPaperJointCount; ++id)
                     if (body->has(id)) scan->last_colliders.push_back({id, body->at(id), 0.0f, -1, Vec3(0.0f), 0.0f});
             }
-            result = !progress.taken                               ? VFIT_INCOMPLETE
-                     : progress.frames_taken < out.frames_wanted ? VFIT_NOT_READY
-                                                                   : VFIT_OK;
+            result = !progress.taken               ? VFIT_INCOMPLETE
+                     : !scan->scan.complete() ? VFIT_NOT_READY
+                                                : VFIT_OK;
         }
         if (state) write(state, out);
         return result;
@@ -118,7 +129,7 @@ vfit_result vfit_scan_colliders(vfit_scan handle, vfit_collider* items, uint32_t
         Use<ScanObject, Mode::read> scan(handle.id);
         require_frames(*scan);
         std::vector<Collider> spheres = scan->last_colliders;
-        const auto radii = scan->scan.radii();
+        const auto radii = scan->scan.paper().radii();
         for (Collider& c : spheres) c.radius = radii[static_cast<size_t>(c.joint)];
         return write_colliders(spheres, scan->context->axes, items, stride, count);
     });
@@ -130,7 +141,7 @@ vfit_result vfit_scan_scale(vfit_scan handle, const char* garment_kind, vfit_sca
         check_pointer(garment_kind, "garment_kind");
         check_output(out, "out");
         require_frames(*scan);
-        const Scan::Scale s = scan->scan.scale(garment_kind);
+        const Scan::Scale s = scan->scan.paper().scale(garment_kind);
         vfit_scale scale{};
         scale.x = s.x;
         scale.y = s.y;

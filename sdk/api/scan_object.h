@@ -2,20 +2,19 @@
 #pragma once
 
 #include "api/context.h"
-#include "measure/scan.h"
+#include "scan/person_scan.h"
 
 namespace vfit::api {
 
 struct ScanObject : ContextChild {
     static constexpr Kind kKind = Kind::scan;
-    ScanObject(Ref<Context> owner, const ScanDesc& desc)
-        : ContextChild(std::move(owner)), scan(desc), sex(desc.sex), frames_wanted(desc.frame_count) {
+    ScanObject(Ref<Context> owner, const PersonScanDesc& desc)
+        : ContextChild(std::move(owner)), scan(desc), sex(desc.paper.sex) {
         last_colliders.reserve(kPaperJointCount);  // never moved: what was moved from would not be overwritten
     }
 
-    Scan scan;
+    PersonScan scan;
     const vfit_sex sex;
-    const uint32_t frames_wanted;
     std::vector<Collider> last_colliders;  // spheres at the joints of the last frame taken, world space
 
     ~ScanObject() override { forget(); }

@@ -55,6 +55,8 @@ public:
 
     const BodyFitOutput& output() const { return out_; }
     const FitModel& model() const { return *model_; }
+    /// As it was fitted to the last image.
+    const FitBody& body() const { return body_; }
 
 private:
     bool start_from_joints(const FitJoints& joints, FitState& state) const;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <string>
 
 #include "avatar/rig.h"
@@ -11,6 +10,7 @@
 #include "core/error.h"
 #include "fit/fit_surface.h"
 #include "fit/principal_components.h"
+#include "math/random.h"
 
 namespace vfit {
 
@@ -90,12 +90,12 @@ bool between_legs(int bone, const Vec3& normal) {
     }
 }
 
-/// Random grown-ups. Gaussian numbers by Box and Muller: the standard library's differ between platforms.
+/// Random grown-ups.
 class Bodies {
 public:
     std::vector<float> next(const BodyModel& model) {
         std::vector<float> shape = model.default_shape(VFIT_SEX_UNKNOWN);
-        const float gender = unit() < 0.5f ? 0.15f * unit() : 1.0f - 0.15f * unit();
+        const float gender = random_.unit() < 0.5f ? 0.15f * random_.unit() : 1.0f - 0.15f * random_.unit();
         for (size_t i = 0; i < shape.size(); ++i) {
             const ShapeParameter& p = model.parameters()[i];
             const float usual = (1.0f - gender) * p.female + gender * p.male;
@@ -103,7 +103,7 @@ public:
             if (p.key == "gender")
                 value = gender;
             else if (p.key == "age")
-                value = 0.4f + 0.45f * unit();
+                value = 0.4f + 0.45f * random_.unit();
             else if (p.key == "height")
                 value = usual + 0.13f * normal();
             else if (p.key == "weight")
@@ -118,12 +118,8 @@ public:
     }
 
 private:
-    float unit() { return float(bits_() >> 8) * 0x1p-24f; }
-    float normal() {
-        const float radius = std::sqrt(-2.0f * std::log(1.0f - unit()));
-        return std::clamp(radius * std::cos(2.0f * kPi * unit()), -2.5f, 2.5f);
-    }
-    std::mt19937 bits_{20};
+    float normal() { return std::clamp(random_.normal(), -2.5f, 2.5f); }
+    Random random_{20};
 };
 
 /// One body in the frames of its bones: kFitInfluences points a vertex, then offsets, then joints.

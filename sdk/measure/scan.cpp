@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include "core/clock.h"
 #include "core/error.h"
+#include "core/wipe.h"
 #include "measure/body_lines.h"
 #include "measure/guidance.h"
 #include "measure/sphere_fit.h"
@@ -20,20 +20,13 @@ struct FrameValues {
     std::array<float, kPaperJointCount> radii;
 };
 
-template <typename T>
-void overwrite(T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    // volatile: the stores must survive although the memory may be freed next.
-    volatile unsigned char* bytes = reinterpret_cast<volatile unsigned char*>(&value);
-    for (size_t i = 0; i < sizeof(T); ++i) bytes[i] = 0;
-}
-
 }  // namespace
 
 struct Scan::State {
     explicit State(const ScanDesc& d) : desc(d) { frames.reserve(d.frame_count); }
     ScanDesc desc;
     DepthFilter filter;
+    FilteredDepth depth;  // the filter's last answer
     std::vector<FrameValues> frames;
     Body last;
     bool has_last = false;
@@ -87,35 +80,48 @@ Scan::Scan(const ScanDesc& desc) {
 Scan::~Scan() { reset(); }
 
 void Scan::reset() {
-    for (FrameValues& f : state_->frames) overwrite(f);
+    for (FrameValues& f : state_->frames) wipe(f);
     state_->frames.clear();
-    overwrite(state_->last);
+    wipe(state_->last);
     state_->has_last = false;
+    state_->depth = FilteredDepth{};
     state_->filter.wipe();
 }
 
 uint32_t Scan::frames_taken() const { return uint32_t(state_->frames.size()); }
 uint32_t Scan::frames_wanted() const { return state_->desc.frame_count; }
 
-ScanProgress Scan::add(const ScanFrame& frame) {
+ScanProgress Scan::look(const ScanFrame& frame) {
     State& state = *state_;
     ScanProgress progress;
     progress.frames_taken = frames_taken();
-    if (complete()) return progress;
-
     const Stopwatch watch;
-    const Camera& camera = frame.image.camera;
-    const FilteredDepth depth = state.filter.run(frame.image, frame.body ? frame.body->id : 0);
-    progress.correction_m = depth.correction_m;
+    state.depth = state.filter.run(frame.image, frame.body ? frame.body->id : 0);
+    progress.correction_m = state.depth.correction_m;
     const bool same_person = state.has_last && frame.body && state.last.id == frame.body->id;
-    progress.guidance =
-        check_frame(depth, camera, frame.body, same_person ? &state.last : nullptr, frame.person_count);
+    progress.guidance = check_frame(state.depth, frame.image.camera, frame.body, same_person ? &state.last : nullptr,
+                                    frame.person_count);
     state.has_last = frame.body != nullptr;
     if (frame.body) state.last = *frame.body;
+    progress.compute_ms = watch.ms();
+    return progress;
+}
 
+void Scan::take(const ScanFrame& frame) {
+    State& state = *state_;
+    const Camera& camera = frame.image.camera;
+    state.frames.push_back(
+        {measure_lines(state.depth, camera, *frame.body), fit_spheres(state.depth, camera, *frame.body)});
+}
+
+ScanProgress Scan::add(const ScanFrame& frame) {
+    ScanProgress progress;
+    progress.frames_taken = frames_taken();
+    if (complete()) return progress;
+    const Stopwatch watch;
+    progress = look(frame);
     if (progress.guidance == VFIT_GUIDANCE_NONE) {
-        state.frames.push_back(
-            {measure_lines(depth, camera, *frame.body), fit_spheres(depth, camera, *frame.body)});
+        take(frame);
         progress.taken = true;
         progress.frames_taken = frames_taken();
     }

@@ -178,7 +178,9 @@ OFFSET(vfit_scan_desc, struct_size, 0);
 OFFSET(vfit_scan_desc, method, 4);
 OFFSET(vfit_scan_desc, frame_count, 8);
 OFFSET(vfit_scan_desc, sex, 12);
-SIZE(vfit_scan_desc, 16);
+OFFSET(vfit_scan_desc, side_frame_count, 16);
+OFFSET(vfit_scan_desc, flags, 20);
+SIZE(vfit_scan_desc, 24);
 
 OFFSET(vfit_scan_state, struct_size, 0);
 OFFSET(vfit_scan_state, frames_taken, 4);
@@ -186,7 +188,9 @@ OFFSET(vfit_scan_state, frames_wanted, 8);
 OFFSET(vfit_scan_state, guidance, 12);
 OFFSET(vfit_scan_state, correction_m, 16);
 OFFSET(vfit_scan_state, compute_ms, 20);
-SIZE(vfit_scan_state, 24);
+OFFSET(vfit_scan_state, side_frames_taken, 24);
+OFFSET(vfit_scan_state, side_frames_wanted, 28);
+SIZE(vfit_scan_state, 32);
 
 OFFSET(vfit_measurement, struct_size, 0);
 OFFSET(vfit_measurement, observed, 4);

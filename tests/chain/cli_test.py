@@ -107,6 +107,18 @@ class Contract(unittest.TestCase):
             stature[method] = result["measurements"]["stature_m"]["value"]
         self.assertGreater(abs(stature["paper"] - stature["paper-as-printed"]), 0.01)
 
+    def test_the_fitted_body_measures_girths_with_intervals(self):
+        result = document(self, "measure", VIRTUAL.replace("demo", "scan"), "--method", "fit", "--frames", "12",
+                          "--side-frames", "0", "--json")
+        self.assertEqual((result["method"], result["frames"], result["side_frames"]), ("fit", 12, 0))
+        measured = result["measurements"]
+        truth = document(self, "measure", VIRTUAL.replace("demo", "scan"), "--method", "paper", "--json")["measurements"]
+        self.assertAlmostEqual(measured["stature_m"]["value"], truth["stature_m"]["value"], delta=0.03)
+        self.assertTrue(measured["stature_m"]["observed"])
+        self.assertFalse(measured["chest_girth_m"]["observed"])  # from the front alone
+        for key in ("chest_girth_m", "waist_girth_m", "hip_girth_m", "inside_leg_m", "arm_length_m"):
+            self.assertTrue(0.002 < measured[key]["sigma"] < 0.1, key)
+
     def test_measure_prints_the_contract(self):
         result = document(self, "measure", VIRTUAL, "--method", "paper", "--garment", "short_sleeves", "--json")
         self.assertEqual(result["method"], "paper")

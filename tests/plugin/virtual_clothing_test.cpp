@@ -22,8 +22,9 @@ BonePose t_pose() {
 struct Dressed {
     OwnContext context;
     Person bare{context.get(), VFIT_SEX_FEMALE, 0, {}}, dressed{context.get(), VFIT_SEX_FEMALE, 0, {}};
-    Dressed(float mean_m, uint64_t seed) {
-        dressed.wear(mean_m, seed);
+    Dressed(float mean_m, uint64_t seed) : Dressed(Thickness{mean_m}, seed) {}
+    Dressed(const Thickness& thickness, uint64_t seed) {
+        dressed.wear(thickness, seed);
         for (Person* p : {&bare, &dressed}) p->pose(t_pose(), Vec3(0.0f));
     }
     float moved(size_t v) const {
@@ -59,6 +60,25 @@ TEST(Clothing, MovesTheCoveredSurfaceByItsThicknessOnAverage) {
             EXPECT_LT(most, 3.0f * mean_m);
         }
     }
+}
+
+TEST(Clothing, IsAsThickInEachZoneAsItIsSaid) {
+    Thickness thickness{0.01f};
+    thickness.sleeves_m = 0.0f, thickness.trousers_m = 0.03f;
+    const Dressed d(thickness, 4);
+    double sums[3] = {}, counts[3] = {};
+    for (size_t v = 0; v < d.bare.vertex_count(); ++v) {
+        const Vec3 p = d.skin(v);
+        // Well within the hems.
+        const int zone = std::abs(p.x) > 0.3f && std::abs(p.x) < 0.5f                      ? 0
+                         : std::abs(p.x) < 0.1f && p.y > 1.15f && p.y < 1.35f              ? 1
+                         : std::abs(p.x) < 0.3f && p.y > 0.3f && p.y < 0.8f                ? 2
+                                                                                           : -1;
+        if (zone >= 0) sums[zone] += double(d.moved(v)), counts[zone] += 1;
+    }
+    EXPECT_EQ(sums[0], 0.0) << "sleeves";
+    EXPECT_NEAR(sums[1] / counts[1], 0.01, 0.005) << "top, as thick as clothes are said to be";
+    EXPECT_NEAR(sums[2] / counts[2], 0.03, 0.008) << "trousers";
 }
 
 TEST(Clothing, LeavesHeadHandsFeetAndJointsAsTheyAre) {

@@ -14,6 +14,9 @@ namespace vfit::tools {
 /// (Linux; elsewhere nothing).
 void pin_to_cores(unsigned count);
 
+/// A file beside the library, as "vfit_data/body.bin".
+std::string library_file(const std::string& name);
+
 class Timer {
 public:
     double ms() const {
@@ -39,10 +42,13 @@ private:
 
 void add_stages(Command& app);
 void add_people(Command& app);
+void add_population(Command& app);
 void add_recordings(Command& app);
 void add_track(Command& app);
 void add_cloth(Command& app);
 void add_user_map(Command& app);
 void add_fit(Command& app);
+void add_measure(Command& app);
+void add_scan_features(Command& app);
 
 }  // namespace vfit::tools

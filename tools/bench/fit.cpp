@@ -8,6 +8,7 @@
 
 #include "bench/bench.h"
 #include "bench/fit_people.h"
+#include "bench/frames.h"
 #include "bench/track_score.h"
 #include "core/platform.h"
 #include "fit/body_fit.h"
@@ -30,10 +31,6 @@ struct Models {
     std::shared_ptr<const FitModel> fine;
     std::shared_ptr<JointNetwork> network;
 };
-
-std::string library_file(const std::string& name) {
-    return (std::filesystem::path(library_folder()) / ".." / "lib" / name).lexically_normal().string();
-}
 
 Models load() {
     Models m;
@@ -330,27 +327,13 @@ Json real(const Models& models, const Options& o) {
         const Context context = open_context();
         Source source(context.get(), path.string());
         Trial trial(models, o);
-        std::vector<uint16_t> depth;
-        std::vector<uint8_t> map;
         while (const auto frame = source.next()) {
             if (!has_stream(frame->get(), VFIT_STREAM_USER_MAP)) throw Failure(s.name + ": has no mask");
-            const vfit_view d = view_of(frame->get(), VFIT_STREAM_DEPTH),
-                            u = view_of(frame->get(), VFIT_STREAM_USER_MAP);
-            depth.clear(), map.clear();
-            for (uint32_t y = 0; y < d.height; ++y) {
-                depth.insert(depth.end(), row_of<uint16_t>(d, y), row_of<uint16_t>(d, y) + d.width);
-                map.insert(map.end(), row_of<uint8_t>(u, y), row_of<uint8_t>(u, y) + u.width);
-            }
-            vfit_intrinsics k = vfit_intrinsics_init();
-            check(vfit_frame_intrinsics(frame->get(), &k));
-            DepthImage image;
-            image.depth = depth.data(), image.users = map.data();
-            image.camera.width = d.width, image.camera.height = d.height;
-            image.camera.fx = k.fx, image.camera.fy = k.fy, image.camera.cx = k.cx, image.camera.cy = k.cy;
+            const FrameImage image(frame->get());
             Joints reference;
             if (const uint32_t id = first_body(frame->get()))
                 reference = joints_in_camera(frame->get(), id, camera_of(frame->get()));
-            trial.look(image, int64_t(s.frames + 1) * 33333333, reference, s, times);
+            trial.look(image.image(), int64_t(s.frames + 1) * 33333333, reference, s, times);
         }
         all.push_back(std::move(s));
     }

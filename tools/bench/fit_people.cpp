@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "client/client.h"
 #include "frame/floor.h"
+#include "math/random.h"
 
 namespace vfit::tools {
 
@@ -57,17 +57,6 @@ Pose pose_of(const std::vector<vfit_joint>& joints) {
     }
     return pose;
 }
-
-class Random {
-public:
-    explicit Random(uint32_t seed) : bits_(seed) {}
-    float unit() { return float(bits_() >> 8) * 0x1p-24f; }
-    float between(float a, float b) { return a + (b - a) * unit(); }
-    float normal() { return std::sqrt(-2.0f * std::log(1.0f - unit())) * std::cos(2.0f * kPi * unit()); }
-
-private:
-    std::mt19937 bits_;
-};
 
 std::vector<float> random_shape(const BodyModel& model, Random& random) {
     std::vector<float> shape = model.default_shape(VFIT_SEX_UNKNOWN);

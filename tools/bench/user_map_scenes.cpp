@@ -8,6 +8,7 @@
 #include <optional>
 #include <random>
 
+#include "bench/frames.h"
 #include "client/client.h"
 
 namespace vfit::tools {
@@ -37,33 +38,6 @@ constexpr Place kPlaces[] = {{"free", "where nobody stands", 0.0f, -2.2f},
 constexpr float kStillFocal_px = 525.0f, kStillCx = 319.5f, kStillCy = 239.5f;
 const Vec3 kStillNormal{0.01036f, -0.99701f, -0.07656f};  // published with the picture, y down
 constexpr float kStillDistance_m = 1.26614f;
-
-Camera camera_of_frame(vfit_frame frame) {
-    vfit_intrinsics k = vfit_intrinsics_init();
-    check(vfit_frame_intrinsics(frame, &k));
-    const vfit_camera c = camera_of(frame);
-    Camera camera;
-    camera.width = k.width;
-    camera.height = k.height;
-    camera.fx = k.fx;
-    camera.fy = k.fy;
-    camera.cx = k.cx;
-    camera.cy = k.cy;
-    camera.depth_unit_m = c.depth_unit_m;
-    camera.floor_state = c.floor_state;
-    camera.floor_normal = Vec3(c.floor_normal[0], c.floor_normal[1], c.floor_normal[2]);
-    camera.floor_distance_m = c.floor_distance_m;
-    return camera;
-}
-
-/// Copies one stream of 640 x 480 or any other size, row by row.
-template <typename T>
-void copy_pixels(const vfit_view& view, std::vector<T>& out) {
-    out.resize(size_t(view.width) * view.height);
-    for (uint32_t y = 0; y < view.height; ++y)
-        std::memcpy(out.data() + size_t(y) * view.width, static_cast<const char*>(view.data) + size_t(y) * view.row_stride,
-                    view.width * sizeof(T));
-}
 
 /// The plane's depth along the ray of a pixel; 0 behind the camera.
 float plane_depth(const Vec3& normal, float distance, const Vec3& ray) {

@@ -30,6 +30,7 @@ const char* guidance_text(vfit_guidance guidance) {
         case VFIT_GUIDANCE_ONE_PERSON_ONLY: return "more than one person is in view";
         case VFIT_GUIDANCE_NOBODY: return "nobody is in view";
         case VFIT_GUIDANCE_JOINTS_MISSING: return "joints are missing";
+        case VFIT_GUIDANCE_FACE_CAMERA: return "the person does not face the camera";
         default: return "unknown reason";
     }
 }
@@ -41,6 +42,7 @@ ScanRun run_scan(vfit_context context, Source& source, const ScanOptions& option
     desc.frame_count = options.frames;
     desc.sex = options.sex;
     desc.method = options.method;
+    desc.side_frame_count = options.side_frames;
     check(vfit_scan_create(context, &desc, run.scan.out()));
     vfit_scan_state state = vfit_scan_state_init();
     uint32_t seen = 0;
@@ -60,6 +62,7 @@ ScanRun run_scan(vfit_context context, Source& source, const ScanOptions& option
             if (last_frame) *last_frame = std::move(tracked);
         }
         run.frames_taken = state.frames_taken;
+        run.side_frames_taken = state.side_frames_taken;
         progress.at(run.frames_taken, run.frames_wanted);
         if (result == VFIT_OK || ++seen == kPatience * state.frames_wanted) break;
     }
@@ -114,8 +117,7 @@ Json sizes_json(vfit_size_chart chart, const std::string& garment_kind,
 }
 
 vfit_scan_method scan_method_from(const std::string& option) {
-    if (option == "fit")
-        throw Failure("--method fit: this version measures by the paper's method alone (--method paper)");
+    if (option == "fit") return VFIT_SCAN_FIT;
     return option == "paper-as-printed" ? VFIT_SCAN_PROPORTIONS_AS_PRINTED : VFIT_SCAN_PROPORTIONS;
 }
 

@@ -10,11 +10,12 @@ struct ScanOptions {
     vfit_sex sex = VFIT_SEX_UNKNOWN;
     vfit_scan_method method = VFIT_SCAN_DEFAULT;
     TrackOptions track{};
+    uint32_t side_frames = 0;  // of VFIT_SCAN_FIT
 };
 
 struct ScanRun {
     Scan scan;
-    uint32_t frames_taken = 0, frames_wanted = 0;
+    uint32_t frames_taken = 0, frames_wanted = 0, side_frames_taken = 0;
     uint32_t body_id = 0;                 // who was scanned: the first that a frame was taken of
     double compute_ms = 0.0;              // of all frames taken
     double last_ms = 0.0;                 // of the last: what is left to do when capture ends
@@ -37,7 +38,7 @@ Json sizes_json(vfit_size_chart chart, const std::string& garment_kind,
                 const std::vector<vfit_measurement>& measurements);
 
 vfit_sex sex_from(const std::string& option);
-/// "paper" or "paper-as-printed"; Failure for "fit", which this version lacks.
+/// "fit", "paper" or "paper-as-printed".
 vfit_scan_method scan_method_from(const std::string& option);
 
 }  // namespace vfit::tools

@@ -12,7 +12,7 @@ namespace {
 
 struct Options {
     std::string source, method = "paper", garment = "short_sleeves", sex = "unknown";
-    uint32_t frames = 0;
+    uint32_t frames = 0, side_frames = 15;
     bool json = false;
     TrackOptions track;
 };
@@ -21,10 +21,11 @@ Json measure(const Options& options) {
     const vfit_scan_method method = scan_method_from(options.method);
     const Context context = open_context();
     Source source(context.get(), options.source);
-    const ScanRun run = run_scan(context.get(), source, {options.frames, sex_from(options.sex), method, options.track});
+    const ScanRun run = run_scan(context.get(), source, {options.frames, sex_from(options.sex), method, options.track, options.side_frames});
     Json out;
     out["method"] = options.method;
     out["frames"] = run.frames_taken;
+    if (method == VFIT_SCAN_FIT) out["side_frames"] = run.side_frames_taken;
     out["measurements"] = measurements_json(measurements_of(run.scan.get()));
     out["colliders"] = Json::array();
     for (const auto& c : list<vfit_collider>([&](auto* items, uint32_t stride, uint32_t* n) {
@@ -94,6 +95,9 @@ void add_measure(Command& app) {
     command.add_option("--method", o->method, "How to measure").one_of({"fit", "paper", "paper-as-printed"});
     command.add_option("--garment", o->garment, "Garment kind that the scale is for");
     command.add_option("--frames", o->frames, "Frames to average (default 30)").within(1, 3000);
+    command.add_option("--side-frames", o->side_frames,
+                       "Of --method fit: frames to wait for from the side, after those from the front (default 15)")
+        .within(0, 3000);
     command.add_option("--sex", o->sex, "f or m, where known").one_of({"f", "m", "unknown"});
     command.add_flag("--json", o->json, "Print JSON");
     add_track_options(command, o->track);

@@ -1,0 +1,103 @@
+#include "scan/body_scan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/wipe.h"
+
+namespace vfit {
+
+namespace {
+
+constexpr float kCrownHalfWidth_m = 0.02f;  // columns about the head's middle: the crown is all but level there
+constexpr float kHeadReach_m = 0.30f;       // from the head's middle up to the highest crown, hair included
+constexpr int kFewestColumns = 3;
+
+}  // namespace
+
+BodyScan::BodyScan(std::shared_ptr<const FitModel> model) : model_(std::move(model)), fit_(model_), residuals_(*model_) {}
+
+void BodyScan::reset() {
+    fit_.reset();
+    residuals_.reset();
+    wipe(sums_);
+}
+
+FitViewKind BodyScan::add(const DepthImage& image, const Body& body) {
+    BodyFitInput input;
+    input.image = image;
+    input.user = uint8_t(body.id);
+    input.time_ns = body.time_ns;
+    for (int j = 0; j < kJointCount; ++j)
+        if (body.has(j)) input.joints[size_t(j)] = {body.at(j), body.joints[size_t(j)].confidence};
+    const BodyFitOutput& fit = fit_.run(input);
+    if (fit.state != BodyFitState::kGood) return FitViewKind::kOther;
+    const FitViewKind view = view_kind_of(fit_.body());
+    if (view == FitViewKind::kOther) return view;
+    residuals_.add(image, input.user, fit_.body(), fit.pose.shape);
+    ++sums_.frames;
+    sums_.distance_m += double(fit.pose.hips.z);
+    sums_.pixel_m += double(fit.pose.hips.z / std::sqrt(image.camera.fx * image.camera.fy));
+    if (const float crown = crown_height(image, input.user); crown > 0.0f) {
+        sums_.crown_m += double(crown);
+        ++sums_.crowns;
+    }
+    return view;
+}
+
+/// Mean over a few columns, as single outline pixels are off to either side.
+float BodyScan::crown_height(const DepthImage& image, uint8_t user) const {
+    const Vec3 head = fit_.body().joints()[VFIT_JOINT_HEAD];
+    if (head.z <= 0.1f) return 0.0f;
+    const Camera& camera = image.camera;
+    const Vec3& up = camera.floor_normal;
+    const Vec2 at = camera.project(head), above = camera.project(head + kHeadReach_m * up);
+    // Along the image's axis that the head points up by: portrait cameras lie on their side.
+    const Vec2 way = above - at;
+    const float length = glm::length(way);
+    if (length < 4.0f) return 0.0f;
+    const Vec2 step = way / length, aside(-step.y, step.x);
+    const int half = std::max(1, int(std::lround(kCrownHalfWidth_m * camera.fx / head.z)));
+    const auto belongs = [&](const Vec2& p) {
+        const int x = int(std::lround(p.x)), y = int(std::lround(p.y));
+        return x >= 0 && y >= 0 && x < int(image.width()) && y < int(image.height()) &&
+               image.users[image.index(uint32_t(x), uint32_t(y))] == user;
+    };
+    float sum = 0.0f;
+    int columns = 0;
+    for (int c = -half; c <= half; ++c) {
+        float last = -1.0f;
+        for (float i = 0.0f; i < length; i += 1.0f)
+            if (belongs(at + float(c) * aside + i * step)) last = i;
+        const Vec2 top = at + float(c) * aside + (last + 0.5f) * step;
+        // At the image's border the head may be cut.
+        const bool inside = top.x > 1.0f && top.y > 1.0f && top.x < float(image.width()) - 2.0f &&
+                            top.y < float(image.height()) - 2.0f;
+        if (last < 0.0f || !inside) continue;
+        const Vec3 p = camera.unproject(top.x, top.y, head.z);
+        sum += glm::dot(up, p) + camera.floor_distance_m;
+        ++columns;
+    }
+    return columns >= kFewestColumns ? sum / float(columns) : 0.0f;
+}
+
+ScanFeatures BodyScan::features() const {
+    if (sums_.frames == 0) fail(VFIT_ERROR_STATE, "the scan has kept no frame yet");
+    constexpr float kCentimetres = 100.0f, kMillimetres = 1000.0f;
+    ScanFeatures out{};
+    size_t n = 0;
+    for (const float value : shape()) out[n++] = value;
+    out[n++] = sums_.crowns ? float(sums_.crown_m / sums_.crowns) : 0.0f;
+    out[n++] = float(sums_.distance_m / sums_.frames);
+    out[n++] = kMillimetres * float(sums_.pixel_m / sums_.frames);
+    for (const FitViewKind view : {FitViewKind::kFront, FitViewKind::kSide})
+        for (const FitSeen seen : {FitSeen::kFacing, FitSeen::kRim})
+            for (const float mean : residuals_.means_m(view, seen, shape())) out[n++] = kCentimetres * mean;
+    for (const FitViewKind view : {FitViewKind::kFront, FitViewKind::kSide})
+        for (int region = 0; region < FitResiduals::kRegions; ++region)
+            out[n++] = kCentimetres * residuals_.roughness_m(view, region, shape());
+    return out;
+}
+
+}  // namespace vfit

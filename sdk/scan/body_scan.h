@@ -1,0 +1,58 @@
+// What the fitted body tells of a person over the frames of a scan: one shape for all frames, and where the surface lies
+// beside it.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "fit/body_fit.h"
+#include "fit/fit_residuals.h"
+#include "frame/body.h"
+
+namespace vfit {
+
+/// The numbers that measures are estimated from, in a fixed order: shape values (kFitShapes), height of the crown (m),
+/// distance (m), size of a pixel there (mm), then of each view (front, side) and way of seeing (facing, rim) every
+/// zone's distance outwards of the body of that shape (cm), then of each view the roughness of trunk, arms and legs (cm).
+inline constexpr size_t kScanFeatures = size_t(kFitShapes) + 3 +
+                                        size_t(kFitViewKinds) * kFitSeenKinds * FitZones::kCount +
+                                        size_t(kFitViewKinds) * FitResiduals::kRegions;
+using ScanFeatures = std::array<float, kScanFeatures>;
+
+class BodyScan {
+public:
+    explicit BodyScan(std::shared_ptr<const FitModel> model);
+    /// Overwrites all body data.
+    ~BodyScan() { reset(); }
+    BodyScan(const BodyScan&) = delete;
+    BodyScan& operator=(const BodyScan&) = delete;
+
+    /// Fits the body to a frame. Joints in camera space; the user map's id is the body's. What is seen is kept where the
+    /// fit is good and the person is seen from the front or the side: then that view is returned. Does not allocate
+    /// after the first frame of a size.
+    FitViewKind add(const DepthImage& image, const Body& body);
+    /// Forgets the person.
+    void reset();
+
+    uint32_t frames(FitViewKind view) const { return residuals_.frames(view); }
+    /// VFIT_ERROR_STATE before the first frame that was kept.
+    ScanFeatures features() const;
+    /// The shape of all frames together.
+    const FitShape& shape() const { return fit_.output().pose.shape; }
+    const BodyFitOutput& fit() const { return fit_.output(); }
+
+private:
+    /// Of the highest point over the floor; 0 where the head is cut or nothing of it is seen.
+    float crown_height(const DepthImage& image, uint8_t user) const;
+
+    std::shared_ptr<const FitModel> model_;
+    BodyFit fit_;
+    FitResiduals residuals_;
+    struct Sums {
+        double crown_m = 0.0, distance_m = 0.0, pixel_m = 0.0;
+        uint32_t crowns = 0, frames = 0;
+    } sums_;
+};
+
+}  // namespace vfit

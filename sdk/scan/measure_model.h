@@ -1,0 +1,58 @@
+// Measures learnt from scans of virtual people whose bodies are drawn from a survey of real ones: linear in what the
+// fitted body tells, with deviations that follow how sure it can be (training/measures).
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "measure/measurement.h"
+#include "scan/body_scan.h"
+
+namespace vfit {
+
+class MeasureModel {
+public:
+    /// VFIT_ERROR_IO, VFIT_ERROR_VERSION or VFIT_ERROR_DATA where the file is not such a model of these features.
+    static std::shared_ptr<const MeasureModel> load(const std::string& path);
+    static MeasureModel parse(std::string_view json);
+
+    /// In the order of measure_keys(). `side`: the features hold a side view. Where the sex is unknown the measures of
+    /// both are mixed by how likely each is. Of a person unlike those that it has learnt from deviations are wider.
+    std::vector<Measurement> measure(const ScanFeatures& features, bool side, vfit_sex sex) const;
+    /// How likely it is a woman whom the features are of.
+    float female_probability(const ScanFeatures& features, bool side) const;
+
+private:
+    /// base + weights . x, of standardised features x.
+    struct Linear {
+        float base = 0.0f;
+        std::vector<float> weights;
+        float of(const ScanFeatures& x) const;
+    };
+    struct Row {
+        std::string key;
+        bool observed = true;
+        Linear value;                      // metres
+        float log_sigma = 0.0f;
+        std::vector<float> sigma_weights;  // of the part's sigma_features
+    };
+    /// What is learnt from one kind of scan.
+    struct Part {
+        std::vector<float> mean, scale;  // of the features
+        float usual_strangeness = 1.0f;  // mean square of x that one person of a hundred exceeds
+        Linear female;                   // the logit
+        std::vector<size_t> sigma_features;
+        std::vector<Row> female_rows, male_rows;
+
+        ScanFeatures standardised(const ScanFeatures& features) const;
+        std::vector<Measurement> measure(const std::vector<Row>& rows, const ScanFeatures& x) const;
+    };
+    MeasureModel() = default;
+
+    std::array<Part, 2> parts_;  // front alone, or with the side
+};
+
+}  // namespace vfit

@@ -1,0 +1,51 @@
+// The scan of one person, by the paper's method alone or by the fitted body as well: which frames count, and for what.
+#pragma once
+
+#include "measure/scan.h"
+#include "scan/body_scan.h"
+#include "scan/measure_model.h"
+
+namespace vfit {
+
+struct PersonScanDesc {
+    ScanDesc paper;
+    // Both, and measures are those of the fitted body; without them those of the paper's method.
+    std::shared_ptr<const FitModel> fit_model;
+    std::shared_ptr<const MeasureModel> measure_model;
+    uint32_t side_frame_count = 0;
+    bool bare = false;  // no shoes and no hair: stature needs no allowance
+};
+
+class PersonScan {
+public:
+    /// Errors as those of Scan.
+    explicit PersonScan(const PersonScanDesc& desc);
+
+    /// Ignores frames once the scan is complete.
+    ScanProgress add(const ScanFrame& frame);
+    /// Forgets the person.
+    void reset();
+
+    /// From the front.
+    uint32_t frames_taken() const { return paper_.frames_taken(); }
+    uint32_t frames_wanted() const { return paper_.frames_wanted(); }
+    uint32_t side_frames_taken() const { return side_frames_; }
+    uint32_t side_frames_wanted() const { return body_ ? desc_.side_frame_count : 0; }
+    bool complete() const { return paper_.complete() && side_frames_ >= side_frames_wanted(); }
+
+    /// No frame from the front yet: VFIT_ERROR_STATE.
+    std::vector<Measurement> measurements() const;
+    /// The paper's part, which gives spheres and garment scale in either method.
+    const Scan& paper() const { return paper_; }
+
+private:
+    /// What is wrong with the frame for the body fit; it is kept where nothing is.
+    vfit_guidance fit(const ScanFrame& frame);
+
+    PersonScanDesc desc_;
+    Scan paper_;
+    std::unique_ptr<BodyScan> body_;
+    uint32_t side_frames_ = 0;
+};
+
+}  // namespace vfit

@@ -1,0 +1,119 @@
+// Scans by the fitted body through the C ABI.
+#include <cmath>
+#include <cstring>
+#include <map>
+
+#include "contract/support.h"
+
+namespace {
+
+class ScanFitTest : public contract::ContextTest {
+protected:
+    vfit_scan make(uint32_t front, uint32_t side, uint32_t flags = VFIT_SCAN_BARE) {
+        vfit_scan_desc desc = vfit_scan_desc_init();
+        desc.method = VFIT_SCAN_FIT;
+        desc.frame_count = front, desc.side_frame_count = side, desc.flags = flags;
+        vfit_scan scan{};
+        EXPECT_EQ(vfit_scan_create(context, &desc, &scan), VFIT_OK) << contract::last_error();
+        return scan;
+    }
+    /// Feeds what the virtual person shows; the truth of its measures by key.
+    vfit_result play(vfit_scan scan, const std::string& options, vfit_scan_state* state, std::string* truth = nullptr) {
+        vfit_sensor sensor{};
+        EXPECT_EQ(vfit_sensor_open(context, ("virtual:sensor=kinect_v1&sex=f&" + options).c_str(), &sensor), VFIT_OK);
+        EXPECT_EQ(vfit_sensor_start(sensor), VFIT_OK);
+        vfit_result result = VFIT_NOT_READY;
+        vfit_frame frame{};
+        while (vfit_sensor_acquire(sensor, -1, &frame) == VFIT_OK) {
+            char text[2048] = {};
+            EXPECT_EQ(vfit_frame_meta(frame, "measures", text, sizeof text, nullptr), VFIT_OK);
+            if (truth) *truth = text;
+            result = vfit_scan_add(scan, frame, 1, state);
+            EXPECT_GE(result, 0) << contract::last_error();
+            EXPECT_EQ(vfit_frame_release(frame), VFIT_OK);
+        }
+        EXPECT_EQ(vfit_sensor_close(sensor), VFIT_OK);
+        return result;
+    }
+    static std::map<std::string, vfit_measurement> measures(vfit_scan scan) {
+        uint32_t count = 0;
+        EXPECT_EQ(vfit_scan_measure(scan, nullptr, sizeof(vfit_measurement), &count), VFIT_OK) << contract::last_error();
+        std::vector<vfit_measurement> items(count, vfit_measurement_init());
+        EXPECT_EQ(vfit_scan_measure(scan, items.data(), sizeof(vfit_measurement), &count), VFIT_OK);
+        std::map<std::string, vfit_measurement> out;
+        for (const vfit_measurement& m : items) out[m.key] = m;
+        return out;
+    }
+    static float number(const std::string& json, const std::string& key) {
+        const size_t at = json.find("\"" + key + "\": ");
+        return at == std::string::npos ? NAN : std::strtof(json.c_str() + at + key.size() + 4, nullptr);
+    }
+};
+
+}  // namespace
+
+TEST_F(ScanFitTest, MeasuresFromTheFrontAndTheSide) {
+    const vfit_scan scan = make(5, 5);
+    vfit_scan_state state = vfit_scan_state_init();
+    std::string truth;
+    uint32_t count = 0;
+    EXPECT_EQ(vfit_scan_measure(scan, nullptr, sizeof(vfit_measurement), &count), VFIT_ERROR_STATE);
+    EXPECT_EQ(play(scan, "motion=scan&frames=6", &state, &truth), VFIT_INCOMPLETE) << "one more than is wanted";
+    EXPECT_EQ(state.frames_taken, 5u);
+    EXPECT_EQ(state.guidance, VFIT_GUIDANCE_TURN_SIDEWAYS);
+    EXPECT_EQ(state.side_frames_wanted, 5u);
+    const auto front = measures(scan);
+    EXPECT_NEAR(front.at("stature_m").value, number(truth, "stature_m"), 0.02f);
+    EXPECT_EQ(front.at("waist_depth_m").observed, 0u);
+    EXPECT_EQ(play(scan, "motion=side&facing=90&frames=12", &state), VFIT_OK);
+    EXPECT_EQ(state.side_frames_taken, 5u);
+    const auto both = measures(scan);
+    EXPECT_EQ(both.at("waist_depth_m").observed, 1u);
+    EXPECT_LT(both.at("waist_girth_m").sigma, front.at("waist_girth_m").sigma) << "a side view tells more";
+    for (const char* key : {"chest_girth_m", "waist_girth_m", "hip_girth_m", "inside_leg_m", "arm_length_m"}) {
+        const vfit_measurement& m = both.at(key);
+        EXPECT_NEAR(m.value, number(truth, key), std::max(0.03f, 3.5f * m.sigma)) << key;
+    }
+    EXPECT_EQ(vfit_scan_reset(scan), VFIT_OK);
+    EXPECT_EQ(vfit_scan_measure(scan, nullptr, sizeof(vfit_measurement), &count), VFIT_ERROR_STATE);
+    EXPECT_EQ(vfit_scan_destroy(scan), VFIT_OK);
+}
+
+TEST_F(ScanFitTest, HasCollidersAndScaleAsThePapersScan) {
+    const vfit_scan scan = make(3, 0);
+    vfit_scan_state state = vfit_scan_state_init();
+    EXPECT_EQ(play(scan, "motion=scan&frames=3", &state), VFIT_OK);
+    uint32_t count = 0;
+    EXPECT_EQ(vfit_scan_colliders(scan, nullptr, sizeof(vfit_collider), &count), VFIT_OK);
+    EXPECT_EQ(count, 15u);
+    vfit_scale scale = vfit_scale_init();
+    EXPECT_EQ(vfit_scan_scale(scan, "short_sleeves", &scale), VFIT_OK);
+    EXPECT_GT(scale.y, 0.5f);
+    EXPECT_EQ(vfit_scan_destroy(scan), VFIT_OK);
+}
+
+TEST_F(ScanFitTest, RefusesWhatItDoesNotKnow) {
+    vfit_scan_desc desc = vfit_scan_desc_init();
+    vfit_scan scan{};
+    desc.flags = 2;
+    EXPECT_EQ(vfit_scan_create(context, &desc, &scan), VFIT_ERROR_ARGUMENT);
+    EXPECT_NE(contract::last_error().find("flags"), std::string::npos);
+    desc = vfit_scan_desc_init(), desc.side_frame_count = 1u << 30;
+    EXPECT_EQ(vfit_scan_create(context, &desc, &scan), VFIT_ERROR_ARGUMENT);
+    EXPECT_NE(contract::last_error().find("side_frame_count"), std::string::npos);
+    desc = vfit_scan_desc_init(), desc.method = 4;
+    EXPECT_EQ(vfit_scan_create(context, &desc, &scan), VFIT_ERROR_ARGUMENT);
+}
+
+TEST_F(ScanFitTest, WithoutTheLearntMeasuresItSaysWhatIsMissing) {
+    vfit_context_desc desc = contract::context_desc();
+    desc.data_dir = "/nonexistent";
+    vfit_context other{};
+    ASSERT_EQ(vfit_context_create(&desc, &other), VFIT_OK);
+    vfit_scan_desc d = vfit_scan_desc_init();
+    d.method = VFIT_SCAN_FIT;
+    vfit_scan scan{};
+    EXPECT_EQ(vfit_scan_create(other, &d, &scan), VFIT_ERROR_IO);
+    EXPECT_NE(contract::last_error().find("measures.json"), std::string::npos) << contract::last_error();
+    EXPECT_EQ(vfit_context_destroy(other), VFIT_OK);
+}

@@ -1,0 +1,77 @@
+// People drawn from the survey: the same for the same number, and with the measures that were drawn.
+#include "population/population.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "population/scan_scene.h"
+
+namespace vfit::tools {
+namespace {
+
+std::shared_ptr<const BodyModel> model() { return BodyModel::load(VFIT_DATA_DIR "/body.bin"); }
+
+TEST(Anthropometry, DrawsPeopleWithTheSurveysMeansAndDeviations) {
+    const Anthropometry survey(VFIT_SURVEY);
+    Random random(5);
+    double sum = 0.0, squares = 0.0, chest_by_waist = 0.0, chest = 0.0, waist = 0.0, chest2 = 0.0, waist2 = 0.0;
+    constexpr int n = 4000;
+    for (int i = 0; i < n; ++i) {
+        const SurveyMeasures m = survey.draw(VFIT_SEX_MALE, random);
+        sum += m["stature"], squares += m["stature"] * m["stature"];
+        const double c = m["chestcircumference"], w = m["waistcircumference"];
+        chest += c, waist += w, chest2 += c * c, waist2 += w * w, chest_by_waist += c * w;
+    }
+    EXPECT_NEAR(sum / n, 1756.2, 4.0);
+    EXPECT_NEAR(std::sqrt(squares / n - sum * sum / n / n), 68.6, 3.0);
+    const double covariance = chest_by_waist / n - chest * waist / n / n;
+    EXPECT_NEAR(covariance / std::sqrt((chest2 / n - chest * chest / n / n) * (waist2 / n - waist * waist / n / n)), 0.89, 0.02);
+    EXPECT_THROW(survey.draw(VFIT_SEX_MALE, random)["nose"], Failure);
+}
+
+TEST(Anthropometry, ExpectsWhatOthersOfThoseMeasuresHave) {
+    const Anthropometry survey(VFIT_SURVEY);
+    Random random(6);
+    // The mean of what is not explained is nothing, and its spread far below that of people.
+    double sum = 0.0, squares = 0.0;
+    constexpr int n = 1000;
+    for (int i = 0; i < n; ++i) {
+        const SurveyMeasures m = survey.draw(VFIT_SEX_FEMALE, random);
+        const double left = m["stature"] - survey.expected(VFIT_SEX_FEMALE, "stature", m, {"cervicaleheight"});
+        sum += left, squares += left * left;
+    }
+    EXPECT_NEAR(sum / n, 0.0, 1.5);
+    EXPECT_NEAR(std::sqrt(squares / n), 11.4, 1.0) << "regression of stature on cervicale height, women";
+}
+
+TEST(Population, GivesTheSamePersonForTheSameNumber) {
+    Population population(model(), BodySpace::kInside, 3);
+    const PersonOfPopulation one = population.draw(4), other = population.draw(6), again = population.draw(4);
+    EXPECT_EQ(one.options(), again.options()) << "whoever is drawn between";
+    EXPECT_NE(one.options(), other.options());
+    EXPECT_EQ(one.sex, VFIT_SEX_FEMALE);
+    EXPECT_GE(one.bmi, 18.0);
+    EXPECT_LE(one.bmi, 35.0);
+    EXPECT_GT(one.measures.at("stature_m"), 1.45);
+    for (const char* key : {"chest_girth_m", "waist_girth_m", "hip_girth_m", "navel_girth_m"})
+        EXPECT_GT(one.measures.at(key), 0.5) << key;
+}
+
+TEST(ScanScene, ClothesAreThoseThatWereAskedFor) {
+    bool thick = false, tight = false;
+    for (uint32_t seed = 0; seed < 40; ++seed) {
+        EXPECT_EQ(ScanScene::draw(Dress::kTight, seed).top_m, 0.0f);
+        const ScanScene clothed = ScanScene::draw(Dress::kClothed, seed), training = ScanScene::draw(Dress::kTraining, seed);
+        for (const float m : {clothed.top_m, clothed.sleeves_m, clothed.trousers_m}) {
+            EXPECT_GE(m, 0.0f);
+            EXPECT_LE(m, 0.03f);
+        }
+        thick = thick || training.top_m > 0.02f;
+        tight = tight || training.top_m == 0.0f;
+    }
+    EXPECT_TRUE(thick && tight);
+}
+
+}  // namespace
+}  // namespace vfit::tools

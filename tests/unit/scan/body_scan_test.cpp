@@ -1,0 +1,107 @@
+// What is kept of the frames of a scan: surfaces by view, the crown, nothing of the person afterwards.
+#include "scan/body_scan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "scan_people.h"
+#include "support/allocations.h"
+
+namespace vfit {
+namespace {
+
+constexpr size_t kCrownFeature = size_t(kFitShapes);
+
+int told(const ScanFeatures& f, FitViewKind view) {
+    const size_t first = kCrownFeature + 3 + size_t(view) * kFitSeenKinds * FitZones::kCount;
+    return int(std::count_if(f.begin() + std::ptrdiff_t(first),
+                             f.begin() + std::ptrdiff_t(first + kFitSeenKinds * FitZones::kCount),
+                             [](float x) { return x != 0.0f; }));
+}
+
+TEST(FitResiduals, TellHowFarTheSurfaceLiesOutside) {
+    Avatar avatar(body_model(), {}, shape_of({}), Vec2(1.0f));
+    FitScene scene = standing_person(avatar);
+    BodyFit fit(fit_model());
+    BodyFitInput input;
+    input.user = 1;
+    input.joints = scene.seen();
+    for (int i = 0; i < 4; ++i) {
+        input.image = scene.image(), input.time_ns = i * 33333333;
+        fit.run(input);
+    }
+    FitResiduals as_it_is(*fit_model()), nearer(*fit_model());
+    const FitShape& shape = fit.output().pose.shape;
+    for (int i = 0; i < 10; ++i) as_it_is.add(scene.image(), 1, fit.body(), shape);
+    for (size_t i = 0; i < scene.depth.size(); ++i)
+        if (scene.users[i]) scene.depth[i] = uint16_t(scene.depth[i] - 20);
+    for (int i = 0; i < 10; ++i) nearer.add(scene.image(), 1, fit.body(), shape);
+    const auto a = as_it_is.means_m(FitViewKind::kFront, FitSeen::kFacing, shape),
+               b = nearer.means_m(FitViewKind::kFront, FitSeen::kFacing, shape);
+    int moved = 0;
+    for (size_t z = 0; z < a.size(); ++z) {
+        if (a[z] == 0.0f || b[z] == 0.0f) continue;
+        EXPECT_LT(std::abs(a[z]), 0.04f) << "zone " << z;
+        EXPECT_GT(b[z], a[z] + 0.008f) << "20 mm nearer is 10 to 20 mm farther out of a surface that faces the camera";
+        EXPECT_LT(b[z], a[z] + 0.022f);
+        ++moved;
+    }
+    EXPECT_GT(moved, 25);
+    // The same surface lies as far inside of a body that wears a centimetre.
+    FitShape dressed = shape;
+    for (size_t i = size_t(kFitComponents); i < size_t(kFitShapes); ++i) dressed[i] += 1.0f;
+    const auto under = as_it_is.means_m(FitViewKind::kFront, FitSeen::kFacing, dressed);
+    int inside = 0;
+    for (size_t z = 0; z < a.size(); ++z) inside += a[z] != 0.0f && std::abs(under[z] - a[z] + 0.01f) < 0.001f;
+    EXPECT_GT(inside, 20);
+}
+
+TEST(BodyScan, KeepsFrontAndSideApart) {
+    Avatar avatar(body_model(), {}, shape_of({}), Vec2(1.0f));
+    const FitScene front = standing_person(avatar), side = standing_person(avatar, sideways()),
+                   diagonal = standing_person(avatar, {0.8f});
+    BodyScan scan(fit_model());
+    EXPECT_THROW(scan.features(), Error);
+    int64_t time_ns = 0;
+    const auto add = [&](const FitScene& scene) {
+        Body body = scene.joints;
+        body.time_ns = time_ns += 33333333;
+        return scan.add(scene.image(), body);
+    };
+    for (int i = 0; i < 6; ++i) EXPECT_EQ(add(front), FitViewKind::kFront);
+    const ScanFeatures one = scan.features();
+    EXPECT_GT(told(one, FitViewKind::kFront), 60);
+    EXPECT_EQ(told(one, FitViewKind::kSide), 0);
+    EXPECT_NEAR(one[kCrownFeature], avatar.stature(), 0.012f);
+    for (int i = 0; i < 6; ++i) add(diagonal);
+    EXPECT_EQ(scan.frames(FitViewKind::kSide), 0u);
+    time_ns += 2'000'000'000;
+    for (int i = 0; i < 6; ++i) add(side);
+    EXPECT_GT(scan.frames(FitViewKind::kSide), 3u);
+    EXPECT_GT(told(scan.features(), FitViewKind::kSide), 40);
+    scan.reset();
+    EXPECT_EQ(scan.frames(FitViewKind::kFront), 0u);
+    EXPECT_THROW(scan.features(), Error);
+}
+
+TEST(BodyScan, DoesNotAllocateAfterItsFirstFrame) {
+    Avatar avatar(body_model(), {}, shape_of({}), Vec2(1.0f));
+    const FitScene front = standing_person(avatar);
+    BodyScan scan(fit_model());
+    Body body = front.joints;
+    for (int i = 0; i < 3; ++i) {
+        body.time_ns += 33333333;
+        scan.add(front.image(), body);
+    }
+    const uint64_t before = test::allocations;
+    for (int i = 0; i < 5; ++i) {
+        body.time_ns += 33333333;
+        scan.add(front.image(), body);
+    }
+    EXPECT_EQ(test::allocations - before, 0u);
+}
+
+}  // namespace
+}  // namespace vfit

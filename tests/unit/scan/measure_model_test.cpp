@@ -1,0 +1,112 @@
+// The learnt estimator: what it reads, how it mixes sexes and how it doubts strangers.
+#include "scan/measure_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/json.h"
+
+namespace vfit {
+namespace {
+
+constexpr size_t kCrown = size_t(kFitShapes);
+
+std::vector<float> weights(float crown) {
+    std::vector<float> w(kScanFeatures, 0.0f);
+    w[kCrown] = crown;
+    return w;
+}
+
+/// Stature is 1.7 m + 1 for each unit of the crown; women are 0.1 m shorter and have an underbust besides.
+Json small_model() {
+    const auto measure = [](float base, float log_sigma) {
+        return Json{{"observed", true}, {"base_m", base}, {"weights", weights(1.0f)}, {"log_sigma", log_sigma},
+                    {"sigma_weights", {0.5f}}};
+    };
+    const Json part = {{"mean", std::vector<float>(kScanFeatures, 0.0f)}, {"scale", std::vector<float>(kScanFeatures, 1.0f)},
+                       {"usual_strangeness", 1.0f}, {"female_weights", weights(-1000.0f)}, {"female_base", 0.0f},
+                       {"sigma_features", {kScanFeatures - 1}},
+                       {"female", {{"stature_m", measure(1.6f, std::log(0.01f))}, {"underbust_girth_m", measure(0.8f, 0.0f)}}},
+                       {"male", {{"stature_m", measure(1.7f, std::log(0.01f))}}}};
+    return {{"format", "vfit-measure-model"}, {"version", 1}, {"front", part}, {"front_and_side", part}};
+}
+
+ScanFeatures features(float crown, float last = 0.0f) {
+    ScanFeatures f{};
+    f[kCrown] = crown, f.back() = last;
+    return f;
+}
+
+TEST(MeasureModel, IsLinearInWhatTheScanTells) {
+    const MeasureModel model = MeasureModel::parse(json_text(small_model()));
+    const auto male = model.measure(features(0.05f), false, VFIT_SEX_MALE);
+    ASSERT_EQ(male.size(), 1u);
+    EXPECT_EQ(male[0].key, "stature_m");
+    EXPECT_NEAR(male[0].value, 1.75f, 1e-5f);
+    EXPECT_NEAR(male[0].sigma, 0.01f, 1e-5f);
+    EXPECT_NEAR(model.measure(features(0.05f, 2.0f), false, VFIT_SEX_MALE)[0].sigma, 0.01f * std::exp(1.0f), 1e-4f);
+}
+
+TEST(MeasureModel, MixesBothWhereTheSexIsUnknown) {
+    const MeasureModel model = MeasureModel::parse(json_text(small_model()));
+    // Nobody knows: half of each, and their difference is doubt.
+    const auto half = model.measure(features(0.0f), true, VFIT_SEX_UNKNOWN);
+    ASSERT_EQ(half.size(), 1u) << "what women alone have is told where the sex is";
+    EXPECT_NEAR(half[0].value, 1.65f, 1e-5f);
+    EXPECT_NEAR(half[0].sigma, std::hypot(0.01f, 0.05f), 1e-4f);
+    // Surely a woman: as if it had been told.
+    EXPECT_NEAR(model.measure(features(-0.05f), true, VFIT_SEX_UNKNOWN)[0].value, 1.55f, 1e-4f);
+    EXPECT_GT(model.female_probability(features(-0.05f), true), 0.999f);
+    const auto female = model.measure(features(0.0f), true, VFIT_SEX_FEMALE);
+    ASSERT_EQ(female.size(), 2u);
+    EXPECT_EQ(female[1].key, "underbust_girth_m");
+}
+
+TEST(MeasureModel, IsLessSureOfAPersonUnlikeAllOthers) {
+    const MeasureModel model = MeasureModel::parse(json_text(small_model()));
+    ScanFeatures strange{};
+    strange.fill(2.0f);
+    strange[kCrown] = 0.0f, strange.back() = 0.0f;
+    EXPECT_NEAR(model.measure(strange, false, VFIT_SEX_MALE)[0].sigma, 0.02f, 1e-3f) << "four times the usual square";
+    ScanFeatures absurd{};
+    absurd.fill(1e9f);
+    const Measurement m = model.measure(absurd, false, VFIT_SEX_MALE)[0];
+    EXPECT_TRUE(std::isfinite(m.value) && std::isfinite(m.sigma));
+    EXPECT_GT(m.sigma, 0.1f);
+}
+
+TEST(MeasureModel, RefusesWhatIsNoModelAndNamesTheFault) {
+    const auto refused = [](const Json& json, const char* word) {
+        try {
+            MeasureModel::parse(json_text(json));
+            ADD_FAILURE() << "taken: " << word;
+        } catch (const Error& e) {
+            EXPECT_NE(std::string(e.what()).find(word), std::string::npos) << e.what();
+        }
+    };
+    EXPECT_THROW(MeasureModel::parse("{"), Error);
+    EXPECT_THROW(MeasureModel::parse("[]"), Error);
+    Json m = small_model();
+    m["format"] = "else", refused(m, "format");
+    m = small_model(), m["version"] = 2, refused(m, "version");
+    m = small_model(), m.erase("front_and_side"), refused(m, "front_and_side");
+    m = small_model(), m["front"]["mean"].erase(0), refused(m, "mean");
+    m = small_model(), m["front"]["scale"][3] = 0.0f, refused(m, "scale");
+    m = small_model(), m["front"]["sigma_features"] = {100000}, refused(m, "feature");
+    m = small_model(), m["front"]["male"]["stature_m"]["weights"][2] = "x", refused(m, "stature_m");
+    m = small_model(), m["front"]["male"] = {{"nose_m", m["front"]["male"]["stature_m"]}}, refused(m, "nose_m");
+    m = small_model(), m["front"]["male"] = Json::object(), refused(m, "male");
+}
+
+TEST(MeasureModel, TheOneThatComesWithTheLibraryIsRead) {
+    const auto model = MeasureModel::load(VFIT_SOURCE_DIR "/assets/measures.json");
+    const auto all = model->measure(ScanFeatures{}, true, VFIT_SEX_FEMALE);
+    EXPECT_GT(all.size(), 20u);
+    EXPECT_NE(find(all, "chest_girth_m"), nullptr);
+    EXPECT_EQ(find(model->measure(ScanFeatures{}, true, VFIT_SEX_MALE), "underbust_girth_m"), nullptr);
+}
+
+}  // namespace
+}  // namespace vfit

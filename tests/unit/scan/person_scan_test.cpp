@@ -1,0 +1,94 @@
+// Which frames of a scan count, what the others are told, and what comes out.
+#include "scan/person_scan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "scan_people.h"
+
+namespace vfit {
+namespace {
+
+class PersonScanTest : public ::testing::Test {
+protected:
+    PersonScanDesc desc(uint32_t front, uint32_t side) const {
+        PersonScanDesc d;
+        d.paper.frame_count = front;
+        d.side_frame_count = side;
+        d.fit_model = fit_model();
+        d.measure_model = MeasureModel::load(VFIT_SOURCE_DIR "/assets/measures.json");
+        d.bare = true;
+        return d;
+    }
+    ScanProgress add(PersonScan& scan, const FitScene& scene) {
+        Body body = scene.joints;
+        body.time_ns = time_ns_ += 33333333;
+        return scan.add({scene.image(), &body, 1});
+    }
+
+    Avatar avatar_{body_model(), {}, shape_of({}), Vec2(1.0f)};
+    const FitScene front_ = standing_person(avatar_), side_ = standing_person(avatar_, sideways());
+    int64_t time_ns_ = 0;
+};
+
+TEST_F(PersonScanTest, TakesTheFrontAndThenTheSide) {
+    PersonScan scan(desc(4, 3));
+    EXPECT_THROW(scan.measurements(), Error);
+    for (int i = 0; i < 4; ++i) EXPECT_TRUE(add(scan, front_).taken) << i;
+    EXPECT_EQ(scan.frames_taken(), 4u);
+    EXPECT_FALSE(scan.complete());
+    EXPECT_EQ(add(scan, front_).guidance, VFIT_GUIDANCE_TURN_SIDEWAYS);
+    for (int i = 0; i < 40 && !scan.complete(); ++i) add(scan, side_);
+    EXPECT_TRUE(scan.complete());
+    EXPECT_EQ(scan.side_frames_taken(), 3u);
+    EXPECT_FALSE(add(scan, side_).taken) << "nothing more is wanted";
+}
+
+TEST_F(PersonScanTest, MeasuresAPersonOfItsOwnSpace) {
+    PersonScan scan(desc(8, 0));
+    for (int i = 0; i < 8; ++i) add(scan, front_);
+    ASSERT_TRUE(scan.complete());
+    const auto m = scan.measurements();
+    const Measurement* stature = find(m, "stature_m");
+    ASSERT_NE(stature, nullptr);
+    EXPECT_NEAR(stature->value, avatar_.stature(), 0.02f);
+    for (const Measurement& one : m) {
+        EXPECT_GT(one.value, 0.05f) << one.key;
+        EXPECT_GT(one.sigma, 0.0f) << one.key;
+        EXPECT_LT(one.sigma, 0.2f * one.value) << one.key;
+    }
+}
+
+TEST_F(PersonScanTest, AllowsForHairAndShoesUnlessThereAreNone) {
+    PersonScanDesc bare = desc(2, 0), as_they_are = bare;
+    as_they_are.bare = false;
+    PersonScan a(bare), b(as_they_are);
+    for (int i = 0; i < 2; ++i) add(a, front_), add(b, front_);
+    const auto sigma = [](const PersonScan& scan) { return find(scan.measurements(), "stature_m")->sigma; };
+    EXPECT_NEAR(sigma(b), std::hypot(sigma(a), 0.015f), 1e-4f);
+}
+
+TEST_F(PersonScanTest, SaysWhatIsWrongWithAFrame) {
+    PersonScan scan(desc(3, 2));
+    EXPECT_EQ(add(scan, standing_person(avatar_, {0.85f})).guidance, VFIT_GUIDANCE_FACE_CAMERA);
+    time_ns_ += 1'000'000'000;  // to stand otherwise
+    EXPECT_EQ(add(scan, standing_person(avatar_, {0.0f, 0.02f})).guidance, VFIT_GUIDANCE_ARMS_OUT);
+    FitScene empty = front_;
+    std::fill(empty.users.begin(), empty.users.end(), uint8_t{0});
+    EXPECT_EQ(add(scan, empty).guidance, VFIT_GUIDANCE_NOBODY);
+    EXPECT_EQ(scan.frames_taken(), 0u);
+}
+
+TEST_F(PersonScanTest, ForgetsThePerson) {
+    PersonScan scan(desc(2, 0));
+    for (int i = 0; i < 2; ++i) add(scan, front_);
+    scan.reset();
+    EXPECT_EQ(scan.frames_taken(), 0u);
+    EXPECT_THROW(scan.measurements(), Error);
+    for (int i = 0; i < 2; ++i) EXPECT_TRUE(add(scan, front_).taken);
+}
+
+}  // namespace
+}  // namespace vfit

@@ -1,0 +1,134 @@
+#include "population/body_with_measures.h"
+
+#include <algorithm>
+
+#include "avatar/avatar_measures.h"
+#include "core/error.h"
+#include "measure/section.h"
+#include "measure/tape_mesh.h"
+
+namespace vfit::tools {
+
+namespace {
+
+constexpr int kSteps = 10;
+constexpr double kProbe = 0.25;        // of a value's spread, for its slope
+constexpr double kNavelShare = 0.601;  // of stature (ANSUR II)
+constexpr double kFarthestStep = 1.5;  // spreads: as far as slopes hold
+constexpr double kMargin = 1e-3;       // inside a value's range, so that its text is as well
+constexpr double kStill = 0.01;        // spreads: then it has come to rest
+// Bodies about which slopes are looked at: heavy ones gain more centimetres by the same change than slim ones.
+constexpr float kAnchorWeights[] = {0.4f, 0.7f, 1.0f};
+
+/// The least of |system x - right|'s quadratic form with every x between its bounds: values that would leave them are
+/// held there and the others solved for again.
+cv::Mat_<double> solve_within(const cv::Mat_<double>& system, const cv::Mat_<double>& right,
+                              const cv::Mat_<double>& least, const cv::Mat_<double>& most) {
+    const int n = right.rows;
+    cv::Mat_<double> x = cv::Mat_<double>::zeros(n, 1);
+    std::vector<bool> held(size_t(n), false);
+    for (bool again = true; again;) {
+        cv::Mat_<double> left = system.clone(), wanted = right - system * x, change;
+        for (int i = 0; i < n; ++i)
+            if (held[size_t(i)]) {
+                left.row(i) = 0.0, left.col(i) = 0.0;
+                left(i, i) = 1.0, wanted(i) = 0.0;
+            }
+        cv::solve(left, wanted, change, cv::DECOMP_CHOLESKY);
+        again = false;
+        for (int i = 0; i < n; ++i) {
+            if (held[size_t(i)]) continue;
+            x(i) += change(i);
+            if (x(i) >= least(i) && x(i) <= most(i)) continue;
+            x(i) = std::clamp(x(i), least(i), most(i));
+            held[size_t(i)] = again = true;
+        }
+    }
+    return x;
+}
+
+}  // namespace
+
+BodyMeasures measures_of(const std::shared_ptr<const BodyModel>& model, vfit_sex sex, const std::vector<float>& shape,
+                         double navel_share) {
+    const vfit::Avatar avatar(model, {sex}, shape, Vec2(1.0f));
+    BodyMeasures out;
+    for (const Measurement& m : measure_avatar(avatar, sex)) out[m.key] = double(m.value);
+    Body joints;
+    const Mesh mesh = avatar.measuring_mesh({}, &joints);
+    const TapeMesh tape({mesh.positions, mesh.indices, avatar.parts().first(mesh.positions.size()), joints, sex});
+    out["navel_girth_m"] = double(hull_perimeter(tape.trunk(float(navel_share * out["stature_m"])).points()));
+    return out;
+}
+
+BodyWithMeasures::BodyWithMeasures(std::shared_ptr<const BodyModel> model, vfit_sex sex, std::vector<FreeShape> free,
+                                   std::vector<std::string> keys)
+    : model_(std::move(model)), sex_(sex), free_(std::move(free)) {
+    std::vector<float> shape = model_->default_shape(sex);
+    for (const float weight : kAnchorWeights) {
+        shape[size_t(model_->parameter("weight"))] = weight;
+        const BodyMeasures here = measures_of(model_, sex, shape, kNavelShare);
+        cv::Mat_<double> slopes(int(keys.size()), int(free_.size()));
+        for (size_t f = 0; f < free_.size(); ++f) {
+            std::vector<float> moved = shape;
+            const auto p = size_t(model_->parameter(free_[f].key));
+            const ShapeParameter& range = model_->parameters()[p];
+            const float step = float(kProbe * free_[f].spread);
+            moved[p] += moved[p] + step <= range.maximum ? step : -step;
+            const BodyMeasures there = measures_of(model_, sex, moved, kNavelShare);
+            for (size_t k = 0; k < keys.size(); ++k)
+                slopes(int(k), int(f)) = (there.at(keys[k]) - here.at(keys[k])) / double(moved[p] - shape[p]);
+        }
+        slopes_.push_back(slopes);
+    }
+}
+
+BodyMeasures BodyWithMeasures::solve(const std::vector<WantedMeasure>& wanted, double navel_share,
+                                     std::vector<float>& shape) const {
+    const int measures = int(wanted.size()), values = int(free_.size());
+    BodyMeasures here = measures_of(model_, sex_, shape, navel_share);
+    const float weight = shape[size_t(model_->parameter("weight"))];
+    const auto nearest = std::min_element(std::begin(kAnchorWeights), std::end(kAnchorWeights),
+                                          [&](float a, float b) { return std::abs(a - weight) < std::abs(b - weight); });
+    cv::Mat_<double> slopes = slopes_[size_t(nearest - std::begin(kAnchorWeights))].clone();
+    for (int step = 0; step < kSteps; ++step) {
+        cv::Mat_<double> system = cv::Mat_<double>::zeros(values, values), right = cv::Mat_<double>::zeros(values, 1),
+                         least(values, 1), most(values, 1);
+        for (int w = 0; w < measures; ++w) {
+            const WantedMeasure& one = wanted[size_t(w)];
+            const double firmness = 1.0 / (one.tolerance_m * one.tolerance_m);
+            const cv::Mat_<double> row = slopes.row(w);
+            system += firmness * row.t() * row;
+            right += firmness * (one.value_m - here.at(one.key)) * row.t();
+        }
+        for (int f = 0; f < values; ++f) {
+            const FreeShape& one = free_[size_t(f)];
+            const auto p = size_t(model_->parameter(one.key));
+            const ShapeParameter& range = model_->parameters()[p];
+            const double firmness = 1.0 / (one.spread * one.spread), now = double(shape[p]);
+            system(f, f) += firmness;
+            right(f) += firmness * (one.usual - now);
+            least(f) = std::max(double(range.minimum) + kMargin - now, -kFarthestStep * one.spread);
+            most(f) = std::min(double(range.maximum) - kMargin - now, kFarthestStep * one.spread);
+        }
+        const cv::Mat_<double> change = solve_within(system, right, least, most);
+        double longest = 0.0;
+        for (int f = 0; f < values; ++f) {
+            shape[size_t(model_->parameter(free_[size_t(f)].key))] += float(change(f));
+            longest = std::max(longest, std::abs(change(f)) / free_[size_t(f)].spread);
+        }
+        const BodyMeasures there = measures_of(model_, sex_, shape, navel_share);
+        // Broyden's update: the slopes now explain this step.
+        const double squared = change.dot(change);
+        for (int w = 0; squared > 1e-12 && w < measures; ++w) {
+            const std::string& key = wanted[size_t(w)].key;
+            const double missed = there.at(key) - here.at(key) - slopes.row(w).dot(change.t());
+            slopes.row(w) += missed / squared * change.t();
+        }
+        here = there;
+        if (longest < kStill) break;
+    }
+    return here;
+}
+
+}  // namespace vfit::tools

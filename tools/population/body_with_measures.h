@@ -1,0 +1,50 @@
+// The body of given measures: shape values by damped Gauss-Newton steps on tape measures.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "body/body_model.h"
+#include "measure/measurement.h"
+
+namespace vfit::tools {
+
+/// A tape measure to come near to, as firmly as one over its tolerance.
+struct WantedMeasure {
+    std::string key;  // of measure_keys.h, or "navel_girth_m"
+    double value_m, tolerance_m;
+};
+
+/// A shape value that may be changed, and how far it usually is from `usual`.
+struct FreeShape {
+    std::string key;
+    double usual, spread;
+};
+
+/// Every tape measure of the body, and the girth of the trunk at that share of its stature as "navel_girth_m".
+using BodyMeasures = std::map<std::string, double>;
+BodyMeasures measures_of(const std::shared_ptr<const BodyModel>& model, vfit_sex sex, const std::vector<float>& shape,
+                         double navel_share);
+
+class BodyWithMeasures {
+public:
+    /// Looks at how those measures move with the free values, about bodies of three weights.
+    BodyWithMeasures(std::shared_ptr<const BodyModel> model, vfit_sex sex, std::vector<FreeShape> free,
+                     std::vector<std::string> keys);
+
+    /// Changes the free values of `shape`; returns the measures of what it came to. `wanted` are those of the keys, in
+    /// their order.
+    BodyMeasures solve(const std::vector<WantedMeasure>& wanted, double navel_share, std::vector<float>& shape) const;
+
+private:
+    std::shared_ptr<const BodyModel> model_;
+    vfit_sex sex_;
+    std::vector<FreeShape> free_;
+    std::vector<cv::Mat_<double>> slopes_;  // of a measure by a free value, about each weight
+};
+
+}  // namespace vfit::tools

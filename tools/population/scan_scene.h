@@ -1,0 +1,34 @@
+// How somebody of a population stands before the virtual camera for a scan.
+#pragma once
+
+#include <string>
+
+#include "population/population.h"
+
+namespace vfit::tools {
+
+/// Clothes of a scan's people.
+enum class Dress {
+    kTight,     // skin
+    kClothed,   // each zone evenly between 0 and 3 cm
+    kTraining,  // a third tight, else thicknesses of another distribution than kClothed's
+};
+
+/// All that is random follows from the seed.
+struct ScanScene {
+    std::string sensor = "kinect_v1";
+    float distance_m = 2.7f;
+    float top_m = 0.0f, sleeves_m = 0.0f, trousers_m = 0.0f;
+    uint32_t front_frames = 30, side_frames = 15, seed = 1;
+
+    /// A Kinect v1 or a time-of-flight camera, as near as it sees all of the person or up to 3.1 m away, clothes as said.
+    static ScanScene draw(Dress dress, uint32_t seed);
+    /// Of the front view, and of the side view after it.
+    std::string front_uri(const PersonOfPopulation& person) const;
+    std::string side_uri(const PersonOfPopulation& person) const;
+
+private:
+    std::string uri(const PersonOfPopulation& person) const;
+};
+
+}  // namespace vfit::tools
