@@ -11,9 +11,9 @@ namespace vfit {
 namespace {
 
 constexpr float kFacingCosine = 0.5f;  // of a normal to the line of sight: depth says how far out the surface is
-constexpr float kRimCosine = 0.30f;    // the vertex is on the body's own outline
+constexpr float kEdgeCosine = 0.30f;    // the vertex is on the body's own outline
 constexpr float kFarthest_m = 0.08f;   // beyond it is something else: an arm before the trunk, the wall
-constexpr float kNearest_m = 0.25f;
+constexpr float kTooNear_m = 0.25f;
 constexpr int kRimReach = 16;  // pixels
 constexpr uint32_t kFewestReadings = 20;  // of a zone: fewer are chance
 constexpr float kFrontYaw_rad = 0.6f, kSideFrom_rad = 1.05f, kSideTo_rad = 2.1f;
@@ -141,7 +141,7 @@ void FitResiduals::add(const DepthImage& image, uint8_t user, const FitBody& bod
     const auto belongs = [&](int x, int y) { return image.users[image.index(uint32_t(x), uint32_t(y))] == user; };
     for (uint32_t v = 0; v < body.model().vertex_count(); ++v) {
         const Vec3 &p = body.positions()[v], &n = body.normals()[v];
-        if (p.z < kNearest_m || body.model().vertices()[v].bridged) continue;
+        if (p.z < kTooNear_m || body.model().vertices()[v].bridged) continue;
         const Vec2 at = image.camera.project(p);
         const int x = int(std::lround(at.x)), y = int(std::lround(at.y));
         if (x < 1 || y < 1 || x >= width - 1 || y >= height - 1) continue;
@@ -153,7 +153,7 @@ void FitResiduals::add(const DepthImage& image, uint8_t user, const FitBody& bod
             if (std::abs(out) > kFarthest_m) continue;
             facing[v].distance += out + outwards(v, shape);
             ++facing[v].count;
-        } else if (std::abs(towards) < kRimCosine) {
+        } else if (std::abs(towards) < kEdgeCosine) {
             // Along the picture's outward direction to where the person ends.
             const Vec2 tip = image.camera.project(p + 0.01f * n);
             Vec2 step = tip - at;

@@ -111,8 +111,8 @@ void bind_vocabulary(py::module_& m) {
     add_enum(m, "Sex", {{"UNKNOWN", VFIT_SEX_UNKNOWN}, {"FEMALE", VFIT_SEX_FEMALE}, {"MALE", VFIT_SEX_MALE}},
              "Which default body; UNKNOWN: halfway.");
     add_enum(m, "ScanMethod", {{"DEFAULT", VFIT_SCAN_DEFAULT}, {"PROPORTIONS", VFIT_SCAN_PROPORTIONS},
-              {"PROPORTIONS_AS_PRINTED", VFIT_SCAN_PROPORTIONS_AS_PRINTED}},
-             "How a scan measures; PROPORTIONS is the paper's way.");
+              {"PROPORTIONS_AS_PRINTED", VFIT_SCAN_PROPORTIONS_AS_PRINTED}, {"FIT", VFIT_SCAN_FIT}},
+             "How a scan measures; PROPORTIONS is the paper's way, FIT a body fitted to all frames.");
     add_enum(m, "Guidance",
              {{"NONE", VFIT_GUIDANCE_NONE},
               {"STEP_BACK", VFIT_GUIDANCE_STEP_BACK},
@@ -123,7 +123,8 @@ void bind_vocabulary(py::module_& m) {
               {"FEET_NOT_VISIBLE", VFIT_GUIDANCE_FEET_NOT_VISIBLE},
               {"ONE_PERSON_ONLY", VFIT_GUIDANCE_ONE_PERSON_ONLY},
               {"NOBODY", VFIT_GUIDANCE_NOBODY},
-              {"JOINTS_MISSING", VFIT_GUIDANCE_JOINTS_MISSING}},
+              {"JOINTS_MISSING", VFIT_GUIDANCE_JOINTS_MISSING},
+              {"FACE_CAMERA", VFIT_GUIDANCE_FACE_CAMERA}},
              "Why a scan did not take a frame.");
 
     py::tuple names(VFIT_BONE_COUNT), parents(VFIT_BONE_COUNT);

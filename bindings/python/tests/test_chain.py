@@ -31,6 +31,21 @@ def test_the_scan_completes_and_tells_how_far_it_is(fitted):
     assert any(state.taken and state.guidance is vfit.Guidance.NONE for state in states)
 
 
+def test_the_fitted_body_measures_from_the_front_and_the_side():
+    with vfit.Context() as ctx:
+        scan = vfit.Scan(ctx, frames=6, method=vfit.ScanMethod.FIT, side_frames=5, bare=True)
+        for view in ("motion=scan&frames=6", "motion=side&facing=90&frames=12"):
+            with ctx.open("virtual:sensor=kinect_v1&sex=f&" + view) as sensor:
+                for frame in sensor:
+                    state = scan.add(frame, 1)
+                    truth = frame.meta("measures")
+        assert state.complete and (state.frames_taken, state.side_frames_taken) == (6, 5)
+        measures = scan.measure()
+        assert measures["stature_m"].value == pytest.approx(truth["stature_m"], abs=0.02)
+        waist = measures["waist_girth_m"]
+        assert waist.observed and abs(waist.value - truth["waist_girth_m"]) < max(0.03, 3.5 * waist.sigma)
+
+
 def test_measures_come_with_sigma_and_near_the_truth(fitted):
     _, scan, _, truth, _, _ = fitted
     measures = scan.measure()

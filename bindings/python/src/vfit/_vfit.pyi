@@ -115,11 +115,12 @@ class Sex(IntEnum):
     MALE = 2
 
 class ScanMethod(IntEnum):
-    """How a scan measures; PROPORTIONS is the paper's way."""
+    """How a scan measures; PROPORTIONS is the paper's way, FIT a body fitted to all frames."""
 
     DEFAULT = 0
     PROPORTIONS = 1
     PROPORTIONS_AS_PRINTED = 2
+    FIT = 3
 
 class Guidance(IntEnum):
     """Why a scan did not take a frame."""
@@ -134,6 +135,7 @@ class Guidance(IntEnum):
     ONE_PERSON_ONLY = 7
     NOBODY = 8
     JOINTS_MISSING = 9
+    FACE_CAMERA = 10
 
 class Joint(IntEnum):
     """What a sensor sees. LEFT is the person's own left."""
@@ -340,7 +342,8 @@ class Tracker(_Closable):
 class Scan(_Closable):
     """Measures one person over several frames; closing it wipes the body data."""
 
-    def __init__(self, context: Context, *, frames: int = 0, sex: _Sex = None, method: ScanMethod = ...) -> None: ...
+    def __init__(self, context: Context, *, frames: int = 0, sex: _Sex = None, method: ScanMethod = ...,
+                 side_frames: int = 0, bare: bool = False) -> None: ...
     def add(self, frame: Frame, body_id: Optional[int] = None) -> ScanState: ...
     def measure(self) -> dict[str, Measurement]: ...
     def colliders(self) -> list[Collider]: ...

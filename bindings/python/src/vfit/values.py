@@ -196,6 +196,8 @@ class ScanState(NamedTuple):
     correction_m: float
     """Mean absolute change of depth by the filter (Fig. 9)."""
     compute_ms: float
+    side_frames_taken: int
+    side_frames_wanted: int
 
 
 class Measurement(NamedTuple):
