@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/clock.h"
+#include "core/wipe.h"
 #include "math/finite.h"
 
 namespace vfit {
@@ -90,9 +91,14 @@ BodyFit::BodyFit(std::shared_ptr<const FitModel> model, const BodyFitOptions& op
 }
 
 void BodyFit::reset() {
-    tracked_ = false;
+    view_.wipe();
+    raster_.wipe();
+    body_.wipe();
+    wipe(last_), wipe(shape_), wipe(seen_), wipe(out_);
+    tracked_ = drawn_ = false;
+    last_ns_ = 0;
+    last_ = FitState{};
     shape_ = usual_shape();
-    seen_ = {};
     shape_frames_ = 0;
     out_ = BodyFitOutput{};
 }

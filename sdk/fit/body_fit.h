@@ -50,7 +50,7 @@ public:
 
     /// Does not allocate after its first run on an image of that size. The output stays valid until the next run.
     const BodyFitOutput& run(const BodyFitInput& input);
-    /// Forgets pose and shape: another person.
+    /// Overwrites all that is of the person: another one comes.
     void reset();
 
     const BodyFitOutput& output() const { return out_; }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/wipe.h"
+
 namespace vfit {
 
 Vec3 log_of(const Quat& q) {
@@ -37,6 +39,15 @@ FitBody::FitBody(const FitModel& model)
       positions_(model.vertex_count()),
       normals_(model.vertex_count()),
       carried_(model.places().size()) {}
+
+void FitBody::wipe() {
+    for (auto* points : {&places_, &positions_, &normals_, &carried_}) vfit::wipe(std::span(*points));
+    for (auto* points : {&offsets_, &bone_places_}) vfit::wipe(*points);
+    for (auto* points : {&joint_places_, &joints_}) vfit::wipe(*points);
+    vfit::wipe(skin_shape_), vfit::wipe(bone_shape_);
+    vfit::wipe(bone_turns_), vfit::wipe(bone_rotations_);
+    skin_shaped_ = bones_shaped_ = false;
+}
 
 void FitBody::place_bones(const FitState& state) {
     if (!bones_shaped_ || bone_shape_ != state.shape) {

@@ -47,6 +47,9 @@ public:
     /// Bones and joints alone: the skin stays where it was.
     void place_bones(const FitState& state);
 
+    /// Overwrites the person's place and shape.
+    void wipe();
+
     const FitModel& model() const { return model_; }
     const std::vector<Vec3>& positions() const { return positions_; }
     const std::vector<Vec3>& normals() const { return normals_; }  // unit

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/wipe.h"
+
 namespace vfit {
 
 namespace {
@@ -51,6 +53,11 @@ void FitRaster::draw(const FitBody& body, const FitView& view) {
             }
         }
     }
+}
+
+void FitRaster::wipe() {
+    vfit::wipe(std::span(projected_));
+    vfit::wipe(std::span(depths_));
 }
 
 FitScore FitRaster::score(const FitView& view) const {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/wipe.h"
+
 namespace vfit {
 
 namespace {
@@ -52,6 +54,14 @@ bool FitView::look(const DepthImage& image, uint8_t user, const PixelBox& within
     if (person_cells_ < kFewestCells) return false;
     find_points();
     return true;
+}
+
+void FitView::wipe() {
+    vfit::wipe(std::span(cells_));
+    vfit::wipe(std::span(depths_));
+    vfit::wipe(std::span(points_));
+    width_ = height_ = 0;
+    person_cells_ = 0;
 }
 
 void FitView::choose_grid(const DepthImage& image, const PixelBox& person, float depth_m) {

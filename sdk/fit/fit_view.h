@@ -47,6 +47,9 @@ public:
         return cell.x < image_left_ || cell.y < image_top_ || cell.x > image_right_ || cell.y > image_bottom_;
     }
 
+    /// Overwrites what was seen.
+    void wipe();
+
     static constexpr uint32_t kFewestCells = 150;
 
 private:

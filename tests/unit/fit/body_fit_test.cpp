@@ -45,6 +45,20 @@ TEST(BodyFit, TellsHowJointsAreTurned) {
     }
 }
 
+TEST(BodyFit, KeepsNothingOfWhoWasForgotten) {
+    Person person;
+    BodyFit fit(fit_model());
+    fit.run(input_of(person.scene, person.scene.seen(), 0));
+    ASSERT_NE(fit.body().positions().front(), Vec3(0.0f));
+    fit.reset();
+    for (const Vec3& p : fit.body().positions()) ASSERT_EQ(p, Vec3(0.0f));
+    for (const Vec3& p : fit.body().joints()) ASSERT_EQ(p, Vec3(0.0f));
+    EXPECT_EQ(fit.output().state, BodyFitState::kNothing);
+    EXPECT_EQ(fit.output().pose.shape, FitShape{});
+    // And the next one is fitted as the first was.
+    EXPECT_EQ(fit.run(input_of(person.scene, person.scene.seen(), kFrameNs)).state, BodyFitState::kGood);
+}
+
 TEST(BodyFit, HolesDoItLittleHarm) {
     Person person;
     FitScene holed = person.scene;
