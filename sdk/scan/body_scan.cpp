@@ -55,10 +55,10 @@ float BodyScan::crown_height(const DepthImage& image, uint8_t user) const {
     const Vec2 at = camera.project(head), above = camera.project(head + kHeadReach_m * up);
     // Along the image's axis that the head points up by: portrait cameras lie on their side.
     const Vec2 way = above - at;
-    const float length = glm::length(way);
-    if (length < 4.0f) return 0.0f;
-    const Vec2 step = way / length, aside(-step.y, step.x);
-    const int half = std::max(1, int(std::lround(kCrownHalfWidth_m * camera.fx / head.z)));
+    const float length = std::min(glm::length(way), float(image.width() + image.height()));  // whatever the lens
+    if (!(length >= 4.0f)) return 0.0f;
+    const Vec2 step = glm::normalize(way), aside(-step.y, step.x);
+    const int half = std::clamp(int(std::lround(kCrownHalfWidth_m * camera.fx / head.z)), 1, int(image.width()));
     const auto belongs = [&](const Vec2& p) {
         const int x = int(std::lround(p.x)), y = int(std::lround(p.y));
         return x >= 0 && y >= 0 && x < int(image.width()) && y < int(image.height()) &&
@@ -82,7 +82,7 @@ float BodyScan::crown_height(const DepthImage& image, uint8_t user) const {
     return columns >= kFewestColumns ? sum / float(columns) : 0.0f;
 }
 
-ScanFeatures BodyScan::features() const {
+ScanFeatures BodyScan::features(bool side) const {
     if (sums_.frames == 0) fail(VFIT_ERROR_STATE, "the scan has kept no frame yet");
     constexpr float kCentimetres = 100.0f, kMillimetres = 1000.0f;
     ScanFeatures out{};
@@ -91,12 +91,13 @@ ScanFeatures BodyScan::features() const {
     out[n++] = sums_.crowns ? float(sums_.crown_m / sums_.crowns) : 0.0f;
     out[n++] = float(sums_.distance_m / sums_.frames);
     out[n++] = kMillimetres * float(sums_.pixel_m / sums_.frames);
+    const auto counts = [&](FitViewKind view) { return side || view != FitViewKind::kSide; };
     for (const FitViewKind view : {FitViewKind::kFront, FitViewKind::kSide})
         for (const FitSeen seen : {FitSeen::kFacing, FitSeen::kRim})
-            for (const float mean : residuals_.means_m(view, seen, shape())) out[n++] = kCentimetres * mean;
+            for (const float mean : residuals_.means_m(view, seen, shape())) out[n++] = counts(view) ? kCentimetres * mean : 0.0f;
     for (const FitViewKind view : {FitViewKind::kFront, FitViewKind::kSide})
         for (int region = 0; region < FitResiduals::kRegions; ++region)
-            out[n++] = kCentimetres * residuals_.roughness_m(view, region, shape());
+            out[n++] = counts(view) ? kCentimetres * residuals_.roughness_m(view, region, shape()) : 0.0f;
     return out;
 }
 

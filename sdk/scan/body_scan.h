@@ -36,8 +36,9 @@ public:
     void reset();
 
     uint32_t frames(FitViewKind view) const { return residuals_.frames(view); }
-    /// VFIT_ERROR_STATE before the first frame that was kept.
-    ScanFeatures features() const;
+    /// VFIT_ERROR_STATE before the first frame that was kept. Without `side` as if nothing had been seen from there:
+    /// estimators for the front alone have not learnt what it means.
+    ScanFeatures features(bool side) const;
     /// The shape of all frames together.
     const FitShape& shape() const { return fit_.output().pose.shape; }
     const BodyFitOutput& fit() const { return fit_.output(); }

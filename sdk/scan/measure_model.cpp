@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kVersion = 1;
 constexpr float kFarthest = 5.0f;  // deviations: what lies farther tells no more
-constexpr float kShortest_m = 0.001f, kLongest_m = 5.0f;
+constexpr float kShortest_m = 0.001f, kLongest_m = 5.0f, kSmallestSigma_m = 1e-4f;
 constexpr const char* kViews[] = {"front", "front_and_side"};
 
 const Json& field(const Json& object, const char* name, const std::string& where) {
@@ -111,7 +111,8 @@ std::vector<Measurement> MeasureModel::Part::measure(const std::vector<Row>& row
     for (const Row& row : rows) {
         float log_sigma = row.log_sigma;
         for (size_t i = 0; i < sigma_features.size(); ++i) log_sigma += row.sigma_weights[i] * x[sigma_features[i]];
-        out.push_back({row.key, std::clamp(row.value.of(x), kShortest_m, kLongest_m), wider * std::exp(log_sigma), row.observed});
+        out.push_back({row.key, std::clamp(row.value.of(x), kShortest_m, kLongest_m), std::clamp(wider * std::exp(log_sigma), kSmallestSigma_m, kLongest_m),
+                       row.observed});
     }
     return out;
 }

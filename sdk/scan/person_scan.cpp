@@ -78,8 +78,8 @@ vfit_guidance PersonScan::fit(const ScanFrame& frame) {
 std::vector<Measurement> PersonScan::measurements() const {
     if (!body_) return paper_.measurements();
     if (frames_taken() == 0) fail(VFIT_ERROR_STATE, "scan: no frame from the front has been taken yet");
-    std::vector<Measurement> out =
-        desc_.measure_model->measure(body_->features(), side_frames_ >= kFewestSideFrames, desc_.paper.sex);
+    const bool side = side_frames_ >= kFewestSideFrames;
+    std::vector<Measurement> out = desc_.measure_model->measure(body_->features(side), side, desc_.paper.sex);
     if (!desc_.bare)
         for (Measurement& m : out)
             if (m.key == "stature_m") m.sigma = std::hypot(m.sigma, kHairAndShoes_m);

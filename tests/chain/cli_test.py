@@ -112,8 +112,8 @@ class Contract(unittest.TestCase):
                           "--side-frames", "0", "--json")
         self.assertEqual((result["method"], result["frames"], result["side_frames"]), ("fit", 12, 0))
         measured = result["measurements"]
-        truth = document(self, "measure", VIRTUAL.replace("demo", "scan"), "--method", "paper", "--json")["measurements"]
-        self.assertAlmostEqual(measured["stature_m"]["value"], truth["stature_m"]["value"], delta=0.03)
+        paper = document(self, "measure", VIRTUAL.replace("demo", "scan"), "--method", "paper", "--json")["measurements"]
+        self.assertAlmostEqual(measured["stature_m"]["value"], paper["stature_m"]["value"], delta=0.03)
         self.assertTrue(measured["stature_m"]["observed"])
         self.assertFalse(measured["chest_girth_m"]["observed"])  # from the front alone
         for key in ("chest_girth_m", "waist_girth_m", "hip_girth_m", "inside_leg_m", "arm_length_m"):

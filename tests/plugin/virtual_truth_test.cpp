@@ -136,7 +136,7 @@ TEST(VirtualPerson, PlantedFeetDoNotSlideInCameraSpace) {
         std::array<bool, 2> stood{false, false};
         int contacts = 0;
         for (const Taken& f :
-             host.run(std::string("virtual:sensor=kinect_v1_320&rate=15&frames=150&motion=") + motion)) {
+             host.run(std::string("virtual:sensor=kinect_v1_320&noise=0&frames=300&motion=") + motion)) {
             const std::string& text = f.meta.at("contacts");
             for (size_t side = 0; side < 2; ++side) {
                 const float* p = f.joints[VFIT_JOINT_LEFT_FOOT + side].position;
@@ -151,7 +151,7 @@ TEST(VirtualPerson, PlantedFeetDoNotSlideInCameraSpace) {
                 stood[side] = stands, before[side] = ankle;
             }
         }
-        EXPECT_GT(contacts, 100) << motion;
+        EXPECT_GT(contacts, 200) << motion;
     }
 }
 

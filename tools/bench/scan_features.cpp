@@ -71,9 +71,9 @@ void run(const Options& o) {
             if (scan.frames(FitViewKind::kFront) < scene.front_frames / 2) continue;
             line["scene"] = {{"sensor", scene.sensor}, {"distance_m", scene.distance_m}, {"top_m", scene.top_m},
                              {"sleeves_m", scene.sleeves_m}, {"trousers_m", scene.trousers_m}};
-            line["front"] = rounded(scan.features());
+            line["front"] = rounded(scan.features(false));
             play(scene.side_uri(person), context.get(), tracker.get(), scan);
-            line["both"] = scan.frames(FitViewKind::kSide) < scene.side_frames / 2 ? Json() : rounded(scan.features());
+            line["both"] = scan.frames(FitViewKind::kSide) < scene.side_frames / 2 ? Json() : rounded(scan.features(true));
             file << line.dump() << std::endl;
         }
     }

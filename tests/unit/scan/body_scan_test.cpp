@@ -21,23 +21,35 @@ int told(const ScanFeatures& f, FitViewKind view) {
                              [](float x) { return x != 0.0f; }));
 }
 
-TEST(FitResiduals, TellHowFarTheSurfaceLiesOutside) {
-    Avatar avatar(body_model(), {}, shape_of({}), Vec2(1.0f));
+/// A body fitted to a person who stands before the camera.
+struct Fitted {
+    Avatar avatar{body_model(), {}, shape_of({}), Vec2(1.0f)};
     FitScene scene = standing_person(avatar);
-    BodyFit fit(fit_model());
-    BodyFitInput input;
-    input.user = 1;
-    input.joints = scene.seen();
-    for (int i = 0; i < 4; ++i) {
-        input.image = scene.image(), input.time_ns = i * 33333333;
-        fit.run(input);
+    BodyFit fit{fit_model()};
+    Fitted() {
+        BodyFitInput input;
+        input.user = 1;
+        input.joints = scene.seen();
+        for (int i = 0; i < 4; ++i) {
+            input.image = scene.image(), input.time_ns = i * 33333333;
+            fit.run(input);
+        }
     }
-    FitResiduals as_it_is(*fit_model()), nearer(*fit_model());
-    const FitShape& shape = fit.output().pose.shape;
-    for (int i = 0; i < 10; ++i) as_it_is.add(scene.image(), 1, fit.body(), shape);
-    for (size_t i = 0; i < scene.depth.size(); ++i)
-        if (scene.users[i]) scene.depth[i] = uint16_t(scene.depth[i] - 20);
-    for (int i = 0; i < 10; ++i) nearer.add(scene.image(), 1, fit.body(), shape);
+    const FitShape& shape() const { return fit.output().pose.shape; }
+    FitResiduals residuals(const FitScene& seen) const {
+        FitResiduals out(*fit_model());
+        for (int i = 0; i < 10; ++i) out.add(seen.image(), 1, fit.body(), shape());
+        return out;
+    }
+};
+
+TEST(FitResiduals, TellHowFarTheSurfaceLiesOutside) {
+    const Fitted person;
+    const FitShape& shape = person.shape();
+    FitScene nearer_scene = person.scene;
+    for (size_t i = 0; i < nearer_scene.depth.size(); ++i)
+        if (nearer_scene.users[i]) nearer_scene.depth[i] = uint16_t(nearer_scene.depth[i] - 20);
+    const FitResiduals as_it_is = person.residuals(person.scene), nearer = person.residuals(nearer_scene);
     const auto a = as_it_is.means_m(FitViewKind::kFront, FitSeen::kFacing, shape),
                b = nearer.means_m(FitViewKind::kFront, FitSeen::kFacing, shape);
     int moved = 0;
@@ -58,12 +70,49 @@ TEST(FitResiduals, TellHowFarTheSurfaceLiesOutside) {
     EXPECT_GT(inside, 20);
 }
 
+TEST(FitResiduals, TellHowFarTheOutlineLiesOutside) {
+    const Fitted person;
+    constexpr int kWider = 3;  // pixels of 4.7 mm
+    FitScene wide = person.scene;
+    for (int y = 0; y < 480; ++y)
+        for (int x = 0; x < 640; ++x)
+            for (int dx = -kWider; dx <= kWider; ++dx)
+                if (x + dx >= 0 && x + dx < 640 && person.scene.users[size_t(y * 640 + x + dx)])
+                    wide.users[size_t(y * 640 + x)] = 1;
+    const auto a = person.residuals(person.scene).means_m(FitViewKind::kFront, FitSeen::kRim, person.shape()),
+               b = person.residuals(wide).means_m(FitViewKind::kFront, FitSeen::kRim, person.shape());
+    int upright = 0, all = 0;
+    for (size_t z = 0; z < a.size(); ++z) {
+        if (a[z] == 0.0f || b[z] == 0.0f) continue;
+        EXPECT_GT(b[z], a[z] - 0.004f) << "zone " << z;
+        ++all;
+        // Of limbs that stand the outline is farther out by all of it.
+        upright += std::abs(b[z] - a[z] - float(kWider) * 0.0047f) < 0.003f;
+    }
+    EXPECT_GT(all, 25);
+    EXPECT_GT(upright, all / 2);
+}
+
+TEST(FitResiduals, ARoughSurfaceIsRougher) {
+    const Fitted person;
+    FitScene rough = person.scene;
+    for (int y = 0; y < 480; ++y)
+        for (int x = 0; x < 640; ++x)
+            if (rough.users[size_t(y * 640 + x)]) rough.depth[size_t(y * 640 + x)] += uint16_t((x / 8 + y / 8) % 2 ? 30 : 0);
+    const FitResiduals smooth = person.residuals(person.scene), uneven = person.residuals(rough);
+    for (int region = 0; region < FitResiduals::kRegions; ++region)
+        EXPECT_GT(uneven.roughness_m(FitViewKind::kFront, region, person.shape()),
+                  smooth.roughness_m(FitViewKind::kFront, region, person.shape()) + 0.002f)
+            << region;
+    EXPECT_EQ(smooth.roughness_m(FitViewKind::kSide, 0, person.shape()), 0.0f);
+}
+
 TEST(BodyScan, KeepsFrontAndSideApart) {
     Avatar avatar(body_model(), {}, shape_of({}), Vec2(1.0f));
     const FitScene front = standing_person(avatar), side = standing_person(avatar, sideways()),
                    diagonal = standing_person(avatar, {0.8f});
     BodyScan scan(fit_model());
-    EXPECT_THROW(scan.features(), Error);
+    EXPECT_THROW(scan.features(true), Error);
     int64_t time_ns = 0;
     const auto add = [&](const FitScene& scene) {
         Body body = scene.joints;
@@ -71,19 +120,22 @@ TEST(BodyScan, KeepsFrontAndSideApart) {
         return scan.add(scene.image(), body);
     };
     for (int i = 0; i < 6; ++i) EXPECT_EQ(add(front), FitViewKind::kFront);
-    const ScanFeatures one = scan.features();
+    const ScanFeatures one = scan.features(true);
     EXPECT_GT(told(one, FitViewKind::kFront), 60);
     EXPECT_EQ(told(one, FitViewKind::kSide), 0);
     EXPECT_NEAR(one[kCrownFeature], avatar.stature(), 0.012f);
+    EXPECT_NEAR(one[kCrownFeature + 1], 2.7f, 0.1f) << "metres away";
+    EXPECT_NEAR(one[kCrownFeature + 2], 2.7f / 571.0f * 1000.0f, 0.2f) << "millimetres a pixel";
     for (int i = 0; i < 6; ++i) add(diagonal);
     EXPECT_EQ(scan.frames(FitViewKind::kSide), 0u);
     time_ns += 2'000'000'000;
     for (int i = 0; i < 6; ++i) add(side);
     EXPECT_GT(scan.frames(FitViewKind::kSide), 3u);
-    EXPECT_GT(told(scan.features(), FitViewKind::kSide), 40);
+    EXPECT_GT(told(scan.features(true), FitViewKind::kSide), 40);
+    EXPECT_EQ(told(scan.features(false), FitViewKind::kSide), 0) << "as if it had not been seen";
     scan.reset();
     EXPECT_EQ(scan.frames(FitViewKind::kFront), 0u);
-    EXPECT_THROW(scan.features(), Error);
+    EXPECT_THROW(scan.features(true), Error);
 }
 
 TEST(BodyScan, DoesNotAllocateAfterItsFirstFrame) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "avatar/avatar_measures.h"
 #include "core/error.h"
 #include "scan_people.h"
 
@@ -58,6 +59,53 @@ TEST_F(PersonScanTest, MeasuresAPersonOfItsOwnSpace) {
         EXPECT_GT(one.value, 0.05f) << one.key;
         EXPECT_GT(one.sigma, 0.0f) << one.key;
         EXPECT_LT(one.sigma, 0.2f * one.value) << one.key;
+    }
+}
+
+TEST_F(PersonScanTest, GirthsFollowThePersonAndNotTheMean) {
+    struct Girths {
+        float chest, waist, hip;
+    };
+    const auto girths = [](const std::vector<Measurement>& m) {
+        return Girths{find(m, "chest_girth_m")->value, find(m, "waist_girth_m")->value, find(m, "hip_girth_m")->value};
+    };
+    Girths told[2], truth[2];
+    for (int heavy = 0; heavy < 2; ++heavy) {
+        std::vector<float> shape = body_model()->default_shape(VFIT_SEX_MALE);
+        // As in people, chest, waist and hip grow together: weight alone leaves this model's chest all but as it is.
+        shape[size_t(body_model()->parameter("weight"))] = heavy ? 0.95f : 0.45f;
+        for (const char* key : {"measure-bust-circ", "measure-waist-circ", "measure-hips-circ"})
+            shape[size_t(body_model()->parameter(key))] = heavy ? 0.4f : -0.4f;
+        Avatar avatar(body_model(), {}, shape, Vec2(1.0f));
+        const FitScene front = standing_person(avatar), side = standing_person(avatar, sideways());
+        PersonScan scan(desc(8, 8));
+        for (int i = 0; i < 8; ++i) ASSERT_TRUE(add(scan, front).taken);
+        time_ns_ += 1'000'000'000;
+        for (int i = 0; i < 40 && !scan.complete(); ++i) add(scan, side);
+        ASSERT_TRUE(scan.complete());
+        told[heavy] = girths(scan.measurements());
+        truth[heavy] = girths(measure_avatar(avatar, VFIT_SEX_MALE));
+    }
+    const auto follows = [](float told_m, float truth_m, const char* what) {
+        EXPECT_GT(truth_m, 0.06f) << what;
+        // An estimator that knew the mean alone would tell no difference; extremes are drawn towards it, as they are rare.
+        EXPECT_NEAR(told_m / truth_m, 1.0f, 0.5f) << what << ": " << told_m << " m of " << truth_m;
+    };
+    follows(told[1].chest - told[0].chest, truth[1].chest - truth[0].chest, "chest");
+    follows(told[1].waist - told[0].waist, truth[1].waist - truth[0].waist, "waist");
+    follows(told[1].hip - told[0].hip, truth[1].hip - truth[0].hip, "hip");
+}
+
+TEST_F(PersonScanTest, TooFewFramesFromTheSideAreNoDoubt) {
+    PersonScan scan(desc(4, 10));
+    for (int i = 0; i < 4; ++i) add(scan, front_);
+    const auto before = scan.measurements();
+    time_ns_ += 1'000'000'000;
+    for (int i = 0; i < 20 && scan.side_frames_taken() < 3; ++i) add(scan, side_);
+    ASSERT_EQ(scan.side_frames_taken(), 3u);
+    for (const Measurement& m : scan.measurements()) {
+        EXPECT_FALSE(m.key == "waist_depth_m" && m.observed);
+        EXPECT_LT(m.sigma, 1.5f * find(before, m.key)->sigma) << m.key;
     }
 }
 
