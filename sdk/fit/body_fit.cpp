@@ -94,6 +94,8 @@ void BodyFit::reset() {
     view_.wipe();
     raster_.wipe();
     body_.wipe();
+    targets_.wipe();
+    equations_.wipe();
     wipe(last_), wipe(shape_), wipe(seen_), wipe(out_);
     tracked_ = drawn_ = false;
     last_ns_ = 0;

@@ -47,6 +47,9 @@ struct BodyFitOptions {
 class BodyFit {
 public:
     explicit BodyFit(std::shared_ptr<const FitModel> model, const BodyFitOptions& options = {});
+    ~BodyFit() { reset(); }
+    BodyFit(const BodyFit&) = delete;
+    BodyFit& operator=(const BodyFit&) = delete;
 
     /// Does not allocate after its first run on an image of that size. The output stays valid until the next run.
     const BodyFitOutput& run(const BodyFitInput& input);

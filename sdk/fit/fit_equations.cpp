@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/wipe.h"
 #include "fit/fit_kernels.h"
 
 namespace vfit {
@@ -60,6 +61,16 @@ void FitEquations::find_movers(const FitModel& model) {
         }
         first_mover_.push_back(static_cast<uint32_t>(movers_.size()));
     }
+}
+
+void FitEquations::wipe() {
+    for (Group& group : groups_) {
+        vfit::wipe(std::span(group.rows));
+        vfit::wipe(std::span(group.product));
+        group.count = 0;
+    }
+    vfit::wipe(start_fields_), vfit::wipe(matrix_), vfit::wipe(factor_);
+    vfit::wipe(right_), vfit::wipe(half_solved_), vfit::wipe(shape_information_), vfit::wipe(shape_right_);
 }
 
 void FitEquations::start(const FitBody& body) {

@@ -20,6 +20,8 @@ class FitEquations {
 public:
     FitEquations();
 
+    /// Overwrites what the rows said.
+    void wipe();
     /// Empty equations about that body; it must stay as it is until finish().
     void start(const FitBody& body);
     void add_vertex_row(uint32_t vertex, const Vec3& direction, float residual, float weight);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/wipe.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fit/fit_kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -78,6 +80,12 @@ HWY_EXPORT(RowProducts);
 void FitTargets::reserve(uint32_t count) {
     ids_.resize(std::max(ids_.size(), (count / kRowLanes + 1) * kRowLanes));
     for (auto& lane : lanes_) lane.resize(ids_.size());
+}
+
+void FitTargets::wipe() {
+    for (auto& lane : lanes_) vfit::wipe(std::span(lane));
+    vfit::wipe(std::span(ids_));
+    count_ = 0;
 }
 
 void FitTargets::add(const Vec3& place, const Vec3& normal, uint32_t id) {

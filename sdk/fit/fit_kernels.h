@@ -15,6 +15,8 @@ class FitTargets {
 public:
     void reserve(uint32_t count);
     void clear() { count_ = 0; }
+    /// Overwrites them.
+    void wipe();
     void add(const Vec3& place, const Vec3& normal, uint32_t id);
     /// After the last add: fills up the last vector.
     void finish();

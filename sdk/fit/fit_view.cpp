@@ -60,6 +60,7 @@ void FitView::wipe() {
     vfit::wipe(std::span(cells_));
     vfit::wipe(std::span(depths_));
     vfit::wipe(std::span(points_));
+    vfit::wipe(std::span(histogram_));
     width_ = height_ = 0;
     person_cells_ = 0;
 }
