@@ -430,8 +430,10 @@ enum { VFIT_GUIDANCE_NONE = 0, VFIT_GUIDANCE_STEP_BACK = 1, VFIT_GUIDANCE_STEP_C
     VFIT_GUIDANCE_ARMS_OUT = 3, VFIT_GUIDANCE_HOLD_STILL = 4, VFIT_GUIDANCE_TURN_SIDEWAYS = 5,
     VFIT_GUIDANCE_FEET_NOT_VISIBLE = 6, VFIT_GUIDANCE_ONE_PERSON_ONLY = 7,
     VFIT_GUIDANCE_NOBODY = 8, VFIT_GUIDANCE_JOINTS_MISSING = 9, VFIT_GUIDANCE_FACE_CAMERA = 10 };
-enum { VFIT_SCAN_BARE = 1 };            /* bit of flags: bare feet and no hair on the crown. Otherwise the deviation
+enum { VFIT_SCAN_BARE = 1,              /* bits of flags. Bare feet and no hair on the crown: otherwise the deviation
                                          * of FIT's stature allows for both                             */
+    VFIT_SCAN_TIGHT = 2 };              /* of FIT: the clothes lie on the skin, as sportswear does. Otherwise up to 3 cm
+                                         * of cloth are reckoned with                                   */
 typedef struct vfit_scan_desc { uint32_t struct_size; vfit_scan_method method;
                                 uint32_t frame_count;                     /* 0: 30, as in the paper    */
                                 vfit_sex sex;
@@ -446,8 +448,8 @@ typedef struct vfit_scan_state {
     float compute_ms;                   /* of the last frame                                         */
     uint32_t side_frames_taken, side_frames_wanted;  /* frames_taken: from the front                  */
 } vfit_scan_state;
-/* key: "stature_m", "chest_girth_m", ... (vfit_measure_key); observed 0: inferred from others. sigma is
- * one standard deviation of value; 0: unknown.                                                        */
+/* key: "stature_m", "chest_girth_m", "body_mass_kg", ... (vfit_measure_key): the unit is in the key;
+ * observed 0: inferred from others. sigma is one standard deviation of value; 0: unknown.             */
 typedef struct vfit_measurement { uint32_t struct_size, observed; float value, sigma; char key[48]; }
     vfit_measurement;
 /* A sphere (joint_b -1), or the tapered capsule of two spheres.                                        */
@@ -461,12 +463,19 @@ typedef struct vfit_scale { uint32_t struct_size; float x, y, sigma_x, sigma_y, 
 typedef struct vfit_size { uint32_t struct_size; float probability; char label[32]; } vfit_size;
 typedef struct vfit_size_row { uint32_t struct_size, measure_count; char garment_kind[32], label[32]; }
     vfit_size_row;
+/* How a size sits by one measure: ease is the room beyond the body in the middle of the size's range (below 0: too
+ * little of it), sigma its deviation; probabilities that the body is above, within and below that range. */
+typedef struct vfit_size_zone { uint32_t struct_size; float ease, sigma, tight, regular, loose; char key[48]; }
+    vfit_size_zone;
 VFIT_STRUCT(vfit_scan_desc) VFIT_STRUCT(vfit_scan_state) VFIT_STRUCT(vfit_measurement)
 VFIT_STRUCT(vfit_scale) VFIT_STRUCT(vfit_size) VFIT_STRUCT(vfit_size_row) VFIT_STRUCT(vfit_collider)
+VFIT_STRUCT(vfit_size_zone)
 VFIT_API vfit_result vfit_scan_create(vfit_context context, const vfit_scan_desc* desc,
                                       vfit_scan* out);                                     /* [any]  */
 VFIT_API vfit_result vfit_scan_destroy(vfit_scan scan);         /* wipes the body data        [any]  */
 VFIT_API vfit_result vfit_scan_reset(vfit_scan scan);                                      /* [excl] */
+/* Asks for more frames from the front and the side, also of a complete scan, which then goes on.    [excl] */
+VFIT_API vfit_result vfit_scan_extend(vfit_scan scan, uint32_t frames, uint32_t side_frames);
 /* VFIT_INCOMPLETE: the frame was not taken, state->guidance says why. VFIT_NOT_READY: taken, more are
  * wanted. VFIT_OK: the scan is complete (further frames are ignored). state may be null.      [excl]   */
 VFIT_API vfit_result vfit_scan_add(vfit_scan scan, vfit_frame tracked, uint32_t body_id,
@@ -478,6 +487,17 @@ VFIT_API vfit_result vfit_scan_colliders(vfit_scan scan, vfit_collider* items, u
                                          uint32_t* count);  /* centres are those of the last frame [read] */
 VFIT_API vfit_result vfit_scan_scale(vfit_scan scan, const char* garment_kind, vfit_scale* out);
                                                                                            /* [read] */
+/* Measurements as JSON text, for an app that keeps them with the person's consent (docs/measuring.md). text null sets
+ * *capacity to what is needed, the end included; too little: VFIT_ERROR_CAPACITY, and the same.       [any]   */
+VFIT_API vfit_result vfit_measurements_write(const vfit_measurement* items, uint32_t stride, uint32_t count,
+                                             vfit_sex sex, char* text, uint32_t* capacity);
+/* That text, a report of vfit measure, or {"stature_m": 1.7}. sex may be null.                        [any]   */
+VFIT_API vfit_result vfit_measurements_read(const void* text, uint64_t byte_count, vfit_measurement* items,
+                                            uint32_t stride, uint32_t* count, vfit_sex* sex);
+/* Two scans of one person in one list. The statures of two people: VFIT_ERROR_DATA.                   [any]   */
+VFIT_API vfit_result vfit_measurements_merge(const vfit_measurement* a, uint32_t a_stride, uint32_t a_count,
+                                             const vfit_measurement* b, uint32_t b_stride, uint32_t b_count,
+                                             vfit_measurement* items, uint32_t stride, uint32_t* count);
 /* A chart as JSON (docs/size-charts.md), or by the name of a file in data_dir/charts.          [any]   */
 VFIT_API vfit_result vfit_size_chart_load(vfit_context context, const void* bytes, uint64_t byte_count,
                                           vfit_size_chart* out);
@@ -489,6 +509,10 @@ VFIT_API vfit_result vfit_size_chart_rows(vfit_size_chart chart, vfit_size_row* 
 VFIT_API vfit_result vfit_size_recommend(vfit_size_chart chart, const char* garment_kind,
                                          const vfit_measurement* items, uint32_t stride, uint32_t count,
                                          vfit_size* sizes, uint32_t size_stride, uint32_t* size_count);
+/* How that size sits: an item a measure of the garment kind that was given.                   [read]  */
+VFIT_API vfit_result vfit_size_zones(vfit_size_chart chart, const char* garment_kind, const char* label,
+                                     const vfit_measurement* items, uint32_t stride, uint32_t count,
+                                     vfit_size_zone* zones, uint32_t zone_stride, uint32_t* zone_count);
 
 /* ---- motion: raw body in, clean pose out; usable alone with the game's own rig --------------------- */
 /* rotation is local to the parent and relative to a T-pose in which every bone has the axes of the world
@@ -565,7 +589,7 @@ VFIT_API vfit_result vfit_avatar_create_from_shape(vfit_context context, const v
 VFIT_API vfit_result vfit_avatar_create(vfit_context context, const vfit_avatar_desc* desc,
                                         const vfit_measurement* items, uint32_t stride, uint32_t count,
                                         vfit_avatar* out);
-/* Size and collider radii of the scanned person.                                       [read] on scan  */
+/* Size and collider radii of the scanned person; by FIT their shape and girths too.   [read] on scan  */
 VFIT_API vfit_result vfit_avatar_create_from_scan(vfit_context context, const vfit_avatar_desc* desc,
                                                   vfit_scan scan, vfit_avatar* out);
 VFIT_API vfit_result vfit_avatar_destroy(vfit_avatar avatar);                              /* [any]  */
@@ -581,6 +605,10 @@ VFIT_API vfit_result vfit_avatar_rig(vfit_avatar avatar, vfit_rig_bone* items, u
 /* Tape measures of the avatar's own body, in the posture of each definition, taken on its mesh. [read] */
 VFIT_API vfit_result vfit_avatar_measure(vfit_avatar avatar, vfit_measurement* items, uint32_t stride,
                                          uint32_t* count);
+/* Measures of your own (docs/measuring.md: landmarks, planes and paths as JSON), taken on the avatar's mesh. sigma is
+ * that of the least sure measure of the scan that it was made from, relative; 0: made of none.       [read] */
+VFIT_API vfit_result vfit_avatar_measure_own(vfit_avatar avatar, const void* text, uint64_t byte_count,
+                                             vfit_measurement* items, uint32_t stride, uint32_t* count);
 /* Posed mesh: POSITION, NORMAL, UV, INDEX, BONE_MATRIX, SKIN_BONES, SKIN_WEIGHTS.              [any]   */
 VFIT_API vfit_result vfit_avatar_acquire(vfit_avatar avatar, vfit_frame* out);
 /* The same streams of the unposed mesh that the rig binds to.                                  [any]   */

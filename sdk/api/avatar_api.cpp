@@ -6,6 +6,8 @@
 #include "api/guard.h"
 #include "api/measurements.h"
 #include "api/scan_object.h"
+#include "measure/own_measures.h"
+#include "scan/scanned_body.h"
 
 using namespace vfit;
 using namespace vfit::api;
@@ -48,6 +50,15 @@ Vec2 scale_to(Context& context, vfit_sex sex, const std::vector<Measurement>& me
     scale.x = breadth ? scale_of("shoulder_breadth_m", breadth->value, find(nominal, "shoulder_breadth_m")->value)
                       : scale.y;
     return scale;
+}
+
+/// The largest relative deviation of the girths and lengths that clothes are made by.
+float least_sure(const std::vector<Measurement>& measured) {
+    float out = 0.0f;
+    for (const char* key : {"chest_girth_m", "waist_girth_m", "hip_girth_m", "thigh_girth_m", "upper_arm_girth_m", "inside_leg_m",
+                            "arm_length_m", "stature_m", "shoulder_breadth_m"})
+        if (const Measurement* m = find(measured, key)) out = std::max(out, m->sigma / m->value);
+    return out;
 }
 
 void publish(Context& context, const Ref<AvatarObject>& avatar, vfit_avatar* out) {
@@ -125,9 +136,17 @@ vfit_result vfit_avatar_create_from_scan(vfit_context handle, const vfit_avatar_
         UseContext<Mode::any> context(handle);
         Use<ScanObject, Mode::read> scan(scan_handle.id);
         AvatarDesc d = avatar_desc(desc);
-        if (d.sex == VFIT_SEX_UNKNOWN) d.sex = scan->sex;
-        const Vec2 scale = scale_to(*context, d.sex, scan->scan.measurements());
-        auto avatar = make<AvatarObject>(context.ref(), d, std::span<const float>{}, scale);
+        const std::vector<Measurement> measured = scan->scan.measurements();
+        Ref<AvatarObject> avatar;
+        if (const FitShape* shape = scan->scan.fitted_shape()) {
+            if (d.sex == VFIT_SEX_UNKNOWN) d.sex = scan->scan.likely_sex();
+            const ScannedBody body = scanned_body(context->body_model(), *context->fit_model().get(), *shape, measured, d.sex);
+            avatar = make<AvatarObject>(context.ref(), d, body.shape, body.scale);
+        } else {
+            if (d.sex == VFIT_SEX_UNKNOWN) d.sex = scan->sex;
+            avatar = make<AvatarObject>(context.ref(), d, std::span<const float>{}, scale_to(*context, d.sex, measured));
+        }
+        avatar->relative_sigma = least_sure(measured);
         avatar->avatar.set_collider_radii(scan->scan.paper().radii());
         publish(*context, avatar, out);
         return VFIT_OK;
@@ -190,6 +209,23 @@ vfit_result vfit_avatar_measure(vfit_avatar handle, vfit_measurement* items, uin
     return guard([&] {
         Use<AvatarObject, Mode::read> avatar(handle.id);
         return write_measurements(avatar->measures(), items, stride, count);
+    });
+}
+
+vfit_result vfit_avatar_measure_own(vfit_avatar handle, const void* text, uint64_t byte_count, vfit_measurement* items,
+                                    uint32_t stride, uint32_t* count) {
+    return guard([&] {
+        Use<AvatarObject, Mode::read> avatar(handle.id);
+        check_pointer(text, "text");
+        constexpr uint64_t kMostBytes = 1u << 20;
+        if (byte_count > kMostBytes) fail(VFIT_ERROR_ARGUMENT, "byte_count ", byte_count, " is too large");
+        const auto own = OwnMeasures::parse({static_cast<const char*>(text), static_cast<size_t>(byte_count)});
+        Body joints;
+        const Mesh mesh = avatar->avatar.measuring_mesh({}, &joints);
+        std::vector<Measurement> list =
+            own.measure({mesh.positions, mesh.indices, avatar->avatar.parts().first(mesh.positions.size()), joints, avatar->sex});
+        for (Measurement& m : list) m.sigma = avatar->relative_sigma * m.value;
+        return write_measurements(list, items, stride, count);
     });
 }
 

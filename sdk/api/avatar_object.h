@@ -14,6 +14,7 @@ struct AvatarObject : ContextChild {
     Avatar avatar;
     const vfit_sex sex;
     MeshOutput posed, rest;
+    float relative_sigma = 0.0f;  // of measures of its body as the person's whom it was made of; 0: unknown
 
     /// Poses the avatar and publishes its mesh; nothing changes where it fails.
     void pose(const Pose& pose);

@@ -12,7 +12,7 @@ std::vector<Measurement> measurements_in(const vfit_measurement* items, uint32_t
     for (uint32_t i = 0; i < list.size(); ++i) {
         const vfit_measurement m = list[i];
         const std::string key = get_text(m.key);
-        if (measure_index(key) < 0) fail(VFIT_ERROR_DATA, "\"", key, "\" is no measure; see vfit_measure_key");
+        if (!is_measure(key)) fail(VFIT_ERROR_DATA, "\"", key, "\" is no measure; see vfit_measure_key");
         if (!std::isfinite(m.value) || m.value <= 0.0f)
             fail(VFIT_ERROR_DATA, key, ": value ", m.value, " is not a positive length in metres");
         if (!std::isfinite(m.sigma) || m.sigma < 0.0f) fail(VFIT_ERROR_DATA, key, ": sigma ", m.sigma);

@@ -39,7 +39,7 @@ vfit_result vfit_scan_create(vfit_context handle, const vfit_scan_desc* desc, vf
         check_enum(d.sex, VFIT_SEX_MALE, "sex");
         for (const auto& [name, count] : {std::pair("frame_count", d.frame_count), {"side_frame_count", d.side_frame_count}})
             if (count > kMaxFrames) fail(VFIT_ERROR_ARGUMENT, name, " ", count, " is more than ", kMaxFrames);
-        if (d.flags & ~uint32_t{VFIT_SCAN_BARE}) fail(VFIT_ERROR_ARGUMENT, "flags ", d.flags, ": unknown bits");
+        if (d.flags & ~uint32_t{VFIT_SCAN_BARE | VFIT_SCAN_TIGHT}) fail(VFIT_ERROR_ARGUMENT, "flags ", d.flags, ": unknown bits");
         PersonScanDesc settings;
         if (d.method == VFIT_SCAN_PROPORTIONS_AS_PRINTED) settings.paper = ScanDesc::as_printed();
         settings.paper.frame_count = d.frame_count ? d.frame_count : kPaperFrames;
@@ -49,6 +49,7 @@ vfit_result vfit_scan_create(vfit_context handle, const vfit_scan_desc* desc, vf
             settings.fit_model = context->fit_model().get();
             settings.side_frame_count = d.side_frame_count;
             settings.bare = (d.flags & VFIT_SCAN_BARE) != 0;
+            settings.tight = (d.flags & VFIT_SCAN_TIGHT) != 0;
         }
         prepare_avatar(*context, d.sex);
         out->id = context->publish(Kind::scan, make<ScanObject>(context.ref(), settings));
@@ -67,6 +68,18 @@ vfit_result vfit_scan_reset(vfit_scan handle) {
     return guard([&] {
         Use<ScanObject, Mode::exclusive> scan(handle.id);
         scan->forget();
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_scan_extend(vfit_scan handle, uint32_t frames, uint32_t side_frames) {
+    return guard([&] {
+        Use<ScanObject, Mode::exclusive> scan(handle.id);
+        const auto too_many = [](uint32_t wanted, uint32_t more) { return more > kMaxFrames || wanted + more > kMaxFrames; };
+        if (too_many(scan->scan.frames_wanted(), frames) || too_many(scan->scan.side_frames_wanted(), side_frames))
+            fail(VFIT_ERROR_ARGUMENT, "frames ", frames, ", side_frames ", side_frames, ": the scan would want more than ",
+                 kMaxFrames);
+        scan->scan.extend(frames, side_frames);
         return VFIT_OK;
     });
 }

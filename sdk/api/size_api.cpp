@@ -91,3 +91,24 @@ vfit_result vfit_size_recommend(vfit_size_chart handle, const char* garment_kind
         });
     });
 }
+
+vfit_result vfit_size_zones(vfit_size_chart handle, const char* garment_kind, const char* label,
+                            const vfit_measurement* items, uint32_t stride, uint32_t count, vfit_size_zone* zones,
+                            uint32_t zone_stride, uint32_t* zone_count) {
+    return guard([&] {
+        Use<SizeChartObject, Mode::read> chart(handle.id);
+        check_pointer(garment_kind, "garment_kind");
+        check_pointer(label, "label");
+        const auto list = size_zones(chart->chart, garment_kind, label, measurements_in(items, stride, count));
+        return write_list(zones, zone_stride, zone_count, list.size(), [&](size_t i) {
+            vfit_size_zone zone{};
+            zone.ease = list[i].ease;
+            zone.sigma = list[i].sigma;
+            zone.tight = list[i].tight;
+            zone.regular = list[i].regular;
+            zone.loose = list[i].loose;
+            set_text(zone.key, list[i].key);
+            return zone;
+        });
+    });
+}

@@ -1,6 +1,9 @@
 // The table of measure keys.
 #include "measure/measure_keys.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace vfit {
 
 namespace {
@@ -35,6 +38,7 @@ constexpr MeasureKey kKeys[] = {
     {"waist_depth_m", "horizontal extent from front to back of the section of waist_girth_m"},
     {"hip_depth_m", "horizontal extent from front to back of the section of hip_girth_m"},
     {"hand_length_m", "wrist to the tip of the middle finger"},
+    {"body_mass_kg", "what a scale shows, without clothes; in kilograms"},
 };
 
 }  // namespace
@@ -48,6 +52,18 @@ int measure_index(std::string_view key) {
         ++index;
     }
     return -1;
+}
+
+int measure_order(std::string_view key) {
+    const int index = measure_index(key);
+    return index >= 0 ? index : int(std::size(kKeys));
+}
+
+bool is_own_measure(std::string_view key) {
+    constexpr size_t kLongest = 47;  // vfit_measurement.key
+    const auto usual = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
+    return key.size() > 4 && key.size() <= kLongest && key.substr(0, 2) == "x_" && key.substr(key.size() - 2) == "_m" &&
+           std::all_of(key.begin(), key.end(), usual);
 }
 
 }  // namespace vfit

@@ -88,6 +88,15 @@ void Scan::reset() {
     state_->filter.wipe();
 }
 
+void Scan::extend(uint32_t frames) {
+    state_->desc.frame_count += frames;
+    std::vector<FrameValues> longer;
+    longer.reserve(state_->desc.frame_count);
+    longer.assign(state_->frames.begin(), state_->frames.end());
+    for (FrameValues& f : state_->frames) wipe(f);
+    state_->frames = std::move(longer);
+}
+
 uint32_t Scan::frames_taken() const { return uint32_t(state_->frames.size()); }
 uint32_t Scan::frames_wanted() const { return state_->desc.frame_count; }
 

@@ -68,6 +68,8 @@ public:
     void take(const ScanFrame& frame);
     /// Forgets the person.
     void reset();
+    /// Wants so many frames more.
+    void extend(uint32_t frames);
 
     uint32_t frames_taken() const;
     uint32_t frames_wanted() const;

@@ -30,7 +30,7 @@ struct TapePostures {
     TapeBody feet_together;  // stature
 };
 
-/// Every measure of measure_keys.h (underbust_girth_m of women only), sigma 0, in its order. VFIT_ERROR_DATA
+/// Every length of measure_keys.h (underbust_girth_m of women only), sigma 0, in its order. VFIT_ERROR_DATA
 /// where a mesh is broken, a joint that a landmark needs is missing, or the body has not the form of a person
 /// (legs that never part).
 std::vector<Measurement> tape_measures(const TapePostures& body);

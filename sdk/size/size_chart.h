@@ -1,5 +1,4 @@
-// Size charts as data: which label of which garment serves which range of which measures
-// (docs/size-charts.md).
+// Size charts as data: which label of which garment serves which ranges of which measures (docs/size-charts.md).
 #pragma once
 
 #include <string>
@@ -8,11 +7,13 @@
 
 namespace vfit {
 
+/// Of one measure, in its unit (metres, or kilograms for body_mass_kg).
 struct MeasureRange {
     std::string key;  // "chest_girth_m"
-    float low_m = 0.0f, high_m = 0.0f;
+    float low = 0.0f, high = 0.0f;
 };
 
+/// A label and the ranges that it serves. A label of a table has several rows.
 struct SizeRow {
     std::string label;
     std::vector<MeasureRange> ranges;  // one a measure of the garment, in its order
@@ -21,7 +22,9 @@ struct SizeRow {
 struct GarmentSizes {
     std::string kind;  // "short_sleeves"
     std::vector<std::string> measures;
-    std::vector<SizeRow> sizes;  // smallest first
+    std::vector<float> weights;      // one a measure: how much it counts against the others
+    std::vector<SizeRow> sizes;      // of a list: smallest first
+    std::vector<std::string> labels; // each once, in the chart's order
 };
 
 class SizeChart {

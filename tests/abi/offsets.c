@@ -230,6 +230,15 @@ OFFSET(vfit_size_row, garment_kind, 8);
 OFFSET(vfit_size_row, label, 40);
 SIZE(vfit_size_row, 72);
 
+OFFSET(vfit_size_zone, struct_size, 0);
+OFFSET(vfit_size_zone, ease, 4);
+OFFSET(vfit_size_zone, sigma, 8);
+OFFSET(vfit_size_zone, tight, 12);
+OFFSET(vfit_size_zone, regular, 16);
+OFFSET(vfit_size_zone, loose, 20);
+OFFSET(vfit_size_zone, key, 24);
+SIZE(vfit_size_zone, 72);
+
 OFFSET(vfit_bone, struct_size, 0);
 OFFSET(vfit_bone, bone, 4);
 OFFSET(vfit_bone, rotation, 8);

@@ -152,6 +152,38 @@ class Contract(unittest.TestCase):
             result = document(self, "size", path, "--chart", "en13402_men", "--garment", "short_sleeves", "--json")
             self.assertEqual(result["sizes"][0]["label"], "M")
 
+    def test_a_size_is_told_by_zone_and_between_two(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "measures.json"
+            path.write_text('{"chest_girth_m": {"value": 0.94, "sigma": 0.02}}')
+            args = ("size", path, "--chart", "en13402_men", "--garment", "short_sleeves")
+            result = document(self, *args, "--size", "M", "--json")
+            self.assertEqual(set(result["between"]), {"S", "M"})
+            self.assertAlmostEqual(result["zones"]["chest_girth_m"]["ease"], 0.04, places=5)
+            self.assertIn("between", run(*args).stdout)
+            self.assertIn("loose", run(*args, "--size", "L").stdout)
+            self.check_failure(run(*args, "--size", "Q"), "XXL")
+            path.write_text('{"waist_girth_m": 0.85, "inside_leg_m": 0.81}')
+            result = document(self, "size", path, "--chart", "jeans_men", "--garment", "trousers", "--json")
+            self.assertEqual(result["sizes"][0]["label"], "W33/L32")
+            path.write_text('{"stature_m": 1.75, "body_mass_kg": 71}')
+            result = document(self, "size", path, "--chart", "height_weight_men", "--garment", "short_sleeves", "--json")
+            self.assertEqual(result["sizes"][0]["label"], "M")
+
+    def test_a_profile_is_kept_and_merged(self):
+        with tempfile.TemporaryDirectory() as folder:
+            first, both = pathlib.Path(folder) / "first.json", pathlib.Path(folder) / "both.json"
+            told = document(self, "measure", VIRTUAL, "--sex", "m", "--profile", first, "--json")["measurements"]
+            profile = json.loads(first.read_text())
+            self.assertEqual((profile["format"], profile["sex"]), ("vfit-profile", "m"))
+            self.assertEqual(profile["measurements"], told)
+            run("measure", VIRTUAL + "&seed=9", "--merge", first, "--profile", both)
+            merged = json.loads(both.read_text())["measurements"]
+            self.assertEqual(set(merged), set(told))
+            self.assertLess(abs(merged["stature_m"]["value"] - told["stature_m"]["value"]), 0.02)
+            self.check_failure(run("measure", VIRTUAL + "&height=0.1", "--merge", first), "two people", "stature_m")
+            self.check_failure(run("measure", VIRTUAL, "--merge", pathlib.Path(folder) / "gone.json"), "gone.json")
+
     def test_track_prints_each_frame_in_camera_space_and_writes_the_map(self):
         with tempfile.TemporaryDirectory() as folder:
             frames = lines(self, "track", VIRTUAL, "--user-map-out", folder, "--json")

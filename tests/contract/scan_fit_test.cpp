@@ -85,10 +85,23 @@ TEST_F(ScanFitTest, MeasuresFromTheFrontAndTheSide) {
     EXPECT_EQ(vfit_scan_destroy(scan), VFIT_OK);
 }
 
+TEST_F(ScanFitTest, GoesOnWhereMoreFramesAreAskedFor) {
+    const vfit_scan scan = make(3, 0, VFIT_SCAN_TIGHT);
+    vfit_scan_state state = vfit_scan_state_init();
+    EXPECT_EQ(play(scan, "motion=scan&frames=4", &state), VFIT_OK);
+    EXPECT_EQ(vfit_scan_extend(scan, 2, 0), VFIT_OK);
+    EXPECT_EQ(play(scan, "motion=scan&frames=4", &state), VFIT_OK);
+    EXPECT_EQ(state.frames_taken, 5u);
+    EXPECT_EQ(vfit_scan_extend(scan, 1u << 30, 0), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_scan_extend(scan, UINT32_MAX, UINT32_MAX), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(state.frames_wanted, 5u);
+    EXPECT_EQ(vfit_scan_destroy(scan), VFIT_OK);
+}
+
 TEST_F(ScanFitTest, RefusesWhatItDoesNotKnow) {
     vfit_scan_desc desc = vfit_scan_desc_init();
     vfit_scan scan{};
-    desc.flags = 2;
+    desc.flags = 4;
     EXPECT_EQ(vfit_scan_create(context, &desc, &scan), VFIT_ERROR_ARGUMENT);
     EXPECT_NE(contract::last_error().find("flags"), std::string::npos);
     desc = vfit_scan_desc_init(), desc.side_frame_count = 1u << 30;

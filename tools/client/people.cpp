@@ -11,11 +11,6 @@ namespace {
 // A source without end must not be waited on for ever: ten times the frames that are wanted.
 constexpr uint32_t kPatience = 10;
 
-float number_of(const Json& value, const std::string& what) {
-    if (!value.is_number()) throw Failure(what + ": not a number");
-    return value.get<float>();
-}
-
 }  // namespace
 
 const char* guidance_text(vfit_guidance guidance) {
@@ -43,6 +38,7 @@ ScanRun run_scan(vfit_context context, Source& source, const ScanOptions& option
     desc.sex = options.sex;
     desc.method = options.method;
     desc.side_frame_count = options.side_frames;
+    desc.flags = options.flags;
     check(vfit_scan_create(context, &desc, run.scan.out()));
     vfit_scan_state state = vfit_scan_state_init();
     uint32_t seen = 0;
@@ -84,25 +80,29 @@ std::vector<vfit_measurement> measurements_of(vfit_scan scan) {
         [&](auto* items, uint32_t stride, uint32_t* n) { return vfit_scan_measure(scan, items, stride, n); });
 }
 
-std::vector<vfit_measurement> measurements_from(const Json& json) {
-    const Json& all = json.is_object() && json.contains("measurements") ? json["measurements"] : json;
-    if (!all.is_object()) throw Failure("the measures are not a JSON object");
-    std::vector<vfit_measurement> out;
-    for (const auto& [key, value] : all.items()) {
-        vfit_measurement m = vfit_measurement_init();
-        if (key.size() >= sizeof m.key) throw Failure(key + " is no measure");
-        std::memcpy(m.key, key.data(), key.size());
-        m.observed = 1;
-        if (value.is_object()) {
-            m.value = number_of(value.contains("value") ? value["value"] : Json(), key);
-            if (value.contains("sigma")) m.sigma = number_of(value["sigma"], key + ": sigma");
-            if (value.contains("observed")) m.observed = value["observed"] != Json(false);
-        } else {
-            m.value = number_of(value, key);
-        }
-        out.push_back(m);
-    }
+StoredMeasures measurements_from(const std::string& text) {
+    StoredMeasures out;
+    out.measurements = list<vfit_measurement>([&](auto* items, uint32_t stride, uint32_t* n) {
+        return vfit_measurements_read(text.data(), text.size(), items, stride, n, &out.sex);
+    });
     return out;
+}
+
+std::vector<vfit_measurement> merged_measurements(const std::vector<vfit_measurement>& a, const std::vector<vfit_measurement>& b) {
+    return list<vfit_measurement>([&](auto* items, uint32_t stride, uint32_t* n) {
+        return vfit_measurements_merge(a.data(), sizeof(vfit_measurement), static_cast<uint32_t>(a.size()), b.data(),
+                                       sizeof(vfit_measurement), static_cast<uint32_t>(b.size()), items, stride, n);
+    });
+}
+
+std::string profile_text(const std::vector<vfit_measurement>& measurements, vfit_sex sex) {
+    const auto count = static_cast<uint32_t>(measurements.size());
+    uint32_t capacity = 0;
+    check(vfit_measurements_write(measurements.data(), sizeof(vfit_measurement), count, sex, nullptr, &capacity));
+    std::string text(capacity, 0);
+    check(vfit_measurements_write(measurements.data(), sizeof(vfit_measurement), count, sex, text.data(), &capacity));
+    text.resize(capacity - 1);
+    return text;
 }
 
 Json sizes_json(vfit_size_chart chart, const std::string& garment_kind,
@@ -113,6 +113,18 @@ Json sizes_json(vfit_size_chart chart, const std::string& garment_kind,
     });
     Json out = Json::array();
     for (const vfit_size& s : sizes) out.push_back({{"label", s.label}, {"probability", s.probability}});
+    return out;
+}
+
+Json zones_json(vfit_size_chart chart, const std::string& garment_kind, const std::string& label,
+                const std::vector<vfit_measurement>& measurements) {
+    const auto zones = list<vfit_size_zone>([&](auto* items, uint32_t stride, uint32_t* n) {
+        return vfit_size_zones(chart, garment_kind.c_str(), label.c_str(), measurements.data(), sizeof(vfit_measurement),
+                               static_cast<uint32_t>(measurements.size()), items, stride, n);
+    });
+    Json out = Json::object();
+    for (const vfit_size_zone& z : zones)
+        out[z.key] = {{"ease", z.ease}, {"sigma", z.sigma}, {"tight", z.tight}, {"regular", z.regular}, {"loose", z.loose}};
     return out;
 }
 

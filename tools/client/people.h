@@ -11,6 +11,7 @@ struct ScanOptions {
     vfit_scan_method method = VFIT_SCAN_DEFAULT;
     TrackOptions track{};
     uint32_t side_frames = 0;  // of VFIT_SCAN_FIT
+    uint32_t flags = 0;        // VFIT_SCAN_*
 };
 
 struct ScanRun {
@@ -30,11 +31,23 @@ const char* guidance_text(vfit_guidance guidance);
 
 Json measurements_json(const std::vector<vfit_measurement>& measurements);
 std::vector<vfit_measurement> measurements_of(vfit_scan scan);
-/// From a report of vfit measure, or a plain {"stature_m": 1.7}; sigma 0 where it is not given.
-std::vector<vfit_measurement> measurements_from(const Json& json);
+struct StoredMeasures {
+    std::vector<vfit_measurement> measurements;
+    vfit_sex sex = VFIT_SEX_UNKNOWN;
+};
+/// From a profile, a report of vfit measure, or a plain {"stature_m": 1.7}; sigma 0 where it is not given.
+StoredMeasures measurements_from(const std::string& text);
+/// Two scans of one person in one.
+std::vector<vfit_measurement> merged_measurements(const std::vector<vfit_measurement>& a, const std::vector<vfit_measurement>& b);
+/// What measurements_from reads again.
+std::string profile_text(const std::vector<vfit_measurement>& measurements, vfit_sex sex);
 
 /// [{"label", "probability"}, ...], best first.
 Json sizes_json(vfit_size_chart chart, const std::string& garment_kind,
+                const std::vector<vfit_measurement>& measurements);
+
+/// {"chest_girth_m": {"ease", "sigma", "tight", "regular", "loose"}, ...}: how the label sits.
+Json zones_json(vfit_size_chart chart, const std::string& garment_kind, const std::string& label,
                 const std::vector<vfit_measurement>& measurements);
 
 vfit_sex sex_from(const std::string& option);

@@ -2,6 +2,7 @@
 #include <iomanip>
 #include <iostream>
 
+#include "client/files.h"
 #include "client/output.h"
 #include "client/people.h"
 #include "commands/commands.h"
@@ -13,7 +14,8 @@ namespace {
 struct Options {
     std::string source, method = "paper", garment = "short_sleeves", sex = "unknown";
     uint32_t frames = 0, side_frames = 15;
-    bool json = false;
+    bool json = false, bare = false, tight = false;
+    std::string profile, merged, own;
     TrackOptions track;
 };
 
@@ -21,12 +23,25 @@ Json measure(const Options& options) {
     const vfit_scan_method method = scan_method_from(options.method);
     const Context context = open_context();
     Source source(context.get(), options.source);
-    const ScanRun run = run_scan(context.get(), source, {options.frames, sex_from(options.sex), method, options.track, options.side_frames});
+    const ScanRun run = run_scan(context.get(), source, {options.frames, sex_from(options.sex), method, options.track, options.side_frames,
+                                 (options.bare ? uint32_t{VFIT_SCAN_BARE} : 0u) | (options.tight ? uint32_t{VFIT_SCAN_TIGHT} : 0u)});
     Json out;
     out["method"] = options.method;
     out["frames"] = run.frames_taken;
     if (method == VFIT_SCAN_FIT) out["side_frames"] = run.side_frames_taken;
-    out["measurements"] = measurements_json(measurements_of(run.scan.get()));
+    std::vector<vfit_measurement> measured = measurements_of(run.scan.get());
+    if (!options.merged.empty()) measured = merged_measurements(measurements_from(read_text(options.merged)).measurements, measured);
+    if (!options.own.empty()) {
+        const std::string text = read_text(options.own);
+        Avatar avatar;
+        check(vfit_avatar_create_from_scan(context.get(), nullptr, run.scan.get(), avatar.out()));
+        for (const vfit_measurement& m : list<vfit_measurement>([&](auto* items, uint32_t stride, uint32_t* n) {
+                 return vfit_avatar_measure_own(avatar.get(), text.data(), text.size(), items, stride, n);
+             }))
+            measured.push_back(m);
+    }
+    out["measurements"] = measurements_json(measured);
+    if (!options.profile.empty()) write_text(options.profile, profile_text(measured, sex_from(options.sex)));
     out["colliders"] = Json::array();
     for (const auto& c : list<vfit_collider>([&](auto* items, uint32_t stride, uint32_t* n) {
              return vfit_scan_colliders(run.scan.get(), items, stride, n);
@@ -39,13 +54,22 @@ Json measure(const Options& options) {
     return out;
 }
 
+/// "1.702 m", "71.3 kg".
+void print_amount(const std::string& key, double value) {
+    const bool mass = key.size() > 3 && key.substr(key.size() - 3) == "_kg";
+    std::cout << std::setprecision(mass ? 1 : 3) << std::setw(7) << value << (mass ? " kg" : " m ");
+}
+
 void print(const Json& result) {
     std::cout << result["frames"] << " frames, " << std::fixed << std::setprecision(2)
               << result["compute_ms"]["total"].get<double>() << " ms\n";
-    for (const auto& [key, m] : result["measurements"].items())
-        std::cout << std::left << std::setw(24) << key << std::right << std::setprecision(3) << std::setw(7)
-                  << m["value"].get<float>() << " m  +- " << m["sigma"].get<float>()
-                  << (m["observed"].get<bool>() ? "" : "  (inferred)") << "\n";
+    for (const auto& [key, m] : result["measurements"].items()) {
+        std::cout << std::left << std::setw(24) << key << std::right;
+        print_amount(key, m["value"]);
+        std::cout << "  +-";
+        print_amount(key, m["sigma"]);
+        std::cout << (m["observed"].get<bool>() ? "" : "  (inferred)") << "\n";
+    }
 }
 
 }  // namespace
@@ -99,6 +123,11 @@ void add_measure(Command& app) {
                        "Of --method fit: frames to wait for from the side, after those from the front (default 15)")
         .within(0, 3000);
     command.add_option("--sex", o->sex, "f or m, where known").one_of({"f", "m", "unknown"});
+    command.add_flag("--bare", o->bare, "Of --method fit: no shoes, and no hair on the crown");
+    command.add_flag("--tight", o->tight, "Of --method fit: the clothes lie on the skin");
+    command.add_option("--own", o->own, "File of measures of your own (docs/measuring.md), taken on the avatar of the scan");
+    command.add_option("--merge", o->merged, "Profile of an earlier scan of the same person, to merge with this one");
+    command.add_option("--profile", o->profile, "File to write the measures to, for vfit size and --merge");
     command.add_flag("--json", o->json, "Print JSON");
     add_track_options(command, o->track);
     command.callback([o] {

@@ -78,6 +78,12 @@ py::list colliders(const Avatar& avatar) { return colliders_out(list(vfit_avatar
 
 py::object joints(const Avatar& avatar) { return joints_out(list(vfit_avatar_joints, avatar.get())); }
 
+py::dict measure_own(const Avatar& avatar, const std::string& json) {
+    return measurements_out(list<vfit_measurement>([&, a = avatar.get()](auto* items, uint32_t stride, uint32_t* n) {
+        return vfit_avatar_measure_own(a, json.data(), json.size(), items, stride, n);
+    }));
+}
+
 py::dict measure(const Avatar& avatar) { return measurements_out(list(vfit_avatar_measure, avatar.get())); }
 
 py::list rig(const Avatar& avatar) {
@@ -117,7 +123,9 @@ void bind_avatar(py::module_& m) {
                  .def("rig", &rig, "The bones of the skin, parents before children.")
                  .def("joints", &joints, "Every joint of the posed avatar.")
                  .def("colliders", &colliders, "Spheres and capsules of the posed avatar.")
-                 .def("measure", &measure, "Tape measures of the avatar's own body."));
+                 .def("measure", &measure, "Tape measures of the avatar's own body.")
+                 .def("measure_own", &measure_own, "json"_a,
+                      "Measures of your own, as JSON (docs/measuring.md), taken on the avatar's mesh."));
     py::reinterpret_borrow<py::class_<Context>>(m.attr("Context"))
         .def("shape_values", &shape_values, "key -> ShapeValue of the body model.");
 }

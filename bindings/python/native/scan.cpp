@@ -8,13 +8,13 @@ namespace vfit_python {
 namespace {
 
 std::shared_ptr<Scan> create(const Context& context, uint32_t frames, const py::object& sex, int method,
-                             uint32_t side_frames, bool bare) {
+                             uint32_t side_frames, bool bare, bool tight) {
     vfit_scan_desc desc = vfit_scan_desc_init();
     desc.frame_count = frames;
     desc.sex = sex_in(sex);
     desc.method = method;
     desc.side_frame_count = side_frames;
-    desc.flags = bare ? VFIT_SCAN_BARE : 0;
+    desc.flags = (bare ? uint32_t{VFIT_SCAN_BARE} : 0u) | (tight ? uint32_t{VFIT_SCAN_TIGHT} : 0u);
     vfit_scan handle{};
     run([&, h = context.handle()] { return vfit_scan_create(h, &desc, &handle); });
     return make<Scan>(context.core(), handle);
@@ -46,9 +46,9 @@ void bind_scan(py::module_& m) {
     closable(py::class_<Scan, std::shared_ptr<Scan>>(
                  m, "Scan", "Measures one person over several frames; closing it wipes the body data.")
                  .def(py::init(&create), "context"_a, py::kw_only(), "frames"_a = 0, "sex"_a = py::none(),
-                      "method"_a = 0, "side_frames"_a = 0, "bare"_a = false,
+                      "method"_a = 0, "side_frames"_a = 0, "bare"_a = false, "tight"_a = false,
                       "frames 0: 30, as in the paper. Of method FIT: side_frames, from the side, 15 are enough; bare: no shoes "
-                      "and no hair on the crown.")
+                      "and no hair on the crown; tight: the clothes lie on the skin.")
                  .def("add", &add, "frame"_a, "body_id"_a = py::none(),
                       "One tracked frame; the state says whether it was taken, and if not why. Default: its "
                       "active body.")
@@ -57,6 +57,12 @@ void bind_scan(py::module_& m) {
                  .def("colliders", &colliders, "Spheres of the person, centres as in the last frame.")
                  .def("scale", &scale, "garment_kind"_a,
                       "Algorithm 3 for \"short_sleeves\", \"long_sleeves\" or \"trousers\".")
+                 .def(
+                     "extend",
+                     [](const Scan& s, uint32_t frames, uint32_t side_frames) {
+                         check(vfit_scan_extend(s.get(), frames, side_frames));
+                     },
+                     "frames"_a, "side_frames"_a = 0, "Asks for more frames, also of a complete scan.")
                  .def("reset", [](const Scan& s) { check(vfit_scan_reset(s.get())); }));
 }
 

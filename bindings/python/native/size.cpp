@@ -42,6 +42,47 @@ py::list recommend(const SizeChart& chart, const std::string& garment_kind, cons
     return out;
 }
 
+py::list zones(const SizeChart& chart, const std::string& garment_kind, const std::string& label,
+               const py::object& measurements) {
+    const std::vector<vfit_measurement> given = measurements_in(measurements);
+    py::list out;
+    for (const vfit_size_zone& z :
+         list<vfit_size_zone>([&, c = chart.get()](auto* items, uint32_t stride, uint32_t* n) {
+             return vfit_size_zones(c, garment_kind.c_str(), label.c_str(), given.data(), sizeof(vfit_measurement),
+                                    static_cast<uint32_t>(given.size()), items, stride, n);
+         }))
+        out.append(value("SizeZone", field(z.key), z.ease, z.sigma, z.tight, z.regular, z.loose));
+    return out;
+}
+
+py::str write_measurements(const py::object& measurements, const py::object& sex) {
+    const std::vector<vfit_measurement> given = measurements_in(measurements);
+    const auto count = static_cast<uint32_t>(given.size());
+    const vfit_sex of = sex_in(sex);
+    uint32_t capacity = 0;
+    check(vfit_measurements_write(given.data(), sizeof(vfit_measurement), count, of, nullptr, &capacity));
+    std::string text(capacity, 0);
+    check(vfit_measurements_write(given.data(), sizeof(vfit_measurement), count, of, text.data(), &capacity));
+    text.resize(capacity - 1);
+    return py::str(text);
+}
+
+py::tuple read_measurements(const std::string& json) {
+    vfit_sex sex = VFIT_SEX_UNKNOWN;
+    const auto measurements = list<vfit_measurement>([&](auto* items, uint32_t stride, uint32_t* n) {
+        return vfit_measurements_read(json.data(), json.size(), items, stride, n, &sex);
+    });
+    return py::make_tuple(measurements_out(measurements), value("Sex", sex));
+}
+
+py::dict merge_measurements(const py::object& a, const py::object& b) {
+    const std::vector<vfit_measurement> one = measurements_in(a), other = measurements_in(b);
+    return measurements_out(list<vfit_measurement>([&](auto* items, uint32_t stride, uint32_t* n) {
+        return vfit_measurements_merge(one.data(), sizeof(vfit_measurement), static_cast<uint32_t>(one.size()), other.data(),
+                                       sizeof(vfit_measurement), static_cast<uint32_t>(other.size()), items, stride, n);
+    }));
+}
+
 }  // namespace
 
 void bind_size(py::module_& m) {
@@ -52,7 +93,13 @@ void bind_size(py::module_& m) {
             .def_static("load", &load, "context"_a, "json"_a, "A chart of your own, as JSON text.")
             .def("rows", &rows)
             .def("recommend", &recommend, "garment_kind"_a, "measurements"_a,
-                 "Every label of that kind with its probability, best first."));
+                 "Every label of that kind with its probability, best first.")
+            .def("zones", &zones, "garment_kind"_a, "label"_a, "measurements"_a,
+                 "How that size sits, by measure: ease, its sigma, and the probabilities of tight, regular and loose."));
+    m.def("write_measurements", &write_measurements, "measurements"_a, "sex"_a = py::none(),
+          "As JSON text, for an app that keeps them with the person's consent.");
+    m.def("read_measurements", &read_measurements, "json"_a, "(measurements, sex) of such a text.");
+    m.def("merge_measurements", &merge_measurements, "a"_a, "b"_a, "Two scans of one person in one.");
 }
 
 }  // namespace vfit_python

@@ -1,5 +1,6 @@
 """The whole chain on the virtual person: scan, size, avatar, motion, cloth, buffers."""
 
+import json
 import numpy as np
 import pytest
 
@@ -73,6 +74,41 @@ def test_sizes_are_probabilities_best_first(fitted):
     assert {s.label for s in chart.recommend(kind, plain)} == {s.label for s in sizes}
     with pytest.raises(vfit.DataError, match="chest_girth_m"):
         vfit.SizeChart.open(ctx, "en13402_women").recommend(kind, {"stature_m": 1.7})
+
+
+def test_a_size_sits_somehow_in_each_zone(fitted):
+    ctx, _, _, _, _, _ = fitted
+    chart = vfit.SizeChart.open(ctx, "en13402_women")
+    measures = {"chest_girth_m": (0.92, 0.01), "waist_girth_m": (0.9, 0.01), "hip_girth_m": 1.02}
+    zones = {zone.key: zone for zone in chart.zones("dress", "M", measures)}
+    assert set(zones) == set(measures)
+    assert zones["chest_girth_m"].regular > 0.9 and zones["waist_girth_m"].tight > 0.9
+    assert zones["waist_girth_m"].ease == pytest.approx(0.78 - 0.9, abs=1e-6)
+    with pytest.raises(vfit.ArgumentError, match="XXXS"):
+        chart.zones("dress", "XXXS", measures)
+
+
+def test_measures_of_ones_own(fitted):
+    _, _, _, _, avatar, _ = fitted
+    own = json.dumps({"format": "vfit-own-measures", "version": 1, "measures": [
+        {"key": "x_calf_girth_m", "girth": {"at": ["LEFT_KNEE", "LEFT_FOOT", 0.3], "square_to": ["LEFT_KNEE", "LEFT_FOOT"]}}]})
+    assert 0.2 < avatar.measure_own(own)["x_calf_girth_m"].value < 0.5
+    with pytest.raises(vfit.DataError, match="format"):
+        avatar.measure_own("{}")
+
+
+def test_measurements_are_kept_as_text_and_merged():
+    measures = {"stature_m": vfit.Measurement(1.7, 0.01, True), "waist_girth_m": vfit.Measurement(0.8, 0.02, False)}
+    text = vfit.write_measurements(measures, "f")
+    again, sex = vfit.read_measurements(text)
+    assert sex == vfit.Sex.FEMALE and again["waist_girth_m"].observed is False
+    assert again["stature_m"].value == pytest.approx(1.7)
+    merged = vfit.merge_measurements(again, {"stature_m": (1.71, 0.01), "hip_girth_m": 1.0})
+    assert merged["stature_m"].value == pytest.approx(1.705) and set(merged) == {"stature_m", "waist_girth_m", "hip_girth_m"}
+    with pytest.raises(vfit.DataError, match="two people"):
+        vfit.merge_measurements(again, {"stature_m": (1.9, 0.01)})
+    with pytest.raises(vfit.DataError, match="JSON"):
+        vfit.read_measurements("{")
 
 
 def test_the_pose_is_arrays_and_can_be_given_back(fitted):

@@ -9,12 +9,12 @@
 namespace vfit {
 namespace {
 
-TEST(MeasureKeys, AreUniqueInMetresAndDefinedOnOneLine) {
+TEST(MeasureKeys, AreUniqueNameTheirUnitAndAreDefinedOnOneLine) {
     std::set<std::string> seen;
     for (const MeasureKey& key : measure_keys()) {
         const std::string name = key.key, text = key.text;
         EXPECT_TRUE(seen.insert(name).second) << name;
-        EXPECT_TRUE(name.ends_with("_m")) << name;
+        EXPECT_TRUE(name.ends_with("_m") || is_mass(name)) << name;
         EXPECT_LT(name.size(), 48u);  // vfit_measurement.key
         EXPECT_FALSE(text.empty());
         EXPECT_EQ(text.find('\n'), std::string::npos);

@@ -189,10 +189,15 @@ TEST(Tape, WomensChestIsTakenOverTheBustPointsAndBelowThem) {
     EXPECT_EQ(find(tape_measures(man().postures()), "underbust_girth_m"), nullptr);
 }
 
-TEST(Tape, AnswersInTheOrderOfTheKeysAndKnowsThemAll) {
+TEST(Tape, AnswersInTheOrderOfTheKeysAndKnowsAllLengths) {
     const auto m = tape_measures(woman().postures());
-    ASSERT_EQ(m.size(), measure_keys().size());
-    for (size_t i = 0; i < m.size(); ++i) EXPECT_EQ(m[i].key, measure_keys()[i].key);
+    size_t next = 0;
+    for (const MeasureKey& key : measure_keys()) {
+        if (is_mass(key.key)) continue;
+        ASSERT_LT(next, m.size());
+        EXPECT_EQ(m[next++].key, key.key);
+    }
+    EXPECT_EQ(next, m.size());
 }
 
 TEST(Tape, DoesNotCareWhereTheBodyStands) {

@@ -44,10 +44,10 @@ TEST(SizeChart, IsReadInMetres) {
     ASSERT_EQ(trousers.sizes.size(), 2u);
     EXPECT_EQ(trousers.sizes[1].label, "M");
     EXPECT_EQ(trousers.sizes[1].ranges[1].key, "hip_girth_m");
-    EXPECT_FLOAT_EQ(trousers.sizes[1].ranges[1].low_m, 0.99f);
-    EXPECT_FLOAT_EQ(trousers.sizes[1].ranges[1].high_m, 1.065f);
+    EXPECT_FLOAT_EQ(trousers.sizes[1].ranges[1].low, 0.99f);
+    EXPECT_FLOAT_EQ(trousers.sizes[1].ranges[1].high, 1.065f);
     const SizeChart inches = SizeChart::parse(with("\"cm\"", "\"in\""));
-    EXPECT_FLOAT_EQ(inches.garments()[0].sizes[0].ranges[0].low_m, 74 * 0.0254f);
+    EXPECT_FLOAT_EQ(inches.garments()[0].sizes[0].ranges[0].low, 74 * 0.0254f);
 }
 
 TEST(SizeChart, RefusesWhatIsNoChart) {
@@ -110,6 +110,64 @@ TEST(SizeChart, RefusesUnknownDoubleAndEmptyEntries) {
     expect_refused(with(garment, garment + ", " + garment), {"trousers", "twice"});
 }
 
+std::string chart_of(const std::string& garment) {
+    return R"({"format": "vfit-size-chart", "version": 1, "name": "t", "unit": "cm", "garments": [{"kind": "g", )" + garment + "}]}";
+}
+
+TEST(SizeChart, NamesWhatIsWrongWithAxes) {
+    const std::string good = R"("axes": [{"measure": "waist_girth_m", "sizes": [{"label": "a", "range": [70, 80]},
+        {"label": "b", "range": [80, 90]}]}, {"measure": "inside_leg_m", "sizes": [{"label": "c", "range": [70, 80]}]}])";
+    const auto with = [&](const std::string& from, const std::string& to) {
+        std::string text = good;
+        const size_t at = text.find(from);
+        EXPECT_NE(at, std::string::npos) << from;
+        return chart_of(text.replace(at, from.size(), to));
+    };
+    EXPECT_EQ(SizeChart::parse(chart_of(good)).garment("g").labels, (std::vector<std::string>{"ac", "bc"}));
+    expect_refused(with("waist_girth_m", "waist_m"), {"garment g", "waist_m"});
+    expect_refused(with("inside_leg_m", "waist_girth_m"), {"garment g", "waist_girth_m", "twice"});
+    expect_refused(with("[80, 90]", "[60, 70]"), {"garment g", "waist_girth_m", "label b", "ascending"});
+    expect_refused(with("\"b\"", "\"a\""), {"label a", "twice"});
+    expect_refused(with("[80, 90]", "7"), {"range", "label b"});
+    expect_refused(with("\"c\"", "\"a label of thirty-one bytes, alone\""), {"label"});
+    expect_refused(chart_of(good + R"(, "sizes": [])"), {"more than one of"});
+    expect_refused(chart_of(R"("axes": [])"), {"axes", "empty"});
+    std::string many = R"("axes": [)";
+    for (const char* key : {"waist_girth_m", "inside_leg_m", "hip_girth_m", "chest_girth_m"}) {
+        many += std::string(many.back() == '[' ? "" : ",") + R"({"measure": ")" + key + R"(", "sizes": [)";
+        for (int i = 0; i < 9; ++i)
+            many += (i ? "," : "") + std::string(R"({"label": ")") + char('a' + i) + R"(", "range": [)" + std::to_string(50 + i) + "," +
+                    std::to_string(51 + i) + "]}";
+        many += "]}";
+    }
+    expect_refused(chart_of(many + "]"), {"garment g", "4096"});
+}
+
+TEST(SizeChart, NamesWhatIsWrongWithATable) {
+    const std::string good = R"("table": {"rows": {"measure": "body_mass_kg", "values": [60, 80]},
+        "columns": {"measure": "stature_m", "values": [160, 180]}, "labels": [["S", "S"], ["L", "M"]]})";
+    const auto with = [&](const std::string& from, const std::string& to) {
+        std::string text = good;
+        const size_t at = text.find(from);
+        EXPECT_NE(at, std::string::npos) << from;
+        return chart_of(text.replace(at, from.size(), to));
+    };
+    const SizeChart chart = SizeChart::parse(chart_of(good));
+    EXPECT_EQ(chart.garment("g").labels, (std::vector<std::string>{"S", "L", "M"}));
+    EXPECT_FLOAT_EQ(chart.garment("g").sizes[3].ranges[0].low, 70.0f) << "halfway to the next";
+    EXPECT_FLOAT_EQ(chart.garment("g").sizes[3].ranges[1].high, 1.9f);
+    expect_refused(with("body_mass_kg", "weight"), {"garment g", "weight"});
+    expect_refused(with("[60, 80]", "[80, 60]"), {"rows", "ascend"});
+    expect_refused(with("[60, 80]", "[60]"), {"rows", "fewer than two"});
+    expect_refused(with("[60, 80]", "[60, \"80\"]"), {"rows", "not a number"});
+    expect_refused(with("[60, 80]", "[60, 8000]"), {"body_mass_kg", "kg"});
+    expect_refused(with(", [\"L\", \"M\"]", ""), {"labels", "1 rows"});
+    expect_refused(with("[\"L\", \"M\"]", "[\"L\"]"), {"row 2", "labels"});
+    expect_refused(with("\"M\"", "5"), {"row 2", "label"});
+    expect_refused(chart_of(good + R"(, "weights": {"hip_girth_m": 1})"), {"weights", "hip_girth_m"});
+    expect_refused(chart_of(good + R"(, "weights": {"stature_m": 0})"), {"weight", "stature_m"});
+}
+
 TEST(SizeChart, NamesTheKindsThatItHas) {
     const SizeChart chart = SizeChart::parse(kGood);
     try {
@@ -132,11 +190,12 @@ TEST(SizeChart, ShipsChartsThatFollowTheRules) {
         const SizeChart chart = SizeChart::parse(content.str());
         EXPECT_EQ(chart.name(), file.path().stem().string());
         EXPECT_FALSE(chart.source().empty()) << "says where its numbers come from";
-        for (const char* kind : {"short_sleeves", "long_sleeves", "trousers"})
-            EXPECT_NO_THROW(chart.garment(kind));
+        if (file.path().stem().string().rfind("en13402", 0) == 0) {
+            for (const char* kind : {"short_sleeves", "long_sleeves", "trousers"}) EXPECT_NO_THROW(chart.garment(kind));
+        }
         ++charts;
     }
-    EXPECT_GE(charts, 3);
+    EXPECT_GE(charts, 9);
 }
 
 }  // namespace

@@ -38,6 +38,9 @@ from ._vfit import (
     Tracker,
     __version__,
     info,
+    merge_measurements,
+    read_measurements,
+    write_measurements,
 )
 from .errors import (
     ArgumentError,
@@ -79,6 +82,7 @@ from .values import (
     ShapeValue,
     Size,
     SizeRow,
+    SizeZone,
     StageTime,
 )
 
@@ -90,5 +94,6 @@ __all__ = [
     "LogLine", "MEASURES", "Measurement", "Motion", "OutOfMemoryError", "PluginError", "PluginInfo", "Pose",
     "Recorder", "ResultCode", "RigBone", "Scale", "Scan", "ScanMethod", "ScanState", "Sensor", "SensorInfo",
     "SensorMode", "SensorOption", "SensorStats", "Sex", "ShapeValue", "Size", "SizeChart", "SizeRow",
-    "StageTime", "StateError", "Stream", "Tracker", "UnsupportedError", "VersionError", "__version__", "info",
+    "SizeZone", "StageTime", "StateError", "Stream", "Tracker", "UnsupportedError", "VersionError", "__version__", "info",
+    "merge_measurements", "read_measurements", "write_measurements",
 ]

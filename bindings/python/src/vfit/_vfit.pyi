@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from .values import (
     Body, Camera, ClothStats, Collider, ContextStats, GarmentInfo, Intrinsics, Joints, LibraryInfo, LogLine,
     Measurement, PluginInfo, Pose, RigBone, Scale, ScanState, SensorInfo, SensorMode, SensorOption, SensorStats,
-    ShapeValue, Size, SizeRow, StageTime,
+    ShapeValue, Size, SizeRow, SizeZone, StageTime,
 )
 
 _Path = Union[str, "PathLike[str]"]
@@ -343,11 +343,13 @@ class Scan(_Closable):
     """Measures one person over several frames; closing it wipes the body data."""
 
     def __init__(self, context: Context, *, frames: int = 0, sex: _Sex = None, method: ScanMethod = ...,
-                 side_frames: int = 0, bare: bool = False) -> None: ...
+                 side_frames: int = 0, bare: bool = False, tight: bool = False) -> None: ...
     def add(self, frame: Frame, body_id: Optional[int] = None) -> ScanState: ...
     def measure(self) -> dict[str, Measurement]: ...
     def colliders(self) -> list[Collider]: ...
     def scale(self, garment_kind: str) -> Scale: ...
+    def extend(self, frames: int, side_frames: int = 0) -> None:
+        """Asks for more frames, also of a complete scan."""
     def reset(self) -> None: ...
 
 class SizeChart(_Closable):
@@ -358,6 +360,15 @@ class SizeChart(_Closable):
     def rows(self) -> list[SizeRow]: ...
     def recommend(self, garment_kind: str, measurements: _Measures) -> list[Size]:
         """Every label of that kind with its probability, best first."""
+    def zones(self, garment_kind: str, label: str, measurements: _Measures) -> list[SizeZone]:
+        """How that size sits, by measure."""
+
+def write_measurements(measurements: _Measures, sex: _Sex = None) -> str:
+    """As JSON text, for an app that keeps them with the person's consent."""
+def read_measurements(json: Union[str, bytes]) -> tuple[dict[str, Measurement], Sex]:
+    """Of such a text, a report of vfit measure, or {"stature_m": 1.7}."""
+def merge_measurements(a: _Measures, b: _Measures) -> dict[str, Measurement]:
+    """Two scans of one person in one."""
 
 class Avatar(_Closable):
     """A posable body. detail 0: 13.7k vertices, 1: 54.8k, 2: 219k."""
@@ -378,6 +389,8 @@ class Avatar(_Closable):
     def joints(self) -> Joints: ...
     def colliders(self) -> list[Collider]: ...
     def measure(self) -> dict[str, Measurement]: ...
+    def measure_own(self, json: Union[str, bytes]) -> dict[str, Measurement]:
+        """Measures of your own (docs/measuring.md), taken on the avatar's mesh."""
 
 class Motion(_Closable):
     """Turns the bodies of tracked frames into clean poses. None: the library's default."""

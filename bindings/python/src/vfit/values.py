@@ -23,7 +23,8 @@ from ._vfit import (
 __all__ = [
     "Body", "Camera", "ClothStats", "Collider", "ContextStats", "GarmentInfo", "Intrinsics", "JointPoint", "Joints",
     "LibraryInfo", "LogLine", "Measurement", "PluginInfo", "Pose", "RigBone", "Scale", "ScanState", "SensorInfo",
-    "SensorMode", "SensorOption", "SensorStats", "ShapeValue", "Size", "SizeRow", "StageTime",
+    "SensorMode", "SensorOption", "SensorStats", "ShapeValue", "Size", "SizeRow", "SizeZone",
+    "StageTime",
 ]
 
 Vector = Tuple[float, float, float]
@@ -237,6 +238,17 @@ class SizeRow(NamedTuple):
     garment_kind: str
     label: str
     measure_count: int
+
+
+class SizeZone(NamedTuple):
+    """How a size sits by one measure: the room beyond the body in the middle of the size's range, and probabilities."""
+
+    key: str
+    ease: float
+    sigma: float
+    tight: float
+    regular: float
+    loose: float
 
 
 class ShapeValue(NamedTuple):
