@@ -15,7 +15,8 @@ struct NamedScript {
     const char* name;
     Script (*make)();
 };
-constexpr NamedScript kScripts[] = {{"scan", scan_script},   {"side", side_script},
+constexpr NamedScript kScripts[] = {{"scan", [] { return scan_script(); }},
+                                    {"side", [] { return side_script(); }},
                                     {"sway", sway_script},   {"turn", turn_script},
                                     {"walk", walk_script},   {"wave", wave_script}, {"reach", reach_script},
                                     {"squat", squat_script}, {"demo", demo_script},
@@ -83,7 +84,10 @@ bool is_motion(const std::string& name) {
 }
 
 std::unique_ptr<Motion> make_scripted_motion(const std::string& name, const Proportions& proportions,
-                                             uint64_t seed) {
+                                             uint64_t seed, float arms_deg) {
+    if (arms_deg >= 0.0f && (name == "scan" || name == "side"))
+        return std::make_unique<ScriptedMotion>(name == "scan" ? scan_script(arms_deg) : side_script(arms_deg), proportions,
+                                                seed);
     for (const NamedScript& s : kScripts)
         if (name == s.name) return std::make_unique<ScriptedMotion>(s.make(), proportions, seed);
     fail(VFIT_ERROR_ARGUMENT, "virtual: unknown motion '", name, "'; known are ", motion_names());

@@ -22,8 +22,9 @@ struct Script {
     float period_s = 1.0f;
 };
 
-Script scan_script();
-Script side_script();
+inline constexpr float kScanArms_deg = 35.0f, kSideArms_deg = 37.0f;
+Script scan_script(float arms_deg = kScanArms_deg);
+Script side_script(float arms_deg = kSideArms_deg);
 Script sway_script();
 Script turn_script();
 Script walk_script();
@@ -42,9 +43,10 @@ Script visit_script();
 /// "scan, sway, turn, ...", for messages.
 std::string motion_names();
 bool is_motion(const std::string& name);
-/// A scripted motion, with the small sway and breath of a standing person, which the seed shifts in time.
+/// A scripted motion, with the small sway and breath of a standing person, which the seed shifts in time. `arms_deg`:
+/// option "arms".
 std::unique_ptr<Motion> make_scripted_motion(const std::string& name, const Proportions& proportions,
-                                             uint64_t seed);
+                                             uint64_t seed, float arms_deg = -1.0f);
 /// The motion of a BVH file carried over to those proportions.
 std::unique_ptr<Motion> make_bvh_motion(const std::string& path, const Proportions& proportions);
 

@@ -50,7 +50,8 @@ Renderer::Renderer(vfit_context context, const Options& options, const RandomBod
       surroundings_(context, options, model_, place_of(options), camera_, stand_) {
     const std::string& bvh = options.text("bvh");
     motion_ = bvh.empty()
-                  ? make_scripted_motion(options.text("motion"), person_.proportions(), options.whole("seed"))
+                  ? make_scripted_motion(options.text("motion"), person_.proportions(), options.whole("seed"),
+                                       static_cast<float>(options.number("arms")))
                   : make_bvh_motion(bvh, person_.proportions());
     const auto metres = [&](const char* key) { return static_cast<float>(options.number(key)); };
     person_.wear({metres("clothing"), metres("top"), metres("sleeves"), metres("trousers")}, options.whole("seed"));

@@ -4,20 +4,20 @@
 
 namespace vfit::virtual_person {
 
-Script scan_script() {
-    return {[](float) {
+Script scan_script(float arms_deg) {
+    return {[arms_deg](float) {
                 Figure f = standing();
-                for (const int side : {kLeft, kRight}) set_arm(f.rotation, side, {35, 0, 6, 0});
+                for (const int side : {kLeft, kRight}) set_arm(f.rotation, side, {arms_deg, 0, 6, 0});
                 return f;
             },
             10.0f};
 }
 
 // For a side view (facing=90): the arms hang before the trunk, so that its outline is free.
-Script side_script() {
-    return {[](float) {
+Script side_script(float arms_deg) {
+    return {[arms_deg](float) {
                 Figure f = standing();
-                for (const int side : {kLeft, kRight}) set_arm(f.rotation, side, {6, 37, 6, 0});
+                for (const int side : {kLeft, kRight}) set_arm(f.rotation, side, {6, arms_deg, 6, 0});
                 return f;
             },
             10.0f};

@@ -60,6 +60,8 @@ public:
     const FitModel& model() const { return *model_; }
     /// As it was fitted to the last image.
     const FitBody& body() const { return body_; }
+    /// In the last image, behind another part of the body.
+    bool hidden(uint32_t vertex) const { return raster_.hidden(body_, view_, vertex); }
 
 private:
     bool start_from_joints(const FitJoints& joints, FitState& state) const;

@@ -11,6 +11,7 @@ namespace {
 
 constexpr float kNearest_m = 0.25f;   // of what is drawn
 constexpr float kLeastCosine = 0.1f;  // of a visible vertex's normal to the line of sight
+constexpr float kBefore_m = 0.06f;    // what lies this far before a vertex is another part of the body
 constexpr float kBehind_m = 0.04f;    // a vertex this far behind the drawn surface is hidden
 constexpr float kHiding_m = 0.05f;    // a reading this far before the model hides it
 constexpr float kWorst_m = 0.10f;
@@ -105,6 +106,19 @@ bool FitRaster::visible(const FitBody& body, const FitView& view, uint32_t verte
     if (!view.inside(x, y)) return false;
     const float z = depths_[view.index(x, y)];
     return z == 0.0f || p.z <= z + kBehind_m;
+}
+
+bool FitRaster::hidden(const FitBody& body, const FitView& view, uint32_t vertex) const {
+    const Vec2 at = projected_[vertex];
+    if (!(std::abs(at.x) < 1e6f && std::abs(at.y) < 1e6f)) return true;
+    const int x = int(std::lround(at.x)), y = int(std::lround(at.y));
+    for (int v = y - 1; v <= y + 1; ++v)
+        for (int u = x - 1; u <= x + 1; ++u) {
+            if (!view.inside(u, v)) continue;
+            const float z = depths_[view.index(u, v)];
+            if (z > 0.0f && z < body.positions()[vertex].z - kBefore_m) return true;
+        }
+    return false;
 }
 
 }  // namespace vfit

@@ -26,6 +26,8 @@ public:
     /// Of the last draw; view and body as they were.
     FitScore score(const FitView& view) const;
     bool visible(const FitBody& body, const FitView& view, uint32_t vertex) const;
+    /// Whether another part of the body lies before the vertex or next to it in the picture.
+    bool hidden(const FitBody& body, const FitView& view, uint32_t vertex) const;
     /// Overwrites the last drawing.
     void wipe();
     float depth(const FitView& view, int x, int y) const { return depths_[view.index(x, y)]; }  // 0: not the model

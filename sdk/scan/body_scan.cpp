@@ -21,10 +21,11 @@ BodyScan::BodyScan(std::shared_ptr<const FitModel> model) : model_(std::move(mod
 void BodyScan::reset() {
     fit_.reset();
     residuals_.reset();
+    profile_.reset();
     wipe(sums_);
 }
 
-FitViewKind BodyScan::add(const DepthImage& image, const Body& body) {
+ViewKind BodyScan::add(const DepthImage& image, const Body& body) {
     BodyFitInput input;
     input.image = image;
     input.user = uint8_t(body.id);
@@ -32,10 +33,11 @@ FitViewKind BodyScan::add(const DepthImage& image, const Body& body) {
     for (int j = 0; j < kJointCount; ++j)
         if (body.has(j)) input.joints[size_t(j)] = {body.at(j), body.joints[size_t(j)].confidence};
     const BodyFitOutput& fit = fit_.run(input);
-    if (fit.state != BodyFitState::kGood) return FitViewKind::kOther;
-    const FitViewKind view = view_kind_of(fit_.body());
-    if (view == FitViewKind::kOther) return view;
-    residuals_.add(image, input.user, fit_.body(), fit.pose.shape);
+    if (fit.state != BodyFitState::kGood) return ViewKind::kOther;
+    const ViewKind view = view_kind_of(fit_.body().bone_turns()[VFIT_BONE_HIPS] * Vec3(0, 0, 1));
+    if (view == ViewKind::kOther) return view;
+    residuals_.add(image, input.user, fit_);
+    profile_.add(image, input.user, fit_, view);
     ++sums_.frames;
     sums_.distance_m += double(fit.pose.hips.z);
     sums_.pixel_m += double(fit.pose.hips.z / std::sqrt(image.camera.fx * image.camera.fy));
@@ -88,16 +90,21 @@ ScanFeatures BodyScan::features(bool side) const {
     ScanFeatures out{};
     size_t n = 0;
     for (const float value : shape()) out[n++] = value;
-    out[n++] = sums_.crowns ? float(sums_.crown_m / sums_.crowns) : 0.0f;
+    const float unseen = std::nanf("");
+    out[n++] = sums_.crowns ? float(sums_.crown_m / sums_.crowns) : unseen;
     out[n++] = float(sums_.distance_m / sums_.frames);
     out[n++] = kMillimetres * float(sums_.pixel_m / sums_.frames);
-    const auto counts = [&](FitViewKind view) { return side || view != FitViewKind::kSide; };
-    for (const FitViewKind view : {FitViewKind::kFront, FitViewKind::kSide})
-        for (const FitSeen seen : {FitSeen::kFacing, FitSeen::kRim})
-            for (const float mean : residuals_.means_m(view, seen, shape())) out[n++] = counts(view) ? kCentimetres * mean : 0.0f;
-    for (const FitViewKind view : {FitViewKind::kFront, FitViewKind::kSide})
-        for (int region = 0; region < FitResiduals::kRegions; ++region)
-            out[n++] = counts(view) ? kCentimetres * residuals_.roughness_m(view, region, shape()) : 0.0f;
+    const auto counts = [&](ViewKind view) { return side || view != ViewKind::kSide; };
+    constexpr ViewKind kViews[] = {ViewKind::kFront, ViewKind::kSide};
+    for (const ViewKind view : kViews)
+        for (const Seen seen : {Seen::kFacing, Seen::kRim})
+            for (const float mean : residuals_.means_m(view, seen, shape())) out[n++] = counts(view) ? kCentimetres * mean : unseen;
+    for (const ViewKind view : kViews)
+        for (int level = 0; level < TrunkProfile::kLevels; ++level)
+            for (const float reach : profile_.reaches_m(view, level)) out[n++] = counts(view) ? kCentimetres * reach : unseen;
+    for (const ViewKind view : kViews)
+        for (int region = 0; region < SurfaceResiduals::kRegions; ++region)
+            out[n++] = counts(view) ? kCentimetres * residuals_.roughness_m(view, region, shape()) : unseen;
     return out;
 }
 

@@ -7,17 +7,19 @@
 #include <vector>
 
 #include "fit/body_fit.h"
-#include "fit/fit_residuals.h"
 #include "frame/body.h"
+#include "scan/surface_residuals.h"
+#include "scan/trunk_profile.h"
 
 namespace vfit {
 
 /// The numbers that measures are estimated from, in a fixed order: shape values (kFitShapes), height of the crown (m),
 /// distance (m), size of a pixel there (mm), then of each view (front, side) and way of seeing (facing, rim) every
-/// zone's distance outwards of the body of that shape (cm), then of each view the roughness of trunk, arms and legs (cm).
-inline constexpr size_t kScanFeatures = size_t(kFitShapes) + 3 +
-                                        size_t(kFitViewKinds) * kFitSeenKinds * FitZones::kCount +
-                                        size_t(kFitViewKinds) * FitResiduals::kRegions;
+/// zone's distance outwards of the body of that shape (cm), then of each view the trunk's reaches by level (cm), then of
+/// each view the roughness of trunk, arms and legs (cm). NaN: not seen.
+inline constexpr size_t kScanFeatures = size_t(kFitShapes) + 3 + size_t(kViewKinds) * kSeenKinds * BodyZones::kCount +
+                                        size_t(kViewKinds) * TrunkProfile::kLevels * TrunkProfile::kReaches +
+                                        size_t(kViewKinds) * SurfaceResiduals::kRegions;
 using ScanFeatures = std::array<float, kScanFeatures>;
 
 class BodyScan {
@@ -31,11 +33,11 @@ public:
     /// Fits the body to a frame. Joints in camera space; the user map's id is the body's. What is seen is kept where the
     /// fit is good and the person is seen from the front or the side: then that view is returned. Does not allocate
     /// after the first frame of a size.
-    FitViewKind add(const DepthImage& image, const Body& body);
+    ViewKind add(const DepthImage& image, const Body& body);
     /// Forgets the person.
     void reset();
 
-    uint32_t frames(FitViewKind view) const { return residuals_.frames(view); }
+    uint32_t frames(ViewKind view) const { return residuals_.frames(view); }
     /// VFIT_ERROR_STATE before the first frame that was kept. Without `side` as if nothing had been seen from there:
     /// estimators for the front alone have not learnt what it means.
     ScanFeatures features(bool side) const;
@@ -49,7 +51,8 @@ private:
 
     std::shared_ptr<const FitModel> model_;
     BodyFit fit_;
-    FitResiduals residuals_;
+    SurfaceResiduals residuals_;
+    TrunkProfile profile_;
     struct Sums {
         double crown_m = 0.0, distance_m = 0.0, pixel_m = 0.0;
         uint32_t crowns = 0, frames = 0;

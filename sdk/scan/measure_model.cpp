@@ -12,10 +12,17 @@ namespace vfit {
 
 namespace {
 
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 constexpr float kFarthest = 5.0f;  // deviations: what lies farther tells no more
+// What of the body itself lies farther out than nearly all grown-ups' do, a child's crown say, is guessed at: linear rules
+// do not reach there.
+constexpr float kUsualReach = 3.0f;  // deviations
+constexpr float kBeyond = 4.0f;      // of a deviation beyond, squared
+constexpr size_t kCrown = size_t(kFitShapes);
+constexpr float kCrownApart_m = 0.03f;  // from stature, usually less: then the two contradict each other
 constexpr float kShortest_m = 0.001f, kLongest_m = 5.0f, kSmallestSigma_m = 1e-4f;
-constexpr const char* kViews[] = {"front", "front_and_side"};
+constexpr float kMassScale = 100.0f;  // of these in kilograms
+constexpr const char* kKinds[] = {"front", "front_and_side", "front_tight", "front_and_side_tight"};
 
 const Json& field(const Json& object, const char* name, const std::string& where) {
     const auto it = object.is_object() ? object.find(name) : object.end();
@@ -52,10 +59,10 @@ MeasureModel MeasureModel::parse(std::string_view text) {
     if (field(file, "version", "the file") != kVersion)
         fail(VFIT_ERROR_VERSION, "measure model: this library reads version ", kVersion);
     MeasureModel model;
-    for (size_t view = 0; view < model.parts_.size(); ++view) {
-        const std::string where = kViews[view];
-        const Json& in = field(file, kViews[view], "the file");
-        Part& part = model.parts_[view];
+    for (size_t kind = 0; kind < model.parts_.size(); ++kind) {
+        const std::string where = kKinds[kind];
+        const Json& in = field(file, kKinds[kind], "the file");
+        Part& part = model.parts_[kind];
         part.mean = numbers(in, "mean", kScanFeatures, where);
         part.scale = numbers(in, "scale", kScanFeatures, where);
         part.usual_strangeness = number(field(in, "usual_strangeness", where), where + ": usual_strangeness");
@@ -79,7 +86,7 @@ MeasureModel MeasureModel::parse(std::string_view text) {
                 const std::string what = where + ", " + sex + ", " + key;
                 if (measure_index(key) < 0) fail(VFIT_ERROR_DATA, "measure model: ", what, ": no such measure");
                 rows->push_back({key, field(one, "observed", what) == Json(true),
-                                 {number(field(one, "base_m", what), what), numbers(one, "weights", kScanFeatures, what)},
+                                 {number(field(one, "base", what), what), numbers(one, "weights", kScanFeatures, what)},
                                  number(field(one, "log_sigma", what), what),
                                  numbers(one, "sigma_weights", part.sigma_features.size(), what)});
             }
@@ -99,37 +106,56 @@ float MeasureModel::Linear::of(const ScanFeatures& x) const {
 ScanFeatures MeasureModel::Part::standardised(const ScanFeatures& features) const {
     ScanFeatures x;
     for (size_t i = 0; i < x.size(); ++i)
-        x[i] = std::clamp((features[i] - mean[i]) / scale[i], -kFarthest, kFarthest);
+        x[i] = std::isnan(features[i]) ? 0.0f : std::clamp((features[i] - mean[i]) / scale[i], -kFarthest, kFarthest);
     return x;
 }
 
-std::vector<Measurement> MeasureModel::Part::measure(const std::vector<Row>& rows, const ScanFeatures& x) const {
-    float squares = 0.0f;
+float MeasureModel::Part::doubt(const ScanFeatures& features, const ScanFeatures& x) const {
+    float squares = 0.0f, beyond = 0.0f;
     for (const float value : x) squares += value * value;
-    const float wider = std::sqrt(std::max(1.0f, squares / float(x.size()) / usual_strangeness));
+    const auto look = [&](size_t i) {
+        const float farther = std::isnan(features[i]) ? 0.0f : std::abs(features[i] - mean[i]) / scale[i] - kUsualReach;
+        if (farther > 0.0f) beyond += farther * farther;
+    };
+    for (size_t i = 0; i < size_t(kFitComponents); ++i) look(i);
+    look(kCrown);
+    return std::sqrt(std::max(1.0f, squares / float(x.size()) / usual_strangeness) * (1.0f + kBeyond * beyond));
+}
+
+std::vector<Measurement> MeasureModel::Part::measure(const std::vector<Row>& rows, const ScanFeatures& x, float doubt) const {
     std::vector<Measurement> out;
     for (const Row& row : rows) {
         float log_sigma = row.log_sigma;
         for (size_t i = 0; i < sigma_features.size(); ++i) log_sigma += row.sigma_weights[i] * x[sigma_features[i]];
-        out.push_back({row.key, std::clamp(row.value.of(x), kShortest_m, kLongest_m), std::clamp(wider * std::exp(log_sigma), kSmallestSigma_m, kLongest_m),
-                       row.observed});
+        const float unit = is_mass(row.key) ? kMassScale : 1.0f;
+        out.push_back({row.key, std::clamp(row.value.of(x), unit * kShortest_m, unit * kLongest_m),
+                       std::clamp(doubt * std::exp(log_sigma), unit * kSmallestSigma_m, unit * kLongest_m), row.observed});
     }
     return out;
 }
 
-float MeasureModel::female_probability(const ScanFeatures& features, bool side) const {
-    const Part& part = parts_[side ? 1 : 0];
-    return 1.0f / (1.0f + std::exp(-part.female.of(part.standardised(features))));
+float MeasureModel::female_probability(const ScanFeatures& features, ScanKind kind) const {
+    const Part& one = part(kind);
+    return 1.0f / (1.0f + std::exp(-one.female.of(one.standardised(features))));
 }
 
-std::vector<Measurement> MeasureModel::measure(const ScanFeatures& features, bool side, vfit_sex sex) const {
-    const Part& part = parts_[side ? 1 : 0];
-    const ScanFeatures x = part.standardised(features);
-    if (sex == VFIT_SEX_FEMALE) return part.measure(part.female_rows, x);
-    const std::vector<Measurement> male = part.measure(part.male_rows, x);
+std::vector<Measurement> MeasureModel::measure(const ScanFeatures& features, ScanKind kind, vfit_sex sex) const {
+    std::vector<Measurement> out = measure_anybody(features, kind, sex);
+    for (Measurement& m : out)
+        if (m.key == "stature_m" && !std::isnan(features[kCrown]))
+            m.sigma = std::hypot(m.sigma, std::max(0.0f, std::abs(m.value - features[kCrown]) - kCrownApart_m));
+    return out;
+}
+
+std::vector<Measurement> MeasureModel::measure_anybody(const ScanFeatures& features, ScanKind kind, vfit_sex sex) const {
+    const Part& learnt = part(kind);
+    const ScanFeatures x = learnt.standardised(features);
+    const float doubt = learnt.doubt(features, x);
+    if (sex == VFIT_SEX_FEMALE) return learnt.measure(learnt.female_rows, x, doubt);
+    const std::vector<Measurement> male = learnt.measure(learnt.male_rows, x, doubt);
     if (sex == VFIT_SEX_MALE) return male;
-    const std::vector<Measurement> female = part.measure(part.female_rows, x);
-    const float p = female_probability(features, side);
+    const std::vector<Measurement> female = learnt.measure(learnt.female_rows, x, doubt);
+    const float p = female_probability(features, kind);
     std::vector<Measurement> out;
     for (const Measurement& m : male) {
         const Measurement* f = find(female, m.key);

@@ -13,17 +13,23 @@
 
 namespace vfit {
 
+/// What is known of a scan beside its features.
+struct ScanKind {
+    bool side = false;   // the features hold a side view
+    bool tight = false;  // the clothes lie on the skin
+};
+
 class MeasureModel {
 public:
     /// VFIT_ERROR_IO, VFIT_ERROR_VERSION or VFIT_ERROR_DATA where the file is not such a model of these features.
     static std::shared_ptr<const MeasureModel> load(const std::string& path);
     static MeasureModel parse(std::string_view json);
 
-    /// In the order of measure_keys(). `side`: the features hold a side view. Where the sex is unknown the measures of
-    /// both are mixed by how likely each is. Of a person unlike those that it has learnt from deviations are wider.
-    std::vector<Measurement> measure(const ScanFeatures& features, bool side, vfit_sex sex) const;
+    /// In the order of measure_keys(). Where the sex is unknown the measures of both are mixed by how likely each is. Of
+    /// a person unlike those that it has learnt from deviations are wider.
+    std::vector<Measurement> measure(const ScanFeatures& features, ScanKind kind, vfit_sex sex) const;
     /// How likely it is a woman whom the features are of.
-    float female_probability(const ScanFeatures& features, bool side) const;
+    float female_probability(const ScanFeatures& features, ScanKind kind) const;
 
 private:
     /// base + weights . x, of standardised features x.
@@ -47,12 +53,18 @@ private:
         std::vector<size_t> sigma_features;
         std::vector<Row> female_rows, male_rows;
 
+        /// What was not seen is taken as the mean.
         ScanFeatures standardised(const ScanFeatures& features) const;
-        std::vector<Measurement> measure(const std::vector<Row>& rows, const ScanFeatures& x) const;
+        /// How many times wider deviations are than among those that it has learnt from.
+        float doubt(const ScanFeatures& features, const ScanFeatures& x) const;
+        std::vector<Measurement> measure(const std::vector<Row>& rows, const ScanFeatures& x, float doubt) const;
     };
     MeasureModel() = default;
 
-    std::array<Part, 2> parts_;  // front alone, or with the side
+    std::vector<Measurement> measure_anybody(const ScanFeatures& features, ScanKind kind, vfit_sex sex) const;
+    const Part& part(ScanKind kind) const { return parts_[(kind.side ? 1u : 0u) + (kind.tight ? 2u : 0u)]; }
+
+    std::array<Part, 4> parts_;
 };
 
 }  // namespace vfit

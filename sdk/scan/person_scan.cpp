@@ -9,18 +9,17 @@ namespace vfit {
 
 namespace {
 
-constexpr uint32_t kFewestSideFrames = 5;  // fewer are not worth the other estimator
 // Deviation of what hair and shoes add, where nobody says that there are none: 0 to 5 cm, evenly.
 constexpr float kHairAndShoes_m = 0.015f;
-constexpr float kFront_rad = 0.7f, kSideFrom_rad = 1.0f, kSideTo_rad = 2.15f;
+constexpr float kJointsSlack_rad = 0.1f;  // joints tell less well than the fitted body how somebody stands
 // From a hand to the hip joint of its side, across: nearer, and the arm hides the trunk's outline.
 constexpr float kArmsOut_m = 0.14f;
 
-/// From across the trunk to the image plane: 0 faces the camera, pi turns its back; a half pi is a side view.
-float turned_rad(const Body& body) {
+/// By the joints, before the body is fitted.
+ViewKind view_of(const Body& body) {
     const Vec3 left = body.at(VFIT_JOINT_LEFT_SHOULDER) - body.at(VFIT_JOINT_RIGHT_SHOULDER) +
                       body.at(VFIT_JOINT_LEFT_HIP) - body.at(VFIT_JOINT_RIGHT_HIP);
-    return std::atan2(std::abs(left.z), left.x);
+    return view_kind_of(Vec3(left.z, 0.0f, -left.x), kJointsSlack_rad);
 }
 
 bool arms_out(const Body& body) {
@@ -45,6 +44,11 @@ void PersonScan::reset() {
     side_frames_ = 0;
 }
 
+void PersonScan::extend(uint32_t frames, uint32_t side_frames) {
+    paper_.extend(frames);
+    desc_.side_frame_count += side_frames;
+}
+
 ScanProgress PersonScan::add(const ScanFrame& frame) {
     if (!body_) return paper_.add(frame);
     ScanProgress progress;
@@ -60,14 +64,13 @@ ScanProgress PersonScan::add(const ScanFrame& frame) {
 }
 
 vfit_guidance PersonScan::fit(const ScanFrame& frame) {
-    const float turned = turned_rad(*frame.body);
-    const bool front = turned <= kFront_rad, side = turned >= kSideFrom_rad && turned <= kSideTo_rad;
+    const ViewKind seen = view_of(*frame.body);
+    const bool front = seen == ViewKind::kFront, side = seen == ViewKind::kSide;
     if (paper_.complete() ? !side : !front && !side)
         return paper_.complete() ? VFIT_GUIDANCE_TURN_SIDEWAYS : VFIT_GUIDANCE_FACE_CAMERA;
     if (side && side_frames_ >= side_frames_wanted()) return VFIT_GUIDANCE_FACE_CAMERA;
     if (front && !arms_out(*frame.body)) return VFIT_GUIDANCE_ARMS_OUT;
-    const FitViewKind view = body_->add(frame.image, *frame.body);
-    if (view != (front ? FitViewKind::kFront : FitViewKind::kSide)) return VFIT_GUIDANCE_HOLD_STILL;
+    if (body_->add(frame.image, *frame.body) != seen) return VFIT_GUIDANCE_HOLD_STILL;
     if (front)
         paper_.take(frame);
     else
@@ -75,11 +78,17 @@ vfit_guidance PersonScan::fit(const ScanFrame& frame) {
     return VFIT_GUIDANCE_NONE;
 }
 
+vfit_sex PersonScan::likely_sex() const {
+    if (desc_.paper.sex != VFIT_SEX_UNKNOWN || !fitted_shape()) return desc_.paper.sex;
+    const float female = desc_.measure_model->female_probability(body_->features(with_side()), {with_side(), desc_.tight});
+    return female > 0.5f ? VFIT_SEX_FEMALE : VFIT_SEX_MALE;
+}
+
 std::vector<Measurement> PersonScan::measurements() const {
     if (!body_) return paper_.measurements();
     if (frames_taken() == 0) fail(VFIT_ERROR_STATE, "scan: no frame from the front has been taken yet");
-    const bool side = side_frames_ >= kFewestSideFrames;
-    std::vector<Measurement> out = desc_.measure_model->measure(body_->features(side), side, desc_.paper.sex);
+    const bool side = with_side();
+    std::vector<Measurement> out = desc_.measure_model->measure(body_->features(side), {side, desc_.tight}, desc_.paper.sex);
     if (!desc_.bare)
         for (Measurement& m : out)
             if (m.key == "stature_m") m.sigma = std::hypot(m.sigma, kHairAndShoes_m);

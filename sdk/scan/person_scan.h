@@ -13,7 +13,8 @@ struct PersonScanDesc {
     std::shared_ptr<const FitModel> fit_model;
     std::shared_ptr<const MeasureModel> measure_model;
     uint32_t side_frame_count = 0;
-    bool bare = false;  // no shoes and no hair: stature needs no allowance
+    bool bare = false;   // no shoes and no hair: stature needs no allowance
+    bool tight = false;  // clothes lie on the skin
 };
 
 class PersonScan {
@@ -25,6 +26,8 @@ public:
     ScanProgress add(const ScanFrame& frame);
     /// Forgets the person.
     void reset();
+    /// Wants so many more; side frames only of the body fit.
+    void extend(uint32_t frames, uint32_t side_frames);
 
     /// From the front.
     uint32_t frames_taken() const { return paper_.frames_taken(); }
@@ -35,10 +38,16 @@ public:
 
     /// No frame from the front yet: VFIT_ERROR_STATE.
     std::vector<Measurement> measurements() const;
+    /// What the fitted body tells; null by the paper's method alone, or before the first frame.
+    const FitShape* fitted_shape() const { return body_ && frames_taken() ? &body_->shape() : nullptr; }
+    /// As it was told, else the likelier of the two.
+    vfit_sex likely_sex() const;
     /// The paper's part, which gives spheres and garment scale in either method.
     const Scan& paper() const { return paper_; }
 
 private:
+    static constexpr uint32_t kFewestSideFrames = 5;  // fewer are not worth the other estimator
+    bool with_side() const { return side_frames_ >= kFewestSideFrames; }
     /// What is wrong with the frame for the body fit; it is kept where nothing is.
     vfit_guidance fit(const ScanFrame& frame);
 

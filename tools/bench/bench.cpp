@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-
-#include "core/platform.h"
 
 #if defined(__linux__)
 #include <sched.h>
@@ -28,10 +25,6 @@ void pin_to_cores(unsigned count) {
 #else
     (void)count;
 #endif
-}
-
-std::string library_file(const std::string& name) {
-    return (std::filesystem::path(library_folder()) / ".." / "lib" / name).lexically_normal().string();
 }
 
 double Samples::quantile(double q) const {

@@ -7,15 +7,13 @@
 
 #include "client/client.h"
 #include "client/command_line.h"
+#include "population/library_file.h"
 
 namespace vfit::tools {
 
 /// Keeps this thread, and those it starts, on the first cores that the process may use, that many or all there are
 /// (Linux; elsewhere nothing).
 void pin_to_cores(unsigned count);
-
-/// A file beside the library, as "vfit_data/body.bin".
-std::string library_file(const std::string& name);
 
 class Timer {
 public:
@@ -50,5 +48,6 @@ void add_user_map(Command& app);
 void add_fit(Command& app);
 void add_measure(Command& app);
 void add_scan_features(Command& app);
+void add_odd_scans(Command& app);
 
 }  // namespace vfit::tools

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "bench/bench.h"
+#include "bench/targets.h"
 #include "client/output.h"
 #include "client/people.h"
 
@@ -16,7 +17,7 @@ namespace vfit::tools {
 namespace {
 
 struct Options {
-    std::string folder;
+    std::string folder, method = "paper";
     bool json = false;
 };
 
@@ -74,12 +75,30 @@ double deviation(const std::vector<double>& v) {
     return v.size() > 1 ? std::sqrt(sum / double(v.size() - 1)) : 0.0;
 }
 
+/// By the paper's method on the recording's own joints; by the fitted body on the tracker's, from the front alone.
+ScanOptions scan_options(const std::string& method) {
+    ScanOptions options;
+    options.method = scan_method_from(method);
+    if (options.method == VFIT_SCAN_FIT) options.track.joints = options.track.user_map = VFIT_TRACK_BUILT_IN;
+    return options;
+}
+
+/// How far the difference of two people's statures is from that of their masks, at most, over all pairs.
+double worst_difference(const std::map<std::string, Person>& people) {
+    double worst = 0.0;
+    for (const auto& [name, a] : people)
+        for (const auto& [other, b] : people)
+            worst = std::max(worst, std::abs((mean(a.stature_m) - mean(b.stature_m)) - (mean(a.mask_m) - mean(b.mask_m))));
+    return worst;
+}
+
 }  // namespace
 
 void add_recordings(Command& app) {
     Command command = app.add_subcommand("recordings", "Stature of real people over their recordings");
     auto o = std::make_shared<Options>();
     command.add_option("folder", o->folder, "Folder of recordings named ..._s<person>_...").required();
+    command.add_option("--method", o->method, "How to measure").one_of({"fit", "paper", "paper-as-printed"});
     command.add_flag("--json", o->json, "Print JSON");
     command.callback([o] {
         std::vector<std::filesystem::path> paths;
@@ -92,12 +111,19 @@ void add_recordings(Command& app) {
         for (const auto& path : paths) {
             const Context context = open_context();
             Source source(context.get(), path.string());
-            const ScanRun run = run_scan(context.get(), source, {});
+            const std::string name = path.filename().string();
+            ScanRun run;
+            try {
+                run = run_scan(context.get(), source, scan_options(o->method));
+            } catch (const Failure& failure) {  // nobody stands as a scan needs it
+                rows.push_back({{"recording", name}, {"frames", 0}, {"why", failure.what()}});
+                if (!o->json) std::cout << std::left << std::setw(32) << name << std::right << "  no scan: " << failure.what() << "\n";
+                continue;
+            }
             double stature = 0.0;
             for (const auto& m : measurements_of(run.scan.get()))
                 if (std::string(m.key) == "stature_m") stature = m.value;
             const double mask = tallest_mask(path.string());
-            const std::string name = path.filename().string();
             people[person_of(name)].stature_m.push_back(stature);
             people[person_of(name)].mask_m.push_back(mask);
             rows.push_back({{"recording", name}, {"frames", run.frames_taken}, {"stature_m", stature}, {"mask_m", mask}});
@@ -117,7 +143,12 @@ void add_recordings(Command& app) {
                           << " m over " << p.stature_m.size() << " recordings; mask " << mean(p.mask_m) << " m, SD "
                           << deviation(p.mask_m) << " m\n";
         }
-        if (o->json) print_document({{"recordings", rows}, {"people", summary}});
+        Targets targets(o->json);
+        for (const auto& [name, p] : people)
+            targets.judge(name + ": stature, sd over " + std::to_string(p.stature_m.size()) + " recordings", 1000 * deviation(p.stature_m),
+                          Aim::at_most, 4.0, 1, " mm");
+        targets.judge("people's statures differ as their masks do, to", 1000 * worst_difference(people), Aim::at_most, 15.0, 1, " mm");
+        if (o->json) print_document({{"recordings", rows}, {"people", summary}, {"targets", targets.json()}});
     });
 }
 

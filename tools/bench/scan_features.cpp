@@ -45,10 +45,10 @@ void play(const std::string& uri, vfit_context context, vfit_tracker tracker, Bo
     }
 }
 
-/// Four digits are enough, and keep the file small.
+/// Four digits are enough, and keep the file small; null: not seen.
 Json rounded(const ScanFeatures& features) {
     Json out = Json::array();
-    for (const float f : features) out.push_back(std::round(double(f) * 1e4) * 1e-4);
+    for (const float f : features) out.push_back(std::isnan(f) ? Json() : Json(std::round(double(f) * 1e4) * 1e-4));
     return out;
 }
 
@@ -68,12 +68,11 @@ void run(const Options& o) {
             const Tracker tracker = open_own_tracker(context.get());
             BodyScan scan(model);
             play(scene.front_uri(person), context.get(), tracker.get(), scan);
-            if (scan.frames(FitViewKind::kFront) < scene.front_frames / 2) continue;
-            line["scene"] = {{"sensor", scene.sensor}, {"distance_m", scene.distance_m}, {"top_m", scene.top_m},
-                             {"sleeves_m", scene.sleeves_m}, {"trousers_m", scene.trousers_m}};
+            if (scan.frames(ViewKind::kFront) < scene.front_frames / 2) continue;
+            line["scene"] = scene.json();
             line["front"] = rounded(scan.features(false));
             play(scene.side_uri(person), context.get(), tracker.get(), scan);
-            line["both"] = scan.frames(FitViewKind::kSide) < scene.side_frames / 2 ? Json() : rounded(scan.features(true));
+            line["both"] = scan.frames(ViewKind::kSide) < scene.side_frames / 2 ? Json() : rounded(scan.features(true));
             file << line.dump() << std::endl;
         }
     }

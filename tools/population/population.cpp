@@ -166,6 +166,7 @@ PersonOfPopulation Population::draw(uint32_t number) {
         if (!met) continue;
         out.sex = sex;
         out.bmi = real.bmi();
+        out.measures["body_mass_kg"] = real.bmi() * std::pow(1e-3 * real["stature"], 2.0);
         const std::vector<float> usual = model_->default_shape(sex);
         for (size_t p = 0; p < shape.size(); ++p)
             if (shape[p] != usual[p]) out.shape[model_->parameters()[p].key] = shape[p];

@@ -1,5 +1,7 @@
 #include "population/scan_scene.h"
 
+#include <algorithm>
+#include <cmath>
 #include <locale>
 #include <sstream>
 
@@ -7,9 +9,23 @@ namespace vfit::tools {
 
 namespace {
 
-// Nearer, a Kinect v1 at 1 m over the floor does not see head and feet; a time-of-flight camera sees more at once.
+std::string text_of(float value) {
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out << value;
+    return out.str();
+}
+
+
+// Nearer, a Kinect v1 does not see head and feet at once; a time-of-flight camera sees more.
 constexpr float kNearestKinect_m = 2.65f, kNearestTof_m = 2.4f, kFarthest_m = 3.1f, kTall_m = 1.85f;
 constexpr float kThickest_m = 0.03f;
+// The camera's height: half of them about a metre, the others from a low table up to a shelf.
+constexpr float kLowest_m = 0.6f, kHighest_m = 1.6f, kUsualLeast_m = 0.9f, kUsualMost_m = 1.1f;
+constexpr float kMiddle_m = 0.95f;    // of a person, that it looks at
+constexpr float kAim_deg = 1.5f;      // give or take
+constexpr float kFloorFound = 0.5f;   // share of cameras that do not know where the floor is
+constexpr float kTurned_deg = 12.0f;  // give or take: people face a camera by eye
 
 }  // namespace
 
@@ -20,7 +36,14 @@ ScanScene ScanScene::draw(Dress dress, uint32_t seed) {
     const bool kinect = random.unit() < 0.5f;
     scene.sensor = kinect ? "kinect_v1" : "tof";
     scene.distance_m = random.between(kinect ? kNearestKinect_m : kNearestTof_m, kFarthest_m);
-    const bool tight = dress == Dress::kTight || (dress == Dress::kTraining && random.unit() < 1.0f / 3.0f);
+    scene.camera_height_m = random.unit() < 0.5f ? random.between(kUsualLeast_m, kUsualMost_m) : random.between(kLowest_m, kHighest_m);
+    scene.tilt_deg = glm::degrees(std::atan2(scene.camera_height_m - kMiddle_m, scene.distance_m)) + random.between(-kAim_deg, kAim_deg);
+    scene.floor_given = random.unit() >= kFloorFound;
+    scene.turned_deg = random.between(-kTurned_deg, kTurned_deg);
+    scene.side_turned_deg = 90.0f + random.between(-kTurned_deg, kTurned_deg);
+    scene.arms_deg = random.between(28.0f, 45.0f);
+    scene.side_arms_deg = random.between(30.0f, 45.0f);
+    const bool tight = dress == Dress::kTight || (dress == Dress::kTraining && random.unit() < 0.45f);
     if (tight) return scene;
     for (float* zone : {&scene.top_m, &scene.sleeves_m, &scene.trousers_m}) {
         const float a = random.unit(), b = random.unit();
@@ -30,22 +53,45 @@ ScanScene ScanScene::draw(Dress dress, uint32_t seed) {
     return scene;
 }
 
+ScanScene ScanScene::again(uint32_t day) const {
+    constexpr float kNear_m = 0.1f, kTurn_deg = 5.0f;
+    Random random(seed * 7919u + day);
+    ScanScene scene = *this;
+    scene.seed = seed * 31u + day;
+    scene.distance_m += random.between(0.0f, kNear_m);
+    scene.turned_deg += random.between(-kTurn_deg, kTurn_deg);
+    scene.side_turned_deg += random.between(-kTurn_deg, kTurn_deg);
+    scene.arms_deg = random.between(28.0f, 45.0f);
+    scene.side_arms_deg = random.between(30.0f, 45.0f);
+    return scene;
+}
+
 std::string ScanScene::uri(const PersonOfPopulation& person) const {
     // All of a tall person is in view from farther away only.
     const double far = person.measures.at("stature_m") > double(kTall_m) ? 0.3 : 0.0;
     std::ostringstream out;
     out.imbue(std::locale::classic());
     out << "virtual:" << person.options() << "&sensor=" << sensor << "&seed=" << seed << "&distance=" << double(distance_m) + far
+        << "&camera_height=" << camera_height_m << "&tilt=" << tilt_deg << "&floor=" << (floor_given ? "given" : "unknown")
         << "&top=" << top_m << "&sleeves=" << sleeves_m << "&trousers=" << trousers_m;
     return out.str();
 }
 
 std::string ScanScene::front_uri(const PersonOfPopulation& person) const {
-    return uri(person) + "&motion=scan&frames=" + std::to_string(front_frames);
+    return uri(person) + "&motion=scan&facing=" + text_of(turned_deg) + "&arms=" + text_of(arms_deg) +
+           "&frames=" + std::to_string(front_frames);
 }
 
 std::string ScanScene::side_uri(const PersonOfPopulation& person) const {
-    return uri(person) + "&motion=side&facing=90&frames=" + std::to_string(side_frames);
+    return uri(person) + "&motion=side&facing=" + text_of(side_turned_deg) + "&arms=" + text_of(side_arms_deg) +
+           "&frames=" + std::to_string(side_frames);
+}
+
+Json ScanScene::json() const {
+    return {{"sensor", sensor}, {"distance_m", distance_m}, {"camera_height_m", camera_height_m}, {"tilt_deg", tilt_deg},
+            {"floor_given", floor_given}, {"turned_deg", turned_deg}, {"side_turned_deg", side_turned_deg},
+            {"arms_deg", arms_deg}, {"side_arms_deg", side_arms_deg}, {"top_m", top_m}, {"sleeves_m", sleeves_m},
+            {"trousers_m", trousers_m}};
 }
 
 }  // namespace vfit::tools

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "core/json.h"
 #include "population/population.h"
 
 namespace vfit::tools {
@@ -11,21 +12,27 @@ namespace vfit::tools {
 enum class Dress {
     kTight,     // skin
     kClothed,   // each zone evenly between 0 and 3 cm
-    kTraining,  // a third tight, else thicknesses of another distribution than kClothed's
+    kTraining,  // nearly half of them tight, else thicknesses of another distribution than kClothed's
 };
 
 /// All that is random follows from the seed.
 struct ScanScene {
     std::string sensor = "kinect_v1";
-    float distance_m = 2.7f;
+    float distance_m = 2.7f, camera_height_m = 1.0f, tilt_deg = 0.0f;
+    bool floor_given = true;  // else it is found in the picture
+    float turned_deg = 0.0f, side_turned_deg = 90.0f, arms_deg = 35.0f, side_arms_deg = 37.0f;
     float top_m = 0.0f, sleeves_m = 0.0f, trousers_m = 0.0f;
     uint32_t front_frames = 30, side_frames = 15, seed = 1;
 
-    /// A Kinect v1 or a time-of-flight camera, as near as it sees all of the person or up to 3.1 m away, clothes as said.
+    /// A Kinect v1 or a time-of-flight camera on a stand or a shelf, looking at the middle of the person, as near as it
+    /// sees all of them or up to 3.1 m away; clothes as said.
     static ScanScene draw(Dress dress, uint32_t seed);
+    /// The same clothes before the same camera on another day: another seed of noise and sway, another place to stand.
+    ScanScene again(uint32_t day) const;
     /// Of the front view, and of the side view after it.
     std::string front_uri(const PersonOfPopulation& person) const;
     std::string side_uri(const PersonOfPopulation& person) const;
+    Json json() const;
 
 private:
     std::string uri(const PersonOfPopulation& person) const;

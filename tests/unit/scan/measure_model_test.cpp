@@ -19,47 +19,70 @@ std::vector<float> weights(float crown) {
     return w;
 }
 
-/// Stature is 1.7 m + 1 for each unit of the crown; women are 0.1 m shorter and have an underbust besides.
+constexpr float kUsualCrown_m = 1.7f;
+
+/// Stature is the crown's height; women are 0.1 m shorter and have an underbust besides.
 Json small_model() {
     const auto measure = [](float base, float log_sigma) {
-        return Json{{"observed", true}, {"base_m", base}, {"weights", weights(1.0f)}, {"log_sigma", log_sigma},
+        return Json{{"observed", true}, {"base", base}, {"weights", weights(1.0f)}, {"log_sigma", log_sigma},
                     {"sigma_weights", {0.5f}}};
     };
-    const Json part = {{"mean", std::vector<float>(kScanFeatures, 0.0f)}, {"scale", std::vector<float>(kScanFeatures, 1.0f)},
+    std::vector<float> mean(kScanFeatures, 0.0f);
+    mean[kCrown] = kUsualCrown_m;
+    const Json part = {{"mean", mean}, {"scale", std::vector<float>(kScanFeatures, 1.0f)},
                        {"usual_strangeness", 1.0f}, {"female_weights", weights(-1000.0f)}, {"female_base", 0.0f},
                        {"sigma_features", {kScanFeatures - 1}},
                        {"female", {{"stature_m", measure(1.6f, std::log(0.01f))}, {"underbust_girth_m", measure(0.8f, 0.0f)}}},
                        {"male", {{"stature_m", measure(1.7f, std::log(0.01f))}}}};
-    return {{"format", "vfit-measure-model"}, {"version", 1}, {"front", part}, {"front_and_side", part}};
+    return {{"format", "vfit-measure-model"}, {"version", 2}, {"front", part}, {"front_and_side", part}, {"front_tight", part},
+            {"front_and_side_tight", part}};
 }
 
 ScanFeatures features(float crown, float last = 0.0f) {
     ScanFeatures f{};
-    f[kCrown] = crown, f.back() = last;
+    f[kCrown] = kUsualCrown_m + crown, f.back() = last;
     return f;
 }
 
 TEST(MeasureModel, IsLinearInWhatTheScanTells) {
     const MeasureModel model = MeasureModel::parse(json_text(small_model()));
-    const auto male = model.measure(features(0.05f), false, VFIT_SEX_MALE);
+    const auto male = model.measure(features(0.05f), ScanKind{}, VFIT_SEX_MALE);
     ASSERT_EQ(male.size(), 1u);
     EXPECT_EQ(male[0].key, "stature_m");
     EXPECT_NEAR(male[0].value, 1.75f, 1e-5f);
     EXPECT_NEAR(male[0].sigma, 0.01f, 1e-5f);
-    EXPECT_NEAR(model.measure(features(0.05f, 2.0f), false, VFIT_SEX_MALE)[0].sigma, 0.01f * std::exp(1.0f), 1e-4f);
+    EXPECT_NEAR(model.measure(features(0.05f, 2.0f), ScanKind{}, VFIT_SEX_MALE)[0].sigma, 0.01f * std::exp(1.0f), 1e-4f);
+}
+
+TEST(MeasureModel, TakesTheMeanForWhatWasNotSeen) {
+    Json json = small_model();
+    json["front"]["mean"][kCrown] = 1.74f;
+    const MeasureModel model = MeasureModel::parse(json_text(json));
+    ScanFeatures unseen = features(std::nanf(""));
+    unseen[3] = std::nanf("");
+    EXPECT_NEAR(model.measure(unseen, {}, VFIT_SEX_MALE)[0].value, 1.7f, 1e-5f);
+}
+
+TEST(MeasureModel, KnowsEachKindOfScanByItself) {
+    Json json = small_model();
+    json["front_and_side_tight"]["male"]["stature_m"]["base"] = 1.9f;
+    const MeasureModel model = MeasureModel::parse(json_text(json));
+    EXPECT_NEAR(model.measure(features(0.0f), {.side = true, .tight = true}, VFIT_SEX_MALE)[0].value, 1.9f, 1e-5f);
+    EXPECT_NEAR(model.measure(features(0.0f), {.tight = true}, VFIT_SEX_MALE)[0].value, 1.7f, 1e-5f);
+    EXPECT_NEAR(model.measure(features(0.0f), {.side = true}, VFIT_SEX_MALE)[0].value, 1.7f, 1e-5f);
 }
 
 TEST(MeasureModel, MixesBothWhereTheSexIsUnknown) {
     const MeasureModel model = MeasureModel::parse(json_text(small_model()));
     // Nobody knows: half of each, and their difference is doubt.
-    const auto half = model.measure(features(0.0f), true, VFIT_SEX_UNKNOWN);
+    const auto half = model.measure(features(std::nanf("")), {.side = true}, VFIT_SEX_UNKNOWN);
     ASSERT_EQ(half.size(), 1u) << "what women alone have is told where the sex is";
     EXPECT_NEAR(half[0].value, 1.65f, 1e-5f);
     EXPECT_NEAR(half[0].sigma, std::hypot(0.01f, 0.05f), 1e-4f);
     // Surely a woman: as if it had been told.
-    EXPECT_NEAR(model.measure(features(-0.05f), true, VFIT_SEX_UNKNOWN)[0].value, 1.55f, 1e-4f);
-    EXPECT_GT(model.female_probability(features(-0.05f), true), 0.999f);
-    const auto female = model.measure(features(0.0f), true, VFIT_SEX_FEMALE);
+    EXPECT_NEAR(model.measure(features(-0.05f), {.side = true}, VFIT_SEX_UNKNOWN)[0].value, 1.55f, 1e-4f);
+    EXPECT_GT(model.female_probability(features(-0.05f), {.side = true}), 0.999f);
+    const auto female = model.measure(features(0.0f), {.side = true}, VFIT_SEX_FEMALE);
     ASSERT_EQ(female.size(), 2u);
     EXPECT_EQ(female[1].key, "underbust_girth_m");
 }
@@ -68,11 +91,20 @@ TEST(MeasureModel, IsLessSureOfAPersonUnlikeAllOthers) {
     const MeasureModel model = MeasureModel::parse(json_text(small_model()));
     ScanFeatures strange{};
     strange.fill(2.0f);
-    strange[kCrown] = 0.0f, strange.back() = 0.0f;
-    EXPECT_NEAR(model.measure(strange, false, VFIT_SEX_MALE)[0].sigma, 0.02f, 1e-3f) << "four times the usual square";
+    strange[kCrown] = kUsualCrown_m, strange.back() = 0.0f;
+    EXPECT_NEAR(model.measure(strange, ScanKind{}, VFIT_SEX_MALE)[0].sigma, 0.02f, 1e-3f) << "four times the usual square";
+    // One of the body's own numbers far out, as a child's crown is, is enough.
+    Json json = small_model();
+    json["front"]["scale"][kCrown] = 0.1f;
+    json["front"]["male"]["stature_m"]["weights"][kCrown] = 0.1f;
+    const MeasureModel in_decimetres = MeasureModel::parse(json_text(json));
+    const auto sigma = [&](float crown) { return in_decimetres.measure(features(crown), {}, VFIT_SEX_MALE)[0].sigma; };
+    EXPECT_NEAR(sigma(-0.3f), 0.01f, 1e-4f);
+    EXPECT_GT(sigma(-0.5f), 0.035f);
+    EXPECT_GT(sigma(-0.7f), 0.15f) << "the rule ends at five deviations: the crown contradicts it";
     ScanFeatures absurd{};
     absurd.fill(1e9f);
-    const Measurement m = model.measure(absurd, false, VFIT_SEX_MALE)[0];
+    const Measurement m = model.measure(absurd, ScanKind{}, VFIT_SEX_MALE)[0];
     EXPECT_TRUE(std::isfinite(m.value) && std::isfinite(m.sigma));
     EXPECT_GT(m.sigma, 0.1f);
 }
@@ -90,7 +122,7 @@ TEST(MeasureModel, RefusesWhatIsNoModelAndNamesTheFault) {
     EXPECT_THROW(MeasureModel::parse("[]"), Error);
     Json m = small_model();
     m["format"] = "else", refused(m, "format");
-    m = small_model(), m["version"] = 2, refused(m, "version");
+    m = small_model(), m["version"] = 3, refused(m, "version");
     m = small_model(), m.erase("front_and_side"), refused(m, "front_and_side");
     m = small_model(), m["front"]["mean"].erase(0), refused(m, "mean");
     m = small_model(), m["front"]["scale"][3] = 0.0f, refused(m, "scale");
@@ -102,10 +134,10 @@ TEST(MeasureModel, RefusesWhatIsNoModelAndNamesTheFault) {
 
 TEST(MeasureModel, TheOneThatComesWithTheLibraryIsRead) {
     const auto model = MeasureModel::load(VFIT_SOURCE_DIR "/assets/measures.json");
-    const auto all = model->measure(ScanFeatures{}, true, VFIT_SEX_FEMALE);
+    const auto all = model->measure(ScanFeatures{}, {.side = true}, VFIT_SEX_FEMALE);
     EXPECT_GT(all.size(), 20u);
     EXPECT_NE(find(all, "chest_girth_m"), nullptr);
-    EXPECT_EQ(find(model->measure(ScanFeatures{}, true, VFIT_SEX_MALE), "underbust_girth_m"), nullptr);
+    EXPECT_EQ(find(model->measure(ScanFeatures{}, {.side = true}, VFIT_SEX_MALE), "underbust_girth_m"), nullptr);
 }
 
 }  // namespace

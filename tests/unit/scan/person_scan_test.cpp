@@ -7,6 +7,7 @@
 
 #include "avatar/avatar_measures.h"
 #include "core/error.h"
+#include "scan/scanned_body.h"
 #include "scan_people.h"
 
 namespace vfit {
@@ -96,6 +97,23 @@ TEST_F(PersonScanTest, GirthsFollowThePersonAndNotTheMean) {
     follows(told[1].hip - told[0].hip, truth[1].hip - truth[0].hip, "hip");
 }
 
+TEST_F(PersonScanTest, AScannedBodyHasTheMeasuredGirths) {
+    std::vector<float> shape = body_model()->default_shape(VFIT_SEX_MALE);
+    shape[size_t(body_model()->parameter("weight"))] = 0.7f;
+    Avatar avatar(body_model(), {}, shape, Vec2(1.0f));
+    const FitScene front = standing_person(avatar);
+    PersonScan scan(desc(6, 0));
+    EXPECT_EQ(scan.fitted_shape(), nullptr);
+    for (int i = 0; i < 6; ++i) ASSERT_TRUE(add(scan, front).taken);
+    EXPECT_EQ(scan.likely_sex(), VFIT_SEX_MALE);
+    ASSERT_NE(scan.fitted_shape(), nullptr);
+    const std::vector<Measurement> measured = scan.measurements();
+    const ScannedBody body = scanned_body(body_model(), *fit_model(), *scan.fitted_shape(), measured, VFIT_SEX_MALE);
+    const std::vector<Measurement> has = measure_avatar(Avatar(body_model(), {VFIT_SEX_MALE}, body.shape, body.scale), VFIT_SEX_MALE);
+    for (const char* key : {"stature_m", "shoulder_breadth_m", "chest_girth_m", "waist_girth_m", "hip_girth_m"})
+        EXPECT_NEAR(find(has, key)->value, find(measured, key)->value, 0.015f) << key;
+}
+
 TEST_F(PersonScanTest, TooFewFramesFromTheSideAreNoDoubt) {
     PersonScan scan(desc(4, 10));
     for (int i = 0; i < 4; ++i) add(scan, front_);
@@ -127,6 +145,18 @@ TEST_F(PersonScanTest, SaysWhatIsWrongWithAFrame) {
     std::fill(empty.users.begin(), empty.users.end(), uint8_t{0});
     EXPECT_EQ(add(scan, empty).guidance, VFIT_GUIDANCE_NOBODY);
     EXPECT_EQ(scan.frames_taken(), 0u);
+}
+
+TEST_F(PersonScanTest, GoesOnWhereMoreIsAskedFor) {
+    PersonScan scan(desc(2, 0));
+    for (int i = 0; i < 2; ++i) add(scan, front_);
+    ASSERT_TRUE(scan.complete());
+    scan.extend(2, 1);
+    EXPECT_EQ(scan.frames_wanted(), 4u);
+    EXPECT_EQ(scan.side_frames_wanted(), 1u);
+    for (int i = 0; i < 2; ++i) EXPECT_TRUE(add(scan, front_).taken);
+    EXPECT_EQ(add(scan, front_).guidance, VFIT_GUIDANCE_TURN_SIDEWAYS);
+    EXPECT_EQ(scan.frames_taken(), 4u);
 }
 
 TEST_F(PersonScanTest, ForgetsThePerson) {

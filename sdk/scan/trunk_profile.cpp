@@ -1,0 +1,101 @@
+#include "scan/trunk_profile.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/wipe.h"
+
+namespace vfit {
+
+namespace {
+
+// Of the way from between the hip joints to the neck's.
+constexpr float kLowest = -0.2f, kHighest = 0.78f;
+constexpr float kJump_m = 0.05f;      // from pixel to pixel: another part of the body begins
+constexpr float kWidest_m = 0.40f;  // from the spine
+constexpr int kGap = 2;               // pixels without a reading inside the person
+
+struct Edge {
+    float metres = 0.0f;  // across the line of sight
+    bool found = false;
+};
+
+}  // namespace
+
+void TrunkProfile::reset() { wipe(sums_); }
+
+TrunkProfile::Reaches TrunkProfile::reaches_m(ViewKind view, int level) const {
+    Reaches out;
+    for (size_t r = 0; r < out.size(); ++r) {
+        const Sum& sum = sums_[size_t(view)][size_t(level)][r];
+        out[r] = sum.count ? float(sum.metres / sum.count) : std::nanf("");
+    }
+    return out;
+}
+
+void TrunkProfile::add(const DepthImage& image, uint8_t user, const BodyFit& fit, ViewKind view) {
+    const auto& joints = fit.body().joints();
+    const Vec3 hips = 0.5f * (joints[VFIT_JOINT_LEFT_HIP] + joints[VFIT_JOINT_RIGHT_HIP]);
+    const Vec3 spine = joints[VFIT_JOINT_NECK] - hips;
+    const Vec3 ahead = fit.body().bone_turns()[VFIT_BONE_HIPS] * Vec3(0, 0, 1);
+    const Camera& camera = image.camera;
+    const auto reading = [&](const Vec2& p) {  // 0: not the person's
+        const int x = int(std::lround(p.x)), y = int(std::lround(p.y));
+        if (x < 0 || y < 0 || x >= int(image.width()) || y >= int(image.height())) return 0.0f;
+        const size_t i = image.index(uint32_t(x), uint32_t(y));
+        return image.users[i] == user ? image.metres(i) : 0.0f;
+    };
+    for (int l = 0; l < kLevels; ++l) {
+        const Vec3 centre = hips + (kLowest + (kHighest - kLowest) * float(l) / float(kLevels - 1)) * spine;
+        if (centre.z < 0.5f) continue;
+        const Vec2 at = camera.project(centre), along = camera.project(centre + 0.1f * spine) - at;
+        const float length = glm::length(along);
+        if (!(length > 1.0f)) continue;
+        const Vec2 across = Vec2(-along.y, along.x) / length;
+        const float pixel_m = centre.z / camera.fx;
+        const float surface = reading(at);
+        if (surface == 0.0f) continue;
+        const auto edge = [&](float way) {
+            Edge out;
+            float z = surface;
+            int last = 0;
+            const int far = int(kWidest_m / pixel_m);
+            for (int i = 1; i <= far; ++i) {
+                const float here = reading(at + way * float(i) * across);
+                if (here == 0.0f) {
+                    if (i - last <= kGap) continue;
+                    out.found = true;
+                    break;
+                }
+                if (here < z - kJump_m) return out;  // an arm before it
+                if (here > z + kJump_m) {             // an arm behind it
+                    out.found = true;
+                    break;
+                }
+                z = here, last = i;
+            }
+            out.metres = (float(last) + 0.5f) * pixel_m;
+            return out;
+        };
+        const Edge one = edge(1.0f), other = edge(-1.0f);
+        auto& sums = sums_[size_t(view)][size_t(l)];
+        const auto add_to = [&](Reach reach, float metres) { sums[reach].metres += double(metres), ++sums[reach].count; };
+        add_to(kTowards, centre.z - surface);
+        if (view == ViewKind::kFront) {
+            if (one.found && other.found) add_to(kAhead, 0.5f * (one.metres + other.metres));
+        } else {
+            // Which way is ahead in the picture?
+            const Vec2 front = camera.project(centre + 0.1f * ahead) - at;
+            const bool one_ahead = glm::dot(front, across) > 0.0f;
+            if ((one_ahead ? one : other).found) add_to(kAhead, (one_ahead ? one : other).metres);
+            if ((one_ahead ? other : one).found) add_to(kBehind, (one_ahead ? other : one).metres);
+        }
+        if (one.found && other.found) {
+            const float a = reading(at + 0.5f * one.metres / pixel_m * across),
+                        b = reading(at - 0.5f * other.metres / pixel_m * across);
+            if (a > 0.0f && b > 0.0f) add_to(kTowardsHalf, centre.z - 0.5f * (a + b));
+        }
+    }
+}
+
+}  // namespace vfit

@@ -1,0 +1,23 @@
+// How a person stands to the camera: views are recognised, nobody has to tell them.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "math/types.h"
+
+namespace vfit {
+
+enum class ViewKind : uint8_t { kFront, kSide, kOther };
+inline constexpr int kViewKinds = 2;  // that are kept
+
+/// `ahead`: the way that the hips face, camera space. `slack_rad`: where that is known less well, views are wider by it.
+inline ViewKind view_kind_of(const Vec3& ahead, float slack_rad = 0.0f) {
+    constexpr float kFrontTo_rad = 0.6f, kSideFrom_rad = 1.05f, kSideTo_rad = 2.1f;
+    const float yaw = std::abs(std::atan2(ahead.x, -ahead.z));
+    return yaw <= kFrontTo_rad + slack_rad                                           ? ViewKind::kFront
+           : yaw >= kSideFrom_rad - slack_rad && yaw <= kSideTo_rad + slack_rad ? ViewKind::kSide
+                                                                                  : ViewKind::kOther;
+}
+
+}  // namespace vfit
