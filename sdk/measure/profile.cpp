@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kFormat = "vfit-profile";
 constexpr int kProfileVersion = 1;
 // Share of an error's variance that every scan of one person has in common (vfit-bench measure --only repeated).
-constexpr float kOwn = 0.8f;
+constexpr float kOwn = 0.6f;
 constexpr float kTwoPeople = 6.0f;  // deviations between two statures
 
 float number(const Json& value, const std::string& what) {

@@ -22,7 +22,7 @@ std::string profile_text(const PersonProfile& profile);
 /// version) with a sentence that names the key where it is none of them.
 PersonProfile parse_profile(std::string_view json);
 
-/// Two scans of one person: means by their variances. Most of an error is the person's own and the same in both, so that
+/// Two scans of one person: means by their variances. More than half of an error is the person's own and the same in both, so that
 /// the deviation hardly falls; where the two differ by more than that leaves room for, it grows. VFIT_ERROR_DATA where
 /// their statures are those of two people. What only one holds is taken as it is.
 std::vector<Measurement> merge(const std::vector<Measurement>& a, const std::vector<Measurement>& b);

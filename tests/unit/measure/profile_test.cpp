@@ -70,7 +70,7 @@ TEST(Merge, WeighsByVarianceAndHardlyGetsSurer) {
     EXPECT_EQ(merged[1].value, 1.0f) << "what one alone holds";
     const float alike = merge({{"waist_girth_m", 0.8f, 0.02f, true}}, {{"waist_girth_m", 0.8f, 0.02f, true}})[0].sigma;
     EXPECT_LT(alike, 0.02f);
-    EXPECT_GT(alike, 0.018f) << "the same person's errors repeat";
+    EXPECT_GT(alike, 0.0175f) << "the same person's errors repeat";
     const float apart = merge({{"waist_girth_m", 0.8f, 0.02f, true}}, {{"waist_girth_m", 0.9f, 0.02f, true}})[0].sigma;
     EXPECT_GT(apart, 0.04f) << "10 cm apart is more than either is unsure of";
 }
