@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/error.h"
 
 namespace vfit {
@@ -69,8 +71,7 @@ TEST(Merge, WeighsByVarianceAndHardlyGetsSurer) {
     EXPECT_TRUE(merged[0].observed);
     EXPECT_EQ(merged[1].value, 1.0f) << "what one alone holds";
     const float alike = merge({{"waist_girth_m", 0.8f, 0.02f, true}}, {{"waist_girth_m", 0.8f, 0.02f, true}})[0].sigma;
-    EXPECT_LT(alike, 0.02f);
-    EXPECT_GT(alike, 0.0175f) << "the same person's errors repeat";
+    EXPECT_NEAR(alike, 0.02f * std::sqrt(0.6f + 0.4f / 2.0f), 1e-5f) << "0.6 of the variance comes again with every scan";
     const float apart = merge({{"waist_girth_m", 0.8f, 0.02f, true}}, {{"waist_girth_m", 0.9f, 0.02f, true}})[0].sigma;
     EXPECT_GT(apart, 0.04f) << "10 cm apart is more than either is unsure of";
 }

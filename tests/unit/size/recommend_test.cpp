@@ -130,6 +130,14 @@ TEST(Recommend, JoinsTheLabelsOfTwoAxes) {
     EXPECT_NEAR(of(by_leg, "W32/L32"), 0.5f, 1e-4f);
 }
 
+TEST(Recommend, ErrorsOfOnePersonGoPartlyTogether) {
+    // Both on the border. Were errors independent each of the four labels had a quarter; with a correlation of 0.3 both
+    // are on the same side in 1/2 + asin(0.3) / pi.
+    const auto sizes = recommend(other_chart(), "jeans", {waist(31 * 0.0254f, 0.004f), {"inside_leg_m", 31 * 0.0254f, 0.004f, true}});
+    const float same = of(sizes, "W30/L30") + of(sizes, "W32/L32");
+    EXPECT_NEAR(same, 0.5 + std::asin(0.3) / 3.14159265, 0.015);
+}
+
 TEST(Recommend, ReadsATableByHeightAndWeight) {
     const auto label = [](double lb, double inch) {
         return recommend(other_chart(), "wetsuit",

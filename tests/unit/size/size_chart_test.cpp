@@ -190,7 +190,8 @@ TEST(SizeChart, ShipsChartsThatFollowTheRules) {
         const SizeChart chart = SizeChart::parse(content.str());
         EXPECT_EQ(chart.name(), file.path().stem().string());
         EXPECT_FALSE(chart.source().empty()) << "says where its numbers come from";
-        if (file.path().stem().string().rfind("en13402", 0) == 0) {
+        const std::string name = file.path().stem().string();
+        if (name == "paper" || name.rfind("en13402", 0) == 0) {
             for (const char* kind : {"short_sleeves", "long_sleeves", "trousers"}) EXPECT_NO_THROW(chart.garment(kind));
         }
         ++charts;
