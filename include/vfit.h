@@ -474,7 +474,8 @@ VFIT_API vfit_result vfit_scan_create(vfit_context context, const vfit_scan_desc
                                       vfit_scan* out);                                     /* [any]  */
 VFIT_API vfit_result vfit_scan_destroy(vfit_scan scan);         /* wipes the body data        [any]  */
 VFIT_API vfit_result vfit_scan_reset(vfit_scan scan);                                      /* [excl] */
-/* Asks for more frames from the front and the side, also of a complete scan, which then goes on.    [excl] */
+/* Asks for more frames of this person from the front and the side, also of a complete scan, which then goes on;
+ * vfit_scan_reset takes it back.                                                                     [excl] */
 VFIT_API vfit_result vfit_scan_extend(vfit_scan scan, uint32_t frames, uint32_t side_frames);
 /* VFIT_INCOMPLETE: the frame was not taken, state->guidance says why. VFIT_NOT_READY: taken, more are
  * wanted. VFIT_OK: the scan is complete (further frames are ignored). state may be null.      [excl]   */

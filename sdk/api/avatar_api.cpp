@@ -61,6 +61,19 @@ float least_sure(const std::vector<Measurement>& measured) {
     return out;
 }
 
+/// The fitted body where there is one that has the form of a person, else the default one in the person's size.
+ScannedBody body_of(Context& context, const PersonScan& scan, const std::vector<Measurement>& measured, vfit_sex sex) {
+    if (const FitShape* shape = scan.fitted_shape()) {
+        try {
+            return scanned_body(context.body_model(), *context.fit_model().get(), *shape, measured, sex);
+        } catch (const Error& error) {
+            if (error.code() != VFIT_ERROR_DATA) throw;
+            context.log.info("the avatar has the default body's shape: ", error.what());
+        }
+    }
+    return {{}, scale_to(context, sex, measured)};
+}
+
 void publish(Context& context, const Ref<AvatarObject>& avatar, vfit_avatar* out) {
     out->id = context.publish(Kind::avatar, avatar);
 }
@@ -137,15 +150,9 @@ vfit_result vfit_avatar_create_from_scan(vfit_context handle, const vfit_avatar_
         Use<ScanObject, Mode::read> scan(scan_handle.id);
         AvatarDesc d = avatar_desc(desc);
         const std::vector<Measurement> measured = scan->scan.measurements();
-        Ref<AvatarObject> avatar;
-        if (const FitShape* shape = scan->scan.fitted_shape()) {
-            if (d.sex == VFIT_SEX_UNKNOWN) d.sex = scan->scan.likely_sex();
-            const ScannedBody body = scanned_body(context->body_model(), *context->fit_model().get(), *shape, measured, d.sex);
-            avatar = make<AvatarObject>(context.ref(), d, body.shape, body.scale);
-        } else {
-            if (d.sex == VFIT_SEX_UNKNOWN) d.sex = scan->sex;
-            avatar = make<AvatarObject>(context.ref(), d, std::span<const float>{}, scale_to(*context, d.sex, measured));
-        }
+        if (d.sex == VFIT_SEX_UNKNOWN) d.sex = scan->scan.likely_sex();
+        const ScannedBody body = body_of(*context, scan->scan, measured, d.sex);
+        auto avatar = make<AvatarObject>(context.ref(), d, body.shape, body.scale);
         avatar->relative_sigma = least_sure(measured);
         avatar->avatar.set_collider_radii(scan->scan.paper().radii());
         publish(*context, avatar, out);

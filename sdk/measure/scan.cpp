@@ -23,8 +23,9 @@ struct FrameValues {
 }  // namespace
 
 struct Scan::State {
-    explicit State(const ScanDesc& d) : desc(d) { frames.reserve(d.frame_count); }
-    ScanDesc desc;
+    explicit State(const ScanDesc& d) : desc(d), wanted(d.frame_count) { frames.reserve(wanted); }
+    const ScanDesc desc;
+    uint32_t wanted;  // frames; more than desc's where the scan was extended
     DepthFilter filter;
     FilteredDepth depth;  // the filter's last answer
     std::vector<FrameValues> frames;
@@ -82,6 +83,7 @@ Scan::~Scan() { reset(); }
 void Scan::reset() {
     for (FrameValues& f : state_->frames) wipe(f);
     state_->frames.clear();
+    state_->wanted = state_->desc.frame_count;
     wipe(state_->last);
     state_->has_last = false;
     state_->depth = FilteredDepth{};
@@ -89,16 +91,16 @@ void Scan::reset() {
 }
 
 void Scan::extend(uint32_t frames) {
-    state_->desc.frame_count += frames;
+    state_->wanted += frames;
     std::vector<FrameValues> longer;
-    longer.reserve(state_->desc.frame_count);
+    longer.reserve(state_->wanted);
     longer.assign(state_->frames.begin(), state_->frames.end());
     for (FrameValues& f : state_->frames) wipe(f);
     state_->frames = std::move(longer);
 }
 
 uint32_t Scan::frames_taken() const { return uint32_t(state_->frames.size()); }
-uint32_t Scan::frames_wanted() const { return state_->desc.frame_count; }
+uint32_t Scan::frames_wanted() const { return state_->wanted; }
 
 ScanProgress Scan::look(const ScanFrame& frame) {
     State& state = *state_;

@@ -66,9 +66,9 @@ public:
     /// that was looked at last, which must live still).
     ScanProgress look(const ScanFrame& frame);
     void take(const ScanFrame& frame);
-    /// Forgets the person.
+    /// Forgets the person, and what extend() added.
     void reset();
-    /// Wants so many frames more.
+    /// Wants so many frames more, of this person.
     void extend(uint32_t frames);
 
     uint32_t frames_taken() const;

@@ -41,12 +41,12 @@ PersonScan::PersonScan(const PersonScanDesc& desc) : desc_(desc), paper_(desc.pa
 void PersonScan::reset() {
     paper_.reset();
     if (body_) body_->reset();
-    side_frames_ = 0;
+    side_frames_ = more_side_frames_ = 0;
 }
 
 void PersonScan::extend(uint32_t frames, uint32_t side_frames) {
     paper_.extend(frames);
-    desc_.side_frame_count += side_frames;
+    more_side_frames_ += side_frames;
 }
 
 ScanProgress PersonScan::add(const ScanFrame& frame) {

@@ -24,16 +24,16 @@ public:
 
     /// Ignores frames once the scan is complete.
     ScanProgress add(const ScanFrame& frame);
-    /// Forgets the person.
+    /// Forgets the person, and what extend() added.
     void reset();
-    /// Wants so many more; side frames only of the body fit.
+    /// Wants so many more of this person; side frames only of the body fit.
     void extend(uint32_t frames, uint32_t side_frames);
 
     /// From the front.
     uint32_t frames_taken() const { return paper_.frames_taken(); }
     uint32_t frames_wanted() const { return paper_.frames_wanted(); }
     uint32_t side_frames_taken() const { return side_frames_; }
-    uint32_t side_frames_wanted() const { return body_ ? desc_.side_frame_count : 0; }
+    uint32_t side_frames_wanted() const { return body_ ? desc_.side_frame_count + more_side_frames_ : 0; }
     bool complete() const { return paper_.complete() && side_frames_ >= side_frames_wanted(); }
 
     /// No frame from the front yet: VFIT_ERROR_STATE.
@@ -54,7 +54,7 @@ private:
     PersonScanDesc desc_;
     Scan paper_;
     std::unique_ptr<BodyScan> body_;
-    uint32_t side_frames_ = 0;
+    uint32_t side_frames_ = 0, more_side_frames_ = 0;
 };
 
 }  // namespace vfit

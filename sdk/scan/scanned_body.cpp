@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "avatar/avatar_measures.h"
+#include "core/error.h"
 
 namespace vfit {
 
@@ -42,6 +43,7 @@ ScannedBody scanned_body(const std::shared_ptr<const BodyModel>& body, const Fit
     };
     std::vector<Measurement> now = tape();
     meet_scale(now);
+    ScannedBody good = out;
     std::array<float, std::size(kGirths)> slope{};
     for (int step = 0; step <= kSteps; ++step) {
         const std::vector<Measurement> before = now;
@@ -60,7 +62,12 @@ ScannedBody scanned_body(const std::shared_ptr<const BodyModel>& body, const Fit
             change[i] = moved - slider;
             slider = moved;
         }
-        now = tape();
+        try {
+            now = tape();
+        } catch (const Error&) {  // a body that has not the form of a person: the one before it will do
+            return good;
+        }
+        good = out;
         for (size_t i = 0; i < change.size(); ++i)
             if (std::abs(change[i]) > 0.02f)
                 slope[i] = (value(now, kGirths[i].measure) - value(before, kGirths[i].measure)) / change[i];

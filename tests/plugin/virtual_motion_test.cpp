@@ -105,7 +105,7 @@ TEST_P(EveryMotion, NoJointJumps) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scripts, EveryMotion,
-                         ::testing::Values("scan", "sway", "turn", "walk", "wave", "reach", "squat", "demo",
+                         ::testing::Values("scan", "side", "sway", "turn", "walk", "wave", "reach", "squat", "demo",
                                            "cross", "clap", "forward", "sit", "spin", "jog", "visit"),
                          [](const auto& info) { return std::string(info.param); });
 
@@ -122,6 +122,24 @@ TEST(ScanMotion, ArmsAreHeldOutAndFeetAQuarterMetreApart) {
         EXPECT_NEAR(from_down, 35.0f, 1.0f);
         EXPECT_GT(arm.x * side_sign(side), 0.0f);
     }
+}
+
+TEST(ScanMotion, ArmsAreHeldAsOptionArmsSays) {
+    const Proportions p = average_proportions();
+    const auto arm_of = [&](const char* motion, float arms_deg) {
+        const BonePose pose = make_scripted_motion(motion, p, 1, arms_deg)->at(1.0);
+        return glm::normalize(pose.rotation[VFIT_BONE_LEFT_SHOULDER] *
+                              (pose.rotation[VFIT_BONE_LEFT_UPPER_ARM] * p.upper_arm[size_t(kLeft)]));
+    };
+    const auto from_down = [](const Vec3& arm) { return glm::degrees(std::acos(-arm.y)); };
+    const Vec3 out = arm_of("scan", 50.0f), ahead = arm_of("side", 50.0f), down = arm_of("scan", 0.0f);
+    EXPECT_NEAR(from_down(out), 50.0f, 1.0f);
+    EXPECT_GT(out.x, 0.7f);
+    EXPECT_NEAR(from_down(ahead), 50.0f, 3.0f);
+    EXPECT_GT(ahead.z, 0.7f);
+    EXPECT_LT(from_down(down), 3.0f);
+    EXPECT_NEAR(from_down(arm_of("scan", -1.0f)), 35.0f, 1.0f) << "below 0: as the motion has them";
+    EXPECT_NEAR(from_down(arm_of("sway", 60.0f)), from_down(arm_of("sway", -1.0f)), 1e-3f) << "other motions have arms of their own";
 }
 
 TEST(TurnMotion, ShowsEverySideAndComesBack) {

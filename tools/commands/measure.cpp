@@ -21,6 +21,10 @@ struct Options {
 
 Json measure(const Options& options) {
     const vfit_scan_method method = scan_method_from(options.method);
+    // A file that cannot be read is told of before the scan.
+    std::vector<vfit_measurement> earlier;
+    if (!options.merged.empty()) earlier = measurements_from(read_text(options.merged)).measurements;
+    const std::string own = options.own.empty() ? std::string() : read_text(options.own);
     const Context context = open_context();
     Source source(context.get(), options.source);
     const ScanRun run = run_scan(context.get(), source, {options.frames, sex_from(options.sex), method, options.track, options.side_frames,
@@ -30,18 +34,16 @@ Json measure(const Options& options) {
     out["frames"] = run.frames_taken;
     if (method == VFIT_SCAN_FIT) out["side_frames"] = run.side_frames_taken;
     std::vector<vfit_measurement> measured = measurements_of(run.scan.get());
-    if (!options.merged.empty()) measured = merged_measurements(measurements_from(read_text(options.merged)).measurements, measured);
+    if (!options.merged.empty()) measured = merged_measurements(earlier, measured);
     if (!options.own.empty()) {
-        const std::string text = read_text(options.own);
         Avatar avatar;
         check(vfit_avatar_create_from_scan(context.get(), nullptr, run.scan.get(), avatar.out()));
         for (const vfit_measurement& m : list<vfit_measurement>([&](auto* items, uint32_t stride, uint32_t* n) {
-                 return vfit_avatar_measure_own(avatar.get(), text.data(), text.size(), items, stride, n);
+                 return vfit_avatar_measure_own(avatar.get(), own.data(), own.size(), items, stride, n);
              }))
             measured.push_back(m);
     }
     out["measurements"] = measurements_json(measured);
-    if (!options.profile.empty()) write_text(options.profile, profile_text(measured, sex_from(options.sex)));
     out["colliders"] = Json::array();
     for (const auto& c : list<vfit_collider>([&](auto* items, uint32_t stride, uint32_t* n) {
              return vfit_scan_colliders(run.scan.get(), items, stride, n);
@@ -136,6 +138,9 @@ void add_measure(Command& app) {
             print_document(result);
         else
             print(result);
+        // Last: what cannot be written costs nothing that was measured.
+        if (!o->profile.empty())
+            write_text(o->profile, profile_text(measurements_from(result.dump()).measurements, sex_from(o->sex)));
     });
 }
 

@@ -28,7 +28,8 @@ Json size(const Options& options) {
     Json out;
     out["chart"] = options.chart;
     out["garment"] = options.garment;
-    const Json& sizes = out["sizes"] = sizes_json(chart.get(), options.garment, stored.measurements);
+    const Json sizes = sizes_json(chart.get(), options.garment, stored.measurements);
+    out["sizes"] = sizes;
     const double best = sizes[0]["probability"];
     if (sizes.size() > 1 && best < kSure) {
         const double second = sizes[1]["probability"];

@@ -93,6 +93,19 @@ TEST(SurfaceResiduals, TellHowFarTheOutlineLiesOutside) {
     EXPECT_GT(upright, all / 2);
 }
 
+TEST(SurfaceResiduals, LeaveOutWhatAnArmHides) {
+    // From the side, the near arm before the trunk.
+    const Fitted beside({0.5f * kPi, 0.0f, 0.0f}), ahead({0.5f * kPi, 0.0f, 1.2f});
+    const auto hidden = [](const Fitted& person) {
+        int trunk = 0;
+        for (uint32_t v = 0; v < fit_model()->vertex_count(); ++v)
+            trunk += fit_model()->vertices()[v].limb == 0 && person.fit.hidden(v) &&
+                     glm::dot(person.fit.body().normals()[v], person.fit.body().positions()[v]) < 0.0f;
+        return trunk;
+    };
+    EXPECT_GT(hidden(beside), hidden(ahead) + 5) << "of the trunk's near side";
+}
+
 TEST(SurfaceResiduals, ARoughSurfaceIsRougher) {
     const Fitted person;
     FitScene rough = person.scene;

@@ -157,6 +157,30 @@ TEST_F(PersonScanTest, GoesOnWhereMoreIsAskedFor) {
     for (int i = 0; i < 2; ++i) EXPECT_TRUE(add(scan, front_).taken);
     EXPECT_EQ(add(scan, front_).guidance, VFIT_GUIDANCE_TURN_SIDEWAYS);
     EXPECT_EQ(scan.frames_taken(), 4u);
+    scan.reset();
+    EXPECT_EQ(scan.frames_wanted(), 2u) << "the next person's scan is as long as it was asked for";
+    EXPECT_EQ(scan.side_frames_wanted(), 0u);
+}
+
+TEST_F(PersonScanTest, IsSurerOfGirthsWhereClothesAreTight) {
+    PersonScanDesc told = desc(4, 0);
+    told.tight = true;
+    PersonScan any(desc(4, 0)), tight(told);
+    for (int i = 0; i < 4; ++i) add(any, front_), add(tight, front_);
+    for (const char* key : {"chest_girth_m", "waist_girth_m", "hip_girth_m"}) {
+        const auto a = any.measurements(), b = tight.measurements();
+        EXPECT_LT(find(b, key)->sigma, 0.9f * find(a, key)->sigma) << key;
+    }
+}
+
+TEST_F(PersonScanTest, ABodyThatCannotBeIsNoReasonToFail) {
+    PersonScan scan(desc(2, 0));
+    for (int i = 0; i < 2; ++i) add(scan, front_);
+    std::vector<Measurement> absurd = scan.measurements();
+    for (Measurement& m : absurd) m.value *= m.key == "stature_m" ? 1.0f : 3.0f;
+    ScannedBody body;
+    ASSERT_NO_THROW(body = scanned_body(body_model(), *fit_model(), *scan.fitted_shape(), absurd, VFIT_SEX_MALE));
+    EXPECT_NO_THROW(measure_avatar(Avatar(body_model(), {VFIT_SEX_MALE}, body.shape, body.scale), VFIT_SEX_MALE));
 }
 
 TEST_F(PersonScanTest, ForgetsThePerson) {
