@@ -34,12 +34,16 @@ ViewKind BodyScan::add(const DepthImage& image, const Body& body) {
         if (body.has(j)) input.joints[size_t(j)] = {body.at(j), body.joints[size_t(j)].confidence};
     const BodyFitOutput& fit = fit_.run(input);
     if (fit.state != BodyFitState::kGood) return ViewKind::kOther;
-    const ViewKind view = view_kind_of(fit_.body().bone_turns()[VFIT_BONE_HIPS] * Vec3(0, 0, 1));
+    const Vec3 ahead = fit_.body().bone_turns()[VFIT_BONE_HIPS] * Vec3(0, 0, 1);
+    const ViewKind view = view_kind_of(ahead);
     if (view == ViewKind::kOther) return view;
     residuals_.add(image, input.user, fit_);
     profile_.add(image, input.user, fit_, view);
     ++sums_.frames;
     sums_.distance_m += double(fit.pose.hips.z);
+    const double turned = double(turned_rad(ahead)) - (view == ViewKind::kSide ? 0.5 * double(kPi) : 0.0);
+    sums_.turned_rad[size_t(view)] += turned;
+    sums_.turned_squared[size_t(view)] += turned * turned;
     sums_.pixel_m += double(fit.pose.hips.z / std::sqrt(image.camera.fx * image.camera.fy));
     if (const float crown = crown_height(image, input.user); crown > 0.0f) {
         sums_.crown_m += double(crown);
@@ -95,13 +99,23 @@ ScanFeatures BodyScan::features(bool side) const {
     out[n++] = float(sums_.distance_m / sums_.frames);
     out[n++] = kMillimetres * float(sums_.pixel_m / sums_.frames);
     const auto counts = [&](ViewKind view) { return side || view != ViewKind::kSide; };
+    const auto mean_of = [&](const auto& turned, ViewKind view) {
+        const uint32_t frames = residuals_.frames(view);
+        return counts(view) && frames ? float(turned[size_t(view)] / frames) : unseen;
+    };
+    out[n++] = mean_of(sums_.turned_squared, ViewKind::kFront);
+    out[n++] = mean_of(sums_.turned_rad, ViewKind::kSide);
+    out[n++] = mean_of(sums_.turned_squared, ViewKind::kSide);
     constexpr ViewKind kViews[] = {ViewKind::kFront, ViewKind::kSide};
     for (const ViewKind view : kViews)
         for (const Seen seen : {Seen::kFacing, Seen::kRim})
             for (const float mean : residuals_.means_m(view, seen, shape())) out[n++] = counts(view) ? kCentimetres * mean : unseen;
     for (const ViewKind view : kViews)
-        for (int level = 0; level < TrunkProfile::kLevels; ++level)
-            for (const float reach : profile_.reaches_m(view, level)) out[n++] = counts(view) ? kCentimetres * reach : unseen;
+        for (int level = 0; level < TrunkProfile::kLevels; ++level) {
+            const TrunkProfile::Reaches reaches = profile_.reaches_m(view, level);
+            const size_t told = view == ViewKind::kFront ? TrunkProfile::kReachesFromFront : reaches.size();
+            for (size_t r = 0; r < told; ++r) out[n++] = counts(view) ? kCentimetres * reaches[r] : unseen;
+        }
     for (const ViewKind view : kViews)
         for (int region = 0; region < SurfaceResiduals::kRegions; ++region)
             out[n++] = counts(view) ? kCentimetres * residuals_.roughness_m(view, region, shape()) : unseen;

@@ -14,11 +14,12 @@
 namespace vfit {
 
 /// The numbers that measures are estimated from, in a fixed order: shape values (kFitShapes), height of the crown (m),
-/// distance (m), size of a pixel there (mm), then of each view (front, side) and way of seeing (facing, rim) every
+/// distance (m), size of a pixel there (mm), how far the person is turned from the front (rad, squared) and from the side
+/// (rad, and squared), then of each view (front, side) and way of seeing (facing, rim) every
 /// zone's distance outwards of the body of that shape (cm), then of each view the trunk's reaches by level (cm), then of
 /// each view the roughness of trunk, arms and legs (cm). NaN: not seen.
-inline constexpr size_t kScanFeatures = size_t(kFitShapes) + 3 + size_t(kViewKinds) * kSeenKinds * BodyZones::kCount +
-                                        size_t(kViewKinds) * TrunkProfile::kLevels * TrunkProfile::kReaches +
+inline constexpr size_t kScanFeatures = size_t(kFitShapes) + 6 + size_t(kViewKinds) * kSeenKinds * BodyZones::kCount +
+                                        size_t(TrunkProfile::kLevels) * (TrunkProfile::kReachesFromFront + TrunkProfile::kReaches) +
                                         size_t(kViewKinds) * SurfaceResiduals::kRegions;
 using ScanFeatures = std::array<float, kScanFeatures>;
 
@@ -55,6 +56,7 @@ private:
     TrunkProfile profile_;
     struct Sums {
         double crown_m = 0.0, distance_m = 0.0, pixel_m = 0.0;
+        std::array<double, kViewKinds> turned_rad{}, turned_squared{};  // from the view
         uint32_t crowns = 0, frames = 0;
     } sums_;
 };

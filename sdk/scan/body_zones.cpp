@@ -41,7 +41,7 @@ struct Part {
 
 const Part kParts[] = {
     {{VFIT_BONE_HIPS, VFIT_BONE_SPINE, VFIT_BONE_CHEST, VFIT_BONE_UPPER_CHEST, VFIT_BONE_LEFT_SHOULDER, VFIT_BONE_RIGHT_SHOULDER},
-     10, 5, false, around_trunk},
+     24, 5, false, around_trunk},
     {{VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_RIGHT_UPPER_LEG}, 4, 4, false, around_leg},
     {{VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_RIGHT_LOWER_LEG}, 2, 4, false, around_leg},
     {{VFIT_BONE_LEFT_UPPER_ARM, VFIT_BONE_RIGHT_UPPER_ARM}, 3, 4, true, around_arm},
@@ -69,7 +69,7 @@ BodyZones::BodyZones(const FitModel& model) : of_vertex_(model.vertex_count(), -
         const float start = along(*low), length = along(*high) - start;
         for (const uint32_t v : members) {
             const int level = std::min(part.levels - 1, int(float(part.levels) * (along(v) - start) / length));
-            of_vertex_[v] = int8_t(first + level * part.ways + part.way(body.positions()[v], body.normals()[v]));
+            of_vertex_[v] = int16_t(first + level * part.ways + part.way(body.positions()[v], body.normals()[v]));
         }
         first += part.levels * part.ways;
     }

@@ -11,13 +11,13 @@ namespace vfit {
 
 class BodyZones {
 public:
-    static constexpr int kCount = 101;
+    static constexpr int kCount = 171;
     explicit BodyZones(const FitModel& model);
     /// -1: hands, which no measure but their length looks at.
     int of(uint32_t vertex) const { return of_vertex_[vertex]; }
 
 private:
-    std::vector<int8_t> of_vertex_;
+    std::vector<int16_t> of_vertex_;
 };
 
 }  // namespace vfit

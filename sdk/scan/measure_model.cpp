@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -12,7 +13,7 @@ namespace vfit {
 
 namespace {
 
-constexpr int kVersion = 2;
+constexpr int kVersion = 3;
 constexpr float kFarthest = 5.0f;  // deviations: what lies farther tells no more
 // What of the body itself lies farther out than nearly all grown-ups' do, a child's crown say, is guessed at: linear rules
 // do not reach there.
@@ -21,6 +22,8 @@ constexpr float kBeyond = 4.0f;      // of a deviation beyond, squared
 constexpr size_t kCrown = size_t(kFitShapes);
 constexpr float kCrownApart_m = 0.03f;  // from stature, usually less: then the two contradict each other
 constexpr float kShortest_m = 0.001f, kLongest_m = 5.0f, kSmallestSigma_m = 1e-4f;
+constexpr float kLeastStrangeness = 0.01f;  // training/measures/train.py has the same
+constexpr float kUnseenScale = 1e30f;  // of a feature that a part does not look at
 constexpr float kMassScale = 100.0f;  // of these in kilograms
 constexpr const char* kKinds[] = {"front", "front_and_side", "front_tight", "front_and_side_tight"};
 
@@ -36,14 +39,42 @@ float number(const Json& value, const std::string& where) {
     return v;
 }
 
-std::vector<float> numbers(const Json& object, const char* name, size_t count, const std::string& where) {
+/// Mean square: 1 among the scans that were learnt from, were all features seen.
+float strangeness(const ScanFeatures& x) {
+    return std::inner_product(x.begin(), x.end(), x.begin(), 0.0f) / float(x.size());
+}
+
+std::vector<float> numbers(const Json& object, const char* name, size_t count, const std::string& where, float unit = 1.0f) {
     const Json& list = field(object, name, where);
     if (!list.is_array() || list.size() != count)
         fail(VFIT_ERROR_DATA, "measure model: \"", name, "\" of ", where, " is not a list of ", count, " numbers");
     std::vector<float> out;
-    for (const Json& item : list) out.push_back(number(item, where + ": an item of \"" + name + "\""));
+    const std::string item_of = where + ": an item of \"" + name + "\"";
+    for (const Json& item : list) out.push_back(unit * number(item, item_of));
     return out;
 }
+
+/// Which of the features a part looks at; its lists hold these alone, the others count for nothing.
+struct Chosen {
+    std::vector<size_t> features;
+
+    Chosen(const Json& part, const char* name, const std::string& where) {
+        const Json& list = field(part, name, where);
+        if (!list.is_array()) fail(VFIT_ERROR_DATA, "measure model: \"", name, "\" of ", where, " is not a list");
+        for (const Json& item : list) {
+            if (!item.is_number_unsigned() || item.get<size_t>() >= kScanFeatures)
+                fail(VFIT_ERROR_DATA, "measure model: \"", name, "\" of ", where, ": there is no such feature");
+            features.push_back(item.get<size_t>());
+        }
+    }
+    /// One number a chosen feature, or many times that, as numbers of all features.
+    std::vector<float> among_all(const std::vector<float>& list, float others = 0.0f) const {
+        std::vector<float> out(list.size() / features.size() * kScanFeatures, others);
+        for (size_t i = 0; i < list.size(); ++i)
+            out[i / features.size() * kScanFeatures + features[i % features.size()]] = list[i];
+        return out;
+    }
+};
 
 }  // namespace
 
@@ -58,26 +89,35 @@ MeasureModel MeasureModel::parse(std::string_view text) {
         fail(VFIT_ERROR_DATA, "measure model: the file's \"format\" is not vfit-measure-model");
     if (field(file, "version", "the file") != kVersion)
         fail(VFIT_ERROR_VERSION, "measure model: this library reads version ", kVersion);
+    const float unit = number(field(file, "unit", "the file"), "unit"),
+                unit_of_places = number(field(file, "unit_of_places", "the file"), "unit_of_places");
     MeasureModel model;
     for (size_t kind = 0; kind < model.parts_.size(); ++kind) {
         const std::string where = kKinds[kind];
         const Json& in = field(file, kKinds[kind], "the file");
         Part& part = model.parts_[kind];
-        part.mean = numbers(in, "mean", kScanFeatures, where);
-        part.scale = numbers(in, "scale", kScanFeatures, where);
+        const Chosen chosen(in, "features", where);
+        const size_t features = chosen.features.size();
+        if (features == 0) fail(VFIT_ERROR_DATA, "measure model: \"features\" of ", where, " is empty");
+        const auto of_features = [&](const Json& object, const char* name, const std::string& what, float scale, float others) {
+            return chosen.among_all(numbers(object, name, features, what, scale), others);
+        };
+        part.mean = of_features(in, "mean", where, 1.0f, 0.0f);
+        part.scale = of_features(in, "scale", where, 1.0f, kUnseenScale);
         part.usual_strangeness = number(field(in, "usual_strangeness", where), where + ": usual_strangeness");
         if (std::any_of(part.scale.begin(), part.scale.end(), [](float s) { return !(s > 0.0f); }) ||
             !(part.usual_strangeness > 0.0f))
             fail(VFIT_ERROR_DATA, "measure model: a scale of ", where, " is not above 0");
         part.female = {number(field(in, "female_base", where), where + ": female_base"),
-                       numbers(in, "female_weights", kScanFeatures, where)};
-        const Json& chosen = field(in, "sigma_features", where);
-        if (!chosen.is_array()) fail(VFIT_ERROR_DATA, "measure model: \"sigma_features\" of ", where, " is not a list");
-        for (const Json& item : chosen) {
-            if (!item.is_number_unsigned() || item.get<size_t>() >= kScanFeatures)
-                fail(VFIT_ERROR_DATA, "measure model: \"sigma_features\" of ", where, ": there is no such feature");
-            part.sigma_features.push_back(item.get<size_t>());
-        }
+                       of_features(in, "female_weights", where, 1.0f, 0.0f)};
+        const Json& centres = field(in, "centres", where);
+        const size_t dimensions = field(in, "directions", where).size() / features;
+        if (!centres.is_array() || centres.size() % std::max<size_t>(dimensions, 1) != 0)
+            fail(VFIT_ERROR_DATA, "measure model: \"centres\" of ", where, " are not places in its directions");
+        part.basis = RadialBasis(chosen.among_all(numbers(in, "directions", dimensions * features, where, unit_of_places)),
+                                 numbers(in, "centres", centres.size(), where, unit_of_places), kScanFeatures);
+        part.sigma_features = Chosen(in, "sigma_features", where).features;
+        const Json& bends = field(in, "bends", where);
         for (const auto& [sex, rows] : {std::pair("female", &part.female_rows), {"male", &part.male_rows}}) {
             const Json& measures = field(in, sex, where);
             if (!measures.is_object() || measures.empty())
@@ -86,9 +126,10 @@ MeasureModel MeasureModel::parse(std::string_view text) {
                 const std::string what = where + ", " + sex + ", " + key;
                 if (measure_index(key) < 0) fail(VFIT_ERROR_DATA, "measure model: ", what, ": no such measure");
                 rows->push_back({key, field(one, "observed", what) == Json(true),
-                                 {number(field(one, "base", what), what), numbers(one, "weights", kScanFeatures, what)},
+                                 {number(field(one, "base", what), what), of_features(one, "weights", what, unit, 0.0f)},
+                                 numbers(bends, key.c_str(), part.basis.size(), what, unit),
                                  number(field(one, "log_sigma", what), what),
-                                 numbers(one, "sigma_weights", part.sigma_features.size(), what)});
+                                 numbers(one, "sigma_weights", part.sigma_features.size() + 1, what)});
             }
             std::sort(rows->begin(), rows->end(),
                       [](const Row& a, const Row& b) { return measure_index(a.key) < measure_index(b.key); });
@@ -111,24 +152,25 @@ ScanFeatures MeasureModel::Part::standardised(const ScanFeatures& features) cons
 }
 
 float MeasureModel::Part::doubt(const ScanFeatures& features, const ScanFeatures& x) const {
-    float squares = 0.0f, beyond = 0.0f;
-    for (const float value : x) squares += value * value;
+    float beyond = 0.0f;
     const auto look = [&](size_t i) {
         const float farther = std::isnan(features[i]) ? 0.0f : std::abs(features[i] - mean[i]) / scale[i] - kUsualReach;
         if (farther > 0.0f) beyond += farther * farther;
     };
     for (size_t i = 0; i < size_t(kFitComponents); ++i) look(i);
     look(kCrown);
-    return std::sqrt(std::max(1.0f, squares / float(x.size()) / usual_strangeness) * (1.0f + kBeyond * beyond));
+    return std::sqrt(std::max(1.0f, strangeness(x) / usual_strangeness) * (1.0f + kBeyond * beyond));
 }
 
 std::vector<Measurement> MeasureModel::Part::measure(const std::vector<Row>& rows, const ScanFeatures& x, float doubt) const {
+    const std::vector<float> near = basis.near(x);
     std::vector<Measurement> out;
     for (const Row& row : rows) {
-        float log_sigma = row.log_sigma;
+        float log_sigma = row.log_sigma + row.sigma_weights.back() * std::log(strangeness(x) + kLeastStrangeness);
         for (size_t i = 0; i < sigma_features.size(); ++i) log_sigma += row.sigma_weights[i] * x[sigma_features[i]];
         const float unit = is_mass(row.key) ? kMassScale : 1.0f;
-        out.push_back({row.key, std::clamp(row.value.of(x), unit * kShortest_m, unit * kLongest_m),
+        const float value = row.value.of(x) + std::inner_product(near.begin(), near.end(), row.bends.begin(), 0.0f);
+        out.push_back({row.key, std::clamp(value, unit * kShortest_m, unit * kLongest_m),
                        std::clamp(doubt * std::exp(log_sigma), unit * kSmallestSigma_m, unit * kLongest_m), row.observed});
     }
     return out;

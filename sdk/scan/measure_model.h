@@ -1,5 +1,6 @@
 // Measures learnt from scans of virtual people whose bodies are drawn from a survey of real ones: linear in what the
-// fitted body tells, with deviations that follow how sure it can be (training/measures).
+// fitted body tells and bent by where the scan lies among theirs, a Gaussian process, with deviations that follow how sure
+// it can be (training/measures).
 #pragma once
 
 #include <array>
@@ -10,6 +11,7 @@
 
 #include "measure/measurement.h"
 #include "scan/body_scan.h"
+#include "scan/radial_basis.h"
 
 namespace vfit {
 
@@ -42,14 +44,16 @@ private:
         std::string key;
         bool observed = true;
         Linear value;                      // metres
+        std::vector<float> bends;          // and of each centre
         float log_sigma = 0.0f;
-        std::vector<float> sigma_weights;  // of the part's sigma_features
+        std::vector<float> sigma_weights;  // of the part's sigma_features and, last, of how strange all of them are
     };
     /// What is learnt from one kind of scan.
     struct Part {
         std::vector<float> mean, scale;  // of the features
         float usual_strangeness = 1.0f;  // mean square of x that one person of a hundred exceeds
         Linear female;                   // the logit
+        RadialBasis basis;
         std::vector<size_t> sigma_features;
         std::vector<Row> female_rows, male_rows;
 

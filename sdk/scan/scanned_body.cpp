@@ -1,7 +1,6 @@
 #include "scan/scanned_body.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "avatar/avatar_measures.h"
@@ -13,13 +12,13 @@ namespace {
 
 struct Girth {
     const char *measure, *slider;
+    float slope_m;  // of the girth, a whole slider: hardly differs from body to body. Of limbs twice that: hips move them too
 };
-constexpr Girth kGirths[] = {{"chest_girth_m", "measure-bust-circ"},      {"waist_girth_m", "measure-waist-circ"},
-                             {"hip_girth_m", "measure-hips-circ"},        {"thigh_girth_m", "measure-thigh-circ"},
-                             {"neck_girth_m", "measure-neck-circ"},       {"upper_arm_girth_m", "measure-upperarm-circ"}};
-constexpr int kSteps = 4;
-constexpr float kProbe = 0.15f, kSliderEnd = 0.9f;  // of a slider
-constexpr float kLeastSlope_m = 0.02f;             // a slider: girths that it hardly moves are left as they are
+constexpr Girth kGirths[] = {{"chest_girth_m", "measure-bust-circ", 0.156f},   {"waist_girth_m", "measure-waist-circ", 0.100f},
+                             {"hip_girth_m", "measure-hips-circ", 0.137f},     {"thigh_girth_m", "measure-thigh-circ", 0.060f},
+                             {"neck_girth_m", "measure-neck-circ", 0.040f},    {"upper_arm_girth_m", "measure-upperarm-circ", 0.060f}};
+constexpr int kSteps = 5;
+constexpr float kSliderEnd = 0.9f;
 constexpr float kLeastScale = 0.8f, kMostScale = 1.25f;
 
 }  // namespace
@@ -44,23 +43,13 @@ ScannedBody scanned_body(const std::shared_ptr<const BodyModel>& body, const Fit
     std::vector<Measurement> now = tape();
     meet_scale(now);
     ScannedBody good = out;
-    std::array<float, std::size(kGirths)> slope{};
-    for (int step = 0; step <= kSteps; ++step) {
-        const std::vector<Measurement> before = now;
-        std::array<float, std::size(kGirths)> change{};
-        for (size_t i = 0; i < change.size(); ++i) {
-            const int parameter = body->parameter(kGirths[i].slider);
-            const float wanted = value(measured, kGirths[i].measure);
+    for (int step = 0; step < kSteps; ++step) {
+        for (const Girth& girth : kGirths) {
+            const int parameter = body->parameter(girth.slider);
+            const float wanted = value(measured, girth.measure);
             if (parameter < 0 || wanted <= 0.0f) continue;
             float& slider = out.shape[size_t(parameter)];
-            const float off = wanted - value(now, kGirths[i].measure);
-            // The first step only shows how girths move.
-            const float way = step == 0                         ? (off < 0.0f ? -kProbe : kProbe)
-                              : std::abs(slope[i]) < kLeastSlope_m ? 0.0f
-                                                                   : off / slope[i];
-            const float moved = std::clamp(slider + way, -kSliderEnd, kSliderEnd);
-            change[i] = moved - slider;
-            slider = moved;
+            slider = std::clamp(slider + (wanted - value(now, girth.measure)) / girth.slope_m, -kSliderEnd, kSliderEnd);
         }
         try {
             now = tape();
@@ -68,9 +57,6 @@ ScannedBody scanned_body(const std::shared_ptr<const BodyModel>& body, const Fit
             return good;
         }
         good = out;
-        for (size_t i = 0; i < change.size(); ++i)
-            if (std::abs(change[i]) > 0.02f)
-                slope[i] = (value(now, kGirths[i].measure) - value(before, kGirths[i].measure)) / change[i];
         meet_scale(now);
     }
     return out;

@@ -10,7 +10,7 @@ namespace vfit {
 namespace {
 
 // Of the way from between the hip joints to the neck's.
-constexpr float kLowest = -0.2f, kHighest = 0.78f;
+constexpr float kLowest = -0.2f, kHighest = 0.82f;
 constexpr float kJump_m = 0.05f;      // from pixel to pixel: another part of the body begins
 constexpr float kWidest_m = 0.40f;  // from the spine
 constexpr int kGap = 2;               // pixels without a reading inside the person
@@ -77,24 +77,22 @@ void TrunkProfile::add(const DepthImage& image, uint8_t user, const BodyFit& fit
             out.metres = (float(last) + 0.5f) * pixel_m;
             return out;
         };
-        const Edge one = edge(1.0f), other = edge(-1.0f);
         auto& sums = sums_[size_t(view)][size_t(l)];
-        const auto add_to = [&](Reach reach, float metres) { sums[reach].metres += double(metres), ++sums[reach].count; };
+        const auto add_to = [&](int reach, float metres) { sums[size_t(reach)].metres += double(metres), ++sums[size_t(reach)].count; };
         add_to(kTowards, centre.z - surface);
-        if (view == ViewKind::kFront) {
-            if (one.found && other.found) add_to(kAhead, 0.5f * (one.metres + other.metres));
-        } else {
-            // Which way is ahead in the picture?
-            const Vec2 front = camera.project(centre + 0.1f * ahead) - at;
-            const bool one_ahead = glm::dot(front, across) > 0.0f;
-            if ((one_ahead ? one : other).found) add_to(kAhead, (one_ahead ? one : other).metres);
-            if ((one_ahead ? other : one).found) add_to(kBehind, (one_ahead ? other : one).metres);
-        }
-        if (one.found && other.found) {
-            const float a = reading(at + 0.5f * one.metres / pixel_m * across),
-                        b = reading(at - 0.5f * other.metres / pixel_m * across);
-            if (a > 0.0f && b > 0.0f) add_to(kTowardsHalf, centre.z - 0.5f * (a + b));
-        }
+        const auto add_side = [&](float way, int reach) {
+            const Edge outline = edge(way);
+            if (!outline.found) return;
+            add_to(reach, outline.metres);
+            for (int quarters = 1; quarters <= 3; ++quarters) {
+                const float z = reading(at + way * 0.25f * float(quarters) * outline.metres / pixel_m * across);
+                if (std::abs(z - surface) < kWidest_m) add_to(reach + quarters, centre.z - z);
+            }
+        };
+        // Which way is ahead in the picture?
+        const bool one_ahead = glm::dot(camera.project(centre + 0.1f * ahead) - at, across) > 0.0f;
+        add_side(1.0f, view == ViewKind::kFront || one_ahead ? kAhead : kBehind);
+        add_side(-1.0f, view == ViewKind::kFront || !one_ahead ? kAhead : kBehind);
     }
 }
 

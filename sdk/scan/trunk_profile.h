@@ -1,5 +1,5 @@
 // The trunk's outline by height, read off the image without a body's shape: how far it reaches to both sides of the fitted
-// spine and towards the camera, at levels from the hips to the armpits.
+// spine and towards the camera, at levels from the hips to the armpits: the front of each section, and its sides.
 #pragma once
 
 #include <array>
@@ -13,16 +13,24 @@ namespace vfit {
 
 class TrunkProfile {
 public:
-    static constexpr int kLevels = 14;
-    /// What is read at a level, metres from the fitted spine.
+    static constexpr int kLevels = 24;
+    /// What is read at a level, metres from the fitted spine: across the picture to the outline, and towards the camera
+    /// where the spine is and at parts of the way to the outline. Seen from the side `ahead` is to the person's front and
+    /// `behind` to the back; from the front both sides are one, ahead.
     enum Reach {
-        kAhead,        // seen from the side: to the person's front; from the front: half the breadth
-        kBehind,       // seen from the side: to the back
-        kTowards,      // towards the camera: of the surface before the spine
-        kTowardsHalf,  // and halfway to the outlines, mean of both
+        kTowards,
+        kAhead,
+        kAheadQuarter,
+        kAheadHalf,
+        kAheadThreeQuarters,
+        kBehind,
+        kBehindQuarter,
+        kBehindHalf,
+        kBehindThreeQuarters,
         kReaches
     };
-    using Reaches = std::array<float, kReaches>;
+    static constexpr size_t kReachesFromFront = size_t(kBehind);
+    using Reaches = std::array<float, size_t(kReaches)>;
 
     /// Of the frame that was fitted last.
     void add(const DepthImage& image, uint8_t user, const BodyFit& fit, ViewKind view);

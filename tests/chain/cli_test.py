@@ -30,8 +30,12 @@ VIRTUAL = "virtual:motion=demo&sex=f&sensor=kinect_v1_320&seed=3&frames=60"
 PAPER_JOINTS = 15
 
 
+def run_program(program, *args):
+    return subprocess.run([program, *map(str, args)], capture_output=True, text=True, errors="replace", timeout=300)
+
+
 def run(*args):
-    return subprocess.run([VFIT, *map(str, args)], capture_output=True, text=True, errors="replace", timeout=300)
+    return run_program(VFIT, *args)
 
 
 def document(test, *args):
@@ -460,6 +464,40 @@ class Contract(unittest.TestCase):
 
 
 @unittest.skipUnless(RECORDINGS, f"real recordings are not at {SHARED}")
+class PaperSample(unittest.TestCase):
+    PROGRAM = pathlib.Path(VFIT).with_name("vfit-paper")
+
+    def run_paper(self, *args):
+        return run_program(self.PROGRAM, *args)
+
+    def test_the_tables_have_the_papers_people_and_ours(self):
+        done = self.run_paper("tables")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for table in ("Table 1.", "Table 2.", "Table 3.", "Table 4."):
+            self.assertIn(table, done.stdout)
+        table_3 = done.stdout[done.stdout.index("Table 3."):done.stdout.index("Table 4.")]
+        _, _, fitted = table_3.partition("  fitted body ")
+        subjects = [line.split() for line in fitted.splitlines() if line.strip()[:1].isdigit()]
+        self.assertEqual([s[0] for s in subjects], [str(n) for n in range(1, 8)])
+        for number, real, told, error, *_ in subjects:
+            self.assertAlmostEqual(100 * abs(float(told) / float(real) - 1), float(error), delta=0.3, msg=number)
+            self.assertLess(float(error), 5, f"shoulders of subject {number}")
+
+    def test_the_figures_are_drawn(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = self.run_paper("figures", "--out", folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            for name in ("fig_4.png", "fig_8.png", "fig_9.png"):
+                width, height, rgb = picture(pathlib.Path(folder) / name)
+                self.assertGreater(min(width, height), 200, name)
+                self.assertGreater(len(set(rgb)), 10, name)
+
+    def test_what_is_not_there_is_named(self):
+        done = self.run_paper("figures", "--source", "/no/recording")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("/no/recording", done.stderr)
+
+
 class RealRecordings(unittest.TestCase):
     def test_every_recording_is_measured_and_dressed(self):
         for recording in RECORDINGS:

@@ -35,12 +35,20 @@ protected:
         EXPECT_EQ(vfit_sensor_close(sensor), VFIT_OK);
         return result;
     }
-    static std::map<std::string, vfit_measurement> measures(vfit_scan scan) {
+    using Measures = std::map<std::string, vfit_measurement>;
+    static Measures measures(vfit_scan scan) {
+        return by_key([scan](auto* items, uint32_t* count) { return vfit_scan_measure(scan, items, sizeof *items, count); });
+    }
+    static Measures avatar_measures(vfit_avatar avatar) {
+        return by_key([avatar](auto* items, uint32_t* count) { return vfit_avatar_measure(avatar, items, sizeof *items, count); });
+    }
+    template <typename Measure>
+    static Measures by_key(const Measure& measure) {
         uint32_t count = 0;
-        EXPECT_EQ(vfit_scan_measure(scan, nullptr, sizeof(vfit_measurement), &count), VFIT_OK) << contract::last_error();
+        EXPECT_EQ(measure(static_cast<vfit_measurement*>(nullptr), &count), VFIT_OK) << contract::last_error();
         std::vector<vfit_measurement> items(count, vfit_measurement_init());
-        EXPECT_EQ(vfit_scan_measure(scan, items.data(), sizeof(vfit_measurement), &count), VFIT_OK);
-        std::map<std::string, vfit_measurement> out;
+        EXPECT_EQ(measure(items.data(), &count), VFIT_OK);
+        Measures out;
         for (const vfit_measurement& m : items) out[m.key] = m;
         return out;
     }
@@ -96,6 +104,38 @@ TEST_F(ScanFitTest, GoesOnWhereMoreFramesAreAskedFor) {
     EXPECT_EQ(vfit_scan_extend(scan, UINT32_MAX, UINT32_MAX), VFIT_ERROR_ARGUMENT);
     EXPECT_EQ(state.frames_wanted, 5u);
     EXPECT_EQ(vfit_scan_destroy(scan), VFIT_OK);
+}
+
+TEST_F(ScanFitTest, AnAvatarHasTheScannedBody) {
+    const vfit_scan any = make(5, 5), tight = make(5, 5, VFIT_SCAN_BARE | VFIT_SCAN_TIGHT);
+    const std::string heavy = "weight=1.1&";
+    vfit_scan_state state = vfit_scan_state_init();
+    for (const vfit_scan scan : {any, tight}) {
+        EXPECT_GE(play(scan, heavy + "motion=scan&frames=6", &state), 0);
+        EXPECT_EQ(play(scan, heavy + "motion=side&facing=90&frames=12", &state), VFIT_OK);
+    }
+    const auto told = measures(tight), untold = measures(any);
+    EXPECT_LT(told.at("waist_girth_m").sigma, untold.at("waist_girth_m").sigma) << "tight clothes leave less open";
+    EXPECT_NE(told.at("waist_girth_m").value, untold.at("waist_girth_m").value);
+
+    vfit_avatar avatar{}, usual{};
+    ASSERT_EQ(vfit_avatar_create_from_scan(context, nullptr, tight, &avatar), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_avatar_create_from_shape(context, nullptr, nullptr, 0, 0, &usual), VFIT_OK) << contract::last_error();
+    const auto tape = avatar_measures(avatar);
+    for (const char* key : {"stature_m", "chest_girth_m", "waist_girth_m", "hip_girth_m"})
+        EXPECT_NEAR(tape.at(key).value, told.at(key).value, 0.01f) << key;
+    EXPECT_GT(tape.at("waist_girth_m").value, avatar_measures(usual).at("waist_girth_m").value + 0.05f) << "a heavy person";
+
+    const std::string own = R"({"format": "vfit-own-measures", "version": 1, "measures": [
+        {"key": "x_waist_girth_m", "girth": {"at": "waist", "of": "trunk"}}]})";
+    uint32_t count = 1;
+    vfit_measurement mine = vfit_measurement_init();
+    ASSERT_EQ(vfit_avatar_measure_own(avatar, own.data(), own.size(), &mine, sizeof mine, &count), VFIT_OK) << contract::last_error();
+    EXPECT_NEAR(mine.value, tape.at("waist_girth_m").value, 0.01f);
+    EXPECT_GT(mine.sigma, 0.005f) << "no surer than the scan";
+    EXPECT_LT(mine.sigma, 0.2f);
+    for (const vfit_avatar a : {avatar, usual}) EXPECT_EQ(vfit_avatar_destroy(a), VFIT_OK);
+    for (const vfit_scan scan : {any, tight}) EXPECT_EQ(vfit_scan_destroy(scan), VFIT_OK);
 }
 
 TEST_F(ScanFitTest, RefusesWhatItDoesNotKnow) {

@@ -292,21 +292,28 @@ void judge(const Set& set, size_t column, Targets& targets) {
 }
 
 /// The same people in the same clothes before the same camera, who come back and stand anew.
-void repeat(const Options& o, const std::shared_ptr<const BodyModel>& body, Targets& targets, Json& out) {
+struct Repeated {
+    std::string name;
+    BodySpace space;
+    Dress dress;
+};
+
+void repeat(const Options& o, const std::shared_ptr<const BodyModel>& body, const Repeated& set, Targets& targets, Json& out) {
     constexpr const char* kKeys[] = {"stature_m", "chest_girth_m", "waist_girth_m", "hip_girth_m"};
     std::map<std::string, double> squares;
     std::map<std::string, double> own;  // share of an error that repeats: squares of people's mean errors
     uint32_t people = 0, scans = 0;
-    Population population(body, BodySpace::kOutside, o.seed);
+    const bool tight = set.dress == Dress::kTight;
+    Population population(body, set.space, o.seed);
     for (uint32_t i = o.first; i < o.first + std::max(3u, o.count / 10); ++i) {
         const PersonOfPopulation person = population.draw(i);
-        const ScanScene first = ScanScene::draw(Dress::kClothed, o.seed * 104729u + i);
+        const ScanScene first = ScanScene::draw(set.dress, o.seed * 104729u + i);
         std::map<std::string, std::vector<double>> errors;
         for (uint32_t s = 0; s < o.repeats; ++s) {
             const ScanScene scene = first.again(s);
             ScanOfPerson one(scene, o.told_sex ? person.sex : VFIT_SEX_UNKNOWN);
             if (!one.front(person) || !one.side(person)) continue;
-            for (const vfit_measurement& m : measurements_of(one.fit()))
+            for (const vfit_measurement& m : measurements_of(tight ? one.told_tight() : one.fit()))
                 if (std::find(std::begin(kKeys), std::end(kKeys), std::string(m.key)) != std::end(kKeys))
                     errors[m.key].push_back(double(m.value) - person.measures.at(m.key));
             ++scans;
@@ -321,8 +328,9 @@ void repeat(const Options& o, const std::shared_ptr<const BodyModel>& body, Targ
         }
     }
     if (!o.json)
-        std::cout << "\nSYNTHETIC, repeated: " << people << " clothed people, " << scans << " scans in all, front and side\n";
-    Json one = {{"set", "repeated"}, {"people", people}, {"scans", scans}};
+        std::cout << "\nSYNTHETIC, " << set.name << ": " << people << " people, " << scans << " scans in all, front and side"
+                  << (tight ? ", told tight" : ", told nothing") << "\n";
+    Json one = {{"set", set.name}, {"people", people}, {"scans", scans}};
     for (const char* key : kKeys) {
         const double sd = 1000 * std::sqrt(squares[key] / std::max(1u, people)), share = own[key] / std::max(1e-12, own[key] + squares[key]);
         if (!o.json)
@@ -330,7 +338,7 @@ void repeat(const Options& o, const std::shared_ptr<const BodyModel>& body, Targ
                       << " sd from scan to scan " << sd << " mm; share of the squared error that repeats " << std::setprecision(2)
                       << share << "\n";
         one[key] = {{"sd_mm", sd}, {"repeats", share}};
-        targets.judge(std::string("repeated: ") + key + ", sd over " + std::to_string(o.repeats) + " scans", sd, Aim::at_most,
+        targets.judge(set.name + ": " + key + ", sd over " + std::to_string(o.repeats) + " scans", sd, Aim::at_most,
                       std::string(key) == "stature_m" ? 4.0 : 8.0, 1, " mm");
     }
     out.push_back(one);
@@ -342,11 +350,12 @@ void run(const Options& o) {
                              {"clothed", BodySpace::kOutside, Dress::kClothed}};
     Targets targets(o.json);
     Json out = Json::array();
+    const auto asked_for = [&](const std::string& name) { return name.rfind(o.only, 0) == 0; };
     std::unique_ptr<Population> population;
     BodySpace made = BodySpace::kInside;
     for (size_t column = 0; column < sets.size(); ++column) {
         Set& set = sets[column];
-        if (set.name.find(o.only) == std::string::npos) continue;
+        if (!asked_for(set.name)) continue;
         if (!population || made != set.space) population = std::make_unique<Population>(body, made = set.space, o.seed);
         for (uint32_t i = o.first; i < o.first + o.count; ++i)
             scan(population->draw(i), ScanScene::draw(set.dress, o.seed * 104729u + i), o.told_sex, set);
@@ -360,7 +369,10 @@ void run(const Options& o) {
             for (const auto& [key, t] : *tallies) one[name][key] = t.json();
         out.push_back(one);
     }
-    if (std::string("repeated").find(o.only) != std::string::npos) repeat(o, body, targets, out);
+    for (const Repeated& set : {Repeated{"repeated in space", BodySpace::kInside, Dress::kTight},
+                                {"repeated off space", BodySpace::kOutside, Dress::kTight},
+                                {"repeated in clothes", BodySpace::kOutside, Dress::kClothed}})
+        if (asked_for(set.name)) repeat(o, body, set, targets, out);
     if (o.json)
         print_document({{"sets", out}, {"targets", targets.json()}});
     else
@@ -373,11 +385,11 @@ void add_measure(Command& app) {
     Command command = app.add_subcommand("measure", "Measures of virtual people by each method (synthetic)");
     auto o = std::make_shared<Options>();
     command.add_option("--count", o->count, "People of each set").within(1, 100000);
-    command.add_option("--repeats", o->repeats, "Scans of each person of the set repeated, which has a tenth of the people")
+    command.add_option("--repeats", o->repeats, "Scans of each person of the repeated sets, which have a tenth of the people")
         .within(3, 1000);
     command.add_option("--first", o->first, "Number of the first");
     command.add_option("--seed", o->seed, "Of the population; those of training are 1000 and above");
-    command.add_option("--only", o->only, "Sets whose name contains this: in space, off space, clothed, repeated");
+    command.add_option("--only", o->only, "Sets whose name begins so: in space, off space, clothed, repeated (in space, off space, in clothes)");
     command.add_flag("--told-sex", o->told_sex, "Tell the scan the person's sex");
     command.add_flag("--json", o->json, "Print JSON");
     command.callback([o] { run(*o); });

@@ -2,9 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Learns measures from scans of virtual people (vfit-bench scan-features) and writes the model that the library reads.
 
-For each sex a ridge regression of every tape measure on the features of a scan; whose sex nobody tells gets the
-mixture of both by a logistic regression. Deviations follow the scan: a ridge regression of the logarithm of errors on
-people who were held out, scaled so that 90 % of those errors lie within 1.645 of them. Needs numpy alone.
+A tape measure is linear in the features of a scan, with weights that are partly the same and partly apart for each sex,
+plus a smooth function of where the scan lies among those that were learnt from: a Gaussian process (Rasmussen and
+Williams 2006, chapter 2) with the sum of both kernels, the second one by its values at some of the scans (their section
+8.3.1). Whose sex nobody tells gets the mixture of both by a logistic regression. Deviations follow the scan: a ridge
+regression of the logarithm of errors on people who were held out, scaled so that 90 % of those errors lie within 1.645
+of them. Needs numpy alone.
 """
 import argparse
 import json
@@ -12,18 +15,24 @@ import json
 import numpy as np
 
 FOLDS = 5                  # people are held out whole
-OTHER_SEX = 0.1            # how much of a row of the other sex counts: they share a little of what there is to learn
-CLOTHED = 0.1              # and of a clothed scan for those in tight clothes: what the cloth adds is told to the regression
-FIRM = 0.3                 # of the ridge, for the body's own numbers
-FIRM_SURFACE = [3.0, 10.0, 30.0, 100.0, 300.0]  # for its surface: each measure takes what serves people held out best
+TOGETHER = 0.8             # how much of what the features tell is the same for both sexes
+CLOTHED = 0.1              # weight of a clothed scan for those in tight clothes: what the cloth adds is told to the regression
+FIRM = 3.0                 # of the ridge, for the body's own numbers, by a measure's variance
+FIRM_SURFACE = [100.0, 300.0, 1000.0, 3000.0]  # for its surface: each measure takes what serves people held out best
+SMOOTH = 30.0              # variance of the smooth function
+CENTRES, DIRECTIONS = 1000, 40  # where it is known, and in how many directions of the features
+WIDTH = 1.2                # of a centre, squared, by the usual squared distance of two scans
+LEVEL = 100.0              # variance of what a sex has in common
+JITTER = 1e-3              # of the kernel between centres: two that are alike say the same
 FARTHEST = 5.0             # deviations: sdk/scan/measure_model.cpp cuts there too
 # The order of sdk/scan/body_scan.h.
-SHAPES, BASE, ZONES, PROFILE, REGIONS = 13, 16, 2 * 2 * 101, 2 * 14 * 4, 2 * 3
+BASE, ZONES, PROFILE, REGIONS = 19, 2 * 2 * 171, 24 * (5 + 9), 2 * 3
 FEATURES = BASE + ZONES + PROFILE + REGIONS
-ZONES_OF_CLOTH = 3
-# What deviations follow: clothes in the fitted shape, distance and pixel, roughness.
+# What deviations follow: clothes in the fitted shape, distance and pixel, roughness; and how strange all of it is.
 SIGMA_FEATURES = [10, 11, 12, 14, 15] + list(range(BASE + ZONES + PROFILE, FEATURES))
 LEAST_ERROR = 0.0005
+LEAST_STRANGENESS = 0.01    # sdk/scan/measure_model.cpp has the same
+UNIT, UNIT_OF_PLACES = 1e-6, 1e-5  # the file's numbers are whole ones of these
 # What is learnt apart: which features, from which scans.
 KINDS = {"front": ("front", False), "front_and_side": ("both", False), "front_tight": ("front", True),
          "front_and_side_tight": ("both", True)}
@@ -51,18 +60,12 @@ def read(files):
     return rows
 
 
-class Equations:
-    """Of the ridge regression y = base + weights . x with weighted rows."""
-
-    def __init__(self, x, y, weight):
-        self.mean_x, self.mean_y = np.average(x, 0, weight), np.average(y, 0, weight)
-        root = np.sqrt(weight)[:, None]
-        a = (x - self.mean_x) * root
-        self.left, self.right = a.T @ a, a.T @ ((y - self.mean_y) * root)
-
-    def solve(self, firmness):
-        weights = np.linalg.solve(self.left + np.diag(firmness), self.right)
-        return weights, self.mean_y - self.mean_x @ weights
+def ridge(x, y, weight, firmness):
+    """Weights and base of y = base + x . weights with weighted rows."""
+    mean_x, mean_y = np.average(x, 0, weight), np.average(y, 0, weight)
+    a = (x - mean_x) * weight[:, None]
+    weights = np.linalg.solve(a.T @ (x - mean_x) + firmness * np.eye(x.shape[1]), a.T @ (y - mean_y))
+    return weights, mean_y - mean_x @ weights
 
 
 def logistic(x, y, firmness=10.0, steps=25):
@@ -77,6 +80,29 @@ def logistic(x, y, firmness=10.0, steps=25):
     return w
 
 
+class Centres:
+    """Some of the scans, and how near another one is to each: in the directions that measures depend on."""
+
+    def __init__(self, x, y, weight):
+        relevance = np.abs(ridge(x, y, weight, FIRM_SURFACE[0])[0])
+        relevance = np.sqrt((relevance / relevance.sum(0)).mean(1))
+        vectors = np.linalg.eigh(np.cov((x * relevance).T, aweights=weight))[1][:, ::-1][:, :DIRECTIONS]
+        self.directions = relevance[:, None] * vectors
+        chosen = np.random.default_rng(1).choice(len(x), min(CENTRES, len(x)), replace=False, p=weight / weight.sum())
+        self.centres = x[chosen] @ self.directions
+        usual = np.sqrt(WIDTH * np.median(self.squares(self.centres)))
+        self.directions /= usual
+        self.centres /= usual
+        values, vectors = np.linalg.eigh(self.near(x[chosen]) + JITTER * np.eye(len(chosen)))
+        self.root = vectors / np.sqrt(values)
+
+    def squares(self, z):
+        return np.maximum((z * z).sum(1)[:, None] + (self.centres * self.centres).sum(1) - 2 * z @ self.centres.T, 0.0)
+
+    def near(self, x):
+        return np.exp(-0.5 * self.squares(x @ self.directions))
+
+
 class Part:
     """What is learnt from one kind of scan, whatever the firmness of the ridge. `own`: of that kind; of the other rows
     the thickness of the clothes is known, and what is learnt is for none."""
@@ -85,15 +111,16 @@ class Part:
         features = scans.features[own]
         seen = np.isfinite(features)
         count = np.maximum(seen.sum(0), 1)
+        self.used = seen.any(0)
         self.mean = np.where(seen, features, 0.0).sum(0) / count
         self.scale = np.maximum(np.sqrt((np.where(seen, features - self.mean, 0.0) ** 2).sum(0) / count), 1e-3)
-        x = self.standard(scans.features)
-        self.logit = logistic(x[own], scans.female[own])
-        self.usual_strangeness = float(np.quantile((x[own] ** 2).mean(1), 0.99))
-        self.equations = []
-        for sex in (1.0, 0.0):
-            weight = np.where(scans.female == sex, 1.0, OTHER_SEX) * np.where(own, 1.0, CLOTHED)
-            self.equations.append(Equations(np.c_[x, np.where(own[:, None], 0.0, scans.thickness)], scans.truth, weight))
+        self.x, self.female, self.weight = self.standard(scans.features), scans.female, np.where(own, 1.0, CLOTHED)
+        self.logit = logistic(self.x[own], scans.female[own])
+        self.usual_strangeness = float(np.quantile((self.x[own] ** 2).mean(1), 0.99))
+        self.mean_y = np.average(scans.truth, 0, self.weight)
+        self.y = scans.truth - self.mean_y
+        self.cloth = np.where(own[:, None], 0.0, scans.thickness)
+        self.centres = Centres(self.x[:, self.used], scans.truth, self.weight)
 
     def standard(self, features):
         """What was not seen is taken as the mean."""
@@ -101,17 +128,26 @@ class Part:
         return np.where(np.isfinite(x), x, 0.0)
 
     def ridges(self, firm_surface):
-        """Of women and of men, every measure with that firmness."""
-        firmness = np.full(FEATURES + ZONES_OF_CLOTH, firm_surface)
-        firmness[:BASE] = firmness[FEATURES:] = FIRM
-        solved = [equations.solve(firmness) for equations in self.equations]
-        return [(weights[:FEATURES], base) for weights, base in solved]
+        """Weights of women and of men with their base, and of the centres, for every measure with that firmness."""
+        count = self.used.sum()
+        firm = np.sqrt(np.where(np.flatnonzero(self.used) < BASE, FIRM, firm_surface))
+        both, apart = np.sqrt(TOGETHER) / firm, np.sqrt(1.0 - TOGETHER) / firm
+        sex, x = np.c_[self.female, 1.0 - self.female], self.x[:, self.used]
+        columns = np.c_[x * both, x * apart * sex[:, :1], x * apart * sex[:, 1:],
+                        np.sqrt(SMOOTH) * self.centres.near(x) @ self.centres.root, np.sqrt(LEVEL) * sex, self.cloth]
+        a, b = columns * np.sqrt(self.weight)[:, None], self.y * np.sqrt(self.weight)[:, None]
+        solved = np.linalg.solve(a.T @ a + np.eye(a.shape[1]), a.T @ b)
+        shared, smooth = both[:, None] * solved[:count], solved[3 * count:][:len(self.centres.root)]
+        level = self.mean_y + np.sqrt(LEVEL) * solved[3 * count + len(smooth):][:2]
+        sexes = [(shared + apart[:, None] * solved[(s + 1) * count:][:count], level[s]) for s in (0, 1)]
+        return sexes, np.sqrt(SMOOTH) * self.centres.root @ smooth
 
     def __call__(self, features, firm_surface):
         x = self.standard(features)
         p = (1.0 / (1.0 + np.exp(-(x @ self.logit[:-1] + self.logit[-1]))))[:, None]
-        female, male = (base + x @ weights for weights, base in self.ridges(firm_surface))
-        return p * female + (1.0 - p) * male
+        sexes, smooth = self.ridges(firm_surface)
+        female, male = (base + x[:, self.used] @ weights for weights, base in sexes)
+        return p * female + (1.0 - p) * male + self.centres.near(x[:, self.used]) @ smooth
 
 
 class Scans:
@@ -148,19 +184,27 @@ def held_out(scans, own):
 class Sigma:
     """Logarithm of a measure's deviation, linear in a few standardised features."""
 
-    def __init__(self, x, error):
-        x = x[:, SIGMA_FEATURES]
-        equations = Equations(x, np.log(np.abs(error) + LEAST_ERROR), np.ones(len(x)))
-        self.weights, base = equations.solve(np.full(x.shape[1], 30.0))
-        within = np.quantile(np.abs(error) / np.exp(base + x @ self.weights), 0.90, axis=0)
+    def __init__(self, x, error, off_space):
+        x = self.tells(x)
+        self.weights, base = ridge(x, np.log(np.abs(error) + LEAST_ERROR), np.ones(len(x)), 30.0)
+        ratio = np.abs(error) / np.exp(base + x @ self.weights)
+        within = np.quantile(np.r_[ratio, ratio[off_space]], 0.90, axis=0)  # off space counts twice: real people are like that
         self.base = base + np.log(within / 1.645)
 
     def __call__(self, x):
-        return np.exp(self.base + x[:, SIGMA_FEATURES] @ self.weights)
+        return np.exp(self.base + self.tells(x) @ self.weights)
+
+    @staticmethod
+    def tells(x):
+        return np.c_[x[:, SIGMA_FEATURES], np.log((x ** 2).mean(1) + LEAST_STRANGENESS)]
 
 
 def digits(values, count):
     return [float(f"{v:.{count}g}") for v in np.asarray(values).ravel()]
+
+
+def whole(values, unit):
+    return np.rint(np.asarray(values).ravel() / unit).astype(int).tolist()
 
 
 SETS = {"in space": lambda r: tight(r) and r["space"] == "in", "off space": lambda r: tight(r) and r["space"] == "out",
@@ -177,7 +221,7 @@ def train(rows, kind, keys):
     part = Part(scans, own)
     rows, number = [r for r, take in zip(scans.rows, own) if take], scans.number[own]
     x = part.standard(scans.features[own])
-    sigma = Sigma(x, error)
+    sigma = Sigma(x, error, np.array([r["space"] == "out" for r in rows]))
     inside = np.abs(error) <= 1.645 * sigma(x)
     print(f"\n{kind}: {len(rows)} scans of {len(set(zip(number, [r['space'] for r in rows])))} people, "
           "held out: mean absolute error (mm, kg) and share within 90 % intervals")
@@ -191,31 +235,42 @@ def train(rows, kind, keys):
     correlation = np.corrcoef(error[:, girths].T)
     print(f"  errors' correlation: chest and waist {correlation[0, 1]:.2f}, chest and hip {correlation[0, 2]:.2f}, "
           f"waist and hip {correlation[1, 2]:.2f}")
-    out = {"mean": digits(part.mean, 7), "scale": digits(part.scale, 5), "usual_strangeness": part.usual_strangeness,
-           "female_weights": digits(part.logit[:-1], 4), "female_base": float(part.logit[-1]),
-           "sigma_features": SIGMA_FEATURES}
-    ridges = [part.ridges(firm) for firm in FIRM_SURFACE]
+    used = part.used
+    out = {"features": np.flatnonzero(used).tolist(), "mean": digits(part.mean[used], 7), "scale": digits(part.scale[used], 5),
+           "usual_strangeness": part.usual_strangeness, "female_weights": digits(part.logit[:-1][used], 4),
+           "female_base": float(part.logit[-1]), "directions": whole(part.centres.directions.T, UNIT_OF_PLACES),
+           "centres": whole(part.centres.centres, UNIT_OF_PLACES), "sigma_features": SIGMA_FEATURES}
+    solved = [part.ridges(firm) for firm in FIRM_SURFACE]
+    out["bends"] = {key: whole(solved[best[k]][1][:, k], UNIT) for k, key in enumerate(keys)}
     for s, sex in enumerate(("female", "male")):
-        weights = np.array([ridges[best[k]][s][0][:, k] for k in measures]).T
-        base = np.array([ridges[best[k]][s][1][k] for k in measures])
-        out[sex] = {key: {"observed": key in SEEN_FROM_FRONT or (view == "both" and key not in NEVER_SEEN),
-                          "base": float(base[k]), "weights": digits(weights[:, k], 4),
-                          "log_sigma": float(sigma.base[k]), "sigma_weights": digits(sigma.weights[:, k], 4)}
-                    for k, key in enumerate(keys) if sex == "female" or key != "underbust_girth_m"}
-    check_rounding(out, part, ridges, best, keys, scans.features)
+        out[sex] = {}
+        for k, key in enumerate(keys):
+            if sex == "male" and key == "underbust_girth_m":
+                continue
+            weights, base = solved[best[k]][0][s]
+            out[sex][key] = {"observed": key in SEEN_FROM_FRONT or (view == "both" and key not in NEVER_SEEN),
+                             "base": float(base[k]), "weights": whole(weights[:, k], UNIT),
+                             "log_sigma": float(sigma.base[k]), "sigma_weights": digits(sigma.weights[:, k], 4)}
+    check_rounding(out, part, solved, best, keys, scans.features)
     return out
 
 
-def check_rounding(out, part, ridges, best, keys, features):
+def check_rounding(out, part, solved, best, keys, features):
     """What the file's numbers tell is what was learnt: a mean of three digits once cost three millimetres of stature."""
+    features, exact_x = features[:, part.used], part.standard(features)[:, part.used]
     x = np.where(np.isfinite(features), np.clip((features - np.array(out["mean"])) / np.array(out["scale"]), -FARTHEST, FARTHEST), 0.0)
+    place = x @ (UNIT_OF_PLACES * np.array(out["directions"]).reshape(-1, x.shape[1]).T)
+    centres = UNIT_OF_PLACES * np.array(out["centres"]).reshape(-1, place.shape[1])
+    near = np.exp(-0.5 * ((place * place).sum(1)[:, None] + (centres * centres).sum(1) - 2 * place @ centres.T))
+    exact_near = part.centres.near(exact_x)
     for s, sex in enumerate(("female", "male")):
         for k, key in enumerate(keys):
             if key not in out[sex]:
                 continue
-            weights, base = ridges[best[k]][s]
-            exact = part.standard(features) @ weights[:, k] + base[k]
-            told = x @ np.array(out[sex][key]["weights"]) + out[sex][key]["base"]
+            sexes, smooth = solved[best[k]]
+            weights, base = sexes[s]
+            exact = exact_x @ weights[:, k] + base[k] + exact_near @ smooth[:, k]
+            told = UNIT * (x @ np.array(out[sex][key]["weights"]) + near @ np.array(out["bends"][key])) + out[sex][key]["base"]
             if np.abs(told - exact).max() > LEAST_ERROR * (100 if key.endswith("_kg") else 1):
                 raise SystemExit(f"{key}: rounding costs {np.abs(told - exact).max()}")
 
@@ -227,7 +282,7 @@ def main():
     arguments = parser.parse_args()
     rows = read(arguments.scans)
     keys = sorted({key for r in rows for key in r["truth"]} - {"navel_girth_m"})
-    model = {"format": "vfit-measure-model", "version": 2}
+    model = {"format": "vfit-measure-model", "version": 3, "unit": UNIT, "unit_of_places": UNIT_OF_PLACES}
     for kind in KINDS:
         model[kind] = train(rows, kind, keys)
     with open(arguments.out, "w") as file:

@@ -15,7 +15,7 @@ namespace {
 constexpr size_t kCrownFeature = size_t(kFitShapes);
 
 int told(const ScanFeatures& f, ViewKind view) {
-    const size_t first = kCrownFeature + 3 + size_t(view) * kSeenKinds * BodyZones::kCount;
+    const size_t first = kCrownFeature + 6 + size_t(view) * kSeenKinds * BodyZones::kCount;
     return int(std::count_if(f.begin() + std::ptrdiff_t(first),
                              f.begin() + std::ptrdiff_t(first + kSeenKinds * BodyZones::kCount),
                              [](float x) { return !std::isnan(x); }));
@@ -129,11 +129,14 @@ TEST(TrunkProfile, TellsBreadthFromTheFrontAndDepthFromTheSide) {
     };
     const TrunkProfile front = profile_of({}, ViewKind::kFront), side = profile_of(sideways(), ViewKind::kSide);
     // The level of the waist: a default body is 0.31 m broad and 0.22 m deep there.
-    constexpr int kWaist = 6;
+    constexpr int kWaist = 10;
     const auto f = front.reaches_m(ViewKind::kFront, kWaist), s = side.reaches_m(ViewKind::kSide, kWaist);
     EXPECT_NEAR(2.0f * f[TrunkProfile::kAhead], 0.30f, 0.04f);
+    EXPECT_TRUE(std::isnan(f[TrunkProfile::kBehind])) << "from the front both sides are one";
     EXPECT_NEAR(s[TrunkProfile::kAhead] + s[TrunkProfile::kBehind], 0.21f, 0.04f);
-    EXPECT_GT(f[TrunkProfile::kTowards], f[TrunkProfile::kTowardsHalf]) << "a trunk is round";
+    for (const auto& [inner, outer] : {std::pair(TrunkProfile::kTowards, TrunkProfile::kAheadHalf),
+                                       {TrunkProfile::kAheadQuarter, TrunkProfile::kAheadThreeQuarters}})
+        EXPECT_GT(f[inner], f[outer]) << "a trunk is round";
     EXPECT_TRUE(std::isnan(front.reaches_m(ViewKind::kSide, kWaist)[TrunkProfile::kAhead])) << "not seen from there";
     TrunkProfile gone = front;
     gone.reset();

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "core/error.h"
 #include "core/json.h"
@@ -13,8 +14,18 @@ namespace {
 
 constexpr size_t kCrown = size_t(kFitShapes);
 
+/// The models here look at shape, crown and the last feature: places in their lists.
+constexpr size_t kLast = kCrown + 1, kUsed = kLast + 1;
+
+std::vector<size_t> used() {
+    std::vector<size_t> out(kUsed);
+    std::iota(out.begin(), out.end(), size_t{0});
+    out[kLast] = kScanFeatures - 1;
+    return out;
+}
+
 std::vector<float> weights(float crown) {
-    std::vector<float> w(kScanFeatures, 0.0f);
+    std::vector<float> w(kUsed, 0.0f);
     w[kCrown] = crown;
     return w;
 }
@@ -25,16 +36,18 @@ constexpr float kUsualCrown_m = 1.7f;
 Json small_model() {
     const auto measure = [](float base, float log_sigma) {
         return Json{{"observed", true}, {"base", base}, {"weights", weights(1.0f)}, {"log_sigma", log_sigma},
-                    {"sigma_weights", {0.5f}}};
+                    {"sigma_weights", {0.5f, 0.0f}}};
     };
-    std::vector<float> mean(kScanFeatures, 0.0f);
+    std::vector<float> mean(kUsed, 0.0f);
     mean[kCrown] = kUsualCrown_m;
-    const Json part = {{"mean", mean}, {"scale", std::vector<float>(kScanFeatures, 1.0f)},
+    const Json part = {{"features", used()}, {"mean", mean}, {"scale", std::vector<float>(kUsed, 1.0f)},
+                       {"directions", Json::array()}, {"centres", Json::array()},
+                       {"bends", {{"stature_m", Json::array()}, {"underbust_girth_m", Json::array()}}},
                        {"usual_strangeness", 1.0f}, {"female_weights", weights(-1000.0f)}, {"female_base", 0.0f},
                        {"sigma_features", {kScanFeatures - 1}},
                        {"female", {{"stature_m", measure(1.6f, std::log(0.01f))}, {"underbust_girth_m", measure(0.8f, 0.0f)}}},
                        {"male", {{"stature_m", measure(1.7f, std::log(0.01f))}}}};
-    return {{"format", "vfit-measure-model"}, {"version", 2}, {"front", part}, {"front_and_side", part}, {"front_tight", part},
+    return {{"format", "vfit-measure-model"}, {"version", 3}, {"unit", 1.0f}, {"unit_of_places", 1.0f}, {"front", part}, {"front_and_side", part}, {"front_tight", part},
             {"front_and_side_tight", part}};
 }
 
@@ -52,6 +65,22 @@ TEST(MeasureModel, IsLinearInWhatTheScanTells) {
     EXPECT_NEAR(male[0].value, 1.75f, 1e-5f);
     EXPECT_NEAR(male[0].sigma, 0.01f, 1e-5f);
     EXPECT_NEAR(model.measure(features(0.05f, 2.0f), ScanKind{}, VFIT_SEX_MALE)[0].sigma, 0.01f * std::exp(1.0f), 1e-4f);
+}
+
+TEST(MeasureModel, IsBentByWhatItIsNear) {
+    Json json = small_model();
+    json["unit"] = 0.01f, json["unit_of_places"] = 0.1f;
+    for (const char* sex : {"female", "male"}) json["front"][sex]["stature_m"]["weights"][kCrown] = 100;
+    std::vector<int> along_last(kUsed, 0);
+    along_last[kLast] = 10;
+    json["front"]["directions"] = along_last;
+    json["front"]["centres"] = {0, 20};
+    json["front"]["bends"] = {{"stature_m", {5, -2}}, {"underbust_girth_m", {0, 0}}};
+    const MeasureModel model = MeasureModel::parse(json_text(json));
+    const auto stature = [&](float last) { return model.measure(features(0.1f, last), {}, VFIT_SEX_MALE)[0].value; };
+    EXPECT_NEAR(stature(0.0f), 1.8f + 0.05f - 0.02f * std::exp(-2.0f), 1e-5f);
+    EXPECT_NEAR(stature(2.0f), 1.8f + 0.05f * std::exp(-2.0f) - 0.02f, 1e-5f);
+    EXPECT_NEAR(stature(-5.0f), 1.8f, 1e-5f) << "far from all, the linear rule";
 }
 
 TEST(MeasureModel, TakesTheMeanForWhatWasNotSeen) {
@@ -90,9 +119,13 @@ TEST(MeasureModel, MixesBothWhereTheSexIsUnknown) {
 TEST(MeasureModel, IsLessSureOfAPersonUnlikeAllOthers) {
     const MeasureModel model = MeasureModel::parse(json_text(small_model()));
     ScanFeatures strange{};
-    strange.fill(2.0f);
+    std::fill(strange.begin(), strange.begin() + kCrown, 2.0f);
     strange[kCrown] = kUsualCrown_m, strange.back() = 0.0f;
-    EXPECT_NEAR(model.measure(strange, ScanKind{}, VFIT_SEX_MALE)[0].sigma, 0.02f, 1e-3f) << "four times the usual square";
+    const float usual = float(kUsed) / float(kScanFeatures) / 4.0f;
+    Json easily_surprised = small_model();
+    for (const char* kind : {"front", "front_and_side"}) easily_surprised[kind]["usual_strangeness"] = usual;
+    EXPECT_NEAR(MeasureModel::parse(json_text(easily_surprised)).measure(strange, ScanKind{}, VFIT_SEX_MALE)[0].sigma,
+                0.04f * std::sqrt(float(kCrown) / float(kUsed)), 1e-3f);
     // One of the body's own numbers far out, as a child's crown is, is enough.
     Json json = small_model();
     json["front"]["scale"][kCrown] = 0.1f;
@@ -109,6 +142,17 @@ TEST(MeasureModel, IsLessSureOfAPersonUnlikeAllOthers) {
     EXPECT_GT(m.sigma, 0.1f);
 }
 
+TEST(MeasureModel, DeviationsFollowHowStrangeTheScanIs) {
+    Json json = small_model();
+    json["front"]["male"]["stature_m"]["sigma_weights"] = {0.0f, 0.5f};
+    const MeasureModel model = MeasureModel::parse(json_text(json));
+    ScanFeatures f = features(0.0f);
+    const float usual = model.measure(f, {}, VFIT_SEX_MALE)[0].sigma;
+    std::fill(f.begin(), f.begin() + kCrown, 2.0f);
+    const float square = 4.0f * float(kCrown) / float(kScanFeatures);
+    EXPECT_NEAR(model.measure(f, {}, VFIT_SEX_MALE)[0].sigma / usual, std::sqrt((square + 0.01f) / 0.01f), 1e-3f);
+}
+
 TEST(MeasureModel, RefusesWhatIsNoModelAndNamesTheFault) {
     const auto refused = [](const Json& json, const char* word) {
         try {
@@ -122,10 +166,17 @@ TEST(MeasureModel, RefusesWhatIsNoModelAndNamesTheFault) {
     EXPECT_THROW(MeasureModel::parse("[]"), Error);
     Json m = small_model();
     m["format"] = "else", refused(m, "format");
-    m = small_model(), m["version"] = 3, refused(m, "version");
+    m = small_model(), m["version"] = 2, refused(m, "version");
     m = small_model(), m.erase("front_and_side"), refused(m, "front_and_side");
     m = small_model(), m["front"]["mean"].erase(0), refused(m, "mean");
     m = small_model(), m["front"]["scale"][3] = 0.0f, refused(m, "scale");
+    m = small_model(), m["front"]["features"] = Json::array(), refused(m, "features");
+    m = small_model(), m["front"]["features"][0] = kScanFeatures, refused(m, "feature");
+    m = small_model(), m["front"]["directions"] = 3, refused(m, "directions");
+    m = small_model(), m["front"]["directions"] = weights(1.0f), m["front"]["centres"] = {0.0f, "x"}, refused(m, "centres");
+    m = small_model(), m["front"]["directions"] = weights(1.0f), m["front"]["centres"] = {0.0f}, refused(m, "stature_m");
+    m = small_model(), m["front"].erase("bends"), refused(m, "bends");
+    m = small_model(), m.erase("unit"), refused(m, "unit");
     m = small_model(), m["front"]["sigma_features"] = {100000}, refused(m, "feature");
     m = small_model(), m["front"]["male"]["stature_m"]["weights"][2] = "x", refused(m, "stature_m");
     m = small_model(), m["front"]["male"] = {{"nose_m", m["front"]["male"]["stature_m"]}}, refused(m, "nose_m");
