@@ -17,7 +17,7 @@ struct Girth {
 constexpr Girth kGirths[] = {{"chest_girth_m", "measure-bust-circ", 0.156f},   {"waist_girth_m", "measure-waist-circ", 0.100f},
                              {"hip_girth_m", "measure-hips-circ", 0.137f},     {"thigh_girth_m", "measure-thigh-circ", 0.060f},
                              {"neck_girth_m", "measure-neck-circ", 0.040f},    {"upper_arm_girth_m", "measure-upperarm-circ", 0.060f}};
-constexpr int kSteps = 5;
+constexpr int kSteps = 7;
 constexpr float kSliderEnd = 0.9f;
 constexpr float kLeastScale = 0.8f, kMostScale = 1.25f;
 

@@ -61,15 +61,16 @@ protected:
 }  // namespace
 
 TEST_F(ScanFitTest, MeasuresFromTheFrontAndTheSide) {
-    const vfit_scan scan = make(5, 5);
+    // Tight clothes: of thick ones the girth under them is as unsure from two sides as from one.
+    const vfit_scan scan = make(15, 15, VFIT_SCAN_BARE | VFIT_SCAN_TIGHT);
     vfit_scan_state state = vfit_scan_state_init();
     std::string truth;
     uint32_t count = 0;
     EXPECT_EQ(vfit_scan_measure(scan, nullptr, sizeof(vfit_measurement), &count), VFIT_ERROR_STATE);
-    EXPECT_EQ(play(scan, "motion=scan&frames=6", &state, &truth), VFIT_INCOMPLETE) << "one more than is wanted";
-    EXPECT_EQ(state.frames_taken, 5u);
+    EXPECT_EQ(play(scan, "motion=scan&frames=16", &state, &truth), VFIT_INCOMPLETE) << "one more than is wanted";
+    EXPECT_EQ(state.frames_taken, 15u);
     EXPECT_EQ(state.guidance, VFIT_GUIDANCE_TURN_SIDEWAYS);
-    EXPECT_EQ(state.side_frames_wanted, 5u);
+    EXPECT_EQ(state.side_frames_wanted, 15u);
     const auto front = measures(scan);
     EXPECT_NEAR(front.at("stature_m").value, number(truth, "stature_m"), 0.02f);
     EXPECT_EQ(front.at("waist_depth_m").observed, 0u);
@@ -79,11 +80,12 @@ TEST_F(ScanFitTest, MeasuresFromTheFrontAndTheSide) {
     vfit_scale scale = vfit_scale_init();
     EXPECT_EQ(vfit_scan_scale(scan, "short_sleeves", &scale), VFIT_OK);
     EXPECT_GT(scale.y, 0.5f);
-    EXPECT_EQ(play(scan, "motion=side&facing=90&frames=12", &state), VFIT_OK);
-    EXPECT_EQ(state.side_frames_taken, 5u);
+    EXPECT_EQ(play(scan, "motion=side&facing=90&frames=25", &state), VFIT_OK);
+    EXPECT_EQ(state.side_frames_taken, 15u);
     const auto both = measures(scan);
     EXPECT_EQ(both.at("waist_depth_m").observed, 1u);
-    EXPECT_LT(both.at("waist_girth_m").sigma, front.at("waist_girth_m").sigma) << "a side view tells more";
+    for (const char* key : {"chest_girth_m", "waist_girth_m", "hip_girth_m"})
+        EXPECT_LT(both.at(key).sigma, front.at(key).sigma) << key << ": a side view tells more";
     for (const char* key : {"chest_girth_m", "waist_girth_m", "hip_girth_m", "inside_leg_m", "arm_length_m"}) {
         const vfit_measurement& m = both.at(key);
         EXPECT_NEAR(m.value, number(truth, key), std::max(0.03f, 3.5f * m.sigma)) << key;
@@ -115,8 +117,8 @@ TEST_F(ScanFitTest, AnAvatarHasTheScannedBody) {
         EXPECT_EQ(play(scan, heavy + "motion=side&facing=90&frames=12", &state), VFIT_OK);
     }
     const auto told = measures(tight), untold = measures(any);
-    EXPECT_LT(told.at("waist_girth_m").sigma, untold.at("waist_girth_m").sigma) << "tight clothes leave less open";
-    EXPECT_NE(told.at("waist_girth_m").value, untold.at("waist_girth_m").value);
+    for (const char* key : {"chest_girth_m", "waist_girth_m", "hip_girth_m"})
+        EXPECT_LT(told.at(key).sigma, 0.95f * untold.at(key).sigma) << key << ": tight clothes leave less open";
 
     vfit_avatar avatar{}, usual{};
     ASSERT_EQ(vfit_avatar_create_from_scan(context, nullptr, tight, &avatar), VFIT_OK) << contract::last_error();
