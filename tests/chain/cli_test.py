@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """The command-line contract: keys, units, exit codes and one clear line for every failure.
 
-    cli_test.py VFIT [SHARED]
+    cli_test.py VFIT [SHARED [CLASS ...]]
 
-SHARED is the folder of real data; tests that need it are skipped by name where it is absent.
+SHARED is the folder of real data; tests that need it are skipped by name where it is absent. CLASS: these tests alone.
 """
 import json
 import math
@@ -540,4 +540,4 @@ class RealRecordings(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)
