@@ -35,11 +35,11 @@ function(vfit_together target)
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
-# A build under sanitizers is for running tests, not for working in.
-function(vfit_together_under_sanitizers target)
+# The library's own sources too, unless somebody works on them.
+function(vfit_together_in_the_library target)
   # These hold code for several SIMD targets, or the same names in several sources.
   set(apart vfit_math vfit_motion)
-  if(VFIT_SANITIZE AND NOT target IN_LIST apart)
+  if(VFIT_TOGETHER AND NOT target IN_LIST apart)
     vfit_together(${target})
   endif()
 endfunction()
@@ -55,7 +55,7 @@ function(vfit_add_room room)
   add_library(vfit_${room} STATIC ${sources})
   target_include_directories(vfit_${room} PUBLIC ${CMAKE_SOURCE_DIR}/sdk ${CMAKE_SOURCE_DIR}/include)
   target_link_libraries(vfit_${room} PRIVATE vfit_settings PUBLIC ${ARGN})
-  vfit_together_under_sanitizers(vfit_${room})
+  vfit_together_in_the_library(vfit_${room})
 endfunction()
 
 # A program of tests. Under sanitizers its own templates would take most of the time to compile: undefined behaviour is

@@ -34,9 +34,14 @@ Canvas figure_4(vfit_frame frame, const std::vector<vfit_joint>& joints, const s
     std::map<vfit_joint_id, std::array<float, 3>> at;
     for (const vfit_joint& j : joints)
         if (j.state != VFIT_JOINT_NOT_SEEN) at[j.joint] = {j.position[0], j.position[1], j.position[2]};
+    const auto place = [&](vfit_joint_id joint) {
+        if (!at.count(joint)) throw Failure("Fig. 4: the last frame does not show the joint " + tools::joint_name(joint));
+        return at[joint];
+    };
     const auto middle = [&](vfit_joint_id a, vfit_joint_id b) {
+        const auto p = place(a), q = place(b);
         std::array<float, 3> m{};
-        for (size_t i = 0; i < 3; ++i) m[i] = 0.5f * (at.at(a)[i] + at.at(b)[i]);
+        for (size_t i = 0; i < 3; ++i) m[i] = 0.5f * (p[i] + q[i]);
         return m;
     };
     const auto draw = [&](int number, const char* key, std::array<float, 3> a, std::array<float, 3> b, const Color& color) {
@@ -49,7 +54,7 @@ Canvas figure_4(vfit_frame frame, const std::vector<vfit_joint>& joints, const s
         canvas.text(int(std::max(p->x, q->x)) + 6, int(0.5f * (p->y + q->y)) + 4, text.str(), 9, color);
     };
     const auto has = [&](const char* key) { return lines.count(key) > 0; };
-    const auto hips = middle(VFIT_JOINT_LEFT_HIP, VFIT_JOINT_RIGHT_HIP), neck = at.at(VFIT_JOINT_NECK), head = at.at(VFIT_JOINT_HEAD);
+    const auto hips = middle(VFIT_JOINT_LEFT_HIP, VFIT_JOINT_RIGHT_HIP), neck = place(VFIT_JOINT_NECK), head = place(VFIT_JOINT_HEAD);
     // In the image the person's left is on the right: world x runs that way too.
     const auto upright = [&](int number, const char* key, float aside_m, float low, float high) {
         if (has(key)) draw(number, key, {hips[0] + aside_m, low, hips[2]}, {hips[0] + aside_m, high, hips[2]}, kHeight);

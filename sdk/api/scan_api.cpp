@@ -154,7 +154,7 @@ vfit_result vfit_scan_scale(vfit_scan handle, const char* garment_kind, vfit_sca
         check_pointer(garment_kind, "garment_kind");
         check_output(out, "out");
         require_frames(*scan);
-        const Scan::Scale s = scan->scan.paper().scale(garment_kind);
+        const PaperScan::Scale s = scan->scan.paper().scale(garment_kind);
         vfit_scale scale{};
         scale.x = s.x;
         scale.y = s.y;

@@ -19,6 +19,10 @@ constexpr float kWaistShareWomen = 0.328f, kWaistShareMen = 0.308f;
 /// the same tables at 0.47 (0.735 of stature).
 constexpr float kRibArchShare = 0.2f;
 
+/// A breast's vertices lie a centimetre apart and a millimetre behind one another: what is so far behind the foremost one
+/// counts a third.
+constexpr float kBustDepth_m = 0.002f;
+
 float hip_joints_height(const TapeMesh& body) {
     return 0.5f * (body.joint(VFIT_JOINT_LEFT_HIP).y + body.joint(VFIT_JOINT_RIGHT_HIP).y);
 }
@@ -86,22 +90,31 @@ float waist_height(const TapeMesh& body) {
     return glm::mix(hip_joints_height(body), body.joint(VFIT_JOINT_NECK).y, share);
 }
 
+/// The middle of what stands out most, so that it moves evenly with the body and does not leap from one vertex to the next
+/// one, a centimetre away.
 Vec3 bust_point(const TapeMesh& body, Side side, float armpit) {
-    const float waist = waist_height(body), middle = body.joint(VFIT_JOINT_NECK).x;
+    // From the rib arch up: a round upper belly below it stands out more than a small breast.
+    const float arch = rib_arch_height(body), middle = body.joint(VFIT_JOINT_NECK).x;
     const auto front_of_trunk = [&](float y) { return -extent(body.trunk(y).points()).minimum.y; };
-    const float foot = front_of_trunk(waist), slope = (front_of_trunk(armpit) - foot) / (armpit - waist);
+    const float foot = front_of_trunk(arch), slope = (front_of_trunk(armpit) - foot) / (armpit - arch);
     const TapeBody& b = body.body();
-    const Vec3* best = nullptr;
-    float best_prominence = 0.0f;
+    const auto prominence = [&](const Vec3& p) { return p.z - (foot + slope * (p.y - arch)); };
+    std::vector<Vec3> chest;
+    float most = -std::numeric_limits<float>::infinity();
     for (size_t i = 0; i < b.positions.size(); ++i) {
         const Vec3& p = b.positions[i];
-        const bool chest = b.parts[i] == BodyPart::kTorso && p.y > waist && p.y < armpit;
-        if (!chest || (p.x > middle) != (side == Side::kLeft)) continue;
-        const float prominence = p.z - (foot + slope * (p.y - waist));
-        if (!best || prominence > best_prominence) best = &p, best_prominence = prominence;
+        if (b.parts[i] != BodyPart::kTorso || p.y <= arch || p.y >= armpit || (p.x > middle) != (side == Side::kLeft)) continue;
+        chest.push_back(p);
+        most = std::max(most, prominence(p));
     }
-    if (!best) fail(VFIT_ERROR_DATA, "the body has no chest between its waist and its armpits");
-    return *best;
+    if (chest.empty()) fail(VFIT_ERROR_DATA, "the body has no chest between its rib arch and its armpits");
+    Vec3 sum(0.0f);
+    float weights = 0.0f;
+    for (const Vec3& p : chest) {
+        const float weight = std::exp((prominence(p) - most) / kBustDepth_m);
+        sum += weight * p, weights += weight;
+    }
+    return sum / weights;
 }
 
 float chest_height(const TapeMesh& body, float armpit) {

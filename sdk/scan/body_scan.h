@@ -15,9 +15,9 @@ namespace vfit {
 
 /// The numbers that measures are estimated from, in a fixed order: shape values (kFitShapes), height of the crown (m),
 /// distance (m), size of a pixel there (mm), how far the person is turned from the front (rad, squared) and from the side
-/// (rad, and squared), then of each view (front, side) and way of seeing (facing, rim) every
-/// zone's distance outwards of the body of that shape (cm), then of each view the trunk's reaches by level (cm), then of
-/// each view the roughness of trunk, arms and legs (cm). NaN: not seen.
+/// (rad, and squared), then of each view (front, side) and way of seeing (facing, rim) every zone's distance outwards of
+/// the body of that shape (cm), then of each view the trunk's reaches by level (cm), then of each view the roughness of
+/// trunk, arms and legs (cm). NaN: not seen.
 inline constexpr size_t kScanFeatures = size_t(kFitShapes) + 6 + size_t(kViewKinds) * kSeenKinds * BodyZones::kCount +
                                         size_t(TrunkProfile::kLevels) * (TrunkProfile::kReachesFromFront + TrunkProfile::kReaches) +
                                         size_t(kViewKinds) * SurfaceResiduals::kRegions;

@@ -1,7 +1,7 @@
 // The scan of one person, by the paper's method alone or by the fitted body as well: which frames count, and for what.
 #pragma once
 
-#include "measure/scan.h"
+#include "measure/paper_scan.h"
 #include "scan/body_scan.h"
 #include "scan/measure_model.h"
 
@@ -19,7 +19,7 @@ struct PersonScanDesc {
 
 class PersonScan {
 public:
-    /// Errors as those of Scan.
+    /// Errors as those of PaperScan.
     explicit PersonScan(const PersonScanDesc& desc);
 
     /// Ignores frames once the scan is complete.
@@ -43,7 +43,7 @@ public:
     /// As it was told, else the likelier of the two.
     vfit_sex likely_sex() const;
     /// The paper's part, which gives spheres and garment scale in either method.
-    const Scan& paper() const { return paper_; }
+    const PaperScan& paper() const { return paper_; }
 
 private:
     static constexpr uint32_t kFewestSideFrames = 5;  // fewer are not worth the other estimator
@@ -52,7 +52,7 @@ private:
     vfit_guidance fit(const ScanFrame& frame);
 
     PersonScanDesc desc_;
-    Scan paper_;
+    PaperScan paper_;
     std::unique_ptr<BodyScan> body_;
     uint32_t side_frames_ = 0, more_side_frames_ = 0;
 };

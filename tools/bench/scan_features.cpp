@@ -56,6 +56,7 @@ void run(const Options& o) {
     const auto body = BodyModel::load(library_file("vfit_data/body.bin"));
     Population population(body, o.space == "in" ? BodySpace::kInside : BodySpace::kOutside, o.seed);
     const auto model = std::make_shared<const FitModel>(*body);
+    const Context context = open_context();
     std::ofstream file(o.out, std::ios::app);
     if (!file) throw Failure(o.out + ": cannot be written");
     for (uint32_t i = o.first; i < o.first + o.count; ++i) {
@@ -64,7 +65,6 @@ void run(const Options& o) {
                      {"bmi", person.bmi}, {"truth", person.measures}};
         for (uint32_t s = 0; s < o.scans; ++s) {
             const ScanScene scene = ScanScene::draw(Dress::kTraining, o.seed * 7919u + i * 13u + s);
-            const Context context = open_context();
             const Tracker tracker = open_own_tracker(context.get());
             BodyScan scan(model);
             play(scene.front_uri(person), context.get(), tracker.get(), scan);

@@ -57,6 +57,11 @@ def read(files):
     for name in files:
         with open(name) as lines:
             rows += [json.loads(line) for line in lines if line.endswith("}\n")]
+    for row in rows:
+        for view in ("front", "both"):
+            if row[view] and len(row[view]) != FEATURES:
+                raise SystemExit(f"a scan of person {row['number']} has {len(row[view])} features, not {FEATURES}: "
+                                 "it was made by another version")
     return rows
 
 

@@ -139,6 +139,28 @@ TEST(TapeOnBody, ABellyIsNotTakenForTheBust) {
     EXPECT_NEAR(value(belly, "chest_girth_m"), value(middle, "chest_girth_m"), 0.005f);
 }
 
+TEST(TapeOnBody, TheBustDoesNotLeapFromOneVertexToTheNext) {
+    float before = value(measures(VFIT_SEX_FEMALE), "chest_girth_m");
+    for (int i = 1; i <= 20; ++i) {
+        const float here = value(measures(VFIT_SEX_FEMALE, {{"measure-waist-circ", 0.05f * float(i)}}), "chest_girth_m");
+        EXPECT_NEAR(here, before, 0.001f) << i;
+        before = here;
+    }
+}
+
+TEST(TapeOnBody, NorIsAnUpperBellyOverASmallBust) {
+    const auto woman = [](float stomach, float waist) {
+        return measures(VFIT_SEX_FEMALE, {{"weight", 0.9f}, {"measure-bust-circ", -1.0f}, {"stomach-pregnant", stomach}, {"measure-waist-circ", waist}});
+    };
+    const auto flat = woman(0.0f, 0.0f);
+    for (const float stomach : {0.0f, 0.5f, 1.0f}) {
+        const auto round = woman(stomach, 1.0f);
+        EXPECT_GT(value(round, "waist_girth_m"), value(flat, "waist_girth_m") + 0.08f);
+        EXPECT_NEAR(value(round, "chest_girth_m"), value(flat, "chest_girth_m"), 0.01f) << stomach;
+        EXPECT_LT(value(round, "underbust_girth_m"), value(round, "chest_girth_m") - 0.02f) << stomach;
+    }
+}
+
 TEST(TapeOnBody, FinerMeshesHaveTheSameMeasures) {
     for (const vfit_sex sex : kSexes) {
         AvatarDesc fine;

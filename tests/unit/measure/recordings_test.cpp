@@ -12,7 +12,7 @@
 #include <map>
 #include <sstream>
 
-#include "measure/scan.h"
+#include "measure/paper_scan.h"
 
 namespace vfit {
 namespace {
@@ -93,7 +93,7 @@ TEST(Recordings, GiveOnePersonOneStature) {
         const std::string name = folder.path().filename().string();
         SCOPED_TRACE(name);
         const Recording r = read(folder.path());
-        Scan scan{ScanDesc{}};
+        PaperScan scan{ScanDesc{}};
         double ms = 0.0;
         for (size_t i = 0; i < r.bodies.size() && !scan.complete(); ++i)
             ms += scan.add({{r.depth[i].data(), r.users[i].data(), r.camera}, &r.bodies[i], 1}).compute_ms;

@@ -174,6 +174,33 @@ TEST(BodyScan, KeepsFrontAndSideApart) {
     EXPECT_THROW(scan.features(true), Error);
 }
 
+TEST(BodyScan, TellsHowFarThePersonIsTurnedFromTheView) {
+    Avatar avatar(body_model(), {}, shape_of({}), Vec2(1.0f));
+    const auto features = [&](float from_front, float from_side) {
+        Stance front, side = sideways();
+        front.turned_rad += from_front, side.turned_rad += from_side;
+        BodyScan scan(fit_model());
+        int64_t time_ns = 0;
+        for (const Stance& stance : {front, side}) {
+            const FitScene scene = standing_person(avatar, stance);
+            time_ns += 2'000'000'000;
+            for (int i = 0; i < 6; ++i) {
+                Body body = scene.joints;
+                body.time_ns = time_ns += 33333333;
+                scan.add(scene.image(), body);
+            }
+        }
+        return scan.features(true);
+    };
+    constexpr size_t kFrontSquared = kCrownFeature + 3, kSide = kCrownFeature + 4, kSideSquared = kCrownFeature + 5;
+    const ScanFeatures straight = features(0.0f, 0.0f), turned = features(0.25f, 0.25f);
+    EXPECT_LT(straight[kFrontSquared], 0.01f);
+    EXPECT_NEAR(turned[kFrontSquared], 0.25f * 0.25f, 0.04f);
+    EXPECT_GT(turned[kFrontSquared], straight[kFrontSquared] + 0.02f);
+    EXPECT_GT(turned[kSide], straight[kSide] + 0.1f);
+    EXPECT_GE(turned[kSideSquared] + 1e-4f, turned[kSide] * turned[kSide]) << "a mean of squares is the square of the mean or more";
+}
+
 TEST(BodyScan, DoesNotAllocateAfterItsFirstFrame) {
     Avatar avatar(body_model(), {}, shape_of({}), Vec2(1.0f));
     const FitScene front = standing_person(avatar);

@@ -51,14 +51,14 @@ struct ScanProgress {
     uint32_t frames_taken = 0;
 };
 
-class Scan {
+class PaperScan {
 public:
     /// VFIT_ERROR_ARGUMENT unless 1 to 3600 frames are wanted and the sex is a known one.
-    explicit Scan(const ScanDesc& desc);
+    explicit PaperScan(const ScanDesc& desc);
     /// Overwrites all body data.
-    ~Scan();
-    Scan(const Scan&) = delete;
-    Scan& operator=(const Scan&) = delete;
+    ~PaperScan();
+    PaperScan(const PaperScan&) = delete;
+    PaperScan& operator=(const PaperScan&) = delete;
 
     /// Ignores frames once the scan is complete. Does not allocate after the first frame of a size.
     ScanProgress add(const ScanFrame& frame);

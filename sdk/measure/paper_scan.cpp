@@ -1,4 +1,4 @@
-#include "measure/scan.h"
+#include "measure/paper_scan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ struct FrameValues {
 
 }  // namespace
 
-struct Scan::State {
+struct PaperScan::State {
     explicit State(const ScanDesc& d) : desc(d), wanted(d.frame_count) { frames.reserve(wanted); }
     const ScanDesc desc;
     uint32_t wanted;  // frames; more than desc's where the scan was extended
@@ -69,7 +69,7 @@ struct Scan::State {
     }
 };
 
-Scan::Scan(const ScanDesc& desc) {
+PaperScan::PaperScan(const ScanDesc& desc) {
     constexpr uint32_t kMostFrames = 3600;  // two minutes at 30 Hz
     if (desc.frame_count == 0 || desc.frame_count > kMostFrames)
         fail(VFIT_ERROR_ARGUMENT, "scan: frame_count ", desc.frame_count, " is not in 1 to ", kMostFrames);
@@ -78,9 +78,9 @@ Scan::Scan(const ScanDesc& desc) {
     state_ = std::make_unique<State>(desc);
 }
 
-Scan::~Scan() { reset(); }
+PaperScan::~PaperScan() { reset(); }
 
-void Scan::reset() {
+void PaperScan::reset() {
     for (FrameValues& f : state_->frames) wipe(f);
     state_->frames.clear();
     state_->wanted = state_->desc.frame_count;
@@ -90,7 +90,7 @@ void Scan::reset() {
     state_->filter.wipe();
 }
 
-void Scan::extend(uint32_t frames) {
+void PaperScan::extend(uint32_t frames) {
     state_->wanted += frames;
     std::vector<FrameValues> longer;
     longer.reserve(state_->wanted);
@@ -99,10 +99,10 @@ void Scan::extend(uint32_t frames) {
     state_->frames = std::move(longer);
 }
 
-uint32_t Scan::frames_taken() const { return uint32_t(state_->frames.size()); }
-uint32_t Scan::frames_wanted() const { return state_->wanted; }
+uint32_t PaperScan::frames_taken() const { return uint32_t(state_->frames.size()); }
+uint32_t PaperScan::frames_wanted() const { return state_->wanted; }
 
-ScanProgress Scan::look(const ScanFrame& frame) {
+ScanProgress PaperScan::look(const ScanFrame& frame) {
     State& state = *state_;
     ScanProgress progress;
     progress.frames_taken = frames_taken();
@@ -118,14 +118,14 @@ ScanProgress Scan::look(const ScanFrame& frame) {
     return progress;
 }
 
-void Scan::take(const ScanFrame& frame) {
+void PaperScan::take(const ScanFrame& frame) {
     State& state = *state_;
     const Camera& camera = frame.image.camera;
     state.frames.push_back(
         {measure_lines(state.depth, camera, *frame.body), fit_spheres(state.depth, camera, *frame.body)});
 }
 
-ScanProgress Scan::add(const ScanFrame& frame) {
+ScanProgress PaperScan::add(const ScanFrame& frame) {
     ScanProgress progress;
     progress.frames_taken = frames_taken();
     if (complete()) return progress;
@@ -140,7 +140,7 @@ ScanProgress Scan::add(const ScanFrame& frame) {
     return progress;
 }
 
-std::vector<Measurement> Scan::measurements() const {
+std::vector<Measurement> PaperScan::measurements() const {
     state_->require_frames();
     const Lines lines = state_->averaged_lines();
     std::vector<Measurement> list;
@@ -155,7 +155,7 @@ std::vector<Measurement> Scan::measurements() const {
     return list;
 }
 
-std::array<float, kPaperJointCount> Scan::radii() const {
+std::array<float, kPaperJointCount> PaperScan::radii() const {
     std::array<float, kPaperJointCount> radii{};
     for (size_t i = 0; i < radii.size(); ++i) radii[i] = state_->averaged_radius(i);
     return radii;
@@ -163,7 +163,7 @@ std::array<float, kPaperJointCount> Scan::radii() const {
 
 // Algorithm 3. The paper averages x_s and y_s over the frames; its means are linear, so that averaging the
 // lines first gives the same where every frame shows every line and no outlier is left out.
-Scan::Scale Scan::scale(const std::string& name) const {
+PaperScan::Scale PaperScan::scale(const std::string& name) const {
     const GarmentKind& kind = garment_kind(name);
     state_->require_frames();
     const Lines lines = state_->averaged_lines();

@@ -1,5 +1,5 @@
 // The scan as a whole: what it takes, what it says to the person, and what it measures.
-#include "measure/scan.h"
+#include "measure/paper_scan.h"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ const Picture& standing() {
 ScanFrame frame_of(const Picture& picture) { return {picture.image(), &picture.body, 1}; }
 
 vfit_guidance guidance(const Picture& picture, uint32_t persons = 1) {
-    Scan scan{ScanDesc{}};
+    PaperScan scan{ScanDesc{}};
     ScanFrame frame = frame_of(picture);
     frame.person_count = persons;
     const ScanProgress progress = scan.add(frame);
@@ -42,10 +42,10 @@ void expect_error(vfit_result code, const char* word, Call&& call) {
     }
 }
 
-TEST(Scan, CompletesAfterTheWantedFramesAndIgnoresMore) {
+TEST(PaperScan, CompletesAfterTheWantedFramesAndIgnoresMore) {
     ScanDesc desc;
     desc.frame_count = 3;
-    Scan scan(desc);
+    PaperScan scan(desc);
     for (uint32_t i = 1; i <= 3; ++i) {
         const ScanProgress progress = scan.add(frame_of(standing()));
         EXPECT_TRUE(progress.taken);
@@ -59,8 +59,8 @@ TEST(Scan, CompletesAfterTheWantedFramesAndIgnoresMore) {
     EXPECT_EQ(scan.frames_taken(), 3u);
 }
 
-TEST(Scan, MeasuresTheFigureAndNamesEveryLine) {
-    Scan scan{ScanDesc{}};
+TEST(PaperScan, MeasuresTheFigureAndNamesEveryLine) {
+    PaperScan scan{ScanDesc{}};
     for (int i = 0; i < 3; ++i) scan.add(frame_of(standing()));
     const auto list = scan.measurements();
     for (const Measurement& m : list) {
@@ -75,11 +75,11 @@ TEST(Scan, MeasuresTheFigureAndNamesEveryLine) {
     EXPECT_NEAR(scan.radii()[VFIT_JOINT_HEAD], kHeadRadius_m, 0.006f);
 }
 
-TEST(Scan, InfersLinesThatItDidNotSee) {
+TEST(PaperScan, InfersLinesThatItDidNotSee) {
     Picture picture = standing();
     for (const int joint : {VFIT_JOINT_LEFT_HAND, VFIT_JOINT_RIGHT_HAND})
         picture.body.joints[size_t(joint)].state = VFIT_JOINT_NOT_SEEN;
-    Scan scan{ScanDesc{}};
+    PaperScan scan{ScanDesc{}};
     scan.add(frame_of(picture));
     const auto list = scan.measurements();
     const Measurement* forearm = find(list, "elbow_fingertip_m");
@@ -89,8 +89,8 @@ TEST(Scan, InfersLinesThatItDidNotSee) {
     EXPECT_EQ(scan.radii()[VFIT_JOINT_LEFT_HAND], 0.0f);
 }
 
-TEST(Scan, GivesThePapersMeanWhereAsked) {
-    Scan paper(ScanDesc::as_printed()), ours{ScanDesc{}};
+TEST(PaperScan, GivesThePapersMeanWhereAsked) {
+    PaperScan paper(ScanDesc::as_printed()), ours{ScanDesc{}};
     paper.add(frame_of(standing()));
     ours.add(frame_of(standing()));
     const auto list = paper.measurements();
@@ -108,11 +108,11 @@ TEST(Scan, GivesThePapersMeanWhereAsked) {
               std::abs(find(list, "stature_m")->value - kStature_m));
 }
 
-TEST(Scan, ScalesGarmentsRelativeToTheirNominalSize) {
-    Scan scan{ScanDesc{}};
+TEST(PaperScan, ScalesGarmentsRelativeToTheirNominalSize) {
+    PaperScan scan{ScanDesc{}};
     scan.add(frame_of(standing()));
     for (const char* name : {"short_sleeves", "long_sleeves", "trousers"}) {
-        const Scan::Scale scale = scan.scale(name);
+        const PaperScan::Scale scale = scan.scale(name);
         const GarmentKind& kind = garment_kind(name);
         EXPECT_NEAR(scale.y, scale.height_m / kind.nominal_height_m, 1e-6f);
         const float by_width = scale.width_m / kind.nominal_widths_m[0];
@@ -125,23 +125,23 @@ TEST(Scan, ScalesGarmentsRelativeToTheirNominalSize) {
     expect_error(VFIT_ERROR_ARGUMENT, "short_sleeves", [&] { scan.scale("hat"); });
 }
 
-TEST(Scan, SaysWhichDimensionOfAGarmentWasNotSeen) {
+TEST(PaperScan, SaysWhichDimensionOfAGarmentWasNotSeen) {
     Picture picture = standing();
     for (const int side : {0, 1}) {
         picture.body.joints[size_t(VFIT_JOINT_LEFT_HIP + side)].position.x += side == 0 ? 0.5f : -0.5f;
         picture.body.joints[size_t(VFIT_JOINT_LEFT_KNEE + side)].state = VFIT_JOINT_NOT_SEEN;
     }
-    Scan scan{ScanDesc{}};
+    PaperScan scan{ScanDesc{}};
     ASSERT_TRUE(scan.add(frame_of(picture)).taken);
     expect_error(VFIT_ERROR_DATA, "hip_breadth_m", [&] { scan.scale("trousers"); });
     EXPECT_FALSE(find(scan.measurements(), "hip_breadth_m"));
 }
 
-TEST(Scan, InfersTheShouldersOfAPersonWhoStandsSideways) {
+TEST(PaperScan, InfersTheShouldersOfAPersonWhoStandsSideways) {
     Picture picture = standing();
     for (const int joint : {VFIT_JOINT_LEFT_SHOULDER, VFIT_JOINT_RIGHT_SHOULDER})
         picture.body.joints[size_t(joint)].position.z += joint == VFIT_JOINT_LEFT_SHOULDER ? 0.5f : -0.5f;
-    Scan scan{ScanDesc{}};
+    PaperScan scan{ScanDesc{}};
     ASSERT_TRUE(scan.add(frame_of(picture)).taken);
     const auto list = scan.measurements();
     ASSERT_TRUE(find(list, "shoulder_breadth_m"));
@@ -149,15 +149,15 @@ TEST(Scan, InfersTheShouldersOfAPersonWhoStandsSideways) {
     EXPECT_NO_THROW(scan.scale("short_sleeves"));
 }
 
-TEST(Scan, NeedsAFrameBeforeItMeasures) {
-    Scan scan{ScanDesc{}};
+TEST(PaperScan, NeedsAFrameBeforeItMeasures) {
+    PaperScan scan{ScanDesc{}};
     expect_error(VFIT_ERROR_STATE, "no frame", [&] { scan.measurements(); });
     expect_error(VFIT_ERROR_STATE, "no frame", [&] { scan.scale("trousers"); });
     EXPECT_EQ(scan.radii()[VFIT_JOINT_HEAD], 0.0f);
 }
 
-TEST(Scan, ForgetsThePersonOnReset) {
-    Scan scan{ScanDesc{}};
+TEST(PaperScan, ForgetsThePersonOnReset) {
+    PaperScan scan{ScanDesc{}};
     scan.add(frame_of(standing()));
     scan.reset();
     EXPECT_EQ(scan.frames_taken(), 0u);
@@ -166,19 +166,19 @@ TEST(Scan, ForgetsThePersonOnReset) {
     EXPECT_TRUE(scan.add(frame_of(standing())).taken);
 }
 
-TEST(Scan, RefusesWrongDescriptions) {
+TEST(PaperScan, RefusesWrongDescriptions) {
     ScanDesc none, wrong;
     none.frame_count = 0;
     wrong.sex = 9;
-    expect_error(VFIT_ERROR_ARGUMENT, "frame_count", [&] { Scan scan(none); });
-    expect_error(VFIT_ERROR_ARGUMENT, "sex", [&] { Scan scan(wrong); });
+    expect_error(VFIT_ERROR_ARGUMENT, "frame_count", [&] { PaperScan scan(none); });
+    expect_error(VFIT_ERROR_ARGUMENT, "sex", [&] { PaperScan scan(wrong); });
 }
 
 TEST(Guidance, NamesWhyAFrameIsOfNoUse) {
     EXPECT_EQ(guidance(standing()), VFIT_GUIDANCE_NONE);
     EXPECT_EQ(guidance(standing(), 2), VFIT_GUIDANCE_ONE_PERSON_ONLY);
 
-    Scan scan{ScanDesc{}};
+    PaperScan scan{ScanDesc{}};
     ScanFrame nobody = frame_of(standing());
     nobody.body = nullptr;
     EXPECT_EQ(scan.add(nobody).guidance, VFIT_GUIDANCE_NOBODY);
@@ -233,20 +233,20 @@ TEST(Guidance, AsksToStandStillAndUpright) {
     EXPECT_EQ(guidance(legs_up), VFIT_GUIDANCE_HOLD_STILL);
 
     // 10 cm in a frame of 1/30 s are 3 m/s, in a quarter of a second a stroll.
-    Scan scan{ScanDesc{}};
+    PaperScan scan{ScanDesc{}};
     Picture later = standing();
     for (Joint& j : later.body.joints) j.position.z += 0.1f;
     scan.add(frame_of(standing()));
     later.body.time_ns = 33'000'000;
     EXPECT_EQ(scan.add(frame_of(later)).guidance, VFIT_GUIDANCE_HOLD_STILL);
-    Scan patient{ScanDesc{}};
+    PaperScan patient{ScanDesc{}};
     patient.add(frame_of(standing()));
     later.body.time_ns = 250'000'000;
     EXPECT_EQ(patient.add(frame_of(later)).guidance, VFIT_GUIDANCE_NONE);
 }
 
 TEST(Guidance, DoesNotTakeTheNextPersonForAFastOne) {
-    Scan scan{ScanDesc{}};
+    PaperScan scan{ScanDesc{}};
     scan.add(frame_of(standing()));
     Picture other = standing();
     for (Joint& j : other.body.joints) j.position.z += 0.1f;
@@ -256,7 +256,7 @@ TEST(Guidance, DoesNotTakeTheNextPersonForAFastOne) {
 }
 
 TEST(Guidance, SurvivesTimesAtTheEndsOfTheClock) {
-    Scan scan{ScanDesc{}};
+    PaperScan scan{ScanDesc{}};
     Picture picture = standing();
     for (const int64_t time : {INT64_MIN, INT64_MAX, INT64_MIN}) {
         picture.body.time_ns = time;

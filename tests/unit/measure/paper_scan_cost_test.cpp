@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "figure_scene.h"
-#include "measure/scan.h"
+#include "measure/paper_scan.h"
 #include "support/allocations.h"
 
 namespace vfit {
@@ -10,9 +10,9 @@ namespace {
 
 using namespace testing;
 
-TEST(ScanCost, DoesNotAllocateAfterTheFirstFrame) {
+TEST(PaperScanCost, DoesNotAllocateAfterTheFirstFrame) {
     const Picture picture = take_picture(standing_figure(), level_camera());
-    Scan scan{ScanDesc{}};
+    PaperScan scan{ScanDesc{}};
     scan.add({picture.image(), &picture.body, 1});
     const uint64_t before = test::allocations;
     for (int i = 0; i < 10; ++i) scan.add({picture.image(), &picture.body, 1});
