@@ -79,7 +79,7 @@ void measure_limbs(const TapeMesh& body, Sheet& sheet) {
     const auto between = [&](int a, int b) { return glm::distance(body.joint(a), body.joint(b)); };
     sheet.set("arm_length_m", both([&](Side s) {
         const Joints j = joints_of(s);
-        return glm::distance(acromion(body, s), body.joint(j.elbow)) + between(j.elbow, j.wrist);
+        return glm::distance(acromion(body.body(), s), body.joint(j.elbow)) + between(j.elbow, j.wrist);
     }));
     const auto hand = [&](Side s) {
         return glm::distance(body.joint(joints_of(s).wrist), fingertip(body, s));
@@ -90,19 +90,19 @@ void measure_limbs(const TapeMesh& body, Sheet& sheet) {
 }
 
 void measure_head(const TapeMesh& body, Sheet& sheet) {
-    const float narrowest_m = narrowest_neck(body), chin = chin_height(body, narrowest_m);
-    sheet.set("neck_girth_m", length(neck_loop(body, larynx_place(body, narrowest_m, chin))));
+    const TapeLimb neck = neck_of(body);
+    const float narrowest_m = narrowest_neck(neck), chin = chin_height(body, neck, narrowest_m);
+    sheet.set("neck_girth_m", length(neck_loop(neck, larynx_place(body, neck, narrowest_m, chin))));
     sheet.set("head_height_m", body.crown() - chin);
     sheet.set("head_width_m", skull_breadth(body, chin));
 }
 
 /// Largest horizontal breadth over the deltoids: the outermost points of the two upper arms' upper halves
 /// (the deltoid ends at the middle of the humerus).
-float bideltoid_breadth(const TapeMesh& body) {
-    const TapeBody& b = body.body();
+float bideltoid_breadth(const TapeBody& b) {
     float breadth = 0.0f;
     for (const Side side : kSides) {
-        const Axis arm = body.upper_arm(side);
+        const Axis arm = upper_arm(b, side);
         const BodyPart part = side == Side::kLeft ? BodyPart::kLeftUpperArm : BodyPart::kRightUpperArm;
         const float lowest = arm.at(0.5f).y, sign = side == Side::kLeft ? 1.0f : -1.0f;
         float outermost = sign * arm.start.x;
@@ -117,7 +117,9 @@ float bideltoid_breadth(const TapeMesh& body) {
 }  // namespace
 
 std::vector<Measurement> tape_measures(const TapePostures& postures) {
-    const TapeMesh body(postures.arms_out), arms_down(postures.arms_down);
+    const TapeMesh body(postures.arms_out);
+    const TapeBody& arms_down = postures.arms_down;
+    check(arms_down);
     check(postures.feet_together);
     const HeightRange standing = height_range(postures.feet_together.positions);
     Sheet sheet;

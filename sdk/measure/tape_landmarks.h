@@ -18,9 +18,8 @@ float armpit_height(const TapeMesh& body);
 /// in people. The narrowest level is another: it lies near the lowest rib, and stout bodies have none.
 float waist_height(const TapeMesh& body);
 
-/// The bust point of the side: what of the chest stands out farthest before the straight line from the front
-/// of the waist to the front between the armpits. Of a flat belly it is the most forward point; a round one
-/// does not win over it.
+/// The bust point of the side: the middle of what stands out farthest before the straight line from the front of the
+/// rib arch to the front between the armpits.
 Vec3 bust_point(const TapeMesh& body, Side side, float armpit);
 
 /// Women: level of the bust points. Others: of the largest girth between the rib arch and a tape's half width
@@ -34,32 +33,32 @@ float underbust_height(const TapeMesh& body, float armpit, float waist);
 /// Level of the largest girth between the crotch and halfway from the hip joints up to the waist.
 float hip_height(const TapeMesh& body, float crotch, float waist);
 
-/// From the joint at the foot of the neck to the middle of the head.
-Axis neck_axis(const TapeMesh& body);
+/// Along the axis from the joint at the foot of the neck to the middle of the head.
+TapeLimb neck_of(const TapeMesh& body);
 
 /// Length of a closed line.
 float length(const std::vector<Vec3>& loop);
 
 /// Tape about the neck, square to its axis, that many metres along it. VFIT_ERROR_DATA where the axis does
 /// not run inside the neck.
-std::vector<Vec3> neck_loop(const TapeMesh& body, float along_m);
+std::vector<Vec3> neck_loop(const TapeLimb& neck, float along_m);
 
 /// Where along its axis the neck is narrowest: trapezius and jaw lie to the two sides, and both are wider.
-float narrowest_neck(const TapeMesh& body);
+float narrowest_neck(const TapeLimb& neck);
 
 /// Where along the neck's axis the tape lies just below the larynx: its front is a third of the way down from
 /// the chin to the collar bones. The chin is level with C3, the notch between the collar bones with T2 to T3,
 /// the larynx ends at C5: two of six and a half vertebrae. A neck that is narrowest below that is measured
 /// there.
-float larynx_place(const TapeMesh& body, float narrowest_m, float chin);
+float larynx_place(const TapeMesh& body, const TapeLimb& neck, float narrowest_m, float chin);
 
 /// The skin over the outer edge of the acromion: where the line from the centre of the shoulder joint through
 /// the bone's edge leaves the body.
-Vec3 acromion(const TapeMesh& body, Side side);
+Vec3 acromion(const TapeBody& body, Side side);
 
 /// Lowest point of the chin: of what lies above the throat and in front of the plane halfway between it and
 /// the tip of the nose.
-float chin_height(const TapeMesh& body, float narrowest_m);
+float chin_height(const TapeMesh& body, const TapeLimb& neck, float narrowest_m);
 
 /// Largest breadth of the skull above the ears.
 float skull_breadth(const TapeMesh& body, float chin);
@@ -69,7 +68,7 @@ Vec3 fingertip(const TapeMesh& body, Side side);
 
 /// Tape about a limb, square to its axis, that many metres along it; 0 where the section is not of the limb
 /// alone, but holds the trunk's or the other limb's axis as well.
-float limb_girth(const TapeMesh& body, const Axis& limb, float along_m, const Axis& apart);
+float limb_girth(const TapeLimb& limb, float along_m, const Axis& apart);
 
 /// The largest limb_girth between a tape's half width below where the limb leaves the body and that share of
 /// its length.

@@ -37,11 +37,20 @@ const Vec3& frontmost(const std::vector<Vec3>& points) {
                              [](const Vec3& a, const Vec3& b) { return a.z < b.z; });
 }
 
+float collar_bones_height(const TapeMesh& body) {
+    return 0.5f * (body.joint(VFIT_JOINT_LEFT_CLAVICLE).y + body.joint(VFIT_JOINT_RIGHT_CLAVICLE).y);
+}
+
+/// Along the neck's axis: no neck reaches as far below its joint as the joint lies above the collar bones' own level.
+float lowest_tape_on_neck(const TapeMesh& body) {
+    return std::min(0.0f, collar_bones_height(body) - body.joint(VFIT_JOINT_NECK).y);
+}
+
 }  // namespace
 
-float limb_girth(const TapeMesh& body, const Axis& limb, float along_m, const Axis& apart) {
-    const Vec3 direction = limb.direction(), place = limb.start + along_m * direction;
-    const Section section = body.across(place, direction);
+float limb_girth(const TapeLimb& limb, float along_m, const Axis& apart) {
+    const Vec3 place = limb.place(along_m), direction = limb.axis().direction();
+    const Section section = limb.across(along_m);
     const auto* loop = loop_about(section, place);
     if (!loop) return 0.0f;
     const float share =
@@ -50,15 +59,19 @@ float limb_girth(const TapeMesh& body, const Axis& limb, float along_m, const Ax
     return hull_perimeter(*loop);
 }
 
-float largest_limb_girth(const TapeMesh& body, const Axis& limb, float share, const Axis& apart) {
-    const auto girth = [&](float along_m) { return limb_girth(body, limb, along_m, apart); };
-    const float last = share * glm::distance(limb.start, limb.end);
+float largest_limb_girth(const TapeMesh& body, const Axis& axis, float share, const Axis& apart) {
+    const float last = share * glm::distance(axis.start, axis.end);
+    const TapeLimb limb(body, axis, 0.0f, last);
+    const auto girth = [&](float along_m) { return limb_girth(limb, along_m, apart); };
     if (!(girth(last) > 0.0f)) fail(VFIT_ERROR_DATA, "a limb of the body is nowhere apart from the rest");
     const float first = border(last, 0.0f, [&](float along_m) { return girth(along_m) > 0.0f; });
     return girth(place_of_largest(std::min(first + kTapeHalfWidth_m, last), last, girth));
 }
 
-Axis neck_axis(const TapeMesh& body) { return {body.joint(VFIT_JOINT_NECK), body.joint(VFIT_JOINT_HEAD)}; }
+TapeLimb neck_of(const TapeMesh& body) {
+    const Axis axis{body.joint(VFIT_JOINT_NECK), body.joint(VFIT_JOINT_HEAD)};
+    return {body, axis, lowest_tape_on_neck(body), glm::distance(axis.start, axis.end)};
+}
 
 float length(const std::vector<Vec3>& loop) {
     float sum = 0.0f;
@@ -66,39 +79,32 @@ float length(const std::vector<Vec3>& loop) {
     return sum;
 }
 
-std::vector<Vec3> neck_loop(const TapeMesh& body, float along_m) {
-    const Axis neck = neck_axis(body);
-    const Vec3 direction = neck.direction(), place = neck.start + along_m * direction;
-    const Section section = body.across(place, direction);
-    const auto* loop = loop_about(section, place);
+std::vector<Vec3> neck_loop(const TapeLimb& neck, float along_m) {
+    const Section section = neck.across(along_m);
+    const auto* loop = loop_about(section, neck.place(along_m));
     if (!loop) fail(VFIT_ERROR_DATA, "the line from the NECK to the HEAD joint does not run inside the body");
     std::vector<Vec3> tape;
     for (const Vec2& p : convex_hull(*loop)) tape.push_back(section.lift(p));
     return tape;
 }
 
-float narrowest_neck(const TapeMesh& body) {
-    const Axis neck = neck_axis(body);
-    return place_of_largest(0.0f, glm::distance(neck.start, neck.end),
-                            [&](float along_m) { return -length(neck_loop(body, along_m)); });
+float narrowest_neck(const TapeLimb& neck) {
+    return place_of_largest(0.0f, glm::distance(neck.axis().start, neck.axis().end),
+                            [&](float along_m) { return -length(neck_loop(neck, along_m)); });
 }
 
-float larynx_place(const TapeMesh& body, float narrowest_m, float chin) {
-    const float collar_bones =
-        0.5f * (body.joint(VFIT_JOINT_LEFT_CLAVICLE).y + body.joint(VFIT_JOINT_RIGHT_CLAVICLE).y);
-    const float larynx = glm::mix(chin, collar_bones, 1.0f / 3.0f);
-    // No neck reaches as far below its joint as the joint lies above the collar bones' own level.
-    const float lowest_m = std::min(0.0f, collar_bones - neck_axis(body).start.y);
-    return border(narrowest_m, lowest_m,
-                  [&](float along_m) { return frontmost(neck_loop(body, along_m)).y > larynx; });
+float larynx_place(const TapeMesh& body, const TapeLimb& neck, float narrowest_m, float chin) {
+    const float larynx = glm::mix(chin, collar_bones_height(body), 1.0f / 3.0f);
+    return border(narrowest_m, lowest_tape_on_neck(body),
+                  [&](float along_m) { return frontmost(neck_loop(neck, along_m)).y > larynx; });
 }
 
-Vec3 acromion(const TapeMesh& body, Side side) {
-    const Vec3 joint = body.upper_arm(side).start;
+Vec3 acromion(const TapeBody& body, Side side) {
+    const Vec3 joint = upper_arm(body, side).start;
     const Vec3 direction =
         glm::normalize(Vec3(side == Side::kLeft ? kAcromionOutwards : -kAcromionOutwards, kAcromionUp, 0.0f));
     // In the frontal plane through the joint: the outline's farthest crossing of the line to the bone's edge.
-    const Section frontal = body.across(joint, Vec3(0, 0, 1));
+    const Section frontal = vfit::frontal(body, joint);
     const Vec2 along(glm::dot(direction, frontal.u), glm::dot(direction, frontal.v)),
         square(-along.y, along.x);
     float farthest = 0.0f;
@@ -115,8 +121,8 @@ Vec3 acromion(const TapeMesh& body, Side side) {
     return joint + farthest * direction;
 }
 
-float chin_height(const TapeMesh& body, float narrowest_m) {
-    const Vec3 throat = frontmost(neck_loop(body, narrowest_m));
+float chin_height(const TapeMesh& body, const TapeLimb& neck, float narrowest_m) {
+    const Vec3 throat = frontmost(neck_loop(neck, narrowest_m));
     const Vec3* nose = best_vertex(body, [&](const Vec3& p, BodyPart part) -> std::optional<float> {
         return part == BodyPart::kHead && p.y > throat.y ? std::optional(p.z) : std::nullopt;
     });

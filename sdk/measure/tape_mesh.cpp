@@ -40,6 +40,15 @@ bool is_arm(BodyPart part) {
     }
 }
 
+std::vector<uint32_t> without_arms(const TapeBody& body) {
+    std::vector<uint32_t> out;
+    for (size_t t = 0; t < body.indices.size(); t += 3) {
+        const uint32_t* v = &body.indices[t];
+        if (is_arm(body.parts[v[0]]) + is_arm(body.parts[v[1]]) + is_arm(body.parts[v[2]]) < 2) out.insert(out.end(), v, v + 3);
+    }
+    return out;
+}
+
 }  // namespace
 
 void check(const TapeBody& body) {
@@ -68,59 +77,16 @@ HeightRange height_range(std::span<const Vec3> positions) {
     return {low->y, high->y};
 }
 
-TapeMesh::TapeMesh(const TapeBody& body) : body_(body) {
-    check(body);
-    whole_ = sorted_layers();
-    trunk_ = without_arms(whole_);
-    range_ = height_range(body.positions);
-}
+TapeMesh::TapeMesh(const TapeBody& body)
+    : body_((check(body), body)),
+      range_(height_range(body.positions)),
+      whole_(body.positions, body.indices, kUp, range_.floor, range_.crown),
+      trunk_(body.positions, without_arms(body), kUp, range_.floor, range_.crown) {}
 
-TapeMesh::Layers TapeMesh::sorted_layers() const {
-    struct Triangle {
-        float lowest;
-        uint32_t first;
-    };
-    Layers result;
-    std::vector<Triangle> order;
-    order.reserve(body_.indices.size() / 3);
-    for (uint32_t t = 0; t < body_.indices.size(); t += 3) {
-        const uint32_t* v = &body_.indices[t];
-        const auto [low, high] =
-            std::minmax({body_.positions[v[0]].y, body_.positions[v[1]].y, body_.positions[v[2]].y});
-        order.push_back({low, t});
-        result.tallest = std::max(result.tallest, high - low);
-    }
-    std::sort(order.begin(), order.end(), [](const Triangle& a, const Triangle& b) {
-        return a.lowest != b.lowest ? a.lowest < b.lowest : a.first < b.first;
-    });
-    for (const Triangle& triangle : order) {
-        result.lowest.push_back(triangle.lowest);
-        for (uint32_t k = 0; k < 3; ++k) result.indices.push_back(body_.indices[triangle.first + k]);
-    }
-    return result;
-}
-
-TapeMesh::Layers TapeMesh::without_arms(const Layers& whole) const {
-    Layers result;
-    result.tallest = whole.tallest;
-    for (size_t t = 0; t < whole.lowest.size(); ++t) {
-        const uint32_t* v = &whole.indices[3 * t];
-        if (is_arm(body_.parts[v[0]]) + is_arm(body_.parts[v[1]]) + is_arm(body_.parts[v[2]]) >= 2) continue;
-        result.lowest.push_back(whole.lowest[t]);
-        result.indices.insert(result.indices.end(), v, v + 3);
-    }
-    return result;
-}
-
-std::span<const uint32_t> TapeMesh::Layers::between(float low, float high) const {
-    const auto first = std::lower_bound(lowest.begin(), lowest.end(), low - tallest);
-    const auto last = std::upper_bound(first, lowest.end(), high);
-    return std::span(indices).subspan(3 * size_t(first - lowest.begin()), 3 * size_t(last - first));
-}
-
-Axis TapeMesh::upper_arm(Side side) const {
-    return side == Side::kLeft ? Axis{joint(VFIT_JOINT_LEFT_SHOULDER), joint(VFIT_JOINT_LEFT_ELBOW)}
-                               : Axis{joint(VFIT_JOINT_RIGHT_SHOULDER), joint(VFIT_JOINT_RIGHT_ELBOW)};
+Axis upper_arm(const TapeBody& body, Side side) {
+    const Body& j = body.joints;
+    return side == Side::kLeft ? Axis{j.at(VFIT_JOINT_LEFT_SHOULDER), j.at(VFIT_JOINT_LEFT_ELBOW)}
+                               : Axis{j.at(VFIT_JOINT_RIGHT_SHOULDER), j.at(VFIT_JOINT_RIGHT_ELBOW)};
 }
 
 Axis TapeMesh::thigh(Side side) const {
@@ -130,17 +96,34 @@ Axis TapeMesh::thigh(Side side) const {
 
 Axis TapeMesh::spine() const { return {joint(VFIT_JOINT_PELVIS), joint(VFIT_JOINT_NECK)}; }
 
-Section TapeMesh::level(float y) const { return cut(body_.positions, whole_.between(y, y), {0, y, 0}, kUp); }
-Section TapeMesh::trunk(float y) const { return cut(body_.positions, trunk_.between(y, y), {0, y, 0}, kUp); }
+Section TapeMesh::level(float y) const { return cut(body_.positions, whole_.at(y), {0, y, 0}, kUp); }
+Section TapeMesh::trunk(float y) const { return cut(body_.positions, trunk_.at(y), {0, y, 0}, kUp); }
 
-Section TapeMesh::across(const Vec3& place, const Vec3& axis) const {
-    // A thigh 0.3 m thick that leans by 30 degrees spans 0.15 m of height.
+Section frontal(const TapeBody& body, const Vec3& place) {
     constexpr float kReach_m = 0.1f;
-    return cut(body_.positions, whole_.between(place.y - kReach_m, place.y + kReach_m), place, axis);
+    std::vector<uint32_t> near;
+    for (size_t t = 0; t < body.indices.size(); t += 3) {
+        const uint32_t* v = &body.indices[t];
+        const auto [low, high] = std::minmax({body.positions[v[0]].y, body.positions[v[1]].y, body.positions[v[2]].y});
+        if (high >= place.y - kReach_m && low <= place.y + kReach_m) near.insert(near.end(), v, v + 3);
+    }
+    return cut(body.positions, near, place, Vec3(0, 0, 1));
 }
 
 Section TapeMesh::profile(float x) const {
     return cut(body_.positions, body_.indices, {x, 0, 0}, Vec3(1, 0, 0));
+}
+
+TapeLimb::TapeLimb(const TapeMesh& body, const Axis& axis, float from_m, float to_m)
+    : body_(body),
+      axis_(axis),
+      direction_(axis.direction()),
+      layers_(body.body().positions, body.body().indices, direction_, glm::dot(direction_, place(from_m)),
+              glm::dot(direction_, place(to_m))) {}
+
+Section TapeLimb::across(float along_m) const {
+    const Vec3 at = place(along_m);
+    return cut(body_.body().positions, layers_.at(glm::dot(direction_, at)), at, direction_);
 }
 
 const std::vector<Vec2>* loop_about(const Section& section, const Vec3& place) {

@@ -5,6 +5,7 @@
 
 #include "measure/section.h"
 #include "measure/tape.h"
+#include "measure/triangle_layers.h"
 
 namespace vfit {
 
@@ -30,6 +31,11 @@ struct HeightRange {
 };
 HeightRange height_range(std::span<const Vec3> positions);
 
+Axis upper_arm(const TapeBody& body, Side side);
+
+/// Frontal section of the whole body near the place: what lies more than 0.1 m above or below it is left out.
+Section frontal(const TapeBody& body, const Vec3& place);
+
 class TapeMesh {
 public:
     /// Checks the body. What its spans view must outlive it.
@@ -37,7 +43,7 @@ public:
 
     const TapeBody& body() const { return body_; }
     const Vec3& joint(int id) const { return body_.joints.at(id); }
-    Axis upper_arm(Side side) const;
+    Axis upper_arm(Side side) const { return vfit::upper_arm(body_, side); }
     Axis thigh(Side side) const;
     /// Through pelvis and neck, straight: inside the trunk at every height between.
     Axis spine() const;
@@ -50,26 +56,30 @@ public:
     /// Horizontal section of the body without its arms: triangles carried mostly by upper arm, forearm and
     /// hand are left out.
     Section trunk(float y) const;
-    /// Section of the whole body near the place: what lies more than 0.1 m above or below it is left out. For
-    /// limbs and neck, which stand rather than lie.
-    Section across(const Vec3& place, const Vec3& axis) const;
     /// Section of the whole body by the plane x = constant.
     Section profile(float x) const;
 
 private:
-    /// Triangles in the order of their lowest corner, so that those that reach a height lie side by side.
-    struct Layers {
-        std::vector<uint32_t> indices;
-        std::vector<float> lowest;  // one a triangle
-        float tallest = 0.0f;       // of all triangles
-        std::span<const uint32_t> between(float low, float high) const;
-    };
-    Layers sorted_layers() const;
-    Layers without_arms(const Layers& whole) const;
-
     TapeBody body_;
-    Layers whole_, trunk_;
     HeightRange range_;
+    TriangleLayers whole_, trunk_;
+};
+
+/// Sections of the whole body square to a limb's axis, or the neck's.
+class TapeLimb {
+public:
+    /// From that many metres along the axis to so many. The body must outlive it.
+    TapeLimb(const TapeMesh& body, const Axis& axis, float from_m, float to_m);
+
+    const Axis& axis() const { return axis_; }
+    Vec3 place(float along_m) const { return axis_.start + along_m * direction_; }
+    Section across(float along_m) const;
+
+private:
+    const TapeMesh& body_;
+    Axis axis_;
+    Vec3 direction_;
+    TriangleLayers layers_;
 };
 
 /// The smallest loop about the place; null where none encloses it.
