@@ -18,6 +18,7 @@ constexpr Girth kGirths[] = {{"chest_girth_m", "measure-bust-circ", 0.156f},   {
                              {"hip_girth_m", "measure-hips-circ", 0.137f},     {"thigh_girth_m", "measure-thigh-circ", 0.060f},
                              {"neck_girth_m", "measure-neck-circ", 0.040f},    {"upper_arm_girth_m", "measure-upperarm-circ", 0.060f}};
 constexpr int kSteps = 7;
+constexpr float kStill_m = 0.0005f;  // a step that moves no girth farther has met them, or cannot
 constexpr float kSliderEnd = 0.9f;
 constexpr float kLeastScale = 0.8f, kMostScale = 1.25f;
 
@@ -44,13 +45,17 @@ ScannedBody scanned_body(const std::shared_ptr<const BodyModel>& body, const Fit
     meet_scale(now);
     ScannedBody good = out;
     for (int step = 0; step < kSteps; ++step) {
+        float moved_m = 0.0f;
         for (const Girth& girth : kGirths) {
             const int parameter = body->parameter(girth.slider);
             const float wanted = value(measured, girth.measure);
             if (parameter < 0 || wanted <= 0.0f) continue;
             float& slider = out.shape[size_t(parameter)];
+            const float before = slider;
             slider = std::clamp(slider + (wanted - value(now, girth.measure)) / girth.slope_m, -kSliderEnd, kSliderEnd);
+            moved_m = std::max(moved_m, girth.slope_m * std::abs(slider - before));
         }
+        if (step > 0 && moved_m < kStill_m) break;
         try {
             now = tape();
         } catch (const Error&) {  // a body that has not the form of a person: the one before it will do

@@ -4,9 +4,11 @@
 #include <map>
 #include <thread>
 
+#include "avatar/avatar_measures.h"
 #include "bench/bench.h"
 #include "client/output.h"
 #include "client/people.h"
+#include "population/library_file.h"
 
 namespace vfit::tools {
 
@@ -37,6 +39,28 @@ void time_sensor(const Options& options, Stages& stages) {
         const Timer timer;
         if (!source.next()) return;
         if (i > 2) stages.per_frame["sensor (virtual person)"].add(timer.ms());
+    }
+}
+
+/// What making and fitting a body is made of.
+void time_bodies(Stages& stages) {
+    const auto model = BodyModel::load(library_file("vfit_data/body.bin"));
+    EvaluatedBody body;
+    std::vector<float> shape = model->default_shape(VFIT_SEX_FEMALE);
+    for (int i = 0; i < 4 * kRepeats; ++i) {
+        for (size_t p = 0; p < shape.size(); ++p) {
+            const ShapeParameter& range = model->parameters()[p];
+            shape[p] = glm::mix(range.minimum, range.maximum, float((i + 3 * int(p)) % 7) / 6.0f);
+        }
+        const Timer timer;
+        model->evaluate(shape, body);
+        stages.per_person["body of a shape, every value set"].add(timer.ms());
+    }
+    const vfit::Avatar avatar(model, {VFIT_SEX_FEMALE}, {}, Vec2(1.0f));
+    for (int i = 0; i < 4 * kRepeats; ++i) {
+        const Timer timer;
+        measure_avatar(avatar, VFIT_SEX_FEMALE);
+        stages.per_person["tape measures of a body"].add(timer.ms());
     }
 }
 
@@ -159,6 +183,7 @@ void add_stages(Command& app) {
         pin_to_cores(1);
         Stages stages;
         time_sensor(*o, stages);
+        time_bodies(stages);
         for (int i = 0; i < kRepeats; ++i) run(*o, i == 0, stages);
         if (!o->json) {
             print("per frame", stages.per_frame);

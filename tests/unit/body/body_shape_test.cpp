@@ -1,8 +1,7 @@
-// Shapes of the parametric body: precision against the uncompressed data, plausibility, time.
+// Shapes of the parametric body: precision against the uncompressed data, plausibility.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <iostream>
@@ -241,30 +240,6 @@ TEST(BodyShape, EvaluatesWithoutMovingItsBuffers) {
     body().evaluate(body().default_shape(VFIT_SEX_MALE), out);
     EXPECT_EQ(positions, out.positions.data());
     EXPECT_EQ(scratch, out.scratch.data());
-}
-
-TEST(BodyShape, EvaluatesWellWithinAFrame) {
-    std::mt19937 random(11);
-    std::vector<double> typical_ms, busy_ms;
-    EvaluatedBody out;
-    for (int i = 0; i < 60; ++i) {
-        std::vector<float> shape = body().default_shape(VFIT_SEX_FEMALE);
-        for (size_t p = 0; p < shape.size(); ++p) {
-            const ShapeParameter& parameter = body().parameters()[p];
-            if (p < 8 || i % 2)  // all sliders at once is the worst case
-                shape[p] =
-                    std::uniform_real_distribution<float>(parameter.minimum, parameter.maximum)(random);
-        }
-        const auto begin = std::chrono::steady_clock::now();
-        body().evaluate(shape, out);
-        const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - begin;
-        (i % 2 ? busy_ms : typical_ms).push_back(elapsed.count());
-    }
-    std::sort(typical_ms.begin(), typical_ms.end());
-    std::sort(busy_ms.begin(), busy_ms.end());
-    std::cout << "evaluate, median ms: " << typical_ms[15] << " with all phenotypes between anchors, "
-              << busy_ms[15] << " with every slider as well\n";
-    EXPECT_LT(busy_ms[15], 16.0);  // a frame at 60 Hz, also on a loaded or instrumented machine
 }
 
 }  // namespace
