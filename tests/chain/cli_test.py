@@ -463,7 +463,6 @@ class Contract(unittest.TestCase):
             self.check_failure(run("size", measures, "--chart", chart, "--garment", "dress"), "dress", "M", str(chart))
 
 
-@unittest.skipUnless(RECORDINGS, f"real recordings are not at {SHARED}")
 class PaperSample(unittest.TestCase):
     PROGRAM = pathlib.Path(VFIT).with_name("vfit-paper")
 
@@ -498,6 +497,7 @@ class PaperSample(unittest.TestCase):
         self.assertIn("/no/recording", done.stderr)
 
 
+@unittest.skipUnless(RECORDINGS, f"real recordings are not at {SHARED}")
 class RealRecordings(unittest.TestCase):
     def test_every_recording_is_measured_and_dressed(self):
         for recording in RECORDINGS:
