@@ -13,7 +13,7 @@ namespace vfit {
 
 namespace {
 
-constexpr int kVersion = 3;
+constexpr int kVersion = 4;
 constexpr float kFarthest = 5.0f;  // deviations: what lies farther tells no more
 // What of the body itself lies farther out than nearly all grown-ups' do, a child's crown say, is guessed at: linear rules
 // do not reach there.
@@ -105,6 +105,7 @@ MeasureModel MeasureModel::parse(std::string_view text) {
         part.mean = of_features(in, "mean", where, 1.0f, 0.0f);
         part.scale = of_features(in, "scale", where, 1.0f, kUnseenScale);
         part.usual_strangeness = number(field(in, "usual_strangeness", where), where + ": usual_strangeness");
+        part.shape_precision = numbers(in, "shape_precision", size_t(kFitComponents) * size_t(kFitComponents), where);
         if (std::any_of(part.scale.begin(), part.scale.end(), [](float s) { return !(s > 0.0f); }) ||
             !(part.usual_strangeness > 0.0f))
             fail(VFIT_ERROR_DATA, "measure model: a scale of ", where, " is not above 0");
@@ -151,7 +152,14 @@ ScanFeatures MeasureModel::Part::standardised(const ScanFeatures& features) cons
     return x;
 }
 
-float MeasureModel::Part::doubt(const ScanFeatures& features, const ScanFeatures& x) const {
+MeasureModel::Seen MeasureModel::Part::look(const ScanFeatures& features) const {
+    Seen seen{standardised(features), {}, 1.0f};
+    seen.near = basis.near(seen.x);
+    seen.doubt = doubt(features, seen);
+    return seen;
+}
+
+float MeasureModel::Part::doubt(const ScanFeatures& features, const Seen& seen) const {
     float beyond = 0.0f;
     const auto look = [&](size_t i) {
         const float farther = std::isnan(features[i]) ? 0.0f : std::abs(features[i] - mean[i]) / scale[i] - kUsualReach;
@@ -159,11 +167,15 @@ float MeasureModel::Part::doubt(const ScanFeatures& features, const ScanFeatures
     };
     for (size_t i = 0; i < size_t(kFitComponents); ++i) look(i);
     look(kCrown);
-    return std::sqrt(std::max(1.0f, strangeness(x) / usual_strangeness) * (1.0f + kBeyond * beyond));
+    float shape = 0.0f;
+    for (size_t i = 0; i < size_t(kFitComponents); ++i)
+        for (size_t j = 0; j < size_t(kFitComponents); ++j) shape += seen.x[i] * shape_precision[i * size_t(kFitComponents) + j] * seen.x[j];
+    const float stranger = std::max(strangeness(seen.x) / usual_strangeness, shape);
+    return std::sqrt(std::max(1.0f, stranger) * (1.0f + kBeyond * beyond));
 }
 
-std::vector<Measurement> MeasureModel::Part::measure(const std::vector<Row>& rows, const ScanFeatures& x, float doubt) const {
-    const std::vector<float> near = basis.near(x);
+std::vector<Measurement> MeasureModel::Part::measure(const std::vector<Row>& rows, const Seen& seen) const {
+    const auto& [x, near, doubt] = seen;
     std::vector<Measurement> out;
     for (const Row& row : rows) {
         float log_sigma = row.log_sigma + row.sigma_weights.back() * std::log(strangeness(x) + kLeastStrangeness);
@@ -191,12 +203,11 @@ std::vector<Measurement> MeasureModel::measure(const ScanFeatures& features, Sca
 
 std::vector<Measurement> MeasureModel::measure_anybody(const ScanFeatures& features, ScanKind kind, vfit_sex sex) const {
     const Part& learnt = part(kind);
-    const ScanFeatures x = learnt.standardised(features);
-    const float doubt = learnt.doubt(features, x);
-    if (sex == VFIT_SEX_FEMALE) return learnt.measure(learnt.female_rows, x, doubt);
-    const std::vector<Measurement> male = learnt.measure(learnt.male_rows, x, doubt);
+    const Seen seen = learnt.look(features);
+    if (sex == VFIT_SEX_FEMALE) return learnt.measure(learnt.female_rows, seen);
+    const std::vector<Measurement> male = learnt.measure(learnt.male_rows, seen);
     if (sex == VFIT_SEX_MALE) return male;
-    const std::vector<Measurement> female = learnt.measure(learnt.female_rows, x, doubt);
+    const std::vector<Measurement> female = learnt.measure(learnt.female_rows, seen);
     const float p = female_probability(features, kind);
     std::vector<Measurement> out;
     for (const Measurement& m : male) {

@@ -48,10 +48,17 @@ private:
         float log_sigma = 0.0f;
         std::vector<float> sigma_weights;  // of the part's sigma_features and, last, of how strange all of them are
     };
+    /// A scan as a part looks at it.
+    struct Seen {
+        ScanFeatures x;           // standardised
+        std::vector<float> near;  // to each centre, 1 at it
+        float doubt = 1.0f;
+    };
     /// What is learnt from one kind of scan.
     struct Part {
         std::vector<float> mean, scale;  // of the features
-        float usual_strangeness = 1.0f;  // mean square of x that one person of a hundred exceeds
+        float usual_strangeness = 1.0f;      // mean square of x that one person of a hundred exceeds
+        std::vector<float> shape_precision;  // quadratic form of the fitted shape's x: above 1 for one person of ten
         Linear female;                   // the logit
         RadialBasis basis;
         std::vector<size_t> sigma_features;
@@ -59,9 +66,10 @@ private:
 
         /// What was not seen is taken as the mean.
         ScanFeatures standardised(const ScanFeatures& features) const;
+        Seen look(const ScanFeatures& features) const;
         /// How many times wider deviations are than among those that it has learnt from.
-        float doubt(const ScanFeatures& features, const ScanFeatures& x) const;
-        std::vector<Measurement> measure(const std::vector<Row>& rows, const ScanFeatures& x, float doubt) const;
+        float doubt(const ScanFeatures& features, const Seen& seen) const;
+        std::vector<Measurement> measure(const std::vector<Row>& rows, const Seen& seen) const;
     };
     MeasureModel() = default;
 

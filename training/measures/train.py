@@ -26,10 +26,11 @@ LEVEL = 100.0              # variance of what a sex has in common
 JITTER = 1e-3              # of the kernel between centres: two that are alike say the same
 FARTHEST = 5.0             # deviations: sdk/scan/measure_model.cpp cuts there too
 # The order of sdk/scan/body_scan.h.
+SHAPE = 10                 # of the base: of the body itself, without clothes
 BASE, ZONES, PROFILE, REGIONS = 19, 2 * 2 * 171, 24 * (5 + 9), 2 * 3
 FEATURES = BASE + ZONES + PROFILE + REGIONS
-# What deviations follow: clothes in the fitted shape, distance and pixel, roughness; and how strange all of it is.
-SIGMA_FEATURES = [10, 11, 12, 14, 15] + list(range(BASE + ZONES + PROFILE, FEATURES))
+# What deviations follow: the fitted shape and its clothes, distance and pixel, roughness; and how strange all of it is.
+SIGMA_FEATURES = list(range(13)) + [14, 15] + list(range(BASE + ZONES + PROFILE, FEATURES))
 LEAST_ERROR = 0.0005
 LEAST_STRANGENESS = 0.01    # sdk/scan/measure_model.cpp has the same
 UNIT, UNIT_OF_PLACES = 1e-6, 1e-5  # the file's numbers are whole ones of these
@@ -126,6 +127,10 @@ class Part:
         self.y = scans.truth - self.mean_y
         self.cloth = np.where(own[:, None], 0.0, scans.thickness)
         self.centres = Centres(self.x[:, self.used], scans.truth, self.weight)
+        # Mahalanobis' distance of the fitted shape, as a share of that which one person of ten exceeds.
+        shape = self.x[own][:, :SHAPE]
+        precision = np.linalg.inv(shape.T @ shape / len(shape))
+        self.shape_precision = precision / np.quantile(((shape @ precision) * shape).sum(1), 0.9)
 
     def standard(self, features):
         """What was not seen is taken as the mean."""
@@ -242,7 +247,8 @@ def train(rows, kind, keys):
           f"waist and hip {correlation[1, 2]:.2f}")
     used = part.used
     out = {"features": np.flatnonzero(used).tolist(), "mean": digits(part.mean[used], 7), "scale": digits(part.scale[used], 5),
-           "usual_strangeness": part.usual_strangeness, "female_weights": digits(part.logit[:-1][used], 4),
+           "usual_strangeness": part.usual_strangeness,
+           "shape_precision": digits(part.shape_precision, 5), "female_weights": digits(part.logit[:-1][used], 4),
            "female_base": float(part.logit[-1]), "directions": whole(part.centres.directions.T, UNIT_OF_PLACES),
            "centres": whole(part.centres.centres, UNIT_OF_PLACES), "sigma_features": SIGMA_FEATURES}
     solved = [part.ridges(firm) for firm in FIRM_SURFACE]
@@ -287,7 +293,7 @@ def main():
     arguments = parser.parse_args()
     rows = read(arguments.scans)
     keys = sorted({key for r in rows for key in r["truth"]} - {"navel_girth_m"})
-    model = {"format": "vfit-measure-model", "version": 3, "unit": UNIT, "unit_of_places": UNIT_OF_PLACES}
+    model = {"format": "vfit-measure-model", "version": 4, "unit": UNIT, "unit_of_places": UNIT_OF_PLACES}
     for kind in KINDS:
         model[kind] = train(rows, kind, keys)
     with open(arguments.out, "w") as file:

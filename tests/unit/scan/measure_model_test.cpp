@@ -43,11 +43,11 @@ Json small_model() {
     const Json part = {{"features", used()}, {"mean", mean}, {"scale", std::vector<float>(kUsed, 1.0f)},
                        {"directions", Json::array()}, {"centres", Json::array()},
                        {"bends", {{"stature_m", Json::array()}, {"underbust_girth_m", Json::array()}}},
-                       {"usual_strangeness", 1.0f}, {"female_weights", weights(-1000.0f)}, {"female_base", 0.0f},
+                       {"usual_strangeness", 1.0f}, {"shape_precision", std::vector<float>(size_t(kFitComponents) * size_t(kFitComponents), 0.0f)}, {"female_weights", weights(-1000.0f)}, {"female_base", 0.0f},
                        {"sigma_features", {kScanFeatures - 1}},
                        {"female", {{"stature_m", measure(1.6f, std::log(0.01f))}, {"underbust_girth_m", measure(0.8f, 0.0f)}}},
                        {"male", {{"stature_m", measure(1.7f, std::log(0.01f))}}}};
-    return {{"format", "vfit-measure-model"}, {"version", 3}, {"unit", 1.0f}, {"unit_of_places", 1.0f}, {"front", part}, {"front_and_side", part}, {"front_tight", part},
+    return {{"format", "vfit-measure-model"}, {"version", 4}, {"unit", 1.0f}, {"unit_of_places", 1.0f}, {"front", part}, {"front_and_side", part}, {"front_tight", part},
             {"front_and_side_tight", part}};
 }
 
@@ -81,6 +81,23 @@ TEST(MeasureModel, IsBentByWhatItIsNear) {
     EXPECT_NEAR(stature(0.0f), 1.8f + 0.05f - 0.02f * std::exp(-2.0f), 1e-5f);
     EXPECT_NEAR(stature(2.0f), 1.8f + 0.05f * std::exp(-2.0f) - 0.02f, 1e-5f);
     EXPECT_NEAR(stature(-5.0f), 1.8f, 1e-5f) << "far from all, the linear rule";
+}
+
+TEST(MeasureModel, IsLessSureOfAnUnlikelyShape) {
+    Json json = small_model();
+    // The first two values of a shape go together.
+    json["front"]["shape_precision"][0] = json["front"]["shape_precision"][size_t(kFitComponents) + 1] = 1.0f;
+    json["front"]["shape_precision"][1] = json["front"]["shape_precision"][size_t(kFitComponents)] = -0.9f;
+    const MeasureModel model = MeasureModel::parse(json_text(json));
+    const auto sigma = [&](float first, float second) {
+        ScanFeatures f = features(0.0f);
+        f[0] = first, f[1] = second;
+        return model.measure(f, {}, VFIT_SEX_MALE)[0].sigma;
+    };
+    EXPECT_NEAR(sigma(2.0f, 2.0f), 0.01f, 1e-5f) << "2 * 4 * (1 - 0.9) < 1";
+    EXPECT_NEAR(sigma(2.0f, -2.0f), 0.01f * std::sqrt(2 * 4 * 1.9f), 1e-4f);
+    json["front"]["shape_precision"].erase(0);
+    EXPECT_THROW(MeasureModel::parse(json_text(json)), Error);
 }
 
 TEST(MeasureModel, TakesTheMeanForWhatWasNotSeen) {
