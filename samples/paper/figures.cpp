@@ -35,8 +35,9 @@ Canvas figure_4(vfit_frame frame, const std::vector<vfit_joint>& joints, const s
     for (const vfit_joint& j : joints)
         if (j.state != VFIT_JOINT_NOT_SEEN) at[j.joint] = {j.position[0], j.position[1], j.position[2]};
     const auto place = [&](vfit_joint_id joint) {
-        if (!at.count(joint)) throw Failure("Fig. 4: the last frame does not show the joint " + tools::joint_name(joint));
-        return at[joint];
+        const auto it = at.find(joint);
+        if (it == at.end()) throw Failure("Fig. 4: the last frame does not show the joint " + tools::joint_name(joint));
+        return it->second;
     };
     const auto middle = [&](vfit_joint_id a, vfit_joint_id b) {
         const auto p = place(a), q = place(b);

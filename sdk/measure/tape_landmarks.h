@@ -19,7 +19,7 @@ float armpit_height(const TapeMesh& body);
 float waist_height(const TapeMesh& body);
 
 /// The bust point of the side: the middle of what stands out farthest before the straight line from the front of the
-/// rib arch to the front between the armpits.
+/// rib arch to the front between the armpits; some two millimetres under the skin.
 Vec3 bust_point(const TapeMesh& body, Side side, float armpit);
 
 /// Women: level of the bust points. Others: of the largest girth between the rib arch and a tape's half width
@@ -53,7 +53,7 @@ float narrowest_neck(const TapeLimb& neck);
 float larynx_place(const TapeMesh& body, const TapeLimb& neck, float narrowest_m, float chin);
 
 /// The skin over the outer edge of the acromion: where the line from the centre of the shoulder joint through
-/// the bone's edge leaves the body.
+/// the bone's edge leaves the body. Of a checked body.
 Vec3 acromion(const TapeBody& body, Side side);
 
 /// Lowest point of the chin: of what lies above the throat and in front of the plane halfway between it and
@@ -66,12 +66,8 @@ float skull_breadth(const TapeMesh& body, float chin);
 /// Tip of the middle finger: the point of the hand farthest from the wrist.
 Vec3 fingertip(const TapeMesh& body, Side side);
 
-/// Tape about a limb, square to its axis, that many metres along it; 0 where the section is not of the limb
-/// alone, but holds the trunk's or the other limb's axis as well.
-float limb_girth(const TapeLimb& limb, float along_m, const Axis& apart);
-
-/// The largest limb_girth between a tape's half width below where the limb leaves the body and that share of
-/// its length.
-float largest_limb_girth(const TapeMesh& body, const Axis& limb, float share, const Axis& apart);
+/// The largest tape about a limb, square to its axis, between a tape's half width below where the limb leaves the
+/// body and that share of its length; `apart` runs through what it leaves.
+float largest_limb_girth(const TapeMesh& body, const Axis& axis, float share, const Axis& apart);
 
 }  // namespace vfit

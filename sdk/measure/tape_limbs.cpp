@@ -46,22 +46,35 @@ float lowest_tape_on_neck(const TapeMesh& body) {
     return std::min(0.0f, collar_bones_height(body) - body.joint(VFIT_JOINT_NECK).y);
 }
 
-}  // namespace
-
+/// Tape about a limb, square to its axis, that many metres along it; 0 where the section is not of the limb
+/// alone, but holds the trunk's or the other limb's axis as well.
 float limb_girth(const TapeLimb& limb, float along_m, const Axis& apart) {
-    const Vec3 place = limb.place(along_m), direction = limb.axis().direction();
+    const Vec3 place = limb.place(along_m);
     const Section section = limb.across(along_m);
     const auto* loop = loop_about(section, place);
     if (!loop) return 0.0f;
-    const float share =
-        glm::dot(place - apart.start, direction) / glm::dot(apart.end - apart.start, direction);
+    const float share = glm::dot(place - apart.start, limb.direction()) / glm::dot(apart.end - apart.start, limb.direction());
     if (std::isfinite(share) && loop == loop_about(section, apart.at(share))) return 0.0f;
     return hull_perimeter(*loop);
 }
 
+/// Frontal section of the whole body: what lies more than 0.1 m above or below the place is left out.
+Section frontal_near(const TapeBody& body, const Vec3& place) {
+    constexpr float kReach_m = 0.1f;
+    std::vector<uint32_t> near;
+    for (size_t t = 0; t < body.indices.size(); t += 3) {
+        const uint32_t* v = &body.indices[t];
+        const auto [low, high] = std::minmax({body.positions[v[0]].y, body.positions[v[1]].y, body.positions[v[2]].y});
+        if (high >= place.y - kReach_m && low <= place.y + kReach_m) near.insert(near.end(), v, v + 3);
+    }
+    return cut(body.positions, near, place, Vec3(0, 0, 1));
+}
+
+}  // namespace
+
 float largest_limb_girth(const TapeMesh& body, const Axis& axis, float share, const Axis& apart) {
     const float last = share * glm::distance(axis.start, axis.end);
-    const TapeLimb limb(body, axis, 0.0f, last);
+    const TapeLimb limb(body.body(), axis, 0.0f, last);
     const auto girth = [&](float along_m) { return limb_girth(limb, along_m, apart); };
     if (!(girth(last) > 0.0f)) fail(VFIT_ERROR_DATA, "a limb of the body is nowhere apart from the rest");
     const float first = border(last, 0.0f, [&](float along_m) { return girth(along_m) > 0.0f; });
@@ -70,7 +83,7 @@ float largest_limb_girth(const TapeMesh& body, const Axis& axis, float share, co
 
 TapeLimb neck_of(const TapeMesh& body) {
     const Axis axis{body.joint(VFIT_JOINT_NECK), body.joint(VFIT_JOINT_HEAD)};
-    return {body, axis, lowest_tape_on_neck(body), glm::distance(axis.start, axis.end)};
+    return {body.body(), axis, lowest_tape_on_neck(body), glm::distance(axis.start, axis.end)};
 }
 
 float length(const std::vector<Vec3>& loop) {
@@ -104,7 +117,7 @@ Vec3 acromion(const TapeBody& body, Side side) {
     const Vec3 direction =
         glm::normalize(Vec3(side == Side::kLeft ? kAcromionOutwards : -kAcromionOutwards, kAcromionUp, 0.0f));
     // In the frontal plane through the joint: the outline's farthest crossing of the line to the bone's edge.
-    const Section frontal = vfit::frontal(body, joint);
+    const Section frontal = frontal_near(body, joint);
     const Vec2 along(glm::dot(direction, frontal.u), glm::dot(direction, frontal.v)),
         square(-along.y, along.x);
     float farthest = 0.0f;

@@ -80,8 +80,8 @@ HeightRange height_range(std::span<const Vec3> positions) {
 TapeMesh::TapeMesh(const TapeBody& body)
     : body_((check(body), body)),
       range_(height_range(body.positions)),
-      whole_(body.positions, body.indices, kUp, range_.floor, range_.crown),
-      trunk_(body.positions, without_arms(body), kUp, range_.floor, range_.crown) {}
+      whole_(body.positions, body.indices, Vec3(0.0f), kUp, range_.floor, range_.crown),
+      trunk_(body.positions, without_arms(body), Vec3(0.0f), kUp, range_.floor, range_.crown) {}
 
 Axis upper_arm(const TapeBody& body, Side side) {
     const Body& j = body.joints;
@@ -99,32 +99,17 @@ Axis TapeMesh::spine() const { return {joint(VFIT_JOINT_PELVIS), joint(VFIT_JOIN
 Section TapeMesh::level(float y) const { return cut(body_.positions, whole_.at(y), {0, y, 0}, kUp); }
 Section TapeMesh::trunk(float y) const { return cut(body_.positions, trunk_.at(y), {0, y, 0}, kUp); }
 
-Section frontal(const TapeBody& body, const Vec3& place) {
-    constexpr float kReach_m = 0.1f;
-    std::vector<uint32_t> near;
-    for (size_t t = 0; t < body.indices.size(); t += 3) {
-        const uint32_t* v = &body.indices[t];
-        const auto [low, high] = std::minmax({body.positions[v[0]].y, body.positions[v[1]].y, body.positions[v[2]].y});
-        if (high >= place.y - kReach_m && low <= place.y + kReach_m) near.insert(near.end(), v, v + 3);
-    }
-    return cut(body.positions, near, place, Vec3(0, 0, 1));
-}
-
 Section TapeMesh::profile(float x) const {
     return cut(body_.positions, body_.indices, {x, 0, 0}, Vec3(1, 0, 0));
 }
 
-TapeLimb::TapeLimb(const TapeMesh& body, const Axis& axis, float from_m, float to_m)
-    : body_(body),
+TapeLimb::TapeLimb(const TapeBody& body, const Axis& axis, float from_m, float to_m)
+    : positions_(body.positions),
       axis_(axis),
       direction_(axis.direction()),
-      layers_(body.body().positions, body.body().indices, direction_, glm::dot(direction_, place(from_m)),
-              glm::dot(direction_, place(to_m))) {}
+      layers_(body.positions, body.indices, axis.start, direction_, from_m, to_m) {}
 
-Section TapeLimb::across(float along_m) const {
-    const Vec3 at = place(along_m);
-    return cut(body_.body().positions, layers_.at(glm::dot(direction_, at)), at, direction_);
-}
+Section TapeLimb::across(float along_m) const { return cut(positions_, layers_.at(along_m), place(along_m), direction_); }
 
 const std::vector<Vec2>* loop_about(const Section& section, const Vec3& place) {
     const Vec3 p = place - section.origin;

@@ -31,10 +31,8 @@ struct HeightRange {
 };
 HeightRange height_range(std::span<const Vec3> positions);
 
+/// Of a checked body.
 Axis upper_arm(const TapeBody& body, Side side);
-
-/// Frontal section of the whole body near the place: what lies more than 0.1 m above or below it is left out.
-Section frontal(const TapeBody& body, const Vec3& place);
 
 class TapeMesh {
 public:
@@ -68,15 +66,17 @@ private:
 /// Sections of the whole body square to a limb's axis, or the neck's.
 class TapeLimb {
 public:
-    /// From that many metres along the axis to so many. The body must outlive it.
-    TapeLimb(const TapeMesh& body, const Axis& axis, float from_m, float to_m);
+    /// From that many metres along the axis to so many. What the body's spans view must outlive it.
+    TapeLimb(const TapeBody& body, const Axis& axis, float from_m, float to_m);
 
     const Axis& axis() const { return axis_; }
+    const Vec3& direction() const { return direction_; }
     Vec3 place(float along_m) const { return axis_.start + along_m * direction_; }
+    /// Between the two ends alone: beyond them triangles are missing.
     Section across(float along_m) const;
 
 private:
-    const TapeMesh& body_;
+    std::span<const Vec3> positions_;
     Axis axis_;
     Vec3 direction_;
     TriangleLayers layers_;

@@ -15,7 +15,7 @@ namespace {
 /// (0.630 - 0.519) / (0.857 - 0.519), men (0.621 - 0.513) / (0.864 - 0.513) of stature.
 constexpr float kWaistShareWomen = 0.328f, kWaistShareMen = 0.308f;
 
-/// The rib arch as a share of the way from the waist to the foot of the neck; a man's chest lies above it, by
+/// The rib arch as a share of the way from the waist to the foot of the neck; the bust and a man's chest lie above it, by
 /// the same tables at 0.47 (0.735 of stature).
 constexpr float kRibArchShare = 0.2f;
 
@@ -90,8 +90,8 @@ float waist_height(const TapeMesh& body) {
     return glm::mix(hip_joints_height(body), body.joint(VFIT_JOINT_NECK).y, share);
 }
 
-/// The middle of what stands out most, so that it moves evenly with the body and does not leap from one vertex to the next
-/// one, a centimetre away.
+/// The middle of what stands out most: where a breast does, it moves evenly with the body and does not leap from one vertex
+/// to the next one, a centimetre away.
 Vec3 bust_point(const TapeMesh& body, Side side, float armpit) {
     // From the rib arch up: a round upper belly below it stands out more than a small breast.
     const float arch = rib_arch_height(body), middle = body.joint(VFIT_JOINT_NECK).x;

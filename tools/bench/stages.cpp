@@ -42,7 +42,7 @@ void time_sensor(const Options& options, Stages& stages) {
     }
 }
 
-/// What making and fitting a body is made of.
+/// What making and taping a body costs.
 void time_bodies(Stages& stages) {
     const auto model = BodyModel::load(library_file("vfit_data/body.bin"));
     EvaluatedBody body;
@@ -50,7 +50,7 @@ void time_bodies(Stages& stages) {
     for (int i = 0; i < 4 * kRepeats; ++i) {
         for (size_t p = 0; p < shape.size(); ++p) {
             const ShapeParameter& range = model->parameters()[p];
-            shape[p] = glm::mix(range.minimum, range.maximum, float((i + 3 * int(p)) % 7) / 6.0f);
+            shape[p] = glm::mix(range.minimum, range.maximum, (float((i + 3 * int(p)) % 7) + 0.3f) / 7.0f);
         }
         const Timer timer;
         model->evaluate(shape, body);

@@ -49,6 +49,9 @@ TEST_F(OwnMeasuresTest, SayWhatTheTapeSaysOfKnownMeasures) {
     EXPECT_NEAR(of(R"("depth": {"at": "chest", "of": "trunk"})"), told("chest_depth_m"), 1e-3f);
     EXPECT_NEAR(of(R"("height": "crotch")"), told("inside_leg_m"), 1e-3f);
     EXPECT_NEAR(of(R"("path": {"points": ["NECK", "PELVIS"]})"), told("torso_height_m"), 1e-4f);
+    const float left = of(R"("height": "left bust point")"), right = of(R"("height": "right bust point")");
+    EXPECT_NEAR(0.5f * (left + right), of(R"("height": "chest")"), 1e-4f);
+    EXPECT_NEAR(left, right, 0.01f);
     // At its largest place the thigh is as wide as anywhere near.
     EXPECT_NEAR(of(R"("girth": {"at": ["LEFT_HIP", "LEFT_KNEE", 0.35], "square_to": ["LEFT_HIP", "LEFT_KNEE"]})"), told("thigh_girth_m"), 0.05f);
 }

@@ -198,6 +198,7 @@ TEST(BodyScan, TellsHowFarThePersonIsTurnedFromTheView) {
     EXPECT_NEAR(turned[kFrontSquared], 0.25f * 0.25f, 0.04f);
     EXPECT_GT(turned[kFrontSquared], straight[kFrontSquared] + 0.02f);
     EXPECT_GT(turned[kSide], straight[kSide] + 0.1f);
+    EXPECT_GT(turned[kSideSquared], straight[kSideSquared] + 0.01f);
     EXPECT_GE(turned[kSideSquared] + 1e-4f, turned[kSide] * turned[kSide]) << "a mean of squares is the square of the mean or more";
 }
 
