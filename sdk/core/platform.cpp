@@ -48,7 +48,12 @@ std::string library_folder() {
     Dl_info info{};
     if (dladdr(reinterpret_cast<void*>(&library_folder), &info) == 0 || !info.dli_fname) return ".";
     std::error_code ignored;
-    const auto path = std::filesystem::weakly_canonical(info.dli_fname, ignored);
+    std::filesystem::path path = info.dli_fname;
+#if defined(__linux__)
+    // A program found by PATH is named by its bare name.
+    if (!path.has_parent_path()) path = std::filesystem::read_symlink("/proc/self/exe", ignored);
+#endif
+    path = std::filesystem::weakly_canonical(path, ignored);
     return path.has_parent_path() ? path.parent_path().string() : ".";
 }
 #if defined(__APPLE__)

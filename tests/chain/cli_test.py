@@ -491,6 +491,13 @@ class PaperSample(unittest.TestCase):
                 self.assertGreater(min(width, height), 200, name)
                 self.assertGreater(len(set(rgb)), 10, name)
 
+    def test_programs_that_the_path_finds_find_their_data(self):
+        bench = pathlib.Path(VFIT).with_name("vfit-bench").resolve()
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([bench.name, "population", "--count", "1"], cwd=folder, capture_output=True, text=True,
+                                  env={**os.environ, "PATH": f"{bench.parent}:{os.environ['PATH']}"}, timeout=100)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
     def test_what_is_not_there_is_named(self):
         done = self.run_paper("figures", "--source", "/no/recording")
         self.assertEqual(done.returncode, 1)
