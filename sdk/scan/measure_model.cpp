@@ -153,13 +153,11 @@ ScanFeatures MeasureModel::Part::standardised(const ScanFeatures& features) cons
 }
 
 MeasureModel::Seen MeasureModel::Part::look(const ScanFeatures& features) const {
-    Seen seen{standardised(features), {}, 1.0f};
-    seen.near = basis.near(seen.x);
-    seen.doubt = doubt(features, seen);
-    return seen;
+    const ScanFeatures x = standardised(features);
+    return {x, basis.near(x), doubt(features, x)};
 }
 
-float MeasureModel::Part::doubt(const ScanFeatures& features, const Seen& seen) const {
+float MeasureModel::Part::doubt(const ScanFeatures& features, const ScanFeatures& x) const {
     float beyond = 0.0f;
     const auto look = [&](size_t i) {
         const float farther = std::isnan(features[i]) ? 0.0f : std::abs(features[i] - mean[i]) / scale[i] - kUsualReach;
@@ -169,8 +167,8 @@ float MeasureModel::Part::doubt(const ScanFeatures& features, const Seen& seen) 
     look(kCrown);
     float shape = 0.0f;
     for (size_t i = 0; i < size_t(kFitComponents); ++i)
-        for (size_t j = 0; j < size_t(kFitComponents); ++j) shape += seen.x[i] * shape_precision[i * size_t(kFitComponents) + j] * seen.x[j];
-    const float stranger = std::max(strangeness(seen.x) / usual_strangeness, shape);
+        for (size_t j = 0; j < size_t(kFitComponents); ++j) shape += x[i] * shape_precision[i * size_t(kFitComponents) + j] * x[j];
+    const float stranger = std::max(strangeness(x) / usual_strangeness, shape);
     return std::sqrt(std::max(1.0f, stranger) * (1.0f + kBeyond * beyond));
 }
 

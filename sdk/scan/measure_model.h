@@ -68,7 +68,7 @@ private:
         ScanFeatures standardised(const ScanFeatures& features) const;
         Seen look(const ScanFeatures& features) const;
         /// How many times wider deviations are than among those that it has learnt from.
-        float doubt(const ScanFeatures& features, const Seen& seen) const;
+        float doubt(const ScanFeatures& features, const ScanFeatures& x) const;
         std::vector<Measurement> measure(const std::vector<Row>& rows, const Seen& seen) const;
     };
     MeasureModel() = default;

@@ -170,6 +170,7 @@ TEST_F(PersonScanTest, MeasuresTightClothesByAnEstimatorOfTheirOwn) {
     for (const char* key : {"chest_girth_m", "waist_girth_m", "hip_girth_m"}) {
         const auto a = any.measurements(), b = tight.measurements();
         EXPECT_NE(find(b, key)->value, find(a, key)->value) << key;
+        EXPECT_LT(find(b, key)->sigma, 0.9f * find(a, key)->sigma) << key;
         EXPECT_NEAR(find(b, key)->value, find(a, key)->value, 3.0f * find(a, key)->sigma) << key;
     }
 }
