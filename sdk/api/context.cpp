@@ -101,7 +101,7 @@ void Context::close() {
         closing_ = true;
     }
     // Wakes the calls that wait for a frame. First, so that no plug-in works on frames whose handles are dead.
-    plugins_->shutdown();
+    end_streams();
     // From here on no new call enters.
     Handles::instance().destroy(id, Kind::context);
     std::unique_ptr<Jobs> last;

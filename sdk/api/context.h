@@ -55,7 +55,9 @@ public:
     /// A frame from a pool, or VFIT_ERROR_BUSY.
     static Ref<Frame> take_frame(FramePool& pool);
 
-    /// Closes the sensors, kills the handles, waits until no call is inside and joins the workers. Nothing of
+    /// Closes the sensors: no plug-in of this context works afterwards.
+    void end_streams() { plugins_->shutdown(); }
+    /// Ends the streams, kills the handles, waits until no call is inside and joins the workers. Nothing of
     /// the host's is called afterwards. A second thread that asks gets VFIT_ERROR_BUSY.
     void close();
 

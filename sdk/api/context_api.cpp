@@ -84,11 +84,15 @@ vfit_result vfit_context_destroy(vfit_context context) {
 
 vfit_result vfit_shutdown(void) {
     return guard([&] {
+        const auto contexts = [] { return Handles::instance().children(0, Kind::context); };
+        // A plug-in may work with a context of its own until its device is closed, which takes that context along.
+        std::vector<Ref<Object>> live;
+        for (const uint64_t id : contexts()) live.push_back(Handles::instance().get(id, Kind::context));
+        for (const Ref<Object>& context : live) static_cast<Context*>(context.get())->end_streams();
         vfit_result first = VFIT_OK;
-        for (const uint64_t id : Handles::instance().children(0, Kind::context)) {
+        for (const uint64_t id : contexts()) {
             const vfit_result result = vfit_context_destroy(vfit_context{id});
-            // A plug-in's own context goes with the device that made it, which may have been just now.
-            if (first == VFIT_OK && result != VFIT_ERROR_HANDLE) first = result;
+            if (first == VFIT_OK) first = result;
         }
         return first;
     });
