@@ -22,7 +22,8 @@ constexpr NamedScript kScripts[] = {{"scan", [] { return scan_script(); }},
                                     {"squat", squat_script}, {"demo", demo_script},
                                     {"cross", cross_script}, {"clap", clap_script}, {"forward", forward_script},
                                     {"sit", sit_script},     {"spin", spin_script}, {"jog", jog_script},
-                                    {"visit", visit_script}};
+                                    {"visit", visit_script}, {"jump", jump_script}, {"step", step_script},
+                                    {"balance", balance_script}};
 
 // All frequencies below are multiples of 0.01 Hz: after this time they are where they began. Without it a float of
 // seconds is too coarse for a frame after some days.

@@ -39,6 +39,9 @@ Script sit_script();
 Script spin_script();
 Script jog_script();
 Script visit_script();
+Script jump_script();
+Script step_script();
+Script balance_script();
 
 /// "scan, sway, turn, ...", for messages.
 std::string motion_names();
