@@ -532,15 +532,26 @@ enum { VFIT_MOTION_NO_FILTER = 1,       /* positions as they come               
        VFIT_MOTION_NO_LIMITS = 2,       /* no joint limits                                            */
        VFIT_MOTION_NO_SMOOTHING = 4,    /* no rotation smoothing (Eq. 8-10)                            */
        VFIT_MOTION_NO_FEET = 8 };       /* no foot-skate correction (Alg. 5 and 6)                      */
-/* Holt's double exponential filter by the five names of the Kinect SDK. smoothing, correction and
- * prediction < 0 mean 0.                                                                              */
+/* Of joint positions. ADAPTIVE learns how noisy each joint is: it averages over seconds at rest and follows
+ * within a frame in motion. HOLT is the paper's, by the five names of the Kinect SDK. All are converted by
+ * elapsed time.                                                                                        */
+enum { VFIT_POSITION_ADAPTIVE = 0, VFIT_POSITION_HOLT = 1, VFIT_POSITION_ONE_EURO = 2 };
+typedef int32_t vfit_position_filter;
+/* How feet that stand are found: by a network that has learnt it, or by the paper's thresholds of height and
+ * speed (Alg. 5), with hysteresis.                                                                      */
+enum { VFIT_CONTACT_LEARNT = 0, VFIT_CONTACT_THRESHOLDS = 1 };
+typedef int32_t vfit_contact_rule;
+/* Of the floats, 0 means the default and < 0 means 0 (where 0 is in the range).                        */
 typedef struct vfit_motion_desc {
     uint32_t struct_size, flags;        /* VFIT_MOTION_*                                              */
     float smoothing, correction, prediction;            /* 0..1; default 0.5, 0.5, 0.5                  */
     float jitter_radius_m, max_deviation_radius_m;      /* default 0.05, 0.04                          */
     float rotation_divisor;             /* k of Eq. 10 at 30 Hz; default 2                            */
     float rotation_divisor_switched;    /* k right after the planted foot changed; default 4            */
-    uint32_t reserved;
+    vfit_position_filter filter;
+    float min_cutoff_hz, beta, derivative_cutoff_hz;    /* One Euro; default 1, 1 (Hz for each m/s), 1  */
+    float prediction_s;                 /* looks ahead of now_ns, to hide latency: 0..0.2; default 0     */
+    vfit_contact_rule contact_rule;
 } vfit_motion_desc;
 VFIT_STRUCT(vfit_bone) VFIT_STRUCT(vfit_pose) VFIT_STRUCT(vfit_motion_desc)
 VFIT_API vfit_result vfit_motion_create(vfit_context context, const vfit_motion_desc* desc,

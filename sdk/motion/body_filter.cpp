@@ -7,9 +7,9 @@ namespace vfit {
 
 namespace {
 
-// Two bodies within a millisecond are one moment read twice: a trend per frame taken from them would throw the
-// joint out of the room.
-constexpr float kLeastFrames = 0.03f;
+// Two bodies within a millisecond are one moment read twice: a speed taken from them would throw the joint out of the
+// room.
+constexpr float kLeastIntervalS = 0.001f;
 
 float seconds(int64_t ns) { return static_cast<float>(static_cast<double>(ns) * 1e-9); }
 
@@ -25,7 +25,7 @@ Vec3 BodyFilter::shown(const Track& track, int64_t time_ns) {
     return track.joint.position + track.velocity * reach + track.return_offset * fade;
 }
 
-void BodyFilter::update(const Body& body, const HoltSettings* settings) {
+void BodyFilter::update(const Body& body, const PositionFilterSettings* settings) {
     for (size_t i = 0; i < tracks_.size(); ++i) {
         Track& track = tracks_[i];
         const Joint& reading = body.joints[i];
@@ -43,13 +43,13 @@ void BodyFilter::update(const Body& body, const HoltSettings* settings) {
         const float gap = seconds(body.time_ns - track.seen_ns);
         const bool returns = track.seen && (track.lost || gap > kBridgeTimeS);
         const Vec3 before = returns ? shown(track, body.time_ns) : Vec3(0.0f);
-        if (gap > kBridgeTimeS) track.holt.reset();
-        const float frames = track.holt.empty() ? 1.0f : std::max(gap * kHoltRateHz, kLeastFrames);
+        if (gap > kBridgeTimeS) track.filter.reset();
         const bool inferred = reading.state == VFIT_JOINT_INFERRED;
-        const Vec3 position = track.holt.update(*settings, reading.position, inferred, frames);
+        const Vec3 position = track.filter.update(*settings, reading.position, inferred, reading.confidence,
+                                                  std::max(gap, kLeastIntervalS));
         track.joint = reading;
         track.joint.position = position;
-        track.velocity = track.holt.trend() * kHoltRateHz;
+        track.velocity = track.filter.velocity();
         track.seen_ns = body.time_ns;
         track.seen = true;
         track.lost = false;

@@ -1,11 +1,11 @@
-// Position filter of a whole body: one Holt filter a joint, joints that vanish and return, and the state
-// of all joints at any moment between two bodies.
+// Position filter of a whole body: one filter a joint, joints that vanish and return, and the state of all joints at
+// any moment between two bodies.
 #pragma once
 
 #include <array>
 
 #include "frame/body.h"
-#include "motion/holt_filter.h"
+#include "motion/position_filter.h"
 
 namespace vfit {
 
@@ -14,7 +14,7 @@ public:
     void reset();
 
     /// Takes the joints of a body newer than the last. `settings` null: positions pass as they come.
-    void update(const Body& body, const HoltSettings* settings);
+    void update(const Body& body, const PositionFilterSettings* settings);
 
     /// Every joint seen so far, at a time not before the last body. A joint follows its trend for about
     /// kTrendTimeS and then holds; one that the last body lacked is VFIT_JOINT_INFERRED.
@@ -26,7 +26,7 @@ public:
 
 private:
     struct Track {
-        HoltFilter holt;
+        PositionFilter filter;
         Joint joint;              // as last seen, position filtered
         int64_t seen_ns = 0;
         bool seen = false, lost = false;

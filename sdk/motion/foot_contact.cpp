@@ -3,12 +3,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/contact_network.h"
+
 namespace vfit {
 
 namespace {
 
-// Thresholds of common practice for marker-less ankles: a foot is planted when lower and slower than the
-// first of each pair for two frames of 1/30 s, and free when higher or faster than the second.
+// The network's chance to stand: planted above the first; free below the second for two bodies in a row, or below the
+// third at once.
+constexpr float kPlantChance = 0.6f, kFreeChance = 0.4f, kSurelyFreeChance = 0.1f;
+constexpr float kNeverStandsM = 0.12f;  // so high above where it stands: at the top of a jump it is slow, too
+// Whoever leaves the floor with both feet has pushed off: hips that move up or down slower than that carry nobody.
+constexpr float kFlightSpeed = 0.35f;  // m/s
+constexpr float kHeldUnseenS = 0.4f;   // a foot that is hidden stays as it was for so long
+
+// Thresholds of common practice for marker-less ankles: a foot is planted when lower and slower than the first of each
+// pair for two frames of 1/30 s, and free when higher or faster than the second. The paper's line 10 waits for both and
+// so holds a foot that slides.
 constexpr float kPlantHeightM = 0.04f, kFreeHeightM = 0.06f;
 constexpr float kPlantSpeed = 0.15f, kFreeSpeed = 0.30f;  // m/s
 constexpr float kPlantTimeS = 0.05f;  // between one and two intervals of 30 Hz
@@ -39,60 +50,90 @@ float FootContact::ankle_level(float otherwise) const {
     return level;
 }
 
-void FootContact::update_foot(Foot& foot, const Vec3& ankle, float dt_s) {
+void FootContact::follow(Foot& foot, const Vec3& ankle, float dt_s) {
     const Vec3 velocity = (ankle - foot.position) / dt_s;
     foot.velocity += (velocity - foot.velocity) * share(dt_s, kSpeedTimeS);
     foot.position = ankle;
     const float above = ankle.y - foot.level;
     foot.level += above < 0 ? above * share(dt_s, kLevelFallTimeS) : std::min(above, kLevelRise * dt_s);
+}
 
-    const float height = ankle.y - foot.level;
+bool FootContact::by_thresholds(Foot& foot, float dt_s) const {
+    const float height = foot.position.y - foot.level;
     const float speed = glm::length(foot.velocity);
     const float scale = std::clamp(foot.planted_speed / kQuietSpeed, 1.0f, kMostSpeedScale);
     if (foot.planted) {
         foot.planted_speed += (speed - foot.planted_speed) * share(dt_s, kNoiseTimeS);
-        foot.planted = height <= kFreeHeightM && speed <= kFreeSpeed * scale;
         foot.low_time_s = 0;
-        return;
+        return height <= kFreeHeightM && speed <= kFreeSpeed * scale;
     }
     foot.low_time_s = height < kPlantHeightM && speed < kPlantSpeed * scale ? foot.low_time_s + dt_s : 0.0f;
-    if (foot.low_time_s > kPlantTimeS) {
-        foot.planted = true;
-        switched_ = true;
-    }
+    return foot.low_time_s > kPlantTimeS;
 }
 
-void FootContact::update(const Vec3 ankles[2], const bool known[2], int64_t time_ns) {
-    const float dt_s = static_cast<float>(static_cast<double>(time_ns - time_ns_) * 1e-9);
+bool FootContact::by_network(Foot& foot, int side) const {
+    std::array<float, kContactFeatureCount> features;
+    if (foot.position.y - foot.level > kNeverStandsM) return false;
+    if (!features_.of(side, features)) return foot.planted;
+    const float before = foot.chance;
+    foot.chance = chance_to_stand(features);
+    if (!foot.planted) return foot.chance > kPlantChance;
+    return foot.chance > kFreeChance || (before > kFreeChance && foot.chance > kSurelyFreeChance);
+}
+
+/// Legs that a tracker takes for one another both seem to step.
+void FootContact::keep_one_down(bool stands[2]) const {
+    const bool before = feet_[0].planted || feet_[1].planted;
+    if (stands[0] || stands[1] || !before || features_.hip_speed() > kFlightSpeed) return;
+    if (feet_[0].planted && feet_[1].planted)
+        stands[feet_[0].chance > feet_[1].chance ? 0 : 1] = true;
+    else
+        stands[feet_[0].planted ? 0 : 1] = true;
+}
+
+void FootContact::update(const Body& body, vfit_contact_rule rule) {
+    const float dt_s = static_cast<float>(static_cast<double>(body.time_ns - time_ns_) * 1e-9);
     const bool pause = !started_ || dt_s > kPauseS || dt_s <= 0.0f;
-    switched_ = false;
+    constexpr int kAnkles[2] = {VFIT_JOINT_LEFT_FOOT, VFIT_JOINT_RIGHT_FOOT};
+    features_.update(body);
+    bool stands[2];
     for (int side = 0; side < 2; ++side) {
         Foot& foot = feet_[static_cast<size_t>(side)];
-        if (!known[side]) {
-            foot.planted = false;
-            foot.known = false;
+        if (!body.has(kAnkles[side])) {
+            foot.unseen_s += std::max(0.0f, dt_s);
+            if (pause || foot.unseen_s > kHeldUnseenS) foot.planted = foot.known = false;
+            stands[side] = foot.planted;
             continue;
         }
+        foot.unseen_s = 0.0f;
+        const Vec3& ankle = body.at(kAnkles[side]);
         if (!foot.known || pause) {
             const float speed = foot.planted_speed;
             foot = Foot();
             foot.known = true;
-            foot.position = ankles[side];
-            foot.level = ankles[side].y;
+            foot.position = ankle;
+            foot.level = ankle.y;
             foot.planted_speed = speed;
             // The first frame decides by height alone, as lines 1-7 of Algorithm 5.
-            const int other = 1 - side;
-            foot.planted = pause && (!known[other] || ankles[side].y < ankles[other].y + kPlantHeightM);
+            const int other = kAnkles[1 - side];
+            foot.planted = stands[side] = pause && (!body.has(other) || ankle.y < body.at(other).y + kPlantHeightM);
             continue;
         }
-        update_foot(foot, ankles[side], dt_s);
+        follow(foot, ankle, dt_s);
+        stands[side] = rule == VFIT_CONTACT_THRESHOLDS ? by_thresholds(foot, dt_s) : by_network(foot, side);
+    }
+    if (rule == VFIT_CONTACT_LEARNT) keep_one_down(stands);
+    switched_ = false;
+    for (size_t side = 0; side < 2; ++side) {
+        switched_ = switched_ || (stands[side] && !feet_[side].planted);
+        feet_[side].planted = stands[side];
     }
     // A foot held up for long must not become the floor: its level stays near the lower one.
     const float lowest = ankle_level(0.0f);
     for (Foot& foot : feet_)
         if (foot.known) foot.level = std::min(foot.level, lowest + kUnevenM);
     started_ = true;
-    time_ns_ = time_ns;
+    time_ns_ = body.time_ns;
 }
 
 }  // namespace vfit

@@ -1,12 +1,13 @@
-// Which feet stand on the floor (paper, Algorithm 5), by height and speed thresholds with hysteresis that
-// adapt to the sensor and to where the floor seems to be. Either foot, both, or neither (a jump); and a foot is
-// free when it is higher or faster, where the paper's line 10 waits for both and so holds a foot that slides.
+// Which feet stand on the floor: either foot, both, or neither (a jump). By a network that has learnt it, or by the
+// thresholds of height and speed of the paper's Algorithm 5, with hysteresis.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
-#include "math/types.h"
+#include "frame/body.h"
+#include "motion/contact_features.h"
+#include "vfit.h"
 
 namespace vfit {
 
@@ -14,8 +15,8 @@ class FootContact {
 public:
     void reset();
 
-    /// Ankles of one new body in world space, left and right, and whether each is known.
-    void update(const Vec3 ankles[2], const bool known[2], int64_t time_ns);
+    /// Takes one new body in world space, unfiltered.
+    void update(const Body& body, vfit_contact_rule rule);
 
     bool planted(int side) const { return feet_[static_cast<size_t>(side)].planted; }
     /// A foot was planted by the last update (the paper's constraintSwitched).
@@ -31,10 +32,16 @@ private:
         float level = 0;         // the lowest height lately
         float low_time_s = 0;    // low and slow for so long
         float planted_speed = 0; // m/s, mean while planted: the sensor's noise
+        float unseen_s = 0;      // for so long
+        float chance = 0;        // to stand, of the last body
     };
-    void update_foot(Foot& foot, const Vec3& ankle, float dt_s);
+    void follow(Foot& foot, const Vec3& ankle, float dt_s);
+    bool by_thresholds(Foot& foot, float dt_s) const;
+    bool by_network(Foot& foot, int side) const;
+    void keep_one_down(bool stands[2]) const;
 
     std::array<Foot, 2> feet_;
+    ContactFeatures features_;
     int64_t time_ns_ = 0;
     bool started_ = false, switched_ = false;
 };

@@ -1,5 +1,6 @@
-// Where one foot is shown: at the place recorded when it was planted (paper, Algorithm 5,
-// recordFootPosition), and gliding back to where it is tracked once it is free.
+// Where one foot is shown: at the place where it was planted (paper, Algorithm 5, recordFootPosition), and where it is
+// tracked while it is free. From one to the other it glides as a critically damped spring does, without a jump of place
+// or speed.
 #pragma once
 
 #include "math/types.h"
@@ -11,11 +12,12 @@ public:
     /// A planted foot that is tracked further than `leash_m` from its place is dragged along.
     explicit FootPin(float leash_m) : leash_m_(leash_m) {}
 
-    /// The place to show for a foot tracked at `tracked`. While planted it settles to `floor_y` in height.
+    /// The place to show for a foot tracked at `tracked`. While planted it stands where it came down, or where it stood
+    /// before if it never left, at the height `floor_y`.
     Vec3 update(const Vec3& tracked, bool planted, float floor_y, float dt_s);
 
     /// Moves the recorded place.
-    void move(const Vec3& by) { recorded_ += by; }
+    void move(const Vec3& by) { place_ += by; }
 
     bool planted() const { return planted_; }
     /// From the tracked place to the shown one.
@@ -23,12 +25,17 @@ public:
     /// How far the last update dragged the recorded place.
     const Vec3& drag() const { return drag_; }
 
-    static constexpr float kGlideTimeS = 0.1f;  // time constant of release and of settling
-
 private:
+    void spring(const Vec3& rate, float dt_s);
+
     float leash_m_;
-    bool planted_ = false;
-    Vec3 recorded_{0.0f}, offset_{0.0f}, drag_{0.0f};
+    bool planted_ = false, known_ = false;
+    Vec3 place_{0.0f};                               // recorded
+    Vec3 tracked_there_{0.0f};                       // where the foot was tracked while it stood there, mean
+    float stood_s_ = 0.0f, free_s_ = 0.0f;           // for so long
+    Vec3 tracked_{0.0f}, tracked_velocity_{0.0f};
+    Vec3 glide_{0.0f}, glide_velocity_{0.0f};        // from where it goes to, place or tracked, to where it is shown
+    Vec3 offset_{0.0f}, drag_{0.0f};
 };
 
 }  // namespace vfit

@@ -25,6 +25,7 @@ public:
 private:
     std::array<FootPin, 2> pins_{FootPin(kCharacterLeashM), FootPin(kCharacterLeashM)};
     Vec3 root_shift_{0.0f};  // d_root; fades when no leg needs it
+    bool started_ = false;
 };
 
 }  // namespace vfit

@@ -13,6 +13,7 @@ namespace rom = range_of_motion;
 namespace {
 
 constexpr float kRad = kPi / 180.0f;
+constexpr float kMostSlack = 1.1f;
 
 size_t at(int id) { return static_cast<size_t>(id); }
 
@@ -170,6 +171,21 @@ void apply_joint_limits(const RestPose& rest, const bool planted[2], BoneRotatio
     for (int i = 0; i < kLimbCount; ++i) limit_limb(i, rest.limbs[at(i)], local);
     if (!planted[0]) limit_ankle(1.0f, local[VFIT_BONE_LEFT_FOOT]);
     if (!planted[1]) limit_ankle(-1.0f, local[VFIT_BONE_RIGHT_FOOT]);
+}
+
+void apply_joint_limits(const RestPose& rest, const bool planted[2], float slack_rad, BoneRotations& local) {
+    BoneRotations limited = local;
+    apply_joint_limits(rest, planted, limited);
+    for (size_t b = 0; b < local.size(); ++b) {
+        const Quat outside = glm::conjugate(limited[b]) * local[b];
+        const float angle = angle_of(outside);
+        if (angle > slack_rad) local[b] = glm::normalize(limited[b] * fraction(outside, slack_rad / angle));
+    }
+    // Where a range curves, the nearest rotation inside of it may now be another one, farther off.
+    limited = local;
+    apply_joint_limits(rest, planted, limited);
+    for (size_t b = 0; b < local.size(); ++b)
+        if (angle_of(glm::conjugate(limited[b]) * local[b]) > kMostSlack * slack_rad) local[b] = limited[b];
 }
 
 }  // namespace vfit

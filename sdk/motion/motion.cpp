@@ -23,6 +23,11 @@ namespace {
 // support of a slow gait.
 constexpr int64_t kSwitchTimeNs = 250'000'000;
 
+constexpr float kLimitSlackRad = 0.025f;  // 1.4 degrees
+
+// Over a longer time a trend foretells nothing.
+constexpr float kMostPredictionS = 0.2f;
+
 // A joint further from the origin, or a rotation with larger numbers, is a broken reading: its square would soon
 // be infinite, and one such body would stay in the filters for good.
 constexpr float kFarthestM = 1e4f, kLongestQuaternion = 1e3f;
@@ -48,17 +53,34 @@ void check_radius(float value, const char* name) {
         fail(VFIT_ERROR_ARGUMENT, "motion ", name, " is ", value, " m, not a length");
 }
 
+void check_cutoff(float value, const char* name) {
+    if (!(value > 0.0f) || !std::isfinite(value))
+        fail(VFIT_ERROR_ARGUMENT, "motion ", name, " is ", value, " Hz, not above 0");
+}
+
 void check_divisor(float value, const char* name) {
     if (!(value >= 1.0f) || !std::isfinite(value))
         fail(VFIT_ERROR_ARGUMENT, "motion ", name, " is ", value, ", less than 1");
 }
 
 void validate(const MotionSettings& s) {
-    check_share(s.holt.smoothing, "smoothing");
-    check_share(s.holt.correction, "correction");
-    check_share(s.holt.prediction, "prediction");
-    check_radius(s.holt.jitter_radius_m, "jitter_radius_m");
-    check_radius(s.holt.max_deviation_radius_m, "max_deviation_radius_m");
+    const HoltSettings& holt = s.filter.holt;
+    check_share(holt.smoothing, "smoothing");
+    check_share(holt.correction, "correction");
+    check_share(holt.prediction, "prediction");
+    check_radius(holt.jitter_radius_m, "jitter_radius_m");
+    check_radius(holt.max_deviation_radius_m, "max_deviation_radius_m");
+    const OneEuroSettings& euro = s.filter.one_euro;
+    check_cutoff(euro.min_cutoff_hz, "min_cutoff_hz");
+    check_cutoff(euro.derivative_cutoff_hz, "derivative_cutoff_hz");
+    if (!(euro.beta >= 0.0f) || !std::isfinite(euro.beta))
+        fail(VFIT_ERROR_ARGUMENT, "motion beta is ", euro.beta, ", not at least 0");
+    if (s.filter.kind < VFIT_POSITION_ADAPTIVE || s.filter.kind > VFIT_POSITION_ONE_EURO)
+        fail(VFIT_ERROR_ARGUMENT, "motion filter ", s.filter.kind, " is not one of VFIT_POSITION_*");
+    if (s.contact_rule < VFIT_CONTACT_LEARNT || s.contact_rule > VFIT_CONTACT_THRESHOLDS)
+        fail(VFIT_ERROR_ARGUMENT, "motion contact_rule ", s.contact_rule, " is not one of VFIT_CONTACT_LEARNT, _THRESHOLDS");
+    if (!(s.prediction_s >= 0.0f && s.prediction_s <= kMostPredictionS))
+        fail(VFIT_ERROR_ARGUMENT, "motion prediction_s is ", s.prediction_s, ", not in 0..", kMostPredictionS);
     check_divisor(s.rotation_divisor, "rotation_divisor");
     check_divisor(s.rotation_divisor_switched, "rotation_divisor_switched");
 }
@@ -106,9 +128,13 @@ void to_world(const BoneRotations& local, BoneRotations& world) {
 }  // namespace
 
 struct Motion::State {
-    explicit State(const MotionSettings& s) : settings(s) { joints.joints.fill(Joint()); }
+    explicit State(const MotionSettings& s)
+        : settings(s), ahead_ns(static_cast<int64_t>(1e9 * double{s.prediction_s})) {
+        joints.joints.fill(Joint());
+    }
 
     MotionSettings settings;
+    int64_t ahead_ns;
     bool bound = false;
     Skeleton skeleton;
     RestPose rest;
@@ -151,16 +177,14 @@ void Motion::State::reset() {
 
 /// One new body through the stages that run once a body.
 void Motion::State::take(const Body& body) {
-    filter.update(body, enabled(VFIT_MOTION_NO_FILTER) ? &settings.holt : nullptr);
+    filter.update(body, enabled(VFIT_MOTION_NO_FILTER) ? &settings.filter : nullptr);
     body_id = body.id;
     body_ns = body.time_ns;
     has_body = true;
 
     filter.sample(body.time_ns, joints);
     person.update(joints);
-    const Vec3 ankles[2] = {joints.at(VFIT_JOINT_LEFT_FOOT), joints.at(VFIT_JOINT_RIGHT_FOOT)};
-    const bool known[2] = {body.has(VFIT_JOINT_LEFT_FOOT), body.has(VFIT_JOINT_RIGHT_FOOT)};
-    contact.update(ankles, known, body.time_ns);
+    contact.update(body, settings.contact_rule);
     if (contact.switched()) {
         switched = true;
         switched_ns = body.time_ns;
@@ -192,7 +216,7 @@ Vec3 Motion::State::hip_middle(const Trunk& trunk) const {
 }
 
 bool Motion::State::update_pose(float dt_s) {
-    filter.sample(now_ns, joints);
+    filter.sample(now_ns + ahead_ns, joints);
     Trunk trunk;
     if (!find_trunk(joints, trunk)) return seen;
 
@@ -225,6 +249,8 @@ bool Motion::State::update_pose(float dt_s) {
         const Vec3 drags[2] = {joint_feet.drag(0), joint_feet.drag(1)};
         planter.apply(skeleton, rest, planted, drags, dt_s, pose);
     }
+    // What smoothing and planting have bent too far; a foot that stands is held as long as it can be.
+    if (enabled(VFIT_MOTION_NO_LIMITS)) apply_joint_limits(rest, planted, kLimitSlackRad, pose.rotation);
     for (size_t i = 0; i < before.size(); ++i)
         pose.rotation[i] = same_hemisphere(pose.rotation[i], before[i]);
     seen = true;

@@ -7,13 +7,15 @@
 
 #include "body/skeleton.h"
 #include "frame/body.h"
-#include "motion/holt_filter.h"
+#include "motion/position_filter.h"
 
 namespace vfit {
 
 struct MotionSettings {
     uint32_t flags = 0;  // VFIT_MOTION_*
-    HoltSettings holt;
+    PositionFilterSettings filter;
+    vfit_contact_rule contact_rule = VFIT_CONTACT_LEARNT;
+    float prediction_s = 0.0f;               // how far ahead of now, to hide latency
     float rotation_divisor = 2.0f;           // k of Eq. 10, per 1/30 s
     float rotation_divisor_switched = 4.0f;  // k right after the planted foot changed
 };

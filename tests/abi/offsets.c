@@ -262,8 +262,13 @@ OFFSET(vfit_motion_desc, jitter_radius_m, 20);
 OFFSET(vfit_motion_desc, max_deviation_radius_m, 24);
 OFFSET(vfit_motion_desc, rotation_divisor, 28);
 OFFSET(vfit_motion_desc, rotation_divisor_switched, 32);
-OFFSET(vfit_motion_desc, reserved, 36);
-SIZE(vfit_motion_desc, 40);
+OFFSET(vfit_motion_desc, filter, 36);
+OFFSET(vfit_motion_desc, min_cutoff_hz, 40);
+OFFSET(vfit_motion_desc, beta, 44);
+OFFSET(vfit_motion_desc, derivative_cutoff_hz, 48);
+OFFSET(vfit_motion_desc, prediction_s, 52);
+OFFSET(vfit_motion_desc, contact_rule, 56);
+SIZE(vfit_motion_desc, 60);
 
 OFFSET(vfit_avatar_desc, struct_size, 0);
 OFFSET(vfit_avatar_desc, flags, 4);

@@ -14,13 +14,27 @@ public:
 
 using Number = std::optional<float>;
 
-std::shared_ptr<Motion> create(const Context& context, bool filter, bool limits, bool smooth_rotations,
-                               bool feet, const Number& smoothing, const Number& correction,
+std::shared_ptr<Motion> create(const Context& context, const std::variant<bool, std::string>& filter, bool limits,
+                               bool smooth_rotations, bool feet, const Number& smoothing, const Number& correction,
                                const Number& prediction, const Number& jitter_radius_m,
                                const Number& max_deviation_radius_m, const Number& rotation_divisor,
-                               const Number& rotation_divisor_switched) {
+                               const Number& rotation_divisor_switched, const Number& min_cutoff_hz, const Number& beta,
+                               const Number& derivative_cutoff_hz, const Number& prediction_s,
+                               const std::string& contact_rule) {
     vfit_motion_desc desc = vfit_motion_desc_init();
-    desc.flags = flag(!filter, VFIT_MOTION_NO_FILTER) | flag(!limits, VFIT_MOTION_NO_LIMITS) |
+    const bool unfiltered = std::holds_alternative<bool>(filter) && !std::get<bool>(filter);
+    if (const auto* name = std::get_if<std::string>(&filter))
+        desc.filter = choice(*name, "filter",
+                             {{"adaptive", VFIT_POSITION_ADAPTIVE},
+                              {"holt", VFIT_POSITION_HOLT},
+                              {"one_euro", VFIT_POSITION_ONE_EURO}});
+    desc.contact_rule = choice(contact_rule, "contact_rule",
+                               {{"learnt", VFIT_CONTACT_LEARNT}, {"thresholds", VFIT_CONTACT_THRESHOLDS}});
+    desc.min_cutoff_hz = setting(min_cutoff_hz);
+    desc.beta = setting(beta);
+    desc.derivative_cutoff_hz = setting(derivative_cutoff_hz);
+    desc.prediction_s = setting(prediction_s);
+    desc.flags = flag(unfiltered, VFIT_MOTION_NO_FILTER) | flag(!limits, VFIT_MOTION_NO_LIMITS) |
                  flag(!smooth_rotations, VFIT_MOTION_NO_SMOOTHING) | flag(!feet, VFIT_MOTION_NO_FEET);
     desc.smoothing = setting(smoothing);
     desc.correction = setting(correction);
@@ -107,9 +121,10 @@ void bind_motion(py::module_& m) {
                       "smooth_rotations"_a = true, "feet"_a = true, "smoothing"_a = preset,
                       "correction"_a = preset, "prediction"_a = preset, "jitter_radius_m"_a = preset,
                       "max_deviation_radius_m"_a = preset, "rotation_divisor"_a = preset,
-                      "rotation_divisor_switched"_a = preset,
-                      "Stages by the first four; Holt's filter by the five names of the Kinect SDK. None: "
-                      "the library's default.")
+                      "rotation_divisor_switched"_a = preset, "min_cutoff_hz"_a = preset, "beta"_a = preset,
+                      "derivative_cutoff_hz"_a = preset, "prediction_s"_a = preset, "contact_rule"_a = "learnt",
+                      "Stages by the first four; filter may also name one: 'adaptive' (the default), 'holt' with the "
+                      "five names of the Kinect SDK, 'one_euro'. None: the library's default.")
                  .def(
                      "bind",
                      [](const Motion& o, const Avatar& a) {

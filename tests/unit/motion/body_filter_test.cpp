@@ -21,11 +21,12 @@ Body with_hand(float x, int64_t time_ns, vfit_joint_state state = VFIT_JOINT_MEA
 
 struct MovingHand {
     BodyFilter filter;
-    HoltSettings settings;
+    PositionFilterSettings settings;
     Body out;
     int frame = 0;
 
     MovingHand() {
+        settings.kind = VFIT_POSITION_HOLT;
         for (; frame < 60; ++frame) filter.update(with_hand(place(frame), frame_ns(frame)), &settings);
     }
     static float place(int frame) { return 0.01f * static_cast<float>(frame); }  // 0.3 m/s
@@ -75,9 +76,10 @@ TEST(BodyFilter, BringsALostJointBackWithoutAJump) {
 
 TEST(BodyFilter, TwoReadingsOfOneMomentDoNotThrowTheJoint) {
     BodyFilter filter;
-    HoltSettings raw;  // the trend as it is read
-    raw.smoothing = 0.0f;
-    raw.correction = 1.0f;
+    PositionFilterSettings raw;  // the trend as it is read
+    raw.kind = VFIT_POSITION_HOLT;
+    raw.holt.smoothing = 0.0f;
+    raw.holt.correction = 1.0f;
     Body out;
     filter.update(with_hand(0.0f, 0), &raw);
     filter.update(with_hand(0.01f, 1'000), &raw);  // a centimetre in a microsecond

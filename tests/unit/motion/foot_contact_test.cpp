@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "motion_support.h"
 
 namespace vfit {
@@ -11,10 +13,13 @@ namespace {
 struct Feet {
     FootContact contact;
     int frame = 0;
+    vfit_contact_rule rule = VFIT_CONTACT_THRESHOLDS;
     void step(float left_y, float right_y, float left_x = 0, bool left_known = true) {
-        const Vec3 ankles[2] = {{left_x, left_y, 0}, {-0.2f, right_y, 0}};
-        const bool known[2] = {left_known, true};
-        contact.update(ankles, known, testing::frame_ns(frame++));
+        Body body;
+        body.time_ns = testing::frame_ns(frame++);
+        if (left_known) body.set(VFIT_JOINT_LEFT_FOOT, {left_x, left_y, 0});
+        body.set(VFIT_JOINT_RIGHT_FOOT, {-0.2f, right_y, 0});
+        contact.update(body, rule);
     }
 };
 
@@ -66,12 +71,74 @@ TEST(FootContact, FreesAFastFootAndPlantsItWhenItRests) {
     EXPECT_TRUE(switched);
 }
 
-TEST(FootContact, AFootThatIsNotSeenIsNotPlanted) {
+TEST(FootContact, AFootThatIsHiddenStandsForAMomentAndNoLonger) {
+    for (const vfit_contact_rule rule : {VFIT_CONTACT_THRESHOLDS, VFIT_CONTACT_LEARNT}) {
+        Feet feet;
+        feet.rule = rule;
+        for (int i = 0; i < 10; ++i) feet.step(0.08f, 0.08f);
+        for (int i = 0; i < 9; ++i) {
+            feet.step(0.0f, 0.08f, 0, false);
+            EXPECT_TRUE(feet.contact.planted(0)) << i;
+        }
+        for (int i = 0; i < 9; ++i) feet.step(0.0f, 0.08f, 0, false);
+        EXPECT_FALSE(feet.contact.planted(0));
+        EXPECT_TRUE(feet.contact.planted(1));
+    }
+}
+
+TEST(FootContact, WhatIsHighNeverStandsHoweverSlow) {
     Feet feet;
-    feet.step(0.08f, 0.08f);
-    feet.step(0.0f, 0.08f, 0, false);
-    EXPECT_FALSE(feet.contact.planted(0));
-    EXPECT_TRUE(feet.contact.planted(1));
+    feet.rule = VFIT_CONTACT_LEARNT;
+    for (int i = 0; i < 30; ++i) feet.step(0.08f, 0.08f);
+    EXPECT_TRUE(feet.contact.planted(0) && feet.contact.planted(1));
+    for (int i = 1; i <= 6; ++i) feet.step(0.08f + 0.05f * static_cast<float>(i), 0.08f);
+    for (int i = 0; i < 120; ++i) {
+        feet.step(0.38f, 0.08f);
+        ASSERT_FALSE(feet.contact.planted(0)) << i;
+        ASSERT_TRUE(feet.contact.planted(1)) << i;
+    }
+}
+
+TEST(FootContact, LegsTakenForOneAnotherLeaveOneDown) {
+    // Both feet seem to step at once while the hips stay where they are.
+    Feet feet;
+    feet.rule = VFIT_CONTACT_LEARNT;
+    Body body;
+    for (int i = 0; i < 60; ++i) {
+        const float swap = i >= 40 && i < 50 ? 0.1f * static_cast<float>(i - 39) : 0.0f;
+        body.time_ns = testing::frame_ns(i);
+        body.set(VFIT_JOINT_LEFT_HIP, {0.1f, 0.9f, 0});
+        body.set(VFIT_JOINT_RIGHT_HIP, {-0.1f, 0.9f, 0});
+        body.set(VFIT_JOINT_LEFT_FOOT, {0.1f - swap, 0.08f, 0});
+        body.set(VFIT_JOINT_RIGHT_FOOT, {-0.1f + swap, 0.08f, 0});
+        feet.contact.update(body, feet.rule);
+        EXPECT_TRUE(feet.contact.planted(0) || feet.contact.planted(1)) << i;
+    }
+}
+
+TEST(FootContact, TheNetworkTellsTheSameAtAnyFrameRate) {
+    // A step of 0.4 s: lifted at about the same time whatever the rate.
+    for (const double rate : {30.0, 60.0, 120.0}) {
+        FootContact contact;
+        double lifted_from = 0, lifted_to = 0;
+        for (int i = 0; i < int(3 * rate); ++i) {
+            const double t = double(i) / rate;
+            const auto swing = float(std::clamp((t - 1.5) / 0.4, 0.0, 1.0));
+            Body body;
+            body.time_ns = testing::frame_ns(i, rate);
+            body.set(VFIT_JOINT_LEFT_HIP, {0.1f, 0.9f, 0.15f * swing});
+            body.set(VFIT_JOINT_RIGHT_HIP, {-0.1f, 0.9f, 0.15f * swing});
+            body.set(VFIT_JOINT_RIGHT_FOOT, {-0.1f, 0.08f, 0});
+            const float forward = swing * swing * (3.0f - 2.0f * swing);
+            body.set(VFIT_JOINT_LEFT_FOOT, {0.1f, 0.08f + 0.1f * std::sin(kPi * swing), 0.3f * forward});
+            contact.update(body, VFIT_CONTACT_LEARNT);
+            EXPECT_TRUE(contact.planted(1)) << rate << " Hz, " << t;
+            if (!contact.planted(0) && lifted_from == 0) lifted_from = t;
+            if (!contact.planted(0)) lifted_to = t;
+        }
+        EXPECT_NEAR(lifted_from, 1.55, 0.055) << rate;
+        EXPECT_NEAR(lifted_to, 1.9, 0.09) << rate;
+    }
 }
 
 }  // namespace

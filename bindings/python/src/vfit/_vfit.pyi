@@ -393,13 +393,16 @@ class Avatar(_Closable):
         """Measures of your own (docs/measuring.md), taken on the avatar's mesh."""
 
 class Motion(_Closable):
-    """Turns the bodies of tracked frames into clean poses. None: the library's default."""
+    """Turns the bodies of tracked frames into clean poses. None: the library's default. filter: True, False, 'adaptive',
+    'holt' (with the five names of the Kinect SDK) or 'one_euro'; contact_rule: 'learnt' or 'thresholds'."""
 
-    def __init__(self, context: Context, *, filter: bool = True, limits: bool = True, smooth_rotations: bool = True,
+    def __init__(self, context: Context, *, filter: Union[bool, str] = True, limits: bool = True, smooth_rotations: bool = True,
                  feet: bool = True, smoothing: Optional[float] = None, correction: Optional[float] = None,
                  prediction: Optional[float] = None, jitter_radius_m: Optional[float] = None,
                  max_deviation_radius_m: Optional[float] = None, rotation_divisor: Optional[float] = None,
-                 rotation_divisor_switched: Optional[float] = None) -> None: ...
+                 rotation_divisor_switched: Optional[float] = None, min_cutoff_hz: Optional[float] = None,
+                 beta: Optional[float] = None, derivative_cutoff_hz: Optional[float] = None,
+                 prediction_s: Optional[float] = None, contact_rule: str = "learnt") -> None: ...
     def bind(self, avatar: Avatar) -> None: ...
     def step(self, frame: Optional[Frame] = None, body_id: Optional[int] = None,
              now_ns: Optional[int] = None) -> bool:
