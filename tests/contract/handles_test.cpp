@@ -1,4 +1,5 @@
 // Every handle-taking function answers null, invented, foreign and stale handles with VFIT_ERROR_HANDLE.
+#include <chrono>
 #include <functional>
 #include <thread>
 
@@ -214,18 +215,19 @@ TEST(Contract, ShutdownEndsEveryContext) {
 
 TEST(Contract, ShutdownIsWellAlsoWhereAPlugInHasAContextOfItsOwn) {
     const vfit_context_desc desc = contract::context_desc();
-    // The plug-in's context takes the place of one that is gone: it stands before its host's in the table.
-    vfit_context gone[8]{}, context{};
-    for (vfit_context& c : gone) ASSERT_EQ(vfit_context_create(&desc, &c), VFIT_OK);
-    ASSERT_EQ(vfit_context_create(&desc, &context), VFIT_OK);
-    for (vfit_context& c : gone) ASSERT_EQ(vfit_context_destroy(c), VFIT_OK);
-    vfit_sensor sensor{};
-    ASSERT_EQ(vfit_sensor_open(context, "virtual:sensor=kinect_v1_320", &sensor), VFIT_OK) << contract::last_error();
-    ASSERT_EQ(vfit_sensor_start(sensor), VFIT_OK);
-    vfit_frame frame{};  // the plug-in is at work
-    ASSERT_EQ(vfit_sensor_acquire(sensor, -1, &frame), VFIT_OK) << contract::last_error();
-    EXPECT_EQ(vfit_shutdown(), VFIT_OK) << contract::last_error();
-    EXPECT_EQ(vfit_profile_reset(context), VFIT_ERROR_HANDLE);
+    for (int round = 0; round < 4; ++round) {
+        // The plug-in's context takes the place of one that is gone: it stands before its host's in the table.
+        vfit_context gone[8]{}, context{};
+        for (vfit_context& c : gone) ASSERT_EQ(vfit_context_create(&desc, &c), VFIT_OK);
+        ASSERT_EQ(vfit_context_create(&desc, &context), VFIT_OK);
+        for (vfit_context& c : gone) ASSERT_EQ(vfit_context_destroy(c), VFIT_OK);
+        vfit_sensor sensor{};
+        ASSERT_EQ(vfit_sensor_open(context, "virtual:sensor=kinect_v1_320", &sensor), VFIT_OK) << contract::last_error();
+        ASSERT_EQ(vfit_sensor_start(sensor), VFIT_OK);
+        std::this_thread::sleep_for(std::chrono::milliseconds(round));  // it works on its first frames
+        EXPECT_EQ(vfit_shutdown(), VFIT_OK) << contract::last_error();
+        EXPECT_EQ(vfit_profile_reset(context), VFIT_ERROR_HANDLE);
+    }
 }
 
 TEST_F(ContextTest, HandlesAreMadeAndDestroyedFromManyThreadsAtOnce) {

@@ -49,5 +49,7 @@ void add_fit(Command& app);
 void add_measure(Command& app);
 void add_scan_features(Command& app);
 void add_odd_scans(Command& app);
+void add_motion(Command& app);
+void add_contact_features(Command& app);
 
 }  // namespace vfit::tools

@@ -1,0 +1,58 @@
+// vfit-bench motion: filters, feet, limits and times of the stage that turns joints into poses.
+#include <filesystem>
+#include <iostream>
+
+#include "bench/bench.h"
+#include "bench/motion_parts.h"
+#include "client/output.h"
+
+namespace vfit::tools {
+
+namespace {
+
+struct Options {
+    std::string shared = "../shared", only;
+    bool json = false;
+};
+
+struct Part {
+    const char* name;
+    Json (*judge)(const MotionJudge&);
+};
+constexpr Part kParts[] = {{"filters", judge_filters}, {"feet", judge_feet}, {"real", judge_real}, {"time", judge_time}};
+
+void motion(const Options& options) {
+    RealStreams real;
+    if (std::filesystem::is_directory(options.shared + "/data")) {
+        real.kinect2 = kinect2_streams(options.shared);
+        real.ui_prmd = ui_prmd_streams(options.shared);
+        real.markers = ui_prmd_markers(options.shared);
+    } else if (!options.json) {
+        std::cout << "no real streams at " << options.shared << ": made ones only\n";
+    }
+    pin_to_cores(1);
+    Targets targets(options.json);
+    Json report = Json::object();
+    for (const Part& part : kParts)
+        if (options.only.empty() || options.only == part.name) report[part.name] = part.judge({targets, real, options.json, options.shared});
+    report["targets"] = targets.json();
+    if (options.json)
+        print_document(report);
+    else
+        std::cout << "\n" << targets.count() - targets.missed() << " of " << targets.count() << " targets hit\n";
+}
+
+}  // namespace
+
+void add_motion(Command& app) {
+    Command command = app.add_subcommand("motion", "Judge filters, feet, limits and times of the motion stage");
+    auto o = std::make_shared<Options>();
+    std::vector<std::string> names;
+    for (const Part& part : kParts) names.emplace_back(part.name);
+    command.add_option("--only", o->only, "One part").one_of(names);
+    command.add_option("--shared", o->shared, "Folder with real streams (default ../shared)");
+    command.add_flag("--json", o->json, "Print JSON");
+    command.callback([o] { motion(*o); });
+}
+
+}  // namespace vfit::tools
