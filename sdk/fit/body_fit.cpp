@@ -6,6 +6,7 @@
 #include "core/clock.h"
 #include "core/wipe.h"
 #include "math/finite.h"
+#include "math/quaternion.h"
 
 namespace vfit {
 
@@ -28,6 +29,8 @@ constexpr double kDamping = 1.0;  // rad^-2 and m^-2: for directions that nothin
 constexpr int kReachSteps = 3, kReachStepsAtFirst = 25;
 constexpr float kWideRobust_m = 0.10f;
 constexpr float kBetter = 0.97f;  // of the cost: the other start has to win by this
+// Of frames that follow each other within half a second: who turns or steps farther was cut, not moving.
+constexpr float kCutTurn_rad = 0.6f, kCutStep_m = 0.3f;
 constexpr float kAgree_m = 0.10f;  // from the last frame's joints: the network says nothing else
 
 bool good(const FitScore& score) { return score.iou >= kGoodIou && score.median_m <= kGoodMedian_m; }
@@ -213,6 +216,13 @@ bool BodyFit::agrees_with(const FitJoints& joints) const {
     return true;
 }
 
+/// Whether the person stands so differently from the last frame's that the two do not follow each other: a recording
+/// that was cut, or another one. Nothing of the last pose then holds.
+bool BodyFit::is_cut(const FitState& state) const {
+    const Quat turn = state.rotation[VFIT_BONE_HIPS] * glm::conjugate(last_.rotation[VFIT_BONE_HIPS]);
+    return angle_of(turn) > kCutTurn_rad || glm::distance(state.hips, last_.hips) > kCutStep_m;
+}
+
 /// From `state` as it was drawn.
 bool BodyFit::step(const BodyFitInput& input, const FitState* last, float frames, float robust_m, FitState& state) {
     FitWeights weights = options_.weights;
@@ -269,7 +279,8 @@ const BodyFitOutput& BodyFit::run(const BodyFitInput& input_as_given) {
         return out_;
     }
 
-    const bool calm = follow && good(out_.start_score);
+    const bool follows = follow && !is_cut(state);
+    const bool calm = follows && good(out_.start_score);
     const int steps = calm ? options_.steps : options_.steps_at_first;
     bool solved = true;
     for (int i = 0; solved && i < steps; ++i) {
@@ -278,7 +289,7 @@ const BodyFitOutput& BodyFit::run(const BodyFitInput& input_as_given) {
         drawn_ = false;
         // Where little moves, the picture before the last step is judged: one less to draw.
         if (calm && i + 1 == steps) out_.score = raster_.score(view_);
-        solved = step(input, follow ? &last_ : nullptr, frames, robust_m, state);
+        solved = step(input, follows ? &last_ : nullptr, frames, robust_m, state);
     }
     if (!solved || !finite(state)) {
         tracked_ = false;

@@ -68,6 +68,7 @@ private:
     void reach_for_joints(const FitJoints& joints, int steps, FitState& state);
     bool find_start(const BodyFitInput& input, bool follow, FitState& state);
     bool agrees_with(const FitJoints& joints) const;
+    bool is_cut(const FitState& state) const;
     bool step(const BodyFitInput& input, const FitState* last, float frames, float robust_m, FitState& state);
     void draw(const FitState& state);
     FitScore score_of(const FitState& state);

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Learns the network of foot contacts from rows of `vfit-bench contact-features` and writes it as C++ tables.
 
     train.py ROWS [ROWS ...] --out sdk/motion/contact_weights.inc [--seed 1]

@@ -59,6 +59,23 @@ TEST(BodyFit, KeepsNothingOfWhoWasForgotten) {
     EXPECT_EQ(fit.run(input_of(person.scene, person.scene.seen(), kFrameNs)).state, BodyFitState::kGood);
 }
 
+TEST(BodyFit, ACutFromFrontToSideIsFittedAsWellAtOnceAsAfterAWhile) {
+    Person person;
+    Pose turned = easy_pose(person.avatar.skeleton());
+    turned.rotation[VFIT_BONE_HIPS] = glm::angleAxis(0.5f * kPi, Vec3(0, 1, 0)) * turned.rotation[VFIT_BONE_HIPS];
+    const FitScene side = shoot(person.avatar, turned);
+    std::array<BodyFitOutput, 2> ends;
+    for (size_t late = 0; late < 2; ++late) {
+        BodyFit fit(fit_model());
+        for (int i = 0; i < 5; ++i) fit.run(input_of(person.scene, person.scene.seen(0.02f, uint32_t(i)), i * kFrameNs));
+        const int64_t gap_ns = late ? 2'000'000'000 : 3 * kFrameNs;
+        for (int i = 5; i < 8; ++i) ends[late] = fit.run(input_of(side, side.seen(0.02f, uint32_t(i)), i * kFrameNs + gap_ns));
+        EXPECT_EQ(ends[late].state, BodyFitState::kGood);
+        EXPECT_LT(mean_joint_error(ends[late], side), 0.03f) << (late ? "after two seconds" : "at once");
+    }
+    for (size_t i = 0; i < ends[0].pose.shape.size(); ++i) EXPECT_NEAR(ends[0].pose.shape[i], ends[1].pose.shape[i], 0.03f) << i;
+}
+
 TEST(BodyFit, HolesDoItLittleHarm) {
     Person person;
     FitScene holed = person.scene;
