@@ -7,9 +7,10 @@ namespace vfit {
 
 namespace {
 
-// Time constants of the springs: a foot that touches down stands within two frames, but sinks or rises to the floor
-// slower; one that is free returns to where it is tracked in a few steps of a frame.
-constexpr float kStopS = 0.02f, kSettleS = 0.06f, kReleaseS = 0.08f;
+// Time constants of the springs: a foot that touches down stands within two frames; one that is free returns to where it
+// is tracked in a few steps of a frame. A foot that came to stand beside the floor goes there unseen, two millimetres a
+// frame.
+constexpr float kStopS = 0.02f, kReleaseS = 0.08f, kSettleSpeed = 0.06f;
 // No step is shorter in time and as short in space: a foot that is so soon tracked where it stood never left.
 constexpr float kNoStepS = 0.3f, kNoStepM = 0.03f;
 constexpr float kMeanS = 1.0f;        // of the tracked place of a foot that stands
@@ -49,7 +50,6 @@ Vec3 FootPin::update(const Vec3& tracked, bool planted, float floor_y, float dt_
             place_ = shown;
             stood_s_ = 0.0f;
         }
-        place_.y = floor_y;
         glide_ = shown - place_;
         glide_velocity_ = known_ ? at_most(shown_velocity, kFastest) : Vec3(0.0f);
     } else if (!planted && planted_) {
@@ -68,9 +68,8 @@ Vec3 FootPin::update(const Vec3& tracked, bool planted, float floor_y, float dt_
     free_s_ = 0.0f;
     stood_s_ += dt_s;
     tracked_there_ = stood_s_ > dt_s ? glm::mix(tracked_there_, tracked, std::min(1.0f, dt_s / std::min(stood_s_, kMeanS))) : tracked;
-    glide_.y += place_.y - floor_y;
-    place_.y = floor_y;
-    spring(Vec3(1.0f / kStopS, 1.0f / kSettleS, 1.0f / kStopS), dt_s);
+    place_.y += std::clamp(floor_y - place_.y, -kSettleSpeed * dt_s, kSettleSpeed * dt_s);
+    spring(Vec3(1.0f / kStopS), dt_s);
     offset_ = place_ + glide_ - tracked;
     const float length = glm::length(offset_);
     if (length > leash_m_) {

@@ -13,7 +13,7 @@ namespace {
 // that, a centimetre at most. (At a contact's switch 0.2 % turned knees 3.5 times as hard as people do, 1 % 2.4 times,
 // 3 % 1.7 times, but 3 % lowers whoever stands straight by as many centimetres: vfit-bench motion --only feet.)
 constexpr float kSoftness = 0.01f;
-constexpr float kRootFollowS = 0.03f;
+constexpr float kHeldM = 1e-3f;           // closer is close enough for a foot that limits have moved
 constexpr float kRootFadeS = 0.1f;       // after which a shift that no leg needs has gone
 constexpr int kRootPasses = 12;          // two legs at the end of their reach pull the root in turns
 constexpr float kReachedM = 5e-5f;       // 0.05 mm: closer is not seen
@@ -21,9 +21,16 @@ constexpr float kReachedM = 5e-5f;       // 0.05 mm: closer is not seen
 size_t at(int id) { return static_cast<size_t>(id); }
 
 struct Leg {
-    const LimbParts* parts;
-    const RestLimb* rest;
+    const LimbParts* parts = nullptr;
+    const RestLimb* rest = nullptr;
     Vec3 hip{0.0f}, target{0.0f}, knee_axis{1, 0, 0};
+
+    Leg() = default;
+    Leg(int side, const RestPose& pose, const PosedSkeleton& posed)
+        : parts(&kLimbParts[kLeftLeg + side]),
+          rest(&pose.limbs[at(kLeftLeg + side)]),
+          hip(posed.position[at(parts->upper)]),
+          knee_axis(posed.rotation[at(parts->upper)] * rest->hinge) {}
 
     TwoBoneSolution solve(const Vec3& shift) const {
         const Vec3 root = hip + shift;
@@ -60,41 +67,58 @@ void FootPlanter::apply(const Skeleton& skeleton, const RestPose& rest, const bo
     pose.foot_correction_m = 0;
     for (int side = 0; side < 2; ++side) {
         Leg& leg = legs[side];
-        leg.parts = &kLimbParts[kLeftLeg + side];
-        leg.rest = &rest.limbs[at(kLeftLeg + side)];
-        leg.hip = posed.position[at(leg.parts->upper)];
-        leg.knee_axis = posed.rotation[at(leg.parts->upper)] * leg.rest->hinge;
+        leg = Leg(side, rest, posed);
         FootPin& pin = pins_[at(side)];
         pin.move(drags[side]);
         const Vec3 ankle = posed.position[at(leg.parts->last)];
         leg.target = pin.update(ankle, planted[side], skeleton.ankle_height, dt_s);
+        shown_[at(side)] = leg.target;
         moved = moved || pin.planted() || pin.offset() != Vec3(0.0f);
         if (!pin.planted()) continue;
         pose.contacts |= side == 0 ? VFIT_CONTACT_LEFT : VFIT_CONTACT_RIGHT;
         pose.foot_correction_m = std::max(pose.foot_correction_m, glm::length(pin.offset()));
     }
 
-    // What the legs need of the root: from what fades of the last one on, each foot in turn (Alg. 6, line 10).
-    Vec3 wanted = root_shift_ * std::exp(-dt_s / kRootFadeS);
+    root_shift_ *= std::exp(-dt_s / kRootFadeS);
     for (int pass = 0; pass < kRootPasses; ++pass) {
         bool reached = true;
         for (int side = 0; side < 2; ++side) {
             if (!planted[side]) continue;
-            const Vec3 residual = legs[side].target - legs[side].solve(wanted).end;
+            const Vec3 residual = legs[side].target - legs[side].solve(root_shift_).end;  // Alg. 6, line 10
             if (glm::length(residual) < kReachedM) continue;
-            wanted += residual;
+            root_shift_ += residual;
             reached = false;
         }
         if (reached) break;
     }
-    // The root gets there within two frames, not at once.
-    root_shift_ = started_ ? glm::mix(wanted, root_shift_, std::exp(-dt_s / kRootFollowS)) : wanted;
-    started_ = true;
     if (glm::length(root_shift_) < kReachedM) root_shift_ = Vec3(0.0f);
     pose.root_correction = root_shift_;
     if (!moved && root_shift_ == Vec3(0.0f)) return;
     for (const Leg& leg : legs) turn_leg(leg, root_shift_, posed, pose);
     pose.hips_position += root_shift_;
+}
+
+void FootPlanter::hold(const Skeleton& skeleton, const RestPose& rest, const bool planted[2], Pose& pose) const {
+    const PosedSkeleton posed = forward_kinematics(skeleton, pose);
+    Vec3 shift(0.0f);
+    float farthest = 0.0f, feet = 0.0f;
+    for (int side = 0; side < 2; ++side) {
+        if (!planted[side]) continue;
+        const Vec3 residual = shown_[at(side)] - posed.position[at(kLimbParts[kLeftLeg + side].last)];
+        farthest = std::max(farthest, glm::length(residual));
+        shift += residual;
+        feet += 1.0f;
+    }
+    if (farthest < kHeldM) return;
+    shift /= feet;
+    for (int side = 0; side < 2; ++side) {
+        if (!planted[side]) continue;
+        Leg leg(side, rest, posed);
+        leg.target = shown_[at(side)];
+        turn_leg(leg, shift, posed, pose);
+    }
+    pose.hips_position += shift;
+    pose.root_correction += shift;
 }
 
 }  // namespace vfit

@@ -22,10 +22,13 @@ public:
     void apply(const Skeleton& skeleton, const RestPose& rest, const bool planted[2], const Vec3 drags[2],
                float dt_s, Pose& pose);
 
+    /// Where joint limits have since taken the legs off their places, the root gives way and the legs follow again.
+    void hold(const Skeleton& skeleton, const RestPose& rest, const bool planted[2], Pose& pose) const;
+
 private:
     std::array<FootPin, 2> pins_{FootPin(kCharacterLeashM), FootPin(kCharacterLeashM)};
     Vec3 root_shift_{0.0f};  // d_root; fades when no leg needs it
-    bool started_ = false;
+    std::array<Vec3, 2> shown_{};  // where the last apply() put the ankles
 };
 
 }  // namespace vfit
