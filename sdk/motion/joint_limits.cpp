@@ -173,19 +173,26 @@ void apply_joint_limits(const RestPose& rest, const bool planted[2], BoneRotatio
     if (!planted[1]) limit_ankle(-1.0f, local[VFIT_BONE_RIGHT_FOOT]);
 }
 
-void apply_joint_limits(const RestPose& rest, const bool planted[2], float slack_rad, BoneRotations& local) {
+bool apply_joint_limits(const RestPose& rest, const bool planted[2], float slack_rad, BoneRotations& local) {
     BoneRotations limited = local;
     apply_joint_limits(rest, planted, limited);
+    bool changed = false;
     for (size_t b = 0; b < local.size(); ++b) {
+        if (limited[b] == local[b]) continue;
         const Quat outside = glm::conjugate(limited[b]) * local[b];
         const float angle = angle_of(outside);
-        if (angle > slack_rad) local[b] = glm::normalize(limited[b] * fraction(outside, slack_rad / angle));
+        if (angle <= slack_rad) continue;
+        local[b] = glm::normalize(limited[b] * fraction(outside, slack_rad / angle));
+        changed = true;
     }
+    if (!changed) return false;
     // Where a range curves, the nearest rotation inside of it may now be another one, farther off.
     limited = local;
     apply_joint_limits(rest, planted, limited);
     for (size_t b = 0; b < local.size(); ++b)
-        if (angle_of(glm::conjugate(limited[b]) * local[b]) > kMostSlack * slack_rad) local[b] = limited[b];
+        if (limited[b] != local[b] && angle_of(glm::conjugate(limited[b]) * local[b]) > kMostSlack * slack_rad)
+            local[b] = limited[b];
+    return true;
 }
 
 }  // namespace vfit

@@ -10,7 +10,7 @@ namespace vfit {
 /// right) is left alone: body weight bends an ankle further than its free range.
 void apply_joint_limits(const RestPose& rest, const bool planted[2], BoneRotations& local);
 
-/// The same, but a bone may be so far outside of its range.
-void apply_joint_limits(const RestPose& rest, const bool planted[2], float slack_rad, BoneRotations& local);
+/// The same, but a bone may be so far outside of its range. True where one was farther.
+bool apply_joint_limits(const RestPose& rest, const bool planted[2], float slack_rad, BoneRotations& local);
 
 }  // namespace vfit

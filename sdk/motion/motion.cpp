@@ -250,12 +250,10 @@ bool Motion::State::update_pose(float dt_s) {
         planter.apply(skeleton, rest, planted, drags, dt_s, pose);
     }
     // What smoothing and planting have bent too far; a foot that stands is held as long as it can be.
-    if (enabled(VFIT_MOTION_NO_LIMITS)) {
+    if (enabled(VFIT_MOTION_NO_LIMITS) && apply_joint_limits(rest, planted, kLimitSlackRad, pose.rotation) &&
+        (planted[0] || planted[1])) {
+        planter.hold(skeleton, rest, planted, pose);
         apply_joint_limits(rest, planted, kLimitSlackRad, pose.rotation);
-        if (planted[0] || planted[1]) {
-            planter.hold(skeleton, rest, planted, pose);
-            apply_joint_limits(rest, planted, kLimitSlackRad, pose.rotation);
-        }
     }
     for (size_t i = 0; i < before.size(); ++i)
         pose.rotation[i] = same_hemisphere(pose.rotation[i], before[i]);
