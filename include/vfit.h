@@ -573,11 +573,14 @@ VFIT_API vfit_result vfit_motion_joints(vfit_motion motion, vfit_joint* items, u
 
 /* ---- avatar and cloth: pose, step, then acquire, once per rendered frame --------------------------- */
 enum { VFIT_AVATAR_PAPER_COLLIDERS = 1, /* radii of Algorithm 2 as they are, not clamped to the skin    */
-       VFIT_AVATAR_SINGLE_BONES = 2 };  /* no twist bones in the limbs (Fig. 7a)                       */
+       VFIT_AVATAR_SINGLE_BONES = 2,    /* no twist bones in the limbs (Fig. 7a)                       */
+       VFIT_AVATAR_DUAL_QUATERNIONS = 4 };  /* skinned by dual quaternions in place of linear blending: joints that bend
+                                         * or twist far keep their section. An engine that skins by BONE_MATRIX shows the
+                                         * linear blend                                                */
 typedef struct vfit_avatar_desc {
     uint32_t struct_size, flags;
     vfit_sex sex;                       /* which default body; UNKNOWN: halfway                        */
-    uint32_t detail;                    /* 0: 13.7k vertices, 1: 54.8k, 2: 219k                          */
+    uint32_t detail;                    /* 0: 13.7k vertices, 1: 54.8k, 2: 219k, 3: 1.0k, for crowds       */
 } vfit_avatar_desc;
 /* key: a phenotype ("gender", "age", "muscle", "weight", "height", "proportions", in 0..1; weight up to
  * 1.15) or a local slider ("measure-waist-circ", in -1..1); see vfit_shape_list.                       */
@@ -607,6 +610,13 @@ VFIT_API vfit_result vfit_avatar_create_from_scan(vfit_context context, const vf
 VFIT_API vfit_result vfit_avatar_destroy(vfit_avatar avatar);                              /* [any]  */
 VFIT_API vfit_result vfit_avatar_pose(vfit_avatar avatar, const vfit_pose* pose, const vfit_bone* items,
                                       uint32_t stride, uint32_t count);                    /* [excl] */
+/* The same, the skin written straight into the engine's memory (a mapped vertex buffer), each vertex as three floats
+ * in the context's axes at the target's stride: no copy is made, and acquire gives the mesh of the last
+ * vfit_avatar_pose. Bones, joints, colliders and cloth follow as with it. normals may be null. Bad targets:
+ * VFIT_ERROR_ARGUMENT, UNSUPPORTED or CAPACITY, and nothing moves.                             [excl]   */
+VFIT_API vfit_result vfit_avatar_pose_into(vfit_avatar avatar, const vfit_pose* pose, const vfit_bone* items,
+                                           uint32_t stride, uint32_t count, const vfit_target* positions,
+                                           const vfit_target* normals);
 VFIT_API vfit_result vfit_avatar_colliders(vfit_avatar avatar, vfit_collider* items, uint32_t stride,
                                            uint32_t* count);                               /* [read] */
 /* Every joint of the posed avatar, at the avatar's own true place.                             [read]  */

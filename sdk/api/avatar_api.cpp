@@ -14,19 +14,20 @@ using namespace vfit::api;
 
 namespace {
 
-constexpr uint32_t kMaxDetail = kBodyLevels - 1;
+constexpr uint32_t kMaxDetail = kCoarseBody;
 // Scales beyond these are no people: a wrong unit, or a scan gone wrong.
 constexpr float kMinScale = 0.3f, kMaxScale = 2.0f;
 
 AvatarDesc avatar_desc(const vfit_avatar_desc* desc) {
     const vfit_avatar_desc d = read_or_default(desc, "desc");
-    check_flags(d.flags, VFIT_AVATAR_PAPER_COLLIDERS | VFIT_AVATAR_SINGLE_BONES, "desc.flags");
+    check_flags(d.flags, VFIT_AVATAR_PAPER_COLLIDERS | VFIT_AVATAR_SINGLE_BONES | VFIT_AVATAR_DUAL_QUATERNIONS, "desc.flags");
     check_enum(d.sex, VFIT_SEX_MALE, "desc.sex");
     if (d.detail > kMaxDetail) fail(VFIT_ERROR_ARGUMENT, "desc.detail ", d.detail, " is more than ", kMaxDetail);
     AvatarDesc out;
     out.sex = d.sex;
     out.detail = d.detail;
     out.single_bones = (d.flags & VFIT_AVATAR_SINGLE_BONES) != 0;
+    if ((d.flags & VFIT_AVATAR_DUAL_QUATERNIONS) != 0) out.skinning = SkinMethod::dual_quaternion;
     out.paper_colliders = (d.flags & VFIT_AVATAR_PAPER_COLLIDERS) != 0;
     return out;
 }
@@ -72,6 +73,26 @@ ScannedBody body_of(Context& context, const PersonScan& scan, const std::vector<
         }
     }
     return {{}, scale_to(context, sex, measured)};
+}
+
+struct VertexTarget {
+    void* data;
+    size_t stride;
+};
+
+/// Memory of the host for that many vectors, checked.
+VertexTarget vertex_target(const vfit_target* target, uint32_t count, const char* name) {
+    const vfit_target t = read(target, name);
+    constexpr uint64_t kSize = 3 * sizeof(float);
+    if (t.format != VFIT_FORMAT_NONE && t.format != VFIT_FORMAT_F32X3)
+        fail(VFIT_ERROR_UNSUPPORTED, name, ": vertices are written as three floats, not as format ", t.format);
+    check_pointer(t.data, name);
+    const uint64_t stride = t.item_stride ? t.item_stride : kSize;
+    if (stride < kSize) fail(VFIT_ERROR_ARGUMENT, name, ": item_stride ", stride, " is less than ", kSize);
+    const uint64_t need = (count - 1) * stride + kSize;
+    if (t.capacity < need)
+        fail(VFIT_ERROR_CAPACITY, name, ": ", t.capacity, " bytes, ", need, " are needed for ", count, " vertices");
+    return {t.data, size_t(stride)};
 }
 
 void publish(Context& context, const Ref<AvatarObject>& avatar, vfit_avatar* out) {
@@ -173,6 +194,26 @@ vfit_result vfit_avatar_pose(vfit_avatar handle, const vfit_pose* pose, const vf
         Use<AvatarObject, Mode::exclusive> avatar(handle.id);
         const vfit_pose p = read(pose, "pose");
         avatar->pose(pose_in(p, Items<vfit_bone>(items, stride, count, "items"), avatar->context->axes));
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_avatar_pose_into(vfit_avatar handle, const vfit_pose* pose, const vfit_bone* items, uint32_t stride,
+                                  uint32_t count, const vfit_target* positions, const vfit_target* normals) {
+    return guard([&] {
+        Use<AvatarObject, Mode::exclusive> avatar(handle.id);
+        const vfit_pose p = read(pose, "pose");
+        const uint32_t vertices = uint32_t(avatar->avatar.rest().positions.size());
+        const VertexTarget to = vertex_target(positions, vertices, "positions");
+        SkinTarget target;
+        target.positions = to.data;
+        target.position_stride = to.stride;
+        if (normals) {
+            const VertexTarget n = vertex_target(normals, vertices, "normals");
+            target.normals = n.data;
+            target.normal_stride = n.stride;
+        }
+        avatar->pose_into(pose_in(p, Items<vfit_bone>(items, stride, count, "items"), avatar->context->axes), target);
         return VFIT_OK;
     });
 }

@@ -21,16 +21,15 @@ AvatarObject::AvatarObject(Ref<Context> owner, const AvatarDesc& desc, std::span
     }
     std::vector<Mat4> identity(avatar.skinning_matrices().size(), Mat4(1.0f));
     Ref<Frame> frame = rest.begin();
-    fill(rest, *frame, avatar.rest().positions, avatar.rest().normals, identity, 0);
+    rest.fill(*frame, avatar.rest().positions, avatar.rest().normals, context->axes, 0);
+    add_matrices(*frame, identity);
     rest.publish(frame);
     Pose t_pose;
     t_pose.hips_position = avatar.skeleton().offset[VFIT_BONE_HIPS];
     pose(t_pose);
 }
 
-void AvatarObject::fill(MeshOutput& output, Frame& frame, std::span<const Vec3> positions,
-                        std::span<const Vec3> normals, std::span<const Mat4> matrices, int64_t time_ns) const {
-    output.fill(frame, positions, normals, context->axes, time_ns);
+void AvatarObject::add_matrices(Frame& frame, std::span<const Mat4> matrices) const {
     auto* out = static_cast<Mat4*>(frame.add_stream(VFIT_STREAM_BONE_MATRIX, VFIT_FORMAT_F32X16,
                                                     static_cast<uint32_t>(matrices.size()), 1));
     for (size_t i = 0; i < matrices.size(); ++i) out[i] = context->axes.matrix_out(matrices[i]);
@@ -39,9 +38,20 @@ void AvatarObject::fill(MeshOutput& output, Frame& frame, std::span<const Vec3> 
 void AvatarObject::pose(const Pose& pose) {
     Profile::Scope time(context->profile, Stage::avatar);
     Ref<Frame> frame = posed.begin();
-    avatar.pose(pose, *context->jobs);
-    fill(posed, *frame, avatar.positions(), avatar.normals(), avatar.skinning_matrices(), pose.time_ns);
+    avatar.move(pose);
+    const MeshOutput::Vertices vertices = posed.add_vertices(*frame, uint32_t(avatar.rest().positions.size()), pose.time_ns);
+    SkinTarget target;
+    target.positions = vertices.positions;
+    target.normals = vertices.normals;
+    avatar.skin(target, context->axes, *context->jobs);
+    add_matrices(*frame, avatar.skinning_matrices());
     posed.publish(std::move(frame));
+}
+
+void AvatarObject::pose_into(const Pose& pose, const SkinTarget& target) {
+    Profile::Scope time(context->profile, Stage::avatar);
+    avatar.move(pose);
+    avatar.skin(target, context->axes, *context->jobs);
 }
 
 const std::vector<Measurement>& AvatarObject::measures() {

@@ -18,12 +18,13 @@ struct AvatarObject : ContextChild {
 
     /// Poses the avatar and publishes its mesh; nothing changes where it fails.
     void pose(const Pose& pose);
+    /// Poses the avatar and writes its skin into the host's memory; the published mesh stays as it was.
+    void pose_into(const Pose& pose, const SkinTarget& target);
     /// Tape measures of its own body; taken when first asked for.
     const std::vector<Measurement>& measures();
 
 private:
-    void fill(MeshOutput& output, Frame& frame, std::span<const Vec3> positions, std::span<const Vec3> normals,
-              std::span<const Mat4> matrices, int64_t time_ns) const;
+    void add_matrices(Frame& frame, std::span<const Mat4> matrices) const;
     std::mutex measures_mutex_;
     std::vector<Measurement> measures_;
 };

@@ -63,7 +63,7 @@ Dress make_dress(Context& context, const Garment& garment, const FabricMaterial&
     model->evaluate(model->default_shape(garment.body_sex), authored);
     std::vector<Vec3> fine;
     if (authored.positions.size() != count) {
-        for (uint32_t level = 1; level < kBodyLevels; ++level)
+        for (uint32_t level = 1; level <= kCoarseBody; ++level)
             if (model->topology(level).vertex_count == count) model->subdivide(level, authored.positions, fine);
     }
     DressBody body;

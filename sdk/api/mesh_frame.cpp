@@ -50,23 +50,29 @@ void StaticStreams::add_to(Frame& frame) const {
     for (const Stream& stream : streams_) frame.add_view(stream);
 }
 
-void MeshOutput::fill(Frame& frame, std::span<const Vec3> positions, std::span<const Vec3> normals,
-                      const Axes& axes, int64_t time_ns) const {
-    const auto count = static_cast<uint32_t>(positions.size());
-    auto* p = static_cast<Vec3*>(frame.add_stream(VFIT_STREAM_POSITION, VFIT_FORMAT_F32X3, count, 1));
-    auto* n = static_cast<Vec3*>(frame.add_stream(VFIT_STREAM_NORMAL, VFIT_FORMAT_F32X3, count, 1));
-    if (axes.identity()) {
-        std::memcpy(static_cast<void*>(p), positions.data(), positions.size_bytes());
-        std::memcpy(static_cast<void*>(n), normals.data(), normals.size_bytes());
-    } else {
-        for (uint32_t i = 0; i < count; ++i) {
-            p[i] = axes.point_out(positions[i]);
-            n[i] = axes.direction_out(normals[i]);
-        }
-    }
+MeshOutput::Vertices MeshOutput::add_vertices(Frame& frame, uint32_t count, int64_t time_ns) const {
+    const Vertices vertices = {
+        static_cast<Vec3*>(frame.add_stream(VFIT_STREAM_POSITION, VFIT_FORMAT_F32X3, count, 1)),
+        static_cast<Vec3*>(frame.add_stream(VFIT_STREAM_NORMAL, VFIT_FORMAT_F32X3, count, 1))};
     topology_->add_to(frame);
     frame.owner = topology_;
     frame.time_ns = time_ns;
+    return vertices;
+}
+
+void MeshOutput::fill(Frame& frame, std::span<const Vec3> positions, std::span<const Vec3> normals,
+                      const Axes& axes, int64_t time_ns) const {
+    const auto count = static_cast<uint32_t>(positions.size());
+    const auto [p, n] = add_vertices(frame, count, time_ns);
+    if (axes.identity()) {
+        std::memcpy(static_cast<void*>(p), positions.data(), positions.size_bytes());
+        std::memcpy(static_cast<void*>(n), normals.data(), normals.size_bytes());
+        return;
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        p[i] = axes.point_out(positions[i]);
+        n[i] = axes.direction_out(normals[i]);
+    }
 }
 
 void MeshOutput::publish(Ref<Frame> frame) {

@@ -38,7 +38,13 @@ public:
     StaticStreams& topology() { return *topology_; }
     /// An empty frame; VFIT_ERROR_BUSY when the host holds all.
     Ref<Frame> begin() const { return Context::take_frame(*pool_); }
-    /// Positions, normals and topology into the frame.
+    /// Adds vertices to be filled, packed, in the host's axes, and the topology to the frame.
+    struct Vertices {
+        Vec3* positions;
+        Vec3* normals;
+    };
+    Vertices add_vertices(Frame& frame, uint32_t count, int64_t time_ns) const;
+    /// The same from vertices in world space.
     void fill(Frame& frame, std::span<const Vec3> positions, std::span<const Vec3> normals, const Axes& axes,
               int64_t time_ns) const;
     void publish(Ref<Frame> frame);

@@ -15,9 +15,8 @@ constexpr uint32_t kMaxTwistSteps = 16;
 
 void check(const BodyModel* model, const AvatarDesc& desc, std::span<const float> shape, const Vec2& scale) {
     if (!model) fail(VFIT_ERROR_ARGUMENT, "an avatar needs a body model");
-    if (desc.detail >= kBodyLevels)
-        fail(VFIT_ERROR_ARGUMENT, "detail ", desc.detail, " is not a level of the body (0 to ",
-             kBodyLevels - 1, ")");
+    if (desc.detail > kCoarseBody)
+        fail(VFIT_ERROR_ARGUMENT, "detail ", desc.detail, " is not a level of the body (0 to ", kCoarseBody, ")");
     if (desc.twist_steps < 1 || desc.twist_steps > kMaxTwistSteps)
         fail(VFIT_ERROR_ARGUMENT, "twist_steps is ", desc.twist_steps, ", not 1 to ", kMaxTwistSteps);
     if (!shape.empty() && shape.size() != model->parameters().size())
@@ -120,11 +119,9 @@ Avatar::Avatar(std::shared_ptr<const BodyModel> model, const AvatarDesc& desc, P
       rig_(std::move(parts.rig)),
       skin_bones_(std::move(parts.skin_bones)),
       skin_weights_(std::move(parts.skin_weights)),
-      skin_(std::span(skin_bones_).first(topology_->vertex_count),
-            std::span(skin_weights_).first(topology_->vertex_count)),
-      matrices_(rig_.bones().size()),
-      positions_(rest_.positions.size()),
-      normals_(rest_.positions.size()) {
+      skin_(skin_bones_, skin_weights_, rest_.positions, rest_.normals),
+      skinning_(desc.skinning),
+      matrices_(rig_.bones().size()) {
     place_joints();
     measure_inner_spheres();
     const Mesh standing = measuring_mesh(kStaturePosture);
@@ -132,18 +129,26 @@ Avatar::Avatar(std::shared_ptr<const BodyModel> model, const AvatarDesc& desc, P
 
     Pose t_pose;
     t_pose.hips_position = skeleton().offset[VFIT_BONE_HIPS];
-    pose(t_pose, *Jobs::own(0));
+    move(t_pose);
+}
+
+void Avatar::move(const Pose& pose) {
+    rig_.pose(pose, posed_, matrices_);
+    pose_ = pose;
+}
+
+void Avatar::skin(const SkinTarget& target, const Axes& axes, Jobs& jobs) {
+    skin_.pose(matrices_, skinning_, axes, target, scratch_, jobs);
 }
 
 void Avatar::pose(const Pose& pose, Jobs& jobs) {
-    rig_.pose(pose, posed_, matrices_);
-    pose_ = pose;
-    const size_t count = topology_->vertex_count;
-    skin_.pose(matrices_, rest_.positions, rest_.normals, positions_, normals_, jobs);
-    for (size_t i = 0; i < topology_->seam_sources.size(); ++i) {
-        positions_[count + i] = positions_[topology_->seam_sources[i]];
-        normals_[count + i] = normals_[topology_->seam_sources[i]];
-    }
+    move(pose);
+    positions_.resize(skin_.vertex_count());
+    normals_.resize(skin_.vertex_count());
+    SkinTarget target;
+    target.positions = positions_.data();
+    target.normals = normals_.data();
+    skin(target, Axes(), jobs);
 }
 
 }  // namespace vfit

@@ -27,6 +27,7 @@ struct AvatarDesc {
     // paper's two bones: at a quarter turn the blend pinches the limb's middle to half its section. With 6 a
     // forearm loses less of its volume than it does as a single bone (2 % against 3 %).
     uint32_t twist_steps = 6;
+    SkinMethod skinning = SkinMethod::linear;
 };
 
 /// Standing upright, arms hanging beside the body: the posture in which tape measures are taken.
@@ -55,8 +56,13 @@ public:
     /// Measured ones are taken as they are with desc.paper_colliders, else cut to that sphere.
     void set_collider_radii(std::span<const float, kPaperJointCount> radii);
 
-    /// Moves skin, bones, joints and colliders. VFIT_ERROR_DATA, and nothing moves, where the pose is not
-    /// finite. Does not allocate.
+    /// Moves bones, joints and colliders. VFIT_ERROR_DATA, and nothing moves, where the pose is not finite. Does
+    /// not allocate.
+    void move(const Pose& pose);
+    /// The skin of the last pose, render vertices, written into the host's memory in its axes. Does not allocate
+    /// after the first call.
+    void skin(const SkinTarget& target, const Axes& axes, Jobs& jobs);
+    /// Both: moves, then writes positions() and normals().
     void pose(const Pose& pose, Jobs& jobs);
     int64_t time_ns() const { return pose_.time_ns; }  // of the last pose
 
@@ -67,7 +73,7 @@ public:
 
     /// The unposed mesh in the model's own posture, soles on y = 0: render vertices, seam copies included.
     const Mesh& rest() const { return rest_; }
-    /// Posed render vertices, world; index and uv are rest()'s.
+    /// Render vertices of the last pose(), world, empty before; index and uv are rest()'s.
     const std::vector<Vec3>& positions() const { return positions_; }
     const std::vector<Vec3>& normals() const { return normals_; }
 
@@ -122,6 +128,8 @@ private:
     std::array<float, kPaperJointCount> inner_radii_{}, radii_{};
     float stature_m_ = 0.0f;
 
+    SkinMethod skinning_;
+    Skin::Scratch scratch_;
     Pose pose_;
     PosedSkeleton posed_;
     std::vector<Mat4> matrices_;

@@ -60,9 +60,13 @@ Mesh Avatar::measuring_mesh(const MeasuringPosture& posture, Body* joints) const
     rig_.pose(measuring_pose(posture), posed, matrices);
 
     Mesh mesh;
-    mesh.positions.resize(topology_->vertex_count);
+    mesh.positions.resize(skin_.vertex_count());
     mesh.indices = topology_->indices;
-    skin_.pose(matrices, rest_.positions, {}, mesh.positions, {}, *Jobs::own(0));
+    SkinTarget target;
+    target.positions = mesh.positions.data();
+    Skin::Scratch scratch;
+    skin_.pose(matrices, SkinMethod::linear, Axes(), target, scratch, *Jobs::own(0));
+    mesh.positions.resize(topology_->vertex_count);
 
     float sole = mesh.positions.front().y;
     for (const Vec3& p : mesh.positions) sole = std::min(sole, p.y);

@@ -11,6 +11,7 @@ namespace {
 
 // Vertices of one item of work: large beside the cost of handing it out, small enough to share evenly.
 constexpr uint32_t kChunk = 2048;
+constexpr uint32_t kBoneFloats = 16;  // of a bone in the kernels' table
 
 struct Share {
     uint16_t bone;
@@ -60,43 +61,79 @@ void split_limb_weights(std::span<const Vec3> rest, const std::vector<LimbChain>
     }
 }
 
-Skin::Skin(std::span<const SkinBones> bones, std::span<const SkinWeights> weights) {
-    first_.reserve(bones.size() + 1);
+Skin::Skin(std::span<const SkinBones> bones, std::span<const SkinWeights> weights, std::span<const Vec3> rest,
+           std::span<const Vec3> rest_normals) {
+    starts_.reserve(bones.size() + 1);
     influences_.reserve(bones.size() * 3);  // the body's vertices have 2.3 bones on average
+    rest_.reserve(2 * bones.size());
     for (size_t v = 0; v < bones.size(); ++v) {
-        first_.push_back(static_cast<uint32_t>(influences_.size()));
+        starts_.push_back(static_cast<uint32_t>(influences_.size()));
         for (size_t k = 0; k < kSkinBones; ++k)
-            if (weights[v][k] > 0.0f) influences_.push_back({bones[v][k], weights[v][k]});
-        if (influences_.size() == first_.back()) fail(VFIT_ERROR_DATA, "no bone carries skin vertex ", v);
+            if (weights[v][k] > 0.0f) influences_.push_back({kBoneFloats * bones[v][k], weights[v][k]});
+        if (influences_.size() == starts_.back()) fail(VFIT_ERROR_DATA, "no bone carries skin vertex ", v);
+        rest_.push_back(rest[v]);
+        rest_.push_back(rest_normals[v]);
     }
-    first_.push_back(static_cast<uint32_t>(influences_.size()));
+    starts_.push_back(static_cast<uint32_t>(influences_.size()));
 }
 
-void Skin::pose(std::span<const Mat4> matrices, std::span<const Vec3> rest,
-                std::span<const Vec3> rest_normals, std::span<Vec3> positions, std::span<Vec3> normals,
-                Jobs& jobs) const {
+size_t Skin::bytes() const {
+    return starts_.size() * sizeof starts_[0] + influences_.size() * sizeof influences_[0] + rest_.size() * sizeof rest_[0];
+}
+
+namespace {
+
+void put(float* to, const Vec3& v) {
+    to[0] = v.x, to[1] = v.y, to[2] = v.z, to[3] = 0.0f;
+}
+
+/// Columns of M, carried into the host's axes.
+void put_matrix(const Mat4& m, const Axes& axes, float* to) {
+    for (int c = 0; c < 4; ++c) put(to + 4 * c, axes.point_out(Vec3(m[c])));
+}
+
+/// The rigid motion M as a unit dual quaternion: rotation q, and half of translation * q.
+void put_dual_quaternion(const Mat4& m, float* to) {
+    const Quat q = glm::normalize(glm::quat_cast(Mat3(m)));
+    const Quat dual = 0.5f * (Quat(0.0f, m[3].x, m[3].y, m[3].z) * q);
+    to[0] = q.x, to[1] = q.y, to[2] = q.z, to[3] = q.w;
+    to[4] = dual.x, to[5] = dual.y, to[6] = dual.z, to[7] = dual.w;
+}
+
+}  // namespace
+
+void Skin::pose(std::span<const Mat4> matrices, SkinMethod method, const Axes& axes, const SkinTarget& target,
+                Scratch& scratch, Jobs& jobs) const {
+    scratch.resize(kBoneFloats * matrices.size());
+    for (size_t b = 0; b < matrices.size(); ++b) {
+        float* bone = scratch.data() + kBoneFloats * b;
+        if (method == SkinMethod::linear)
+            put_matrix(matrices[b], axes, bone);
+        else
+            put_dual_quaternion(matrices[b], bone);
+    }
+    float map[12];
+    for (int c = 0; c < 3; ++c) {
+        Vec3 unit(0.0f);
+        unit[c] = 1.0f;
+        put(map + 4 * c, axes.point_out(unit));
+    }
     const uint32_t count = vertex_count();
     parallel_for(jobs, (count + kChunk - 1) / kChunk, [&](uint32_t chunk) {
-        const uint32_t end = std::min(count, (chunk + 1) * kChunk);
-        for (uint32_t v = chunk * kChunk; v < end; ++v) {
-            // Sixteen floats in one plain loop: compilers keep them in four vector registers.
-            float m[16] = {};
-            for (uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
-                const float* bone = &matrices[influences_[i].bone][0][0];
-                const float weight = influences_[i].weight;
-                for (int k = 0; k < 16; ++k) m[k] += weight * bone[k];
-            }
-            const Vec3 p = rest[v];
-            positions[v] = Vec3(m[0] * p.x + m[4] * p.y + m[8] * p.z + m[12],
-                                m[1] * p.x + m[5] * p.y + m[9] * p.z + m[13],
-                                m[2] * p.x + m[6] * p.y + m[10] * p.z + m[14]);
-            if (normals.empty()) continue;
-            const Vec3 n = rest_normals[v];
-            const Vec3 turned(m[0] * n.x + m[4] * n.y + m[8] * n.z, m[1] * n.x + m[5] * n.y + m[9] * n.z,
-                              m[2] * n.x + m[6] * n.y + m[10] * n.z);
-            const float squared = glm::dot(turned, turned);
-            normals[v] = squared > 1e-12f ? turned / std::sqrt(squared) : n;
-        }
+        const SkinJob job = {starts_.data(),
+                             influences_.data(),
+                             scratch.data(),
+                             &rest_[0].x,
+                             chunk * kChunk,
+                             std::min(count, (chunk + 1) * kChunk),
+                             static_cast<unsigned char*>(target.positions),
+                             target.position_stride,
+                             static_cast<unsigned char*>(target.normals),
+                             target.normal_stride};
+        if (method == SkinMethod::linear)
+            skin_linear(job);
+        else
+            skin_dual_quaternion(job, map);
     });
 }
 

@@ -1,4 +1,5 @@
-// Linear blend skinning: how much each bone carries of each vertex, and the posed skin.
+// Skinning: how much each bone carries of each vertex, and the posed skin, written straight into the memory of
+// whoever wants it, in their axes.
 #pragma once
 
 #include <array>
@@ -7,8 +8,10 @@
 #include <vector>
 
 #include "avatar/rig.h"
+#include "avatar/skin_kernels.h"
 #include "body/body_model.h"
 #include "core/jobs.h"
+#include "frame/axes.h"
 
 namespace vfit {
 
@@ -21,25 +24,42 @@ using SkinWeights = std::array<float, kSkinBones>;
 void split_limb_weights(std::span<const Vec3> rest, const std::vector<LimbChain>& limbs,
                         std::span<SkinBones> bones, std::span<SkinWeights> weights);
 
-/// The weights without their zeros, in the order that the hot loop reads them.
+enum class SkinMethod {
+    linear,          // linear blend skinning: what engines do
+    dual_quaternion  // keeps the section of a joint that twists or bends far; bulges a little where it bends
+};
+
+/// Where vertices go: item i at data + i * stride bytes, three floats each.
+struct SkinTarget {
+    void* positions = nullptr;
+    size_t position_stride = sizeof(Vec3);
+    void* normals = nullptr;  // null: none are made
+    size_t normal_stride = sizeof(Vec3);
+};
+
 class Skin {
 public:
-    Skin(std::span<const SkinBones> bones, std::span<const SkinWeights> weights);
+    /// One of each a vertex; zero weights are left out, the others sum to 1. VFIT_ERROR_DATA where no bone carries
+    /// a vertex.
+    Skin(std::span<const SkinBones> bones, std::span<const SkinWeights> weights, std::span<const Vec3> rest,
+         std::span<const Vec3> rest_normals);
 
-    uint32_t vertex_count() const { return static_cast<uint32_t>(first_.size()) - 1; }
+    uint32_t vertex_count() const { return static_cast<uint32_t>(starts_.size()) - 1; }
+    /// What one call reads of the skin, in bytes; beside it, only what it writes.
+    size_t bytes() const;
 
-    /// Posed positions and unit normals of all vertices. `normals` may be empty on both sides: then positions
-    /// only. Does not allocate.
-    void pose(std::span<const Mat4> matrices, std::span<const Vec3> rest, std::span<const Vec3> rest_normals,
-              std::span<Vec3> positions, std::span<Vec3> normals, Jobs& jobs) const;
+    /// Room for the bones of one call; kept by the caller so that none allocates.
+    using Scratch = std::vector<float>;
+
+    /// Posed positions and unit normals of all vertices in the host's axes; matrices are rigid, world = M * rest.
+    /// Does not allocate once `scratch` has served a call.
+    void pose(std::span<const Mat4> matrices, SkinMethod method, const Axes& axes, const SkinTarget& target,
+              Scratch& scratch, Jobs& jobs) const;
 
 private:
-    struct Influence {
-        uint32_t bone;
-        float weight;
-    };
-    std::vector<uint32_t> first_;  // of vertex i in influences_; one more at the end
-    std::vector<Influence> influences_;
+    std::vector<uint32_t> starts_;
+    std::vector<SkinInfluence> influences_;
+    std::vector<Vec3> rest_;  // position and normal of each vertex
 };
 
 }  // namespace vfit

@@ -43,7 +43,9 @@ struct EvaluatedBody {
     std::vector<float> scratch;                // evaluate's own; kept so that it need not allocate again
 };
 
-inline constexpr uint32_t kBodyLevels = 3;
+inline constexpr uint32_t kBodyLevels = 3;   // of subdivision
+inline constexpr uint32_t kCoarseBody = 3;   // after them, the level with few vertices
+inline constexpr uint32_t kCoarseVertices = 1000;
 inline constexpr int kSkinBones = 8;
 
 /// One level of detail. Geometric vertices form a closed surface; where the UV map is cut a renderer needs
@@ -83,7 +85,7 @@ public:
     /// only where `out` has not been used before.
     void evaluate(std::span<const float> shape, EvaluatedBody& out) const;
 
-    /// Level of detail 0, 1 or 2; built on its first use, thread-safe.
+    /// Level of detail 0, 1, 2 or kCoarseBody; built on its first use, thread-safe.
     const BodyTopology& topology(uint32_t level) const;
     /// Geometric positions at that level from those of level 0. Allocates only where `out` has not been used
     /// before.

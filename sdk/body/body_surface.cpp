@@ -185,7 +185,7 @@ void BodySurface::build(uint32_t index, Level& now) const {
 
 const BodySurface::Level& BodySurface::level(uint32_t index) const {
     if (index >= kBodyLevels)
-        fail(VFIT_ERROR_ARGUMENT, "level of detail ", index, " where 0 to ", kBodyLevels - 1, " exist");
+        fail(VFIT_ERROR_ARGUMENT, "level of detail ", index, " where 0 to ", kCoarseBody, " exist");
     Level& level = levels_[index];
     std::call_once(level.built, [&] {
         try {
@@ -198,7 +198,15 @@ const BodySurface::Level& BodySurface::level(uint32_t index) const {
     return level;
 }
 
-const BodyTopology& BodySurface::topology(uint32_t index) const { return level(index).topology; }
+const SimplifiedSurface& BodySurface::coarse() const {
+    const Level& fine = level(0);
+    std::call_once(coarse_.built, [&] { coarse_.surface = simplify_surface(fine.topology, fine.positions, kCoarseVertices); });
+    return coarse_.surface;
+}
+
+const BodyTopology& BodySurface::topology(uint32_t index) const {
+    return index == kCoarseBody ? coarse().topology : level(index).topology;
+}
 
 void BodySurface::subdivide(uint32_t index, const std::vector<Vec3>& base, std::vector<Vec3>& out) const {
     if (base.size() != body_.vertex_count)
@@ -207,6 +215,11 @@ void BodySurface::subdivide(uint32_t index, const std::vector<Vec3>& base, std::
     const uint32_t count = topology(index).vertex_count;
     if (index == 0) {
         out = base;
+        return;
+    }
+    if (index == kCoarseBody) {
+        out.clear();
+        for (const uint32_t source : coarse().sources) out.push_back(base[source]);
         return;
     }
     if (index == 1) {

@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include "body/body_data.h"
+#include "body/simplification.h"
 
 namespace vfit {
 
@@ -23,11 +24,17 @@ private:
         std::vector<Vec3> positions;                     // of the unshaped body, to choose diagonals by
         std::vector<Vec2> uvs;
     };
+    struct Coarse {
+        std::once_flag built;
+        SimplifiedSurface surface;
+    };
     const Level& level(uint32_t index) const;
+    const SimplifiedSurface& coarse() const;
     void build(uint32_t index, Level& level) const;
 
     const BodyData& body_;
     mutable std::array<Level, kBodyLevels> levels_;
+    mutable Coarse coarse_;
 };
 
 }  // namespace vfit

@@ -113,7 +113,7 @@ TEST_F(DressingTest, SkinningTheRestMeshGivesThePosedMesh) {
         }
 }
 
-TEST_F(DressingTest, LevelsOfDetailAreThree) {
+TEST_F(DressingTest, LevelsOfDetailAreThreeAndOneForCrowds) {
     const uint32_t least[] = {13718, 54848, 219368};
     for (uint32_t detail = 0; detail < 3; ++detail) {
         vfit_frame frame{};
@@ -122,7 +122,10 @@ TEST_F(DressingTest, LevelsOfDetailAreThree) {
         EXPECT_GE(width_of(frame, VFIT_STREAM_POSITION), least[detail]);
     }
     vfit_avatar_desc desc = vfit_avatar_desc_init();
-    desc.detail = 3;
+    vfit_frame crowd{};
+    ASSERT_EQ(vfit_avatar_acquire(make_avatar(3), &crowd), VFIT_OK);
+    EXPECT_NEAR(double(width_of(crowd, VFIT_STREAM_POSITION)), 1000.0, 200.0);
+    desc.detail = 4;
     vfit_avatar avatar{};
     EXPECT_EQ(vfit_avatar_create_from_shape(context, &desc, nullptr, 0, 0, &avatar), VFIT_ERROR_ARGUMENT);
 }

@@ -1,4 +1,4 @@
-// vfit-bench motion: filters, feet, limits and times of the stage that turns joints into poses.
+// vfit-bench motion: filters, feet, limits and times of the stage that turns joints into poses, and skinning.
 #include <filesystem>
 #include <iostream>
 
@@ -19,7 +19,8 @@ struct Part {
     const char* name;
     Json (*judge)(const MotionJudge&);
 };
-constexpr Part kParts[] = {{"filters", judge_filters}, {"feet", judge_feet}, {"real", judge_real}, {"time", judge_time}};
+constexpr Part kParts[] = {{"filters", judge_filters}, {"feet", judge_feet}, {"real", judge_real}, {"time", judge_time},
+                           {"skinning", judge_skinning}};
 
 void motion(const Options& options) {
     RealStreams real;

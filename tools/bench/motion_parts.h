@@ -22,5 +22,6 @@ Json judge_filters(const MotionJudge& judge);
 Json judge_feet(const MotionJudge& judge);
 Json judge_real(const MotionJudge& judge);
 Json judge_time(const MotionJudge& judge);
+Json judge_skinning(const MotionJudge& judge);
 
 }  // namespace vfit::tools

@@ -282,7 +282,7 @@ TEST(Avatar, BadDescriptionIsRefused) {
         return false;
     };
     AvatarDesc fine, steps;
-    fine.detail = kBodyLevels;
+    fine.detail = kCoarseBody + 1;
     steps.twist_steps = 0;
     std::vector<float> shape = body_model()->default_shape(VFIT_SEX_FEMALE);
     EXPECT_TRUE(refused(fine, {}, Vec2(1)));

@@ -15,8 +15,13 @@ inline std::shared_ptr<const BodyModel> body_model() {
     return model;
 }
 
+/// Posed in the T-pose.
 inline Avatar make_avatar(const AvatarDesc& desc = {}, const Vec2& scale = Vec2(1.0f)) {
-    return Avatar(body_model(), desc, {}, scale);
+    Avatar avatar(body_model(), desc, {}, scale);
+    Pose t_pose;
+    t_pose.hips_position = avatar.skeleton().offset[VFIT_BONE_HIPS];
+    avatar.pose(t_pose, *Jobs::own(0));
+    return avatar;
 }
 
 /// Triangles whose corners all belong to `part`.
