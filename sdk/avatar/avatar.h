@@ -1,5 +1,5 @@
-// A body that moves: made from the body model once, posed each frame, it gives the skin, the bones, the
-// joints and the colliders of that pose.
+// A body that moves: made once from the body model or from a character's file, posed each frame, it gives the
+// skin, the bones, the joints and the colliders of that pose.
 #pragma once
 
 #include <array>
@@ -7,11 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "avatar/rig.h"
-#include "avatar/skin.h"
-#include "body/body_model.h"
+#include "avatar/avatar_source.h"
 #include "body/collider.h"
-#include "body/mesh.h"
 #include "body/skeleton.h"
 #include "core/jobs.h"
 #include "frame/body.h"
@@ -49,8 +46,9 @@ public:
     /// `shape` has one value a parameter of the model (empty: the default body of desc.sex). `scale` is
     /// Algorithm 3's, of the body as a whole: width and depth by x, height by y. Stands in the T-pose, facing
     /// +Z over the world's origin, until the first pose().
-    Avatar(std::shared_ptr<const BodyModel> model, const AvatarDesc& desc, std::span<const float> shape,
+    Avatar(const std::shared_ptr<const BodyModel>& model, const AvatarDesc& desc, std::span<const float> shape,
            const Vec2& scale);
+    Avatar(AvatarSource source, const AvatarDesc& desc);
 
     /// Radii of Algorithm 2 by joint; 0, not measured: the largest sphere about the joint inside the skin.
     /// Measured ones are taken as they are with desc.paper_colliders, else cut to that sphere.
@@ -106,8 +104,6 @@ public:
     float stature() const { return stature_m_; }
 
 private:
-    struct Parts;
-    Avatar(std::shared_ptr<const BodyModel> model, const AvatarDesc& desc, Parts parts);
     void place_joints();
     void measure_inner_spheres();
     Pose measuring_pose(const MeasuringPosture& posture) const;
@@ -116,15 +112,18 @@ private:
     void colliders_of(std::span<const Mat4> matrices, std::vector<Collider>& out) const;
     Body joints_of(const PosedSkeleton& posed, std::span<const Mat4> matrices) const;
 
-    std::shared_ptr<const BodyModel> model_;
-    const BodyTopology* topology_;
-    bool paper_colliders_;
+    std::shared_ptr<const BodyTopology> topology_;
+    bool paper_colliders_, is_body_;
     Mesh rest_;
     AvatarRig rig_;
     std::vector<SkinBones> skin_bones_;
     std::vector<SkinWeights> skin_weights_;
     Skin skin_;
-    std::array<Vec3, kJointCount> anchors_{};  // joints in the rest mesh
+    struct Anchor {
+        int rig_bone;
+        Vec3 rest;
+    };
+    std::array<Anchor, kJointCount> anchors_{};  // joints in the rest mesh
     std::array<float, kPaperJointCount> inner_radii_{}, radii_{};
     float stature_m_ = 0.0f;
 

@@ -40,15 +40,22 @@ static_assert(kPaperJointCount + int(std::size(kCapsules)) == kColliderCount);
 void Avatar::place_joints() {
     for (int j = 0; j < kJointCount; ++j) {
         const JointPlace place = kJointPlaces[static_cast<size_t>(j)];
-        const AvatarBone& bone = rig_bones()[static_cast<size_t>(rig_.rig_bone(place.bone))];
-        anchors_[static_cast<size_t>(j)] = glm::mix(bone.rest_head, bone.rest_tail, place.along);
+        int carrier = place.bone;
+        while (rig_.rig_bone(carrier) < 0) carrier = bone_parent(carrier);
+        const int rig_bone = rig_.rig_bone(carrier);
+        const AvatarBone& bone = rig_bones()[static_cast<size_t>(rig_bone)];
+        // A missing bone starts where the present one before it ends.
+        const float along = carrier == place.bone ? place.along : 1.0f;
+        anchors_[static_cast<size_t>(j)] = {rig_bone, glm::mix(bone.rest_head, bone.rest_tail, along)};
     }
 }
 
 void Avatar::measure_inner_spheres() {
     const MeshQuery skin(std::span<const Vec3>(rest_.positions).first(topology_->vertex_count),
                          topology_->indices);
-    for (size_t j = 0; j < kPaperJointCount; ++j) inner_radii_[j] = largest_inner_sphere(skin, anchors_[j]);
+    // A character's clothes need not close: there, what is nearest counts, inside or not.
+    for (size_t j = 0; j < kPaperJointCount; ++j)
+        inner_radii_[j] = is_body_ ? largest_inner_sphere(skin, anchors_[j].rest) : skin.closest(anchors_[j].rest).distance;
     radii_ = inner_radii_;
 }
 
@@ -66,8 +73,8 @@ void Avatar::set_collider_radii(std::span<const float, kPaperJointCount> radii) 
 }
 
 Vec3 Avatar::joint_position(int joint, std::span<const Mat4> matrices) const {
-    const auto rig = static_cast<size_t>(rig_.rig_bone(kJointPlaces[static_cast<size_t>(joint)].bone));
-    return Vec3(matrices[rig] * Vec4(anchors_[static_cast<size_t>(joint)], 1.0f));
+    const Anchor& anchor = anchors_[static_cast<size_t>(joint)];
+    return Vec3(matrices[static_cast<size_t>(anchor.rig_bone)] * Vec4(anchor.rest, 1.0f));
 }
 
 Body Avatar::joints_of(const PosedSkeleton& posed, std::span<const Mat4> matrices) const {

@@ -15,7 +15,7 @@ const Vec3 kForward(0, 0, 1);
 
 float Avatar::touching_feet_m() const {
     // Feet stand in the measuring posture as they do at rest, so their inner sides can be read off there.
-    const float left = anchors_[VFIT_JOINT_LEFT_FOOT].x, right = anchors_[VFIT_JOINT_RIGHT_FOOT].x;
+    const float left = anchors_[VFIT_JOINT_LEFT_FOOT].rest.x, right = anchors_[VFIT_JOINT_RIGHT_FOOT].rest.x;
     float left_inner = 0.0f, right_inner = 0.0f;
     for (size_t v = 0; v < topology_->vertex_count; ++v) {
         if (topology_->parts[v] == BodyPart::kLeftFoot)

@@ -71,6 +71,34 @@ Vec3 t_pose_direction(int bone) {
     }
 }
 
+bool is_optional_bone(int bone) {
+    switch (bone) {
+        case VFIT_BONE_CHEST:
+        case VFIT_BONE_UPPER_CHEST:
+        case VFIT_BONE_NECK:
+        case VFIT_BONE_LEFT_SHOULDER:
+        case VFIT_BONE_RIGHT_SHOULDER:
+        case VFIT_BONE_LEFT_TOES:
+        case VFIT_BONE_RIGHT_TOES: return true;
+        default: return false;
+    }
+}
+
+namespace {
+
+/// Who stands where a missing bone would: the child of a neck or a shoulder, so that it turns in its place; else the
+/// parent.
+int stand_in(int bone) {
+    switch (bone) {
+        case VFIT_BONE_NECK: return VFIT_BONE_HEAD;
+        case VFIT_BONE_LEFT_SHOULDER: return VFIT_BONE_LEFT_UPPER_ARM;
+        case VFIT_BONE_RIGHT_SHOULDER: return VFIT_BONE_RIGHT_UPPER_ARM;
+        default: return bone_parent(bone);
+    }
+}
+
+}  // namespace
+
 AvatarRig::AvatarRig(std::vector<AvatarBone> bones, float floor_y, uint32_t twist_steps)
     : bones_(std::move(bones)), twist_steps_(twist_steps) {
     map_humanoid_bones();
@@ -94,7 +122,20 @@ void AvatarRig::map_humanoid_bones() {
         rig = static_cast<int>(i);
     }
     for (int b = 0; b < kBoneCount; ++b)
-        if (rig_bone(b) < 0) fail(VFIT_ERROR_DATA, "the rig has no bone ", bone_name(b));
+        if (rig_bone(b) < 0 && !is_optional_bone(b)) fail(VFIT_ERROR_DATA, "the rig has no bone ", bone_name(b));
+    // A missing bone of the trunk lies at its parent's start: whoever stands there turns by all of them.
+    for (int b = 0; b < kBoneCount; ++b) turned_by_[static_cast<size_t>(b)] = b;
+    for (const int b : {VFIT_BONE_CHEST, VFIT_BONE_UPPER_CHEST}) {
+        if (rig_bone(b) >= 0) continue;
+        int below = bone_parent(b);
+        while (rig_bone(below) < 0) below = bone_parent(below);
+        turned_by_[static_cast<size_t>(below)] = b;
+    }
+}
+
+const Vec3& AvatarRig::rest_head(int bone) const {
+    while (rig_bone(bone) < 0) bone = stand_in(bone);
+    return bones_[static_cast<size_t>(rig_bone(bone))].rest_head;
 }
 
 void AvatarRig::build_limbs(uint32_t twist_steps) {
@@ -137,7 +178,7 @@ void AvatarRig::build_limbs(uint32_t twist_steps) {
 }
 
 void AvatarRig::build_t_pose(float floor_y) {
-    const auto head = [&](int bone) { return bones_[static_cast<size_t>(rig_bone(bone))].rest_head; };
+    const auto head = [&](int bone) { return rest_head(bone); };
     t_pose_.fill(kIdentity);
     const auto stretch = [&](int bone, const Vec3& end) {
         const Vec3 target = t_pose_direction(bone), rest = end - head(bone);
@@ -200,7 +241,7 @@ void AvatarRig::pose(const Pose& pose, PosedSkeleton& posed, std::span<Mat4> mat
             // About the near joint: the limb's axis stays where it is for every share of the twist.
             matrices[i] = place(kLimbs[limb].bone, turn.swung * fraction(turn.twist, share));
         } else if (bones_[i].bone >= 0) {
-            matrices[i] = place(bones_[i].bone, posed.rotation[static_cast<size_t>(bones_[i].bone)]);
+            matrices[i] = place(bones_[i].bone, posed.rotation[static_cast<size_t>(turned_by_[static_cast<size_t>(bones_[i].bone)])]);
         } else {
             matrices[i] = bones_[i].parent < 0 ? hips : matrices[static_cast<size_t>(bones_[i].parent)];
         }

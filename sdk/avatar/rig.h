@@ -21,6 +21,8 @@ struct AvatarBone {
     int bone = -1;            // VFIT_BONE_*, or -1
     Vec3 rest_head{0.0f};     // in the space of the rest mesh
     Vec3 rest_tail{0.0f};     // of a hand: the root of the middle finger
+    Quat rest_rotation{1, 0, 0, 0};  // world, of the bone's own axes
+    int node = -1;            // of the file that it came from
 };
 
 /// A limb of the rest posture and the rig bones that carry it, the original first, the extension last:
@@ -34,15 +36,19 @@ struct LimbChain {
 
 class AvatarRig {
 public:
-    /// `bones` is the model's rig, placed in the rest posture; every humanoid bone must be there once, else
-    /// VFIT_ERROR_DATA. `twist_steps`: 0, a limb is one bone; 1, the paper's split in two; n, n - 1 bones
+    /// `bones` is the model's rig, placed in the rest posture; every humanoid bone that VRM requires must be there
+    /// once, else VFIT_ERROR_DATA. Where chest or upper chest are missing the bone below bends for them; a missing
+    /// neck turns the head, a missing shoulder the upper arm. `twist_steps`: 0, a limb is one bone; 1, the paper's split in two; n, n - 1 bones
     /// more between these (appended behind the model's bones).
     AvatarRig(std::vector<AvatarBone> bones, float floor_y, uint32_t twist_steps);
 
     const std::vector<AvatarBone>& bones() const { return bones_; }
     const std::vector<LimbChain>& limbs() const { return limbs_; }
     const Skeleton& skeleton() const { return skeleton_; }
+    /// -1: the rig has none.
     int rig_bone(int humanoid_bone) const { return rig_of_[static_cast<size_t>(humanoid_bone)]; }
+    /// Where the bone starts in the rest mesh; a missing one where its stand-in does.
+    const Vec3& rest_head(int humanoid_bone) const;
 
     /// Where the humanoid bones of that pose stand, and the matrix that carries the rest skin of each rig
     /// bone there (world = M * rest). A pose with a number that is not finite or a rotation of no length is
@@ -56,6 +62,7 @@ private:
 
     std::vector<AvatarBone> bones_;
     std::array<int, kBoneCount> rig_of_{};
+    std::array<int, kBoneCount> turned_by_{};  // the bone whose world rotation the rig's one takes
     std::vector<LimbChain> limbs_;
     uint32_t twist_steps_;
     std::array<Quat, kBoneCount> t_pose_;  // world rotation of each humanoid bone from rest to T-pose
@@ -66,5 +73,8 @@ private:
 /// Where a limb ends in the direction the T-pose gives it: +-X for arms, -Y for legs; zero for the bones
 /// that stand in the T-pose as they do at rest.
 Vec3 t_pose_direction(int humanoid_bone);
+
+/// VRM does without it.
+bool is_optional_bone(int humanoid_bone);
 
 }  // namespace vfit

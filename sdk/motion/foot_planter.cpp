@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "motion/two_bone_ik.h"
+#include "math/two_bone_ik.h"
 
 namespace vfit {
 

@@ -1,6 +1,6 @@
 #include "motion/joint_feet.h"
 
-#include "motion/two_bone_ik.h"
+#include "math/two_bone_ik.h"
 
 namespace vfit {
 

@@ -2,7 +2,7 @@
 // slide, noise on all joints.
 #pragma once
 
-#include "motion/two_bone_ik.h"
+#include "math/two_bone_ik.h"
 #include "motion_support.h"
 
 namespace vfit::testing {

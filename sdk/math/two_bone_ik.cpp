@@ -1,4 +1,4 @@
-#include "motion/two_bone_ik.h"
+#include "math/two_bone_ik.h"
 
 #include <algorithm>
 #include <cmath>

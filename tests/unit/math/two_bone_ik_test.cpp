@@ -1,10 +1,10 @@
 // Two-bone inverse kinematics: exact in reach, finite beyond it.
-#include "motion/two_bone_ik.h"
+#include "math/two_bone_ik.h"
 
 #include <gtest/gtest.h>
 
 #include "math/finite.h"
-#include "motion_support.h"
+#include "math/random.h"
 
 namespace vfit {
 namespace {
@@ -14,21 +14,21 @@ struct Trial {
     float upper, lower, distance;
 };
 
-Trial random_trial(testing::RandomPose& random, float least_reach, float most_reach) {
+Trial random_trial(Random& random, float least_reach, float most_reach) {
     Trial t;
-    const auto v = [&random] { return Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)); };
+    const auto v = [&random] { return Vec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)); };
     t.root = 2.0f * v();
-    t.upper = random.uniform(0.2f, 0.6f);
-    t.lower = random.uniform(0.2f, 0.6f);
+    t.upper = random.between(0.2f, 0.6f);
+    t.lower = random.between(0.2f, 0.6f);
     const float least = std::abs(t.upper - t.lower) + 1e-3f, most = t.upper + t.lower;
-    t.distance = least + (most - least) * random.uniform(least_reach, most_reach);
+    t.distance = least + (most - least) * random.between(least_reach, most_reach);
     t.goal = t.root + t.distance * glm::normalize(v() + Vec3(0, 0, 1e-3f));
     t.pole = v();
     return t;
 }
 
 TEST(TwoBoneIk, ReachesEveryReachableGoalWithinATenthOfAMillimetre) {
-    testing::RandomPose random(7);
+    Random random(7);
     for (int i = 0; i < 20000; ++i) {
         const Trial t = random_trial(random, 0.0f, 0.998f);
         const TwoBoneSolution s = solve_two_bone(t.root, t.upper, t.lower, t.goal, t.pole, 0.001f);
@@ -39,7 +39,7 @@ TEST(TwoBoneIk, ReachesEveryReachableGoalWithinATenthOfAMillimetre) {
 }
 
 TEST(TwoBoneIk, BendsTowardsThePole) {
-    testing::RandomPose random(8);
+    Random random(8);
     for (int i = 0; i < 2000; ++i) {
         const Trial t = random_trial(random, 0.1f, 0.9f);
         const TwoBoneSolution s = solve_two_bone(t.root, t.upper, t.lower, t.goal, t.pole, 0.0f);
@@ -52,7 +52,7 @@ TEST(TwoBoneIk, BendsTowardsThePole) {
 }
 
 TEST(TwoBoneIk, StaysFiniteAndPointsAtGoalsBeyondReach) {
-    testing::RandomPose random(9);
+    Random random(9);
     for (int i = 0; i < 2000; ++i) {
         const Trial t = random_trial(random, 1.0f, 5.0f);
         const TwoBoneSolution s = solve_two_bone(t.root, t.upper, t.lower, t.goal, t.pole, 0.002f);
