@@ -567,6 +567,14 @@ VFIT_API vfit_result vfit_motion_step(vfit_motion motion, vfit_frame tracked, ui
                                       int64_t now_ns);
 VFIT_API vfit_result vfit_motion_pose(vfit_motion motion, vfit_pose* pose, vfit_bone* items,
                                       uint32_t stride, uint32_t* count);                   /* [read] */
+/* A pose for the network, at most 120 bytes: rotations to 0.1 degrees, the hips to 0.1 mm, contacts, time. bytes null
+ * sets *byte_count to what is needed. It is the same whatever the axes of the two contexts. Unpacked bones come as
+ * from vfit_motion_pose, but for positions of all but the hips, which are the receiver's avatar's own: zero. Hips over
+ * 800 m away: VFIT_ERROR_DATA; a packet of another version: VFIT_ERROR_VERSION; a damaged one: VFIT_ERROR_DATA. [any] */
+VFIT_API vfit_result vfit_pose_pack(vfit_context context, const vfit_pose* pose, const vfit_bone* items,
+                                    uint32_t stride, uint32_t count, void* bytes, uint32_t* byte_count);
+VFIT_API vfit_result vfit_pose_unpack(vfit_context context, const void* bytes, uint32_t byte_count, vfit_pose* pose,
+                                      vfit_bone* items, uint32_t stride, uint32_t* count);
 /* The filtered joints behind the pose, feet corrected.                                         [read]  */
 VFIT_API vfit_result vfit_motion_joints(vfit_motion motion, vfit_joint* items, uint32_t stride,
                                         uint32_t* count);
@@ -574,9 +582,10 @@ VFIT_API vfit_result vfit_motion_joints(vfit_motion motion, vfit_joint* items, u
 /* ---- avatar and cloth: pose, step, then acquire, once per rendered frame --------------------------- */
 enum { VFIT_AVATAR_PAPER_COLLIDERS = 1, /* radii of Algorithm 2 as they are, not clamped to the skin    */
        VFIT_AVATAR_SINGLE_BONES = 2,    /* no twist bones in the limbs (Fig. 7a)                       */
-       VFIT_AVATAR_DUAL_QUATERNIONS = 4 };  /* skinned by dual quaternions in place of linear blending: joints that bend
+       VFIT_AVATAR_DUAL_QUATERNIONS = 4,  /* skinned by dual quaternions in place of linear blending: joints that bend
                                          * or twist far keep their section. An engine that skins by BONE_MATRIX shows the
                                          * linear blend                                                */
+       VFIT_AVATAR_HANDS_AS_POSED = 8 };  /* of vfit_avatar_load                                       */
 typedef struct vfit_avatar_desc {
     uint32_t struct_size, flags;
     vfit_sex sex;                       /* which default body; UNKNOWN: halfway                        */
@@ -592,8 +601,36 @@ typedef struct vfit_rig_bone {
     vfit_bone_id bone;                  /* the humanoid bone that it is, or -1                          */
     float rest_position[3];             /* of the bone's head, in the space of the rest mesh             */
     char name[48];
+    float rest_rotation[4];             /* of the bone's own axes there: posed, they are BONE_MATRIX * rest   */
+    int32_t node;                       /* of the character's file; -1: made by vfit                     */
+    uint32_t reserved;
 } vfit_rig_bone;
+/* A character of yours: a skinned humanoid from a glTF 2.0 (.glb, .gltf) or VRM 0 or 1 file.             */
+typedef struct vfit_character_desc {
+    uint32_t struct_size, reserved;
+    const char* path;                   /* or null and                                               */
+    const void* bytes;                  /* the whole file in memory; needed during the call alone           */
+    uint64_t byte_count;
+    const char* bone_map;               /* null: as VRM says, else by the names that common tools give; or
+                                         * {"hips": "name of a node", "leftUpperArm": ...} as JSON           */
+} vfit_character_desc;
+typedef int32_t vfit_character_kind;
+enum { VFIT_CHARACTER_BODY = 0,         /* vfit's own body                                           */
+    VFIT_CHARACTER_GLTF = 1, VFIT_CHARACTER_VRM0 = 2, VFIT_CHARACTER_VRM1 = 3 };
+typedef struct vfit_character_info {
+    uint32_t struct_size;
+    vfit_character_kind kind;
+    uint32_t vertex_count, index_count, bone_count, part_count;
+    float stature_m;                    /* floor to crown, feet together                               */
+    float from_file[16];                /* rest mesh = M * the file's world; right-handed metres whatever axes */
+    char name[64];                      /* as VRM tells it                                            */
+    uint32_t reserved;
+} vfit_character_info;
+/* Triangles of one material of the file: indices first_index on. vfit's own body is one part without.       */
+typedef struct vfit_avatar_part { uint32_t struct_size, first_index, index_count; int32_t material;
+                                  char mesh[48], material_name[48]; } vfit_avatar_part;
 VFIT_STRUCT(vfit_avatar_desc) VFIT_STRUCT(vfit_shape_value) VFIT_STRUCT(vfit_rig_bone)
+VFIT_STRUCT(vfit_character_desc) VFIT_STRUCT(vfit_character_info) VFIT_STRUCT(vfit_avatar_part)
 VFIT_API vfit_result vfit_shape_list(vfit_context context, vfit_shape_value* items, uint32_t stride,
                                      uint32_t* count);                                     /* [any]  */
 /* A body of that shape; keys that are not given keep the value of the sex's default body.       [any]  */
@@ -607,6 +644,24 @@ VFIT_API vfit_result vfit_avatar_create(vfit_context context, const vfit_avatar_
 /* Size and collider radii of the scanned person; by FIT their shape and girths too.   [read] on scan  */
 VFIT_API vfit_result vfit_avatar_create_from_scan(vfit_context context, const vfit_avatar_desc* desc,
                                                   vfit_scan scan, vfit_avatar* out);
+/* Your character as an avatar: bind motion to it, pose it, fetch its buffers. It is turned to face +Z and stood on the
+ * floor; whatever its proportions, the bones of a pose turn it, feet that motion plants stand, limbs get twist bones,
+ * and hands are kept out of its trunk and thighs (unless desc.flags has HANDS_AS_POSED). Missing of VRM's optional
+ * bones are stood in for. Morph targets, animations and meshes that hang on no bone are left out and logged. desc.sex
+ * and detail do not apply. VFIT_ERROR_IO; VFIT_ERROR_DATA for a damaged file, one without a humanoid or skin, of no
+ * person's size, or that lies down; VFIT_ERROR_UNSUPPORTED for compressed meshes and sparse data.       [any]   */
+VFIT_API vfit_result vfit_avatar_load(vfit_context context, const vfit_avatar_desc* desc,
+                                      const vfit_character_desc* character, vfit_avatar* out);
+VFIT_API vfit_result vfit_avatar_describe(vfit_avatar avatar, vfit_character_info* out);   /* [read] */
+VFIT_API vfit_result vfit_avatar_parts(vfit_avatar avatar, vfit_avatar_part* items, uint32_t stride,
+                                       uint32_t* count);                                   /* [read] */
+/* A body and its clothing size for the network, at most 200 bytes: shape, scale, collider radii, a label of up to 19
+ * bytes (may be null). bytes null sets *byte_count to what is needed. Of a character from a file:
+ * VFIT_ERROR_UNSUPPORTED. The receiver gets the label as TEXT; a packet of another version of body or library is
+ * VFIT_ERROR_VERSION, a damaged one VFIT_ERROR_DATA; desc.sex is the packet's.          [read], [any]   */
+VFIT_API vfit_result vfit_avatar_pack(vfit_avatar avatar, const char* size_label, void* bytes, uint32_t* byte_count);
+VFIT_API vfit_result vfit_avatar_unpack(vfit_context context, const vfit_avatar_desc* desc, const void* bytes,
+                                        uint32_t byte_count, char* size_label, uint32_t capacity, vfit_avatar* out);
 VFIT_API vfit_result vfit_avatar_destroy(vfit_avatar avatar);                              /* [any]  */
 VFIT_API vfit_result vfit_avatar_pose(vfit_avatar avatar, const vfit_pose* pose, const vfit_bone* items,
                                       uint32_t stride, uint32_t count);                    /* [excl] */
@@ -624,7 +679,8 @@ VFIT_API vfit_result vfit_avatar_joints(vfit_avatar avatar, vfit_joint* items, u
                                         uint32_t* count);
 VFIT_API vfit_result vfit_avatar_rig(vfit_avatar avatar, vfit_rig_bone* items, uint32_t stride,
                                      uint32_t* count);                                     /* [read] */
-/* Tape measures of the avatar's own body, in the posture of each definition, taken on its mesh. [read] */
+/* Tape measures of the avatar's own body, in the posture of each definition, taken on its mesh. A character from a
+ * file has clothes and no body: VFIT_ERROR_UNSUPPORTED.                                        [read] */
 VFIT_API vfit_result vfit_avatar_measure(vfit_avatar avatar, vfit_measurement* items, uint32_t stride,
                                          uint32_t* count);
 /* Measures of your own (docs/measuring.md: landmarks, planes and paths as JSON), taken on the avatar's mesh. sigma is

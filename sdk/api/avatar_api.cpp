@@ -6,6 +6,7 @@
 #include "api/guard.h"
 #include "api/measurements.h"
 #include "api/scan_object.h"
+#include "avatar/gltf_document.h"
 #include "measure/own_measures.h"
 #include "scan/scanned_body.h"
 
@@ -20,7 +21,7 @@ constexpr float kMinScale = 0.3f, kMaxScale = 2.0f;
 
 AvatarDesc avatar_desc(const vfit_avatar_desc* desc) {
     const vfit_avatar_desc d = read_or_default(desc, "desc");
-    check_flags(d.flags, VFIT_AVATAR_PAPER_COLLIDERS | VFIT_AVATAR_SINGLE_BONES | VFIT_AVATAR_DUAL_QUATERNIONS, "desc.flags");
+    check_flags(d.flags, VFIT_AVATAR_PAPER_COLLIDERS | VFIT_AVATAR_SINGLE_BONES | VFIT_AVATAR_DUAL_QUATERNIONS | VFIT_AVATAR_HANDS_AS_POSED, "desc.flags");
     check_enum(d.sex, VFIT_SEX_MALE, "desc.sex");
     if (d.detail > kMaxDetail) fail(VFIT_ERROR_ARGUMENT, "desc.detail ", d.detail, " is more than ", kMaxDetail);
     AvatarDesc out;
@@ -175,7 +176,90 @@ vfit_result vfit_avatar_create_from_scan(vfit_context handle, const vfit_avatar_
         const ScannedBody body = body_of(*context, scan->scan, measured, d.sex);
         auto avatar = make<AvatarObject>(context.ref(), d, body.shape, body.scale);
         avatar->relative_sigma = least_sure(measured);
-        avatar->avatar.set_collider_radii(scan->scan.paper().radii());
+        avatar->set_collider_radii(scan->scan.paper().radii());
+        publish(*context, avatar, out);
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_avatar_load(vfit_context handle, const vfit_avatar_desc* desc, const vfit_character_desc* character,
+                             vfit_avatar* out) {
+    return guard([&] {
+        check_pointer(out, "out");
+        out->id = 0;
+        UseContext<Mode::any> context(handle);
+        AvatarDesc d = avatar_desc(desc);
+        d.hands_clear = !desc || (desc->flags & VFIT_AVATAR_HANDS_AS_POSED) == 0;
+        const vfit_character_desc c = read(character, "character");
+        if (!c.path == !c.bytes) fail(VFIT_ERROR_ARGUMENT, "character: either path or bytes must be given");
+        const GltfDocument document = c.path ? GltfDocument(std::string(c.path))
+                                             : GltfDocument({static_cast<const std::byte*>(c.bytes), size_t(c.byte_count)});
+        Character loaded = load_character(document, c.bone_map ? c.bone_map : "");
+        for (const std::string& note : loaded.notes) context->log.info(c.path ? c.path : "character", ": ", note);
+        publish(*context, make<AvatarObject>(context.ref(), d, std::move(loaded)), out);
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_avatar_describe(vfit_avatar handle, vfit_character_info* out) {
+    return guard([&] {
+        Use<AvatarObject, Mode::read> avatar(handle.id);
+        check_output(out, "out");
+        vfit_character_info info{};
+        info.kind = avatar->is_body() ? VFIT_CHARACTER_BODY : VFIT_CHARACTER_GLTF + int(avatar->character.kind);
+        info.vertex_count = uint32_t(avatar->avatar.rest().positions.size());
+        info.index_count = uint32_t(avatar->avatar.rest().indices.size());
+        info.bone_count = uint32_t(avatar->avatar.rig_bones().size());
+        info.part_count = uint32_t(avatar->parts().size());
+        info.stature_m = avatar->avatar.stature();
+        std::memcpy(info.from_file, &avatar->character.from_file[0][0], sizeof info.from_file);
+        set_text(info.name, avatar->character.name);
+        write(out, info);
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_avatar_parts(vfit_avatar handle, vfit_avatar_part* items, uint32_t stride, uint32_t* count) {
+    return guard([&] {
+        Use<AvatarObject, Mode::read> avatar(handle.id);
+        const auto parts = avatar->parts();
+        return write_list(items, stride, count, parts.size(), [&](size_t i) {
+            vfit_avatar_part part{};
+            part.first_index = parts[i].first_index;
+            part.index_count = parts[i].index_count;
+            part.material = parts[i].material_index;
+            set_text(part.mesh, parts[i].mesh);
+            set_text(part.material_name, parts[i].material);
+            return part;
+        });
+    });
+}
+
+vfit_result vfit_avatar_pack(vfit_avatar handle, const char* size_label, void* bytes, uint32_t* byte_count) {
+    return guard([&] {
+        Use<AvatarObject, Mode::read> avatar(handle.id);
+        if (!avatar->is_body()) fail(VFIT_ERROR_UNSUPPORTED, "a character from a file is no body that could be packed");
+        PackedBody body = avatar->body;
+        body.radii = avatar->radii;
+        body.size_label = size_label ? size_label : "";
+        const std::vector<uint8_t> packed = pack_body(*avatar->context->body_model(), body);
+        return write_bytes(packed.data(), packed.size(), bytes, byte_count);
+    });
+}
+
+vfit_result vfit_avatar_unpack(vfit_context handle, const vfit_avatar_desc* desc, const void* bytes, uint32_t byte_count,
+                               char* size_label, uint32_t capacity, vfit_avatar* out) {
+    return guard([&] {
+        check_pointer(out, "out");
+        out->id = 0;
+        UseContext<Mode::any> context(handle);
+        AvatarDesc d = avatar_desc(desc);
+        check_pointer(bytes, "bytes");
+        const PackedBody body = unpack_body(*context->body_model(), {static_cast<const uint8_t*>(bytes), byte_count});
+        d.sex = body.sex;
+        auto avatar = make<AvatarObject>(context.ref(), d, body.shape, body.scale);
+        avatar->set_collider_radii(body.radii);
+        write_text(body.size_label.data(), body.size_label.size(), size_label, capacity);
         publish(*context, avatar, out);
         return VFIT_OK;
     });
@@ -248,6 +332,12 @@ vfit_result vfit_avatar_rig(vfit_avatar handle, vfit_rig_bone* items, uint32_t s
             bone.rest_position[1] = head.y;
             bone.rest_position[2] = head.z;
             set_text(bone.name, bones[i].name);
+            const Quat q = axes.rotation_out(bones[i].rest_rotation);
+            bone.rest_rotation[0] = q.x;
+            bone.rest_rotation[1] = q.y;
+            bone.rest_rotation[2] = q.z;
+            bone.rest_rotation[3] = q.w;
+            bone.node = bones[i].node;
             return bone;
         });
     });
@@ -265,6 +355,7 @@ vfit_result vfit_avatar_measure_own(vfit_avatar handle, const void* text, uint64
     return guard([&] {
         Use<AvatarObject, Mode::read> avatar(handle.id);
         check_pointer(text, "text");
+        if (!avatar->is_body()) fail(VFIT_ERROR_UNSUPPORTED, "a character from a file has no body that could be measured");
         constexpr uint64_t kMostBytes = 1u << 20;
         if (byte_count > kMostBytes) fail(VFIT_ERROR_ARGUMENT, "byte_count ", byte_count, " is too large");
         const auto own = OwnMeasures::parse({static_cast<const char*>(text), static_cast<size_t>(byte_count)});

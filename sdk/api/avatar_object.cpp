@@ -4,13 +4,40 @@
 
 namespace vfit::api {
 
+namespace {
+
+PackedBody described(const BodyModel& model, const AvatarDesc& desc, std::span<const float> shape, const Vec2& scale) {
+    PackedBody body;
+    body.sex = desc.sex;
+    body.shape = shape.empty() ? model.default_shape(desc.sex) : std::vector<float>(shape.begin(), shape.end());
+    body.scale = scale;
+    return body;
+}
+
+}  // namespace
+
 AvatarObject::AvatarObject(Ref<Context> owner, const AvatarDesc& desc, std::span<const float> shape,
                            const Vec2& scale)
     : ContextChild(std::move(owner)),
       avatar(context->body_model(), desc, shape, scale),
       sex(desc.sex),
+      body(described(*context->body_model(), desc, shape, scale)),
       posed(*context),
       rest(*context) {
+    make_outputs();
+}
+
+AvatarObject::AvatarObject(Ref<Context> owner, const AvatarDesc& desc, Character loaded)
+    : ContextChild(std::move(owner)),
+      avatar(std::move(loaded.source), desc),
+      sex(VFIT_SEX_UNKNOWN),
+      character(std::move(loaded)),
+      posed(*context),
+      rest(*context) {
+    make_outputs();
+}
+
+void AvatarObject::make_outputs() {
     const size_t vertices = avatar.rest().positions.size();
     for (MeshOutput* output : {&posed, &rest}) {
         StaticStreams& topology = output->topology();
@@ -35,6 +62,19 @@ void AvatarObject::add_matrices(Frame& frame, std::span<const Mat4> matrices) co
     for (size_t i = 0; i < matrices.size(); ++i) out[i] = context->axes.matrix_out(matrices[i]);
 }
 
+void AvatarObject::set_collider_radii(std::span<const float, kPaperJointCount> measured) {
+    avatar.set_collider_radii(measured);
+    std::copy(measured.begin(), measured.end(), radii.begin());
+}
+
+std::vector<CharacterPart> AvatarObject::parts() const {
+    if (!is_body()) return character.parts;
+    CharacterPart all;
+    all.mesh = "body";
+    all.index_count = uint32_t(avatar.rest().indices.size());
+    return {all};
+}
+
 void AvatarObject::pose(const Pose& pose) {
     Profile::Scope time(context->profile, Stage::avatar);
     Ref<Frame> frame = posed.begin();
@@ -55,6 +95,7 @@ void AvatarObject::pose_into(const Pose& pose, const SkinTarget& target) {
 }
 
 const std::vector<Measurement>& AvatarObject::measures() {
+    if (!is_body()) fail(VFIT_ERROR_UNSUPPORTED, "a character from a file has no body that could be measured");
     std::lock_guard lock(measures_mutex_);
     if (measures_.empty()) measures_ = measure_avatar(avatar, sex);
     return measures_;

@@ -3,18 +3,32 @@
 
 #include "api/mesh_frame.h"
 #include "avatar/avatar.h"
+#include "avatar/character.h"
+#include "avatar/packed_body.h"
 #include "measure/measurement.h"
 
 namespace vfit::api {
 
 struct AvatarObject : ContextChild {
     static constexpr Kind kKind = Kind::avatar;
+    /// A body of the model.
     AvatarObject(Ref<Context> owner, const AvatarDesc& desc, std::span<const float> shape, const Vec2& scale);
+    /// A character of the host's.
+    AvatarObject(Ref<Context> owner, const AvatarDesc& desc, Character character);
 
     Avatar avatar;
     const vfit_sex sex;
+    const PackedBody body;            // what a body is made of; empty of a character
+    const Character character;        // its mesh moved into `avatar`; without parts of a body
+    bool is_body() const { return !body.shape.empty(); }
     MeshOutput posed, rest;
+    std::array<float, kPaperJointCount> radii{};  // that set_collider_radii was told
     float relative_sigma = 0.0f;  // of measures of its body as the person's whom it was made of; 0: unknown
+
+    /// As the avatar's own, and kept for packets.
+    void set_collider_radii(std::span<const float, kPaperJointCount> measured);
+    /// Triangles by material; a body is one part.
+    std::vector<CharacterPart> parts() const;
 
     /// Poses the avatar and publishes its mesh; nothing changes where it fails.
     void pose(const Pose& pose);
@@ -24,6 +38,7 @@ struct AvatarObject : ContextChild {
     const std::vector<Measurement>& measures();
 
 private:
+    void make_outputs();
     void add_matrices(Frame& frame, std::span<const Mat4> matrices) const;
     std::mutex measures_mutex_;
     std::vector<Measurement> measures_;

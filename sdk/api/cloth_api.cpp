@@ -56,6 +56,7 @@ ClothSettings cloth_settings(const vfit_cloth_desc& d, const FabricMaterial& mat
 
 Dress make_dress(Context& context, const Garment& garment, const FabricMaterial& material, AvatarObject& avatar,
                  const char* size_label, float thickness_m) {
+    if (!avatar.is_body()) fail(VFIT_ERROR_UNSUPPORTED, "garments are made for vfit's own body, not for a character from a file");
     const auto model = context.body_model();
     const BodyTopology& topology = avatar.avatar.topology();
     const uint32_t count = topology.vertex_count;

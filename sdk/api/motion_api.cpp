@@ -2,6 +2,7 @@
 #include "api/avatar_object.h"
 #include "api/bodies.h"
 #include "api/guard.h"
+#include "body/packed_pose.h"
 #include "motion/motion.h"
 
 using namespace vfit;
@@ -119,5 +120,27 @@ vfit_result vfit_motion_joints(vfit_motion handle, vfit_joint* items, uint32_t s
         Use<MotionObject, Mode::read> motion(handle.id);
         require_pose(*motion);
         return write_joints(motion->motion.joints(), motion->context->axes, items, stride, count);
+    });
+}
+
+vfit_result vfit_pose_pack(vfit_context handle, const vfit_pose* pose, const vfit_bone* items, uint32_t stride,
+                           uint32_t count, void* bytes, uint32_t* byte_count) {
+    return guard([&] {
+        UseContext<Mode::any> context(handle);
+        const auto packed = pack_pose(pose_in(read(pose, "pose"), Items<vfit_bone>(items, stride, count, "items"), context->axes));
+        return write_bytes(packed.data(), packed.size(), bytes, byte_count);
+    });
+}
+
+vfit_result vfit_pose_unpack(vfit_context handle, const void* bytes, uint32_t byte_count, vfit_pose* pose, vfit_bone* items,
+                             uint32_t stride, uint32_t* count) {
+    return guard([&] {
+        UseContext<Mode::any> context(handle);
+        check_pointer(bytes, "bytes");
+        if (pose) check_output(pose, "pose");
+        const Pose unpacked = unpack_pose({static_cast<const uint8_t*>(bytes), byte_count});
+        const vfit_result result = write_bones(unpacked, Skeleton(), context->axes, items, stride, count);
+        if (pose) write(pose, pose_out(unpacked, context->axes));
+        return result;
     });
 }

@@ -128,6 +128,17 @@ inline uint32_t write_text(const char* text, size_t length, char* buffer, uint32
     return static_cast<uint32_t>(length);
 }
 
+/// Bytes into a caller's memory: null asks how many, too little is VFIT_ERROR_CAPACITY.
+inline vfit_result write_bytes(const void* from, size_t count, void* to, uint32_t* byte_count) {
+    check_pointer(byte_count, "byte_count");
+    const uint32_t given = *byte_count;
+    *byte_count = static_cast<uint32_t>(count);
+    if (!to) return VFIT_OK;
+    if (given < count) fail(VFIT_ERROR_CAPACITY, "there is room for ", given, " bytes, ", count, " are needed");
+    std::memcpy(to, from, count);
+    return VFIT_OK;
+}
+
 /// Text into a fixed field of a struct.
 template <size_t N>
 void set_text(char (&field)[N], const std::string& text) {

@@ -46,6 +46,7 @@ Avatar::Avatar(AvatarSource source, const AvatarDesc& desc)
       skin_(split_skin(desc, rig_, rest_, skin_bones_, skin_weights_)),
       skinning_(desc.skinning),
       matrices_(rig_.bones().size()) {
+    if (desc.hands_clear) hands_clear_.emplace(rig_, rest_.positions, topology_->parts);
     place_joints();
     measure_inner_spheres();
     const Mesh standing = measuring_mesh(kStaturePosture);
@@ -59,6 +60,9 @@ Avatar::Avatar(AvatarSource source, const AvatarDesc& desc)
 void Avatar::move(const Pose& pose) {
     rig_.pose(pose, posed_, matrices_);
     pose_ = pose;
+    if (!hands_clear_) return;
+    hands_clear_->run(posed_, matrices_, pose_);
+    rig_.pose(pose_, posed_, matrices_);
 }
 
 void Avatar::skin(const SkinTarget& target, const Axes& axes, Jobs& jobs) {

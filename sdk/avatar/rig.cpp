@@ -100,7 +100,7 @@ int stand_in(int bone) {
 }  // namespace
 
 AvatarRig::AvatarRig(std::vector<AvatarBone> bones, float floor_y, uint32_t twist_steps)
-    : bones_(std::move(bones)), twist_steps_(twist_steps) {
+    : bones_(std::move(bones)) {
     map_humanoid_bones();
     build_limbs(twist_steps);
     build_t_pose(floor_y);
@@ -168,13 +168,24 @@ void AvatarRig::build_limbs(uint32_t twist_steps) {
     }
 
     limb_of_.assign(bones_.size(), -1);
-    step_of_.assign(bones_.size(), 0);
-    for (size_t l = 0; l < limbs_.size(); ++l)
-        for (size_t k = 0; k < limbs_[l].rig_bones.size(); ++k) {
-            const auto i = static_cast<size_t>(limbs_[l].rig_bones[k]);
+    share_of_.assign(bones_.size(), 0.0f);
+    if (twist_steps == 0) return;
+    for (size_t l = 0; l < limbs_.size(); ++l) {
+        const LimbChain& limb = limbs_[l];
+        for (size_t k = 0; k < limb.rig_bones.size(); ++k) {
+            const auto i = static_cast<size_t>(limb.rig_bones[k]);
             limb_of_[i] = static_cast<int>(l);
-            step_of_[i] = static_cast<int>(k);
+            share_of_[i] = float(k) / float(twist_steps);
         }
+        const Vec3 axis = limb.far_joint - limb.near_joint;
+        for (size_t i = 0; i < bones_.size(); ++i) {
+            if (!bones_[i].is_twist || bones_[i].parent != limb.rig_bones.front()) continue;
+            // One that starts with its limb carries all of it: half of the twist is the least wrong.
+            const float along = glm::dot(bones_[i].rest_head - limb.near_joint, axis) / glm::dot(axis, axis);
+            limb_of_[i] = static_cast<int>(l);
+            share_of_[i] = along < 0.05f ? 0.5f : std::min(along, 1.0f);
+        }
+    }
 }
 
 void AvatarRig::build_t_pose(float floor_y) {
@@ -235,9 +246,9 @@ void AvatarRig::pose(const Pose& pose, PosedSkeleton& posed, std::span<Mat4> mat
     const Mat4 hips = place(VFIT_BONE_HIPS, posed.rotation[VFIT_BONE_HIPS]);
     for (size_t i = 0; i < bones_.size(); ++i) {
         const int limb = limb_of_[i];
-        if (limb >= 0 && twist_steps_ > 0) {
+        if (limb >= 0) {
             const LimbTurn& turn = turns[static_cast<size_t>(limb)];
-            const float share = float(step_of_[i]) / float(twist_steps_);
+            const float share = share_of_[i];
             // About the near joint: the limb's axis stays where it is for every share of the twist.
             matrices[i] = place(kLimbs[limb].bone, turn.swung * fraction(turn.twist, share));
         } else if (bones_[i].bone >= 0) {

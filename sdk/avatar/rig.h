@@ -1,6 +1,6 @@
 // The bones behind the avatar's skin: from the rest posture of a body to any pose of the humanoid bones.
 // Bones of the rig that are no humanoid bones follow their parent rigidly, except those that share a
-// limb's twist (bone splitting, section 3.3.3 of the paper).
+// limb's twist (bone splitting, section 3.3.3 of the paper): the rig's own twist bones, and those that are made here.
 #pragma once
 
 #include <array>
@@ -23,6 +23,7 @@ struct AvatarBone {
     Vec3 rest_tail{0.0f};     // of a hand: the root of the middle finger
     Quat rest_rotation{1, 0, 0, 0};  // world, of the bone's own axes
     int node = -1;            // of the file that it came from
+    bool is_twist = false;    // beside the way to the limb's end, to share in its twist
 };
 
 /// A limb of the rest posture and the rig bones that carry it, the original first, the extension last:
@@ -64,9 +65,9 @@ private:
     std::array<int, kBoneCount> rig_of_{};
     std::array<int, kBoneCount> turned_by_{};  // the bone whose world rotation the rig's one takes
     std::vector<LimbChain> limbs_;
-    uint32_t twist_steps_;
     std::array<Quat, kBoneCount> t_pose_;  // world rotation of each humanoid bone from rest to T-pose
-    std::vector<int> limb_of_, step_of_;   // one a rig bone; limb -1: none
+    std::vector<int> limb_of_;             // one a rig bone; -1: none
+    std::vector<float> share_of_;          // of its limb's twist
     Skeleton skeleton_;
 };
 

@@ -17,6 +17,7 @@ void add_fit(Command& app);
 void add_record(Command& app);
 void add_cook(Command& app);
 void add_plot(Command& app);
+void add_character(Command& app);
 
 /// "--joints", "--user-map" and "--active".
 void add_track_options(Command& command, TrackOptions& options);

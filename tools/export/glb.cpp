@@ -1,11 +1,8 @@
 #include "export/glb.h"
 
-#define TINYGLTF_NO_STB_IMAGE
-#define TINYGLTF_NO_STB_IMAGE_WRITE
-#include <tiny_gltf.h>
-
 #include <algorithm>
-#include <glm/gtc/quaternion.hpp>
+
+#include "export/glb_writer.h"
 
 namespace vfit::tools {
 
@@ -14,83 +11,6 @@ namespace {
 using glm::mat4;
 using glm::quat;
 using glm::vec3;
-
-/// Builds one GLB with a single binary buffer.
-class Writer {
-public:
-    Writer() {
-        model_.asset.version = "2.0";
-        model_.asset.generator = "vfit";
-        model_.buffers.emplace_back();
-    }
-    tinygltf::Model& model() { return model_; }
-
-    template <typename T>
-    int add(const std::vector<T>& items, int type, int component, int target, bool bounds = false) {
-        auto& bytes = model_.buffers[0].data;
-        while (bytes.size() % 4) bytes.push_back(0);
-        tinygltf::BufferView view;
-        view.buffer = 0;
-        view.byteOffset = bytes.size();
-        view.byteLength = items.size() * sizeof(T);
-        view.target = target;
-        const auto* from = reinterpret_cast<const unsigned char*>(items.data());
-        bytes.insert(bytes.end(), from, from + view.byteLength);
-        model_.bufferViews.push_back(view);
-        tinygltf::Accessor accessor;
-        accessor.bufferView = static_cast<int>(model_.bufferViews.size()) - 1;
-        accessor.componentType = component;
-        accessor.type = type;
-        accessor.count = items.size() * sizeof(T) / size_of(type, component);
-        if (bounds) set_bounds(accessor, reinterpret_cast<const float*>(items.data()));
-        model_.accessors.push_back(accessor);
-        return static_cast<int>(model_.accessors.size()) - 1;
-    }
-    int add_vectors(const std::vector<vec3>& v, bool bounds) {
-        return add(v, TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TARGET_ARRAY_BUFFER, bounds);
-    }
-    int add_times(const std::vector<float>& t) {
-        return add(t, TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_FLOAT, 0, true);
-    }
-    int add_indices(const std::vector<uint32_t>& indices) {
-        return add(indices, TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
-                   TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
-    }
-    int add_material(const std::string& name, const std::vector<double>& color, double roughness, bool two_sided) {
-        tinygltf::Material material;
-        material.name = name;
-        material.pbrMetallicRoughness.baseColorFactor = color;
-        material.pbrMetallicRoughness.metallicFactor = 0.0;
-        material.pbrMetallicRoughness.roughnessFactor = roughness;
-        material.doubleSided = two_sided;
-        model_.materials.push_back(material);
-        return static_cast<int>(model_.materials.size()) - 1;
-    }
-    int add_node(tinygltf::Node node) {
-        model_.nodes.push_back(std::move(node));
-        return static_cast<int>(model_.nodes.size()) - 1;
-    }
-
-private:
-    static size_t size_of(int type, int component) {
-        return static_cast<size_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(type)) *
-                                   tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(component)));
-    }
-    static void set_bounds(tinygltf::Accessor& accessor, const float* values) {
-        const int n = tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor.type));
-        accessor.minValues.assign(static_cast<size_t>(n), 1e30);
-        accessor.maxValues.assign(static_cast<size_t>(n), -1e30);
-        for (size_t i = 0; i < accessor.count; ++i)
-            for (int c = 0; c < n; ++c) {
-                const double x = values[i * static_cast<size_t>(n) + static_cast<size_t>(c)];
-                auto& low = accessor.minValues[static_cast<size_t>(c)];
-                auto& high = accessor.maxValues[static_cast<size_t>(c)];
-                low = std::min(low, x);
-                high = std::max(high, x);
-            }
-    }
-    tinygltf::Model model_;
-};
 
 /// Place of a joint relative to its parent.
 struct Local {
@@ -115,11 +35,8 @@ std::vector<Local> locals(const std::vector<vfit_rig_bone>& rig, const std::vect
     return out;
 }
 
-std::vector<double> values(const vec3& v) { return {v.x, v.y, v.z}; }
-std::vector<double> values(const quat& q) { return {q.x, q.y, q.z, q.w}; }
-
 /// Joint indices and weights 4 by 4; an unused place names joint 0 with weight 0.
-void add_skin_attributes(Writer& writer, tinygltf::Primitive& primitive, vfit_frame rest) {
+void add_skin_attributes(GlbWriter& writer, tinygltf::Primitive& primitive, vfit_frame rest) {
     struct Bones { uint16_t bone[8]; };
     struct Weights { float weight[8]; };
     const auto bones = items_of<Bones>(rest, VFIT_STREAM_SKIN_BONES);
@@ -138,19 +55,6 @@ void add_skin_attributes(Writer& writer, tinygltf::Primitive& primitive, vfit_fr
         primitive.attributes["WEIGHTS_" + suffix] =
             writer.add(w, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TARGET_ARRAY_BUFFER);
     }
-}
-
-void add_channel(tinygltf::Animation& animation, int node, const char* path, int times, int output) {
-    tinygltf::AnimationSampler sampler;
-    sampler.input = times;
-    sampler.output = output;
-    sampler.interpolation = "LINEAR";
-    animation.samplers.push_back(sampler);
-    tinygltf::AnimationChannel channel;
-    channel.sampler = static_cast<int>(animation.samplers.size()) - 1;
-    channel.target_node = node;
-    channel.target_path = path;
-    animation.channels.push_back(channel);
 }
 
 }  // namespace
@@ -172,7 +76,7 @@ void GlbAnimation::add_key(float time_s) {
 
 void GlbAnimation::write(const std::string& path) const {
     if (keys_.empty()) throw Failure("the animation has no key frame");
-    Writer writer;
+    GlbWriter writer;
     tinygltf::Model& model = writer.model();
     Frame rest, garment;
     check(vfit_avatar_acquire_rest(avatar_, rest.out()));
@@ -206,7 +110,7 @@ void GlbAnimation::write(const std::string& path) const {
         else
             model.nodes[size_t(skin.joints[size_t(rig_[i].parent)])].children.push_back(skin.joints.back());
     }
-    skin.inverseBindMatrices = writer.add(inverse_bind, TINYGLTF_TYPE_MAT4, TINYGLTF_COMPONENT_TYPE_FLOAT, 0);
+    skin.inverseBindMatrices = writer.add_matrices(inverse_bind);
     model.skins.push_back(skin);
 
     std::vector<std::vector<quat>> rotations(rig_.size());
@@ -221,8 +125,7 @@ void GlbAnimation::write(const std::string& path) const {
         }
     }
     for (size_t i = 0; i < rig_.size(); ++i) {
-        // GLM keeps x, y, z, w in memory, as glTF does.
-        const int r = writer.add(rotations[i], TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_FLOAT, 0);
+        const int r = writer.add_rotations(rotations[i]);
         add_channel(animation, skin.joints[i], "rotation", time_accessor, r);
         if (rig_[i].parent < 0) {
             const int t = writer.add(translations[i], TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_FLOAT, 0);
@@ -289,8 +192,7 @@ void GlbAnimation::write(const std::string& path) const {
     model.scenes.push_back(scene);
     model.defaultScene = 0;
 
-    tinygltf::TinyGLTF gltf;
-    if (!gltf.WriteGltfSceneToFile(&model, path, true, true, false, true)) throw Failure(path + ": cannot be written");
+    writer.save(path);
 }
 
 }  // namespace vfit::tools

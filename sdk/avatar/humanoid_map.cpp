@@ -1,0 +1,202 @@
+#include "avatar/humanoid_map.h"
+
+#include <cctype>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "avatar/rig.h"
+#include "core/error.h"
+
+namespace vfit {
+
+namespace {
+
+struct NamedBone {
+    const char* name;  // words of the name without side, prefix and number
+    int bone;          // of the left where it has a side
+};
+
+// Unity, VRoid, Mixamo, Unreal, 3ds Max Biped, Rigify, MakeHuman.
+constexpr NamedBone kNames[] = {
+    {"hips", VFIT_BONE_HIPS}, {"hip", VFIT_BONE_HIPS}, {"pelvis", VFIT_BONE_HIPS},
+    {"spine", VFIT_BONE_SPINE}, {"chest", VFIT_BONE_SPINE}, {"upperchest", VFIT_BONE_SPINE}, {"torso", VFIT_BONE_SPINE},
+    {"abdomen", VFIT_BONE_SPINE}, {"waist", VFIT_BONE_SPINE},
+    {"neck", VFIT_BONE_NECK}, {"head", VFIT_BONE_HEAD},
+    {"shoulder", VFIT_BONE_LEFT_SHOULDER}, {"clavicle", VFIT_BONE_LEFT_SHOULDER}, {"collar", VFIT_BONE_LEFT_SHOULDER},
+    {"collarbone", VFIT_BONE_LEFT_SHOULDER},
+    {"upperarm", VFIT_BONE_LEFT_UPPER_ARM}, {"uparm", VFIT_BONE_LEFT_UPPER_ARM}, {"arm", VFIT_BONE_LEFT_UPPER_ARM},
+    {"lowerarm", VFIT_BONE_LEFT_LOWER_ARM}, {"forearm", VFIT_BONE_LEFT_LOWER_ARM}, {"elbow", VFIT_BONE_LEFT_LOWER_ARM},
+    {"hand", VFIT_BONE_LEFT_HAND}, {"wrist", VFIT_BONE_LEFT_HAND},
+    {"upperleg", VFIT_BONE_LEFT_UPPER_LEG}, {"upleg", VFIT_BONE_LEFT_UPPER_LEG}, {"thigh", VFIT_BONE_LEFT_UPPER_LEG},
+    {"lowerleg", VFIT_BONE_LEFT_LOWER_LEG}, {"leg", VFIT_BONE_LEFT_LOWER_LEG}, {"calf", VFIT_BONE_LEFT_LOWER_LEG},
+    {"shin", VFIT_BONE_LEFT_LOWER_LEG}, {"knee", VFIT_BONE_LEFT_LOWER_LEG},
+    {"foot", VFIT_BONE_LEFT_FOOT}, {"ankle", VFIT_BONE_LEFT_FOOT},
+    {"toes", VFIT_BONE_LEFT_TOES}, {"toe", VFIT_BONE_LEFT_TOES}, {"toebase", VFIT_BONE_LEFT_TOES}, {"ball", VFIT_BONE_LEFT_TOES},
+};
+
+/// "mixamorig:LeftUpLeg" to {"left", "up", "leg"}; numbers are dropped.
+std::vector<std::string> words_of(const std::string& name) {
+    std::vector<std::string> words;
+    std::string word;
+    const auto finish = [&] {
+        if (!word.empty()) words.push_back(word);
+        word.clear();
+    };
+    const size_t colon = name.rfind(':');
+    bool was_lower = false;
+    for (const char c : colon == std::string::npos ? name : name.substr(colon + 1)) {
+        const auto u = static_cast<unsigned char>(c);
+        if (!std::isalpha(u) || (std::isupper(u) && was_lower)) finish();
+        was_lower = std::islower(u) != 0;
+        if (std::isalpha(u)) word += char(std::tolower(u));
+    }
+    finish();
+    return words;
+}
+
+bool is_prefix(const std::string& word) {
+    for (const char* known : {"j", "bip", "mixamorig", "def", "c", "cc", "base", "bone", "jnt", "rig"})
+        if (word == known) return true;
+    return false;
+}
+
+int of_right(int bone) {
+    if (bone >= VFIT_BONE_LEFT_UPPER_LEG) return bone + (VFIT_BONE_RIGHT_UPPER_LEG - VFIT_BONE_LEFT_UPPER_LEG);
+    return bone + (VFIT_BONE_RIGHT_SHOULDER - VFIT_BONE_LEFT_SHOULDER);
+}
+
+int bone_from_vrm_name(const std::string& name) {
+    for (int b = 0; b < kBoneCount; ++b)
+        if (name == bone_name(b)) return b;
+    return -1;
+}
+
+void set_bone(const GltfDocument& document, HumanoidMap& map, int bone, int node, const char* source) {
+    if (node < 0 || size_t(node) >= document.model().nodes.size())
+        fail(VFIT_ERROR_DATA, source, " names node ", node, " as ", bone_name(bone), ", which is not there");
+    map.node[size_t(bone)] = node;
+}
+
+const tinygltf::Value* member(const tinygltf::Value* value, const char* key) {
+    return value && value->IsObject() && value->Has(key) ? &value->Get(key) : nullptr;
+}
+
+const tinygltf::Value* extension(const GltfDocument& document, const char* name) {
+    const auto found = document.model().extensions.find(name);
+    return found == document.model().extensions.end() ? nullptr : &found->second;
+}
+
+/// humanBones: [{"bone": "hips", "node": 3}, ...].
+void read_vrm0(const GltfDocument& document, const tinygltf::Value* bones, HumanoidMap& map) {
+    for (size_t i = 0; bones && bones->IsArray() && i < bones->ArrayLen(); ++i) {
+        const tinygltf::Value& item = bones->Get(int(i));
+        const tinygltf::Value *name = member(&item, "bone"), *node = member(&item, "node");
+        if (!name || !name->IsString() || !node || !node->IsNumber()) fail(VFIT_ERROR_DATA, "VRM: humanBones ", i, " is malformed");
+        if (const int bone = bone_from_vrm_name(name->Get<std::string>()); bone >= 0)
+            set_bone(document, map, bone, node->GetNumberAsInt(), "VRM");
+    }
+}
+
+/// humanBones: {"hips": {"node": 3}, ...}.
+void read_vrm1(const GltfDocument& document, const tinygltf::Value* bones, HumanoidMap& map) {
+    if (!bones || !bones->IsObject()) return;
+    for (const std::string& key : bones->Keys()) {
+        const int bone = bone_from_vrm_name(key);
+        const tinygltf::Value* node = member(&bones->Get(key), "node");
+        if (bone < 0) continue;
+        if (!node || !node->IsNumber()) fail(VFIT_ERROR_DATA, "VRM: humanBones.", key, " names no node");
+        set_bone(document, map, bone, node->GetNumberAsInt(), "VRM");
+    }
+}
+
+void read_own(const GltfDocument& document, const std::string& json, HumanoidMap& map) {
+    const auto parsed = nlohmann::json::parse(json, nullptr, false);
+    if (!parsed.is_object()) fail(VFIT_ERROR_ARGUMENT, "the bone map is no JSON object {\"hips\": \"node name\", ...}");
+    for (const auto& [key, value] : parsed.items()) {
+        const int bone = bone_from_vrm_name(key);
+        if (bone < 0) fail(VFIT_ERROR_ARGUMENT, "the bone map's \"", key, "\" is no VRM bone name");
+        if (!value.is_string()) fail(VFIT_ERROR_ARGUMENT, "the bone map's ", key, " is no text");
+        int found = -1;
+        for (const int node : document.nodes_in_order())
+            if (document.node_name(node) == value.get<std::string>()) found = node;
+        if (found < 0) fail(VFIT_ERROR_DATA, "the bone map's ", key, ": the file has no node \"", value.get<std::string>(), "\"");
+        map.node[size_t(bone)] = found;
+    }
+}
+
+void read_names(const GltfDocument& document, HumanoidMap& map) {
+    for (const int node : document.nodes_in_order()) {
+        const int bone = bone_of_name(document.node_name(node));
+        // Of several segments the one next to the root is the bone.
+        if (bone >= 0 && bone != VFIT_BONE_SPINE && map.node[size_t(bone)] < 0) map.node[size_t(bone)] = node;
+    }
+    // The trunk by its place: what lies between hips and neck, or head.
+    const int top = map.node[VFIT_BONE_NECK] >= 0 ? map.node[VFIT_BONE_NECK] : map.node[VFIT_BONE_HEAD];
+    if (map.node[VFIT_BONE_SPINE] >= 0 || top < 0) return;
+    std::vector<int> chain;
+    int node = document.parent(top);
+    for (; node >= 0 && node != map.node[VFIT_BONE_HIPS]; node = document.parent(node)) chain.insert(chain.begin(), node);
+    if (node < 0 || chain.empty()) return;
+    map.node[VFIT_BONE_SPINE] = chain.front();
+    if (chain.size() > 1) map.node[VFIT_BONE_CHEST] = chain[chain.size() > 2 ? chain.size() / 2 : 1];
+    if (chain.size() > 2) map.node[VFIT_BONE_UPPER_CHEST] = chain.back();
+}
+
+bool is_above(const GltfDocument& document, int node, int ancestor) {
+    while (node >= 0 && node != ancestor) node = document.parent(node);
+    return node == ancestor;
+}
+
+void check(const GltfDocument& document, const HumanoidMap& map) {
+    std::string missing;
+    for (int b = 0; b < kBoneCount; ++b)
+        if (map.node[size_t(b)] < 0 && !is_optional_bone(b)) missing += (missing.empty() ? "" : ", ") + std::string(bone_name(b));
+    if (!missing.empty())
+        fail(VFIT_ERROR_DATA, "the character has no bone for ", missing, "; name its nodes in a bone map");
+    for (int b = 1; b < kBoneCount; ++b) {
+        const int node = map.node[size_t(b)];
+        if (node < 0) continue;
+        int above = bone_parent(b);
+        while (map.node[size_t(above)] < 0) above = bone_parent(above);
+        const int parent = map.node[size_t(above)];
+        if (node == parent || !is_above(document, node, parent))
+            fail(VFIT_ERROR_DATA, "the bone ", bone_name(b), " (node \"", document.node_name(node), "\") does not hang on ",
+                 bone_name(above), " (\"", document.node_name(parent), "\")");
+    }
+}
+
+}  // namespace
+
+int bone_of_name(const std::string& name) {
+    std::string joined;
+    bool left = false, right = false;
+    for (const std::string& word : words_of(name)) {
+        if (word == "l" || word == "left") left = true;
+        else if (word == "r" || word == "right") right = true;
+        else if (!is_prefix(word)) joined += word;
+    }
+    for (const NamedBone& known : kNames) {
+        if (joined != known.name) continue;
+        if (known.bone < VFIT_BONE_LEFT_SHOULDER) return left || right ? -1 : known.bone;
+        if (left == right) return -1;
+        return left ? known.bone : of_right(known.bone);
+    }
+    return -1;
+}
+
+HumanoidMap find_humanoid(const GltfDocument& document, const std::string& own_map) {
+    HumanoidMap map;
+    if (const tinygltf::Value* vrm = extension(document, "VRMC_vrm")) {
+        map.kind = CharacterKind::vrm1;
+        read_vrm1(document, member(member(vrm, "humanoid"), "humanBones"), map);
+    } else if (const tinygltf::Value* vrm = extension(document, "VRM")) {
+        map.kind = CharacterKind::vrm0;
+        read_vrm0(document, member(member(vrm, "humanoid"), "humanBones"), map);
+    }
+    if (!own_map.empty()) read_own(document, own_map, map);
+    if (map.kind == CharacterKind::gltf) read_names(document, map);
+    check(document, map);
+    return map;
+}
+
+}  // namespace vfit
