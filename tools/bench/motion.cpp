@@ -20,7 +20,7 @@ struct Part {
     Json (*judge)(const MotionJudge&);
 };
 constexpr Part kParts[] = {{"filters", judge_filters}, {"feet", judge_feet}, {"real", judge_real}, {"time", judge_time},
-                           {"skinning", judge_skinning}};
+                           {"skinning", judge_skinning}, {"characters", judge_characters}};
 
 void motion(const Options& options) {
     RealStreams real;

@@ -23,5 +23,6 @@ Json judge_feet(const MotionJudge& judge);
 Json judge_real(const MotionJudge& judge);
 Json judge_time(const MotionJudge& judge);
 Json judge_skinning(const MotionJudge& judge);
+Json judge_characters(const MotionJudge& judge);
 
 }  // namespace vfit::tools
