@@ -273,7 +273,8 @@ private:
                     if (rig_.bones[i].bone == VFIT_BONE_HIPS) hips.add(int(i), 1.0f);
                 hips.write(b, w);
             }
-            const Mat4 m = total > kLeastWeight ? sum / total : fixed;
+            // Without weights it stays where it is bound, as its neighbours do.
+            const Mat4 m = total > kLeastWeight ? sum / total : skin >= 0 && !joints_.empty() ? joints_[0].matrix : fixed;
             const Vec3 p(m * Vec4(positions[3 * v], positions[3 * v + 1], positions[3 * v + 2], 1.0f));
             Vec3 n(0.0f);
             if (!normals.empty()) {

@@ -288,7 +288,38 @@ OFFSET(vfit_rig_bone, parent, 4);
 OFFSET(vfit_rig_bone, bone, 8);
 OFFSET(vfit_rig_bone, rest_position, 12);
 OFFSET(vfit_rig_bone, name, 24);
-SIZE(vfit_rig_bone, 72);
+OFFSET(vfit_rig_bone, rest_rotation, 72);
+OFFSET(vfit_rig_bone, node, 88);
+OFFSET(vfit_rig_bone, reserved, 92);
+SIZE(vfit_rig_bone, 96);
+
+OFFSET(vfit_character_desc, struct_size, 0);
+OFFSET(vfit_character_desc, reserved, 4);
+OFFSET(vfit_character_desc, path, 8);
+OFFSET(vfit_character_desc, bytes, 16);
+OFFSET(vfit_character_desc, byte_count, 24);
+OFFSET(vfit_character_desc, bone_map, 32);
+SIZE(vfit_character_desc, 40);
+
+OFFSET(vfit_character_info, struct_size, 0);
+OFFSET(vfit_character_info, kind, 4);
+OFFSET(vfit_character_info, vertex_count, 8);
+OFFSET(vfit_character_info, index_count, 12);
+OFFSET(vfit_character_info, bone_count, 16);
+OFFSET(vfit_character_info, part_count, 20);
+OFFSET(vfit_character_info, stature_m, 24);
+OFFSET(vfit_character_info, from_file, 28);
+OFFSET(vfit_character_info, name, 92);
+OFFSET(vfit_character_info, reserved, 156);
+SIZE(vfit_character_info, 160);
+
+OFFSET(vfit_avatar_part, struct_size, 0);
+OFFSET(vfit_avatar_part, first_index, 4);
+OFFSET(vfit_avatar_part, index_count, 8);
+OFFSET(vfit_avatar_part, material, 12);
+OFFSET(vfit_avatar_part, mesh, 16);
+OFFSET(vfit_avatar_part, material_name, 64);
+SIZE(vfit_avatar_part, 112);
 
 OFFSET(vfit_garment_info, struct_size, 0);
 OFFSET(vfit_garment_info, vertex_count, 4);

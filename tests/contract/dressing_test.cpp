@@ -124,7 +124,7 @@ TEST_F(DressingTest, LevelsOfDetailAreThreeAndOneForCrowds) {
     vfit_avatar_desc desc = vfit_avatar_desc_init();
     vfit_frame crowd{};
     ASSERT_EQ(vfit_avatar_acquire(make_avatar(3), &crowd), VFIT_OK);
-    EXPECT_NEAR(double(width_of(crowd, VFIT_STREAM_POSITION)), 1000.0, 200.0);
+    EXPECT_NEAR(double(width_of(crowd, VFIT_STREAM_POSITION)), 1200.0, 200.0);  // 1000 and copies at seams
     desc.detail = 4;
     vfit_avatar avatar{};
     EXPECT_EQ(vfit_avatar_create_from_shape(context, &desc, nullptr, 0, 0, &avatar), VFIT_ERROR_ARGUMENT);

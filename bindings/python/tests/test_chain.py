@@ -1,6 +1,10 @@
 """The whole chain on the virtual person: scan, size, avatar, motion, cloth, buffers."""
 
 import json
+import os
+import subprocess
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -232,3 +236,61 @@ def test_unity_axes_are_left_handed_with_the_same_outside():
         p, q, r = (frame.positions[frame.triangles[:, corner]] for corner in range(3))
         outward = np.einsum("ni,ni->n", np.cross(q - p, r - p), frame.normals[frame.triangles[:, 0]])
         assert (outward > 0).mean() > 0.95
+
+
+def test_poses_and_bodies_go_over_the_network(fitted):
+    ctx, _, _, _, avatar, motion = fitted
+    pose = motion.pose()
+    packet = ctx.pack_pose(pose)
+    assert len(packet) <= 120
+    back = ctx.unpack_pose(packet)
+    assert back.time_ns == pose.time_ns and back.contacts == pose.contacts
+    assert np.abs(np.sum(back.rotations * pose.rotations, axis=1)).min() > 0.99999
+    assert np.allclose(back.positions[0], pose.positions[0], atol=1e-3)
+    body = avatar.pack("M")
+    assert len(body) <= 200
+    other, label = vfit.Avatar.unpack(ctx, body)
+    assert label == "M"
+    assert other.measure()["waist_girth_m"].value == pytest.approx(avatar.measure()["waist_girth_m"].value, abs=2e-3)
+    with pytest.raises(vfit.DataError):
+        ctx.unpack_pose(packet[:50])
+    with pytest.raises(vfit.VersionError):
+        vfit.Avatar.unpack(ctx, b"\x09" + body[1:])
+
+
+def test_the_skin_goes_into_arrays_of_ones_own(fitted):
+    _, _, _, _, avatar, motion = fitted
+    avatar.pose(motion.pose())
+    frame = avatar.acquire()
+    vertices = np.zeros(len(frame.positions), dtype=[("position", "3f4"), ("normal", "3f4"), ("uv", "2f4")])
+    avatar.pose_into(motion.pose(), vertices["position"], vertices["normal"])
+    assert np.array_equal(vertices["position"], frame.positions) and np.array_equal(vertices["normal"], frame.normals)
+    assert not vertices["uv"].any()
+    with pytest.raises(vfit.CapacityError):
+        avatar.pose_into(motion.pose(), vertices["position"][:100])
+
+
+def test_a_character_of_ones_own_is_loaded(fitted, tmp_path):
+    ctx, _, _, _, avatar, motion = fitted
+    assert avatar.describe().kind == "body" and avatar.parts()[0].material_index is None
+    nobody = tmp_path / "nobody.gltf"
+    nobody.write_text('{"asset": {"version": "2.0"}}')
+    with pytest.raises(vfit.DataError, match="skinned"):
+        vfit.Avatar.load(ctx, nobody)
+    with pytest.raises(vfit.FileError, match="missing.vrm"):
+        vfit.Avatar.load(ctx, tmp_path / "missing.vrm")
+    with pytest.raises(vfit.DataError):
+        vfit.Avatar.load(ctx, b"glTF but no more than that")
+    program = Path(os.environ.get("VFIT_BUILD_DIR", "build")) / "bin" / "vfit"
+    if not program.exists():
+        pytest.skip("no vfit command line to write a character with")
+    vrm = tmp_path / "body.vrm"
+    subprocess.run([program, "character", "--rig", "vrm1", "--out", vrm], check=True)
+    with vfit.Avatar.load(ctx, vrm, bone_map={"head": "head"}) as character:
+        about = character.describe()
+        assert about.kind == "vrm1" and about.name == "vfit body" and about.from_file.shape == (4, 4)
+        assert {b.name for b in character.rig() if b.node is not None} >= {"hips", "head", "leftHand"}
+        other = vfit.Motion(ctx)
+        other.bind(character)
+        character.pose(motion.pose())
+        assert np.isfinite(character.acquire().positions).all()

@@ -199,17 +199,44 @@ TEST(AvatarRig, PoseThatIsNotFiniteIsRefusedAndChangesNothing) {
     expect_refused(pose, "leftFoot");
 }
 
-TEST(AvatarRig, RigWithoutAHumanoidBoneIsRefusedByName) {
+std::vector<AvatarBone> rig_without(std::initializer_list<int> missing) {
     std::vector<AvatarBone> bones = synthetic_rig();
     for (AvatarBone& bone : bones)
-        if (bone.bone == VFIT_BONE_NECK) bone.bone = -1;
-    try {
-        const AvatarRig rig(bones, 0.0f, 1);
-        FAIL() << "accepted";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), VFIT_ERROR_DATA);
-        EXPECT_NE(std::string(error.what()).find("neck"), std::string::npos);
+        for (const int m : missing)
+            if (bone.bone == m) bone.bone = -1;
+    return bones;
+}
+
+TEST(AvatarRig, RigWithoutARequiredBoneIsRefusedByName) {
+    for (int b = 0; b < kBoneCount; ++b) {
+        if (is_optional_bone(b)) {
+            EXPECT_NO_THROW(AvatarRig(rig_without({b}), 0.0f, 1)) << bone_name(b);
+            continue;
+        }
+        try {
+            const AvatarRig rig(rig_without({b}), 0.0f, 1);
+            FAIL() << "accepted without " << bone_name(b);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), VFIT_ERROR_DATA);
+            EXPECT_NE(std::string(error.what()).find(bone_name(b)), std::string::npos);
+        }
     }
+}
+
+TEST(AvatarRig, OthersTurnForMissingBones) {
+    const AvatarRig rig(rig_without({VFIT_BONE_CHEST, VFIT_BONE_UPPER_CHEST, VFIT_BONE_NECK, VFIT_BONE_LEFT_SHOULDER}), 0.0f, 1);
+    const AvatarRig full(synthetic_rig(), 0.0f, 1);
+    const Posed posed = run(rig, lively_pose()), wanted = run(full, lively_pose());
+    const auto turn = [](const AvatarRig& r, const Posed& p, int bone) {
+        return turn_of(p.matrices[static_cast<size_t>(r.rig_bone(bone))]);
+    };
+    // What hangs on missing bones is turned as by a full rig; the spine takes what the chest would.
+    for (const int b : {VFIT_BONE_HIPS, VFIT_BONE_HEAD, VFIT_BONE_LEFT_UPPER_ARM, VFIT_BONE_LEFT_HAND, VFIT_BONE_RIGHT_UPPER_ARM})
+        EXPECT_LT(angle_between(turn(rig, posed, b), turn(full, wanted, b)), 0.1f) << bone_name(b);
+    EXPECT_LT(angle_between(turn(rig, posed, VFIT_BONE_SPINE), turn(full, wanted, VFIT_BONE_UPPER_CHEST)), 1e-3f);
+    // The head turns in its place: on the neck's way it would leave the trunk.
+    const Vec3 head = posed.skeleton.position[VFIT_BONE_HEAD];
+    EXPECT_LT(glm::distance(head, carried(rig, posed, rig.rig_bone(VFIT_BONE_SPINE), rig.rest_head(VFIT_BONE_HEAD))), 1e-4f);
 }
 
 TEST(AvatarRig, RigWithoutTwistSegmentsGetsThem) {

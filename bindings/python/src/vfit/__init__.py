@@ -58,8 +58,10 @@ from .errors import (
     VersionError,
 )
 from .values import (
+    AvatarPart,
     Body,
     Camera,
+    CharacterInfo,
     ClothStats,
     Collider,
     ContextStats,
@@ -87,8 +89,8 @@ from .values import (
 )
 
 __all__ = [
-    "ActiveState", "ArgumentError", "Avatar", "Axes", "BONE_NAMES", "BONE_PARENTS", "Body", "Bone", "BusyError",
-    "Camera", "CapacityError", "Cloth", "ClothStats", "Collider", "Context", "ContextStats", "DataError",
+    "ActiveState", "ArgumentError", "Avatar", "AvatarPart", "Axes", "BONE_NAMES", "BONE_PARENTS", "Body", "Bone", "BusyError",
+    "Camera", "CapacityError", "CharacterInfo", "Cloth", "ClothStats", "Collider", "Context", "ContextStats", "DataError",
     "DeviceLostError", "Error", "FileError", "FloorState", "Frame", "Garment", "GarmentInfo", "Guidance",
     "HandleError", "Intrinsics", "Joint", "JointPoint", "JointState", "Joints", "LibraryInfo", "LogLevel",
     "LogLine", "MEASURES", "Measurement", "Motion", "OutOfMemoryError", "PluginError", "PluginInfo", "Pose",

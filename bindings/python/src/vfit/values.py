@@ -21,7 +21,7 @@ from ._vfit import (
 )
 
 __all__ = [
-    "Body", "Camera", "ClothStats", "Collider", "ContextStats", "GarmentInfo", "Intrinsics", "JointPoint", "Joints",
+    "AvatarPart", "Body", "Camera", "CharacterInfo", "ClothStats", "Collider", "ContextStats", "GarmentInfo", "Intrinsics", "JointPoint", "Joints",
     "LibraryInfo", "LogLine", "Measurement", "PluginInfo", "Pose", "RigBone", "Scale", "ScanState", "SensorInfo",
     "SensorMode", "SensorOption", "SensorStats", "ShapeValue", "Size", "SizeRow", "SizeZone",
     "StageTime",
@@ -263,6 +263,30 @@ class RigBone(NamedTuple):
     """-1: root."""
     bone: Optional[Bone]
     rest_position: Vector
+    rest_rotation: Tuple[float, float, float, float]
+    """xyzw, of the bone's own axes."""
+    node: Optional[int]
+    """Of the character's file."""
+
+
+class CharacterInfo(NamedTuple):
+    kind: str
+    """'body', 'gltf', 'vrm0' or 'vrm1'."""
+    name: str
+    stature_m: float
+    vertex_count: int
+    index_count: int
+    bone_count: int
+    from_file: np.ndarray
+    """(4, 4), m[row, column]: the rest mesh is m times the file's world."""
+
+
+class AvatarPart(NamedTuple):
+    mesh: str
+    material: str
+    material_index: Optional[int]
+    first_index: int
+    index_count: int
 
 
 class GarmentInfo(NamedTuple):
