@@ -552,6 +552,9 @@ typedef struct vfit_motion_desc {
     float min_cutoff_hz, beta, derivative_cutoff_hz;    /* One Euro; default 1, 1 (Hz for each m/s), 1  */
     float prediction_s;                 /* looks ahead of now_ns, to hide latency: 0..0.2; default 0     */
     vfit_contact_rule contact_rule;
+    uint32_t reserved;
+    const char* range_of_motion;        /* null: natural; else JSON, {"knee": {"flexion": 60}}: those angles, in degrees,
+                                         * in place of assets/body/range_of_motion.json's             */
 } vfit_motion_desc;
 VFIT_STRUCT(vfit_bone) VFIT_STRUCT(vfit_pose) VFIT_STRUCT(vfit_motion_desc)
 VFIT_API vfit_result vfit_motion_create(vfit_context context, const vfit_motion_desc* desc,

@@ -3,5 +3,5 @@
 
 int main(int argc, char** argv) {
     using namespace vfit::tools;
-    return run_program("vfit-paper", "The paper's tables and figures, made with vfit.", {add_tables, add_figures}, argc, argv);
+    return run_program("vfit-paper", "The paper's tables and figures, made with vfit.", {add_tables, add_figures, add_limbs}, argc, argv);
 }

@@ -9,5 +9,7 @@ namespace vfit::tools {
 void add_tables(Command& app);
 /// Figures 4, 8 and 9.
 void add_figures(Command& app);
+/// Figures 5, 6, 7 and 11.
+void add_limbs(Command& app);
 
 }  // namespace vfit::tools

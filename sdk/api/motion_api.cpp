@@ -26,6 +26,7 @@ MotionSettings motion_settings(const vfit_motion_desc& d) {
     s.flags = d.flags;
     s.filter.kind = d.filter;
     s.contact_rule = d.contact_rule;
+    if (d.range_of_motion) s.range_of_motion = RangeOfMotion::read(d.range_of_motion, s.range_of_motion);
     HoltSettings& holt = s.filter.holt;
     holt.smoothing = setting(d.smoothing, holt.smoothing);
     holt.correction = setting(d.correction, holt.correction);

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "motion/range_of_motion.h"
+#include "body/range_of_motion.h"
 
 namespace vfit {
-
-namespace rom = range_of_motion;
 
 namespace {
 
@@ -27,16 +25,17 @@ BonePrior middle(int bone, Vec3 spread, Vec3 least, Vec3 most) { return {bone, V
 struct Priors {
     std::array<BonePrior, kFitBones - 1> bones;
     Priors() {
+        const RangeOfMotion& rom = RangeOfMotion::natural();
         const Vec3 free(kFree);
         // The spine's range is that of its three bones together.
-        const Vec3 spine_least(rom::kSpineFlexion.least_deg / 3 * kRad, -rom::kSpineRotation / 3 * kRad,
-                               -rom::kSpineLateral / 3 * kRad);
-        const Vec3 spine_most(rom::kSpineFlexion.most_deg / 3 * kRad, rom::kSpineRotation / 3 * kRad,
-                              rom::kSpineLateral / 3 * kRad);
-        const Vec3 neck_least(rom::kNeckFlexion.least_deg / 2 * kRad, -rom::kNeckRotation / 2 * kRad,
-                              -rom::kNeckLateral / 2 * kRad);
-        const Vec3 neck_most(rom::kNeckFlexion.most_deg / 2 * kRad, rom::kNeckRotation / 2 * kRad,
-                             rom::kNeckLateral / 2 * kRad);
+        const Vec3 spine_least(rom.spine_flexion.least_deg / 3 * kRad, -rom.spine_rotation / 3 * kRad,
+                               -rom.spine_lateral / 3 * kRad);
+        const Vec3 spine_most(rom.spine_flexion.most_deg / 3 * kRad, rom.spine_rotation / 3 * kRad,
+                              rom.spine_lateral / 3 * kRad);
+        const Vec3 neck_least(rom.neck_flexion.least_deg / 2 * kRad, -rom.neck_rotation / 2 * kRad,
+                              -rom.neck_lateral / 2 * kRad);
+        const Vec3 neck_most(rom.neck_flexion.most_deg / 2 * kRad, rom.neck_rotation / 2 * kRad,
+                             rom.neck_lateral / 2 * kRad);
         size_t n = 0;
         for (const int b : {VFIT_BONE_SPINE, VFIT_BONE_CHEST, VFIT_BONE_UPPER_CHEST})
             bones[n++] = middle(b, Vec3(0.15f, 0.10f, 0.08f), spine_least, spine_most);
@@ -57,19 +56,19 @@ struct Priors {
                 -free, free);
             // The elbow: flexion about y, pronation about x; little else.
             add(bone(VFIT_BONE_LEFT_LOWER_ARM, VFIT_BONE_RIGHT_LOWER_ARM), Vec3(0, -0.4f, 0), Vec3(0.4f, 0.9f, 0.10f),
-                Vec3(-rom::kForearmSupination * kRad, -rom::kElbowFlexion.most_deg * kRad, -kFree),
-                Vec3(rom::kForearmPronation * kRad, -rom::kElbowFlexion.least_deg * kRad, kFree));
+                Vec3(-rom.forearm_supination * kRad, -rom.elbow_flexion.most_deg * kRad, -kFree),
+                Vec3(rom.forearm_pronation * kRad, -rom.elbow_flexion.least_deg * kRad, kFree));
             add(bone(VFIT_BONE_LEFT_HAND, VFIT_BONE_RIGHT_HAND), Vec3(0.0f), Vec3(0.05f, 0.20f, 0.25f), -free, free);
             add(bone(VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_RIGHT_UPPER_LEG), Vec3(-0.1f, 0.05f, 0.04f),
                 Vec3(0.7f, 0.25f, 0.25f),
-                Vec3(-rom::kHipFlexion.most_deg * kRad, -kFree, rom::kHipAbduction.least_deg * kRad),
-                Vec3(-rom::kHipFlexion.least_deg * kRad, kFree, rom::kHipAbduction.most_deg * kRad));
+                Vec3(-rom.hip_flexion.most_deg * kRad, -kFree, rom.hip_abduction.least_deg * kRad),
+                Vec3(-rom.hip_flexion.least_deg * kRad, kFree, rom.hip_abduction.most_deg * kRad));
             add(bone(VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_RIGHT_LOWER_LEG), Vec3(0.15f, 0, 0), Vec3(0.8f, 0.06f, 0.05f),
-                Vec3(rom::kKneeFlexion.least_deg * kRad, -kFree, -kFree),
-                Vec3(rom::kKneeFlexion.most_deg * kRad, kFree, kFree));
+                Vec3(rom.knee_flexion.least_deg * kRad, -kFree, -kFree),
+                Vec3(rom.knee_flexion.most_deg * kRad, kFree, kFree));
             add(bone(VFIT_BONE_LEFT_FOOT, VFIT_BONE_RIGHT_FOOT), Vec3(0.0f), Vec3(0.30f, 0.20f, 0.12f),
-                Vec3(rom::kAnklePlantarflexion.least_deg * kRad, -kFree, -kFree),
-                Vec3(rom::kAnklePlantarflexion.most_deg * kRad, kFree, kFree));
+                Vec3(rom.ankle_plantarflexion.least_deg * kRad, -kFree, -kFree),
+                Vec3(rom.ankle_plantarflexion.most_deg * kRad, kFree, kFree));
         }
     }
 };

@@ -5,7 +5,7 @@
 
 namespace vfit {
 
-/// Usual turns of every bone with their spread, and walls at the natural ranges (motion/range_of_motion.h).
+/// Usual turns of every bone with their spread, and walls at the natural ranges (body/range_of_motion.h).
 void add_pose_priors(const FitState& state, FitEquations& equations);
 
 /// The pose is near that of `last`, `frames` (of 1/30 s) before.

@@ -4,20 +4,20 @@
 #include <cmath>
 
 #include "math/quaternion.h"
-#include "motion/range_of_motion.h"
+#include "body/range_of_motion.h"
 
 namespace vfit {
 
-namespace rom = range_of_motion;
-
 namespace {
+
+using Interval = RangeOfMotion::Interval;
 
 constexpr float kRad = kPi / 180.0f;
 constexpr float kMostSlack = 1.1f;
 
 size_t at(int id) { return static_cast<size_t>(id); }
 
-float clamp_to(float angle_rad, rom::Interval range) {
+float clamp_to(float angle_rad, Interval range) {
     return std::clamp(angle_rad, range.least_deg * kRad, range.most_deg * kRad);
 }
 
@@ -28,13 +28,13 @@ float twist_angle(const Quat& twist, const Vec3& axis) {
 }
 
 /// The intervals of a left joint mirrored where `side` is -1.
-rom::Interval sided(float least, float most, float side) {
-    return side > 0 ? rom::Interval{least, most} : rom::Interval{-most, -least};
+Interval sided(float least, float most, float side) {
+    return side > 0 ? Interval{least, most} : Interval{-most, -least};
 }
 
 /// Splits q about the bone, moves the bone's direction by `clamp_direction` and its twist into `twist`.
 template <typename ClampDirection>
-Quat limit_bone(const Quat& q, const Vec3& bone, rom::Interval twist, ClampDirection&& clamp_direction) {
+Quat limit_bone(const Quat& q, const Vec3& bone, Interval twist, ClampDirection&& clamp_direction) {
     const SwingTwist parts = split_swing_twist(q, bone);
     const float angle = twist_angle(parts.twist, bone);
     const float limited = clamp_to(angle, twist);
@@ -54,19 +54,19 @@ Vec3 raise_component(Vec3 v, int axis, float least) {
     return v;
 }
 
-Vec3 clamp_shoulder(Vec3 d, float side) {
+Vec3 clamp_shoulder(const RangeOfMotion& rom, Vec3 d, float side) {
     d.x *= side;
     // The two half-spaces meet; a third pass undoes what the second one moved back out.
-    d = raise_component(d, 2, -std::sin(rom::kShoulderExtension * kRad));
-    d = raise_component(d, 0, -std::sin(rom::kShoulderAdduction * kRad));
-    d = raise_component(d, 2, -std::sin(rom::kShoulderExtension * kRad));
+    d = raise_component(d, 2, -std::sin(rom.shoulder_extension * kRad));
+    d = raise_component(d, 0, -std::sin(rom.shoulder_adduction * kRad));
+    d = raise_component(d, 2, -std::sin(rom.shoulder_extension * kRad));
     d.x *= side;
     return d;
 }
 
 /// A direction as an angle in a plane (from `forward` towards `turn`) and one out of it (towards `out`).
-Vec3 clamp_planar(const Vec3& d, const Vec3& forward, const Vec3& turn, const Vec3& out, rom::Interval planar,
-                  rom::Interval off_plane) {
+Vec3 clamp_planar(const Vec3& d, const Vec3& forward, const Vec3& turn, const Vec3& out, Interval planar,
+                  Interval off_plane) {
     const float angle = std::atan2(glm::dot(d, turn), glm::dot(d, forward));
     const float off = std::asin(std::clamp(glm::dot(d, out), -1.0f, 1.0f));
     const float angle_allowed = clamp_to(angle, planar), off_allowed = clamp_to(off, off_plane);
@@ -76,7 +76,7 @@ Vec3 clamp_planar(const Vec3& d, const Vec3& forward, const Vec3& turn, const Ve
 }
 
 /// A joint about the upright axis: twist in an interval, swing (bend about x, lean about z) in an ellipse.
-Quat limit_upright(const Quat& q, rom::Interval bend, rom::Interval lean, rom::Interval twist) {
+Quat limit_upright(const Quat& q, Interval bend, Interval lean, Interval twist) {
     const Vec3 up(0, 1, 0);
     const SwingTwist parts = split_swing_twist(q, up);
     const float angle = twist_angle(parts.twist, up);
@@ -97,28 +97,28 @@ Quat limit_upright(const Quat& q, rom::Interval bend, rom::Interval lean, rom::I
     return glm::normalize(fraction(swing, scale) * glm::angleAxis(limited, up));
 }
 
-void limit_limb(int index, const RestLimb& rest, BoneRotations& local) {
+void limit_limb(const RangeOfMotion& rom, int index, const RestLimb& rest, BoneRotations& local) {
     const LimbParts& parts = kLimbParts[index];
     const float side = parts.side;
     Quat& upper = local[at(parts.upper)];
     if (parts.leg) {
-        const rom::Interval turn = sided(-rom::kHipExternal, rom::kHipInternal, side);
+        const Interval turn = sided(-rom.hip_external, rom.hip_internal, side);
         upper = limit_bone(upper, rest.upper, turn, [&](Vec3 d) {
-            return clamp_planar(d, {0, -1, 0}, {0, 0, 1}, {side, 0, 0}, rom::kHipFlexion, rom::kHipAbduction);
+            return clamp_planar(d, {0, -1, 0}, {0, 0, 1}, {side, 0, 0}, rom.hip_flexion, rom.hip_abduction);
         });
     } else {
-        upper = limit_bone(upper, rest.upper, sided(-rom::kShoulderExternal, rom::kShoulderInternal, side),
-                           [&](Vec3 d) { return clamp_shoulder(d, side); });
+        upper = limit_bone(upper, rest.upper, sided(-rom.shoulder_external, rom.shoulder_internal, side),
+                           [&](Vec3 d) { return clamp_shoulder(rom, d, side); });
     }
 
-    const rom::Interval flexion = parts.leg ? rom::kKneeFlexion : rom::kElbowFlexion;
+    const Interval flexion = parts.leg ? rom.knee_flexion : rom.elbow_flexion;
     const float bend_deg = rest.bend_rad / kRad;
     const float out_deg = std::asin(std::clamp(glm::dot(rest.lower, rest.hinge), -1.0f, 1.0f)) / kRad;
     // Angles count from the straight limb; the T-pose may be bent a little.
-    const rom::Interval off_plane{out_deg - rom::kHingePlay, out_deg + rom::kHingePlay};
-    const rom::Interval bend{std::min(flexion.least_deg, bend_deg), flexion.most_deg};
-    const rom::Interval pronation = sided(-rom::kForearmSupination, rom::kForearmPronation, side);
-    const rom::Interval twist = parts.leg ? rom::Interval{-rom::kHingePlay, rom::kHingePlay} : pronation;
+    const Interval off_plane{out_deg - rom.hinge_play, out_deg + rom.hinge_play};
+    const Interval bend{std::min(flexion.least_deg, bend_deg), flexion.most_deg};
+    const Interval pronation = sided(-rom.forearm_supination, rom.forearm_pronation, side);
+    const Interval twist = parts.leg ? Interval{-rom.hinge_play, rom.hinge_play} : pronation;
     Quat& lower = local[at(parts.lower)];
     lower = limit_bone(lower, rest.lower, twist, [&](Vec3 d) {
         return clamp_planar(d, rest.upper, glm::cross(rest.hinge, rest.upper), rest.hinge, bend, off_plane);
@@ -127,55 +127,56 @@ void limit_limb(int index, const RestLimb& rest, BoneRotations& local) {
 
     Quat& hand = local[at(parts.last)];
     hand = limit_bone(hand, rest.lower, pronation, [&](Vec3 d) {
-        return clamp_planar(d, {side, 0, 0}, {0, -1, 0}, {0, 0, 1}, rom::kWristFlexion, rom::kWristRadial);
+        return clamp_planar(d, {side, 0, 0}, {0, -1, 0}, {0, 0, 1}, rom.wrist_flexion, rom.wrist_radial);
     });
 }
 
 /// The limits hold for the turn of the whole chain; what is too much is taken off all its bones alike.
-void limit_spine(BoneRotations& local) {
+void limit_spine(const RangeOfMotion& rom, BoneRotations& local) {
     Quat& spine = local[VFIT_BONE_SPINE];
     Quat& chest = local[VFIT_BONE_CHEST];
     Quat& upper = local[VFIT_BONE_UPPER_CHEST];
     const Quat total = spine * chest * upper;
     const Quat limited =
-        limit_upright(total, rom::kSpineFlexion, {-rom::kSpineLateral, rom::kSpineLateral},
-                      {-rom::kSpineRotation, rom::kSpineRotation});
+        limit_upright(total, rom.spine_flexion, {-rom.spine_lateral, rom.spine_lateral},
+                      {-rom.spine_rotation, rom.spine_rotation});
     if (limited == total) return;
     spine = chest = upper = fraction(limited, 1.0f / 3.0f);
 }
 
-void limit_neck(BoneRotations& local) {
-    const rom::Interval lean{-rom::kNeckLateral, rom::kNeckLateral};
-    const rom::Interval turn{-rom::kNeckRotation, rom::kNeckRotation};
+void limit_neck(const RangeOfMotion& rom, BoneRotations& local) {
+    const Interval lean{-rom.neck_lateral, rom.neck_lateral};
+    const Interval turn{-rom.neck_rotation, rom.neck_rotation};
     Quat& neck = local[VFIT_BONE_NECK];
     Quat& head = local[VFIT_BONE_HEAD];
-    neck = limit_upright(neck, rom::kNeckFlexion, lean, turn);
+    neck = limit_upright(neck, rom.neck_flexion, lean, turn);
     const Quat total = neck * head;
-    const Quat limited = limit_upright(total, rom::kNeckFlexion, lean, turn);
+    const Quat limited = limit_upright(total, rom.neck_flexion, lean, turn);
     if (limited != total) head = glm::normalize(glm::conjugate(neck) * limited);
 }
 
-void limit_ankle(float side, Quat& foot) {
+void limit_ankle(const RangeOfMotion& rom, float side, Quat& foot) {
     // Positions of a straight leg do not show its axial turn, so that a toe turned out by the hip appears at
     // the ankle: the hip's range holds.
-    const rom::Interval lean = sided(-rom::kAnkleInversion, rom::kAnkleEversion, side);
-    const rom::Interval turn = sided(-rom::kHipInternal, rom::kHipExternal, side);
-    foot = limit_upright(foot, rom::kAnklePlantarflexion, lean, turn);
+    const Interval lean = sided(-rom.ankle_inversion, rom.ankle_eversion, side);
+    const Interval turn = sided(-rom.hip_internal, rom.hip_external, side);
+    foot = limit_upright(foot, rom.ankle_plantarflexion, lean, turn);
 }
 
 }  // namespace
 
-void apply_joint_limits(const RestPose& rest, const bool planted[2], BoneRotations& local) {
-    limit_spine(local);
-    limit_neck(local);
-    for (int i = 0; i < kLimbCount; ++i) limit_limb(i, rest.limbs[at(i)], local);
-    if (!planted[0]) limit_ankle(1.0f, local[VFIT_BONE_LEFT_FOOT]);
-    if (!planted[1]) limit_ankle(-1.0f, local[VFIT_BONE_RIGHT_FOOT]);
+void apply_joint_limits(const RestPose& rest, const bool planted[2], BoneRotations& local, const RangeOfMotion& rom) {
+    limit_spine(rom, local);
+    limit_neck(rom, local);
+    for (int i = 0; i < kLimbCount; ++i) limit_limb(rom, i, rest.limbs[at(i)], local);
+    if (!planted[0]) limit_ankle(rom, 1.0f, local[VFIT_BONE_LEFT_FOOT]);
+    if (!planted[1]) limit_ankle(rom, -1.0f, local[VFIT_BONE_RIGHT_FOOT]);
 }
 
-bool apply_joint_limits(const RestPose& rest, const bool planted[2], float slack_rad, BoneRotations& local) {
+bool apply_joint_limits(const RestPose& rest, const bool planted[2], float slack_rad, BoneRotations& local,
+                        const RangeOfMotion& rom) {
     BoneRotations limited = local;
-    apply_joint_limits(rest, planted, limited);
+    apply_joint_limits(rest, planted, limited, rom);
     bool changed = false;
     for (size_t b = 0; b < local.size(); ++b) {
         if (limited[b] == local[b]) continue;
@@ -188,7 +189,7 @@ bool apply_joint_limits(const RestPose& rest, const bool planted[2], float slack
     if (!changed) return false;
     // Where a range curves, the nearest rotation inside of it may now be another one, farther off.
     limited = local;
-    apply_joint_limits(rest, planted, limited);
+    apply_joint_limits(rest, planted, limited, rom);
     for (size_t b = 0; b < local.size(); ++b)
         if (limited[b] != local[b] && angle_of(glm::conjugate(limited[b]) * local[b]) > kMostSlack * slack_rad)
             local[b] = limited[b];

@@ -3,14 +3,17 @@
 #pragma once
 
 #include "motion/bone_solver.h"
+#include "body/range_of_motion.h"
 
 namespace vfit {
 
 /// Clamps in place. Inside the ranges nothing changes. A foot that stands on the floor (`planted`, left and
 /// right) is left alone: body weight bends an ankle further than its free range.
-void apply_joint_limits(const RestPose& rest, const bool planted[2], BoneRotations& local);
+void apply_joint_limits(const RestPose& rest, const bool planted[2], BoneRotations& local,
+                        const RangeOfMotion& rom = RangeOfMotion::natural());
 
 /// The same, but a bone may be so far outside of its range. True where one was farther.
-bool apply_joint_limits(const RestPose& rest, const bool planted[2], float slack_rad, BoneRotations& local);
+bool apply_joint_limits(const RestPose& rest, const bool planted[2], float slack_rad, BoneRotations& local,
+                        const RangeOfMotion& rom = RangeOfMotion::natural());
 
 }  // namespace vfit

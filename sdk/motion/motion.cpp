@@ -226,7 +226,7 @@ bool Motion::State::update_pose(float dt_s) {
     solver.solve(skeleton, rest, joints, trunk, planted, world);
     if (enabled(VFIT_MOTION_NO_LIMITS)) {
         to_local(world, local);
-        apply_joint_limits(rest, planted, local);
+        apply_joint_limits(rest, planted, local, settings.range_of_motion);
         to_world(local, world);
     }
     if (enabled(VFIT_MOTION_NO_SMOOTHING)) {
@@ -250,10 +250,10 @@ bool Motion::State::update_pose(float dt_s) {
         planter.apply(skeleton, rest, planted, drags, dt_s, pose);
     }
     // What smoothing and planting have bent too far; a foot that stands is held as long as it can be.
-    if (enabled(VFIT_MOTION_NO_LIMITS) && apply_joint_limits(rest, planted, kLimitSlackRad, pose.rotation) &&
+    if (enabled(VFIT_MOTION_NO_LIMITS) && apply_joint_limits(rest, planted, kLimitSlackRad, pose.rotation, settings.range_of_motion) &&
         (planted[0] || planted[1])) {
         planter.hold(skeleton, rest, planted, pose);
-        apply_joint_limits(rest, planted, kLimitSlackRad, pose.rotation);
+        apply_joint_limits(rest, planted, kLimitSlackRad, pose.rotation, settings.range_of_motion);
     }
     for (size_t i = 0; i < before.size(); ++i)
         pose.rotation[i] = same_hemisphere(pose.rotation[i], before[i]);

@@ -8,6 +8,7 @@
 #include "body/skeleton.h"
 #include "frame/body.h"
 #include "motion/position_filter.h"
+#include "body/range_of_motion.h"
 
 namespace vfit {
 
@@ -18,6 +19,7 @@ struct MotionSettings {
     float prediction_s = 0.0f;               // how far ahead of now, to hide latency
     float rotation_divisor = 2.0f;           // k of Eq. 10, per 1/30 s
     float rotation_divisor_switched = 4.0f;  // k right after the planted foot changed
+    RangeOfMotion range_of_motion = RangeOfMotion::natural();
 };
 
 class Motion {

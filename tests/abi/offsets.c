@@ -268,7 +268,9 @@ OFFSET(vfit_motion_desc, beta, 44);
 OFFSET(vfit_motion_desc, derivative_cutoff_hz, 48);
 OFFSET(vfit_motion_desc, prediction_s, 52);
 OFFSET(vfit_motion_desc, contact_rule, 56);
-SIZE(vfit_motion_desc, 60);
+OFFSET(vfit_motion_desc, reserved, 60);
+OFFSET(vfit_motion_desc, range_of_motion, 64);
+SIZE(vfit_motion_desc, 72);
 
 OFFSET(vfit_avatar_desc, struct_size, 0);
 OFFSET(vfit_avatar_desc, flags, 4);

@@ -193,4 +193,10 @@ TEST_F(ContextTest, WrongScanAndMotionSettingsAreRefused) {
     EXPECT_EQ(vfit_motion_create(context, &motion_desc, &motion), VFIT_ERROR_ARGUMENT);
     motion_desc.smoothing = 1.5f;
     EXPECT_EQ(vfit_motion_create(context, &motion_desc, &motion), VFIT_ERROR_ARGUMENT);
+    motion_desc = vfit_motion_desc_init();
+    motion_desc.range_of_motion = R"({"knee": {"flexion": 60}})";
+    EXPECT_EQ(vfit_motion_create(context, &motion_desc, &motion), VFIT_OK) << contract::last_error();
+    motion_desc.range_of_motion = R"({"knee": {"flexion": 600}})";
+    EXPECT_EQ(vfit_motion_create(context, &motion_desc, &motion), VFIT_ERROR_DATA);
+    EXPECT_NE(contract::last_error().find("knee.flexion"), std::string::npos);
 }

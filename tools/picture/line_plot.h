@@ -1,4 +1,4 @@
-// One quantity over time as a line.
+// One quantity over time as a line, or several beside each other.
 #pragma once
 
 #include <string>
@@ -9,9 +9,17 @@
 
 namespace vfit::tools {
 
+using CurvePoints = std::vector<std::pair<float, float>>;  // x ascending
+
 struct Curve {
     std::string title, x_label, y_label;
-    std::vector<std::pair<float, float>> points;  // x ascending
+    CurvePoints points{};
+    std::string name{};  // empty: the line needs none
+    struct Line {
+        std::string name;
+        CurvePoints points;
+    };
+    std::vector<Line> behind{};  // further lines, drawn first
 };
 
 Canvas draw_curve(const Curve& curve, int width, int height);

@@ -20,7 +20,7 @@ std::shared_ptr<Motion> create(const Context& context, const std::variant<bool, 
                                const Number& max_deviation_radius_m, const Number& rotation_divisor,
                                const Number& rotation_divisor_switched, const Number& min_cutoff_hz, const Number& beta,
                                const Number& derivative_cutoff_hz, const Number& prediction_s,
-                               const std::string& contact_rule) {
+                               const std::string& contact_rule, const py::object& range_of_motion) {
     vfit_motion_desc desc = vfit_motion_desc_init();
     const bool unfiltered = std::holds_alternative<bool>(filter) && !std::get<bool>(filter);
     if (const auto* name = std::get_if<std::string>(&filter))
@@ -43,6 +43,11 @@ std::shared_ptr<Motion> create(const Context& context, const std::variant<bool, 
     desc.max_deviation_radius_m = setting(max_deviation_radius_m);
     desc.rotation_divisor = setting(rotation_divisor);
     desc.rotation_divisor_switched = setting(rotation_divisor_switched);
+    std::string ranges;
+    if (!range_of_motion.is_none()) {
+        ranges = py::module_::import("json").attr("dumps")(py::dict(range_of_motion)).cast<std::string>();
+        desc.range_of_motion = ranges.c_str();
+    }
     vfit_motion handle{};
     run([&, h = context.handle()] { return vfit_motion_create(h, &desc, &handle); });
     return make<Motion>(context.core(), handle);
@@ -123,6 +128,7 @@ void bind_motion(py::module_& m) {
                       "max_deviation_radius_m"_a = preset, "rotation_divisor"_a = preset,
                       "rotation_divisor_switched"_a = preset, "min_cutoff_hz"_a = preset, "beta"_a = preset,
                       "derivative_cutoff_hz"_a = preset, "prediction_s"_a = preset, "contact_rule"_a = "learnt",
+                      "range_of_motion"_a = preset,
                       "Stages by the first four; filter may also name one: 'adaptive' (the default), 'holt' with the "
                       "five names of the Kinect SDK, 'one_euro'. None: the library's default.")
                  .def(

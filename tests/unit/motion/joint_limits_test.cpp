@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/error.h"
 #include "math/quaternion.h"
 #include "motion_support.h"
 
@@ -46,6 +47,29 @@ TEST_F(Limits, HoldKneesBetweenStraightAnd145Degrees) {
         EXPECT_NEAR(angle_after(knee, 30, kZ), 10, 3.0f);     // hardly out of its plane
         EXPECT_NEAR(angle_after(knee, 30, kY), 10, 1.0f);     // nor about its axis
     }
+}
+
+TEST_F(Limits, AreDataThatAHostMayReplace) {
+    const RangeOfMotion& natural = RangeOfMotion::natural();
+    EXPECT_EQ(natural.knee_flexion.most_deg, 145.0f);
+    EXPECT_EQ(natural.wrist_radial.least_deg, -40.0f);
+    const RangeOfMotion stiff = RangeOfMotion::read(R"({"knee": {"flexion": 60}, "neck": {"extension": 10}})", natural);
+    EXPECT_EQ(stiff.knee_flexion.most_deg, 60.0f);
+    EXPECT_EQ(stiff.neck_flexion.least_deg, -10.0f);
+    EXPECT_EQ(stiff.neck_flexion.most_deg, natural.neck_flexion.most_deg);
+    BoneRotations local;
+    local.fill(Quat(1, 0, 0, 0));
+    local[VFIT_BONE_LEFT_LOWER_LEG] = glm::angleAxis(100 * kDeg, kX);
+    apply_joint_limits(rest, planted, local, stiff);
+    EXPECT_NEAR(angle_of(local[VFIT_BONE_LEFT_LOWER_LEG]) / kDeg, 60.0f, 3.0f);
+    for (const char* bad : {"", "[]", "{", R"({"knee": 3})", R"({"knee": {"flexion": "far"}})", R"({"knee": {"flexion": 200}})",
+                            R"({"knee": {"flexion": -1}})", R"({"knee": {"bend": 3}})", R"({"tail": {"flexion": 3}})"})
+        try {
+            RangeOfMotion::read(bad, natural);
+            ADD_FAILURE() << "accepted " << bad;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), VFIT_ERROR_DATA) << bad;
+        }
 }
 
 TEST_F(Limits, HoldElbowsInTheirPlaneOnBothSides) {

@@ -414,7 +414,8 @@ class Avatar(_Closable):
 
 class Motion(_Closable):
     """Turns the bodies of tracked frames into clean poses. None: the library's default. filter: True, False, 'adaptive',
-    'holt' (with the five names of the Kinect SDK) or 'one_euro'; contact_rule: 'learnt' or 'thresholds'."""
+    'holt' (with the five names of the Kinect SDK) or 'one_euro'; contact_rule: 'learnt' or 'thresholds'.
+    range_of_motion: {'knee': {'flexion': 60}} in place of the natural angles, degrees."""
 
     def __init__(self, context: Context, *, filter: Union[bool, str] = True, limits: bool = True, smooth_rotations: bool = True,
                  feet: bool = True, smoothing: Optional[float] = None, correction: Optional[float] = None,
@@ -422,7 +423,8 @@ class Motion(_Closable):
                  max_deviation_radius_m: Optional[float] = None, rotation_divisor: Optional[float] = None,
                  rotation_divisor_switched: Optional[float] = None, min_cutoff_hz: Optional[float] = None,
                  beta: Optional[float] = None, derivative_cutoff_hz: Optional[float] = None,
-                 prediction_s: Optional[float] = None, contact_rule: str = "learnt") -> None: ...
+                 prediction_s: Optional[float] = None, contact_rule: str = "learnt",
+                 range_of_motion: Optional[Mapping[str, Mapping[str, float]]] = None) -> None: ...
     def bind(self, avatar: Avatar) -> None: ...
     def step(self, frame: Optional[Frame] = None, body_id: Optional[int] = None,
              now_ns: Optional[int] = None) -> bool:
