@@ -16,7 +16,7 @@ constexpr float kNoStepS = 0.3f, kNoStepM = 0.03f;
 constexpr float kMeanS = 1.0f;        // of the tracked place of a foot that stands
 constexpr float kVelocityS = 0.03f;   // low-pass of the tracked velocity
 constexpr float kFastest = 1.0f;      // m/s: a foot that comes to stand was no faster
-constexpr float kFastestStart = 0.5f; // nor is one that starts: a tracker that throws a foot would send it backwards
+constexpr float kFastestStart = 0.3f; // nor is one that starts: a tracker that throws a foot would send it backwards
 constexpr float kLeastM = 1e-5f;
 
 Vec3 at_most(const Vec3& velocity, float fastest) {

@@ -10,10 +10,11 @@ namespace vfit {
 namespace {
 
 // Over the last hundredth of its length a leg eases into full extension against a knee that snaps; the root takes
-// that, a centimetre at most. (At a contact's switch 0.2 % turned knees 3.5 times as hard as people do, 1 % 2.4 times,
-// 3 % 1.7 times, but 3 % lowers whoever stands straight by as many centimetres: vfit-bench motion --only feet.)
+// that, a centimetre at most. (At a contact's switch 0.2 % turns knees harder, 3 % lowers whoever stands straight:
+// vfit-bench motion --only feet.)
 constexpr float kSoftness = 0.01f;
 constexpr float kHeldM = 1e-3f;           // closer is close enough for a foot that limits have moved
+constexpr float kWeightS = 0.25f;        // time constant with which a foot gains and loses its say in the root's height
 constexpr float kRootFadeS = 0.1f;       // after which a shift that no leg needs has gone
 constexpr int kRootPasses = 12;          // two legs at the end of their reach pull the root in turns
 constexpr float kReachedM = 5e-5f;       // 0.05 mm: closer is not seen
@@ -41,6 +42,15 @@ struct Leg {
     }
 };
 
+/// How far up the root must go for the leg to reach its target with the knee as it was tracked. Near full stretch a
+/// centimetre of height is 17 degrees of the knee: the root's height, which nobody sees, follows the knee.
+float keeping_the_knee(const Leg& leg, const Vec3& ankle) {
+    const Vec3 to_target = leg.target - leg.hip;
+    const float length = glm::distance(ankle, leg.hip);
+    const float aside2 = to_target.x * to_target.x + to_target.z * to_target.z;
+    return to_target.y + std::sqrt(std::max(length * length - aside2, 0.0f));
+}
+
 void turn_leg(const Leg& leg, const Vec3& shift, const PosedSkeleton& posed, Pose& pose) {
     const TwoBoneSolution ik = leg.solve(shift);
     const Quat upper_was = posed.rotation[at(leg.parts->upper)];
@@ -63,6 +73,7 @@ void FootPlanter::apply(const Skeleton& skeleton, const RestPose& rest, const bo
     const PosedSkeleton posed = forward_kinematics(skeleton, pose);
     Leg legs[2];
     bool moved = false;
+    float height = 0.0f, weights = 0.0f;
     pose.contacts = 0;
     pose.foot_correction_m = 0;
     for (int side = 0; side < 2; ++side) {
@@ -74,17 +85,22 @@ void FootPlanter::apply(const Skeleton& skeleton, const RestPose& rest, const bo
         leg.target = pin.update(ankle, planted[side], skeleton.ankle_height, dt_s);
         shown_[at(side)] = leg.target;
         moved = moved || pin.planted() || pin.offset() != Vec3(0.0f);
+        float& weight = weight_[at(side)];
+        weight += ((pin.planted() ? 1.0f : 0.0f) - weight) * (1.0f - std::exp(-dt_s / kWeightS));
+        height += weight * keeping_the_knee(leg, ankle);
+        weights += weight;
         if (!pin.planted()) continue;
         pose.contacts |= side == 0 ? VFIT_CONTACT_LEFT : VFIT_CONTACT_RIGHT;
         pose.foot_correction_m = std::max(pose.foot_correction_m, glm::length(pin.offset()));
     }
 
     root_shift_ *= std::exp(-dt_s / kRootFadeS);
+    const Vec3 lift(0.0f, height / std::max(weights, 1.0f), 0.0f);
     for (int pass = 0; pass < kRootPasses; ++pass) {
         bool reached = true;
         for (int side = 0; side < 2; ++side) {
             if (!planted[side]) continue;
-            const Vec3 residual = legs[side].target - legs[side].solve(root_shift_).end;  // Alg. 6, line 10
+            const Vec3 residual = legs[side].target - legs[side].solve(lift + root_shift_).end;  // Alg. 6, line 10
             if (glm::length(residual) < kReachedM) continue;
             root_shift_ += residual;
             reached = false;
@@ -92,10 +108,11 @@ void FootPlanter::apply(const Skeleton& skeleton, const RestPose& rest, const bo
         if (reached) break;
     }
     if (glm::length(root_shift_) < kReachedM) root_shift_ = Vec3(0.0f);
-    pose.root_correction = root_shift_;
-    if (!moved && root_shift_ == Vec3(0.0f)) return;
-    for (const Leg& leg : legs) turn_leg(leg, root_shift_, posed, pose);
-    pose.hips_position += root_shift_;
+    const Vec3 shift = lift + root_shift_;
+    pose.root_correction = shift;
+    if (!moved && shift == Vec3(0.0f)) return;
+    for (const Leg& leg : legs) turn_leg(leg, shift, posed, pose);
+    pose.hips_position += shift;
 }
 
 void FootPlanter::hold(const Skeleton& skeleton, const RestPose& rest, const bool planted[2], Pose& pose) const {

@@ -27,7 +27,8 @@ public:
 
 private:
     std::array<FootPin, 2> pins_{FootPin(kCharacterLeashM), FootPin(kCharacterLeashM)};
-    Vec3 root_shift_{0.0f};  // d_root; fades when no leg needs it
+    std::array<float, 2> weight_{};  // of each planted foot in the root's height; eases in and out
+    Vec3 root_shift_{0.0f};  // d_root beside that; fades when no leg needs it
     std::array<Vec3, 2> shown_{};  // where the last apply() put the ankles
 };
 

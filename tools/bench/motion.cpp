@@ -19,7 +19,7 @@ struct Part {
     const char* name;
     Json (*judge)(const MotionJudge&);
 };
-constexpr Part kParts[] = {{"filters", judge_filters}, {"feet", judge_feet}, {"real", judge_real}, {"time", judge_time},
+constexpr Part kParts[] = {{"filters", judge_filters}, {"feet", judge_feet}, {"real", judge_real}, {"vicon", judge_vicon}, {"time", judge_time},
                            {"skinning", judge_skinning}, {"characters", judge_characters}};
 
 void motion(const Options& options) {

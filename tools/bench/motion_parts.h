@@ -21,6 +21,7 @@ struct MotionJudge {
 Json judge_filters(const MotionJudge& judge);
 Json judge_feet(const MotionJudge& judge);
 Json judge_real(const MotionJudge& judge);
+Json judge_vicon(const MotionJudge& judge);
 Json judge_time(const MotionJudge& judge);
 Json judge_skinning(const MotionJudge& judge);
 Json judge_characters(const MotionJudge& judge);
