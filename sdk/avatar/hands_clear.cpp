@@ -13,7 +13,9 @@ namespace {
 
 constexpr float kGap_m = 0.005f;      // that stays between hand and skin
 constexpr float kBlend_m = 0.02f;     // over which two neighbouring bones share a place
-constexpr int kRounds = 2;            // a hand led out of the thigh may touch the hip
+constexpr int kRounds = 3;            // a hand led out of the thigh may touch the hip
+constexpr size_t kReach = 2;          // cells of an outline that a vertex speaks for, to either side
+constexpr float kAlongHand[] = {0.1f, kHandCentre, 1.0f, 1.6f};  // from the wrist to the knuckles, and on to the fingers
 constexpr float kLeastOut_m = 1e-4f;
 
 struct ArmBones {
@@ -40,17 +42,16 @@ void HandsClear::Outline::learn(std::span<const Vec3> points) {
         radius[cell] = std::max(radius[cell], out);
         known[cell] = true;
     }
-    // Cells without a vertex take their neighbours' on the same level, else those of the level below.
+    // Cells without a vertex take their neighbours' on the same level; where these have none either, nothing is there.
     for (size_t level = 0; level < size_t(kLevels); ++level)
         for (size_t a = 0; a < size_t(kAngles); ++a) {
             const size_t cell = level * kAngles + a;
             if (known[cell]) continue;
-            for (size_t step = 1; step < size_t(kAngles) && radius[cell] == 0.0f; ++step) {
+            for (size_t step = 1; step <= kReach && radius[cell] == 0.0f; ++step) {
                 const size_t row = level * kAngles;
                 const size_t before = row + (a + kAngles - step) % kAngles, after = row + (a + step) % kAngles;
                 if (known[before] || known[after]) radius[cell] = std::max(known[before] ? radius[before] : 0.0f, known[after] ? radius[after] : 0.0f);
             }
-            if (radius[cell] == 0.0f && level > 0) radius[cell] = radius[cell - kAngles];
         }
 }
 
@@ -65,9 +66,9 @@ float HandsClear::Outline::at(float height, float angle) const {
 }
 
 HandsClear::HandsClear(const AvatarRig& rig, std::span<const Vec3> rest, std::span<const BodyPart> parts) {
-    const auto add = [&](std::vector<int> humanoid, const Vec3& end, float before, auto&& belongs) {
+    const auto add = [&](std::vector<int> humanoid, const Vec3& start, const Vec3& end, float before, auto&& belongs) {
         Outline o;
-        o.start = rig.rest_head(humanoid.front());
+        o.start = start;
         const float length = glm::distance(o.start, end);
         o.axis = length > 1e-3f ? (end - o.start) / length : Vec3(0, 1, 0);
         o.x = glm::normalize(Vec3(1, 0, 0) - o.axis.x * o.axis);
@@ -89,17 +90,23 @@ HandsClear::HandsClear(const AvatarRig& rig, std::span<const Vec3> rest, std::sp
     const Vec3 hips = rig.rest_head(VFIT_BONE_HIPS);
     const Vec3 shoulders = 0.5f * (rig.rest_head(VFIT_BONE_LEFT_UPPER_ARM) + rig.rest_head(VFIT_BONE_RIGHT_UPPER_ARM));
     constexpr float kArmpit = 0.85f, kBelowHips = 0.3f;
-    add({VFIT_BONE_HIPS, VFIT_BONE_SPINE, VFIT_BONE_CHEST, VFIT_BONE_UPPER_CHEST}, glm::mix(hips, shoulders, kArmpit), kBelowHips,
+    add({VFIT_BONE_HIPS, VFIT_BONE_SPINE, VFIT_BONE_CHEST, VFIT_BONE_UPPER_CHEST}, hips, glm::mix(hips, shoulders, kArmpit), kBelowHips,
         [](BodyPart part) { return part == BodyPart::kTorso; });
-    add({VFIT_BONE_LEFT_UPPER_LEG}, rig.rest_head(VFIT_BONE_LEFT_LOWER_LEG), 0.0f,
+    // Thighs as seen from between them, so that the way out is always the hand's own side.
+    const auto between = [&](int left, int right) { return 0.5f * (rig.rest_head(left) + rig.rest_head(right)); };
+    const Vec3 legs = between(VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_RIGHT_UPPER_LEG);
+    const Vec3 knees = between(VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_RIGHT_LOWER_LEG);
+    add({VFIT_BONE_LEFT_UPPER_LEG}, legs, knees, 0.0f,
         [](BodyPart part) { return part == BodyPart::kLeftThigh || part == BodyPart::kTorso; });
-    add({VFIT_BONE_RIGHT_UPPER_LEG}, rig.rest_head(VFIT_BONE_RIGHT_LOWER_LEG), 0.0f,
+    add({VFIT_BONE_RIGHT_UPPER_LEG}, legs, knees, 0.0f,
         [](BodyPart part) { return part == BodyPart::kRightThigh || part == BodyPart::kTorso; });
 
     for (size_t i = 0; i < 2; ++i) {
         const int bone = rig.rig_bone(kArms[i].hand);
         const AvatarBone& hand = rig.bones()[size_t(bone)];
-        hands_[i] = {bone, glm::mix(hand.rest_head, hand.rest_tail, kHandCentre), 0.0f};
+        hands_[i].rig_bone = bone;
+        for (size_t k = 0; k < std::size(kAlongHand); ++k) hands_[i].points[k] = glm::mix(hand.rest_head, hand.rest_tail, kAlongHand[k]);
+        const Vec3 centre = glm::mix(hand.rest_head, hand.rest_tail, kHandCentre);
         const BodyPart own = i == 0 ? BodyPart::kLeftHand : BodyPart::kRightHand;
         const Vec3 palm = hand.rest_tail - hand.rest_head;
         const float length = std::max(glm::length(palm), 1e-3f);
@@ -107,7 +114,7 @@ HandsClear::HandsClear(const AvatarRig& rig, std::span<const Vec3> rest, std::sp
         std::vector<float> off;
         for (size_t v = 0; v < rest.size(); ++v) {
             if (parts[v] != own) continue;
-            const Vec3 d = rest[v] - hands_[i].centre;
+            const Vec3 d = rest[v] - centre;
             const float along = dot(d, palm / length);
             if (std::abs(along) < 0.25f * length) off.push_back(glm::length(d - along * palm / length));
         }
@@ -152,14 +159,18 @@ HandsClear::Way HandsClear::way_out(const Outline& o, std::span<const Mat4> matr
 void HandsClear::run(const PosedSkeleton& posed, std::span<const Mat4> matrices, Pose& pose) const {
     for (size_t i = 0; i < 2; ++i) {
         const ArmBones& arm = kArms[i];
-        const Vec3 start = Vec3(matrices[size_t(hands_[i].rig_bone)] * Vec4(hands_[i].centre, 1.0f));
-        Vec3 centre = start;
+        const Hand& hand = hands_[i];
+        Vec3 moved(0.0f);
         for (int round = 0; round < kRounds; ++round)
             for (const Outline& outline : outlines_) {
-                const Way way = way_out(outline, matrices, centre, hands_[i].radius, arm.side);
-                centre += way.depth * way.out;
+                Way deepest;
+                for (const Vec3& rest : hand.points) {
+                    const Vec3 p = Vec3(matrices[size_t(hand.rig_bone)] * Vec4(rest, 1.0f)) + moved;
+                    const Way way = way_out(outline, matrices, p, hand.radius, arm.side);
+                    if (way.depth > deepest.depth) deepest = way;
+                }
+                moved += deepest.depth * deepest.out;
             }
-        const Vec3 moved = centre - start;
         if (glm::length(moved) < kLeastOut_m) continue;
 
         const auto at = [&](int bone) { return posed.position[size_t(bone)]; };

@@ -40,9 +40,9 @@ private:
 
     std::vector<Outline> outlines_;  // trunk, thighs
     struct Hand {
-        int rig_bone;
-        Vec3 centre;   // rest
-        float radius;
+        int rig_bone = 0;
+        std::array<Vec3, 4> points{};  // rest: from the wrist to the fingers
+        float radius = 0.0f;           // half of the palm's thickness
     };
     std::array<Hand, 2> hands_;
 };

@@ -169,6 +169,84 @@ TEST(Motion, StartsAnewWithAnotherPersonAndWhenTimeGoesBack) {
     }
 }
 
+/// Somebody who walks on the spot, lifting one foot after the other.
+Body stepping(const Skeleton& skeleton, int frame, int64_t time_ns) {
+    Pose pose;
+    const float phase = 0.2f * static_cast<float>(frame);
+    for (const bool left : {true, false}) {
+        const float lift = std::max(0.0f, left ? std::sin(phase) : -std::sin(phase));
+        pose.rotation[left ? VFIT_BONE_LEFT_UPPER_LEG : VFIT_BONE_RIGHT_UPPER_LEG] = glm::angleAxis(-0.7f * lift, Vec3(1, 0, 0));
+        pose.rotation[left ? VFIT_BONE_LEFT_LOWER_LEG : VFIT_BONE_RIGHT_LOWER_LEG] = glm::angleAxis(1.1f * lift, Vec3(1, 0, 0));
+    }
+    testing::stand_on_floor(skeleton, pose);
+    return testing::joints_of(skeleton, pose, time_ns);
+}
+
+TEST(Motion, SurvivesGapsNoTimeAndTimeThatRunsWild) {
+    const Skeleton skeleton = testing::test_skeleton();
+    // Steps of no time, a nanosecond, a second, a minute, a year, back by a frame, back to the beginning.
+    const int64_t jumps[] = {0, 1, 33'333'333, 1'000'000'000, 60'000'000'000, 31'536'000'000'000'000, -33'333'333};
+    for (const bool bound : {false, true}) {
+        Motion motion{MotionSettings{}};
+        if (bound) motion.bind(skeleton);
+        int64_t now_ns = 5'000'000'000;
+        testing::RandomPose random(17);
+        for (int f = 0; f < 3000; ++f) {
+            const auto pick = static_cast<size_t>(random.uniform(0.0f, 7.99f));
+            now_ns = pick == 7 ? 0 : now_ns + (f % 3 == 0 ? jumps[pick] : 33'333'333);
+            Body body = stepping(skeleton, f, now_ns);
+            if (f % 11 == 0) body.joints[VFIT_JOINT_LEFT_FOOT] = body.joints[VFIT_JOINT_LEFT_KNEE] = Joint();
+            if (f % 97 < 3) body.id = 2;
+            const bool no_body = f % 7 == 0;
+            motion.step(no_body ? nullptr : &body, now_ns);
+            ASSERT_TRUE(finite(motion.pose().hips_position)) << f;
+            ASSERT_LT(glm::length(motion.pose().hips_position), 3.0f) << f;
+            for (const Quat& q : motion.pose().rotation) ASSERT_NEAR(glm::length(q), 1.0f, 1e-4f) << f;
+        }
+    }
+}
+
+TEST(Motion, GivesTheSameBitsForTheSameBodies) {
+    const Skeleton skeleton = testing::test_skeleton();
+    Motion a{MotionSettings{}}, b{MotionSettings{}};
+    Body other = standing(frame_ns(0), 2);
+    for (int f = 0; f < 20; ++f) {  // b was used before
+        other.time_ns = frame_ns(f);
+        b.step(&other, other.time_ns);
+    }
+    b.reset();
+    for (int f = 0; f < 200; ++f) {
+        const Body body = stepping(skeleton, f, frame_ns(f));
+        for (Motion* motion : {&a, &b}) {
+            motion->step(&body, body.time_ns);
+            motion->step(nullptr, body.time_ns + 11'000'000);
+        }
+        ASSERT_EQ(a.pose().hips_position, b.pose().hips_position) << f;
+        for (size_t i = 0; i < size_t(kBoneCount); ++i) ASSERT_EQ(a.pose().rotation[i], b.pose().rotation[i]) << f;
+    }
+}
+
+TEST(Motion, AFootThatStandsKeepsTheKneeAsItWasSeen) {
+    // The sensor's hips bob by a centimetre: the root's height takes it, near full stretch the knee would turn by 20 degrees.
+    const Skeleton skeleton = testing::test_skeleton();
+    Motion motion{MotionSettings{}};
+    motion.bind(skeleton);
+    float least = 10.0f, most = 0.0f;
+    for (int f = 0; f < 150; ++f) {
+        Pose pose;
+        testing::stand_on_floor(skeleton, pose);
+        Body body = testing::joints_of(skeleton, pose, frame_ns(f));
+        for (Joint& joint : body.joints)
+            if (joint.position.y > 0.2f) joint.position.y -= 0.01f + 0.01f * std::sin(0.3f * static_cast<float>(f)) * joint.position.y;
+        motion.step(&body, body.time_ns);
+        if (f < 60) continue;
+        const float bend = angle_of(motion.pose().rotation[VFIT_BONE_LEFT_LOWER_LEG]) / testing::kDeg;
+        least = std::min(least, bend);
+        most = std::max(most, bend);
+    }
+    EXPECT_LT(most - least, 5.0f) << least << " to " << most << " degrees";
+}
+
 TEST(Motion, KeepsTheSignOfEveryQuaternion) {
     const Skeleton skeleton = testing::test_skeleton();
     Motion motion{MotionSettings{}};

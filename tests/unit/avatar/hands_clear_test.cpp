@@ -1,0 +1,97 @@
+// Hands that a pose of somebody else would put into the trunk or the thighs.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "body_fixture.h"
+#include "measure/mesh_query.h"
+
+namespace vfit {
+namespace {
+
+/// How deep any vertex of the hands is inside trunk and thighs.
+float hand_depth(const Avatar& avatar) {
+    std::vector<uint32_t> middle;
+    for (const BodyPart part : {BodyPart::kTorso, BodyPart::kLeftThigh, BodyPart::kRightThigh}) {
+        const auto triangles = triangles_of(avatar.topology(), part);
+        middle.insert(middle.end(), triangles.begin(), triangles.end());
+    }
+    const MeshQuery query(avatar.positions(), middle);
+    float deepest = 0.0f;
+    for (size_t v = 0; v < avatar.topology().vertex_count; ++v) {
+        const BodyPart part = avatar.topology().parts[v];
+        if (part != BodyPart::kLeftHand && part != BodyPart::kRightHand) continue;
+        const auto near = query.closest(avatar.positions()[v]);
+        if (glm::dot(avatar.positions()[v] - near.point, near.normal) < 0.0f) deepest = std::max(deepest, near.distance);
+    }
+    return deepest;
+}
+
+/// Arms hanging, turned across the body by so much.
+Pose hanging(const Avatar& avatar, float across_deg, float forward_deg = 0.0f, float lean_deg = 0.0f) {
+    constexpr float kDeg = kPi / 180.0f;
+    Pose pose;
+    pose.hips_position = avatar.skeleton().offset[VFIT_BONE_HIPS];
+    pose.rotation[VFIT_BONE_SPINE] = glm::angleAxis(lean_deg * kDeg, Vec3(0, 0, 1));
+    for (const float side : {1.0f, -1.0f}) {
+        const auto arm = size_t(side > 0 ? VFIT_BONE_LEFT_UPPER_ARM : VFIT_BONE_RIGHT_UPPER_ARM);
+        pose.rotation[arm] = glm::angleAxis(-forward_deg * kDeg, Vec3(1, 0, 0)) * glm::angleAxis(-side * (90.0f + across_deg) * kDeg, Vec3(0, 0, 1));
+    }
+    return pose;
+}
+
+TEST(HandsClear, AreLedOutOfTheBody) {
+    AvatarDesc clear;
+    clear.hands_clear = true;
+    Avatar kept = make_avatar(clear), free_hands = make_avatar();
+    const auto jobs = Jobs::own(0);
+    for (const float across : {5.0f, 12.0f, 20.0f})
+        for (const float forward : {0.0f, 15.0f})
+            for (const float lean : {0.0f, 15.0f}) {
+                const Pose pose = hanging(kept, across, forward, lean);
+                free_hands.pose(pose, *jobs);
+                kept.pose(pose, *jobs);
+                const float before = hand_depth(free_hands), after = hand_depth(kept);
+                std::printf("across %.0f, forward %.0f, lean %.0f: hands %.1f mm deep, kept clear %.1f mm\n", double(across), double(forward),
+                            double(lean), 1e3 * double(before), 1e3 * double(after));
+                // Fingers and thumb stand off the line that is led out: of a hand deep inside, a quarter may touch.
+                EXPECT_LT(after, std::max(0.012f, 0.25f * before)) << across << " " << forward << " " << lean;
+                EXPECT_TRUE(before > 0.02f || across < 10.0f || forward > 0.0f);
+                // The arm follows: bones keep their lengths, and the hand its own turn in the world.
+                const PosedSkeleton posed = forward_kinematics(kept.skeleton(), kept.shown_pose());
+                const PosedSkeleton was = forward_kinematics(kept.skeleton(), pose);
+                EXPECT_LT(std::abs(glm::dot(posed.rotation[VFIT_BONE_LEFT_HAND], was.rotation[VFIT_BONE_LEFT_HAND])) - 1.0f, 1e-5f);
+                EXPECT_GT(std::abs(glm::dot(posed.rotation[VFIT_BONE_LEFT_HAND], was.rotation[VFIT_BONE_LEFT_HAND])), 0.9999f);
+            }
+}
+
+TEST(HandsClear, ThatAreClearStayToTheBit) {
+    AvatarDesc clear;
+    clear.hands_clear = true;
+    Avatar kept = make_avatar(clear);
+    for (const float across : {-90.0f, -40.0f}) {
+        const Pose pose = hanging(kept, across);
+        kept.move(pose);
+        for (size_t b = 0; b < size_t(kBoneCount); ++b) EXPECT_EQ(kept.shown_pose().rotation[b], pose.rotation[b]) << bone_name(int(b));
+    }
+}
+
+TEST(HandsClear, MoveWithoutAJumpWhereTheyTouch) {
+    AvatarDesc clear;
+    clear.hands_clear = true;
+    Avatar kept = make_avatar(clear);
+    Vec3 before(0.0f);
+    float largest = 0.0f;
+    for (int step = 0; step <= 400; ++step) {
+        kept.move(hanging(kept, -20.0f + 0.1f * float(step)));
+        const Vec3 hand = kept.joints().at(VFIT_JOINT_LEFT_HAND);
+        if (step > 0) largest = std::max(largest, glm::distance(hand, before));
+        before = hand;
+    }
+    EXPECT_LT(largest, 0.01f);  // a tenth of a degree moves a free hand by 1 mm, and the skin has edges
+}
+
+}  // namespace
+}  // namespace vfit
