@@ -10,6 +10,7 @@
 #include "motion/bone_solver.h"
 #include "motion/foot_contact.h"
 #include "motion/foot_planter.h"
+#include "motion/hidden_feet.h"
 #include "motion/joint_feet.h"
 #include "motion/joint_limits.h"
 #include "motion/proportions.h"
@@ -142,6 +143,7 @@ struct Motion::State {
     Proportions person;
     BodyFilter filter;
     FootContact contact;
+    HiddenFeet hidden_feet;
     BoneSolver solver;
     RotationSmoother smoother;
     FootPlanter planter;
@@ -166,6 +168,7 @@ void Motion::State::reset() {
     person.reset();
     filter.reset();
     contact.reset();
+    hidden_feet.reset();
     solver.reset();
     smoother.reset();
     planter.reset();
@@ -176,7 +179,9 @@ void Motion::State::reset() {
 }
 
 /// One new body through the stages that run once a body.
-void Motion::State::take(const Body& body) {
+void Motion::State::take(const Body& given) {
+    const bool stood[2] = {contact.planted(0), contact.planted(1)};
+    const Body body = hidden_feet.put_back(given, stood);
     filter.update(body, enabled(VFIT_MOTION_NO_FILTER) ? &settings.filter : nullptr);
     body_id = body.id;
     body_ns = body.time_ns;

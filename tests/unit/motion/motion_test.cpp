@@ -6,6 +6,8 @@
 
 #include "core/error.h"
 #include "math/finite.h"
+#include "math/quaternion.h"
+#include "motion/joint_limits.h"
 #include "support/allocations.h"
 #include "synthetic_walk.h"
 
