@@ -11,7 +11,7 @@ namespace {
 
 // The network's chance to stand: planted above the first; free below the second for two bodies in a row, or below the
 // third at once.
-constexpr float kPlantChance = 0.6f, kFreeChance = 0.4f, kSurelyFreeChance = 0.1f;
+constexpr float kPlantChance = 0.5f, kFreeChance = 0.4f, kSurelyFreeChance = 0.1f;
 constexpr float kNeverStandsM = 0.12f;  // so high above where it stands: at the top of a jump it is slow, too
 // Whoever leaves the floor with both feet has pushed off: hips that move up or down slower than that carry nobody.
 constexpr float kFlightSpeed = 0.35f;  // m/s
