@@ -1,6 +1,7 @@
 #include "avatar/character.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -24,10 +25,11 @@ struct CharacterRig {
     std::vector<int> of_node;  // -1: no bone
 };
 
-bool is_twist(const std::string& name) {
+/// Whether a name has one of the words in it, whatever its case.
+bool speaks_of(const std::string& name, std::initializer_list<const char*> words) {
     std::string low;
     for (const char c : name) low += char(std::tolower(static_cast<unsigned char>(c)));
-    return low.find("twist") != std::string::npos || low.find("roll") != std::string::npos;
+    return std::any_of(words.begin(), words.end(), [&](const char* word) { return low.find(word) != std::string::npos; });
 }
 
 CharacterRig make_character_rig(const GltfDocument& document, const HumanoidMap& map, const Mat4& from_file) {
@@ -66,7 +68,7 @@ CharacterRig make_character_rig(const GltfDocument& document, const HumanoidMap&
         if (glm::determinant(axes) < 0.0f) fail(VFIT_ERROR_UNSUPPORTED, "the bone \"", bone.name, "\" is mirrored by a negative scale");
         bone.rest_rotation = glm::normalize(glm::quat_cast(axes));
         bone.node = node;
-        bone.is_twist = bone.bone < 0 && is_twist(bone.name);
+        bone.is_twist = bone.bone < 0 && speaks_of(bone.name, {"twist", "roll"});
         rig.of_node[size_t(node)] = int(rig.bones.size());
         rig.bones.push_back(bone);
     }
@@ -411,12 +413,9 @@ void find_tails(AvatarSource& source) {
                 if (child.parent != int(i)) continue;
                 sum += child.rest_head;
                 ++count;
-                std::string low;
-                for (const char c : child.name) low += char(std::tolower(static_cast<unsigned char>(c)));
-                if (low.find("middle") != std::string::npos || low.find("finger3") != std::string::npos) {
-                    middle = child.rest_head;
-                    has_middle = true;
-                }
+                if (!speaks_of(child.name, {"middle", "finger3"})) continue;
+                middle = child.rest_head;
+                has_middle = true;
             }
             const Vec3 fore = bone.parent >= 0 ? bone.rest_head - source.bones[size_t(bone.parent)].rest_head : Vec3(0.0f);
             constexpr float kHandOfForearm = 0.35f;  // from the wrist to the knuckles

@@ -1,7 +1,7 @@
 #include "avatar/skin_kernels.h"
 
-#include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "avatar/skin_kernels.cpp"
@@ -13,10 +13,6 @@ namespace vfit {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-
-HWY_INLINE float* At(unsigned char* data, size_t stride, uint32_t item) {
-    return reinterpret_cast<float*>(data + size_t(item) * stride);
-}
 
 // Four floats: a column of a matrix, a quaternion, a place. Highway's scalar target has vectors of one float alone.
 #if HWY_TARGET == HWY_SCALAR
@@ -32,9 +28,7 @@ HWY_INLINE V MulAdd(V a, V b, V c) {
 HWY_INLINE void Store(V v, float* p) {
     for (int i = 0; i < 4; ++i) p[i] = v.x[i];
 }
-HWY_INLINE void StoreThree(V v, float* p) {
-    for (int i = 0; i < 3; ++i) p[i] = v.x[i];
-}
+HWY_INLINE void StoreThree(V v, unsigned char* p) { std::memcpy(p, v.x, 3 * sizeof(float)); }
 HWY_INLINE float Dot(V a, V b) { return (a.x[0] * b.x[0] + a.x[2] * b.x[2]) + (a.x[1] * b.x[1] + a.x[3] * b.x[3]); }
 /// 1 / length of the first three floats of each.
 HWY_INLINE void InverseLengths(const V* n, float least2, float* lengths2, float* inverse) {
@@ -51,11 +45,12 @@ HWY_INLINE V Load(const float* p) { return hn::LoadU(kFour, p); }
 HWY_INLINE V Mul(V a, V b) { return hn::Mul(a, b); }
 HWY_INLINE V MulAdd(V a, V b, V c) { return hn::MulAdd(a, b, c); }
 HWY_INLINE void Store(V v, float* p) { hn::StoreU(v, kFour, p); }
-/// Two stores: what lies behind the three is the host's.
-HWY_INLINE void StoreThree(V v, float* p) {
+/// Two stores: what lies behind the three is the host's, at any address.
+HWY_INLINE void StoreThree(V v, unsigned char* p) {
     constexpr hn::FixedTag<float, 2> half;
-    hn::StoreU(hn::LowerHalf(half, v), half, p);
-    p[2] = hn::GetLane(hn::Shuffle1032(v));
+    hn::StoreU(hn::LowerHalf(half, v), half, reinterpret_cast<float*>(p));
+    const float third = hn::GetLane(hn::Shuffle1032(v));
+    std::memcpy(p + 2 * sizeof(float), &third, sizeof third);
 }
 HWY_INLINE float Dot(V a, V b) { return hn::GetLane(hn::SumOfLanes(kFour, hn::Mul(a, b))); }
 HWY_INLINE void InverseLengths(const V* n, float least2, float* lengths2, float* inverse) {
@@ -118,11 +113,11 @@ HWY_INLINE void StoreNormals(const V* n, const SkinJob& job, uint32_t v, uint32_
     float lengths2[kBatch], inverse[kBatch];
     InverseLengths(n, kNoLength2, lengths2, inverse);
     for (uint32_t k = 0; k < count; ++k) {
-        float* to = At(job.normals, job.normal_stride, v + k);
+        unsigned char* to = job.normals + size_t(v + k) * job.normal_stride;
         if (HWY_LIKELY(lengths2[k] > kNoLength2))
             StoreThree(Mul(n[k], Set(inverse[k])), to);
         else
-            std::copy_n(job.rest + 6 * size_t(v + k) + 3, 3, to);
+            std::memcpy(to, job.rest + 6 * size_t(v + k) + 3, 3 * sizeof(float));
     }
 }
 
@@ -138,7 +133,7 @@ HWY_INLINE void Run(const SkinJob& job, const Matrix& matrix_of) {
             V p = MulAdd(c0, Set(rest[0]), c3);
             p = MulAdd(c1, Set(rest[1]), p);
             p = MulAdd(c2, Set(rest[2]), p);
-            StoreThree(p, At(job.positions, job.position_stride, v + k));
+            StoreThree(p, job.positions + size_t(v + k) * job.position_stride);
             V n = Mul(c0, Set(rest[3]));
             n = MulAdd(c1, Set(rest[4]), n);
             normals[k] = MulAdd(c2, Set(rest[5]), n);

@@ -1,0 +1,134 @@
+// Character files as they come: names of bones, damaged and odd files.
+#include "avatar/character.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "avatar/avatar.h"
+#include "avatar/gltf_document.h"
+#include "avatar/humanoid_map.h"
+#include "core/error.h"
+#include "tiny_character.h"
+
+namespace vfit {
+namespace {
+
+TEST(HumanoidMap, KnowsTheNamesThatCommonToolsGive) {
+    struct Case {
+        const char* name;
+        int bone;
+    };
+    for (const Case& c : {Case{"mixamorig:LeftUpLeg", VFIT_BONE_LEFT_UPPER_LEG}, Case{"mixamorig1:RightLeg", VFIT_BONE_RIGHT_LOWER_LEG},
+                          Case{"upperarm_l", VFIT_BONE_LEFT_UPPER_ARM}, Case{"Bip01 R Calf", VFIT_BONE_RIGHT_LOWER_LEG},
+                          Case{"J_Bip_L_LowerArm", VFIT_BONE_LEFT_LOWER_ARM}, Case{"DEF-upper_arm.R", VFIT_BONE_RIGHT_UPPER_ARM},
+                          Case{"lowerleg01.L", VFIT_BONE_LEFT_LOWER_LEG}, Case{"Left shoulder", VFIT_BONE_LEFT_SHOULDER},
+                          Case{"RightHand", VFIT_BONE_RIGHT_HAND}, Case{"ball_r", VFIT_BONE_RIGHT_TOES}, Case{"Head", VFIT_BONE_HEAD},
+                          Case{"pelvis", VFIT_BONE_HIPS}, Case{"J_Bip_C_Hips", VFIT_BONE_HIPS},
+                          // Not these:
+                          Case{"HeadTop_End", -1}, Case{"LeftHandThumb1", -1}, Case{"upperarm_twist_01_l", -1}, Case{"Hand", -1},
+                          Case{"LeftHead", -1}, Case{"", -1}, Case{"arm_l_r", -1}})
+        EXPECT_EQ(bone_of_name(c.name), c.bone) << c.name;
+}
+
+Character load(const TinyCharacter& tiny, const std::string& map = "") {
+    return load_character(GltfDocument(tiny.glb()), map);
+}
+
+TEST(Character, TheLeastOfThemMovesAndHasNormals) {
+    const Character character = load(TinyCharacter());
+    EXPECT_EQ(character.kind, CharacterKind::gltf);
+    EXPECT_EQ(character.source.rest.positions.size(), 15u * 8);
+    for (const Vec3& n : character.source.rest.normals) EXPECT_NEAR(glm::length(n), 1.0f, 1e-5f);
+    Avatar avatar(character.source, AvatarDesc());
+    Pose pose;
+    pose.hips_position = avatar.skeleton().offset[VFIT_BONE_HIPS];
+    pose.rotation[VFIT_BONE_LEFT_UPPER_ARM] = glm::angleAxis(-0.5f * kPi, Vec3(0, 0, 1));
+    avatar.pose(pose, *Jobs::own(0));
+    const Vec3 shoulder = avatar.joints().at(VFIT_JOINT_LEFT_SHOULDER), wrist = avatar.joints().at(VFIT_JOINT_LEFT_WRIST);
+    EXPECT_NEAR(wrist.y, shoulder.y - 0.53f, 1e-3f);  // the arm hangs
+    EXPECT_NEAR(wrist.x, shoulder.x, 1e-3f);
+}
+
+TEST(Character, FacesForwardFromWhereverItLooks) {
+    const Character straight = load(TinyCharacter());
+    for (const float quarter : {1.0f, 2.0f, 3.0f}) {
+        TinyCharacter turned;
+        const float half = 0.25f * kPi * quarter;
+        turned.json["nodes"].push_back({{"name", "root"}, {"rotation", {0, std::sin(half), 0, std::cos(half)}}, {"children", {0}}});
+        turned.json["scenes"][0]["nodes"] = {16, 15};
+        const Character character = load(turned);
+        for (size_t v = 0; v < straight.source.rest.positions.size(); ++v)
+            EXPECT_LT(glm::distance(character.source.rest.positions[v], straight.source.rest.positions[v]), 1e-4f) << quarter << " " << v;
+    }
+}
+
+void expect_error(const TinyCharacter& tiny, const char* word, vfit_result code = VFIT_ERROR_DATA) {
+    try {
+        load(tiny);
+        ADD_FAILURE() << "accepted: " << word;
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), code) << error.what();
+        EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    }
+}
+
+TEST(Character, AreRefusedWithTheReason) {
+    const auto with = [](auto&& change) {
+        TinyCharacter tiny;
+        change(tiny.json);
+        return tiny;
+    };
+    expect_error(with([](auto& j) { j["nodes"][3]["children"].push_back(1); }), "");  // two parents, a ring
+    expect_error(with([](auto& j) { j["nodes"][11]["children"] = {99}; }), "child 99");
+    expect_error(with([](auto& j) { j["skins"][0]["joints"][2] = 77; }), "node 77");
+    expect_error(with([](auto& j) { j["accessors"][0]["count"] = 4000000000u; }), "beyond its buffer");
+    expect_error(with([](auto& j) { j["accessors"][0]["byteOffset"] = 1u << 30; }), "beyond its buffer");
+    expect_error(with([](auto& j) { j["bufferViews"][1]["byteOffset"] = 1u << 20; }), "");
+    expect_error(with([](auto& j) { j["accessors"][0]["type"] = "VEC2"; }), "another shape");
+    expect_error(with([](auto& j) { j["accessors"][1]["componentType"] = 5122; }), "whole numbers");
+    expect_error(with([](auto& j) { j["accessors"][2]["count"] = 7; }), "another count");
+    expect_error(with([](auto& j) { j["meshes"][0]["primitives"][0]["attributes"].erase("POSITION"); }), "positions");
+    expect_error(with([](auto& j) { j["nodes"][15]["mesh"] = 4; }), "mesh that is not there");
+    expect_error(with([](auto& j) { j["nodes"][15]["skin"] = 4; }), "skin that is not there");
+    expect_error(with([](auto& j) { j["nodes"][3]["scale"] = {0, 0, 0}; }), "scaled to nothing");
+    expect_error(with([](auto& j) { j["nodes"][3]["scale"] = {-1, 1, 1}; }), "mirrored", VFIT_ERROR_UNSUPPORTED);
+    expect_error(with([](auto& j) { j["nodes"][0]["translation"] = {0, 1e30, 0}; }), "");
+    expect_error(with([](auto& j) { j["asset"]["version"] = "1.0"; }), "version", VFIT_ERROR_UNSUPPORTED);
+    expect_error(with([](auto& j) { j["accessors"][0]["sparse"] = {{"count", 1}, {"indices", {{"bufferView", 0}, {"componentType", 5123}}}, {"values", {{"bufferView", 0}}}}; }),
+                 "sparse", VFIT_ERROR_UNSUPPORTED);
+}
+
+TEST(Character, DamageNeverReadsBeyondTheFile) {
+    const std::vector<std::byte> good = TinyCharacter().glb();
+    uint32_t text_size = 0;
+    std::memcpy(&text_size, good.data() + 12, 4);
+    std::mt19937 bits(3);
+    int accepted = 0;
+    for (int run = 0; run < 600; ++run) {
+        std::vector<std::byte> bad = good;
+        if (run % 3 == 0) {
+            bad.resize(bits() % bad.size());
+        } else {
+            // Digits of the text lead somewhere else, or any byte of the file is another one.
+            for (int k = 0; k < 3; ++k) {
+                size_t at = bits() % bad.size();
+                if (run % 3 == 1)
+                    do at = 20 + bits() % text_size;
+                    while (!std::isdigit(std::to_integer<int>(bad[at])));
+                bad[at] = std::byte(run % 3 == 1 ? '0' + bits() % 10 : bits());
+            }
+        }
+        try {
+            const Character character = load_character(GltfDocument(bad), "");
+            Avatar avatar(character.source, AvatarDesc());
+            ++accepted;
+        } catch (const Error& error) {
+            EXPECT_TRUE(error.code() == VFIT_ERROR_DATA || error.code() == VFIT_ERROR_UNSUPPORTED) << error.what();
+        }
+    }
+    EXPECT_GT(accepted, 10);  // many a digit does no harm
+}
+
+}  // namespace
+}  // namespace vfit
