@@ -245,6 +245,7 @@ TEST_F(Characters, AMovedCopyKeepsItsMaterialsAndMovesByTheRulesOfGltf) {
             shown.push_back(skin_of(avatar.get(), lively(phase)));
             animation.add_key(0.1f * float(shown.size()));
         }
+        EXPECT_THROW(animation.write(path("no such folder/moved.glb")), Failure);
         animation.write(path("moved.glb"));
         const tinygltf::Model before = read_model(read_text(file)), after = read_model(read_text(path("moved.glb")));
         ASSERT_EQ(after.materials.size(), 1u);

@@ -1,8 +1,10 @@
 #include "export/glb_writer.h"
 
 #include <algorithm>
+#include <sstream>
 
 #include "client/client.h"
+#include "client/files.h"
 
 namespace vfit::tools {
 
@@ -101,8 +103,11 @@ int GlbWriter::add_node(tinygltf::Node node) {
 }
 
 void GlbWriter::save(const std::string& path) {
+    // Through memory: of a file that cannot be written tinygltf says nothing.
     tinygltf::TinyGLTF gltf;
-    if (!gltf.WriteGltfSceneToFile(&model_, path, true, true, false, true)) throw Failure(path + ": cannot be written");
+    std::ostringstream bytes;
+    if (!gltf.WriteGltfSceneToStream(&model_, bytes, false, true)) throw Failure(path + ": cannot be made");
+    write_text(path, bytes.str());
 }
 
 void add_channel(tinygltf::Animation& animation, int node, const char* path, int times, int output) {
