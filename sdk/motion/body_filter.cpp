@@ -25,6 +25,13 @@ Vec3 BodyFilter::shown(const Track& track, int64_t time_ns) {
     return track.joint.position + track.velocity * reach + track.return_offset * fade;
 }
 
+float BodyFilter::confidence(const Track& track, int64_t time_ns) {
+    const float fade = std::exp(-std::max(0.0f, seconds(time_ns - track.return_ns)) / kReturnTimeS);
+    const float seen = track.joint.confidence - track.return_doubt * fade;
+    if (!track.lost) return seen;
+    return seen * std::exp(-std::max(0.0f, seconds(time_ns - track.seen_ns)) / kForgetTimeS);
+}
+
 void BodyFilter::update(const Body& body, const PositionFilterSettings* settings) {
     for (size_t i = 0; i < tracks_.size(); ++i) {
         Track& track = tracks_[i];
@@ -43,6 +50,7 @@ void BodyFilter::update(const Body& body, const PositionFilterSettings* settings
         const float gap = seconds(body.time_ns - track.seen_ns);
         const bool returns = track.seen && (track.lost || gap > kBridgeTimeS);
         const Vec3 before = returns ? shown(track, body.time_ns) : Vec3(0.0f);
+        const float trusted = returns ? confidence(track, body.time_ns) : 0.0f;
         if (gap > kBridgeTimeS) track.filter.reset();
         const bool inferred = reading.state == VFIT_JOINT_INFERRED;
         const Vec3 position = track.filter.update(*settings, reading.position, inferred, reading.confidence,
@@ -55,6 +63,7 @@ void BodyFilter::update(const Body& body, const PositionFilterSettings* settings
         track.lost = false;
         if (returns) {
             track.return_offset = before - position;
+            track.return_doubt = std::max(0.0f, reading.confidence - trusted);
             track.return_ns = body.time_ns;
         }
     }
@@ -74,6 +83,7 @@ void BodyFilter::sample(int64_t time_ns, Body& out) const {
         }
         out.joints[i] = track.joint;
         out.joints[i].position = shown(track, time_ns);
+        out.joints[i].confidence = confidence(track, time_ns);
         if (track.lost) {
             out.joints[i].state = VFIT_JOINT_INFERRED;
             out.joints[i].has_rotation = false;

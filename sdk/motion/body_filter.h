@@ -17,11 +17,13 @@ public:
     void update(const Body& body, const PositionFilterSettings* settings);
 
     /// Every joint seen so far, at a time not before the last body. A joint follows its trend for about
-    /// kTrendTimeS and then holds; one that the last body lacked is VFIT_JOINT_INFERRED.
+    /// kTrendTimeS and then holds; one that the last body lacked is VFIT_JOINT_INFERRED, and its confidence falls, to
+    /// rise again as it glides to where it came back.
     void sample(int64_t time_ns, Body& out) const;
 
     static constexpr float kTrendTimeS = 0.1f;   // time constant after which a trend has died away
     static constexpr float kBridgeTimeS = 0.25f; // a longer loss starts the joint's filter anew
+    static constexpr float kForgetTimeS = 0.5f;  // time constant with which confidence in a lost joint falls
     static constexpr float kReturnTimeS = 0.15f; // time constant of the glide to where a joint came back
 
 private:
@@ -32,9 +34,11 @@ private:
         bool seen = false, lost = false;
         Vec3 velocity{0.0f};      // m/s, the trend
         Vec3 return_offset{0.0f}; // from the filtered place to where the joint was shown when it came back
+        float return_doubt = 0;   // of the confidence, likewise
         int64_t return_ns = 0;
     };
     static Vec3 shown(const Track& track, int64_t time_ns);
+    static float confidence(const Track& track, int64_t time_ns);
 
     std::array<Track, kJointCount> tracks_;
     Body last_;  // id and flags

@@ -74,6 +74,29 @@ TEST(BodyFilter, BringsALostJointBackWithoutAJump) {
     EXPECT_NEAR(last, target, 0.002f);
 }
 
+TEST(BodyFilter, TrustsALostJointLessAndLessAndOneThatReturnsMoreAndMore) {
+    MovingHand hand;
+    hand.shown(frame_ns(59));
+    EXPECT_EQ(hand.out.joints[kHand].confidence, 1.0f);
+    float before = 1.0f;
+    for (int f = 60; f < 90; ++f) {
+        hand.filter.update(with_hand(0, frame_ns(f), VFIT_JOINT_NOT_SEEN), &hand.settings);
+        hand.shown(frame_ns(f));
+        EXPECT_LT(hand.out.joints[kHand].confidence, before) << f;
+        before = hand.out.joints[kHand].confidence;
+    }
+    EXPECT_NEAR(before, std::exp(-2.0f), 0.02f);  // a second later
+    for (int f = 90; f < 120; ++f) {
+        hand.filter.update(with_hand(0.9f, frame_ns(f)), &hand.settings);
+        hand.shown(frame_ns(f));
+        // On the frame of its return it is as trusted as it would be if it were still lost.
+        EXPECT_GE(hand.out.joints[kHand].confidence, before - 0.01f) << f;
+        EXPECT_LT(hand.out.joints[kHand].confidence, before + 0.3f) << f;
+        before = hand.out.joints[kHand].confidence;
+    }
+    EXPECT_GT(before, 0.99f);
+}
+
 TEST(BodyFilter, TwoReadingsOfOneMomentDoNotThrowTheJoint) {
     BodyFilter filter;
     PositionFilterSettings raw;  // the trend as it is read
