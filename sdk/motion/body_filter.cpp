@@ -26,6 +26,7 @@ Vec3 BodyFilter::shown(const Track& track, int64_t time_ns) {
 }
 
 float BodyFilter::confidence(const Track& track, int64_t time_ns) {
+    if (!track.lost && track.return_doubt == 0.0f) return track.joint.confidence;
     const float fade = std::exp(-std::max(0.0f, seconds(time_ns - track.return_ns)) / kReturnTimeS);
     const float seen = track.joint.confidence - track.return_doubt * fade;
     if (!track.lost) return seen;
