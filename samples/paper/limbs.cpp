@@ -143,7 +143,7 @@ void figure_7(const std::string& path) {
     };
     std::vector<std::pair<Canvas, std::string>> pictures;
     std::cout << "Fig. 7: volume of a forearm whose hand is turned by -90 degrees, beside its volume at rest\n";
-    for (const Skinning& s : {Skinning{"(a) one bone", true, 0}, Skinning{"(b) two bones", false, 1}, Skinning{"(c) vfit: seven", false, 6}}) {
+    for (const Skinning& s : {Skinning{"(a) one bone", true, 0}, Skinning{"(b) two bones", false, 1}, Skinning{"(c) vfit's seven", false, 6}}) {
         vfit::Avatar avatar = make_avatar(s.single, s.steps);
         const auto forearm = triangles_of(avatar.topology(), BodyPart::kLeftForearm);
         pose_forearm(avatar, 0.0f);

@@ -335,6 +335,23 @@ class Contract(unittest.TestCase):
                 self.assertGreater(plotted["points"], 20)
                 self.assertEqual(path.read_bytes()[:4], b"\x89PNG")
 
+    def test_a_character_is_written_told_and_moved(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file, moved, shown = (pathlib.Path(folder) / name for name in ("body.vrm", "moved.glb", "shown.png"))
+            self.assertEqual(run("character", "--rig", "vrm0", "--sex", "m", "--out", file).returncode, 0)
+            about = document(self, "character", file, "--motion", VIRTUAL, "--frames", 5, "--out", moved, "--picture", shown, "--json")
+            self.assertEqual((about["kind"], about["bones"]["leftUpperArm"]), ("VRM 0", "J_leftUpperArm"))
+            self.assertEqual(about["parts"], [{"mesh": "body", "material": "skin", "triangles": 27420}])
+            data = moved.read_bytes()
+            content = json.loads(data[20:20 + struct.unpack("<I", data[12:16])[0]])
+            self.assertEqual(len(content["animations"][0]["channels"]), len(about["bones"]) + 1)  # and the hips' place
+            self.assertEqual([i["mimeType"] for i in content["images"]], ["image/png"])
+            self.assertGreater(len(set(picture(shown)[2])), 10)
+            self.check_failure(run("character", file, "--motion", VIRTUAL, "--frames", 2, "--out", "/no/folder/moved.glb"), "/no/folder/moved.glb")
+        self.check_failure(run("character", "/no/character.vrm"), "/no/character.vrm", "cannot be read")
+        self.check_failure(run("character"), "file")
+        self.assertEqual(run("character", "--rig", "sausage", "--out", "x.glb").returncode, 2)
+
     def test_fit_leaves_everything_it_promises(self):
         with tempfile.TemporaryDirectory() as folder:
             document(self, "fit", VIRTUAL, "--garment", "sundress", "--frames", 8, "--out", folder, "--json")
@@ -487,6 +504,19 @@ class PaperSample(unittest.TestCase):
             done = self.run_paper("figures", "--out", folder)
             self.assertEqual(done.returncode, 0, done.stderr)
             for name in ("fig_4.png", "fig_8.png", "fig_9.png"):
+                width, height, rgb = picture(pathlib.Path(folder) / name)
+                self.assertGreater(min(width, height), 200, name)
+                self.assertGreater(len(set(rgb)), 10, name)
+
+    def test_the_forearm_keeps_its_volume_and_the_curves_are_drawn(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = self.run_paper("motion", "--source", VIRTUAL, "--feet", VIRTUAL, "--out", folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            kept = {line.split(":")[0].strip(): float(line.split(": ", 1)[1].split()[0])
+                    for line in done.stdout.splitlines() if line.startswith("  (")}
+            self.assertEqual(list(kept), ["(a) one bone", "(b) two bones", "(c) vfit's seven"])
+            self.assertGreater(kept["(c) vfit's seven"], 98)
+            for name in ("fig_5.png", "fig_6.png", "fig_7.png", "fig_11.png"):
                 width, height, rgb = picture(pathlib.Path(folder) / name)
                 self.assertGreater(min(width, height), 200, name)
                 self.assertGreater(len(set(rgb)), 10, name)
