@@ -37,6 +37,23 @@ static_assert(kPaperJointCount + int(std::size(kCapsules)) == kColliderCount);
 
 }  // namespace
 
+namespace {
+
+/// Where a missing bone would start: as high between spine and head as in a body, toes at the foot's end.
+Vec3 missing_start(const AvatarRig& rig, int bone, const Vec3& end_below) {
+    const auto trunk = [&](float share) { return glm::mix(rig.rest_head(VFIT_BONE_SPINE), rig.rest_head(VFIT_BONE_HEAD), share); };
+    switch (bone) {
+        case VFIT_BONE_CHEST: return trunk(0.22f);
+        case VFIT_BONE_UPPER_CHEST: return trunk(0.60f);
+        case VFIT_BONE_NECK: return trunk(0.83f);
+        case VFIT_BONE_LEFT_SHOULDER: return glm::mix(trunk(0.72f), rig.rest_head(VFIT_BONE_LEFT_UPPER_ARM), 0.15f);
+        case VFIT_BONE_RIGHT_SHOULDER: return glm::mix(trunk(0.72f), rig.rest_head(VFIT_BONE_RIGHT_UPPER_ARM), 0.15f);
+        default: return end_below;
+    }
+}
+
+}  // namespace
+
 void Avatar::place_joints() {
     for (int j = 0; j < kJointCount; ++j) {
         const JointPlace place = kJointPlaces[static_cast<size_t>(j)];
@@ -44,9 +61,8 @@ void Avatar::place_joints() {
         while (rig_.rig_bone(carrier) < 0) carrier = bone_parent(carrier);
         const int rig_bone = rig_.rig_bone(carrier);
         const AvatarBone& bone = rig_bones()[static_cast<size_t>(rig_bone)];
-        // A missing bone starts where the present one before it ends.
-        const float along = carrier == place.bone ? place.along : 1.0f;
-        anchors_[static_cast<size_t>(j)] = {rig_bone, glm::mix(bone.rest_head, bone.rest_tail, along)};
+        anchors_[static_cast<size_t>(j)] = {rig_bone, carrier == place.bone ? glm::mix(bone.rest_head, bone.rest_tail, place.along)
+                                                                      : missing_start(rig_, place.bone, bone.rest_tail)};
     }
 }
 

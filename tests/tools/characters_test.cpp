@@ -150,6 +150,15 @@ TEST_F(Characters, OfFourRigsArePosedAsTheBodyItself) {
         for (size_t v = 0; v < got.size(); ++v) mean += double(glm::distance(got[v], wanted[v])) / double(got.size());
         std::printf("%s: skin %.2f mm from the body's own\n", c.rig, 1e3 * mean);
         EXPECT_LT(mean, c.mean_m) << c.rig;
+        const auto joints = [](vfit_avatar a) {
+            return list<vfit_joint>([&](auto* items, uint32_t stride, uint32_t* n) { return vfit_avatar_joints(a, items, stride, n); });
+        };
+        const auto mine = joints(own.get()), theirs = joints(avatar.get());
+        ASSERT_EQ(mine.size(), theirs.size());
+        for (size_t j = 0; j < mine.size(); ++j) {
+            const auto at = [](const vfit_joint& joint) { return vec3(joint.position[0], joint.position[1], joint.position[2]); };
+            EXPECT_LT(glm::distance(at(mine[j]), at(theirs[j])), 0.09f) << c.rig << ": " << joint_name(mine[j].joint);
+        }
     }
 }
 
