@@ -1,4 +1,5 @@
 // vfit character: what vfit makes of a character's file, the same file moved by somebody, and own bodies as characters.
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 
@@ -48,7 +49,7 @@ Json report(vfit_avatar avatar) {
         if (bone.bone >= 0) bones[bone_name(bone.bone)] = bone.name;
     for (const auto& part : list<vfit_avatar_part>([&](auto* items, uint32_t stride, uint32_t* n) { return vfit_avatar_parts(avatar, items, stride, n); }))
         parts.push_back({{"mesh", part.mesh}, {"material", part.material_name}, {"triangles", part.index_count / 3}});
-    return {{"kind", kind_name(info.kind)}, {"name", info.name},           {"stature_m", info.stature_m},
+    return {{"kind", kind_name(info.kind)}, {"name", info.name},           {"stature_m", std::round(1e4 * double(info.stature_m)) / 1e4},
             {"vertices", info.vertex_count}, {"rig_bones", info.bone_count}, {"bones", bones},
             {"parts", parts}};
 }
