@@ -15,7 +15,7 @@ namespace vfit {
 
 namespace {
 
-constexpr size_t kMostVertices = size_t(4) << 20;
+constexpr size_t kMostVertices = size_t(4) << 20, kMostIndices = 6 * kMostVertices;
 constexpr float kLeastStature_m = 0.3f, kMostStature_m = 4.0f;
 constexpr float kLeastWeight = 1e-4f;
 
@@ -216,6 +216,8 @@ private:
         } else {
             for (uint32_t i = 0; i < count; ++i) indices.push_back(first + i);
         }
+        // Nodes may share a mesh: a small file can ask for any number of copies.
+        if (indices.size() > kMostIndices) fail(VFIT_ERROR_DATA, "the character has more than ", kMostIndices / 3, " triangles");
         part.index_count = uint32_t(indices.size()) - part.first_index;
         if (part.index_count % 3 != 0) fail(VFIT_ERROR_DATA, what, ": ", part.index_count, " indices are no whole triangles");
         out_.parts.push_back(part);

@@ -14,9 +14,70 @@ namespace vfit {
 namespace {
 
 constexpr size_t kMaxFileBytes = size_t(512) << 20;
+// More than any character has; what follows counts bones in 16 bits.
+constexpr size_t kMostNodes = 60000;
+constexpr int kDeepest = 64;  // levels of the text: a file of brackets alone would cost gigabytes
 
 bool keep_picture_as_it_is(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
     return true;
+}
+
+/// Where a .gltf keeps its buffers: its own folder and those in it, nowhere else on the host's machine; of a file in
+/// memory, nowhere.
+struct OwnFolder {
+    std::filesystem::path folder;  // empty: none
+
+    bool holds(const std::string& path) const {
+        if (folder.empty()) return false;
+        const auto inside = std::filesystem::absolute(path).lexically_normal().lexically_relative(folder);
+        std::error_code ignored;
+        return !inside.empty() && *inside.begin() != ".." && std::filesystem::is_regular_file(path, ignored);
+    }
+};
+
+bool file_exists(const std::string& path, void* own) { return static_cast<const OwnFolder*>(own)->holds(path); }
+
+std::string as_it_is(const std::string& path, void*) { return path; }
+
+bool read_whole_file(std::vector<unsigned char>* out, std::string* error, const std::string& path, void* own) {
+    try {
+        if (!file_exists(path, own)) return false;
+        const std::vector<std::byte> bytes = read_file(path, kMaxFileBytes);
+        out->resize(bytes.size());
+        if (!bytes.empty()) std::memcpy(out->data(), bytes.data(), bytes.size());
+        return true;
+    } catch (const Error& failed) {
+        if (error) *error += failed.what();
+        return false;
+    }
+}
+
+/// Of the text in the file; a quoted bracket is none.
+bool nests_too_deep(std::span<const std::byte> bytes) {
+    int depth = 0;
+    bool quoted = false;
+    for (size_t i = 0; i < bytes.size(); ++i) {
+        const char c = char(bytes[i]);
+        if (quoted) {
+            if (c == '\\') ++i;
+            quoted = c != '"';
+        } else if (c == '"') {
+            quoted = true;
+        } else if (c == '{' || c == '[') {
+            if (++depth > kDeepest) return true;
+        } else if (c == '}' || c == ']') {
+            --depth;
+        }
+    }
+    return false;
+}
+
+/// The JSON of a GLB, or the whole file.
+std::span<const std::byte> text_of(std::span<const std::byte> bytes, bool binary) {
+    if (!binary) return bytes;
+    uint32_t length = 0;
+    std::memcpy(&length, bytes.data() + 12, sizeof length);
+    return bytes.subspan(20, std::min(size_t(length), bytes.size() - 20));
 }
 
 bool starts_with(const std::string& text, const char* start) { return text.rfind(start, 0) == 0; }
@@ -73,7 +134,8 @@ float number_at(const unsigned char* p, int type, bool normalized) {
 
 GltfDocument::GltfDocument(const std::string& path) {
     const std::vector<std::byte> bytes = read_file(path, kMaxFileBytes);
-    parse(bytes, std::filesystem::path(path).parent_path().string());
+    const auto folder = std::filesystem::path(path).parent_path();
+    parse(bytes, folder.empty() ? "." : folder.string());
 }
 
 GltfDocument::GltfDocument(std::span<const std::byte> bytes) { parse(bytes, ""); }
@@ -83,9 +145,13 @@ void GltfDocument::parse(std::span<const std::byte> bytes, const std::string& fo
     if (bytes.size() > kMaxFileBytes) fail(VFIT_ERROR_DATA, "the file has ", bytes.size(), " bytes, more than ", kMaxFileBytes);
     tinygltf::TinyGLTF loader;
     loader.SetImageLoader(keep_picture_as_it_is, nullptr);
+    OwnFolder own;
+    if (!folder.empty()) own.folder = std::filesystem::absolute(folder).lexically_normal();
+    loader.SetFsCallbacks({file_exists, as_it_is, read_whole_file, nullptr, &own});
     std::string error, warning;
     const auto size = static_cast<unsigned int>(bytes.size());
     const bool binary = std::memcmp(bytes.data(), "glTF", 4) == 0;
+    if (nests_too_deep(text_of(bytes, binary))) fail(VFIT_ERROR_DATA, "no glTF file: its text is nested deeper than ", kDeepest, " levels");
     bool read = false;
     try {
         read = binary ? loader.LoadBinaryFromMemory(&model_, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()),
@@ -116,6 +182,7 @@ void GltfDocument::check_extensions() const {
 
 void GltfDocument::place_nodes() {
     const size_t count = model_.nodes.size();
+    if (count > kMostNodes) fail(VFIT_ERROR_DATA, "the file has ", count, " nodes, more than ", kMostNodes);
     parents_.assign(count, -1);
     for (size_t n = 0; n < count; ++n)
         for (const int child : model_.nodes[n].children) {

@@ -2,10 +2,10 @@
 
 #include <cctype>
 #include <cstring>
-#include <nlohmann/json.hpp>
 
 #include "avatar/rig.h"
 #include "core/error.h"
+#include "core/json.h"
 
 namespace vfit {
 
@@ -110,8 +110,8 @@ void read_vrm1(const GltfDocument& document, const tinygltf::Value* bones, Human
 }
 
 void read_own(const GltfDocument& document, const std::string& json, HumanoidMap& map) {
-    const auto parsed = nlohmann::json::parse(json, nullptr, false);
-    if (!parsed.is_object()) fail(VFIT_ERROR_ARGUMENT, "the bone map is no JSON object {\"hips\": \"node name\", ...}");
+    const Json parsed = parse_json(json, "bone map");
+    if (!parsed.is_object()) fail(VFIT_ERROR_DATA, "the bone map is no JSON object {\"hips\": \"node name\", ...}");
     for (const auto& [key, value] : parsed.items()) {
         const int bone = bone_from_vrm_name(key);
         if (bone < 0) fail(VFIT_ERROR_ARGUMENT, "the bone map's \"", key, "\" is no VRM bone name");

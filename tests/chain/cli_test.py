@@ -348,6 +348,25 @@ class Contract(unittest.TestCase):
             self.assertEqual([i["mimeType"] for i in content["images"]], ["image/png"])
             self.assertGreater(len(set(picture(shown)[2])), 10)
             self.check_failure(run("character", file, "--motion", VIRTUAL, "--frames", 2, "--out", "/no/folder/moved.glb"), "/no/folder/moved.glb")
+            # The same as text with its buffer and picture beside it: the moved copy has them in it.
+            data = file.read_bytes()
+            size = struct.unpack("<I", data[12:16])[0]
+            content, buffer = json.loads(data[20:20 + size]), data[28 + size:]
+            view = content["bufferViews"][content["images"][0].pop("bufferView")]
+            texture = buffer[view["byteOffset"]:view["byteOffset"] + view["byteLength"]]
+            content["images"][0] = {"uri": "skin.png"}
+            content["buffers"][0]["uri"] = "body.bin"
+            beside = pathlib.Path(folder) / "beside"
+            beside.mkdir()
+            for name, what in (("skin.png", texture), ("body.bin", buffer), ("body.gltf", json.dumps(content).encode())):
+                (beside / name).write_bytes(what)
+            document(self, "character", beside / "body.gltf", "--motion", VIRTUAL, "--frames", 2, "--out", moved, "--json")
+            data = moved.read_bytes()
+            size = struct.unpack("<I", data[12:16])[0]
+            content, buffer = json.loads(data[20:20 + size]), data[28 + size:]
+            self.assertNotIn("uri", content["buffers"][0])
+            view = content["bufferViews"][content["images"][0]["bufferView"]]
+            self.assertEqual(buffer[view.get("byteOffset", 0):][:view["byteLength"]], texture)
         self.check_failure(run("character", "/no/character.vrm"), "/no/character.vrm", "cannot be read")
         self.check_failure(run("character"), "file")
         self.assertEqual(run("character", "--rig", "sausage", "--out", "x.glb").returncode, 2)

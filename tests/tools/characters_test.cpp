@@ -289,7 +289,7 @@ TEST_F(Characters, ThatCannotBePosedAreRefusedWithTheReason) {
                    "KHR_draco_mesh_compression");
     const std::string renamed = changed("mixamo", [&](auto& m) { node_named(m, "mixamorig:LeftArm").name = "Ast 7"; });
     expect_refused(renamed, VFIT_ERROR_DATA, "leftUpperArm");
-    expect_refused(renamed, VFIT_ERROR_ARGUMENT, "JSON", "leftUpperArm=Ast 7");
+    expect_refused(renamed, VFIT_ERROR_DATA, "JSON", "leftUpperArm=Ast 7");
     expect_refused(renamed, VFIT_ERROR_ARGUMENT, "leftWing", R"({"leftWing": "Ast 7"})");
     expect_refused(renamed, VFIT_ERROR_DATA, "Ast 8", R"({"leftUpperArm": "Ast 8"})");
     expect_refused(renamed, VFIT_ERROR_DATA, "does not hang on", R"({"leftUpperArm": "mixamorig:RightArm"})");

@@ -1,7 +1,7 @@
 #include "export/character_animation.h"
 
+#include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "client/files.h"
@@ -76,6 +76,20 @@ quat rotation_of(const mat4& m) {
     return glm::normalize(glm::quat_cast(axes));
 }
 
+/// Pictures and buffers that lay beside the file go into it: the new one may stand elsewhere.
+void take_in(GlbWriter& writer) {
+    tinygltf::Model& model = writer.model();
+    for (tinygltf::Image& image : model.images) {
+        if (image.bufferView >= 0 || image.image.empty()) continue;
+        constexpr unsigned char kPng[] = {0x89, 'P', 'N', 'G'};
+        const bool png = image.image.size() > sizeof kPng && std::equal(std::begin(kPng), std::end(kPng), image.image.begin());
+        image.mimeType = png ? "image/png" : "image/jpeg";
+        image.bufferView = writer.add_view(image.image.data(), image.image.size(), 0);
+        image.uri.clear();
+    }
+    for (tinygltf::Buffer& buffer : model.buffers) buffer.uri.clear();
+}
+
 }  // namespace
 
 void CharacterAnimation::add_key(float time_s) {
@@ -101,6 +115,13 @@ void CharacterAnimation::write(const std::string& path) const {
     for (size_t n = 0; n < model.nodes.size(); ++n)
         for (const int child : model.nodes[n].children) parent[size_t(child)] = int(n);
 
+    // Parents before children. The library has refused trees that are none.
+    std::vector<size_t> order;
+    for (size_t n = 0; n < model.nodes.size(); ++n)
+        if (parent[n] < 0) order.push_back(n);
+    for (size_t i = 0; i < order.size(); ++i)
+        for (const int child : model.nodes[order[i]].children) order.push_back(size_t(child));
+
     // World rotations are those of the posed bones; translations stay but for the hips', who alone may move.
     std::vector<std::vector<quat>> rotations(model.nodes.size());
     std::vector<std::vector<vec3>> translations(model.nodes.size());
@@ -108,7 +129,7 @@ void CharacterAnimation::write(const std::string& path) const {
     for (const Key& key : keys_) {
         times.push_back(key.time_s);
         std::vector<mat4> world(model.nodes.size());
-        const std::function<void(size_t)> place = [&](size_t n) {
+        for (const size_t n : order) {
             const mat4 above = parent[n] < 0 ? mat4(1.0f) : world[size_t(parent[n])];
             Local local = rest[n];
             if (const int b = bone_of[n]; b >= 0) {
@@ -125,10 +146,7 @@ void CharacterAnimation::write(const std::string& path) const {
                 }
             }
             world[n] = above * local.matrix();
-            for (const int child : model.nodes[n].children) place(size_t(child));
-        };
-        for (size_t n = 0; n < model.nodes.size(); ++n)
-            if (parent[n] < 0) place(n);
+        }
     }
 
     tinygltf::Animation animation;
@@ -148,6 +166,7 @@ void CharacterAnimation::write(const std::string& path) const {
                         writer.add(translations[n], TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_FLOAT, 0));
     }
     model.animations = {animation};
+    take_in(writer);
     writer.save(path);
 }
 

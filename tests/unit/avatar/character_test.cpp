@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <random>
 
 #include "avatar/avatar.h"
@@ -97,6 +99,96 @@ TEST(Character, AreRefusedWithTheReason) {
     expect_error(with([](auto& j) { j["asset"]["version"] = "1.0"; }), "version", VFIT_ERROR_UNSUPPORTED);
     expect_error(with([](auto& j) { j["accessors"][0]["sparse"] = {{"count", 1}, {"indices", {{"bufferView", 0}, {"componentType", 5123}}}, {"values", {{"bufferView", 0}}}}; }),
                  "sparse", VFIT_ERROR_UNSUPPORTED);
+}
+
+/// A .gltf beside a buffer of its own.
+class OwnFolder : public testing::Test {
+protected:
+    void SetUp() override {
+        folder = std::filesystem::temp_directory_path() / ("vfit_gltf_" + std::to_string(std::random_device()()));
+        std::filesystem::create_directories(folder / "inside" / "buffers");
+        before = std::filesystem::current_path();
+    }
+    void TearDown() override {
+        std::filesystem::current_path(before);
+        std::filesystem::remove_all(folder);
+    }
+    void write(const std::filesystem::path& name, const std::string& bytes) const {
+        std::ofstream(folder / name, std::ios::binary) << bytes;
+    }
+    std::string text_with(const std::string& uri) const {
+        TinyCharacter tiny;
+        tiny.json["buffers"][0]["uri"] = uri;
+        return tiny.json.dump();
+    }
+    std::string buffer() const {
+        const TinyCharacter tiny;
+        return {tiny.binary.begin(), tiny.binary.end()};
+    }
+    bool loads(const std::string& uri) const {
+        write("inside/c.gltf", text_with(uri));
+        try {
+            load_character(GltfDocument((folder / "inside" / "c.gltf").string()), "");
+            return true;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), VFIT_ERROR_DATA) << error.what();
+            return false;
+        }
+    }
+    std::filesystem::path folder, before;
+};
+
+TEST_F(OwnFolder, IsTheOnlyPlaceThatAFileMayReadFrom) {
+    for (const char* name : {"inside/own.bin", "inside/buffers/own.bin", "outside.bin"}) write(name, buffer());
+    EXPECT_TRUE(loads("own.bin"));
+    EXPECT_TRUE(loads("buffers/own.bin"));
+    EXPECT_FALSE(loads("../outside.bin"));
+    EXPECT_FALSE(loads("buffers/../../outside.bin"));
+    EXPECT_FALSE(loads((folder / "outside.bin").string()));
+    EXPECT_FALSE(loads("missing.bin"));
+    EXPECT_FALSE(loads("buffers"));  // a folder
+    std::filesystem::current_path(folder);  // nor is where the host happens to work
+    EXPECT_FALSE(loads("outside.bin"));
+    // By a bare name its folder is the one the host works in.
+    EXPECT_TRUE(loads("own.bin"));
+    std::filesystem::current_path(folder / "inside");
+    EXPECT_NO_THROW(load_character(GltfDocument(std::string("c.gltf")), ""));
+}
+
+TEST_F(OwnFolder, OfAFileInMemoryIsNone) {
+    write("inside/own.bin", buffer());
+    std::filesystem::current_path(folder / "inside");
+    const std::string text = text_with("own.bin");
+    EXPECT_THROW(GltfDocument(std::as_bytes(std::span(text.data(), text.size()))), Error);
+}
+
+TEST(Character, AskedForTooMuchIsRefusedAtOnce) {
+    const auto refused = [](const std::vector<std::byte>& bytes, const char* word) {
+        try {
+            load_character(GltfDocument(bytes), "");
+            ADD_FAILURE() << "accepted: " << word;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), VFIT_ERROR_DATA);
+            EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+        }
+    };
+    refused(std::vector<std::byte>(1 << 20, std::byte('[')), "deeper");
+    TinyCharacter deep;
+    deep.json["extras"] = nlohmann::json::parse(std::string(200, '[') + std::string(200, ']'));
+    refused(deep.glb(), "deeper");
+    TinyCharacter nodes;
+    for (int i = 0; i < 60001; ++i) nodes.json["nodes"].push_back(nlohmann::json::object());
+    refused(nodes.glb(), "nodes");
+    TinyCharacter copies;  // 48,000 nodes show one mesh of 180 triangles, 540 corners
+    for (int i = 0; i < 48000; ++i) copies.json["nodes"].push_back({{"mesh", 0}, {"skin", 0}});
+    refused(copies.glb(), "triangles");
+    TinyCharacter map;
+    try {
+        load(map, std::string(100000, '['));
+        ADD_FAILURE();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), VFIT_ERROR_DATA);
+    }
 }
 
 TEST(Character, DamageNeverReadsBeyondTheFile) {
