@@ -651,7 +651,8 @@ VFIT_API vfit_result vfit_avatar_create_from_scan(vfit_context context, const vf
  * floor; whatever its proportions, the bones of a pose turn it, feet that motion plants stand, limbs get twist bones,
  * and hands are kept out of its trunk and thighs (unless desc.flags has HANDS_AS_POSED). Missing of VRM's optional
  * bones are stood in for. Morph targets, animations and meshes that hang on no bone are left out and logged. desc.sex
- * and detail do not apply. VFIT_ERROR_IO; VFIT_ERROR_DATA for a damaged file, one without a humanoid or skin, of no
+ * and detail do not apply. Buffers are read from the file's own folder alone, from memory from nowhere else.
+ * VFIT_ERROR_IO; VFIT_ERROR_DATA for a damaged file, one without a humanoid or skin, of no
  * person's size, or that lies down; VFIT_ERROR_UNSUPPORTED for compressed meshes and sparse data.       [any]   */
 VFIT_API vfit_result vfit_avatar_load(vfit_context context, const vfit_avatar_desc* desc,
                                       const vfit_character_desc* character, vfit_avatar* out);
