@@ -15,6 +15,7 @@ from torch import nn
 
 import crops
 from network import COUNT, CROP, JOINTS, MAP, MIRROR, Network, decode
+from unfold import from_onnx
 
 METRE = 1.15  # of one crop unit
 HEAT_SIGMA = 0.06
@@ -27,6 +28,8 @@ def joint_weights():
             weight[i] = 2.0
         if "HAND" in name or "WRIST" in name:
             weight[i] = 2.5
+        if "FOOT" in name or "TOES" in name:
+            weight[i] = 1.5
     return weight
 
 
@@ -100,16 +103,19 @@ def main():
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--reuse", type=float, default=1.0, help="how often a crop is used on average")
     parser.add_argument("--pool", type=int, default=16384, help="crops that batches are drawn from")
-    parser.add_argument("--start", type=Path, help="weights to start from")
+    parser.add_argument("--start", type=Path, help="weights to start from: a state.pt, or an exported .onnx")
     arguments = parser.parse_args()
     torch.set_num_threads(arguments.threads)
     torch.manual_seed(arguments.seed)
     arguments.run.mkdir(parents=True, exist_ok=True)
 
     device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
+    unseen = crops.tensors(crops.read(arguments.crops, arguments.body, 1000003, 0, 1440))
     network = Network().to(device, memory_format=torch.channels_last)
     average = Network().to(device)
-    if arguments.start:
+    if arguments.start and arguments.start.suffix == ".onnx":
+        network.load_state_dict(from_onnx(arguments.start, unseen[0]).state_dict())
+    elif arguments.start:
         network.load_state_dict(torch.load(arguments.start, map_location=device)["average"])
     average.load_state_dict(network.state_dict())
     optimiser = torch.optim.AdamW(network.parameters(), arguments.rate, weight_decay=1e-4)
@@ -131,7 +137,7 @@ def main():
     def on_device(batch):
         return (batch[0].to(device).contiguous(memory_format=torch.channels_last), *(x.to(device) for x in batch[1:]))
 
-    unseen = on_device(crops.tensors(crops.read(arguments.crops, arguments.body, 1000003, 0, 1440)))
+    unseen = on_device(unseen)
     stream = crops.Stream(arguments.crops, arguments.body, arguments.seed, step * arguments.batch,
                           arguments.processes, arguments.pool, arguments.reuse)
     weight, begin, last, running = joint_weights().to(device), time.time(), time.time(), []

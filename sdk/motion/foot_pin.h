@@ -1,6 +1,5 @@
 // Where one foot is shown: at the place where it was planted (paper, Algorithm 5, recordFootPosition), and where it is
-// tracked while it is free. From one to the other it glides as a critically damped spring does, without a jump of place
-// or speed.
+// tracked while it is free. From one to the other it glides without a jump of place or of force.
 #pragma once
 
 #include "math/types.h"
@@ -26,7 +25,7 @@ public:
     const Vec3& drag() const { return drag_; }
 
 private:
-    void spring(const Vec3& rate, float dt_s);
+    void fade(float rate, float dt_s);
 
     float leash_m_;
     bool planted_ = false, known_ = false;
@@ -34,7 +33,8 @@ private:
     Vec3 tracked_there_{0.0f};                       // where the foot was tracked while it stood there, mean
     float stood_s_ = 0.0f, free_s_ = 0.0f;           // for so long
     Vec3 tracked_{0.0f}, tracked_velocity_{0.0f};
-    Vec3 glide_{0.0f}, glide_velocity_{0.0f};        // from where it goes to, place or tracked, to where it is shown
+    // From where it goes to, place or tracked, to where it is shown.
+    Vec3 glide_{0.0f}, glide_velocity_{0.0f}, glide_acceleration_{0.0f};
     Vec3 offset_{0.0f}, drag_{0.0f};
 };
 

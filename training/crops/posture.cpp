@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "motion/two_bone_ik.h"
+#include "math/two_bone_ik.h"
 
 namespace vfit::training {
 
@@ -55,7 +55,7 @@ private:
     Quat& rotation(int bone) { return pose_.rotation[static_cast<size_t>(bone)]; }
 
     void usual_legs() {
-        switch (random_.pick({0.44f, 0.19f, 0.16f, 0.11f, 0.10f})) {
+        switch (random_.pick({0.38f, 0.27f, 0.14f, 0.11f, 0.10f})) {
             case 0: standing(); break;
             case 1: walking(); break;
             case 2: squat(); break;
@@ -98,8 +98,9 @@ private:
     }
 
     void walking() {
-        const float phase = random_.between(0, 2 * kPi), stride = random_.between(10, 32), lift = random_.between(10, 70);
-        const bool in_place = random_.chance(0.5f);
+        const float phase = random_.between(0, 2 * kPi), stride = random_.between(6, 34), lift = random_.between(10, 70);
+        const float heel_strike = random_.between(-5, 25), push_off = random_.between(0, 40), bend = random_.between(20, 65);
+        const bool in_place = random_.chance(0.35f);
         for (const Side side : {kLeft, kRight}) {
             const float p = phase + (side == kLeft ? 0.0f : kPi), swing = std::max(0.0f, std::cos(p));
             if (in_place) {  // marching or jogging on the spot: the knee rises, the shank hangs or kicks back
@@ -107,8 +108,9 @@ private:
                 leg(side, lift * swing + 3, spread(random_, 1, 3), spread(random_, 5, 6), lift * 1.3f * swing + heel * swing + 4,
                     25 * swing * random_.unit());
             } else {
-                leg(side, stride * std::sin(p) + 4, spread(random_, 0, 2), spread(random_, 5, 5), 8 + 50 * swing,
-                    std::sin(p) < 0 ? 25.0f * -std::sin(p) : 0.0f);
+                // Toes up as the heel comes down before the body, heel up as the foot is left behind it.
+                const float ahead = std::sin(p), pitch = ahead < 0 ? -push_off * ahead : -heel_strike * ahead * ahead;
+                leg(side, stride * ahead + 4, spread(random_, 0, 2), spread(random_, 5, 5), 8 + bend * swing, pitch);
             }
         }
         rotation(VFIT_BONE_HIPS) = about_y(6 * std::sin(phase) + spread(random_, 0, 3)) * about_x(spread(random_, 2, 3));

@@ -46,6 +46,15 @@ std::vector<float> random_shape(const BodyModel& model, Random& random) {
     return shape;
 }
 
+/// Mostly towards the sensor; often from the side, where one leg hides the other; every other way now and then.
+float random_facing(Random& random) {
+    switch (random.pick({0.44f, 0.28f, 0.28f})) {
+        case 0: return std::clamp(random.normal(0, glm::radians(22.0f)), -1.2f, 1.2f);
+        case 1: return (random.chance(0.5f) ? 1.0f : -1.0f) * glm::radians(random.between(50, 130));
+        default: return random.between(-kPi, kPi);
+    }
+}
+
 }  // namespace
 
 void Sampler::make_person(uint64_t number) {
@@ -74,9 +83,7 @@ void Sampler::make(uint64_t index, Sample& out) {
 
 bool Sampler::try_once(Random& random, Sample& out) {
     const bool person = random.chance(0.93f);
-    // Mostly towards the sensor; every other way now and then.
-    const float yaw = random.chance(0.64f) ? std::clamp(random.normal(0, glm::radians(22.0f)), -1.2f, 1.2f)
-                                           : random.between(-kPi, kPi);
+    const float yaw = random_facing(random);
     const Sensor& sensor = kSensors[random.pick({kSensors[0].weight, kSensors[1].weight, kSensors[2].weight,
                                                  kSensors[3].weight, kSensors[4].weight})];
     const float distance = random.chance(0.8f) ? random.between(1.9f, 3.6f) : random.between(1.3f, 4.3f);
