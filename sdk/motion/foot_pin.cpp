@@ -10,7 +10,7 @@ namespace {
 // Time constants of the glide: a foot that touches down stands within two frames; one that is free returns to where it
 // is tracked in a few steps of a frame. A foot that came to stand beside the floor goes there unseen, two millimetres a
 // frame.
-constexpr float kStopS = 0.006f, kReleaseS = 0.055f, kSettleSpeed = 0.06f;
+constexpr float kStopS = 0.0065f, kReleaseS = 0.05f, kSettleSpeed = 0.06f;
 // No step is shorter in time and as short in space: a foot that is so soon tracked where it stood never left.
 constexpr float kNoStepS = 0.3f, kNoStepM = 0.03f;
 constexpr float kMeanS = 1.0f;        // of the tracked place of a foot that stands
