@@ -14,14 +14,14 @@ constexpr int kRests = 0;
 constexpr float kAcceleration[AdaptiveFilter::kModes] = {0.0f, 0.05f, 15.0f};
 constexpr float kFrame_s = 1.0f / 30.0f;
 constexpr float kDrift = 0.0002f;
-constexpr float kRestingSpeed = 0.13f;  // m/s: sd of the velocity of who rests, should he start to move
+constexpr float kRestingSpeed = 0.105f;  // m/s: sd of the velocity of who rests, should he start to move
 // Chance that a mode gives way to another one within a frame, from a row to a column.
 constexpr float kSwitch[AdaptiveFilter::kModes][AdaptiveFilter::kModes] = {
-    {0.9992f, 0.0006f, 0.0002f}, {0.03f, 0.96f, 0.01f}, {0.001f, 0.03f, 0.969f}};
+    {0.9989f, 0.0006f, 0.0005f}, {0.03f, 0.96f, 0.01f}, {0.001f, 0.03f, 0.969f}};
 
 // Readings of trackers wander slowly beside their white noise, which differences do not show: the least noise stands
 // for that.
-constexpr float kLeastNoiseM = 0.0065f, kLeastWhiteM = 0.002f, kMostNoiseM = 0.05f;
+constexpr float kLeastNoiseM = 0.0075f, kLeastWhiteM = 0.002f, kMostNoiseM = 0.05f;
 constexpr float kEvenTimes = 1.3f;  // intervals that differ by less are even
 constexpr float kMedianOfNormal = 0.6745f;
 constexpr float kLeap = 18.0f;  // squared Mahalanobis distance: 0.04 % of honest readings lie farther

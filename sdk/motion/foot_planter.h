@@ -1,5 +1,6 @@
 // Foot-skate correction on the character (paper, Algorithm 6): planted feet are held where they were
-// recorded, hips and knees follow by inverse kinematics, and the root takes what the legs cannot reach.
+// recorded, hips and knees follow by inverse kinematics, and the root takes what the legs cannot reach: its height and
+// the pelvis' roll, which nobody sees, follow the knees, which everybody does.
 #pragma once
 
 #include <array>
@@ -27,6 +28,7 @@ public:
 
 private:
     std::array<FootPin, 2> pins_{FootPin(kCharacterLeashM), FootPin(kCharacterLeashM)};
+    bool known_ = false;
     std::array<float, 2> weight_{};  // of each planted foot in the root's height; eases in and out
     Vec3 root_shift_{0.0f};  // d_root beside that; fades when no leg needs it
     std::array<Vec3, 2> shown_{};  // where the last apply() put the ankles
