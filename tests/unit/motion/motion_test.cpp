@@ -228,6 +228,17 @@ TEST(Motion, GivesTheSameBitsForTheSameBodies) {
     }
 }
 
+Pose knees_bent_by_16_degrees(const Skeleton& skeleton) {
+    Pose pose;
+    for (const int leg : {VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_RIGHT_UPPER_LEG}) {
+        pose.rotation[size_t(leg)] = glm::angleAxis(-8 * testing::kDeg, Vec3(1, 0, 0));
+        pose.rotation[size_t(leg) + 1] = glm::angleAxis(16 * testing::kDeg, Vec3(1, 0, 0));
+        pose.rotation[size_t(leg) + 2] = glm::angleAxis(-8 * testing::kDeg, Vec3(1, 0, 0));
+    }
+    testing::stand_on_floor(skeleton, pose);
+    return pose;
+}
+
 TEST(Motion, AFootThatStandsKeepsTheKneeAsItWasSeen) {
     // All above the ankles bobs by a centimetre, as a sensor sees it. Where the root's height does not take that, the
     // distance from hip to ankle does, and near full stretch a centimetre of it is 17 degrees of the knee.
@@ -236,14 +247,7 @@ TEST(Motion, AFootThatStandsKeepsTheKneeAsItWasSeen) {
     motion.bind(skeleton);
     float least = 180.0f, most = 0.0f;
     for (int f = 0; f < 150; ++f) {
-        Pose pose;
-        for (const int leg : {VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_RIGHT_UPPER_LEG}) {
-            pose.rotation[size_t(leg)] = glm::angleAxis(-8 * testing::kDeg, Vec3(1, 0, 0));
-            pose.rotation[size_t(leg) + 1] = glm::angleAxis(16 * testing::kDeg, Vec3(1, 0, 0));
-            pose.rotation[size_t(leg) + 2] = glm::angleAxis(-8 * testing::kDeg, Vec3(1, 0, 0));
-        }
-        testing::stand_on_floor(skeleton, pose);
-        Body body = testing::joints_of(skeleton, pose, frame_ns(f));
+        Body body = testing::joints_of(skeleton, knees_bent_by_16_degrees(skeleton), frame_ns(f));
         for (Joint& joint : body.joints)
             if (joint.position.y > 0.2f) joint.position.y += 0.01f * std::sin(0.15f * static_cast<float>(f));
         motion.step(&body, body.time_ns);
@@ -253,6 +257,31 @@ TEST(Motion, AFootThatStandsKeepsTheKneeAsItWasSeen) {
         most = std::max(most, bend);
     }
     EXPECT_LT(most - least, 1.0f) << least << " to " << most << " degrees";
+}
+
+TEST(Motion, ALegSeenHigherThanTheOtherOnALevelFloorBendsNoKnee) {
+    // Sensors see one leg, hip to toes, a centimetre higher than the other one. Both feet stand on the floor: the pelvis
+    // rolls by what they differ in, or one knee would bend by another 15 degrees. Nothing above it turns.
+    const Skeleton skeleton = testing::test_skeleton();
+    Motion motion{MotionSettings{}};
+    motion.bind(skeleton);
+    Quat spine_level;
+    for (int f = 0; f < 240; ++f) {
+        Body body = testing::joints_of(skeleton, knees_bent_by_16_degrees(skeleton), frame_ns(f));
+        const float higher = 0.01f * std::clamp(static_cast<float>(f - 60) / 60.0f, 0.0f, 1.0f);
+        for (const int j : {VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_RIGHT_KNEE, VFIT_JOINT_RIGHT_FOOT, VFIT_JOINT_RIGHT_TOES})
+            body.joints[size_t(j)].position.y += higher;
+        motion.step(&body, body.time_ns);
+        const PosedSkeleton posed = forward_kinematics(skeleton, motion.pose());
+        if (f == 59) spine_level = posed.rotation[VFIT_BONE_SPINE];
+        if (f < 59) continue;
+        ASSERT_EQ(motion.pose().contacts, uint32_t(VFIT_CONTACT_LEFT | VFIT_CONTACT_RIGHT)) << f;
+        for (const int lower : {VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_RIGHT_LOWER_LEG}) {
+            EXPECT_NEAR(angle_of(motion.pose().rotation[size_t(lower)]) / testing::kDeg, 16.0f, 2.0f) << f;
+            EXPECT_NEAR(posed.position[size_t(lower) + 1].y, skeleton.ankle_height, 1e-3f) << f;
+        }
+        EXPECT_LT(angle_of(glm::conjugate(spine_level) * posed.rotation[VFIT_BONE_SPINE]) / testing::kDeg, 1.2f) << f;
+    }
 }
 
 TEST(Motion, KeepsTheSignOfEveryQuaternion) {
