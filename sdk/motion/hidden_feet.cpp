@@ -9,7 +9,7 @@ namespace {
 
 // A foot that stood, is seen so far from its place and so near the other foot, has not stepped there: one that lifts is
 // known to be free after a few centimetres.
-constexpr float kTwinM = 0.26f, kAwayM = 0.08f;
+constexpr float kTwinM = 0.36f, kAwayM = 0.08f;
 constexpr float kLongestS = 0.4f;    // after that it may have gone anywhere
 constexpr float kPlaceS = 0.1f;      // low-pass of the place
 constexpr float kSure = 0.1f;        // confidence of an ankle that was put back
