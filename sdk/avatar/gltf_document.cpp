@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/json.h"
 
 namespace vfit {
 
@@ -52,32 +53,13 @@ bool read_whole_file(std::vector<unsigned char>* out, std::string* error, const 
     }
 }
 
-/// Of the text in the file; a quoted bracket is none.
-bool nests_too_deep(std::span<const std::byte> bytes) {
-    int depth = 0;
-    bool quoted = false;
-    for (size_t i = 0; i < bytes.size(); ++i) {
-        const char c = char(bytes[i]);
-        if (quoted) {
-            if (c == '\\') ++i;
-            quoted = c != '"';
-        } else if (c == '"') {
-            quoted = true;
-        } else if (c == '{' || c == '[') {
-            if (++depth > kDeepest) return true;
-        } else if (c == '}' || c == ']') {
-            --depth;
-        }
-    }
-    return false;
-}
-
 /// The JSON of a GLB, or the whole file.
-std::span<const std::byte> text_of(std::span<const std::byte> bytes, bool binary) {
-    if (!binary) return bytes;
+std::string_view text_of(std::span<const std::byte> bytes, bool binary) {
+    const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (!binary) return all;
     uint32_t length = 0;
     std::memcpy(&length, bytes.data() + 12, sizeof length);
-    return bytes.subspan(20, std::min(size_t(length), bytes.size() - 20));
+    return all.substr(20, length);
 }
 
 bool starts_with(const std::string& text, const char* start) { return text.rfind(start, 0) == 0; }
@@ -151,7 +133,7 @@ void GltfDocument::parse(std::span<const std::byte> bytes, const std::string& fo
     std::string error, warning;
     const auto size = static_cast<unsigned int>(bytes.size());
     const bool binary = std::memcmp(bytes.data(), "glTF", 4) == 0;
-    if (nests_too_deep(text_of(bytes, binary))) fail(VFIT_ERROR_DATA, "no glTF file: its text is nested deeper than ", kDeepest, " levels");
+    if (nests_deeper(text_of(bytes, binary), kDeepest)) fail(VFIT_ERROR_DATA, "no glTF file: its text is nested deeper than ", kDeepest, " levels");
     bool read = false;
     try {
         read = binary ? loader.LoadBinaryFromMemory(&model_, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()),

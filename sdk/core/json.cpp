@@ -8,7 +8,9 @@ namespace {
 
 constexpr int kDeepest = 32;  // levels; the deepest file, a size chart, has 7
 
-bool nests_too_deep(std::string_view text) {
+}  // namespace
+
+bool nests_deeper(std::string_view text, int levels) {
     int depth = 0;
     bool quoted = false;
     for (size_t i = 0; i < text.size(); ++i) {
@@ -19,7 +21,7 @@ bool nests_too_deep(std::string_view text) {
         } else if (c == '"') {
             quoted = true;
         } else if (c == '{' || c == '[') {
-            if (++depth > kDeepest) return true;
+            if (++depth > levels) return true;
         } else if (c == '}' || c == ']') {
             --depth;
         }
@@ -27,10 +29,8 @@ bool nests_too_deep(std::string_view text) {
     return false;
 }
 
-}  // namespace
-
 Json parse_json(std::string_view text, const char* what) {
-    if (nests_too_deep(text)) fail(VFIT_ERROR_DATA, what, ": nested deeper than ", kDeepest, " levels");
+    if (nests_deeper(text, kDeepest)) fail(VFIT_ERROR_DATA, what, ": nested deeper than ", kDeepest, " levels");
     try {
         return Json::parse(text);
     } catch (const Json::exception& e) {

@@ -16,6 +16,9 @@ using Json = nlohmann::json;
 Json parse_json(std::string_view text, const char* what);
 Json parse_json(std::span<const std::byte> text, const char* what);
 
+/// Brackets within brackets, not counting quoted ones. For readers that parse JSON of their own.
+bool nests_deeper(std::string_view text, int levels);
+
 /// On one line, or with that many blanks a level.
 std::string json_text(const Json& value, int indent = -1);
 
