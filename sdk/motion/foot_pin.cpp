@@ -16,7 +16,6 @@ constexpr float kNoStepS = 0.3f, kNoStepM = 0.03f;
 constexpr float kMeanS = 1.0f;        // of the tracked place of a foot that stands
 constexpr float kVelocityS = 0.03f;   // low-pass of the tracked velocity
 constexpr float kFastest = 1.0f;      // m/s: a foot that comes to stand was no faster
-constexpr float kLeastM = 1e-5f;
 
 Vec3 at_most(const Vec3& velocity, float fastest) {
     const float speed = glm::length(velocity);
@@ -24,18 +23,6 @@ Vec3 at_most(const Vec3& velocity, float fastest) {
 }
 
 }  // namespace
-
-/// Three equal poles, -`rate` each, so that the glide begins without a jolt: (p + q t + r t^2 / 2) exp(-rate t), exact for
-/// any interval.
-void FootPin::fade(float rate, float dt_s) {
-    const Vec3 q = glide_velocity_ + rate * glide_;
-    const Vec3 r = glide_acceleration_ + 2.0f * rate * glide_velocity_ + rate * rate * glide_;
-    const float left = std::exp(-rate * dt_s);
-    const Vec3 p = glide_ + q * dt_s + r * (0.5f * dt_s * dt_s), p1 = q + r * dt_s;
-    glide_ = left * p;
-    glide_velocity_ = left * (p1 - rate * p);
-    glide_acceleration_ = left * (r - 2.0f * rate * p1 + rate * rate * p);
-}
 
 Vec3 FootPin::update(const Vec3& tracked, bool planted, float floor_y, float dt_s) {
     drag_ = Vec3(0.0f);
@@ -45,37 +32,33 @@ Vec3 FootPin::update(const Vec3& tracked, bool planted, float floor_y, float dt_
         tracked_velocity_ += (velocity - tracked_velocity_) * (1.0f - std::exp(-dt_s / kVelocityS));
     }
     tracked_ = tracked;
-    const Vec3 shown_velocity = glide_velocity_ + (planted_ ? Vec3(0.0f) : tracked_velocity_);
+    const Vec3 shown_velocity = glide_.velocity() + (planted_ ? Vec3(0.0f) : tracked_velocity_);
+    if (planted || planted_) place_.y += std::clamp(floor_y - place_.y, -kSettleSpeed * dt_s, kSettleSpeed * dt_s);
     if (planted && !planted_) {
-        const Vec3 shown = tracked + glide_;
+        const Vec3 shown = tracked + glide_.value();
         const bool never_left = stood_s_ > 0.0f && free_s_ < kNoStepS && glm::length(tracked - tracked_there_) < kNoStepM;
         if (!never_left) {
             place_ = shown;
             stood_s_ = 0.0f;
         }
-        glide_ = shown - place_;
-        glide_velocity_ = known_ ? at_most(shown_velocity, kFastest) : Vec3(0.0f);
-        glide_acceleration_ = Vec3(0.0f);
+        glide_ = Glide(shown - place_, known_ ? at_most(shown_velocity, kFastest) : Vec3(0.0f));
     } else if (!planted && planted_) {
         // It moves off as it is tracked to move.
-        glide_ += place_ - tracked;
-        glide_velocity_ = glide_acceleration_ = Vec3(0.0f);
+        glide_ = Glide(glide_.value() + place_ - tracked);
     }
     planted_ = planted;
     known_ = true;
     if (!planted) {
         free_s_ += dt_s;
-        fade(1.0f / kReleaseS, dt_s);
-        if (glm::length(glide_) < kLeastM && glm::length(glide_velocity_) < kLeastM) glide_ = glide_velocity_ = Vec3(0.0f);
-        offset_ = glide_;
+        glide_.fade(kReleaseS, dt_s);
+        offset_ = glide_.value();
         return tracked + offset_;
     }
     free_s_ = 0.0f;
     stood_s_ += dt_s;
     tracked_there_ = stood_s_ > dt_s ? glm::mix(tracked_there_, tracked, std::min(1.0f, dt_s / std::min(stood_s_, kMeanS))) : tracked;
-    place_.y += std::clamp(floor_y - place_.y, -kSettleSpeed * dt_s, kSettleSpeed * dt_s);
-    fade(1.0f / kStopS, dt_s);
-    offset_ = place_ + glide_ - tracked;
+    glide_.fade(kStopS, dt_s);
+    offset_ = place_ + glide_.value() - tracked;
     const float length = glm::length(offset_);
     if (length > leash_m_) {
         drag_ = offset_ * (leash_m_ / length - 1.0f);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "math/types.h"
+#include "motion/glide.h"
 
 namespace vfit {
 
@@ -15,26 +16,28 @@ public:
     /// before if it never left, at the height `floor_y`.
     Vec3 update(const Vec3& tracked, bool planted, float floor_y, float dt_s);
 
+    /// A foot that is free was shown at `place` after all.
+    void showed(const Vec3& place) { glide_ = Glide(place - tracked_); }
+
     /// Moves the recorded place.
     void move(const Vec3& by) { place_ += by; }
 
     bool planted() const { return planted_; }
+    /// Where it stands, or stood when it came free.
+    const Vec3& place() const { return place_; }
     /// From the tracked place to the shown one.
     const Vec3& offset() const { return offset_; }
     /// How far the last update dragged the recorded place.
     const Vec3& drag() const { return drag_; }
 
 private:
-    void fade(float rate, float dt_s);
-
     float leash_m_;
     bool planted_ = false, known_ = false;
     Vec3 place_{0.0f};                               // recorded
     Vec3 tracked_there_{0.0f};                       // where the foot was tracked while it stood there, mean
     float stood_s_ = 0.0f, free_s_ = 0.0f;           // for so long
     Vec3 tracked_{0.0f}, tracked_velocity_{0.0f};
-    // From where it goes to, place or tracked, to where it is shown.
-    Vec3 glide_{0.0f}, glide_velocity_{0.0f}, glide_acceleration_{0.0f};
+    Glide glide_;  // from where it goes to, place or tracked, to where it is shown
     Vec3 offset_{0.0f}, drag_{0.0f};
 };
 

@@ -6,6 +6,9 @@
 #include <array>
 
 #include "motion/foot_pin.h"
+#include "motion/glide.h"
+#include "motion/height_vote.h"
+#include "motion/leg_return.h"
 #include "motion/rest_pose.h"
 
 namespace vfit {
@@ -27,11 +30,20 @@ public:
     void hold(const Skeleton& skeleton, const RestPose& rest, const bool planted[2], Pose& pose) const;
 
 private:
-    std::array<FootPin, 2> pins_{FootPin(kCharacterLeashM), FootPin(kCharacterLeashM)};
-    bool known_ = false;
-    std::array<float, 2> weight_{};  // of each planted foot in the root's height; eases in and out
-    Vec3 root_shift_{0.0f};  // d_root beside that; fades when no leg needs it
-    std::array<Vec3, 2> shown_{};  // where the last apply() put the ankles
+    struct Foot {
+        FootPin pin{kCharacterLeashM};
+        HeightVote vote;
+        LegReturn back;
+        Vec3 shown{0.0f};  // where the last apply() put the ankle
+    };
+
+    Quat level_hips(Leg legs[2], const Vec3& root, float& lift_m) const;
+    Vec3 pull_root(const Leg legs[2], const bool planted[2], float lift_m, float dt_s);
+
+    static void move_leg(Foot& foot, Leg& leg, const Leg& tracked, bool planted, bool released, float dt_s);
+
+    std::array<Foot, 2> feet_;
+    Glide pull_;  // of the root, beside its lift; fades when no leg needs it
 };
 
 }  // namespace vfit

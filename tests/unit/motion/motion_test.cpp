@@ -265,7 +265,7 @@ TEST(Motion, ALegSeenHigherThanTheOtherOnALevelFloorBendsNoKnee) {
     const Skeleton skeleton = testing::test_skeleton();
     Motion motion{MotionSettings{}};
     motion.bind(skeleton);
-    Quat spine_level;
+    Quat spine_level(1, 0, 0, 0);
     for (int f = 0; f < 240; ++f) {
         Body body = testing::joints_of(skeleton, knees_bent_by_16_degrees(skeleton), frame_ns(f));
         const float higher = 0.01f * std::clamp(static_cast<float>(f - 60) / 60.0f, 0.0f, 1.0f);
