@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/quaternion.h"
+#include "motion/joint_limits.h"
+
 namespace vfit {
 
 namespace {
@@ -12,6 +15,8 @@ namespace {
 constexpr float kSoftness = 0.01f;
 constexpr float kHeldM = 1e-3f;       // closer is close enough for a foot that limits have moved
 constexpr float kPullS = 0.1f;        // in a few of these a pull that no leg needs has gone
+constexpr float kHeelStaysM = 0.05f, kHeelRisesM = 0.2f;  // the hip ahead of the ankle
+constexpr float kLeastLevel = 0.1f;  // of the toes' direction: a foot that points up or down points nowhere ahead
 constexpr float kMostRoll = 0.1f;     // rad, of the pelvis
 constexpr float kLeastHipsM = 0.02f;  // apart, seen from above
 constexpr int kRootPasses = 12;       // two legs at the end of their reach pull the root in turns
@@ -27,6 +32,20 @@ Quat pelvis_roll(const Leg legs[2], float rise_m) {
     const float length = glm::length(ahead);
     if (length < kLeastHipsM) return Quat(1, 0, 0, 0);
     return glm::angleAxis(std::clamp(rise_m / length, -kMostRoll, kMostRoll), ahead / length);
+}
+
+/// The foot of a planted leg that the body has passed, its ankle held within its range: it turns heel up before it comes
+/// free, and not at once then. Who squats keeps the whole foot down.
+Quat with_heel_off(const Leg& leg, int side, const RestPose& rest, const RangeOfMotion& rom) {
+    const Vec3 toes = leg.foot * rest.toes[at(side)];
+    const Vec2 ahead(toes.x, toes.z), past(leg.hip.x - leg.ankle.x, leg.hip.z - leg.ankle.z);
+    const float length = glm::length(ahead);
+    if (length < kLeastLevel) return leg.foot;
+    const float share = glm::smoothstep(kHeelStaysM, kHeelRisesM, glm::dot(past, ahead) / length);
+    if (share == 0.0f) return leg.foot;
+    Quat ankle = glm::conjugate(leg.lower) * leg.foot;
+    limit_ankle(rom, side, ankle);
+    return glm::slerp(leg.foot, same_hemisphere(leg.lower * ankle, leg.foot), share);
 }
 
 }  // namespace
@@ -89,7 +108,7 @@ void FootPlanter::move_leg(Foot& foot, Leg& leg, const Leg& tracked, bool plante
     foot.pin.showed(leg.ankle);
 }
 
-void FootPlanter::apply(const Skeleton& skeleton, const RestPose& rest, const bool planted[2],
+void FootPlanter::apply(const Skeleton& skeleton, const RestPose& rest, const RangeOfMotion& rom, const bool planted[2],
                         const Vec3 drags[2], float dt_s, Pose& pose) {
     const PosedSkeleton posed = forward_kinematics(skeleton, pose);
     const Leg tracked[2] = {Leg(0, rest, posed), Leg(1, rest, posed)};
@@ -105,7 +124,7 @@ void FootPlanter::apply(const Skeleton& skeleton, const RestPose& rest, const bo
         foot.back.turn(legs[side], dt_s);
         if (!planted[side]) continue;
         foot.shown = place;
-        foot.vote.stand(tracked[side].hip, place, tracked[side].length(), dt_s);
+        foot.vote.stand(tracked[side].hip, foot.shown, tracked[side].length(), dt_s);
         pose.contacts |= side == 0 ? VFIT_CONTACT_LEFT : VFIT_CONTACT_RIGHT;
         pose.foot_correction_m = std::max(pose.foot_correction_m, glm::length(foot.pin.offset()));
     }
@@ -130,7 +149,8 @@ void FootPlanter::apply(const Skeleton& skeleton, const RestPose& rest, const bo
         leg.move_hip(shift);
         move_leg(foot, leg, tracked[side], planted[side], released[side], dt_s);
         leg.reach(leg.hip, foot.shown, kSoftness);
-        leg.foot = foot.back.foot(leg.foot, dt_s);
+        if (planted[side]) leg.foot = with_heel_off(leg, side, rest, rom);
+        foot.back.turn_foot(leg, dt_s);
         leg.put(hips, pose);
     }
 }

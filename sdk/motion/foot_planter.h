@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "body/range_of_motion.h"
 #include "motion/foot_pin.h"
 #include "motion/glide.h"
 #include "motion/height_vote.h"
@@ -23,8 +24,8 @@ public:
 
     /// Changes the legs and the root of `pose` and fills its contacts, root_correction and foot_correction_m.
     /// `drags`: how far the person slid each planted foot since the last call.
-    void apply(const Skeleton& skeleton, const RestPose& rest, const bool planted[2], const Vec3 drags[2],
-               float dt_s, Pose& pose);
+    void apply(const Skeleton& skeleton, const RestPose& rest, const RangeOfMotion& rom, const bool planted[2],
+               const Vec3 drags[2], float dt_s, Pose& pose);
 
     /// Where joint limits have since taken the legs off their places, the root gives way and the legs follow again.
     void hold(const Skeleton& skeleton, const RestPose& rest, const bool planted[2], Pose& pose) const;

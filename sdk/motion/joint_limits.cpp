@@ -155,22 +155,23 @@ void limit_neck(const RangeOfMotion& rom, BoneRotations& local) {
     if (limited != total) head = glm::normalize(glm::conjugate(neck) * limited);
 }
 
-void limit_ankle(const RangeOfMotion& rom, float side, Quat& foot) {
+}  // namespace
+
+void limit_ankle(const RangeOfMotion& rom, int side, Quat& foot) {
     // Positions of a straight leg do not show its axial turn, so that a toe turned out by the hip appears at
     // the ankle: the hip's range holds.
-    const Interval lean = sided(-rom.ankle_inversion, rom.ankle_eversion, side);
-    const Interval turn = sided(-rom.hip_internal, rom.hip_external, side);
+    const float sign = side == 0 ? 1.0f : -1.0f;
+    const Interval lean = sided(-rom.ankle_inversion, rom.ankle_eversion, sign);
+    const Interval turn = sided(-rom.hip_internal, rom.hip_external, sign);
     foot = limit_upright(foot, rom.ankle_plantarflexion, lean, turn);
 }
-
-}  // namespace
 
 void apply_joint_limits(const RestPose& rest, const bool planted[2], BoneRotations& local, const RangeOfMotion& rom) {
     limit_spine(rom, local);
     limit_neck(rom, local);
     for (int i = 0; i < kLimbCount; ++i) limit_limb(rom, i, rest.limbs[at(i)], local);
-    if (!planted[0]) limit_ankle(rom, 1.0f, local[VFIT_BONE_LEFT_FOOT]);
-    if (!planted[1]) limit_ankle(rom, -1.0f, local[VFIT_BONE_RIGHT_FOOT]);
+    if (!planted[0]) limit_ankle(rom, 0, local[VFIT_BONE_LEFT_FOOT]);
+    if (!planted[1]) limit_ankle(rom, 1, local[VFIT_BONE_RIGHT_FOOT]);
 }
 
 bool apply_joint_limits(const RestPose& rest, const bool planted[2], float slack_rad, BoneRotations& local,

@@ -16,4 +16,7 @@ void apply_joint_limits(const RestPose& rest, const bool planted[2], BoneRotatio
 bool apply_joint_limits(const RestPose& rest, const bool planted[2], float slack_rad, BoneRotations& local,
                         const RangeOfMotion& rom = RangeOfMotion::natural());
 
+/// Of one foot alone, `side` 0 left, 1 right.
+void limit_ankle(const RangeOfMotion& rom, int side, Quat& foot);
+
 }  // namespace vfit

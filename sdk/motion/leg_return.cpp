@@ -13,7 +13,7 @@ namespace {
 constexpr float kReleaseS = 0.05f;  // in a few of these the posture is the tracked one
 // Angular acceleration of a leg that comes free and of a foot that stands, rad/s^2: trackers lose a hidden foot and find it
 // again elsewhere. It grows by e in each kFreedomS of a swing: who kicks is shown as fast as that.
-constexpr float kCalm = 55.0f, kFreedomS = 0.15f;
+constexpr float kCalm = 45.0f, kFreedomS = 0.1f;
 
 }  // namespace
 
@@ -41,6 +41,17 @@ void LegReturn::stand(const Leg& stood, float dt_s) {
 void LegReturn::swing(Leg& leg, float dt_s) {
     stands_ = false;
     leg.turn_to(upper_.follow(leg.upper, most(), dt_s), lower_.follow(leg.lower, most(), dt_s));
+}
+
+void LegReturn::turn_foot(Leg& leg, float dt_s) {
+    const Quat to_shank = glm::conjugate(leg.lower);
+    if (stands_) {
+        leg.foot = standing_foot_.follow(leg.foot, most(), dt_s);
+        free_foot_.set(to_shank * leg.foot, dt_s);
+    } else {
+        leg.foot = leg.lower * free_foot_.follow(to_shank * leg.foot, most(), dt_s);
+        standing_foot_.set(leg.foot, dt_s);
+    }
 }
 
 }  // namespace vfit

@@ -18,8 +18,8 @@ public:
     void stand(const Leg& stood, float dt_s);
     void swing(Leg& leg, float dt_s);
 
-    /// The foot's rotation to show, after that.
-    Quat foot(const Quat& tracked, float dt_s) { return foot_.follow(tracked, most(), dt_s); }
+    /// The foot, after that: one that stands turns in the world, one that is free on its shank.
+    void turn_foot(Leg& leg, float dt_s);
 
 private:
     float most() const;
@@ -27,7 +27,7 @@ private:
     Quat by_upper_{1, 0, 0, 0}, by_lower_{1, 0, 0, 0};  // from the tracked leg to the stood one
     float since_s_ = kLong;  // the release
     bool stands_ = false;
-    BoundedTurn upper_, lower_, foot_;
+    BoundedTurn upper_, lower_, standing_foot_, free_foot_;
 
     static constexpr float kLong = 1.0f;  // s: nothing is left of a release
 };

@@ -252,7 +252,7 @@ bool Motion::State::update_pose(float dt_s) {
                                 world[VFIT_BONE_RIGHT_UPPER_LEG] * Vec3(0, 0, 1)};
         joint_feet.apply(planted, fronts, contact.ankle_level(skeleton.ankle_height), dt_s, joints);
         const Vec3 drags[2] = {joint_feet.drag(0), joint_feet.drag(1)};
-        planter.apply(skeleton, rest, planted, drags, dt_s, pose);
+        planter.apply(skeleton, rest, settings.range_of_motion, planted, drags, dt_s, pose);
     }
     // What smoothing and planting have bent too far; a foot that stands is held as long as it can be.
     if (enabled(VFIT_MOTION_NO_LIMITS) && apply_joint_limits(rest, planted, kLimitSlackRad, pose.rotation, settings.range_of_motion) &&

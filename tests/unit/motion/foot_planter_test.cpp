@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "math/quaternion.h"
+#include "motion/joint_limits.h"
 #include "motion_support.h"
 
 namespace vfit {
@@ -30,7 +33,7 @@ struct Scene {
     PosedSkeleton step(Pose pose, bool left) {
         const bool planted[2] = {left, true};
         const Vec3 drags[2] = {Vec3(0.0f), Vec3(0.0f)};
-        planter.apply(skeleton, rest, planted, drags, kFrame, pose);
+        planter.apply(skeleton, rest, RangeOfMotion::natural(), planted, drags, kFrame, pose);
         return forward_kinematics(skeleton, pose);
     }
 };
@@ -73,6 +76,26 @@ TEST(FootPlanter, AFlickerOfTheContactMovesNoKnee) {
             for (const int bone : kLegBones)
                 EXPECT_LT(acceleration(shown, i, bone), 10.0f) << height_m << " " << i << " " << bone_name(bone);
     }
+}
+
+TEST(FootPlanter, TheHeelOfAFootThatTheBodyHasPassedRisesBeforeItIsFree) {
+    Scene scene;
+    std::vector<PosedSkeleton> shown;
+    const auto steepest = [&](size_t i) {
+        const Quat ankle = glm::conjugate(shown[i].rotation[VFIT_BONE_LEFT_LOWER_LEG]) * shown[i].rotation[VFIT_BONE_LEFT_FOOT];
+        Quat limited = ankle;
+        limit_ankle(RangeOfMotion::natural(), 0, limited);
+        return angle_of(glm::conjugate(limited) * ankle);
+    };
+    // The body walks on by a good step; the feet lie flat in what is tracked.
+    for (int i = 0; i < 60; ++i) {
+        Pose pose = scene.tracked(0.0f, Vec3(0, -0.04f, 0.008f * float(std::min(i, 45))));
+        shown.push_back(scene.step(pose, i < 50));
+    }
+    EXPECT_LT(steepest(49), 2.0f * testing::kDeg) << "within its range before it comes free";
+    for (size_t i = 20; i + 1 < shown.size(); ++i) EXPECT_LT(acceleration(shown, i, VFIT_BONE_LEFT_FOOT), 75.0f) << i;
+    const Vec3 sole = shown[49].rotation[VFIT_BONE_LEFT_FOOT] * Vec3(0, 1, 0);
+    EXPECT_LT(sole.y, std::cos(5.0f * testing::kDeg)) << "heel up";
 }
 
 TEST(FootPlanter, FeetStandStillToAHundredthOfAMillimetre) {
