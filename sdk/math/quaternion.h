@@ -21,6 +21,10 @@ Quat same_hemisphere(const Quat& q, const Quat& reference);
 /// Rotation by the fraction `t` of q's angle about q's axis (Eq. 9 and 10 of the paper with t = 1/k).
 Quat fraction(const Quat& q, float t);
 
+/// The axis of q times its angle in [0, pi], and back.
+Vec3 rotation_vector(const Quat& q);
+Quat rotation_by(const Vec3& vector);
+
 /// The rotation angle of q in [0, pi].
 float angle_of(const Quat& q);
 

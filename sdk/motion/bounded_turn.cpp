@@ -12,18 +12,6 @@ namespace {
 constexpr float kLeastRad = 1e-6f;
 constexpr float kCatchUpS = 0.2f;  // time constant
 
-Vec3 rotation_vector(const Quat& q) {
-    const Vec3 axis(q.x, q.y, q.z);
-    const float length = glm::length(axis);
-    if (length < kLeastRad) return Vec3(0.0f);
-    return axis * ((q.w < 0.0f ? -1.0f : 1.0f) * angle_of(q) / length);
-}
-
-Quat rotation_by(const Vec3& vector) {
-    const float angle = glm::length(vector);
-    return angle < kLeastRad ? Quat(1, 0, 0, 0) : glm::angleAxis(angle, vector / angle);
-}
-
 }  // namespace
 
 Quat BoundedTurn::follow(const Quat& tracked, float most, float dt_s) {

@@ -68,5 +68,21 @@ TEST(Quaternion, TheSameHemisphereNeverJumpsSign) {
     EXPECT_GT(glm::dot(same_hemisphere(-reference, reference), reference), 0.0f);
 }
 
+TEST(Quaternion, SmallTurnsByTheirSeriesAgreeWithTheSines) {
+    for (float angle = 0.0f; angle < 3.1f; angle += 0.01f) {
+        const Vec3 axis = glm::normalize(Vec3(0.3f, -0.5f, 0.8f));
+        const Quat q = glm::angleAxis(angle, axis);
+        for (const float t : {0.1f, 0.5f, 1.0f, -1.0f}) {
+            const Quat part = fraction(q, t), exact = glm::angleAxis(angle * t, axis);
+            EXPECT_LT(glm::length(Vec3(part.x - exact.x, part.y - exact.y, part.z - exact.z)), 3e-7f) << angle << " " << t;
+            EXPECT_NEAR(part.w, exact.w, 3e-7f) << angle << " " << t;
+        }
+        EXPECT_LT(glm::length(rotation_vector(-q) - axis * angle), 2e-6f) << angle;
+        const Quat back = rotation_by(axis * angle);
+        EXPECT_LT(std::abs(std::abs(glm::dot(back, q)) - 1.0f), 3e-7f) << angle;
+        EXPECT_NEAR(back.w, q.w, 3e-7f) << angle;
+    }
+}
+
 }  // namespace
 }  // namespace vfit
