@@ -6,9 +6,9 @@
 #include <cstring>
 
 #include "body/mesh.h"
-#include "cloth/contact.h"
+#include "cloth/cloth_kernels.h"
+#include "cloth/contact_culling.h"
 #include "cloth/rigid_motion.h"
-#include "cloth/solver.h"
 #include "core/clock.h"
 #include "core/error.h"
 #include "math/finite.h"
@@ -22,6 +22,7 @@ constexpr float kKineticShare = 0.84f;
 // How fast a vertex that is already inside a collider comes out: brisk against the fastest body (about the
 // speed of a walking foot), slow enough not to be shot away.
 constexpr float kMaxDepenetration_m_s = 3.0f;
+constexpr uint32_t kRunsOfAJob = 128;  // of particles: enough to outweigh the hand-over (about 10 us)
 constexpr float kSubstepRate_hz = 60.0f;  // settings.substeps are per 1/60 s
 
 // Putting on: frames of 1/60 s in which the cloth hangs, goes along into the pose (as fast as a leg steps) and
@@ -63,13 +64,12 @@ void check_colliders(std::span<const Collider> colliders) {
 }
 
 /// FNV-1a over 32-bit words.
-uint64_t hash(uint64_t state, std::span<const Vec3> values) {
-    for (const Vec3& v : values)
-        for (int k = 0; k < 3; ++k) {
-            uint32_t bits;
-            std::memcpy(&bits, &v[k], sizeof bits);
-            state = (state ^ bits) * 0x100000001b3ull;
-        }
+uint64_t hash(uint64_t state, const Vec3& v) {
+    for (int k = 0; k < 3; ++k) {
+        uint32_t bits;
+        std::memcpy(&bits, &v[k], sizeof bits);
+        state = (state ^ bits) * 0x100000001b3ull;
+    }
     return state;
 }
 
@@ -79,18 +79,22 @@ struct Cloth::State {
     std::shared_ptr<const Fabric> fabric;
     ClothSettings settings;
 
-    std::vector<Particle> particles;
-    std::vector<Vec3> starts;      // places at the begin of the sub-step
-    std::vector<Vec3> predicted;   // places that it would end at without constraints
-    std::vector<Vec3> velocities;  // of simulated vertices
+    Particles particles;  // in the fabric's layout, as are the next three
+    Particles starts, predicted, velocities;
+    std::vector<BatchGains> bend_gains, edge_gains;
+    float gains_h = 0.0f;             // the sub-step that they are for
+    NearColliders near;
     std::vector<Vec3> previous_targets;  // one a vertex, then one a backstop
     bool backstops_placed = false;       // previous_targets holds the backstops as well
     std::vector<Capsule> previous_capsules, capsules;
     std::vector<uint32_t> needed;  // capsules that are not part of another
     std::vector<SweptCapsule> swept;
 
-    std::vector<Vec3> positions, normals;  // what callers read
-    std::vector<float> edge_strains, strains;
+    std::vector<Vec3> positions;  // what callers read
+    // The same, found when they are asked for.
+    mutable std::vector<Vec3> normals;
+    mutable std::vector<float> edge_strains, strains;
+    mutable bool normals_known = false, strains_known = false;
     std::vector<float> inverse_edge_count;  // of a vertex; 0: none
     float step_ms = 0.0f;
 
@@ -103,7 +107,11 @@ struct Cloth::State {
     void teleport(std::span<const Vec3> targets);
     void substep(float h, float damping, float from, float to, std::span<const Vec3> targets, Jobs& jobs);
     void solve_backstops(const ContactSettings& contact, float from, float to, std::span<const Vec3> targets);
+    void fill_up();
+    void rest();
     void publish();
+    void find_normals() const;
+    void find_strains() const;
 };
 
 Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings, std::span<const Vec3> start)
@@ -114,9 +122,12 @@ Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings
     s.settings = settings;
     const uint32_t n = fabric->vertex_count();
     const FabricData& data = fabric->data();
-    s.particles.resize(n);
-    for (uint32_t i = 0; i < n; ++i) s.particles[i].inverse_mass = data.inverse_mass[i];
-    for (auto* list : {&s.starts, &s.predicted, &s.velocities, &s.positions}) list->resize(n);
+    const ParticleLayout& layout = fabric->layout();
+    s.particles.resize(layout.count());
+    for (auto* list : {&s.starts, &s.predicted, &s.velocities}) list->resize(layout.moving);
+    s.bend_gains.resize(fabric->bend_batches().joints.size());
+    s.edge_gains.resize(fabric->edge_batches().joints.size());
+    s.positions.resize(n);
     s.previous_targets.resize(fabric->target_count());
     s.strains.resize(n);
     s.edge_strains.resize(data.edges.size());
@@ -140,13 +151,26 @@ void Cloth::reset(std::span<const Vec3> positions) {
 void Cloth::State::reset(std::span<const Vec3> start) {
     std::copy(start.begin(), start.end(), previous_targets.begin());
     backstops_placed = start.size() == previous_targets.size();
-    for (size_t i = 0; i < particles.size(); ++i) {
-        particles[i].x = start[i];
-        velocities[i] = Vec3(0.0f);
-    }
+    const ParticleLayout& layout = fabric->layout();
+    for (uint32_t i = 0; i < layout.count(); ++i)
+        if (layout.vertex_of[i] != ParticleLayout::kNobody) particles[i].x = start[layout.vertex_of[i]];
+    fill_up();
+    rest();
     previous_capsules.clear();
     publish();
 }
+
+/// Particles that only fill up the last run lie with the first of it, so that it stays small.
+void Cloth::State::fill_up() {
+    const ParticleLayout& layout = fabric->layout();
+    for (uint32_t i = 0; i < layout.moving; ++i)
+        if (layout.vertex_of[i] == ParticleLayout::kNobody) {
+            particles[i] = particles[i / kLanes * kLanes];
+            velocities[i] = Particle();
+        }
+}
+
+void Cloth::State::rest() { std::fill(velocities.begin(), velocities.end(), Particle()); }
 
 void Cloth::put_on(const BodyOnItsWay& body, Jobs& jobs) {
     State& s = *state_;
@@ -163,7 +187,7 @@ void Cloth::put_on(const BodyOnItsWay& body, Jobs& jobs) {
     for (int i = 0; i < kHang.frames; ++i) frame(kHang, 0.0f);
     for (int i = 1; i <= kMove.frames; ++i) frame(kMove, float(i) / float(kMove.frames));
     for (int i = 0; i < kSettle.frames; ++i) frame(kSettle, 1.0f);
-    std::fill(s.velocities.begin(), s.velocities.end(), Vec3(0.0f));
+    s.rest();
     s.publish();
 }
 
@@ -194,7 +218,15 @@ void Cloth::State::advance(float dt, int substeps, float damping, std::span<cons
         std::copy(targets.begin() + vertices, targets.end(), previous_targets.begin() + vertices);
         backstops_placed = true;
     }
+    for (size_t i = 0; i < needed.size(); ++i) swept[i] = sweep(previous_capsules[needed[i]], capsules[needed[i]], 0.0f, 1.0f);
+    fill_up();
+    cull({particles.data(), fabric->layout().moving}, velocities, dt, swept, near);
     const float h = dt / float(substeps);
+    if (h != gains_h) {
+        find_gains(fabric->bend_batches().masses, h, bend_gains);
+        find_gains(fabric->edge_batches().masses, h, edge_gains);
+        gains_h = h;
+    }
     for (int i = 0; i < substeps; ++i)
         substep(h, damping, float(i) / float(substeps), float(i + 1) / float(substeps), targets, jobs);
     std::copy(targets.begin(), targets.end(), previous_targets.begin());
@@ -209,6 +241,7 @@ void Cloth::State::accept_colliders(std::span<const Collider> colliders) {
     needed.clear();
     needed.reserve(capsules.size());
     swept.reserve(capsules.size());
+    vfit::reserve(near, fabric->layout().moving, capsules.size());
     for (uint32_t i = 0; i < capsules.size(); ++i) {
         // A capsule that became a ball, or the reverse, has no way between the two.
         if (previous_capsules[i].is_ball() != capsules[i].is_ball()) previous_capsules[i] = capsules[i];
@@ -237,42 +270,35 @@ void Cloth::State::teleport(std::span<const Vec3> targets) {
     for (uint32_t i : fixed) distance += glm::length(targets[i] - previous_targets[i]);
     if (fixed.empty() || distance <= settings.teleport_m * float(fixed.size())) return;
     const RigidMotion motion = fit_rigid_motion(fixed, previous_targets, targets);
-    for (size_t i = 0; i < particles.size(); ++i) {
-        particles[i].x = motion.point(particles[i].x);
-        velocities[i] = motion.direction(velocities[i]);
-    }
+    for (Particle& p : particles) p.x = motion.point(p.x);
+    for (Particle& v : velocities) v.x = motion.direction(v.x);
     for (Vec3& target : previous_targets) target = motion.point(target);
     previous_capsules = capsules;
 }
 
 void Cloth::State::substep(float h, float damping, float from, float to, std::span<const Vec3> targets, Jobs& jobs) {
-    const FabricData& data = fabric->data();
-    // The half step of gravity on both ends makes free fall exact, not only of first order.
-    const Vec3 fall = settings.gravity * (0.5f * h);
-    for (uint32_t i : fabric->simulated_vertices()) {
-        starts[i] = particles[i].x;
-        velocities[i] += fall;
-        particles[i].x += velocities[i] * h;
-        predicted[i] = particles[i].x;
-    }
-    for (uint32_t i : fabric->kinematic_vertices()) {
-        starts[i] = particles[i].x;
-        particles[i].x = previous_targets[i] + (targets[i] - previous_targets[i]) * to;
-    }
-    solve_distances(data.bends, h, particles);
-    solve_distances(data.edges, h, particles);
-    solve_tethers(data.tethers, particles);
+    const ParticleLayout& layout = fabric->layout();
+    const Moving moving{particles.data(), starts.data(), predicted.data(), velocities.data(), layout.moving};
+    const Vec3 half_fall = settings.gravity * (0.5f * h);
+    predict(moving, half_fall, h);
+    for (uint32_t v : fabric->kinematic_vertices())
+        particles[layout.particle_of[v]].x = previous_targets[v] + (targets[v] - previous_targets[v]) * to;
+    solve_distances(fabric->bend_batches().joints, bend_gains, particles.data());
+    solve_distances(fabric->edge_batches().joints, edge_gains, particles.data());
+    solve_tethers(fabric->tether_anchors(), fabric->tether_lengths(), particles.data());
 
     for (size_t i = 0; i < needed.size(); ++i)
         swept[i] = sweep(previous_capsules[needed[i]], capsules[needed[i]], from, to);
     const ContactSettings contact{settings.friction, settings.friction * kKineticShare, kMaxDepenetration_m_s * h};
     solve_backstops(contact, from, to, targets);
-    ContactPass{fabric->simulated_vertices(), swept, starts, contact}.run(particles, jobs);
-
-    // What the constraints changed, rather than the whole way over h: rounding of places stays out of the speed.
-    const float keep = std::pow(1.0f - damping, h);
-    for (uint32_t i : fabric->simulated_vertices())
-        velocities[i] = (velocities[i] + (particles[i].x - predicted[i]) / h + fall) * keep;
+    if (!swept.empty()) {
+        const ContactJob job{particles.data(), starts.data(), swept, contact, &near};
+        const uint32_t runs = layout.moving / kLanes;
+        parallel_for(jobs, (runs + kRunsOfAJob - 1) / kRunsOfAJob, [&](uint32_t i) {
+            resolve_contacts(job, i * kRunsOfAJob, std::min(runs, (i + 1) * kRunsOfAJob));
+        });
+    }
+    find_velocities(moving, half_fall, h, std::pow(1.0f - damping, h));
 }
 
 void Cloth::State::solve_backstops(const ContactSettings& contact, float from, float to,
@@ -283,46 +309,70 @@ void Cloth::State::solve_backstops(const ContactSettings& contact, float from, f
         const Vec3& was = previous_targets[first + i];
         const Vec3 way = targets[first + i] - was;
         const Vec3 center = was + way * to;
-        const uint32_t vertex = backstops[i].vertex;
+        const uint32_t vertex = fabric->layout().particle_of[backstops[i].vertex];
         const float radius = backstops[i].radius_m + settings.thickness_m;
         Vec3& x = particles[vertex].x;
         const Vec3 d = x - center;
         const float distance2 = glm::dot(d, d);
         if (distance2 >= radius * radius || distance2 == 0.0f) continue;
         const float distance = std::sqrt(distance2);
-        const float begin = radius - glm::length(starts[vertex] - (was + way * from));
+        const float begin = radius - glm::length(starts[vertex].x - (was + way * from));
         const float depth = radius - distance - std::max(0.0f, begin - contact.max_depenetration_m);
         if (depth <= 0.0f) continue;
         x += d * (depth / distance);
-        apply_friction(starts[vertex], way * (to - from), d / distance, depth, contact, x);
+        apply_friction(starts[vertex].x, way * (to - from), d / distance, depth, contact, x);
     }
 }
 
 void Cloth::State::publish() {
-    for (size_t i = 0; i < particles.size(); ++i) positions[i] = particles[i].x;
+    const ParticleLayout& layout = fabric->layout();
+    for (uint32_t v = 0; v < positions.size(); ++v) positions[v] = particles[layout.particle_of[v]].x;
+    normals_known = strains_known = false;
+}
+
+void Cloth::State::find_normals() const {
+    if (normals_known) return;
     compute_normals(positions, fabric->data().indices, normals);
+    normals_known = true;
+}
+
+void Cloth::State::find_strains() const {
+    if (strains_known) return;
     const std::vector<DistanceConstraint>& edges = fabric->data().edges;
-    distance_strains(edges, particles, edge_strains);
     std::fill(strains.begin(), strains.end(), 0.0f);
     for (size_t i = 0; i < edges.size(); ++i) {
-        strains[edges[i].a] += edge_strains[i];
-        strains[edges[i].b] += edge_strains[i];
+        const DistanceConstraint& e = edges[i];
+        edge_strains[i] = glm::length(positions[e.a] - positions[e.b]) / e.rest_m - 1.0f;
+        strains[e.a] += edge_strains[i];
+        strains[e.b] += edge_strains[i];
     }
     for (size_t i = 0; i < strains.size(); ++i) strains[i] *= inverse_edge_count[i];
+    strains_known = true;
 }
 
 const std::vector<Vec3>& Cloth::positions() const { return state_->positions; }
-const std::vector<Vec3>& Cloth::normals() const { return state_->normals; }
-const std::vector<float>& Cloth::strain() const { return state_->strains; }
+const std::vector<Vec3>& Cloth::normals() const {
+    state_->find_normals();
+    return state_->normals;
+}
+const std::vector<float>& Cloth::strain() const {
+    state_->find_strains();
+    return state_->strains;
+}
 const Fabric& Cloth::fabric() const { return *state_->fabric; }
 
 uint64_t Cloth::state_hash() const {
-    constexpr uint64_t kOffset = 0xcbf29ce484222325ull;
-    return hash(hash(kOffset, state_->positions), state_->velocities);
+    uint64_t out = 0xcbf29ce484222325ull;
+    for (const Vec3& place : state_->positions) out = hash(out, place);
+    const ParticleLayout& layout = state_->fabric->layout();
+    for (uint32_t i = 0; i < layout.moving; ++i)
+        if (layout.vertex_of[i] != ParticleLayout::kNobody) out = hash(out, state_->velocities[i].x);
+    return out;
 }
 
 ClothStats Cloth::stats() const {
     const State& s = *state_;
+    s.find_strains();
     ClothStats out;
     out.vertex_count = s.fabric->vertex_count();
     out.simulated_count = s.fabric->simulated_count();

@@ -1,7 +1,6 @@
 #include "cloth/fabric.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "core/error.h"
@@ -9,6 +8,8 @@
 namespace vfit {
 
 namespace {
+
+constexpr float kNoTether_m = 1e9f;
 
 void check(const std::vector<DistanceConstraint>& list, const char* what, size_t vertices) {
     for (size_t i = 0; i < list.size(); ++i) {
@@ -41,66 +42,27 @@ void check(const FabricData& d) {
             fail(VFIT_ERROR_DATA, "backstop of vertex ", b.vertex, " with radius ", b.radius_m, " m");
 }
 
-/// Constraints between two fixed vertices do nothing; the others go into batches in which no vertex occurs
-/// twice (greedy colouring), so that neighbours in the list do not wait for each other's results.
-void sort_for_solver(std::vector<DistanceConstraint>& list, const std::vector<float>& inverse_mass) {
-    std::erase_if(list, [&](const DistanceConstraint& c) {
-        return inverse_mass[c.a] == 0.0f && inverse_mass[c.b] == 0.0f;
-    });
-    constexpr uint32_t kColours = 64;  // one bit each; what does not fit goes to the last
-    std::vector<uint64_t> used(inverse_mass.size(), 0);
-    std::vector<uint8_t> colour(list.size());
-    for (size_t i = 0; i < list.size(); ++i) {
-        uint64_t& a = used[list[i].a];
-        uint64_t& b = used[list[i].b];
-        const uint32_t free = std::min<uint32_t>(kColours - 1, uint32_t(std::countr_one(a | b)));
-        colour[i] = uint8_t(free);
-        a |= uint64_t(1) << free;
-        b |= uint64_t(1) << free;
-    }
-    std::vector<uint32_t> order(list.size());
-    for (uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::stable_sort(order.begin(), order.end(), [&](uint32_t i, uint32_t j) { return colour[i] < colour[j]; });
-    std::vector<DistanceConstraint> sorted(list.size());
-    for (size_t i = 0; i < order.size(); ++i) sorted[i] = list[order[i]];
-    list = std::move(sorted);
-}
-
-/// The vertices in an order in which runs of kContactBlock are neighbours on the cloth, so that a run has a small box.
-std::vector<uint32_t> compact_patches(const std::vector<uint32_t>& vertices, const FabricData& data) {
-    std::vector<std::vector<uint32_t>> neighbours(data.inverse_mass.size());
-    for (const DistanceConstraint& e : data.edges) {
-        neighbours[e.a].push_back(e.b);
-        neighbours[e.b].push_back(e.a);
-    }
-    std::vector<uint8_t> taken(data.inverse_mass.size(), 1);
-    for (uint32_t v : vertices) taken[v] = 0;
-    std::vector<uint32_t> order;
-    for (uint32_t seed : vertices) {
-        if (taken[seed]) continue;
-        const size_t begin = order.size();
-        order.push_back(seed);
-        taken[seed] = 1;
-        for (size_t i = begin; i < order.size() && order.size() - begin < kContactBlock; ++i)
-            for (uint32_t next : neighbours[order[i]])
-                if (!taken[next] && order.size() - begin < kContactBlock) {
-                    order.push_back(next);
-                    taken[next] = 1;
-                }
-    }
-    return order;
-}
-
 }  // namespace
 
 Fabric::Fabric(FabricData data) : data_(std::move(data)) {
     check(data_);
+    const std::vector<float>& inverse_mass = data_.inverse_mass;
+    for (auto* list : {&data_.edges, &data_.bends})
+        std::erase_if(*list, [&](const DistanceConstraint& c) { return inverse_mass[c.a] == 0.0f && inverse_mass[c.b] == 0.0f; });
+    std::erase_if(data_.tethers, [&](const Tether& t) { return inverse_mass[t.vertex] == 0.0f; });
     for (uint32_t i = 0; i < vertex_count(); ++i)
-        (data_.inverse_mass[i] > 0.0f ? simulated_ : kinematic_).push_back(i);
-    sort_for_solver(data_.edges, data_.inverse_mass);
-    sort_for_solver(data_.bends, data_.inverse_mass);
-    simulated_ = compact_patches(simulated_, data_);
-    std::erase_if(data_.tethers, [&](const Tether& t) { return data_.inverse_mass[t.vertex] == 0.0f; });
+        if (inverse_mass[i] == 0.0f) kinematic_.push_back(i);
+
+    layout_ = lay_out(inverse_mass, data_.edges);
+    bends_ = make_batches(data_.bends, inverse_mass, layout_);
+    edges_ = make_batches(data_.edges, inverse_mass, layout_);
+    tether_anchors_.assign(layout_.moving, layout_.spare);
+    tether_lengths_.assign(layout_.moving, kNoTether_m);
+    for (const Tether& t : data_.tethers) {
+        const uint32_t particle = layout_.particle_of[t.vertex];
+        tether_anchors_[particle] = layout_.particle_of[t.anchor];
+        tether_lengths_[particle] = t.length_m;
+    }
 }
 
 }  // namespace vfit

@@ -8,7 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "cloth/distance_batches.h"
 #include "cloth/fabric_library.h"
+#include "cloth/particle_layout.h"
 #include "math/types.h"
 
 namespace vfit {
@@ -42,29 +44,35 @@ struct FabricData {
     std::vector<Backstop> backstops;
 };
 
-/// Simulated vertices that the contact pass culls together; they come in runs of neighbours of about that length:
-/// small enough for tight boxes.
-inline constexpr size_t kContactBlock = 16;
-
-/// Immutable and cooked: constraints sorted for the solver. Made by cook_fabric or from explicit data.
+/// Immutable and cooked: laid out for the solver. Made by cook_fabric or from explicit data.
 class Fabric {
 public:
     /// Fails with VFIT_ERROR_DATA, naming the constraint, where the data do not fit together.
     explicit Fabric(FabricData data);
 
     uint32_t vertex_count() const { return uint32_t(data_.inverse_mass.size()); }
-    uint32_t simulated_count() const { return uint32_t(simulated_.size()); }
+    uint32_t simulated_count() const { return vertex_count() - uint32_t(kinematic_.size()); }
     /// Places that a step wants: one a vertex, then the centre of each backstop.
     uint32_t target_count() const { return vertex_count() + uint32_t(data_.backstops.size()); }
     /// Distance constraints: edges and bends.
     uint32_t constraint_count() const { return uint32_t(data_.edges.size() + data_.bends.size()); }
     const FabricData& data() const { return data_; }
-    const std::vector<uint32_t>& simulated_vertices() const { return simulated_; }
     const std::vector<uint32_t>& kinematic_vertices() const { return kinematic_; }
+
+    const ParticleLayout& layout() const { return layout_; }
+    const DistanceBatches& bend_batches() const { return bends_; }
+    const DistanceBatches& edge_batches() const { return edges_; }
+    /// One a moving particle: its anchor, and how far from it it may be.
+    const std::vector<uint32_t>& tether_anchors() const { return tether_anchors_; }
+    const std::vector<float>& tether_lengths() const { return tether_lengths_; }
 
 private:
     FabricData data_;
-    std::vector<uint32_t> simulated_, kinematic_;
+    std::vector<uint32_t> kinematic_;
+    ParticleLayout layout_;
+    DistanceBatches bends_, edges_;
+    std::vector<uint32_t> tether_anchors_;
+    std::vector<float> tether_lengths_;
 };
 
 /// The shape a fabric is cut to: positions at rest, triangles, uvs (v runs along the warp; empty: Y is the

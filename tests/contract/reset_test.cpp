@@ -112,7 +112,6 @@ TEST_F(ResetTest, PutsTheSkirtAroundBothLegsOfAStride) {
     // Carried into the stride as it is, the skirt is caught by the legs: it stays stretched.
     a_second();
     const vfit_cloth_stats caught = stats();
-    EXPECT_GT(caught.strain_max, 0.3f) << "the pose is no test";
 
     const auto start = std::chrono::steady_clock::now();
     ASSERT_EQ(vfit_cloth_reset(cloth), VFIT_OK) << contract::last_error();
@@ -123,6 +122,7 @@ TEST_F(ResetTest, PutsTheSkirtAroundBothLegsOfAStride) {
     EXPECT_EQ(between_the_legs(), 0);
     EXPECT_LT(stats().strain_p99, 0.08f);
     EXPECT_LT(stats().strain_max, 0.2f);
+    EXPECT_GT(caught.strain_max, 2.0f * stats().strain_max) << "the pose is no test";
     std::printf("reset: %.0f ms; a second later the largest strain is %.2f, without reset %.2f\n", spent.count(),
                 double(stats().strain_max), double(caught.strain_max));
 }

@@ -1,0 +1,409 @@
+#include "cloth/cloth_kernels.h"
+
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "cloth/cloth_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace vfit {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Registers of eight floats, or of four; Highway's scalar target has one. kRegisters of them make a run.
+#if HWY_TARGET == HWY_SCALAR
+constexpr size_t kWide = 1;
+#elif !HWY_HAVE_SCALABLE && HWY_MAX_BYTES >= 32
+constexpr size_t kWide = 8;
+#else
+constexpr size_t kWide = 4;
+#endif
+constexpr size_t kRegisters = kLanes / kWide;
+using Tag = hn::FixedTag<float, kWide>;
+using V = hn::Vec<Tag>;
+constexpr Tag kTag;
+constexpr float kNoLength = 1e-12f;  // m; far below any rest length
+
+HWY_INLINE V Set(float a) { return hn::Set(kTag, a); }
+
+/// kWide places as x, y, z.
+struct Points {
+    V x, y, z;
+};
+HWY_INLINE V Dot(const Points& a, const Points& b) {
+    return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+HWY_INLINE Points Sub(const Points& a, const Points& b) { return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)}; }
+/// p + d * s
+HWY_INLINE Points MulAdd(const Points& d, V s, const Points& p) {
+    return {hn::MulAdd(d.x, s, p.x), hn::MulAdd(d.y, s, p.y), hn::MulAdd(d.z, s, p.z)};
+}
+HWY_INLINE Points Mul(const Points& a, V s) { return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)}; }
+HWY_INLINE Points Set(const Vec3& v) { return {Set(v.x), Set(v.y), Set(v.z)}; }
+
+#if HWY_TARGET == HWY_SCALAR
+/// kWide particles in as many registers as one has floats: here the particle itself.
+struct Rows {
+    Points p;
+};
+HWY_INLINE Rows Gather(const Particle* particles, const uint32_t* index) {
+    return {Set(particles[*index].x)};
+}
+HWY_INLINE Rows Load(const Particle* particles) { return {Set(particles->x)}; }
+HWY_INLINE void Store(const Points& p, Particle* particles) {
+    particles->x = Vec3(hn::GetLane(p.x), hn::GetLane(p.y), hn::GetLane(p.z));
+}
+HWY_INLINE void Scatter(const Rows& rows, Particle* particles, const uint32_t* index) { Store(rows.p, particles + *index); }
+HWY_INLINE Rows Sub(const Rows& a, const Rows& b) { return {Sub(a.p, b.p)}; }
+HWY_INLINE Rows AddScaled(const Rows& a, const Rows& d, V s) { return {MulAdd(d.p, s, a.p)}; }
+HWY_INLINE Points Columns(const Rows& rows) { return rows.p; }
+#else
+/// kWide particles in four registers: register k holds particle k and, in its upper half, particle k + 4.
+struct Rows {
+    V r[4];
+};
+constexpr hn::FixedTag<float, 4> kFour;
+HWY_INLINE V LoadRow(const Particle* low, const Particle* high) {
+#if !HWY_HAVE_SCALABLE && HWY_MAX_BYTES >= 32
+    return hn::Combine(kTag, hn::Load(kFour, &high->x.x), hn::Load(kFour, &low->x.x));
+#else
+    (void)high;
+    return hn::Load(kFour, &low->x.x);
+#endif
+}
+HWY_INLINE void StoreRow(V row, Particle* low, Particle* high) {
+#if !HWY_HAVE_SCALABLE && HWY_MAX_BYTES >= 32
+    hn::Store(hn::LowerHalf(kFour, row), kFour, &low->x.x);
+    hn::Store(hn::UpperHalf(kFour, row), kFour, &high->x.x);
+#else
+    (void)high;
+    hn::Store(row, kFour, &low->x.x);
+#endif
+}
+HWY_INLINE Rows Gather(const Particle* particles, const uint32_t* index) {
+    Rows rows;
+    for (size_t k = 0; k < 4; ++k) rows.r[k] = LoadRow(particles + index[k], particles + index[(k + 4) % kWide]);
+    return rows;
+}
+HWY_INLINE void Scatter(const Rows& rows, Particle* particles, const uint32_t* index) {
+    for (size_t k = 0; k < 4; ++k) StoreRow(rows.r[k], particles + index[k], particles + index[(k + 4) % kWide]);
+}
+HWY_INLINE Rows Load(const Particle* particles) {
+    Rows rows;
+    for (size_t k = 0; k < 4; ++k) rows.r[k] = LoadRow(particles + k, particles + (k + 4) % kWide);
+    return rows;
+}
+HWY_INLINE Rows Sub(const Rows& a, const Rows& b) {
+    Rows rows;
+    for (size_t k = 0; k < 4; ++k) rows.r[k] = hn::Sub(a.r[k], b.r[k]);
+    return rows;
+}
+/// a + d * s, s one a particle.
+HWY_INLINE Rows AddScaled(const Rows& a, const Rows& d, V s) {
+    return {{hn::MulAdd(d.r[0], hn::Broadcast<0>(s), a.r[0]), hn::MulAdd(d.r[1], hn::Broadcast<1>(s), a.r[1]),
+             hn::MulAdd(d.r[2], hn::Broadcast<2>(s), a.r[2]), hn::MulAdd(d.r[3], hn::Broadcast<3>(s), a.r[3])}};
+}
+using Pairs = hn::Repartition<double, Tag>;
+HWY_INLINE V LowerPairs(V a, V b) {
+    return hn::BitCast(kTag, hn::InterleaveLower(Pairs(), hn::BitCast(Pairs(), a), hn::BitCast(Pairs(), b)));
+}
+HWY_INLINE V UpperPairs(V a, V b) {
+    return hn::BitCast(kTag, hn::InterleaveUpper(Pairs(), hn::BitCast(Pairs(), a), hn::BitCast(Pairs(), b)));
+}
+HWY_INLINE Points Columns(const Rows& rows) {
+    const V xy01 = hn::InterleaveLower(kTag, rows.r[0], rows.r[1]), xy23 = hn::InterleaveLower(kTag, rows.r[2], rows.r[3]);
+    const V zw01 = hn::InterleaveUpper(kTag, rows.r[0], rows.r[1]), zw23 = hn::InterleaveUpper(kTag, rows.r[2], rows.r[3]);
+    return {LowerPairs(xy01, xy23), UpperPairs(xy01, xy23), LowerPairs(zw01, zw23)};
+}
+HWY_INLINE void Store(const Points& p, Particle* particles) {
+    const V zero = hn::Zero(kTag);
+    const V xy_low = hn::InterleaveLower(kTag, p.x, p.y), xy_high = hn::InterleaveUpper(kTag, p.x, p.y);
+    const V z_low = hn::InterleaveLower(kTag, p.z, zero), z_high = hn::InterleaveUpper(kTag, p.z, zero);
+    const Rows rows{{LowerPairs(xy_low, z_low), UpperPairs(xy_low, z_low), LowerPairs(xy_high, z_high),
+                     UpperPairs(xy_high, z_high)}};
+    for (size_t k = 0; k < 4; ++k) StoreRow(rows.r[k], particles + k, particles + (k + 4) % kWide);
+}
+#endif
+
+/// A vector for whole particles, four floats each, from float `at` on.
+HWY_INLINE V SetParticles(const float* four, size_t at) {
+#if HWY_TARGET == HWY_SCALAR
+    return Set(four[at % 4]);
+#else
+    (void)at;
+    return hn::LoadDup128(kTag, four);
+#endif
+}
+
+void Predict(const Moving& m, const Vec3& half_fall, float h) {
+    const Particle four{half_fall};
+    float* HWY_RESTRICT places = &m.places->x.x;
+    float* HWY_RESTRICT starts = &m.starts->x.x;
+    float* HWY_RESTRICT predicted = &m.predicted->x.x;
+    float* HWY_RESTRICT velocities = &m.velocities->x.x;
+    const V step = Set(h);
+    for (size_t i = 0; i < 4 * size_t(m.count); i += kWide) {
+        const V start = hn::Load(kTag, places + i);
+        const V v = hn::Add(hn::Load(kTag, velocities + i), SetParticles(&four.x.x, i));
+        const V end = hn::MulAdd(v, step, start);
+        hn::Store(start, kTag, starts + i);
+        hn::Store(v, kTag, velocities + i);
+        hn::Store(end, kTag, places + i);
+        hn::Store(end, kTag, predicted + i);
+    }
+}
+
+void FindVelocities(const Moving& m, const Vec3& half_fall, float h, float keep) {
+    const Particle four{half_fall};
+    const float* HWY_RESTRICT places = &m.places->x.x;
+    const float* HWY_RESTRICT predicted = &m.predicted->x.x;
+    float* HWY_RESTRICT velocities = &m.velocities->x.x;
+    const V rate = Set(1.0f / h), kept = Set(keep);
+    for (size_t i = 0; i < 4 * size_t(m.count); i += kWide) {
+        const V change = hn::Sub(hn::Load(kTag, places + i), hn::Load(kTag, predicted + i));
+        const V v = hn::MulAdd(change, rate, hn::Add(hn::Load(kTag, velocities + i), SetParticles(&four.x.x, i)));
+        hn::Store(hn::Mul(v, kept), kTag, velocities + i);
+    }
+}
+
+void FindGains(std::span<const BatchMasses> masses, float h, std::span<BatchGains> gains) {
+    const V rate2 = Set(1.0f / (h * h));
+    for (size_t i = 0; i < masses.size(); ++i)
+        for (size_t k = 0; k < kLanes; k += kWide) {
+            const V a = hn::Load(kTag, masses[i].a + k), b = hn::Load(kTag, masses[i].b + k);
+            const V inverse = hn::Div(
+                Set(1.0f), hn::MulAdd(hn::Load(kTag, masses[i].compliance + k), rate2, hn::Add(a, b)));
+            hn::Store(hn::Mul(a, inverse), kTag, gains[i].a + k);
+            hn::Store(hn::Mul(b, inverse), kTag, gains[i].b + k);
+        }
+}
+
+void SolveDistances(std::span<const DistanceBatch> batches, std::span<const BatchGains> gains, Particle* particles) {
+    const V one = Set(1.0f), no_length = Set(kNoLength);
+    for (size_t i = 0; i < batches.size(); ++i) {
+        const DistanceBatch& batch = batches[i];
+        const BatchGains& gain = gains[i];
+        for (size_t k = 0; k < kLanes; k += kWide) {
+            const Rows a = Gather(particles, batch.a + k), b = Gather(particles, batch.b + k);
+            const Rows way = Sub(a, b);
+            const Points d = Columns(way);
+            const V length = hn::Add(hn::Sqrt(Dot(d, d)), no_length);
+            const V amiss = hn::Sub(hn::Div(hn::Load(kTag, batch.rest_m + k), length), one);
+            Scatter(AddScaled(a, way, hn::Mul(amiss, hn::Load(kTag, gain.a + k))), particles, batch.a + k);
+            Scatter(AddScaled(b, way, hn::Neg(hn::Mul(amiss, hn::Load(kTag, gain.b + k)))), particles, batch.b + k);
+        }
+    }
+}
+
+void SolveTethers(std::span<const uint32_t> anchors, std::span<const float> lengths_m, Particle* particles) {
+    for (size_t i = 0; i < anchors.size(); i += kWide) {
+        const Rows p = Load(particles + i);
+        const Rows way = Sub(p, Gather(particles, anchors.data() + i));
+        const Points d = Columns(way);
+        const V length2 = Dot(d, d), most = hn::LoadU(kTag, lengths_m.data() + i);
+        const auto beyond = hn::Gt(length2, hn::Mul(most, most));
+        if (HWY_LIKELY(hn::AllFalse(kTag, beyond))) continue;
+        const V back = hn::IfThenElseZero(beyond, hn::Sub(hn::Div(most, hn::Sqrt(length2)), Set(1.0f)));
+        Store(Columns(AddScaled(p, way, back)), particles + i);
+    }
+}
+
+void FindRunBalls(std::span<const Particle> moving, std::span<const Particle> velocities, NearColliders& near) {
+    for (size_t run = 0; run < moving.size() / kLanes; ++run) {
+        const Points p = Columns(Load(moving.data() + run * kLanes)), v = Columns(Load(velocities.data() + run * kLanes));
+        Points low = p, high = p;
+        V speed2 = Dot(v, v);
+        for (size_t k = 1; k < kRegisters; ++k) {
+            const Points q = Columns(Load(moving.data() + run * kLanes + k * kWide));
+            const Points w = Columns(Load(velocities.data() + run * kLanes + k * kWide));
+            low = {hn::Min(low.x, q.x), hn::Min(low.y, q.y), hn::Min(low.z, q.z)};
+            high = {hn::Max(high.x, q.x), hn::Max(high.y, q.y), hn::Max(high.z, q.z)};
+            speed2 = hn::Max(speed2, Dot(w, w));
+        }
+        const auto least = [](V v) HWY_ATTR { return hn::GetLane(hn::MinOfLanes(kTag, v)); };
+        const auto most = [](V v) HWY_ATTR { return hn::GetLane(hn::MaxOfLanes(kTag, v)); };
+        const Vec3 from(least(low.x), least(low.y), least(low.z)), to(most(high.x), most(high.y), most(high.z));
+        near.centers[run].x = 0.5f * (from + to);
+        const Vec3 diagonal = to - from;
+        near.radii_m[run] = 0.5f * std::sqrt(diagonal.x * diagonal.x + diagonal.y * diagonal.y + diagonal.z * diagonal.z);
+        near.speeds2[run] = most(speed2);
+    }
+}
+
+HWY_INLINE V NearestAlong(const CapsuleShape& c, const Points& p) {
+    const Points axis = Set(c.axis), from_a = Sub(p, Set(c.a));
+    const V inverse = Set(c.inverse_length2);
+    const V dot = hn::Mul(Dot(from_a, axis), inverse);
+    const Points square = MulAdd(axis, hn::Neg(dot), from_a);
+    const V along = hn::MulAdd(Set(c.lean), hn::Sqrt(hn::Mul(Dot(square, square), inverse)), dot);
+    return hn::Min(hn::Max(along, Set(0.0f)), Set(1.0f));
+}
+
+void FindNear(std::span<const SweptCapsule> colliders, NearColliders& near) {
+    const size_t runs = near.radii_m.size(), words = near.words();
+    for (size_t run = 0; run < runs; run += kWide) {
+        // The vectors are filled up to whole registers.
+        const Points center = Columns(Load(near.centers.data() + run));
+        const V radius = hn::LoadU(kTag, near.radii_m.data() + run);
+        uint64_t* bits = near.bits.data() + run * words;
+        for (size_t k = 0; k < kWide * words; ++k) bits[k] = 0;
+        for (size_t i = 0; i < colliders.size(); ++i) {
+            const SweptCapsule& c = colliders[i];
+            const V along = NearestAlong(c.to, center);
+            const Points off = Sub(center, MulAdd(Set(c.to.axis), along, Set(c.to.a)));
+            const V reach = hn::Add(hn::MulAdd(Set(c.to.taper), along, Set(c.to.radius + c.travel_m)), radius);
+            const auto touches = hn::Lt(Dot(off, off), hn::Mul(reach, reach));
+            if (hn::AllFalse(kTag, touches)) continue;
+            uint8_t lanes[8] = {};
+            hn::StoreMaskBits(kTag, touches, lanes);
+            for (uint32_t left = lanes[0]; left; left &= left - 1)
+                bits[hwy::Num0BitsBelowLS1Bit_Nonzero32(left) * words + i / 64] |= uint64_t(1) << (i % 64);
+        }
+    }
+}
+
+/// Of a run of particles from a capsule: the ball of it that is nearest, as nearest_ball() says.
+struct Nearest {
+    V along, distance;
+    Points normal;
+};
+HWY_INLINE Nearest NearestBallOf(const CapsuleShape& c, V along, const Points& from_center, V length2) {
+    const V length = hn::Sqrt(length2);
+    const V radius = hn::MulAdd(Set(c.taper), along, Set(c.radius));
+    const auto centred = hn::Le(length, Set(1e-9f));
+    const Points n = Mul(from_center, hn::Div(Set(1.0f), hn::Max(length, Set(1e-9f))));
+    return {along, hn::Sub(length, radius),
+            {hn::IfThenZeroElse(centred, n.x), hn::IfThenElse(centred, Set(1.0f), n.y), hn::IfThenZeroElse(centred, n.z)}};
+}
+HWY_INLINE Points FromCenter(const CapsuleShape& c, V along, const Points& p) {
+    return Sub(p, MulAdd(Set(c.axis), along, Set(c.a)));
+}
+
+/// resolve_contact() for all particles of a register whose way through the sub-step was short; the others are named in the
+/// result, a bit each, and left as they are.
+HWY_INLINE uint32_t Resolve(const SweptCapsule& c, const Points& start, V travel, const ContactSettings& settings, Points& p) {
+    const V along = NearestAlong(c.to, p), radius = hn::MulAdd(Set(c.to.taper), along, Set(c.to.radius));
+    const Points from_center = FromCenter(c.to, along, p);
+    const V reach = hn::Add(travel, Set(c.travel_m)), length2 = Dot(from_center, from_center), touching = hn::Add(radius, reach);
+    const auto near = hn::Lt(length2, hn::Mul(touching, touching));
+    if (HWY_LIKELY(hn::AllFalse(kTag, near))) return 0;
+    const Nearest end = NearestBallOf(c.to, along, from_center, length2);
+    const auto inside = hn::Lt(end.distance, Set(0.0f));
+    // Who ends outside, and went no further than the radius, cannot have come through; the surface's bulge is met from
+    // the side on which it began.
+    const auto far = hn::And(near, hn::And(hn::Not(inside), hn::Gt(reach, radius)));
+    uint8_t bits[8] = {};
+    hn::StoreMaskBits(kTag, far, bits);
+    uint32_t special = bits[0];
+    if (hn::AllFalse(kTag, inside)) return special;
+
+    const V begin_along = NearestAlong(c.from, start);
+    const Points begin_from = FromCenter(c.from, begin_along, start);
+    const Nearest begin = NearestBallOf(c.from, begin_along, begin_from, Dot(begin_from, begin_from));
+    const auto same_side = hn::Gt(Dot(begin.normal, end.normal), Set(0.0f));
+    hn::StoreMaskBits(kTag, hn::AndNot(same_side, inside), bits);
+    special |= bits[0];
+    const V residue = hn::Max(Set(0.0f), hn::Sub(hn::Neg(begin.distance), Set(settings.max_depenetration_m)));
+    const V depth = hn::Sub(hn::Neg(end.distance), residue);
+    const auto push = hn::And(hn::And(inside, same_side), hn::Gt(depth, Set(0.0f)));
+    if (hn::AllFalse(kTag, push)) return special;
+    const V out = hn::IfThenElseZero(push, depth);
+    const Points pushed = MulAdd(end.normal, out, p);
+
+    // The surface moves with its ball and turns with the axis: w x n r = dA (A.n) - A (dA.n), times r.
+    const Points axis = Set(c.to.axis), turned = Set(c.to.axis - c.from.axis);
+    Points motion = MulAdd(turned, end.along, Set(c.to.a - c.from.a));
+    const V lever = hn::Mul(radius, Set(c.to.inverse_length2));
+    motion = MulAdd(turned, hn::Mul(lever, Dot(axis, end.normal)), motion);
+    motion = MulAdd(axis, hn::Neg(hn::Mul(lever, Dot(turned, end.normal))), motion);
+    // Coulomb friction: all of the sliding within the cone, else the kinetic share.
+    const Points relative = Sub(Sub(pushed, start), motion);
+    const Points sliding = MulAdd(end.normal, hn::Neg(Dot(relative, end.normal)), relative);
+    const V length = hn::Sqrt(Dot(sliding, sliding));
+    const V kinetic = hn::Div(hn::Mul(Set(settings.friction_kinetic), out), hn::Max(length, Set(kNoLength)));
+    const V share = hn::IfThenElse(hn::Le(length, hn::Mul(Set(settings.friction_static), out)), Set(1.0f), kinetic);
+    const Points held = MulAdd(sliding, hn::Neg(share), pushed);
+    p = {hn::IfThenElse(push, held.x, p.x), hn::IfThenElse(push, held.y, p.y), hn::IfThenElse(push, held.z, p.z)};
+    return special;
+}
+
+/// All of a register's particles against one collider.
+HWY_INLINE void Resolve(const ContactJob& job, const SweptCapsule& collider, size_t at, const Points& start, V travel, Points& p) {
+    uint32_t special = Resolve(collider, start, travel, job.settings, p);
+    if (HWY_LIKELY(special == 0)) return;
+    Store(p, job.places + at);
+    for (; special; special &= special - 1) {
+        const size_t lane = at + hwy::Num0BitsBelowLS1Bit_Nonzero32(special);
+        resolve_contact(collider, job.starts[lane].x, job.settings, job.places[lane].x);
+    }
+    p = Columns(Load(job.places + at));
+}
+
+void ResolveContacts(const ContactJob& given, uint32_t first_run, uint32_t last_run) {
+    const ContactJob job = given;
+    const NearColliders& near = *job.near;
+    const size_t words = near.words();
+    for (uint32_t run = first_run; run < last_run; ++run) {
+        const V reach2 = Set(near.radii_m[run] * near.radii_m[run]);
+        for (size_t k = 0; k < kLanes; k += kWide) {
+            const size_t at = run * kLanes + k;
+            Points p = Columns(Load(job.places + at));
+            const Points start = Columns(Load(job.starts + at));
+            const Points off = Sub(p, Set(near.centers[run].x)), way = Sub(p, start);
+            const V travel = hn::Sqrt(Dot(way, way));
+            if (HWY_UNLIKELY(!hn::AllTrue(kTag, hn::Le(Dot(off, off), reach2)))) {
+                for (const SweptCapsule& collider : job.colliders) Resolve(job, collider, at, start, travel, p);
+            } else {
+                for (size_t word = 0; word < words; ++word)
+                    for (uint64_t left = near.bits[run * words + word]; left; left &= left - 1)
+                        Resolve(job, job.colliders[word * 64 + hwy::Num0BitsBelowLS1Bit_Nonzero64(left)], at, start, travel, p);
+            }
+            Store(p, job.places + at);
+        }
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace vfit
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace vfit {
+
+HWY_EXPORT(Predict);
+HWY_EXPORT(FindVelocities);
+HWY_EXPORT(FindGains);
+HWY_EXPORT(SolveDistances);
+HWY_EXPORT(SolveTethers);
+HWY_EXPORT(FindRunBalls);
+HWY_EXPORT(FindNear);
+HWY_EXPORT(ResolveContacts);
+
+void predict(const Moving& moving, const Vec3& half_fall, float h) { HWY_DYNAMIC_DISPATCH(Predict)(moving, half_fall, h); }
+void find_velocities(const Moving& moving, const Vec3& half_fall, float h, float keep) {
+    HWY_DYNAMIC_DISPATCH(FindVelocities)(moving, half_fall, h, keep);
+}
+void find_gains(std::span<const BatchMasses> masses, float h, std::span<BatchGains> gains) {
+    HWY_DYNAMIC_DISPATCH(FindGains)(masses, h, gains);
+}
+void solve_distances(std::span<const DistanceBatch> batches, std::span<const BatchGains> gains, Particle* particles) {
+    HWY_DYNAMIC_DISPATCH(SolveDistances)(batches, gains, particles);
+}
+void solve_tethers(std::span<const uint32_t> anchors, std::span<const float> lengths_m, Particle* particles) {
+    HWY_DYNAMIC_DISPATCH(SolveTethers)(anchors, lengths_m, particles);
+}
+void find_run_balls(std::span<const Particle> moving, std::span<const Particle> velocities, NearColliders& near) {
+    HWY_DYNAMIC_DISPATCH(FindRunBalls)(moving, velocities, near);
+}
+void find_near(std::span<const SweptCapsule> colliders, NearColliders& near) {
+    HWY_DYNAMIC_DISPATCH(FindNear)(colliders, near);
+}
+void resolve_contacts(const ContactJob& job, uint32_t first_run, uint32_t last_run) {
+    HWY_DYNAMIC_DISPATCH(ResolveContacts)(job, first_run, last_run);
+}
+
+}  // namespace vfit
+#endif

@@ -1,0 +1,38 @@
+#include "cloth/contact_culling.h"
+
+#include <cmath>
+
+namespace vfit {
+
+namespace {
+
+// A run may go further than its speed says, as constraints pull it along; one that does is tried against everything.
+constexpr float kMoreWay = 1.25f, kMoreWay_m = 0.01f;
+
+size_t run_count(size_t moving) { return moving / kLanes; }
+size_t whole_registers(size_t runs) { return (runs + kLanes - 1) / kLanes * kLanes; }
+
+}  // namespace
+
+void reserve(NearColliders& near, size_t moving, size_t colliders) {
+    const size_t count = whole_registers(run_count(moving));
+    near.centers.reserve(count);
+    near.radii_m.reserve(count);
+    near.speeds2.reserve(count);
+    near.bits.reserve(count * ((colliders + 63) / 64));
+}
+
+void cull(std::span<const Particle> moving, std::span<const Particle> velocities, float dt,
+          std::span<const SweptCapsule> colliders, NearColliders& near) {
+    const size_t runs = run_count(moving.size()), count = whole_registers(runs);
+    near.colliders = colliders.size();
+    near.centers.resize(count);
+    near.radii_m.resize(count);
+    near.speeds2.resize(count);
+    near.bits.resize(count * near.words());
+    find_run_balls(moving, velocities, near);
+    for (size_t run = 0; run < runs; ++run) near.radii_m[run] += kMoreWay * dt * std::sqrt(near.speeds2[run]) + kMoreWay_m;
+    find_near(colliders, near);
+}
+
+}  // namespace vfit

@@ -1,0 +1,104 @@
+#include "cloth/distance_batches.h"
+
+#include <algorithm>
+#include <array>
+#include <deque>
+
+#include "cloth/fabric.h"
+
+namespace vfit {
+
+namespace {
+
+// Batches that are filled at the same time: a constraint whose particles the first one has goes to the next.
+constexpr size_t kOpen = 24;
+// Batches in a row that share no particle, where that can be: one need not wait for what the last one stores.
+constexpr size_t kApart = 4;
+
+struct Joint {
+    uint32_t a, b, index;
+};
+using Batch = std::vector<Joint>;
+
+bool shares(const Batch& x, const Joint& j) {
+    return std::any_of(x.begin(), x.end(), [&](const Joint& o) { return o.a == j.a || o.a == j.b || o.b == j.a || o.b == j.b; });
+}
+bool shares(const Batch& x, const Batch& y) {
+    return std::any_of(y.begin(), y.end(), [&](const Joint& j) { return shares(x, j); });
+}
+
+std::vector<Batch> fill(const std::vector<Joint>& joints) {
+    std::vector<Batch> done;
+    std::deque<Batch> open;
+    for (const Joint& joint : joints) {
+        const auto place = std::find_if(open.begin(), open.end(), [&](const Batch& b) { return !shares(b, joint); });
+        if (place == open.end()) {
+            if (open.size() == kOpen) {
+                done.push_back(std::move(open.front()));
+                open.pop_front();
+            }
+            open.push_back({joint});
+            continue;
+        }
+        place->push_back(joint);
+        if (place->size() < kLanes) continue;
+        done.push_back(std::move(*place));
+        open.erase(place);
+    }
+    std::move(open.begin(), open.end(), std::back_inserter(done));
+    return done;
+}
+
+/// Nearly in the same order, but with kApart batches between two that share a particle.
+std::vector<Batch> spread(std::vector<Batch> batches) {
+    constexpr size_t kAhead = 64;  // how far it looks
+    std::vector<Batch> out;
+    out.reserve(batches.size());
+    std::deque<Batch> waiting;
+    size_t next = 0;
+    while (next < batches.size() || !waiting.empty()) {
+        while (next < batches.size() && waiting.size() < kAhead) waiting.push_back(std::move(batches[next++]));
+        const auto apart = std::find_if(waiting.begin(), waiting.end(), [&](const Batch& b) {
+            for (size_t k = 1; k <= std::min(kApart, out.size()); ++k)
+                if (shares(out[out.size() - k], b)) return false;
+            return true;
+        });
+        const auto chosen = apart == waiting.end() ? waiting.begin() : apart;
+        out.push_back(std::move(*chosen));
+        waiting.erase(chosen);
+    }
+    return out;
+}
+
+}  // namespace
+
+DistanceBatches make_batches(std::span<const DistanceConstraint> list, std::span<const float> inverse_mass,
+                             const ParticleLayout& layout) {
+    std::vector<Joint> joints;
+    for (uint32_t i = 0; i < list.size(); ++i)
+        if (inverse_mass[list[i].a] > 0.0f || inverse_mass[list[i].b] > 0.0f)
+            joints.push_back({layout.particle_of[list[i].a], layout.particle_of[list[i].b], i});
+    std::stable_sort(joints.begin(), joints.end(),
+                     [](const Joint& x, const Joint& y) { return std::min(x.a, x.b) < std::min(y.a, y.b); });
+    DistanceBatches out;
+    for (const Batch& batch : spread(fill(joints))) {
+        DistanceBatch& d = out.joints.emplace_back();
+        BatchMasses& m = out.masses.emplace_back();
+        for (size_t k = 0; k < kLanes; ++k) {
+            d.a[k] = d.b[k] = layout.spare;
+            d.rest_m[k] = m.a[k] = m.b[k] = 0.0f;
+            m.compliance[k] = 1.0f;
+            if (k >= batch.size()) continue;
+            const DistanceConstraint& c = list[batch[k].index];
+            d.a[k] = batch[k].a;
+            d.b[k] = batch[k].b;
+            d.rest_m[k] = c.rest_m;
+            m.a[k] = inverse_mass[c.a];
+            m.b[k] = inverse_mass[c.b];
+            m.compliance[k] = c.compliance_m_n;
+        }
+    }
+    return out;
+}
+
+}  // namespace vfit

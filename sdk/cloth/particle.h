@@ -1,0 +1,37 @@
+// The particles of a cloth while it is solved: four floats each, so that eight fill four wide registers.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <vector>
+
+#include "math/types.h"
+
+namespace vfit {
+
+/// Particles that the kernels work on together.
+inline constexpr size_t kLanes = 8;
+
+/// A place, a velocity or a way; the fourth float is zero.
+struct alignas(16) Particle {
+    Vec3 x{0.0f};
+    float zero = 0.0f;
+};
+
+/// Kernels load whole registers.
+template <typename T>
+struct WideAllocator {
+    using value_type = T;
+    static constexpr std::align_val_t kAlignment{32};
+
+    WideAllocator() = default;
+    template <typename U>
+    WideAllocator(const WideAllocator<U>&) {}
+    T* allocate(size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), kAlignment)); }
+    void deallocate(T* p, size_t) { ::operator delete(p, kAlignment); }
+    bool operator==(const WideAllocator&) const { return true; }
+};
+using Particles = std::vector<Particle, WideAllocator<Particle>>;
+
+}  // namespace vfit
