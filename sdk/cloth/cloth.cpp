@@ -105,7 +105,7 @@ struct Cloth::State {
     void accept_colliders(std::span<const Collider> colliders);
     bool is_end_of_another(uint32_t ball) const;
     void teleport(std::span<const Vec3> targets);
-    void substep(float h, float damping, float from, float to, std::span<const Vec3> targets, Jobs& jobs);
+    void substep(float h, float from, float to, std::span<const Vec3> targets, Jobs& jobs);
     void solve_backstops(const ContactSettings& contact, float from, float to, std::span<const Vec3> targets);
     void fill_up();
     void rest();
@@ -227,8 +227,15 @@ void Cloth::State::advance(float dt, int substeps, float damping, std::span<cons
         find_gains(fabric->edge_batches().masses, h, edge_gains);
         gains_h = h;
     }
-    for (int i = 0; i < substeps; ++i)
-        substep(h, damping, float(i) / float(substeps), float(i + 1) / float(substeps), targets, jobs);
+    const Vec3 half_fall = settings.gravity * (0.5f * h);
+    const float keep = std::pow(1.0f - damping, h);
+    const Moving moving{particles.data(), starts.data(), predicted.data(), velocities.data(), fabric->layout().moving};
+    predict(moving, half_fall, h);
+    for (int i = 0; i < substeps; ++i) {
+        if (i > 0) find_velocities_and_predict(moving, half_fall, h, keep);
+        substep(h, float(i) / float(substeps), float(i + 1) / float(substeps), targets, jobs);
+    }
+    find_velocities(moving, half_fall, h, keep);
     std::copy(targets.begin(), targets.end(), previous_targets.begin());
     std::swap(previous_capsules, capsules);
 }
@@ -276,11 +283,9 @@ void Cloth::State::teleport(std::span<const Vec3> targets) {
     previous_capsules = capsules;
 }
 
-void Cloth::State::substep(float h, float damping, float from, float to, std::span<const Vec3> targets, Jobs& jobs) {
+/// The constraints of one sub-step, on places as predicted.
+void Cloth::State::substep(float h, float from, float to, std::span<const Vec3> targets, Jobs& jobs) {
     const ParticleLayout& layout = fabric->layout();
-    const Moving moving{particles.data(), starts.data(), predicted.data(), velocities.data(), layout.moving};
-    const Vec3 half_fall = settings.gravity * (0.5f * h);
-    predict(moving, half_fall, h);
     for (uint32_t v : fabric->kinematic_vertices())
         particles[layout.particle_of[v]].x = previous_targets[v] + (targets[v] - previous_targets[v]) * to;
     solve_distances(fabric->bend_batches().joints, bend_gains, particles.data());
@@ -298,7 +303,6 @@ void Cloth::State::substep(float h, float damping, float from, float to, std::sp
             resolve_contacts(job, i * kRunsOfAJob, std::min(runs, (i + 1) * kRunsOfAJob));
         });
     }
-    find_velocities(moving, half_fall, h, std::pow(1.0f - damping, h));
 }
 
 void Cloth::State::solve_backstops(const ContactSettings& contact, float from, float to,

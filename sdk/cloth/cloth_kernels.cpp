@@ -49,14 +49,18 @@ HWY_INLINE Points Set(const Vec3& v) { return {Set(v.x), Set(v.y), Set(v.z)}; }
 struct Rows {
     Points p;
 };
-HWY_INLINE Rows Gather(const Particle* particles, const uint32_t* index) {
-    return {Set(particles[*index].x)};
+template <typename At>
+HWY_INLINE Rows Gather(const At& at, const uint32_t* index) {
+    return {Set(at(*index)->x)};
 }
 HWY_INLINE Rows Load(const Particle* particles) { return {Set(particles->x)}; }
 HWY_INLINE void Store(const Points& p, Particle* particles) {
     particles->x = Vec3(hn::GetLane(p.x), hn::GetLane(p.y), hn::GetLane(p.z));
 }
-HWY_INLINE void Scatter(const Rows& rows, Particle* particles, const uint32_t* index) { Store(rows.p, particles + *index); }
+template <typename At>
+HWY_INLINE void Scatter(const Rows& rows, const At& at, const uint32_t* index) {
+    Store(rows.p, at(*index));
+}
 HWY_INLINE Rows Sub(const Rows& a, const Rows& b) { return {Sub(a.p, b.p)}; }
 HWY_INLINE Rows AddScaled(const Rows& a, const Rows& d, V s) { return {MulAdd(d.p, s, a.p)}; }
 HWY_INLINE Points Columns(const Rows& rows) { return rows.p; }
@@ -83,13 +87,15 @@ HWY_INLINE void StoreRow(V row, Particle* low, Particle* high) {
     hn::Store(row, kFour, &low->x.x);
 #endif
 }
-HWY_INLINE Rows Gather(const Particle* particles, const uint32_t* index) {
+template <typename At>
+HWY_INLINE Rows Gather(const At& at, const uint32_t* index) {
     Rows rows;
-    for (size_t k = 0; k < 4; ++k) rows.r[k] = LoadRow(particles + index[k], particles + index[(k + 4) % kWide]);
+    for (size_t k = 0; k < 4; ++k) rows.r[k] = LoadRow(at(index[k]), at(index[(k + 4) % kWide]));
     return rows;
 }
-HWY_INLINE void Scatter(const Rows& rows, Particle* particles, const uint32_t* index) {
-    for (size_t k = 0; k < 4; ++k) StoreRow(rows.r[k], particles + index[k], particles + index[(k + 4) % kWide]);
+template <typename At>
+HWY_INLINE void Scatter(const Rows& rows, const At& at, const uint32_t* index) {
+    for (size_t k = 0; k < 4; ++k) StoreRow(rows.r[k], at(index[k]), at(index[(k + 4) % kWide]));
 }
 HWY_INLINE Rows Load(const Particle* particles) {
     Rows rows;
@@ -169,6 +175,26 @@ void FindVelocities(const Moving& m, const Vec3& half_fall, float h, float keep)
     }
 }
 
+void FindVelocitiesAndPredict(const Moving& m, const Vec3& half_fall, float h, float keep) {
+    const Particle four{half_fall};
+    float* HWY_RESTRICT places = &m.places->x.x;
+    float* HWY_RESTRICT starts = &m.starts->x.x;
+    float* HWY_RESTRICT predicted = &m.predicted->x.x;
+    float* HWY_RESTRICT velocities = &m.velocities->x.x;
+    const V rate = Set(1.0f / h), kept = Set(keep), step = Set(h);
+    for (size_t i = 0; i < 4 * size_t(m.count); i += kWide) {
+        const V fall = SetParticles(&four.x.x, i), place = hn::Load(kTag, places + i);
+        const V change = hn::Sub(place, hn::Load(kTag, predicted + i));
+        const V ended = hn::MulAdd(change, rate, hn::Add(hn::Load(kTag, velocities + i), fall));
+        const V v = hn::MulAdd(ended, kept, fall);
+        const V end = hn::MulAdd(v, step, place);
+        hn::Store(place, kTag, starts + i);
+        hn::Store(v, kTag, velocities + i);
+        hn::Store(end, kTag, places + i);
+        hn::Store(end, kTag, predicted + i);
+    }
+}
+
 void FindGains(std::span<const BatchMasses> masses, float h, std::span<BatchGains> gains) {
     const V rate2 = Set(1.0f / (h * h));
     for (size_t i = 0; i < masses.size(); ++i)
@@ -183,25 +209,28 @@ void FindGains(std::span<const BatchMasses> masses, float h, std::span<BatchGain
 
 void SolveDistances(std::span<const DistanceBatch> batches, std::span<const BatchGains> gains, Particle* particles) {
     const V one = Set(1.0f), no_length = Set(kNoLength);
+    auto* bytes = reinterpret_cast<unsigned char*>(particles);
+    const auto at = [bytes](uint32_t offset) HWY_ATTR { return reinterpret_cast<Particle*>(bytes + offset); };
     for (size_t i = 0; i < batches.size(); ++i) {
         const DistanceBatch& batch = batches[i];
         const BatchGains& gain = gains[i];
         for (size_t k = 0; k < kLanes; k += kWide) {
-            const Rows a = Gather(particles, batch.a + k), b = Gather(particles, batch.b + k);
+            const Rows a = Gather(at, batch.a + k), b = Gather(at, batch.b + k);
             const Rows way = Sub(a, b);
             const Points d = Columns(way);
             const V length = hn::Add(hn::Sqrt(Dot(d, d)), no_length);
             const V amiss = hn::Sub(hn::Div(hn::Load(kTag, batch.rest_m + k), length), one);
-            Scatter(AddScaled(a, way, hn::Mul(amiss, hn::Load(kTag, gain.a + k))), particles, batch.a + k);
-            Scatter(AddScaled(b, way, hn::Neg(hn::Mul(amiss, hn::Load(kTag, gain.b + k)))), particles, batch.b + k);
+            Scatter(AddScaled(a, way, hn::Mul(amiss, hn::Load(kTag, gain.a + k))), at, batch.a + k);
+            Scatter(AddScaled(b, way, hn::Neg(hn::Mul(amiss, hn::Load(kTag, gain.b + k)))), at, batch.b + k);
         }
     }
 }
 
 void SolveTethers(std::span<const uint32_t> anchors, std::span<const float> lengths_m, Particle* particles) {
+    const auto at = [particles](uint32_t index) HWY_ATTR { return particles + index; };
     for (size_t i = 0; i < anchors.size(); i += kWide) {
         const Rows p = Load(particles + i);
-        const Rows way = Sub(p, Gather(particles, anchors.data() + i));
+        const Rows way = Sub(p, Gather(at, anchors.data() + i));
         const Points d = Columns(way);
         const V length2 = Dot(d, d), most = hn::LoadU(kTag, lengths_m.data() + i);
         const auto beyond = hn::Gt(length2, hn::Mul(most, most));
@@ -347,18 +376,23 @@ void ResolveContacts(const ContactJob& given, uint32_t first_run, uint32_t last_
     const NearColliders& near = *job.near;
     const size_t words = near.words();
     for (uint32_t run = first_run; run < last_run; ++run) {
+        const uint64_t* bits = near.bits.data() + run * words;
+        uint64_t any = 0;
+        for (size_t word = 0; word < words; ++word) any |= bits[word];
         const V reach2 = Set(near.radii_m[run] * near.radii_m[run]);
         for (size_t k = 0; k < kLanes; k += kWide) {
             const size_t at = run * kLanes + k;
             Points p = Columns(Load(job.places + at));
-            const Points start = Columns(Load(job.starts + at));
-            const Points off = Sub(p, Set(near.centers[run].x)), way = Sub(p, start);
+            const Points off = Sub(p, Set(near.centers[run].x));
+            const bool strayed = !hn::AllTrue(kTag, hn::Le(Dot(off, off), reach2));
+            if (HWY_LIKELY(!strayed) && any == 0) continue;
+            const Points start = Columns(Load(job.starts + at)), way = Sub(p, start);
             const V travel = hn::Sqrt(Dot(way, way));
-            if (HWY_UNLIKELY(!hn::AllTrue(kTag, hn::Le(Dot(off, off), reach2)))) {
+            if (HWY_UNLIKELY(strayed)) {
                 for (const SweptCapsule& collider : job.colliders) Resolve(job, collider, at, start, travel, p);
             } else {
                 for (size_t word = 0; word < words; ++word)
-                    for (uint64_t left = near.bits[run * words + word]; left; left &= left - 1)
+                    for (uint64_t left = bits[word]; left; left &= left - 1)
                         Resolve(job, job.colliders[word * 64 + hwy::Num0BitsBelowLS1Bit_Nonzero64(left)], at, start, travel, p);
             }
             Store(p, job.places + at);
@@ -375,6 +409,7 @@ namespace vfit {
 
 HWY_EXPORT(Predict);
 HWY_EXPORT(FindVelocities);
+HWY_EXPORT(FindVelocitiesAndPredict);
 HWY_EXPORT(FindGains);
 HWY_EXPORT(SolveDistances);
 HWY_EXPORT(SolveTethers);
@@ -385,6 +420,9 @@ HWY_EXPORT(ResolveContacts);
 void predict(const Moving& moving, const Vec3& half_fall, float h) { HWY_DYNAMIC_DISPATCH(Predict)(moving, half_fall, h); }
 void find_velocities(const Moving& moving, const Vec3& half_fall, float h, float keep) {
     HWY_DYNAMIC_DISPATCH(FindVelocities)(moving, half_fall, h, keep);
+}
+void find_velocities_and_predict(const Moving& moving, const Vec3& half_fall, float h, float keep) {
+    HWY_DYNAMIC_DISPATCH(FindVelocitiesAndPredict)(moving, half_fall, h, keep);
 }
 void find_gains(std::span<const BatchMasses> masses, float h, std::span<BatchGains> gains) {
     HWY_DYNAMIC_DISPATCH(FindGains)(masses, h, gains);

@@ -26,6 +26,8 @@ void predict(const Moving& moving, const Vec3& half_fall, float h);
 /// What the constraints changed, rather than the whole way over h: rounding of places stays out of the speed. Then the other
 /// half of the fall, and `keep` of all of it.
 void find_velocities(const Moving& moving, const Vec3& half_fall, float h, float keep);
+/// The end of one sub-step and the begin of the next in one pass.
+void find_velocities_and_predict(const Moving& moving, const Vec3& half_fall, float h, float keep);
 
 /// XPBD's share of each end: w / (w_a + w_b + compliance / h^2).
 void find_gains(std::span<const BatchMasses> masses, float h, std::span<BatchGains> gains);

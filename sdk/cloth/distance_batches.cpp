@@ -85,13 +85,13 @@ DistanceBatches make_batches(std::span<const DistanceConstraint> list, std::span
         DistanceBatch& d = out.joints.emplace_back();
         BatchMasses& m = out.masses.emplace_back();
         for (size_t k = 0; k < kLanes; ++k) {
-            d.a[k] = d.b[k] = layout.spare;
+            d.a[k] = d.b[k] = uint32_t(layout.spare * sizeof(Particle));
             d.rest_m[k] = m.a[k] = m.b[k] = 0.0f;
             m.compliance[k] = 1.0f;
             if (k >= batch.size()) continue;
             const DistanceConstraint& c = list[batch[k].index];
-            d.a[k] = batch[k].a;
-            d.b[k] = batch[k].b;
+            d.a[k] = uint32_t(batch[k].a * sizeof(Particle));
+            d.b[k] = uint32_t(batch[k].b * sizeof(Particle));
             d.rest_m[k] = c.rest_m;
             m.a[k] = inverse_mass[c.a];
             m.b[k] = inverse_mass[c.b];

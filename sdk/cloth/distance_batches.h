@@ -11,7 +11,7 @@ namespace vfit {
 
 /// Lanes that are left over join the spare particle to itself.
 struct alignas(32) DistanceBatch {
-    uint32_t a[kLanes], b[kLanes];
+    uint32_t a[kLanes], b[kLanes];  // bytes from the first particle: an address is one addition
     float rest_m[kLanes];
 };
 /// 1/kg and m/N.

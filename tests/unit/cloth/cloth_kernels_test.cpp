@@ -58,8 +58,19 @@ TEST(ClothKernels, FreeFlightIsExact) {
             EXPECT_EQ(places[i].zero, 0.0f);
             places[i].x += pull;
         }
+        Particles next_places = places, next_starts = starts, next_predicted = predicted, next_velocities = velocities;
+        const Moving next{next_places.data(), next_starts.data(), next_predicted.data(), next_velocities.data(), 16};
         find_velocities(moving, half_fall, h, keep);
         for (size_t i = 0; i < 16; ++i) expect_near(velocities[i].x, (speeds[i].x + 2.0f * half_fall + pull / h) * keep, 1e-4f, i);
+        // Both at once.
+        predict(moving, half_fall, h);
+        find_velocities_and_predict(next, half_fall, h, keep);
+        for (size_t i = 0; i < 16; ++i) {
+            EXPECT_EQ(next_starts[i].x, starts[i].x);
+            expect_near(next_places[i].x, places[i].x, 1e-6f, i);
+            EXPECT_EQ(next_predicted[i].x, next_places[i].x);
+            expect_near(next_velocities[i].x, velocities[i].x, 1e-5f, i);
+        }
     });
 }
 
@@ -79,8 +90,8 @@ TEST(ClothKernels, DistancesAreThoseOfXpbd) {
         for (size_t i = 0; i < batches.joints.size(); ++i)
             for (size_t k = 0; k < kLanes; ++k) {
                 const BatchMasses& m = batches.masses[i];
-                Vec3& a = expected[batches.joints[i].a[k]].x;
-                Vec3& b = expected[batches.joints[i].b[k]].x;
+                Vec3& a = expected[batches.joints[i].a[k] / sizeof(Particle)].x;
+                Vec3& b = expected[batches.joints[i].b[k] / sizeof(Particle)].x;
                 if (m.a[k] + m.b[k] == 0.0f) continue;
                 const Vec3 d = a - b;
                 const Vec3 impulse = d / glm::length(d) * (batches.joints[i].rest_m[k] - glm::length(d)) /
@@ -190,7 +201,7 @@ TEST(ClothLayout, BatchesHoldEachConstraintOnceAndNoParticleTwice) {
         std::vector<uint32_t> seen;
         for (size_t k = 0; k < kLanes; ++k) {
             if (batch.a[k] == batch.b[k]) {
-                EXPECT_EQ(batch.a[k], fabric.layout().spare);
+                EXPECT_EQ(batch.a[k], fabric.layout().spare * sizeof(Particle));
                 continue;
             }
             ++lanes;
