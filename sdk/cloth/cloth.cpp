@@ -6,8 +6,7 @@
 #include <cstring>
 
 #include "body/mesh.h"
-#include "cloth/cloth_kernels.h"
-#include "cloth/contact_culling.h"
+#include "cloth/particle_solver.h"
 #include "cloth/rigid_motion.h"
 #include "core/clock.h"
 #include "core/error.h"
@@ -76,19 +75,14 @@ uint64_t hash(uint64_t state, const Vec3& v) {
 }  // namespace
 
 struct Cloth::State {
+    State(std::shared_ptr<const Fabric> f, const ClothSettings& s) : fabric(f), settings(s), solver(std::move(f)) {}
+
     std::shared_ptr<const Fabric> fabric;
     ClothSettings settings;
-
-    Particles particles;  // in the fabric's layout, as are the next three
-    Particles starts, predicted, velocities;
-    std::vector<BatchGains> bend_gains, edge_gains;
-    float gains_h = 0.0f;             // the sub-step that they are for
-    NearColliders near;
+    ParticleSolver solver;
+    ColliderMotion colliders;
     std::vector<Vec3> previous_targets;  // one a vertex, then one a backstop
     bool backstops_placed = false;       // previous_targets holds the backstops as well
-    std::vector<Capsule> previous_capsules, capsules;
-    std::vector<uint32_t> needed;  // capsules that are not part of another
-    std::vector<SweptCapsule> swept;
 
     std::vector<Vec3> positions;  // what callers read
     // The same, found when they are asked for.
@@ -102,31 +96,19 @@ struct Cloth::State {
     void reset(std::span<const Vec3> start);
     void advance(float dt, int substeps, float damping, std::span<const Vec3> targets,
                  std::span<const Collider> colliders, Jobs& jobs);
-    void accept_colliders(std::span<const Collider> colliders);
-    bool is_end_of_another(uint32_t ball) const;
     void teleport(std::span<const Vec3> targets);
-    void substep(float h, float from, float to, std::span<const Vec3> targets, Jobs& jobs);
-    void solve_backstops(const ContactSettings& contact, float from, float to, std::span<const Vec3> targets);
-    void fill_up();
-    void rest();
     void publish();
     void find_normals() const;
     void find_strains() const;
 };
 
-Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings, std::span<const Vec3> start)
-    : state_(std::make_unique<State>()) {
+Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings, std::span<const Vec3> start) {
     if (!fabric) fail(VFIT_ERROR_ARGUMENT, "a cloth needs a fabric");
     check(settings);
+    state_ = std::make_unique<State>(fabric, settings);
     State& s = *state_;
-    s.settings = settings;
     const uint32_t n = fabric->vertex_count();
     const FabricData& data = fabric->data();
-    const ParticleLayout& layout = fabric->layout();
-    s.particles.resize(layout.count());
-    for (auto* list : {&s.starts, &s.predicted, &s.velocities}) list->resize(layout.moving);
-    s.bend_gains.resize(fabric->bend_batches().joints.size());
-    s.edge_gains.resize(fabric->edge_batches().joints.size());
     s.positions.resize(n);
     s.previous_targets.resize(fabric->target_count());
     s.strains.resize(n);
@@ -135,7 +117,6 @@ Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings
     for (const DistanceConstraint& e : data.edges)
         for (uint32_t v : {e.a, e.b}) s.inverse_edge_count[v] += 1.0f;
     for (float& count : s.inverse_edge_count) count = count > 0.0f ? 1.0f / count : 0.0f;
-    s.fabric = std::move(fabric);
     reset(start);
 }
 
@@ -151,26 +132,10 @@ void Cloth::reset(std::span<const Vec3> positions) {
 void Cloth::State::reset(std::span<const Vec3> start) {
     std::copy(start.begin(), start.end(), previous_targets.begin());
     backstops_placed = start.size() == previous_targets.size();
-    const ParticleLayout& layout = fabric->layout();
-    for (uint32_t i = 0; i < layout.count(); ++i)
-        if (layout.vertex_of[i] != ParticleLayout::kNobody) particles[i].x = start[layout.vertex_of[i]];
-    fill_up();
-    rest();
-    previous_capsules.clear();
+    solver.place(start);
+    colliders.forget();
     publish();
 }
-
-/// Particles that only fill up the last run lie with the first of it, so that it stays small.
-void Cloth::State::fill_up() {
-    const ParticleLayout& layout = fabric->layout();
-    for (uint32_t i = 0; i < layout.moving; ++i)
-        if (layout.vertex_of[i] == ParticleLayout::kNobody) {
-            particles[i] = particles[i / kLanes * kLanes];
-            velocities[i] = Particle();
-        }
-}
-
-void Cloth::State::rest() { std::fill(velocities.begin(), velocities.end(), Particle()); }
 
 void Cloth::put_on(const BodyOnItsWay& body, Jobs& jobs) {
     State& s = *state_;
@@ -187,7 +152,7 @@ void Cloth::put_on(const BodyOnItsWay& body, Jobs& jobs) {
     for (int i = 0; i < kHang.frames; ++i) frame(kHang, 0.0f);
     for (int i = 1; i <= kMove.frames; ++i) frame(kMove, float(i) / float(kMove.frames));
     for (int i = 0; i < kSettle.frames; ++i) frame(kSettle, 1.0f);
-    s.rest();
+    s.solver.rest();
     s.publish();
 }
 
@@ -210,64 +175,20 @@ void Cloth::State::check_body(std::span<const Vec3> targets, std::span<const Col
 }
 
 void Cloth::State::advance(float dt, int substeps, float damping, std::span<const Vec3> targets,
-                           std::span<const Collider> colliders, Jobs& jobs) {
-    accept_colliders(colliders);
+                           std::span<const Collider> limbs, Jobs& jobs) {
+    colliders.accept(limbs, settings.thickness_m);
     teleport(targets);
     if (!backstops_placed) {
         const uint32_t vertices = fabric->vertex_count();
         std::copy(targets.begin() + vertices, targets.end(), previous_targets.begin() + vertices);
         backstops_placed = true;
     }
-    for (size_t i = 0; i < needed.size(); ++i) swept[i] = sweep(previous_capsules[needed[i]], capsules[needed[i]], 0.0f, 1.0f);
-    fill_up();
-    cull({particles.data(), fabric->layout().moving}, velocities, dt, swept, near);
     const float h = dt / float(substeps);
-    if (h != gains_h) {
-        find_gains(fabric->bend_batches().masses, h, bend_gains);
-        find_gains(fabric->edge_batches().masses, h, edge_gains);
-        gains_h = h;
-    }
-    const Vec3 half_fall = settings.gravity * (0.5f * h);
-    const float keep = std::pow(1.0f - damping, h);
-    const Moving moving{particles.data(), starts.data(), predicted.data(), velocities.data(), fabric->layout().moving};
-    predict(moving, half_fall, h);
-    for (int i = 0; i < substeps; ++i) {
-        if (i > 0) find_velocities_and_predict(moving, half_fall, h, keep);
-        substep(h, float(i) / float(substeps), float(i + 1) / float(substeps), targets, jobs);
-    }
-    find_velocities(moving, half_fall, h, keep);
+    const ContactSettings contact{settings.friction, settings.friction * kKineticShare, kMaxDepenetration_m_s * h};
+    solver.advance({dt, substeps, settings.gravity, std::pow(1.0f - damping, h), contact, settings.thickness_m,
+                    previous_targets, targets, colliders}, jobs);
     std::copy(targets.begin(), targets.end(), previous_targets.begin());
-    std::swap(previous_capsules, capsules);
-}
-
-/// Colliders that were not there at the last call are taken as standing still.
-void Cloth::State::accept_colliders(std::span<const Collider> colliders) {
-    capsules.resize(colliders.size());
-    for (size_t i = 0; i < colliders.size(); ++i) capsules[i] = capsule_of(colliders[i], settings.thickness_m);
-    if (previous_capsules.size() != capsules.size()) previous_capsules = capsules;
-    needed.clear();
-    needed.reserve(capsules.size());
-    swept.reserve(capsules.size());
-    vfit::reserve(near, fabric->layout().moving, capsules.size());
-    for (uint32_t i = 0; i < capsules.size(); ++i) {
-        // A capsule that became a ball, or the reverse, has no way between the two.
-        if (previous_capsules[i].is_ball() != capsules[i].is_ball()) previous_capsules[i] = capsules[i];
-        if (!is_end_of_another(i)) needed.push_back(i);
-    }
-    swept.resize(needed.size());
-}
-
-/// A ball that a capsule has at one of its ends, now and before, adds nothing to that capsule.
-bool Cloth::State::is_end_of_another(uint32_t ball) const {
-    if (!capsules[ball].is_ball()) return false;
-    const auto end_of = [&](const Capsule& c, const Capsule& other) {
-        return (c.a == other.a && c.radius_a <= other.radius_a) || (c.a == other.b && c.radius_a <= other.radius_b);
-    };
-    for (size_t i = 0; i < capsules.size(); ++i)
-        if (!capsules[i].is_ball() && end_of(capsules[ball], capsules[i]) &&
-            end_of(previous_capsules[ball], previous_capsules[i]))
-            return true;
-    return false;
+    colliders.arrive();
 }
 
 /// A jump of the body is no motion: the cloth goes along as it hangs, and nothing is swept through it.
@@ -277,60 +198,13 @@ void Cloth::State::teleport(std::span<const Vec3> targets) {
     for (uint32_t i : fixed) distance += glm::length(targets[i] - previous_targets[i]);
     if (fixed.empty() || distance <= settings.teleport_m * float(fixed.size())) return;
     const RigidMotion motion = fit_rigid_motion(fixed, previous_targets, targets);
-    for (Particle& p : particles) p.x = motion.point(p.x);
-    for (Particle& v : velocities) v.x = motion.direction(v.x);
+    solver.carry(motion);
     for (Vec3& target : previous_targets) target = motion.point(target);
-    previous_capsules = capsules;
-}
-
-/// The constraints of one sub-step, on places as predicted.
-void Cloth::State::substep(float h, float from, float to, std::span<const Vec3> targets, Jobs& jobs) {
-    const ParticleLayout& layout = fabric->layout();
-    for (uint32_t v : fabric->kinematic_vertices())
-        particles[layout.particle_of[v]].x = previous_targets[v] + (targets[v] - previous_targets[v]) * to;
-    solve_distances(fabric->bend_batches().joints, bend_gains, particles.data());
-    solve_distances(fabric->edge_batches().joints, edge_gains, particles.data());
-    solve_tethers(fabric->tether_anchors(), fabric->tether_lengths(), particles.data());
-
-    for (size_t i = 0; i < needed.size(); ++i)
-        swept[i] = sweep(previous_capsules[needed[i]], capsules[needed[i]], from, to);
-    const ContactSettings contact{settings.friction, settings.friction * kKineticShare, kMaxDepenetration_m_s * h};
-    solve_backstops(contact, from, to, targets);
-    if (!swept.empty()) {
-        const ContactJob job{particles.data(), starts.data(), swept, contact, &near};
-        const uint32_t runs = layout.moving / kLanes;
-        parallel_for(jobs, (runs + kRunsOfAJob - 1) / kRunsOfAJob, [&](uint32_t i) {
-            resolve_contacts(job, i * kRunsOfAJob, std::min(runs, (i + 1) * kRunsOfAJob));
-        });
-    }
-}
-
-void Cloth::State::solve_backstops(const ContactSettings& contact, float from, float to,
-                                   std::span<const Vec3> targets) {
-    const std::vector<Backstop>& backstops = fabric->data().backstops;
-    const uint32_t first = fabric->vertex_count();
-    for (uint32_t i = 0; i < backstops.size(); ++i) {
-        const Vec3& was = previous_targets[first + i];
-        const Vec3 way = targets[first + i] - was;
-        const Vec3 center = was + way * to;
-        const uint32_t vertex = fabric->layout().particle_of[backstops[i].vertex];
-        const float radius = backstops[i].radius_m + settings.thickness_m;
-        Vec3& x = particles[vertex].x;
-        const Vec3 d = x - center;
-        const float distance2 = glm::dot(d, d);
-        if (distance2 >= radius * radius || distance2 == 0.0f) continue;
-        const float distance = std::sqrt(distance2);
-        const float begin = radius - glm::length(starts[vertex].x - (was + way * from));
-        const float depth = radius - distance - std::max(0.0f, begin - contact.max_depenetration_m);
-        if (depth <= 0.0f) continue;
-        x += d * (depth / distance);
-        apply_friction(starts[vertex].x, way * (to - from), d / distance, depth, contact, x);
-    }
+    colliders.jump();
 }
 
 void Cloth::State::publish() {
-    const ParticleLayout& layout = fabric->layout();
-    for (uint32_t v = 0; v < positions.size(); ++v) positions[v] = particles[layout.particle_of[v]].x;
+    solver.copy_positions(positions);
     normals_known = strains_known = false;
 }
 
@@ -369,8 +243,9 @@ uint64_t Cloth::state_hash() const {
     uint64_t out = 0xcbf29ce484222325ull;
     for (const Vec3& place : state_->positions) out = hash(out, place);
     const ParticleLayout& layout = state_->fabric->layout();
-    for (uint32_t i = 0; i < layout.moving; ++i)
-        if (layout.vertex_of[i] != ParticleLayout::kNobody) out = hash(out, state_->velocities[i].x);
+    for (const ParticleLayout::Part& part : layout.parts)
+        for (uint32_t i = part.begin; i < part.moving_end; ++i)
+            if (layout.vertex_of[i] != ParticleLayout::kNobody) out = hash(out, state_->solver.velocities()[i].x);
     return out;
 }
 

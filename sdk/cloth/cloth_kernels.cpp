@@ -54,13 +54,18 @@ HWY_INLINE Rows Gather(const At& at, const uint32_t* index) {
     return {Set(at(*index)->x)};
 }
 HWY_INLINE Rows Load(const Particle* particles) { return {Set(particles->x)}; }
-HWY_INLINE void Store(const Points& p, Particle* particles) {
-    particles->x = Vec3(hn::GetLane(p.x), hn::GetLane(p.y), hn::GetLane(p.z));
+HWY_INLINE Rows RowsOf(const Points& p) { return {p}; }
+HWY_INLINE void Store(const Rows& rows, Particle* particles) {
+    particles->x = Vec3(hn::GetLane(rows.p.x), hn::GetLane(rows.p.y), hn::GetLane(rows.p.z));
 }
 template <typename At>
 HWY_INLINE void Scatter(const Rows& rows, const At& at, const uint32_t* index) {
-    Store(rows.p, at(*index));
+    Store(rows, at(*index));
 }
+HWY_INLINE Rows Add(const Rows& a, const Vec3& b) { return {Sub(a.p, Set(-b))}; }
+HWY_INLINE Rows Scaled(const Rows& a, V s) { return {Mul(a.p, s)}; }
+/// a * s + b
+HWY_INLINE Rows MulAdd(const Rows& a, V s, const Rows& b) { return {MulAdd(a.p, s, b.p)}; }
 HWY_INLINE Rows Sub(const Rows& a, const Rows& b) { return {Sub(a.p, b.p)}; }
 HWY_INLINE Rows AddScaled(const Rows& a, const Rows& d, V s) { return {MulAdd(d.p, s, a.p)}; }
 HWY_INLINE Points Columns(const Rows& rows) { return rows.p; }
@@ -124,74 +129,41 @@ HWY_INLINE Points Columns(const Rows& rows) {
     const V zw01 = hn::InterleaveUpper(kTag, rows.r[0], rows.r[1]), zw23 = hn::InterleaveUpper(kTag, rows.r[2], rows.r[3]);
     return {LowerPairs(xy01, xy23), UpperPairs(xy01, xy23), LowerPairs(zw01, zw23)};
 }
-HWY_INLINE void Store(const Points& p, Particle* particles) {
+HWY_INLINE Rows RowsOf(const Points& p) {
     const V zero = hn::Zero(kTag);
     const V xy_low = hn::InterleaveLower(kTag, p.x, p.y), xy_high = hn::InterleaveUpper(kTag, p.x, p.y);
     const V z_low = hn::InterleaveLower(kTag, p.z, zero), z_high = hn::InterleaveUpper(kTag, p.z, zero);
-    const Rows rows{{LowerPairs(xy_low, z_low), UpperPairs(xy_low, z_low), LowerPairs(xy_high, z_high),
-                     UpperPairs(xy_high, z_high)}};
+    return {{LowerPairs(xy_low, z_low), UpperPairs(xy_low, z_low), LowerPairs(xy_high, z_high), UpperPairs(xy_high, z_high)}};
+}
+HWY_INLINE void Store(const Rows& rows, Particle* particles) {
     for (size_t k = 0; k < 4; ++k) StoreRow(rows.r[k], particles + k, particles + (k + 4) % kWide);
 }
-#endif
-
-/// A vector for whole particles, four floats each, from float `at` on.
-HWY_INLINE V SetParticles(const float* four, size_t at) {
-#if HWY_TARGET == HWY_SCALAR
-    return Set(four[at % 4]);
-#else
-    (void)at;
-    return hn::LoadDup128(kTag, four);
-#endif
+HWY_INLINE Rows Add(const Rows& a, const Vec3& b) {
+    const Particle four{b};
+    const V same = hn::LoadDup128(kTag, &four.x.x);
+    Rows rows;
+    for (size_t k = 0; k < 4; ++k) rows.r[k] = hn::Add(a.r[k], same);
+    return rows;
 }
+HWY_INLINE Rows Scaled(const Rows& a, V s) {
+    Rows rows;
+    for (size_t k = 0; k < 4; ++k) rows.r[k] = hn::Mul(a.r[k], s);
+    return rows;
+}
+/// a * s + b
+HWY_INLINE Rows MulAdd(const Rows& a, V s, const Rows& b) {
+    Rows rows;
+    for (size_t k = 0; k < 4; ++k) rows.r[k] = hn::MulAdd(a.r[k], s, b.r[k]);
+    return rows;
+}
+#endif
 
 void Predict(const Moving& m, const Vec3& half_fall, float h) {
-    const Particle four{half_fall};
-    float* HWY_RESTRICT places = &m.places->x.x;
-    float* HWY_RESTRICT starts = &m.starts->x.x;
-    float* HWY_RESTRICT predicted = &m.predicted->x.x;
-    float* HWY_RESTRICT velocities = &m.velocities->x.x;
-    const V step = Set(h);
-    for (size_t i = 0; i < 4 * size_t(m.count); i += kWide) {
-        const V start = hn::Load(kTag, places + i);
-        const V v = hn::Add(hn::Load(kTag, velocities + i), SetParticles(&four.x.x, i));
-        const V end = hn::MulAdd(v, step, start);
-        hn::Store(start, kTag, starts + i);
-        hn::Store(v, kTag, velocities + i);
-        hn::Store(end, kTag, places + i);
-        hn::Store(end, kTag, predicted + i);
-    }
-}
-
-void FindVelocities(const Moving& m, const Vec3& half_fall, float h, float keep) {
-    const Particle four{half_fall};
-    const float* HWY_RESTRICT places = &m.places->x.x;
-    const float* HWY_RESTRICT predicted = &m.predicted->x.x;
-    float* HWY_RESTRICT velocities = &m.velocities->x.x;
-    const V rate = Set(1.0f / h), kept = Set(keep);
-    for (size_t i = 0; i < 4 * size_t(m.count); i += kWide) {
-        const V change = hn::Sub(hn::Load(kTag, places + i), hn::Load(kTag, predicted + i));
-        const V v = hn::MulAdd(change, rate, hn::Add(hn::Load(kTag, velocities + i), SetParticles(&four.x.x, i)));
-        hn::Store(hn::Mul(v, kept), kTag, velocities + i);
-    }
-}
-
-void FindVelocitiesAndPredict(const Moving& m, const Vec3& half_fall, float h, float keep) {
-    const Particle four{half_fall};
-    float* HWY_RESTRICT places = &m.places->x.x;
-    float* HWY_RESTRICT starts = &m.starts->x.x;
-    float* HWY_RESTRICT predicted = &m.predicted->x.x;
-    float* HWY_RESTRICT velocities = &m.velocities->x.x;
-    const V rate = Set(1.0f / h), kept = Set(keep), step = Set(h);
-    for (size_t i = 0; i < 4 * size_t(m.count); i += kWide) {
-        const V fall = SetParticles(&four.x.x, i), place = hn::Load(kTag, places + i);
-        const V change = hn::Sub(place, hn::Load(kTag, predicted + i));
-        const V ended = hn::MulAdd(change, rate, hn::Add(hn::Load(kTag, velocities + i), fall));
-        const V v = hn::MulAdd(ended, kept, fall);
-        const V end = hn::MulAdd(v, step, place);
-        hn::Store(place, kTag, starts + i);
-        hn::Store(v, kTag, velocities + i);
-        hn::Store(end, kTag, places + i);
-        hn::Store(end, kTag, predicted + i);
+    for (size_t i = 0; i < m.count; i += kWide) {
+        const Rows start = Load(m.places + i), v = Add(Load(m.velocities + i), half_fall);
+        Store(start, m.starts + i);
+        Store(v, m.velocities + i);
+        Store(MulAdd(v, Set(h), start), m.places + i);
     }
 }
 
@@ -226,20 +198,6 @@ void SolveDistances(std::span<const DistanceBatch> batches, std::span<const Batc
     }
 }
 
-void SolveTethers(std::span<const uint32_t> anchors, std::span<const float> lengths_m, Particle* particles) {
-    const auto at = [particles](uint32_t index) HWY_ATTR { return particles + index; };
-    for (size_t i = 0; i < anchors.size(); i += kWide) {
-        const Rows p = Load(particles + i);
-        const Rows way = Sub(p, Gather(at, anchors.data() + i));
-        const Points d = Columns(way);
-        const V length2 = Dot(d, d), most = hn::LoadU(kTag, lengths_m.data() + i);
-        const auto beyond = hn::Gt(length2, hn::Mul(most, most));
-        if (HWY_LIKELY(hn::AllFalse(kTag, beyond))) continue;
-        const V back = hn::IfThenElseZero(beyond, hn::Sub(hn::Div(most, hn::Sqrt(length2)), Set(1.0f)));
-        Store(Columns(AddScaled(p, way, back)), particles + i);
-    }
-}
-
 void FindRunBalls(std::span<const Particle> moving, std::span<const Particle> velocities, NearColliders& near) {
     for (size_t run = 0; run < moving.size() / kLanes; ++run) {
         const Points p = Columns(Load(moving.data() + run * kLanes)), v = Columns(Load(velocities.data() + run * kLanes));
@@ -271,25 +229,45 @@ HWY_INLINE V NearestAlong(const CapsuleShape& c, const Points& p) {
     return hn::Min(hn::Max(along, Set(0.0f)), Set(1.0f));
 }
 
-void FindNear(std::span<const SweptCapsule> colliders, NearColliders& near) {
-    const size_t runs = near.radii_m.size(), words = near.words();
+/// Which of these are within `way` of where the collider comes?
+HWY_INLINE auto Near(const SweptCapsule& c, const Points& p, V way) {
+    const V along = NearestAlong(c.to, p);
+    const Points off = Sub(p, MulAdd(Set(c.to.axis), along, Set(c.to.a)));
+    const V reach = hn::Add(hn::MulAdd(Set(c.to.taper), along, Set(c.to.radius + c.travel_m)), way);
+    return hn::Lt(Dot(off, off), hn::Mul(reach, reach));
+}
+
+void FindNear(std::span<const SweptCapsule> colliders, std::span<const Particle> moving, NearColliders& near) {
+    const size_t runs = moving.size() / kLanes, words = near.words();
+    for (uint64_t& word : near.bits) word = 0;
     for (size_t run = 0; run < runs; run += kWide) {
         // The vectors are filled up to whole registers.
         const Points center = Columns(Load(near.centers.data() + run));
         const V radius = hn::LoadU(kTag, near.radii_m.data() + run);
         uint64_t* bits = near.bits.data() + run * words;
-        for (size_t k = 0; k < kWide * words; ++k) bits[k] = 0;
         for (size_t i = 0; i < colliders.size(); ++i) {
-            const SweptCapsule& c = colliders[i];
-            const V along = NearestAlong(c.to, center);
-            const Points off = Sub(center, MulAdd(Set(c.to.axis), along, Set(c.to.a)));
-            const V reach = hn::Add(hn::MulAdd(Set(c.to.taper), along, Set(c.to.radius + c.travel_m)), radius);
-            const auto touches = hn::Lt(Dot(off, off), hn::Mul(reach, reach));
+            const auto touches = Near(colliders[i], center, radius);
             if (hn::AllFalse(kTag, touches)) continue;
             uint8_t lanes[8] = {};
             hn::StoreMaskBits(kTag, touches, lanes);
             for (uint32_t left = lanes[0]; left; left &= left - 1)
                 bits[hwy::Num0BitsBelowLS1Bit_Nonzero32(left) * words + i / 64] |= uint64_t(1) << (i % 64);
+        }
+    }
+    for (size_t run = 0; run < runs; ++run) {
+        const V way = Set(near.ways_m[run]);
+        uint64_t* bits = near.bits.data() + run * words;
+        for (size_t word = 0; word < words; ++word) {
+            if (bits[word] == 0) continue;
+            uint64_t kept = 0;
+            for (size_t k = 0; k < kLanes; k += kWide) {
+                const Points p = Columns(Load(moving.data() + run * kLanes + k));
+                for (uint64_t left = bits[word]; left; left &= left - 1) {
+                    const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero64(left);
+                    kept |= uint64_t(!hn::AllFalse(kTag, Near(colliders[word * 64 + i], p, way))) << i;
+                }
+            }
+            bits[word] = kept;
         }
     }
 }
@@ -309,6 +287,22 @@ HWY_INLINE Nearest NearestBallOf(const CapsuleShape& c, V along, const Points& f
 }
 HWY_INLINE Points FromCenter(const CapsuleShape& c, V along, const Points& p) {
     return Sub(p, MulAdd(Set(c.axis), along, Set(c.a)));
+}
+
+/// apply_friction(): Coulomb's, all of the sliding within the cone, else the kinetic share.
+HWY_INLINE Points Held(const Points& p, const Points& start, const Points& surface_motion, const Points& normal, V depth,
+                       const ContactSettings& settings) {
+    const Points relative = Sub(Sub(p, start), surface_motion);
+    const Points sliding = MulAdd(normal, hn::Neg(Dot(relative, normal)), relative);
+    const V length = hn::Sqrt(Dot(sliding, sliding));
+    const V kinetic = hn::Div(hn::Mul(Set(settings.friction_kinetic), depth), hn::Max(length, Set(kNoLength)));
+    const V share = hn::IfThenElse(hn::Le(length, hn::Mul(Set(settings.friction_static), depth)), Set(1.0f), kinetic);
+    return MulAdd(sliding, hn::Neg(share), p);
+}
+
+template <typename Mask>
+HWY_INLINE Points Choose(Mask mask, const Points& yes, const Points& no) {
+    return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y), hn::IfThenElse(mask, yes.z, no.z)};
 }
 
 /// resolve_contact() for all particles of a register whose way through the sub-step was short; the others are named in the
@@ -348,54 +342,108 @@ HWY_INLINE uint32_t Resolve(const SweptCapsule& c, const Points& start, V travel
     const V lever = hn::Mul(radius, Set(c.to.inverse_length2));
     motion = MulAdd(turned, hn::Mul(lever, Dot(axis, end.normal)), motion);
     motion = MulAdd(axis, hn::Neg(hn::Mul(lever, Dot(turned, end.normal))), motion);
-    // Coulomb friction: all of the sliding within the cone, else the kinetic share.
-    const Points relative = Sub(Sub(pushed, start), motion);
-    const Points sliding = MulAdd(end.normal, hn::Neg(Dot(relative, end.normal)), relative);
-    const V length = hn::Sqrt(Dot(sliding, sliding));
-    const V kinetic = hn::Div(hn::Mul(Set(settings.friction_kinetic), out), hn::Max(length, Set(kNoLength)));
-    const V share = hn::IfThenElse(hn::Le(length, hn::Mul(Set(settings.friction_static), out)), Set(1.0f), kinetic);
-    const Points held = MulAdd(sliding, hn::Neg(share), pushed);
-    p = {hn::IfThenElse(push, held.x, p.x), hn::IfThenElse(push, held.y, p.y), hn::IfThenElse(push, held.z, p.z)};
+    const Points held = Held(pushed, start, motion, end.normal, out, settings);
+    p = Choose(push, held, p);
     return special;
 }
 
-/// All of a register's particles against one collider.
-HWY_INLINE void Resolve(const ContactJob& job, const SweptCapsule& collider, size_t at, const Points& start, V travel, Points& p) {
-    uint32_t special = Resolve(collider, start, travel, job.settings, p);
+/// All of a register's particles, of which the first is `at`, against one collider.
+HWY_INLINE void Resolve(const SubstepEnd& end, const SweptCapsule& collider, size_t at, const Points& start, V travel, Points& p) {
+    uint32_t special = Resolve(collider, start, travel, end.contact, p);
     if (HWY_LIKELY(special == 0)) return;
-    Store(p, job.places + at);
+    Store(RowsOf(p), end.moving.places + at);
     for (; special; special &= special - 1) {
         const size_t lane = at + hwy::Num0BitsBelowLS1Bit_Nonzero32(special);
-        resolve_contact(collider, job.starts[lane].x, job.settings, job.places[lane].x);
+        resolve_contact(collider, end.moving.starts[lane].x, end.contact, end.moving.places[lane].x);
     }
-    p = Columns(Load(job.places + at));
+    p = Columns(Load(end.moving.places + at));
 }
 
-void ResolveContacts(const ContactJob& given, uint32_t first_run, uint32_t last_run) {
-    const ContactJob job = given;
-    const NearColliders& near = *job.near;
+/// Out of the balls, as out of colliders.
+HWY_INLINE void KeepOut(const SubstepEnd& end, const RunBackstops& balls, size_t k, const Points& start, Points& p) {
+    const ContactSettings& settings = end.contact;
+    const V radius = hn::Load(kTag, balls.radius_m + k);
+    const Points first{hn::Load(kTag, balls.x + k), hn::Load(kTag, balls.y + k), hn::Load(kTag, balls.z + k)};
+    const Points whole{hn::Load(kTag, balls.way_x + k), hn::Load(kTag, balls.way_y + k), hn::Load(kTag, balls.way_z + k)};
+    const Points was = MulAdd(whole, Set(end.from), first), way = Mul(whole, Set(end.to - end.from));
+    const Points from_center = Sub(Sub(p, was), way);
+    const V length2 = Dot(from_center, from_center);
+    const auto inside = hn::And(hn::Lt(length2, hn::Mul(radius, radius)), hn::Gt(length2, Set(0.0f)));
+    if (hn::AllFalse(kTag, inside)) return;
+    const V length = hn::Max(hn::Sqrt(length2), Set(kNoLength));
+    const Points from = Sub(start, was);
+    const V began = hn::Sub(radius, hn::Sqrt(Dot(from, from)));
+    const V residue = hn::Max(Set(0.0f), hn::Sub(began, Set(settings.max_depenetration_m)));
+    const V depth = hn::Sub(hn::Sub(radius, length), residue);
+    const auto push = hn::And(inside, hn::Gt(depth, Set(0.0f)));
+    const V out = hn::IfThenElseZero(push, depth);
+    const Points normal = Mul(from_center, hn::Div(Set(1.0f), length));
+    p = Choose(push, Held(MulAdd(normal, out, p), start, way, normal, out, settings), p);
+}
+
+/// Of a register's particles, those beyond their tethers; `p` is set where there are any.
+HWY_INLINE bool PullBack(const SubstepEnd& end, size_t at, Points& p) {
+    const Particle* all = end.anchors;
+    const auto anchor_at = [all](uint32_t index) HWY_ATTR { return all + index; };
+    const Points anchor = Columns(Gather(anchor_at, end.anchor_index.data() + at)), way = Sub(p, anchor);
+    const V length2 = Dot(way, way), most = hn::LoadU(kTag, end.tether_m.data() + at);
+    const auto beyond = hn::Gt(length2, hn::Mul(most, most));
+    if (hn::AllFalse(kTag, beyond)) return false;
+    p = MulAdd(way, hn::IfThenElseZero(beyond, hn::Sub(hn::Div(most, hn::Sqrt(length2)), Set(1.0f))), p);
+    return true;
+}
+
+void EndSubstep(const SubstepEnd& given) {
+    const SubstepEnd end = given;
+    const Moving& m = end.moving;
+    const NearColliders& near = *end.near;
     const size_t words = near.words();
-    for (uint32_t run = first_run; run < last_run; ++run) {
+    const V rate = Set(1.0f / end.h), keep = Set(end.keep), h = Set(end.h);
+    const RunBackstops* backstops = end.backstops.data();
+    const RunBackstops* const no_backstop = backstops + end.backstops.size();
+    for (size_t run = 0; run < m.count / kLanes; ++run) {
         const uint64_t* bits = near.bits.data() + run * words;
         uint64_t any = 0;
         for (size_t word = 0; word < words; ++word) any |= bits[word];
         const V reach2 = Set(near.radii_m[run] * near.radii_m[run]);
+        const RunBackstops* const own_backstops = backstops;
+        while (backstops != no_backstop && backstops->run == run) ++backstops;
         for (size_t k = 0; k < kLanes; k += kWide) {
             const size_t at = run * kLanes + k;
-            Points p = Columns(Load(job.places + at));
+            Rows place = Load(m.places + at);
+            const Rows start = Load(m.starts + at);
+            Points p = Columns(place);
+            bool moved = PullBack(end, at, p);
             const Points off = Sub(p, Set(near.centers[run].x));
             const bool strayed = !hn::AllTrue(kTag, hn::Le(Dot(off, off), reach2));
-            if (HWY_LIKELY(!strayed) && any == 0) continue;
-            const Points start = Columns(Load(job.starts + at)), way = Sub(p, start);
-            const V travel = hn::Sqrt(Dot(way, way));
-            if (HWY_UNLIKELY(strayed)) {
-                for (const SweptCapsule& collider : job.colliders) Resolve(job, collider, at, start, travel, p);
-            } else {
-                for (size_t word = 0; word < words; ++word)
-                    for (uint64_t left = bits[word]; left; left &= left - 1)
-                        Resolve(job, job.colliders[word * 64 + hwy::Num0BitsBelowLS1Bit_Nonzero64(left)], at, start, travel, p);
+            if (any != 0 || own_backstops != backstops || HWY_UNLIKELY(strayed)) {
+                const Points from = Columns(start);
+                for (const RunBackstops* b = own_backstops; b != backstops; ++b) KeepOut(end, *b, k, from, p);
+                const Points way = Sub(p, from);
+                const V travel = hn::Sqrt(Dot(way, way));
+                if (HWY_UNLIKELY(strayed)) {
+                    for (const SweptCapsule& collider : end.colliders) Resolve(end, collider, at, from, travel, p);
+                } else {
+                    for (size_t word = 0; word < words; ++word)
+                        for (uint64_t left = bits[word]; left; left &= left - 1)
+                            Resolve(end, end.colliders[word * 64 + hwy::Num0BitsBelowLS1Bit_Nonzero64(left)], at, from, travel, p);
+                }
+                moved = true;
             }
-            Store(p, job.places + at);
+            if (moved) place = RowsOf(p);
+            const Rows v = Load(m.velocities + at);
+            // The same sum as by which it was predicted.
+            const Rows change = Sub(place, MulAdd(v, h, start));
+            Rows next = Add(MulAdd(change, rate, v), end.half_fall);
+            if (end.last) {
+                if (moved) Store(place, m.places + at);
+                Store(Scaled(next, keep), m.velocities + at);
+                continue;
+            }
+            next = Add(Scaled(next, keep), end.half_fall);
+            Store(place, m.starts + at);
+            Store(next, m.velocities + at);
+            Store(MulAdd(next, h, place), m.places + at);
         }
     }
 }
@@ -408,40 +456,26 @@ HWY_AFTER_NAMESPACE();
 namespace vfit {
 
 HWY_EXPORT(Predict);
-HWY_EXPORT(FindVelocities);
-HWY_EXPORT(FindVelocitiesAndPredict);
 HWY_EXPORT(FindGains);
 HWY_EXPORT(SolveDistances);
-HWY_EXPORT(SolveTethers);
 HWY_EXPORT(FindRunBalls);
 HWY_EXPORT(FindNear);
-HWY_EXPORT(ResolveContacts);
+HWY_EXPORT(EndSubstep);
 
 void predict(const Moving& moving, const Vec3& half_fall, float h) { HWY_DYNAMIC_DISPATCH(Predict)(moving, half_fall, h); }
-void find_velocities(const Moving& moving, const Vec3& half_fall, float h, float keep) {
-    HWY_DYNAMIC_DISPATCH(FindVelocities)(moving, half_fall, h, keep);
-}
-void find_velocities_and_predict(const Moving& moving, const Vec3& half_fall, float h, float keep) {
-    HWY_DYNAMIC_DISPATCH(FindVelocitiesAndPredict)(moving, half_fall, h, keep);
-}
 void find_gains(std::span<const BatchMasses> masses, float h, std::span<BatchGains> gains) {
     HWY_DYNAMIC_DISPATCH(FindGains)(masses, h, gains);
 }
 void solve_distances(std::span<const DistanceBatch> batches, std::span<const BatchGains> gains, Particle* particles) {
     HWY_DYNAMIC_DISPATCH(SolveDistances)(batches, gains, particles);
 }
-void solve_tethers(std::span<const uint32_t> anchors, std::span<const float> lengths_m, Particle* particles) {
-    HWY_DYNAMIC_DISPATCH(SolveTethers)(anchors, lengths_m, particles);
-}
 void find_run_balls(std::span<const Particle> moving, std::span<const Particle> velocities, NearColliders& near) {
     HWY_DYNAMIC_DISPATCH(FindRunBalls)(moving, velocities, near);
 }
-void find_near(std::span<const SweptCapsule> colliders, NearColliders& near) {
-    HWY_DYNAMIC_DISPATCH(FindNear)(colliders, near);
+void find_near(std::span<const SweptCapsule> colliders, std::span<const Particle> moving, NearColliders& near) {
+    HWY_DYNAMIC_DISPATCH(FindNear)(colliders, moving, near);
 }
-void resolve_contacts(const ContactJob& job, uint32_t first_run, uint32_t last_run) {
-    HWY_DYNAMIC_DISPATCH(ResolveContacts)(job, first_run, last_run);
-}
+void end_substep(const SubstepEnd& end) { HWY_DYNAMIC_DISPATCH(EndSubstep)(end); }
 
 }  // namespace vfit
 #endif

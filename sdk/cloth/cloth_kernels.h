@@ -12,22 +12,16 @@
 
 namespace vfit {
 
-/// Of the particles that move.
+/// Of particles that move.
 struct Moving {
     Particle* places;
     Particle* starts;      // at the begin of the sub-step
-    Particle* predicted;   // where it would end without constraints
-    Particle* velocities;
+    Particle* velocities;  // without constraints they end at starts + velocities * h
     uint32_t count;        // a multiple of kLanes
 };
 
-/// Half of the fall, then the whole way: free fall is exact.
+/// The begin of the first sub-step of several. Half of the fall, then the whole way: free fall is exact.
 void predict(const Moving& moving, const Vec3& half_fall, float h);
-/// What the constraints changed, rather than the whole way over h: rounding of places stays out of the speed. Then the other
-/// half of the fall, and `keep` of all of it.
-void find_velocities(const Moving& moving, const Vec3& half_fall, float h, float keep);
-/// The end of one sub-step and the begin of the next in one pass.
-void find_velocities_and_predict(const Moving& moving, const Vec3& half_fall, float h, float keep);
 
 /// XPBD's share of each end: w / (w_a + w_b + compliance / h^2).
 void find_gains(std::span<const BatchMasses> masses, float h, std::span<BatchGains> gains);
@@ -35,30 +29,46 @@ void find_gains(std::span<const BatchMasses> masses, float h, std::span<BatchGai
 /// (Macklin et al. 2019).
 void solve_distances(std::span<const DistanceBatch> batches, std::span<const BatchGains> gains, Particle* particles);
 
-/// |x - anchor| <= length_m of each moving particle: long range attachment (Kim, Chentanez, Mueller 2012).
-void solve_tethers(std::span<const uint32_t> anchors, std::span<const float> lengths_m, Particle* particles);
-
 /// What each run of kLanes moving particles may meet during a step.
 struct NearColliders {
     Particles centers;            // of a ball that the run is expected to stay in
     std::vector<float> radii_m;
     std::vector<float> speeds2;   // the square of its highest speed
+    std::vector<float> ways_m;    // that a particle of it is expected to go at most
     std::vector<uint64_t> bits;   // words() a run: bit i of them is collider i
     size_t colliders = 0;
     size_t words() const { return (colliders + 63) / 64; }
 };
 /// Fills centers, radii_m of the balls that just hold the runs, and speeds2: as many as there are whole runs.
 void find_run_balls(std::span<const Particle> moving, std::span<const Particle> velocities, NearColliders& near);
-/// Fills bits from centers and radii_m.
-void find_near(std::span<const SweptCapsule> colliders, NearColliders& near);
+/// Fills bits: which balls the colliders may touch, then which of their particles, as they lie now, on ways of at most ways_m.
+void find_near(std::span<const SweptCapsule> colliders, std::span<const Particle> moving, NearColliders& near);
 
-struct ContactJob {
-    Particle* places;
-    const Particle* starts;
-    std::span<const SweptCapsule> colliders;
-    ContactSettings settings;
-    const NearColliders* near;  // a run that has left its ball is tried against all
+/// Of a run: balls that its particles stay out of.
+struct alignas(32) RunBackstops {
+    float x[kLanes], y[kLanes], z[kLanes];              // centres at the begin of the step
+    float way_x[kLanes], way_y[kLanes], way_z[kLanes];  // to its end
+    float radius_m[kLanes];                             // 0: none
+    uint32_t run;                                       // in Moving
 };
-void resolve_contacts(const ContactJob& job, uint32_t first_run, uint32_t last_run);
+
+/// The end of a sub-step, once distances are solved: tethers, backstops, contacts; then velocities by what constraints
+/// changed, rather than by the whole way over h, which keeps rounding of places out of the speed; then the other half of the
+/// fall, and `keep` of all of it; and, where another sub-step follows, its begin.
+struct SubstepEnd {
+    Moving moving;
+    const Particle* anchors;                 // of all parts; and of each moving particle the index of its own, and how far
+    std::span<const uint32_t> anchor_index;  // from it it may be: long range attachment (Kim, Chentanez, Mueller 2012)
+    std::span<const float> tether_m;
+    std::span<const RunBackstops> backstops;  // by rising runs
+    float from, to;                           // shares of the step
+    std::span<const SweptCapsule> colliders;
+    const NearColliders* near;  // a run that has left its ball is tried against all
+    ContactSettings contact;
+    Vec3 half_fall;
+    float h, keep;
+    bool last;
+};
+void end_substep(const SubstepEnd& end);
 
 }  // namespace vfit

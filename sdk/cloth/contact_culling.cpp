@@ -19,6 +19,7 @@ void reserve(NearColliders& near, size_t moving, size_t colliders) {
     near.centers.reserve(count);
     near.radii_m.reserve(count);
     near.speeds2.reserve(count);
+    near.ways_m.reserve(count);
     near.bits.reserve(count * ((colliders + 63) / 64));
 }
 
@@ -29,10 +30,14 @@ void cull(std::span<const Particle> moving, std::span<const Particle> velocities
     near.centers.resize(count);
     near.radii_m.resize(count);
     near.speeds2.resize(count);
+    near.ways_m.resize(count);
     near.bits.resize(count * near.words());
     find_run_balls(moving, velocities, near);
-    for (size_t run = 0; run < runs; ++run) near.radii_m[run] += kMoreWay * dt * std::sqrt(near.speeds2[run]) + kMoreWay_m;
-    find_near(colliders, near);
+    for (size_t run = 0; run < runs; ++run) {
+        near.ways_m[run] = kMoreWay * dt * std::sqrt(near.speeds2[run]) + kMoreWay_m;
+        near.radii_m[run] += near.ways_m[run];
+    }
+    find_near(colliders, moving, near);
 }
 
 }  // namespace vfit

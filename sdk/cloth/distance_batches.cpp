@@ -70,14 +70,8 @@ std::vector<Batch> spread(std::vector<Batch> batches) {
     return out;
 }
 
-}  // namespace
-
-DistanceBatches make_batches(std::span<const DistanceConstraint> list, std::span<const float> inverse_mass,
-                             const ParticleLayout& layout) {
-    std::vector<Joint> joints;
-    for (uint32_t i = 0; i < list.size(); ++i)
-        if (inverse_mass[list[i].a] > 0.0f || inverse_mass[list[i].b] > 0.0f)
-            joints.push_back({layout.particle_of[list[i].a], layout.particle_of[list[i].b], i});
+DistanceBatches pack(std::vector<Joint> joints, std::span<const DistanceConstraint> list,
+                     std::span<const float> inverse_mass, uint32_t spare) {
     std::stable_sort(joints.begin(), joints.end(),
                      [](const Joint& x, const Joint& y) { return std::min(x.a, x.b) < std::min(y.a, y.b); });
     DistanceBatches out;
@@ -85,7 +79,7 @@ DistanceBatches make_batches(std::span<const DistanceConstraint> list, std::span
         DistanceBatch& d = out.joints.emplace_back();
         BatchMasses& m = out.masses.emplace_back();
         for (size_t k = 0; k < kLanes; ++k) {
-            d.a[k] = d.b[k] = uint32_t(layout.spare * sizeof(Particle));
+            d.a[k] = d.b[k] = uint32_t(spare * sizeof(Particle));
             d.rest_m[k] = m.a[k] = m.b[k] = 0.0f;
             m.compliance[k] = 1.0f;
             if (k >= batch.size()) continue;
@@ -98,6 +92,25 @@ DistanceBatches make_batches(std::span<const DistanceConstraint> list, std::span
             m.compliance[k] = c.compliance_m_n;
         }
     }
+    return out;
+}
+
+}  // namespace
+
+std::vector<DistanceBatches> make_batches(std::span<const DistanceConstraint> list, std::span<const float> inverse_mass,
+                                          const ParticleLayout& layout) {
+    std::vector<std::vector<Joint>> groups(layout.group_count());
+    for (uint32_t i = 0; i < list.size(); ++i) {
+        const auto [a, b] = std::pair(list[i].a, list[i].b);
+        if (inverse_mass[a] == 0.0f && inverse_mass[b] == 0.0f) continue;
+        const uint32_t group = layout.group_of(a, b, inverse_mass);
+        const bool of_part = group < layout.parts.size();
+        groups[group].push_back({of_part ? layout.particle_in(group, a) : layout.particle_of[a],
+                                 of_part ? layout.particle_in(group, b) : layout.particle_of[b], i});
+    }
+    std::vector<DistanceBatches> out;
+    for (uint32_t group = 0; group < groups.size(); ++group)
+        out.push_back(pack(std::move(groups[group]), list, inverse_mass, layout.spare_of_group(group)));
     return out;
 }
 

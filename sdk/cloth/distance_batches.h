@@ -9,7 +9,9 @@
 
 namespace vfit {
 
-/// Lanes that are left over join the spare particle to itself.
+struct DistanceConstraint;
+
+/// Lanes that are left over join a spare particle to itself.
 struct alignas(32) DistanceBatch {
     uint32_t a[kLanes], b[kLanes];  // bytes from the first particle: an address is one addition
     float rest_m[kLanes];
@@ -28,8 +30,8 @@ struct DistanceBatches {
     std::vector<BatchMasses> masses;
 };
 
-/// Constraints between two particles that cannot move are left out.
-DistanceBatches make_batches(std::span<const DistanceConstraint> list, std::span<const float> inverse_mass,
-                             const ParticleLayout& layout);
+/// Those of each group of the layout. Constraints between two vertices that cannot move are left out.
+std::vector<DistanceBatches> make_batches(std::span<const DistanceConstraint> list, std::span<const float> inverse_mass,
+                                          const ParticleLayout& layout);
 
 }  // namespace vfit

@@ -37,6 +37,8 @@ void check(const FabricData& d) {
     for (const Tether& t : d.tethers)
         if (t.vertex >= n || t.anchor >= n || !(t.length_m > 0.0f) || !std::isfinite(t.length_m))
             fail(VFIT_ERROR_DATA, "tether of vertex ", t.vertex, " to ", t.anchor, " of length ", t.length_m, " m");
+        else if (d.inverse_mass[t.anchor] > 0.0f)
+            fail(VFIT_ERROR_DATA, "tether of vertex ", t.vertex, " to vertex ", t.anchor, ", which is not fixed");
     for (const Backstop& b : d.backstops)
         if (b.vertex >= n || d.inverse_mass[b.vertex] == 0.0f || !(b.radius_m > 0.0f) || !std::isfinite(b.radius_m))
             fail(VFIT_ERROR_DATA, "backstop of vertex ", b.vertex, " with radius ", b.radius_m, " m");
@@ -53,16 +55,35 @@ Fabric::Fabric(FabricData data) : data_(std::move(data)) {
     for (uint32_t i = 0; i < vertex_count(); ++i)
         if (inverse_mass[i] == 0.0f) kinematic_.push_back(i);
 
-    layout_ = lay_out(inverse_mass, data_.edges);
+    layout_ = lay_out(data_);
     bends_ = make_batches(data_.bends, inverse_mass, layout_);
     edges_ = make_batches(data_.edges, inverse_mass, layout_);
-    tether_anchors_.assign(layout_.moving, layout_.spare);
-    tether_lengths_.assign(layout_.moving, kNoTether_m);
+    tether_anchors_.resize(layout_.count());
+    tether_lengths_.assign(layout_.count(), kNoTether_m);
+    for (const ParticleLayout::Part& part : layout_.parts)
+        std::fill(tether_anchors_.begin() + part.begin, tether_anchors_.begin() + part.end, part.spare());
     for (const Tether& t : data_.tethers) {
         const uint32_t particle = layout_.particle_of[t.vertex];
-        tether_anchors_[particle] = layout_.particle_of[t.anchor];
+        tether_anchors_[particle] = layout_.particle_in(layout_.part_of(particle), t.anchor);
         tether_lengths_[particle] = t.length_m;
     }
+    place_backstops();
+}
+
+void Fabric::place_backstops() {
+    backstop_runs_.resize(layout_.parts.size());
+    for (uint32_t i = 0; i < data_.backstops.size(); ++i) {
+        const Backstop& b = data_.backstops[i];
+        const uint32_t particle = layout_.particle_of[b.vertex], run = particle / uint32_t(kLanes);
+        std::vector<BackstopRun>& runs = backstop_runs_[layout_.part_of(particle)];
+        const size_t lane = particle % kLanes;
+        const auto place = std::find_if(runs.begin(), runs.end(), [&](const BackstopRun& r) { return r.run == run && r.radius_m[lane] == 0.0f; });
+        BackstopRun& of = place != runs.end() ? *place : runs.emplace_back(BackstopRun{run, {}, {}});
+        of.target[lane] = vertex_count() + i;
+        of.radius_m[lane] = b.radius_m;
+    }
+    for (auto& runs : backstop_runs_)
+        std::stable_sort(runs.begin(), runs.end(), [](const BackstopRun& x, const BackstopRun& y) { return x.run < y.run; });
 }
 
 }  // namespace vfit

@@ -22,7 +22,7 @@ struct DistanceConstraint {
     float compliance_m_n;
 };
 
-/// |x - anchor| <= length_m: long range attachment (Kim, Chentanez, Mueller 2012).
+/// |x - anchor| <= length_m of a fixed anchor: long range attachment (Kim, Chentanez, Mueller 2012).
 struct Tether {
     uint32_t vertex, anchor;
     float length_m;
@@ -34,7 +34,14 @@ struct Backstop {
     float radius_m;
 };
 
-/// The parts of a fabric as explicit data, in any order.
+/// Backstops of a run of kLanes particles.
+struct BackstopRun {
+    uint32_t run;
+    uint32_t target[kLanes];  // index of its centre
+    float radius_m[kLanes];   // 0: none
+};
+
+/// What a fabric is made of as explicit data, in any order.
 struct FabricData {
     std::vector<float> inverse_mass;  // 1/kg, one a vertex; 0: moved by its target
     std::vector<uint32_t> indices;    // three a triangle, for the normals
@@ -60,19 +67,25 @@ public:
     const std::vector<uint32_t>& kinematic_vertices() const { return kinematic_; }
 
     const ParticleLayout& layout() const { return layout_; }
-    const DistanceBatches& bend_batches() const { return bends_; }
-    const DistanceBatches& edge_batches() const { return edges_; }
-    /// One a moving particle: its anchor, and how far from it it may be.
+    /// Of each group of the layout.
+    const std::vector<DistanceBatches>& bend_batches() const { return bends_; }
+    const std::vector<DistanceBatches>& edge_batches() const { return edges_; }
+    /// One a particle (those that move have them): its anchor, and how far from it it may be.
     const std::vector<uint32_t>& tether_anchors() const { return tether_anchors_; }
     const std::vector<float>& tether_lengths() const { return tether_lengths_; }
+    /// Of each part of the layout, by rising runs.
+    const std::vector<std::vector<BackstopRun>>& backstop_runs() const { return backstop_runs_; }
 
 private:
+    void place_backstops();
+
     FabricData data_;
     std::vector<uint32_t> kinematic_;
     ParticleLayout layout_;
-    DistanceBatches bends_, edges_;
+    std::vector<DistanceBatches> bends_, edges_;
     std::vector<uint32_t> tether_anchors_;
     std::vector<float> tether_lengths_;
+    std::vector<std::vector<BackstopRun>> backstop_runs_;
 };
 
 /// The shape a fabric is cut to: positions at rest, triangles, uvs (v runs along the warp; empty: Y is the

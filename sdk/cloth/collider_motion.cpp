@@ -1,0 +1,35 @@
+#include "cloth/collider_motion.h"
+
+namespace vfit {
+
+void ColliderMotion::accept(std::span<const Collider> colliders, float thickness_m) {
+    current_.resize(colliders.size());
+    for (size_t i = 0; i < colliders.size(); ++i) current_[i] = capsule_of(colliders[i], thickness_m);
+    if (previous_.size() != current_.size()) previous_ = current_;
+    needed_.clear();
+    needed_.reserve(current_.size());
+    for (uint32_t i = 0; i < current_.size(); ++i) {
+        // A capsule that became a ball, or the reverse, has no way between the two.
+        if (previous_[i].is_ball() != current_[i].is_ball()) previous_[i] = current_[i];
+        if (!is_end_of_another(i)) needed_.push_back(i);
+    }
+}
+
+/// A ball that a capsule has at one of its ends, now and before, adds nothing to that capsule.
+bool ColliderMotion::is_end_of_another(uint32_t ball) const {
+    if (!current_[ball].is_ball()) return false;
+    const auto end_of = [&](const Capsule& c, const Capsule& other) {
+        return (c.a == other.a && c.radius_a <= other.radius_a) || (c.a == other.b && c.radius_a <= other.radius_b);
+    };
+    for (size_t i = 0; i < current_.size(); ++i)
+        if (!current_[i].is_ball() && end_of(current_[ball], current_[i]) && end_of(previous_[ball], previous_[i])) return true;
+    return false;
+}
+
+void ColliderMotion::sweep(float from, float to, std::vector<SweptCapsule>& out) const {
+    out.reserve(current_.size());
+    out.resize(needed_.size());
+    for (size_t i = 0; i < needed_.size(); ++i) out[i] = vfit::sweep(previous_[needed_[i]], current_[needed_[i]], from, to);
+}
+
+}  // namespace vfit

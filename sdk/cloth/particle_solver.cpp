@@ -1,0 +1,154 @@
+#include "cloth/particle_solver.h"
+
+#include <algorithm>
+
+#include "cloth/contact_culling.h"
+#include "core/phases.h"
+
+namespace vfit {
+
+namespace {
+
+float share(const ParticleSolver::Step& step, int substep) { return float(substep) / float(step.substeps); }
+float substep_s(const ParticleSolver::Step& step) { return step.dt / float(step.substeps); }
+Vec3 half_fall(const ParticleSolver::Step& step) { return step.gravity * (0.5f * substep_s(step)); }
+
+}  // namespace
+
+ParticleSolver::ParticleSolver(std::shared_ptr<const Fabric> fabric) : fabric_(std::move(fabric)) {
+    const ParticleLayout& layout = fabric_->layout();
+    for (Particles* list : {&places_, &starts_, &velocities_}) list->resize(layout.count());
+    for (uint32_t i = 0; i < layout.group_count(); ++i) {
+        Gains& gains = gains_.emplace_back();
+        gains.bends.resize(fabric_->bend_batches()[i].joints.size());
+        gains.edges.resize(fabric_->edge_batches()[i].joints.size());
+    }
+    parts_.resize(layout.parts.size());
+    for (size_t i = 0; i < parts_.size(); ++i) parts_[i].backstops.resize(fabric_->backstop_runs()[i].size());
+}
+
+void ParticleSolver::place(std::span<const Vec3> vertices) {
+    const ParticleLayout& layout = fabric_->layout();
+    for (uint32_t i = 0; i < layout.count(); ++i)
+        if (layout.vertex_of[i] != ParticleLayout::kNobody) places_[i].x = vertices[layout.vertex_of[i]];
+    rest();
+}
+
+void ParticleSolver::rest() { std::fill(velocities_.begin(), velocities_.end(), Particle()); }
+
+void ParticleSolver::carry(const RigidMotion& motion) {
+    for (Particle& p : places_) p.x = motion.point(p.x);
+    for (Particle& v : velocities_) v.x = motion.direction(v.x);
+}
+
+void ParticleSolver::copy_positions(std::span<Vec3> out) const {
+    const std::vector<uint32_t>& particle_of = fabric_->layout().particle_of;
+    for (size_t v = 0; v < out.size(); ++v) out[v] = places_[particle_of[v]].x;
+}
+
+Moving ParticleSolver::moving(uint32_t part) {
+    const ParticleLayout::Part& p = fabric_->layout().parts[part];
+    return {&places_[p.begin], &starts_[p.begin], &velocities_[p.begin], p.moving_end - p.begin};
+}
+
+/// Parts, then cuts, then parts ...: a part ends one sub-step and begins the next, up to what its own constraints do.
+void ParticleSolver::advance(const Step& step, Jobs& jobs) {
+    const auto parts = uint32_t(parts_.size());
+    set_gains(substep_s(step));
+    step.colliders.sweep(0.0f, 1.0f, swept_step_);
+    const auto items = [&](uint32_t phase) { return phase % 2 == 0 ? parts : parts - 1 + 1; };
+    run_phases(jobs, 2 * uint32_t(step.substeps) + 1, parts, items, [&](uint32_t phase, uint32_t item) {
+        const int substep = int(phase / 2);
+        if (phase % 2 == 1) {
+            if (item + 1 < parts) solve_group(parts + item);
+            else step.colliders.sweep(share(step, substep), share(step, substep + 1), swept_);
+            return;
+        }
+        if (phase == 0) begin_part(step, item);
+        else end_part(step, substep - 1, item);
+        if (substep < step.substeps) begin_substep(step, substep, item);
+    });
+}
+
+void ParticleSolver::set_gains(float h) {
+    if (h == gains_h_) return;
+    for (size_t i = 0; i < gains_.size(); ++i) {
+        find_gains(fabric_->bend_batches()[i].masses, h, gains_[i].bends);
+        find_gains(fabric_->edge_batches()[i].masses, h, gains_[i].edges);
+    }
+    gains_h_ = h;
+}
+
+void ParticleSolver::solve_group(uint32_t group) {
+    solve_distances(fabric_->bend_batches()[group].joints, gains_[group].bends, places_.data());
+    solve_distances(fabric_->edge_batches()[group].joints, gains_[group].edges, places_.data());
+}
+
+void ParticleSolver::begin_part(const Step& step, uint32_t part) {
+    fill_up(part);
+    place_backstops(step, part);
+    const Moving m = moving(part);
+    NearColliders& near = parts_[part].near;
+    reserve(near, m.count, swept_step_.size());
+    cull({m.places, m.count}, {m.velocities, m.count}, step.dt, swept_step_, near);
+    predict(m, half_fall(step), substep_s(step));
+}
+
+/// Particles that only fill up the last run lie with the first of it, so that it stays small.
+void ParticleSolver::fill_up(uint32_t part) {
+    const ParticleLayout& layout = fabric_->layout();
+    const ParticleLayout::Part& p = layout.parts[part];
+    for (uint32_t i = p.moving_end; i-- > p.begin && layout.vertex_of[i] == ParticleLayout::kNobody;) {
+        places_[i] = places_[i / kLanes * kLanes];
+        velocities_[i] = Particle();
+    }
+}
+
+void ParticleSolver::place_backstops(const Step& step, uint32_t part) {
+    const std::vector<BackstopRun>& runs = fabric_->backstop_runs()[part];
+    const uint32_t first_run = fabric_->layout().parts[part].begin / uint32_t(kLanes);
+    for (size_t i = 0; i < runs.size(); ++i) {
+        RunBackstops& out = parts_[part].backstops[i];
+        out.run = runs[i].run - first_run;
+        for (size_t k = 0; k < kLanes; ++k) {
+            const bool any = runs[i].radius_m[k] > 0.0f;
+            const Vec3 from = step.from[runs[i].target[k]], way = step.to[runs[i].target[k]] - from;
+            out.x[k] = from.x, out.y[k] = from.y, out.z[k] = from.z;
+            out.way_x[k] = way.x, out.way_y[k] = way.y, out.way_z[k] = way.z;
+            out.radius_m[k] = any ? runs[i].radius_m[k] + step.thickness_m : 0.0f;
+        }
+    }
+}
+
+void ParticleSolver::begin_substep(const Step& step, int substep, uint32_t part) {
+    const ParticleLayout& layout = fabric_->layout();
+    const ParticleLayout::Part& p = layout.parts[part];
+    const float to = share(step, substep + 1);
+    for (uint32_t i = p.moving_end; i < p.end && layout.vertex_of[i] != ParticleLayout::kNobody; ++i) {
+        const uint32_t v = layout.vertex_of[i];
+        places_[i].x = step.from[v] + (step.to[v] - step.from[v]) * to;
+    }
+    solve_group(part);
+}
+
+void ParticleSolver::end_part(const Step& step, int substep, uint32_t part) {
+    const ParticleLayout::Part& p = fabric_->layout().parts[part];
+    SubstepEnd end{};
+    end.moving = moving(part);
+    end.anchors = places_.data();
+    end.anchor_index = std::span(fabric_->tether_anchors()).subspan(p.begin, end.moving.count);
+    end.tether_m = std::span(fabric_->tether_lengths()).subspan(p.begin, end.moving.count);
+    end.backstops = parts_[part].backstops;
+    end.from = share(step, substep);
+    end.to = share(step, substep + 1);
+    end.colliders = swept_;
+    end.near = &parts_[part].near;
+    end.contact = step.contact;
+    end.half_fall = half_fall(step);
+    end.h = substep_s(step);
+    end.keep = step.keep;
+    end.last = substep + 1 == step.substeps;
+    end_substep(end);
+}
+
+}  // namespace vfit

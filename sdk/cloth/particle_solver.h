@@ -1,0 +1,71 @@
+// The particles of one cloth and their way through a step: small sub-steps of one XPBD pass each (Macklin et al. 2019), part
+// by part on as many threads as there are.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cloth/cloth_kernels.h"
+#include "cloth/collider_motion.h"
+#include "cloth/fabric.h"
+#include "cloth/rigid_motion.h"
+#include "core/jobs.h"
+
+namespace vfit {
+
+class ParticleSolver {
+public:
+    explicit ParticleSolver(std::shared_ptr<const Fabric> fabric);
+
+    /// At rest at these places, one a vertex.
+    void place(std::span<const Vec3> vertices);
+    void rest();
+    /// As the cloth lies and moves.
+    void carry(const RigidMotion& motion);
+
+    struct Step {
+        float dt;
+        int substeps;
+        Vec3 gravity;
+        float keep;  // of the speed, a sub-step
+        ContactSettings contact;
+        float thickness_m;  // of backstops; colliders have theirs
+        std::span<const Vec3> from, to;  // the fabric's targets at both ends of the step
+        const ColliderMotion& colliders;
+    };
+    /// The result is the same for any number of threads. Does not allocate while the number of colliders stays.
+    void advance(const Step& step, Jobs& jobs);
+
+    /// One a vertex.
+    void copy_positions(std::span<Vec3> out) const;
+    const Particles& places() const { return places_; }
+    const Particles& velocities() const { return velocities_; }
+
+private:
+    struct Gains {
+        std::vector<BatchGains> bends, edges;
+    };
+    struct Part {
+        NearColliders near;
+        std::vector<RunBackstops> backstops;
+    };
+    Moving moving(uint32_t part);
+    void set_gains(float h);
+    void begin_part(const Step& step, uint32_t part);
+    void place_backstops(const Step& step, uint32_t part);
+    void begin_substep(const Step& step, int substep, uint32_t part);
+    void end_part(const Step& step, int substep, uint32_t part);
+    void solve_group(uint32_t group);
+    void fill_up(uint32_t part);
+
+    std::shared_ptr<const Fabric> fabric_;
+    Particles places_, starts_, velocities_;  // in the fabric's layout
+    std::vector<Gains> gains_;                // of its groups
+    float gains_h_ = 0.0f;                    // the sub-step that they are for
+    std::vector<Part> parts_;
+    std::vector<SweptCapsule> swept_step_, swept_;  // over the step, and over the sub-step that comes to its end
+};
+
+}  // namespace vfit
