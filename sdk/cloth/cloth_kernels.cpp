@@ -13,7 +13,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Registers of eight floats, or of four; Highway's scalar target has one. kRegisters of them make a run.
+// Registers of eight floats, or of four; Highway's scalar target has one.
 #if HWY_TARGET == HWY_SCALAR
 constexpr size_t kWide = 1;
 #elif !HWY_HAVE_SCALABLE && HWY_MAX_BYTES >= 32
@@ -21,7 +21,6 @@ constexpr size_t kWide = 8;
 #else
 constexpr size_t kWide = 4;
 #endif
-constexpr size_t kRegisters = kLanes / kWide;
 using Tag = hn::FixedTag<float, kWide>;
 using V = hn::Vec<Tag>;
 constexpr Tag kTag;
@@ -45,7 +44,7 @@ HWY_INLINE Points Mul(const Points& a, V s) { return {hn::Mul(a.x, s), hn::Mul(a
 HWY_INLINE Points Set(const Vec3& v) { return {Set(v.x), Set(v.y), Set(v.z)}; }
 
 #if HWY_TARGET == HWY_SCALAR
-/// kWide particles in as many registers as one has floats: here the particle itself.
+/// kWide particles: here one.
 struct Rows {
     Points p;
 };
@@ -53,14 +52,14 @@ template <typename At>
 HWY_INLINE Rows Gather(const At& at, const uint32_t* index) {
     return {Set(at(*index)->x)};
 }
-HWY_INLINE Rows Load(const Particle* particles) { return {Set(particles->x)}; }
+HWY_INLINE Rows Load(const Particle* run, size_t k) { return {Set(run[particle_at(k)].x)}; }
 HWY_INLINE Rows RowsOf(const Points& p) { return {p}; }
-HWY_INLINE void Store(const Rows& rows, Particle* particles) {
-    particles->x = Vec3(hn::GetLane(rows.p.x), hn::GetLane(rows.p.y), hn::GetLane(rows.p.z));
+HWY_INLINE void Store(const Rows& rows, Particle* run, size_t k) {
+    run[particle_at(k)].x = Vec3(hn::GetLane(rows.p.x), hn::GetLane(rows.p.y), hn::GetLane(rows.p.z));
 }
 template <typename At>
 HWY_INLINE void Scatter(const Rows& rows, const At& at, const uint32_t* index) {
-    Store(rows, at(*index));
+    at(*index)->x = Vec3(hn::GetLane(rows.p.x), hn::GetLane(rows.p.y), hn::GetLane(rows.p.z));
 }
 HWY_INLINE Rows Add(const Rows& a, const Vec3& b) { return {Sub(a.p, Set(-b))}; }
 HWY_INLINE Rows Scaled(const Rows& a, V s) { return {Mul(a.p, s)}; }
@@ -102,9 +101,10 @@ template <typename At>
 HWY_INLINE void Scatter(const Rows& rows, const At& at, const uint32_t* index) {
     for (size_t k = 0; k < 4; ++k) StoreRow(rows.r[k], at(index[k]), at(index[(k + 4) % kWide]));
 }
-HWY_INLINE Rows Load(const Particle* particles) {
+/// Lanes k to k + kWide of a run: with eight, the run as it lies.
+HWY_INLINE Rows Load(const Particle* run, size_t k) {
     Rows rows;
-    for (size_t k = 0; k < 4; ++k) rows.r[k] = LoadRow(particles + k, particles + (k + 4) % kWide);
+    for (size_t i = 0; i < 4; ++i) rows.r[i] = hn::Load(kTag, &run[2 * i + k / 4].x.x);
     return rows;
 }
 HWY_INLINE Rows Sub(const Rows& a, const Rows& b) {
@@ -135,8 +135,8 @@ HWY_INLINE Rows RowsOf(const Points& p) {
     const V z_low = hn::InterleaveLower(kTag, p.z, zero), z_high = hn::InterleaveUpper(kTag, p.z, zero);
     return {{LowerPairs(xy_low, z_low), UpperPairs(xy_low, z_low), LowerPairs(xy_high, z_high), UpperPairs(xy_high, z_high)}};
 }
-HWY_INLINE void Store(const Rows& rows, Particle* particles) {
-    for (size_t k = 0; k < 4; ++k) StoreRow(rows.r[k], particles + k, particles + (k + 4) % kWide);
+HWY_INLINE void Store(const Rows& rows, Particle* run, size_t k) {
+    for (size_t i = 0; i < 4; ++i) hn::Store(rows.r[i], kTag, &run[2 * i + k / 4].x.x);
 }
 HWY_INLINE Rows Add(const Rows& a, const Vec3& b) {
     const Particle four{b};
@@ -159,12 +159,13 @@ HWY_INLINE Rows MulAdd(const Rows& a, V s, const Rows& b) {
 #endif
 
 void Predict(const Moving& m, const Vec3& half_fall, float h) {
-    for (size_t i = 0; i < m.count; i += kWide) {
-        const Rows start = Load(m.places + i), v = Add(Load(m.velocities + i), half_fall);
-        Store(start, m.starts + i);
-        Store(v, m.velocities + i);
-        Store(MulAdd(v, Set(h), start), m.places + i);
-    }
+    for (size_t i = 0; i < m.count; i += kLanes)
+        for (size_t k = 0; k < kLanes; k += kWide) {
+            const Rows start = Load(m.places + i, k), v = Add(Load(m.velocities + i, k), half_fall);
+            Store(start, m.starts + i, k);
+            Store(v, m.velocities + i, k);
+            Store(MulAdd(v, Set(h), start), m.places + i, k);
+        }
 }
 
 void FindGains(std::span<const BatchMasses> masses, float h, std::span<BatchGains> gains) {
@@ -200,12 +201,12 @@ void SolveDistances(std::span<const DistanceBatch> batches, std::span<const Batc
 
 void FindRunBalls(std::span<const Particle> moving, std::span<const Particle> velocities, NearColliders& near) {
     for (size_t run = 0; run < moving.size() / kLanes; ++run) {
-        const Points p = Columns(Load(moving.data() + run * kLanes)), v = Columns(Load(velocities.data() + run * kLanes));
+        const Particle *places = moving.data() + run * kLanes, *speeds = velocities.data() + run * kLanes;
+        const Points p = Columns(Load(places, 0)), v = Columns(Load(speeds, 0));
         Points low = p, high = p;
         V speed2 = Dot(v, v);
-        for (size_t k = 1; k < kRegisters; ++k) {
-            const Points q = Columns(Load(moving.data() + run * kLanes + k * kWide));
-            const Points w = Columns(Load(velocities.data() + run * kLanes + k * kWide));
+        for (size_t k = kWide; k < kLanes; k += kWide) {
+            const Points q = Columns(Load(places, k)), w = Columns(Load(speeds, k));
             low = {hn::Min(low.x, q.x), hn::Min(low.y, q.y), hn::Min(low.z, q.z)};
             high = {hn::Max(high.x, q.x), hn::Max(high.y, q.y), hn::Max(high.z, q.z)};
             speed2 = hn::Max(speed2, Dot(w, w));
@@ -213,7 +214,7 @@ void FindRunBalls(std::span<const Particle> moving, std::span<const Particle> ve
         const auto least = [](V v) HWY_ATTR { return hn::GetLane(hn::MinOfLanes(kTag, v)); };
         const auto most = [](V v) HWY_ATTR { return hn::GetLane(hn::MaxOfLanes(kTag, v)); };
         const Vec3 from(least(low.x), least(low.y), least(low.z)), to(most(high.x), most(high.y), most(high.z));
-        near.centers[run].x = 0.5f * (from + to);
+        near.x[run] = 0.5f * (from.x + to.x), near.y[run] = 0.5f * (from.y + to.y), near.z[run] = 0.5f * (from.z + to.z);
         const Vec3 diagonal = to - from;
         near.radii_m[run] = 0.5f * std::sqrt(diagonal.x * diagonal.x + diagonal.y * diagonal.y + diagonal.z * diagonal.z);
         near.speeds2[run] = most(speed2);
@@ -242,7 +243,7 @@ void FindNear(std::span<const SweptCapsule> colliders, std::span<const Particle>
     for (uint64_t& word : near.bits) word = 0;
     for (size_t run = 0; run < runs; run += kWide) {
         // The vectors are filled up to whole registers.
-        const Points center = Columns(Load(near.centers.data() + run));
+        const Points center{hn::LoadU(kTag, near.x.data() + run), hn::LoadU(kTag, near.y.data() + run), hn::LoadU(kTag, near.z.data() + run)};
         const V radius = hn::LoadU(kTag, near.radii_m.data() + run);
         uint64_t* bits = near.bits.data() + run * words;
         for (size_t i = 0; i < colliders.size(); ++i) {
@@ -261,7 +262,7 @@ void FindNear(std::span<const SweptCapsule> colliders, std::span<const Particle>
             if (bits[word] == 0) continue;
             uint64_t kept = 0;
             for (size_t k = 0; k < kLanes; k += kWide) {
-                const Points p = Columns(Load(moving.data() + run * kLanes + k));
+                const Points p = Columns(Load(moving.data() + run * kLanes, k));
                 for (uint64_t left = bits[word]; left; left &= left - 1) {
                     const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero64(left);
                     kept |= uint64_t(!hn::AllFalse(kTag, Near(colliders[word * 64 + i], p, way))) << i;
@@ -347,16 +348,18 @@ HWY_INLINE uint32_t Resolve(const SweptCapsule& c, const Points& start, V travel
     return special;
 }
 
-/// All of a register's particles, of which the first is `at`, against one collider.
-HWY_INLINE void Resolve(const SubstepEnd& end, const SweptCapsule& collider, size_t at, const Points& start, V travel, Points& p) {
+/// The lanes from k on of a run that begins with particle `at`, against one collider.
+HWY_INLINE void Resolve(const SubstepEnd& end, const SweptCapsule& collider, size_t at, size_t k, const Points& start, V travel,
+                        Points& p) {
     uint32_t special = Resolve(collider, start, travel, end.contact, p);
     if (HWY_LIKELY(special == 0)) return;
-    Store(RowsOf(p), end.moving.places + at);
+    Particle* places = end.moving.places + at;
+    Store(RowsOf(p), places, k);
     for (; special; special &= special - 1) {
-        const size_t lane = at + hwy::Num0BitsBelowLS1Bit_Nonzero32(special);
-        resolve_contact(collider, end.moving.starts[lane].x, end.contact, end.moving.places[lane].x);
+        const size_t i = particle_at(k + hwy::Num0BitsBelowLS1Bit_Nonzero32(special));
+        resolve_contact(collider, end.moving.starts[at + i].x, end.contact, places[i].x);
     }
-    p = Columns(Load(end.moving.places + at));
+    p = Columns(Load(places, k));
 }
 
 /// Out of the balls, as out of colliders.
@@ -408,13 +411,13 @@ void EndSubstep(const SubstepEnd& given) {
         const V reach2 = Set(near.radii_m[run] * near.radii_m[run]);
         const RunBackstops* const own_backstops = backstops;
         while (backstops != no_backstop && backstops->run == run) ++backstops;
+        const size_t at = run * kLanes;
         for (size_t k = 0; k < kLanes; k += kWide) {
-            const size_t at = run * kLanes + k;
-            Rows place = Load(m.places + at);
-            const Rows start = Load(m.starts + at);
+            Rows place = Load(m.places + at, k);
+            const Rows start = Load(m.starts + at, k);
             Points p = Columns(place);
-            bool moved = PullBack(end, at, p);
-            const Points off = Sub(p, Set(near.centers[run].x));
+            bool moved = PullBack(end, at + k, p);
+            const Points off = Sub(p, {Set(near.x[run]), Set(near.y[run]), Set(near.z[run])});
             const bool strayed = !hn::AllTrue(kTag, hn::Le(Dot(off, off), reach2));
             if (any != 0 || own_backstops != backstops || HWY_UNLIKELY(strayed)) {
                 const Points from = Columns(start);
@@ -422,28 +425,28 @@ void EndSubstep(const SubstepEnd& given) {
                 const Points way = Sub(p, from);
                 const V travel = hn::Sqrt(Dot(way, way));
                 if (HWY_UNLIKELY(strayed)) {
-                    for (const SweptCapsule& collider : end.colliders) Resolve(end, collider, at, from, travel, p);
+                    for (const SweptCapsule& collider : end.colliders) Resolve(end, collider, at, k, from, travel, p);
                 } else {
                     for (size_t word = 0; word < words; ++word)
                         for (uint64_t left = bits[word]; left; left &= left - 1)
-                            Resolve(end, end.colliders[word * 64 + hwy::Num0BitsBelowLS1Bit_Nonzero64(left)], at, from, travel, p);
+                            Resolve(end, end.colliders[word * 64 + hwy::Num0BitsBelowLS1Bit_Nonzero64(left)], at, k, from, travel, p);
                 }
                 moved = true;
             }
             if (moved) place = RowsOf(p);
-            const Rows v = Load(m.velocities + at);
+            const Rows v = Load(m.velocities + at, k);
             // The same sum as by which it was predicted.
             const Rows change = Sub(place, MulAdd(v, h, start));
-            Rows next = Add(MulAdd(change, rate, v), end.half_fall);
+            const Rows ended = Scaled(Add(MulAdd(change, rate, v), end.half_fall), keep);
             if (end.last) {
-                if (moved) Store(place, m.places + at);
-                Store(Scaled(next, keep), m.velocities + at);
+                Store(place, m.places + at, k);
+                Store(ended, m.velocities + at, k);
                 continue;
             }
-            next = Add(Scaled(next, keep), end.half_fall);
-            Store(place, m.starts + at);
-            Store(next, m.velocities + at);
-            Store(MulAdd(next, h, place), m.places + at);
+            const Rows next = Add(ended, end.half_fall);
+            Store(place, m.starts + at, k);
+            Store(next, m.velocities + at, k);
+            Store(MulAdd(next, h, place), m.places + at, k);
         }
     }
 }

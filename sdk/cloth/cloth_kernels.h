@@ -31,20 +31,19 @@ void solve_distances(std::span<const DistanceBatch> batches, std::span<const Bat
 
 /// What each run of kLanes moving particles may meet during a step.
 struct NearColliders {
-    Particles centers;            // of a ball that the run is expected to stay in
-    std::vector<float> radii_m;
+    std::vector<float> x, y, z, radii_m;  // of a ball that the run is expected to stay in
     std::vector<float> speeds2;   // the square of its highest speed
     std::vector<float> ways_m;    // that a particle of it is expected to go at most
     std::vector<uint64_t> bits;   // words() a run: bit i of them is collider i
     size_t colliders = 0;
     size_t words() const { return (colliders + 63) / 64; }
 };
-/// Fills centers, radii_m of the balls that just hold the runs, and speeds2: as many as there are whole runs.
+/// Fills x, y, z, radii_m of the balls that just hold the runs, and speeds2: as many as there are whole runs.
 void find_run_balls(std::span<const Particle> moving, std::span<const Particle> velocities, NearColliders& near);
 /// Fills bits: which balls the colliders may touch, then which of their particles, as they lie now, on ways of at most ways_m.
 void find_near(std::span<const SweptCapsule> colliders, std::span<const Particle> moving, NearColliders& near);
 
-/// Of a run: balls that its particles stay out of.
+/// Of a run, by lanes: balls that its particles stay out of.
 struct alignas(32) RunBackstops {
     float x[kLanes], y[kLanes], z[kLanes];              // centres at the begin of the step
     float way_x[kLanes], way_y[kLanes], way_z[kLanes];  // to its end
@@ -57,7 +56,7 @@ struct alignas(32) RunBackstops {
 /// fall, and `keep` of all of it; and, where another sub-step follows, its begin.
 struct SubstepEnd {
     Moving moving;
-    const Particle* anchors;                 // of all parts; and of each moving particle the index of its own, and how far
+    const Particle* anchors;                 // of all parts; and of each lane of the runs the index of its own, and how far
     std::span<const uint32_t> anchor_index;  // from it it may be: long range attachment (Kim, Chentanez, Mueller 2012)
     std::span<const float> tether_m;
     std::span<const RunBackstops> backstops;  // by rising runs

@@ -16,10 +16,7 @@ size_t whole_registers(size_t runs) { return (runs + kLanes - 1) / kLanes * kLan
 
 void reserve(NearColliders& near, size_t moving, size_t colliders) {
     const size_t count = whole_registers(run_count(moving));
-    near.centers.reserve(count);
-    near.radii_m.reserve(count);
-    near.speeds2.reserve(count);
-    near.ways_m.reserve(count);
+    for (std::vector<float>* list : {&near.x, &near.y, &near.z, &near.radii_m, &near.speeds2, &near.ways_m}) list->reserve(count);
     near.bits.reserve(count * ((colliders + 63) / 64));
 }
 
@@ -27,10 +24,7 @@ void cull(std::span<const Particle> moving, std::span<const Particle> velocities
           std::span<const SweptCapsule> colliders, NearColliders& near) {
     const size_t runs = run_count(moving.size()), count = whole_registers(runs);
     near.colliders = colliders.size();
-    near.centers.resize(count);
-    near.radii_m.resize(count);
-    near.speeds2.resize(count);
-    near.ways_m.resize(count);
+    for (std::vector<float>* list : {&near.x, &near.y, &near.z, &near.radii_m, &near.speeds2, &near.ways_m}) list->resize(count);
     near.bits.resize(count * near.words());
     find_run_balls(moving, velocities, near);
     for (size_t run = 0; run < runs; ++run) {

@@ -64,8 +64,9 @@ Fabric::Fabric(FabricData data) : data_(std::move(data)) {
         std::fill(tether_anchors_.begin() + part.begin, tether_anchors_.begin() + part.end, part.spare());
     for (const Tether& t : data_.tethers) {
         const uint32_t particle = layout_.particle_of[t.vertex];
-        tether_anchors_[particle] = layout_.particle_in(layout_.part_of(particle), t.anchor);
-        tether_lengths_[particle] = t.length_m;
+        const size_t at = particle / kLanes * kLanes + lane_of(particle % kLanes);
+        tether_anchors_[at] = layout_.particle_in(layout_.part_of(particle), t.anchor);
+        tether_lengths_[at] = t.length_m;
     }
     place_backstops();
 }
@@ -76,7 +77,7 @@ void Fabric::place_backstops() {
         const Backstop& b = data_.backstops[i];
         const uint32_t particle = layout_.particle_of[b.vertex], run = particle / uint32_t(kLanes);
         std::vector<BackstopRun>& runs = backstop_runs_[layout_.part_of(particle)];
-        const size_t lane = particle % kLanes;
+        const size_t lane = lane_of(particle % kLanes);
         const auto place = std::find_if(runs.begin(), runs.end(), [&](const BackstopRun& r) { return r.run == run && r.radius_m[lane] == 0.0f; });
         BackstopRun& of = place != runs.end() ? *place : runs.emplace_back(BackstopRun{run, {}, {}});
         of.target[lane] = vertex_count() + i;

@@ -34,7 +34,7 @@ struct Backstop {
     float radius_m;
 };
 
-/// Backstops of a run of kLanes particles.
+/// Backstops of a run of kLanes particles, by lanes.
 struct BackstopRun {
     uint32_t run;
     uint32_t target[kLanes];  // index of its centre
@@ -70,7 +70,7 @@ public:
     /// Of each group of the layout.
     const std::vector<DistanceBatches>& bend_batches() const { return bends_; }
     const std::vector<DistanceBatches>& edge_batches() const { return edges_; }
-    /// One a particle (those that move have them): its anchor, and how far from it it may be.
+    /// One a lane of each run (of particles that move): the anchor, and how far from it it may be.
     const std::vector<uint32_t>& tether_anchors() const { return tether_anchors_; }
     const std::vector<float>& tether_lengths() const { return tether_lengths_; }
     /// Of each part of the layout, by rising runs.
