@@ -324,16 +324,22 @@ HWY_INLINE uint32_t Resolve(const SweptCapsule& c, const Points& start, V travel
     uint32_t special = bits[0];
     if (hn::AllFalse(kTag, inside)) return special;
 
-    const V begin_along = NearestAlong(c.from, start);
-    const Points begin_from = FromCenter(c.from, begin_along, start);
-    const Nearest begin = NearestBallOf(c.from, begin_along, begin_from, Dot(begin_from, begin_from));
-    const auto same_side = hn::Gt(Dot(begin.normal, end.normal), Set(0.0f));
-    hn::StoreMaskBits(kTag, hn::AndNot(same_side, inside), bits);
-    special |= bits[0];
-    const V residue = hn::Max(Set(0.0f), hn::Sub(hn::Neg(begin.distance), Set(settings.max_depenetration_m)));
-    const V depth = hn::Sub(hn::Neg(end.distance), residue);
-    const auto push = hn::And(hn::And(inside, same_side), hn::Gt(depth, Set(0.0f)));
-    if (hn::AllFalse(kTag, push)) return special;
+    V depth = hn::Neg(end.distance);
+    auto push = inside;
+    // Where it began matters only if it may have begun on the other side, or too deep to come out at once.
+    const V most = hn::Min(radius, Set(settings.max_depenetration_m));
+    const auto deep = hn::Gt(hn::Add(depth, reach), most);
+    if (!hn::AllFalse(kTag, hn::And(inside, deep))) {
+        const V begin_along = NearestAlong(c.from, start);
+        const Points begin_from = FromCenter(c.from, begin_along, start);
+        const Nearest begin = NearestBallOf(c.from, begin_along, begin_from, Dot(begin_from, begin_from));
+        const auto same_side = hn::Gt(Dot(begin.normal, end.normal), Set(0.0f));
+        hn::StoreMaskBits(kTag, hn::AndNot(same_side, inside), bits);
+        special |= bits[0];
+        depth = hn::Sub(depth, hn::Max(Set(0.0f), hn::Sub(hn::Neg(begin.distance), Set(settings.max_depenetration_m))));
+        push = hn::And(hn::And(inside, same_side), hn::Gt(depth, Set(0.0f)));
+        if (hn::AllFalse(kTag, push)) return special;
+    }
     const V out = hn::IfThenElseZero(push, depth);
     const Points pushed = MulAdd(end.normal, out, p);
 

@@ -7,7 +7,7 @@ namespace vfit {
 namespace {
 
 // A run may go further than its speed says, as constraints pull it along; one that does is tried against everything.
-constexpr float kMoreWay = 1.25f, kMoreWay_m = 0.01f;
+constexpr float kMoreWay = 1.25f, kMoreWay_m = 0.002f;
 
 size_t run_count(size_t moving) { return moving / kLanes; }
 size_t whole_registers(size_t runs) { return (runs + kLanes - 1) / kLanes * kLanes; }
