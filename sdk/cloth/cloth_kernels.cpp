@@ -168,16 +168,18 @@ void Predict(const Moving& m, const Vec3& half_fall, float h) {
         }
 }
 
-void FindGains(std::span<const BatchMasses> masses, float h, std::span<BatchGains> gains) {
-    const V rate2 = Set(1.0f / (h * h));
+float FindGains(std::span<const BatchMasses> masses, float h, float force, std::span<BatchGains> gains) {
+    const V rate2 = Set(1.0f / (force * h * h));
+    V most = Set(0.0f);
     for (size_t i = 0; i < masses.size(); ++i)
         for (size_t k = 0; k < kLanes; k += kWide) {
-            const V a = hn::Load(kTag, masses[i].a + k), b = hn::Load(kTag, masses[i].b + k);
-            const V inverse = hn::Div(
-                Set(1.0f), hn::MulAdd(hn::Load(kTag, masses[i].compliance + k), rate2, hn::Add(a, b)));
+            const V a = hn::Load(kTag, masses[i].a + k), b = hn::Load(kTag, masses[i].b + k), sum = hn::Add(a, b);
+            const V inverse = hn::Div(Set(1.0f), hn::MulAdd(hn::Load(kTag, masses[i].compliance + k), rate2, sum));
             hn::Store(hn::Mul(a, inverse), kTag, gains[i].a + k);
             hn::Store(hn::Mul(b, inverse), kTag, gains[i].b + k);
+            most = hn::Max(most, hn::Mul(sum, inverse));
         }
+    return hn::GetLane(hn::MaxOfLanes(kTag, most));
 }
 
 void SolveDistances(std::span<const DistanceBatch> batches, std::span<const BatchGains> gains, Particle* particles) {
@@ -472,8 +474,8 @@ HWY_EXPORT(FindNear);
 HWY_EXPORT(EndSubstep);
 
 void predict(const Moving& moving, const Vec3& half_fall, float h) { HWY_DYNAMIC_DISPATCH(Predict)(moving, half_fall, h); }
-void find_gains(std::span<const BatchMasses> masses, float h, std::span<BatchGains> gains) {
-    HWY_DYNAMIC_DISPATCH(FindGains)(masses, h, gains);
+float find_gains(std::span<const BatchMasses> masses, float h, float force, std::span<BatchGains> gains) {
+    return HWY_DYNAMIC_DISPATCH(FindGains)(masses, h, force, gains);
 }
 void solve_distances(std::span<const DistanceBatch> batches, std::span<const BatchGains> gains, Particle* particles) {
     HWY_DYNAMIC_DISPATCH(SolveDistances)(batches, gains, particles);

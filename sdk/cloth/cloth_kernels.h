@@ -23,8 +23,8 @@ struct Moving {
 /// The begin of the first sub-step of several. Half of the fall, then the whole way: free fall is exact.
 void predict(const Moving& moving, const Vec3& half_fall, float h);
 
-/// XPBD's share of each end: w / (w_a + w_b + compliance / h^2).
-void find_gains(std::span<const BatchMasses> masses, float h, std::span<BatchGains> gains);
+/// XPBD's share of each end: w / (w_a + w_b + compliance / h^2), with so many times the force. The greatest sum of two.
+float find_gains(std::span<const BatchMasses> masses, float h, float force, std::span<BatchGains> gains);
 /// One pass of XPBD over the constraints with the multiplier starting at zero, which is exact for one pass a sub-step
 /// (Macklin et al. 2019).
 void solve_distances(std::span<const DistanceBatch> batches, std::span<const BatchGains> gains, Particle* particles);

@@ -52,18 +52,20 @@ private:
         std::vector<RunBackstops> backstops;
     };
     Moving moving(uint32_t part);
-    void set_gains(float h);
+    void set_gains(float h, int substeps);
     void begin_part(const Step& step, uint32_t part);
     void place_backstops(const Step& step, uint32_t part);
     void begin_substep(const Step& step, int substep, uint32_t part);
     void end_part(const Step& step, int substep, uint32_t part);
-    void solve_group(uint32_t group);
+    void solve_group(int substep, uint32_t group);
     void fill_up(uint32_t part);
 
     std::shared_ptr<const Fabric> fabric_;
     Particles places_, starts_, velocities_;  // in the fabric's layout
     std::vector<Gains> gains_;                // of its groups
-    float gains_h_ = 0.0f;                    // the sub-step that they are for
+    float gains_h_ = 0.0f;                    // the sub-step that they are for,
+    bool may_alternate_ = false;              // and whether a step has an even number of them
+    int bend_every_ = 1;                      // so many sub-steps
     std::vector<Part> parts_;
     std::vector<SweptCapsule> swept_step_, swept_;  // over the step, and over the sub-step that comes to its end
 };
