@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/spin.h"
+
 namespace vfit {
 
 namespace {
@@ -21,7 +23,7 @@ struct Batch {
     std::atomic<uint32_t> next{0};
     std::atomic<bool> failed{false};
     std::exception_ptr error;
-    uint32_t helpers = 0;     // workers inside this batch; guarded by the pool's mutex
+    std::atomic<uint32_t> helpers{0};  // workers inside this batch; changed under the pool's mutex
     Batch* following = nullptr;
 
     Batch(Jobs::Task t, void* d, uint32_t n) : task(t), data(d), count(n) {}
@@ -94,17 +96,22 @@ public:
             std::lock_guard lock(mutex_);
             batch.following = open_;
             open_ = &batch;
+            calls_.fetch_add(1, std::memory_order_relaxed);
         }
         wake_.notify_all();
         batch.work();
         {
-            std::unique_lock lock(mutex_);
+            std::lock_guard lock(mutex_);
             for (Batch** link = &open_; *link; link = &(*link)->following)
                 if (*link == &batch) {
                     *link = batch.following;
                     break;
                 }
-            done_.wait(lock, [&] { return batch.helpers == 0; });
+        }
+        const auto alone = [&] { return batch.helpers.load() == 0; };
+        if (!spin_until(alone)) {
+            std::unique_lock lock(mutex_);
+            done_.wait(lock, alone);
         }
         batch.rethrow();
     }
@@ -118,6 +125,7 @@ public:
             later.state = Later::State::waiting;
             later.following = later_;
             later_ = &later;
+            calls_.fetch_add(1, std::memory_order_relaxed);
         }
         wake_.notify_one();
     }
@@ -143,9 +151,11 @@ public:
 private:
     void serve() {
         std::unique_lock lock(mutex_);
+        bool rested = true;
         for (;;) {
             if (Later* later = later_) {
                 later_ = later->following;
+                rested = false;
                 later->state = Later::State::running;
                 lock.unlock();
                 later->run();
@@ -158,9 +168,19 @@ private:
             while (batch && batch->next.load() >= batch->count) batch = batch->following;
             if (!batch) {
                 if (stopping_) return;
+                if (!rested) {
+                    // Work comes in bursts: who has just worked is ready for more at once.
+                    rested = true;
+                    const uint32_t seen = calls_.load();
+                    lock.unlock();
+                    spin_until([&] { return calls_.load(std::memory_order_relaxed) != seen; });
+                    lock.lock();
+                    continue;
+                }
                 wake_.wait(lock);
                 continue;
             }
+            rested = false;
             ++batch->helpers;
             lock.unlock();
             batch->work();
@@ -174,6 +194,7 @@ private:
     Batch* open_ = nullptr;
     Later* later_ = nullptr;
     bool stopping_ = false;
+    std::atomic<uint32_t> calls_{0};  // run() and begin()
     std::vector<std::thread> threads_;
 };
 

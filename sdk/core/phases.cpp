@@ -2,23 +2,12 @@
 
 #include <atomic>
 #include <bit>
-#include <thread>
+
+#include "core/spin.h"
 
 namespace vfit {
 
 namespace {
-
-/// Tries before a waiting thread lets others have its core: some microseconds. A thread that spun for as long as it takes
-/// would starve the one that it waits for where another process holds a core.
-constexpr int kSpins = 2000;
-
-void relax() {
-#if defined(__x86_64__) || defined(__i386__)
-    __builtin_ia32_pause();
-#elif defined(__aarch64__)
-    asm volatile("yield");
-#endif
-}
 
 /// Which phase runs and which of its items nobody has taken, in one word: who takes an item knows its phase.
 class Board {
@@ -56,12 +45,11 @@ private:
     }
 
     uint64_t wait(uint64_t seen) const {
-        for (int spins = 0;; ++spins) {
-            const uint64_t now = word_.load(std::memory_order_acquire);
-            if (now != seen) return now;
-            if (spins < kSpins) relax();
-            else std::this_thread::yield();
-        }
+        uint64_t now = seen;
+        const auto changed = [&] { return (now = word_.load(std::memory_order_acquire)) != seen; };
+        if (!spin_until(changed))
+            while (!changed()) std::this_thread::yield();
+        return now;
     }
 
     const PhasedWork& work_;
