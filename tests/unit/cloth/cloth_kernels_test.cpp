@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
+#include <set>
 
 #include "cloth/contact_culling.h"
 #include "cloth_support.h"
@@ -40,35 +42,61 @@ void expect_near(const Vec3& a, const Vec3& b, float tolerance, size_t i) {
     EXPECT_LT(glm::length(a - b), tolerance) << i << ": " << a.x << " " << a.y << " " << a.z << " for " << b.x << " " << b.y << " " << b.z;
 }
 
+/// The end of a sub-step in which nothing but what a test adds acts on these particles.
+struct End {
+    std::vector<uint32_t> anchors;
+    std::vector<float> tethers;
+    NearColliders near;
+    SubstepEnd job{};
+
+    End(Particles& places, Particles& starts, Particles& velocities, size_t moving)
+        : anchors(moving, uint32_t(places.size() - 1)), tethers(moving, 1e9f) {
+        reserve(near, moving, 0);
+        cull({places.data(), moving}, {velocities.data(), moving}, 1.0f, {}, near);
+        job.moving = {places.data(), starts.data(), velocities.data(), uint32_t(moving)};
+        job.anchors = places.data();
+        job.anchor_index = anchors;
+        job.tether_m = tethers;
+        job.near = &near;
+        job.from = 0.0f;
+        job.to = 1.0f;
+        job.h = 1.0f / 480.0f;
+        job.keep = 1.0f;
+        job.last = true;
+    }
+};
+
 TEST(ClothKernels, FreeFlightIsExact) {
     on_each_target([] {
         std::mt19937 random(1);
-        Particles places(16), starts(16), predicted(16), velocities(16);
+        Particles places(16), starts(16), velocities(16);
         for (auto* list : {&places, &velocities})
             for (Particle& p : *list) p.x = random_point(random, 1.0f);
         const Particles before = places, speeds = velocities;
-        const float h = 1.0f / 480.0f, keep = 0.9f;
         const Vec3 half_fall(0.1f, -0.02f, 0.03f), pull(0.002f, 0.001f, 0.0f);
-        const Moving moving{places.data(), starts.data(), predicted.data(), velocities.data(), 16};
-        predict(moving, half_fall, h);
+        End end(places, starts, velocities, 16);
+        const float h = end.job.h, keep = end.job.keep = 0.9f;
+        end.job.half_fall = half_fall;
+        predict(end.job.moving, half_fall, h);
         for (size_t i = 0; i < 16; ++i) {
             expect_near(starts[i].x, before[i].x, 1e-9f, i);
             expect_near(places[i].x, before[i].x + (speeds[i].x + half_fall) * h, 1e-6f, i);
-            EXPECT_EQ(predicted[i].x, places[i].x);
             EXPECT_EQ(places[i].zero, 0.0f);
             places[i].x += pull;
         }
-        Particles next_places = places, next_starts = starts, next_predicted = predicted, next_velocities = velocities;
-        const Moving next{next_places.data(), next_starts.data(), next_predicted.data(), next_velocities.data(), 16};
-        find_velocities(moving, half_fall, h, keep);
+        Particles next_places = places, next_starts = starts, next_velocities = velocities;
+        end_substep(end.job);
         for (size_t i = 0; i < 16; ++i) expect_near(velocities[i].x, (speeds[i].x + 2.0f * half_fall + pull / h) * keep, 1e-4f, i);
-        // Both at once.
-        predict(moving, half_fall, h);
-        find_velocities_and_predict(next, half_fall, h, keep);
+        // With the begin of the next one.
+        predict(end.job.moving, half_fall, h);
+        End both(next_places, next_starts, next_velocities, 16);
+        both.job.half_fall = half_fall;
+        both.job.keep = keep;
+        both.job.last = false;
+        end_substep(both.job);
         for (size_t i = 0; i < 16; ++i) {
             EXPECT_EQ(next_starts[i].x, starts[i].x);
             expect_near(next_places[i].x, places[i].x, 1e-6f, i);
-            EXPECT_EQ(next_predicted[i].x, next_places[i].x);
             expect_near(next_velocities[i].x, velocities[i].x, 1e-5f, i);
         }
     });
@@ -78,7 +106,8 @@ TEST(ClothKernels, DistancesAreThoseOfXpbd) {
     Sheet sheet(12, 11, 0.02f);
     sheet.pin_top();
     const Fabric fabric(sheet.cook(cotton()));
-    const DistanceBatches& batches = fabric.edge_batches();
+    ASSERT_EQ(fabric.edge_batches().size(), 1u);
+    const DistanceBatches& batches = fabric.edge_batches()[0];
     const float h = 1.0f / 480.0f;
     on_each_target([&] {
         std::mt19937 random(2);
@@ -100,7 +129,9 @@ TEST(ClothKernels, DistancesAreThoseOfXpbd) {
                 b -= impulse * m.b[k];
             }
         std::vector<BatchGains> gains(batches.joints.size());
-        find_gains(batches.masses, h, gains);
+        const float most = find_gains(batches.masses, h, 1.0f, gains);
+        EXPECT_GT(most, 0.5f);
+        EXPECT_LE(most, 1.0f);
         solve_distances(batches.joints, gains, particles.data());
         for (size_t i = 0; i < particles.size(); ++i) {
             expect_near(particles[i].x, expected[i].x, 1e-6f, i);
@@ -109,21 +140,87 @@ TEST(ClothKernels, DistancesAreThoseOfXpbd) {
     });
 }
 
+TEST(ClothKernels, TwiceTheForceIsHalfTheCompliance) {
+    Sheet sheet(5, 4, 0.02f);
+    const Fabric fabric(sheet.cook(cotton()));
+    const DistanceBatches& batches = fabric.bend_batches()[0];
+    std::vector<BatchMasses> halved = batches.masses;
+    for (BatchMasses& m : halved)
+        for (float& c : m.compliance) c *= 0.5f;
+    on_each_target([&] {
+        std::vector<BatchGains> doubled(halved.size()), expected(halved.size());
+        find_gains(batches.masses, 1.0f / 480.0f, 2.0f, doubled);
+        find_gains(halved, 1.0f / 480.0f, 1.0f, expected);
+        for (size_t i = 0; i < halved.size(); ++i)
+            for (size_t k = 0; k < kLanes; ++k) EXPECT_NEAR(doubled[i].a[k], expected[i].a[k], 1e-5f * expected[i].a[k]);
+    });
+}
+
 TEST(ClothKernels, TethersPullBackWhatIsBeyondThem) {
     on_each_target([] {
         std::mt19937 random(3);
-        Particles particles(18);
+        Particles particles(18), starts(18), velocities(18);
         for (Particle& p : particles) p.x = random_point(random, 1.0f);
-        std::vector<uint32_t> anchors(16);
+        End end(particles, starts, velocities, 16);
         std::vector<float> lengths(16);
-        for (uint32_t i = 0; i < 16; ++i) anchors[i] = 16 + i % 2, lengths[i] = i % 5 == 0 ? 1e9f : 0.1f * float(i);
+        std::vector<uint32_t> anchors(16);
+        for (uint32_t i = 0; i < 16; ++i) {
+            anchors[i] = 16 + i % 2, lengths[i] = i % 5 == 0 ? 1e9f : 0.1f * float(i);
+            const size_t at = i / kLanes * kLanes + lane_of(i % kLanes);
+            end.anchors[at] = anchors[i], end.tethers[at] = lengths[i];
+        }
         const Particles before = particles;
-        solve_tethers(anchors, lengths, particles.data());
+        end_substep(end.job);
         for (size_t i = 0; i < 16; ++i) {
             const Vec3 d = before[i].x - before[anchors[i]].x;
             const float length = glm::length(d);
             expect_near(particles[i].x, before[anchors[i]].x + d * std::min(1.0f, lengths[i] / length), 1e-6f, i);
         }
+    });
+}
+
+TEST(ClothKernels, BackstopsAreBallsThatMove) {
+    on_each_target([] {
+        std::mt19937 random(6);
+        Particles places(17), starts(17), velocities(17);
+        RunBackstops balls{};
+        const float radius = 0.1f;
+        const Vec3 way(0.002f, 0.0f, 0.001f);
+        std::vector<Vec3> centers(8);
+        for (uint32_t i = 0; i < 16; ++i) {
+            starts[i].x = random_point(random, 1.0f);
+            places[i].x = starts[i].x + random_point(random, 0.002f);
+            if (i < 8) continue;
+            const size_t lane = lane_of(i % kLanes);
+            const Vec3 off = random_point(random, 1.0f);
+            // Some inside by up to what comes out at once, some outside.
+            const Vec3 center = centers[i - 8] = starts[i].x + off / glm::length(off) * (radius + 0.001f * (float(i) - 12.0f));
+            balls.x[lane] = center.x, balls.y[lane] = center.y, balls.z[lane] = center.z;
+            balls.way_x[lane] = 2.0f * way.x, balls.way_y[lane] = 2.0f * way.y, balls.way_z[lane] = 2.0f * way.z;
+            balls.radius_m[lane] = i == 10 ? 0.0f : radius;
+        }
+        balls.run = 1;
+        const Particles before = places;
+        End end(places, starts, velocities, 16);
+        end.job.backstops = {&balls, 1};
+        end.job.contact = {0.3f, 0.25f, 0.01f};
+        end.job.from = 0.0f, end.job.to = 0.5f;
+        end_substep(end.job);
+        int pushed = 0;
+        for (uint32_t i = 0; i < 16; ++i) {
+            Vec3 expected = before[i].x;
+            if (i >= 8 && i != 10) {
+                const Vec3 d = expected - (centers[i - 8] + way);
+                const float depth = radius - glm::length(d);
+                if (depth > 0.0f) {
+                    ++pushed;
+                    expected += d / glm::length(d) * depth;
+                    apply_friction(starts[i].x, way, d / glm::length(d), depth, end.job.contact, expected);
+                }
+            }
+            expect_near(places[i].x, expected, 1e-6f, i);
+        }
+        EXPECT_GT(pushed, 2);
     });
 }
 
@@ -178,8 +275,13 @@ TEST(ClothKernels, ContactsAreThoseOfOneParticleAtATime) {
             size_t touched = 0, other = 0;
             for (size_t i = 0; i < expected.size(); ++i)
                 for (const SweptCapsule& c : scene.colliders) touched += resolve_contact(c, scene.starts[i].x, scene.settings, expected[i].x);
-            resolve_contacts({scene.places.data(), scene.starts.data(), scene.colliders, scene.settings, &scene.near}, 0,
-                             uint32_t(scene.places.size() / kLanes));
+            const size_t moving = scene.places.size();
+            scene.places.emplace_back();
+            End end(scene.places, scene.starts, scene.velocities, moving);
+            end.job.near = &scene.near;
+            end.job.colliders = scene.colliders;
+            end.job.contact = scene.settings;
+            end_substep(end.job);
             for (size_t i = 0; i < expected.size(); ++i) {
                 other += glm::length(scene.places[i].x - expected[i].x) > 1e-4f;
                 EXPECT_TRUE(std::isfinite(scene.places[i].x.x));
@@ -192,27 +294,59 @@ TEST(ClothKernels, ContactsAreThoseOfOneParticleAtATime) {
 }
 
 TEST(ClothLayout, BatchesHoldEachConstraintOnceAndNoParticleTwice) {
-    Sheet sheet(23, 17, 0.02f);
+    Sheet sheet(73, 31, 0.02f);
     sheet.pin_top();
     const Fabric fabric(sheet.cook(cotton()));
-    const auto& edges = fabric.data().edges;
-    size_t lanes = 0;
-    for (const DistanceBatch& batch : fabric.edge_batches().joints) {
-        std::vector<uint32_t> seen;
-        for (size_t k = 0; k < kLanes; ++k) {
-            if (batch.a[k] == batch.b[k]) {
-                EXPECT_EQ(batch.a[k], fabric.layout().spare * sizeof(Particle));
-                continue;
+    const ParticleLayout& layout = fabric.layout();
+    EXPECT_GT(layout.parts.size(), 2u);
+    std::set<std::pair<uint32_t, uint32_t>> found;
+    size_t batches = 0, lanes = 0;
+    for (uint32_t group = 0; group < layout.group_count(); ++group)
+        for (const DistanceBatch& batch : fabric.edge_batches()[group].joints) {
+            ++batches;
+            std::vector<uint32_t> seen;
+            for (size_t k = 0; k < kLanes; ++k) {
+                if (batch.a[k] == batch.b[k]) {
+                    EXPECT_EQ(batch.a[k], layout.spare_of_group(group) * sizeof(Particle));
+                    EXPECT_EQ(layout.vertex_of[layout.spare_of_group(group)], ParticleLayout::kNobody);
+                    continue;
+                }
+                ++lanes;
+                const uint32_t a = layout.vertex_of[batch.a[k] / sizeof(Particle)], b = layout.vertex_of[batch.b[k] / sizeof(Particle)];
+                found.insert(std::minmax(a, b));
+                seen.push_back(batch.a[k]);
+                seen.push_back(batch.b[k]);
             }
-            ++lanes;
-            seen.push_back(batch.a[k]);
-            seen.push_back(batch.b[k]);
+            std::sort(seen.begin(), seen.end());
+            EXPECT_EQ(std::adjacent_find(seen.begin(), seen.end()), seen.end());
         }
-        std::sort(seen.begin(), seen.end());
-        EXPECT_EQ(std::adjacent_find(seen.begin(), seen.end()), seen.end());
-    }
-    EXPECT_EQ(lanes, edges.size());
-    EXPECT_LT(fabric.edge_batches().joints.size(), 1.1 * double(edges.size()) / double(kLanes) + 24) << "most lanes are filled";
+    EXPECT_EQ(lanes, fabric.data().edges.size());
+    for (const DistanceConstraint& e : fabric.data().edges) EXPECT_TRUE(found.count(std::minmax(e.a, e.b))) << e.a << " " << e.b;
+    EXPECT_LT(double(batches), 1.1 * double(lanes) / double(kLanes) + 24.0 * layout.group_count()) << "most lanes are filled";
+}
+
+TEST(ClothLayout, WhatThreadsWorkOnSideBySideShareNoParticle) {
+    Sheet sheet(73, 31, 0.02f);
+    sheet.pin_top();
+    const Fabric fabric(sheet.cook(cotton()));
+    const ParticleLayout& layout = fabric.layout();
+    const auto parts = uint32_t(layout.parts.size());
+    std::map<uint32_t, uint32_t> cut_of;
+    for (const auto* list : {&fabric.edge_batches(), &fabric.bend_batches()})
+        for (uint32_t group = 0; group < layout.group_count(); ++group)
+            for (const DistanceBatch& batch : (*list)[group].joints)
+                for (size_t k = 0; k < kLanes; ++k)
+                    for (const uint32_t byte : {batch.a[k], batch.b[k]}) {
+                        const auto particle = uint32_t(byte / sizeof(Particle));
+                        if (group < parts) {
+                            EXPECT_GE(particle, layout.parts[group].begin);
+                            EXPECT_LT(particle, layout.parts[group].end);
+                        } else {
+                            const auto [place, fresh] = cut_of.insert({particle, group});
+                            EXPECT_EQ(place->second, group) << particle << " is in two cuts";
+                        }
+                    }
+    EXPECT_FALSE(cut_of.empty());
 }
 
 TEST(ClothLayout, EveryVertexHasItsParticleAndThoseThatMoveComeFirst) {
@@ -220,12 +354,33 @@ TEST(ClothLayout, EveryVertexHasItsParticleAndThoseThatMoveComeFirst) {
     sheet.pin_top();
     const Fabric fabric(sheet.cook(cotton()));
     const ParticleLayout& layout = fabric.layout();
-    EXPECT_EQ(layout.moving % kLanes, 0u);
     for (uint32_t v = 0; v < fabric.vertex_count(); ++v) {
-        EXPECT_EQ(layout.vertex_of[layout.particle_of[v]], v);
-        EXPECT_EQ(layout.particle_of[v] < layout.moving, sheet.simulated[v] != 0);
+        const uint32_t particle = layout.particle_of[v];
+        EXPECT_EQ(layout.vertex_of[particle], v);
+        const ParticleLayout::Part& part = layout.parts[layout.part_of(particle)];
+        EXPECT_EQ(part.begin % kLanes, 0u);
+        EXPECT_EQ(part.moving_end % kLanes, 0u);
+        EXPECT_EQ(particle < part.moving_end, sheet.simulated[v] != 0);
     }
-    EXPECT_EQ(layout.vertex_of[layout.spare], ParticleLayout::kNobody);
+}
+
+TEST(ClothLayout, OddClothsAreLaidOutAsWell) {
+    FabricData nothing_moves;
+    nothing_moves.inverse_mass = {0.0f, 0.0f};
+    EXPECT_EQ(Fabric(nothing_moves).layout().parts.size(), 1u);
+    FabricData dust;  // no constraint at all
+    dust.inverse_mass.assign(5000, 1.0f);
+    const Fabric loose(dust);
+    EXPECT_GT(loose.layout().parts.size(), 1u);
+    FabricData star;  // everything hangs on one vertex
+    star.inverse_mass.assign(3000, 1.0f);
+    for (uint32_t v = 1; v < 3000; ++v) star.edges.push_back({0, v, 0.1f, 0.0f});
+    EXPECT_EQ(Fabric(star).edge_batches().size(), size_t(Fabric(star).layout().group_count()));
+    FabricData loop;  // two ends of a long strip are joined: no way to cut it across once
+    loop.inverse_mass.assign(4000, 1.0f);
+    for (uint32_t v = 0; v < 4000; ++v) loop.edges.push_back({v, (v + 1) % 4000, 0.1f, 0.0f});
+    const Fabric ring(loop);
+    EXPECT_GE(ring.layout().parts.size(), 1u);
 }
 
 }  // namespace
