@@ -1,6 +1,7 @@
 #include "cloth/particle_solver.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "cloth/contact_culling.h"
 #include "core/phases.h"
@@ -12,6 +13,11 @@ namespace {
 // Bends that take back no more than this share of a fold in a sub-step are so soft that they may push in every second one, with
 // twice the force: the impulse is the same, at half the work.
 constexpr float kSoft = 0.25f;
+
+// Passes over the edges in a second, at least: with fewer, a limb that kicks stretches the few triangles that it meets until
+// it is through between their corners.
+constexpr float kLeastPasses_hz = 240.0f;
+int passes(float h) { return std::max(1, int(std::ceil(kLeastPasses_hz * h - 1e-3f))); }
 
 float share(const ParticleSolver::Step& step, int substep) { return float(substep) / float(step.substeps); }
 float substep_s(const ParticleSolver::Step& step) { return step.dt / float(step.substeps); }
@@ -91,7 +97,8 @@ void ParticleSolver::set_gains(float h, int substeps) {
 
 void ParticleSolver::solve_group(int substep, uint32_t group) {
     if (substep % bend_every_ == 0) solve_distances(fabric_->bend_batches()[group].joints, gains_[group].bends, places_.data());
-    solve_distances(fabric_->edge_batches()[group].joints, gains_[group].edges, places_.data());
+    for (int i = passes(gains_h_); i > 0; --i)
+        solve_distances(fabric_->edge_batches()[group].joints, gains_[group].edges, places_.data());
 }
 
 void ParticleSolver::begin_part(const Step& step, uint32_t part) {
