@@ -22,6 +22,10 @@ constexpr float kKineticShare = 0.84f;
 // speed of a walking foot), slow enough not to be shot away.
 constexpr float kMaxDepenetration_m_s = 3.0f;
 constexpr uint32_t kRunsOfAJob = 128;  // of particles: enough to outweigh the hand-over (about 10 us)
+// What has been slower than that for so long, on a body that moves less than that in a step, sleeps. A swing is so slow only
+// for an instant, where it turns round.
+constexpr float kStill_m_s = 0.01f, kStill_m = 2e-5f, kFallsAsleep_s = 0.5f;
+constexpr float kLatest = 0.1f;  // weight of the last step in the mean time of a sub-step
 constexpr float kSubstepRate_hz = 60.0f;  // settings.substeps are per 1/60 s
 
 // Putting on: frames of 1/60 s in which the cloth hangs, goes along into the pose (as fast as a leg steps) and
@@ -33,8 +37,18 @@ struct PutOnPhase {
 constexpr PutOnPhase kHang{15, 4}, kMove{40, 4}, kSettle{10, 8};
 constexpr float kPutOnDamping = 0.99f;
 
+void check(const Air& air) {
+    if (!finite(air.wind_m_s)) fail(VFIT_ERROR_ARGUMENT, "the wind is not finite");
+    for (const float coefficient : {air.drag, air.lift})
+        if (!finite(coefficient) || coefficient < 0.0f) fail(VFIT_ERROR_ARGUMENT, "a coefficient of drag or lift is ", coefficient);
+}
+
+void check_substeps(uint32_t substeps) {
+    if (substeps == 0 || substeps > 1000) fail(VFIT_ERROR_ARGUMENT, "substeps must be 1..1000, is ", substeps);
+}
+
 void check(const ClothSettings& s) {
-    if (s.substeps == 0 || s.substeps > 1000) fail(VFIT_ERROR_ARGUMENT, "substeps must be 1..1000, is ", s.substeps);
+    check_substeps(s.substeps);
     if (!finite(s.gravity)) fail(VFIT_ERROR_ARGUMENT, "gravity is not finite");
     if (!finite(s.friction) || s.friction < 0.0f) fail(VFIT_ERROR_ARGUMENT, "friction is ", s.friction);
     if (!finite(s.damping) || s.damping < 0.0f || s.damping > 1.0f)
@@ -42,6 +56,10 @@ void check(const ClothSettings& s) {
     if (!finite(s.thickness_m) || s.thickness_m < 0.0f) fail(VFIT_ERROR_ARGUMENT, "thickness is ", s.thickness_m);
     if (!finite(s.teleport_m) || s.teleport_m <= 0.0f)
         fail(VFIT_ERROR_ARGUMENT, "teleport distance is ", s.teleport_m);
+    if (!finite(s.inertia) || s.inertia < 0.0f || s.inertia > 1.0f)
+        fail(VFIT_ERROR_ARGUMENT, "inertia must be 0..1, is ", s.inertia);
+    if (!finite(s.budget_ms) || s.budget_ms < 0.0f) fail(VFIT_ERROR_ARGUMENT, "the budget is ", s.budget_ms, " ms");
+    check(s.air);
 }
 
 void check_points(std::span<const Vec3> points, uint32_t count, const char* what) {
@@ -60,6 +78,16 @@ void check_colliders(std::span<const Collider> colliders) {
         if (c.radius < 0.0f || (c.is_capsule() && c.radius_b < 0.0f))
             fail(VFIT_ERROR_DATA, "collider ", i, " has a negative radius");
     }
+}
+
+/// The greatest way of any of these points.
+float farthest(std::span<const Vec3> from, std::span<const Vec3> to) {
+    float most2 = 0.0f;
+    for (size_t i = 0; i < from.size(); ++i) {
+        const Vec3 way = to[i] - from[i];
+        most2 = std::max(most2, glm::dot(way, way));
+    }
+    return std::sqrt(most2);
 }
 
 /// FNV-1a over 32-bit words.
@@ -91,12 +119,22 @@ struct Cloth::State {
     mutable bool normals_known = false, strains_known = false;
     std::vector<float> inverse_edge_count;  // of a vertex; 0: none
     float step_ms = 0.0f;
+    float substep_ms = 0.0f;  // mean; 0: not known yet
+    uint32_t substeps = 0;    // of the last step
+    float greatest_way_m = 0.0f;  // of a vertex in the last step
+    float still_s = 0.0f;     // since the cloth last moved
+    std::vector<Vec3> asleep_at;  // the targets at which it fell asleep; empty: it is awake
 
+    bool stays_asleep(std::span<const Vec3> targets) const;
+    void wake() { asleep_at.clear(), still_s = 0.0f; }
+    int affordable_substeps(float dt) const;
+    void feel_less(std::span<const Vec3> targets);
     void check_body(std::span<const Vec3> targets, std::span<const Collider> colliders) const;
     void reset(std::span<const Vec3> start);
-    void advance(float dt, int substeps, float damping, std::span<const Vec3> targets,
-                 std::span<const Collider> colliders, Jobs& jobs);
+    void advance(float dt, int count, float damping, std::span<const Vec3> targets, Jobs& jobs);
     void teleport(std::span<const Vec3> targets);
+    void carry(const RigidMotion& motion);
+    void rest_if_still(float dt, std::span<const Vec3> targets);
     void publish();
     void find_normals() const;
     void find_strains() const;
@@ -111,6 +149,7 @@ Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings
     const FabricData& data = fabric->data();
     s.positions.resize(n);
     s.previous_targets.resize(fabric->target_count());
+    s.asleep_at.reserve(fabric->target_count());
     s.strains.resize(n);
     s.edge_strains.resize(data.edges.size());
     s.inverse_edge_count.resize(n);
@@ -134,6 +173,7 @@ void Cloth::State::reset(std::span<const Vec3> start) {
     backstops_placed = start.size() == previous_targets.size();
     solver.place(start);
     colliders.forget();
+    wake();
     publish();
 }
 
@@ -147,13 +187,27 @@ void Cloth::put_on(const BodyOnItsWay& body, Jobs& jobs) {
     const auto frame = [&](const PutOnPhase& phase, float share) {
         body(share, targets, colliders);
         s.check_body(targets, colliders);
-        s.advance(1.0f / kSubstepRate_hz, phase.substeps, kPutOnDamping, targets, colliders, jobs);
+        s.colliders.accept(colliders, s.settings.thickness_m);
+        s.advance(1.0f / kSubstepRate_hz, phase.substeps, kPutOnDamping, targets, jobs);
     };
     for (int i = 0; i < kHang.frames; ++i) frame(kHang, 0.0f);
     for (int i = 1; i <= kMove.frames; ++i) frame(kMove, float(i) / float(kMove.frames));
     for (int i = 0; i < kSettle.frames; ++i) frame(kSettle, 1.0f);
     s.solver.rest();
-    s.publish();
+    s.wake();
+}
+
+void Cloth::set_air(const Air& air) {
+    check(air);
+    if (air.wind_m_s != state_->settings.air.wind_m_s || air.drag != state_->settings.air.drag || air.lift != state_->settings.air.lift) state_->wake();
+    state_->settings.air = air;
+}
+
+void Cloth::set_quality(uint32_t substeps, float budget_ms) {
+    check_substeps(substeps);
+    if (!finite(budget_ms) || budget_ms < 0.0f) fail(VFIT_ERROR_ARGUMENT, "the budget is ", budget_ms, " ms");
+    state_->settings.substeps = substeps;
+    state_->settings.budget_ms = budget_ms;
 }
 
 void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<const Collider> colliders, Jobs& jobs) {
@@ -163,10 +217,30 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
     if (dt == 0.0f) return;
     const Stopwatch watch;
     dt = std::clamp(dt, kMinStep_s, kMaxStep_s);
-    const auto substeps = std::max(1, int(std::lround(dt * kSubstepRate_hz * float(s.settings.substeps))));
-    s.advance(dt, substeps, s.settings.damping, skinned_targets, colliders, jobs);
-    s.publish();
+    s.colliders.accept(colliders, s.settings.thickness_m);
+    if (s.stays_asleep(skinned_targets)) {
+        s.substeps = 0;
+        s.step_ms = float(watch.ms());
+        return;
+    }
+    if (!s.asleep_at.empty()) s.wake();
+    const int substeps = s.affordable_substeps(dt);
+    s.advance(dt, substeps, s.settings.damping, skinned_targets, jobs);
+    s.substeps = uint32_t(substeps);
     s.step_ms = float(watch.ms());
+    const float substep_ms = s.step_ms / float(substeps);
+    s.substep_ms = s.substep_ms == 0.0f ? substep_ms : s.substep_ms + kLatest * (substep_ms - s.substep_ms);
+}
+
+bool Cloth::State::stays_asleep(std::span<const Vec3> targets) const {
+    return !asleep_at.empty() && colliders.greatest_way() <= kStill_m && farthest(asleep_at, targets) <= kStill_m;
+}
+
+/// As many as the settings say, or as are expected to be done within the budget, but one.
+int Cloth::State::affordable_substeps(float dt) const {
+    const int wanted = std::max(1, int(std::lround(dt * kSubstepRate_hz * float(settings.substeps))));
+    if (settings.budget_ms == 0.0f || substep_ms == 0.0f) return wanted;
+    return std::clamp(int(settings.budget_ms / substep_ms), 1, wanted);
 }
 
 void Cloth::State::check_body(std::span<const Vec3> targets, std::span<const Collider> colliders) const {
@@ -174,21 +248,49 @@ void Cloth::State::check_body(std::span<const Vec3> targets, std::span<const Col
     check_colliders(colliders);
 }
 
-void Cloth::State::advance(float dt, int substeps, float damping, std::span<const Vec3> targets,
-                           std::span<const Collider> limbs, Jobs& jobs) {
-    colliders.accept(limbs, settings.thickness_m);
+/// The colliders have been accepted.
+void Cloth::State::advance(float dt, int count, float damping, std::span<const Vec3> targets, Jobs& jobs) {
     teleport(targets);
+    feel_less(targets);
     if (!backstops_placed) {
         const uint32_t vertices = fabric->vertex_count();
         std::copy(targets.begin() + vertices, targets.end(), previous_targets.begin() + vertices);
         backstops_placed = true;
     }
-    const float h = dt / float(substeps);
+    const float h = dt / float(count);
     const ContactSettings contact{settings.friction, settings.friction * kKineticShare, kMaxDepenetration_m_s * h};
-    solver.advance({dt, substeps, settings.gravity, std::pow(1.0f - damping, h), contact, settings.thickness_m,
+    solver.advance({dt, count, settings.gravity, settings.air, std::pow(1.0f - damping, h), contact, settings.thickness_m,
                     previous_targets, targets, colliders}, jobs);
+    publish();
+    rest_if_still(dt, targets);
     std::copy(targets.begin(), targets.end(), previous_targets.begin());
     colliders.arrive();
+}
+
+void Cloth::State::rest_if_still(float dt, std::span<const Vec3> targets) {
+    const bool still = colliders.greatest_way() <= kStill_m && farthest(previous_targets, targets) <= kStill_m &&
+                       greatest_way_m <= kStill_m_s * dt;
+    still_s = still ? still_s + dt : 0.0f;
+    if (!settings.sleeps || still_s < kFallsAsleep_s) return;
+    solver.rest();
+    asleep_at.assign(targets.begin(), targets.end());
+}
+
+/// What of the body's own motion the cloth is not to feel carries it along before the step.
+void Cloth::State::feel_less(std::span<const Vec3> targets) {
+    const std::vector<uint32_t>& fixed = fabric->kinematic_vertices();
+    if (settings.inertia == 1.0f || fixed.empty()) return;
+    RigidMotion motion = fit_rigid_motion(fixed, previous_targets, targets);
+    const float unfelt = 1.0f - settings.inertia;
+    motion.rotation = glm::slerp(Quat(1, 0, 0, 0), motion.rotation, unfelt);
+    motion.to_center = motion.from_center + unfelt * (motion.to_center - motion.from_center);
+    carry(motion);
+    colliders.carry(motion);
+}
+
+void Cloth::State::carry(const RigidMotion& motion) {
+    solver.carry(motion);
+    for (Vec3& target : previous_targets) target = motion.point(target);
 }
 
 /// A jump of the body is no motion: the cloth goes along as it hangs, and nothing is swept through it.
@@ -198,13 +300,12 @@ void Cloth::State::teleport(std::span<const Vec3> targets) {
     for (uint32_t i : fixed) distance += glm::length(targets[i] - previous_targets[i]);
     if (fixed.empty() || distance <= settings.teleport_m * float(fixed.size())) return;
     const RigidMotion motion = fit_rigid_motion(fixed, previous_targets, targets);
-    solver.carry(motion);
-    for (Vec3& target : previous_targets) target = motion.point(target);
+    carry(motion);
     colliders.jump();
 }
 
 void Cloth::State::publish() {
-    solver.copy_positions(positions);
+    greatest_way_m = solver.copy_positions(positions);
     normals_known = strains_known = false;
 }
 
@@ -257,6 +358,7 @@ ClothStats Cloth::stats() const {
     out.simulated_count = s.fabric->simulated_count();
     out.constraint_count = s.fabric->constraint_count();
     out.step_ms = s.step_ms;
+    out.substeps = s.substeps;
     if (s.edge_strains.empty()) return out;
     // A histogram finds the percentile without sorting a copy.
     constexpr float kBin = 0.001f;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "body/collider.h"
+#include "cloth/air.h"
 #include "cloth/fabric.h"
 #include "core/jobs.h"
 #include "math/types.h"
@@ -25,6 +26,10 @@ struct ClothSettings {
     float damping = 0.5f;         // share of speed lost in a second, 0..1
     float thickness_m = 0.004f;   // kept between vertices and colliders
     float teleport_m = 0.5f;      // targets that move further in one step (mean) carry the cloth along rigidly
+    float inertia = 1.0f;         // share of the body's own motion that the cloth feels; the rest carries it along, 0..1
+    Air air;
+    float budget_ms = 0.0f;       // of a step; where it would take longer, sub-steps are left out. 0: none
+    bool sleeps = true;           // a cloth that lies still, on a body that does, is not stepped
 };
 
 struct ClothStats {
@@ -33,6 +38,7 @@ struct ClothStats {
     float strain_p99 = 0.0f;   // 99th percentile, to 0.001
     float strain_max = 0.0f;
     float step_ms = 0.0f;      // the last step
+    uint32_t substeps = 0;     // of the last step; 0: it slept
 };
 
 class Cloth {
@@ -56,8 +62,13 @@ public:
     /// are at the END of the step; a free vertex ignores its own. colliders: at the end of the step, in the same
     /// order each call. Both are interpolated from the previous call over the sub-steps. Fails without changing
     /// anything: VFIT_ERROR_DATA for a value that is not finite, VFIT_ERROR_ARGUMENT for a wrong count or a dt
-    /// that is negative or not finite. Does not allocate while the number of colliders stays.
+    /// that is negative or not finite. Does not allocate while the number of colliders stays. The result is the same for
+    /// any number of threads, unless there is a budget.
     void step(float dt, std::span<const Vec3> skinned_targets, std::span<const Collider> colliders, Jobs& jobs);
+
+    /// From the next step on.
+    void set_air(const Air& air);
+    void set_quality(uint32_t substeps, float budget_ms);
 
     const std::vector<Vec3>& positions() const;
     const std::vector<Vec3>& normals() const;

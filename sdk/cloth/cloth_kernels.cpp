@@ -370,13 +370,27 @@ HWY_INLINE void Resolve(const SubstepEnd& end, const SweptCapsule& collider, siz
     p = Columns(Load(places, k));
 }
 
+HWY_INLINE Points WayOf(const RunBalls& balls, size_t k) {
+    return {hn::Load(kTag, balls.way_x + k), hn::Load(kTag, balls.way_y + k), hn::Load(kTag, balls.way_z + k)};
+}
+HWY_INLINE Points CenterAt(const RunBalls& balls, size_t k, float share) {
+    return MulAdd(WayOf(balls, k), Set(share), {hn::Load(kTag, balls.x + k), hn::Load(kTag, balls.y + k), hn::Load(kTag, balls.z + k)});
+}
+
+/// Back to the balls' surface, as by a tether.
+HWY_INLINE void KeepIn(const SubstepEnd& end, const RunBalls& balls, size_t k, Points& p) {
+    const V radius = hn::Load(kTag, balls.radius_m + k);
+    const Points way = Sub(p, CenterAt(balls, k, end.to));
+    const V length2 = Dot(way, way);
+    const auto beyond = hn::And(hn::Gt(radius, Set(0.0f)), hn::Gt(length2, hn::Mul(radius, radius)));
+    p = MulAdd(way, hn::IfThenElseZero(beyond, hn::Sub(hn::Div(radius, hn::Max(hn::Sqrt(length2), Set(kNoLength))), Set(1.0f))), p);
+}
+
 /// Out of the balls, as out of colliders.
-HWY_INLINE void KeepOut(const SubstepEnd& end, const RunBackstops& balls, size_t k, const Points& start, Points& p) {
+HWY_INLINE void KeepOut(const SubstepEnd& end, const RunBalls& balls, size_t k, const Points& start, Points& p) {
     const ContactSettings& settings = end.contact;
     const V radius = hn::Load(kTag, balls.radius_m + k);
-    const Points first{hn::Load(kTag, balls.x + k), hn::Load(kTag, balls.y + k), hn::Load(kTag, balls.z + k)};
-    const Points whole{hn::Load(kTag, balls.way_x + k), hn::Load(kTag, balls.way_y + k), hn::Load(kTag, balls.way_z + k)};
-    const Points was = MulAdd(whole, Set(end.from), first), way = Mul(whole, Set(end.to - end.from));
+    const Points was = CenterAt(balls, k, end.from), way = Mul(WayOf(balls, k), Set(end.to - end.from));
     const Points from_center = Sub(Sub(p, was), way);
     const V length2 = Dot(from_center, from_center);
     const auto inside = hn::And(hn::Lt(length2, hn::Mul(radius, radius)), hn::Gt(length2, Set(0.0f)));
@@ -410,26 +424,30 @@ void EndSubstep(const SubstepEnd& given) {
     const NearColliders& near = *end.near;
     const size_t words = near.words();
     const V rate = Set(1.0f / end.h), keep = Set(end.keep), h = Set(end.h);
-    const RunBackstops* backstops = end.backstops.data();
-    const RunBackstops* const no_backstop = backstops + end.backstops.size();
+    const RunBalls* backstops = end.backstops.data();
+    const RunBalls* const no_backstop = backstops + end.backstops.size();
+    const RunBalls* limits = end.limits.data();
+    const RunBalls* const no_limit = limits + end.limits.size();
     for (size_t run = 0; run < m.count / kLanes; ++run) {
         const uint64_t* bits = near.bits.data() + run * words;
         uint64_t any = 0;
         for (size_t word = 0; word < words; ++word) any |= bits[word];
         const V reach2 = Set(near.radii_m[run] * near.radii_m[run]);
-        const RunBackstops* const own_backstops = backstops;
+        const RunBalls *const own_backstops = backstops, *const own_limits = limits;
         while (backstops != no_backstop && backstops->run == run) ++backstops;
+        while (limits != no_limit && limits->run == run) ++limits;
         const size_t at = run * kLanes;
         for (size_t k = 0; k < kLanes; k += kWide) {
             Rows place = Load(m.places + at, k);
             const Rows start = Load(m.starts + at, k);
             Points p = Columns(place);
             bool moved = PullBack(end, at + k, p);
+            for (const RunBalls* b = own_limits; b != limits; ++b, moved = true) KeepIn(end, *b, k, p);
             const Points off = Sub(p, {Set(near.x[run]), Set(near.y[run]), Set(near.z[run])});
             const bool strayed = !hn::AllTrue(kTag, hn::Le(Dot(off, off), reach2));
             if (any != 0 || own_backstops != backstops || HWY_UNLIKELY(strayed)) {
                 const Points from = Columns(start);
-                for (const RunBackstops* b = own_backstops; b != backstops; ++b) KeepOut(end, *b, k, from, p);
+                for (const RunBalls* b = own_backstops; b != backstops; ++b) KeepOut(end, *b, k, from, p);
                 const Points way = Sub(p, from);
                 const V travel = hn::Sqrt(Dot(way, way));
                 if (HWY_UNLIKELY(strayed)) {

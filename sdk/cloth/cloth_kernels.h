@@ -43,15 +43,15 @@ void find_run_balls(std::span<const Particle> moving, std::span<const Particle> 
 /// Fills bits: which balls the colliders may touch, then which of their particles, as they lie now, on ways of at most ways_m.
 void find_near(std::span<const SweptCapsule> colliders, std::span<const Particle> moving, NearColliders& near);
 
-/// Of a run, by lanes: balls that its particles stay out of.
-struct alignas(32) RunBackstops {
+/// Of a run, by lanes: balls that its particles stay out of, or in.
+struct alignas(32) RunBalls {
     float x[kLanes], y[kLanes], z[kLanes];              // centres at the begin of the step
     float way_x[kLanes], way_y[kLanes], way_z[kLanes];  // to its end
     float radius_m[kLanes];                             // 0: none
     uint32_t run;                                       // in Moving
 };
 
-/// The end of a sub-step, once distances are solved: tethers, backstops, contacts; then velocities by what constraints
+/// The end of a sub-step, once distances are solved: tethers, limits, backstops, contacts; then velocities by what constraints
 /// changed, rather than by the whole way over h, which keeps rounding of places out of the speed; then the other half of the
 /// fall, and `keep` of all of it; and, where another sub-step follows, its begin.
 struct SubstepEnd {
@@ -59,7 +59,7 @@ struct SubstepEnd {
     const Particle* anchors;                 // of all parts; and of each lane of the runs the index of its own, and how far
     std::span<const uint32_t> anchor_index;  // from it it may be: long range attachment (Kim, Chentanez, Mueller 2012)
     std::span<const float> tether_m;
-    std::span<const RunBackstops> backstops;  // by rising runs
+    std::span<const RunBalls> limits, backstops;  // to stay in and out of, by rising runs
     float from, to;                           // shares of the step
     std::span<const SweptCapsule> colliders;
     const NearColliders* near;  // a run that has left its ball is tried against all

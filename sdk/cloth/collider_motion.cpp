@@ -26,6 +26,24 @@ bool ColliderMotion::is_end_of_another(uint32_t ball) const {
     return false;
 }
 
+void ColliderMotion::carry(const RigidMotion& motion) {
+    for (Capsule& c : previous_) {
+        const bool ball = c.is_ball();
+        c.a = motion.point(c.a);
+        c.b = ball ? c.a : motion.point(c.b);
+    }
+}
+
+float ColliderMotion::greatest_way() const {
+    float most = 0.0f;
+    for (size_t i = 0; i < current_.size(); ++i) {
+        const Capsule &from = previous_[i], &to = current_[i];
+        most = std::max({most, glm::length(to.a - from.a) + std::abs(to.radius_a - from.radius_a),
+                         glm::length(to.b - from.b) + std::abs(to.radius_b - from.radius_b)});
+    }
+    return most;
+}
+
 void ColliderMotion::sweep(float from, float to, std::vector<SweptCapsule>& out) const {
     out.reserve(current_.size());
     out.resize(needed_.size());

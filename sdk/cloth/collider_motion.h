@@ -8,6 +8,7 @@
 
 #include "body/collider.h"
 #include "cloth/contact.h"
+#include "cloth/rigid_motion.h"
 
 namespace vfit {
 
@@ -21,6 +22,10 @@ public:
     /// They were where they are now.
     void jump() { previous_ = current_; }
     void forget() { previous_.clear(); }
+    /// Their last places were carried along.
+    void carry(const RigidMotion& motion);
+    /// How far any of them went in this step, at most.
+    float greatest_way() const;
 
     /// Between two shares of the step; as many as count().
     void sweep(float from, float to, std::vector<SweptCapsule>& out) const;

@@ -42,6 +42,9 @@ void check(const FabricData& d) {
     for (const Backstop& b : d.backstops)
         if (b.vertex >= n || d.inverse_mass[b.vertex] == 0.0f || !(b.radius_m > 0.0f) || !std::isfinite(b.radius_m))
             fail(VFIT_ERROR_DATA, "backstop of vertex ", b.vertex, " with radius ", b.radius_m, " m");
+    for (const DistanceLimit& l : d.limits)
+        if (l.vertex >= n || d.inverse_mass[l.vertex] == 0.0f || !(l.distance_m > 0.0f) || !std::isfinite(l.distance_m))
+            fail(VFIT_ERROR_DATA, "greatest distance of vertex ", l.vertex, ": ", l.distance_m, " m");
 }
 
 }  // namespace
@@ -68,23 +71,44 @@ Fabric::Fabric(FabricData data) : data_(std::move(data)) {
         tether_anchors_[at] = layout_.particle_in(layout_.part_of(particle), t.anchor);
         tether_lengths_[at] = t.length_m;
     }
-    place_backstops();
+    backstop_runs_ = place_balls(data_.backstops, false);
+    std::vector<Backstop> limits;
+    for (const DistanceLimit& limit : data_.limits) limits.push_back({limit.vertex, limit.distance_m});
+    limit_runs_ = place_balls(limits, true);
+    make_fans();
 }
 
-void Fabric::place_backstops() {
-    backstop_runs_.resize(layout_.parts.size());
-    for (uint32_t i = 0; i < data_.backstops.size(); ++i) {
-        const Backstop& b = data_.backstops[i];
-        const uint32_t particle = layout_.particle_of[b.vertex], run = particle / uint32_t(kLanes);
-        std::vector<BackstopRun>& runs = backstop_runs_[layout_.part_of(particle)];
+/// at_vertices: their centres are the vertices' own targets, else those that follow them.
+std::vector<std::vector<BallRun>> Fabric::place_balls(std::span<const Backstop> balls, bool at_vertices) const {
+    std::vector<std::vector<BallRun>> parts(layout_.parts.size());
+    for (uint32_t i = 0; i < balls.size(); ++i) {
+        const uint32_t particle = layout_.particle_of[balls[i].vertex], run = particle / uint32_t(kLanes);
+        std::vector<BallRun>& runs = parts[layout_.part_of(particle)];
         const size_t lane = lane_of(particle % kLanes);
-        const auto place = std::find_if(runs.begin(), runs.end(), [&](const BackstopRun& r) { return r.run == run && r.radius_m[lane] == 0.0f; });
-        BackstopRun& of = place != runs.end() ? *place : runs.emplace_back(BackstopRun{run, {}, {}});
-        of.target[lane] = vertex_count() + i;
-        of.radius_m[lane] = b.radius_m;
+        const auto place = std::find_if(runs.begin(), runs.end(), [&](const BallRun& r) { return r.run == run && r.radius_m[lane] == 0.0f; });
+        BallRun& of = place != runs.end() ? *place : runs.emplace_back(BallRun{run, {}, {}});
+        of.target[lane] = at_vertices ? balls[i].vertex : vertex_count() + i;
+        of.radius_m[lane] = balls[i].radius_m;
     }
-    for (auto& runs : backstop_runs_)
-        std::stable_sort(runs.begin(), runs.end(), [](const BackstopRun& x, const BackstopRun& y) { return x.run < y.run; });
+    for (auto& runs : parts)
+        std::stable_sort(runs.begin(), runs.end(), [](const BallRun& x, const BallRun& y) { return x.run < y.run; });
+    return parts;
+}
+
+void Fabric::make_fans() {
+    const std::vector<uint32_t>& indices = data_.indices;
+    first_of_fan_.assign(layout_.count() + 1, 0);
+    const auto each_corner = [&](const auto& take) {
+        for (size_t t = 0; t < indices.size(); t += 3)
+            for (size_t k = 0; k < 3; ++k)
+                if (data_.inverse_mass[indices[t + k]] > 0.0f)
+                    take(layout_.particle_of[indices[t + k]], Corners{layout_.particle_of[indices[t + (k + 1) % 3]], layout_.particle_of[indices[t + (k + 2) % 3]]});
+    };
+    each_corner([&](uint32_t particle, const Corners&) { ++first_of_fan_[particle + 1]; });
+    for (size_t i = 1; i < first_of_fan_.size(); ++i) first_of_fan_[i] += first_of_fan_[i - 1];
+    fans_.resize(first_of_fan_.back());
+    std::vector<uint32_t> fill(first_of_fan_.begin(), first_of_fan_.end() - 1);
+    each_corner([&](uint32_t particle, const Corners& corners) { fans_[fill[particle]++] = corners; });
 }
 
 }  // namespace vfit

@@ -34,8 +34,14 @@ struct Backstop {
     float radius_m;
 };
 
-/// Backstops of a run of kLanes particles, by lanes.
-struct BackstopRun {
+/// How far from its target a vertex may be.
+struct DistanceLimit {
+    uint32_t vertex;
+    float distance_m;
+};
+
+/// Balls that particles of a run of kLanes stay out of, or in, by lanes.
+struct BallRun {
     uint32_t run;
     uint32_t target[kLanes];  // index of its centre
     float radius_m[kLanes];   // 0: none
@@ -49,6 +55,7 @@ struct FabricData {
     std::vector<DistanceConstraint> bends;
     std::vector<Tether> tethers;
     std::vector<Backstop> backstops;
+    std::vector<DistanceLimit> limits;
 };
 
 /// Immutable and cooked: laid out for the solver. Made by cook_fabric or from explicit data.
@@ -74,10 +81,19 @@ public:
     const std::vector<uint32_t>& tether_anchors() const { return tether_anchors_; }
     const std::vector<float>& tether_lengths() const { return tether_lengths_; }
     /// Of each part of the layout, by rising runs.
-    const std::vector<std::vector<BackstopRun>>& backstop_runs() const { return backstop_runs_; }
+    const std::vector<std::vector<BallRun>>& backstop_runs() const { return backstop_runs_; }
+    const std::vector<std::vector<BallRun>>& limit_runs() const { return limit_runs_; }
+    /// The other two corners, as particles, of the triangles about a particle that moves.
+    struct Corners {
+        uint32_t second, third;
+    };
+    std::span<const Corners> fan(uint32_t particle) const {
+        return {fans_.data() + first_of_fan_[particle], first_of_fan_[particle + 1] - first_of_fan_[particle]};
+    }
 
 private:
-    void place_backstops();
+    std::vector<std::vector<BallRun>> place_balls(std::span<const Backstop> balls, bool at_vertices) const;
+    void make_fans();
 
     FabricData data_;
     std::vector<uint32_t> kinematic_;
@@ -85,7 +101,9 @@ private:
     std::vector<DistanceBatches> bends_, edges_;
     std::vector<uint32_t> tether_anchors_;
     std::vector<float> tether_lengths_;
-    std::vector<std::vector<BackstopRun>> backstop_runs_;
+    std::vector<std::vector<BallRun>> backstop_runs_, limit_runs_;
+    std::vector<uint32_t> first_of_fan_;
+    std::vector<Corners> fans_;
 };
 
 /// The shape a fabric is cut to: positions at rest, triangles, uvs (v runs along the warp; empty: Y is the

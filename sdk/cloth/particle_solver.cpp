@@ -34,7 +34,6 @@ ParticleSolver::ParticleSolver(std::shared_ptr<const Fabric> fabric) : fabric_(s
         gains.edges.resize(fabric_->edge_batches()[i].joints.size());
     }
     parts_.resize(layout.parts.size());
-    for (size_t i = 0; i < parts_.size(); ++i) parts_[i].backstops.resize(fabric_->backstop_runs()[i].size());
 }
 
 void ParticleSolver::place(std::span<const Vec3> vertices) {
@@ -51,9 +50,15 @@ void ParticleSolver::carry(const RigidMotion& motion) {
     for (Particle& v : velocities_) v.x = motion.direction(v.x);
 }
 
-void ParticleSolver::copy_positions(std::span<Vec3> out) const {
+float ParticleSolver::copy_positions(std::span<Vec3> out) const {
     const std::vector<uint32_t>& particle_of = fabric_->layout().particle_of;
-    for (size_t v = 0; v < out.size(); ++v) out[v] = places_[particle_of[v]].x;
+    float most2 = 0.0f;
+    for (size_t v = 0; v < out.size(); ++v) {
+        const Vec3 place = places_[particle_of[v]].x, way = place - out[v];
+        most2 = std::max(most2, glm::dot(way, way));
+        out[v] = place;
+    }
+    return std::sqrt(most2);
 }
 
 Moving ParticleSolver::moving(uint32_t part) {
@@ -66,6 +71,8 @@ void ParticleSolver::advance(const Step& step, Jobs& jobs) {
     const auto parts = uint32_t(parts_.size());
     set_gains(substep_s(step), step.substeps);
     step.colliders.sweep(0.0f, 1.0f, swept_step_);
+    if (step.air.drag != 0.0f || step.air.lift != 0.0f)
+        parallel_for(jobs, parts, [&](uint32_t part) { blow(step.air, step.dt, *fabric_, part, places_, velocities_); });
     const auto items = [&](uint32_t phase) { return phase % 2 == 0 ? parts : parts - 1 + 1; };
     run_phases(jobs, 2 * uint32_t(step.substeps) + 1, parts, items, [&](uint32_t phase, uint32_t item) {
         const int substep = int(phase / 2);
@@ -103,7 +110,8 @@ void ParticleSolver::solve_group(int substep, uint32_t group) {
 
 void ParticleSolver::begin_part(const Step& step, uint32_t part) {
     fill_up(part);
-    place_backstops(step, part);
+    place_balls(step, part, fabric_->backstop_runs()[part], step.thickness_m, parts_[part].backstops);
+    place_balls(step, part, fabric_->limit_runs()[part], 0.0f, parts_[part].limits);
     const Moving m = moving(part);
     NearColliders& near = parts_[part].near;
     reserve(near, m.count, swept_step_.size());
@@ -121,18 +129,17 @@ void ParticleSolver::fill_up(uint32_t part) {
     }
 }
 
-void ParticleSolver::place_backstops(const Step& step, uint32_t part) {
-    const std::vector<BackstopRun>& runs = fabric_->backstop_runs()[part];
+void ParticleSolver::place_balls(const Step& step, uint32_t part, std::span<const BallRun> runs, float more_m, std::vector<RunBalls>& out) const {
     const uint32_t first_run = fabric_->layout().parts[part].begin / uint32_t(kLanes);
+    out.resize(runs.size());
     for (size_t i = 0; i < runs.size(); ++i) {
-        RunBackstops& out = parts_[part].backstops[i];
-        out.run = runs[i].run - first_run;
+        RunBalls& ball = out[i];
+        ball.run = runs[i].run - first_run;
         for (size_t k = 0; k < kLanes; ++k) {
-            const bool any = runs[i].radius_m[k] > 0.0f;
             const Vec3 from = step.from[runs[i].target[k]], way = step.to[runs[i].target[k]] - from;
-            out.x[k] = from.x, out.y[k] = from.y, out.z[k] = from.z;
-            out.way_x[k] = way.x, out.way_y[k] = way.y, out.way_z[k] = way.z;
-            out.radius_m[k] = any ? runs[i].radius_m[k] + step.thickness_m : 0.0f;
+            ball.x[k] = from.x, ball.y[k] = from.y, ball.z[k] = from.z;
+            ball.way_x[k] = way.x, ball.way_y[k] = way.y, ball.way_z[k] = way.z;
+            ball.radius_m[k] = runs[i].radius_m[k] > 0.0f ? runs[i].radius_m[k] + more_m : 0.0f;
         }
     }
 }
@@ -156,6 +163,7 @@ void ParticleSolver::end_part(const Step& step, int substep, uint32_t part) {
     end.anchor_index = std::span(fabric_->tether_anchors()).subspan(p.begin, end.moving.count);
     end.tether_m = std::span(fabric_->tether_lengths()).subspan(p.begin, end.moving.count);
     end.backstops = parts_[part].backstops;
+    end.limits = parts_[part].limits;
     end.from = share(step, substep);
     end.to = share(step, substep + 1);
     end.colliders = swept_;

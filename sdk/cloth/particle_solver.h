@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "cloth/air.h"
 #include "cloth/cloth_kernels.h"
 #include "cloth/collider_motion.h"
 #include "cloth/fabric.h"
@@ -29,6 +30,7 @@ public:
         float dt;
         int substeps;
         Vec3 gravity;
+        Air air;
         float keep;  // of the speed, a sub-step
         ContactSettings contact;
         float thickness_m;  // of backstops; colliders have theirs
@@ -38,8 +40,8 @@ public:
     /// The result is the same for any number of threads. Does not allocate while the number of colliders stays.
     void advance(const Step& step, Jobs& jobs);
 
-    /// One a vertex.
-    void copy_positions(std::span<Vec3> out) const;
+    /// One a vertex; how far any of them is from what was there before, at most.
+    float copy_positions(std::span<Vec3> out) const;
     const Particles& places() const { return places_; }
     const Particles& velocities() const { return velocities_; }
 
@@ -49,12 +51,12 @@ private:
     };
     struct Part {
         NearColliders near;
-        std::vector<RunBackstops> backstops;
+        std::vector<RunBalls> backstops, limits;
     };
     Moving moving(uint32_t part);
     void set_gains(float h, int substeps);
     void begin_part(const Step& step, uint32_t part);
-    void place_backstops(const Step& step, uint32_t part);
+    void place_balls(const Step& step, uint32_t part, std::span<const BallRun> runs, float more_m, std::vector<RunBalls>& out) const;
     void begin_substep(const Step& step, int substep, uint32_t part);
     void end_part(const Step& step, int substep, uint32_t part);
     void solve_group(int substep, uint32_t group);

@@ -183,7 +183,7 @@ TEST(ClothKernels, BackstopsAreBallsThatMove) {
     on_each_target([] {
         std::mt19937 random(6);
         Particles places(17), starts(17), velocities(17);
-        RunBackstops balls{};
+        RunBalls balls{};
         const float radius = 0.1f;
         const Vec3 way(0.002f, 0.0f, 0.001f);
         std::vector<Vec3> centers(8);

@@ -1,0 +1,190 @@
+// What a cloth can do beside hanging: air, distance limits, inertia, sleep, a time budget.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cloth_support.h"
+
+namespace vfit {
+namespace {
+
+using namespace test;
+
+Vec3 mean(const std::vector<Vec3>& points) {
+    Vec3 sum(0.0f);
+    for (const Vec3& p : points) sum += p / float(points.size());
+    return sum;
+}
+
+/// A flat sheet that falls, face down or on a slope, in air.
+struct Falling {
+    Sheet sheet{12, 12, 0.02f};
+    std::unique_ptr<Cloth> cloth;
+    std::unique_ptr<Jobs> jobs = Jobs::own(0);
+    std::vector<Vec3> start;
+
+    Falling(const Air& air, float slope) {
+        for (const Vec3& p : sheet.positions) start.emplace_back(p.x, 10.0f + slope * p.y, p.y);
+        ClothSettings settings;
+        settings.damping = 0.0f;
+        settings.air = air;
+        FabricMaterial stiff = cotton();
+        stiff.bend_n_m = 10.0f;  // a board
+        cloth = std::make_unique<Cloth>(fabric(sheet.cook(stiff)), settings, start);
+    }
+    void run(float seconds) {
+        for (int i = 0; i < int(60.0f * seconds); ++i) cloth->step(kFrame_s, start, {}, *jobs);
+    }
+};
+
+TEST(ClothAir, ASheetThatFallsFlatReachesThePlatesTerminalSpeed) {
+    Falling falling({Vec3(0.0f), 1.2f, 0.0f}, 0.0f);
+    falling.run(1.0f);
+    const float before = mean(falling.cloth->positions()).y;
+    falling.run(0.5f);
+    const float speed = 2.0f * (before - mean(falling.cloth->positions()).y);
+    // m g = rho / 2 c A v^2
+    EXPECT_NEAR(speed, std::sqrt(2.0f * 0.2f * 9.81f / (1.2f * 1.2f)), 0.05f);
+}
+
+TEST(ClothAir, ALeaningSheetGlidesToTheSide) {
+    Falling without({Vec3(0.0f), 1.0f, 0.0f}, 0.5f), with({Vec3(0.0f), 1.0f, 1.0f}, 0.5f);
+    const float start = mean(with.start).z;
+    without.run(0.3f);
+    with.run(0.3f);
+    EXPECT_LT(std::abs(mean(without.cloth->positions()).z - start), 0.01f);
+    EXPECT_GT(std::abs(mean(with.cloth->positions()).z - start), 0.03f);
+}
+
+TEST(ClothAir, AGaleMovesAClothNoFasterThanItself) {
+    Falling falling({Vec3(0, 0, 20.0f), 1e6f, 0.0f}, 1.0f);
+    const float start = mean(falling.start).z;
+    falling.run(0.5f);
+    const float way = mean(falling.cloth->positions()).z - start;
+    EXPECT_GT(way, 5.0f);
+    EXPECT_LT(way, 10.5f);
+}
+
+/// A curtain that hangs.
+struct Hanging {
+    Sheet sheet{20, 15, 0.02f};
+    std::unique_ptr<Jobs> jobs = Jobs::own(0);
+    std::unique_ptr<Cloth> cloth;
+    std::vector<Vec3> targets;
+
+    explicit Hanging(const ClothSettings& settings = {}, const std::vector<DistanceLimit>& limits = {}) {
+        sheet.pin_top();
+        targets = sheet.positions;
+        FabricData data = sheet.cook(cotton());
+        data.limits = limits;
+        cloth = std::make_unique<Cloth>(fabric(std::move(data)), settings, sheet.positions);
+    }
+    void step(int frames, const std::vector<Collider>& colliders = {}) {
+        for (int i = 0; i < frames; ++i) cloth->step(kFrame_s, targets, colliders, *jobs);
+    }
+    const Vec3& lowest(uint32_t column) const { return cloth->positions()[sheet.at(sheet.rows - 1, column)]; }
+};
+
+TEST(ClothAir, WindBlowsACurtainAside) {
+    Hanging hanging;
+    hanging.cloth->set_air({Vec3(0, 0, 5.0f), 1.0f, 0.5f});
+    hanging.step(60);
+    EXPECT_GT(hanging.lowest(7).z, 0.05f);
+    EXPECT_NE(test::error_of([&] { hanging.cloth->set_air({Vec3(NAN, 0, 0), 1.0f, 0.0f}); }), "");
+    EXPECT_NE(test::error_of([&] { hanging.cloth->set_air({Vec3(0.0f), -1.0f, 0.0f}); }), "");
+}
+
+TEST(ClothLimits, AVertexStaysAsNearToItsTargetAsItIsTold) {
+    std::vector<DistanceLimit> limits;
+    for (uint32_t v = 15; v < 20 * 15; ++v)
+        if (v % 15 < 8) limits.push_back({v, 0.01f});
+    Hanging hanging({}, limits);
+    hanging.cloth->set_air({Vec3(0, 0, 8.0f), 1.0f, 0.0f});
+    hanging.step(120);
+    for (const DistanceLimit& limit : limits)
+        EXPECT_LT(glm::length(hanging.cloth->positions()[limit.vertex] - hanging.targets[limit.vertex]), 0.0101f);
+    EXPECT_GT(hanging.lowest(14).z, 0.05f) << "the others blow";
+    FabricData data = hanging.sheet.cook(cotton());
+    data.limits = {{0, 0.1f}};
+    EXPECT_NE(test::error_of([&] { Fabric bad(data); }).find("greatest distance of vertex 0"), std::string::npos);
+}
+
+TEST(ClothInertia, WhatIsNotFeltCarriesTheClothAlong) {
+    const auto sway = [](float inertia) {
+        ClothSettings settings;
+        settings.inertia = inertia;
+        Hanging hanging(settings);
+        for (int i = 0; i < 30; ++i) {
+            for (Vec3& t : hanging.targets) t.z += 0.02f;  // 1.2 m/s at once
+            hanging.step(1);
+        }
+        return hanging.targets[0].z - hanging.lowest(7).z;
+    };
+    const float real = sway(1.0f), half = sway(0.5f), none = sway(0.0f);
+    EXPECT_GT(real, 0.05f);
+    EXPECT_LT(half, 0.8f * real);
+    EXPECT_LT(std::abs(none), 0.002f);
+}
+
+TEST(ClothInertia, TurnsAreNotFeltEither) {
+    ClothSettings settings;
+    settings.inertia = 0.0f;
+    Hanging hanging(settings);
+    hanging.step(60);
+    const Vec3 before = hanging.lowest(14) - hanging.lowest(0);
+    const Quat turn = glm::angleAxis(0.05f, Vec3(0, 1, 0));
+    for (int i = 0; i < 30; ++i) {
+        for (Vec3& t : hanging.targets) t = turn * t;
+        hanging.step(1);
+    }
+    const Vec3 after = hanging.lowest(14) - hanging.lowest(0);
+    EXPECT_LT(glm::length(after - glm::angleAxis(1.5f, Vec3(0, 1, 0)) * before), 0.01f);
+}
+
+TEST(ClothSleep, WhatLiesStillIsNotSteppedAndWakesWhenSomethingMoves) {
+    Hanging hanging;
+    const std::vector<Collider> ball{sphere({0.14f, -0.2f, 0.2f}, 0.05f)};
+    hanging.step(1200, ball);
+    EXPECT_EQ(hanging.cloth->stats().substeps, 0u) << "asleep";
+    const uint64_t asleep = hanging.cloth->state_hash();
+    hanging.step(10, ball);
+    EXPECT_EQ(hanging.cloth->state_hash(), asleep);
+    // The ball comes by small steps.
+    std::vector<Collider> moving = ball;
+    for (int i = 0; i < 100; ++i) {
+        moving[0].center.z -= 0.0017f;
+        hanging.step(1, moving);
+    }
+    EXPECT_LT(hanging.lowest(7).z, -0.002f) << "pushed";
+    hanging.step(1200, moving);
+    EXPECT_EQ(hanging.cloth->stats().substeps, 0u);
+    for (Vec3& t : hanging.targets) t.x += 0.001f;
+    hanging.step(1, moving);
+    EXPECT_EQ(hanging.cloth->stats().substeps, 8u) << "its targets have moved";
+    ClothSettings awake;
+    awake.sleeps = false;
+    Hanging never(awake);
+    never.step(1200);
+    EXPECT_EQ(never.cloth->stats().substeps, 8u);
+}
+
+TEST(ClothBudget, LessTimeIsFewerSubstepsAndNoMoreThanAsked) {
+    ClothSettings settings;
+    settings.sleeps = false;
+    Hanging hanging(settings);
+    hanging.step(5);
+    EXPECT_EQ(hanging.cloth->stats().substeps, 8u);
+    hanging.cloth->set_quality(8, 1e-4f);
+    hanging.step(60);
+    EXPECT_EQ(hanging.cloth->stats().substeps, 1u);
+    EXPECT_LT(hanging.cloth->stats().strain_max, 0.2f);
+    hanging.cloth->set_quality(4, 1e4f);
+    hanging.step(1);
+    EXPECT_EQ(hanging.cloth->stats().substeps, 4u);
+    EXPECT_NE(test::error_of([&] { hanging.cloth->set_quality(0, 0.0f); }), "");
+    EXPECT_NE(test::error_of([&] { hanging.cloth->set_quality(8, NAN); }), "");
+}
+
+}  // namespace
+}  // namespace vfit
