@@ -25,6 +25,7 @@ constexpr uint32_t kRunsOfAJob = 128;  // of particles: enough to outweigh the h
 // What has been slower than that for so long, on a body that moves less than that in a step, sleeps. A swing is so slow only
 // for an instant, where it turns round.
 constexpr float kStill_m_s = 0.01f, kStill_m = 2e-5f, kFallsAsleep_s = 0.5f;
+constexpr float kMeshAround_m = 0.15f;  // about the cloth, in which meshes are looked for: a fast limb's way in a step
 constexpr float kLatest = 0.1f;  // weight of the last step in the mean time of a sub-step
 constexpr float kSubstepRate_hz = 60.0f;  // settings.substeps are per 1/60 s
 
@@ -59,6 +60,8 @@ void check(const ClothSettings& s) {
     if (!finite(s.inertia) || s.inertia < 0.0f || s.inertia > 1.0f)
         fail(VFIT_ERROR_ARGUMENT, "inertia must be 0..1, is ", s.inertia);
     if (!finite(s.budget_ms) || s.budget_ms < 0.0f) fail(VFIT_ERROR_ARGUMENT, "the budget is ", s.budget_ms, " ms");
+    if (!finite(s.self_thickness_m) || s.self_thickness_m < 0.0f || s.self_thickness_m > 0.1f)
+        fail(VFIT_ERROR_ARGUMENT, "the thickness between the cloth's own layers is ", s.self_thickness_m, " m");
     check(s.air);
 }
 
@@ -103,12 +106,14 @@ uint64_t hash(uint64_t state, const Vec3& v) {
 }  // namespace
 
 struct Cloth::State {
-    State(std::shared_ptr<const Fabric> f, const ClothSettings& s) : fabric(f), settings(s), solver(std::move(f)) {}
+    State(std::shared_ptr<const Fabric> f, const ClothSettings& s) : fabric(f), settings(s), solver(std::move(f), s.self_thickness_m) {}
 
     std::shared_ptr<const Fabric> fabric;
     ClothSettings settings;
     ParticleSolver solver;
     ColliderMotion colliders;
+    std::vector<ContactMesh> meshes;
+    std::vector<std::vector<Vec3>> mesh_places;  // that they go to
     std::vector<Vec3> previous_targets;  // one a vertex, then one a backstop
     bool backstops_placed = false;       // previous_targets holds the backstops as well
 
@@ -127,6 +132,8 @@ struct Cloth::State {
 
     bool stays_asleep(std::span<const Vec3> targets) const;
     void wake() { asleep_at.clear(), still_s = 0.0f; }
+    void accept_body(std::span<const Collider> limbs);
+    float body_way() const;
     int affordable_substeps(float dt) const;
     void feel_less(std::span<const Vec3> targets);
     void check_body(std::span<const Vec3> targets, std::span<const Collider> colliders) const;
@@ -173,6 +180,7 @@ void Cloth::State::reset(std::span<const Vec3> start) {
     backstops_placed = start.size() == previous_targets.size();
     solver.place(start);
     colliders.forget();
+    for (ContactMesh& mesh : meshes) mesh.forget();
     wake();
     publish();
 }
@@ -187,7 +195,7 @@ void Cloth::put_on(const BodyOnItsWay& body, Jobs& jobs) {
     const auto frame = [&](const PutOnPhase& phase, float share) {
         body(share, targets, colliders);
         s.check_body(targets, colliders);
-        s.colliders.accept(colliders, s.settings.thickness_m);
+        s.accept_body(colliders);
         s.advance(1.0f / kSubstepRate_hz, phase.substeps, kPutOnDamping, targets, jobs);
     };
     for (int i = 0; i < kHang.frames; ++i) frame(kHang, 0.0f);
@@ -195,6 +203,22 @@ void Cloth::put_on(const BodyOnItsWay& body, Jobs& jobs) {
     for (int i = 0; i < kSettle.frames; ++i) frame(kSettle, 1.0f);
     s.solver.rest();
     s.wake();
+}
+
+uint32_t Cloth::add_mesh(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts) {
+    if (!counts.empty() && counts.size() != vertices) fail(VFIT_ERROR_ARGUMENT, counts.size(), " flags for a mesh of ", vertices, " vertices");
+    state_->meshes.emplace_back(vertices, indices, counts);
+    state_->mesh_places.emplace_back();
+    state_->wake();
+    return uint32_t(state_->meshes.size()) - 1;
+}
+
+void Cloth::move_mesh(uint32_t mesh, std::span<const Vec3> positions) {
+    State& s = *state_;
+    if (mesh >= s.meshes.size()) fail(VFIT_ERROR_ARGUMENT, "there is no mesh ", mesh);
+    if (positions.size() != s.meshes[mesh].vertex_count())
+        fail(VFIT_ERROR_ARGUMENT, positions.size(), " places for a mesh of ", s.meshes[mesh].vertex_count(), " vertices");
+    s.mesh_places[mesh].assign(positions.begin(), positions.end());
 }
 
 void Cloth::set_air(const Air& air) {
@@ -217,7 +241,7 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
     if (dt == 0.0f) return;
     const Stopwatch watch;
     dt = std::clamp(dt, kMinStep_s, kMaxStep_s);
-    s.colliders.accept(colliders, s.settings.thickness_m);
+    s.accept_body(colliders);
     if (s.stays_asleep(skinned_targets)) {
         s.substeps = 0;
         s.step_ms = float(watch.ms());
@@ -232,8 +256,24 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
     s.substep_ms = s.substep_ms == 0.0f ? substep_ms : s.substep_ms + kLatest * (substep_ms - s.substep_ms);
 }
 
+void Cloth::State::accept_body(std::span<const Collider> limbs) {
+    colliders.accept(limbs, settings.thickness_m);
+    if (meshes.empty()) return;
+    Vec3 low, high;
+    solver.bounds(low, high);
+    for (size_t i = 0; i < meshes.size(); ++i)
+        if (!mesh_places[i].empty()) meshes[i].accept(mesh_places[i], low - kMeshAround_m, high + kMeshAround_m);
+}
+
+/// Of colliders and meshes in this step, at most.
+float Cloth::State::body_way() const {
+    float most = colliders.greatest_way();
+    for (const ContactMesh& mesh : meshes) most = std::max(most, mesh.greatest_way());
+    return most;
+}
+
 bool Cloth::State::stays_asleep(std::span<const Vec3> targets) const {
-    return !asleep_at.empty() && colliders.greatest_way() <= kStill_m && farthest(asleep_at, targets) <= kStill_m;
+    return !asleep_at.empty() && body_way() <= kStill_m && farthest(asleep_at, targets) <= kStill_m;
 }
 
 /// As many as the settings say, or as are expected to be done within the budget, but one.
@@ -260,15 +300,16 @@ void Cloth::State::advance(float dt, int count, float damping, std::span<const V
     const float h = dt / float(count);
     const ContactSettings contact{settings.friction, settings.friction * kKineticShare, kMaxDepenetration_m_s * h};
     solver.advance({dt, count, settings.gravity, settings.air, std::pow(1.0f - damping, h), contact, settings.thickness_m,
-                    previous_targets, targets, colliders}, jobs);
+                    previous_targets, targets, colliders, meshes}, jobs);
     publish();
     rest_if_still(dt, targets);
     std::copy(targets.begin(), targets.end(), previous_targets.begin());
     colliders.arrive();
+    for (ContactMesh& mesh : meshes) mesh.arrive();
 }
 
 void Cloth::State::rest_if_still(float dt, std::span<const Vec3> targets) {
-    const bool still = colliders.greatest_way() <= kStill_m && farthest(previous_targets, targets) <= kStill_m &&
+    const bool still = body_way() <= kStill_m && farthest(previous_targets, targets) <= kStill_m &&
                        greatest_way_m <= kStill_m_s * dt;
     still_s = still ? still_s + dt : 0.0f;
     if (!settings.sleeps || still_s < kFallsAsleep_s) return;
@@ -286,6 +327,7 @@ void Cloth::State::feel_less(std::span<const Vec3> targets) {
     motion.to_center = motion.from_center + unfelt * (motion.to_center - motion.from_center);
     carry(motion);
     colliders.carry(motion);
+    for (ContactMesh& mesh : meshes) mesh.carry(motion);
 }
 
 void Cloth::State::carry(const RigidMotion& motion) {
@@ -302,6 +344,7 @@ void Cloth::State::teleport(std::span<const Vec3> targets) {
     const RigidMotion motion = fit_rigid_motion(fixed, previous_targets, targets);
     carry(motion);
     colliders.jump();
+    for (ContactMesh& mesh : meshes) mesh.jump();
 }
 
 void Cloth::State::publish() {

@@ -29,6 +29,7 @@ struct ClothSettings {
     float inertia = 1.0f;         // share of the body's own motion that the cloth feels; the rest carries it along, 0..1
     Air air;
     float budget_ms = 0.0f;       // of a step; where it would take longer, sub-steps are left out. 0: none
+    float self_thickness_m = 0.0f;  // kept between the cloth's own layers; 0: they pass through each other
     bool sleeps = true;           // a cloth that lies still, on a body that does, is not stepped
 };
 
@@ -65,6 +66,12 @@ public:
     /// that is negative or not finite. Does not allocate while the number of colliders stays. The result is the same for
     /// any number of threads, unless there is a budget.
     void step(float dt, std::span<const Vec3> skinned_targets, std::span<const Collider> colliders, Jobs& jobs);
+
+    /// A mesh that the cloth stays outside of (its skin, a garment worn below): triangles counter-clockwise from outside,
+    /// flags of the vertices that count (empty: all). Returns its number. Where it is, is said before each step.
+    uint32_t add_mesh(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts = {});
+    /// At the end of the next step, one a vertex. VFIT_ERROR_ARGUMENT for a wrong number or count.
+    void move_mesh(uint32_t mesh, std::span<const Vec3> positions);
 
     /// From the next step on.
     void set_air(const Air& air);

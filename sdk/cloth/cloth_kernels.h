@@ -51,6 +51,25 @@ struct alignas(32) RunBalls {
     uint32_t run;                                       // in Moving
 };
 
+/// Of a run, by lanes: planes that its particles stay before.
+struct alignas(32) RunPlanes {
+    static constexpr float kNone = -1e9f;
+
+    float x[kLanes], y[kLanes], z[kLanes];              // a point of each at the begin of the step
+    float way_x[kLanes], way_y[kLanes], way_z[kLanes];  // to its end
+    float normal_x[kLanes], normal_y[kLanes], normal_z[kLanes], turn_x[kLanes], turn_y[kLanes], turn_z[kLanes];
+    float thickness_m[kLanes];                          // kept from the plane; kNone: there is none
+    uint32_t run;                                       // in Moving
+
+    void set(size_t lane, const Vec3& point, const Vec3& way, const Vec3& normal, const Vec3& turn, float thickness) {
+        x[lane] = point.x, y[lane] = point.y, z[lane] = point.z;
+        way_x[lane] = way.x, way_y[lane] = way.y, way_z[lane] = way.z;
+        normal_x[lane] = normal.x, normal_y[lane] = normal.y, normal_z[lane] = normal.z;
+        turn_x[lane] = turn.x, turn_y[lane] = turn.y, turn_z[lane] = turn.z;
+        thickness_m[lane] = thickness;
+    }
+};
+
 /// The end of a sub-step, once distances are solved: tethers, limits, backstops, contacts; then velocities by what constraints
 /// changed, rather than by the whole way over h, which keeps rounding of places out of the speed; then the other half of the
 /// fall, and `keep` of all of it; and, where another sub-step follows, its begin.
@@ -60,6 +79,7 @@ struct SubstepEnd {
     std::span<const uint32_t> anchor_index;  // from it it may be: long range attachment (Kim, Chentanez, Mueller 2012)
     std::span<const float> tether_m;
     std::span<const RunBalls> limits, backstops;  // to stay in and out of, by rising runs
+    std::span<const RunPlanes> planes;        // by rising runs
     float from, to;                           // shares of the step
     std::span<const SweptCapsule> colliders;
     const NearColliders* near;  // a run that has left its ball is tried against all

@@ -25,7 +25,8 @@ Vec3 half_fall(const ParticleSolver::Step& step) { return step.gravity * (0.5f *
 
 }  // namespace
 
-ParticleSolver::ParticleSolver(std::shared_ptr<const Fabric> fabric) : fabric_(std::move(fabric)) {
+ParticleSolver::ParticleSolver(std::shared_ptr<const Fabric> fabric, float self_thickness_m) : fabric_(std::move(fabric)) {
+    if (self_thickness_m > 0.0f) self_ = std::make_unique<SelfContact>(fabric_, self_thickness_m);
     const ParticleLayout& layout = fabric_->layout();
     for (Particles* list : {&places_, &starts_, &velocities_}) list->resize(layout.count());
     for (uint32_t i = 0; i < layout.group_count(); ++i) {
@@ -41,6 +42,7 @@ void ParticleSolver::place(std::span<const Vec3> vertices) {
     for (uint32_t i = 0; i < layout.count(); ++i)
         if (layout.vertex_of[i] != ParticleLayout::kNobody) places_[i].x = vertices[layout.vertex_of[i]];
     rest();
+    if (self_) self_->forget();
 }
 
 void ParticleSolver::rest() { std::fill(velocities_.begin(), velocities_.end(), Particle()); }
@@ -66,21 +68,32 @@ Moving ParticleSolver::moving(uint32_t part) {
     return {&places_[p.begin], &starts_[p.begin], &velocities_[p.begin], p.moving_end - p.begin};
 }
 
-/// Parts, then cuts, then parts ...: a part ends one sub-step and begins the next, up to what its own constraints do.
+void ParticleSolver::bounds(Vec3& low, Vec3& high) const {
+    low = Vec3(INFINITY), high = Vec3(-INFINITY);
+    for (const ParticleLayout::Part& part : fabric_->layout().parts)
+        for (uint32_t i = part.begin; i < part.moving_end; ++i) low = glm::min(low, places_[i].x), high = glm::max(high, places_[i].x);
+}
+
+/// Parts, then cuts, then what the cloth does to itself, then parts ...: a part ends one sub-step and begins the next, up to
+/// what its own constraints do.
 void ParticleSolver::advance(const Step& step, Jobs& jobs) {
     const auto parts = uint32_t(parts_.size());
     set_gains(substep_s(step), step.substeps);
     step.colliders.sweep(0.0f, 1.0f, swept_step_);
+    for (uint32_t part = 0; part < parts; ++part) fill_up(part);
     if (step.air.drag != 0.0f || step.air.lift != 0.0f)
         parallel_for(jobs, parts, [&](uint32_t part) { blow(step.air, step.dt, *fabric_, part, places_, velocities_); });
-    const auto items = [&](uint32_t phase) { return phase % 2 == 0 ? parts : parts - 1 + 1; };
-    run_phases(jobs, 2 * uint32_t(step.substeps) + 1, parts, items, [&](uint32_t phase, uint32_t item) {
-        const int substep = int(phase / 2);
-        if (phase % 2 == 1) {
+    if (self_) self_->find(places_, jobs);
+    const uint32_t cycle = self_ ? 3 : 2;
+    const auto items = [&](uint32_t phase) { return phase % cycle == 2 ? 1 : parts; };
+    run_phases(jobs, cycle * uint32_t(step.substeps) + 1, parts, items, [&](uint32_t phase, uint32_t item) {
+        const int substep = int(phase / cycle);
+        if (phase % cycle == 1) {
             if (item + 1 < parts) solve_group(substep, parts + item);
             else step.colliders.sweep(share(step, substep), share(step, substep + 1), swept_);
             return;
         }
+        if (phase % cycle == 2) return solve_surface_contacts(self_->contacts(), places_.data());
         if (phase == 0) begin_part(step, item);
         else end_part(step, substep - 1, item);
         if (substep < step.substeps) begin_substep(step, substep, item);
@@ -109,10 +122,13 @@ void ParticleSolver::solve_group(int substep, uint32_t group) {
 }
 
 void ParticleSolver::begin_part(const Step& step, uint32_t part) {
-    fill_up(part);
     place_balls(step, part, fabric_->backstop_runs()[part], step.thickness_m, parts_[part].backstops);
     place_balls(step, part, fabric_->limit_runs()[part], 0.0f, parts_[part].limits);
     const Moving m = moving(part);
+    parts_[part].planes.clear();
+    for (const ContactMesh& mesh : step.meshes) mesh.find_planes(m, step.dt, step.thickness_m, parts_[part].planes);
+    if (step.meshes.size() > 1)
+        std::stable_sort(parts_[part].planes.begin(), parts_[part].planes.end(), [](const RunPlanes& a, const RunPlanes& b) { return a.run < b.run; });
     NearColliders& near = parts_[part].near;
     reserve(near, m.count, swept_step_.size());
     cull({m.places, m.count}, {m.velocities, m.count}, step.dt, swept_step_, near);
@@ -164,6 +180,7 @@ void ParticleSolver::end_part(const Step& step, int substep, uint32_t part) {
     end.tether_m = std::span(fabric_->tether_lengths()).subspan(p.begin, end.moving.count);
     end.backstops = parts_[part].backstops;
     end.limits = parts_[part].limits;
+    end.planes = parts_[part].planes;
     end.from = share(step, substep);
     end.to = share(step, substep + 1);
     end.colliders = swept_;

@@ -10,15 +10,18 @@
 #include "cloth/air.h"
 #include "cloth/cloth_kernels.h"
 #include "cloth/collider_motion.h"
+#include "cloth/contact_mesh.h"
 #include "cloth/fabric.h"
 #include "cloth/rigid_motion.h"
+#include "cloth/self_contact.h"
 #include "core/jobs.h"
 
 namespace vfit {
 
 class ParticleSolver {
 public:
-    explicit ParticleSolver(std::shared_ptr<const Fabric> fabric);
+    /// self_thickness_m: kept between the cloth's own layers; 0: they pass through each other.
+    ParticleSolver(std::shared_ptr<const Fabric> fabric, float self_thickness_m);
 
     /// At rest at these places, one a vertex.
     void place(std::span<const Vec3> vertices);
@@ -36,7 +39,11 @@ public:
         float thickness_m;  // of backstops; colliders have theirs
         std::span<const Vec3> from, to;  // the fabric's targets at both ends of the step
         const ColliderMotion& colliders;
+        std::span<const ContactMesh> meshes;
     };
+    /// The box about all particles.
+    void bounds(Vec3& low, Vec3& high) const;
+
     /// The result is the same for any number of threads. Does not allocate while the number of colliders stays.
     void advance(const Step& step, Jobs& jobs);
 
@@ -52,6 +59,7 @@ private:
     struct Part {
         NearColliders near;
         std::vector<RunBalls> backstops, limits;
+        std::vector<RunPlanes> planes;
     };
     Moving moving(uint32_t part);
     void set_gains(float h, int substeps);
@@ -69,6 +77,7 @@ private:
     bool may_alternate_ = false;              // and whether a step has an even number of them
     int bend_every_ = 1;                      // so many sub-steps
     std::vector<Part> parts_;
+    std::unique_ptr<SelfContact> self_;
     std::vector<SweptCapsule> swept_step_, swept_;  // over the step, and over the sub-step that comes to its end
 };
 

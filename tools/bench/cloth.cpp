@@ -14,6 +14,7 @@ namespace {
 struct Options {
     std::string folder, scene, positions;
     uint32_t substeps = 8, threads = 1;
+    float self_mm = 0.0f;
     bool json = false;
 };
 
@@ -24,7 +25,7 @@ void run(const Options& options) {
     if (!options.positions.empty()) file.open(options.positions, std::ios::binary);
     const auto jobs = Jobs::own(options.threads - 1);
     const bench::ClothRun result =
-        bench::run_cloth_scene(scene, options.substeps, *jobs, [&](std::span<const Vec3> positions) {
+        bench::run_cloth_scene(scene, options.substeps, 1e-3f * options.self_mm, *jobs, [&](std::span<const Vec3> positions) {
             if (file.is_open())
                 file.write(reinterpret_cast<const char*>(positions.data()), std::streamsize(positions.size_bytes()));
         });
@@ -50,6 +51,7 @@ void add_cloth(Command& app) {
     command.add_option("scene", o->scene, "walk, kick, arm, kick8 or kick16").required();
     command.add_option("--substeps", o->substeps, "Sub-steps of 1/60 s").within(1, 256);
     command.add_option("--threads", o->threads, "Threads, pinned to as many cores").within(1, 64);
+    command.add_option("--self", o->self_mm, "Millimetres kept between the cloth's own layers (0: they pass)").within(0, 50);
     command.add_option("--positions", o->positions, "Write the positions after each frame there");
     command.add_flag("--json", o->json, "Print JSON");
     command.callback([o] { run(*o); });

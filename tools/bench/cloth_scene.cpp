@@ -106,13 +106,14 @@ ClothScene load_cloth_scene(const std::string& folder, const std::string& scene)
     return out;
 }
 
-ClothRun run_cloth_scene(const ClothScene& scene, uint32_t substeps, Jobs& jobs,
+ClothRun run_cloth_scene(const ClothScene& scene, uint32_t substeps, float self_thickness_m, Jobs& jobs,
                          const std::function<void(std::span<const Vec3>)>& frame) {
     ClothSettings settings;
     settings.substeps = substeps;
     settings.friction = kFriction;
     settings.damping = 0.0f;
     settings.thickness_m = 0.0f;
+    settings.self_thickness_m = self_thickness_m;
     Cloth cloth(scene.fabric, settings, scene.rest);
     std::vector<Vec3> targets = scene.rest;
     ClothRun run;

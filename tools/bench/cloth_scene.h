@@ -31,8 +31,8 @@ struct ClothRun {
     ClothStats last;
 };
 
-/// All frames at that number of sub-steps; `frame` gets the positions after each.
-ClothRun run_cloth_scene(const ClothScene& scene, uint32_t substeps, Jobs& jobs,
+/// All frames at that number of sub-steps, layers kept that far apart; `frame` gets the positions after each.
+ClothRun run_cloth_scene(const ClothScene& scene, uint32_t substeps, float self_thickness_m, Jobs& jobs,
                          const std::function<void(std::span<const Vec3>)>& frame);
 
 }  // namespace vfit::bench

@@ -1,0 +1,191 @@
+#include "cloth/surface_kernels.h"
+
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "cloth/surface_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "cloth/particle_registers-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace vfit {
+namespace HWY_NAMESPACE {
+
+constexpr float kAside_m = 0.015f;
+
+constexpr hn::FixedTag<uint32_t, kWide> kInts;
+
+/// The nearest of what is shown to lanes k on of a run.
+class Nearest {
+public:
+    HWY_INLINE Nearest(const Particle* run, const Particle* normals, size_t k, NearestOfRun& out)
+        : p_(Columns(Load(run, k))), n_(Columns(Load(normals, k))), k_(k), out_(out) {
+        for (size_t side = 0; side < 2; ++side) {
+            distance2_[side] = hn::Load(kTag, out.distance2[side] + k);
+            id_[side] = hn::BitCast(kTag, hn::Load(kInts, out.id[side] + k));
+        }
+    }
+    HWY_INLINE void see(const Vec3& point, uint32_t id, uint32_t excluded) {
+        const Points way = Sub(Set(point), p_);
+        V distance2 = Dot(way, way);
+        if (excluded != 0) {
+            uint8_t bits[8] = {uint8_t(excluded >> k_)};
+            distance2 = hn::IfThenElse(hn::LoadMaskBits(kTag, bits), Set(INFINITY), distance2);
+        }
+        const V what = hn::BitCast(kTag, hn::Set(kInts, id));
+        const auto before = hn::Ge(Dot(way, n_), Set(0.0f));
+        const auto nearer = hn::And(before, hn::Lt(distance2, distance2_[0]));
+        const auto nearer_behind = hn::AndNot(before, hn::Lt(distance2, distance2_[1]));
+        distance2_[0] = hn::IfThenElse(nearer, distance2, distance2_[0]);
+        id_[0] = hn::IfThenElse(nearer, what, id_[0]);
+        distance2_[1] = hn::IfThenElse(nearer_behind, distance2, distance2_[1]);
+        id_[1] = hn::IfThenElse(nearer_behind, what, id_[1]);
+    }
+    HWY_INLINE void tell() const {
+        for (size_t side = 0; side < 2; ++side) {
+            hn::Store(distance2_[side], kTag, out_.distance2[side] + k_);
+            hn::Store(hn::BitCast(kInts, id_[side]), kInts, out_.id[side] + k_);
+        }
+    }
+
+private:
+    Points p_, n_;
+    V distance2_[2], id_[2];
+    size_t k_;
+    NearestOfRun& out_;
+};
+
+void FindNearest(const Particle* run, const Particle* normals, std::span<const Particle> points, const uint32_t* ids, NearestOfRun& out) {
+    for (size_t k = 0; k < kLanes; k += kWide) {
+        Nearest nearest(run, normals, k, out);
+        for (size_t i = 0; i < points.size(); ++i) nearest.see(points[i].x, ids[i], 0);
+        nearest.tell();
+    }
+}
+
+void FindNearestInRuns(const Particle* run, const Particle* normals, const Particle* all, std::span<const uint32_t> runs,
+                       std::span<const uint64_t> excluded, NearestOfRun& out) {
+    for (size_t k = 0; k < kLanes; k += kWide) {
+        Nearest nearest(run, normals, k, out);
+        for (size_t i = 0; i < runs.size(); ++i)
+            for (uint32_t j = 0; j < kLanes; ++j) {
+                const uint32_t id = runs[i] * uint32_t(kLanes) + j, lanes = uint32_t(excluded[i] >> (8 * j)) & 0xff;
+                if (lanes != 0xff) nearest.see(all[id].x, id, lanes);
+            }
+        nearest.tell();
+    }
+}
+
+void FindMeeting(const RunBoxes& boxes, const Vec3& low, const Vec3& high, std::vector<uint32_t>& runs) {
+    runs.clear();
+    for (size_t i = 0; i < boxes.low[0].size(); i += kWide) {
+        auto meets = hn::Le(hn::LoadU(kTag, &boxes.low[0][i]), Set(high.x));
+        meets = hn::And(meets, hn::Ge(hn::LoadU(kTag, &boxes.high[0][i]), Set(low.x)));
+        meets = hn::And(meets, hn::Le(hn::LoadU(kTag, &boxes.low[1][i]), Set(high.y)));
+        meets = hn::And(meets, hn::Ge(hn::LoadU(kTag, &boxes.high[1][i]), Set(low.y)));
+        meets = hn::And(meets, hn::Le(hn::LoadU(kTag, &boxes.low[2][i]), Set(high.z)));
+        meets = hn::And(meets, hn::Ge(hn::LoadU(kTag, &boxes.high[2][i]), Set(low.z)));
+        if (hn::AllFalse(kTag, meets)) continue;
+        uint8_t bits[8] = {};
+        hn::StoreMaskBits(kTag, meets, bits);
+        for (uint32_t left = bits[0]; left; left &= left - 1)
+            runs.push_back(uint32_t(i + hwy::Num0BitsBelowLS1Bit_Nonzero32(left)));
+    }
+}
+
+/// Adds to each particle in turn, so that one that several lanes name gets it all.
+template <typename At>
+HWY_INLINE void ScatterAdd(const Rows& rows, const At& at, const uint32_t* index) {
+#if HWY_TARGET == HWY_SCALAR
+    at(*index)->x += Vec3(hn::GetLane(rows.p.x), hn::GetLane(rows.p.y), hn::GetLane(rows.p.z));
+#else
+    const auto add = [&](const hn::Vec<hn::FixedTag<float, 4>>& what, uint32_t to) HWY_ATTR {
+        float* place = &at(to)->x.x;
+        hn::Store(hn::Add(hn::Load(kFour, place), what), kFour, place);
+    };
+    for (size_t k = 0; k < 4; ++k) {
+#if !HWY_HAVE_SCALABLE && HWY_MAX_BYTES >= 32
+        add(hn::LowerHalf(kFour, rows.r[k]), index[k]);
+        add(hn::UpperHalf(kFour, rows.r[k]), index[k + 4]);
+#else
+        add(rows.r[k], index[k]);
+#endif
+    }
+#endif
+}
+
+HWY_INLINE Points Cross(const Points& a, const Points& b) {
+    return {hn::NegMulAdd(a.z, b.y, hn::Mul(a.y, b.z)), hn::NegMulAdd(a.x, b.z, hn::Mul(a.z, b.x)),
+            hn::NegMulAdd(a.y, b.x, hn::Mul(a.x, b.y))};
+}
+
+void SolveSurfaceContacts(std::span<const SurfaceContacts> contacts, Particle* particles) {
+    auto* bytes = reinterpret_cast<unsigned char*>(particles);
+    const auto at = [bytes](uint32_t offset) HWY_ATTR { return reinterpret_cast<Particle*>(bytes + offset); };
+    for (const SurfaceContacts& s : contacts)
+        for (size_t k = 0; k < kLanes; k += kWide) {
+            const Points p = Columns(Gather(at, s.vertex + k)), a = Columns(Gather(at, s.a + k));
+            const Points b = Columns(Gather(at, s.b + k)), c = Columns(Gather(at, s.c + k));
+            const Points across = Cross(Sub(b, a), Sub(c, a));
+            const V length2 = Dot(across, across);
+            const Points normal = Mul(across, hn::Div(hn::Load(kTag, s.side + k), hn::Max(hn::Sqrt(length2), Set(kNoLength))));
+            const Points on = MulAdd(c, hn::Load(kTag, s.at_c + k), MulAdd(b, hn::Load(kTag, s.at_b + k), Mul(a, hn::Load(kTag, s.at_a + k))));
+            const V thickness = hn::Load(kTag, s.thickness_m + k);
+            const Points off = Sub(p, on);
+            const V before = Dot(off, normal), amiss = hn::Sub(thickness, before);
+            // Where the particle has slid away from the triangle, its plane says nothing any more.
+            const V aside2 = hn::NegMulAdd(before, before, Dot(off, off));
+            const auto touching = hn::And(hn::Gt(amiss, Set(0.0f)), hn::Lt(aside2, Set(kAside_m * kAside_m)));
+            if (hn::AllFalse(kTag, touching)) continue;
+            const Points push = Mul(normal, hn::IfThenElseZero(touching, hn::Min(amiss, thickness)));
+            ScatterAdd(RowsOf(Mul(push, hn::Load(kTag, s.vertex_gain + k))), at, s.vertex + k);
+            ScatterAdd(RowsOf(Mul(push, hn::Neg(hn::Load(kTag, s.a_gain + k)))), at, s.a + k);
+            ScatterAdd(RowsOf(Mul(push, hn::Neg(hn::Load(kTag, s.b_gain + k)))), at, s.b + k);
+            ScatterAdd(RowsOf(Mul(push, hn::Neg(hn::Load(kTag, s.c_gain + k)))), at, s.c + k);
+        }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace vfit
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace vfit {
+
+HWY_EXPORT(FindNearest);
+HWY_EXPORT(FindNearestInRuns);
+HWY_EXPORT(FindMeeting);
+HWY_EXPORT(SolveSurfaceContacts);
+
+NearestOfRun::NearestOfRun(float reach) {
+    for (size_t side = 0; side < 2; ++side)
+        for (size_t k = 0; k < kLanes; ++k) distance2[side][k] = reach * reach, id[side][k] = UINT32_MAX;
+}
+
+void RunBoxes::resize(size_t runs) {
+    for (auto* list : {&low[0], &low[1], &low[2]}) list->assign((runs + kLanes - 1) / kLanes * kLanes, INFINITY);
+    for (auto* list : {&high[0], &high[1], &high[2]}) list->assign((runs + kLanes - 1) / kLanes * kLanes, -INFINITY);
+}
+
+void RunBoxes::set(size_t run, const Vec3& from, const Vec3& to) {
+    for (int k = 0; k < 3; ++k) low[k][run] = from[k], high[k][run] = to[k];
+}
+
+void find_nearest(const Particle* run, const Particle* normals, std::span<const Particle> points, const uint32_t* ids, NearestOfRun& out) {
+    HWY_DYNAMIC_DISPATCH(FindNearest)(run, normals, points, ids, out);
+}
+void find_nearest_in_runs(const Particle* run, const Particle* normals, const Particle* all, std::span<const uint32_t> runs,
+                          std::span<const uint64_t> excluded, NearestOfRun& out) {
+    HWY_DYNAMIC_DISPATCH(FindNearestInRuns)(run, normals, all, runs, excluded, out);
+}
+void find_meeting(const RunBoxes& boxes, const Vec3& low, const Vec3& high, std::vector<uint32_t>& runs) {
+    HWY_DYNAMIC_DISPATCH(FindMeeting)(boxes, low, high, runs);
+}
+void solve_surface_contacts(std::span<const SurfaceContacts> contacts, Particle* particles) {
+    HWY_DYNAMIC_DISPATCH(SolveSurfaceContacts)(contacts, particles);
+}
+
+}  // namespace vfit
+#endif
