@@ -14,6 +14,9 @@ namespace {
 // twice the force: the impulse is the same, at half the work.
 constexpr float kSoft = 0.25f;
 
+// Looks for contacts of the cloth with itself in a second.
+constexpr float kLooks_hz = 240.0f;
+
 // Passes over the edges in a second, at least: with fewer, a limb that kicks stretches the few triangles that it meets until
 // it is through between their corners.
 constexpr float kLeastPasses_hz = 240.0f;
@@ -83,17 +86,27 @@ void ParticleSolver::advance(const Step& step, Jobs& jobs) {
     for (uint32_t part = 0; part < parts; ++part) fill_up(part);
     if (step.air.drag != 0.0f || step.air.lift != 0.0f)
         parallel_for(jobs, parts, [&](uint32_t part) { blow(step.air, step.dt, *fabric_, part, places_, velocities_); });
-    if (self_) self_->find(places_, jobs);
-    const uint32_t cycle = self_ ? 3 : 2;
-    const auto items = [&](uint32_t phase) { return phase % cycle == 2 ? 1 : parts; };
+    if (self_) self_->find_runs(places_, velocities_, step.dt, jobs);
+    // Without contact of its own, the last two phases of the cycle are left out.
+    const uint32_t cycle = self_ ? 4 : 2;
+    const auto items = [&](uint32_t phase) { return phase % cycle == 3 ? 1 : parts; };
+    const int looks = std::max(1, step.substeps / std::max(1, int(std::lround(step.dt * kLooks_hz))));
     run_phases(jobs, cycle * uint32_t(step.substeps) + 1, parts, items, [&](uint32_t phase, uint32_t item) {
         const int substep = int(phase / cycle);
-        if (phase % cycle == 1) {
-            if (item + 1 < parts) solve_group(substep, parts + item);
-            else step.colliders.sweep(share(step, substep), share(step, substep + 1), swept_);
-            return;
+        const bool look = substep % looks == 0;
+        switch (phase % cycle) {
+            case 1:
+                if (item + 1 < parts) solve_group(substep, parts + item);
+                else step.colliders.sweep(share(step, substep), share(step, substep + 1), swept_);
+                return;
+            case 2:
+                if (look) self_->find(places_, item);
+                return;
+            case 3:
+                if (look) self_->pack();
+                solve_surface_contacts(self_->contacts(), places_.data());
+                return;
         }
-        if (phase % cycle == 2) return solve_surface_contacts(self_->contacts(), places_.data());
         if (phase == 0) begin_part(step, item);
         else end_part(step, substep - 1, item);
         if (substep < step.substeps) begin_substep(step, substep, item);

@@ -65,6 +65,29 @@ void FindNearest(const Particle* run, const Particle* normals, std::span<const P
     }
 }
 
+size_t KeepNear(const Particle* run, const Particle* all, float reach_m, uint32_t* runs, uint64_t* excluded, size_t count) {
+    const V reach2 = Set(reach_m * reach_m);
+    size_t kept = 0;
+    for (size_t i = 0; i < count; ++i) {
+        bool any = false;
+        for (size_t k = 0; k < kLanes && !any; k += kWide) {
+            const Points p = Columns(Load(run, k));
+            uint32_t found = 0;  // a bit for each lane
+            for (uint32_t j = 0; j < kLanes; ++j) {
+                const Points way = Sub(Set(all[runs[i] * kLanes + j].x), p);
+                uint8_t bits[8] = {};
+                hn::StoreMaskBits(kTag, hn::Lt(Dot(way, way), reach2), bits);
+                found |= bits[0] & ~uint32_t(uint8_t(excluded[i] >> (8 * j)) >> k);
+            }
+            any = found != 0;
+        }
+        runs[kept] = runs[i];
+        excluded[kept] = excluded[i];
+        kept += any;
+    }
+    return kept;
+}
+
 void FindNearestInRuns(const Particle* run, const Particle* normals, const Particle* all, std::span<const uint32_t> runs,
                        std::span<const uint64_t> excluded, NearestOfRun& out) {
     for (size_t k = 0; k < kLanes; k += kWide) {
@@ -78,21 +101,29 @@ void FindNearestInRuns(const Particle* run, const Particle* normals, const Parti
     }
 }
 
-void FindMeeting(const RunBoxes& boxes, const Vec3& low, const Vec3& high, std::vector<uint32_t>& runs) {
+/// A bit for each of the kWide boxes from there on.
+HWY_INLINE uint32_t Meeting(const Boxes& boxes, size_t at, const Points& low, const Points& high) {
+    auto meets = hn::Le(hn::LoadU(kTag, &boxes.low[0][at]), high.x);
+    meets = hn::And(meets, hn::Ge(hn::LoadU(kTag, &boxes.high[0][at]), low.x));
+    meets = hn::And(meets, hn::Le(hn::LoadU(kTag, &boxes.low[1][at]), high.y));
+    meets = hn::And(meets, hn::Ge(hn::LoadU(kTag, &boxes.high[1][at]), low.y));
+    meets = hn::And(meets, hn::Le(hn::LoadU(kTag, &boxes.low[2][at]), high.z));
+    meets = hn::And(meets, hn::Ge(hn::LoadU(kTag, &boxes.high[2][at]), low.z));
+    uint8_t bits[8] = {};
+    hn::StoreMaskBits(kTag, meets, bits);
+    return bits[0];
+}
+
+void FindMeeting(const RunBoxes& boxes, const Vec3& from, const Vec3& to, std::vector<uint32_t>& runs) {
     runs.clear();
-    for (size_t i = 0; i < boxes.low[0].size(); i += kWide) {
-        auto meets = hn::Le(hn::LoadU(kTag, &boxes.low[0][i]), Set(high.x));
-        meets = hn::And(meets, hn::Ge(hn::LoadU(kTag, &boxes.high[0][i]), Set(low.x)));
-        meets = hn::And(meets, hn::Le(hn::LoadU(kTag, &boxes.low[1][i]), Set(high.y)));
-        meets = hn::And(meets, hn::Ge(hn::LoadU(kTag, &boxes.high[1][i]), Set(low.y)));
-        meets = hn::And(meets, hn::Le(hn::LoadU(kTag, &boxes.low[2][i]), Set(high.z)));
-        meets = hn::And(meets, hn::Ge(hn::LoadU(kTag, &boxes.high[2][i]), Set(low.z)));
-        if (hn::AllFalse(kTag, meets)) continue;
-        uint8_t bits[8] = {};
-        hn::StoreMaskBits(kTag, meets, bits);
-        for (uint32_t left = bits[0]; left; left &= left - 1)
-            runs.push_back(uint32_t(i + hwy::Num0BitsBelowLS1Bit_Nonzero32(left)));
-    }
+    const Points low = Set(from), high = Set(to);
+    for (size_t i = 0; i < boxes.blocks.low[0].size(); i += kWide)
+        for (uint32_t blocks = Meeting(boxes.blocks, i, low, high); blocks; blocks &= blocks - 1) {
+            const size_t block = (i + hwy::Num0BitsBelowLS1Bit_Nonzero32(blocks)) * kLanes;
+            for (size_t k = 0; k < kLanes; k += kWide)
+                for (uint32_t left = Meeting(boxes.runs, block + k, low, high); left; left &= left - 1)
+                    runs.push_back(uint32_t(block + k + hwy::Num0BitsBelowLS1Bit_Nonzero32(left)));
+        }
 }
 
 /// Adds to each particle in turn, so that one that several lanes name gets it all.
@@ -157,6 +188,7 @@ namespace vfit {
 HWY_EXPORT(FindNearest);
 HWY_EXPORT(FindNearestInRuns);
 HWY_EXPORT(FindMeeting);
+HWY_EXPORT(KeepNear);
 HWY_EXPORT(SolveSurfaceContacts);
 
 NearestOfRun::NearestOfRun(float reach) {
@@ -164,13 +196,27 @@ NearestOfRun::NearestOfRun(float reach) {
         for (size_t k = 0; k < kLanes; ++k) distance2[side][k] = reach * reach, id[side][k] = UINT32_MAX;
 }
 
-void RunBoxes::resize(size_t runs) {
-    for (auto* list : {&low[0], &low[1], &low[2]}) list->assign((runs + kLanes - 1) / kLanes * kLanes, INFINITY);
-    for (auto* list : {&high[0], &high[1], &high[2]}) list->assign((runs + kLanes - 1) / kLanes * kLanes, -INFINITY);
+void Boxes::resize(size_t count) {
+    const size_t whole = (count + kLanes - 1) / kLanes * kLanes;
+    for (auto* list : {&low[0], &low[1], &low[2]}) list->assign(whole, INFINITY);
+    for (auto* list : {&high[0], &high[1], &high[2]}) list->assign(whole, -INFINITY);
 }
 
-void RunBoxes::set(size_t run, const Vec3& from, const Vec3& to) {
-    for (int k = 0; k < 3; ++k) low[k][run] = from[k], high[k][run] = to[k];
+void Boxes::set(size_t at, const Vec3& from, const Vec3& to) {
+    for (int k = 0; k < 3; ++k) low[k][at] = from[k], high[k][at] = to[k];
+}
+
+void RunBoxes::resize(size_t count) {
+    runs.resize(count);
+    blocks.resize(runs.low[0].size() / kLanes);
+}
+
+void RunBoxes::find_blocks() {
+    for (size_t block = 0; block < runs.low[0].size() / kLanes; ++block) {
+        Vec3 low(INFINITY), high(-INFINITY);
+        for (size_t i = block * kLanes; i < (block + 1) * kLanes; ++i) low = glm::min(low, runs.low_of(i)), high = glm::max(high, runs.high_of(i));
+        blocks.set(block, low, high);
+    }
 }
 
 void find_nearest(const Particle* run, const Particle* normals, std::span<const Particle> points, const uint32_t* ids, NearestOfRun& out) {
@@ -179,6 +225,9 @@ void find_nearest(const Particle* run, const Particle* normals, std::span<const 
 void find_nearest_in_runs(const Particle* run, const Particle* normals, const Particle* all, std::span<const uint32_t> runs,
                           std::span<const uint64_t> excluded, NearestOfRun& out) {
     HWY_DYNAMIC_DISPATCH(FindNearestInRuns)(run, normals, all, runs, excluded, out);
+}
+size_t keep_near(const Particle* run, const Particle* all, float reach_m, uint32_t* runs, uint64_t* excluded, size_t count) {
+    return HWY_DYNAMIC_DISPATCH(KeepNear)(run, all, reach_m, runs, excluded, count);
 }
 void find_meeting(const RunBoxes& boxes, const Vec3& low, const Vec3& high, std::vector<uint32_t>& runs) {
     HWY_DYNAMIC_DISPATCH(FindMeeting)(boxes, low, high, runs);

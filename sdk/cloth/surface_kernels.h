@@ -20,14 +20,24 @@ struct NearestOfRun {
 /// replaces it.
 void find_nearest(const Particle* run, const Particle* normals, std::span<const Particle> points, const uint32_t* ids, NearestOfRun& out);
 
-/// Boxes about runs of particles, eight to a register.
-struct RunBoxes {
+/// Boxes, eight to a register.
+struct Boxes {
     std::vector<float> low[3], high[3];  // x, y, z; filled up to whole registers with boxes that meet nothing
-    void resize(size_t runs);
-    void set(size_t run, const Vec3& from, const Vec3& to);
+    void resize(size_t count);
+    void set(size_t at, const Vec3& from, const Vec3& to);
+    Vec3 low_of(size_t at) const { return {low[0][at], low[1][at], low[2][at]}; }
+    Vec3 high_of(size_t at) const { return {high[0][at], high[1][at], high[2][at]}; }
+};
+/// Boxes about runs of particles, and about eight runs in a row each.
+struct RunBoxes {
+    Boxes runs, blocks;
+    void resize(size_t count);
+    void find_blocks();  // once all runs are set
 };
 /// The runs whose boxes meet that one, rising.
 void find_meeting(const RunBoxes& boxes, const Vec3& low, const Vec3& high, std::vector<uint32_t>& runs);
+/// Keeps of the runs (and excluded, as below) those of which a particle is nearer than that to one of this run; how many.
+size_t keep_near(const Particle* run, const Particle* all, float reach_m, uint32_t* runs, uint64_t* excluded, size_t count);
 /// As find_nearest, at the particles of these runs, which are their ids; not finite: nobody. excluded: of each run, a byte for
 /// each of its particles, of which a bit says that it does not count for that lane.
 void find_nearest_in_runs(const Particle* run, const Particle* normals, const Particle* all, std::span<const uint32_t> runs,
