@@ -2,7 +2,6 @@
 #include "cloth/cloth_kernels.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,31 +11,12 @@
 
 #include "cloth/contact_culling.h"
 #include "cloth_support.h"
+#include "cloth_targets.h"
 
 namespace vfit {
 namespace {
 
 using namespace test;
-
-/// Runs `test` on each instruction set.
-template <typename Test>
-void on_each_target(const Test& test) {
-    const int64_t all = hwy::SupportedTargets();
-    for (int64_t left = all; left; left &= left - 1) {
-        const int64_t target = left & -left;
-        hwy::SetSupportedTargetsForTest(target);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-        SCOPED_TRACE(hwy::TargetName(target));
-        test();
-    }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
-
-Vec3 random_point(std::mt19937& random, float size) {
-    std::uniform_real_distribution<float> u(-size, size);
-    return {u(random), u(random), u(random)};
-}
 
 void expect_near(const Vec3& a, const Vec3& b, float tolerance, size_t i) {
     EXPECT_LT(glm::length(a - b), tolerance) << i << ": " << a.x << " " << a.y << " " << a.z << " for " << b.x << " " << b.y << " " << b.z;

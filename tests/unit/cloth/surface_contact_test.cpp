@@ -1,0 +1,343 @@
+// Contact with meshes and of a cloth with itself: nearest points, cloth on a ball of triangles, layers that stay layers.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "cloth/point_grid.h"
+#include "cloth/surface_kernels.h"
+#include "cloth/triangle_fans.h"
+#include "cloth_support.h"
+#include "cloth_targets.h"
+#include "support/allocations.h"
+
+namespace vfit {
+namespace {
+
+using namespace test;
+
+TEST(NearestOnTriangle, NoPlaceOfItIsNearer) {
+    std::mt19937 random(1);
+    for (int i = 0; i < 300; ++i) {
+        const Vec3 a = random_point(random, 1), b = random_point(random, 1), c = i % 10 ? random_point(random, 1) : a + 0.5f * (b - a);
+        const Vec3 p = random_point(random, 2);
+        const Vec3 w = nearest_on_triangle(p, a, b, c);
+        EXPECT_NEAR(w.x + w.y + w.z, 1.0f, 1e-4f);
+        EXPECT_GE(std::min({w.x, w.y, w.z}), 0.0f);
+        const float distance = glm::length(p - (w.x * a + w.y * b + w.z * c));
+        for (float u = 0; u <= 1.0f; u += 0.05f)
+            for (float v = 0; u + v <= 1.0f; v += 0.05f)
+                EXPECT_LE(distance, glm::length(p - ((1 - u - v) * a + u * b + v * c)) + 1e-4f);
+    }
+}
+
+TEST(PointGrid, NamesAllInABoxAndForgetsWhatIsNotFinite) {
+    std::mt19937 random(2);
+    std::vector<Vec3> points;
+    for (int i = 0; i < 2000; ++i) points.push_back(random_point(random, 1));
+    points[17].y = NAN;
+    points[18] = Vec3(1e30f, 0, 0);
+    PointGrid grid;
+    grid.build(points, 0.07f);
+    const Vec3 low(-0.3f, 0.1f, -0.9f), high(0.2f, 0.5f, 0.4f);
+    std::vector<uint8_t> named(points.size(), 0);
+    grid.visit(low, high, [&](uint32_t begin, uint32_t end) {
+        for (uint32_t i = begin; i < end; ++i) {
+            named[grid.ids()[i]] = 1;
+            EXPECT_EQ(grid.points()[i].x, points[grid.ids()[i]]);
+        }
+    });
+    for (size_t i = 0; i < points.size(); ++i)
+        if (glm::all(glm::greaterThan(points[i], low)) && glm::all(glm::lessThan(points[i], high))) {
+            EXPECT_TRUE(named[i]) << i;
+        }
+    EXPECT_FALSE(named[17]);
+}
+
+TEST(SurfaceKernels, NearestPointsBeforeAndBehindEachLane) {
+    on_each_target([] {
+        std::mt19937 random(3);
+        Particles all(kLanes * 6), normals(kLanes);
+        for (Particle& p : all) p.x = random_point(random, 0.1f);
+        for (Particle& n : normals) n.x = random_point(random, 1.0f);
+        const std::vector<uint32_t> runs{1, 2, 4, 5};
+        std::vector<uint64_t> excluded{0, 0x00ff00f0f0ull, ~0ull, 0x8001ull};
+        all[5 * kLanes + 3].x = Vec3(NAN);
+        const float reach = 0.08f;
+        NearestOfRun nearest(reach);
+        find_nearest_in_runs(all.data(), normals.data(), all.data(), runs, excluded, nearest);
+        for (size_t lane = 0; lane < kLanes; ++lane) {
+            const size_t own = particle_at(lane);
+            float best[2] = {reach * reach, reach * reach};
+            uint32_t id[2] = {UINT32_MAX, UINT32_MAX};
+            for (size_t i = 0; i < runs.size(); ++i)
+                for (uint32_t k = 0; k < kLanes; ++k) {
+                    if (excluded[i] >> (8 * k + lane) & 1) continue;
+                    const Vec3 way = all[runs[i] * kLanes + k].x - all[own].x;
+                    const int side = glm::dot(way, normals[own].x) >= 0.0f ? 0 : 1;
+                    if (glm::dot(way, way) < best[side]) best[side] = glm::dot(way, way), id[side] = uint32_t(runs[i] * kLanes + k);
+                }
+            for (int side = 0; side < 2; ++side) EXPECT_EQ(nearest.id[side][lane], id[side]) << lane << " " << side;
+        }
+        // Runs of which nothing is near are left out.
+        std::vector<uint32_t> kept = runs;
+        for (size_t i = 0; i < kLanes; ++i) all[2 * kLanes + i].x += Vec3(1, 0, 0);
+        ASSERT_EQ(keep_near(all.data(), all.data(), reach, kept.data(), excluded.data(), kept.size()), 2u);
+        EXPECT_EQ(kept[0], 1u);
+        EXPECT_EQ(kept[1], 5u);
+    });
+}
+
+TEST(SurfaceKernels, BoxesThatMeet) {
+    on_each_target([] {
+        std::mt19937 random(4);
+        RunBoxes boxes;
+        constexpr size_t kCount = 83;
+        boxes.resize(kCount);
+        for (size_t i = 0; i < kCount; ++i) {
+            const Vec3 low = random_point(random, 1);
+            boxes.runs.set(i, low, low + Vec3(0.3f));
+        }
+        boxes.find_blocks();
+        std::vector<uint32_t> expected, found;
+        const Vec3 low(-0.2f), high(0.4f);
+        for (uint32_t i = 0; i < kCount; ++i)
+            if (glm::all(glm::lessThanEqual(boxes.runs.low_of(i), high)) && glm::all(glm::greaterThanEqual(boxes.runs.high_of(i), low))) expected.push_back(i);
+        find_meeting(boxes, low, high, found);
+        EXPECT_EQ(found, expected);
+        EXPECT_GT(found.size(), 3u);
+    });
+}
+
+TEST(SurfaceKernels, AParticleIsPushedToItsSideAndTheTriangleBack) {
+    on_each_target([] {
+        Particles p(17);
+        SurfaceContacts c{};
+        for (size_t k = 0; k < kLanes; ++k) c.vertex[k] = c.a[k] = c.b[k] = c.c[k] = 16 * sizeof(Particle);
+        const Vec3 corners[3] = {{0, 0, 0}, {0.02f, 0, 0}, {0, 0.02f, 0}};
+        const float heights[4] = {0.001f, -0.001f, 0.01f, 0.001f};  // too near on either side, far enough, and
+        for (uint32_t i = 0; i < 4; ++i) {                          // too far aside
+            const uint32_t first = 4 * i, lane = 2 * i;
+            for (uint32_t k = 0; k < 3; ++k) p[first + k].x = corners[k];
+            p[first + 3].x = Vec3(i == 3 ? 0.05f : 0.005f, 0.005f, heights[i]);
+            const auto bytes = [](uint32_t particle) { return particle * uint32_t(sizeof(Particle)); };
+            c.a[lane] = bytes(first), c.b[lane] = bytes(first + 1), c.c[lane] = bytes(first + 2), c.vertex[lane] = bytes(first + 3);
+            c.at_a[lane] = 0.5f, c.at_b[lane] = c.at_c[lane] = 0.25f;
+            c.side[lane] = i == 1 ? -1.0f : 1.0f, c.thickness_m[lane] = 0.004f;
+            c.vertex_gain[lane] = 0.75f, c.a_gain[lane] = 0.2f, c.b_gain[lane] = c.c_gain[lane] = 0.1f;
+        }
+        solve_surface_contacts({&c, 1}, p.data());
+        for (const uint32_t first : {0u, 4u}) {
+            const float side = first == 0 ? 1.0f : -1.0f;
+            EXPECT_NEAR(p[first + 3].x.z, side * (0.001f + 0.75f * 0.003f), 1e-6f);
+            EXPECT_NEAR(p[first].x.z, -side * 0.2f * 0.003f, 1e-6f);
+            EXPECT_NEAR(p[first + 2].x.z, -side * 0.1f * 0.003f, 1e-6f);
+        }
+        for (const uint32_t first : {8u, 12u}) {
+            EXPECT_EQ(p[first + 3].x.z, heights[first / 4]);
+            EXPECT_EQ(p[first].x, corners[0]);
+        }
+        // Lanes that name one particle all move it.
+        for (size_t k = 0; k < kLanes; ++k) c.a[k] = 0;
+        p[0].x = Vec3(0.0f);
+        p[3].x = Vec3(0.005f, 0.005f, 0.001f), p[7].x = Vec3(0.005f, 0.005f, -0.001f);
+        solve_surface_contacts({&c, 1}, p.data());
+        EXPECT_LT(std::abs(p[0].x.z), 0.0002f) << "pushed nearly as much from either side";
+    });
+}
+
+/// A ball of triangles.
+struct BallMesh {
+    std::vector<Vec3> positions;
+    std::vector<uint32_t> indices;
+
+    BallMesh(const Vec3& center, float radius, uint32_t rings = 32) {
+        for (uint32_t r = 0; r <= rings; ++r)
+            for (uint32_t c = 0; c < 2 * rings; ++c) {
+                const float polar = kPi * float(r) / float(rings), round = kPi * float(c) / float(rings);
+                positions.push_back(center + radius * Vec3(std::sin(polar) * std::cos(round), std::cos(polar), std::sin(polar) * std::sin(round)));
+            }
+        for (uint32_t r = 0; r < rings; ++r)
+            for (uint32_t c = 0; c < 2 * rings; ++c) {
+                const uint32_t a = r * 2 * rings + c, b = r * 2 * rings + (c + 1) % (2 * rings), d = a + 2 * rings, e = b + 2 * rings;
+                if (r > 0) indices.insert(indices.end(), {a, b, d});
+                if (r + 1 < rings) indices.insert(indices.end(), {b, e, d});
+            }
+    }
+    void move(const Vec3& way) {
+        for (Vec3& p : positions) p += way;
+    }
+};
+
+/// A sheet that lies down.
+std::vector<Vec3> lying(const Sheet& sheet, const Vec3& corner) {
+    std::vector<Vec3> out;
+    for (const Vec3& p : sheet.positions) out.push_back(corner + Vec3(p.x, 0, -p.y));
+    return out;
+}
+
+TEST(MeshContact, AClothComesToRestOnABallOfTriangles) {
+    const auto jobs = Jobs::own(0);
+    const Sheet sheet(21, 21, 0.02f);
+    const Vec3 center(0, 0, 0);
+    BallMesh ball(center, 0.12f);
+    ClothSettings settings;
+    settings.friction = 0.8f;
+    settings.thickness_m = 0.003f;
+    Cloth cloth(fabric(sheet.cook(cotton())), settings, lying(sheet, {-0.2f, 0.14f, -0.2f}));
+    const uint32_t mesh = cloth.add_mesh(ball.positions.size(), ball.indices);
+    const std::vector<Vec3> targets = lying(sheet, {-0.2f, 0.14f, -0.2f});
+    for (int frame = 0; frame < 180; ++frame) {
+        cloth.move_mesh(mesh, ball.positions);
+        cloth.step(kFrame_s, targets, {}, *jobs);
+    }
+    std::vector<float> gaps;
+    for (const Vec3& p : cloth.positions()) {
+        const float gap = glm::length(p - center) - 0.12f;
+        EXPECT_GT(gap, 0.001f);  // the mesh's triangles lie up to 0.6 mm inside the ball
+        if (gap < 0.01f) gaps.push_back(gap);
+    }
+    ASSERT_GT(gaps.size(), 100u) << "it lies on the ball";
+    std::nth_element(gaps.begin(), gaps.begin() + std::ptrdiff_t(gaps.size() / 2), gaps.end());
+    EXPECT_LT(gaps[gaps.size() / 2], 0.006f);
+}
+
+TEST(MeshContact, ABallThatIsThrownIntoACurtainTakesItAlong) {
+    const auto jobs = Jobs::own(0);
+    Sheet sheet(41, 41, 0.015f);
+    sheet.pin_top();
+    for (const float speed : {0.5f, 2.0f, 4.0f}) {
+        BallMesh ball({0.3f, -0.3f, -0.2f}, 0.1f);
+        Vec3 center(0.3f, -0.3f, -0.2f);
+        Cloth cloth(fabric(sheet.cook(cotton())), {}, sheet.positions);
+        const uint32_t mesh = cloth.add_mesh(ball.positions.size(), ball.indices);
+        cloth.move_mesh(mesh, ball.positions);
+        for (float way = 0.0f; way < 0.3f; way += speed * kFrame_s) {
+            ball.move({0, 0, speed * kFrame_s});
+            center.z += speed * kFrame_s;
+            cloth.move_mesh(mesh, ball.positions);
+            cloth.step(kFrame_s, sheet.positions, {}, *jobs);
+        }
+        float deepest = 0.0f;
+        for (const Vec3& p : cloth.positions()) deepest = std::max(deepest, 0.1f - glm::length(p - center));
+        EXPECT_LT(deepest, 0.002f) << speed;
+        EXPECT_GT(cloth.positions()[sheet.at(20, 20)].z, center.z + 0.05f) << speed << ": before the ball";
+    }
+}
+
+TEST(MeshContact, WhatDoesNotFitIsRefusedAndWhatIsNotFiniteIsLeftOut) {
+    const auto jobs = Jobs::own(0);
+    const Sheet sheet(5, 5, 0.02f);
+    Cloth cloth(fabric(sheet.cook(cotton())), {}, sheet.positions);
+    BallMesh ball({0.04f, -0.3f, 0}, 0.1f);
+    EXPECT_NE(error_of([&] { cloth.add_mesh(10, ball.indices); }).find("of 10"), std::string::npos);
+    EXPECT_NE(error_of([&] { cloth.add_mesh(ball.positions.size(), ball.indices, std::vector<uint8_t>(3)); }), "");
+    const uint32_t mesh = cloth.add_mesh(ball.positions.size(), ball.indices);
+    EXPECT_NE(error_of([&] { cloth.move_mesh(mesh + 1, ball.positions); }), "");
+    EXPECT_NE(error_of([&] { cloth.move_mesh(mesh, sheet.positions); }), "");
+    for (size_t i = 0; i < ball.positions.size(); i += 3) ball.positions[i].x = NAN;
+    for (int frame = 0; frame < 60; ++frame) {
+        cloth.move_mesh(mesh, ball.positions);
+        cloth.step(kFrame_s, sheet.positions, {}, *jobs);
+    }
+    for (const Vec3& p : cloth.positions()) EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));
+}
+
+/// Three sheets, one above the other, fall on a ball.
+struct ThreeLayers {
+    FabricData data;
+    std::vector<Vec3> start;
+    size_t of_one;
+
+    ThreeLayers() {
+        const Sheet sheet(25, 25, 0.02f);
+        of_one = sheet.positions.size();
+        for (int layer = 0; layer < 3; ++layer) {
+            const FabricData one = sheet.cook(cotton());
+            const auto first = uint32_t(start.size());
+            const std::vector<Vec3> places = lying(sheet, {-0.24f, 0.17f + 0.012f * float(layer), -0.24f});
+            start.insert(start.end(), places.begin(), places.end());
+            data.inverse_mass.insert(data.inverse_mass.end(), one.inverse_mass.begin(), one.inverse_mass.end());
+            for (uint32_t i : one.indices) data.indices.push_back(first + i);
+            for (DistanceConstraint e : one.edges) data.edges.push_back({first + e.a, first + e.b, e.rest_m, e.compliance_m_n});
+            for (DistanceConstraint e : one.bends) data.bends.push_back({first + e.a, first + e.b, e.rest_m, e.compliance_m_n});
+        }
+    }
+    Cloth cloth(float self_thickness_m) const {
+        ClothSettings settings;
+        settings.friction = 0.9f;
+        settings.self_thickness_m = self_thickness_m;
+        return Cloth(fabric(data), settings, start);
+    }
+};
+
+TEST(SelfContact, LayersStayInTheirOrder) {
+    const auto jobs = Jobs::own(0);
+    const ThreeLayers layers;
+    const std::vector<Collider> ball{sphere({0, 0, 0}, 0.15f)};
+    // Of the vertices over the layer below (y is up, and so are the triangles' normals): those that are not before it.
+    const auto out_of_order = [&](float thickness) {
+        Cloth cloth = layers.cloth(thickness);
+        for (int frame = 0; frame < 90; ++frame) cloth.step(kFrame_s, layers.start, ball, *jobs);
+        const std::vector<Vec3>& x = cloth.positions();
+        const std::vector<uint32_t>& indices = layers.data.indices;
+        const size_t triangles = indices.size() / 9;  // of one layer
+        size_t wrong = 0, seen = 0;
+        for (size_t v = layers.of_one; v < x.size(); ++v) {
+            float best2 = 0.02f * 0.02f, height = 1.0f;
+            for (size_t t = (v / layers.of_one - 1) * triangles; t < v / layers.of_one * triangles; ++t) {
+                const Vec3 &a = x[indices[3 * t]], &b = x[indices[3 * t + 1]], &c = x[indices[3 * t + 2]];
+                const Vec3 w = nearest_on_triangle(x[v], a, b, c), off = x[v] - (w.x * a + w.y * b + w.z * c);
+                if (glm::dot(off, off) >= best2 || std::min({w.x, w.y, w.z}) < 0.01f) continue;
+                best2 = glm::dot(off, off);
+                height = glm::dot(off, glm::normalize(glm::cross(b - a, c - a)));
+            }
+            seen += height < 1.0f;
+            wrong += height < 0.5f * 0.005f;
+        }
+        EXPECT_GT(seen, 200u);
+        return wrong;
+    };
+    EXPECT_GT(out_of_order(0.0f), 100u) << "the scene would show it";
+    EXPECT_EQ(out_of_order(0.005f), 0u);
+}
+
+TEST(SelfContact, AFlatSheetDoesNotFeelItself) {
+    const auto jobs = Jobs::own(0);
+    const Sheet sheet(30, 30, 0.02f);
+    std::vector<uint64_t> hashes;
+    for (const float thickness : {0.0f, 0.008f}) {
+        ClothSettings settings;
+        settings.self_thickness_m = thickness;
+        Cloth cloth(fabric(sheet.cook(cotton())), settings, lying(sheet, Vec3(0.0f)));
+        for (int frame = 0; frame < 30; ++frame) cloth.step(kFrame_s, sheet.positions, {}, *jobs);
+        hashes.push_back(cloth.state_hash());
+    }
+    EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+TEST(SelfContact, EqualBitsForAnyNumberOfWorkersAndNoAllocation) {
+    const ThreeLayers layers;
+    ASSERT_GT(fabric(layers.data)->layout().parts.size(), 1u);
+    BallMesh ball({0, 0, 0}, 0.15f);
+    std::vector<uint64_t> hashes;
+    for (const uint32_t workers : {0u, 1u, 3u}) {
+        const auto jobs = Jobs::own(workers);
+        Cloth cloth = layers.cloth(0.005f);
+        const uint32_t mesh = cloth.add_mesh(ball.positions.size(), ball.indices);
+        uint64_t allocated = 0;
+        for (int frame = 0; frame < 90; ++frame) {
+            if (frame == 60) allocated = allocations;
+            cloth.move_mesh(mesh, ball.positions);
+            cloth.step(kFrame_s, layers.start, {}, *jobs);
+        }
+        EXPECT_LE(allocations - allocated, 6u) << "lists grow only where more meets than ever before";
+        hashes.push_back(cloth.state_hash());
+    }
+    EXPECT_EQ(hashes[0], hashes[1]);
+    EXPECT_EQ(hashes[0], hashes[2]);
+}
+
+}  // namespace
+}  // namespace vfit
