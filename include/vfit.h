@@ -709,8 +709,11 @@ VFIT_API vfit_result vfit_garment_describe(vfit_garment garment, vfit_garment_in
 /* The label of the size at index; length 0 past the last.                                      [read]  */
 VFIT_API uint32_t    vfit_garment_size_label(vfit_garment garment, uint32_t index, char* buffer,
                                              uint32_t capacity);
-enum { VFIT_CLOTH_NO_HANDS = 1 };       /* forearms and hands pass through: a hand beside the thigh catches
+enum { VFIT_CLOTH_NO_HANDS = 1,         /* forearms and hands pass through: a hand beside the thigh catches
                                          * a skirt, and 15 spheres know no fingers to let it slip            */
+       VFIT_CLOTH_SKIN = 2,             /* kept out of the avatar's skin itself, not of its spheres and capsules: closer,
+                                         * and slower                                                   */
+       VFIT_CLOTH_AWAKE = 4 };          /* stepped even where cloth and body have lain still for half a second    */
 typedef struct vfit_cloth_desc {
     uint32_t struct_size, substeps;     /* 0: 8 a 1/60 s                                             */
     float gravity[3];                   /* in the context's axes and unit; all zero: 9.81 m/s2 down   */
@@ -719,9 +722,15 @@ typedef struct vfit_cloth_desc {
     float thickness_m;                  /* kept from the colliders, 0: 0.004                            */
     const char* size_label;             /* null: made to the avatar                                    */
     uint32_t flags, reserved;           /* VFIT_CLOTH_*                                              */
+    float wind[3];                      /* as vfit_cloth_set_wind                                      */
+    float drag, lift;                   /* of the air, as of a plate: about 1; both 0: no air                */
+    float inertia;                      /* share of the body's own motion that the cloth feels, 0: all; < 0: none */
+    float self_thickness_m;             /* kept between the cloth's own layers, 0: they pass through each other  */
+    float budget_ms;                    /* of a step, 0: none. See vfit_cloth_set_quality                    */
 } vfit_cloth_desc;
 typedef struct vfit_cloth_stats { uint32_t struct_size, vertex_count, simulated_count, constraint_count;
-                                  float strain_mean, strain_p99, strain_max, step_ms; } vfit_cloth_stats;
+                                  float strain_mean, strain_p99, strain_max, step_ms;
+                                  uint32_t substeps, reserved; } vfit_cloth_stats; /* of the last step; 0: it slept */
 VFIT_STRUCT(vfit_cloth_desc) VFIT_STRUCT(vfit_cloth_stats)
 VFIT_API vfit_result vfit_cloth_create(vfit_avatar avatar, vfit_garment garment,
                                        const vfit_cloth_desc* desc, vfit_cloth* out);/* [excl] on avatar */
@@ -737,6 +746,15 @@ VFIT_API vfit_result vfit_cloth_reset(vfit_cloth cloth);
 VFIT_API vfit_result vfit_cloth_step(vfit_cloth cloth, float dt);
 VFIT_API vfit_result vfit_cloth_begin_step(vfit_cloth cloth, float dt);
 VFIT_API vfit_result vfit_cloth_end_step(vfit_cloth cloth);
+/* Velocity of the air, in the context's axes and unit a second, from the next step on.         [excl]  */
+VFIT_API vfit_result vfit_cloth_set_wind(vfit_cloth cloth, const float wind[3]);
+/* Sub-steps a 1/60 s at most, and the time that a step may take: where more would take longer, fewer are done (at least
+ * one), and then a state is no longer the same on each run. 0 sub-steps: 8; 0 ms: no budget.      [excl]  */
+VFIT_API vfit_result vfit_cloth_set_quality(vfit_cloth cloth, uint32_t substeps, float budget_ms);
+/* From now on cloth is worn over inner, a cloth of the same avatar, and stays outside of it by its thickness: step
+ * inner first, each frame. An inner one that gets destroyed stays where it was. VFIT_ERROR_ARGUMENT where cloth is
+ * worn below inner already.                                                                      [excl]  */
+VFIT_API vfit_result vfit_cloth_wear_over(vfit_cloth cloth, vfit_cloth inner);
 /* POSITION, NORMAL, UV, INDEX, STRAIN.                                                         [any]   */
 VFIT_API vfit_result vfit_cloth_acquire(vfit_cloth cloth, vfit_frame* out);
 VFIT_API vfit_result vfit_cloth_describe(vfit_cloth cloth, vfit_cloth_stats* out);         /* [read] */

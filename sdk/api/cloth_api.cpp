@@ -1,4 +1,5 @@
 // vfit.h, part "garment and cloth".
+#include <algorithm>
 #include <cmath>
 
 #include "api/avatar_object.h"
@@ -15,6 +16,7 @@ using namespace vfit::api;
 namespace {
 
 constexpr size_t kMaxGarmentBytes = 256u << 20;
+constexpr uint32_t kMaxSubsteps = 256;
 
 struct GarmentObject : ContextChild {
     static constexpr Kind kKind = Kind::garment;
@@ -36,8 +38,8 @@ Ref<GarmentObject> parse(const Ref<Context>& context, std::span<const std::byte>
 }
 
 ClothSettings cloth_settings(const vfit_cloth_desc& d, const FabricMaterial& material, const Axes& axes) {
-    constexpr uint32_t kMaxSubsteps = 256;
-    for (const float x : {d.gravity[0], d.gravity[1], d.gravity[2], d.friction, d.damping, d.thickness_m})
+    for (const float x : {d.gravity[0], d.gravity[1], d.gravity[2], d.friction, d.damping, d.thickness_m, d.wind[0], d.wind[1],
+                          d.wind[2], d.drag, d.lift, d.inertia, d.self_thickness_m, d.budget_ms})
         if (!std::isfinite(x)) fail(VFIT_ERROR_ARGUMENT, "desc: a number is not finite");
     if (d.substeps > kMaxSubsteps)
         fail(VFIT_ERROR_ARGUMENT, "desc.substeps ", d.substeps, " is more than ", kMaxSubsteps);
@@ -51,31 +53,45 @@ ClothSettings cloth_settings(const vfit_cloth_desc& d, const FabricMaterial& mat
     s.friction = setting(d.friction, material.friction);
     s.damping = setting(d.damping, s.damping);
     if (d.thickness_m > 0.0f) s.thickness_m = d.thickness_m;
+    if (d.inertia > 1.0f) fail(VFIT_ERROR_ARGUMENT, "desc.inertia ", d.inertia, " is more than 1");
+    s.inertia = setting(d.inertia, 1.0f);
+    if (d.drag < 0.0f || d.lift < 0.0f) fail(VFIT_ERROR_ARGUMENT, "desc.drag ", d.drag, " and lift ", d.lift, " must not be negative");
+    s.air = {axes.point_in({d.wind[0], d.wind[1], d.wind[2]}), d.drag, d.lift};
+    if (d.self_thickness_m < 0.0f || d.self_thickness_m > 0.1f)
+        fail(VFIT_ERROR_ARGUMENT, "desc.self_thickness_m ", d.self_thickness_m, " is not in 0..0.1 m");
+    s.self_thickness_m = d.self_thickness_m;
+    if (d.budget_ms < 0.0f) fail(VFIT_ERROR_ARGUMENT, "desc.budget_ms ", d.budget_ms, " is negative");
+    s.budget_ms = d.budget_ms;
+    s.sleeps = (d.flags & VFIT_CLOTH_AWAKE) == 0;
     return s;
 }
 
-Dress make_dress(Context& context, const Garment& garment, const FabricMaterial& material, AvatarObject& avatar,
-                 const char* size_label, float thickness_m) {
+/// The avatar's body for a garment.
+struct Wearer {
+    std::vector<Vec3> fine;  // the authored body where the avatar is finer than the model
+    EvaluatedBody authored;
+    DressBody body;
+    Wearer(Context& context, const Garment& garment, AvatarObject& avatar);
+    Wearer(const Wearer&) = delete;
+    Wearer& operator=(const Wearer&) = delete;
+};
+
+Wearer::Wearer(Context& context, const Garment& garment, AvatarObject& avatar) {
     if (!avatar.is_body()) fail(VFIT_ERROR_UNSUPPORTED, "garments are made for vfit's own body, not for a character from a file");
     const auto model = context.body_model();
     const BodyTopology& topology = avatar.avatar.topology();
     const uint32_t count = topology.vertex_count;
-    EvaluatedBody authored;
     model->evaluate(model->default_shape(garment.body_sex), authored);
-    std::vector<Vec3> fine;
     if (authored.positions.size() != count) {
         for (uint32_t level = 1; level <= kCoarseBody; ++level)
             if (model->topology(level).vertex_count == count) model->subdivide(level, authored.positions, fine);
     }
-    DressBody body;
     body.authored = fine.empty() ? authored.positions : fine;
     body.rest = {avatar.avatar.rest().positions.data(), count};
     body.indices = topology.indices;
     body.skin_bones = avatar.avatar.skin_bones().first(count);
     body.skin_weights = avatar.avatar.skin_weights().first(count);
     body.parts = avatar.avatar.parts().first(count);
-    const float ratio = size_label ? size_ratio(garment, size_label, avatar.measures()) : 1.0f;
-    return Dress(garment, material, body, ratio, thickness_m);
 }
 
 /// A forearm or a hand: sphere or capsule that starts or ends at a hand.
@@ -86,17 +102,20 @@ bool of_hand(const Collider& c) {
 
 struct ClothObject : ContextChild {
     static constexpr Kind kKind = Kind::cloth;
-    ClothObject(Ref<AvatarObject> avatar_object, Dress d, const ClothSettings& settings, bool hands)
+    ClothObject(Ref<AvatarObject> avatar_object, Dress d, SkinBelow skin_of_body, const ClothSettings& cloth_settings, bool hands)
         : ContextChild(avatar_object->context),
           avatar(std::move(avatar_object)),
           with_hands(hands),
           dress(std::move(d)),
+          skin(std::move(skin_of_body)),
+          settings(cloth_settings),
           cloth(dress.fabric(), settings, skinned()),
           output(*context) {
         time_ns = avatar->avatar.time_ns();
         output.topology().set_indices(dress.indices(), context->axes);
         output.topology().set_uvs(dress.uvs(), context->axes);
         publish(output.begin());
+        if (skin.places.size() > 0) skin_mesh = cloth.add_mesh(skin.places.size(), skin.indices);
         later.task = [](void* self, uint32_t) { static_cast<ClothObject*>(self)->step(); };
         later.data = this;
     }
@@ -111,8 +130,16 @@ struct ClothObject : ContextChild {
     const Ref<AvatarObject> avatar;
     const bool with_hands;
     Dress dress;
-    std::vector<Vec3> targets;
+    const SkinBelow skin;  // of the avatar, where the cloth is kept out of it; else nothing
+    const ClothSettings settings;
+    std::vector<Vec3> targets, skin_places;
     Cloth cloth;
+    uint32_t skin_mesh = 0;
+    struct Inner {
+        Ref<ClothObject> cloth;
+        uint32_t mesh;
+    };
+    std::vector<Inner> worn_over;
     std::vector<Collider> colliders;
     MeshOutput output;
 
@@ -131,6 +158,29 @@ struct ClothObject : ContextChild {
         avatar->access.begin_read("avatar");
         return std::unique_ptr<Access, void (*)(Access*)>(&avatar->access, [](Access* a) { a->end_read(); });
     }
+    /// Spheres and capsules, or none where the skin itself is met.
+    void limbs_of(std::vector<Collider>& limbs) const {
+        if (skin.places.size() > 0) limbs.clear();
+        else if (!with_hands) std::erase_if(limbs, of_hand);
+    }
+    void move_skin(std::span<const Mat4> matrices) {
+        if (skin.places.size() == 0) return;
+        skin.places.skin(matrices, skin_places);
+        cloth.move_mesh(skin_mesh, skin_places);
+    }
+    /// Garments worn below, where their last step left them.
+    void move_inner() {
+        for (const Inner& inner : worn_over) {
+            inner.cloth->access.begin_read("inner cloth");
+            std::unique_ptr<Access, void (*)(Access*)> reading(&inner.cloth->access, [](Access* a) { a->end_read(); });
+            if (inner.cloth->stepping) fail(VFIT_ERROR_STATE, "a step of the cloth below has begun: end it first");
+            cloth.move_mesh(inner.mesh, inner.cloth->cloth.positions());
+        }
+    }
+    bool is_over(const ClothObject& other) const {
+        if (this == &other) return true;
+        return std::any_of(worn_over.begin(), worn_over.end(), [&](const Inner& inner) { return inner.cloth->is_over(other); });
+    }
     void prepare(float step_dt) {
         if (stepping) fail(VFIT_ERROR_STATE, "a step has begun already: end it first");
         if (!std::isfinite(step_dt) || step_dt < 0.0f) fail(VFIT_ERROR_ARGUMENT, "dt ", step_dt, " is no time");
@@ -138,7 +188,9 @@ struct ClothObject : ContextChild {
         next = output.begin();
         skinned();
         avatar->avatar.colliders(colliders);
-        if (!with_hands) std::erase_if(colliders, of_hand);
+        limbs_of(colliders);
+        move_skin(avatar->avatar.skinning_matrices());
+        move_inner();
         time_ns = avatar->avatar.time_ns();
         dt = step_dt;
     }
@@ -151,10 +203,22 @@ struct ClothObject : ContextChild {
         std::vector<Mat4> matrices(avatar->avatar.skinning_matrices().size());
         const auto body = [&](float share, std::vector<Vec3>& places, std::vector<Collider>& limbs) {
             avatar->avatar.while_dressing(share, matrices, limbs);
-            if (!with_hands) std::erase_if(limbs, of_hand);
+            limbs_of(limbs);
+            move_skin(matrices);
             dress.skin(matrices, places);
         };
+        for (const Inner& inner : worn_over) cloth.hide_mesh(inner.mesh);
         cloth.put_on(body, *context->jobs);
+        if (worn_over.empty()) return;
+        // What is worn below is there in the pose alone: it pushes this one outwards.
+        constexpr int kFrames = 15;
+        avatar->avatar.colliders(colliders);
+        limbs_of(colliders);
+        skinned();
+        for (int i = 0; i < kFrames; ++i) {
+            move_inner();
+            cloth.step(1.0f / 60.0f, targets, colliders, *context->jobs);
+        }
     }
     void step() {
         Profile::Scope time(context->profile, Stage::cloth);
@@ -250,11 +314,15 @@ vfit_result vfit_cloth_create(vfit_avatar avatar_handle, vfit_garment garment_ha
         if (avatar->context != garment->context)
             fail(VFIT_ERROR_HANDLE, "avatar and garment belong to different contexts");
         const vfit_cloth_desc d = read_or_default(desc, "desc");
-        check_flags(d.flags, VFIT_CLOTH_NO_HANDS, "desc.flags");
+        check_flags(d.flags, VFIT_CLOTH_NO_HANDS | VFIT_CLOTH_SKIN | VFIT_CLOTH_AWAKE, "desc.flags");
         const ClothSettings settings = cloth_settings(d, garment->material, avatar->context->axes);
-        Dress dress = make_dress(*avatar->context, garment->garment, garment->material, *avatar, d.size_label,
-                                 settings.thickness_m);
-        auto cloth = make<ClothObject>(avatar.ref(), std::move(dress), settings, (d.flags & VFIT_CLOTH_NO_HANDS) == 0);
+        const bool hands = (d.flags & VFIT_CLOTH_NO_HANDS) == 0;
+        const Wearer wearer(*avatar->context, garment->garment, *avatar);
+        const float ratio = d.size_label ? size_ratio(garment->garment, d.size_label, avatar->measures()) : 1.0f;
+        Dress dress(garment->garment, garment->material, wearer.body, ratio, settings.thickness_m);
+        SkinBelow skin;
+        if (d.flags & VFIT_CLOTH_SKIN) skin = skin_below(wearer.body, dress.rest(), hands);
+        auto cloth = make<ClothObject>(avatar.ref(), std::move(dress), std::move(skin), settings, hands);
         out->id = avatar->context->publish(Kind::cloth, cloth, avatar_handle.id);
         return VFIT_OK;
     });
@@ -306,6 +374,41 @@ vfit_result vfit_cloth_end_step(vfit_cloth handle) {
     });
 }
 
+vfit_result vfit_cloth_set_wind(vfit_cloth handle, const float wind[3]) {
+    return guard([&] {
+        Use<ClothObject, Mode::exclusive> cloth(handle.id);
+        check_pointer(wind, "wind");
+        cloth->require_no_step();
+        cloth->cloth.set_air({cloth->context->axes.point_in({wind[0], wind[1], wind[2]}), cloth->settings.air.drag, cloth->settings.air.lift});
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_cloth_set_quality(vfit_cloth handle, uint32_t substeps, float budget_ms) {
+    return guard([&] {
+        Use<ClothObject, Mode::exclusive> cloth(handle.id);
+        cloth->require_no_step();
+        if (substeps > kMaxSubsteps) fail(VFIT_ERROR_ARGUMENT, "substeps ", substeps, " is more than ", kMaxSubsteps);
+        cloth->cloth.set_quality(substeps ? substeps : ClothSettings().substeps, budget_ms);
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_cloth_wear_over(vfit_cloth handle, vfit_cloth inner_handle) {
+    return guard([&] {
+        Use<ClothObject, Mode::exclusive> cloth(handle.id);
+        cloth->require_no_step();
+        if (handle.id == inner_handle.id) fail(VFIT_ERROR_ARGUMENT, "a cloth cannot be worn over itself");
+        Use<ClothObject, Mode::read> inner(inner_handle.id);
+        if (inner->avatar.get() != cloth->avatar.get()) fail(VFIT_ERROR_ARGUMENT, "both cloths must be of the same avatar");
+        if (inner->is_over(*cloth)) fail(VFIT_ERROR_ARGUMENT, "inner is worn over cloth already");
+        for (const auto& below : cloth->worn_over)
+            if (below.cloth.get() == inner.ref().get()) return VFIT_OK;
+        cloth->worn_over.push_back({inner.ref(), cloth->cloth.add_mesh(inner->cloth.positions().size(), inner->dress.indices())});
+        return VFIT_OK;
+    });
+}
+
 vfit_result vfit_cloth_acquire(vfit_cloth handle, vfit_frame* out) {
     return guard([&] {
         check_pointer(out, "out");
@@ -330,6 +433,7 @@ vfit_result vfit_cloth_describe(vfit_cloth handle, vfit_cloth_stats* out) {
         stats.strain_p99 = s.strain_p99;
         stats.strain_max = s.strain_max;
         stats.step_ms = s.step_ms;
+        stats.substeps = s.substeps;
         write(out, stats);
         return VFIT_OK;
     });

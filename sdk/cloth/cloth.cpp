@@ -23,8 +23,8 @@ constexpr float kKineticShare = 0.84f;
 constexpr float kMaxDepenetration_m_s = 3.0f;
 constexpr uint32_t kRunsOfAJob = 128;  // of particles: enough to outweigh the hand-over (about 10 us)
 // What has been slower than that for so long, on a body that moves less than that in a step, sleeps. A swing is so slow only
-// for an instant, where it turns round.
-constexpr float kStill_m_s = 0.01f, kStill_m = 2e-5f, kFallsAsleep_s = 0.5f;
+// for an instant, where it turns round; single vertices may tremble in a contact.
+constexpr float kStillMean_m_s = 0.002f, kStillMost_m_s = 0.05f, kStill_m = 2e-5f, kFallsAsleep_s = 0.5f;
 constexpr float kMeshAround_m = 0.15f;  // about the cloth, in which meshes are looked for: a fast limb's way in a step
 constexpr float kLatest = 0.1f;  // weight of the last step in the mean time of a sub-step
 constexpr float kSubstepRate_hz = 60.0f;  // settings.substeps are per 1/60 s
@@ -126,7 +126,7 @@ struct Cloth::State {
     float step_ms = 0.0f;
     float substep_ms = 0.0f;  // mean; 0: not known yet
     uint32_t substeps = 0;    // of the last step
-    float greatest_way_m = 0.0f;  // of a vertex in the last step
+    ParticleSolver::Ways ways;  // of the vertices in the last step
     float still_s = 0.0f;     // since the cloth last moved
     std::vector<Vec3> asleep_at;  // the targets at which it fell asleep; empty: it is awake
 
@@ -221,6 +221,12 @@ void Cloth::move_mesh(uint32_t mesh, std::span<const Vec3> positions) {
     s.mesh_places[mesh].assign(positions.begin(), positions.end());
 }
 
+void Cloth::hide_mesh(uint32_t mesh) {
+    if (mesh >= state_->meshes.size()) fail(VFIT_ERROR_ARGUMENT, "there is no mesh ", mesh);
+    state_->mesh_places[mesh].clear();
+    state_->meshes[mesh].hide();
+}
+
 void Cloth::set_air(const Air& air) {
     check(air);
     if (air.wind_m_s != state_->settings.air.wind_m_s || air.drag != state_->settings.air.drag || air.lift != state_->settings.air.lift) state_->wake();
@@ -310,7 +316,7 @@ void Cloth::State::advance(float dt, int count, float damping, std::span<const V
 
 void Cloth::State::rest_if_still(float dt, std::span<const Vec3> targets) {
     const bool still = body_way() <= kStill_m && farthest(previous_targets, targets) <= kStill_m &&
-                       greatest_way_m <= kStill_m_s * dt;
+                       ways.rms_m <= kStillMean_m_s * dt && ways.greatest_m <= kStillMost_m_s * dt;
     still_s = still ? still_s + dt : 0.0f;
     if (!settings.sleeps || still_s < kFallsAsleep_s) return;
     solver.rest();
@@ -348,7 +354,7 @@ void Cloth::State::teleport(std::span<const Vec3> targets) {
 }
 
 void Cloth::State::publish() {
-    greatest_way_m = solver.copy_positions(positions);
+    ways = solver.copy_positions(positions);
     normals_known = strains_known = false;
 }
 

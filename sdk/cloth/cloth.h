@@ -72,6 +72,8 @@ public:
     uint32_t add_mesh(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts = {});
     /// At the end of the next step, one a vertex. VFIT_ERROR_ARGUMENT for a wrong number or count.
     void move_mesh(uint32_t mesh, std::span<const Vec3> positions);
+    /// It is not there until it is moved again.
+    void hide_mesh(uint32_t mesh);
 
     /// From the next step on.
     void set_air(const Air& air);

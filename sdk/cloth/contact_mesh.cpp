@@ -57,6 +57,12 @@ void ContactMesh::accept(std::span<const Vec3> positions, const Vec3& low, const
     grid_.build(near_, kCell_m);
 }
 
+void ContactMesh::hide() {
+    previous_.clear();
+    greatest_way_ = 0.0f;
+    grid_.build({}, kCell_m);
+}
+
 void ContactMesh::carry(const RigidMotion& motion) {
     for (Vec3& p : previous_) p = motion.point(p);
 }

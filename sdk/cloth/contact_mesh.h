@@ -26,6 +26,7 @@ public:
     /// They were where they are now.
     void jump() { previous_ = current_; }
     void forget() { previous_.clear(); }
+    void hide();
     void arrive() { std::swap(previous_, current_); }
     void carry(const RigidMotion& motion);
     float greatest_way() const { return greatest_way_; }

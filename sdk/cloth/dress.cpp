@@ -191,7 +191,9 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
     push_out(skin, thickness_m, rest_);
 
     FabricData data = cook_fabric({rest_, indices_, uvs_, garment.simulated, size_ratio}, material);
-    first_influence_.push_back(0);
+    const auto add_skinned = [&](const Vec3& rest, std::span<const float> bone_weights) {
+        if (!places_.add(rest, bone_weights)) fail(VFIT_ERROR_DATA, "the body below the garment has a vertex that no bone carries");
+    };
     for (uint32_t i = 0; i < n; ++i) add_skinned(rest_[i], weights.row(i));
     const MeshQuery bound(body.rest, triangles);
     std::vector<float> bone_weights(bones);
@@ -203,40 +205,41 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
         add_skinned(ball.center, bone_weights);
         data.backstops.push_back({i, ball.radius_m});
     }
+    for (uint32_t i = 0; i < n; ++i)
+        if (!garment.most_way.empty() && garment.most_way[i] > 0.0f && garment.simulated[i]) data.limits.push_back({i, garment.most_way[i]});
     fabric_ = std::make_shared<const Fabric>(std::move(data));
 }
 
-/// One more skinned place, carried by the heaviest bones of that list.
-void Dress::add_skinned(const Vec3& rest, std::span<const float> bone_weights) {
-    std::vector<Influence> list;
-    for (size_t bone = 0; bone < bone_weights.size(); ++bone)
-        if (bone_weights[bone] > 0.0f) list.push_back({uint16_t(bone), bone_weights[bone]});
-    std::stable_sort(list.begin(), list.end(),
-                     [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
-    if (list.size() > kSkinBones) list.resize(kSkinBones);
-    float sum = 0.0f;
-    for (const Influence& influence : list) sum += influence.weight;
-    if (!(sum > 0.0f)) fail(VFIT_ERROR_DATA, "the body below the garment has a vertex that no bone carries");
-    for (Influence& influence : list) {
-        influence.weight /= sum;
-        bone_count_ = std::max(bone_count_, uint32_t(influence.bone) + 1);
+SkinBelow skin_below(const DressBody& body, std::span<const Vec3> garment, bool with_hands) {
+    constexpr float kAbove_m = 0.1f, kBelow_m = 0.25f;
+    float low = INFINITY, high = -INFINITY;
+    for (const Vec3& p : garment) low = std::min(low, p.y), high = std::max(high, p.y);
+    const auto is_hand = [](BodyPart part) {
+        return part == BodyPart::kLeftForearm || part == BodyPart::kLeftHand || part == BodyPart::kRightForearm || part == BodyPart::kRightHand;
+    };
+    const auto counts = [&](uint32_t v) {
+        const float y = body.rest[v].y;
+        if (body.parts.empty()) return y > low - kBelow_m && y < high + kAbove_m;
+        const BodyPart part = body.parts[v];
+        if (part == BodyPart::kHead || (!with_hands && is_hand(part))) return false;
+        return is_arm(part) || (y > low - kBelow_m && y < high + kAbove_m);
+    };
+    SkinBelow out;
+    constexpr uint32_t kNone = UINT32_MAX;
+    std::vector<uint32_t> place_of(body.rest.size(), kNone);
+    for (size_t i = 0; i + 2 < body.indices.size(); i += 3) {
+        const uint32_t* v = &body.indices[i];
+        if (!counts(v[0]) || !counts(v[1]) || !counts(v[2])) continue;
+        for (int k = 0; k < 3; ++k) {
+            if (place_of[v[k]] == kNone) {
+                if (!out.places.add(body.rest[v[k]], body.skin_bones[v[k]], body.skin_weights[v[k]]))
+                    fail(VFIT_ERROR_DATA, "the body below the garment has a vertex that no bone carries");
+                place_of[v[k]] = uint32_t(out.places.size()) - 1;
+            }
+            out.indices.push_back(place_of[v[k]]);
+        }
     }
-    skinned_rest_.push_back(rest);
-    influences_.insert(influences_.end(), list.begin(), list.end());
-    first_influence_.push_back(uint32_t(influences_.size()));
-}
-
-void Dress::skin(std::span<const Mat4> matrices, std::vector<Vec3>& targets) const {
-    if (matrices.size() < bone_count_)
-        fail(VFIT_ERROR_ARGUMENT, matrices.size(), " skinning matrices, the garment needs ", bone_count_);
-    targets.resize(skinned_rest_.size());
-    for (size_t i = 0; i < skinned_rest_.size(); ++i) {
-        const Vec4 p(skinned_rest_[i], 1.0f);
-        Vec3 sum(0.0f);
-        for (uint32_t k = first_influence_[i]; k < first_influence_[i + 1]; ++k)
-            sum += influences_[k].weight * Vec3(matrices[influences_[k].bone] * p);
-        targets[i] = sum;
-    }
+    return out;
 }
 
 }  // namespace vfit

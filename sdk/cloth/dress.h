@@ -11,6 +11,7 @@
 #include "body/body_model.h"
 #include "cloth/fabric.h"
 #include "cloth/garment.h"
+#include "cloth/skinned_places.h"
 #include "math/types.h"
 
 namespace vfit {
@@ -40,22 +41,22 @@ public:
 
     /// The garment's vertices, then the backstops' centres, carried by the avatar's skinning matrices (posed from
     /// rest, one a rig bone): start and targets of a Cloth. targets is resized once; no other allocation.
-    void skin(std::span<const Mat4> matrices, std::vector<Vec3>& targets) const;
+    void skin(std::span<const Mat4> matrices, std::vector<Vec3>& targets) const { places_.skin(matrices, targets); }
 
 private:
-    struct Influence {
-        uint16_t bone;
-        float weight;
-    };
-    void add_skinned(const Vec3& rest, std::span<const float> bone_weights);
     std::shared_ptr<const Fabric> fabric_;
     std::vector<Vec3> rest_;
     std::vector<uint32_t> indices_;
     std::vector<Vec2> uvs_;
-    std::vector<Vec3> skinned_rest_;         // rest_, then the backstops' centres
-    std::vector<uint32_t> first_influence_;  // one a skinned place, and the end
-    std::vector<Influence> influences_;
-    uint32_t bone_count_ = 0;  // highest bone in use + 1
+    SkinnedPlaces places_;  // rest_, then the backstops' centres
 };
+
+/// The body's skin as far as a garment can meet it: from a hand above its upper edge to a foot's length below its hem, and the
+/// arms, without the head.
+struct SkinBelow {
+    SkinnedPlaces places;
+    std::vector<uint32_t> indices;  // three a triangle
+};
+SkinBelow skin_below(const DressBody& body, std::span<const Vec3> garment, bool with_hands);
 
 }  // namespace vfit

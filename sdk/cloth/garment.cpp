@@ -136,6 +136,10 @@ void validate_garment(const Garment& g, const FabricLibrary& fabrics) {
         fail(VFIT_ERROR_DATA, "garment: \"simulated\" has ", g.simulated.size(), " flags for ", n, " vertices");
     if (g.backstop.size() != n)
         fail(VFIT_ERROR_DATA, "garment: \"backstop\" has ", g.backstop.size(), " flags for ", n, " vertices");
+    if (!g.most_way.empty() && g.most_way.size() != n)
+        fail(VFIT_ERROR_DATA, "garment: \"max_distance\" has ", g.most_way.size(), " numbers for ", n, " vertices");
+    for (const float way : g.most_way)
+        if (!finite(way) || way < 0.0f) fail(VFIT_ERROR_DATA, "garment: a \"max_distance\" is ", way, " m");
     for (size_t i = 0; i < n; ++i) {
         if (!finite(g.mesh.positions[i])) fail(VFIT_ERROR_DATA, "garment: position ", i, " is not finite");
         if (glm::length(g.mesh.positions[i]) > kFarthest_m)
@@ -174,6 +178,7 @@ Garment parse_garment(std::span<const std::byte> json, const FabricLibrary& fabr
     g.mesh.indices = indices(root, "indices");
     g.simulated = flags(root, "simulated");
     g.backstop = flags(root, "backstop");
+    if (root.contains("max_distance")) g.most_way = numbers(root, "max_distance", 1);
     g.sizes = sizes(root);
     validate_garment(g, fabrics);
     compute_normals(g.mesh.positions, g.mesh.indices, g.mesh.normals);

@@ -29,6 +29,7 @@ struct Garment {
     Mesh mesh;  // positions on that body, indices, uvs
     std::vector<uint8_t> simulated;  // one a vertex: 1 simulated, 0 skinned with the body
     std::vector<uint8_t> backstop;   // one a vertex: 1 kept out of the body below it
+    std::vector<float> most_way;     // empty, or one a vertex: metres from where the skin would carry it; 0: any
     std::vector<GarmentSize> sizes;
 
     uint32_t vertex_count() const { return uint32_t(mesh.positions.size()); }

@@ -55,15 +55,17 @@ void ParticleSolver::carry(const RigidMotion& motion) {
     for (Particle& v : velocities_) v.x = motion.direction(v.x);
 }
 
-float ParticleSolver::copy_positions(std::span<Vec3> out) const {
+ParticleSolver::Ways ParticleSolver::copy_positions(std::span<Vec3> out) const {
     const std::vector<uint32_t>& particle_of = fabric_->layout().particle_of;
-    float most2 = 0.0f;
+    float most2 = 0.0f, sum2 = 0.0f;
     for (size_t v = 0; v < out.size(); ++v) {
         const Vec3 place = places_[particle_of[v]].x, way = place - out[v];
-        most2 = std::max(most2, glm::dot(way, way));
+        const float way2 = glm::dot(way, way);
+        most2 = std::max(most2, way2);
+        sum2 += way2;
         out[v] = place;
     }
-    return std::sqrt(most2);
+    return {std::sqrt(most2), std::sqrt(sum2 / float(std::max<size_t>(out.size(), 1)))};
 }
 
 Moving ParticleSolver::moving(uint32_t part) {

@@ -47,8 +47,11 @@ public:
     /// The result is the same for any number of threads. Does not allocate while the number of colliders stays.
     void advance(const Step& step, Jobs& jobs);
 
-    /// One a vertex; how far any of them is from what was there before, at most.
-    float copy_positions(std::span<Vec3> out) const;
+    /// One a vertex; and how far they are from what was there before.
+    struct Ways {
+        float greatest_m = 0.0f, rms_m = 0.0f;
+    };
+    Ways copy_positions(std::span<Vec3> out) const;
     const Particles& places() const { return places_; }
     const Particles& velocities() const { return velocities_; }
 

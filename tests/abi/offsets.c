@@ -341,7 +341,13 @@ OFFSET(vfit_cloth_desc, thickness_m, 28);
 OFFSET(vfit_cloth_desc, size_label, 32);
 OFFSET(vfit_cloth_desc, flags, 40);
 OFFSET(vfit_cloth_desc, reserved, 44);
-SIZE(vfit_cloth_desc, 48);
+OFFSET(vfit_cloth_desc, wind, 48);
+OFFSET(vfit_cloth_desc, drag, 60);
+OFFSET(vfit_cloth_desc, lift, 64);
+OFFSET(vfit_cloth_desc, inertia, 68);
+OFFSET(vfit_cloth_desc, self_thickness_m, 72);
+OFFSET(vfit_cloth_desc, budget_ms, 76);
+SIZE(vfit_cloth_desc, 80);
 
 OFFSET(vfit_cloth_stats, struct_size, 0);
 OFFSET(vfit_cloth_stats, vertex_count, 4);
@@ -351,7 +357,9 @@ OFFSET(vfit_cloth_stats, strain_mean, 16);
 OFFSET(vfit_cloth_stats, strain_p99, 20);
 OFFSET(vfit_cloth_stats, strain_max, 24);
 OFFSET(vfit_cloth_stats, step_ms, 28);
-SIZE(vfit_cloth_stats, 32);
+OFFSET(vfit_cloth_stats, substeps, 32);
+OFFSET(vfit_cloth_stats, reserved, 36);
+SIZE(vfit_cloth_stats, 40);
 
 OFFSET(vfit_frame_layout, struct_size, 0);
 OFFSET(vfit_frame_layout, stream, 4);

@@ -47,7 +47,8 @@ std::shared_ptr<Cloth> create(const Avatar& avatar, const Garment& garment,
                               const std::optional<std::string>& size, uint32_t substeps,
                               const std::optional<std::array<float, 3>>& gravity,
                               const std::optional<float>& friction, const std::optional<float>& damping,
-                              float thickness_m, bool hands) {
+                              float thickness_m, bool hands, bool skin, bool sleeps, const std::array<float, 3>& wind, float drag,
+                              float lift, const std::optional<float>& inertia, float self_thickness_m, float budget_ms) {
     vfit_cloth_desc desc = vfit_cloth_desc_init();
     desc.size_label = size ? size->c_str() : nullptr;
     desc.substeps = substeps;
@@ -59,7 +60,13 @@ std::shared_ptr<Cloth> create(const Avatar& avatar, const Garment& garment,
     desc.friction = setting(friction);
     desc.damping = setting(damping);
     desc.thickness_m = thickness_m;
-    desc.flags = flag(!hands, VFIT_CLOTH_NO_HANDS);
+    desc.flags = flag(!hands, VFIT_CLOTH_NO_HANDS) | flag(skin, VFIT_CLOTH_SKIN) | flag(!sleeps, VFIT_CLOTH_AWAKE);
+    std::copy(wind.begin(), wind.end(), desc.wind);
+    desc.drag = drag;
+    desc.lift = lift;
+    desc.inertia = setting(inertia);
+    desc.self_thickness_m = self_thickness_m;
+    desc.budget_ms = budget_ms;
     vfit_cloth handle{};
     run([&, a = avatar.get(), g = garment.get()] { return vfit_cloth_create(a, g, &desc, &handle); });
     return make<Cloth>(avatar.core(), handle);
@@ -75,7 +82,7 @@ py::object stats(const Cloth& cloth) {
     vfit_cloth_stats s = vfit_cloth_stats_init();
     check(vfit_cloth_describe(cloth.get(), &s));
     return value("ClothStats", s.vertex_count, s.simulated_count, s.constraint_count, s.strain_mean,
-                 s.strain_p99, s.strain_max, s.step_ms);
+                 s.strain_p99, s.strain_max, s.step_ms, s.substeps);
 }
 
 uint64_t state_hash(const Cloth& cloth) {
@@ -100,9 +107,31 @@ void bind_cloth(py::module_& m) {
                                                   "A garment on an avatar. Pose the avatar first, then step.")
             .def(py::init(&create), py::keep_alive<1, 2>(), "avatar"_a, "garment"_a, py::kw_only(),
                  "size"_a = py::none(), "substeps"_a = 0, "gravity"_a = py::none(), "friction"_a = py::none(),
-                 "damping"_a = py::none(), "thickness_m"_a = 0.0f, "hands"_a = true,
+                 "damping"_a = py::none(), "thickness_m"_a = 0.0f, "hands"_a = true, "skin"_a = false, "sleeps"_a = true,
+                 "wind"_a = std::array<float, 3>{}, "drag"_a = 0.0f, "lift"_a = 0.0f, "inertia"_a = py::none(),
+                 "self_thickness_m"_a = 0.0f, "budget_ms"_a = 0.0f,
                  "size None: made to the avatar. substeps 0: 8 a 1/60 s. hands False: forearms and hands pass "
-                 "through the garment.")
+                 "through the garment. skin True: kept out of the avatar's skin itself, not of its spheres and capsules. "
+                 "drag and lift: of the air, about 1. inertia: share of the body's own motion that the cloth feels. "
+                 "self_thickness_m: kept between the cloth's own layers. budget_ms: of a step.")
+            .def(
+                "set_wind",
+                [](const Cloth& c, const std::array<float, 3>& wind) {
+                    run([h = c.get(), &wind] { return vfit_cloth_set_wind(h, wind.data()); });
+                },
+                "wind"_a, "Velocity of the air from the next step on.")
+            .def(
+                "set_quality",
+                [](const Cloth& c, uint32_t substeps, float budget_ms) {
+                    run([=, h = c.get()] { return vfit_cloth_set_quality(h, substeps, budget_ms); });
+                },
+                "substeps"_a = 0, "budget_ms"_a = 0.0f, "Sub-steps a 1/60 s at most, and what a step may take.")
+            .def(
+                "wear_over",
+                [](const Cloth& c, const Cloth& inner) {
+                    run([h = c.get(), i = inner.get()] { return vfit_cloth_wear_over(h, i); });
+                },
+                "inner"_a, "Stays outside of that cloth from now on; step the inner one first.")
             .def(
                 "step",
                 [](const Cloth& c, float dt) { run([h = c.get(), dt] { return vfit_cloth_step(h, dt); }); },

@@ -236,6 +236,10 @@ TEST(MeshContact, WhatDoesNotFitIsRefusedAndWhatIsNotFiniteIsLeftOut) {
     const uint32_t mesh = cloth.add_mesh(ball.positions.size(), ball.indices);
     EXPECT_NE(error_of([&] { cloth.move_mesh(mesh + 1, ball.positions); }), "");
     EXPECT_NE(error_of([&] { cloth.move_mesh(mesh, sheet.positions); }), "");
+    cloth.move_mesh(mesh, ball.positions);
+    cloth.hide_mesh(mesh);
+    EXPECT_NE(error_of([&] { cloth.hide_mesh(mesh + 1); }), "");
+    cloth.step(kFrame_s, sheet.positions, {}, *jobs);
     for (size_t i = 0; i < ball.positions.size(); i += 3) ball.positions[i].x = NAN;
     for (int frame = 0; frame < 60; ++frame) {
         cloth.move_mesh(mesh, ball.positions);

@@ -306,6 +306,7 @@ class ClothStats(NamedTuple):
     strain_p99: float
     strain_max: float
     step_ms: float
+    substeps: int  #: of the last step; 0: the cloth slept
 
 
 def _rest_rotations() -> NDArray[np.float32]:

@@ -1,0 +1,153 @@
+// What a cloth is told beside its garment: skin, layers, wind, quality, sleep; and what of it is refused.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "contract/support.h"
+
+using contract::ContextTest;
+
+namespace {
+
+constexpr float kFrame_s = 1.0f / 60.0f;
+
+class ClothOptionsTest : public ContextTest {
+protected:
+    void SetUp() override {
+        ContextTest::SetUp();
+        vfit_avatar_desc desc = vfit_avatar_desc_init();
+        desc.sex = VFIT_SEX_FEMALE;
+        ASSERT_EQ(vfit_avatar_create_from_shape(context, &desc, nullptr, 0, 0, &avatar), VFIT_OK) << contract::last_error();
+        ASSERT_EQ(vfit_garment_open(context, "sundress", &garment), VFIT_OK) << contract::last_error();
+    }
+    vfit_cloth make(const vfit_cloth_desc& desc) {
+        vfit_cloth cloth{};
+        EXPECT_EQ(vfit_cloth_create(avatar, garment, &desc, &cloth), VFIT_OK) << contract::last_error();
+        return cloth;
+    }
+    std::vector<float> positions(vfit_cloth cloth) {
+        vfit_frame frame{};
+        EXPECT_EQ(vfit_cloth_acquire(cloth, &frame), VFIT_OK) << contract::last_error();
+        vfit_view view = vfit_view_init();
+        EXPECT_EQ(vfit_frame_view(frame, VFIT_STREAM_POSITION, &view), VFIT_OK) << contract::last_error();
+        std::vector<float> out(3 * size_t(view.width));
+        for (size_t i = 0; i < view.width; ++i)
+            std::memcpy(&out[3 * i], static_cast<const char*>(view.data) + i * size_t(view.item_stride), 3 * sizeof(float));
+        vfit_frame_release(frame);
+        return out;
+    }
+    static uint32_t substeps(vfit_cloth cloth) {
+        vfit_cloth_stats stats = vfit_cloth_stats_init();
+        EXPECT_EQ(vfit_cloth_describe(cloth, &stats), VFIT_OK) << contract::last_error();
+        return stats.substeps;
+    }
+    vfit_avatar avatar{};
+    vfit_garment garment{};
+};
+
+TEST_F(ClothOptionsTest, OnTheSkinItLiesCloserThanOnSpheresAndCapsules) {
+    vfit_cloth_desc desc = vfit_cloth_desc_init();
+    desc.flags = VFIT_CLOTH_SKIN | VFIT_CLOTH_AWAKE;
+    const vfit_cloth skin = make(desc);
+    for (int i = 0; i < 60; ++i) ASSERT_EQ(vfit_cloth_step(skin, kFrame_s), VFIT_OK) << contract::last_error();
+    EXPECT_EQ(substeps(skin), 8u);
+    for (const float x : positions(skin)) ASSERT_TRUE(std::isfinite(x) && std::abs(x) < 3.0f);
+    ASSERT_EQ(vfit_cloth_reset(skin), VFIT_OK) << contract::last_error();
+}
+
+TEST_F(ClothOptionsTest, WindBlowsAndStillnessSleeps) {
+    vfit_cloth_desc desc = vfit_cloth_desc_init();
+    desc.drag = 1.0f;
+    const vfit_cloth calm = make(desc), windy = make(desc);
+    const float wind[3] = {0, 0, 6.0f};
+    ASSERT_EQ(vfit_cloth_set_wind(windy, wind), VFIT_OK) << contract::last_error();
+    for (int i = 0; i < 90; ++i) {
+        ASSERT_EQ(vfit_cloth_step(calm, kFrame_s), VFIT_OK);
+        ASSERT_EQ(vfit_cloth_step(windy, kFrame_s), VFIT_OK);
+    }
+    const std::vector<float> still = positions(calm), blown = positions(windy);
+    float most = 0.0f;
+    for (size_t i = 2; i < still.size(); i += 3) most = std::max(most, blown[i] - still[i]);
+    EXPECT_GT(most, 0.05f);
+    for (int i = 0; i < 1200 && substeps(calm) != 0; ++i) ASSERT_EQ(vfit_cloth_step(calm, kFrame_s), VFIT_OK);
+    EXPECT_EQ(substeps(calm), 0u) << "asleep";
+    ASSERT_EQ(vfit_cloth_set_wind(calm, wind), VFIT_OK);
+    ASSERT_EQ(vfit_cloth_step(calm, kFrame_s), VFIT_OK);
+    EXPECT_GT(substeps(calm), 0u) << "woken";
+    const float bad[3] = {0, std::numeric_limits<float>::quiet_NaN(), 0};
+    EXPECT_EQ(vfit_cloth_set_wind(calm, bad), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_cloth_set_wind(calm, nullptr), VFIT_ERROR_ARGUMENT);
+}
+
+TEST_F(ClothOptionsTest, QualityIsSubstepsAndABudget) {
+    vfit_cloth_desc desc = vfit_cloth_desc_init();
+    desc.flags = VFIT_CLOTH_AWAKE;
+    const vfit_cloth cloth = make(desc);
+    ASSERT_EQ(vfit_cloth_set_quality(cloth, 3, 0.0f), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_cloth_step(cloth, kFrame_s), VFIT_OK);
+    EXPECT_EQ(substeps(cloth), 3u);
+    ASSERT_EQ(vfit_cloth_set_quality(cloth, 0, 1e-4f), VFIT_OK);
+    for (int i = 0; i < 10; ++i) ASSERT_EQ(vfit_cloth_step(cloth, kFrame_s), VFIT_OK);
+    EXPECT_EQ(substeps(cloth), 1u);
+    EXPECT_EQ(vfit_cloth_set_quality(cloth, 100000, 0.0f), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_cloth_set_quality(cloth, 8, -1.0f), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_cloth_set_quality(cloth, 8, std::numeric_limits<float>::infinity()), VFIT_ERROR_ARGUMENT);
+}
+
+TEST_F(ClothOptionsTest, ADressOverADressStaysOutsideOfIt) {
+    vfit_cloth_desc desc = vfit_cloth_desc_init();
+    desc.flags = VFIT_CLOTH_AWAKE | VFIT_CLOTH_SKIN;
+    const vfit_cloth inner = make(desc), outer = make(desc);
+    ASSERT_EQ(vfit_cloth_wear_over(outer, inner), VFIT_OK) << contract::last_error();
+    EXPECT_EQ(vfit_cloth_wear_over(outer, inner), VFIT_OK) << "twice is once";
+    EXPECT_EQ(vfit_cloth_wear_over(inner, outer), VFIT_ERROR_ARGUMENT) << "neither can be below the other";
+    EXPECT_EQ(vfit_cloth_wear_over(inner, inner), VFIT_ERROR_ARGUMENT);
+    ASSERT_EQ(vfit_cloth_reset(outer), VFIT_OK) << contract::last_error();
+    for (int i = 0; i < 60; ++i) {
+        ASSERT_EQ(vfit_cloth_step(inner, kFrame_s), VFIT_OK);
+        ASSERT_EQ(vfit_cloth_step(outer, kFrame_s), VFIT_OK) << contract::last_error();
+    }
+    // The same garment: each vertex stands further from the body's middle than its twin.
+    const std::vector<float> below = positions(inner), above = positions(outer);
+    size_t outside = 0, count = 0;
+    for (size_t i = 0; i < below.size(); i += 3) {
+        if (above[i] == below[i] && above[i + 2] == below[i + 2]) continue;  // carried by the skin, both
+        ++count;
+        outside += std::hypot(above[i], above[i + 2]) > std::hypot(below[i], below[i + 2]) + 0.001f;
+    }
+    ASSERT_GT(count, 300u);
+    EXPECT_GT(double(outside), 0.95 * double(count));
+
+    ASSERT_EQ(vfit_cloth_begin_step(inner, kFrame_s), VFIT_OK);
+    EXPECT_EQ(vfit_cloth_step(outer, kFrame_s), VFIT_ERROR_STATE) << "the one below is on its way";
+    ASSERT_EQ(vfit_cloth_end_step(inner), VFIT_OK);
+    EXPECT_EQ(vfit_cloth_step(outer, kFrame_s), VFIT_OK);
+    ASSERT_EQ(vfit_cloth_destroy(inner), VFIT_OK);
+    EXPECT_EQ(vfit_cloth_step(outer, kFrame_s), VFIT_OK) << "what was below stays where it was";
+
+    vfit_avatar other{};
+    ASSERT_EQ(vfit_avatar_create_from_shape(context, nullptr, nullptr, 0, 0, &other), VFIT_OK);
+    vfit_cloth strange{};
+    ASSERT_EQ(vfit_cloth_create(other, garment, nullptr, &strange), VFIT_OK);
+    EXPECT_EQ(vfit_cloth_wear_over(outer, strange), VFIT_ERROR_ARGUMENT);
+}
+
+TEST_F(ClothOptionsTest, WhatMakesNoSenseIsRefusedByName) {
+    const auto refused = [&](const auto& change, const char* name) {
+        vfit_cloth_desc desc = vfit_cloth_desc_init();
+        change(desc);
+        vfit_cloth cloth{};
+        EXPECT_EQ(vfit_cloth_create(avatar, garment, &desc, &cloth), VFIT_ERROR_ARGUMENT) << name;
+        EXPECT_NE(std::string(contract::last_error()).find(name), std::string::npos) << contract::last_error();
+    };
+    refused([](vfit_cloth_desc& d) { d.drag = -1.0f; }, "drag");
+    refused([](vfit_cloth_desc& d) { d.inertia = 2.0f; }, "inertia");
+    refused([](vfit_cloth_desc& d) { d.self_thickness_m = 1.0f; }, "self_thickness_m");
+    refused([](vfit_cloth_desc& d) { d.budget_ms = -1.0f; }, "budget_ms");
+    refused([](vfit_cloth_desc& d) { d.wind[1] = std::numeric_limits<float>::infinity(); }, "finite");
+    refused([](vfit_cloth_desc& d) { d.flags = 1u << 20; }, "flags");
+}
+
+}  // namespace
