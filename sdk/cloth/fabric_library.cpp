@@ -42,6 +42,12 @@ FabricLibrary FabricLibrary::parse(std::span<const std::byte> json) {
     return library;
 }
 
+std::vector<std::string> FabricLibrary::names() const {
+    std::vector<std::string> out;
+    for (const auto& entry : materials_) out.push_back(entry.first);
+    return out;
+}
+
 const FabricMaterial& FabricLibrary::get(const std::string& name) const {
     const auto it = materials_.find(name);
     if (it != materials_.end()) return it->second;

@@ -5,6 +5,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace vfit {
 
@@ -23,6 +24,7 @@ public:
     static FabricLibrary parse(std::span<const std::byte> json);
 
     void add(const std::string& name, const FabricMaterial& material) { materials_[name] = material; }
+    std::vector<std::string> names() const;
     bool has(const std::string& name) const { return materials_.count(name) != 0; }
     /// Fails with VFIT_ERROR_DATA, listing the names there are.
     const FabricMaterial& get(const std::string& name) const;

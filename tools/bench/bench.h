@@ -44,6 +44,7 @@ void add_population(Command& app);
 void add_recordings(Command& app);
 void add_track(Command& app);
 void add_cloth(Command& app);
+void add_drape(Command& app);
 void add_user_map(Command& app);
 void add_fit(Command& app);
 void add_measure(Command& app);
