@@ -10,8 +10,8 @@ namespace vfit {
 
 namespace {
 
-constexpr float kCell_m = 0.03f;         // holds a few vertices of a body
-constexpr float kFastest_m = 0.1f;       // further than that in a step, a mesh is not looked for
+constexpr float kFastest_m = 0.1f;  // further than that in a step, a mesh is not looked for
+constexpr float kCornerReach = 0.6f;  // of an edge: so far off may the corner be by which a place of a triangle is found
 constexpr float kFartherWay = 1.25f, kFartherWay_m = 0.002f;  // a particle may go further than its speed says
 
 std::vector<uint32_t> counted(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts) {
@@ -30,37 +30,69 @@ std::vector<uint32_t> counted(size_t vertices, std::span<const uint32_t> indices
 ContactMesh::ContactMesh(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts)
     : counts_(vertices, 0), indices_(counted(vertices, indices, counts)), fans_(vertices, indices_) {
     for (uint32_t v : indices_) counts_[v] = 1;
-    near_.resize(vertices);
     current_.reserve(vertices);
     previous_.reserve(vertices);
-    grid_.reserve(vertices);
+}
+
+/// Along a Morton curve: neighbours in space follow each other.
+void ContactMesh::order(std::span<const Vec3> positions) {
+    const auto spread = [](uint32_t x) {
+        x = (x | x << 16) & 0x030000ff;
+        x = (x | x << 8) & 0x0300f00f;
+        x = (x | x << 4) & 0x030c30c3;
+        return (x | x << 2) & 0x09249249;
+    };
+    std::vector<std::pair<uint32_t, uint32_t>> codes;
+    for (uint32_t v = 0; v < counts_.size(); ++v) {
+        if (!counts_[v] || !finite(positions[v])) continue;
+        const Vec3 cell = glm::clamp((positions[v] - positions[indices_[0]]) * 128.0f + 512.0f, 0.0f, 1023.0f);
+        codes.emplace_back(spread(uint32_t(cell.x)) | spread(uint32_t(cell.y)) << 1 | spread(uint32_t(cell.z)) << 2, v);
+    }
+    std::sort(codes.begin(), codes.end());
+    vertex_of_.clear();
+    for (const auto& [code, v] : codes) vertex_of_.push_back(v);
+    const size_t runs = (vertex_of_.size() + kLanes - 1) / kLanes;
+    places_.assign(runs * kLanes, Particle{Vec3(NAN)});
+    boxes_.resize(runs);
+    ways_m_.assign(runs, 0.0f);
+    edges_m_.assign(runs, 0.0f);
+    for (size_t i = 0; i < vertex_of_.size(); ++i)
+        for (uint32_t t : fans_.of(vertex_of_[i]))
+            for (size_t k = 0; k < 3; ++k) {
+                const float length = glm::length(positions[indices_[3 * t + k]] - positions[vertex_of_[i]]);
+                if (std::isfinite(length)) edges_m_[i / kLanes] = std::max(edges_m_[i / kLanes], length);
+            }
 }
 
 void ContactMesh::accept(std::span<const Vec3> positions, const Vec3& low, const Vec3& high) {
     current_.assign(positions.begin(), positions.end());
     if (previous_.size() != current_.size()) previous_ = current_;
-    float greatest2 = 0.0f, edge2 = 0.0f;
-    for (size_t v = 0; v < near_.size(); ++v) {
-        const Vec3& p = previous_[v];
-        const bool inside = counts_[v] && glm::all(glm::greaterThan(p, low)) && glm::all(glm::lessThan(p, high));
-        near_[v] = inside ? p : Vec3(NAN);
-        if (!inside) continue;
-        const Vec3 way = current_[v] - p;
-        greatest2 = std::max(greatest2, glm::dot(way, way));
+    if (vertex_of_.empty() && !indices_.empty()) order(positions);
+    greatest_way_ = 0.0f;
+    for (size_t run = 0; run < ways_m_.size(); ++run) {
+        Vec3 from(INFINITY), to(-INFINITY);
+        float way2 = 0.0f;
+        for (size_t i = run * kLanes; i < std::min((run + 1) * kLanes, vertex_of_.size()); ++i) {
+            const Vec3 &p = previous_[vertex_of_[i]], &q = current_[vertex_of_[i]];
+            const bool inside = glm::all(glm::greaterThan(p, low)) && glm::all(glm::lessThan(p, high));
+            places_[i].x = inside ? p : Vec3(NAN);
+            if (!inside) continue;
+            const Vec3 way = q - p;
+            from = glm::min(from, glm::min(p, q)), to = glm::max(to, glm::max(p, q));
+            way2 = std::max(way2, glm::dot(way, way));
+        }
+        ways_m_[run] = std::min(std::sqrt(way2), kFastest_m);
+        greatest_way_ = std::max(greatest_way_, std::sqrt(way2));
+        const float reach = kCornerReach * edges_m_[run];
+        boxes_.runs.set(run, from - reach, to + reach);
     }
-    for (size_t i = 0; i < indices_.size(); i += 3) {
-        const Vec3 &a = near_[indices_[i]], &b = near_[indices_[i + 1]];
-        if (const float length2 = glm::dot(b - a, b - a); length2 > edge2) edge2 = length2;
-    }
-    greatest_way_ = std::sqrt(greatest2);
-    longest_edge_m_ = std::sqrt(edge2);
-    grid_.build(near_, kCell_m);
+    boxes_.find_blocks();
 }
 
 void ContactMesh::hide() {
     previous_.clear();
     greatest_way_ = 0.0f;
-    grid_.build({}, kCell_m);
+    boxes_.resize(ways_m_.size());
 }
 
 void ContactMesh::carry(const RigidMotion& motion) {
@@ -113,7 +145,7 @@ Vec3 ContactMesh::outward_at(const Place& place) const {
     return sum;
 }
 
-void ContactMesh::find_planes(const Moving& moving, float dt, float thickness_m, std::vector<RunPlanes>& out) const {
+void ContactMesh::find_planes(const Moving& moving, float dt, float thickness_m, std::vector<uint32_t>& near, std::vector<RunPlanes>& out) const {
     static const Particle kNoNormals[kLanes] = {};
     for (uint32_t first = 0; first < moving.count; first += uint32_t(kLanes)) {
         const Particle* run = moving.places + first;
@@ -124,21 +156,21 @@ void ContactMesh::find_planes(const Moving& moving, float dt, float thickness_m,
             high = glm::max(high, run[i].x);
             speed2 = std::max(speed2, glm::dot(moving.velocities[first + i].x, moving.velocities[first + i].x));
         }
-        const float way = kFartherWay * dt * std::sqrt(speed2) + kFartherWay_m + std::min(greatest_way_, kFastest_m);
-        const float reach = thickness_m + std::min(way, kFastest_m);
-        // The nearest vertex may be further than the nearest place of its triangles.
-        const float vertex_reach = reach + 0.6f * longest_edge_m_;
-        NearestOfRun nearest(vertex_reach);
-        grid_.visit(low - vertex_reach, high + vertex_reach, [&](uint32_t begin, uint32_t end) {
-            find_nearest(run, kNoNormals, grid_.points().subspan(begin, end - begin), grid_.ids().data() + begin, nearest);
-        });
+        const float own = thickness_m + std::min(kFartherWay * dt * std::sqrt(speed2) + kFartherWay_m, kFastest_m);
+        find_meeting(boxes_, low - own, high + own, near);
+        if (near.empty()) continue;
+        float way = 0.0f, edge = 0.0f;
+        for (uint32_t other : near) way = std::max(way, ways_m_[other]), edge = std::max(edge, edges_m_[other]);
+        const float reach = own + way;
+        NearestOfRun nearest(reach + kCornerReach * edge);
+        find_nearest_in_runs(run, kNoNormals, places_.data(), near, {}, nearest);
         RunPlanes planes{};
         bool any = false;
         for (size_t lane = 0; lane < kLanes; ++lane) {
             planes.thickness_m[lane] = RunPlanes::kNone;
             if (nearest.id[0][lane] == UINT32_MAX) continue;
             const Vec3& p = run[particle_at(lane)].x;
-            const Place place = nearest_about(nearest.id[0][lane], p);
+            const Place place = nearest_about(vertex_of_[nearest.id[0][lane]], p);
             if (place.triangle == UINT32_MAX) continue;
             const Vec3 on = at(previous_, place), to = at(current_, place), off = p - on;
             const float distance = glm::length(off);

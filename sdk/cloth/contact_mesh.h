@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "cloth/cloth_kernels.h"
-#include "cloth/point_grid.h"
 #include "cloth/rigid_motion.h"
 #include "cloth/surface_kernels.h"
 #include "cloth/triangle_fans.h"
@@ -33,7 +32,8 @@ public:
 
     /// Planes for runs of particles as they lie and move at the begin of a step of dt, by rising runs. Those of a run that is
     /// not near are left out. May run for several parts at the same time.
-    void find_planes(const Moving& moving, float dt, float thickness_m, std::vector<RunPlanes>& out) const;
+    /// near: room to work in.
+    void find_planes(const Moving& moving, float dt, float thickness_m, std::vector<uint32_t>& near, std::vector<RunPlanes>& out) const;
 
 private:
     struct Place {
@@ -45,14 +45,18 @@ private:
     Place nearest_about(uint32_t vertex, const Vec3& p) const;
     Vec3 outward_at(const Place& place) const;
 
+    void order(std::span<const Vec3> positions);
+
     std::vector<uint8_t> counts_;
     std::vector<uint32_t> indices_;
     TriangleFans fans_;
-    float longest_edge_m_ = 0.0f;
     float greatest_way_ = 0.0f;
     std::vector<Vec3> previous_, current_;
-    std::vector<Vec3> near_;        // previous_, not finite where it does not matter
-    PointGrid grid_;
+    // Vertices in runs of kLanes neighbours, as they lie at the begin of the step; not finite: nobody, or too far to matter.
+    std::vector<uint32_t> vertex_of_;
+    Particles places_;
+    RunBoxes boxes_;                        // on their way through the step, and as far as their triangles may reach
+    std::vector<float> ways_m_, edges_m_;  // of each run, at most
 };
 
 }  // namespace vfit

@@ -141,7 +141,7 @@ void ParticleSolver::begin_part(const Step& step, uint32_t part) {
     place_balls(step, part, fabric_->limit_runs()[part], 0.0f, parts_[part].limits);
     const Moving m = moving(part);
     parts_[part].planes.clear();
-    for (const ContactMesh& mesh : step.meshes) mesh.find_planes(m, step.dt, step.thickness_m, parts_[part].planes);
+    for (const ContactMesh& mesh : step.meshes) mesh.find_planes(m, step.dt, step.thickness_m, parts_[part].near_runs, parts_[part].planes);
     if (step.meshes.size() > 1)
         std::stable_sort(parts_[part].planes.begin(), parts_[part].planes.end(), [](const RunPlanes& a, const RunPlanes& b) { return a.run < b.run; });
     NearColliders& near = parts_[part].near;

@@ -63,6 +63,7 @@ private:
         NearColliders near;
         std::vector<RunBalls> backstops, limits;
         std::vector<RunPlanes> planes;
+        std::vector<uint32_t> near_runs;
     };
     Moving moving(uint32_t part);
     void set_gains(float h, int substeps);

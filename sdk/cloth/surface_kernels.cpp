@@ -94,7 +94,7 @@ void FindNearestInRuns(const Particle* run, const Particle* normals, const Parti
         Nearest nearest(run, normals, k, out);
         for (size_t i = 0; i < runs.size(); ++i)
             for (uint32_t j = 0; j < kLanes; ++j) {
-                const uint32_t id = runs[i] * uint32_t(kLanes) + j, lanes = uint32_t(excluded[i] >> (8 * j)) & 0xff;
+                const uint32_t id = runs[i] * uint32_t(kLanes) + j, lanes = excluded.empty() ? 0 : uint32_t(excluded[i] >> (8 * j)) & 0xff;
                 if (lanes != 0xff) nearest.see(all[id].x, id, lanes);
             }
         nearest.tell();

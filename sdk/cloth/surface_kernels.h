@@ -39,7 +39,8 @@ void find_meeting(const RunBoxes& boxes, const Vec3& low, const Vec3& high, std:
 /// Keeps of the runs (and excluded, as below) those of which a particle is nearer than that to one of this run; how many.
 size_t keep_near(const Particle* run, const Particle* all, float reach_m, uint32_t* runs, uint64_t* excluded, size_t count);
 /// As find_nearest, at the particles of these runs, which are their ids; not finite: nobody. excluded: of each run, a byte for
-/// each of its particles, of which a bit says that it does not count for that lane.
+/// each of its particles, of which a bit says that it does not count for that lane; empty:
+/// all count.
 void find_nearest_in_runs(const Particle* run, const Particle* normals, const Particle* all, std::span<const uint32_t> runs,
                           std::span<const uint64_t> excluded, NearestOfRun& out);
 
