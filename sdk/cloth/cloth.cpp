@@ -68,6 +68,9 @@ void check(const ClothSettings& s) {
 void check_points(std::span<const Vec3> points, uint32_t count, const char* what) {
     if (points.size() != count)
         fail(VFIT_ERROR_ARGUMENT, points.size(), " ", what, " for a garment of ", count, " vertices");
+    float zero = 0.0f;  // times nothing, what is not finite is no number
+    for (const Vec3& p : points) zero += (p.x + p.y + p.z) * 0.0f;
+    if (zero == 0.0f) return;
     for (size_t i = 0; i < points.size(); ++i)
         if (!finite(points[i])) fail(VFIT_ERROR_DATA, what, " ", i, " is not finite");
 }
@@ -315,8 +318,8 @@ void Cloth::State::advance(float dt, int count, float damping, std::span<const V
 }
 
 void Cloth::State::rest_if_still(float dt, std::span<const Vec3> targets) {
-    const bool still = body_way() <= kStill_m && farthest(previous_targets, targets) <= kStill_m &&
-                       ways.rms_m <= kStillMean_m_s * dt && ways.greatest_m <= kStillMost_m_s * dt;
+    const bool still = ways.rms_m <= kStillMean_m_s * dt && ways.greatest_m <= kStillMost_m_s * dt && body_way() <= kStill_m &&
+                       farthest(previous_targets, targets) <= kStill_m;
     still_s = still ? still_s + dt : 0.0f;
     if (!settings.sleeps || still_s < kFallsAsleep_s) return;
     solver.rest();

@@ -139,6 +139,7 @@ void ParticleSolver::solve_group(int substep, uint32_t group) {
 void ParticleSolver::begin_part(const Step& step, uint32_t part) {
     place_balls(step, part, fabric_->backstop_runs()[part], step.thickness_m, parts_[part].backstops);
     place_balls(step, part, fabric_->limit_runs()[part], 0.0f, parts_[part].limits);
+    place_fixed(step, part);
     const Moving m = moving(part);
     parts_[part].planes.clear();
     for (const ContactMesh& mesh : step.meshes) mesh.find_planes(m, step.dt, step.thickness_m, parts_[part].near_runs, parts_[part].planes);
@@ -175,14 +176,23 @@ void ParticleSolver::place_balls(const Step& step, uint32_t part, std::span<cons
     }
 }
 
-void ParticleSolver::begin_substep(const Step& step, int substep, uint32_t part) {
+void ParticleSolver::place_fixed(const Step& step, uint32_t part) {
     const ParticleLayout& layout = fabric_->layout();
     const ParticleLayout::Part& p = layout.parts[part];
-    const float to = share(step, substep + 1);
+    Part& own = parts_[part];
+    own.fixed.clear(), own.fixed_ways.clear();
     for (uint32_t i = p.moving_end; i < p.end && layout.vertex_of[i] != ParticleLayout::kNobody; ++i) {
         const uint32_t v = layout.vertex_of[i];
-        places_[i].x = step.from[v] + (step.to[v] - step.from[v]) * to;
+        own.fixed.push_back(Particle{step.from[v]});
+        own.fixed_ways.push_back(Particle{step.to[v] - step.from[v]});
     }
+}
+
+void ParticleSolver::begin_substep(const Step& step, int substep, uint32_t part) {
+    const ParticleLayout::Part& p = fabric_->layout().parts[part];
+    const float to = share(step, substep + 1);
+    const Part& own = parts_[part];
+    for (size_t i = 0; i < own.fixed.size(); ++i) places_[p.moving_end + i].x = own.fixed[i].x + own.fixed_ways[i].x * to;
     solve_group(substep, part);
 }
 

@@ -63,12 +63,14 @@ private:
         NearColliders near;
         std::vector<RunBalls> backstops, limits;
         std::vector<RunPlanes> planes;
+        Particles fixed, fixed_ways;  // copies of the fixed vertices at the begin of the step, and to its end
         std::vector<uint32_t> near_runs;
     };
     Moving moving(uint32_t part);
     void set_gains(float h, int substeps);
     void begin_part(const Step& step, uint32_t part);
     void place_balls(const Step& step, uint32_t part, std::span<const BallRun> runs, float more_m, std::vector<RunBalls>& out) const;
+    void place_fixed(const Step& step, uint32_t part);
     void begin_substep(const Step& step, int substep, uint32_t part);
     void end_part(const Step& step, int substep, uint32_t part);
     void solve_group(int substep, uint32_t group);

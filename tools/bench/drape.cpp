@@ -19,8 +19,9 @@ struct Part {
     const char* name;
     Json (*judge)(const DrapeJudge&);
 };
-constexpr Part kParts[] = {{"strip", judge_strip}, {"fabrics", judge_fabrics}, {"scale", judge_scale}, {"self", judge_self},
-                           {"skin", judge_skin}, {"frame", judge_frame}, {"crowd", judge_crowd}, {"random", judge_random}};
+// The crowd first: it wants two cores, and who is pinned to one does not get them back.
+constexpr Part kParts[] = {{"crowd", judge_crowd}, {"strip", judge_strip}, {"fabrics", judge_fabrics}, {"scale", judge_scale}, {"self", judge_self},
+                           {"skin", judge_skin}, {"frame", judge_frame}, {"random", judge_random}};
 
 void drape(const Options& options) {
     Targets targets(options.json);
