@@ -150,14 +150,16 @@ struct ClothObject : ContextChild {
     Ref<Frame> next;
     Jobs::Later later;
 
+    using Reading = std::unique_ptr<Access, void (*)(Access*)>;
+    static Reading reading_of(Access& access, const char* what) {
+        access.begin_read(what);
+        return Reading(&access, [](Access* a) { a->end_read(); });
+    }
     const std::vector<Vec3>& skinned() {
         dress.skin(avatar->avatar.skinning_matrices(), targets);
         return targets;
     }
-    auto read_avatar() {
-        avatar->access.begin_read("avatar");
-        return std::unique_ptr<Access, void (*)(Access*)>(&avatar->access, [](Access* a) { a->end_read(); });
-    }
+    Reading read_avatar() { return reading_of(avatar->access, "avatar"); }
     /// Spheres and capsules, or none where the skin itself is met.
     void limbs_of(std::vector<Collider>& limbs) const {
         if (skin.places.size() > 0) limbs.clear();
@@ -171,15 +173,19 @@ struct ClothObject : ContextChild {
     /// Garments worn below, where their last step left them.
     void move_inner() {
         for (const Inner& inner : worn_over) {
-            inner.cloth->access.begin_read("inner cloth");
-            std::unique_ptr<Access, void (*)(Access*)> reading(&inner.cloth->access, [](Access* a) { a->end_read(); });
+            const auto reading = reading_of(inner.cloth->access, "cloth below");
             if (inner.cloth->stepping) fail(VFIT_ERROR_STATE, "a step of the cloth below has begun: end it first");
             cloth.move_mesh(inner.mesh, inner.cloth->cloth.positions());
         }
     }
+    /// The caller reads this cloth; those below are read here, as other threads may dress them. Never ends in `other`, which
+    /// the caller has for itself.
     bool is_over(const ClothObject& other) const {
-        if (this == &other) return true;
-        return std::any_of(worn_over.begin(), worn_over.end(), [&](const Inner& inner) { return inner.cloth->is_over(other); });
+        return std::any_of(worn_over.begin(), worn_over.end(), [&](const Inner& inner) {
+            if (inner.cloth.get() == &other) return true;
+            const auto reading = reading_of(inner.cloth->access, "cloth below");
+            return inner.cloth->is_over(other);
+        });
     }
     void prepare(float step_dt) {
         if (stepping) fail(VFIT_ERROR_STATE, "a step has begun already: end it first");

@@ -221,6 +221,7 @@ void Cloth::move_mesh(uint32_t mesh, std::span<const Vec3> positions) {
     if (mesh >= s.meshes.size()) fail(VFIT_ERROR_ARGUMENT, "there is no mesh ", mesh);
     if (positions.size() != s.meshes[mesh].vertex_count())
         fail(VFIT_ERROR_ARGUMENT, positions.size(), " places for a mesh of ", s.meshes[mesh].vertex_count(), " vertices");
+    if (s.mesh_places[mesh].empty()) s.wake();
     s.mesh_places[mesh].assign(positions.begin(), positions.end());
 }
 
@@ -228,6 +229,7 @@ void Cloth::hide_mesh(uint32_t mesh) {
     if (mesh >= state_->meshes.size()) fail(VFIT_ERROR_ARGUMENT, "there is no mesh ", mesh);
     state_->mesh_places[mesh].clear();
     state_->meshes[mesh].hide();
+    state_->wake();
 }
 
 void Cloth::set_air(const Air& air) {

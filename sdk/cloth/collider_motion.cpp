@@ -5,12 +5,16 @@ namespace vfit {
 void ColliderMotion::accept(std::span<const Collider> colliders, float thickness_m) {
     current_.resize(colliders.size());
     for (size_t i = 0; i < colliders.size(); ++i) current_[i] = capsule_of(colliders[i], thickness_m);
-    if (previous_.size() != current_.size()) previous_ = current_;
+    same_ = previous_.size() == current_.size();
+    if (!same_) previous_ = current_;
     needed_.clear();
     needed_.reserve(current_.size());
     for (uint32_t i = 0; i < current_.size(); ++i) {
         // A capsule that became a ball, or the reverse, has no way between the two.
-        if (previous_[i].is_ball() != current_[i].is_ball()) previous_[i] = current_[i];
+        if (previous_[i].is_ball() != current_[i].is_ball()) {
+            previous_[i] = current_[i];
+            same_ = false;
+        }
         if (!is_end_of_another(i)) needed_.push_back(i);
     }
 }
@@ -35,7 +39,7 @@ void ColliderMotion::carry(const RigidMotion& motion) {
 }
 
 float ColliderMotion::greatest_way() const {
-    float most = 0.0f;
+    float most = same_ ? 0.0f : INFINITY;
     for (size_t i = 0; i < current_.size(); ++i) {
         const Capsule &from = previous_[i], &to = current_[i];
         most = std::max({most, glm::length(to.a - from.a) + std::abs(to.radius_a - from.radius_a),

@@ -24,7 +24,7 @@ public:
     void forget() { previous_.clear(); }
     /// Their last places were carried along.
     void carry(const RigidMotion& motion);
-    /// How far any of them went in this step, at most.
+    /// How far any of them went in this step, at most; infinite where one appeared, vanished or changed its kind.
     float greatest_way() const;
 
     /// Between two shares of the step; as many as count().
@@ -35,6 +35,7 @@ private:
     bool is_end_of_another(uint32_t ball) const;
 
     std::vector<Capsule> previous_, current_;
+    bool same_ = true;  // as in the last step, but for their places
     std::vector<uint32_t> needed_;  // that are not part of another
 };
 

@@ -34,8 +34,11 @@ ContactMesh::ContactMesh(size_t vertices, std::span<const uint32_t> indices, std
     previous_.reserve(vertices);
 }
 
-/// Along a Morton curve: neighbours in space follow each other.
+/// Along a Morton curve of cells of 8 mm: neighbours in space follow each other.
 void ContactMesh::order(std::span<const Vec3> positions) {
+    Vec3 low(INFINITY);
+    for (const Vec3& p : positions)
+        if (finite(p)) low = glm::min(low, p);
     const auto spread = [](uint32_t x) {
         x = (x | x << 16) & 0x030000ff;
         x = (x | x << 8) & 0x0300f00f;
@@ -44,8 +47,8 @@ void ContactMesh::order(std::span<const Vec3> positions) {
     };
     std::vector<std::pair<uint32_t, uint32_t>> codes;
     for (uint32_t v = 0; v < counts_.size(); ++v) {
-        if (!counts_[v] || !finite(positions[v])) continue;
-        const Vec3 cell = glm::clamp((positions[v] - positions[indices_[0]]) * 128.0f + 512.0f, 0.0f, 1023.0f);
+        if (!counts_[v]) continue;
+        const Vec3 cell = finite(positions[v]) ? glm::clamp((positions[v] - low) * 128.0f, 0.0f, 1023.0f) : Vec3(0.0f);
         codes.emplace_back(spread(uint32_t(cell.x)) | spread(uint32_t(cell.y)) << 1 | spread(uint32_t(cell.z)) << 2, v);
     }
     std::sort(codes.begin(), codes.end());

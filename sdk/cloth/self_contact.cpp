@@ -4,8 +4,6 @@
 #include <cmath>
 #include <queue>
 
-#include "math/finite.h"
-
 namespace vfit {
 
 namespace {
@@ -14,7 +12,7 @@ namespace {
 // found.
 constexpr float kAlong = 1.8f;
 // Layers are looked at before they touch: so far they may come nearer between two looks, and in a step.
-constexpr float kMargin_m = 0.01f, kFarthest_m = 0.05f;
+constexpr float kMargin_m = 0.01f, kFarthestWay_m = 0.05f;
 
 // A piece whose triangles all face one way does not meet itself (Volino and Thalmann 1994).
 constexpr float kAlike = 0.6f;  // cosine
@@ -157,7 +155,7 @@ void SelfContact::look_at(const Particles& places, const Particles& velocities, 
     for (size_t i = run * kLanes; i < (run + 1) * kLanes; ++i) {
         if (!counts_[i]) continue;
         low = glm::min(low, places[i].x), high = glm::max(high, places[i].x);
-        const Vec3 way = glm::clamp((velocities[i].x - drift) * dt, Vec3(-kFarthest_m), Vec3(kFarthest_m));
+        const Vec3 way = glm::clamp((velocities[i].x - drift) * dt, Vec3(-kFarthestWay_m), Vec3(kFarthestWay_m));
         slowest = glm::min(slowest, way), fastest = glm::max(fastest, way);
         for (const Fabric::Corners& c : fabric_->fan(uint32_t(i))) wide_low = glm::min(wide_low, places[c.second].x), wide_high = glm::max(wide_high, places[c.second].x);
     }

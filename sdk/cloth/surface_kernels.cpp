@@ -57,14 +57,6 @@ private:
     NearestOfRun& out_;
 };
 
-void FindNearest(const Particle* run, const Particle* normals, std::span<const Particle> points, const uint32_t* ids, NearestOfRun& out) {
-    for (size_t k = 0; k < kLanes; k += kWide) {
-        Nearest nearest(run, normals, k, out);
-        for (size_t i = 0; i < points.size(); ++i) nearest.see(points[i].x, ids[i], 0);
-        nearest.tell();
-    }
-}
-
 size_t KeepNear(const Particle* run, const Particle* all, float reach_m, uint32_t* runs, uint64_t* excluded, size_t count) {
     const V reach2 = Set(reach_m * reach_m);
     size_t kept = 0;
@@ -185,7 +177,6 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace vfit {
 
-HWY_EXPORT(FindNearest);
 HWY_EXPORT(FindNearestInRuns);
 HWY_EXPORT(FindMeeting);
 HWY_EXPORT(KeepNear);
@@ -219,9 +210,6 @@ void RunBoxes::find_blocks() {
     }
 }
 
-void find_nearest(const Particle* run, const Particle* normals, std::span<const Particle> points, const uint32_t* ids, NearestOfRun& out) {
-    HWY_DYNAMIC_DISPATCH(FindNearest)(run, normals, points, ids, out);
-}
 void find_nearest_in_runs(const Particle* run, const Particle* normals, const Particle* all, std::span<const uint32_t> runs,
                           std::span<const uint64_t> excluded, NearestOfRun& out) {
     HWY_DYNAMIC_DISPATCH(FindNearestInRuns)(run, normals, all, runs, excluded, out);

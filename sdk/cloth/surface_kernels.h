@@ -16,10 +16,6 @@ struct NearestOfRun {
 
     explicit NearestOfRun(float reach);  // none within that
 };
-/// Looks at these points for the run's eight particles (normals as well; zero: all is before). What is nearer than out says,
-/// replaces it.
-void find_nearest(const Particle* run, const Particle* normals, std::span<const Particle> points, const uint32_t* ids, NearestOfRun& out);
-
 /// Boxes, eight to a register.
 struct Boxes {
     std::vector<float> low[3], high[3];  // x, y, z; filled up to whole registers with boxes that meet nothing
@@ -38,7 +34,8 @@ struct RunBoxes {
 void find_meeting(const RunBoxes& boxes, const Vec3& low, const Vec3& high, std::vector<uint32_t>& runs);
 /// Keeps of the runs (and excluded, as below) those of which a particle is nearer than that to one of this run; how many.
 size_t keep_near(const Particle* run, const Particle* all, float reach_m, uint32_t* runs, uint64_t* excluded, size_t count);
-/// As find_nearest, at the particles of these runs, which are their ids; not finite: nobody. excluded: of each run, a byte for
+/// Looks at the particles of these runs, which are their ids (not finite: nobody), for a run's eight particles (normals as
+/// well; zero: all is before). What is nearer than out says, replaces it. excluded: of each run, a byte for
 /// each of its particles, of which a bit says that it does not count for that lane; empty:
 /// all count.
 void find_nearest_in_runs(const Particle* run, const Particle* normals, const Particle* all, std::span<const uint32_t> runs,

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cloth/point_grid.h"
 #include "cloth/triangle_fans.h"
 
 namespace vfit::bench {
@@ -99,22 +98,18 @@ size_t crossed_pairs(std::span<const Vec3> positions, std::span<const uint32_t> 
 
 float least_spacing(std::span<const Vec3> positions, std::span<const uint32_t> indices, std::span<const Vec3> flat, float along_m) {
     constexpr float kReach_m = 0.05f;
-    PointGrid grid;
-    grid.build(positions, kReach_m);
     const TriangleFans fans(positions.size(), indices);
     float least2 = kReach_m * kReach_m;
     for (size_t v = 0; v < positions.size(); ++v)
-        grid.visit(positions[v] - kReach_m, positions[v] + kReach_m, [&](uint32_t begin, uint32_t end) {
-            for (uint32_t i = begin; i < end; ++i) {
-                const uint32_t other = grid.ids()[i];
-                if (glm::length(flat[other] - flat[v]) < along_m) continue;
-                for (uint32_t t : fans.of(other)) {
-                    const Vec3 &a = positions[indices[3 * t]], &b = positions[indices[3 * t + 1]], &c = positions[indices[3 * t + 2]];
-                    const Vec3 w = nearest_on_triangle(positions[v], a, b, c), off = positions[v] - (w.x * a + w.y * b + w.z * c);
-                    least2 = std::min(least2, glm::dot(off, off));
-                }
+        for (uint32_t other = 0; other < positions.size(); ++other) {
+            const Vec3 way = positions[other] - positions[v];
+            if (glm::dot(way, way) > kReach_m * kReach_m || glm::length(flat[other] - flat[v]) < along_m) continue;
+            for (uint32_t t : fans.of(other)) {
+                const Vec3 &a = positions[indices[3 * t]], &b = positions[indices[3 * t + 1]], &c = positions[indices[3 * t + 2]];
+                const Vec3 w = nearest_on_triangle(positions[v], a, b, c), off = positions[v] - (w.x * a + w.y * b + w.z * c);
+                least2 = std::min(least2, glm::dot(off, off));
             }
-        });
+        }
     return std::sqrt(least2);
 }
 

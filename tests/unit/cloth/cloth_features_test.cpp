@@ -162,6 +162,12 @@ TEST(ClothSleep, WhatLiesStillIsNotSteppedAndWakesWhenSomethingMoves) {
     for (Vec3& t : hanging.targets) t.x += 0.001f;
     hanging.step(1, moving);
     EXPECT_EQ(hanging.cloth->stats().substeps, 8u) << "its targets have moved";
+    hanging.step(1200, moving);
+    EXPECT_EQ(hanging.cloth->stats().substeps, 0u);
+    std::vector<Collider> more = moving;
+    more.push_back(sphere({0.1f, -0.3f, 0.0f}, 0.05f));
+    hanging.step(1, more);
+    EXPECT_EQ(hanging.cloth->stats().substeps, 8u) << "a ball has appeared";
     ClothSettings awake;
     awake.sleeps = false;
     Hanging never(awake);

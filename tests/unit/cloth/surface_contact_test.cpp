@@ -5,7 +5,6 @@
 #include <cmath>
 #include <random>
 
-#include "cloth/point_grid.h"
 #include "cloth/surface_kernels.h"
 #include "cloth/triangle_fans.h"
 #include "cloth_support.h"
@@ -30,29 +29,6 @@ TEST(NearestOnTriangle, NoPlaceOfItIsNearer) {
             for (float v = 0; u + v <= 1.0f; v += 0.05f)
                 EXPECT_LE(distance, glm::length(p - ((1 - u - v) * a + u * b + v * c)) + 1e-4f);
     }
-}
-
-TEST(PointGrid, NamesAllInABoxAndForgetsWhatIsNotFinite) {
-    std::mt19937 random(2);
-    std::vector<Vec3> points;
-    for (int i = 0; i < 2000; ++i) points.push_back(random_point(random, 1));
-    points[17].y = NAN;
-    points[18] = Vec3(1e30f, 0, 0);
-    PointGrid grid;
-    grid.build(points, 0.07f);
-    const Vec3 low(-0.3f, 0.1f, -0.9f), high(0.2f, 0.5f, 0.4f);
-    std::vector<uint8_t> named(points.size(), 0);
-    grid.visit(low, high, [&](uint32_t begin, uint32_t end) {
-        for (uint32_t i = begin; i < end; ++i) {
-            named[grid.ids()[i]] = 1;
-            EXPECT_EQ(grid.points()[i].x, points[grid.ids()[i]]);
-        }
-    });
-    for (size_t i = 0; i < points.size(); ++i)
-        if (glm::all(glm::greaterThan(points[i], low)) && glm::all(glm::lessThan(points[i], high))) {
-            EXPECT_TRUE(named[i]) << i;
-        }
-    EXPECT_FALSE(named[17]);
 }
 
 TEST(SurfaceKernels, NearestPointsBeforeAndBehindEachLane) {
