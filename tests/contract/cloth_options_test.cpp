@@ -83,7 +83,7 @@ TEST_F(ClothOptionsTest, OnTheSkinItLiesOutsideOfTheSkin) {
                 best = distance2;
                 height = d[0] * normals[k] + d[1] * normals[k + 1] + d[2] * normals[k + 2];
             }
-            count += height < -0.002f;  // what may be
+            count += height < -0.002f;
         }
         EXPECT_EQ(vfit_cloth_reset(cloth), VFIT_OK) << contract::last_error();
         return count;

@@ -1,9 +1,7 @@
 // vfit-bench drape: what the cloth solver does beside the common scene: mechanics, contact, people, crowds, endurance.
-#include <iostream>
-
 #include "bench/bench.h"
 #include "bench/drape_parts.h"
-#include "client/output.h"
+#include "bench/parts.h"
 
 namespace vfit::tools {
 
@@ -15,24 +13,13 @@ struct Options {
     bool json = false;
 };
 
-struct Part {
-    const char* name;
-    Json (*judge)(const DrapeJudge&);
-};
 // The crowd first: it wants two cores, and who is pinned to one does not get them back.
-constexpr Part kParts[] = {{"crowd", judge_crowd}, {"strip", judge_strip}, {"fabrics", judge_fabrics}, {"scale", judge_scale}, {"self", judge_self},
+constexpr Part<DrapeJudge> kParts[] = {{"crowd", judge_crowd}, {"strip", judge_strip}, {"fabrics", judge_fabrics}, {"scale", judge_scale}, {"self", judge_self},
                            {"skin", judge_skin}, {"frame", judge_frame}, {"random", judge_random}};
 
 void drape(const Options& options) {
     Targets targets(options.json);
-    Json report = Json::object();
-    for (const Part& part : kParts)
-        if (options.only.empty() || options.only == part.name) report[part.name] = part.judge({targets, options.json, options.minutes});
-    report["targets"] = targets.json();
-    if (options.json)
-        print_document(report);
-    else
-        std::cout << "\n" << targets.count() - targets.missed() << " of " << targets.count() << " targets hit\n";
+    judge_parts(kParts, options.only, {targets, options.json, options.minutes});
 }
 
 }  // namespace
@@ -40,9 +27,7 @@ void drape(const Options& options) {
 void add_drape(Command& app) {
     Command command = app.add_subcommand("drape", "Judge the cloth solver: mechanics, contact, people, crowds, endurance (synthetic)");
     auto o = std::make_shared<Options>();
-    std::vector<std::string> names;
-    for (const Part& part : kParts) names.emplace_back(part.name);
-    command.add_option("--only", o->only, "One part").one_of(names);
+    command.add_option("--only", o->only, "One part").one_of(names_of(kParts));
     command.add_option("--minutes", o->minutes, "Minutes of random motion (default 0.5)");
     command.add_flag("--json", o->json, "Print JSON");
     command.callback([o] { drape(*o); });

@@ -20,23 +20,31 @@ struct Walk {
     std::vector<vfit_pose> poses;
     std::vector<std::vector<vfit_bone>> bones;
 };
-Walk walk(vfit_context context, const char* motion_name, uint32_t frames) {
-    Source source(context, std::string("virtual:sensor=kinect_v1_320&sex=f&motion=") + motion_name + "&frames=" + std::to_string(frames));
+
+/// take(tracked frame, body) for each frame of a virtual person who walks.
+template <typename Take>
+void watch_walk(vfit_context context, const Take& take) {
+    Source source(context, "virtual:sensor=kinect_v1_320&sex=f&motion=walk&frames=150");
     Tracker tracker;
     check(vfit_tracker_create(context, nullptr, tracker.out()));
-    Motion motion;
-    check(vfit_motion_create(context, nullptr, motion.out()));
-    Walk out;
     while (const auto frame = source.next()) {
         Frame tracked;
         check(vfit_tracker_update(tracker.get(), frame->get(), tracked.out()));
-        const uint32_t body = first_body(tracked.get());
-        if (body == 0) continue;
-        check(vfit_motion_step(motion.get(), tracked.get(), body, view_of(tracked.get(), VFIT_STREAM_DEPTH).time_ns));
+        if (const uint32_t body = first_body(tracked.get())) take(tracked.get(), body);
+    }
+}
+int64_t time_of(vfit_frame frame) { return view_of(frame, VFIT_STREAM_DEPTH).time_ns; }
+
+Walk walk(vfit_context context) {
+    Motion motion;
+    check(vfit_motion_create(context, nullptr, motion.out()));
+    Walk out;
+    watch_walk(context, [&](vfit_frame tracked, uint32_t body) {
+        check(vfit_motion_step(motion.get(), tracked, body, time_of(tracked)));
         vfit_pose pose = vfit_pose_init();
         out.bones.push_back(bones_of(motion.get(), pose));
         out.poses.push_back(pose);
-    }
+    });
     if (out.poses.empty()) throw Failure("the walk shows nobody");
     return out;
 }
@@ -67,7 +75,7 @@ Json judge_skin(const DrapeJudge& judge) {
     const vfit::tools::Context context = open_context();
     Garment garment;
     check(vfit_garment_open(context.get(), "sundress", garment.out()));
-    const Walk steps = walk(context.get(), "walk", 150);
+    const Walk steps = walk(context.get());
     // One avatar in two dresses, so that what its skin carries in both is known and left out.
     Dressed capsules = dress(context.get(), garment.get(), 0, 0);
     vfit_cloth_desc desc = vfit_cloth_desc_init();
@@ -134,9 +142,6 @@ Json judge_frame(const DrapeJudge& judge) {
     const vfit::tools::Context context = open_context();
     Garment garment;
     check(vfit_garment_open(context.get(), "sundress", garment.out()));
-    Source source(context.get(), "virtual:sensor=kinect_v1_320&sex=f&motion=walk&frames=150");
-    Tracker tracker;
-    check(vfit_tracker_create(context.get(), nullptr, tracker.out()));
     Motion motion;
     check(vfit_motion_create(context.get(), nullptr, motion.out()));
     const Dressed d = dress(context.get(), garment.get(), 1, 0);
@@ -152,13 +157,9 @@ Json judge_frame(const DrapeJudge& judge) {
         to[k].capacity = vertices * sizeof(Vec3);
     }
     Samples ms;
-    while (const auto frame = source.next()) {
-        Frame tracked;
-        check(vfit_tracker_update(tracker.get(), frame->get(), tracked.out()));
-        const uint32_t body = first_body(tracked.get());
-        if (body == 0) continue;
+    watch_walk(context.get(), [&](vfit_frame tracked, uint32_t body) {
         const Timer timer;
-        check(vfit_motion_step(motion.get(), tracked.get(), body, view_of(tracked.get(), VFIT_STREAM_DEPTH).time_ns));
+        check(vfit_motion_step(motion.get(), tracked, body, time_of(tracked)));
         vfit_pose pose = vfit_pose_init();
         const auto bones = bones_of(motion.get(), pose);
         check(vfit_avatar_pose_into(d.avatar.get(), &pose, bones.data(), sizeof(vfit_bone), uint32_t(bones.size()), &to[0], &to[1]));
@@ -166,7 +167,7 @@ Json judge_frame(const DrapeJudge& judge) {
         Frame cloth;
         check(vfit_cloth_acquire(d.cloth.get(), cloth.out()));
         ms.add(timer.ms());
-    }
+    });
     if (!judge.quiet) std::cout << "\nA whole frame, one core: motion, " << vertices << " vertices of skin written, the sundress, its buffers\n";
     judge.targets.judge("whole frame", ms.quantile(0.5), Aim::at_most, 1.0, 2, " ms");
     return {{"vertices", vertices}, {"ms", ms.quantile(0.5)}, {"p95_ms", ms.quantile(0.95)}};
@@ -178,7 +179,7 @@ Json judge_crowd(const DrapeJudge& judge) {
     const vfit::tools::Context context = open_context();
     Garment garment;
     check(vfit_garment_open(context.get(), "sundress", garment.out()));
-    const Walk steps = walk(context.get(), "walk", 150);
+    const Walk steps = walk(context.get());
     std::vector<Dressed> people;
     for (uint32_t i = 0; i < kPeople; ++i) {
         people.push_back(dress(context.get(), garment.get(), 3, 0));  // the coarse body

@@ -4,7 +4,7 @@
 
 #include "bench/bench.h"
 #include "bench/motion_parts.h"
-#include "client/output.h"
+#include "bench/parts.h"
 
 namespace vfit::tools {
 
@@ -15,11 +15,7 @@ struct Options {
     bool json = false;
 };
 
-struct Part {
-    const char* name;
-    Json (*judge)(const MotionJudge&);
-};
-constexpr Part kParts[] = {{"filters", judge_filters}, {"feet", judge_feet}, {"real", judge_real}, {"vicon", judge_vicon}, {"time", judge_time},
+constexpr Part<MotionJudge> kParts[] = {{"filters", judge_filters}, {"feet", judge_feet}, {"real", judge_real}, {"vicon", judge_vicon}, {"time", judge_time},
                            {"skinning", judge_skinning}, {"characters", judge_characters}};
 
 void motion(const Options& options) {
@@ -33,14 +29,7 @@ void motion(const Options& options) {
     }
     pin_to_cores(1);
     Targets targets(options.json);
-    Json report = Json::object();
-    for (const Part& part : kParts)
-        if (options.only.empty() || options.only == part.name) report[part.name] = part.judge({targets, real, options.json, options.shared});
-    report["targets"] = targets.json();
-    if (options.json)
-        print_document(report);
-    else
-        std::cout << "\n" << targets.count() - targets.missed() << " of " << targets.count() << " targets hit\n";
+    judge_parts(kParts, options.only, {targets, real, options.json, options.shared});
 }
 
 }  // namespace
@@ -48,9 +37,7 @@ void motion(const Options& options) {
 void add_motion(Command& app) {
     Command command = app.add_subcommand("motion", "Judge filters, feet, limits and times of the motion stage");
     auto o = std::make_shared<Options>();
-    std::vector<std::string> names;
-    for (const Part& part : kParts) names.emplace_back(part.name);
-    command.add_option("--only", o->only, "One part").one_of(names);
+    command.add_option("--only", o->only, "One part").one_of(names_of(kParts));
     command.add_option("--shared", o->shared, "Folder with real streams (default ../shared)");
     command.add_flag("--json", o->json, "Print JSON");
     command.callback([o] { motion(*o); });
