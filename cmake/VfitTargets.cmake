@@ -46,7 +46,7 @@ endfunction()
 
 # One room of sdk/ as a static library vfit_<room>: every .cpp in it. Further arguments: what it links.
 function(vfit_add_room room)
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/sdk/${room}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/sdk/${room}/*.cpp)
   if(NOT sources)
     add_library(vfit_${room} INTERFACE)
     target_link_libraries(vfit_${room} INTERFACE ${ARGN})

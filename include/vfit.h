@@ -202,7 +202,8 @@ enum { VFIT_STREAM_DEPTH = 0,           /* U16 in units of vfit_camera.depth_uni
     VFIT_STREAM_BONE_MATRIX = 20,       /* skinning matrices, one a rig bone                           */
     VFIT_STREAM_SKIN_BONES = 21,        /* U16X8: rig bones that carry a vertex                        */
     VFIT_STREAM_SKIN_WEIGHTS = 22,      /* F32X8: their weights, sum 1, zero where unused               */
-    VFIT_STREAM_STRAIN = 23 };          /* F32, mean edge strain at a vertex, 0 = unstretched           */
+    VFIT_STREAM_STRAIN = 23,            /* F32, mean edge strain at a vertex, 0 = unstretched           */
+    VFIT_STREAM_PRESSURE = 24 };        /* F32, Pa: what the body presses with against a vertex         */
 typedef int32_t vfit_format;
 enum { VFIT_FORMAT_NONE = 0, VFIT_FORMAT_U8 = 1, VFIT_FORMAT_U16 = 2,
     VFIT_FORMAT_U32 = 3, VFIT_FORMAT_F32 = 4, VFIT_FORMAT_RGBA8 = 5, VFIT_FORMAT_F32X2 = 6,
@@ -713,7 +714,8 @@ enum { VFIT_CLOTH_NO_HANDS = 1,         /* forearms and hands pass through: a ha
                                          * a skirt, and 15 spheres know no fingers to let it slip            */
        VFIT_CLOTH_SKIN = 2,             /* kept out of the avatar's skin itself, not of its spheres and capsules: closer,
                                          * and slower                                                   */
-       VFIT_CLOTH_AWAKE = 4 };          /* stepped even where cloth and body have lain still for half a second    */
+       VFIT_CLOTH_AWAKE = 4,            /* stepped even where cloth and body have lain still for half a second    */
+       VFIT_CLOTH_PRESSURE = 8 };       /* frames carry PRESSURE                                        */
 typedef struct vfit_cloth_desc {
     uint32_t struct_size, substeps;     /* 0: 8 a 1/60 s                                             */
     float gravity[3];                   /* in the context's axes and unit; all zero: 9.81 m/s2 down   */
@@ -755,7 +757,9 @@ VFIT_API vfit_result vfit_cloth_set_quality(vfit_cloth cloth, uint32_t substeps,
  * inner first, each frame. An inner one that gets destroyed stays where it was. VFIT_ERROR_ARGUMENT where cloth is
  * worn below inner already.                                                                      [excl]  */
 VFIT_API vfit_result vfit_cloth_wear_over(vfit_cloth cloth, vfit_cloth inner);
-/* POSITION, NORMAL, UV, INDEX, STRAIN.                                                         [any]   */
+/* POSITION, NORMAL, UV, INDEX, STRAIN, and with VFIT_CLOTH_PRESSURE PRESSURE: of a vertex that touches the body, what its
+ * threads and its weight pull with against it, over the flat cloth's area; 0 where the garment is skinned. Pa whatever
+ * the unit.                                                                                    [any]   */
 VFIT_API vfit_result vfit_cloth_acquire(vfit_cloth cloth, vfit_frame* out);
 VFIT_API vfit_result vfit_cloth_describe(vfit_cloth cloth, vfit_cloth_stats* out);         /* [read] */
 VFIT_API vfit_result vfit_cloth_state_hash(vfit_cloth cloth, uint64_t* out);               /* [read] */

@@ -1,13 +1,14 @@
 // vfit.h, part "garment and cloth".
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "api/avatar_object.h"
 #include "api/guard.h"
 #include "api/structs.h"
 #include "cloth/cloth.h"
-#include "cloth/dress.h"
-#include "cloth/garment.h"
+#include "cloth/garment/dress.h"
+#include "cloth/garment/garment.h"
 #include "core/files.h"
 
 using namespace vfit;
@@ -63,6 +64,7 @@ ClothSettings cloth_settings(const vfit_cloth_desc& d, const FabricMaterial& mat
     if (d.budget_ms < 0.0f) fail(VFIT_ERROR_ARGUMENT, "desc.budget_ms ", d.budget_ms, " is negative");
     s.budget_ms = d.budget_ms;
     s.sleeps = (d.flags & VFIT_CLOTH_AWAKE) == 0;
+    s.pressure = (d.flags & VFIT_CLOTH_PRESSURE) != 0;
     return s;
 }
 
@@ -102,7 +104,7 @@ bool of_hand(const Collider& c) {
 
 struct ClothObject : ContextChild {
     static constexpr Kind kKind = Kind::cloth;
-    ClothObject(Ref<AvatarObject> avatar_object, Dress d, SkinBelow skin_of_body, const ClothSettings& cloth_settings, bool hands)
+    ClothObject(Ref<AvatarObject> avatar_object, Dress d, std::optional<SkinBelow> skin_of_body, const ClothSettings& cloth_settings, bool hands)
         : ContextChild(avatar_object->context),
           avatar(std::move(avatar_object)),
           with_hands(hands),
@@ -115,7 +117,7 @@ struct ClothObject : ContextChild {
         output.topology().set_indices(dress.indices(), context->axes);
         output.topology().set_uvs(dress.uvs(), context->axes);
         publish(output.begin());
-        if (skin.places.size() > 0) skin_mesh = cloth.add_mesh(skin.places.size(), skin.indices);
+        if (skin) skin_mesh = cloth.add_mesh(skin->skin.vertex_count(), skin->indices);
         later.task = [](void* self, uint32_t) { static_cast<ClothObject*>(self)->step(); };
         later.data = this;
     }
@@ -130,9 +132,10 @@ struct ClothObject : ContextChild {
     const Ref<AvatarObject> avatar;
     const bool with_hands;
     Dress dress;
-    const SkinBelow skin;  // of the avatar, where the cloth is kept out of it; else nothing
+    const std::optional<SkinBelow> skin;  // of the avatar, where the cloth is kept out of it
     const ClothSettings settings;
     std::vector<Vec3> targets, skin_places;
+    Skin::Scratch scratch;
     Cloth cloth;
     uint32_t skin_mesh = 0;
     struct Inner {
@@ -156,18 +159,18 @@ struct ClothObject : ContextChild {
         return Reading(&access, [](Access* a) { a->end_read(); });
     }
     const std::vector<Vec3>& skinned() {
-        dress.skin(avatar->avatar.skinning_matrices(), targets);
+        dress.skin().carry(avatar->avatar.skinning_matrices(), targets, scratch, *context->jobs);
         return targets;
     }
     Reading read_avatar() { return reading_of(avatar->access, "avatar"); }
     /// Spheres and capsules, or none where the skin itself is met.
     void limbs_of(std::vector<Collider>& limbs) const {
-        if (skin.places.size() > 0) limbs.clear();
+        if (skin) limbs.clear();
         else if (!with_hands) std::erase_if(limbs, of_hand);
     }
     void move_skin(std::span<const Mat4> matrices) {
-        if (skin.places.size() == 0) return;
-        skin.places.skin(matrices, skin_places);
+        if (!skin) return;
+        skin->skin.carry(matrices, skin_places, scratch, *context->jobs);
         cloth.move_mesh(skin_mesh, skin_places);
     }
     /// Garments worn below, where their last step left them.
@@ -211,7 +214,7 @@ struct ClothObject : ContextChild {
             avatar->avatar.while_dressing(share, matrices, limbs);
             limbs_of(limbs);
             move_skin(matrices);
-            dress.skin(matrices, places);
+            dress.skin().carry(matrices, places, scratch, *context->jobs);
         };
         for (const Inner& inner : worn_over) cloth.hide_mesh(inner.mesh);
         cloth.put_on(body, *context->jobs);
@@ -239,6 +242,11 @@ struct ClothObject : ContextChild {
         const auto& strain = cloth.strain();
         void* to = frame->add_stream(VFIT_STREAM_STRAIN, VFIT_FORMAT_F32, static_cast<uint32_t>(strain.size()), 1);
         std::memcpy(to, strain.data(), strain.size() * sizeof(float));
+        if (settings.pressure) {
+            const auto& pressure = cloth.pressure();
+            void* pascal = frame->add_stream(VFIT_STREAM_PRESSURE, VFIT_FORMAT_F32, static_cast<uint32_t>(pressure.size()), 1);
+            std::memcpy(pascal, pressure.data(), pressure.size() * sizeof(float));
+        }
         output.publish(std::move(frame));
     }
     void require_no_step() const {
@@ -320,13 +328,13 @@ vfit_result vfit_cloth_create(vfit_avatar avatar_handle, vfit_garment garment_ha
         if (avatar->context != garment->context)
             fail(VFIT_ERROR_HANDLE, "avatar and garment belong to different contexts");
         const vfit_cloth_desc d = read_or_default(desc, "desc");
-        check_flags(d.flags, VFIT_CLOTH_NO_HANDS | VFIT_CLOTH_SKIN | VFIT_CLOTH_AWAKE, "desc.flags");
+        check_flags(d.flags, VFIT_CLOTH_NO_HANDS | VFIT_CLOTH_SKIN | VFIT_CLOTH_AWAKE | VFIT_CLOTH_PRESSURE, "desc.flags");
         const ClothSettings settings = cloth_settings(d, garment->material, avatar->context->axes);
         const bool hands = (d.flags & VFIT_CLOTH_NO_HANDS) == 0;
         const Wearer wearer(*avatar->context, garment->garment, *avatar);
         const float ratio = d.size_label ? size_ratio(garment->garment, d.size_label, avatar->measures()) : 1.0f;
         Dress dress(garment->garment, garment->material, wearer.body, ratio, settings.thickness_m);
-        SkinBelow skin;
+        std::optional<SkinBelow> skin;
         if (d.flags & VFIT_CLOTH_SKIN) skin = skin_below(wearer.body, dress.rest(), hands);
         auto cloth = make<ClothObject>(avatar.ref(), std::move(dress), std::move(skin), settings, hands);
         out->id = avatar->context->publish(Kind::cloth, cloth, avatar_handle.id);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/error.h"
 
@@ -62,23 +63,33 @@ void split_limb_weights(std::span<const Vec3> rest, const std::vector<LimbChain>
 }
 
 Skin::Skin(std::span<const SkinBones> bones, std::span<const SkinWeights> weights, std::span<const Vec3> rest,
-           std::span<const Vec3> rest_normals) {
+           std::span<const Vec3> rest_normals)
+    : has_normals_(!rest_normals.empty()) {
     starts_.reserve(bones.size() + 1);
     influences_.reserve(bones.size() * 3);  // the body's vertices have 2.3 bones on average
-    rest_.reserve(2 * bones.size());
-    for (size_t v = 0; v < bones.size(); ++v) {
+    rest_.reserve((has_normals_ ? 2 : 1) * bones.size());
+    order_.resize(bones.size());
+    std::iota(order_.begin(), order_.end(), 0u);
+    const auto bone_count = [&](uint32_t v) { return std::count_if(weights[v].begin(), weights[v].end(), [](float w) { return w > 0.0f; }); };
+    for (size_t first = 0; first < order_.size(); first += kChunk)
+        std::stable_sort(order_.begin() + std::ptrdiff_t(first), order_.begin() + std::ptrdiff_t(std::min(order_.size(), first + kChunk)),
+                         [&](uint32_t a, uint32_t b) { return bone_count(a) < bone_count(b); });
+    for (uint32_t v : order_) {
         starts_.push_back(static_cast<uint32_t>(influences_.size()));
         for (size_t k = 0; k < kSkinBones; ++k)
-            if (weights[v][k] > 0.0f) influences_.push_back({kBoneFloats * bones[v][k], weights[v][k]});
+            if (weights[v][k] > 0.0f) {
+                influences_.push_back({kBoneFloats * bones[v][k], weights[v][k]});
+                bone_count_ = std::max(bone_count_, uint32_t(bones[v][k]) + 1);
+            }
         if (influences_.size() == starts_.back()) fail(VFIT_ERROR_DATA, "no bone carries skin vertex ", v);
         rest_.push_back(rest[v]);
-        rest_.push_back(rest_normals[v]);
+        if (has_normals_) rest_.push_back(rest_normals[v]);
     }
     starts_.push_back(static_cast<uint32_t>(influences_.size()));
 }
 
 size_t Skin::bytes() const {
-    return starts_.size() * sizeof starts_[0] + influences_.size() * sizeof influences_[0] + rest_.size() * sizeof rest_[0];
+    return (order_.size() + starts_.size()) * sizeof starts_[0] + influences_.size() * sizeof influences_[0] + rest_.size() * sizeof rest_[0];
 }
 
 namespace {
@@ -104,6 +115,8 @@ void put_dual_quaternion(const Mat4& m, float* to) {
 
 void Skin::pose(std::span<const Mat4> matrices, SkinMethod method, const Axes& axes, const SkinTarget& target,
                 Scratch& scratch, Jobs& jobs) const {
+    if (matrices.size() < bone_count_) fail(VFIT_ERROR_ARGUMENT, matrices.size(), " skinning matrices for a skin of ", bone_count_, " bones");
+    if (target.normals && !has_normals_) fail(VFIT_ERROR_ARGUMENT, "normals are asked of a skin that has none");
     scratch.resize(kBoneFloats * matrices.size());
     for (size_t b = 0; b < matrices.size(); ++b) {
         float* bone = scratch.data() + kBoneFloats * b;
@@ -120,10 +133,12 @@ void Skin::pose(std::span<const Mat4> matrices, SkinMethod method, const Axes& a
     }
     const uint32_t count = vertex_count();
     parallel_for(jobs, (count + kChunk - 1) / kChunk, [&](uint32_t chunk) {
-        const SkinJob job = {starts_.data(),
+        const SkinJob job = {order_.data(),
+                             starts_.data(),
                              influences_.data(),
                              scratch.data(),
                              &rest_[0].x,
+                             has_normals_ ? 6u : 3u,
                              chunk * kChunk,
                              std::min(count, (chunk + 1) * kChunk),
                              static_cast<unsigned char*>(target.positions),
@@ -135,6 +150,13 @@ void Skin::pose(std::span<const Mat4> matrices, SkinMethod method, const Axes& a
         else
             skin_dual_quaternion(job, map);
     });
+}
+
+void Skin::carry(std::span<const Mat4> matrices, std::vector<Vec3>& out, Scratch& scratch, Jobs& jobs) const {
+    out.resize(vertex_count());
+    SkinTarget target;
+    target.positions = out.data();
+    pose(matrices, SkinMethod::linear, Axes(), target, scratch, jobs);
 }
 
 }  // namespace vfit

@@ -109,44 +109,45 @@ constexpr uint32_t kBatch = 4;  // vertices whose normals are brought to unit le
 constexpr float kNoLength2 = 1e-12f;
 
 /// To unit length; one without a length becomes the vertex' own at rest.
-HWY_INLINE void StoreNormals(const V* n, const SkinJob& job, uint32_t v, uint32_t count) {
+HWY_INLINE void StoreNormals(const V* n, const SkinJob& job, uint32_t item, uint32_t count) {
     float lengths2[kBatch], inverse[kBatch];
     InverseLengths(n, kNoLength2, lengths2, inverse);
     for (uint32_t k = 0; k < count; ++k) {
-        unsigned char* to = job.normals + size_t(v + k) * job.normal_stride;
+        unsigned char* to = job.normals + size_t(job.order[item + k]) * job.normal_stride;
         if (HWY_LIKELY(lengths2[k] > kNoLength2))
             StoreThree(Mul(n[k], Set(inverse[k])), to);
         else
-            std::memcpy(to, job.rest + 6 * size_t(v + k) + 3, 3 * sizeof(float));
+            std::memcpy(to, job.rest + job.rest_floats * size_t(item + k) + 3, 3 * sizeof(float));
     }
 }
 
 template <typename Matrix>
 HWY_INLINE void Run(const SkinJob& job, const Matrix& matrix_of) {
-    for (uint32_t v = job.first; v < job.last; v += kBatch) {
-        const uint32_t count = HWY_MIN(kBatch, job.last - v);
+    for (uint32_t item = job.first; item < job.last; item += kBatch) {
+        const uint32_t count = HWY_MIN(kBatch, job.last - item);
         V normals[kBatch] = {Set(0.0f), Set(0.0f), Set(0.0f), Set(0.0f)};
         for (uint32_t k = 0; k < count; ++k) {
-            const float* rest = job.rest + 6 * size_t(v + k);
+            const float* rest = job.rest + job.rest_floats * size_t(item + k);
             V c0, c1, c2, c3;
-            matrix_of(v + k, c0, c1, c2, c3);
+            matrix_of(item + k, c0, c1, c2, c3);
             V p = MulAdd(c0, Set(rest[0]), c3);
             p = MulAdd(c1, Set(rest[1]), p);
             p = MulAdd(c2, Set(rest[2]), p);
-            StoreThree(p, job.positions + size_t(v + k) * job.position_stride);
+            StoreThree(p, job.positions + size_t(job.order[item + k]) * job.position_stride);
+            if (!job.normals) continue;
             V n = Mul(c0, Set(rest[3]));
             n = MulAdd(c1, Set(rest[4]), n);
             normals[k] = MulAdd(c2, Set(rest[5]), n);
         }
-        if (job.normals) StoreNormals(normals, job, v, count);
+        if (job.normals) StoreNormals(normals, job, item, count);
     }
 }
 
 void Linear(const SkinJob& given) {
     const SkinJob job = given;  // its own: stores could not change it
-    Run(job, [&](uint32_t v, V& c0, V& c1, V& c2, V& c3) HWY_ATTR {
-        const SkinInfluence* i = job.influences + job.starts[v];
-        const SkinInfluence* end = job.influences + job.starts[v + 1];
+    Run(job, [&](uint32_t item, V& c0, V& c1, V& c2, V& c3) HWY_ATTR {
+        const SkinInfluence* i = job.influences + job.starts[item];
+        const SkinInfluence* end = job.influences + job.starts[item + 1];
         Columns sum = Weighted(job.bones + i->offset, i->weight);
         for (++i; i != end; ++i) Add(sum, job.bones + i->offset, i->weight);
         Split(sum, c0, c1, c2, c3);
@@ -156,9 +157,9 @@ void Linear(const SkinJob& given) {
 void DualQuaternion(const SkinJob& given, const float* map) {
     const SkinJob job = given;
     const V m0 = Load(map), m1 = Load(map + 4), m2 = Load(map + 8);
-    Run(job, [&](uint32_t v, V& c0, V& c1, V& c2, V& c3) HWY_ATTR {
-        const SkinInfluence* i = job.influences + job.starts[v];
-        const SkinInfluence* end = job.influences + job.starts[v + 1];
+    Run(job, [&](uint32_t item, V& c0, V& c1, V& c2, V& c3) HWY_ATTR {
+        const SkinInfluence* i = job.influences + job.starts[item];
+        const SkinInfluence* end = job.influences + job.starts[item + 1];
         const float* bone = job.bones + i->offset;
         const V heaviest = Load(bone);
         V real = Mul(heaviest, Set(i->weight)), dual = Mul(Load(bone + 4), Set(i->weight));

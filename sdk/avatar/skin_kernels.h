@@ -12,13 +12,16 @@ struct SkinInfluence {
     float weight;
 };
 
-/// One call's work: vertices first..last of a skin. Positions and normals are three floats each; `rest` has both of
-/// a vertex behind each other. Item v of an output lies at data + v * stride bytes; normals may be null.
+/// One call's work: items first..last of a skin. Positions and normals are three floats each; `rest` has the position of each
+/// item, then its normal, or positions alone where no normals are wanted. What comes of vertex v lies at data + v * stride
+/// bytes; normals may be null.
 struct SkinJob {
-    const uint32_t* starts;           // of vertex v in influences: starts[v] to starts[v + 1]
+    const uint32_t* order;            // the vertex that each item is
+    const uint32_t* starts;           // of item i in influences: starts[i] to starts[i + 1]
     const SkinInfluence* influences;  // heaviest first
     const float* bones;
     const float* rest;
+    size_t rest_floats;  // of a vertex: 6 or 3
     uint32_t first, last;
     unsigned char* positions;
     size_t position_stride;

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "body/mesh.h"
-#include "cloth/particle_solver.h"
+#include "cloth/solver/particle_solver.h"
 #include "cloth/rigid_motion.h"
 #include "core/clock.h"
 #include "core/error.h"
@@ -109,7 +109,7 @@ uint64_t hash(uint64_t state, const Vec3& v) {
 }  // namespace
 
 struct Cloth::State {
-    State(std::shared_ptr<const Fabric> f, const ClothSettings& s) : fabric(f), settings(s), solver(std::move(f), s.self_thickness_m) {}
+    State(std::shared_ptr<const Fabric> f, const ClothSettings& s) : fabric(f), settings(s), solver(std::move(f), s.self_thickness_m, s.pressure) {}
 
     std::shared_ptr<const Fabric> fabric;
     ClothSettings settings;
@@ -123,7 +123,8 @@ struct Cloth::State {
     std::vector<Vec3> positions;  // what callers read
     // The same, found when they are asked for.
     mutable std::vector<Vec3> normals;
-    mutable std::vector<float> edge_strains, strains;
+    mutable std::vector<float> edge_strains, strains, pressures;
+    mutable std::vector<Vec3> forces, pushes;
     mutable bool normals_known = false, strains_known = false;
     std::vector<float> inverse_edge_count;  // of a vertex; 0: none
     float step_ms = 0.0f;
@@ -148,6 +149,7 @@ struct Cloth::State {
     void publish();
     void find_normals() const;
     void find_strains() const;
+    void find_pressures() const;
 };
 
 Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings, std::span<const Vec3> start) {
@@ -161,6 +163,8 @@ Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings
     s.previous_targets.resize(fabric->target_count());
     s.asleep_at.reserve(fabric->target_count());
     s.strains.resize(n);
+    s.pressures.resize(n);
+    if (settings.pressure) s.forces.resize(n), s.pushes.resize(n);
     s.edge_strains.resize(data.edges.size());
     s.inverse_edge_count.resize(n);
     for (const DistanceConstraint& e : data.edges)
@@ -383,6 +387,29 @@ void Cloth::State::find_strains() const {
     strains_known = true;
 }
 
+/// Who is pushed by the body pushes back with what its threads and its weight pull with. That is taken from how far the threads are
+/// stretched: what a sub-step's single pass moves a light vertex by, when it works against a stiff thread, is far less.
+void Cloth::State::find_pressures() const {
+    const FabricData& data = fabric->data();
+    std::fill(forces.begin(), forces.end(), Vec3(0.0f));
+    for (const DistanceConstraint& e : data.edges) {
+        const Vec3 way = positions[e.b] - positions[e.a];
+        const float length = glm::length(way);
+        const Vec3 pull = way * ((length - e.rest_m) / std::max(e.compliance_m_n * length, 1e-12f));
+        forces[e.a] += pull;
+        forces[e.b] -= pull;
+    }
+    solver.copy_pushes(pushes);
+    for (size_t v = 0; v < pressures.size(); ++v) {
+        const float push = glm::length(pushes[v]);
+        pressures[v] = 0.0f;
+        if (!(push > 0.0f) || data.inverse_mass[v] == 0.0f) continue;
+        const Vec3 force = forces[v] + settings.gravity / data.inverse_mass[v];
+        const float against = -glm::dot(force, pushes[v]) / push;
+        pressures[v] = std::max(0.0f, against) * data.inverse_mass[v] * data.density_kg_m2;  // mass over density is area
+    }
+}
+
 const std::vector<Vec3>& Cloth::positions() const { return state_->positions; }
 const std::vector<Vec3>& Cloth::normals() const {
     state_->find_normals();
@@ -391,6 +418,10 @@ const std::vector<Vec3>& Cloth::normals() const {
 const std::vector<float>& Cloth::strain() const {
     state_->find_strains();
     return state_->strains;
+}
+const std::vector<float>& Cloth::pressure() const {
+    if (state_->settings.pressure) state_->find_pressures();
+    return state_->pressures;
 }
 const Fabric& Cloth::fabric() const { return *state_->fabric; }
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "body/collider.h"
-#include "cloth/air.h"
-#include "cloth/fabric.h"
+#include "cloth/solver/air.h"
+#include "cloth/fabric/fabric.h"
 #include "core/jobs.h"
 #include "math/types.h"
 
@@ -30,6 +30,7 @@ struct ClothSettings {
     Air air;
     float budget_ms = 0.0f;       // of a step; where it would take longer, sub-steps are left out. 0: none
     float self_thickness_m = 0.0f;  // kept between the cloth's own layers; 0: they pass through each other
+    bool pressure = false;        // how the body presses against each vertex is found
     bool sleeps = true;           // a cloth that lies still, on a body that does, is not stepped
 };
 
@@ -83,6 +84,10 @@ public:
     const std::vector<Vec3>& normals() const;
     /// Mean strain of the edges at each vertex; 0: unstretched.
     const std::vector<float>& strain() const;
+    /// Of the body (and what else is met) against each vertex as it lies, Pa: what the threads and the weight of who is touched
+    /// pull with against it, over the flat cloth's area. 0 for vertices that are moved by their targets, and without
+    /// settings.pressure.
+    const std::vector<float>& pressure() const;
     /// Of positions and velocities, bit by bit.
     uint64_t state_hash() const;
     ClothStats stats() const;

@@ -1,14 +1,15 @@
 #include "cloth/triangle_fans.h"
 
-#include <algorithm>
-
 namespace vfit {
 
-TriangleFans::TriangleFans(size_t vertices, std::span<const uint32_t> indices) : first_(vertices + 1, 0), triangles_(indices.size()) {
+TriangleFans::TriangleFans(size_t points, std::span<const uint32_t> indices) : first_(points + 1, 0), corners_(indices.size()) {
     for (uint32_t v : indices) ++first_[v + 1];
     for (size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
     std::vector<uint32_t> fill(first_.begin(), first_.end() - 1);
-    for (size_t i = 0; i < indices.size(); ++i) triangles_[fill[indices[i]]++] = uint32_t(i / 3);
+    for (size_t i = 0; i < indices.size(); ++i) {
+        const size_t t = i / 3 * 3, k = i - t;
+        corners_[fill[indices[i]]++] = {indices[t + (k + 1) % 3], indices[t + (k + 2) % 3]};
+    }
 }
 
 Vec3 nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {

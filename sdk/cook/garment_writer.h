@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cloth/garment.h"
+#include "cloth/garment/garment.h"
 
 namespace vfit {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "body/body_model.h"
-#include "cloth/garment.h"
+#include "cloth/garment/garment.h"
 
 namespace vfit {
 

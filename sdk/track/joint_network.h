@@ -9,7 +9,7 @@
 #include "core/platform.h"
 #include "frame/body.h"
 #include "track/crop.h"
-#include "track/network/module.h"
+#include "network/module.h"
 
 namespace vfit {
 

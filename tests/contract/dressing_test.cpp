@@ -219,10 +219,32 @@ TEST_F(DressingTest, ClothStepsAndItsStateIsHashed) {
     ASSERT_EQ(vfit_frame_view(frame, VFIT_STREAM_POSITION, &view), VFIT_OK);
     for (uint32_t i = 0; i < view.width * 3; ++i) ASSERT_TRUE(std::isfinite(static_cast<const float*>(view.data)[i]));
     EXPECT_EQ(width_of(frame, VFIT_STREAM_STRAIN), view.width);
+    EXPECT_NE(vfit_frame_view(frame, VFIT_STREAM_PRESSURE, &view), VFIT_OK);
     vfit_cloth_stats stats = vfit_cloth_stats_init();
     ASSERT_EQ(vfit_cloth_describe(cloth, &stats), VFIT_OK);
     EXPECT_EQ(stats.simulated_count, 3096u);
     EXPECT_EQ(stats.vertex_count, view.width);
+}
+
+TEST_F(DressingTest, WhoAsksIsToldHowTheBodyPresses) {
+    const vfit_avatar avatar = make_avatar();
+    vfit_cloth_desc desc = vfit_cloth_desc_init();
+    desc.flags = VFIT_CLOTH_PRESSURE;
+    const vfit_cloth cloth = make_cloth(avatar, &desc);
+    for (int i = 0; i < 30; ++i) ASSERT_EQ(vfit_cloth_step(cloth, 1.0f / 60.0f), VFIT_OK);
+    vfit_frame frame{};
+    ASSERT_EQ(vfit_cloth_acquire(cloth, &frame), VFIT_OK);
+    vfit_view view = vfit_view_init();
+    ASSERT_EQ(vfit_frame_view(frame, VFIT_STREAM_PRESSURE, &view), VFIT_OK) << contract::last_error();
+    EXPECT_EQ(view.width, width_of(frame, VFIT_STREAM_POSITION));
+    uint32_t pressed = 0;
+    for (uint32_t i = 0; i < view.width; ++i) {
+        const float pressure = static_cast<const float*>(view.data)[i];
+        ASSERT_TRUE(std::isfinite(pressure) && pressure >= 0.0f);
+        pressed += pressure > 1.0f;
+    }
+    EXPECT_GT(pressed, 20u);
+    EXPECT_LT(pressed, view.width / 2) << "most of a skirt hangs free";
 }
 
 TEST_F(DressingTest, AStepBegunIsEndedOnceAndMatchesAStepAtOnce) {

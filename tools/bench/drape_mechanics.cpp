@@ -6,7 +6,7 @@
 #include "bench/bench.h"
 #include "bench/drape_parts.h"
 #include "bench/drape_scenes.h"
-#include "cloth/fabric_library.h"
+#include "cloth/fabric/fabric_library.h"
 #include "core/files.h"
 
 namespace vfit::tools {

@@ -104,8 +104,8 @@ float least_spacing(std::span<const Vec3> positions, std::span<const uint32_t> i
         for (uint32_t other = 0; other < positions.size(); ++other) {
             const Vec3 way = positions[other] - positions[v];
             if (glm::dot(way, way) > kReach_m * kReach_m || glm::length(flat[other] - flat[v]) < along_m) continue;
-            for (uint32_t t : fans.of(other)) {
-                const Vec3 &a = positions[indices[3 * t]], &b = positions[indices[3 * t + 1]], &c = positions[indices[3 * t + 2]];
+            for (const TriangleFans::Corners& corners : fans.of(other)) {
+                const Vec3 &a = positions[other], &b = positions[corners.second], &c = positions[corners.third];
                 const Vec3 w = nearest_on_triangle(positions[v], a, b, c), off = positions[v] - (w.x * a + w.y * b + w.z * c);
                 least2 = std::min(least2, glm::dot(off, off));
             }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <tuple>
 
 #include "client/files.h"
 #include "client/fitting.h"
@@ -129,6 +130,16 @@ void draw_all(Album& album, const Fitting& fitting, const std::vector<Moment>& m
     const Canvas back = draw_dressed(last.meshes, last.centre, 3.5f, style);
     album.add("dressed_back.png", back);
     rows[1].push_back({back, "from behind"});
+    rows.emplace_back();
+    for (const auto& [map, name, caption] : {std::tuple(FitMap::stretch, "stretch", "stretch: blue loose, yellow 4 %, red 10 %"),
+                                             std::tuple(FitMap::pressure, "pressure", "pressure: yellow 0.5 kPa, red 2 kPa")}) {
+        const auto meshes = dressed_meshes(fitting.avatar(), fitting.cloth(), map);
+        for (const auto& [yaw, side] : {std::pair(0.35f, ""), std::pair(3.5f, "_back")}) {
+            const Canvas picture = draw_dressed(meshes, centre_of(meshes[0]), yaw, style);
+            album.add(std::string("fit_map_") + name + side + ".png", picture);
+            rows[2].push_back({picture, caption});
+        }
+    }
     album.add("contact_sheet.png", contact_sheet(title, rows, 620));
 }
 

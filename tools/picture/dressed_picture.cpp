@@ -1,6 +1,8 @@
 #include "picture/dressed_picture.h"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "picture/hide_skin.h"
 
@@ -11,6 +13,32 @@ namespace {
 constexpr Color kSkin{0.86f, 0.67f, 0.56f};
 constexpr Color kCloth{0.80f, 0.27f, 0.30f};
 constexpr float kClothSheen = 0.35f;
+
+struct Stop {
+    float value;
+    Color color;
+};
+constexpr Color kFits{0.93f, 0.93f, 0.91f}, kLoose{0.20f, 0.42f, 0.80f}, kFirm{0.98f, 0.80f, 0.25f}, kTight{0.78f, 0.10f, 0.12f};
+constexpr Stop kStretch[] = {{-0.05f, kLoose}, {0.0f, kFits}, {0.04f, kFirm}, {0.1f, kTight}};
+constexpr Stop kPressure_pa[] = {{0.0f, kFits}, {500.0f, kFirm}, {2000.0f, kTight}};
+
+Color color_at(std::span<const Stop> stops, float value) {
+    for (size_t i = 1; i < stops.size(); ++i)
+        if (value < stops[i].value) {
+            const float share = (value - stops[i - 1].value) / (stops[i].value - stops[i - 1].value);
+            return mix(stops[i - 1].color, stops[i].color, std::max(share, 0.0f));
+        }
+    return stops.back().color;
+}
+
+std::vector<Color> colors_of(vfit_frame cloth, FitMap map) {
+    std::vector<Color> colors;
+    if (map == FitMap::none) return colors;
+    const bool stretch = map == FitMap::stretch;
+    for (const float value : items_of<float>(cloth, stretch ? VFIT_STREAM_STRAIN : VFIT_STREAM_PRESSURE))
+        colors.push_back(stretch ? color_at(kStretch, value) : color_at(kPressure_pa, value));
+    return colors;
+}
 
 RenderMesh mesh_of(vfit_frame frame, const Color& color) {
     RenderMesh mesh;
@@ -42,7 +70,7 @@ std::vector<uint8_t> coverable(vfit_avatar avatar, vfit_frame body) {
 
 }  // namespace
 
-std::vector<RenderMesh> dressed_meshes(vfit_avatar avatar, vfit_cloth cloth) {
+std::vector<RenderMesh> dressed_meshes(vfit_avatar avatar, vfit_cloth cloth, FitMap map) {
     Frame body_frame;
     check(vfit_avatar_acquire(avatar, body_frame.out()));
     std::vector<RenderMesh> meshes{mesh_of(body_frame.get(), kSkin)};
@@ -50,7 +78,8 @@ std::vector<RenderMesh> dressed_meshes(vfit_avatar avatar, vfit_cloth cloth) {
         Frame cloth_frame;
         check(vfit_cloth_acquire(cloth, cloth_frame.out()));
         meshes.push_back(mesh_of(cloth_frame.get(), kCloth));
-        meshes[1].sheen = kClothSheen;
+        meshes[1].sheen = map == FitMap::none ? kClothSheen : 0.0f;
+        meshes[1].vertex_colors = colors_of(cloth_frame.get(), map);
         meshes[0].indices = visible_triangles(meshes[0], meshes[1], coverable(avatar, body_frame.get()));
     }
     return meshes;

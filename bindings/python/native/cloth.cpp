@@ -48,7 +48,7 @@ std::shared_ptr<Cloth> create(const Avatar& avatar, const Garment& garment,
                               const std::optional<std::array<float, 3>>& gravity,
                               const std::optional<float>& friction, const std::optional<float>& damping,
                               float thickness_m, bool hands, bool skin, bool sleeps, const std::array<float, 3>& wind, float drag,
-                              float lift, const std::optional<float>& inertia, float self_thickness_m, float budget_ms) {
+                              float lift, const std::optional<float>& inertia, float self_thickness_m, float budget_ms, bool pressure) {
     vfit_cloth_desc desc = vfit_cloth_desc_init();
     desc.size_label = size ? size->c_str() : nullptr;
     desc.substeps = substeps;
@@ -60,7 +60,8 @@ std::shared_ptr<Cloth> create(const Avatar& avatar, const Garment& garment,
     desc.friction = setting(friction);
     desc.damping = setting(damping);
     desc.thickness_m = thickness_m;
-    desc.flags = flag(!hands, VFIT_CLOTH_NO_HANDS) | flag(skin, VFIT_CLOTH_SKIN) | flag(!sleeps, VFIT_CLOTH_AWAKE);
+    desc.flags = flag(!hands, VFIT_CLOTH_NO_HANDS) | flag(skin, VFIT_CLOTH_SKIN) | flag(!sleeps, VFIT_CLOTH_AWAKE) |
+                 flag(pressure, VFIT_CLOTH_PRESSURE);
     std::copy(wind.begin(), wind.end(), desc.wind);
     desc.drag = drag;
     desc.lift = lift;
@@ -109,11 +110,12 @@ void bind_cloth(py::module_& m) {
                  "size"_a = py::none(), "substeps"_a = 0, "gravity"_a = py::none(), "friction"_a = py::none(),
                  "damping"_a = py::none(), "thickness_m"_a = 0.0f, "hands"_a = true, "skin"_a = false, "sleeps"_a = true,
                  "wind"_a = std::array<float, 3>{}, "drag"_a = 0.0f, "lift"_a = 0.0f, "inertia"_a = py::none(),
-                 "self_thickness_m"_a = 0.0f, "budget_ms"_a = 0.0f,
+                 "self_thickness_m"_a = 0.0f, "budget_ms"_a = 0.0f, "pressure"_a = false,
                  "size None: made to the avatar. substeps 0: 8 a 1/60 s. hands False: forearms and hands pass "
                  "through the garment. skin True: kept out of the avatar's skin itself, not of its spheres and capsules. "
                  "drag and lift: of the air, about 1. inertia: share of the body's own motion that the cloth feels. "
-                 "self_thickness_m: kept between the cloth's own layers. budget_ms: of a step.")
+                 "self_thickness_m: kept between the cloth's own layers. budget_ms: of a step. "
+                 "pressure True: frames tell what the body presses with, in Pa.")
             .def(
                 "set_wind",
                 [](const Cloth& c, const std::array<float, 3>& wind) {

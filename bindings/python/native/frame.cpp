@@ -197,6 +197,7 @@ void bind_frame(py::module_& m) {
         .def_property_readonly("skin_bones", &get<VFIT_STREAM_SKIN_BONES>)
         .def_property_readonly("skin_weights", &get<VFIT_STREAM_SKIN_WEIGHTS>)
         .def_property_readonly("strain", &get<VFIT_STREAM_STRAIN>)
+        .def_property_readonly("pressure", &get<VFIT_STREAM_PRESSURE>)
         .def_property_readonly("intrinsics", &intrinsics)
         .def_property_readonly("camera", &camera)
         .def("meta", &meta, "key"_a, "What the source says beside the pixels, or None.")

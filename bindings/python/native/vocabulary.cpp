@@ -91,7 +91,8 @@ void bind_vocabulary(py::module_& m) {
               {"BONE_MATRIX", VFIT_STREAM_BONE_MATRIX},
               {"SKIN_BONES", VFIT_STREAM_SKIN_BONES},
               {"SKIN_WEIGHTS", VFIT_STREAM_SKIN_WEIGHTS},
-              {"STRAIN", VFIT_STREAM_STRAIN}},
+              {"STRAIN", VFIT_STREAM_STRAIN},
+              {"PRESSURE", VFIT_STREAM_PRESSURE}},
              "The kinds of data in a frame.");
     add_enum(
         m, "FloorState",

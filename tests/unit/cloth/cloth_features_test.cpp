@@ -38,6 +38,67 @@ struct Falling {
     }
 };
 
+double mean(const std::vector<float>& numbers) {
+    double sum = 0.0;
+    for (const float number : numbers) sum += number;
+    return sum / double(numbers.size());
+}
+
+TEST(ClothPressure, WhatLiesPressesWithItsWeight) {
+    const auto jobs = Jobs::own(0);
+    const Sheet sheet(20, 20, 0.02f);
+    std::vector<Vec3> start;
+    for (const Vec3& p : sheet.positions) start.emplace_back(p.x, 0.006f, p.y);
+    ClothSettings settings;
+    settings.friction = 0.0f;
+    settings.sleeps = false;
+    settings.pressure = true;
+    Cloth cloth(fabric(sheet.cook(cotton())), settings, start);
+    const std::vector<Collider> floor{sphere({0.0f, -50.0f, 0.0f}, 50.0f)};
+    EXPECT_EQ(mean(cloth.pressure()), 0.0);
+    for (int frame = 0; frame < 60; ++frame) cloth.step(kFrame_s, start, floor, *jobs);
+    EXPECT_NEAR(mean(cloth.pressure()), 0.2 * 9.81, 0.02 * 0.2 * 9.81);
+    for (const int substeps : {4, 16}) {
+        cloth.set_quality(uint32_t(substeps), 0.0f);
+        for (int frame = 0; frame < 30; ++frame) cloth.step(kFrame_s, start, floor, *jobs);
+        EXPECT_NEAR(mean(cloth.pressure()), 0.2 * 9.81, 0.02 * 0.2 * 9.81) << substeps;
+    }
+}
+
+TEST(ClothPressure, ATubeThatIsTooNarrowPressesByLaplacesLaw) {
+    const auto jobs = Jobs::own(0);
+    constexpr uint32_t kRound = 48, kRows = 12;
+    constexpr float kRadius_m = 0.1f, kTooNarrow = 0.95f;
+    std::vector<Vec3> start;
+    std::vector<uint32_t> indices;
+    for (uint32_t r = 0; r < kRows; ++r)
+        for (uint32_t c = 0; c < kRound; ++c) {
+            const float angle = 6.2831853f * float(c) / float(kRound);
+            start.emplace_back(kRadius_m * std::cos(angle), -0.013f * float(r), kRadius_m * std::sin(angle));
+            if (r + 1 == kRows) continue;
+            const uint32_t a = r * kRound + c, b = r * kRound + (c + 1) % kRound, d = a + kRound, e = b + kRound;
+            indices.insert(indices.end(), {a, b, d, b, e, d});
+        }
+    const std::vector<uint8_t> simulated(start.size(), 1);
+    FabricMaterial knit = cotton();
+    knit.shear_n_m = 1.0f;  // so that only what goes around carries
+    ClothSettings settings;
+    settings.gravity = Vec3(0.0f);
+    settings.thickness_m = 0.0f;
+    settings.friction = 0.0f;
+    settings.sleeps = false;
+    settings.pressure = true;
+    settings.substeps = 16;
+    Cloth cloth(fabric(cook_fabric({start, indices, {}, simulated, kTooNarrow}, knit)), settings, start);
+    const std::vector<Collider> post{capsule({0, 1, 0}, kRadius_m, {0, -1, 0}, kRadius_m)};
+    for (int frame = 0; frame < 120; ++frame) cloth.step(kFrame_s, start, post, *jobs);
+    double inner = 0.0;
+    for (uint32_t i = 4 * kRound; i < 8 * kRound; ++i) inner += cloth.pressure()[i] / (4.0 * kRound);
+    const double tension_n_m = 2000.0 * (1.0 / kTooNarrow - 1.0);
+    // Area is that of the flat cloth, which is narrower.
+    EXPECT_NEAR(inner * kTooNarrow, tension_n_m / kRadius_m, 0.1 * tension_n_m / kRadius_m);
+}
+
 TEST(ClothAir, ASheetThatFallsFlatReachesThePlatesTerminalSpeed) {
     Falling falling({Vec3(0.0f), 1.2f, 0.0f}, 0.0f);
     falling.run(1.0f);

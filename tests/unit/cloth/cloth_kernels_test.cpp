@@ -1,5 +1,5 @@
 // The hot loops on every instruction set that this machine has, against their formulas one particle at a time.
-#include "cloth/cloth_kernels.h"
+#include "cloth/solver/cloth_kernels.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <random>
 #include <set>
 
-#include "cloth/contact_culling.h"
+#include "cloth/contact/contact_culling.h"
 #include "cloth_support.h"
 #include "cloth_targets.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cloth/cloth.h"
-#include "cloth/garment.h"
+#include "cloth/garment/garment.h"
 #include "core/error.h"
 
 namespace vfit::test {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "cloth/contact.h"
+#include "cloth/contact/contact.h"
 #include "cloth_support.h"
 
 namespace vfit {

@@ -6,7 +6,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "cloth/dress.h"
+#include "cloth/garment/dress.h"
 #include "cloth_support.h"
 
 namespace vfit {
@@ -122,7 +122,8 @@ TEST(Dress, FollowsItsBones) {
     const Dress dress(sleeve(0.12f), cotton(), post.dressed_by(post));
     const std::vector<Mat4> moved{Mat4(1.0f), glm::translate(Mat4(1.0f), Vec3(0.3f, 0, 0))};
     std::vector<Vec3> targets;
-    dress.skin(moved, targets);
+    Skin::Scratch scratch;
+    dress.skin().carry(moved, targets, scratch, *Jobs::own(0));
     ASSERT_EQ(targets.size(), dress.fabric()->target_count());
     EXPECT_LT(glm::length(targets[0] - (dress.rest()[0] + Vec3(0.3f, 0, 0))), 1e-5f);
     const auto end = targets.begin() + std::ptrdiff_t(dress.rest().size());
@@ -132,8 +133,8 @@ TEST(Dress, FollowsItsBones) {
     // Backstops lie on the post's axis, half a post's breadth below the skin.
     for (auto ball = end; ball != targets.end(); ++ball)
         ASSERT_LT(std::min(radius_of(*ball), radius_of(*ball - Vec3(0.3f, 0, 0))), 0.01f);
-    EXPECT_EQ(error_of([&] { dress.skin(std::span(moved).first(1), targets); }),
-              "-2 1 skinning matrices, the garment needs 2");
+    EXPECT_EQ(error_of([&] { dress.skin().carry(std::span(moved).first(1), targets, scratch, *Jobs::own(0)); }),
+              "-2 1 skinning matrices for a skin of 2 bones");
 }
 
 TEST(Dress, HangsOnThePostAndStaysOutsideIt) {
@@ -141,12 +142,13 @@ TEST(Dress, HangsOnThePostAndStaysOutsideIt) {
     const Post post(0.1f);
     const Dress dress(sleeve(0.115f), cotton(), post.dressed_by(post));
     std::vector<Vec3> targets;
+    Skin::Scratch scratch;
     const std::vector<Mat4> still(2, Mat4(1.0f));
-    dress.skin(still, targets);
+    dress.skin().carry(still, targets, scratch, *jobs);
     Cloth cloth(dress.fabric(), {}, targets);
     for (int frame = 0; frame < 120; ++frame) {
         const std::vector<Mat4> sway(2, glm::translate(Mat4(1.0f), Vec3(0.1f * std::sin(0.2f * float(frame)), 0, 0)));
-        dress.skin(sway, targets);
+        dress.skin().carry(sway, targets, scratch, *jobs);
         cloth.step(kFrame_s, targets, {}, *jobs);
         const float x = 0.1f * std::sin(0.2f * float(frame));
         // Without any collider, the backstops alone keep the post free.

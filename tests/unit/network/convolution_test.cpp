@@ -1,5 +1,5 @@
 // vfit's convolution gives what the sum in its definition and OpenCV's own give, alone and inside OpenCV's dnn.
-#include "track/network/convolution.h"
+#include "network/convolution.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "track/network/convolution_layer.h"
+#include "network/convolution_layer.h"
 
 namespace vfit {
 namespace {

@@ -84,6 +84,7 @@ class Stream(IntEnum):
     SKIN_BONES = 21
     SKIN_WEIGHTS = 22
     STRAIN = 23
+    PRESSURE = 24
 
 class FloorState(IntEnum):
     """Who says where the floor is."""
@@ -268,6 +269,8 @@ class Frame(_Closable):
     @property
     def strain(self) -> NDArray[np.float32]: ...
     @property
+    def pressure(self) -> NDArray[np.float32]: ...
+    @property
     def intrinsics(self) -> Intrinsics: ...
     @property
     def camera(self) -> Camera: ...
@@ -448,9 +451,10 @@ class Cloth(_Closable):
                  gravity: Optional[Tuple[float, float, float]] = None, friction: Optional[float] = None,
                  damping: Optional[float] = None, thickness_m: float = 0.0, hands: bool = True, skin: bool = False,
                  sleeps: bool = True, wind: Tuple[float, float, float] = ..., drag: float = 0.0, lift: float = 0.0,
-                 inertia: Optional[float] = None, self_thickness_m: float = 0.0, budget_ms: float = 0.0) -> None:
+                 inertia: Optional[float] = None, self_thickness_m: float = 0.0, budget_ms: float = 0.0,
+                 pressure: bool = False) -> None:
         """hands False: forearms and hands pass through, so that none catches a skirt. skin True: kept out of the avatar's
-        skin itself. self_thickness_m: kept between the cloth's own layers."""
+        skin itself. self_thickness_m: kept between the cloth's own layers. pressure True: frames have pressure, in Pa."""
     def set_wind(self, wind: Tuple[float, float, float]) -> None: ...
     def set_quality(self, substeps: int = 0, budget_ms: float = 0.0) -> None: ...
     def wear_over(self, inner: Cloth) -> None: ...

@@ -1,0 +1,42 @@
+// The colliders' way from the last step to this one.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "body/collider.h"
+#include "cloth/contact/contact.h"
+#include "cloth/rigid_motion.h"
+
+namespace vfit {
+
+class ColliderMotion {
+public:
+    /// Where they are at the end of this step, in the same order each time, with that much more radius. Those that were not
+    /// there before stand still. Does not allocate while their number stays.
+    void accept(std::span<const Collider> colliders, float thickness_m);
+    /// The step has ended.
+    void arrive() { std::swap(previous_, current_); }
+    /// They were where they are now.
+    void jump() { previous_ = current_; }
+    void forget() { previous_.clear(); }
+    /// Their last places were carried along.
+    void carry(const RigidMotion& motion);
+    /// How far any of them went in this step, at most; infinite where one appeared, vanished or changed its kind.
+    float greatest_way() const;
+
+    /// Between two shares of the step; as many as count().
+    void sweep(float from, float to, std::vector<SweptCapsule>& out) const;
+    size_t count() const { return needed_.size(); }
+
+private:
+    bool is_end_of_another(uint32_t ball) const;
+
+    std::vector<Capsule> previous_, current_;
+    bool same_ = true;  // as in the last step, but for their places
+    std::vector<uint32_t> needed_;  // that are not part of another
+};
+
+}  // namespace vfit

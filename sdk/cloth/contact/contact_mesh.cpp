@@ -1,0 +1,228 @@
+#include "cloth/contact/contact_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cloth/contact/contact_culling.h"
+#include "core/error.h"
+#include "math/finite.h"
+
+namespace vfit {
+
+namespace {
+
+constexpr float kFastest_m = 0.1f;  // further than that in a step, a mesh is not looked for
+constexpr float kCornerReach = 0.6f;  // of an edge: so far off may the corner be by which a place of a triangle is found
+
+std::vector<uint32_t> counted(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts) {
+    std::vector<uint32_t> out;
+    for (size_t i = 0; i + 2 < indices.size(); i += 3) {
+        for (size_t k = 0; k < 3; ++k)
+            if (indices[i + k] >= vertices) fail(VFIT_ERROR_DATA, "a contact mesh's triangle names vertex ", indices[i + k], " of ", vertices);
+        if (counts.empty() || (counts[indices[i]] && counts[indices[i + 1]] && counts[indices[i + 2]]))
+            out.insert(out.end(), indices.begin() + std::ptrdiff_t(i), indices.begin() + std::ptrdiff_t(i) + 3);
+    }
+    return out;
+}
+
+Vec3 unit_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 across = glm::cross(b - a, c - a);
+    const float length = glm::length(across);
+    return length > 0.0f ? across / length : Vec3(0.0f);
+}
+
+}  // namespace
+
+ContactMesh::ContactMesh(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts)
+    : vertex_count_(vertices), indices_(counted(vertices, indices, counts)) {}
+
+/// Along a Morton curve of cells of 8 mm: neighbours in space follow each other.
+void ContactMesh::order(std::span<const Vec3> positions) {
+    Vec3 low(INFINITY);
+    for (const Vec3& p : positions)
+        if (finite(p)) low = glm::min(low, p);
+    const auto spread = [](uint32_t x) {
+        x = (x | x << 16) & 0x030000ff;
+        x = (x | x << 8) & 0x0300f00f;
+        x = (x | x << 4) & 0x030c30c3;
+        return (x | x << 2) & 0x09249249;
+    };
+    std::vector<uint32_t> used = indices_;
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    std::vector<std::pair<uint32_t, uint32_t>> codes;
+    for (uint32_t v : used) {
+        const Vec3 cell = finite(positions[v]) ? glm::clamp((positions[v] - low) * 128.0f, 0.0f, 1023.0f) : Vec3(0.0f);
+        codes.emplace_back(spread(uint32_t(cell.x)) | spread(uint32_t(cell.y)) << 1 | spread(uint32_t(cell.z)) << 2, v);
+    }
+    std::sort(codes.begin(), codes.end());
+    std::vector<uint32_t> point_of(vertex_count_, 0), corners;
+    for (const auto& [code, v] : codes) {
+        point_of[v] = uint32_t(vertex_of_.size());
+        vertex_of_.push_back(v);
+    }
+    for (uint32_t v : indices_) corners.push_back(point_of[v]);
+    fans_ = TriangleFans(vertex_of_.size(), corners);
+    const size_t runs = (vertex_of_.size() + kLanes - 1) / kLanes;
+    places_.assign(runs * kLanes, Particle{Vec3(NAN)});
+    end_.resize(vertex_of_.size());
+    begin_.reserve(vertex_of_.size());
+    boxes_.resize(runs);
+    ways_m_.assign(runs, 0.0f);
+    edges_m_.assign(runs, 0.0f);
+    for (uint32_t i = 0; i < vertex_of_.size(); ++i)
+        for (const TriangleFans::Corners& c : fans_.of(i))
+            for (uint32_t other : {c.second, c.third}) {
+                const float length = glm::length(positions[vertex_of_[other]] - positions[vertex_of_[i]]);
+                if (std::isfinite(length)) edges_m_[i / kLanes] = std::max(edges_m_[i / kLanes], length);
+            }
+}
+
+void ContactMesh::accept(std::span<const Vec3> positions, const Vec3& low, const Vec3& high) {
+    if (vertex_of_.empty() && !indices_.empty()) order(positions);
+    for (size_t i = 0; i < vertex_of_.size(); ++i) end_[i].x = positions[vertex_of_[i]];
+    if (begin_.size() != end_.size()) begin_ = end_;
+    greatest_way_ = 0.0f;
+    for (size_t run = 0; run < ways_m_.size(); ++run) {
+        Vec3 from(INFINITY), to(-INFINITY);
+        float way2 = 0.0f;
+        for (size_t i = run * kLanes; i < std::min((run + 1) * kLanes, vertex_of_.size()); ++i) {
+            const Vec3 &p = begin_[i].x, &q = end_[i].x;
+            const bool inside = glm::all(glm::greaterThan(p, low)) && glm::all(glm::lessThan(p, high));
+            places_[i].x = inside ? p : Vec3(NAN);
+            if (!inside) continue;
+            const Vec3 way = q - p;
+            from = glm::min(from, glm::min(p, q)), to = glm::max(to, glm::max(p, q));
+            way2 = std::max(way2, glm::dot(way, way));
+        }
+        ways_m_[run] = std::min(std::sqrt(way2), kFastest_m);
+        greatest_way_ = std::max(greatest_way_, std::sqrt(way2));
+        const float reach = kCornerReach * edges_m_[run];
+        boxes_.runs.set(run, from - reach, to + reach);
+    }
+    boxes_.find_blocks();
+}
+
+void ContactMesh::hide() {
+    forget();
+    greatest_way_ = 0.0f;
+    boxes_.resize(ways_m_.size());
+}
+
+void ContactMesh::carry(const RigidMotion& motion) {
+    for (Particle& p : begin_) p.x = motion.point(p.x);
+}
+
+Vec3 ContactMesh::Place::at(const Particles& points) const {
+    return weights.x * points[corner[0]].x + weights.y * points[corner[1]].x + weights.z * points[corner[2]].x;
+}
+
+Vec3 ContactMesh::Place::normal(const Particles& points) const {
+    return unit_normal(points[corner[0]].x, points[corner[1]].x, points[corner[2]].x);
+}
+
+uint32_t ContactMesh::Place::nearest_corner() const {
+    return corner[weights.x >= weights.y && weights.x >= weights.z ? 0 : weights.y >= weights.z ? 1 : 2];
+}
+
+ContactMesh::Place ContactMesh::place_of(const NearestOnFans& nearest, size_t lane, uint32_t point) const {
+    const TriangleFans::Corners& c = fans_.corners()[nearest.corners[lane]];
+    return {{point, c.second, c.third}, nearest.weights(lane)};
+}
+
+/// On the triangles about the points; where the nearest place is at another corner, about that one too. points: in the end
+/// those about which the places are.
+void ContactMesh::find_nearest(const Particle* run, uint32_t* points, NearestOnFans& out) const {
+    constexpr int kSteps = 2;
+    find_nearest_on_fans(run, points, fans_, begin_.data(), out);
+    uint32_t at[kLanes];
+    std::copy(points, points + kLanes, at);
+    for (int step = 0; step < kSteps; ++step) {
+        bool any = false;
+        for (size_t lane = 0; lane < kLanes; ++lane) {
+            uint32_t next = NearestOnFans::kNone;
+            // Where the last step brought nothing, `at` is not where the place is any more.
+            if (at[lane] == points[lane] && out.corners[lane] != NearestOnFans::kNone) next = place_of(out, lane, points[lane]).nearest_corner();
+            at[lane] = next == points[lane] ? NearestOnFans::kNone : next;
+            any |= at[lane] != NearestOnFans::kNone;
+        }
+        if (!any) return;
+        NearestOnFans other;
+        find_nearest_on_fans(run, at, fans_, begin_.data(), other);
+        for (size_t lane = 0; lane < kLanes; ++lane) {
+            if (!(other.distance2[lane] < out.distance2[lane])) continue;
+            points[lane] = at[lane];
+            out.distance2[lane] = other.distance2[lane], out.corners[lane] = other.corners[lane];
+            out.at_second[lane] = other.at_second[lane], out.at_third[lane] = other.at_third[lane];
+        }
+    }
+}
+
+/// Which way is out there: on an edge or a corner, by all triangles about it.
+Vec3 ContactMesh::outward_at(const Place& place) const {
+    constexpr float kInside = 1e-4f;
+    if (std::min({place.weights.x, place.weights.y, place.weights.z}) > kInside) return place.normal(begin_);
+    Vec3 sum(0.0f);
+    for (int k = 0; k < 3; ++k) {
+        if (place.weights[k] <= kInside) continue;
+        const uint32_t own = place.corner[k];
+        for (const TriangleFans::Corners& c : fans_.of(own)) sum += unit_normal(begin_[own].x, begin_[c.second].x, begin_[c.third].x);
+    }
+    return sum;
+}
+
+/// Fills near with the mesh's runs that a run of particles may meet; how near they have to be. 0: there is none.
+float ContactMesh::reach_of(const Moving& moving, uint32_t first, float dt, float thickness_m, std::vector<uint32_t>& near) const {
+    Vec3 low(INFINITY), high(-INFINITY);
+    float speed2 = 0.0f;
+    for (size_t i = first; i < first + kLanes; ++i) {
+        low = glm::min(low, moving.places[i].x);
+        high = glm::max(high, moving.places[i].x);
+        speed2 = std::max(speed2, glm::dot(moving.velocities[i].x, moving.velocities[i].x));
+    }
+    const float own = thickness_m + std::min(expected_way_m(dt * std::sqrt(speed2)), kFastest_m);
+    find_meeting(boxes_, low - own, high + own, near);
+    if (near.empty()) return 0.0f;
+    float way = 0.0f;
+    for (uint32_t other : near) way = std::max(way, ways_m_[other]);
+    return own + way;
+}
+
+void ContactMesh::find_planes(const Moving& moving, float dt, float thickness_m, std::vector<uint32_t>& near, std::vector<RunPlanes>& out) const {
+    for (uint32_t first = 0; first < moving.count; first += uint32_t(kLanes)) {
+        const Particle* run = moving.places + first;
+        const float reach = reach_of(moving, first, dt, thickness_m, near);
+        if (near.empty()) continue;
+        float edge = 0.0f;
+        for (uint32_t other : near) edge = std::max(edge, edges_m_[other]);
+        NearestOfRun points(reach + kCornerReach * edge);
+        find_nearest_in_runs(run, places_.data(), near, points);
+        uint32_t* point = points.id[0];
+        if (std::all_of(point, point + kLanes, [](uint32_t id) { return id == NearestOnFans::kNone; })) continue;
+        NearestOnFans nearest;
+        find_nearest(run, point, nearest);
+        RunPlanes planes{};
+        bool any = false;
+        for (size_t lane = 0; lane < kLanes; ++lane) {
+            planes.thickness_m[lane] = RunPlanes::kNone;
+            if (nearest.corners[lane] == NearestOnFans::kNone) continue;
+            const Place place = place_of(nearest, lane, point[lane]);
+            const Vec3 &p = run[particle_at(lane)].x, on = place.at(begin_), to = place.at(end_), off = p - on;
+            const float distance = glm::length(off);
+            const Vec3 outward = outward_at(place);
+            const bool inside = glm::dot(off, outward) < 0.0f;
+            if ((!inside && distance > reach) || !finite(on) || !finite(to)) continue;
+            constexpr float kOnIt_m = 1e-5f;
+            const Vec3 normal = distance > kOnIt_m ? (inside ? -off : off) / distance : outward / std::max(glm::length(outward), 1e-12f);
+            Vec3 turned = normal + place.normal(end_) - place.normal(begin_);
+            turned /= std::max(glm::length(turned), 1e-12f);
+            any = true;
+            planes.set(lane, on, to - on, normal, turned - normal, thickness_m);
+        }
+        if (!any) continue;
+        planes.run = first / uint32_t(kLanes);
+        out.push_back(planes);
+    }
+}
+
+}  // namespace vfit

@@ -1,0 +1,66 @@
+// Contact with a moving mesh: the skin, or a garment that is worn below. Once a step, each particle that is near the mesh gets
+// the plane that touches it at the nearest point, and stays before that plane, as it moves, through the sub-steps.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cloth/solver/cloth_kernels.h"
+#include "cloth/rigid_motion.h"
+#include "cloth/contact/surface_kernels.h"
+#include "cloth/triangle_fans.h"
+
+namespace vfit {
+
+class ContactMesh {
+public:
+    /// Three indices a triangle, counter-clockwise seen from outside; triangles with a vertex that does not count (flags, one
+    /// a vertex; empty: all do) are left out. VFIT_ERROR_DATA where an index is out of range.
+    ContactMesh(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts = {});
+
+    size_t vertex_count() const { return vertex_count_; }
+    /// Where its vertices are at the end of this step. `around`: the box in which it is looked for.
+    void accept(std::span<const Vec3> positions, const Vec3& low, const Vec3& high);
+    /// They were where they are now.
+    void jump() { begin_ = end_; }
+    void forget() { begin_.clear(); }
+    void hide();
+    void arrive() { std::swap(begin_, end_); }
+    void carry(const RigidMotion& motion);
+    float greatest_way() const { return greatest_way_; }
+
+    /// Planes for runs of particles as they lie and move at the begin of a step of dt, by rising runs. Those of a run that is
+    /// not near are left out. May run for several parts at the same time.
+    /// near: room to work in.
+    void find_planes(const Moving& moving, float dt, float thickness_m, std::vector<uint32_t>& near, std::vector<RunPlanes>& out) const;
+
+private:
+    /// A place on a triangle.
+    struct Place {
+        uint32_t corner[3];
+        Vec3 weights;
+
+        Vec3 at(const Particles& points) const;
+        Vec3 normal(const Particles& points) const;  // of the triangle
+        uint32_t nearest_corner() const;
+    };
+    void order(std::span<const Vec3> positions);
+    float reach_of(const Moving& moving, uint32_t first, float dt, float thickness_m, std::vector<uint32_t>& near) const;
+    void find_nearest(const Particle* run, uint32_t* points, NearestOnFans& out) const;
+    Place place_of(const NearestOnFans& nearest, size_t lane, uint32_t point) const;
+    Vec3 outward_at(const Place& place) const;
+
+    size_t vertex_count_;
+    std::vector<uint32_t> indices_;  // of vertices
+    float greatest_way_ = 0.0f;
+    // Its vertices that have triangles as points, in runs of kLanes that lie together.
+    std::vector<uint32_t> vertex_of_;
+    TriangleFans fans_;
+    Particles begin_, end_;                // of the step
+    Particles places_;                     // as begin_; not finite: nobody, or too far to matter
+    RunBoxes boxes_;                       // on their way through the step, and as far as their triangles may reach
+    std::vector<float> ways_m_, edges_m_;  // of each run, at most
+};
+
+}  // namespace vfit

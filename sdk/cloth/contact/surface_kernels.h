@@ -1,0 +1,79 @@
+// The hot loops of contact with surfaces, in SIMD with run-time dispatch.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cloth/solver/particle.h"
+#include "cloth/triangle_fans.h"
+
+namespace vfit {
+
+/// The nearest point to each lane of a run, apart for what lies before its normal and behind it.
+struct NearestOfRun {
+    alignas(32) float distance2[2][kLanes];
+    alignas(32) uint32_t id[2][kLanes];
+
+    explicit NearestOfRun(float reach);  // none within that
+};
+/// Boxes, eight to a register.
+struct Boxes {
+    std::vector<float> low[3], high[3];  // x, y, z; filled up to whole registers with boxes that meet nothing
+    void resize(size_t count);
+    void set(size_t at, const Vec3& from, const Vec3& to);
+    Vec3 low_of(size_t at) const { return {low[0][at], low[1][at], low[2][at]}; }
+    Vec3 high_of(size_t at) const { return {high[0][at], high[1][at], high[2][at]}; }
+};
+/// Boxes about runs of particles, and about eight runs in a row each.
+struct RunBoxes {
+    Boxes runs, blocks;
+    void resize(size_t count);
+    void find_blocks();  // once all runs are set
+};
+/// The runs whose boxes meet that one, rising.
+void find_meeting(const RunBoxes& boxes, const Vec3& low, const Vec3& high, std::vector<uint32_t>& runs);
+/// Looks at the particles of these runs, which are their ids (not finite: nobody), for a run's eight particles. What is nearer
+/// than out says, replaces it; all is before.
+void find_nearest_in_runs(const Particle* run, const Particle* all, std::span<const uint32_t> runs, NearestOfRun& out);
+
+/// Another run of the same cloth, with a byte for each of its particles, of which a bit stands for a lane of the one that looks.
+struct NearRun {
+    uint32_t run;
+    uint64_t excluded;  // does not count
+    uint64_t beside;    // counts only where the two face away from each other: in a fold
+    float way_m;        // that the two may come nearer in the step
+    float reach_m;      // near enough, then
+    bool near = false;  // of keep_near
+};
+/// Keeps of the runs those of which a particle that counts may come near enough to one of this run; how many.
+size_t keep_near(uint32_t run, const Particle* all, const Particle* normals, std::span<NearRun> runs);
+/// As above among particles that count; normals (of unit length) of all tell who is before and who behind.
+void find_nearest_in_cloth(uint32_t run, const Particle* all, const Particle* normals, std::span<const NearRun> runs, NearestOfRun& out);
+
+/// For each lane of a run the nearest place on the triangles about one point.
+struct alignas(32) NearestOnFans {
+    float distance2[kLanes];
+    uint32_t corners[kLanes];                         // which of the fans' corners(); kNone: there is no triangle
+    float at_second[kLanes], at_third[kLanes];        // weights of those two; the rest is the point's own
+    static constexpr uint32_t kNone = UINT32_MAX;
+
+    Vec3 weights(size_t lane) const { return {1.0f - at_second[lane] - at_third[lane], at_second[lane], at_third[lane]}; }
+};
+/// points: one a lane, kNone: nobody; of them and of their corners `all` holds the places.
+void find_nearest_on_fans(const Particle* run, const uint32_t* points, const TriangleFans& fans, const Particle* all, NearestOnFans& out);
+
+/// Eight contacts of a particle with a triangle of the same cloth: it stays on one side of it, that far off.
+struct alignas(32) SurfaceContacts {
+    uint32_t vertex[kLanes], a[kLanes], b[kLanes], c[kLanes];  // bytes from the first particle
+    float at_a[kLanes], at_b[kLanes], at_c[kLanes];            // the place on the triangle, weights
+    float side[kLanes];                                        // 1: before it, -1: behind it
+    float thickness_m[kLanes];
+    // Of what is amiss: how far each of the four moves.
+    float vertex_gain[kLanes], a_gain[kLanes], b_gain[kLanes], c_gain[kLanes];
+};
+/// One batch after the other; what the eight lanes of one do to one particle is added up. What was amiss already at the begin
+/// of the sub-step (starts) is taken back by most_back_m at most.
+void solve_surface_contacts(std::span<const SurfaceContacts> contacts, const Particle* starts, float most_back_m, Particle* particles);
+
+}  // namespace vfit

@@ -1,0 +1,122 @@
+// Fabric: all of a cloth that does not change while it is simulated (masses, constraints, topology), cooked
+// once and shared by every instance of that cloth.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cloth/fabric/distance_batches.h"
+#include "cloth/fabric/fabric_library.h"
+#include "cloth/fabric/particle_layout.h"
+#include "cloth/triangle_fans.h"
+#include "math/types.h"
+
+namespace vfit {
+
+/// |xa - xb| = rest_m with that compliance (XPBD; Macklin, Mueller, Chentanez 2016).
+struct DistanceConstraint {
+    uint32_t a, b;
+    float rest_m;
+    float compliance_m_n;
+};
+
+/// |x - anchor| <= length_m of a fixed anchor: long range attachment (Kim, Chentanez, Mueller 2012).
+struct Tether {
+    uint32_t vertex, anchor;
+    float length_m;
+};
+
+/// A ball below the skin that one vertex stays out of: where colliders are too coarse, the body's own shape.
+struct Backstop {
+    uint32_t vertex;
+    float radius_m;
+};
+
+/// How far from its target a vertex may be.
+struct DistanceLimit {
+    uint32_t vertex;
+    float distance_m;
+};
+
+/// Balls that particles of a run of kLanes stay out of, or in, by lanes.
+struct BallRun {
+    uint32_t run;
+    uint32_t target[kLanes];  // index of its centre
+    float radius_m[kLanes];   // 0: none
+};
+
+/// What a fabric is made of as explicit data, in any order.
+struct FabricData {
+    std::vector<float> inverse_mass;  // 1/kg, one a vertex; 0: moved by its target
+    float density_kg_m2 = 0.0f;       // 0: not known, and then no pressure is
+    std::vector<uint32_t> indices;    // three a triangle, for the normals
+    std::vector<DistanceConstraint> edges;
+    std::vector<DistanceConstraint> bends;
+    std::vector<Tether> tethers;
+    std::vector<Backstop> backstops;
+    std::vector<DistanceLimit> limits;
+};
+
+/// Immutable and cooked: laid out for the solver. Made by cook_fabric or from explicit data.
+class Fabric {
+public:
+    /// Fails with VFIT_ERROR_DATA, naming the constraint, where the data do not fit together.
+    explicit Fabric(FabricData data);
+
+    uint32_t vertex_count() const { return uint32_t(data_.inverse_mass.size()); }
+    uint32_t simulated_count() const { return vertex_count() - uint32_t(kinematic_.size()); }
+    /// Places that a step wants: one a vertex, then the centre of each backstop.
+    uint32_t target_count() const { return vertex_count() + uint32_t(data_.backstops.size()); }
+    /// Distance constraints: edges and bends.
+    uint32_t constraint_count() const { return uint32_t(data_.edges.size() + data_.bends.size()); }
+    const FabricData& data() const { return data_; }
+    const std::vector<uint32_t>& kinematic_vertices() const { return kinematic_; }
+
+    const ParticleLayout& layout() const { return layout_; }
+    /// Of each group of the layout.
+    const std::vector<DistanceBatches>& bend_batches() const { return bends_; }
+    const std::vector<DistanceBatches>& edge_batches() const { return edges_; }
+    /// One a lane of each run (of particles that move): the anchor, and how far from it it may be.
+    const std::vector<uint32_t>& tether_anchors() const { return tether_anchors_; }
+    const std::vector<float>& tether_lengths() const { return tether_lengths_; }
+    /// Of each part of the layout, by rising runs.
+    const std::vector<std::vector<BallRun>>& backstop_runs() const { return backstop_runs_; }
+    const std::vector<std::vector<BallRun>>& limit_runs() const { return limit_runs_; }
+    /// The triangles about each particle; of a fixed vertex the first copy has them.
+    const TriangleFans& fans() const { return fans_; }
+
+private:
+    std::vector<std::vector<BallRun>> place_balls(std::span<const Backstop> balls, bool at_vertices) const;
+    TriangleFans make_fans() const;
+
+    FabricData data_;
+    std::vector<uint32_t> kinematic_;
+    ParticleLayout layout_;
+    std::vector<DistanceBatches> bends_, edges_;
+    std::vector<uint32_t> tether_anchors_;
+    std::vector<float> tether_lengths_;
+    std::vector<std::vector<BallRun>> backstop_runs_, limit_runs_;
+    TriangleFans fans_;
+};
+
+/// The shape a fabric is cut to: positions at rest, triangles, uvs (v runs along the warp; empty: Y is the
+/// warp), and which vertices are simulated.
+struct FabricShape {
+    std::span<const Vec3> positions;
+    std::span<const uint32_t> indices;
+    std::span<const Vec2> uvs;
+    std::span<const uint8_t> simulated;
+    float horizontal_scale = 1.0f;  // of the rest lengths' X and Z: the size of the garment over the shape's
+};
+
+/// Constraints and masses of that material on that shape. Only edges with a simulated end become constraints.
+FabricData cook_fabric(const FabricShape& shape, const FabricMaterial& material);
+
+/// A tether from each free vertex that is connected to a fixed one (inverse mass 0), as long as the
+/// shortest path along the edges.
+std::vector<Tether> cook_tethers(std::span<const float> inverse_mass, std::span<const DistanceConstraint> edges);
+
+}  // namespace vfit

@@ -1,0 +1,273 @@
+#include "cloth/garment/dress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "core/error.h"
+#include "measure/mesh_query.h"
+
+namespace vfit {
+
+namespace {
+
+bool is_arm(BodyPart part) { return part >= BodyPart::kLeftUpperArm && part <= BodyPart::kRightHand; }
+
+/// The body's triangles that may carry a garment.
+std::vector<uint32_t> bindable_triangles(const DressBody& body) {
+    if (body.parts.empty()) return {body.indices.begin(), body.indices.end()};
+    std::vector<uint32_t> kept;
+    for (size_t i = 0; i + 2 < body.indices.size(); i += 3) {
+        const uint32_t* v = &body.indices[i];
+        if (!is_arm(body.parts[v[0]]) && !is_arm(body.parts[v[1]]) && !is_arm(body.parts[v[2]]))
+            kept.insert(kept.end(), v, v + 3);
+    }
+    return kept;
+}
+
+/// A place on the body's surface: three corners and their weights.
+struct Binding {
+    uint32_t corner[3];
+    float weight[3];
+
+    Vec3 on(std::span<const Vec3> body) const {
+        return weight[0] * body[corner[0]] + weight[1] * body[corner[1]] + weight[2] * body[corner[2]];
+    }
+};
+
+void check(const Garment& garment, const DressBody& body) {
+    const size_t n = body.authored.size();
+    if (n == 0 || body.rest.size() != n)
+        fail(VFIT_ERROR_ARGUMENT, "garment ", garment.name, ": authored body and avatar differ in topology");
+    if (body.skin_bones.size() < n || body.skin_weights.size() < n ||
+        (!body.parts.empty() && body.parts.size() < n))
+        fail(VFIT_ERROR_ARGUMENT, "garment ", garment.name, ": the body's skin has too few vertices");
+    for (uint32_t i : body.indices)
+        if (i >= n) fail(VFIT_ERROR_ARGUMENT, "garment ", garment.name, ": the body's triangles name no such vertex");
+}
+
+std::vector<std::vector<uint32_t>> neighbours_of(const Mesh& mesh) {
+    std::vector<std::set<uint32_t>> sets(mesh.positions.size());
+    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+        for (size_t k = 0; k < 3; ++k) {
+            sets[mesh.indices[i + k]].insert(mesh.indices[i + (k + 1) % 3]);
+            sets[mesh.indices[i + (k + 1) % 3]].insert(mesh.indices[i + k]);
+        }
+    std::vector<std::vector<uint32_t>> lists;
+    for (const auto& set : sets) lists.emplace_back(set.begin(), set.end());
+    return lists;
+}
+
+/// Rows of numbers, one row a vertex.
+struct Table {
+    size_t width;
+    std::vector<float> values;
+
+    Table(size_t rows, size_t columns) : width(columns), values(rows * columns, 0.0f) {}
+    std::span<float> row(size_t i) { return {values.data() + i * width, width}; }
+    size_t rows() const { return values.size() / width; }
+
+    std::vector<size_t> columns_in_use() {
+        std::vector<size_t> used;
+        for (size_t k = 0; k < width; ++k) {
+            bool any = false;
+            for (size_t i = k; i < values.size() && !any; i += width) any = values[i] != 0.0f;
+            if (any) used.push_back(k);
+        }
+        return used;
+    }
+    Table of_columns(std::span<const size_t> columns) {
+        Table packed(rows(), columns.size());
+        for (size_t i = 0; i < rows(); ++i)
+            for (size_t k = 0; k < columns.size(); ++k) packed.row(i)[k] = row(i)[columns[k]];
+        return packed;
+    }
+    void set_columns(std::span<const size_t> columns, Table& packed) {
+        for (size_t i = 0; i < rows(); ++i)
+            for (size_t k = 0; k < columns.size(); ++k) row(i)[columns[k]] = packed.row(i)[k];
+    }
+};
+
+/// Hanging cloth is bound to whichever leg is nearer; between them it must not tear. Evens the rows of simulated
+/// vertices out over their neighbours, the more the further they hang from the skin; the skinned ones keep theirs.
+void smooth_hanging(const Garment& garment, std::span<const float> skin_distances, Table& table) {
+    constexpr int kRounds = 100;           // spreads over about 10 vertices: the gap between the legs
+    constexpr float kCloseToSkin_m = 0.02f;  // a common ease: closer than that, cloth goes where its skin goes
+    const std::vector<std::vector<uint32_t>> neighbours = neighbours_of(garment.mesh);
+    const std::vector<size_t> columns = table.columns_in_use();  // of the body's bones a dress has a fourth
+    Table own = table.of_columns(columns), smooth = own;
+    const size_t width = columns.size();
+    for (int round = 0; round < kRounds; ++round)
+        for (size_t i = 0; i < neighbours.size(); ++i) {
+            if (!garment.simulated[i] || neighbours[i].empty()) continue;
+            const float kept = std::exp(-skin_distances[i] / kCloseToSkin_m);
+            const std::span<float> row = smooth.row(i), own_row = own.row(i);
+            for (size_t k = 0; k < width; ++k) row[k] = kept * own_row[k];
+            const float share = (1.0f - kept) / float(neighbours[i].size());
+            for (uint32_t j : neighbours[i]) {
+                const std::span<float> other = smooth.row(j);
+                for (size_t k = 0; k < width; ++k) row[k] += share * other[k];
+            }
+        }
+    table.set_columns(columns, smooth);
+}
+
+/// Weight of each bone at a place on the body.
+void add_bone_weights(const DressBody& body, const Binding& binding, std::span<float> bones) {
+    for (int k = 0; k < 3; ++k)
+        for (size_t j = 0; j < kSkinBones; ++j)
+            bones[body.skin_bones[binding.corner[k]][j]] +=
+                body.skin_weights[binding.corner[k]][j] * binding.weight[k];
+}
+
+/// Places and the bones that carry them, for a Skin.
+struct Carried {
+    std::vector<Vec3> rest;
+    std::vector<SkinBones> bones;
+    std::vector<SkinWeights> weights;
+
+    void add(const Vec3& place, const SkinBones& by, const SkinWeights& shares) {
+        rest.push_back(place), bones.push_back(by), weights.push_back(shares);
+    }
+    /// By the heaviest of all bones; smoothed weights have long tails.
+    void add(const Vec3& place, std::span<const float> bone_weights) {
+        constexpr float kTail = 0.01f;
+        const float least = kTail * std::accumulate(bone_weights.begin(), bone_weights.end(), 0.0f);
+        std::vector<size_t> order;
+        for (size_t bone = 0; bone < bone_weights.size(); ++bone)
+            if (bone_weights[bone] > least) order.push_back(bone);
+        std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return bone_weights[a] > bone_weights[b]; });
+        order.resize(std::min<size_t>(order.size(), kSkinBones));
+        float sum = 0.0f;
+        for (size_t bone : order) sum += bone_weights[bone];
+        SkinBones by{};
+        SkinWeights shares{};
+        for (size_t k = 0; k < order.size(); ++k) by[k] = uint16_t(order[k]), shares[k] = bone_weights[order[k]] / sum;
+        add(place, by, shares);
+    }
+    Skin skin() const { return Skin(bones, weights, rest, {}); }
+};
+
+Binding binding_of(const MeshQuery::Closest& closest, std::span<const uint32_t> triangles) {
+    const uint32_t* v = &triangles[closest.triangle * 3];
+    return {{v[0], v[1], v[2]}, {1.0f - closest.uv.x - closest.uv.y, closest.uv.x, closest.uv.y}};
+}
+
+/// The ball inside the body that touches the skin below p: half as thick as the body there, at most as wide as the
+/// trunk's rounding, so that a vertex that slid sideways finds the skin curve away below it.
+struct BodyBall {
+    Vec3 center;
+    float radius_m;
+};
+BodyBall ball_below(const MeshQuery& skin, const Vec3& p) {
+    constexpr float kSmallest_m = 0.02f, kLargest_m = 0.1f;
+    const MeshQuery::Closest closest = skin.closest(p);
+    const Vec3 inward = closest.distance > 1e-6f ? (closest.point - p) / closest.distance : -closest.normal;
+    const auto far_side = skin.cast(closest.point + inward * 1e-3f, inward, 2.0f * kLargest_m);
+    const float radius = far_side ? std::max(kSmallest_m, 0.5f * far_side->distance) : kLargest_m;
+    return {closest.point + inward * radius, radius};
+}
+
+/// Out of the body, to at least that clearance.
+void push_out(const MeshQuery& skin, float clearance_m, std::vector<Vec3>& points) {
+    for (Vec3& p : points) {
+        constexpr int kTries = 4;  // between two thighs, out of one may be into the other
+        for (int i = 0; i < kTries; ++i) {
+            const float distance = skin.signed_distance(p);
+            if (distance >= clearance_m) break;
+            const MeshQuery::Closest closest = skin.closest(p);
+            const Vec3 outward = closest.distance > 1e-6f ? (p - closest.point) / distance : closest.normal;
+            p = closest.point + outward * clearance_m;
+        }
+    }
+}
+
+}  // namespace
+
+Dress::Dress(const Garment& garment, const FabricMaterial& material, const DressBody& body, float size_ratio,
+             float thickness_m)
+    : indices_(garment.mesh.indices), uvs_(garment.mesh.uvs) {
+    check(garment, body);
+    const uint32_t n = garment.vertex_count();
+    uint32_t bones = 0;
+    for (const auto& list : body.skin_bones)
+        for (uint16_t bone : list) bones = std::max(bones, uint32_t(bone) + 1);
+    const std::vector<uint32_t> triangles = bindable_triangles(body);
+
+    // Both bodies stand in the same pose: what lies off the skin is carried as it is, so that ease and flare stay
+    // what they were cut to.
+    Table shifts(n, 3), weights(n, bones);
+    std::vector<float> skin_distances(n);
+    {
+        const MeshQuery authored(body.authored, triangles);
+        for (uint32_t i = 0; i < n; ++i) {
+            const MeshQuery::Closest closest = authored.closest(garment.mesh.positions[i]);
+            skin_distances[i] = closest.distance;
+            const Binding binding = binding_of(closest, triangles);
+            const Vec3 shift = binding.on(body.rest) - binding.on(body.authored);
+            for (int k = 0; k < 3; ++k) shifts.row(i)[size_t(k)] = shift[k];
+            add_bone_weights(body, binding, weights.row(i));
+        }
+    }
+    smooth_hanging(garment, skin_distances, shifts);
+    smooth_hanging(garment, skin_distances, weights);
+    for (uint32_t i = 0; i < n; ++i) {
+        const std::span<const float> shift = shifts.row(i);
+        rest_.push_back(garment.mesh.positions[i] + Vec3(shift[0], shift[1], shift[2]));
+    }
+    const MeshQuery skin(body.rest, body.indices);
+    push_out(skin, thickness_m, rest_);
+
+    FabricData data = cook_fabric({rest_, indices_, uvs_, garment.simulated, size_ratio}, material);
+    Carried carried;
+    for (uint32_t i = 0; i < n; ++i) carried.add(rest_[i], weights.row(i));
+    const MeshQuery bound(body.rest, triangles);
+    std::vector<float> bone_weights(bones);
+    for (uint32_t i = 0; i < n; ++i) {
+        if (!garment.backstop[i] || !garment.simulated[i]) continue;
+        const BodyBall ball = ball_below(bound, rest_[i]);
+        std::fill(bone_weights.begin(), bone_weights.end(), 0.0f);
+        add_bone_weights(body, binding_of(bound.closest(rest_[i]), triangles), bone_weights);
+        carried.add(ball.center, bone_weights);
+        data.backstops.push_back({i, ball.radius_m});
+    }
+    for (uint32_t i = 0; i < n; ++i)
+        if (!garment.most_way.empty() && garment.most_way[i] > 0.0f && garment.simulated[i]) data.limits.push_back({i, garment.most_way[i]});
+    fabric_ = std::make_shared<const Fabric>(std::move(data));
+    skin_.emplace(carried.skin());
+}
+
+SkinBelow skin_below(const DressBody& body, std::span<const Vec3> garment, bool with_hands) {
+    constexpr float kAbove_m = 0.1f, kBelow_m = 0.25f;
+    float low = INFINITY, high = -INFINITY;
+    for (const Vec3& p : garment) low = std::min(low, p.y), high = std::max(high, p.y);
+    const auto is_hand = [](BodyPart part) {
+        return part == BodyPart::kLeftForearm || part == BodyPart::kLeftHand || part == BodyPart::kRightForearm || part == BodyPart::kRightHand;
+    };
+    const auto counts = [&](uint32_t v) {
+        const float y = body.rest[v].y;
+        if (body.parts.empty()) return y > low - kBelow_m && y < high + kAbove_m;
+        const BodyPart part = body.parts[v];
+        if (part == BodyPart::kHead || (!with_hands && is_hand(part))) return false;
+        return is_arm(part) || (y > low - kBelow_m && y < high + kAbove_m);
+    };
+    Carried carried;
+    std::vector<uint32_t> indices;
+    constexpr uint32_t kNone = UINT32_MAX;
+    std::vector<uint32_t> place_of(body.rest.size(), kNone);
+    for (size_t i = 0; i + 2 < body.indices.size(); i += 3) {
+        const uint32_t* v = &body.indices[i];
+        if (!counts(v[0]) || !counts(v[1]) || !counts(v[2])) continue;
+        for (int k = 0; k < 3; ++k) {
+            if (place_of[v[k]] == kNone) {
+                place_of[v[k]] = uint32_t(carried.rest.size());
+                carried.add(body.rest[v[k]], body.skin_bones[v[k]], body.skin_weights[v[k]]);
+            }
+            indices.push_back(place_of[v[k]]);
+        }
+    }
+    return {carried.skin(), std::move(indices)};
+}
+
+}  // namespace vfit

@@ -1,0 +1,63 @@
+// Dress: a garment bound to one avatar. Carries the garment from the body it was authored on to the
+// avatar's, cooks its fabric there, and skins it with the avatar's bones.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "avatar/skin.h"
+#include "body/body_model.h"
+#include "cloth/fabric/fabric.h"
+#include "cloth/garment/garment.h"
+#include "math/types.h"
+
+namespace vfit {
+
+/// The avatar's body as the garment needs it; all spans are one a body vertex but indices.
+struct DressBody {
+    std::span<const Vec3> authored;       // default body of the garment's sex, rest pose
+    std::span<const Vec3> rest;           // the avatar's body in the same pose, same topology
+    std::span<const uint32_t> indices;    // three a triangle
+    std::span<const std::array<uint16_t, kSkinBones>> skin_bones;
+    std::span<const std::array<float, kSkinBones>> skin_weights;  // sum 1
+    std::span<const BodyPart> parts;      // empty: all vertices may carry the garment; else none of the arms
+};
+
+class Dress {
+public:
+    /// size_ratio: of the rest lengths around the body (size_ratio of garment.h; 1: made to measure).
+    /// thickness_m: the clearance that the carried garment keeps from the body.
+    Dress(const Garment& garment, const FabricMaterial& material, const DressBody& body, float size_ratio = 1.0f,
+          float thickness_m = 0.004f);
+
+    const std::shared_ptr<const Fabric>& fabric() const { return fabric_; }
+    /// The garment on the avatar's rest body; one a garment vertex.
+    const std::vector<Vec3>& rest() const { return rest_; }
+    const std::vector<uint32_t>& indices() const { return indices_; }
+    const std::vector<Vec2>& uvs() const { return uvs_; }
+
+    /// The garment's vertices, then the backstops' centres: what the avatar's skinning matrices (posed from rest, one a rig
+    /// bone) carry is start and targets of a Cloth.
+    const Skin& skin() const { return *skin_; }
+
+private:
+    std::shared_ptr<const Fabric> fabric_;
+    std::vector<Vec3> rest_;
+    std::vector<uint32_t> indices_;
+    std::vector<Vec2> uvs_;
+    std::optional<Skin> skin_;  // of rest_, then the backstops' centres
+};
+
+/// The body's skin as far as a garment can meet it: from a hand above its upper edge to a foot's length below its hem, and the
+/// arms, without the head.
+struct SkinBelow {
+    Skin skin;
+    std::vector<uint32_t> indices;  // three a triangle
+};
+SkinBelow skin_below(const DressBody& body, std::span<const Vec3> garment, bool with_hands);
+
+}  // namespace vfit

@@ -1,0 +1,50 @@
+// What a garment file holds: a mesh authored on the default body of one sex in its rest pose, which of its
+// vertices are simulated, its fabric and its sizes. The format is described in docs/garments.md.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "body/mesh.h"
+#include "cloth/fabric/fabric_library.h"
+#include "measure/measurement.h"
+#include "vfit.h"
+
+namespace vfit {
+
+/// One label of the garment's size table with the girths it is made for (keys as in measurement.h).
+struct GarmentSize {
+    std::string label;
+    std::vector<Measurement> nominal;
+};
+
+struct Garment {
+    std::string name;
+    std::string kind;    // garment kind of the size charts
+    std::string fabric;  // name in the fabric library
+    vfit_sex body_sex = VFIT_SEX_FEMALE;
+    Mesh mesh;  // positions on that body, indices, uvs
+    std::vector<uint8_t> simulated;  // one a vertex: 1 simulated, 0 skinned with the body
+    std::vector<uint8_t> backstop;   // one a vertex: 1 kept out of the body below it
+    std::vector<float> most_way;     // empty, or one a vertex: metres from where the skin would carry it; 0: any
+    std::vector<GarmentSize> sizes;
+
+    uint32_t vertex_count() const { return uint32_t(mesh.positions.size()); }
+    uint32_t simulated_count() const;
+};
+
+/// Reads a garment file (JSON, format "vfit-garment" version 1). Fails with VFIT_ERROR_DATA, naming the
+/// field, vertex, triangle or edge; with VFIT_ERROR_VERSION where the version is a later one.
+Garment parse_garment(std::span<const std::byte> json, const FabricLibrary& fabrics);
+
+/// The checks of parse_garment on a garment made in memory.
+void validate_garment(const Garment& garment, const FabricLibrary& fabrics);
+
+/// Nominal girth of the label over the body's, mean of the keys that both have. Fails with
+/// VFIT_ERROR_ARGUMENT for a label that the garment lacks, VFIT_ERROR_DATA where no key is common.
+float size_ratio(const Garment& garment, const std::string& label, const std::vector<Measurement>& body);
+
+}  // namespace vfit

@@ -1,0 +1,94 @@
+// The hot loops of a sub-step, in SIMD with run-time dispatch. Particles are four floats each, and those that move come in
+// runs of kLanes (ParticleLayout).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cloth/contact/contact.h"
+#include "cloth/fabric/distance_batches.h"
+#include "cloth/solver/particle.h"
+
+namespace vfit {
+
+/// Of particles that move.
+struct Moving {
+    Particle* places;
+    Particle* starts;      // at the begin of the sub-step
+    Particle* velocities;  // without constraints they end at starts + velocities * h
+    uint32_t count;        // a multiple of kLanes
+};
+
+/// The begin of the first sub-step of several. Half of the fall, then the whole way: free fall is exact.
+void predict(const Moving& moving, const Vec3& half_fall, float h);
+
+/// XPBD's share of each end: w / (w_a + w_b + compliance / h^2), with so many times the force. The greatest sum of two.
+float find_gains(std::span<const BatchMasses> masses, float h, float force, std::span<BatchGains> gains);
+/// One pass of XPBD over the constraints with the multiplier starting at zero, which is exact for one pass a sub-step
+/// (Macklin et al. 2019).
+void solve_distances(std::span<const DistanceBatch> batches, std::span<const BatchGains> gains, Particle* particles);
+
+/// What each run of kLanes moving particles may meet during a step.
+struct NearColliders {
+    std::vector<float> x, y, z, radii_m;  // of a ball that the run is expected to stay in
+    std::vector<float> speeds2;   // the square of its highest speed
+    std::vector<float> ways_m;    // that a particle of it is expected to go at most
+    std::vector<uint64_t> bits;   // words() a run: bit i of them is collider i
+    size_t colliders = 0;
+    size_t words() const { return (colliders + 63) / 64; }
+};
+/// Fills x, y, z, radii_m of the balls that just hold the runs, and speeds2: as many as there are whole runs.
+void find_run_balls(std::span<const Particle> moving, std::span<const Particle> velocities, NearColliders& near);
+/// Fills bits: which balls the colliders may touch, then which of their particles, as they lie now, on ways of at most ways_m.
+void find_near(std::span<const SweptCapsule> colliders, std::span<const Particle> moving, NearColliders& near);
+
+/// Of a run, by lanes: balls that its particles stay out of, or in.
+struct alignas(32) RunBalls {
+    float x[kLanes], y[kLanes], z[kLanes];              // centres at the begin of the step
+    float way_x[kLanes], way_y[kLanes], way_z[kLanes];  // to its end
+    float radius_m[kLanes];                             // 0: none
+    uint32_t run;                                       // in Moving
+};
+
+/// Of a run, by lanes: planes that its particles stay before.
+struct alignas(32) RunPlanes {
+    static constexpr float kNone = -1e9f;
+
+    float x[kLanes], y[kLanes], z[kLanes];              // a point of each at the begin of the step
+    float way_x[kLanes], way_y[kLanes], way_z[kLanes];  // to its end
+    float normal_x[kLanes], normal_y[kLanes], normal_z[kLanes], turn_x[kLanes], turn_y[kLanes], turn_z[kLanes];
+    float thickness_m[kLanes];                          // kept from the plane; kNone: there is none
+    uint32_t run;                                       // in Moving
+
+    void set(size_t lane, const Vec3& point, const Vec3& way, const Vec3& normal, const Vec3& turn, float thickness) {
+        x[lane] = point.x, y[lane] = point.y, z[lane] = point.z;
+        way_x[lane] = way.x, way_y[lane] = way.y, way_z[lane] = way.z;
+        normal_x[lane] = normal.x, normal_y[lane] = normal.y, normal_z[lane] = normal.z;
+        turn_x[lane] = turn.x, turn_y[lane] = turn.y, turn_z[lane] = turn.z;
+        thickness_m[lane] = thickness;
+    }
+};
+
+/// The end of a sub-step, once distances are solved: tethers, limits, backstops, contacts; then velocities by what constraints
+/// changed, rather than by the whole way over h, which keeps rounding of places out of the speed; then the other half of the
+/// fall, and `keep` of all of it; and, where another sub-step follows, its begin.
+struct SubstepEnd {
+    Moving moving;
+    const Particle* anchors;                 // of all parts; and of each lane of the runs the index of its own, and how far
+    std::span<const uint32_t> anchor_index;  // from it it may be: long range attachment (Kim, Chentanez, Mueller 2012)
+    std::span<const float> tether_m;
+    std::span<const RunBalls> limits, backstops;  // to stay in and out of, by rising runs
+    std::span<const RunPlanes> planes;        // by rising runs
+    float from, to;                           // shares of the step
+    std::span<const SweptCapsule> colliders;
+    const NearColliders* near;  // a run that has left its ball is tried against all
+    ContactSettings contact;
+    Vec3 half_fall;
+    float h, keep;
+    bool last;
+    Particle* pushed;  // as moving: what contacts move each by is added; null: nobody asks
+};
+void end_substep(const SubstepEnd& end);
+
+}  // namespace vfit

@@ -1,0 +1,244 @@
+#include "cloth/solver/particle_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cloth/contact/contact_culling.h"
+#include "core/phases.h"
+
+namespace vfit {
+
+namespace {
+
+// Bends that take back no more than this share of a fold in a sub-step are so soft that they may push in every second one, with
+// twice the force: the impulse is the same, at half the work.
+constexpr float kSoft = 0.25f;
+
+// So fast do the cloth's own layers part that have come too near: pushed out at once, they would fly.
+constexpr float kBack_m_s = 1.0f;
+
+// Passes over the edges in a second, at least: with fewer, a limb that kicks stretches the few triangles that it meets until
+// it is through between their corners.
+constexpr float kLeastPasses_hz = 240.0f;
+int passes(float h) { return std::max(1, int(std::ceil(kLeastPasses_hz * h - 1e-3f))); }
+
+float share(const ParticleSolver::Step& step, int substep) { return float(substep) / float(step.substeps); }
+float substep_s(const ParticleSolver::Step& step) { return step.dt / float(step.substeps); }
+Vec3 half_fall(const ParticleSolver::Step& step) { return step.gravity * (0.5f * substep_s(step)); }
+
+}  // namespace
+
+ParticleSolver::ParticleSolver(std::shared_ptr<const Fabric> fabric, float self_thickness_m, bool with_pushes) : fabric_(std::move(fabric)) {
+    if (self_thickness_m > 0.0f) self_ = std::make_unique<SelfContact>(fabric_, self_thickness_m);
+    const ParticleLayout& layout = fabric_->layout();
+    for (Particles* list : {&places_, &starts_, &velocities_, &normals_}) list->resize(layout.count());
+    if (with_pushes) pushed_.resize(layout.count());
+    for (uint32_t i = 0; i < layout.group_count(); ++i) {
+        Gains& gains = gains_.emplace_back();
+        gains.bends.resize(fabric_->bend_batches()[i].joints.size());
+        gains.edges.resize(fabric_->edge_batches()[i].joints.size());
+    }
+    parts_.resize(layout.parts.size());
+}
+
+void ParticleSolver::place(std::span<const Vec3> vertices) {
+    const ParticleLayout& layout = fabric_->layout();
+    for (uint32_t i = 0; i < layout.count(); ++i)
+        if (layout.vertex_of[i] != ParticleLayout::kNobody) places_[i].x = vertices[layout.vertex_of[i]];
+    rest();
+    if (self_) self_->forget();
+}
+
+void ParticleSolver::rest() { std::fill(velocities_.begin(), velocities_.end(), Particle()); }
+
+void ParticleSolver::carry(const RigidMotion& motion) {
+    for (Particle& p : places_) p.x = motion.point(p.x);
+    for (Particle& v : velocities_) v.x = motion.direction(v.x);
+}
+
+ParticleSolver::Ways ParticleSolver::copy_positions(std::span<Vec3> out) const {
+    const std::vector<uint32_t>& particle_of = fabric_->layout().particle_of;
+    float most2 = 0.0f, sum2 = 0.0f;
+    for (size_t v = 0; v < out.size(); ++v) {
+        const Vec3 place = places_[particle_of[v]].x, way = place - out[v];
+        const float way2 = glm::dot(way, way);
+        most2 = std::max(most2, way2);
+        sum2 += way2;
+        out[v] = place;
+    }
+    return {std::sqrt(most2), std::sqrt(sum2 / float(std::max<size_t>(out.size(), 1)))};
+}
+
+void ParticleSolver::copy_pushes(std::span<Vec3> out) const {
+    for (size_t v = 0; v < out.size(); ++v) out[v] = pushed_[fabric_->layout().particle_of[v]].x;
+}
+
+Moving ParticleSolver::moving(uint32_t part) {
+    const ParticleLayout::Part& p = fabric_->layout().parts[part];
+    return {&places_[p.begin], &starts_[p.begin], &velocities_[p.begin], p.moving_end - p.begin};
+}
+
+void ParticleSolver::bounds(Vec3& low, Vec3& high) const {
+    low = Vec3(INFINITY), high = Vec3(-INFINITY);
+    for (const ParticleLayout::Part& part : fabric_->layout().parts)
+        for (uint32_t i = part.begin; i < part.moving_end; ++i) low = glm::min(low, places_[i].x), high = glm::max(high, places_[i].x);
+}
+
+/// Parts, then cuts, then what the cloth does to itself, then parts ...: a part ends one sub-step and begins the next, up to
+/// what its own constraints do.
+void ParticleSolver::advance(const Step& step, Jobs& jobs) {
+    const auto parts = uint32_t(parts_.size());
+    set_gains(substep_s(step), step.substeps);
+    std::fill(pushed_.begin(), pushed_.end(), Particle());
+    step.colliders.sweep(0.0f, 1.0f, swept_step_);
+    for (uint32_t part = 0; part < parts; ++part) fill_up(part);
+    if (step.air.drag != 0.0f || step.air.lift != 0.0f)
+        parallel_for(jobs, parts, [&](uint32_t part) { blow(step.air, step.dt, *fabric_, part, places_, velocities_); });
+    if (self_) {
+        parallel_for(jobs, parts, [&](uint32_t part) { find_normals(part); });
+        self_->find_runs(places_, velocities_, normals_, step.dt, step.substeps, jobs);
+    }
+    // Without contact of its own, the last two phases of the cycle are left out.
+    const uint32_t cycle = self_ ? 4 : 2;
+    const auto items = [&](uint32_t phase) { return phase % cycle == 3 ? 1 : parts; };
+    run_phases(jobs, cycle * uint32_t(step.substeps) + 1, parts, items, [&](uint32_t phase, uint32_t item) {
+        const int substep = int(phase / cycle);
+        switch (phase % cycle) {
+            case 1:
+                if (item + 1 < parts) solve_group(substep, parts + item);
+                else step.colliders.sweep(share(step, substep), share(step, substep + 1), swept_);
+                return;
+            case 2:
+                self_->find(places_, starts_, normals_, substep, item);
+                return;
+            case 3:
+                self_->pack();
+                solve_surface_contacts(self_->contacts(), starts_.data(), kBack_m_s * substep_s(step), places_.data());
+                return;
+        }
+        if (phase == 0) begin_part(step, item);
+        else end_part(step, substep - 1, item);
+        if (substep < step.substeps) begin_substep(step, substep, item);
+    });
+}
+
+void ParticleSolver::set_gains(float h, int substeps) {
+    const bool alternate = substeps % 2 == 0;
+    if (h == gains_h_ && alternate == may_alternate_) return;
+    gains_h_ = h;
+    may_alternate_ = alternate;
+    const auto find_bend_gains = [&](float force) {
+        float most = 0.0f;
+        for (size_t i = 0; i < gains_.size(); ++i) most = std::max(most, find_gains(fabric_->bend_batches()[i].masses, h, force, gains_[i].bends));
+        return most;
+    };
+    bend_every_ = alternate && find_bend_gains(2.0f) <= kSoft ? 2 : 1;
+    if (bend_every_ == 1) find_bend_gains(1.0f);
+    for (size_t i = 0; i < gains_.size(); ++i) find_gains(fabric_->edge_batches()[i].masses, h, 1.0f, gains_[i].edges);
+}
+
+void ParticleSolver::solve_group(int substep, uint32_t group) {
+    if (substep % bend_every_ == 0) solve_distances(fabric_->bend_batches()[group].joints, gains_[group].bends, places_.data());
+    for (int i = passes(gains_h_); i > 0; --i)
+        solve_distances(fabric_->edge_batches()[group].joints, gains_[group].edges, places_.data());
+}
+
+void ParticleSolver::begin_part(const Step& step, uint32_t part) {
+    place_balls(step, part, fabric_->backstop_runs()[part], step.thickness_m, parts_[part].backstops);
+    place_balls(step, part, fabric_->limit_runs()[part], 0.0f, parts_[part].limits);
+    place_fixed(step, part);
+    const Moving m = moving(part);
+    parts_[part].planes.clear();
+    for (const ContactMesh& mesh : step.meshes) mesh.find_planes(m, step.dt, step.thickness_m, parts_[part].near_runs, parts_[part].planes);
+    if (step.meshes.size() > 1)
+        std::stable_sort(parts_[part].planes.begin(), parts_[part].planes.end(), [](const RunPlanes& a, const RunPlanes& b) { return a.run < b.run; });
+    NearColliders& near = parts_[part].near;
+    reserve(near, m.count, swept_step_.size());
+    cull({m.places, m.count}, {m.velocities, m.count}, step.dt, swept_step_, near);
+    predict(m, half_fall(step), substep_s(step));
+}
+
+/// By one triangle each: all that is asked is who is before the cloth and who behind.
+void ParticleSolver::find_normals(uint32_t part) {
+    const ParticleLayout::Part& p = fabric_->layout().parts[part];
+    for (uint32_t i = p.begin; i < p.end; ++i) {
+        const std::span<const TriangleFans::Corners> fan = fabric_->fans().of(i);
+        if (fan.empty()) continue;
+        const Vec3 across = glm::cross(places_[fan[0].second].x - places_[i].x, places_[fan[0].third].x - places_[i].x);
+        normals_[i].x = across / std::max(glm::length(across), 1e-12f);
+    }
+}
+
+/// Particles that only fill up the last run lie with the first of it, so that it stays small.
+void ParticleSolver::fill_up(uint32_t part) {
+    const ParticleLayout& layout = fabric_->layout();
+    const ParticleLayout::Part& p = layout.parts[part];
+    for (uint32_t i = p.moving_end; i-- > p.begin && layout.vertex_of[i] == ParticleLayout::kNobody;) {
+        places_[i] = places_[i / kLanes * kLanes];
+        velocities_[i] = Particle();
+    }
+}
+
+void ParticleSolver::place_balls(const Step& step, uint32_t part, std::span<const BallRun> runs, float more_m, std::vector<RunBalls>& out) const {
+    const uint32_t first_run = fabric_->layout().parts[part].begin / uint32_t(kLanes);
+    out.resize(runs.size());
+    for (size_t i = 0; i < runs.size(); ++i) {
+        RunBalls& ball = out[i];
+        ball.run = runs[i].run - first_run;
+        for (size_t k = 0; k < kLanes; ++k) {
+            const Vec3 from = step.from[runs[i].target[k]], way = step.to[runs[i].target[k]] - from;
+            ball.x[k] = from.x, ball.y[k] = from.y, ball.z[k] = from.z;
+            ball.way_x[k] = way.x, ball.way_y[k] = way.y, ball.way_z[k] = way.z;
+            ball.radius_m[k] = runs[i].radius_m[k] > 0.0f ? runs[i].radius_m[k] + more_m : 0.0f;
+        }
+    }
+}
+
+void ParticleSolver::place_fixed(const Step& step, uint32_t part) {
+    const ParticleLayout& layout = fabric_->layout();
+    const ParticleLayout::Part& p = layout.parts[part];
+    Part& own = parts_[part];
+    own.fixed.clear(), own.fixed_ways.clear();
+    for (uint32_t i = p.moving_end; i < p.end && layout.vertex_of[i] != ParticleLayout::kNobody; ++i) {
+        const uint32_t v = layout.vertex_of[i];
+        own.fixed.push_back(Particle{step.from[v]});
+        own.fixed_ways.push_back(Particle{step.to[v] - step.from[v]});
+    }
+}
+
+void ParticleSolver::begin_substep(const Step& step, int substep, uint32_t part) {
+    const ParticleLayout::Part& p = fabric_->layout().parts[part];
+    const float to = share(step, substep + 1);
+    const Part& own = parts_[part];
+    for (size_t i = 0; i < own.fixed.size(); ++i) {
+        const size_t at = p.moving_end + i;
+        if (self_) starts_[at] = places_[at];
+        places_[at].x = own.fixed[i].x + own.fixed_ways[i].x * to;
+    }
+    solve_group(substep, part);
+}
+
+void ParticleSolver::end_part(const Step& step, int substep, uint32_t part) {
+    const ParticleLayout::Part& p = fabric_->layout().parts[part];
+    SubstepEnd end{};
+    end.moving = moving(part);
+    end.anchors = places_.data();
+    end.anchor_index = std::span(fabric_->tether_anchors()).subspan(p.begin, end.moving.count);
+    end.tether_m = std::span(fabric_->tether_lengths()).subspan(p.begin, end.moving.count);
+    end.backstops = parts_[part].backstops;
+    end.limits = parts_[part].limits;
+    end.planes = parts_[part].planes;
+    end.from = share(step, substep);
+    end.to = share(step, substep + 1);
+    end.colliders = swept_;
+    end.near = &parts_[part].near;
+    end.contact = step.contact;
+    end.half_fall = half_fall(step);
+    end.h = substep_s(step);
+    end.keep = step.keep;
+    end.last = substep + 1 == step.substeps;
+    end.pushed = pushed_.empty() ? nullptr : &pushed_[p.begin];
+    end_substep(end);
+}
+
+}  // namespace vfit

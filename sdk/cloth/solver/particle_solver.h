@@ -1,0 +1,96 @@
+// The particles of one cloth and their way through a step: small sub-steps of one XPBD pass each (Macklin et al. 2019), part
+// by part on as many threads as there are.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cloth/solver/air.h"
+#include "cloth/solver/cloth_kernels.h"
+#include "cloth/contact/collider_motion.h"
+#include "cloth/contact/contact_mesh.h"
+#include "cloth/fabric/fabric.h"
+#include "cloth/rigid_motion.h"
+#include "cloth/contact/self_contact.h"
+#include "core/jobs.h"
+
+namespace vfit {
+
+class ParticleSolver {
+public:
+    /// self_thickness_m: kept between the cloth's own layers; 0: they pass through each other. with_pushes: copy_pushes() is
+    /// asked for.
+    ParticleSolver(std::shared_ptr<const Fabric> fabric, float self_thickness_m, bool with_pushes);
+
+    /// At rest at these places, one a vertex.
+    void place(std::span<const Vec3> vertices);
+    void rest();
+    /// As the cloth lies and moves.
+    void carry(const RigidMotion& motion);
+
+    struct Step {
+        float dt;
+        int substeps;
+        Vec3 gravity;
+        Air air;
+        float keep;  // of the speed, a sub-step
+        ContactSettings contact;
+        float thickness_m;  // of backstops; colliders have theirs
+        std::span<const Vec3> from, to;  // the fabric's targets at both ends of the step
+        const ColliderMotion& colliders;
+        std::span<const ContactMesh> meshes;
+    };
+    /// The box about all particles.
+    void bounds(Vec3& low, Vec3& high) const;
+
+    /// The result is the same for any number of threads. Does not allocate while the number of colliders stays.
+    void advance(const Step& step, Jobs& jobs);
+
+    /// One a vertex; and how far they are from what was there before.
+    struct Ways {
+        float greatest_m = 0.0f, rms_m = 0.0f;
+    };
+    Ways copy_positions(std::span<Vec3> out) const;
+    /// One a vertex: where contacts pushed it in the last step; zero: it met nothing.
+    void copy_pushes(std::span<Vec3> out) const;
+    const Particles& places() const { return places_; }
+    const Particles& velocities() const { return velocities_; }
+
+private:
+    struct Gains {
+        std::vector<BatchGains> bends, edges;
+    };
+    struct Part {
+        NearColliders near;
+        std::vector<RunBalls> backstops, limits;
+        std::vector<RunPlanes> planes;
+        Particles fixed, fixed_ways;  // copies of the fixed vertices at the begin of the step, and to its end
+        std::vector<uint32_t> near_runs;
+    };
+    Moving moving(uint32_t part);
+    void set_gains(float h, int substeps);
+    void begin_part(const Step& step, uint32_t part);
+    void place_balls(const Step& step, uint32_t part, std::span<const BallRun> runs, float more_m, std::vector<RunBalls>& out) const;
+    void place_fixed(const Step& step, uint32_t part);
+    void begin_substep(const Step& step, int substep, uint32_t part);
+    void end_part(const Step& step, int substep, uint32_t part);
+    void solve_group(int substep, uint32_t group);
+    void find_normals(uint32_t part);
+    void fill_up(uint32_t part);
+
+    std::shared_ptr<const Fabric> fabric_;
+    Particles places_, starts_, velocities_;  // in the fabric's layout
+    Particles normals_;                       // of the cloth at the begin of the step, where it meets itself
+    Particles pushed_;                        // by contacts in this step; empty: nobody asks
+    std::vector<Gains> gains_;                // of its groups
+    float gains_h_ = 0.0f;                    // the sub-step that they are for,
+    bool may_alternate_ = false;              // and whether a step has an even number of them
+    int bend_every_ = 1;                      // so many sub-steps
+    std::vector<Part> parts_;
+    std::unique_ptr<SelfContact> self_;
+    std::vector<SweptCapsule> swept_step_, swept_;  // over the step, and over the sub-step that comes to its end
+};
+
+}  // namespace vfit
