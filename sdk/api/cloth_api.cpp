@@ -111,7 +111,7 @@ struct ClothObject : ContextChild {
           dress(std::move(d)),
           skin(std::move(skin_of_body)),
           settings(cloth_settings),
-          cloth(dress.fabric(), settings, skinned()),
+          cloth(dress.fabric(), settings, placed()),
           output(*context) {
         time_ns = avatar->avatar.time_ns();
         output.topology().set_indices(dress.indices(), context->axes);
@@ -135,7 +135,7 @@ struct ClothObject : ContextChild {
     const std::optional<SkinBelow> skin;  // of the avatar, where the cloth is kept out of it
     const ClothSettings settings;
     std::vector<Vec3> targets, skin_places;
-    Skin::Scratch scratch;
+    Dress::Scratch scratch;
     Cloth cloth;
     uint32_t skin_mesh = 0;
     struct Inner {
@@ -158,8 +158,8 @@ struct ClothObject : ContextChild {
         access.begin_read(what);
         return Reading(&access, [](Access* a) { a->end_read(); });
     }
-    const std::vector<Vec3>& skinned() {
-        dress.skin().carry(avatar->avatar.skinning_matrices(), targets, scratch, *context->jobs);
+    const std::vector<Vec3>& placed() {
+        dress.place(avatar->avatar.skinning_matrices(), targets, scratch, *context->jobs);
         return targets;
     }
     Reading read_avatar() { return reading_of(avatar->access, "avatar"); }
@@ -170,7 +170,7 @@ struct ClothObject : ContextChild {
     }
     void move_skin(std::span<const Mat4> matrices) {
         if (!skin) return;
-        skin->skin.carry(matrices, skin_places, scratch, *context->jobs);
+        skin->skin.carry(matrices, skin_places, scratch.bones, *context->jobs);
         cloth.move_mesh(skin_mesh, skin_places);
     }
     /// Garments worn below, where their last step left them.
@@ -195,7 +195,7 @@ struct ClothObject : ContextChild {
         if (!std::isfinite(step_dt) || step_dt < 0.0f) fail(VFIT_ERROR_ARGUMENT, "dt ", step_dt, " is no time");
         const auto reading = read_avatar();
         next = output.begin();
-        skinned();
+        dress.follow(avatar->avatar.skinning_matrices(), targets, scratch, *context->jobs);
         avatar->avatar.colliders(colliders);
         limbs_of(colliders);
         move_skin(avatar->avatar.skinning_matrices());
@@ -214,7 +214,7 @@ struct ClothObject : ContextChild {
             avatar->avatar.while_dressing(share, matrices, limbs);
             limbs_of(limbs);
             move_skin(matrices);
-            dress.skin().carry(matrices, places, scratch, *context->jobs);
+            dress.place(matrices, places, scratch, *context->jobs);
         };
         for (const Inner& inner : worn_over) cloth.hide_mesh(inner.mesh);
         cloth.put_on(body, *context->jobs);
@@ -223,7 +223,7 @@ struct ClothObject : ContextChild {
         constexpr int kFrames = 15;
         avatar->avatar.colliders(colliders);
         limbs_of(colliders);
-        skinned();
+        placed();
         for (int i = 0; i < kFrames; ++i) {
             move_inner();
             cloth.step(1.0f / 60.0f, targets, colliders, *context->jobs);

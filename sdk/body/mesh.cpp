@@ -17,7 +17,7 @@ void compute_normals(const std::vector<Vec3>& positions, const std::vector<uint3
     }
     for (Vec3& n : normals) {
         const float length2 = glm::dot(n, n);
-        n = length2 > 1e-24f ? n / std::sqrt(length2) : Vec3(0, 1, 0);
+        n = length2 > 1e-24f ? n * (1.0f / std::sqrt(length2)) : Vec3(0, 1, 0);
     }
 }
 

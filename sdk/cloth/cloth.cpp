@@ -126,6 +126,7 @@ struct Cloth::State {
     mutable std::vector<float> edge_strains, strains, pressures;
     mutable std::vector<Vec3> forces, pushes;
     mutable bool normals_known = false, strains_known = false;
+    std::vector<float> inverse_rest;        // of an edge, 1/m
     std::vector<float> inverse_edge_count;  // of a vertex; 0: none
     float step_ms = 0.0f;
     float substep_ms = 0.0f;  // mean; 0: not known yet
@@ -167,6 +168,7 @@ Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings
     if (settings.pressure) s.forces.resize(n), s.pushes.resize(n);
     s.edge_strains.resize(data.edges.size());
     s.inverse_edge_count.resize(n);
+    for (const DistanceConstraint& e : data.edges) s.inverse_rest.push_back(1.0f / e.rest_m);
     for (const DistanceConstraint& e : data.edges)
         for (uint32_t v : {e.a, e.b}) s.inverse_edge_count[v] += 1.0f;
     for (float& count : s.inverse_edge_count) count = count > 0.0f ? 1.0f / count : 0.0f;
@@ -379,7 +381,7 @@ void Cloth::State::find_strains() const {
     std::fill(strains.begin(), strains.end(), 0.0f);
     for (size_t i = 0; i < edges.size(); ++i) {
         const DistanceConstraint& e = edges[i];
-        edge_strains[i] = glm::length(positions[e.a] - positions[e.b]) / e.rest_m - 1.0f;
+        edge_strains[i] = glm::length(positions[e.a] - positions[e.b]) * inverse_rest[i] - 1.0f;
         strains[e.a] += edge_strains[i];
         strains[e.b] += edge_strains[i];
     }

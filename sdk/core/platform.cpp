@@ -5,6 +5,7 @@
 #include <fstream>
 #include <set>
 #include <thread>
+#include <vector>
 
 #include "core/error.h"
 
@@ -12,6 +13,9 @@
 #include <windows.h>
 #else
 #include <dlfcn.h>
+#endif
+#if defined(__linux__)
+#include <sched.h>
 #endif
 
 namespace vfit {
@@ -64,17 +68,37 @@ const char* library_suffix() { return ".so"; }
 
 #endif
 
+namespace {
+
+/// Logical cores that this thread, and those that it starts, may run on.
+std::vector<unsigned> allowed_cores() {
+    std::vector<unsigned> out;
+#if defined(__linux__)
+    // What a container or taskset leaves: hardware_concurrency() may count cores that are out of reach.
+    cpu_set_t allowed;
+    CPU_ZERO(&allowed);
+    if (sched_getaffinity(0, sizeof allowed, &allowed) == 0)
+        for (unsigned i = 0; i < CPU_SETSIZE; ++i)
+            if (CPU_ISSET(i, &allowed)) out.push_back(i);
+#endif
+    if (out.empty())
+        for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i) out.push_back(i);
+    return out;
+}
+
+}  // namespace
+
 unsigned physical_cores() {
-    const unsigned logical = std::max(1u, std::thread::hardware_concurrency());
+    const std::vector<unsigned> logical = allowed_cores();
     // Threads of one core share a line in thread_siblings_list; elsewhere logical cores must do.
     std::set<std::string> cores;
-    for (unsigned i = 0; i < logical; ++i) {
+    for (const unsigned i : logical) {
         std::ifstream file(text("/sys/devices/system/cpu/cpu", i, "/topology/thread_siblings_list"));
         std::string siblings;
-        if (!std::getline(file, siblings)) return logical;
+        if (!std::getline(file, siblings)) return unsigned(logical.size());
         cores.insert(siblings);
     }
-    return static_cast<unsigned>(std::max<size_t>(1, cores.size()));
+    return unsigned(cores.size());
 }
 
 }  // namespace vfit

@@ -105,7 +105,7 @@ double stiffness(const FabricMaterial& material) {
     data.tethers.clear();
     ClothSettings settings;
     settings.damping = 0.97f;
-    settings.substeps = 64;
+    settings.substeps = 512;
     settings.sleeps = false;
     const auto jobs = Jobs::own(0);
     vfit::Cloth cloth(std::make_shared<const Fabric>(std::move(data)), settings, strip.positions);

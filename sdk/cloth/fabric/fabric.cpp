@@ -34,6 +34,13 @@ void check(const FabricData& d) {
         if (i >= n) fail(VFIT_ERROR_DATA, "a triangle names vertex ", i, " of ", n);
     check(d.edges, "edge", n);
     check(d.bends, "bend", n);
+    for (size_t i = 0; i < d.hinges.size(); ++i) {
+        const Hinge& h = d.hinges[i];
+        for (size_t k = 0; k < 4; ++k)
+            if (h.vertices[k] >= n || !std::isfinite(h.weights[k]) || std::count(h.vertices.begin(), h.vertices.end(), h.vertices[k]) != 1)
+                fail(VFIT_ERROR_DATA, "hinge ", i, " joins vertices ", h.vertices[0], ", ", h.vertices[1], ", ", h.vertices[2], " and ", h.vertices[3], " of ", n);
+        if (!(h.compliance_m_n >= 0.0f) || !std::isfinite(h.compliance_m_n)) fail(VFIT_ERROR_DATA, "hinge ", i, " has compliance ", h.compliance_m_n, " m/N");
+    }
     for (const Tether& t : d.tethers)
         if (t.vertex >= n || t.anchor >= n || !(t.length_m > 0.0f) || !std::isfinite(t.length_m))
             fail(VFIT_ERROR_DATA, "tether of vertex ", t.vertex, " to ", t.anchor, " of length ", t.length_m, " m");
@@ -54,6 +61,9 @@ Fabric::Fabric(FabricData data) : data_(std::move(data)) {
     const std::vector<float>& inverse_mass = data_.inverse_mass;
     for (auto* list : {&data_.edges, &data_.bends})
         std::erase_if(*list, [&](const DistanceConstraint& c) { return inverse_mass[c.a] == 0.0f && inverse_mass[c.b] == 0.0f; });
+    std::erase_if(data_.hinges, [&](const Hinge& h) {
+        return std::all_of(h.vertices.begin(), h.vertices.end(), [&](uint32_t v) { return inverse_mass[v] == 0.0f; });
+    });
     std::erase_if(data_.tethers, [&](const Tether& t) { return inverse_mass[t.vertex] == 0.0f; });
     for (uint32_t i = 0; i < vertex_count(); ++i)
         if (inverse_mass[i] == 0.0f) kinematic_.push_back(i);
@@ -61,6 +71,7 @@ Fabric::Fabric(FabricData data) : data_(std::move(data)) {
     layout_ = lay_out(data_);
     bends_ = make_batches(data_.bends, inverse_mass, layout_);
     edges_ = make_batches(data_.edges, inverse_mass, layout_);
+    hinges_ = make_hinge_batches(data_.hinges, inverse_mass, layout_);
     tether_anchors_.resize(layout_.count());
     tether_lengths_.assign(layout_.count(), kNoTether_m);
     for (const ParticleLayout::Part& part : layout_.parts)

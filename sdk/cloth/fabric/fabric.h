@@ -2,6 +2,7 @@
 // once and shared by every instance of that cloth.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -10,6 +11,7 @@
 
 #include "cloth/fabric/distance_batches.h"
 #include "cloth/fabric/fabric_library.h"
+#include "cloth/fabric/hinge_batches.h"
 #include "cloth/fabric/particle_layout.h"
 #include "cloth/triangle_fans.h"
 #include "math/types.h"
@@ -20,6 +22,14 @@ namespace vfit {
 struct DistanceConstraint {
     uint32_t a, b;
     float rest_m;
+    float compliance_m_n;
+};
+
+/// A fold over the edge of two triangles: |sum of weights * places| of its ends and the two other corners is the edge's length
+/// times the fold's angle, and 0 where it is flat: isometric bending (Bergou et al. 2006), linear in the places.
+struct Hinge {
+    std::array<uint32_t, 4> vertices;
+    std::array<float, 4> weights;  // their sum is 0
     float compliance_m_n;
 };
 
@@ -54,7 +64,8 @@ struct FabricData {
     float density_kg_m2 = 0.0f;       // 0: not known, and then no pressure is
     std::vector<uint32_t> indices;    // three a triangle, for the normals
     std::vector<DistanceConstraint> edges;
-    std::vector<DistanceConstraint> bends;
+    std::vector<DistanceConstraint> bends;  // distances over folds: beside hinges they keep folds from closing, alone they bend
+    std::vector<Hinge> hinges;
     std::vector<Tether> tethers;
     std::vector<Backstop> backstops;
     std::vector<DistanceLimit> limits;
@@ -70,8 +81,8 @@ public:
     uint32_t simulated_count() const { return vertex_count() - uint32_t(kinematic_.size()); }
     /// Places that a step wants: one a vertex, then the centre of each backstop.
     uint32_t target_count() const { return vertex_count() + uint32_t(data_.backstops.size()); }
-    /// Distance constraints: edges and bends.
-    uint32_t constraint_count() const { return uint32_t(data_.edges.size() + data_.bends.size()); }
+    /// Edges, bends and hinges.
+    uint32_t constraint_count() const { return uint32_t(data_.edges.size() + data_.bends.size() + data_.hinges.size()); }
     const FabricData& data() const { return data_; }
     const std::vector<uint32_t>& kinematic_vertices() const { return kinematic_; }
 
@@ -79,6 +90,7 @@ public:
     /// Of each group of the layout.
     const std::vector<DistanceBatches>& bend_batches() const { return bends_; }
     const std::vector<DistanceBatches>& edge_batches() const { return edges_; }
+    const std::vector<HingeBatches>& hinge_batches() const { return hinges_; }
     /// One a lane of each run (of particles that move): the anchor, and how far from it it may be.
     const std::vector<uint32_t>& tether_anchors() const { return tether_anchors_; }
     const std::vector<float>& tether_lengths() const { return tether_lengths_; }
@@ -96,6 +108,7 @@ private:
     std::vector<uint32_t> kinematic_;
     ParticleLayout layout_;
     std::vector<DistanceBatches> bends_, edges_;
+    std::vector<HingeBatches> hinges_;
     std::vector<uint32_t> tether_anchors_;
     std::vector<float> tether_lengths_;
     std::vector<std::vector<BallRun>> backstop_runs_, limit_runs_;

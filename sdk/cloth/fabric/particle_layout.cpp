@@ -80,22 +80,35 @@ std::vector<uint32_t> cut_across(const std::vector<uint32_t>& order, const std::
     return part_of;
 }
 
-/// What is joined lies in one part or in two that are next to each other, and no vertex is joined across two cuts: then
-/// cuts can be worked on side by side.
-bool cuts_are_apart(const FabricData& data, const std::vector<uint32_t>& part_of) {
-    std::vector<uint32_t> cut_of(part_of.size(), ParticleLayout::kNobody);
+template <typename Take>
+void for_each_joint(const FabricData& data, const Take& take) {
     for (const auto* list : {&data.edges, &data.bends})
         for (const DistanceConstraint& c : *list) {
-            if (data.inverse_mass[c.a] == 0.0f || data.inverse_mass[c.b] == 0.0f) continue;
-            const auto [low, high] = std::minmax(part_of[c.a], part_of[c.b]);
-            if (low == high) continue;
-            if (high != low + 1) return false;
-            for (uint32_t v : {c.a, c.b}) {
-                if (cut_of[v] != ParticleLayout::kNobody && cut_of[v] != low) return false;
-                cut_of[v] = low;
-            }
+            const uint32_t ends[2] = {c.a, c.b};
+            take(std::span<const uint32_t>(ends));
         }
-    return true;
+    for (const Hinge& h : data.hinges) take(std::span<const uint32_t>(h.vertices));
+}
+
+/// What is joined lies in one part or in two that are next to each other, and no vertex is joined across two cuts: then
+/// cuts can be worked on side by side. A fixed vertex is a part's own copy, and has no place in a cut.
+bool cuts_are_apart(const FabricData& data, const std::vector<uint32_t>& part_of) {
+    std::vector<uint32_t> cut_of(part_of.size(), ParticleLayout::kNobody);
+    bool apart = true;
+    for_each_joint(data, [&](std::span<const uint32_t> vertices) {
+        uint32_t low = ParticleLayout::kNobody, high = 0, fixed = 0;
+        for (uint32_t v : vertices) {
+            if (data.inverse_mass[v] == 0.0f) ++fixed;
+            else low = std::min(low, part_of[v]), high = std::max(high, part_of[v]);
+        }
+        if (low >= high) return;
+        if (high != low + 1 || fixed > 0) apart = false;
+        for (uint32_t v : vertices) {
+            if (cut_of[v] != ParticleLayout::kNobody && cut_of[v] != low) apart = false;
+            cut_of[v] = low;
+        }
+    });
+    return apart;
 }
 
 /// In runs of kLanes neighbours, so that a run has a small box and runs that follow each other are near.
@@ -129,11 +142,14 @@ uint32_t ParticleLayout::part_of(uint32_t particle) const {
     return part;
 }
 
-uint32_t ParticleLayout::group_of(uint32_t a, uint32_t b, std::span<const float> inverse_mass) const {
-    const uint32_t part_a = part_of(particle_of[a]), part_b = part_of(particle_of[b]);
-    if (inverse_mass[a] == 0.0f) return part_b;
-    if (inverse_mass[b] == 0.0f || part_a == part_b) return part_a;
-    return uint32_t(parts.size()) + std::min(part_a, part_b);
+uint32_t ParticleLayout::group_of(std::span<const uint32_t> vertices, std::span<const float> inverse_mass) const {
+    uint32_t low = kNobody, high = 0;
+    for (uint32_t v : vertices) {
+        if (inverse_mass[v] == 0.0f) continue;
+        const uint32_t part = part_of(particle_of[v]);
+        low = std::min(low, part), high = std::max(high, part);
+    }
+    return low == high ? low : uint32_t(parts.size()) + low;
 }
 
 uint32_t ParticleLayout::spare_of_group(uint32_t group) const {
@@ -162,8 +178,10 @@ ParticleLayout lay_out(const FabricData& data) {
     const auto needs = [&](uint32_t v, uint32_t other) {
         if (data.inverse_mass[v] > 0.0f && data.inverse_mass[other] == 0.0f) fixed[part_of[v]].push_back(other);
     };
-    for (const auto* list : {&data.edges, &data.bends})
-        for (const DistanceConstraint& c : *list) needs(c.a, c.b), needs(c.b, c.a);
+    for_each_joint(data, [&](std::span<const uint32_t> vertices) {
+        for (uint32_t a : vertices)
+            for (uint32_t b : vertices) needs(a, b);
+    });
     for (const Tether& t : data.tethers) needs(t.vertex, t.anchor);
     for (uint32_t v = 0; v < n; ++v)
         if (data.inverse_mass[v] == 0.0f) fixed[0].push_back(v);

@@ -28,9 +28,9 @@ struct ParticleLayout {
 
     uint32_t count() const { return uint32_t(vertex_of.size()); }
     uint32_t part_of(uint32_t particle) const;
-    /// Of two vertices that are joined: the part that holds both, or the cut between part k and part k + 1 as
-    /// parts.size() + k.
-    uint32_t group_of(uint32_t vertex_a, uint32_t vertex_b, std::span<const float> inverse_mass) const;
+    /// Of vertices that are joined, one of which moves: the part that holds those that do, or the cut between part k and
+    /// part k + 1 as parts.size() + k.
+    uint32_t group_of(std::span<const uint32_t> vertices, std::span<const float> inverse_mass) const;
     /// Parts, then the cuts between them.
     uint32_t group_count() const { return 2 * uint32_t(parts.size()) - 1; }
     uint32_t spare_of_group(uint32_t group) const;

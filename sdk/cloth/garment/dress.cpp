@@ -234,8 +234,26 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
     }
     for (uint32_t i = 0; i < n; ++i)
         if (!garment.most_way.empty() && garment.most_way[i] > 0.0f && garment.simulated[i]) data.limits.push_back({i, garment.most_way[i]});
+    Carried followed;
+    for (uint32_t i = 0; i < carried.rest.size(); ++i) {
+        const bool limited = i < n && !garment.most_way.empty() && garment.most_way[i] > 0.0f;
+        if (i < n && garment.simulated[i] && !limited) continue;
+        followed.add(carried.rest[i], carried.bones[i], carried.weights[i]);
+        followed_.push_back(i);
+    }
     fabric_ = std::make_shared<const Fabric>(std::move(data));
     skin_.emplace(carried.skin());
+    if (!followed_.empty()) followed_skin_.emplace(followed.skin());
+}
+
+void Dress::place(std::span<const Mat4> matrices, std::vector<Vec3>& targets, Scratch& scratch, Jobs& jobs) const {
+    skin_->carry(matrices, targets, scratch.bones, jobs);
+}
+
+void Dress::follow(std::span<const Mat4> matrices, std::vector<Vec3>& targets, Scratch& scratch, Jobs& jobs) const {
+    if (!followed_skin_) return;
+    followed_skin_->carry(matrices, scratch.places, scratch.bones, jobs);
+    for (size_t i = 0; i < followed_.size(); ++i) targets[followed_[i]] = scratch.places[i];
 }
 
 SkinBelow skin_below(const DressBody& body, std::span<const Vec3> garment, bool with_hands) {

@@ -40,9 +40,15 @@ public:
     const std::vector<uint32_t>& indices() const { return indices_; }
     const std::vector<Vec2>& uvs() const { return uvs_; }
 
-    /// The garment's vertices, then the backstops' centres: what the avatar's skinning matrices (posed from rest, one a rig
-    /// bone) carry is start and targets of a Cloth.
-    const Skin& skin() const { return *skin_; }
+    struct Scratch {
+        Skin::Scratch bones;
+        std::vector<Vec3> places;
+    };
+    /// Start and targets of a Cloth, as the avatar's skinning matrices (posed from rest, one a rig bone) carry them: the garment's
+    /// vertices, then the backstops' centres.
+    void place(std::span<const Mat4> matrices, std::vector<Vec3>& targets, Scratch& scratch, Jobs& jobs) const;
+    /// The same of those alone that a step looks at: of vertices the fixed and the limited ones. All have been placed before.
+    void follow(std::span<const Mat4> matrices, std::vector<Vec3>& targets, Scratch& scratch, Jobs& jobs) const;
 
 private:
     std::shared_ptr<const Fabric> fabric_;
@@ -50,6 +56,8 @@ private:
     std::vector<uint32_t> indices_;
     std::vector<Vec2> uvs_;
     std::optional<Skin> skin_;  // of rest_, then the backstops' centres
+    std::vector<uint32_t> followed_;  // of these
+    std::optional<Skin> followed_skin_;
 };
 
 /// The body's skin as far as a garment can meet it: from a hand above its upper edge to a foot's length below its hem, and the

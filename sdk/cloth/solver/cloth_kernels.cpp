@@ -56,6 +56,48 @@ void SolveDistances(std::span<const DistanceBatch> batches, std::span<const Batc
     }
 }
 
+/// Of one batch; the greatest share of a fold that one of its hinges takes back.
+HWY_INLINE float FindHingeGains(const HingeBatch& batch, const HingeMasses& masses, float h, float force, HingeGains& gains) {
+    const V rate2 = Set(1.0f / (force * h * h));
+    V most = Set(0.0f);
+    for (size_t lane = 0; lane < kLanes; lane += kWide) {
+        V sum = Set(0.0f), share[4];
+        for (size_t k = 0; k < 4; ++k) {
+            const V weight = hn::Load(kTag, batch.weight[k] + lane);
+            share[k] = hn::Mul(hn::Load(kTag, masses.inverse_mass[k] + lane), weight);
+            sum = hn::MulAdd(share[k], weight, sum);
+        }
+        const V inverse = hn::Div(Set(1.0f), hn::MulAdd(hn::Load(kTag, masses.compliance + lane), rate2, sum));
+        for (size_t k = 0; k < 4; ++k) hn::Store(hn::Mul(share[k], inverse), kTag, gains.at[k] + lane);
+        most = hn::Max(most, hn::Mul(sum, inverse));
+    }
+    return hn::GetLane(hn::MaxOfLanes(kTag, most));
+}
+void FindAllHingeGains(std::span<const HingeBatch> batches, std::span<const HingeMasses> masses, float h, float soft, std::span<HingeGains> gains) {
+    for (size_t i = 0; i < batches.size(); ++i) {
+        gains[i].soft = FindHingeGains(batches[i], masses[i], h, 2.0f, gains[i]) <= soft;
+        if (!gains[i].soft) FindHingeGains(batches[i], masses[i], h, 1.0f, gains[i]);
+    }
+}
+
+/// All is linear: nothing has to be turned into columns.
+void SolveHinges(std::span<const HingeBatch> batches, std::span<const HingeGains> gains, bool with_soft, Particle* particles) {
+    auto* bytes = reinterpret_cast<unsigned char*>(particles);
+    const auto at = [bytes](uint32_t offset) HWY_ATTR { return reinterpret_cast<Particle*>(bytes + offset); };
+    for (size_t i = 0; i < batches.size(); ++i) {
+        if (gains[i].soft && !with_soft) continue;
+        for (size_t lane = 0; lane < kLanes; lane += kWide) {
+            const HingeBatch& batch = batches[i];
+            Rows x[4];
+            for (size_t k = 0; k < 4; ++k) x[k] = Gather(at, batch.at[k] + lane);
+            Rows amiss = Times(x[0], hn::Load(kTag, batch.weight[0] + lane));
+            for (size_t k = 1; k < 4; ++k) amiss = AddScaled(amiss, x[k], hn::Load(kTag, batch.weight[k] + lane));
+            for (size_t k = 0; k < 4; ++k)
+                Scatter(AddScaled(x[k], amiss, hn::Neg(hn::Load(kTag, gains[i].at[k] + lane))), at, batch.at[k] + lane);
+        }
+    }
+}
+
 void FindRunBalls(std::span<const Particle> moving, std::span<const Particle> velocities, NearColliders& near) {
     for (size_t run = 0; run < moving.size() / kLanes; ++run) {
         const Particle *places = moving.data() + run * kLanes, *speeds = velocities.data() + run * kLanes;
@@ -363,6 +405,8 @@ namespace vfit {
 HWY_EXPORT(Predict);
 HWY_EXPORT(FindGains);
 HWY_EXPORT(SolveDistances);
+HWY_EXPORT(FindAllHingeGains);
+HWY_EXPORT(SolveHinges);
 HWY_EXPORT(FindRunBalls);
 HWY_EXPORT(FindNear);
 HWY_EXPORT(EndSubstep);
@@ -373,6 +417,12 @@ float find_gains(std::span<const BatchMasses> masses, float h, float force, std:
 }
 void solve_distances(std::span<const DistanceBatch> batches, std::span<const BatchGains> gains, Particle* particles) {
     HWY_DYNAMIC_DISPATCH(SolveDistances)(batches, gains, particles);
+}
+void find_hinge_gains(std::span<const HingeBatch> batches, std::span<const HingeMasses> masses, float h, float soft, std::span<HingeGains> gains) {
+    HWY_DYNAMIC_DISPATCH(FindAllHingeGains)(batches, masses, h, soft, gains);
+}
+void solve_hinges(std::span<const HingeBatch> batches, std::span<const HingeGains> gains, bool with_soft, Particle* particles) {
+    HWY_DYNAMIC_DISPATCH(SolveHinges)(batches, gains, with_soft, particles);
 }
 void find_run_balls(std::span<const Particle> moving, std::span<const Particle> velocities, NearColliders& near) {
     HWY_DYNAMIC_DISPATCH(FindRunBalls)(moving, velocities, near);

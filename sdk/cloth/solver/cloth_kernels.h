@@ -8,6 +8,7 @@
 
 #include "cloth/contact/contact.h"
 #include "cloth/fabric/distance_batches.h"
+#include "cloth/fabric/hinge_batches.h"
 #include "cloth/solver/particle.h"
 
 namespace vfit {
@@ -28,6 +29,11 @@ float find_gains(std::span<const BatchMasses> masses, float h, float force, std:
 /// One pass of XPBD over the constraints with the multiplier starting at zero, which is exact for one pass a sub-step
 /// (Macklin et al. 2019).
 void solve_distances(std::span<const DistanceBatch> batches, std::span<const BatchGains> gains, Particle* particles);
+
+/// The same of hinges: w K / (sum of w K^2 + compliance / h^2). Batches that would take back no more than `soft` of a fold, even
+/// with twice the force, are given that, to push in every second sub-step; none with 0.
+void find_hinge_gains(std::span<const HingeBatch> batches, std::span<const HingeMasses> masses, float h, float soft, std::span<HingeGains> gains);
+void solve_hinges(std::span<const HingeBatch> batches, std::span<const HingeGains> gains, bool with_soft, Particle* particles);
 
 /// What each run of kLanes moving particles may meet during a step.
 struct NearColliders {

@@ -70,6 +70,7 @@ HWY_INLINE Rows Scaled(const Rows& a, V s) { return {Mul(a.p, s)}; }
 HWY_INLINE Rows MulAdd(const Rows& a, V s, const Rows& b) { return {MulAdd(a.p, s, b.p)}; }
 HWY_INLINE Rows Sub(const Rows& a, const Rows& b) { return {Sub(a.p, b.p)}; }
 HWY_INLINE Rows AddScaled(const Rows& a, const Rows& d, V s) { return {MulAdd(d.p, s, a.p)}; }
+HWY_INLINE Rows Times(const Rows& a, V s) { return {Mul(a.p, s)}; }
 HWY_INLINE Points Columns(const Rows& rows) { return rows.p; }
 #else
 /// kWide particles in four registers: register k holds particle k and, in its upper half, particle k + 4.
@@ -119,6 +120,11 @@ HWY_INLINE Rows Sub(const Rows& a, const Rows& b) {
 HWY_INLINE Rows AddScaled(const Rows& a, const Rows& d, V s) {
     return {{hn::MulAdd(d.r[0], hn::Broadcast<0>(s), a.r[0]), hn::MulAdd(d.r[1], hn::Broadcast<1>(s), a.r[1]),
              hn::MulAdd(d.r[2], hn::Broadcast<2>(s), a.r[2]), hn::MulAdd(d.r[3], hn::Broadcast<3>(s), a.r[3])}};
+}
+/// a * s, s one a particle.
+HWY_INLINE Rows Times(const Rows& a, V s) {
+    return {{hn::Mul(hn::Broadcast<0>(s), a.r[0]), hn::Mul(hn::Broadcast<1>(s), a.r[1]), hn::Mul(hn::Broadcast<2>(s), a.r[2]),
+             hn::Mul(hn::Broadcast<3>(s), a.r[3])}};
 }
 using Pairs = hn::Repartition<double, Tag>;
 HWY_INLINE V LowerPairs(V a, V b) {

@@ -12,7 +12,7 @@ namespace {
 
 // Bends that take back no more than this share of a fold in a sub-step are so soft that they may push in every second one, with
 // twice the force: the impulse is the same, at half the work.
-constexpr float kSoft = 0.25f;
+constexpr float kSoft = 0.5f;
 
 // So fast do the cloth's own layers part that have come too near: pushed out at once, they would fly.
 constexpr float kBack_m_s = 1.0f;
@@ -37,6 +37,7 @@ ParticleSolver::ParticleSolver(std::shared_ptr<const Fabric> fabric, float self_
         Gains& gains = gains_.emplace_back();
         gains.bends.resize(fabric_->bend_batches()[i].joints.size());
         gains.edges.resize(fabric_->edge_batches()[i].joints.size());
+        gains.hinges.resize(fabric_->hinge_batches()[i].hinges.size());
     }
     parts_.resize(layout.parts.size());
 }
@@ -132,13 +133,20 @@ void ParticleSolver::set_gains(float h, int substeps) {
         for (size_t i = 0; i < gains_.size(); ++i) most = std::max(most, find_gains(fabric_->bend_batches()[i].masses, h, force, gains_[i].bends));
         return most;
     };
-    bend_every_ = alternate && find_bend_gains(2.0f) <= kSoft ? 2 : 1;
+    // Beside hinges, distances over folds only keep folds from closing.
+    const bool fold_limits = !fabric_->data().hinges.empty();
+    bend_every_ = alternate && (find_bend_gains(2.0f) <= kSoft || fold_limits) ? 2 : 1;
     if (bend_every_ == 1) find_bend_gains(1.0f);
-    for (size_t i = 0; i < gains_.size(); ++i) find_gains(fabric_->edge_batches()[i].masses, h, 1.0f, gains_[i].edges);
+    for (size_t i = 0; i < gains_.size(); ++i) {
+        find_gains(fabric_->edge_batches()[i].masses, h, 1.0f, gains_[i].edges);
+        const HingeBatches& hinges = fabric_->hinge_batches()[i];
+        find_hinge_gains(hinges.hinges, hinges.masses, h, alternate ? kSoft : 0.0f, gains_[i].hinges);
+    }
 }
 
 void ParticleSolver::solve_group(int substep, uint32_t group) {
     if (substep % bend_every_ == 0) solve_distances(fabric_->bend_batches()[group].joints, gains_[group].bends, places_.data());
+    solve_hinges(fabric_->hinge_batches()[group].hinges, gains_[group].hinges, substep % 2 == 0, places_.data());
     for (int i = passes(gains_h_); i > 0; --i)
         solve_distances(fabric_->edge_batches()[group].joints, gains_[group].edges, places_.data());
 }

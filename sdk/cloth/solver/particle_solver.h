@@ -61,6 +61,7 @@ public:
 private:
     struct Gains {
         std::vector<BatchGains> bends, edges;
+        std::vector<HingeGains> hinges;
     };
     struct Part {
         NearColliders near;

@@ -120,10 +120,47 @@ TEST(ClothKernels, DistancesAreThoseOfXpbd) {
     });
 }
 
+TEST(ClothKernels, HingesAreThoseOfXpbd) {
+    Sheet sheet(12, 11, 0.02f);
+    sheet.pin_top();
+    const Fabric fabric(sheet.cook(cotton()));
+    const HingeBatches& batches = fabric.hinge_batches()[0];
+    const float h = 1.0f / 480.0f;
+    on_each_target([&] {
+        std::mt19937 random(8);
+        Particles particles(fabric.layout().count());
+        for (uint32_t i = 0; i < particles.size(); ++i)
+            if (fabric.layout().vertex_of[i] != ParticleLayout::kNobody)
+                particles[i].x = sheet.positions[fabric.layout().vertex_of[i]] + random_point(random, 0.004f);
+        Particles expected = particles;
+        size_t lanes = 0;
+        for (size_t i = 0; i < batches.hinges.size(); ++i)
+            for (size_t lane = 0; lane < kLanes; ++lane) {
+                const HingeBatch& batch = batches.hinges[i];
+                Vec3 sum(0.0f);
+                float mass = 0.0f;
+                for (size_t k = 0; k < 4; ++k) {
+                    sum += batch.weight[k][lane] * expected[batch.at[k][lane] / sizeof(Particle)].x;
+                    mass += batches.masses[i].inverse_mass[k][lane] * batch.weight[k][lane] * batch.weight[k][lane];
+                }
+                lanes += batch.weight[2][lane] > 0.0f;
+                const Vec3 impulse = -sum / (mass + batches.masses[i].compliance[lane] / (h * h));
+                for (size_t k = 0; k < 4; ++k)
+                    expected[batch.at[k][lane] / sizeof(Particle)].x += impulse * batches.masses[i].inverse_mass[k][lane] * batch.weight[k][lane];
+            }
+        EXPECT_EQ(lanes, fabric.data().hinges.size());
+        std::vector<HingeGains> gains(batches.hinges.size());
+        find_hinge_gains(batches.hinges, batches.masses, h, 0.0f, gains);
+        for (const HingeGains& of_batch : gains) EXPECT_FALSE(of_batch.soft);
+        solve_hinges(batches.hinges, gains, false, particles.data());
+        for (size_t i = 0; i < particles.size(); ++i) expect_near(particles[i].x, expected[i].x, 1e-6f, i);
+    });
+}
+
 TEST(ClothKernels, TwiceTheForceIsHalfTheCompliance) {
     Sheet sheet(5, 4, 0.02f);
     const Fabric fabric(sheet.cook(cotton()));
-    const DistanceBatches& batches = fabric.bend_batches()[0];
+    const DistanceBatches& batches = fabric.edge_batches()[0];
     std::vector<BatchMasses> halved = batches.masses;
     for (BatchMasses& m : halved)
         for (float& c : m.compliance) c *= 0.5f;

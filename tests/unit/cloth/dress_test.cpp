@@ -122,8 +122,8 @@ TEST(Dress, FollowsItsBones) {
     const Dress dress(sleeve(0.12f), cotton(), post.dressed_by(post));
     const std::vector<Mat4> moved{Mat4(1.0f), glm::translate(Mat4(1.0f), Vec3(0.3f, 0, 0))};
     std::vector<Vec3> targets;
-    Skin::Scratch scratch;
-    dress.skin().carry(moved, targets, scratch, *Jobs::own(0));
+    Dress::Scratch scratch;
+    dress.place(moved, targets, scratch, *Jobs::own(0));
     ASSERT_EQ(targets.size(), dress.fabric()->target_count());
     EXPECT_LT(glm::length(targets[0] - (dress.rest()[0] + Vec3(0.3f, 0, 0))), 1e-5f);
     const auto end = targets.begin() + std::ptrdiff_t(dress.rest().size());
@@ -133,8 +133,32 @@ TEST(Dress, FollowsItsBones) {
     // Backstops lie on the post's axis, half a post's breadth below the skin.
     for (auto ball = end; ball != targets.end(); ++ball)
         ASSERT_LT(std::min(radius_of(*ball), radius_of(*ball - Vec3(0.3f, 0, 0))), 0.01f);
-    EXPECT_EQ(error_of([&] { dress.skin().carry(std::span(moved).first(1), targets, scratch, *Jobs::own(0)); }),
+    EXPECT_EQ(error_of([&] { dress.place(std::span(moved).first(1), targets, scratch, *Jobs::own(0)); }),
               "-2 1 skinning matrices for a skin of 2 bones");
+}
+
+TEST(Dress, AStepFollowsWhatIsFixedOrLimitedAndTheBackstops) {
+    const Post post(0.1f);
+    Garment g = sleeve(0.12f);
+    g.most_way.assign(g.vertex_count(), 0.0f);
+    const uint32_t limited = g.vertex_count() - 1;
+    g.most_way[limited] = 0.05f;
+    const Dress dress(g, cotton(), post.dressed_by(post));
+    const std::vector<Mat4> still(2, Mat4(1.0f)), moved{glm::translate(Mat4(1.0f), Vec3(0, 0, 0.1f)), glm::translate(Mat4(1.0f), Vec3(0.3f, 0, 0))};
+    const auto jobs = Jobs::own(0);
+    std::vector<Vec3> before, after, followed;
+    Dress::Scratch scratch;
+    dress.place(still, before, scratch, *jobs);
+    dress.place(moved, after, scratch, *jobs);
+    followed = before;
+    dress.follow(moved, followed, scratch, *jobs);
+    size_t hang = 0;
+    for (uint32_t i = 0; i < followed.size(); ++i) {
+        const bool hangs = i < g.vertex_count() && g.simulated[i] && i != limited;
+        EXPECT_EQ(followed[i], hangs ? before[i] : after[i]) << i;
+        hang += hangs;
+    }
+    EXPECT_GT(hang, size_t(kRound));
 }
 
 TEST(Dress, HangsOnThePostAndStaysOutsideIt) {
@@ -142,13 +166,13 @@ TEST(Dress, HangsOnThePostAndStaysOutsideIt) {
     const Post post(0.1f);
     const Dress dress(sleeve(0.115f), cotton(), post.dressed_by(post));
     std::vector<Vec3> targets;
-    Skin::Scratch scratch;
+    Dress::Scratch scratch;
     const std::vector<Mat4> still(2, Mat4(1.0f));
-    dress.skin().carry(still, targets, scratch, *jobs);
+    dress.place(still, targets, scratch, *jobs);
     Cloth cloth(dress.fabric(), {}, targets);
     for (int frame = 0; frame < 120; ++frame) {
         const std::vector<Mat4> sway(2, glm::translate(Mat4(1.0f), Vec3(0.1f * std::sin(0.2f * float(frame)), 0, 0)));
-        dress.skin().carry(sway, targets, scratch, *jobs);
+        dress.follow(sway, targets, scratch, *jobs);
         cloth.step(kFrame_s, targets, {}, *jobs);
         const float x = 0.1f * std::sin(0.2f * float(frame));
         // Without any collider, the backstops alone keep the post free.

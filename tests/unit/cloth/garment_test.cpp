@@ -139,19 +139,52 @@ TEST(FabricCooking, RefusesExplicitDataThatDoNotFit) {
     EXPECT_EQ(cook([](FabricData& d) { d.inverse_mass[0] = -1; }), "-11 vertex 0 has inverse mass -1");
     EXPECT_EQ(cook([](FabricData& d) { d.indices = {0, 1}; }), "-11 the fabric's indices are not whole triangles");
     EXPECT_EQ(cook([](FabricData& d) { d.backstops = {{0, 0.1f}}; }), "-11 backstop of vertex 0 with radius 0.1 m");
+    EXPECT_EQ(cook([](FabricData& d) { d.hinges = {{{0, 1, 2, 3}, {}, 1.0f}}; }), "-11 hinge 0 joins vertices 0, 1, 2 and 3 of 2");
+    EXPECT_EQ(cook([](FabricData& d) { d.tethers = {{1, 1, 0.1f}}; }), "-11 tether of vertex 1 to vertex 1, which is not fixed");
     EXPECT_EQ(cook([](FabricData& d) { d.inverse_mass.clear(); }), "-11 the fabric has no vertices");
 }
 
-TEST(FabricCooking, BendSpringHasTheHingesEnergyAtThirtyDegrees) {
+TEST(FabricCooking, AHingeIsFlatAtRestAndCountsTheFoldsAngle) {
     Sheet sheet(2, 2, 0.02f);  // one fold: the diagonal
     const FabricData data = sheet.cook(cotton());
+    ASSERT_EQ(data.hinges.size(), 1u);
+    const Hinge& hinge = data.hinges[0];
+    const float length = 0.02f * std::sqrt(2.0f);
+    const auto sum = [&](const std::vector<Vec3>& places) {
+        Vec3 out(0.0f);
+        for (size_t k = 0; k < 4; ++k) out += hinge.weights[k] * places[hinge.vertices[k]];
+        return out;
+    };
+    EXPECT_LT(glm::length(sum(sheet.positions)), 1e-6f);
+    // One corner turned about the diagonal.
+    const float angle = 0.1f;
+    std::vector<Vec3> folded = sheet.positions;
+    const Vec3 &a = folded[hinge.vertices[0]], &b = folded[hinge.vertices[1]];
+    Vec3& corner = folded[hinge.vertices[2]];
+    corner = a + glm::angleAxis(angle, glm::normalize(b - a)) * (corner - a);
+    EXPECT_NEAR(glm::length(sum(folded)), length * angle, 0.01f * length * angle);
+    // Its energy is that of a hinge of stiffness B l^2 / (A1 + A2).
+    const float stiffness = cotton().bend_n_m * length * length / (0.02f * 0.02f);
+    EXPECT_NEAR(length * length / hinge.compliance_m_n, stiffness, 1e-3f * stiffness);
+}
+
+TEST(FabricCooking, ADistanceOverAFoldStoresAt30DegreesWhatTheHingeDoes) {
+    Sheet sheet(2, 2, 0.02f);
+    const FabricData data = sheet.cook(cotton());
     ASSERT_EQ(data.bends.size(), 1u);
-    const DistanceConstraint& bend = data.bends[0];
-    const float length = 0.02f * std::sqrt(2.0f), fold = kPi / 6.0f;
-    const float hinge = 3.0f * cotton().bend_n_m * length * length / (0.02f * 0.02f);
-    // The two corners stand length/2 off the fold; folded, their distance is 2 (length/2) cos(fold/2).
-    const float shorter = bend.rest_m - length * std::cos(0.5f * fold);
-    EXPECT_NEAR(shorter * shorter / bend.compliance_m_n, hinge * fold * fold, 0.05f * hinge * fold * fold);
+    const DistanceConstraint& limit = data.bends[0];
+    const Hinge& hinge = data.hinges[0];
+    const auto energies = [&](float angle) {
+        std::vector<Vec3> folded = sheet.positions;
+        const Vec3 &a = folded[hinge.vertices[0]], &b = folded[hinge.vertices[1]];
+        folded[limit.a] = a + glm::angleAxis(angle, glm::normalize(b - a)) * (folded[limit.a] - a);
+        const float shorter = limit.rest_m - glm::length(folded[limit.a] - folded[limit.b]), length = glm::length(b - a);
+        return std::pair{0.5f * shorter * shorter / limit.compliance_m_n, 0.5f * angle * angle * length * length / hinge.compliance_m_n};
+    };
+    const auto [fold, bent] = energies(kPi / 6.0f);
+    EXPECT_NEAR(fold, bent, 0.05f * bent);
+    const auto [flat_fold, flat_bent] = energies(0.1f);
+    EXPECT_LT(flat_fold, 0.1f * flat_bent);
 }
 
 TEST(FabricCooking, MassIsDensityTimesArea) {

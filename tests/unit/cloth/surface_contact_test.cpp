@@ -305,7 +305,11 @@ struct ThreeLayers {
             data.inverse_mass.insert(data.inverse_mass.end(), one.inverse_mass.begin(), one.inverse_mass.end());
             for (uint32_t i : one.indices) data.indices.push_back(first + i);
             for (DistanceConstraint e : one.edges) data.edges.push_back({first + e.a, first + e.b, e.rest_m, e.compliance_m_n});
-            for (DistanceConstraint e : one.bends) data.bends.push_back({first + e.a, first + e.b, e.rest_m, e.compliance_m_n});
+            for (DistanceConstraint b : one.bends) data.bends.push_back({first + b.a, first + b.b, b.rest_m, b.compliance_m_n});
+            for (Hinge h : one.hinges) {
+                for (uint32_t& v : h.vertices) v += first;
+                data.hinges.push_back(h);
+            }
         }
     }
     Cloth cloth(float self_thickness_m) const {

@@ -5,6 +5,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <thread>
+
+#if defined(__linux__)
+#include <sched.h>
+#endif
 
 #include "core/error.h"
 #include "core/platform.h"
@@ -46,6 +51,22 @@ TEST(Platform, ALibraryThatIsNotThereIsAPluginError) {
     EXPECT_GE(physical_cores(), 1u);
     EXPECT_TRUE(std::filesystem::is_directory(library_folder()));
 }
+
+#if defined(__linux__)
+TEST(Platform, CoresOutOfReachAreNotCounted) {
+    unsigned cores = 0;
+    std::thread([&] {
+        cpu_set_t allowed, one;
+        CPU_ZERO(&one);
+        ASSERT_EQ(sched_getaffinity(0, sizeof allowed, &allowed), 0);
+        for (unsigned i = 0; i < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++i)
+            if (CPU_ISSET(i, &allowed)) CPU_SET(i, &one);
+        ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
+        cores = physical_cores();
+    }).join();
+    EXPECT_EQ(cores, 1u);
+}
+#endif
 
 }  // namespace
 }  // namespace vfit
