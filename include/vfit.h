@@ -729,10 +729,16 @@ typedef struct vfit_cloth_desc {
     float inertia;                      /* share of the body's own motion that the cloth feels, 0: all; < 0: none */
     float self_thickness_m;             /* kept between the cloth's own layers, 0: they pass through each other  */
     float budget_ms;                    /* of a step, 0: none. See vfit_cloth_set_quality                    */
+    float cover_m;                      /* more spheres and capsules, until no skin below the garment, but hands and feet, is
+                                         * so far outside of all; 0.005..0.1; 0: the avatar's 31 alone               */
+    float virtual_m;                    /* points of triangles meet spheres and capsules as vertices do: so many that none is
+                                         * further from the next; 0.001..0.1; 0: none. For meshes coarser than a wrist */
 } vfit_cloth_desc;
 typedef struct vfit_cloth_stats { uint32_t struct_size, vertex_count, simulated_count, constraint_count;
                                   float strain_mean, strain_p99, strain_max, step_ms;
-                                  uint32_t substeps, reserved; } vfit_cloth_stats; /* of the last step; 0: it slept */
+                                  uint32_t substeps;        /* of the last step; 0: it slept            */
+                                  uint32_t collider_count;  /* spheres and capsules that it met         */
+                                } vfit_cloth_stats;
 VFIT_STRUCT(vfit_cloth_desc) VFIT_STRUCT(vfit_cloth_stats)
 VFIT_API vfit_result vfit_cloth_create(vfit_avatar avatar, vfit_garment garment,
                                        const vfit_cloth_desc* desc, vfit_cloth* out);/* [excl] on avatar */
@@ -757,6 +763,11 @@ VFIT_API vfit_result vfit_cloth_set_quality(vfit_cloth cloth, uint32_t substeps,
  * inner first, each frame. An inner one that gets destroyed stays where it was. VFIT_ERROR_ARGUMENT where cloth is
  * worn below inner already.                                                                      [excl]  */
 VFIT_API vfit_result vfit_cloth_wear_over(vfit_cloth cloth, vfit_cloth inner);
+/* Skin that this garment alone hides from all who do not look up under it by more than 45 degrees: triangles[i] becomes 1
+ * for those triangles of the avatar's INDEX, and stays what it was for the others, so that garments add up. Leave them
+ * out of what you draw. Found on the body at rest: what is nearer than margin_m to skin that is seen there is left, as
+ * cloth slides and hems lift (0: 0.03). Takes as long as some 100 steps: once a garment.        [read] */
+VFIT_API vfit_result vfit_cloth_hide_skin(vfit_cloth cloth, float margin_m, uint8_t* triangles, uint32_t count);
 /* POSITION, NORMAL, UV, INDEX, STRAIN, and with VFIT_CLOTH_PRESSURE PRESSURE: of a vertex that touches the body, what its
  * threads and its weight pull with against it, over the flat cloth's area; 0 where the garment is skinned. Pa whatever
  * the unit.                                                                                    [any]   */

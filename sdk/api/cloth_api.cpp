@@ -8,7 +8,9 @@
 #include "api/structs.h"
 #include "cloth/cloth.h"
 #include "cloth/garment/dress.h"
+#include "cloth/garment/hidden_skin.h"
 #include "cloth/garment/garment.h"
+#include "cloth/garment/skin_below.h"
 #include "core/files.h"
 
 using namespace vfit;
@@ -40,7 +42,7 @@ Ref<GarmentObject> parse(const Ref<Context>& context, std::span<const std::byte>
 
 ClothSettings cloth_settings(const vfit_cloth_desc& d, const FabricMaterial& material, const Axes& axes) {
     for (const float x : {d.gravity[0], d.gravity[1], d.gravity[2], d.friction, d.damping, d.thickness_m, d.wind[0], d.wind[1],
-                          d.wind[2], d.drag, d.lift, d.inertia, d.self_thickness_m, d.budget_ms})
+                          d.wind[2], d.drag, d.lift, d.inertia, d.self_thickness_m, d.budget_ms, d.cover_m, d.virtual_m})
         if (!std::isfinite(x)) fail(VFIT_ERROR_ARGUMENT, "desc: a number is not finite");
     if (d.substeps > kMaxSubsteps)
         fail(VFIT_ERROR_ARGUMENT, "desc.substeps ", d.substeps, " is more than ", kMaxSubsteps);
@@ -61,6 +63,11 @@ ClothSettings cloth_settings(const vfit_cloth_desc& d, const FabricMaterial& mat
     if (d.self_thickness_m < 0.0f || d.self_thickness_m > 0.1f)
         fail(VFIT_ERROR_ARGUMENT, "desc.self_thickness_m ", d.self_thickness_m, " is not in 0..0.1 m");
     s.self_thickness_m = d.self_thickness_m;
+    if (d.virtual_m != 0.0f && (d.virtual_m < 0.001f || d.virtual_m > 0.1f)) fail(VFIT_ERROR_ARGUMENT, "desc.virtual_m ", d.virtual_m, " is not in 0.001..0.1 m");
+    s.virtual_m = d.virtual_m;
+    constexpr float kFinestCover_m = 0.005f;
+    if (d.cover_m != 0.0f && (d.cover_m < kFinestCover_m || d.cover_m > 0.1f))
+        fail(VFIT_ERROR_ARGUMENT, "desc.cover_m ", d.cover_m, " is not in ", kFinestCover_m, "..0.1 m");
     if (d.budget_ms < 0.0f) fail(VFIT_ERROR_ARGUMENT, "desc.budget_ms ", d.budget_ms, " is negative");
     s.budget_ms = d.budget_ms;
     s.sleeps = (d.flags & VFIT_CLOTH_AWAKE) == 0;
@@ -102,14 +109,23 @@ bool of_hand(const Collider& c) {
     return hand(c.joint) || hand(c.joint_b);
 }
 
+SkinCover cover_of(const AvatarObject& avatar, const DressBody& body, std::span<const uint8_t> below, bool with_hands, float tolerance_m) {
+    std::vector<Collider> limbs;
+    avatar.avatar.rest_colliders(limbs);
+    if (!with_hands) std::erase_if(limbs, of_hand);
+    return SkinCover(body, below, limbs, tolerance_m);
+}
+
 struct ClothObject : ContextChild {
     static constexpr Kind kKind = Kind::cloth;
-    ClothObject(Ref<AvatarObject> avatar_object, Dress d, std::optional<SkinBelow> skin_of_body, const ClothSettings& cloth_settings, bool hands)
+    ClothObject(Ref<AvatarObject> avatar_object, Dress d, std::optional<SkinBelow> skin_of_body, std::optional<SkinCover> cover_of_body,
+                const ClothSettings& cloth_settings, bool hands)
         : ContextChild(avatar_object->context),
           avatar(std::move(avatar_object)),
           with_hands(hands),
           dress(std::move(d)),
           skin(std::move(skin_of_body)),
+          cover(std::move(cover_of_body)),
           settings(cloth_settings),
           cloth(dress.fabric(), settings, placed()),
           output(*context) {
@@ -133,6 +149,7 @@ struct ClothObject : ContextChild {
     const bool with_hands;
     Dress dress;
     const std::optional<SkinBelow> skin;  // of the avatar, where the cloth is kept out of it
+    const std::optional<SkinCover> cover;
     const ClothSettings settings;
     std::vector<Vec3> targets, skin_places;
     Dress::Scratch scratch;
@@ -163,10 +180,11 @@ struct ClothObject : ContextChild {
         return targets;
     }
     Reading read_avatar() { return reading_of(avatar->access, "avatar"); }
-    /// Spheres and capsules, or none where the skin itself is met.
-    void limbs_of(std::vector<Collider>& limbs) const {
+    /// What is met of the avatar's spheres and capsules, none where it is the skin itself, and those that fill it up.
+    void limbs_of(std::span<const Mat4> matrices, std::vector<Collider>& limbs) {
         if (skin) limbs.clear();
         else if (!with_hands) std::erase_if(limbs, of_hand);
+        if (cover) cover->append(matrices, limbs, scratch.bones, scratch.places, *context->jobs);
     }
     void move_skin(std::span<const Mat4> matrices) {
         if (!skin) return;
@@ -197,7 +215,7 @@ struct ClothObject : ContextChild {
         next = output.begin();
         dress.follow(avatar->avatar.skinning_matrices(), targets, scratch, *context->jobs);
         avatar->avatar.colliders(colliders);
-        limbs_of(colliders);
+        limbs_of(avatar->avatar.skinning_matrices(), colliders);
         move_skin(avatar->avatar.skinning_matrices());
         move_inner();
         time_ns = avatar->avatar.time_ns();
@@ -212,7 +230,7 @@ struct ClothObject : ContextChild {
         std::vector<Mat4> matrices(avatar->avatar.skinning_matrices().size());
         const auto body = [&](float share, std::vector<Vec3>& places, std::vector<Collider>& limbs) {
             avatar->avatar.while_dressing(share, matrices, limbs);
-            limbs_of(limbs);
+            limbs_of(matrices, limbs);
             move_skin(matrices);
             dress.place(matrices, places, scratch, *context->jobs);
         };
@@ -222,7 +240,7 @@ struct ClothObject : ContextChild {
         // What is worn below is there in the pose alone: it pushes this one outwards.
         constexpr int kFrames = 15;
         avatar->avatar.colliders(colliders);
-        limbs_of(colliders);
+        limbs_of(avatar->avatar.skinning_matrices(), colliders);
         placed();
         for (int i = 0; i < kFrames; ++i) {
             move_inner();
@@ -335,8 +353,15 @@ vfit_result vfit_cloth_create(vfit_avatar avatar_handle, vfit_garment garment_ha
         const float ratio = d.size_label ? size_ratio(garment->garment, d.size_label, avatar->measures()) : 1.0f;
         Dress dress(garment->garment, garment->material, wearer.body, ratio, settings.thickness_m);
         std::optional<SkinBelow> skin;
-        if (d.flags & VFIT_CLOTH_SKIN) skin = skin_below(wearer.body, dress.rest(), hands);
-        auto cloth = make<ClothObject>(avatar.ref(), std::move(dress), std::move(skin), settings, hands);
+        std::optional<SkinCover> cover;
+        const bool on_skin = (d.flags & VFIT_CLOTH_SKIN) != 0;
+        if (on_skin && d.cover_m > 0.0f) fail(VFIT_ERROR_ARGUMENT, "desc.cover_m is of no use with VFIT_CLOTH_SKIN");
+        if (on_skin || d.cover_m > 0.0f) {
+            const std::vector<uint8_t> below = below_garment(wearer.body, dress.rest(), hands);
+            if (on_skin) skin = skin_below(wearer.body, below);
+            else cover = cover_of(*avatar, wearer.body, below, hands, d.cover_m);
+        }
+        auto cloth = make<ClothObject>(avatar.ref(), std::move(dress), std::move(skin), std::move(cover), settings, hands);
         out->id = avatar->context->publish(Kind::cloth, cloth, avatar_handle.id);
         return VFIT_OK;
     });
@@ -423,6 +448,23 @@ vfit_result vfit_cloth_wear_over(vfit_cloth handle, vfit_cloth inner_handle) {
     });
 }
 
+vfit_result vfit_cloth_hide_skin(vfit_cloth handle, float margin_m, uint8_t* triangles, uint32_t count) {
+    return guard([&] {
+        Use<ClothObject, Mode::read> cloth(handle.id);
+        check_pointer(triangles, "triangles");
+        if (!std::isfinite(margin_m) || margin_m < 0.0f) fail(VFIT_ERROR_ARGUMENT, "margin_m ", margin_m, " is no distance");
+        constexpr float kUsualMargin_m = 0.03f;
+        const Avatar& avatar = cloth->avatar->avatar;
+        const BodyTopology& topology = avatar.topology();
+        if (count != topology.indices.size() / 3) fail(VFIT_ERROR_ARGUMENT, "count is ", count, ", the avatar has ", topology.indices.size() / 3, " triangles");
+        const auto hidden = hidden_triangles({std::span(avatar.rest().positions).first(topology.vertex_count), topology.indices, cloth->dress.rest(),
+                                              cloth->dress.indices()}, margin_m > 0.0f ? margin_m : kUsualMargin_m, *cloth->context->jobs);
+        for (size_t i = 0; i < hidden.size(); ++i)
+            if (hidden[i]) triangles[i] = 1;
+        return VFIT_OK;
+    });
+}
+
 vfit_result vfit_cloth_acquire(vfit_cloth handle, vfit_frame* out) {
     return guard([&] {
         check_pointer(out, "out");
@@ -448,6 +490,7 @@ vfit_result vfit_cloth_describe(vfit_cloth handle, vfit_cloth_stats* out) {
         stats.strain_max = s.strain_max;
         stats.step_ms = s.step_ms;
         stats.substeps = s.substeps;
+        stats.collider_count = uint32_t(cloth->colliders.size());
         write(out, stats);
         return VFIT_OK;
     });

@@ -96,6 +96,8 @@ public:
 
     /// Posed: spheres by joint, then capsules. Does not allocate where `out` has room for kColliderCount.
     void colliders(std::vector<Collider>& out) const;
+    /// Of the unposed body: where rest() is.
+    void rest_colliders(std::vector<Collider>& out) const;
 
     /// Skinning matrices (one a rig bone) and colliders of a body that gets dressed: that share of the way from
     /// standing straight, arms held out (0), to the pose (1). The hips are where the pose has them.

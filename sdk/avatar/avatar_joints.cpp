@@ -112,6 +112,8 @@ Body Avatar::joints() const {
 
 void Avatar::colliders(std::vector<Collider>& out) const { colliders_of(matrices_, out); }
 
+void Avatar::rest_colliders(std::vector<Collider>& out) const { colliders_of(std::vector<Mat4>(matrices_.size(), Mat4(1.0f)), out); }
+
 void Avatar::colliders_of(std::span<const Mat4> matrices, std::vector<Collider>& out) const {
     out.clear();
     for (int j = 0; j < kPaperJointCount; ++j) {

@@ -36,6 +36,7 @@ enum class BodyPart : uint8_t {
     kLeftThigh, kLeftShank, kLeftFoot, kRightThigh, kRightShank, kRightFoot,
 };
 inline constexpr int kBodyPartCount = 14;
+inline bool is_arm(BodyPart part) { return part >= BodyPart::kLeftUpperArm && part <= BodyPart::kRightHand; }
 
 struct EvaluatedBody {
     std::vector<Vec3> positions;               // level 0, geometric vertices

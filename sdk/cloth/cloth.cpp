@@ -25,6 +25,7 @@ constexpr uint32_t kRunsOfAJob = 128;  // of particles: enough to outweigh the h
 // What has been slower than that for so long, on a body that moves less than that in a step, sleeps. A swing is so slow only
 // for an instant, where it turns round; single vertices may tremble in a contact.
 constexpr float kStillMean_m_s = 0.002f, kStillMost_m_s = 0.05f, kStill_m = 2e-5f, kFallsAsleep_s = 0.5f;
+constexpr float kFinestVirtual_m = 0.001f;
 constexpr float kMeshAround_m = 0.15f;  // about the cloth, in which meshes are looked for: a fast limb's way in a step
 constexpr float kLatest = 0.1f;  // weight of the last step in the mean time of a sub-step
 constexpr float kSubstepRate_hz = 60.0f;  // settings.substeps are per 1/60 s
@@ -62,6 +63,8 @@ void check(const ClothSettings& s) {
     if (!finite(s.budget_ms) || s.budget_ms < 0.0f) fail(VFIT_ERROR_ARGUMENT, "the budget is ", s.budget_ms, " ms");
     if (!finite(s.self_thickness_m) || s.self_thickness_m < 0.0f || s.self_thickness_m > 0.1f)
         fail(VFIT_ERROR_ARGUMENT, "the thickness between the cloth's own layers is ", s.self_thickness_m, " m");
+    if (!finite(s.virtual_m) || (s.virtual_m != 0.0f && s.virtual_m < kFinestVirtual_m))
+        fail(VFIT_ERROR_ARGUMENT, "the way between virtual particles is ", s.virtual_m, " m");
     check(s.air);
 }
 
@@ -109,7 +112,7 @@ uint64_t hash(uint64_t state, const Vec3& v) {
 }  // namespace
 
 struct Cloth::State {
-    State(std::shared_ptr<const Fabric> f, const ClothSettings& s) : fabric(f), settings(s), solver(std::move(f), s.self_thickness_m, s.pressure) {}
+    State(std::shared_ptr<const Fabric> f, const ClothSettings& s) : fabric(f), settings(s), solver(std::move(f), {s.self_thickness_m, s.virtual_m, s.pressure}) {}
 
     std::shared_ptr<const Fabric> fabric;
     ClothSettings settings;

@@ -30,6 +30,7 @@ struct ClothSettings {
     Air air;
     float budget_ms = 0.0f;       // of a step; where it would take longer, sub-steps are left out. 0: none
     float self_thickness_m = 0.0f;  // kept between the cloth's own layers; 0: they pass through each other
+    float virtual_m = 0.0f;  // points of triangles, no further from each other, meet colliders as vertices do; 0: none
     bool pressure = false;        // how the body presses against each vertex is found
     bool sleeps = true;           // a cloth that lies still, on a body that does, is not stepped
 };

@@ -28,18 +28,6 @@ constexpr int kAxes[][2] = {
     {VFIT_JOINT_LEFT_HIP, VFIT_JOINT_LEFT_KNEE},
     {VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_RIGHT_KNEE}};
 
-bool is_arm(BodyPart part) {
-    switch (part) {
-        case BodyPart::kLeftUpperArm:
-        case BodyPart::kLeftForearm:
-        case BodyPart::kLeftHand:
-        case BodyPart::kRightUpperArm:
-        case BodyPart::kRightForearm:
-        case BodyPart::kRightHand: return true;
-        default: return false;
-    }
-}
-
 std::vector<uint32_t> without_arms(const TapeBody& body) {
     std::vector<uint32_t> out;
     for (size_t t = 0; t < body.indices.size(); t += 3) {

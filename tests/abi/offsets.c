@@ -347,7 +347,9 @@ OFFSET(vfit_cloth_desc, lift, 64);
 OFFSET(vfit_cloth_desc, inertia, 68);
 OFFSET(vfit_cloth_desc, self_thickness_m, 72);
 OFFSET(vfit_cloth_desc, budget_ms, 76);
-SIZE(vfit_cloth_desc, 80);
+OFFSET(vfit_cloth_desc, cover_m, 80);
+OFFSET(vfit_cloth_desc, virtual_m, 84);
+SIZE(vfit_cloth_desc, 88);
 
 OFFSET(vfit_cloth_stats, struct_size, 0);
 OFFSET(vfit_cloth_stats, vertex_count, 4);
@@ -358,7 +360,7 @@ OFFSET(vfit_cloth_stats, strain_p99, 20);
 OFFSET(vfit_cloth_stats, strain_max, 24);
 OFFSET(vfit_cloth_stats, step_ms, 28);
 OFFSET(vfit_cloth_stats, substeps, 32);
-OFFSET(vfit_cloth_stats, reserved, 36);
+OFFSET(vfit_cloth_stats, collider_count, 36);
 SIZE(vfit_cloth_stats, 40);
 
 OFFSET(vfit_frame_layout, struct_size, 0);

@@ -59,13 +59,17 @@ TEST_F(ClothOptionsTest, OnTheSkinItLiesOutsideOfTheSkin) {
     hips.rotation[3] = 1.0f;
     hips.position[1] = 1.0f;
     ASSERT_EQ(vfit_avatar_pose(avatar, &pose, &hips, sizeof hips, 1), VFIT_OK) << contract::last_error();
-    const auto inside = [&](uint32_t flags, size_t& free) {
+    const auto inside = [&](uint32_t flags, size_t& free, float cover_m = 0.0f) {
         vfit_cloth_desc desc = vfit_cloth_desc_init();
+        desc.cover_m = cover_m;
         desc.flags = flags | VFIT_CLOTH_AWAKE;
         desc.gravity[2] = 6.0f, desc.gravity[1] = -6.0f;  // pressed against the body's back
         const vfit_cloth cloth = make(desc);
         const std::vector<float> before = positions(cloth);
         for (int i = 0; i < 120; ++i) EXPECT_EQ(vfit_cloth_step(cloth, kFrame_s), VFIT_OK) << contract::last_error();
+        vfit_cloth_stats stats = vfit_cloth_stats_init();
+        EXPECT_EQ(vfit_cloth_describe(cloth, &stats), VFIT_OK);
+        EXPECT_EQ(stats.collider_count == 31u, flags == 0 && cover_m == 0.0f) << stats.collider_count;
         const std::vector<float> after = positions(cloth);
         vfit_frame frame{};
         EXPECT_EQ(vfit_avatar_acquire(avatar, &frame), VFIT_OK) << contract::last_error();
@@ -89,7 +93,9 @@ TEST_F(ClothOptionsTest, OnTheSkinItLiesOutsideOfTheSkin) {
         return count;
     };
     size_t free = 0;
-    EXPECT_GT(inside(0, free), 5u) << "the scene would show it";
+    const size_t by_capsules = inside(0, free), by_more = inside(0, free, 0.005f);
+    EXPECT_GT(by_capsules, 5u) << "the scene would show it";
+    EXPECT_LT(by_more, by_capsules / 4) << "more spheres and capsules fill the body";
     EXPECT_EQ(inside(VFIT_CLOTH_SKIN, free), 0u);
     EXPECT_GT(free, 2500u);
 }
@@ -171,6 +177,46 @@ TEST_F(ClothOptionsTest, ADressOverADressStaysOutsideOfIt) {
     EXPECT_EQ(vfit_cloth_wear_over(outer, strange), VFIT_ERROR_ARGUMENT);
 }
 
+TEST_F(ClothOptionsTest, HidesTheSkinThatNobodySees) {
+    const vfit_cloth cloth = make(vfit_cloth_desc_init());
+    vfit_frame rest{};
+    ASSERT_EQ(vfit_avatar_acquire_rest(avatar, &rest), VFIT_OK);
+    const std::vector<float> body = stream(rest, VFIT_STREAM_POSITION);
+    vfit_view view = vfit_view_init();
+    ASSERT_EQ(vfit_frame_view(rest, VFIT_STREAM_INDEX, &view), VFIT_OK);
+    std::vector<uint32_t> indices(view.width);
+    std::memcpy(indices.data(), view.data, indices.size() * sizeof(uint32_t));
+    vfit_frame_release(rest);
+    std::vector<uint8_t> hidden(indices.size() / 3);
+    hidden[0] = 1;  // by another garment: a toe, a tooth
+    ASSERT_EQ(vfit_cloth_hide_skin(cloth, 0.0f, hidden.data(), uint32_t(hidden.size())), VFIT_OK) << contract::last_error();
+    EXPECT_EQ(hidden[0], 1);
+    float top = 0.0f;
+    for (size_t i = 1; i < body.size(); i += 3) top = std::max(top, body[i]);
+    float low = top, high = 0.0f;
+    size_t count = 0;
+    for (size_t t = 1; t < hidden.size(); ++t) {
+        if (!hidden[t]) continue;
+        ++count;
+        for (int k = 0; k < 3; ++k) {
+            const float y = body[3 * indices[3 * t + size_t(k)] + 1];
+            low = std::min(low, y), high = std::max(high, y);
+        }
+    }
+    // From the bodice down into the skirt; neither shoulders nor what is near the hem.
+    EXPECT_GT(double(count), 0.02 * double(hidden.size()));
+    EXPECT_LT(high, 0.85f * top);
+    EXPECT_GT(high, 0.7f * top);
+    const std::vector<float> dress = positions(cloth);
+    float hem = top;
+    for (size_t i = 1; i < dress.size(); i += 3) hem = std::min(hem, dress[i]);
+    EXPECT_GT(low, hem + 0.05f);
+    EXPECT_LT(low, 0.5f * top);
+    EXPECT_EQ(vfit_cloth_hide_skin(cloth, 0.0f, hidden.data(), 7), VFIT_ERROR_ARGUMENT);
+    EXPECT_NE(std::string(contract::last_error()).find("count is 7"), std::string::npos) << contract::last_error();
+    EXPECT_EQ(vfit_cloth_hide_skin(cloth, 0.0f, nullptr, uint32_t(hidden.size())), VFIT_ERROR_ARGUMENT);
+}
+
 TEST_F(ClothOptionsTest, WhatMakesNoSenseIsRefusedByName) {
     const auto refused = [&](const auto& change, const char* name) {
         vfit_cloth_desc desc = vfit_cloth_desc_init();
@@ -183,6 +229,10 @@ TEST_F(ClothOptionsTest, WhatMakesNoSenseIsRefusedByName) {
     refused([](vfit_cloth_desc& d) { d.inertia = 2.0f; }, "inertia");
     refused([](vfit_cloth_desc& d) { d.self_thickness_m = 1.0f; }, "self_thickness_m");
     refused([](vfit_cloth_desc& d) { d.budget_ms = -1.0f; }, "budget_ms");
+    refused([](vfit_cloth_desc& d) { d.cover_m = 0.001f; }, "cover_m");
+    refused([](vfit_cloth_desc& d) { d.virtual_m = -0.01f; }, "virtual_m");
+    refused([](vfit_cloth_desc& d) { d.cover_m = 0.01f, d.flags = VFIT_CLOTH_SKIN; }, "cover_m");
+    refused([](vfit_cloth_desc& d) { d.cover_m = std::numeric_limits<float>::quiet_NaN(); }, "finite");
     refused([](vfit_cloth_desc& d) { d.wind[1] = std::numeric_limits<float>::infinity(); }, "finite");
     refused([](vfit_cloth_desc& d) { d.flags = 1u << 20; }, "flags");
 }

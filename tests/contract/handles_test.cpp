@@ -141,6 +141,7 @@ std::vector<Call> calls() {
         {"cloth_set_wind", [](uint64_t h) { static const float kWind[3] = {}; return vfit_cloth_set_wind({h}, kWind); }},
         {"cloth_set_quality", [](uint64_t h) { return vfit_cloth_set_quality({h}, 8, 0.0f); }},
         {"cloth_wear_over", [](uint64_t h) { return vfit_cloth_wear_over({h}, {h}); }},
+        {"cloth_hide_skin", [](uint64_t h) { static uint8_t hidden[1]; return vfit_cloth_hide_skin({h}, 0.0f, hidden, 1); }},
         {"cloth_acquire", [](uint64_t h) { return vfit_cloth_acquire({h}, &frame_out); }},
         {"cloth_describe", [](uint64_t h) { return vfit_cloth_describe({h}, &cloth_stats); }},
         {"cloth_state_hash", [](uint64_t h) { return vfit_cloth_state_hash({h}, &hash); }},

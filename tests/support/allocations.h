@@ -2,14 +2,12 @@
 // in exactly one source file of a program: it replaces the global operator new.
 #pragma once
 
-#include <atomic>
-#include <cstdint>
 #include <cstdlib>
 #include <new>
 
-namespace vfit::test {
+#include "support/allocation_count.h"
 
-inline std::atomic<uint64_t> allocations{0};
+namespace vfit::test {
 
 inline void* counted(std::size_t size) noexcept {
     ++allocations;

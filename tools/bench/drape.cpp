@@ -9,7 +9,7 @@ namespace {
 
 struct Options {
     std::string only;
-    double minutes = 0.5;
+    double minutes = 10.0;
     bool json = false;
 };
 
@@ -28,7 +28,7 @@ void add_drape(Command& app) {
     Command command = app.add_subcommand("drape", "Judge the cloth solver: mechanics, contact, people, crowds, endurance (synthetic)");
     auto o = std::make_shared<Options>();
     command.add_option("--only", o->only, "One part").one_of(names_of(kParts));
-    command.add_option("--minutes", o->minutes, "Minutes of random motion (default 0.5)");
+    command.add_option("--minutes", o->minutes, "Minutes of random motion (default 10)");
     command.add_flag("--json", o->json, "Print JSON");
     command.callback([o] { drape(*o); });
 }

@@ -4,6 +4,10 @@
 #include <iostream>
 #include <random>
 
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
 #include "bench/bench.h"
 #include "bench/drape_parts.h"
 #include "bench/drape_scenes.h"
@@ -133,15 +137,27 @@ Json judge_scale(const DrapeJudge& judge) {
     return out;
 }
 
+/// Bytes that the program holds now, 0: not known here.
+double held_bytes() {
+#if defined(__GLIBC__) && __GLIBC_PREREQ(2, 33)
+    const auto heap = mallinfo2();
+    return double(heap.uordblks) + double(heap.hblkhd);
+#else
+    return 0.0;
+#endif
+}
+
 /// Sheets of random shape and fabric, balls that fly about and jump, random steps.
 Json judge_random(const DrapeJudge& judge) {
     std::mt19937 random(7);
     const auto number = [&](float low, float high) { return std::uniform_real_distribution<float>(low, high)(random); };
     const auto jobs = Jobs::own(0);
     double simulated_s = 0.0;
-    size_t scenes = 0, lost = 0, crossed = 0, far = 0;
+    size_t scenes = 0, lost = 0, crossed = 0, far = 0, tangled = 0, own_layers = 0;
+    constexpr size_t kWarm = 20;
+    double first_bytes = 0.0;
     while (simulated_s < 60.0 * judge.minutes) {
-        ++scenes;
+        if (++scenes == kWarm) first_bytes = held_bytes();
         bench::Sheets sheet;
         const auto rows = uint32_t(number(4, 40)), columns = uint32_t(number(4, 40));
         const Vec3 across(number(0.008f, 0.03f), number(-0.003f, 0.003f), 0), down(0, -number(0.008f, 0.03f), number(-0.003f, 0.003f));
@@ -183,13 +199,19 @@ Json judge_random(const DrapeJudge& judge) {
         }
         // At rest for half a second, with nothing in the way.
         for (int frame = 0; frame < 30; ++frame) cloth.step(kFrame_s, targets, {}, *jobs);
-        if (settings.self_thickness_m > 0.0f) crossed += bench::crossed_pairs(cloth.positions(), sheet.indices);
+        if (settings.self_thickness_m == 0.0f) continue;
+        const size_t pairs = bench::crossed_pairs(cloth.positions(), sheet.indices);
+        crossed += pairs, tangled += pairs > 0, ++own_layers;
     }
-    if (!judge.quiet) std::cout << "\nRandom cloths: " << scenes << " of them, " << std::fixed << std::setprecision(1) << simulated_s / 60.0 << " minutes\n";
+    // A cloth is some 500 kB. The heap keeps some of what was freed at hand.
+    const double grown_kb = scenes > kWarm ? (held_bytes() - first_bytes) / 1024.0 / double(scenes - kWarm) : 0.0;
+    if (!judge.quiet) std::cout << "\nRandom cloths: " << scenes << " of them, " << std::fixed << std::setprecision(1) << simulated_s / 60.0 << " minutes; " << tangled << " of "
+                  << own_layers << " with layers of their own cross somewhere\n";
     judge.targets.judge("vertices that are no number", double(lost), Aim::exactly, 0.0);
     judge.targets.judge("vertices far away", double(far), Aim::exactly, 0.0);
     judge.targets.judge("crossed pairs after half a second of rest", double(crossed), Aim::exactly, 0.0);
-    return {{"scenes", scenes}, {"minutes", simulated_s / 60.0}, {"lost", lost}, {"far", far}, {"crossed", crossed}};
+    judge.targets.judge("memory that each leaves behind", grown_kb, Aim::at_most, 4.0, 1, " kB");
+    return {{"scenes", scenes}, {"minutes", simulated_s / 60.0}, {"lost", lost}, {"far", far}, {"crossed", crossed}, {"tangled", tangled}, {"own_layers", own_layers}, {"grown_kb", grown_kb}};
 }
 
 }  // namespace vfit::tools

@@ -105,6 +105,18 @@ std::vector<vfit_bone> bones_of(vfit_motion motion, vfit_pose& pose) {
         [&](auto* items, uint32_t stride, uint32_t* n) { return vfit_motion_pose(motion, &pose, items, stride, n); });
 }
 
+std::vector<uint32_t> seen_triangles(vfit_avatar avatar, vfit_cloth cloth) {
+    Frame rest;
+    check(vfit_avatar_acquire_rest(avatar, rest.out()));
+    const auto indices = items_of<uint32_t>(rest.get(), VFIT_STREAM_INDEX);
+    std::vector<uint8_t> hidden(indices.size() / 3);
+    check(vfit_cloth_hide_skin(cloth, 0.0f, hidden.data(), uint32_t(hidden.size())));
+    std::vector<uint32_t> seen;
+    for (size_t t = 0; t < hidden.size(); ++t)
+        if (!hidden[t]) seen.insert(seen.end(), &indices[3 * t], &indices[3 * t] + 3);
+    return seen;
+}
+
 void set_pose(vfit_avatar avatar, const vfit_pose& pose, const std::vector<vfit_bone>& bones) {
     check(vfit_avatar_pose(avatar, &pose, bones.data(), sizeof(vfit_bone), static_cast<uint32_t>(bones.size())));
 }

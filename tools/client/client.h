@@ -133,6 +133,9 @@ std::vector<vfit_rig_bone> rig_of(vfit_avatar avatar);
 std::vector<vfit_bone> bones_of(vfit_motion motion, vfit_pose& pose);
 void set_pose(vfit_avatar avatar, const vfit_pose& pose, const std::vector<vfit_bone>& bones);
 
+/// Triangles of the avatar's that the cloth does not hide: three indices each.
+std::vector<uint32_t> seen_triangles(vfit_avatar avatar, vfit_cloth cloth);
+
 /// A world-space point in the camera space of that camera.
 struct Point {
     float x, y, z;

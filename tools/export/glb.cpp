@@ -144,7 +144,7 @@ void GlbAnimation::write(const std::string& path) const {
         writer.add(items_of<glm::vec2>(rest.get(), VFIT_STREAM_UV), TINYGLTF_TYPE_VEC2, TINYGLTF_COMPONENT_TYPE_FLOAT,
                    TINYGLTF_TARGET_ARRAY_BUFFER);
     add_skin_attributes(writer, body, rest.get());
-    body.indices = writer.add_indices(items_of<uint32_t>(rest.get(), VFIT_STREAM_INDEX));
+    body.indices = writer.add_indices(seen_triangles(avatar_, cloth_));
     body_mesh.primitives.push_back(body);
     model.meshes.push_back(body_mesh);
 

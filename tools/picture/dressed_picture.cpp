@@ -4,8 +4,6 @@
 #include <cmath>
 #include <span>
 
-#include "picture/hide_skin.h"
-
 namespace vfit::tools {
 
 namespace {
@@ -49,25 +47,6 @@ RenderMesh mesh_of(vfit_frame frame, const Color& color) {
     return mesh;
 }
 
-bool of_arm_or_head(vfit_bone_id bone) {
-    return bone == VFIT_BONE_NECK || bone == VFIT_BONE_HEAD ||
-           (bone >= VFIT_BONE_LEFT_UPPER_ARM && bone <= VFIT_BONE_LEFT_HAND) ||
-           (bone >= VFIT_BONE_RIGHT_UPPER_ARM && bone <= VFIT_BONE_RIGHT_HAND);
-}
-
-/// 0 for vertices that arms and head carry most: they only come near the garment.
-std::vector<uint8_t> coverable(vfit_avatar avatar, vfit_frame body) {
-    const auto rig = rig_of(avatar);
-    std::vector<uint8_t> bone_ok(rig.size(), 1);
-    for (size_t i = 0; i < rig.size(); ++i)
-        bone_ok[i] = !of_arm_or_head(rig[i].bone) && (rig[i].parent < 0 || bone_ok[size_t(rig[i].parent)]);
-    struct Bones { uint16_t bone[8]; };
-    const auto bones = items_of<Bones>(body, VFIT_STREAM_SKIN_BONES);
-    std::vector<uint8_t> out;
-    for (const Bones& b : bones) out.push_back(bone_ok[b.bone[0]]);  // heaviest first
-    return out;
-}
-
 }  // namespace
 
 std::vector<RenderMesh> dressed_meshes(vfit_avatar avatar, vfit_cloth cloth, FitMap map) {
@@ -80,7 +59,7 @@ std::vector<RenderMesh> dressed_meshes(vfit_avatar avatar, vfit_cloth cloth, Fit
         meshes.push_back(mesh_of(cloth_frame.get(), kCloth));
         meshes[1].sheen = map == FitMap::none ? kClothSheen : 0.0f;
         meshes[1].vertex_colors = colors_of(cloth_frame.get(), map);
-        meshes[0].indices = visible_triangles(meshes[0], meshes[1], coverable(avatar, body_frame.get()));
+        meshes[0].indices = seen_triangles(avatar, cloth);
     }
     return meshes;
 }

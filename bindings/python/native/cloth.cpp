@@ -18,6 +18,7 @@ public:
 class Cloth : public Owned<vfit_cloth, vfit_cloth_destroy> {
 public:
     using Owned::Owned;
+    vfit_avatar wearer{};
 };
 
 std::shared_ptr<Garment> open(const Context& context, const std::string& name) {
@@ -48,7 +49,7 @@ std::shared_ptr<Cloth> create(const Avatar& avatar, const Garment& garment,
                               const std::optional<std::array<float, 3>>& gravity,
                               const std::optional<float>& friction, const std::optional<float>& damping,
                               float thickness_m, bool hands, bool skin, bool sleeps, const std::array<float, 3>& wind, float drag,
-                              float lift, const std::optional<float>& inertia, float self_thickness_m, float budget_ms, bool pressure) {
+                              float lift, const std::optional<float>& inertia, float self_thickness_m, float budget_ms, bool pressure, float cover_m, float virtual_m) {
     vfit_cloth_desc desc = vfit_cloth_desc_init();
     desc.size_label = size ? size->c_str() : nullptr;
     desc.substeps = substeps;
@@ -68,9 +69,29 @@ std::shared_ptr<Cloth> create(const Avatar& avatar, const Garment& garment,
     desc.inertia = setting(inertia);
     desc.self_thickness_m = self_thickness_m;
     desc.budget_ms = budget_ms;
+    desc.cover_m = cover_m;
+    desc.virtual_m = virtual_m;
     vfit_cloth handle{};
     run([&, a = avatar.get(), g = garment.get()] { return vfit_cloth_create(a, g, &desc, &handle); });
-    return make<Cloth>(avatar.core(), handle);
+    auto cloth = make<Cloth>(avatar.core(), handle);
+    cloth->wearer = avatar.get();
+    return cloth;
+}
+
+py::array_t<bool> hide_skin(const Cloth& cloth, float margin_m, const std::optional<py::array_t<bool, py::array::c_style | py::array::forcecast>>& before) {
+    vfit_frame rest{};
+    check(vfit_avatar_acquire_rest(cloth.wearer, &rest));
+    vfit_view indices = vfit_view_init();
+    const vfit_result viewed = vfit_frame_view(rest, VFIT_STREAM_INDEX, &indices);
+    vfit_frame_release(rest);
+    check(viewed);
+    const uint32_t count = before ? uint32_t(before->size()) : indices.width / 3;
+    std::vector<uint8_t> hidden(count);
+    if (before) std::copy_n(before->data(), count, hidden.begin());
+    run([&, c = cloth.get()] { return vfit_cloth_hide_skin(c, margin_m, hidden.data(), count); });
+    py::array_t<bool> out(count);
+    std::copy(hidden.begin(), hidden.end(), out.mutable_data());
+    return out;
 }
 
 std::unique_ptr<Frame> acquire(const Cloth& cloth) {
@@ -83,7 +104,7 @@ py::object stats(const Cloth& cloth) {
     vfit_cloth_stats s = vfit_cloth_stats_init();
     check(vfit_cloth_describe(cloth.get(), &s));
     return value("ClothStats", s.vertex_count, s.simulated_count, s.constraint_count, s.strain_mean,
-                 s.strain_p99, s.strain_max, s.step_ms, s.substeps);
+                 s.strain_p99, s.strain_max, s.step_ms, s.substeps, s.collider_count);
 }
 
 uint64_t state_hash(const Cloth& cloth) {
@@ -110,12 +131,14 @@ void bind_cloth(py::module_& m) {
                  "size"_a = py::none(), "substeps"_a = 0, "gravity"_a = py::none(), "friction"_a = py::none(),
                  "damping"_a = py::none(), "thickness_m"_a = 0.0f, "hands"_a = true, "skin"_a = false, "sleeps"_a = true,
                  "wind"_a = std::array<float, 3>{}, "drag"_a = 0.0f, "lift"_a = 0.0f, "inertia"_a = py::none(),
-                 "self_thickness_m"_a = 0.0f, "budget_ms"_a = 0.0f, "pressure"_a = false,
+                 "self_thickness_m"_a = 0.0f, "budget_ms"_a = 0.0f, "pressure"_a = false, "cover_m"_a = 0.0f, "virtual_m"_a = 0.0f,
                  "size None: made to the avatar. substeps 0: 8 a 1/60 s. hands False: forearms and hands pass "
                  "through the garment. skin True: kept out of the avatar's skin itself, not of its spheres and capsules. "
                  "drag and lift: of the air, about 1. inertia: share of the body's own motion that the cloth feels. "
                  "self_thickness_m: kept between the cloth's own layers. budget_ms: of a step. "
-                 "pressure True: frames tell what the body presses with, in Pa.")
+                 "pressure True: frames tell what the body presses with, in Pa. "
+                 "cover_m: more spheres and capsules, until no skin is so far outside of all. "
+                 "virtual_m: points of triangles so near each other meet the body too: for coarse meshes.")
             .def(
                 "set_wind",
                 [](const Cloth& c, const std::array<float, 3>& wind) {
@@ -134,6 +157,9 @@ void bind_cloth(py::module_& m) {
                     run([h = c.get(), i = inner.get()] { return vfit_cloth_wear_over(h, i); });
                 },
                 "inner"_a, "Stays outside of that cloth from now on; step the inner one first.")
+            .def("hide_skin", &hide_skin, "margin_m"_a = 0.0f, "hidden"_a = py::none(),
+                 "One True a triangle of the avatar's that this garment hides: leave it out of what you draw. "
+                 "hidden: of the garments before, to add to.")
             .def(
                 "step",
                 [](const Cloth& c, float dt) { run([h = c.get(), dt] { return vfit_cloth_step(h, dt); }); },

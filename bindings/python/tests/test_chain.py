@@ -214,6 +214,39 @@ def test_equal_contexts_make_equal_cloth():
     assert hashes[0] == hashes[1]
 
 
+def test_what_a_cloth_may_be_told(ctx):
+    avatar = vfit.Avatar.from_measures(ctx, {"stature_m": 1.68}, sex="f")
+    garment = vfit.Garment.open(ctx, "sundress")
+    cloths = [vfit.Cloth(avatar, garment, **options)
+              for options in ({}, {"cover_m": 0.02}, {"skin": True, "pressure": True}, {"virtual_m": 0.01, "self_thickness_m": 0.005})]
+    for cloth in cloths:
+        cloth.step()
+    own, more, none, same = (cloth.stats().collider_count for cloth in cloths)
+    assert own == same == 31 and more > 31 and none == 0
+    assert (cloths[2].acquire().pressure >= 0).all()
+    for bad in ({"cover_m": -1.0}, {"virtual_m": float("nan")}, {"cover_m": 0.01, "skin": True}):
+        with pytest.raises(vfit.ArgumentError):
+            vfit.Cloth(avatar, garment, **bad)
+
+
+def test_hidden_skin_adds_up_over_garments(ctx):
+    avatar = vfit.Avatar.from_measures(ctx, {"stature_m": 1.68}, sex="f")
+    cloth = vfit.Cloth(avatar, vfit.Garment.open(ctx, "sundress"))
+    body = avatar.acquire_rest()
+    hidden = cloth.hide_skin()
+    assert hidden.dtype == bool and hidden.shape == (len(body.triangles),) and 0.02 < hidden.mean() < 0.5
+    assert cloth.hide_skin(margin_m=0.1).sum() < hidden.sum()
+    before = np.zeros_like(hidden)
+    before[:100] = True
+    both = cloth.hide_skin(hidden=before)
+    assert np.array_equal(both, hidden | before)
+    with pytest.raises(vfit.ArgumentError):
+        cloth.hide_skin(hidden=before[:7])
+    # What is hidden is of the trunk and the thighs.
+    heights = body.positions[body.triangles[hidden]][..., 1]
+    assert heights.max() < 0.85 * body.positions[:, 1].max()
+
+
 def test_a_cloth_goes_with_its_avatar(ctx):
     avatar = vfit.Avatar.from_shape(ctx, {"weight": 0.6}, sex="m")
     assert "weight" in ctx.shape_values()

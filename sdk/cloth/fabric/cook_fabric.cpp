@@ -34,15 +34,32 @@ float warp_cosine2(const FabricShape& shape, uint32_t a, uint32_t b) {
     return length2 > 0.0f ? d.y * d.y / length2 : 0.5f;
 }
 
-/// Modulus (N/m) of an orthotropic sheet at an angle to its warp: 1/E = c^4/E1 + s^4/E2 + c^2 s^2/G
-/// (Jones, Mechanics of Composite Materials, off-axis modulus, Poisson's ratio taken as zero). Pulled along an axis,
-/// the diagonals add G to it: that much is taken off first, but never more than half.
-float modulus(const FabricMaterial& m, float c2) {
-    const float s2 = 1.0f - c2;
-    const float warp = std::max(m.stretch_warp_n_m - m.shear_n_m, 0.5f * m.stretch_warp_n_m);
-    const float weft = std::max(m.stretch_weft_n_m - m.shear_n_m, 0.5f * m.stretch_weft_n_m);
-    return 1.0f / (c2 * c2 / warp + s2 * s2 / weft + c2 * s2 / m.shear_n_m);
-}
+/// Moduli (N/m) of springs along warp, weft and between that together stretch and shear as the fabric does. On a grid with
+/// diagonals these add D = G to the stiffness along both axes and couple the two: a strip that is free to narrow pulls with
+/// A + D - D^2 / (B + D), which is to be its modulus. Springs at 45 degrees are never softer than warp and weft make them:
+/// a network of springs shears with a third of its modulus or more.
+struct Springs {
+    float warp, weft, between;
+
+    explicit Springs(const FabricMaterial& m) : warp(m.stretch_warp_n_m), weft(m.stretch_weft_n_m) {
+        constexpr int kRounds = 20;
+        constexpr float kLeast = 0.25f, kStiffest = 1e6f;
+        between = m.shear_n_m;
+        for (int i = 0; i < kRounds; ++i) {
+            between = 1.0f / std::max(1.0f / m.shear_n_m - 1.0f / warp - 1.0f / weft, 1.0f / (kStiffest * m.shear_n_m));
+            const float d = 1.0f / (1.0f / warp + 1.0f / weft + 1.0f / between);
+            const float along = m.stretch_warp_n_m - d + d * d / (weft + d), across = m.stretch_weft_n_m - d + d * d / (warp + d);
+            warp = std::max(along, kLeast * m.stretch_warp_n_m);
+            weft = std::max(across, kLeast * m.stretch_weft_n_m);
+        }
+    }
+    /// At an angle to the warp: 1/E = c^4/A + s^4/B + c^2 s^2/G (Jones, Mechanics of Composite Materials, off-axis modulus,
+    /// Poisson's ratio taken as zero).
+    float modulus(float c2) const {
+        const float s2 = 1.0f - c2;
+        return 1.0f / (c2 * c2 / warp + s2 * s2 / weft + c2 * s2 / between);
+    }
+};
 
 /// Bending stiffness B over a fold of angle t is an energy B l^2 / (2 (A1 + A2)) t^2: exact for cloth that is bent to a
 /// cylinder, on triangles of equal sides and on squares cut across. (Factors of 3 that are in use make it three times too
@@ -91,6 +108,7 @@ FabricData cook_fabric(const FabricShape& shape, const FabricMaterial& material)
     std::vector<Vec3> cut(shape.positions.begin(), shape.positions.end());
     for (Vec3& p : cut) p *= Vec3(shape.horizontal_scale, 1.0f, shape.horizontal_scale);
 
+    const Springs springs(material);
     FabricData data;
     std::vector<float> mass(n, 0.0f);
     EdgeMap edges;
@@ -118,7 +136,7 @@ FabricData cook_fabric(const FabricShape& shape, const FabricMaterial& material)
         if (!(length > 0.0f)) fail(VFIT_ERROR_DATA, "vertices ", a, " and ", b, " share an edge and a place");
         if (shape.simulated[a] || shape.simulated[b]) {
             // A spring of that length stands for a strip as wide as its triangles' area over its length.
-            const float stiffness = modulus(material, warp_cosine2(shape, a, b)) * edge.area_m2 / (length * length);
+            const float stiffness = springs.modulus(warp_cosine2(shape, a, b)) * edge.area_m2 / (length * length);
             data.edges.push_back({a, b, length, 1.0f / stiffness});
         }
         if (edge.opposite.size() != 2) continue;

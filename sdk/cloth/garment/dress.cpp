@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 
+#include "cloth/garment/carried.h"
 #include "core/error.h"
 #include "measure/mesh_query.h"
 
 namespace vfit {
 
 namespace {
-
-bool is_arm(BodyPart part) { return part >= BodyPart::kLeftUpperArm && part <= BodyPart::kRightHand; }
 
 /// The body's triangles that may carry a garment.
 std::vector<uint32_t> bindable_triangles(const DressBody& body) {
@@ -121,34 +119,6 @@ void add_bone_weights(const DressBody& body, const Binding& binding, std::span<f
                 body.skin_weights[binding.corner[k]][j] * binding.weight[k];
 }
 
-/// Places and the bones that carry them, for a Skin.
-struct Carried {
-    std::vector<Vec3> rest;
-    std::vector<SkinBones> bones;
-    std::vector<SkinWeights> weights;
-
-    void add(const Vec3& place, const SkinBones& by, const SkinWeights& shares) {
-        rest.push_back(place), bones.push_back(by), weights.push_back(shares);
-    }
-    /// By the heaviest of all bones; smoothed weights have long tails.
-    void add(const Vec3& place, std::span<const float> bone_weights) {
-        constexpr float kTail = 0.01f;
-        const float least = kTail * std::accumulate(bone_weights.begin(), bone_weights.end(), 0.0f);
-        std::vector<size_t> order;
-        for (size_t bone = 0; bone < bone_weights.size(); ++bone)
-            if (bone_weights[bone] > least) order.push_back(bone);
-        std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return bone_weights[a] > bone_weights[b]; });
-        order.resize(std::min<size_t>(order.size(), kSkinBones));
-        float sum = 0.0f;
-        for (size_t bone : order) sum += bone_weights[bone];
-        SkinBones by{};
-        SkinWeights shares{};
-        for (size_t k = 0; k < order.size(); ++k) by[k] = uint16_t(order[k]), shares[k] = bone_weights[order[k]] / sum;
-        add(place, by, shares);
-    }
-    Skin skin() const { return Skin(bones, weights, rest, {}); }
-};
-
 Binding binding_of(const MeshQuery::Closest& closest, std::span<const uint32_t> triangles) {
     const uint32_t* v = &triangles[closest.triangle * 3];
     return {{v[0], v[1], v[2]}, {1.0f - closest.uv.x - closest.uv.y, closest.uv.x, closest.uv.y}};
@@ -254,38 +224,6 @@ void Dress::follow(std::span<const Mat4> matrices, std::vector<Vec3>& targets, S
     if (!followed_skin_) return;
     followed_skin_->carry(matrices, scratch.places, scratch.bones, jobs);
     for (size_t i = 0; i < followed_.size(); ++i) targets[followed_[i]] = scratch.places[i];
-}
-
-SkinBelow skin_below(const DressBody& body, std::span<const Vec3> garment, bool with_hands) {
-    constexpr float kAbove_m = 0.1f, kBelow_m = 0.25f;
-    float low = INFINITY, high = -INFINITY;
-    for (const Vec3& p : garment) low = std::min(low, p.y), high = std::max(high, p.y);
-    const auto is_hand = [](BodyPart part) {
-        return part == BodyPart::kLeftForearm || part == BodyPart::kLeftHand || part == BodyPart::kRightForearm || part == BodyPart::kRightHand;
-    };
-    const auto counts = [&](uint32_t v) {
-        const float y = body.rest[v].y;
-        if (body.parts.empty()) return y > low - kBelow_m && y < high + kAbove_m;
-        const BodyPart part = body.parts[v];
-        if (part == BodyPart::kHead || (!with_hands && is_hand(part))) return false;
-        return is_arm(part) || (y > low - kBelow_m && y < high + kAbove_m);
-    };
-    Carried carried;
-    std::vector<uint32_t> indices;
-    constexpr uint32_t kNone = UINT32_MAX;
-    std::vector<uint32_t> place_of(body.rest.size(), kNone);
-    for (size_t i = 0; i + 2 < body.indices.size(); i += 3) {
-        const uint32_t* v = &body.indices[i];
-        if (!counts(v[0]) || !counts(v[1]) || !counts(v[2])) continue;
-        for (int k = 0; k < 3; ++k) {
-            if (place_of[v[k]] == kNone) {
-                place_of[v[k]] = uint32_t(carried.rest.size());
-                carried.add(body.rest[v[k]], body.skin_bones[v[k]], body.skin_weights[v[k]]);
-            }
-            indices.push_back(place_of[v[k]]);
-        }
-    }
-    return {carried.skin(), std::move(indices)};
 }
 
 }  // namespace vfit

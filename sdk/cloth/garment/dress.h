@@ -60,12 +60,4 @@ private:
     std::optional<Skin> followed_skin_;
 };
 
-/// The body's skin as far as a garment can meet it: from a hand above its upper edge to a foot's length below its hem, and the
-/// arms, without the head.
-struct SkinBelow {
-    Skin skin;
-    std::vector<uint32_t> indices;  // three a triangle
-};
-SkinBelow skin_below(const DressBody& body, std::span<const Vec3> garment, bool with_hands);
-
 }  // namespace vfit

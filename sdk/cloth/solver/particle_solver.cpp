@@ -1,6 +1,7 @@
 #include "cloth/solver/particle_solver.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "cloth/contact/contact_culling.h"
@@ -28,11 +29,12 @@ Vec3 half_fall(const ParticleSolver::Step& step) { return step.gravity * (0.5f *
 
 }  // namespace
 
-ParticleSolver::ParticleSolver(std::shared_ptr<const Fabric> fabric, float self_thickness_m, bool with_pushes) : fabric_(std::move(fabric)) {
-    if (self_thickness_m > 0.0f) self_ = std::make_unique<SelfContact>(fabric_, self_thickness_m);
+ParticleSolver::ParticleSolver(std::shared_ptr<const Fabric> fabric, const Options& options) : fabric_(std::move(fabric)) {
+    if (options.self_thickness_m > 0.0f) self_ = std::make_unique<SelfContact>(fabric_, options.self_thickness_m);
+    if (options.virtual_m > 0.0f) virtual_ = std::make_unique<VirtualParticles>(*fabric_, options.virtual_m);
     const ParticleLayout& layout = fabric_->layout();
     for (Particles* list : {&places_, &starts_, &velocities_, &normals_}) list->resize(layout.count());
-    if (with_pushes) pushed_.resize(layout.count());
+    if (options.with_pushes) pushed_.resize(layout.count());
     for (uint32_t i = 0; i < layout.group_count(); ++i) {
         Gains& gains = gains_.emplace_back();
         gains.bends.resize(fabric_->bend_batches()[i].joints.size());
@@ -99,27 +101,31 @@ void ParticleSolver::advance(const Step& step, Jobs& jobs) {
         parallel_for(jobs, parts, [&](uint32_t part) { find_normals(part); });
         self_->find_runs(places_, velocities_, normals_, step.dt, step.substeps, jobs);
     }
-    // Without contact of its own, the last two phases of the cycle are left out.
-    const uint32_t cycle = self_ ? 4 : 2;
-    const auto items = [&](uint32_t phase) { return phase % cycle == 3 ? 1 : parts; };
-    run_phases(jobs, cycle * uint32_t(step.substeps) + 1, parts, items, [&](uint32_t phase, uint32_t item) {
-        const int substep = int(phase / cycle);
-        switch (phase % cycle) {
-            case 1:
+    if (virtual_) virtual_->find_near(places_, velocities_, step.dt, swept_step_);
+    enum class Phase { parts, cuts, find_self, part_layers, virtual_particles };
+    std::array<Phase, 5> cycle{Phase::parts, Phase::cuts};
+    uint32_t phases = 2;
+    if (self_) cycle[phases++] = Phase::find_self, cycle[phases++] = Phase::part_layers;
+    if (virtual_) cycle[phases++] = Phase::virtual_particles;
+    const auto items = [&](uint32_t phase) { return cycle[phase % phases] < Phase::part_layers ? parts : 1; };
+    run_phases(jobs, phases * uint32_t(step.substeps) + 1, parts, items, [&](uint32_t phase, uint32_t item) {
+        const int substep = int(phase / phases);
+        switch (cycle[phase % phases]) {
+            case Phase::parts:
+                if (phase == 0) begin_part(step, item);
+                else end_part(step, substep - 1, item);
+                if (substep < step.substeps) begin_substep(step, substep, item);
+                return;
+            case Phase::cuts:
                 if (item + 1 < parts) solve_group(substep, parts + item);
                 else step.colliders.sweep(share(step, substep), share(step, substep + 1), swept_);
                 return;
-            case 2:
-                self_->find(places_, starts_, normals_, substep, item);
-                return;
-            case 3:
+            case Phase::find_self: return self_->find(places_, starts_, normals_, substep, item);
+            case Phase::part_layers:
                 self_->pack();
-                solve_surface_contacts(self_->contacts(), starts_.data(), kBack_m_s * substep_s(step), places_.data());
-                return;
+                return solve_surface_contacts(self_->contacts(), starts_.data(), kBack_m_s * substep_s(step), places_.data());
+            case Phase::virtual_particles: return virtual_->solve(swept_, step.contact, starts_, places_, pushed_);
         }
-        if (phase == 0) begin_part(step, item);
-        else end_part(step, substep - 1, item);
-        if (substep < step.substeps) begin_substep(step, substep, item);
     });
 }
 
@@ -220,7 +226,7 @@ void ParticleSolver::begin_substep(const Step& step, int substep, uint32_t part)
     const Part& own = parts_[part];
     for (size_t i = 0; i < own.fixed.size(); ++i) {
         const size_t at = p.moving_end + i;
-        if (self_) starts_[at] = places_[at];
+        if (self_ || virtual_) starts_[at] = places_[at];
         places_[at].x = own.fixed[i].x + own.fixed_ways[i].x * to;
     }
     solve_group(substep, part);

@@ -14,15 +14,19 @@
 #include "cloth/fabric/fabric.h"
 #include "cloth/rigid_motion.h"
 #include "cloth/contact/self_contact.h"
+#include "cloth/contact/virtual_particles.h"
 #include "core/jobs.h"
 
 namespace vfit {
 
 class ParticleSolver {
 public:
-    /// self_thickness_m: kept between the cloth's own layers; 0: they pass through each other. with_pushes: copy_pushes() is
-    /// asked for.
-    ParticleSolver(std::shared_ptr<const Fabric> fabric, float self_thickness_m, bool with_pushes);
+    struct Options {
+        float self_thickness_m = 0.0f;  // kept between the cloth's own layers; 0: they pass through each other
+        float virtual_m = 0.0f;         // between points of triangles that meet colliders as well; 0: none
+        bool with_pushes = false;       // copy_pushes() is asked for
+    };
+    ParticleSolver(std::shared_ptr<const Fabric> fabric, const Options& options);
 
     /// At rest at these places, one a vertex.
     void place(std::span<const Vec3> vertices);
@@ -91,6 +95,7 @@ private:
     int bend_every_ = 1;                      // so many sub-steps
     std::vector<Part> parts_;
     std::unique_ptr<SelfContact> self_;
+    std::unique_ptr<VirtualParticles> virtual_;
     std::vector<SweptCapsule> swept_step_, swept_;  // over the step, and over the sub-step that comes to its end
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth/contact/virtual_particles.h"
 #include "cloth_support.h"
 
 namespace vfit {
@@ -251,6 +252,79 @@ TEST(ClothBudget, LessTimeIsFewerSubstepsAndNoMoreThanAsked) {
     EXPECT_EQ(hanging.cloth->stats().substeps, 4u);
     EXPECT_NE(test::error_of([&] { hanging.cloth->set_quality(0, 0.0f); }), "");
     EXPECT_NE(test::error_of([&] { hanging.cloth->set_quality(8, NAN); }), "");
+}
+
+/// Sheets of 10 cm squares that fall on balls of 3 cm.
+struct OnABall {
+    Sheet sheet{5, 5, 0.1f};
+    std::vector<Vec3> start;
+    std::vector<Collider> balls;
+    static constexpr float kRadius = 0.03f, kThickness = 0.004f;
+
+    OnABall() {
+        for (const Vec3& p : sheet.positions) start.emplace_back(p.x, 0.1f, p.y);
+        for (const Vec2 at : {Vec2(0.167f, -0.133f), Vec2(0.233f, -0.267f), Vec2(0.133f, -0.333f), Vec2(0.067f, -0.067f), Vec2(0.333f, -0.167f)}) {
+            balls.push_back(sphere({at.x, 0.0f, at.y}, kRadius));
+        }
+    }
+    Cloth cloth(float virtual_m) const {
+        ClothSettings settings;
+        settings.virtual_m = virtual_m;
+        settings.thickness_m = kThickness;
+        settings.sleeps = false;
+        return Cloth(fabric(sheet.cook(cotton())), settings, start);
+    }
+    /// The deepest that any point of a triangle is in a ball.
+    float deepest(const std::vector<Vec3>& places) const {
+        constexpr int kCuts = 20;
+        float most = -1.0f;
+        for (size_t t = 0; t + 2 < sheet.indices.size(); t += 3)
+            for (int i = 0; i <= kCuts; ++i)
+                for (int k = 0; i + k <= kCuts; ++k) {
+                    const float a = float(i) / kCuts, b = float(k) / kCuts;
+                    const Vec3 p = a * places[sheet.indices[t]] + b * places[sheet.indices[t + 1]] + (1.0f - a - b) * places[sheet.indices[t + 2]];
+                    for (const Collider& ball : balls) most = std::max(most, kRadius - glm::length(p - ball.center));
+                }
+        return most;
+    }
+};
+
+TEST(VirtualParticles, CarryACoarseSheetThatItsVerticesLetFallThroughABall) {
+    const OnABall scene;
+    for (const uint32_t workers : {0u, 1u}) {
+        const auto jobs = Jobs::own(workers);
+        Cloth by_vertices = scene.cloth(0.0f), by_points = scene.cloth(0.02f);
+        float through = 0.0f, deepest = 0.0f;
+        uint64_t hash = 0;
+        for (int frame = 0; frame < 60; ++frame) {
+            by_vertices.step(kFrame_s, scene.start, scene.balls, *jobs);
+            by_points.step(kFrame_s, scene.start, scene.balls, *jobs);
+            through = std::max(through, scene.deepest(by_vertices.positions()));
+            deepest = std::max(deepest, scene.deepest(by_points.positions()));
+            hash = by_points.state_hash();
+        }
+        EXPECT_GT(through, 0.02f) << "the scene would show it";
+        EXPECT_LT(deepest, 0.006f);
+        static uint64_t first = hash;
+        EXPECT_EQ(hash, first) << "the same on any number of threads";
+    }
+}
+
+TEST(VirtualParticles, FineMeshesNeedNone) {
+    const Fabric fine(Sheet(5, 5, 0.01f).cook(cotton())), coarse(Sheet(5, 5, 0.1f).cook(cotton()));
+    EXPECT_EQ(VirtualParticles(fine, 0.01f).count(), 0u);
+    // A square's diagonal is 141 mm: cut in 5.
+    EXPECT_EQ(VirtualParticles(coarse, 0.02f).count(), 32u * 25u);
+    FabricData pinned = Sheet(2, 2, 0.1f).cook(cotton());
+    std::fill(pinned.inverse_mass.begin(), pinned.inverse_mass.end(), 0.0f);
+    pinned.edges.clear(), pinned.bends.clear(), pinned.hinges.clear(), pinned.tethers.clear();
+    EXPECT_EQ(VirtualParticles(Fabric(pinned), 0.02f).count(), 0u) << "what cannot move needs none";
+}
+
+TEST(VirtualParticles, AWayThatMakesNoSenseIsRefused) {
+    const OnABall scene;
+    EXPECT_EQ(error_of([&] { scene.cloth(-1.0f); }), "-2 the way between virtual particles is -1 m");
+    EXPECT_EQ(error_of([&] { scene.cloth(1e-9f); }), "-2 the way between virtual particles is 1e-09 m");
 }
 
 }  // namespace

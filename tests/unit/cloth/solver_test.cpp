@@ -70,22 +70,22 @@ TEST(ClothSolver, ConstraintsKeepTheCentreOfMassWhereItIs) {
         return sum / mass;
     };
     Cloth cloth(data, settings, start);
-    for (int frame = 0; frame < 60; ++frame) cloth.step(kFrame_s, start, {}, *jobs);
+    // Not longer: speeds are rounded, which alone takes it by 10 um in a second.
+    for (int frame = 0; frame < 20; ++frame) cloth.step(kFrame_s, start, {}, *jobs);
     EXPECT_LT(glm::length(center(cloth.positions()) - center(start)), 1e-5);
     EXPECT_GT(glm::length(cloth.positions()[0] - start[0]), 1e-4f);  // it did move
 }
 
-TEST(ClothSolver, StripStretchesAsItsModulusSays) {
+/// By how much more than its modulus says.
+float stretches_too_far(FabricMaterial material) {
     const auto jobs = Jobs::own(0);
     Sheet strip(17, 6, 0.02f);
     strip.pin_top();
-    FabricMaterial material = cotton();
-    material.stretch_warp_n_m = 300.0f;
     material.density_kg_m2 = 4.0f;  // heavy: a pass carries the load where compliance / h^2 outweighs 1 / m
     material.bend_n_m = 1e-6f;  // bends are springs too and would share the load
     FabricData data = strip.cook(material);
     data.tethers.clear();
-    const float load_kg = 0.1f, width = 0.1f, length = 0.32f;
+    const float load_kg = material.stretch_warp_n_m / 3000.0f, width = 0.1f, length = 0.32f;
     for (uint32_t c = 0; c < strip.columns; ++c) {
         const float share = c == 0 || c + 1 == strip.columns ? 0.5f : 1.0f;
         float& w = data.inverse_mass[strip.at(strip.rows - 1, c)];
@@ -102,7 +102,19 @@ TEST(ClothSolver, StripStretchesAsItsModulusSays) {
     // The strip carries the load and, on average, half of itself.
     const float force = 9.81f * (load_kg + 0.5f * material.density_kg_m2 * width * length);
     const float expected = length * force / (material.stretch_warp_n_m * width);
-    EXPECT_NEAR(-lowest - length, expected, 0.1f * expected);
+    return (-lowest - length) / expected - 1.0f;
+}
+
+TEST(ClothSolver, StripStretchesAsItsModulusSays) {
+    FabricMaterial material = cotton();
+    material.stretch_warp_n_m = 300.0f;
+    EXPECT_NEAR(stretches_too_far(material), 0.0f, 0.1f);
+    // Leather: diagonals that shear as it does would take the load off warp and weft, but for their narrowing.
+    material.stretch_warp_n_m = 1000.0f, material.stretch_weft_n_m = 800.0f, material.shear_n_m = 300.0f;
+    EXPECT_NEAR(stretches_too_far(material), 0.0f, 0.1f);
+    // Shears more stiffly than springs that stretch so can.
+    material.shear_n_m = 1000.0f;
+    EXPECT_NEAR(stretches_too_far(material), 0.0f, 0.1f);
 }
 
 TEST(ClothSolver, StretchHardlyDependsOnSubsteps) {

@@ -10,7 +10,7 @@
 #include "cloth/triangle_fans.h"
 #include "cloth_support.h"
 #include "cloth_targets.h"
-#include "support/allocations.h"
+#include "support/allocation_count.h"  // counted by cloth_test.cpp
 
 namespace vfit {
 namespace {

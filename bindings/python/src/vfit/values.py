@@ -307,6 +307,7 @@ class ClothStats(NamedTuple):
     strain_max: float
     step_ms: float
     substeps: int  #: of the last step; 0: the cloth slept
+    collider_count: int  #: spheres and capsules that it met
 
 
 def _rest_rotations() -> NDArray[np.float32]:
