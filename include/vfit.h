@@ -732,7 +732,8 @@ typedef struct vfit_cloth_desc {
     float cover_m;                      /* more spheres and capsules, until no skin below the garment, but hands and feet, is
                                          * so far outside of all; 0.005..0.1; 0: the avatar's 31 alone               */
     float virtual_m;                    /* points of triangles meet spheres and capsules as vertices do: so many that none is
-                                         * further from the next; 0.001..0.1; 0: none. For meshes coarser than a wrist */
+                                         * further from the next, 65,536 at most; 0.001..0.1; 0: none. For meshes coarser
+                                         * than a wrist                                                  */
 } vfit_cloth_desc;
 typedef struct vfit_cloth_stats { uint32_t struct_size, vertex_count, simulated_count, constraint_count;
                                   float strain_mean, strain_p99, strain_max, step_ms;

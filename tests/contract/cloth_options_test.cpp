@@ -231,6 +231,7 @@ TEST_F(ClothOptionsTest, WhatMakesNoSenseIsRefusedByName) {
     refused([](vfit_cloth_desc& d) { d.budget_ms = -1.0f; }, "budget_ms");
     refused([](vfit_cloth_desc& d) { d.cover_m = 0.001f; }, "cover_m");
     refused([](vfit_cloth_desc& d) { d.virtual_m = -0.01f; }, "virtual_m");
+    refused([](vfit_cloth_desc& d) { d.virtual_m = 0.001f; }, "virtual particles");  // of a dress: too many to step
     refused([](vfit_cloth_desc& d) { d.cover_m = 0.01f, d.flags = VFIT_CLOTH_SKIN; }, "cover_m");
     refused([](vfit_cloth_desc& d) { d.cover_m = std::numeric_limits<float>::quiet_NaN(); }, "finite");
     refused([](vfit_cloth_desc& d) { d.wind[1] = std::numeric_limits<float>::infinity(); }, "finite");

@@ -5,8 +5,16 @@
 #include <map>
 
 #include "cloth/contact/contact_culling.h"
+#include "core/error.h"
 
 namespace vfit {
+
+namespace {
+
+// A step meets them all: tens of milliseconds. What wants more is a mistake.
+constexpr float kMost = 65536.0f;
+
+}  // namespace
 
 VirtualParticles::VirtualParticles(const Fabric& fabric, float spacing_m) {
     const FabricData& data = fabric.data();
@@ -16,13 +24,21 @@ VirtualParticles::VirtualParticles(const Fabric& fabric, float spacing_m) {
         const auto found = lengths.find(std::minmax(a, b));
         return found == lengths.end() ? 0.0f : found->second;  // between fixed vertices: skinned
     };
+    // A triangle cut into n x n: the middle of each. Of equal sides none of its corners is further off than spacing_m.
+    std::vector<float> cuts;
+    float wanted = 0.0f;
     for (size_t t = 0; t + 2 < data.indices.size(); t += 3) {
         const uint32_t* v = &data.indices[t];
-        // A triangle cut into n x n: the middle of each. Of equal sides none of its corners is further off than spacing_m.
         const float longest = std::max({length(v[0], v[1]), length(v[1], v[2]), length(v[2], v[0])});
-        const float cuts = longest / (std::sqrt(3.0f) * spacing_m);
-        if (cuts <= 1.0f) continue;
-        const int n = int(std::ceil(cuts));
+        cuts.push_back(std::ceil(longest / (std::sqrt(3.0f) * spacing_m)));
+        if (cuts.back() > 1.0f) wanted += cuts.back() * cuts.back();
+    }
+    if (wanted > kMost)
+        fail(VFIT_ERROR_ARGUMENT, "virtual particles ", spacing_m, " m from each other are ", size_t(std::min(wanted, 1e9f)), ", more than ", size_t(kMost));
+    for (size_t t = 0; t + 2 < data.indices.size(); t += 3) {
+        const uint32_t* v = &data.indices[t];
+        if (cuts[t / 3] <= 1.0f) continue;
+        const int n = int(cuts[t / 3]);
         const auto add = [&](float a, float b) {
             const float weights[3] = {a / (3.0f * float(n)), b / (3.0f * float(n)), 1.0f - (a + b) / (3.0f * float(n))};
             Point point{};
