@@ -293,6 +293,9 @@ VFIT_STRUCT(vfit_sensor_info) VFIT_STRUCT(vfit_sensor_mode) VFIT_STRUCT(vfit_sen
 VFIT_STRUCT(vfit_sensor_stats)
 VFIT_API vfit_result vfit_sensor_list(vfit_context context, vfit_sensor_info* items, uint32_t stride,
                                       uint32_t* count);                                    /* [any]  */
+/* Rises when the list may have become another: a USB camera of a kind that a plug-in knows was plugged in or
+ * unplugged, a plug-in was loaded. Cheap: ask each frame, and list again when it has changed.  [any]   */
+VFIT_API vfit_result vfit_sensor_changes(vfit_context context, uint64_t* count);
 VFIT_API vfit_result vfit_sensor_open(vfit_context context, const char* uri, vfit_sensor* out);
                                                                                            /* [any]  */
 VFIT_API vfit_result vfit_sensor_modes(vfit_sensor sensor, vfit_sensor_mode* items, uint32_t stride,

@@ -73,7 +73,7 @@ typedef struct vfit_plugin {
     uint32_t struct_size, abi, version, caps;
     const char* name;
     const char* schemes;                /* "recording" or "openni2,oni": the URIs that it opens         */
-    const char* usb_ids;                /* "1d27:0609,045e:02ae" or null; for discovery, not read as yet */
+    const char* usb_ids;                /* "1d27:0609,045e:02ae" or null: the host watches for those */
     void* self;
     vfit_result (*discover)(void* self);            /* reports by sensor_added; may be null             */
     /* The message of a failed open, set_option or start; copied at once.                               */

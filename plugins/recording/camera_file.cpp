@@ -5,9 +5,11 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "failure.h"
+#include "support/failure.h"
 
 namespace recording {
+
+using plugin::fail;
 
 namespace {
 

@@ -9,9 +9,11 @@
 #include <string_view>
 #include <vector>
 
-#include "failure.h"
+#include "support/failure.h"
 
 namespace recording {
+
+using plugin::fail;
 
 class CsvFile {
 public:

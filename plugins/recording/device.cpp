@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstdio>
 
-#include "failure.h"
+#include "support/failure.h"
 
 namespace recording {
+
+using plugin::fail;
 
 namespace {
 
@@ -14,10 +16,15 @@ void check(vfit_result result, const char* what, uint32_t frame) {
     if (result < 0) fail(result, "frame ", frame, ": the host refuses ", what, ", result ", result);
 }
 
+std::filesystem::path path_of(const std::string& uri) {
+    const std::string scheme = "recording:";
+    return uri.rfind(scheme, 0) == 0 ? uri.substr(scheme.size()) : uri;
+}
+
 }  // namespace
 
-Device::Device(const vfit_host& host, void* stream, Folder folder)
-    : host_(host), stream_(stream), folder_(std::move(folder)),
+Device::Device(const vfit_host& host, void* stream, const std::string& uri)
+    : host_(host), stream_(stream), folder_(open_folder(path_of(uri))),
       period_ns_(std::llround(1e9 / folder_.camera.fps)) {}
 
 Device::~Device() { stop(); }
@@ -27,7 +34,7 @@ void Device::set_option(const std::string& key, const std::string& value) {
     options_.set(key, value, folder_.frame_count);
 }
 
-bool Device::describe_mode(uint32_t index, vfit_sensor_mode& out) const {
+bool Device::mode(uint32_t index, vfit_sensor_mode& out) const {
     if (index > 0) return false;
     out.width = folder_.camera.intrinsics.width;
     out.height = folder_.camera.intrinsics.height;
@@ -71,8 +78,8 @@ void Device::run() {
             going = play(time_ns);
         } while (going && options_.loop);
         if (going) host_.stream_state(host_.self, stream_, VFIT_END_OF_STREAM, nullptr);
-    } catch (const Failure& failure) {
-        host_.stream_state(host_.self, stream_, failure.result(), failure.what());
+    } catch (const plugin::Failure& failure) {
+        host_.stream_state(host_.self, stream_, failure.code(), failure.what());
     } catch (const std::bad_alloc&) {
         host_.stream_state(host_.self, stream_, VFIT_ERROR_OUT_OF_MEMORY, "out of memory");
     } catch (const std::exception& error) {

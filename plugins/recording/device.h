@@ -14,16 +14,16 @@ namespace recording {
 
 class Device {
 public:
-    Device(const vfit_host& host, void* stream, Folder folder);
+    static constexpr const char *kName = "recording", *kSchemes = "recording", *kUsbIds = nullptr;
+
+    Device(const vfit_host& host, void* stream, const std::string& uri);
     ~Device();
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
     void set_option(const std::string& key, const std::string& value);
-    bool describe_option(uint32_t index, vfit_sensor_option& out) const {
-        return options_.describe(index, out);
-    }
-    bool describe_mode(uint32_t index, vfit_sensor_mode& out) const;
+    bool option(uint32_t index, vfit_sensor_option& out) const { return options_.describe(index, out); }
+    bool mode(uint32_t index, vfit_sensor_mode& out) const;
     void start();
     void stop();
 

@@ -3,9 +3,11 @@
 #include <cstdio>
 #include <vector>
 
-#include "failure.h"
+#include "support/failure.h"
 
 namespace recording {
+
+using plugin::fail;
 
 namespace fs = std::filesystem;
 

@@ -3,9 +3,11 @@
 #include <charconv>
 #include <cstdio>
 
-#include "failure.h"
+#include "support/failure.h"
 
 namespace recording {
+
+using plugin::fail;
 
 namespace {
 

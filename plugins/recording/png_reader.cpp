@@ -7,9 +7,11 @@
 #include <cstring>
 #include <fstream>
 
-#include "failure.h"
+#include "support/failure.h"
 
 namespace recording {
+
+using plugin::fail;
 
 namespace {
 

@@ -14,8 +14,16 @@ constexpr std::chrono::milliseconds kNap{2};  // between looks at the clock, so 
 
 }  // namespace
 
-Device::Device(const vfit_host* host, void* stream, const std::string& uri)
-    : host_(host),
+void Device::discover(const vfit_host& host) {
+    vfit_sensor_info info = vfit_sensor_info_init();
+    std::snprintf(info.uri, sizeof info.uri, "virtual:");
+    std::snprintf(info.name, sizeof info.name, "Virtual person");
+    std::snprintf(info.plugin, sizeof info.plugin, "%s", kName);
+    host.sensor_added(host.self, &info);
+}
+
+Device::Device(const vfit_host& host, void* stream, const std::string& uri)
+    : host_(&host),
       stream_(stream),
       shape_keys_(shape_list(context_.get())) {
     for (const auto& [key, value] : parse_uri(uri)) set_option(key, value);

@@ -17,7 +17,10 @@ namespace vfit::virtual_person {
 
 class Device {
 public:
-    Device(const vfit_host* host, void* stream, const std::string& uri);
+    static constexpr const char *kName = "virtual_person", *kSchemes = "virtual", *kUsbIds = nullptr;
+    static void discover(const vfit_host& host);
+
+    Device(const vfit_host& host, void* stream, const std::string& uri);
     ~Device() { stop(); }
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;

@@ -27,6 +27,15 @@ vfit_result vfit_sensor_list(vfit_context handle, vfit_sensor_info* items, uint3
     });
 }
 
+vfit_result vfit_sensor_changes(vfit_context handle, uint64_t* count) {
+    return guard([&] {
+        check_pointer(count, "count");
+        UseContext<Mode::any> context(handle);
+        *count = context->plugins().changes();
+        return VFIT_OK;
+    });
+}
+
 vfit_result vfit_sensor_open(vfit_context handle, const char* uri, vfit_sensor* out) {
     return guard([&] {
         check_pointer(out, "out");

@@ -12,6 +12,8 @@ namespace vfit {
 namespace {
 
 constexpr size_t kMaxName = 63;       // characters, the room of vfit_plugin_info
+constexpr std::chrono::seconds kPatience{10};
+constexpr size_t kMaxUsbIds = 4096;   // characters
 constexpr size_t kMaxLastError = 1024;  // characters of last_error that are kept
 
 bool is_scheme(const std::string& scheme) {
@@ -73,6 +75,11 @@ void Plugin::check_table(const vfit_plugin& table) {
     if (schemes_.empty()) refuse("names no URI scheme that it opens");
     for (const std::string& scheme : schemes_)
         if (!is_scheme(scheme)) refuse("'", scheme, "' is not a URI scheme (a-z, 0-9, _ - +)");
+    try {
+        usb_ids_ = parse_usb_ids(table.usb_ids ? bounded_text(table.usb_ids, kMaxUsbIds) : "");
+    } catch (const Error& e) {
+        refuse(e.what());
+    }
     if (!table.open) refuse("has no open function");
     if (!table.start) refuse("has no start function");
     if (!table.stop) refuse("has no stop function");
@@ -90,11 +97,31 @@ void Plugin::fail_with_last_error(vfit_result result, const std::string& what) {
     fail(known ? result : VFIT_ERROR_PLUGIN, message);
 }
 
+vfit_result Plugin::ask_to_end(const char* what, std::function<vfit_result()> call) {
+    Answer answer{};
+    if (ask_in_time(kPatience, std::move(call), answer)) {
+        if (!answer.thrown.empty()) host_.complain(answer.thrown);
+        return answer.result;
+    }
+    hangs_ = true;
+    // Its threads may still use the host's table, and its code cannot be unloaded: it stays, for good.
+    static std::mutex mutex;
+    static auto& hanging = *new std::vector<Ref<Plugin>>;
+    std::lock_guard lock(mutex);
+    hanging.emplace_back(this);
+    host_.complain(text(what, " has not returned for ", kPatience.count(), " s: the plug-in is left alone from now on"));
+    return VFIT_ERROR_PLUGIN;
+}
+
+void Plugin::check_well() const {
+    if (hangs_) fail(VFIT_ERROR_PLUGIN, "plug-in ", info_.name, " hangs in a call that never returned");
+}
+
 std::vector<vfit_sensor_info> Plugin::discover() {
     std::lock_guard lock(calls_);
-    if (down_ || !table_.discover) return host_.sensors();
+    if (down_ || hangs_ || !table_.discover) return host_.sensors();
     host_.begin_discovery();
-    const vfit_result result = table_.discover(table_.self);
+    const vfit_result result = ask([&] { return table_.discover(table_.self); });
     host_.end_discovery(result == VFIT_OK);
     if (result != VFIT_OK) host_.complain(text("discover failed, result ", result));
     return host_.sensors();
@@ -103,11 +130,12 @@ std::vector<vfit_sensor_info> Plugin::discover() {
 Ref<Sensor> Plugin::open(const std::string& uri) {
     std::lock_guard lock(calls_);
     if (down_) fail(VFIT_ERROR_STATE, "plug-in ", info_.name, " was shut down");
+    check_well();
     auto stream = make<SensorStream>(frame_bytes_);
     void* token = host_.add_stream(stream);
     void* device = nullptr;
     try {
-        const vfit_result result = table_.open(table_.self, uri.c_str(), token, &device);
+        const vfit_result result = ask([&] { return table_.open(table_.self, uri.c_str(), token, &device); });
         if (result != VFIT_OK) {
             device = nullptr;  // whatever it wrote there: a failed open leaves nothing to close
             fail_with_last_error(result, text("opening ", uri));
@@ -118,7 +146,7 @@ Ref<Sensor> Plugin::open(const std::string& uri) {
         sensors_.push_back(sensor);
         return sensor;
     } catch (...) {
-        if (device) table_.close(device);
+        if (device) ask([&] { return table_.close(device), VFIT_OK; });
         host_.remove_stream(token);
         throw;
     }
@@ -138,10 +166,11 @@ void Plugin::shutdown() {
     }
     for (const Ref<Sensor>& sensor : open) sensor->close();
     std::lock_guard lock(calls_);
-    if (table_.shutdown) table_.shutdown(table_.self);
+    const vfit_plugin table = table_;
+    if (table.shutdown && !hangs_) ask_to_end("shutdown", [table] { return table.shutdown(table.self), VFIT_OK; });
     host_.retire();
     table_ = {};
-    library_.reset();
+    if (!hangs_) library_.reset();
 }
 
 }  // namespace vfit

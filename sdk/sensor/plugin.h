@@ -10,6 +10,8 @@
 #include "core/object.h"
 #include "core/platform.h"
 #include "sensor/host_table.h"
+#include "sensor/plugin_call.h"
+#include "sensor/usb_watch.h"
 
 namespace vfit {
 
@@ -28,6 +30,7 @@ public:
 
     const PluginInfo& info() const { return info_; }
     const std::vector<std::string>& schemes() const { return schemes_; }
+    const std::vector<UsbId>& usb_ids() const { return usb_ids_; }
     bool serves(const std::string& scheme) const;
 
     std::vector<vfit_sensor_info> discover();
@@ -40,6 +43,17 @@ private:
     /// Turns a failed call's result into an Error with the plug-in's own words.
     [[noreturn]] void fail_with_last_error(vfit_result result, const std::string& what);
     void forget(Sensor* sensor);
+    /// What it throws is complained about, and becomes VFIT_ERROR_PLUGIN.
+    template <typename Call>
+    vfit_result ask(Call&& call) {
+        std::string thrown;
+        const vfit_result result = ask_plugin(thrown, call);
+        if (!thrown.empty()) host_.complain(thrown);
+        return result;
+    }
+    /// One that has to wait for its threads, and may do so for ever: it is given up then, with all that it holds.
+    vfit_result ask_to_end(const char* what, std::function<vfit_result()> call);
+    void check_well() const;
 
     const Ref<FrameBytes> frame_bytes_;
     HostTable host_;
@@ -47,12 +61,14 @@ private:
     vfit_plugin table_{};
     PluginInfo info_;
     std::vector<std::string> schemes_;
+    std::vector<UsbId> usb_ids_;
 
     // One thread at a time inside the plug-in, so that its last_error belongs to the call that failed. Never
     // taken by a callback of the host table: a plug-in may join its threads inside stop.
     std::mutex calls_;
     std::vector<Ref<Sensor>> sensors_;
     bool down_ = false;
+    bool hangs_ = false;  // inside a call that never came back
 };
 
 }  // namespace vfit

@@ -94,6 +94,26 @@ std::vector<vfit_sensor_info> PluginHost::discover() {
     return out;
 }
 
+/// null: no plug-in declares a USB camera.
+UsbWatch* PluginHost::usb() {
+    std::vector<UsbId> ids;
+    for (const Ref<Plugin>& plugin : all()) ids.insert(ids.end(), plugin->usb_ids().begin(), plugin->usb_ids().end());
+    {
+        std::lock_guard lock(mutex_);
+        if (usb_ || ids.empty() || down_) return usb_.get();
+    }
+    // Not under the lock: it logs, and the host may ask for sensors when it hears that.
+    auto watch = std::make_unique<UsbWatch>(log_, std::move(ids));
+    std::lock_guard lock(mutex_);
+    if (!usb_ && !down_) usb_.swap(watch);
+    return usb_.get();
+}
+
+uint64_t PluginHost::changes() {
+    const UsbWatch* watch = usb();
+    return all().size() + (watch ? watch->changes() : 0);
+}
+
 Ref<Plugin> PluginHost::serving(const std::string& scheme) const {
     for (const Ref<Plugin>& plugin : all())
         if (plugin->serves(scheme)) return plugin;
@@ -117,7 +137,16 @@ Ref<Sensor> PluginHost::open(const std::string& uri) {
         fail(VFIT_ERROR_ARGUMENT, "a sensor's URI has 1 to ", kMaxUri, " characters");
     const std::string whole = complete(uri);
     const std::string scheme = scheme_of(whole);
-    if (const Ref<Plugin> plugin = serving(scheme)) return plugin->open(whole);
+    if (const Ref<Plugin> plugin = serving(scheme)) {
+        try {
+            return plugin->open(whole);
+        } catch (const Error& e) {
+            const UsbWatch* watch = e.code() == VFIT_ERROR_IO && !plugin->usb_ids().empty() ? usb() : nullptr;
+            const std::string trouble = watch ? watch->trouble(plugin->usb_ids()) : "";
+            if (trouble.empty()) throw;
+            fail(e.code(), e.what(), "; ", trouble);
+        }
+    }
     std::string known;
     for (const Ref<Plugin>& plugin : all()) known += (known.empty() ? "" : ", ") + plugin->info().schemes;
     if (known.empty()) known = "none";
@@ -135,6 +164,9 @@ void PluginHost::shutdown() {
         down_ = true;
     }
     for (const Ref<Plugin>& plugin : all()) plugin->shutdown();
+    std::unique_ptr<UsbWatch> usb;  // its thread logs: it ends before the log does, and not under the lock
+    std::lock_guard lock(mutex_);
+    usb.swap(usb_);
 }
 
 }  // namespace vfit

@@ -9,6 +9,7 @@
 #include "core/log.h"
 #include "sensor/plugin.h"
 #include "sensor/sensor.h"
+#include "sensor/usb_watch.h"
 
 namespace vfit {
 
@@ -35,6 +36,8 @@ public:
     /// "scheme:rest"; or the path of a folder (a recording), or of a file whose extension is a scheme.
     /// Fails with VFIT_ERROR_UNSUPPORTED, listing the schemes, where nobody serves it.
     Ref<Sensor> open(const std::string& uri);
+    /// Rises whenever discover() may have something else to tell: plug-ins were loaded, or a USB camera came or went.
+    uint64_t changes();
     /// Closes every sensor, then shuts down every plug-in. Nothing of a plug-in is called afterwards.
     void shutdown();
 
@@ -43,6 +46,7 @@ private:
     Ref<Plugin> serving(const std::string& scheme) const;
     std::string complete(const std::string& uri) const;
     std::vector<Ref<Plugin>> all() const;
+    UsbWatch* usb();
 
     Log& log_;
     const std::function<uint64_t()> context_id_;
@@ -50,6 +54,7 @@ private:
     mutable std::mutex mutex_;
     std::vector<Ref<Plugin>> plugins_;
     bool down_ = false;
+    std::unique_ptr<UsbWatch> usb_;  // from the first time that anybody asks for sensors
 };
 
 }  // namespace vfit

@@ -27,15 +27,14 @@ void set_field(char (&field)[N], const std::string& value) {
     value.copy(field, N - 1);
 }
 
-/// Items 0, 1, ... of a list function of the plug-in, until VFIT_END_OF_STREAM.
-template <typename T>
-std::vector<T> read_list(vfit_result (*item)(void*, uint32_t, T*), void* device) {
+/// What `item` tells of index 0, 1, ..., until it does not answer VFIT_OK.
+template <typename T, typename Item>
+std::vector<T> read_list(Item&& item) {
     std::vector<T> out;
-    if (!item) return out;
     for (uint32_t i = 0; i < kMaxListed; ++i) {
         T value{};
         value.struct_size = sizeof(T);
-        if (item(device, i, &value) != VFIT_OK) break;
+        if (item(i, &value) != VFIT_OK) break;
         value.struct_size = sizeof(T);
         out.push_back(value);
     }
@@ -62,8 +61,9 @@ void Sensor::start() {
     std::lock_guard lock(plugin_->calls_);
     check_open();
     if (running_) fail(VFIT_ERROR_STATE, "the sensor ", uri_, " is running already");
+    plugin_->check_well();
     stream_->open();
-    const vfit_result result = plugin_->table_.start(device_);
+    const vfit_result result = plugin_->ask([&] { return plugin_->table_.start(device_); });
     if (result == VFIT_OK) {
         running_ = true;
         return;
@@ -86,7 +86,8 @@ void Sensor::stop_device() {
     // Once more under the lock: a start on another thread may have opened it since, and the plug-in's stop waits
     // for a push that waits for the host.
     stream_->queue.close();
-    const vfit_result result = plugin_->table_.stop(device_);
+    if (plugin_->hangs_) return;
+    const vfit_result result = plugin_->ask_to_end("stop", [stop = plugin_->table_.stop, device = device_] { return stop(device); });
     if (result != VFIT_OK) plugin_->host_.complain(text("stopping ", uri_, " failed, result ", result));
 }
 
@@ -96,14 +97,16 @@ void Sensor::close() {
     std::lock_guard lock(plugin_->calls_);
     if (!device_) return;
     stop_device();
-    plugin_->table_.close(device_);
+    if (!plugin_->hangs_) plugin_->ask_to_end("close", [close = plugin_->table_.close, device = device_] { return close(device), VFIT_OK; });
     device_ = nullptr;
     plugin_->host_.remove_stream(token_);
     plugin_->forget(this);
 }
 
 std::vector<vfit_sensor_mode> Sensor::read_modes() {
-    auto modes = read_list(plugin_->table_.mode, device_);
+    const auto mode = plugin_->table_.mode;
+    if (!mode || plugin_->hangs_) return {};
+    auto modes = read_list<vfit_sensor_mode>([&](uint32_t i, vfit_sensor_mode* out) { return plugin_->ask([&] { return mode(device_, i, out); }); });
     for (vfit_sensor_mode& mode : modes) {
         end_text(mode.name);
         if (!std::isfinite(mode.rate_hz) || mode.rate_hz < 0.0f) mode.rate_hz = 0.0f;
@@ -112,7 +115,9 @@ std::vector<vfit_sensor_mode> Sensor::read_modes() {
 }
 
 std::vector<vfit_sensor_option> Sensor::read_options() {
-    auto options = read_list(plugin_->table_.option, device_);
+    const auto option_at = plugin_->table_.option;
+    if (!option_at || plugin_->hangs_) return {};
+    auto options = read_list<vfit_sensor_option>([&](uint32_t i, vfit_sensor_option* out) { return plugin_->ask([&] { return option_at(device_, i, out); }); });
     for (vfit_sensor_option& option : options) {
         end_text(option.key);
         end_text(option.value);
@@ -149,7 +154,8 @@ std::vector<vfit_sensor_option> Sensor::options() {
 void Sensor::forward_option(const std::string& key, const std::string& value) {
     if (!plugin_->table_.set_option)
         fail(VFIT_ERROR_UNSUPPORTED, "the sensor ", uri_, " has no option '", key, "'");
-    const vfit_result result = plugin_->table_.set_option(device_, key.c_str(), value.c_str());
+    plugin_->check_well();
+    const vfit_result result = plugin_->ask([&] { return plugin_->table_.set_option(device_, key.c_str(), value.c_str()); });
     if (result != VFIT_OK) plugin_->fail_with_last_error(result, text("option ", key));
 }
 

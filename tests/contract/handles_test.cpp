@@ -25,6 +25,7 @@ vfit_garment garment_out;
 vfit_size_chart chart_out;
 vfit_recorder recorder_out;
 uint32_t count;
+uint64_t changes;
 int64_t time_ns;
 uint64_t hash;
 
@@ -64,6 +65,7 @@ std::vector<Call> calls() {
         {"frame_bodies", [](uint64_t h) { return vfit_frame_bodies({h}, nullptr, 0, &count); }},
         {"frame_joints", [](uint64_t h) { return vfit_frame_joints({h}, 1, nullptr, 0, &count); }},
         {"sensor_list", [](uint64_t h) { return vfit_sensor_list({h}, nullptr, 0, &count); }},
+        {"sensor_changes", [](uint64_t h) { return vfit_sensor_changes({h}, &changes); }},
         {"sensor_open", [](uint64_t h) { return vfit_sensor_open({h}, "virtual:", &sensor_out); }},
         {"sensor_modes", [](uint64_t h) { return vfit_sensor_modes({h}, nullptr, 0, &count); }},
         {"sensor_options", [](uint64_t h) { return vfit_sensor_options({h}, nullptr, 0, &count); }},

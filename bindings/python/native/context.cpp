@@ -98,7 +98,15 @@ void bind_context(py::module_& m) {
             },
             "path"_a, "Loads a sensor plug-in from its file.")
         .def("plugins", &plugins, "The plug-ins that are loaded.")
-        .def("sensors", &sensors, "The sensors that can be opened now.");
+        .def("sensors", &sensors, "The sensors that can be opened now.")
+        .def(
+            "sensor_changes",
+            [](const Context& c) {
+                uint64_t count = 0;
+                check(vfit_sensor_changes(c.handle(), &count));
+                return count;
+            },
+            "Rises when sensors() may tell something else: a USB camera came or went, a plug-in was loaded.");
 }
 
 }  // namespace vfit_python
