@@ -1,0 +1,96 @@
+// Cloth: a garment on an avatar, stepped once a rendered frame.
+using System;
+
+namespace Vfit
+{
+    public sealed unsafe class Cloth : VfitObject<ClothHandle>
+    {
+        public Avatar Avatar { get; private set; }
+
+        /// <summary>What this one is worn over, if anything; kept here, so that it is not collected.</summary>
+        public Cloth Inner { get; private set; }
+
+        /// <summary>sizeLabel: null is made to the avatar.</summary>
+        public Cloth(Avatar avatar, Garment garment, ClothDesc desc = default(ClothDesc), string sizeLabel = null)
+            : base(new ClothHandle(Avatar.Of(avatar, "avatar")))
+        {
+            Avatar = avatar;
+            fixed (byte* label = Utf8Text.Encode(sizeLabel))
+            {
+                desc.StructSize = (uint)sizeof(ClothDesc);
+                desc.sizeLabel = label;
+                Calls.ClothCreate(avatar.Handle, Garment.Of(garment, "garment"), &desc, Handle);
+            }
+        }
+
+        /// <summary>Put on anew, so that limbs push it aside. Takes as long as some 35 steps.</summary>
+        public void Reset()
+        {
+            Calls.ClothReset(Handle);
+        }
+
+        /// <summary>Pose the avatar first.</summary>
+        public void Step(float dt)
+        {
+            Calls.ClothStep(Handle, dt);
+        }
+
+        /// <summary>Hands the step to a worker; EndStep waits for it.</summary>
+        public void BeginStep(float dt)
+        {
+            Calls.ClothBeginStep(Handle, dt);
+        }
+
+        public void EndStep()
+        {
+            Calls.ClothEndStep(Handle);
+        }
+
+        /// <summary>Velocity of the air in the context's axes.</summary>
+        public void SetWind(Float3 wind)
+        {
+            Calls.ClothSetWind(Handle, &wind.X);
+        }
+
+        public void SetQuality(int substeps, float budgetMs)
+        {
+            if (substeps < 0) throw new ArgumentOutOfRangeException("substeps");
+            Calls.ClothSetQuality(Handle, (uint)substeps, budgetMs);
+        }
+
+        /// <summary>Stays outside of inner from now on: step that one first, each frame.</summary>
+        public void WearOver(Cloth inner)
+        {
+            Calls.ClothWearOver(Handle, Of(inner, "inner"));
+            Inner = inner;
+        }
+
+        /// <summary>
+        /// Sets to 1 those triangles of the avatar that this garment hides; the others stay as they were, so that garments
+        /// add up. One byte a triangle. Takes as long as some 100 steps.
+        /// </summary>
+        public void HideSkin(byte[] triangles, float marginM = 0)
+        {
+            Arrays.Check(triangles, 0, "triangles");
+            fixed (byte* bytes = triangles) Calls.ClothHideSkin(Handle, marginM, bytes, (uint)triangles.Length);
+        }
+
+        /// <summary>Positions, normals, uv, indices, strain and, where asked for, pressure.</summary>
+        public void Acquire(Frame into)
+        {
+            Calls.ClothAcquire(Handle, Frame.Of(into, "into"));
+        }
+
+        public ClothStats Stats()
+        {
+            return Calls.ClothDescribe(Handle);
+        }
+
+        public ulong StateHash()
+        {
+            ulong hash;
+            Calls.ClothStateHash(Handle, &hash);
+            return hash;
+        }
+    }
+}

@@ -1,0 +1,134 @@
+// A handle of the library that is given back once, by Dispose or by the finalizer, whatever happens around it.
+using System;
+using System.Runtime.InteropServices;
+using System.Threading;
+
+namespace Vfit
+{
+    /// <summary>
+    /// While a call runs, the handle is held, so that no finalizer ends an object in the middle of a step. A child holds
+    /// its parent: of a whole tree that nobody refers to any more, children go first.
+    /// </summary>
+    public abstract class VfitHandle : SafeHandle
+    {
+        private readonly VfitHandle parent;
+
+        internal VfitHandle(VfitHandle parent) : base(IntPtr.Zero, true)
+        {
+            if (IntPtr.Size != 8) throw new PlatformNotSupportedException("vfit needs a 64-bit process");
+            if (parent == null) return;
+            bool held = false;
+            parent.DangerousAddRef(ref held);
+            this.parent = parent;
+        }
+
+        /// <summary>Always false: also a handle that is empty yet has its parent to let go of.</summary>
+        public override bool IsInvalid
+        {
+            get { return false; }
+        }
+
+        /// <summary>Null before the object was made and after it was closed.</summary>
+        internal bool IsEmpty
+        {
+            get { return handle == IntPtr.Zero; }
+        }
+
+        /// <summary>The library's function that destroys, closes or releases.</summary>
+        internal abstract Result End(ulong id);
+
+        /// <summary>Called once the library has let go of the object.</summary>
+        protected virtual void Ended() { }
+
+        /// <summary>The id for one call; a null handle is the library's null. Release where held has become true.</summary>
+        internal static ulong Hold(VfitHandle handle, ref bool held)
+        {
+            if (handle == null) return 0;
+            handle.DangerousAddRef(ref held);
+            return (ulong)handle.handle;
+        }
+
+        /// <summary>Takes over a new id and ends the one before: so one object carries frame after frame.</summary>
+        internal void Put(ulong id)
+        {
+            bool held = false;
+            try
+            {
+                DangerousAddRef(ref held);
+                ulong before = Exchange(id);
+                if (before != 0) End(before);
+            }
+            catch (ObjectDisposedException)
+            {
+                if (id != 0) End(id);
+                throw;
+            }
+            finally
+            {
+                if (held) DangerousRelease();
+            }
+        }
+
+        /// <summary>
+        /// Ends the object now, also while another thread is in a call on it: the library lets that call finish, or
+        /// wakes it where it waits. Where it may not be disturbed (BUSY), the last call to leave ends it.
+        /// </summary>
+        internal void EndNow()
+        {
+            ulong id = Exchange(0);
+            Result result = id == 0 ? Result.Ok : End(id);
+            if (result == Result.ErrorBusy) Exchange(id);
+            Dispose();
+            if (id == 0 || result == Result.ErrorBusy) return;
+            Ended();
+            // Its parent may have taken it along: then it is gone, and that is all that was asked for.
+            if (result != Result.ErrorHandle) VfitException.Check(result);
+        }
+
+        protected override bool ReleaseHandle()
+        {
+            ulong id = Exchange(0);
+            if (id != 0)
+            {
+                End(id);
+                Ended();
+            }
+            if (parent != null) parent.DangerousRelease();
+            return true;
+        }
+
+        private ulong Exchange(ulong id)
+        {
+            return (ulong)(long)Interlocked.Exchange(ref handle, (IntPtr)(long)id);
+        }
+    }
+
+    /// <summary>What all classes of the binding share.</summary>
+    public abstract class VfitObject<THandle> : IDisposable where THandle : VfitHandle
+    {
+        internal THandle Handle { get; private set; }
+
+        internal VfitObject(THandle handle)
+        {
+            Handle = handle;
+        }
+
+        /// <summary>Closed by Dispose. An object whose context was closed does not know it until it is used.</summary>
+        public bool IsClosed
+        {
+            get { return Handle.IsClosed; }
+        }
+
+        public void Dispose()
+        {
+            Handle.EndNow();
+        }
+
+        /// <summary>The handle of an argument that must be there.</summary>
+        internal static THandle Of(VfitObject<THandle> value, string name)
+        {
+            if (value == null) throw new ArgumentNullException(name);
+            return value.Handle;
+        }
+    }
+}
