@@ -12,13 +12,15 @@ namespace Vfit
     public abstract class VfitHandle : SafeHandle
     {
         private readonly VfitHandle parent;
+        // SafeHandle itself lets calls through as long as a child holds its disposed parent.
+        private volatile bool disposed;
 
         internal VfitHandle(VfitHandle parent) : base(IntPtr.Zero, true)
         {
             if (IntPtr.Size != 8) throw new PlatformNotSupportedException("vfit needs a 64-bit process");
             if (parent == null) return;
             bool held = false;
-            parent.DangerousAddRef(ref held);
+            Hold(parent, ref held);
             this.parent = parent;
         }
 
@@ -34,6 +36,12 @@ namespace Vfit
             get { return handle == IntPtr.Zero; }
         }
 
+        /// <summary>Dispose was called.</summary>
+        internal bool IsDisposed
+        {
+            get { return disposed; }
+        }
+
         /// <summary>The library's function that destroys, closes or releases.</summary>
         internal abstract Result End(ulong id);
 
@@ -44,6 +52,7 @@ namespace Vfit
         internal static ulong Hold(VfitHandle handle, ref bool held)
         {
             if (handle == null) return 0;
+            if (handle.disposed) throw new ObjectDisposedException(handle.GetType().Name);
             handle.DangerousAddRef(ref held);
             return (ulong)handle.handle;
         }
@@ -54,7 +63,7 @@ namespace Vfit
             bool held = false;
             try
             {
-                DangerousAddRef(ref held);
+                Hold(this, ref held);
                 ulong before = Exchange(id);
                 if (before != 0) End(before);
             }
@@ -75,6 +84,7 @@ namespace Vfit
         /// </summary>
         internal void EndNow()
         {
+            disposed = true;
             ulong id = Exchange(0);
             Result result = id == 0 ? Result.Ok : End(id);
             if (result == Result.ErrorBusy) Exchange(id);
@@ -116,7 +126,7 @@ namespace Vfit
         /// <summary>Closed by Dispose. An object whose context was closed does not know it until it is used.</summary>
         public bool IsClosed
         {
-            get { return Handle.IsClosed; }
+            get { return Handle.IsDisposed; }
         }
 
         public void Dispose()
