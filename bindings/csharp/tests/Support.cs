@@ -24,7 +24,7 @@ namespace Vfit.Tests
         }
     }
 
-    internal static class Support
+    public static class Support
     {
         internal const string Person = "virtual:motion=demo&sex=f&seed=7&sensor=kinect_v1_320&frames=60";
 
@@ -40,7 +40,7 @@ namespace Vfit.Tests
         }
 
         /// <summary>A new empty folder, removed with the process.</summary>
-        internal static string TemporaryFolder()
+        public static string TemporaryFolder()
         {
             string path = Path.Combine(Path.GetTempPath(), "vfit-csharp-" + Guid.NewGuid().ToString("N"));
             Directory.CreateDirectory(path);
@@ -51,7 +51,7 @@ namespace Vfit.Tests
         private static string recorded;
 
         /// <summary>A recording of the virtual person, made once: "recording:PATH".</summary>
-        internal static string Recording()
+        public static string Recording()
         {
             if (recorded != null) return recorded;
             string path = Path.Combine(TemporaryFolder(), "person");
@@ -83,7 +83,7 @@ namespace Vfit.Tests
             return Assert.Throws<VfitException>(call).Code;
         }
 
-        internal static Avatar MakeAvatar(Context context)
+        public static Avatar MakeAvatar(Context context)
         {
             return Avatar.FromMeasures(context, new[] { Measurements.Known("stature_m", 1.7f) });
         }
