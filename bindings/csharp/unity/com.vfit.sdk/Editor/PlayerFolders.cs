@@ -1,10 +1,9 @@
 // A built player gets the library's data, sensor plug-ins and modules: Unity copies the library alone.
 using System.IO;
-using UnityEditor;
 using UnityEditor.Build;
 using UnityEditor.Build.Reporting;
-using UnityEditor.PackageManager;
 using UnityEngine;
+using PackageInfo = UnityEditor.PackageManager.PackageInfo;
 
 namespace Vfit.Unity.Editor
 {
