@@ -81,6 +81,36 @@ namespace Vfit.Tests
             }
         }
 
+        [Test]
+        public void ObjectsOfTwoContextsAreTakenOrRefusedButNeverCrash()
+        {
+            using (var other = new Context())
+            using (var sensor = new Sensor(other, "virtual:frames=2&sensor=kinect_v1_320"))
+            using (Frame frame = new Frame(other), mine = new Frame(Context))
+            using (Avatar theirs = Support.MakeAvatar(other))
+            using (Garment garment = Garment.Open(Context, "sundress"))
+            {
+                sensor.Start();
+                sensor.Acquire(frame, -1);
+                TestDelegate[] calls =
+                {
+                    () => new Tracker(Context).Update(frame, mine), () => new Motion(Context).Bind(theirs),
+                    () => new Cloth(theirs, garment), () => new Scan(Context).Add(frame),
+                    () => new Recorder(Context, Support.TemporaryFolder()).Write(frame),
+                    () => new Motion(Context).Step(frame, 1, 0)
+                };
+                foreach (TestDelegate call in calls)
+                    try
+                    {
+                        call();
+                    }
+                    catch (VfitException error)
+                    {
+                        Assert.AreEqual(Result.ErrorHandle, error.Code, error.Message);
+                    }
+            }
+        }
+
         /// <summary>All functions that take a handle first, with ids that are invented, stale and of another kind.</summary>
         [Test]
         public void NoFunctionTakesAnIdThatIsNotItsOwn()

@@ -89,6 +89,25 @@ namespace Vfit.Tests
         }
 
         [Test]
+        public void ASharedFrameLivesAsLongAsItsLastObject()
+        {
+            using (Frame frame = Frame.FromDepth(Context, Depth(null), null, Width, Height, intrinsics, 5))
+            using (var other = new Frame(Context))
+            {
+                frame.Share(other);
+                frame.Share(frame);
+                frame.Clear();
+                Assert.AreEqual(5, other.View(StreamKind.Depth).TimeNs);
+                Assert.AreEqual(1u, Context.Stats().FrameCount);
+                other.Clear();
+                Assert.AreEqual(0u, Context.Stats().FrameCount);
+                Assert.AreEqual(Result.ErrorHandle, Support.CodeOf(() => frame.Share(other)));
+                other.Dispose();
+                Assert.Throws<ObjectDisposedException>(() => frame.Share(other));
+            }
+        }
+
+        [Test]
         public void SubmittedJointsDriveMotion()
         {
             using (var tracker = new Tracker(Context))

@@ -56,6 +56,20 @@ namespace Vfit.Tests
             foreach (MethodInfo function in functions) Marshal.Prelink(function);
         }
 
+        [Test]
+        public void EveryFunctionHasItsPlaceInAClass()
+        {
+            string folder = Path.Combine(Support.Root, "bindings", "csharp", "unity", "com.vfit.sdk", "Runtime", "Binding");
+            string written = string.Concat(Directory.GetFiles(folder, "*.cs").Select(File.ReadAllText));
+            foreach (Match match in Regex.Matches(header, @"^VFIT_API .*?(vfit_\w+)\(", RegexOptions.Multiline))
+            {
+                string name = match.Groups[1].Value;
+                if (Regex.IsMatch(name, "_(destroy|close|release)$")) continue;     // of the handles
+                bool used = written.Contains("Calls." + Pascal(name.Substring("vfit_".Length)) + "(") || written.Contains("Native." + name + "(");
+                Assert.IsTrue(used, name);
+            }
+        }
+
         private static bool IsPublic(string name)
         {
             return header.Contains("typedef struct " + name + " ");

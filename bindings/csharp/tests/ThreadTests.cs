@@ -155,6 +155,26 @@ namespace Vfit.Tests
             Assert.Greater(steps, 3);
         }
 
+        /// <summary>A garment has no reference to its context's object, its handle has one to the context's handle.</summary>
+        [Test]
+        public void AChildKeepsItsContextAlive()
+        {
+            var garments = new Garment[10];
+            for (int i = 0; i < garments.Length; i++)
+            {
+                int place = i;
+                var thread = new Thread(() => garments[place] = Garment.Open(new Context(), "sundress"));
+                thread.Start();
+                thread.Join();
+            }
+            ErrorTests.Collect();
+            foreach (Garment garment in garments)
+            {
+                Assert.AreEqual("sundress", garment.Describe().Name.ToLowerInvariant());
+                garment.Dispose();
+            }
+        }
+
         [Test]
         public void FinalizersOfAbandonedObjectsRunWhileAnotherThreadSteps()
         {
@@ -193,9 +213,10 @@ namespace Vfit.Tests
         [Test]
         public void AnAbandonedSensorStopsByItsFinalizer()
         {
-            for (int i = 0; i < 5; i++) StartAndForget();
+            for (int i = 0; i < 20; i++) StartAndForget();
             ErrorTests.Collect();
-            Assert.Less(Context.Stats().HandleCount, 6u);
+            // Mono scans stacks conservatively: the last few may seem to be in use.
+            Assert.Less(Context.Stats().HandleCount, 10u);
         }
 
         private void StartAndForget()

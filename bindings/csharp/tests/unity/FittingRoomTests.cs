@@ -147,6 +147,15 @@ namespace Vfit.Unity.Tests
         }
 
         [Test]
+        public void AnAnimatorThatIsNoHumanoidIsNamed()
+        {
+            room.humanoid = new GameObject("robot").AddComponent<Animator>();
+            room.gameObject.SetActive(true);
+            Assert.AreEqual(FittingState.Failed, room.State);
+            Assert.That(room.Error, Is.StringContaining("robot"));
+        }
+
+        [Test]
         public void DisablingInMidStepAndEnablingAgainLeavesNothingBehind()
         {
             room.settings.scan = false;

@@ -19,6 +19,23 @@ namespace Vfit
             Handle.Put(0);
         }
 
+        /// <summary>The other object carries this frame as well, for as long as it likes: to hand it to another thread.</summary>
+        public void Share(Frame with)
+        {
+            FrameHandle other = Of(with, "with");
+            bool held = false;
+            try
+            {
+                ulong id = VfitHandle.Hold(Handle, ref held);
+                VfitException.Check(Native.vfit_frame_retain(new FrameId(id)));
+                other.Put(id);
+            }
+            finally
+            {
+                if (held) Handle.DangerousRelease();
+            }
+        }
+
         public StreamKind[] Streams()
         {
             return Calls.FrameStreams(Handle);

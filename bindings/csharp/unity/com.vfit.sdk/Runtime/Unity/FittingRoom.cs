@@ -135,11 +135,7 @@ namespace Vfit.Unity
             {
                 open();
             }
-            catch (VfitException error)
-            {
-                Fail(error);
-            }
-            catch (DllNotFoundException error)
+            catch (Exception error)     // no library, no such sensor, no humanoid: said in Error whichever it is
             {
                 Fail(error);
             }

@@ -1,4 +1,5 @@
 // Poses of vfit on the bones of a Unity humanoid, whatever axes its bones have.
+using System;
 using System.Collections.Generic;
 using UnityEngine;
 
@@ -33,6 +34,9 @@ namespace Vfit.Unity
 
         public HumanoidDriver(Animator animator)
         {
+            if (animator == null) throw new ArgumentNullException("animator");
+            if (animator.avatar == null || !animator.avatar.isHuman)
+                throw new ArgumentException("the animator " + animator.name + " has no humanoid avatar", "animator");
             root = animator.transform;
             Dictionary<string, SkeletonBone> tPose = TPose(animator);
             Vector3 hips = Vector3.zero, foot = Vector3.zero;
@@ -78,7 +82,6 @@ namespace Vfit.Unity
         private static Dictionary<string, SkeletonBone> TPose(Animator animator)
         {
             var found = new Dictionary<string, SkeletonBone>();
-            if (animator.avatar == null || !animator.avatar.isHuman) return found;
             foreach (SkeletonBone bone in animator.avatar.humanDescription.skeleton) found[bone.name] = bone;
             return found;
         }
