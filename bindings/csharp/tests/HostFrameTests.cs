@@ -96,14 +96,15 @@ namespace Vfit.Tests
             {
                 frame.Share(other);
                 frame.Share(frame);
+                var closed = new Frame(Context);
+                closed.Dispose();
+                Assert.Throws<ObjectDisposedException>(() => frame.Share(closed));
                 frame.Clear();
                 Assert.AreEqual(5, other.View(StreamKind.Depth).TimeNs);
                 Assert.AreEqual(1u, Context.Stats().FrameCount);
                 other.Clear();
                 Assert.AreEqual(0u, Context.Stats().FrameCount);
                 Assert.AreEqual(Result.ErrorHandle, Support.CodeOf(() => frame.Share(other)));
-                other.Dispose();
-                Assert.Throws<ObjectDisposedException>(() => frame.Share(other));
             }
         }
 
