@@ -161,6 +161,7 @@ namespace Vfit.Tests
             Assert.That(Array.Exists(Context.Plugins(), p => p.Schemes.Contains("virtual")));
             Assert.That(Array.Exists(Context.Sensors(), s => s.Uri.StartsWith("virtual:")));
             Assert.That(Array.Exists(Context.Profiles(), p => p.Stage == "track"));
+            Assert.AreEqual(Context.SensorChanges(), Context.SensorChanges());
             Context.ResetProfile();
             Assert.Greater(Context.TimeNs, 0);
         }

@@ -131,6 +131,14 @@ namespace Vfit
             return Calls.SensorList(Handle);
         }
 
+        /// <summary>Rises when that list may have become another. Cheap: ask each frame.</summary>
+        public ulong SensorChanges()
+        {
+            ulong count;
+            Calls.SensorChanges(Handle, &count);
+            return count;
+        }
+
         /// <summary>Keys, values and ranges that Avatar.FromShape knows.</summary>
         public ShapeValue[] Shapes()
         {

@@ -549,6 +549,20 @@ namespace Vfit
             return (int)listed;
         }
 
+        internal static Result SensorChanges(ContextHandle context, ulong* count)
+        {
+            bool contextHeld = false;
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_sensor_changes(new ContextId(VfitHandle.Hold(context, ref contextHeld)), count));
+                return result;
+            }
+            finally
+            {
+                if (contextHeld) context.DangerousRelease();
+            }
+        }
+
         internal static Result SensorOpen(ContextHandle context, byte* uri, SensorHandle @out)
         {
             bool contextHeld = false;

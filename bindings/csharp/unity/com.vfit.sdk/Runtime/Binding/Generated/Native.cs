@@ -155,6 +155,11 @@ namespace Vfit
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_sensor_list(ContextId context, SensorInfo* items, uint stride, uint* count);
 
+        /// <summary>Rises when the list may have become another: a USB camera of a kind that a plug-in knows was plugged in
+        /// or unplugged, a plug-in was loaded. Cheap: ask each frame, and list again when it has changed. [any]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_sensor_changes(ContextId context, ulong* count);
+
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_sensor_open(ContextId context, byte* uri, SensorId* @out);
 
