@@ -17,7 +17,7 @@ if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
 endif()
 
 install(FILES "${vfit_real_library}" DESTINATION . RENAME ${vfit_packaged_name})
-install(DIRECTORY "${vfit_library_dir}/vfit_plugins" "${vfit_library_dir}/vfit_modules" "${vfit_library_dir}/vfit_data" DESTINATION .)
+install(DIRECTORY "${vfit_library_dir}/vfit_plugins" "${vfit_library_dir}/vfit_modules" "${vfit_library_dir}/vfit_data" DESTINATION . USE_SOURCE_PERMISSIONS)
 
 if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
   # No path of the machine that built it stays in the package.

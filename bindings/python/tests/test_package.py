@@ -3,6 +3,7 @@
 import ast
 import enum
 import importlib.util
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -38,6 +39,7 @@ def test_library_plugins_and_data_lie_in_the_package():
     assert list((PACKAGE / "vfit_plugins").iterdir())
     assert (PACKAGE / "vfit_data" / "body.bin").is_file()
     assert (PACKAGE / "py.typed").is_file()
+    assert all(os.access(reader, os.X_OK) for reader in (PACKAGE / "vfit_plugins").glob("*_reader"))
     with vfit.Context() as ctx:
         loaded = {plugin.name: Path(plugin.path) for plugin in ctx.plugins()}
     assert loaded and all(path.parent == PACKAGE / "vfit_plugins" for path in loaded.values())

@@ -62,6 +62,8 @@ def test_options_modes_and_info(ctx):
     assert sensor.acquire(timeout_s=1e300) is None and sensor.ended
     assert frame_measures(ctx)["stature_m"] > 1
     assert {p.name for p in ctx.plugins()}
+    assert "virtual:" in {s.uri for s in ctx.sensors()}
+    assert ctx.sensor_changes() >= len(ctx.plugins())
 
 
 def frame_measures(ctx):
