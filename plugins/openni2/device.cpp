@@ -159,7 +159,8 @@ void Device::stop() {
     }
     wake_.notify_all();
     thread_.join();
-    if (!clean_) reader_.reset();
+    // A file would go on where it stopped: seeking in it crashes OpenNI2, so it is opened again.
+    if (!clean_ || is_file_) reader_.reset();
 }
 
 bool Device::stopping() {

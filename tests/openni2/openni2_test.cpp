@@ -232,6 +232,12 @@ TEST_F(OpenNi2Test, AFilePlaysAPartAndAgainAndAgain) {
     ASSERT_EQ(part.size(), 5u);
     for (const auto& [index, image] : part) EXPECT_EQ(image.depth, all.at(index).depth);
     EXPECT_EQ(part.begin()->first, 10);
+    for (int round = 0; round < 2; ++round) {  // stopped in the middle, it begins anew
+        const auto begun = play(sensor, nullptr, 2);
+        ASSERT_EQ(begun.size(), 2u);
+        EXPECT_EQ(begun.begin()->first, 10);
+        EXPECT_EQ(begun.begin()->second.depth, all.at(10).depth);
+    }
     ASSERT_EQ(vfit_sensor_set_option(sensor, "loop", "1"), VFIT_OK);
     ASSERT_EQ(vfit_sensor_start(sensor), VFIT_OK) << last_error();
     for (int i = 0; i < 12; ++i) {

@@ -10,7 +10,7 @@ namespace openni2 {
 namespace {
 
 // A file gives its next frame at once; a camera that has given none for so long is lost, or was never there.
-constexpr int kFilePatience_ms = 1500, kDevicePatience_ms = 5000;
+constexpr std::chrono::milliseconds kFilePatience{1500}, kDevicePatience{5000};
 
 bool is_depth(const OniVideoMode& mode) {
     return mode.pixelFormat == ONI_PIXEL_FORMAT_DEPTH_1_MM || mode.pixelFormat == ONI_PIXEL_FORMAT_DEPTH_100_UM;
@@ -148,7 +148,8 @@ void Camera::start(const Start& start) {
     if (color_) library_.check(library_.oniStreamStart(color_), (name_ + ": its colour stream does not start").c_str());
     library_.check(library_.oniStreamStart(depth_), (name_ + ": its depth stream does not start").c_str());
     running_ = true;
-    read_ = 0, silent_ms_ = 0;
+    read_ = 0;
+    newest_depth_ = Clock::now();
     newest_color_.clear();
     color_us_ = INT64_MIN;
     holds_ = false;
@@ -190,9 +191,7 @@ bool Camera::next(int milliseconds, Picture& picture) {
     const OniStatus status = library_.oniWaitForAnyStream(streams, color_ ? 2 : 1, &which, milliseconds);
     if (status == ONI_STATUS_TIME_OUT) {
         if (holds_) return give(picture);
-        silent_ms_ += milliseconds;
-        if (description_.is_file && silent_ms_ >= kFilePatience_ms) end_of_file();
-        if (!description_.is_file && silent_ms_ >= kDevicePatience_ms) throw Ended(Ending::lost, name_ + ": has given no image for 5 seconds");
+        check_patience();
         return false;
     }
     library_.check(status, (name_ + ": gives no image").c_str());
@@ -203,11 +202,12 @@ bool Camera::next(int milliseconds, Picture& picture) {
         OniFrame* frame;
         ~Release() { library.oniFrameRelease(frame); }
     } release{library_, frame};
-    silent_ms_ = 0;
     if (which == 1) {
         read_color(*frame);
+        check_patience();
         return holds_ && color_us_ >= held_.image.time_us && give(picture);
     }
+    newest_depth_ = Clock::now();
     const bool given = holds_ && give(picture);
     if (all || (description_.is_file && read_++ < start_.first)) return given;
     read_depth(*frame, held_);
@@ -215,6 +215,13 @@ bool Camera::next(int milliseconds, Picture& picture) {
     // A recorder may write depth before the colour of the same moment; a camera's images are not kept waiting.
     const bool waits = given || (description_.is_file && color_ && color_us_ < held_.image.time_us);
     return given || (!waits && give(picture));
+}
+
+/// Colour may still come when depth does not.
+void Camera::check_patience() const {
+    const auto silence = Clock::now() - newest_depth_;
+    if (description_.is_file && silence >= kFilePatience) end_of_file();
+    if (!description_.is_file && silence >= kDevicePatience) throw Ended(Ending::lost, name_ + ": has given no image for 5 seconds");
 }
 
 /// The depth that was held, with the newest colour.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,7 @@ public:
     bool next(int milliseconds, Picture& picture);
 
 private:
+    using Clock = std::chrono::steady_clock;
     template <typename T>
     bool get(OniStreamHandle stream, int property, T& value) const;
     template <typename T>
@@ -41,6 +43,7 @@ private:
     void read_depth(const OniFrame& frame, Picture& picture);
     void read_color(const OniFrame& frame);
     bool give(Picture& picture);
+    void check_patience() const;
     [[noreturn]] void end_of_file() const;
 
     const Library& library_;
@@ -58,7 +61,7 @@ private:
     Start start_{};
     bool running_ = false;
     uint32_t read_ = 0;      // frames of the file
-    int silent_ms_ = 0;
+    Clock::time_point newest_depth_;
     std::vector<uint8_t> newest_color_;
     int64_t color_us_ = 0;   // of that
     Picture held_{};         // depth whose colour may still come
