@@ -378,6 +378,14 @@ TEST_F(OpenNi2Test, ADeviceThatIsUnpluggedComesBackWhenItIsPluggedInAgain) {
         write("plug", {1});
         ASSERT_TRUE(comes_to(sensor, VFIT_OK)) << round;
     }
+    // Unplugged while nobody looks.
+    ASSERT_EQ(vfit_sensor_stop(sensor), VFIT_OK);
+    fs::remove(plug);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    ASSERT_EQ(vfit_sensor_start(sensor), VFIT_OK) << last_error();
+    ASSERT_TRUE(comes_to(sensor, VFIT_ERROR_DEVICE_LOST));
+    write("plug", {1});
+    EXPECT_TRUE(comes_to(sensor, VFIT_OK));
 }
 
 TEST_F(OpenNi2Test, NothingIsLeftOpen) {

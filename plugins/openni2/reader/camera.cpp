@@ -113,6 +113,7 @@ void Camera::describe_modes() {
 
 void Camera::start(const Start& start) {
     stop();
+    check_plugged();
     start_ = start;
     if (!description_.is_file) {
         if (start.mode >= modes_.size()) throw Ended(Ending::failed, name_ + ": has no such mode");
@@ -183,7 +184,7 @@ void Camera::stop() {
 }
 
 bool Camera::next(int milliseconds, Picture& picture) {
-    if (gone_) throw Ended(Ending::lost, name_ + ": was unplugged");
+    check_plugged();
     const bool all = (start_.count && read_ >= uint64_t(start_.first) + start_.count) || (description_.frames && read_ >= description_.frames);
     if (all && !holds_) throw Ended(Ending::end, "");
     OniStreamHandle streams[] = {depth_, color_};
@@ -215,6 +216,10 @@ bool Camera::next(int milliseconds, Picture& picture) {
     // A recorder may write depth before the colour of the same moment; a camera's images are not kept waiting.
     const bool waits = given || (description_.is_file && color_ && color_us_ < held_.image.time_us);
     return given || (!waits && give(picture));
+}
+
+void Camera::check_plugged() const {
+    if (gone_) throw Ended(Ending::lost, name_ + ": was unplugged");
 }
 
 /// Colour may still come when depth does not.

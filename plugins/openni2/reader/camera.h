@@ -43,6 +43,7 @@ private:
     void read_depth(const OniFrame& frame, Picture& picture);
     void read_color(const OniFrame& frame);
     bool give(Picture& picture);
+    void check_plugged() const;
     void check_patience() const;
     [[noreturn]] void end_of_file() const;
 
