@@ -45,7 +45,7 @@ struct FilteredDepth {
 class DepthFilter {
 public:
     /// An odd kernel of 1 (no smoothing) to 31 pixels, else VFIT_ERROR_ARGUMENT. The Gaussian's sigma is
-    /// the one that OpenCV pairs with that size (1.1 pixels for 5).
+    /// the one that goes with that size (1.1 pixels for 5).
     explicit DepthFilter(int kernel_px = 5);
     ~DepthFilter();
     DepthFilter(const DepthFilter&) = delete;
