@@ -11,7 +11,7 @@
 #include "avatar/gltf_document.h"
 #include "avatar/humanoid_map.h"
 #include "core/error.h"
-#include "tiny_character.h"
+#include "support/tiny_character.h"
 
 namespace vfit {
 namespace {
