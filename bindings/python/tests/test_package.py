@@ -4,6 +4,7 @@ import ast
 import enum
 import importlib.util
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -75,6 +76,14 @@ def test_the_stub_names_what_the_module_has():
         named = {node.name for node in stub[name].body if isinstance(node, ast.FunctionDef)} | shared
         has = {n for n in vars(actual) if not n.startswith("_") or n in ("__enter__", "__exit__", "__iter__", "__next__", "__contains__")}
         assert named - {"__init__"} == has, name
+
+
+def test_every_function_of_the_library_is_bound():
+    header = (ROOT / "include" / "vfit.h").read_text()
+    native = "".join(file.read_text() for file in (ROOT / "bindings" / "python" / "native").iterdir())
+    functions = set(re.findall(r"^VFIT_API [^;]*?\b(vfit_\w+)\(", header, re.MULTILINE))
+    assert len(functions) > 100
+    assert {name for name in functions if not re.search(rf"\b{name}\b", native)} == {"vfit_shutdown"}  # arrays may be alive
 
 
 def test_every_class_of_the_module_is_exported():
