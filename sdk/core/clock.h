@@ -1,6 +1,7 @@
 // The monotonic clock of all time stamps.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 
@@ -15,6 +16,11 @@ inline int64_t now_ns() {
 /// Time stamps come from hosts too: however far apart, their difference does not overflow.
 inline double seconds_between(int64_t earlier_ns, int64_t later_ns) {
     return (double(later_ns) - double(earlier_ns)) * 1e-9;
+}
+
+/// A moment after another, and no later than the clock's end.
+inline int64_t later(int64_t time_ns, int64_t by_ns) {
+    return by_ns > INT64_MAX - std::max<int64_t>(time_ns, 0) ? INT64_MAX : time_ns + by_ns;
 }
 
 /// Milliseconds since it was made.

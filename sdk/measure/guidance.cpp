@@ -5,6 +5,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "core/clock.h"
 #include "measure/silhouette.h"
 
 namespace vfit {
@@ -75,9 +76,8 @@ bool moved(const Body& body, const Body& previous) {
         sum += glm::length(body.at(j) - previous.at(j));
         ++joints;
     }
-    // In double, because a host's own times may lie further apart than an int64_t holds.
-    const double elapsed_ns = double(body.time_ns) - double(previous.time_ns);
-    const float elapsed_s = elapsed_ns > 0.0 ? float(elapsed_ns * 1e-9) : kFrameTime_s;
+    const float given_s = float(seconds_between(previous.time_ns, body.time_ns));
+    const float elapsed_s = given_s > 0.0f ? given_s : kFrameTime_s;
     return joints > 0 && sum / float(joints) > kFastest_m_s * elapsed_s;
 }
 

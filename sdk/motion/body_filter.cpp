@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/clock.h"
+
 namespace vfit {
 
 namespace {
@@ -11,7 +13,9 @@ namespace {
 // room.
 constexpr float kLeastIntervalS = 0.001f;
 
-float seconds(int64_t ns) { return static_cast<float>(static_cast<double>(ns) * 1e-9); }
+float since_s(int64_t earlier_ns, int64_t later_ns) {
+    return std::max(0.0f, static_cast<float>(seconds_between(earlier_ns, later_ns)));
+}
 
 }  // namespace
 
@@ -19,18 +23,18 @@ void BodyFilter::reset() { *this = BodyFilter(); }
 
 Vec3 BodyFilter::shown(const Track& track, int64_t time_ns) {
     // The trend is damped exponentially, so that its sum is bounded: the joint holds without a kink.
-    const float age = std::max(0.0f, seconds(time_ns - track.seen_ns));
+    const float age = since_s(track.seen_ns, time_ns);
     const float reach = kTrendTimeS * (1.0f - std::exp(-age / kTrendTimeS));
-    const float fade = std::exp(-std::max(0.0f, seconds(time_ns - track.return_ns)) / kReturnTimeS);
+    const float fade = std::exp(-since_s(track.return_ns, time_ns) / kReturnTimeS);
     return track.joint.position + track.velocity * reach + track.return_offset * fade;
 }
 
 float BodyFilter::confidence(const Track& track, int64_t time_ns) {
     if (!track.lost && track.return_doubt == 0.0f) return track.joint.confidence;
-    const float fade = std::exp(-std::max(0.0f, seconds(time_ns - track.return_ns)) / kReturnTimeS);
+    const float fade = std::exp(-since_s(track.return_ns, time_ns) / kReturnTimeS);
     const float seen = track.joint.confidence - track.return_doubt * fade;
     if (!track.lost) return seen;
-    return seen * std::exp(-std::max(0.0f, seconds(time_ns - track.seen_ns)) / kForgetTimeS);
+    return seen * std::exp(-since_s(track.seen_ns, time_ns) / kForgetTimeS);
 }
 
 void BodyFilter::update(const Body& body, const PositionFilterSettings* settings) {
@@ -48,7 +52,7 @@ void BodyFilter::update(const Body& body, const PositionFilterSettings* settings
             track.lost = false;
             continue;
         }
-        const float gap = seconds(body.time_ns - track.seen_ns);
+        const float gap = since_s(track.seen_ns, body.time_ns);
         const bool returns = track.seen && (track.lost || gap > kBridgeTimeS);
         const Vec3 before = returns ? shown(track, body.time_ns) : Vec3(0.0f);
         const float trusted = returns ? confidence(track, body.time_ns) : 0.0f;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/clock.h"
+
 namespace vfit {
 
 namespace {
@@ -31,7 +33,7 @@ void ContactFeatures::follow(Low& low, float height, float dt_s) {
 }
 
 void ContactFeatures::update(const Body& body) {
-    float dt_s = count_ > 0 ? static_cast<float>(static_cast<double>(body.time_ns - history_[last_].time_ns) * 1e-9) : 0.0f;
+    float dt_s = count_ > 0 ? static_cast<float>(seconds_between(history_[last_].time_ns, body.time_ns)) : 0.0f;
     if (count_ > 0 && (dt_s <= 0.0f || dt_s > kPause_s)) {
         // After a pause nothing is known of speeds; where the floor is stays known.
         count_ = 0;
@@ -77,13 +79,13 @@ void ContactFeatures::update(const Body& body) {
 /// Where a point was so long ago, between readings on the line between them; before the first one, there.
 Vec3 ContactFeatures::place(int point, float ago_s) const {
     const auto p = static_cast<size_t>(point);
-    const int64_t then = history_[last_].time_ns - static_cast<int64_t>(1e9 * double{ago_s});
     for (size_t k = 0; k + 1 < count_; ++k) {
         const Sample& newer = history_[(last_ + kHistory - k) % kHistory];
         const Sample& older = history_[(last_ + kHistory - k - 1) % kHistory];
-        if (older.time_ns > then) continue;
-        const double span = static_cast<double>(newer.time_ns - older.time_ns);
-        const float share = static_cast<float>(static_cast<double>(newer.time_ns - then) / span);
+        const double older_ago_s = seconds_between(older.time_ns, history_[last_].time_ns);
+        if (older_ago_s < double{ago_s}) continue;
+        const double newer_ago_s = seconds_between(newer.time_ns, history_[last_].time_ns);
+        const float share = static_cast<float>((double{ago_s} - newer_ago_s) / (older_ago_s - newer_ago_s));
         return glm::mix(newer.at[p], older.at[p], std::clamp(share, 0.0f, 1.0f));
     }
     return history_[(last_ + kHistory - (count_ - 1)) % kHistory].at[p];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/clock.h"
 #include "motion/contact_network.h"
 
 namespace vfit {
@@ -92,7 +93,7 @@ void FootContact::keep_one_down(bool stands[2]) const {
 }
 
 void FootContact::update(const Body& body, vfit_contact_rule rule) {
-    const float dt_s = static_cast<float>(static_cast<double>(body.time_ns - time_ns_) * 1e-9);
+    const float dt_s = static_cast<float>(seconds_between(time_ns_, body.time_ns));
     const bool pause = !started_ || dt_s > kPauseS || dt_s <= 0.0f;
     constexpr int kAnkles[2] = {VFIT_JOINT_LEFT_FOOT, VFIT_JOINT_RIGHT_FOOT};
     features_.update(body);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/clock.h"
+
 namespace vfit {
 
 namespace {
@@ -19,7 +21,7 @@ constexpr int kToes[2] = {VFIT_JOINT_LEFT_TOES, VFIT_JOINT_RIGHT_TOES};
 }  // namespace
 
 Body HiddenFeet::put_back(const Body& body, const bool planted[2]) {
-    const float dt_s = std::clamp(static_cast<float>(static_cast<double>(body.time_ns - time_ns_) * 1e-9), 0.0f, kLongestS);
+    const float dt_s = std::clamp(static_cast<float>(seconds_between(time_ns_, body.time_ns)), 0.0f, kLongestS);
     time_ns_ = body.time_ns;
     Body out = body;
     for (size_t side = 0; side < 2; ++side) {

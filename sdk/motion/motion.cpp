@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/clock.h"
 #include "core/error.h"
 #include "math/finite.h"
 #include "math/quaternion.h"
@@ -22,7 +23,7 @@ namespace {
 
 // For so long after a foot was planted the larger divisor smooths (paper 3.3.4, step 4): half the double
 // support of a slow gait.
-constexpr int64_t kSwitchTimeNs = 250'000'000;
+constexpr double kSwitchTimeS = 0.25;
 
 constexpr float kLimitSlackRad = 0.025f;  // 1.4 degrees
 
@@ -221,7 +222,7 @@ Vec3 Motion::State::hip_middle(const Trunk& trunk) const {
 }
 
 bool Motion::State::update_pose(float dt_s) {
-    filter.sample(now_ns + ahead_ns, joints);
+    filter.sample(later(now_ns, ahead_ns), joints);
     Trunk trunk;
     if (!find_trunk(joints, trunk)) return seen;
 
@@ -235,7 +236,7 @@ bool Motion::State::update_pose(float dt_s) {
         to_world(local, world);
     }
     if (enabled(VFIT_MOTION_NO_SMOOTHING)) {
-        const bool recent = feet && switched && now_ns - switched_ns < kSwitchTimeNs;
+        const bool recent = feet && switched && seconds_between(switched_ns, now_ns) < kSwitchTimeS;
         smoother.apply(world, recent ? settings.rotation_divisor_switched : settings.rotation_divisor, dt_s);
     }
     to_local(world, local);
@@ -294,7 +295,7 @@ bool Motion::step(const Body* body, int64_t now_ns) {
     if (!s.has_body) return false;
     const int64_t before = s.seen ? s.now_ns : s.body_ns;
     s.now_ns = std::max(now_ns, s.body_ns);
-    const float dt_s = static_cast<float>(static_cast<double>(s.now_ns - before) * 1e-9);
+    const float dt_s = static_cast<float>(seconds_between(before, s.now_ns));
     return s.update_pose(std::max(0.0f, dt_s));
 }
 

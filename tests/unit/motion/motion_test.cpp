@@ -208,6 +208,24 @@ TEST(Motion, SurvivesGapsNoTimeAndTimeThatRunsWild) {
     }
 }
 
+TEST(Motion, SurvivesTheEndsOfTheClock) {
+    const Skeleton skeleton = testing::test_skeleton();
+    MotionSettings ahead;
+    ahead.prediction_s = 0.2f;
+    for (const int64_t first : {INT64_MIN, int64_t{0}, INT64_MAX - 300'000'000}) {
+        Motion motion{ahead};
+        for (int f = 0; f < 12; ++f) {
+            const Body body = stepping(skeleton, f, first + f * int64_t{25'000'000});
+            motion.step(&body, f % 3 == 0 ? INT64_MAX : f % 3 == 1 ? INT64_MIN : body.time_ns);
+            ASSERT_TRUE(finite(motion.pose().hips_position)) << f;
+            for (const Quat& q : motion.pose().rotation) ASSERT_NEAR(glm::length(q), 1.0f, 1e-4f) << f;
+        }
+        const Body last = stepping(skeleton, 12, INT64_MAX);
+        motion.step(&last, INT64_MAX);
+        ASSERT_TRUE(finite(motion.pose().hips_position));
+    }
+}
+
 TEST(Motion, GivesTheSameBitsForTheSameBodies) {
     const Skeleton skeleton = testing::test_skeleton();
     Motion a{MotionSettings{}}, b{MotionSettings{}};
