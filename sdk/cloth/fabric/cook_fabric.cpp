@@ -11,27 +11,75 @@ namespace vfit {
 
 namespace {
 
+/// A triangle beside an edge, from whose first end the corner opposite to it stands so far along and off.
+struct BesideEdge {
+    uint32_t corner;
+    float along;  // 0: at the first end, 1: at the second
+    float height_m;
+};
+
 /// An edge of the mesh with what its one or two triangles say about it.
 struct MeshEdge {
-    float area_m2 = 0.0f;           // of its triangles
-    std::vector<uint32_t> opposite;  // their third vertices
+    float area_m2 = 0.0f;     // of its triangles
+    float length_m = 0.0f;    // mean over them
+    float warp2 = 0.0f;       // share (squared) of its direction that runs along the warp, mean over them
+    std::vector<BesideEdge> beside;
 };
 
 using EdgeMap = std::map<std::pair<uint32_t, uint32_t>, MeshEdge>;
 
-float triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) {
-    return 0.5f * glm::length(glm::cross(b - a, c - a));
+/// The corners of one triangle as it was cut, and its edges' directions in the cloth (x weft, y warp).
+struct CutTriangle {
+    Vec3 at[3];
+    Vec2 cloth[3];
+
+    float area() const { return 0.5f * glm::length(glm::cross(at[1] - at[0], at[2] - at[0])); }
+    float warp_cosine2(int k) const {
+        const Vec2 d = cloth[(k + 1) % 3] - cloth[k];
+        const float length2 = glm::dot(d, d);
+        return length2 > 0.0f ? d.y * d.y / length2 : 0.5f;
+    }
+};
+
+CutTriangle cut_triangle(const FabricShape& shape, size_t first) {
+    const Vec3 scale(shape.horizontal_scale, 1.0f, shape.horizontal_scale);
+    CutTriangle t;
+    for (size_t k = 0; k < 3; ++k) {
+        const uint32_t v = shape.indices[first + k];
+        t.at[k] = shape.cut.empty() ? shape.positions[v] * scale : Vec3(shape.cut[first + k], 0.0f);
+        t.cloth[k] = !shape.cut.empty() ? shape.cut[first + k] : !shape.uvs.empty() ? shape.uvs[v] : Vec2(0.0f);
+    }
+    return t;
 }
 
-/// Share (squared) of the edge's direction that runs along the warp.
-float warp_cosine2(const FabricShape& shape, uint32_t a, uint32_t b) {
-    if (shape.uvs.empty()) {
-        const Vec3 d = shape.positions[a] - shape.positions[b];
-        return d.y * d.y / glm::dot(d, d);
+EdgeMap edges_of(const FabricShape& shape) {
+    EdgeMap edges;
+    for (size_t first = 0; first + 2 < shape.indices.size(); first += 3) {
+        const CutTriangle t = cut_triangle(shape, first);
+        const float area = t.area();
+        for (int k = 0; k < 3; ++k) {
+            const uint32_t a = shape.indices[first + size_t(k)], b = shape.indices[first + size_t(k + 1) % 3];
+            const int from = a < b ? k : (k + 1) % 3, to = a < b ? (k + 1) % 3 : k, off = (k + 2) % 3;
+            const Vec3 edge_way = t.at[to] - t.at[from], corner_way = t.at[off] - t.at[from];
+            const float length = glm::length(edge_way), along = glm::dot(corner_way, edge_way) / (length * length);
+            MeshEdge& edge = edges[{std::min(a, b), std::max(a, b)}];
+            edge.area_m2 += area;
+            edge.length_m += length;
+            if (shape.cut.empty() && shape.uvs.empty()) {
+                const Vec3 d = shape.positions[a] - shape.positions[b];
+                edge.warp2 += d.y * d.y / glm::dot(d, d);
+            } else {
+                edge.warp2 += t.warp_cosine2(k);
+            }
+            edge.beside.push_back({shape.indices[first + size_t(off)], along, glm::length(corner_way - along * edge_way)});
+        }
     }
-    const Vec2 d = shape.uvs[a] - shape.uvs[b];
-    const float length2 = glm::dot(d, d);
-    return length2 > 0.0f ? d.y * d.y / length2 : 0.5f;
+    for (auto& [ends, edge] : edges) {
+        const float count = float(edge.beside.size());
+        edge.length_m /= count;
+        edge.warp2 /= count;
+    }
+    return edges;
 }
 
 /// Moduli (N/m) of springs along warp, weft and between that together stretch and shear as the fabric does. On a grid with
@@ -64,19 +112,16 @@ struct Springs {
 /// Bending stiffness B over a fold of angle t is an energy B l^2 / (2 (A1 + A2)) t^2: exact for cloth that is bent to a
 /// cylinder, on triangles of equal sides and on squares cut across. (Factors of 3 that are in use make it three times too
 /// stiff there.)
-Hinge hinge_over(std::span<const Vec3> cut, uint32_t a, uint32_t b, uint32_t c, uint32_t d, float bend_n_m) {
-    const Vec3 edge = cut[b] - cut[a];
-    const float length2 = glm::dot(edge, edge), length = std::sqrt(length2);
-    Hinge hinge{{a, b, c, d}, {}, 0.0f};
+Hinge hinge_over(uint32_t a, uint32_t b, const MeshEdge& edge, float bend_n_m) {
+    Hinge hinge{{a, b, edge.beside[0].corner, edge.beside[1].corner}, {}, 0.0f};
     float areas = 0.0f;
     for (const size_t k : {size_t(2), size_t(3)}) {
-        const Vec3 off = cut[hinge.vertices[k]] - cut[a];
-        const float along = glm::dot(off, edge) / length2;  // of the foot of the corner's height
-        const float height = glm::length(off - along * edge), weight = length / height;
+        const BesideEdge& corner = edge.beside[k - 2];
+        const float weight = edge.length_m / corner.height_m;
         hinge.weights[k] = weight;
-        hinge.weights[0] -= weight * (1.0f - along);
-        hinge.weights[1] -= weight * along;
-        areas += 0.5f * length * height;
+        hinge.weights[0] -= weight * (1.0f - corner.along);
+        hinge.weights[1] -= weight * corner.along;
+        areas += 0.5f * edge.length_m * corner.height_m;
     }
     hinge.compliance_m_n = areas / bend_n_m;
     return hinge;
@@ -84,13 +129,23 @@ Hinge hinge_over(std::span<const Vec3> cut, uint32_t a, uint32_t b, uint32_t c, 
 
 /// A hinge as linear as ours gives way where a fold closes: its push goes with the sine of half the angle. A distance over the
 /// fold does not; it is next to nothing over a flat one and stores what the hinge does at 30 degrees.
-DistanceConstraint fold_limit_over(std::span<const Vec3> cut, uint32_t a, uint32_t b, uint32_t c, uint32_t d, float bend_n_m) {
+DistanceConstraint fold_limit_over(const MeshEdge& edge, float distance_m, float bend_n_m) {
     constexpr float kFold_rad = kPi / 6.0f;
-    const float length = glm::length(cut[b] - cut[a]), area1 = triangle_area(cut[a], cut[b], cut[c]), area2 = triangle_area(cut[a], cut[b], cut[d]);
-    const float stiffness_n_m = bend_n_m * length * length / (area1 + area2);  // N m
-    const float height1 = 2.0f * area1 / length, height2 = 2.0f * area2 / length;
-    const float shorter_m = 0.5f * height1 * height2 / (height1 + height2) * kFold_rad;  // times the angle: what the distance loses by it
-    return {c, d, glm::length(cut[c] - cut[d]), shorter_m * shorter_m / stiffness_n_m};
+    const BesideEdge &c = edge.beside[0], &d = edge.beside[1];
+    const float areas = 0.5f * edge.length_m * (c.height_m + d.height_m);
+    const float stiffness_n_m = bend_n_m * edge.length_m * edge.length_m / areas;  // N m
+    const float shorter_m = 0.5f * c.height_m * d.height_m / (c.height_m + d.height_m) * kFold_rad;  // times the angle: what the distance loses by it
+    return {c.corner, d.corner, distance_m, shorter_m * shorter_m / stiffness_n_m};
+}
+
+/// Between the two corners off the edge, where the fold is flat.
+float flat_distance(const FabricShape& shape, const MeshEdge& edge) {
+    const BesideEdge &c = edge.beside[0], &d = edge.beside[1];
+    if (shape.cut.empty()) {
+        const Vec3 scale(shape.horizontal_scale, 1.0f, shape.horizontal_scale);
+        return glm::length((shape.positions[c.corner] - shape.positions[d.corner]) * scale);
+    }
+    return glm::length(Vec2((c.along - d.along) * edge.length_m, c.height_m + d.height_m));
 }
 
 }  // namespace
@@ -105,23 +160,15 @@ FabricData cook_fabric(const FabricShape& shape, const FabricMaterial& material)
     if (!(shape.horizontal_scale > 0.0f) || !std::isfinite(shape.horizontal_scale))
         fail(VFIT_ERROR_ARGUMENT, "the size's scale is ", shape.horizontal_scale);
 
-    std::vector<Vec3> cut(shape.positions.begin(), shape.positions.end());
-    for (Vec3& p : cut) p *= Vec3(shape.horizontal_scale, 1.0f, shape.horizontal_scale);
+    if (!shape.cut.empty() && shape.cut.size() != shape.indices.size()) fail(VFIT_ERROR_ARGUMENT, shape.cut.size(), " cut corners for ", shape.indices.size());
 
     const Springs springs(material);
     FabricData data;
     std::vector<float> mass(n, 0.0f);
-    EdgeMap edges;
-    for (size_t t = 0; t + 2 < shape.indices.size(); t += 3) {
-        const uint32_t v[3] = {shape.indices[t], shape.indices[t + 1], shape.indices[t + 2]};
-        const float area = triangle_area(cut[v[0]], cut[v[1]], cut[v[2]]);
-        for (int k = 0; k < 3; ++k) {
-            mass[v[k]] += area * material.density_kg_m2 / 3.0f;
-            const uint32_t a = v[k], b = v[(k + 1) % 3];
-            MeshEdge& edge = edges[{std::min(a, b), std::max(a, b)}];
-            edge.area_m2 += area;
-            edge.opposite.push_back(v[(k + 2) % 3]);
-        }
+    for (size_t first = 0; first + 2 < shape.indices.size(); first += 3) {
+        const float area = cut_triangle(shape, first).area();
+        if (!shape.cut.empty() && !(area > 0.0f)) fail(VFIT_ERROR_DATA, "triangle ", first / 3, " has no area");
+        for (size_t k = 0; k < 3; ++k) mass[shape.indices[first + k]] += area * material.density_kg_m2 / 3.0f;
     }
     data.indices.assign(shape.indices.begin(), shape.indices.end());
     data.density_kg_m2 = material.density_kg_m2;
@@ -130,20 +177,22 @@ FabricData cook_fabric(const FabricShape& shape, const FabricMaterial& material)
         if (shape.simulated[i] && !(mass[i] > 0.0f)) fail(VFIT_ERROR_DATA, "simulated vertex ", i, " has no triangle");
         data.inverse_mass[i] = shape.simulated[i] ? 1.0f / mass[i] : 0.0f;
     }
-    for (const auto& [ends, edge] : edges) {
+    for (const auto& [ends, edge] : edges_of(shape)) {
         const auto [a, b] = ends;
-        const float length = glm::length(cut[a] - cut[b]);
+        const float length = edge.length_m;
         if (!(length > 0.0f)) fail(VFIT_ERROR_DATA, "vertices ", a, " and ", b, " share an edge and a place");
         if (shape.simulated[a] || shape.simulated[b]) {
             // A spring of that length stands for a strip as wide as its triangles' area over its length.
-            const float stiffness = springs.modulus(warp_cosine2(shape, a, b)) * edge.area_m2 / (length * length);
+            const float stiffness = springs.modulus(edge.warp2) * edge.area_m2 / (length * length);
             data.edges.push_back({a, b, length, 1.0f / stiffness});
         }
-        if (edge.opposite.size() != 2) continue;
-        const uint32_t c = edge.opposite[0], d = edge.opposite[1];
+        if (edge.beside.size() != 2) continue;
+        const uint32_t c = edge.beside[0].corner, d = edge.beside[1].corner;
         const bool moves = shape.simulated[a] || shape.simulated[b] || shape.simulated[c] || shape.simulated[d];
-        if (moves && c != d) data.hinges.push_back(hinge_over(cut, a, b, c, d, material.bend_n_m));
-        if ((shape.simulated[c] || shape.simulated[d]) && cut[c] != cut[d]) data.bends.push_back(fold_limit_over(cut, a, b, c, d, material.bend_n_m));
+        if (c == d) continue;
+        if (moves) data.hinges.push_back(hinge_over(a, b, edge, material.bend_n_m));
+        const float apart = flat_distance(shape, edge);
+        if ((shape.simulated[c] || shape.simulated[d]) && apart > 0.0f) data.bends.push_back(fold_limit_over(edge, apart, material.bend_n_m));
     }
     data.tethers = cook_tethers(data.inverse_mass, data.edges);
     return data;

@@ -189,7 +189,7 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
     const MeshQuery skin(body.rest, body.indices);
     push_out(skin, thickness_m, rest_);
 
-    FabricData data = cook_fabric({rest_, indices_, uvs_, garment.simulated, size_ratio}, material);
+    FabricData data = cook_fabric({rest_, indices_, uvs_, garment.simulated, size_ratio, {}}, material);
     Carried carried;
     for (uint32_t i = 0; i < n; ++i) carried.add(rest_[i], weights.row(i));
     const MeshQuery bound(body.rest, triangles);

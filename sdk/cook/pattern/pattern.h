@@ -40,10 +40,11 @@ struct EdgeName {
     bool operator==(const EdgeName&) const = default;
 };
 
-/// Two edges that are sewn together, each over its whole length: the begin of one to the end of the other, as both panels show
-/// their outside to the same side.
+/// Two edges that are sewn together, each over its whole length: the begin of one to the end of the other, so that both panels
+/// show their outside to the same side.
 struct Stitch {
     EdgeName a, b;
+    bool turned = false;  // begin to begin: one panel shows its inside
 };
 
 /// How a part of the garment looks; passed through to whoever draws it.

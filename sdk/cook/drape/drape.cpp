@@ -1,0 +1,180 @@
+#include "cook/drape/drape.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cloth/cloth.h"
+#include "cloth/crossings.h"
+#include "core/clock.h"
+#include "core/error.h"
+
+namespace vfit {
+
+namespace {
+
+constexpr float kFrame_s = 1.0f / 60.0f;
+constexpr float kSewn_m = 0.0001f;       // as good as one place
+constexpr float kClosed_m = 0.002f;      // the widest that a seam should be when its two sides become one
+// Of a stitch's spring: thread pulls panels along, and stretches them by a little only; at the end it is pulled tight.
+constexpr float kSewing_n_m = 400.0f, kClosing_n_m = 4000.0f;
+constexpr float kStage_m = 0.02f;        // by which the widest seams close in a stage
+constexpr uint32_t kFreeSubsteps = 16, kHeldSubsteps = 16;  // of 1/60 s: the more, the less it stretches by its own weight
+constexpr int kFramesAStage = 3, kFramesToClose = 120;
+
+/// Corners of the triangles in flat cloth, one an index.
+std::vector<Vec2> cut_of(const std::vector<uint32_t>& panel_indices, const std::vector<Vec2>& flat) {
+    std::vector<Vec2> cut;
+    for (const uint32_t v : panel_indices) cut.push_back(flat[v]);
+    return cut;
+}
+
+class Draper {
+public:
+    Draper(const Pattern& pattern, const SewnMesh& mesh, const FabricMaterial& material, const DrapeBody& body, const DrapeSettings& settings, Jobs& jobs)
+        : pattern_(pattern), mesh_(mesh), material_(material), body_(body), settings_(settings), jobs_(jobs), cut_(cut_of(mesh.panel_indices, mesh.flat())) {}
+
+    Draped run(const Placement& placement) {
+        const Stopwatch watch;
+        Draped out;
+        out.report.hangs_on = placement.hangs_on;
+        out.report.raised_m = placement.raised_m;
+        std::vector<Vec3> places = placement.places;
+        look("placed", places);
+        out.report.widest_seam_m = close_seams(places);
+        look("sewn", places);
+        std::vector<Vec3> one(mesh_.sewn_count, Vec3(0.0f));
+        std::vector<float> count(mesh_.sewn_count, 0.0f);
+        for (uint32_t v = 0; v < places.size(); ++v) one[mesh_.sewn_of[v]] += places[v], count[mesh_.sewn_of[v]] += 1.0f;
+        for (uint32_t v = 0; v < mesh_.sewn_count; ++v) one[v] /= count[v];
+        settle(one, placement, out);
+        look("at rest", spread(one));
+        out.positions = std::move(one);
+        out.report.self_crossings = uint32_t(crossed_triangles(out.positions, mesh_.sewn_indices).size());
+        out.report.skin_crossings = uint32_t(crossed_triangles({out.positions, mesh_.sewn_indices}, {body_.positions, body_.indices}).size());
+        out.report.seconds = watch.ms() / 1000.0;
+        return out;
+    }
+
+private:
+    void look(const char* stage, const std::vector<Vec3>& panel_vertices) const {
+        if (settings_.watch) settings_.watch(stage, panel_vertices);
+    }
+    std::vector<Vec3> spread(const std::vector<Vec3>& sewn) const {
+        std::vector<Vec3> out;
+        for (const uint32_t v : mesh_.sewn_of) out.push_back(sewn[v]);
+        return out;
+    }
+
+    /// Pulls the two sides of the seams together, without gravity, as slowly as panels can slide around the body. The widest come
+    /// first, and wait for nobody: those over the shoulders and around the body hold the garment up before a skirt is sewn on.
+    /// Returns what the widest is apart at the end.
+    float close_seams(std::vector<Vec3>& places) {
+        const std::vector<uint8_t> all(places.size(), 1);
+        const FabricData panels = cook_fabric({places, mesh_.panel_indices, {}, all, 1.0f, cut_}, material_);
+        ClothSettings settings;
+        settings.gravity = Vec3(0.0f);
+        settings.damping = 0.99999f;
+        settings.friction = 0.0f;
+        settings.thickness_m = settings_.thickness_m;
+        settings.sleeps = false;
+        for (float limit = widest_seam(places); limit > kSewn_m;) {
+            limit = std::max(limit - kStage_m, kSewn_m);
+            const bool last = limit == kSewn_m;
+            FabricData data = panels;
+            for (const SewnMesh::Pair& pair : mesh_.pairs)
+                if (last || glm::length(places[pair.a] - places[pair.b]) > limit) data.edges.push_back({pair.a, pair.b, limit, 1.0f / (last ? kClosing_n_m : kSewing_n_m)});
+            Cloth cloth(std::make_shared<const Fabric>(std::move(data)), settings, places);
+            const uint32_t skin = cloth.add_mesh(body_.positions.size(), body_.indices);
+            for (int frame = 0; frame < (last ? kFramesToClose : kFramesAStage); ++frame) {
+                cloth.move_mesh(skin, body_.positions);
+                cloth.step(kFrame_s, places, {}, jobs_);
+                if (last && frame % 10 == 9 && widest_seam(cloth.positions()) < kClosed_m) break;
+            }
+            places = cloth.positions();
+            if (settings_.watch && !last && int(limit / kStage_m) % 5 == 0) look("closing", places);
+        }
+        return widest_seam(places);
+    }
+
+    float widest_seam(const std::vector<Vec3>& places) const {
+        float widest = 0.0f;
+        for (const SewnMesh::Pair& pair : mesh_.pairs) widest = std::max(widest, glm::length(places[pair.a] - places[pair.b]));
+        return widest;
+    }
+
+    /// Falls to rest: first free, held by friction and a belt; then on what it hangs on, which from now on goes with the skin.
+    void settle(std::vector<Vec3>& places, const Placement& placement, Draped& out) {
+        constexpr float kBelt_m = 0.015f;  // how much the band of trousers or a skirt may still move
+        std::vector<uint8_t> band(places.size(), 0);
+        float height = 0.0f, count = 0.0f;
+        for (const EdgeName& edge : placement.band)
+            for (const uint32_t v : mesh_.panels[edge.panel].edge_vertices[edge.edge]) band[mesh_.sewn_of[mesh_.first_vertex[edge.panel] + v]] = 1;
+        for (uint32_t v = 0; v < places.size(); ++v)
+            if (band[v]) height += places[v].y, count += 1.0f;
+        FabricData data = cook(places, std::vector<uint8_t>(places.size(), 1));
+        for (uint32_t v = 0; v < places.size(); ++v)
+            if (band[v]) data.limits.push_back({v, kBelt_m});
+        fall(std::move(data), places, {90, 60, count > 0.0f ? height / count - placement.band_m : 0.0f, kFreeSubsteps});
+        look("fallen", spread(places));
+
+        out.simulated.assign(places.size(), 1);
+        for (uint32_t v = 0; v < places.size(); ++v)
+            if (band[v] || (count == 0.0f && lies_on_shoulder(places[v]))) out.simulated[v] = 0;
+        out.report.strain_p99 = fall(cook(places, out.simulated), places, {120, 0, 0.0f, kHeldSubsteps});
+    }
+
+    FabricData cook(const std::vector<Vec3>& places, const std::vector<uint8_t>& simulated) const {
+        return cook_fabric({places, mesh_.sewn_indices, {}, simulated, 1.0f, cut_}, material_);
+    }
+
+    struct Fall {
+        int frames, lowering_frames;
+        float lowered_m;  // of what is held, over these
+        uint32_t substeps;
+    };
+    /// With layers of its own. Returns the 99th percentile of strain.
+    float fall(FabricData data, std::vector<Vec3>& places, const Fall& how) {
+        ClothSettings settings;
+        settings.substeps = how.substeps;
+        settings.friction = material_.friction;
+        settings.thickness_m = settings_.thickness_m;
+        settings.self_thickness_m = settings_.thickness_m;
+        settings.damping = 0.95f;
+        std::vector<Vec3> targets = places;
+        Cloth cloth(std::make_shared<const Fabric>(std::move(data)), settings, places);
+        const uint32_t skin = cloth.add_mesh(body_.positions.size(), body_.indices);
+        for (int frame = 0; frame < how.frames; ++frame) {
+            cloth.move_mesh(skin, body_.positions);
+            if (frame < how.lowering_frames)
+                for (Vec3& target : targets) target.y -= how.lowered_m / float(how.lowering_frames);
+            cloth.step(kFrame_s, targets, {}, jobs_);
+        }
+        places = cloth.positions();
+        return cloth.stats().strain_p99;
+    }
+
+    bool lies_on_shoulder(const Vec3& place) const {
+        constexpr float kTouches_m = 0.006f, kUpwards = 0.75f, kNeck_m = 0.03f, kBelowJoint_m = 0.02f;
+        const Vec3 joint = body_.left_shoulder;
+        if (std::abs(place.x) < kNeck_m || std::abs(place.x) > joint.x || place.y < joint.y - kBelowJoint_m) return false;
+        const MeshQuery::Closest near = body_.skin->closest(place);
+        return near.distance < settings_.thickness_m + kTouches_m && near.normal.y > kUpwards;
+    }
+
+    const Pattern& pattern_;
+    const SewnMesh& mesh_;
+    const FabricMaterial& material_;
+    const DrapeBody& body_;
+    const DrapeSettings& settings_;
+    Jobs& jobs_;
+    std::vector<Vec2> cut_;
+};
+
+}  // namespace
+
+Draped drape(const Pattern& pattern, const SewnMesh& mesh, const FabricMaterial& material, const DrapeBody& body, const Placement& placement,
+             const DrapeSettings& settings, Jobs& jobs) {
+    return Draper(pattern, mesh, material, body, settings, jobs).run(placement);
+}
+
+}  // namespace vfit
