@@ -710,6 +710,13 @@ typedef struct vfit_garment_info { uint32_t struct_size, vertex_count, simulated
                                    char name[64], garment_kind[32], fabric[32]; } vfit_garment_info;
 VFIT_STRUCT(vfit_garment_info)
 VFIT_API vfit_result vfit_garment_describe(vfit_garment garment, vfit_garment_info* out);  /* [read] */
+/* Triangles of one look: indices first_index on of what vfit_cloth_acquire gives. texture: the path of a picture as the
+ * garment's author gave it, or empty; color: linear RGB.                                                */
+typedef struct vfit_garment_part { uint32_t struct_size, first_index, index_count; float color[3];
+                                   char material[48], texture[200]; } vfit_garment_part;
+VFIT_STRUCT(vfit_garment_part)
+VFIT_API vfit_result vfit_garment_parts(vfit_garment garment, vfit_garment_part* items, uint32_t stride,
+                                        uint32_t* count);                                  /* [read] */
 /* The label of the size at index; length 0 past the last.                                      [read]  */
 VFIT_API uint32_t    vfit_garment_size_label(vfit_garment garment, uint32_t index, char* buffer,
                                              uint32_t capacity);
@@ -725,7 +732,7 @@ typedef struct vfit_cloth_desc {
     float friction;                     /* 0: the fabric's; < 0: none                                  */
     float damping;                      /* share of speed lost a second, 0: 0.5; < 0: none               */
     float thickness_m;                  /* kept from the colliders, 0: 0.004                            */
-    const char* size_label;             /* null: made to the avatar                                    */
+    const char* size_label;             /* null: made to the avatar, with the ease that the garment was made with    */
     uint32_t flags, reserved;           /* VFIT_CLOTH_*                                              */
     float wind[3];                      /* as vfit_cloth_set_wind                                      */
     float drag, lift;                   /* of the air, as of a plate: about 1; both 0: no air                */
@@ -752,6 +759,9 @@ VFIT_API vfit_result vfit_cloth_destroy(vfit_cloth cloth);                      
  * right for somebody who stands, not for a stride or a hand at the hip. Takes as long as some 35 steps
  * (the sundress 0.1 s), whatever the settings.                                                [excl]  */
 VFIT_API vfit_result vfit_cloth_reset(vfit_cloth cloth);
+/* The same garment in another of its sizes (null: made to the avatar), from how it hangs now: it comes to rest within a
+ * second. Takes some ten steps' time. VFIT_ERROR_ARGUMENT where it has no such size, and nothing changes. [excl] */
+VFIT_API vfit_result vfit_cloth_set_size(vfit_cloth cloth, const char* size_label);
 /* Fixed sub-steps inside; dt is clamped to 0.1 ms..0.1 s, 0 changes nothing. Reads the avatar: pose that
  * one first. begin hands the work to a worker and returns, end waits: between the two the engine renders.
  * To a host's job system such a step is one item.                                             [excl]  */

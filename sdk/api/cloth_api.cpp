@@ -116,12 +116,25 @@ SkinCover cover_of(const AvatarObject& avatar, const DressBody& body, std::span<
     return SkinCover(body, below, limbs, tolerance_m);
 }
 
+/// What a label means for a garment: lengths of its own, or a share of those around the avatar.
+struct DressedSize {
+    float ratio = 1.0f;
+    const GarmentSize* own = nullptr;
+};
+DressedSize dressed_size(const GarmentObject& garment, const char* label, AvatarObject& avatar) {
+    if (!label) return {};
+    const GarmentSize& size = garment.garment.size(label);
+    if (!size.flat.empty()) return {1.0f, &size};
+    return {size_ratio(garment.garment, label, avatar.measures()), nullptr};
+}
+
 struct ClothObject : ContextChild {
     static constexpr Kind kKind = Kind::cloth;
-    ClothObject(Ref<AvatarObject> avatar_object, Dress d, std::optional<SkinBelow> skin_of_body, std::optional<SkinCover> cover_of_body,
-                const ClothSettings& cloth_settings, bool hands)
+    ClothObject(Ref<AvatarObject> avatar_object, Ref<GarmentObject> garment_object, Dress d, std::optional<SkinBelow> skin_of_body,
+                std::optional<SkinCover> cover_of_body, const ClothSettings& cloth_settings, bool hands)
         : ContextChild(avatar_object->context),
           avatar(std::move(avatar_object)),
+          garment(std::move(garment_object)),
           with_hands(hands),
           dress(std::move(d)),
           skin(std::move(skin_of_body)),
@@ -130,8 +143,8 @@ struct ClothObject : ContextChild {
           cloth(dress.fabric(), settings, placed()),
           output(*context) {
         time_ns = avatar->avatar.time_ns();
-        output.topology().set_indices(dress.indices(), context->axes);
-        output.topology().set_uvs(dress.uvs(), context->axes);
+        output.topology().set_indices(garment->garment.drawn_indices(), context->axes);
+        output.topology().set_uvs(garment->garment.mesh.uvs, context->axes);
         publish(output.begin());
         if (skin) skin_mesh = cloth.add_mesh(skin->skin.vertex_count(), skin->indices);
         later.task = [](void* self, uint32_t) { static_cast<ClothObject*>(self)->step(); };
@@ -146,6 +159,7 @@ struct ClothObject : ContextChild {
     }
 
     const Ref<AvatarObject> avatar;
+    const Ref<GarmentObject> garment;
     const bool with_hands;
     Dress dress;
     const std::optional<SkinBelow> skin;  // of the avatar, where the cloth is kept out of it
@@ -256,16 +270,29 @@ struct ClothObject : ContextChild {
         context->jobs->end(later);
     }
     void publish(Ref<Frame> frame) {
-        output.fill(*frame, cloth.positions(), cloth.normals(), context->axes, time_ns);
-        const auto& strain = cloth.strain();
-        void* to = frame->add_stream(VFIT_STREAM_STRAIN, VFIT_FORMAT_F32, static_cast<uint32_t>(strain.size()), 1);
-        std::memcpy(to, strain.data(), strain.size() * sizeof(float));
-        if (settings.pressure) {
-            const auto& pressure = cloth.pressure();
-            void* pascal = frame->add_stream(VFIT_STREAM_PRESSURE, VFIT_FORMAT_F32, static_cast<uint32_t>(pressure.size()), 1);
-            std::memcpy(pascal, pressure.data(), pressure.size() * sizeof(float));
-        }
+        const uint32_t count = garment->garment.drawn_count();
+        const auto [positions, normals] = output.add_vertices(*frame, count, time_ns);
+        const Axes& axes = context->axes;
+        for_drawn(cloth.positions(), positions, [&](const Vec3& p) { return axes.point_out(p); });
+        for_drawn(cloth.normals(), normals, [&](const Vec3& n) { return axes.direction_out(n); });
+        const auto same = [](float x) { return x; };
+        for_drawn(cloth.strain(), static_cast<float*>(frame->add_stream(VFIT_STREAM_STRAIN, VFIT_FORMAT_F32, count, 1)), same);
+        if (settings.pressure)
+            for_drawn(cloth.pressure(), static_cast<float*>(frame->add_stream(VFIT_STREAM_PRESSURE, VFIT_FORMAT_F32, count, 1)), same);
         output.publish(std::move(frame));
+    }
+    /// One value a vertex that is drawn, of one a simulated vertex: copies have that of theirs.
+    template <typename T, typename Out>
+    void for_drawn(const std::vector<T>& values, T* to, Out&& out) const {
+        for (const T& value : values) *to++ = out(value);
+        for (const uint32_t of : garment->garment.copies) *to++ = out(values[of]);
+    }
+    /// The same garment in other lengths, from how it hangs now.
+    void change_size(const char* label) {
+        require_no_step();
+        const DressedSize size = dressed_size(*garment, label, *avatar);
+        auto fabric = dress.fabric_of(garment->garment, garment->material, size.ratio, size.own);
+        cloth = cloth.with_fabric(std::move(fabric));
     }
     void require_no_step() const {
         if (stepping) fail(VFIT_ERROR_STATE, "a step is running: end it first");
@@ -336,6 +363,25 @@ uint32_t vfit_garment_size_label(vfit_garment handle, uint32_t index, char* buff
     return length;
 }
 
+vfit_result vfit_garment_parts(vfit_garment handle, vfit_garment_part* items, uint32_t stride, uint32_t* count) {
+    return guard([&] {
+        Use<GarmentObject, Mode::read> garment(handle.id);
+        const Garment& g = garment->garment;
+        // A garment that tells of none is one, of one look.
+        const std::vector<GarmentPart> whole{{"", "", GarmentPart().color, 0, uint32_t(g.mesh.indices.size() / 3)}};
+        const std::vector<GarmentPart>& parts = g.parts.empty() ? whole : g.parts;
+        return write_list(items, stride, count, parts.size(), [&](size_t i) {
+            vfit_garment_part part{};
+            part.first_index = 3 * parts[i].first_triangle;
+            part.index_count = 3 * parts[i].triangle_count;
+            for (int k = 0; k < 3; ++k) part.color[k] = parts[i].color[k];
+            set_text(part.material, parts[i].material);
+            set_text(part.texture, parts[i].texture);
+            return part;
+        });
+    });
+}
+
 vfit_result vfit_cloth_create(vfit_avatar avatar_handle, vfit_garment garment_handle, const vfit_cloth_desc* desc,
                               vfit_cloth* out) {
     return guard([&] {
@@ -350,8 +396,8 @@ vfit_result vfit_cloth_create(vfit_avatar avatar_handle, vfit_garment garment_ha
         const ClothSettings settings = cloth_settings(d, garment->material, avatar->context->axes);
         const bool hands = (d.flags & VFIT_CLOTH_NO_HANDS) == 0;
         const Wearer wearer(*avatar->context, garment->garment, *avatar);
-        const float ratio = d.size_label ? size_ratio(garment->garment, d.size_label, avatar->measures()) : 1.0f;
-        Dress dress(garment->garment, garment->material, wearer.body, ratio, settings.thickness_m);
+        const DressedSize size = dressed_size(*garment, d.size_label, *avatar);
+        Dress dress(garment->garment, garment->material, wearer.body, size.ratio, settings.thickness_m, size.own);
         std::optional<SkinBelow> skin;
         std::optional<SkinCover> cover;
         const bool on_skin = (d.flags & VFIT_CLOTH_SKIN) != 0;
@@ -361,7 +407,7 @@ vfit_result vfit_cloth_create(vfit_avatar avatar_handle, vfit_garment garment_ha
             if (on_skin) skin = skin_below(wearer.body, below);
             else cover = cover_of(*avatar, wearer.body, below, hands, d.cover_m);
         }
-        auto cloth = make<ClothObject>(avatar.ref(), std::move(dress), std::move(skin), std::move(cover), settings, hands);
+        auto cloth = make<ClothObject>(avatar.ref(), garment.ref(), std::move(dress), std::move(skin), std::move(cover), settings, hands);
         out->id = avatar->context->publish(Kind::cloth, cloth, avatar_handle.id);
         return VFIT_OK;
     });
@@ -409,6 +455,14 @@ vfit_result vfit_cloth_end_step(vfit_cloth handle) {
         if (!cloth->stepping) fail(VFIT_ERROR_STATE, "no step has begun");
         cloth->finish();
         cloth->publish(std::move(cloth->next));
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_cloth_set_size(vfit_cloth handle, const char* size_label) {
+    return guard([&] {
+        Use<ClothObject, Mode::exclusive> cloth(handle.id);
+        cloth->change_size(size_label);
         return VFIT_OK;
     });
 }

@@ -179,6 +179,22 @@ Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings
 }
 
 Cloth::~Cloth() = default;
+Cloth::Cloth(Cloth&&) noexcept = default;
+Cloth& Cloth::operator=(Cloth&&) noexcept = default;
+
+Cloth Cloth::with_fabric(std::shared_ptr<const Fabric> fabric) const {
+    const State& s = *state_;
+    if (!fabric || fabric->vertex_count() != s.fabric->vertex_count() || fabric->target_count() != s.fabric->target_count())
+        fail(VFIT_ERROR_ARGUMENT, "another fabric of a cloth must have as many vertices and targets");
+    Cloth out(std::move(fabric), s.settings, s.positions);
+    State& o = *out.state_;
+    o.colliders = s.colliders;
+    o.meshes = s.meshes;
+    o.mesh_places = s.mesh_places;
+    o.previous_targets = s.previous_targets;
+    o.backstops_placed = s.backstops_placed;
+    return out;
+}
 
 void Cloth::reset(std::span<const Vec3> positions) {
     const Fabric& fabric = *state_->fabric;

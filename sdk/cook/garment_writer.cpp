@@ -1,6 +1,7 @@
 #include "cook/garment_writer.h"
 
 #include <charconv>
+#include <utility>
 
 #include "core/json.h"
 
@@ -41,7 +42,7 @@ void add_array(std::string& out, const char* key, const std::vector<T>& values) 
 
 std::string write_garment(const Garment& garment) {
     const auto quoted = [](const std::string& s) { return json_text(s); };
-    std::string out = "{\n \"format\": \"vfit-garment\", \"version\": 1,\n";
+    std::string out = std::string("{\n \"format\": \"vfit-garment\", \"version\": ") + (garment.flat.empty() ? "1" : "2") + ",\n";
     out += " \"name\": " + quoted(garment.name) + ", \"kind\": " + quoted(garment.kind);
     out += ", \"fabric\": " + quoted(garment.fabric);
     out += std::string(", \"body_sex\": \"") + (garment.body_sex == VFIT_SEX_MALE ? "m" : "f") + "\",\n";
@@ -51,6 +52,10 @@ std::string write_garment(const Garment& garment) {
         for (const Measurement& m : garment.sizes[i].nominal) {
             out += ", " + quoted(m.key) + ": ";
             add(out, m.value);
+        }
+        if (!garment.sizes[i].flat.empty()) {
+            out += ",\n ";
+            add_array(out, "flat", garment.sizes[i].flat);
         }
         out += "}";
     }
@@ -64,6 +69,24 @@ std::string write_garment(const Garment& garment) {
     add_array(out, "simulated", garment.simulated);
     out += ",\n";
     add_array(out, "backstop", garment.backstop);
+    if (!garment.flat.empty()) {
+        for (const auto& [key, values] : {std::pair("copies", &garment.copies), std::pair("corners", &garment.corners)}) {
+            out += ",\n";
+            add_array(out, key, *values);
+        }
+        out += ",\n";
+        add_array(out, "flat", garment.flat);
+        out += ",\n";
+        add_array(out, "on_arm", garment.on_arm);
+        out += ",\n \"parts\": [";
+        for (size_t i = 0; i < garment.parts.size(); ++i) {
+            const GarmentPart& part = garment.parts[i];
+            out += (i > 0 ? ", " : "") + std::string("{\"material\": ") + quoted(part.material) + ", \"texture\": " + quoted(part.texture) + ", \"color\": [";
+            add(out, part.color);
+            out += "], \"triangles\": [" + std::to_string(part.first_triangle) + "," + std::to_string(part.triangle_count) + "]}";
+        }
+        out += "]";
+    }
     out += "\n}\n";
     return out;
 }

@@ -1,4 +1,5 @@
-// vfit cook: makes a garment file from its design, offline.
+// vfit cook: makes garment files from their designs, offline.
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
@@ -6,8 +7,9 @@
 #include "client/files.h"
 #include "client/output.h"
 #include "commands/commands.h"
+#include "cook/cook_file.h"
 #include "cook/garment_writer.h"
-#include "cook/sundress.h"
+#include "core/error.h"
 #include "core/files.h"
 #include "core/platform.h"
 
@@ -16,38 +18,118 @@ namespace vfit::tools {
 namespace {
 
 struct Options {
-    std::string design, out, body;
+    std::string design, out, body, fabrics, kind, fabric, sex;
+    float triangle_mm = 20.0f;
     bool json = false;
 };
 
-/// The body beside the program: of a build, or of an installation with its own name for lib.
-std::string default_body() {
-    const std::string prefix = library_folder() + "/../", file = "/vfit_data/body.bin";
+/// A file of data beside the program: of a build, or of an installation with its own name for lib.
+std::string data_beside(const std::string& name) {
+    const std::string prefix = library_folder() + "/../", file = "/vfit_data/" + name;
     const std::string built = prefix + "lib" + file;
     return std::filesystem::exists(built) ? built : prefix + VFIT_LIBDIR + file;
 }
 
+Json report_of(const CookedGarment& cooked) {
+    const vfit::Garment& g = cooked.garment;
+    const DrapeReport& r = cooked.report;
+    Json sizes = Json::array();
+    for (const GarmentSize& size : g.sizes) sizes.push_back(size.label);
+    Json out = {{"garment", g.name}, {"kind", g.kind}, {"fabric", g.fabric}, {"vertices", g.vertex_count()}, {"simulated", g.simulated_count()}, {"sizes", sizes}};
+    if (g.flat.empty()) return out;
+    out["triangles"] = g.mesh.indices.size() / 3;
+    out["hangs_on"] = r.hangs_on == HangsOn::shoulders ? "shoulders" : r.hangs_on == HangsOn::waist ? "waist" : "nothing";
+    out["raised_m"] = r.raised_m;
+    out["widest_seam_m"] = r.widest_seam_m;
+    out["skin_crossings"] = r.skin_crossings;
+    out["self_crossings"] = r.self_crossings;
+    out["strain_p99"] = r.strain_p99;
+    out["seconds"] = r.seconds;
+    return out;
+}
+
+class Cook {
+public:
+    explicit Cook(const Options& options)
+        : options_(options),
+          model_(BodyModel::load(options.body.empty() ? data_beside("body.bin") : options.body)),
+          fabrics_(FabricLibrary::parse(read_file(options.fabrics.empty() ? data_beside("fabrics.json") : options.fabrics))),
+          jobs_(Jobs::own(1)) {}
+
+    Json cook(const std::string& design, const std::string& out) {
+        CookRequest request;
+        request.path = design;
+        request.kind = options_.kind;
+        request.fabric = options_.fabric;
+        request.sex = options_.sex.empty() ? VFIT_SEX_UNKNOWN : options_.sex == "m" ? VFIT_SEX_MALE : VFIT_SEX_FEMALE;
+        request.triangle_m = options_.triangle_mm / 1000.0f;
+        const CookedGarment cooked = cook_file(*model_, fabrics_, request, *jobs_);
+        write_text(out, write_garment(cooked.garment));
+        Json report = report_of(cooked);
+        report["file"] = out;
+        return report;
+    }
+
+private:
+    const Options& options_;
+    std::shared_ptr<const BodyModel> model_;
+    FabricLibrary fabrics_;
+    std::unique_ptr<Jobs> jobs_;
+};
+
+std::string line_of(const Json& r) {
+    std::string line = text(r["garment"].get<std::string>(), ": ", r["vertices"].get<int>(), " vertices, ", r["simulated"].get<int>(), " of them simulated");
+    if (r.contains("seconds"))
+        line += text(", ", r["skin_crossings"].get<int>(), " crossings with the skin, ", r["self_crossings"].get<int>(), " with itself, in ", int(r["seconds"].get<double>() * 10.0) / 10.0, " s");
+    return line + ", in " + r["file"].get<std::string>();
+}
+
 void cook(const Options& options) {
-    const auto model = BodyModel::load(options.body.empty() ? default_body() : options.body);
-    const vfit::Garment garment = cook_sundress(*model, parse_sundress(read_file(options.design)));
-    write_text(options.out, write_garment(garment));
-    if (options.json)
-        print_document({{"garment", garment.name},
-                        {"vertices", garment.vertex_count()},
-                        {"simulated", garment.simulated_count()}});
-    else
-        std::cout << garment.name << ": " << garment.vertex_count() << " vertices, " << garment.simulated_count()
-                  << " of them simulated, in " << options.out << "\n";
+    Cook kitchen(options);
+    if (!std::filesystem::is_directory(options.design)) {
+        const Json report = kitchen.cook(options.design, options.out);
+        if (options.json) print_document(report);
+        else std::cout << line_of(report) << "\n";
+        return;
+    }
+    // A catalogue: every design below the folder; one that fails does not stop the others.
+    std::vector<std::filesystem::path> designs;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(options.design))
+        if (entry.is_regular_file() && entry.path().extension() == ".json") designs.push_back(entry.path());
+    std::sort(designs.begin(), designs.end());
+    if (designs.empty()) throw Failure("there is no design (*.json) in " + options.design);
+    create_folder(options.out);
+    Json cooked = Json::array(), failed = Json::array();
+    for (const auto& design : designs) {
+        try {
+            std::string name = design.stem().string();
+            cooked.push_back(kitchen.cook(design.string(), (std::filesystem::path(options.out) / (name + ".json")).string()));
+            if (!options.json) std::cout << line_of(cooked.back()) << "\n";
+        } catch (const std::exception& error) {
+            failed.push_back({{"design", design.string()}, {"error", error.what()}});
+            if (!options.json) std::cout << design.string() << ": " << error.what() << "\n";
+        }
+    }
+    const Json report = {{"cooked", cooked}, {"failed", failed}};
+    write_text((std::filesystem::path(options.out) / "report.json").string(), document_text(report));
+    if (options.json) print_document(report);
+    else std::cout << cooked.size() << " cooked, " << failed.size() << " failed; report.json beside them\n";
+    if (!failed.empty()) throw Failure(text(failed.size(), " of ", designs.size(), " designs could not be cooked; see report.json"));
 }
 
 }  // namespace
 
 void add_cook(Command& app) {
-    Command command = app.add_subcommand("cook", "Make a garment file from a design");
+    Command command = app.add_subcommand("cook", "Make garment files from designs or sewing patterns");
     auto o = std::make_shared<Options>();
-    command.add_option("design", o->design, "Design file (docs/garments.md)").required();
-    command.add_option("--out", o->out, "Garment file to write").required();
+    command.add_option("design", o->design, "Design, GarmentCode specification, or a folder of them (docs/garments.md)").required();
+    command.add_option("--out", o->out, "Garment file to write; of a folder: the folder for them").required();
     command.add_option("--body", o->body, "Baked body (default: the one beside the program)");
+    command.add_option("--fabrics", o->fabrics, "Fabrics (default: those beside the program)");
+    command.add_option("--kind", o->kind, "Of a specification: garment kind of the size charts (default dress)");
+    command.add_option("--fabric", o->fabric, "Of a specification: its fabric (default cotton_woven)");
+    command.add_option("--sex", o->sex, "Of a specification: on whose default body it is draped (default f)").one_of({"f", "m"});
+    command.add_option("--triangle", o->triangle_mm, "Side of a triangle in mm (default 20)").within(5, 100);
     command.add_flag("--json", o->json, "Print JSON");
     command.callback([o] { cook(*o); });
 }

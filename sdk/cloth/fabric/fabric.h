@@ -125,7 +125,7 @@ struct FabricShape {
     float horizontal_scale = 1.0f;  // of the rest lengths' X and Z: the size of the garment over the shape's
     // One a corner of a triangle, or empty: the triangles as they were cut from flat cloth, metres, y along the warp. Then lengths
     // are theirs, not those between positions; where two that are sewn together differ, the mean.
-    std::span<const Vec2> cut;
+    std::span<const Vec2> cut = {};
 };
 
 /// Constraints and masses of that material on that shape. Only edges with a simulated end become constraints.

@@ -12,14 +12,17 @@ namespace vfit {
 
 namespace {
 
-/// The body's triangles that may carry a garment.
-std::vector<uint32_t> bindable_triangles(const DressBody& body) {
+/// The body's triangles that may carry a garment: without arms, or, for sleeves, without hands.
+std::vector<uint32_t> bindable_triangles(const DressBody& body, bool with_arms) {
     if (body.parts.empty()) return {body.indices.begin(), body.indices.end()};
+    const auto is_kept = [&](uint32_t v) {
+        const BodyPart part = body.parts[v];
+        return with_arms ? part != BodyPart::kLeftHand && part != BodyPart::kRightHand : !is_arm(part);
+    };
     std::vector<uint32_t> kept;
     for (size_t i = 0; i + 2 < body.indices.size(); i += 3) {
         const uint32_t* v = &body.indices[i];
-        if (!is_arm(body.parts[v[0]]) && !is_arm(body.parts[v[1]]) && !is_arm(body.parts[v[2]]))
-            kept.insert(kept.end(), v, v + 3);
+        if (is_kept(v[0]) && is_kept(v[1]) && is_kept(v[2])) kept.insert(kept.end(), v, v + 3);
     }
     return kept;
 }
@@ -153,17 +156,55 @@ void push_out(const MeshQuery& skin, float clearance_m, std::vector<Vec3>& point
     }
 }
 
+/// A triangle with these sides, the first edge of which runs as that of `like`, and on the same side of it.
+void with_sides(const Vec2 (&like)[3], const float (&sides)[3], Vec2 (&out)[3]) {
+    const Vec2 first = like[1] - like[0], along = first / glm::length(first);
+    const Vec2 left(-along.y, along.x);
+    const float side = glm::dot(like[2] - like[0], left) < 0.0f ? -1.0f : 1.0f;
+    const float x = (sides[0] * sides[0] + sides[2] * sides[2] - sides[1] * sides[1]) / (2.0f * sides[0]);
+    constexpr float kFlattest = 0.05f;  // height over base: bodies change triangles by a little, but slivers
+    const float y = std::max(std::sqrt(std::max(0.0f, sides[2] * sides[2] - x * x)), kFlattest * sides[0]);
+    out[0] = like[0];
+    out[1] = like[0] + along * sides[0];
+    out[2] = like[0] + along * x + left * (side * y);
+}
+
+/// The triangles as they are cut, one place a corner: in a size, or with the garment's lengths as much longer as its shape is on
+/// this body. So what was loose, tight, gathered or flared by some share where it was made stays so, place by place.
+std::vector<Vec2> cut_of(const Garment& garment, std::span<const Vec3> rest, const GarmentSize* size) {
+    const std::vector<Vec2>& flat = size ? size->flat : garment.flat;
+    const std::vector<uint32_t>& drawn = garment.drawn_indices();
+    std::vector<Vec2> cut;
+    cut.reserve(drawn.size());
+    for (size_t i = 0; i + 2 < drawn.size(); i += 3) {
+        Vec2 corners[3] = {flat[drawn[i]], flat[drawn[i + 1]], flat[drawn[i + 2]]};
+        if (!size) {
+            float sides[3];
+            for (size_t k = 0; k < 3; ++k) {
+                const uint32_t a = garment.mesh.indices[i + k], b = garment.mesh.indices[i + (k + 1) % 3];
+                sides[k] = glm::length(corners[(k + 1) % 3] - corners[k]) * glm::length(rest[b] - rest[a]) /
+                           std::max(glm::length(garment.mesh.positions[b] - garment.mesh.positions[a]), 1e-6f);
+            }
+            const Vec2 like[3] = {corners[0], corners[1], corners[2]};
+            with_sides(like, sides, corners);
+        }
+        cut.insert(cut.end(), corners, corners + 3);
+    }
+    return cut;
+}
+
 }  // namespace
 
 Dress::Dress(const Garment& garment, const FabricMaterial& material, const DressBody& body, float size_ratio,
-             float thickness_m)
-    : indices_(garment.mesh.indices), uvs_(garment.mesh.uvs) {
+             float thickness_m, const GarmentSize* size)
+    : indices_(garment.mesh.indices) {
     check(garment, body);
     const uint32_t n = garment.vertex_count();
     uint32_t bones = 0;
     for (const auto& list : body.skin_bones)
         for (uint16_t bone : list) bones = std::max(bones, uint32_t(bone) + 1);
-    const std::vector<uint32_t> triangles = bindable_triangles(body);
+    const std::vector<uint32_t> triangles = bindable_triangles(body, false), with_arms = bindable_triangles(body, true);
+    const bool sleeves = std::find(garment.on_arm.begin(), garment.on_arm.end(), 1) != garment.on_arm.end();
 
     // Both bodies stand in the same pose: what lies off the skin is carried as it is, so that ease and flare stay
     // what they were cut to.
@@ -171,10 +212,13 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
     std::vector<float> skin_distances(n);
     {
         const MeshQuery authored(body.authored, triangles);
+        std::optional<MeshQuery> authored_arms;
+        if (sleeves) authored_arms.emplace(body.authored, with_arms);
         for (uint32_t i = 0; i < n; ++i) {
-            const MeshQuery::Closest closest = authored.closest(garment.mesh.positions[i]);
+            const bool arm = sleeves && garment.on_arm[i];
+            const MeshQuery::Closest closest = (arm ? *authored_arms : authored).closest(garment.mesh.positions[i]);
             skin_distances[i] = closest.distance;
-            const Binding binding = binding_of(closest, triangles);
+            const Binding binding = binding_of(closest, arm ? with_arms : triangles);
             const Vec3 shift = binding.on(body.rest) - binding.on(body.authored);
             for (int k = 0; k < 3; ++k) shifts.row(i)[size_t(k)] = shift[k];
             add_bone_weights(body, binding, weights.row(i));
@@ -189,7 +233,6 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
     const MeshQuery skin(body.rest, body.indices);
     push_out(skin, thickness_m, rest_);
 
-    FabricData data = cook_fabric({rest_, indices_, uvs_, garment.simulated, size_ratio, {}}, material);
     Carried carried;
     for (uint32_t i = 0; i < n; ++i) carried.add(rest_[i], weights.row(i));
     const MeshQuery bound(body.rest, triangles);
@@ -200,10 +243,8 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
         std::fill(bone_weights.begin(), bone_weights.end(), 0.0f);
         add_bone_weights(body, binding_of(bound.closest(rest_[i]), triangles), bone_weights);
         carried.add(ball.center, bone_weights);
-        data.backstops.push_back({i, ball.radius_m});
+        backstops_.push_back({i, ball.radius_m});
     }
-    for (uint32_t i = 0; i < n; ++i)
-        if (!garment.most_way.empty() && garment.most_way[i] > 0.0f && garment.simulated[i]) data.limits.push_back({i, garment.most_way[i]});
     Carried followed;
     for (uint32_t i = 0; i < carried.rest.size(); ++i) {
         const bool limited = i < n && !garment.most_way.empty() && garment.most_way[i] > 0.0f;
@@ -211,9 +252,19 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
         followed.add(carried.rest[i], carried.bones[i], carried.weights[i]);
         followed_.push_back(i);
     }
-    fabric_ = std::make_shared<const Fabric>(std::move(data));
+    fabric_ = fabric_of(garment, material, size_ratio, size);
     skin_.emplace(carried.skin());
     if (!followed_.empty()) followed_skin_.emplace(followed.skin());
+}
+
+std::shared_ptr<const Fabric> Dress::fabric_of(const Garment& garment, const FabricMaterial& material, float size_ratio, const GarmentSize* size) const {
+    const std::vector<Vec2> cut = garment.flat.empty() ? std::vector<Vec2>() : cut_of(garment, rest_, size);
+    const std::span<const Vec2> uvs = std::span(garment.mesh.uvs).first(garment.vertex_count());
+    FabricData data = cook_fabric({rest_, indices_, uvs, garment.simulated, size_ratio, cut}, material);
+    data.backstops = backstops_;
+    for (uint32_t i = 0; i < garment.vertex_count(); ++i)
+        if (!garment.most_way.empty() && garment.most_way[i] > 0.0f && garment.simulated[i]) data.limits.push_back({i, garment.most_way[i]});
+    return std::make_shared<const Fabric>(std::move(data));
 }
 
 void Dress::place(std::span<const Mat4> matrices, std::vector<Vec3>& targets, Scratch& scratch, Jobs& jobs) const {

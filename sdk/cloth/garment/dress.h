@@ -29,16 +29,18 @@ struct DressBody {
 
 class Dress {
 public:
-    /// size_ratio: of the rest lengths around the body (size_ratio of garment.h; 1: made to measure).
-    /// thickness_m: the clearance that the carried garment keeps from the body.
+    /// size_ratio: of the rest lengths around the body (size_ratio of garment.h; 1: made to measure), of a garment that has no flat
+    /// triangles. thickness_m: the clearance that the carried garment keeps from the body. size: one of the garment's with lengths
+    /// of its own; null: made to the body, its ease where the author gave it.
     Dress(const Garment& garment, const FabricMaterial& material, const DressBody& body, float size_ratio = 1.0f,
-          float thickness_m = 0.004f);
+          float thickness_m = 0.004f, const GarmentSize* size = nullptr);
 
     const std::shared_ptr<const Fabric>& fabric() const { return fabric_; }
+    /// The same garment in another size: as many vertices and targets, other lengths.
+    std::shared_ptr<const Fabric> fabric_of(const Garment& garment, const FabricMaterial& material, float size_ratio, const GarmentSize* size) const;
     /// The garment on the avatar's rest body; one a garment vertex.
     const std::vector<Vec3>& rest() const { return rest_; }
     const std::vector<uint32_t>& indices() const { return indices_; }
-    const std::vector<Vec2>& uvs() const { return uvs_; }
 
     struct Scratch {
         Skin::Scratch bones;
@@ -54,7 +56,7 @@ private:
     std::shared_ptr<const Fabric> fabric_;
     std::vector<Vec3> rest_;
     std::vector<uint32_t> indices_;
-    std::vector<Vec2> uvs_;
+    std::vector<Backstop> backstops_;
     std::optional<Skin> skin_;  // of rest_, then the backstops' centres
     std::vector<uint32_t> followed_;  // of these
     std::optional<Skin> followed_skin_;

@@ -40,6 +40,13 @@ std::vector<float> numbers(const Json& root, const char* key, size_t width) {
     return values;
 }
 
+std::vector<Vec2> pairs(const Json& root, const char* key) {
+    const std::vector<float> values = numbers(root, key, 2);
+    std::vector<Vec2> out;
+    for (size_t i = 0; i < values.size(); i += 2) out.emplace_back(values[i], values[i + 1]);
+    return out;
+}
+
 std::vector<uint32_t> indices(const Json& root, const char* key) {
     const Json& list = field(root, key);
     if (!list.is_array()) fail(VFIT_ERROR_DATA, "garment: \"", key, "\" is not an array");
@@ -70,11 +77,39 @@ std::vector<GarmentSize> sizes(const Json& root) {
         size.label = text_field(entry, "label");
         for (const auto& [key, value] : entry.items()) {
             if (key == "label") continue;
+            if (key == "flat") {
+                size.flat = pairs(entry, "flat");
+                continue;
+            }
             if (!value.is_number())
                 fail(VFIT_ERROR_DATA, "garment: ", key, " of size ", size.label, " is not a number");
             size.nominal.push_back({key, value.get<float>()});
         }
         out.push_back(std::move(size));
+    }
+    return out;
+}
+
+std::vector<GarmentPart> parts(const Json& root) {
+    const Json& list = field(root, "parts");
+    if (!list.is_array()) fail(VFIT_ERROR_DATA, "garment: \"parts\" is not an array");
+    std::vector<GarmentPart> out;
+    for (const Json& entry : list) {
+        const std::string what = "garment: parts[" + std::to_string(out.size()) + "]";
+        if (!entry.is_object()) fail(VFIT_ERROR_DATA, what, " is not an object");
+        GarmentPart part;
+        part.material = text_field(entry, "material");
+        if (const auto texture = entry.find("texture"); texture != entry.end()) {
+            if (!texture->is_string()) fail(VFIT_ERROR_DATA, what, ": \"texture\" is not a text");
+            part.texture = texture->get<std::string>();
+        }
+        const std::vector<float> color = numbers(entry, "color", 1);
+        if (color.size() != 3) fail(VFIT_ERROR_DATA, what, ": \"color\" is not three numbers");
+        part.color = {color[0], color[1], color[2]};
+        const std::vector<uint32_t> range = indices(entry, "triangles");
+        if (range.size() != 2) fail(VFIT_ERROR_DATA, what, ": \"triangles\" is not the first one and their number");
+        part.first_triangle = range[0], part.triangle_count = range[1];
+        out.push_back(std::move(part));
     }
     return out;
 }
@@ -92,6 +127,8 @@ void validate_sizes(const Garment& g) {
         }
     }
 }
+
+constexpr float kFarthest_m = 10.0f;  // a garment in centimetres or millimetres is a mistake
 
 void validate_triangles(const Mesh& mesh) {
     // A sliver below this is as good as none: a garment's triangles are a centimetre or so a side.
@@ -118,9 +155,60 @@ void validate_triangles(const Mesh& mesh) {
     }
 }
 
-constexpr float kFarthest_m = 10.0f;  // a garment in centimetres or millimetres is a mistake
+
+/// Triangles as they are cut, of the garment or one of its sizes.
+void validate_flat(const Garment& g, std::span<const Vec2> flat, const std::string& whose) {
+    constexpr float kSmallestArea_m2 = 1e-9f;
+    if (flat.size() != g.drawn_count())
+        fail(VFIT_ERROR_DATA, "garment: ", whose, " has ", flat.size(), " flat places for ", g.drawn_count(), " vertices and copies");
+    for (size_t i = 0; i < flat.size(); ++i)
+        if (!finite(flat[i].x) || !finite(flat[i].y) || glm::length(flat[i]) > kFarthest_m)
+            fail(VFIT_ERROR_DATA, "garment: ", whose, ": flat place ", i, " is not finite or further than ", kFarthest_m, " m away");
+    for (size_t i = 0; i + 2 < g.drawn_indices().size(); i += 3) {
+        const uint32_t* v = &g.drawn_indices()[i];
+        const Vec2 a = flat[v[1]] - flat[v[0]], b = flat[v[2]] - flat[v[0]];
+        if (!(0.5f * std::abs(a.x * b.y - a.y * b.x) >= kSmallestArea_m2)) fail(VFIT_ERROR_DATA, "garment: ", whose, ": triangle ", i / 3, " is cut without an area");
+    }
+}
+
+void validate_cut(const Garment& g) {
+    const uint32_t n = g.vertex_count();
+    for (size_t i = 0; i < g.copies.size(); ++i)
+        if (g.copies[i] >= n) fail(VFIT_ERROR_DATA, "garment: copies[", i, "] names vertex ", g.copies[i], " of ", n);
+    if (!g.copies.empty() && g.corners.empty()) fail(VFIT_ERROR_DATA, "garment: there are copies of vertices, but no \"corners\"");
+    if (!g.corners.empty() && g.corners.size() != g.mesh.indices.size())
+        fail(VFIT_ERROR_DATA, "garment: ", g.corners.size(), " corners for ", g.mesh.indices.size(), " indices");
+    for (size_t i = 0; i < g.corners.size(); ++i) {
+        const uint32_t v = g.corners[i];
+        if (v >= g.drawn_count() || (v < n ? v : g.copies[v - n]) != g.mesh.indices[i])
+            fail(VFIT_ERROR_DATA, "garment: corners[", i, "] is ", v, ", no copy of vertex ", g.mesh.indices[i]);
+    }
+    if (!g.flat.empty()) validate_flat(g, g.flat, "the garment");
+    for (const GarmentSize& size : g.sizes) {
+        if (size.flat.empty() != g.flat.empty()) fail(VFIT_ERROR_DATA, "garment: size ", size.label, " and the garment: one of the two has no \"flat\"");
+        if (!size.flat.empty()) validate_flat(g, size.flat, "size " + size.label);
+    }
+    if (!g.on_arm.empty() && g.on_arm.size() != n) fail(VFIT_ERROR_DATA, "garment: \"on_arm\" has ", g.on_arm.size(), " flags for ", n, " vertices");
+    uint32_t next = 0;
+    for (const GarmentPart& part : g.parts) {
+        if (part.first_triangle != next || part.triangle_count == 0 || part.triangle_count > g.mesh.indices.size() / 3 - next)
+            fail(VFIT_ERROR_DATA, "garment: the triangles of part ", part.material, " do not follow on those of the one before, or are more than there are");
+        next += part.triangle_count;
+        if (!finite(part.color)) fail(VFIT_ERROR_DATA, "garment: the colour of part ", part.material, " is not finite");
+    }
+    if (!g.parts.empty() && next != g.mesh.indices.size() / 3) fail(VFIT_ERROR_DATA, "garment: ", g.mesh.indices.size() / 3 - next, " triangles are in no part");
+}
 
 }  // namespace
+
+const GarmentSize& Garment::size(const std::string& label) const {
+    std::string labels;
+    for (const GarmentSize& s : sizes) {
+        if (s.label == label) return s;
+        labels += (labels.empty() ? "" : ", ") + s.label;
+    }
+    fail(VFIT_ERROR_ARGUMENT, "garment ", name, " has no size \"", label, "\"; there are: ", labels);
+}
 
 uint32_t Garment::simulated_count() const {
     return uint32_t(std::count(simulated.begin(), simulated.end(), uint8_t(1)));
@@ -131,7 +219,7 @@ void validate_garment(const Garment& g, const FabricLibrary& fabrics) {
     if (n == 0) fail(VFIT_ERROR_DATA, "garment: there are no vertices");
     if (g.mesh.indices.empty() || g.mesh.indices.size() % 3 != 0)
         fail(VFIT_ERROR_DATA, "garment: ", g.mesh.indices.size(), " indices are no list of triangles");
-    if (g.mesh.uvs.size() != n) fail(VFIT_ERROR_DATA, "garment: ", g.mesh.uvs.size(), " uvs for ", n, " vertices");
+    if (g.mesh.uvs.size() != g.drawn_count()) fail(VFIT_ERROR_DATA, "garment: ", g.mesh.uvs.size(), " uvs for ", g.drawn_count(), " vertices and copies");
     if (g.simulated.size() != n)
         fail(VFIT_ERROR_DATA, "garment: \"simulated\" has ", g.simulated.size(), " flags for ", n, " vertices");
     if (g.backstop.size() != n)
@@ -144,11 +232,12 @@ void validate_garment(const Garment& g, const FabricLibrary& fabrics) {
         if (!finite(g.mesh.positions[i])) fail(VFIT_ERROR_DATA, "garment: position ", i, " is not finite");
         if (glm::length(g.mesh.positions[i]) > kFarthest_m)
             fail(VFIT_ERROR_DATA, "garment: position ", i, " is more than ", kFarthest_m, " m from the body: positions are metres");
-        if (!finite(g.mesh.uvs[i].x) || !finite(g.mesh.uvs[i].y))
-            fail(VFIT_ERROR_DATA, "garment: uv ", i, " is not finite");
     }
+    for (size_t i = 0; i < g.mesh.uvs.size(); ++i)
+        if (!finite(g.mesh.uvs[i].x) || !finite(g.mesh.uvs[i].y)) fail(VFIT_ERROR_DATA, "garment: uv ", i, " is not finite");
     fabrics.get(g.fabric);
     validate_triangles(g.mesh);
+    validate_cut(g);
     validate_sizes(g);
 }
 
@@ -160,8 +249,8 @@ Garment parse_garment(std::span<const std::byte> json, const FabricLibrary& fabr
     const Json& version = field(root, "version");
     if (!version.is_number_unsigned() || version.get<uint64_t>() == 0)
         fail(VFIT_ERROR_DATA, "garment: \"version\" is not a version number");
-    if (version.get<uint64_t>() != 1)
-        fail(VFIT_ERROR_VERSION, "garment: version ", version.get<uint64_t>(), " is not known, 1 is");
+    if (version.get<uint64_t>() > 2)
+        fail(VFIT_ERROR_VERSION, "garment: version ", version.get<uint64_t>(), " is not known, 1 and 2 are");
 
     Garment g;
     g.name = text_field(root, "name");
@@ -173,34 +262,32 @@ Garment parse_garment(std::span<const std::byte> json, const FabricLibrary& fabr
     const std::vector<float> positions = numbers(root, "positions", 3);
     for (size_t i = 0; i < positions.size(); i += 3)
         g.mesh.positions.emplace_back(positions[i], positions[i + 1], positions[i + 2]);
-    const std::vector<float> uvs = numbers(root, "uvs", 2);
-    for (size_t i = 0; i < uvs.size(); i += 2) g.mesh.uvs.emplace_back(uvs[i], uvs[i + 1]);
+    g.mesh.uvs = pairs(root, "uvs");
     g.mesh.indices = indices(root, "indices");
     g.simulated = flags(root, "simulated");
     g.backstop = flags(root, "backstop");
     if (root.contains("max_distance")) g.most_way = numbers(root, "max_distance", 1);
     g.sizes = sizes(root);
+    if (root.contains("copies")) g.copies = indices(root, "copies");
+    if (root.contains("corners")) g.corners = indices(root, "corners");
+    if (root.contains("flat")) g.flat = pairs(root, "flat");
+    if (root.contains("on_arm")) g.on_arm = flags(root, "on_arm");
+    if (root.contains("parts")) g.parts = parts(root);
     validate_garment(g, fabrics);
     compute_normals(g.mesh.positions, g.mesh.indices, g.mesh.normals);
     return g;
 }
 
 float size_ratio(const Garment& garment, const std::string& label, const std::vector<Measurement>& body) {
-    std::string labels;
-    for (const GarmentSize& size : garment.sizes) {
-        labels += (labels.empty() ? "" : ", ") + size.label;
-        if (size.label != label) continue;
-        float sum = 0.0f;
-        int count = 0;
-        for (const Measurement& nominal : size.nominal)
-            if (const Measurement* own = find(body, nominal.key); own && own->value > 0.0f) {
-                sum += nominal.value / own->value;
-                ++count;
-            }
-        if (count == 0) fail(VFIT_ERROR_DATA, "size ", label, ": none of its girths is known of the body");
-        return sum / float(count);
-    }
-    fail(VFIT_ERROR_ARGUMENT, "garment ", garment.name, " has no size \"", label, "\"; there are: ", labels);
+    float sum = 0.0f;
+    int count = 0;
+    for (const Measurement& nominal : garment.size(label).nominal)
+        if (const Measurement* own = find(body, nominal.key); own && own->value > 0.0f) {
+            sum += nominal.value / own->value;
+            ++count;
+        }
+    if (count == 0) fail(VFIT_ERROR_DATA, "size ", label, ": none of its girths is known of the body");
+    return sum / float(count);
 }
 
 }  // namespace vfit

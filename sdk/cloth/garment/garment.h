@@ -19,6 +19,14 @@ namespace vfit {
 struct GarmentSize {
     std::string label;
     std::vector<Measurement> nominal;
+    std::vector<Vec2> flat;  // as Garment::flat, in this size; empty: the shape's lengths times nominal over own girths
+};
+
+/// How triangles look; passed through to whoever draws them.
+struct GarmentPart {
+    std::string material, texture;  // texture: path of a picture as the author gave it; may be empty
+    Vec3 color{0.8f};               // linear RGB, 0..1
+    uint32_t first_triangle = 0, triangle_count = 0;
 };
 
 struct Garment {
@@ -26,7 +34,14 @@ struct Garment {
     std::string kind;    // garment kind of the size charts
     std::string fabric;  // name in the fabric library
     vfit_sex body_sex = VFIT_SEX_FEMALE;
-    Mesh mesh;  // positions on that body, indices, uvs
+    Mesh mesh;  // positions on that body, indices, uvs (one a vertex, then one a copy)
+    // Where panels are sewn together, renderers need a vertex for each: copies, numbered after the vertices.
+    std::vector<uint32_t> copies;    // of each, the vertex that it is one of
+    std::vector<uint32_t> corners;   // the triangles by vertices and copies, three each; empty: mesh.indices
+    std::vector<Vec2> flat;          // empty, or one a vertex and copy: the triangles as they are cut from cloth, metres, y along the
+                                     // warp: the garment's own lengths, in which positions were found
+    std::vector<uint8_t> on_arm;     // empty, or one a vertex: 1 carried by an arm
+    std::vector<GarmentPart> parts;  // empty: one, without a name
     std::vector<uint8_t> simulated;  // one a vertex: 1 simulated, 0 skinned with the body
     std::vector<uint8_t> backstop;   // one a vertex: 1 kept out of the body below it
     std::vector<float> most_way;     // empty, or one a vertex: metres from where the skin would carry it; 0: any
@@ -34,9 +49,13 @@ struct Garment {
 
     uint32_t vertex_count() const { return uint32_t(mesh.positions.size()); }
     uint32_t simulated_count() const;
+    uint32_t drawn_count() const { return vertex_count() + uint32_t(copies.size()); }
+    const std::vector<uint32_t>& drawn_indices() const { return corners.empty() ? mesh.indices : corners; }
+    /// The size of that label; VFIT_ERROR_ARGUMENT, naming those that there are, where there is none.
+    const GarmentSize& size(const std::string& label) const;
 };
 
-/// Reads a garment file (JSON, format "vfit-garment" version 1). Fails with VFIT_ERROR_DATA, naming the
+/// Reads a garment file (JSON, format "vfit-garment" version 1 or 2). Fails with VFIT_ERROR_DATA, naming the
 /// field, vertex, triangle or edge; with VFIT_ERROR_VERSION where the version is a later one.
 Garment parse_garment(std::span<const std::byte> json, const FabricLibrary& fabrics);
 

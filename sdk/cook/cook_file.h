@@ -1,0 +1,22 @@
+// Cooks whatever a garment's author brings: the kind of the file is seen by what is in it.
+#pragma once
+
+#include <string>
+
+#include "cook/cook_pattern.h"
+
+namespace vfit {
+
+struct CookRequest {
+    std::string path;
+    // Empty: as the file tells, or as CookOptions has it.
+    std::string name, kind, fabric;
+    vfit_sex sex = VFIT_SEX_UNKNOWN;
+    float triangle_m = 0.02f;
+    DrapeSettings drape;
+};
+
+/// VFIT_ERROR_DATA says what is wrong with it, or that it is none of the kinds that are known.
+CookedGarment cook_file(const BodyModel& model, const FabricLibrary& fabrics, const CookRequest& request, Jobs& jobs);
+
+}  // namespace vfit

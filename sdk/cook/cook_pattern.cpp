@@ -1,0 +1,129 @@
+#include "cook/cook_pattern.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace vfit {
+
+namespace {
+
+/// Vertices of panels in the order in which a garment has them: the first of each sewn vertex, then its copies.
+struct DrawnOrder {
+    std::vector<uint32_t> panel_vertices;  // one a vertex and copy
+    std::vector<uint32_t> copies;          // sewn vertices
+    std::vector<uint32_t> place_of;        // of a panel vertex
+
+    explicit DrawnOrder(const SewnMesh& mesh) : panel_vertices(mesh.sewn_count, UINT32_MAX), place_of(mesh.panel_vertex_count()) {
+        for (uint32_t v = 0; v < mesh.panel_vertex_count(); ++v) {
+            uint32_t& first = panel_vertices[mesh.sewn_of[v]];
+            if (first == UINT32_MAX) first = v, place_of[v] = mesh.sewn_of[v];
+        }
+        for (uint32_t v = 0; v < mesh.panel_vertex_count(); ++v) {
+            if (panel_vertices[mesh.sewn_of[v]] == v) continue;
+            place_of[v] = uint32_t(panel_vertices.size());
+            panel_vertices.push_back(v);
+            copies.push_back(mesh.sewn_of[v]);
+        }
+    }
+    std::vector<Vec2> pick(const std::vector<Vec2>& of_panels) const {
+        std::vector<Vec2> out;
+        for (const uint32_t v : panel_vertices) out.push_back(of_panels[v]);
+        return out;
+    }
+};
+
+/// Sleeves: of panels that lie against an arm for the most part, all vertices that no other panel has.
+std::vector<uint8_t> on_arms(const SewnMesh& mesh, const std::vector<Vec3>& places, const DrapeBody& body, const std::vector<BodyPart>& parts) {
+    std::vector<uint8_t> out(mesh.sewn_count, 0);
+    std::vector<uint32_t> elsewhere(mesh.sewn_count, 0);
+    for (size_t p = 0; p < mesh.panels.size(); ++p) {
+        size_t on = 0;
+        const size_t count = mesh.panels[p].flat.size();
+        for (uint32_t v = 0; v < count; ++v) {
+            const MeshQuery::Closest near = body.skin->closest(places[mesh.sewn_of[mesh.first_vertex[p] + v]]);
+            on += is_arm(parts[body.indices[3 * near.triangle]]);
+        }
+        const bool sleeve = 2 * on > count;
+        for (uint32_t v = 0; v < count; ++v) {
+            const uint32_t sewn = mesh.sewn_of[mesh.first_vertex[p] + v];
+            if (sleeve) out[sewn] = 1;
+            else elsewhere[sewn] = 1;
+        }
+    }
+    for (uint32_t v = 0; v < mesh.sewn_count; ++v)
+        if (elsewhere[v]) out[v] = 0;
+    return out;
+}
+
+std::vector<GarmentPart> parts_of(const Pattern& pattern, const SewnMesh& mesh) {
+    std::vector<GarmentPart> parts;
+    for (size_t p = 0; p < pattern.panels.size(); ++p) {
+        PatternMaterial material{"cloth", "", {0.8f, 0.8f, 0.8f}};
+        if (!pattern.materials.empty()) material = pattern.materials[0];
+        for (const PatternMaterial& m : pattern.materials)
+            if (m.name == pattern.panels[p].material) material = m;
+        const uint32_t first = mesh.first_triangle[p], count = mesh.first_triangle[p + 1] - first;
+        if (!parts.empty() && parts.back().material == material.name) parts.back().triangle_count += count;
+        else parts.push_back({material.name, material.texture, Vec3(material.color[0], material.color[1], material.color[2]), first, count});
+    }
+    return parts;
+}
+
+/// In pictures v runs down; in patterns y runs up.
+std::vector<Vec2> uvs_of(std::vector<Vec2> flat) {
+    for (Vec2& p : flat) p.y = -p.y;
+    return flat;
+}
+
+}  // namespace
+
+CookedGarment cook_pattern(const BodyModel& model, const std::vector<PatternSize>& sizes, size_t base, const FabricLibrary& fabrics,
+                           const CookOptions& options, Jobs& jobs) {
+    if (base >= sizes.size()) fail(VFIT_ERROR_ARGUMENT, "there is no size ", base);
+    const Pattern& pattern = sizes[base].pattern;
+    check_pattern(pattern);
+    const SewnMesh mesh = sew(pattern, options.triangle_m);
+    const FabricMaterial material = fabrics.get(options.fabric);
+
+    EvaluatedBody evaluated;
+    model.evaluate(model.default_shape(options.sex), evaluated);
+    const BodyTopology& topology = model.topology(0);
+    const MeshQuery skin(evaluated.positions, topology.indices);
+    const BodyOutline outline(model, options.sex);
+    const DrapeBody body{evaluated.positions, topology.indices, &skin, outline.left_shoulder()};
+    const Draped draped = drape(pattern, mesh, material, body, place_panels(pattern, mesh, outline, skin), options.drape, jobs);
+
+    const DrawnOrder order(mesh);
+    CookedGarment out;
+    out.report = draped.report;
+    Garment& g = out.garment;
+    g.name = pattern.name;
+    g.kind = options.kind;
+    g.fabric = options.fabric;
+    g.body_sex = options.sex;
+    g.mesh.positions = draped.positions;
+    g.mesh.indices = mesh.sewn_indices;
+    g.copies = order.copies;
+    for (const uint32_t v : mesh.panel_indices) g.corners.push_back(order.place_of[v]);
+    g.flat = order.pick(mesh.flat());
+    g.mesh.uvs = uvs_of(g.flat);
+    g.simulated = draped.simulated;
+    g.backstop.assign(mesh.sewn_count, 0);
+    g.on_arm = on_arms(mesh, draped.positions, body, topology.parts);
+    g.parts = parts_of(pattern, mesh);
+    for (const PatternSize& size : sizes) {
+        if (size.label.empty()) continue;
+        try {
+            check_pattern(size.pattern);
+            g.sizes.push_back({size.label, size.nominal, order.pick(mesh.flat_of_size(pattern, size.pattern))});
+        } catch (const Error& error) {
+            fail(error.code(), "size ", size.label, ": ", error.what());
+        }
+    }
+    compute_normals(g.mesh.positions, g.mesh.indices, g.mesh.normals);
+    validate_garment(g, fabrics);
+    return out;
+}
+
+}  // namespace vfit

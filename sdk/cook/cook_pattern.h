@@ -1,0 +1,39 @@
+// From a sewing pattern, in one or several sizes, to a garment: meshed, sewn, draped on the default body of a sex.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "body/body_model.h"
+#include "cloth/fabric/fabric_library.h"
+#include "cloth/garment/garment.h"
+#include "cook/drape/drape.h"
+#include "cook/pattern/pattern.h"
+#include "core/jobs.h"
+
+namespace vfit {
+
+/// A pattern in one size. Of one garment all have the same panels, edges and stitches.
+struct PatternSize {
+    std::string label;                  // may be empty where there is only one
+    std::vector<Measurement> nominal;   // girths that it is made for
+    Pattern pattern;
+};
+
+struct CookOptions {
+    std::string kind = "dress", fabric = "cotton_woven";
+    vfit_sex sex = VFIT_SEX_FEMALE;
+    float triangle_m = 0.02f;  // side
+    DrapeSettings drape;
+};
+
+struct CookedGarment {
+    Garment garment;
+    DrapeReport report;
+};
+
+/// base: the size that is draped; the others have its mesh in their own lengths. VFIT_ERROR_DATA names the panel, stitch or size.
+CookedGarment cook_pattern(const BodyModel& model, const std::vector<PatternSize>& sizes, size_t base, const FabricLibrary& fabrics,
+                           const CookOptions& options, Jobs& jobs);
+
+}  // namespace vfit
