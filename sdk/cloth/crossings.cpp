@@ -1,6 +1,7 @@
 #include "cloth/crossings.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "cloth/contact/contact.h"
 
@@ -15,13 +16,14 @@ struct BoxedTriangle {
     bool of_b;
 };
 
-/// Does the way from p to q go through the triangle?
+/// Does the way from p to q go through the triangle? (Moeller and Trumbore 1997)
 bool goes_through(const Vec3& p, const Vec3& q, const Vec3 (&t)[3]) {
-    const auto volume = [](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) { return glm::dot(b - a, glm::cross(c - a, d - a)); };
-    const float from = volume(t[0], t[1], t[2], p), to = volume(t[0], t[1], t[2], q);
-    if (from * to >= 0.0f) return false;
-    const float x = volume(p, q, t[0], t[1]), y = volume(p, q, t[1], t[2]), z = volume(p, q, t[2], t[0]);
-    return (x > 0.0f && y > 0.0f && z > 0.0f) || (x < 0.0f && y < 0.0f && z < 0.0f);
+    const glm::dvec3 d(q - p), e1(t[1] - t[0]), e2(t[2] - t[0]), h = glm::cross(d, e2);
+    const double det = glm::dot(e1, h);
+    if (std::abs(det) < 1e-16) return false;
+    const glm::dvec3 s(p - t[0]), k = glm::cross(s, e1);
+    const double u = glm::dot(s, h) / det, v = glm::dot(d, k) / det, at = glm::dot(e2, k) / det;
+    return u >= 0 && v >= 0 && u + v <= 1 && at >= 0 && at <= 1;
 }
 
 void add_triangles(const MeshView& mesh, bool of_b, std::vector<BoxedTriangle>& out) {
@@ -32,13 +34,17 @@ void add_triangles(const MeshView& mesh, bool of_b, std::vector<BoxedTriangle>& 
     }
 }
 
-/// Sweeps along the body's height, which spreads garments most.
+/// Sweeps along the axis on which they are spread most.
 template <typename Wanted>
 std::vector<std::pair<uint32_t, uint32_t>> sweep_for_pairs(std::vector<BoxedTriangle>& list, Wanted&& wanted) {
-    std::sort(list.begin(), list.end(), [](const BoxedTriangle& a, const BoxedTriangle& b) { return a.box.low.y < b.box.low.y; });
+    Bounds all;
+    for (const BoxedTriangle& t : list) all.add(t.box.low), all.add(t.box.high);
+    const Vec3 size = all.high - all.low;
+    const int axis = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
+    std::sort(list.begin(), list.end(), [&](const BoxedTriangle& a, const BoxedTriangle& b) { return a.box.low[axis] < b.box.low[axis]; });
     std::vector<std::pair<uint32_t, uint32_t>> pairs;
     for (size_t i = 0; i < list.size(); ++i)
-        for (size_t k = i + 1; k < list.size() && list[k].box.low.y <= list[i].box.high.y; ++k) {
+        for (size_t k = i + 1; k < list.size() && list[k].box.low[axis] <= list[i].box.high[axis]; ++k) {
             const BoxedTriangle &a = list[i], &b = list[k];
             if (!a.box.overlaps(b.box) || !wanted(a, b)) continue;
             bool crossed = false;

@@ -70,6 +70,17 @@ std::vector<GarmentPart> parts_of(const Pattern& pattern, const SewnMesh& mesh) 
     return parts;
 }
 
+/// Seams agree on which side of the cloth is out, not on which of the two it is: that which looks away from the body.
+void turn_outside_out(Garment& g, const DrapeBody& body) {
+    double outwards = 0.0;
+    compute_normals(g.mesh.positions, g.mesh.indices, g.mesh.normals);
+    for (size_t i = 0; i < g.mesh.positions.size(); ++i) outwards += glm::dot(g.mesh.normals[i], g.mesh.positions[i] - body.skin->closest(g.mesh.positions[i]).point);
+    if (outwards >= 0.0) return;
+    for (std::vector<uint32_t>* list : {&g.mesh.indices, &g.corners})
+        for (size_t i = 0; i + 2 < list->size(); i += 3) std::swap((*list)[i + 1], (*list)[i + 2]);
+    compute_normals(g.mesh.positions, g.mesh.indices, g.mesh.normals);
+}
+
 /// In pictures v runs down; in patterns y runs up.
 std::vector<Vec2> uvs_of(std::vector<Vec2> flat) {
     for (Vec2& p : flat) p.y = -p.y;
@@ -121,7 +132,7 @@ CookedGarment cook_pattern(const BodyModel& model, const std::vector<PatternSize
             fail(error.code(), "size ", size.label, ": ", error.what());
         }
     }
-    compute_normals(g.mesh.positions, g.mesh.indices, g.mesh.normals);
+    turn_outside_out(g, body);
     validate_garment(g, fabrics);
     return out;
 }

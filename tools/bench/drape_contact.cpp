@@ -11,6 +11,7 @@
 #include "bench/bench.h"
 #include "bench/drape_parts.h"
 #include "bench/drape_scenes.h"
+#include "cloth/crossings.h"
 
 namespace vfit::tools {
 
@@ -75,7 +76,7 @@ SelfResult run(const SelfScene& scene, float thickness_m) {
         cloth.step(kFrame_s, scene.sheets.positions, scene.colliders, *jobs);
         ms.add(timer.ms());
         if (frame >= kSettled && frame % kLook == 0) {
-            out.crossed_end = bench::crossed_pairs(cloth.positions(), scene.sheets.indices);
+            out.crossed_end = crossed_triangles(cloth.positions(), scene.sheets.indices).size();
             out.crossed = std::max(out.crossed, out.crossed_end);
         }
     }
@@ -200,7 +201,7 @@ Json judge_random(const DrapeJudge& judge) {
         // At rest for half a second, with nothing in the way.
         for (int frame = 0; frame < 30; ++frame) cloth.step(kFrame_s, targets, {}, *jobs);
         if (settings.self_thickness_m == 0.0f) continue;
-        const size_t pairs = bench::crossed_pairs(cloth.positions(), sheet.indices);
+        const size_t pairs = crossed_triangles(cloth.positions(), sheet.indices).size();
         crossed += pairs, tangled += pairs > 0, ++own_layers;
     }
     // A cloth is some 500 kB. The heap keeps some of what was freed at hand.

@@ -186,8 +186,9 @@ Json fit(const Options& options) {
     result["scan_frames"] = fitting.scan().frames_taken;
     result["measurements"] = measurements_json(measurements_of(fitting.scan().scan.get()));
     vfit_scale scale = vfit_scale_init();
-    check(vfit_scan_scale(fitting.scan().scan.get(), fitting.garment_kind().c_str(), &scale));
-    result["scale"] = {{"x", scale.x}, {"y", scale.y}};
+    // Algorithm 3 knows the paper's three kinds.
+    const bool scaled = vfit_scan_scale(fitting.scan().scan.get(), fitting.garment_kind().c_str(), &scale) == VFIT_OK;
+    result["scale"] = scaled ? Json{{"x", scale.x}, {"y", scale.y}} : Json();
     result["chart"] = chain.chart;
     result["sizes"] = fitting.sizes();
     result["frames"] = fitting.frames_played();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "cloth/cloth.h"
 #include "cloth/crossings.h"
@@ -42,11 +43,13 @@ public:
         look("placed", places);
         out.report.widest_seam_m = close_seams(places);
         look("sewn", places);
+        check_closed(places);
         std::vector<Vec3> one(mesh_.sewn_count, Vec3(0.0f));
         std::vector<float> count(mesh_.sewn_count, 0.0f);
         for (uint32_t v = 0; v < places.size(); ++v) one[mesh_.sewn_of[v]] += places[v], count[mesh_.sewn_of[v]] += 1.0f;
         for (uint32_t v = 0; v < mesh_.sewn_count; ++v) one[v] /= count[v];
         settle(one, placement, out);
+        clear_skin(one);
         look("at rest", spread(one));
         out.positions = std::move(one);
         out.report.self_crossings = uint32_t(crossed_triangles(out.positions, mesh_.sewn_indices).size());
@@ -94,6 +97,18 @@ private:
             if (settings_.watch && !last && int(limit / kStage_m) % 5 == 0) look("closing", places);
         }
         return widest_seam(places);
+    }
+
+    /// A garment may be too small for the body: then it is pulled as far as its cloth goes, and no further.
+    void check_closed(const std::vector<Vec3>& places) const {
+        constexpr float kOpen_m = 0.02f;
+        for (const SewnMesh::Pair& pair : mesh_.pairs) {
+            const float apart = glm::length(places[pair.a] - places[pair.b]);
+            if (apart <= kOpen_m) continue;
+            const Stitch& stitch = pattern_.stitches[pair.stitch];
+            fail(VFIT_ERROR_DATA, "the seam of ", pattern_.text(stitch.a), " with ", pattern_.text(stitch.b), " does not close on this body: ", apart * 100.0f,
+                 " cm stay between them. The garment is too small for it, or its panels are placed so that a limb is in between");
+        }
     }
 
     float widest_seam(const std::vector<Vec3>& places) const {
@@ -151,6 +166,25 @@ private:
         }
         places = cloth.positions();
         return cloth.stats().strain_p99;
+    }
+
+    /// Vertices are kept off the skin, what lies between them is not: where skin stands out through a triangle, the triangle moves out.
+    void clear_skin(std::vector<Vec3>& places) const {
+        constexpr int kRounds = 40;
+        constexpr float kStep_m = 0.0005f;
+        for (int round = 0; round < kRounds; ++round) {
+            const auto crossed = crossed_triangles({places, mesh_.sewn_indices}, {body_.positions, body_.indices});
+            if (crossed.empty()) return;
+            std::set<uint32_t> moved;
+            for (const auto& [cloth, skin] : crossed)
+                for (size_t k = 0; k < 3; ++k) moved.insert(mesh_.sewn_indices[3 * cloth + k]);
+            for (const uint32_t v : moved) {
+                const MeshQuery::Closest near = body_.skin->closest(places[v]);
+                const bool inside = body_.skin->inside(places[v]);
+                const Vec3 outward = near.distance > 1e-6f ? (places[v] - near.point) * ((inside ? -1.0f : 1.0f) / near.distance) : near.normal;
+                places[v] += outward * kStep_m;
+            }
+        }
     }
 
     bool lies_on_shoulder(const Vec3& place) const {

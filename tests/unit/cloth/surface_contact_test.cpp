@@ -7,6 +7,7 @@
 
 #include "bench/drape_scenes.h"
 #include "cloth/contact/surface_kernels.h"
+#include "cloth/crossings.h"
 #include "cloth/triangle_fans.h"
 #include "cloth_support.h"
 #include "cloth_targets.h"
@@ -329,7 +330,7 @@ TEST(SelfContact, LayersThatFallOnABallDoNotCross) {
         size_t pairs = 0;
         for (int frame = 1; frame <= 90; ++frame) {
             cloth.step(kFrame_s, layers.start, ball, *jobs);
-            if (frame % 15 == 0) pairs += bench::crossed_pairs(cloth.positions(), layers.data.indices);
+            if (frame % 15 == 0) pairs += crossed_triangles(cloth.positions(), layers.data.indices).size();
         }
         return pairs;
     };
@@ -353,7 +354,7 @@ TEST(SelfContact, HalvesThatSwingAgainstEachOtherDoNotCross) {
             cloth.step(kFrame_s, start, {}, *jobs);
             fastest = std::max(fastest, glm::length(cloth.positions()[10] - before[10]) / kFrame_s);
             before = cloth.positions();
-            pairs += bench::crossed_pairs(before, sheet.indices);
+            pairs += crossed_triangles(before, sheet.indices).size();
         }
         EXPECT_GT(fastest, 2.5f);
         return pairs;
