@@ -39,7 +39,7 @@ CookedGarment cook_file(const BodyModel& model, const FabricLibrary& fabrics, co
     const Json root = parse_json(text, "garment design");
     const std::string format = root.is_object() && root.contains("format") && root["format"].is_string() ? root["format"].get<std::string>() : "";
     if (format == "vfit-sundress") return {cook_sundress(model, parse_sundress(text)), {}};
-    fail(VFIT_ERROR_DATA, request.path, " is no garment that can be cooked: neither a GarmentCode specification (\"pattern\" with \"panels\") nor a design of vfit's (\"format\": \"vfit-sundress\")");
+    fail(VFIT_ERROR_UNSUPPORTED, request.path, " is no garment that can be cooked: neither a GarmentCode specification (\"pattern\" with \"panels\") nor a design of vfit's (\"format\": \"vfit-sundress\")");
 }
 
 }  // namespace vfit

@@ -16,7 +16,7 @@ struct CookRequest {
     DrapeSettings drape;
 };
 
-/// VFIT_ERROR_DATA says what is wrong with it, or that it is none of the kinds that are known.
+/// VFIT_ERROR_DATA says what is wrong with it; VFIT_ERROR_UNSUPPORTED that it is none of the kinds that are known.
 CookedGarment cook_file(const BodyModel& model, const FabricLibrary& fabrics, const CookRequest& request, Jobs& jobs);
 
 }  // namespace vfit

@@ -332,6 +332,14 @@ OFFSET(vfit_garment_info, garment_kind, 80);
 OFFSET(vfit_garment_info, fabric, 112);
 SIZE(vfit_garment_info, 144);
 
+OFFSET(vfit_garment_part, struct_size, 0);
+OFFSET(vfit_garment_part, first_index, 4);
+OFFSET(vfit_garment_part, index_count, 8);
+OFFSET(vfit_garment_part, color, 12);
+OFFSET(vfit_garment_part, material, 24);
+OFFSET(vfit_garment_part, texture, 72);
+SIZE(vfit_garment_part, 272);
+
 OFFSET(vfit_cloth_desc, struct_size, 0);
 OFFSET(vfit_cloth_desc, substeps, 4);
 OFFSET(vfit_cloth_desc, gravity, 8);

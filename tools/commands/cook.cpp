@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <set>
 
 #include "body/body_model.h"
 #include "client/files.h"
@@ -99,22 +100,25 @@ void cook(const Options& options) {
     std::sort(designs.begin(), designs.end());
     if (designs.empty()) throw Failure("there is no design (*.json) in " + options.design);
     create_folder(options.out);
-    Json cooked = Json::array(), failed = Json::array();
+    Json cooked = Json::array(), failed = Json::array(), left_out = Json::array();
+    std::set<std::string> names;
     for (const auto& design : designs) {
+        std::string name = design.stem().string();
+        if (!names.insert(name).second) names.insert(name = design.parent_path().filename().string() + "_" + name);
         try {
-            std::string name = design.stem().string();
             cooked.push_back(kitchen.cook(design.string(), (std::filesystem::path(options.out) / (name + ".json")).string()));
-            if (!options.json) std::cout << line_of(cooked.back()) << "\n";
-        } catch (const std::exception& error) {
-            failed.push_back({{"design", design.string()}, {"error", error.what()}});
-            if (!options.json) std::cout << design.string() << ": " << error.what() << "\n";
+            if (!options.json) std::cout << line_of(cooked.back()) << std::endl;
+        } catch (const Error& error) {
+            if (error.code() == VFIT_ERROR_UNSUPPORTED) left_out.push_back(design.string());
+            else failed.push_back({{"design", design.string()}, {"error", error.what()}});
+            if (!options.json) std::cout << design.string() << ": " << error.what() << std::endl;
         }
     }
-    const Json report = {{"cooked", cooked}, {"failed", failed}};
+    const Json report = {{"cooked", cooked}, {"failed", failed}, {"left_out", left_out}};
     write_text((std::filesystem::path(options.out) / "report.json").string(), document_text(report));
     if (options.json) print_document(report);
-    else std::cout << cooked.size() << " cooked, " << failed.size() << " failed; report.json beside them\n";
-    if (!failed.empty()) throw Failure(text(failed.size(), " of ", designs.size(), " designs could not be cooked; see report.json"));
+    else std::cout << cooked.size() << " cooked, " << failed.size() << " failed, " << left_out.size() << " no designs; report.json beside them\n";
+    if (!failed.empty()) throw Failure(vfit::text(failed.size(), " of ", cooked.size() + failed.size(), " designs could not be cooked: see report.json in ", options.out));
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ TEST(Garment, RefusesBadFieldsByName) {
     EXPECT_EQ(refusal("[0,1,0, 1,1,0,", "[\"x\",1,0, 1,1,0,"), "-11 garment: positions[0] is not a number");
     EXPECT_EQ(refusal("[0,0,1,1]", "[0,0,1]"), "-11 garment: \"simulated\" has 3 flags for 4 vertices");
     EXPECT_EQ(refusal("[0,0,1,1]", "[0,0,1,2]"), "-11 garment: simulated[3] is neither 0 nor 1");
-    EXPECT_EQ(refusal("[0,0, 1,0, 0,1, 1,1]", "[0,0, 1,0]"), "-11 garment: 2 uvs for 4 vertices");
+    EXPECT_EQ(refusal("[0,0, 1,0, 0,1, 1,1]", "[0,0, 1,0]"), "-11 garment: 2 uvs for 4 vertices and copies");
     EXPECT_EQ(refusal("\"uvs\"", "\"vus\""), "-11 garment: field \"uvs\" is missing");
     EXPECT_EQ(refusal("\"body_sex\": \"f\"", "\"body_sex\": \"x\""),
               "-11 garment: body_sex is neither \"f\" nor \"m\"");
@@ -86,7 +86,7 @@ TEST(Garment, RefusesBadFieldsByName) {
     EXPECT_EQ(refusal("\"hip_girth_m\"", "\"tail_girth_m\""),
               "-11 garment: size L names the unknown measure tail_girth_m");
     EXPECT_EQ(refusal("0.8}", "-0.8}"), "-11 garment: chest_girth_m of size S is -0.8 m");
-    EXPECT_EQ(refusal("\"version\": 1", "\"version\": 2"), "-8 garment: version 2 is not known, 1 is");
+    EXPECT_EQ(refusal("\"version\": 1", "\"version\": 3"), "-8 garment: version 3 is not known, 1 and 2 are");
     EXPECT_EQ(refusal("vfit-garment", "garment"), "-11 garment: format is not \"vfit-garment\"");
 }
 
