@@ -130,6 +130,7 @@ struct ClothObject : ContextChild {
           cloth(dress.fabric(), settings, placed()),
           output(*context) {
         time_ns = avatar->avatar.time_ns();
+        keep_pose();
         output.topology().set_indices(dress.indices(), context->axes);
         output.topology().set_uvs(dress.uvs(), context->axes);
         publish(output.begin());
@@ -167,13 +168,29 @@ struct ClothObject : ContextChild {
     bool stepping = false;
     float dt = 0.0f;
     int64_t time_ns = 0;  // of the pose
+    std::vector<Mat4> pose;  // of that step: skinning matrices
     Ref<Frame> next;
     Jobs::Later later;
+
+    /// What the last finished step left, kept apart from what the one that runs works on, to be carried between steps.
+    struct Finished {
+        std::vector<Vec3> positions, normals;
+        std::vector<float> strain, pressure;
+        std::vector<Mat4> pose;
+        Carry::Unposed unposed;  // made when first carried
+        bool is_unposed = false;
+    };
+    Finished finished;
+    std::vector<Vec3> carried_positions, carried_normals;
 
     using Reading = std::unique_ptr<Access, void (*)(Access*)>;
     static Reading reading_of(Access& access, const char* what) {
         access.begin_read(what);
         return Reading(&access, [](Access* a) { a->end_read(); });
+    }
+    void keep_pose() {
+        const auto matrices = avatar->avatar.skinning_matrices();
+        pose.assign(matrices.begin(), matrices.end());
     }
     const std::vector<Vec3>& placed() {
         dress.place(avatar->avatar.skinning_matrices(), targets, scratch, *context->jobs);
@@ -219,6 +236,7 @@ struct ClothObject : ContextChild {
         move_skin(avatar->avatar.skinning_matrices());
         move_inner();
         time_ns = avatar->avatar.time_ns();
+        if (step_dt > 0.0f) keep_pose();  // else the cloth stays where the step before left it
         dt = step_dt;
     }
     /// On a body that stands straight and then goes into the avatar's pose.
@@ -227,6 +245,7 @@ struct ClothObject : ContextChild {
         const auto reading = read_avatar();
         next = output.begin();
         time_ns = avatar->avatar.time_ns();
+        keep_pose();
         std::vector<Mat4> matrices(avatar->avatar.skinning_matrices().size());
         const auto body = [&](float share, std::vector<Vec3>& places, std::vector<Collider>& limbs) {
             avatar->avatar.while_dressing(share, matrices, limbs);
@@ -255,17 +274,39 @@ struct ClothObject : ContextChild {
         stepping = false;
         context->jobs->end(later);
     }
+    /// What the step that has just ended left.
     void publish(Ref<Frame> frame) {
-        output.fill(*frame, cloth.positions(), cloth.normals(), context->axes, time_ns);
-        const auto& strain = cloth.strain();
-        void* to = frame->add_stream(VFIT_STREAM_STRAIN, VFIT_FORMAT_F32, static_cast<uint32_t>(strain.size()), 1);
-        std::memcpy(to, strain.data(), strain.size() * sizeof(float));
-        if (settings.pressure) {
-            const auto& pressure = cloth.pressure();
-            void* pascal = frame->add_stream(VFIT_STREAM_PRESSURE, VFIT_FORMAT_F32, static_cast<uint32_t>(pressure.size()), 1);
-            std::memcpy(pascal, pressure.data(), pressure.size() * sizeof(float));
-        }
+        // Of the same sizes each time: nothing is allocated but at first.
+        finished.positions = cloth.positions();
+        finished.normals = cloth.normals();
+        finished.strain = cloth.strain();
+        if (settings.pressure) finished.pressure = cloth.pressure();
+        finished.pose = pose;
+        finished.is_unposed = false;
+        fill(*frame, finished.positions, finished.normals, time_ns);
         output.publish(std::move(frame));
+    }
+    /// The last finished step, in the pose that the avatar has now.
+    void carry() {
+        const auto reading = read_avatar();
+        Ref<Frame> frame = output.begin();
+        const Carry& by = dress.carry();
+        if (!finished.is_unposed) by.take_out(finished.pose, finished.positions, finished.normals, finished.unposed, *context->jobs);
+        finished.is_unposed = true;
+        carried_positions.resize(by.vertex_count());
+        carried_normals.resize(by.vertex_count());
+        by.put_in(avatar->avatar.skinning_matrices(), finished.unposed, carried_positions, carried_normals, *context->jobs);
+        fill(*frame, carried_positions, carried_normals, avatar->avatar.time_ns());
+        output.publish(std::move(frame));
+    }
+    void fill(Frame& frame, std::span<const Vec3> positions, std::span<const Vec3> normals, int64_t pose_time_ns) const {
+        output.fill(frame, positions, normals, context->axes, pose_time_ns);
+        const auto add = [&](vfit_stream stream, const std::vector<float>& values) {
+            void* to = frame.add_stream(stream, VFIT_FORMAT_F32, static_cast<uint32_t>(values.size()), 1);
+            std::memcpy(to, values.data(), values.size() * sizeof(float));
+        };
+        add(VFIT_STREAM_STRAIN, finished.strain);
+        if (settings.pressure) add(VFIT_STREAM_PRESSURE, finished.pressure);
     }
     void require_no_step() const {
         if (stepping) fail(VFIT_ERROR_STATE, "a step is running: end it first");
@@ -409,6 +450,14 @@ vfit_result vfit_cloth_end_step(vfit_cloth handle) {
         if (!cloth->stepping) fail(VFIT_ERROR_STATE, "no step has begun");
         cloth->finish();
         cloth->publish(std::move(cloth->next));
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_cloth_carry(vfit_cloth handle) {
+    return guard([&] {
+        Use<ClothObject, Mode::exclusive> cloth(handle.id);
+        cloth->carry();
         return VFIT_OK;
     });
 }

@@ -192,6 +192,7 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
     FabricData data = cook_fabric({rest_, indices_, uvs_, garment.simulated, size_ratio}, material);
     Carried carried;
     for (uint32_t i = 0; i < n; ++i) carried.add(rest_[i], weights.row(i));
+    carry_.emplace(carried.bones, carried.weights);
     const MeshQuery bound(body.rest, triangles);
     std::vector<float> bone_weights(bones);
     for (uint32_t i = 0; i < n; ++i) {
