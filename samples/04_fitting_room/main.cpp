@@ -46,6 +46,10 @@ public:
             take_keys();
             if (ended_) break;
             one_picture(1e-3f * last_frame_ms_);
+            if (room_.film_ended()) {
+                if (!room_.dressed()) throw Failure(options_.source + " ended before anybody could be dressed");
+                break;
+            }
             last_frame_ms_ = clock.lap_ms();
             if (!was_dressed || !room_.dressed()) {
                 // What came before the person was dressed is another story, as is the picture in which they were.
@@ -59,7 +63,11 @@ public:
             if (options_.frames && times_.frames() >= options_.frames) break;
             if (options_.seconds > 0.0 && dressed_s >= options_.seconds) break;
         }
-        if (!options_.picture.empty() && view_) last_.write_png(options_.picture);
+        if (!options_.picture.empty() && view_) {
+            compose(0.0f);  // once more: what a window has shown cannot be read
+            last_.read(view_->width(), view_->height());
+            last_.write_png(options_.picture);
+        }
         if (options_.json) print_report({options_, room_, times_, renderer_, pressed_, mirror_, fit_map_, view_ ? view_->width() : 0, view_ ? view_->height() : 0});
     }
 
@@ -121,12 +129,15 @@ private:
         return memory_.cloth.data();
     }
 
-    void draw(float seconds) {
+    void compose(float seconds) {
         view_->resize(window_->width(), window_->height());
         view_->draw(room_, {mirror_, fit_map_, seconds}, window_->framebuffer());
         overlay_->draw(room_, times_, {mirror_, fit_map_, help_, renderer_.name.c_str(), renderer_.software}, view_->width(), view_->height());
-        if (!options_.record.empty() || !options_.picture.empty()) last_.read(view_->width(), view_->height());
+    }
+    void draw(float seconds) {
+        compose(seconds);
         if (!options_.record.empty()) {
+            last_.read(view_->width(), view_->height());
             char name[32];
             std::snprintf(name, sizeof name, "/%06llu.png", static_cast<unsigned long long>(recorded_++));
             last_.write_png(options_.record + name);

@@ -162,7 +162,7 @@ void Overlay::worn(const Room& room, const OverlayState& state) {
     row("view", INK, "%s", state.mirror ? "mirror" : "as filmed");
     if (state.fit_map) {
         row("fit map", ACCENT, "stretch");
-        const Color steps[] = {{92, 128, 225, 255}, {235, 235, 235, 255}, {248, 222, 90, 255}, {228, 52, 44, 255}};
+        const Color steps[] = {{92, 128, 225, 255}, {200, 200, 200, 255}, {248, 222, 90, 255}, {228, 52, 44, 255}};
         const char* names[] = {"loose", "0 %", "4 %", "10 %"};
         for (int i = 0; i < 4; ++i) {
             const float left = value + 62.0f * scale_ * float(i);
@@ -177,7 +177,7 @@ void Overlay::rate(const Times& times, const OverlayState& state) {
     float y = kMargin * scale_;
     right_text(small_, right, y, FAINT, "%.50s%s", state.renderer, state.software ? " (software)" : "");
     y += 1.6f * float(small_.height);
-    right_text(large_, right, y, INK, "%.0f fps", times.recent_fps());
+    if (times.frames() > 0) right_text(large_, right, y, INK, "%.0f fps", times.recent_fps());
     y += 1.2f * float(large_.height);
     right_text(small_, right, y, FAINT, "H: keys");
 }
@@ -187,10 +187,10 @@ void Overlay::plot(const Times& times) {
     constexpr Color kColors[kStages] = {{70, 130, 180, 255}, {96, 168, 108, 255}, {200, 96, 84, 255}, {168, 160, 150, 255}};
     constexpr const char* kNames[kStages] = {"sensor+track", "motion+skin", "cloth", "draw"};
     constexpr float kTop_ms = 50.0f;
-    const float column = std::max(1.0f, float(int(1.25f * scale_))), w = column * float(Times::kPlotted), h = 100.0f * scale_;
+    const float column = 1.5f * scale_, w = column * float(Times::kPlotted), h = 100.0f * scale_;
     const float x = kMargin * scale_, bottom = height_ - kMargin * scale_, top = bottom - h;
     const float pad = 8.0f * scale_, legend = 2.0f * 1.2f * float(small_.height);
-    box(x - pad, top - legend - pad, w + 2 * pad + 46.0f * scale_, h + legend + 2 * pad, PAPER);
+    box(x - pad, top - legend - pad, w + 2 * pad + 58.0f * scale_, h + legend + 2 * pad, PAPER);
     for (const float ms : {100.0f / 6.0f, 100.0f / 3.0f}) {
         const float y = float(int(bottom - h * ms / kTop_ms));
         box(x, y, w, 1.0f, {0, 0, 0, 50});
@@ -219,7 +219,7 @@ void Overlay::message(const Room& room) {
     if (!*what) return;
     const Face& face = std::strlen(what) < 50 ? large_ : small_;
     const float w = float(face.width) * float(std::strlen(what)), pad = 18.0f * scale_;
-    const float x = 0.5f * (width_ - w), y = (room.dressed() ? 0.86f : 0.78f) * height_;
+    const float x = 0.5f * (width_ - w), y = (room.dressed() ? 0.87f : 0.80f) * height_;
     box(x - pad, y - pad, w + 2 * pad, float(face.height) + 2 * pad, {38, 42, 50, 225});
     letters(face, x, y, {255, 255, 255, 255}, what);
 }
@@ -267,9 +267,9 @@ void Overlay::draw(const Room& room, const Times& times, const OverlayState& sta
             glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, GLsizei(camera.width), GLsizei(camera.height), GL_RGBA, GL_UNSIGNED_BYTE, camera.rgba.data());
         }
         // Large as long as the person has to see what the camera sees; then in the corner.
-        const float h = (room.dressed() ? 150.0f : 480.0f) * scale_, w = h * float(camera.width) / float(camera.height);
+        const float h = (room.dressed() ? 150.0f : 420.0f) * scale_, w = h * float(camera.width) / float(camera.height);
         const float x = room.dressed() ? width_ - kMargin * scale_ - w : 0.5f * (width_ - w);
-        const float y = room.dressed() ? height_ - kMargin * scale_ - h : 110.0f * scale_;
+        const float y = room.dressed() ? height_ - kMargin * scale_ - h : 120.0f * scale_;
         const float left = state.mirror ? 1.0f : 0.0f;
         quad(x, y, w, h, left, 0.0f, 1.0f - left, 1.0f, {255, 255, 255, 255});
         flush(camera_texture_, true);
@@ -277,7 +277,7 @@ void Overlay::draw(const Room& room, const Times& times, const OverlayState& sta
     person(room);
     worn(room, state);
     rate(times, state);
-    plot(times);
+    if (room.dressed()) plot(times);
     message(room);
     if (state.help) help();
     flush(letters_texture_, false);

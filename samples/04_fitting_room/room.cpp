@@ -48,6 +48,13 @@ std::vector<T> copy_of(vfit_frame frame, vfit_stream stream, size_t values_an_it
     return out;
 }
 
+void grow(Room::Place& low, Room::Place& high, const Room::Place& p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+}
+
+constexpr Room::Place kNowhereLow{1e9f, 1e9f, 1e9f}, kNowhereHigh{-1e9f, -1e9f, -1e9f};
+
 vfit_target target_of(void* data, size_t count, size_t stride, size_t offset, vfit_format format, size_t item) {
     vfit_target target = vfit_target_init();
     target.format = format;
@@ -81,7 +88,7 @@ void Room::open_camera() {
     check(vfit_sensor_open(context_.get(), options_.source.c_str(), sensor_.out()));
     // Not every source has these; a camera always runs at its own pace.
     vfit_sensor_set_option(sensor_.get(), "pace", options_.film ? "none" : "realtime");
-    vfit_sensor_set_option(sensor_.get(), "loop", "1");
+    vfit_sensor_set_option(sensor_.get(), "loop", options_.film ? "0" : "1");
     check(vfit_sensor_start(sensor_.get()));
 }
 
@@ -116,6 +123,7 @@ void Room::sense() {
     if (got < 0) {
         if (trouble_.empty()) lose_camera(last_error());
     } else if (got == VFIT_END_OF_STREAM) {
+        ended_ = options_.film;
         if (trouble_.empty()) lose_camera(options_.source + " has ended");
     }
     if (!trouble_.empty() && !frame && Clock::now() - looked_for_it_ > kLookAgain) {
@@ -270,8 +278,10 @@ void Room::move(BodyVertex* to) {
     std::array<vfit_joint, VFIT_JOINT_COUNT> joints;
     uint32_t count = VFIT_JOINT_COUNT;
     check(vfit_avatar_joints(avatar_.get(), joints.data(), sizeof(vfit_joint), &count));
+    joints_.low = kNowhereLow, joints_.high = kNowhereHigh;
     for (uint32_t i = 0; i < count; ++i) {
         const Place place{joints[i].position[0], joints[i].position[1], joints[i].position[2]};
+        grow(joints_.low, joints_.high, place);
         if (joints[i].joint == VFIT_JOINT_PELVIS) joints_.pelvis = place;
         if (joints[i].joint == VFIT_JOINT_LEFT_FOOT) joints_.left_foot = place;
         if (joints[i].joint == VFIT_JOINT_RIGHT_FOOT) joints_.right_foot = place;
@@ -310,6 +320,14 @@ void Room::write_cloth(ClothVertex* to) {
     write(VFIT_STREAM_POSITION, offsetof(ClothVertex, position), VFIT_FORMAT_F32X3, 12);
     write(VFIT_STREAM_NORMAL, offsetof(ClothVertex, normal), VFIT_FORMAT_F32X3, 12);
     write(VFIT_STREAM_STRAIN, offsetof(ClothVertex, strain), VFIT_FORMAT_F32, 4);
+    // From the frame and not from `to`: memory of a graphics card is slow to read.
+    const vfit_view places = view_of(frame.get(), VFIT_STREAM_POSITION);
+    cloth_low_ = kNowhereLow, cloth_high_ = kNowhereHigh;
+    for (uint32_t i = 0; i < places.width; ++i) {
+        Place p;
+        std::memcpy(&p, static_cast<const char*>(places.data) + size_t(i) * places.item_stride, sizeof p);
+        grow(cloth_low_, cloth_high_, p);
+    }
 }
 
 void Room::choose_garment(int by) {

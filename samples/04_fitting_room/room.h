@@ -68,10 +68,15 @@ public:
     };
     struct Joints {
         Place pelvis, left_foot, right_foot;
+        Place low, high;  // the box around all of them
     };
     const Joints& joints() const { return joints_; }
+    /// The box around the garment.
+    const Place& cloth_low() const { return cloth_low_; }
+    const Place& cloth_high() const { return cloth_high_; }
 
     const CameraPicture& camera_picture() const { return camera_picture_; }
+    bool film_ended() const { return ended_; }
     bool camera_on() const { return camera_on_; }
     bool physics() const { return physics_; }
     size_t garment_index() const { return garment_; }
@@ -110,7 +115,7 @@ private:
     Wardrobe wardrobe_;
     Tracker tracker_;
     Sensor sensor_;
-    bool camera_on_ = true;
+    bool camera_on_ = true, ended_ = false;
     std::string trouble_;  // with the camera
     std::chrono::steady_clock::time_point looked_for_it_{};
 
@@ -135,6 +140,7 @@ private:
     Joints joints_;
 
     Cloth cloth_;
+    Place cloth_low_, cloth_high_;
     size_t garment_ = 0, size_ = 0;
     bool size_chosen_ = false;  // by somebody; else the recommended one
     bool physics_ = true, stepping_ = false;

@@ -81,9 +81,9 @@ out vec3 n;
 out vec3 shade;
 out vec2 thread;
 void main() {
-    // Loose is blue, 0 white, 4 % yellow, 10 % red.
-    vec3 map = strain < 0.0 ? mix(vec3(0.85), vec3(0.12, 0.30, 0.85), min(1.0, -strain / 0.04))
-             : strain < 0.04 ? mix(vec3(0.85), vec3(0.95, 0.75, 0.10), strain / 0.04)
+    // Loose is blue, 0 grey, 4 % yellow, 10 % red.
+    vec3 map = strain < 0.0 ? mix(vec3(0.60), vec3(0.10, 0.26, 0.80), min(1.0, -strain / 0.04))
+             : strain < 0.04 ? mix(vec3(0.60), vec3(0.95, 0.75, 0.10), strain / 0.04)
                              : mix(vec3(0.95, 0.75, 0.10), vec3(0.80, 0.04, 0.03), min(1.0, (strain - 0.04) / 0.06));
     n = normal;
     shade = mix(color, map, fit_map);
@@ -114,6 +114,7 @@ constexpr std::array<std::array<float, 3>, 6> kFabrics = {{{0.42f, 0.045f, 0.060
 constexpr float kFieldOfView_rad = 0.46f;  // of the picture's height: a portrait lens
 constexpr float kEye_m = 1.15f;            // the camera's height: a standing person's chest
 constexpr float kAbove_m = 0.34f, kBelow_m = 0.16f;  // room over the crown (for raised arms) and under the soles
+constexpr float kShadow_m = 0.62f;         // radius of the soft one below the whole person
 constexpr float kFollow_s = 0.5f;          // how fast the camera follows
 
 using Matrix = std::array<float, 16>;
@@ -258,6 +259,30 @@ void View::aim(const Room& room, float seconds) {
     clip_from_world_ = product(projection, view);
 }
 
+/// Where in the picture the person, the garment and their shadow are.
+View::Rectangle View::around(const Room& room) const {
+    constexpr float kAroundJoints_m = 0.26f;  // crown, fingers, toes
+    const Room::Joints& j = room.joints();
+    const Room::Place &a = room.cloth_low(), &b = room.cloth_high();
+    const float low[3] = {std::min({j.low.x - kAroundJoints_m, a.x, j.pelvis.x - kShadow_m}), std::min(0.0f, a.y),
+                          std::min({j.low.z - kAroundJoints_m, a.z, j.pelvis.z - kShadow_m})};
+    const float high[3] = {std::max({j.high.x + kAroundJoints_m, b.x, j.pelvis.x + kShadow_m}), std::max(j.high.y + kAroundJoints_m, b.y),
+                           std::max({j.high.z + kAroundJoints_m, b.z, j.pelvis.z + kShadow_m})};
+    float left = 1.0f, right = -1.0f, bottom = 1.0f, top = -1.0f;
+    for (int corner = 0; corner < 8; ++corner) {
+        const float p[3] = {corner & 1 ? high[0] : low[0], corner & 2 ? high[1] : low[1], corner & 4 ? high[2] : low[2]};
+        float clip[4];
+        for (size_t r = 0; r < 4; ++r)
+            clip[r] = clip_from_world_[r] * p[0] + clip_from_world_[4 + r] * p[1] + clip_from_world_[8 + r] * p[2] + clip_from_world_[12 + r];
+        if (clip[3] < 0.1f) return {0, 0, width_, height_};  // beside the camera
+        left = std::min(left, clip[0] / clip[3]), right = std::max(right, clip[0] / clip[3]);
+        bottom = std::min(bottom, clip[1] / clip[3]), top = std::max(top, clip[1] / clip[3]);
+    }
+    const auto pixel = [](float place, int size) { return std::clamp(int(std::floor((0.5f + 0.5f * place) * float(size))), 0, size); };
+    const int x = pixel(left, width_), y = pixel(bottom, height_);
+    return {x, y, std::min(width_, pixel(right, width_) + 1) - x, std::min(height_, pixel(top, height_) + 1) - y};
+}
+
 void View::draw_studio() {
     glDisable(GL_DEPTH_TEST);
     glUseProgram(studio_program_);
@@ -268,7 +293,7 @@ void View::draw_studio() {
 void View::draw_shadows(const Room& room) {
     const Room::Joints& j = room.joints();
     const auto lower = [](const Room::Place& foot) { return std::max(0.0f, 1.0f - 2.5f * std::max(0.0f, foot.y - 0.08f)); };  // a lifted foot's fades
-    const float discs[3][4] = {{j.pelvis.x, j.pelvis.z, 0.62f, 0.30f},
+    const float discs[3][4] = {{j.pelvis.x, j.pelvis.z, kShadow_m, 0.30f},
                                {j.left_foot.x, j.left_foot.z + 0.05f, 0.21f, 0.50f * lower(j.left_foot)},
                                {j.right_foot.x, j.right_foot.z + 0.05f, 0.21f, 0.50f * lower(j.right_foot)}};
     glUseProgram(shadow_program_);
@@ -306,24 +331,32 @@ void View::draw_person(const Room& room, const Look& look) {
 }
 
 void View::draw(const Room& room, const Look& look, GLuint framebuffer) {
-    glBindFramebuffer(GL_FRAMEBUFFER, target_);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, width_, height_);
-    glClear(GL_DEPTH_BUFFER_BIT);  // the studio covers every pixel
     draw_studio();
-    if (room.dressed()) {
-        take_meshes(room);
-        aim(room, look.seconds);
-        if (look.mirror)
-            for (size_t c = 0; c < 4; ++c) clip_from_world_[4 * c] = -clip_from_world_[4 * c];
-        draw_shadows(room);
-        draw_person(room, look);
-    } else {
-        aimed_ = false;
-    }
+    aimed_ = aimed_ && room.dressed();
+    if (!room.dressed()) return;
+    take_meshes(room);
+    aim(room, look.seconds);
+    if (look.mirror)
+        for (size_t c = 0; c < 4; ++c) clip_from_world_[4 * c] = -clip_from_world_[4 * c];
+
+    // Several samples a pixel are dear where a processor draws: the person alone is worth them.
+    const Rectangle r = around(room);
+    if (r.width <= 0 || r.height <= 0) return;
+    glBindFramebuffer(GL_FRAMEBUFFER, target_);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(r.x, r.y, r.width, r.height);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    draw_studio();
+    draw_shadows(room);
+    draw_person(room, look);
     glDisable(GL_DEPTH_TEST);
+    glDisable(GL_SCISSOR_TEST);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, target_);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    const GLint right = r.x + r.width, top = r.y + r.height;
+    glBlitFramebuffer(r.x, r.y, right, top, r.x, r.y, right, top, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
 }
 

@@ -33,6 +33,10 @@ public:
 private:
     void take_meshes(const Room& room);
     void aim(const Room& room, float seconds);
+    struct Rectangle {
+        int x = 0, y = 0, width = 0, height = 0;
+    };
+    Rectangle around(const Room& room) const;
     void draw_studio();
     void draw_shadows(const Room& room);
     void draw_person(const Room& room, const Look& look);
