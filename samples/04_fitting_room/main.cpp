@@ -34,7 +34,7 @@ public:
         renderer_ = renderer();
         std::fprintf(stderr, "drawn by %s%s\n", renderer_.name.c_str(), renderer_.software ? " (a software renderer)" : "");
         view_.emplace(window_->width(), window_->height(), options.samples);
-        overlay_.emplace(window_->height());
+        overlay_.emplace(window_->width(), window_->height());
         if (!options.record.empty()) std::filesystem::create_directories(options.record);
     }
 

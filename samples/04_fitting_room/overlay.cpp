@@ -32,7 +32,9 @@ void main() {
     pixel = is_picture ? vec4(here.rgb, 1.0) * ink : vec4(ink.rgb, ink.a * here.r);
 })";
 
+// In pixels of a picture that is 720 high.
 constexpr float kMargin = 26.0f;
+constexpr float kPlotFrom = 1000.0f;  // a narrower picture has no room for it beside the person
 constexpr size_t kMostCorners = 6 * 4096;
 
 }  // namespace
@@ -43,7 +45,8 @@ constexpr size_t kMostCorners = 6 * 4096;
 #define PAPER Color{255, 255, 255, 150}
 #define ACCENT Color{176, 52, 60, 255}
 
-Overlay::Overlay(int picture_height) : scale_(float(picture_height) / 720.0f), program_(make_program(kVertex, kFragment)) {
+Overlay::Overlay(int picture_width, int picture_height)
+    : scale_(std::min(float(picture_height) / 720.0f, float(picture_width) / 720.0f)), program_(make_program(kVertex, kFragment)) {
     const Letters small(1.25f * scale_), large(2.3f * scale_);
     const int width = std::max(small.columns * small.width, large.columns * large.width);
     const int small_rows = small.rows * small.height, height = small_rows + large.rows * large.height + 2;
@@ -277,7 +280,7 @@ void Overlay::draw(const Room& room, const Times& times, const OverlayState& sta
     person(room);
     worn(room, state);
     rate(times, state);
-    if (room.dressed()) plot(times);
+    if (room.dressed() && width_ >= kPlotFrom * scale_) plot(times);
     message(room);
     if (state.help) help();
     flush(letters_texture_, false);

@@ -21,8 +21,8 @@ struct OverlayState {
 
 class Overlay {
 public:
-    /// Letters fit a picture of that height.
-    explicit Overlay(int picture_height);
+    /// Letters fit a picture of that size.
+    Overlay(int picture_width, int picture_height);
 
     /// Over the framebuffer that is bound.
     void draw(const Room& room, const Times& times, const OverlayState& state, int width, int height);
@@ -52,7 +52,7 @@ private:
     void help();
     void flush(GLuint texture, bool picture);
 
-    float scale_;  // pixels of what is one pixel at a height of 720
+    float scale_;  // pixels of what is one in a picture of 1280 x 720
     float width_ = 0, height_ = 0;
     Face small_{}, large_{};
     float white_u_ = 0, white_v_ = 0;

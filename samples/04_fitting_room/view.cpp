@@ -108,12 +108,24 @@ void main() {
     pixel = vec4(lit(gl_FrontFacing ? color : 0.45 * color, normal), 1.0);
 })";
 
+constexpr const char* kLayerVertex = R"(#version 330 core
+layout(location = 0) in vec2 corner;
+uniform vec4 from_to;  // in clip space
+void main() { gl_Position = vec4(mix(from_to.xy, from_to.zw, 0.5 + 0.5 * corner), 0.0, 1.0); })";
+
+constexpr const char* kLayerFragment = R"(#version 330 core
+uniform sampler2D layer;
+uniform ivec2 origin;
+out vec4 pixel;
+void main() { pixel = texelFetch(layer, ivec2(gl_FragCoord.xy) - origin, 0); })";
+
 constexpr std::array<std::array<float, 3>, 6> kFabrics = {{{0.42f, 0.045f, 0.060f}, {0.030f, 0.16f, 0.22f}, {0.50f, 0.27f, 0.035f},
                                                           {0.055f, 0.06f, 0.22f}, {0.06f, 0.17f, 0.09f}, {0.25f, 0.08f, 0.24f}}};
 
 constexpr float kFieldOfView_rad = 0.46f;  // of the picture's height: a portrait lens
 constexpr float kEye_m = 1.15f;            // the camera's height: a standing person's chest
 constexpr float kAbove_m = 0.34f, kBelow_m = 0.16f;  // room over the crown (for raised arms) and under the soles
+constexpr float kAcross_m = 1.3f;          // that a narrow picture shows: arms that are not held out
 constexpr float kShadow_m = 0.62f;         // radius of the soft one below the whole person
 constexpr float kFollow_s = 0.5f;          // how fast the camera follows
 
@@ -138,14 +150,16 @@ View::View(int width, int height, int samples)
       studio_program_(make_program(kStudioVertex, kStudioFragment)),
       shadow_program_(make_program(kShadowVertex, kShadowFragment)),
       skin_program_(make_program(kSkinVertex, with_light(kSkinFragment).c_str())),
-      cloth_program_(make_program(kClothVertex, with_light(kClothFragment).c_str())) {
+      cloth_program_(make_program(kClothVertex, with_light(kClothFragment).c_str())),
+      layer_program_(make_program(kLayerVertex, kLayerFragment)) {
     GLint most = 0;
     glGetIntegerv(GL_MAX_SAMPLES, &most);
     samples_ = std::min(samples_, int(most));
-    glGenFramebuffers(1, &target_);
-    glGenRenderbuffers(1, &target_color_);
-    glGenRenderbuffers(1, &target_depth_);
-    resize(width, height);
+    for (GLuint* framebuffer : {&studio_, &layer_, &flat_}) glGenFramebuffers(1, framebuffer);
+    for (GLuint* buffer : {&studio_color_, &layer_color_, &layer_depth_}) glGenRenderbuffers(1, buffer);
+    glGenTextures(1, &flat_color_);
+    glBindTexture(GL_TEXTURE_2D, flat_color_);
+    for (const GLenum key : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) glTexParameteri(GL_TEXTURE_2D, key, GL_NEAREST);
 
     // A bend of paper: wall, hollow and floor without a line between them, darker towards the corners.
     constexpr int kColumns = 16, kRows = 24;
@@ -177,10 +191,10 @@ View::View(int width, int height, int samples)
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(indices.size() * sizeof(GLushort)), indices.data(), GL_STATIC_DRAW);
 
     constexpr float kSquare[] = {-1, -1, 1, -1, -1, 1, 1, 1};
-    glGenVertexArrays(1, &shadow_array_);
-    glGenBuffers(1, &shadow_buffer_);
-    glBindVertexArray(shadow_array_);
-    glBindBuffer(GL_ARRAY_BUFFER, shadow_buffer_);
+    glGenVertexArrays(1, &square_array_);
+    glGenBuffers(1, &square_buffer_);
+    glBindVertexArray(square_array_);
+    glBindBuffer(GL_ARRAY_BUFFER, square_buffer_);
     glBufferData(GL_ARRAY_BUFFER, sizeof kSquare, kSquare, GL_STATIC_DRAW);
     attribute(0, 2, 2 * sizeof(float), 0);
 
@@ -203,19 +217,43 @@ View::View(int width, int height, int samples)
     attribute(3, 2, 2 * sizeof(float), 0);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, cloth_indices_);
     glBindVertexArray(0);
+    resize(width, height);
 }
 
 void View::resize(int width, int height) {
     if (width == width_ && height == height_) return;
     width_ = width, height_ = height;
-    glBindRenderbuffer(GL_RENDERBUFFER, target_color_);
-    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples_, GL_RGBA8, width, height);
-    glBindRenderbuffer(GL_RENDERBUFFER, target_depth_);
-    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples_, GL_DEPTH_COMPONENT24, width, height);
-    glBindFramebuffer(GL_FRAMEBUFFER, target_);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target_color_);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target_depth_);
+    glBindRenderbuffer(GL_RENDERBUFFER, studio_color_);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
+    glBindFramebuffer(GL_FRAMEBUFFER, studio_);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, studio_color_);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) throw Failure("OpenGL cannot draw a picture of that size");
+    glViewport(0, 0, width, height);
+    glUseProgram(studio_program_);
+    glBindVertexArray(studio_array_);
+    glDrawElements(GL_TRIANGLES, studio_count_, GL_UNSIGNED_SHORT, nullptr);
+    layer_width_ = layer_height_ = 0;
+}
+
+/// As large as the person has ever been, and in coarse steps.
+void View::grow_layer(int width, int height) {
+    if (width <= layer_width_ && height <= layer_height_) return;
+    constexpr int kStep = 64;
+    const auto stepped = [](int least, int now, int most) { return std::min(std::max(now, (least + kStep - 1) / kStep * kStep), most); };
+    layer_width_ = stepped(width, layer_width_, width_);
+    layer_height_ = stepped(height, layer_height_, height_);
+    glBindFramebuffer(GL_FRAMEBUFFER, layer_);
+    glBindRenderbuffer(GL_RENDERBUFFER, layer_color_);
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples_, GL_RGBA8, layer_width_, layer_height_);
+    glBindRenderbuffer(GL_RENDERBUFFER, layer_depth_);
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples_, GL_DEPTH_COMPONENT24, layer_width_, layer_height_);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, layer_color_);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, layer_depth_);
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) throw Failure("OpenGL cannot draw with so many samples a pixel");
+    glBindTexture(GL_TEXTURE_2D, flat_color_);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, layer_width_, layer_height_, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+    glBindFramebuffer(GL_FRAMEBUFFER, flat_);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, flat_color_, 0);
 }
 
 /// Index buffers and texture coordinates, where another garment or size hides another part of the skin.
@@ -247,27 +285,25 @@ void View::aim(const Room& room, float seconds) {
     stature_m_ += share * (room.person().stature_m - stature_m_);
     const float height = stature_m_ + kAbove_m + kBelow_m;
     aim_[1] = 0.5f * height - kBelow_m;
-    const float distance = 0.5f * height / std::tan(0.5f * kFieldOfView_rad);
+    const float aspect = float(width_) / float(height_);
+    const float distance = 0.5f * std::max(height, kAcross_m / aspect) / std::tan(0.5f * kFieldOfView_rad);
 
     const float eye[3] = {aim_[0], kEye_m, aim_[2] + distance};
     // The lens is shifted and not tilted, as of a studio camera: upright lines stay upright.
     const float near = 0.2f, far = 20.0f, f = 1.0f / std::tan(0.5f * kFieldOfView_rad);
-    const float aspect = float(width_) / float(height_);
     const float shift = f * (aim_[1] - kEye_m) / distance;
     const Matrix projection = {f / aspect, 0, 0, 0, 0, f, 0, 0, 0, shift, (far + near) / (near - far), -1, 0, 0, 2 * far * near / (near - far), 0};
     const Matrix view = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -eye[0], -eye[1], -eye[2], 1};
     clip_from_world_ = product(projection, view);
 }
 
-/// Where in the picture the person, the garment and their shadow are.
+/// Where in the picture the person and the garment are.
 View::Rectangle View::around(const Room& room) const {
     constexpr float kAroundJoints_m = 0.26f;  // crown, fingers, toes
     const Room::Joints& j = room.joints();
     const Room::Place &a = room.cloth_low(), &b = room.cloth_high();
-    const float low[3] = {std::min({j.low.x - kAroundJoints_m, a.x, j.pelvis.x - kShadow_m}), std::min(0.0f, a.y),
-                          std::min({j.low.z - kAroundJoints_m, a.z, j.pelvis.z - kShadow_m})};
-    const float high[3] = {std::max({j.high.x + kAroundJoints_m, b.x, j.pelvis.x + kShadow_m}), std::max(j.high.y + kAroundJoints_m, b.y),
-                           std::max({j.high.z + kAroundJoints_m, b.z, j.pelvis.z + kShadow_m})};
+    const float low[3] = {std::min(j.low.x - kAroundJoints_m, a.x), std::min(j.low.y - kAroundJoints_m, a.y), std::min(j.low.z - kAroundJoints_m, a.z)};
+    const float high[3] = {std::max(j.high.x + kAroundJoints_m, b.x), std::max(j.high.y + kAroundJoints_m, b.y), std::max(j.high.z + kAroundJoints_m, b.z)};
     float left = 1.0f, right = -1.0f, bottom = 1.0f, top = -1.0f;
     for (int corner = 0; corner < 8; ++corner) {
         const float p[3] = {corner & 1 ? high[0] : low[0], corner & 2 ? high[1] : low[1], corner & 4 ? high[2] : low[2]};
@@ -283,11 +319,10 @@ View::Rectangle View::around(const Room& room) const {
     return {x, y, std::min(width_, pixel(right, width_) + 1) - x, std::min(height_, pixel(top, height_) + 1) - y};
 }
 
-void View::draw_studio() {
-    glDisable(GL_DEPTH_TEST);
-    glUseProgram(studio_program_);
-    glBindVertexArray(studio_array_);
-    glDrawElements(GL_TRIANGLES, studio_count_, GL_UNSIGNED_SHORT, nullptr);
+void View::draw_studio(GLuint framebuffer) {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, studio_);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 void View::draw_shadows(const Room& room) {
@@ -301,7 +336,7 @@ void View::draw_shadows(const Room& room) {
     glUniform3f(uniform(shadow_program_, "color"), 0.16f, 0.15f, 0.17f);
     glEnable(GL_BLEND);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-    glBindVertexArray(shadow_array_);
+    glBindVertexArray(square_array_);
     for (const auto& disc : discs) {
         glUniform4fv(uniform(shadow_program_, "disc"), 1, disc);
         glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
@@ -331,33 +366,42 @@ void View::draw_person(const Room& room, const Look& look) {
 }
 
 void View::draw(const Room& room, const Look& look, GLuint framebuffer) {
+    draw_studio(framebuffer);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, width_, height_);
-    draw_studio();
     aimed_ = aimed_ && room.dressed();
     if (!room.dressed()) return;
     take_meshes(room);
     aim(room, look.seconds);
     if (look.mirror)
         for (size_t c = 0; c < 4; ++c) clip_from_world_[4 * c] = -clip_from_world_[4 * c];
+    draw_shadows(room);
 
-    // Several samples a pixel are dear where a processor draws: the person alone is worth them.
+    // Several samples a pixel are dear where a processor draws: the person alone is worth them, and gets a layer of that size.
     const Rectangle r = around(room);
     if (r.width <= 0 || r.height <= 0) return;
-    glBindFramebuffer(GL_FRAMEBUFFER, target_);
-    glEnable(GL_SCISSOR_TEST);
-    glScissor(r.x, r.y, r.width, r.height);
-    glClear(GL_DEPTH_BUFFER_BIT);
-    draw_studio();
-    draw_shadows(room);
+    grow_layer(r.width, r.height);
+    glBindFramebuffer(GL_FRAMEBUFFER, layer_);
+    glViewport(-r.x, -r.y, width_, height_);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     draw_person(room, look);
     glDisable(GL_DEPTH_TEST);
-    glDisable(GL_SCISSOR_TEST);
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, target_);
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-    const GLint right = r.x + r.width, top = r.y + r.height;
-    glBlitFramebuffer(r.x, r.y, right, top, r.x, r.y, right, top, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, layer_);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, flat_);
+    glBlitFramebuffer(0, 0, r.width, r.height, 0, 0, r.width, r.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, width_, height_);
+    const auto clip = [](int pixel, int size) { return 2.0f * float(pixel) / float(size) - 1.0f; };
+    glUseProgram(layer_program_);
+    glUniform4f(uniform(layer_program_, "from_to"), clip(r.x, width_), clip(r.y, height_), clip(r.x + r.width, width_), clip(r.y + r.height, height_));
+    glUniform2i(uniform(layer_program_, "origin"), r.x, r.y);
+    glBindTexture(GL_TEXTURE_2D, flat_color_);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // samples beside the person are black and clear
+    glBindVertexArray(square_array_);
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    glDisable(GL_BLEND);
 }
 
 }  // namespace room

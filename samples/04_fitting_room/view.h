@@ -37,14 +37,18 @@ private:
         int x = 0, y = 0, width = 0, height = 0;
     };
     Rectangle around(const Room& room) const;
-    void draw_studio();
+    void grow_layer(int width, int height);
+    void draw_studio(GLuint framebuffer);
     void draw_shadows(const Room& room);
     void draw_person(const Room& room, const Look& look);
 
     int width_ = 0, height_ = 0, samples_;
-    GLuint target_ = 0, target_color_ = 0, target_depth_ = 0;  // with several samples a pixel
-    GLuint studio_program_, shadow_program_, skin_program_, cloth_program_;
-    GLuint studio_array_ = 0, studio_buffer_ = 0, studio_indices_ = 0, shadow_array_ = 0, shadow_buffer_ = 0;
+    GLuint studio_ = 0, studio_color_ = 0;  // drawn once
+    // The person alone: with several samples a pixel, and what comes of them.
+    GLuint layer_ = 0, layer_color_ = 0, layer_depth_ = 0, flat_ = 0, flat_color_ = 0;
+    int layer_width_ = 0, layer_height_ = 0;
+    GLuint studio_program_, shadow_program_, skin_program_, cloth_program_, layer_program_;
+    GLuint studio_array_ = 0, studio_buffer_ = 0, studio_indices_ = 0, square_array_ = 0, square_buffer_ = 0;
     GLsizei studio_count_ = 0;
     GLuint body_array_ = 0, body_indices_ = 0, cloth_array_ = 0, cloth_indices_ = 0, cloth_uvs_ = 0;
     GLsizei body_count_ = 0, cloth_count_ = 0;

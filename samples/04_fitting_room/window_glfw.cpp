@@ -50,7 +50,7 @@ public:
         glfwSwapInterval(1);
         glfwSetWindowUserPointer(window_, this);
         glfwSetKeyCallback(window_, [](GLFWwindow* window, int code, int, int action, int) {
-            if (action == GLFW_RELEASE) return;
+            if (action != GLFW_PRESS) return;
             const Key key = key_of(code);
             if (key != Key::none) static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window))->keys_.push_back(key);
         });
