@@ -362,8 +362,7 @@ void Room::switch_physics() {
 void Room::switch_camera() {
     camera_on_ = !camera_on_;
     if (!sensor_) return;
-    if (camera_on_) check(vfit_sensor_start(sensor_.get()));
-    else check(vfit_sensor_stop(sensor_.get()));
+    if ((camera_on_ ? vfit_sensor_start : vfit_sensor_stop)(sensor_.get()) < 0) lose_camera(last_error());
 }
 
 const char* Room::message() const {

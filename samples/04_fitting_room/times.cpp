@@ -24,11 +24,6 @@ void Times::add_cloth_step(float step_ms, float interval_ms) {
     ++steps_;
 }
 
-void Times::clear() {
-    frames_ = steps_ = 0;
-    sum_ms_ = 0.0;
-}
-
 StageMs Times::ago(size_t i) const { return i < frames_ && i < kKept ? stages_[(frames_ - 1 - i) % kKept] : StageMs{}; }
 
 double Times::fps() const { return sum_ms_ > 0.0 ? 1e3 * double(frames_) / sum_ms_ : 0.0; }

@@ -40,7 +40,6 @@ public:
     static constexpr size_t kPlotted = 240;
     void add(const StageMs& stages, float frame_ms);
     void add_cloth_step(float step_ms, float interval_ms);
-    void clear();
 
     /// i pictures ago; zeros where there was none.
     StageMs ago(size_t i) const;

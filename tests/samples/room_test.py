@@ -151,7 +151,7 @@ class Trouble(unittest.TestCase):
         self.assertIn("nowhere", self.say("/nowhere", *SMALL))
         self.assertIn("--nonsense", self.say("--nonsense", code=2))
         with tempfile.TemporaryDirectory() as empty:
-            self.assertIn("", self.say(*SMALL, "--data", empty))
+            self.assertIn("no garment", self.say(*SMALL, "--data", empty))
 
     def test_a_source_that_ends_is_waited_for(self):
         told = report("virtual:motion=demo&sex=f&seed=7&frames=60", "--offscreen", "--resolution", "640x360", "--samples", "0", "--seconds", "4")
