@@ -768,6 +768,11 @@ VFIT_API vfit_result vfit_cloth_set_size(vfit_cloth cloth, const char* size_labe
 VFIT_API vfit_result vfit_cloth_step(vfit_cloth cloth, float dt);
 VFIT_API vfit_result vfit_cloth_begin_step(vfit_cloth cloth, float dt);
 VFIT_API vfit_result vfit_cloth_end_step(vfit_cloth cloth);
+/* Between steps, for cloth that runs on a slower clock than the picture: acquire then gives the cloth as the last step
+ * left it, carried from that step's pose into the one that the avatar has now by the bones that carry the garment, at
+ * the time of that pose. The next step goes on as if it had not been called. While a step runs it does not wait: the
+ * one before is carried, until end_step.                                                       [excl]  */
+VFIT_API vfit_result vfit_cloth_carry(vfit_cloth cloth);
 /* Velocity of the air, in the context's axes and unit a second, from the next step on.         [excl]  */
 VFIT_API vfit_result vfit_cloth_set_wind(vfit_cloth cloth, const float wind[3]);
 /* Sub-steps a 1/60 s at most, and the time that a step may take: where more would take longer, fewer are done (at least

@@ -143,6 +143,7 @@ struct ClothObject : ContextChild {
           cloth(dress.fabric(), settings, placed()),
           output(*context) {
         time_ns = avatar->avatar.time_ns();
+        keep_pose();
         output.topology().set_indices(garment->garment.drawn_indices(), context->axes);
         output.topology().set_uvs(garment->garment.mesh.uvs, context->axes);
         publish(output.begin());
@@ -181,13 +182,29 @@ struct ClothObject : ContextChild {
     bool stepping = false;
     float dt = 0.0f;
     int64_t time_ns = 0;  // of the pose
+    std::vector<Mat4> pose;  // of that step: skinning matrices
     Ref<Frame> next;
     Jobs::Later later;
+
+    /// What the last finished step left, kept apart from what the one that runs works on, to be carried between steps.
+    struct Finished {
+        std::vector<Vec3> positions, normals;
+        std::vector<float> strain, pressure;
+        std::vector<Mat4> pose;
+        Carry::Unposed unposed;  // made when first carried
+        bool is_unposed = false;
+    };
+    Finished finished;
+    std::vector<Vec3> carried_positions, carried_normals;
 
     using Reading = std::unique_ptr<Access, void (*)(Access*)>;
     static Reading reading_of(Access& access, const char* what) {
         access.begin_read(what);
         return Reading(&access, [](Access* a) { a->end_read(); });
+    }
+    void keep_pose() {
+        const auto matrices = avatar->avatar.skinning_matrices();
+        pose.assign(matrices.begin(), matrices.end());
     }
     const std::vector<Vec3>& placed() {
         dress.place(avatar->avatar.skinning_matrices(), targets, scratch, *context->jobs);
@@ -233,6 +250,7 @@ struct ClothObject : ContextChild {
         move_skin(avatar->avatar.skinning_matrices());
         move_inner();
         time_ns = avatar->avatar.time_ns();
+        if (step_dt > 0.0f) keep_pose();  // else the cloth stays where the step before left it
         dt = step_dt;
     }
     /// On a body that stands straight and then goes into the avatar's pose.
@@ -241,6 +259,7 @@ struct ClothObject : ContextChild {
         const auto reading = read_avatar();
         next = output.begin();
         time_ns = avatar->avatar.time_ns();
+        keep_pose();
         std::vector<Mat4> matrices(avatar->avatar.skinning_matrices().size());
         const auto body = [&](float share, std::vector<Vec3>& places, std::vector<Collider>& limbs) {
             avatar->avatar.while_dressing(share, matrices, limbs);
@@ -269,17 +288,42 @@ struct ClothObject : ContextChild {
         stepping = false;
         context->jobs->end(later);
     }
+    /// What the step that has just ended left.
     void publish(Ref<Frame> frame) {
-        const uint32_t count = garment->garment.drawn_count();
-        const auto [positions, normals] = output.add_vertices(*frame, count, time_ns);
-        const Axes& axes = context->axes;
-        for_drawn(cloth.positions(), positions, [&](const Vec3& p) { return axes.point_out(p); });
-        for_drawn(cloth.normals(), normals, [&](const Vec3& n) { return axes.direction_out(n); });
-        const auto same = [](float x) { return x; };
-        for_drawn(cloth.strain(), static_cast<float*>(frame->add_stream(VFIT_STREAM_STRAIN, VFIT_FORMAT_F32, count, 1)), same);
-        if (settings.pressure)
-            for_drawn(cloth.pressure(), static_cast<float*>(frame->add_stream(VFIT_STREAM_PRESSURE, VFIT_FORMAT_F32, count, 1)), same);
+        // Of the same sizes each time: nothing is allocated but at first.
+        finished.positions = cloth.positions();
+        finished.normals = cloth.normals();
+        finished.strain = cloth.strain();
+        if (settings.pressure) finished.pressure = cloth.pressure();
+        finished.pose = pose;
+        finished.is_unposed = false;
+        fill(*frame, finished.positions, finished.normals, time_ns);
         output.publish(std::move(frame));
+    }
+    /// The last finished step, in the pose that the avatar has now.
+    void carry() {
+        const auto reading = read_avatar();
+        Ref<Frame> frame = output.begin();
+        const Carry& by = dress.carry();
+        if (!finished.is_unposed) by.take_out(finished.pose, finished.positions, finished.normals, finished.unposed, *context->jobs);
+        finished.is_unposed = true;
+        carried_positions.resize(by.vertex_count());
+        carried_normals.resize(by.vertex_count());
+        by.put_in(avatar->avatar.skinning_matrices(), finished.unposed, carried_positions, carried_normals, *context->jobs);
+        fill(*frame, carried_positions, carried_normals, avatar->avatar.time_ns());
+        output.publish(std::move(frame));
+    }
+    void fill(Frame& frame, const std::vector<Vec3>& positions, const std::vector<Vec3>& normals, int64_t pose_time_ns) const {
+        const uint32_t count = garment->garment.drawn_count();
+        const auto vertices = output.add_vertices(frame, count, pose_time_ns);
+        const Axes& axes = context->axes;
+        for_drawn(positions, vertices.positions, [&](const Vec3& p) { return axes.point_out(p); });
+        for_drawn(normals, vertices.normals, [&](const Vec3& n) { return axes.direction_out(n); });
+        const auto add = [&](vfit_stream stream, const std::vector<float>& values) {
+            for_drawn(values, static_cast<float*>(frame.add_stream(stream, VFIT_FORMAT_F32, count, 1)), [](float x) { return x; });
+        };
+        add(VFIT_STREAM_STRAIN, finished.strain);
+        if (settings.pressure) add(VFIT_STREAM_PRESSURE, finished.pressure);
     }
     /// One value a vertex that is drawn, of one a simulated vertex: copies have that of theirs.
     template <typename T, typename Out>
@@ -463,6 +507,14 @@ vfit_result vfit_cloth_set_size(vfit_cloth handle, const char* size_label) {
     return guard([&] {
         Use<ClothObject, Mode::exclusive> cloth(handle.id);
         cloth->change_size(size_label);
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_cloth_carry(vfit_cloth handle) {
+    return guard([&] {
+        Use<ClothObject, Mode::exclusive> cloth(handle.id);
+        cloth->carry();
         return VFIT_OK;
     });
 }

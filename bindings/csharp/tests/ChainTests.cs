@@ -61,6 +61,9 @@ namespace Vfit.Tests
                         for (int i = 0; i < 20; i++) cloth.Step(1 / 60f);
                         cloth.BeginStep(1 / 60f);
                         cloth.EndStep();
+                        ulong stepped = cloth.StateHash();
+                        cloth.Carry();
+                        Assert.AreEqual(stepped, cloth.StateHash());
                         cloth.Acquire(mesh);
                         var positions = new Float3[mesh.Count(StreamKind.Position)];
                         Assert.AreEqual(garment.Describe().VertexCount, positions.Length);

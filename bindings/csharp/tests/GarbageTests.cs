@@ -69,6 +69,7 @@ namespace Vfit.Tests
                         avatar.Pose(pose);
                         cloth.BeginStep(1 / 60f);
                         cloth.EndStep();
+                        cloth.Carry();
                         avatar.Acquire(skin);
                         cloth.Acquire(dress);
                         skin.Write(StreamKind.Position, skinPositions, ref skinSerial);

@@ -174,6 +174,9 @@ void bind_cloth(py::module_& m) {
                 "end_step", [](const Cloth& c) { run([h = c.get()] { return vfit_cloth_end_step(h); }); },
                 "Waits for the step that was begun.")
             .def(
+                "carry", [](const Cloth& c) { run([h = c.get()] { return vfit_cloth_carry(h); }); },
+                "Between steps: acquire then gives the last step's cloth, carried into the avatar's pose of now.")
+            .def(
                 "reset", [](const Cloth& c) { run([h = c.get()] { return vfit_cloth_reset(h); }); },
                 "Put on anew, on a body that stands straight and goes into the avatar's pose: about 0.1 s.")
             .def("acquire", &acquire, "positions, normals, uvs, triangles and strain.")

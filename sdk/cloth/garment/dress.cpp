@@ -235,6 +235,7 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
 
     Carried carried;
     for (uint32_t i = 0; i < n; ++i) carried.add(rest_[i], weights.row(i));
+    carry_.emplace(carried.bones, carried.weights);
     const MeshQuery bound(body.rest, triangles);
     std::vector<float> bone_weights(bones);
     for (uint32_t i = 0; i < n; ++i) {

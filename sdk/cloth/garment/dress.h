@@ -12,6 +12,7 @@
 #include "avatar/skin.h"
 #include "body/body_model.h"
 #include "cloth/fabric/fabric.h"
+#include "cloth/garment/carry.h"
 #include "cloth/garment/garment.h"
 #include "math/types.h"
 
@@ -41,6 +42,8 @@ public:
     /// The garment on the avatar's rest body; one a garment vertex.
     const std::vector<Vec3>& rest() const { return rest_; }
     const std::vector<uint32_t>& indices() const { return indices_; }
+    /// The garment's vertices by the bones that carry them.
+    const Carry& carry() const { return *carry_; }
 
     struct Scratch {
         Skin::Scratch bones;
@@ -57,6 +60,7 @@ private:
     std::vector<Vec3> rest_;
     std::vector<uint32_t> indices_;
     std::vector<Backstop> backstops_;
+    std::optional<Carry> carry_;
     std::optional<Skin> skin_;  // of rest_, then the backstops' centres
     std::vector<uint32_t> followed_;  // of these
     std::optional<Skin> followed_skin_;

@@ -46,6 +46,15 @@ namespace Vfit
             Calls.ClothEndStep(Handle);
         }
 
+        /// <summary>
+        /// Between steps: Acquire then gives the last step's cloth, carried into the pose that the avatar has now. Does not
+        /// wait for a step that runs.
+        /// </summary>
+        public void Carry()
+        {
+            Calls.ClothCarry(Handle);
+        }
+
         /// <summary>Velocity of the air in the context's axes.</summary>
         public void SetWind(Float3 wind)
         {

@@ -2351,6 +2351,20 @@ namespace Vfit
             }
         }
 
+        internal static Result ClothCarry(ClothHandle cloth)
+        {
+            bool clothHeld = false;
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_cloth_carry(new ClothId(VfitHandle.Hold(cloth, ref clothHeld))));
+                return result;
+            }
+            finally
+            {
+                if (clothHeld) cloth.DangerousRelease();
+            }
+        }
+
         internal static Result ClothSetWind(ClothHandle cloth, float* wind)
         {
             bool clothHeld = false;

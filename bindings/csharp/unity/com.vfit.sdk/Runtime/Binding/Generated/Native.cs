@@ -511,6 +511,13 @@ namespace Vfit
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_end_step(ClothId cloth);
 
+        /// <summary>Between steps, for cloth that runs on a slower clock than the picture: acquire then gives the cloth as
+        /// the last step left it, carried from that step's pose into the one that the avatar has now by the bones that
+        /// carry the garment, at the time of that pose. The next step goes on as if it had not been called. While a step
+        /// runs it does not wait: the one before is carried, until end_step. [excl]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_cloth_carry(ClothId cloth);
+
         /// <summary>Velocity of the air, in the context's axes and unit a second, from the next step on. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_set_wind(ClothId cloth, float* wind);
