@@ -1,0 +1,114 @@
+#include "cook/draft/placement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "measure/section.h"
+
+namespace vfit {
+
+namespace {
+
+constexpr float kClear_m = 0.025f;   // between skin and a piece that is held before it
+constexpr float kAround_m = 0.03f;   // the body so far beyond a piece's edge counts too
+constexpr float kSleeveGap_m = 0.03f;  // of the sleeve's cap beyond the armhole, that the two do not cross
+constexpr uint32_t kEdgePoints = 6;
+
+/// Half a turn about the upright axis: a back piece shows its outside to -Z.
+const Quat kTurnedBack(0, 0, 1, 0);
+
+CutLine seen_from(const CutLine& line, PieceSide side) { return side == PieceSide::back ? line.mirrored() : line; }
+
+}  // namespace
+
+Placement::Placement(const BodyModel& model, vfit_sex sex) {
+    model.evaluate(model.default_shape(sex), body_);
+    const auto head = [&](int bone) { return body_.bone_heads[size_t(model.rig_bone(bone))]; };
+    shoulder_ = head(VFIT_BONE_LEFT_UPPER_ARM);
+    wrist_ = head(VFIT_BONE_LEFT_HAND);
+    const Vec3 leg = head(VFIT_BONE_LEFT_FOOT) - head(VFIT_BONE_LEFT_UPPER_LEG);
+    leg_lean_rad_ = std::atan2(leg.x, -leg.y);
+}
+
+Panel Placement::upright(const CutLine& line, std::string name, PieceSide side, const Vec2& at, float turned_rad,
+                         float leaning_rad) const {
+    Panel panel = seen_from(line, side).panel(std::move(name));
+    const bool back = side == PieceSide::back;
+    // Turning outwards and leaning are told as the person's left sees them from before; a back piece is turned round first.
+    panel.rotation = glm::angleAxis(back ? -turned_rad : turned_rad, Vec3(0, 1, 0)) *
+                     glm::angleAxis(leaning_rad, Vec3(0, 0, 1)) * (back ? kTurnedBack : Quat(1, 0, 0, 0));
+    panel.translation = Vec3(at, 0.0f);
+    clear_of_body(panel, Vec3(0, 0, back ? -1 : 1));
+    return panel;
+}
+
+Panel Placement::along_left_arm(const CutLine& line, std::string name, PieceSide side, float cap_height_m, float length_m,
+                                float width_m, float hem_m) const {
+    Panel panel = seen_from(line, side).panel(std::move(name));
+    const float out = side == PieceSide::back ? -1.0f : 1.0f;
+    const Vec3 up = glm::normalize(shoulder_ - wrist_);  // along the arm, from the hand
+    const Vec3 ahead = glm::normalize(Vec3(0, 0, 1) - up.z * up);
+    const Vec3 outside = out * ahead;
+    // The piece's own middle line runs along the arm.
+    const Vec2 hem_middle(-0.5f * out * hem_m, -length_m), wide_middle(-0.5f * out * width_m, 0.0f);
+    const Vec2 middle = glm::normalize(wide_middle - hem_middle);
+    const Quat along = glm::quat_cast(Mat3(glm::cross(up, outside), up, outside));
+    panel.rotation = along * glm::angleAxis(std::atan2(middle.x, middle.y), Vec3(0, 0, 1));
+    const Vec2 top = wide_middle + middle * cap_height_m;
+    panel.translation = shoulder_ - kSleeveGap_m * up - panel.rotation * Vec3(top, 0.0f);
+    clear_of_body(panel, outside);
+    return panel;
+}
+
+void Placement::clear_of_body(Panel& panel, const Vec3& direction) const {
+    std::vector<Vec2> outline;
+    for (const PatternEdge& edge : panel.edges) {
+        const std::vector<Vec2> points = sample_edge(panel, edge, kEdgePoints);
+        outline.insert(outline.end(), points.begin(), points.end() - 1);
+    }
+    // Grown a little from its middle.
+    const Extent box = extent(outline);
+    const Vec2 middle = 0.5f * (box.minimum + box.maximum), half = 0.5f * (box.maximum - box.minimum);
+    const Vec2 growth = (half + kAround_m) / half;
+    for (Vec2& p : outline) p = middle + (p - middle) * growth;
+
+    const Vec3 normal = panel.rotation * Vec3(0, 0, 1);
+    const Quat to_panel = glm::conjugate(panel.rotation);
+    // Where the piece is turned, what lies behind it changes as it moves.
+    for (int i = 0; i < 4; ++i) {
+        float nearest = -INFINITY;
+        for (const Vec3& p : body_.positions) {
+            const Vec3 q = to_panel * (p - panel.translation);
+            if (q.z <= nearest || std::abs(q.x - middle.x) > half.x + kAround_m || std::abs(q.y - middle.y) > half.y + kAround_m) continue;
+            if (encloses(outline, Vec2(q))) nearest = q.z;
+        }
+        if (nearest == -INFINITY) return;
+        panel.translation += direction * ((nearest + kClear_m) / glm::dot(normal, direction));
+    }
+}
+
+Panel right_of(const Panel& left, std::string name) {
+    Panel out;
+    out.name = std::move(name);
+    out.material = left.material;
+    // Gone round backwards: edge i of the right one is edge n - 1 - i of the left one.
+    const uint32_t n = uint32_t(left.edges.size());
+    const auto reflected = [](const Vec2& p) { return Vec2(-p.x, p.y); };
+    for (uint32_t i = 0; i < n; ++i) {
+        const PatternEdge& from = left.edges[n - 1 - i];
+        PatternEdge edge = from;
+        edge.from = i;
+        edge.to = (i + 1) % n;
+        if (edge.curve == PatternEdge::Curve::cubic) std::swap(edge.control[0], edge.control[1]);
+        for (Vec2& control : edge.control) control = reflected(control);
+        if (edge.label.starts_with("left ")) edge.label.replace(0, 4, "right");
+        out.corners.push_back(reflected(left.corners[from.to]));
+        out.edges.push_back(std::move(edge));
+    }
+    const Quat& q = left.rotation;
+    out.rotation = Quat(q.w, q.x, -q.y, -q.z);
+    out.translation = {-left.translation.x, left.translation.y, left.translation.z};
+    return out;
+}
+
+}  // namespace vfit

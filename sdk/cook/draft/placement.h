@@ -1,0 +1,39 @@
+// Where a flat piece is held about the body at rest, clear of it, before it is sewn.
+#pragma once
+
+#include "body/body_model.h"
+#include "cook/draft/cut_line.h"
+#include "cook/draft/measures.h"
+#include "cook/pattern/pattern.h"
+
+namespace vfit {
+
+enum class PieceSide { front, back };
+
+class Placement {
+public:
+    Placement(const BodyModel& model, vfit_sex sex);
+
+    /// A piece of the trunk, or of a leg: `at` is where its y = 0 and its middle are held, z chosen clear of the body. `turned_rad`
+    /// turns a left piece outwards about the upright line through `at`, `leaning_rad` to the person's left at its lower end.
+    Panel upright(const CutLine& line, std::string name, PieceSide side, const Vec2& at, float turned_rad, float leaning_rad) const;
+    /// A piece of the left sleeve, along the arm.
+    Panel along_left_arm(const CutLine& line, std::string name, PieceSide side, float cap_height_m, float length_m,
+                         float width_m, float hem_m) const;
+
+    /// The left leg's lean, and where its axis passes the hips' level.
+    float leg_lean_rad() const { return leg_lean_rad_; }
+
+private:
+    /// Moves the panel along `direction` until the body behind it is clear of it.
+    void clear_of_body(Panel& panel, const Vec3& direction) const;
+
+    EvaluatedBody body_;
+    Vec3 shoulder_, wrist_;
+    float leg_lean_rad_ = 0.0f;
+};
+
+/// The right side's panel from the left one's, and its place.
+Panel right_of(const Panel& left, std::string name);
+
+}  // namespace vfit
