@@ -101,6 +101,7 @@ TorsoDesign read_torso(const Json& json) {
     DesignObject o(json, "torso");
     TorsoDesign t;
     t.front = TorsoDesign::Front(o.choice("front", {"whole", "closed", "open"}));
+    if (o.has("back")) t.back_seam = o.choice("back", {"whole", "seamed"}) == 1;
     t.chest_ease_m = o.number("chest_ease_m", kLeastEase_m, kMostEase_m);
     t.waist_ease_m = o.number("waist_ease_m", kLeastEase_m, kMostEase_m);
     if (o.has("hem")) {
@@ -223,8 +224,6 @@ GarmentDesign parse_design(std::span<const std::byte> json) {
         if (design.trousers && (design.trousers->band_height_m > 0.0f || design.trousers->rise > 0.0f ||
                                 design.trousers->dart > 0.0f || design.torso->waist_dart > 0.0f))
             fail(VFIT_ERROR_DATA, "design: \"torso\" and \"trousers\" join at the waist: no band, no rise, no darts there");
-        if (design.skirt && design.torso->front != TorsoDesign::Front::whole)
-            fail(VFIT_ERROR_DATA, "design: \"torso.front\" must be whole above a \"skirt\"");
     }
     read_sizes(root, design);
     root.no_others();

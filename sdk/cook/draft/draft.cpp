@@ -13,9 +13,9 @@ namespace vfit {
 
 namespace {
 
-// Front halves are held turned outwards, as a coat is held open before it is put on: their side edges come nearer to the
-// back's, past the arms.
-constexpr float kFrontTurned_rad = 0.35f;  // 20 degrees
+// Halves of a trunk are held turned outwards about its middle: flat before it, front and back would meet only beyond the arms.
+constexpr float kTurned_rad = 0.7f;        // 40 degrees
+constexpr float kAboveShoulder_m = 0.01f;  // of the shoulder seam, before it is sewn
 constexpr float kGap_m = 0.01f;            // between pieces that are held above each other or beside the middle
 constexpr float kSameLength = 0.005f;      // of two edges that are sewn together, share
 
@@ -68,29 +68,40 @@ private:
         return placement_.upright(whole(half), name, side, {0.0f, body_.waist_height + above_waist}, 0.0f, 0.0f);
     }
 
+    /// Above the body's waist, where the waist line of the trunk's pieces is held: lower than it will lie, as the way over
+    /// chest and back is longer than the way straight up. So the shoulder seams meet just over the shoulders, and the
+    /// underarm points below the arms.
+    float trunk_above_waist() const {
+        if (!design_.torso) return 0.0f;
+        const float over = 0.5f * (body_.front_length + body_.back_length) -
+                           (body_.shoulder_half_m - body_.side_of_neck_m()) * std::tan(body_.shoulder_slope_rad);
+        return std::min(0.0f, body_.shoulder_above_waist + kAboveShoulder_m - over);
+    }
+    std::string front(const std::string& side) const {
+        return design_.torso->front == TorsoDesign::Front::whole ? "front" : "front_" + side;
+    }
+    std::string back(const std::string& side) const { return design_.torso->back_seam ? "back_" + side : "back"; }
+
     void draft_trunk() {
         std::optional<JoinedWaist> joined;
         if (design_.trousers) joined = JoinedWaist{trousers_.front_waist_m[0], trousers_.back_waist_m[0]};
         torso_ = draft_torso(body_, *design_.torso, joined);
         for (const GirthLine& line : torso_.girths) girths_.push_back(line);
-        const bool front_whole = design_.torso->front == TorsoDesign::Front::whole;
-        if (front_whole) {
-            add(whole_at_waist(torso_.front, "front", PieceSide::front, 0.0f));
-        } else {
-            add_both(placement_.upright(closed_left(torso_.front), "front", PieceSide::front,
-                                        {0.5f * kGap_m, body_.waist_height}, kFrontTurned_rad, 0.0f));
-        }
-        add(whole_at_waist(torso_.back, "back", PieceSide::back, 0.0f));
-        if (design_.torso->front == TorsoDesign::Front::closed)
-            sew("front_left", "left middle", "front_right", "right middle");
+        const float above = trunk_above_waist();
+        const auto place = [&](const CutLine& half, const char* name, PieceSide side, bool in_one) {
+            if (in_one) return add(whole_at_waist(half, name, side, above));
+            add_both(placement_.upright(closed_left(half), name, side, {0.5f * kGap_m, body_.waist_height + above}, kTurned_rad, 0.0f));
+        };
+        place(torso_.front, "front", PieceSide::front, design_.torso->front == TorsoDesign::Front::whole);
+        place(torso_.back, "back", PieceSide::back, !design_.torso->back_seam);
+        if (design_.torso->front == TorsoDesign::Front::closed) sew(front("left"), "left middle", front("right"), "right middle");
+        if (design_.torso->back_seam) sew(back("left"), "left middle", back("right"), "right middle");
         for (const std::string& side : kSides) {
-            const std::string front = front_whole ? "front" : "front_" + side;
             for (const char* seam : {"side skirt", "side hip", "side waist", "side chest", "shoulder"})
-                if (torso_.back.length(seam) > 0.0f) sew(front, side + " " + seam, "back", side + " " + seam);
-            if (design_.torso->bust_dart > 0.0f) sew(front, side + " bust dart a", front, side + " bust dart b");
+                if (torso_.back.length(seam) > 0.0f) sew(front(side), side + " " + seam, back(side), side + " " + seam);
+            if (design_.torso->bust_dart > 0.0f) sew(front(side), side + " bust dart a", front(side), side + " bust dart b");
             if (design_.torso->waist_dart > 0.0f)
-                for (const std::string& piece : {front, std::string("back")})
-                    sew(piece, side + " dart a", piece, side + " dart b");
+                for (const std::string& piece : {front(side), back(side)}) sew(piece, side + " dart a", piece, side + " dart b");
         }
     }
 
@@ -102,13 +113,12 @@ private:
         };
         place(sleeve.front, "sleeve_front", PieceSide::front, sleeve.front_width_m, sleeve.front_hem_m);
         place(sleeve.back, "sleeve_back", PieceSide::back, sleeve.back_width_m, sleeve.back_hem_m);
-        const bool front_whole = design_.torso->front == TorsoDesign::Front::whole;
         for (const std::string& side : kSides) {
-            const std::string front = "sleeve_front_" + side, back = "sleeve_back_" + side;
-            for (const char* seam : {" top", " under"}) sew(front, side + seam, back, side + seam);
+            const std::string before = "sleeve_front_" + side, behind = "sleeve_back_" + side;
+            for (const char* seam : {" top", " under"}) sew(before, side + seam, behind, side + seam);
             const float ease = design_.sleeve->cap_ease;
-            sew(front, side + " cap", front_whole ? "front" : "front_" + side, side + " armhole", ease);
-            sew(back, side + " cap", "back", side + " armhole", ease);
+            sew(before, side + " cap", front(side), side + " armhole", ease);
+            sew(behind, side + " cap", back(side), side + " armhole", ease);
         }
     }
 
@@ -126,14 +136,14 @@ private:
             Panel flat = whole(half).panel(name);
             float highest = 0.0f;
             for (const Vec2& p : flat.corners) highest = std::max(highest, p.y);
-            add(whole_at_waist(half, name, side, -highest - kGap_m));
+            add(whole_at_waist(half, name, side, trunk_above_waist() - highest - kGap_m));
         };
         place(skirt.front, "skirt_front", PieceSide::front);
         place(skirt.back, "skirt_back", PieceSide::back);
         for (const std::string& side : kSides) {
             for (const char* seam : {" side hip", " side skirt"}) sew("skirt_front", side + seam, "skirt_back", side + seam);
-            sew_waist("front", "skirt_front", side, front_waist.size());
-            sew_waist("back", "skirt_back", side, back_waist.size());
+            sew_waist(front(side), "skirt_front", side, front_waist.size());
+            sew_waist(back(side), "skirt_back", side, back_waist.size());
         }
     }
 
@@ -149,7 +159,7 @@ private:
         const float lean = placement_.leg_lean_rad();
         const Panel back = trousers_.back.panel("back");
         for (const Vec2& p : back.corners) rise = std::max(rise, p.y - trousers_.top_m);
-        const float y = body_.waist_height - (design_.torso ? rise + kGap_m : 0.0f);
+        const float y = body_.waist_height + (design_.torso ? trunk_above_waist() - rise - kGap_m : 0.0f);
         const auto place = [&](CutLine line, const char* name, PieceSide side, float fork) {
             const float x = kGap_m + fork * std::cos(lean) - (body_.crotch_below_waist + design.crotch_ease_m) * std::sin(lean);
             add_both(placement_.upright(line.prefix("left "), name, side, {std::max(x, 0.5f * kGap_m), y}, 0.0f, lean));
@@ -173,19 +183,18 @@ private:
                 sew(name + "_left", std::string("left") + seam, name + "_right", std::string("right") + seam);
             }
         for (const std::string& side : kSides) {
-            const std::string front = "trousers_front_" + side, back = "trousers_back_" + side;
+            const std::string before = "trousers_front_" + side, behind = "trousers_back_" + side;
             for (const char* seam : {" side shank", " side thigh", " side hip", " inseam thigh", " inseam shank"})
-                sew(front, side + seam, back, side + seam);
-            if (design.dart > 0.0f) sew(back, side + " dart b", back, side + " dart a");
+                sew(before, side + seam, behind, side + seam);
+            if (design.dart > 0.0f) sew(behind, side + " dart b", behind, side + " dart a");
             if (design.band_height_m > 0.0f) {
                 sew("band_front", side + " side", "band_back", side + " side");
-                sew_waist("band_front", front, side, trousers_.front_waist_m.size(), design.gather);
-                sew_waist("band_back", back, side, trousers_.back_waist_m.size(), design.gather);
+                sew_waist("band_front", before, side, trousers_.front_waist_m.size(), design.gather);
+                sew_waist("band_back", behind, side, trousers_.back_waist_m.size(), design.gather);
             }
             if (design_.torso) {
-                const bool front_whole = design_.torso->front == TorsoDesign::Front::whole;
-                sew_waist(front_whole ? "front" : "front_" + side, front, side, trousers_.front_waist_m.size());
-                sew_waist("back", back, side, trousers_.back_waist_m.size());
+                sew_waist(front(side), before, side, trousers_.front_waist_m.size());
+                sew_waist(back(side), behind, side, trousers_.back_waist_m.size());
             }
         }
     }

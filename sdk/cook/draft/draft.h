@@ -27,6 +27,7 @@ struct LevelShare {
 struct TorsoDesign {
     enum class Front { whole, closed, open };  // one piece, two pieces sewn in the middle, two that are not
     Front front = Front::whole;
+    bool back_seam = false;  // two pieces, sewn down the middle
     float chest_ease_m = 0.0f, waist_ease_m = 0.0f, hip_ease_m = 0.0f;  // of the garment's girth over the body's
     std::optional<LevelShare> hem;  // none: it ends at the waist, where skirt or trousers are sewn on
     float flare = 0.0f;             // what each side seam goes outwards below the hips, metres a metre

@@ -206,6 +206,7 @@ DraftMeasures measure_default_body(const BodyModel& model, vfit_sex sex) {
     m.back_length = taut_length(body, x, ridge, waist, false);
     const Vec3 tip = acromion(standing.tape(), Side::kLeft);
     m.shoulder_half_m = tip.x;
+    m.shoulder_above_waist = tip.y - waist;
     m.shoulder_slope_rad = std::atan2(ridge.y - tip.y, tip.x - x);
     const Vec3 bust = bust_point(body, Side::kLeft, armpit);
     m.bust_half_m = bust.x;

@@ -17,7 +17,7 @@ struct DraftMeasures {
     float bust_length = 0.0f;      // over the skin from the side of the neck to the bust point
     float bust_half_m = 0.0f;      // from the middle to the bust point
     float shoulder_half_m = 0.0f;  // from the middle to the acromion
-    float shoulder_slope_rad = 0.0f;
+    float shoulder_slope_rad = 0.0f, shoulder_above_waist = 0.0f;  // the acromion's skin
     float arm_length = 0.0f;
     float armpit_above_waist = 0.0f, bust_above_waist = 0.0f, crotch_below_waist = 0.0f;
     float waist_height = 0.0f, hip_height = 0.0f, knee_height = 0.0f, ankle_height = 0.0f;

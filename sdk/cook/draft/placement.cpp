@@ -74,16 +74,29 @@ void Placement::clear_of_body(Panel& panel, const Vec3& direction) const {
 
     const Vec3 normal = panel.rotation * Vec3(0, 0, 1);
     const Quat to_panel = glm::conjugate(panel.rotation);
-    // Where the piece is turned, what lies behind it changes as it moves.
-    for (int i = 0; i < 4; ++i) {
-        float nearest = -INFINITY;
+    /// How far the body behind the panel reaches before it.
+    const auto reach = [&] {
+        float most = -INFINITY;
         for (const Vec3& p : body_.positions) {
             const Vec3 q = to_panel * (p - panel.translation);
-            if (q.z <= nearest || std::abs(q.x - middle.x) > half.x + kAround_m || std::abs(q.y - middle.y) > half.y + kAround_m) continue;
-            if (encloses(outline, Vec2(q))) nearest = q.z;
+            if (q.z <= most || std::abs(q.x - middle.x) > half.x + kAround_m || std::abs(q.y - middle.y) > half.y + kAround_m) continue;
+            if (encloses(outline, Vec2(q))) most = q.z;
         }
-        if (nearest == -INFINITY) return;
-        panel.translation += direction * ((nearest + kClear_m) / glm::dot(normal, direction));
+        return most;
+    };
+    const float straight = glm::dot(normal, direction);
+    if (straight > 0.999f) {
+        if (const float most = reach(); most > -INFINITY) panel.translation += direction * (most + kClear_m);
+        return;
+    }
+    // What lies behind a turned piece changes as it moves: it comes from afar until it would touch.
+    constexpr float kAfar_m = 0.6f, kStep_m = 0.01f;
+    const Vec3 place = panel.translation;
+    for (float away = kAfar_m; away > 0.0f; away -= kStep_m) {
+        panel.translation = place + direction * (away - kStep_m);
+        if (reach() <= -kClear_m) continue;
+        panel.translation = place + direction * away;
+        return;
     }
 }
 

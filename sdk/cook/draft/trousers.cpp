@@ -12,9 +12,11 @@ namespace {
 
 // Of the fork, what the two pieces reach beyond the middle to pass between the legs: the front's part; the seat takes the rest.
 constexpr float kFrontForkShare = 0.3f;
-// What the back is wider than the front: the seat at the hips, and each leg piece so that the side seam hangs straight. In
-// overalls none at the hips: the bodice has its side seam in the middle.
-constexpr float kSeatWider_m = 0.02f, kLegWider_m = 0.02f;
+// What the back is wider than the front at the hips, for the seat. In overalls nothing: the bodice has its side seam in the
+// middle.
+constexpr float kSeatWider_m = 0.02f;
+// What it is wider at knee and hem: so much of what its fork is longer, else its inseam would slant far more than the front's.
+constexpr float kLegWider = 0.45f;
 // How the shaping from hips to waist that no dart takes is shared out: middle of the front, middle of the back (the seat
 // angle), each side seam.
 constexpr float kFrontShaping = 0.1f, kBackShaping = 0.32f, kSideShaping = 0.29f;
@@ -67,10 +69,12 @@ public:
         front.fork_x = -kFrontForkShare * fork;
         back.fork_x = -(1.0f - kFrontForkShare) * fork;
         front.fork_y = crotch;
-        front.knee_width = 0.5f * (body_.knee + design_.knee_ease_m - kLegWider_m);
-        front.hem_width = 0.5f * (body_.ankle + design_.hem_ease_m - kLegWider_m);
-        back.knee_width = front.knee_width + kLegWider_m;
-        back.hem_width = front.hem_width + kLegWider_m;
+        const float wider = kLegWider * (front.fork_x - back.fork_x);
+        front.knee_width = 0.5f * (body_.knee + design_.knee_ease_m - wider);
+        front.hem_width = 0.5f * (body_.ankle + design_.hem_ease_m - wider);
+        back.knee_width = front.knee_width + wider;
+        back.hem_width = front.hem_width + wider;
+        if (front.hem_width < 0.05f) fail(VFIT_ERROR_DATA, "the leg's hem is too narrow: \"trousers.hem_ease_m\"");
         // The front's crease runs down the middle of its thigh; the back's side seam is the front's, moved aside.
         const float crease = 0.5f * (front.hip_x + front.fork_x);
         front.knee_out = {crease + 0.5f * front.knee_width, knee_};
