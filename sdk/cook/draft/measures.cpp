@@ -20,8 +20,8 @@ struct GradeRule {
 };
 constexpr GradeRule kGradeRules[] = {
     {&DraftMeasures::neck, 0.25f, 0.0f, 0.0f},              // 1 cm a size
-    {&DraftMeasures::shoulder_half_m, 0.06f, 0.0f, 0.0f},   // shoulder seam 2.4 mm a size
-    {&DraftMeasures::upper_arm, 0.28f, 0.0f, 0.0f},         // 1.1 cm a size
+    {&DraftMeasures::shoulder_half_m, 0.11f, 0.0f, 0.0f},   // with the neckline's 2 mm: shoulder seam 2.4 mm a size
+    {&DraftMeasures::upper_arm, 0.33f, 0.0f, 0.0f},         // 1.3 cm a size
     {&DraftMeasures::elbow, 0.2f, 0.0f, 0.0f},
     {&DraftMeasures::wrist, 0.12f, 0.0f, 0.0f},             // 0.5 cm a size
     {&DraftMeasures::thigh, 0.0f, 0.0f, 0.55f},             // 2.2 cm a size

@@ -10,8 +10,10 @@ namespace vfit {
 namespace {
 
 constexpr float kClear_m = 0.025f;   // between skin and a piece that is held before it
-constexpr float kAround_m = 0.03f;   // the body so far beyond a piece's edge counts too
-constexpr float kSleeveGap_m = 0.03f;  // of the sleeve's cap beyond the armhole, that the two do not cross
+constexpr float kAround_m = 0.03f;   // the body so far to the left and right of a piece counts too
+// Of the sleeve's cap beyond the armhole, and of a wide sleeve more, that its corner below the arm does not cross the trunk's
+// pieces.
+constexpr float kSleeveGap_m = 0.05f, kSleeveGapPerWidth = 0.7f, kNarrowSleeve_m = 0.2f;
 constexpr uint32_t kEdgePoints = 6;
 
 /// Half a turn about the upright axis: a back piece shows its outside to -Z.
@@ -55,7 +57,8 @@ Panel Placement::along_left_arm(const CutLine& line, std::string name, PieceSide
     const Quat along = glm::quat_cast(Mat3(glm::cross(up, outside), up, outside));
     panel.rotation = along * glm::angleAxis(std::atan2(middle.x, middle.y), Vec3(0, 0, 1));
     const Vec2 top = wide_middle + middle * cap_height_m;
-    panel.translation = shoulder_ - kSleeveGap_m * up - panel.rotation * Vec3(top, 0.0f);
+    const float gap = kSleeveGap_m + kSleeveGapPerWidth * std::max(0.0f, width_m - kNarrowSleeve_m);
+    panel.translation = shoulder_ - gap * up - panel.rotation * Vec3(top, 0.0f);
     clear_of_body(panel, outside);
     return panel;
 }
@@ -66,11 +69,10 @@ void Placement::clear_of_body(Panel& panel, const Vec3& direction) const {
         const std::vector<Vec2> points = sample_edge(panel, edge, kEdgePoints);
         outline.insert(outline.end(), points.begin(), points.end() - 1);
     }
-    // Grown a little from its middle.
+    // Grown a little sideways; not downwards, where the feet stand out before a trouser's hem.
     const Extent box = extent(outline);
     const Vec2 middle = 0.5f * (box.minimum + box.maximum), half = 0.5f * (box.maximum - box.minimum);
-    const Vec2 growth = (half + kAround_m) / half;
-    for (Vec2& p : outline) p = middle + (p - middle) * growth;
+    for (Vec2& p : outline) p.x = middle.x + (p.x - middle.x) * ((half.x + kAround_m) / half.x);
 
     const Vec3 normal = panel.rotation * Vec3(0, 0, 1);
     const Quat to_panel = glm::conjugate(panel.rotation);
@@ -79,7 +81,7 @@ void Placement::clear_of_body(Panel& panel, const Vec3& direction) const {
         float most = -INFINITY;
         for (const Vec3& p : body_.positions) {
             const Vec3 q = to_panel * (p - panel.translation);
-            if (q.z <= most || std::abs(q.x - middle.x) > half.x + kAround_m || std::abs(q.y - middle.y) > half.y + kAround_m) continue;
+            if (q.z <= most || std::abs(q.x - middle.x) > half.x + kAround_m || std::abs(q.y - middle.y) > half.y) continue;
             if (encloses(outline, Vec2(q))) most = q.z;
         }
         return most;
