@@ -75,7 +75,7 @@ public:
     }
 
 private:
-    std::string path(const char* key) const { return "\"" + (name_.empty() ? "" : name_ + ".") + key + "\""; }
+    std::string path(const char* key) const { return text('"', name_, name_.empty() ? "" : ".", key, '"'); }
     static float in_range(float value, const std::string& path, float low, float high) {
         if (!(value >= low && value <= high))
             fail(VFIT_ERROR_DATA, "design: ", path, " must be ", low, " to ", high, ", is ", value);

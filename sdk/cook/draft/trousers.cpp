@@ -21,7 +21,7 @@ constexpr float kLegWider = 0.45f;
 // angle), each side seam.
 constexpr float kFrontShaping = 0.1f, kBackShaping = 0.32f, kSideShaping = 0.29f;
 static_assert(kFrontShaping + kBackShaping + 2.0f * kSideShaping > 0.999f);
-constexpr float kLeastDart_m = 0.01f, kDartLength_m = 0.1f;
+constexpr float kLeastSeatDart_m = 0.01f, kDartLength_m = 0.1f;
 // What the middle of the back rises above the side, to reach over the seat of a person who sits.
 constexpr float kBackRise_m = 0.025f;
 
@@ -49,7 +49,7 @@ public:
         const float hip = 0.5f * (body_.hip + design_.hip_ease_m), seat = joined_ ? 0.0f : kSeatWider_m;
         const float waist = 0.5f * (body_.girth_between(design_.rise) + design_.waist_ease_m) * (1.0f + design_.gather);
         const float shaping = hip - waist;
-        const float dart = design_.dart > 0.0f ? std::max(kLeastDart_m, shaping * design_.dart) : 0.0f;
+        const float dart = design_.dart > 0.0f ? std::max(kLeastSeatDart_m, shaping * design_.dart) : 0.0f;
         const float rest = shaping - dart;
 
         Leg front{}, back{};
