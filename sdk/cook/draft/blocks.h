@@ -54,7 +54,6 @@ SkirtBlock draft_skirt(const DraftMeasures& body, const SkirtDesign& design, con
 /// the back,) "waist 1", "middle", "crotch", "inseam thigh", "inseam shank".
 struct TrousersBlock {
     CutLine front{Vec2(0.0f)}, back{Vec2(0.0f)};
-    float front_fork_m = 0.0f, back_fork_m = 0.0f;  // how far the pieces reach beyond the middle
     float top_m = 0.0f;                             // the upper edge's height at the side, from the waist
     std::vector<float> front_waist_m, back_waist_m; // lengths of the upper edges, from the middle to the side
     std::vector<GirthLine> girths;

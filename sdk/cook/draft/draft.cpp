@@ -154,18 +154,16 @@ private:
             if (line.key != "waist_girth_m") girths_.push_back(line);
             else if (!design_.torso) girths_.push_back({design.rise == 0.0f ? line.key : "x_top_girth_m", line.length_m});
         }
-        // Beside the middle by what reaches beyond it, that left and right do not cross; under a torso, below its edge.
+        // Under a torso, below its edge.
         float rise = 0.0f;
-        const float lean = placement_.leg_lean_rad();
         const Panel back = trousers_.back.panel("back");
         for (const Vec2& p : back.corners) rise = std::max(rise, p.y - trousers_.top_m);
         const float y = body_.waist_height + (design_.torso ? trunk_above_waist() - rise - kGap_m : 0.0f);
-        const auto place = [&](CutLine line, const char* name, PieceSide side, float fork) {
-            const float x = kGap_m + fork * std::cos(lean) - (body_.crotch_below_waist + design.crotch_ease_m) * std::sin(lean);
-            add_both(placement_.upright(line.prefix("left "), name, side, {std::max(x, 0.5f * kGap_m), y}, 0.0f, lean));
+        const auto place = [&](CutLine line, const char* name, PieceSide side) {
+            add_both(placement_.along_left_leg(line.prefix("left "), name, side, y));
         };
-        place(trousers_.front, "trousers_front", PieceSide::front, trousers_.front_fork_m);
-        place(trousers_.back, "trousers_back", PieceSide::back, trousers_.back_fork_m);
+        place(trousers_.front, "trousers_front", PieceSide::front);
+        place(trousers_.back, "trousers_back", PieceSide::back);
         if (design.band_height_m > 0.0f) {
             const auto band = [&](const std::vector<float>& waist, const char* name, PieceSide side, float above) {
                 add(whole_at_waist(draft_band(waist, design.band_height_m, design.gather), name, side, above));

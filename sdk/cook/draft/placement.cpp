@@ -14,6 +14,7 @@ constexpr float kAround_m = 0.03f;   // the body so far to the left and right of
 // Of the sleeve's cap beyond the armhole, and of a wide sleeve more, that its corner below the arm does not cross the trunk's
 // pieces.
 constexpr float kSleeveGap_m = 0.05f, kSleeveGapPerWidth = 0.7f, kNarrowSleeve_m = 0.2f;
+constexpr float kBesideMiddle_m = 0.01f;  // of a leg's fork, that left and right do not cross
 constexpr uint32_t kEdgePoints = 6;
 
 /// Half a turn about the upright axis: a back piece shows its outside to -Z.
@@ -28,8 +29,8 @@ Placement::Placement(const BodyModel& model, vfit_sex sex) {
     const auto head = [&](int bone) { return body_.bone_heads[size_t(model.rig_bone(bone))]; };
     shoulder_ = head(VFIT_BONE_LEFT_UPPER_ARM);
     wrist_ = head(VFIT_BONE_LEFT_HAND);
-    const Vec3 leg = head(VFIT_BONE_LEFT_FOOT) - head(VFIT_BONE_LEFT_UPPER_LEG);
-    leg_lean_rad_ = std::atan2(leg.x, -leg.y);
+    hip_ = head(VFIT_BONE_LEFT_UPPER_LEG);
+    ankle_ = head(VFIT_BONE_LEFT_FOOT);
 }
 
 Panel Placement::upright(const CutLine& line, std::string name, PieceSide side, const Vec2& at, float turned_rad,
@@ -42,6 +43,22 @@ Panel Placement::upright(const CutLine& line, std::string name, PieceSide side, 
     panel.translation = Vec3(at, 0.0f);
     clear_of_body(panel, Vec3(0, 0, back ? -1 : 1));
     return panel;
+}
+
+Panel Placement::along_left_leg(const CutLine& line, std::string name, PieceSide side, float height) const {
+    const Panel flat = line.panel(name);
+    Vec2 fork(0.0f), hem(0.0f);
+    for (const PatternEdge& edge : flat.edges) {
+        if (edge.label.ends_with("inseam thigh")) fork = flat.corners[edge.from];
+        if (edge.label.ends_with("hem")) hem = 0.5f * (flat.corners[edge.from] + flat.corners[edge.to]);
+    }
+    // Turned about the fork until the hem's middle is before the leg: else the seams would meet beside it.
+    const Vec2 down = hem - fork;
+    const float y = height + hem.y, leg_x = glm::mix(hip_.x, ankle_.x, (hip_.y - y) / (hip_.y - ankle_.y));
+    const float aside = std::clamp((leg_x - kBesideMiddle_m) / glm::length(down), -0.5f, 0.5f);
+    const float lean = std::asin(aside) - std::atan2(down.x, -down.y);
+    const float x = kBesideMiddle_m - (fork.x * std::cos(lean) - fork.y * std::sin(lean));
+    return upright(line, std::move(name), side, {x, height}, 0.0f, lean);
 }
 
 Panel Placement::along_left_arm(const CutLine& line, std::string name, PieceSide side, float cap_height_m, float length_m,

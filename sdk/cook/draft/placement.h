@@ -21,16 +21,15 @@ public:
     Panel along_left_arm(const CutLine& line, std::string name, PieceSide side, float cap_height_m, float length_m,
                          float width_m, float hem_m) const;
 
-    /// The left leg's lean, and where its axis passes the hips' level.
-    float leg_lean_rad() const { return leg_lean_rad_; }
+    /// A piece of the left leg, its y = 0 at that height: the fork beside the middle, the hem's middle before the leg's.
+    Panel along_left_leg(const CutLine& line, std::string name, PieceSide side, float height) const;
 
 private:
     /// Moves the panel along `direction` until the body behind it is clear of it.
     void clear_of_body(Panel& panel, const Vec3& direction) const;
 
     EvaluatedBody body_;
-    Vec3 shoulder_, wrist_;
-    float leg_lean_rad_ = 0.0f;
+    Vec3 shoulder_, wrist_, hip_, ankle_;
 };
 
 /// The right side's panel from the left one's, and its place.

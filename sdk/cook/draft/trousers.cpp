@@ -87,8 +87,6 @@ public:
         TrousersBlock block;
         block.front = piece(front);
         block.back = piece(back);
-        block.front_fork_m = -front.fork_x;
-        block.back_fork_m = -back.fork_x;
         block.top_m = top;
         block.front_waist_m = {block.front.length("waist 1")};
         block.back_waist_m = {block.back.length("waist 1")};
