@@ -65,4 +65,7 @@ TrousersBlock draft_trousers(const DraftMeasures& body, const TrousersDesign& de
 /// lower edge.
 CutLine draft_band(const std::vector<float>& waist_m, float height_m, float gather);
 
+/// A stand-up collar's half above a neckline of that length, narrower at the top: "neck", "side", "top".
+CutLine draft_collar(float neck_m, float height_m);
+
 }  // namespace vfit

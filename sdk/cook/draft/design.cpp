@@ -97,6 +97,8 @@ private:
 // Ranges: what a garment can have at all; beyond them lies a slip of the unit.
 constexpr float kMostEase_m = 0.6f, kLeastEase_m = -0.15f;  // knitted and stretch fabrics are cut smaller than the body
 
+constexpr float kLeastStrip_m = 0.015f;  // of bands and collars: a row of triangles
+
 TorsoDesign read_torso(const Json& json) {
     DesignObject o(json, "torso");
     TorsoDesign t;
@@ -113,6 +115,11 @@ TorsoDesign read_torso(const Json& json) {
     t.neck_depth_m = o.number_or("neck_depth_m", 0.0f, -0.03f, 0.4f);
     t.back_neck_depth_m = o.number_or("back_neck_depth_m", 0.0f, -0.02f, 0.3f);
     if (o.has("neck")) t.v_neck = o.choice("neck", {"round", "v"}) == 1;
+    t.collar_height_m = o.number_or("collar_height_m", 0.0f, 0.0f, 0.12f);
+    if (t.collar_height_m > 0.0f && t.collar_height_m < kLeastStrip_m)
+        fail(VFIT_ERROR_DATA, "design: \"torso.collar_height_m\" must be 0 or at least ", kLeastStrip_m, ", is ", t.collar_height_m);
+    if (t.collar_height_m > 0.0f && (t.v_neck || t.front == TorsoDesign::Front::open))
+        fail(VFIT_ERROR_DATA, "design: \"torso.collar_height_m\" wants a round neck and a front that is not open");
     t.shoulder = o.number_or("shoulder", 1.0f, 0.4f, 1.6f);
     t.armhole_drop_m = o.number_or("armhole_drop_m", 0.0f, -0.02f, 0.2f);
     t.bust_dart = o.number_or("bust_dart", 0.0f, 0.0f, 1.0f);
@@ -158,8 +165,8 @@ TrousersDesign read_trousers(const Json& json) {
     t.dart = o.number_or("dart", 0.0f, 0.0f, 0.6f);
     t.band_height_m = o.number_or("band_height_m", 0.0f, 0.0f, 0.15f);
     t.gather = o.number_or("gather", 0.0f, 0.0f, 1.0f);
-    if (t.band_height_m > 0.0f && t.band_height_m < 0.015f)
-        fail(VFIT_ERROR_DATA, "design: \"trousers.band_height_m\" must be 0 or at least 0.015, is ", t.band_height_m);
+    if (t.band_height_m > 0.0f && t.band_height_m < kLeastStrip_m)
+        fail(VFIT_ERROR_DATA, "design: \"trousers.band_height_m\" must be 0 or at least ", kLeastStrip_m, ", is ", t.band_height_m);
     if (t.gather > 0.0f && t.band_height_m == 0.0f)
         fail(VFIT_ERROR_DATA, "design: \"trousers.gather\" wants a waistband, \"trousers.band_height_m\"");
     o.no_others();

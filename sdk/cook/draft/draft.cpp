@@ -96,7 +96,19 @@ private:
         place(torso_.back, "back", PieceSide::back, !design_.torso->back_seam);
         if (design_.torso->front == TorsoDesign::Front::closed) sew(front("left"), "left middle", front("right"), "right middle");
         if (design_.torso->back_seam) sew(back("left"), "left middle", back("right"), "right middle");
+        if (const float height = design_.torso->collar_height_m; height > 0.0f) {
+            const float above_neck = above + kGap_m;
+            add(whole_at_waist(draft_collar(torso_.front.length("neck"), height), "collar_front", PieceSide::front,
+                               body_.front_length + above_neck));
+            add(whole_at_waist(draft_collar(torso_.back.length("neck"), height), "collar_back", PieceSide::back,
+                               body_.back_length + above_neck));
+        }
         for (const std::string& side : kSides) {
+            if (design_.torso->collar_height_m > 0.0f) {
+                sew("collar_front", side + " side", "collar_back", side + " side");
+                sew("collar_front", side + " neck", front(side), side + " neck");
+                sew("collar_back", side + " neck", back(side), side + " neck");
+            }
             for (const char* seam : {"side skirt", "side hip", "side waist", "side chest", "shoulder"})
                 if (torso_.back.length(seam) > 0.0f) sew(front(side), side + " " + seam, back(side), side + " " + seam);
             if (design_.torso->bust_dart > 0.0f) sew(front(side), side + " bust dart a", front(side), side + " bust dart b");

@@ -34,6 +34,7 @@ struct TorsoDesign {
     float neck_width_m = 0.0f;      // of the neckline beyond the neck, each side
     float neck_depth_m = 0.0f, back_neck_depth_m = 0.0f;  // below the natural neckline
     bool v_neck = false;
+    float collar_height_m = 0.0f;  // of a stand-up collar; 0: none
     float shoulder = 1.0f;        // end of the shoulder seam: share of the way from the neck to the acromion
     float armhole_drop_m = 0.0f;  // of the underarm point below the armpit
     float bust_dart = 0.0f;       // dart from the side: share of what the front is longer than the back

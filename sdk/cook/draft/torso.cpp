@@ -184,4 +184,13 @@ TorsoBlock draft_torso(const DraftMeasures& body, const TorsoDesign& design, con
     return TorsoDrafter(body, design, joined).draft();
 }
 
+CutLine draft_collar(float neck_m, float height_m) {
+    // The neck narrows upwards: by this of the collar's height on each quarter, a slope of 14 degrees.
+    constexpr float kSlope = 0.25f;
+    const float top = neck_m - kSlope * height_m;
+    if (top < 0.5f * neck_m) fail(VFIT_ERROR_DATA, "the collar is higher than its neckline allows: \"torso.collar_height_m\"");
+    CutLine line(Vec2(0.0f));
+    return line.line({neck_m, 0.0f}, "neck").line({top, height_m}, "side").line({0.0f, height_m}, "top");
+}
+
 }  // namespace vfit

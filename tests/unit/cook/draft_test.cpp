@@ -278,19 +278,15 @@ TEST_F(Draft, HipsAreTheBodysAndTheirEase) {
 TEST_F(Draft, LeftAndRightAreMirrorImages) {
     for_each_pattern([](const GarmentDesign&, const DraftedSize& size) {
         for (const Panel& panel : size.pattern.panels) {
+            std::string partner = panel.name;
+            if (const size_t at = partner.find("_left"); at != std::string::npos) partner.replace(at, 5, "_right");
             std::vector<Vec3> left, right;
-            for (const Panel& other : size.pattern.panels) {
-                std::string name = other.name;
-                if (const size_t at = name.find("_right"); at != std::string::npos) name.replace(at, 6, "_left");
-                if (name != panel.name && other.name != panel.name) continue;
+            for (const Panel& other : size.pattern.panels)
                 for (const Vec2& p : outline_of(other)) {
                     const Vec3 q = held(other, p);
                     if (other.name == panel.name) left.push_back(q);
-                    if (other.name != panel.name || panel.name.find("_") == std::string::npos || panel.name.starts_with("skirt") ||
-                        panel.name.starts_with("band"))
-                        right.push_back({-q.x, q.y, q.z});
+                    if (other.name == partner) right.push_back({-q.x, q.y, q.z});
                 }
-            }
             if (panel.name.find("_right") != std::string::npos) continue;
             for (const Vec3& p : left) {
                 float nearest = INFINITY;
@@ -331,7 +327,9 @@ TEST_F(Draft, StitchesJoinBeginToEnd) {
             const PatternEdge &ea = a.edges[stitch.a.edge], &eb = b.edges[stitch.b.edge];
             const Vec3 a0 = held(a, a.corners[ea.from]), a1 = held(a, a.corners[ea.to]);
             const Vec3 b0 = held(b, b.corners[eb.from]), b1 = held(b, b.corners[eb.to]);
-            EXPECT_LT(glm::distance(a0, b1) + glm::distance(a1, b0), glm::distance(a0, b0) + glm::distance(a1, b1))
+            // Laid together they run the same way, but for the crotch's: its two edges stand away from each other.
+            if (ea.label.ends_with("crotch")) continue;
+            EXPECT_GT(glm::dot(a1 - a0, b0 - b1), 0.0f)
                 << a.name << " " << ea.label << " to " << b.name << " " << eb.label;
         }
     });
@@ -451,7 +449,7 @@ TEST(GarmentDesign, TellsWhatCannotBeDrawnAndInWhichSize) {
     EXPECT_EQ(refusal("shirt_men", "\"width_ease_m\": 0.08", "\"width_ease_m\": 0.5"),
               "design shirt_men, size XS: the armhole is too small for the sleeve's width: \"torso.armhole_drop_m\", "
               "\"sleeve.width_ease_m\"");
-    EXPECT_NE(refusal("sundress_pattern", "\"neck_width_m\": 0.025", "\"neck_width_m\": 0.15").find("shoulder seam"), std::string::npos);
+    EXPECT_NE(refusal("sundress_pattern", "\"neck_width_m\": 0.04", "\"neck_width_m\": 0.15").find("shoulder seam"), std::string::npos);
     EXPECT_EQ(refusal("sundress_pattern", "\"waist_ease_m\": 0.05", "\"waist_ease_m\": 0.5"),
               "design sundress_pattern, size XS: the skirt's hips are no wider than its waist: \"skirt.hip_ease_m\"");
 }
