@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "cook/draft/blocks.h"
 #include "cook/draft/measures.h"
-#include "cook/draft/placement.h"
+#include "cook/draft/dress_form.h"
 
 namespace vfit {
 
@@ -17,14 +17,15 @@ namespace {
 constexpr float kTurned_rad = 0.7f;        // 40 degrees
 constexpr float kAboveShoulder_m = 0.01f;  // of the shoulder seam, before it is sewn
 constexpr float kGap_m = 0.01f;            // between pieces that are held above each other or beside the middle
+constexpr float kHemHeight_m = 0.13f;      // above the soles: there a leg's hem closes about the ankle and not about the foot
 constexpr float kSameLength = 0.005f;      // of two edges that are sewn together, share
 
 const std::string kSides[] = {"left", "right"};
 
 class GarmentDrafter {
 public:
-    GarmentDrafter(const DraftMeasures& measures, const Placement& placement, const GarmentDesign& design)
-        : body_(measures), placement_(placement), design_(design) {}
+    GarmentDrafter(const DraftMeasures& measures, const DressForm& form, const GarmentDesign& design)
+        : body_(measures), form_(form), design_(design) {}
 
     Pattern draft() {
         pattern_.name = design_.name;
@@ -32,8 +33,9 @@ public:
         material.name = design_.name;
         std::copy(design_.color.begin(), design_.color.end(), material.color);
         pattern_.materials.push_back(std::move(material));
-        if (design_.trousers) draft_legs();
+        if (design_.trousers) trousers_ = draft_trousers(body_, *design_.trousers, design_.torso.has_value());
         if (design_.torso) draft_trunk();
+        if (design_.trousers) draft_legs();
         if (design_.sleeve) draft_sleeves();
         if (design_.skirt) draft_skirts();
         if (design_.trousers) sew_legs();
@@ -65,7 +67,7 @@ private:
         add(std::move(right));
     }
     Panel whole_at_waist(const CutLine& half, const char* name, PieceSide side, float above_waist) const {
-        return placement_.upright(whole(half), name, side, {0.0f, body_.waist_height + above_waist}, 0.0f, 0.0f);
+        return form_.upright(whole(half), name, side, {0.0f, body_.waist_height + above_waist}, 0.0f, 0.0f);
     }
 
     /// Above the body's waist, where the waist line of the trunk's pieces is held: lower than it will lie, as the way over
@@ -90,7 +92,7 @@ private:
         const float above = trunk_above_waist();
         const auto place = [&](const CutLine& half, const char* name, PieceSide side, bool in_one) {
             if (in_one) return add(whole_at_waist(half, name, side, above));
-            add_both(placement_.upright(closed_left(half), name, side, {0.5f * kGap_m, body_.waist_height + above}, kTurned_rad, 0.0f));
+            add_both(form_.upright(closed_left(half), name, side, {0.5f * kGap_m, body_.waist_height + above}, kTurned_rad, 0.0f));
         };
         place(torso_.front, "front", PieceSide::front, design_.torso->front == TorsoDesign::Front::whole);
         place(torso_.back, "back", PieceSide::back, !design_.torso->back_seam);
@@ -121,7 +123,7 @@ private:
         const SleeveBlock sleeve =
             draft_sleeve(body_, *design_.sleeve, torso_.front.length("armhole"), torso_.back.length("armhole"));
         const auto place = [&](CutLine line, const char* name, PieceSide side, float width, float hem) {
-            add_both(placement_.along_left_arm(line.prefix("left "), name, side, sleeve.cap_height_m, sleeve.length_m, width, hem));
+            add_both(form_.along_left_arm(line.prefix("left "), name, side, sleeve.cap_height_m, sleeve.length_m, width, hem));
         };
         place(sleeve.front, "sleeve_front", PieceSide::front, sleeve.front_width_m, sleeve.front_hem_m);
         place(sleeve.back, "sleeve_back", PieceSide::back, sleeve.back_width_m, sleeve.back_hem_m);
@@ -161,18 +163,26 @@ private:
 
     void draft_legs() {
         const TrousersDesign& design = *design_.trousers;
-        trousers_ = draft_trousers(body_, design, design_.torso.has_value());
         for (const GirthLine& line : trousers_.girths) {
             if (line.key != "waist_girth_m") girths_.push_back(line);
             else if (!design_.torso) girths_.push_back({design.rise == 0.0f ? line.key : "x_top_girth_m", line.length_m});
         }
-        // Under a torso, below its edge.
         float rise = 0.0f;
         const Panel back = trousers_.back.panel("back");
         for (const Vec2& p : back.corners) rise = std::max(rise, p.y - trousers_.top_m);
-        const float y = body_.waist_height + (design_.torso ? trunk_above_waist() - rise - kGap_m : 0.0f);
+        // Under a torso, below its edge; but so high that the hems can close above the feet, then before that edge.
+        float above = 0.0f;
+        if (design_.torso) above = std::max(trunk_above_waist() - rise - kGap_m, kHemHeight_m - (body_.waist_height - body_.depth(design.hem)));
         const auto place = [&](CutLine line, const char* name, PieceSide side) {
-            add_both(placement_.along_left_leg(line.prefix("left "), name, side, y));
+            Panel panel = form_.along_left_leg(line.prefix("left "), name, side, body_.waist_height + above);
+            if (design_.torso) {
+                const float away = side == PieceSide::back ? -1.0f : 1.0f;
+                float& z = panel.translation.z;
+                for (const Panel& trunk : pattern_.panels)
+                    if (trunk.name.starts_with(side == PieceSide::back ? "back" : "front"))
+                        z = away * std::max(away * z, away * trunk.translation.z + kGap_m);
+            }
+            add_both(std::move(panel));
         };
         place(trousers_.front, "trousers_front", PieceSide::front);
         place(trousers_.back, "trousers_back", PieceSide::back);
@@ -242,7 +252,7 @@ private:
     }
 
     const DraftMeasures& body_;
-    const Placement& placement_;
+    const DressForm& form_;
     const GarmentDesign& design_;
     Pattern pattern_;
     TorsoBlock torso_;
@@ -265,7 +275,7 @@ std::vector<Measurement> nominal_of(const GarmentDesign& design, const DraftMeas
 
 DraftedGarment draft(const BodyModel& model, const GarmentDesign& design) {
     const DraftMeasures body = measure_default_body(model, design.sex);
-    const Placement placement(model, design.sex);
+    const DressForm form(model, design.sex);
     const std::vector<Measurement> own = nominal_of(design, body);
     DraftedGarment out;
     float nearest = INFINITY;
@@ -275,14 +285,16 @@ DraftedGarment draft(const BodyModel& model, const GarmentDesign& design) {
         size.label = design.labels[i];
         size.nominal = nominal_of(design, measures);
         try {
-            GarmentDrafter drafter(measures, placement, design);
+            GarmentDrafter drafter(measures, form, design);
             size.pattern = drafter.draft();
             size.finished = drafter.finished();
         } catch (const Error& e) {
             fail(e.code(), "design ", design.name, ", size ", size.label, ": ", e.what());
         }
+        // What hangs on the shoulders goes by the chest alone: a trunk that is too narrow there cannot be sewn around the body.
+        const size_t count = design.torso ? 1 : own.size();
         float distance = 0.0f;
-        for (size_t k = 0; k < own.size(); ++k) distance += std::pow(size.nominal[k].value - own[k].value, 2.0f);
+        for (size_t k = 0; k < count; ++k) distance += std::pow(size.nominal[k].value - own[k].value, 2.0f);
         if (distance < nearest) nearest = distance, out.base = i;
         out.sizes.push_back(std::move(size));
     }

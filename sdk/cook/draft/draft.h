@@ -90,7 +90,7 @@ struct DraftedSize {
 
 struct DraftedGarment {
     std::vector<DraftedSize> sizes;  // the same panels, corners, edges and stitches in the same order
-    size_t base = 0;                 // made for girths nearest to the default body's
+    size_t base = 0;  // made for girths nearest to the default body's: the chest, or waist and hips where there is no torso
 };
 
 /// On the model's default body of the design's sex. VFIT_ERROR_DATA names the size and what cannot be drawn.

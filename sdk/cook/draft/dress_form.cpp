@@ -1,4 +1,4 @@
-#include "cook/draft/placement.h"
+#include "cook/draft/dress_form.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@ namespace vfit {
 
 namespace {
 
-constexpr float kClear_m = 0.025f;   // between skin and a piece that is held before it
+constexpr float kBeforeSkin_m = 0.025f;   // between skin and a piece that is held before it
 constexpr float kAround_m = 0.03f;   // the body so far to the left and right of a piece counts too
 // Of the sleeve's cap beyond the armhole, and of a wide sleeve more, that its corner below the arm does not cross the trunk's
 // pieces.
@@ -24,7 +24,7 @@ CutLine seen_from(const CutLine& line, PieceSide side) { return side == PieceSid
 
 }  // namespace
 
-Placement::Placement(const BodyModel& model, vfit_sex sex) {
+DressForm::DressForm(const BodyModel& model, vfit_sex sex) {
     model.evaluate(model.default_shape(sex), body_);
     const auto head = [&](int bone) { return body_.bone_heads[size_t(model.rig_bone(bone))]; };
     shoulder_ = head(VFIT_BONE_LEFT_UPPER_ARM);
@@ -33,7 +33,7 @@ Placement::Placement(const BodyModel& model, vfit_sex sex) {
     ankle_ = head(VFIT_BONE_LEFT_FOOT);
 }
 
-Panel Placement::upright(const CutLine& line, std::string name, PieceSide side, const Vec2& at, float turned_rad,
+Panel DressForm::upright(const CutLine& line, std::string name, PieceSide side, const Vec2& at, float turned_rad,
                          float leaning_rad) const {
     Panel panel = seen_from(line, side).panel(std::move(name));
     const bool back = side == PieceSide::back;
@@ -45,7 +45,7 @@ Panel Placement::upright(const CutLine& line, std::string name, PieceSide side, 
     return panel;
 }
 
-Panel Placement::along_left_leg(const CutLine& line, std::string name, PieceSide side, float height) const {
+Panel DressForm::along_left_leg(const CutLine& line, std::string name, PieceSide side, float height) const {
     const Panel flat = line.panel(name);
     Vec2 fork(0.0f), hem(0.0f);
     for (const PatternEdge& edge : flat.edges) {
@@ -61,7 +61,7 @@ Panel Placement::along_left_leg(const CutLine& line, std::string name, PieceSide
     return upright(line, std::move(name), side, {x, height}, 0.0f, lean);
 }
 
-Panel Placement::along_left_arm(const CutLine& line, std::string name, PieceSide side, float cap_height_m, float length_m,
+Panel DressForm::along_left_arm(const CutLine& line, std::string name, PieceSide side, float cap_height_m, float length_m,
                                 float width_m, float hem_m) const {
     Panel panel = seen_from(line, side).panel(std::move(name));
     const float out = side == PieceSide::back ? -1.0f : 1.0f;
@@ -80,7 +80,7 @@ Panel Placement::along_left_arm(const CutLine& line, std::string name, PieceSide
     return panel;
 }
 
-void Placement::clear_of_body(Panel& panel, const Vec3& direction) const {
+void DressForm::clear_of_body(Panel& panel, const Vec3& direction) const {
     std::vector<Vec2> outline;
     for (const PatternEdge& edge : panel.edges) {
         const std::vector<Vec2> points = sample_edge(panel, edge, kEdgePoints);
@@ -105,7 +105,7 @@ void Placement::clear_of_body(Panel& panel, const Vec3& direction) const {
     };
     const float straight = glm::dot(normal, direction);
     if (straight > 0.999f) {
-        if (const float most = reach(); most > -INFINITY) panel.translation += direction * (most + kClear_m);
+        if (const float most = reach(); most > -INFINITY) panel.translation += direction * (most + kBeforeSkin_m);
         return;
     }
     // What lies behind a turned piece changes as it moves: it comes from afar until it would touch.
@@ -113,7 +113,7 @@ void Placement::clear_of_body(Panel& panel, const Vec3& direction) const {
     const Vec3 place = panel.translation;
     for (float away = kAfar_m; away > 0.0f; away -= kStep_m) {
         panel.translation = place + direction * (away - kStep_m);
-        if (reach() <= -kClear_m) continue;
+        if (reach() <= -kBeforeSkin_m) continue;
         panel.translation = place + direction * away;
         return;
     }

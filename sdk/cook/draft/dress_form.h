@@ -1,4 +1,4 @@
-// Where a flat piece is held about the body at rest, clear of it, before it is sewn.
+// The default body at rest as a dress form: where a flat piece is held about it, clear of it, before it is sewn.
 #pragma once
 
 #include "body/body_model.h"
@@ -10,9 +10,9 @@ namespace vfit {
 
 enum class PieceSide { front, back };
 
-class Placement {
+class DressForm {
 public:
-    Placement(const BodyModel& model, vfit_sex sex);
+    DressForm(const BodyModel& model, vfit_sex sex);
 
     /// A piece of the trunk, or of a leg: `at` is where its y = 0 and its middle are held, z chosen clear of the body. `turned_rad`
     /// turns a left piece outwards about the upright line through `at`, `leaning_rad` to the person's left at its lower end.
