@@ -18,8 +18,8 @@ struct GirthLine {
     float length_m = 0.0f;
 };
 
-/// Edges, in this order: "hem", "side skirt" (below the hips), "side hip", or, where it ends at the waist, "waist 1" (, "dart a",
-/// "dart b", "waist 2"); then "side waist" (, "bust dart a", "bust dart b" of the front), "side chest", "armhole", "shoulder",
+/// Edges, in this order: "hem", "side skirt" (below the hips), "side hip", or, where it ends at the waist, "waist 1" (, "dart
+/// a", "dart b", "waist 2"); then "side waist" (, "bust dart a", "bust dart b" of the front), "side chest", "armhole", "shoulder",
 /// "neck". Halves, open along the middle.
 struct TorsoBlock {
     CutLine front{Vec2(0.0f)}, back{Vec2(0.0f)};
@@ -61,8 +61,8 @@ struct TrousersBlock {
 /// `joined`: a torso is sewn on at the waist.
 TrousersBlock draft_trousers(const DraftMeasures& body, const TrousersDesign& design, bool joined);
 
-/// A strip above waist edges of those lengths: "waist 1" (, "waist 2"), "side", "top". A half, open along the middle, y = 0 at its
-/// lower edge.
+/// A strip above waist edges of those lengths: "waist 1" (, "waist 2"), "side", "top". A half, open along the middle, y = 0 at
+/// its lower edge.
 CutLine draft_band(const std::vector<float>& waist_m, float height_m, float gather);
 
 /// A stand-up collar's half above a neckline of that length, narrower at the top: "neck", "side", "top".

@@ -56,7 +56,8 @@ public:
         out.to = body_level(value[1].get<std::string>(), key);
         out.share = in_range(value[2].get<float>(), path(key), -0.5f, 1.5f);
         if (out.from >= out.to) fail(VFIT_ERROR_DATA, "design: ", path(key), " must go from a level down to a lower one");
-        if (out.from < highest) fail(VFIT_ERROR_DATA, "design: ", path(key), " must not start at the ", value[0].get<std::string>());
+        if (out.from < highest)
+            fail(VFIT_ERROR_DATA, "design: ", path(key), " must not start at the ", value[0].get<std::string>());
         return out;
     }
 
@@ -117,7 +118,8 @@ TorsoDesign read_torso(const Json& json) {
     if (o.has("neck")) t.v_neck = o.choice("neck", {"round", "v"}) == 1;
     t.collar_height_m = o.number_or("collar_height_m", 0.0f, 0.0f, 0.12f);
     if (t.collar_height_m > 0.0f && t.collar_height_m < kLeastStrip_m)
-        fail(VFIT_ERROR_DATA, "design: \"torso.collar_height_m\" must be 0 or at least ", kLeastStrip_m, ", is ", t.collar_height_m);
+        fail(VFIT_ERROR_DATA, "design: \"torso.collar_height_m\" must be 0 or at least ", kLeastStrip_m, ", is ",
+             t.collar_height_m);
     if (t.collar_height_m > 0.0f && (t.v_neck || t.front == TorsoDesign::Front::open))
         fail(VFIT_ERROR_DATA, "design: \"torso.collar_height_m\" wants a round neck and a front that is not open");
     t.shoulder = o.number_or("shoulder", 1.0f, 0.4f, 1.6f);
@@ -166,7 +168,8 @@ TrousersDesign read_trousers(const Json& json) {
     t.band_height_m = o.number_or("band_height_m", 0.0f, 0.0f, 0.15f);
     t.gather = o.number_or("gather", 0.0f, 0.0f, 1.0f);
     if (t.band_height_m > 0.0f && t.band_height_m < kLeastStrip_m)
-        fail(VFIT_ERROR_DATA, "design: \"trousers.band_height_m\" must be 0 or at least ", kLeastStrip_m, ", is ", t.band_height_m);
+        fail(VFIT_ERROR_DATA, "design: \"trousers.band_height_m\" must be 0 or at least ", kLeastStrip_m, ", is ",
+             t.band_height_m);
     if (t.gather > 0.0f && t.band_height_m == 0.0f)
         fail(VFIT_ERROR_DATA, "design: \"trousers.gather\" wants a waistband, \"trousers.band_height_m\"");
     o.no_others();

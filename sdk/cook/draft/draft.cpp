@@ -92,11 +92,13 @@ private:
         const float above = trunk_above_waist();
         const auto place = [&](const CutLine& half, const char* name, PieceSide side, bool in_one) {
             if (in_one) return add(whole_at_waist(half, name, side, above));
-            add_both(form_.upright(closed_left(half), name, side, {0.5f * kGap_m, body_.waist_height + above}, kTurned_rad, 0.0f));
+            const Vec2 at(0.5f * kGap_m, body_.waist_height + above);
+            add_both(form_.upright(closed_left(half), name, side, at, kTurned_rad, 0.0f));
         };
         place(torso_.front, "front", PieceSide::front, design_.torso->front == TorsoDesign::Front::whole);
         place(torso_.back, "back", PieceSide::back, !design_.torso->back_seam);
-        if (design_.torso->front == TorsoDesign::Front::closed) sew(front("left"), "left middle", front("right"), "right middle");
+        if (design_.torso->front == TorsoDesign::Front::closed)
+            sew(front("left"), "left middle", front("right"), "right middle");
         if (design_.torso->back_seam) sew(back("left"), "left middle", back("right"), "right middle");
         if (const float height = design_.torso->collar_height_m; height > 0.0f) {
             const float above_neck = above + kGap_m;
@@ -115,7 +117,8 @@ private:
                 if (torso_.back.length(seam) > 0.0f) sew(front(side), side + " " + seam, back(side), side + " " + seam);
             if (design_.torso->bust_dart > 0.0f) sew(front(side), side + " bust dart a", front(side), side + " bust dart b");
             if (design_.torso->waist_dart > 0.0f)
-                for (const std::string& piece : {front(side), back(side)}) sew(piece, side + " dart a", piece, side + " dart b");
+                for (const std::string& piece : {front(side), back(side)})
+                    sew(piece, side + " dart a", piece, side + " dart b");
         }
     }
 
@@ -123,7 +126,8 @@ private:
         const SleeveBlock sleeve =
             draft_sleeve(body_, *design_.sleeve, torso_.front.length("armhole"), torso_.back.length("armhole"));
         const auto place = [&](CutLine line, const char* name, PieceSide side, float width, float hem) {
-            add_both(form_.along_left_arm(line.prefix("left "), name, side, sleeve.cap_height_m, sleeve.length_m, width, hem));
+            add_both(form_.along_left_arm(line.prefix("left "), name, side, sleeve.cap_height_m, sleeve.length_m, width,
+                                          hem));
         };
         place(sleeve.front, "sleeve_front", PieceSide::front, sleeve.front_width_m, sleeve.front_hem_m);
         place(sleeve.back, "sleeve_back", PieceSide::back, sleeve.back_width_m, sleeve.back_hem_m);
@@ -172,7 +176,8 @@ private:
         for (const Vec2& p : back.corners) rise = std::max(rise, p.y - trousers_.top_m);
         // Under a torso, below its edge; but so high that the hems can close above the feet, then before that edge.
         float above = 0.0f;
-        if (design_.torso) above = std::max(trunk_above_waist() - rise - kGap_m, kHemHeight_m - (body_.waist_height - body_.depth(design.hem)));
+        if (design_.torso) above = std::max(trunk_above_waist() - rise - kGap_m,
+                                             kHemHeight_m - (body_.waist_height - body_.depth(design.hem)));
         const auto place = [&](CutLine line, const char* name, PieceSide side) {
             Panel panel = form_.along_left_leg(line.prefix("left "), name, side, body_.waist_height + above);
             if (design_.torso) {
@@ -220,7 +225,8 @@ private:
     }
 
     // ---- seams -------------------------------------------------------------------------------------------------------
-    void sew_waist(const std::string& upper, const std::string& lower, const std::string& side, size_t pieces, float gather = 0.0f) {
+    void sew_waist(const std::string& upper, const std::string& lower, const std::string& side, size_t pieces,
+                   float gather = 0.0f) {
         for (size_t i = 1; i <= pieces; ++i) {
             const std::string edge = side + " waist " + std::to_string(i);
             sew(lower, edge, upper, edge, gather);
@@ -247,7 +253,8 @@ private:
         };
         const float a = length(stitch.a), b = length(stitch.b) * (1.0f + longer);
         if (std::abs(a - b) > kSameLength * b)
-            fail(VFIT_ERROR_DATA, "draft: ", panel_a, " ", label_a, " is ", a, " m long, ", panel_b, " ", label_b, " wants ", b, " m");
+            fail(VFIT_ERROR_DATA, "draft: ", panel_a, " ", label_a, " is ", a, " m long, ", panel_b, " ", label_b, " wants ", b,
+                 " m");
         pattern_.stitches.push_back(stitch);
     }
 

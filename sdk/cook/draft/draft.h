@@ -84,7 +84,8 @@ GarmentDesign parse_design(std::span<const std::byte> json);
 struct DraftedSize {
     std::string label;
     std::vector<Measurement> nominal;   // girths of the body that it is made for
-    std::vector<Measurement> finished;  // the garment's own, flat, in the same places
+    // The garment's own, flat, in the same places; "x_top_girth_m" is that of an upper edge below the waist.
+    std::vector<Measurement> finished;
     Pattern pattern;
 };
 

@@ -48,7 +48,8 @@ SleeveBlock draft_sleeve(const DraftMeasures& body, const SleeveDesign& design, 
     constexpr float kFlattest_m = 0.01f;
     const float highest = 0.95f * std::min(front, back);
     if (width(kFlattest_m) < wanted)
-        fail(VFIT_ERROR_DATA, "the armhole is too small for the sleeve's width: \"torso.armhole_drop_m\", \"sleeve.width_ease_m\"");
+        fail(VFIT_ERROR_DATA,
+             "the armhole is too small for the sleeve's width: \"torso.armhole_drop_m\", \"sleeve.width_ease_m\"");
     SleeveBlock block;
     block.cap_height_m = solve(kFlattest_m, highest, -wanted, [&](float height) { return -width(height); });
     block.front_width_m = width_of_cap(front, block.cap_height_m);
@@ -65,7 +66,8 @@ SleeveBlock draft_sleeve(const DraftMeasures& body, const SleeveDesign& design, 
     const float narrowing = 0.5f * (wanted - (arm + design.hem_ease_m));
     block.front_hem_m = block.front_width_m - narrowing;
     block.back_hem_m = block.back_width_m - narrowing;
-    if (std::min(block.front_hem_m, block.back_hem_m) < 0.03f) fail(VFIT_ERROR_DATA, "the sleeve's hem is too narrow: \"sleeve.hem_ease_m\"");
+    if (std::min(block.front_hem_m, block.back_hem_m) < 0.03f)
+        fail(VFIT_ERROR_DATA, "the sleeve's hem is too narrow: \"sleeve.hem_ease_m\"");
     block.front = piece(block.front_width_m, block.front_hem_m, block.cap_height_m, block.length_m);
     block.back = piece(block.back_width_m, block.back_hem_m, block.cap_height_m, block.length_m);
     return block;

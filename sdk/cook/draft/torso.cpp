@@ -39,7 +39,8 @@ public:
         waist_ = 0.25f * (body_.waist + design_.waist_ease_m);
         underarm_ = body_.armpit_above_waist - design_.armhole_drop_m;
         if (underarm_ < 0.06f) fail(VFIT_ERROR_DATA, "the armhole reaches down to the waist: \"torso.armhole_drop_m\"");
-        side_chest_ = design_.bust_dart > 0.0f ? kBustDartBelow_m : std::max(kLeastSideChest_m, underarm_ - body_.bust_above_waist);
+        side_chest_ = design_.bust_dart > 0.0f ? kBustDartBelow_m
+                                               : std::max(kLeastSideChest_m, underarm_ - body_.bust_above_waist);
         side_chest_ = std::min(side_chest_, 0.5f * underarm_);
 
         // The back is drawn freely; the front's side seam then is as long as the back's.
@@ -84,7 +85,8 @@ private:
             if (dart == 0.0f) return line.line(side, "waist 1");
             const float place = std::min(dart_place, 0.5f * (side.x + 0.5f * dart));
             const Vec2 a(place - 0.5f * dart, 0.0f), b(place + 0.5f * dart, 0.0f), apex(place, apex_y);
-            if (a.x < 0.02f || apex_y < 0.05f) fail(VFIT_ERROR_DATA, "the waist is too narrow for its darts: \"torso.waist_dart\"");
+            if (a.x < 0.02f || apex_y < 0.05f)
+                fail(VFIT_ERROR_DATA, "the waist is too narrow for its darts: \"torso.waist_dart\"");
             return line.line(a, "waist 1").line(apex, "dart a").line(b, "dart b").line(side, "waist 2");
         }
         const float depth = body_.depth(*design_.hem), hips = hip_depth();
@@ -121,7 +123,8 @@ private:
         const bool darted = design_.bust_dart > 0.0f;
         float angle = 0.0f;
         if (darted) {
-            if (chest_ - point.x < 0.03f) fail(VFIT_ERROR_DATA, "the front is too narrow for its bust dart: \"torso.bust_dart\"");
+            if (chest_ - point.x < 0.03f)
+                fail(VFIT_ERROR_DATA, "the front is too narrow for its bust dart: \"torso.bust_dart\"");
             const float intake = std::max(kLeastDart_m, (body_.front_length - body_.back_length) * design_.bust_dart);
             angle = 2.0f * std::asin(std::min(0.5f, 0.5f * intake / (chest_ - point.x)));
         }
