@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "cook/draft/draft.h"
 #include "cook/pattern/garmentcode.h"
 #include "cook/sundress.h"
 #include "core/error.h"
@@ -31,6 +32,22 @@ CookedGarment cook_specification(const BodyModel& model, const FabricLibrary& fa
     return cook_pattern(model, {{"", {}, pattern}}, 0, fabrics, options, jobs);
 }
 
+CookedGarment cook_design(const BodyModel& model, const FabricLibrary& fabrics, const CookRequest& request, std::span<const std::byte> text, Jobs& jobs) {
+    const GarmentDesign design = parse_design(text);
+    const DraftedGarment drafted = draft(model, design);
+    std::vector<PatternSize> sizes;
+    for (const DraftedSize& size : drafted.sizes) sizes.push_back({size.label, size.nominal, size.pattern});
+    CookOptions options;
+    options.kind = request.kind.empty() ? design.kind : request.kind;
+    options.fabric = request.fabric.empty() ? design.fabric : request.fabric;
+    options.sex = design.sex;
+    options.triangle_m = request.triangle_m;
+    options.drape = request.drape;
+    CookedGarment cooked = cook_pattern(model, sizes, drafted.base, fabrics, options, jobs);
+    cooked.garment.name = design.name;
+    return cooked;
+}
+
 }  // namespace
 
 CookedGarment cook_file(const BodyModel& model, const FabricLibrary& fabrics, const CookRequest& request, Jobs& jobs) {
@@ -39,7 +56,8 @@ CookedGarment cook_file(const BodyModel& model, const FabricLibrary& fabrics, co
     const Json root = parse_json(text, "garment design");
     const std::string format = root.is_object() && root.contains("format") && root["format"].is_string() ? root["format"].get<std::string>() : "";
     if (format == "vfit-sundress") return {cook_sundress(model, parse_sundress(text)), {}};
-    fail(VFIT_ERROR_UNSUPPORTED, request.path, " is no garment that can be cooked: neither a GarmentCode specification (\"pattern\" with \"panels\") nor a design of vfit's (\"format\": \"vfit-sundress\")");
+    if (format == "vfit-design") return cook_design(model, fabrics, request, text, jobs);
+    fail(VFIT_ERROR_UNSUPPORTED, request.path, " is no garment that can be cooked: neither a GarmentCode specification (\"pattern\" with \"panels\") nor a design of vfit's (\"format\": \"vfit-design\" or \"vfit-sundress\")");
 }
 
 }  // namespace vfit
