@@ -1,3 +1,4 @@
+// OpenGL without window and display: a surfaceless EGL context that draws into memory.
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 

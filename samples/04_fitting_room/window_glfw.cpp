@@ -1,3 +1,4 @@
+// A window by GLFW, with an OpenGL 3.3 core context.
 #include <epoxy/gl.h>
 // After the header that brings OpenGL.
 #include <GLFW/glfw3.h>

@@ -5,6 +5,7 @@ something is missing.
 """
 import json
 import pathlib
+import shutil
 import struct
 import subprocess
 import sys
@@ -13,6 +14,7 @@ import unittest
 import zlib
 
 ROOM = sys.argv.pop(1)
+SUNDRESS = pathlib.Path(ROOM).parent.parent / "lib/vfit_data/garments/sundress.json"
 SKIPPED = 77  # as the test's SKIP_RETURN_CODE
 SMALL = ["--offscreen", "--film", "--resolution", "640x360", "--samples", "0"]
 
@@ -118,8 +120,14 @@ class Keys(unittest.TestCase):
         self.assertEqual(up["keys"], ["up", "up"])
         down = report(*SMALL, "--frames", 4, "--garment", "sundress", "--size", "XS", "--keys", "1:down")
         self.assertEqual(down["size"], "made to measure")
-        two = ["--garment", "sundress", "--garment", "sundress"]
-        self.assertEqual(report(*SMALL, "--frames", 4, *two, "--keys", "1:right,2:left")["garment"], "sundress")
+        with tempfile.TemporaryDirectory() as folder:
+            other, picture = pathlib.Path(folder) / "other.json", pathlib.Path(folder) / "other.png"
+            shutil.copy(SUNDRESS, other)
+            two = ["--garment", "sundress", "--garment", other]
+            self.assertEqual(report(*SMALL, "--frames", 4, *two, "--keys", "1:right,2:left")["garment"], "sundress")
+            self.assertEqual(report(*SMALL, "--frames", 4, *two, "--keys", "1:left", "--picture", picture)["garment"], "other")
+            width, _, rows = read_png(picture)
+            self.assertLess(share(rows, (width // 2 - 60, width // 2 + 60), (60, 340), is_red), 0.05, "it has a colour of its own")
 
     def test_cloth_camera_and_mirror_are_switched(self):
         off = report(*SMALL, "--frames", 8, "--keys", "1:p,2:m,3:h,4:space,5:c")
