@@ -85,7 +85,9 @@ enum {
     VFIT_ERROR_UNSUPPORTED = -7,    VFIT_ERROR_VERSION = -8,
     VFIT_ERROR_OUT_OF_MEMORY = -9,  VFIT_ERROR_IO = -10,
     VFIT_ERROR_DATA = -11,          /* file, frame or garment content is malformed                   */
-    VFIT_ERROR_DEVICE_LOST = -12,   VFIT_ERROR_PLUGIN = -13 };
+    VFIT_ERROR_DEVICE_LOST = -12,   VFIT_ERROR_PLUGIN = -13,
+    VFIT_ERROR_NOT_WEARABLE = -14   /* the garment in that size does not close around the body           */
+};
 
 VFIT_HANDLE(vfit_context); VFIT_HANDLE(vfit_sensor);  VFIT_HANDLE(vfit_frame);
 VFIT_HANDLE(vfit_tracker); VFIT_HANDLE(vfit_scan);    VFIT_HANDLE(vfit_size_chart);
@@ -725,7 +727,8 @@ enum { VFIT_CLOTH_NO_HANDS = 1,         /* forearms and hands pass through: a ha
        VFIT_CLOTH_SKIN = 2,             /* kept out of the avatar's skin itself, not of its spheres and capsules: closer,
                                          * and slower                                                   */
        VFIT_CLOTH_AWAKE = 4,            /* stepped even where cloth and body have lain still for half a second    */
-       VFIT_CLOTH_PRESSURE = 8 };       /* frames carry PRESSURE                                        */
+       VFIT_CLOTH_PRESSURE = 8,         /* frames carry PRESSURE                                        */
+       VFIT_CLOTH_ANY_FIT = 16 };       /* worn even where it would not close: stretched beyond what its fabric takes    */
 typedef struct vfit_cloth_desc {
     uint32_t struct_size, substeps;     /* 0: 8 a 1/60 s                                             */
     float gravity[3];                   /* in the context's axes and unit; all zero: 9.81 m/s2 down   */
@@ -751,6 +754,8 @@ typedef struct vfit_cloth_stats { uint32_t struct_size, vertex_count, simulated_
                                   uint32_t collider_count;  /* spheres and capsules that it met         */
                                 } vfit_cloth_stats;
 VFIT_STRUCT(vfit_cloth_desc) VFIT_STRUCT(vfit_cloth_stats)
+/* VFIT_ERROR_NOT_WEARABLE where a garment with lengths of its own would have to stretch around chest, waist or hips by more than
+ * its fabric takes (docs/garments.md), unless desc.flags has ANY_FIT.                                 */
 VFIT_API vfit_result vfit_cloth_create(vfit_avatar avatar, vfit_garment garment,
                                        const vfit_cloth_desc* desc, vfit_cloth* out);/* [excl] on avatar */
 VFIT_API vfit_result vfit_cloth_destroy(vfit_cloth cloth);                                 /* [any]  */
@@ -760,7 +765,8 @@ VFIT_API vfit_result vfit_cloth_destroy(vfit_cloth cloth);                      
  * (the sundress 0.1 s), whatever the settings.                                                [excl]  */
 VFIT_API vfit_result vfit_cloth_reset(vfit_cloth cloth);
 /* The same garment in another of its sizes (null: made to the avatar), from how it hangs now: it comes to rest within a
- * second. Takes some ten steps' time. VFIT_ERROR_ARGUMENT where it has no such size, and nothing changes. [excl] */
+ * second. Takes some ten steps' time. VFIT_ERROR_ARGUMENT where it has no such size, VFIT_ERROR_NOT_WEARABLE as with
+ * create, and nothing changes.                                                                [excl]  */
 VFIT_API vfit_result vfit_cloth_set_size(vfit_cloth cloth, const char* size_label);
 /* Fixed sub-steps inside; dt is clamped to 0.1 ms..0.1 s, 0 changes nothing. Reads the avatar: pose that
  * one first. begin hands the work to a worker and returns, end waits: between the two the engine renders.
@@ -787,6 +793,27 @@ VFIT_API vfit_result vfit_cloth_wear_over(vfit_cloth cloth, vfit_cloth inner);
  * out of what you draw. Found on the body at rest: what is nearer than margin_m to skin that is seen there is left, as
  * cloth slides and hems lift (0: 0.03). Takes as long as some 100 steps: once a garment.        [read] */
 VFIT_API vfit_result vfit_cloth_hide_skin(vfit_cloth cloth, float margin_m, uint8_t* triangles, uint32_t count);
+/* How a garment sits at one girth of the trunk. RIGHT: the body's girth is nearer to that which the size is made for than to
+ * another size's; of a garment that tells of none: it closes by less than 3 % of stretch and has less than 12 cm of ease. */
+typedef int32_t vfit_fit;
+enum { VFIT_FIT_RIGHT = 0, VFIT_FIT_TIGHT = 1, VFIT_FIT_LOOSE = 2 };
+typedef struct vfit_fit_zone {
+    uint32_t struct_size;
+    vfit_fit fit;
+    float body_m;                       /* the avatar's girth                                        */
+    float garment_m;                    /* of the cloth that lies around it, unstretched              */
+    float ease_m;                       /* garment less body                                         */
+    float strain;                       /* of that cloth along the girth, as it is worn               */
+    float pressure_pa;                  /* mean about the girth; with VFIT_CLOTH_PRESSURE              */
+    float opening_m;                    /* part of garment_m that is an open front; 0: closed         */
+    char key[48];                       /* "chest_girth_m", "waist_girth_m", "hip_girth_m"            */
+} vfit_fit_zone;
+VFIT_STRUCT(vfit_fit_zone)
+/* By girths that the garment goes around, of the cloth as it was left by the last step: let it come to rest first. [read] */
+VFIT_API vfit_result vfit_cloth_fit(vfit_cloth cloth, vfit_fit_zone* items, uint32_t stride, uint32_t* count);
+/* The same place by place, one a vertex of what acquire gives: above 0 tight (1: its fabric's most strain, or 2 kPa),
+ * below 0 loose (-1: 6 cm off the skin). Takes as long as some ten steps.                      [read]  */
+VFIT_API vfit_result vfit_cloth_fit_map(vfit_cloth cloth, float* values, uint32_t count);
 /* POSITION, NORMAL, UV, INDEX, STRAIN, and with VFIT_CLOTH_PRESSURE PRESSURE: of a vertex that touches the body, what its
  * threads and its weight pull with against it, over the flat cloth's area; 0 where the garment is skinned. Pa whatever
  * the unit.                                                                                    [any]   */

@@ -101,4 +101,13 @@ const std::vector<Measurement>& AvatarObject::measures() {
     return measures_;
 }
 
+const std::vector<GirthLevel>& AvatarObject::girth_levels() {
+    const std::vector<Measurement>& own = measures();
+    std::lock_guard lock(measures_mutex_);
+    if (girth_levels_.empty())
+        for (const TrunkLevel& level : trunk_levels(avatar, sex))
+            if (const Measurement* girth = find(own, level.key)) girth_levels_.push_back({level.key, level.height_m, girth->value, level.axis_z_m});
+    return girth_levels_;
+}
+
 }  // namespace vfit::api

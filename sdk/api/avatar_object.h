@@ -5,6 +5,7 @@
 #include "avatar/avatar.h"
 #include "avatar/character.h"
 #include "avatar/packed_body.h"
+#include "cloth/garment/fit.h"
 #include "measure/measurement.h"
 
 namespace vfit::api {
@@ -36,12 +37,15 @@ struct AvatarObject : ContextChild {
     void pose_into(const Pose& pose, const SkinTarget& target);
     /// Tape measures of its own body; taken when first asked for.
     const std::vector<Measurement>& measures();
+    /// Where on the rest mesh its trunk's girths are taken; found when first asked for.
+    const std::vector<GirthLevel>& girth_levels();
 
 private:
     void make_outputs();
     void add_matrices(Frame& frame, std::span<const Mat4> matrices) const;
     std::mutex measures_mutex_;
     std::vector<Measurement> measures_;
+    std::vector<GirthLevel> girth_levels_;
 };
 
 }  // namespace vfit::api

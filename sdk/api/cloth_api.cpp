@@ -8,6 +8,7 @@
 #include "api/structs.h"
 #include "cloth/cloth.h"
 #include "cloth/garment/dress.h"
+#include "cloth/garment/fit.h"
 #include "cloth/garment/hidden_skin.h"
 #include "cloth/garment/garment.h"
 #include "cloth/garment/skin_below.h"
@@ -128,10 +129,20 @@ DressedSize dressed_size(const GarmentObject& garment, const char* label, Avatar
     return {size_ratio(garment.garment, label, avatar.measures()), nullptr};
 }
 
+/// A garment of that cut as it lies before it was simulated: does it go around the avatar with what its fabric gives?
+void check_wearable(const GarmentObject& garment, const char* label, const Dress& dress, std::span<const Vec2> cut, AvatarObject& avatar) {
+    const auto fits = fit_of({dress.rest(), dress.indices(), cut, garment.garment.on_arm, {}}, avatar.girth_levels());
+    const GirthFit* at = nullptr;
+    const float strain = needed_strain(fits, &at);
+    if (strain <= garment.material.most_strain) return;
+    fail(VFIT_ERROR_NOT_WEARABLE, "garment ", garment.garment.name, " does not close in size ", label, ": ", at->key, " of the body is ", at->body_m * 100.0f,
+         " cm, of the garment ", at->garment_m * 100.0f, " cm; ", garment.garment.fabric, " gives ", garment.material.most_strain * 100.0f, " %");
+}
+
 struct ClothObject : ContextChild {
     static constexpr Kind kKind = Kind::cloth;
     ClothObject(Ref<AvatarObject> avatar_object, Ref<GarmentObject> garment_object, Dress d, std::optional<SkinBelow> skin_of_body,
-                std::optional<SkinCover> cover_of_body, const ClothSettings& cloth_settings, bool hands)
+                std::optional<SkinCover> cover_of_body, const ClothSettings& cloth_settings, bool hands, bool own_lengths)
         : ContextChild(avatar_object->context),
           avatar(std::move(avatar_object)),
           garment(std::move(garment_object)),
@@ -146,8 +157,9 @@ struct ClothObject : ContextChild {
         keep_pose();
         output.topology().set_indices(garment->garment.drawn_indices(), context->axes);
         output.topology().set_uvs(garment->garment.mesh.uvs, context->axes);
-        publish(output.begin());
         if (skin) skin_mesh = cloth.add_mesh(skin->skin.vertex_count(), skin->indices);
+        if (own_lengths) come_to_lengths();
+        publish(output.begin());
         later.task = [](void* self, uint32_t) { static_cast<ClothObject*>(self)->step(); };
         later.data = this;
     }
@@ -163,6 +175,9 @@ struct ClothObject : ContextChild {
     const Ref<GarmentObject> garment;
     const bool with_hands;
     Dress dress;
+    bool any_fit = false;
+    std::string size_label;
+    std::vector<Vec2> cut;  // of its size, one place an index
     const std::optional<SkinBelow> skin;  // of the avatar, where the cloth is kept out of it
     const std::optional<SkinCover> cover;
     const ClothSettings settings;
@@ -253,6 +268,15 @@ struct ClothObject : ContextChild {
         if (step_dt > 0.0f) keep_pose();  // else the cloth stays where the step before left it
         dt = step_dt;
     }
+    /// In the pose that the avatar has; meshes and targets are as the constructor or the last step left them.
+    void come_to_lengths() {
+        avatar->avatar.colliders(colliders);
+        limbs_of(avatar->avatar.skinning_matrices(), colliders);
+        move_skin(avatar->avatar.skinning_matrices());
+        move_inner();
+        dress.follow(avatar->avatar.skinning_matrices(), targets, scratch, *context->jobs);
+        cloth.come_to_lengths(targets, colliders, *context->jobs);
+    }
     /// On a body that stands straight and then goes into the avatar's pose.
     void put_on() {
         require_no_step();
@@ -332,11 +356,28 @@ struct ClothObject : ContextChild {
         for (const uint32_t of : garment->garment.copies) *to++ = out(values[of]);
     }
     /// The same garment in other lengths, from how it hangs now.
-    void change_size(const char* label) {
+    void change_size(const char* label_text) {
         require_no_step();
-        const DressedSize size = dressed_size(*garment, label, *avatar);
-        auto fabric = dress.fabric_of(garment->garment, garment->material, size.ratio, size.own);
-        cloth = cloth.with_fabric(std::move(fabric));
+        const DressedSize size = dressed_size(*garment, label_text, *avatar);
+        std::vector<Vec2> new_cut = dress.cut(garment->garment, size.ratio, size.own);
+        if (size.own && !any_fit) check_wearable(*garment, label_text, dress, new_cut, *avatar);
+        cloth = cloth.with_fabric(dress.fabric_of(garment->garment, garment->material, size.ratio, size.own));
+        cut = std::move(new_cut);
+        const auto reading = read_avatar();
+        come_to_lengths();
+        size_label = label_text ? label_text : "";
+    }
+    /// The cloth as its last step left it, with the pose taken out.
+    struct Worn {
+        Carry::Unposed unposed;
+        WornGarment view(const ClothObject& of) const {
+            return {unposed.positions, of.dress.indices(), of.cut, of.garment->garment.on_arm, of.settings.pressure ? std::span<const float>(of.finished.pressure) : std::span<const float>()};
+        }
+    };
+    Worn worn() const {
+        Worn out;
+        dress.carry().take_out(finished.pose, finished.positions, finished.normals, out.unposed, *context->jobs);
+        return out;
     }
     void require_no_step() const {
         if (stepping) fail(VFIT_ERROR_STATE, "a step is running: end it first");
@@ -436,12 +477,15 @@ vfit_result vfit_cloth_create(vfit_avatar avatar_handle, vfit_garment garment_ha
         if (avatar->context != garment->context)
             fail(VFIT_ERROR_HANDLE, "avatar and garment belong to different contexts");
         const vfit_cloth_desc d = read_or_default(desc, "desc");
-        check_flags(d.flags, VFIT_CLOTH_NO_HANDS | VFIT_CLOTH_SKIN | VFIT_CLOTH_AWAKE | VFIT_CLOTH_PRESSURE, "desc.flags");
+        check_flags(d.flags, VFIT_CLOTH_NO_HANDS | VFIT_CLOTH_SKIN | VFIT_CLOTH_AWAKE | VFIT_CLOTH_PRESSURE | VFIT_CLOTH_ANY_FIT, "desc.flags");
         const ClothSettings settings = cloth_settings(d, garment->material, avatar->context->axes);
         const bool hands = (d.flags & VFIT_CLOTH_NO_HANDS) == 0;
         const Wearer wearer(*avatar->context, garment->garment, *avatar);
         const DressedSize size = dressed_size(*garment, d.size_label, *avatar);
         Dress dress(garment->garment, garment->material, wearer.body, size.ratio, settings.thickness_m, size.own);
+        std::vector<Vec2> cut = dress.cut(garment->garment, size.ratio, size.own);
+        const bool any_fit = (d.flags & VFIT_CLOTH_ANY_FIT) != 0;
+        if (size.own && !any_fit) check_wearable(*garment, d.size_label, dress, cut, *avatar);
         std::optional<SkinBelow> skin;
         std::optional<SkinCover> cover;
         const bool on_skin = (d.flags & VFIT_CLOTH_SKIN) != 0;
@@ -451,7 +495,10 @@ vfit_result vfit_cloth_create(vfit_avatar avatar_handle, vfit_garment garment_ha
             if (on_skin) skin = skin_below(wearer.body, below);
             else cover = cover_of(*avatar, wearer.body, below, hands, d.cover_m);
         }
-        auto cloth = make<ClothObject>(avatar.ref(), garment.ref(), std::move(dress), std::move(skin), std::move(cover), settings, hands);
+        auto cloth = make<ClothObject>(avatar.ref(), garment.ref(), std::move(dress), std::move(skin), std::move(cover), settings, hands, size.own != nullptr);
+        cloth->any_fit = any_fit;
+        cloth->size_label = d.size_label ? d.size_label : "";
+        cloth->cut = std::move(cut);
         out->id = avatar->context->publish(Kind::cloth, cloth, avatar_handle.id);
         return VFIT_OK;
     });
@@ -567,6 +614,45 @@ vfit_result vfit_cloth_hide_skin(vfit_cloth handle, float margin_m, uint8_t* tri
                                               cloth->dress.indices()}, margin_m > 0.0f ? margin_m : kUsualMargin_m, *cloth->context->jobs);
         for (size_t i = 0; i < hidden.size(); ++i)
             if (hidden[i]) triangles[i] = 1;
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_cloth_fit(vfit_cloth handle, vfit_fit_zone* items, uint32_t stride, uint32_t* count) {
+    return guard([&] {
+        Use<ClothObject, Mode::read> cloth(handle.id);
+        cloth->require_no_step();
+        const Garment& garment = cloth->garment->garment;
+        const auto fits = fit_of(cloth->worn().view(*cloth), cloth->avatar->girth_levels());
+        return write_list(items, stride, count, fits.size(), [&](size_t i) {
+            const GirthFit& fit = fits[i];
+            const Fit verdict = judge_fit(garment, cloth->size_label, fit);
+            vfit_fit_zone zone{};
+            zone.fit = verdict == Fit::tight ? VFIT_FIT_TIGHT : verdict == Fit::loose ? VFIT_FIT_LOOSE : VFIT_FIT_RIGHT;
+            zone.body_m = fit.body_m;
+            zone.garment_m = fit.garment_m;
+            zone.ease_m = fit.ease_m;
+            zone.strain = fit.strain;
+            zone.pressure_pa = fit.pressure_pa;
+            zone.opening_m = fit.opening_m;
+            set_text(zone.key, fit.key);
+            return zone;
+        });
+    });
+}
+
+vfit_result vfit_cloth_fit_map(vfit_cloth handle, float* values, uint32_t count) {
+    return guard([&] {
+        Use<ClothObject, Mode::read> cloth(handle.id);
+        check_pointer(values, "values");
+        cloth->require_no_step();
+        const Garment& garment = cloth->garment->garment;
+        if (count != garment.drawn_count()) fail(VFIT_ERROR_ARGUMENT, "count is ", count, ", the garment has ", garment.drawn_count(), " vertices");
+        const Avatar& avatar = cloth->avatar->avatar;
+        const BodyTopology& topology = avatar.topology();
+        const MeshQuery skin(std::span(avatar.rest().positions).first(topology.vertex_count), topology.indices);
+        const auto tightness = tightness_of(cloth->worn().view(*cloth), cloth->cloth.strain(), cloth->garment->material.most_strain, skin);
+        cloth->for_drawn(tightness, values, [](float x) { return x; });
         return VFIT_OK;
     });
 }

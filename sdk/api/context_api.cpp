@@ -42,6 +42,7 @@ const char* vfit_result_name(vfit_result result) {
         case VFIT_ERROR_OUT_OF_MEMORY: return "ERROR_OUT_OF_MEMORY";
         case VFIT_ERROR_IO: return "ERROR_IO";
         case VFIT_ERROR_DATA: return "ERROR_DATA";
+        case VFIT_ERROR_NOT_WEARABLE: return "ERROR_NOT_WEARABLE";
         case VFIT_ERROR_DEVICE_LOST: return "ERROR_DEVICE_LOST";
         case VFIT_ERROR_PLUGIN: return "ERROR_PLUGIN";
         default: return "?";

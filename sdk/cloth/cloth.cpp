@@ -233,6 +233,20 @@ void Cloth::put_on(const BodyOnItsWay& body, Jobs& jobs) {
     s.wake();
 }
 
+void Cloth::come_to_lengths(std::span<const Vec3> skinned_targets, std::span<const Collider> colliders, Jobs& jobs) {
+    // Short steps, so that what the cloth meets is looked for often while it slides along the body.
+    constexpr int kSteps = 24, kSubsteps = 3;
+    constexpr float kStep_s = 1.0f / 160.0f, kStopped = 1.0f;
+    State& s = *state_;
+    s.check_body(skinned_targets, colliders);
+    for (int i = 0; i < kSteps; ++i) {
+        s.accept_body(colliders);
+        s.advance(kStep_s, kSubsteps, kStopped, skinned_targets, jobs);
+    }
+    s.solver.rest();
+    s.wake();
+}
+
 uint32_t Cloth::add_mesh(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts) {
     if (!counts.empty() && counts.size() != vertices) fail(VFIT_ERROR_ARGUMENT, counts.size(), " flags for a mesh of ", vertices, " vertices");
     state_->meshes.emplace_back(vertices, indices, counts);

@@ -20,7 +20,7 @@ struct Newer {
 
 TEST(Contract, VersionAndNamesAreThere) {
     EXPECT_EQ(vfit_version(), uint32_t(VFIT_VERSION));
-    for (vfit_result r = VFIT_ERROR_PLUGIN; r <= VFIT_END_OF_STREAM; ++r) EXPECT_STRNE(vfit_result_name(r), "?") << r;
+    for (vfit_result r = VFIT_ERROR_NOT_WEARABLE; r <= VFIT_END_OF_STREAM; ++r) EXPECT_STRNE(vfit_result_name(r), "?") << r;
     EXPECT_STREQ(vfit_result_name(99), "?");
     vfit_library_info info = vfit_library_info_init();
     ASSERT_EQ(vfit_library_describe(&info), VFIT_OK);

@@ -52,5 +52,6 @@ void add_scan_features(Command& app);
 void add_odd_scans(Command& app);
 void add_motion(Command& app);
 void add_contact_features(Command& app);
+void add_garments(Command& app);
 
 }  // namespace vfit::tools

@@ -41,7 +41,7 @@ void Fitting::dress() {
     check(vfit_motion_step(motion_.get(), scan_frame_.get(), scan_.body_id, depth.time_ns));
     pose_avatar();
     vfit_cloth_desc cloth = vfit_cloth_desc_init();
-    cloth.flags = VFIT_CLOTH_SKIN | VFIT_CLOTH_PRESSURE | (options_.hands ? 0u : VFIT_CLOTH_NO_HANDS);
+    cloth.flags = VFIT_CLOTH_SKIN | VFIT_CLOTH_PRESSURE | (options_.hands ? 0u : uint32_t(VFIT_CLOTH_NO_HANDS));
     if (!options_.size.empty()) cloth.size_label = options_.size.c_str();
     check(vfit_cloth_create(avatar_.get(), garment_.get(), &cloth, cloth_.out()));
     Frame body, garment;

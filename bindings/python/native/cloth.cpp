@@ -49,7 +49,8 @@ std::shared_ptr<Cloth> create(const Avatar& avatar, const Garment& garment,
                               const std::optional<std::array<float, 3>>& gravity,
                               const std::optional<float>& friction, const std::optional<float>& damping,
                               float thickness_m, bool hands, bool skin, bool sleeps, const std::array<float, 3>& wind, float drag,
-                              float lift, const std::optional<float>& inertia, float self_thickness_m, float budget_ms, bool pressure, float cover_m, float virtual_m) {
+                              float lift, const std::optional<float>& inertia, float self_thickness_m, float budget_ms, bool pressure, float cover_m, float virtual_m,
+                              bool any_fit) {
     vfit_cloth_desc desc = vfit_cloth_desc_init();
     desc.size_label = size ? size->c_str() : nullptr;
     desc.substeps = substeps;
@@ -62,7 +63,7 @@ std::shared_ptr<Cloth> create(const Avatar& avatar, const Garment& garment,
     desc.damping = setting(damping);
     desc.thickness_m = thickness_m;
     desc.flags = flag(!hands, VFIT_CLOTH_NO_HANDS) | flag(skin, VFIT_CLOTH_SKIN) | flag(!sleeps, VFIT_CLOTH_AWAKE) |
-                 flag(pressure, VFIT_CLOTH_PRESSURE);
+                 flag(pressure, VFIT_CLOTH_PRESSURE) | flag(any_fit, VFIT_CLOTH_ANY_FIT);
     std::copy(wind.begin(), wind.end(), desc.wind);
     desc.drag = drag;
     desc.lift = lift;
@@ -113,6 +114,43 @@ uint64_t state_hash(const Cloth& cloth) {
     return hash;
 }
 
+py::list parts(const Garment& garment) {
+    uint32_t count = 0;
+    check(vfit_garment_parts(garment.get(), nullptr, sizeof(vfit_garment_part), &count));
+    std::vector<vfit_garment_part> items(count);
+    check(vfit_garment_parts(garment.get(), items.data(), sizeof(vfit_garment_part), &count));
+    py::list out;
+    for (const vfit_garment_part& p : items)
+        out.append(value("GarmentPart", field(p.material), field(p.texture), py::make_tuple(p.color[0], p.color[1], p.color[2]), p.first_index, p.index_count));
+    return out;
+}
+
+py::list fit(const Cloth& cloth) {
+    uint32_t count = 0;
+    check(vfit_cloth_fit(cloth.get(), nullptr, sizeof(vfit_fit_zone), &count));
+    std::vector<vfit_fit_zone> items(count);
+    check(vfit_cloth_fit(cloth.get(), items.data(), sizeof(vfit_fit_zone), &count));
+    py::list out;
+    for (const vfit_fit_zone& z : items) {
+        const char* verdict = z.fit == VFIT_FIT_TIGHT ? "tight" : z.fit == VFIT_FIT_LOOSE ? "loose" : "right";
+        out.append(value("FitZone", field(z.key), verdict, z.body_m, z.garment_m, z.ease_m, z.strain, z.pressure_pa, z.opening_m));
+    }
+    return out;
+}
+
+py::array_t<float> fit_map(const Cloth& cloth) {
+    vfit_frame frame{};
+    check(vfit_cloth_acquire(cloth.get(), &frame));
+    vfit_view view = vfit_view_init();
+    const vfit_result found = vfit_frame_view(frame, VFIT_STREAM_POSITION, &view);
+    vfit_frame_release(frame);
+    check(found);
+    py::array_t<float> out(view.width);
+    float* values = out.mutable_data();
+    run([&, h = cloth.get()] { return vfit_cloth_fit_map(h, values, view.width); });
+    return out;
+}
+
 constexpr float kStep_s = 1.0f / 60.0f;
 
 }  // namespace
@@ -123,7 +161,8 @@ void bind_cloth(py::module_& m) {
                                                       "A garment that can be worn (docs/garments.md).")
             .def_static("open", &open, "context"_a, "name"_a, "A garment that comes with vfit, by its name.")
             .def_static("load", &load, "context"_a, "json"_a, "A garment of your own, as JSON text.")
-            .def_property_readonly("info", &info));
+            .def_property_readonly("info", &info)
+            .def_property_readonly("parts", &parts, "Triangles by their look."));
     closable(
         py::class_<Cloth, std::shared_ptr<Cloth>>(m, "Cloth",
                                                   "A garment on an avatar. Pose the avatar first, then step.")
@@ -131,14 +170,15 @@ void bind_cloth(py::module_& m) {
                  "size"_a = py::none(), "substeps"_a = 0, "gravity"_a = py::none(), "friction"_a = py::none(),
                  "damping"_a = py::none(), "thickness_m"_a = 0.0f, "hands"_a = true, "skin"_a = false, "sleeps"_a = true,
                  "wind"_a = std::array<float, 3>{}, "drag"_a = 0.0f, "lift"_a = 0.0f, "inertia"_a = py::none(),
-                 "self_thickness_m"_a = 0.0f, "budget_ms"_a = 0.0f, "pressure"_a = false, "cover_m"_a = 0.0f, "virtual_m"_a = 0.0f,
+                 "self_thickness_m"_a = 0.0f, "budget_ms"_a = 0.0f, "pressure"_a = false, "cover_m"_a = 0.0f, "virtual_m"_a = 0.0f, "any_fit"_a = false,
                  "size None: made to the avatar. substeps 0: 8 a 1/60 s. hands False: forearms and hands pass "
                  "through the garment. skin True: kept out of the avatar's skin itself, not of its spheres and capsules. "
                  "drag and lift: of the air, about 1. inertia: share of the body's own motion that the cloth feels. "
                  "self_thickness_m: kept between the cloth's own layers. budget_ms: of a step. "
                  "pressure True: frames tell what the body presses with, in Pa. "
                  "cover_m: more spheres and capsules, until no skin is so far outside of all. "
-                 "virtual_m: points of triangles so near each other meet the body too: for coarse meshes.")
+                 "virtual_m: points of triangles so near each other meet the body too: for coarse meshes. "
+                 "any_fit True: worn even where it would not close.")
             .def(
                 "set_wind",
                 [](const Cloth& c, const std::array<float, 3>& wind) {
@@ -151,6 +191,14 @@ void bind_cloth(py::module_& m) {
                     run([=, h = c.get()] { return vfit_cloth_set_quality(h, substeps, budget_ms); });
                 },
                 "substeps"_a = 0, "budget_ms"_a = 0.0f, "Sub-steps a 1/60 s at most, and what a step may take.")
+            .def(
+                "set_size",
+                [](const Cloth& c, const std::optional<std::string>& size) {
+                    run([&, h = c.get()] { return vfit_cloth_set_size(h, size ? size->c_str() : nullptr); });
+                },
+                "size"_a = py::none(), "Another size of the garment, from how it hangs now; None: made to the avatar.")
+            .def("fit", &fit, "How it sits, by girths of the trunk.")
+            .def("fit_map", &fit_map, "One value a vertex: above 0 tight, below 0 loose.")
             .def(
                 "wear_over",
                 [](const Cloth& c, const Cloth& inner) {

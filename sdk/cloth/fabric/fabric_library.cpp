@@ -33,11 +33,13 @@ FabricLibrary FabricLibrary::parse(std::span<const std::byte> json) {
     FabricLibrary library;
     for (const auto& [name, preset] : presets->items()) {
         if (!preset.is_object()) fail(VFIT_ERROR_DATA, "fabric ", name, " is not an object");
-        library.add(name, {positive_number(preset, name, "density_kg_m2"),
+        FabricMaterial material{positive_number(preset, name, "density_kg_m2"),
                            positive_number(preset, name, "stretch_warp_n_m"),
                            positive_number(preset, name, "stretch_weft_n_m"),
                            positive_number(preset, name, "shear_n_m"), positive_number(preset, name, "bend_n_m"),
-                           positive_number(preset, name, "friction")});
+                           positive_number(preset, name, "friction")};
+        if (preset.contains("most_strain")) material.most_strain = positive_number(preset, name, "most_strain");
+        library.add(name, material);
     }
     return library;
 }

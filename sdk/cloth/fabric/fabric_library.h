@@ -16,6 +16,7 @@ struct FabricMaterial {
     float shear_n_m = 0.0f;
     float bend_n_m = 0.0f;          // bending stiffness B (moment per width and unit curvature), N m
     float friction = 0.0f;          // static, against the body
+    float most_strain = 0.1f;       // along a girth, with which a garment of it can still be worn
 };
 
 class FabricLibrary {

@@ -258,6 +258,21 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
     if (!followed_.empty()) followed_skin_.emplace(followed.skin());
 }
 
+std::vector<Vec2> Dress::cut(const Garment& garment, float size_ratio, const GarmentSize* size) const {
+    if (!garment.flat.empty()) return cut_of(garment, rest_, size);
+    // As cook_fabric has it of a shape in space.
+    const Vec3 scale(size_ratio, 1.0f, size_ratio);
+    std::vector<Vec2> out;
+    for (size_t i = 0; i + 2 < indices_.size(); i += 3) {
+        float sides[3];
+        for (size_t k = 0; k < 3; ++k) sides[k] = glm::length((rest_[indices_[i + (k + 1) % 3]] - rest_[indices_[i + k]]) * scale);
+        Vec2 corners[3];
+        with_sides({{0, 0}, {1, 0}, {0, 1}}, sides, corners);
+        out.insert(out.end(), corners, corners + 3);
+    }
+    return out;
+}
+
 std::shared_ptr<const Fabric> Dress::fabric_of(const Garment& garment, const FabricMaterial& material, float size_ratio, const GarmentSize* size) const {
     const std::vector<Vec2> cut = garment.flat.empty() ? std::vector<Vec2>() : cut_of(garment, rest_, size);
     const std::span<const Vec2> uvs = std::span(garment.mesh.uvs).first(garment.vertex_count());

@@ -37,6 +37,8 @@ public:
           float thickness_m = 0.004f, const GarmentSize* size = nullptr);
 
     const std::shared_ptr<const Fabric>& fabric() const { return fabric_; }
+    /// The garment's triangles as they are cut in that size, one place an index.
+    std::vector<Vec2> cut(const Garment& garment, float size_ratio, const GarmentSize* size) const;
     /// The same garment in another size: as many vertices and targets, other lengths.
     std::shared_ptr<const Fabric> fabric_of(const Garment& garment, const FabricMaterial& material, float size_ratio, const GarmentSize* size) const;
     /// The garment on the avatar's rest body; one a garment vertex.

@@ -3,13 +3,13 @@
 from enum import IntEnum
 from os import PathLike
 from types import TracebackType
-from typing import Any, Final, Iterator, Literal, Mapping, Optional, Sequence, Tuple, Type, TypeVar, Union
+from typing import Any, Final, Iterator, List, Literal, Mapping, Optional, Sequence, Tuple, Type, TypeVar, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .values import (
-    AvatarPart, Body, Camera, CharacterInfo, ClothStats, Collider, ContextStats, GarmentInfo, Intrinsics, Joints, LibraryInfo, LogLine,
+    AvatarPart, Body, Camera, CharacterInfo, ClothStats, Collider, ContextStats, FitZone, GarmentInfo, GarmentPart, Intrinsics, Joints, LibraryInfo, LogLine,
     Measurement, PluginInfo, Pose, RigBone, Scale, ScanState, SensorInfo, SensorMode, SensorOption, SensorStats,
     ShapeValue, Size, SizeRow, SizeZone, StageTime,
 )
@@ -54,6 +54,7 @@ class ResultCode(IntEnum):
     ERROR_DATA = -11
     ERROR_DEVICE_LOST = -12
     ERROR_PLUGIN = -13
+    ERROR_NOT_WEARABLE = -14
 
 class Axes(IntEnum):
     """Convention of everything that a context reads and writes."""
@@ -445,6 +446,8 @@ class Garment(_Closable):
     def load(context: Context, json: Union[str, bytes]) -> Garment: ...
     @property
     def info(self) -> GarmentInfo: ...
+    @property
+    def parts(self) -> List[GarmentPart]: ...
 
 class Cloth(_Closable):
     """A garment on an avatar. Pose the avatar first, then step."""
@@ -454,13 +457,20 @@ class Cloth(_Closable):
                  damping: Optional[float] = None, thickness_m: float = 0.0, hands: bool = True, skin: bool = False,
                  sleeps: bool = True, wind: Tuple[float, float, float] = ..., drag: float = 0.0, lift: float = 0.0,
                  inertia: Optional[float] = None, self_thickness_m: float = 0.0, budget_ms: float = 0.0,
-                 pressure: bool = False, cover_m: float = 0.0, virtual_m: float = 0.0) -> None:
+                 pressure: bool = False, cover_m: float = 0.0, virtual_m: float = 0.0, any_fit: bool = False) -> None:
         """hands False: forearms and hands pass through, so that none catches a skirt. skin True: kept out of the avatar's
         skin itself. self_thickness_m: kept between the cloth's own layers. pressure True: frames have pressure, in Pa.
         cover_m: more spheres and capsules, until no skin below the garment is so far outside of all.
-        virtual_m: points of triangles so near each other meet the body too: for coarse meshes."""
+        virtual_m: points of triangles so near each other meet the body too: for coarse meshes.
+        any_fit True: worn even where it would not close; else NotWearableError."""
     def set_wind(self, wind: Tuple[float, float, float]) -> None: ...
     def set_quality(self, substeps: int = 0, budget_ms: float = 0.0) -> None: ...
+    def set_size(self, size: Optional[str] = None) -> None:
+        """Another size of the garment, from how it hangs now; None: made to the avatar."""
+    def fit(self) -> List[FitZone]:
+        """How it sits, by girths of the trunk: let it come to rest first."""
+    def fit_map(self) -> NDArray[np.float32]:
+        """One value a vertex: above 0 tight, below 0 loose."""
     def wear_over(self, inner: Cloth) -> None: ...
     def hide_skin(self, margin_m: float = 0.0, hidden: Optional[NDArray[np.bool_]] = None) -> NDArray[np.bool_]:
         """One True a triangle of the avatar's that this garment hides; hidden: of the garments before."""

@@ -65,6 +65,10 @@ class PluginError(Error):
     """A sensor plug-in failed."""
 
 
+class NotWearableError(Error):
+    """A garment in that size does not close around the body."""
+
+
 _CLASSES: Dict[int, Type[Error]] = {
     ResultCode.ERROR_ARGUMENT: ArgumentError,
     ResultCode.ERROR_HANDLE: HandleError,
@@ -78,6 +82,7 @@ _CLASSES: Dict[int, Type[Error]] = {
     ResultCode.ERROR_DATA: DataError,
     ResultCode.ERROR_DEVICE_LOST: DeviceLostError,
     ResultCode.ERROR_PLUGIN: PluginError,
+    ResultCode.ERROR_NOT_WEARABLE: NotWearableError,
 }
 
 

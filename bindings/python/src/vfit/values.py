@@ -21,7 +21,7 @@ from ._vfit import (
 )
 
 __all__ = [
-    "AvatarPart", "Body", "Camera", "CharacterInfo", "ClothStats", "Collider", "ContextStats", "GarmentInfo", "Intrinsics", "JointPoint", "Joints",
+    "AvatarPart", "Body", "Camera", "CharacterInfo", "ClothStats", "Collider", "ContextStats", "FitZone", "GarmentInfo", "GarmentPart", "Intrinsics", "JointPoint", "Joints",
     "LibraryInfo", "LogLine", "Measurement", "PluginInfo", "Pose", "RigBone", "Scale", "ScanState", "SensorInfo",
     "SensorMode", "SensorOption", "SensorStats", "ShapeValue", "Size", "SizeRow", "SizeZone",
     "StageTime",
@@ -296,6 +296,29 @@ class GarmentInfo(NamedTuple):
     vertex_count: int
     simulated_count: int
     sizes: Tuple[str, ...]
+
+
+class GarmentPart(NamedTuple):
+    """Triangles of one look."""
+
+    material: str
+    texture: str  #: path of a picture as the garment's author gave it, or empty
+    color: Vector  #: linear RGB
+    first_index: int
+    index_count: int
+
+
+class FitZone(NamedTuple):
+    """How a garment sits at one girth of the trunk."""
+
+    key: str
+    fit: str  #: "right", "tight" or "loose"
+    body_m: float
+    garment_m: float  #: of the cloth around it, unstretched
+    ease_m: float
+    strain: float
+    pressure_pa: float
+    opening_m: float  #: part of garment_m that is an open front
 
 
 class ClothStats(NamedTuple):

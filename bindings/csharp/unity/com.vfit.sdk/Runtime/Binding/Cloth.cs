@@ -55,6 +55,25 @@ namespace Vfit
             Calls.ClothCarry(Handle);
         }
 
+        /// <summary>Another size of the garment, from how it hangs now; null: made to the avatar.</summary>
+        public void SetSize(string sizeLabel)
+        {
+            fixed (byte* label = Utf8Text.Encode(sizeLabel)) Calls.ClothSetSize(Handle, label);
+        }
+
+        /// <summary>How it sits, by girths of the trunk: let it come to rest first.</summary>
+        public FitZone[] Fit()
+        {
+            return Calls.ClothFit(Handle);
+        }
+
+        /// <summary>One value a vertex of what Acquire gives: above 0 tight, below 0 loose.</summary>
+        public void FitMap(float[] values)
+        {
+            Arrays.Check(values, 0, "values");
+            fixed (float* to = values) Calls.ClothFitMap(Handle, to, (uint)values.Length);
+        }
+
         /// <summary>Velocity of the air in the context's axes.</summary>
         public void SetWind(Float3 wind)
         {

@@ -30,6 +30,12 @@ namespace Vfit
             return Calls.GarmentDescribe(Handle);
         }
 
+        /// <summary>Triangles by their look.</summary>
+        public GarmentPart[] Parts()
+        {
+            return Calls.GarmentParts(Handle);
+        }
+
         public List<string> SizeLabels()
         {
             var labels = new List<string>();

@@ -2237,6 +2237,51 @@ namespace Vfit
             return value;
         }
 
+        internal static Result GarmentParts(GarmentHandle garment, GarmentPart* items, uint stride, uint* count)
+        {
+            bool garmentHeld = false;
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_garment_parts(new GarmentId(VfitHandle.Hold(garment, ref garmentHeld)), items, stride, count));
+                return result;
+            }
+            finally
+            {
+                if (garmentHeld) garment.DangerousRelease();
+            }
+        }
+
+        internal static GarmentPart[] GarmentParts(GarmentHandle garment)
+        {
+            uint listed = 0;
+            GarmentParts(garment, null, (uint)sizeof(GarmentPart), &listed);
+            for (;;)
+            {
+                var list = new GarmentPart[listed];
+                if (listed == 0) return list;
+                try
+                {
+                    fixed (GarmentPart* first = list) GarmentParts(garment, first, (uint)sizeof(GarmentPart), &listed);
+                }
+                catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
+                {
+                    continue;   // it grew between the two calls
+                }
+                if (listed < list.Length) Array.Resize(ref list, (int)listed);
+                return list;
+            }
+        }
+
+        internal static int GarmentParts(GarmentHandle garment, GarmentPart[] into)
+        {
+            if (into == null) throw new ArgumentNullException("into");
+            GarmentPart none;
+            uint listed = (uint)into.Length;
+            if (listed == 0) GarmentParts(garment, &none, (uint)sizeof(GarmentPart), &listed);     // an empty array is not the question how many
+            else fixed (GarmentPart* first = into) GarmentParts(garment, first, (uint)sizeof(GarmentPart), &listed);
+            return (int)listed;
+        }
+
         internal static uint GarmentSizeLabel(GarmentHandle garment, uint index, byte* buffer, uint capacity)
         {
             bool garmentHeld = false;
@@ -2301,6 +2346,20 @@ namespace Vfit
             try
             {
                 Result result = VfitException.Check(Native.vfit_cloth_reset(new ClothId(VfitHandle.Hold(cloth, ref clothHeld))));
+                return result;
+            }
+            finally
+            {
+                if (clothHeld) cloth.DangerousRelease();
+            }
+        }
+
+        internal static Result ClothSetSize(ClothHandle cloth, byte* sizeLabel)
+        {
+            bool clothHeld = false;
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_cloth_set_size(new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), sizeLabel));
                 return result;
             }
             finally
@@ -2415,6 +2474,65 @@ namespace Vfit
             try
             {
                 Result result = VfitException.Check(Native.vfit_cloth_hide_skin(new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), marginM, triangles, count));
+                return result;
+            }
+            finally
+            {
+                if (clothHeld) cloth.DangerousRelease();
+            }
+        }
+
+        internal static Result ClothFit(ClothHandle cloth, FitZone* items, uint stride, uint* count)
+        {
+            bool clothHeld = false;
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_cloth_fit(new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), items, stride, count));
+                return result;
+            }
+            finally
+            {
+                if (clothHeld) cloth.DangerousRelease();
+            }
+        }
+
+        internal static FitZone[] ClothFit(ClothHandle cloth)
+        {
+            uint listed = 0;
+            ClothFit(cloth, null, (uint)sizeof(FitZone), &listed);
+            for (;;)
+            {
+                var list = new FitZone[listed];
+                if (listed == 0) return list;
+                try
+                {
+                    fixed (FitZone* first = list) ClothFit(cloth, first, (uint)sizeof(FitZone), &listed);
+                }
+                catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
+                {
+                    continue;   // it grew between the two calls
+                }
+                if (listed < list.Length) Array.Resize(ref list, (int)listed);
+                return list;
+            }
+        }
+
+        internal static int ClothFit(ClothHandle cloth, FitZone[] into)
+        {
+            if (into == null) throw new ArgumentNullException("into");
+            FitZone none;
+            uint listed = (uint)into.Length;
+            if (listed == 0) ClothFit(cloth, &none, (uint)sizeof(FitZone), &listed);     // an empty array is not the question how many
+            else fixed (FitZone* first = into) ClothFit(cloth, first, (uint)sizeof(FitZone), &listed);
+            return (int)listed;
+        }
+
+        internal static Result ClothFitMap(ClothHandle cloth, float* values, uint count)
+        {
+            bool clothHeld = false;
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_cloth_fit_map(new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), values, count));
                 return result;
             }
             finally

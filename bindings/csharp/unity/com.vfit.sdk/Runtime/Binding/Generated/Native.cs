@@ -480,11 +480,17 @@ namespace Vfit
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_garment_describe(GarmentId garment, GarmentInfo* @out);
 
+        /// <summary>[read]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_garment_parts(GarmentId garment, GarmentPart* items, uint stride, uint* count);
+
         /// <summary>The label of the size at index; length 0 past the last. [read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern uint vfit_garment_size_label(GarmentId garment, uint index, byte* buffer, uint capacity);
 
-        /// <summary>[excl] on avatar</summary>
+        /// <summary>VFIT_ERROR_NOT_WEARABLE where a garment with lengths of its own would have to stretch around chest,
+        /// waist or hips by more than its fabric takes (docs/garments.md), unless desc.flags has ANY_FIT. [excl] on
+        /// avatar</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_create(AvatarId avatar, GarmentId garment, ClothDesc* desc, ClothId* @out);
 
@@ -498,6 +504,12 @@ namespace Vfit
         /// whatever the settings. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_reset(ClothId cloth);
+
+        /// <summary>The same garment in another of its sizes (null: made to the avatar), from how it hangs now: it comes to
+        /// rest within a second. Takes some ten steps' time. VFIT_ERROR_ARGUMENT where it has no such size,
+        /// VFIT_ERROR_NOT_WEARABLE as with create, and nothing changes. [excl]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_cloth_set_size(ClothId cloth, byte* sizeLabel);
 
         /// <summary>Fixed sub-steps inside; dt is clamped to 0.1 ms..0.1 s, 0 changes nothing. Reads the avatar: pose that
         /// one first. begin hands the work to a worker and returns, end waits: between the two the engine renders. To a
@@ -541,6 +553,16 @@ namespace Vfit
         /// a garment. [read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_hide_skin(ClothId cloth, float marginM, byte* triangles, uint count);
+
+        /// <summary>By girths that the garment goes around, of the cloth as it was left by the last step: let it come to
+        /// rest first. [read]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_cloth_fit(ClothId cloth, FitZone* items, uint stride, uint* count);
+
+        /// <summary>The same place by place, one a vertex of what acquire gives: above 0 tight (1: its fabric's most
+        /// strain, or 2 kPa), below 0 loose (-1: 6 cm off the skin). Takes as long as some ten steps. [read]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_cloth_fit_map(ClothId cloth, float* values, uint count);
 
         /// <summary>POSITION, NORMAL, UV, INDEX, STRAIN, and with VFIT_CLOTH_PRESSURE PRESSURE: of a vertex that touches
         /// the body, what its threads and its weight pull with against it, over the flat cloth's area; 0 where the garment

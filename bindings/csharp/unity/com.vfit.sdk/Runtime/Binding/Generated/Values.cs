@@ -28,6 +28,8 @@ namespace Vfit
         ErrorData = -11,
         ErrorDeviceLost = -12,
         ErrorPlugin = -13,
+        /// <summary>the garment in that size does not close around the body</summary>
+        ErrorNotWearable = -14,
     }
 
     public enum Axes : int
@@ -364,6 +366,18 @@ namespace Vfit
         Awake = 4,
         /// <summary>frames carry PRESSURE</summary>
         Pressure = 8,
+        /// <summary>worn even where it would not close: stretched beyond what its fabric takes</summary>
+        AnyFit = 16,
+    }
+
+    /// <summary>How a garment sits at one girth of the trunk. RIGHT: the body's girth is nearer to that which the size
+    /// is made for than to another size's; of a garment that tells of none: it closes by less than 3 % of stretch and
+    /// has less than 12 cm of ease.</summary>
+    public enum Fit : int
+    {
+        Right = 0,
+        Tight = 1,
+        Loose = 2,
     }
 
     [StructLayout(LayoutKind.Sequential, Size = 8)]
@@ -1095,6 +1109,29 @@ namespace Vfit
         }
     }
 
+    /// <summary>Triangles of one look: indices first_index on of what vfit_cloth_acquire gives. texture: the path of a
+    /// picture as the garment's author gave it, or empty; color: linear RGB.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 272)]
+    public unsafe partial struct GarmentPart
+    {
+        internal uint StructSize;
+        public uint FirstIndex;
+        public uint IndexCount;
+        public Float3 Color;
+        internal fixed byte materialBytes[48];
+        public string Material
+        {
+            get { fixed (byte* bytes = materialBytes) return Utf8Text.Read(bytes, 48); }
+            set { fixed (byte* bytes = materialBytes) Utf8Text.Write(value, bytes, 48, "Material"); }
+        }
+        internal fixed byte textureBytes[200];
+        public string Texture
+        {
+            get { fixed (byte* bytes = textureBytes) return Utf8Text.Read(bytes, 200); }
+            set { fixed (byte* bytes = textureBytes) Utf8Text.Write(value, bytes, 200, "Texture"); }
+        }
+    }
+
     [StructLayout(LayoutKind.Sequential, Size = 88)]
     public unsafe partial struct ClothDesc
     {
@@ -1148,6 +1185,32 @@ namespace Vfit
         public uint Substeps;
         /// <summary>spheres and capsules that it met</summary>
         public uint ColliderCount;
+    }
+
+    [StructLayout(LayoutKind.Sequential, Size = 80)]
+    public unsafe partial struct FitZone
+    {
+        internal uint StructSize;
+        public Fit Fit;
+        /// <summary>the avatar's girth</summary>
+        public float BodyM;
+        /// <summary>of the cloth that lies around it, unstretched</summary>
+        public float GarmentM;
+        /// <summary>garment less body</summary>
+        public float EaseM;
+        /// <summary>of that cloth along the girth, as it is worn</summary>
+        public float Strain;
+        /// <summary>mean about the girth; with VFIT_CLOTH_PRESSURE</summary>
+        public float PressurePa;
+        /// <summary>part of garment_m that is an open front; 0: closed</summary>
+        public float OpeningM;
+        internal fixed byte keyBytes[48];
+        /// <summary>"chest_girth_m", "waist_girth_m", "hip_girth_m"</summary>
+        public string Key
+        {
+            get { fixed (byte* bytes = keyBytes) return Utf8Text.Read(bytes, 48); }
+            set { fixed (byte* bytes = keyBytes) Utf8Text.Write(value, bytes, 48, "Key"); }
+        }
     }
 
     /// <summary>Numbers of the header that this binding was made from.</summary>
