@@ -4,7 +4,7 @@
 
 namespace vfit {
 
-void compute_normals(const std::vector<Vec3>& positions, const std::vector<uint32_t>& indices,
+void compute_normals(std::span<const Vec3> positions, std::span<const uint32_t> indices,
                      std::vector<Vec3>& normals) {
     normals.assign(positions.size(), Vec3(0.0f));
     for (size_t t = 0; t + 2 < indices.size(); t += 3) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "math/types.h"
@@ -16,7 +17,7 @@ struct Mesh {
 };
 
 /// Area-weighted vertex normals into `normals` (resized to the vertex count; no other allocation).
-void compute_normals(const std::vector<Vec3>& positions, const std::vector<uint32_t>& indices,
+void compute_normals(std::span<const Vec3> positions, std::span<const uint32_t> indices,
                      std::vector<Vec3>& normals);
 
 }  // namespace vfit

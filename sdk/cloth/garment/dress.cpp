@@ -5,6 +5,7 @@
 #include <set>
 
 #include "cloth/garment/carried.h"
+#include "cloth/garment/hems.h"
 #include "core/error.h"
 #include "measure/mesh_query.h"
 
@@ -210,6 +211,7 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
     // what they were cut to.
     Table shifts(n, 3), weights(n, bones);
     std::vector<float> skin_distances(n);
+    std::vector<BodyPart> part_below(n, BodyPart::kTorso);
     {
         const MeshQuery authored(body.authored, triangles);
         std::optional<MeshQuery> authored_arms;
@@ -219,6 +221,7 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
             const MeshQuery::Closest closest = (arm ? *authored_arms : authored).closest(garment.mesh.positions[i]);
             skin_distances[i] = closest.distance;
             const Binding binding = binding_of(closest, arm ? with_arms : triangles);
+            if (!body.parts.empty()) part_below[i] = body.parts[binding.corner[0]];
             const Vec3 shift = binding.on(body.rest) - binding.on(body.authored);
             for (int k = 0; k < 3; ++k) shifts.row(i)[size_t(k)] = shift[k];
             add_bone_weights(body, binding, weights.row(i));
@@ -246,9 +249,13 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
         carried.add(ball.center, bone_weights);
         backstops_.push_back({i, ball.radius_m});
     }
+    if (!garment.flat.empty()) hems_ = limb_hems(indices_, part_below);
+    std::vector<uint8_t> of_hem(n, 0);
+    for (const auto& hem : hems_)
+        for (const uint32_t v : hem) of_hem[v] = 1;
     Carried followed;
     for (uint32_t i = 0; i < carried.rest.size(); ++i) {
-        const bool limited = i < n && !garment.most_way.empty() && garment.most_way[i] > 0.0f;
+        const bool limited = i < n && ((!garment.most_way.empty() && garment.most_way[i] > 0.0f) || of_hem[i]);
         if (i < n && garment.simulated[i] && !limited) continue;
         followed.add(carried.rest[i], carried.bones[i], carried.weights[i]);
         followed_.push_back(i);
@@ -280,6 +287,7 @@ std::shared_ptr<const Fabric> Dress::fabric_of(const Garment& garment, const Fab
     data.backstops = backstops_;
     for (uint32_t i = 0; i < garment.vertex_count(); ++i)
         if (!garment.most_way.empty() && garment.most_way[i] > 0.0f && garment.simulated[i]) data.limits.push_back({i, garment.most_way[i]});
+    keep_hems(hems_, rest_, data);
     return std::make_shared<const Fabric>(std::move(data));
 }
 

@@ -62,6 +62,7 @@ private:
     std::vector<Vec3> rest_;
     std::vector<uint32_t> indices_;
     std::vector<Backstop> backstops_;
+    std::vector<std::vector<uint32_t>> hems_;  // of sleeves and legs
     std::optional<Carry> carry_;
     std::optional<Skin> skin_;  // of rest_, then the backstops' centres
     std::vector<uint32_t> followed_;  // of these
