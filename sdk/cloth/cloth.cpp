@@ -235,8 +235,8 @@ void Cloth::put_on(const BodyOnItsWay& body, Jobs& jobs) {
 
 void Cloth::come_to_lengths(std::span<const Vec3> skinned_targets, std::span<const Collider> colliders, Jobs& jobs) {
     // Short steps, so that what the cloth meets is looked for often while it slides along the body.
-    constexpr int kSteps = 24, kSubsteps = 3;
-    constexpr float kStep_s = 1.0f / 160.0f, kStopped = 1.0f;
+    constexpr int kSteps = 12, kSubsteps = 4;
+    constexpr float kStep_s = 1.0f / 120.0f, kStopped = 1.0f;
     State& s = *state_;
     s.check_body(skinned_targets, colliders);
     for (int i = 0; i < kSteps; ++i) {

@@ -24,9 +24,6 @@ bool shares(const Bond& x, const Bond& y) {
 bool shares(const Batch& x, const Bond& j) {
     return std::any_of(x.begin(), x.end(), [&](const Bond& o) { return shares(o, j); });
 }
-bool shares(const Batch& x, const Batch& y) {
-    return std::any_of(y.begin(), y.end(), [&](const Bond& j) { return shares(x, j); });
-}
 
 std::vector<Batch> fill(const std::vector<Bond>& bonds) {
     std::vector<Batch> done;
@@ -55,17 +52,24 @@ std::vector<Batch> spread(std::vector<Batch> batches) {
     constexpr size_t kAhead = 64;  // how far it looks
     std::vector<Batch> out;
     out.reserve(batches.size());
+    uint32_t particles = 0;
+    for (const Batch& b : batches)
+        for (const Bond& bond : b)
+            for (const uint32_t p : bond.particles) particles = std::max(particles, p + 1);
+    std::vector<size_t> last(particles, 0);  // batch that has the particle, counted from 1; 0: none yet
     std::deque<Batch> waiting;
     size_t next = 0;
     while (next < batches.size() || !waiting.empty()) {
         while (next < batches.size() && waiting.size() < kAhead) waiting.push_back(std::move(batches[next++]));
         const auto apart = std::find_if(waiting.begin(), waiting.end(), [&](const Batch& b) {
-            for (size_t k = 1; k <= std::min(kApart, out.size()); ++k)
-                if (shares(out[out.size() - k], b)) return false;
-            return true;
+            return std::all_of(b.begin(), b.end(), [&](const Bond& bond) {
+                return std::all_of(bond.particles.begin(), bond.particles.end(), [&](uint32_t p) { return last[p] == 0 || last[p] + kApart <= out.size(); });
+            });
         });
         const auto chosen = apart == waiting.end() ? waiting.begin() : apart;
         out.push_back(std::move(*chosen));
+        for (const Bond& bond : out.back())
+            for (const uint32_t p : bond.particles) last[p] = out.size();
         waiting.erase(chosen);
     }
     return out;
