@@ -158,7 +158,10 @@ struct ClothObject : ContextChild {
         output.topology().set_indices(garment->garment.drawn_indices(), context->axes);
         output.topology().set_uvs(garment->garment.mesh.uvs, context->axes);
         if (skin) skin_mesh = cloth.add_mesh(skin->skin.vertex_count(), skin->indices);
-        if (own_lengths) come_to_lengths();
+        if (own_lengths) {
+            start_with_legs_apart();
+            come_to_lengths(true);
+        }
         publish(output.begin());
         later.task = [](void* self, uint32_t) { static_cast<ClothObject*>(self)->step(); };
         later.data = this;
@@ -268,14 +271,23 @@ struct ClothObject : ContextChild {
         if (step_dt > 0.0f) keep_pose();  // else the cloth stays where the step before left it
         dt = step_dt;
     }
-    /// In the pose that the avatar has; meshes and targets are as the constructor or the last step left them.
-    void come_to_lengths() {
-        avatar->avatar.colliders(colliders);
-        limbs_of(avatar->avatar.skinning_matrices(), colliders);
-        move_skin(avatar->avatar.skinning_matrices());
+    void start_with_legs_apart() {
+        std::vector<Mat4> matrices(avatar->avatar.skinning_matrices().size());
+        avatar->avatar.while_closing_legs(0.0f, matrices, colliders);
+        dress.place(matrices, targets, scratch, *context->jobs);
+        cloth.reset(targets);
+    }
+    /// From how it was carried, or from another size, in the pose that the avatar has. A cloth that is new starts around legs that
+    /// stand apart.
+    void come_to_lengths(bool is_new) {
         move_inner();
-        dress.follow(avatar->avatar.skinning_matrices(), targets, scratch, *context->jobs);
-        cloth.come_to_lengths(targets, colliders, *context->jobs);
+        std::vector<Mat4> matrices(avatar->avatar.skinning_matrices().size());
+        cloth.come_to_lengths([&](float share, std::vector<Vec3>& places, std::vector<Collider>& limbs) {
+            avatar->avatar.while_closing_legs(is_new ? share : 1.0f, matrices, limbs);
+            limbs_of(matrices, limbs);
+            move_skin(matrices);
+            dress.place(matrices, places, scratch, *context->jobs);
+        }, *context->jobs);
     }
     /// On a body that stands straight and then goes into the avatar's pose.
     void put_on() {
@@ -364,7 +376,7 @@ struct ClothObject : ContextChild {
         cloth = cloth.with_fabric(dress.fabric_of(garment->garment, garment->material, size.ratio, size.own));
         cut = std::move(new_cut);
         const auto reading = read_avatar();
-        come_to_lengths();
+        come_to_lengths(false);
         size_label = label_text ? label_text : "";
     }
     /// The cloth as its last step left it, with the pose taken out.

@@ -103,6 +103,10 @@ public:
     /// standing straight, arms held out (0), to the pose (1). The hips are where the pose has them.
     void while_dressing(float share, std::span<Mat4> matrices, std::vector<Collider>& out) const;
 
+    /// The same of a body in the pose, but for its legs: those are that share of the way from where they stand at rest, apart (0), to
+    /// the pose (1). A garment that is carried along with the bones has its legs beside each other there, and not in each other.
+    void while_closing_legs(float share, std::span<Mat4> matrices, std::vector<Collider>& out) const;
+
     /// The body in a measuring posture: geometric vertices (as topology().indices has them) without normals,
     /// facing +Z, soles on y = 0; and its joints where asked for.
     Mesh measuring_mesh(const MeasuringPosture& posture = {}, Body* joints = nullptr) const;

@@ -233,15 +233,20 @@ void Cloth::put_on(const BodyOnItsWay& body, Jobs& jobs) {
     s.wake();
 }
 
-void Cloth::come_to_lengths(std::span<const Vec3> skinned_targets, std::span<const Collider> colliders, Jobs& jobs) {
-    // Short steps, so that what the cloth meets is looked for often while it slides along the body.
-    constexpr int kSteps = 12, kSubsteps = 4;
-    constexpr float kStep_s = 1.0f / 120.0f, kStopped = 1.0f;
+void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
+    // The shorter a step, the softer is all that gives way in it (XPBD): at first cloth moves by a millimetre or so between two looks
+    // at what it may meet, itself included.
+    constexpr int kSteps = 14, kSubsteps = 4;
+    constexpr float kShortest_s = 1.5e-4f, kLongest_s = 1.0f / 120.0f, kStopped = 1.0f;
     State& s = *state_;
-    s.check_body(skinned_targets, colliders);
+    std::vector<Vec3> targets;
+    std::vector<Collider> colliders;
     for (int i = 0; i < kSteps; ++i) {
+        body(float(i) / float(kSteps - 1), targets, colliders);
+        s.check_body(targets, colliders);
         s.accept_body(colliders);
-        s.advance(kStep_s, kSubsteps, kStopped, skinned_targets, jobs);
+        const float dt = kShortest_s * std::pow(kLongest_s / kShortest_s, float(i) / float(kSteps - 1));
+        s.advance(dt, kSubsteps, kStopped, targets, jobs);
     }
     s.solver.rest();
     s.wake();

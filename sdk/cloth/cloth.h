@@ -67,9 +67,9 @@ public:
     /// settings.
     void put_on(const BodyOnItsWay& body, Jobs& jobs);
 
-    /// From a shape that was stretched over the body to the cloth's own lengths, on a body that stands still, without the speed that
-    /// giving way at once would leave. Meshes have been moved to where they are. Ends at rest.
-    void come_to_lengths(std::span<const Vec3> skinned_targets, std::span<const Collider> colliders, Jobs& jobs);
+    /// From a shape that was stretched over the body at share 0 to the cloth's own lengths on the body at share 1, without the speed
+    /// that giving way at once would leave. Ends at rest.
+    void come_to_lengths(const BodyOnItsWay& body, Jobs& jobs);
 
     /// Advances by dt. skinned_targets: the fabric's target_count(), where the skinned garment and the backstops
     /// are at the END of the step; a free vertex ignores its own. colliders: at the end of the step, in the same

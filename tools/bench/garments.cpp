@@ -208,7 +208,7 @@ public:
             if (rows.back().size() == 8) rows.emplace_back();
             rows.back().push_back(std::move(item));
         }
-        contact_sheet("on the " + body_name + "; what crosses is black", rows, kStyle.width).write_png(options_.pictures + file);
+        contact_sheet("on the " + body_name + "; black: crosses the skin, blue: itself", rows, kStyle.width).write_png(options_.pictures + file);
         pictures_.clear();
     }
 
@@ -259,6 +259,10 @@ private:
         garment.vertex_colors.assign(garment.positions.size(), garment.color);
         for (const auto& [triangle, other] : crossed_triangles({garment.positions, garment.indices}, {skin.positions, skin.indices}))
             for (size_t k = 0; k < 3; ++k) garment.vertex_colors[garment.indices[3 * triangle + k]] = {0.0f, 0.0f, 0.0f};
+        const Welded welded = mesh_of(cloth);
+        for (const auto& [a, b] : crossed_triangles(welded.positions, welded.indices))  // the triangles are in the same order
+            for (const uint32_t t : {a, b})
+                for (size_t k = 0; k < 3; ++k) garment.vertex_colors[garment.indices[3 * t + k]] = {0.1f, 0.2f, 0.9f};
         const std::string caption = row["garment"].get<std::string>() + " " + row["size"].get<std::string>();
         for (const float yaw : {0.35f, 3.5f}) pictures_.push_back({draw_dressed(meshes, centre_of(meshes[0]), yaw, kStyle), caption});
     }

@@ -19,7 +19,7 @@ std::vector<uint8_t> below_garment(const DressBody& body, std::span<const Vec3> 
         const bool level = y > low - kBelow_m && y < high + kAbove_m;
         if (body.parts.empty()) return level;
         const BodyPart part = body.parts[v];
-        if (part == BodyPart::kHead || (!with_hands && is_hand(part))) return false;
+        if (!with_hands && is_hand(part)) return false;
         return level || is_arm(part);
     };
     std::vector<uint8_t> below(body.rest.size());

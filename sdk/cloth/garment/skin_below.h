@@ -10,8 +10,8 @@
 
 namespace vfit {
 
-/// One a body vertex, 1: from a hand above the garment's upper edge to a foot's length below its hem, and the arms; without the
-/// head, and without forearms and hands where those are to pass through.
+/// One a body vertex, 1: from a hand above the garment's upper edge to a foot's length below its hem, and the arms; without
+/// forearms and hands where those are to pass through.
 std::vector<uint8_t> below_garment(const DressBody& body, std::span<const Vec3> garment, bool with_hands);
 
 /// Of the skin, what is below the garment.
