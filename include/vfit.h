@@ -805,7 +805,7 @@ typedef struct vfit_fit_zone {
     float ease_m;                       /* garment less body                                         */
     float strain;                       /* of that cloth along the girth, as it is worn               */
     float pressure_pa;                  /* mean about the girth; with VFIT_CLOTH_PRESSURE              */
-    float opening_m;                    /* part of garment_m that is an open front; 0: closed         */
+    float opening_m;                    /* across an open front, beside garment_m; 0: closed          */
     char key[48];                       /* "chest_girth_m", "waist_girth_m", "hip_girth_m"            */
 } vfit_fit_zone;
 VFIT_STRUCT(vfit_fit_zone)

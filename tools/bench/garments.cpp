@@ -7,6 +7,7 @@
 #include <map>
 
 #include "bench/bench.h"
+#include "bench/garment_ease.h"
 #include "bench/targets.h"
 #include "client/assets.h"
 #include "client/output.h"
@@ -41,17 +42,19 @@ const BodyKind kBodies[] = {
     {"small woman", VFIT_SEX_FEMALE, {{"height", 0.28f}, {"weight", 0.35f}}},
 };
 
-/// Standing, the arms at 45 degrees.
+/// Standing, the arms at 45 degrees, the legs a little apart.
 void stand(vfit_avatar avatar) {
+    const std::map<vfit_bone_id, float> turned_rad{{VFIT_BONE_HIPS, 0.0f}, {VFIT_BONE_LEFT_UPPER_ARM, -0.785f}, {VFIT_BONE_RIGHT_UPPER_ARM, 0.785f}, {VFIT_BONE_LEFT_UPPER_LEG, 0.1f}, {VFIT_BONE_RIGHT_UPPER_LEG, -0.1f}};
     vfit_pose pose = vfit_pose_init();
     std::vector<vfit_bone> bones;
     for (const vfit_rig_bone& rig : rig_of(avatar)) {
-        if (rig.bone != VFIT_BONE_HIPS && rig.bone != VFIT_BONE_LEFT_UPPER_ARM && rig.bone != VFIT_BONE_RIGHT_UPPER_ARM) continue;
+        const auto turn = turned_rad.find(rig.bone);
+        if (turn == turned_rad.end()) continue;
         vfit_bone bone{};
         bone.struct_size = sizeof bone;
         bone.bone = rig.bone;
         std::copy(rig.rest_position, rig.rest_position + 3, bone.position);
-        const float half = 0.5f * 0.785398f * (rig.bone == VFIT_BONE_LEFT_UPPER_ARM ? -1.0f : rig.bone == VFIT_BONE_HIPS ? 0.0f : 1.0f);
+        const float half = 0.5f * turn->second;
         bone.rotation[2] = std::sin(half), bone.rotation[3] = std::cos(half);
         bones.push_back(bone);
     }
@@ -238,7 +241,7 @@ private:
 
     void say(const Json& row) const {
         if (options_.json) return;
-        std::cout << std::left << std::setw(18) << row["garment"].get<std::string>() << std::setw(15) << row["body"].get<std::string>() << std::setw(5) << row["size"].get<std::string>() << std::right;
+        std::cout << std::left << std::setw(18) << row["garment"].get<std::string>() << std::setw(15) << row["body"].get<std::string>() << std::setw(5) << (row["size"].get<std::string>().empty() ? "made" : row["size"].get<std::string>()) << std::right;
         if (row.contains("not_wearable")) {
             std::cout << "  " << row["not_wearable"].get<std::string>() << std::endl;
             return;
@@ -263,7 +266,7 @@ private:
         for (const auto& [a, b] : crossed_triangles(welded.positions, welded.indices))  // the triangles are in the same order
             for (const uint32_t t : {a, b})
                 for (size_t k = 0; k < 3; ++k) garment.vertex_colors[garment.indices[3 * t + k]] = {0.1f, 0.2f, 0.9f};
-        const std::string caption = row["garment"].get<std::string>() + " " + row["size"].get<std::string>();
+        const std::string caption = row["garment"].get<std::string>() + " " + (row["size"].get<std::string>().empty() ? "made to measure" : row["size"].get<std::string>());
         for (const float yaw : {0.35f, 3.5f}) pictures_.push_back({draw_dressed(meshes, centre_of(meshes[0]), yaw, kStyle), caption});
     }
 
@@ -314,10 +317,11 @@ void judge_garments(const Options& options) {
             const Garment garment = open_garment(context.get(), file);
             const std::string name = std::filesystem::path(file).stem().string();
             std::vector<std::string> labels = labels_of(garment.get());
-            if (!options.size.empty()) labels = {options.size};
             if (options.quick && labels.size() > 1) labels = {labels[labels.size() / 2 - 1]};
+            labels.emplace_back();  // made to measure
+            if (!options.size.empty()) labels = {options.size};
             for (Json& row : judge.wear(avatar.get(), kind.name, skin, garment.get(), name, labels)) rows.push_back(std::move(row));
-            if (kind.shape.empty() && labels.size() > 1) judge.change_sizes(avatar.get(), garment.get(), labels);
+            if (kind.shape.empty() && labels.size() > 1) judge.change_sizes(avatar.get(), garment.get(), labels_of(garment.get()));
         }
         judge.write_sheet(kind.name);
     }
@@ -333,8 +337,9 @@ void judge_garments(const Options& options) {
         targets.judge("size changed, to the first frame, 95 %", tally.size_ms.quantile(0.95), Aim::at_most, 100.0, 0, " ms");
         targets.judge("moving after a second, a frame, 95 %", tally.moving_mm.quantile(0.95), Aim::at_most, 1.0, 2, " mm");
     }
+    const Json ease = judge_ease(context.get(), options.json, targets);
     if (options.json)
-        print_document({{"rows", rows}, {"targets", targets.json()}, {"worn", tally.worn}, {"not_wearable", tally.refused}, {"skin_crossings", tally.skin_crossings}, {"self_crossings", tally.self_crossings},
+        print_document({{"rows", rows}, {"ease", ease}, {"targets", targets.json()}, {"worn", tally.worn}, {"not_wearable", tally.refused}, {"skin_crossings", tally.skin_crossings}, {"self_crossings", tally.self_crossings},
                         {"dress_ms", tally.dress_ms.json()}, {"size_ms", tally.size_ms.json()}, {"step_ms", tally.step_ms.json()}, {"gap_mm", tally.gaps_mm.json()}});
 }
 

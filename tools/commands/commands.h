@@ -18,6 +18,7 @@ void add_record(Command& app);
 void add_cook(Command& app);
 void add_plot(Command& app);
 void add_character(Command& app);
+void add_wear(Command& app);
 
 /// "--joints", "--user-map" and "--active".
 void add_track_options(Command& command, TrackOptions& options);

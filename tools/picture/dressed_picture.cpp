@@ -18,6 +18,7 @@ struct Stop {
 };
 constexpr Color kFits{0.93f, 0.93f, 0.91f}, kLoose{0.20f, 0.42f, 0.80f}, kFirm{0.98f, 0.80f, 0.25f}, kTight{0.78f, 0.10f, 0.12f};
 constexpr Stop kStretch[] = {{-0.05f, kLoose}, {0.0f, kFits}, {0.04f, kFirm}, {0.1f, kTight}};
+constexpr Stop kFit[] = {{-1.0f, kLoose}, {-0.1f, kFits}, {0.15f, kFits}, {0.5f, kFirm}, {1.0f, kTight}};
 constexpr Stop kPressure_pa[] = {{0.0f, kFits}, {500.0f, kFirm}, {2000.0f, kTight}};
 
 Color color_at(std::span<const Stop> stops, float value) {
@@ -29,9 +30,15 @@ Color color_at(std::span<const Stop> stops, float value) {
     return stops.back().color;
 }
 
-std::vector<Color> colors_of(vfit_frame cloth, FitMap map) {
+std::vector<Color> colors_of(vfit_cloth garment, vfit_frame cloth, FitMap map) {
     std::vector<Color> colors;
     if (map == FitMap::none) return colors;
+    if (map == FitMap::fit) {
+        std::vector<float> values(view_of(cloth, VFIT_STREAM_POSITION).width);
+        check(vfit_cloth_fit_map(garment, values.data(), uint32_t(values.size())));
+        for (const float value : values) colors.push_back(color_at(kFit, value));
+        return colors;
+    }
     const bool stretch = map == FitMap::stretch;
     for (const float value : items_of<float>(cloth, stretch ? VFIT_STREAM_STRAIN : VFIT_STREAM_PRESSURE))
         colors.push_back(stretch ? color_at(kStretch, value) : color_at(kPressure_pa, value));
@@ -58,7 +65,7 @@ std::vector<RenderMesh> dressed_meshes(vfit_avatar avatar, vfit_cloth cloth, Fit
         check(vfit_cloth_acquire(cloth, cloth_frame.out()));
         meshes.push_back(mesh_of(cloth_frame.get(), kCloth));
         meshes[1].sheen = map == FitMap::none ? kClothSheen : 0.0f;
-        meshes[1].vertex_colors = colors_of(cloth_frame.get(), map);
+        meshes[1].vertex_colors = colors_of(cloth, cloth_frame.get(), map);
         meshes[0].indices = seen_triangles(avatar, cloth);
     }
     return meshes;

@@ -23,7 +23,7 @@ Cut cut_at(const WornGarment& g, const GirthLevel& level) {
     std::map<std::pair<uint32_t, uint32_t>, std::pair<int, Vec3>> crossed;  // edges: by how many triangles, and where
     for (size_t i = 0; i + 2 < g.indices.size(); i += 3) {
         const uint32_t* v = &g.indices[i];
-        if (!g.on_arm.empty() && g.on_arm[v[0]] && g.on_arm[v[1]] && g.on_arm[v[2]]) continue;
+        if (!g.on_arm.empty() && (g.on_arm[v[0]] || g.on_arm[v[1]] || g.on_arm[v[2]])) continue;  // of a sleeve
         Vec3 worn[2];
         Vec2 flat[2];
         int count = 0;
@@ -70,7 +70,7 @@ std::vector<GirthFit> fit_of(const WornGarment& garment, std::span<const GirthLe
         fit.key = level.key;
         fit.body_m = level.body_m;
         fit.opening_m = opening_of(cut);
-        fit.garment_m = cut.flat_m + fit.opening_m;
+        fit.garment_m = cut.flat_m;
         fit.ease_m = fit.garment_m - fit.body_m;
         fit.strain = cut.worn_m / cut.flat_m - 1.0f;
         if (!garment.pressure_pa.empty()) {

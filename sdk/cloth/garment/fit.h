@@ -36,7 +36,7 @@ struct GirthFit {
     float ease_m = 0.0f;       // garment less body
     float strain = 0.0f;       // of that cloth as it is worn, along the girth
     float pressure_pa = 0.0f;  // mean of what is within 2 cm of the level; 0: not known
-    float opening_m = 0.0f;    // a coat that is open there: across; part of garment_m. 0: it is closed
+    float opening_m = 0.0f;    // across the front of a coat that is open there, beside garment_m; 0: it is closed
 };
 
 /// Of those levels that the garment goes around. Sleeves are left out.

@@ -318,7 +318,7 @@ class FitZone(NamedTuple):
     ease_m: float
     strain: float
     pressure_pa: float
-    opening_m: float  #: part of garment_m that is an open front
+    opening_m: float  #: across an open front, beside garment_m
 
 
 class ClothStats(NamedTuple):

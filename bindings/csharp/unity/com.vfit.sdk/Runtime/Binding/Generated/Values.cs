@@ -1202,7 +1202,7 @@ namespace Vfit
         public float Strain;
         /// <summary>mean about the girth; with VFIT_CLOTH_PRESSURE</summary>
         public float PressurePa;
-        /// <summary>part of garment_m that is an open front; 0: closed</summary>
+        /// <summary>across an open front, beside garment_m; 0: closed</summary>
         public float OpeningM;
         internal fixed byte keyBytes[48];
         /// <summary>"chest_girth_m", "waist_girth_m", "hip_girth_m"</summary>

@@ -1,0 +1,12 @@
+// The ease that a worn garment tells of against what its pattern was drawn with.
+#pragma once
+
+#include "bench/targets.h"
+#include "client/client.h"
+
+namespace vfit::tools {
+
+/// Every design of the project in the size that is nearest to the default body, on that body.
+Json judge_ease(vfit_context context, bool quiet, Targets& targets);
+
+}  // namespace vfit::tools
