@@ -371,6 +371,17 @@ OFFSET(vfit_cloth_stats, substeps, 32);
 OFFSET(vfit_cloth_stats, collider_count, 36);
 SIZE(vfit_cloth_stats, 40);
 
+OFFSET(vfit_fit_zone, struct_size, 0);
+OFFSET(vfit_fit_zone, fit, 4);
+OFFSET(vfit_fit_zone, body_m, 8);
+OFFSET(vfit_fit_zone, garment_m, 12);
+OFFSET(vfit_fit_zone, ease_m, 16);
+OFFSET(vfit_fit_zone, strain, 20);
+OFFSET(vfit_fit_zone, pressure_pa, 24);
+OFFSET(vfit_fit_zone, opening_m, 28);
+OFFSET(vfit_fit_zone, key, 32);
+SIZE(vfit_fit_zone, 80);
+
 OFFSET(vfit_frame_layout, struct_size, 0);
 OFFSET(vfit_frame_layout, stream, 4);
 OFFSET(vfit_frame_layout, format, 8);

@@ -19,6 +19,7 @@ namespace {
 constexpr PortraitStyle kFine{420, 640, 3}, kDraft{280, 420, 1};
 constexpr float kFrame_s = 1.0f / 60.0f, kOwnLayers_m = 0.004f;
 constexpr int kFramesToRest = 90;
+constexpr size_t kLongestCaption = 36;  // characters that fit below a picture
 
 struct Options {
     std::string outfits, sizes, shape, sex = "f", out;
@@ -153,6 +154,7 @@ void wear(const Options& options) {
         for (const std::string& size : split(options.sizes, ',')) {
             Outfit outfit(context.get(), options, names, size);
             const std::string caption = names + (size.empty() ? ", made to measure" : ", " + size);
+            const std::string label = size.empty() ? "made to measure" : "size " + size;
             if (!outfit.refused().empty()) {
                 report.push_back({{"outfit", names}, {"size", size}, {"not_wearable", outfit.refused()}});
                 if (!options.json) std::cout << caption << ": " << outfit.refused() << "\n";
@@ -171,8 +173,8 @@ void wear(const Options& options) {
                     }
                     std::cout << "\n";
                 }
-            rows[0].push_back({outfit.draw(FitMap::none, 0.35f, style), caption});
-            rows[1].push_back({outfit.draw(FitMap::none, 3.5f, style), "from behind"});
+            rows[0].push_back({outfit.draw(FitMap::none, 0.35f, style), names.substr(0, kLongestCaption)});
+            rows[1].push_back({outfit.draw(FitMap::none, 3.5f, style), label});
             rows[2].push_back({outfit.draw(FitMap::fit, 0.35f, style), "fit: red tight, blue loose"});
             rows[3].push_back({outfit.draw(FitMap::fit, 3.5f, style), "from behind"});
         }

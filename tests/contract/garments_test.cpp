@@ -1,0 +1,196 @@
+// Garments with lengths of their own: sizes, how they sit, what cannot be worn, how they look.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <set>
+#include <string>
+
+#include "contract/support.h"
+
+namespace {
+
+constexpr float kGarmentStep_s = 1.0f / 60.0f;
+
+class GarmentsTest : public contract::ContextTest {
+protected:
+    vfit_avatar body(std::vector<std::pair<const char*, float>> shape = {}) {
+        vfit_avatar_desc desc = vfit_avatar_desc_init();
+        desc.sex = VFIT_SEX_FEMALE;
+        std::vector<vfit_shape_value> values;
+        for (const auto& [key, value] : shape) {
+            values.push_back(vfit_shape_value_init());
+            std::strcpy(values.back().key, key);
+            values.back().value = value;
+        }
+        vfit_avatar made{};
+        EXPECT_EQ(vfit_avatar_create_from_shape(context, &desc, values.data(), sizeof(vfit_shape_value), uint32_t(values.size()), &made), VFIT_OK) << contract::last_error();
+        return made;
+    }
+    vfit_garment open(const char* name) {
+        vfit_garment garment{};
+        EXPECT_EQ(vfit_garment_open(context, name, &garment), VFIT_OK) << contract::last_error();
+        return garment;
+    }
+    vfit_result put_on(vfit_avatar avatar, vfit_garment garment, const char* size, uint32_t flags, vfit_cloth& out) {
+        vfit_cloth_desc desc = vfit_cloth_desc_init();
+        desc.flags = VFIT_CLOTH_SKIN | flags;
+        desc.size_label = size;
+        return vfit_cloth_create(avatar, garment, &desc, &out);
+    }
+    vfit_cloth worn(vfit_avatar avatar, vfit_garment garment, const char* size, int steps = 45) {
+        vfit_cloth cloth{};
+        EXPECT_EQ(put_on(avatar, garment, size, VFIT_CLOTH_ANY_FIT, cloth), VFIT_OK) << contract::last_error();
+        for (int i = 0; i < steps; ++i) EXPECT_EQ(vfit_cloth_step(cloth, kGarmentStep_s), VFIT_OK) << contract::last_error();
+        return cloth;
+    }
+    static std::vector<vfit_fit_zone> fit_of(vfit_cloth cloth) {
+        uint32_t count = 0;
+        EXPECT_EQ(vfit_cloth_fit(cloth, nullptr, sizeof(vfit_fit_zone), &count), VFIT_OK) << contract::last_error();
+        std::vector<vfit_fit_zone> zones(count);
+        EXPECT_EQ(vfit_cloth_fit(cloth, zones.data(), sizeof(vfit_fit_zone), &count), VFIT_OK) << contract::last_error();
+        return zones;
+    }
+    static vfit_fit_zone zone(vfit_cloth cloth, const std::string& key) {
+        for (const vfit_fit_zone& z : fit_of(cloth))
+            if (key == z.key) return z;
+        ADD_FAILURE() << "there is no " << key;
+        return vfit_fit_zone_init();
+    }
+    static uint64_t hash(vfit_cloth cloth) {
+        uint64_t out = 0;
+        EXPECT_EQ(vfit_cloth_state_hash(cloth, &out), VFIT_OK);
+        return out;
+    }
+    static std::vector<std::array<float, 3>> positions(vfit_cloth cloth) {
+        vfit_frame frame{};
+        EXPECT_EQ(vfit_cloth_acquire(cloth, &frame), VFIT_OK);
+        vfit_view view = vfit_view_init();
+        EXPECT_EQ(vfit_frame_view(frame, VFIT_STREAM_POSITION, &view), VFIT_OK);
+        std::vector<std::array<float, 3>> out(view.width);
+        std::memcpy(out.data(), view.data, out.size() * sizeof out[0]);
+        vfit_frame_release(frame);
+        return out;
+    }
+};
+
+TEST_F(GarmentsTest, KeepTheirLengthsAndTellHowTheySit) {
+    const vfit_avatar avatar = body();
+    const vfit_garment dress = open("sundress_pattern");
+    const vfit_fit_zone xs = zone(worn(avatar, dress, "XS"), "chest_girth_m"), s = zone(worn(avatar, dress, "S"), "chest_girth_m"), xl = zone(worn(avatar, dress, "XL"), "chest_girth_m");
+    EXPECT_EQ(xs.fit, VFIT_FIT_TIGHT);  // the default woman's chest of 84 cm is an S by EN 13402-3
+    EXPECT_EQ(s.fit, VFIT_FIT_RIGHT);
+    EXPECT_EQ(xl.fit, VFIT_FIT_LOOSE);
+    // Drawn with 6 cm of ease over the size's own girth: 78, 86, 113 cm.
+    EXPECT_NEAR(xs.garment_m, 0.84f, 0.02f);
+    EXPECT_NEAR(s.garment_m, 0.92f, 0.02f);
+    EXPECT_NEAR(xl.garment_m, 1.19f, 0.02f);
+    for (const vfit_fit_zone& z : {xs, s, xl}) EXPECT_NEAR(z.ease_m, z.garment_m - z.body_m, 1e-5f);
+    EXPECT_GT(xs.strain, s.strain);
+}
+
+TEST_F(GarmentsTest, OneThatDoesNotCloseIsRefusedWithTheGirthAndTheFabric) {
+    const vfit_avatar heavy = body({{"weight", 1.15f}});
+    const vfit_garment jeans = open("jeans_women");
+    vfit_cloth cloth{};
+    EXPECT_EQ(put_on(heavy, jeans, "XS", 0, cloth), VFIT_ERROR_NOT_WEARABLE);
+    EXPECT_EQ(cloth.id, 0u);
+    const std::string why = contract::last_error();
+    for (const char* word : {"jeans_women", "XS", "hip_girth_m", "denim"}) EXPECT_NE(why.find(word), std::string::npos) << why;
+    EXPECT_EQ(put_on(heavy, jeans, "XS", VFIT_CLOTH_ANY_FIT, cloth), VFIT_OK) << contract::last_error();
+    EXPECT_EQ(put_on(heavy, jeans, "XL", 0, cloth), VFIT_OK) << contract::last_error();
+    const uint64_t before = hash(cloth);
+    EXPECT_EQ(vfit_cloth_set_size(cloth, "XS"), VFIT_ERROR_NOT_WEARABLE);
+    EXPECT_EQ(vfit_cloth_set_size(cloth, "XXXXL"), VFIT_ERROR_ARGUMENT);
+    EXPECT_NE(std::string(contract::last_error()).find("XS, S, M"), std::string::npos) << contract::last_error();
+    EXPECT_EQ(hash(cloth), before);
+}
+
+TEST_F(GarmentsTest, ChangeTheirSizeWhileTheyAreWorn) {
+    const vfit_avatar avatar = body();
+    const vfit_garment dress = open("sundress_pattern");
+    vfit_cloth cloth = worn(avatar, dress, "S");
+    const auto before = positions(cloth);
+    ASSERT_EQ(vfit_cloth_set_size(cloth, "XL"), VFIT_OK) << contract::last_error();
+    for (int i = 0; i < 45; ++i) ASSERT_EQ(vfit_cloth_step(cloth, kGarmentStep_s), VFIT_OK);
+    EXPECT_EQ(positions(cloth).size(), before.size());
+    EXPECT_NEAR(zone(cloth, "chest_girth_m").garment_m, zone(worn(avatar, dress, "XL"), "chest_girth_m").garment_m, 0.02f);
+    ASSERT_EQ(vfit_cloth_set_size(cloth, nullptr), VFIT_OK) << contract::last_error();
+    for (int i = 0; i < 45; ++i) ASSERT_EQ(vfit_cloth_step(cloth, kGarmentStep_s), VFIT_OK);
+    // Made to the avatar, who is the body that it was made on: as in the size that it was made in.
+    EXPECT_NEAR(zone(cloth, "chest_girth_m").garment_m, zone(worn(avatar, dress, "S"), "chest_girth_m").garment_m, 0.02f);
+    // The one without lengths of its own has its sizes too.
+    vfit_cloth other = worn(avatar, open("sundress"), nullptr, 1);
+    EXPECT_EQ(vfit_cloth_set_size(other, "L"), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_cloth_begin_step(other, kGarmentStep_s), VFIT_OK);
+    EXPECT_EQ(vfit_cloth_set_size(other, "M"), VFIT_ERROR_STATE);
+    EXPECT_EQ(vfit_cloth_end_step(other), VFIT_OK);
+}
+
+TEST_F(GarmentsTest, MadeToMeasureKeepsTheEaseItWasMadeWith) {
+    const vfit_garment dress = open("sundress_pattern");
+    const vfit_fit_zone own = zone(worn(body(), dress, nullptr), "chest_girth_m");
+    for (const vfit_avatar avatar : {body({{"weight", 1.0f}}), body({{"height", 0.7f}}), body({{"height", 0.35f}, {"weight", 0.4f}})}) {
+        const vfit_fit_zone z = zone(worn(avatar, dress, nullptr), "chest_girth_m");
+        EXPECT_NEAR(z.ease_m, own.ease_m, 0.02f) << "on a chest of " << z.body_m;
+        EXPECT_EQ(z.fit, VFIT_FIT_RIGHT) << "on a chest of " << z.body_m;
+    }
+}
+
+TEST_F(GarmentsTest, TheFitMapIsAboveZeroWhereItIsTight) {
+    const vfit_avatar avatar = body();
+    const vfit_garment dress = open("sundress_pattern");
+    double means[2];
+    int k = 0;
+    for (const char* size : {"XS", "XXL"}) {
+        vfit_cloth cloth = worn(avatar, dress, size);
+        std::vector<float> map(positions(cloth).size(), 7.0f);
+        EXPECT_EQ(vfit_cloth_fit_map(cloth, map.data(), uint32_t(map.size()) - 1), VFIT_ERROR_ARGUMENT);
+        EXPECT_EQ(vfit_cloth_fit_map(cloth, nullptr, uint32_t(map.size())), VFIT_ERROR_ARGUMENT);
+        ASSERT_EQ(vfit_cloth_fit_map(cloth, map.data(), uint32_t(map.size())), VFIT_OK) << contract::last_error();
+        double sum = 0.0;
+        for (const float value : map) {
+            ASSERT_GE(value, -1.0f);
+            ASSERT_LE(value, 1.0f);
+            sum += double(value);
+        }
+        means[k++] = sum / double(map.size());
+    }
+    EXPECT_GT(means[0], means[1] + 0.1);
+}
+
+TEST_F(GarmentsTest, SeamsHaveAVertexForEachPanelAtOnePlace) {
+    vfit_cloth cloth = worn(body(), open("vest"), "M", 1);
+    vfit_cloth_stats stats = vfit_cloth_stats_init();
+    ASSERT_EQ(vfit_cloth_describe(cloth, &stats), VFIT_OK);
+    const auto drawn = positions(cloth);
+    EXPECT_GT(drawn.size(), stats.vertex_count);
+    const std::set<std::array<float, 3>> places(drawn.begin(), drawn.end());
+    EXPECT_EQ(places.size(), stats.vertex_count);
+}
+
+TEST_F(GarmentsTest, TellTheirParts) {
+    for (const char* name : {"duster", "sundress"}) {
+        const vfit_garment garment = open(name);
+        uint32_t count = 0;
+        ASSERT_EQ(vfit_garment_parts(garment, nullptr, sizeof(vfit_garment_part), &count), VFIT_OK);
+        std::vector<vfit_garment_part> parts(count);
+        ASSERT_EQ(vfit_garment_parts(garment, parts.data(), sizeof(vfit_garment_part), &count), VFIT_OK);
+        ASSERT_GE(count, 1u);
+        uint32_t next = 0;
+        for (const vfit_garment_part& part : parts) {
+            EXPECT_EQ(part.first_index, next) << name;
+            next += part.index_count;
+            for (const float c : part.color) EXPECT_TRUE(c >= 0.0f && c <= 1.0f);
+        }
+        EXPECT_GT(next, 0u);
+    }
+}
+
+TEST_F(GarmentsTest, AreTheSameEachTime) {
+    const vfit_avatar avatar = body();
+    const vfit_garment vest = open("vest");
+    EXPECT_EQ(hash(worn(avatar, vest, "L", 5)), hash(worn(avatar, vest, "L", 5)));
+}
+
+}  // namespace

@@ -1,0 +1,157 @@
+// What the fit of garments is made of: girths of a cut mesh, verdicts, hems, skin as cloth meets it, crossings.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cloth/crossings.h"
+#include "cloth/garment/fit.h"
+#include "cloth/garment/hems.h"
+#include "cloth/garment/wrapped_skin.h"
+
+namespace vfit {
+namespace {
+
+/// A tube about the Y axis: `columns` around, rows from y = 0 up; in the flat, that much wider than it lies.
+struct Tube {
+    std::vector<Vec3> positions;
+    std::vector<uint32_t> indices;
+    std::vector<Vec2> cut;
+
+    Tube(float radius, float height, uint32_t columns, uint32_t rows, float wider, uint32_t open_columns = 0) {
+        const float step = 2.0f * kPi * radius / float(columns);
+        for (uint32_t r = 0; r <= rows; ++r)
+            for (uint32_t c = 0; c < columns; ++c) {
+                const float angle = 2.0f * kPi * float(c) / float(columns);
+                positions.emplace_back(radius * std::sin(angle), height * float(r) / float(rows), radius * std::cos(angle));
+            }
+        const auto flat = [&](uint32_t c, uint32_t r) { return Vec2(float(c) * step * wider, height * float(r) / float(rows)); };
+        for (uint32_t r = 0; r < rows; ++r)
+            for (uint32_t c = 0; c + open_columns < columns; ++c) {
+                const uint32_t a = r * columns + c, b = r * columns + (c + 1) % columns, d = a + columns, e = b + columns;
+                indices.insert(indices.end(), {a, b, e, a, e, d});
+                const Vec2 fa = flat(c, r), fb = flat(c + 1, r), fe = flat(c + 1, r + 1), fd = flat(c, r + 1);
+                cut.insert(cut.end(), {fa, fb, fe, fa, fe, fd});
+            }
+    }
+};
+
+TEST(FitParts, AGirthIsThatOfTheFlatCloth) {
+    const Tube tube(0.15f, 0.4f, 48, 10, 1.1f);
+    const GirthLevel level{"waist_girth_m", 0.22f, 0.8f, 0.0f};
+    const auto fits = fit_of({tube.positions, tube.indices, tube.cut, {}, {}}, std::span(&level, 1));
+    ASSERT_EQ(fits.size(), 1u);
+    const float around = 2.0f * 48.0f * 0.15f * std::sin(kPi / 48.0f);  // of the polygon
+    EXPECT_NEAR(fits[0].garment_m, 1.1f * 2.0f * kPi * 0.15f, 0.002f);
+    EXPECT_NEAR(fits[0].strain, around / fits[0].garment_m - 1.0f, 1e-3f);
+    EXPECT_NEAR(fits[0].ease_m, fits[0].garment_m - 0.8f, 1e-6f);
+    EXPECT_EQ(fits[0].opening_m, 0.0f);
+}
+
+TEST(FitParts, AnOpenFrontIsToldApart) {
+    const Tube tube(0.15f, 0.4f, 48, 10, 1.0f, 4);
+    const GirthLevel level{"waist_girth_m", 0.22f, 0.95f, 0.0f};
+    const auto fits = fit_of({tube.positions, tube.indices, tube.cut, {}, {}}, std::span(&level, 1));
+    ASSERT_EQ(fits.size(), 1u);
+    EXPECT_NEAR(fits[0].opening_m, 2.0f * 0.15f * std::sin(4.0f * kPi / 48.0f), 1e-3f);
+    EXPECT_NEAR(fits[0].garment_m, 2.0f * kPi * 0.15f * 44.0f / 48.0f, 0.003f);
+    EXPECT_EQ(needed_strain(fits, nullptr), 0.0f);  // what is open need not close
+}
+
+TEST(FitParts, ALevelThatTheGarmentDoesNotReachIsNone) {
+    const Tube tube(0.15f, 0.4f, 48, 10, 1.0f);
+    const GirthLevel level{"waist_girth_m", 0.6f, 0.8f, 0.0f};
+    EXPECT_TRUE(fit_of({tube.positions, tube.indices, tube.cut, {}, {}}, std::span(&level, 1)).empty());
+}
+
+TEST(FitParts, TheStrainThatIsNeededIsTheGirthsWorst) {
+    GirthFit waist, hip;
+    waist.body_m = 0.8f, waist.garment_m = 0.9f;
+    hip.body_m = 1.1f, hip.garment_m = 1.0f;
+    const std::vector<GirthFit> fits{waist, hip};
+    const GirthFit* at = nullptr;
+    EXPECT_NEAR(needed_strain(fits, &at), 0.1f, 1e-5f);
+    EXPECT_EQ(at, &fits[1]);
+}
+
+TEST(FitParts, VerdictsGoByTheGirthsOfTheSizes) {
+    Garment g;
+    for (const auto& [label, girth] : {std::pair("S", 0.86f), std::pair("M", 0.94f), std::pair("L", 1.04f)}) g.sizes.push_back({label, {{"chest_girth_m", girth}}, {}});
+    GirthFit fit;
+    fit.key = "chest_girth_m";
+    const auto verdict = [&](const char* label, float body) {
+        fit.body_m = body;
+        return judge_fit(g, label, fit);
+    };
+    EXPECT_EQ(verdict("M", 0.91f), Fit::right);
+    EXPECT_EQ(verdict("M", 0.985f), Fit::right);
+    EXPECT_EQ(verdict("M", 1.0f), Fit::tight);
+    EXPECT_EQ(verdict("M", 0.89f), Fit::loose);
+    EXPECT_EQ(verdict("L", 1.2f), Fit::tight);
+    // Of a garment that tells of no such girth: by stretch and ease.
+    fit.key = "hip_girth_m", fit.ease_m = 0.05f, fit.strain = 0.0f;
+    EXPECT_EQ(verdict("M", 1.0f), Fit::right);
+    fit.strain = 0.05f;
+    EXPECT_EQ(verdict("M", 1.0f), Fit::tight);
+    fit.strain = 0.0f, fit.ease_m = 0.2f;
+    EXPECT_EQ(verdict("M", 1.0f), Fit::loose);
+}
+
+TEST(FitParts, HemsAreTheBordersAtTheEndsOfLimbs) {
+    const Tube tube(0.05f, 0.4f, 12, 10, 1.0f);
+    std::vector<BodyPart> below(tube.positions.size(), BodyPart::kLeftUpperArm);
+    for (uint32_t v = 0; v < 24; ++v) below[v] = BodyPart::kLeftForearm;
+    const auto hems = limb_hems(tube.indices, below);
+    ASSERT_EQ(hems.size(), 1u);
+    EXPECT_EQ(hems[0].size(), 12u);
+    for (const uint32_t v : hems[0]) EXPECT_LT(v, 12u);
+}
+
+TEST(FitParts, HemsAreKeptWhereTheClothIsLongerThanTheLimb) {
+    const Tube tube(0.05f, 0.4f, 12, 10, 1.0f);
+    std::vector<uint8_t> simulated(tube.positions.size(), 1);
+    for (uint32_t v = 120; v < 132; ++v) simulated[v] = 0;  // it hangs on its upper border
+    const FabricMaterial material{0.2f, 1000.0f, 1000.0f, 50.0f, 2e-5f, 0.3f};
+    const std::vector<std::vector<uint32_t>> hems{{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}};
+    FabricData fabric = cook_fabric({tube.positions, tube.indices, {}, simulated, 1.0f, tube.cut}, material);
+    keep_hems(hems, tube.positions, fabric);
+    EXPECT_TRUE(fabric.limits.empty());  // as long as the limb
+    std::vector<Vec3> shorter = tube.positions;
+    for (Vec3& p : shorter) p.y *= 0.9f;
+    keep_hems(hems, shorter, fabric);
+    EXPECT_EQ(fabric.limits.size(), 12u);
+}
+
+TEST(FitParts, SkinIsRaisedAroundABumpAndNeverLowered) {
+    // A plate of 5 mm squares with a bump of one vertex, closed below.
+    constexpr uint32_t kSide = 21;
+    std::vector<Vec3> positions;
+    std::vector<uint32_t> indices;
+    for (const float y : {0.0f, -0.05f})
+        for (uint32_t r = 0; r < kSide; ++r)
+            for (uint32_t c = 0; c < kSide; ++c) positions.emplace_back(0.005f * float(c), y, 0.005f * float(r));
+    const uint32_t bump = kSide * (kSide / 2) + kSide / 2;
+    positions[bump].y = 0.01f;
+    for (uint32_t r = 0; r + 1 < kSide; ++r)
+        for (uint32_t c = 0; c + 1 < kSide; ++c) {
+            const uint32_t a = r * kSide + c, b = a + 1, d = a + kSide, e = d + 1, below = kSide * kSide;
+            indices.insert(indices.end(), {a, d, b, b, d, e, below + a, below + b, below + d, below + b, below + e, below + d});
+        }
+    const std::vector<Vec3> wrapped = wrapped_skin(positions, indices);
+    for (uint32_t v = 0; v < kSide * kSide; ++v) EXPECT_GE(wrapped[v].y, positions[v].y - 1e-6f) << v;
+    EXPECT_GT(wrapped[bump + 1].y, 0.002f);
+    EXPECT_LT(wrapped[bump + 8].y, 0.002f);  // 4 cm away it is as it was, but for rounding
+}
+
+TEST(FitParts, CrossingsAreFoundOnceAndNeighboursAreNone) {
+    const std::vector<Vec3> positions{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0.2f, -0.5f, 0.2f}, {0.3f, 0.5f, 0.2f}, {0.2f, 0.5f, 0.4f}, {1, 0, 1}};
+    const std::vector<uint32_t> crossed{0, 1, 2, 3, 4, 5}, beside{0, 1, 2, 1, 6, 2};
+    ASSERT_EQ(crossed_triangles(positions, crossed).size(), 1u);
+    EXPECT_TRUE(crossed_triangles(positions, beside).empty());
+    const std::vector<uint32_t> a{0, 1, 2}, b{3, 4, 5, 1, 6, 2};
+    const auto pairs = crossed_triangles({positions, a}, {positions, b});
+    ASSERT_EQ(pairs.size(), 1u);
+    EXPECT_EQ(pairs[0], std::pair(0u, 0u));
+}
+
+}  // namespace
+}  // namespace vfit
