@@ -17,10 +17,10 @@ constexpr float kFrame_s = 1.0f / 60.0f;
 constexpr float kSewn_m = 0.0001f;       // as good as one place
 constexpr float kClosed_m = 0.002f;      // the widest that a seam should be when its two sides become one
 // Of a stitch's spring: thread pulls panels along, and stretches them by a little only; at the end it is pulled tight.
-constexpr float kSewing_n_m = 400.0f, kClosing_n_m = 4000.0f;
+constexpr float kSewing_n_m = 400.0f, kClosing_n_m = 20000.0f;
 constexpr float kStage_m = 0.02f;        // by which the widest seams close in a stage
 constexpr uint32_t kFreeSubsteps = 16, kHeldSubsteps = 16;  // of 1/60 s: the more, the less it stretches by its own weight
-constexpr int kFramesAStage = 3, kFramesToClose = 120;
+constexpr int kFramesAStage = 3, kFramesToClose = 180;
 
 /// Corners of the triangles in flat cloth, one an index.
 std::vector<Vec2> cut_of(const std::vector<uint32_t>& panel_indices, const std::vector<Vec2>& flat) {
@@ -135,6 +135,8 @@ private:
         out.simulated.assign(places.size(), 1);
         for (uint32_t v = 0; v < places.size(); ++v)
             if (band[v] || (count == 0.0f && lies_on_shoulder(places[v]))) out.simulated[v] = 0;
+        if (placement.hangs_on == HangsOn::shoulders && std::count(out.simulated.begin(), out.simulated.end(), 0) == 0)
+            fail(VFIT_ERROR_DATA, "the garment slides off the shoulders of this body: no part of it lies on them when it has fallen");
         out.report.strain_p99 = fall(cook(places, out.simulated), places, {120, 0, 0.0f, kHeldSubsteps});
     }
 
