@@ -50,12 +50,14 @@ private:
     void find_nearest(const Particle* run, uint32_t* points, NearestOnFans& out) const;
     Place place_of(const NearestOnFans& nearest, size_t lane, uint32_t point) const;
     Vec3 outward_at(const Place& place) const;
+    bool is_at_border(const Place& place) const;
 
     size_t vertex_count_;
     std::vector<uint32_t> indices_;  // of vertices
     float greatest_way_ = 0.0f;
     // Its vertices that have triangles as points, in runs of kLanes that lie together.
     std::vector<uint32_t> vertex_of_;
+    std::vector<uint8_t> on_border_;  // of the open mesh: a hem, or where what does not count was left out
     TriangleFans fans_;
     Particles begin_, end_;                // of the step
     Particles places_;                     // as begin_; not finite: nobody, or too far to matter

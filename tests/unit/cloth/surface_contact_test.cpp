@@ -289,6 +289,25 @@ TEST(MeshContact, WhatDoesNotFitIsRefusedAndWhatIsNotFiniteIsLeftOut) {
     for (const Vec3& p : cloth.positions()) EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));
 }
 
+TEST(MeshContact, WhatHangsBelowAHemIsNotDrawnUpToIt) {
+    const auto jobs = Jobs::own(0);
+    Sheet curtain(21, 21, 0.02f);
+    curtain.pin_top();
+    // A curtain that is worn below, half as long, and 2 mm before the one that is to hang outside of it.
+    Sheet inner(11, 21, 0.02f);
+    for (Vec3& p : inner.positions) p += Vec3(0, -0.008f, 0.002f);
+    Cloth cloth(fabric(curtain.cook(cotton())), {}, curtain.positions);
+    const uint32_t mesh = cloth.add_mesh(inner.positions.size(), inner.indices);
+    for (int frame = 0; frame < 60; ++frame) {
+        cloth.move_mesh(mesh, inner.positions);
+        cloth.step(kFrame_s, curtain.positions, {}, *jobs);
+    }
+    for (uint32_t c = 2; c < 19; ++c) {
+        EXPECT_GT(cloth.positions()[curtain.at(5, c)].z, 0.002f) << "outside of it, where there is something to be outside of";
+        for (const uint32_t r : {11u, 12u}) EXPECT_NEAR(cloth.positions()[curtain.at(r, c)].y, curtain.positions[curtain.at(r, c)].y, 0.006f) << r;
+    }
+}
+
 /// Three sheets, one above the other, fall on a ball.
 struct ThreeLayers {
     FabricData data;
