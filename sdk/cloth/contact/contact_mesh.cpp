@@ -12,7 +12,6 @@ namespace vfit {
 namespace {
 
 constexpr float kFastest_m = 0.1f;  // further than that in a step, a mesh is not looked for
-constexpr float kBelow = 0.7f;      // cosine, about 45 degrees: from there on a place at a border is below the mesh and not beside it
 constexpr float kCornerReach = 0.6f;  // of an edge: so far off may the corner be by which a place of a triangle is found
 
 std::vector<uint32_t> counted(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts) {
@@ -229,9 +228,8 @@ void ContactMesh::find_planes(const Moving& moving, float dt, float thickness_m,
             const float distance = glm::length(off);
             const Vec3 outward = outward_at(place);
             const bool inside = glm::dot(off, outward) < 0.0f;
-            // What is more beyond a hem than below it is on neither side: a coat's sleeve is not to be drawn to the armhole of a
-            // dress.
-            if (inside && -glm::dot(off, outward) < kBelow * distance * glm::length(outward) && is_at_border(place)) continue;
+            // What hangs beyond a hem is on neither side of it: a coat's sleeve is not to be drawn to the armhole of a dress.
+            if (inside && is_at_border(place)) continue;
             if ((!inside && distance > reach) || !finite(on) || !finite(to)) continue;
             constexpr float kOnIt_m = 1e-5f;
             const Vec3 normal = distance > kOnIt_m ? (inside ? -off : off) / distance : outward / std::max(glm::length(outward), 1e-12f);

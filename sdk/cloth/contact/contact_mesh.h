@@ -23,10 +23,15 @@ public:
     /// Where its vertices are at the end of this step. `around`: the box in which it is looked for.
     void accept(std::span<const Vec3> positions, const Vec3& low, const Vec3& high);
     /// They were where they are now.
-    void jump() { begin_ = end_; }
+    void jump() {
+        if (!begin_.empty()) begin_ = end_;
+    }
+    /// They were nowhere before: the next step begins where it ends.
     void forget() { begin_.clear(); }
     void hide();
-    void arrive() { std::swap(begin_, end_); }
+    void arrive() {
+        if (!begin_.empty()) std::swap(begin_, end_);
+    }
     void carry(const RigidMotion& motion);
     float greatest_way() const { return greatest_way_; }
 

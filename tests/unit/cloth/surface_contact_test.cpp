@@ -289,6 +289,27 @@ TEST(MeshContact, WhatDoesNotFitIsRefusedAndWhatIsNotFiniteIsLeftOut) {
     for (const Vec3& p : cloth.positions()) EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));
 }
 
+TEST(MeshContact, AMeshThatWasHiddenDoesNotComeFromWhereItWas) {
+    const auto jobs = Jobs::own(0);
+    Sheet sheet(21, 21, 0.02f);
+    sheet.pin_top();
+    BallMesh ball({0.2f, -0.2f, 0.13f}, 0.1f);
+    for (const int hidden : {1, 2}) {
+        Cloth cloth(fabric(sheet.cook(cotton())), {}, sheet.positions);
+        const uint32_t mesh = cloth.add_mesh(ball.positions.size(), ball.indices);
+        const auto step = [&] { cloth.step(kFrame_s, sheet.positions, {}, *jobs); };
+        cloth.move_mesh(mesh, ball.positions);
+        step();
+        cloth.hide_mesh(mesh);
+        for (int i = 0; i < hidden; ++i) step();
+        ball.move({0, 0, -0.26f});  // behind the curtain, which it could not pass
+        cloth.move_mesh(mesh, ball.positions);
+        for (int i = 0; i < 10; ++i) step();
+        for (const Vec3& p : cloth.positions()) ASSERT_NEAR(p.z, 0.0f, 0.002f) << hidden;
+        ball.move({0, 0, 0.26f});
+    }
+}
+
 TEST(MeshContact, WhatHangsBelowAHemIsNotDrawnUpToIt) {
     const auto jobs = Jobs::own(0);
     Sheet curtain(21, 21, 0.02f);
