@@ -92,7 +92,9 @@ private:
 
     /// The paper's figure, and the skin that it stands for.
     void colliding_body() {
-        constexpr float kHeight_m = 1.85f;
+        constexpr float kHeight_m = 1.95f;
+        Quality wide = quality_;
+        wide.width = wide.height;  // arms held out
         std::vector<SheetItem> row;
         for (const vfit_sex sex : {VFIT_SEX_FEMALE, VFIT_SEX_MALE}) {
             const Avatar avatar = avatar_of_shape(context_.get(), sex, {}, quality_.detail);
@@ -104,10 +106,10 @@ private:
             skin.indices = items_of<uint32_t>(frame.get(), VFIT_STREAM_INDEX);
             skin.color = {0.86f, 0.67f, 0.56f};
             auto colliders = collider_meshes(colliders_of(avatar.get()));
-            row.push_back({portrait({skin}, kFront, kHeight_m, quality_), sex == VFIT_SEX_FEMALE ? "default female body" : "default male body"});
+            row.push_back({portrait({skin}, kFront, kHeight_m, wide), sex == VFIT_SEX_FEMALE ? "default female body" : "default male body"});
             // The picture's middle is that of the first mesh: the skin, of which nothing is drawn.
             skin.indices.clear();
-            row.push_back({portrait({skin, colliders[0], colliders[1]}, kFront, kHeight_m, quality_), "15 spheres, 16 tapered capsules"});
+            row.push_back({portrait({skin, colliders[0], colliders[1]}, kFront, kHeight_m, wide), "15 spheres, 16 tapered capsules"});
         }
         write("2", "the colliding body with its default radii", {row});
     }
@@ -127,8 +129,8 @@ private:
         Avatar avatar;
         check(vfit_avatar_create_from_scan(context_.get(), &desc, run.scan.get(), avatar.out()));
         Worn worn(context_.get(), avatar.get(), {options_.garment, VFIT_SEX_FEMALE, {options_.garment}});
-        // The demonstration's own: arms held out, swinging, turned, in a step, arms up. Of a shorter source what there is.
-        const float moments_s[kMoments] = {1.0f, 7.0f, 11.0f, 16.5f, 24.0f};
+        // The demonstration's own: arms held out, turned to both sides, in a step, arms up. Of a shorter source what there is.
+        const float moments_s[kMoments] = {1.0f, 11.0f, 13.0f, 17.5f, 24.0f};
         Rows rows(2);
         float cloth_s = 0.0f;
         take_postures(context_.get(), avatar.get(), options_.source, scan_options.track, [&](vfit_frame tracked, float time_s) {
@@ -141,11 +143,11 @@ private:
             Canvas depth = draw_depth(tracked, scale);
             draw_skeleton(depth, tracked, joints_of(tracked, active_body(tracked)), scale);
             rows[0].push_back({cropped(depth), caption.str()});
-            rows[1].push_back(picture(worn, kFront, 2.05f, options_.garment));
+            rows[1].push_back(picture(worn, 0.0f, 2.05f, options_.garment));
             return rows[0].size() < kMoments && !(options_.draft && rows[0].size() == 2);
         });
         report_["fig_12"] = worn.report();
-        write("12", "depth map and joints, and the dressed avatar in that posture (" + made_of(options_.source) + ")", rows);
+        write("12", "depth map with joints, and the dressed avatar (" + made_of(options_.source) + ")", rows);
     }
 
     static std::string made_of(const std::string& source) { return source.starts_with("virtual:") ? "a virtual person: synthetic" : source; }
@@ -157,6 +159,11 @@ private:
         for (int y = 0; y < from.height(); ++y)
             for (int x = 0; x < width; ++x) out.set(x, y, from.get(left + x, y));
         return out;
+    }
+
+    /// The default body in motion, as the truth tells it: of its depth images nothing is needed.
+    static std::string person(const std::string& motion, vfit_sex sex) {
+        return "virtual:sensor=kinect_v1_320&noise=0&distance=3.2&motion=" + motion + "&sex=" + (sex == VFIT_SEX_FEMALE ? "f" : "m");
     }
 
     void postures() {
@@ -174,8 +181,8 @@ private:
             rows.emplace_back();
             for (const Posture& p : kPostures) {
                 if (options_.draft && rows.back().size() == 2) break;
-                pose(avatar.get(), worn, std::string("virtual:sensor=kinect_v1_320&noise=0&distance=3.2&motion=") + p.motion + (clothes.sex == VFIT_SEX_FEMALE ? "&sex=f" : "&sex=m"), p.at_s);
-                rows.back().push_back(picture(worn, kFront, 2.05f, std::string(name) + ": " + p.name));
+                pose(avatar.get(), worn, person(p.motion, clothes.sex), p.at_s);
+                rows.back().push_back(picture(worn, kFront, clothes.sex == VFIT_SEX_FEMALE ? 2.05f : 2.25f, std::string(name) + ": " + p.name));
                 report_["fig_13"][name][p.name] = worn.report();
             }
         }
@@ -206,7 +213,7 @@ private:
         Rows rows;
         for (const vfit_sex sex : {VFIT_SEX_FEMALE, VFIT_SEX_MALE}) {
             const Avatar avatar = avatar_of_shape(context_.get(), sex, {}, quality_.detail);
-            const std::string source = std::string("virtual:sensor=kinect_v1_320&noise=0&motion=scan&sex=") + (sex == VFIT_SEX_FEMALE ? "f" : "m");
+            const std::string source = person("scan", sex);
             rows.emplace_back();
             for (const Outfit& clothes : outfits())
                 if (clothes.sex == sex) dress("fig_14", sex == VFIT_SEX_FEMALE ? "female" : "male", avatar.get(), clothes, source, 1.9f, rows.back());

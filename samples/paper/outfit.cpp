@@ -10,6 +10,8 @@ namespace vfit::tools {
 namespace {
 
 constexpr float kFrame_s = 1.0f / 60.0f;
+constexpr float kBetweenLayers_m = 0.006f;  // of a fold: more than a quarter of an edge of 20 mm, as docs/cloth.md asks for
+constexpr float kSlides_m = 0.08f;  // a sleeve along an arm that is raised: so far from its hem skin stays
 constexpr Color kSkin{0.86f, 0.67f, 0.56f}, kPlain{0.80f, 0.27f, 0.30f};  // of a garment that has no colour of its own
 constexpr float kSheen = 0.35f;
 constexpr float kTopShare = 0.02f;  // of a garment's vertices: its upper edge
@@ -57,12 +59,13 @@ Worn::Worn(vfit_context context, vfit_avatar avatar, const Outfit& outfit) : ava
     const auto skin = items_of<uint32_t>(rest.get(), VFIT_STREAM_INDEX);
     std::vector<uint8_t> hidden(skin.size() / 3);
     vfit_cloth_desc desc = vfit_cloth_desc_init();
-    desc.flags = VFIT_CLOTH_SKIN | VFIT_CLOTH_NO_HANDS;
+    desc.flags = VFIT_CLOTH_SKIN;  // hands too: a sleeve needs a forearm in it
+    desc.self_thickness_m = kBetweenLayers_m;
     for (const std::string& name : outfit.garments) {
         Piece piece{name, open_garment(context, name), {}};
         check(vfit_cloth_create(avatar, piece.garment.get(), &desc, piece.cloth.out()));
         for (const Piece& inner : pieces_) check(vfit_cloth_wear_over(piece.cloth.get(), inner.cloth.get()));
-        check(vfit_cloth_hide_skin(piece.cloth.get(), 0.0f, hidden.data(), uint32_t(hidden.size())));
+        check(vfit_cloth_hide_skin(piece.cloth.get(), kSlides_m, hidden.data(), uint32_t(hidden.size())));
         pieces_.push_back(std::move(piece));
     }
     for (size_t t = 0; t < hidden.size(); ++t)

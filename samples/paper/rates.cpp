@@ -56,7 +56,7 @@ public:
 private:
     static room::Options options(const std::string& garment, vfit_sex sex) {
         room::Options o;
-        o.source = std::string("virtual:motion=demo&seed=7&sex=") + (sex == VFIT_SEX_MALE ? "m" : "f");
+        o.source = sex == VFIT_SEX_MALE ? "virtual:motion=demo&seed=7&sex=m" : "virtual:motion=demo&seed=7&sex=f";
         o.garments = {garment};
         o.sex = sex;
         return o;
