@@ -164,7 +164,7 @@ void rates(const RateOptions& o) {
     Json out = Json::array();
     for (const bool drawn : {true, false}) {
         if (drawn && o.only_undrawn) continue;
-        const auto drawing = drawn ? open_drawing(kWidth, kHeight) : nullptr;
+        auto drawing = drawn ? open_drawing(kWidth, kHeight) : nullptr;
         if (drawn && !drawing) {
             std::cerr << "not drawn: this build has no OpenGL\n";
             continue;
@@ -176,6 +176,11 @@ void rates(const RateOptions& o) {
         Json way = {{"drawn", drawn}, {"how", how.str()}};
         if (drawing) way["renderer"] = drawing->renderer(), way["software_renderer"] = drawing->is_software();
         for (const std::string& garment : garments) {
+            if (drawn && !runs.empty()) {
+                // A view keeps the meshes of its room. The old one ends first: its context is the thread's current one.
+                drawing.reset();
+                drawing = open_drawing(kWidth, kHeight);
+            }
             runs.push_back(run(o, garment, drawing.get()));
             way["garments"][garment] = runs.back().phases;
         }
