@@ -128,7 +128,7 @@ Run run(const RateOptions& o, const std::string& garment, Drawing* drawing) {
 
 /// Frames a second above, milliseconds of one below.
 void plot(const std::vector<Run>& runs, const std::string& how, float phase_s, const std::string& path) {
-    constexpr int kPlotWidth = 1100, kPlotHeight = 420;
+    constexpr int kPlotWidth = 1300, kPlotHeight = 420;
     Canvas out(kPlotWidth, 2 * kPlotHeight, {1, 1, 1});
     for (const bool is_ms : {false, true}) {
         Curve curve;
