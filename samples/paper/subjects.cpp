@@ -41,7 +41,7 @@ std::vector<Subject> subjects(const std::shared_ptr<const BodyModel>& body) {
             if (p.sex != sex) continue;
             std::vector<float> shape = body->default_shape(sex);
             shape[size_t(body->parameter("weight"))] = p.weight;
-            Subject subject{p.number, sex, p.shoulder, p.height, "", {}};
+            Subject subject{p.number, sex, p.shoulder, p.height, "", {}, {}};
             subject.measures = solver.solve({{"stature_m", 0.01 * p.height.real, 0.001}, {"shoulder_breadth_m", 0.01 * p.shoulder.real, 0.002}},
                                             kNavelShare, shape);
             std::ostringstream uri;
@@ -50,8 +50,15 @@ std::vector<Subject> subjects(const std::shared_ptr<const BodyModel>& body) {
             uri << "virtual:motion=scan&sensor=kinect_v1&seed=" << p.number << "&sex=" << (sex == VFIT_SEX_FEMALE ? "f" : "m")
                 << "&distance=" << (p.height.real > 190.0 ? kTall_m : kUsual_m);
             const std::vector<float> usual = body->default_shape(sex);
-            for (size_t i = 0; i < shape.size(); ++i)
-                if (shape[i] != usual[i]) uri << "&" << body->parameters()[i].key << "=" << shape[i];
+            for (size_t i = 0; i < shape.size(); ++i) {
+                if (shape[i] == usual[i]) continue;
+                const std::string& key = body->parameters()[i].key;
+                uri << "&" << key << "=" << shape[i];
+                vfit_shape_value value = vfit_shape_value_init();
+                value.value = shape[i];
+                key.copy(value.key, sizeof value.key - 1);
+                subject.shape.push_back(value);
+            }
             subject.uri = uri.str();
             out.push_back(std::move(subject));
         }

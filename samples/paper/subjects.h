@@ -21,6 +21,7 @@ struct Subject {
     PrintedDimension shoulder, height;
     std::string uri;        // of the virtual person, to which frames=N is added
     BodyMeasures measures;  // of its body
+    std::vector<vfit_shape_value> shape;  // what differs from the sex's default body
 };
 
 /// Bodies are solved for: some seconds.

@@ -554,6 +554,49 @@ class PaperSample(unittest.TestCase):
                 self.assertGreater(min(width, height), 200, name)
                 self.assertGreater(len(set(rgb)), 10, name)
 
+    def test_the_outfits_are_drawn_in_draft_and_none_is_torn(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = self.run_paper("garments", "--draft", "--out", folder, "--json")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            for number in (2, 12, 13, 14, 15):
+                width, height, rgb = picture(pathlib.Path(folder) / f"fig_{number}.png")
+                self.assertGreater(min(width, height), 200, number)
+                self.assertGreater(len(set(rgb)), 10, number)
+            report = json.loads(done.stdout)
+            outfits = {**report["fig_14"]["female"], **report["fig_14"]["male"]}
+            self.assertEqual(list(outfits), ["sundress", "duster", "jeans and vest", "flight suit", "pants and shirt", "martial suit"])
+            for person in (*report["fig_14"].values(), *report["fig_15"].values()):
+                for outfit, garments in person.items():
+                    for name, how in garments.items():
+                        self.assertLess(how["strain_p99"], 0.3, f"{name} of {outfit}")
+                        self.assertLess(how["sank_m"], 0.02, f"{name} of {outfit}: it slides down")
+
+    def test_the_frame_rate_is_told_by_phase(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = self.run_paper("rates", "--not-drawn", "--garment", "sundress", "--seconds", "0.6", "--out", folder, "--json")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            (way,) = json.loads(done.stdout)
+            phases = way["garments"]["sundress"]
+            self.assertEqual([p["phase"] for p in phases], ["static", "sensor on", "physics off", "sensor off"])
+            for p in phases:
+                self.assertGreater(p["frames"], 10, p["phase"])
+                self.assertLessEqual(p["frame_ms"]["median"], p["frame_ms"]["p95"], p["phase"])
+            self.assertEqual([p["cloth_steps"] > 0 for p in phases], [True, True, False, False])
+            for p in phases[:2]:
+                self.assertGreaterEqual(p["cloth_interval_ms"]["median"], 8.0, "the paper's pause between two steps")
+            width, height, rgb = picture(pathlib.Path(folder) / "fig_10_not_drawn.png")
+            self.assertGreater(len(set(rgb)), 10)
+
+    def test_table_5_counts_what_is_simulated(self):
+        done = self.run_paper("meshes", "--frames", "8", "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        meshes = json.loads(done.stdout)["meshes"]
+        self.assertEqual((meshes["sundress"]["skinned_vertices"], meshes["sundress"]["simulated_vertices"]), (1048, 3096), "as the paper's")
+        self.assertEqual(meshes["sundress, Meng's size"]["simulated_vertices"], 2400)
+        for name in ("duster", "sundress_pattern", "flight_suit", "pants_men", "shirt_men", "jeans_women", "vest", "martial_pants", "martial_jacket"):
+            self.assertGreater(meshes[name]["simulated_vertices"], 1000, name)
+            self.assertGreater(meshes[name]["step_ms"]["median"], 0, name)
+
     def test_programs_that_the_path_finds_find_their_data(self):
         bench = pathlib.Path(VFIT).with_name("vfit-bench").resolve()
         with tempfile.TemporaryDirectory() as folder:

@@ -9,7 +9,7 @@ namespace vfit::tools {
 namespace {
 
 constexpr int kLeft = 90, kRight = 30, kTop = 60, kBottom = 70;  // pixels
-constexpr Color kPaper{1, 1, 1}, kInk{0.16f, 0.17f, 0.20f}, kGrid{0.88f, 0.88f, 0.90f}, kLine{0.80f, 0.27f, 0.30f};
+constexpr Color kPaper{1, 1, 1}, kInk{0.16f, 0.17f, 0.20f}, kGrid{0.88f, 0.88f, 0.90f}, kMark{0.50f, 0.52f, 0.56f}, kLine{0.80f, 0.27f, 0.30f};
 constexpr Color kBehind[] = {{0.55f, 0.60f, 0.72f}, {0.45f, 0.68f, 0.50f}, {0.80f, 0.65f, 0.35f}};
 
 /// The step of 1, 2 or 5 times a power of ten that cuts the range in about five.
@@ -55,6 +55,10 @@ Canvas draw_curve(const Curve& curve, int width, int height) {
     for (int i = 0; float(i) * x_step <= x1 * 1.001f; ++i)
         canvas.text(static_cast<int>(px(float(i) * x_step)) - 5, height - kBottom + 22, number(float(i) * x_step), 11, kInk);
     canvas.line(px(x0), py(0), px(x1), py(0), 1, kInk);
+    for (const auto& [x, name] : curve.marks) {
+        canvas.line(px(x), float(kTop), px(x), float(height - kBottom), 1, kMark);
+        canvas.text(static_cast<int>(px(x)) + 6, kTop + 14, name, 11, kMark);
+    }
     int legend = width - kRight;
     const auto draw = [&](const CurvePoints& points, const std::string& name, const Color& color) {
         for (size_t i = 1; i < points.size(); ++i)

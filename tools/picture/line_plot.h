@@ -20,6 +20,7 @@ struct Curve {
         CurvePoints points;
     };
     std::vector<Line> behind{};  // further lines, drawn first
+    std::vector<std::pair<float, std::string>> marks{};  // places of x with a name, such as where a phase begins
 };
 
 Canvas draw_curve(const Curve& curve, int width, int height);

@@ -63,6 +63,13 @@ void ContactMesh::order(std::span<const Vec3> positions) {
     }
     for (uint32_t v : indices_) corners.push_back(point_of[v]);
     fans_ = TriangleFans(vertex_of_.size(), corners);
+    // Next to an edge within the mesh a point has two triangles: one where that edge comes first, one where it comes last.
+    on_border_.assign(vertex_of_.size(), 0);
+    for (uint32_t i = 0; i < vertex_of_.size(); ++i)
+        for (const TriangleFans::Corners& c : fans_.of(i)) {
+            const auto ends_with = [&](const TriangleFans::Corners& other) { return other.third == c.second; };
+            if (std::none_of(fans_.of(i).begin(), fans_.of(i).end(), ends_with)) on_border_[i] = on_border_[c.second] = 1;
+        }
     const size_t runs = (vertex_of_.size() + kLanes - 1) / kLanes;
     places_.assign(runs * kLanes, Particle{Vec3(NAN)});
     end_.resize(vertex_of_.size());
@@ -171,6 +178,16 @@ Vec3 ContactMesh::outward_at(const Place& place) const {
     return sum;
 }
 
+bool ContactMesh::is_at_border(const Place& place) const {
+    constexpr float kInside = 1e-4f;
+    bool inside = true, border = true;
+    for (int k = 0; k < 3; ++k) {
+        if (place.weights[k] > kInside) border = border && on_border_[place.corner[k]];
+        else inside = false;
+    }
+    return !inside && border;
+}
+
 /// Fills near with the mesh's runs that a run of particles may meet; how near they have to be. 0: there is none.
 float ContactMesh::reach_of(const Moving& moving, uint32_t first, float dt, float thickness_m, std::vector<uint32_t>& near) const {
     Vec3 low(INFINITY), high(-INFINITY);
@@ -211,6 +228,8 @@ void ContactMesh::find_planes(const Moving& moving, float dt, float thickness_m,
             const float distance = glm::length(off);
             const Vec3 outward = outward_at(place);
             const bool inside = glm::dot(off, outward) < 0.0f;
+            // What hangs beyond a hem is on neither side of it: a coat's sleeve is not to be drawn to the armhole of a dress.
+            if (inside && is_at_border(place)) continue;
             if ((!inside && distance > reach) || !finite(on) || !finite(to)) continue;
             constexpr float kOnIt_m = 1e-5f;
             const Vec3 normal = distance > kOnIt_m ? (inside ? -off : off) / distance : outward / std::max(glm::length(outward), 1e-12f);

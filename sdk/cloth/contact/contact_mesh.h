@@ -23,10 +23,15 @@ public:
     /// Where its vertices are at the end of this step. `around`: the box in which it is looked for.
     void accept(std::span<const Vec3> positions, const Vec3& low, const Vec3& high);
     /// They were where they are now.
-    void jump() { begin_ = end_; }
+    void jump() {
+        if (!begin_.empty()) begin_ = end_;
+    }
+    /// They were nowhere before: the next step begins where it ends.
     void forget() { begin_.clear(); }
     void hide();
-    void arrive() { std::swap(begin_, end_); }
+    void arrive() {
+        if (!begin_.empty()) std::swap(begin_, end_);
+    }
     void carry(const RigidMotion& motion);
     float greatest_way() const { return greatest_way_; }
 
@@ -50,12 +55,14 @@ private:
     void find_nearest(const Particle* run, uint32_t* points, NearestOnFans& out) const;
     Place place_of(const NearestOnFans& nearest, size_t lane, uint32_t point) const;
     Vec3 outward_at(const Place& place) const;
+    bool is_at_border(const Place& place) const;
 
     size_t vertex_count_;
     std::vector<uint32_t> indices_;  // of vertices
     float greatest_way_ = 0.0f;
     // Its vertices that have triangles as points, in runs of kLanes that lie together.
     std::vector<uint32_t> vertex_of_;
+    std::vector<uint8_t> on_border_;  // of the open mesh: a hem, or where what does not count was left out
     TriangleFans fans_;
     Particles begin_, end_;                // of the step
     Particles places_;                     // as begin_; not finite: nobody, or too far to matter

@@ -289,6 +289,46 @@ TEST(MeshContact, WhatDoesNotFitIsRefusedAndWhatIsNotFiniteIsLeftOut) {
     for (const Vec3& p : cloth.positions()) EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));
 }
 
+TEST(MeshContact, AMeshThatWasHiddenDoesNotComeFromWhereItWas) {
+    const auto jobs = Jobs::own(0);
+    Sheet sheet(21, 21, 0.02f);
+    sheet.pin_top();
+    BallMesh ball({0.2f, -0.2f, 0.13f}, 0.1f);
+    for (const int hidden : {1, 2}) {
+        Cloth cloth(fabric(sheet.cook(cotton())), {}, sheet.positions);
+        const uint32_t mesh = cloth.add_mesh(ball.positions.size(), ball.indices);
+        const auto step = [&] { cloth.step(kFrame_s, sheet.positions, {}, *jobs); };
+        cloth.move_mesh(mesh, ball.positions);
+        step();
+        cloth.hide_mesh(mesh);
+        for (int i = 0; i < hidden; ++i) step();
+        ball.move({0, 0, -0.26f});  // behind the curtain, which it could not pass
+        cloth.move_mesh(mesh, ball.positions);
+        for (int i = 0; i < 10; ++i) step();
+        for (const Vec3& p : cloth.positions()) ASSERT_NEAR(p.z, 0.0f, 0.002f) << hidden;
+        ball.move({0, 0, 0.26f});
+    }
+}
+
+TEST(MeshContact, WhatHangsBelowAHemIsNotDrawnUpToIt) {
+    const auto jobs = Jobs::own(0);
+    Sheet curtain(21, 21, 0.02f);
+    curtain.pin_top();
+    // A curtain that is worn below, half as long, and 2 mm before the one that is to hang outside of it.
+    Sheet inner(11, 21, 0.02f);
+    for (Vec3& p : inner.positions) p += Vec3(0, -0.008f, 0.002f);
+    Cloth cloth(fabric(curtain.cook(cotton())), {}, curtain.positions);
+    const uint32_t mesh = cloth.add_mesh(inner.positions.size(), inner.indices);
+    for (int frame = 0; frame < 60; ++frame) {
+        cloth.move_mesh(mesh, inner.positions);
+        cloth.step(kFrame_s, curtain.positions, {}, *jobs);
+    }
+    for (uint32_t c = 2; c < 19; ++c) {
+        EXPECT_GT(cloth.positions()[curtain.at(5, c)].z, 0.002f) << "outside of it, where there is something to be outside of";
+        for (const uint32_t r : {11u, 12u}) EXPECT_NEAR(cloth.positions()[curtain.at(r, c)].y, curtain.positions[curtain.at(r, c)].y, 0.006f) << r;
+    }
+}
+
 /// Three sheets, one above the other, fall on a ball.
 struct ThreeLayers {
     FabricData data;
