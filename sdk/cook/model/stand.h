@@ -1,0 +1,26 @@
+// Where a modelled garment is held on a body before it settles.
+#pragma once
+
+#include <vector>
+
+#include "cook/body_outline.h"
+#include "cook/drape/settle.h"
+#include "cook/model/surface.h"
+
+namespace vfit {
+
+struct Standing {
+    std::vector<Vec3> places;  // one a vertex, clear of the skin
+    HangsOn hangs_on = HangsOn::nothing;
+    float raised_m = 0.0f;
+    Band band;
+    float deepest_m = 0.0f;    // that it lay in the body
+    float inside_share = 0.0f;  // of its vertices that lay in it by more than a centimetre
+};
+
+/// Raised or lowered from the unknown body that it was modelled on: cloth over both shoulders to the body's shoulders; else the
+/// upper opening to where the body is as wide, between hips and waist, if the crotch is not above the body's there; what is worn
+/// higher stays where it is. Then what lies in the body moves out.
+Standing stand(const Surface& surface, const BodyOutline& outline, const MeshQuery& skin, float thickness_m);
+
+}  // namespace vfit
