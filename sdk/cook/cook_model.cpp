@@ -1,6 +1,7 @@
 #include "cook/cook_model.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "cloth/garment/cut.h"
 #include "cook/model/stand.h"
@@ -42,6 +43,7 @@ std::vector<uint8_t> sleeves(const Surface& surface, const std::vector<Vec3>& pl
 void add_notes(const Standing& standing, const Draped& draped, std::vector<std::string>& notes) {
     const auto percent = [](float share) { return int(share * 100.0f + 0.5f); };
     constexpr float kMuch = 0.05f, kStretched = 0.2f;
+    if (standing.moved.z != 0.0f) notes.push_back(text("it stood ", percent(std::abs(standing.moved.z)), " cm too far ", standing.moved.z < 0.0f ? "forward" : "back", " and was moved"));
     if (standing.inside_share > kMuch)
         notes.push_back(text(percent(standing.inside_share), " % of the vertices lay in the default body, up to ", percent(standing.deepest_m),
                              " cm deep: it was modelled on a slimmer body, or on one whose arms are held otherwise (ours at about 45 degrees)"));
@@ -78,10 +80,15 @@ CookedGarment cook_model(const BodyModel& body_model, const Model& model, const 
     g.corners = surface.corners;
     g.cut_shape = surface.positions;
     const std::vector<Vec2> cut = cut_corners(g);
-    const Draped draped = settle({surface.indices, cut, &material}, standing.places, standing.band, body, options.cook.drape, jobs);
+    const WholeCloth cloth{surface.indices, cut, &material};
+    constexpr float kOtherBody = 0.005f;  // of its vertices that lie well within ours
+    std::vector<Vec3> places = standing.places;
+    if (options.cook.drape.watch) options.cook.drape.watch("placed", places);
+    if (standing.inside_share > kOtherBody) places = grow_body_into(cloth, std::move(places), evaluated, topology, thickness, jobs);
+    const Draped draped = settle(cloth, pushed_out(std::move(places), skin, thickness), standing.band, body, options.cook.drape, jobs);
     out.report = draped.report;
     out.report.hangs_on = standing.hangs_on;
-    out.report.raised_m = standing.raised_m;
+    out.report.raised_m = standing.moved.y;
     g.mesh.positions = draped.positions;
     g.simulated = draped.simulated;
     g.backstop.assign(g.vertex_count(), 0);
