@@ -49,11 +49,11 @@ void check_size(const Model& model, float unit_m) {
     }
     low *= unit_m, high *= unit_m;
     // Generous: bodies are of many heights, and the garment is moved up or down to ours.
-    constexpr float kAside_m = 0.5f, kBelow_m = -1.0f, kAbove_m = 3.0f;
-    if (high.y - low.y < 0.5f * (high.z - low.z) && low.z > 0.2f && std::abs(0.5f * (low.y + high.y)) < kAside_m)
-        fail(VFIT_ERROR_DATA, "the mesh lies on its back from ", low.z, " to ", high.z, " m along Z: it was written with Z up, and Y has to be");
+    constexpr float kAside_m = 0.5f, kTrain_m = 0.8f, kBelow_m = -1.0f, kAbove_m = 3.0f, kLying_m = 0.4f;
     const Vec3 middle = 0.5f * (low + high);
-    if (std::abs(middle.x) > kAside_m || std::abs(middle.z) > kAside_m || high.y < kBelow_m || low.y > kAbove_m)
+    if (middle.z > kLying_m && std::abs(middle.y) < kLying_m && std::abs(middle.x) < kAside_m)
+        fail(VFIT_ERROR_DATA, "the mesh lies before the body, from ", low.z, " to ", high.z, " m along Z: it was written with Z up, and Y has to be");
+    if (std::abs(middle.x) > kAside_m || std::abs(middle.z) > kTrain_m || high.y < kBelow_m || low.y > kAbove_m)
         fail(VFIT_ERROR_DATA, "the mesh is about ", shown(middle), " m: it has to stand around a body whose soles are at (0, 0, 0), Y up, facing +Z");
 }
 
@@ -170,11 +170,22 @@ private:
         // A square may be bent; where a polygon of many corners is, how it is cut would be up to us.
         constexpr float kOffPlane = 0.25f;
         if (count > 4 && off > kOffPlane * size) fail(VFIT_ERROR_DATA, model_.name_of(face), " has ", count, " corners that are not in a plane: cut it into triangles");
+        const auto refuse = [&] { fail(VFIT_ERROR_DATA, model_.name_of(face), " crosses itself or comes to one corner twice (around a hole?): cut it into triangles"); };
+        Triangles triangles;
         try {
-            return triangulate(flat, uint32_t(count));
+            triangles = triangulate(flat, uint32_t(count));
         } catch (const Error&) {
-            fail(VFIT_ERROR_DATA, model_.name_of(face), " crosses itself or comes to one corner twice (around a hole?): cut it into triangles");
+            refuse();
         }
+        // Of a line that crosses itself some parts count against others.
+        float sum2 = 0.0f;
+        for (const auto& t : triangles) {
+            const Vec2 a = flat[t[1]] - flat[t[0]], b = flat[t[2]] - flat[t[0]];
+            sum2 += a.x * b.y - a.y * b.x;
+        }
+        constexpr float kSame = 1e-3f;
+        if (triangles.size() != count - 2 || std::abs(sum2 - area2) > kSame * area2) refuse();
+        return triangles;
     }
 
     /// Models with two sides have each triangle twice.
