@@ -40,13 +40,17 @@ std::vector<uint8_t> sleeves(const Surface& surface, const std::vector<Vec3>& pl
     return out;
 }
 
-void add_notes(const Standing& standing, const Draped& draped, std::vector<std::string>& notes) {
+void add_notes(const WholeCloth& cloth, float thickness_m, const Standing& standing, const Draped& draped, std::vector<std::string>& notes) {
     const auto percent = [](float share) { return int(share * 100.0f + 0.5f); };
     constexpr float kMuch = 0.05f, kStretched = 0.2f;
     if (standing.moved.z != 0.0f) notes.push_back(text("it stood ", percent(std::abs(standing.moved.z)), " cm too far ", standing.moved.z < 0.0f ? "forward" : "back", " and was moved"));
     if (standing.inside_share > kMuch)
         notes.push_back(text(percent(standing.inside_share), " % of the vertices lay in the default body, up to ", percent(standing.deepest_m),
                              " cm deep: it was modelled on a slimmer body, or on one whose arms are held otherwise (ours at about 45 degrees)"));
+    constexpr float kCoarse_m = 0.04f;
+    const int side_mm = int(mean_side(cloth) * 1000.0f + 0.5f);
+    if (mean_side(cloth) > kCoarse_m) notes.push_back(text("its triangles are ", side_mm, " mm large: it will fold coarsely (20 mm do well)"));
+    if (!keeps_layers_apart(cloth, thickness_m)) notes.push_back(text("its triangles are ", side_mm, " mm large: too small for its own layers to be kept apart while it settled (20 mm do well)"));
     if (draped.report.strain_p99 > kStretched) notes.push_back(text("it is stretched on this body: a hundredth of its sides by ", percent(draped.report.strain_p99), " % or more"));
     if (draped.report.skin_crossings > 0) notes.push_back(text("the skin stands out of it in ", draped.report.skin_crossings, " places"));
     if (draped.report.self_crossings > 0) notes.push_back(text("it goes through itself in ", draped.report.self_crossings, " places"));
@@ -100,7 +104,7 @@ CookedGarment cook_model(const BodyModel& body_model, const Model& model, const 
 
     out.notes = model.notes;
     out.notes.insert(out.notes.end(), surface.notes.begin(), surface.notes.end());
-    add_notes(standing, draped, out.notes);
+    add_notes(cloth, thickness, standing, draped, out.notes);
     for (const auto& opening : surface.openings) out.openings_m.push_back(surface.length_of(opening));
     out.report.seconds = watch.ms() / 1000.0;
     return out;

@@ -41,7 +41,8 @@ void add_array(std::string& out, const char* key, const std::vector<T>& values) 
 }  // namespace
 
 std::string write_garment(const Garment& garment) {
-    const auto quoted = [](const std::string& s) { return json_text(s); };
+    // Names come from files of others and file systems: JSON is UTF-8, whatever they are.
+    const auto quoted = [](const std::string& s) { return Json(s).dump(-1, ' ', false, Json::error_handler_t::replace); };
     std::string out = std::string("{\n \"format\": \"vfit-garment\", \"version\": ") + (garment.has_own_lengths() ? "2" : "1") + ",\n";
     out += " \"name\": " + quoted(garment.name) + ", \"kind\": " + quoted(garment.kind);
     out += ", \"fabric\": " + quoted(garment.fabric);

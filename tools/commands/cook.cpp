@@ -93,6 +93,17 @@ std::string line_of(const Json& r) {
     return line;
 }
 
+/// Who makes GarmentCode specifications keeps what was simulated of them beside them.
+bool is_simulation(const std::filesystem::path& design) {
+    if (!is_mesh_file(design.string())) return false;
+    const std::string tail = "_specification";
+    for (const auto& entry : std::filesystem::directory_iterator(design.parent_path())) {
+        const std::string name = entry.path().stem().string();
+        if (entry.path().extension() == ".json" && name.size() > tail.size() && name.compare(name.size() - tail.size(), tail.size(), tail) == 0) return true;
+    }
+    return false;
+}
+
 void cook(const Options& options) {
     Cook kitchen(options);
     if (!std::filesystem::is_directory(options.design)) {
@@ -111,6 +122,10 @@ void cook(const Options& options) {
     Json cooked = Json::array(), failed = Json::array(), left_out = Json::array();
     std::set<std::string> names;
     for (const auto& design : designs) {
+        if (is_simulation(design)) {
+            left_out.push_back(design.string());
+            continue;
+        }
         std::string name = design.stem().string();
         if (!names.insert(name).second) {
             const std::string first = name = design.parent_path().filename().string() + "_" + name;

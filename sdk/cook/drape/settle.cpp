@@ -56,13 +56,13 @@ private:
         float lowered_m;  // of what is held, over these
         uint32_t substeps;
     };
-    /// With layers of its own. Returns the 99th percentile of strain.
+    /// With layers of its own, unless its triangles are too small for that. Returns the 99th percentile of strain.
     float fall(FabricData data, std::vector<Vec3>& places, const Fall& how) {
         ClothSettings settings;
         settings.substeps = how.substeps;
         settings.friction = cloth_.material->friction;
         settings.thickness_m = settings_.thickness_m;
-        settings.self_thickness_m = settings_.thickness_m;
+        settings.self_thickness_m = keeps_layers_apart(cloth_, settings_.thickness_m) ? settings_.thickness_m : 0.0f;
         settings.damping = 0.95f;
         std::vector<Vec3> targets = places;
         Cloth cloth(std::make_shared<const Fabric>(std::move(data)), settings, places);
@@ -111,6 +111,19 @@ private:
 };
 
 }  // namespace
+
+float mean_side(const WholeCloth& cloth) {
+    double sum = 0.0;
+    for (size_t i = 0; i < cloth.cut.size(); ++i) sum += double(glm::length(cloth.cut[i - i % 3 + (i + 1) % 3] - cloth.cut[i]));
+    return float(sum / double(std::max<size_t>(cloth.cut.size(), 1)));
+}
+
+bool keeps_layers_apart(const WholeCloth& cloth, float thickness_m) {
+    // A skirt gathered to a belt goes through itself in 0 places with triangles of 16 mm, in 100 with 12 mm and in 1800 with 8 mm,
+    // there without contact in none.
+    constexpr float kLeastSide = 3.5f;  // in thicknesses
+    return mean_side(cloth) >= kLeastSide * thickness_m;
+}
 
 Draped settle(const WholeCloth& cloth, std::vector<Vec3> places, const Band& band, const DrapeBody& body, const DrapeSettings& settings, Jobs& jobs) {
     return Settler(cloth, body, settings, jobs).run(std::move(places), band);

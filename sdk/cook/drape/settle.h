@@ -49,6 +49,11 @@ struct WholeCloth {
     const FabricMaterial* material;
 };
 
+/// Of its triangles.
+float mean_side(const WholeCloth& cloth);
+/// Whether it settles with its own layers kept apart: where triangles are small against a layer, contact tangles small folds.
+bool keeps_layers_apart(const WholeCloth& cloth, float thickness_m);
+
 /// What is held at the waist, and where; flags, one a vertex, empty: nothing is.
 struct Band {
     std::vector<uint8_t> of;
