@@ -59,7 +59,7 @@ private:
     /// With layers of its own, unless its triangles are too small for that. Returns the 99th percentile of strain.
     float fall(FabricData data, std::vector<Vec3>& places, const Fall& how) {
         ClothSettings settings;
-        settings.substeps = how.substeps;
+        settings.substeps = how.substeps * fineness();
         settings.friction = cloth_.material->friction;
         settings.thickness_m = settings_.thickness_m;
         settings.self_thickness_m = keeps_layers_apart(cloth_, settings_.thickness_m) ? settings_.thickness_m : 0.0f;
@@ -75,6 +75,12 @@ private:
         }
         places = cloth.positions();
         return cloth.stats().strain_p99;
+    }
+
+    /// What pulls goes over a side a sub-step: of small ones it takes more of them.
+    uint32_t fineness() const {
+        constexpr float kSide_m = 0.016f;
+        return uint32_t(std::clamp(std::lround(kSide_m / mean_side(cloth_)), 1L, 4L));
     }
 
     /// Vertices are kept off the skin, what lies between them is not: where skin stands out through a triangle, the triangle moves out.

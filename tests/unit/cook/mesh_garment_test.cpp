@@ -153,6 +153,21 @@ TEST_F(MeshGarment, ComesToItsPlaceFromAnotherBodys) {
     EXPECT_TRUE(has_note(mens.notes, "of the vertices lay in the default body"));
 }
 
+TEST_F(MeshGarment, SmallTrianglesSettleAsWell) {
+    TubeMesh fine;
+    fine.columns = 120, fine.rows = 60;
+    const CookedGarment cooked = cook("fine.obj", obj_of(fine));
+    EXPECT_EQ(cooked.report.self_crossings, 0u);
+    EXPECT_EQ(cooked.report.skin_crossings, 0u);
+    EXPECT_LT(cooked.report.strain_p99, 0.05f);
+    EXPECT_TRUE(has_note(cooked.notes, "too small for its own layers"));
+    TubeMesh coarse;
+    coarse.columns = 12, coarse.rows = 5;
+    EXPECT_TRUE(has_note(cook("coarse.obj", obj_of(coarse)).notes, "fold coarsely"));
+    // Names in whatever bytes: a garment file is UTF-8 all the same.
+    EXPECT_NO_THROW(parse_garment(bytes_of_text(write_garment(cook("caf.obj", "usemtl caf\xe9\n" + obj_of(coarse)).garment)), fabrics));
+}
+
 TEST_F(MeshGarment, CountsInTheUnitThatIsSaid) {
     TubeMesh tube;
     tube.unit = 100.0f;
