@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <random>
+#include <set>
 
 #include "avatar/gltf_document.h"
 #include "cook/cook_file.h"
