@@ -125,7 +125,7 @@ struct DressedSize {
 DressedSize dressed_size(const GarmentObject& garment, const char* label, AvatarObject& avatar) {
     if (!label) return {};
     const GarmentSize& size = garment.garment.size(label);
-    if (!size.flat.empty()) return {1.0f, &size};
+    if (!size.flat.empty() || !garment.garment.cut_shape.empty()) return {1.0f, &size};
     return {size_ratio(garment.garment, label, avatar.measures()), nullptr};
 }
 

@@ -1,8 +1,14 @@
 #include "cook/cook_file.h"
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 
+#include "avatar/gltf_document.h"
+#include "cook/cook_model.h"
 #include "cook/draft/draft.h"
+#include "cook/model/gltf.h"
+#include "cook/model/obj.h"
 #include "cook/pattern/garmentcode.h"
 #include "cook/sundress.h"
 #include "core/error.h"
@@ -48,16 +54,56 @@ CookedGarment cook_design(const BodyModel& model, const FabricLibrary& fabrics, 
     return cooked;
 }
 
+/// ".obj" of ".../shirt.OBJ".
+std::string ending_of(const std::string& path) {
+    std::string ending = std::filesystem::path(path).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](char c) { return char(std::tolower(static_cast<unsigned char>(c))); });
+    return ending;
+}
+
+Model read_model(const std::string& path) {
+    constexpr size_t kMostBytes = size_t(256) << 20;
+    const std::filesystem::path file(path);
+    const Beside beside(file.parent_path().string());
+    if (ending_of(path) != ".obj") return read_gltf(GltfDocument(path), file.filename().string(), beside);
+    const std::vector<std::byte> bytes = read_file(path, kMostBytes);
+    return read_obj({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, beside);
+}
+
+CookedGarment cook_mesh(const BodyModel& model, const FabricLibrary& fabrics, const CookRequest& request, Jobs& jobs) {
+    ModelOptions options;
+    options.name = request.name.empty() ? name_of(request.path) : request.name;
+    if (!request.kind.empty()) options.cook.kind = request.kind;
+    if (!request.fabric.empty()) options.cook.fabric = request.fabric;
+    if (request.sex != VFIT_SEX_UNKNOWN) options.cook.sex = request.sex;
+    options.cook.drape = request.drape;
+    options.unit_m = ending_of(request.path) == ".obj" ? request.unit_m : 1.0f;
+    options.size_label = request.size_label;
+    try {
+        return cook_model(model, read_model(request.path), fabrics, options, jobs);
+    } catch (const Error& error) {
+        const std::string name = std::filesystem::path(request.path).filename().string(), what = error.what();
+        if (what.find(name) != std::string::npos) throw;
+        fail(error.code(), name, ": ", what);
+    }
+}
+
 }  // namespace
 
+bool is_mesh_file(const std::string& path) {
+    const std::string ending = ending_of(path);
+    return ending == ".obj" || ending == ".gltf" || ending == ".glb";
+}
+
 CookedGarment cook_file(const BodyModel& model, const FabricLibrary& fabrics, const CookRequest& request, Jobs& jobs) {
+    if (is_mesh_file(request.path)) return cook_mesh(model, fabrics, request, jobs);
     const std::vector<std::byte> text = read_file(request.path);
     if (is_garmentcode(text)) return cook_specification(model, fabrics, request, text, jobs);
     const Json root = parse_json(text, "garment design");
     const std::string format = root.is_object() && root.contains("format") && root["format"].is_string() ? root["format"].get<std::string>() : "";
-    if (format == "vfit-sundress") return {cook_sundress(model, parse_sundress(text)), {}};
+    if (format == "vfit-sundress") return {cook_sundress(model, parse_sundress(text)), {}, {}, {}};
     if (format == "vfit-design") return cook_design(model, fabrics, request, text, jobs);
-    fail(VFIT_ERROR_UNSUPPORTED, request.path, " is no garment that can be cooked: neither a GarmentCode specification (\"pattern\" with \"panels\") nor a design of vfit's (\"format\": \"vfit-design\" or \"vfit-sundress\")");
+    fail(VFIT_ERROR_UNSUPPORTED, request.path, " is no garment that can be cooked: neither a mesh (.obj, .gltf, .glb) nor a GarmentCode specification (\"pattern\" with \"panels\") nor a design of vfit's (\"format\": \"vfit-design\" or \"vfit-sundress\")");
 }
 
 }  // namespace vfit

@@ -12,9 +12,15 @@ struct CookRequest {
     // Empty: as the file tells, or as CookOptions has it.
     std::string name, kind, fabric;
     vfit_sex sex = VFIT_SEX_UNKNOWN;
+    // Of a mesh: the unit of an OBJ file's numbers, and the label of its size (empty: none).
+    float unit_m = 1.0f;
+    std::string size_label;
     float triangle_m = 0.02f;
     DrapeSettings drape;
 };
+
+/// By its ending, whether it is a mesh.
+bool is_mesh_file(const std::string& path);
 
 /// VFIT_ERROR_DATA says what is wrong with it; VFIT_ERROR_UNSUPPORTED that it is none of the kinds that are known.
 CookedGarment cook_file(const BodyModel& model, const FabricLibrary& fabrics, const CookRequest& request, Jobs& jobs);

@@ -70,17 +70,6 @@ std::vector<GarmentPart> parts_of(const Pattern& pattern, const SewnMesh& mesh) 
     return parts;
 }
 
-/// Seams agree on which side of the cloth is out, not on which of the two it is: that which looks away from the body.
-void turn_outside_out(Garment& g, const DrapeBody& body) {
-    double outwards = 0.0;
-    compute_normals(g.mesh.positions, g.mesh.indices, g.mesh.normals);
-    for (size_t i = 0; i < g.mesh.positions.size(); ++i) outwards += glm::dot(g.mesh.normals[i], g.mesh.positions[i] - body.skin->closest(g.mesh.positions[i]).point);
-    if (outwards >= 0.0) return;
-    for (std::vector<uint32_t>* list : {&g.mesh.indices, &g.corners})
-        for (size_t i = 0; i + 2 < list->size(); i += 3) std::swap((*list)[i + 1], (*list)[i + 2]);
-    compute_normals(g.mesh.positions, g.mesh.indices, g.mesh.normals);
-}
-
 /// In pictures v runs down; in patterns y runs up.
 std::vector<Vec2> uvs_of(std::vector<Vec2> flat) {
     for (Vec2& p : flat) p.y = -p.y;
@@ -88,6 +77,16 @@ std::vector<Vec2> uvs_of(std::vector<Vec2> flat) {
 }
 
 }  // namespace
+
+void turn_outside_out(Garment& g, const MeshQuery& skin) {
+    double outwards = 0.0;
+    compute_normals(g.mesh.positions, g.mesh.indices, g.mesh.normals);
+    for (size_t i = 0; i < g.mesh.positions.size(); ++i) outwards += glm::dot(g.mesh.normals[i], g.mesh.positions[i] - skin.closest(g.mesh.positions[i]).point);
+    if (outwards >= 0.0) return;
+    for (std::vector<uint32_t>* list : {&g.mesh.indices, &g.corners})
+        for (size_t i = 0; i + 2 < list->size(); i += 3) std::swap((*list)[i + 1], (*list)[i + 2]);
+    compute_normals(g.mesh.positions, g.mesh.indices, g.mesh.normals);
+}
 
 CookedGarment cook_pattern(const BodyModel& model, const std::vector<PatternSize>& sizes, size_t base, const FabricLibrary& fabrics,
                            const CookOptions& options, Jobs& jobs) {
@@ -132,7 +131,7 @@ CookedGarment cook_pattern(const BodyModel& model, const std::vector<PatternSize
             fail(error.code(), "size ", size.label, ": ", error.what());
         }
     }
-    turn_outside_out(g, body);
+    turn_outside_out(g, skin);
     validate_garment(g, fabrics);
     return out;
 }

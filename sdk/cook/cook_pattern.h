@@ -30,7 +30,13 @@ struct CookOptions {
 struct CookedGarment {
     Garment garment;
     DrapeReport report;
+    // Of a modelled garment:
+    std::vector<std::string> notes;  // of what was mended, left out, not found, or is to be looked at
+    std::vector<float> openings_m;   // around each
 };
+
+/// Triangles and seams agree on which side of the cloth is out, not on which of the two it is: that which looks away from the body.
+void turn_outside_out(Garment& garment, const MeshQuery& skin);
 
 /// base: the size that is draped; the others have its mesh in their own lengths. VFIT_ERROR_DATA names the panel, stitch or size.
 CookedGarment cook_pattern(const BodyModel& model, const std::vector<PatternSize>& sizes, size_t base, const FabricLibrary& fabrics,

@@ -41,8 +41,9 @@ void add_array(std::string& out, const char* key, const std::vector<T>& values) 
 }  // namespace
 
 std::string write_garment(const Garment& garment) {
-    const auto quoted = [](const std::string& s) { return json_text(s); };
-    std::string out = std::string("{\n \"format\": \"vfit-garment\", \"version\": ") + (garment.flat.empty() ? "1" : "2") + ",\n";
+    // Names come from files of others and file systems: JSON is UTF-8, whatever they are.
+    const auto quoted = [](const std::string& s) { return Json(s).dump(-1, ' ', false, Json::error_handler_t::replace); };
+    std::string out = std::string("{\n \"format\": \"vfit-garment\", \"version\": ") + (garment.has_own_lengths() ? "2" : "1") + ",\n";
     out += " \"name\": " + quoted(garment.name) + ", \"kind\": " + quoted(garment.kind);
     out += ", \"fabric\": " + quoted(garment.fabric);
     out += std::string(", \"body_sex\": \"") + (garment.body_sex == VFIT_SEX_MALE ? "m" : "f") + "\",\n";
@@ -69,13 +70,14 @@ std::string write_garment(const Garment& garment) {
     add_array(out, "simulated", garment.simulated);
     out += ",\n";
     add_array(out, "backstop", garment.backstop);
-    if (!garment.flat.empty()) {
+    if (garment.has_own_lengths()) {
         for (const auto& [key, values] : {std::pair("copies", &garment.copies), std::pair("corners", &garment.corners)}) {
             out += ",\n";
             add_array(out, key, *values);
         }
         out += ",\n";
-        add_array(out, "flat", garment.flat);
+        if (garment.cut_shape.empty()) add_array(out, "flat", garment.flat);
+        else add_array(out, "shape", garment.cut_shape);
         out += ",\n";
         add_array(out, "on_arm", garment.on_arm);
         out += ",\n \"parts\": [";

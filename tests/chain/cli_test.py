@@ -421,6 +421,39 @@ class Contract(unittest.TestCase):
             self.check_failure(run("fit", VIRTUAL, "--garment", folder / "gone.json", "--out", folder), "gone.json")
             self.check_failure(run("fit", VIRTUAL, "--garment", folder / "design.json", "--out", folder), "design.json")
 
+    def test_a_mesh_is_cooked_and_worn(self):
+        rows, columns = 16, 40
+        lines = ["mtllib skirt.mtl", "usemtl wool"]
+        for row in range(rows + 1):
+            radius = 12.5 + 8 * row / rows
+            for column in range(columns):
+                angle = 2 * math.pi * column / columns
+                lines.append(f"v {radius * math.sin(angle):.4f} {104 - 40 * row / rows:.4f} {radius * math.cos(angle):.4f}")
+        for row in range(rows):
+            for column in range(columns):
+                a, b = row * columns + column + 1, row * columns + (column + 1) % columns + 1
+                lines.append(f"f {a} {a + columns} {b + columns} {b}")
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            (folder / "in").mkdir()
+            mesh = folder / "in" / "skirt.OBJ"
+            mesh.write_text("\n".join(lines))
+            self.check_failure(run("cook", mesh, "--out", folder / "skirt.json"), "skirt.OBJ", "centimetres", "--unit cm")
+            cooked = document(self, "cook", mesh, "--out", folder / "skirt.json", "--unit", "cm", "--size-label", "M", "--json")
+            self.assertEqual((cooked["vertices"], cooked["sizes"], cooked["hangs_on"]), ((rows + 1) * columns, ["M"], "waist"))
+            self.assertEqual(len(cooked["openings_m"]), 2)
+            self.assertIn("skirt.mtl", " ".join(cooked["warnings"]))
+            for size in ((), ("--size", "M")):
+                result = document(self, "fit", VIRTUAL, "--garment", folder / "skirt.json", "--draft", "--frames", 2, "--out", folder / "out", "--json", *size)
+                self.assertEqual(result["cloth"]["vertices"], cooked["vertices"])
+            (folder / "in" / "cut.glb").write_bytes(b"glTF")
+            failed = run("cook", folder / "in", "--out", folder / "all", "--unit", "cm", "--json")
+            self.assertEqual(failed.returncode, 1)
+            report = json.loads(failed.stdout)
+            self.assertEqual([c["garment"] for c in report["cooked"]], ["skirt"])
+            self.assertIn("cut.glb", report["failed"][0]["error"])
+            self.assertEqual(run("cook", mesh, "--out", folder / "x.json", "--unit", "inch").returncode, 2)
+
     def test_what_cannot_be_written_is_told_before_the_work(self):
         with tempfile.NamedTemporaryFile() as file:
             inside = pathlib.Path(file.name) / "x"

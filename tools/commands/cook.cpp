@@ -19,7 +19,7 @@ namespace vfit::tools {
 namespace {
 
 struct Options {
-    std::string design, out, body, fabrics, kind, fabric, sex;
+    std::string design, out, body, fabrics, kind, fabric, sex, unit = "m", size_label;
     float triangle_mm = 20.0f;
     bool json = false;
 };
@@ -37,7 +37,7 @@ Json report_of(const CookedGarment& cooked) {
     Json sizes = Json::array();
     for (const GarmentSize& size : g.sizes) sizes.push_back(size.label);
     Json out = {{"garment", g.name}, {"kind", g.kind}, {"fabric", g.fabric}, {"vertices", g.vertex_count()}, {"simulated", g.simulated_count()}, {"sizes", sizes}};
-    if (g.flat.empty()) return out;
+    if (!g.has_own_lengths()) return out;
     out["triangles"] = g.mesh.indices.size() / 3;
     out["hangs_on"] = r.hangs_on == HangsOn::shoulders ? "shoulders" : r.hangs_on == HangsOn::waist ? "waist" : "nothing";
     out["raised_m"] = r.raised_m;
@@ -46,6 +46,9 @@ Json report_of(const CookedGarment& cooked) {
     out["self_crossings"] = r.self_crossings;
     out["strain_p99"] = r.strain_p99;
     out["seconds"] = r.seconds;
+    if (g.cut_shape.empty()) return out;
+    out["openings_m"] = cooked.openings_m;
+    out["warnings"] = cooked.notes;
     return out;
 }
 
@@ -64,6 +67,8 @@ public:
         request.fabric = options_.fabric;
         request.sex = options_.sex.empty() ? VFIT_SEX_UNKNOWN : options_.sex == "m" ? VFIT_SEX_MALE : VFIT_SEX_FEMALE;
         request.triangle_m = options_.triangle_mm / 1000.0f;
+        request.unit_m = options_.unit == "mm" ? 0.001f : options_.unit == "cm" ? 0.01f : 1.0f;
+        request.size_label = options_.size_label;
         const CookedGarment cooked = cook_file(*model_, fabrics_, request, *jobs_);
         write_text(out, write_garment(cooked.garment));
         Json report = report_of(cooked);
@@ -82,7 +87,21 @@ std::string line_of(const Json& r) {
     std::string line = text(r["garment"].get<std::string>(), ": ", r["vertices"].get<int>(), " vertices, ", r["simulated"].get<int>(), " of them simulated");
     if (r.contains("seconds"))
         line += text(", ", r["skin_crossings"].get<int>(), " crossings with the skin, ", r["self_crossings"].get<int>(), " with itself, in ", int(r["seconds"].get<double>() * 10.0) / 10.0, " s");
-    return line + ", in " + r["file"].get<std::string>();
+    line += ", in " + r["file"].get<std::string>();
+    if (r.contains("warnings"))
+        for (const Json& warning : r["warnings"]) line += "\n  " + warning.get<std::string>();
+    return line;
+}
+
+/// Who makes GarmentCode specifications keeps what was simulated of them beside them.
+bool is_simulation(const std::filesystem::path& design) {
+    if (!is_mesh_file(design.string())) return false;
+    const std::string tail = "_specification";
+    for (const auto& entry : std::filesystem::directory_iterator(design.parent_path())) {
+        const std::string name = entry.path().stem().string();
+        if (entry.path().extension() == ".json" && name.size() > tail.size() && name.compare(name.size() - tail.size(), tail.size(), tail) == 0) return true;
+    }
+    return false;
 }
 
 void cook(const Options& options) {
@@ -96,15 +115,22 @@ void cook(const Options& options) {
     // A catalogue: every design below the folder; one that fails does not stop the others.
     std::vector<std::filesystem::path> designs;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(options.design))
-        if (entry.is_regular_file() && entry.path().extension() == ".json") designs.push_back(entry.path());
+        if (entry.is_regular_file() && (entry.path().extension() == ".json" || is_mesh_file(entry.path().string()))) designs.push_back(entry.path());
     std::sort(designs.begin(), designs.end());
-    if (designs.empty()) throw Failure("there is no design (*.json) in " + options.design);
+    if (designs.empty()) throw Failure("there is no design (*.json) and no mesh (*.obj, *.gltf, *.glb) in " + options.design);
     create_folder(options.out);
     Json cooked = Json::array(), failed = Json::array(), left_out = Json::array();
     std::set<std::string> names;
     for (const auto& design : designs) {
+        if (is_simulation(design)) {
+            left_out.push_back(design.string());
+            continue;
+        }
         std::string name = design.stem().string();
-        if (!names.insert(name).second) names.insert(name = design.parent_path().filename().string() + "_" + name);
+        if (!names.insert(name).second) {
+            const std::string first = name = design.parent_path().filename().string() + "_" + name;
+            for (int i = 2; !names.insert(name).second; ++i) name = vfit::text(first, "_", i);
+        }
         try {
             cooked.push_back(kitchen.cook(design.string(), (std::filesystem::path(options.out) / (name + ".json")).string()));
             if (!options.json) std::cout << line_of(cooked.back()) << std::endl;
@@ -124,16 +150,18 @@ void cook(const Options& options) {
 }  // namespace
 
 void add_cook(Command& app) {
-    Command command = app.add_subcommand("cook", "Make garment files from designs or sewing patterns");
+    Command command = app.add_subcommand("cook", "Make garment files from designs, sewing patterns or meshes");
     auto o = std::make_shared<Options>();
-    command.add_option("design", o->design, "Design, GarmentCode specification, or a folder of them (docs/garments.md)").required();
+    command.add_option("design", o->design, "Design, GarmentCode specification, mesh (.obj, .gltf, .glb), or a folder of them (docs/garments.md)").required();
     command.add_option("--out", o->out, "Garment file to write; of a folder: the folder for them").required();
     command.add_option("--body", o->body, "Baked body (default: the one beside the program)");
     command.add_option("--fabrics", o->fabrics, "Fabrics (default: those beside the program)");
-    command.add_option("--kind", o->kind, "Of a specification: garment kind of the size charts (default dress)");
-    command.add_option("--fabric", o->fabric, "Of a specification: its fabric (default cotton_woven)");
-    command.add_option("--sex", o->sex, "Of a specification: on whose default body it is draped (default f)").one_of({"f", "m"});
-    command.add_option("--triangle", o->triangle_mm, "Side of a triangle in mm (default 20)").within(5, 100);
+    command.add_option("--kind", o->kind, "Of a specification or mesh: garment kind of the size charts (default dress)");
+    command.add_option("--fabric", o->fabric, "Of a specification or mesh: its fabric (default cotton_woven)");
+    command.add_option("--sex", o->sex, "Of a specification or mesh: on whose default body it is draped (default f)").one_of({"f", "m"});
+    command.add_option("--size-label", o->size_label, "Of a mesh: the label of the size that it is modelled in");
+    command.add_option("--unit", o->unit, "Of an OBJ file: m, cm or mm (default m)").one_of({"m", "cm", "mm"});
+    command.add_option("--triangle", o->triangle_mm, "Side of a triangle of a pattern in mm (default 20)").within(5, 100);
     command.add_flag("--json", o->json, "Print JSON");
     command.callback([o] { cook(*o); });
 }

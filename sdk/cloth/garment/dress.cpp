@@ -5,6 +5,7 @@
 #include <set>
 
 #include "cloth/garment/carried.h"
+#include "cloth/garment/cut.h"
 #include "cloth/garment/hems.h"
 #include "core/error.h"
 #include "measure/mesh_query.h"
@@ -178,23 +179,19 @@ void with_sides(const Vec2 (&like)[3], const float (&sides)[3], Vec2 (&out)[3]) 
 /// The triangles as they are cut, one place a corner: in a size, or with the garment's lengths as much longer as its shape is on
 /// this body. So what was loose, tight, gathered or flared by some share where it was made stays so, place by place.
 std::vector<Vec2> cut_of(const Garment& garment, std::span<const Vec3> rest, const GarmentSize* size) {
-    const std::vector<Vec2>& flat = size ? size->flat : garment.flat;
-    const std::vector<uint32_t>& drawn = garment.drawn_indices();
-    std::vector<Vec2> cut;
-    cut.reserve(drawn.size());
-    for (size_t i = 0; i + 2 < drawn.size(); i += 3) {
-        Vec2 corners[3] = {flat[drawn[i]], flat[drawn[i + 1]], flat[drawn[i + 2]]};
-        if (!size) {
-            float sides[3];
-            for (size_t k = 0; k < 3; ++k) {
-                const uint32_t a = garment.mesh.indices[i + k], b = garment.mesh.indices[i + (k + 1) % 3];
-                sides[k] = glm::length(corners[(k + 1) % 3] - corners[k]) * glm::length(rest[b] - rest[a]) /
-                           std::max(glm::length(garment.mesh.positions[b] - garment.mesh.positions[a]), 1e-6f);
-            }
-            const Vec2 like[3] = {corners[0], corners[1], corners[2]};
-            with_sides(like, sides, corners);
+    std::vector<Vec2> cut = cut_corners(garment, size);
+    if (size) return cut;
+    for (size_t i = 0; i + 2 < cut.size(); i += 3) {
+        const Vec2 like[3] = {cut[i], cut[i + 1], cut[i + 2]};
+        float sides[3];
+        for (size_t k = 0; k < 3; ++k) {
+            const uint32_t a = garment.mesh.indices[i + k], b = garment.mesh.indices[i + (k + 1) % 3];
+            sides[k] = glm::length(like[(k + 1) % 3] - like[k]) * glm::length(rest[b] - rest[a]) /
+                       std::max(glm::length(garment.mesh.positions[b] - garment.mesh.positions[a]), 1e-6f);
         }
-        cut.insert(cut.end(), corners, corners + 3);
+        Vec2 corners[3];
+        with_sides(like, sides, corners);
+        std::copy(corners, corners + 3, &cut[i]);
     }
     return cut;
 }
@@ -254,7 +251,7 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
         carried.add(ball.center, bone_weights);
         backstops_.push_back({i, ball.radius_m});
     }
-    if (!garment.flat.empty()) hems_ = limb_hems(indices_, part_below);
+    if (garment.has_own_lengths()) hems_ = limb_hems(indices_, part_below);
     std::vector<uint8_t> of_hem(n, 0);
     for (const auto& hem : hems_)
         for (const uint32_t v : hem) of_hem[v] = 1;
@@ -271,7 +268,7 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
 }
 
 std::vector<Vec2> Dress::cut(const Garment& garment, float size_ratio, const GarmentSize* size) const {
-    if (!garment.flat.empty()) return cut_of(garment, rest_, size);
+    if (garment.has_own_lengths()) return cut_of(garment, rest_, size);
     // As cook_fabric has it of a shape in space.
     const Vec3 scale(size_ratio, 1.0f, size_ratio);
     std::vector<Vec2> out;
@@ -286,7 +283,7 @@ std::vector<Vec2> Dress::cut(const Garment& garment, float size_ratio, const Gar
 }
 
 std::shared_ptr<const Fabric> Dress::fabric_of(const Garment& garment, const FabricMaterial& material, float size_ratio, const GarmentSize* size) const {
-    const std::vector<Vec2> cut = garment.flat.empty() ? std::vector<Vec2>() : cut_of(garment, rest_, size);
+    const std::vector<Vec2> cut = garment.has_own_lengths() ? cut_of(garment, rest_, size) : std::vector<Vec2>();
     const std::span<const Vec2> uvs = std::span(garment.mesh.uvs).first(garment.vertex_count());
     FabricData data = cook_fabric({rest_, indices_, uvs, garment.simulated, size_ratio, cut}, material);
     data.backstops = backstops_;

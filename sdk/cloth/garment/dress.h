@@ -30,9 +30,9 @@ struct DressBody {
 
 class Dress {
 public:
-    /// size_ratio: of the rest lengths around the body (size_ratio of garment.h; 1: made to measure), of a garment that has no flat
-    /// triangles. thickness_m: the clearance that the carried garment keeps from the body. size: one of the garment's with lengths
-    /// of its own; null: made to the body, its ease where the author gave it.
+    /// size_ratio: of the rest lengths around the body (size_ratio of garment.h; 1: made to measure), of a garment that has neither
+    /// flat triangles nor a cut_shape. thickness_m: the clearance that the carried garment keeps from the body. size: one of the
+    /// garment's with lengths of its own (with a cut_shape: the garment's); null: made to the body, its ease where the author gave it.
     Dress(const Garment& garment, const FabricMaterial& material, const DressBody& body, float size_ratio = 1.0f,
           float thickness_m = 0.004f, const GarmentSize* size = nullptr);
 

@@ -47,6 +47,13 @@ std::vector<Vec2> pairs(const Json& root, const char* key) {
     return out;
 }
 
+std::vector<Vec3> places(const Json& root, const char* key) {
+    const std::vector<float> values = numbers(root, key, 3);
+    std::vector<Vec3> out;
+    for (size_t i = 0; i < values.size(); i += 3) out.emplace_back(values[i], values[i + 1], values[i + 2]);
+    return out;
+}
+
 std::vector<uint32_t> indices(const Json& root, const char* key) {
     const Json& list = field(root, key);
     if (!list.is_array()) fail(VFIT_ERROR_DATA, "garment: \"", key, "\" is not an array");
@@ -118,7 +125,7 @@ void validate_sizes(const Garment& g) {
     std::set<std::string> labels;
     for (const GarmentSize& size : g.sizes) {
         if (!labels.insert(size.label).second) fail(VFIT_ERROR_DATA, "garment: size ", size.label, " occurs twice");
-        if (size.nominal.empty()) fail(VFIT_ERROR_DATA, "garment: size ", size.label, " names no girth");
+        if (size.nominal.empty() && g.cut_shape.empty()) fail(VFIT_ERROR_DATA, "garment: size ", size.label, " names no girth");
         for (const Measurement& m : size.nominal) {
             if (measure_index(m.key) < 0)
                 fail(VFIT_ERROR_DATA, "garment: size ", size.label, " names the unknown measure ", m.key);
@@ -129,10 +136,12 @@ void validate_sizes(const Garment& g) {
 }
 
 constexpr float kFarthest_m = 10.0f;  // a garment in centimetres or millimetres is a mistake
+// A sliver below this is as good as none: a garment's triangles are a centimetre or so a side.
+constexpr float kSmallestArea_m2 = 1e-9f;
+
+float area(const Vec3& a, const Vec3& b, const Vec3& c) { return 0.5f * glm::length(glm::cross(b - a, c - a)); }
 
 void validate_triangles(const Mesh& mesh) {
-    // A sliver below this is as good as none: a garment's triangles are a centimetre or so a side.
-    constexpr float kSmallestArea_m2 = 1e-9f;
     std::map<std::pair<uint32_t, uint32_t>, size_t> edges;  // directed edge -> its triangle
     for (size_t i = 0; i < mesh.indices.size(); i += 3) {
         const size_t triangle = i / 3;
@@ -143,9 +152,7 @@ void validate_triangles(const Mesh& mesh) {
                      mesh.positions.size());
         if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
             fail(VFIT_ERROR_DATA, "garment: triangle ", triangle, " names a vertex twice");
-        const Vec3& a = mesh.positions[v[0]];
-        const float area = 0.5f * glm::length(glm::cross(mesh.positions[v[1]] - a, mesh.positions[v[2]] - a));
-        if (!(area >= kSmallestArea_m2)) fail(VFIT_ERROR_DATA, "garment: triangle ", triangle, " is degenerate");
+        if (!(area(mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]) >= kSmallestArea_m2)) fail(VFIT_ERROR_DATA, "garment: triangle ", triangle, " is degenerate");
         for (int k = 0; k < 3; ++k) {
             const auto [other, fresh] = edges.insert({{v[k], v[(k + 1) % 3]}, triangle});
             if (!fresh)
@@ -158,7 +165,6 @@ void validate_triangles(const Mesh& mesh) {
 
 /// Triangles as they are cut, of the garment or one of its sizes.
 void validate_flat(const Garment& g, std::span<const Vec2> flat, const std::string& whose) {
-    constexpr float kSmallestArea_m2 = 1e-9f;
     if (flat.size() != g.drawn_count())
         fail(VFIT_ERROR_DATA, "garment: ", whose, " has ", flat.size(), " flat places for ", g.drawn_count(), " vertices and copies");
     for (size_t i = 0; i < flat.size(); ++i)
@@ -168,6 +174,20 @@ void validate_flat(const Garment& g, std::span<const Vec2> flat, const std::stri
         const uint32_t* v = &g.drawn_indices()[i];
         const Vec2 a = flat[v[1]] - flat[v[0]], b = flat[v[2]] - flat[v[0]];
         if (!(0.5f * std::abs(a.x * b.y - a.y * b.x) >= kSmallestArea_m2)) fail(VFIT_ERROR_DATA, "garment: ", whose, ": triangle ", i / 3, " is cut without an area");
+    }
+}
+
+/// The triangles' own lengths in space.
+void validate_cut_shape(const Garment& g) {
+    if (!g.flat.empty()) fail(VFIT_ERROR_DATA, "garment: there are both \"flat\" and \"shape\": its lengths are the one or the other");
+    if (g.cut_shape.size() != g.vertex_count()) fail(VFIT_ERROR_DATA, "garment: \"shape\" has ", g.cut_shape.size(), " places for ", g.vertex_count(), " vertices");
+    for (size_t i = 0; i < g.cut_shape.size(); ++i)
+        if (!finite(g.cut_shape[i]) || glm::length(g.cut_shape[i]) > kFarthest_m)
+            fail(VFIT_ERROR_DATA, "garment: place ", i, " of \"shape\" is not finite or further than ", kFarthest_m, " m away");
+    for (size_t i = 0; i < g.mesh.indices.size(); i += 3) {
+        const uint32_t* v = &g.mesh.indices[i];
+        if (!(area(g.cut_shape[v[0]], g.cut_shape[v[1]], g.cut_shape[v[2]]) >= kSmallestArea_m2))
+            fail(VFIT_ERROR_DATA, "garment: triangle ", i / 3, " has no area in \"shape\"");
     }
 }
 
@@ -184,6 +204,7 @@ void validate_cut(const Garment& g) {
             fail(VFIT_ERROR_DATA, "garment: corners[", i, "] is ", v, ", no copy of vertex ", g.mesh.indices[i]);
     }
     if (!g.flat.empty()) validate_flat(g, g.flat, "the garment");
+    if (!g.cut_shape.empty()) validate_cut_shape(g);
     for (const GarmentSize& size : g.sizes) {
         if (size.flat.empty() != g.flat.empty()) fail(VFIT_ERROR_DATA, "garment: size ", size.label, " and the garment: one of the two has no \"flat\"");
         if (!size.flat.empty()) validate_flat(g, size.flat, "size " + size.label);
@@ -259,9 +280,7 @@ Garment parse_garment(std::span<const std::byte> json, const FabricLibrary& fabr
     const std::string sex = text_field(root, "body_sex");
     if (sex != "f" && sex != "m") fail(VFIT_ERROR_DATA, "garment: body_sex is neither \"f\" nor \"m\"");
     g.body_sex = sex == "f" ? VFIT_SEX_FEMALE : VFIT_SEX_MALE;
-    const std::vector<float> positions = numbers(root, "positions", 3);
-    for (size_t i = 0; i < positions.size(); i += 3)
-        g.mesh.positions.emplace_back(positions[i], positions[i + 1], positions[i + 2]);
+    g.mesh.positions = places(root, "positions");
     g.mesh.uvs = pairs(root, "uvs");
     g.mesh.indices = indices(root, "indices");
     g.simulated = flags(root, "simulated");
@@ -271,6 +290,7 @@ Garment parse_garment(std::span<const std::byte> json, const FabricLibrary& fabr
     if (root.contains("copies")) g.copies = indices(root, "copies");
     if (root.contains("corners")) g.corners = indices(root, "corners");
     if (root.contains("flat")) g.flat = pairs(root, "flat");
+    if (root.contains("shape")) g.cut_shape = places(root, "shape");
     if (root.contains("on_arm")) g.on_arm = flags(root, "on_arm");
     if (root.contains("parts")) g.parts = parts(root);
     validate_garment(g, fabrics);

@@ -18,8 +18,8 @@ namespace vfit {
 /// One label of the garment's size table with the girths it is made for (keys as in measurement.h).
 struct GarmentSize {
     std::string label;
-    std::vector<Measurement> nominal;
-    std::vector<Vec2> flat;  // as Garment::flat, in this size; empty: the shape's lengths times nominal over own girths
+    std::vector<Measurement> nominal;  // may be empty where the garment has a cut_shape
+    std::vector<Vec2> flat;  // as Garment::flat, in this size; empty: the garment's cut_shape, or its shape's lengths times nominal over own girths
 };
 
 /// How triangles look; passed through to whoever draws them.
@@ -40,6 +40,8 @@ struct Garment {
     std::vector<uint32_t> corners;   // the triangles by vertices and copies, three each; empty: mesh.indices
     std::vector<Vec2> flat;          // empty, or one a vertex and copy: the triangles as they are cut from cloth, metres, y along the
                                      // warp: the garment's own lengths, in which positions were found
+    std::vector<Vec3> cut_shape;     // empty, or one a vertex: a shape in space whose sides have the garment's own lengths, of what
+                                     // was modelled and not cut; there is no flat then
     std::vector<uint8_t> on_arm;     // empty, or one a vertex: 1 carried by an arm
     std::vector<GarmentPart> parts;  // empty: one, without a name
     std::vector<uint8_t> simulated;  // one a vertex: 1 simulated, 0 skinned with the body
@@ -49,6 +51,8 @@ struct Garment {
 
     uint32_t vertex_count() const { return uint32_t(mesh.positions.size()); }
     uint32_t simulated_count() const;
+    /// Other than those between its positions.
+    bool has_own_lengths() const { return !flat.empty() || !cut_shape.empty(); }
     uint32_t drawn_count() const { return vertex_count() + uint32_t(copies.size()); }
     const std::vector<uint32_t>& drawn_indices() const { return corners.empty() ? mesh.indices : corners; }
     /// The size of that label; VFIT_ERROR_ARGUMENT, naming those that there are, where there is none.

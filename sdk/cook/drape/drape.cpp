@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "cloth/cloth.h"
-#include "cloth/crossings.h"
 #include "core/clock.h"
 #include "core/error.h"
 
@@ -19,7 +17,6 @@ constexpr float kClosed_m = 0.002f;      // the widest that a seam should be whe
 // Of a stitch's spring: thread pulls panels along, and stretches them by a little only; at the end it is pulled tight.
 constexpr float kSewing_n_m = 400.0f, kClosing_n_m = 20000.0f;
 constexpr float kStage_m = 0.02f;        // by which the widest seams close in a stage
-constexpr uint32_t kFreeSubsteps = 16, kHeldSubsteps = 16;  // of 1/60 s: the more, the less it stretches by its own weight
 constexpr int kFramesAStage = 3, kFramesToClose = 180;
 
 /// Corners of the triangles in flat cloth, one an index.
@@ -36,24 +33,24 @@ public:
 
     Draped run(const Placement& placement) {
         const Stopwatch watch;
-        Draped out;
-        out.report.hangs_on = placement.hangs_on;
-        out.report.raised_m = placement.raised_m;
         std::vector<Vec3> places = placement.places;
         look("placed", places);
-        out.report.widest_seam_m = close_seams(places);
+        const float widest = close_seams(places);
         look("sewn", places);
         check_closed(places);
         std::vector<Vec3> one(mesh_.sewn_count, Vec3(0.0f));
         std::vector<float> count(mesh_.sewn_count, 0.0f);
         for (uint32_t v = 0; v < places.size(); ++v) one[mesh_.sewn_of[v]] += places[v], count[mesh_.sewn_of[v]] += 1.0f;
         for (uint32_t v = 0; v < mesh_.sewn_count; ++v) one[v] /= count[v];
-        settle(one, placement, out);
-        clear_skin(one);
-        look("at rest", spread(one));
-        out.positions = std::move(one);
-        out.report.self_crossings = uint32_t(crossed_triangles(out.positions, mesh_.sewn_indices).size());
-        out.report.skin_crossings = uint32_t(crossed_triangles({out.positions, mesh_.sewn_indices}, {body_.positions, body_.indices}).size());
+        DrapeSettings of_sewn = settings_;
+        if (settings_.watch) of_sewn.watch = [this](const char* stage, const std::vector<Vec3>& sewn) { look(stage, spread(sewn)); };
+        const Band band = band_of(placement, one);
+        Draped out = settle({mesh_.sewn_indices, cut_, &material_}, std::move(one), band, body_, of_sewn, jobs_);
+        if (placement.hangs_on == HangsOn::shoulders && std::count(out.simulated.begin(), out.simulated.end(), 0) == 0)
+            fail(VFIT_ERROR_DATA, "the garment slides off the shoulders of this body: no part of it lies on them when it has fallen");
+        out.report.hangs_on = placement.hangs_on;
+        out.report.raised_m = placement.raised_m;
+        out.report.widest_seam_m = widest;
         out.report.seconds = watch.ms() / 1000.0;
         return out;
     }
@@ -117,84 +114,16 @@ private:
         return widest;
     }
 
-    /// Falls to rest: first free, held by friction and a belt; then on what it hangs on, which from now on goes with the skin.
-    void settle(std::vector<Vec3>& places, const Placement& placement, Draped& out) {
-        constexpr float kBelt_m = 0.015f;  // how much the band of trousers or a skirt may still move
-        std::vector<uint8_t> band(places.size(), 0);
+    Band band_of(const Placement& placement, const std::vector<Vec3>& sewn) const {
+        Band band;
+        band.of.assign(sewn.size(), 0);
         float height = 0.0f, count = 0.0f;
         for (const EdgeName& edge : placement.band)
-            for (const uint32_t v : mesh_.panels[edge.panel].edge_vertices[edge.edge]) band[mesh_.sewn_of[mesh_.first_vertex[edge.panel] + v]] = 1;
-        for (uint32_t v = 0; v < places.size(); ++v)
-            if (band[v]) height += places[v].y, count += 1.0f;
-        FabricData data = cook(places, std::vector<uint8_t>(places.size(), 1));
-        for (uint32_t v = 0; v < places.size(); ++v)
-            if (band[v]) data.limits.push_back({v, kBelt_m});
-        fall(std::move(data), places, {90, 60, count > 0.0f ? height / count - placement.band_m : 0.0f, kFreeSubsteps});
-        look("fallen", spread(places));
-
-        out.simulated.assign(places.size(), 1);
-        for (uint32_t v = 0; v < places.size(); ++v)
-            if (band[v] || (count == 0.0f && lies_on_shoulder(places[v]))) out.simulated[v] = 0;
-        if (placement.hangs_on == HangsOn::shoulders && std::count(out.simulated.begin(), out.simulated.end(), 0) == 0)
-            fail(VFIT_ERROR_DATA, "the garment slides off the shoulders of this body: no part of it lies on them when it has fallen");
-        out.report.strain_p99 = fall(cook(places, out.simulated), places, {120, 0, 0.0f, kHeldSubsteps});
-    }
-
-    FabricData cook(const std::vector<Vec3>& places, const std::vector<uint8_t>& simulated) const {
-        return cook_fabric({places, mesh_.sewn_indices, {}, simulated, 1.0f, cut_}, material_);
-    }
-
-    struct Fall {
-        int frames, lowering_frames;
-        float lowered_m;  // of what is held, over these
-        uint32_t substeps;
-    };
-    /// With layers of its own. Returns the 99th percentile of strain.
-    float fall(FabricData data, std::vector<Vec3>& places, const Fall& how) {
-        ClothSettings settings;
-        settings.substeps = how.substeps;
-        settings.friction = material_.friction;
-        settings.thickness_m = settings_.thickness_m;
-        settings.self_thickness_m = settings_.thickness_m;
-        settings.damping = 0.95f;
-        std::vector<Vec3> targets = places;
-        Cloth cloth(std::make_shared<const Fabric>(std::move(data)), settings, places);
-        const uint32_t skin = cloth.add_mesh(body_.positions.size(), body_.indices);
-        for (int frame = 0; frame < how.frames; ++frame) {
-            cloth.move_mesh(skin, body_.positions);
-            if (frame < how.lowering_frames)
-                for (Vec3& target : targets) target.y -= how.lowered_m / float(how.lowering_frames);
-            cloth.step(kFrame_s, targets, {}, jobs_);
-        }
-        places = cloth.positions();
-        return cloth.stats().strain_p99;
-    }
-
-    /// Vertices are kept off the skin, what lies between them is not: where skin stands out through a triangle, the triangle moves out.
-    void clear_skin(std::vector<Vec3>& places) const {
-        constexpr int kRounds = 40;
-        constexpr float kStep_m = 0.0005f;
-        for (int round = 0; round < kRounds; ++round) {
-            const auto crossed = crossed_triangles({places, mesh_.sewn_indices}, {body_.positions, body_.indices});
-            if (crossed.empty()) return;
-            std::set<uint32_t> moved;
-            for (const auto& [cloth, skin] : crossed)
-                for (size_t k = 0; k < 3; ++k) moved.insert(mesh_.sewn_indices[3 * cloth + k]);
-            for (const uint32_t v : moved) {
-                const MeshQuery::Closest near = body_.skin->closest(places[v]);
-                const bool inside = body_.skin->inside(places[v]);
-                const Vec3 outward = near.distance > 1e-6f ? (places[v] - near.point) * ((inside ? -1.0f : 1.0f) / near.distance) : near.normal;
-                places[v] += outward * kStep_m;
-            }
-        }
-    }
-
-    bool lies_on_shoulder(const Vec3& place) const {
-        constexpr float kTouches_m = 0.006f, kUpwards = 0.75f, kNeck_m = 0.03f, kBelowJoint_m = 0.02f;
-        const Vec3 joint = body_.left_shoulder;
-        if (std::abs(place.x) < kNeck_m || std::abs(place.x) > joint.x || place.y < joint.y - kBelowJoint_m) return false;
-        const MeshQuery::Closest near = body_.skin->closest(place);
-        return near.distance < settings_.thickness_m + kTouches_m && near.normal.y > kUpwards;
+            for (const uint32_t v : mesh_.panels[edge.panel].edge_vertices[edge.edge]) band.of[mesh_.sewn_of[mesh_.first_vertex[edge.panel] + v]] = 1;
+        for (uint32_t v = 0; v < sewn.size(); ++v)
+            if (band.of[v]) height += sewn[v].y, count += 1.0f;
+        if (count > 0.0f) band.lowered_m = height / count - placement.band_m;
+        return band;
     }
 
     const Pattern& pattern_;

@@ -4,13 +4,11 @@
 #include <vector>
 
 #include "cook/body_outline.h"
+#include "cook/drape/settle.h"
 #include "cook/pattern/pattern.h"
 #include "cook/sew/sewn.h"
 
 namespace vfit {
-
-/// What a pattern hangs on, by which it is moved up or down to a body of another height.
-enum class HangsOn { shoulders, waist, nothing };
 
 struct Placement {
     std::vector<Vec3> places;  // one a panel vertex

@@ -55,6 +55,36 @@ TEST(Dress, SizeScalesRestLengthsAroundTheBodyOnly) {
     EXPECT_NEAR(large.y / own.y, 1.0f, 1e-5f);
 }
 
+TEST(Dress, AShapeOfItsOwnIsKeptByALabelAndGoesWithTheBodyWithoutOne) {
+    const Post thin(0.1f), wide(0.15f);
+    Garment g = sleeve(0.12f);
+    for (const Vec3& p : g.mesh.positions) g.cut_shape.push_back(1.1f * p);  // modelled larger than it hangs
+    g.sizes.push_back({"M", {}, {}});
+    validate_garment(g, library());
+    const auto around = [&](const Dress& dress) {
+        float sum = 0.0f;
+        for (const DistanceConstraint& e : dress.fabric()->data().edges)
+            if (e.a / kRound == 4 && e.b / kRound == 4) sum += e.rest_m;
+        return sum;
+    };
+    const float side = 2.0f * float(kRound) * std::sin(kPi / float(kRound));  // of a ring of radius 1
+    EXPECT_NEAR(around(Dress(g, cotton(), thin.dressed_by(thin), 1.0f, 0.004f, &g.sizes[0])), 1.1f * 0.12f * side, 1e-4f);
+    EXPECT_NEAR(around(Dress(g, cotton(), wide.dressed_by(thin), 1.0f, 0.004f, &g.sizes[0])), 1.1f * 0.12f * side, 1e-4f);
+    EXPECT_NEAR(around(Dress(g, cotton(), thin.dressed_by(thin))), 1.1f * 0.12f * side, 1e-4f);
+    EXPECT_NEAR(around(Dress(g, cotton(), wide.dressed_by(thin))), 1.1f * 0.17f * side, 0.02f);
+    // Only its own uvs say where the warp runs: down, as those of the sleeve do, whatever they are scaled by.
+    const auto softest = [&](const Garment& of) {
+        const Dress dress(of, cotton(), thin.dressed_by(thin), 1.0f, 0.004f, &of.sizes[0]);
+        std::vector<float> out;
+        for (const DistanceConstraint& e : dress.fabric()->data().edges) out.push_back(e.compliance_m_n);
+        return out;
+    };
+    Garment stretched = g;
+    for (Vec2& uv : stretched.mesh.uvs) uv *= 40.0f;
+    const std::vector<float> a = softest(g), b = softest(stretched);
+    for (size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-3f * a[i]);
+}
+
 TEST(Dress, FollowsItsBones) {
     const Post post(0.1f);
     const Dress dress(sleeve(0.12f), cotton(), post.dressed_by(post));

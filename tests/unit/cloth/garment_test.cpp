@@ -90,6 +90,22 @@ TEST(Garment, RefusesBadFieldsByName) {
     EXPECT_EQ(refusal("vfit-garment", "garment"), "-11 garment: format is not \"vfit-garment\"");
 }
 
+TEST(Garment, AShapeOfItsOwnLengthsIsReadAndChecked) {
+    const std::string sizes = "\"sizes\": [{\"label\": \"S\", \"chest_girth_m\": 0.8}, {\"label\": \"L\", \"chest_girth_m\": 1.0, \"hip_girth_m\": 1.2}]";
+    const auto with_shape = [&](const std::string& more) { return with(sizes, "\"sizes\": [{\"label\": \"M\"}], " + more); };
+    const auto refused = [&](const std::string& more) { return error_of([&] { parse(with_shape(more)); }); };
+    const Garment g = parse(with_shape("\"shape\": [0,2,0, 2,2,0, 0,0,0, 2,0,0]"));
+    EXPECT_EQ(g.cut_shape[1], Vec3(2, 2, 0));
+    EXPECT_TRUE(g.size("M").nominal.empty());  // its own lengths are the size
+    EXPECT_EQ(refused("\"note\": 1"), "-11 garment: size M names no girth");
+    EXPECT_EQ(refused("\"shape\": [0,2,0, 2,2,0]"), "-11 garment: \"shape\" has 2 places for 4 vertices");
+    EXPECT_EQ(refused("\"shape\": [0,2,0, 2,2,0, 0,0,0, 1e39,0,0]"), "-11 garment: place 3 of \"shape\" is not finite or further than 10 m away");
+    EXPECT_EQ(refused("\"shape\": [0,2,0, 0,1,0, 0,0,0, 2,0,0]"), "-11 garment: triangle 0 has no area in \"shape\"");
+    EXPECT_EQ(refused("\"shape\": [0,2]"), "-11 garment: \"shape\" is not a flat array of 3 numbers an item");
+    EXPECT_EQ(refused("\"shape\": [0,2,0, 2,2,0, 0,0,0, 2,0,0], \"flat\": [0,0, 1,0, 0,1, 1,1]"),
+              "-11 garment: there are both \"flat\" and \"shape\": its lengths are the one or the other");
+}
+
 TEST(Garment, RefusesEveryCutOfItsText) {
     const std::string text = kGarment;
     for (size_t length = 0; length < text.size(); ++length)

@@ -1,0 +1,21 @@
+// From a garment that is modelled as a mesh to a garment file's: made whole, draped on the default body of a sex, in its own lengths.
+#pragma once
+
+#include <string>
+
+#include "cook/cook_pattern.h"
+#include "cook/model/model.h"
+
+namespace vfit {
+
+struct ModelOptions {
+    std::string name;
+    CookOptions cook;
+    float unit_m = 1.0f;     // of the positions
+    std::string size_label;  // empty: it has none
+};
+
+/// VFIT_ERROR_DATA says what is no garment's mesh, and where.
+CookedGarment cook_model(const BodyModel& body_model, const Model& model, const FabricLibrary& fabrics, const ModelOptions& options, Jobs& jobs);
+
+}  // namespace vfit
