@@ -389,6 +389,21 @@ class Contract(unittest.TestCase):
             self.assertEqual(result["size"], "XL")
             self.check_failure(run("fit", VIRTUAL, "--size", "QQ", "--out", folder), "QQ")
 
+    def test_wear_shows_sizes_and_layers_side_by_side(self):
+        with tempfile.TemporaryDirectory() as folder:
+            report = document(self, "wear", "jeans_women+vest,sundress_pattern", "--size", "S,XXL", "--draft", "--out", folder, "--json")
+            self.assertEqual([(o["outfit"], o["size"]) for o in report["outfits"]],
+                             [("jeans_women+vest", "S"), ("jeans_women+vest", "XXL"), ("sundress_pattern", "S"), ("sundress_pattern", "XXL")])
+            zones = {(o["outfit"], o["size"]): {k: z["fit"] for g in o["garments"] for k, z in g["zones"].items()} for o in report["outfits"]}
+            self.assertEqual(zones["sundress_pattern", "S"]["chest_girth_m"], "right")  # as vfit size recommends for her
+            self.assertEqual(zones["sundress_pattern", "XXL"]["chest_girth_m"], "loose")
+            self.assertGreater((pathlib.Path(folder) / "worn.png").stat().st_size, 10000)
+            heavy = document(self, "wear", "jeans_women", "--size", "XS", "--shape", "weight=1.15", "--draft", "--out", folder, "--json")
+            self.assertIn("hip_girth_m", heavy["outfits"][0]["not_wearable"])
+            self.check_failure(run("wear", "jeans_women", "--size", "QQ", "--out", folder), "QQ")
+            self.check_failure(run("wear", "no_such", "--out", folder), "no_such")
+            self.check_failure(run("wear", "vest", "--shape", "weight", "--out", folder), "KEY=NUMBER")
+
     def test_a_garment_of_ones_own_is_cooked_and_worn(self):
         design = pathlib.Path(__file__).resolve().parents[2] / "assets" / "garments" / "sundress.json"
         with tempfile.TemporaryDirectory() as folder:

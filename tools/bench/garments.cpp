@@ -106,10 +106,11 @@ Welded mesh_of(vfit_cloth cloth) {
     return weld(frame.get());
 }
 
-float farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-    float most = 0.0f;
-    for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) most = std::max(most, glm::length(a[i] - b[i]));
-    return most;
+/// The way of 99 of 100 vertices, in millimetres, at most.
+double ways_mm(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+    Samples ways;
+    for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) ways.add(1e3 * double(glm::length(a[i] - b[i])));
+    return ways.quantile(0.99);
 }
 std::vector<Vec3> places(vfit_cloth cloth) {
     Frame frame;
@@ -196,7 +197,7 @@ public:
             settle(cloth.get(), 59);
             const auto before = places(cloth.get());
             settle(cloth.get(), 1);
-            tally_.moving_mm.add(1e3 * double(farthest(before, places(cloth.get()))));
+            tally_.moving_mm.add(ways_mm(before, places(cloth.get())));
         }
     }
 
@@ -335,7 +336,7 @@ void judge_garments(const Options& options) {
     targets.judge("garment put on, to the first frame, 95 %", tally.dress_ms.quantile(0.95), Aim::at_most, 100.0, 0, " ms");
     if (!tally.size_ms.empty()) {
         targets.judge("size changed, to the first frame, 95 %", tally.size_ms.quantile(0.95), Aim::at_most, 100.0, 0, " ms");
-        targets.judge("moving after a second, a frame, 95 %", tally.moving_mm.quantile(0.95), Aim::at_most, 1.0, 2, " mm");
+        targets.judge("moving a second later, a frame, 99 of 100 vertices, 95 %", tally.moving_mm.quantile(0.95), Aim::at_most, 1.0, 2, " mm");
     }
     const Json ease = judge_ease(context.get(), options.json, targets);
     if (options.json)
