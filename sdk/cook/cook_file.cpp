@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <optional>
 
 #include "avatar/gltf_document.h"
 #include "cook/cook_model.h"
@@ -27,6 +28,29 @@ std::string name_of(const std::string& path) {
     return name;
 }
 
+/// A specification does not tell whom it was drawn for: on the woman, and where its seams do not close on her, or it crosses her or
+/// itself, on the man too; the better of both.
+CookedGarment cook_on_either(const BodyModel& model, const std::vector<PatternSize>& sizes, const FabricLibrary& fabrics, CookOptions options, Jobs& jobs) {
+    const auto crossings = [](const CookedGarment& cooked) { return cooked.report.skin_crossings + cooked.report.self_crossings; };
+    std::optional<CookedGarment> on_woman;
+    std::string fault;
+    try {
+        options.sex = VFIT_SEX_FEMALE;
+        on_woman = cook_pattern(model, sizes, 0, fabrics, options, jobs);
+        if (crossings(*on_woman) == 0) return std::move(*on_woman);
+    } catch (const Error& error) {
+        fault = error.what();
+    }
+    try {
+        options.sex = VFIT_SEX_MALE;
+        CookedGarment on_man = cook_pattern(model, sizes, 0, fabrics, options, jobs);
+        return on_woman && crossings(*on_woman) <= crossings(on_man) ? std::move(*on_woman) : std::move(on_man);
+    } catch (const Error&) {
+        if (!on_woman) fail(VFIT_ERROR_DATA, fault);
+        return std::move(*on_woman);
+    }
+}
+
 CookedGarment cook_specification(const BodyModel& model, const FabricLibrary& fabrics, const CookRequest& request, std::span<const std::byte> text, Jobs& jobs) {
     CookOptions options;
     if (!request.kind.empty()) options.kind = request.kind;
@@ -35,7 +59,9 @@ CookedGarment cook_specification(const BodyModel& model, const FabricLibrary& fa
     options.triangle_m = request.triangle_m;
     options.drape = request.drape;
     const Pattern pattern = parse_garmentcode(text, request.name.empty() ? name_of(request.path) : request.name);
-    return cook_pattern(model, {{"", {}, pattern}}, 0, fabrics, options, jobs);
+    const std::vector<PatternSize> sizes{{"", {}, pattern}};
+    if (request.sex != VFIT_SEX_UNKNOWN) return cook_pattern(model, sizes, 0, fabrics, options, jobs);
+    return cook_on_either(model, sizes, fabrics, options, jobs);
 }
 
 CookedGarment cook_design(const BodyModel& model, const FabricLibrary& fabrics, const CookRequest& request, std::span<const std::byte> text, Jobs& jobs) {

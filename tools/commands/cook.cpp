@@ -36,7 +36,7 @@ Json report_of(const CookedGarment& cooked) {
     const DrapeReport& r = cooked.report;
     Json sizes = Json::array();
     for (const GarmentSize& size : g.sizes) sizes.push_back(size.label);
-    Json out = {{"garment", g.name}, {"kind", g.kind}, {"fabric", g.fabric}, {"vertices", g.vertex_count()}, {"simulated", g.simulated_count()}, {"sizes", sizes}};
+    Json out = {{"garment", g.name}, {"kind", g.kind}, {"fabric", g.fabric}, {"body_sex", g.body_sex == VFIT_SEX_MALE ? "m" : "f"}, {"vertices", g.vertex_count()}, {"simulated", g.simulated_count()}, {"sizes", sizes}};
     if (!g.has_own_lengths()) return out;
     out["triangles"] = g.mesh.indices.size() / 3;
     out["hangs_on"] = r.hangs_on == HangsOn::shoulders ? "shoulders" : r.hangs_on == HangsOn::waist ? "waist" : "nothing";
@@ -158,7 +158,7 @@ void add_cook(Command& app) {
     command.add_option("--fabrics", o->fabrics, "Fabrics (default: those beside the program)");
     command.add_option("--kind", o->kind, "Of a specification or mesh: garment kind of the size charts (default dress)");
     command.add_option("--fabric", o->fabric, "Of a specification or mesh: its fabric (default cotton_woven)");
-    command.add_option("--sex", o->sex, "Of a specification or mesh: on whose default body it is draped (default f)").one_of({"f", "m"});
+    command.add_option("--sex", o->sex, "Of a specification or mesh: on whose default body it is draped (default f; of a specification the better of both)").one_of({"f", "m"});
     command.add_option("--size-label", o->size_label, "Of a mesh: the label of the size that it is modelled in");
     command.add_option("--unit", o->unit, "Of an OBJ file: m, cm or mm (default m)").one_of({"m", "cm", "mm"});
     command.add_option("--triangle", o->triangle_mm, "Side of a triangle of a pattern in mm (default 20)").within(5, 100);

@@ -99,6 +99,21 @@ TEST_F(Cooking, SizesShareTheMeshAndHaveTheirOwnLengths) {
     EXPECT_THROW(cook_pattern(*model, other, 0, fabrics, {}, *jobs), Error);
 }
 
+/// What is shared between people who work on vfit, or empty.
+std::string shared_folder() {
+    const char* told = std::getenv("VFIT_SHARED");
+    const std::string folder = told ? told : VFIT_SOURCE_DIR "/../shared";
+    return std::filesystem::exists(folder + "/data/patterns") ? folder : "";
+}
+
+TEST_F(Cooking, ASpecificationThatTellsOfNobodyIsTriedOnBoth) {
+    const std::string shared = shared_folder();
+    if (shared.empty()) GTEST_SKIP() << "no shared/data/patterns";
+    CookRequest request;
+    request.path = shared + "/data/patterns/sundress_f/sundress_f_specification.json";
+    EXPECT_EQ(cook_file(*model, fabrics, request, *jobs).garment.body_sex, VFIT_SEX_FEMALE);
+}
+
 TEST_F(Cooking, ASeamThatCannotCloseIsNamed) {
     try {
         cook(tube(0.1f, 0.3f, 1.1f));  // 40 cm around a waist of 69
@@ -107,13 +122,6 @@ TEST_F(Cooking, ASeamThatCannotCloseIsNamed) {
         EXPECT_EQ(error.code(), VFIT_ERROR_DATA);
         EXPECT_NE(std::string(error.what()).find("panel front, edge 1"), std::string::npos) << error.what();
     }
-}
-
-/// What is shared between people who work on vfit, or empty.
-std::string shared_folder() {
-    const char* told = std::getenv("VFIT_SHARED");
-    const std::string folder = told ? told : VFIT_SOURCE_DIR "/../shared";
-    return std::filesystem::exists(folder + "/data/patterns") ? folder : "";
 }
 
 TEST_F(Cooking, DrapesRealSpecifications) {
