@@ -64,6 +64,26 @@ namespace Vfit.Tests
         }
 
         [Test]
+        public void GarmentsTellHowTheySitAndWhatCannotBeWorn()
+        {
+            using (Avatar avatar = Support.MakeAvatar(Context))
+            using (Garment garment = Garment.Open(Context, "sundress_pattern"))
+            using (var cloth = new Cloth(avatar, garment, default(ClothDesc), "XXL"))
+            using (var frame = new Frame(Context))
+            {
+                Assert.IsTrue(garment.Parts().Length > 0);
+                for (int i = 0; i < 10; i++) cloth.Step(1f / 60f);
+                FitZone[] zones = cloth.Fit();
+                Assert.IsTrue(zones.Length > 0);
+                foreach (FitZone zone in zones) Assert.AreEqual(zone.GarmentM - zone.BodyM, zone.EaseM, 1e-4f);
+                Assert.Throws<VfitException>(() => cloth.SetSize("QQ"));
+                Assert.Throws<VfitException>(() => cloth.FitMap(new float[3]));
+                cloth.SetSize("XL");
+                cloth.SetSize(null);
+            }
+        }
+
+        [Test]
         public void CountsBeyondAnArrayAreRefused()
         {
             using (var tracker = new Tracker(Context))

@@ -233,6 +233,26 @@ def test_what_a_cloth_may_be_told(ctx):
             vfit.Cloth(avatar, garment, **bad)
 
 
+def test_a_garment_keeps_its_lengths_and_tells_how_it_sits(ctx):
+    avatar = vfit.Avatar.from_shape(ctx, sex="f")
+    dress = vfit.Garment.open(ctx, "sundress_pattern")
+    assert [p.first_index for p in dress.parts][0] == 0 and all(0.0 <= c <= 1.0 for c in dress.parts[0].color)
+    cloth = vfit.Cloth(avatar, dress, size="S", skin=True)
+    for _ in range(20):
+        cloth.step()
+    chest = {zone.key: zone for zone in cloth.fit()}["chest_girth_m"]
+    assert chest.fit == "right" and chest.ease_m == pytest.approx(chest.garment_m - chest.body_m)
+    cloth.set_size("XXL")
+    assert {zone.key: zone for zone in cloth.fit()}["chest_girth_m"].garment_m > chest.garment_m + 0.2
+    assert cloth.fit_map().shape == (cloth.acquire().positions.shape[0],)
+    with pytest.raises(vfit.ArgumentError, match="QQ"):
+        cloth.set_size("QQ")
+    heavy = vfit.Avatar.from_shape(ctx, {"weight": 1.15}, sex="f")
+    with pytest.raises(vfit.NotWearableError, match="hip_girth_m"):
+        vfit.Cloth(heavy, vfit.Garment.open(ctx, "jeans_women"), size="XS")
+    assert vfit.Cloth(heavy, vfit.Garment.open(ctx, "jeans_women"), size="XS", any_fit=True).stats().vertex_count > 0
+
+
 def test_hidden_skin_adds_up_over_garments(ctx):
     avatar = vfit.Avatar.from_measures(ctx, {"stature_m": 1.68}, sex="f")
     cloth = vfit.Cloth(avatar, vfit.Garment.open(ctx, "sundress"))
