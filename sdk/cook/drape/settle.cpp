@@ -5,6 +5,7 @@
 #include <memory>
 #include <set>
 
+#include "body/mesh.h"
 #include "cloth/cloth.h"
 #include "cloth/crossings.h"
 
@@ -28,12 +29,14 @@ public:
         for (uint32_t v = 0; v < places.size() && has_band; ++v)
             if (band.of[v]) data.limits.push_back({v, kBelt_m});
         fall(std::move(data), places, {90, 60, has_band ? band.lowered_m : 0.0f, kFreeSubsteps});
+        part_layers(places);
         look("fallen", places);
 
         out.simulated.assign(places.size(), 1);
         for (uint32_t v = 0; v < places.size(); ++v)
             if (has_band ? band.of[v] != 0 : lies_on_shoulder(places[v])) out.simulated[v] = 0;
         out.report.strain_p99 = fall(cook(places, out.simulated), places, {120, 0, 0.0f, kHeldSubsteps});
+        part_layers(places);
         clear_skin(places);
         look("at rest", places);
         out.positions = std::move(places);
@@ -100,6 +103,31 @@ private:
                 places[v] += outward * kStep_m;
             }
         }
+    }
+
+    /// Where layers went through each other while they were sewn, as two legs do below the crotch: they meet with their outsides, so each
+    /// goes inwards, back to its own limb. Taken back where that parts none.
+    void part_layers(std::vector<Vec3>& places) const {
+        constexpr int kRounds = 40;
+        constexpr float kStep_m = 0.0005f;
+        const std::vector<Vec3> before = places;
+        std::vector<Vec3> normals;
+        compute_normals(places, cloth_.indices, normals);
+        double outwards = 0.0;  // seams may have left it inside out
+        for (size_t v = 0; v < places.size(); v += 8) outwards += double(glm::dot(normals[v], places[v] - body_.skin->closest(places[v]).point));
+        const float step_m = outwards < 0.0 ? kStep_m : -kStep_m;
+        const size_t first = crossed_triangles(places, cloth_.indices).size();
+        size_t left = first;
+        for (int round = 0; round < kRounds && left > 0; ++round) {
+            std::set<uint32_t> moved;
+            for (const auto& [a, b] : crossed_triangles(places, cloth_.indices))
+                for (const uint32_t triangle : {a, b})
+                    for (size_t k = 0; k < 3; ++k) moved.insert(cloth_.indices[3 * triangle + k]);
+            compute_normals(places, cloth_.indices, normals);
+            for (const uint32_t v : moved) places[v] += normals[v] * step_m;
+            left = crossed_triangles(places, cloth_.indices).size();
+        }
+        if (left >= first) places = before;
     }
 
     bool lies_on_shoulder(const Vec3& place) const {
