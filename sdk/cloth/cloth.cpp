@@ -38,6 +38,8 @@ struct PutOnPhase {
 };
 constexpr PutOnPhase kHang{15, 4}, kMove{40, 4}, kSettle{10, 8};
 constexpr float kPutOnDamping = 0.99f;
+// After a change of lengths: what has fallen into its new folds should hang still within a second.
+constexpr float kSettles_s = 0.8f, kSettlingDamping = 0.98f;
 
 void check(const Air& air) {
     if (!finite(air.wind_m_s)) fail(VFIT_ERROR_ARGUMENT, "the wind is not finite");
@@ -136,6 +138,7 @@ struct Cloth::State {
     uint32_t substeps = 0;    // of the last step
     ParticleSolver::Ways ways;  // of the vertices in the last step
     float still_s = 0.0f;     // since the cloth last moved
+    float settles_s = 0.0f;   // so long it comes to rest from other lengths
     std::vector<Vec3> asleep_at;  // the targets at which it fell asleep; empty: it is awake
 
     bool stays_asleep(std::span<const Vec3> targets) const;
@@ -250,6 +253,7 @@ void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
     }
     s.solver.rest();
     s.wake();
+    s.settles_s = kSettles_s;
 }
 
 uint32_t Cloth::add_mesh(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts) {
@@ -304,7 +308,9 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
     }
     if (!s.asleep_at.empty()) s.wake();
     const int substeps = s.affordable_substeps(dt);
-    s.advance(dt, substeps, s.settings.damping, skinned_targets, jobs);
+    const bool settles = s.settles_s > 0.0f;
+    if (settles) s.settles_s -= dt;
+    s.advance(dt, substeps, settles ? std::max(s.settings.damping, kSettlingDamping) : s.settings.damping, skinned_targets, jobs);
     s.substeps = uint32_t(substeps);
     s.step_ms = float(watch.ms());
     const float substep_ms = s.step_ms / float(substeps);

@@ -11,7 +11,7 @@ namespace vfit {
 
 inline std::vector<std::byte> bytes_of_text(const std::string& text) {
     std::vector<std::byte> bytes(text.size());
-    std::memcpy(bytes.data(), text.data(), text.size());
+    if (!text.empty()) std::memcpy(bytes.data(), text.data(), text.size());
     return bytes;
 }
 
