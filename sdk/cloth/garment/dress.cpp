@@ -241,13 +241,14 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
     Carried carried;
     for (uint32_t i = 0; i < n; ++i) carried.add(rest_[i], weights.row(i));
     carry_.emplace(carried.bones, carried.weights);
-    const MeshQuery bound(body.rest, triangles);
+    std::optional<MeshQuery> bound;  // made where a backstop needs it
     std::vector<float> bone_weights(bones);
     for (uint32_t i = 0; i < n; ++i) {
         if (!garment.backstop[i] || !garment.simulated[i]) continue;
-        const BodyBall ball = ball_below(bound, rest_[i]);
+        if (!bound) bound.emplace(body.rest, triangles);
+        const BodyBall ball = ball_below(*bound, rest_[i]);
         std::fill(bone_weights.begin(), bone_weights.end(), 0.0f);
-        add_bone_weights(body, binding_of(bound.closest(rest_[i]), triangles), bone_weights);
+        add_bone_weights(body, binding_of(bound->closest(rest_[i]), triangles), bone_weights);
         carried.add(ball.center, bone_weights);
         backstops_.push_back({i, ball.radius_m});
     }
