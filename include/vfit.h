@@ -809,7 +809,8 @@ typedef struct vfit_fit_zone {
     char key[48];                       /* "chest_girth_m", "waist_girth_m", "hip_girth_m"            */
 } vfit_fit_zone;
 VFIT_STRUCT(vfit_fit_zone)
-/* By girths that the garment goes around, of the cloth as it was left by the last step: let it come to rest first. [read] */
+/* By girths that the garment goes around, of the cloth as it was left by the last step: let it come to rest first, and for
+ * figures to the centimetre with 32 sub-steps (vfit_cloth_set_quality): with few, cloth sags by some of its length. [read] */
 VFIT_API vfit_result vfit_cloth_fit(vfit_cloth cloth, vfit_fit_zone* items, uint32_t stride, uint32_t* count);
 /* The same place by place, one a vertex of what acquire gives: above 0 tight (1: its fabric's most strain, or 2 kPa),
  * below 0 loose (-1: 6 cm off the skin). Takes as long as some ten steps.                      [read]  */

@@ -19,6 +19,7 @@ namespace {
 constexpr PortraitStyle kFine{420, 640, 3}, kDraft{280, 420, 1};
 constexpr float kFrame_s = 1.0f / 60.0f, kOwnLayers_m = 0.004f;
 constexpr int kFramesToRest = 90;
+constexpr uint32_t kSubsteps = 32;  // of 1/60 s: with few, cloth sags, and girths are taken off their level
 constexpr size_t kLongestCaption = 36;  // characters that fit below a picture
 
 struct Options {
@@ -118,6 +119,7 @@ private:
         vfit_cloth_desc desc = vfit_cloth_desc_init();
         desc.flags = VFIT_CLOTH_SKIN | VFIT_CLOTH_PRESSURE;
         desc.self_thickness_m = kOwnLayers_m;
+        desc.substeps = kSubsteps;
         desc.size_label = size_.empty() ? nullptr : size_.c_str();
         Cloth cloth;
         const vfit_result made = vfit_cloth_create(avatar_.get(), garments_.back().get(), &desc, cloth.out());

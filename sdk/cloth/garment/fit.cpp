@@ -66,6 +66,9 @@ std::vector<GirthFit> fit_of(const WornGarment& garment, std::span<const GirthLe
             cut = cut_at(garment, level);
         }
         if (cut.around_rad < kMostOfTheWay_rad || cut.ends.size() > 2) continue;
+        // Cloth below, too: else the gap is no open front but a hem that swings about that level.
+        constexpr float kBelow_m = 0.03f;
+        if (!cut.ends.empty() && cut_at(garment, {level.key, level.height_m - kBelow_m, level.body_m, level.axis_z_m}).around_rad < kMostOfTheWay_rad) continue;
         GirthFit fit;
         fit.key = level.key;
         fit.body_m = level.body_m;

@@ -57,6 +57,14 @@ TEST(FitParts, AnOpenFrontIsToldApart) {
     EXPECT_EQ(needed_strain(fits, nullptr), 0.0f);  // what is open need not close
 }
 
+TEST(FitParts, AHemThatWaversAboutTheLevelIsNoGirth) {
+    Tube tube(0.15f, 0.4f, 48, 40, 1.0f);
+    for (size_t v = 0; v < tube.positions.size(); ++v)
+        if (tube.positions[v].x > 0.12f) tube.positions[v].y += 0.05f;  // lifted at one side
+    const GirthLevel level{"hip_girth_m", 0.02f, 0.9f, 0.0f};
+    EXPECT_TRUE(fit_of({tube.positions, tube.indices, tube.cut, {}, {}}, std::span(&level, 1)).empty());
+}
+
 TEST(FitParts, ALevelThatTheGarmentDoesNotReachIsNone) {
     const Tube tube(0.15f, 0.4f, 48, 10, 1.0f);
     const GirthLevel level{"waist_girth_m", 0.6f, 0.8f, 0.0f};

@@ -555,7 +555,8 @@ namespace Vfit
         internal static extern Result vfit_cloth_hide_skin(ClothId cloth, float marginM, byte* triangles, uint count);
 
         /// <summary>By girths that the garment goes around, of the cloth as it was left by the last step: let it come to
-        /// rest first. [read]</summary>
+        /// rest first, and for figures to the centimetre with 32 sub-steps (vfit_cloth_set_quality): with few, cloth sags
+        /// by some of its length. [read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_fit(ClothId cloth, FitZone* items, uint stride, uint* count);
 
