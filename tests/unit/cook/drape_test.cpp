@@ -124,6 +124,24 @@ TEST_F(Cooking, ASeamThatCannotCloseIsNamed) {
     }
 }
 
+TEST_F(Cooking, DrapesEveryDesignOfOurs) {
+    size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(VFIT_SOURCE_DIR "/assets/garments")) {
+        CookRequest request;
+        request.path = entry.path().string();
+        const CookedGarment cooked = cook_file(*model, fabrics, request, *jobs);
+        const std::string name = cooked.garment.name;
+        if (cooked.garment.flat.empty()) continue;  // the sundress of numbers
+        EXPECT_EQ(cooked.report.skin_crossings, 0u) << name;
+        EXPECT_EQ(cooked.report.self_crossings, 0u) << name;
+        EXPECT_LT(cooked.report.widest_seam_m, 0.01f) << name;
+        EXPECT_NEAR(mean_length_ratio(cooked.garment), 1.0f, 0.03f) << name;
+        EXPECT_EQ(cooked.garment.sizes.size(), 6u) << name;
+        ++count;
+    }
+    EXPECT_EQ(count, 9u);
+}
+
 TEST_F(Cooking, DrapesRealSpecifications) {
     const std::string shared = shared_folder();
     if (shared.empty()) GTEST_SKIP() << "no shared/data/patterns";
