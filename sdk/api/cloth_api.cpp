@@ -491,7 +491,8 @@ vfit_result vfit_cloth_create(vfit_avatar avatar_handle, vfit_garment garment_ha
         const vfit_cloth_desc d = read_or_default(desc, "desc");
         check_flags(d.flags, VFIT_CLOTH_NO_HANDS | VFIT_CLOTH_SKIN | VFIT_CLOTH_AWAKE | VFIT_CLOTH_PRESSURE | VFIT_CLOTH_ANY_FIT, "desc.flags");
         const ClothSettings settings = cloth_settings(d, garment->material, avatar->context->axes);
-        const bool hands = (d.flags & VFIT_CLOTH_NO_HANDS) == 0;
+        // Forearms that pass through would leave their sleeves.
+        const bool hands = (d.flags & VFIT_CLOTH_NO_HANDS) == 0 || garment->garment.has_sleeves();
         const Wearer wearer(*avatar->context, garment->garment, *avatar);
         const DressedSize size = dressed_size(*garment, d.size_label, *avatar);
         Dress dress(garment->garment, garment->material, wearer.body, size.ratio, settings.thickness_m, size.own);

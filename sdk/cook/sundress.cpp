@@ -185,18 +185,7 @@ private:
     }
 
     /// Rows are drawn level by level; between them, and where the tape's hull is hollow, skin may stand out.
-    void clear_skin() {
-        for (Vec3& p : garment_.mesh.positions) {
-            constexpr int kTries = 4;
-            for (int i = 0; i < kTries; ++i) {
-                const float distance = body_.skin().signed_distance(p);
-                if (distance >= spec_.bodice_ease_m) break;
-                const MeshQuery::Closest closest = body_.skin().closest(p);
-                const Vec3 outward = closest.distance > 1e-6f ? (p - closest.point) / distance : closest.normal;
-                p = closest.point + outward * spec_.bodice_ease_m;
-            }
-        }
-    }
+    void clear_skin() { push_out(body_.skin(), spec_.bodice_ease_m, garment_.mesh.positions); }
 
     const SundressSpec& spec_;
     BodyOutline body_;

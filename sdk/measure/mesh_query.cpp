@@ -240,4 +240,17 @@ float largest_inner_sphere(const MeshQuery& skin, const Vec3& center) {
     return skin.inside(center) ? skin.closest(center).distance : 0.0f;
 }
 
+void push_out(const MeshQuery& mesh, float clearance_m, std::span<Vec3> points) {
+    for (Vec3& p : points) {
+        constexpr int kTries = 4;
+        for (int i = 0; i < kTries; ++i) {
+            const float distance = mesh.signed_distance(p);
+            if (distance >= clearance_m) break;
+            const MeshQuery::Closest closest = mesh.closest(p);
+            const Vec3 outward = closest.distance > 1e-6f ? (p - closest.point) / distance : closest.normal;
+            p = closest.point + outward * clearance_m;
+        }
+    }
+}
+
 }  // namespace vfit

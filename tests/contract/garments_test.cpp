@@ -187,6 +187,31 @@ TEST_F(GarmentsTest, TellTheirParts) {
     }
 }
 
+TEST_F(GarmentsTest, ForearmsStayInTheirSleeves) {
+    const vfit_avatar avatar = body();
+    for (const auto& [name, same] : {std::pair("shirt_men", true), std::pair("sundress_pattern", false)}) {
+        const vfit_garment garment = open(name);
+        uint64_t hashes[2];
+        for (const uint32_t flag : {0u, uint32_t(VFIT_CLOTH_NO_HANDS)}) {
+            // Arms that come down from the T-pose onto the dress.
+            vfit_pose pose = vfit_pose_init();
+            vfit_bone bones[3] = {vfit_bone_init(), vfit_bone_init(), vfit_bone_init()};
+            bones[0].bone = VFIT_BONE_HIPS, bones[0].rotation[3] = 1.0f, bones[0].position[1] = 0.9f;
+            for (int side = 0; side < 2; ++side) {
+                bones[1 + side].bone = side == 0 ? VFIT_BONE_LEFT_UPPER_ARM : VFIT_BONE_RIGHT_UPPER_ARM;
+                bones[1 + side].rotation[2] = side == 0 ? -0.72f : 0.72f, bones[1 + side].rotation[3] = 0.694f;
+            }
+            ASSERT_EQ(vfit_avatar_pose(avatar, &pose, bones, sizeof bones[0], 1), VFIT_OK) << contract::last_error();
+            vfit_cloth cloth{};
+            ASSERT_EQ(put_on(avatar, garment, nullptr, flag, cloth), VFIT_OK) << contract::last_error();
+            ASSERT_EQ(vfit_avatar_pose(avatar, &pose, bones, sizeof bones[0], 3), VFIT_OK) << contract::last_error();
+            for (int i = 0; i < 10; ++i) ASSERT_EQ(vfit_cloth_step(cloth, kGarmentStep_s), VFIT_OK);
+            hashes[flag != 0] = hash(cloth);
+        }
+        EXPECT_EQ(hashes[0] == hashes[1], same) << name;
+    }
+}
+
 TEST_F(GarmentsTest, AreTheSameEachTime) {
     const vfit_avatar avatar = body();
     const vfit_garment vest = open("vest");

@@ -42,25 +42,6 @@ const BodyKind kBodies[] = {
     {"small woman", VFIT_SEX_FEMALE, {{"height", 0.28f}, {"weight", 0.35f}}},
 };
 
-/// Standing, the arms at 45 degrees, the legs a little apart.
-void stand(vfit_avatar avatar) {
-    const std::map<vfit_bone_id, float> turned_rad{{VFIT_BONE_HIPS, 0.0f}, {VFIT_BONE_LEFT_UPPER_ARM, -0.785f}, {VFIT_BONE_RIGHT_UPPER_ARM, 0.785f}, {VFIT_BONE_LEFT_UPPER_LEG, 0.1f}, {VFIT_BONE_RIGHT_UPPER_LEG, -0.1f}};
-    vfit_pose pose = vfit_pose_init();
-    std::vector<vfit_bone> bones;
-    for (const vfit_rig_bone& rig : rig_of(avatar)) {
-        const auto turn = turned_rad.find(rig.bone);
-        if (turn == turned_rad.end()) continue;
-        vfit_bone bone{};
-        bone.struct_size = sizeof bone;
-        bone.bone = rig.bone;
-        std::copy(rig.rest_position, rig.rest_position + 3, bone.position);
-        const float half = 0.5f * turn->second;
-        bone.rotation[2] = std::sin(half), bone.rotation[3] = std::cos(half);
-        bones.push_back(bone);
-    }
-    set_pose(avatar, pose, bones);
-}
-
 Avatar make_body(vfit_context context, const BodyKind& kind) {
     vfit_avatar_desc desc = vfit_avatar_desc_init();
     desc.sex = kind.sex;
@@ -73,7 +54,7 @@ Avatar make_body(vfit_context context, const BodyKind& kind) {
     }
     Avatar avatar;
     check(vfit_avatar_create_from_shape(context, &desc, shape.data(), sizeof(vfit_shape_value), uint32_t(shape.size()), avatar.out()));
-    stand(avatar.get());
+    stand(avatar.get(), 0.1f);
     return avatar;
 }
 

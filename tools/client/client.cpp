@@ -1,5 +1,9 @@
 #include "client/client.h"
 
+#include <algorithm>
+#include <cmath>
+#include <map>
+
 namespace vfit::tools {
 
 std::string last_error() {
@@ -136,6 +140,22 @@ Json joints_json(const std::vector<vfit_joint>& joints, const vfit_camera& camer
         out[joint_name(joint.joint)] = {p.x, p.y, p.z, joint.confidence};
     }
     return out;
+}
+
+void stand(vfit_avatar avatar, float leg_rad) {
+    constexpr float kArm_rad = 0.785f;
+    const std::map<vfit_bone_id, float> turned_rad{{VFIT_BONE_HIPS, 0.0f}, {VFIT_BONE_LEFT_UPPER_ARM, -kArm_rad}, {VFIT_BONE_RIGHT_UPPER_ARM, kArm_rad}, {VFIT_BONE_LEFT_UPPER_LEG, leg_rad}, {VFIT_BONE_RIGHT_UPPER_LEG, -leg_rad}};
+    std::vector<vfit_bone> bones;
+    for (const vfit_rig_bone& rig : rig_of(avatar)) {
+        const auto turn = turned_rad.find(rig.bone);
+        if (turn == turned_rad.end()) continue;
+        vfit_bone bone = vfit_bone_init();
+        bone.bone = rig.bone;
+        std::copy(rig.rest_position, rig.rest_position + 3, bone.position);
+        bone.rotation[2] = std::sin(0.5f * turn->second), bone.rotation[3] = std::cos(0.5f * turn->second);
+        bones.push_back(bone);
+    }
+    set_pose(avatar, vfit_pose_init(), bones);
 }
 
 }  // namespace vfit::tools

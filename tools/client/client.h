@@ -133,6 +133,9 @@ std::vector<vfit_rig_bone> rig_of(vfit_avatar avatar);
 std::vector<vfit_bone> bones_of(vfit_motion motion, vfit_pose& pose);
 void set_pose(vfit_avatar avatar, const vfit_pose& pose, const std::vector<vfit_bone>& bones);
 
+/// Upright, the arms at 45 degrees, each leg turned out by that much.
+void stand(vfit_avatar avatar, float leg_rad);
+
 /// Triangles of the avatar's that the cloth does not hide: three indices each.
 std::vector<uint32_t> seen_triangles(vfit_avatar avatar, vfit_cloth cloth);
 

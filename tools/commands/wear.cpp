@@ -1,8 +1,6 @@
 // vfit wear: garments on a body, side by side: outfits, sizes, how they sit.
 #include <algorithm>
-#include <cmath>
 #include <iostream>
-#include <map>
 
 #include "client/assets.h"
 #include "client/files.h"
@@ -52,23 +50,6 @@ std::vector<vfit_shape_value> shape_of(const std::string& text) {
     return values;
 }
 
-/// The arms at 45 degrees, the legs a little apart.
-void stand(vfit_avatar avatar) {
-    const std::map<vfit_bone_id, float> turned_rad{{VFIT_BONE_HIPS, 0.0f}, {VFIT_BONE_LEFT_UPPER_ARM, -0.785f}, {VFIT_BONE_RIGHT_UPPER_ARM, 0.785f}, {VFIT_BONE_LEFT_UPPER_LEG, 0.08f}, {VFIT_BONE_RIGHT_UPPER_LEG, -0.08f}};
-    std::vector<vfit_bone> bones;
-    for (const vfit_rig_bone& rig : rig_of(avatar)) {
-        const auto turn = turned_rad.find(rig.bone);
-        if (turn == turned_rad.end()) continue;
-        vfit_bone bone{};
-        bone.struct_size = sizeof bone;
-        bone.bone = rig.bone;
-        std::copy(rig.rest_position, rig.rest_position + 3, bone.position);
-        bone.rotation[2] = std::sin(0.5f * turn->second), bone.rotation[3] = std::cos(0.5f * turn->second);
-        bones.push_back(bone);
-    }
-    set_pose(avatar, vfit_pose_init(), bones);
-}
-
 const char* word_of(vfit_fit fit) { return fit == VFIT_FIT_TIGHT ? "tight" : fit == VFIT_FIT_LOOSE ? "loose" : "right"; }
 
 /// One body in garments that are worn over each other.
@@ -79,7 +60,7 @@ public:
         desc.sex = sex_from(options.sex);
         const auto shape = shape_of(options.shape);
         check(vfit_avatar_create_from_shape(context, &desc, shape.data(), sizeof(vfit_shape_value), uint32_t(shape.size()), avatar_.out()));
-        stand(avatar_.get());
+        stand(avatar_.get(), 0.08f);
         for (const std::string& name : split(names, '+')) put_on(context, name);
     }
 

@@ -149,20 +149,6 @@ BodyBall ball_below(const MeshQuery& skin, const Vec3& p) {
     return {closest.point + inward * radius, radius};
 }
 
-/// Out of the body, to at least that clearance.
-void push_out(const MeshQuery& skin, float clearance_m, std::vector<Vec3>& points) {
-    for (Vec3& p : points) {
-        constexpr int kTries = 4;  // between two thighs, out of one may be into the other
-        for (int i = 0; i < kTries; ++i) {
-            const float distance = skin.signed_distance(p);
-            if (distance >= clearance_m) break;
-            const MeshQuery::Closest closest = skin.closest(p);
-            const Vec3 outward = closest.distance > 1e-6f ? (p - closest.point) / distance : closest.normal;
-            p = closest.point + outward * clearance_m;
-        }
-    }
-}
-
 /// A triangle with these sides, the first edge of which runs as that of `like`, and on the same side of it.
 void with_sides(const Vec2 (&like)[3], const float (&sides)[3], Vec2 (&out)[3]) {
     const Vec2 first = like[1] - like[0], along = first / glm::length(first);
@@ -207,7 +193,7 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
     for (const auto& list : body.skin_bones)
         for (uint16_t bone : list) bones = std::max(bones, uint32_t(bone) + 1);
     const std::vector<uint32_t> triangles = bindable_triangles(body, false), with_arms = bindable_triangles(body, true);
-    const bool sleeves = std::find(garment.on_arm.begin(), garment.on_arm.end(), 1) != garment.on_arm.end();
+    const bool sleeves = garment.has_sleeves();
 
     // Both bodies stand in the same pose: what lies off the skin is carried as it is, so that ease and flare stay
     // what they were cut to.

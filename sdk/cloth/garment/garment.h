@@ -2,6 +2,7 @@
 // vertices are simulated, its fabric and its sizes. The format is described in docs/garments.md.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -53,6 +54,7 @@ struct Garment {
     uint32_t simulated_count() const;
     /// Other than those between its positions.
     bool has_own_lengths() const { return !flat.empty() || !cut_shape.empty(); }
+    bool has_sleeves() const { return std::find(on_arm.begin(), on_arm.end(), uint8_t(1)) != on_arm.end(); }
     uint32_t drawn_count() const { return vertex_count() + uint32_t(copies.size()); }
     const std::vector<uint32_t>& drawn_indices() const { return corners.empty() ? mesh.indices : corners; }
     /// The size of that label; VFIT_ERROR_ARGUMENT, naming those that there are, where there is none.

@@ -185,16 +185,7 @@ std::vector<Vec3> grow_body_into(const WholeCloth& cloth, std::vector<Vec3> plac
 }
 
 std::vector<Vec3> pushed_out(std::vector<Vec3> places, const MeshQuery& skin, float thickness_m) {
-    for (Vec3& p : places) {
-        constexpr int kTries = 4;  // between two thighs, out of one may be into the other
-        for (int i = 0; i < kTries; ++i) {
-            const float distance = skin.signed_distance(p);
-            if (distance >= thickness_m) break;
-            const MeshQuery::Closest near = skin.closest(p);
-            const Vec3 outward = near.distance > 1e-6f ? (p - near.point) / distance : near.normal;
-            p = near.point + outward * thickness_m;
-        }
-    }
+    push_out(skin, thickness_m, places);
     return places;
 }
 

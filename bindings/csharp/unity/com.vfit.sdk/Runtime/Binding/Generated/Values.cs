@@ -358,7 +358,7 @@ namespace Vfit
     {
         None = 0,
         /// <summary>forearms and hands pass through: a hand beside the thigh catches a skirt, and 15 spheres know no
-        /// fingers to let it slip</summary>
+        /// fingers to let it slip. Not of garments with sleeves</summary>
         NoHands = 1,
         /// <summary>kept out of the avatar's skin itself, not of its spheres and capsules: closer, and slower</summary>
         Skin = 2,
