@@ -4,8 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 #include "body/mesh.h"
+#include "cloth/contact/crossing_guard.h"
+#include "cloth/contact/mesh_lift.h"
 #include "cloth/solver/particle_solver.h"
 #include "cloth/rigid_motion.h"
 #include "core/clock.h"
@@ -39,6 +42,7 @@ struct PutOnPhase {
 constexpr PutOnPhase kHang{15, 4}, kMove{40, 4}, kSettle{10, 8};
 constexpr float kPutOnDamping = 0.99f;
 // After a change of lengths: what has fallen into its new folds should hang still within a second.
+constexpr uint32_t kLooksSettling = 8, kLooks = 32;  // steps in which all triangles have been looked at for crossing meshes
 constexpr float kSettles_s = 0.8f, kSettlingDamping = 0.98f;
 
 void check(const Air& air) {
@@ -126,6 +130,10 @@ struct Cloth::State {
     bool backstops_placed = false;       // previous_targets holds the backstops as well
 
     std::vector<Vec3> positions;  // what callers read
+    std::vector<Vec3> now;        // what they will read, once it has been looked at
+    std::optional<TriangleGroups> groups;  // of the cloth
+    std::optional<CrossingGuard> guard;
+    std::optional<MeshLift> lift;
     // The same, found when they are asked for.
     mutable std::vector<Vec3> normals;
     mutable std::vector<float> edge_strains, strains, pressures;
@@ -153,6 +161,9 @@ struct Cloth::State {
     void teleport(std::span<const Vec3> targets);
     void carry(const RigidMotion& motion);
     void rest_if_still(float dt, std::span<const Vec3> targets);
+    TriangleGroups& triangles_now(std::span<const Vec3> places);
+    void guard_layers(float dt);
+    void lift_off_meshes(uint32_t steps);
     void publish();
     void find_normals() const;
     void find_strains() const;
@@ -311,6 +322,7 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
     const bool settles = s.settles_s > 0.0f;
     if (settles) s.settles_s -= dt;
     s.advance(dt, substeps, settles ? std::max(s.settings.damping, kSettlingDamping) : s.settings.damping, skinned_targets, jobs);
+    s.lift_off_meshes(settles ? kLooksSettling : kLooks);
     s.substeps = uint32_t(substeps);
     s.step_ms = float(watch.ms());
     const float substep_ms = s.step_ms / float(substeps);
@@ -361,12 +373,36 @@ void Cloth::State::advance(float dt, int count, float damping, std::span<const V
     const float h = dt / float(count);
     const ContactSettings contact{settings.friction, settings.friction * kKineticShare, kMaxDepenetration_m_s * h};
     solver.advance({dt, count, settings.gravity, settings.air, std::pow(1.0f - damping, h), contact, settings.thickness_m,
-                    previous_targets, targets, colliders, meshes}, jobs);
+                    previous_targets, targets, colliders, meshes, lift ? lift->particles() : std::span<const float>()}, jobs);
+    guard_layers(dt);
     publish();
     rest_if_still(dt, targets);
     std::copy(targets.begin(), targets.end(), previous_targets.begin());
     colliders.arrive();
     for (ContactMesh& mesh : meshes) mesh.arrive();
+}
+
+TriangleGroups& Cloth::State::triangles_now(std::span<const Vec3> places) {
+    if (!groups) groups.emplace(places, fabric->data().indices);
+    groups->move(places);
+    return *groups;
+}
+
+void Cloth::State::guard_layers(float dt) {
+    if (settings.self_thickness_m == 0.0f) return;
+    if (!guard) guard.emplace(fabric->data());
+    now.resize(positions.size());
+    solver.copy_positions(now);
+    guard->keep(positions, now, triangles_now(now));
+    for (const uint32_t v : guard->moved()) solver.place(v, now[v], (now[v] - positions[v]) / dt);
+    solver.let_go(guard->tangled());
+}
+
+void Cloth::State::lift_off_meshes(uint32_t steps) {
+    if (meshes.empty()) return;
+    if (!lift) lift.emplace(fabric);
+    triangles_now(positions);
+    lift->look(*groups, meshes, steps, body_way());
 }
 
 void Cloth::State::rest_if_still(float dt, std::span<const Vec3> targets) {

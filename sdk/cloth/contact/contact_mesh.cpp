@@ -188,6 +188,22 @@ bool ContactMesh::is_at_border(const Place& place) const {
     return !inside && border;
 }
 
+void ContactMesh::find_crossed(const TriangleGroups& cloth, uint32_t first_group, uint32_t end_group, std::vector<uint32_t>& near, std::vector<uint32_t>& triangles) const {
+    for (uint32_t group = first_group; group < end_group; ++group) {
+        const Bounds box = cloth.box_of(group);
+        find_meeting(boxes_, box.low, box.high, near);
+        for (const uint32_t run : near) {
+            const float reach = kCornerReach * edges_m_[run];  // a triangle comes into the box by a corner no further off
+            const Bounds wide{box.low - reach, box.high + reach};
+            for (uint32_t point = run * uint32_t(kLanes); point < std::min((run + 1) * uint32_t(kLanes), uint32_t(vertex_of_.size())); ++point) {
+                const Vec3& p = begin_[point].x;
+                if (!wide.overlaps({p, p})) continue;
+                for (const TriangleFans::Corners& c : fans_.of(point)) cloth.find_crossed(group, {{p, begin_[c.second].x, begin_[c.third].x}}, triangles);
+            }
+        }
+    }
+}
+
 /// Fills near with the mesh's runs that a run of particles may meet; how near they have to be. 0: there is none.
 float ContactMesh::reach_of(const Moving& moving, uint32_t first, float dt, float thickness_m, std::vector<uint32_t>& near) const {
     Vec3 low(INFINITY), high(-INFINITY);
@@ -205,10 +221,12 @@ float ContactMesh::reach_of(const Moving& moving, uint32_t first, float dt, floa
     return own + way;
 }
 
-void ContactMesh::find_planes(const Moving& moving, float dt, float thickness_m, std::vector<uint32_t>& near, std::vector<RunPlanes>& out) const {
+void ContactMesh::find_planes(const Moving& moving, float dt, float thickness_m, std::span<const float> lift_m, std::vector<uint32_t>& near, std::vector<RunPlanes>& out) const {
     for (uint32_t first = 0; first < moving.count; first += uint32_t(kLanes)) {
         const Particle* run = moving.places + first;
-        const float reach = reach_of(moving, first, dt, thickness_m, near);
+        float lift = 0.0f;
+        if (!lift_m.empty()) lift = *std::max_element(&lift_m[first], &lift_m[first] + kLanes);
+        const float reach = reach_of(moving, first, dt, thickness_m + lift, near);
         if (near.empty()) continue;
         float edge = 0.0f;
         for (uint32_t other : near) edge = std::max(edge, edges_m_[other]);
@@ -236,7 +254,7 @@ void ContactMesh::find_planes(const Moving& moving, float dt, float thickness_m,
             Vec3 turned = normal + place.normal(end_) - place.normal(begin_);
             turned /= std::max(glm::length(turned), 1e-12f);
             any = true;
-            planes.set(lane, on, to - on, normal, turned - normal, thickness_m);
+            planes.set(lane, on, to - on, normal, turned - normal, lift_m.empty() ? thickness_m : thickness_m + lift_m[first + particle_at(lane)]);
         }
         if (!any) continue;
         planes.run = first / uint32_t(kLanes);

@@ -9,6 +9,7 @@
 #include "cloth/solver/cloth_kernels.h"
 #include "cloth/rigid_motion.h"
 #include "cloth/contact/surface_kernels.h"
+#include "cloth/contact/triangle_groups.h"
 #include "cloth/triangle_fans.h"
 
 namespace vfit {
@@ -38,7 +39,10 @@ public:
     /// Planes for runs of particles as they lie and move at the begin of a step of dt, by rising runs. Those of a run that is
     /// not near are left out. May run for several parts at the same time.
     /// near: room to work in.
-    void find_planes(const Moving& moving, float dt, float thickness_m, std::vector<uint32_t>& near, std::vector<RunPlanes>& out) const;
+    /// lift_m: of each particle, what it keeps beyond the thickness; empty: nothing.
+    void find_planes(const Moving& moving, float dt, float thickness_m, std::span<const float> lift_m, std::vector<uint32_t>& near, std::vector<RunPlanes>& out) const;
+    /// Adds those of the cloth's triangles, of a range of its groups, that go through the mesh where it arrived.
+    void find_crossed(const TriangleGroups& cloth, uint32_t first_group, uint32_t end_group, std::vector<uint32_t>& near, std::vector<uint32_t>& triangles) const;
 
 private:
     /// A place on a triangle.

@@ -46,6 +46,7 @@ SelfContact::SelfContact(std::shared_ptr<const Fabric> fabric, float thickness_m
     list_neighbours();
     counts_.assign(layout.count(), 0);
     for (uint32_t particle : layout.particle_of) counts_[particle] = 1;
+    is_let_go_.assign(layout.count(), 0);
     nobody_.assign(layout.count() / kLanes, 0);
     for (size_t i = 0; i < counts_.size(); ++i)
         if (!counts_[i]) nobody_[i / kLanes] |= uint64_t(0xff) << (8 * (i % kLanes));
@@ -185,6 +186,13 @@ Vec3 SelfContact::facing_of(const Particles& normals, uint32_t run) const {
     return mean;
 }
 
+void SelfContact::let_go(std::span<const uint32_t> vertices) {
+    for (const uint32_t particle : let_go_) is_let_go_[particle] = 0;
+    let_go_.clear();
+    for (const uint32_t v : vertices) let_go_.push_back(fabric_->layout().particle_of[v]);
+    for (const uint32_t particle : let_go_) is_let_go_[particle] = 1;
+}
+
 void SelfContact::find_runs_of(const Particles& places, const Particles& normals, int substeps, uint32_t number) {
     const ParticleLayout::Part& p = fabric_->layout().parts[number];
     Part& part = parts_[number];
@@ -267,6 +275,7 @@ void SelfContact::meet(const Particles& places, const Particles& starts, const M
     if (!(nearest.distance2[lane] < watched.reach_m * watched.reach_m)) return;
     const uint32_t particle = meetings.particles[lane], point = meetings.points[lane];
     const TriangleFans::Corners& c = fabric_->fans().corners()[nearest.corners[lane]];
+    if (is_let_go_[particle] && (is_let_go_[point] || is_let_go_[c.second] || is_let_go_[c.third])) return;
     const Vec3 &a = places[point].x, &b = places[c.second].x, &third = places[c.third].x, weights = nearest.weights(lane);
     const Vec3 off = places[particle].x - (weights.x * a + weights.y * b + weights.z * third), across = glm::cross(b - a, third - a);
     const float before = glm::dot(off, across);

@@ -20,6 +20,8 @@ public:
 
     /// The cloth was placed anew: which side a particle is on is seen anew as well.
     void forget();
+    /// Vertices, until the next call: where two of them meet, contact does not hold them, and sees anew who is on which side.
+    void let_go(std::span<const uint32_t> vertices);
     /// The begin of a step of dt; normals (unit length) stay as they are through it. Does not allocate once it has met as many contacts.
     void find_runs(const Particles& places, const Particles& velocities, const Particles& normals, float dt, int substeps, Jobs& jobs);
     /// Those of a part, as particles lie now and lay at the begin of the sub-step; may run for several parts at the same time.
@@ -85,6 +87,8 @@ private:
     std::vector<NearRun> neighbours_;        // by rising runs
     std::vector<uint32_t> first_beside_, beside_;  // of each vertex, those that share a triangle with it
     std::vector<uint8_t> counts_;  // of each particle: not one that fills up, nor a second copy of a fixed vertex
+    std::vector<uint8_t> is_let_go_;  // of each particle
+    std::vector<uint32_t> let_go_;    // those
     std::vector<uint64_t> nobody_; // of each run, as a NearRun's: particles that do not count
     RunBoxes boxes_;               // of the runs' particles on their way through the step, corner_m_ wider
     struct Ways {

@@ -270,7 +270,8 @@ std::vector<Vec2> Dress::cut(const Garment& garment, float size_ratio, const Gar
 }
 
 std::shared_ptr<const Fabric> Dress::fabric_of(const Garment& garment, const FabricMaterial& material, float size_ratio, const GarmentSize* size) const {
-    const std::vector<Vec2> cut = garment.has_own_lengths() ? cut_of(garment, rest_, size) : std::vector<Vec2>();
+    std::vector<Vec2> cut = garment.has_own_lengths() ? cut_of(garment, rest_, size) : std::vector<Vec2>();
+    if (!cut.empty()) take_up(hems_, indices_, garment.simulated, rest_, cut);
     const std::span<const Vec2> uvs = std::span(garment.mesh.uvs).first(garment.vertex_count());
     FabricData data = cook_fabric({rest_, indices_, uvs, garment.simulated, size_ratio, cut}, material);
     data.backstops = backstops_;

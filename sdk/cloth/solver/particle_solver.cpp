@@ -52,6 +52,12 @@ void ParticleSolver::place(std::span<const Vec3> vertices) {
     if (self_) self_->forget();
 }
 
+void ParticleSolver::place(uint32_t vertex, const Vec3& at, const Vec3& velocity) {
+    const uint32_t particle = fabric_->layout().particle_of[vertex];
+    places_[particle].x = at;
+    velocities_[particle].x = velocity;
+}
+
 void ParticleSolver::rest() { std::fill(velocities_.begin(), velocities_.end(), Particle()); }
 
 void ParticleSolver::carry(const RigidMotion& motion) {
@@ -163,7 +169,8 @@ void ParticleSolver::begin_part(const Step& step, uint32_t part) {
     place_fixed(step, part);
     const Moving m = moving(part);
     parts_[part].planes.clear();
-    for (const ContactMesh& mesh : step.meshes) mesh.find_planes(m, step.dt, step.thickness_m, parts_[part].near_runs, parts_[part].planes);
+    const std::span<const float> lift_m = step.lift_m.empty() ? step.lift_m : step.lift_m.subspan(fabric_->layout().parts[part].begin);
+    for (const ContactMesh& mesh : step.meshes) mesh.find_planes(m, step.dt, step.thickness_m, lift_m, parts_[part].near_runs, parts_[part].planes);
     if (step.meshes.size() > 1)
         std::stable_sort(parts_[part].planes.begin(), parts_[part].planes.end(), [](const RunPlanes& a, const RunPlanes& b) { return a.run < b.run; });
     NearColliders& near = parts_[part].near;

@@ -31,6 +31,12 @@ public:
     /// At rest at these places, one a vertex.
     void place(std::span<const Vec3> vertices);
     void rest();
+    /// One vertex is there and moves so.
+    void place(uint32_t vertex, const Vec3& at, const Vec3& velocity);
+    /// Vertices that contact of the cloth with itself does not hold until the next call.
+    void let_go(std::span<const uint32_t> vertices) {
+        if (self_) self_->let_go(vertices);
+    }
     /// As the cloth lies and moves.
     void carry(const RigidMotion& motion);
 
@@ -45,6 +51,7 @@ public:
         std::span<const Vec3> from, to;  // the fabric's targets at both ends of the step
         const ColliderMotion& colliders;
         std::span<const ContactMesh> meshes;
+        std::span<const float> lift_m;  // off these, one a particle; may be empty
     };
     /// The box about all particles.
     void bounds(Vec3& low, Vec3& high) const;

@@ -1,0 +1,32 @@
+#include "cloth/contact/mesh_lift.h"
+
+#include <algorithm>
+
+namespace vfit {
+
+namespace {
+constexpr float kStep_m = 0.001f, kMost_m = 0.012f;
+constexpr float kForgets = 0.05f;  // share, for each millimetre that the body moves
+}  // namespace
+
+MeshLift::MeshLift(std::shared_ptr<const Fabric> fabric) : fabric_(std::move(fabric)), lift_m_(fabric_->layout().count(), 0.0f) {}
+
+void MeshLift::look(const TriangleGroups& cloth, std::span<const ContactMesh> meshes, uint32_t steps, float body_way_m) {
+    const float keep = std::max(0.0f, 1.0f - kForgets * 1000.0f * body_way_m);
+    if (keep < 1.0f)
+        for (float& lift : lift_m_) lift *= keep;
+    const uint32_t count = cloth.group_count(), first = next_ >= count ? 0 : next_, end = std::min(count, first + count / steps + 1);
+    next_ = end;
+    crossed_.clear();
+    for (const ContactMesh& mesh : meshes) mesh.find_crossed(cloth, first, end, near_, crossed_);
+    std::sort(crossed_.begin(), crossed_.end());
+    crossed_.erase(std::unique(crossed_.begin(), crossed_.end()), crossed_.end());
+    const std::vector<uint32_t>& indices = fabric_->data().indices;
+    for (const uint32_t t : crossed_)
+        for (size_t k = 0; k < 3; ++k) {
+            float& lift = lift_m_[fabric_->layout().particle_of[indices[3 * t + k]]];
+            lift = std::min(lift + kStep_m, kMost_m);
+        }
+}
+
+}  // namespace vfit
