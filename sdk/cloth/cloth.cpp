@@ -42,7 +42,7 @@ struct PutOnPhase {
 constexpr PutOnPhase kHang{15, 4}, kMove{40, 4}, kSettle{10, 8};
 constexpr float kPutOnDamping = 0.99f;
 // After a change of lengths: what has fallen into its new folds should hang still within a second.
-constexpr uint32_t kLooksSettling = 8, kLooks = 32;  // steps in which all triangles have been looked at for crossing meshes
+constexpr uint32_t kLooksSettling = 16, kLooks = 64;  // steps in which all triangles have been looked at for crossing meshes
 constexpr float kSettles_s = 0.8f, kSettlingDamping = 0.98f;
 
 void check(const Air& air) {
@@ -161,9 +161,9 @@ struct Cloth::State {
     void teleport(std::span<const Vec3> targets);
     void carry(const RigidMotion& motion);
     void rest_if_still(float dt, std::span<const Vec3> targets);
-    TriangleGroups& triangles_now(std::span<const Vec3> places);
-    void guard_layers(float dt);
-    void lift_off_meshes(uint32_t steps);
+    TriangleGroups& triangles_now(std::span<const Vec3> places, Jobs& jobs);
+    void guard_layers(float dt, Jobs& jobs);
+    void lift_off_meshes(uint32_t steps, Jobs& jobs);
     void publish();
     void find_normals() const;
     void find_strains() const;
@@ -322,7 +322,7 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
     const bool settles = s.settles_s > 0.0f;
     if (settles) s.settles_s -= dt;
     s.advance(dt, substeps, settles ? std::max(s.settings.damping, kSettlingDamping) : s.settings.damping, skinned_targets, jobs);
-    s.lift_off_meshes(settles ? kLooksSettling : kLooks);
+    s.lift_off_meshes(settles ? kLooksSettling : kLooks, jobs);
     s.substeps = uint32_t(substeps);
     s.step_ms = float(watch.ms());
     const float substep_ms = s.step_ms / float(substeps);
@@ -374,7 +374,7 @@ void Cloth::State::advance(float dt, int count, float damping, std::span<const V
     const ContactSettings contact{settings.friction, settings.friction * kKineticShare, kMaxDepenetration_m_s * h};
     solver.advance({dt, count, settings.gravity, settings.air, std::pow(1.0f - damping, h), contact, settings.thickness_m,
                     previous_targets, targets, colliders, meshes, lift ? lift->particles() : std::span<const float>()}, jobs);
-    guard_layers(dt);
+    guard_layers(dt, jobs);
     publish();
     rest_if_still(dt, targets);
     std::copy(targets.begin(), targets.end(), previous_targets.begin());
@@ -382,26 +382,26 @@ void Cloth::State::advance(float dt, int count, float damping, std::span<const V
     for (ContactMesh& mesh : meshes) mesh.arrive();
 }
 
-TriangleGroups& Cloth::State::triangles_now(std::span<const Vec3> places) {
+TriangleGroups& Cloth::State::triangles_now(std::span<const Vec3> places, Jobs& jobs) {
     if (!groups) groups.emplace(places, fabric->data().indices);
-    groups->move(places);
+    groups->move(places, jobs);
     return *groups;
 }
 
-void Cloth::State::guard_layers(float dt) {
+void Cloth::State::guard_layers(float dt, Jobs& jobs) {
     if (settings.self_thickness_m == 0.0f) return;
     if (!guard) guard.emplace(fabric->data());
     now.resize(positions.size());
     solver.copy_positions(now);
-    guard->keep(positions, now, triangles_now(now));
+    guard->keep(positions, now, triangles_now(now, jobs), jobs);
     for (const uint32_t v : guard->moved()) solver.place(v, now[v], (now[v] - positions[v]) / dt);
     solver.let_go(guard->tangled());
 }
 
-void Cloth::State::lift_off_meshes(uint32_t steps) {
+void Cloth::State::lift_off_meshes(uint32_t steps, Jobs& jobs) {
     if (meshes.empty()) return;
     if (!lift) lift.emplace(fabric);
-    triangles_now(positions);
+    if (!guard) triangles_now(positions, jobs);
     lift->look(*groups, meshes, steps, body_way());
 }
 

@@ -203,19 +203,6 @@ private:
         const Welded mesh = mesh_of(cloth);
         const size_t with_skin = crossed_triangles({mesh.positions, mesh.indices}, {skin.positions, skin.indices}).size();
         const size_t with_self = crossed_triangles(mesh.positions, mesh.indices).size();
-        if (getenv("WHERE")) {
-            std::cout << "WHERE " << row["garment"] << row["body"] << row["size"] << " skin:";
-            for (auto [t, o] : crossed_triangles({mesh.positions, mesh.indices}, {skin.positions, skin.indices})) {
-                const Vec3 c = (mesh.positions[mesh.indices[3*t]] + mesh.positions[mesh.indices[3*t+1]] + mesh.positions[mesh.indices[3*t+2]]) / 3.0f;
-                std::cout << " (" << int(c.x*100) << " " << int(c.y*100) << " " << int(c.z*100) << ")";
-            }
-            std::cout << " self:";
-            for (auto [t, o] : crossed_triangles(mesh.positions, mesh.indices)) {
-                const Vec3 c = (mesh.positions[mesh.indices[3*t]] + mesh.positions[mesh.indices[3*t+1]] + mesh.positions[mesh.indices[3*t+2]]) / 3.0f;
-                std::cout << " (" << int(c.x*100) << " " << int(c.y*100) << " " << int(c.z*100) << ")";
-            }
-            std::cout << "\n";
-        }
         vfit_cloth_stats stats = vfit_cloth_stats_init();
         check(vfit_cloth_describe(cloth, &stats));
         row["skin_crossings"] = with_skin;

@@ -188,18 +188,16 @@ bool ContactMesh::is_at_border(const Place& place) const {
     return !inside && border;
 }
 
-void ContactMesh::find_crossed(const TriangleGroups& cloth, uint32_t first_group, uint32_t end_group, std::vector<uint32_t>& near, std::vector<uint32_t>& triangles) const {
-    for (uint32_t group = first_group; group < end_group; ++group) {
-        const Bounds box = cloth.box_of(group);
-        find_meeting(boxes_, box.low, box.high, near);
-        for (const uint32_t run : near) {
-            const float reach = kCornerReach * edges_m_[run];  // a triangle comes into the box by a corner no further off
-            const Bounds wide{box.low - reach, box.high + reach};
-            for (uint32_t point = run * uint32_t(kLanes); point < std::min((run + 1) * uint32_t(kLanes), uint32_t(vertex_of_.size())); ++point) {
-                const Vec3& p = begin_[point].x;
-                if (!wide.overlaps({p, p})) continue;
-                for (const TriangleFans::Corners& c : fans_.of(point)) cloth.find_crossed(group, {{p, begin_[c.second].x, begin_[c.third].x}}, triangles);
-            }
+void ContactMesh::find_crossed(const TriangleGroups& cloth, uint32_t group, std::vector<uint32_t>& near, std::vector<uint32_t>& triangles) const {
+    const Bounds box = cloth.box_of(group);
+    find_meeting(boxes_, box.low, box.high, near);
+    for (const uint32_t run : near) {
+        const float reach = kCornerReach * edges_m_[run];  // a triangle comes into the box by a corner no further off
+        const Bounds wide{box.low - reach, box.high + reach};
+        for (uint32_t point = run * uint32_t(kLanes); point < std::min((run + 1) * uint32_t(kLanes), uint32_t(vertex_of_.size())); ++point) {
+            const Vec3& p = begin_[point].x;
+            if (!wide.overlaps({p, p})) continue;
+            for (const TriangleFans::Corners& c : fans_.of(point)) cloth.find_crossed(group, {{p, begin_[c.second].x, begin_[c.third].x}}, triangles);
         }
     }
 }

@@ -41,8 +41,8 @@ public:
     /// near: room to work in.
     /// lift_m: of each particle, what it keeps beyond the thickness; empty: nothing.
     void find_planes(const Moving& moving, float dt, float thickness_m, std::span<const float> lift_m, std::vector<uint32_t>& near, std::vector<RunPlanes>& out) const;
-    /// Adds those of the cloth's triangles, of a range of its groups, that go through the mesh where it arrived.
-    void find_crossed(const TriangleGroups& cloth, uint32_t first_group, uint32_t end_group, std::vector<uint32_t>& near, std::vector<uint32_t>& triangles) const;
+    /// Adds those of the triangles of one of the cloth's groups that go through the mesh where it arrived.
+    void find_crossed(const TriangleGroups& cloth, uint32_t group, std::vector<uint32_t>& near, std::vector<uint32_t>& triangles) const;
 
 private:
     /// A place on a triangle.

@@ -18,18 +18,18 @@ CrossingGuard::CrossingGuard(const FabricData& fabric)
     for (const float inverse : fabric.inverse_mass) is_fixed_.push_back(inverse == 0.0f);
 }
 
-void CrossingGuard::keep(std::span<const Vec3> before, std::span<Vec3> now, TriangleGroups& cloth) {
+void CrossingGuard::keep(std::span<const Vec3> before, std::span<Vec3> now, TriangleGroups& cloth, Jobs& jobs) {
     for (const uint32_t v : zoned_) parent_[v] = kNone;
     zoned_.clear();
     const auto find = [&] {
         pairs_.clear();
-        cloth.find_crossings(true, pairs_);
+        cloth.find_crossings(true, pairs_, jobs);
     };
     find();
     if (!pairs_.empty()) std::copy(now.begin(), now.end(), wanted_.begin());
     for (int round = 0; round < kRounds && unite_crossed(before); ++round) {
         move_zones(before, now);
-        cloth.move(now);
+        cloth.move(now, jobs);
         find();
     }
     tangled_ = untangle_.move(pairs_, indices_, is_fixed_, kUntangles_m, now);

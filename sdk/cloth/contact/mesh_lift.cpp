@@ -5,7 +5,7 @@
 namespace vfit {
 
 namespace {
-constexpr float kStep_m = 0.001f, kMost_m = 0.012f;
+constexpr float kStep_m = 0.0005f, kMost_m = 0.012f;
 constexpr float kForgets = 0.05f;  // share, for each millimetre that the body moves
 }  // namespace
 
@@ -17,16 +17,24 @@ void MeshLift::look(const TriangleGroups& cloth, std::span<const ContactMesh> me
         for (float& lift : lift_m_) lift *= keep;
     const uint32_t count = cloth.group_count(), first = next_ >= count ? 0 : next_, end = std::min(count, first + count / steps + 1);
     next_ = end;
-    crossed_.clear();
-    for (const ContactMesh& mesh : meshes) mesh.find_crossed(cloth, first, end, near_, crossed_);
-    std::sort(crossed_.begin(), crossed_.end());
-    crossed_.erase(std::unique(crossed_.begin(), crossed_.end()), crossed_.end());
-    const std::vector<uint32_t>& indices = fabric_->data().indices;
-    for (const uint32_t t : crossed_)
-        for (size_t k = 0; k < 3; ++k) {
-            float& lift = lift_m_[fabric_->layout().particle_of[indices[3 * t + k]]];
-            lift = std::min(lift + kStep_m, kMost_m);
-        }
+    groups_.swap(looked_again_);
+    for (uint32_t group = first; group < end; ++group)
+        if (std::find(groups_.begin(), groups_.end(), group) == groups_.end()) groups_.push_back(group);
+    looked_again_.clear();
+    for (const uint32_t group : groups_) {
+        crossed_.clear();
+        for (const ContactMesh& mesh : meshes) mesh.find_crossed(cloth, group, near_, crossed_);
+        if (crossed_.empty()) continue;
+        looked_again_.push_back(group);
+        std::sort(crossed_.begin(), crossed_.end());
+        crossed_.erase(std::unique(crossed_.begin(), crossed_.end()), crossed_.end());
+        for (const uint32_t t : crossed_)
+            for (size_t k = 0; k < 3; ++k) {
+                float& lift = lift_m_[fabric_->layout().particle_of[fabric_->data().indices[3 * t + k]]];
+                lift = std::min(lift + kStep_m, kMost_m);
+            }
+    }
+    groups_.clear();
 }
 
 }  // namespace vfit

@@ -25,7 +25,8 @@ public:
 private:
     std::shared_ptr<const Fabric> fabric_;
     std::vector<float> lift_m_;
-    std::vector<uint32_t> crossed_, near_;
+    std::vector<uint32_t> groups_, looked_again_;  // of triangles that crossed at the last look
+    std::vector<uint32_t> crossed_, near_;         // room to work in
     uint32_t next_ = 0;  // group
 };
 

@@ -109,6 +109,8 @@ TriangleGroups::TriangleGroups(std::span<const Vec3> positions, std::span<const 
     normals_.resize(ends_.size());
     groups_.resize(ends_.size());
     list_beside(positions.size());
+    constexpr uint32_t kShare = 64;  // groups
+    shares_.resize((group_count() + kShare - 1) / kShare);
 }
 
 void TriangleGroups::list_beside(size_t vertices) {
@@ -128,21 +130,31 @@ void TriangleGroups::list_beside(size_t vertices) {
     }
 }
 
-void TriangleGroups::move(std::span<const Vec3> positions) {
-    for (uint32_t group = 0; group < group_count(); ++group) {
+template <typename Body>
+void TriangleGroups::for_shares(Jobs& jobs, Body&& body) {
+    parallel_for(jobs, uint32_t(shares_.size()), [&](uint32_t i) {
+        body(shares_[i], i * group_count() / uint32_t(shares_.size()), (i + 1) * group_count() / uint32_t(shares_.size()));
+    });
+}
+
+void TriangleGroups::move(std::span<const Vec3> positions, Jobs& jobs) {
+    for_shares(jobs, [&](Share&, uint32_t begin, uint32_t end) { move_groups(positions, begin, end); });
+    groups_.find_blocks();
+}
+
+void TriangleGroups::move_groups(std::span<const Vec3> positions, uint32_t begin, uint32_t end) {
+    for (uint32_t group = begin; group < end; ++group) {
         Bounds box, normals;
         for (uint32_t t = begin_of(group); t < ends_[group]; ++t) {
             const auto& vertex = triangles_[t].vertex;
             const auto& at = (corners_[t] = {{positions[vertex[0]], positions[vertex[1]], positions[vertex[2]]}}).at;
             boxes_[t] = bounds_of(corners_[t]);
             box.add(boxes_[t].low), box.add(boxes_[t].high);
-            const Vec3 across = glm::cross(at[1] - at[0], at[2] - at[0]);
-            normals.add(across / std::max(glm::length(across), 1e-12f));
+            normals.add(glm::cross(at[1] - at[0], at[2] - at[0]));
         }
         groups_.runs.set(group, box.low, box.high);
         normals_[group] = normals;
     }
-    groups_.find_blocks();
 }
 
 bool TriangleGroups::are_beside(uint32_t group, uint32_t other) const {
@@ -156,19 +168,29 @@ bool TriangleGroups::face_one_way(uint32_t group, uint32_t other) const {
     return least.x + least.y + least.z > 0.0f;
 }
 
-void TriangleGroups::find_crossings(bool flat_do_not, std::vector<TrianglePair>& out) {
-    for (uint32_t group = 0; group < group_count(); ++group) {
-        find_meeting(groups_, groups_.runs.low_of(group), groups_.runs.high_of(group), near_);
-        for (auto other = std::lower_bound(near_.begin(), near_.end(), group); other != near_.end(); ++other)
-            if (!flat_do_not || !face_one_way(group, *other) || !are_beside(group, *other)) meet(group, *this, *other, out);
-    }
+void TriangleGroups::find_crossings(bool flat_do_not, std::vector<TrianglePair>& out, Jobs& jobs) {
+    find_in_shares(jobs, out, [&](Share& share, uint32_t group) {
+        find_meeting(groups_, groups_.runs.low_of(group), groups_.runs.high_of(group), share.near);
+        for (auto other = std::lower_bound(share.near.begin(), share.near.end(), group); other != share.near.end(); ++other)
+            if (!flat_do_not || !face_one_way(group, *other) || !are_beside(group, *other)) meet(group, *this, *other, share.pairs);
+    });
 }
 
-void TriangleGroups::find_crossings(const TriangleGroups& other, std::vector<TrianglePair>& out) {
-    for (uint32_t group = 0; group < group_count(); ++group) {
-        find_meeting(other.groups_, groups_.runs.low_of(group), groups_.runs.high_of(group), near_);
-        for (const uint32_t of_other : near_) meet(group, other, of_other, out);
-    }
+void TriangleGroups::find_crossings(const TriangleGroups& other, std::vector<TrianglePair>& out, Jobs& jobs) {
+    find_in_shares(jobs, out, [&](Share& share, uint32_t group) {
+        find_meeting(other.groups_, groups_.runs.low_of(group), groups_.runs.high_of(group), share.near);
+        for (const uint32_t of_other : share.near) meet(group, other, of_other, share.pairs);
+    });
+}
+
+/// The same for any number of threads.
+template <typename Find>
+void TriangleGroups::find_in_shares(Jobs& jobs, std::vector<TrianglePair>& out, Find&& find) {
+    for_shares(jobs, [&](Share& share, uint32_t begin, uint32_t end) {
+        share.pairs.clear();
+        for (uint32_t group = begin; group < end; ++group) find(share, group);
+    });
+    for (const Share& share : shares_) out.insert(out.end(), share.pairs.begin(), share.pairs.end());
 }
 
 void TriangleGroups::find_crossed(uint32_t group, const Corners& other, std::vector<uint32_t>& triangles) const {

@@ -8,6 +8,7 @@
 
 #include "cloth/contact/contact.h"
 #include "cloth/contact/surface_kernels.h"
+#include "core/jobs.h"
 #include "math/types.h"
 
 namespace vfit {
@@ -27,13 +28,13 @@ public:
     TriangleGroups(std::span<const Vec3> positions, std::span<const uint32_t> indices);
 
     /// Does not allocate.
-    void move(std::span<const Vec3> positions);
+    void move(std::span<const Vec3> positions, Jobs& jobs);
 
     /// Adds the pairs of triangles that cross and share no vertex. flat_do_not: groups, alone and with those beside them, whose
     /// triangles all face one way are taken not to cross (Volino and Thalmann 1994).
-    void find_crossings(bool flat_do_not, std::vector<TrianglePair>& out);
+    void find_crossings(bool flat_do_not, std::vector<TrianglePair>& out, Jobs& jobs);
     /// Adds the pairs of a triangle of this mesh and one of the other that cross.
-    void find_crossings(const TriangleGroups& other, std::vector<TrianglePair>& out);
+    void find_crossings(const TriangleGroups& other, std::vector<TrianglePair>& out, Jobs& jobs);
 
     uint32_t group_count() const { return uint32_t(normals_.size()); }
     Bounds box_of(uint32_t group) const { return {groups_.runs.low_of(group), groups_.runs.high_of(group)}; }
@@ -47,6 +48,15 @@ private:
         uint32_t number;  // in the mesh
     };
     uint32_t begin_of(uint32_t group) const { return group == 0 ? 0 : ends_[group - 1]; }
+    struct Share {
+        std::vector<uint32_t> near;  // groups that one meets
+        std::vector<TrianglePair> pairs;
+    };
+    template <typename Body>
+    void for_shares(Jobs& jobs, Body&& body);
+    template <typename Find>
+    void find_in_shares(Jobs& jobs, std::vector<TrianglePair>& out, Find&& find);
+    void move_groups(std::span<const Vec3> positions, uint32_t begin, uint32_t end);
     void list_beside(size_t vertices);
     bool are_beside(uint32_t group, uint32_t other) const;
     bool face_one_way(uint32_t group, uint32_t other) const;
@@ -57,9 +67,9 @@ private:
     std::vector<Corners> corners_;     // of these
     std::vector<Bounds> boxes_;        // of these
     RunBoxes groups_;
-    std::vector<Bounds> normals_;      // of groups
+    std::vector<Bounds> normals_;      // of groups, as long as their triangles are large
     std::vector<uint32_t> first_beside_, beside_;  // of each group, those that share a vertex with it, rising
-    std::vector<uint32_t> near_;       // groups that one meets
+    std::vector<Share> shares_;        // of the work
 };
 
 }  // namespace vfit

@@ -238,10 +238,10 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
         carried.add(ball.center, bone_weights);
         backstops_.push_back({i, ball.radius_m});
     }
-    if (garment.has_own_lengths()) hems_ = limb_hems(indices_, part_below);
+    if (garment.has_own_lengths()) hems_ = limb_hems(indices_, part_below, garment.simulated, rest_);
     std::vector<uint8_t> of_hem(n, 0);
-    for (const auto& hem : hems_)
-        for (const uint32_t v : hem) of_hem[v] = 1;
+    for (const LimbHem& hem : hems_)
+        for (const uint32_t v : hem.vertices) of_hem[v] = 1;
     Carried followed;
     for (uint32_t i = 0; i < carried.rest.size(); ++i) {
         const bool limited = i < n && ((!garment.most_way.empty() && garment.most_way[i] > 0.0f) || of_hem[i]);
@@ -249,7 +249,7 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
         followed.add(carried.rest[i], carried.bones[i], carried.weights[i]);
         followed_.push_back(i);
     }
-    fabric_ = fabric_of(garment, material, size_ratio, size);
+    fabric_ = fabric_of(garment, material, size_ratio, size, &taken_up_);
     skin_.emplace(carried.skin());
     if (!followed_.empty()) followed_skin_.emplace(followed.skin());
 }
@@ -269,15 +269,16 @@ std::vector<Vec2> Dress::cut(const Garment& garment, float size_ratio, const Gar
     return out;
 }
 
-std::shared_ptr<const Fabric> Dress::fabric_of(const Garment& garment, const FabricMaterial& material, float size_ratio, const GarmentSize* size) const {
+std::shared_ptr<const Fabric> Dress::fabric_of(const Garment& garment, const FabricMaterial& material, float size_ratio, const GarmentSize* size, TakenUp* taken_up) const {
     std::vector<Vec2> cut = garment.has_own_lengths() ? cut_of(garment, rest_, size) : std::vector<Vec2>();
-    if (!cut.empty()) take_up(hems_, indices_, garment.simulated, rest_, cut);
+    const TakenUp taken = take_up(hems_, indices_, garment.simulated, cut);
+    if (taken_up) *taken_up = taken;
     const std::span<const Vec2> uvs = std::span(garment.mesh.uvs).first(garment.vertex_count());
     FabricData data = cook_fabric({rest_, indices_, uvs, garment.simulated, size_ratio, cut}, material);
     data.backstops = backstops_;
     for (uint32_t i = 0; i < garment.vertex_count(); ++i)
         if (!garment.most_way.empty() && garment.most_way[i] > 0.0f && garment.simulated[i]) data.limits.push_back({i, garment.most_way[i]});
-    keep_hems(hems_, rest_, data);
+    keep_hems(hems_, data);
     return std::make_shared<const Fabric>(std::move(data));
 }
 

@@ -14,6 +14,7 @@
 #include "cloth/fabric/fabric.h"
 #include "cloth/garment/carry.h"
 #include "cloth/garment/garment.h"
+#include "cloth/garment/hems.h"
 #include "math/types.h"
 
 namespace vfit {
@@ -39,8 +40,10 @@ public:
     const std::shared_ptr<const Fabric>& fabric() const { return fabric_; }
     /// The garment's triangles as they are cut in that size, one place an index.
     std::vector<Vec2> cut(const Garment& garment, float size_ratio, const GarmentSize* size) const;
+    /// What was taken up of sleeves and legs that are too long.
+    const TakenUp& taken_up() const { return taken_up_; }
     /// The same garment in another size: as many vertices and targets, other lengths.
-    std::shared_ptr<const Fabric> fabric_of(const Garment& garment, const FabricMaterial& material, float size_ratio, const GarmentSize* size) const;
+    std::shared_ptr<const Fabric> fabric_of(const Garment& garment, const FabricMaterial& material, float size_ratio, const GarmentSize* size, TakenUp* taken_up = nullptr) const;
     /// The garment on the avatar's rest body; one a garment vertex.
     const std::vector<Vec3>& rest() const { return rest_; }
     const std::vector<uint32_t>& indices() const { return indices_; }
@@ -62,7 +65,8 @@ private:
     std::vector<Vec3> rest_;
     std::vector<uint32_t> indices_;
     std::vector<Backstop> backstops_;
-    std::vector<std::vector<uint32_t>> hems_;  // of sleeves and legs
+    std::vector<LimbHem> hems_;
+    TakenUp taken_up_;
     std::optional<Carry> carry_;
     std::optional<Skin> skin_;  // of rest_, then the backstops' centres
     std::vector<uint32_t> followed_;  // of these

@@ -2,111 +2,104 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
+
+#include "cloth/garment/borders.h"
 
 namespace vfit {
 
 namespace {
 
-bool at_end_of_limb(BodyPart part) {
-    return part == BodyPart::kLeftForearm || part == BodyPart::kRightForearm || part == BodyPart::kLeftHand || part == BodyPart::kRightHand ||
-           part == BodyPart::kLeftShank || part == BodyPart::kRightShank || part == BodyPart::kLeftFoot || part == BodyPart::kRightFoot;
-}
+constexpr float kFolds_m = 0.015f;  // that sleeves and legs may be too long by: what lies in folds above the hem
 
-/// Mean length of the ways to the vertices from what is fixed; 0 where there is none.
-float mean_way(const std::vector<Tether>& tethers, std::span<const uint32_t> vertices) {
-    const std::set<uint32_t> wanted(vertices.begin(), vertices.end());
-    float sum = 0.0f;
-    int count = 0;
-    for (const Tether& t : tethers)
-        if (wanted.count(t.vertex)) sum += t.length_m, ++count;
-    return count > 0 ? sum / float(count) : 0.0f;
-}
+bool at_end_of_arm(BodyPart part) { return part == BodyPart::kLeftForearm || part == BodyPart::kRightForearm || part == BodyPart::kLeftHand || part == BodyPart::kRightHand; }
+bool at_end_of_leg(BodyPart part) { return part == BodyPart::kLeftShank || part == BodyPart::kRightShank || part == BodyPart::kLeftFoot || part == BodyPart::kRightFoot; }
 
-}  // namespace
-
-std::vector<std::vector<uint32_t>> limb_hems(std::span<const uint32_t> indices, std::span<const BodyPart> part_below) {
-    std::set<std::pair<uint32_t, uint32_t>> sides;
-    for (size_t i = 0; i + 2 < indices.size(); i += 3)
-        for (size_t k = 0; k < 3; ++k) sides.insert({indices[i + k], indices[i + (k + 1) % 3]});
-    std::map<uint32_t, uint32_t> next;
-    for (const auto& [a, b] : sides)
-        if (!sides.count({b, a})) next[a] = b;
-    std::vector<std::vector<uint32_t>> hems;
-    while (!next.empty()) {
-        std::vector<uint32_t> line;
-        for (auto it = next.begin(); it != next.end();) {
-            line.push_back(it->first);
-            const uint32_t to = it->second;
-            next.erase(it);
-            it = next.find(to);
-        }
-        const auto at_end = std::count_if(line.begin(), line.end(), [&](uint32_t v) { return at_end_of_limb(part_below[v]); });
-        if (2 * size_t(at_end) > line.size()) hems.push_back(std::move(line));
-    }
-    return hems;
-}
-
-namespace {
-
-std::vector<DistanceConstraint> sides_of(std::span<const uint32_t> indices, std::span<const Vec3> carried, std::span<const Vec2> cut) {
+/// One a side of each triangle, of that length.
+template <typename Length>
+std::vector<DistanceConstraint> sides_of(std::span<const uint32_t> indices, Length&& length) {
     std::vector<DistanceConstraint> out;
-    for (size_t i = 0; i + 2 < indices.size(); i += 3)
-        for (size_t k = 0; k < 3; ++k) {
-            const size_t a = i + k, b = i + (k + 1) % 3;
-            out.push_back({indices[a], indices[b], cut.empty() ? glm::length(carried[indices[a]] - carried[indices[b]]) : glm::length(cut[a] - cut[b]), 0.0f});
-        }
+    out.reserve(indices.size());
+    for (uint32_t i = 0; i < indices.size() / 3 * 3; ++i) out.push_back({indices[i], indices[next_corner(i)], length(i), 0.0f});
     return out;
 }
 
-}  // namespace
-
-void take_up(const std::vector<std::vector<uint32_t>>& hems, std::span<const uint32_t> indices, std::span<const uint8_t> simulated, std::span<const Vec3> carried, std::vector<Vec2>& cut) {
-    static const float kSlack_m = getenv("SLACK") ? float(atof(getenv("SLACK"))) : 0.015f;
-    constexpr float kReach = 0.7f, kLeast = 0.3f;
-    if (hems.empty() || kSlack_m > 1.0f) return;
-    std::vector<float> inverse_mass(simulated.begin(), simulated.end());
-    const std::vector<DistanceConstraint> own_sides = sides_of(indices, carried, cut);
-    const std::vector<Tether> own_ways = cook_tethers(inverse_mass, own_sides), body_ways = cook_tethers(inverse_mass, sides_of(indices, carried, {}));
-    for (const std::vector<uint32_t>& hem : hems) {
-        const float own = mean_way(own_ways, hem), body = mean_way(body_ways, hem), surplus = own - body - kSlack_m;
-        if (getenv("SAYHEM")) fprintf(stderr, "hem of %zu: own %g body %g\n", hem.size(), double(own), double(body));
-        if (body == 0.0f || surplus <= 0.0f) continue;
-        const float reach = kReach * own, share = std::max(kLeast, 1.0f - surplus / reach);
-        std::vector<float> from_hem(simulated.size(), 1.0f);
-        for (const uint32_t v : hem) from_hem[v] = 0.0f;
-        std::vector<float> way(simulated.size(), INFINITY);
-        for (const uint32_t v : hem) way[v] = 0.0f;
-        for (const Tether& t : cook_tethers(from_hem, own_sides)) way[t.vertex] = t.length_m;
-        for (size_t i = 0; i + 2 < indices.size(); i += 3) {
-            const float d[3] = {way[indices[i]], way[indices[i + 1]], way[indices[i + 2]]};
-            if (d[0] + d[1] + d[2] > 3.0f * reach) continue;
-            const Vec2 p = cut[i + 1] - cut[i], q = cut[i + 2] - cut[i];
-            const float det = p.x * q.y - p.y * q.x;
-            if (std::abs(det) < 1e-9f) continue;
-            Vec2 along((d[1] - d[0]) * q.y - (d[2] - d[0]) * p.y, (d[2] - d[0]) * p.x - (d[1] - d[0]) * q.x);
-            if (glm::length(along) < 1e-12f) continue;
-            along = glm::normalize(along);
-            if (det < 0.0f) along = -along;
-            for (size_t k = 1; k < 3; ++k) {
-                const Vec2 side = cut[i + k] - cut[i];
-                cut[i + k] = cut[i] + side - (1.0f - share) * glm::dot(side, along) * along;
-            }
-        }
-    }
+/// Along the cloth from the nearest place that is fixed (inverse_mass 0), one a vertex; infinite: no way leads there.
+std::vector<float> ways_from(std::span<const float> inverse_mass, const std::vector<DistanceConstraint>& sides) {
+    std::vector<float> ways;
+    for (const float inverse : inverse_mass) ways.push_back(inverse > 0.0f ? INFINITY : 0.0f);
+    for (const Tether& t : cook_tethers(inverse_mass, sides)) ways[t.vertex] = t.length_m;
+    return ways;
 }
 
-void keep_hems(const std::vector<std::vector<uint32_t>>& hems, std::span<const Vec3> carried, FabricData& fabric) {
+/// Over the vertices that a way leads to; 0: there is none.
+float mean_way(const std::vector<float>& ways, std::span<const uint32_t> vertices) {
+    float sum = 0.0f;
+    int count = 0;
+    for (const uint32_t v : vertices)
+        if (ways[v] > 0.0f && ways[v] < INFINITY) sum += ways[v], ++count;
+    return count > 0 ? sum / float(count) : 0.0f;
+}
+
+/// Of a triangle laid flat, the direction in which a value at its corners grows; zero: it is the same at all.
+Vec2 growth(const Vec2* corner, const float (&value)[3]) {
+    const Vec2 p = corner[1] - corner[0], q = corner[2] - corner[0];
+    const float a = value[1] - value[0], b = value[2] - value[0];
+    const Vec2 way = Vec2(a * q.y - b * p.y, b * p.x - a * q.x) * (p.x * q.y - p.y * q.x < 0.0f ? -1.0f : 1.0f);
+    const float length = glm::length(way);
+    return length > 1e-12f ? way / length : Vec2(0.0f);
+}
+
+}  // namespace
+
+std::vector<LimbHem> limb_hems(std::span<const uint32_t> indices, std::span<const BodyPart> part_below, std::span<const uint8_t> simulated, std::span<const Vec3> carried) {
+    std::vector<LimbHem> hems;
+    for (const std::vector<uint32_t>& line : border_lines(indices)) {
+        size_t arm = 0, leg = 0;
+        for (const uint32_t corner : line) arm += at_end_of_arm(part_below[indices[corner]]), leg += at_end_of_leg(part_below[indices[corner]]);
+        if (2 * (arm + leg) <= line.size()) continue;
+        LimbHem& hem = hems.emplace_back();
+        hem.of_arm = arm > leg;
+        for (const uint32_t corner : line) hem.vertices.push_back(indices[corner]);
+    }
+    if (hems.empty()) return hems;
+    const std::vector<float> inverse_mass(simulated.begin(), simulated.end());
+    const auto ways = ways_from(inverse_mass, sides_of(indices, [&](uint32_t i) { return glm::length(carried[indices[i]] - carried[indices[next_corner(i)]]); }));
+    for (LimbHem& hem : hems) hem.way_m = mean_way(ways, hem.vertices);
+    return hems;
+}
+
+TakenUp take_up(std::span<const LimbHem> hems, std::span<const uint32_t> indices, std::span<const uint8_t> simulated, std::vector<Vec2>& cut) {
+    // So much of the way to the hem is of the limb: less than from the crotch or the armhole.
+    constexpr float kOfLimb = 0.7f, kShortest = 0.3f;
+    TakenUp taken;
+    if (hems.empty()) return taken;
+    const auto sides = sides_of(indices, [&](uint32_t i) { return glm::length(cut[i] - cut[next_corner(i)]); });
+    const std::vector<float> ways = ways_from(std::vector<float>(simulated.begin(), simulated.end()), sides);
+    for (const LimbHem& hem : hems) {
+        const float own = mean_way(ways, hem.vertices), reach = kOfLimb * own, surplus = std::min(own - hem.way_m - kFolds_m, (1.0f - kShortest) * reach);
+        if (hem.way_m == 0.0f || surplus <= 0.0f) continue;
+        float& most = hem.of_arm ? taken.sleeves_m : taken.legs_m;
+        most = std::max(most, surplus);
+        std::vector<float> is_not_hem(simulated.size(), 1.0f);
+        for (const uint32_t v : hem.vertices) is_not_hem[v] = 0.0f;
+        const std::vector<float> from_hem = ways_from(is_not_hem, sides);
+        for (size_t i = 0; i + 2 < indices.size(); i += 3) {
+            const float way[3] = {from_hem[indices[i]], from_hem[indices[i + 1]], from_hem[indices[i + 2]]};
+            if (!(way[0] + way[1] + way[2] < 3.0f * reach)) continue;
+            const Vec2 along = growth(&cut[i], way);
+            for (size_t k = 1; k < 3; ++k) cut[i + k] -= (surplus / reach) * glm::dot(cut[i + k] - cut[i], along) * along;
+        }
+    }
+    return taken;
+}
+
+void keep_hems(std::span<const LimbHem> hems, FabricData& fabric) {
     constexpr float kLonger = 1.01f, kNear_m = 0.02f;
-    if (hems.empty() || getenv("NOLIMIT")) return;
-    std::vector<DistanceConstraint> on_body = fabric.edges;
-    for (DistanceConstraint& edge : on_body) edge.rest_m = glm::length(carried[edge.a] - carried[edge.b]);
-    const std::vector<Tether> ways = cook_tethers(fabric.inverse_mass, on_body);
-    for (const std::vector<uint32_t>& hem : hems) {
-        const float own = mean_way(fabric.tethers, hem), body = mean_way(ways, hem);
-        if (body == 0.0f || own < kLonger * body) continue;
-        for (const uint32_t v : hem)
+    std::vector<float> ways(fabric.inverse_mass.size(), INFINITY);
+    for (const Tether& t : fabric.tethers) ways[t.vertex] = t.length_m;
+    for (const LimbHem& hem : hems) {
+        if (hem.way_m == 0.0f || mean_way(ways, hem.vertices) < kLonger * hem.way_m) continue;
+        for (const uint32_t v : hem.vertices)
             if (fabric.inverse_mass[v] > 0.0f) fabric.limits.push_back({v, kNear_m});
     }
 }
