@@ -180,6 +180,7 @@ struct ClothObject : ContextChild {
     Dress dress;
     bool any_fit = false;
     std::string size_label;
+    TakenUp taken_up = dress.taken_up();
     std::vector<Vec2> cut;  // of its size, one place an index
     const std::optional<SkinBelow> skin;  // of the avatar, where the cloth is kept out of it
     const std::optional<SkinCover> cover;
@@ -367,16 +368,41 @@ struct ClothObject : ContextChild {
         for (const T& value : values) *to++ = out(value);
         for (const uint32_t of : garment->garment.copies) *to++ = out(values[of]);
     }
+    /// Once it has come to its lengths, which are more than girths: armholes, neck, crotch.
+    void check_not_drawn(const char* label) const {
+        const float strain = most_strained(cloth.strain()), most = kDrawn * garment->material.most_strain;
+        if (strain > most)
+            fail(VFIT_ERROR_NOT_WEARABLE, "garment ", garment->garment.name, " is too small in size ", label, ": a tenth of it would be stretched by more than ", strain * 100.0f, " %; of ",
+                 garment->garment.fabric, " ", most * 100.0f, " % are drawn");
+        std::vector<uint8_t> counts = garment->garment.simulated;
+        for (const LimbHem& hem : dress.hems())
+            for (const uint32_t v : hem.vertices) counts[v] = 0;
+        const Opening opening = tightest_opening({cloth.positions(), dress.indices(), cut, garment->garment.on_arm, {}}, counts);
+        const float gives = std::max(kOpeningGives, garment->material.most_strain);
+        if (opening.strain <= gives) return;
+        fail(VFIT_ERROR_NOT_WEARABLE, "garment ", garment->garment.name, " is too small in size ", label, ": its opening of ", opening.garment_m * 100.0f, " cm at ",
+             opening.middle.y * 100.0f, " cm of height would be stretched by ", opening.strain * 100.0f, " %; ", garment->garment.fabric, " gives ", gives * 100.0f, " % there");
+    }
     /// The same garment in other lengths, from how it hangs now.
     void change_size(const char* label_text) {
         require_no_step();
         const DressedSize size = dressed_size(*garment, label_text, *avatar);
         std::vector<Vec2> new_cut = dress.cut(garment->garment, size.ratio, size.own);
         if (size.own && !any_fit) check_wearable(*garment, label_text, dress, new_cut, *avatar);
-        cloth = cloth.with_fabric(dress.fabric_of(garment->garment, garment->material, size.ratio, size.own));
-        cut = std::move(new_cut);
-        const auto reading = read_avatar();
-        come_to_lengths(false);
+        TakenUp taken;
+        Cloth resized = cloth.with_fabric(dress.fabric_of(garment->garment, garment->material, size.ratio, size.own, &taken));
+        std::swap(cloth, resized);
+        std::swap(cut, new_cut);
+        try {
+            const auto reading = read_avatar();
+            come_to_lengths(false);
+            if (size.own && !any_fit) check_not_drawn(label_text);
+        } catch (...) {
+            cloth = std::move(resized);
+            cut = std::move(new_cut);
+            throw;
+        }
+        taken_up = taken;
         size_label = label_text ? label_text : "";
     }
     /// The cloth as its last step left it, with the pose taken out.
@@ -512,6 +538,7 @@ vfit_result vfit_cloth_create(vfit_avatar avatar_handle, vfit_garment garment_ha
         cloth->any_fit = any_fit;
         cloth->size_label = d.size_label ? d.size_label : "";
         cloth->cut = std::move(cut);
+        if (size.own && !any_fit) cloth->check_not_drawn(d.size_label);
         out->id = avatar->context->publish(Kind::cloth, cloth, avatar_handle.id);
         return VFIT_OK;
     });
@@ -618,12 +645,15 @@ vfit_result vfit_cloth_hide_skin(vfit_cloth handle, float margin_m, uint8_t* tri
     return guard([&] {
         Use<ClothObject, Mode::read> cloth(handle.id);
         check_pointer(triangles, "triangles");
+        cloth->require_no_step();
         if (!std::isfinite(margin_m) || margin_m < 0.0f) fail(VFIT_ERROR_ARGUMENT, "margin_m ", margin_m, " is no distance");
         constexpr float kUsualMargin_m = 0.03f;
         const Avatar& avatar = cloth->avatar->avatar;
         const BodyTopology& topology = avatar.topology();
         if (count != topology.indices.size() / 3) fail(VFIT_ERROR_ARGUMENT, "count is ", count, ", the avatar has ", topology.indices.size() / 3, " triangles");
-        const auto hidden = hidden_triangles({std::span(avatar.rest().positions).first(topology.vertex_count), topology.indices, cloth->dress.rest(),
+        // In a size it may end elsewhere than where it would be made to.
+        const ClothObject::Worn worn = cloth->size_label.empty() ? ClothObject::Worn() : cloth->worn();
+        const auto hidden = hidden_triangles({std::span(avatar.rest().positions).first(topology.vertex_count), topology.indices, worn.unposed.positions.empty() ? cloth->dress.rest() : worn.unposed.positions,
                                               cloth->dress.indices()}, margin_m > 0.0f ? margin_m : kUsualMargin_m, *cloth->context->jobs);
         for (size_t i = 0; i < hidden.size(); ++i)
             if (hidden[i]) triangles[i] = 1;

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "cloth/garment/carried.h"
+#include "cloth/garment/clear_skin.h"
 #include "cloth/garment/cut.h"
 #include "cloth/garment/hems.h"
 #include "core/error.h"
@@ -182,6 +183,16 @@ std::vector<Vec2> cut_of(const Garment& garment, std::span<const Vec3> rest, con
     return cut;
 }
 
+/// Those that contact does not move, or not all of.
+std::vector<uint32_t> skinned_triangles(const Garment& garment) {
+    std::vector<uint32_t> out;
+    for (size_t i = 0; i + 2 < garment.mesh.indices.size(); i += 3) {
+        const uint32_t* v = &garment.mesh.indices[i];
+        if (std::any_of(v, v + 3, [&](uint32_t corner) { return !garment.simulated[corner]; })) out.insert(out.end(), v, v + 3);
+    }
+    return out;
+}
+
 }  // namespace
 
 Dress::Dress(const Garment& garment, const FabricMaterial& material, const DressBody& body, float size_ratio,
@@ -223,6 +234,7 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
     }
     const MeshQuery skin(body.rest, body.indices);
     push_out(skin, thickness_m, rest_);
+    clear_skin({body.rest, body.indices, skin}, skinned_triangles(garment), rest_);
 
     Carried carried;
     for (uint32_t i = 0; i < n; ++i) carried.add(rest_[i], weights.row(i));

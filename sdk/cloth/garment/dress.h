@@ -40,6 +40,7 @@ public:
     const std::shared_ptr<const Fabric>& fabric() const { return fabric_; }
     /// The garment's triangles as they are cut in that size, one place an index.
     std::vector<Vec2> cut(const Garment& garment, float size_ratio, const GarmentSize* size) const;
+    const std::vector<LimbHem>& hems() const { return hems_; }
     /// What was taken up of sleeves and legs that are too long.
     const TakenUp& taken_up() const { return taken_up_; }
     /// The same garment in another size: as many vertices and targets, other lengths.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "cloth/garment/borders.h"
+
 namespace vfit {
 
 namespace {
@@ -130,6 +132,32 @@ float needed_strain(std::span<const GirthFit> fits, const GirthFit** at) {
         if (at) *at = &fit;
     }
     return most;
+}
+
+Opening tightest_opening(const WornGarment& garment, std::span<const uint8_t> counts) {
+    Opening tightest;
+    for (const std::vector<uint32_t>& line : border_lines(garment.indices)) {
+        Opening opening;
+        float worn_m = 0.0f;
+        for (const uint32_t corner : line) {
+            const uint32_t a = garment.indices[corner], b = garment.indices[next_corner(corner)];
+            opening.middle += garment.positions[a] / float(line.size());
+            if (!counts[a] && !counts[b]) continue;
+            opening.garment_m += glm::length(garment.cut[next_corner(corner)] - garment.cut[corner]);
+            worn_m += glm::length(garment.positions[b] - garment.positions[a]);
+        }
+        if (opening.garment_m > 0.0f) opening.strain = worn_m / opening.garment_m - 1.0f;
+        if (opening.strain > tightest.strain) tightest = opening;
+    }
+    return tightest;
+}
+
+float most_strained(std::span<const float> strain) {
+    std::vector<float> sorted(strain.begin(), strain.end());
+    if (sorted.empty()) return 0.0f;
+    const auto at = sorted.begin() + std::ptrdiff_t(sorted.size() * 9 / 10);
+    std::nth_element(sorted.begin(), at, sorted.end());
+    return *at;
 }
 
 std::vector<float> tightness_of(const WornGarment& garment, std::span<const float> strain, float most_strain, const MeshQuery& skin) {

@@ -51,6 +51,22 @@ Fit judge_fit(const Garment& garment, const std::string& label, const GirthFit& 
 /// `at`: where.
 float needed_strain(std::span<const GirthFit> fits, const GirthFit** at);
 
+/// A neck, an armhole, a skirt's hem: as long as it is cut, and stretched so much.
+struct Opening {
+    float garment_m = 0.0f, strain = 0.0f;
+    Vec3 middle{0.0f};
+};
+/// So much gives cloth of little stretch at an opening, which runs across its threads for most of its way.
+inline constexpr float kOpeningGives = 0.15f;
+/// The one that is stretched most, as the garment is worn; what is skinned does not count, nor what slides along a limb.
+/// counts: flags, one a vertex.
+Opening tightest_opening(const WornGarment& garment, std::span<const uint8_t> counts);
+
+/// A tenth of the cloth is stretched by more, in the mean about its vertices.
+float most_strained(std::span<const float> strain);
+/// More than so many times what its fabric gives, the cloth is drawn rather than worn.
+inline constexpr float kDrawn = 2.5f;
+
 /// One a vertex, from -1 to 1: above 0 tight, the share of `most_strain` or of 2 kPa, whichever is more; below 0 loose, the way to
 /// the skin over 6 cm.
 std::vector<float> tightness_of(const WornGarment& garment, std::span<const float> strain, float most_strain, const MeshQuery& skin);

@@ -8,6 +8,7 @@
 #include "body/mesh.h"
 #include "cloth/cloth.h"
 #include "cloth/crossings.h"
+#include "cloth/garment/clear_skin.h"
 
 namespace vfit {
 
@@ -37,7 +38,7 @@ public:
             if (has_band ? band.of[v] != 0 : lies_on_shoulder(places[v])) out.simulated[v] = 0;
         out.report.strain_p99 = fall(cook(places, out.simulated), places, {120, 0, 0.0f, kHeldSubsteps});
         part_layers(places);
-        clear_skin(places);
+        clear_skin({body_.positions, body_.indices, *body_.skin}, cloth_.indices, places);
         look("at rest", places);
         out.positions = std::move(places);
         out.report.self_crossings = uint32_t(crossed_triangles(out.positions, cloth_.indices).size());
@@ -84,25 +85,6 @@ private:
     uint32_t fineness() const {
         constexpr float kSide_m = 0.016f;
         return uint32_t(std::clamp(std::lround(kSide_m / mean_side(cloth_)), 1L, 4L));
-    }
-
-    /// Vertices are kept off the skin, what lies between them is not: where skin stands out through a triangle, the triangle moves out.
-    void clear_skin(std::vector<Vec3>& places) const {
-        constexpr int kRounds = 40;
-        constexpr float kStep_m = 0.0005f;
-        for (int round = 0; round < kRounds; ++round) {
-            const auto crossed = crossed_triangles({places, cloth_.indices}, {body_.positions, body_.indices});
-            if (crossed.empty()) return;
-            std::set<uint32_t> moved;
-            for (const auto& [triangle, skin] : crossed)
-                for (size_t k = 0; k < 3; ++k) moved.insert(cloth_.indices[3 * triangle + k]);
-            for (const uint32_t v : moved) {
-                const MeshQuery::Closest near = body_.skin->closest(places[v]);
-                const bool inside = body_.skin->inside(places[v]);
-                const Vec3 outward = near.distance > 1e-6f ? (places[v] - near.point) * ((inside ? -1.0f : 1.0f) / near.distance) : near.normal;
-                places[v] += outward * kStep_m;
-            }
-        }
     }
 
     /// Where layers went through each other while they were sewn, as two legs do below the crotch: they meet with their outsides, so each
