@@ -521,7 +521,7 @@ vfit_result vfit_cloth_create(vfit_avatar avatar_handle, vfit_garment garment_ha
         const bool hands = (d.flags & VFIT_CLOTH_NO_HANDS) == 0 || garment->garment.has_sleeves();
         const Wearer wearer(*avatar->context, garment->garment, *avatar);
         const DressedSize size = dressed_size(*garment, d.size_label, *avatar);
-        Dress dress(garment->garment, garment->material, wearer.body, size.ratio, settings.thickness_m, size.own);
+        Dress dress(garment->garment, garment->material, wearer.body, size.ratio, settings.thickness_m, size.own, avatar->context->jobs.get());
         std::vector<Vec2> cut = dress.cut(garment->garment, size.ratio, size.own);
         const bool any_fit = (d.flags & VFIT_CLOTH_ANY_FIT) != 0;
         if (size.own && !any_fit) check_wearable(*garment, d.size_label, dress, cut, *avatar);

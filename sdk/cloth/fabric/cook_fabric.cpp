@@ -1,7 +1,6 @@
 // From a shape and a material to masses and constraints in SI units.
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <queue>
 
 #include "cloth/fabric/fabric.h"
@@ -23,10 +22,13 @@ struct MeshEdge {
     float area_m2 = 0.0f;     // of its triangles
     float length_m = 0.0f;    // mean over them
     float warp2 = 0.0f;       // share (squared) of its direction that runs along the warp, mean over them
-    std::vector<BesideEdge> beside;
+    uint32_t triangles = 0;
+    BesideEdge beside[2];     // the first two
 };
-
-using EdgeMap = std::map<std::pair<uint32_t, uint32_t>, MeshEdge>;
+struct EdgeOfEnds {
+    uint32_t a, b;  // the lower first
+    MeshEdge edge;
+};
 
 /// The corners of one triangle as it was cut, and its edges' directions in the cloth (x weft, y warp).
 struct CutTriangle {
@@ -52,8 +54,22 @@ CutTriangle cut_triangle(const FabricShape& shape, size_t first) {
     return t;
 }
 
-EdgeMap edges_of(const FabricShape& shape) {
-    EdgeMap edges;
+/// By rising ends.
+std::vector<EdgeOfEnds> edges_of(const FabricShape& shape) {
+    std::vector<std::pair<uint64_t, uint32_t>> sides;  // ends, and the corner at which a triangle's side begins
+    sides.reserve(shape.indices.size());
+    for (uint32_t corner = 0; corner < shape.indices.size(); ++corner) {
+        const auto [low, high] = std::minmax(shape.indices[corner], shape.indices[corner % 3 == 2 ? corner - 2 : corner + 1]);
+        sides.emplace_back(uint64_t(low) << 32 | high, corner);
+    }
+    std::sort(sides.begin(), sides.end());
+    std::vector<uint32_t> edge_of(sides.size());  // of each such corner
+    std::vector<EdgeOfEnds> edges;
+    edges.reserve(sides.size());
+    for (size_t i = 0; i < sides.size(); ++i) {
+        if (i == 0 || sides[i].first != sides[i - 1].first) edges.push_back({uint32_t(sides[i].first >> 32), uint32_t(sides[i].first), {}});
+        edge_of[sides[i].second] = uint32_t(edges.size()) - 1;
+    }
     for (size_t first = 0; first + 2 < shape.indices.size(); first += 3) {
         const CutTriangle t = cut_triangle(shape, first);
         const float area = t.area();
@@ -62,7 +78,7 @@ EdgeMap edges_of(const FabricShape& shape) {
             const int from = a < b ? k : (k + 1) % 3, to = a < b ? (k + 1) % 3 : k, off = (k + 2) % 3;
             const Vec3 edge_way = t.at[to] - t.at[from], corner_way = t.at[off] - t.at[from];
             const float length = glm::length(edge_way), along = glm::dot(corner_way, edge_way) / (length * length);
-            MeshEdge& edge = edges[{std::min(a, b), std::max(a, b)}];
+            MeshEdge& edge = edges[edge_of[first + size_t(k)]].edge;
             edge.area_m2 += area;
             edge.length_m += length;
             if (shape.cut.empty() && shape.uvs.empty()) {
@@ -71,11 +87,12 @@ EdgeMap edges_of(const FabricShape& shape) {
             } else {
                 edge.warp2 += t.warp_cosine2(k);
             }
-            edge.beside.push_back({shape.indices[first + size_t(off)], along, glm::length(corner_way - along * edge_way)});
+            if (edge.triangles < 2) edge.beside[edge.triangles] = {shape.indices[first + size_t(off)], along, glm::length(corner_way - along * edge_way)};
+            ++edge.triangles;
         }
     }
-    for (auto& [ends, edge] : edges) {
-        const float count = float(edge.beside.size());
+    for (auto& [a, b, edge] : edges) {
+        const float count = float(edge.triangles);
         edge.length_m /= count;
         edge.warp2 /= count;
     }
@@ -177,8 +194,7 @@ FabricData cook_fabric(const FabricShape& shape, const FabricMaterial& material)
         if (shape.simulated[i] && !(mass[i] > 0.0f)) fail(VFIT_ERROR_DATA, "simulated vertex ", i, " has no triangle");
         data.inverse_mass[i] = shape.simulated[i] ? 1.0f / mass[i] : 0.0f;
     }
-    for (const auto& [ends, edge] : edges_of(shape)) {
-        const auto [a, b] = ends;
+    for (const auto& [a, b, edge] : edges_of(shape)) {
         const float length = edge.length_m;
         if (!(length > 0.0f)) fail(VFIT_ERROR_DATA, "vertices ", a, " and ", b, " share an edge and a place");
         if (shape.simulated[a] || shape.simulated[b]) {
@@ -186,7 +202,7 @@ FabricData cook_fabric(const FabricShape& shape, const FabricMaterial& material)
             const float stiffness = springs.modulus(edge.warp2) * edge.area_m2 / (length * length);
             data.edges.push_back({a, b, length, 1.0f / stiffness});
         }
-        if (edge.beside.size() != 2) continue;
+        if (edge.triangles != 2) continue;
         const uint32_t c = edge.beside[0].corner, d = edge.beside[1].corner;
         const bool moves = shape.simulated[a] || shape.simulated[b] || shape.simulated[c] || shape.simulated[d];
         if (c == d) continue;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "cloth/garment/carried.h"
 #include "cloth/garment/clear_skin.h"
@@ -52,14 +51,16 @@ void check(const Garment& garment, const DressBody& body) {
 }
 
 std::vector<std::vector<uint32_t>> neighbours_of(const Mesh& mesh) {
-    std::vector<std::set<uint32_t>> sets(mesh.positions.size());
+    std::vector<std::vector<uint32_t>> lists(mesh.positions.size());
     for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
         for (size_t k = 0; k < 3; ++k) {
-            sets[mesh.indices[i + k]].insert(mesh.indices[i + (k + 1) % 3]);
-            sets[mesh.indices[i + (k + 1) % 3]].insert(mesh.indices[i + k]);
+            lists[mesh.indices[i + k]].push_back(mesh.indices[i + (k + 1) % 3]);
+            lists[mesh.indices[i + (k + 1) % 3]].push_back(mesh.indices[i + k]);
         }
-    std::vector<std::vector<uint32_t>> lists;
-    for (const auto& set : sets) lists.emplace_back(set.begin(), set.end());
+    for (auto& list : lists) {
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+    }
     return lists;
 }
 
@@ -183,6 +184,18 @@ std::vector<Vec2> cut_of(const Garment& garment, std::span<const Vec3> rest, con
     return cut;
 }
 
+/// body(i) for each of so many, in parallel where there are jobs.
+template <typename Body>
+void for_points(uint32_t count, Jobs* jobs, Body&& body) {
+    constexpr uint32_t kShare = 128;
+    const auto share = [&](uint32_t at) {
+        for (uint32_t i = at * kShare; i < std::min((at + 1) * kShare, count); ++i) body(i);
+    };
+    const uint32_t shares = (count + kShare - 1) / kShare;
+    if (jobs) return parallel_for(*jobs, shares, share);
+    for (uint32_t at = 0; at < shares; ++at) share(at);
+}
+
 /// Those that contact does not move, or not all of.
 std::vector<uint32_t> skinned_triangles(const Garment& garment) {
     std::vector<uint32_t> out;
@@ -196,7 +209,7 @@ std::vector<uint32_t> skinned_triangles(const Garment& garment) {
 }  // namespace
 
 Dress::Dress(const Garment& garment, const FabricMaterial& material, const DressBody& body, float size_ratio,
-             float thickness_m, const GarmentSize* size)
+             float thickness_m, const GarmentSize* size, Jobs* jobs)
     : indices_(garment.mesh.indices) {
     check(garment, body);
     const uint32_t n = garment.vertex_count();
@@ -208,36 +221,35 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
 
     // Both bodies stand in the same pose: what lies off the skin is carried as it is, so that ease and flare stay
     // what they were cut to.
-    Table shifts(n, 3), weights(n, bones);
+    Table carried_by(n, 3 + bones);  // shifts, then weights of the bones
     std::vector<float> skin_distances(n);
     std::vector<BodyPart> part_below(n, BodyPart::kTorso);
     {
         const MeshQuery authored(body.authored, triangles);
         std::optional<MeshQuery> authored_arms;
         if (sleeves) authored_arms.emplace(body.authored, with_arms);
-        for (uint32_t i = 0; i < n; ++i) {
+        for_points(n, jobs, [&](uint32_t i) {
             const bool arm = sleeves && garment.on_arm[i];
             const MeshQuery::Closest closest = (arm ? *authored_arms : authored).closest(garment.mesh.positions[i]);
             skin_distances[i] = closest.distance;
             const Binding binding = binding_of(closest, arm ? with_arms : triangles);
             if (!body.parts.empty()) part_below[i] = body.parts[binding.corner[0]];
             const Vec3 shift = binding.on(body.rest) - binding.on(body.authored);
-            for (int k = 0; k < 3; ++k) shifts.row(i)[size_t(k)] = shift[k];
-            add_bone_weights(body, binding, weights.row(i));
-        }
+            for (int k = 0; k < 3; ++k) carried_by.row(i)[size_t(k)] = shift[k];
+            add_bone_weights(body, binding, carried_by.row(i).subspan(3));
+        });
     }
-    smooth_hanging(garment, skin_distances, shifts);
-    smooth_hanging(garment, skin_distances, weights);
+    smooth_hanging(garment, skin_distances, carried_by);
     for (uint32_t i = 0; i < n; ++i) {
-        const std::span<const float> shift = shifts.row(i);
+        const std::span<const float> shift = carried_by.row(i);
         rest_.push_back(garment.mesh.positions[i] + Vec3(shift[0], shift[1], shift[2]));
     }
     const MeshQuery skin(body.rest, body.indices);
-    push_out(skin, thickness_m, rest_);
+    for_points(n, jobs, [&](uint32_t i) { push_out(skin, thickness_m, std::span(&rest_[i], 1)); });
     clear_skin({body.rest, body.indices, skin}, skinned_triangles(garment), rest_);
 
     Carried carried;
-    for (uint32_t i = 0; i < n; ++i) carried.add(rest_[i], weights.row(i));
+    for (uint32_t i = 0; i < n; ++i) carried.add(rest_[i], carried_by.row(i).subspan(3));
     carry_.emplace(carried.bones, carried.weights);
     std::optional<MeshQuery> bound;  // made where a backstop needs it
     std::vector<float> bone_weights(bones);

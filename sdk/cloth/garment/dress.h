@@ -35,7 +35,7 @@ public:
     /// flat triangles nor a cut_shape. thickness_m: the clearance that the carried garment keeps from the body. size: one of the
     /// garment's with lengths of its own (with a cut_shape: the garment's); null: made to the body, its ease where the author gave it.
     Dress(const Garment& garment, const FabricMaterial& material, const DressBody& body, float size_ratio = 1.0f,
-          float thickness_m = 0.004f, const GarmentSize* size = nullptr);
+          float thickness_m = 0.004f, const GarmentSize* size = nullptr, Jobs* jobs = nullptr);
 
     const std::shared_ptr<const Fabric>& fabric() const { return fabric_; }
     /// The garment's triangles as they are cut in that size, one place an index.
