@@ -753,10 +753,13 @@ typedef struct vfit_cloth_stats { uint32_t struct_size, vertex_count, simulated_
                                   float strain_mean, strain_p99, strain_max, step_ms;
                                   uint32_t substeps;        /* of the last step; 0: it slept            */
                                   uint32_t collider_count;  /* spheres and capsules that it met         */
+                                  /* So much too long, in metres, were sleeves and legs for these limbs: they were
+                                   * taken up to wrist and ankle, but for what folds take (docs/garments.md).    */
+                                  float sleeves_taken_up_m, legs_taken_up_m;
                                 } vfit_cloth_stats;
 VFIT_STRUCT(vfit_cloth_desc) VFIT_STRUCT(vfit_cloth_stats)
 /* VFIT_ERROR_NOT_WEARABLE where a garment with lengths of its own would have to stretch around chest, waist or hips by more than
- * its fabric takes (docs/garments.md), unless desc.flags has ANY_FIT.                                 */
+ * its fabric takes, at an opening or over a tenth of it by far more (docs/garments.md), unless desc.flags has ANY_FIT.  */
 VFIT_API vfit_result vfit_cloth_create(vfit_avatar avatar, vfit_garment garment,
                                        const vfit_cloth_desc* desc, vfit_cloth* out);/* [excl] on avatar */
 VFIT_API vfit_result vfit_cloth_destroy(vfit_cloth cloth);                                 /* [any]  */
@@ -791,8 +794,9 @@ VFIT_API vfit_result vfit_cloth_set_quality(vfit_cloth cloth, uint32_t substeps,
 VFIT_API vfit_result vfit_cloth_wear_over(vfit_cloth cloth, vfit_cloth inner);
 /* Skin that this garment alone hides from all who do not look up under it by more than 45 degrees: triangles[i] becomes 1
  * for those triangles of the avatar's INDEX, and stays what it was for the others, so that garments add up. Leave them
- * out of what you draw. Found on the body at rest: what is nearer than margin_m to skin that is seen there is left, as
- * cloth slides and hems lift (0: 0.03). Takes as long as some 100 steps: once a garment.        [read] */
+ * out of what you draw. Found on the body at rest, of a labelled size as the last step left it there: what is nearer than
+ * margin_m to skin that is seen is left, as cloth slides and hems lift (0: 0.03). VFIT_ERROR_STATE while a step runs.
+ * Takes as long as some 100 steps: once a garment and size.                                      [read] */
 VFIT_API vfit_result vfit_cloth_hide_skin(vfit_cloth cloth, float margin_m, uint8_t* triangles, uint32_t count);
 /* How a garment sits at one girth of the trunk. RIGHT: the body's girth is nearer to that which the size is made for than to
  * another size's; of a garment that tells of none: it closes by less than 3 % of stretch and has less than 12 cm of ease. */

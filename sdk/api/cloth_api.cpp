@@ -725,6 +725,8 @@ vfit_result vfit_cloth_describe(vfit_cloth handle, vfit_cloth_stats* out) {
         stats.strain_max = s.strain_max;
         stats.step_ms = s.step_ms;
         stats.substeps = s.substeps;
+        stats.sleeves_taken_up_m = cloth->taken_up.sleeves_m;
+        stats.legs_taken_up_m = cloth->taken_up.legs_m;
         stats.collider_count = uint32_t(cloth->colliders.size());
         write(out, stats);
         return VFIT_OK;

@@ -369,7 +369,9 @@ OFFSET(vfit_cloth_stats, strain_max, 24);
 OFFSET(vfit_cloth_stats, step_ms, 28);
 OFFSET(vfit_cloth_stats, substeps, 32);
 OFFSET(vfit_cloth_stats, collider_count, 36);
-SIZE(vfit_cloth_stats, 40);
+OFFSET(vfit_cloth_stats, sleeves_taken_up_m, 40);
+OFFSET(vfit_cloth_stats, legs_taken_up_m, 44);
+SIZE(vfit_cloth_stats, 48);
 
 OFFSET(vfit_fit_zone, struct_size, 0);
 OFFSET(vfit_fit_zone, fit, 4);

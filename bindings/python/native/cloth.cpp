@@ -105,7 +105,7 @@ py::object stats(const Cloth& cloth) {
     vfit_cloth_stats s = vfit_cloth_stats_init();
     check(vfit_cloth_describe(cloth.get(), &s));
     return value("ClothStats", s.vertex_count, s.simulated_count, s.constraint_count, s.strain_mean,
-                 s.strain_p99, s.strain_max, s.step_ms, s.substeps, s.collider_count);
+                 s.strain_p99, s.strain_max, s.step_ms, s.substeps, s.collider_count, s.sleeves_taken_up_m, s.legs_taken_up_m);
 }
 
 uint64_t state_hash(const Cloth& cloth) {

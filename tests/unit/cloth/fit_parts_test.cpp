@@ -108,25 +108,88 @@ TEST(FitParts, HemsAreTheBordersAtTheEndsOfLimbs) {
     const Tube tube(0.05f, 0.4f, 12, 10, 1.0f);
     std::vector<BodyPart> below(tube.positions.size(), BodyPart::kLeftUpperArm);
     for (uint32_t v = 0; v < 24; ++v) below[v] = BodyPart::kLeftForearm;
-    const auto hems = limb_hems(tube.indices, below);
+    std::vector<uint8_t> simulated(tube.positions.size(), 1);
+    for (uint32_t v = 120; v < 132; ++v) simulated[v] = 0;
+    const auto hems = limb_hems(tube.indices, below, simulated, tube.positions);
     ASSERT_EQ(hems.size(), 1u);
-    EXPECT_EQ(hems[0].size(), 12u);
-    for (const uint32_t v : hems[0]) EXPECT_LT(v, 12u);
+    EXPECT_TRUE(hems[0].of_arm);
+    EXPECT_EQ(hems[0].vertices.size(), 12u);
+    for (const uint32_t v : hems[0].vertices) EXPECT_LT(v, 12u);
+    EXPECT_NEAR(hems[0].way_m, 0.4f, 0.01f);
 }
 
+/// A sleeve that hangs on its upper border, on a limb that is shorter by some share.
+struct Sleeve {
+    Tube tube{0.05f, 0.4f, 12, 10, 1.0f};
+    std::vector<uint8_t> simulated = std::vector<uint8_t>(tube.positions.size(), 1);
+    std::vector<LimbHem> hems;
+
+    explicit Sleeve(float limb) {
+        for (uint32_t v = 120; v < 132; ++v) simulated[v] = 0;
+        std::vector<Vec3> carried = tube.positions;
+        for (Vec3& p : carried) p.y *= limb;
+        hems = limb_hems(tube.indices, std::vector<BodyPart>(tube.positions.size(), BodyPart::kLeftForearm), simulated, carried);
+        std::erase_if(hems, [&](const LimbHem& hem) { return hem.vertices[0] >= 12; });
+    }
+    FabricData fabric(const std::vector<Vec2>& cut) const {
+        return cook_fabric({tube.positions, tube.indices, {}, simulated, 1.0f, cut}, {0.2f, 1000.0f, 1000.0f, 50.0f, 2e-5f, 0.3f});
+    }
+};
+
 TEST(FitParts, HemsAreKeptWhereTheClothIsLongerThanTheLimb) {
-    const Tube tube(0.05f, 0.4f, 12, 10, 1.0f);
-    std::vector<uint8_t> simulated(tube.positions.size(), 1);
-    for (uint32_t v = 120; v < 132; ++v) simulated[v] = 0;  // it hangs on its upper border
-    const FabricMaterial material{0.2f, 1000.0f, 1000.0f, 50.0f, 2e-5f, 0.3f};
-    const std::vector<std::vector<uint32_t>> hems{{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}};
-    FabricData fabric = cook_fabric({tube.positions, tube.indices, {}, simulated, 1.0f, tube.cut}, material);
-    keep_hems(hems, tube.positions, fabric);
-    EXPECT_TRUE(fabric.limits.empty());  // as long as the limb
-    std::vector<Vec3> shorter = tube.positions;
-    for (Vec3& p : shorter) p.y *= 0.9f;
-    keep_hems(hems, shorter, fabric);
-    EXPECT_EQ(fabric.limits.size(), 12u);
+    for (const float limb : {1.0f, 0.9f}) {
+        const Sleeve sleeve(limb);
+        FabricData fabric = sleeve.fabric(sleeve.tube.cut);
+        keep_hems(sleeve.hems, fabric);
+        EXPECT_EQ(fabric.limits.size(), limb < 1.0f ? 12u : 0u);
+    }
+}
+
+TEST(FitParts, SleevesThatAreTooLongAreTakenUpAndKeepTheirGirth) {
+    const Sleeve fits(1.0f), shorter(0.75f);
+    std::vector<Vec2> cut = fits.tube.cut;
+    const TakenUp none = take_up(fits.hems, fits.tube.indices, fits.simulated, cut);
+    EXPECT_EQ(none.sleeves_m, 0.0f);
+    EXPECT_EQ(cut, fits.tube.cut);
+    const TakenUp taken = take_up(shorter.hems, shorter.tube.indices, shorter.simulated, cut);
+    EXPECT_NEAR(taken.sleeves_m, 0.1f - 0.015f, 0.01f);
+    EXPECT_EQ(taken.legs_m, 0.0f);
+    const auto hem_of = [&](const std::vector<Vec2>& of) {
+        float way = 0.0f;
+        for (const Tether& t : shorter.fabric(of).tethers) way = t.vertex < 12 ? std::max(way, t.length_m) : way;
+        return way;
+    };
+    EXPECT_NEAR(hem_of(shorter.tube.cut) - hem_of(cut), taken.sleeves_m, 0.015f);
+    for (size_t i = 0; i < cut.size(); ++i) {  // sides around the arm
+        const size_t n = i % 3 == 2 ? i - 2 : i + 1;
+        const Vec2 before = shorter.tube.cut[n] - shorter.tube.cut[i];
+        if (std::abs(before.y) < 1e-6f) {
+            EXPECT_NEAR(glm::length(cut[n] - cut[i]), glm::length(before), 1e-5f);
+        }
+    }
+}
+
+TEST(FitParts, TheTightestOpeningIsTheOneThatIsStretched) {
+    const Tube tube(0.05f, 0.4f, 48, 10, 1.0f);
+    std::vector<Vec3> worn = tube.positions;
+    for (uint32_t v = 0; v < 48; ++v) worn[v] = Vec3(1.2f * worn[v].x, worn[v].y, 1.2f * worn[v].z);
+    const std::vector<uint8_t> all(worn.size(), 1);
+    const Opening opening = tightest_opening({worn, tube.indices, tube.cut, {}, {}}, all);
+    EXPECT_NEAR(opening.strain, 0.2f, 0.01f);
+    EXPECT_NEAR(opening.garment_m, 2.0f * kPi * 0.05f, 0.01f);
+    EXPECT_NEAR(opening.middle.y, worn[0].y, 1e-4f);
+    std::vector<uint8_t> above = all;
+    for (uint32_t v = 0; v < 48; ++v) above[v] = 0;  // that one slides
+    EXPECT_LT(tightest_opening({worn, tube.indices, tube.cut, {}, {}}, above).strain, 0.01f);
+}
+
+TEST(FitParts, ATenthOfTheClothIsWhatIsMostStrained) {
+    std::vector<float> strain(100, 0.01f);
+    for (size_t i = 0; i < 9; ++i) strain[11 * i] = 0.5f;
+    EXPECT_NEAR(most_strained(strain), 0.01f, 1e-6f);
+    strain[1] = strain[2] = 0.5f;
+    EXPECT_NEAR(most_strained(strain), 0.5f, 1e-6f);
+    EXPECT_EQ(most_strained({}), 0.0f);
 }
 
 TEST(FitParts, SkinIsRaisedAroundABumpAndNeverLowered) {

@@ -331,6 +331,8 @@ class ClothStats(NamedTuple):
     step_ms: float
     substeps: int  #: of the last step; 0: the cloth slept
     collider_count: int  #: spheres and capsules that it met
+    sleeves_taken_up_m: float  #: by so much too long for the arms
+    legs_taken_up_m: float
 
 
 def _rest_rotations() -> NDArray[np.float32]:

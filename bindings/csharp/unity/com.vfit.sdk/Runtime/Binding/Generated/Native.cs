@@ -489,8 +489,8 @@ namespace Vfit
         internal static extern uint vfit_garment_size_label(GarmentId garment, uint index, byte* buffer, uint capacity);
 
         /// <summary>VFIT_ERROR_NOT_WEARABLE where a garment with lengths of its own would have to stretch around chest,
-        /// waist or hips by more than its fabric takes (docs/garments.md), unless desc.flags has ANY_FIT. [excl] on
-        /// avatar</summary>
+        /// waist or hips by more than its fabric takes, at an opening or over a tenth of it by far more (docs/garments.md),
+        /// unless desc.flags has ANY_FIT. [excl] on avatar</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_create(AvatarId avatar, GarmentId garment, ClothDesc* desc, ClothId* @out);
 
@@ -548,9 +548,10 @@ namespace Vfit
 
         /// <summary>Skin that this garment alone hides from all who do not look up under it by more than 45 degrees:
         /// triangles[i] becomes 1 for those triangles of the avatar's INDEX, and stays what it was for the others, so that
-        /// garments add up. Leave them out of what you draw. Found on the body at rest: what is nearer than margin_m to
-        /// skin that is seen there is left, as cloth slides and hems lift (0: 0.03). Takes as long as some 100 steps: once
-        /// a garment. [read]</summary>
+        /// garments add up. Leave them out of what you draw. Found on the body at rest, of a labelled size as the last step
+        /// left it there: what is nearer than margin_m to skin that is seen is left, as cloth slides and hems lift (0:
+        /// 0.03). VFIT_ERROR_STATE while a step runs. Takes as long as some 100 steps: once a garment and size.
+        /// [read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_hide_skin(ClothId cloth, float marginM, byte* triangles, uint count);
 

@@ -1170,7 +1170,7 @@ namespace Vfit
         public float VirtualM;
     }
 
-    [StructLayout(LayoutKind.Sequential, Size = 40)]
+    [StructLayout(LayoutKind.Sequential, Size = 48)]
     public unsafe partial struct ClothStats
     {
         internal uint StructSize;
@@ -1183,8 +1183,11 @@ namespace Vfit
         public float StepMs;
         /// <summary>of the last step; 0: it slept</summary>
         public uint Substeps;
-        /// <summary>spheres and capsules that it met</summary>
+        /// <summary>spheres and capsules that it met So much too long, in metres, were sleeves and legs for these limbs:
+        /// they were taken up to wrist and ankle, but for what folds take (docs/garments.md).</summary>
         public uint ColliderCount;
+        public float SleevesTakenUpM;
+        public float LegsTakenUpM;
     }
 
     [StructLayout(LayoutKind.Sequential, Size = 80)]

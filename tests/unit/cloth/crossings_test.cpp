@@ -1,0 +1,206 @@
+// Triangles that go through each other: found, kept from it, taken back, and lifted off meshes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+#include "cloth/contact/crossing_guard.h"
+#include "cloth/contact/triangle_groups.h"
+#include "cloth/contact/untangle.h"
+#include "cloth/crossings.h"
+#include "cloth/garment/borders.h"
+#include "cloth/garment/clear_skin.h"
+#include "cloth_support.h"
+
+namespace vfit::test {
+namespace {
+
+/// Two square sheets of one mesh, n by n vertices each, `side` apart.
+struct TwoSheets {
+    std::vector<Vec3> positions;
+    std::vector<uint32_t> indices;
+    uint32_t of_one;
+
+    TwoSheets(uint32_t n, float side, const Vec3& second) : of_one(n * n) {
+        for (const Vec3& at : {Vec3(0.0f), second})
+            for (uint32_t r = 0; r < n; ++r)
+                for (uint32_t c = 0; c < n; ++c) positions.push_back(at + Vec3(float(c) * side, 0.0f, float(r) * side));
+        for (uint32_t sheet = 0; sheet < 2; ++sheet)
+            for (uint32_t r = 0; r + 1 < n; ++r)
+                for (uint32_t c = 0; c + 1 < n; ++c) {
+                    const uint32_t a = sheet * n * n + r * n + c, b = a + 1, d = a + n, e = d + 1;
+                    indices.insert(indices.end(), {a, d, e, a, e, b});
+                }
+    }
+    FabricData fabric() const {
+        FabricData data;
+        data.indices = indices;
+        data.inverse_mass.assign(positions.size(), 1.0f);
+        return data;
+    }
+    std::vector<TrianglePair> crossed(bool flat_do_not = false) const {
+        const auto jobs = Jobs::own(0);
+        TriangleGroups groups(positions, indices);
+        groups.move(positions, *jobs);
+        std::vector<TrianglePair> pairs;
+        groups.find_crossings(flat_do_not, pairs, *jobs);
+        return pairs;
+    }
+};
+
+TEST(Crossings, AreThoseOfAllPairs) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> place(0.0f, 0.1f), off(-0.015f, 0.015f);
+    std::vector<Vec3> positions;
+    std::vector<uint32_t> indices;
+    for (uint32_t t = 0; t < 300; ++t) {
+        const Vec3 at(place(random), place(random), place(random));
+        for (uint32_t k = 0; k < 3; ++k) {
+            positions.push_back(at + Vec3(off(random), off(random), off(random)));
+            indices.push_back(3 * t + k);
+        }
+    }
+    std::set<TrianglePair> all, found;
+    for (uint32_t a = 0; a < 300; ++a)
+        for (uint32_t b = a + 1; b < 300; ++b)
+            if (cross({{positions[3 * a], positions[3 * a + 1], positions[3 * a + 2]}}, {{positions[3 * b], positions[3 * b + 1], positions[3 * b + 2]}})) all.insert({a, b});
+    const auto jobs = Jobs::own(2);
+    TriangleGroups groups(positions, indices);
+    groups.move(positions, *jobs);
+    std::vector<TrianglePair> pairs;
+    groups.find_crossings(false, pairs, *jobs);
+    for (const TrianglePair& pair : pairs) found.insert(std::minmax(pair.first, pair.second));
+    EXPECT_GT(all.size(), 100u);
+    EXPECT_EQ(found, all);
+    EXPECT_EQ(pairs.size(), all.size()) << "each once";
+}
+
+TEST(Crossings, FlatPiecesAreLeftOutAndFoldedOnesAreNot) {
+    TwoSheets sheets(9, 0.02f, {0.003f, 0.05f, 0.004f});
+    EXPECT_TRUE(sheets.crossed(true).empty());
+    for (uint32_t v = 0; v < sheets.of_one; ++v) sheets.positions[v].y += 0.6f * (sheets.positions[v].x - 0.01f);  // through the upper one
+    EXPECT_FALSE(sheets.crossed(true).empty());
+    EXPECT_EQ(sheets.crossed(true).size(), sheets.crossed(false).size());
+}
+
+TEST(CrossingGuard, SheetsThatWouldGoThroughEachOtherMoveOnTogether) {
+    const auto jobs = Jobs::own(0);
+    const TwoSheets sheets(3, 0.02f, {0.003f, 0.004f, 0.004f});
+    ASSERT_TRUE(sheets.crossed().empty());
+    // The upper one falls by 1 cm over one corner, the lower one rises by as much there.
+    TwoSheets wanted = sheets;
+    wanted.positions[sheets.of_one].y -= 0.01f;
+    wanted.positions[sheets.of_one + 1].y -= 0.01f;
+    wanted.positions[0].y += 0.004f;
+    ASSERT_FALSE(wanted.crossed().empty());
+    const FabricData fabric = sheets.fabric();
+    CrossingGuard guard(fabric);
+    TriangleGroups groups(sheets.positions, sheets.indices);
+    groups.move(wanted.positions, *jobs);
+    guard.keep(sheets.positions, wanted.positions, groups, *jobs);
+    EXPECT_TRUE(wanted.crossed().empty());
+    EXPECT_FALSE(guard.moved().empty());
+    Vec3 way(0.0f);
+    for (size_t v = 0; v < wanted.positions.size(); ++v) way += wanted.positions[v] - sheets.positions[v];
+    EXPECT_NEAR(way.y, -0.016f, 1e-4f) << "what moves as one moves as all did in the mean";
+}
+
+TEST(CrossingGuard, WhatDoesNotCrossIsLeftAlone) {
+    const auto jobs = Jobs::own(0);
+    const TwoSheets sheets(5, 0.02f, {0.0f, 0.01f, 0.0f});
+    TwoSheets now = sheets;
+    for (Vec3& p : now.positions) p.x += 0.3f;
+    const FabricData fabric = sheets.fabric();
+    CrossingGuard guard(fabric);
+    TriangleGroups groups(sheets.positions, sheets.indices);
+    groups.move(now.positions, *jobs);
+    const std::vector<Vec3> wanted = now.positions;
+    guard.keep(sheets.positions, now.positions, groups, *jobs);
+    EXPECT_EQ(now.positions, wanted);
+    EXPECT_TRUE(guard.moved().empty());
+}
+
+TEST(Untangle, AVertexThatPokesThroughGoesBack) {
+    TwoSheets sheets(5, 0.02f, {0.007f, 0.004f, 0.006f});
+    sheets.positions[12].y = 0.009f;  // the middle of the lower one
+    auto pairs = sheets.crossed();
+    ASSERT_FALSE(pairs.empty());
+    Untangle untangle(sheets.positions.size());
+    const std::vector<uint8_t> fixed(sheets.positions.size(), 0);
+    int round = 0;
+    for (; round < 40 && !pairs.empty(); ++round) {
+        EXPECT_FALSE(untangle.move(pairs, sheets.indices, fixed, 0.001f, sheets.positions).empty());
+        pairs = sheets.crossed();
+    }
+    EXPECT_TRUE(pairs.empty()) << "after " << round << " rounds";
+    for (size_t v = 0; v < sheets.positions.size(); ++v) EXPECT_LT(std::abs(sheets.positions[v].y - 0.004f), 0.012f);
+}
+
+TEST(Untangle, WhatIsFixedStays) {
+    TwoSheets sheets(5, 0.02f, {0.007f, 0.004f, 0.006f});
+    sheets.positions[12].y = 0.009f;
+    const std::vector<Vec3> before = sheets.positions;
+    Untangle untangle(sheets.positions.size());
+    untangle.move(sheets.crossed(), sheets.indices, std::vector<uint8_t>(before.size(), 1), 0.001f, sheets.positions);
+    EXPECT_EQ(sheets.positions, before);
+}
+
+TEST(ClearSkin, SkinThatStandsOutBetweenVerticesIsCleared) {
+    TwoSheets body(9, 0.01f, {0.0f, -0.03f, 0.0f});  // its upper sheet counts; triangles face up
+    body.indices.resize(body.indices.size() / 2);
+    body.positions[40].y = 0.008f;
+    const MeshQuery query(body.positions, body.indices);
+    std::vector<Vec3> cloth{{0.005f, 0.004f, 0.005f}, {0.04f, 0.004f, 0.09f}, {0.08f, 0.004f, 0.01f}};
+    const std::vector<uint32_t> triangle{0, 1, 2};
+    const auto crossed = [&] { return crossed_triangles({cloth, triangle}, {body.positions, body.indices}).size(); };
+    ASSERT_GT(crossed(), 0u);
+    clear_skin({body.positions, body.indices, query}, triangle, cloth);
+    EXPECT_EQ(crossed(), 0u);
+    for (const Vec3& p : cloth) EXPECT_GT(p.y, 0.006f);
+}
+
+TEST(MeshLift, ClothOfLargeTrianglesComesToLieOverASmallBump) {
+    const auto jobs = Jobs::own(0);
+    // Ground of 4 mm squares with a bump 8 mm high and wide.
+    constexpr uint32_t kSide = 61;
+    std::vector<Vec3> ground;
+    std::vector<uint32_t> indices;
+    for (uint32_t r = 0; r < kSide; ++r)
+        for (uint32_t c = 0; c < kSide; ++c) {
+            const Vec3 p(0.004f * float(c), 0.0f, 0.004f * float(r));
+            ground.push_back(p + Vec3(0.0f, std::max(0.0f, 0.01f - glm::length(p - Vec3(0.128f, 0.0f, 0.116f))), 0.0f));
+            if (r + 1 == kSide || c + 1 == kSide) continue;
+            const uint32_t a = r * kSide + c, b = a + 1, d = a + kSide, e = d + 1;
+            indices.insert(indices.end(), {a, d, e, a, e, b});
+        }
+    const Sheet sheet(9, 9, 0.025f);
+    std::vector<Vec3> start;
+    for (const Vec3& p : sheet.positions) start.emplace_back(0.01f + p.x, 0.02f, 0.01f - p.y);
+    ClothSettings settings;
+    settings.sleeps = false;
+    Cloth cloth(fabric(sheet.cook(cotton())), settings, start);
+    const uint32_t mesh = cloth.add_mesh(ground.size(), indices);
+    size_t at_first = 0, at_last = 0;
+    for (int frame = 0; frame < 360; ++frame) {
+        cloth.move_mesh(mesh, ground);
+        cloth.step(kFrame_s, start, {}, *jobs);
+        at_last = crossed_triangles({cloth.positions(), sheet.indices}, {ground, indices}).size();
+        at_first = std::max(at_first, at_last);
+    }
+    EXPECT_GT(at_first, 0u) << "the scene would show it";
+    EXPECT_EQ(at_last, 0u);
+}
+
+TEST(Borders, OfTwoSheetsAreTwoClosedLines) {
+    const TwoSheets sheets(4, 0.02f, {0.0f, 0.01f, 0.0f});
+    const auto lines = border_lines(sheets.indices);
+    ASSERT_EQ(lines.size(), 2u);
+    for (const auto& line : lines) {
+        EXPECT_EQ(line.size(), 12u);
+        for (size_t i = 0; i < line.size(); ++i) EXPECT_EQ(sheets.indices[next_corner(line[i])], sheets.indices[line[(i + 1) % line.size()]]);
+    }
+}
+
+}  // namespace
+}  // namespace vfit::test
