@@ -399,7 +399,7 @@ void Cloth::State::guard_layers(float dt, Jobs& jobs) {
 }
 
 void Cloth::State::lift_off_meshes(uint32_t steps, Jobs& jobs) {
-    if (meshes.empty()) return;
+    if (meshes.empty() || !settings.clears_meshes) return;
     if (!lift) lift.emplace(fabric);
     if (!guard) triangles_now(positions, jobs);
     lift->look(*groups, meshes, steps, body_way());

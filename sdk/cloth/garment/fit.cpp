@@ -54,6 +54,13 @@ Cut cut_at(const WornGarment& g, const GirthLevel& level) {
 /// Across the opening of a coat: between its two ends, where there are just two.
 float opening_of(const Cut& cut) { return cut.ends.size() == 2 ? glm::length(cut.ends[0] - cut.ends[1]) : 0.0f; }
 
+/// Armholes open it at a side, a coat's fronts in the middle.
+bool is_through_armhole(const Cut& cut, float axis_z_m) {
+    if (cut.ends.size() != 2) return !cut.ends.empty();
+    const Vec3 middle = 0.5f * (cut.ends[0] + cut.ends[1]);
+    return std::abs(middle.x) > std::abs(middle.z - axis_z_m);
+}
+
 }  // namespace
 
 std::vector<GirthFit> fit_of(const WornGarment& garment, std::span<const GirthLevel> levels) {
@@ -63,11 +70,11 @@ std::vector<GirthFit> fit_of(const WornGarment& garment, std::span<const GirthLe
         // Where an armhole reaches below the body's level, the garment's own is below the armhole.
         constexpr float kStep_m = 0.01f, kLowest_m = 0.09f;
         Cut cut = cut_at(garment, level);
-        for (float down = kStep_m; cut.ends.size() > 2 && down <= kLowest_m; down += kStep_m) {
+        for (float down = kStep_m; is_through_armhole(cut, level.axis_z_m) && down <= kLowest_m; down += kStep_m) {
             level.height_m -= kStep_m;
             cut = cut_at(garment, level);
         }
-        if (cut.around_rad < kMostOfTheWay_rad || cut.ends.size() > 2) continue;
+        if (cut.around_rad < kMostOfTheWay_rad || is_through_armhole(cut, level.axis_z_m)) continue;
         // Cloth below, too: else the gap is no open front but a hem that swings about that level.
         constexpr float kBelow_m = 0.03f;
         if (!cut.ends.empty() && cut_at(garment, {level.key, level.height_m - kBelow_m, level.body_m, level.axis_z_m}).around_rad < kMostOfTheWay_rad) continue;
