@@ -23,7 +23,7 @@ public:
         : cloth_(cloth), body_(body), settings_(settings), jobs_(jobs) {}
 
     Draped run(std::vector<Vec3> places, const Band& band) {
-        constexpr float kBelt_m = 0.015f;  // how much the band of trousers or a skirt may still move
+        constexpr float kBelt_m = 0.005f;  // how much the band of trousers or a skirt may still move
         Draped out;
         const bool has_band = std::find(band.of.begin(), band.of.end(), 1) != band.of.end();
         FabricData data = cook(places, std::vector<uint8_t>(places.size(), 1));
