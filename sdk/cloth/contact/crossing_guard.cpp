@@ -10,6 +10,7 @@ namespace {
 constexpr uint32_t kNone = UINT32_MAX;
 constexpr int kRounds = 12;           // in which zones may grow
 constexpr size_t kLargestZone = 60;   // vertices: where more is in a jam, holding it would tear at what is about it
+constexpr size_t kMostCrossings = 150;  // pairs: cloth in a heap, which contact is left to
 constexpr float kUntangles_m = 0.001f;  // a step
 }  // namespace
 
@@ -26,6 +27,8 @@ void CrossingGuard::keep(std::span<const Vec3> before, std::span<Vec3> now, Tria
         cloth.find_crossings(true, pairs_, jobs);
     };
     find();
+    moved_.clear(), tangled_ = {};
+    if (pairs_.size() > kMostCrossings) return;
     if (!pairs_.empty()) std::copy(now.begin(), now.end(), wanted_.begin());
     for (int round = 0; round < kRounds && unite_crossed(before); ++round) {
         move_zones(before, now);
