@@ -758,8 +758,8 @@ typedef struct vfit_cloth_stats { uint32_t struct_size, vertex_count, simulated_
                                   float sleeves_taken_up_m, legs_taken_up_m;
                                 } vfit_cloth_stats;
 VFIT_STRUCT(vfit_cloth_desc) VFIT_STRUCT(vfit_cloth_stats)
-/* VFIT_ERROR_NOT_WEARABLE where a garment with lengths of its own would have to stretch around chest, waist or hips by more than
- * its fabric takes, at an opening or over a tenth of it by far more (docs/garments.md), unless desc.flags has ANY_FIT.  */
+/* VFIT_ERROR_NOT_WEARABLE where a labelled size would have to stretch around chest, waist or hips by more than its fabric
+ * takes, or at an opening or over a tenth of it by far more (docs/garments.md), unless desc.flags has ANY_FIT.          */
 VFIT_API vfit_result vfit_cloth_create(vfit_avatar avatar, vfit_garment garment,
                                        const vfit_cloth_desc* desc, vfit_cloth* out);/* [excl] on avatar */
 VFIT_API vfit_result vfit_cloth_destroy(vfit_cloth cloth);                                 /* [any]  */

@@ -388,7 +388,7 @@ struct ClothObject : ContextChild {
         require_no_step();
         const DressedSize size = dressed_size(*garment, label_text, *avatar);
         std::vector<Vec2> new_cut = dress.cut(garment->garment, size.ratio, size.own);
-        if (size.own && !any_fit) check_wearable(*garment, label_text, dress, new_cut, *avatar);
+        if (label_text && !any_fit) check_wearable(*garment, label_text, dress, new_cut, *avatar);
         TakenUp taken;
         Cloth resized = cloth.with_fabric(dress.fabric_of(garment->garment, garment->material, size.ratio, size.own, &taken));
         std::swap(cloth, resized);
@@ -524,7 +524,7 @@ vfit_result vfit_cloth_create(vfit_avatar avatar_handle, vfit_garment garment_ha
         Dress dress(garment->garment, garment->material, wearer.body, size.ratio, settings.thickness_m, size.own, avatar->context->jobs.get());
         std::vector<Vec2> cut = dress.cut(garment->garment, size.ratio, size.own);
         const bool any_fit = (d.flags & VFIT_CLOTH_ANY_FIT) != 0;
-        if (size.own && !any_fit) check_wearable(*garment, d.size_label, dress, cut, *avatar);
+        if (d.size_label && !any_fit) check_wearable(*garment, d.size_label, dress, cut, *avatar);
         std::optional<SkinBelow> skin;
         std::optional<SkinCover> cover;
         const bool on_skin = (d.flags & VFIT_CLOTH_SKIN) != 0;

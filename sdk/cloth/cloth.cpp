@@ -253,6 +253,7 @@ void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
     constexpr int kSteps = 14, kSubsteps = 4;
     constexpr float kShortest_s = 1.5e-4f, kLongest_s = 1.0f / 120.0f, kStopped = 1.0f;
     State& s = *state_;
+    s.settles_s = kSettles_s;
     std::vector<Vec3> targets;
     std::vector<Collider> colliders;
     for (int i = 0; i < kSteps; ++i) {
@@ -264,7 +265,6 @@ void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
     }
     s.solver.rest();
     s.wake();
-    s.settles_s = kSettles_s;
 }
 
 uint32_t Cloth::add_mesh(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts) {
@@ -393,7 +393,7 @@ void Cloth::State::guard_layers(float dt, Jobs& jobs) {
     if (!guard) guard.emplace(fabric->data());
     now.resize(positions.size());
     solver.copy_positions(now);
-    guard->keep(positions, now, triangles_now(now, jobs), jobs);
+    guard->keep(positions, now, triangles_now(now, jobs), settles_s > 0.0f, jobs);
     for (const uint32_t v : guard->moved()) solver.place(v, now[v], (now[v] - positions[v]) / dt);
     solver.let_go(guard->tangled());
 }

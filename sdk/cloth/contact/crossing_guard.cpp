@@ -10,7 +10,7 @@ namespace {
 constexpr uint32_t kNone = UINT32_MAX;
 constexpr int kRounds = 12;           // in which zones may grow
 constexpr size_t kLargestZone = 60;   // vertices: where more is in a jam, holding it would tear at what is about it
-constexpr size_t kMostCrossings = 150;  // pairs: cloth in a heap, which contact is left to
+constexpr size_t kMostCrossed = 40;   // one pair for so many triangles: beyond, cloth lies in a heap, which is left to contact
 constexpr float kUntangles_m = 0.001f;  // a step
 }  // namespace
 
@@ -19,7 +19,7 @@ CrossingGuard::CrossingGuard(const FabricData& fabric)
     for (const float inverse : fabric.inverse_mass) is_fixed_.push_back(inverse == 0.0f);
 }
 
-void CrossingGuard::keep(std::span<const Vec3> before, std::span<Vec3> now, TriangleGroups& cloth, Jobs& jobs) {
+void CrossingGuard::keep(std::span<const Vec3> before, std::span<Vec3> now, TriangleGroups& cloth, bool even_heaps, Jobs& jobs) {
     for (const uint32_t v : zoned_) parent_[v] = kNone;
     zoned_.clear();
     const auto find = [&] {
@@ -28,7 +28,7 @@ void CrossingGuard::keep(std::span<const Vec3> before, std::span<Vec3> now, Tria
     };
     find();
     moved_.clear(), tangled_ = {};
-    if (pairs_.size() > kMostCrossings) return;
+    if (!even_heaps && pairs_.size() * kMostCrossed > indices_.size() / 3) return;
     if (!pairs_.empty()) std::copy(now.begin(), now.end(), wanted_.begin());
     for (int round = 0; round < kRounds && unite_crossed(before); ++round) {
         move_zones(before, now);

@@ -98,7 +98,7 @@ TEST(CrossingGuard, SheetsThatWouldGoThroughEachOtherMoveOnTogether) {
     CrossingGuard guard(fabric);
     TriangleGroups groups(sheets.positions, sheets.indices);
     groups.move(wanted.positions, *jobs);
-    guard.keep(sheets.positions, wanted.positions, groups, *jobs);
+    guard.keep(sheets.positions, wanted.positions, groups, true, *jobs);
     EXPECT_TRUE(wanted.crossed().empty());
     EXPECT_FALSE(guard.moved().empty());
     Vec3 way(0.0f);
@@ -116,7 +116,7 @@ TEST(CrossingGuard, WhatDoesNotCrossIsLeftAlone) {
     TriangleGroups groups(sheets.positions, sheets.indices);
     groups.move(now.positions, *jobs);
     const std::vector<Vec3> wanted = now.positions;
-    guard.keep(sheets.positions, now.positions, groups, *jobs);
+    guard.keep(sheets.positions, now.positions, groups, false, *jobs);
     EXPECT_EQ(now.positions, wanted);
     EXPECT_TRUE(guard.moved().empty());
 }

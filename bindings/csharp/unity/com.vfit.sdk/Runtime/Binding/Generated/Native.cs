@@ -488,9 +488,9 @@ namespace Vfit
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern uint vfit_garment_size_label(GarmentId garment, uint index, byte* buffer, uint capacity);
 
-        /// <summary>VFIT_ERROR_NOT_WEARABLE where a garment with lengths of its own would have to stretch around chest,
-        /// waist or hips by more than its fabric takes, at an opening or over a tenth of it by far more (docs/garments.md),
-        /// unless desc.flags has ANY_FIT. [excl] on avatar</summary>
+        /// <summary>VFIT_ERROR_NOT_WEARABLE where a labelled size would have to stretch around chest, waist or hips by more
+        /// than its fabric takes, or at an opening or over a tenth of it by far more (docs/garments.md), unless desc.flags
+        /// has ANY_FIT. [excl] on avatar</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_create(AvatarId avatar, GarmentId garment, ClothDesc* desc, ClothId* @out);
 
