@@ -14,9 +14,9 @@ constexpr float kGarmentStep_s = 1.0f / 60.0f;
 
 class GarmentsTest : public contract::ContextTest {
 protected:
-    vfit_avatar body(std::vector<std::pair<const char*, float>> shape = {}) {
+    vfit_avatar body(std::vector<std::pair<const char*, float>> shape = {}, vfit_sex sex = VFIT_SEX_FEMALE) {
         vfit_avatar_desc desc = vfit_avatar_desc_init();
-        desc.sex = VFIT_SEX_FEMALE;
+        desc.sex = sex;
         std::vector<vfit_shape_value> values;
         for (const auto& [key, value] : shape) {
             values.push_back(vfit_shape_value_init());
@@ -104,6 +104,38 @@ TEST_F(GarmentsTest, OneThatDoesNotCloseIsRefusedWithTheGirthAndTheFabric) {
     EXPECT_EQ(vfit_cloth_set_size(cloth, "XXXXL"), VFIT_ERROR_ARGUMENT);
     EXPECT_NE(std::string(contract::last_error()).find("XS, S, M"), std::string::npos) << contract::last_error();
     EXPECT_EQ(hash(cloth), before);
+}
+
+TEST_F(GarmentsTest, OneWhoseArmholesAreTooSmallIsRefusedAndTheOldSizeStaysOn) {
+    const vfit_avatar tall = body({{"height", 0.72f}}, VFIT_SEX_MALE);
+    const vfit_garment vest = open("vest");
+    vfit_cloth cloth{};
+    EXPECT_EQ(put_on(tall, vest, "M", 0, cloth), VFIT_ERROR_NOT_WEARABLE);  // its chest would close
+    const std::string why = contract::last_error();
+    for (const char* word : {"vest", "size M", "opening", "wool_suiting"}) EXPECT_NE(why.find(word), std::string::npos) << why;
+    EXPECT_EQ(put_on(tall, vest, "M", VFIT_CLOTH_ANY_FIT, cloth), VFIT_OK) << contract::last_error();
+    EXPECT_EQ(put_on(tall, vest, "XXL", 0, cloth), VFIT_OK) << contract::last_error();
+    const auto of_xxl = positions(cloth);
+    const uint64_t state_of_xxl = hash(cloth);
+    EXPECT_EQ(vfit_cloth_set_size(cloth, "M"), VFIT_ERROR_NOT_WEARABLE);
+    EXPECT_EQ(hash(cloth), state_of_xxl);
+    EXPECT_EQ(positions(cloth), of_xxl);
+}
+
+TEST_F(GarmentsTest, SleevesAndLegsThatAreTooLongAreTakenUpAndTheirLengthIsTold) {
+    const auto taken_up = [](vfit_cloth cloth) {
+        vfit_cloth_stats stats = vfit_cloth_stats_init();
+        EXPECT_EQ(vfit_cloth_describe(cloth, &stats), VFIT_OK) << contract::last_error();
+        return stats;
+    };
+    const vfit_avatar small = body({{"height", 0.28f}, {"weight", 0.35f}});
+    const vfit_cloth_stats trousers = taken_up(worn(small, open("jeans_women"), "M", 1));
+    EXPECT_NEAR(trousers.legs_taken_up_m, 0.13f, 0.04f);
+    EXPECT_EQ(trousers.sleeves_taken_up_m, 0.0f);
+    const vfit_cloth_stats shirt = taken_up(worn(small, open("shirt_men"), "M", 1));
+    EXPECT_GT(shirt.sleeves_taken_up_m, 0.05f);
+    EXPECT_EQ(shirt.legs_taken_up_m, 0.0f);
+    EXPECT_EQ(taken_up(worn(small, open("jeans_women"), nullptr, 1)).legs_taken_up_m, 0.0f) << "made to measure";
 }
 
 TEST_F(GarmentsTest, ChangeTheirSizeWhileTheyAreWorn) {
