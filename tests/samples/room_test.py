@@ -118,7 +118,7 @@ class Keys(unittest.TestCase):
         up = report(*SMALL, "--frames", 6, "--garment", "sundress", "--size", "M", "--keys", "1:up,3:up")
         self.assertEqual(up["size"], "XL")
         self.assertEqual(up["keys"], ["up", "up"])
-        down = report(*SMALL, "--frames", 4, "--garment", "sundress", "--size", "XS", "--keys", "1:down")
+        down = report(*SMALL, "--frames", 4, "--garment", "martial_jacket", "--size", "XS", "--keys", "1:down")
         self.assertEqual(down["size"], "made to measure")
         with tempfile.TemporaryDirectory() as folder:
             other, picture = pathlib.Path(folder) / "other.json", pathlib.Path(folder) / "other.png"
