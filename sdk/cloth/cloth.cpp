@@ -41,8 +41,8 @@ struct PutOnPhase {
 };
 constexpr PutOnPhase kHang{15, 4}, kMove{40, 4}, kSettle{10, 8};
 constexpr float kPutOnDamping = 0.99f;
-// After a change of lengths: what has fallen into its new folds should hang still within a second.
 constexpr uint32_t kLooksSettling = 16, kLooks = 64;  // steps in which all triangles have been looked at for crossing meshes
+// After a change of lengths: what has fallen into its new folds should hang still within a second.
 constexpr float kSettles_s = 0.8f, kSettlingDamping = 0.98f;
 
 void check(const Air& air) {
@@ -130,7 +130,7 @@ struct Cloth::State {
     bool backstops_placed = false;       // previous_targets holds the backstops as well
 
     std::vector<Vec3> positions;  // what callers read
-    std::vector<Vec3> now;        // what they will read, once it has been looked at
+    std::vector<Vec3> before, now;  // with own layers: the same at the begin of the step, carried along; and what the step made of it
     std::optional<TriangleGroups> groups;  // of the cloth
     std::optional<CrossingGuard> guard;
     std::optional<MeshLift> lift;
@@ -363,6 +363,7 @@ void Cloth::State::check_body(std::span<const Vec3> targets, std::span<const Col
 
 /// The colliders have been accepted.
 void Cloth::State::advance(float dt, int count, float damping, std::span<const Vec3> targets, Jobs& jobs) {
+    if (settings.self_thickness_m > 0.0f) before = positions;
     teleport(targets);
     feel_less(targets);
     if (!backstops_placed) {
@@ -393,8 +394,8 @@ void Cloth::State::guard_layers(float dt, Jobs& jobs) {
     if (!guard) guard.emplace(fabric->data());
     now.resize(positions.size());
     solver.copy_positions(now);
-    guard->keep(positions, now, triangles_now(now, jobs), settles_s > 0.0f, jobs);
-    for (const uint32_t v : guard->moved()) solver.place(v, now[v], (now[v] - positions[v]) / dt);
+    guard->keep(before, now, triangles_now(now, jobs), settles_s > 0.0f, jobs);
+    for (const uint32_t v : guard->moved()) solver.place(v, now[v], (now[v] - before[v]) / dt);
     solver.let_go(guard->tangled());
 }
 
@@ -430,6 +431,7 @@ void Cloth::State::feel_less(std::span<const Vec3> targets) {
 void Cloth::State::carry(const RigidMotion& motion) {
     solver.carry(motion);
     for (Vec3& target : previous_targets) target = motion.point(target);
+    for (Vec3& place : before) place = motion.point(place);
 }
 
 /// A jump of the body is no motion: the cloth goes along as it hangs, and nothing is swept through it.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/finite.h"
+
 namespace vfit {
 
 namespace {
@@ -39,12 +41,13 @@ Bounds bounds_of(const Corners& t) { return {glm::min(glm::min(t.at[0], t.at[1])
 /// Places by the order in which the curve meets them.
 std::vector<uint32_t> along_morton_curve(const std::vector<Vec3>& places) {
     Bounds all;
-    for (const Vec3& p : places) all.add(p);
+    for (const Vec3& p : places)
+        if (finite(p)) all.add(p);
     const Vec3 size = all.high - all.low;
     const float most = std::max({size.x, size.y, size.z, 1e-6f});
     std::vector<std::pair<uint32_t, uint32_t>> codes;
     for (uint32_t i = 0; i < places.size(); ++i) {
-        const Vec3 cell = glm::clamp((places[i] - all.low) / most * 1023.0f, 0.0f, 1023.0f);
+        const Vec3 cell = finite(places[i]) ? glm::clamp((places[i] - all.low) / most * 1023.0f, 0.0f, 1023.0f) : Vec3(0.0f);
         codes.emplace_back(spread(uint32_t(cell.x)) | spread(uint32_t(cell.y)) << 1 | spread(uint32_t(cell.z)) << 2, i);
     }
     std::sort(codes.begin(), codes.end());

@@ -121,6 +121,35 @@ TEST(CrossingGuard, WhatDoesNotCrossIsLeftAlone) {
     EXPECT_TRUE(guard.moved().empty());
 }
 
+TEST(CrossingGuard, AJumpOfTheBodyIsNoSpeedOfWhatCrosses) {
+    const auto jobs = Jobs::own(0);
+    const Sheet sheet(9, 9, 0.02f);  // two of them, through each other, both held at their upper borders
+    FabricData data;
+    std::vector<Vec3> start;
+    for (const float lean : {-0.3f, 0.3f}) {
+        Sheet held = sheet;
+        held.pin_top();
+        const FabricData one = held.cook(cotton());
+        const auto first = uint32_t(start.size());
+        for (const Vec3& p : sheet.positions) start.emplace_back(p.x + 0.003f * lean, p.y, (p.y + 0.09f) * lean);
+        data.inverse_mass.insert(data.inverse_mass.end(), one.inverse_mass.begin(), one.inverse_mass.end());
+        for (const uint32_t i : one.indices) data.indices.push_back(first + i);
+        for (const DistanceConstraint& e : one.edges) data.edges.push_back({first + e.a, first + e.b, e.rest_m, e.compliance_m_n});
+    }
+    ClothSettings settings;
+    settings.gravity = Vec3(0.0f);
+    settings.self_thickness_m = 0.004f;
+    Cloth cloth(fabric(data), settings, start);
+    cloth.step(kFrame_s, start, {}, *jobs);
+    ASSERT_FALSE(crossed_triangles(cloth.positions(), data.indices).empty()) << "the scene would show it";
+    std::vector<Vec3> there = start;
+    for (Vec3& p : there) p.x += 3.0f;
+    cloth.step(kFrame_s, there, {}, *jobs);
+    const std::vector<Vec3> arrived = cloth.positions();
+    cloth.step(kFrame_s, there, {}, *jobs);
+    for (size_t v = 0; v < arrived.size(); ++v) EXPECT_LT(glm::length(cloth.positions()[v] - arrived[v]), 0.05f) << v;
+}
+
 TEST(Untangle, AVertexThatPokesThroughGoesBack) {
     TwoSheets sheets(5, 0.02f, {0.007f, 0.004f, 0.006f});
     sheets.positions[12].y = 0.009f;  // the middle of the lower one
