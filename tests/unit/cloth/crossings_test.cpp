@@ -123,7 +123,7 @@ TEST(CrossingGuard, WhatDoesNotCrossIsLeftAlone) {
 
 TEST(CrossingGuard, AJumpOfTheBodyIsNoSpeedOfWhatCrosses) {
     const auto jobs = Jobs::own(0);
-    const Sheet sheet(9, 9, 0.02f);  // two of them, through each other, both held at their upper borders
+    const Sheet sheet(61, 3, 0.02f);  // two of them, through each other, both held at their upper borders
     FabricData data;
     std::vector<Vec3> start;
     for (const float lean : {-0.3f, 0.3f}) {
