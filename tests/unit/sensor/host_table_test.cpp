@@ -263,7 +263,8 @@ TEST(HostTable, ThreadsMayPushWhileOthersAcquireAndTheSensorRestarts) {
         sensor->stop();
         sensor->start();
         std::this_thread::sleep_for(std::chrono::milliseconds(3));
-        EXPECT_LE(sensor->describe().taken, sensor->describe().received);
+        const vfit_sensor_stats now = sensor->describe();  // one moment: frames come in meanwhile
+        EXPECT_LE(now.taken + now.dropped, now.received);
     }
     done = true;
     for (std::thread& thread : threads) thread.join();
