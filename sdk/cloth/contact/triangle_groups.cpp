@@ -153,7 +153,8 @@ void TriangleGroups::move_groups(std::span<const Vec3> positions, uint32_t begin
             const auto& at = (corners_[t] = {{positions[vertex[0]], positions[vertex[1]], positions[vertex[2]]}}).at;
             boxes_[t] = bounds_of(corners_[t]);
             box.add(boxes_[t].low), box.add(boxes_[t].high);
-            normals.add(glm::cross(at[1] - at[0], at[2] - at[0]));
+            const Vec3 across = glm::cross(at[1] - at[0], at[2] - at[0]);
+            normals.add(across / std::max(glm::length(across), 1e-20f));
         }
         groups_.runs.set(group, box.low, box.high);
         normals_[group] = normals;
@@ -166,9 +167,10 @@ bool TriangleGroups::are_beside(uint32_t group, uint32_t other) const {
 }
 
 bool TriangleGroups::face_one_way(uint32_t group, uint32_t other) const {
+    constexpr float kOneWay = 0.5f;  // within 60 degrees: where a surface bends more, it may meet itself all the same
     const Bounds &a = normals_[group], &b = normals_[other];
     const Vec3 low = glm::min(a.low, b.low), high = glm::max(a.high, b.high), middle = low + high, least = glm::min(middle * low, middle * high);
-    return least.x + least.y + least.z > 0.0f;
+    return least.x + least.y + least.z > kOneWay * glm::length(middle);
 }
 
 void TriangleGroups::find_crossings(bool flat_do_not, std::vector<TrianglePair>& out, Jobs& jobs) {

@@ -174,6 +174,8 @@ private:
         float rise = 0.0f;
         const Panel back = trousers_.back.panel("back");
         for (const Vec2& p : back.corners) rise = std::max(rise, p.y - trousers_.top_m);
+        // Worn level: front and back pull each other even where the back rises to the middle.
+        if (!design_.torso) pattern_.worn_top_m = body_.waist_height + trousers_.top_m + design.band_height_m + 0.25f * rise;
         // Under a torso, below its edge; but so high that the hems can close above the feet, then before that edge.
         float above = 0.0f;
         if (design_.torso) above = std::max(trunk_above_waist() - rise - kGap_m,

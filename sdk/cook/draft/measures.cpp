@@ -164,6 +164,8 @@ float DraftMeasures::level(BodyLevel level) const {
     return 0.0f;
 }
 
+float DraftMeasures::hip_depth() const { return std::hypot(waist_height - hip_height, (hip - waist) / (2.0f * kPi)); }
+
 float DraftMeasures::depth(const LevelShare& place) const {
     return waist_height - glm::mix(level(place.from), level(place.to), place.share);
 }

@@ -28,6 +28,8 @@ struct DraftMeasures {
 
     float side_of_neck_m() const;  // half the width of the natural neckline
     float level(BodyLevel level) const;
+    /// From the waist to the hips over the skin: down the side of a cone of those girths.
+    float hip_depth() const;
     /// Below the waist.
     float depth(const LevelShare& place) const;
 };

@@ -41,7 +41,7 @@ CutLine skirt_half(const std::vector<float>& waist_m, float hip, float hip_depth
 
 SkirtBlock draft_skirt(const DraftMeasures& body, const SkirtDesign& design, const std::vector<float>& front_waist_m,
                        const std::vector<float>& back_waist_m) {
-    const float hip = 0.25f * (body.hip + design.hip_ease_m), hip_depth = body.waist_height - body.hip_height;
+    const float hip = 0.25f * (body.hip + design.hip_ease_m), hip_depth = body.hip_depth();
     const float depth = body.depth(design.hem);
     if (depth < hip_depth + 0.05f) fail(VFIT_ERROR_DATA, "the skirt ends at the hips: \"skirt.hem\"");
     SkirtBlock block;

@@ -75,8 +75,7 @@ private:
         return std::max(kLeastDart_m, (chest_ - waist) * design_.waist_dart);
     }
 
-    bool reaches_hips() const { return body_.depth(*design_.hem) > hip_depth() + kBelowHips_m; }
-    float hip_depth() const { return body_.waist_height - body_.hip_height; }
+    bool reaches_hips() const { return body_.depth(*design_.hem) > body_.hip_depth() + kBelowHips_m; }
 
     /// From the middle's lower end to the side of the waist.
     CutLine lower(const Vec2& side, float dart, float dart_place, float apex_y) {
@@ -89,7 +88,7 @@ private:
                 fail(VFIT_ERROR_DATA, "the waist is too narrow for its darts: \"torso.waist_dart\"");
             return line.line(a, "waist 1").line(apex, "dart a").line(b, "dart b").line(side, "waist 2");
         }
-        const float depth = body_.depth(*design_.hem), hips = hip_depth();
+        const float depth = body_.depth(*design_.hem), hips = body_.hip_depth();
         if (depth < 0.05f) fail(VFIT_ERROR_DATA, "the hem lies at the waist: \"torso.hem\"");
         hip_ = 0.25f * (body_.hip + design_.hip_ease_m);
         // A smooth line over the hip: upright at the waist and at the hips.

@@ -102,10 +102,10 @@ public:
         return outline_.levels().knee + hit->distance - kBelow_m - crotch;
     }
 
-    /// The upper border at the waist.
+    /// The upper border where it is worn.
     std::optional<float> by_waist() const {
         if (upper_border().empty()) return std::nullopt;
-        const float raised = outline_.levels().waist - border_height();  // what is wider than it is worn with a belt
+        const float raised = pattern_.worn_top_m.value_or(outline_.levels().waist) - border_height();  // what is wider than it is worn with a belt
         const auto crotch = by_crotch();
         return crotch ? std::min(raised, *crotch) : raised;
     }

@@ -20,7 +20,7 @@ struct Placement {
 };
 
 /// The panels as the pattern places them, raised or lowered so that its shoulder seams lie on the body's shoulders (else its upper
-/// border at the waist, if its crotch is not above the body's there), then each moved outwards until it is clear of the body.
+/// border where it is worn, if its crotch is not above the body's there), then each moved outwards until it is clear of the body.
 /// VFIT_ERROR_DATA names the panel that cannot be.
 Placement place_panels(const Pattern& pattern, const SewnMesh& mesh, const BodyOutline& outline, const MeshQuery& skin);
 

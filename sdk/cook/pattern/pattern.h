@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,8 @@ struct PatternMaterial {
 
 struct Pattern {
     std::string name;
+    // Mean height above the soles at which the upper border of a garment that hangs on the waist is worn; none: the waist's.
+    std::optional<float> worn_top_m;
     std::vector<Panel> panels;
     std::vector<Stitch> stitches;
     std::vector<PatternMaterial> materials;
