@@ -161,7 +161,7 @@ struct ClothObject : ContextChild {
         if (own_lengths) {
             start_with_legs_apart();
             come_to_lengths(true);
-        }
+        } else cloth.part_layers(*context->jobs);
         publish(output.begin());
         later.task = [](void* self, uint32_t) { static_cast<ClothObject*>(self)->step(); };
         later.data = this;
@@ -379,9 +379,14 @@ struct ClothObject : ContextChild {
             for (const uint32_t v : hem.vertices) counts[v] = 0;
         const Opening opening = tightest_opening({cloth.positions(), dress.indices(), cut, garment->garment.on_arm, {}}, counts);
         const float gives = std::max(kOpeningGives, garment->material.most_strain);
-        if (opening.strain <= gives) return;
-        fail(VFIT_ERROR_NOT_WEARABLE, "garment ", garment->garment.name, " is too small in size ", label, ": its opening of ", opening.garment_m * 100.0f, " cm at ",
-             opening.middle.y * 100.0f, " cm of height would be stretched by ", opening.strain * 100.0f, " %; ", garment->garment.fabric, " gives ", gives * 100.0f, " % there");
+        if (opening.strain > gives)
+            fail(VFIT_ERROR_NOT_WEARABLE, "garment ", garment->garment.name, " is too small in size ", label, ": its opening of ", opening.garment_m * 100.0f, " cm at ",
+                 opening.middle.y * 100.0f, " cm of height would be stretched by ", opening.strain * 100.0f, " %; ", garment->garment.fabric, " gives ", gives * 100.0f, " % there");
+        const CrotchLine crotch = crotch_line({dress.rest(), dress.indices(), cut, {}, {}}, cloth.positions());
+        const float crotch_gives = std::max(kCrotchGives, garment->material.most_strain);
+        if (crotch.strain > crotch_gives)
+            fail(VFIT_ERROR_NOT_WEARABLE, "garment ", garment->garment.name, " is too small in size ", label, ": its ", crotch.garment_m * 100.0f,
+                 " cm from front to back through the crotch would be stretched by ", crotch.strain * 100.0f, " %; ", garment->garment.fabric, " gives ", crotch_gives * 100.0f, " % there");
     }
     /// The same garment in other lengths, from how it hangs now.
     void change_size(const char* label_text) {

@@ -247,6 +247,17 @@ void Cloth::put_on(const BodyOnItsWay& body, Jobs& jobs) {
     s.wake();
 }
 
+void Cloth::part_layers(Jobs& jobs) {
+    State& s = *state_;
+    if (s.settings.self_thickness_m == 0.0f) return;
+    if (!s.guard) s.guard.emplace(s.fabric->data());
+    s.now = s.positions;
+    s.guard->part(s.now, s.triangles_now(s.now, jobs), jobs);
+    s.solver.place(s.now);
+    s.wake();
+    s.publish();
+}
+
 void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
     // The shorter a step, the softer is all that gives way in it (XPBD): at first cloth moves by a millimetre or so between two looks
     // at what it may meet, itself included.
@@ -254,6 +265,7 @@ void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
     constexpr float kShortest_s = 1.5e-4f, kLongest_s = 1.0f / 120.0f, kStopped = 1.0f;
     State& s = *state_;
     s.settles_s = kSettles_s;
+    part_layers(jobs);
     std::vector<Vec3> targets;
     std::vector<Collider> colliders;
     for (int i = 0; i < kSteps; ++i) {

@@ -5,6 +5,7 @@
 #include <iomanip>
 #include <iostream>
 #include <map>
+#include <random>
 
 #include "bench/bench.h"
 #include "bench/garment_ease.h"
@@ -26,21 +27,35 @@ constexpr int kFramesToRest = 90;
 
 struct Options {
     std::string garment, size, body, folder, pictures;
+    int random = 0;  // bodies; 0: those of kBodies
     bool json = false, quick = false;
 };
 
 struct BodyKind {
-    const char* name;
+    std::string name;
     vfit_sex sex;
     std::vector<std::pair<const char*, float>> shape;
 };
-const BodyKind kBodies[] = {
+const std::vector<BodyKind> kBodies = {
     {"woman", VFIT_SEX_FEMALE, {}},
     {"man", VFIT_SEX_MALE, {}},
     {"very tall man", VFIT_SEX_MALE, {{"height", 0.72f}}},
     {"heavy woman", VFIT_SEX_FEMALE, {{"weight", 1.15f}, {"muscle", 0.4f}}},
     {"small woman", VFIT_SEX_FEMALE, {{"height", 0.28f}, {"weight", 0.35f}}},
 };
+
+/// Always the same for a number.
+std::vector<BodyKind> random_bodies(int count) {
+    std::vector<BodyKind> out;
+    std::mt19937 random(1);
+    const auto between = [&](float low, float high) { return low + (high - low) * float(random()) / float(std::mt19937::max()); };
+    for (int i = 0; i < count; ++i) {
+        BodyKind kind{"random " + std::to_string(i + 1), i % 2 ? VFIT_SEX_MALE : VFIT_SEX_FEMALE, {}};
+        kind.shape = {{"height", between(0.28f, 0.72f)}, {"weight", between(0.3f, 1.15f)}, {"muscle", between(0.3f, 0.8f)}};
+        out.push_back(std::move(kind));
+    }
+    return out;
+}
 
 Avatar make_body(vfit_context context, const BodyKind& kind) {
     vfit_avatar_desc desc = vfit_avatar_desc_init();
@@ -290,11 +305,11 @@ void judge_garments(const Options& options) {
     if (!options.pictures.empty()) create_folder(options.pictures);
     GarmentJudge judge(options);
     Json rows = Json::array();
-    for (const BodyKind& kind : kBodies) {
+    for (const BodyKind& kind : options.random ? random_bodies(options.random) : kBodies) {
         if (!options.body.empty() && options.body != kind.name) continue;
         const Avatar avatar = make_body(context.get(), kind);
         const Welded skin = mesh_of(avatar.get());
-        if (!options.json) say_body(avatar.get(), kind.name);
+        if (!options.json) say_body(avatar.get(), kind.name.c_str());
         for (const std::string& file : files) {
             const Garment garment = open_garment(context.get(), file);
             const std::string name = std::filesystem::path(file).stem().string();
@@ -334,6 +349,7 @@ void add_garments(Command& app) {
     command.add_option("--garment", o->garment, "One garment");
     command.add_option("--size", o->size, "One size");
     command.add_option("--body", o->body, "One body").one_of({"woman", "man", "very tall man", "heavy woman", "small woman"});
+    command.add_option("--random", o->random, "So many other bodies instead, of any height and weight, always the same for a number");
     command.add_option("--pictures", o->pictures, "Folder for a sheet of pictures of each body");
     command.add_flag("--quick", o->quick, "One size of each");
     command.add_flag("--json", o->json, "Print JSON");

@@ -12,6 +12,8 @@ constexpr int kRounds = 12;           // in which zones may grow
 constexpr size_t kLargestZone = 60;   // vertices: where more is in a jam, holding it would tear at what is about it
 constexpr size_t kMostCrossed = 40;   // one pair for so many triangles: beyond, cloth lies in a heap, which is left to contact
 constexpr float kUntangles_m = 0.001f;  // a step
+constexpr int kRoundsToPart = 20;
+constexpr float kParts_m = 0.004f;     // a round
 }  // namespace
 
 CrossingGuard::CrossingGuard(const FabricData& fabric)
@@ -38,6 +40,16 @@ void CrossingGuard::keep(std::span<const Vec3> before, std::span<Vec3> now, Tria
     tangled_ = untangle_.move(pairs_, indices_, is_fixed_, kUntangles_m, now);
     moved_.assign(zoned_.begin(), zoned_.end());
     moved_.insert(moved_.end(), tangled_.begin(), tangled_.end());
+}
+
+void CrossingGuard::part(std::span<Vec3> places, TriangleGroups& cloth, Jobs& jobs) {
+    for (int round = 0; round < kRoundsToPart; ++round) {
+        cloth.move(places, jobs);
+        pairs_.clear();
+        cloth.find_crossings(true, pairs_, jobs);
+            if (pairs_.empty()) return;
+        untangle_.move(pairs_, indices_, is_fixed_, kParts_m, places);
+    }
 }
 
 bool CrossingGuard::crossed_before(const TrianglePair& pair, std::span<const Vec3> before) const {

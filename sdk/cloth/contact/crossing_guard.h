@@ -20,6 +20,8 @@ public:
     /// even_heaps: however much crosses; else cloth that lies in a heap is left to contact.
     /// Does not allocate once it has met as many crossings.
     void keep(std::span<const Vec3> before, std::span<Vec3> now, TriangleGroups& cloth, bool even_heaps, Jobs& jobs);
+    /// Before a first step: moves what crosses apart, a few centimetres at most.
+    void part(std::span<Vec3> places, TriangleGroups& cloth, Jobs& jobs);
     /// The vertices that it moved in the last call.
     std::span<const uint32_t> moved() const { return moved_; }
     /// Those of triangles that crossed in the last two steps: contact would hold them where they are.

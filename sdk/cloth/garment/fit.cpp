@@ -17,35 +17,54 @@ struct Cut {
     std::vector<Vec3> ends;
 };
 
-/// The place on an edge at that height: share from its first end.
-float share_at(const Vec3& a, const Vec3& b, float height) { return (height - a.y) / (b.y - a.y); }
+/// Where a plane crosses two sides of a triangle: the corners of each, and the share of the way from the first to the second.
+struct CrossedSides {
+    uint32_t from[2], to[2];  // of indices
+    float share[2];
+};
+
+/// calls(sides) for each triangle that the plane crosses. above(vertex): how far it is beyond the plane.
+template <typename Above, typename Call>
+void for_crossed(std::span<const uint32_t> indices, Above&& above, Call&& call) {
+    for (uint32_t i = 0; i + 2 < indices.size(); i += 3) {
+        CrossedSides sides;
+        int count = 0;
+        for (uint32_t corner = i; corner < i + 3 && count < 2; ++corner) {
+            const uint32_t next = next_corner(corner);
+            const float a = above(indices[corner]), b = above(indices[next]);
+            if ((a < 0.0f) == (b < 0.0f)) continue;
+            sides.from[count] = corner, sides.to[count] = next, sides.share[count] = a / (a - b);
+            ++count;
+        }
+        if (count == 2) call(sides);
+    }
+}
+
+/// The line that the crossed sides make in a triangle, with one place an index.
+template <typename Place>
+auto across(const CrossedSides& sides, Place&& place) {
+    const auto at = [&](int end) { return glm::mix(place(sides.from[end]), place(sides.to[end]), sides.share[end]); };
+    return std::pair(at(0), at(1));
+}
 
 Cut cut_at(const WornGarment& g, const GirthLevel& level) {
     Cut out;
     std::map<std::pair<uint32_t, uint32_t>, std::pair<int, Vec3>> crossed;  // edges: by how many triangles, and where
-    for (size_t i = 0; i + 2 < g.indices.size(); i += 3) {
-        const uint32_t* v = &g.indices[i];
-        if (!g.on_arm.empty() && (g.on_arm[v[0]] || g.on_arm[v[1]] || g.on_arm[v[2]])) continue;  // of a sleeve
-        Vec3 worn[2];
-        Vec2 flat[2];
-        int count = 0;
-        for (size_t k = 0; k < 3 && count < 2; ++k) {
-            const size_t n = (k + 1) % 3;
-            const Vec3 &a = g.positions[v[k]], &b = g.positions[v[n]];
-            if ((a.y < level.height_m) == (b.y < level.height_m)) continue;
-            const float share = share_at(a, b, level.height_m);
-            worn[count] = glm::mix(a, b, share);
-            flat[count] = glm::mix(g.cut[i + k], g.cut[i + n], share);
-            auto& edge = crossed[std::minmax(v[k], v[n])];
+    for_crossed(g.indices, [&](uint32_t v) { return g.positions[v].y - level.height_m; }, [&](const CrossedSides& sides) {
+        const uint32_t* v = &g.indices[sides.from[0] - sides.from[0] % 3];
+        if (!g.on_arm.empty() && (g.on_arm[v[0]] || g.on_arm[v[1]] || g.on_arm[v[2]])) return;  // of a sleeve
+        const auto flat = across(sides, [&](uint32_t corner) { return g.cut[corner]; });
+        const auto worn = across(sides, [&](uint32_t corner) { return g.positions[g.indices[corner]]; });
+        for (int end = 0; end < 2; ++end) {
+            auto& edge = crossed[std::minmax(g.indices[sides.from[end]], g.indices[sides.to[end]])];
             ++edge.first;
-            edge.second = worn[count++];
+            edge.second = end == 0 ? worn.first : worn.second;
         }
-        if (count < 2) continue;
-        out.flat_m += glm::length(flat[1] - flat[0]);
-        out.worn_m += glm::length(worn[1] - worn[0]);
-        const Vec2 p(worn[0].x, worn[0].z - level.axis_z_m), q(worn[1].x, worn[1].z - level.axis_z_m);
+        out.flat_m += glm::length(flat.second - flat.first);
+        out.worn_m += glm::length(worn.second - worn.first);
+        const Vec2 p(worn.first.x, worn.first.z - level.axis_z_m), q(worn.second.x, worn.second.z - level.axis_z_m);
         out.around_rad += std::abs(std::atan2(p.x * q.y - p.y * q.x, glm::dot(p, q)));
-    }
+    });
     for (const auto& [edge, seen] : crossed)
         if (seen.first == 1) out.ends.push_back(seen.second);
     return out;
@@ -157,6 +176,31 @@ Opening tightest_opening(const WornGarment& garment, std::span<const uint8_t> co
         if (opening.strain > tightest.strain) tightest = opening;
     }
     return tightest;
+}
+
+CrotchLine crotch_line(const WornGarment& garment, std::span<const Vec3> now) {
+    CrotchLine out;
+    float worn_m = 0.0f;
+    std::map<std::pair<uint32_t, uint32_t>, int> crossed;
+    for_crossed(garment.indices, [&](uint32_t v) { return garment.positions[v].x; }, [&](const CrossedSides& sides) {
+        for (int end = 0; end < 2; ++end) ++crossed[std::minmax(garment.indices[sides.from[end]], garment.indices[sides.to[end]])];
+        const auto flat = across(sides, [&](uint32_t corner) { return garment.cut[corner]; });
+        const auto worn = across(sides, [&](uint32_t corner) { return now[garment.indices[corner]]; });
+        out.garment_m += glm::length(flat.second - flat.first);
+        worn_m += glm::length(worn.second - worn.first);
+    });
+    // One line that goes down and up again. Of what ends in a hem there are two; of a coat one, behind, which ends at its lowest.
+    constexpr float kDeep_m = 0.1f;
+    float low = INFINITY, end = INFINITY;
+    int ends = 0;
+    for (const auto& [edge, triangles] : crossed) {
+        const float y = garment.positions[edge.first].y;
+        low = std::min(low, y);
+        if (triangles == 1) ++ends, end = std::min(end, y);
+    }
+    if (ends != 2 || end < low + kDeep_m) return {};
+    out.strain = worn_m / out.garment_m - 1.0f;
+    return out;
 }
 
 float most_strained(std::span<const float> strain) {

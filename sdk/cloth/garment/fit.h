@@ -62,6 +62,16 @@ inline constexpr float kOpeningGives = 0.15f;
 /// counts: flags, one a vertex.
 Opening tightest_opening(const WornGarment& garment, std::span<const uint8_t> counts);
 
+/// Of trousers and overalls: from the upper border in front to that behind, between the legs, as long as it is cut; how much it is
+/// stretched. 0: the garment has no such line.
+struct CrotchLine {
+    float garment_m = 0.0f, strain = 0.0f;
+};
+/// Stretched by more, trousers that are too short in their rise cut into the body instead of being worn.
+inline constexpr float kCrotchGives = 0.1f;
+/// garment: on the body at rest, whose middle is x = 0. now: where its vertices are, in any pose.
+CrotchLine crotch_line(const WornGarment& garment, std::span<const Vec3> now);
+
 /// A tenth of the cloth is stretched by more, in the mean about its vertices.
 float most_strained(std::span<const float> strain);
 /// More than so many times what its fabric gives, the cloth is drawn rather than worn.
