@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <map>
@@ -217,6 +218,8 @@ private:
         settle(cloth, kFramesToRest);
         const Welded mesh = mesh_of(cloth);
         const size_t with_skin = crossed_triangles({mesh.positions, mesh.indices}, {skin.positions, skin.indices}).size();
+        if (const char* dump = getenv("VD")) { std::ofstream f(dump); for (auto& q : mesh.positions) f << "v " << q.x << " " << q.y << " " << q.z << "\n"; for (auto& q : skin.positions) f << "v " << q.x << " " << q.y << " " << q.z << "\n"; f << "g cloth\n"; for (size_t i = 0; i < mesh.indices.size(); i += 3) f << "f " << mesh.indices[i] + 1 << " " << mesh.indices[i + 1] + 1 << " " << mesh.indices[i + 2] + 1 << "\n"; f << "g skin\n"; const size_t o = mesh.positions.size() + 1; for (size_t i = 0; i < skin.indices.size(); i += 3) f << "f " << skin.indices[i] + o << " " << skin.indices[i + 1] + o << " " << skin.indices[i + 2] + o << "\n"; }
+        if (getenv("VX")) for (auto& [t, o] : crossed_triangles({mesh.positions, mesh.indices}, {skin.positions, skin.indices})) { std::cout << "X " << t << " " << o << " at"; for (int k = 0; k < 3; ++k) { auto& q = mesh.positions[mesh.indices[3 * t + k]]; std::cout << " | " << q.x << " " << q.y << " " << q.z << " d " << 1e3 * MeshQuery(skin.positions, skin.indices).signed_distance(q); } std::cout << "\n"; }
         const size_t with_self = crossed_triangles(mesh.positions, mesh.indices).size();
         vfit_cloth_stats stats = vfit_cloth_stats_init();
         check(vfit_cloth_describe(cloth, &stats));
@@ -305,7 +308,9 @@ void judge_garments(const Options& options) {
     if (!options.pictures.empty()) create_folder(options.pictures);
     GarmentJudge judge(options);
     Json rows = Json::array();
-    for (const BodyKind& kind : options.random ? random_bodies(options.random) : kBodies) {
+    const std::vector<BodyKind> bodies = options.random ? random_bodies(options.random) : kBodies;
+    if (!options.body.empty() && std::none_of(bodies.begin(), bodies.end(), [&](const BodyKind& kind) { return kind.name == options.body; })) throw Failure("there is no body " + options.body);
+    for (const BodyKind& kind : bodies) {
         if (!options.body.empty() && options.body != kind.name) continue;
         const Avatar avatar = make_body(context.get(), kind);
         const Welded skin = mesh_of(avatar.get());
@@ -348,7 +353,7 @@ void add_garments(Command& app) {
     command.add_option("--folder", o->folder, "Of cooked garments (default: those of the build)");
     command.add_option("--garment", o->garment, "One garment");
     command.add_option("--size", o->size, "One size");
-    command.add_option("--body", o->body, "One body").one_of({"woman", "man", "very tall man", "heavy woman", "small woman"});
+    command.add_option("--body", o->body, "One body: woman, man, very tall man, heavy woman, small woman; with --random: random 1, ...");
     command.add_option("--random", o->random, "So many other bodies instead, of any height and weight, always the same for a number");
     command.add_option("--pictures", o->pictures, "Folder for a sheet of pictures of each body");
     command.add_flag("--quick", o->quick, "One size of each");

@@ -219,7 +219,57 @@ float ContactMesh::reach_of(const Moving& moving, uint32_t first, float dt, floa
     return own + way;
 }
 
-void ContactMesh::find_planes(const Moving& moving, float dt, float thickness_m, std::span<const float> lift_m, std::vector<uint32_t>& near, std::vector<RunPlanes>& out) const {
+/// False where the place holds nobody: too far off, or beyond a hem.
+bool ContactMesh::touch_at(const Place& place, const Vec3& particle, float reach, Touch& out) const {
+    constexpr float kOnIt_m = 1e-5f;
+    const Vec3 on = place.at(begin_), to = place.at(end_), off = particle - on;
+    const float distance = glm::length(off);
+    const Vec3 outward = outward_at(place);
+    const bool inside = glm::dot(off, outward) < 0.0f;
+    // What hangs beyond a hem is on neither side of it: a coat's sleeve is not to be drawn to the armhole of a dress.
+    if (inside && is_at_border(place)) return false;
+    if ((!inside && distance > reach) || !finite(on) || !finite(to)) return false;
+    const Vec3 normal = distance > kOnIt_m ? (inside ? -off : off) / distance : outward / std::max(glm::length(outward), 1e-12f);
+    const Vec3 turned = normal + place.normal(end_) - place.normal(begin_);
+    out = {on, to, normal, turned / std::max(glm::length(turned), 1e-12f) - normal};
+    return true;
+}
+
+/// Does each of two places lie before the plane at the other?
+static bool face_each_other(const Vec3& a, const Vec3& normal_a, const Vec3& b, const Vec3& normal_b) {
+    constexpr float kBefore_m = 0.002f;
+    return glm::dot(b - a, normal_a) > kBefore_m && glm::dot(a - b, normal_b) > kBefore_m;
+}
+
+/// Of particles that were nearest elsewhere and still are near there. touches, points: of now, by lanes. Fills touched with what is to be
+/// looked at in the next step.
+void ContactMesh::add_other_sides(const Particle* run, float reach, const Touch* touches, const uint32_t* points, float thickness_m, uint32_t* touched, RunPlanes& out) const {
+    uint32_t other[kLanes];
+    bool any = false;
+    for (size_t lane = 0; lane < kLanes; ++lane) {
+        const uint32_t before = touched[lane];
+        const bool may_face = points[lane] != NearestOnFans::kNone && before != NearestOnFans::kNone &&
+                              glm::dot(begin_[before].x - touches[lane].on, touches[lane].normal) > 0.0f;
+        other[lane] = may_face ? before : NearestOnFans::kNone;
+        touched[lane] = points[lane];
+        any |= may_face;
+    }
+    if (!any) return;
+    NearestOnFans nearest;
+    find_nearest(run, other, nearest);
+    for (size_t lane = 0; lane < kLanes; ++lane) {
+        if (nearest.corners[lane] == NearestOnFans::kNone) continue;
+        Touch touch;
+        if (!touch_at(place_of(nearest, lane, other[lane]), run[particle_at(lane)].x, reach, touch)) continue;
+        if (!face_each_other(touches[lane].on, touches[lane].normal, touch.on, touch.normal)) continue;
+        touched[lane] = other[lane];
+        out.set(lane, touch.on, touch.to - touch.on, touch.normal, touch.turn, thickness_m);
+    }
+}
+
+void ContactMesh::find_planes(const Moving& moving, float dt, float thickness_m, std::span<const float> lift_m, std::vector<uint32_t>& near, std::vector<uint32_t>& touched,
+                              std::vector<RunPlanes>& out) const {
+    touched.resize(moving.count, NearestOnFans::kNone);
     for (uint32_t first = 0; first < moving.count; first += uint32_t(kLanes)) {
         const Particle* run = moving.places + first;
         float lift = 0.0f;
@@ -228,35 +278,29 @@ void ContactMesh::find_planes(const Moving& moving, float dt, float thickness_m,
         if (near.empty()) continue;
         float edge = 0.0f;
         for (uint32_t other : near) edge = std::max(edge, edges_m_[other]);
-        NearestOfRun points(reach + kCornerReach * edge);
-        find_nearest_in_runs(run, places_.data(), near, points);
-        uint32_t* point = points.id[0];
-        if (std::all_of(point, point + kLanes, [](uint32_t id) { return id == NearestOnFans::kNone; })) continue;
+        NearestOfRun nearest_points(reach + kCornerReach * edge);
+        find_nearest_in_runs(run, places_.data(), near, nearest_points);
+        uint32_t* points = nearest_points.id[0];
+        if (std::all_of(points, points + kLanes, [](uint32_t id) { return id == NearestOnFans::kNone; })) continue;
         NearestOnFans nearest;
-        find_nearest(run, point, nearest);
-        RunPlanes planes{};
+        find_nearest(run, points, nearest);
+        RunPlanes planes{}, others{};
+        planes.run = others.run = first / uint32_t(kLanes);
+        Touch touches[kLanes];
         bool any = false;
         for (size_t lane = 0; lane < kLanes; ++lane) {
-            planes.thickness_m[lane] = RunPlanes::kNone;
-            if (nearest.corners[lane] == NearestOnFans::kNone) continue;
-            const Place place = place_of(nearest, lane, point[lane]);
-            const Vec3 &p = run[particle_at(lane)].x, on = place.at(begin_), to = place.at(end_), off = p - on;
-            const float distance = glm::length(off);
-            const Vec3 outward = outward_at(place);
-            const bool inside = glm::dot(off, outward) < 0.0f;
-            // What hangs beyond a hem is on neither side of it: a coat's sleeve is not to be drawn to the armhole of a dress.
-            if (inside && is_at_border(place)) continue;
-            if ((!inside && distance > reach) || !finite(on) || !finite(to)) continue;
-            constexpr float kOnIt_m = 1e-5f;
-            const Vec3 normal = distance > kOnIt_m ? (inside ? -off : off) / distance : outward / std::max(glm::length(outward), 1e-12f);
-            Vec3 turned = normal + place.normal(end_) - place.normal(begin_);
-            turned /= std::max(glm::length(turned), 1e-12f);
+            planes.thickness_m[lane] = others.thickness_m[lane] = RunPlanes::kNone;
+            if (nearest.corners[lane] == NearestOnFans::kNone || !touch_at(place_of(nearest, lane, points[lane]), run[particle_at(lane)].x, reach, touches[lane])) {
+                points[lane] = NearestOnFans::kNone;
+                continue;
+            }
+            const Touch& touch = touches[lane];
             any = true;
-            planes.set(lane, on, to - on, normal, turned - normal, lift_m.empty() ? thickness_m : thickness_m + lift_m[first + particle_at(lane)]);
+            planes.set(lane, touch.on, touch.to - touch.on, touch.normal, touch.turn, lift_m.empty() ? thickness_m : thickness_m + lift_m[first + particle_at(lane)]);
         }
-        if (!any) continue;
-        planes.run = first / uint32_t(kLanes);
-        out.push_back(planes);
+        if (any) out.push_back(planes);
+        add_other_sides(run, reach, touches, points, thickness_m, &touched[first], others);
+        if (std::any_of(others.thickness_m, others.thickness_m + kLanes, [](float t) { return t != RunPlanes::kNone; })) out.push_back(others);
     }
 }
 

@@ -1,5 +1,7 @@
 // Contact with a moving mesh: the skin, or a garment that is worn below. Once a step, each particle that is near the mesh gets
-// the plane that touches it at the nearest point, and stays before that plane, as it moves, through the sub-steps.
+// the plane that touches it at the nearest point, and stays before that plane, as it moves, through the sub-steps. In a hollow, as
+// between arm and chest, it gets the plane of the other side too, where it was nearest before: else it would come out of one
+// side into the other, and back in the next step.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +42,9 @@ public:
     /// not near are left out. May run for several parts at the same time.
     /// near: room to work in.
     /// lift_m: of each particle, what it keeps beyond the thickness; empty: nothing.
-    void find_planes(const Moving& moving, float dt, float thickness_m, std::span<const float> lift_m, std::vector<uint32_t>& near, std::vector<RunPlanes>& out) const;
+    /// touched: the part's memory of this mesh, empty at first: where on it each particle was nearest.
+    void find_planes(const Moving& moving, float dt, float thickness_m, std::span<const float> lift_m, std::vector<uint32_t>& near, std::vector<uint32_t>& touched,
+                     std::vector<RunPlanes>& out) const;
     /// Adds those of the triangles of one of the cloth's groups that go through the mesh where it arrived.
     void find_crossed(const TriangleGroups& cloth, uint32_t group, std::vector<uint32_t>& near, std::vector<uint32_t>& triangles) const;
 
@@ -58,6 +62,12 @@ private:
     float reach_of(const Moving& moving, uint32_t first, float dt, float thickness_m, std::vector<uint32_t>& near) const;
     void find_nearest(const Particle* run, uint32_t* points, NearestOnFans& out) const;
     Place place_of(const NearestOnFans& nearest, size_t lane, uint32_t point) const;
+    /// What a particle is kept before.
+    struct Touch {
+        Vec3 on, to, normal, turn;  // `on` at the begin of the step, on its way `to`; how the normal turns
+    };
+    bool touch_at(const Place& place, const Vec3& particle, float reach, Touch& out) const;
+    void add_other_sides(const Particle* run, float reach, const Touch* touches, const uint32_t* points, float thickness_m, uint32_t* touched, RunPlanes& out) const;
     Vec3 outward_at(const Place& place) const;
     bool is_at_border(const Place& place) const;
 

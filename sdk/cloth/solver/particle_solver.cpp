@@ -170,7 +170,9 @@ void ParticleSolver::begin_part(const Step& step, uint32_t part) {
     const Moving m = moving(part);
     parts_[part].planes.clear();
     const std::span<const float> lift_m = step.lift_m.empty() ? step.lift_m : step.lift_m.subspan(fabric_->layout().parts[part].begin);
-    for (const ContactMesh& mesh : step.meshes) mesh.find_planes(m, step.dt, step.thickness_m, lift_m, parts_[part].near_runs, parts_[part].planes);
+    parts_[part].touched.resize(step.meshes.size());
+    for (size_t i = 0; i < step.meshes.size(); ++i)
+        step.meshes[i].find_planes(m, step.dt, step.thickness_m, lift_m, parts_[part].near_runs, parts_[part].touched[i], parts_[part].planes);
     if (step.meshes.size() > 1)
         std::stable_sort(parts_[part].planes.begin(), parts_[part].planes.end(), [](const RunPlanes& a, const RunPlanes& b) { return a.run < b.run; });
     NearColliders& near = parts_[part].near;
