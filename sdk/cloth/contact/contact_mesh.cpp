@@ -256,11 +256,13 @@ void ContactMesh::add_other_sides(const Particle* run, float reach, const Touch*
     }
     if (!any) return;
     NearestOnFans nearest;
-    find_nearest(run, other, nearest);
+    find_nearest_on_fans(run, other, fans_, begin_.data(), nearest);  // from there on down would lead to where it is nearest now
     for (size_t lane = 0; lane < kLanes; ++lane) {
         if (nearest.corners[lane] == NearestOnFans::kNone) continue;
+        const Place place = place_of(nearest, lane, other[lane]);
         Touch touch;
-        if (!touch_at(place_of(nearest, lane, other[lane]), run[particle_at(lane)].x, reach, touch)) continue;
+        if (!touch_at(place, run[particle_at(lane)].x, reach, touch)) continue;
+        touch.normal = place.normal(begin_), touch.turn = place.normal(end_) - touch.normal;
         if (!face_each_other(touches[lane].on, touches[lane].normal, touch.on, touch.normal)) continue;
         touched[lane] = other[lane];
         out.set(lane, touch.on, touch.to - touch.on, touch.normal, touch.turn, thickness_m);
