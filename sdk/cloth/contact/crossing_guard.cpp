@@ -12,8 +12,8 @@ constexpr int kRounds = 12;           // in which zones may grow
 constexpr size_t kLargestZone = 60;   // vertices: where more is in a jam, holding it would tear at what is about it
 constexpr size_t kMostCrossed = 40;   // one pair for so many triangles: beyond, cloth lies in a heap, which is left to contact
 constexpr float kUntangles_m = 0.001f;  // a step
-constexpr int kRoundsToPart = 20;
-constexpr float kParts_m = 0.004f;     // a round
+constexpr int kRoundsToPart = 30;
+constexpr float kParts_m = 0.002f;     // a round
 }  // namespace
 
 CrossingGuard::CrossingGuard(const FabricData& fabric)

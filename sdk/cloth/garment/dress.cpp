@@ -184,6 +184,14 @@ std::vector<Vec2> cut_of(const Garment& garment, std::span<const Vec3> rest, con
     return cut;
 }
 
+/// On a narrower body, a coat's fronts would go through each other: what is left of the middle stays there.
+Vec3 carried_to(const Vec3& place, const Vec3& shift) {
+    constexpr float kLeast = 0.3f;  // of how far off the middle it was
+    Vec3 out = place + shift;
+    if (out.x * place.x < kLeast * place.x * place.x) out.x = kLeast * place.x;
+    return out;
+}
+
 /// body(i) for each of so many, in parallel where there are jobs.
 template <typename Body>
 void for_points(uint32_t count, Jobs* jobs, Body&& body) {
@@ -242,7 +250,7 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
     smooth_hanging(garment, skin_distances, carried_by);
     for (uint32_t i = 0; i < n; ++i) {
         const std::span<const float> shift = carried_by.row(i);
-        rest_.push_back(garment.mesh.positions[i] + Vec3(shift[0], shift[1], shift[2]));
+        rest_.push_back(carried_to(garment.mesh.positions[i], {shift[0], shift[1], shift[2]}));
     }
     const MeshQuery skin(body.rest, body.indices);
     for_points(n, jobs, [&](uint32_t i) { push_out(skin, thickness_m, std::span(&rest_[i], 1)); });
