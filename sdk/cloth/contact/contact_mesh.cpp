@@ -12,6 +12,7 @@ namespace vfit {
 namespace {
 
 constexpr float kFastest_m = 0.1f;  // further than that in a step, a mesh is not looked for
+constexpr float kFaces_m = 0.002f;    // so far before each other lie the two sides of a hollow
 constexpr float kCornerReach = 0.6f;  // of an edge: so far off may the corner be by which a place of a triangle is found
 
 std::vector<uint32_t> counted(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts) {
@@ -29,6 +30,11 @@ Vec3 unit_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 across = glm::cross(b - a, c - a);
     const float length = glm::length(across);
     return length > 0.0f ? across / length : Vec3(0.0f);
+}
+
+/// Does each of two places lie before the plane at the other?
+bool face_each_other(const Vec3& a, const Vec3& normal_a, const Vec3& b, const Vec3& normal_b) {
+    return glm::dot(b - a, normal_a) > kFaces_m && glm::dot(a - b, normal_b) > kFaces_m;
 }
 
 }  // namespace
@@ -235,24 +241,19 @@ bool ContactMesh::touch_at(const Place& place, const Vec3& particle, float reach
     return true;
 }
 
-/// Does each of two places lie before the plane at the other?
-static bool face_each_other(const Vec3& a, const Vec3& normal_a, const Vec3& b, const Vec3& normal_b) {
-    constexpr float kBefore_m = 0.002f;
-    return glm::dot(b - a, normal_a) > kBefore_m && glm::dot(a - b, normal_b) > kBefore_m;
-}
-
-/// Of particles that were nearest elsewhere and still are near there. touches, points: of now, by lanes. Fills touched with what is to be
-/// looked at in the next step.
-void ContactMesh::add_other_sides(const Particle* run, float reach, const Touch* touches, const uint32_t* points, float thickness_m, uint32_t* touched, RunPlanes& out) const {
+/// Of particles that touched another place before, and still are near there. touches, points: of now, by lanes.
+void ContactMesh::add_other_sides(const Particle* run, float reach, const Touch* touches, const uint32_t* points, float thickness_m, Touched* touched, RunPlanes& out) const {
     uint32_t other[kLanes];
     bool any = false;
     for (size_t lane = 0; lane < kLanes; ++lane) {
-        const uint32_t before = touched[lane];
-        const bool may_face = points[lane] != NearestOnFans::kNone && before != NearestOnFans::kNone &&
-                              glm::dot(begin_[before].x - touches[lane].on, touches[lane].normal) > 0.0f;
-        other[lane] = may_face ? before : NearestOnFans::kNone;
-        touched[lane] = points[lane];
-        any |= may_face;
+        const auto may_face = [&](uint32_t before) {
+            return points[lane] != NearestOnFans::kNone && before != NearestOnFans::kNone &&
+                   glm::dot(begin_[before].x - touches[lane].on, touches[lane].normal) > kFaces_m;
+        };
+        const Touched before = touched[lane];
+        other[lane] = may_face(before.nearest) ? before.nearest : may_face(before.other) ? before.other : NearestOnFans::kNone;
+        touched[lane] = {points[lane], NearestOnFans::kNone};
+        any |= other[lane] != NearestOnFans::kNone;
     }
     if (!any) return;
     NearestOnFans nearest;
@@ -264,14 +265,14 @@ void ContactMesh::add_other_sides(const Particle* run, float reach, const Touch*
         if (!touch_at(place, run[particle_at(lane)].x, reach, touch)) continue;
         touch.normal = place.normal(begin_), touch.turn = place.normal(end_) - touch.normal;
         if (!face_each_other(touches[lane].on, touches[lane].normal, touch.on, touch.normal)) continue;
-        touched[lane] = other[lane];
+        touched[lane].other = other[lane];
         out.set(lane, touch.on, touch.to - touch.on, touch.normal, touch.turn, thickness_m);
     }
 }
 
-void ContactMesh::find_planes(const Moving& moving, float dt, float thickness_m, std::span<const float> lift_m, std::vector<uint32_t>& near, std::vector<uint32_t>& touched,
+void ContactMesh::find_planes(const Moving& moving, float dt, float thickness_m, std::span<const float> lift_m, std::vector<uint32_t>& near, std::vector<Touched>& touched,
                               std::vector<RunPlanes>& out) const {
-    touched.resize(moving.count, NearestOnFans::kNone);
+    touched.resize(moving.count);
     for (uint32_t first = 0; first < moving.count; first += uint32_t(kLanes)) {
         const Particle* run = moving.places + first;
         float lift = 0.0f;

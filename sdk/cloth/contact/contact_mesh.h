@@ -38,12 +38,16 @@ public:
     void carry(const RigidMotion& motion);
     float greatest_way() const { return greatest_way_; }
 
+    /// Points of the mesh about which a particle was nearest to it in the step before, and where it faced another side of it.
+    struct Touched {
+        uint32_t nearest = NearestOnFans::kNone, other = NearestOnFans::kNone;
+    };
     /// Planes for runs of particles as they lie and move at the begin of a step of dt, by rising runs. Those of a run that is
     /// not near are left out. May run for several parts at the same time.
     /// near: room to work in.
     /// lift_m: of each particle, what it keeps beyond the thickness; empty: nothing.
-    /// touched: the part's memory of this mesh, empty at first: where on it each particle was nearest.
-    void find_planes(const Moving& moving, float dt, float thickness_m, std::span<const float> lift_m, std::vector<uint32_t>& near, std::vector<uint32_t>& touched,
+    /// touched: the part's memory of this mesh, one a particle; empty at first.
+    void find_planes(const Moving& moving, float dt, float thickness_m, std::span<const float> lift_m, std::vector<uint32_t>& near, std::vector<Touched>& touched,
                      std::vector<RunPlanes>& out) const;
     /// Adds those of the triangles of one of the cloth's groups that go through the mesh where it arrived.
     void find_crossed(const TriangleGroups& cloth, uint32_t group, std::vector<uint32_t>& near, std::vector<uint32_t>& triangles) const;
@@ -67,7 +71,7 @@ private:
         Vec3 on, to, normal, turn;  // `on` at the begin of the step, on its way `to`; how the normal turns
     };
     bool touch_at(const Place& place, const Vec3& particle, float reach, Touch& out) const;
-    void add_other_sides(const Particle* run, float reach, const Touch* touches, const uint32_t* points, float thickness_m, uint32_t* touched, RunPlanes& out) const;
+    void add_other_sides(const Particle* run, float reach, const Touch* touches, const uint32_t* points, float thickness_m, Touched* touched, RunPlanes& out) const;
     Vec3 outward_at(const Place& place) const;
     bool is_at_border(const Place& place) const;
 

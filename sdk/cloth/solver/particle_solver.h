@@ -80,7 +80,7 @@ private:
         std::vector<RunPlanes> planes;
         Particles fixed, fixed_ways;  // copies of the fixed vertices at the begin of the step, and to its end
         std::vector<uint32_t> near_runs;
-        std::vector<std::vector<uint32_t>> touched;  // a mesh: its memory of these particles
+        std::vector<std::vector<ContactMesh::Touched>> touched;  // of each mesh
     };
     Moving moving(uint32_t part);
     void set_gains(float h, int substeps);
