@@ -256,14 +256,18 @@ void ContactMesh::add_other_sides(const Particle* run, float reach, const Touch*
         any |= other[lane] != NearestOnFans::kNone;
     }
     if (!any) return;
+    // Where a particle has gone along the plane, it says nothing any more: it would stop cloth on its way around a limb.
+    constexpr float kAside_m = 0.008f;
     NearestOnFans nearest;
     find_nearest_on_fans(run, other, fans_, begin_.data(), nearest);  // from there on down would lead to where it is nearest now
     for (size_t lane = 0; lane < kLanes; ++lane) {
-        if (nearest.corners[lane] == NearestOnFans::kNone) continue;
+        if (nearest.corners[lane] == NearestOnFans::kNone || nearest.distance2[lane] > reach * reach) continue;
         const Place place = place_of(nearest, lane, other[lane]);
         Touch touch;
         if (!touch_at(place, run[particle_at(lane)].x, reach, touch)) continue;
         touch.normal = place.normal(begin_), touch.turn = place.normal(end_) - touch.normal;
+        const Vec3 off = run[particle_at(lane)].x - touch.on, aside = off - glm::dot(off, touch.normal) * touch.normal;
+        if (glm::dot(aside, aside) > kAside_m * kAside_m) continue;
         if (!face_each_other(touches[lane].on, touches[lane].normal, touch.on, touch.normal)) continue;
         touched[lane].other = other[lane];
         out.set(lane, touch.on, touch.to - touch.on, touch.normal, touch.turn, thickness_m);

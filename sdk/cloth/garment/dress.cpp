@@ -1,6 +1,7 @@
 #include "cloth/garment/dress.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "cloth/garment/carried.h"
@@ -82,45 +83,55 @@ struct Table {
         }
         return used;
     }
-    Table of_columns(std::span<const size_t> columns) {
-        Table packed(rows(), columns.size());
-        for (size_t i = 0; i < rows(); ++i)
-            for (size_t k = 0; k < columns.size(); ++k) packed.row(i)[k] = row(i)[columns[k]];
-        return packed;
-    }
-    void set_columns(std::span<const size_t> columns, Table& packed) {
-        for (size_t i = 0; i < rows(); ++i)
-            for (size_t k = 0; k < columns.size(); ++k) row(i)[columns[k]] = packed.row(i)[k];
-    }
 };
+
+/// body(i) for each of so many, in parallel where there are jobs.
+template <typename Body>
+void for_each_of(uint32_t count, Jobs* jobs, Body&& body) {
+    if (jobs) return parallel_for(*jobs, count, body);
+    for (uint32_t i = 0; i < count; ++i) body(i);
+}
+
+/// The same for small ones.
+template <typename Body>
+void for_points(uint32_t count, Jobs* jobs, Body&& body) {
+    constexpr uint32_t kShare = 128;
+    for_each_of((count + kShare - 1) / kShare, jobs, [&](uint32_t at) {
+        for (uint32_t i = at * kShare; i < std::min((at + 1) * kShare, count); ++i) body(i);
+    });
+}
 
 /// Hanging cloth is bound to whichever leg is nearer; between them it must not tear. Evens the rows of simulated
 /// vertices out over their neighbours, the more the further they hang from the skin; the skinned ones keep theirs.
-void smooth_hanging(const Garment& garment, std::span<const float> skin_distances, Table& table) {
+void smooth_hanging(const Garment& garment, std::span<const float> skin_distances, Table& table, Jobs* jobs) {
     // Spreads over about 10 vertices, the gap between the legs, with steps that go beyond the mean (successive over-relaxation).
     constexpr int kRounds = 28;
     constexpr float kBeyond = 1.7f;
     constexpr float kCloseToSkin_m = 0.02f;  // a common ease: closer than that, cloth goes where its skin goes
+    constexpr size_t kColumns = 8;           // at a time: a register
+    using Row = std::array<float, kColumns>;
     const std::vector<std::vector<uint32_t>> neighbours = neighbours_of(garment.mesh);
     const std::vector<size_t> columns = table.columns_in_use();  // of the body's bones a dress has a fourth
-    Table own = table.of_columns(columns), smooth = own;
-    const size_t width = columns.size();
-    std::vector<float> mean(width), kept;
+    std::vector<float> kept;
     for (const float distance : skin_distances) kept.push_back(std::exp(-distance / kCloseToSkin_m));
-    for (int round = 0; round < kRounds; ++round)
-        for (size_t i = 0; i < neighbours.size(); ++i) {
-            if (!garment.simulated[i] || neighbours[i].empty()) continue;
-            const float *own_row = own.row(i).data();
-            for (size_t k = 0; k < width; ++k) mean[k] = kept[i] * own_row[k];
-            const float share = (1.0f - kept[i]) / float(neighbours[i].size());
-            for (const uint32_t j : neighbours[i]) {
-                const float* other = smooth.row(j).data();
-                for (size_t k = 0; k < width; ++k) mean[k] += share * other[k];
+    for_each_of(uint32_t((columns.size() + kColumns - 1) / kColumns), jobs, [&](uint32_t at) {
+        const std::span<const size_t> some = std::span(columns).subspan(at * kColumns, std::min(kColumns, columns.size() - at * kColumns));
+        std::vector<Row> own(table.rows(), Row{});
+        for (size_t i = 0; i < own.size(); ++i)
+            for (size_t k = 0; k < some.size(); ++k) own[i][k] = table.row(i)[some[k]];
+        std::vector<Row> smooth = own;
+        for (int round = 0; round < kRounds; ++round)
+            for (size_t i = 0; i < neighbours.size(); ++i) {
+                if (!garment.simulated[i] || neighbours[i].empty()) continue;
+                Row sum{};
+                for (const uint32_t j : neighbours[i])
+                    for (size_t k = 0; k < kColumns; ++k) sum[k] += smooth[j][k];
+                const float share = (1.0f - kept[i]) / float(neighbours[i].size());
+                for (size_t k = 0; k < kColumns; ++k) smooth[i][k] += kBeyond * (kept[i] * own[i][k] + share * sum[k] - smooth[i][k]);
             }
-            float* row = smooth.row(i).data();
-            for (size_t k = 0; k < width; ++k) row[k] += kBeyond * (mean[k] - row[k]);
-        }
-    table.set_columns(columns, smooth);
+        for (size_t i = 0; i < own.size(); ++i)
+            for (size_t k = 0; k < some.size(); ++k) table.row(i)[some[k]] = smooth[i][k];
+    });
 }
 
 /// Weight of each bone at a place on the body.
@@ -192,18 +203,6 @@ Vec3 carried_to(const Vec3& place, const Vec3& shift) {
     return out;
 }
 
-/// body(i) for each of so many, in parallel where there are jobs.
-template <typename Body>
-void for_points(uint32_t count, Jobs* jobs, Body&& body) {
-    constexpr uint32_t kShare = 128;
-    const auto share = [&](uint32_t at) {
-        for (uint32_t i = at * kShare; i < std::min((at + 1) * kShare, count); ++i) body(i);
-    };
-    const uint32_t shares = (count + kShare - 1) / kShare;
-    if (jobs) return parallel_for(*jobs, shares, share);
-    for (uint32_t at = 0; at < shares; ++at) share(at);
-}
-
 /// Those that contact does not move, or not all of.
 std::vector<uint32_t> skinned_triangles(const Garment& garment) {
     std::vector<uint32_t> out;
@@ -247,7 +246,7 @@ Dress::Dress(const Garment& garment, const FabricMaterial& material, const Dress
             add_bone_weights(body, binding, carried_by.row(i).subspan(3));
         });
     }
-    smooth_hanging(garment, skin_distances, carried_by);
+    smooth_hanging(garment, skin_distances, carried_by, jobs);
     for (uint32_t i = 0; i < n; ++i) {
         const std::span<const float> shift = carried_by.row(i);
         rest_.push_back(carried_to(garment.mesh.positions[i], {shift[0], shift[1], shift[2]}));
