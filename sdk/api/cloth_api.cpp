@@ -158,10 +158,11 @@ struct ClothObject : ContextChild {
         output.topology().set_indices(garment->garment.drawn_indices(), context->axes);
         output.topology().set_uvs(garment->garment.mesh.uvs, context->axes);
         if (skin) skin_mesh = cloth.add_mesh(skin->skin.vertex_count(), skin->indices);
-        if (own_lengths) {
+        // Legs that close carry the fronts of a coat through each other.
+        if (own_lengths || settings.self_thickness_m > 0.0f) {
             start_with_legs_apart();
             come_to_lengths(true);
-        } else cloth.part_layers(*context->jobs);
+        }
         publish(output.begin());
         later.task = [](void* self, uint32_t) { static_cast<ClothObject*>(self)->step(); };
         later.data = this;

@@ -162,6 +162,8 @@ struct Cloth::State {
     void carry(const RigidMotion& motion);
     void rest_if_still(float dt, std::span<const Vec3> targets);
     TriangleGroups& triangles_now(std::span<const Vec3> places, Jobs& jobs);
+    CrossingGuard& guarding();
+    void part_layers(Jobs& jobs);
     void guard_layers(float dt, Jobs& jobs);
     void lift_off_meshes(uint32_t steps, Jobs& jobs);
     void publish();
@@ -247,17 +249,6 @@ void Cloth::put_on(const BodyOnItsWay& body, Jobs& jobs) {
     s.wake();
 }
 
-void Cloth::part_layers(Jobs& jobs) {
-    State& s = *state_;
-    if (s.settings.self_thickness_m == 0.0f) return;
-    if (!s.guard) s.guard.emplace(s.fabric->data());
-    s.now = s.positions;
-    s.guard->part(s.now, s.triangles_now(s.now, jobs), jobs);
-    s.solver.place(s.now);
-    s.wake();
-    s.publish();
-}
-
 void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
     // The shorter a step, the softer is all that gives way in it (XPBD): at first cloth moves by a millimetre or so between two looks
     // at what it may meet, itself included.
@@ -265,7 +256,7 @@ void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
     constexpr float kShortest_s = 1.5e-4f, kLongest_s = 1.0f / 120.0f, kStopped = 1.0f;
     State& s = *state_;
     s.settles_s = kSettles_s;
-    part_layers(jobs);
+    s.part_layers(jobs);
     std::vector<Vec3> targets;
     std::vector<Collider> colliders;
     for (int i = 0; i < kSteps; ++i) {
@@ -401,11 +392,23 @@ TriangleGroups& Cloth::State::triangles_now(std::span<const Vec3> places, Jobs& 
     return *groups;
 }
 
-void Cloth::State::guard_layers(float dt, Jobs& jobs) {
-    if (settings.self_thickness_m == 0.0f) return;
+CrossingGuard& Cloth::State::guarding() {
     if (!guard) guard.emplace(fabric->data());
     now.resize(positions.size());
     solver.copy_positions(now);
+    return *guard;
+}
+
+void Cloth::State::part_layers(Jobs& jobs) {
+    if (settings.self_thickness_m == 0.0f) return;
+    guarding().part(now, triangles_now(now, jobs), jobs);
+    solver.place(now);
+    publish();
+}
+
+void Cloth::State::guard_layers(float dt, Jobs& jobs) {
+    if (settings.self_thickness_m == 0.0f) return;
+    guarding();
     guard->keep(before, now, triangles_now(now, jobs), settles_s > 0.0f, jobs);
     for (const uint32_t v : guard->moved()) solver.place(v, now[v], (now[v] - before[v]) / dt);
     solver.let_go(guard->tangled());

@@ -68,12 +68,9 @@ public:
     /// settings.
     void put_on(const BodyOnItsWay& body, Jobs& jobs);
 
-    /// Own layers that go through each other where it is at rest, as they may after it was carried to another body, are moved apart, by
-    /// a few centimetres at most. With settings.self_thickness_m; come_to_lengths begins so.
-    void part_layers(Jobs& jobs);
-
     /// From a shape that was stretched over the body at share 0 to the cloth's own lengths on the body at share 1, without the speed
-    /// that giving way at once would leave. Ends at rest.
+    /// that giving way at once would leave. Own layers that go through each other at share 0, as they may after it was carried to another
+    /// body, are moved apart first. Ends at rest.
     void come_to_lengths(const BodyOnItsWay& body, Jobs& jobs);
 
     /// Advances by dt. skinned_targets: the fabric's target_count(), where the skinned garment and the backstops
