@@ -14,13 +14,13 @@ namespace vfit {
 namespace {
 
 /// Sleeves: what is nearer to an arm than to the trunk, in patches that reach along the upper arm; others only hang beside a hand.
-std::vector<uint8_t> sleeves(const Surface& surface, const std::vector<Vec3>& places, const DrapeBody& body, const std::vector<BodyPart>& parts) {
+std::vector<uint8_t> sleeves(const Surface& surface, const std::vector<Vec3>& places, const DrapeBody& body) {
     constexpr float kAlong_m = 0.08f;  // from the shoulder joint
     const size_t count = places.size();
     std::vector<uint8_t> near_arm(count, 0), seed(count, 0);
     for (size_t v = 0; v < count; ++v) {
         const MeshQuery::Closest near = body.skin->closest(places[v]);
-        const BodyPart part = parts[body.indices[3 * near.triangle]];
+        const BodyPart part = body.parts[body.indices[3 * near.triangle]];
         near_arm[v] = is_arm(part);
         const Vec3 joint(places[v].x < 0.0f ? -body.left_shoulder.x : body.left_shoulder.x, body.left_shoulder.y, body.left_shoulder.z);
         seed[v] = (part == BodyPart::kLeftUpperArm || part == BodyPart::kRightUpperArm) && glm::length(near.point - joint) > kAlong_m;
@@ -68,7 +68,7 @@ CookedGarment cook_model(const BodyModel& body_model, const Model& model, const 
     const BodyTopology& topology = body_model.topology(0);
     const MeshQuery skin(evaluated.positions, topology.indices);
     const BodyOutline outline(body_model, options.cook.sex);
-    const DrapeBody body{evaluated.positions, topology.indices, &skin, outline.left_shoulder()};
+    const DrapeBody body{evaluated.positions, topology.indices, &skin, outline.left_shoulder(), topology.parts};
     const float thickness = options.cook.drape.thickness_m;
     const Standing standing = stand(surface, outline, skin, thickness);
 
@@ -96,7 +96,7 @@ CookedGarment cook_model(const BodyModel& body_model, const Model& model, const 
     g.mesh.positions = draped.positions;
     g.simulated = draped.simulated;
     g.backstop.assign(g.vertex_count(), 0);
-    g.on_arm = sleeves(surface, draped.positions, body, topology.parts);
+    g.on_arm = sleeves(surface, draped.positions, body);
     g.parts = std::move(surface.parts);
     if (!options.size_label.empty()) g.sizes.push_back({options.size_label, {}, {}});
     turn_outside_out(g, skin);

@@ -34,7 +34,7 @@ struct DrawnOrder {
 };
 
 /// Sleeves: of panels that lie against an arm for the most part, all vertices that no other panel has.
-std::vector<uint8_t> on_arms(const SewnMesh& mesh, const std::vector<Vec3>& places, const DrapeBody& body, const std::vector<BodyPart>& parts) {
+std::vector<uint8_t> on_arms(const SewnMesh& mesh, const std::vector<Vec3>& places, const DrapeBody& body) {
     std::vector<uint8_t> out(mesh.sewn_count, 0);
     std::vector<uint32_t> elsewhere(mesh.sewn_count, 0);
     for (size_t p = 0; p < mesh.panels.size(); ++p) {
@@ -42,7 +42,7 @@ std::vector<uint8_t> on_arms(const SewnMesh& mesh, const std::vector<Vec3>& plac
         const size_t count = mesh.panels[p].flat.size();
         for (uint32_t v = 0; v < count; ++v) {
             const MeshQuery::Closest near = body.skin->closest(places[mesh.sewn_of[mesh.first_vertex[p] + v]]);
-            on += is_arm(parts[body.indices[3 * near.triangle]]);
+            on += is_arm(body.parts[body.indices[3 * near.triangle]]);
         }
         const bool sleeve = 2 * on > count;
         for (uint32_t v = 0; v < count; ++v) {
@@ -101,7 +101,7 @@ CookedGarment cook_pattern(const BodyModel& model, const std::vector<PatternSize
     const BodyTopology& topology = model.topology(0);
     const MeshQuery skin(evaluated.positions, topology.indices);
     const BodyOutline outline(model, options.sex);
-    const DrapeBody body{evaluated.positions, topology.indices, &skin, outline.left_shoulder()};
+    const DrapeBody body{evaluated.positions, topology.indices, &skin, outline.left_shoulder(), topology.parts};
     const Draped draped = drape(pattern, mesh, material, body, place_panels(pattern, mesh, outline, skin), options.drape, jobs);
 
     const DrawnOrder order(mesh);
@@ -120,7 +120,7 @@ CookedGarment cook_pattern(const BodyModel& model, const std::vector<PatternSize
     g.mesh.uvs = uvs_of(g.flat);
     g.simulated = draped.simulated;
     g.backstop.assign(mesh.sewn_count, 0);
-    g.on_arm = on_arms(mesh, draped.positions, body, topology.parts);
+    g.on_arm = on_arms(mesh, draped.positions, body);
     g.parts = parts_of(pattern, mesh);
     for (const PatternSize& size : sizes) {
         if (size.label.empty()) continue;

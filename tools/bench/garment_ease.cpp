@@ -17,6 +17,7 @@ namespace {
 
 constexpr float kFrame_s = 1.0f / 60.0f;
 constexpr int kFramesToRest = 60;
+constexpr float kLeg_rad = 0.1f;
 constexpr uint32_t kSubsteps = 32;  // of 1/60 s: cloth that is looked at and need not keep up with anybody
 
 std::vector<vfit_fit_zone> worn_by_default_body(vfit_context context, const std::string& garment_name, vfit_sex sex, const std::string& label) {
@@ -24,11 +25,12 @@ std::vector<vfit_fit_zone> worn_by_default_body(vfit_context context, const std:
     body.sex = sex;
     Avatar avatar;
     check(vfit_avatar_create_from_shape(context, &body, nullptr, sizeof(vfit_shape_value), 0, avatar.out()));
+    if (getenv("VST")) stand(avatar.get(), kLeg_rad);
     const Garment garment = open_garment(context, garment_name);
     vfit_cloth_desc desc = vfit_cloth_desc_init();
     desc.flags = VFIT_CLOTH_SKIN;
     desc.size_label = label.c_str();
-    desc.substeps = kSubsteps;
+    desc.substeps = getenv("VSS") ? atoi(getenv("VSS")) : kSubsteps;
     Cloth cloth;
     check(vfit_cloth_create(avatar.get(), garment.get(), &desc, cloth.out()));
     for (int i = 0; i < kFramesToRest; ++i) check(vfit_cloth_step(cloth.get(), kFrame_s));

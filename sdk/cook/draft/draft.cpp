@@ -25,7 +25,10 @@ const std::string kSides[] = {"left", "right"};
 class GarmentDrafter {
 public:
     GarmentDrafter(const DraftMeasures& measures, const DressForm& form, const GarmentDesign& design)
-        : body_(measures), form_(form), design_(design) {}
+        : body_(measures), form_(form), design_(design) {
+        if (!design.torso) return;
+        for (float* length : {&body_.front_length, &body_.back_length, &body_.bust_length}) *length += design.torso->length_ease_m;
+    }
 
     Pattern draft() {
         pattern_.name = design_.name;
@@ -260,7 +263,7 @@ private:
         pattern_.stitches.push_back(stitch);
     }
 
-    const DraftMeasures& body_;
+    DraftMeasures body_;
     const DressForm& form_;
     const GarmentDesign& design_;
     Pattern pattern_;

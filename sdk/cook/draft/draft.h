@@ -30,6 +30,7 @@ struct TorsoDesign {
     bool back_seam = false;  // two pieces, sewn down the middle
     float chest_ease_m = 0.0f, waist_ease_m = 0.0f, hip_ease_m = 0.0f;  // of the garment's girth over the body's
     std::optional<LevelShare> hem;  // none: it ends at the waist, where skirt or trousers are sewn on
+    float length_ease_m = 0.0f;     // over the way from shoulder to waist: what stands off the body has a longer one
     float flare = 0.0f;             // what each side seam goes outwards below the hips, metres a metre
     float neck_width_m = 0.0f;      // of the neckline beyond the neck, each side
     float neck_depth_m = 0.0f, back_neck_depth_m = 0.0f;  // below the natural neckline

@@ -84,7 +84,7 @@ private:
             for (const SewnMesh::Pair& pair : mesh_.pairs)
                 if (last || glm::length(places[pair.a] - places[pair.b]) > limit) data.edges.push_back({pair.a, pair.b, limit, 1.0f / (last ? kClosing_n_m : kSewing_n_m)});
             Cloth cloth(std::make_shared<const Fabric>(std::move(data)), settings, places);
-            const uint32_t skin = cloth.add_mesh(body_.positions.size(), body_.indices);
+            const uint32_t skin = cloth.add_mesh(body_.positions.size(), body_.indices, but_fingers(body_));
             for (int frame = 0; frame < (last ? kFramesToClose : kFramesAStage); ++frame) {
                 cloth.move_mesh(skin, body_.positions);
                 cloth.step(kFrame_s, places, {}, jobs_);

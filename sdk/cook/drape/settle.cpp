@@ -29,14 +29,14 @@ public:
         FabricData data = cook(places, std::vector<uint8_t>(places.size(), 1));
         for (uint32_t v = 0; v < places.size() && has_band; ++v)
             if (band.of[v]) data.limits.push_back({v, kBelt_m});
-        fall(std::move(data), places, {90, 60, has_band ? band.lowered_m : 0.0f, kFreeSubsteps});
+        fall(std::move(data), places, {90, 60, has_band ? band.lowered_m : 0.0f, kFreeSubsteps, false});
         part_layers(places);
         look("fallen", places);
 
         out.simulated.assign(places.size(), 1);
         for (uint32_t v = 0; v < places.size(); ++v)
             if (has_band ? band.of[v] != 0 : lies_on_shoulder(places[v])) out.simulated[v] = 0;
-        out.report.strain_p99 = fall(cook(places, out.simulated), places, {120, 0, 0.0f, kHeldSubsteps});
+        out.report.strain_p99 = fall(cook(places, out.simulated), places, {120, 0, 0.0f, kHeldSubsteps, true});
         part_layers(places);
         clear_skin({body_.positions, body_.indices, *body_.skin}, cloth_.indices, places);
         look("at rest", places);
@@ -59,6 +59,7 @@ private:
         int frames, lowering_frames;
         float lowered_m;  // of what is held, over these
         uint32_t substeps;
+        bool meets_fingers;
     };
     /// With layers of its own, unless its triangles are too small for that. Returns the 99th percentile of strain.
     float fall(FabricData data, std::vector<Vec3>& places, const Fall& how) {
@@ -70,7 +71,7 @@ private:
         settings.damping = 0.95f;
         std::vector<Vec3> targets = places;
         Cloth cloth(std::make_shared<const Fabric>(std::move(data)), settings, places);
-        const uint32_t skin = cloth.add_mesh(body_.positions.size(), body_.indices);
+        const uint32_t skin = cloth.add_mesh(body_.positions.size(), body_.indices, how.meets_fingers ? std::vector<uint8_t>() : but_fingers(body_));
         for (int frame = 0; frame < how.frames; ++frame) {
             cloth.move_mesh(skin, body_.positions);
             if (frame < how.lowering_frames)
@@ -127,6 +128,27 @@ private:
 };
 
 }  // namespace
+
+std::vector<uint8_t> but_fingers(const DrapeBody& body) {
+    constexpr float kWrist_m = 0.03f;  // so far a hand is no wider than a cuff
+    std::vector<uint8_t> counts(body.positions.size(), 1);
+    const auto middle_of = [&](BodyPart part) {
+        Vec3 sum(0.0f);
+        float count = 0.0f;
+        for (size_t v = 0; v < counts.size(); ++v)
+            if (body.parts[v] == part) sum += body.positions[v], count += 1.0f;
+        return sum / std::max(count, 1.0f);
+    };
+    for (const auto& [forearm, hand] : {std::pair(BodyPart::kLeftForearm, BodyPart::kLeftHand), std::pair(BodyPart::kRightForearm, BodyPart::kRightHand)}) {
+        const Vec3 along = glm::normalize(middle_of(hand) - middle_of(forearm));
+        float wrist = INFINITY;
+        for (size_t v = 0; v < counts.size(); ++v)
+            if (body.parts[v] == hand) wrist = std::min(wrist, glm::dot(body.positions[v], along));
+        for (size_t v = 0; v < counts.size(); ++v)
+            if (body.parts[v] == hand && glm::dot(body.positions[v], along) > wrist + kWrist_m) counts[v] = 0;
+    }
+    return counts;
+}
 
 float mean_side(const WholeCloth& cloth) {
     double sum = 0.0;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "body/body_model.h"
 #include "cloth/fabric/fabric_library.h"
 #include "core/jobs.h"
 #include "math/types.h"
@@ -20,7 +21,12 @@ struct DrapeBody {
     std::vector<uint32_t> indices;
     const MeshQuery* skin;   // of these
     Vec3 left_shoulder;      // joint
+    std::span<const BodyPart> parts;  // one a vertex, or more
 };
+
+/// Flags, one a vertex, of what sleeves meet while they are sewn. They are sewn shut before the cap draws them up the arm; fingers in
+/// their way would be sewn in.
+std::vector<uint8_t> but_fingers(const DrapeBody& body);
 
 struct DrapeReport {
     HangsOn hangs_on = HangsOn::nothing;
