@@ -642,7 +642,7 @@ vfit_result vfit_cloth_wear_over(vfit_cloth handle, vfit_cloth inner_handle) {
         if (inner->is_over(*cloth)) fail(VFIT_ERROR_ARGUMENT, "inner is worn over cloth already");
         for (const auto& below : cloth->worn_over)
             if (below.cloth.get() == inner.ref().get()) return VFIT_OK;
-        cloth->worn_over.push_back({inner.ref(), cloth->cloth.add_mesh(inner->cloth.positions().size(), inner->dress.indices())});
+        cloth->worn_over.push_back({inner.ref(), cloth->cloth.add_mesh(inner->cloth.positions().size(), inner->dress.indices(), {}, MeshOf::cloth)});
         return VFIT_OK;
     });
 }

@@ -270,9 +270,9 @@ void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
     s.wake();
 }
 
-uint32_t Cloth::add_mesh(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts) {
+uint32_t Cloth::add_mesh(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts, MeshOf what) {
     if (!counts.empty() && counts.size() != vertices) fail(VFIT_ERROR_ARGUMENT, counts.size(), " flags for a mesh of ", vertices, " vertices");
-    state_->meshes.emplace_back(vertices, indices, counts);
+    state_->meshes.emplace_back(vertices, indices, counts, what);
     state_->mesh_places.emplace_back();
     state_->wake();
     return uint32_t(state_->meshes.size()) - 1;

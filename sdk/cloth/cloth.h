@@ -10,6 +10,7 @@
 
 #include "body/collider.h"
 #include "cloth/solver/air.h"
+#include "cloth/contact/mesh_of.h"
 #include "cloth/fabric/fabric.h"
 #include "core/jobs.h"
 #include "math/types.h"
@@ -83,7 +84,7 @@ public:
 
     /// A mesh that the cloth stays outside of (its skin, a garment worn below): triangles counter-clockwise from outside,
     /// flags of the vertices that count (empty: all). Returns its number. Where it is, is said before each step.
-    uint32_t add_mesh(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts = {});
+    uint32_t add_mesh(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts = {}, MeshOf what = MeshOf::solid);
     /// At the end of the next step, one a vertex. VFIT_ERROR_ARGUMENT for a wrong number or count.
     void move_mesh(uint32_t mesh, std::span<const Vec3> positions);
     /// It is not there until it is moved again.

@@ -12,7 +12,7 @@ namespace vfit {
 namespace {
 
 constexpr float kFastest_m = 0.1f;  // further than that in a step, a mesh is not looked for
-constexpr float kFaces_m = 0.002f;    // so far before each other lie the two sides of a hollow
+constexpr float kFaces_m = 0.002f;  // so far before each other lie the two sides of a hollow
 constexpr float kCornerReach = 0.6f;  // of an edge: so far off may the corner be by which a place of a triangle is found
 
 std::vector<uint32_t> counted(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts) {
@@ -39,8 +39,8 @@ bool face_each_other(const Vec3& a, const Vec3& normal_a, const Vec3& b, const V
 
 }  // namespace
 
-ContactMesh::ContactMesh(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts)
-    : vertex_count_(vertices), indices_(counted(vertices, indices, counts)) {}
+ContactMesh::ContactMesh(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts, MeshOf what)
+    : vertex_count_(vertices), what_(what), indices_(counted(vertices, indices, counts)) {}
 
 /// Along a Morton curve of cells of 8 mm: neighbours in space follow each other.
 void ContactMesh::order(std::span<const Vec3> positions) {
@@ -306,6 +306,7 @@ void ContactMesh::find_planes(const Moving& moving, float dt, float thickness_m,
             planes.set(lane, touch.on, touch.to - touch.on, touch.normal, touch.turn, lift_m.empty() ? thickness_m : thickness_m + lift_m[first + particle_at(lane)]);
         }
         if (any) out.push_back(planes);
+        if (what_ == MeshOf::cloth) continue;
         add_other_sides(run, reach, touches, points, thickness_m, &touched[first], others);
         if (std::any_of(others.thickness_m, others.thickness_m + kLanes, [](float t) { return t != RunPlanes::kNone; })) out.push_back(others);
     }

@@ -10,6 +10,7 @@
 
 #include "cloth/solver/cloth_kernels.h"
 #include "cloth/rigid_motion.h"
+#include "cloth/contact/mesh_of.h"
 #include "cloth/contact/surface_kernels.h"
 #include "cloth/contact/triangle_groups.h"
 #include "cloth/triangle_fans.h"
@@ -20,7 +21,7 @@ class ContactMesh {
 public:
     /// Three indices a triangle, counter-clockwise seen from outside; triangles with a vertex that does not count (flags, one
     /// a vertex; empty: all do) are left out. VFIT_ERROR_DATA where an index is out of range.
-    ContactMesh(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts = {});
+    ContactMesh(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts = {}, MeshOf what = MeshOf::solid);
 
     size_t vertex_count() const { return vertex_count_; }
     /// Where its vertices are at the end of this step. `around`: the box in which it is looked for.
@@ -76,6 +77,7 @@ private:
     bool is_at_border(const Place& place) const;
 
     size_t vertex_count_;
+    MeshOf what_;
     std::vector<uint32_t> indices_;  // of vertices
     float greatest_way_ = 0.0f;
     // Its vertices that have triangles as points, in runs of kLanes that lie together.
