@@ -371,6 +371,11 @@ struct ClothObject : ContextChild {
     }
     /// Once it has come to its lengths, which are more than girths: armholes, neck, crotch.
     void check_not_drawn(const char* label) const {
+        const CrotchLine crotch = crotch_line({dress.rest(), dress.indices(), cut, {}, {}}, cloth.positions());
+        const float crotch_gives = std::max(kCrotchGives, garment->material.most_strain);
+        if (crotch.strain > crotch_gives)
+            fail(VFIT_ERROR_NOT_WEARABLE, "garment ", garment->garment.name, " is too small in size ", label, ": its ", crotch.garment_m * 100.0f,
+                 " cm from front to back through the crotch would be stretched by ", crotch.strain * 100.0f, " %; ", garment->garment.fabric, " gives ", crotch_gives * 100.0f, " % there");
         const float strain = most_strained(cloth.strain()), most = kDrawn * garment->material.most_strain;
         if (strain > most)
             fail(VFIT_ERROR_NOT_WEARABLE, "garment ", garment->garment.name, " is too small in size ", label, ": a tenth of it would be stretched by more than ", strain * 100.0f, " %; of ",
@@ -383,11 +388,6 @@ struct ClothObject : ContextChild {
         if (opening.strain > gives)
             fail(VFIT_ERROR_NOT_WEARABLE, "garment ", garment->garment.name, " is too small in size ", label, ": its opening of ", opening.garment_m * 100.0f, " cm at ",
                  opening.middle.y * 100.0f, " cm of height would be stretched by ", opening.strain * 100.0f, " %; ", garment->garment.fabric, " gives ", gives * 100.0f, " % there");
-        const CrotchLine crotch = crotch_line({dress.rest(), dress.indices(), cut, {}, {}}, cloth.positions());
-        const float crotch_gives = std::max(kCrotchGives, garment->material.most_strain);
-        if (crotch.strain > crotch_gives)
-            fail(VFIT_ERROR_NOT_WEARABLE, "garment ", garment->garment.name, " is too small in size ", label, ": its ", crotch.garment_m * 100.0f,
-                 " cm from front to back through the crotch would be stretched by ", crotch.strain * 100.0f, " %; ", garment->garment.fabric, " gives ", crotch_gives * 100.0f, " % there");
     }
     /// The same garment in other lengths, from how it hangs now.
     void change_size(const char* label_text) {

@@ -122,6 +122,16 @@ TEST_F(GarmentsTest, OneWhoseArmholesAreTooSmallIsRefusedAndTheOldSizeStaysOn) {
     EXPECT_EQ(positions(cloth), of_xxl);
 }
 
+TEST_F(GarmentsTest, TrousersThatAreTooShortInTheRiseAreRefused) {
+    const vfit_avatar tall = body({{"height", 0.72f}}, VFIT_SEX_MALE);
+    const vfit_garment pants = open("pants_men");
+    vfit_cloth cloth{};
+    EXPECT_EQ(put_on(tall, pants, "S", 0, cloth), VFIT_ERROR_NOT_WEARABLE);  // around waist and hips they would go
+    const std::string why = contract::last_error();
+    for (const char* word : {"pants_men", "size S", "crotch", "cotton_woven"}) EXPECT_NE(why.find(word), std::string::npos) << why;
+    EXPECT_EQ(put_on(tall, pants, "L", 0, cloth), VFIT_OK) << contract::last_error();
+}
+
 TEST_F(GarmentsTest, SleevesAndLegsThatAreTooLongAreTakenUpAndTheirLengthIsTold) {
     const auto taken_up = [](vfit_cloth cloth) {
         vfit_cloth_stats stats = vfit_cloth_stats_init();

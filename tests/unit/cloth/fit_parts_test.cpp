@@ -47,6 +47,60 @@ TEST(FitParts, AGirthIsThatOfTheFlatCloth) {
     EXPECT_EQ(fits[0].opening_m, 0.0f);
 }
 
+TEST(FitParts, AGirthIsTapedAcrossTheFoldsThatItsLevelRunsThrough) {
+    Tube tube(0.15f, 0.4f, 96, 80, 1.0f);
+    for (Vec3& p : tube.positions) p.y += 0.015f * std::sin(12.0f * std::atan2(p.x, p.z));  // hangs in waves of 8 cm
+    const GirthLevel level{"waist_girth_m", 0.22f, 0.9f, 0.0f};
+    const auto fits = fit_of({tube.positions, tube.indices, tube.cut, {}, {}}, std::span(&level, 1));
+    ASSERT_EQ(fits.size(), 1u);
+    // Up and down in the flat, the level's own way is a fourth longer.
+    EXPECT_NEAR(fits[0].garment_m, 2.0f * kPi * 0.15f, 0.006f);
+}
+
+TEST(FitParts, APieceThatIsCutRoundIsTapedRound) {
+    Tube tube(0.15f, 0.4f, 96, 40, 1.0f);
+    for (Vec2& p : tube.cut) {  // four gores of a cone: a level is an arc of 0.4 m about its apex
+        const float angle = std::fmod(p.x, 0.2357f) / 0.4f;
+        const float gore = std::floor(p.x / 0.2357f);
+        p = Vec2(gore + (0.18f + p.y) * std::sin(angle), (0.18f + p.y) * std::cos(angle));
+    }
+    const GirthLevel level{"hip_girth_m", 0.22f, 0.9f, 0.0f};
+    const auto fits = fit_of({tube.positions, tube.indices, tube.cut, {}, {}}, std::span(&level, 1));
+    ASSERT_EQ(fits.size(), 1u);
+    EXPECT_NEAR(fits[0].garment_m, fits[0].body_m + fits[0].ease_m, 1e-5f);
+    EXPECT_GT(fits[0].garment_m, 0.985f * 2.0f * kPi * 0.15f);
+}
+
+TEST(FitParts, TheLineThroughTheCrotchIsStretchedWhereTheBodyIsDeeper) {
+    // A sling from front to back: a row of squares in a U.
+    constexpr uint32_t kRows = 40;
+    std::vector<Vec3> rest, deeper;
+    std::vector<uint32_t> indices;
+    std::vector<Vec2> cut;
+    const auto along = [](uint32_t r, float depth) {
+        const float angle = kPi * float(r) / float(kRows);
+        return Vec3(0.0f, 1.0f - depth * std::sin(angle), 0.1f * std::cos(angle));
+    };
+    for (uint32_t r = 0; r <= kRows; ++r)
+        for (const float x : {-0.05f, 0.05f}) rest.push_back(along(r, 0.3f) + Vec3(x, 0, 0)), deeper.push_back(along(r, 0.36f) + Vec3(x, 0, 0));
+    float way = 0.0f;
+    for (uint32_t r = 0; r < kRows; ++r) {
+        const float next = way + glm::length(along(r + 1, 0.3f) - along(r, 0.3f));
+        const uint32_t a = 2 * r;
+        indices.insert(indices.end(), {a, a + 1, a + 3, a, a + 3, a + 2});
+        cut.insert(cut.end(), {Vec2(0, way), Vec2(0.1f, way), Vec2(0.1f, next), Vec2(0, way), Vec2(0.1f, next), Vec2(0, next)});
+        way = next;
+    }
+    const CrotchLine as_cut = crotch_line({rest, indices, cut, {}, {}}, rest), pulled = crotch_line({rest, indices, cut, {}, {}}, deeper);
+    EXPECT_NEAR(as_cut.garment_m, way, 1e-4f);
+    EXPECT_NEAR(as_cut.strain, 0.0f, 1e-3f);
+    float wanted = 0.0f;
+    for (uint32_t r = 0; r < kRows; ++r) wanted += glm::length(along(r + 1, 0.36f) - along(r, 0.36f));
+    EXPECT_NEAR(pulled.strain, wanted / way - 1.0f, 1e-3f);
+    const Tube skirt(0.15f, 0.4f, 48, 10, 1.0f);  // ends in a hem, in front and behind
+    EXPECT_EQ(crotch_line({skirt.positions, skirt.indices, skirt.cut, {}, {}}, skirt.positions).garment_m, 0.0f);
+}
+
 TEST(FitParts, AnOpenFrontIsToldApart) {
     const Tube tube(0.15f, 0.4f, 48, 10, 1.0f, 4);
     const GirthLevel level{"waist_girth_m", 0.22f, 0.95f, 0.0f};

@@ -289,6 +289,49 @@ TEST(MeshContact, WhatDoesNotFitIsRefusedAndWhatIsNotFiniteIsLeftOut) {
     for (const Vec3& p : cloth.positions()) EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));
 }
 
+TEST(MeshContact, ClothThatIsDrawnIntoAHollowStaysOutOfBothSides) {
+    // A groove along x, 40 degrees wide; into it hangs a strip, the end of which is drawn through one side and the other in turn.
+    const auto jobs = Jobs::own(0);
+    std::vector<Vec3> groove;
+    std::vector<uint32_t> indices;
+    constexpr float kHalf_rad = 0.35f;
+    const auto profile = [](float s) { return Vec3(0.0f, -0.1f + std::abs(s) * std::cos(kHalf_rad), s * std::sin(kHalf_rad)); };
+    constexpr uint32_t kAcross = 24, kAlong = 16;
+    for (uint32_t r = 0; r <= kAlong; ++r)
+        for (uint32_t c = 0; c <= kAcross; ++c) groove.push_back(profile(-0.12f + 0.01f * float(c)) + Vec3(0.02f * float(r) - 0.1f, 0, 0));
+    for (uint32_t r = 0; r < kAlong; ++r)
+        for (uint32_t c = 0; c < kAcross; ++c) {
+            const uint32_t a = r * (kAcross + 1) + c, b = a + 1, d = a + kAcross + 1, e = d + 1;
+            indices.insert(indices.end(), {a, b, e, a, e, d});
+        }
+    const auto deepest_with = [&](MeshOf what) {
+        Sheet sheet(9, 9, 0.015f);
+        sheet.pin_top();
+        for (uint32_t c = 0; c < 9; ++c) sheet.simulated[sheet.at(8, c)] = 0;
+        std::vector<Vec3> targets;
+        for (const Vec3& p : sheet.positions) targets.emplace_back(p.x, p.y + 0.035f, 0.0f);
+        ClothSettings settings;
+        settings.sleeps = false;
+        settings.friction = 0.0f;
+        Cloth cloth(fabric(sheet.cook(cotton())), settings, targets);
+        const uint32_t mesh = cloth.add_mesh(groove.size(), indices, {}, what);
+        float deepest = 0.0f;
+        for (int frame = 0; frame < 120; ++frame) {
+            for (uint32_t c = 0; c < 9; ++c) targets[sheet.at(8, c)].z = frame / 4 % 2 ? 0.02f : -0.02f;
+            cloth.move_mesh(mesh, groove);
+            cloth.step(kFrame_s, targets, {}, *jobs);
+            for (uint32_t r = 5; r < 8; ++r)
+                for (uint32_t c = 0; c < 9 && frame > 30; ++c) {
+                    const Vec3& p = cloth.positions()[sheet.at(r, c)];
+                    if (p.y < -0.01f) deepest = std::max(deepest, std::abs(p.z) * std::cos(kHalf_rad) - (p.y + 0.1f) * std::sin(kHalf_rad));
+                }
+        }
+        return deepest;
+    };
+    EXPECT_GT(deepest_with(MeshOf::cloth), 0.002f) << "the scene would show it";
+    EXPECT_LT(deepest_with(MeshOf::solid), 0.001f);
+}
+
 TEST(MeshContact, AMeshThatWasHiddenDoesNotComeFromWhereItWas) {
     const auto jobs = Jobs::own(0);
     Sheet sheet(21, 21, 0.02f);

@@ -335,6 +335,34 @@ TEST_F(Draft, StitchesJoinBeginToEnd) {
     });
 }
 
+TEST_F(Draft, WhatHangsOnTheWaistSaysWhereItsEdgeIsWorn) {
+    for_each_pattern([](const GarmentDesign& design, const DraftedSize& size) {
+        const bool hangs = design.trousers && !design.torso;
+        ASSERT_EQ(size.pattern.worn_top_m.has_value(), hangs);
+        if (!hangs) return;
+        // The band is held a little higher, that it can be sewn on.
+        float top = -INFINITY;
+        for (const Panel& panel : size.pattern.panels)
+            for (const Vec2& p : panel.corners) top = std::max(top, p.y + panel.translation.y);
+        EXPECT_LT(*size.pattern.worn_top_m, top);
+        EXPECT_GT(*size.pattern.worn_top_m, top - 0.05f);
+    });
+}
+
+TEST_F(Draft, ACoatIsLongerFromShoulderToWaistByItsLengthEase) {
+    GarmentDesign design = all.at("duster").design;
+    const auto neck_of = [&](float ease) {
+        design.torso->length_ease_m = ease;
+        const DraftedGarment garment = draft(*model, design);
+        float top = -INFINITY;
+        for (const Panel& panel : garment.sizes[garment.base].pattern.panels)
+            if (panel.name == "back_left")
+                for (const Vec2& p : panel.corners) top = std::max(top, p.y);
+        return top;
+    };
+    EXPECT_NEAR(neck_of(0.02f) - neck_of(0.0f), 0.02f, 1e-4f);
+}
+
 TEST_F(Draft, SleevesReachTheWristAndTrousersTheAnkle) {
     const Drafted& shirt = all["shirt_men"];
     const DraftMeasures& body = measures[VFIT_SEX_MALE];
