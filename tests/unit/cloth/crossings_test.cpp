@@ -112,7 +112,8 @@ TEST(CrossingGuard, LayersThatBeginCrossedAreParted) {
     TwoSheets sheets(8, 0.02f, {0.004f, 0.004f, 0.005f});
     for (const uint32_t v : {27u, 28u, 35u, 36u}) sheets.positions[sheets.of_one + v].y -= 0.012f;  // a bulge of the upper one
     ASSERT_GT(sheets.crossed().size(), 0u);
-    CrossingGuard guard(sheets.fabric());
+    const FabricData data = sheets.fabric();
+    CrossingGuard guard(data);
     TriangleGroups groups(sheets.positions, sheets.indices);
     const std::vector<Vec3> before = sheets.positions;
     guard.part(sheets.positions, groups, *jobs);
