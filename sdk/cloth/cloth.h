@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "body/collider.h"
-#include "cloth/solver/air.h"
 #include "cloth/contact/mesh_of.h"
 #include "cloth/fabric/fabric.h"
+#include "cloth/solver/air.h"
 #include "core/jobs.h"
 #include "math/types.h"
 

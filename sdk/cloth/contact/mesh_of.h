@@ -1,10 +1,11 @@
+// What kind of thing a contact mesh is.
 #pragma once
 
 #include <cstdint>
 
 namespace vfit {
 
-/// What a contact mesh is of: a solid keeps its hollows; the folds of a cloth come and go, and what was faced in them would hold on to it.
+/// A solid keeps its hollows; the folds of a cloth come and go, and what was faced in them would hold on to it.
 enum class MeshOf : uint8_t { solid, cloth };
 
 }  // namespace vfit
