@@ -13,7 +13,7 @@ constexpr size_t kLargestZone = 100;  // vertices: where more is in a jam, holdi
 constexpr size_t kMostCrossed = 40;   // one pair for so many triangles: beyond, cloth lies in a heap, which is left to contact
 constexpr float kUntangles_m = 0.001f;  // a step
 constexpr int kRoundsToPart = 30;
-constexpr float kParts_m = 0.002f;     // a round
+constexpr float kParts_m = 0.002f;      // a round
 }  // namespace
 
 CrossingGuard::CrossingGuard(const FabricData& fabric)
@@ -47,7 +47,7 @@ void CrossingGuard::part(std::span<Vec3> places, TriangleGroups& cloth, Jobs& jo
         cloth.move(places, jobs);
         pairs_.clear();
         cloth.find_crossings(true, pairs_, jobs);
-            if (pairs_.empty()) return;
+        if (pairs_.empty()) return;
         untangle_.move(pairs_, indices_, is_fixed_, kParts_m, places);
     }
 }
