@@ -13,6 +13,7 @@
 #include "cloth/garment/garment.h"
 #include "cloth/garment/skin_below.h"
 #include "core/files.h"
+#include "measure/mesh_query.h"
 
 using namespace vfit;
 using namespace vfit::api;
@@ -308,13 +309,39 @@ struct ClothObject : ContextChild {
         for (const Inner& inner : worn_over) cloth.hide_mesh(inner.mesh);
         cloth.put_on(body, *context->jobs);
         if (worn_over.empty()) return;
-        // What is worn below is there in the pose alone: it pushes this one outwards.
-        constexpr int kFrames = 15;
         avatar->avatar.colliders(colliders);
         limbs_of(avatar->avatar.skinning_matrices(), colliders);
         placed();
-        for (int i = 0; i < kFrames; ++i) {
+        let_inner_grow();
+    }
+    /// What is worn below is there in the pose alone. It comes out of the skin and pushes this one outwards as a whole: were it there at
+    /// once, parts of this one would be inside of it and parts outside.
+    void let_inner_grow() {
+        constexpr int kGrows = 40, kSettles = 10;  // frames
+        constexpr float kBelow_m = 0.005f;
+        std::vector<std::vector<Vec3>> from;
+        if (skin) {
+            const MeshQuery query(skin_places, skin->indices);
+            for (const Inner& inner : worn_over) {
+                const auto reading = reading_of(inner.cloth->access, "cloth below");
+                std::vector<Vec3>& places = from.emplace_back();
+                for (const Vec3& p : inner.cloth->cloth.positions()) {
+                    const MeshQuery::Closest skin_below = query.closest(p);
+                    places.push_back(skin_below.point - kBelow_m * skin_below.normal);
+                }
+            }
+        }
+        std::vector<Vec3> places;
+        for (int frame = 1; frame <= kGrows + kSettles; ++frame) {
             move_inner();
+            const float share = float(frame) / float(kGrows);
+            for (size_t i = 0; i < from.size() && share < 1.0f; ++i) {
+                const auto reading = reading_of(worn_over[i].cloth->access, "cloth below");
+                const std::vector<Vec3>& to = worn_over[i].cloth->cloth.positions();
+                places.clear();
+                for (size_t v = 0; v < to.size(); ++v) places.push_back(glm::mix(from[i][v], to[v], share));
+                cloth.move_mesh(worn_over[i].mesh, places);
+            }
             cloth.step(1.0f / 60.0f, targets, colliders, *context->jobs);
         }
     }

@@ -9,7 +9,7 @@ namespace vfit {
 namespace {
 constexpr uint32_t kNone = UINT32_MAX;
 constexpr int kRounds = 12;           // in which zones may grow
-constexpr size_t kLargestZone = 100;  // vertices: where more is in a jam, holding it would tear at what is about it
+constexpr size_t kLargestZone = 150;  // vertices: where more is in a jam, holding it would tear at what is about it
 constexpr size_t kMostCrossed = 40;   // one pair for so many triangles: beyond, cloth lies in a heap, which is left to contact
 constexpr float kUntangles_m = 0.001f;  // a step
 constexpr int kRoundsToPart = 30;
