@@ -6,7 +6,8 @@
 
 namespace vfit::tools {
 
-/// Every design of the project in the size that is nearest to the default body, on that body.
+/// Every design of the project in the size that is nearest to the default body, on that body: at rest with many sub-steps, and as a
+/// fitting room shows it.
 Json judge_ease(vfit_context context, bool quiet, Targets& targets);
 
 }  // namespace vfit::tools

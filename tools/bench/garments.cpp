@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <map>
@@ -218,8 +217,6 @@ private:
         settle(cloth, kFramesToRest);
         const Welded mesh = mesh_of(cloth);
         const size_t with_skin = crossed_triangles({mesh.positions, mesh.indices}, {skin.positions, skin.indices}).size();
-        if (const char* dump = getenv("VD")) { std::ofstream f(dump); for (auto& q : mesh.positions) f << "v " << q.x << " " << q.y << " " << q.z << "\n"; for (auto& q : skin.positions) f << "v " << q.x << " " << q.y << " " << q.z << "\n"; f << "g cloth\n"; for (size_t i = 0; i < mesh.indices.size(); i += 3) f << "f " << mesh.indices[i] + 1 << " " << mesh.indices[i + 1] + 1 << " " << mesh.indices[i + 2] + 1 << "\n"; f << "g skin\n"; const size_t o = mesh.positions.size() + 1; for (size_t i = 0; i < skin.indices.size(); i += 3) f << "f " << skin.indices[i] + o << " " << skin.indices[i + 1] + o << " " << skin.indices[i + 2] + o << "\n"; }
-        if (getenv("VX")) for (auto& [t, o] : crossed_triangles({mesh.positions, mesh.indices}, {skin.positions, skin.indices})) { std::cout << "X " << t << " " << o << " at"; for (int k = 0; k < 3; ++k) { auto& q = mesh.positions[mesh.indices[3 * t + k]]; std::cout << " | " << q.x << " " << q.y << " " << q.z << " d " << 1e3 * MeshQuery(skin.positions, skin.indices).signed_distance(q); } std::cout << "\n"; }
         const size_t with_self = crossed_triangles(mesh.positions, mesh.indices).size();
         vfit_cloth_stats stats = vfit_cloth_stats_init();
         check(vfit_cloth_describe(cloth, &stats));
@@ -308,6 +305,7 @@ void judge_garments(const Options& options) {
     if (!options.pictures.empty()) create_folder(options.pictures);
     GarmentJudge judge(options);
     Json rows = Json::array();
+    if (options.random < 0 || options.random > 1000) throw Failure("--random: 1 to 1000 bodies");
     const std::vector<BodyKind> bodies = options.random ? random_bodies(options.random) : kBodies;
     if (!options.body.empty() && std::none_of(bodies.begin(), bodies.end(), [&](const BodyKind& kind) { return kind.name == options.body; })) throw Failure("there is no body " + options.body);
     for (const BodyKind& kind : bodies) {
