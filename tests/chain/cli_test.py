@@ -617,6 +617,7 @@ class PaperSample(unittest.TestCase):
                 for outfit, garments in person.items():
                     for name, how in garments.items():
                         self.assertLess(how["strain_p99"], 0.3, f"{name} of {outfit}")
+                        self.assertLess(how["strain_max"], 4.0, f"{name} of {outfit}: caught on what is below")
                         self.assertLess(how["sank_m"], 0.02, f"{name} of {outfit}: it slides down")
 
     def test_the_frame_rate_is_told_by_phase(self):
