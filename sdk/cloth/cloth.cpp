@@ -43,8 +43,10 @@ constexpr PutOnPhase kHang{15, 4}, kMove{40, 4}, kSettle{10, 8};
 constexpr float kPutOnDamping = 0.99f;
 constexpr uint32_t kLooksSettling = 16, kLooks = 64;  // steps in which all triangles have been looked at for crossing meshes
 // After a change of lengths: what falls into its new folds should hang still within a second. A coat is a pendulum of 0.8 m, which no
-// damping brings to rest faster than in 2 s; so its time runs twice as fast.
-constexpr float kSettles_s = 0.8f, kSettlingDamping = 0.98f, kSettlingHaste = 2.0f;
+// damping brings to rest faster than in 2 s; so its time runs twice as fast, in steps as short as ever: cloth that is pulled up a leg
+// went through it in longer ones.
+constexpr float kSettles_s = 0.8f, kSettlingDamping = 0.98f;
+constexpr int kSettlingHaste = 2;
 
 void check(const Air& air) {
     if (!finite(air.wind_m_s)) fail(VFIT_ERROR_ARGUMENT, "the wind is not finite");
@@ -154,7 +156,7 @@ struct Cloth::State {
     void wake() { asleep_at.clear(), still_s = 0.0f; }
     void accept_body(std::span<const Collider> limbs);
     float body_way() const;
-    int affordable_substeps(float dt) const;
+    int affordable_substeps(float dt, int times) const;
     void feel_less(std::span<const Vec3> targets);
     void check_body(std::span<const Vec3> targets, std::span<const Collider> colliders) const;
     void reset(std::span<const Vec3> start);
@@ -323,16 +325,15 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
     }
     if (!s.asleep_at.empty()) s.wake();
     const bool settles = s.settles_s > 0.0f;
-    if (settles) {
-        s.settles_s -= dt;
-        dt = std::min(kSettlingHaste * dt, kMaxStep_s);
+    if (settles) s.settles_s -= dt;
+    const int times = settles ? kSettlingHaste : 1, substeps = s.affordable_substeps(dt, times);
+    for (int i = 0; i < times; ++i) {
+        s.advance(dt, substeps, settles ? std::max(s.settings.damping, kSettlingDamping) : s.settings.damping, skinned_targets, jobs);
+        s.lift_off_meshes(settles ? kLooksSettling : kLooks, jobs);
     }
-    const int substeps = s.affordable_substeps(dt);
-    s.advance(dt, substeps, settles ? std::max(s.settings.damping, kSettlingDamping) : s.settings.damping, skinned_targets, jobs);
-    s.lift_off_meshes(settles ? kLooksSettling : kLooks, jobs);
-    s.substeps = uint32_t(substeps);
+    s.substeps = uint32_t(substeps * times);
     s.step_ms = float(watch.ms());
-    const float substep_ms = s.step_ms / float(substeps);
+    const float substep_ms = s.step_ms / float(s.substeps);
     s.substep_ms = s.substep_ms == 0.0f ? substep_ms : s.substep_ms + kLatest * (substep_ms - s.substep_ms);
 }
 
@@ -356,11 +357,11 @@ bool Cloth::State::stays_asleep(std::span<const Vec3> targets) const {
     return !asleep_at.empty() && body_way() <= kStill_m && farthest(asleep_at, targets) <= kStill_m;
 }
 
-/// As many as the settings say, or as are expected to be done within the budget, but one.
-int Cloth::State::affordable_substeps(float dt) const {
+/// Of a step that is done so many times: as many as the settings say, or as are expected to be done within the budget, but one.
+int Cloth::State::affordable_substeps(float dt, int times) const {
     const int wanted = std::max(1, int(std::lround(dt * kSubstepRate_hz * float(settings.substeps))));
     if (settings.budget_ms == 0.0f || substep_ms == 0.0f) return wanted;
-    return std::clamp(int(settings.budget_ms / substep_ms), 1, wanted);
+    return std::clamp(int(settings.budget_ms / (substep_ms * float(times))), 1, wanted);
 }
 
 void Cloth::State::check_body(std::span<const Vec3> targets, std::span<const Collider> colliders) const {

@@ -237,6 +237,24 @@ TEST(ClothSleep, WhatLiesStillIsNotSteppedAndWakesWhenSomethingMoves) {
     EXPECT_EQ(never.cloth->stats().substeps, 8u);
 }
 
+TEST(ClothLengths, WhatComesToThemHangsStillWithinASecond) {
+    Sheet sheet(9, 5, 0.1f);  // 0.8 m, as a coat below the waist
+    sheet.pin_top();
+    std::vector<Vec3> start;
+    for (const Vec3& p : sheet.positions) start.emplace_back(p.x, 0.94f * p.y, 0.34f * p.y);  // by 20 degrees aside
+    Cloth cloth(fabric(sheet.cook(cotton())), {}, start);
+    const auto jobs = Jobs::own(0);
+    cloth.come_to_lengths([&](float, std::vector<Vec3>& targets, std::vector<Collider>&) { targets = start; }, *jobs);
+    for (int i = 0; i < 59; ++i) cloth.step(kFrame_s, start, {}, *jobs);
+    const std::vector<Vec3> before = cloth.positions();
+    cloth.step(kFrame_s, start, {}, *jobs);
+    float most = 0.0f;
+    for (size_t v = 0; v < before.size(); ++v) most = std::max(most, glm::length(cloth.positions()[v] - before[v]));
+    EXPECT_LT(most, 0.001f);
+    EXPECT_LT(std::abs(before.back().z), 0.02f) << "and straight down";
+    EXPECT_EQ(cloth.stats().substeps, 8u) << "twice as many only until then";
+}
+
 TEST(ClothBudget, LessTimeIsFewerSubstepsAndNoMoreThanAsked) {
     ClothSettings settings;
     settings.sleeps = false;
