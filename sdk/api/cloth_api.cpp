@@ -11,6 +11,7 @@
 #include "cloth/garment/fit.h"
 #include "cloth/garment/hidden_skin.h"
 #include "cloth/garment/garment.h"
+#include "cloth/garment/sag.h"
 #include "cloth/garment/skin_below.h"
 #include "core/files.h"
 #include "measure/mesh_query.h"
@@ -699,7 +700,11 @@ vfit_result vfit_cloth_fit(vfit_cloth handle, vfit_fit_zone* items, uint32_t str
         Use<ClothObject, Mode::read> cloth(handle.id);
         cloth->require_no_step();
         const Garment& garment = cloth->garment->garment;
-        const auto fits = fit_of(cloth->worn().view(*cloth), cloth->avatar->girth_levels());
+        const auto worn = cloth->worn();
+        WornGarment view = worn.view(*cloth);
+        const std::vector<Vec3> raised = without_sag(view, garment.simulated, {glm::length(cloth->settings.gravity), cloth->cloth.substep_s()});
+        view.positions = raised;
+        const auto fits = fit_of(view, cloth->avatar->girth_levels());
         return write_list(items, stride, count, fits.size(), [&](size_t i) {
             const GirthFit& fit = fits[i];
             const Fit verdict = judge_fit(garment, cloth->size_label, fit);

@@ -146,6 +146,7 @@ struct Cloth::State {
     std::vector<float> inverse_edge_count;  // of a vertex; 0: none
     float step_ms = 0.0f;
     float substep_ms = 0.0f;  // mean; 0: not known yet
+    float substep_s = 0.0f;   // the last one's length; 0: there was none
     uint32_t substeps = 0;    // of the last step
     ParticleSolver::Ways ways;  // of the vertices in the last step
     float still_s = 0.0f;     // since the cloth last moved
@@ -332,6 +333,7 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
         s.lift_off_meshes(settles ? kLooksSettling : kLooks, jobs);
     }
     s.substeps = uint32_t(substeps * times);
+    s.substep_s = dt / float(substeps);
     s.step_ms = float(watch.ms());
     const float substep_ms = s.step_ms / float(s.substeps);
     s.substep_ms = s.substep_ms == 0.0f ? substep_ms : s.substep_ms + kLatest * (substep_ms - s.substep_ms);
@@ -527,6 +529,7 @@ const std::vector<float>& Cloth::pressure() const {
     if (state_->settings.pressure) state_->find_pressures();
     return state_->pressures;
 }
+float Cloth::substep_s() const { return state_->substep_s > 0.0f ? state_->substep_s : 1.0f / (kSubstepRate_hz * float(state_->settings.substeps)); }
 const Fabric& Cloth::fabric() const { return *state_->fabric; }
 
 uint64_t Cloth::state_hash() const {

@@ -105,6 +105,8 @@ public:
     /// Of positions and velocities, bit by bit.
     uint64_t state_hash() const;
     ClothStats stats() const;
+    /// Length of the last sub-step; before the first step that of the settings.
+    float substep_s() const;
     const Fabric& fabric() const;
 
 private:
