@@ -25,7 +25,7 @@ struct Look {
     uint32_t substeps;  // of 1/60 s; 0: the usual ones
     bool stands;        // else at rest, as it was drafted on
 };
-constexpr Look kLooks[] = {{"at rest, 32 sub-steps", 32, false}, {"standing, the usual sub-steps", 0, true}, {"standing 32", 32, true}, {"rest 8", 0, false}};
+constexpr Look kLooks[] = {{"standing", 0, true}, {"standing, 32 sub-steps", 32, true}, {"at rest", 0, false}, {"at rest, 32 sub-steps", 32, false}};
 
 std::vector<vfit_fit_zone> worn_by_default_body(vfit_context context, const std::string& garment_name, vfit_sex sex, const std::string& label, const Look& look) {
     vfit_avatar_desc body = vfit_avatar_desc_init();

@@ -2,10 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 
 namespace vfit {
 
@@ -147,12 +143,6 @@ std::vector<Vec3> without_sag(const WornGarment& g, std::span<const uint8_t> sim
     const std::vector<float> raise = solve(matrix, std::move(right), simulated);
     std::vector<Vec3> out(g.positions.begin(), g.positions.end());
     for (size_t i = 0; i < n; ++i) out[i].y += raise[i];
-    if (std::getenv("VSAG")) {
-        std::map<int, std::vector<float>> by;
-        for (size_t v = 0; v < n; ++v) if (simulated[v] && (g.on_arm.empty() || !g.on_arm[v])) by[int(std::floor(g.positions[v].y / 0.05f))].push_back(raise[v]);
-        for (auto& [k, l] : by) { std::sort(l.begin(), l.end()); std::printf("%.2f: n %zu  10%% %.1f 50%% %.1f 90%% %.1f mm\n", k * 0.05, l.size(), 1e3 * l[l.size() / 10], 1e3 * l[l.size() / 2], 1e3 * l[l.size() * 9 / 10]); }
-        std::printf("--\n"); std::fflush(stdout);
-    }
     return out;
 }
 

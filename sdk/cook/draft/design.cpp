@@ -107,7 +107,7 @@ TorsoDesign read_torso(const Json& json) {
     if (o.has("back")) t.back_seam = o.choice("back", {"whole", "seamed"}) == 1;
     t.chest_ease_m = o.number("chest_ease_m", kLeastEase_m, kMostEase_m);
     t.waist_ease_m = o.number("waist_ease_m", kLeastEase_m, kMostEase_m);
-    t.length_ease_m = o.number_or("length_ease_m", 0.0f, 0.0f, 0.1f);
+    t.length_ease_m = o.number_or("length_ease_m", 0.0f, -0.03f, 0.1f);
     if (o.has("hem")) {
         t.hem = o.level("hem", BodyLevel::waist);
         t.hip_ease_m = o.number("hip_ease_m", kLeastEase_m, kMostEase_m);
