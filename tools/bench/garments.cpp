@@ -263,7 +263,7 @@ private:
         for (const auto& [a, b] : crossed_triangles(welded.positions, welded.indices))  // the triangles are in the same order
             for (const uint32_t t : {a, b})
                 for (size_t k = 0; k < 3; ++k) garment.vertex_colors[garment.indices[3 * t + k]] = {0.1f, 0.2f, 0.9f};
-        const std::string caption = row["garment"].get<std::string>() + " " + (row["size"].get<std::string>().empty() ? "made to measure" : row["size"].get<std::string>());
+        const std::string caption = row["garment"].get<std::string>() + " " + (row["size"].get<std::string>().empty() ? "made" : row["size"].get<std::string>());
         for (const float yaw : {0.35f, 3.5f}) pictures_.push_back({draw_dressed(meshes, centre_of(meshes[0]), yaw, kStyle), caption});
     }
 

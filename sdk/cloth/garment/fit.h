@@ -68,7 +68,7 @@ struct CrotchLine {
     float garment_m = 0.0f, strain = 0.0f;
 };
 /// Stretched by more, trousers that are too short in their rise cut into the body instead of being worn.
-inline constexpr float kCrotchGives = 0.1f;
+inline constexpr float kCrotchGives = 0.08f;
 /// garment: on the body at rest, whose middle is x = 0. now: where its vertices are, in any pose.
 CrotchLine crotch_line(const WornGarment& garment, std::span<const Vec3> now);
 
