@@ -119,6 +119,8 @@ private:
 std::vector<Vec3> without_sag(const WornGarment& g, std::span<const uint8_t> simulated, const Sagging& sagging) {
     // The slope of the height in flat cloth, without the stretch along it; then the heights with that slope (Poisson's equation).
     const size_t n = g.positions.size();
+    std::vector<Vec3> out(g.positions.begin(), g.positions.end());
+    if (std::all_of(simulated.begin(), simulated.end(), [](uint8_t s) { return s != 0; })) return out;  // it hangs on nothing
     const WeightStrain weight(g, sagging);
     Laplacian matrix(n);
     std::vector<float> right(n, 0.0f);
@@ -141,7 +143,6 @@ std::vector<Vec3> without_sag(const WornGarment& g, std::span<const uint8_t> sim
         }
     }
     const std::vector<float> raise = solve(matrix, std::move(right), simulated);
-    std::vector<Vec3> out(g.positions.begin(), g.positions.end());
     for (size_t i = 0; i < n; ++i) out[i].y += raise[i];
     return out;
 }
