@@ -150,7 +150,8 @@ struct Cloth::State {
     uint32_t substeps = 0;    // of the last step
     ParticleSolver::Ways ways;  // of the vertices in the last step
     float still_s = 0.0f;     // since the cloth last moved
-    float settles_s = 0.0f;   // so long it comes to rest from other lengths
+    float settles_s = 0.0f;   // so long it comes to rest from other lengths, or once it was put on
+    int haste = 1;            // steps in one, so long
     std::vector<Vec3> asleep_at;  // the targets at which it fell asleep; empty: it is awake
 
     bool stays_asleep(std::span<const Vec3> targets) const;
@@ -249,6 +250,7 @@ void Cloth::put_on(const BodyOnItsWay& body, Jobs& jobs) {
     for (int i = 0; i < kHang.frames; ++i) frame(kHang, 0.0f);
     for (int i = 1; i <= kMove.frames; ++i) frame(kMove, float(i) / float(kMove.frames));
     for (int i = 0; i < kSettle.frames; ++i) frame(kSettle, 1.0f);
+    s.settles_s = kSettles_s, s.haste = 1;
     s.solver.rest();
     s.wake();
 }
@@ -259,7 +261,7 @@ void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
     constexpr int kSteps = 14, kSubsteps = 4;
     constexpr float kShortest_s = 1.5e-4f, kLongest_s = 1.0f / 120.0f, kStopped = 1.0f;
     State& s = *state_;
-    s.settles_s = kSettles_s;
+    s.settles_s = kSettles_s, s.haste = kSettlingHaste;
     s.part_layers(jobs);
     std::vector<Vec3> targets;
     std::vector<Collider> colliders;
@@ -327,7 +329,7 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
     if (!s.asleep_at.empty()) s.wake();
     const bool settles = s.settles_s > 0.0f;
     if (settles) s.settles_s -= dt;
-    const int times = settles ? kSettlingHaste : 1, substeps = s.affordable_substeps(dt, times);
+    const int times = settles ? s.haste : 1, substeps = s.affordable_substeps(dt, times);
     for (int i = 0; i < times; ++i) {
         s.advance(dt, substeps, settles ? std::max(s.settings.damping, kSettlingDamping) : s.settings.damping, skinned_targets, jobs);
         s.lift_off_meshes(settles ? kLooksSettling : kLooks, jobs);

@@ -15,7 +15,7 @@ namespace vfit {
 namespace {
 
 constexpr float kSettleFrame_s = 1.0f / 60.0f;
-constexpr uint32_t kFreeSubsteps = 32, kHeldSubsteps = 40;  // of 1/60 s: the more, the less it stretches by its own weight
+constexpr uint32_t kFreeSubsteps = 16, kHeldSubsteps = 16;  // of 1/60 s: the more, the less it stretches by its own weight
 
 class Settler {
 public:

@@ -506,8 +506,8 @@ namespace Vfit
         internal static extern Result vfit_cloth_reset(ClothId cloth);
 
         /// <summary>The same garment in another of its sizes (null: made to the avatar), from how it hangs now: it comes to
-        /// rest within a second. Takes some ten steps' time. VFIT_ERROR_ARGUMENT where it has no such size,
-        /// VFIT_ERROR_NOT_WEARABLE as with create, and nothing changes. [excl]</summary>
+        /// rest within a second, for which its steps take twice as long. Takes some ten steps' time. VFIT_ERROR_ARGUMENT
+        /// where it has no such size, VFIT_ERROR_NOT_WEARABLE as with create, and nothing changes. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_set_size(ClothId cloth, byte* sizeLabel);
 
@@ -555,9 +555,9 @@ namespace Vfit
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_hide_skin(ClothId cloth, float marginM, byte* triangles, uint count);
 
-        /// <summary>By girths that the garment goes around, of the cloth as it was left by the last step: let it come to
-        /// rest first, and for figures to the centimetre with 32 sub-steps (vfit_cloth_set_quality): with few, cloth sags
-        /// by some of its length. [read]</summary>
+        /// <summary>By girths that the garment goes around, of the cloth as it was left by the last step, less what it sags
+        /// by: let it come to rest first, best on somebody who stands (docs/garments.md). Takes as long as some steps.
+        /// [read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_fit(ClothId cloth, FitZone* items, uint stride, uint* count);
 
