@@ -769,8 +769,8 @@ VFIT_API vfit_result vfit_cloth_destroy(vfit_cloth cloth);                      
  * (the sundress 0.1 s), whatever the settings.                                                [excl]  */
 VFIT_API vfit_result vfit_cloth_reset(vfit_cloth cloth);
 /* The same garment in another of its sizes (null: made to the avatar), from how it hangs now: it comes to rest within a
- * second, for which its steps take twice as long. Takes some ten steps' time. VFIT_ERROR_ARGUMENT where it has no such size, VFIT_ERROR_NOT_WEARABLE as with
- * create, and nothing changes.                                                                [excl]  */
+ * second, for which its steps take twice as long. Takes some ten steps' time. VFIT_ERROR_ARGUMENT where it has no such
+ * size, VFIT_ERROR_NOT_WEARABLE as with create, and nothing changes.                          [excl]  */
 VFIT_API vfit_result vfit_cloth_set_size(vfit_cloth cloth, const char* size_label);
 /* Fixed sub-steps inside; dt is clamped to 0.1 ms..0.1 s, 0 changes nothing. Reads the avatar: pose that
  * one first. begin hands the work to a worker and returns, end waits: between the two the engine renders.
@@ -815,7 +815,7 @@ typedef struct vfit_fit_zone {
 } vfit_fit_zone;
 VFIT_STRUCT(vfit_fit_zone)
 /* By girths that the garment goes around, of the cloth as it was left by the last step, less what it sags by: let it come to
- * rest first, best on somebody who stands (docs/garments.md). Takes as long as some steps.                         [read] */
+ * rest first, best on somebody who stands (docs/garments.md). Takes as long as some five steps.               [read]  */
 VFIT_API vfit_result vfit_cloth_fit(vfit_cloth cloth, vfit_fit_zone* items, uint32_t stride, uint32_t* count);
 /* The same place by place, one a vertex of what acquire gives: above 0 tight (1: its fabric's most strain, or 2 kPa),
  * below 0 loose (-1: 6 cm off the skin). Takes as long as some ten steps.                      [read]  */

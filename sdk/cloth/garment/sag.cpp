@@ -87,31 +87,34 @@ struct FlatTriangle {
 class WeightStrain {
 public:
     WeightStrain(const WornGarment& g, const Sagging& sagging) {
-        if (g.positions.empty()) return;
-        lowest_m_ = g.positions[0].y;
-        float highest_m = lowest_m_;
-        for (const Vec3& p : g.positions) lowest_m_ = std::min(lowest_m_, p.y), highest_m = std::max(highest_m, p.y);
-        std::vector<float> areas(size_t((highest_m - lowest_m_) / kBand_m) + 1, 0.0f);
+        lowest_m_ = INFINITY;
+        for (const Vec3& p : g.positions) lowest_m_ = std::min(lowest_m_, p.y);
+        std::vector<float> areas(kBands, 0.0f);
         float whole = 0.0f;
-        size_t triangles = 0;
-        for (size_t i = 0; i + 2 < g.indices.size(); i += 3, ++triangles) {
-            const float area = FlatTriangle(&g.cut[i]).area_m2, height = (g.positions[g.indices[i]].y + g.positions[g.indices[i + 1]].y + g.positions[g.indices[i + 2]].y) / 3.0f;
-            areas[size_t((height - lowest_m_) / kBand_m)] += area;
+        for (size_t i = 0; i + 2 < g.indices.size(); i += 3) {
+            const float area = FlatTriangle(&g.cut[i]).area_m2;
+            areas[band_of((g.positions[g.indices[i]].y + g.positions[g.indices[i + 1]].y + g.positions[g.indices[i + 2]].y) / 3.0f)] += area;
             whole += area;
         }
-        const float side2 = whole / float(std::max<size_t>(triangles, 1)) * 4.0f / std::sqrt(3.0f);
+        const float side2 = whole / float(std::max<size_t>(g.indices.size() / 3, 1)) * 4.0f / std::sqrt(3.0f);
         float below = 0.0f;
         for (const float area : areas) {
             below += area;
-            bands_.push_back(area > 0.0f ? 2.0f * sagging.gravity_m_s2 * sagging.substep_s * sagging.substep_s * below * kBand_m / (area * side2) : 0.0f);
+            strains_.push_back(area > 0.0f ? 2.0f * sagging.gravity_m_s2 * sagging.substep_s * sagging.substep_s * below * kBand_m / (area * side2) : 0.0f);
         }
     }
-    float at(float height_m) const { return bands_.empty() ? 0.0f : bands_[std::min(size_t(std::max(0.0f, height_m - lowest_m_) / kBand_m), bands_.size() - 1)]; }
+    float at(float height_m) const { return strains_[band_of(height_m)]; }
 
 private:
     static constexpr float kBand_m = 0.03f;
-    float lowest_m_ = 0.0f;
-    std::vector<float> bands_;
+    static constexpr size_t kBands = 100;  // 3 m: the last goes on
+    size_t band_of(float height_m) const {
+        const float band = (height_m - lowest_m_) / kBand_m;
+        return band > 0.0f ? size_t(std::min(band, float(kBands - 1))) : 0;
+    }
+
+    float lowest_m_;
+    std::vector<float> strains_;
 };
 
 }  // namespace

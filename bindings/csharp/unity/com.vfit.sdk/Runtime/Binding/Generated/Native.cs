@@ -556,7 +556,7 @@ namespace Vfit
         internal static extern Result vfit_cloth_hide_skin(ClothId cloth, float marginM, byte* triangles, uint count);
 
         /// <summary>By girths that the garment goes around, of the cloth as it was left by the last step, less what it sags
-        /// by: let it come to rest first, best on somebody who stands (docs/garments.md). Takes as long as some steps.
+        /// by: let it come to rest first, best on somebody who stands (docs/garments.md). Takes as long as some five steps.
         /// [read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_fit(ClothId cloth, FitZone* items, uint stride, uint* count);
