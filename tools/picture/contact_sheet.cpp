@@ -17,6 +17,13 @@ int row_width(const std::vector<SheetItem>& row, int height) {
     return sum;
 }
 
+/// As high as wanted, or lower, so that it is no wider.
+void write_within(Canvas& sheet, int x, int y, const std::string& text, int height, int width, const Color& color) {
+    constexpr int kLegible = 7;
+    while (height > kLegible && Canvas::text_width(text, height) > width) --height;
+    sheet.text(x, y, text, height, color);
+}
+
 }  // namespace
 
 Canvas contact_sheet(const std::string& title, const std::vector<std::vector<SheetItem>>& rows, int cell_height) {
@@ -31,14 +38,14 @@ Canvas contact_sheet(const std::string& title, const std::vector<std::vector<She
         height += heights.back() + kCaption;
     }
     Canvas sheet(width + 2 * kMargin, height + kMargin, kPaper);
-    sheet.text(kMargin, kTitle - 12, title, 22, kInk);
+    write_within(sheet, kMargin, kTitle - 12, title, 22, width, kInk);
     int y = kTitle + kMargin / 2;
     for (size_t r = 0; r < rows.size(); ++r) {
         int x = kMargin;
         for (const SheetItem& item : rows[r]) {
             const int w = width_at(item.picture, heights[r]);
             sheet.blit(item.picture, x, y, w, heights[r]);
-            sheet.text(x, y + heights[r] + 24, item.caption, 13, kSoftInk);
+            write_within(sheet, x, y + heights[r] + 24, item.caption, 13, w, kSoftInk);
             x += w + kGap;
         }
         y += heights[r] + kCaption;
