@@ -702,7 +702,7 @@ vfit_result vfit_cloth_fit(vfit_cloth handle, vfit_fit_zone* items, uint32_t str
         const Garment& garment = cloth->garment->garment;
         const auto worn = cloth->worn();
         WornGarment view = worn.view(*cloth);
-        const std::vector<Vec3> raised = without_sag(view, garment.simulated, {glm::length(cloth->settings.gravity), cloth->cloth.substep_s()});
+        const std::vector<Vec3> raised = without_sag(view, garment.simulated, {std::max(0.0f, -cloth->settings.gravity.y), cloth->cloth.substep_s()});
         view.positions = raised;
         const auto fits = fit_of(view, cloth->avatar->girth_levels());
         return write_list(items, stride, count, fits.size(), [&](size_t i) {

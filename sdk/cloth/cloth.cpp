@@ -158,7 +158,7 @@ struct Cloth::State {
     void wake() { asleep_at.clear(), still_s = 0.0f; }
     void accept_body(std::span<const Collider> limbs);
     float body_way() const;
-    int affordable_substeps(float dt, int times) const;
+    int affordable(int wanted) const;
     void feel_less(std::span<const Vec3> targets);
     void check_body(std::span<const Vec3> targets, std::span<const Collider> colliders) const;
     void reset(std::span<const Vec3> start);
@@ -329,7 +329,10 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
     if (!s.asleep_at.empty()) s.wake();
     const bool settles = s.settles_s > 0.0f;
     if (settles) s.settles_s -= dt;
-    const int times = settles ? s.haste : 1, substeps = s.affordable_substeps(dt, times);
+    const int wanted = std::max(1, int(std::lround(dt * kSubstepRate_hz * float(s.settings.substeps))));
+    int times = settles ? s.haste : 1;
+    const int affordable = s.affordable(times * wanted), substeps = std::min(wanted, affordable);
+    if (affordable < times * wanted) times = 1;  // haste is what a budget spares first
     for (int i = 0; i < times; ++i) {
         s.advance(dt, substeps, settles ? std::max(s.settings.damping, kSettlingDamping) : s.settings.damping, skinned_targets, jobs);
         s.lift_off_meshes(settles ? kLooksSettling : kLooks, jobs);
@@ -361,11 +364,10 @@ bool Cloth::State::stays_asleep(std::span<const Vec3> targets) const {
     return !asleep_at.empty() && body_way() <= kStill_m && farthest(asleep_at, targets) <= kStill_m;
 }
 
-/// Of a step that is done so many times: as many as the settings say, or as are expected to be done within the budget, but one.
-int Cloth::State::affordable_substeps(float dt, int times) const {
-    const int wanted = std::max(1, int(std::lround(dt * kSubstepRate_hz * float(settings.substeps))));
+/// Of so many, those that are expected to be done within the budget; at least one.
+int Cloth::State::affordable(int wanted) const {
     if (settings.budget_ms == 0.0f || substep_ms == 0.0f) return wanted;
-    return std::clamp(int(settings.budget_ms / (substep_ms * float(times))), 1, wanted);
+    return std::clamp(int(settings.budget_ms / substep_ms), 1, wanted);
 }
 
 void Cloth::State::check_body(std::span<const Vec3> targets, std::span<const Collider> colliders) const {

@@ -6,8 +6,8 @@
 
 namespace vfit::tools {
 
-/// Every design of the project in the size that is nearest to the default body, on that body: at rest with many sub-steps, and as a
-/// fitting room shows it.
+/// Every design of the project in the size that is nearest to the default body, on that body: standing as a
+/// fitting room shows it, and with its arms held out as it was drafted on; with the usual sub-steps and with 32.
 Json judge_ease(vfit_context context, bool quiet, Targets& targets);
 
 }  // namespace vfit::tools

@@ -11,7 +11,7 @@ namespace vfit {
 
 /// What stretched it.
 struct Sagging {
-    float gravity_m_s2 = 9.81f;
+    float gravity_m_s2 = 9.81f;  // downwards
     float substep_s = 0.0f;  // 0: it has not been stepped
 };
 

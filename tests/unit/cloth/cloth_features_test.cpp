@@ -255,6 +255,19 @@ TEST(ClothLengths, WhatComesToThemHangsStillWithinASecond) {
     EXPECT_EQ(cloth.stats().substeps, 8u) << "twice as many only until then";
 }
 
+TEST(ClothLengths, HasteIsWhatABudgetSparesFirst) {
+    Hanging hanging;
+    const auto settle = [&](float budget_ms) {
+        hanging.cloth->set_quality(8, budget_ms);
+        hanging.cloth->come_to_lengths([&](float, std::vector<Vec3>& targets, std::vector<Collider>&) { targets = hanging.targets; }, *hanging.jobs);
+        hanging.step(2);
+        return hanging.cloth->stats().substeps;
+    };
+    EXPECT_EQ(settle(0.0f), 16u) << "no budget";
+    EXPECT_EQ(settle(1e4f), 16u);
+    EXPECT_EQ(settle(1e-4f), 1u);
+}
+
 TEST(ClothBudget, LessTimeIsFewerSubstepsAndNoMoreThanAsked) {
     ClothSettings settings;
     settings.sleeps = false;
