@@ -327,10 +327,10 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
         return;
     }
     if (!s.asleep_at.empty()) s.wake();
-    const bool settles = s.settles_s > 0.0f;
+    const bool settles = s.settles_s > 0.0f, is_first = s.settles_s == kSettles_s;
     if (settles) s.settles_s -= dt;
     const int wanted = std::max(1, int(std::lround(dt * kSubstepRate_hz * float(s.settings.substeps))));
-    int times = settles ? s.haste : 1;
+    int times = settles && !is_first ? s.haste : 1;  // the first picture is waited for
     const int affordable = s.affordable(times * wanted), substeps = std::min(wanted, affordable);
     if (affordable < times * wanted) times = 1;  // haste is what a budget spares first
     for (int i = 0; i < times; ++i) {
