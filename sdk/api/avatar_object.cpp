@@ -21,6 +21,7 @@ AvatarObject::AvatarObject(Ref<Context> owner, const AvatarDesc& desc, std::span
     : ContextChild(std::move(owner)),
       avatar(context->body_model(), desc, shape, scale),
       sex(desc.sex),
+      detail(desc.detail),
       body(described(*context->body_model(), desc, shape, scale)),
       posed(*context),
       rest(*context) {

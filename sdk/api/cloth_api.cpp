@@ -1,6 +1,9 @@
 // vfit.h, part "garment and cloth".
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
+#include <mutex>
 #include <optional>
 
 #include "api/avatar_object.h"
@@ -30,7 +33,30 @@ struct GarmentObject : ContextChild {
         : ContextChild(std::move(owner)), garment(std::move(g)), material(m) {}
     const Garment garment;
     const FabricMaterial material;
+
+    /// To bodies of that level of detail; made when first asked for. Any thread.
+    const BoundGarment& bound(uint32_t detail) const;
+
+private:
+    mutable std::mutex mutex_;
+    mutable std::array<std::unique_ptr<const BoundGarment>, kCoarseBody + 1> bound_;
 };
+
+const BoundGarment& GarmentObject::bound(uint32_t detail) const {
+    std::lock_guard lock(mutex_);
+    std::unique_ptr<const BoundGarment>& known = bound_[detail];
+    if (known) return *known;
+    const auto model = context->body_model();
+    EvaluatedBody body;
+    model->evaluate(model->default_shape(garment.body_sex), body);
+    std::vector<Vec3> positions;
+    model->subdivide(detail, body.positions, positions);
+    const BodyTopology& t = model->topology(detail);
+    const size_t count = t.vertex_count;
+    known = std::make_unique<const BoundGarment>(
+        garment, BoundBody{positions, t.indices, std::span(t.skin_bones).first(count), std::span(t.skin_weights).first(count), std::span(t.parts).first(count)}, context->jobs.get());
+    return *known;
+}
 
 FabricLibrary fabrics_of(const Context& context) {
     return FabricLibrary::parse(read_file(context.data_dir + "/fabrics.json"));
@@ -40,7 +66,9 @@ Ref<GarmentObject> parse(const Ref<Context>& context, std::span<const std::byte>
     const FabricLibrary fabrics = fabrics_of(*context);
     Garment garment = parse_garment(bytes, fabrics);
     const FabricMaterial material = fabrics.get(garment.fabric);
-    return make<GarmentObject>(context, std::move(garment), material);
+    auto object = make<GarmentObject>(context, std::move(garment), material);
+    object->bound(0);  // bodies of that detail are usual, and who changes clothes does not want to wait
+    return object;
 }
 
 ClothSettings cloth_settings(const vfit_cloth_desc& d, const FabricMaterial& material, const Axes& axes) {
@@ -78,32 +106,11 @@ ClothSettings cloth_settings(const vfit_cloth_desc& d, const FabricMaterial& mat
     return s;
 }
 
-/// The avatar's body for a garment.
-struct Wearer {
-    std::vector<Vec3> fine;  // the authored body where the avatar is finer than the model
-    EvaluatedBody authored;
-    DressBody body;
-    Wearer(Context& context, const Garment& garment, AvatarObject& avatar);
-    Wearer(const Wearer&) = delete;
-    Wearer& operator=(const Wearer&) = delete;
-};
-
-Wearer::Wearer(Context& context, const Garment& garment, AvatarObject& avatar) {
-    if (!avatar.is_body()) fail(VFIT_ERROR_UNSUPPORTED, "garments are made for vfit's own body, not for a character from a file");
-    const auto model = context.body_model();
-    const BodyTopology& topology = avatar.avatar.topology();
-    const uint32_t count = topology.vertex_count;
-    model->evaluate(model->default_shape(garment.body_sex), authored);
-    if (authored.positions.size() != count) {
-        for (uint32_t level = 1; level <= kCoarseBody; ++level)
-            if (model->topology(level).vertex_count == count) model->subdivide(level, authored.positions, fine);
-    }
-    body.authored = fine.empty() ? authored.positions : fine;
-    body.rest = {avatar.avatar.rest().positions.data(), count};
-    body.indices = topology.indices;
-    body.skin_bones = avatar.avatar.skin_bones().first(count);
-    body.skin_weights = avatar.avatar.skin_weights().first(count);
-    body.parts = avatar.avatar.parts().first(count);
+DressBody wearer_of(const Avatar& avatar) {
+    const BodyTopology& topology = avatar.topology();
+    const size_t count = topology.vertex_count;
+    return {{std::span(avatar.rest().positions).first(count), topology.indices, avatar.skin_bones().first(count), avatar.skin_weights().first(count), avatar.parts().first(count)},
+            avatar.limbs()};
 }
 
 /// A forearm or a hand: sphere or capsule that starts or ends at a hand.
@@ -553,9 +560,10 @@ vfit_result vfit_cloth_create(vfit_avatar avatar_handle, vfit_garment garment_ha
         const ClothSettings settings = cloth_settings(d, garment->material, avatar->context->axes);
         // Forearms that pass through would leave their sleeves.
         const bool hands = (d.flags & VFIT_CLOTH_NO_HANDS) == 0 || garment->garment.has_sleeves();
-        const Wearer wearer(*avatar->context, garment->garment, *avatar);
+        if (!avatar->is_body()) fail(VFIT_ERROR_UNSUPPORTED, "garments are made for vfit's own body, not for a character from a file");
+        const DressBody wearer = wearer_of(avatar->avatar);
         const DressedSize size = dressed_size(*garment, d.size_label, *avatar);
-        Dress dress(garment->garment, garment->material, wearer.body, size.ratio, settings.thickness_m, size.own, avatar->context->jobs.get());
+        Dress dress(garment->garment, garment->bound(avatar->detail), garment->material, wearer, size.ratio, settings.thickness_m, size.own, avatar->context->jobs.get());
         std::vector<Vec2> cut = dress.cut(garment->garment, size.ratio, size.own);
         const bool any_fit = (d.flags & VFIT_CLOTH_ANY_FIT) != 0;
         if (d.size_label && !any_fit) check_wearable(*garment, d.size_label, dress, cut, *avatar);
@@ -564,9 +572,9 @@ vfit_result vfit_cloth_create(vfit_avatar avatar_handle, vfit_garment garment_ha
         const bool on_skin = (d.flags & VFIT_CLOTH_SKIN) != 0;
         if (on_skin && d.cover_m > 0.0f) fail(VFIT_ERROR_ARGUMENT, "desc.cover_m is of no use with VFIT_CLOTH_SKIN");
         if (on_skin || d.cover_m > 0.0f) {
-            const std::vector<uint8_t> below = below_garment(wearer.body, dress.rest(), hands);
-            if (on_skin) skin = skin_below(wearer.body, below);
-            else cover = cover_of(*avatar, wearer.body, below, hands, d.cover_m);
+            const std::vector<uint8_t> below = below_garment(wearer, dress.rest(), hands);
+            if (on_skin) skin = skin_below(wearer, below);
+            else cover = cover_of(*avatar, wearer, below, hands, d.cover_m);
         }
         auto cloth = make<ClothObject>(avatar.ref(), garment.ref(), std::move(dress), std::move(skin), std::move(cover), settings, hands, size.own != nullptr);
         cloth->any_fit = any_fit;

@@ -21,7 +21,7 @@ struct Share {
 
 }  // namespace
 
-void split_limb_weights(std::span<const Vec3> rest, const std::vector<LimbChain>& limbs,
+void split_limb_weights(std::span<const Vec3> rest, std::span<const LimbChain> limbs,
                         std::span<SkinBones> bones, std::span<SkinWeights> weights) {
     std::vector<Share> shares;
     for (size_t v = 0; v < rest.size(); ++v) {

@@ -21,7 +21,7 @@ using SkinWeights = std::array<float, kSkinBones>;
 /// Divides what the bones of each limb carry of a vertex linearly along the limb (Fig. 6 of the paper): all
 /// on the original bone at the near joint, all on the extension at the far one. Weights are sorted, heaviest
 /// first, and sum to 1.
-void split_limb_weights(std::span<const Vec3> rest, const std::vector<LimbChain>& limbs,
+void split_limb_weights(std::span<const Vec3> rest, std::span<const LimbChain> limbs,
                         std::span<SkinBones> bones, std::span<SkinWeights> weights);
 
 enum class SkinMethod {

@@ -2,6 +2,7 @@
 // waits for one that has not started; one worker alone completes any call.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <exception>
 #include <memory>
@@ -55,6 +56,22 @@ void parallel_for(Jobs& jobs, uint32_t count, Body&& body) {
     using Function = std::remove_reference_t<Body>;
     jobs.run([](void* data, uint32_t i) { (*static_cast<Function*>(data))(i); },
              const_cast<void*>(static_cast<const void*>(&body)), count);
+}
+
+/// On this thread where there are no jobs.
+template <typename Body>
+void parallel_for(Jobs* jobs, uint32_t count, Body&& body) {
+    if (jobs) return parallel_for(*jobs, count, body);
+    for (uint32_t i = 0; i < count; ++i) body(i);
+}
+
+/// The same for bodies as short as one vertex.
+template <typename Body>
+void parallel_for_vertices(Jobs* jobs, uint32_t count, Body&& body) {
+    constexpr uint32_t kShare = 128;
+    parallel_for(jobs, (count + kShare - 1) / kShare, [&](uint32_t at) {
+        for (uint32_t i = at * kShare; i < std::min((at + 1) * kShare, count); ++i) body(i);
+    });
 }
 
 }  // namespace vfit

@@ -12,6 +12,7 @@
 #include "avatar/skin.h"
 #include "body/body_model.h"
 #include "cloth/fabric/fabric.h"
+#include "cloth/garment/bound_garment.h"
 #include "cloth/garment/carry.h"
 #include "cloth/garment/garment.h"
 #include "cloth/garment/hems.h"
@@ -19,14 +20,9 @@
 
 namespace vfit {
 
-/// The avatar's body as the garment needs it; all spans are one a body vertex but indices.
-struct DressBody {
-    std::span<const Vec3> authored;       // default body of the garment's sex, rest pose
-    std::span<const Vec3> rest;           // the avatar's body in the same pose, same topology
-    std::span<const uint32_t> indices;    // three a triangle
-    std::span<const std::array<uint16_t, kSkinBones>> skin_bones;
-    std::span<const std::array<float, kSkinBones>> skin_weights;  // sum 1
-    std::span<const BodyPart> parts;      // empty: all vertices may carry the garment; else none of the arms
+/// The avatar's body as the garment needs it, of the topology of the one that the garment is bound to.
+struct DressBody : BoundBody {
+    std::span<const LimbChain> limbs;  // whose bones share in the limb's twist
 };
 
 class Dress {
@@ -34,7 +30,7 @@ public:
     /// size_ratio: of the rest lengths around the body (size_ratio of garment.h; 1: made to measure), of a garment that has neither
     /// flat triangles nor a cut_shape. thickness_m: the clearance that the carried garment keeps from the body. size: one of the
     /// garment's with lengths of its own (with a cut_shape: the garment's); null: made to the body, its ease where the author gave it.
-    Dress(const Garment& garment, const FabricMaterial& material, const DressBody& body, float size_ratio = 1.0f,
+    Dress(const Garment& garment, const BoundGarment& bound, const FabricMaterial& material, const DressBody& body, float size_ratio = 1.0f,
           float thickness_m = 0.004f, const GarmentSize* size = nullptr, Jobs* jobs = nullptr);
 
     const std::shared_ptr<const Fabric>& fabric() const { return fabric_; }

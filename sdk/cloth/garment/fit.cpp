@@ -10,15 +10,6 @@ namespace vfit {
 
 namespace {
 
-/// What a level's plane cuts of the garment.
-struct Cut {
-    float taped_m = 0.0f;  // in flat cloth, as a tape lies
-    float cut_m = 0.0f, worn_m = 0.0f;  // along all its folds, in flat cloth and as it is worn
-    float around_rad = 0.0f;
-    // Ends of the line at the garment's borders.
-    std::vector<Vec3> ends;
-};
-
 /// Where a plane crosses two sides of a triangle: the corners of each, and the share of the way from the first to the second.
 struct CrossedSides {
     uint32_t from[2], to[2];  // of indices
@@ -56,6 +47,15 @@ struct CutPiece {
     Edge edge[2];
     Vec2 flat[2];
     bool taken = false;
+};
+
+/// What a level's plane cuts of the garment.
+struct Cut {
+    std::vector<CutPiece> pieces;
+    float cut_m = 0.0f, worn_m = 0.0f;  // along all its folds, in flat cloth and as it is worn
+    float around_rad = 0.0f;
+    // Ends of the line at the garment's borders.
+    std::vector<Vec3> ends;
 };
 
 /// The pieces in a row, as a line in flat cloth. A seam, where two panels meet, ends it.
@@ -136,7 +136,6 @@ float taped_length(const std::vector<Vec2>& line) {
 Cut cut_at(const WornGarment& g, const GirthLevel& level) {
     Cut out;
     std::map<Edge, std::pair<int, Vec3>> crossed;  // by how many triangles, and where
-    std::vector<CutPiece> pieces;
     for_crossed(g.indices, [&](uint32_t v) { return g.positions[v].y - level.height_m; }, [&](const CrossedSides& sides) {
         const uint32_t* v = &g.indices[sides.from[0] - sides.from[0] % 3];
         if (!g.on_arm.empty() && (g.on_arm[v[0]] || g.on_arm[v[1]] || g.on_arm[v[2]])) return;  // of a sleeve
@@ -149,16 +148,22 @@ Cut cut_at(const WornGarment& g, const GirthLevel& level) {
             ++edge.first;
             edge.second = end == 0 ? worn.first : worn.second;
         }
-        pieces.push_back(piece);
+        out.pieces.push_back(piece);
         out.cut_m += glm::length(flat.second - flat.first);
         out.worn_m += glm::length(worn.second - worn.first);
         const Vec2 p(worn.first.x, worn.first.z - level.axis_z_m), q(worn.second.x, worn.second.z - level.axis_z_m);
         out.around_rad += std::abs(std::atan2(p.x * q.y - p.y * q.x, glm::dot(p, q)));
     });
-    FlatLines(pieces).each([&](const std::vector<Vec2>& line) { out.taped_m += taped_length(line); });
     for (const auto& [edge, seen] : crossed)
         if (seen.first == 1) out.ends.push_back(seen.second);
     return out;
+}
+
+/// In flat cloth, as a tape lies.
+float taped_length(Cut& cut) {
+    float taped = 0.0f;
+    FlatLines(cut.pieces).each([&](const std::vector<Vec2>& line) { taped += taped_length(line); });
+    return taped;
 }
 
 /// Across the opening of a coat: between its two ends, where there are just two.
@@ -192,7 +197,7 @@ std::vector<GirthFit> fit_of(const WornGarment& garment, std::span<const GirthLe
         fit.key = level.key;
         fit.body_m = level.body_m;
         fit.opening_m = opening_of(cut);
-        fit.garment_m = cut.taped_m;
+        fit.garment_m = taped_length(cut);
         fit.ease_m = fit.garment_m - fit.body_m;
         fit.strain = cut.worn_m / cut.cut_m - 1.0f;
         if (!garment.pressure_pa.empty()) {

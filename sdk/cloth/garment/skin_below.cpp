@@ -15,14 +15,14 @@ std::vector<uint8_t> below_garment(const DressBody& body, std::span<const Vec3> 
         return part == BodyPart::kLeftForearm || part == BodyPart::kLeftHand || part == BodyPart::kRightForearm || part == BodyPart::kRightHand;
     };
     const auto counts = [&](size_t v) {
-        const float y = body.rest[v].y;
+        const float y = body.positions[v].y;
         const bool level = y > low - kBelow_m && y < high + kAbove_m;
         if (body.parts.empty()) return level;
         const BodyPart part = body.parts[v];
         if (!with_hands && is_hand(part)) return false;
         return level || is_arm(part);
     };
-    std::vector<uint8_t> below(body.rest.size());
+    std::vector<uint8_t> below(body.positions.size());
     for (size_t v = 0; v < below.size(); ++v) below[v] = counts(v);
     return below;
 }
@@ -31,8 +31,8 @@ SkinBelow skin_below(const DressBody& body, std::span<const uint8_t> below) {
     Carried carried;
     std::vector<uint32_t> indices;
     constexpr uint32_t kNone = UINT32_MAX;
-    std::vector<uint32_t> place_of(body.rest.size(), kNone);
-    const std::vector<Vec3> wrapped = wrapped_skin(body.rest, body.indices);
+    std::vector<uint32_t> place_of(body.positions.size(), kNone);
+    const std::vector<Vec3> wrapped = wrapped_skin(body.positions, body.indices);
     for (size_t i = 0; i + 2 < body.indices.size(); i += 3) {
         const uint32_t* v = &body.indices[i];
         if (!below[v[0]] || !below[v[1]] || !below[v[2]]) continue;

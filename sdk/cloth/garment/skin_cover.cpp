@@ -102,10 +102,10 @@ private:
 
 SkinCover::SkinCover(const DressBody& body, std::span<const uint8_t> below, std::span<const Collider> colliders, float tolerance_m) {
     constexpr size_t kTried = 64;  // other ends of a capsule
-    const std::vector<Vec3> rest(body.rest.begin(), body.rest.end());
+    const std::vector<Vec3> rest(body.positions.begin(), body.positions.end());
     std::vector<Vec3> normals;
     compute_normals(rest, {body.indices.begin(), body.indices.end()}, normals);
-    const MeshQuery skin(body.rest, body.indices);
+    const MeshQuery skin(body.positions, body.indices);
     InnerBalls balls(skin, rest, normals, 0.5f * tolerance_m);
 
     std::vector<uint32_t> open;      // what is not covered yet, and how far outside it is

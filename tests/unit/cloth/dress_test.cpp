@@ -15,13 +15,19 @@ namespace {
 
 using namespace test;
 
+/// That garment of cotton, authored on one post and worn by another.
+template <typename... Rest>
+Dress dress_of(const Garment& garment, const Post& authored, const Post& wearer, Rest... rest) {
+    return Dress(garment, BoundGarment(garment, authored.body()), cotton(), wearer.body(), rest...);
+}
+
 float radius_of(const Vec3& p) { return std::hypot(p.x, p.z); }
 
 TEST(Dress, IsCarriedToAWiderBodyWithItsEase) {
     const Post thin(0.1f), wide(0.15f);
     const Garment g = sleeve(0.12f);
     validate_garment(g, library());
-    const Dress same(g, cotton(), thin.dressed_by(thin)), wider(g, cotton(), wide.dressed_by(thin));
+    const Dress same = dress_of(g, thin, thin), wider = dress_of(g, thin, wide);
     for (size_t i = 0; i < g.vertex_count(); ++i) {
         ASSERT_LT(glm::length(same.rest()[i] - g.mesh.positions[i]), 1e-5f);
         ASSERT_NEAR(radius_of(wider.rest()[i]), 0.17f, 1.5e-3f);
@@ -32,7 +38,7 @@ TEST(Dress, IsCarriedToAWiderBodyWithItsEase) {
 
 TEST(Dress, IsPushedOutOfTheBody) {
     const Post post(0.1f);
-    const Dress dress(sleeve(0.09f), cotton(), post.dressed_by(post), 1.0f, 0.005f);
+    const Dress dress = dress_of(sleeve(0.09f), post, post, 1.0f, 0.005f);
     const float flat = std::cos(kPi / float(kRound));  // the post's sides are flat
     for (const Vec3& p : dress.rest()) ASSERT_GT(radius_of(p), 0.1f * flat + 0.0045f);
 }
@@ -41,7 +47,7 @@ TEST(Dress, SizeScalesRestLengthsAroundTheBodyOnly) {
     const Post post(0.1f);
     const Garment g = sleeve(0.12f);
     const auto lengths = [&](float ratio) {
-        const Dress dress(g, cotton(), post.dressed_by(post), ratio);
+        const Dress dress = dress_of(g, post, post, ratio);
         float level = 0.0f, upright = 0.0f;
         for (const DistanceConstraint& e : dress.fabric()->data().edges) {
             if (e.a / kRound == 4 && e.b / kRound == 4) level += e.rest_m;
@@ -68,13 +74,13 @@ TEST(Dress, AShapeOfItsOwnIsKeptByALabelAndGoesWithTheBodyWithoutOne) {
         return sum;
     };
     const float side = 2.0f * float(kRound) * std::sin(kPi / float(kRound));  // of a ring of radius 1
-    EXPECT_NEAR(around(Dress(g, cotton(), thin.dressed_by(thin), 1.0f, 0.004f, &g.sizes[0])), 1.1f * 0.12f * side, 1e-4f);
-    EXPECT_NEAR(around(Dress(g, cotton(), wide.dressed_by(thin), 1.0f, 0.004f, &g.sizes[0])), 1.1f * 0.12f * side, 1e-4f);
-    EXPECT_NEAR(around(Dress(g, cotton(), thin.dressed_by(thin))), 1.1f * 0.12f * side, 1e-4f);
-    EXPECT_NEAR(around(Dress(g, cotton(), wide.dressed_by(thin))), 1.1f * 0.17f * side, 0.02f);
+    EXPECT_NEAR(around(dress_of(g, thin, thin, 1.0f, 0.004f, &g.sizes[0])), 1.1f * 0.12f * side, 1e-4f);
+    EXPECT_NEAR(around(dress_of(g, thin, wide, 1.0f, 0.004f, &g.sizes[0])), 1.1f * 0.12f * side, 1e-4f);
+    EXPECT_NEAR(around(dress_of(g, thin, thin)), 1.1f * 0.12f * side, 1e-4f);
+    EXPECT_NEAR(around(dress_of(g, thin, wide)), 1.1f * 0.17f * side, 0.02f);
     // Only its own uvs say where the warp runs: down, as those of the sleeve do, whatever they are scaled by.
     const auto softest = [&](const Garment& of) {
-        const Dress dress(of, cotton(), thin.dressed_by(thin), 1.0f, 0.004f, &of.sizes[0]);
+        const Dress dress = dress_of(of, thin, thin, 1.0f, 0.004f, &of.sizes[0]);
         std::vector<float> out;
         for (const DistanceConstraint& e : dress.fabric()->data().edges) out.push_back(e.compliance_m_n);
         return out;
@@ -87,7 +93,7 @@ TEST(Dress, AShapeOfItsOwnIsKeptByALabelAndGoesWithTheBodyWithoutOne) {
 
 TEST(Dress, FollowsItsBones) {
     const Post post(0.1f);
-    const Dress dress(sleeve(0.12f), cotton(), post.dressed_by(post));
+    const Dress dress = dress_of(sleeve(0.12f), post, post);
     const std::vector<Mat4> moved{Mat4(1.0f), glm::translate(Mat4(1.0f), Vec3(0.3f, 0, 0))};
     std::vector<Vec3> targets;
     Dress::Scratch scratch;
@@ -111,7 +117,7 @@ TEST(Dress, AStepFollowsWhatIsFixedOrLimitedAndTheBackstops) {
     g.most_way.assign(g.vertex_count(), 0.0f);
     const uint32_t limited = g.vertex_count() - 1;
     g.most_way[limited] = 0.05f;
-    const Dress dress(g, cotton(), post.dressed_by(post));
+    const Dress dress = dress_of(g, post, post);
     const std::vector<Mat4> still(2, Mat4(1.0f)), moved{glm::translate(Mat4(1.0f), Vec3(0, 0, 0.1f)), glm::translate(Mat4(1.0f), Vec3(0.3f, 0, 0))};
     const auto jobs = Jobs::own(0);
     std::vector<Vec3> before, after, followed;
@@ -132,7 +138,7 @@ TEST(Dress, AStepFollowsWhatIsFixedOrLimitedAndTheBackstops) {
 TEST(Dress, HangsOnThePostAndStaysOutsideIt) {
     const auto jobs = Jobs::own(0);
     const Post post(0.1f);
-    const Dress dress(sleeve(0.115f), cotton(), post.dressed_by(post));
+    const Dress dress = dress_of(sleeve(0.115f), post, post);
     std::vector<Vec3> targets;
     Dress::Scratch scratch;
     const std::vector<Mat4> still(2, Mat4(1.0f));
@@ -151,9 +157,10 @@ TEST(Dress, HangsOnThePostAndStaysOutsideIt) {
 
 TEST(Dress, RefusesABodyOfAnotherTopology) {
     const Post post(0.1f);
-    DressBody body = post.dressed_by(post);
-    body.rest = body.rest.first(10);
-    EXPECT_EQ(error_of([&] { Dress(sleeve(0.12f), cotton(), body); }),
+    DressBody body = post.body();
+    body.positions = body.positions.first(10);
+    const Garment g = sleeve(0.12f);
+    EXPECT_EQ(error_of([&] { Dress(g, BoundGarment(g, post.body()), cotton(), body); }),
               "-2 garment sleeve: authored body and avatar differ in topology");
 }
 

@@ -34,9 +34,7 @@ struct Post {
             }
         }
     }
-    DressBody dressed_by(const Post& authored) const {
-        return {authored.positions, positions, indices, bones, weights, {}};
-    }
+    DressBody body() const { return {{positions, indices, bones, weights, {}}, {}}; }
 
 private:
     void add(float radius, uint32_t i, float y) {

@@ -30,7 +30,7 @@ float outside_of(std::span<const Collider> shapes, const Vec3& p) {
 
 TEST(SkinCover, CoversTheSkinAndSticksOutOfItNoFurther) {
     const Post post(0.1f);
-    const DressBody body = post.dressed_by(post);
+    const DressBody body = post.body();
     const std::vector<uint8_t> below(post.positions.size(), 1);
     const MeshQuery skin(post.positions, post.indices);
     size_t last = 0;
@@ -58,13 +58,13 @@ TEST(SkinCover, ItIsTheBodysOwnCollidersThatComeFirst) {
     pole.center = {0, 0, 0}, pole.center_b = {0, 1, 0};
     pole.radius = pole.radius_b = 0.1f;
     pole.joint_b = 1;
-    EXPECT_EQ(SkinCover(post.dressed_by(post), std::vector<uint8_t>(post.positions.size(), 1), {&pole, 1}, 0.01f).size(), 0u);
-    EXPECT_EQ(SkinCover(post.dressed_by(post), std::vector<uint8_t>(post.positions.size(), 0), {}, 0.01f).size(), 0u) << "nothing is below";
+    EXPECT_EQ(SkinCover(post.body(), std::vector<uint8_t>(post.positions.size(), 1), {&pole, 1}, 0.01f).size(), 0u);
+    EXPECT_EQ(SkinCover(post.body(), std::vector<uint8_t>(post.positions.size(), 0), {}, 0.01f).size(), 0u) << "nothing is below";
 }
 
 TEST(SkinCover, GoesWithTheBones) {
     const Post post(0.1f);
-    const SkinCover cover(post.dressed_by(post), std::vector<uint8_t>(post.positions.size(), 1), {}, 0.02f);
+    const SkinCover cover(post.body(), std::vector<uint8_t>(post.positions.size(), 1), {}, 0.02f);
     const std::vector<Mat4> moved(2, glm::rotate(glm::translate(Mat4(1.0f), Vec3(0.3f, 0.1f, -0.2f)), 1.0f, Vec3(0, 0, 1)));
     const std::vector<Collider> shapes = shapes_of(cover, moved);
     for (const Vec3& p : post.positions) EXPECT_LT(outside_of(shapes, Vec3(moved[0] * Vec4(p, 1.0f))), 0.0201f);
