@@ -102,6 +102,14 @@ const std::vector<Measurement>& AvatarObject::measures() {
     return measures_;
 }
 
+const MeshQuery& AvatarObject::rest_skin() {
+    std::call_once(has_rest_skin_, [&] {
+        const BodyTopology& topology = avatar.topology();
+        rest_skin_.emplace(std::span(avatar.rest().positions).first(topology.vertex_count), topology.indices);
+    });
+    return *rest_skin_;
+}
+
 const std::vector<GirthLevel>& AvatarObject::girth_levels() {
     const std::vector<Measurement>& own = measures();
     std::lock_guard lock(measures_mutex_);

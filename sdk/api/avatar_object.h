@@ -38,6 +38,8 @@ struct AvatarObject : ContextChild {
     void pose_into(const Pose& pose, const SkinTarget& target);
     /// Tape measures of its own body; taken when first asked for.
     const std::vector<Measurement>& measures();
+    /// Of its body at rest; made when first asked for.
+    const MeshQuery& rest_skin();
     /// Where on the rest mesh its trunk's girths are taken; found when first asked for.
     const std::vector<GirthLevel>& girth_levels();
 
@@ -47,6 +49,8 @@ private:
     std::mutex measures_mutex_;
     std::vector<Measurement> measures_;
     std::vector<GirthLevel> girth_levels_;
+    std::once_flag has_rest_skin_;
+    std::optional<MeshQuery> rest_skin_;
 };
 
 }  // namespace vfit::api

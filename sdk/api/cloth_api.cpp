@@ -106,11 +106,12 @@ ClothSettings cloth_settings(const vfit_cloth_desc& d, const FabricMaterial& mat
     return s;
 }
 
-DressBody wearer_of(const Avatar& avatar) {
+DressBody wearer_of(AvatarObject& object) {
+    const Avatar& avatar = object.avatar;
     const BodyTopology& topology = avatar.topology();
     const size_t count = topology.vertex_count;
     return {{std::span(avatar.rest().positions).first(count), topology.indices, avatar.skin_bones().first(count), avatar.skin_weights().first(count), avatar.parts().first(count)},
-            avatar.limbs()};
+            avatar.limbs(), object.rest_skin()};
 }
 
 /// A forearm or a hand: sphere or capsule that starts or ends at a hand.
@@ -431,7 +432,7 @@ struct ClothObject : ContextChild {
         std::vector<Vec2> new_cut = dress.cut(garment->garment, size.ratio, size.own);
         if (label_text && !any_fit) check_wearable(*garment, label_text, dress, new_cut, *avatar);
         TakenUp taken;
-        Cloth resized = cloth.with_fabric(dress.fabric_of(garment->garment, garment->material, size.ratio, size.own, &taken));
+        Cloth resized = cloth.with_fabric(dress.fabric_of(garment->garment, garment->material, size.ratio, size.own, &taken, context->jobs.get()));
         std::swap(cloth, resized);
         std::swap(cut, new_cut);
         try {
@@ -561,7 +562,7 @@ vfit_result vfit_cloth_create(vfit_avatar avatar_handle, vfit_garment garment_ha
         // Forearms that pass through would leave their sleeves.
         const bool hands = (d.flags & VFIT_CLOTH_NO_HANDS) == 0 || garment->garment.has_sleeves();
         if (!avatar->is_body()) fail(VFIT_ERROR_UNSUPPORTED, "garments are made for vfit's own body, not for a character from a file");
-        const DressBody wearer = wearer_of(avatar->avatar);
+        const DressBody wearer = wearer_of(*avatar);
         const DressedSize size = dressed_size(*garment, d.size_label, *avatar);
         Dress dress(garment->garment, garment->bound(avatar->detail), garment->material, wearer, size.ratio, settings.thickness_m, size.own, avatar->context->jobs.get());
         std::vector<Vec2> cut = dress.cut(garment->garment, size.ratio, size.own);
@@ -737,10 +738,7 @@ vfit_result vfit_cloth_fit_map(vfit_cloth handle, float* values, uint32_t count)
         cloth->require_no_step();
         const Garment& garment = cloth->garment->garment;
         if (count != garment.drawn_count()) fail(VFIT_ERROR_ARGUMENT, "count is ", count, ", the garment has ", garment.drawn_count(), " vertices");
-        const Avatar& avatar = cloth->avatar->avatar;
-        const BodyTopology& topology = avatar.topology();
-        const MeshQuery skin(std::span(avatar.rest().positions).first(topology.vertex_count), topology.indices);
-        const auto tightness = tightness_of(cloth->worn().view(*cloth), cloth->cloth.strain(), cloth->garment->material.most_strain, skin);
+        const auto tightness = tightness_of(cloth->worn().view(*cloth), cloth->cloth.strain(), cloth->garment->material.most_strain, cloth->avatar->rest_skin());
         cloth->for_drawn(tightness, values, [](float x) { return x; });
         return VFIT_OK;
     });

@@ -56,7 +56,7 @@ void check(const FabricData& d) {
 
 }  // namespace
 
-Fabric::Fabric(FabricData data) : data_(std::move(data)) {
+Fabric::Fabric(FabricData data, Jobs* jobs) : data_(std::move(data)) {
     check(data_);
     const std::vector<float>& inverse_mass = data_.inverse_mass;
     for (auto* list : {&data_.edges, &data_.bends})
@@ -69,9 +69,11 @@ Fabric::Fabric(FabricData data) : data_(std::move(data)) {
         if (inverse_mass[i] == 0.0f) kinematic_.push_back(i);
 
     layout_ = lay_out(data_);
-    bends_ = make_batches(data_.bends, inverse_mass, layout_);
-    edges_ = make_batches(data_.edges, inverse_mass, layout_);
-    hinges_ = make_hinge_batches(data_.hinges, inverse_mass, layout_);
+    parallel_for(jobs, 3, [&](uint32_t kind) {
+        if (kind == 0) hinges_ = make_hinge_batches(data_.hinges, inverse_mass, layout_);
+        else if (kind == 1) edges_ = make_batches(data_.edges, inverse_mass, layout_);
+        else bends_ = make_batches(data_.bends, inverse_mass, layout_);
+    });
     tether_anchors_.resize(layout_.count());
     tether_lengths_.assign(layout_.count(), kNoTether_m);
     for (const ParticleLayout::Part& part : layout_.parts)

@@ -14,6 +14,7 @@
 #include "cloth/fabric/hinge_batches.h"
 #include "cloth/fabric/particle_layout.h"
 #include "cloth/triangle_fans.h"
+#include "core/jobs.h"
 #include "math/types.h"
 
 namespace vfit {
@@ -74,8 +75,8 @@ struct FabricData {
 /// Immutable and cooked: laid out for the solver. Made by cook_fabric or from explicit data.
 class Fabric {
 public:
-    /// Fails with VFIT_ERROR_DATA, naming the constraint, where the data do not fit together.
-    explicit Fabric(FabricData data);
+    /// Fails with VFIT_ERROR_DATA, naming the constraint, where the data do not fit together. jobs: may share the work.
+    explicit Fabric(FabricData data, Jobs* jobs = nullptr);
 
     uint32_t vertex_count() const { return uint32_t(data_.inverse_mass.size()); }
     uint32_t simulated_count() const { return vertex_count() - uint32_t(kinematic_.size()); }

@@ -100,9 +100,8 @@ Dress::Dress(const Garment& garment, const BoundGarment& bound, const FabricMate
     }
     bound.smoother->smooth(shifts);
     for (uint32_t i = 0; i < n; ++i) rest_.push_back(carried_to(garment.mesh.positions[i], {shifts[i][0], shifts[i][1], shifts[i][2]}));
-    const MeshQuery skin(body.positions, body.indices);
-    parallel_for_vertices(jobs, n, [&](uint32_t i) { push_out(skin, thickness_m, std::span(&rest_[i], 1)); });
-    clear_skin({body.positions, body.indices, skin}, skinned_triangles(garment), rest_);
+    parallel_for_vertices(jobs, n, [&](uint32_t i) { push_out(body.skin, thickness_m, std::span(&rest_[i], 1)); });
+    clear_skin({body.positions, body.indices, body.skin}, skinned_triangles(garment), rest_);
 
     Carried carried = bound.skin_below;
     carried.rest = rest_;
@@ -131,7 +130,7 @@ Dress::Dress(const Garment& garment, const BoundGarment& bound, const FabricMate
         followed.add(carried.rest[i], carried.bones[i], carried.weights[i]);
         followed_.push_back(i);
     }
-    fabric_ = fabric_of(garment, material, size_ratio, size, &taken_up_);
+    fabric_ = fabric_of(garment, material, size_ratio, size, &taken_up_, jobs);
     skin_.emplace(carried.skin());
     if (!followed_.empty()) followed_skin_.emplace(followed.skin());
 }
@@ -151,7 +150,7 @@ std::vector<Vec2> Dress::cut(const Garment& garment, float size_ratio, const Gar
     return out;
 }
 
-std::shared_ptr<const Fabric> Dress::fabric_of(const Garment& garment, const FabricMaterial& material, float size_ratio, const GarmentSize* size, TakenUp* taken_up) const {
+std::shared_ptr<const Fabric> Dress::fabric_of(const Garment& garment, const FabricMaterial& material, float size_ratio, const GarmentSize* size, TakenUp* taken_up, Jobs* jobs) const {
     std::vector<Vec2> cut = garment.has_own_lengths() ? cut_of(garment, rest_, size) : std::vector<Vec2>();
     const TakenUp taken = take_up(hems_, indices_, garment.simulated, cut);
     if (taken_up) *taken_up = taken;
@@ -161,7 +160,7 @@ std::shared_ptr<const Fabric> Dress::fabric_of(const Garment& garment, const Fab
     for (uint32_t i = 0; i < garment.vertex_count(); ++i)
         if (!garment.most_way.empty() && garment.most_way[i] > 0.0f && garment.simulated[i]) data.limits.push_back({i, garment.most_way[i]});
     keep_hems(hems_, data);
-    return std::make_shared<const Fabric>(std::move(data));
+    return std::make_shared<const Fabric>(std::move(data), jobs);
 }
 
 void Dress::place(std::span<const Mat4> matrices, std::vector<Vec3>& targets, Scratch& scratch, Jobs& jobs) const {

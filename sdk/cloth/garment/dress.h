@@ -23,6 +23,7 @@ namespace vfit {
 /// The avatar's body as the garment needs it, of the topology of the one that the garment is bound to.
 struct DressBody : BoundBody {
     std::span<const LimbChain> limbs;  // whose bones share in the limb's twist
+    const MeshQuery& skin;             // of these positions and indices
 };
 
 class Dress {
@@ -40,7 +41,7 @@ public:
     /// What was taken up of sleeves and legs that are too long.
     const TakenUp& taken_up() const { return taken_up_; }
     /// The same garment in another size: as many vertices and targets, other lengths.
-    std::shared_ptr<const Fabric> fabric_of(const Garment& garment, const FabricMaterial& material, float size_ratio, const GarmentSize* size, TakenUp* taken_up = nullptr) const;
+    std::shared_ptr<const Fabric> fabric_of(const Garment& garment, const FabricMaterial& material, float size_ratio, const GarmentSize* size, TakenUp* taken_up = nullptr, Jobs* jobs = nullptr) const;
     /// The garment on the avatar's rest body; one a garment vertex.
     const std::vector<Vec3>& rest() const { return rest_; }
     const std::vector<uint32_t>& indices() const { return indices_; }

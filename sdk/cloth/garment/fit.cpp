@@ -135,7 +135,7 @@ float taped_length(const std::vector<Vec2>& line) {
 
 Cut cut_at(const WornGarment& g, const GirthLevel& level) {
     Cut out;
-    std::map<Edge, std::pair<int, Vec3>> crossed;  // by how many triangles, and where
+    std::vector<std::pair<Edge, Vec3>> crossed;  // once for each of its triangles, and where
     for_crossed(g.indices, [&](uint32_t v) { return g.positions[v].y - level.height_m; }, [&](const CrossedSides& sides) {
         const uint32_t* v = &g.indices[sides.from[0] - sides.from[0] % 3];
         if (!g.on_arm.empty() && (g.on_arm[v[0]] || g.on_arm[v[1]] || g.on_arm[v[2]])) return;  // of a sleeve
@@ -144,9 +144,7 @@ Cut cut_at(const WornGarment& g, const GirthLevel& level) {
         CutPiece piece{{}, {flat.first, flat.second}};
         for (int end = 0; end < 2; ++end) {
             piece.edge[end] = std::minmax(g.indices[sides.from[end]], g.indices[sides.to[end]]);
-            auto& edge = crossed[piece.edge[end]];
-            ++edge.first;
-            edge.second = end == 0 ? worn.first : worn.second;
+            crossed.emplace_back(piece.edge[end], end == 0 ? worn.first : worn.second);
         }
         out.pieces.push_back(piece);
         out.cut_m += glm::length(flat.second - flat.first);
@@ -154,8 +152,11 @@ Cut cut_at(const WornGarment& g, const GirthLevel& level) {
         const Vec2 p(worn.first.x, worn.first.z - level.axis_z_m), q(worn.second.x, worn.second.z - level.axis_z_m);
         out.around_rad += std::abs(std::atan2(p.x * q.y - p.y * q.x, glm::dot(p, q)));
     });
-    for (const auto& [edge, seen] : crossed)
-        if (seen.first == 1) out.ends.push_back(seen.second);
+    std::sort(crossed.begin(), crossed.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
+    for (size_t i = 0; i < crossed.size(); ++i) {
+        const bool alone = (i == 0 || crossed[i - 1].first != crossed[i].first) && (i + 1 == crossed.size() || crossed[i + 1].first != crossed[i].first);
+        if (alone) out.ends.push_back(crossed[i].second);
+    }
     return out;
 }
 

@@ -17,6 +17,7 @@ struct Post {
     std::vector<uint32_t> indices;
     std::vector<std::array<uint16_t, kSkinBones>> bones;
     std::vector<std::array<float, kSkinBones>> weights;
+    std::optional<MeshQuery> skin;
 
     explicit Post(float radius) {
         for (uint32_t level = 0; level < kLevels; ++level)
@@ -33,8 +34,9 @@ struct Post {
                 indices.insert(indices.end(), {a, b, a + kRound, b, b + kRound, a + kRound});
             }
         }
+        skin.emplace(positions, indices);
     }
-    DressBody body() const { return {{positions, indices, bones, weights, {}}, {}}; }
+    DressBody body() const { return {{positions, indices, bones, weights, {}}, {}, *skin}; }
 
 private:
     void add(float radius, uint32_t i, float y) {
