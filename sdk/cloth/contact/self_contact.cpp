@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <queue>
+#include <numeric>
 
 namespace vfit {
 
@@ -69,54 +69,52 @@ void SelfContact::exclude_neighbours(float radius_m) {
     const FabricData& data = fabric_->data();
     const ParticleLayout& layout = fabric_->layout();
     struct Link {
-        uint32_t to;
+        uint32_t from, to;
         float length_m;
     };
-    std::vector<std::vector<Link>> links(fabric_->vertex_count());
-    for (const DistanceConstraint& e : data.edges) {
-        links[e.a].push_back({e.b, e.rest_m});
-        links[e.b].push_back({e.a, e.rest_m});
-    }
+    std::vector<Link> links;
+    links.reserve(2 * data.edges.size());
+    for (const DistanceConstraint& e : data.edges) links.push_back({e.a, e.b, e.rest_m}), links.push_back({e.b, e.a, e.rest_m});
     // Edges between two fixed vertices are no constraints, and still the cloth.
     for (size_t t = 0; t < data.indices.size(); t += 3)
         for (size_t k = 0; k < 3; ++k) {
             const uint32_t a = data.indices[t + k], b = data.indices[t + (k + 1) % 3];
-            if (data.inverse_mass[a] == 0.0f && data.inverse_mass[b] == 0.0f) {
-                links[a].push_back({b, 0.0f});
-                links[b].push_back({a, 0.0f});
-            }
+            if (data.inverse_mass[a] == 0.0f && data.inverse_mass[b] == 0.0f) links.push_back({a, b, 0.0f}), links.push_back({b, a, 0.0f});
         }
+    std::sort(links.begin(), links.end(), [](const Link& x, const Link& y) { return std::pair(x.from, x.to) < std::pair(y.from, y.to); });
+    std::vector<uint32_t> first(fabric_->vertex_count() + 1, 0);
+    for (const Link& link : links) ++first[link.from + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    const auto links_of = [&](uint32_t v) { return std::span(links).subspan(first[v], first[v + 1] - first[v]); };
+
     std::vector<float> distance(fabric_->vertex_count(), INFINITY);
     std::vector<uint8_t> never(fabric_->vertex_count(), 0), beside(fabric_->vertex_count(), 0);
-    std::vector<uint32_t> reached, of_run;
+    std::vector<uint32_t> reached, open, of_run;
     first_neighbour_.assign(layout.count() / kLanes + 1, 0);
     for (uint32_t run = 0; run < layout.count() / kLanes; ++run) {
         of_run.clear();
         for (uint32_t i = 0; i < kLanes; ++i) {
             const uint32_t seed = layout.vertex_of[run * kLanes + i];
             if (seed == ParticleLayout::kNobody || data.inverse_mass[seed] == 0.0f) continue;
-            using Entry = std::pair<float, uint32_t>;
-            std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-            reached.assign(1, seed);
+            // So few are reached that to look at some twice takes less time than to keep them in order.
+            reached.assign(1, seed), open.assign(1, seed);
             distance[seed] = 0.0f;
-            open.push({0.0f, seed});
-            while (!open.empty()) {
-                const auto [d, v] = open.top();
-                open.pop();
-                if (d > distance[v]) continue;
-                if (beside[v] == 0) of_run.push_back(v);
-                beside[v] |= uint8_t(1u << lane_of(i));
-                if (d <= kAlong * thickness_m_) never[v] |= uint8_t(1u << lane_of(i));
-                for (const Link& link : links[v]) {
-                    const float to = d + link.length_m;
+            for (size_t at = 0; at < open.size(); ++at)
+                for (const Link& link : links_of(open[at])) {
+                    const float to = distance[open[at]] + link.length_m;
                     if (to > radius_m || to >= distance[link.to]) continue;
                     if (distance[link.to] == INFINITY) reached.push_back(link.to);
                     distance[link.to] = to;
-                    open.push({to, link.to});
+                    open.push_back(link.to);
                 }
+            const auto lane = uint8_t(1u << lane_of(i));
+            for (const uint32_t v : reached) {
+                if (beside[v] == 0) of_run.push_back(v);
+                beside[v] |= lane;
+                if (distance[v] <= kAlong * thickness_m_) never[v] |= lane;
+                distance[v] = INFINITY;
             }
-            for (uint32_t v : reached) distance[v] = INFINITY;
-            for (const Link& link : links[seed]) never[link.to] |= uint8_t(1u << lane_of(i));
+            for (const Link& link : links_of(seed)) never[link.to] |= lane;
         }
         std::sort(of_run.begin(), of_run.end(), [&](uint32_t a, uint32_t b) { return layout.particle_of[a] < layout.particle_of[b]; });
         for (uint32_t v : of_run) {
