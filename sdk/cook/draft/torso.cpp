@@ -52,7 +52,8 @@ public:
 
         const float back_apex_y = underarm_ - kBackDartShort_m;
         block.back = lower(back_waist, back_dart, 0.5f * back_wanted, back_apex_y);
-        block.back.line(chest, "side waist").line(underarm, "side chest");
+        side_waist(block.back, chest, Vec2(0, 1));
+        block.back.line(underarm, "side chest");
         upper(block.back, underarm, body_.back_length, false);
 
         const float bust_y = body_.front_length - body_.bust_length;
@@ -115,6 +116,15 @@ private:
         return over_hip(line, hip);
     }
 
+    /// From the waist, where a piece that goes on below it is upright: what hangs a little lower or higher than it was drawn is as
+    /// wide there all the same. `up`: along the seam's upper end.
+    void side_waist(CutLine& line, const Vec2& to, const Vec2& up) const {
+        const Vec2 from = line.end();
+        const float third = glm::distance(from, to) / 3.0f;
+        if (design_.hem) line.cubic(from + Vec2(0.0f, third), to - third * up, to, "side waist");
+        else line.line(to, "side waist");
+    }
+
     /// The front's side seam up to the underarm point, which it returns: "side waist" is that long, the dart's upper leg is the
     /// lower one turned about the dart's point.
     Vec2 front_side(CutLine& line, const Vec2& waist, float side, float bust_y) const {
@@ -138,7 +148,7 @@ private:
             (upper_x(middle) < chest_ ? steep : flat) = middle;
         }
         const Vec2 low = lower_end(0.5f * (steep + flat)), high = turned(low, point, angle);
-        line.line(low, "side waist");
+        side_waist(line, low, turned(Vec2(0, 1), Vec2(0.0f), -angle));
         if (darted) line.line(point, "bust dart a").line(high, "bust dart b");
         const Vec2 underarm = high + Vec2(0.0f, side_chest_);
         line.line(underarm, "side chest");
