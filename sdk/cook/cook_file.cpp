@@ -31,20 +31,19 @@ std::string name_of(const std::string& path) {
 /// A specification does not tell whom it was drawn for: on the woman, and where its seams do not close on her, or it crosses her or
 /// itself, on the man too; the better of both.
 CookedGarment cook_on_either(const BodyModel& model, const std::vector<PatternSize>& sizes, const FabricLibrary& fabrics, CookOptions options, Jobs& jobs) {
-    const auto crossings = [](const CookedGarment& cooked) { return cooked.report.skin_crossings + cooked.report.self_crossings; };
     std::optional<CookedGarment> on_woman;
     std::string fault;
     try {
         options.sex = VFIT_SEX_FEMALE;
         on_woman = cook_pattern(model, sizes, 0, fabrics, options, jobs);
-        if (crossings(*on_woman) == 0) return std::move(*on_woman);
+        if (on_woman->report.crossings() == 0) return std::move(*on_woman);
     } catch (const Error& error) {
         fault = error.what();
     }
     try {
         options.sex = VFIT_SEX_MALE;
         CookedGarment on_man = cook_pattern(model, sizes, 0, fabrics, options, jobs);
-        return on_woman && crossings(*on_woman) <= crossings(on_man) ? std::move(*on_woman) : std::move(on_man);
+        return on_woman && on_woman->report.crossings() <= on_man.report.crossings() ? std::move(*on_woman) : std::move(on_man);
     } catch (const Error&) {
         if (!on_woman) fail(VFIT_ERROR_DATA, fault);
         return std::move(*on_woman);

@@ -38,7 +38,8 @@ struct CookedGarment {
 /// Triangles and seams agree on which side of the cloth is out, not on which of the two it is: that which looks away from the body.
 void turn_outside_out(Garment& garment, const MeshQuery& skin);
 
-/// base: the size that is draped; the others have its mesh in their own lengths. VFIT_ERROR_DATA names the panel, stitch or size.
+/// base: the size that is draped; the others have its mesh in their own lengths. What crosses itself or the skin is draped again, up to
+/// three times, with triangles of a slightly other size. VFIT_ERROR_DATA names the panel, stitch or size.
 CookedGarment cook_pattern(const BodyModel& model, const std::vector<PatternSize>& sizes, size_t base, const FabricLibrary& fabrics,
                            const CookOptions& options, Jobs& jobs);
 

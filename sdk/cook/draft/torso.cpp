@@ -52,7 +52,9 @@ public:
 
         const float back_apex_y = underarm_ - kBackDartShort_m;
         block.back = lower(back_waist, back_dart, 0.5f * back_wanted, back_apex_y);
-        side_waist(block.back, chest, Vec2(0, 1));
+        const Vec2 way = (chest - back_waist) / side;
+        side_upright_ = {way.y, way.x};
+        side_waist(block.back, chest);
         block.back.line(underarm, "side chest");
         upper(block.back, underarm, body_.back_length, false);
 
@@ -112,17 +114,22 @@ private:
         const Vec2 corner(hip_ + out, -depth + 0.5f * design_.flare * (hip_ + out));
         if (corner.y > hip.y - 0.02f) fail(VFIT_ERROR_DATA, "the hem rises to the hips: \"torso.flare\"");
         CutLine line(Vec2(0.0f, -depth));
-        line.quadratic(Vec2(0.5f * corner.x, -depth), corner, "hem").line(hip, "side skirt");
+        line.quadratic(Vec2(0.5f * corner.x, -depth), corner, "hem");
+        // Below the hips it goes on upright, and flares out bit by bit.
+        constexpr float kUpright = 0.3f;
+        line.quadratic(Vec2(hip.x, glm::mix(hip.y, corner.y, kUpright)), hip, "side skirt");
         return over_hip(line, hip);
     }
 
-    /// From the waist, where a piece that goes on below it is upright: what hangs a little lower or higher than it was drawn is as
-    /// wide there all the same. `up`: along the seam's upper end.
-    void side_waist(CutLine& line, const Vec2& to, const Vec2& up) const {
-        const Vec2 from = line.end();
-        const float third = glm::distance(from, to) / 3.0f;
-        if (design_.hem) line.cubic(from + Vec2(0.0f, third), to - third * up, to, "side waist");
-        else line.line(to, "side waist");
+    /// From the waist, where the back of a piece that goes on below it is upright: what hangs a little lower or higher than it was
+    /// drawn is as wide there all the same. The front's is the same curve, turned.
+    void side_waist(CutLine& line, const Vec2& to) const {
+        if (!design_.hem) {
+            line.line(to, "side waist");
+            return;
+        }
+        const Vec2 from = line.end(), third = (to - from) / 3.0f, up = side_upright_.x * third + side_upright_.y * Vec2(-third.y, third.x);
+        line.cubic(from + up, to - up, to, "side waist");
     }
 
     /// The front's side seam up to the underarm point, which it returns: "side waist" is that long, the dart's upper leg is the
@@ -148,7 +155,7 @@ private:
             (upper_x(middle) < chest_ ? steep : flat) = middle;
         }
         const Vec2 low = lower_end(0.5f * (steep + flat)), high = turned(low, point, angle);
-        side_waist(line, low, turned(Vec2(0, 1), Vec2(0.0f), -angle));
+        side_waist(line, low);
         if (darted) line.line(point, "bust dart a").line(high, "bust dart b");
         const Vec2 underarm = high + Vec2(0.0f, side_chest_);
         line.line(underarm, "side chest");
@@ -187,6 +194,7 @@ private:
     const DraftMeasures& body_;
     const TorsoDesign& design_;
     const std::optional<JoinedWaist> joined_;
+    Vec2 side_upright_{0.0f};  // of the back: the upright, along the way up the side seam and to its left
     float chest_ = 0.0f, waist_ = 0.0f, hip_ = 0.0f, underarm_ = 0.0f, side_chest_ = 0.0f;
 };
 
