@@ -323,22 +323,16 @@ struct ClothObject : ContextChild {
         placed();
         let_inner_grow();
     }
-    /// What is worn below is there in the pose alone. It comes out of the skin and pushes this one outwards as a whole: were it there at
-    /// once, parts of this one would be inside of it and parts outside.
+    /// What is worn below is there in the pose alone. It grows from the bones' axes and pushes this one outwards as a whole: were it there
+    /// at once, parts of this one would be inside of it and parts outside; and from the skin, a skirt would come out of two legs, between
+    /// which this one hangs.
     void let_inner_grow() {
         constexpr int kGrows = 40, kSettles = 10;  // frames
-        constexpr float kBelow_m = 0.005f;
+        const std::vector<BoneAxis> axes = avatar->avatar.bone_axes(avatar->avatar.skinning_matrices());
         std::vector<std::vector<Vec3>> from;
-        if (skin) {
-            const MeshQuery query(skin_places, skin->indices);
-            for (const Inner& inner : worn_over) {
-                const auto reading = reading_of(inner.cloth->access, "cloth below");
-                std::vector<Vec3>& places = from.emplace_back();
-                for (const Vec3& p : inner.cloth->cloth.positions()) {
-                    const MeshQuery::Closest skin_below = query.closest(p);
-                    places.push_back(skin_below.point - kBelow_m * skin_below.normal);
-                }
-            }
+        for (const Inner& inner : worn_over) {
+            const auto reading = reading_of(inner.cloth->access, "cloth below");
+            from.push_back(inner.cloth->dress.carry().on_axes(axes, inner.cloth->cloth.positions()));
         }
         std::vector<Vec3> places;
         for (int frame = 1; frame <= kGrows + kSettles; ++frame) {
@@ -348,7 +342,7 @@ struct ClothObject : ContextChild {
                 const auto reading = reading_of(worn_over[i].cloth->access, "cloth below");
                 const std::vector<Vec3>& to = worn_over[i].cloth->cloth.positions();
                 places.clear();
-                for (size_t v = 0; v < to.size(); ++v) places.push_back(glm::mix(from[i][v], to[v], share));
+                for (size_t v = 0; v < to.size(); ++v) places.push_back(glm::mix(from[i][v], to[v], 0.5f + (1.0f - 0.5f)*share));
                 cloth.move_mesh(worn_over[i].mesh, places);
             }
             cloth.step(1.0f / 60.0f, targets, colliders, *context->jobs);

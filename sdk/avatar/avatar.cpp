@@ -57,6 +57,15 @@ Avatar::Avatar(AvatarSource source, const AvatarDesc& desc)
     move(t_pose);
 }
 
+std::vector<BoneAxis> Avatar::bone_axes(std::span<const Mat4> matrices) const {
+    const auto posed = [&](int bone, const Vec3& rest) { return Vec3(matrices[size_t(bone)] * Vec4(rest, 1.0f)); };
+    std::vector<BoneAxis> axes;
+    for (int i = 0; i < int(rig_bones().size()); ++i) axes.push_back({posed(i, rig_bones()[size_t(i)].rest_head), posed(i, rig_bones()[size_t(i)].rest_tail)});
+    for (const LimbChain& limb : limbs())
+        for (const int bone : limb.rig_bones) axes[size_t(bone)] = {posed(limb.rig_bones.front(), limb.near_joint), posed(limb.rig_bones.back(), limb.far_joint)};
+    return axes;
+}
+
 void Avatar::move(const Pose& pose) {
     rig_.pose(pose, posed_, matrices_);
     pose_ = pose;

@@ -99,6 +99,9 @@ public:
     /// Of the unposed body: where rest() is.
     void rest_colliders(std::vector<Collider>& out) const;
 
+    /// One a rig bone, posed by those skinning matrices.
+    std::vector<BoneAxis> bone_axes(std::span<const Mat4> matrices) const;
+
     /// Skinning matrices (one a rig bone) and colliders of a body that gets dressed: that share of the way from
     /// standing straight, arms held out (0), to the pose (1). The hips are where the pose has them.
     void while_dressing(float share, std::span<Mat4> matrices, std::vector<Collider>& out) const;

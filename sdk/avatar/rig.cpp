@@ -99,6 +99,12 @@ int stand_in(int bone) {
 
 }  // namespace
 
+Vec3 BoneAxis::nearest(const Vec3& p) const {
+    const Vec3 way = to - from;
+    const float length2 = glm::dot(way, way);
+    return from + (length2 > 0.0f ? std::clamp(glm::dot(p - from, way) / length2, 0.0f, 1.0f) : 0.0f) * way;
+}
+
 AvatarRig::AvatarRig(std::vector<AvatarBone> bones, float floor_y, uint32_t twist_steps)
     : bones_(std::move(bones)) {
     map_humanoid_bones();

@@ -35,6 +35,12 @@ struct LimbChain {
     std::vector<int> rig_bones;
 };
 
+/// The line that a bone runs along; of a limb's, the whole limb's.
+struct BoneAxis {
+    Vec3 from, to;
+    Vec3 nearest(const Vec3& p) const;
+};
+
 class AvatarRig {
 public:
     /// `bones` is the model's rig, placed in the rest posture; every humanoid bone that VRM requires must be there

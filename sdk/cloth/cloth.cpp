@@ -9,6 +9,7 @@
 #include "body/mesh.h"
 #include "cloth/contact/crossing_guard.h"
 #include "cloth/contact/mesh_lift.h"
+#include "cloth/contact/mesh_yield.h"
 #include "cloth/solver/particle_solver.h"
 #include "cloth/rigid_motion.h"
 #include "core/clock.h"
@@ -137,6 +138,7 @@ struct Cloth::State {
     std::optional<TriangleGroups> groups;  // of the cloth
     std::optional<CrossingGuard> guard;
     std::optional<MeshLift> lift;
+    std::optional<MeshYield> yield;
     // The same, found when they are asked for.
     mutable std::vector<Vec3> normals;
     mutable std::vector<float> edge_strains, strains, pressures;
@@ -171,6 +173,7 @@ struct Cloth::State {
     void part_layers(Jobs& jobs);
     void guard_layers(float dt, Jobs& jobs);
     void lift_off_meshes(uint32_t steps, Jobs& jobs);
+    void yield_to_cloth();
     void publish();
     void find_normals() const;
     void find_strains() const;
@@ -388,9 +391,10 @@ void Cloth::State::advance(float dt, int count, float damping, std::span<const V
     const float h = dt / float(count);
     const ContactSettings contact{settings.friction, settings.friction * kKineticShare, kMaxDepenetration_m_s * h};
     solver.advance({dt, count, settings.gravity, settings.air, std::pow(1.0f - damping, h), contact, settings.thickness_m,
-                    previous_targets, targets, colliders, meshes, lift ? lift->particles() : std::span<const float>()}, jobs);
+                    previous_targets, targets, colliders, meshes, lift ? lift->particles() : std::span<const float>(), yield ? yield->particles() : std::span<const float>()}, jobs);
     guard_layers(dt, jobs);
     publish();
+    yield_to_cloth();
     rest_if_still(dt, targets);
     std::copy(targets.begin(), targets.end(), previous_targets.begin());
     colliders.arrive();
@@ -430,6 +434,13 @@ void Cloth::State::lift_off_meshes(uint32_t steps, Jobs& jobs) {
     if (!lift) lift.emplace(fabric);
     if (!guard) triangles_now(positions, jobs);
     lift->look(*groups, meshes, steps, body_way());
+}
+
+void Cloth::State::yield_to_cloth() {
+    if (std::none_of(meshes.begin(), meshes.end(), [](const ContactMesh& mesh) { return mesh.what() == MeshOf::cloth; })) return;
+    if (!yield) yield.emplace(fabric);
+    find_strains();
+    yield->look(strains, lift ? lift->particles() : std::span<const float>());
 }
 
 void Cloth::State::rest_if_still(float dt, std::span<const Vec3> targets) {

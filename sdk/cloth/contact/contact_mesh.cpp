@@ -280,7 +280,7 @@ void ContactMesh::find_planes(const Moving& moving, float dt, float thickness_m,
     for (uint32_t first = 0; first < moving.count; first += uint32_t(kLanes)) {
         const Particle* run = moving.places + first;
         float lift = 0.0f;
-        if (!lift_m.empty()) lift = *std::max_element(&lift_m[first], &lift_m[first] + kLanes);
+        if (!lift_m.empty()) lift = std::max(lift, *std::max_element(&lift_m[first], &lift_m[first] + kLanes));
         const float reach = reach_of(moving, first, dt, thickness_m + lift, near);
         if (near.empty()) continue;
         float edge = 0.0f;

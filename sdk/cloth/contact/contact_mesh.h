@@ -24,6 +24,7 @@ public:
     ContactMesh(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts = {}, MeshOf what = MeshOf::solid);
 
     size_t vertex_count() const { return vertex_count_; }
+    MeshOf what() const { return what_; }
     /// Where its vertices are at the end of this step. `around`: the box in which it is looked for.
     void accept(std::span<const Vec3> positions, const Vec3& low, const Vec3& high);
     /// They were where they are now.
@@ -46,7 +47,7 @@ public:
     /// Planes for runs of particles as they lie and move at the begin of a step of dt, by rising runs. Those of a run that is
     /// not near are left out. May run for several parts at the same time.
     /// near: room to work in.
-    /// lift_m: of each particle, what it keeps beyond the thickness; empty: nothing.
+    /// lift_m: of each particle, what it keeps beyond the thickness, or may go below it (negative); empty: nothing.
     /// touched: the part's memory of this mesh, one a particle; empty at first.
     void find_planes(const Moving& moving, float dt, float thickness_m, std::span<const float> lift_m, std::vector<uint32_t>& near, std::vector<Touched>& touched,
                      std::vector<RunPlanes>& out) const;

@@ -69,6 +69,15 @@ void Carry::take_out(std::span<const Mat4> matrices, std::span<const Vec3> posit
     });
 }
 
+std::vector<Vec3> Carry::on_axes(std::span<const BoneAxis> axes, std::span<const Vec3> positions) const {
+    std::vector<Vec3> out;
+    for (uint32_t i = 0; i < vertex_count(); ++i) {
+        Vec3& on = out.emplace_back(0.0f);
+        for (uint32_t k = starts_[i]; k < starts_[i + 1]; ++k) on += influences_[k].weight * axes[influences_[k].bone].nearest(positions[i]);
+    }
+    return out;
+}
+
 void Carry::put_in(std::span<const Mat4> matrices, const Unposed& cloth, std::span<Vec3> positions, std::span<Vec3> normals, Jobs& jobs) const {
     for_all(matrices, jobs, [&](uint32_t i, const Mat4& blended) {
         const Mat4& m = cloth.by_heaviest[i] ? heaviest(i, matrices) : blended;

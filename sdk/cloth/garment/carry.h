@@ -30,6 +30,9 @@ public:
     /// same matrices up to one rigid motion is moved by that motion.
     void put_in(std::span<const Mat4> matrices, const Unposed& cloth, std::span<Vec3> positions, std::span<Vec3> normals, Jobs& jobs) const;
 
+    /// One a vertex: within the bones that carry it, nearest to where it is; of several, by their weights. axes: one a rig bone.
+    std::vector<Vec3> on_axes(std::span<const BoneAxis> axes, std::span<const Vec3> positions) const;
+
 private:
     struct Influence {
         uint32_t bone;

@@ -51,7 +51,7 @@ public:
         std::span<const Vec3> from, to;  // the fabric's targets at both ends of the step
         const ColliderMotion& colliders;
         std::span<const ContactMesh> meshes;
-        std::span<const float> lift_m;  // off these, one a particle; may be empty
+        std::span<const float> lift_m, cloth_lift_m;  // off these, one a particle, of solids and of cloth below; may be empty
     };
     /// The box about all particles.
     void bounds(Vec3& low, Vec3& high) const;
