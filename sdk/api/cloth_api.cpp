@@ -12,6 +12,7 @@
 #include "cloth/cloth.h"
 #include "cloth/garment/dress.h"
 #include "cloth/garment/fit.h"
+#include "cloth/garment/grown_below.h"
 #include "cloth/garment/hidden_skin.h"
 #include "cloth/garment/garment.h"
 #include "cloth/garment/sag.h"
@@ -203,6 +204,8 @@ struct ClothObject : ContextChild {
     struct Inner {
         Ref<ClothObject> cloth;
         uint32_t mesh;
+        GrownBelow grown;     // while this one is put on
+        uint32_t grown_mesh;
     };
     std::vector<Inner> worn_over;
     std::vector<Collider> colliders;
@@ -323,29 +326,28 @@ struct ClothObject : ContextChild {
         placed();
         let_inner_grow();
     }
-    /// What is worn below is there in the pose alone. It grows from the bones' axes and pushes this one outwards as a whole: were it there
-    /// at once, parts of this one would be inside of it and parts outside; and from the skin, a skirt would come out of two legs, between
+    /// What is worn below is there in the pose alone. It grows from the bones and pushes this one outwards as a whole: were it there at
+    /// once, parts of this one would be inside of it and parts outside; and from the skin, a skirt would come out of two legs, between
     /// which this one hangs.
     void let_inner_grow() {
         constexpr int kGrows = 40, kSettles = 10;  // frames
         const std::vector<BoneAxis> axes = avatar->avatar.bone_axes(avatar->avatar.skinning_matrices());
-        std::vector<std::vector<Vec3>> from;
+        std::vector<std::vector<Vec3>> within;
         for (const Inner& inner : worn_over) {
             const auto reading = reading_of(inner.cloth->access, "cloth below");
-            from.push_back(inner.cloth->dress.carry().on_axes(axes, inner.cloth->cloth.positions()));
+            within.push_back(inner.cloth->dress.carry().on_axes(axes, inner.cloth->cloth.positions()));
         }
         std::vector<Vec3> places;
         for (int frame = 1; frame <= kGrows + kSettles; ++frame) {
-            move_inner();
-            const float share = float(frame) / float(kGrows);
-            for (size_t i = 0; i < from.size() && share < 1.0f; ++i) {
+            for (size_t i = 0; i < worn_over.size() && frame <= kGrows; ++i) {
                 const auto reading = reading_of(worn_over[i].cloth->access, "cloth below");
-                const std::vector<Vec3>& to = worn_over[i].cloth->cloth.positions();
-                places.clear();
-                for (size_t v = 0; v < to.size(); ++v) places.push_back(glm::mix(from[i][v], to[v], 0.5f + (1.0f - 0.5f)*share));
-                cloth.move_mesh(worn_over[i].mesh, places);
+                worn_over[i].grown.place(worn_over[i].cloth->cloth.positions(), within[i], float(frame) / float(kGrows), places);
+                cloth.move_mesh(worn_over[i].grown_mesh, places);
             }
+            if (frame > kGrows) move_inner();
             cloth.step(1.0f / 60.0f, targets, colliders, *context->jobs);
+            for (const Inner& inner : worn_over)
+                if (frame == kGrows) cloth.hide_mesh(inner.grown_mesh);
         }
     }
     void step() {
@@ -673,7 +675,10 @@ vfit_result vfit_cloth_wear_over(vfit_cloth handle, vfit_cloth inner_handle) {
         if (inner->is_over(*cloth)) fail(VFIT_ERROR_ARGUMENT, "inner is worn over cloth already");
         for (const auto& below : cloth->worn_over)
             if (below.cloth.get() == inner.ref().get()) return VFIT_OK;
-        cloth->worn_over.push_back({inner.ref(), cloth->cloth.add_mesh(inner->cloth.positions().size(), inner->dress.indices(), {}, MeshOf::cloth)});
+        GrownBelow grown(inner->cloth.positions().size(), inner->dress.indices());
+        const uint32_t mesh = cloth->cloth.add_mesh(inner->cloth.positions().size(), inner->dress.indices(), {}, MeshOf::cloth);
+        const uint32_t grown_mesh = cloth->cloth.add_mesh(grown.vertex_count(), grown.indices(), {}, MeshOf::cloth);
+        cloth->worn_over.push_back({inner.ref(), mesh, std::move(grown), grown_mesh});
         return VFIT_OK;
     });
 }

@@ -389,9 +389,10 @@ void Cloth::State::advance(float dt, int count, float damping, std::span<const V
         backstops_placed = true;
     }
     const float h = dt / float(count);
+    const std::span<const float> lift_m = lift ? lift->particles() : std::span<const float>(), cloth_lift_m = yield ? yield->particles() : lift_m;
     const ContactSettings contact{settings.friction, settings.friction * kKineticShare, kMaxDepenetration_m_s * h};
     solver.advance({dt, count, settings.gravity, settings.air, std::pow(1.0f - damping, h), contact, settings.thickness_m,
-                    previous_targets, targets, colliders, meshes, lift ? lift->particles() : std::span<const float>(), yield ? yield->particles() : std::span<const float>()}, jobs);
+                    previous_targets, targets, colliders, meshes, lift_m, cloth_lift_m}, jobs);
     guard_layers(dt, jobs);
     publish();
     yield_to_cloth();
@@ -437,7 +438,7 @@ void Cloth::State::lift_off_meshes(uint32_t steps, Jobs& jobs) {
 }
 
 void Cloth::State::yield_to_cloth() {
-    if (std::none_of(meshes.begin(), meshes.end(), [](const ContactMesh& mesh) { return mesh.what() == MeshOf::cloth; })) return;
+    if (!settings.yields || std::none_of(meshes.begin(), meshes.end(), [](const ContactMesh& mesh) { return mesh.what() == MeshOf::cloth; })) return;
     if (!yield) yield.emplace(fabric);
     find_strains();
     yield->look(strains, lift ? lift->particles() : std::span<const float>());

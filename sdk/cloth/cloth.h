@@ -33,6 +33,7 @@ struct ClothSettings {
     float self_thickness_m = 0.0f;  // kept between the cloth's own layers; 0: they pass through each other
     float virtual_m = 0.0f;  // points of triangles, no further from each other, meet colliders as vertices do; 0: none
     bool pressure = false;        // how the body presses against each vertex is found
+    bool yields = true;           // to cloth below, rather than tear
     bool clears_meshes = true;    // where a mesh stands out between vertices, they go further off it than thickness_m
     bool sleeps = true;           // a cloth that lies still, on a body that does, is not stepped
 };

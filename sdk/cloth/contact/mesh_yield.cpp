@@ -5,7 +5,7 @@
 namespace vfit {
 
 namespace {
-constexpr float kTorn = 0.4f, kWhole = 0.2f;                        // mean strain of a vertex's threads
+constexpr float kTorn = 0.5f, kWhole = 0.25f;  // mean strain of a vertex's threads
 constexpr float kGives_m = 0.002f, kComesBack_m = 0.0005f, kGivesMost_m = 0.15f;  // a step
 }  // namespace
 

@@ -43,6 +43,22 @@ TEST(WhileDressing, EndsInThePose) {
         EXPECT_LT(glm::distance(end.colliders[i].center, posed[i].center), 1e-5f);
 }
 
+TEST(BoneAxes, RunFromJointToJointOfThePosedBody) {
+    const Avatar avatar = striding();
+    const std::vector<BoneAxis> axes = avatar.bone_axes(avatar.skinning_matrices());
+    ASSERT_EQ(axes.size(), avatar.rig_bones().size());
+    const Body joints = avatar.joints();
+    for (const LimbChain& limb : avatar.limbs()) {
+        if (limb.bone != VFIT_BONE_LEFT_UPPER_LEG) continue;
+        for (const int bone : limb.rig_bones) {
+            EXPECT_LT(glm::distance(axes[size_t(bone)].from, joints.at(VFIT_JOINT_LEFT_HIP)), 0.01f);
+            EXPECT_LT(glm::distance(axes[size_t(bone)].to, joints.at(VFIT_JOINT_LEFT_KNEE)), 0.01f);
+        }
+        return;
+    }
+    FAIL() << "no thigh";
+}
+
 TEST(WhileDressing, BeginsUprightOverTheHipsWithTheArmsOut) {
     const Avatar avatar = striding();
     const Dressed begin(avatar, 0.0f);

@@ -33,6 +33,16 @@ struct Strip {
     }
 };
 
+TEST(Carry, FindsPlacesWithinTheBones) {
+    const std::vector<SkinBones> bones{{0}, {1}, {0, 1}};
+    const std::vector<SkinWeights> weights{{1.0f}, {1.0f}, {0.25f, 0.75f}};
+    const std::vector<BoneAxis> axes{{{-0.1f, 0, 0}, {-0.1f, 1, 0}}, {{0.1f, 0, 0}, {0.1f, 1, 0}}};
+    const std::vector<Vec3> on = Carry(bones, weights).on_axes(axes, std::vector<Vec3>{{-0.4f, 0.5f, 0.2f}, {0.3f, 1.5f, 0.1f}, {0, 0.5f, 0.3f}});
+    EXPECT_LT(glm::distance(on[0], Vec3(-0.1f, 0.5f, 0)), 1e-6f);
+    EXPECT_LT(glm::distance(on[1], Vec3(0.1f, 1, 0)), 1e-6f) << "not beyond its end";
+    EXPECT_LT(glm::distance(on[2], Vec3(0.05f, 0.5f, 0)), 1e-6f);
+}
+
 Mat4 turned(const Vec3& axis, float angle_rad, const Vec3& about) {
     return glm::translate(Mat4(1.0f), about) * glm::rotate(Mat4(1.0f), angle_rad, glm::normalize(axis)) *
            glm::translate(Mat4(1.0f), -about);
