@@ -789,8 +789,9 @@ VFIT_API vfit_result vfit_cloth_set_wind(vfit_cloth cloth, const float wind[3]);
  * one), and then a state is no longer the same on each run. 0 sub-steps: 8; 0 ms: no budget.      [excl]  */
 VFIT_API vfit_result vfit_cloth_set_quality(vfit_cloth cloth, uint32_t substeps, float budget_ms);
 /* From now on cloth is worn over inner, a cloth of the same avatar, and stays outside of it by its thickness: step
- * inner first, each frame. An inner one that gets destroyed stays where it was. VFIT_ERROR_ARGUMENT where cloth is
- * worn below inner already.                                                                      [excl]  */
+ * inner first, each frame. vfit_cloth_reset then puts cloth on over it; without, inner is there at once, and may catch
+ * parts of cloth inside of it. Where cloth is too tight for what is below, it lets that through rather than tear. An
+ * inner one that gets destroyed stays where it was. VFIT_ERROR_ARGUMENT where cloth is worn below inner already. [excl] */
 VFIT_API vfit_result vfit_cloth_wear_over(vfit_cloth cloth, vfit_cloth inner);
 /* Skin that this garment alone hides from all who do not look up under it by more than 45 degrees: triangles[i] becomes 1
  * for those triangles of the avatar's INDEX, and stays what it was for the others, so that garments add up. Leave them

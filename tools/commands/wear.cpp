@@ -110,6 +110,7 @@ private:
         }
         check(made);
         for (const Cloth& inner : cloths_) check(vfit_cloth_wear_over(cloth.get(), inner.get()));
+        if (!cloths_.empty()) check(vfit_cloth_reset(cloth.get()));
         cloths_.push_back(std::move(cloth));
         names_.push_back(name);
     }

@@ -9,8 +9,8 @@ namespace vfit {
 namespace {
 constexpr float kRow_m = 0.03f;    // from one row of a curtain to the next
 constexpr float kDown = 0.5f;      // cosine
-// Front and back must not meet in the middle, where the nearest of the two is no longer the one before which cloth hangs.
-constexpr float kSmallest = 0.5f;  // of its way off the bones
+// Front and back must not meet in the middle: there the nearest of the two may be the one on the far side.
+constexpr float kSmallest = 0.3f;  // of its way off the bones
 }  // namespace
 
 GrownBelow::GrownBelow(size_t vertices, std::span<const uint32_t> indices) : vertices_(vertices), indices_(indices.begin(), indices.end()) {

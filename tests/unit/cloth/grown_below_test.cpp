@@ -1,4 +1,4 @@
-// A garment that grows below another: from half its width outwards, with a curtain below the hem and none at the upper border.
+// A garment that grows below another: from a part of its width outwards, with a curtain below the hem and none at the upper border.
 #include "cloth/garment/grown_below.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ TEST(GrownBelow, GrowsWithACurtainBelowItsHemAlone) {
     for (const float share : {0.0f, 0.5f, 1.0f}) {
         grown.place(g.mesh.positions, within, share, places);
         ASSERT_EQ(places.size(), grown.vertex_count());
-        const float radius = 0.12f * (0.5f + 0.5f * share);
+        const float radius = 0.12f * (0.3f + 0.7f * share);
         size_t below = 0, nowhere = 0;
         for (size_t v = 0; v < places.size(); ++v) {
             const Vec3& p = places[v];

@@ -541,8 +541,10 @@ namespace Vfit
         internal static extern Result vfit_cloth_set_quality(ClothId cloth, uint substeps, float budgetMs);
 
         /// <summary>From now on cloth is worn over inner, a cloth of the same avatar, and stays outside of it by its
-        /// thickness: step inner first, each frame. An inner one that gets destroyed stays where it was.
-        /// VFIT_ERROR_ARGUMENT where cloth is worn below inner already. [excl]</summary>
+        /// thickness: step inner first, each frame. vfit_cloth_reset then puts cloth on over it; without, inner is there at
+        /// once, and may catch parts of cloth inside of it. Where cloth is too tight for what is below, it lets that
+        /// through rather than tear. An inner one that gets destroyed stays where it was. VFIT_ERROR_ARGUMENT where cloth
+        /// is worn below inner already. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_wear_over(ClothId cloth, ClothId inner);
 
