@@ -147,9 +147,13 @@ CookedGarment cook_pattern(const BodyModel& model, const std::vector<PatternSize
     double seconds = best.report.seconds;
     for (const float other : {0.95f, 1.05f, 0.9f}) {
         if (best.report.crossings() == 0) break;
-        CookedGarment again = cook_once(model, sizes, base, fabrics, options, options.triangle_m * other, jobs);
-        seconds += again.report.seconds;
-        if (again.report.crossings() < best.report.crossings()) best = std::move(again);
+        try {
+            CookedGarment again = cook_once(model, sizes, base, fabrics, options, options.triangle_m * other, jobs);
+            seconds += again.report.seconds;
+            if (again.report.crossings() < best.report.crossings()) best = std::move(again);
+        } catch (const Error&) {
+            // What it was draped to at first is better than nothing.
+        }
     }
     best.report.seconds = seconds;
     return best;
