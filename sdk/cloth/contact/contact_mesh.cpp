@@ -53,11 +53,11 @@ void ContactMesh::order(std::span<const Vec3> positions) {
         x = (x | x << 4) & 0x030c30c3;
         return (x | x << 2) & 0x09249249;
     };
-    std::vector<uint32_t> used = indices_;
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
+    std::vector<uint8_t> is_used(vertex_count_, 0);
+    for (const uint32_t v : indices_) is_used[v] = 1;
     std::vector<std::pair<uint32_t, uint32_t>> codes;
-    for (uint32_t v : used) {
+    for (uint32_t v = 0; v < vertex_count_; ++v) {
+        if (!is_used[v]) continue;
         const Vec3 cell = finite(positions[v]) ? glm::clamp((positions[v] - low) * 128.0f, 0.0f, 1023.0f) : Vec3(0.0f);
         codes.emplace_back(spread(uint32_t(cell.x)) | spread(uint32_t(cell.y)) << 1 | spread(uint32_t(cell.z)) << 2, v);
     }

@@ -1,7 +1,9 @@
 // From a shape and a material to masses and constraints in SI units.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <queue>
+#include <span>
 
 #include "cloth/fabric/fabric.h"
 #include "core/error.h"
@@ -220,11 +222,12 @@ std::vector<Tether> cook_tethers(std::span<const float> inverse_mass, std::span<
         float length;
     };
     const size_t n = inverse_mass.size();
-    std::vector<std::vector<Link>> links(n);
-    for (const DistanceConstraint& e : edges) {
-        links[e.a].push_back({e.b, e.rest_m});
-        links[e.b].push_back({e.a, e.rest_m});
-    }
+    std::vector<uint32_t> first(n + 1, 0);  // of a vertex in links
+    for (const DistanceConstraint& e : edges) ++first[e.a + 1], ++first[e.b + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<Link> links(2 * edges.size());
+    std::vector<uint32_t> fill(first.begin(), first.end() - 1);
+    for (const DistanceConstraint& e : edges) links[fill[e.a]++] = {e.b, e.rest_m}, links[fill[e.b]++] = {e.a, e.rest_m};
     // Dijkstra from all fixed vertices at once.
     std::vector<float> distance(n, INFINITY);
     std::vector<uint32_t> anchor(n, 0);
@@ -240,7 +243,7 @@ std::vector<Tether> cook_tethers(std::span<const float> inverse_mass, std::span<
         const auto [d, i] = open.top();
         open.pop();
         if (d > distance[i]) continue;
-        for (const Link& link : links[i])
+        for (const Link& link : std::span(links).subspan(first[i], first[i + 1] - first[i]))
             if (d + link.length < distance[link.to]) {
                 distance[link.to] = d + link.length;
                 anchor[link.to] = anchor[i];
