@@ -108,7 +108,7 @@ void judge(const char* function, vfit_result result, std::string broken, Report&
         if (result == VFIT_ERROR_UNKNOWN) broken = std::string("an unexpected exception: ") + text;
         if (result != VFIT_ERROR_HANDLE) report.functions[function].last_error = text;
     }
-    if (result < VFIT_ERROR_PLUGIN || result > VFIT_END_OF_STREAM) broken = "an unknown result " + std::to_string(result);
+    if (result < VFIT_ERROR_NOT_WEARABLE || result > VFIT_END_OF_STREAM) broken = "an unknown result " + std::to_string(result);
     if (!broken.empty() && report.broken.size() < 20) report.broken.push_back(std::string(function) + ": " + broken);
 }
 
