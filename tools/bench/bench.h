@@ -53,5 +53,6 @@ void add_odd_scans(Command& app);
 void add_motion(Command& app);
 void add_contact_features(Command& app);
 void add_garments(Command& app);
+void add_layers(Command& app);
 
 }  // namespace vfit::tools
