@@ -675,6 +675,7 @@ vfit_result vfit_cloth_wear_over(vfit_cloth handle, vfit_cloth inner_handle) {
         if (inner->is_over(*cloth)) fail(VFIT_ERROR_ARGUMENT, "inner is worn over cloth already");
         for (const auto& below : cloth->worn_over)
             if (below.cloth.get() == inner.ref().get()) return VFIT_OK;
+        cloth->dress.lift_over(inner->dress, cloth->settings.thickness_m);
         GrownBelow grown(inner->cloth.positions().size(), inner->dress.indices());
         const uint32_t mesh = cloth->cloth.add_mesh(inner->cloth.positions().size(), inner->dress.indices(), {}, MeshOf::cloth);
         const uint32_t grown_mesh = cloth->cloth.add_mesh(grown.vertex_count(), grown.indices(), {}, MeshOf::cloth);

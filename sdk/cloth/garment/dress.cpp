@@ -103,10 +103,10 @@ Dress::Dress(const Garment& garment, const BoundGarment& bound, const FabricMate
     parallel_for_vertices(jobs, n, [&](uint32_t i) { push_out(body.skin, thickness_m, std::span(&rest_[i], 1)); });
     clear_skin({body.positions, body.indices, body.skin}, skinned_triangles(garment), rest_);
 
-    Carried carried = bound.skin_below;
-    carried.rest = rest_;
-    split_limb_weights(rest_, body.limbs, carried.bones, carried.weights);
-    carry_.emplace(carried.bones, carried.weights);
+    carried_ = bound.skin_below;
+    carried_.rest = rest_;
+    split_limb_weights(rest_, body.limbs, carried_.bones, carried_.weights);
+    carry_.emplace(carried_.bones, carried_.weights);
     const std::vector<uint32_t> triangles = body.bindable_triangles(false);
     const size_t bone_count = body.bone_count();
     std::optional<MeshQuery> bindable;  // made where a backstop needs it
@@ -116,23 +116,40 @@ Dress::Dress(const Garment& garment, const BoundGarment& bound, const FabricMate
         const BodyBall ball = ball_below(*bindable, rest_[i]);
         std::vector<float> bones(bone_count);
         Binding::of(bindable->closest(rest_[i]), triangles).add_bones(body, bones);
-        carried.add(ball.center, bones);
+        carried_.add(ball.center, bones);
         backstops_.push_back({i, ball.radius_m});
     }
     if (garment.has_own_lengths()) hems_ = limb_hems(indices_, bound.parts_below, garment.simulated, rest_);
     std::vector<uint8_t> of_hem(n, 0);
     for (const LimbHem& hem : hems_)
         for (const uint32_t v : hem.vertices) of_hem[v] = 1;
-    Carried followed;
-    for (uint32_t i = 0; i < carried.rest.size(); ++i) {
+    for (uint32_t i = 0; i < carried_.rest.size(); ++i) {
         const bool limited = i < n && ((!garment.most_way.empty() && garment.most_way[i] > 0.0f) || of_hem[i]);
-        if (i < n && garment.simulated[i] && !limited) continue;
-        followed.add(carried.rest[i], carried.bones[i], carried.weights[i]);
-        followed_.push_back(i);
+        if (i >= n || !garment.simulated[i] || limited) followed_.push_back(i);
     }
     fabric_ = fabric_of(garment, material, size_ratio, size, &taken_up_, jobs);
-    skin_.emplace(carried.skin());
-    if (!followed_.empty()) followed_skin_.emplace(followed.skin());
+    skin();
+}
+
+void Dress::skin() {
+    skin_.emplace(carried_.skin());
+    if (followed_.empty()) return;
+    Carried followed;
+    for (const uint32_t i : followed_) followed.add(carried_.rest[i], carried_.bones[i], carried_.weights[i]);
+    followed_skin_.emplace(followed.skin());
+}
+
+void Dress::lift_over(const Dress& below, float thickness_m) {
+    constexpr float kAside_m = 0.005f, kFarthest_m = 0.03f;
+    const MeshQuery cloth(below.carried_from(), below.indices());
+    for (const uint32_t v : fabric_->kinematic_vertices()) {
+        Vec3& place = carried_.rest[v];
+        const MeshQuery::Closest near = cloth.closest(place);
+        const float above = glm::dot(place - near.point, near.normal);
+        const bool lies_there = near.distance < kFarthest_m && glm::length(place - near.point - above * near.normal) < kAside_m;
+        if (lies_there && above < thickness_m) place += (thickness_m - above) * near.normal;
+    }
+    skin();
 }
 
 std::vector<Vec2> Dress::cut(const Garment& garment, float size_ratio, const GarmentSize* size) const {

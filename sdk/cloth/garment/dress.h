@@ -45,6 +45,11 @@ public:
     /// The garment on the avatar's rest body; one a garment vertex.
     const std::vector<Vec3>& rest() const { return rest_; }
     const std::vector<uint32_t>& indices() const { return indices_; }
+    /// Where the bones carry it from: rest(), and what was lifted over garments below. One a garment vertex.
+    std::span<const Vec3> carried_from() const { return std::span(carried_.rest).first(rest_.size()); }
+    /// What is fixed goes with the skin, as that of a garment worn below does: from now on so far off that one, where the two lie on
+    /// each other.
+    void lift_over(const Dress& below, float thickness_m);
     /// The garment's vertices by the bones that carry them.
     const Carry& carry() const { return *carry_; }
 
@@ -65,8 +70,11 @@ private:
     std::vector<Backstop> backstops_;
     std::vector<LimbHem> hems_;
     TakenUp taken_up_;
+    void skin();
+
     std::optional<Carry> carry_;
-    std::optional<Skin> skin_;  // of rest_, then the backstops' centres
+    Carried carried_;           // rest_ as it was lifted, then the backstops' centres
+    std::optional<Skin> skin_;  // of these
     std::vector<uint32_t> followed_;  // of these
     std::optional<Skin> followed_skin_;
 };
