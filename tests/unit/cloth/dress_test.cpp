@@ -135,6 +135,20 @@ TEST(Dress, AStepFollowsWhatIsFixedOrLimitedAndTheBackstops) {
     EXPECT_GT(hang, size_t(kRound));
 }
 
+TEST(Dress, WhatIsFixedIsLiftedOverAGarmentBelow) {
+    const Post post(0.1f);
+    const Dress below = dress_of(sleeve(0.12f), post, post);
+    Dress above = dress_of(sleeve(0.12f), post, post);
+    above.lift_over(below, 0.006f);
+    std::vector<Vec3> targets;
+    Dress::Scratch scratch;
+    above.place(std::vector<Mat4>(2, Mat4(1.0f)), targets, scratch, *Jobs::own(0));
+    for (const uint32_t v : above.fabric()->kinematic_vertices()) {
+        EXPECT_NEAR(radius_of(targets[v]), 0.126f, 1e-3f);
+        EXPECT_EQ(above.rest()[v], below.rest()[v]) << "its cut stays";
+    }
+}
+
 TEST(Dress, HangsOnThePostAndStaysOutsideIt) {
     const auto jobs = Jobs::own(0);
     const Post post(0.1f);
