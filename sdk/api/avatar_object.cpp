@@ -1,6 +1,7 @@
 #include "api/avatar_object.h"
 
 #include "avatar/avatar_measures.h"
+#include "cloth/garment/wrapped_skin.h"
 
 namespace vfit::api {
 
@@ -108,6 +109,14 @@ const MeshQuery& AvatarObject::rest_skin() {
         rest_skin_.emplace(std::span(avatar.rest().positions).first(topology.vertex_count), topology.indices);
     });
     return *rest_skin_;
+}
+
+const std::vector<Vec3>& AvatarObject::wrapped_rest() {
+    std::call_once(has_wrapped_rest_, [&] {
+        const BodyTopology& topology = avatar.topology();
+        wrapped_rest_ = wrapped_skin(std::span(avatar.rest().positions).first(topology.vertex_count), topology.indices);
+    });
+    return wrapped_rest_;
 }
 
 const std::vector<GirthLevel>& AvatarObject::girth_levels() {

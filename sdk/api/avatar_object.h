@@ -40,6 +40,8 @@ struct AvatarObject : ContextChild {
     const std::vector<Measurement>& measures();
     /// Of its body at rest; made when first asked for.
     const MeshQuery& rest_skin();
+    /// The same as cloth meets it (wrapped_skin.h).
+    const std::vector<Vec3>& wrapped_rest();
     /// Where on the rest mesh its trunk's girths are taken; found when first asked for.
     const std::vector<GirthLevel>& girth_levels();
 
@@ -49,8 +51,9 @@ private:
     std::mutex measures_mutex_;
     std::vector<Measurement> measures_;
     std::vector<GirthLevel> girth_levels_;
-    std::once_flag has_rest_skin_;
+    std::once_flag has_rest_skin_, has_wrapped_rest_;
     std::optional<MeshQuery> rest_skin_;
+    std::vector<Vec3> wrapped_rest_;
 };
 
 }  // namespace vfit::api

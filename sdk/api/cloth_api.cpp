@@ -112,7 +112,7 @@ DressBody wearer_of(AvatarObject& object) {
     const BodyTopology& topology = avatar.topology();
     const size_t count = topology.vertex_count;
     return {{std::span(avatar.rest().positions).first(count), topology.indices, avatar.skin_bones().first(count), avatar.skin_weights().first(count), avatar.parts().first(count)},
-            avatar.limbs(), object.rest_skin()};
+            avatar.limbs(), object.rest_skin(), object.wrapped_rest()};
 }
 
 /// A forearm or a hand: sphere or capsule that starts or ends at a hand.
@@ -678,7 +678,7 @@ vfit_result vfit_cloth_wear_over(vfit_cloth handle, vfit_cloth inner_handle) {
         cloth->dress.lift_over(inner->dress, cloth->settings.thickness_m);
         GrownBelow grown(inner->cloth.positions().size(), inner->dress.indices());
         const uint32_t mesh = cloth->cloth.add_mesh(inner->cloth.positions().size(), inner->dress.indices(), {}, MeshOf::cloth);
-        const uint32_t grown_mesh = cloth->cloth.add_mesh(grown.vertex_count(), grown.indices(), {}, MeshOf::cloth);
+        const uint32_t grown_mesh = cloth->cloth.add_mesh(grown.vertex_count(), grown.indices(), {}, MeshOf::coming_cloth);
         cloth->worn_over.push_back({inner.ref(), mesh, std::move(grown), grown_mesh});
         return VFIT_OK;
     });

@@ -42,7 +42,7 @@ struct PutOnPhase {
 };
 constexpr PutOnPhase kHang{15, 4}, kMove{40, 4}, kSettle{10, 8};
 constexpr float kPutOnDamping = 0.99f;
-constexpr uint32_t kLooksSettling = 16, kLooks = 64;  // steps in which all triangles have been looked at for crossing meshes
+constexpr uint32_t kLooksSettling = 16, kLooks = 64, kLooksOffCloth = 16;  // steps in which all triangles have been looked at for crossing meshes
 // After a change of lengths: what falls into its new folds should hang still within a second. A coat is a pendulum of 0.8 m, which no
 // damping brings to rest faster than in 2 s; so its time runs twice as fast, in steps as short as ever: cloth that is pulled up a leg
 // went through it in longer ones.
@@ -130,14 +130,15 @@ struct Cloth::State {
     ColliderMotion colliders;
     std::vector<ContactMesh> meshes;
     std::vector<std::vector<Vec3>> mesh_places;  // that they go to
-    std::vector<Vec3> previous_targets;  // one a vertex, then one a backstop
+    std::vector<Vec3> held;  // targets, where fixed vertices are lifted off other cloth
+    std::vector<Vec3> previous_targets;  // one a vertex, then one a backstop: as held
     bool backstops_placed = false;       // previous_targets holds the backstops as well
 
     std::vector<Vec3> positions;  // what callers read
     std::vector<Vec3> before, now;  // with own layers: the same at the begin of the step, carried along; and what the step made of it
     std::optional<TriangleGroups> groups;  // of the cloth
     std::optional<CrossingGuard> guard;
-    std::optional<MeshLift> lift;
+    std::optional<MeshLift> off_solids, off_cloth;  // made when there are such meshes
     std::optional<MeshYield> yield;
     // The same, found when they are asked for.
     mutable std::vector<Vec3> normals;
@@ -162,12 +163,13 @@ struct Cloth::State {
     float body_way() const;
     int affordable(int wanted) const;
     void feel_less(std::span<const Vec3> targets);
+    std::span<const Vec3> held_at(std::span<const Vec3> targets);
     void check_body(std::span<const Vec3> targets, std::span<const Collider> colliders) const;
     void reset(std::span<const Vec3> start);
     void advance(float dt, int count, float damping, std::span<const Vec3> targets, Jobs& jobs);
     void teleport(std::span<const Vec3> targets);
     void carry(const RigidMotion& motion);
-    void rest_if_still(float dt, std::span<const Vec3> targets);
+    void rest_if_still(float dt, std::span<const Vec3> held, std::span<const Vec3> targets);
     TriangleGroups& triangles_now(std::span<const Vec3> places, Jobs& jobs);
     CrossingGuard& guarding();
     void part_layers(Jobs& jobs);
@@ -189,6 +191,7 @@ Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings
     const FabricData& data = fabric->data();
     s.positions.resize(n);
     s.previous_targets.resize(fabric->target_count());
+    s.held.reserve(fabric->target_count());
     s.asleep_at.reserve(fabric->target_count());
     s.strains.resize(n);
     s.pressures.resize(n);
@@ -379,8 +382,9 @@ void Cloth::State::check_body(std::span<const Vec3> targets, std::span<const Col
 }
 
 /// The colliders have been accepted.
-void Cloth::State::advance(float dt, int count, float damping, std::span<const Vec3> targets, Jobs& jobs) {
+void Cloth::State::advance(float dt, int count, float damping, std::span<const Vec3> skinned_targets, Jobs& jobs) {
     if (settings.self_thickness_m > 0.0f) before = positions;
+    const std::span<const Vec3> targets = held_at(skinned_targets);
     teleport(targets);
     feel_less(targets);
     if (!backstops_placed) {
@@ -389,14 +393,15 @@ void Cloth::State::advance(float dt, int count, float damping, std::span<const V
         backstops_placed = true;
     }
     const float h = dt / float(count);
-    const std::span<const float> lift_m = lift ? lift->particles() : std::span<const float>(), cloth_lift_m = yield ? yield->particles() : lift_m;
+    const auto lifts_of = [](const std::optional<MeshLift>& lift) { return lift ? lift->particles() : std::span<const float>(); };
+    const std::span<const float> lift_m = lifts_of(off_solids), cloth_lift_m = yield ? yield->particles() : lifts_of(off_cloth);
     const ContactSettings contact{settings.friction, settings.friction * kKineticShare, kMaxDepenetration_m_s * h};
     solver.advance({dt, count, settings.gravity, settings.air, std::pow(1.0f - damping, h), contact, settings.thickness_m,
                     previous_targets, targets, colliders, meshes, lift_m, cloth_lift_m}, jobs);
     guard_layers(dt, jobs);
     publish();
     yield_to_cloth();
-    rest_if_still(dt, targets);
+    rest_if_still(dt, targets, skinned_targets);
     std::copy(targets.begin(), targets.end(), previous_targets.begin());
     colliders.arrive();
     for (ContactMesh& mesh : meshes) mesh.arrive();
@@ -432,21 +437,37 @@ void Cloth::State::guard_layers(float dt, Jobs& jobs) {
 
 void Cloth::State::lift_off_meshes(uint32_t steps, Jobs& jobs) {
     if (meshes.empty() || !settings.clears_meshes) return;
-    if (!lift) lift.emplace(fabric);
     if (!guard) triangles_now(positions, jobs);
-    lift->look(*groups, meshes, steps, body_way());
+    const auto lift = [&](MeshOf what, std::optional<MeshLift>& off, uint32_t in_steps) {
+        if (std::none_of(meshes.begin(), meshes.end(), [&](const ContactMesh& mesh) { return mesh.what() == what; })) return;
+        if (!off) off.emplace(fabric, what);
+        off->look(*groups, meshes, in_steps);
+    };
+    lift(MeshOf::solid, off_solids, steps);
+    lift(MeshOf::cloth, off_cloth, kLooksOffCloth);
 }
 
 void Cloth::State::yield_to_cloth() {
-    if (!settings.yields || std::none_of(meshes.begin(), meshes.end(), [](const ContactMesh& mesh) { return mesh.what() == MeshOf::cloth; })) return;
+    if (!settings.yields || std::none_of(meshes.begin(), meshes.end(), [](const ContactMesh& mesh) { return mesh.what() != MeshOf::solid; })) return;
     if (!yield) yield.emplace(fabric);
     find_strains();
-    yield->look(strains, lift ? lift->particles() : std::span<const float>());
+    yield->look(strains, off_cloth ? off_cloth->particles() : std::span<const float>());
 }
 
-void Cloth::State::rest_if_still(float dt, std::span<const Vec3> targets) {
+/// Fixed vertices go where the skin carries them, but for those through whose triangles other cloth goes: they are lifted as others are.
+std::span<const Vec3> Cloth::State::held_at(std::span<const Vec3> targets) {
+    if (!off_cloth) return targets;
+    const std::vector<uint32_t>& fixed = fabric->kinematic_vertices();
+    if (std::none_of(fixed.begin(), fixed.end(), [&](uint32_t v) { return off_cloth->of_vertex(v) > 0.0f; })) return targets;
+    find_normals();
+    held.assign(targets.begin(), targets.end());
+    for (const uint32_t v : fixed) held[v] += off_cloth->of_vertex(v) * normals[v];
+    return held;
+}
+
+void Cloth::State::rest_if_still(float dt, std::span<const Vec3> held, std::span<const Vec3> targets) {
     const bool still = ways.rms_m <= kStillMean_m_s * dt && ways.greatest_m <= kStillMost_m_s * dt && body_way() <= kStill_m &&
-                       farthest(previous_targets, targets) <= kStill_m;
+                       farthest(previous_targets, held) <= kStill_m;
     still_s = still ? still_s + dt : 0.0f;
     if (!settings.sleeps || still_s < kFallsAsleep_s) return;
     solver.rest();

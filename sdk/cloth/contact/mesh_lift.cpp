@@ -5,16 +5,29 @@
 namespace vfit {
 
 namespace {
-constexpr float kStep_m = 0.0005f, kMost_m = 0.012f;
-constexpr float kForgets = 0.05f;  // share, for each millimetre that the body moves
+
+struct Pace {
+    float step_m, most_m;
+    float forgets;  // share, for each millimetre that the mesh moves
+};
+/// The skin stands out by little, and what is lifted is seen. Of other cloth whole folds may have come through.
+constexpr Pace pace_off(MeshOf what) { return what == MeshOf::solid ? Pace{0.0005f, 0.012f, 0.05f} : Pace{0.0015f, 0.03f, 0.01f}; }
+
 }  // namespace
 
-MeshLift::MeshLift(std::shared_ptr<const Fabric> fabric) : fabric_(std::move(fabric)), lift_m_(fabric_->layout().count(), 0.0f) {}
+MeshLift::MeshLift(std::shared_ptr<const Fabric> fabric, MeshOf what) : fabric_(std::move(fabric)), what_(what), lift_m_(fabric_->layout().count(), 0.0f) {}
 
-void MeshLift::look(const TriangleGroups& cloth, std::span<const ContactMesh> meshes, uint32_t steps, float body_way_m) {
-    const float keep = std::max(0.0f, 1.0f - kForgets * 1000.0f * body_way_m);
+void MeshLift::forget(std::span<const ContactMesh> meshes) {
+    float way_m = 0.0f;
+    for (const ContactMesh& mesh : meshes)
+        if (mesh.what() == what_) way_m = std::max(way_m, mesh.greatest_way());
+    const float keep = std::max(0.0f, 1.0f - pace_off(what_).forgets * 1000.0f * way_m);
     if (keep < 1.0f)
         for (float& lift : lift_m_) lift *= keep;
+}
+
+void MeshLift::look(const TriangleGroups& cloth, std::span<const ContactMesh> meshes, uint32_t steps) {
+    forget(meshes);
     const uint32_t count = cloth.group_count(), first = next_ >= count ? 0 : next_, end = std::min(count, first + count / steps + 1);
     next_ = end;
     groups_.swap(looked_again_);
@@ -23,7 +36,8 @@ void MeshLift::look(const TriangleGroups& cloth, std::span<const ContactMesh> me
     looked_again_.clear();
     for (const uint32_t group : groups_) {
         crossed_.clear();
-        for (const ContactMesh& mesh : meshes) mesh.find_crossed(cloth, group, near_, crossed_);
+        for (const ContactMesh& mesh : meshes)
+            if (mesh.what() == what_) mesh.find_crossed(cloth, group, near_, crossed_);
         if (crossed_.empty()) continue;
         looked_again_.push_back(group);
         std::sort(crossed_.begin(), crossed_.end());
@@ -31,7 +45,7 @@ void MeshLift::look(const TriangleGroups& cloth, std::span<const ContactMesh> me
         for (const uint32_t t : crossed_)
             for (size_t k = 0; k < 3; ++k) {
                 float& lift = lift_m_[fabric_->layout().particle_of[fabric_->data().indices[3 * t + k]]];
-                lift = std::min(lift + kStep_m, kMost_m);
+                lift = std::min(lift + pace_off(what_).step_m, pace_off(what_).most_m);
             }
     }
     groups_.clear();

@@ -14,16 +14,20 @@ namespace vfit {
 
 class MeshLift {
 public:
-    explicit MeshLift(std::shared_ptr<const Fabric> fabric);
+    /// Off meshes of that kind.
+    MeshLift(std::shared_ptr<const Fabric> fabric, MeshOf what);
 
     /// After a step: looks at some of the cloth's triangles, moved to where they are now, at all of them in so many steps.
-    /// body_way_m: how far the meshes moved in this one.
-    void look(const TriangleGroups& cloth, std::span<const ContactMesh> meshes, uint32_t steps, float body_way_m);
+    void look(const TriangleGroups& cloth, std::span<const ContactMesh> meshes, uint32_t steps);
     /// One a particle, metres.
     std::span<const float> particles() const { return lift_m_; }
+    float of_vertex(uint32_t vertex) const { return lift_m_[fabric_->layout().particle_of[vertex]]; }
 
 private:
+    void forget(std::span<const ContactMesh> meshes);
+
     std::shared_ptr<const Fabric> fabric_;
+    MeshOf what_;
     std::vector<float> lift_m_;
     std::vector<uint32_t> groups_, looked_again_;  // of triangles that crossed at the last look
     std::vector<uint32_t> crossed_, near_;         // room to work in

@@ -24,6 +24,7 @@ namespace vfit {
 struct DressBody : BoundBody {
     std::span<const LimbChain> limbs;  // whose bones share in the limb's twist
     const MeshQuery& skin;             // of these positions and indices
+    std::span<const Vec3> wrapped;     // the positions as cloth meets them (wrapped_skin.h)
 };
 
 class Dress {

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "cloth/garment/carried.h"
-#include "cloth/garment/wrapped_skin.h"
 
 namespace vfit {
 
@@ -32,14 +31,13 @@ SkinBelow skin_below(const DressBody& body, std::span<const uint8_t> below) {
     std::vector<uint32_t> indices;
     constexpr uint32_t kNone = UINT32_MAX;
     std::vector<uint32_t> place_of(body.positions.size(), kNone);
-    const std::vector<Vec3> wrapped = wrapped_skin(body.positions, body.indices);
     for (size_t i = 0; i + 2 < body.indices.size(); i += 3) {
         const uint32_t* v = &body.indices[i];
         if (!below[v[0]] || !below[v[1]] || !below[v[2]]) continue;
         for (int k = 0; k < 3; ++k) {
             if (place_of[v[k]] == kNone) {
                 place_of[v[k]] = uint32_t(carried.rest.size());
-                carried.add(wrapped[v[k]], body.skin_bones[v[k]], body.skin_weights[v[k]]);
+                carried.add(body.wrapped[v[k]], body.skin_bones[v[k]], body.skin_weights[v[k]]);
             }
             indices.push_back(place_of[v[k]]);
         }

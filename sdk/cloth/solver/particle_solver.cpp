@@ -173,7 +173,7 @@ void ParticleSolver::begin_part(const Step& step, uint32_t part) {
     const std::span<const float> off_solids_m = of_part(step.lift_m), off_cloth_m = of_part(step.cloth_lift_m);
     parts_[part].touched.resize(step.meshes.size());
     for (size_t i = 0; i < step.meshes.size(); ++i)
-        step.meshes[i].find_planes(m, step.dt, step.thickness_m, step.meshes[i].what() == MeshOf::cloth ? off_cloth_m : off_solids_m, parts_[part].near_runs, parts_[part].touched[i], parts_[part].planes);
+        step.meshes[i].find_planes(m, step.dt, step.thickness_m, step.meshes[i].what() == MeshOf::solid ? off_solids_m : off_cloth_m, parts_[part].near_runs, parts_[part].touched[i], parts_[part].planes);
     if (step.meshes.size() > 1)
         std::stable_sort(parts_[part].planes.begin(), parts_[part].planes.end(), [](const RunPlanes& a, const RunPlanes& b) { return a.run < b.run; });
     NearColliders& near = parts_[part].near;
