@@ -226,36 +226,73 @@ TEST(ClearSkin, SkinThatStandsOutBetweenVerticesIsCleared) {
     for (const Vec3& p : cloth) EXPECT_GT(p.y, 0.006f);
 }
 
+/// Of 4 mm squares, with a bump 10 mm high and wide.
+struct BumpyGround {
+    std::vector<Vec3> positions;
+    std::vector<uint32_t> indices;
+
+    BumpyGround() {
+        constexpr uint32_t kSide = 61;
+        for (uint32_t r = 0; r < kSide; ++r)
+            for (uint32_t c = 0; c < kSide; ++c) {
+                const Vec3 p(0.004f * float(c), 0.0f, 0.004f * float(r));
+                positions.push_back(p + Vec3(0.0f, std::max(0.0f, 0.01f - glm::length(p - Vec3(0.128f, 0.0f, 0.116f))), 0.0f));
+                if (r + 1 == kSide || c + 1 == kSide) continue;
+                const uint32_t a = r * kSide + c, b = a + 1, d = a + kSide, e = d + 1;
+                indices.insert(indices.end(), {a, d, e, a, e, b});
+            }
+    }
+    size_t crossed(const Cloth& cloth, const Sheet& sheet) const { return crossed_triangles({cloth.positions(), sheet.indices}, {positions, indices}).size(); }
+};
+
+/// Of large triangles, at that height over it.
+std::vector<Vec3> over_ground(const Sheet& sheet, float height) {
+    std::vector<Vec3> out;
+    for (const Vec3& p : sheet.positions) out.emplace_back(0.01f + p.x, height, 0.01f - p.y);
+    return out;
+}
+
 TEST(MeshLift, ClothOfLargeTrianglesComesToLieOverASmallBump) {
     const auto jobs = Jobs::own(0);
-    // Ground of 4 mm squares with a bump 8 mm high and wide.
-    constexpr uint32_t kSide = 61;
-    std::vector<Vec3> ground;
-    std::vector<uint32_t> indices;
-    for (uint32_t r = 0; r < kSide; ++r)
-        for (uint32_t c = 0; c < kSide; ++c) {
-            const Vec3 p(0.004f * float(c), 0.0f, 0.004f * float(r));
-            ground.push_back(p + Vec3(0.0f, std::max(0.0f, 0.01f - glm::length(p - Vec3(0.128f, 0.0f, 0.116f))), 0.0f));
-            if (r + 1 == kSide || c + 1 == kSide) continue;
-            const uint32_t a = r * kSide + c, b = a + 1, d = a + kSide, e = d + 1;
-            indices.insert(indices.end(), {a, d, e, a, e, b});
-        }
+    const BumpyGround ground;
     const Sheet sheet(9, 9, 0.025f);
-    std::vector<Vec3> start;
-    for (const Vec3& p : sheet.positions) start.emplace_back(0.01f + p.x, 0.02f, 0.01f - p.y);
+    const std::vector<Vec3> start = over_ground(sheet, 0.02f);
     ClothSettings settings;
     settings.sleeps = false;
     Cloth cloth(fabric(sheet.cook(cotton())), settings, start);
-    const uint32_t mesh = cloth.add_mesh(ground.size(), indices);
+    const uint32_t mesh = cloth.add_mesh(ground.positions.size(), ground.indices);
     size_t at_first = 0, at_last = 0;
     for (int frame = 0; frame < 360; ++frame) {
-        cloth.move_mesh(mesh, ground);
+        cloth.move_mesh(mesh, ground.positions);
         cloth.step(kFrame_s, start, {}, *jobs);
-        at_last = crossed_triangles({cloth.positions(), sheet.indices}, {ground, indices}).size();
+        at_last = ground.crossed(cloth, sheet);
         at_first = std::max(at_first, at_last);
     }
     EXPECT_GT(at_first, 0u) << "the scene would show it";
     EXPECT_EQ(at_last, 0u);
+}
+
+TEST(MeshLift, WhatIsFixedRisesOffClothBelowAndGoesWithTheSkin) {
+    const auto jobs = Jobs::own(0);
+    const BumpyGround ground;
+    Sheet sheet(9, 9, 0.025f);
+    for (uint32_t r = 0; r < 7; ++r)
+        for (uint32_t c = 0; c < 9; ++c) sheet.simulated[sheet.at(r, c)] = 0;
+    const std::vector<Vec3> start = over_ground(sheet, 0.004f);
+    for (const MeshOf what : {MeshOf::cloth, MeshOf::solid}) {
+        Cloth cloth(fabric(sheet.cook(cotton())), {}, start);
+        ASSERT_GT(ground.crossed(cloth, sheet), 0u);
+        const uint32_t mesh = cloth.add_mesh(ground.positions.size(), ground.indices, {}, what);
+        for (int frame = 0; frame < 60; ++frame) {
+            cloth.move_mesh(mesh, ground.positions);
+            cloth.step(kFrame_s, start, {}, *jobs);
+        }
+        if (what == MeshOf::cloth) EXPECT_EQ(ground.crossed(cloth, sheet), 0u);
+        for (uint32_t v = 0; v < sheet.at(7, 0); ++v) {
+            if (what == MeshOf::solid) EXPECT_EQ(cloth.positions()[v], start[v]) << v;
+            else EXPECT_LT(cloth.positions()[v].y, 0.02f) << v;
+        }
+    }
 }
 
 TEST(Borders, OfTwoSheetsAreTwoClosedLines) {

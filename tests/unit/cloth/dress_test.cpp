@@ -149,6 +149,14 @@ TEST(Dress, WhatIsFixedIsLiftedOverAGarmentBelow) {
     }
 }
 
+TEST(Dress, WhatIsFixedLiesOffTheSkinAsClothMeetsIt) {
+    Post post(0.1f);
+    for (uint32_t v = 0; v < kRound * kLevels; ++v) post.wrapped[v] = post.positions[v] * Vec3(1.15f, 1.0f, 1.15f);  // as if it filled a hollow
+    const Dress dress = dress_of(sleeve(0.105f), post, post);
+    for (uint32_t v = 0; v < kRound; ++v) EXPECT_NEAR(radius_of(dress.rest()[v]), 0.119f, 1e-3f) << "the upper row is fixed";
+    EXPECT_NEAR(radius_of(dress.rest()[4 * kRound]), 0.105f, 1e-3f) << "contact moves the others";
+}
+
 TEST(Dress, HangsOnThePostAndStaysOutsideIt) {
     const auto jobs = Jobs::own(0);
     const Post post(0.1f);
