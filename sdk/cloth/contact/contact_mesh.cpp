@@ -227,25 +227,18 @@ float ContactMesh::reach_of(const Moving& moving, uint32_t first, float dt, floa
 }
 
 /// False where the place holds nobody: too far off, or beyond a hem.
-bool ContactMesh::touch_at(const Place& place, const Vec3& particle, float reach, float keeps_m, bool is_lifted, Touch& out) const {
-    constexpr float kOnIt_m = 1e-5f, kBeyondHem_m = 0.02f;
+bool ContactMesh::touch_at(const Place& place, const Vec3& particle, float reach, Touch& out) const {
+    constexpr float kOnIt_m = 1e-5f;
     const Vec3 on = place.at(begin_), to = place.at(end_), off = particle - on;
-    if (!finite(on) || !finite(to)) return false;
     const float distance = glm::length(off);
     const Vec3 outward = outward_at(place);
     const bool inside = glm::dot(off, outward) < 0.0f;
     // What hangs beyond a hem is on neither side of it: a coat's sleeve is not to be drawn to the armhole of a dress.
-    const bool beyond_hem = (inside || is_lifted) && is_at_border(place);
-    if (beyond_hem ? !is_lifted : !inside && distance > reach) return false;
-    const Vec3 normal = distance > kOnIt_m && !beyond_hem ? (inside ? -off : off) / distance : outward / std::max(glm::length(outward), 1e-12f);
-    if (beyond_hem) {
-        // But where the hem goes through the cloth, that has to go outwards there, the less the further beyond.
-        const float height = glm::dot(off, normal), beyond = glm::length(off - height * normal);
-        if (beyond > kBeyondHem_m) return false;
-        keeps_m -= (keeps_m + kBeyondHem_m) * beyond / kBeyondHem_m;
-    }
+    if (inside && is_at_border(place)) return false;
+    if ((!inside && distance > reach) || !finite(on) || !finite(to)) return false;
+    const Vec3 normal = distance > kOnIt_m ? (inside ? -off : off) / distance : outward / std::max(glm::length(outward), 1e-12f);
     const Vec3 turned = normal + place.normal(end_) - place.normal(begin_);
-    out = {on, to, normal, turned / std::max(glm::length(turned), 1e-12f) - normal, keeps_m};
+    out = {on, to, normal, turned / std::max(glm::length(turned), 1e-12f) - normal};
     return true;
 }
 
@@ -272,7 +265,7 @@ void ContactMesh::add_other_sides(const Particle* run, float reach, const Touch*
         if (nearest.corners[lane] == NearestOnFans::kNone || nearest.distance2[lane] > reach * reach) continue;
         const Place place = place_of(nearest, lane, other[lane]);
         Touch touch;
-        if (!touch_at(place, run[particle_at(lane)].x, reach, thickness_m, false, touch)) continue;
+        if (!touch_at(place, run[particle_at(lane)].x, reach, touch)) continue;
         touch.normal = place.normal(begin_), touch.turn = place.normal(end_) - touch.normal;
         const Vec3 off = run[particle_at(lane)].x - touch.on, aside = off - glm::dot(off, touch.normal) * touch.normal;
         if (glm::dot(aside, aside) > kAside_m * kAside_m) continue;
@@ -305,17 +298,17 @@ void ContactMesh::find_planes(const Moving& moving, float dt, float thickness_m,
         bool any = false;
         for (size_t lane = 0; lane < kLanes; ++lane) {
             planes.thickness_m[lane] = others.thickness_m[lane] = RunPlanes::kNone;
-            const float own_lift = lift_m.empty() ? 0.0f : lift_m[first + particle_at(lane)];
-            const bool is_lifted = what_ != MeshOf::solid && own_lift > 0.0f;
-            if (nearest.corners[lane] == NearestOnFans::kNone || !touch_at(place_of(nearest, lane, points[lane]), run[particle_at(lane)].x, reach, thickness_m + own_lift, is_lifted, touches[lane])) {
+            if (nearest.corners[lane] == NearestOnFans::kNone || !touch_at(place_of(nearest, lane, points[lane]), run[particle_at(lane)].x, reach, touches[lane])) {
                 points[lane] = NearestOnFans::kNone;
                 continue;
             }
-            Touch& touch = touches[lane];
+            const Touch& touch = touches[lane];
             any = true;
-            // What is lifted over a hollow of two sides would be thrown from the one to the other.
-            if (own_lift > 0.0f) touch.keeps_m = std::min(touch.keeps_m, std::max(thickness_m, glm::dot(run[particle_at(lane)].x - touch.on, touch.normal) + kRises_m));
-            planes.set(lane, touch.on, touch.to - touch.on, touch.normal, touch.turn, touch.keeps_m);
+            const float own_lift = lift_m.empty() ? 0.0f : lift_m[first + particle_at(lane)];
+            float keeps_m = thickness_m + own_lift;
+            // Lifted over a hollow at once, it would be thrown from one of its sides to the other.
+            if (own_lift > 0.0f) keeps_m = std::min(keeps_m, std::max(thickness_m, glm::dot(run[particle_at(lane)].x - touch.on, touch.normal) + kRises_m));
+            planes.set(lane, touch.on, touch.to - touch.on, touch.normal, touch.turn, keeps_m);
         }
         if (any) out.push_back(planes);
         if (what_ != MeshOf::solid) continue;

@@ -71,9 +71,8 @@ private:
     /// What a particle is kept before.
     struct Touch {
         Vec3 on, to, normal, turn;  // `on` at the begin of the step, on its way `to`; how the normal turns
-        float keeps_m;              // off that plane
     };
-    bool touch_at(const Place& place, const Vec3& particle, float reach, float keeps_m, bool is_lifted, Touch& out) const;
+    bool touch_at(const Place& place, const Vec3& particle, float reach, Touch& out) const;
     void add_other_sides(const Particle* run, float reach, const Touch* touches, const uint32_t* points, float thickness_m, Touched* touched, RunPlanes& out) const;
     Vec3 outward_at(const Place& place) const;
     bool is_at_border(const Place& place) const;
