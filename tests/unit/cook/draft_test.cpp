@@ -250,6 +250,20 @@ TEST_F(Draft, WaistIsTheBodysAndItsEase) {
     });
 }
 
+TEST_F(Draft, WhatHangsALittleHigherOrLowerIsAsWideAtTheWaist) {
+    for_each_pattern([](const GarmentDesign& design, const DraftedSize& size) {
+        if (!design.torso || !design.torso->hem) return;
+        const auto girth = [&](float y) {
+            float sum = 0.0f;
+            for (const Panel& panel : size.pattern.panels)
+                if (torso_piece(panel)) sum += width_at(panel, y);
+            return sum;
+        };
+        EXPECT_NEAR(girth(0.01f), girth(0.0f), 0.003f);
+        EXPECT_NEAR(girth(-0.01f), girth(0.0f), 0.003f);
+    });
+}
+
 TEST_F(Draft, HipsAreTheBodysAndTheirEase) {
     for_each_pattern([](const GarmentDesign& design, const DraftedSize& size) {
         const Measurement* finished = find(size.finished, "hip_girth_m");
