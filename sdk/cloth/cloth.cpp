@@ -339,7 +339,7 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
     int times = settles && !is_first ? s.haste : 1;  // the first picture is waited for
     const int affordable = s.affordable(times * wanted), substeps = std::min(wanted, affordable);
     if (affordable < times * wanted) times = 1;  // haste is what a budget spares first
-    for (int i = 0; i < times; ++i) {
+    for (int i = 0; i < times && s.asleep_at.empty(); ++i) {
         s.advance(dt, substeps, settles ? std::max(s.settings.damping, kSettlingDamping) : s.settings.damping, skinned_targets, jobs);
         s.lift_off_meshes(settles ? kLooksSettling : kLooks, jobs);
     }

@@ -74,8 +74,9 @@ Vec3 carried_to(const Vec3& place, const Vec3& shift) {
     return out;
 }
 
-/// Off the skin as cloth meets it: where what is fixed lay deeper in a hollow than the cloth beside it can, that would stand off it.
-void raise_fixed(const DressBody& body, float thickness_m, Vec3& place) {
+/// Off the skin as cloth meets it. What is fixed and lay deeper in a hollow than the cloth beside it can, would have that stand off it;
+/// what is free and starts deep below it does not find out, and is drawn into the body.
+void raise(const DressBody& body, float thickness_m, Vec3& place) {
     const MeshQuery::Closest below = body.skin.closest(place);
     const uint32_t* v = &body.indices[3 * below.triangle];
     const float weights[3] = {1.0f - below.uv.x - below.uv.y, below.uv.x, below.uv.y};
@@ -112,12 +113,11 @@ Dress::Dress(const Garment& garment, const BoundGarment& bound, const FabricMate
     bound.smoother->smooth(shifts);
     for (uint32_t i = 0; i < n; ++i) rest_.push_back(carried_to(garment.mesh.positions[i], {shifts[i][0], shifts[i][1], shifts[i][2]}));
     parallel_for_vertices(jobs, n, [&](uint32_t i) { push_out(body.skin, thickness_m, std::span(&rest_[i], 1)); });
-    for (uint32_t i = 0; i < n; ++i)
-        if (!garment.simulated[i]) raise_fixed(body, thickness_m, rest_[i]);
     clear_skin({body.positions, body.indices, body.skin}, skinned_triangles(garment), rest_);
 
     carried_ = bound.skin_below;
     carried_.rest = rest_;
+    parallel_for_vertices(jobs, n, [&](uint32_t i) { raise(body, thickness_m, carried_.rest[i]); });
     split_limb_weights(rest_, body.limbs, carried_.bones, carried_.weights);
     carry_.emplace(carried_.bones, carried_.weights);
     const std::vector<uint32_t> triangles = body.bindable_triangles(false);

@@ -46,7 +46,7 @@ public:
     /// The garment on the avatar's rest body; one a garment vertex.
     const std::vector<Vec3>& rest() const { return rest_; }
     const std::vector<uint32_t>& indices() const { return indices_; }
-    /// Where the bones carry it from: rest(), and what was lifted over garments below. One a garment vertex.
+    /// Where the bones carry it from: rest(), clear of the wrapped skin and lifted over garments below. One a garment vertex.
     std::span<const Vec3> carried_from() const { return std::span(carried_.rest).first(rest_.size()); }
     /// What is fixed goes with the skin, as that of a garment worn below does: from now on so far off that one, where the two lie on
     /// each other.
