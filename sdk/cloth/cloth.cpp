@@ -155,6 +155,7 @@ struct Cloth::State {
     float still_s = 0.0f;     // since the cloth last moved
     float settles_s = 0.0f;   // so long it comes to rest from other lengths, or once it was put on
     int haste = 1;            // steps in one, so long
+    int guarded_every = 1, unguarded = 0;  // steps: after so many it is looked whether layers crossed; those since
     std::vector<Vec3> asleep_at;  // the targets at which it fell asleep; empty: it is awake
 
     bool stays_asleep(std::span<const Vec3> targets) const;
@@ -264,11 +265,12 @@ void Cloth::put_on(const BodyOnItsWay& body, Jobs& jobs) {
 void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
     // The shorter a step, the softer is all that gives way in it (XPBD): at first cloth moves by a millimetre or so between two looks
     // at what it may meet, itself included.
-    constexpr int kSteps = 14, kSubsteps = 4;
+    constexpr int kSteps = 14, kSubsteps = 4, kGuardedEvery = 2;
     constexpr float kShortest_s = 1.5e-4f, kLongest_s = 1.0f / 120.0f, kStopped = 1.0f;
     State& s = *state_;
     s.settles_s = kSettles_s, s.haste = kSettlingHaste;
     s.part_layers(jobs);
+    s.guarded_every = kGuardedEvery;
     std::vector<Vec3> targets;
     std::vector<Collider> colliders;
     for (int i = 0; i < kSteps; ++i) {
@@ -278,6 +280,7 @@ void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
         const float dt = kShortest_s * std::pow(kLongest_s / kShortest_s, float(i) / float(kSteps - 1));
         s.advance(dt, kSubsteps, kStopped, targets, jobs);
     }
+    s.guarded_every = 1;
     s.solver.rest();
     s.wake();
 }
@@ -383,7 +386,7 @@ void Cloth::State::check_body(std::span<const Vec3> targets, std::span<const Col
 
 /// The colliders have been accepted.
 void Cloth::State::advance(float dt, int count, float damping, std::span<const Vec3> skinned_targets, Jobs& jobs) {
-    if (settings.self_thickness_m > 0.0f) before = positions;
+    if (settings.self_thickness_m > 0.0f && unguarded == 0) before = positions;
     const std::span<const Vec3> targets = held_at(skinned_targets);
     teleport(targets);
     feel_less(targets);
@@ -398,7 +401,10 @@ void Cloth::State::advance(float dt, int count, float damping, std::span<const V
     const ContactSettings contact{settings.friction, settings.friction * kKineticShare, kMaxDepenetration_m_s * h};
     solver.advance({dt, count, settings.gravity, settings.air, std::pow(1.0f - damping, h), contact, settings.thickness_m,
                     previous_targets, targets, colliders, meshes, lift_m, cloth_lift_m}, jobs);
-    guard_layers(dt, jobs);
+    if (++unguarded >= guarded_every) {
+        guard_layers(float(unguarded) * dt, jobs);
+        unguarded = 0;
+    }
     publish();
     yield_to_cloth();
     rest_if_still(dt, targets, skinned_targets);
