@@ -162,7 +162,7 @@ struct ClothObject : ContextChild {
           skin(std::move(skin_of_body)),
           cover(std::move(cover_of_body)),
           settings(cloth_settings),
-          cloth(dress.fabric(), settings, placed()),
+          cloth(dress.fabric(), settings, placed(), context->jobs.get()),
           output(*context) {
         time_ns = avatar->avatar.time_ns();
         keep_pose();
@@ -428,7 +428,7 @@ struct ClothObject : ContextChild {
         std::vector<Vec2> new_cut = dress.cut(garment->garment, size.ratio, size.own);
         if (label_text && !any_fit) check_wearable(*garment, label_text, dress, new_cut, *avatar);
         TakenUp taken;
-        Cloth resized = cloth.with_fabric(dress.fabric_of(garment->garment, garment->material, size.ratio, size.own, &taken, context->jobs.get()));
+        Cloth resized = cloth.with_fabric(dress.fabric_of(garment->garment, garment->material, size.ratio, size.own, &taken, context->jobs.get()), context->jobs.get());
         std::swap(cloth, resized);
         std::swap(cut, new_cut);
         try {

@@ -122,7 +122,7 @@ uint64_t hash(uint64_t state, const Vec3& v) {
 }  // namespace
 
 struct Cloth::State {
-    State(std::shared_ptr<const Fabric> f, const ClothSettings& s) : fabric(f), settings(s), solver(std::move(f), {s.self_thickness_m, s.virtual_m, s.pressure}) {}
+    State(std::shared_ptr<const Fabric> f, const ClothSettings& s, Jobs* jobs) : fabric(f), settings(s), solver(std::move(f), {s.self_thickness_m, s.virtual_m, s.pressure}, jobs) {}
 
     std::shared_ptr<const Fabric> fabric;
     ClothSettings settings;
@@ -183,10 +183,10 @@ struct Cloth::State {
     void find_pressures() const;
 };
 
-Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings, std::span<const Vec3> start) {
+Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings, std::span<const Vec3> start, Jobs* jobs) {
     if (!fabric) fail(VFIT_ERROR_ARGUMENT, "a cloth needs a fabric");
     check(settings);
-    state_ = std::make_unique<State>(fabric, settings);
+    state_ = std::make_unique<State>(fabric, settings, jobs);
     State& s = *state_;
     const uint32_t n = fabric->vertex_count();
     const FabricData& data = fabric->data();
@@ -210,11 +210,11 @@ Cloth::~Cloth() = default;
 Cloth::Cloth(Cloth&&) noexcept = default;
 Cloth& Cloth::operator=(Cloth&&) noexcept = default;
 
-Cloth Cloth::with_fabric(std::shared_ptr<const Fabric> fabric) const {
+Cloth Cloth::with_fabric(std::shared_ptr<const Fabric> fabric, Jobs* jobs) const {
     const State& s = *state_;
     if (!fabric || fabric->vertex_count() != s.fabric->vertex_count() || fabric->target_count() != s.fabric->target_count())
         fail(VFIT_ERROR_ARGUMENT, "another fabric of a cloth must have as many vertices and targets");
-    Cloth out(std::move(fabric), s.settings, s.positions);
+    Cloth out(std::move(fabric), s.settings, s.positions, jobs);
     State& o = *out.state_;
     o.colliders = s.colliders;
     o.meshes = s.meshes;

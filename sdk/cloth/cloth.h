@@ -50,14 +50,14 @@ struct ClothStats {
 class Cloth {
 public:
     /// start: as for reset.
-    Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings, std::span<const Vec3> start);
+    Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings, std::span<const Vec3> start, Jobs* jobs = nullptr);
     ~Cloth();
     Cloth(Cloth&&) noexcept;
     Cloth& operator=(Cloth&&) noexcept;
 
     /// The same cloth with other lengths, at rest where it is now: of a fabric with as many vertices and targets
     /// (VFIT_ERROR_ARGUMENT), on the same body.
-    Cloth with_fabric(std::shared_ptr<const Fabric> fabric) const;
+    Cloth with_fabric(std::shared_ptr<const Fabric> fabric, Jobs* jobs = nullptr) const;
 
     /// At rest at these places: one a vertex, or the fabric's target_count() as Dress::skin gives them.
     void reset(std::span<const Vec3> positions);

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "cloth/contact/flat_neighbours.h"
 
 namespace vfit {
 
@@ -32,7 +33,7 @@ constexpr float kSquare = 0.5f;  // cosine
 
 float SelfContact::reach() const { return thickness_m_ + kMargin_m; }
 
-SelfContact::SelfContact(std::shared_ptr<const Fabric> fabric, float thickness_m)
+SelfContact::SelfContact(std::shared_ptr<const Fabric> fabric, float thickness_m, Jobs* jobs)
     : fabric_(std::move(fabric)),
       thickness_m_(thickness_m) {
     const ParticleLayout& layout = fabric_->layout();
@@ -42,7 +43,9 @@ SelfContact::SelfContact(std::shared_ptr<const Fabric> fabric, float thickness_m
             float& most = corner_m_[layout.particle_of[v] / kLanes];
             most = std::max(most, kCorner * e.rest_m);
         }
-    exclude_neighbours(kAlong * (reach() + *std::max_element(corner_m_.begin(), corner_m_.end())));
+    const float far_m = reach() + *std::max_element(corner_m_.begin(), corner_m_.end());
+    FlatNeighbours along = flat_neighbours(*fabric_, kAlong * far_m, kAlong * thickness_m_, jobs);
+    first_neighbour_ = std::move(along.first), neighbours_ = std::move(along.of_runs);
     list_neighbours();
     counts_.assign(layout.count(), 0);
     for (uint32_t particle : layout.particle_of) counts_[particle] = 1;
@@ -61,71 +64,6 @@ SelfContact::SelfContact(std::shared_ptr<const Fabric> fabric, float thickness_m
     }
     all_.reserve(2 * layout.count());
     batches_.reserve(2 * layout.count() / kLanes + 1);
-}
-
-/// Of each run, the vertices that are nearer than that to one of it along the flat cloth; those that are joined to it, or so near
-/// that they cannot be a layer of their own, never count.
-void SelfContact::exclude_neighbours(float radius_m) {
-    const FabricData& data = fabric_->data();
-    const ParticleLayout& layout = fabric_->layout();
-    struct Link {
-        uint32_t from, to;
-        float length_m;
-    };
-    std::vector<Link> links;
-    links.reserve(2 * data.edges.size());
-    for (const DistanceConstraint& e : data.edges) links.push_back({e.a, e.b, e.rest_m}), links.push_back({e.b, e.a, e.rest_m});
-    // Edges between two fixed vertices are no constraints, and still the cloth.
-    for (size_t t = 0; t < data.indices.size(); t += 3)
-        for (size_t k = 0; k < 3; ++k) {
-            const uint32_t a = data.indices[t + k], b = data.indices[t + (k + 1) % 3];
-            if (data.inverse_mass[a] == 0.0f && data.inverse_mass[b] == 0.0f) links.push_back({a, b, 0.0f}), links.push_back({b, a, 0.0f});
-        }
-    std::sort(links.begin(), links.end(), [](const Link& x, const Link& y) { return std::pair(x.from, x.to) < std::pair(y.from, y.to); });
-    std::vector<uint32_t> first(fabric_->vertex_count() + 1, 0);
-    for (const Link& link : links) ++first[link.from + 1];
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    const auto links_of = [&](uint32_t v) { return std::span(links).subspan(first[v], first[v + 1] - first[v]); };
-
-    std::vector<float> distance(fabric_->vertex_count(), INFINITY);
-    std::vector<uint8_t> never(fabric_->vertex_count(), 0), beside(fabric_->vertex_count(), 0);
-    std::vector<uint32_t> reached, open, of_run;
-    first_neighbour_.assign(layout.count() / kLanes + 1, 0);
-    for (uint32_t run = 0; run < layout.count() / kLanes; ++run) {
-        of_run.clear();
-        for (uint32_t i = 0; i < kLanes; ++i) {
-            const uint32_t seed = layout.vertex_of[run * kLanes + i];
-            if (seed == ParticleLayout::kNobody || data.inverse_mass[seed] == 0.0f) continue;
-            // So few are reached that to look at some twice takes less time than to keep them in order.
-            reached.assign(1, seed), open.assign(1, seed);
-            distance[seed] = 0.0f;
-            for (size_t at = 0; at < open.size(); ++at)
-                for (const Link& link : links_of(open[at])) {
-                    const float to = distance[open[at]] + link.length_m;
-                    if (to > radius_m || to >= distance[link.to]) continue;
-                    if (distance[link.to] == INFINITY) reached.push_back(link.to);
-                    distance[link.to] = to;
-                    open.push_back(link.to);
-                }
-            const auto lane = uint8_t(1u << lane_of(i));
-            for (const uint32_t v : reached) {
-                if (beside[v] == 0) of_run.push_back(v);
-                beside[v] |= lane;
-                if (distance[v] <= kAlong * thickness_m_) never[v] |= lane;
-                distance[v] = INFINITY;
-            }
-            for (const Link& link : links_of(seed)) never[link.to] |= lane;
-        }
-        std::sort(of_run.begin(), of_run.end(), [&](uint32_t a, uint32_t b) { return layout.particle_of[a] < layout.particle_of[b]; });
-        for (uint32_t v : of_run) {
-            const uint32_t particle = layout.particle_of[v], other = particle / uint32_t(kLanes);
-            if (neighbours_.size() == first_neighbour_[run] || neighbours_.back().run != other) neighbours_.push_back({other, 0, 0, 0, 0, false});
-            neighbours_.back().excluded |= uint64_t(never[v]) << (8 * (particle % kLanes));
-            neighbours_.back().beside |= uint64_t(beside[v]) << (8 * (particle % kLanes));
-            never[v] = beside[v] = 0;
-        }
-        first_neighbour_[run + 1] = uint32_t(neighbours_.size());
-    }
 }
 
 /// Of each vertex, those that share a triangle with it.

@@ -16,7 +16,7 @@ namespace vfit {
 
 class SelfContact {
 public:
-    SelfContact(std::shared_ptr<const Fabric> fabric, float thickness_m);
+    SelfContact(std::shared_ptr<const Fabric> fabric, float thickness_m, Jobs* jobs = nullptr);
 
     /// The cloth was placed anew: which side a particle is on is seen anew as well.
     void forget();
@@ -69,7 +69,6 @@ private:
         bool changed = false;  // in this sub-step
     };
     float reach() const;  // between a particle and a place, within which the two are watched
-    void exclude_neighbours(float radius_m);
     void list_neighbours();
     Vec3 facing_of(const Particles& normals, uint32_t run) const;
     void look_at(const Particles& places, const Particles& velocities, const Particles& normals, const Vec3& drift, float dt, uint32_t run);

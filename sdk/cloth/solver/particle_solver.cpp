@@ -32,8 +32,8 @@ Vec3 half_fall(const ParticleSolver::Step& step) { return step.gravity * (0.5f *
 
 }  // namespace
 
-ParticleSolver::ParticleSolver(std::shared_ptr<const Fabric> fabric, const Options& options) : fabric_(std::move(fabric)) {
-    if (options.self_thickness_m > 0.0f) self_ = std::make_unique<SelfContact>(fabric_, options.self_thickness_m);
+ParticleSolver::ParticleSolver(std::shared_ptr<const Fabric> fabric, const Options& options, Jobs* jobs) : fabric_(std::move(fabric)) {
+    if (options.self_thickness_m > 0.0f) self_ = std::make_unique<SelfContact>(fabric_, options.self_thickness_m, jobs);
     if (options.virtual_m > 0.0f) virtual_ = std::make_unique<VirtualParticles>(*fabric_, options.virtual_m);
     const ParticleLayout& layout = fabric_->layout();
     for (Particles* list : {&places_, &starts_, &velocities_, &normals_}) list->resize(layout.count());

@@ -26,7 +26,7 @@ public:
         float virtual_m = 0.0f;         // between points of triangles that meet colliders as well; 0: none
         bool with_pushes = false;       // copy_pushes() is asked for
     };
-    ParticleSolver(std::shared_ptr<const Fabric> fabric, const Options& options);
+    ParticleSolver(std::shared_ptr<const Fabric> fabric, const Options& options, Jobs* jobs = nullptr);
 
     /// At rest at these places, one a vertex.
     void place(std::span<const Vec3> vertices);
