@@ -476,7 +476,7 @@ void Cloth::State::rest_if_still(float dt, std::span<const Vec3> held, std::span
                        farthest(previous_targets, held) <= kStill_m;
     still_s = still ? still_s + dt : 0.0f;
     if (!settings.sleeps || still_s < kFallsAsleep_s) return;
-    solver.rest();
+    // Their velocities stay: by them contact knows who is drawn to the body how fast, when it wakes.
     asleep_at.assign(targets.begin(), targets.end());
 }
 

@@ -218,7 +218,7 @@ float ContactMesh::reach_of(const Moving& moving, uint32_t first, float dt, floa
         high = glm::max(high, moving.places[i].x);
         speed2 = std::max(speed2, glm::dot(moving.velocities[i].x, moving.velocities[i].x));
     }
-    const float own = thickness_m + std::min(expected_way_m(std::max(dt * std::sqrt(speed2), moving.least_way_m)), kFastest_m);
+    const float own = thickness_m + std::min(expected_way_m(dt * std::sqrt(speed2)), kFastest_m);
     find_meeting(boxes_, low - own, high + own, near);
     if (near.empty()) return 0.0f;
     float way = 0.0f;

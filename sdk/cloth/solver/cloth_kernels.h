@@ -19,7 +19,6 @@ struct Moving {
     Particle* starts;      // at the begin of the sub-step
     Particle* velocities;  // without constraints they end at starts + velocities * h
     uint32_t count;        // a multiple of kLanes
-    float least_way_m = 0.0f;  // that one may go in a step, whatever its velocity
 };
 
 /// The begin of the first sub-step of several. Half of the fall, then the whole way: free fall is exact.

@@ -23,9 +23,6 @@ constexpr float kBack_m_s = 1.0f;
 constexpr float kLeastPasses_hz = 240.0f;
 int passes(float h) { return std::max(1, int(std::ceil(kLeastPasses_hz * h - 1e-3f))); }
 
-// What rests on something is drawn to it by threads in the first sub-step, from further off than its velocity tells.
-constexpr float kFromRest_m = 0.01f;
-
 float share(const ParticleSolver::Step& step, int substep) { return float(substep) / float(step.substeps); }
 float substep_s(const ParticleSolver::Step& step) { return step.dt / float(step.substeps); }
 Vec3 half_fall(const ParticleSolver::Step& step) { return step.gravity * (0.5f * substep_s(step)); }
@@ -61,10 +58,7 @@ void ParticleSolver::place(uint32_t vertex, const Vec3& at, const Vec3& velocity
     velocities_[particle].x = velocity;
 }
 
-void ParticleSolver::rest() {
-    std::fill(velocities_.begin(), velocities_.end(), Particle());
-    rested_ = true;
-}
+void ParticleSolver::rest() { std::fill(velocities_.begin(), velocities_.end(), Particle()); }
 
 void ParticleSolver::carry(const RigidMotion& motion) {
     for (Particle& p : places_) p.x = motion.point(p.x);
@@ -90,7 +84,7 @@ void ParticleSolver::copy_pushes(std::span<Vec3> out) const {
 
 Moving ParticleSolver::moving(uint32_t part) {
     const ParticleLayout::Part& p = fabric_->layout().parts[part];
-    return {&places_[p.begin], &starts_[p.begin], &velocities_[p.begin], p.moving_end - p.begin, rested_ ? kFromRest_m : 0.0f};
+    return {&places_[p.begin], &starts_[p.begin], &velocities_[p.begin], p.moving_end - p.begin};
 }
 
 void ParticleSolver::bounds(Vec3& low, Vec3& high) const {
@@ -139,7 +133,6 @@ void ParticleSolver::advance(const Step& step, Jobs& jobs) {
             case Phase::virtual_particles: return virtual_->solve(swept_, step.contact, starts_, places_, pushed_);
         }
     });
-    rested_ = false;
 }
 
 void ParticleSolver::set_gains(float h, int substeps) {

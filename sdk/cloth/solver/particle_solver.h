@@ -101,7 +101,6 @@ private:
     float gains_h_ = 0.0f;                    // the sub-step that they are for,
     bool may_alternate_ = false;              // and whether a step has an even number of them
     int bend_every_ = 1;                      // so many sub-steps
-    bool rested_ = true;                      // velocities do not tell who is drawn where
     std::vector<Part> parts_;
     std::unique_ptr<SelfContact> self_;
     std::unique_ptr<VirtualParticles> virtual_;
