@@ -237,6 +237,7 @@ void Cloth::State::reset(std::span<const Vec3> start) {
     solver.place(start);
     colliders.forget();
     for (ContactMesh& mesh : meshes) mesh.forget();
+    off_solids.reset(), off_cloth.reset(), yield.reset();  // what crossed did so elsewhere
     wake();
     publish();
 }
