@@ -343,11 +343,12 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
     int times = settles && !is_first ? s.haste : 1;  // the first picture is waited for
     const int affordable = s.affordable(times * wanted), substeps = std::min(wanted, affordable);
     if (affordable < times * wanted) times = 1;  // haste is what a budget spares first
-    for (int i = 0; i < times && s.asleep_at.empty(); ++i) {
+    int done = 0;
+    for (; done < times && s.asleep_at.empty(); ++done) {
         s.advance(dt, substeps, settles ? std::max(s.settings.damping, kSettlingDamping) : s.settings.damping, skinned_targets, jobs);
         s.lift_off_meshes(settles ? kLooksSettling : kLooks, jobs);
     }
-    s.substeps = uint32_t(substeps * times);
+    s.substeps = uint32_t(substeps * done);
     s.substep_s = dt / float(substeps);
     s.step_ms = float(watch.ms());
     const float substep_ms = s.step_ms / float(s.substeps);

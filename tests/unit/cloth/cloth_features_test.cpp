@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "cloth/contact/virtual_particles.h"
 #include "cloth_support.h"
@@ -235,6 +236,43 @@ TEST(ClothSleep, WhatLiesStillIsNotSteppedAndWakesWhenSomethingMoves) {
     Hanging never(awake);
     never.step(1200);
     EXPECT_EQ(never.cloth->stats().substeps, 8u);
+}
+
+TEST(ClothSleep, IsAPauseThatLosesNothing) {
+    // Where velocities were lost, contact would not see who is drawn to the body.
+    ClothSettings awake;
+    awake.sleeps = false;
+    Hanging sleeper, never(awake);
+    const std::vector<Collider> ball{sphere({0.14f, -0.2f, 0.2f}, 0.05f)};
+    uint64_t before = 0;
+    for (int frame = 0; frame < 1200; ++frame) {
+        sleeper.step(1, ball);
+        if (sleeper.cloth->stats().substeps == 0) break;
+        never.step(1, ball);
+        before = never.cloth->state_hash();
+    }
+    ASSERT_EQ(sleeper.cloth->stats().substeps, 0u) << "asleep";
+    EXPECT_EQ(sleeper.cloth->state_hash(), before);
+}
+
+TEST(ClothSleep, BeginsBetweenTheTwoStepsOfOneInHaste) {
+    Sheet sheet(9, 5, 0.02f);
+    sheet.pin_top();
+    const auto jobs = Jobs::own(0);
+    std::set<uint32_t> last;  // sub-steps of the last step before it sleeps
+    for (const float first_s : {1.0f / 60.0f, 1.0f / 120.0f, 1.0f / 90.0f}) {
+        Cloth cloth(fabric(sheet.cook(cotton())), {}, sheet.positions);
+        cloth.come_to_lengths([&](float, std::vector<Vec3>& targets, std::vector<Collider>&) { targets = sheet.positions; }, *jobs);
+        cloth.step(first_s, sheet.positions, {}, *jobs);
+        uint32_t substeps = 0;
+        for (int frame = 0; frame < 40 && cloth.stats().substeps > 0; ++frame) {
+            substeps = cloth.stats().substeps;
+            cloth.step(kFrame_s, sheet.positions, {}, *jobs);
+        }
+        ASSERT_EQ(cloth.stats().substeps, 0u) << "asleep while it is in haste";
+        last.insert(substeps);
+    }
+    EXPECT_TRUE(last.count(8)) << "one step of 8 sub-steps, and not both";
 }
 
 TEST(ClothLengths, WhatComesToThemHangsStillWithinASecond) {
