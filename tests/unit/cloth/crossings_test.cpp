@@ -6,6 +6,7 @@
 #include <set>
 
 #include "cloth/contact/crossing_guard.h"
+#include "cloth/contact/flat_neighbours.h"
 #include "cloth/contact/triangle_groups.h"
 #include "cloth/contact/untangle.h"
 #include "cloth/crossings.h"
@@ -226,17 +227,17 @@ TEST(ClearSkin, SkinThatStandsOutBetweenVerticesIsCleared) {
     for (const Vec3& p : cloth) EXPECT_GT(p.y, 0.006f);
 }
 
-/// Of 4 mm squares, with a bump 10 mm high and wide.
+/// Of 4 mm squares, with a bump 10 mm wide, and high.
 struct BumpyGround {
     std::vector<Vec3> positions;
     std::vector<uint32_t> indices;
 
-    BumpyGround() {
+    explicit BumpyGround(float steepness = 1.0f) {
         constexpr uint32_t kSide = 61;
         for (uint32_t r = 0; r < kSide; ++r)
             for (uint32_t c = 0; c < kSide; ++c) {
                 const Vec3 p(0.004f * float(c), 0.0f, 0.004f * float(r));
-                positions.push_back(p + Vec3(0.0f, std::max(0.0f, 0.01f - glm::length(p - Vec3(0.128f, 0.0f, 0.116f))), 0.0f));
+                positions.push_back(p + Vec3(0.0f, steepness * std::max(0.0f, 0.01f - glm::length(p - Vec3(0.128f, 0.0f, 0.116f))), 0.0f));
                 if (r + 1 == kSide || c + 1 == kSide) continue;
                 const uint32_t a = r * kSide + c, b = a + 1, d = a + kSide, e = d + 1;
                 indices.insert(indices.end(), {a, d, e, a, e, b});
@@ -295,6 +296,86 @@ TEST(MeshLift, WhatIsFixedRisesOffClothBelowAndGoesWithTheSkin) {
             cloth.step(kFrame_s, start, {}, *jobs);
         }
         for (uint32_t v = 0; v < sheet.at(7, 0); ++v) EXPECT_EQ(cloth.positions()[v], start[v]) << v;
+    }
+}
+
+TEST(MeshLift, OffOtherClothItIsAsHighAsAFold) {
+    const auto jobs = Jobs::own(0);
+    const BumpyGround fold(2.0f);  // 16 mm over the sheet
+    Sheet sheet(9, 9, 0.025f);
+    sheet.simulated.assign(sheet.positions.size(), 0);
+    sheet.simulated.back() = 1;
+    const std::vector<Vec3> start = over_ground(sheet, 0.004f);
+    Cloth cloth(fabric(sheet.cook(cotton())), {}, start);
+    ASSERT_GT(fold.crossed(cloth, sheet), 0u);
+    const uint32_t mesh = cloth.add_mesh(fold.positions.size(), fold.indices, {}, MeshOf::cloth);
+    for (int frame = 0; frame < 60; ++frame) {
+        cloth.move_mesh(mesh, fold.positions);
+        cloth.step(kFrame_s, start, {}, *jobs);
+    }
+    EXPECT_EQ(fold.crossed(cloth, sheet), 0u);
+}
+
+TEST(MeshLift, WhatComesOutFromBelowPushesAndLiftsNothing) {
+    const auto jobs = Jobs::own(0);
+    const BumpyGround ground;
+    Sheet sheet(9, 9, 0.025f);
+    sheet.simulated.assign(sheet.positions.size(), 0);
+    sheet.simulated.back() = 1;
+    const std::vector<Vec3> start = over_ground(sheet, 0.004f);
+    Cloth cloth(fabric(sheet.cook(cotton())), {}, start);
+    const uint32_t mesh = cloth.add_mesh(ground.positions.size(), ground.indices, {}, MeshOf::coming_cloth);
+    for (int frame = 0; frame < 60; ++frame) {
+        cloth.move_mesh(mesh, ground.positions);
+        cloth.step(kFrame_s, start, {}, *jobs);
+    }
+    for (uint32_t v = 0; v + 1 < start.size(); ++v) EXPECT_EQ(cloth.positions()[v], start[v]) << v;
+}
+
+TEST(FlatNeighbours, AreThoseThatEdgesReach) {
+    Sheet sheet(20, 20, 0.02f);
+    sheet.pin_top();
+    const Fabric cloth(sheet.cook(cotton()));
+    constexpr float kRadius_m = 0.05f, kNever_m = 0.025f;
+    const FlatNeighbours found = flat_neighbours(cloth, kRadius_m, kNever_m);
+    // All ways along edges at once (Floyd and Warshall), to compare.
+    const uint32_t n = cloth.vertex_count();
+    std::vector<float> way(size_t(n) * n, INFINITY);
+    std::vector<uint8_t> joined(size_t(n) * n, 0);
+    for (const DistanceConstraint& e : cloth.data().edges) way[e.a * n + e.b] = way[e.b * n + e.a] = e.rest_m, joined[e.a * n + e.b] = joined[e.b * n + e.a] = 1;
+    for (uint32_t c = 0; c + 1 < sheet.columns; ++c) way[c * n + c + 1] = way[(c + 1) * n + c] = 0.0f, joined[c * n + c + 1] = joined[(c + 1) * n + c] = 1;  // pinned: no constraints
+    for (uint32_t v = 0; v < n; ++v) way[v * n + v] = 0.0f;
+    for (uint32_t k = 0; k < n; ++k)
+        for (uint32_t i = 0; i < n; ++i)
+            for (uint32_t j = 0; j < n; ++j) way[i * n + j] = std::min(way[i * n + j], way[i * n + k] + way[k * n + j]);
+    const ParticleLayout& layout = cloth.layout();
+    for (uint32_t particle = 0; particle < layout.count(); ++particle) {
+        const uint32_t v = layout.vertex_of[particle];
+        if (v == ParticleLayout::kNobody || cloth.data().inverse_mass[v] == 0.0f) continue;
+        const uint32_t run = particle / uint32_t(kLanes);
+        std::vector<uint8_t> beside(n, 0), never(n, 0);
+        for (uint32_t i = found.first[run]; i < found.first[run + 1]; ++i)
+            for (uint32_t at = 0; at < kLanes; ++at) {
+                const uint32_t other = layout.vertex_of[found.of_runs[i].run * kLanes + at];
+                if (other == ParticleLayout::kNobody) continue;
+                beside[other] = found.of_runs[i].beside >> (8 * at + lane_of(particle % kLanes)) & 1;
+                never[other] = found.of_runs[i].excluded >> (8 * at + lane_of(particle % kLanes)) & 1;
+            }
+        for (uint32_t other = 0; other < n; ++other) {
+            const float along = way[v * n + other];
+            if (std::abs(along - kRadius_m) < 1e-4f || std::abs(along - kNever_m) < 1e-4f) continue;
+            ASSERT_EQ(beside[other], along < kRadius_m) << v << " " << other << " " << along;
+            ASSERT_EQ(never[other], along < kNever_m || joined[v * n + other]) << v << " " << other << " " << along;
+        }
+    }
+    const auto two = Jobs::own(2);
+    const FlatNeighbours again = flat_neighbours(cloth, kRadius_m, kNever_m, two.get());
+    EXPECT_EQ(again.first, found.first);
+    ASSERT_EQ(again.of_runs.size(), found.of_runs.size());
+    for (size_t i = 0; i < found.of_runs.size(); ++i) {
+        EXPECT_EQ(again.of_runs[i].run, found.of_runs[i].run);
+        EXPECT_EQ(again.of_runs[i].beside, found.of_runs[i].beside);
+        EXPECT_EQ(again.of_runs[i].excluded, found.of_runs[i].excluded);
     }
 }
 
