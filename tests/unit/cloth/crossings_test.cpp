@@ -379,6 +379,22 @@ TEST(FlatNeighbours, AreThoseThatEdgesReach) {
     }
 }
 
+TEST(CrossingGuard, LayersThatComeToTheirLengthsDoNotGoThroughEachOther) {
+    const auto jobs = Jobs::own(0);
+    for (const float ratio : {1.1f, 1.15f, 1.2f}) {
+        const TwoSheets sheets(13, 0.02f, {0.007f, 0.006f, 0.006f});
+        std::vector<uint8_t> simulated(sheets.positions.size(), 1);  // but for their edges
+        for (uint32_t sheet = 0; sheet < 2; ++sheet)
+            for (uint32_t i = 0; i < 13; ++i)
+                for (const uint32_t at : {i, 12 * 13 + i, 13 * i, 13 * i + 12}) simulated[sheet * sheets.of_one + at] = 0;
+        ClothSettings settings;
+        settings.self_thickness_m = 0.004f;
+        Cloth cloth(fabric(cook_fabric({sheets.positions, sheets.indices, {}, simulated, ratio}, cotton())), settings, sheets.positions);
+        cloth.come_to_lengths([&](float, std::vector<Vec3>& targets, std::vector<Collider>&) { targets = sheets.positions; }, *jobs);
+        EXPECT_TRUE(crossed_triangles(cloth.positions(), sheets.indices).empty()) << ratio;
+    }
+}
+
 TEST(Borders, OfTwoSheetsAreTwoClosedLines) {
     const TwoSheets sheets(4, 0.02f, {0.0f, 0.01f, 0.0f});
     const auto lines = border_lines(sheets.indices);
