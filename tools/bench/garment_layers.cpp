@@ -5,6 +5,7 @@
 
 #include "bench/bench.h"
 #include "bench/targets.h"
+#include "bench/welded.h"
 #include "client/assets.h"
 #include "client/output.h"
 #include "cloth/crossings.h"
@@ -48,18 +49,8 @@ bool wear(vfit_context context, vfit_avatar avatar, const Outfit& outfit, const 
     return true;
 }
 
-struct Layer {
-    std::vector<Vec3> positions;
-    std::vector<uint32_t> indices;
-};
-Layer layer_of(vfit_cloth cloth) {
-    Frame frame;
-    check(vfit_cloth_acquire(cloth, frame.out()));
-    return {items_of<Vec3>(frame.get(), VFIT_STREAM_POSITION), items_of<uint32_t>(frame.get(), VFIT_STREAM_INDEX)};
-}
-
 /// Triangles of the outer one that one of the inner goes through.
-size_t crossed(const Layer& outer, const Layer& inner) {
+size_t crossed(const Welded& outer, const Welded& inner) {
     std::vector<uint32_t> triangles;
     for (const auto& [of_outer, of_inner] : crossed_triangles({outer.positions, outer.indices}, {inner.positions, inner.indices})) triangles.push_back(of_outer);
     std::sort(triangles.begin(), triangles.end());
@@ -82,8 +73,8 @@ void judge_layers(bool json) {
                 ++refused;
                 continue;
             }
-            std::vector<Layer> layers;
-            for (const Cloth& cloth : worn) layers.push_back(layer_of(cloth.get()));
+            std::vector<Welded> layers;
+            for (const Cloth& cloth : worn) layers.push_back(mesh_of(cloth.get()));
             for (size_t i = 1; i < worn.size(); ++i) {
                 size_t triangles = 0;
                 for (size_t below = 0; below < i; ++below) triangles += crossed(layers[i], layers[below]);

@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
-#include <map>
 #include <random>
 
 #include "bench/bench.h"
 #include "bench/garment_ease.h"
 #include "bench/targets.h"
+#include "bench/welded.h"
 #include "client/assets.h"
 #include "client/output.h"
 #include "cloth/crossings.h"
@@ -71,35 +71,6 @@ Avatar make_body(vfit_context context, const BodyKind& kind) {
     check(vfit_avatar_create_from_shape(context, &desc, shape.data(), sizeof(vfit_shape_value), uint32_t(shape.size()), avatar.out()));
     stand(avatar.get(), 0.1f);
     return avatar;
-}
-
-/// A mesh whose vertices at one place are one.
-struct Welded {
-    std::vector<Vec3> positions;
-    std::vector<uint32_t> indices;
-};
-Welded weld(vfit_frame frame) {
-    Welded out;
-    std::map<std::tuple<float, float, float>, uint32_t> known;
-    std::vector<uint32_t> number;
-    for (const Vec3& p : items_of<Vec3>(frame, VFIT_STREAM_POSITION)) {
-        const auto [it, fresh] = known.insert({{p.x, p.y, p.z}, uint32_t(out.positions.size())});
-        if (fresh) out.positions.push_back(p);
-        number.push_back(it->second);
-    }
-    for (const uint32_t i : items_of<uint32_t>(frame, VFIT_STREAM_INDEX)) out.indices.push_back(number[i]);
-    return out;
-}
-
-Welded mesh_of(vfit_avatar avatar) {
-    Frame frame;
-    check(vfit_avatar_acquire(avatar, frame.out()));
-    return weld(frame.get());
-}
-Welded mesh_of(vfit_cloth cloth) {
-    Frame frame;
-    check(vfit_cloth_acquire(cloth, frame.out()));
-    return weld(frame.get());
 }
 
 /// The way of 99 of 100 vertices, in millimetres, at most.

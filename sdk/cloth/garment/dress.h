@@ -74,7 +74,7 @@ private:
     void skin();
 
     std::optional<Carry> carry_;
-    Carried carried_;           // rest_ as it was lifted, then the backstops' centres
+    Carried carried_;           // rest_ clear of the wrapped skin and lifted, then the backstops' centres
     std::optional<Skin> skin_;  // of these
     std::vector<uint32_t> followed_;  // of these
     std::optional<Skin> followed_skin_;

@@ -1,0 +1,36 @@
+#include "bench/welded.h"
+
+#include <map>
+#include <tuple>
+
+namespace vfit::tools {
+
+namespace {
+
+Welded weld(vfit_frame frame) {
+    Welded out;
+    std::map<std::tuple<float, float, float>, uint32_t> known;
+    std::vector<uint32_t> number;
+    for (const Vec3& p : items_of<Vec3>(frame, VFIT_STREAM_POSITION)) {
+        const auto [it, fresh] = known.insert({{p.x, p.y, p.z}, uint32_t(out.positions.size())});
+        if (fresh) out.positions.push_back(p);
+        number.push_back(it->second);
+    }
+    for (const uint32_t i : items_of<uint32_t>(frame, VFIT_STREAM_INDEX)) out.indices.push_back(number[i]);
+    return out;
+}
+
+}  // namespace
+
+Welded mesh_of(vfit_avatar avatar) {
+    Frame frame;
+    check(vfit_avatar_acquire(avatar, frame.out()));
+    return weld(frame.get());
+}
+Welded mesh_of(vfit_cloth cloth) {
+    Frame frame;
+    check(vfit_cloth_acquire(cloth, frame.out()));
+    return weld(frame.get());
+}
+
+}  // namespace vfit::tools
