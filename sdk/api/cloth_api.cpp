@@ -112,7 +112,7 @@ DressBody wearer_of(AvatarObject& object) {
     const BodyTopology& topology = avatar.topology();
     const size_t count = topology.vertex_count;
     return {{std::span(avatar.rest().positions).first(count), topology.indices, avatar.skin_bones().first(count), avatar.skin_weights().first(count), avatar.parts().first(count)},
-            avatar.limbs(), object.rest_skin(), object.wrapped_rest()};
+            avatar.limbs(), object.rest_skin()};
 }
 
 /// A forearm or a hand: sphere or capsule that starts or ends at a hand.
@@ -570,7 +570,7 @@ vfit_result vfit_cloth_create(vfit_avatar avatar_handle, vfit_garment garment_ha
         if (on_skin && d.cover_m > 0.0f) fail(VFIT_ERROR_ARGUMENT, "desc.cover_m is of no use with VFIT_CLOTH_SKIN");
         if (on_skin || d.cover_m > 0.0f) {
             const std::vector<uint8_t> below = below_garment(wearer, dress.rest(), hands);
-            if (on_skin) skin = skin_below(wearer, below);
+            if (on_skin) skin = skin_below(wearer, avatar->wrapped_rest(), below);
             else cover = cover_of(*avatar, wearer, below, hands, d.cover_m);
         }
         auto cloth = make<ClothObject>(avatar.ref(), garment.ref(), std::move(dress), std::move(skin), std::move(cover), settings, hands, size.own != nullptr);

@@ -240,23 +240,19 @@ float largest_inner_sphere(const MeshQuery& skin, const Vec3& center) {
     return skin.inside(center) ? skin.closest(center).distance : 0.0f;
 }
 
-MeshQuery::Closest push_out(const MeshQuery& mesh, float clearance_m, Vec3& p) {
-    constexpr int kTries = 4;
-    MeshQuery::Closest closest = mesh.closest(p);
-    for (int i = 0; i < kTries; ++i) {
-        constexpr float kUpright = 0.7f;  // cosine: before its nearest place, a point is outside
-        if (closest.distance >= clearance_m && glm::dot(p - closest.point, closest.normal) > kUpright * closest.distance) break;
-        const float distance = mesh.inside(p) ? -closest.distance : closest.distance;
-        if (distance >= clearance_m) break;
-        const Vec3 outward = closest.distance > 1e-6f ? (p - closest.point) / distance : closest.normal;
-        p = closest.point + outward * clearance_m;
-        closest = mesh.closest(p);
-    }
-    return closest;
-}
-
 void push_out(const MeshQuery& mesh, float clearance_m, std::span<Vec3> points) {
-    for (Vec3& p : points) push_out(mesh, clearance_m, p);
+    for (Vec3& p : points) {
+        constexpr int kTries = 4;
+        for (int i = 0; i < kTries; ++i) {
+            constexpr float kUpright = 0.7f;  // cosine: before its nearest place, a point is outside
+            const MeshQuery::Closest closest = mesh.closest(p);
+            if (closest.distance >= clearance_m && glm::dot(p - closest.point, closest.normal) > kUpright * closest.distance) break;
+            const float distance = mesh.inside(p) ? -closest.distance : closest.distance;
+            if (distance >= clearance_m) break;
+            const Vec3 outward = closest.distance > 1e-6f ? (p - closest.point) / distance : closest.normal;
+            p = closest.point + outward * clearance_m;
+        }
+    }
 }
 
 }  // namespace vfit

@@ -60,8 +60,6 @@ private:
 
 /// Moves each point out of a closed mesh, to that clearance at least; in a few tries, as out of one limb may be into another.
 void push_out(const MeshQuery& mesh, float clearance_m, std::span<Vec3> points);
-/// The same of one, whose closest place it returns.
-MeshQuery::Closest push_out(const MeshQuery& mesh, float clearance_m, Vec3& point);
 
 /// Radius of the largest sphere about the centre that stays inside the skin; 0 where the centre lies outside.
 float largest_inner_sphere(const MeshQuery& skin, const Vec3& center);

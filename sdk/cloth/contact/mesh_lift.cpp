@@ -26,6 +26,12 @@ void MeshLift::forget(std::span<const ContactMesh> meshes) {
         for (float& lift : lift_m_) lift *= keep;
 }
 
+/// By a fixed vertex.
+bool MeshLift::is_held(uint32_t triangle) const {
+    const uint32_t* v = &fabric_->data().indices[3 * triangle];
+    return std::any_of(v, v + 3, [&](uint32_t corner) { return fabric_->data().inverse_mass[corner] == 0.0f; });
+}
+
 void MeshLift::look(const TriangleGroups& cloth, std::span<const ContactMesh> meshes, uint32_t steps) {
     forget(meshes);
     const uint32_t count = cloth.group_count(), first = next_ >= count ? 0 : next_, end = std::min(count, first + count / steps + 1);
@@ -42,11 +48,13 @@ void MeshLift::look(const TriangleGroups& cloth, std::span<const ContactMesh> me
         looked_again_.push_back(group);
         std::sort(crossed_.begin(), crossed_.end());
         crossed_.erase(std::unique(crossed_.begin(), crossed_.end()), crossed_.end());
-        for (const uint32_t t : crossed_)
+        for (const uint32_t t : crossed_) {
+            if (what_ == MeshOf::solid && is_held(t)) continue;
             for (size_t k = 0; k < 3; ++k) {
                 float& lift = lift_m_[fabric_->layout().particle_of[fabric_->data().indices[3 * t + k]]];
                 lift = std::min(lift + pace_off(what_).step_m, pace_off(what_).most_m);
             }
+        }
     }
     groups_.clear();
 }

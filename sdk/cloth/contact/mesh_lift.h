@@ -1,5 +1,5 @@
 // How much further than others some vertices stay off meshes: contact keeps vertices off the skin, and where it stands out between
-// them, the triangle's three go outwards until it is clear.
+// them, the triangle's three go outwards until it is clear. Off the skin that is of no use where one of the three is fixed to it.
 #pragma once
 
 #include <cstdint>
@@ -25,6 +25,7 @@ public:
 
 private:
     void forget(std::span<const ContactMesh> meshes);
+    bool is_held(uint32_t triangle) const;
 
     std::shared_ptr<const Fabric> fabric_;
     MeshOf what_;

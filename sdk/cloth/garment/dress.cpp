@@ -74,17 +74,6 @@ Vec3 carried_to(const Vec3& place, const Vec3& shift) {
     return out;
 }
 
-/// From a place off the skin to where it is as far off the skin as cloth meets it. What is fixed and lay deeper in a hollow than the
-/// cloth beside it can, would have that stand off it; what is free and starts deep below it does not find out, and is drawn into the body.
-Vec3 to_wrapped(const DressBody& body, const Vec3& place, const MeshQuery::Closest& below, float thickness_m) {
-    const uint32_t* v = &body.indices[3 * below.triangle];
-    const float weights[3] = {1.0f - below.uv.x - below.uv.y, below.uv.x, below.uv.y};
-    Vec3 raised(0.0f);
-    for (int k = 0; k < 3; ++k) raised += weights[k] * (body.wrapped[v[k]] - body.positions[v[k]]);
-    const float wanted = thickness_m + glm::dot(raised, below.normal), height = glm::dot(place - below.point, below.normal);
-    return std::max(0.0f, wanted - height) * below.normal;
-}
-
 /// Those that contact does not move, or not all of.
 std::vector<uint32_t> skinned_triangles(const Garment& garment) {
     std::vector<uint32_t> out;
@@ -111,16 +100,11 @@ Dress::Dress(const Garment& garment, const BoundGarment& bound, const FabricMate
     }
     bound.smoother->smooth(shifts);
     for (uint32_t i = 0; i < n; ++i) rest_.push_back(carried_to(garment.mesh.positions[i], {shifts[i][0], shifts[i][1], shifts[i][2]}));
-    std::vector<Vec3> raised(n);
-    parallel_for_vertices(jobs, n, [&](uint32_t i) {
-        const MeshQuery::Closest below = push_out(body.skin, thickness_m, rest_[i]);
-        raised[i] = to_wrapped(body, rest_[i], below, thickness_m);
-    });
+    parallel_for_vertices(jobs, n, [&](uint32_t i) { push_out(body.skin, thickness_m, std::span(&rest_[i], 1)); });
     clear_skin({body.positions, body.indices, body.skin}, skinned_triangles(garment), rest_);
 
     carried_ = bound.skin_below;
     carried_.rest = rest_;
-    for (uint32_t i = 0; i < n; ++i) carried_.rest[i] += raised[i];
     split_limb_weights(rest_, body.limbs, carried_.bones, carried_.weights);
     carry_.emplace(carried_.bones, carried_.weights);
     const std::vector<uint32_t> triangles = body.bindable_triangles(false);

@@ -24,7 +24,6 @@ namespace vfit {
 struct DressBody : BoundBody {
     std::span<const LimbChain> limbs;  // whose bones share in the limb's twist
     const MeshQuery& skin;             // of these positions and indices
-    std::span<const Vec3> wrapped;     // the positions as cloth meets them (wrapped_skin.h)
 };
 
 class Dress {
@@ -46,7 +45,7 @@ public:
     /// The garment on the avatar's rest body; one a garment vertex.
     const std::vector<Vec3>& rest() const { return rest_; }
     const std::vector<uint32_t>& indices() const { return indices_; }
-    /// Where the bones carry it from: rest(), clear of the wrapped skin and lifted over garments below. One a garment vertex.
+    /// Where the bones carry it from: rest(), and what was lifted over garments below. One a garment vertex.
     std::span<const Vec3> carried_from() const { return std::span(carried_.rest).first(rest_.size()); }
     /// What is fixed goes with the skin, as that of a garment worn below does: from now on so far off that one, where the two lie on
     /// each other.
@@ -74,7 +73,7 @@ private:
     void skin();
 
     std::optional<Carry> carry_;
-    Carried carried_;           // rest_ clear of the wrapped skin and lifted, then the backstops' centres
+    Carried carried_;           // rest_ as it was lifted, then the backstops' centres
     std::optional<Skin> skin_;  // of these
     std::vector<uint32_t> followed_;  // of these
     std::optional<Skin> followed_skin_;

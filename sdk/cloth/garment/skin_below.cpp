@@ -26,7 +26,7 @@ std::vector<uint8_t> below_garment(const DressBody& body, std::span<const Vec3> 
     return below;
 }
 
-SkinBelow skin_below(const DressBody& body, std::span<const uint8_t> below) {
+SkinBelow skin_below(const DressBody& body, std::span<const Vec3> wrapped, std::span<const uint8_t> below) {
     Carried carried;
     std::vector<uint32_t> indices;
     constexpr uint32_t kNone = UINT32_MAX;
@@ -37,7 +37,7 @@ SkinBelow skin_below(const DressBody& body, std::span<const uint8_t> below) {
         for (int k = 0; k < 3; ++k) {
             if (place_of[v[k]] == kNone) {
                 place_of[v[k]] = uint32_t(carried.rest.size());
-                carried.add(body.wrapped[v[k]], body.skin_bones[v[k]], body.skin_weights[v[k]]);
+                carried.add(wrapped[v[k]], body.skin_bones[v[k]], body.skin_weights[v[k]]);
             }
             indices.push_back(place_of[v[k]]);
         }

@@ -14,12 +14,12 @@ namespace vfit {
 /// forearms and hands where those are to pass through.
 std::vector<uint8_t> below_garment(const DressBody& body, std::span<const Vec3> garment, bool with_hands);
 
-/// Of the skin, what is below the garment.
+/// Of the skin as cloth meets it (wrapped_skin.h), what is below the garment.
 struct SkinBelow {
     Skin skin;
     std::vector<uint32_t> indices;  // three a triangle
 };
-SkinBelow skin_below(const DressBody& body, std::span<const uint8_t> below);
+SkinBelow skin_below(const DressBody& body, std::span<const Vec3> wrapped, std::span<const uint8_t> below);
 
 /// Spheres and capsules beside the colliders of the body at rest, so many that none of its skin `below`, but for hands and feet,
 /// is further than tolerance_m outside of all. They stick out of the skin by no more than that, and go with the bones that carry

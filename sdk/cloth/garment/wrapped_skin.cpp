@@ -25,6 +25,8 @@ struct SkinNeighbours {
 
 void raise_hollows(std::vector<Vec3>& places, std::span<const uint32_t> indices) {
     constexpr int kRounds = 12;  // reaches as far as a triangle of cloth, some 2 cm
+    constexpr float kMost_m = 0.005f;  // what a side of 2.2 cm spans over a hollow of 12 mm radius; into wider ones cloth hangs
+    const std::vector<Vec3> skin = places;
     const SkinNeighbours neighbours(places.size(), indices);
     std::vector<Vec3> normals;
     compute_normals(places, indices, normals);
@@ -35,7 +37,8 @@ void raise_hollows(std::vector<Vec3>& places, std::span<const uint32_t> indices)
             Vec3 middle(0.0f);
             for (uint32_t i = begin; i < end; ++i) middle += places[neighbours.of[i]];
             const float hollow = glm::dot(middle / float(end - begin) - places[v], normals[v]);
-            if (hollow > 0.0f) places[v] += normals[v] * hollow;
+            const float left = kMost_m - glm::dot(places[v] - skin[v], normals[v]);
+            if (hollow > 0.0f) places[v] += normals[v] * std::min(hollow, left);
         }
 }
 

@@ -1,4 +1,4 @@
-// The skin as cloth meets it: what is hollow within the reach of a triangle of cloth is filled, as cloth spans it.
+// The skin as cloth meets it: what is hollow within the reach of a triangle of cloth is filled by as much as that spans.
 #pragma once
 
 #include <cstdint>

@@ -299,6 +299,23 @@ TEST(MeshLift, WhatIsFixedRisesOffClothBelowAndGoesWithTheSkin) {
     }
 }
 
+TEST(MeshLift, WhatIsHeldInTheSkinByAFixedVertexDoesNotRise) {
+    const auto jobs = Jobs::own(0);
+    const BumpyGround ground;
+    Sheet sheet(9, 9, 0.025f);
+    for (uint32_t r = 0; r < 5; ++r)
+        for (uint32_t c = 0; c < 9; ++c) sheet.simulated[sheet.at(r, c)] = 0;  // the bump is below the triangles next to them
+    const std::vector<Vec3> start = over_ground(sheet, 0.004f);
+    Cloth cloth(fabric(sheet.cook(cotton())), {}, start);
+    ASSERT_GT(ground.crossed(cloth, sheet), 0u);
+    const uint32_t mesh = cloth.add_mesh(ground.positions.size(), ground.indices);
+    for (int frame = 0; frame < 120; ++frame) {
+        cloth.move_mesh(mesh, ground.positions);
+        cloth.step(kFrame_s, start, {}, *jobs);
+    }
+    for (uint32_t c = 0; c < 9; ++c) EXPECT_LT(cloth.positions()[sheet.at(5, c)].y, 0.006f) << "a hem beside it would have teeth";
+}
+
 TEST(MeshLift, OffOtherClothItIsAsHighAsAFold) {
     const auto jobs = Jobs::own(0);
     const BumpyGround fold(2.0f);  // 16 mm over the sheet

@@ -149,14 +149,6 @@ TEST(Dress, WhatIsFixedIsLiftedOverAGarmentBelow) {
     }
 }
 
-TEST(Dress, IsCarriedClearOfTheSkinAsClothMeetsIt) {
-    Post post(0.1f);
-    for (uint32_t v = 0; v < kRound * kLevels; ++v) post.wrapped[v] = post.positions[v] * Vec3(1.15f, 1.0f, 1.15f);  // as if it filled a hollow
-    const Dress dress = dress_of(sleeve(0.105f), post, post);
-    for (const Vec3& p : dress.carried_from()) EXPECT_NEAR(radius_of(p), 0.119f, 1e-3f);
-    for (const Vec3& p : dress.rest()) EXPECT_NEAR(radius_of(p), 0.105f, 1e-3f) << "it is cut as before";
-}
-
 TEST(Dress, HangsOnThePostAndStaysOutsideIt) {
     const auto jobs = Jobs::own(0);
     const Post post(0.1f);

@@ -269,6 +269,29 @@ TEST(FitParts, SkinIsRaisedAroundABumpAndNeverLowered) {
     EXPECT_LT(wrapped[bump + 8].y, 0.002f);  // 4 cm away it is as it was, but for rounding
 }
 
+TEST(FitParts, ADeepHollowOfTheSkinIsNotFilledUp) {
+    // A groove 4 cm deep and wide in a block.
+    constexpr uint32_t kSide = 41;
+    std::vector<Vec3> positions;
+    std::vector<uint32_t> indices;
+    for (const float y : {0.0f, -0.1f})
+        for (uint32_t r = 0; r < kSide; ++r)
+            for (uint32_t c = 0; c < kSide; ++c) {
+                const float x = 0.005f * float(c), aside = std::abs(x - 0.1f);
+                positions.emplace_back(x, y == 0.0f ? -2.0f * std::max(0.0f, 0.02f - aside) : y, 0.005f * float(r));
+            }
+    for (uint32_t r = 0; r + 1 < kSide; ++r)
+        for (uint32_t c = 0; c + 1 < kSide; ++c) {
+            const uint32_t a = r * kSide + c, b = a + 1, d = a + kSide, e = d + 1, below = kSide * kSide;
+            indices.insert(indices.end(), {a, d, b, b, d, e, below + a, below + b, below + d, below + b, below + e, below + d});
+        }
+    const uint32_t bottom = kSide * (kSide / 2) + kSide / 2;
+    ASSERT_FLOAT_EQ(positions[bottom].y, -0.04f);
+    const float raised = wrapped_skin(positions, indices)[bottom].y - positions[bottom].y;
+    EXPECT_GT(raised, 0.002f);
+    EXPECT_LT(raised, 0.0055f) << "a strap would stand off it";
+}
+
 TEST(FitParts, CrossingsAreFoundOnceAndNeighboursAreNone) {
     const std::vector<Vec3> positions{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0.2f, -0.5f, 0.2f}, {0.3f, 0.5f, 0.2f}, {0.2f, 0.5f, 0.4f}, {1, 0, 1}};
     const std::vector<uint32_t> crossed{0, 1, 2, 3, 4, 5}, beside{0, 1, 2, 1, 6, 2};

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "cloth/garment/dress.h"
-#include "cloth/garment/wrapped_skin.h"
 
 namespace vfit::test {
 
@@ -19,7 +18,6 @@ struct Post {
     std::vector<std::array<uint16_t, kSkinBones>> bones;
     std::vector<std::array<float, kSkinBones>> weights;
     std::optional<MeshQuery> skin;
-    std::vector<Vec3> wrapped;
 
     explicit Post(float radius) {
         for (uint32_t level = 0; level < kLevels; ++level)
@@ -37,9 +35,8 @@ struct Post {
             }
         }
         skin.emplace(positions, indices);
-        wrapped = wrapped_skin(positions, indices);
     }
-    DressBody body() const { return {{positions, indices, bones, weights, {}}, {}, *skin, wrapped}; }
+    DressBody body() const { return {{positions, indices, bones, weights, {}}, {}, *skin}; }
 
 private:
     void add(float radius, uint32_t i, float y) {
