@@ -39,7 +39,7 @@ endfunction()
 function(vfit_together_in_the_library target)
   # These hold code for several SIMD targets, or the same names in several sources.
   set(apart vfit_math vfit_motion)
-  if(VFIT_TOGETHER AND NOT target IN_LIST apart)
+  if(VFIT_UNITY_BUILD AND NOT target IN_LIST apart)
     vfit_together(${target})
   endif()
 endfunction()

@@ -45,7 +45,7 @@
  *          xyzw; matrix column-major.
  * TARGETS  64-bit little-endian; cdecl; UTF-8; boolean = uint32_t 0/1; enum = 32 bits.
  * VERSION  0.x may change. From 1.0 on, within one MAJOR, a program built with an older header runs on
- *          a newer library.                                                                           */
+ *          a newer library. */
 #ifndef VFIT_H
 #define VFIT_H
 #include <stdint.h>
@@ -64,35 +64,59 @@
 #endif
 #ifdef __cplusplus
 #define VFIT_API extern "C" VFIT_EXPORT
-#define VFIT_ZERO {}
+#define VFIT_ZERO \
+    {             \
+    }
 #else
 #define VFIT_API extern VFIT_EXPORT
 #define VFIT_ZERO {0}
 #endif
-/* Inline on purpose: sizeof is that of the caller's header, not of the library's.                    */
-#define VFIT_STRUCT(T) static inline T T##_init(void) \
-    { T s = VFIT_ZERO; s.struct_size = (uint32_t)sizeof(T); return s; }
-#define VFIT_HANDLE(T) typedef struct T { uint64_t id; } T
+/* Inline on purpose: sizeof is that of the caller's header, not of the library's. */
+#define VFIT_STRUCT(T)                       \
+    static inline T T##_init(void) {         \
+        T s = VFIT_ZERO;                     \
+        s.struct_size = (uint32_t)sizeof(T); \
+        return s;                            \
+    }
+#define VFIT_HANDLE(T) \
+    typedef struct T { \
+        uint64_t id;   \
+    } T
 
 typedef int32_t vfit_result;
 enum {
-    VFIT_OK = 0, VFIT_NOT_READY = 1, VFIT_TIMEOUT = 2, VFIT_INCOMPLETE = 3, VFIT_END_OF_STREAM = 4,
-    VFIT_ERROR_UNKNOWN = -1,        VFIT_ERROR_ARGUMENT = -2,
-    VFIT_ERROR_HANDLE = -3,         /* null, destroyed, or of another kind                           */
-    VFIT_ERROR_STATE = -4,          /* right call, wrong moment                                      */
+    VFIT_OK = 0,
+    VFIT_NOT_READY = 1,
+    VFIT_TIMEOUT = 2,
+    VFIT_INCOMPLETE = 3,
+    VFIT_END_OF_STREAM = 4,
+    VFIT_ERROR_UNKNOWN = -1,
+    VFIT_ERROR_ARGUMENT = -2,
+    VFIT_ERROR_HANDLE = -3, /* null, destroyed, or of another kind */
+    VFIT_ERROR_STATE = -4,  /* right call, wrong moment */
     VFIT_ERROR_BUSY = -5,
-    VFIT_ERROR_CAPACITY = -6,       /* array or target too small; *count holds the need              */
-    VFIT_ERROR_UNSUPPORTED = -7,    VFIT_ERROR_VERSION = -8,
-    VFIT_ERROR_OUT_OF_MEMORY = -9,  VFIT_ERROR_IO = -10,
-    VFIT_ERROR_DATA = -11,          /* file, frame or garment content is malformed                   */
-    VFIT_ERROR_DEVICE_LOST = -12,   VFIT_ERROR_PLUGIN = -13,
-    VFIT_ERROR_NOT_WEARABLE = -14   /* the garment in that size does not close around the body           */
+    VFIT_ERROR_CAPACITY = -6, /* array or target too small; *count holds the need */
+    VFIT_ERROR_UNSUPPORTED = -7,
+    VFIT_ERROR_VERSION = -8,
+    VFIT_ERROR_OUT_OF_MEMORY = -9,
+    VFIT_ERROR_IO = -10,
+    VFIT_ERROR_DATA = -11, /* file, frame or garment content is malformed */
+    VFIT_ERROR_DEVICE_LOST = -12,
+    VFIT_ERROR_PLUGIN = -13,
+    VFIT_ERROR_NOT_WEARABLE = -14 /* the garment in that size does not close around the body */
 };
 
-VFIT_HANDLE(vfit_context); VFIT_HANDLE(vfit_sensor);  VFIT_HANDLE(vfit_frame);
-VFIT_HANDLE(vfit_tracker); VFIT_HANDLE(vfit_scan);    VFIT_HANDLE(vfit_size_chart);
-VFIT_HANDLE(vfit_motion);  VFIT_HANDLE(vfit_avatar);  VFIT_HANDLE(vfit_garment);
-VFIT_HANDLE(vfit_cloth);   VFIT_HANDLE(vfit_recorder);
+VFIT_HANDLE(vfit_context);
+VFIT_HANDLE(vfit_sensor);
+VFIT_HANDLE(vfit_frame);
+VFIT_HANDLE(vfit_tracker);
+VFIT_HANDLE(vfit_scan);
+VFIT_HANDLE(vfit_size_chart);
+VFIT_HANDLE(vfit_motion);
+VFIT_HANDLE(vfit_avatar);
+VFIT_HANDLE(vfit_garment);
+VFIT_HANDLE(vfit_cloth);
+VFIT_HANDLE(vfit_recorder);
 
 /* ---- context ------------------------------------------------------------------------------------ */
 typedef int32_t vfit_axes;
@@ -102,300 +126,404 @@ enum { VFIT_LOG_ERROR = 0, VFIT_LOG_WARNING = 1, VFIT_LOG_INFO = 2, VFIT_LOG_DEB
 typedef void (*vfit_log_fn)(void* user, vfit_log_level level, const char* message);
 /* The host's job system: submit starts count items and returns a job, wait returns when all have run.
  * Both are called only on a thread that is inside a vfit call. An item never waits for one that has not
- * started; one worker alone completes any step. A null job means that all items have run already.    */
+ * started; one worker alone completes any step. A null job means that all items have run already. */
 typedef void (*vfit_task_fn)(void* task, uint32_t index);
 typedef void* (*vfit_submit_fn)(void* user, vfit_task_fn fn, void* task, uint32_t count);
 typedef void (*vfit_wait_fn)(void* user, void* job);
 /* DETERMINISTIC: equal bits for equal input, binary and SIMD level, any worker count. Always so as yet. */
-enum { VFIT_CONTEXT_VALIDATE = 1,       /* reserved for slower checks; this version's are always on      */
-       VFIT_CONTEXT_DETERMINISTIC = 2, VFIT_CONTEXT_MIRROR = 4 };
+enum {
+    VFIT_CONTEXT_VALIDATE = 1, /* reserved for slower checks; this version's are always on */
+    VFIT_CONTEXT_DETERMINISTIC = 2,
+    VFIT_CONTEXT_MIRROR = 4
+};
 
 typedef struct vfit_context_desc {
     uint32_t struct_size;
-    uint32_t api_version;               /* required: VFIT_VERSION                                    */
-    uint32_t flags;                     /* VFIT_CONTEXT_*                                            */
+    uint32_t api_version; /* required: VFIT_VERSION */
+    uint32_t flags;       /* VFIT_CONTEXT_* */
     vfit_axes axes;
-    vfit_log_fn log;                    /* null: errors and warnings to stderr                       */
-    vfit_submit_fn submit;              /* null: own small pool                                      */
+    vfit_log_fn log;       /* null: errors and warnings to stderr */
+    vfit_submit_fn submit; /* null: own small pool */
     vfit_wait_fn wait;
-    void* user;                         /* first argument of all three                               */
-    const char* plugin_dir;             /* null: vfit_plugins beside the library                     */
-    const char* data_dir;               /* null: vfit_data beside the library                        */
-    uint32_t worker_count;              /* 0: physical cores less one                                */
+    void* user;             /* first argument of all three */
+    const char* plugin_dir; /* null: vfit_plugins beside the library */
+    const char* data_dir;   /* null: vfit_data beside the library */
+    uint32_t worker_count;  /* 0: physical cores less one */
     uint32_t reserved;
 } vfit_context_desc;
 typedef struct vfit_library_info {
     uint32_t struct_size, version;
-    char simd[16];                      /* instruction set in use: "AVX2", "SSE4", "SCALAR", ...       */
-    char build[112];                    /* compiler and build type                                    */
+    char simd[16];   /* instruction set in use: "AVX2", "SSE4", "SCALAR", ... */
+    char build[112]; /* compiler and build type */
 } vfit_library_info;
-typedef struct vfit_plugin_info { uint32_t struct_size, version; char name[64], schemes[64], path[256]; }
-    vfit_plugin_info;
+typedef struct vfit_plugin_info {
+    uint32_t struct_size, version;
+    char name[64], schemes[64], path[256];
+} vfit_plugin_info;
 typedef struct vfit_context_stats {
     uint32_t struct_size, handle_count, frame_count, worker_count;
-    uint64_t frame_bytes;               /* held by this context's frames, pools included              */
+    uint64_t frame_bytes; /* held by this context's frames, pools included */
 } vfit_context_stats;
-/* Time spent in one stage since the context was created (or since vfit_profile_reset).               */
-typedef struct vfit_profile { uint32_t struct_size, calls; double last_ms, mean_ms, max_ms; char stage[32]; }
-    vfit_profile;
-VFIT_STRUCT(vfit_context_desc) VFIT_STRUCT(vfit_library_info) VFIT_STRUCT(vfit_plugin_info)
-VFIT_STRUCT(vfit_context_stats) VFIT_STRUCT(vfit_profile)
+/* Time spent in one stage since the context was created (or since vfit_profile_reset). */
+typedef struct vfit_profile {
+    uint32_t struct_size, calls;
+    double last_ms, mean_ms, max_ms;
+    char stage[32];
+} vfit_profile;
+VFIT_STRUCT(vfit_context_desc)
+VFIT_STRUCT(vfit_library_info)
+VFIT_STRUCT(vfit_plugin_info)
+VFIT_STRUCT(vfit_context_stats)
+VFIT_STRUCT(vfit_profile)
 
-VFIT_API uint32_t    vfit_version(void);                                                   /* [any]  */
-VFIT_API vfit_result vfit_library_describe(vfit_library_info* out);                        /* [any]  */
-VFIT_API const char* vfit_result_name(vfit_result result);                                 /* [any]  */
-VFIT_API uint32_t    vfit_last_error(char* buffer, uint32_t capacity);                     /* [any]  */
-VFIT_API vfit_result vfit_context_create(const vfit_context_desc* desc, vfit_context* out);/* [any]  */
-VFIT_API vfit_result vfit_context_destroy(vfit_context context);    /* joins all threads      [excl] */
-VFIT_API vfit_result vfit_shutdown(void);       /* all contexts; for a host that reloads      [excl] */
-VFIT_API vfit_result vfit_context_describe(vfit_context context, vfit_context_stats* out); /* [any]  */
-/* Now, on the clock of all time stamps of this context.                                       [any]   */
+VFIT_API uint32_t vfit_version(void);                                                       /* [any] */
+VFIT_API vfit_result vfit_library_describe(vfit_library_info* out);                         /* [any] */
+VFIT_API const char* vfit_result_name(vfit_result result);                                  /* [any] */
+VFIT_API uint32_t vfit_last_error(char* buffer, uint32_t capacity);                         /* [any] */
+VFIT_API vfit_result vfit_context_create(const vfit_context_desc* desc, vfit_context* out); /* [any] */
+VFIT_API vfit_result vfit_context_destroy(vfit_context context); /* joins all threads      [excl] */
+VFIT_API vfit_result vfit_shutdown(void); /* all contexts; for a host that reloads      [excl] */
+VFIT_API vfit_result vfit_context_describe(vfit_context context, vfit_context_stats* out); /* [any] */
+/* Now, on the clock of all time stamps of this context.                                       [any] */
 VFIT_API vfit_result vfit_context_time(vfit_context context, int64_t* time_ns);
 VFIT_API vfit_result vfit_profile_list(vfit_context context, vfit_profile* items, uint32_t stride,
-                                       uint32_t* count);                                   /* [any]  */
-VFIT_API vfit_result vfit_profile_reset(vfit_context context);                             /* [any]  */
-/* The next log line where no callback is wanted (Unity reloads, Python); VFIT_NOT_READY: none. [any]   */
+                                       uint32_t* count);       /* [any] */
+VFIT_API vfit_result vfit_profile_reset(vfit_context context); /* [any] */
+/* The next log line where no callback is wanted (Unity reloads, Python); VFIT_NOT_READY: none. [any] */
 VFIT_API vfit_result vfit_log_next(vfit_context context, vfit_log_level* level, char* buffer,
                                    uint32_t capacity);
-VFIT_API vfit_result vfit_plugin_load(vfit_context context, const char* path);             /* [excl] */
+VFIT_API vfit_result vfit_plugin_load(vfit_context context, const char* path); /* [excl] */
 VFIT_API vfit_result vfit_plugin_list(vfit_context context, vfit_plugin_info* items, uint32_t stride,
-                                      uint32_t* count);                                    /* [any]  */
+                                      uint32_t* count); /* [any] */
 
 /* ---- vocabularies: joints (what a sensor sees), bones (what a character has) ----------------------- */
 /* One meaning everywhere: SHOULDER is the head of the humerus, HIP that of the femur, HAND the hand's centre
  * of mass in the palm (some 7 cm from the wrist), FOOT the ankle joint; LEFT is the person's own left. */
 typedef int32_t vfit_joint_id;
-enum { VFIT_JOINT_HEAD = 0, VFIT_JOINT_NECK = 1, VFIT_JOINT_TORSO = 2,
-    VFIT_JOINT_LEFT_SHOULDER = 3, VFIT_JOINT_RIGHT_SHOULDER = 4, VFIT_JOINT_LEFT_ELBOW = 5,
-    VFIT_JOINT_RIGHT_ELBOW = 6, VFIT_JOINT_LEFT_HAND = 7, VFIT_JOINT_RIGHT_HAND = 8,
-    VFIT_JOINT_LEFT_HIP = 9, VFIT_JOINT_RIGHT_HIP = 10, VFIT_JOINT_LEFT_KNEE = 11,
-    VFIT_JOINT_RIGHT_KNEE = 12, VFIT_JOINT_LEFT_FOOT = 13, VFIT_JOINT_RIGHT_FOOT = 14, /* the paper's 15 */
-    VFIT_JOINT_PELVIS = 15, VFIT_JOINT_CHEST = 16, VFIT_JOINT_LEFT_CLAVICLE = 17,
-    VFIT_JOINT_RIGHT_CLAVICLE = 18, VFIT_JOINT_LEFT_WRIST = 19, VFIT_JOINT_RIGHT_WRIST = 20,
-    VFIT_JOINT_LEFT_TOES = 21, VFIT_JOINT_RIGHT_TOES = 22 };
+enum {
+    VFIT_JOINT_HEAD = 0,
+    VFIT_JOINT_NECK = 1,
+    VFIT_JOINT_TORSO = 2,
+    VFIT_JOINT_LEFT_SHOULDER = 3,
+    VFIT_JOINT_RIGHT_SHOULDER = 4,
+    VFIT_JOINT_LEFT_ELBOW = 5,
+    VFIT_JOINT_RIGHT_ELBOW = 6,
+    VFIT_JOINT_LEFT_HAND = 7,
+    VFIT_JOINT_RIGHT_HAND = 8,
+    VFIT_JOINT_LEFT_HIP = 9,
+    VFIT_JOINT_RIGHT_HIP = 10,
+    VFIT_JOINT_LEFT_KNEE = 11,
+    VFIT_JOINT_RIGHT_KNEE = 12,
+    VFIT_JOINT_LEFT_FOOT = 13,
+    VFIT_JOINT_RIGHT_FOOT = 14, /* the paper's 15 */
+    VFIT_JOINT_PELVIS = 15,
+    VFIT_JOINT_CHEST = 16,
+    VFIT_JOINT_LEFT_CLAVICLE = 17,
+    VFIT_JOINT_RIGHT_CLAVICLE = 18,
+    VFIT_JOINT_LEFT_WRIST = 19,
+    VFIT_JOINT_RIGHT_WRIST = 20,
+    VFIT_JOINT_LEFT_TOES = 21,
+    VFIT_JOINT_RIGHT_TOES = 22
+};
 #define VFIT_JOINT_COUNT 23u
-/* VRM humanoid bones; parents stand before children.                                                  */
+/* VRM humanoid bones; parents stand before children. */
 typedef int32_t vfit_bone_id;
-enum { VFIT_BONE_HIPS = 0, VFIT_BONE_SPINE = 1, VFIT_BONE_CHEST = 2, VFIT_BONE_UPPER_CHEST = 3,
-    VFIT_BONE_NECK = 4, VFIT_BONE_HEAD = 5,
-    VFIT_BONE_LEFT_SHOULDER = 6, VFIT_BONE_LEFT_UPPER_ARM = 7, VFIT_BONE_LEFT_LOWER_ARM = 8,
-    VFIT_BONE_LEFT_HAND = 9, VFIT_BONE_RIGHT_SHOULDER = 10, VFIT_BONE_RIGHT_UPPER_ARM = 11,
-    VFIT_BONE_RIGHT_LOWER_ARM = 12, VFIT_BONE_RIGHT_HAND = 13,
-    VFIT_BONE_LEFT_UPPER_LEG = 14, VFIT_BONE_LEFT_LOWER_LEG = 15, VFIT_BONE_LEFT_FOOT = 16,
-    VFIT_BONE_LEFT_TOES = 17, VFIT_BONE_RIGHT_UPPER_LEG = 18, VFIT_BONE_RIGHT_LOWER_LEG = 19,
-    VFIT_BONE_RIGHT_FOOT = 20, VFIT_BONE_RIGHT_TOES = 21 };
+enum {
+    VFIT_BONE_HIPS = 0,
+    VFIT_BONE_SPINE = 1,
+    VFIT_BONE_CHEST = 2,
+    VFIT_BONE_UPPER_CHEST = 3,
+    VFIT_BONE_NECK = 4,
+    VFIT_BONE_HEAD = 5,
+    VFIT_BONE_LEFT_SHOULDER = 6,
+    VFIT_BONE_LEFT_UPPER_ARM = 7,
+    VFIT_BONE_LEFT_LOWER_ARM = 8,
+    VFIT_BONE_LEFT_HAND = 9,
+    VFIT_BONE_RIGHT_SHOULDER = 10,
+    VFIT_BONE_RIGHT_UPPER_ARM = 11,
+    VFIT_BONE_RIGHT_LOWER_ARM = 12,
+    VFIT_BONE_RIGHT_HAND = 13,
+    VFIT_BONE_LEFT_UPPER_LEG = 14,
+    VFIT_BONE_LEFT_LOWER_LEG = 15,
+    VFIT_BONE_LEFT_FOOT = 16,
+    VFIT_BONE_LEFT_TOES = 17,
+    VFIT_BONE_RIGHT_UPPER_LEG = 18,
+    VFIT_BONE_RIGHT_LOWER_LEG = 19,
+    VFIT_BONE_RIGHT_FOOT = 20,
+    VFIT_BONE_RIGHT_TOES = 21
+};
 #define VFIT_BONE_COUNT 22u
 /* Names "HEAD", "LEFT_ELBOW"; "hips", "leftUpperArm". An unknown id gives length 0 and an empty text.
- * The parent of the first bone is -1; of an unknown one -2.                                            */
-VFIT_API uint32_t    vfit_joint_name(vfit_joint_id joint, char* buffer, uint32_t capacity);/* [any]  */
-VFIT_API uint32_t    vfit_bone_name(vfit_bone_id bone, char* buffer, uint32_t capacity);   /* [any]  */
-VFIT_API int32_t     vfit_bone_parent(vfit_bone_id bone);                                  /* [any]  */
-/* Key ("chest_girth_m") and one-line definition of the measure at index; length 0 past the last.      */
-VFIT_API uint32_t    vfit_measure_key(uint32_t index, char* buffer, uint32_t capacity);    /* [any]  */
-VFIT_API uint32_t    vfit_measure_text(uint32_t index, char* buffer, uint32_t capacity);   /* [any]  */
+ * The parent of the first bone is -1; of an unknown one -2. */
+VFIT_API uint32_t vfit_joint_name(vfit_joint_id joint, char* buffer, uint32_t capacity); /* [any] */
+VFIT_API uint32_t vfit_bone_name(vfit_bone_id bone, char* buffer, uint32_t capacity);    /* [any] */
+VFIT_API int32_t vfit_bone_parent(vfit_bone_id bone);                                    /* [any] */
+/* Key ("chest_girth_m") and one-line definition of the measure at index; length 0 past the last. */
+VFIT_API uint32_t vfit_measure_key(uint32_t index, char* buffer, uint32_t capacity);  /* [any] */
+VFIT_API uint32_t vfit_measure_text(uint32_t index, char* buffer, uint32_t capacity); /* [any] */
 
 /* ---- frame -------------------------------------------------------------------------------------- */
 typedef int32_t vfit_stream;
-enum { VFIT_STREAM_DEPTH = 0,           /* U16 in units of vfit_camera.depth_unit_m, 0: no reading     */
-    VFIT_STREAM_COLOR = 1,              /* RGBA8, registered to depth                                 */
-    VFIT_STREAM_USER_MAP = 2,           /* U8: 0 background, else the body's id                        */
-    VFIT_STREAM_POSITION = 16, VFIT_STREAM_NORMAL = 17, VFIT_STREAM_UV = 18,      /* one a vertex       */
-    VFIT_STREAM_INDEX = 19,             /* U32, three a triangle                                      */
-    VFIT_STREAM_BONE_MATRIX = 20,       /* skinning matrices, one a rig bone                           */
-    VFIT_STREAM_SKIN_BONES = 21,        /* U16X8: rig bones that carry a vertex                        */
-    VFIT_STREAM_SKIN_WEIGHTS = 22,      /* F32X8: their weights, sum 1, zero where unused               */
-    VFIT_STREAM_STRAIN = 23,            /* F32, mean edge strain at a vertex, 0 = unstretched           */
-    VFIT_STREAM_PRESSURE = 24 };        /* F32, Pa: what the body presses with against a vertex         */
+enum {
+    VFIT_STREAM_DEPTH = 0,    /* U16 in units of vfit_camera.depth_unit_m, 0: no reading */
+    VFIT_STREAM_COLOR = 1,    /* RGBA8, registered to depth */
+    VFIT_STREAM_USER_MAP = 2, /* U8: 0 background, else the body's id */
+    VFIT_STREAM_POSITION = 16,
+    VFIT_STREAM_NORMAL = 17,
+    VFIT_STREAM_UV = 18,           /* one a vertex */
+    VFIT_STREAM_INDEX = 19,        /* U32, three a triangle */
+    VFIT_STREAM_BONE_MATRIX = 20,  /* skinning matrices, one a rig bone */
+    VFIT_STREAM_SKIN_BONES = 21,   /* U16X8: rig bones that carry a vertex */
+    VFIT_STREAM_SKIN_WEIGHTS = 22, /* F32X8: their weights, sum 1, zero where unused */
+    VFIT_STREAM_STRAIN = 23,       /* F32, mean edge strain at a vertex, 0 = unstretched */
+    VFIT_STREAM_PRESSURE = 24
+}; /* F32, Pa: what the body presses with against a vertex */
 typedef int32_t vfit_format;
-enum { VFIT_FORMAT_NONE = 0, VFIT_FORMAT_U8 = 1, VFIT_FORMAT_U16 = 2,
-    VFIT_FORMAT_U32 = 3, VFIT_FORMAT_F32 = 4, VFIT_FORMAT_RGBA8 = 5, VFIT_FORMAT_F32X2 = 6,
-    VFIT_FORMAT_F32X3 = 7, VFIT_FORMAT_F32X16 = 8, VFIT_FORMAT_U16X8 = 9, VFIT_FORMAT_F32X8 = 10 };
+enum {
+    VFIT_FORMAT_NONE = 0,
+    VFIT_FORMAT_U8 = 1,
+    VFIT_FORMAT_U16 = 2,
+    VFIT_FORMAT_U32 = 3,
+    VFIT_FORMAT_F32 = 4,
+    VFIT_FORMAT_RGBA8 = 5,
+    VFIT_FORMAT_F32X2 = 6,
+    VFIT_FORMAT_F32X3 = 7,
+    VFIT_FORMAT_F32X16 = 8,
+    VFIT_FORMAT_U16X8 = 9,
+    VFIT_FORMAT_F32X8 = 10
+};
 
 typedef struct vfit_view {
     uint32_t struct_size;
     vfit_format format;
-    const void* data;                   /* 16-byte aligned, 16 readable bytes past the last item; where a
-                                         * host lent the pixels: as it lent them                         */
-    uint32_t width, height;             /* items; height is 1 for vertex data                        */
-    uint32_t item_stride, row_stride;   /* bytes                                                     */
-    int64_t  time_ns;
-    uint64_t serial;                    /* equal serials of one stream: equal content                */
+    const void* data;                 /* 16-byte aligned, 16 readable bytes past the last item; where a
+                                       * host lent the pixels: as it lent them */
+    uint32_t width, height;           /* items; height is 1 for vertex data */
+    uint32_t item_stride, row_stride; /* bytes */
+    int64_t time_ns;
+    uint64_t serial; /* equal serials of one stream: equal content */
 } vfit_view;
-/* Where vfit_frame_write writes: item i at data + i * item_stride (0: packed); capacity in bytes.      */
-typedef struct vfit_target { uint32_t struct_size; vfit_format format; void* data; uint64_t capacity;
-                             uint32_t item_stride, reserved; } vfit_target;
-typedef struct vfit_intrinsics { uint32_t struct_size, width, height, reserved;
-                                 float fx, fy, cx, cy, distortion[8]; } vfit_intrinsics;
+/* Where vfit_frame_write writes: item i at data + i * item_stride (0: packed); capacity in bytes. */
+typedef struct vfit_target {
+    uint32_t struct_size;
+    vfit_format format;
+    void* data;
+    uint64_t capacity;
+    uint32_t item_stride, reserved;
+} vfit_target;
+typedef struct vfit_intrinsics {
+    uint32_t struct_size, width, height, reserved;
+    float fx, fy, cx, cy, distortion[8];
+} vfit_intrinsics;
 typedef int32_t vfit_floor_state;
-enum { VFIT_FLOOR_DEFAULT = 0,          /* nobody knows: level camera, 1 m above the floor              */
-    VFIT_FLOOR_ESTIMATED = 1,           /* level camera, height from the first body's feet              */
-    VFIT_FLOOR_GIVEN = 2 };             /* by the sensor, the recording or the host                     */
-typedef struct vfit_camera {            /* where the camera stands                                     */
+enum {
+    VFIT_FLOOR_DEFAULT = 0,   /* nobody knows: level camera, 1 m above the floor */
+    VFIT_FLOOR_ESTIMATED = 1, /* level camera, height from the first body's feet */
+    VFIT_FLOOR_GIVEN = 2
+}; /* by the sensor, the recording or the host */
+typedef struct vfit_camera { /* where the camera stands */
     uint32_t struct_size;
     vfit_floor_state floor_state;
-    float depth_unit_m;                 /* 0: 0.001                                                  */
-    float height_m, tilt_rad, roll_rad; /* above the floor; tilt > 0 looks down. Outputs only          */
-    float floor_normal[3];              /* in camera space, pointing up: normal . p + distance = 0      */
+    float depth_unit_m;                 /* 0: 0.001 */
+    float height_m, tilt_rad, roll_rad; /* above the floor; tilt > 0 looks down. Outputs only */
+    float floor_normal[3];              /* in camera space, pointing up: normal . p + distance = 0 */
     float floor_distance_m;
-    float world_from_camera[16];        /* output only; bodies are carried by it; metres whatever axes  */
+    float world_from_camera[16]; /* output only; bodies are carried by it; metres whatever axes */
 } vfit_camera;
-VFIT_STRUCT(vfit_view) VFIT_STRUCT(vfit_target) VFIT_STRUCT(vfit_intrinsics) VFIT_STRUCT(vfit_camera)
+VFIT_STRUCT(vfit_view)
+VFIT_STRUCT(vfit_target)
+VFIT_STRUCT(vfit_intrinsics)
+VFIT_STRUCT(vfit_camera)
 
 /* A frame from pixels of the host (its own camera): views[i] is stream streams[i]. The pixels are
  * copied unless release is given, which is then called once, from any thread, when the last
  * reference has gone (and not at all where the call fails). Lent pixels are packed and aligned to their
- * format.                                                                                             */
+ * format. */
 typedef void (*vfit_release_fn)(void* user);
 typedef struct vfit_frame_desc {
     uint32_t struct_size, count;
-    const vfit_stream* streams;         /* DEPTH, COLOR, USER_MAP; depth is required                    */
-    const vfit_view* views;             /* count items, struct_size of the first apart                */
-    const vfit_intrinsics* intrinsics;  /* of the depth image                                        */
-    const vfit_camera* camera;          /* null: 1 mm units, floor unknown                             */
-    int64_t time_ns;                    /* 0: now                                                    */
+    const vfit_stream* streams;        /* DEPTH, COLOR, USER_MAP; depth is required */
+    const vfit_view* views;            /* count items, struct_size of the first apart */
+    const vfit_intrinsics* intrinsics; /* of the depth image */
+    const vfit_camera* camera;         /* null: 1 mm units, floor unknown */
+    int64_t time_ns;                   /* 0: now */
     vfit_release_fn release;
     void* user;
 } vfit_frame_desc;
 VFIT_STRUCT(vfit_frame_desc)
 VFIT_API vfit_result vfit_frame_create(vfit_context context, const vfit_frame_desc* desc,
-                                       vfit_frame* out);                                   /* [any]  */
-VFIT_API vfit_result vfit_frame_retain(vfit_frame frame);                                  /* [any]  */
-VFIT_API vfit_result vfit_frame_release(vfit_frame frame);                                 /* [any]  */
+                                       vfit_frame* out);   /* [any] */
+VFIT_API vfit_result vfit_frame_retain(vfit_frame frame);  /* [any] */
+VFIT_API vfit_result vfit_frame_release(vfit_frame frame); /* [any] */
 VFIT_API vfit_result vfit_frame_streams(vfit_frame frame, vfit_stream* items, uint32_t* count);
-                                                                                           /* [any]  */
-VFIT_API vfit_result vfit_frame_view(vfit_frame frame, vfit_stream stream, vfit_view* out);/* [any]  */
-VFIT_API vfit_result vfit_frame_intrinsics(vfit_frame frame, vfit_intrinsics* out);        /* [any]  */
-VFIT_API vfit_result vfit_frame_camera(vfit_frame frame, vfit_camera* out);                /* [any]  */
+/* [any] */
+VFIT_API vfit_result vfit_frame_view(vfit_frame frame, vfit_stream stream, vfit_view* out); /* [any] */
+VFIT_API vfit_result vfit_frame_intrinsics(vfit_frame frame, vfit_intrinsics* out);         /* [any] */
+VFIT_API vfit_result vfit_frame_camera(vfit_frame frame, vfit_camera* out);                 /* [any] */
 /* What the source says beside the pixels, one JSON document a key: "measures" (ground truth of a virtual
  * person, {"stature_m": ...}), "contacts" ({"left": 0, "right": 1}), "index" (the number of a recorded
  * frame), "bodies" (true: the source tells its bodies, also when nobody is in view). *length is the whole
- * text's; no such key: VFIT_NOT_READY.                                                         [any]   */
+ * text's; no such key: VFIT_NOT_READY.                                                         [any] */
 VFIT_API vfit_result vfit_frame_meta(vfit_frame frame, const char* key, char* buffer, uint32_t capacity,
                                      uint32_t* length);
 /* Copies into memory of the engine (mapped vertex buffer, NativeArray) at its own format and stride;
- * VFIT_NOT_READY and no copy if *serial is already that of the frame. serial may be null.     [any]   */
+ * VFIT_NOT_READY and no copy if *serial is already that of the frame. serial may be null.     [any] */
 VFIT_API vfit_result vfit_frame_write(vfit_frame frame, vfit_stream stream, const vfit_target* target,
                                       uint64_t* serial);
 
 /* ---- sensor: "recording:PATH", "virtual:", "openni2:...", all of them plug-ins --------------------- */
-typedef struct vfit_sensor_info { uint32_t struct_size, caps; char uri[256], name[64], plugin[64]; }
-    vfit_sensor_info;
-typedef struct vfit_sensor_mode { uint32_t struct_size, width, height; float rate_hz; char name[64]; }
-    vfit_sensor_mode;
-typedef struct vfit_sensor_option { uint32_t struct_size, reserved; char key[32], value[96], text[128]; }
-    vfit_sensor_option;
+typedef struct vfit_sensor_info {
+    uint32_t struct_size, caps;
+    char uri[256], name[64], plugin[64];
+} vfit_sensor_info;
+typedef struct vfit_sensor_mode {
+    uint32_t struct_size, width, height;
+    float rate_hz;
+    char name[64];
+} vfit_sensor_mode;
+typedef struct vfit_sensor_option {
+    uint32_t struct_size, reserved;
+    char key[32], value[96], text[128];
+} vfit_sensor_option;
 typedef struct vfit_sensor_stats {
     uint32_t struct_size, running;
-    vfit_result state;                  /* OK, END_OF_STREAM, DEVICE_LOST or the plug-in's error       */
+    vfit_result state; /* OK, END_OF_STREAM, DEVICE_LOST or the plug-in's error */
     uint32_t reserved;
-    uint64_t received, taken, dropped;  /* frames pushed, acquired, replaced before they were acquired  */
-    int64_t latency_ns;                 /* of the last acquire: from time stamp to hand-over            */
+    uint64_t received, taken, dropped; /* frames pushed, acquired, replaced before they were acquired */
+    int64_t latency_ns;                /* of the last acquire: from time stamp to hand-over */
 } vfit_sensor_stats;
-VFIT_STRUCT(vfit_sensor_info) VFIT_STRUCT(vfit_sensor_mode) VFIT_STRUCT(vfit_sensor_option)
+VFIT_STRUCT(vfit_sensor_info)
+VFIT_STRUCT(vfit_sensor_mode)
+VFIT_STRUCT(vfit_sensor_option)
 VFIT_STRUCT(vfit_sensor_stats)
 VFIT_API vfit_result vfit_sensor_list(vfit_context context, vfit_sensor_info* items, uint32_t stride,
-                                      uint32_t* count);                                    /* [any]  */
+                                      uint32_t* count); /* [any] */
 /* Rises when the list may have become another: a USB camera of a kind that a plug-in knows was plugged in or
- * unplugged, a plug-in was loaded. Cheap: ask each frame, and list again when it has changed.  [any]   */
+ * unplugged, a plug-in was loaded. Cheap: ask each frame, and list again when it has changed.  [any] */
 VFIT_API vfit_result vfit_sensor_changes(vfit_context context, uint64_t* count);
 VFIT_API vfit_result vfit_sensor_open(vfit_context context, const char* uri, vfit_sensor* out);
-                                                                                           /* [any]  */
+/* [any] */
 VFIT_API vfit_result vfit_sensor_modes(vfit_sensor sensor, vfit_sensor_mode* items, uint32_t stride,
-                                       uint32_t* count);                                   /* [read] */
+                                       uint32_t* count); /* [read] */
 VFIT_API vfit_result vfit_sensor_options(vfit_sensor sensor, vfit_sensor_option* items, uint32_t stride,
-                                         uint32_t* count);                                 /* [read] */
+                                         uint32_t* count); /* [read] */
 /* Options of every sensor: "mode" (a name from vfit_sensor_modes) and "pace": "realtime" drops as a
  * camera does; "none" (the default of recordings and of the virtual person) makes a push wait until the
- * frame before was taken, so that nothing is dropped.                                         [excl]   */
+ * frame before was taken, so that nothing is dropped.                                         [excl] */
 VFIT_API vfit_result vfit_sensor_set_option(vfit_sensor sensor, const char* key, const char* value);
-VFIT_API vfit_result vfit_sensor_start(vfit_sensor sensor);                                /* [excl] */
-VFIT_API vfit_result vfit_sensor_stop(vfit_sensor sensor);      /* wakes waiting acquires     [excl] */
-VFIT_API vfit_result vfit_sensor_close(vfit_sensor sensor);                                /* [excl] */
+VFIT_API vfit_result vfit_sensor_start(vfit_sensor sensor); /* [excl] */
+VFIT_API vfit_result vfit_sensor_stop(vfit_sensor sensor);  /* wakes waiting acquires     [excl] */
+VFIT_API vfit_result vfit_sensor_close(vfit_sensor sensor); /* [excl] */
 /* The newest frame, once; VFIT_END_OF_STREAM when a replay has ended; the error of the stream when it
- * failed. timeout_ns 0 never waits: call it so from a render loop; < 0 waits without end.     [any]   */
+ * failed. timeout_ns 0 never waits: call it so from a render loop; < 0 waits without end.     [any] */
 VFIT_API vfit_result vfit_sensor_acquire(vfit_sensor sensor, int64_t timeout_ns, vfit_frame* out);
-VFIT_API vfit_result vfit_sensor_describe(vfit_sensor sensor, vfit_sensor_stats* out);     /* [any]  */
+VFIT_API vfit_result vfit_sensor_describe(vfit_sensor sensor, vfit_sensor_stats* out); /* [any] */
 
 /* ---- recorder: writes the recording folder (docs/recording.md) ------------------------------------- */
 typedef struct vfit_recorder_desc {
     uint32_t struct_size, reserved;
-    const char* sensor_name;            /* for camera.json; null: "unknown"                            */
-    float rate_hz;                      /* 0: 30                                                     */
-    uint32_t segmented;                 /* the background was removed already                           */
+    const char* sensor_name; /* for camera.json; null: "unknown" */
+    float rate_hz;           /* 0: 30 */
+    uint32_t segmented;      /* the background was removed already */
 } vfit_recorder_desc;
 VFIT_STRUCT(vfit_recorder_desc)
 /* path must not exist or be an empty folder. What was written stays readable if the process dies: each
- * file is complete before its name appears.                                                           */
+ * file is complete before its name appears. */
 VFIT_API vfit_result vfit_recorder_create(vfit_context context, const char* path,
                                           const vfit_recorder_desc* desc, vfit_recorder* out); /* [any] */
-VFIT_API vfit_result vfit_recorder_write(vfit_recorder recorder, vfit_frame frame);        /* [excl] */
-VFIT_API vfit_result vfit_recorder_destroy(vfit_recorder recorder);                        /* [excl] */
+VFIT_API vfit_result vfit_recorder_write(vfit_recorder recorder, vfit_frame frame);            /* [excl] */
+VFIT_API vfit_result vfit_recorder_destroy(vfit_recorder recorder);                            /* [excl] */
 
 /* ---- bodies and tracker ---------------------------------------------------------------------------- */
 typedef int32_t vfit_joint_state;
 enum { VFIT_JOINT_NOT_SEEN = 0, VFIT_JOINT_INFERRED = 1, VFIT_JOINT_MEASURED = 2 };
-/* rotation: of the joint in world space, relative to a T-pose that faces +Z; all zero: unknown.        */
-typedef struct vfit_joint { uint32_t struct_size; vfit_joint_id joint; vfit_joint_state state;
-                            float confidence, position[3], rotation[4]; uint32_t reserved; } vfit_joint;
-enum { VFIT_BODY_CAMERA_SPACE = 1,      /* input only: positions are in camera space                    */
-       VFIT_BODY_PARTLY_OUT_OF_VIEW = 2 };
-typedef struct vfit_body { uint32_t struct_size, body_id; int64_t time_ns; uint32_t flags, reserved; }
-    vfit_body;
+/* rotation: of the joint in world space, relative to a T-pose that faces +Z; all zero: unknown. */
+typedef struct vfit_joint {
+    uint32_t struct_size;
+    vfit_joint_id joint;
+    vfit_joint_state state;
+    float confidence, position[3], rotation[4];
+    uint32_t reserved;
+} vfit_joint;
+enum {
+    VFIT_BODY_CAMERA_SPACE = 1, /* input only: positions are in camera space */
+    VFIT_BODY_PARTLY_OUT_OF_VIEW = 2
+};
+typedef struct vfit_body {
+    uint32_t struct_size, body_id;
+    int64_t time_ns;
+    uint32_t flags, reserved;
+} vfit_body;
 typedef int32_t vfit_track_source;
-enum { VFIT_TRACK_AUTO = 0,             /* the source's where it tells them, else the built-in tracker's */
-       VFIT_TRACK_BUILT_IN = 1,
-       VFIT_TRACK_GIVEN = 2 };          /* the source's alone: UNSUPPORTED where it tells none           */
+enum {
+    VFIT_TRACK_AUTO = 0, /* the source's where it tells them, else the built-in tracker's */
+    VFIT_TRACK_BUILT_IN = 1,
+    VFIT_TRACK_GIVEN = 2
+}; /* the source's alone: UNSUPPORTED where it tells none */
 /* Joints steadied over time by a one-Euro filter, their states lowered to what their confidence bears out:
- * MEASURED from 0.5 on, INFERRED from 0.15 on; where a body has states and no confidence those stand for it. */
+ * MEASURED from 0.5 on, INFERRED from 0.15 on; where a body has states and no confidence those stand for it.
+ */
 typedef int32_t vfit_joint_filter;
-enum { VFIT_FILTER_AUTO = 0,            /* the tracker's own joints and submitted ones; a source's own stay as
-                                         * they are (a recording's, the truth of a virtual person)       */
-       VFIT_FILTER_ON = 1,              /* a source's own too                                        */
-       VFIT_FILTER_OFF = 2 };           /* none                                                      */
+enum {
+    VFIT_FILTER_AUTO = 0, /* the tracker's own joints and submitted ones; a source's own stay as
+                           * they are (a recording's, the truth of a virtual person) */
+    VFIT_FILTER_ON = 1,   /* a source's own too */
+    VFIT_FILTER_OFF = 2
+}; /* none */
 /* The active person, whom a mirror serves. Somebody else becomes it who has been better by 0.3 m for one
- * second without a break; who is out of sight is waited for two seconds.                               */
+ * second without a break; who is out of sight is waited for two seconds. */
 typedef int32_t vfit_follow;
-enum { VFIT_FOLLOW_NEAREST = 0,         /* to the camera                                             */
-       VFIT_FOLLOW_CENTRED = 1,         /* least to the side of the camera's axis                    */
-       VFIT_FOLLOW_FIRST = 2,           /* who came first, as long as they stay                      */
-       VFIT_FOLLOW_CHOSEN = 3 };        /* nobody but whom vfit_tracker_set_active names             */
+enum {
+    VFIT_FOLLOW_NEAREST = 0, /* to the camera */
+    VFIT_FOLLOW_CENTRED = 1, /* least to the side of the camera's axis */
+    VFIT_FOLLOW_FIRST = 2,   /* who came first, as long as they stay */
+    VFIT_FOLLOW_CHOSEN = 3
+}; /* nobody but whom vfit_tracker_set_active names */
 typedef int32_t vfit_active_state;
-enum { VFIT_ACTIVE_NOBODY = 0, VFIT_ACTIVE_BY_RULE = 1, VFIT_ACTIVE_CHOSEN = 2,
-       VFIT_ACTIVE_LOST = 3 };          /* out of sight, waited for: the frame has no such body      */
-/* The body model fitted to a person's depth and outline, where the tracker finds the joints by itself: they move
- * to the fitted body's and get rotations, as long as it meets the picture. The first frame with a person may take
- * half a second longer.                                                                               */
+enum {
+    VFIT_ACTIVE_NOBODY = 0,
+    VFIT_ACTIVE_BY_RULE = 1,
+    VFIT_ACTIVE_CHOSEN = 2,
+    VFIT_ACTIVE_LOST = 3
+}; /* out of sight, waited for: the frame has no such body */
+/* The body model fitted to a person's depth and outline, where the tracker finds the joints by itself: they
+ * move to the fitted body's and get rotations, as long as it meets the picture. The first frame with a person
+ * may take half a second longer. */
 typedef int32_t vfit_track_fit;
-enum { VFIT_FIT_AUTO = 0,               /* of the active person                                      */
-       VFIT_FIT_OFF = 1,                /* of nobody                                                 */
-       VFIT_FIT_EVERYBODY = 2 };        /* some 2.5 ms a person                                      */
+enum {
+    VFIT_FIT_AUTO = 0, /* of the active person */
+    VFIT_FIT_OFF = 1,  /* of nobody */
+    VFIT_FIT_EVERYBODY = 2
+}; /* some 2.5 ms a person */
 typedef struct vfit_tracker_desc {
     uint32_t struct_size, reserved;
-    const vfit_camera* floor;           /* where the floor is, if the frames do not say; null: unknown  */
+    const vfit_camera* floor; /* where the floor is, if the frames do not say; null: unknown */
     vfit_track_source joints, user_map;
-    vfit_follow follow;                 /* the rule of the active person                             */
+    vfit_follow follow; /* the rule of the active person */
     vfit_joint_filter filter;
     vfit_track_fit fit;
     uint32_t reserved2;
 } vfit_tracker_desc;
 /* Where a joint is in the depth image, as a pose network sees it in a registered colour image. LEFT is the
- * person's own left, whatever the context mirrors.                                                     */
+ * person's own left, whatever the context mirrors. */
 typedef struct vfit_joint_hint {
-    uint32_t struct_size, body_id;      /* 0: of whose pixel it is                                   */
+    uint32_t struct_size, body_id; /* 0: of whose pixel it is */
     vfit_joint_id joint;
-    float x, y;                         /* pixel; centres lie at whole coordinates                   */
-    float confidence;                   /* 0..1: the chance that it is right                         */
+    float x, y;       /* pixel; centres lie at whole coordinates */
+    float confidence; /* 0..1: the chance that it is right */
 } vfit_joint_hint;
-VFIT_STRUCT(vfit_joint) VFIT_STRUCT(vfit_body) VFIT_STRUCT(vfit_tracker_desc) VFIT_STRUCT(vfit_joint_hint)
-/* Bodies are part of a tracked frame (or of a recording's, or of the host's own).              [any]   */
-VFIT_API vfit_result vfit_frame_bodies(vfit_frame frame, vfit_body* items, uint32_t stride,
+VFIT_STRUCT(vfit_joint)
+VFIT_STRUCT(vfit_body)
+VFIT_STRUCT(vfit_tracker_desc)
+VFIT_STRUCT(vfit_joint_hint)
+/* Bodies are part of a tracked frame (or of a recording's, or of the host's own).              [any] */
+VFIT_API vfit_result vfit_frame_bodies(vfit_frame frame, vfit_body* items, uint32_t stride, uint32_t* count);
+/* Only joints that are seen or inferred are listed.                                            [any] */
+VFIT_API vfit_result vfit_frame_joints(vfit_frame frame, uint32_t body_id, vfit_joint* items, uint32_t stride,
                                        uint32_t* count);
-/* Only joints that are seen or inferred are listed.                                            [any]   */
-VFIT_API vfit_result vfit_frame_joints(vfit_frame frame, uint32_t body_id, vfit_joint* items,
-                                       uint32_t stride, uint32_t* count);
 VFIT_API vfit_result vfit_tracker_create(vfit_context context, const vfit_tracker_desc* desc,
-                                         vfit_tracker* out);                               /* [any]  */
-VFIT_API vfit_result vfit_tracker_destroy(vfit_tracker tracker);                           /* [any]  */
+                                         vfit_tracker* out);     /* [any] */
+VFIT_API vfit_result vfit_tracker_destroy(vfit_tracker tracker); /* [any] */
 /* *tracked shares the images and user map of frame and holds the bodies that its source supplies, or those
  * that the tracker sees in it. Where it looks for people by itself *tracked has a user map of its own, with
  * the ids of its source's bodies where those are taken.
@@ -404,14 +532,14 @@ VFIT_API vfit_result vfit_tracker_destroy(vfit_tracker tracker);                
 VFIT_API vfit_result vfit_tracker_update(vfit_tracker tracker, vfit_frame frame, vfit_frame* tracked);
 /* The host's own middleware in place of the built-in tracker, one call a body; frame may be a *tracked
  * of the call before, to add a second body. A joint that is not finite gives VFIT_ERROR_DATA. Positions are
- * filtered over the calls with one body_id, by time_ns, unless desc.filter is OFF.             [excl]  */
+ * filtered over the calls with one body_id, by time_ns, unless desc.filter is OFF.             [excl] */
 VFIT_API vfit_result vfit_tracker_submit(vfit_tracker tracker, vfit_frame frame, const vfit_body* body,
                                          const vfit_joint* items, uint32_t stride, uint32_t count,
                                          vfit_frame* tracked);
 /* For the next update alone, in place of earlier ones: where the tracker's own network wavers between places
  * of a joint, the hinted one counts more (across the view; depth is the depth image's). Does little where
  * the network is sure, and nothing far from anybody or where the joints are the source's. Bad items:
- * VFIT_ERROR_ARGUMENT or VFIT_ERROR_DATA, none of them is taken.                               [excl]   */
+ * VFIT_ERROR_ARGUMENT or VFIT_ERROR_DATA, none of them is taken.                               [excl] */
 VFIT_API vfit_result vfit_tracker_hint(vfit_tracker tracker, const vfit_joint_hint* items, uint32_t stride,
                                        uint32_t count);
 /* Forgets people, room and choice.                                                              [excl] */
@@ -420,103 +548,148 @@ VFIT_API vfit_result vfit_tracker_reset(vfit_tracker tracker);
  * Who is not in view is waited for, then the rule holds again; with VFIT_FOLLOW_CHOSEN for ever.  [excl] */
 VFIT_API vfit_result vfit_tracker_set_active(vfit_tracker tracker, uint32_t body_id);
 /* The body to hand to vfit_scan_add and vfit_motion_step: the active one; 0: nobody. Of a frame that no
- * tracker made: its first body. state may be null.                                             [any]   */
+ * tracker made: its first body. state may be null.                                             [any] */
 VFIT_API vfit_result vfit_frame_active_body(vfit_frame frame, uint32_t* body_id, vfit_active_state* state);
 
 /* ---- scan -> measurements -> size ---------------------------------------------------------------- */
 typedef int32_t vfit_sex;
 enum { VFIT_SEX_UNKNOWN = 0, VFIT_SEX_FEMALE = 1, VFIT_SEX_MALE = 2 };
 typedef int32_t vfit_scan_method;
-enum { VFIT_SCAN_DEFAULT = 0,           /* PROPORTIONS as yet                                         */
-    VFIT_SCAN_PROPORTIONS = 1,          /* the paper's, with anthropometric ratios, weighted means, outliers left out */
-    VFIT_SCAN_PROPORTIONS_AS_PRINTED = 2,   /* the artists' canon and plain means of the paper's text     */
-    VFIT_SCAN_FIT = 3 };                /* a body fitted to all frames, measures learnt from it        */
+enum {
+    VFIT_SCAN_DEFAULT = 0, /* PROPORTIONS as yet */
+    VFIT_SCAN_PROPORTIONS =
+        1, /* the paper's, with anthropometric ratios, weighted means, outliers left out */
+    VFIT_SCAN_PROPORTIONS_AS_PRINTED = 2, /* the artists' canon and plain means of the paper's text */
+    VFIT_SCAN_FIT = 3
+}; /* a body fitted to all frames, measures learnt from it */
 typedef int32_t vfit_guidance;
-enum { VFIT_GUIDANCE_NONE = 0, VFIT_GUIDANCE_STEP_BACK = 1, VFIT_GUIDANCE_STEP_CLOSER = 2,
-    VFIT_GUIDANCE_ARMS_OUT = 3, VFIT_GUIDANCE_HOLD_STILL = 4, VFIT_GUIDANCE_TURN_SIDEWAYS = 5,
-    VFIT_GUIDANCE_FEET_NOT_VISIBLE = 6, VFIT_GUIDANCE_ONE_PERSON_ONLY = 7,
-    VFIT_GUIDANCE_NOBODY = 8, VFIT_GUIDANCE_JOINTS_MISSING = 9, VFIT_GUIDANCE_FACE_CAMERA = 10 };
-enum { VFIT_SCAN_BARE = 1,              /* bits of flags. Bare feet and no hair on the crown: otherwise the deviation
-                                         * of FIT's stature allows for both                             */
-    VFIT_SCAN_TIGHT = 2 };              /* of FIT: the clothes lie on the skin, as sportswear does. Otherwise up to 3 cm
-                                         * of cloth are reckoned with                                   */
-typedef struct vfit_scan_desc { uint32_t struct_size; vfit_scan_method method;
-                                uint32_t frame_count;                     /* 0: 30, as in the paper    */
-                                vfit_sex sex;
-                                uint32_t side_frame_count;   /* of FIT: frames from the side, 15 are enough; 0: none
-                                                              * are waited for                                      */
-                                uint32_t flags;              /* VFIT_SCAN_*                                        */
-                              } vfit_scan_desc;
+enum {
+    VFIT_GUIDANCE_NONE = 0,
+    VFIT_GUIDANCE_STEP_BACK = 1,
+    VFIT_GUIDANCE_STEP_CLOSER = 2,
+    VFIT_GUIDANCE_ARMS_OUT = 3,
+    VFIT_GUIDANCE_HOLD_STILL = 4,
+    VFIT_GUIDANCE_TURN_SIDEWAYS = 5,
+    VFIT_GUIDANCE_FEET_NOT_VISIBLE = 6,
+    VFIT_GUIDANCE_ONE_PERSON_ONLY = 7,
+    VFIT_GUIDANCE_NOBODY = 8,
+    VFIT_GUIDANCE_JOINTS_MISSING = 9,
+    VFIT_GUIDANCE_FACE_CAMERA = 10
+};
+enum {
+    VFIT_SCAN_BARE = 1, /* bits of flags. Bare feet and no hair on the crown: otherwise the deviation
+                         * of FIT's stature allows for both */
+    VFIT_SCAN_TIGHT = 2
+}; /* of FIT: the clothes lie on the skin, as sportswear does. Otherwise up to 3 cm
+    * of cloth are reckoned with */
+typedef struct vfit_scan_desc {
+    uint32_t struct_size;
+    vfit_scan_method method;
+    uint32_t frame_count; /* 0: 30, as in the paper */
+    vfit_sex sex;
+    uint32_t side_frame_count; /* of FIT: frames from the side, 15 are enough; 0: none
+                                * are waited for */
+    uint32_t flags;            /* VFIT_SCAN_* */
+} vfit_scan_desc;
 typedef struct vfit_scan_state {
     uint32_t struct_size, frames_taken, frames_wanted;
-    vfit_guidance guidance;             /* why the last frame was not taken                            */
-    float correction_m;                 /* mean absolute change of depth by the filter (Fig. 9)          */
-    float compute_ms;                   /* of the last frame                                         */
-    uint32_t side_frames_taken, side_frames_wanted;  /* frames_taken: from the front                  */
+    vfit_guidance guidance;                         /* why the last frame was not taken */
+    float correction_m;                             /* mean absolute change of depth by the filter (Fig. 9) */
+    float compute_ms;                               /* of the last frame */
+    uint32_t side_frames_taken, side_frames_wanted; /* frames_taken: from the front */
 } vfit_scan_state;
 /* key: "stature_m", "chest_girth_m", "body_mass_kg", ... (vfit_measure_key): the unit is in the key;
- * observed 0: inferred from others. sigma is one standard deviation of value; 0: unknown.             */
-typedef struct vfit_measurement { uint32_t struct_size, observed; float value, sigma; char key[48]; }
-    vfit_measurement;
-/* A sphere (joint_b -1), or the tapered capsule of two spheres.                                        */
-typedef struct vfit_collider { uint32_t struct_size; vfit_joint_id joint; float center[3], radius;
-                               vfit_joint_id joint_b; float center_b[3], radius_b; uint32_t reserved; }
-    vfit_collider;
+ * observed 0: inferred from others. sigma is one standard deviation of value; 0: unknown. */
+typedef struct vfit_measurement {
+    uint32_t struct_size, observed;
+    float value, sigma;
+    char key[48];
+} vfit_measurement;
+/* A sphere (joint_b -1), or the tapered capsule of two spheres. */
+typedef struct vfit_collider {
+    uint32_t struct_size;
+    vfit_joint_id joint;
+    float center[3], radius;
+    vfit_joint_id joint_b;
+    float center_b[3], radius_b;
+    uint32_t reserved;
+} vfit_collider;
 /* Algorithm 3: x and y relative to the nominal width and height of a garment kind ("short_sleeves",
- * "long_sleeves", "trousers"); apply to body and garment as a whole, width and depth by x.             */
-typedef struct vfit_scale { uint32_t struct_size; float x, y, sigma_x, sigma_y, width_m, height_m; uint32_t reserved; }
-    vfit_scale;
-typedef struct vfit_size { uint32_t struct_size; float probability; char label[32]; } vfit_size;
-typedef struct vfit_size_row { uint32_t struct_size, measure_count; char garment_kind[32], label[32]; }
-    vfit_size_row;
-/* How a size sits by one measure: ease is the room beyond the body in the middle of the size's range (below 0: too
- * little of it), sigma its deviation; probabilities that the body is above, within and below that range. */
-typedef struct vfit_size_zone { uint32_t struct_size; float ease, sigma, tight, regular, loose; char key[48]; }
-    vfit_size_zone;
-VFIT_STRUCT(vfit_scan_desc) VFIT_STRUCT(vfit_scan_state) VFIT_STRUCT(vfit_measurement)
-VFIT_STRUCT(vfit_scale) VFIT_STRUCT(vfit_size) VFIT_STRUCT(vfit_size_row) VFIT_STRUCT(vfit_collider)
+ * "long_sleeves", "trousers"); apply to body and garment as a whole, width and depth by x. */
+typedef struct vfit_scale {
+    uint32_t struct_size;
+    float x, y, sigma_x, sigma_y, width_m, height_m;
+    uint32_t reserved;
+} vfit_scale;
+typedef struct vfit_size {
+    uint32_t struct_size;
+    float probability;
+    char label[32];
+} vfit_size;
+typedef struct vfit_size_row {
+    uint32_t struct_size, measure_count;
+    char garment_kind[32], label[32];
+} vfit_size_row;
+/* How a size sits by one measure: ease is the room beyond the body in the middle of the size's range (below
+ * 0: too little of it), sigma its deviation; probabilities that the body is above, within and below that
+ * range. */
+typedef struct vfit_size_zone {
+    uint32_t struct_size;
+    float ease, sigma, tight, regular, loose;
+    char key[48];
+} vfit_size_zone;
+VFIT_STRUCT(vfit_scan_desc)
+VFIT_STRUCT(vfit_scan_state)
+VFIT_STRUCT(vfit_measurement)
+VFIT_STRUCT(vfit_scale)
+VFIT_STRUCT(vfit_size)
+VFIT_STRUCT(vfit_size_row)
+VFIT_STRUCT(vfit_collider)
 VFIT_STRUCT(vfit_size_zone)
 VFIT_API vfit_result vfit_scan_create(vfit_context context, const vfit_scan_desc* desc,
-                                      vfit_scan* out);                                     /* [any]  */
-VFIT_API vfit_result vfit_scan_destroy(vfit_scan scan);         /* wipes the body data        [any]  */
-VFIT_API vfit_result vfit_scan_reset(vfit_scan scan);                                      /* [excl] */
-/* Asks for more frames of this person from the front and the side, also of a complete scan, which then goes on;
- * vfit_scan_reset takes it back.                                                                     [excl] */
+                                      vfit_scan* out);  /* [any] */
+VFIT_API vfit_result vfit_scan_destroy(vfit_scan scan); /* wipes the body data        [any] */
+VFIT_API vfit_result vfit_scan_reset(vfit_scan scan);   /* [excl] */
+/* Asks for more frames of this person from the front and the side, also of a complete scan, which then goes
+ * on; vfit_scan_reset takes it back. [excl] */
 VFIT_API vfit_result vfit_scan_extend(vfit_scan scan, uint32_t frames, uint32_t side_frames);
 /* VFIT_INCOMPLETE: the frame was not taken, state->guidance says why. VFIT_NOT_READY: taken, more are
- * wanted. VFIT_OK: the scan is complete (further frames are ignored). state may be null.      [excl]   */
+ * wanted. VFIT_OK: the scan is complete (further frames are ignored). state may be null.      [excl] */
 VFIT_API vfit_result vfit_scan_add(vfit_scan scan, vfit_frame tracked, uint32_t body_id,
                                    vfit_scan_state* state);
-/* From the first frame on; the values settle with each. No frame yet: VFIT_ERROR_STATE.        [read]  */
+/* From the first frame on; the values settle with each. No frame yet: VFIT_ERROR_STATE.        [read] */
 VFIT_API vfit_result vfit_scan_measure(vfit_scan scan, vfit_measurement* items, uint32_t stride,
                                        uint32_t* count);
 VFIT_API vfit_result vfit_scan_colliders(vfit_scan scan, vfit_collider* items, uint32_t stride,
-                                         uint32_t* count);  /* centres are those of the last frame [read] */
+                                         uint32_t* count); /* centres are those of the last frame [read] */
 VFIT_API vfit_result vfit_scan_scale(vfit_scan scan, const char* garment_kind, vfit_scale* out);
-                                                                                           /* [read] */
-/* Measurements as JSON text, for an app that keeps them with the person's consent (docs/measuring.md). text null sets
- * *capacity to what is needed, the end included; too little: VFIT_ERROR_CAPACITY, and the same.       [any]   */
+/* [read] */
+/* Measurements as JSON text, for an app that keeps them with the person's consent (docs/measuring.md). text
+ * null sets *capacity to what is needed, the end included; too little: VFIT_ERROR_CAPACITY, and the same.
+ * [any] */
 VFIT_API vfit_result vfit_measurements_write(const vfit_measurement* items, uint32_t stride, uint32_t count,
                                              vfit_sex sex, char* text, uint32_t* capacity);
-/* That text, a report of vfit measure, or {"stature_m": 1.7}. sex may be null.                        [any]   */
+/* That text, a report of vfit measure, or {"stature_m": 1.7}. sex may be null.                        [any]
+ */
 VFIT_API vfit_result vfit_measurements_read(const void* text, uint64_t byte_count, vfit_measurement* items,
                                             uint32_t stride, uint32_t* count, vfit_sex* sex);
-/* Two scans of one person in one list. The statures of two people: VFIT_ERROR_DATA.                   [any]   */
+/* Two scans of one person in one list. The statures of two people: VFIT_ERROR_DATA.                   [any]
+ */
 VFIT_API vfit_result vfit_measurements_merge(const vfit_measurement* a, uint32_t a_stride, uint32_t a_count,
                                              const vfit_measurement* b, uint32_t b_stride, uint32_t b_count,
                                              vfit_measurement* items, uint32_t stride, uint32_t* count);
-/* A chart as JSON (docs/size-charts.md), or by the name of a file in data_dir/charts.          [any]   */
+/* A chart as JSON (docs/size-charts.md), or by the name of a file in data_dir/charts.          [any] */
 VFIT_API vfit_result vfit_size_chart_load(vfit_context context, const void* bytes, uint64_t byte_count,
                                           vfit_size_chart* out);
 VFIT_API vfit_result vfit_size_chart_open(vfit_context context, const char* name, vfit_size_chart* out);
-VFIT_API vfit_result vfit_size_chart_destroy(vfit_size_chart chart);                       /* [any]  */
+VFIT_API vfit_result vfit_size_chart_destroy(vfit_size_chart chart); /* [any] */
 VFIT_API vfit_result vfit_size_chart_rows(vfit_size_chart chart, vfit_size_row* items, uint32_t stride,
-                                          uint32_t* count);                                /* [read] */
-/* Every label of that garment kind with its probability, best first; they sum to 1.          [read]  */
+                                          uint32_t* count); /* [read] */
+/* Every label of that garment kind with its probability, best first; they sum to 1.          [read] */
 VFIT_API vfit_result vfit_size_recommend(vfit_size_chart chart, const char* garment_kind,
                                          const vfit_measurement* items, uint32_t stride, uint32_t count,
                                          vfit_size* sizes, uint32_t size_stride, uint32_t* size_count);
-/* How that size sits: an item a measure of the garment kind that was given.                   [read]  */
+/* How that size sits: an item a measure of the garment kind that was given.                   [read] */
 VFIT_API vfit_result vfit_size_zones(vfit_size_chart chart, const char* garment_kind, const char* label,
                                      const vfit_measurement* items, uint32_t stride, uint32_t count,
                                      vfit_size_zone* zones, uint32_t zone_stride, uint32_t* zone_count);
@@ -524,307 +697,355 @@ VFIT_API vfit_result vfit_size_zones(vfit_size_chart chart, const char* garment_
 /* ---- motion: raw body in, clean pose out; usable alone with the game's own rig --------------------- */
 /* rotation is local to the parent and relative to a T-pose in which every bone has the axes of the world
  * (so that rest is the identity); position is the hips' in world space, else the offset from the parent
- * in that T-pose.                                                                                      */
-typedef struct vfit_bone { uint32_t struct_size; vfit_bone_id bone; float rotation[4], position[3];
-                           uint32_t reserved; } vfit_bone;
+ * in that T-pose. */
+typedef struct vfit_bone {
+    uint32_t struct_size;
+    vfit_bone_id bone;
+    float rotation[4], position[3];
+    uint32_t reserved;
+} vfit_bone;
 enum { VFIT_CONTACT_LEFT = 1, VFIT_CONTACT_RIGHT = 2 };
 typedef struct vfit_pose {
     uint32_t struct_size, contact_flags;
     int64_t time_ns;
-    float root_correction[3];           /* what the foot stage moved the root by (Alg. 6, d_root)        */
-    float foot_correction_m;            /* how far it moved the planted foot (Fig. 11)                   */
+    float root_correction[3]; /* what the foot stage moved the root by (Alg. 6, d_root) */
+    float foot_correction_m;  /* how far it moved the planted foot (Fig. 11) */
 } vfit_pose;
-enum { VFIT_MOTION_NO_FILTER = 1,       /* positions as they come                                     */
-       VFIT_MOTION_NO_LIMITS = 2,       /* no joint limits                                            */
-       VFIT_MOTION_NO_SMOOTHING = 4,    /* no rotation smoothing (Eq. 8-10)                            */
-       VFIT_MOTION_NO_FEET = 8 };       /* no foot-skate correction (Alg. 5 and 6)                      */
+enum {
+    VFIT_MOTION_NO_FILTER = 1,    /* positions as they come */
+    VFIT_MOTION_NO_LIMITS = 2,    /* no joint limits */
+    VFIT_MOTION_NO_SMOOTHING = 4, /* no rotation smoothing (Eq. 8-10) */
+    VFIT_MOTION_NO_FEET = 8
+}; /* no foot-skate correction (Alg. 5 and 6) */
 /* Of joint positions. ADAPTIVE learns how noisy each joint is: it averages over seconds at rest and follows
  * within a frame in motion. HOLT is the paper's, by the five names of the Kinect SDK. All are converted by
- * elapsed time.                                                                                        */
+ * elapsed time. */
 enum { VFIT_POSITION_ADAPTIVE = 0, VFIT_POSITION_HOLT = 1, VFIT_POSITION_ONE_EURO = 2 };
 typedef int32_t vfit_position_filter;
 /* How feet that stand are found: by a network that has learnt it, or by the paper's thresholds of height and
- * speed (Alg. 5), with hysteresis.                                                                      */
+ * speed (Alg. 5), with hysteresis. */
 enum { VFIT_CONTACT_LEARNT = 0, VFIT_CONTACT_THRESHOLDS = 1 };
 typedef int32_t vfit_contact_rule;
-/* Of the floats, 0 means the default and < 0 means 0 (where 0 is in the range).                        */
+/* Of the floats, 0 means the default and < 0 means 0 (where 0 is in the range). */
 typedef struct vfit_motion_desc {
-    uint32_t struct_size, flags;        /* VFIT_MOTION_*                                              */
-    float smoothing, correction, prediction;            /* 0..1; default 0.5, 0.5, 0.5                  */
-    float jitter_radius_m, max_deviation_radius_m;      /* default 0.05, 0.04                          */
-    float rotation_divisor;             /* k of Eq. 10 at 30 Hz; default 2                            */
-    float rotation_divisor_switched;    /* k right after the planted foot changed; default 4            */
+    uint32_t struct_size, flags;                   /* VFIT_MOTION_* */
+    float smoothing, correction, prediction;       /* 0..1; default 0.5, 0.5, 0.5 */
+    float jitter_radius_m, max_deviation_radius_m; /* default 0.05, 0.04 */
+    float rotation_divisor;                        /* k of Eq. 10 at 30 Hz; default 2 */
+    float rotation_divisor_switched;               /* k right after the planted foot changed; default 4 */
     vfit_position_filter filter;
-    float min_cutoff_hz, beta, derivative_cutoff_hz;    /* One Euro; default 1, 1 (Hz for each m/s), 1  */
-    float prediction_s;                 /* looks ahead of now_ns, to hide latency: 0..0.2; default 0     */
+    float min_cutoff_hz, beta, derivative_cutoff_hz; /* One Euro; default 1, 1 (Hz for each m/s), 1 */
+    float prediction_s; /* looks ahead of now_ns, to hide latency: 0..0.2; default 0 */
     vfit_contact_rule contact_rule;
     uint32_t reserved;
-    const char* range_of_motion;        /* null: natural; else JSON, {"knee": {"flexion": 60}}: those angles, in degrees,
-                                         * in place of assets/body/range_of_motion.json's             */
+    const char* range_of_motion; /* null: natural; else JSON, {"knee": {"flexion": 60}}: those angles, in
+                                  * degrees, in place of assets/body/range_of_motion.json's */
 } vfit_motion_desc;
-VFIT_STRUCT(vfit_bone) VFIT_STRUCT(vfit_pose) VFIT_STRUCT(vfit_motion_desc)
+VFIT_STRUCT(vfit_bone)
+VFIT_STRUCT(vfit_pose)
+VFIT_STRUCT(vfit_motion_desc)
 VFIT_API vfit_result vfit_motion_create(vfit_context context, const vfit_motion_desc* desc,
-                                        vfit_motion* out);                                 /* [any]  */
-VFIT_API vfit_result vfit_motion_destroy(vfit_motion motion);                              /* [any]  */
-VFIT_API vfit_result vfit_motion_reset(vfit_motion motion);                                /* [excl] */
-/* The proportions that the feet are planted with; without: those of the tracked person.       [excl]   */
+                                        vfit_motion* out);    /* [any] */
+VFIT_API vfit_result vfit_motion_destroy(vfit_motion motion); /* [any] */
+VFIT_API vfit_result vfit_motion_reset(vfit_motion motion);   /* [excl] */
+/* The proportions that the feet are planted with; without: those of the tracked person.       [excl] */
 VFIT_API vfit_result vfit_motion_bind(vfit_motion motion, vfit_avatar avatar);
 /* A body whose time_ns differs from the last is new; the same or a null frame: the filter predicts to
  * now_ns, so that a 30 Hz camera drives a 600 Hz renderer. Body not in the frame: VFIT_NOT_READY, the
- * pose holds.                                                                                [excl]  */
+ * pose holds.                                                                                [excl] */
 VFIT_API vfit_result vfit_motion_step(vfit_motion motion, vfit_frame tracked, uint32_t body_id,
                                       int64_t now_ns);
-VFIT_API vfit_result vfit_motion_pose(vfit_motion motion, vfit_pose* pose, vfit_bone* items,
-                                      uint32_t stride, uint32_t* count);                   /* [read] */
-/* A pose for the network, at most 120 bytes: rotations to 0.1 degrees, the hips to 0.1 mm, contacts, time. bytes null
- * sets *byte_count to what is needed. It is the same whatever the axes of the two contexts. Unpacked bones come as
- * from vfit_motion_pose, but for positions of all but the hips, which are the receiver's avatar's own: zero. Hips over
- * 800 m away: VFIT_ERROR_DATA; a packet of another version: VFIT_ERROR_VERSION; a damaged one: VFIT_ERROR_DATA. [any] */
+VFIT_API vfit_result vfit_motion_pose(vfit_motion motion, vfit_pose* pose, vfit_bone* items, uint32_t stride,
+                                      uint32_t* count); /* [read] */
+/* A pose for the network, at most 120 bytes: rotations to 0.1 degrees, the hips to 0.1 mm, contacts, time.
+ * bytes null sets *byte_count to what is needed. It is the same whatever the axes of the two contexts.
+ * Unpacked bones come as from vfit_motion_pose, but for positions of all but the hips, which are the
+ * receiver's avatar's own: zero. Hips over 800 m away: VFIT_ERROR_DATA; a packet of another version:
+ * VFIT_ERROR_VERSION; a damaged one: VFIT_ERROR_DATA. [any] */
 VFIT_API vfit_result vfit_pose_pack(vfit_context context, const vfit_pose* pose, const vfit_bone* items,
                                     uint32_t stride, uint32_t count, void* bytes, uint32_t* byte_count);
-VFIT_API vfit_result vfit_pose_unpack(vfit_context context, const void* bytes, uint32_t byte_count, vfit_pose* pose,
-                                      vfit_bone* items, uint32_t stride, uint32_t* count);
-/* The filtered joints behind the pose, feet corrected.                                         [read]  */
+VFIT_API vfit_result vfit_pose_unpack(vfit_context context, const void* bytes, uint32_t byte_count,
+                                      vfit_pose* pose, vfit_bone* items, uint32_t stride, uint32_t* count);
+/* The filtered joints behind the pose, feet corrected.                                         [read] */
 VFIT_API vfit_result vfit_motion_joints(vfit_motion motion, vfit_joint* items, uint32_t stride,
                                         uint32_t* count);
 
 /* ---- avatar and cloth: pose, step, then acquire, once per rendered frame --------------------------- */
-enum { VFIT_AVATAR_PAPER_COLLIDERS = 1, /* radii of Algorithm 2 as they are, not clamped to the skin    */
-       VFIT_AVATAR_SINGLE_BONES = 2,    /* no twist bones in the limbs (Fig. 7a)                       */
-       VFIT_AVATAR_DUAL_QUATERNIONS = 4,  /* skinned by dual quaternions in place of linear blending: joints that bend
-                                         * or twist far keep their section. An engine that skins by BONE_MATRIX shows the
-                                         * linear blend                                                */
-       VFIT_AVATAR_HANDS_AS_POSED = 8 };  /* of vfit_avatar_load                                       */
+enum {
+    VFIT_AVATAR_PAPER_COLLIDERS = 1,  /* radii of Algorithm 2 as they are, not clamped to the skin */
+    VFIT_AVATAR_SINGLE_BONES = 2,     /* no twist bones in the limbs (Fig. 7a) */
+    VFIT_AVATAR_DUAL_QUATERNIONS = 4, /* skinned by dual quaternions in place of linear blending: joints that
+                                       * bend or twist far keep their section. An engine that skins by
+                                       * BONE_MATRIX shows the linear blend */
+    VFIT_AVATAR_HANDS_AS_POSED = 8
+}; /* of vfit_avatar_load */
 typedef struct vfit_avatar_desc {
     uint32_t struct_size, flags;
-    vfit_sex sex;                       /* which default body; UNKNOWN: halfway                        */
-    uint32_t detail;                    /* 0: 13.7k vertices, 1: 54.8k, 2: 219k, 3: 1.0k, for crowds       */
+    vfit_sex sex;    /* which default body; UNKNOWN: halfway */
+    uint32_t detail; /* 0: 13.7k vertices, 1: 54.8k, 2: 219k, 3: 1.0k, for crowds */
 } vfit_avatar_desc;
 /* key: a phenotype ("gender", "age", "muscle", "weight", "height", "proportions", in 0..1; weight up to
- * 1.15) or a local slider ("measure-waist-circ", in -1..1); see vfit_shape_list.                       */
-typedef struct vfit_shape_value { uint32_t struct_size; float value, minimum, maximum; char key[48]; }
-    vfit_shape_value;
+ * 1.15) or a local slider ("measure-waist-circ", in -1..1); see vfit_shape_list. */
+typedef struct vfit_shape_value {
+    uint32_t struct_size;
+    float value, minimum, maximum;
+    char key[48];
+} vfit_shape_value;
 typedef struct vfit_rig_bone {
     uint32_t struct_size;
-    int32_t parent;                     /* -1: root; parents stand before children                     */
-    vfit_bone_id bone;                  /* the humanoid bone that it is, or -1                          */
-    float rest_position[3];             /* of the bone's head, in the space of the rest mesh             */
+    int32_t parent;         /* -1: root; parents stand before children */
+    vfit_bone_id bone;      /* the humanoid bone that it is, or -1 */
+    float rest_position[3]; /* of the bone's head, in the space of the rest mesh */
     char name[48];
-    float rest_rotation[4];             /* of the bone's own axes there: posed, they are BONE_MATRIX * rest   */
-    int32_t node;                       /* of the character's file; -1: made by vfit                     */
+    float rest_rotation[4]; /* of the bone's own axes there: posed, they are BONE_MATRIX * rest */
+    int32_t node;           /* of the character's file; -1: made by vfit */
     uint32_t reserved;
 } vfit_rig_bone;
-/* A character of yours: a skinned humanoid from a glTF 2.0 (.glb, .gltf) or VRM 0 or 1 file.             */
+/* A character of yours: a skinned humanoid from a glTF 2.0 (.glb, .gltf) or VRM 0 or 1 file. */
 typedef struct vfit_character_desc {
     uint32_t struct_size, reserved;
-    const char* path;                   /* or null and                                               */
-    const void* bytes;                  /* the whole file in memory; needed during the call alone           */
+    const char* path;  /* or null and */
+    const void* bytes; /* the whole file in memory; needed during the call alone */
     uint64_t byte_count;
-    const char* bone_map;               /* null: as VRM says, else by the names that common tools give; or
-                                         * {"hips": "name of a node", "leftUpperArm": ...} as JSON           */
+    const char* bone_map; /* null: as VRM says, else by the names that common tools give; or
+                           * {"hips": "name of a node", "leftUpperArm": ...} as JSON */
 } vfit_character_desc;
 typedef int32_t vfit_character_kind;
-enum { VFIT_CHARACTER_BODY = 0,         /* vfit's own body                                           */
-    VFIT_CHARACTER_GLTF = 1, VFIT_CHARACTER_VRM0 = 2, VFIT_CHARACTER_VRM1 = 3 };
+enum {
+    VFIT_CHARACTER_BODY = 0, /* vfit's own body */
+    VFIT_CHARACTER_GLTF = 1,
+    VFIT_CHARACTER_VRM0 = 2,
+    VFIT_CHARACTER_VRM1 = 3
+};
 typedef struct vfit_character_info {
     uint32_t struct_size;
     vfit_character_kind kind;
     uint32_t vertex_count, index_count, bone_count, part_count;
-    float stature_m;                    /* floor to crown, feet together                               */
-    float from_file[16];                /* rest mesh = M * the file's world; right-handed metres whatever axes */
-    char name[64];                      /* as VRM tells it                                            */
+    float stature_m;     /* floor to crown, feet together */
+    float from_file[16]; /* rest mesh = M * the file's world; right-handed metres whatever axes */
+    char name[64];       /* as VRM tells it */
     uint32_t reserved;
 } vfit_character_info;
-/* Triangles of one material of the file: indices first_index on. vfit's own body is one part without.       */
-typedef struct vfit_avatar_part { uint32_t struct_size, first_index, index_count; int32_t material;
-                                  char mesh[48], material_name[48]; } vfit_avatar_part;
-VFIT_STRUCT(vfit_avatar_desc) VFIT_STRUCT(vfit_shape_value) VFIT_STRUCT(vfit_rig_bone)
-VFIT_STRUCT(vfit_character_desc) VFIT_STRUCT(vfit_character_info) VFIT_STRUCT(vfit_avatar_part)
+/* Triangles of one material of the file: indices first_index on. vfit's own body is one part without. */
+typedef struct vfit_avatar_part {
+    uint32_t struct_size, first_index, index_count;
+    int32_t material;
+    char mesh[48], material_name[48];
+} vfit_avatar_part;
+VFIT_STRUCT(vfit_avatar_desc)
+VFIT_STRUCT(vfit_shape_value)
+VFIT_STRUCT(vfit_rig_bone)
+VFIT_STRUCT(vfit_character_desc)
+VFIT_STRUCT(vfit_character_info)
+VFIT_STRUCT(vfit_avatar_part)
 VFIT_API vfit_result vfit_shape_list(vfit_context context, vfit_shape_value* items, uint32_t stride,
-                                     uint32_t* count);                                     /* [any]  */
-/* A body of that shape; keys that are not given keep the value of the sex's default body.       [any]  */
+                                     uint32_t* count); /* [any] */
+/* A body of that shape; keys that are not given keep the value of the sex's default body.       [any] */
 VFIT_API vfit_result vfit_avatar_create_from_shape(vfit_context context, const vfit_avatar_desc* desc,
                                                    const vfit_shape_value* items, uint32_t stride,
                                                    uint32_t count, vfit_avatar* out);
-/* The default body scaled to stature_m and, where given, shoulder_breadth_m.                    [any]  */
+/* The default body scaled to stature_m and, where given, shoulder_breadth_m.                    [any] */
 VFIT_API vfit_result vfit_avatar_create(vfit_context context, const vfit_avatar_desc* desc,
                                         const vfit_measurement* items, uint32_t stride, uint32_t count,
                                         vfit_avatar* out);
-/* Size and collider radii of the scanned person; by FIT their shape and girths too.   [read] on scan  */
+/* Size and collider radii of the scanned person; by FIT their shape and girths too.   [read] on scan */
 VFIT_API vfit_result vfit_avatar_create_from_scan(vfit_context context, const vfit_avatar_desc* desc,
                                                   vfit_scan scan, vfit_avatar* out);
-/* Your character as an avatar: bind motion to it, pose it, fetch its buffers. It is turned to face +Z and stood on the
- * floor; whatever its proportions, the bones of a pose turn it, feet that motion plants stand, limbs get twist bones,
- * and hands are kept out of its trunk and thighs (unless desc.flags has HANDS_AS_POSED). Missing of VRM's optional
- * bones are stood in for. Morph targets, animations and meshes that hang on no bone are left out and logged. desc.sex
- * and detail do not apply. Buffers are read from the file's own folder alone, from memory from nowhere else.
- * VFIT_ERROR_IO; VFIT_ERROR_DATA for a damaged file, one without a humanoid or skin, of no
- * person's size, or that lies down; VFIT_ERROR_UNSUPPORTED for compressed meshes and sparse data.       [any]   */
+/* Your character as an avatar: bind motion to it, pose it, fetch its buffers. It is turned to face +Z and
+ * stood on the floor; whatever its proportions, the bones of a pose turn it, feet that motion plants stand,
+ * limbs get twist bones, and hands are kept out of its trunk and thighs (unless desc.flags has
+ * HANDS_AS_POSED). Missing of VRM's optional bones are stood in for. Morph targets, animations and meshes
+ * that hang on no bone are left out and logged. desc.sex and detail do not apply. Buffers are read from the
+ * file's own folder alone, from memory from nowhere else. VFIT_ERROR_IO; VFIT_ERROR_DATA for a damaged file,
+ * one without a humanoid or skin, of no person's size, or that lies down; VFIT_ERROR_UNSUPPORTED for
+ * compressed meshes and sparse data.       [any] */
 VFIT_API vfit_result vfit_avatar_load(vfit_context context, const vfit_avatar_desc* desc,
                                       const vfit_character_desc* character, vfit_avatar* out);
-VFIT_API vfit_result vfit_avatar_describe(vfit_avatar avatar, vfit_character_info* out);   /* [read] */
+VFIT_API vfit_result vfit_avatar_describe(vfit_avatar avatar, vfit_character_info* out); /* [read] */
 VFIT_API vfit_result vfit_avatar_parts(vfit_avatar avatar, vfit_avatar_part* items, uint32_t stride,
-                                       uint32_t* count);                                   /* [read] */
-/* A body and its clothing size for the network, at most 200 bytes: shape, scale, collider radii, a label of up to 19
- * bytes (may be null). bytes null sets *byte_count to what is needed. Of a character from a file:
- * VFIT_ERROR_UNSUPPORTED. The receiver gets the label as TEXT; a packet of another version of body or library is
- * VFIT_ERROR_VERSION, a damaged one VFIT_ERROR_DATA; desc.sex is the packet's.          [read], [any]   */
-VFIT_API vfit_result vfit_avatar_pack(vfit_avatar avatar, const char* size_label, void* bytes, uint32_t* byte_count);
+                                       uint32_t* count); /* [read] */
+/* A body and its clothing size for the network, at most 200 bytes: shape, scale, collider radii, a label of
+ * up to 19 bytes (may be null). bytes null sets *byte_count to what is needed. Of a character from a file:
+ * VFIT_ERROR_UNSUPPORTED. The receiver gets the label as TEXT; a packet of another version of body or library
+ * is VFIT_ERROR_VERSION, a damaged one VFIT_ERROR_DATA; desc.sex is the packet's.          [read], [any] */
+VFIT_API vfit_result vfit_avatar_pack(vfit_avatar avatar, const char* size_label, void* bytes,
+                                      uint32_t* byte_count);
 VFIT_API vfit_result vfit_avatar_unpack(vfit_context context, const vfit_avatar_desc* desc, const void* bytes,
-                                        uint32_t byte_count, char* size_label, uint32_t capacity, vfit_avatar* out);
-VFIT_API vfit_result vfit_avatar_destroy(vfit_avatar avatar);                              /* [any]  */
+                                        uint32_t byte_count, char* size_label, uint32_t capacity,
+                                        vfit_avatar* out);
+VFIT_API vfit_result vfit_avatar_destroy(vfit_avatar avatar); /* [any] */
 VFIT_API vfit_result vfit_avatar_pose(vfit_avatar avatar, const vfit_pose* pose, const vfit_bone* items,
-                                      uint32_t stride, uint32_t count);                    /* [excl] */
-/* The same, the skin written straight into the engine's memory (a mapped vertex buffer), each vertex as three floats
- * in the context's axes at the target's stride: no copy is made, and acquire gives the mesh of the last
- * vfit_avatar_pose. Bones, joints, colliders and cloth follow as with it. normals may be null. Bad targets:
- * VFIT_ERROR_ARGUMENT, UNSUPPORTED or CAPACITY, and nothing moves.                             [excl]   */
+                                      uint32_t stride, uint32_t count); /* [excl] */
+/* The same, the skin written straight into the engine's memory (a mapped vertex buffer), each vertex as three
+ * floats in the context's axes at the target's stride: no copy is made, and acquire gives the mesh of the
+ * last vfit_avatar_pose. Bones, joints, colliders and cloth follow as with it. normals may be null. Bad
+ * targets: VFIT_ERROR_ARGUMENT, UNSUPPORTED or CAPACITY, and nothing moves. [excl] */
 VFIT_API vfit_result vfit_avatar_pose_into(vfit_avatar avatar, const vfit_pose* pose, const vfit_bone* items,
                                            uint32_t stride, uint32_t count, const vfit_target* positions,
                                            const vfit_target* normals);
 VFIT_API vfit_result vfit_avatar_colliders(vfit_avatar avatar, vfit_collider* items, uint32_t stride,
-                                           uint32_t* count);                               /* [read] */
-/* Every joint of the posed avatar, at the avatar's own true place.                             [read]  */
+                                           uint32_t* count); /* [read] */
+/* Every joint of the posed avatar, at the avatar's own true place.                             [read] */
 VFIT_API vfit_result vfit_avatar_joints(vfit_avatar avatar, vfit_joint* items, uint32_t stride,
                                         uint32_t* count);
 VFIT_API vfit_result vfit_avatar_rig(vfit_avatar avatar, vfit_rig_bone* items, uint32_t stride,
-                                     uint32_t* count);                                     /* [read] */
-/* Tape measures of the avatar's own body, in the posture of each definition, taken on its mesh. A character from a
- * file has clothes and no body: VFIT_ERROR_UNSUPPORTED.                                        [read] */
+                                     uint32_t* count); /* [read] */
+/* Tape measures of the avatar's own body, in the posture of each definition, taken on its mesh. A character
+ * from a file has clothes and no body: VFIT_ERROR_UNSUPPORTED.                                        [read]
+ */
 VFIT_API vfit_result vfit_avatar_measure(vfit_avatar avatar, vfit_measurement* items, uint32_t stride,
                                          uint32_t* count);
-/* Measures of your own (docs/measuring.md: landmarks, planes and paths as JSON), taken on the avatar's mesh. sigma is
- * that of the least sure measure of the scan that it was made from, relative; 0: made of none.       [read] */
+/* Measures of your own (docs/measuring.md: landmarks, planes and paths as JSON), taken on the avatar's mesh.
+ * sigma is that of the least sure measure of the scan that it was made from, relative; 0: made of none.
+ * [read] */
 VFIT_API vfit_result vfit_avatar_measure_own(vfit_avatar avatar, const void* text, uint64_t byte_count,
                                              vfit_measurement* items, uint32_t stride, uint32_t* count);
-/* Posed mesh: POSITION, NORMAL, UV, INDEX, BONE_MATRIX, SKIN_BONES, SKIN_WEIGHTS.              [any]   */
+/* Posed mesh: POSITION, NORMAL, UV, INDEX, BONE_MATRIX, SKIN_BONES, SKIN_WEIGHTS.              [any] */
 VFIT_API vfit_result vfit_avatar_acquire(vfit_avatar avatar, vfit_frame* out);
-/* The same streams of the unposed mesh that the rig binds to.                                  [any]   */
+/* The same streams of the unposed mesh that the rig binds to.                                  [any] */
 VFIT_API vfit_result vfit_avatar_acquire_rest(vfit_avatar avatar, vfit_frame* out);
 
-/* A garment as JSON (docs/garments.md), or by the name of a file in data_dir/garments.          [any]  */
+/* A garment as JSON (docs/garments.md), or by the name of a file in data_dir/garments.          [any] */
 VFIT_API vfit_result vfit_garment_load(vfit_context context, const void* bytes, uint64_t byte_count,
                                        vfit_garment* out);
 VFIT_API vfit_result vfit_garment_open(vfit_context context, const char* name, vfit_garment* out);
-VFIT_API vfit_result vfit_garment_destroy(vfit_garment garment);                           /* [any]  */
-/* garment_kind: as size charts name it.                                                                */
-typedef struct vfit_garment_info { uint32_t struct_size, vertex_count, simulated_count, size_count;
-                                   char name[64], garment_kind[32], fabric[32]; } vfit_garment_info;
+VFIT_API vfit_result vfit_garment_destroy(vfit_garment garment); /* [any] */
+/* garment_kind: as size charts name it. */
+typedef struct vfit_garment_info {
+    uint32_t struct_size, vertex_count, simulated_count, size_count;
+    char name[64], garment_kind[32], fabric[32];
+} vfit_garment_info;
 VFIT_STRUCT(vfit_garment_info)
-VFIT_API vfit_result vfit_garment_describe(vfit_garment garment, vfit_garment_info* out);  /* [read] */
-/* Triangles of one look: indices first_index on of what vfit_cloth_acquire gives. texture: the path of a picture as the
- * garment's author gave it, or empty; color: linear RGB.                                                */
-typedef struct vfit_garment_part { uint32_t struct_size, first_index, index_count; float color[3];
-                                   char material[48], texture[200]; } vfit_garment_part;
+VFIT_API vfit_result vfit_garment_describe(vfit_garment garment, vfit_garment_info* out); /* [read] */
+/* Triangles of one look: indices first_index on of what vfit_cloth_acquire gives. texture: the path of a
+ * picture as the garment's author gave it, or empty; color: linear RGB. */
+typedef struct vfit_garment_part {
+    uint32_t struct_size, first_index, index_count;
+    float color[3];
+    char material[48], texture[200];
+} vfit_garment_part;
 VFIT_STRUCT(vfit_garment_part)
 VFIT_API vfit_result vfit_garment_parts(vfit_garment garment, vfit_garment_part* items, uint32_t stride,
-                                        uint32_t* count);                                  /* [read] */
-/* The label of the size at index; length 0 past the last.                                      [read]  */
-VFIT_API uint32_t    vfit_garment_size_label(vfit_garment garment, uint32_t index, char* buffer,
-                                             uint32_t capacity);
-enum { VFIT_CLOTH_NO_HANDS = 1,         /* forearms and hands pass through: a hand beside the thigh catches
-                                         * a skirt, and 15 spheres know no fingers to let it slip. Not of garments
-                                         * with sleeves                                                 */
-       VFIT_CLOTH_SKIN = 2,             /* kept out of the avatar's skin itself, not of its spheres and capsules: closer,
-                                         * and slower                                                   */
-       VFIT_CLOTH_AWAKE = 4,            /* stepped even where cloth and body have lain still for half a second    */
-       VFIT_CLOTH_PRESSURE = 8,         /* frames carry PRESSURE                                        */
-       VFIT_CLOTH_ANY_FIT = 16 };       /* worn even where it would not close: stretched beyond what its fabric takes    */
+                                        uint32_t* count); /* [read] */
+/* The label of the size at index; length 0 past the last.                                      [read] */
+VFIT_API uint32_t vfit_garment_size_label(vfit_garment garment, uint32_t index, char* buffer,
+                                          uint32_t capacity);
+enum {
+    VFIT_CLOTH_NO_HANDS = 1, /* forearms and hands pass through: a hand beside the thigh catches
+                              * a skirt, and 15 spheres know no fingers to let it slip. Not of garments
+                              * with sleeves */
+    VFIT_CLOTH_SKIN = 2,     /* kept out of the avatar's skin itself, not of its spheres and capsules: closer,
+                              * and slower */
+    VFIT_CLOTH_AWAKE = 4,    /* stepped even where cloth and body have lain still for half a second */
+    VFIT_CLOTH_PRESSURE = 8, /* frames carry PRESSURE */
+    VFIT_CLOTH_ANY_FIT = 16
+}; /* worn even where it would not close: stretched beyond what its fabric takes */
 typedef struct vfit_cloth_desc {
-    uint32_t struct_size, substeps;     /* 0: 8 a 1/60 s                                             */
-    float gravity[3];                   /* in the context's axes and unit; all zero: 9.81 m/s2 down   */
-    float friction;                     /* 0: the fabric's; < 0: none                                  */
-    float damping;                      /* share of speed lost a second, 0: 0.5; < 0: none               */
-    float thickness_m;                  /* kept from the colliders, 0: 0.004                            */
-    const char* size_label;             /* null: made to the avatar, with the ease that the garment was made with    */
-    uint32_t flags, reserved;           /* VFIT_CLOTH_*                                              */
-    float wind[3];                      /* as vfit_cloth_set_wind                                      */
-    float drag, lift;                   /* of the air, as of a plate: about 1; both 0: no air                */
-    float inertia;                      /* share of the body's own motion that the cloth feels, 0: all; < 0: none */
-    float self_thickness_m;             /* kept between the cloth's own layers, 0: they pass through each other  */
-    float budget_ms;                    /* of a step, 0: none. See vfit_cloth_set_quality                    */
-    float cover_m;                      /* more spheres and capsules, until no skin below the garment, but hands and feet, is
-                                         * so far outside of all; 0.005..0.1; 0: the avatar's 31 alone               */
-    float virtual_m;                    /* points of triangles meet spheres and capsules as vertices do: so many that none is
-                                         * further from the next, 65,536 at most; 0.001..0.1; 0: none. For meshes coarser
-                                         * than a wrist                                                  */
+    uint32_t struct_size, substeps; /* 0: 8 a 1/60 s */
+    float gravity[3];               /* in the context's axes and unit; all zero: 9.81 m/s2 down */
+    float friction;                 /* 0: the fabric's; < 0: none */
+    float damping;                  /* share of speed lost a second, 0: 0.5; < 0: none */
+    float thickness_m;              /* kept from the colliders, 0: 0.004 */
+    const char* size_label;   /* null: made to the avatar, with the ease that the garment was made with */
+    uint32_t flags, reserved; /* VFIT_CLOTH_* */
+    float wind[3];            /* as vfit_cloth_set_wind */
+    float drag, lift;         /* of the air, as of a plate: about 1; both 0: no air */
+    float inertia;            /* share of the body's own motion that the cloth feels, 0: all; < 0: none */
+    float self_thickness_m;   /* kept between the cloth's own layers, 0: they pass through each other */
+    float budget_ms;          /* of a step, 0: none. See vfit_cloth_set_quality */
+    float cover_m;   /* more spheres and capsules, until no skin below the garment, but hands and feet, is
+                      * so far outside of all; 0.005..0.1; 0: the avatar's 31 alone */
+    float virtual_m; /* points of triangles meet spheres and capsules as vertices do: so many that none is
+                      * further from the next, 65,536 at most; 0.001..0.1; 0: none. For meshes coarser
+                      * than a wrist */
 } vfit_cloth_desc;
-typedef struct vfit_cloth_stats { uint32_t struct_size, vertex_count, simulated_count, constraint_count;
-                                  float strain_mean, strain_p99, strain_max, step_ms;
-                                  uint32_t substeps;        /* of the last step; 0: it slept            */
-                                  uint32_t collider_count;  /* spheres and capsules that it met         */
-                                  /* So much too long, in metres, were sleeves and legs for these limbs: they were
-                                   * taken up to wrist and ankle, but for what folds take (docs/garments.md).    */
-                                  float sleeves_taken_up_m, legs_taken_up_m;
-                                } vfit_cloth_stats;
-VFIT_STRUCT(vfit_cloth_desc) VFIT_STRUCT(vfit_cloth_stats)
-/* VFIT_ERROR_NOT_WEARABLE where a labelled size would have to stretch around chest, waist or hips by more than its fabric
- * takes, or at an opening or over a tenth of it by far more (docs/garments.md), unless desc.flags has ANY_FIT.          */
-VFIT_API vfit_result vfit_cloth_create(vfit_avatar avatar, vfit_garment garment,
-                                       const vfit_cloth_desc* desc, vfit_cloth* out);/* [excl] on avatar */
-VFIT_API vfit_result vfit_cloth_destroy(vfit_cloth cloth);                                 /* [any]  */
+typedef struct vfit_cloth_stats {
+    uint32_t struct_size, vertex_count, simulated_count, constraint_count;
+    float strain_mean, strain_p99, strain_max, step_ms;
+    uint32_t substeps;       /* of the last step; 0: it slept */
+    uint32_t collider_count; /* spheres and capsules that it met */
+    /* So much too long, in metres, were sleeves and legs for these limbs: they were
+     * taken up to wrist and ankle, but for what folds take (docs/garments.md). */
+    float sleeves_taken_up_m, legs_taken_up_m;
+} vfit_cloth_stats;
+VFIT_STRUCT(vfit_cloth_desc)
+VFIT_STRUCT(vfit_cloth_stats)
+/* VFIT_ERROR_NOT_WEARABLE where a labelled size would have to stretch around chest, waist or hips by more
+ * than its fabric takes, or at an opening or over a tenth of it by far more (docs/garments.md), unless
+ * desc.flags has ANY_FIT. */
+VFIT_API vfit_result vfit_cloth_create(vfit_avatar avatar, vfit_garment garment, const vfit_cloth_desc* desc,
+                                       vfit_cloth* out);   /* [excl] on avatar */
+VFIT_API vfit_result vfit_cloth_destroy(vfit_cloth cloth); /* [any] */
 /* Put on anew: simulated on a body that stands straight, arms held out, and goes into the pose that the
  * avatar has now, so that limbs push the cloth aside. create carries it into the pose as it is, at once:
  * right for somebody who stands, not for a stride or a hand at the hip. Takes as long as some 35 steps
- * (the sundress 0.1 s), whatever the settings.                                                [excl]  */
+ * (the sundress 0.1 s), whatever the settings.                                                [excl] */
 VFIT_API vfit_result vfit_cloth_reset(vfit_cloth cloth);
-/* The same garment in another of its sizes (null: made to the avatar), from how it hangs now: it comes to rest within a
- * second, for which its steps take twice as long. Takes some ten steps' time. VFIT_ERROR_ARGUMENT where it has no such
- * size, VFIT_ERROR_NOT_WEARABLE as with create, and nothing changes.                          [excl]  */
+/* The same garment in another of its sizes (null: made to the avatar), from how it hangs now: it comes to
+ * rest within a second, for which its steps take twice as long. Takes some ten steps' time.
+ * VFIT_ERROR_ARGUMENT where it has no such size, VFIT_ERROR_NOT_WEARABLE as with create, and nothing changes.
+ * [excl] */
 VFIT_API vfit_result vfit_cloth_set_size(vfit_cloth cloth, const char* size_label);
 /* Fixed sub-steps inside; dt is clamped to 0.1 ms..0.1 s, 0 changes nothing. Reads the avatar: pose that
  * one first. begin hands the work to a worker and returns, end waits: between the two the engine renders.
- * To a host's job system such a step is one item.                                             [excl]  */
+ * To a host's job system such a step is one item.                                             [excl] */
 VFIT_API vfit_result vfit_cloth_step(vfit_cloth cloth, float dt);
 VFIT_API vfit_result vfit_cloth_begin_step(vfit_cloth cloth, float dt);
 VFIT_API vfit_result vfit_cloth_end_step(vfit_cloth cloth);
-/* Between steps, for cloth that runs on a slower clock than the picture: acquire then gives the cloth as the last step
- * left it, carried from that step's pose into the one that the avatar has now by the bones that carry the garment, at
- * the time of that pose. The next step goes on as if it had not been called. While a step runs it does not wait: the
- * one before is carried, until end_step.                                                       [excl]  */
+/* Between steps, for cloth that runs on a slower clock than the picture: acquire then gives the cloth as the
+ * last step left it, carried from that step's pose into the one that the avatar has now by the bones that
+ * carry the garment, at the time of that pose. The next step goes on as if it had not been called. While a
+ * step runs it does not wait: the one before is carried, until end_step. [excl] */
 VFIT_API vfit_result vfit_cloth_carry(vfit_cloth cloth);
-/* Velocity of the air, in the context's axes and unit a second, from the next step on.         [excl]  */
+/* Velocity of the air, in the context's axes and unit a second, from the next step on.         [excl] */
 VFIT_API vfit_result vfit_cloth_set_wind(vfit_cloth cloth, const float wind[3]);
-/* Sub-steps a 1/60 s at most, and the time that a step may take: where more would take longer, fewer are done (at least
- * one), and then a state is no longer the same on each run. 0 sub-steps: 8; 0 ms: no budget.      [excl]  */
+/* Sub-steps a 1/60 s at most, and the time that a step may take: where more would take longer, fewer are done
+ * (at least one), and then a state is no longer the same on each run. 0 sub-steps: 8; 0 ms: no budget. [excl]
+ */
 VFIT_API vfit_result vfit_cloth_set_quality(vfit_cloth cloth, uint32_t substeps, float budget_ms);
-/* From now on cloth is worn over inner, a cloth of the same avatar, and stays outside of it by its thickness: step
- * inner first, each frame. vfit_cloth_reset then puts cloth on over it; without, inner is there at once, and may catch
- * parts of cloth inside of it. Where cloth is too tight for what is below, it lets that through rather than tear. An
- * inner one that gets destroyed stays where it was. VFIT_ERROR_ARGUMENT where cloth is worn below inner already. [excl] */
+/* From now on cloth is worn over inner, a cloth of the same avatar, and stays outside of it by its thickness:
+ * step inner first, each frame. vfit_cloth_reset then puts cloth on over it; without, inner is there at once,
+ * and may catch parts of cloth inside of it. Where cloth is too tight for what is below, it lets that through
+ * rather than tear. An inner one that gets destroyed stays where it was. VFIT_ERROR_ARGUMENT where cloth is
+ * worn below inner already. [excl] */
 VFIT_API vfit_result vfit_cloth_wear_over(vfit_cloth cloth, vfit_cloth inner);
-/* Skin that this garment alone hides from all who do not look up under it by more than 45 degrees: triangles[i] becomes 1
- * for those triangles of the avatar's INDEX, and stays what it was for the others, so that garments add up. Leave them
- * out of what you draw. Found on the body at rest, of a labelled size as the last step left it there: what is nearer than
- * margin_m to skin that is seen is left, as cloth slides and hems lift (0: 0.03). VFIT_ERROR_STATE while a step runs.
- * Takes as long as some 100 steps: once a garment and size.                                      [read] */
-VFIT_API vfit_result vfit_cloth_hide_skin(vfit_cloth cloth, float margin_m, uint8_t* triangles, uint32_t count);
-/* How a garment sits at one girth of the trunk. RIGHT: the body's girth is nearer to that which the size is made for than to
- * another size's; of a garment that tells of none: it closes by less than 3 % of stretch and has less than 12 cm of ease. */
+/* Skin that this garment alone hides from all who do not look up under it by more than 45 degrees:
+ * triangles[i] becomes 1 for those triangles of the avatar's INDEX, and stays what it was for the others, so
+ * that garments add up. Leave them out of what you draw. Found on the body at rest, of a labelled size as the
+ * last step left it there: what is nearer than margin_m to skin that is seen is left, as cloth slides and
+ * hems lift (0: 0.03). VFIT_ERROR_STATE while a step runs. Takes as long as some 100 steps: once a garment
+ * and size.                                      [read] */
+VFIT_API vfit_result vfit_cloth_hide_skin(vfit_cloth cloth, float margin_m, uint8_t* triangles,
+                                          uint32_t count);
+/* How a garment sits at one girth of the trunk. RIGHT: the body's girth is nearer to that which the size is
+ * made for than to another size's; of a garment that tells of none: it closes by less than 3 % of stretch and
+ * has less than 12 cm of ease. */
 typedef int32_t vfit_fit;
 enum { VFIT_FIT_RIGHT = 0, VFIT_FIT_TIGHT = 1, VFIT_FIT_LOOSE = 2 };
 typedef struct vfit_fit_zone {
     uint32_t struct_size;
     vfit_fit fit;
-    float body_m;                       /* the avatar's girth                                        */
-    float garment_m;                    /* of the cloth that lies around it, unstretched              */
-    float ease_m;                       /* garment less body                                         */
-    float strain;                       /* of that cloth along the girth, as it is worn               */
-    float pressure_pa;                  /* mean about the girth; with VFIT_CLOTH_PRESSURE              */
-    float opening_m;                    /* across an open front, beside garment_m; 0: closed          */
-    char key[48];                       /* "chest_girth_m", "waist_girth_m", "hip_girth_m"            */
+    float body_m;      /* the avatar's girth */
+    float garment_m;   /* of the cloth that lies around it, unstretched */
+    float ease_m;      /* garment less body */
+    float strain;      /* of that cloth along the girth, as it is worn */
+    float pressure_pa; /* mean about the girth; with VFIT_CLOTH_PRESSURE */
+    float opening_m;   /* across an open front, beside garment_m; 0: closed */
+    char key[48];      /* "chest_girth_m", "waist_girth_m", "hip_girth_m" */
 } vfit_fit_zone;
 VFIT_STRUCT(vfit_fit_zone)
-/* By girths that the garment goes around, of the cloth as it was left by the last step, less what it sags by: let it come to
- * rest first, best on somebody who stands (docs/garments.md). Takes as long as some five steps.               [read]  */
+/* By girths that the garment goes around, of the cloth as it was left by the last step, less what it sags by:
+ * let it come to rest first, best on somebody who stands (docs/garments.md). Takes as long as some five
+ * steps.               [read] */
 VFIT_API vfit_result vfit_cloth_fit(vfit_cloth cloth, vfit_fit_zone* items, uint32_t stride, uint32_t* count);
-/* The same place by place, one a vertex of what acquire gives: above 0 tight (1: its fabric's most strain, or 2 kPa),
- * below 0 loose (-1: 6 cm off the skin). Takes as long as some ten steps.                      [read]  */
+/* The same place by place, one a vertex of what acquire gives: above 0 tight (1: its fabric's most strain, or
+ * 2 kPa), below 0 loose (-1: 6 cm off the skin). Takes as long as some ten steps.                      [read]
+ */
 VFIT_API vfit_result vfit_cloth_fit_map(vfit_cloth cloth, float* values, uint32_t count);
-/* POSITION, NORMAL, UV, INDEX, STRAIN, and with VFIT_CLOTH_PRESSURE PRESSURE: of a vertex that touches the body, what its
- * threads and its weight pull with against it, over the flat cloth's area; 0 where the garment is skinned. Pa whatever
- * the unit.                                                                                    [any]   */
+/* POSITION, NORMAL, UV, INDEX, STRAIN, and with VFIT_CLOTH_PRESSURE PRESSURE: of a vertex that touches the
+ * body, what its threads and its weight pull with against it, over the flat cloth's area; 0 where the garment
+ * is skinned. Pa whatever the unit. [any] */
 VFIT_API vfit_result vfit_cloth_acquire(vfit_cloth cloth, vfit_frame* out);
-VFIT_API vfit_result vfit_cloth_describe(vfit_cloth cloth, vfit_cloth_stats* out);         /* [read] */
-VFIT_API vfit_result vfit_cloth_state_hash(vfit_cloth cloth, uint64_t* out);               /* [read] */
+VFIT_API vfit_result vfit_cloth_describe(vfit_cloth cloth, vfit_cloth_stats* out); /* [read] */
+VFIT_API vfit_result vfit_cloth_state_hash(vfit_cloth cloth, uint64_t* out);       /* [read] */
 #endif

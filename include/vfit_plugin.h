@@ -1,4 +1,5 @@
-/* vfit_plugin.h - what a sensor plug-in exports and what the host lends it.   SPDX-License-Identifier: Apache-2.0
+/* vfit_plugin.h - what a sensor plug-in exports and what the host lends it.   SPDX-License-Identifier:
+ * Apache-2.0
  *
  * A plug-in is a shared library with one symbol, vfit_plugin_negotiate. C only, no C++ classes cross the
  * border. It may use vfit.h as any program does, with a context of its own. Each context of the host
@@ -22,11 +23,11 @@
  *          rotation turns a T-pose that has Y up and faces +Z into camera space. The host carries them to
  *          world space by the frame's camera, or, where its floor_state is DEFAULT, by a floor estimated
  *          below the feet of the stream's first body. A body that is not finite is refused with
- *          VFIT_ERROR_DATA, and the frame goes on without it.                                          */
+ *          VFIT_ERROR_DATA, and the frame goes on without it. */
 #ifndef VFIT_PLUGIN_H
 #define VFIT_PLUGIN_H
 #include "vfit.h"
-#define VFIT_PLUGIN_ABI 1u              /* bumped only when an existing field changes its meaning     */
+#define VFIT_PLUGIN_ABI 1u /* bumped only when an existing field changes its meaning */
 
 #if defined(_WIN32)
 #define VFIT_PLUGIN_EXPORT __declspec(dllexport)
@@ -34,7 +35,7 @@
 #define VFIT_PLUGIN_EXPORT __attribute__((visibility("default")))
 #endif
 
-typedef struct vfit_frame_layout {      /* one stream of a frame                                      */
+typedef struct vfit_frame_layout { /* one stream of a frame */
     uint32_t struct_size;
     vfit_stream stream;
     vfit_format format;
@@ -42,13 +43,13 @@ typedef struct vfit_frame_layout {      /* one stream of a frame                
 } vfit_frame_layout;
 VFIT_STRUCT(vfit_frame_layout)
 
-typedef struct vfit_host {              /* valid from negotiate until shutdown returns; all are [any] */
+typedef struct vfit_host { /* valid from negotiate until shutdown returns; all are [any] */
     uint32_t struct_size, abi_min, abi_max, reserved;
     void* self;
     void (*log)(void* self, vfit_log_level level, const char* message);
     void (*sensor_added)(void* self, const vfit_sensor_info* info);
     void (*sensor_removed)(void* self, const char* uri);
-    /* VFIT_ERROR_BUSY: the pool is empty, drop this image. VFIT_ERROR_STATE: the stream is stopping.     */
+    /* VFIT_ERROR_BUSY: the pool is empty, drop this image. VFIT_ERROR_STATE: the stream is stopping. */
     vfit_result (*frame_begin)(void* self, void* stream, const vfit_frame_layout* layouts, uint32_t stride,
                                uint32_t count, vfit_frame* out);
     vfit_result (*frame_pixels)(void* self, vfit_frame frame, vfit_stream kind, void** pixels,
@@ -58,42 +59,43 @@ typedef struct vfit_host {              /* valid from negotiate until shutdown r
     vfit_result (*frame_body)(void* self, vfit_frame frame, const vfit_body* body, const vfit_joint* items,
                               uint32_t stride, uint32_t count);
     vfit_result (*frame_meta)(void* self, vfit_frame frame, const char* key, const char* json);
-    /* time_ns 0: now. The frame's handle is dead afterwards.                                             */
+    /* time_ns 0: now. The frame's handle is dead afterwards. */
     vfit_result (*frame_push)(void* self, void* stream, vfit_frame frame, int64_t time_ns);
     void (*frame_drop)(void* self, vfit_frame frame);
     /* END_OF_STREAM, DEVICE_LOST, OK (after DEVICE_LOST), or the error that ended the stream, with its one
-     * sentence. A frame that waits is taken first.                                                      */
+     * sentence. A frame that waits is taken first. */
     void (*stream_state)(void* self, void* stream, vfit_result state, const char* message);
-    int64_t (*time_ns)(void* self);     /* now, on the clock that frame_push expects                   */
+    int64_t (*time_ns)(void* self); /* now, on the clock that frame_push expects */
 } vfit_host;
 
 /* Filled by the plug-in; functions that it lacks stay null. Required: abi, name, schemes, open, start,
- * stop, close. struct_size holds the host's size before.                                               */
+ * stop, close. struct_size holds the host's size before. */
 typedef struct vfit_plugin {
     uint32_t struct_size, abi, version, caps;
     const char* name;
-    const char* schemes;                /* "recording" or "openni2,oni": the URIs that it opens         */
-    const char* usb_ids;                /* "1d27:0609,045e:02ae" or null: the host watches for those */
+    const char* schemes; /* "recording" or "openni2,oni": the URIs that it opens */
+    const char* usb_ids; /* "1d27:0609,045e:02ae" or null: the host watches for those */
     void* self;
-    vfit_result (*discover)(void* self);            /* reports by sensor_added; may be null             */
-    /* The message of a failed open, set_option or start; copied at once.                               */
+    vfit_result (*discover)(void* self); /* reports by sensor_added; may be null */
+    /* The message of a failed open, set_option or start; copied at once. */
     const char* (*last_error)(void* self);
     vfit_result (*open)(void* self, const char* uri, void* stream, void** device);
     vfit_result (*set_option)(void* device, const char* key, const char* value);
-    /* Item index of the lists of modes and options; VFIT_END_OF_STREAM past the last. May be null.      */
+    /* Item index of the lists of modes and options; VFIT_END_OF_STREAM past the last. May be null. */
     vfit_result (*mode)(void* device, uint32_t index, vfit_sensor_mode* out);
     vfit_result (*option)(void* device, uint32_t index, vfit_sensor_option* out);
     vfit_result (*start)(void* device);
-    vfit_result (*stop)(void* device);  /* no frame_push after it returns                             */
+    vfit_result (*stop)(void* device); /* no frame_push after it returns */
     void (*close)(void* device);
     void (*shutdown)(void* self);
 } vfit_plugin;
 
 /* The one symbol. Pick an abi within [abi_min, abi_max] or return VFIT_ERROR_VERSION. No exception leaves
- * a plug-in.                                                                                          */
+ * a plug-in. */
 typedef vfit_result (*vfit_plugin_negotiate_fn)(const vfit_host* host, vfit_plugin* out);
 #ifdef __cplusplus
 extern "C"
 #endif
-VFIT_PLUGIN_EXPORT vfit_result vfit_plugin_negotiate(const vfit_host* host, vfit_plugin* out);
+    VFIT_PLUGIN_EXPORT vfit_result
+    vfit_plugin_negotiate(const vfit_host* host, vfit_plugin* out);
 #endif

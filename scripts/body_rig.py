@@ -3,22 +3,50 @@
 
 What a removed bone carried goes to its nearest kept ancestor; the five toes become one bone.
 """
+
 import numpy as np
 
 # Order of VFIT_BONE_* in vfit.h.
-HUMANOID = (["root", "spine05", "spine03", "spine01", "neck01", "head"]
-            + [bone + side for side in (".L", ".R")
-               for bone in ("clavicle", "upperarm01", "lowerarm01", "wrist")]
-            + [bone + side for side in (".L", ".R") for bone in ("upperleg01", "lowerleg01", "foot", "toes")])
+HUMANOID = (
+    ["root", "spine05", "spine03", "spine01", "neck01", "head"]
+    + [bone + side for side in (".L", ".R") for bone in ("clavicle", "upperarm01", "lowerarm01", "wrist")]
+    + [bone + side for side in (".L", ".R") for bone in ("upperleg01", "lowerleg01", "foot", "toes")]
+)
 # Order of BodyPart in body_model.h, and the bones (without digits and side) that make each up.
-PARTS = [("head", ""), ("torso", ""),
-         ("upper_arm", ".L"), ("forearm", ".L"), ("hand", ".L"),
-         ("upper_arm", ".R"), ("forearm", ".R"), ("hand", ".R"),
-         ("thigh", ".L"), ("shank", ".L"), ("foot", ".L"), ("thigh", ".R"), ("shank", ".R"), ("foot", ".R")]
-PART_OF = {"neck": "head", "head": "head", "root": "torso", "spine": "torso", "pelvis": "torso",
-           "clavicle": "torso", "shoulder": "torso", "upperarm": "upper_arm", "lowerarm": "forearm",
-           "wrist": "hand", "metacarpal": "hand", "finger": "hand", "upperleg": "thigh", "lowerleg": "shank",
-           "foot": "foot", "toes": "foot"}
+PARTS = [
+    ("head", ""),
+    ("torso", ""),
+    ("upper_arm", ".L"),
+    ("forearm", ".L"),
+    ("hand", ".L"),
+    ("upper_arm", ".R"),
+    ("forearm", ".R"),
+    ("hand", ".R"),
+    ("thigh", ".L"),
+    ("shank", ".L"),
+    ("foot", ".L"),
+    ("thigh", ".R"),
+    ("shank", ".R"),
+    ("foot", ".R"),
+]
+PART_OF = {
+    "neck": "head",
+    "head": "head",
+    "root": "torso",
+    "spine": "torso",
+    "pelvis": "torso",
+    "clavicle": "torso",
+    "shoulder": "torso",
+    "upperarm": "upper_arm",
+    "lowerarm": "forearm",
+    "wrist": "hand",
+    "metacarpal": "hand",
+    "finger": "hand",
+    "upperleg": "thigh",
+    "lowerleg": "shank",
+    "foot": "foot",
+    "toes": "foot",
+}
 MAX_BONES = 8
 
 
@@ -30,7 +58,7 @@ class Bone:
 
 def part_of(name):
     side = name[-2:] if name[-2:] in (".L", ".R") else ""
-    stem = name[:len(name) - len(side)].rstrip("0123456789-")
+    stem = name[: len(name) - len(side)].rstrip("0123456789-")
     part = PART_OF[stem]
     return PARTS.index((part, "" if part in ("head", "torso") else side))
 
@@ -66,8 +94,14 @@ def build_rig(data):
         toes = sorted(child for child in children.get(name, []) if child.startswith("toe"))
         if toes:  # the row of the ball joints to the row of the tips
             tips = [max(n for n in file_bones if n[:4] == toe[:4] and n[-2:] == toe[-2:]) for toe in toes]
-            bones.append(Bone("toes" + name[-2:], index, mean_of([place(toe, "head") for toe in toes]),
-                              mean_of([place(tip, "tail") for tip in tips])))
+            bones.append(
+                Bone(
+                    "toes" + name[-2:],
+                    index,
+                    mean_of([place(toe, "head") for toe in toes]),
+                    mean_of([place(tip, "tail") for tip in tips]),
+                )
+            )
             for toe in file_bones:
                 if toe.startswith("toe") and toe[-2:] == name[-2:]:
                     target[toe] = len(bones) - 1

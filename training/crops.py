@@ -1,4 +1,5 @@
 """Streams of training crops: processes of vfit-crops, mixed in a pool so that one body's crops are spread out."""
+
 import queue
 import subprocess
 import threading
@@ -8,13 +9,22 @@ import torch
 
 from network import COUNT, CROP, MIRROR
 
-RECORD = np.dtype([("crop", "<i2", (CROP, CROP)), ("joints", "<f4", (COUNT, 3)), ("inside", "<f4", (COUNT,)),
-                   ("yaw", "<f4"), ("person", "<f4")])
+RECORD = np.dtype(
+    [
+        ("crop", "<i2", (CROP, CROP)),
+        ("joints", "<f4", (COUNT, 3)),
+        ("inside", "<f4", (COUNT,)),
+        ("yaw", "<f4"),
+        ("person", "<f4"),
+    ]
+)
 
 
 def read(command, body, seed, first, count):
     """`count` samples at once."""
-    data = subprocess.run([command, body, str(seed), str(first), str(count)], check=True, stdout=subprocess.PIPE)
+    data = subprocess.run(
+        [command, body, str(seed), str(first), str(count)], check=True, stdout=subprocess.PIPE
+    )
     return np.frombuffer(data.stdout, RECORD)
 
 
@@ -26,8 +36,14 @@ class Stream:
         self.pool = np.empty(pool, RECORD)
         self.random = np.random.default_rng(seed + first)
         self.reuse, self.next, self.debt = reuse, 0, 0.0
-        self.pipes = [subprocess.Popen([command, body, str(seed), str(first + k * 10**9), str(10**9)],
-                                       stdout=subprocess.PIPE, bufsize=1 << 22) for k in range(processes)]
+        self.pipes = [
+            subprocess.Popen(
+                [command, body, str(seed), str(first + k * 10**9), str(10**9)],
+                stdout=subprocess.PIPE,
+                bufsize=1 << 22,
+            )
+            for k in range(processes)
+        ]
         # A pipe holds two crops: read ahead, or training and the making of crops would wait for each other.
         self.ahead = queue.Queue(1024)
         for pipe in self.pipes:

@@ -2,20 +2,46 @@
 
 Plain 3 x 3 convolutions throughout: on a CPU they beat separable ones of fewer operations.
 """
+
 import torch
 from torch import nn
 
-JOINTS = ["HEAD", "NECK", "TORSO", "LEFT_SHOULDER", "RIGHT_SHOULDER", "LEFT_ELBOW", "RIGHT_ELBOW", "LEFT_HAND",
-          "RIGHT_HAND", "LEFT_HIP", "RIGHT_HIP", "LEFT_KNEE", "RIGHT_KNEE", "LEFT_FOOT", "RIGHT_FOOT", "PELVIS",
-          "CHEST", "LEFT_CLAVICLE", "RIGHT_CLAVICLE", "LEFT_WRIST", "RIGHT_WRIST", "LEFT_TOES", "RIGHT_TOES"]
+JOINTS = [
+    "HEAD",
+    "NECK",
+    "TORSO",
+    "LEFT_SHOULDER",
+    "RIGHT_SHOULDER",
+    "LEFT_ELBOW",
+    "RIGHT_ELBOW",
+    "LEFT_HAND",
+    "RIGHT_HAND",
+    "LEFT_HIP",
+    "RIGHT_HIP",
+    "LEFT_KNEE",
+    "RIGHT_KNEE",
+    "LEFT_FOOT",
+    "RIGHT_FOOT",
+    "PELVIS",
+    "CHEST",
+    "LEFT_CLAVICLE",
+    "RIGHT_CLAVICLE",
+    "LEFT_WRIST",
+    "RIGHT_WRIST",
+    "LEFT_TOES",
+    "RIGHT_TOES",
+]
 COUNT = len(JOINTS)
 MIRROR = [JOINTS.index(n.replace("LEFT", "x").replace("RIGHT", "LEFT").replace("x", "RIGHT")) for n in JOINTS]
 CROP, MAP = 128, 32
 
 
 def convolution(inputs, outputs, stride=1, size=3):
-    return nn.Sequential(nn.Conv2d(inputs, outputs, size, stride, size // 2, bias=False), nn.BatchNorm2d(outputs),
-                         nn.ReLU(inplace=True))
+    return nn.Sequential(
+        nn.Conv2d(inputs, outputs, size, stride, size // 2, bias=False),
+        nn.BatchNorm2d(outputs),
+        nn.ReLU(inplace=True),
+    )
 
 
 class Network(nn.Module):
@@ -25,14 +51,18 @@ class Network(nn.Module):
     def __init__(self, stages=(24, 48, 96, 128), fine=32):
         super().__init__()
         a, b, c, d = stages
-        self.stem = convolution(1, 16, 2, 5)                                        # 64
+        self.stem = convolution(1, 16, 2, 5)  # 64
         self.at32 = nn.Sequential(convolution(16, a, 2), convolution(a, a))
         self.at16 = nn.Sequential(convolution(a, b, 2), convolution(b, b))
         self.at8 = nn.Sequential(convolution(b, c, 2), convolution(c, c))
         self.at4 = nn.Sequential(convolution(c, d, 2), convolution(d, d))
         self.up8, self.mix8 = nn.Conv2d(d, c, 1), convolution(c, c)
         self.up16, self.mix16 = nn.Conv2d(c, b, 1), convolution(b, b)
-        self.up32, self.skip32, self.mix32 = nn.Conv2d(b, fine, 1), nn.Conv2d(a, fine, 1), convolution(fine, fine)
+        self.up32, self.skip32, self.mix32 = (
+            nn.Conv2d(b, fine, 1),
+            nn.Conv2d(a, fine, 1),
+            convolution(fine, fine),
+        )
         self.maps = nn.Conv2d(fine, 2 * COUNT, 1)
         self.answers = nn.Linear(d, 2)
 

@@ -4,6 +4,7 @@
 Loss: L1 of the joints in crop coordinates, plus a little cross-entropy of the heat maps to a Gaussian, plus the
 facing. The weights that are kept are a running average. Recipe and figures: README.md.
 """
+
 import argparse
 import csv
 import math
@@ -44,10 +45,17 @@ def as_labelled(found, batch):
 
     def error(wanted, weight):
         return ((found - wanted).abs().sum(-1) * weight).sum(-1)
+
     other, other_inside = joints[:, MIRROR], inside[:, MIRROR]
     turn = side & (error(other, other_inside) < error(joints, inside))
-    return (crop, torch.where(turn[:, None, None], other, joints), torch.where(turn[:, None], other_inside, inside),
-            torch.where(turn, 1 - away, away), person, side)
+    return (
+        crop,
+        torch.where(turn[:, None, None], other, joints),
+        torch.where(turn[:, None], other_inside, inside),
+        torch.where(turn, 1 - away, away),
+        person,
+        side,
+    )
 
 
 def loss_of(network, batch, weight):
@@ -75,7 +83,7 @@ def judge(network, batch):
     network.eval()
     found, answers = [], []
     for part in range(0, len(batch[0]), 64):
-        maps, logits = network(batch[0][part:part + 64])
+        maps, logits = network(batch[0][part : part + 64])
         found.append(decode(maps)[0])
         answers.append(logits > 0)
     network.train()
@@ -83,9 +91,12 @@ def judge(network, batch):
     _, joints, inside, away, person, _ = as_labelled(found, batch)
     error = ((found - joints).norm(dim=-1) * METRE)[inside > 0.9]
     some = person > 0
-    return [f"{1000 * error.mean():.1f}", f"{(error < 0.1).float().mean():.4f}",
-            f"{(answers[some, 0] == (away[some] > 0)).float().mean():.4f}",
-            f"{(answers[:, 1] == some).float().mean():.4f}"]
+    return [
+        f"{1000 * error.mean():.1f}",
+        f"{(error < 0.1).float().mean():.4f}",
+        f"{(answers[some, 0] == (away[some] > 0)).float().mean():.4f}",
+        f"{(answers[:, 1] == some).float().mean():.4f}",
+    ]
 
 
 def main():
@@ -94,7 +105,9 @@ def main():
     parser.add_argument("--body", required=True, help="the baked body binary")
     parser.add_argument("--run", type=Path, required=True, help="folder of state and log")
     parser.add_argument("--steps", type=int, default=20000, help="length of the schedule")
-    parser.add_argument("--clock", type=float, help="length of the schedule in minutes of training, in place of --steps")
+    parser.add_argument(
+        "--clock", type=float, help="length of the schedule in minutes of training, in place of --steps"
+    )
     parser.add_argument("--minutes", type=float, default=1e9, help="stop after this time; run again to go on")
     parser.add_argument("--batch", type=int, default=64)
     parser.add_argument("--rate", type=float, default=2e-3)
@@ -129,17 +142,34 @@ def main():
 
     def save():
         part = state_file.with_suffix(".part")
-        torch.save({"network": network.state_dict(), "average": average.state_dict(),
-                    "optimiser": optimiser.state_dict(), "step": step,
-                    "seconds": seconds + time.time() - begin}, part)
+        torch.save(
+            {
+                "network": network.state_dict(),
+                "average": average.state_dict(),
+                "optimiser": optimiser.state_dict(),
+                "step": step,
+                "seconds": seconds + time.time() - begin,
+            },
+            part,
+        )
         part.replace(state_file)
 
     def on_device(batch):
-        return (batch[0].to(device).contiguous(memory_format=torch.channels_last), *(x.to(device) for x in batch[1:]))
+        return (
+            batch[0].to(device).contiguous(memory_format=torch.channels_last),
+            *(x.to(device) for x in batch[1:]),
+        )
 
     unseen = on_device(unseen)
-    stream = crops.Stream(arguments.crops, arguments.body, arguments.seed, step * arguments.batch,
-                          arguments.processes, arguments.pool, arguments.reuse)
+    stream = crops.Stream(
+        arguments.crops,
+        arguments.body,
+        arguments.seed,
+        step * arguments.batch,
+        arguments.processes,
+        arguments.pool,
+        arguments.reuse,
+    )
     weight, begin, last, running = joint_weights().to(device), time.time(), time.time(), []
     log = (arguments.run / "curve.csv").open("a", newline="")
     writer = csv.writer(log)
@@ -166,8 +196,14 @@ def main():
         running.append(loss.item())
         step += 1
         if step % 500 == 0:
-            writer.writerow([step, f"{(time.time() - begin) / 60:.1f}", f"{sum(running) / len(running):.4f}",
-                             *judge(average, unseen)])
+            writer.writerow(
+                [
+                    step,
+                    f"{(time.time() - begin) / 60:.1f}",
+                    f"{sum(running) / len(running):.4f}",
+                    *judge(average, unseen),
+                ]
+            )
             log.flush()
             running = []
         if time.time() - last > 120:

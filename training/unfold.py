@@ -1,4 +1,5 @@
 """Weights out of an exported ONNX file back into a network that can be trained further."""
+
 import onnx
 import torch
 from onnx import numpy_helper
@@ -10,7 +11,10 @@ from network import Network
 def from_onnx(path, crops):
     """export.py folds batch norms into the convolutions before them. Here each norm gets back the spread that its
     convolution has on `crops` [n, 1, CROP, CROP], and such a scale and shift that the network says what the file says."""
-    weights = {w.name: torch.from_numpy(numpy_helper.to_array(w).copy()) for w in onnx.load(str(path)).graph.initializer}
+    weights = {
+        w.name: torch.from_numpy(numpy_helper.to_array(w).copy())
+        for w in onnx.load(str(path)).graph.initializer
+    }
     network = Network()
     for name, parameter in network.named_parameters():
         if name in weights:
@@ -23,10 +27,14 @@ def from_onnx(path, crops):
             norm.running_var.copy_(spread)
             norm.weight.copy_((spread + norm.eps).sqrt())
             norm.bias.copy_(mean + weights[f"{name}.0.bias"])
+
         return hook
 
-    hooks = [module[1].register_forward_pre_hook(give_back(name)) for name, module in network.named_modules()
-             if isinstance(module, torch.nn.Sequential) and len(module) == 3]
+    hooks = [
+        module[1].register_forward_pre_hook(give_back(name))
+        for name, module in network.named_modules()
+        if isinstance(module, torch.nn.Sequential) and len(module) == 3
+    ]
     network.eval()(crops)
     for hook in hooks:
         hook.remove()

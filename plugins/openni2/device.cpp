@@ -54,7 +54,8 @@ State state_of(const ReaderProcess& reader, const Head& head) {
 }
 
 bool is_mode(const Mode& mode) {
-    return mode.width >= 1 && mode.height >= 1 && mode.width <= kMostPixels && mode.height <= kMostPixels && std::isfinite(mode.rate_hz);
+    return mode.width >= 1 && mode.height >= 1 && mode.width <= kMostPixels && mode.height <= kMostPixels &&
+           std::isfinite(mode.rate_hz);
 }
 
 bool is_fov(float angle_rad) { return angle_rad > 0.05f && angle_rad < 3.0f; }
@@ -88,9 +89,14 @@ void Device::discover(const vfit_host& host) {
 }
 
 Device::Device(const vfit_host& host, void* stream, const std::string& uri)
-    : host_(host), stream_(stream), uri_(uri), opens_(strip(strip(uri, kFiles), kDevices)), is_file_(uri.rfind(kFiles, 0) == 0) {
+    : host_(host),
+      stream_(stream),
+      uri_(uri),
+      opens_(strip(strip(uri, kFiles), kDevices)),
+      is_file_(uri.rfind(kFiles, 0) == 0) {
     std::error_code ignored;
-    if (is_file_ && !std::filesystem::is_regular_file(opens_, ignored)) fail(VFIT_ERROR_IO, opens_, ": there is no such file");
+    if (is_file_ && !std::filesystem::is_regular_file(opens_, ignored))
+        fail(VFIT_ERROR_IO, opens_, ": there is no such file");
     reader_ = std::make_unique<ReaderProcess>(std::vector<std::string>{"open", opens_});
     const Opened opened = wait_for_opened(*reader_);
     is_file_ = is_file_ || opened.is_file;
@@ -114,7 +120,8 @@ Opened Device::wait_for_opened(ReaderProcess& reader) const {
             throw Broken("it tells modes that cannot be");
         return opened;
     } catch (const Broken& broken) {
-        if (is_file_) fail(VFIT_ERROR_DATA, opens_, ": is damaged: its reader ", reader.end(), " while it opened it");
+        if (is_file_)
+            fail(VFIT_ERROR_DATA, opens_, ": is damaged: its reader ", reader.end(), " while it opened it");
         fail(VFIT_ERROR_PLUGIN, uri_, ": opening it: ", broken.what(), "; the reader ", reader.end());
     }
 }
@@ -151,8 +158,10 @@ void Device::stop() {
         std::lock_guard lock(mutex_);
         stopping_ = true;
         try {
-            if (opening_) reader_->socket().interrupt();
-            else if (reader_) reader_->socket().send(Kind::stop);
+            if (opening_)
+                reader_->socket().interrupt();
+            else if (reader_)
+                reader_->socket().send(Kind::stop);
         } catch (const Broken&) {
             // The thread finds that out as well.
         }
@@ -181,14 +190,17 @@ bool Device::wait_until(int64_t time_ns) {
     return !stopping_;
 }
 
-void Device::tell(vfit_result state, const std::string& message) const { host_.stream_state(host_.self, stream_, state, message.c_str()); }
+void Device::tell(vfit_result state, const std::string& message) const {
+    host_.stream_state(host_.self, stream_, state, message.c_str());
+}
 
 void Device::run() {
     try {
         for (;;) {
             const Outcome outcome = play();
             if (outcome == Outcome::stopping) return;
-            if (outcome == Outcome::ended && !(options_.loop() && is_file_)) return tell(VFIT_END_OF_STREAM, "");
+            if (outcome == Outcome::ended && !(options_.loop() && is_file_))
+                return tell(VFIT_END_OF_STREAM, "");
             if (!come_back()) return;
             if (outcome == Outcome::lost) tell(VFIT_OK, "");
         }
@@ -206,10 +218,14 @@ Device::Outcome Device::play() {
         for (;;) {
             const Head head = reader_->socket().receive_head(kPatience_ms);
             Outcome outcome = Outcome::goes_on;
-            if (head.kind == Kind::stopped) clean_ = true, outcome = Outcome::stopping;
-            else if (head.kind == Kind::state) outcome = take_state(head);
-            else if (head.kind == Kind::image) outcome = take_image(head);
-            else throw Broken("it sent something else");
+            if (head.kind == Kind::stopped)
+                clean_ = true, outcome = Outcome::stopping;
+            else if (head.kind == Kind::state)
+                outcome = take_state(head);
+            else if (head.kind == Kind::image)
+                outcome = take_image(head);
+            else
+                throw Broken("it sent something else");
             if (outcome != Outcome::goes_on) return outcome;
         }
     } catch (const Broken&) {
@@ -247,7 +263,8 @@ bool Device::come_back() {
         replace(nullptr);
         if (!is_file_ && !pause(kAgain_ms)) return false;
         try {
-            if (!replace(std::make_unique<ReaderProcess>(std::vector<std::string>{"open", opens_}))) return false;
+            if (!replace(std::make_unique<ReaderProcess>(std::vector<std::string>{"open", opens_})))
+                return false;
             wait_for_opened(*reader_);
             reader_->socket().send(Kind::start, options_.start());
             std::lock_guard lock(mutex_);
@@ -272,7 +289,8 @@ void Device::skip(size_t bytes) {
 /// When the image was taken, or is to be shown.
 int64_t Device::time_of(const Image& image) {
     if (!is_file_) return host_.time_ns(host_.self);
-    const int64_t gap_us = first_ ? std::llround(1e6 / std::max(options_.mode().rate_hz, 1.0f)) : image.time_us - last_us_;
+    const int64_t gap_us =
+        first_ ? std::llround(1e6 / std::max(options_.mode().rate_hz, 1.0f)) : image.time_us - last_us_;
     last_us_ = image.time_us;
     first_ = false;
     return last_ns_ += 1000 * std::clamp<int64_t>(gap_us, 0, kLongestGap_us);
@@ -284,21 +302,24 @@ Device::Outcome Device::take_image(const Head& head) {
     reader_->socket().receive(&image, sizeof image, kPatience_ms);
     const Mode& mode = options_.mode();
     const size_t pixels = size_t(mode.width) * mode.height, bytes = head.bytes - sizeof image;
-    if (image.width != mode.width || image.height != mode.height || bytes != pixels * (image.has_color ? 6u : 2u) || image.has_color > 1)
+    if (image.width != mode.width || image.height != mode.height ||
+        bytes != pixels * (image.has_color ? 6u : 2u) || image.has_color > 1)
         throw Broken("it sent an image of another size");
     if (!is_fov(image.horizontal_fov_rad) || !is_fov(image.vertical_fov_rad))
-        fail(is_file_ ? VFIT_ERROR_DATA : VFIT_ERROR_UNSUPPORTED, opens_, ": its field of view, ", image.horizontal_fov_rad, " x ", image.vertical_fov_rad,
-             " rad, cannot be");
+        fail(is_file_ ? VFIT_ERROR_DATA : VFIT_ERROR_UNSUPPORTED, opens_, ": its field of view, ",
+             image.horizontal_fov_rad, " x ", image.vertical_fov_rad, " rad, cannot be");
     const int64_t time_ns = time_of(image);
     // Where reading is slower than the camera was, frames are lost as a camera loses them.
     const int64_t period_ns = std::llround(1e9 / std::max(mode.rate_hz, 1.0f));
     const bool late = is_file_ && options_.realtime() && host_.time_ns(host_.self) > time_ns + period_ns;
     if (late || stopping()) return skip(bytes), Outcome::goes_on;
 
-    vfit_frame_layout layouts[2] = {{sizeof(vfit_frame_layout), VFIT_STREAM_DEPTH, VFIT_FORMAT_U16, mode.width, mode.height, 0},
-                                    {sizeof(vfit_frame_layout), VFIT_STREAM_COLOR, VFIT_FORMAT_RGBA8, mode.width, mode.height, 0}};
+    vfit_frame_layout layouts[2] = {
+        {sizeof(vfit_frame_layout), VFIT_STREAM_DEPTH, VFIT_FORMAT_U16, mode.width, mode.height, 0},
+        {sizeof(vfit_frame_layout), VFIT_STREAM_COLOR, VFIT_FORMAT_RGBA8, mode.width, mode.height, 0}};
     vfit_frame frame{};
-    const vfit_result begun = host_.frame_begin(host_.self, stream_, layouts, sizeof layouts[0], image.has_color ? 2 : 1, &frame);
+    const vfit_result begun =
+        host_.frame_begin(host_.self, stream_, layouts, sizeof layouts[0], image.has_color ? 2 : 1, &frame);
     if (begun == VFIT_ERROR_BUSY || begun == VFIT_ERROR_STATE) return skip(bytes), Outcome::goes_on;
     if (begun < 0) fail(begun, opens_, ": the host refuses the frame's layout, result ", begun);
     try {
@@ -312,7 +333,8 @@ Device::Outcome Device::take_image(const Head& head) {
         return Outcome::goes_on;
     }
     const vfit_result pushed = host_.frame_push(host_.self, stream_, frame, time_ns);
-    if (pushed < 0 && pushed != VFIT_ERROR_STATE) fail(pushed, opens_, ": the host refuses the frame, result ", pushed);
+    if (pushed < 0 && pushed != VFIT_ERROR_STATE)
+        fail(pushed, opens_, ": the host refuses the frame, result ", pushed);
     return Outcome::goes_on;
 }
 
@@ -325,7 +347,8 @@ void Device::fill(vfit_frame frame, const Image& image) const {
         uint32_t stride = 0;
         check(host_.frame_pixels(host_.self, frame, stream, &pixels, &stride), "pixels");
         for (uint32_t y = 0; y < image.height; ++y)
-            reader_->socket().receive(static_cast<uint8_t*>(pixels) + size_t(y) * stride, row_bytes, kPatience_ms);
+            reader_->socket().receive(static_cast<uint8_t*>(pixels) + size_t(y) * stride, row_bytes,
+                                      kPatience_ms);
     };
     receive_rows(VFIT_STREAM_DEPTH, size_t(image.width) * 2);
     if (image.has_color) receive_rows(VFIT_STREAM_COLOR, size_t(image.width) * 4);

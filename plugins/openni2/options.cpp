@@ -23,17 +23,24 @@ uint32_t whole_number(const std::string& key, const std::string& value, uint32_t
 
 std::string name_of(const Mode& mode) {
     char name[64];
-    std::snprintf(name, sizeof name, "%ux%u@%g%s", mode.width, mode.height, double(mode.rate_hz), mode.depth_100um ? ",0.1mm" : "");
+    std::snprintf(name, sizeof name, "%ux%u@%g%s", mode.width, mode.height, double(mode.rate_hz),
+                  mode.depth_100um ? ",0.1mm" : "");
     return name;
 }
 
 }  // namespace
 
-Options::Options(const Opened& opened) : opened_(opened), mode_(opened.mode), realtime_(!opened.is_file), registration_(opened.offers_registration), color_(!opened.is_file) {}
+Options::Options(const Opened& opened)
+    : opened_(opened),
+      mode_(opened.mode),
+      realtime_(!opened.is_file),
+      registration_(opened.offers_registration),
+      color_(!opened.is_file) {}
 
 void Options::set(const std::string& key, const std::string& value) {
     if (key == "pace") {
-        if (value != "none" && value != "realtime") fail(VFIT_ERROR_ARGUMENT, "option pace: '", value, "' is neither 'none' nor 'realtime'");
+        if (value != "none" && value != "realtime")
+            fail(VFIT_ERROR_ARGUMENT, "option pace: '", value, "' is neither 'none' nor 'realtime'");
         realtime_ = value == "realtime";
     } else if (key == "mode") {
         for (uint32_t i = 0; i < opened_.mode_count; ++i)
@@ -74,9 +81,16 @@ bool Options::describe(uint32_t index, vfit_sensor_option& out) const {
         std::string value;
         const char* text;
     };
-    std::vector<Entry> all{{"pace", realtime_ ? "realtime" : "none", "none: every frame; realtime: as a camera does"}, {"mode", name_of(mode()), "depth image, a name of the modes"}};
-    if (opened_.offers_registration) all.push_back({"registration", registration_ ? "1" : "0", "1: the device moves depth to where colour sees it"});
-    if (opened_.has_color) all.push_back({"color", color_ ? "1" : "0", opened_.is_file ? "1: colour too, right where depth was registered as it was recorded" : "1: colour too, where depth is registered to it"});
+    std::vector<Entry> all{
+        {"pace", realtime_ ? "realtime" : "none", "none: every frame; realtime: as a camera does"},
+        {"mode", name_of(mode()), "depth image, a name of the modes"}};
+    if (opened_.offers_registration)
+        all.push_back(
+            {"registration", registration_ ? "1" : "0", "1: the device moves depth to where colour sees it"});
+    if (opened_.has_color)
+        all.push_back({"color", color_ ? "1" : "0",
+                       opened_.is_file ? "1: colour too, right where depth was registered as it was recorded"
+                                       : "1: colour too, where depth is registered to it"});
     if (opened_.is_file) {
         all.push_back({"loop", loop_ ? "1" : "0", "1: begin again after the last frame"});
         all.push_back({"start", std::to_string(first_), "first frame"});

@@ -49,7 +49,8 @@ struct Attributes {
         ::posix_spawnattr_setsigdefault(&attributes, &all);
         // A group of its own: Ctrl-C in a terminal is the host's to act on.
         ::posix_spawnattr_setpgroup(&attributes, 0);
-        ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+        ::posix_spawnattr_setflags(&attributes,
+                                   POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
     }
     ~Attributes() { ::posix_spawnattr_destroy(&attributes); }
 };
@@ -73,7 +74,8 @@ ReaderProcess::ReaderProcess(std::vector<std::string> words) {
 #endif
     const Attributes attributes;
     pid_t process = -1;
-    if (const int error = ::posix_spawn(&process, arguments[0], &files.actions, &attributes.attributes, arguments.data(), environ))
+    if (const int error = ::posix_spawn(&process, arguments[0], &files.actions, &attributes.attributes,
+                                        arguments.data(), environ))
         plugin::fail(VFIT_ERROR_PLUGIN, arguments[0], ": cannot be started: ", std::strerror(error));
     process_ = process;
 }
@@ -89,9 +91,12 @@ bool ReaderProcess::ended(int milliseconds) {
     const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(milliseconds);
     while (process_ > 0) {
         const pid_t got = ::waitpid(process_, &status_, WNOHANG);
-        if (got == process_ || (got < 0 && errno == ECHILD)) process_ = -1;
-        else if (std::chrono::steady_clock::now() >= until) return false;
-        else std::this_thread::sleep_for(kNap);
+        if (got == process_ || (got < 0 && errno == ECHILD))
+            process_ = -1;
+        else if (std::chrono::steady_clock::now() >= until)
+            return false;
+        else
+            std::this_thread::sleep_for(kNap);
     }
     return true;
 }
@@ -100,7 +105,8 @@ std::string ReaderProcess::end() {
     constexpr int kDies_ms = 500;  // what broke the socket is a moment before the end of the process
     if (!ended(kDies_ms)) {
         ::kill(process_, SIGKILL);
-        while (::waitpid(process_, &status_, 0) < 0 && errno == EINTR) {}
+        while (::waitpid(process_, &status_, 0) < 0 && errno == EINTR) {
+        }
         process_ = -1;
         return "hung, and was ended";
     }

@@ -15,10 +15,10 @@ namespace {
 
 using nlohmann::json;
 
-constexpr uintmax_t kMaxBytes = 1 << 20;  // of a JSON file; camera.json has less than 1 kB
-constexpr uint32_t kMaxSide = 16384;      // pixels
+constexpr uintmax_t kMaxBytes = 1 << 20;            // of a JSON file; camera.json has less than 1 kB
+constexpr uint32_t kMaxSide = 16384;                // pixels
 constexpr double kMinFps = 0.01, kMaxFps = 1000.0;  // Hz
-constexpr double kUnitTolerance = 0.01;   // of the floor normal's length, for hand-written files
+constexpr double kUnitTolerance = 0.01;             // of the floor normal's length, for hand-written files
 constexpr double kPi = 3.14159265358979323846;
 
 json read_object(const std::filesystem::path& path) {

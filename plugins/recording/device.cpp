@@ -24,7 +24,9 @@ std::filesystem::path path_of(const std::string& uri) {
 }  // namespace
 
 Device::Device(const vfit_host& host, void* stream, const std::string& uri)
-    : host_(host), stream_(stream), folder_(open_folder(path_of(uri))),
+    : host_(host),
+      stream_(stream),
+      folder_(open_folder(path_of(uri))),
       period_ns_(std::llround(1e9 / folder_.camera.fps)) {}
 
 Device::~Device() { stop(); }
@@ -202,7 +204,8 @@ void Device::fill_bodies(vfit_frame handle, uint32_t frame) {
         body.flags = VFIT_BODY_CAMERA_SPACE;
         const std::vector<vfit_joint>& joints = bodies_[i].joints;
         check(host_.frame_body(host_.self, handle, &body, joints.data(), sizeof(vfit_joint),
-                               static_cast<uint32_t>(joints.size())), "a body", frame);
+                               static_cast<uint32_t>(joints.size())),
+              "a body", frame);
     }
 }
 

@@ -38,8 +38,8 @@ void JointsFile::read_header() {
         if (name == names.end() || axis == std::string::npos || axis % 2 != 0)
             csv_.refuse("column '", column.substr(0, 64), "' is not a joint's _x, _y, _z or _c");
         const auto joint = static_cast<vfit_joint_id>(name - names.begin());
-        auto group = std::find_if(joints_.begin(), joints_.end(),
-                                  [&](const auto& j) { return j.joint == joint; });
+        auto group =
+            std::find_if(joints_.begin(), joints_.end(), [&](const auto& j) { return j.joint == joint; });
         if (group == joints_.end()) {
             JointColumns fresh;
             fresh.joint = joint;

@@ -39,8 +39,8 @@ private:
     CsvFile csv_;
     std::vector<JointColumns> joints_;
     bool has_id_ = false;
-    bool pending_ = false;  // a row was read that belongs to a later frame
-    int64_t frame_ = -1;    // of the last row
+    bool pending_ = false;       // a row was read that belongs to a later frame
+    int64_t frame_ = -1;         // of the last row
     std::vector<uint32_t> ids_;  // seen in that frame
 };
 

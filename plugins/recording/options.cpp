@@ -46,8 +46,9 @@ bool Options::describe(uint32_t index, vfit_sensor_option& out) const {
         return true;
     };
     switch (index) {
-        case 0: return fill("pace", realtime ? "realtime" : "none",
-                            "none: every frame; realtime: as a camera does");
+        case 0:
+            return fill("pace", realtime ? "realtime" : "none",
+                        "none: every frame; realtime: as a camera does");
         case 1: return fill("loop", loop ? "1" : "0", "1: begin again after the last frame");
         case 2: return fill("start", std::to_string(start), "first frame");
         case 3: return fill("count", std::to_string(count), "number of frames; 0: all");

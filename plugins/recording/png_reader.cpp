@@ -15,10 +15,10 @@ using plugin::fail;
 
 namespace {
 
-constexpr uint32_t kMaxSide = 16384;       // pixels
-constexpr size_t kMaxChunk = 1 << 20;      // bytes of an ancillary chunk
-constexpr size_t kFileAllowance = 1 << 20; // bytes of a file beyond its uncompressed pixels
-constexpr int kColor = 0;                  // in place of a bit depth: any picture, as RGBA8
+constexpr uint32_t kMaxSide = 16384;        // pixels
+constexpr size_t kMaxChunk = 1 << 20;       // bytes of an ancillary chunk
+constexpr size_t kFileAllowance = 1 << 20;  // bytes of a file beyond its uncompressed pixels
+constexpr int kColor = 0;                   // in place of a bit depth: any picture, as RGBA8
 
 struct Source {
     const unsigned char* bytes;

@@ -1,4 +1,5 @@
-// A plug-in's table from a class of its devices: each entry turns exceptions into a result, and keeps the sentence for last_error.
+// A plug-in's table from a class of its devices: each entry turns exceptions into a result, and keeps the
+// sentence for last_error.
 //
 // Device has
 //   static constexpr const char *kName, *kSchemes, *kUsbIds (may be null)
@@ -22,8 +23,8 @@ class Table {
 public:
     static vfit_result negotiate(const vfit_host* host, vfit_plugin* out) noexcept {
         if (!host || !out) return VFIT_ERROR_ARGUMENT;
-        if (host->abi_min > VFIT_PLUGIN_ABI || host->abi_max < VFIT_PLUGIN_ABI || host->struct_size < sizeof(vfit_host) ||
-            out->struct_size < sizeof(vfit_plugin))
+        if (host->abi_min > VFIT_PLUGIN_ABI || host->abi_max < VFIT_PLUGIN_ABI ||
+            host->struct_size < sizeof(vfit_host) || out->struct_size < sizeof(vfit_plugin))
             return VFIT_ERROR_VERSION;
         auto* self = new (std::nothrow) Table(*host);
         if (!self) return VFIT_ERROR_OUT_OF_MEMORY;
@@ -68,7 +69,8 @@ private:
     static Table& of(void* plugin) { return *static_cast<Table*>(plugin); }
 
     static vfit_result open(void* plugin, const char* uri, void* stream, void** device) {
-        return of(plugin).guard([&] { *device = new Open{of(plugin), Device(of(plugin).host_, stream, uri)}; });
+        return of(plugin).guard(
+            [&] { *device = new Open{of(plugin), Device(of(plugin).host_, stream, uri)}; });
     }
     template <typename Call>
     static vfit_result call(void* device, Call&& what) {

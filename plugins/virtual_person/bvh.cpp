@@ -49,7 +49,8 @@ public:
         stream_.clear();
         stream_.str(std::string(token));
         double value = 0;
-        if (!(stream_ >> value) || stream_.peek() != std::char_traits<char>::eof() || !(std::abs(value) <= kMost))
+        if (!(stream_ >> value) || stream_.peek() != std::char_traits<char>::eof() ||
+            !(std::abs(value) <= kMost))
             error("'", token, "' is not a number for ", what);
         return value;
     }

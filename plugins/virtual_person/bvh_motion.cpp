@@ -66,8 +66,7 @@ int arm_bone(int side, int part) {
 class Retarget {
 public:
     Retarget(const Bvh& bvh, const std::string& name, const Proportions& proportions)
-        : bvh_(bvh),
-          proportions_(proportions) {
+        : bvh_(bvh), proportions_(proportions) {
         const bool upleg_form = bvh.find("LeftUpLeg") >= 0;
         for (const BoneSource& s : kSources) {
             const char* wanted = upleg_form ? s.upleg_form : s.hip_form;
@@ -249,8 +248,7 @@ private:
 class BvhMotion : public Motion {
 public:
     BvhMotion(std::vector<BonePose> poses, double frame_time_s)
-        : poses_(std::move(poses)),
-          frame_time_s_(frame_time_s) {}
+        : poses_(std::move(poses)), frame_time_s_(frame_time_s) {}
 
     BonePose at(double t) const override {
         const double last = static_cast<double>(poses_.size() - 1);

@@ -11,8 +11,8 @@ namespace vfit::virtual_person {
 
 namespace {
 
-// Garments hang in folds of about a hand's breadth to a foot's length, with fine wrinkles between them. The shares
-// are rough: the thickness of a loose garment goes from touching the skin to twice its mean.
+// Garments hang in folds of about a hand's breadth to a foot's length, with fine wrinkles between them. The
+// shares are rough: the thickness of a loose garment goes from touching the skin to twice its mean.
 constexpr float kFold_m = 0.30f, kWrinkle_m = 0.08f, kFoldShare = 0.7f, kWrinkleShare = 0.3f;
 constexpr float kHem_m = 0.04f;      // over which a garment ends
 constexpr float kLooseness = 0.35f;  // how much top and trousers may differ from their mean
@@ -44,9 +44,7 @@ std::vector<uint32_t> first_at_same_place(std::span<const float> rest) {
 
 Clothing::Clothing(std::span<const float> rest, std::span<const uint32_t> triangles, const BodyLandmarks& l,
                    const Thickness& thickness, uint64_t seed)
-    : offsets_m_(rest.size() / 3),
-      surface_(rest.size()),
-      same_place_(first_at_same_place(rest)) {
+    : offsets_m_(rest.size() / 3), surface_(rest.size()), same_place_(first_at_same_place(rest)) {
     const uint64_t key = random_bits(0x636C6F746865ull, seed);
     const float looser = kLooseness * (2.0f * uniform(key, 0) - 1.0f);
     const std::vector<float> areas = areas_of(rest, triangles);

@@ -1,5 +1,5 @@
-// Clothes as an uneven offset of the skin along its normals: a top with sleeves to the wrists and trousers to the
-// ankles, each with folds of its own. The joints stay those of the body.
+// Clothes as an uneven offset of the skin along its normals: a top with sleeves to the wrists and trousers to
+// the ankles, each with folds of its own. The joints stay those of the body.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct BodyLandmarks {
 /// How thick clothes are, in metres.
 struct Thickness {
     static constexpr float kUnsaid = -1.0f;
-    float mean_m = 0.0f;                                            // of all; top and trousers differ from it by chance
+    float mean_m = 0.0f;  // of all; top and trousers differ from it by chance
     float top_m = kUnsaid, sleeves_m = kUnsaid, trousers_m = kUnsaid;  // where said, about this each
 
     bool by_zone() const { return top_m >= 0.0f || sleeves_m >= 0.0f || trousers_m >= 0.0f; }
@@ -31,8 +31,8 @@ struct Thickness {
 
 class Clothing {
 public:
-    /// `rest`: the skin in the T-pose, packed x, y, z. The mean offset of the covered surface is thickness.mean_m, unless
-    /// zones have their own.
+    /// `rest`: the skin in the T-pose, packed x, y, z. The mean offset of the covered surface is
+    /// thickness.mean_m, unless zones have their own.
     Clothing(std::span<const float> rest, std::span<const uint32_t> triangles, const BodyLandmarks& landmarks,
              const Thickness& thickness, uint64_t seed);
 

@@ -5,9 +5,7 @@
 namespace vfit::virtual_person {
 
 DepthCamera::DepthCamera(const SensorModel& model, const CameraPlace& place, const Room& room)
-    : model_(model),
-      place_(place),
-      mesh_(model) {
+    : model_(model), place_(place), mesh_(model) {
     const float c = std::cos(place.tilt_rad), s = std::sin(place.tilt_rad);
     rotation_ = Mat3(Vec3(1, 0, 0), Vec3(0, -c, s), Vec3(0, -s, -c));  // columns: right, down, forward
     solve_room(room);
@@ -55,8 +53,8 @@ void DepthCamera::render(const float* positions, CleanImage& out) {
     const Mat3 camera_from_world = glm::transpose(rotation_);
     const Vec3 origin(0, place_.height_m, 0);
     for (size_t i = 0; i < points_.size(); ++i)
-        points_[i] = camera_from_world *
-                     (Vec3(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]) - origin);
+        points_[i] =
+            camera_from_world * (Vec3(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]) - origin);
     mesh_.draw(points_.data(), out);
 }
 

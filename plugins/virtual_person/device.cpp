@@ -23,9 +23,7 @@ void Device::discover(const vfit_host& host) {
 }
 
 Device::Device(const vfit_host& host, void* stream, const std::string& uri)
-    : host_(&host),
-      stream_(stream),
-      shape_keys_(shape_list(context_.get())) {
+    : host_(&host), stream_(stream), shape_keys_(shape_list(context_.get())) {
     for (const auto& [key, value] : parse_uri(uri)) set_option(key, value);
 }
 
@@ -94,11 +92,12 @@ void Device::run() {
         const bool realtime = options_.text("pace") == "realtime";
         const int64_t begin_ns = host_->time_ns(host_->self);
         for (uint64_t i = 0; result == VFIT_OK && !stopping_; ++i) {
-            // Where a frame takes longer than a camera's, frames are lost as a camera loses them: otherwise the
-            // person would fall behind the clock for ever.
+            // Where a frame takes longer than a camera's, frames are lost as a camera loses them: otherwise
+            // the person would fall behind the clock for ever.
             if (realtime)
-                i = std::max(i, static_cast<uint64_t>(
-                                    static_cast<double>(host_->time_ns(host_->self) - begin_ns) / frame_time_ns));
+                i = std::max(
+                    i, static_cast<uint64_t>(static_cast<double>(host_->time_ns(host_->self) - begin_ns) /
+                                             frame_time_ns));
             if (frames != 0 && i >= frames) {
                 result = VFIT_END_OF_STREAM;
                 break;
@@ -160,7 +159,8 @@ vfit_result Device::push_frame(uint64_t index, int64_t time_ns) {
                                    static_cast<uint32_t>(seen.joints.size())),
                  "body");
         }
-        need(host_->frame_meta(self, frame, "bodies", "true"), "kind");  // nobody in view is an answer as well
+        need(host_->frame_meta(self, frame, "bodies", "true"),
+             "kind");  // nobody in view is an answer as well
         if (r.has_person()) {
             need(host_->frame_meta(self, frame, "contacts", r.contacts_json()), "contacts");
             need(host_->frame_meta(self, frame, "measures", r.measures_json().c_str()), "measures");

@@ -1,4 +1,5 @@
-// Where in an image depth jumps, tile by tile: whoever looks a few pixels aside need not look where all is even.
+// Where in an image depth jumps, tile by tile: whoever looks a few pixels aside need not look where all is
+// even.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +14,8 @@ public:
     static constexpr uint32_t kWidth = 16, kHeight = 8;  // px
     static constexpr int kReach = 8;                     // px to either side, no more than a tile
 
-    /// Marks the tiles with a pixel that is steeper than least_cosine, or that may be more than jump_m nearer or
-    /// farther than one within kReach of it.
+    /// Marks the tiles with a pixel that is steeper than least_cosine, or that may be more than jump_m nearer
+    /// or farther than one within kReach of it.
     void find(const CleanImage& image, float jump_m, float least_cosine);
     bool marked(uint32_t x, uint32_t y) const { return marked_[size_t{y / kHeight} * columns_ + x / kWidth]; }
 

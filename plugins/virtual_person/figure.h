@@ -24,7 +24,8 @@ struct Figure {
     float heading_rad = 0;      // of the pelvis; 0: faces +Z
     Quat pelvis = kNoRotation;  // in the heading's frame
     float drop_m = 0;           // how far the hips are below the highest place that the legs allow
-    float seat_m = 0, seated = 0;  // height of a seat, and how far the hips are on it: 0 on the legs, 1 sitting
+    float seat_m = 0,
+          seated = 0;  // height of a seat, and how far the hips are on it: 0 on the legs, 1 sitting
     std::array<FootState, 2> foot;
     std::array<Quat, VFIT_BONE_COUNT> rotation;  // local; legs and hips are overwritten by solve
     Figure() { rotation.fill(kNoRotation); }

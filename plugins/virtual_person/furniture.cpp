@@ -30,9 +30,9 @@ std::vector<Solid> chair() {
 
 // A pole with a foot, a coat on each side and a hat: about as tall and wide as a person.
 std::vector<Solid> rack() {
-    std::vector<Solid> out = {box({0, 0.9f, 0}, {0.02f, 0.9f, 0.02f}), box({0, 0.015f, 0}, {0.25f, 0.015f, 0.03f}),
-                              box({0, 0.015f, 0}, {0.03f, 0.015f, 0.25f}),
-                              ellipsoid({0, 1.78f, 0}, {0.12f, 0.07f, 0.14f})};
+    std::vector<Solid> out = {
+        box({0, 0.9f, 0}, {0.02f, 0.9f, 0.02f}), box({0, 0.015f, 0}, {0.25f, 0.015f, 0.03f}),
+        box({0, 0.015f, 0}, {0.03f, 0.015f, 0.25f}), ellipsoid({0, 1.78f, 0}, {0.12f, 0.07f, 0.14f})};
     for (const float x : {-1.0f, 1.0f}) {
         out.push_back(ellipsoid({x * 0.13f, 1.25f, 0.02f}, {0.13f, 0.45f, 0.17f}));
         out.push_back(ellipsoid({x * 0.24f, 1.2f, 0.03f}, {0.06f, 0.36f, 0.07f}));  // a sleeve

@@ -47,8 +47,8 @@ inline Figure standing() {
 
 /// `a` at s = 0, `b` at s = 1.
 inline ArmAngles mix(const ArmAngles& a, const ArmAngles& b, float s) {
-    return {a.abduct + (b.abduct - a.abduct) * s, a.flex + (b.flex - a.flex) * s, a.elbow + (b.elbow - a.elbow) * s,
-            a.turn + (b.turn - a.turn) * s};
+    return {a.abduct + (b.abduct - a.abduct) * s, a.flex + (b.flex - a.flex) * s,
+            a.elbow + (b.elbow - a.elbow) * s, a.turn + (b.turn - a.turn) * s};
 }
 
 /// The feet of a plan at that time.

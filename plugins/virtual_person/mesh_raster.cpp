@@ -9,7 +9,8 @@ namespace vfit::virtual_person {
 
 namespace {
 
-constexpr float kNearest_m = 0.05f;       // a vertex nearer than this is not projected: its triangles may be anywhere
+constexpr float kNearest_m =
+    0.05f;  // a vertex nearer than this is not projected: its triangles may be anywhere
 constexpr float kRounding_px = 1.0f / 64;  // more than the projection's rounding, to 8192 px
 
 }  // namespace
@@ -57,8 +58,8 @@ bool MeshRaster::box_of(const uint32_t* corners, Box& box) const {
     return box.x0 <= box.x1 && box.y0 <= box.y1;
 }
 
-// Normal of the plane through the camera and an edge: a ray's product with it says on which side of the edge the
-// ray passes. Two triangles compute it from the same end, so that no ray passes between them.
+// Normal of the plane through the camera and an edge: a ray's product with it says on which side of the edge
+// the ray passes. Two triangles compute it from the same end, so that no ray passes between them.
 Vec3 MeshRaster::side(uint32_t from, uint32_t to) const {
     const Vec3 &a = points_[from], &b = points_[to];
     return from < to ? glm::cross(a, b - a) : -glm::cross(b, a - b);
@@ -79,12 +80,14 @@ void MeshRaster::draw_triangle(const uint32_t* corners, CleanImage& image) const
     normal *= facing, distance *= facing;
     const float normal2 = glm::dot(normal, normal);
     for (int y = box.y0; y <= box.y1; ++y) {
-        const float dy = ray_y_[size_t(y)], row0 = sides[0].y * dy + sides[0].z, row1 = sides[1].y * dy + sides[1].z,
-                    row2 = sides[2].y * dy + sides[2].z, row = normal.y * dy + normal.z;
+        const float dy = ray_y_[size_t(y)], row0 = sides[0].y * dy + sides[0].z,
+                    row1 = sides[1].y * dy + sides[1].z, row2 = sides[2].y * dy + sides[2].z,
+                    row = normal.y * dy + normal.z;
         const size_t first = size_t(y) * image.width;
         for (int x = box.x0; x <= box.x1; ++x) {
             const float dx = ray_x_[size_t(x)], along_normal = normal.x * dx + row;
-            const float least = std::min(std::min(sides[0].x * dx + row0, sides[1].x * dx + row1), sides[2].x * dx + row2);
+            const float least =
+                std::min(std::min(sides[0].x * dx + row0, sides[1].x * dx + row1), sides[2].x * dx + row2);
             if (least < 0.0f || !(along_normal > 0.0f)) continue;
             const float depth = distance / along_normal;
             float& nearest = image.depth_m[first + size_t(x)];

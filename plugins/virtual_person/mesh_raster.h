@@ -1,5 +1,5 @@
-// Draws a triangle mesh into a clean image: at each pixel's centre the nearest of what is there and what the ray
-// through it meets. Exact like a ray caster, and faster, since every triangle touches a few pixels.
+// Draws a triangle mesh into a clean image: at each pixel's centre the nearest of what is there and what the
+// ray through it meets. Exact like a ray caster, and faster, since every triangle touches a few pixels.
 #pragma once
 
 #include <array>

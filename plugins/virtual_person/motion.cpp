@@ -17,16 +17,26 @@ struct NamedScript {
 };
 constexpr NamedScript kScripts[] = {{"scan", [] { return scan_script(); }},
                                     {"side", [] { return side_script(); }},
-                                    {"sway", sway_script},   {"turn", turn_script},
-                                    {"walk", walk_script},   {"wave", wave_script}, {"reach", reach_script},
-                                    {"squat", squat_script}, {"demo", demo_script},
-                                    {"cross", cross_script}, {"clap", clap_script}, {"forward", forward_script},
-                                    {"sit", sit_script},     {"spin", spin_script}, {"jog", jog_script},
-                                    {"visit", visit_script}, {"jump", jump_script}, {"step", step_script},
+                                    {"sway", sway_script},
+                                    {"turn", turn_script},
+                                    {"walk", walk_script},
+                                    {"wave", wave_script},
+                                    {"reach", reach_script},
+                                    {"squat", squat_script},
+                                    {"demo", demo_script},
+                                    {"cross", cross_script},
+                                    {"clap", clap_script},
+                                    {"forward", forward_script},
+                                    {"sit", sit_script},
+                                    {"spin", spin_script},
+                                    {"jog", jog_script},
+                                    {"visit", visit_script},
+                                    {"jump", jump_script},
+                                    {"step", step_script},
                                     {"balance", balance_script}};
 
-// All frequencies below are multiples of 0.01 Hz: after this time they are where they began. Without it a float of
-// seconds is too coarse for a frame after some days.
+// All frequencies below are multiples of 0.01 Hz: after this time they are where they began. Without it a
+// float of seconds is too coarse for a frame after some days.
 constexpr double kIdlePeriod_s = 100.0;
 
 // Quiet standing: the centre of mass wanders a few millimetres at some tenths of a hertz (posturography), and
@@ -54,9 +64,7 @@ private:
 class ScriptedMotion : public Motion {
 public:
     ScriptedMotion(Script script, const Proportions& proportions, uint64_t seed)
-        : script_(std::move(script)),
-          proportions_(proportions),
-          idle_(seed) {}
+        : script_(std::move(script)), proportions_(proportions), idle_(seed) {}
 
     BonePose at(double t) const override {
         Figure figure = script_.figure(static_cast<float>(std::fmod(t, double{script_.period_s})));
@@ -87,8 +95,8 @@ bool is_motion(const std::string& name) {
 std::unique_ptr<Motion> make_scripted_motion(const std::string& name, const Proportions& proportions,
                                              uint64_t seed, float arms_deg) {
     if (arms_deg >= 0.0f && (name == "scan" || name == "side"))
-        return std::make_unique<ScriptedMotion>(name == "scan" ? scan_script(arms_deg) : side_script(arms_deg), proportions,
-                                                seed);
+        return std::make_unique<ScriptedMotion>(
+            name == "scan" ? scan_script(arms_deg) : side_script(arms_deg), proportions, seed);
     for (const NamedScript& s : kScripts)
         if (name == s.name) return std::make_unique<ScriptedMotion>(s.make(), proportions, seed);
     fail(VFIT_ERROR_ARGUMENT, "virtual: unknown motion '", name, "'; known are ", motion_names());

@@ -46,8 +46,8 @@ Script balance_script();
 /// "scan, sway, turn, ...", for messages.
 std::string motion_names();
 bool is_motion(const std::string& name);
-/// A scripted motion, with the small sway and breath of a standing person, which the seed shifts in time. `arms_deg`:
-/// option "arms".
+/// A scripted motion, with the small sway and breath of a standing person, which the seed shifts in time.
+/// `arms_deg`: option "arms".
 std::unique_ptr<Motion> make_scripted_motion(const std::string& name, const Proportions& proportions,
                                              uint64_t seed, float arms_deg = -1.0f);
 /// The motion of a BVH file carried over to those proportions.

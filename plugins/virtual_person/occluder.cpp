@@ -8,7 +8,7 @@ namespace {
 
 // As wide as a cupboard that is carried past, taller than a person.
 constexpr float kBoxHalfWidth_m = 0.55f, kBoxHalfHeight_m = 1.05f, kBoxHalfDepth_m = 0.25f;
-constexpr float kNearer_m = 0.8f;  // than the person
+constexpr float kNearer_m = 0.8f;   // than the person
 constexpr float kPerson_m = 0.35f;  // width of a trunk (chest breadth 0.28 to 0.38 m)
 constexpr float kHidden_s = 1.0f;
 

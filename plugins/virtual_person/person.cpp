@@ -85,7 +85,8 @@ void Person::pose(const BonePose& pose, const Vec3& offset) {
     vertex_count_ = skin.width;
     skin_ = static_cast<const float*>(skin.data);
     surface_ = skin_;
-    if (clothing_) surface_ = clothing_->dress(skin_, static_cast<const float*>(vertices(VFIT_STREAM_NORMAL).data));
+    if (clothing_)
+        surface_ = clothing_->dress(skin_, static_cast<const float*>(vertices(VFIT_STREAM_NORMAL).data));
     read_joints();
 }
 

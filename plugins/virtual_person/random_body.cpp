@@ -8,7 +8,8 @@ namespace {
 
 struct Range {
     const char* key;
-    float least, most;  // of the key's range 0 to 1: without the extremes, where the model's people look unlike any
+    float least,
+        most;  // of the key's range 0 to 1: without the extremes, where the model's people look unlike any
 };
 constexpr Range kRanges[] = {
     {"height", 0.15f, 0.85f}, {"weight", 0.25f, 0.9f}, {"muscle", 0.25f, 0.8f}, {"proportions", 0.25f, 0.8f}};

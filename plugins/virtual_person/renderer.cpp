@@ -51,10 +51,11 @@ Renderer::Renderer(vfit_context context, const Options& options, const RandomBod
     const std::string& bvh = options.text("bvh");
     motion_ = bvh.empty()
                   ? make_scripted_motion(options.text("motion"), person_.proportions(), options.whole("seed"),
-                                       static_cast<float>(options.number("arms")))
+                                         static_cast<float>(options.number("arms")))
                   : make_bvh_motion(bvh, person_.proportions());
     const auto metres = [&](const char* key) { return static_cast<float>(options.number(key)); };
-    person_.wear({metres("clothing"), metres("top"), metres("sleeves"), metres("trousers")}, options.whole("seed"));
+    person_.wear({metres("clothing"), metres("top"), metres("sleeves"), metres("trousers")},
+                 options.whole("seed"));
     if (has_person_) camera_.set_triangles(person_.triangles(), person_.vertex_count());
 
     intrinsics_ = vfit_intrinsics_init();
@@ -91,7 +92,8 @@ void Renderer::write_depth(uint16_t* pixels, uint32_t row_stride) {
 void Renderer::write_user_map(uint8_t* pixels, uint32_t row_stride) const {
     const CleanImage& image = clean();
     for (uint32_t y = 0; y < image.height; ++y)
-        std::memcpy(pixels + size_t{y} * row_stride, image.user.data() + size_t{y} * image.width, image.width);
+        std::memcpy(pixels + size_t{y} * row_stride, image.user.data() + size_t{y} * image.width,
+                    image.width);
 }
 
 const std::vector<SeenBody>& Renderer::bodies() {

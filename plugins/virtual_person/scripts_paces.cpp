@@ -14,7 +14,8 @@ Script spin_script() {
     for (int i = 0; i < 2 * pairs; ++i) {
         Step step;
         step.side = i % 2 == 0 ? kRight : kLeft;
-        step.lift_s = step_s * static_cast<float>(i) + (step_s - swing_s) / 2, step.land_s = step.lift_s + swing_s;
+        step.lift_s = step_s * static_cast<float>(i) + (step_s - swing_s) / 2,
+        step.land_s = step.lift_s + swing_s;
         const float heading = -2.0f * kPi * static_cast<float>(i / 2 + 1) / pairs;
         step.to = stand({0, 0}, heading, apart_m)[static_cast<size_t>(step.side)];
         step.heel_rad = 0.2f;
@@ -43,7 +44,8 @@ Script jog_script() {
     for (int i = 0; i < step_count; ++i) {
         Step step;
         step.side = i % 2 == 0 ? kLeft : kRight;
-        step.lift_s = step_s * static_cast<float>(i) + (step_s - swing_s) / 2, step.land_s = step.lift_s + swing_s;
+        step.lift_s = step_s * static_cast<float>(i) + (step_s - swing_s) / 2,
+        step.land_s = step.lift_s + swing_s;
         step.to = stand({0, 0}, 0, 0.2f)[static_cast<size_t>(step.side)];
         step.clearance_m = 0.10f, step.heel_rad = 0.4f;
         steps.push_back(step);
@@ -60,7 +62,8 @@ Script jog_script() {
                 set_trunk(f, 5, 2.0f * left_swings, 6.0f * left_swings);
                 for (const int side : {kLeft, kRight})
                     set_arm(f.rotation, side,
-                            {14, 5 - 28 * side_sign(side) * left_swings, 88 - 10 * side_sign(side) * left_swings, -12});
+                            {14, 5 - 28 * side_sign(side) * left_swings,
+                             88 - 10 * side_sign(side) * left_swings, -12});
                 return f;
             },
             step_s * step_count};

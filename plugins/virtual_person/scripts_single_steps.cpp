@@ -1,5 +1,5 @@
-// Scripted motions of single steps: jump (on the spot, both feet leave the floor), step (aside, forwards and back) and
-// balance (one foot is held up, then the other).
+// Scripted motions of single steps: jump (on the spot, both feet leave the floor), step (aside, forwards and
+// back) and balance (one foot is held up, then the other).
 #include "keys.h"
 #include "motion.h"
 
@@ -11,7 +11,8 @@ constexpr float kGravity = 9.81f;
 constexpr float kHeight_m = 0.15f, kCrouch_m = 0.20f;
 const float kSpeed = std::sqrt(2.0f * kGravity * kHeight_m);  // at take-off and landing
 const float kFlight_s = 2.0f * kSpeed / kGravity;
-const float kPush_s = 2.0f * kCrouch_m / kSpeed;  // from the crouch at an even acceleration; the landing likewise
+const float kPush_s =
+    2.0f * kCrouch_m / kSpeed;  // from the crouch at an even acceleration; the landing likewise
 constexpr float kSink_s = 0.6f, kRise_s = 0.8f, kStart_s = 0.5f, kJump_s = 3.0f;
 
 struct JumpState {
@@ -60,7 +61,8 @@ Script jump_script() {
                 set_trunk(f, 18.0f * bend, 0, 0);
                 f.pelvis = rotate_x(20.0f * bend);
                 for (const int side : {kLeft, kRight})
-                    set_arm(f.rotation, side, {12 + 20 * bend, -25 * bend + 60 * jump.lift_m / kHeight_m, 20 + 30 * bend, 0});
+                    set_arm(f.rotation, side,
+                            {12 + 20 * bend, -25 * bend + 60 * jump.lift_m / kHeight_m, 20 + 30 * bend, 0});
                 return f;
             },
             2 * kJump_s};

@@ -1,4 +1,5 @@
-// The scripted motion sit: down on a stool behind the heels (furniture=stool), hands on the lap, and up again.
+// The scripted motion sit: down on a stool behind the heels (furniture=stool), hands on the lap, and up
+// again.
 #include "furniture.h"
 #include "keys.h"
 #include "motion.h"
@@ -7,7 +8,8 @@ namespace vfit::virtual_person {
 
 namespace {
 
-constexpr float kHipsBack_m = 0.40f;  // of the ankles: about a thigh's length, so that the shanks stand upright
+constexpr float kHipsBack_m =
+    0.40f;  // of the ankles: about a thigh's length, so that the shanks stand upright
 constexpr ArmAngles kOnLap{2, 20, 40, -22};
 
 }  // namespace

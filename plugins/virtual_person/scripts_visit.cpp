@@ -1,5 +1,5 @@
-// The scripted motion visit: the person comes in from the image's right, turns to the camera, stands for a while and
-// goes out the way they came; outside they turn round, so that the round can begin again.
+// The scripted motion visit: the person comes in from the image's right, turns to the camera, stands for a
+// while and goes out the way they came; outside they turn round, so that the round can begin again.
 #include <algorithm>
 #include <cmath>
 
@@ -18,8 +18,9 @@ constexpr float kHalfWidth_m = 0.1f;
 constexpr float kWait_s = 0.5f, kStand_s = 2.0f;
 constexpr float kWay_s = kStep_s * (kSteps + 1.5f), kTurn_s = 2.1f, kTurnRound_s = 3.9f;
 // When each part begins.
-constexpr float kIn = kWait_s, kTurnIn = kIn + kWay_s, kStanding = kTurnIn + kTurn_s, kTurnOut = kStanding + kStand_s,
-                kOut = kTurnOut + kTurn_s, kTurnRound = kOut + kWay_s, kEnd = kTurnRound + kTurnRound_s;
+constexpr float kIn = kWait_s, kTurnIn = kIn + kWay_s, kStanding = kTurnIn + kTurn_s,
+                kTurnOut = kStanding + kStand_s, kOut = kTurnOut + kTurn_s, kTurnRound = kOut + kWay_s,
+                kEnd = kTurnRound + kTurnRound_s;
 
 /// 0 to 1 over the steps of one way: even in the middle, eased over a step and a half at both ends.
 float way(float t) {
@@ -73,27 +74,30 @@ Script visit_script() {
     add_turn(kTurnOut, 0, 0, outwards, 2, steps);
     add_way(kOut, outwards, steps);
     add_turn(kTurnRound, kOutside_m, outwards, inwards + 2 * kPi, 4, steps);
-    const StepPlan plan(walking(kLeft, kOutside_m, inwards), walking(kRight, kOutside_m, inwards), std::move(steps));
-    return {[plan](float t) {
-                Figure f;
-                place_feet(f, plan, t);
-                f.heading_rad = plan.heading_rad(t);
-                const bool on_way = t < kTurnIn || (t > kOut && t < kTurnRound);
-                f.root = on_way ? Vec2(x_at(t), 0) : plan.root(t);
-                const float since = t < kTurnIn ? t - kIn : t - kOut;
-                const float walking_now =
-                    on_way ? track({{0, 0}, {kStep_s, 1}, {kStep_s * kSteps, 1}, {kStep_s * (kSteps + 1), 0}}, since)
-                           : 0.0f;
-                const float stride = -walking_now * std::cos(kPi / kStep_s * since);  // 1: the left foot is ahead
-                f.pelvis = rotate_y(-4.0f * stride);
-                f.drop_m = 0.01f;
-                set_trunk(f, 2, 0, 7.0f * stride);
-                for (const int side : {kLeft, kRight})
-                    set_arm(f.rotation, side,
-                            {12, 4 - 20 * side_sign(side) * stride, 16 - 6 * side_sign(side) * stride, 0});
-                return f;
-            },
-            kEnd};
+    const StepPlan plan(walking(kLeft, kOutside_m, inwards), walking(kRight, kOutside_m, inwards),
+                        std::move(steps));
+    return {
+        [plan](float t) {
+            Figure f;
+            place_feet(f, plan, t);
+            f.heading_rad = plan.heading_rad(t);
+            const bool on_way = t < kTurnIn || (t > kOut && t < kTurnRound);
+            f.root = on_way ? Vec2(x_at(t), 0) : plan.root(t);
+            const float since = t < kTurnIn ? t - kIn : t - kOut;
+            const float walking_now =
+                on_way
+                    ? track({{0, 0}, {kStep_s, 1}, {kStep_s * kSteps, 1}, {kStep_s * (kSteps + 1), 0}}, since)
+                    : 0.0f;
+            const float stride = -walking_now * std::cos(kPi / kStep_s * since);  // 1: the left foot is ahead
+            f.pelvis = rotate_y(-4.0f * stride);
+            f.drop_m = 0.01f;
+            set_trunk(f, 2, 0, 7.0f * stride);
+            for (const int side : {kLeft, kRight})
+                set_arm(f.rotation, side,
+                        {12, 4 - 20 * side_sign(side) * stride, 16 - 6 * side_sign(side) * stride, 0});
+            return f;
+        },
+        kEnd};
 }
 
 }  // namespace vfit::virtual_person

@@ -27,7 +27,8 @@ struct Sight {
     bool in_view = false, seen = false;
 };
 
-Sight look_at(const vfit_joint& joint, const Vec3& p, const DepthCamera& camera, const CleanImage& image, uint32_t id) {
+Sight look_at(const vfit_joint& joint, const Vec3& p, const DepthCamera& camera, const CleanImage& image,
+              uint32_t id) {
     if (p.z <= 0.0f) return {};
     const Vec2 pixel = camera.project(p) + 0.5f;
     if (!(pixel.x >= 0.0f && pixel.y >= 0.0f && pixel.x < static_cast<float>(image.width) &&
@@ -39,7 +40,8 @@ Sight look_at(const vfit_joint& joint, const Vec3& p, const DepthCamera& camera,
 
 }  // namespace
 
-void see_joints(std::span<const vfit_joint> world, const DepthCamera& camera, const CleanImage& image, SeenBody& out) {
+void see_joints(std::span<const vfit_joint> world, const DepthCamera& camera, const CleanImage& image,
+                SeenBody& out) {
     out.joints.assign(world.begin(), world.end());
     out.flags = 0, out.in_view = false;
     const Quat to_camera = glm::quat_cast(glm::transpose(camera.world_from_camera()));

@@ -1,4 +1,5 @@
-// The truth about one person's joints as the camera has them: their places in camera space and whether they are seen.
+// The truth about one person's joints as the camera has them: their places in camera space and whether they
+// are seen.
 #pragma once
 
 #include <span>
@@ -17,7 +18,9 @@ struct SeenBody {
     bool in_view = false;  // at least one joint falls into the image
 };
 
-/// `world`: joints in world space. A joint is MEASURED where the image shows the skin of this person before it.
-void see_joints(std::span<const vfit_joint> world, const DepthCamera& camera, const CleanImage& image, SeenBody& out);
+/// `world`: joints in world space. A joint is MEASURED where the image shows the skin of this person before
+/// it.
+void see_joints(std::span<const vfit_joint> world, const DepthCamera& camera, const CleanImage& image,
+                SeenBody& out);
 
 }  // namespace vfit::virtual_person

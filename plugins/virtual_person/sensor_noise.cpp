@@ -25,8 +25,7 @@ constexpr float kMostLateral_px = 14.0f;
 }  // namespace
 
 SensorNoise::SensorNoise(const SensorModel& model, const NoiseSettings& settings)
-    : model_(model),
-      settings_(settings) {
+    : model_(model), settings_(settings) {
     for (uint32_t i = 0; i < kAngleBins; ++i) {
         const float theta = std::acos((static_cast<float>(i) + 0.5f) / kAngleBins);
         // The slant term is separable: what is left at z = 1 m, where its factor of z is 1.
@@ -112,7 +111,8 @@ void SensorNoise::time_of_flight_row(const CleanImage& clean, uint64_t key, uint
             const auto [least, most] = std::minmax(
                 {clean.depth_m[i - 1], clean.depth_m[i + 1], clean.depth_m[i - w], clean.depth_m[i + w]});
             const float jump = std::max(most - z, z - least);
-            if (jump > kMixingJump_m + kSlantSlack * z / model_.fx * terms_.tangent[bin]) z = mixed_depth(clean, x, y);
+            if (jump > kMixingJump_m + kSlantSlack * z / model_.fx * terms_.tangent[bin])
+                z = mixed_depth(clean, x, y);
         }
         const float sigma = 0.001f * (1.5f - 0.5f * z + 0.3f * z * z) + terms_.axial[bin] * z * std::sqrt(z);
         row[x] = report(z + settings_.scale * sigma * normal_quantiles()[bits % kQuantileCount]);

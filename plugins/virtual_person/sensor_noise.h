@@ -29,23 +29,23 @@ public:
 
 private:
     static constexpr uint32_t kAngleBins = 1024;
-    // Two looked-up depths that differ by more than the slant of the surface explains belong to two surfaces. The
-    // factor leaves room for curvature, the offset for facets.
+    // Two looked-up depths that differ by more than the slant of the surface explains belong to two surfaces.
+    // The factor leaves room for curvature, the offset for facets.
     static constexpr float kSlantSlack = 1.5f, kEdgeJump_m = 0.02f;
 
-    struct Terms {  // of the model, tabulated over the cosine
+    struct Terms {                 // of the model, tabulated over the cosine
         std::vector<float> axial;  // added to sigma_z, to be multiplied by a function of z alone
         std::vector<float> lateral_px, tangent;
         std::vector<uint32_t> dropout;  // of 65536
     };
-    struct Row {  // in the making, one item a pixel
-        std::vector<uint64_t> bits;          // random
-        std::vector<float> along;            // normal numbers
-        std::vector<uint32_t> bin;           // of Terms
-        std::vector<float> across, down;     // px, how far the look goes aside
-        std::vector<int> seen;               // index of the pixel looked at
-        std::vector<float> place;            // as the projector sees it
-        std::vector<uint32_t> lit, alive;    // 1: by the projector; reports depth
+    struct Row {                           // in the making, one item a pixel
+        std::vector<uint64_t> bits;        // random
+        std::vector<float> along;          // normal numbers
+        std::vector<uint32_t> bin;         // of Terms
+        std::vector<float> across, down;   // px, how far the look goes aside
+        std::vector<int> seen;             // index of the pixel looked at
+        std::vector<float> place;          // as the projector sees it
+        std::vector<uint32_t> lit, alive;  // 1: by the projector; reports depth
         std::vector<float> depth_m, sigma_m, axial;
         std::vector<int> step;  // of disparity
     };

@@ -7,14 +7,16 @@ namespace vfit::virtual_person {
 
 namespace {
 
-constexpr float kNearestCorner_m = 0.05f;  // a corner nearer than this cannot be projected: the whole image is tried
+constexpr float kNearestCorner_m =
+    0.05f;  // a corner nearer than this cannot be projected: the whole image is tried
 
 struct Hit {
     float depth = 0.0f;  // 0: none
     Vec3 normal{0.0f};   // in the solid's own unit space
 };
 
-// Both work in the space where the solid is the unit cube or the unit sphere; the ray's parameter stays the depth.
+// Both work in the space where the solid is the unit cube or the unit sphere; the ray's parameter stays the
+// depth.
 Hit meet_box(const Vec3& o, const Vec3& d) {
     float in = 0.0f, out = 1e9f;
     int axis = -1;
@@ -48,9 +50,7 @@ Solid placed(const Solid& solid, float yaw_deg, const Vec3& by) {
 }
 
 SolidPainter::SolidPainter(const SensorModel& model, const Mat3& world_from_camera, float camera_height_m)
-    : model_(model),
-      rotation_(world_from_camera),
-      eye_(0, camera_height_m, 0) {}
+    : model_(model), rotation_(world_from_camera), eye_(0, camera_height_m, 0) {}
 
 SolidPainter::Window SolidPainter::window_of(const Solid& solid) const {
     const Window all{0, 0, model_.width, model_.height};
@@ -66,7 +66,8 @@ SolidPainter::Window SolidPainter::window_of(const Solid& solid) const {
         return static_cast<uint32_t>(std::clamp(v, 0.0f, static_cast<float>(most)));
     };
     return {clamped(std::floor(low.x), model_.width), clamped(std::floor(low.y), model_.height),
-            clamped(std::ceil(high.x) + 1.0f, model_.width), clamped(std::ceil(high.y) + 1.0f, model_.height)};
+            clamped(std::ceil(high.x) + 1.0f, model_.width),
+            clamped(std::ceil(high.y) + 1.0f, model_.height)};
 }
 
 void SolidPainter::paint(const Solid& solid, CleanImage& image) const {

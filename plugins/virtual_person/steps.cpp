@@ -32,8 +32,7 @@ std::array<Foothold, 2> stand(const Vec2& centre, float heading, float apart_m) 
 }
 
 StepPlan::StepPlan(const Foothold& left, const Foothold& right, std::vector<Step> steps)
-    : start_{left, right},
-      steps_(std::move(steps)) {}
+    : start_{left, right}, steps_(std::move(steps)) {}
 
 FootState StepPlan::foot(int side, float t) const {
     Foothold hold = start_[static_cast<size_t>(side)];

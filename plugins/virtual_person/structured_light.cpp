@@ -1,5 +1,5 @@
-// The noise of a structured-light sensor, a row at a time. Each pass over the row has no branches, so that most of
-// them run on vectors.
+// The noise of a structured-light sensor, a row at a time. Each pass over the row has no branches, so that
+// most of them run on vectors.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -28,7 +28,8 @@ inline float light_sigma_m(const NoiseSettings& settings, float z, float axial) 
 
 void SensorNoise::prepare_light() {
     const uint32_t width = model_.width;
-    for (auto* v : {&row_.along, &row_.across, &row_.down, &row_.place, &row_.depth_m, &row_.sigma_m, &row_.axial})
+    for (auto* v :
+         {&row_.along, &row_.across, &row_.down, &row_.place, &row_.depth_m, &row_.sigma_m, &row_.axial})
         v->resize(width);
     for (auto* v : {&row_.bin, &row_.lit, &row_.alive}) v->assign(width, 1);
     row_.bits.resize(width), row_.seen.resize(width), row_.step.resize(width);
@@ -105,14 +106,16 @@ void SensorNoise::look_past_edges(uint32_t begin, uint32_t end, const CleanImage
         const float z = depth[x], other = image[seen[x]], jump = std::abs(other - z);
         if (jump <= kEdgeJump_m) continue;  // nearly always
         const float steps = std::abs(row_.across[x]) + std::abs(row_.down[x]);
-        if (jump <= kEdgeJump_m + kSlantSlack * steps * z * (1.0f / model_.fx) * terms_.tangent[row_.bin[x]]) continue;
+        if (jump <= kEdgeJump_m + kSlantSlack * steps * z * (1.0f / model_.fx) * terms_.tangent[row_.bin[x]])
+            continue;
         row_.depth_m[x] = other;
         row_.bin[x] = bin_of(clean.cosine[static_cast<uint32_t>(seen[x])]);
     }
 }
 
 void SensorNoise::find_sigma(uint32_t width) {
-    float *const depth = row_.depth_m.data(), *const sigma = row_.sigma_m.data(), *const axial = row_.axial.data();
+    float *const depth = row_.depth_m.data(), *const sigma = row_.sigma_m.data(),
+                 *const axial = row_.axial.data();
     const uint32_t *const bin = row_.bin.data(), *const lit = row_.lit.data();
     const uint64_t* const bits = row_.bits.data();
     uint32_t* const alive = row_.alive.data();
@@ -143,8 +146,9 @@ void SensorNoise::structured_light_row(const CleanImage& clean, uint64_t key, ui
     const uint32_t width = clean.width;
     if (settings_.shadow) find_shadow(clean.depth_m.data() + size_t{y} * width, width);
     draw_numbers(key, uint64_t{y} * width, width);
-    const float *const clean_depth = clean.depth_m.data() + size_t{y} * width,
-                *const cosine = clean.cosine.data() + size_t{y} * width;
+    const float *const clean_depth = clean.depth_m.data() + size_t{y} * width, *const cosine =
+                                                                                   clean.cosine.data() +
+                                                                                   size_t{y} * width;
     std::copy(clean_depth, clean_depth + width, row_.depth_m.begin());
     uint32_t* const bin = row_.bin.data();
     for (uint32_t x = 0; x < width; ++x) bin[x] = bin_of(cosine[x]);
@@ -158,7 +162,7 @@ void SensorNoise::structured_light_row(const CleanImage& clean, uint64_t key, ui
     }
     find_sigma(width);
     const float *const depth = row_.depth_m.data(), *const sigma = row_.sigma_m.data(),
-                *const along = row_.along.data();
+                       *const along = row_.along.data();
     const uint32_t* const alive = row_.alive.data();
     if (!settings_.quantise) {
         for (uint32_t x = 0; x < width; ++x)

@@ -8,7 +8,7 @@ namespace vfit::virtual_person {
 namespace {
 
 constexpr float kOthersBeside_m = 0.85f, kOthersBehind_m = 0.3f;  // of the others, from the person
-constexpr const char* kMotions[] = {"sway", "wave"};  // of the second and the third person
+constexpr const char* kMotions[] = {"sway", "wave"};              // of the second and the third person
 
 Vec3 beside(const Vec3& stand, size_t index) {
     return stand + Vec3(index % 2 == 0 ? -kOthersBeside_m : kOthersBeside_m, 0, -kOthersBehind_m);
@@ -47,10 +47,10 @@ struct Surroundings::Other {
 
 Surroundings::Surroundings(vfit_context context, const Options& options, const SensorModel& model,
                            const CameraPlace& place, const DepthCamera& camera, const Vec3& stand)
-    : camera_(camera),
-      painter_(model, camera.world_from_camera(), place.height_m) {
+    : camera_(camera), painter_(model, camera.world_from_camera(), place.height_m) {
     solve_furniture(
-        make_furniture(options.text("furniture"), stand, static_cast<float>(options.number("facing"))), model);
+        make_furniture(options.text("furniture"), stand, static_cast<float>(options.number("facing"))),
+        model);
     if (const double begin_s = options.number("occluder"); begin_s > 0)
         occluder_.emplace(static_cast<float>(begin_s), stand);
     for (size_t i = 0; i + 1 < options.whole("people"); ++i)

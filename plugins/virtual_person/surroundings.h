@@ -1,4 +1,5 @@
-// What is in the room besides the one person whom the options describe: furniture, a box that passes, other people.
+// What is in the room besides the one person whom the options describe: furniture, a box that passes, other
+// people.
 #pragma once
 
 #include <memory>
@@ -18,8 +19,8 @@ namespace vfit::virtual_person {
 class Surroundings {
 public:
     /// `camera`: of the renderer, alive as long as this. `stand`: where the person of the options is.
-    Surroundings(vfit_context context, const Options& options, const SensorModel& model, const CameraPlace& place,
-                 const DepthCamera& camera, const Vec3& stand);
+    Surroundings(vfit_context context, const Options& options, const SensorModel& model,
+                 const CameraPlace& place, const DepthCamera& camera, const Vec3& stand);
     ~Surroundings();
 
     /// Nothing but the person and the room: the image of the person is the whole picture.

@@ -1,6 +1,6 @@
 """Fits a recording, or the virtual person: prints the measures and the size, drapes the sundress. Writes nothing.
 
-    python fit.py [RECORDING or sensor URI]
+python fit.py [RECORDING or sensor URI]
 """
 
 import sys

@@ -5,7 +5,9 @@
 #include <vfit.h>
 
 /* Position and normal of a vertex, as a renderer would map them. */
-typedef struct { float position[3], normal[3]; } vertex;
+typedef struct {
+    float position[3], normal[3];
+} vertex;
 
 static void check(vfit_result result, const char* what) {
     char why[512];
@@ -30,7 +32,7 @@ static void scan_person(vfit_context context, const char* uri, vfit_scan scan, v
         uint32_t count = 8;
         const vfit_result got = vfit_sensor_acquire(sensor, -1, &frame);
         check(got, "acquire");
-        if (got != VFIT_OK) break;  /* the source has ended */
+        if (got != VFIT_OK) break; /* the source has ended */
         check(vfit_tracker_update(tracker, frame, &tracked), "track");
         check(vfit_frame_bodies(tracked, bodies, sizeof bodies[0], &count), "bodies");
         check(vfit_frame_view(tracked, VFIT_STREAM_DEPTH, &depth), "depth");
@@ -54,7 +56,8 @@ static void print_size(vfit_context context, vfit_scan scan, const char* garment
         printf("  %-22s %.3f +- %.3f m\n", measures[i].key, measures[i].value, measures[i].sigma);
     check(vfit_size_chart_open(context, "paper", &chart), "chart");
     check(vfit_size_recommend(chart, garment_kind, measures, sizeof measures[0], measure_count, sizes,
-                              sizeof sizes[0], &size_count), "size");
+                              sizeof sizes[0], &size_count),
+          "size");
     if (size_count > 0) printf("size %s, %.0f %%\n", sizes[0].label, 100.0 * sizes[0].probability);
     vfit_size_chart_destroy(chart);
 }
@@ -74,8 +77,13 @@ int main(int argc, char** argv) {
     vfit_garment_info info = vfit_garment_info_init();
     vfit_pose pose = vfit_pose_init();
     vfit_bone bones[VFIT_BONE_COUNT];
-    vfit_context context; vfit_scan scan; vfit_motion motion; vfit_avatar avatar;
-    vfit_garment garment; vfit_cloth cloth; vfit_frame frame;
+    vfit_context context;
+    vfit_scan scan;
+    vfit_motion motion;
+    vfit_avatar avatar;
+    vfit_garment garment;
+    vfit_cloth cloth;
+    vfit_frame frame;
     uint32_t i, bone_count = VFIT_BONE_COUNT;
     vertex* vertices;
 
@@ -104,6 +112,6 @@ int main(int argc, char** argv) {
            vertices[0].position[1], vertices[0].position[2]);
     vfit_frame_release(frame);
     free(vertices);
-    check(vfit_context_destroy(context), "destroy");  /* takes everything in it along */
+    check(vfit_context_destroy(context), "destroy"); /* takes everything in it along */
     return 0;
 }

@@ -1,5 +1,5 @@
-/* A sensor plug-in: "box:" shows a box that swings to and fro 2 m before a camera. What a real camera's plug-in does differently
- * stands in the README. */
+/* A sensor plug-in: "box:" shows a box that swings to and fro 2 m before a camera. What a real camera's
+ * plug-in does differently stands in the README. */
 #include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
@@ -14,7 +14,7 @@ typedef struct device {
     const vfit_host* host;
     void* stream;
     pthread_t thread;
-    int running;   /* start and stop are called by one thread at a time */
+    int running; /* start and stop are called by one thread at a time */
     _Atomic int stopping;
 } device;
 
@@ -24,14 +24,16 @@ static void draw(uint16_t* pixels, uint32_t row_stride, int index) {
     const int left = WIDTH / 2 - 25 + (int)(60.0 * sin(index * 0.05));
     for (int y = 0; y < HEIGHT; ++y)
         for (int x = 0; x < WIDTH; ++x)
-            ((uint16_t*)((char*)pixels + y * row_stride))[x] = x >= left && x < left + 50 && y > 20 ? 2000 : 3500; /* mm */
+            ((uint16_t*)((char*)pixels + y * row_stride))[x] =
+                x >= left && x < left + 50 && y > 20 ? 2000 : 3500; /* mm */
 }
 
 /* One image: a frame is begun, filled in place, and pushed. */
 static vfit_result show(device* d, int index) {
     const vfit_host* host = d->host;
     vfit_frame_layout layout = vfit_frame_layout_init();
-    layout.stream = VFIT_STREAM_DEPTH, layout.format = VFIT_FORMAT_U16, layout.width = WIDTH, layout.height = HEIGHT;
+    layout.stream = VFIT_STREAM_DEPTH, layout.format = VFIT_FORMAT_U16, layout.width = WIDTH,
+    layout.height = HEIGHT;
     vfit_frame frame = {0};
     vfit_result result = host->frame_begin(host->self, d->stream, &layout, sizeof layout, 1, &frame);
     if (result == VFIT_ERROR_BUSY) return VFIT_OK; /* nobody took the last ones: this one is lost */

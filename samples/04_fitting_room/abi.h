@@ -1,4 +1,5 @@
-// The C ABI with errors as exceptions and handles that let go of themselves: all that this sample adds to vfit.h.
+// The C ABI with errors as exceptions and handles that let go of themselves: all that this sample adds to
+// vfit.h.
 #pragma once
 
 #include <stdexcept>

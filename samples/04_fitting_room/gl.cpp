@@ -26,7 +26,8 @@ GLuint compiled(GLenum kind, const char* source) {
 
 GLuint make_program(const char* vertex_source, const char* fragment_source) {
     const GLuint program = glCreateProgram();
-    const GLuint shaders[] = {compiled(GL_VERTEX_SHADER, vertex_source), compiled(GL_FRAGMENT_SHADER, fragment_source)};
+    const GLuint shaders[] = {compiled(GL_VERTEX_SHADER, vertex_source),
+                              compiled(GL_FRAGMENT_SHADER, fragment_source)};
     for (const GLuint shader : shaders) glAttachShader(program, shader);
     glLinkProgram(program);
     for (const GLuint shader : shaders) glDeleteShader(shader);
@@ -42,7 +43,8 @@ void* StreamBuffer::map(size_t bytes) {
         glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(bytes), nullptr, GL_STREAM_DRAW);
         size_ = bytes;
     }
-    void* memory = glMapBufferRange(GL_ARRAY_BUFFER, 0, GLsizeiptr(bytes), GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
+    void* memory = glMapBufferRange(GL_ARRAY_BUFFER, 0, GLsizeiptr(bytes),
+                                    GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
     if (!memory) throw Failure("OpenGL gives no memory for vertices");
     return memory;
 }
@@ -54,7 +56,8 @@ void StreamBuffer::unmap() {
 
 void attribute(GLuint index, GLint floats, size_t stride, size_t offset) {
     glEnableVertexAttribArray(index);
-    glVertexAttribPointer(index, floats, GL_FLOAT, GL_FALSE, GLsizei(stride), reinterpret_cast<const void*>(offset));
+    glVertexAttribPointer(index, floats, GL_FLOAT, GL_FALSE, GLsizei(stride),
+                          reinterpret_cast<const void*>(offset));
 }
 
 }  // namespace room

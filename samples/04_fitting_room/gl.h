@@ -9,8 +9,8 @@ namespace room {
 
 GLuint make_program(const char* vertex_source, const char* fragment_source);
 
-/// A vertex buffer that is written anew for each picture. What was there is thrown away, so that nobody waits until the last
-/// picture is drawn.
+/// A vertex buffer that is written anew for each picture. What was there is thrown away, so that nobody waits
+/// until the last picture is drawn.
 class StreamBuffer {
 public:
     void create() { glGenBuffers(1, &buffer_); }

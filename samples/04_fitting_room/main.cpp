@@ -30,9 +30,11 @@ class Program {
 public:
     explicit Program(const Options& options) : options_(options), room_(options) {
         if (!options.draw) return;
-        window_ = options.offscreen ? open_offscreen(options.width, options.height) : open_window(options.width, options.height, "vfit fitting room");
+        window_ = options.offscreen ? open_offscreen(options.width, options.height)
+                                    : open_window(options.width, options.height, "vfit fitting room");
         renderer_ = renderer();
-        std::fprintf(stderr, "drawn by %s%s\n", renderer_.name.c_str(), renderer_.software ? " (a software renderer)" : "");
+        std::fprintf(stderr, "drawn by %s%s\n", renderer_.name.c_str(),
+                     renderer_.software ? " (a software renderer)" : "");
         view_.emplace(window_->width(), window_->height(), options.samples);
         overlay_.emplace(window_->width(), window_->height());
         if (!options.record.empty()) std::filesystem::create_directories(options.record);
@@ -47,15 +49,18 @@ public:
             if (ended_) break;
             one_picture(1e-3f * last_frame_ms_);
             if (room_.film_ended()) {
-                if (!room_.dressed()) throw Failure(options_.source + " ended before anybody could be dressed");
+                if (!room_.dressed())
+                    throw Failure(options_.source + " ended before anybody could be dressed");
                 break;
             }
             last_frame_ms_ = clock.lap_ms();
             if (!was_dressed || !room_.dressed()) {
-                // What came before the person was dressed is another story, as is the picture in which they were.
+                // What came before the person was dressed is another story, as is the picture in which they
+                // were.
                 waited_s += 1e-3 * double(last_frame_ms_);
                 if (is_limited() && waited_s > kPatience_s)
-                    throw Failure(std::string("nobody could be dressed within two minutes: ") + room_.message());
+                    throw Failure(std::string("nobody could be dressed within two minutes: ") +
+                                  room_.message());
                 continue;
             }
             times_.add(stages_, last_frame_ms_);
@@ -68,7 +73,9 @@ public:
             last_.read(view_->width(), view_->height());
             last_.write_png(options_.picture);
         }
-        if (options_.json) print_report({options_, room_, times_, renderer_, pressed_, mirror_, fit_map_, view_ ? view_->width() : 0, view_ ? view_->height() : 0});
+        if (options_.json)
+            print_report({options_, room_, times_, renderer_, pressed_, mirror_, fit_map_,
+                          view_ ? view_->width() : 0, view_ ? view_->height() : 0});
     }
 
 private:
@@ -132,7 +139,8 @@ private:
     void compose(float seconds) {
         view_->resize(window_->width(), window_->height());
         view_->draw(room_, {mirror_, fit_map_, seconds}, window_->framebuffer());
-        overlay_->draw(room_, times_, {mirror_, fit_map_, help_, renderer_.name.c_str(), renderer_.software}, view_->width(), view_->height());
+        overlay_->draw(room_, times_, {mirror_, fit_map_, help_, renderer_.name.c_str(), renderer_.software},
+                       view_->width(), view_->height());
     }
     void draw(float seconds) {
         compose(seconds);

@@ -13,14 +13,22 @@ class Offscreen : public Window {
 public:
     Offscreen(int width, int height) : width_(width), height_(height) {
         if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless"))
-            throw Failure("EGL cannot draw without a display here: there is no EGL_MESA_platform_surfaceless");
+            throw Failure(
+                "EGL cannot draw without a display here: there is no EGL_MESA_platform_surfaceless");
         display_ = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-        if (display_ == EGL_NO_DISPLAY || !eglInitialize(display_, nullptr, nullptr)) throw Failure("EGL cannot draw without a display here");
-        constexpr EGLint kWanted[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+        if (display_ == EGL_NO_DISPLAY || !eglInitialize(display_, nullptr, nullptr))
+            throw Failure("EGL cannot draw without a display here");
+        constexpr EGLint kWanted[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                      3,
+                                      EGL_CONTEXT_MINOR_VERSION,
+                                      3,
+                                      EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                      EGL_NONE};
         eglBindAPI(EGL_OPENGL_API);
         context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, kWanted);
-        if (context_ == EGL_NO_CONTEXT || !eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
+        if (context_ == EGL_NO_CONTEXT ||
+            !eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
             eglTerminate(display_);
             throw Failure("EGL has no OpenGL 3.3 here");
         }
@@ -53,7 +61,9 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Window> open_offscreen(int width, int height) { return std::make_unique<Offscreen>(width, height); }
+std::unique_ptr<Window> open_offscreen(int width, int height) {
+    return std::make_unique<Offscreen>(width, height);
+}
 
 Renderer renderer() {
     Renderer out;

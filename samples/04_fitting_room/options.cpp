@@ -9,7 +9,8 @@ namespace room {
 
 namespace {
 
-constexpr const char* kHelp = R"(A live fitting room: scans who stands before the camera, names the size, and shows the dressed avatar in a mirror.
+constexpr const char* kHelp =
+    R"(A live fitting room: scans who stands before the camera, names the size, and shows the dressed avatar in a mirror.
     vfit-room [SOURCE] [options]
 SOURCE              sensor URI or recording folder (default: a virtual person)
   --garment NAME    by name, or a file; again for more (default: all that come with vfit)
@@ -34,16 +35,17 @@ Keys: left right (garment) up down (size) p (cloth on and off) c (camera) m (mir
 constexpr struct {
     const char* name;
     Key key;
-} kKeys[] = {{"left", Key::left},      {"right", Key::right},    {"up", Key::up},      {"down", Key::down},
-             {"p", Key::physics},      {"c", Key::camera},       {"m", Key::mirror},   {"space", Key::redress},
-             {"f", Key::fit_map},      {"h", Key::help},         {"esc", Key::quit}};
+} kKeys[] = {{"left", Key::left}, {"right", Key::right}, {"up", Key::up},    {"down", Key::down},
+             {"p", Key::physics}, {"c", Key::camera},    {"m", Key::mirror}, {"space", Key::redress},
+             {"f", Key::fit_map}, {"h", Key::help},      {"esc", Key::quit}};
 
 template <typename T>
 T number(const char* option, const std::string& text, T least, T most) {
     T value{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || !(value >= least && value <= most))
-        throw Usage{std::string(option) + ": '" + text + "' is not a number from " + std::to_string(least) + " to " + std::to_string(most)};
+        throw Usage{std::string(option) + ": '" + text + "' is not a number from " + std::to_string(least) +
+                    " to " + std::to_string(most)};
     return value;
 }
 
@@ -98,33 +100,57 @@ Options parse_options(int argc, char** argv) {
         if (is("--help") || is("-h")) {
             std::fputs(kHelp, stdout);
             std::exit(0);
-        }
-        else if (is("--garment")) o.garments.push_back(value());
-        else if (is("--size")) o.size = value();
-        else if (is("--sex")) o.sex = sex_of(value());
-        else if (is("--tracked")) o.tracked = true;
-        else if (is("--min-interval")) o.min_interval_s = 1e-3 * number("--min-interval", value(), 0.0, 100.0);
-        else if (is("--detail")) o.detail = number<uint32_t>("--detail", value(), 0, 2);
-        else if (is("--data")) o.data_dir = value();
-        else if (is("--resolution")) read_resolution(value(), o);
-        else if (is("--samples")) o.samples = number("--samples", value(), 0, 16);
-        else if (is("--offscreen")) o.offscreen = true;
-        else if (is("--no-draw")) o.draw = false;
-        else if (is("--film")) o.film = true;
-        else if (is("--frames")) o.frames = number<uint64_t>("--frames", value(), 1, 1'000'000'000);
-        else if (is("--seconds")) o.seconds = number("--seconds", value(), 0.1, 1e9);
-        else if (is("--keys")) o.keys = planned_keys(value());
-        else if (is("--picture")) o.picture = value();
-        else if (is("--record")) o.record = value();
-        else if (is("--json")) o.json = true;
-        else if (is("--renderer")) o.renderer = true;
-        else if (option.size() > 1 && option[0] == '-') throw Usage{"there is no option " + option};
-        else if (o.source.empty()) o.source = option;
-        else throw Usage{"one source is enough: '" + option + "'"};
+        } else if (is("--garment"))
+            o.garments.push_back(value());
+        else if (is("--size"))
+            o.size = value();
+        else if (is("--sex"))
+            o.sex = sex_of(value());
+        else if (is("--tracked"))
+            o.tracked = true;
+        else if (is("--min-interval"))
+            o.min_interval_s = 1e-3 * number("--min-interval", value(), 0.0, 100.0);
+        else if (is("--detail"))
+            o.detail = number<uint32_t>("--detail", value(), 0, 2);
+        else if (is("--data"))
+            o.data_dir = value();
+        else if (is("--resolution"))
+            read_resolution(value(), o);
+        else if (is("--samples"))
+            o.samples = number("--samples", value(), 0, 16);
+        else if (is("--offscreen"))
+            o.offscreen = true;
+        else if (is("--no-draw"))
+            o.draw = false;
+        else if (is("--film"))
+            o.film = true;
+        else if (is("--frames"))
+            o.frames = number<uint64_t>("--frames", value(), 1, 1'000'000'000);
+        else if (is("--seconds"))
+            o.seconds = number("--seconds", value(), 0.1, 1e9);
+        else if (is("--keys"))
+            o.keys = planned_keys(value());
+        else if (is("--picture"))
+            o.picture = value();
+        else if (is("--record"))
+            o.record = value();
+        else if (is("--json"))
+            o.json = true;
+        else if (is("--renderer"))
+            o.renderer = true;
+        else if (option.size() > 1 && option[0] == '-')
+            throw Usage{"there is no option " + option};
+        else if (o.source.empty())
+            o.source = option;
+        else
+            throw Usage{"one source is enough: '" + option + "'"};
     }
-    if (o.source.empty()) o.source = o.sex == VFIT_SEX_MALE ? "virtual:motion=demo&sex=m&seed=7" : "virtual:motion=demo&sex=f&seed=7";
+    if (o.source.empty())
+        o.source =
+            o.sex == VFIT_SEX_MALE ? "virtual:motion=demo&sex=m&seed=7" : "virtual:motion=demo&sex=f&seed=7";
     if (!o.record.empty()) o.film = true;
-    if (!o.draw && (!o.picture.empty() || !o.record.empty())) throw Usage{"--no-draw leaves no picture to write"};
+    if (!o.draw && (!o.picture.empty() || !o.record.empty()))
+        throw Usage{"--no-draw leaves no picture to write"};
     return o;
 }
 

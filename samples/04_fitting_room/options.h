@@ -22,16 +22,16 @@ struct Options {
     std::vector<std::string> garments;  // empty: all that there are
     std::string size;                   // empty: the recommended one
     vfit_sex sex = VFIT_SEX_FEMALE;
-    double min_interval_s = 0.008;      // as in the paper
-    bool tracked = false;               // joints by vfit's tracker, also where the source tells its own
-    std::string data_dir;               // empty: vfit_data beside the library
+    double min_interval_s = 0.008;  // as in the paper
+    bool tracked = false;           // joints by vfit's tracker, also where the source tells its own
+    std::string data_dir;           // empty: vfit_data beside the library
 
     bool offscreen = false, draw = true, json = false, renderer = false;
-    bool film = false;                  // one camera image a picture, on the camera's clock
+    bool film = false;  // one camera image a picture, on the camera's clock
     int width = 1280, height = 720, samples = 4;
     uint32_t detail = 0;
-    uint64_t frames = 0;                // 0: no end
-    double seconds = 0.0;               // 0: no end
+    uint64_t frames = 0;   // 0: no end
+    double seconds = 0.0;  // 0: no end
     std::string picture, record;
     std::vector<PlannedKey> keys;
 };

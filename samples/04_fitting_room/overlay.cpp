@@ -46,15 +46,23 @@ constexpr size_t kMostCorners = 6 * 4096;
 #define ACCENT Color{176, 52, 60, 255}
 
 Overlay::Overlay(int picture_width, int picture_height)
-    : scale_(std::min(float(picture_height) / 720.0f, float(picture_width) / 720.0f)), program_(make_program(kVertex, kFragment)) {
+    : scale_(std::min(float(picture_height) / 720.0f, float(picture_width) / 720.0f)),
+      program_(make_program(kVertex, kFragment)) {
     const Letters small(1.25f * scale_), large(2.3f * scale_);
     const int width = std::max(small.columns * small.width, large.columns * large.width);
     const int small_rows = small.rows * small.height, height = small_rows + large.rows * large.height + 2;
     std::vector<uint8_t> pixels(size_t(width) * size_t(height), 0);
     const auto put = [&](const Letters& l, int top) {
         const int pitch = l.columns * l.width;
-        for (int y = 0; y < l.rows * l.height; ++y) std::copy_n(&l.coverage[size_t(y * pitch)], pitch, &pixels[size_t((top + y) * width)]);
-        return Face{l.width, l.height, l.columns, 0.0f, float(top) / float(height), float(l.width) / float(width), float(l.height) / float(height)};
+        for (int y = 0; y < l.rows * l.height; ++y)
+            std::copy_n(&l.coverage[size_t(y * pitch)], pitch, &pixels[size_t((top + y) * width)]);
+        return Face{l.width,
+                    l.height,
+                    l.columns,
+                    0.0f,
+                    float(top) / float(height),
+                    float(l.width) / float(width),
+                    float(l.height) / float(height)};
     };
     small_ = put(small, 0);
     large_ = put(large, small_rows);
@@ -64,8 +72,10 @@ Overlay::Overlay(int picture_width, int picture_height)
     const auto texture = [](GLuint& name, GLint filter) {
         glGenTextures(1, &name);
         glBindTexture(GL_TEXTURE_2D, name);
-        for (const GLenum key : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) glTexParameteri(GL_TEXTURE_2D, key, filter);
-        for (const GLenum key : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) glTexParameteri(GL_TEXTURE_2D, key, GL_CLAMP_TO_EDGE);
+        for (const GLenum key : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+            glTexParameteri(GL_TEXTURE_2D, key, filter);
+        for (const GLenum key : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+            glTexParameteri(GL_TEXTURE_2D, key, GL_CLAMP_TO_EDGE);
     };
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     texture(letters_texture_, GL_NEAREST);
@@ -79,18 +89,22 @@ Overlay::Overlay(int picture_width, int picture_height)
     attribute(0, 2, sizeof(Corner), offsetof(Corner, x));
     attribute(1, 2, sizeof(Corner), offsetof(Corner, u));
     glEnableVertexAttribArray(2);
-    glVertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(Corner), reinterpret_cast<const void*>(offsetof(Corner, color)));
+    glVertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(Corner),
+                          reinterpret_cast<const void*>(offsetof(Corner, color)));
     glBindVertexArray(0);
     corners_.reserve(kMostCorners);
 }
 
 void Overlay::quad(float x, float y, float w, float h, float u0, float v0, float u1, float v1, Color color) {
     if (corners_.size() + 6 > kMostCorners) return;
-    const Corner a{x, y, u0, v0, color}, b{x + w, y, u1, v0, color}, c{x, y + h, u0, v1, color}, d{x + w, y + h, u1, v1, color};
+    const Corner a{x, y, u0, v0, color}, b{x + w, y, u1, v0, color}, c{x, y + h, u0, v1, color},
+        d{x + w, y + h, u1, v1, color};
     corners_.insert(corners_.end(), {a, b, c, c, b, d});
 }
 
-void Overlay::box(float x, float y, float w, float h, Color color) { quad(x, y, w, h, white_u_, white_v_, white_u_, white_v_, color); }
+void Overlay::box(float x, float y, float w, float h, Color color) {
+    quad(x, y, w, h, white_u_, white_v_, white_u_, white_v_, color);
+}
 
 void Overlay::letters(const Face& face, float x, float y, Color color, const char* line) {
     // On whole pixels, as the texture's letters are.
@@ -98,7 +112,8 @@ void Overlay::letters(const Face& face, float x, float y, Color color, const cha
     for (; *line; ++line, x += float(face.width)) {
         const int letter = *line - ' ';
         if (letter <= 0 || letter >= 95) continue;
-        const float u = face.u + face.du * float(letter % face.columns), v = face.v + face.dv * float(letter / face.columns);
+        const float u = face.u + face.du * float(letter % face.columns),
+                    v = face.v + face.dv * float(letter / face.columns);
         quad(x, y, float(face.width), float(face.height), u, v, u + face.du, v + face.dv, color);
     }
 }
@@ -140,12 +155,14 @@ void Overlay::person(const Room& room) {
     const Room::Person& p = room.person();
     if (p.probability > 0.0f) {
         const float end = text(large_, x, y, INK, "size %s", p.size.c_str());
-        text(small_, end + float(small_.width), y + 0.42f * float(large_.height), FAINT, "%.0f %% sure", 100.0 * double(p.probability));
+        text(small_, end + float(small_.width), y + 0.42f * float(large_.height), FAINT, "%.0f %% sure",
+             100.0 * double(p.probability));
     } else {
         text(large_, x, y, INK, "%s", p.size.c_str());
     }
     y += 1.2f * float(large_.height);
-    text(small_, x, y, FAINT, "%.1f cm tall, +- %.1f", 100.0 * double(p.stature_m), 100.0 * double(p.stature_sigma_m));
+    text(small_, x, y, FAINT, "%.1f cm tall, +- %.1f", 100.0 * double(p.stature_m),
+         100.0 * double(p.stature_sigma_m));
 }
 
 void Overlay::worn(const Room& room, const OverlayState& state) {
@@ -158,14 +175,18 @@ void Overlay::worn(const Room& room, const OverlayState& state) {
         text(small_, value, y, color, format, arguments...);
         y += line;
     };
-    if (room.garment_count() > 1) row("garment", INK, "%s  %zu/%zu", room.garment().c_str(), room.garment_index() + 1, room.garment_count());
-    else row("garment", INK, "%s", room.garment().c_str());
+    if (room.garment_count() > 1)
+        row("garment", INK, "%s  %zu/%zu", room.garment().c_str(), room.garment_index() + 1,
+            room.garment_count());
+    else
+        row("garment", INK, "%s", room.garment().c_str());
     row("worn in", INK, "%s", room.size().c_str());
     row("cloth", room.physics() ? INK : ACCENT, "%s", room.physics() ? "simulated" : "carried only");
     row("view", INK, "%s", state.mirror ? "mirror" : "as filmed");
     if (state.fit_map) {
         row("fit map", ACCENT, "stretch");
-        const Color steps[] = {{92, 128, 225, 255}, {200, 200, 200, 255}, {248, 222, 90, 255}, {228, 52, 44, 255}};
+        const Color steps[] = {
+            {92, 128, 225, 255}, {200, 200, 200, 255}, {248, 222, 90, 255}, {228, 52, 44, 255}};
         const char* names[] = {"loose", "0 %", "4 %", "10 %"};
         for (int i = 0; i < 4; ++i) {
             const float left = value + 62.0f * scale_ * float(i);
@@ -187,7 +208,8 @@ void Overlay::rate(const Times& times, const OverlayState& state) {
 
 /// The last 240 pictures, stage on stage.
 void Overlay::plot(const Times& times) {
-    constexpr Color kColors[kStages] = {{70, 130, 180, 255}, {96, 168, 108, 255}, {200, 96, 84, 255}, {168, 160, 150, 255}};
+    constexpr Color kColors[kStages] = {
+        {70, 130, 180, 255}, {96, 168, 108, 255}, {200, 96, 84, 255}, {168, 160, 150, 255}};
     constexpr const char* kNames[kStages] = {"sensor+track", "motion+skin", "cloth", "draw"};
     constexpr float kTop_ms = 50.0f;
     const float column = 1.5f * scale_, w = column * float(Times::kPlotted), h = 100.0f * scale_;
@@ -211,7 +233,8 @@ void Overlay::plot(const Times& times) {
     }
     const StageMs last = times.ago(0);
     for (size_t s = 0; s < kStages; ++s) {
-        const float left = x + (s % 2 ? 0.55f : 0.0f) * w, y = top - legend + float(s / 2) * 1.2f * float(small_.height);
+        const float left = x + (s % 2 ? 0.55f : 0.0f) * w,
+                    y = top - legend + float(s / 2) * 1.2f * float(small_.height);
         box(left, y + 0.3f * float(small_.height), 8.0f * scale_, 8.0f * scale_, kColors[s]);
         text(small_, left + 14.0f * scale_, y, INK, "%s %.1f", kNames[s], double(last[s]));
     }
@@ -228,9 +251,12 @@ void Overlay::message(const Room& room) {
 }
 
 void Overlay::help() {
-    constexpr const char* kLines[] = {"left right   garment", "up down      size", "P            cloth on, off", "C            camera on, off", "M            mirror",
-                                      "space        put on anew", "F            fit map", "H            this", "esc          end"};
-    const float line = 1.4f * float(small_.height), w = 29.0f * float(small_.width), h = line * float(std::size(kLines));
+    constexpr const char* kLines[] = {
+        "left right   garment",        "up down      size",   "P            cloth on, off",
+        "C            camera on, off", "M            mirror", "space        put on anew",
+        "F            fit map",        "H            this",   "esc          end"};
+    const float line = 1.4f * float(small_.height), w = 29.0f * float(small_.width),
+                h = line * float(std::size(kLines));
     const float x = width_ - kMargin * scale_ - w, pad = 14.0f * scale_;
     float y = 170.0f * scale_;
     box(x - pad, y - pad, w + 2 * pad, h + 2 * pad, {255, 255, 255, 190});
@@ -265,12 +291,15 @@ void Overlay::draw(const Room& room, const Times& times, const OverlayState& sta
         if (camera.version != camera_version_) {
             camera_version_ = camera.version;
             if (camera.width != camera_width_ || camera.height != camera_height_)
-                glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, GLsizei(camera.width), GLsizei(camera.height), 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+                glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, GLsizei(camera.width), GLsizei(camera.height), 0,
+                             GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
             camera_width_ = camera.width, camera_height_ = camera.height;
-            glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, GLsizei(camera.width), GLsizei(camera.height), GL_RGBA, GL_UNSIGNED_BYTE, camera.rgba.data());
+            glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, GLsizei(camera.width), GLsizei(camera.height), GL_RGBA,
+                            GL_UNSIGNED_BYTE, camera.rgba.data());
         }
         // Large as long as the person has to see what the camera sees; then in the corner.
-        const float h = (room.dressed() ? 150.0f : 420.0f) * scale_, w = h * float(camera.width) / float(camera.height);
+        const float h = (room.dressed() ? 150.0f : 420.0f) * scale_,
+                    w = h * float(camera.width) / float(camera.height);
         const float x = room.dressed() ? width_ - kMargin * scale_ - w : 0.5f * (width_ - w);
         const float y = room.dressed() ? height_ - kMargin * scale_ - h : 120.0f * scale_;
         const float left = state.mirror ? 1.0f : 0.0f;

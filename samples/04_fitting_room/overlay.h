@@ -40,7 +40,8 @@ private:
         float u, v, du, dv;  // of the first cell
     };
     void box(float x, float y, float width, float height, Color color);
-    void quad(float x, float y, float width, float height, float u0, float v0, float u1, float v1, Color color);
+    void quad(float x, float y, float width, float height, float u0, float v0, float u1, float v1,
+              Color color);
     float text(const Face& face, float x, float y, Color color, const char* format, ...);
     void right_text(const Face& face, float right, float y, Color color, const char* format, ...);
     void letters(const Face& face, float x, float y, Color color, const char* line);

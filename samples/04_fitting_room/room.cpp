@@ -10,7 +10,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int64_t kForgotten_ns = 5'000'000'000;  // who has been away so long is not awaited any more
-constexpr int64_t kFurthestAhead_ns = 100'000'000;  // that motion predicts beyond the last camera image: three of them
+constexpr int64_t kFurthestAhead_ns =
+    100'000'000;                        // that motion predicts beyond the last camera image: three of them
 constexpr float kLongestStep_s = 0.1f;  // as the library clamps it
 constexpr auto kLookAgain = std::chrono::milliseconds(1000);  // for a camera that is lost
 
@@ -44,12 +45,15 @@ std::vector<T> copy_of(vfit_frame frame, vfit_stream stream, size_t values_an_it
     const vfit_view view = view_of(frame, stream);
     std::vector<T> out(view.width * values_an_item);
     for (size_t i = 0; i < view.width; ++i)
-        std::memcpy(&out[i * values_an_item], static_cast<const char*>(view.data) + i * view.item_stride, values_an_item * sizeof(T));
+        std::memcpy(&out[i * values_an_item], static_cast<const char*>(view.data) + i * view.item_stride,
+                    values_an_item * sizeof(T));
     return out;
 }
 
 /// Whose forearms are in the garment: elsewhere they would catch it.
-bool has_sleeves(const std::string& kind) { return kind == "long_sleeves" || kind == "jacket" || kind == "overall"; }
+bool has_sleeves(const std::string& kind) {
+    return kind == "long_sleeves" || kind == "jacket" || kind == "overall";
+}
 
 void grow(Room::Place& low, Room::Place& high, const Room::Place& p) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
@@ -58,7 +62,8 @@ void grow(Room::Place& low, Room::Place& high, const Room::Place& p) {
 
 constexpr Room::Place kNowhereLow{1e9f, 1e9f, 1e9f}, kNowhereHigh{-1e9f, -1e9f, -1e9f};
 
-vfit_target target_of(void* data, size_t count, size_t stride, size_t offset, vfit_format format, size_t item) {
+vfit_target target_of(void* data, size_t count, size_t stride, size_t offset, vfit_format format,
+                      size_t item) {
     vfit_target target = vfit_target_init();
     target.format = format;
     target.data = static_cast<char*>(data) + offset;
@@ -70,11 +75,14 @@ vfit_target target_of(void* data, size_t count, size_t stride, size_t offset, vf
 }  // namespace
 
 Room::Room(const Options& options)
-    : options_(options), context_(open_context(options)), wardrobe_(context_.get(), options.data_dir, options.garments) {
+    : options_(options),
+      context_(open_context(options)),
+      wardrobe_(context_.get(), options.data_dir, options.garments) {
     if (!options.size.empty()) {
         const auto& sizes = wardrobe_.piece(0).sizes;
         const auto found = std::find(sizes.begin(), sizes.end(), options.size);
-        if (found == sizes.end()) throw Failure("garment " + garment() + " does not come in size " + options.size);
+        if (found == sizes.end())
+            throw Failure("garment " + garment() + " does not come in size " + options.size);
         size_ = size_t(found - sizes.begin());
         size_chosen_ = true;
     }
@@ -133,7 +141,8 @@ void Room::sense() {
         // Most plug-ins find their camera again by themselves; one that has given up is opened anew.
         looked_for_it_ = Clock::now();
         vfit_sensor_stats stats = vfit_sensor_stats_init();
-        if (!sensor_ || (vfit_sensor_describe(sensor_.get(), &stats) == VFIT_OK && stats.state != VFIT_OK && stats.state != VFIT_ERROR_DEVICE_LOST)) {
+        if (!sensor_ || (vfit_sensor_describe(sensor_.get(), &stats) == VFIT_OK && stats.state != VFIT_OK &&
+                         stats.state != VFIT_ERROR_DEVICE_LOST)) {
             try {
                 open_camera();
             } catch (const Failure& failure) {
@@ -179,7 +188,8 @@ void Room::meet_person() {
     measures_.resize(count);
     check(vfit_scan_measure(scan_.get(), measures_.data(), sizeof(vfit_measurement), &count));
     for (const vfit_measurement& m : measures_)
-        if (std::strcmp(m.key, "stature_m") == 0) person_.stature_m = m.value, person_.stature_sigma_m = m.sigma;
+        if (std::strcmp(m.key, "stature_m") == 0)
+            person_.stature_m = m.value, person_.stature_sigma_m = m.sigma;
 
     vfit_avatar_desc desc = vfit_avatar_desc_init();
     desc.sex = options_.sex;
@@ -195,17 +205,19 @@ void Room::meet_person() {
     put_on();
 }
 
-/// Sizes by the standard for that sex. A garment that does not come in the best one gets the best of those that it has.
+/// Sizes by the standard for that sex. A garment that does not come in the best one gets the best of those
+/// that it has.
 void Room::recommend() {
     const Piece& piece = wardrobe_.piece(garment_);
     SizeChart chart;
-    check(vfit_size_chart_open(context_.get(), options_.sex == VFIT_SEX_MALE ? "en13402_men" : "en13402_women", chart.out()));
+    check(vfit_size_chart_open(context_.get(),
+                               options_.sex == VFIT_SEX_MALE ? "en13402_men" : "en13402_women", chart.out()));
     std::array<vfit_size, 64> sizes{};
     uint32_t count = uint32_t(sizes.size());
     person_.size = kMadeToMeasure;
     person_.probability = 0.0f;
-    if (vfit_size_recommend(chart.get(), piece.kind.c_str(), measures_.data(), sizeof(vfit_measurement), uint32_t(measures_.size()),
-                            sizes.data(), sizeof(vfit_size), &count) < 0)
+    if (vfit_size_recommend(chart.get(), piece.kind.c_str(), measures_.data(), sizeof(vfit_measurement),
+                            uint32_t(measures_.size()), sizes.data(), sizeof(vfit_size), &count) < 0)
         return;  // of a kind that the chart does not know
     for (uint32_t i = 0; i < count; ++i)
         if (std::find(piece.sizes.begin(), piece.sizes.end(), sizes[i].label) != piece.sizes.end()) {
@@ -262,7 +274,8 @@ void Room::hide_skin() {
 
 int64_t Room::now_ns() const {
     if (options_.film) return frame_ns_;
-    // The camera's clock goes on from its last image: right for recordings too, whose time stamps are of another day.
+    // The camera's clock goes on from its last image: right for recordings too, whose time stamps are of
+    // another day.
     return frame_ns_ + std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - arrived_).count();
 }
 
@@ -274,9 +287,12 @@ void Room::move(BodyVertex* to) {
         check(vfit_motion_step(motion_.get(), tracked_.get(), body_id_, now));
     bone_count_ = VFIT_BONE_COUNT;
     check(vfit_motion_pose(motion_.get(), &pose_, bones_.data(), sizeof(vfit_bone), &bone_count_));
-    const vfit_target positions = target_of(to, body_vertices_, sizeof(BodyVertex), offsetof(BodyVertex, position), VFIT_FORMAT_F32X3, 12);
-    const vfit_target normals = target_of(to, body_vertices_, sizeof(BodyVertex), offsetof(BodyVertex, normal), VFIT_FORMAT_F32X3, 12);
-    check(vfit_avatar_pose_into(avatar_.get(), &pose_, bones_.data(), sizeof(vfit_bone), bone_count_, &positions, &normals));
+    const vfit_target positions = target_of(to, body_vertices_, sizeof(BodyVertex),
+                                            offsetof(BodyVertex, position), VFIT_FORMAT_F32X3, 12);
+    const vfit_target normals = target_of(to, body_vertices_, sizeof(BodyVertex),
+                                          offsetof(BodyVertex, normal), VFIT_FORMAT_F32X3, 12);
+    check(vfit_avatar_pose_into(avatar_.get(), &pose_, bones_.data(), sizeof(vfit_bone), bone_count_,
+                                &positions, &normals));
 
     std::array<vfit_joint, VFIT_JOINT_COUNT> joints;
     uint32_t count = VFIT_JOINT_COUNT;
@@ -387,13 +403,17 @@ void Room::draw_camera(vfit_frame tracked) {
     constexpr float kFarthest_m = 4.5f;
     const float shade = 200.0f * camera.depth_unit_m / kFarthest_m;
     for (uint32_t y = 0; y < p.height; ++y) {
-        const auto* row = reinterpret_cast<const uint16_t*>(static_cast<const char*>(depth.data) + size_t(y * step) * depth.row_stride);
-        const auto* user_row = has_users ? static_cast<const uint8_t*>(users.data) + size_t(y * step) * users.row_stride : nullptr;
+        const auto* row = reinterpret_cast<const uint16_t*>(static_cast<const char*>(depth.data) +
+                                                            size_t(y * step) * depth.row_stride);
+        const auto* user_row =
+            has_users ? static_cast<const uint8_t*>(users.data) + size_t(y * step) * users.row_stride
+                      : nullptr;
         for (uint32_t x = 0; x < p.width; ++x) {
             const uint16_t d = row[x * step];
             const auto grey = uint32_t(d ? std::max(0.0f, 225.0f - shade * float(d)) : 12.0f);
             const bool person = user_row && user_row[x * step] != 0;
-            const uint32_t r = person ? std::min(255u, grey + 70) : grey, g = person ? std::min(255u, grey + 45) : grey;
+            const uint32_t r = person ? std::min(255u, grey + 70) : grey,
+                           g = person ? std::min(255u, grey + 45) : grey;
             p.rgba[size_t(y) * p.width + x] = 0xff000000u | grey << 16 | g << 8 | r;
         }
     }

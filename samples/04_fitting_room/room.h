@@ -37,13 +37,13 @@ public:
     explicit Room(const Options& options);
 
     // Each picture, in this order.
-    /// The newest camera image, if there is one: tracked, and added to the scan as long as that lasts. Dresses the person once
-    /// it is complete.
+    /// The newest camera image, if there is one: tracked, and added to the scan as long as that lasts.
+    /// Dresses the person once it is complete.
     void sense();
     /// The avatar as it stands now, its skin written to `to` (body_vertices() of them).
     void move(BodyVertex* to);
-    /// The garment's clock: a step that has ended is taken, the next begun if it is time for it, and the cloth carried into the
-    /// avatar's pose.
+    /// The garment's clock: a step that has ended is taken, the next begun if it is time for it, and the
+    /// cloth carried into the avatar's pose.
     void run_cloth(Times& times);
     void write_cloth(ClothVertex* to);  // cloth_vertices() of them
 
@@ -58,7 +58,8 @@ public:
     bool dressed() const { return bool(cloth_); }
     uint32_t body_vertices() const { return body_vertices_; }
     uint32_t cloth_vertices() const { return cloth_vertices_; }
-    /// Triangles that can be seen, of the skin not hidden by the garment. The version rises when one of these changes.
+    /// Triangles that can be seen, of the skin not hidden by the garment. The version rises when one of these
+    /// changes.
     const std::vector<uint32_t>& body_indices() const { return seen_skin_; }
     const std::vector<uint32_t>& cloth_indices() const { return cloth_indices_; }
     const std::vector<float>& cloth_uvs() const { return cloth_uvs_; }
@@ -144,7 +145,7 @@ private:
     size_t garment_ = 0, size_ = 0;
     bool size_chosen_ = false;  // by somebody; else the recommended one
     bool physics_ = true, stepping_ = false;
-    int64_t stepped_ns_ = 0;  // when the last step began
+    int64_t stepped_ns_ = 0;    // when the last step began
     float interval_ms_ = 0.0f;  // that it advances by
     double dress_ms_ = 0.0;
 
@@ -152,7 +153,8 @@ private:
     std::vector<uint32_t> skin_, seen_skin_, cloth_indices_;
     std::vector<float> cloth_uvs_;
     std::vector<uint8_t> hidden_;
-    std::map<std::pair<size_t, size_t>, std::vector<uint8_t>> hidden_by_;  // garment and size: found once a person
+    std::map<std::pair<size_t, size_t>, std::vector<uint8_t>>
+        hidden_by_;  // garment and size: found once a person
     uint64_t mesh_version_ = 0;
 };
 

@@ -11,7 +11,8 @@ namespace room {
 
 enum class Stage { sense, move, cloth, draw };
 inline constexpr size_t kStages = 4;
-inline constexpr std::array<const char*, kStages> kStageNames = {"sensor_track", "motion_skin", "cloth", "draw"};
+inline constexpr std::array<const char*, kStages> kStageNames = {"sensor_track", "motion_skin", "cloth",
+                                                                 "draw"};
 
 using StageMs = std::array<float, kStages>;
 
@@ -56,7 +57,8 @@ private:
     static constexpr size_t kKept = 1u << 15;
     static std::vector<float> kept(const std::vector<float>& ring, uint64_t count);
     std::vector<StageMs> stages_ = std::vector<StageMs>(kKept);
-    std::vector<float> frame_ms_ = std::vector<float>(kKept), step_ms_ = std::vector<float>(kKept), interval_ms_ = std::vector<float>(kKept);
+    std::vector<float> frame_ms_ = std::vector<float>(kKept), step_ms_ = std::vector<float>(kKept),
+                       interval_ms_ = std::vector<float>(kKept);
     uint64_t frames_ = 0, steps_ = 0;
     double sum_ms_ = 0.0;
 };

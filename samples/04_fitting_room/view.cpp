@@ -8,7 +8,8 @@ namespace room {
 
 namespace {
 
-// Colours are squared in the shaders and drawn by their roots: nearly sRGB, and cheap on a processor that draws.
+// Colours are squared in the shaders and drawn by their roots: nearly sRGB, and cheap on a processor that
+// draws.
 
 constexpr const char* kStudioVertex = R"(#version 330 core
 layout(location = 0) in vec2 place;
@@ -52,7 +53,8 @@ uniform mat4 clip_from_world;
 out vec3 n;
 void main() { n = normal; gl_Position = clip_from_world * vec4(place, 1.0); })";
 
-// A large soft light from the camera's upper left, a cool one from the right, the floor's own shine from below, and a rim.
+// A large soft light from the camera's upper left, a cool one from the right, the floor's own shine from
+// below, and a rim.
 constexpr const char* kLight = R"(
 vec3 lit(vec3 color, vec3 n) {
     float key = 0.5 + 0.5 * dot(n, vec3(-0.48, 0.62, 0.62));
@@ -119,15 +121,20 @@ uniform ivec2 origin;
 out vec4 pixel;
 void main() { pixel = texelFetch(layer, ivec2(gl_FragCoord.xy) - origin, 0); })";
 
-constexpr std::array<std::array<float, 3>, 6> kFabrics = {{{0.42f, 0.045f, 0.060f}, {0.030f, 0.16f, 0.22f}, {0.50f, 0.27f, 0.035f},
-                                                          {0.055f, 0.06f, 0.22f}, {0.06f, 0.17f, 0.09f}, {0.25f, 0.08f, 0.24f}}};
+constexpr std::array<std::array<float, 3>, 6> kFabrics = {{{0.42f, 0.045f, 0.060f},
+                                                           {0.030f, 0.16f, 0.22f},
+                                                           {0.50f, 0.27f, 0.035f},
+                                                           {0.055f, 0.06f, 0.22f},
+                                                           {0.06f, 0.17f, 0.09f},
+                                                           {0.25f, 0.08f, 0.24f}}};
 
 constexpr float kFieldOfView_rad = 0.46f;  // of the picture's height: a portrait lens
 constexpr float kEye_m = 1.15f;            // the camera's height: a standing person's chest
-constexpr float kAbove_m = 0.34f, kBelow_m = 0.16f;  // room over the crown (for raised arms) and under the soles
-constexpr float kAcross_m = 1.3f;          // that a narrow picture shows: arms that are not held out
-constexpr float kShadow_m = 0.62f;         // radius of the soft one below the whole person
-constexpr float kFollow_s = 0.5f;          // how fast the camera follows
+constexpr float kAbove_m = 0.34f,
+                kBelow_m = 0.16f;   // room over the crown (for raised arms) and under the soles
+constexpr float kAcross_m = 1.3f;   // that a narrow picture shows: arms that are not held out
+constexpr float kShadow_m = 0.62f;  // radius of the soft one below the whole person
+constexpr float kFollow_s = 0.5f;   // how fast the camera follows
 
 using Matrix = std::array<float, 16>;
 
@@ -159,7 +166,8 @@ View::View(int width, int height, int samples)
     for (GLuint* buffer : {&studio_color_, &layer_color_, &layer_depth_}) glGenRenderbuffers(1, buffer);
     glGenTextures(1, &flat_color_);
     glBindTexture(GL_TEXTURE_2D, flat_color_);
-    for (const GLenum key : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) glTexParameteri(GL_TEXTURE_2D, key, GL_NEAREST);
+    for (const GLenum key : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+        glTexParameteri(GL_TEXTURE_2D, key, GL_NEAREST);
 
     // A bend of paper: wall, hollow and floor without a line between them, darker towards the corners.
     constexpr int kColumns = 16, kRows = 24;
@@ -169,7 +177,8 @@ View::View(int width, int height, int samples)
             const float u = 2.0f * float(x) / kColumns - 1.0f, v = 2.0f * float(y) / kRows - 1.0f;
             const float wall = std::clamp((v + 0.55f) / 1.55f, 0.0f, 1.0f);
             const float floor = std::clamp((-0.35f - v) / 0.65f, 0.0f, 1.0f);
-            const float light = 0.925f - 0.17f * wall * wall - 0.07f * floor - 0.05f * u * u - 0.05f * u * u * v * v;
+            const float light =
+                0.925f - 0.17f * wall * wall - 0.07f * floor - 0.05f * u * u - 0.05f * u * u * v * v;
             corners.insert(corners.end(), {u, v, light, light * 0.995f, light * 0.985f});
         }
     std::vector<GLushort> indices;
@@ -188,7 +197,8 @@ View::View(int width, int height, int samples)
     attribute(0, 2, 5 * sizeof(float), 0);
     attribute(1, 3, 5 * sizeof(float), 2 * sizeof(float));
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, studio_indices_);
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(indices.size() * sizeof(GLushort)), indices.data(), GL_STATIC_DRAW);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(indices.size() * sizeof(GLushort)), indices.data(),
+                 GL_STATIC_DRAW);
 
     constexpr float kSquare[] = {-1, -1, 1, -1, -1, 1, 1, 1};
     glGenVertexArrays(1, &square_array_);
@@ -227,7 +237,8 @@ void View::resize(int width, int height) {
     glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
     glBindFramebuffer(GL_FRAMEBUFFER, studio_);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, studio_color_);
-    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) throw Failure("OpenGL cannot draw a picture of that size");
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        throw Failure("OpenGL cannot draw a picture of that size");
     glViewport(0, 0, width, height);
     glUseProgram(studio_program_);
     glBindVertexArray(studio_array_);
@@ -239,19 +250,24 @@ void View::resize(int width, int height) {
 void View::grow_layer(int width, int height) {
     if (width <= layer_width_ && height <= layer_height_) return;
     constexpr int kStep = 64;
-    const auto stepped = [](int least, int now, int most) { return std::min(std::max(now, (least + kStep - 1) / kStep * kStep), most); };
+    const auto stepped = [](int least, int now, int most) {
+        return std::min(std::max(now, (least + kStep - 1) / kStep * kStep), most);
+    };
     layer_width_ = stepped(width, layer_width_, width_);
     layer_height_ = stepped(height, layer_height_, height_);
     glBindFramebuffer(GL_FRAMEBUFFER, layer_);
     glBindRenderbuffer(GL_RENDERBUFFER, layer_color_);
     glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples_, GL_RGBA8, layer_width_, layer_height_);
     glBindRenderbuffer(GL_RENDERBUFFER, layer_depth_);
-    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples_, GL_DEPTH_COMPONENT24, layer_width_, layer_height_);
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples_, GL_DEPTH_COMPONENT24, layer_width_,
+                                     layer_height_);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, layer_color_);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, layer_depth_);
-    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) throw Failure("OpenGL cannot draw with so many samples a pixel");
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        throw Failure("OpenGL cannot draw with so many samples a pixel");
     glBindTexture(GL_TEXTURE_2D, flat_color_);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, layer_width_, layer_height_, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, layer_width_, layer_height_, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                 nullptr);
     glBindFramebuffer(GL_FRAMEBUFFER, flat_);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, flat_color_, 0);
 }
@@ -263,7 +279,8 @@ void View::take_meshes(const Room& room) {
     const auto fill = [](GLuint buffer, const auto& values) {
         // Not as GL_ELEMENT_ARRAY_BUFFER: that binding belongs to whichever vertex array is bound.
         glBindBuffer(GL_ARRAY_BUFFER, buffer);
-        glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(values.size() * sizeof values[0]), values.data(), GL_STATIC_DRAW);
+        glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(values.size() * sizeof values[0]), values.data(),
+                     GL_STATIC_DRAW);
     };
     fill(body_indices_, room.body_indices());
     fill(cloth_indices_, room.cloth_indices());
@@ -272,8 +289,12 @@ void View::take_meshes(const Room& room) {
     cloth_count_ = GLsizei(room.cloth_indices().size());
 }
 
-BodyVertex* View::map_body(const Room& room) { return static_cast<BodyVertex*>(body_.map(room.body_vertices() * sizeof(BodyVertex))); }
-ClothVertex* View::map_cloth(const Room& room) { return static_cast<ClothVertex*>(cloth_.map(room.cloth_vertices() * sizeof(ClothVertex))); }
+BodyVertex* View::map_body(const Room& room) {
+    return static_cast<BodyVertex*>(body_.map(room.body_vertices() * sizeof(BodyVertex)));
+}
+ClothVertex* View::map_cloth(const Room& room) {
+    return static_cast<ClothVertex*>(cloth_.map(room.cloth_vertices() * sizeof(ClothVertex)));
+}
 
 /// The whole person is in the picture; the camera follows softly as they walk about.
 void View::aim(const Room& room, float seconds) {
@@ -292,7 +313,22 @@ void View::aim(const Room& room, float seconds) {
     // The lens is shifted and not tilted, as of a studio camera: upright lines stay upright.
     const float near = 0.2f, far = 20.0f, f = 1.0f / std::tan(0.5f * kFieldOfView_rad);
     const float shift = f * (aim_[1] - kEye_m) / distance;
-    const Matrix projection = {f / aspect, 0, 0, 0, 0, f, 0, 0, 0, shift, (far + near) / (near - far), -1, 0, 0, 2 * far * near / (near - far), 0};
+    const Matrix projection = {f / aspect,
+                               0,
+                               0,
+                               0,
+                               0,
+                               f,
+                               0,
+                               0,
+                               0,
+                               shift,
+                               (far + near) / (near - far),
+                               -1,
+                               0,
+                               0,
+                               2 * far * near / (near - far),
+                               0};
     const Matrix view = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -eye[0], -eye[1], -eye[2], 1};
     clip_from_world_ = product(projection, view);
 }
@@ -302,21 +338,29 @@ View::Rectangle View::around(const Room& room) const {
     constexpr float kAroundJoints_m = 0.26f;  // crown, fingers, toes
     const Room::Joints& j = room.joints();
     const Room::Place &a = room.cloth_low(), &b = room.cloth_high();
-    const float low[3] = {std::min(j.low.x - kAroundJoints_m, a.x), std::min(j.low.y - kAroundJoints_m, a.y), std::min(j.low.z - kAroundJoints_m, a.z)};
-    const float high[3] = {std::max(j.high.x + kAroundJoints_m, b.x), std::max(j.high.y + kAroundJoints_m, b.y), std::max(j.high.z + kAroundJoints_m, b.z)};
+    const float low[3] = {std::min(j.low.x - kAroundJoints_m, a.x), std::min(j.low.y - kAroundJoints_m, a.y),
+                          std::min(j.low.z - kAroundJoints_m, a.z)};
+    const float high[3] = {std::max(j.high.x + kAroundJoints_m, b.x),
+                           std::max(j.high.y + kAroundJoints_m, b.y),
+                           std::max(j.high.z + kAroundJoints_m, b.z)};
     float left = 1.0f, right = -1.0f, bottom = 1.0f, top = -1.0f;
     for (int corner = 0; corner < 8; ++corner) {
-        const float p[3] = {corner & 1 ? high[0] : low[0], corner & 2 ? high[1] : low[1], corner & 4 ? high[2] : low[2]};
+        const float p[3] = {corner & 1 ? high[0] : low[0], corner & 2 ? high[1] : low[1],
+                            corner & 4 ? high[2] : low[2]};
         float clip[4];
         for (size_t r = 0; r < 4; ++r)
-            clip[r] = clip_from_world_[r] * p[0] + clip_from_world_[4 + r] * p[1] + clip_from_world_[8 + r] * p[2] + clip_from_world_[12 + r];
+            clip[r] = clip_from_world_[r] * p[0] + clip_from_world_[4 + r] * p[1] +
+                      clip_from_world_[8 + r] * p[2] + clip_from_world_[12 + r];
         if (clip[3] < 0.1f) return {0, 0, width_, height_};  // beside the camera
         left = std::min(left, clip[0] / clip[3]), right = std::max(right, clip[0] / clip[3]);
         bottom = std::min(bottom, clip[1] / clip[3]), top = std::max(top, clip[1] / clip[3]);
     }
-    const auto pixel = [](float place, int size) { return std::clamp(int(std::floor((0.5f + 0.5f * place) * float(size))), 0, size); };
+    const auto pixel = [](float place, int size) {
+        return std::clamp(int(std::floor((0.5f + 0.5f * place) * float(size))), 0, size);
+    };
     const int x = pixel(left, width_), y = pixel(bottom, height_);
-    return {x, y, std::min(width_, pixel(right, width_) + 1) - x, std::min(height_, pixel(top, height_) + 1) - y};
+    return {x, y, std::min(width_, pixel(right, width_) + 1) - x,
+            std::min(height_, pixel(top, height_) + 1) - y};
 }
 
 void View::draw_studio(GLuint framebuffer) {
@@ -327,7 +371,9 @@ void View::draw_studio(GLuint framebuffer) {
 
 void View::draw_shadows(const Room& room) {
     const Room::Joints& j = room.joints();
-    const auto lower = [](const Room::Place& foot) { return std::max(0.0f, 1.0f - 2.5f * std::max(0.0f, foot.y - 0.08f)); };  // a lifted foot's fades
+    const auto lower = [](const Room::Place& foot) {
+        return std::max(0.0f, 1.0f - 2.5f * std::max(0.0f, foot.y - 0.08f));
+    };  // a lifted foot's fades
     const float discs[3][4] = {{j.pelvis.x, j.pelvis.z, kShadow_m, 0.30f},
                                {j.left_foot.x, j.left_foot.z + 0.05f, 0.21f, 0.50f * lower(j.left_foot)},
                                {j.right_foot.x, j.right_foot.z + 0.05f, 0.21f, 0.50f * lower(j.right_foot)}};
@@ -377,7 +423,8 @@ void View::draw(const Room& room, const Look& look, GLuint framebuffer) {
         for (size_t c = 0; c < 4; ++c) clip_from_world_[4 * c] = -clip_from_world_[4 * c];
     draw_shadows(room);
 
-    // Several samples a pixel are dear where a processor draws: the person alone is worth them, and gets a layer of that size.
+    // Several samples a pixel are dear where a processor draws: the person alone is worth them, and gets a
+    // layer of that size.
     const Rectangle r = around(room);
     if (r.width <= 0 || r.height <= 0) return;
     grow_layer(r.width, r.height);
@@ -394,7 +441,8 @@ void View::draw(const Room& room, const Look& look, GLuint framebuffer) {
     glViewport(0, 0, width_, height_);
     const auto clip = [](int pixel, int size) { return 2.0f * float(pixel) / float(size) - 1.0f; };
     glUseProgram(layer_program_);
-    glUniform4f(uniform(layer_program_, "from_to"), clip(r.x, width_), clip(r.y, height_), clip(r.x + r.width, width_), clip(r.y + r.height, height_));
+    glUniform4f(uniform(layer_program_, "from_to"), clip(r.x, width_), clip(r.y, height_),
+                clip(r.x + r.width, width_), clip(r.y + r.height, height_));
     glUniform2i(uniform(layer_program_, "origin"), r.x, r.y);
     glBindTexture(GL_TEXTURE_2D, flat_color_);
     glEnable(GL_BLEND);

@@ -22,7 +22,8 @@ Garment open(vfit_context context, const std::string& name) {
     std::ifstream file(name, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     if (!file) throw Failure("garment " + name + ": cannot be read");
-    if (vfit_garment_load(context, text.data(), text.size(), garment.out()) < 0) throw Failure("garment " + name + ": " + last_error());
+    if (vfit_garment_load(context, text.data(), text.size(), garment.out()) < 0)
+        throw Failure("garment " + name + ": " + last_error());
     return garment;
 }
 

@@ -18,7 +18,8 @@ struct Piece {
 
 class Wardrobe {
 public:
-    /// All garments of the data folder, or those named: names of that folder, or files. Throws Failure where there is none.
+    /// All garments of the data folder, or those named: names of that folder, or files. Throws Failure where
+    /// there is none.
     Wardrobe(vfit_context context, const std::string& data_dir, const std::vector<std::string>& named);
     size_t count() const { return pieces_.size(); }
     const Piece& piece(size_t i) const { return pieces_[i]; }

@@ -36,7 +36,8 @@ std::string why_not() {
 class GlfwWindow : public Window {
 public:
     GlfwWindow(int width, int height, const char* title) {
-        if (!glfwInit()) throw Failure("there is no display to open a window on (--offscreen needs none): " + why_not());
+        if (!glfwInit())
+            throw Failure("there is no display to open a window on (--offscreen needs none): " + why_not());
         glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
         glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
         glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -53,7 +54,8 @@ public:
         glfwSetKeyCallback(window_, [](GLFWwindow* window, int code, int, int action, int) {
             if (action != GLFW_PRESS) return;
             const Key key = key_of(code);
-            if (key != Key::none) static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window))->keys_.push_back(key);
+            if (key != Key::none)
+                static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window))->keys_.push_back(key);
         });
     }
     ~GlfwWindow() override {

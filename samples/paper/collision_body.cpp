@@ -31,7 +31,8 @@ void add_hull(RenderMesh& mesh, const glm::vec3& a, float radius_a, const glm::v
     const auto ring = [&](const glm::vec3& centre, float radius, float slope) {
         for (int i = 0; i < kAround; ++i) {
             const float turn = 4.0f * kQuarter * float(i) / kAround;
-            const glm::vec3 normal = std::sin(slope) * z + std::cos(slope) * (std::cos(turn) * x + std::sin(turn) * y);
+            const glm::vec3 normal =
+                std::sin(slope) * z + std::cos(slope) * (std::cos(turn) * x + std::sin(turn) * y);
             mesh.normals.push_back(normal);
             mesh.positions.push_back(centre + radius * normal);
         }
@@ -48,8 +49,9 @@ void add_hull(RenderMesh& mesh, const glm::vec3& a, float radius_a, const glm::v
 }  // namespace
 
 std::vector<vfit_collider> colliders_of(vfit_avatar avatar) {
-    return list<vfit_collider>(
-        [&](auto* items, uint32_t stride, uint32_t* count) { return vfit_avatar_colliders(avatar, items, stride, count); });
+    return list<vfit_collider>([&](auto* items, uint32_t stride, uint32_t* count) {
+        return vfit_avatar_colliders(avatar, items, stride, count);
+    });
 }
 
 std::vector<RenderMesh> collider_meshes(const std::vector<vfit_collider>& colliders) {
@@ -59,9 +61,12 @@ std::vector<RenderMesh> collider_meshes(const std::vector<vfit_collider>& collid
     constexpr float kDrawnAside = 1.01f;  // a sphere is seen beside the capsules that end in it
     for (const vfit_collider& c : colliders) {
         if (c.radius <= 0.0f) continue;
-        const glm::vec3 a(c.center[0], c.center[1], c.center[2]), b(c.center_b[0], c.center_b[1], c.center_b[2]);
-        if (c.joint_b < 0) add_hull(meshes[0], a, kDrawnAside * c.radius, a, kDrawnAside * c.radius);
-        else add_hull(meshes[1], a, c.radius, b, c.radius_b);
+        const glm::vec3 a(c.center[0], c.center[1], c.center[2]),
+            b(c.center_b[0], c.center_b[1], c.center_b[2]);
+        if (c.joint_b < 0)
+            add_hull(meshes[0], a, kDrawnAside * c.radius, a, kDrawnAside * c.radius);
+        else
+            add_hull(meshes[1], a, c.radius, b, c.radius_b);
     }
     return meshes;
 }

@@ -11,7 +11,9 @@ constexpr int kSamples = 4;  // a pixel, as the room has them
 class RoomDrawing : public Drawing {
 public:
     RoomDrawing(int width, int height)
-        : window_(room::open_offscreen(width, height)), renderer_(room::renderer()), view_(width, height, kSamples) {}
+        : window_(room::open_offscreen(width, height)),
+          renderer_(room::renderer()),
+          view_(width, height, kSamples) {}
 
     room::BodyVertex* map_body(const room::Room& room) override { return view_.map_body(room); }
     void unmap_body() override { view_.unmap_body(); }
@@ -32,6 +34,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Drawing> open_drawing(int width, int height) { return std::make_unique<RoomDrawing>(width, height); }
+std::unique_ptr<Drawing> open_drawing(int width, int height) {
+    return std::make_unique<RoomDrawing>(width, height);
+}
 
 }  // namespace vfit::tools

@@ -28,7 +28,8 @@ constexpr int kScale = 2;
 constexpr Color kHeight{0.45f, 0.95f, 0.55f}, kWidth{1.00f, 0.75f, 0.25f}, kWhite{1, 1, 1};
 
 /// The lines of Table 1 on the person that they were measured on.
-Canvas figure_4(vfit_frame frame, const std::vector<vfit_joint>& joints, const std::map<std::string, float>& lines) {
+Canvas figure_4(vfit_frame frame, const std::vector<vfit_joint>& joints,
+                const std::map<std::string, float>& lines) {
     Canvas canvas = draw_depth(frame, kScale);
     const Projection project(frame, kScale);
     std::map<vfit_joint_id, std::array<float, 3>> at;
@@ -36,7 +37,8 @@ Canvas figure_4(vfit_frame frame, const std::vector<vfit_joint>& joints, const s
         if (j.state != VFIT_JOINT_NOT_SEEN) at[j.joint] = {j.position[0], j.position[1], j.position[2]};
     const auto place = [&](vfit_joint_id joint) {
         const auto it = at.find(joint);
-        if (it == at.end()) throw Failure("Fig. 4: the last frame does not show the joint " + tools::joint_name(joint));
+        if (it == at.end())
+            throw Failure("Fig. 4: the last frame does not show the joint " + tools::joint_name(joint));
         return it->second;
     };
     const auto middle = [&](vfit_joint_id a, vfit_joint_id b) {
@@ -45,7 +47,8 @@ Canvas figure_4(vfit_frame frame, const std::vector<vfit_joint>& joints, const s
         for (size_t i = 0; i < 3; ++i) m[i] = 0.5f * (p[i] + q[i]);
         return m;
     };
-    const auto draw = [&](int number, const char* key, std::array<float, 3> a, std::array<float, 3> b, const Color& color) {
+    const auto draw = [&](int number, const char* key, std::array<float, 3> a, std::array<float, 3> b,
+                          const Color& color) {
         const auto p = project({a[0], a[1], a[2]}), q = project({b[0], b[1], b[2]});
         if (!p || !q) return;
         canvas.line(p->x, p->y, q->x, q->y, 2, color);
@@ -55,20 +58,24 @@ Canvas figure_4(vfit_frame frame, const std::vector<vfit_joint>& joints, const s
         canvas.text(int(std::max(p->x, q->x)) + 6, int(0.5f * (p->y + q->y)) + 4, text.str(), 9, color);
     };
     const auto has = [&](const char* key) { return lines.count(key) > 0; };
-    const auto hips = middle(VFIT_JOINT_LEFT_HIP, VFIT_JOINT_RIGHT_HIP), neck = place(VFIT_JOINT_NECK), head = place(VFIT_JOINT_HEAD);
+    const auto hips = middle(VFIT_JOINT_LEFT_HIP, VFIT_JOINT_RIGHT_HIP), neck = place(VFIT_JOINT_NECK),
+               head = place(VFIT_JOINT_HEAD);
     // In the image the person's left is on the right: world x runs that way too.
     const auto upright = [&](int number, const char* key, float aside_m, float low, float high) {
-        if (has(key)) draw(number, key, {hips[0] + aside_m, low, hips[2]}, {hips[0] + aside_m, high, hips[2]}, kHeight);
+        if (has(key))
+            draw(number, key, {hips[0] + aside_m, low, hips[2]}, {hips[0] + aside_m, high, hips[2]}, kHeight);
     };
     const auto level = [&](int number, const char* key, const std::array<float, 3>& centre) {
         if (!has(key)) return;
         const float half = 0.5f * lines.at(key);
-        draw(number, key, {centre[0] - half, centre[1], centre[2]}, {centre[0] + half, centre[1], centre[2]}, kWidth);
+        draw(number, key, {centre[0] - half, centre[1], centre[2]}, {centre[0] + half, centre[1], centre[2]},
+             kWidth);
     };
     const float stature = has("stature_m") ? lines.at("stature_m") : head[1];
     upright(3, "stature_m", -0.85f, 0.0f, stature);
     upright(4, "hip_height_m", 0.75f, 0.0f, has("hip_height_m") ? lines.at("hip_height_m") : 0.0f);
-    if (has("head_height_m")) upright(2, "head_height_m", 0.22f, stature - lines.at("head_height_m"), stature);
+    if (has("head_height_m"))
+        upright(2, "head_height_m", 0.22f, stature - lines.at("head_height_m"), stature);
     level(1, "head_width_m", head);
     level(7, "shoulder_breadth_m", middle(VFIT_JOINT_LEFT_SHOULDER, VFIT_JOINT_RIGHT_SHOULDER));
     level(8, "hip_breadth_m", hips);
@@ -120,7 +127,8 @@ Canvas figure_8(vfit_frame frame, uint32_t body) {
             canvas.set(width * kEnlarged + kGap + x, y + kTitle, grey(filtered.at(u, v)));
         }
     std::ostringstream title;
-    title << "Fig. 8  the person's depth as it came (red: none), and filtered: " << filtered.patched << " px patched";
+    title << "Fig. 8  the person's depth as it came (red: none), and filtered: " << filtered.patched
+          << " px patched";
     canvas.text(8, 20, title.str(), 10, kWhite);
     return canvas;
 }
@@ -140,7 +148,8 @@ void figures(const Options& o) {
     figure_4(last.get(), joints_of(last.get(), run.body_id), lines).write_png(path("fig_4.png"));
     figure_8(last.get(), run.body_id).write_png(path("fig_8.png"));
     Curve curve{"Fig. 9  depth map correction by frame", "frame", "mean absolute change, mm", {}};
-    for (size_t i = 0; i < run.corrections_m.size(); ++i) curve.points.emplace_back(float(i), 1000.0f * run.corrections_m[i]);
+    for (size_t i = 0; i < run.corrections_m.size(); ++i)
+        curve.points.emplace_back(float(i), 1000.0f * run.corrections_m[i]);
     draw_curve(curve, 800, 400).write_png(path("fig_9.png"));
     std::cout << "fig_4.png, fig_8.png, fig_9.png in " << o.out << "\n";
 }

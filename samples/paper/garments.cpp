@@ -1,4 +1,5 @@
-// vfit-paper garments: Figures 2, 12, 13, 14 and 15: the colliding body, and people dressed in the six outfits.
+// vfit-paper garments: Figures 2, 12, 13, 14 and 15: the colliding body, and people dressed in the six
+// outfits.
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
@@ -69,8 +70,10 @@ public:
         figure("13", [this] { postures(); });
         figure("14", [this] { default_bodies(); });
         figure("15", [this] { unusual_bodies(); });
-        if (options_.json) print_document(report_);
-        else std::cout << written_ << " in " << options_.out << "\n";
+        if (options_.json)
+            print_document(report_);
+        else
+            std::cout << written_ << " in " << options_.out << "\n";
     }
 
 private:
@@ -106,10 +109,12 @@ private:
             skin.indices = items_of<uint32_t>(frame.get(), VFIT_STREAM_INDEX);
             skin.color = {0.86f, 0.67f, 0.56f};
             auto colliders = collider_meshes(colliders_of(avatar.get()));
-            row.push_back({portrait({skin}, kFront, kHeight_m, wide), sex == VFIT_SEX_FEMALE ? "default female body" : "default male body"});
+            row.push_back({portrait({skin}, kFront, kHeight_m, wide),
+                           sex == VFIT_SEX_FEMALE ? "default female body" : "default male body"});
             // The picture's middle is that of the first mesh: the skin, of which nothing is drawn.
             skin.indices.clear();
-            row.push_back({portrait({skin, colliders[0], colliders[1]}, kFront, kHeight_m, wide), "15 spheres, 16 tapered capsules"});
+            row.push_back({portrait({skin, colliders[0], colliders[1]}, kFront, kHeight_m, wide),
+                           "15 spheres, 16 tapered capsules"});
         }
         write("2", "the colliding body with its default radii", {row});
     }
@@ -129,28 +134,32 @@ private:
         Avatar avatar;
         check(vfit_avatar_create_from_scan(context_.get(), &desc, run.scan.get(), avatar.out()));
         Worn worn(context_.get(), avatar.get(), {options_.garment, VFIT_SEX_FEMALE, {options_.garment}});
-        // The demonstration's own: arms held out, turned to both sides, in a step, arms up. Of a shorter source what there is.
+        // The demonstration's own: arms held out, turned to both sides, in a step, arms up. Of a shorter
+        // source what there is.
         const float moments_s[kMoments] = {1.0f, 11.0f, 13.0f, 17.5f, 24.0f};
         Rows rows(2);
         float cloth_s = 0.0f;
-        take_postures(context_.get(), avatar.get(), options_.source, scan_options.track, [&](vfit_frame tracked, float time_s) {
-            if (time_s == 0.0f) worn.put_on(quality_.rest_s);
-            for (; cloth_s < time_s; cloth_s += kClothStep_s) worn.step(kClothStep_s);
-            if (time_s < moments_s[rows[0].size()]) return true;
-            std::ostringstream caption;
-            caption << std::fixed << std::setprecision(1) << time_s << " s";
-            const int scale = view_of(tracked, VFIT_STREAM_DEPTH).width <= 400 ? 4 : 2;
-            Canvas depth = draw_depth(tracked, scale);
-            draw_skeleton(depth, tracked, joints_of(tracked, active_body(tracked)), scale);
-            rows[0].push_back({cropped(depth), caption.str()});
-            rows[1].push_back(picture(worn, 0.0f, 2.05f, options_.garment));
-            return rows[0].size() < kMoments && !(options_.draft && rows[0].size() == 2);
-        });
+        take_postures(context_.get(), avatar.get(), options_.source, scan_options.track,
+                      [&](vfit_frame tracked, float time_s) {
+                          if (time_s == 0.0f) worn.put_on(quality_.rest_s);
+                          for (; cloth_s < time_s; cloth_s += kClothStep_s) worn.step(kClothStep_s);
+                          if (time_s < moments_s[rows[0].size()]) return true;
+                          std::ostringstream caption;
+                          caption << std::fixed << std::setprecision(1) << time_s << " s";
+                          const int scale = view_of(tracked, VFIT_STREAM_DEPTH).width <= 400 ? 4 : 2;
+                          Canvas depth = draw_depth(tracked, scale);
+                          draw_skeleton(depth, tracked, joints_of(tracked, active_body(tracked)), scale);
+                          rows[0].push_back({cropped(depth), caption.str()});
+                          rows[1].push_back(picture(worn, 0.0f, 2.05f, options_.garment));
+                          return rows[0].size() < kMoments && !(options_.draft && rows[0].size() == 2);
+                      });
         report_["fig_12"] = worn.report();
         write("12", "depth map with joints, and the dressed avatar (" + made_of(options_.source) + ")", rows);
     }
 
-    static std::string made_of(const std::string& source) { return source.starts_with("virtual:") ? "a virtual person: synthetic" : source; }
+    static std::string made_of(const std::string& source) {
+        return source.starts_with("virtual:") ? "a virtual person: synthetic" : source;
+    }
 
     /// The middle of a wide picture, as wide as a portrait.
     Canvas cropped(const Canvas& from) const {
@@ -163,7 +172,8 @@ private:
 
     /// The default body in motion, as the truth tells it: of its depth images nothing is needed.
     static std::string person(const std::string& motion, vfit_sex sex) {
-        return "virtual:sensor=kinect_v1_320&noise=0&distance=3.2&motion=" + motion + "&sex=" + (sex == VFIT_SEX_FEMALE ? "f" : "m");
+        return "virtual:sensor=kinect_v1_320&noise=0&distance=3.2&motion=" + motion +
+               "&sex=" + (sex == VFIT_SEX_FEMALE ? "f" : "m");
     }
 
     void postures() {
@@ -172,7 +182,11 @@ private:
             float at_s;
             const char* name;
         };
-        constexpr Posture kPostures[] = {{"scan", 0.3f, "stands"}, {"walk", 2.2f, "walks"}, {"reach", 2.5f, "reaches"}, {"demo", 24.0f, "arms up"}, {"squat", 1.6f, "squats"}};
+        constexpr Posture kPostures[] = {{"scan", 0.3f, "stands"},
+                                         {"walk", 2.2f, "walks"},
+                                         {"reach", 2.5f, "reaches"},
+                                         {"demo", 24.0f, "arms up"},
+                                         {"squat", 1.6f, "squats"}};
         Rows rows;
         for (const char* name : {"sundress", "jeans and vest", "flight suit"}) {
             const Outfit& clothes = outfit(name);
@@ -182,7 +196,8 @@ private:
             for (const Posture& p : kPostures) {
                 if (options_.draft && rows.back().size() == 2) break;
                 pose(avatar.get(), worn, person(p.motion, clothes.sex), p.at_s);
-                rows.back().push_back(picture(worn, kFront, clothes.sex == VFIT_SEX_FEMALE ? 2.05f : 2.25f, std::string(name) + ": " + p.name));
+                rows.back().push_back(picture(worn, kFront, clothes.sex == VFIT_SEX_FEMALE ? 2.05f : 2.25f,
+                                              std::string(name) + ": " + p.name));
                 report_["fig_13"][name][p.name] = worn.report();
             }
         }
@@ -200,7 +215,8 @@ private:
     }
 
     /// An outfit on a body that stands, from before and behind.
-    void dress(const std::string& figure, const std::string& person, vfit_avatar avatar, const Outfit& clothes, const std::string& source, float height_m,
+    void dress(const std::string& figure, const std::string& person, vfit_avatar avatar,
+               const Outfit& clothes, const std::string& source, float height_m,
                std::vector<SheetItem>& row) {
         Worn worn(context_.get(), avatar, clothes);
         pose(avatar, worn, source, 0.3f);
@@ -216,7 +232,9 @@ private:
             const std::string source = person("scan", sex);
             rows.emplace_back();
             for (const Outfit& clothes : outfits())
-                if (clothes.sex == sex) dress("fig_14", sex == VFIT_SEX_FEMALE ? "female" : "male", avatar.get(), clothes, source, 1.9f, rows.back());
+                if (clothes.sex == sex)
+                    dress("fig_14", sex == VFIT_SEX_FEMALE ? "female" : "male", avatar.get(), clothes, source,
+                          1.9f, rows.back());
         }
         write("14", "the garments of the default female and male body", rows);
     }
@@ -227,13 +245,20 @@ private:
         for (const Subject& subject : subjects(BodyModel::load(library_file("vfit_data/body.bin")))) {
             if (subject.number < 6) continue;
             const std::string person = subject.number == 6 ? "heavy woman" : "very tall man";
-            const Avatar avatar = avatar_of_shape(context_.get(), subject.sex, subject.shape, quality_.detail);
+            const Avatar avatar =
+                avatar_of_shape(context_.get(), subject.sex, subject.shape, quality_.detail);
             rows.emplace_back();
             for (const Outfit& clothes : outfits())
-                if (clothes.sex == subject.sex) dress("fig_15", person, avatar.get(), clothes, subject.uri, 0.01f * float(subject.height.real) + 0.12f, rows.back());
-            rows.back()[0].caption = person + ", " + std::to_string(int(subject.height.real)) + " cm: " + rows.back()[0].caption;
+                if (clothes.sex == subject.sex)
+                    dress("fig_15", person, avatar.get(), clothes, subject.uri,
+                          0.01f * float(subject.height.real) + 0.12f, rows.back());
+            rows.back()[0].caption =
+                person + ", " + std::to_string(int(subject.height.real)) + " cm: " + rows.back()[0].caption;
         }
-        write("15", "an obese woman and a very tall man: virtual people of the dimensions of the paper's subjects 6 and 7", rows);
+        write("15",
+              "an obese woman and a very tall man: virtual people of the dimensions of the paper's subjects "
+              "6 and 7",
+              rows);
     }
 
     const GarmentFigures options_;
@@ -248,12 +273,15 @@ private:
 void add_garments(Command& app) {
     Command command = app.add_subcommand("garments", "Figures 2, 12, 13, 14 and 15 as pictures");
     auto o = std::make_shared<GarmentFigures>();
-    command.add_option("--source", o->source, "Recording folder or sensor URI of Fig. 12, of a woman (default: a virtual person)");
+    command.add_option("--source", o->source,
+                       "Recording folder or sensor URI of Fig. 12, of a woman (default: a virtual person)");
     command.add_option("--garment", o->garment, "Of Fig. 12 (default: sundress)");
-    command.add_option("--figure", o->figure, "One of them alone").one_of({"all", "2", "12", "13", "14", "15"});
+    command.add_option("--figure", o->figure, "One of them alone")
+        .one_of({"all", "2", "12", "13", "14", "15"});
     command.add_option("--out", o->out, "Folder for the pictures (default: paper)");
     command.add_flag("--draft", o->draft, "Small pictures of few postures, soon done");
-    command.add_flag("--json", o->json, "Print how the garments fare: stretch of the threads, and what upper edges sank by");
+    command.add_flag("--json", o->json,
+                     "Print how the garments fare: stretch of the threads, and what upper edges sank by");
     command.callback([o] { Figures(*o).draw(); });
 }
 

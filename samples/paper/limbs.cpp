@@ -1,5 +1,5 @@
-// vfit-paper motion: Figures 5, 6, 7 and 11: rotations before and after the filters, the two bones of a forearm, and the
-// planted foot.
+// vfit-paper motion: Figures 5, 6, 7 and 11: rotations before and after the filters, the two bones of a
+// forearm, and the planted foot.
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -45,11 +45,16 @@ CurvePoints humerus_roll(vfit_context context, const std::string& uri, uint32_t 
         Frame tracked;
         check(vfit_tracker_update(tracker.get(), frame->get(), tracked.out()));
         const int64_t now_ns = view_of(tracked.get(), VFIT_STREAM_DEPTH).time_ns;
-        if (check(vfit_motion_step(motion.get(), tracked.get(), active_body(tracked.get()), now_ns)) != VFIT_OK) continue;
+        if (check(vfit_motion_step(motion.get(), tracked.get(), active_body(tracked.get()), now_ns)) !=
+            VFIT_OK)
+            continue;
         vfit_pose pose = vfit_pose_init();
         for (const vfit_bone& b : bones_of(motion.get(), pose)) {
             if (b.bone != VFIT_BONE_RIGHT_UPPER_ARM) continue;
-            const Quat twist = split_swing_twist(Quat(b.rotation[3], b.rotation[0], b.rotation[1], b.rotation[2]), Vec3(-1, 0, 0)).twist;
+            const Quat twist =
+                split_swing_twist(Quat(b.rotation[3], b.rotation[0], b.rotation[1], b.rotation[2]),
+                                  Vec3(-1, 0, 0))
+                    .twist;
             // Unwrapped: a turn past 180 degrees goes on.
             float roll = 2.0f * std::atan2(-twist.x, twist.w) * 180.0f / kPi;
             if (!points.empty()) roll += 360.0f * std::round((before - roll) / 360.0f);
@@ -120,7 +125,8 @@ Canvas weights_of(const vfit::Avatar& avatar, int rig_bone) {
         float weight = 0.0f;
         for (size_t k = 0; k < size_t(kSkinBones); ++k)
             if (avatar.skin_bones()[v][k] == rig_bone) weight += avatar.skin_weights()[v][k];
-        mesh.vertex_colors.push_back({0.10f + 0.85f * weight, 0.15f + 0.65f * weight, 0.70f - 0.60f * weight});
+        mesh.vertex_colors.push_back(
+            {0.10f + 0.85f * weight, 0.15f + 0.65f * weight, 0.70f - 0.60f * weight});
     }
     return render({mesh}, towards(avatar));
 }
@@ -142,8 +148,10 @@ void figure_7(const std::string& path) {
         uint32_t steps;
     };
     std::vector<std::pair<Canvas, std::string>> pictures;
-    std::cout << "Fig. 7: volume of a forearm whose hand is turned by -90 degrees, beside its volume at rest\n";
-    for (const Skinning& s : {Skinning{"(a) one bone", true, 0}, Skinning{"(b) two bones", false, 1}, Skinning{"(c) vfit's seven", false, 6}}) {
+    std::cout
+        << "Fig. 7: volume of a forearm whose hand is turned by -90 degrees, beside its volume at rest\n";
+    for (const Skinning& s : {Skinning{"(a) one bone", true, 0}, Skinning{"(b) two bones", false, 1},
+                              Skinning{"(c) vfit's seven", false, 6}}) {
         vfit::Avatar avatar = make_avatar(s.single, s.steps);
         const auto forearm = triangles_of(avatar.topology(), BodyPart::kLeftForearm);
         pose_forearm(avatar, 0.0f);
@@ -151,7 +159,8 @@ void figure_7(const std::string& path) {
         const double rest = enclosed_volume(straight, forearm);
         pose_forearm(avatar, kQuarterTurn);
         const double kept = enclosed_volume(avatar.positions(), forearm) / rest;
-        // At the wrist and the elbow a single bone tears at its neighbours' skin: the worst stretch of an edge tells.
+        // At the wrist and the elbow a single bone tears at its neighbours' skin: the worst stretch of an
+        // edge tells.
         double worst = 1.0;
         const auto& posed = avatar.positions();
         const auto& indices = avatar.topology().indices;
@@ -159,13 +168,16 @@ void figure_7(const std::string& path) {
             const uint32_t a = indices[t], b = indices[t % 3 == 2 ? t - 2 : t + 1];
             const BodyPart part = avatar.topology().parts[a];
             if (part != BodyPart::kLeftForearm && part != BodyPart::kLeftUpperArm) continue;
-            worst = std::max(worst, double(glm::distance(posed[a], posed[b]) / glm::distance(straight[a], straight[b])));
+            worst = std::max(
+                worst, double(glm::distance(posed[a], posed[b]) / glm::distance(straight[a], straight[b])));
         }
         std::ostringstream title;
-        title << (pictures.empty() ? "Fig. 7  " : "") << s.name << std::fixed << std::setprecision(1) << ": volume " << 100.0 * kept
-              << " %, longest edge " << std::setprecision(2) << worst << " times";
-        std::cout << "  " << s.name << std::fixed << std::setprecision(1) << ": " << 100.0 * kept << " % of the volume, an edge stretched "
-                  << std::setprecision(2) << worst << " times at most\n";
+        title << (pictures.empty() ? "Fig. 7  " : "") << s.name << std::fixed << std::setprecision(1)
+              << ": volume " << 100.0 * kept << " %, longest edge " << std::setprecision(2) << worst
+              << " times";
+        std::cout << "  " << s.name << std::fixed << std::setprecision(1) << ": " << 100.0 * kept
+                  << " % of the volume, an edge stretched " << std::setprecision(2) << worst
+                  << " times at most\n";
         pictures.emplace_back(render({mesh_of(avatar)}, towards(avatar)), title.str());
     }
     side_by_side(pictures).write_png(path);
@@ -176,7 +188,8 @@ void limbs(const Options& o) {
     const auto path = [&](const char* name) { return (std::filesystem::path(o.out) / name).string(); };
     const Context context = open_context();
     Curve roll{"Fig. 5  roll of the right humerus", "frame", "degrees", {}, "filtered", {}};
-    constexpr uint32_t kRaw = VFIT_MOTION_NO_FILTER | VFIT_MOTION_NO_LIMITS | VFIT_MOTION_NO_SMOOTHING | VFIT_MOTION_NO_FEET;
+    constexpr uint32_t kRaw =
+        VFIT_MOTION_NO_FILTER | VFIT_MOTION_NO_LIMITS | VFIT_MOTION_NO_SMOOTHING | VFIT_MOTION_NO_FEET;
     roll.behind.push_back({"raw", humerus_roll(context.get(), o.source, kRaw)});
     roll.points = humerus_roll(context.get(), o.source, 0);
     draw_curve(roll, 800, 400).write_png(path("fig_5.png"));
@@ -193,7 +206,8 @@ void limbs(const Options& o) {
 void add_limbs(Command& app) {
     Command command = app.add_subcommand("motion", "Figures 5, 6, 7 and 11 as pictures");
     auto o = std::make_shared<Options>();
-    command.add_option("--source", o->source, "Recording folder or sensor URI of Fig. 5 (default: a virtual person)");
+    command.add_option("--source", o->source,
+                       "Recording folder or sensor URI of Fig. 5 (default: a virtual person)");
     command.add_option("--feet", o->feet, "The same of Fig. 11 (default: a virtual person who walks)");
     command.add_option("--out", o->out, "Folder for the pictures (default: paper)");
     command.callback([o] { limbs(*o); });

@@ -3,6 +3,6 @@
 
 int main(int argc, char** argv) {
     using namespace vfit::tools;
-    return run_program("vfit-paper", "The paper's tables and figures, made with vfit.", {add_tables, add_meshes, add_figures, add_limbs, add_rates, add_garments}, argc,
-                       argv);
+    return run_program("vfit-paper", "The paper's tables and figures, made with vfit.",
+                       {add_tables, add_meshes, add_figures, add_limbs, add_rates, add_garments}, argc, argv);
 }

@@ -1,5 +1,5 @@
-// vfit-paper meshes: Table 5, vertices and triangles of bodies and garments, and what a step of each garment takes on one pinned
-// core. The body walks as a virtual person does: synthetic.
+// vfit-paper meshes: Table 5, vertices and triangles of bodies and garments, and what a step of each garment
+// takes on one pinned core. The body walks as a virtual person does: synthetic.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -28,7 +28,8 @@ struct MeshOptions {
     bool json = false;
 };
 
-// What the paper prints beside Table 5: of its own sundress, and of the blouse of Meng et al. (2,398 vertices, 4,768 triangles).
+// What the paper prints beside Table 5: of its own sundress, and of the blouse of Meng et al. (2,398
+// vertices, 4,768 triangles).
 constexpr double kPaper_fps = 268.3, kMeng_fps = 63.07;
 
 constexpr float kFrame_s = 1.0f / 60.0f;
@@ -61,16 +62,21 @@ Text text_of(std::string json) {
     const Json file = Json::parse(json);
     const auto simulated = file.at("simulated").get<std::vector<int>>();
     // Seams double vertices for their texture: the simulation has each once.
-    const auto corners = file.at(file.contains("corners") ? "corners" : "indices").get<std::vector<uint32_t>>();
+    const auto corners =
+        file.at(file.contains("corners") ? "corners" : "indices").get<std::vector<uint32_t>>();
     Counts c{};
     for (const int s : simulated) ++(s ? c.simulated_vertices : c.skinned_vertices);
     // A triangle that hangs on skinned cloth with a corner or two moves with the simulated rest.
     for (size_t t = 0; t + 2 < corners.size(); t += 3)
-        ++(simulated[corners[t]] || simulated[corners[t + 1]] || simulated[corners[t + 2]] ? c.simulated_triangles : c.skinned_triangles);
+        ++(simulated[corners[t]] || simulated[corners[t + 1]] || simulated[corners[t + 2]]
+               ? c.simulated_triangles
+               : c.skinned_triangles);
     return {std::move(json), file.at("body_sex") == "m" ? VFIT_SEX_MALE : VFIT_SEX_FEMALE, c};
 }
 
-Text built(const std::string& name) { return text_of(read_text(library_file("vfit_data/garments/" + name + ".json"))); }
+Text built(const std::string& name) {
+    return text_of(read_text(library_file("vfit_data/garments/" + name + ".json")));
+}
 
 /// The sundress with fewer rows and columns: as many simulated vertices as Meng's blouse has, to 0.1 %.
 Text of_mengs_size() {
@@ -83,7 +89,8 @@ Text of_mengs_size() {
 }
 
 struct Times5 {
-    Samples colliders, skin, frame;  // a step on spheres and capsules, on the skin; motion, skinning, such a step, buffers
+    Samples colliders, skin,
+        frame;  // a step on spheres and capsules, on the skin; motion, skinning, such a step, buffers
 };
 
 Times5 time_steps(const Text& text, uint32_t frames) {
@@ -98,8 +105,8 @@ Times5 time_steps(const Text& text, uint32_t frames) {
     desc.flags |= VFIT_CLOTH_SKIN;
     check(vfit_cloth_create(avatar.get(), garment.get(), &desc, on_skin.out()));
     Times5 times;
-    const std::string source = std::string("virtual:sensor=kinect_v1_320&motion=walk&distance=3.2&sex=") + (text.sex == VFIT_SEX_MALE ? "m" : "f") +
-                               "&frames=" + std::to_string(frames);
+    const std::string source = std::string("virtual:sensor=kinect_v1_320&motion=walk&distance=3.2&sex=") +
+                               (text.sex == VFIT_SEX_MALE ? "m" : "f") + "&frames=" + std::to_string(frames);
     Motion motion;
     check(vfit_motion_create(context.get(), nullptr, motion.out()));
     check(vfit_motion_bind(motion.get(), avatar.get()));
@@ -128,7 +135,8 @@ Times5 time_steps(const Text& text, uint32_t frames) {
         // Camera images are 1/30 s apart.
         for (const vfit_cloth c : {on_colliders.get(), on_skin.get()}) check(vfit_cloth_step(c, kFrame_s));
     };
-    // Some frames in a row, once the sensor's thread, which shares the core, is idle. It lends no more than a few.
+    // Some frames in a row, once the sensor's thread, which shares the core, is idle. It lends no more than a
+    // few.
     constexpr size_t kInARow = 4;
     std::vector<std::pair<Frame, uint32_t>> waiting;
     Source camera(context.get(), source);
@@ -154,7 +162,10 @@ std::string processor() {
 }
 
 Json counts_json(const Counts& c) {
-    return {{"skinned_vertices", c.skinned_vertices}, {"simulated_vertices", c.simulated_vertices}, {"skinned_triangles", c.skinned_triangles}, {"simulated_triangles", c.simulated_triangles}};
+    return {{"skinned_vertices", c.skinned_vertices},
+            {"simulated_vertices", c.simulated_vertices},
+            {"skinned_triangles", c.skinned_triangles},
+            {"simulated_triangles", c.simulated_triangles}};
 }
 
 class Table5 {
@@ -162,18 +173,27 @@ public:
     explicit Table5(const MeshOptions& options) : options_(options) { out_["processor"] = processor(); }
 
     void print() {
-        say("Table 5. Vertices and triangles, skinned and simulated; skinned ones move with the bones alone. Milliseconds of a step of\n"
-            "1/60 s are medians of one pinned core (" + out_["processor"].get<std::string>() + ") on a virtual person who walks (synthetic):\n"
+        say("Table 5. Vertices and triangles, skinned and simulated; skinned ones move with the bones alone. "
+            "Milliseconds of a step of\n"
+            "1/60 s are medians of one pinned core (" +
+            out_["processor"].get<std::string>() +
+            ") on a virtual person who walks (synthetic):\n"
             "on spheres and capsules, as the paper's, and on the skin itself\n"
-            "                                vertices            triangles           ms a step         frames a second:\n"
-            "  mesh                      skinned  simulated  skinned  simulated  colliders  skin  step  motion, skin, step, buffers\n");
+            "                                vertices            triangles           ms a step         "
+            "frames a second:\n"
+            "  mesh                      skinned  simulated  skinned  simulated  colliders  skin  step  "
+            "motion, skin, step, buffers\n");
         bodies();
         for (const Printed5& p : kTable5) {
             row(std::string("paper: ") + p.mesh, p.counts, nullptr);
             for (const char* name : p.ours) garment(name, built(name));
         }
-        say("\nThe paper: " + number(kPaper_fps, 1) + " frames a second with its sundress of 3,096 simulated vertices (Core i7-2600, GeForce GTX560Ti);\n"
-            "Meng et al.: " + number(kMeng_fps, 2) + " with a blouse of 2,398 vertices. Below: vfit's sundress of the same count, and of Meng's\n");
+        say("\nThe paper: " + number(kPaper_fps, 1) +
+            " frames a second with its sundress of 3,096 simulated vertices (Core i7-2600, GeForce "
+            "GTX560Ti);\n"
+            "Meng et al.: " +
+            number(kMeng_fps, 2) +
+            " with a blouse of 2,398 vertices. Below: vfit's sundress of the same count, and of Meng's\n");
         compare("sundress", "paper_fps", kPaper_fps);
         garment("sundress, Meng's size", of_mengs_size());
         compare("sundress, Meng's size", "meng_fps", kMeng_fps);
@@ -191,11 +211,14 @@ private:
     }
     void row(const std::string& name, const Counts& c, const Times5* times) const {
         if (options_.json) return;
-        std::cout << "  " << std::left << std::setw(25) << name << std::right << std::setw(8) << c.skinned_vertices << std::setw(11) << c.simulated_vertices
-                  << std::setw(9) << c.skinned_triangles << std::setw(11) << c.simulated_triangles;
+        std::cout << "  " << std::left << std::setw(25) << name << std::right << std::setw(8)
+                  << c.skinned_vertices << std::setw(11) << c.simulated_vertices << std::setw(9)
+                  << c.skinned_triangles << std::setw(11) << c.simulated_triangles;
         if (times)
-            std::cout << std::fixed << std::setprecision(2) << std::setw(11) << times->colliders.quantile(0.5) << std::setw(6) << times->skin.quantile(0.5)
-                      << std::setprecision(0) << std::setw(6) << 1e3 / times->colliders.quantile(0.5) << std::setw(8) << 1e3 / times->frame.quantile(0.5);
+            std::cout << std::fixed << std::setprecision(2) << std::setw(11) << times->colliders.quantile(0.5)
+                      << std::setw(6) << times->skin.quantile(0.5) << std::setprecision(0) << std::setw(6)
+                      << 1e3 / times->colliders.quantile(0.5) << std::setw(8)
+                      << 1e3 / times->frame.quantile(0.5);
         std::cout << "\n";
     }
     void bodies() {
@@ -206,7 +229,8 @@ private:
             const Avatar avatar = avatar_of_shape(context.get(), VFIT_SEX_FEMALE, {}, detail);
             Frame frame;
             check(vfit_avatar_acquire_rest(avatar.get(), frame.out()));
-            const Counts c{int(view_of(frame.get(), VFIT_STREAM_POSITION).width), 0, int(view_of(frame.get(), VFIT_STREAM_INDEX).width / 3), 0};
+            const Counts c{int(view_of(frame.get(), VFIT_STREAM_POSITION).width), 0,
+                           int(view_of(frame.get(), VFIT_STREAM_INDEX).width / 3), 0};
             const std::string name = "body, detail " + std::to_string(detail);
             row(name, c, nullptr);
             out_["meshes"][name] = counts_json(c);
@@ -216,14 +240,19 @@ private:
         const Times5 times = time_steps(text, options_.frames);
         row(name, text.counts, &times);
         Json& mesh = out_["meshes"][name] = counts_json(text.counts);
-        mesh["step_ms"] = times.colliders.json(), mesh["step_on_skin_ms"] = times.skin.json(), mesh["frame_ms"] = times.frame.json();
+        mesh["step_ms"] = times.colliders.json(), mesh["step_on_skin_ms"] = times.skin.json(),
+        mesh["frame_ms"] = times.frame.json();
     }
     void compare(const std::string& name, const char* key, double theirs) {
         Json& mesh = out_["meshes"][name];
         const auto fps = [&](const char* what) { return 1e3 / mesh.at(what).at("median").get<double>(); };
-        mesh["fps"] = {{"step", fps("step_ms")}, {"step_on_skin", fps("step_on_skin_ms")}, {"frame", fps("frame_ms")}, {key, theirs}};
-        say("  " + name + ": " + number(fps("step_ms"), 0) + " steps a second, " + number(fps("step_on_skin_ms"), 0) + " on the skin, " +
-            number(fps("frame_ms"), 0) + " frames a second; theirs " + number(theirs, 2) + "\n");
+        mesh["fps"] = {{"step", fps("step_ms")},
+                       {"step_on_skin", fps("step_on_skin_ms")},
+                       {"frame", fps("frame_ms")},
+                       {key, theirs}};
+        say("  " + name + ": " + number(fps("step_ms"), 0) + " steps a second, " +
+            number(fps("step_on_skin_ms"), 0) + " on the skin, " + number(fps("frame_ms"), 0) +
+            " frames a second; theirs " + number(theirs, 2) + "\n");
     }
 
     const MeshOptions options_;
@@ -235,7 +264,8 @@ private:
 void add_meshes(Command& app) {
     Command command = app.add_subcommand("meshes", "Table 5, and what a step of each garment takes");
     auto o = std::make_shared<MeshOptions>();
-    command.add_option("--frames", o->frames, "Camera images that each garment is timed for (default 240)").within(2, 100000);
+    command.add_option("--frames", o->frames, "Camera images that each garment is timed for (default 240)")
+        .within(2, 100000);
     command.add_flag("--json", o->json, "Print JSON");
     command.callback([o] {
         pin_to_cores(1);

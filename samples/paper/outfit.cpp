@@ -10,9 +10,11 @@ namespace vfit::tools {
 namespace {
 
 constexpr float kFrame_s = 1.0f / 60.0f;
-constexpr float kBetweenLayers_m = 0.006f;  // of a fold: more than a quarter of an edge of 20 mm, as docs/cloth.md asks for
+constexpr float kBetweenLayers_m =
+    0.006f;  // of a fold: more than a quarter of an edge of 20 mm, as docs/cloth.md asks for
 constexpr float kSlides_m = 0.08f;  // a sleeve along an arm that is raised: so far from its hem skin stays
-constexpr Color kSkin{0.86f, 0.67f, 0.56f}, kPlain{0.80f, 0.27f, 0.30f};  // of a garment that has no colour of its own
+constexpr Color kSkin{0.86f, 0.67f, 0.56f},
+    kPlain{0.80f, 0.27f, 0.30f};  // of a garment that has no colour of its own
 constexpr float kSheen = 0.35f;
 constexpr float kTopShare = 0.02f;  // of a garment's vertices: its upper edge
 
@@ -38,12 +40,13 @@ RenderMesh mesh_of(vfit_frame frame) {
 }  // namespace
 
 const std::vector<Outfit>& outfits() {
-    static const std::vector<Outfit> all = {{"sundress", VFIT_SEX_FEMALE, {"sundress_pattern"}},
-                                            {"duster", VFIT_SEX_FEMALE, {"sundress_pattern", "duster"}},
-                                            {"jeans and vest", VFIT_SEX_FEMALE, {"jeans_women", "vest"}},
-                                            {"flight suit", VFIT_SEX_MALE, {"flight_suit"}},
-                                            {"pants and shirt", VFIT_SEX_MALE, {"pants_men", "shirt_men"}},
-                                            {"martial suit", VFIT_SEX_MALE, {"martial_pants", "martial_jacket"}}};
+    static const std::vector<Outfit> all = {
+        {"sundress", VFIT_SEX_FEMALE, {"sundress_pattern"}},
+        {"duster", VFIT_SEX_FEMALE, {"sundress_pattern", "duster"}},
+        {"jeans and vest", VFIT_SEX_FEMALE, {"jeans_women", "vest"}},
+        {"flight suit", VFIT_SEX_MALE, {"flight_suit"}},
+        {"pants and shirt", VFIT_SEX_MALE, {"pants_men", "shirt_men"}},
+        {"martial suit", VFIT_SEX_MALE, {"martial_pants", "martial_jacket"}}};
     return all;
 }
 
@@ -105,7 +108,8 @@ std::vector<RenderMesh> Worn::meshes() const {
         for (const vfit_garment_part& part : parts) {
             RenderMesh mesh = mesh_of(frame.get());
             mesh.indices.assign(&indices[part.first_index], &indices[part.first_index] + part.index_count);
-            mesh.color = plain ? kPlain : Color{shown(part.color[0]), shown(part.color[1]), shown(part.color[2])};
+            mesh.color =
+                plain ? kPlain : Color{shown(part.color[0]), shown(part.color[1]), shown(part.color[2])};
             mesh.sheen = kSheen;
             out.push_back(std::move(mesh));
         }
@@ -118,7 +122,9 @@ Json Worn::report() const {
     for (const Piece& piece : pieces_) {
         vfit_cloth_stats stats = vfit_cloth_stats_init();
         check(vfit_cloth_describe(piece.cloth.get(), &stats));
-        out[piece.name] = {{"strain_p99", stats.strain_p99}, {"strain_max", stats.strain_max}, {"sank_m", piece.top_m - upper_edge_m(piece.cloth.get())}};
+        out[piece.name] = {{"strain_p99", stats.strain_p99},
+                           {"strain_max", stats.strain_max},
+                           {"sank_m", piece.top_m - upper_edge_m(piece.cloth.get())}};
     }
     return out;
 }

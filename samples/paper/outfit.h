@@ -32,7 +32,8 @@ public:
     /// Avatar and garments in the garments' own colours; skin that one of them hides is left out.
     std::vector<RenderMesh> meshes() const;
 
-    /// How each garment fares, by its name: the stretch of its threads, and what its upper edge sank by since it was put on.
+    /// How each garment fares, by its name: the stretch of its threads, and what its upper edge sank by since
+    /// it was put on.
     Json report() const;
 
 private:

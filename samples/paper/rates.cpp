@@ -1,5 +1,5 @@
-// vfit-paper rates: Fig. 10, the frame rate of the fitting room through the paper's four phases: the avatar stands; the sensor
-// moves it; without physics; without sensor.
+// vfit-paper rates: Fig. 10, the frame rate of the fitting room through the paper's four phases: the avatar
+// stands; the sensor moves it; without physics; without sensor.
 #include <algorithm>
 #include <filesystem>
 #include <iomanip>
@@ -24,8 +24,8 @@ struct RateOptions {
 };
 
 constexpr int kWidth = 1280, kHeight = 720;
-constexpr float kBin_s = 0.1f;           // of the plot
-constexpr double kPatience_s = 120.0;    // for the person to be dressed
+constexpr float kBin_s = 0.1f;         // of the plot
+constexpr double kPatience_s = 120.0;  // for the person to be dressed
 constexpr const char* kPhases[] = {"static", "sensor on", "physics off", "sensor off"};
 
 /// One garment through all phases.
@@ -38,7 +38,8 @@ struct Run {
 /// As the room's own program goes from picture to picture.
 class Mirror {
 public:
-    Mirror(const std::string& garment, vfit_sex sex, Drawing* drawing) : room_(options(garment, sex)), drawing_(drawing) {}
+    Mirror(const std::string& garment, vfit_sex sex, Drawing* drawing)
+        : room_(options(garment, sex)), drawing_(drawing) {}
 
     void picture(room::Times& times, float last_s) {
         room_.sense();
@@ -56,7 +57,8 @@ public:
 private:
     static room::Options options(const std::string& garment, vfit_sex sex) {
         room::Options o;
-        o.source = sex == VFIT_SEX_MALE ? "virtual:motion=demo&seed=7&sex=m" : "virtual:motion=demo&seed=7&sex=f";
+        o.source =
+            sex == VFIT_SEX_MALE ? "virtual:motion=demo&seed=7&sex=m" : "virtual:motion=demo&seed=7&sex=f";
         o.garments = {garment};
         o.sex = sex;
         return o;
@@ -89,7 +91,9 @@ Run run(const RateOptions& o, const std::string& garment, Drawing* drawing) {
     {
         room::Times before;
         for (double waited_s = 0.0; !room.dressed(); waited_s += 1e-3 * double(last_ms = watch.lap_ms())) {
-            if (waited_s > kPatience_s) throw Failure("Fig. 10: nobody could be dressed within two minutes: " + std::string(room.message()));
+            if (waited_s > kPatience_s)
+                throw Failure("Fig. 10: nobody could be dressed within two minutes: " +
+                              std::string(room.message()));
             mirror.picture(before, 1e-3f * last_ms);
         }
     }
@@ -115,11 +119,15 @@ Run run(const RateOptions& o, const std::string& garment, Drawing* drawing) {
         }
         start_s += now_s;
         const room::Spread frame = room::spread_of(frames_ms);
-        Json json = {{"phase", kPhases[phase]}, {"frames", frames_ms.size()}, {"fps", double(frames_ms.size()) / double(now_s)},
-                     {"frame_ms", {{"median", frame.median}, {"p95", frame.p95}}}, {"cloth_steps", phase < 2 ? times.cloth_steps() : 0}};
+        Json json = {{"phase", kPhases[phase]},
+                     {"frames", frames_ms.size()},
+                     {"fps", double(frames_ms.size()) / double(now_s)},
+                     {"frame_ms", {{"median", frame.median}, {"p95", frame.p95}}},
+                     {"cloth_steps", phase < 2 ? times.cloth_steps() : 0}};
         if (phase < 2) {  // later there are none but one that had begun before
             json["cloth_step_ms"] = {{"median", times.cloth_step().median}, {"p95", times.cloth_step().p95}};
-            json["cloth_interval_ms"] = {{"median", times.cloth_interval().median}, {"p95", times.cloth_interval().p95}};
+            json["cloth_interval_ms"] = {{"median", times.cloth_interval().median},
+                                         {"p95", times.cloth_interval().p95}};
         }
         out.phases.push_back(std::move(json));
     }
@@ -137,9 +145,12 @@ void plot(const std::vector<Run>& runs, const std::string& how, float phase_s, c
         curve.y_label = is_ms ? "ms a frame, medians of 0.1 s" : "frames a second, over 0.1 s";
         curve.points = is_ms ? runs[0].ms : runs[0].fps;
         curve.name = runs[0].garment;
-        for (size_t i = 1; i < runs.size(); ++i) curve.behind.push_back({runs[i].garment, is_ms ? runs[i].ms : runs[i].fps});
-        for (size_t p = 0; p < std::size(kPhases); ++p) curve.marks.emplace_back(phase_s * float(p), kPhases[p]);
-        out.blit(draw_curve(curve, kPlotWidth, kPlotHeight), 0, is_ms ? kPlotHeight : 0, kPlotWidth, kPlotHeight);
+        for (size_t i = 1; i < runs.size(); ++i)
+            curve.behind.push_back({runs[i].garment, is_ms ? runs[i].ms : runs[i].fps});
+        for (size_t p = 0; p < std::size(kPhases); ++p)
+            curve.marks.emplace_back(phase_s * float(p), kPhases[p]);
+        out.blit(draw_curve(curve, kPlotWidth, kPlotHeight), 0, is_ms ? kPlotHeight : 0, kPlotWidth,
+                 kPlotHeight);
     }
     out.write_png(path);
 }
@@ -148,11 +159,14 @@ void print(const Json& way) {
     std::cout << way["how"].get<std::string>() << "\n";
     for (const auto& [garment, phases] : way["garments"].items())
         for (const Json& p : phases) {
-            std::cout << "  " << std::left << std::setw(18) << garment << std::setw(13) << p["phase"].get<std::string>() << std::right << std::fixed
-                      << std::setprecision(0) << std::setw(6) << p["fps"].get<double>() << " frames a second, a frame " << std::setprecision(3)
-                      << p["frame_ms"]["median"].get<double>() << " ms, 95 % " << p["frame_ms"]["p95"].get<double>();
+            std::cout << "  " << std::left << std::setw(18) << garment << std::setw(13)
+                      << p["phase"].get<std::string>() << std::right << std::fixed << std::setprecision(0)
+                      << std::setw(6) << p["fps"].get<double>() << " frames a second, a frame "
+                      << std::setprecision(3) << p["frame_ms"]["median"].get<double>() << " ms, 95 % "
+                      << p["frame_ms"]["p95"].get<double>();
             if (p.contains("cloth_step_ms"))
-                std::cout << "; a step of the cloth " << std::setprecision(2) << p["cloth_step_ms"]["median"].get<double>() << " ms, every "
+                std::cout << "; a step of the cloth " << std::setprecision(2)
+                          << p["cloth_step_ms"]["median"].get<double>() << " ms, every "
                           << p["cloth_interval_ms"]["median"].get<double>() << " ms";
             std::cout << "\n";
         }
@@ -160,7 +174,8 @@ void print(const Json& way) {
 
 void rates(const RateOptions& o) {
     create_folder(o.out);
-    const std::vector<std::string> garments = o.garments.empty() ? std::vector<std::string>{"sundress", "flight_suit"} : o.garments;
+    const std::vector<std::string> garments =
+        o.garments.empty() ? std::vector<std::string>{"sundress", "flight_suit"} : o.garments;
     Json out = Json::array();
     for (const bool drawn : {true, false}) {
         if (drawn && o.only_undrawn) continue;
@@ -170,14 +185,18 @@ void rates(const RateOptions& o) {
             continue;
         }
         std::ostringstream how;
-        if (drawing) how << "drawn, " << kWidth << " x " << kHeight << ", by " << drawing->renderer() << (drawing->is_software() ? ", a software renderer" : "");
-        else how << "not drawn: motion, skinning and cloth alone";
+        if (drawing)
+            how << "drawn, " << kWidth << " x " << kHeight << ", by " << drawing->renderer()
+                << (drawing->is_software() ? ", a software renderer" : "");
+        else
+            how << "not drawn: motion, skinning and cloth alone";
         std::vector<Run> runs;
         Json way = {{"drawn", drawn}, {"how", how.str()}};
         if (drawing) way["renderer"] = drawing->renderer(), way["software_renderer"] = drawing->is_software();
         for (const std::string& garment : garments) {
             if (drawn && !runs.empty()) {
-                // A view keeps the meshes of its room. The old one ends first: its context is the thread's current one.
+                // A view keeps the meshes of its room. The old one ends first: its context is the thread's
+                // current one.
                 drawing.reset();
                 drawing = open_drawing(kWidth, kHeight);
             }
@@ -198,7 +217,9 @@ void rates(const RateOptions& o) {
 void add_rates(Command& app) {
     Command command = app.add_subcommand("rates", "Figure 10 as pictures, drawn and not drawn");
     auto o = std::make_shared<RateOptions>();
-    command.add_option_function("--garment", [o](const std::string& name) { o->garments.push_back(name); }, "By name; again for more (default: sundress, flight_suit)");
+    command.add_option_function(
+        "--garment", [o](const std::string& name) { o->garments.push_back(name); },
+        "By name; again for more (default: sundress, flight_suit)");
     command.add_option("--seconds", o->seconds, "Of each of the four phases (default 6)").positive();
     command.add_option("--out", o->out, "Folder for the pictures (default: paper)");
     command.add_flag("--not-drawn", o->only_undrawn, "Leaves the drawing out");

@@ -8,8 +8,8 @@ namespace vfit::tools {
 
 namespace {
 
-constexpr double kNavelShare = 0.6;          // of stature; no measure of the paper's goes by it
-constexpr float kObese = 1.05f;              // of the body's weight, 0 to 1.15: subject 6
+constexpr double kNavelShare = 0.6;              // of stature; no measure of the paper's goes by it
+constexpr float kObese = 1.05f;                  // of the body's weight, 0 to 1.15: subject 6
 constexpr double kUsual_m = 2.7, kTall_m = 3.2;  // from the camera: all of the person is in view
 
 struct Printed {
@@ -34,20 +34,24 @@ std::vector<Subject> subjects(const std::shared_ptr<const BodyModel>& body) {
     std::vector<Subject> out;
     for (const vfit_sex sex : {VFIT_SEX_FEMALE, VFIT_SEX_MALE}) {
         const BodyWithMeasures solver(body, sex,
-                                      {{"height", 0.5, 0.4}, {"measure-shoulder-dist", 0.0, 0.5},
-                                       {"measure-upperleg-height", 0.0, 0.3}, {"measure-lowerleg-height", 0.0, 0.3}},
+                                      {{"height", 0.5, 0.4},
+                                       {"measure-shoulder-dist", 0.0, 0.5},
+                                       {"measure-upperleg-height", 0.0, 0.3},
+                                       {"measure-lowerleg-height", 0.0, 0.3}},
                                       {"stature_m", "shoulder_breadth_m"});
         for (const Printed& p : kTable3) {
             if (p.sex != sex) continue;
             std::vector<float> shape = body->default_shape(sex);
             shape[size_t(body->parameter("weight"))] = p.weight;
             Subject subject{p.number, sex, p.shoulder, p.height, "", {}, {}};
-            subject.measures = solver.solve({{"stature_m", 0.01 * p.height.real, 0.001}, {"shoulder_breadth_m", 0.01 * p.shoulder.real, 0.002}},
+            subject.measures = solver.solve({{"stature_m", 0.01 * p.height.real, 0.001},
+                                             {"shoulder_breadth_m", 0.01 * p.shoulder.real, 0.002}},
                                             kNavelShare, shape);
             std::ostringstream uri;
             uri.imbue(std::locale::classic());
             uri.precision(7);
-            uri << "virtual:motion=scan&sensor=kinect_v1&seed=" << p.number << "&sex=" << (sex == VFIT_SEX_FEMALE ? "f" : "m")
+            uri << "virtual:motion=scan&sensor=kinect_v1&seed=" << p.number
+                << "&sex=" << (sex == VFIT_SEX_FEMALE ? "f" : "m")
                 << "&distance=" << (p.height.real > 190.0 ? kTall_m : kUsual_m);
             const std::vector<float> usual = body->default_shape(sex);
             for (size_t i = 0; i < shape.size(); ++i) {

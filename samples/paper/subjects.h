@@ -19,8 +19,8 @@ struct Subject {
     int number;
     vfit_sex sex;  // the paper tells that of 6 and 7; of the others it is a guess by the shoulders
     PrintedDimension shoulder, height;
-    std::string uri;        // of the virtual person, to which frames=N is added
-    BodyMeasures measures;  // of its body
+    std::string uri;                      // of the virtual person, to which frames=N is added
+    BodyMeasures measures;                // of its body
     std::vector<vfit_shape_value> shape;  // what differs from the sex's default body
 };
 

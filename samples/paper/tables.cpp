@@ -1,5 +1,6 @@
-// vfit-paper tables: Tables 1 to 4. Of 3 and 4 the people are virtual (synthetic): the paper's seven by their dimensions,
-// measured by its method as printed, by the same with real people's ratios, and by the fitted body.
+// vfit-paper tables: Tables 1 to 4. Of 3 and 4 the people are virtual (synthetic): the paper's seven by their
+// dimensions, measured by its method as printed, by the same with real people's ratios, and by the fitted
+// body.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -66,7 +67,8 @@ std::array<Measured, 2> measure(const Subject& subject, vfit_scan_method method)
     }
     std::array<Measured, 2> out;
     for (size_t k = 0; k < out.size(); ++k) {
-        const auto n = double(frames[k].size()), mean = std::accumulate(frames[k].begin(), frames[k].end(), 0.0) / n;
+        const auto n = double(frames[k].size()),
+                   mean = std::accumulate(frames[k].begin(), frames[k].end(), 0.0) / n;
         double squares = 0.0;
         for (const double v : frames[k]) squares += (v - mean) * (v - mean);
         out[k] = {told(all.get(), kKeys[k]), std::sqrt(squares / std::max(1.0, n - 1.0))};
@@ -75,15 +77,19 @@ std::array<Measured, 2> measure(const Subject& subject, vfit_scan_method method)
 }
 
 void print_table_1() {
-    constexpr const char* kNames[] = {"head width",       "head height",     "body height",    "hip height", "elbow to fingertip",
-                                      "wrist to fingertip", "shoulder width", "hip width",      "torso height"};
-    std::cout << "Table 1. Body proportions in heads (widths in head widths); numbers as in Fig. 4. The printed first column is\n"
-                 "lost in the text that this follows and was reconstructed (sdk/measure/proportions.h)\n"
-              << "      line                  canon (the paper's)  women  men (ANSUR II, Drillis and Contini)\n";
+    constexpr const char* kNames[] = {"head width",     "head height",        "body height",
+                                      "hip height",     "elbow to fingertip", "wrist to fingertip",
+                                      "shoulder width", "hip width",          "torso height"};
+    std::cout
+        << "Table 1. Body proportions in heads (widths in head widths); numbers as in Fig. 4. The printed "
+           "first column is\n"
+           "lost in the text that this follows and was reconstructed (sdk/measure/proportions.h)\n"
+        << "      line                  canon (the paper's)  women  men (ANSUR II, Drillis and Contini)\n";
     for (size_t i = 0; i < kLineCount; ++i) {
         const auto line = static_cast<Line>(i);
         const auto heads = [&](RatioTable table, vfit_sex sex) { return ratio(table, sex, line).heads; };
-        std::cout << "  (" << i + 1 << ") " << std::left << std::setw(22) << kNames[i] << std::right << std::fixed << std::setprecision(2);
+        std::cout << "  (" << i + 1 << ") " << std::left << std::setw(22) << kNames[i] << std::right
+                  << std::fixed << std::setprecision(2);
         if (heads(RatioTable::kCanon, VFIT_SEX_UNKNOWN) == 0.0f) {
             std::cout << "  none\n";
             continue;
@@ -98,7 +104,8 @@ void print_table_2() {
     std::cout << "\nTable 2. Primary dimensions by kind of garment\n";
     for (const char* kind : {"trousers", "long_sleeves", "short_sleeves"}) {
         const GarmentKind& g = garment_kind(kind);
-        std::cout << "  " << std::left << std::setw(15) << kind << "height: " << std::setw(18) << line_key(g.height) << " width: ";
+        std::cout << "  " << std::left << std::setw(15) << kind << "height: " << std::setw(18)
+                  << line_key(g.height) << " width: ";
         for (size_t w = 0; w < g.width_count; ++w) std::cout << (w ? ", " : "") << line_key(g.widths[w]);
         std::cout << std::right << "\n";
     }
@@ -113,8 +120,8 @@ std::pair<double, double> statistics(const std::vector<double>& errors) {
 }
 
 void print_dimension(double real_cm, double estimated_cm, double error, double deviation, const char* unit) {
-    std::cout << std::fixed << std::setprecision(1) << std::setw(8) << real_cm << std::setw(8) << estimated_cm << std::setw(7) << error
-              << " %" << std::setw(7) << deviation << " " << unit;
+    std::cout << std::fixed << std::setprecision(1) << std::setw(8) << real_cm << std::setw(8) << estimated_cm
+              << std::setw(7) << error << " %" << std::setw(7) << deviation << " " << unit;
 }
 
 void tables() {
@@ -122,12 +129,16 @@ void tables() {
     print_table_2();
     const auto body = BodyModel::load(library_file("vfit_data/body.bin"));
     const std::vector<Subject> people = subjects(body);
-    std::cout << "\nTable 3. Seven subjects. The paper's are real people; those below it are VIRTUAL ones of the same shoulder width\n"
-                 "and height (Kinect v1 noise, tracked by vfit, tight clothes, the sex not told), " << kFrames << " frames each. The deviation is\n"
+    std::cout << "\nTable 3. Seven subjects. The paper's are real people; those below it are VIRTUAL ones of "
+                 "the same shoulder width\n"
+                 "and height (Kinect v1 noise, tracked by vfit, tight clothes, the sex not told), "
+              << kFrames
+              << " frames each. The deviation is\n"
                  "that of single frames; the paper gives its own without a unit.\n";
     const auto head = [](const char* name) {
         std::cout << "\n  " << std::left << std::setw(29) << name << std::right
-                  << "shoulder width (cm)             height (cm)\n  subject    real   told   error    deviation     real   told   error    deviation\n";
+                  << "shoulder width (cm)             height (cm)\n  subject    real   told   error    "
+                     "deviation     real   told   error    deviation\n";
     };
     head("the paper");
     std::vector<double> paper_height, paper_shoulder;
@@ -138,7 +149,8 @@ void tables() {
         std::cout << "\n";
         paper_shoulder.push_back(s.shoulder.error), paper_height.push_back(s.height.error);
     }
-    std::vector<std::pair<std::string, std::array<std::vector<double>, 2>>> errors = {{"the paper, of its Table 3", {paper_shoulder, paper_height}}};
+    std::vector<std::pair<std::string, std::array<std::vector<double>, 2>>> errors = {
+        {"the paper, of its Table 3", {paper_shoulder, paper_height}}};
     for (const Method& method : kMethods) {
         head(method.name);
         errors.push_back({method.name, {}});
@@ -146,22 +158,27 @@ void tables() {
             const std::array<Measured, 2> told = measure(s, method.method);
             std::cout << "  " << std::setw(4) << s.number;
             for (size_t k = 0; k < told.size(); ++k) {
-                const double real = s.measures.at(kKeys[k]), error = 100.0 * std::abs(told[k].value_m - real) / real;
-                print_dimension(100.0 * real, 100.0 * told[k].value_m, error, 1000.0 * told[k].deviation_m, "mm");
+                const double real = s.measures.at(kKeys[k]),
+                             error = 100.0 * std::abs(told[k].value_m - real) / real;
+                print_dimension(100.0 * real, 100.0 * told[k].value_m, error, 1000.0 * told[k].deviation_m,
+                                "mm");
                 errors.back().second[k].push_back(error);
             }
             std::cout << "\n";
         }
     }
-    std::cout << "\nTable 4. Error of height, mean and deviation over people, per cent (shoulder width beside it)\n"
-                 "  Giovanni et al. 2012, as the paper quotes it            4.00 +- 3.00\n"
-                 "  Samejima et al. 2012, as the paper quotes it            6.72 +- 4.68\n"
-                 "  the paper's own line (over shoulders AND heights)       2.67 +- 2.06\n";
+    std::cout
+        << "\nTable 4. Error of height, mean and deviation over people, per cent (shoulder width beside it)\n"
+           "  Giovanni et al. 2012, as the paper quotes it            4.00 +- 3.00\n"
+           "  Samejima et al. 2012, as the paper quotes it            6.72 +- 4.68\n"
+           "  the paper's own line (over shoulders AND heights)       2.67 +- 2.06\n";
     for (const auto& [name, by] : errors) {
         const auto shoulder = statistics(by[0]), height = statistics(by[1]);
-        std::cout << "  " << std::left << std::setw(54) << name + (name.find("Table 3") == std::string::npos ? ", virtual people" : "") << std::right << std::fixed
-                  << std::setprecision(2) << std::setw(6) << height.first << " +- " << height.second << "   (" << shoulder.first << " +- "
-                  << shoulder.second << ")\n";
+        std::cout << "  " << std::left << std::setw(54)
+                  << name + (name.find("Table 3") == std::string::npos ? ", virtual people" : "")
+                  << std::right << std::fixed << std::setprecision(2) << std::setw(6) << height.first
+                  << " +- " << height.second << "   (" << shoulder.first << " +- " << shoulder.second
+                  << ")\n";
     }
 }
 

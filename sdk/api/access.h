@@ -20,7 +20,8 @@ public:
     void begin_read(const char* what) {
         int32_t now = state_.load();
         do {
-            if (now < 0) fail(VFIT_ERROR_BUSY, "the ", what, " is in use by an exclusive call on another thread");
+            if (now < 0)
+                fail(VFIT_ERROR_BUSY, "the ", what, " is in use by an exclusive call on another thread");
         } while (!state_.compare_exchange_weak(now, now + 1));
     }
     void end_read() { state_.fetch_sub(1); }

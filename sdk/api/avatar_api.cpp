@@ -21,9 +21,13 @@ constexpr float kMinScale = 0.3f, kMaxScale = 2.0f;
 
 AvatarDesc avatar_desc(const vfit_avatar_desc* desc) {
     const vfit_avatar_desc d = read_or_default(desc, "desc");
-    check_flags(d.flags, VFIT_AVATAR_PAPER_COLLIDERS | VFIT_AVATAR_SINGLE_BONES | VFIT_AVATAR_DUAL_QUATERNIONS | VFIT_AVATAR_HANDS_AS_POSED, "desc.flags");
+    check_flags(d.flags,
+                VFIT_AVATAR_PAPER_COLLIDERS | VFIT_AVATAR_SINGLE_BONES | VFIT_AVATAR_DUAL_QUATERNIONS |
+                    VFIT_AVATAR_HANDS_AS_POSED,
+                "desc.flags");
     check_enum(d.sex, VFIT_SEX_MALE, "desc.sex");
-    if (d.detail > kMaxDetail) fail(VFIT_ERROR_ARGUMENT, "desc.detail ", d.detail, " is more than ", kMaxDetail);
+    if (d.detail > kMaxDetail)
+        fail(VFIT_ERROR_ARGUMENT, "desc.detail ", d.detail, " is more than ", kMaxDetail);
     AvatarDesc out;
     out.sex = d.sex;
     out.detail = d.detail;
@@ -49,22 +53,26 @@ Vec2 scale_to(Context& context, vfit_sex sex, const std::vector<Measurement>& me
     Vec2 scale;
     scale.y = scale_of("stature_m", stature->value, find(nominal, "stature_m")->value);
     // Without a breadth the body keeps its proportions.
-    scale.x = breadth ? scale_of("shoulder_breadth_m", breadth->value, find(nominal, "shoulder_breadth_m")->value)
-                      : scale.y;
+    scale.x = breadth
+                  ? scale_of("shoulder_breadth_m", breadth->value, find(nominal, "shoulder_breadth_m")->value)
+                  : scale.y;
     return scale;
 }
 
 /// The largest relative deviation of the girths and lengths that clothes are made by.
 float least_sure(const std::vector<Measurement>& measured) {
     float out = 0.0f;
-    for (const char* key : {"chest_girth_m", "waist_girth_m", "hip_girth_m", "thigh_girth_m", "upper_arm_girth_m", "inside_leg_m",
-                            "arm_length_m", "stature_m", "shoulder_breadth_m"})
+    for (const char* key :
+         {"chest_girth_m", "waist_girth_m", "hip_girth_m", "thigh_girth_m", "upper_arm_girth_m",
+          "inside_leg_m", "arm_length_m", "stature_m", "shoulder_breadth_m"})
         if (const Measurement* m = find(measured, key)) out = std::max(out, m->sigma / m->value);
     return out;
 }
 
-/// The fitted body where there is one that has the form of a person, else the default one in the person's size.
-ScannedBody body_of(Context& context, const PersonScan& scan, const std::vector<Measurement>& measured, vfit_sex sex) {
+/// The fitted body where there is one that has the form of a person, else the default one in the person's
+/// size.
+ScannedBody body_of(Context& context, const PersonScan& scan, const std::vector<Measurement>& measured,
+                    vfit_sex sex) {
     if (const FitShape* shape = scan.fitted_shape()) {
         try {
             return scanned_body(context.body_model(), *context.fit_model().get(), *shape, measured, sex);
@@ -86,13 +94,15 @@ VertexTarget vertex_target(const vfit_target* target, uint32_t count, const char
     const vfit_target t = read(target, name);
     constexpr uint64_t kSize = 3 * sizeof(float);
     if (t.format != VFIT_FORMAT_NONE && t.format != VFIT_FORMAT_F32X3)
-        fail(VFIT_ERROR_UNSUPPORTED, name, ": vertices are written as three floats, not as format ", t.format);
+        fail(VFIT_ERROR_UNSUPPORTED, name, ": vertices are written as three floats, not as format ",
+             t.format);
     check_pointer(t.data, name);
     const uint64_t stride = t.item_stride ? t.item_stride : kSize;
     if (stride < kSize) fail(VFIT_ERROR_ARGUMENT, name, ": item_stride ", stride, " is less than ", kSize);
     const uint64_t need = (count - 1) * stride + kSize;
     if (t.capacity < need)
-        fail(VFIT_ERROR_CAPACITY, name, ": ", t.capacity, " bytes, ", need, " are needed for ", count, " vertices");
+        fail(VFIT_ERROR_CAPACITY, name, ": ", t.capacity, " bytes, ", need, " are needed for ", count,
+             " vertices");
     return {t.data, size_t(stride)};
 }
 
@@ -139,7 +149,8 @@ vfit_result vfit_avatar_create_from_shape(vfit_context handle, const vfit_avatar
             const vfit_shape_value v = values[i];
             const std::string key = get_text(v.key);
             const int parameter = model->parameter(key);
-            if (parameter < 0) fail(VFIT_ERROR_ARGUMENT, "\"", key, "\" is no shape value; see vfit_shape_list");
+            if (parameter < 0)
+                fail(VFIT_ERROR_ARGUMENT, "\"", key, "\" is no shape value; see vfit_shape_list");
             const ShapeParameter& p = model->parameters()[static_cast<size_t>(parameter)];
             if (!(v.value >= p.minimum && v.value <= p.maximum))
                 fail(VFIT_ERROR_ARGUMENT, key, ": ", v.value, " is not in ", p.minimum, "..", p.maximum);
@@ -150,8 +161,9 @@ vfit_result vfit_avatar_create_from_shape(vfit_context handle, const vfit_avatar
     });
 }
 
-vfit_result vfit_avatar_create(vfit_context handle, const vfit_avatar_desc* desc, const vfit_measurement* items,
-                               uint32_t stride, uint32_t count, vfit_avatar* out) {
+vfit_result vfit_avatar_create(vfit_context handle, const vfit_avatar_desc* desc,
+                               const vfit_measurement* items, uint32_t stride, uint32_t count,
+                               vfit_avatar* out) {
     return guard([&] {
         check_pointer(out, "out");
         out->id = 0;
@@ -163,8 +175,8 @@ vfit_result vfit_avatar_create(vfit_context handle, const vfit_avatar_desc* desc
     });
 }
 
-vfit_result vfit_avatar_create_from_scan(vfit_context handle, const vfit_avatar_desc* desc, vfit_scan scan_handle,
-                                         vfit_avatar* out) {
+vfit_result vfit_avatar_create_from_scan(vfit_context handle, const vfit_avatar_desc* desc,
+                                         vfit_scan scan_handle, vfit_avatar* out) {
     return guard([&] {
         check_pointer(out, "out");
         out->id = 0;
@@ -182,8 +194,8 @@ vfit_result vfit_avatar_create_from_scan(vfit_context handle, const vfit_avatar_
     });
 }
 
-vfit_result vfit_avatar_load(vfit_context handle, const vfit_avatar_desc* desc, const vfit_character_desc* character,
-                             vfit_avatar* out) {
+vfit_result vfit_avatar_load(vfit_context handle, const vfit_avatar_desc* desc,
+                             const vfit_character_desc* character, vfit_avatar* out) {
     return guard([&] {
         check_pointer(out, "out");
         out->id = 0;
@@ -192,10 +204,12 @@ vfit_result vfit_avatar_load(vfit_context handle, const vfit_avatar_desc* desc, 
         d.hands_clear = !desc || (desc->flags & VFIT_AVATAR_HANDS_AS_POSED) == 0;
         const vfit_character_desc c = read(character, "character");
         if (!c.path == !c.bytes) fail(VFIT_ERROR_ARGUMENT, "character: either path or bytes must be given");
-        const GltfDocument document = c.path ? GltfDocument(std::string(c.path))
-                                             : GltfDocument({static_cast<const std::byte*>(c.bytes), size_t(c.byte_count)});
+        const GltfDocument document =
+            c.path ? GltfDocument(std::string(c.path))
+                   : GltfDocument({static_cast<const std::byte*>(c.bytes), size_t(c.byte_count)});
         Character loaded = load_character(document, c.bone_map ? c.bone_map : "");
-        for (const std::string& note : loaded.notes) context->log.info(c.path ? c.path : "character", ": ", note);
+        for (const std::string& note : loaded.notes)
+            context->log.info(c.path ? c.path : "character", ": ", note);
         publish(*context, make<AvatarObject>(context.ref(), d, std::move(loaded)), out);
         return VFIT_OK;
     });
@@ -206,7 +220,8 @@ vfit_result vfit_avatar_describe(vfit_avatar handle, vfit_character_info* out) {
         Use<AvatarObject, Mode::read> avatar(handle.id);
         check_output(out, "out");
         vfit_character_info info{};
-        info.kind = avatar->is_body() ? VFIT_CHARACTER_BODY : VFIT_CHARACTER_GLTF + int(avatar->character.kind);
+        info.kind =
+            avatar->is_body() ? VFIT_CHARACTER_BODY : VFIT_CHARACTER_GLTF + int(avatar->character.kind);
         info.vertex_count = uint32_t(avatar->avatar.rest().positions.size());
         info.index_count = uint32_t(avatar->avatar.rest().indices.size());
         info.bone_count = uint32_t(avatar->avatar.rig_bones().size());
@@ -238,7 +253,8 @@ vfit_result vfit_avatar_parts(vfit_avatar handle, vfit_avatar_part* items, uint3
 vfit_result vfit_avatar_pack(vfit_avatar handle, const char* size_label, void* bytes, uint32_t* byte_count) {
     return guard([&] {
         Use<AvatarObject, Mode::read> avatar(handle.id);
-        if (!avatar->is_body()) fail(VFIT_ERROR_UNSUPPORTED, "a character from a file is no body that could be packed");
+        if (!avatar->is_body())
+            fail(VFIT_ERROR_UNSUPPORTED, "a character from a file is no body that could be packed");
         PackedBody body = avatar->body;
         body.radii = avatar->radii;
         body.size_label = size_label ? size_label : "";
@@ -247,15 +263,16 @@ vfit_result vfit_avatar_pack(vfit_avatar handle, const char* size_label, void* b
     });
 }
 
-vfit_result vfit_avatar_unpack(vfit_context handle, const vfit_avatar_desc* desc, const void* bytes, uint32_t byte_count,
-                               char* size_label, uint32_t capacity, vfit_avatar* out) {
+vfit_result vfit_avatar_unpack(vfit_context handle, const vfit_avatar_desc* desc, const void* bytes,
+                               uint32_t byte_count, char* size_label, uint32_t capacity, vfit_avatar* out) {
     return guard([&] {
         check_pointer(out, "out");
         out->id = 0;
         UseContext<Mode::any> context(handle);
         AvatarDesc d = avatar_desc(desc);
         check_pointer(bytes, "bytes");
-        const PackedBody body = unpack_body(*context->body_model(), {static_cast<const uint8_t*>(bytes), byte_count});
+        const PackedBody body =
+            unpack_body(*context->body_model(), {static_cast<const uint8_t*>(bytes), byte_count});
         d.sex = body.sex;
         auto avatar = make<AvatarObject>(context.ref(), d, body.shape, body.scale);
         avatar->set_collider_radii(body.radii);
@@ -272,8 +289,8 @@ vfit_result vfit_avatar_destroy(vfit_avatar avatar) {
     });
 }
 
-vfit_result vfit_avatar_pose(vfit_avatar handle, const vfit_pose* pose, const vfit_bone* items, uint32_t stride,
-                             uint32_t count) {
+vfit_result vfit_avatar_pose(vfit_avatar handle, const vfit_pose* pose, const vfit_bone* items,
+                             uint32_t stride, uint32_t count) {
     return guard([&] {
         Use<AvatarObject, Mode::exclusive> avatar(handle.id);
         const vfit_pose p = read(pose, "pose");
@@ -282,8 +299,9 @@ vfit_result vfit_avatar_pose(vfit_avatar handle, const vfit_pose* pose, const vf
     });
 }
 
-vfit_result vfit_avatar_pose_into(vfit_avatar handle, const vfit_pose* pose, const vfit_bone* items, uint32_t stride,
-                                  uint32_t count, const vfit_target* positions, const vfit_target* normals) {
+vfit_result vfit_avatar_pose_into(vfit_avatar handle, const vfit_pose* pose, const vfit_bone* items,
+                                  uint32_t stride, uint32_t count, const vfit_target* positions,
+                                  const vfit_target* normals) {
     return guard([&] {
         Use<AvatarObject, Mode::exclusive> avatar(handle.id);
         const vfit_pose p = read(pose, "pose");
@@ -297,12 +315,14 @@ vfit_result vfit_avatar_pose_into(vfit_avatar handle, const vfit_pose* pose, con
             target.normals = n.data;
             target.normal_stride = n.stride;
         }
-        avatar->pose_into(pose_in(p, Items<vfit_bone>(items, stride, count, "items"), avatar->context->axes), target);
+        avatar->pose_into(pose_in(p, Items<vfit_bone>(items, stride, count, "items"), avatar->context->axes),
+                          target);
         return VFIT_OK;
     });
 }
 
-vfit_result vfit_avatar_colliders(vfit_avatar handle, vfit_collider* items, uint32_t stride, uint32_t* count) {
+vfit_result vfit_avatar_colliders(vfit_avatar handle, vfit_collider* items, uint32_t stride,
+                                  uint32_t* count) {
     return guard([&] {
         Use<AvatarObject, Mode::read> avatar(handle.id);
         std::vector<Collider> colliders;
@@ -343,26 +363,30 @@ vfit_result vfit_avatar_rig(vfit_avatar handle, vfit_rig_bone* items, uint32_t s
     });
 }
 
-vfit_result vfit_avatar_measure(vfit_avatar handle, vfit_measurement* items, uint32_t stride, uint32_t* count) {
+vfit_result vfit_avatar_measure(vfit_avatar handle, vfit_measurement* items, uint32_t stride,
+                                uint32_t* count) {
     return guard([&] {
         Use<AvatarObject, Mode::read> avatar(handle.id);
         return write_measurements(avatar->measures(), items, stride, count);
     });
 }
 
-vfit_result vfit_avatar_measure_own(vfit_avatar handle, const void* text, uint64_t byte_count, vfit_measurement* items,
-                                    uint32_t stride, uint32_t* count) {
+vfit_result vfit_avatar_measure_own(vfit_avatar handle, const void* text, uint64_t byte_count,
+                                    vfit_measurement* items, uint32_t stride, uint32_t* count) {
     return guard([&] {
         Use<AvatarObject, Mode::read> avatar(handle.id);
         check_pointer(text, "text");
-        if (!avatar->is_body()) fail(VFIT_ERROR_UNSUPPORTED, "a character from a file has no body that could be measured");
+        if (!avatar->is_body())
+            fail(VFIT_ERROR_UNSUPPORTED, "a character from a file has no body that could be measured");
         constexpr uint64_t kMostBytes = 1u << 20;
         if (byte_count > kMostBytes) fail(VFIT_ERROR_ARGUMENT, "byte_count ", byte_count, " is too large");
-        const auto own = OwnMeasures::parse({static_cast<const char*>(text), static_cast<size_t>(byte_count)});
+        const auto own =
+            OwnMeasures::parse({static_cast<const char*>(text), static_cast<size_t>(byte_count)});
         Body joints;
         const Mesh mesh = avatar->avatar.measuring_mesh({}, &joints);
         std::vector<Measurement> list =
-            own.measure({mesh.positions, mesh.indices, avatar->avatar.parts().first(mesh.positions.size()), joints, avatar->sex});
+            own.measure({mesh.positions, mesh.indices, avatar->avatar.parts().first(mesh.positions.size()),
+                         joints, avatar->sex});
         for (Measurement& m : list) m.sigma = avatar->relative_sigma * m.value;
         return write_measurements(list, items, stride, count);
     });

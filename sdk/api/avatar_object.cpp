@@ -7,10 +7,12 @@ namespace vfit::api {
 
 namespace {
 
-PackedBody described(const BodyModel& model, const AvatarDesc& desc, std::span<const float> shape, const Vec2& scale) {
+PackedBody described(const BodyModel& model, const AvatarDesc& desc, std::span<const float> shape,
+                     const Vec2& scale) {
     PackedBody body;
     body.sex = desc.sex;
-    body.shape = shape.empty() ? model.default_shape(desc.sex) : std::vector<float>(shape.begin(), shape.end());
+    body.shape =
+        shape.empty() ? model.default_shape(desc.sex) : std::vector<float>(shape.begin(), shape.end());
     body.scale = scale;
     return body;
 }
@@ -81,7 +83,8 @@ void AvatarObject::pose(const Pose& pose) {
     Profile::Scope time(context->profile, Stage::avatar);
     Ref<Frame> frame = posed.begin();
     avatar.move(pose);
-    const MeshOutput::Vertices vertices = posed.add_vertices(*frame, uint32_t(avatar.rest().positions.size()), pose.time_ns);
+    const MeshOutput::Vertices vertices =
+        posed.add_vertices(*frame, uint32_t(avatar.rest().positions.size()), pose.time_ns);
     SkinTarget target;
     target.positions = vertices.positions;
     target.normals = vertices.normals;
@@ -97,7 +100,8 @@ void AvatarObject::pose_into(const Pose& pose, const SkinTarget& target) {
 }
 
 const std::vector<Measurement>& AvatarObject::measures() {
-    if (!is_body()) fail(VFIT_ERROR_UNSUPPORTED, "a character from a file has no body that could be measured");
+    if (!is_body())
+        fail(VFIT_ERROR_UNSUPPORTED, "a character from a file has no body that could be measured");
     std::lock_guard lock(measures_mutex_);
     if (measures_.empty()) measures_ = measure_avatar(avatar, sex);
     return measures_;
@@ -114,7 +118,8 @@ const MeshQuery& AvatarObject::rest_skin() {
 const std::vector<Vec3>& AvatarObject::wrapped_rest() {
     std::call_once(has_wrapped_rest_, [&] {
         const BodyTopology& topology = avatar.topology();
-        wrapped_rest_ = wrapped_skin(std::span(avatar.rest().positions).first(topology.vertex_count), topology.indices);
+        wrapped_rest_ =
+            wrapped_skin(std::span(avatar.rest().positions).first(topology.vertex_count), topology.indices);
     });
     return wrapped_rest_;
 }
@@ -124,7 +129,8 @@ const std::vector<GirthLevel>& AvatarObject::girth_levels() {
     std::lock_guard lock(measures_mutex_);
     if (girth_levels_.empty())
         for (const TrunkLevel& level : trunk_levels(avatar, sex))
-            if (const Measurement* girth = find(own, level.key)) girth_levels_.push_back({level.key, level.height_m, girth->value, level.axis_z_m});
+            if (const Measurement* girth = find(own, level.key))
+                girth_levels_.push_back({level.key, level.height_m, girth->value, level.axis_z_m});
     return girth_levels_;
 }
 

@@ -19,9 +19,9 @@ struct AvatarObject : ContextChild {
 
     Avatar avatar;
     const vfit_sex sex;
-    const uint32_t detail = 0;        // of a body
-    const PackedBody body;            // what a body is made of; empty of a character
-    const Character character;        // its mesh moved into `avatar`; without parts of a body
+    const uint32_t detail = 0;  // of a body
+    const PackedBody body;      // what a body is made of; empty of a character
+    const Character character;  // its mesh moved into `avatar`; without parts of a body
     bool is_body() const { return !body.shape.empty(); }
     MeshOutput posed, rest;
     std::array<float, kPaperJointCount> radii{};  // that set_collider_radii was told

@@ -48,7 +48,8 @@ uint32_t contacts_seen(uint32_t contacts, const Axes& axes) {
 
 }  // namespace
 
-vfit_result write_joints(const Body& body, const Axes& axes, vfit_joint* items, uint32_t stride, uint32_t* count) {
+vfit_result write_joints(const Body& body, const Axes& axes, vfit_joint* items, uint32_t stride,
+                         uint32_t* count) {
     int ids[kJointCount];
     const int n = listed_joints(body, ids);
     return write_list(items, stride, count, static_cast<size_t>(n), [&](size_t i) {
@@ -58,7 +59,8 @@ vfit_result write_joints(const Body& body, const Axes& axes, vfit_joint* items, 
 
 Body body_in(const vfit_body& in, const Items<vfit_joint>& joints, const Axes& axes) {
     // The user map has 8 bits a pixel, and 0 is the background.
-    if (in.body_id == 0 || in.body_id > 255) fail(VFIT_ERROR_ARGUMENT, "body_id ", in.body_id, " is not in 1..255");
+    if (in.body_id == 0 || in.body_id > 255)
+        fail(VFIT_ERROR_ARGUMENT, "body_id ", in.body_id, " is not in 1..255");
     check_flags(in.flags, VFIT_BODY_CAMERA_SPACE | VFIT_BODY_PARTLY_OUT_OF_VIEW, "body flags");
     if (joints.size() == 0) fail(VFIT_ERROR_ARGUMENT, "body ", in.body_id, " has no joints");
     const bool camera_space = (in.flags & VFIT_BODY_CAMERA_SPACE) != 0;
@@ -126,7 +128,8 @@ vfit_result write_bones(const Pose& pose, const Skeleton& skeleton, const Axes& 
         out.rotation[1] = q.y;
         out.rotation[2] = q.z;
         out.rotation[3] = q.w;
-        set_vector(out.position, axes.point_out(b == VFIT_BONE_HIPS ? pose.hips_position : skeleton.offset[b]));
+        set_vector(out.position,
+                   axes.point_out(b == VFIT_BONE_HIPS ? pose.hips_position : skeleton.offset[b]));
         return out;
     });
 }

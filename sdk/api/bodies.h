@@ -12,7 +12,8 @@
 namespace vfit::api {
 
 /// The joints of a body that are seen.
-vfit_result write_joints(const Body& body, const Axes& axes, vfit_joint* items, uint32_t stride, uint32_t* count);
+vfit_result write_joints(const Body& body, const Axes& axes, vfit_joint* items, uint32_t stride,
+                         uint32_t* count);
 
 /// A body of the host, in world space, or in camera space as it stands where flags say so (axes do not
 /// apply there). Fails with VFIT_ERROR_ARGUMENT or VFIT_ERROR_DATA, naming the joint.

@@ -61,7 +61,8 @@ std::shared_future<std::shared_ptr<const FitModel>> Context::fit_model() {
     std::lock_guard lock(model_mutex_);
     if (!fit_model_.valid())
         fit_model_ = std::async(std::launch::async, [model = model_, file = data_dir + "/body.bin"] {
-            return std::shared_ptr<const FitModel>(std::make_shared<FitModel>(model ? *model : *BodyModel::load(file)));
+            return std::shared_ptr<const FitModel>(
+                std::make_shared<FitModel>(model ? *model : *BodyModel::load(file)));
         });
     return fit_model_;
 }
@@ -100,7 +101,8 @@ void Context::close() {
         if (closing_) fail(VFIT_ERROR_BUSY, "the context is being destroyed on another thread");
         closing_ = true;
     }
-    // Wakes the calls that wait for a frame. First, so that no plug-in works on frames whose handles are dead.
+    // Wakes the calls that wait for a frame. First, so that no plug-in works on frames whose handles are
+    // dead.
     end_streams();
     // From here on no new call enters.
     Handles::instance().destroy(id, Kind::context);

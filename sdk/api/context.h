@@ -92,7 +92,9 @@ public:
 
 private:
     static Ref<Context> entered(vfit_context handle) {
-        const auto enter = [](const Handles::Entry& entry) { Inside::enter(static_cast<Context&>(*entry.object)); };
+        const auto enter = [](const Handles::Entry& entry) {
+            Inside::enter(static_cast<Context&>(*entry.object));
+        };
         return Ref<Context>(
             static_cast<Context*>(Handles::instance().find(handle.id, Kind::context, enter).object.get()));
     }
@@ -107,7 +109,8 @@ private:
 /// A frame and the context it belongs to.
 class UseFrame {
 public:
-    explicit UseFrame(vfit_frame handle) : UseFrame(Handles::instance().find(handle.id, Kind::frame, enter)) {}
+    explicit UseFrame(vfit_frame handle)
+        : UseFrame(Handles::instance().find(handle.id, Kind::frame, enter)) {}
 
     Frame* operator->() const { return frame_.get(); }
     Frame& operator*() const { return *frame_; }

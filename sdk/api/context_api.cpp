@@ -2,10 +2,10 @@
 #include "api/context.h"
 #include "api/guard.h"
 #include "api/structs.h"
+#include "body/skeleton.h"
 #include "core/clock.h"
 #include "math/simd.h"
 #include "measure/measure_keys.h"
-#include "body/skeleton.h"
 
 using namespace vfit;
 using namespace vfit::api;
@@ -62,7 +62,8 @@ vfit_result vfit_context_create(const vfit_context_desc* desc, vfit_context* out
         if (d.api_version >> 12 != VFIT_VERSION >> 12)
             fail(VFIT_ERROR_VERSION, "api_version ", d.api_version >> 22, ".", d.api_version >> 12 & 0x3FF,
                  " was asked for, this library is ", VFIT_VERSION >> 22, ".", VFIT_VERSION >> 12 & 0x3FF);
-        check_flags(d.flags, VFIT_CONTEXT_VALIDATE | VFIT_CONTEXT_DETERMINISTIC | VFIT_CONTEXT_MIRROR, "flags");
+        check_flags(d.flags, VFIT_CONTEXT_VALIDATE | VFIT_CONTEXT_DETERMINISTIC | VFIT_CONTEXT_MIRROR,
+                    "flags");
         check_enum(d.axes, VFIT_AXES_UNREAL, "axes");
         if (!d.submit != !d.wait) fail(VFIT_ERROR_ARGUMENT, "submit and wait must be given together");
         if (d.worker_count > 256)
@@ -86,7 +87,8 @@ vfit_result vfit_context_destroy(vfit_context context) {
 vfit_result vfit_shutdown(void) {
     return guard([&] {
         const auto contexts = [] { return Handles::instance().children(0, Kind::context); };
-        // A plug-in may work with a context of its own until its device is closed, which takes that context along.
+        // A plug-in may work with a context of its own until its device is closed, which takes that context
+        // along.
         std::vector<Ref<Object>> live;
         for (const uint64_t id : contexts()) live.push_back(Handles::instance().get(id, Kind::context));
         for (const Ref<Object>& context : live) static_cast<Context*>(context.get())->end_streams();

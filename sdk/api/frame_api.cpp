@@ -31,8 +31,10 @@ HostStream check_host_stream(vfit_stream kind, const vfit_view& view, const Came
                                : kind == VFIT_STREAM_COLOR ? VFIT_FORMAT_RGBA8
                                                            : VFIT_FORMAT_U8;
     if (kind != VFIT_STREAM_DEPTH && kind != VFIT_STREAM_COLOR && kind != VFIT_STREAM_USER_MAP)
-        fail(VFIT_ERROR_ARGUMENT, "stream ", kind, " cannot come from the host: depth, color or user map can");
-    if (view.format != wanted) fail(VFIT_ERROR_ARGUMENT, name, " view: format ", view.format, ", wanted ", wanted);
+        fail(VFIT_ERROR_ARGUMENT, "stream ", kind,
+             " cannot come from the host: depth, color or user map can");
+    if (view.format != wanted)
+        fail(VFIT_ERROR_ARGUMENT, name, " view: format ", view.format, ", wanted ", wanted);
     if (!view.data) fail(VFIT_ERROR_ARGUMENT, name, " view: data is null");
     if (view.width != camera.width || view.height != camera.height)
         fail(VFIT_ERROR_ARGUMENT, name, " view: ", view.width, " x ", view.height, ", the intrinsics say ",
@@ -48,7 +50,8 @@ HostStream check_host_stream(vfit_stream kind, const vfit_view& view, const Came
 
 void copy_pixels(Frame& frame, const HostStream& s) {
     const uint32_t size = format_size(s.view.format);
-    auto* to = static_cast<unsigned char*>(frame.add_stream(s.kind, s.view.format, s.view.width, s.view.height));
+    auto* to =
+        static_cast<unsigned char*>(frame.add_stream(s.kind, s.view.format, s.view.width, s.view.height));
     const auto* from = static_cast<const unsigned char*>(s.view.data);
     for (uint32_t y = 0; y < s.view.height; ++y) {
         const unsigned char* row = from + size_t(y) * s.row;
@@ -68,8 +71,8 @@ void lend_pixels(Frame& frame, const HostStream& s) {
         fail(VFIT_ERROR_UNSUPPORTED, "pixels that are lent (release given) must be tightly packed");
     if (reinterpret_cast<uintptr_t>(s.view.data) % size != 0)
         fail(VFIT_ERROR_ARGUMENT, "pixels that are lent must lie at a multiple of ", size, " bytes");
-    frame.add_view({s.kind, s.view.format, s.view.width, s.view.height, size, s.row, s.view.data,
-                    Frame::next_serial()});
+    frame.add_view(
+        {s.kind, s.view.format, s.view.width, s.view.height, size, s.row, s.view.data, Frame::next_serial()});
 }
 
 void require_camera(const Frame& frame) {
@@ -90,7 +93,8 @@ void check_narrow(const Stream& s) {
 }
 
 /// One item in the target's format, one of those of can_write.
-void write_converted(vfit_format from, const unsigned char* in, vfit_format to, unsigned char* out, float unit_m) {
+void write_converted(vfit_format from, const unsigned char* in, vfit_format to, unsigned char* out,
+                     float unit_m) {
     if (from == to) {
         std::memcpy(out, in, format_size(from));
     } else if (from == VFIT_FORMAT_U32) {
@@ -170,7 +174,8 @@ vfit_result vfit_frame_streams(vfit_frame handle, vfit_stream* items, uint32_t* 
         *count = static_cast<uint32_t>(kinds.size());
         if (!items) return VFIT_OK;
         if (given < kinds.size())
-            fail(VFIT_ERROR_CAPACITY, "the array has room for ", given, " items, ", kinds.size(), " are needed");
+            fail(VFIT_ERROR_CAPACITY, "the array has room for ", given, " items, ", kinds.size(),
+                 " are needed");
         std::copy(kinds.begin(), kinds.end(), items);
         return VFIT_OK;
     });
@@ -246,7 +251,8 @@ vfit_result vfit_frame_write(vfit_frame handle, vfit_stream stream, const vfit_t
         const uint64_t items = s->items();
         const uint64_t need = items == 0 ? 0 : (items - 1) * stride + size;
         if (t.capacity < need)
-            fail(VFIT_ERROR_CAPACITY, "target: ", t.capacity, " bytes, ", need, " are needed for ", items, " items");
+            fail(VFIT_ERROR_CAPACITY, "target: ", t.capacity, " bytes, ", need, " are needed for ", items,
+                 " items");
         if (!can_write(s->format, format))
             fail(VFIT_ERROR_UNSUPPORTED, "stream ", stream, " of format ", s->format,
                  " cannot be written as format ", format);

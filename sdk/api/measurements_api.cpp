@@ -17,8 +17,8 @@ void check_sex(vfit_sex sex) { check_enum(sex, VFIT_SEX_MALE, "sex"); }
 
 }  // namespace
 
-vfit_result vfit_measurements_write(const vfit_measurement* items, uint32_t stride, uint32_t count, vfit_sex sex,
-                                    char* text, uint32_t* capacity) {
+vfit_result vfit_measurements_write(const vfit_measurement* items, uint32_t stride, uint32_t count,
+                                    vfit_sex sex, char* text, uint32_t* capacity) {
     return guard([&]() -> vfit_result {
         check_pointer(capacity, "capacity");
         check_sex(sex);
@@ -34,12 +34,13 @@ vfit_result vfit_measurements_write(const vfit_measurement* items, uint32_t stri
     });
 }
 
-vfit_result vfit_measurements_read(const void* text, uint64_t byte_count, vfit_measurement* items, uint32_t stride,
-                                   uint32_t* count, vfit_sex* sex) {
+vfit_result vfit_measurements_read(const void* text, uint64_t byte_count, vfit_measurement* items,
+                                   uint32_t stride, uint32_t* count, vfit_sex* sex) {
     return guard([&] {
         check_pointer(text, "text");
         check_pointer(count, "count");
-        if (byte_count > kMaxProfileBytes) fail(VFIT_ERROR_ARGUMENT, "byte_count ", byte_count, " is too large");
+        if (byte_count > kMaxProfileBytes)
+            fail(VFIT_ERROR_ARGUMENT, "byte_count ", byte_count, " is too large");
         const auto profile = parse_profile({static_cast<const char*>(text), static_cast<size_t>(byte_count)});
         const vfit_result result = write_measurements(profile.measurements, items, stride, count);
         if (sex) *sex = profile.sex;

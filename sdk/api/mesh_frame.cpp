@@ -37,7 +37,8 @@ void StaticStreams::set_uvs(const std::vector<Vec2>& uvs, const Axes& axes) {
     add(VFIT_STREAM_UV, VFIT_FORMAT_F32X2, uvs.size(), uvs_.data());
 }
 
-void StaticStreams::set_skin(std::span<const uint16_t> bones, std::span<const float> weights, size_t vertex_count) {
+void StaticStreams::set_skin(std::span<const uint16_t> bones, std::span<const float> weights,
+                             size_t vertex_count) {
     skin_bones_.assign(bones.begin(), bones.end());
     skin_weights_.assign(weights.begin(), weights.end());
     pad(skin_bones_);

@@ -1,4 +1,5 @@
-// Mesh frames: posed vertices copied into a pooled frame in the host's axes, beside topology that never changes.
+// Mesh frames: posed vertices copied into a pooled frame in the host's axes, beside topology that never
+// changes.
 #pragma once
 
 #include <memory>

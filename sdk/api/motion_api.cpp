@@ -20,8 +20,10 @@ struct MotionObject : ContextChild {
 };
 
 MotionSettings motion_settings(const vfit_motion_desc& d) {
-    check_flags(d.flags, VFIT_MOTION_NO_FILTER | VFIT_MOTION_NO_LIMITS | VFIT_MOTION_NO_SMOOTHING | VFIT_MOTION_NO_FEET,
-                "desc.flags");
+    check_flags(
+        d.flags,
+        VFIT_MOTION_NO_FILTER | VFIT_MOTION_NO_LIMITS | VFIT_MOTION_NO_SMOOTHING | VFIT_MOTION_NO_FEET,
+        "desc.flags");
     MotionSettings s;
     s.flags = d.flags;
     s.filter.kind = d.filter;
@@ -124,17 +126,18 @@ vfit_result vfit_motion_joints(vfit_motion handle, vfit_joint* items, uint32_t s
     });
 }
 
-vfit_result vfit_pose_pack(vfit_context handle, const vfit_pose* pose, const vfit_bone* items, uint32_t stride,
-                           uint32_t count, void* bytes, uint32_t* byte_count) {
+vfit_result vfit_pose_pack(vfit_context handle, const vfit_pose* pose, const vfit_bone* items,
+                           uint32_t stride, uint32_t count, void* bytes, uint32_t* byte_count) {
     return guard([&] {
         UseContext<Mode::any> context(handle);
-        const auto packed = pack_pose(pose_in(read(pose, "pose"), Items<vfit_bone>(items, stride, count, "items"), context->axes));
+        const auto packed = pack_pose(
+            pose_in(read(pose, "pose"), Items<vfit_bone>(items, stride, count, "items"), context->axes));
         return write_bytes(packed.data(), packed.size(), bytes, byte_count);
     });
 }
 
-vfit_result vfit_pose_unpack(vfit_context handle, const void* bytes, uint32_t byte_count, vfit_pose* pose, vfit_bone* items,
-                             uint32_t stride, uint32_t* count) {
+vfit_result vfit_pose_unpack(vfit_context handle, const void* bytes, uint32_t byte_count, vfit_pose* pose,
+                             vfit_bone* items, uint32_t stride, uint32_t* count) {
     return guard([&] {
         UseContext<Mode::any> context(handle);
         check_pointer(bytes, "bytes");

@@ -37,9 +37,11 @@ vfit_result vfit_scan_create(vfit_context handle, const vfit_scan_desc* desc, vf
         const vfit_scan_desc d = read_or_default(desc, "desc");
         check_enum(d.method, VFIT_SCAN_FIT, "method");
         check_enum(d.sex, VFIT_SEX_MALE, "sex");
-        for (const auto& [name, count] : {std::pair("frame_count", d.frame_count), {"side_frame_count", d.side_frame_count}})
+        for (const auto& [name, count] :
+             {std::pair("frame_count", d.frame_count), {"side_frame_count", d.side_frame_count}})
             if (count > kMaxFrames) fail(VFIT_ERROR_ARGUMENT, name, " ", count, " is more than ", kMaxFrames);
-        if (d.flags & ~uint32_t{VFIT_SCAN_BARE | VFIT_SCAN_TIGHT}) fail(VFIT_ERROR_ARGUMENT, "flags ", d.flags, ": unknown bits");
+        if (d.flags & ~uint32_t{VFIT_SCAN_BARE | VFIT_SCAN_TIGHT})
+            fail(VFIT_ERROR_ARGUMENT, "flags ", d.flags, ": unknown bits");
         PersonScanDesc settings;
         if (d.method == VFIT_SCAN_PROPORTIONS_AS_PRINTED) settings.paper = ScanDesc::as_printed();
         settings.paper.frame_count = d.frame_count ? d.frame_count : kPaperFrames;
@@ -75,10 +77,13 @@ vfit_result vfit_scan_reset(vfit_scan handle) {
 vfit_result vfit_scan_extend(vfit_scan handle, uint32_t frames, uint32_t side_frames) {
     return guard([&] {
         Use<ScanObject, Mode::exclusive> scan(handle.id);
-        const auto too_many = [](uint32_t wanted, uint32_t more) { return more > kMaxFrames || wanted + more > kMaxFrames; };
-        if (too_many(scan->scan.frames_wanted(), frames) || too_many(scan->scan.side_frames_wanted(), side_frames))
-            fail(VFIT_ERROR_ARGUMENT, "frames ", frames, ", side_frames ", side_frames, ": the scan would want more than ",
-                 kMaxFrames);
+        const auto too_many = [](uint32_t wanted, uint32_t more) {
+            return more > kMaxFrames || wanted + more > kMaxFrames;
+        };
+        if (too_many(scan->scan.frames_wanted(), frames) ||
+            too_many(scan->scan.side_frames_wanted(), side_frames))
+            fail(VFIT_ERROR_ARGUMENT, "frames ", frames, ", side_frames ", side_frames,
+                 ": the scan would want more than ", kMaxFrames);
         scan->scan.extend(frames, side_frames);
         return VFIT_OK;
     });
@@ -118,11 +123,10 @@ vfit_result vfit_scan_add(vfit_scan handle, vfit_frame tracked, uint32_t body_id
             if (progress.taken) {
                 scan->last_colliders.clear();
                 for (int id = 0; id < kPaperJointCount; ++id)
-                    if (body->has(id)) scan->last_colliders.push_back({id, body->at(id), 0.0f, -1, Vec3(0.0f), 0.0f});
+                    if (body->has(id))
+                        scan->last_colliders.push_back({id, body->at(id), 0.0f, -1, Vec3(0.0f), 0.0f});
             }
-            result = !progress.taken               ? VFIT_INCOMPLETE
-                     : !scan->scan.complete() ? VFIT_NOT_READY
-                                                : VFIT_OK;
+            result = !progress.taken ? VFIT_INCOMPLETE : !scan->scan.complete() ? VFIT_NOT_READY : VFIT_OK;
         }
         if (state) write(state, out);
         return result;

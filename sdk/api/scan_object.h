@@ -10,7 +10,8 @@ struct ScanObject : ContextChild {
     static constexpr Kind kKind = Kind::scan;
     ScanObject(Ref<Context> owner, const PersonScanDesc& desc)
         : ContextChild(std::move(owner)), scan(desc), sex(desc.paper.sex) {
-        last_colliders.reserve(kPaperJointCount);  // never moved: what was moved from would not be overwritten
+        last_colliders.reserve(
+            kPaperJointCount);  // never moved: what was moved from would not be overwritten
     }
 
     PersonScan scan;

@@ -32,9 +32,11 @@ vfit_result vfit_size_chart_load(vfit_context handle, const void* bytes, uint64_
         out->id = 0;
         UseContext<Mode::any> context(handle);
         check_pointer(bytes, "bytes");
-        if (byte_count > kMaxChartBytes) fail(VFIT_ERROR_ARGUMENT, "byte_count ", byte_count, " is too large");
+        if (byte_count > kMaxChartBytes)
+            fail(VFIT_ERROR_ARGUMENT, "byte_count ", byte_count, " is too large");
         const auto text = as_text(static_cast<const std::byte*>(bytes), static_cast<size_t>(byte_count));
-        out->id = context->publish(Kind::size_chart, make<SizeChartObject>(context.ref(), SizeChart::parse(text)));
+        out->id =
+            context->publish(Kind::size_chart, make<SizeChartObject>(context.ref(), SizeChart::parse(text)));
         return VFIT_OK;
     });
 }
@@ -76,9 +78,9 @@ vfit_result vfit_size_chart_rows(vfit_size_chart handle, vfit_size_row* items, u
     });
 }
 
-vfit_result vfit_size_recommend(vfit_size_chart handle, const char* garment_kind, const vfit_measurement* items,
-                                uint32_t stride, uint32_t count, vfit_size* sizes, uint32_t size_stride,
-                                uint32_t* size_count) {
+vfit_result vfit_size_recommend(vfit_size_chart handle, const char* garment_kind,
+                                const vfit_measurement* items, uint32_t stride, uint32_t count,
+                                vfit_size* sizes, uint32_t size_stride, uint32_t* size_count) {
     return guard([&] {
         Use<SizeChartObject, Mode::read> chart(handle.id);
         check_pointer(garment_kind, "garment_kind");
@@ -93,13 +95,14 @@ vfit_result vfit_size_recommend(vfit_size_chart handle, const char* garment_kind
 }
 
 vfit_result vfit_size_zones(vfit_size_chart handle, const char* garment_kind, const char* label,
-                            const vfit_measurement* items, uint32_t stride, uint32_t count, vfit_size_zone* zones,
-                            uint32_t zone_stride, uint32_t* zone_count) {
+                            const vfit_measurement* items, uint32_t stride, uint32_t count,
+                            vfit_size_zone* zones, uint32_t zone_stride, uint32_t* zone_count) {
     return guard([&] {
         Use<SizeChartObject, Mode::read> chart(handle.id);
         check_pointer(garment_kind, "garment_kind");
         check_pointer(label, "label");
-        const auto list = size_zones(chart->chart, garment_kind, label, measurements_in(items, stride, count));
+        const auto list =
+            size_zones(chart->chart, garment_kind, label, measurements_in(items, stride, count));
         return write_list(zones, zone_stride, zone_count, list.size(), [&](size_t i) {
             vfit_size_zone zone{};
             zone.ease = list[i].ease;

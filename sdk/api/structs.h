@@ -134,7 +134,8 @@ inline vfit_result write_bytes(const void* from, size_t count, void* to, uint32_
     const uint32_t given = *byte_count;
     *byte_count = static_cast<uint32_t>(count);
     if (!to) return VFIT_OK;
-    if (given < count) fail(VFIT_ERROR_CAPACITY, "there is room for ", given, " bytes, ", count, " are needed");
+    if (given < count)
+        fail(VFIT_ERROR_CAPACITY, "there is room for ", given, " bytes, ", count, " are needed");
     std::memcpy(to, from, count);
     return VFIT_OK;
 }

@@ -62,7 +62,8 @@ struct TrackerObject : ContextChild {
         DepthImage image = base->depth_image();
         const bool own_map = makes_map(image);
         if (!own_map && !image.users)
-            fail(VFIT_ERROR_UNSUPPORTED, "the frame's source supplies no user map, and the tracker was told to make none");
+            fail(VFIT_ERROR_UNSUPPORTED,
+                 "the frame's source supplies no user map, and the tracker was told to make none");
         if (!own)
             own = std::make_unique<Tracker>(
                 std::make_unique<JointNetwork>(context->module_path("vfit_joint_network"),
@@ -123,7 +124,8 @@ struct TrackerObject : ContextChild {
         targets.clear();
         for (const PersonRegion& region : run_people(image, tracked))
             if (targets.size() < kMaxBodies)
-                targets.push_back({region.id, region.box, region.out_of_view ? uint32_t(VFIT_BODY_PARTLY_OUT_OF_VIEW) : 0u});
+                targets.push_back({region.id, region.box,
+                                   region.out_of_view ? uint32_t(VFIT_BODY_PARTLY_OUT_OF_VIEW) : 0u});
         image.users = map;
         image.camera = people->camera();
     }
@@ -136,8 +138,8 @@ void track(const TrackerObject& tracker, const Ref<Frame>& base, Frame& tracked)
     tracked.camera = base->camera;
     tracker.place(tracked.camera);
     tracked.bodies = base->bodies;
-    // Bodies of the source stand on the source's floor. An estimate moves nobody: it is made where bodies that
-    // the host put into the world may be there already.
+    // Bodies of the source stand on the source's floor. An estimate moves nobody: it is made where bodies
+    // that the host put into the world may be there already.
     if (tracked.camera.floor_state == VFIT_FLOOR_GIVEN && base->camera.floor_state != VFIT_FLOOR_GIVEN)
         for (Body& body : tracked.bodies) body = to_world(to_camera(body, base->camera), tracked.camera);
 }
@@ -273,7 +275,8 @@ vfit_result vfit_tracker_update(vfit_tracker handle, vfit_frame frame_handle, vf
         // A source that tells its bodies may have nobody in view.
         const bool told = !frame->bodies.empty() || frame->meta("bodies");
         if (!told && tracker->joints == VFIT_TRACK_GIVEN)
-            fail(VFIT_ERROR_UNSUPPORTED, "the frame's source supplies no joints, and the tracker was told to find none");
+            fail(VFIT_ERROR_UNSUPPORTED,
+                 "the frame's source supplies no joints, and the tracker was told to find none");
         const bool given = told && tracker->joints != VFIT_TRACK_BUILT_IN;
         if (given) {
             track(*tracker, frame.ref(), *out);
@@ -317,7 +320,8 @@ vfit_result vfit_tracker_submit(vfit_tracker handle, vfit_frame frame_handle, co
         UseFrame frame(frame_handle);
         require_same_context(*tracker, frame);
         Profile::Scope time(tracker->context->profile, Stage::track);
-        Body in = body_in(read(body, "body"), Items<vfit_joint>(items, stride, count, "items"), tracker->context->axes);
+        Body in = body_in(read(body, "body"), Items<vfit_joint>(items, stride, count, "items"),
+                          tracker->context->axes);
         if (frame->body(in.id)) fail(VFIT_ERROR_ARGUMENT, "the frame has a body ", in.id, " already");
         if (frame->bodies.size() == kMaxBodies)
             fail(VFIT_ERROR_CAPACITY, "a frame holds at most ", kMaxBodies, " bodies");
@@ -326,7 +330,8 @@ vfit_result vfit_tracker_submit(vfit_tracker handle, vfit_frame frame_handle, co
         Ref<Frame> out = Context::take_frame(*tracker->context->frames);
         const bool camera_space = (in.flags & VFIT_BODY_CAMERA_SPACE) != 0;
         in.flags &= ~uint32_t(VFIT_BODY_CAMERA_SPACE);
-        if (camera_space && tracker->nobody_knows_the_floor(frame->camera)) estimate_floor(tracker->floor, in);
+        if (camera_space && tracker->nobody_knows_the_floor(frame->camera))
+            estimate_floor(tracker->floor, in);
         track(*tracker, frame.ref(), *out);
         if (camera_space) in = to_world(in, out->camera);
         if (tracker->filter != VFIT_FILTER_OFF) tracker->steady.run(in);

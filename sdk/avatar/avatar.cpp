@@ -31,8 +31,8 @@ Skin split_skin(const AvatarDesc& desc, const AvatarRig& rig, const Mesh& rest, 
 
 }  // namespace
 
-Avatar::Avatar(const std::shared_ptr<const BodyModel>& model, const AvatarDesc& desc, std::span<const float> shape,
-               const Vec2& scale)
+Avatar::Avatar(const std::shared_ptr<const BodyModel>& model, const AvatarDesc& desc,
+               std::span<const float> shape, const Vec2& scale)
     : Avatar(body_source(model, desc.detail, desc.sex, shape, scale), desc) {}
 
 Avatar::Avatar(AvatarSource source, const AvatarDesc& desc)
@@ -58,11 +58,17 @@ Avatar::Avatar(AvatarSource source, const AvatarDesc& desc)
 }
 
 std::vector<BoneAxis> Avatar::bone_axes(std::span<const Mat4> matrices) const {
-    const auto posed = [&](int bone, const Vec3& rest) { return Vec3(matrices[size_t(bone)] * Vec4(rest, 1.0f)); };
+    const auto posed = [&](int bone, const Vec3& rest) {
+        return Vec3(matrices[size_t(bone)] * Vec4(rest, 1.0f));
+    };
     std::vector<BoneAxis> axes;
-    for (int i = 0; i < int(rig_bones().size()); ++i) axes.push_back({posed(i, rig_bones()[size_t(i)].rest_head), posed(i, rig_bones()[size_t(i)].rest_tail)});
+    for (int i = 0; i < int(rig_bones().size()); ++i)
+        axes.push_back(
+            {posed(i, rig_bones()[size_t(i)].rest_head), posed(i, rig_bones()[size_t(i)].rest_tail)});
     for (const LimbChain& limb : limbs())
-        for (const int bone : limb.rig_bones) axes[size_t(bone)] = {posed(limb.rig_bones.front(), limb.near_joint), posed(limb.rig_bones.back(), limb.far_joint)};
+        for (const int bone : limb.rig_bones)
+            axes[size_t(bone)] = {posed(limb.rig_bones.front(), limb.near_joint),
+                                  posed(limb.rig_bones.back(), limb.far_joint)};
     return axes;
 }
 

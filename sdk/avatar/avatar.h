@@ -49,19 +49,19 @@ public:
     /// `shape` has one value a parameter of the model (empty: the default body of desc.sex). `scale` is
     /// Algorithm 3's, of the body as a whole: width and depth by x, height by y. Stands in the T-pose, facing
     /// +Z over the world's origin, until the first pose().
-    Avatar(const std::shared_ptr<const BodyModel>& model, const AvatarDesc& desc, std::span<const float> shape,
-           const Vec2& scale);
+    Avatar(const std::shared_ptr<const BodyModel>& model, const AvatarDesc& desc,
+           std::span<const float> shape, const Vec2& scale);
     Avatar(AvatarSource source, const AvatarDesc& desc);
 
     /// Radii of Algorithm 2 by joint; 0, not measured: the largest sphere about the joint inside the skin.
     /// Measured ones are taken as they are with desc.paper_colliders, else cut to that sphere.
     void set_collider_radii(std::span<const float, kPaperJointCount> radii);
 
-    /// Moves bones, joints and colliders. VFIT_ERROR_DATA, and nothing moves, where the pose is not finite. Does
-    /// not allocate.
+    /// Moves bones, joints and colliders. VFIT_ERROR_DATA, and nothing moves, where the pose is not finite.
+    /// Does not allocate.
     void move(const Pose& pose);
-    /// The skin of the last pose, render vertices, written into the host's memory in its axes. Does not allocate
-    /// after the first call.
+    /// The skin of the last pose, render vertices, written into the host's memory in its axes. Does not
+    /// allocate after the first call.
     void skin(const SkinTarget& target, const Axes& axes, Jobs& jobs);
     /// Both: moves, then writes positions() and normals().
     void pose(const Pose& pose, Jobs& jobs);
@@ -102,12 +102,13 @@ public:
     /// One a rig bone, posed by those skinning matrices.
     std::vector<BoneAxis> bone_axes(std::span<const Mat4> matrices) const;
 
-    /// Skinning matrices (one a rig bone) and colliders of a body that gets dressed: that share of the way from
-    /// standing straight, arms held out (0), to the pose (1). The hips are where the pose has them.
+    /// Skinning matrices (one a rig bone) and colliders of a body that gets dressed: that share of the way
+    /// from standing straight, arms held out (0), to the pose (1). The hips are where the pose has them.
     void while_dressing(float share, std::span<Mat4> matrices, std::vector<Collider>& out) const;
 
-    /// The same of a body in the pose, but for its legs: those are that share of the way from where they stand at rest, apart (0), to
-    /// the pose (1). A garment that is carried along with the bones has its legs beside each other there, and not in each other.
+    /// The same of a body in the pose, but for its legs: those are that share of the way from where they
+    /// stand at rest, apart (0), to the pose (1). A garment that is carried along with the bones has its legs
+    /// beside each other there, and not in each other.
     void while_closing_legs(float share, std::span<Mat4> matrices, std::vector<Collider>& out) const;
 
     /// The body in a measuring posture: geometric vertices (as topology().indices has them) without normals,

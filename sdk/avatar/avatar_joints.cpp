@@ -41,13 +41,17 @@ namespace {
 
 /// Where a missing bone would start: as high between spine and head as in a body, toes at the foot's end.
 Vec3 missing_start(const AvatarRig& rig, int bone, const Vec3& end_below) {
-    const auto trunk = [&](float share) { return glm::mix(rig.rest_head(VFIT_BONE_SPINE), rig.rest_head(VFIT_BONE_HEAD), share); };
+    const auto trunk = [&](float share) {
+        return glm::mix(rig.rest_head(VFIT_BONE_SPINE), rig.rest_head(VFIT_BONE_HEAD), share);
+    };
     switch (bone) {
         case VFIT_BONE_CHEST: return trunk(0.22f);
         case VFIT_BONE_UPPER_CHEST: return trunk(0.60f);
         case VFIT_BONE_NECK: return trunk(0.83f);
-        case VFIT_BONE_LEFT_SHOULDER: return glm::mix(trunk(0.72f), rig.rest_head(VFIT_BONE_LEFT_UPPER_ARM), 0.15f);
-        case VFIT_BONE_RIGHT_SHOULDER: return glm::mix(trunk(0.72f), rig.rest_head(VFIT_BONE_RIGHT_UPPER_ARM), 0.15f);
+        case VFIT_BONE_LEFT_SHOULDER:
+            return glm::mix(trunk(0.72f), rig.rest_head(VFIT_BONE_LEFT_UPPER_ARM), 0.15f);
+        case VFIT_BONE_RIGHT_SHOULDER:
+            return glm::mix(trunk(0.72f), rig.rest_head(VFIT_BONE_RIGHT_UPPER_ARM), 0.15f);
         default: return end_below;
     }
 }
@@ -61,8 +65,9 @@ void Avatar::place_joints() {
         while (rig_.rig_bone(carrier) < 0) carrier = bone_parent(carrier);
         const int rig_bone = rig_.rig_bone(carrier);
         const AvatarBone& bone = rig_bones()[static_cast<size_t>(rig_bone)];
-        anchors_[static_cast<size_t>(j)] = {rig_bone, carrier == place.bone ? glm::mix(bone.rest_head, bone.rest_tail, place.along)
-                                                                      : missing_start(rig_, place.bone, bone.rest_tail)};
+        anchors_[static_cast<size_t>(j)] = {
+            rig_bone, carrier == place.bone ? glm::mix(bone.rest_head, bone.rest_tail, place.along)
+                                            : missing_start(rig_, place.bone, bone.rest_tail)};
     }
 }
 
@@ -71,7 +76,8 @@ void Avatar::measure_inner_spheres() {
                          topology_->indices);
     // A character's clothes need not close: there, what is nearest counts, inside or not.
     for (size_t j = 0; j < kPaperJointCount; ++j)
-        inner_radii_[j] = is_body_ ? largest_inner_sphere(skin, anchors_[j].rest) : skin.closest(anchors_[j].rest).distance;
+        inner_radii_[j] =
+            is_body_ ? largest_inner_sphere(skin, anchors_[j].rest) : skin.closest(anchors_[j].rest).distance;
     radii_ = inner_radii_;
 }
 
@@ -112,7 +118,9 @@ Body Avatar::joints() const {
 
 void Avatar::colliders(std::vector<Collider>& out) const { colliders_of(matrices_, out); }
 
-void Avatar::rest_colliders(std::vector<Collider>& out) const { colliders_of(std::vector<Mat4>(matrices_.size(), Mat4(1.0f)), out); }
+void Avatar::rest_colliders(std::vector<Collider>& out) const {
+    colliders_of(std::vector<Mat4>(matrices_.size(), Mat4(1.0f)), out);
+}
 
 void Avatar::colliders_of(std::span<const Mat4> matrices, std::vector<Collider>& out) const {
     out.clear();

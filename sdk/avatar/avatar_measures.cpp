@@ -37,14 +37,17 @@ std::vector<TrunkLevel> trunk_levels(const Avatar& avatar, vfit_sex sex) {
     const TapeMesh body(posed.tape);
     const float armpit = armpit_height(body), waist = waist_height(body);
     std::vector<TrunkLevel> levels;
-    for (const auto& [key, height] : {std::pair("chest_girth_m", chest_height(body, armpit)), std::pair("waist_girth_m", waist),
-                                      std::pair("hip_girth_m", hip_height(body, crotch_height(body), waist))}) {
+    for (const auto& [key, height] :
+         {std::pair("chest_girth_m", chest_height(body, armpit)), std::pair("waist_girth_m", waist),
+          std::pair("hip_girth_m", hip_height(body, crotch_height(body), waist))}) {
         // The trunk's skin near the tape, as it lies on the body at rest.
         constexpr float kNear_m = 0.015f;
         float offset = 0.0f, front = -INFINITY, back = INFINITY;
         int count = 0;
         for (size_t v = 0; v < posed.mesh.positions.size(); ++v) {
-            if (posed.tape.parts[v] != BodyPart::kTorso || std::abs(posed.mesh.positions[v].y - height) > kNear_m) continue;
+            if (posed.tape.parts[v] != BodyPart::kTorso ||
+                std::abs(posed.mesh.positions[v].y - height) > kNear_m)
+                continue;
             const Vec3& rest = avatar.rest().positions[v];
             offset += rest.y - posed.mesh.positions[v].y;
             front = std::max(front, rest.z), back = std::min(back, rest.z);

@@ -1,4 +1,5 @@
-// What an avatar is made of: a rest mesh, its bones and its skin, from the body model or from a character's file.
+// What an avatar is made of: a rest mesh, its bones and its skin, from the body model or from a character's
+// file.
 #pragma once
 
 #include <memory>

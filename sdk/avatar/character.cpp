@@ -29,21 +29,24 @@ struct CharacterRig {
 bool speaks_of(const std::string& name, std::initializer_list<const char*> words) {
     std::string low;
     for (const char c : name) low += char(std::tolower(static_cast<unsigned char>(c)));
-    return std::any_of(words.begin(), words.end(), [&](const char* word) { return low.find(word) != std::string::npos; });
+    return std::any_of(words.begin(), words.end(),
+                       [&](const char* word) { return low.find(word) != std::string::npos; });
 }
 
 CharacterRig make_character_rig(const GltfDocument& document, const HumanoidMap& map, const Mat4& from_file) {
     std::vector<bool> used(document.model().nodes.size(), false);
     for (const tinygltf::Skin& skin : document.model().skins)
         for (const int joint : skin.joints) {
-            if (joint < 0 || size_t(joint) >= used.size()) fail(VFIT_ERROR_DATA, "skin ", skin.name, " names node ", joint, ", which is not there");
+            if (joint < 0 || size_t(joint) >= used.size())
+                fail(VFIT_ERROR_DATA, "skin ", skin.name, " names node ", joint, ", which is not there");
             used[size_t(joint)] = true;
         }
     std::vector<int> humanoid(used.size(), -1);
     for (int b = 0; b < kBoneCount; ++b)
         if (const int node = map.node[size_t(b)]; node >= 0) {
             if (humanoid[size_t(node)] >= 0)
-                fail(VFIT_ERROR_DATA, "node \"", document.node_name(node), "\" is two bones: ", bone_name(humanoid[size_t(node)]), " and ", bone_name(b));
+                fail(VFIT_ERROR_DATA, "node \"", document.node_name(node),
+                     "\" is two bones: ", bone_name(humanoid[size_t(node)]), " and ", bone_name(b));
             humanoid[size_t(node)] = b;
             used[size_t(node)] = true;
         }
@@ -65,7 +68,8 @@ CharacterRig make_character_rig(const GltfDocument& document, const HumanoidMap&
             if (length < 1e-12f) fail(VFIT_ERROR_DATA, "the bone \"", bone.name, "\" is scaled to nothing");
             axes[c] /= length;
         }
-        if (glm::determinant(axes) < 0.0f) fail(VFIT_ERROR_UNSUPPORTED, "the bone \"", bone.name, "\" is mirrored by a negative scale");
+        if (glm::determinant(axes) < 0.0f)
+            fail(VFIT_ERROR_UNSUPPORTED, "the bone \"", bone.name, "\" is mirrored by a negative scale");
         bone.rest_rotation = glm::normalize(glm::quat_cast(axes));
         bone.node = node;
         bone.is_twist = bone.bone < 0 && speaks_of(bone.name, {"twist", "roll"});
@@ -77,12 +81,15 @@ CharacterRig make_character_rig(const GltfDocument& document, const HumanoidMap&
 
 /// Upright along +Y, to be turned about Y so that its left is on +X.
 Mat4 upright_from_file(const GltfDocument& document, const HumanoidMap& map) {
-    const auto place = [&](int bone) { return Vec3(document.node_worlds()[size_t(map.node[size_t(bone)])][3]); };
+    const auto place = [&](int bone) {
+        return Vec3(document.node_worlds()[size_t(map.node[size_t(bone)])][3]);
+    };
     const Vec3 up = place(VFIT_BONE_HEAD) - place(VFIT_BONE_HIPS);
     const Vec3 left = place(VFIT_BONE_LEFT_UPPER_LEG) - place(VFIT_BONE_RIGHT_UPPER_LEG);
     if (glm::length(up) < 1e-3f || up.y < 0.7f * glm::length(up))
         fail(VFIT_ERROR_DATA, "the character does not stand upright along +Y, as glTF wants it");
-    if (std::hypot(left.x, left.z) < 1e-3f) fail(VFIT_ERROR_DATA, "the character's legs start at one place: left and right cannot be told");
+    if (std::hypot(left.x, left.z) < 1e-3f)
+        fail(VFIT_ERROR_DATA, "the character's legs start at one place: left and right cannot be told");
     const float quarter = 0.5f * kPi;
     const float turn = quarter * std::round(std::atan2(left.z, left.x) / quarter);
     return glm::mat4_cast(glm::angleAxis(turn, Vec3(0, 1, 0)));
@@ -101,7 +108,8 @@ public:
     }
     /// False where nobody carries it.
     bool write(SkinBones& bones, SkinWeights& weights) {
-        std::stable_sort(shares_.begin(), shares_.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+        std::stable_sort(shares_.begin(), shares_.end(),
+                         [](const auto& a, const auto& b) { return a.second > b.second; });
         if (shares_.size() > size_t(kSkinBones)) shares_.resize(size_t(kSkinBones));
         float sum = 0.0f;
         for (const auto& share : shares_) sum += share.second;
@@ -136,7 +144,8 @@ public:
             for (size_t v = 0; v < made.size(); ++v)
                 if (rest.normals[v] == Vec3(0.0f)) rest.normals[v] = made[v];
         }
-        if (unweighted_ > 0) out_.notes.push_back(text(unweighted_, " vertices have no weights: they follow the hips"));
+        if (unweighted_ > 0)
+            out_.notes.push_back(text(unweighted_, " vertices have no weights: they follow the hips"));
         if (!any_uv_) rest.uvs.clear();
     }
 
@@ -144,15 +153,20 @@ private:
     void add_node(int node) {
         const tinygltf::Model& model = document_.model();
         const tinygltf::Node& n = model.nodes[size_t(node)];
-        if (size_t(n.mesh) >= model.meshes.size()) fail(VFIT_ERROR_DATA, "node \"", document_.node_name(node), "\" names a mesh that is not there");
+        if (size_t(n.mesh) >= model.meshes.size())
+            fail(VFIT_ERROR_DATA, "node \"", document_.node_name(node), "\" names a mesh that is not there");
         int carrier = -1;
         if (n.skin >= 0) {
-            if (size_t(n.skin) >= model.skins.size()) fail(VFIT_ERROR_DATA, "node \"", document_.node_name(node), "\" names a skin that is not there");
+            if (size_t(n.skin) >= model.skins.size())
+                fail(VFIT_ERROR_DATA, "node \"", document_.node_name(node),
+                     "\" names a skin that is not there");
             read_skin(n.skin);
         } else {
-            for (int at = node; at >= 0 && carrier < 0; at = document_.parent(at)) carrier = rig_.of_node[size_t(at)];
+            for (int at = node; at >= 0 && carrier < 0; at = document_.parent(at))
+                carrier = rig_.of_node[size_t(at)];
             if (carrier < 0) {
-                out_.notes.push_back(text("the mesh of node \"", document_.node_name(node), "\" hangs on no bone: left out"));
+                out_.notes.push_back(
+                    text("the mesh of node \"", document_.node_name(node), "\" hangs on no bone: left out"));
                 return;
             }
         }
@@ -174,7 +188,8 @@ private:
         std::vector<Mat4> binds(skin.joints.size(), Mat4(1.0f));
         if (skin.inverseBindMatrices >= 0) {
             const auto m = document_.numbers(skin.inverseBindMatrices, 16, "inverse bind matrix");
-            if (m.size() < 16 * binds.size()) fail(VFIT_ERROR_DATA, "skin ", skin.name, " has fewer inverse bind matrices than joints");
+            if (m.size() < 16 * binds.size())
+                fail(VFIT_ERROR_DATA, "skin ", skin.name, " has fewer inverse bind matrices than joints");
             for (size_t j = 0; j < binds.size(); ++j) binds[j] = glm::make_mat4(&m[16 * j]);
         }
         joints_.clear();
@@ -183,11 +198,14 @@ private:
                                from_file_ * document_.node_worlds()[size_t(skin.joints[j])] * binds[j]});
     }
 
-    void add_primitive(const tinygltf::Primitive& p, const std::string& mesh, const std::string& what, int node, int skin, int carrier) {
+    void add_primitive(const tinygltf::Primitive& p, const std::string& mesh, const std::string& what,
+                       int node, int skin, int carrier) {
         const int mode = p.mode < 0 ? TINYGLTF_MODE_TRIANGLES : p.mode;
-        if (mode == TINYGLTF_MODE_POINTS || mode == TINYGLTF_MODE_LINE || mode == TINYGLTF_MODE_LINE_LOOP || mode == TINYGLTF_MODE_LINE_STRIP)
+        if (mode == TINYGLTF_MODE_POINTS || mode == TINYGLTF_MODE_LINE || mode == TINYGLTF_MODE_LINE_LOOP ||
+            mode == TINYGLTF_MODE_LINE_STRIP)
             return;
-        if (mode != TINYGLTF_MODE_TRIANGLES) fail(VFIT_ERROR_UNSUPPORTED, what, ": triangle strips and fans are not supported");
+        if (mode != TINYGLTF_MODE_TRIANGLES)
+            fail(VFIT_ERROR_UNSUPPORTED, what, ": triangle strips and fans are not supported");
         const auto attribute = [&](const char* name) {
             const auto it = p.attributes.find(name);
             return it == p.attributes.end() ? -1 : it->second;
@@ -217,24 +235,30 @@ private:
             for (uint32_t i = 0; i < count; ++i) indices.push_back(first + i);
         }
         // Nodes may share a mesh: a small file can ask for any number of copies.
-        if (indices.size() > kMostIndices) fail(VFIT_ERROR_DATA, "the character has more than ", kMostIndices / 3, " triangles");
+        if (indices.size() > kMostIndices)
+            fail(VFIT_ERROR_DATA, "the character has more than ", kMostIndices / 3, " triangles");
         part.index_count = uint32_t(indices.size()) - part.first_index;
-        if (part.index_count % 3 != 0) fail(VFIT_ERROR_DATA, what, ": ", part.index_count, " indices are no whole triangles");
+        if (part.index_count % 3 != 0)
+            fail(VFIT_ERROR_DATA, what, ": ", part.index_count, " indices are no whole triangles");
         out_.parts.push_back(part);
     }
 
-    void add_vertices(const tinygltf::Primitive& p, const std::string& what, int node, int skin, int carrier) {
+    void add_vertices(const tinygltf::Primitive& p, const std::string& what, int node, int skin,
+                      int carrier) {
         const auto attribute = [&](const std::string& name) {
             const auto it = p.attributes.find(name);
             return it == p.attributes.end() ? -1 : it->second;
         };
         const auto positions = document_.numbers(attribute("POSITION"), 3, what + ": position");
         const size_t count = positions.size() / 3;
-        if (out_.source.rest.positions.size() + count > kMostVertices) fail(VFIT_ERROR_DATA, "the character has more than ", kMostVertices, " vertices");
+        if (out_.source.rest.positions.size() + count > kMostVertices)
+            fail(VFIT_ERROR_DATA, "the character has more than ", kMostVertices, " vertices");
         const auto rows = [&](const char* name, int components) {
             std::vector<float> list;
-            if (attribute(name) >= 0) list = document_.numbers(attribute(name), components, what + ": " + name);
-            if (!list.empty() && list.size() != count * size_t(components)) fail(VFIT_ERROR_DATA, what, ": ", name, " has another count than POSITION");
+            if (attribute(name) >= 0)
+                list = document_.numbers(attribute(name), components, what + ": " + name);
+            if (!list.empty() && list.size() != count * size_t(components))
+                fail(VFIT_ERROR_DATA, what, ": ", name, " has another count than POSITION");
             return list;
         };
         const auto normals = rows("NORMAL", 3), uvs = rows("TEXCOORD_0", 2);
@@ -260,7 +284,9 @@ private:
                 for (size_t k = 4 * v; k < 4 * v + 4; ++k) {
                     const float w = weights[set][k];
                     if (!(w > 0.0f)) continue;
-                    if (bones[set][k] >= joints_.size()) fail(VFIT_ERROR_DATA, what, ": vertex ", v, " names joint ", bones[set][k], " of ", joints_.size());
+                    if (bones[set][k] >= joints_.size())
+                        fail(VFIT_ERROR_DATA, what, ": vertex ", v, " names joint ", bones[set][k], " of ",
+                             joints_.size());
                     const BoundJoint& joint = joints_[bones[set][k]];
                     row.add(joint.bone, w);
                     sum += w * joint.matrix;
@@ -278,7 +304,9 @@ private:
                 hips.write(b, w);
             }
             // Without weights it stays where it is bound, as its neighbours do.
-            const Mat4 m = total > kLeastWeight ? sum / total : skin >= 0 && !joints_.empty() ? joints_[0].matrix : fixed;
+            const Mat4 m = total > kLeastWeight            ? sum / total
+                           : skin >= 0 && !joints_.empty() ? joints_[0].matrix
+                                                           : fixed;
             const Vec3 p(m * Vec4(positions[3 * v], positions[3 * v + 1], positions[3 * v + 2], 1.0f));
             Vec3 n(0.0f);
             if (!normals.empty()) {
@@ -352,7 +380,8 @@ void make_topology(AvatarSource& source) {
     const std::vector<BodyPart> parts = parts_of_bones(source.bones);
     for (size_t v = 0; v < source.skin_bones.size(); ++v) {
         std::array<float, kBodyPartCount> share{};
-        for (size_t k = 0; k < size_t(kSkinBones); ++k) share[size_t(parts[source.skin_bones[v][k]])] += source.skin_weights[v][k];
+        for (size_t k = 0; k < size_t(kSkinBones); ++k)
+            share[size_t(parts[source.skin_bones[v][k]])] += source.skin_weights[v][k];
         topology->parts.push_back(BodyPart(std::max_element(share.begin(), share.end()) - share.begin()));
     }
     source.topology = std::move(topology);
@@ -364,7 +393,8 @@ void merge_twist_bones(AvatarSource& source) {
     std::vector<bool> has_humanoid(source.bones.size(), false);
     for (size_t i = source.bones.size(); i-- > 0;) {
         if (source.bones[i].bone >= 0) has_humanoid[i] = true;
-        if (has_humanoid[i] && source.bones[i].parent >= 0) has_humanoid[size_t(source.bones[i].parent)] = true;
+        if (has_humanoid[i] && source.bones[i].parent >= 0)
+            has_humanoid[size_t(source.bones[i].parent)] = true;
     }
     for (size_t i = 0; i < source.bones.size(); ++i) {
         const AvatarBone& bone = source.bones[i];
@@ -376,13 +406,14 @@ void merge_twist_bones(AvatarSource& source) {
     for (size_t v = 0; v < source.skin_bones.size(); ++v) {
         VertexBones row;
         for (size_t k = 0; k < size_t(kSkinBones); ++k)
-            if (source.skin_weights[v][k] > 0.0f) row.add(merged[source.skin_bones[v][k]], source.skin_weights[v][k]);
+            if (source.skin_weights[v][k] > 0.0f)
+                row.add(merged[source.skin_bones[v][k]], source.skin_weights[v][k]);
         row.write(source.skin_bones[v], source.skin_weights[v]);
     }
 }
 
-/// Where bones end: at the next humanoid bone, the head at the crown, a hand at the root of its middle finger, a foot
-/// at its foremost point.
+/// Where bones end: at the next humanoid bone, the head at the crown, a hand at the root of its middle
+/// finger, a foot at its foremost point.
 void find_tails(AvatarSource& source) {
     const auto rig_of = [&](int bone) {
         for (size_t i = 0; i < source.bones.size(); ++i)
@@ -394,18 +425,22 @@ void find_tails(AvatarSource& source) {
         int parent = bone_parent(b);
         while (parent > 0 && rig_of(parent) < 0) parent = bone_parent(parent);
         // The trunk ends at its middle, not at a shoulder.
-        const bool is_side_of_trunk = b >= VFIT_BONE_LEFT_SHOULDER && part_of(parent) == BodyPart::kTorso && parent != VFIT_BONE_LEFT_SHOULDER && parent != VFIT_BONE_RIGHT_SHOULDER;
-        if (own >= 0 && !is_side_of_trunk) source.bones[size_t(rig_of(parent))].rest_tail = source.bones[size_t(own)].rest_head;
+        const bool is_side_of_trunk = b >= VFIT_BONE_LEFT_SHOULDER && part_of(parent) == BodyPart::kTorso &&
+                                      parent != VFIT_BONE_LEFT_SHOULDER && parent != VFIT_BONE_RIGHT_SHOULDER;
+        if (own >= 0 && !is_side_of_trunk)
+            source.bones[size_t(rig_of(parent))].rest_tail = source.bones[size_t(own)].rest_head;
     }
     for (size_t i = 0; i < source.bones.size(); ++i) {
         AvatarBone& bone = source.bones[i];
         const bool is_hand = bone.bone == VFIT_BONE_LEFT_HAND || bone.bone == VFIT_BONE_RIGHT_HAND;
-        const bool is_foot = bone.bone >= 0 && (part_of(bone.bone) == BodyPart::kLeftFoot || part_of(bone.bone) == BodyPart::kRightFoot);
+        const bool is_foot = bone.bone >= 0 && (part_of(bone.bone) == BodyPart::kLeftFoot ||
+                                                part_of(bone.bone) == BodyPart::kRightFoot);
         if (bone.bone == VFIT_BONE_HEAD || (is_foot && bone.rest_tail == bone.rest_head)) {
             const Vec3 way = is_foot ? Vec3(0, 0, 1) : Vec3(0, 1, 0);
             float farthest = 0.0f;
             for (size_t v = 0; v < source.skin_bones.size(); ++v)
-                if (source.skin_bones[v][0] == i) farthest = std::max(farthest, glm::dot(source.rest.positions[v] - bone.rest_head, way));
+                if (source.skin_bones[v][0] == i)
+                    farthest = std::max(farthest, glm::dot(source.rest.positions[v] - bone.rest_head, way));
             bone.rest_tail = bone.rest_head + farthest * way;
         } else if (is_hand) {
             Vec3 sum(0.0f), middle(0.0f);
@@ -419,9 +454,12 @@ void find_tails(AvatarSource& source) {
                 middle = child.rest_head;
                 has_middle = true;
             }
-            const Vec3 fore = bone.parent >= 0 ? bone.rest_head - source.bones[size_t(bone.parent)].rest_head : Vec3(0.0f);
+            const Vec3 fore =
+                bone.parent >= 0 ? bone.rest_head - source.bones[size_t(bone.parent)].rest_head : Vec3(0.0f);
             constexpr float kHandOfForearm = 0.35f;  // from the wrist to the knuckles
-            bone.rest_tail = has_middle ? middle : count > 0 ? sum / float(count) : bone.rest_head + kHandOfForearm * fore;
+            bone.rest_tail = has_middle  ? middle
+                             : count > 0 ? sum / float(count)
+                                         : bone.rest_head + kHandOfForearm * fore;
         }
     }
 }
@@ -431,7 +469,8 @@ std::string vrm_name(const GltfDocument& document) {
         const auto vrm = document.model().extensions.find(extension);
         if (vrm == document.model().extensions.end() || !vrm->second.Has("meta")) continue;
         const tinygltf::Value& meta = vrm->second.Get("meta");
-        if (meta.IsObject() && meta.Has(key) && meta.Get(key).IsString()) return meta.Get(key).Get<std::string>();
+        if (meta.IsObject() && meta.Has(key) && meta.Get(key).IsString())
+            return meta.Get(key).Get<std::string>();
     }
     return {};
 }
@@ -454,7 +493,8 @@ Character load_character(const GltfDocument& document, const std::string& own_ma
     for (const Vec3& p : rest.positions) low = glm::min(low, p), high = glm::max(high, p);
     const float stature = high.y - low.y;
     if (!(stature >= kLeastStature_m && stature <= kMostStature_m))
-        fail(VFIT_ERROR_DATA, "the character is ", stature, " m tall; glTF counts in metres, and ", kLeastStature_m, " to ", kMostStature_m, " m can be posed");
+        fail(VFIT_ERROR_DATA, "the character is ", stature, " m tall; glTF counts in metres, and ",
+             kLeastStature_m, " to ", kMostStature_m, " m can be posed");
     Vec3 shift(0.0f, -low.y, 0.0f);
     for (const int leg : {VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_RIGHT_UPPER_LEG}) {
         const Vec3 at = rig.bones[size_t(rig.of_node[size_t(map.node[size_t(leg)])])].rest_head;

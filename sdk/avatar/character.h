@@ -23,7 +23,7 @@ struct CharacterPart {
 
 struct Character {
     CharacterKind kind = CharacterKind::gltf;
-    std::string name;   // as VRM tells it
+    std::string name;  // as VRM tells it
     AvatarSource source;
     std::vector<CharacterPart> parts;
     // The avatar faces +Z, its soles on y = 0 over the origin: ours = M * the file's world.
@@ -31,8 +31,8 @@ struct Character {
     std::vector<std::string> notes;  // what was left out
 };
 
-/// Morph targets and animations are ignored; meshes without a skin hang on the bone that they are attached to. Own
-/// map: see find_humanoid. VFIT_ERROR_DATA or VFIT_ERROR_UNSUPPORTED with the cause.
+/// Morph targets and animations are ignored; meshes without a skin hang on the bone that they are attached
+/// to. Own map: see find_humanoid. VFIT_ERROR_DATA or VFIT_ERROR_UNSUPPORTED with the cause.
 Character load_character(const GltfDocument& document, const std::string& own_map);
 
 }  // namespace vfit

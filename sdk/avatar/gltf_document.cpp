@@ -19,12 +19,13 @@ constexpr size_t kMaxFileBytes = size_t(512) << 20;
 constexpr size_t kMostNodes = 60000;
 constexpr int kDeepest = 64;  // levels of the text: a file of brackets alone would cost gigabytes
 
-bool keep_picture_as_it_is(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
+bool keep_picture_as_it_is(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*,
+                           int, void*) {
     return true;
 }
 
-/// Where a .gltf keeps its buffers: its own folder and those in it, nowhere else on the host's machine; of a file in
-/// memory, nowhere.
+/// Where a .gltf keeps its buffers: its own folder and those in it, nowhere else on the host's machine; of a
+/// file in memory, nowhere.
 struct OwnFolder {
     std::filesystem::path folder;  // empty: none
 
@@ -36,11 +37,14 @@ struct OwnFolder {
     }
 };
 
-bool file_exists(const std::string& path, void* own) { return static_cast<const OwnFolder*>(own)->holds(path); }
+bool file_exists(const std::string& path, void* own) {
+    return static_cast<const OwnFolder*>(own)->holds(path);
+}
 
 std::string as_it_is(const std::string& path, void*) { return path; }
 
-bool read_whole_file(std::vector<unsigned char>* out, std::string* error, const std::string& path, void* own) {
+bool read_whole_file(std::vector<unsigned char>* out, std::string* error, const std::string& path,
+                     void* own) {
     try {
         if (!file_exists(path, own)) return false;
         const std::vector<std::byte> bytes = read_file(path, kMaxFileBytes);
@@ -66,8 +70,8 @@ bool starts_with(const std::string& text, const char* start) { return text.rfind
 
 /// Extensions that say nothing about where vertices are.
 bool is_harmless(const std::string& extension) {
-    for (const char* known : {"KHR_materials_", "KHR_texture_", "KHR_lights_", "KHR_xmp", "EXT_texture_", "MSFT_texture_",
-                              "EXT_lights_", "VRM", "KHR_mesh_quantization"})
+    for (const char* known : {"KHR_materials_", "KHR_texture_", "KHR_lights_", "KHR_xmp", "EXT_texture_",
+                              "MSFT_texture_", "EXT_lights_", "VRM", "KHR_mesh_quantization"})
         if (starts_with(extension, known)) return true;
     return false;
 }
@@ -102,12 +106,14 @@ float number_at(const unsigned char* p, int type, bool normalized) {
             const float v = float(read(int8_t{}));
             return normalized ? std::max(v / 127.0f, -1.0f) : v;
         }
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return float(read(uint8_t{})) / (normalized ? 255.0f : 1.0f);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return float(read(uint8_t{})) / (normalized ? 255.0f : 1.0f);
         case TINYGLTF_COMPONENT_TYPE_SHORT: {
             const float v = float(read(int16_t{}));
             return normalized ? std::max(v / 32767.0f, -1.0f) : v;
         }
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return float(read(uint16_t{})) / (normalized ? 65535.0f : 1.0f);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return float(read(uint16_t{})) / (normalized ? 65535.0f : 1.0f);
         default: return float(read(uint32_t{}));
     }
 }
@@ -124,7 +130,8 @@ GltfDocument::GltfDocument(std::span<const std::byte> bytes) { parse(bytes, "");
 
 void GltfDocument::parse(std::span<const std::byte> bytes, const std::string& folder) {
     if (bytes.size() < 20) fail(VFIT_ERROR_DATA, bytes.size(), " bytes are no glTF file");
-    if (bytes.size() > kMaxFileBytes) fail(VFIT_ERROR_DATA, "the file has ", bytes.size(), " bytes, more than ", kMaxFileBytes);
+    if (bytes.size() > kMaxFileBytes)
+        fail(VFIT_ERROR_DATA, "the file has ", bytes.size(), " bytes, more than ", kMaxFileBytes);
     tinygltf::TinyGLTF loader;
     loader.SetImageLoader(keep_picture_as_it_is, nullptr);
     OwnFolder own;
@@ -133,13 +140,15 @@ void GltfDocument::parse(std::span<const std::byte> bytes, const std::string& fo
     std::string error, warning;
     const auto size = static_cast<unsigned int>(bytes.size());
     const bool binary = std::memcmp(bytes.data(), "glTF", 4) == 0;
-    if (nests_deeper(text_of(bytes, binary), kDeepest)) fail(VFIT_ERROR_DATA, "no glTF file: its text is nested deeper than ", kDeepest, " levels");
+    if (nests_deeper(text_of(bytes, binary), kDeepest))
+        fail(VFIT_ERROR_DATA, "no glTF file: its text is nested deeper than ", kDeepest, " levels");
     bool read = false;
     try {
-        read = binary ? loader.LoadBinaryFromMemory(&model_, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()),
+        read = binary ? loader.LoadBinaryFromMemory(&model_, &error, &warning,
+                                                    reinterpret_cast<const unsigned char*>(bytes.data()),
                                                     size, folder)
-                      : loader.LoadASCIIFromString(&model_, &error, &warning, reinterpret_cast<const char*>(bytes.data()), size,
-                                                   folder);
+                      : loader.LoadASCIIFromString(&model_, &error, &warning,
+                                                   reinterpret_cast<const char*>(bytes.data()), size, folder);
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& thrown) {
@@ -168,7 +177,8 @@ void GltfDocument::place_nodes() {
     parents_.assign(count, -1);
     for (size_t n = 0; n < count; ++n)
         for (const int child : model_.nodes[n].children) {
-            if (child < 0 || size_t(child) >= count) fail(VFIT_ERROR_DATA, "node ", n, " has a child ", child, " that is not there");
+            if (child < 0 || size_t(child) >= count)
+                fail(VFIT_ERROR_DATA, "node ", n, " has a child ", child, " that is not there");
             if (parents_[size_t(child)] >= 0) fail(VFIT_ERROR_DATA, "node ", child, " has two parents");
             parents_[size_t(child)] = int(n);
         }
@@ -180,7 +190,8 @@ void GltfDocument::place_nodes() {
         const Mat4 local = local_of(model_.nodes[n]);
         worlds_[n] = parents_[n] < 0 ? local : worlds_[size_t(parents_[n])] * local;
         for (int k = 0; k < 16; ++k)
-            if (!std::isfinite(glm::value_ptr(worlds_[n])[k])) fail(VFIT_ERROR_DATA, "node ", n, " is not at a finite place");
+            if (!std::isfinite(glm::value_ptr(worlds_[n])[k]))
+                fail(VFIT_ERROR_DATA, "node ", n, " is not at a finite place");
         order_.insert(order_.end(), model_.nodes[n].children.begin(), model_.nodes[n].children.end());
     }
     if (order_.size() != count) fail(VFIT_ERROR_DATA, "the nodes form a ring");
@@ -192,17 +203,21 @@ std::string GltfDocument::node_name(int node) const {
 }
 
 GltfDocument::Rows GltfDocument::rows(int index, int components, const std::string& what) const {
-    if (index < 0 || size_t(index) >= model_.accessors.size()) fail(VFIT_ERROR_DATA, what, ": accessor ", index, " is not there");
+    if (index < 0 || size_t(index) >= model_.accessors.size())
+        fail(VFIT_ERROR_DATA, what, ": accessor ", index, " is not there");
     const tinygltf::Accessor& a = model_.accessors[size_t(index)];
     if (a.sparse.isSparse) fail(VFIT_ERROR_UNSUPPORTED, what, ": sparse accessors are not supported");
     if (tinygltf::GetNumComponentsInType(uint32_t(a.type)) != components)
-        fail(VFIT_ERROR_DATA, what, ": accessor ", index, " has another shape than ", components, " numbers an item");
+        fail(VFIT_ERROR_DATA, what, ": accessor ", index, " has another shape than ", components,
+             " numbers an item");
     const int size = tinygltf::GetComponentSizeInBytes(uint32_t(a.componentType));
-    if (size <= 0 || a.componentType == TINYGLTF_COMPONENT_TYPE_DOUBLE) fail(VFIT_ERROR_DATA, what, ": unknown kind of number");
+    if (size <= 0 || a.componentType == TINYGLTF_COMPONENT_TYPE_DOUBLE)
+        fail(VFIT_ERROR_DATA, what, ": unknown kind of number");
     if (a.bufferView < 0 || size_t(a.bufferView) >= model_.bufferViews.size())
         fail(VFIT_ERROR_UNSUPPORTED, what, ": accessor ", index, " has no data");
     const tinygltf::BufferView& view = model_.bufferViews[size_t(a.bufferView)];
-    if (view.buffer < 0 || size_t(view.buffer) >= model_.buffers.size()) fail(VFIT_ERROR_DATA, what, ": its buffer is not there");
+    if (view.buffer < 0 || size_t(view.buffer) >= model_.buffers.size())
+        fail(VFIT_ERROR_DATA, what, ": its buffer is not there");
     const auto& bytes = model_.buffers[size_t(view.buffer)].data;
     const size_t row = size_t(size) * size_t(components), stride = view.byteStride ? view.byteStride : row;
     const bool fits = view.byteOffset <= bytes.size() && view.byteLength <= bytes.size() - view.byteOffset &&
@@ -230,7 +245,8 @@ std::vector<float> GltfDocument::numbers(int accessor, int components, const std
 std::vector<uint32_t> GltfDocument::integers(int accessor, int components, const std::string& what) const {
     const Rows r = rows(accessor, components, what);
     const auto size = size_t(tinygltf::GetComponentSizeInBytes(uint32_t(r.component_type)));
-    if (r.component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && r.component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+    if (r.component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
+        r.component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
         r.component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
         fail(VFIT_ERROR_DATA, what, ": no whole numbers");
     std::vector<uint32_t> out;

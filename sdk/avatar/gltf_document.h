@@ -1,5 +1,5 @@
-// A glTF 2.0 file, read by tinygltf, its numbers checked: whatever an index or an offset says, nothing is read beyond
-// what the file holds.
+// A glTF 2.0 file, read by tinygltf, its numbers checked: whatever an index or an offset says, nothing is
+// read beyond what the file holds.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// Hands that stay outside: a pose of one person puts the hands of a wider character into its hips. Each hand that
-// would enter trunk or thighs is led out by the shortest way about their axis, and its arm follows.
+// Hands that stay outside: a pose of one person puts the hands of a wider character into its hips. Each hand
+// that would enter trunk or thighs is led out by the shortest way about their axis, and its arm follows.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@ public:
     /// Learns how thick trunk, thighs and hands are from the rest mesh.
     HandsClear(const AvatarRig& rig, std::span<const Vec3> rest, std::span<const BodyPart> parts);
 
-    /// Turns arms where needed; a hand that is clear stays where it is, to the bit. `matrices` are those of the pose.
-    /// Does not allocate.
+    /// Turns arms where needed; a hand that is clear stays where it is, to the bit. `matrices` are those of
+    /// the pose. Does not allocate.
     void run(const PosedSkeleton& posed, std::span<const Mat4> matrices, Pose& pose) const;
 
 private:
@@ -26,8 +26,8 @@ private:
         Vec3 start{0.0f}, axis{0.0f}, x{0.0f}, z{0.0f};  // unit vectors
         float least = 0.0f, length = 0.0f;               // of heights along the axis
         std::array<float, kLevels * kAngles> radius{};
-        std::vector<int> bones;                          // rig bones that carry it, from the start on
-        std::vector<float> heights;                      // where each of them starts
+        std::vector<int> bones;      // rig bones that carry it, from the start on
+        std::vector<float> heights;  // where each of them starts
 
         void learn(std::span<const Vec3> points);
         float at(float height, float angle) const;
@@ -36,7 +36,8 @@ private:
         Vec3 out{0.0f};  // world
         float depth = 0.0f;
     };
-    Way way_out(const Outline& outline, std::span<const Mat4> matrices, const Vec3& p, float radius, float side) const;
+    Way way_out(const Outline& outline, std::span<const Mat4> matrices, const Vec3& p, float radius,
+                float side) const;
 
     std::vector<Outline> outlines_;  // trunk, thighs
     struct Hand {

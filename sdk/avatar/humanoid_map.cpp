@@ -18,20 +18,43 @@ struct NamedBone {
 
 // Unity, VRoid, Mixamo, Unreal, 3ds Max Biped, Rigify, MakeHuman.
 constexpr NamedBone kNames[] = {
-    {"hips", VFIT_BONE_HIPS}, {"hip", VFIT_BONE_HIPS}, {"pelvis", VFIT_BONE_HIPS},
-    {"spine", VFIT_BONE_SPINE}, {"chest", VFIT_BONE_SPINE}, {"upperchest", VFIT_BONE_SPINE}, {"torso", VFIT_BONE_SPINE},
-    {"abdomen", VFIT_BONE_SPINE}, {"waist", VFIT_BONE_SPINE},
-    {"neck", VFIT_BONE_NECK}, {"head", VFIT_BONE_HEAD},
-    {"shoulder", VFIT_BONE_LEFT_SHOULDER}, {"clavicle", VFIT_BONE_LEFT_SHOULDER}, {"collar", VFIT_BONE_LEFT_SHOULDER},
+    {"hips", VFIT_BONE_HIPS},
+    {"hip", VFIT_BONE_HIPS},
+    {"pelvis", VFIT_BONE_HIPS},
+    {"spine", VFIT_BONE_SPINE},
+    {"chest", VFIT_BONE_SPINE},
+    {"upperchest", VFIT_BONE_SPINE},
+    {"torso", VFIT_BONE_SPINE},
+    {"abdomen", VFIT_BONE_SPINE},
+    {"waist", VFIT_BONE_SPINE},
+    {"neck", VFIT_BONE_NECK},
+    {"head", VFIT_BONE_HEAD},
+    {"shoulder", VFIT_BONE_LEFT_SHOULDER},
+    {"clavicle", VFIT_BONE_LEFT_SHOULDER},
+    {"collar", VFIT_BONE_LEFT_SHOULDER},
     {"collarbone", VFIT_BONE_LEFT_SHOULDER},
-    {"upperarm", VFIT_BONE_LEFT_UPPER_ARM}, {"uparm", VFIT_BONE_LEFT_UPPER_ARM}, {"arm", VFIT_BONE_LEFT_UPPER_ARM},
-    {"lowerarm", VFIT_BONE_LEFT_LOWER_ARM}, {"forearm", VFIT_BONE_LEFT_LOWER_ARM}, {"elbow", VFIT_BONE_LEFT_LOWER_ARM},
-    {"hand", VFIT_BONE_LEFT_HAND}, {"wrist", VFIT_BONE_LEFT_HAND},
-    {"upperleg", VFIT_BONE_LEFT_UPPER_LEG}, {"upleg", VFIT_BONE_LEFT_UPPER_LEG}, {"thigh", VFIT_BONE_LEFT_UPPER_LEG},
-    {"lowerleg", VFIT_BONE_LEFT_LOWER_LEG}, {"leg", VFIT_BONE_LEFT_LOWER_LEG}, {"calf", VFIT_BONE_LEFT_LOWER_LEG},
-    {"shin", VFIT_BONE_LEFT_LOWER_LEG}, {"knee", VFIT_BONE_LEFT_LOWER_LEG},
-    {"foot", VFIT_BONE_LEFT_FOOT}, {"ankle", VFIT_BONE_LEFT_FOOT},
-    {"toes", VFIT_BONE_LEFT_TOES}, {"toe", VFIT_BONE_LEFT_TOES}, {"toebase", VFIT_BONE_LEFT_TOES}, {"ball", VFIT_BONE_LEFT_TOES},
+    {"upperarm", VFIT_BONE_LEFT_UPPER_ARM},
+    {"uparm", VFIT_BONE_LEFT_UPPER_ARM},
+    {"arm", VFIT_BONE_LEFT_UPPER_ARM},
+    {"lowerarm", VFIT_BONE_LEFT_LOWER_ARM},
+    {"forearm", VFIT_BONE_LEFT_LOWER_ARM},
+    {"elbow", VFIT_BONE_LEFT_LOWER_ARM},
+    {"hand", VFIT_BONE_LEFT_HAND},
+    {"wrist", VFIT_BONE_LEFT_HAND},
+    {"upperleg", VFIT_BONE_LEFT_UPPER_LEG},
+    {"upleg", VFIT_BONE_LEFT_UPPER_LEG},
+    {"thigh", VFIT_BONE_LEFT_UPPER_LEG},
+    {"lowerleg", VFIT_BONE_LEFT_LOWER_LEG},
+    {"leg", VFIT_BONE_LEFT_LOWER_LEG},
+    {"calf", VFIT_BONE_LEFT_LOWER_LEG},
+    {"shin", VFIT_BONE_LEFT_LOWER_LEG},
+    {"knee", VFIT_BONE_LEFT_LOWER_LEG},
+    {"foot", VFIT_BONE_LEFT_FOOT},
+    {"ankle", VFIT_BONE_LEFT_FOOT},
+    {"toes", VFIT_BONE_LEFT_TOES},
+    {"toe", VFIT_BONE_LEFT_TOES},
+    {"toebase", VFIT_BONE_LEFT_TOES},
+    {"ball", VFIT_BONE_LEFT_TOES},
 };
 
 /// "mixamorig:LeftUpLeg" to {"left", "up", "leg"}; numbers are dropped.
@@ -61,7 +84,8 @@ bool is_prefix(const std::string& word) {
 }
 
 int of_right(int bone) {
-    if (bone >= VFIT_BONE_LEFT_UPPER_LEG) return bone + (VFIT_BONE_RIGHT_UPPER_LEG - VFIT_BONE_LEFT_UPPER_LEG);
+    if (bone >= VFIT_BONE_LEFT_UPPER_LEG)
+        return bone + (VFIT_BONE_RIGHT_UPPER_LEG - VFIT_BONE_LEFT_UPPER_LEG);
     return bone + (VFIT_BONE_RIGHT_SHOULDER - VFIT_BONE_LEFT_SHOULDER);
 }
 
@@ -91,7 +115,8 @@ void read_vrm0(const GltfDocument& document, const tinygltf::Value* bones, Human
     for (size_t i = 0; bones && bones->IsArray() && i < bones->ArrayLen(); ++i) {
         const tinygltf::Value& item = bones->Get(int(i));
         const tinygltf::Value *name = member(&item, "bone"), *node = member(&item, "node");
-        if (!name || !name->IsString() || !node || !node->IsNumber()) fail(VFIT_ERROR_DATA, "VRM: humanBones ", i, " is malformed");
+        if (!name || !name->IsString() || !node || !node->IsNumber())
+            fail(VFIT_ERROR_DATA, "VRM: humanBones ", i, " is malformed");
         if (const int bone = bone_from_vrm_name(name->Get<std::string>()); bone >= 0)
             set_bone(document, map, bone, node->GetNumberAsInt(), "VRM");
     }
@@ -111,7 +136,8 @@ void read_vrm1(const GltfDocument& document, const tinygltf::Value* bones, Human
 
 void read_own(const GltfDocument& document, const std::string& json, HumanoidMap& map) {
     const Json parsed = parse_json(json, "bone map");
-    if (!parsed.is_object()) fail(VFIT_ERROR_DATA, "the bone map is no JSON object {\"hips\": \"node name\", ...}");
+    if (!parsed.is_object())
+        fail(VFIT_ERROR_DATA, "the bone map is no JSON object {\"hips\": \"node name\", ...}");
     for (const auto& [key, value] : parsed.items()) {
         const int bone = bone_from_vrm_name(key);
         if (bone < 0) fail(VFIT_ERROR_ARGUMENT, "the bone map's \"", key, "\" is no VRM bone name");
@@ -119,7 +145,9 @@ void read_own(const GltfDocument& document, const std::string& json, HumanoidMap
         int found = -1;
         for (const int node : document.nodes_in_order())
             if (document.node_name(node) == value.get<std::string>()) found = node;
-        if (found < 0) fail(VFIT_ERROR_DATA, "the bone map's ", key, ": the file has no node \"", value.get<std::string>(), "\"");
+        if (found < 0)
+            fail(VFIT_ERROR_DATA, "the bone map's ", key, ": the file has no node \"",
+                 value.get<std::string>(), "\"");
         map.node[size_t(bone)] = found;
     }
 }
@@ -135,7 +163,8 @@ void read_names(const GltfDocument& document, HumanoidMap& map) {
     if (map.node[VFIT_BONE_SPINE] >= 0 || top < 0) return;
     std::vector<int> chain;
     int node = document.parent(top);
-    for (; node >= 0 && node != map.node[VFIT_BONE_HIPS]; node = document.parent(node)) chain.insert(chain.begin(), node);
+    for (; node >= 0 && node != map.node[VFIT_BONE_HIPS]; node = document.parent(node))
+        chain.insert(chain.begin(), node);
     if (node < 0 || chain.empty()) return;
     map.node[VFIT_BONE_SPINE] = chain.front();
     if (chain.size() > 1) map.node[VFIT_BONE_CHEST] = chain[chain.size() > 2 ? chain.size() / 2 : 1];
@@ -150,7 +179,8 @@ bool is_above(const GltfDocument& document, int node, int ancestor) {
 void check(const GltfDocument& document, const HumanoidMap& map) {
     std::string missing;
     for (int b = 0; b < kBoneCount; ++b)
-        if (map.node[size_t(b)] < 0 && !is_optional_bone(b)) missing += (missing.empty() ? "" : ", ") + std::string(bone_name(b));
+        if (map.node[size_t(b)] < 0 && !is_optional_bone(b))
+            missing += (missing.empty() ? "" : ", ") + std::string(bone_name(b));
     if (!missing.empty())
         fail(VFIT_ERROR_DATA, "the character has no bone for ", missing, "; name its nodes in a bone map");
     for (int b = 1; b < kBoneCount; ++b) {
@@ -160,8 +190,8 @@ void check(const GltfDocument& document, const HumanoidMap& map) {
         while (map.node[size_t(above)] < 0) above = bone_parent(above);
         const int parent = map.node[size_t(above)];
         if (node == parent || !is_above(document, node, parent))
-            fail(VFIT_ERROR_DATA, "the bone ", bone_name(b), " (node \"", document.node_name(node), "\") does not hang on ",
-                 bone_name(above), " (\"", document.node_name(parent), "\")");
+            fail(VFIT_ERROR_DATA, "the bone ", bone_name(b), " (node \"", document.node_name(node),
+                 "\") does not hang on ", bone_name(above), " (\"", document.node_name(parent), "\")");
     }
 }
 
@@ -171,9 +201,12 @@ int bone_of_name(const std::string& name) {
     std::string joined;
     bool left = false, right = false;
     for (const std::string& word : words_of(name)) {
-        if (word == "l" || word == "left") left = true;
-        else if (word == "r" || word == "right") right = true;
-        else if (!is_prefix(word)) joined += word;
+        if (word == "l" || word == "left")
+            left = true;
+        else if (word == "r" || word == "right")
+            right = true;
+        else if (!is_prefix(word))
+            joined += word;
     }
     for (const NamedBone& known : kNames) {
         if (joined != known.name) continue;

@@ -1,5 +1,5 @@
-// Which nodes of a character's file are its humanoid bones: as VRM 0 or 1 says, else by the names that common tools
-// give them.
+// Which nodes of a character's file are its humanoid bones: as VRM 0 or 1 says, else by the names that common
+// tools give them.
 #pragma once
 
 #include <array>
@@ -17,8 +17,9 @@ struct HumanoidMap {
     HumanoidMap() { node.fill(-1); }
 };
 
-/// `own_map` is {"hips": "name of a node", ...} as JSON text, before all others; may be empty. VFIT_ERROR_DATA where a
-/// required bone is found nowhere, naming all that miss, or where the map contradicts the tree.
+/// `own_map` is {"hips": "name of a node", ...} as JSON text, before all others; may be empty.
+/// VFIT_ERROR_DATA where a required bone is found nowhere, naming all that miss, or where the map contradicts
+/// the tree.
 HumanoidMap find_humanoid(const GltfDocument& document, const std::string& own_map);
 
 /// The bone and side that a node's name says, or -1; of the spine VFIT_BONE_SPINE for all.

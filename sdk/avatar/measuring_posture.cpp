@@ -29,7 +29,7 @@ float Avatar::touching_feet_m() const {
 Pose Avatar::measuring_pose(const MeasuringPosture& posture) const {
     if (!(posture.arm_angle_rad >= 0.0f && posture.arm_angle_rad <= 0.5f * kPi))
         fail(VFIT_ERROR_ARGUMENT, "the arm angle ", posture.arm_angle_rad,
-            " is not between 0 and a right angle");
+             " is not between 0 and a right angle");
     if (!(posture.feet_apart_m >= 0.0f && posture.feet_apart_m <= 1.0f))
         fail(VFIT_ERROR_ARGUMENT, "feet ", posture.feet_apart_m, " m apart: not between 0 and 1 m");
 

@@ -86,8 +86,8 @@ bool is_optional_bone(int bone) {
 
 namespace {
 
-/// Who stands where a missing bone would: the child of a neck or a shoulder, so that it turns in its place; else the
-/// parent.
+/// Who stands where a missing bone would: the child of a neck or a shoulder, so that it turns in its place;
+/// else the parent.
 int stand_in(int bone) {
     switch (bone) {
         case VFIT_BONE_NECK: return VFIT_BONE_HEAD;
@@ -128,7 +128,8 @@ void AvatarRig::map_humanoid_bones() {
         rig = static_cast<int>(i);
     }
     for (int b = 0; b < kBoneCount; ++b)
-        if (rig_bone(b) < 0 && !is_optional_bone(b)) fail(VFIT_ERROR_DATA, "the rig has no bone ", bone_name(b));
+        if (rig_bone(b) < 0 && !is_optional_bone(b))
+            fail(VFIT_ERROR_DATA, "the rig has no bone ", bone_name(b));
     // A missing bone of the trunk lies at its parent's start: whoever stands there turns by all of them.
     for (int b = 0; b < kBoneCount; ++b) turned_by_[static_cast<size_t>(b)] = b;
     for (const int b : {VFIT_BONE_CHEST, VFIT_BONE_UPPER_CHEST}) {
@@ -240,7 +241,8 @@ void AvatarRig::pose(const Pose& pose, PosedSkeleton& posed, std::span<Mat4> mat
         const auto parent = static_cast<size_t>(bone_parent(kLimbs[l].bone));
         turns[l] = {posed.rotation[parent] * own.swing, own.twist};
         if (kLimbs[l].takes_twist_of_end)
-            turns[l].twist = own.twist *
+            turns[l].twist =
+                own.twist *
                 split_swing_twist(unit.rotation[static_cast<size_t>(kLimbs[l].end_bone)], axis).twist;
     }
 
@@ -258,7 +260,9 @@ void AvatarRig::pose(const Pose& pose, PosedSkeleton& posed, std::span<Mat4> mat
             // About the near joint: the limb's axis stays where it is for every share of the twist.
             matrices[i] = place(kLimbs[limb].bone, turn.swung * fraction(turn.twist, share));
         } else if (bones_[i].bone >= 0) {
-            matrices[i] = place(bones_[i].bone, posed.rotation[static_cast<size_t>(turned_by_[static_cast<size_t>(bones_[i].bone)])]);
+            matrices[i] =
+                place(bones_[i].bone,
+                      posed.rotation[static_cast<size_t>(turned_by_[static_cast<size_t>(bones_[i].bone)])]);
         } else {
             matrices[i] = bones_[i].parent < 0 ? hips : matrices[static_cast<size_t>(bones_[i].parent)];
         }

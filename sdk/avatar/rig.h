@@ -1,6 +1,7 @@
 // The bones behind the avatar's skin: from the rest posture of a body to any pose of the humanoid bones.
 // Bones of the rig that are no humanoid bones follow their parent rigidly, except those that share a
-// limb's twist (bone splitting, section 3.3.3 of the paper): the rig's own twist bones, and those that are made here.
+// limb's twist (bone splitting, section 3.3.3 of the paper): the rig's own twist bones, and those that are
+// made here.
 #pragma once
 
 #include <array>
@@ -17,13 +18,13 @@ namespace vfit {
 /// Parents stand before children.
 struct AvatarBone {
     std::string name;
-    int parent = -1;          // -1: root
-    int bone = -1;            // VFIT_BONE_*, or -1
-    Vec3 rest_head{0.0f};     // in the space of the rest mesh
-    Vec3 rest_tail{0.0f};     // of a hand: the root of the middle finger
+    int parent = -1;                 // -1: root
+    int bone = -1;                   // VFIT_BONE_*, or -1
+    Vec3 rest_head{0.0f};            // in the space of the rest mesh
+    Vec3 rest_tail{0.0f};            // of a hand: the root of the middle finger
     Quat rest_rotation{1, 0, 0, 0};  // world, of the bone's own axes
-    int node = -1;            // of the file that it came from
-    bool is_twist = false;    // beside the way to the limb's end, to share in its twist
+    int node = -1;                   // of the file that it came from
+    bool is_twist = false;           // beside the way to the limb's end, to share in its twist
 };
 
 /// A limb of the rest posture and the rig bones that carry it, the original first, the extension last:
@@ -43,10 +44,11 @@ struct BoneAxis {
 
 class AvatarRig {
 public:
-    /// `bones` is the model's rig, placed in the rest posture; every humanoid bone that VRM requires must be there
-    /// once, else VFIT_ERROR_DATA. Where chest or upper chest are missing the bone below bends for them; a missing
-    /// neck turns the head, a missing shoulder the upper arm. `twist_steps`: 0, a limb is one bone; 1, the paper's split in two; n, n - 1 bones
-    /// more between these (appended behind the model's bones).
+    /// `bones` is the model's rig, placed in the rest posture; every humanoid bone that VRM requires must be
+    /// there once, else VFIT_ERROR_DATA. Where chest or upper chest are missing the bone below bends for
+    /// them; a missing neck turns the head, a missing shoulder the upper arm. `twist_steps`: 0, a limb is one
+    /// bone; 1, the paper's split in two; n, n - 1 bones more between these (appended behind the model's
+    /// bones).
     AvatarRig(std::vector<AvatarBone> bones, float floor_y, uint32_t twist_steps);
 
     const std::vector<AvatarBone>& bones() const { return bones_; }

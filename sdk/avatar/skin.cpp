@@ -70,9 +70,12 @@ Skin::Skin(std::span<const SkinBones> bones, std::span<const SkinWeights> weight
     rest_.reserve((has_normals_ ? 2 : 1) * bones.size());
     order_.resize(bones.size());
     std::iota(order_.begin(), order_.end(), 0u);
-    const auto bone_count = [&](uint32_t v) { return std::count_if(weights[v].begin(), weights[v].end(), [](float w) { return w > 0.0f; }); };
+    const auto bone_count = [&](uint32_t v) {
+        return std::count_if(weights[v].begin(), weights[v].end(), [](float w) { return w > 0.0f; });
+    };
     for (size_t first = 0; first < order_.size(); first += kChunk)
-        std::stable_sort(order_.begin() + std::ptrdiff_t(first), order_.begin() + std::ptrdiff_t(std::min(order_.size(), first + kChunk)),
+        std::stable_sort(order_.begin() + std::ptrdiff_t(first),
+                         order_.begin() + std::ptrdiff_t(std::min(order_.size(), first + kChunk)),
                          [&](uint32_t a, uint32_t b) { return bone_count(a) < bone_count(b); });
     for (uint32_t v : order_) {
         starts_.push_back(static_cast<uint32_t>(influences_.size()));
@@ -89,14 +92,13 @@ Skin::Skin(std::span<const SkinBones> bones, std::span<const SkinWeights> weight
 }
 
 size_t Skin::bytes() const {
-    return (order_.size() + starts_.size()) * sizeof starts_[0] + influences_.size() * sizeof influences_[0] + rest_.size() * sizeof rest_[0];
+    return (order_.size() + starts_.size()) * sizeof starts_[0] + influences_.size() * sizeof influences_[0] +
+           rest_.size() * sizeof rest_[0];
 }
 
 namespace {
 
-void put(float* to, const Vec3& v) {
-    to[0] = v.x, to[1] = v.y, to[2] = v.z, to[3] = 0.0f;
-}
+void put(float* to, const Vec3& v) { to[0] = v.x, to[1] = v.y, to[2] = v.z, to[3] = 0.0f; }
 
 /// Columns of M, carried into the host's axes.
 void put_matrix(const Mat4& m, const Axes& axes, float* to) {
@@ -115,8 +117,11 @@ void put_dual_quaternion(const Mat4& m, float* to) {
 
 void Skin::pose(std::span<const Mat4> matrices, SkinMethod method, const Axes& axes, const SkinTarget& target,
                 Scratch& scratch, Jobs& jobs) const {
-    if (matrices.size() < bone_count_) fail(VFIT_ERROR_ARGUMENT, matrices.size(), " skinning matrices for a skin of ", bone_count_, " bones");
-    if (target.normals && !has_normals_) fail(VFIT_ERROR_ARGUMENT, "normals are asked of a skin that has none");
+    if (matrices.size() < bone_count_)
+        fail(VFIT_ERROR_ARGUMENT, matrices.size(), " skinning matrices for a skin of ", bone_count_,
+             " bones");
+    if (target.normals && !has_normals_)
+        fail(VFIT_ERROR_ARGUMENT, "normals are asked of a skin that has none");
     scratch.resize(kBoneFloats * matrices.size());
     for (size_t b = 0; b < matrices.size(); ++b) {
         float* bone = scratch.data() + kBoneFloats * b;

@@ -1,5 +1,5 @@
-// Skinning: how much each bone carries of each vertex, and the posed skin, written straight into the memory of
-// whoever wants it, in their axes.
+// Skinning: how much each bone carries of each vertex, and the posed skin, written straight into the memory
+// of whoever wants it, in their axes.
 #pragma once
 
 #include <array>
@@ -39,8 +39,8 @@ struct SkinTarget {
 
 class Skin {
 public:
-    /// One of each a vertex; zero weights are left out, the others sum to 1. rest_normals may be empty: none can be asked for
-    /// then. VFIT_ERROR_DATA where no bone carries a vertex.
+    /// One of each a vertex; zero weights are left out, the others sum to 1. rest_normals may be empty: none
+    /// can be asked for then. VFIT_ERROR_DATA where no bone carries a vertex.
     Skin(std::span<const SkinBones> bones, std::span<const SkinWeights> weights, std::span<const Vec3> rest,
          std::span<const Vec3> rest_normals);
 
@@ -52,8 +52,9 @@ public:
     /// Room for the bones of one call; kept by the caller so that none allocates.
     using Scratch = std::vector<float>;
 
-    /// Posed positions and unit normals of all vertices in the host's axes; matrices are rigid, world = M * rest.
-    /// Does not allocate once `scratch` has served a call. VFIT_ERROR_ARGUMENT where there are too few matrices.
+    /// Posed positions and unit normals of all vertices in the host's axes; matrices are rigid, world = M *
+    /// rest. Does not allocate once `scratch` has served a call. VFIT_ERROR_ARGUMENT where there are too few
+    /// matrices.
     void pose(std::span<const Mat4> matrices, SkinMethod method, const Axes& axes, const SkinTarget& target,
               Scratch& scratch, Jobs& jobs) const;
 
@@ -61,12 +62,12 @@ public:
     void carry(std::span<const Mat4> matrices, std::vector<Vec3>& out, Scratch& scratch, Jobs& jobs) const;
 
 private:
-    // All in the order in which vertices are worked on: within a piece of work, those with few bones come first, so that it
-    // can be foretold how many the next one has.
+    // All in the order in which vertices are worked on: within a piece of work, those with few bones come
+    // first, so that it can be foretold how many the next one has.
     std::vector<uint32_t> order_;  // vertices
     std::vector<uint32_t> starts_;
     std::vector<SkinInfluence> influences_;
-    std::vector<Vec3> rest_;       // position of each, and its normal where there are any
+    std::vector<Vec3> rest_;  // position of each, and its normal where there are any
     uint32_t bone_count_ = 0;
     bool has_normals_;
 };

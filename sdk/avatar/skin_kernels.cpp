@@ -14,7 +14,8 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Four floats: a column of a matrix, a quaternion, a place. Highway's scalar target has vectors of one float alone.
+// Four floats: a column of a matrix, a quaternion, a place. Highway's scalar target has vectors of one float
+// alone.
 #if HWY_TARGET == HWY_SCALAR
 struct V {
     float x[4];
@@ -23,13 +24,16 @@ HWY_INLINE V Set(float a) { return {{a, a, a, a}}; }
 HWY_INLINE V Load(const float* p) { return {{p[0], p[1], p[2], p[3]}}; }
 HWY_INLINE V Mul(V a, V b) { return {{a.x[0] * b.x[0], a.x[1] * b.x[1], a.x[2] * b.x[2], a.x[3] * b.x[3]}}; }
 HWY_INLINE V MulAdd(V a, V b, V c) {
-    return {{a.x[0] * b.x[0] + c.x[0], a.x[1] * b.x[1] + c.x[1], a.x[2] * b.x[2] + c.x[2], a.x[3] * b.x[3] + c.x[3]}};
+    return {{a.x[0] * b.x[0] + c.x[0], a.x[1] * b.x[1] + c.x[1], a.x[2] * b.x[2] + c.x[2],
+             a.x[3] * b.x[3] + c.x[3]}};
 }
 HWY_INLINE void Store(V v, float* p) {
     for (int i = 0; i < 4; ++i) p[i] = v.x[i];
 }
 HWY_INLINE void StoreThree(V v, unsigned char* p) { std::memcpy(p, v.x, 3 * sizeof(float)); }
-HWY_INLINE float Dot(V a, V b) { return (a.x[0] * b.x[0] + a.x[2] * b.x[2]) + (a.x[1] * b.x[1] + a.x[3] * b.x[3]); }
+HWY_INLINE float Dot(V a, V b) {
+    return (a.x[0] * b.x[0] + a.x[2] * b.x[2]) + (a.x[1] * b.x[1] + a.x[3] * b.x[3]);
+}
 /// 1 / length of the first three floats of each.
 HWY_INLINE void InverseLengths(const V* n, float least2, float* lengths2, float* inverse) {
     for (int k = 0; k < 4; ++k) {
@@ -55,7 +59,8 @@ HWY_INLINE void StoreThree(V v, unsigned char* p) {
 HWY_INLINE float Dot(V a, V b) { return hn::GetLane(hn::SumOfLanes(kFour, hn::Mul(a, b))); }
 HWY_INLINE void InverseLengths(const V* n, float least2, float* lengths2, float* inverse) {
     const V ac_low = hn::InterleaveLower(kFour, n[0], n[2]), bd_low = hn::InterleaveLower(kFour, n[1], n[3]);
-    const V ac_high = hn::InterleaveUpper(kFour, n[0], n[2]), bd_high = hn::InterleaveUpper(kFour, n[1], n[3]);
+    const V ac_high = hn::InterleaveUpper(kFour, n[0], n[2]),
+            bd_high = hn::InterleaveUpper(kFour, n[1], n[3]);
     const V x = hn::InterleaveLower(kFour, ac_low, bd_low), y = hn::InterleaveUpper(kFour, ac_low, bd_low);
     const V z = hn::InterleaveLower(kFour, ac_high, bd_high);
     const V length2 = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
@@ -180,13 +185,13 @@ void DualQuaternion(const SkinJob& given, const float* map) {
         const float x = q[0], y = q[1], z = q[2], w = q[3];
         const float two = 2.0f * s;
         // The columns of the rotation, and the translation 2 d conj(q), carried by the map.
-        const auto column = [&](float a, float b, float c) HWY_ATTR {
-            return MulAdd(m0, Set(a), MulAdd(m1, Set(b), Mul(m2, Set(c))));
-        };
+        const auto column = [&](float a, float b, float c)
+                                HWY_ATTR { return MulAdd(m0, Set(a), MulAdd(m1, Set(b), Mul(m2, Set(c)))); };
         c0 = column(1.0f - two * (y * y + z * z), two * (x * y + w * z), two * (x * z - w * y));
         c1 = column(two * (x * y - w * z), 1.0f - two * (x * x + z * z), two * (y * z + w * x));
         c2 = column(two * (x * z + w * y), two * (y * z - w * x), 1.0f - two * (x * x + y * y));
-        c3 = column(two * (w * t[0] - t[3] * x + y * t[2] - z * t[1]), two * (w * t[1] - t[3] * y + z * t[0] - x * t[2]),
+        c3 = column(two * (w * t[0] - t[3] * x + y * t[2] - z * t[1]),
+                    two * (w * t[1] - t[3] * y + z * t[0] - x * t[2]),
                     two * (w * t[2] - t[3] * z + x * t[1] - y * t[0]));
     });
 }
@@ -202,7 +207,9 @@ HWY_EXPORT(Linear);
 HWY_EXPORT(DualQuaternion);
 
 void skin_linear(const SkinJob& job) { HWY_DYNAMIC_DISPATCH(Linear)(job); }
-void skin_dual_quaternion(const SkinJob& job, const float* map) { HWY_DYNAMIC_DISPATCH(DualQuaternion)(job, map); }
+void skin_dual_quaternion(const SkinJob& job, const float* map) {
+    HWY_DYNAMIC_DISPATCH(DualQuaternion)(job, map);
+}
 
 }  // namespace vfit
 #endif

@@ -1,12 +1,13 @@
-// The avatar while a garment is put on. Put on in the pose, a skirt would start between two legs that step, or
-// around a hand; on a body that stands straight and then moves into the pose it is pushed to its place.
+// The avatar while a garment is put on. Put on in the pose, a skirt would start between two legs that step,
+// or around a hand; on a body that stands straight and then moves into the pose it is pushed to its place.
 #include "avatar/avatar.h"
 
 namespace vfit {
 
 namespace {
 
-constexpr float kArmsOutRad = 0.9f;  // of the upper arms below the T-pose: clear of the trunk and of a flared skirt
+constexpr float kArmsOutRad =
+    0.9f;  // of the upper arms below the T-pose: clear of the trunk and of a flared skirt
 
 Quat straight(int bone) {
     const float turn = bone == VFIT_BONE_LEFT_UPPER_ARM    ? -kArmsOutRad
@@ -37,12 +38,14 @@ void Avatar::while_closing_legs(float share, std::span<Mat4> matrices, std::vect
     for (size_t i = 0; i < bones.size(); ++i) {
         const int bone = bones[i].bone;
         if (bone == VFIT_BONE_HIPS) hips = matrices_[i];
-        of_leg[i] = bone == VFIT_BONE_LEFT_UPPER_LEG || bone == VFIT_BONE_RIGHT_UPPER_LEG || (bones[i].parent >= 0 && of_leg[size_t(bones[i].parent)]);
+        of_leg[i] = bone == VFIT_BONE_LEFT_UPPER_LEG || bone == VFIT_BONE_RIGHT_UPPER_LEG ||
+                    (bones[i].parent >= 0 && of_leg[size_t(bones[i].parent)]);
         if (!of_leg[i]) continue;
         // Rigid all the way: the bone's head goes straight, the bone turns about it.
         const Vec3 head = bones[i].rest_head;
         const Vec3 from = Vec3(hips * Vec4(head, 1.0f)), to = Vec3(matrices_[i] * Vec4(head, 1.0f));
-        const Mat3 turn = glm::mat3_cast(glm::slerp(glm::quat_cast(Mat3(hips)), glm::quat_cast(Mat3(matrices_[i])), share));
+        const Mat3 turn =
+            glm::mat3_cast(glm::slerp(glm::quat_cast(Mat3(hips)), glm::quat_cast(Mat3(matrices_[i])), share));
         Mat4 between(turn);
         between[3] = Vec4(glm::mix(from, to, share) - turn * head, 1.0f);
         matrices[i] = between;

@@ -11,9 +11,9 @@
 
 namespace vfit {
 
-inline constexpr uint32_t kLanes = 8;                      // points of a block: x of all, y of all, z of all
+inline constexpr uint32_t kLanes = 8;  // points of a block: x of all, y of all, z of all
 inline constexpr uint32_t kBlockFloats = 3 * kLanes;
-inline constexpr uint32_t kTileBlocks = 64;                // blocks of a tile: one bit each in a mask
+inline constexpr uint32_t kTileBlocks = 64;  // blocks of a tile: one bit each in a mask
 inline constexpr uint32_t kTileFloats = kTileBlocks * kBlockFloats;
 inline constexpr uint32_t kMaxAnchors = 4;
 inline constexpr uint32_t kMaxFactors = 6;
@@ -45,7 +45,7 @@ struct BodyData {
     std::vector<std::array<uint16_t, kSkinBones>> skin_bones;    // one a vertex
     std::vector<std::array<uint16_t, kSkinBones>> skin_weights;  // in 1/65535
     std::vector<Term> terms;
-    std::vector<float> base;         // blocks of all tiles
+    std::vector<float> base;  // blocks of all tiles
     // Displacement fields, metres = scale * step. Blocks in which nothing moves are not stored: of each field
     // and tile the mask tells which are, the offset where they start.
     std::vector<float> scales;

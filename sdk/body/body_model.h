@@ -31,9 +31,20 @@ struct RigBone {
 };
 
 enum class BodyPart : uint8_t {
-    kHead, kTorso,
-    kLeftUpperArm, kLeftForearm, kLeftHand, kRightUpperArm, kRightForearm, kRightHand,
-    kLeftThigh, kLeftShank, kLeftFoot, kRightThigh, kRightShank, kRightFoot,
+    kHead,
+    kTorso,
+    kLeftUpperArm,
+    kLeftForearm,
+    kLeftHand,
+    kRightUpperArm,
+    kRightForearm,
+    kRightHand,
+    kLeftThigh,
+    kLeftShank,
+    kLeftFoot,
+    kRightThigh,
+    kRightShank,
+    kRightFoot,
 };
 inline constexpr int kBodyPartCount = 14;
 inline bool is_arm(BodyPart part) { return part >= BodyPart::kLeftUpperArm && part <= BodyPart::kRightHand; }
@@ -44,16 +55,16 @@ struct EvaluatedBody {
     std::vector<float> scratch;                // evaluate's own; kept so that it need not allocate again
 };
 
-inline constexpr uint32_t kBodyLevels = 3;   // of subdivision
-inline constexpr uint32_t kCoarseBody = 3;   // after them, the level with few vertices
+inline constexpr uint32_t kBodyLevels = 3;  // of subdivision
+inline constexpr uint32_t kCoarseBody = 3;  // after them, the level with few vertices
 inline constexpr uint32_t kCoarseVertices = 1000;
 inline constexpr int kSkinBones = 8;
 
 /// One level of detail. Geometric vertices form a closed surface; where the UV map is cut a renderer needs
 /// copies of some of them: render vertices are the geometric ones, then the copies.
 struct BodyTopology {
-    uint32_t vertex_count = 0;         // geometric
-    uint32_t render_vertex_count = 0;  // with the copies
+    uint32_t vertex_count = 0;             // geometric
+    uint32_t render_vertex_count = 0;      // with the copies
     std::vector<uint32_t> seam_sources;    // the geometric vertex of render vertex vertex_count + i
     std::vector<uint32_t> indices;         // three a triangle, geometric vertices
     std::vector<uint32_t> render_indices;  // the same triangles, render vertices

@@ -200,7 +200,9 @@ const BodySurface::Level& BodySurface::level(uint32_t index) const {
 
 const SimplifiedSurface& BodySurface::coarse() const {
     const Level& fine = level(0);
-    std::call_once(coarse_.built, [&] { coarse_.surface = simplify_surface(fine.topology, fine.positions, kCoarseVertices); });
+    std::call_once(coarse_.built, [&] {
+        coarse_.surface = simplify_surface(fine.topology, fine.positions, kCoarseVertices);
+    });
     return coarse_.surface;
 }
 

@@ -20,8 +20,8 @@ private:
     struct Level {
         std::once_flag built;
         BodyTopology topology;
-        Refinement to_next, uv_to_next;                  // of the levels below the last
-        std::vector<Vec3> positions;                     // of the unshaped body, to choose diagonals by
+        Refinement to_next, uv_to_next;  // of the levels below the last
+        std::vector<Vec3> positions;     // of the unshaped body, to choose diagonals by
         std::vector<Vec2> uvs;
     };
     struct Coarse {

@@ -12,8 +12,9 @@ struct JointPlace {
     float along;  // from its start to its end, share of it
 };
 
-/// The hand's centre of mass: .506 of the way from the wrist to the second knuckle of the middle finger (Dempster, in
-/// Winter), which in this rig lies 4/3 as far from the wrist as the finger's root, where the bone ends.
+/// The hand's centre of mass: .506 of the way from the wrist to the second knuckle of the middle finger
+/// (Dempster, in Winter), which in this rig lies 4/3 as far from the wrist as the finger's root, where the
+/// bone ends.
 inline constexpr float kHandCentre = 0.506f * 4.0f / 3.0f;
 
 /// By joint id.

@@ -11,8 +11,8 @@ namespace vfit {
 
 struct Mesh {
     std::vector<Vec3> positions;
-    std::vector<Vec3> normals;  // empty, or one a vertex, unit length
-    std::vector<Vec2> uvs;      // empty, or one a vertex; v = 0 at the top of the picture
+    std::vector<Vec3> normals;      // empty, or one a vertex, unit length
+    std::vector<Vec2> uvs;          // empty, or one a vertex; v = 0 at the top of the picture
     std::vector<uint32_t> indices;  // three a triangle
 };
 

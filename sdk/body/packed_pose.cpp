@@ -10,12 +10,14 @@ namespace vfit {
 namespace {
 
 constexpr uint64_t kPoseVersion = 1;
-constexpr int kPoseVersionBits = 8, kContactBits = 2, kTimeBits = 64, kHipsBits = 24, kLargestBits = 2, kPartBits = 11;
+constexpr int kPoseVersionBits = 8, kContactBits = 2, kTimeBits = 64, kHipsBits = 24, kLargestBits = 2,
+              kPartBits = 11;
 constexpr float kHipsStep_m = 1e-4f;
 constexpr int64_t kHipsMiddle = int64_t(1) << (kHipsBits - 1);
 constexpr float kPackedReach_m = 800.0f;
 constexpr float kHalfRoot = 0.70710678f;  // no part but the largest is larger
-constexpr int kBits = kPoseVersionBits + kContactBits + kTimeBits + 3 * kHipsBits + kBoneCount * (kLargestBits + 3 * kPartBits);
+constexpr int kBits =
+    kPoseVersionBits + kContactBits + kTimeBits + 3 * kHipsBits + kBoneCount * (kLargestBits + 3 * kPartBits);
 static_assert((kBits + 7) / 8 == kPackedPoseBytes);
 
 void put_rotation(BitWriter& out, const Quat& q) {
@@ -48,8 +50,8 @@ std::array<uint8_t, kPackedPoseBytes> pack_pose(const Pose& pose) {
     if (!finite(pose.hips_position)) fail(VFIT_ERROR_DATA, "the pose's hips position is not finite");
     for (int i = 0; i < 3; ++i)
         if (std::abs(pose.hips_position[i]) > kPackedReach_m)
-            fail(VFIT_ERROR_DATA, "the hips are ", pose.hips_position[i], " m from the origin; a packed pose reaches ",
-                 kPackedReach_m, " m");
+            fail(VFIT_ERROR_DATA, "the hips are ", pose.hips_position[i],
+                 " m from the origin; a packed pose reaches ", kPackedReach_m, " m");
     std::array<uint8_t, kPackedPoseBytes> bytes;
     BitWriter out(bytes);
     out.put(kPoseVersion, kPoseVersionBits);
@@ -60,7 +62,8 @@ std::array<uint8_t, kPackedPoseBytes> pack_pose(const Pose& pose) {
     for (int b = 0; b < kBoneCount; ++b) {
         const Quat& q = pose.rotation[size_t(b)];
         if (!finite(q) || std::abs(glm::dot(q, q) - 1.0f) > 0.01f)
-            fail(VFIT_ERROR_DATA, "the rotation of bone ", bone_name(b), " is not finite or not of unit length");
+            fail(VFIT_ERROR_DATA, "the rotation of bone ", bone_name(b),
+                 " is not finite or not of unit length");
         put_rotation(out, q);
     }
     return bytes;
@@ -69,13 +72,15 @@ std::array<uint8_t, kPackedPoseBytes> pack_pose(const Pose& pose) {
 Pose unpack_pose(std::span<const uint8_t> bytes) {
     BitReader in(bytes);
     if (const uint64_t version = in.get(kPoseVersionBits); version != kPoseVersion)
-        fail(VFIT_ERROR_VERSION, "a packed pose of version ", version, ", this library reads version ", kPoseVersion);
+        fail(VFIT_ERROR_VERSION, "a packed pose of version ", version, ", this library reads version ",
+             kPoseVersion);
     if (bytes.size() != kPackedPoseBytes)
         fail(VFIT_ERROR_DATA, "a packed pose has ", kPackedPoseBytes, " bytes, not ", bytes.size());
     Pose pose;
     pose.contacts = uint32_t(in.get(kContactBits));
     pose.time_ns = int64_t(in.get(kTimeBits));
-    for (int i = 0; i < 3; ++i) pose.hips_position[i] = kHipsStep_m * float(int64_t(in.get(kHipsBits)) - kHipsMiddle);
+    for (int i = 0; i < 3; ++i)
+        pose.hips_position[i] = kHipsStep_m * float(int64_t(in.get(kHipsBits)) - kHipsMiddle);
     for (Quat& q : pose.rotation) q = get_rotation(in);
     return pose;
 }

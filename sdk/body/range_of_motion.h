@@ -20,7 +20,7 @@ struct RangeOfMotion {
     Interval hip_abduction;
     float hip_internal = 0, hip_external = 0;
     Interval knee_flexion;
-    float hinge_play = 0;  // of a knee out of its plane and about its axis
+    float hinge_play = 0;           // of a knee out of its plane and about its axis
     Interval ankle_plantarflexion;  // least is dorsiflexion
     float ankle_inversion = 0, ankle_eversion = 0;
     Interval neck_flexion;
@@ -30,8 +30,8 @@ struct RangeOfMotion {
 
     /// What the data file says.
     static const RangeOfMotion& natural();
-    /// `base` with what the JSON text gives in the data file's form: {"knee": {"flexion": 60}}. VFIT_ERROR_DATA naming the
-    /// joint where it is no such text or an angle is not in 0..180.
+    /// `base` with what the JSON text gives in the data file's form: {"knee": {"flexion": 60}}.
+    /// VFIT_ERROR_DATA naming the joint where it is no such text or an angle is not in 0..180.
     static RangeOfMotion read(std::string_view json, const RangeOfMotion& base);
 };
 

@@ -11,17 +11,19 @@ namespace {
 constexpr uint32_t kUnused = ~uint32_t(0);
 
 uint32_t source_of(const BodyTopology& fine, uint32_t render_vertex) {
-    return render_vertex < fine.vertex_count ? render_vertex : fine.seam_sources[render_vertex - fine.vertex_count];
+    return render_vertex < fine.vertex_count ? render_vertex
+                                             : fine.seam_sources[render_vertex - fine.vertex_count];
 }
 
 /// Triangles of render vertices of the fine surface.
-std::vector<uint32_t> fewer_triangles(const BodyTopology& fine, std::span<const Vec3> positions, size_t index_count) {
+std::vector<uint32_t> fewer_triangles(const BodyTopology& fine, std::span<const Vec3> positions,
+                                      size_t index_count) {
     std::vector<Vec3> render(positions.begin(), positions.begin() + fine.vertex_count);
     for (const uint32_t source : fine.seam_sources) render.push_back(positions[source]);
     std::vector<uint32_t> out(fine.render_indices.size());
     constexpr float kAnyError = 1.0f;  // of the body's size: the count alone decides
-    out.resize(meshopt_simplify(out.data(), fine.render_indices.data(), fine.render_indices.size(), &render[0].x,
-                                render.size(), sizeof(Vec3), index_count, kAnyError,
+    out.resize(meshopt_simplify(out.data(), fine.render_indices.data(), fine.render_indices.size(),
+                                &render[0].x, render.size(), sizeof(Vec3), index_count, kAnyError,
 #if MESHOPTIMIZER_VERSION >= 180
                                 0,
 #endif
@@ -31,7 +33,8 @@ std::vector<uint32_t> fewer_triangles(const BodyTopology& fine, std::span<const 
 
 }  // namespace
 
-SimplifiedSurface simplify_surface(const BodyTopology& fine, std::span<const Vec3> positions, uint32_t vertex_count) {
+SimplifiedSurface simplify_surface(const BodyTopology& fine, std::span<const Vec3> positions,
+                                   uint32_t vertex_count) {
     // A closed surface of v vertices has 2v triangles, but for its handles.
     const std::vector<uint32_t> triangles = fewer_triangles(fine, positions, 6 * size_t(vertex_count));
     if (triangles.empty()) fail(VFIT_ERROR_DATA, "the body's surface cannot be simplified");

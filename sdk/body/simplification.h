@@ -1,4 +1,5 @@
-// A surface with few vertices for people in a crowd: some of the fine one's, so that shape, skin and UVs are theirs.
+// A surface with few vertices for people in a crowd: some of the fine one's, so that shape, skin and UVs are
+// theirs.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +15,9 @@ struct SimplifiedSurface {
     std::vector<uint32_t> sources;  // the fine geometric vertex of each geometric vertex
 };
 
-/// About `vertex_count` geometric vertices of the fine surface, chosen at its given positions by quadric errors
-/// (meshoptimizer); seams of the UV map stay closed.
-SimplifiedSurface simplify_surface(const BodyTopology& fine, std::span<const Vec3> positions, uint32_t vertex_count);
+/// About `vertex_count` geometric vertices of the fine surface, chosen at its given positions by quadric
+/// errors (meshoptimizer); seams of the UV map stay closed.
+SimplifiedSurface simplify_surface(const BodyTopology& fine, std::span<const Vec3> positions,
+                                   uint32_t vertex_count);
 
 }  // namespace vfit

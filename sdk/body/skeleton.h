@@ -27,11 +27,11 @@ struct Skeleton {
 
 struct Pose {
     int64_t time_ns = 0;
-    uint32_t contacts = 0;              // VFIT_CONTACT_*
-    Vec3 hips_position{0, 1, 0};        // world
+    uint32_t contacts = 0;                  // VFIT_CONTACT_*
+    Vec3 hips_position{0, 1, 0};            // world
     std::array<Quat, kBoneCount> rotation;  // local to the parent, relative to the T-pose
-    Vec3 root_correction{0.0f};         // Alg. 6, d_root
-    float foot_correction_m = 0.0f;     // how far the planted foot was moved (Fig. 11)
+    Vec3 root_correction{0.0f};             // Alg. 6, d_root
+    float foot_correction_m = 0.0f;         // how far the planted foot was moved (Fig. 11)
 
     Pose() { rotation.fill(Quat(1, 0, 0, 0)); }
 };

@@ -10,8 +10,8 @@
 #include "cloth/contact/crossing_guard.h"
 #include "cloth/contact/mesh_lift.h"
 #include "cloth/contact/mesh_yield.h"
-#include "cloth/solver/particle_solver.h"
 #include "cloth/rigid_motion.h"
+#include "cloth/solver/particle_solver.h"
 #include "core/clock.h"
 #include "core/error.h"
 #include "math/finite.h"
@@ -20,43 +20,50 @@ namespace vfit {
 
 namespace {
 
-// Kinetic over static friction of cotton on skin: 0.25/0.31 at the forearm, 0.79/0.90 at the chest (Temel 2022).
+// Kinetic over static friction of cotton on skin: 0.25/0.31 at the forearm, 0.79/0.90 at the chest (Temel
+// 2022).
 constexpr float kKineticShare = 0.84f;
 // How fast a vertex that is already inside a collider comes out: brisk against the fastest body (about the
 // speed of a walking foot), slow enough not to be shot away.
 constexpr float kMaxDepenetration_m_s = 3.0f;
 constexpr uint32_t kRunsOfAJob = 128;  // of particles: enough to outweigh the hand-over (about 10 us)
-// What has been slower than that for so long, on a body that moves less than that in a step, sleeps. A swing is so slow only
-// for an instant, where it turns round; single vertices may tremble in a contact.
+// What has been slower than that for so long, on a body that moves less than that in a step, sleeps. A swing
+// is so slow only for an instant, where it turns round; single vertices may tremble in a contact.
 constexpr float kStillMean_m_s = 0.002f, kStillMost_m_s = 0.05f, kStill_m = 2e-5f, kFallsAsleep_s = 0.5f;
 constexpr float kFinestVirtual_m = 0.001f;
-constexpr float kMeshAround_m = 0.15f;  // about the cloth, in which meshes are looked for: a fast limb's way in a step
-constexpr float kLatest = 0.1f;  // weight of the last step in the mean time of a sub-step
+constexpr float kMeshAround_m =
+    0.15f;  // about the cloth, in which meshes are looked for: a fast limb's way in a step
+constexpr float kLatest = 0.1f;           // weight of the last step in the mean time of a sub-step
 constexpr float kSubstepRate_hz = 60.0f;  // settings.substeps are per 1/60 s
 
-// Putting on: frames of 1/60 s in which the cloth hangs, goes along into the pose (as fast as a leg steps) and
-// settles, and the sub-steps of one. On the way half the usual ones do; the last frames take out the stretch that they
-// leave. Damped so that hardly any speed outlives a second: a skirt that swings folds itself between the legs.
+// Putting on: frames of 1/60 s in which the cloth hangs, goes along into the pose (as fast as a leg steps)
+// and settles, and the sub-steps of one. On the way half the usual ones do; the last frames take out the
+// stretch that they leave. Damped so that hardly any speed outlives a second: a skirt that swings folds
+// itself between the legs.
 struct PutOnPhase {
     int frames, substeps;
 };
 constexpr PutOnPhase kHang{15, 4}, kMove{40, 4}, kSettle{10, 8};
 constexpr float kPutOnDamping = 0.99f;
-constexpr uint32_t kLooksSettling = 16, kLooks = 64, kLooksOffCloth = 16;  // steps in which all triangles have been looked at for crossing meshes
-// After a change of lengths: what falls into its new folds should hang still within a second. A coat is a pendulum of 0.8 m, which no
-// damping brings to rest faster than in 2 s; so its time runs twice as fast, in steps as short as ever: cloth that is pulled up a leg
-// went through it in longer ones.
+constexpr uint32_t kLooksSettling = 16, kLooks = 64,
+                   kLooksOffCloth =
+                       16;  // steps in which all triangles have been looked at for crossing meshes
+// After a change of lengths: what falls into its new folds should hang still within a second. A coat is a
+// pendulum of 0.8 m, which no damping brings to rest faster than in 2 s; so its time runs twice as fast, in
+// steps as short as ever: cloth that is pulled up a leg went through it in longer ones.
 constexpr float kSettles_s = 0.8f, kSettlingDamping = 0.98f;
 constexpr int kSettlingHaste = 2;
 
 void check(const Air& air) {
     if (!finite(air.wind_m_s)) fail(VFIT_ERROR_ARGUMENT, "the wind is not finite");
     for (const float coefficient : {air.drag, air.lift})
-        if (!finite(coefficient) || coefficient < 0.0f) fail(VFIT_ERROR_ARGUMENT, "a coefficient of drag or lift is ", coefficient);
+        if (!finite(coefficient) || coefficient < 0.0f)
+            fail(VFIT_ERROR_ARGUMENT, "a coefficient of drag or lift is ", coefficient);
 }
 
 void check_substeps(uint32_t substeps) {
-    if (substeps == 0 || substeps > 1000) fail(VFIT_ERROR_ARGUMENT, "substeps must be 1..1000, is ", substeps);
+    if (substeps == 0 || substeps > 1000)
+        fail(VFIT_ERROR_ARGUMENT, "substeps must be 1..1000, is ", substeps);
 }
 
 void check(const ClothSettings& s) {
@@ -65,14 +72,17 @@ void check(const ClothSettings& s) {
     if (!finite(s.friction) || s.friction < 0.0f) fail(VFIT_ERROR_ARGUMENT, "friction is ", s.friction);
     if (!finite(s.damping) || s.damping < 0.0f || s.damping > 1.0f)
         fail(VFIT_ERROR_ARGUMENT, "damping must be 0..1, is ", s.damping);
-    if (!finite(s.thickness_m) || s.thickness_m < 0.0f) fail(VFIT_ERROR_ARGUMENT, "thickness is ", s.thickness_m);
+    if (!finite(s.thickness_m) || s.thickness_m < 0.0f)
+        fail(VFIT_ERROR_ARGUMENT, "thickness is ", s.thickness_m);
     if (!finite(s.teleport_m) || s.teleport_m <= 0.0f)
         fail(VFIT_ERROR_ARGUMENT, "teleport distance is ", s.teleport_m);
     if (!finite(s.inertia) || s.inertia < 0.0f || s.inertia > 1.0f)
         fail(VFIT_ERROR_ARGUMENT, "inertia must be 0..1, is ", s.inertia);
-    if (!finite(s.budget_ms) || s.budget_ms < 0.0f) fail(VFIT_ERROR_ARGUMENT, "the budget is ", s.budget_ms, " ms");
+    if (!finite(s.budget_ms) || s.budget_ms < 0.0f)
+        fail(VFIT_ERROR_ARGUMENT, "the budget is ", s.budget_ms, " ms");
     if (!finite(s.self_thickness_m) || s.self_thickness_m < 0.0f || s.self_thickness_m > 0.1f)
-        fail(VFIT_ERROR_ARGUMENT, "the thickness between the cloth's own layers is ", s.self_thickness_m, " m");
+        fail(VFIT_ERROR_ARGUMENT, "the thickness between the cloth's own layers is ", s.self_thickness_m,
+             " m");
     if (!finite(s.virtual_m) || (s.virtual_m != 0.0f && s.virtual_m < kFinestVirtual_m))
         fail(VFIT_ERROR_ARGUMENT, "the way between virtual particles is ", s.virtual_m, " m");
     check(s.air);
@@ -122,7 +132,8 @@ uint64_t hash(uint64_t state, const Vec3& v) {
 }  // namespace
 
 struct Cloth::State {
-    State(std::shared_ptr<const Fabric> f, const ClothSettings& s, Jobs* jobs) : fabric(f), settings(s), solver(std::move(f), {s.self_thickness_m, s.virtual_m, s.pressure}, jobs) {}
+    State(std::shared_ptr<const Fabric> f, const ClothSettings& s, Jobs* jobs)
+        : fabric(f), settings(s), solver(std::move(f), {s.self_thickness_m, s.virtual_m, s.pressure}, jobs) {}
 
     std::shared_ptr<const Fabric> fabric;
     ClothSettings settings;
@@ -130,12 +141,13 @@ struct Cloth::State {
     ColliderMotion colliders;
     std::vector<ContactMesh> meshes;
     std::vector<std::vector<Vec3>> mesh_places;  // that they go to
-    std::vector<Vec3> held;  // targets, where fixed vertices are lifted off other cloth
-    std::vector<Vec3> previous_targets;  // one a vertex, then one a backstop: as held
-    bool backstops_placed = false;       // previous_targets holds the backstops as well
+    std::vector<Vec3> held;                      // targets, where fixed vertices are lifted off other cloth
+    std::vector<Vec3> previous_targets;          // one a vertex, then one a backstop: as held
+    bool backstops_placed = false;               // previous_targets holds the backstops as well
 
-    std::vector<Vec3> positions;  // what callers read
-    std::vector<Vec3> before, now;  // with own layers: the same at the begin of the step, carried along; and what the step made of it
+    std::vector<Vec3> positions;    // what callers read
+    std::vector<Vec3> before, now;  // with own layers: the same at the begin of the step, carried along; and
+                                    // what the step made of it
     std::optional<TriangleGroups> groups;  // of the cloth
     std::optional<CrossingGuard> guard;
     std::optional<MeshLift> off_solids, off_cloth;  // made when there are such meshes
@@ -148,14 +160,15 @@ struct Cloth::State {
     std::vector<float> inverse_rest;        // of an edge, 1/m
     std::vector<float> inverse_edge_count;  // of a vertex; 0: none
     float step_ms = 0.0f;
-    float substep_ms = 0.0f;  // mean; 0: not known yet
-    float substep_s = 0.0f;   // the last one's length; 0: there was none
-    uint32_t substeps = 0;    // of the last step
+    float substep_ms = 0.0f;    // mean; 0: not known yet
+    float substep_s = 0.0f;     // the last one's length; 0: there was none
+    uint32_t substeps = 0;      // of the last step
     ParticleSolver::Ways ways;  // of the vertices in the last step
-    float still_s = 0.0f;     // since the cloth last moved
-    float settles_s = 0.0f;   // so long it comes to rest from other lengths, or once it was put on
-    int haste = 1;            // steps in one, so long
-    int guarded_every = 1, unguarded = 0;  // steps: after so many it is looked whether layers crossed; those since
+    float still_s = 0.0f;       // since the cloth last moved
+    float settles_s = 0.0f;     // so long it comes to rest from other lengths, or once it was put on
+    int haste = 1;              // steps in one, so long
+    int guarded_every = 1,
+        unguarded = 0;            // steps: after so many it is looked whether layers crossed; those since
     std::vector<Vec3> asleep_at;  // the targets at which it fell asleep; empty: it is awake
 
     bool stays_asleep(std::span<const Vec3> targets) const;
@@ -183,7 +196,8 @@ struct Cloth::State {
     void find_pressures() const;
 };
 
-Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings, std::span<const Vec3> start, Jobs* jobs) {
+Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings, std::span<const Vec3> start,
+             Jobs* jobs) {
     if (!fabric) fail(VFIT_ERROR_ARGUMENT, "a cloth needs a fabric");
     check(settings);
     state_ = std::make_unique<State>(fabric, settings, jobs);
@@ -212,7 +226,8 @@ Cloth& Cloth::operator=(Cloth&&) noexcept = default;
 
 Cloth Cloth::with_fabric(std::shared_ptr<const Fabric> fabric, Jobs* jobs) const {
     const State& s = *state_;
-    if (!fabric || fabric->vertex_count() != s.fabric->vertex_count() || fabric->target_count() != s.fabric->target_count())
+    if (!fabric || fabric->vertex_count() != s.fabric->vertex_count() ||
+        fabric->target_count() != s.fabric->target_count())
         fail(VFIT_ERROR_ARGUMENT, "another fabric of a cloth must have as many vertices and targets");
     Cloth out(std::move(fabric), s.settings, s.positions, jobs);
     State& o = *out.state_;
@@ -226,7 +241,8 @@ Cloth Cloth::with_fabric(std::shared_ptr<const Fabric> fabric, Jobs* jobs) const
 
 void Cloth::reset(std::span<const Vec3> positions) {
     const Fabric& fabric = *state_->fabric;
-    check_points(positions, positions.size() == fabric.vertex_count() ? fabric.vertex_count() : fabric.target_count(),
+    check_points(positions,
+                 positions.size() == fabric.vertex_count() ? fabric.vertex_count() : fabric.target_count(),
                  "start positions");
     state_->reset(positions);
 }
@@ -264,8 +280,8 @@ void Cloth::put_on(const BodyOnItsWay& body, Jobs& jobs) {
 }
 
 void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
-    // The shorter a step, the softer is all that gives way in it (XPBD): at first cloth moves by a millimetre or so between two looks
-    // at what it may meet, itself included.
+    // The shorter a step, the softer is all that gives way in it (XPBD): at first cloth moves by a millimetre
+    // or so between two looks at what it may meet, itself included.
     constexpr int kSteps = 14, kSubsteps = 4, kGuardedEvery = 2;
     constexpr float kShortest_s = 1.5e-4f, kLongest_s = 1.0f / 120.0f, kStopped = 1.0f;
     State& s = *state_;
@@ -286,8 +302,10 @@ void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
     s.wake();
 }
 
-uint32_t Cloth::add_mesh(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts, MeshOf what) {
-    if (!counts.empty() && counts.size() != vertices) fail(VFIT_ERROR_ARGUMENT, counts.size(), " flags for a mesh of ", vertices, " vertices");
+uint32_t Cloth::add_mesh(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts,
+                         MeshOf what) {
+    if (!counts.empty() && counts.size() != vertices)
+        fail(VFIT_ERROR_ARGUMENT, counts.size(), " flags for a mesh of ", vertices, " vertices");
     state_->meshes.emplace_back(vertices, indices, counts, what);
     state_->mesh_places.emplace_back();
     state_->wake();
@@ -298,7 +316,8 @@ void Cloth::move_mesh(uint32_t mesh, std::span<const Vec3> positions) {
     State& s = *state_;
     if (mesh >= s.meshes.size()) fail(VFIT_ERROR_ARGUMENT, "there is no mesh ", mesh);
     if (positions.size() != s.meshes[mesh].vertex_count())
-        fail(VFIT_ERROR_ARGUMENT, positions.size(), " places for a mesh of ", s.meshes[mesh].vertex_count(), " vertices");
+        fail(VFIT_ERROR_ARGUMENT, positions.size(), " places for a mesh of ", s.meshes[mesh].vertex_count(),
+             " vertices");
     if (s.mesh_places[mesh].empty()) s.wake();
     s.mesh_places[mesh].assign(positions.begin(), positions.end());
 }
@@ -312,7 +331,9 @@ void Cloth::hide_mesh(uint32_t mesh) {
 
 void Cloth::set_air(const Air& air) {
     check(air);
-    if (air.wind_m_s != state_->settings.air.wind_m_s || air.drag != state_->settings.air.drag || air.lift != state_->settings.air.lift) state_->wake();
+    if (air.wind_m_s != state_->settings.air.wind_m_s || air.drag != state_->settings.air.drag ||
+        air.lift != state_->settings.air.lift)
+        state_->wake();
     state_->settings.air = air;
 }
 
@@ -323,7 +344,8 @@ void Cloth::set_quality(uint32_t substeps, float budget_ms) {
     state_->settings.budget_ms = budget_ms;
 }
 
-void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<const Collider> colliders, Jobs& jobs) {
+void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<const Collider> colliders,
+                 Jobs& jobs) {
     State& s = *state_;
     if (!finite(dt) || dt < 0.0f) fail(VFIT_ERROR_ARGUMENT, "the step is ", dt, " s long");
     s.check_body(skinned_targets, colliders);
@@ -345,7 +367,8 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
     if (affordable < times * wanted) times = 1;  // haste is what a budget spares first
     int done = 0;
     for (; done < times && s.asleep_at.empty(); ++done) {
-        s.advance(dt, substeps, settles ? std::max(s.settings.damping, kSettlingDamping) : s.settings.damping, skinned_targets, jobs);
+        s.advance(dt, substeps, settles ? std::max(s.settings.damping, kSettlingDamping) : s.settings.damping,
+                  skinned_targets, jobs);
         s.lift_off_meshes(settles ? kLooksSettling : kLooks, jobs);
     }
     s.substeps = uint32_t(substeps * done);
@@ -361,7 +384,8 @@ void Cloth::State::accept_body(std::span<const Collider> limbs) {
     Vec3 low, high;
     solver.bounds(low, high);
     for (size_t i = 0; i < meshes.size(); ++i)
-        if (!mesh_places[i].empty()) meshes[i].accept(mesh_places[i], low - kMeshAround_m, high + kMeshAround_m);
+        if (!mesh_places[i].empty())
+            meshes[i].accept(mesh_places[i], low - kMeshAround_m, high + kMeshAround_m);
 }
 
 /// Of colliders and meshes in this step, at most.
@@ -387,7 +411,8 @@ void Cloth::State::check_body(std::span<const Vec3> targets, std::span<const Col
 }
 
 /// The colliders have been accepted.
-void Cloth::State::advance(float dt, int count, float damping, std::span<const Vec3> skinned_targets, Jobs& jobs) {
+void Cloth::State::advance(float dt, int count, float damping, std::span<const Vec3> skinned_targets,
+                           Jobs& jobs) {
     if (settings.self_thickness_m > 0.0f && unguarded == 0) before = positions;
     const std::span<const Vec3> targets = held_at(skinned_targets);
     teleport(targets);
@@ -398,11 +423,16 @@ void Cloth::State::advance(float dt, int count, float damping, std::span<const V
         backstops_placed = true;
     }
     const float h = dt / float(count);
-    const auto lifts_of = [](const std::optional<MeshLift>& lift) { return lift ? lift->particles() : std::span<const float>(); };
-    const std::span<const float> lift_m = lifts_of(off_solids), cloth_lift_m = yield ? yield->particles() : lifts_of(off_cloth);
-    const ContactSettings contact{settings.friction, settings.friction * kKineticShare, kMaxDepenetration_m_s * h};
-    solver.advance({dt, count, settings.gravity, settings.air, std::pow(1.0f - damping, h), contact, settings.thickness_m,
-                    previous_targets, targets, colliders, meshes, lift_m, cloth_lift_m}, jobs);
+    const auto lifts_of = [](const std::optional<MeshLift>& lift) {
+        return lift ? lift->particles() : std::span<const float>();
+    };
+    const std::span<const float> lift_m = lifts_of(off_solids),
+                                 cloth_lift_m = yield ? yield->particles() : lifts_of(off_cloth);
+    const ContactSettings contact{settings.friction, settings.friction * kKineticShare,
+                                  kMaxDepenetration_m_s * h};
+    solver.advance({dt, count, settings.gravity, settings.air, std::pow(1.0f - damping, h), contact,
+                    settings.thickness_m, previous_targets, targets, colliders, meshes, lift_m, cloth_lift_m},
+                   jobs);
     if (++unguarded >= guarded_every) {
         guard_layers(float(unguarded) * dt, jobs);
         unguarded = 0;
@@ -447,7 +477,9 @@ void Cloth::State::lift_off_meshes(uint32_t steps, Jobs& jobs) {
     if (meshes.empty() || !settings.clears_meshes) return;
     if (!guard) triangles_now(positions, jobs);
     const auto lift = [&](MeshOf what, std::optional<MeshLift>& off, uint32_t in_steps) {
-        if (std::none_of(meshes.begin(), meshes.end(), [&](const ContactMesh& mesh) { return mesh.what() == what; })) return;
+        if (std::none_of(meshes.begin(), meshes.end(),
+                         [&](const ContactMesh& mesh) { return mesh.what() == what; }))
+            return;
         if (!off) off.emplace(fabric, what);
         off->look(*groups, meshes, in_steps);
     };
@@ -456,17 +488,22 @@ void Cloth::State::lift_off_meshes(uint32_t steps, Jobs& jobs) {
 }
 
 void Cloth::State::yield_to_cloth() {
-    if (!settings.yields || std::none_of(meshes.begin(), meshes.end(), [](const ContactMesh& mesh) { return mesh.what() != MeshOf::solid; })) return;
+    if (!settings.yields || std::none_of(meshes.begin(), meshes.end(), [](const ContactMesh& mesh) {
+            return mesh.what() != MeshOf::solid;
+        }))
+        return;
     if (!yield) yield.emplace(fabric);
     find_strains();
     yield->look(strains, off_cloth ? off_cloth->particles() : std::span<const float>());
 }
 
-/// Fixed vertices go where the skin carries them, but for those through whose triangles other cloth goes: they are lifted as others are.
+/// Fixed vertices go where the skin carries them, but for those through whose triangles other cloth goes:
+/// they are lifted as others are.
 std::span<const Vec3> Cloth::State::held_at(std::span<const Vec3> targets) {
     if (!off_cloth) return targets;
     const std::vector<uint32_t>& fixed = fabric->kinematic_vertices();
-    if (std::none_of(fixed.begin(), fixed.end(), [&](uint32_t v) { return off_cloth->of_vertex(v) > 0.0f; })) return targets;
+    if (std::none_of(fixed.begin(), fixed.end(), [&](uint32_t v) { return off_cloth->of_vertex(v) > 0.0f; }))
+        return targets;
     find_normals();
     held.assign(targets.begin(), targets.end());
     for (const uint32_t v : fixed) held[v] += off_cloth->of_vertex(v) * normals[v];
@@ -474,8 +511,8 @@ std::span<const Vec3> Cloth::State::held_at(std::span<const Vec3> targets) {
 }
 
 void Cloth::State::rest_if_still(float dt, std::span<const Vec3> held, std::span<const Vec3> targets) {
-    const bool still = ways.rms_m <= kStillMean_m_s * dt && ways.greatest_m <= kStillMost_m_s * dt && body_way() <= kStill_m &&
-                       farthest(previous_targets, held) <= kStill_m;
+    const bool still = ways.rms_m <= kStillMean_m_s * dt && ways.greatest_m <= kStillMost_m_s * dt &&
+                       body_way() <= kStill_m && farthest(previous_targets, held) <= kStill_m;
     still_s = still ? still_s + dt : 0.0f;
     if (!settings.sleeps || still_s < kFallsAsleep_s) return;
     // Their velocities stay: by them contact knows who is drawn to the body how fast, when it wakes.
@@ -538,8 +575,9 @@ void Cloth::State::find_strains() const {
     strains_known = true;
 }
 
-/// Who is pushed by the body pushes back with what its threads and its weight pull with. That is taken from how far the threads are
-/// stretched: what a sub-step's single pass moves a light vertex by, when it works against a stiff thread, is far less.
+/// Who is pushed by the body pushes back with what its threads and its weight pull with. That is taken from
+/// how far the threads are stretched: what a sub-step's single pass moves a light vertex by, when it works
+/// against a stiff thread, is far less.
 void Cloth::State::find_pressures() const {
     const FabricData& data = fabric->data();
     std::fill(forces.begin(), forces.end(), Vec3(0.0f));
@@ -557,7 +595,8 @@ void Cloth::State::find_pressures() const {
         if (!(push > 0.0f) || data.inverse_mass[v] == 0.0f) continue;
         const Vec3 force = forces[v] + settings.gravity / data.inverse_mass[v];
         const float against = -glm::dot(force, pushes[v]) / push;
-        pressures[v] = std::max(0.0f, against) * data.inverse_mass[v] * data.density_kg_m2;  // mass over density is area
+        pressures[v] =
+            std::max(0.0f, against) * data.inverse_mass[v] * data.density_kg_m2;  // mass over density is area
     }
 }
 
@@ -574,7 +613,10 @@ const std::vector<float>& Cloth::pressure() const {
     if (state_->settings.pressure) state_->find_pressures();
     return state_->pressures;
 }
-float Cloth::substep_s() const { return state_->substep_s > 0.0f ? state_->substep_s : 1.0f / (kSubstepRate_hz * float(state_->settings.substeps)); }
+float Cloth::substep_s() const {
+    return state_->substep_s > 0.0f ? state_->substep_s
+                                    : 1.0f / (kSubstepRate_hz * float(state_->settings.substeps));
+}
 const Fabric& Cloth::fabric() const { return *state_->fabric; }
 
 uint64_t Cloth::state_hash() const {
@@ -583,7 +625,8 @@ uint64_t Cloth::state_hash() const {
     const ParticleLayout& layout = state_->fabric->layout();
     for (const ParticleLayout::Part& part : layout.parts)
         for (uint32_t i = part.begin; i < part.moving_end; ++i)
-            if (layout.vertex_of[i] != ParticleLayout::kNobody) out = hash(out, state_->solver.velocities()[i].x);
+            if (layout.vertex_of[i] != ParticleLayout::kNobody)
+                out = hash(out, state_->solver.velocities()[i].x);
     return out;
 }
 

@@ -17,25 +17,28 @@
 
 namespace vfit {
 
-inline constexpr float kMaxStep_s = 0.1f;  // a longer step is clamped (vfit_cloth_step)
+inline constexpr float kMaxStep_s = 0.1f;   // a longer step is clamped (vfit_cloth_step)
 inline constexpr float kMinStep_s = 1e-4f;  // a shorter one too: a body that moves in no time has no speed
 
 struct ClothSettings {
-    uint32_t substeps = 8;        // per 1/60 s
-    Vec3 gravity{0, -9.81f, 0};   // m/s2
-    float friction = 0.3f;        // static Coulomb coefficient against colliders
-    float damping = 0.5f;         // share of speed lost in a second, 0..1
-    float thickness_m = 0.004f;   // kept between vertices and colliders
-    float teleport_m = 0.5f;      // targets that move further in one step (mean) carry the cloth along rigidly
-    float inertia = 1.0f;         // share of the body's own motion that the cloth feels; the rest carries it along, 0..1
+    uint32_t substeps = 8;       // per 1/60 s
+    Vec3 gravity{0, -9.81f, 0};  // m/s2
+    float friction = 0.3f;       // static Coulomb coefficient against colliders
+    float damping = 0.5f;        // share of speed lost in a second, 0..1
+    float thickness_m = 0.004f;  // kept between vertices and colliders
+    float teleport_m = 0.5f;     // targets that move further in one step (mean) carry the cloth along rigidly
+    float inertia =
+        1.0f;  // share of the body's own motion that the cloth feels; the rest carries it along, 0..1
     Air air;
-    float budget_ms = 0.0f;       // of a step; where it would take longer, sub-steps are left out. 0: none
+    float budget_ms = 0.0f;         // of a step; where it would take longer, sub-steps are left out. 0: none
     float self_thickness_m = 0.0f;  // kept between the cloth's own layers; 0: they pass through each other
-    float virtual_m = 0.0f;  // points of triangles, no further from each other, meet colliders as vertices do; 0: none
-    bool pressure = false;        // how the body presses against each vertex is found
-    bool yields = true;           // to cloth below, rather than tear
-    bool clears_meshes = true;    // where a mesh stands out between vertices, they go further off it than thickness_m
-    bool sleeps = true;           // a cloth that lies still, on a body that does, is not stepped
+    float virtual_m =
+        0.0f;  // points of triangles, no further from each other, meet colliders as vertices do; 0: none
+    bool pressure = false;  // how the body presses against each vertex is found
+    bool yields = true;     // to cloth below, rather than tear
+    bool clears_meshes =
+        true;            // where a mesh stands out between vertices, they go further off it than thickness_m
+    bool sleeps = true;  // a cloth that lies still, on a body that does, is not stepped
 };
 
 struct ClothStats {
@@ -43,49 +46,54 @@ struct ClothStats {
     float strain_mean = 0.0f;  // of the edges: mean of the magnitude
     float strain_p99 = 0.0f;   // 99th percentile, to 0.001
     float strain_max = 0.0f;
-    float step_ms = 0.0f;      // the last step
-    uint32_t substeps = 0;     // of the last step; 0: it slept
+    float step_ms = 0.0f;   // the last step
+    uint32_t substeps = 0;  // of the last step; 0: it slept
 };
 
 class Cloth {
 public:
     /// start: as for reset.
-    Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings, std::span<const Vec3> start, Jobs* jobs = nullptr);
+    Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings, std::span<const Vec3> start,
+          Jobs* jobs = nullptr);
     ~Cloth();
     Cloth(Cloth&&) noexcept;
     Cloth& operator=(Cloth&&) noexcept;
 
-    /// The same cloth with other lengths, at rest where it is now: of a fabric with as many vertices and targets
-    /// (VFIT_ERROR_ARGUMENT), on the same body.
+    /// The same cloth with other lengths, at rest where it is now: of a fabric with as many vertices and
+    /// targets (VFIT_ERROR_ARGUMENT), on the same body.
     Cloth with_fabric(std::shared_ptr<const Fabric> fabric, Jobs* jobs = nullptr) const;
 
     /// At rest at these places: one a vertex, or the fabric's target_count() as Dress::skin gives them.
     void reset(std::span<const Vec3> positions);
 
     /// Fills skinned targets and colliders, as for step, of a body at that share of its way into a pose.
-    using BodyOnItsWay = std::function<void(float share, std::vector<Vec3>& targets, std::vector<Collider>& colliders)>;
+    using BodyOnItsWay =
+        std::function<void(float share, std::vector<Vec3>& targets, std::vector<Collider>& colliders)>;
 
-    /// Put on a body that first stands as at share 0 and then goes to 1: what it meets pushes the cloth aside,
-    /// instead of ending up inside of it. Ends at rest. The number of sub-steps is always the same, whatever the
-    /// settings.
+    /// Put on a body that first stands as at share 0 and then goes to 1: what it meets pushes the cloth
+    /// aside, instead of ending up inside of it. Ends at rest. The number of sub-steps is always the same,
+    /// whatever the settings.
     void put_on(const BodyOnItsWay& body, Jobs& jobs);
 
-    /// From a shape that was stretched over the body at share 0 to the cloth's own lengths on the body at share 1, without the speed
-    /// that giving way at once would leave. Own layers that go through each other at share 0, as they may after it was carried to another
-    /// body, are moved apart first. Ends at rest.
+    /// From a shape that was stretched over the body at share 0 to the cloth's own lengths on the body at
+    /// share 1, without the speed that giving way at once would leave. Own layers that go through each other
+    /// at share 0, as they may after it was carried to another body, are moved apart first. Ends at rest.
     void come_to_lengths(const BodyOnItsWay& body, Jobs& jobs);
 
-    /// Advances by dt. skinned_targets: the fabric's target_count(), where the skinned garment and the backstops
-    /// are at the END of the step; a free vertex ignores its own. colliders: at the end of the step, in the same
-    /// order each call. Both are interpolated from the previous call over the sub-steps. Fails without changing
-    /// anything: VFIT_ERROR_DATA for a value that is not finite, VFIT_ERROR_ARGUMENT for a wrong count or a dt
-    /// that is negative or not finite. Does not allocate while the number of colliders stays. The result is the same for
-    /// any number of threads, unless there is a budget.
-    void step(float dt, std::span<const Vec3> skinned_targets, std::span<const Collider> colliders, Jobs& jobs);
+    /// Advances by dt. skinned_targets: the fabric's target_count(), where the skinned garment and the
+    /// backstops are at the END of the step; a free vertex ignores its own. colliders: at the end of the
+    /// step, in the same order each call. Both are interpolated from the previous call over the sub-steps.
+    /// Fails without changing anything: VFIT_ERROR_DATA for a value that is not finite, VFIT_ERROR_ARGUMENT
+    /// for a wrong count or a dt that is negative or not finite. Does not allocate while the number of
+    /// colliders stays. The result is the same for any number of threads, unless there is a budget.
+    void step(float dt, std::span<const Vec3> skinned_targets, std::span<const Collider> colliders,
+              Jobs& jobs);
 
-    /// A mesh that the cloth stays outside of (its skin, a garment worn below): triangles counter-clockwise from outside,
-    /// flags of the vertices that count (empty: all). Returns its number. Where it is, is said before each step.
-    uint32_t add_mesh(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts = {}, MeshOf what = MeshOf::solid);
+    /// A mesh that the cloth stays outside of (its skin, a garment worn below): triangles counter-clockwise
+    /// from outside, flags of the vertices that count (empty: all). Returns its number. Where it is, is said
+    /// before each step.
+    uint32_t add_mesh(size_t vertices, std::span<const uint32_t> indices,
+                      std::span<const uint8_t> counts = {}, MeshOf what = MeshOf::solid);
     /// At the end of the next step, one a vertex. VFIT_ERROR_ARGUMENT for a wrong number or count.
     void move_mesh(uint32_t mesh, std::span<const Vec3> positions);
     /// It is not there until it is moved again.
@@ -99,9 +107,9 @@ public:
     const std::vector<Vec3>& normals() const;
     /// Mean strain of the edges at each vertex; 0: unstretched.
     const std::vector<float>& strain() const;
-    /// Of the body (and what else is met) against each vertex as it lies, Pa: what the threads and the weight of who is touched
-    /// pull with against it, over the flat cloth's area. 0 for vertices that are moved by their targets, and without
-    /// settings.pressure.
+    /// Of the body (and what else is met) against each vertex as it lies, Pa: what the threads and the weight
+    /// of who is touched pull with against it, over the flat cloth's area. 0 for vertices that are moved by
+    /// their targets, and without settings.pressure.
     const std::vector<float>& pressure() const;
     /// Of positions and velocities, bit by bit.
     uint64_t state_hash() const;

@@ -14,7 +14,8 @@ TriangleGroups groups_of(const MeshView& mesh, Jobs& jobs) {
 
 }  // namespace
 
-std::vector<TrianglePair> crossed_triangles(std::span<const Vec3> positions, std::span<const uint32_t> indices) {
+std::vector<TrianglePair> crossed_triangles(std::span<const Vec3> positions,
+                                            std::span<const uint32_t> indices) {
     const auto alone = Jobs::own(0);
     std::vector<TrianglePair> pairs;
     groups_of({positions, indices}, *alone).find_crossings(false, pairs, *alone);

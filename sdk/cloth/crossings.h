@@ -10,7 +10,8 @@
 namespace vfit {
 
 /// Pairs of triangles of one mesh, three indices each, that cross and share no vertex.
-std::vector<TrianglePair> crossed_triangles(std::span<const Vec3> positions, std::span<const uint32_t> indices);
+std::vector<TrianglePair> crossed_triangles(std::span<const Vec3> positions,
+                                            std::span<const uint32_t> indices);
 
 struct MeshView {
     std::span<const Vec3> positions;

@@ -10,19 +10,20 @@ namespace {
 using Matrix4d = glm::dmat4;
 
 /// The rotation R that maximises trace(R^T A), as the eigenvector of Horn's 4x4 matrix (Horn 1987) with the
-/// largest eigenvalue, by the power method on the matrix shifted to be positive. Where points lie on a line, any turn about
-/// it would do: the smallest is taken.
+/// largest eigenvalue, by the power method on the matrix shifted to be positive. Where points lie on a line,
+/// any turn about it would do: the smallest is taken.
 Quat rotation_of(const Mat3& given) {
     constexpr float kTowardsNone = 1e-5f;  // of the matrix's size
     float size2 = 0.0f;
     for (int i = 0; i < 3; ++i) size2 += glm::dot(given[i], given[i]);
     const Mat3 a = given + Mat3(kTowardsNone * std::sqrt(size2));
-    const auto m = [&](int row, int column) { return double(a[column][row]); };  // sum of to_row * from_column
-    double n[4][4] = {
-        {m(0, 0) + m(1, 1) + m(2, 2), m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)},
-        {0, m(0, 0) - m(1, 1) - m(2, 2), m(0, 1) + m(1, 0), m(0, 2) + m(2, 0)},
-        {0, 0, m(1, 1) - m(0, 0) - m(2, 2), m(1, 2) + m(2, 1)},
-        {0, 0, 0, m(2, 2) - m(0, 0) - m(1, 1)}};
+    const auto m = [&](int row, int column) {
+        return double(a[column][row]);
+    };  // sum of to_row * from_column
+    double n[4][4] = {{m(0, 0) + m(1, 1) + m(2, 2), m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)},
+                      {0, m(0, 0) - m(1, 1) - m(2, 2), m(0, 1) + m(1, 0), m(0, 2) + m(2, 0)},
+                      {0, 0, m(1, 1) - m(0, 0) - m(2, 2), m(1, 2) + m(2, 1)},
+                      {0, 0, 0, m(2, 2) - m(0, 0) - m(1, 1)}};
     double shift = 0.0;
     for (int i = 0; i < 4; ++i)
         for (int j = i; j < 4; ++j) {
@@ -48,14 +49,16 @@ Quat rotation_of(const Mat3& given) {
 
 }  // namespace
 
-RigidMotion fit_rigid_motion(std::span<const uint32_t> indices, std::span<const Vec3> from, std::span<const Vec3> to) {
+RigidMotion fit_rigid_motion(std::span<const uint32_t> indices, std::span<const Vec3> from,
+                             std::span<const Vec3> to) {
     RigidMotion motion;
     for (uint32_t i : indices) {
         motion.from_center += from[i] / float(indices.size());
         motion.to_center += to[i] / float(indices.size());
     }
     Mat3 covariance(0.0f);
-    for (uint32_t i : indices) covariance += glm::outerProduct(to[i] - motion.to_center, from[i] - motion.from_center);
+    for (uint32_t i : indices)
+        covariance += glm::outerProduct(to[i] - motion.to_center, from[i] - motion.from_center);
     motion.rotation = rotation_of(covariance);
     return motion;
 }

@@ -16,6 +16,7 @@ struct RigidMotion {
 };
 
 /// Least squares over the points named by `indices` (at least one); does not allocate.
-RigidMotion fit_rigid_motion(std::span<const uint32_t> indices, std::span<const Vec3> from, std::span<const Vec3> to);
+RigidMotion fit_rigid_motion(std::span<const uint32_t> indices, std::span<const Vec3> from,
+                             std::span<const Vec3> to);
 
 }  // namespace vfit

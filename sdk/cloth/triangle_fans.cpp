@@ -2,7 +2,8 @@
 
 namespace vfit {
 
-TriangleFans::TriangleFans(size_t points, std::span<const uint32_t> indices) : first_(points + 1, 0), corners_(indices.size()) {
+TriangleFans::TriangleFans(size_t points, std::span<const uint32_t> indices)
+    : first_(points + 1, 0), corners_(indices.size()) {
     for (uint32_t v : indices) ++first_[v + 1];
     for (size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
     std::vector<uint32_t> fill(first_.begin(), first_.end() - 1);

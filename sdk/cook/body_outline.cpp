@@ -97,7 +97,8 @@ BodyOutline::BodyOutline(const BodyModel& model, vfit_sex sex)
     levels_.ankle = joint(VFIT_BONE_LEFT_FOOT).y;
     const float hips = joint(VFIT_BONE_LEFT_UPPER_LEG).y, chest = joint(VFIT_BONE_UPPER_CHEST).y;
     // Bust: where the front stands out most; waist: the smallest girth; hip: the largest.
-    levels_.bust = find(joint(VFIT_BONE_CHEST).y, glm::mix(chest, levels_.shoulder, 0.7f), true, &BodyOutline::front);
+    levels_.bust =
+        find(joint(VFIT_BONE_CHEST).y, glm::mix(chest, levels_.shoulder, 0.7f), true, &BodyOutline::front);
     levels_.waist = find(hips, levels_.bust, false, &BodyOutline::girth);
     levels_.hip = find(hips - 0.25f * (levels_.waist - hips), levels_.waist, true, &BodyOutline::girth);
     // The middle of the thinnest section lies well inside the others.
@@ -145,7 +146,8 @@ float BodyOutline::find(float low, float high, bool largest, float (BodyOutline:
     return best;
 }
 
-std::vector<Vec3> BodyOutline::over_shoulder(const Vec3& front, const Vec3& back, uint32_t count, float ease_m) const {
+std::vector<Vec3> BodyOutline::over_shoulder(const Vec3& front, const Vec3& back, uint32_t count,
+                                             float ease_m) const {
     const Vec3 up(0, 1, 0);
     const Vec3 across = glm::normalize(glm::cross(back - front, up));
     const Vec3 along = glm::normalize(glm::cross(up, across));  // from front to back
@@ -155,7 +157,8 @@ std::vector<Vec3> BodyOutline::over_shoulder(const Vec3& front, const Vec3& back
     for (const Vec2& p : section.points()) {
         const Vec2 q = flat(section.lift(p));
         const Vec2 end = flat(back);
-        if (cross(end, q) > 0.0f && q.x > 0.0f && q.x < end.x) points.push_back(q);  // above the line between both
+        if (cross(end, q) > 0.0f && q.x > 0.0f && q.x < end.x)
+            points.push_back(q);  // above the line between both
     }
     if (points.empty()) fail(VFIT_ERROR_DATA, "the strap meets no shoulder");
     // The ease goes on before the hull is taken: a string tightened over the thickened shoulder.
@@ -173,7 +176,8 @@ std::vector<Vec3> BodyOutline::over_shoulder(const Vec3& front, const Vec3& back
     for (size_t i = 0; i + 1 < hull.size(); ++i) length += glm::length(hull[i + 1] - hull[i]);
     const float step = length / float(count + 1);
     std::vector<Vec3> out;
-    for (const Vec2& p : spread_evenly(hull, count, step, step)) out.push_back(front + along * p.x + up * p.y);
+    for (const Vec2& p : spread_evenly(hull, count, step, step))
+        out.push_back(front + along * p.x + up * p.y);
     return out;
 }
 

@@ -10,8 +10,8 @@
 
 namespace vfit {
 
-/// Horizontal outline as distances from an axis, at even angles: 0 is the front (+Z), a quarter the left (+X).
-/// Left and right are made equal: garments are cut symmetric.
+/// Horizontal outline as distances from an axis, at even angles: 0 is the front (+Z), a quarter the left
+/// (+X). Left and right are made equal: garments are cut symmetric.
 struct Outline {
     static constexpr uint32_t kAngles = 144;
     std::vector<float> radius = std::vector<float>(kAngles, 0.0f);
@@ -41,8 +41,8 @@ public:
 
     /// Convex outline at that height (a tape does not follow hollows).
     Outline at(float y) const;
-    /// Outline of the trunk cut by the upright plane through two places, convex, from one over the shoulder to
-    /// the other: `count` points evenly spread between them, `ease_m` off the skin.
+    /// Outline of the trunk cut by the upright plane through two places, convex, from one over the shoulder
+    /// to the other: `count` points evenly spread between them, `ease_m` off the skin.
     std::vector<Vec3> over_shoulder(const Vec3& front, const Vec3& back, uint32_t count, float ease_m) const;
 
 private:

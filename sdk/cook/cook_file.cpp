@@ -24,13 +24,15 @@ namespace {
 std::string name_of(const std::string& path) {
     std::string name = std::filesystem::path(path).stem().string();
     const std::string tail = "_specification";
-    if (name.size() > tail.size() && name.compare(name.size() - tail.size(), tail.size(), tail) == 0) name.resize(name.size() - tail.size());
+    if (name.size() > tail.size() && name.compare(name.size() - tail.size(), tail.size(), tail) == 0)
+        name.resize(name.size() - tail.size());
     return name;
 }
 
-/// A specification does not tell whom it was drawn for: on the woman, and where its seams do not close on her, or it crosses her or
-/// itself, on the man too; the better of both.
-CookedGarment cook_on_either(const BodyModel& model, const std::vector<PatternSize>& sizes, const FabricLibrary& fabrics, CookOptions options, Jobs& jobs) {
+/// A specification does not tell whom it was drawn for: on the woman, and where its seams do not close on
+/// her, or it crosses her or itself, on the man too; the better of both.
+CookedGarment cook_on_either(const BodyModel& model, const std::vector<PatternSize>& sizes,
+                             const FabricLibrary& fabrics, CookOptions options, Jobs& jobs) {
     std::optional<CookedGarment> on_woman;
     std::string fault;
     try {
@@ -43,27 +45,31 @@ CookedGarment cook_on_either(const BodyModel& model, const std::vector<PatternSi
     try {
         options.sex = VFIT_SEX_MALE;
         CookedGarment on_man = cook_pattern(model, sizes, 0, fabrics, options, jobs);
-        return on_woman && on_woman->report.crossings() <= on_man.report.crossings() ? std::move(*on_woman) : std::move(on_man);
+        return on_woman && on_woman->report.crossings() <= on_man.report.crossings() ? std::move(*on_woman)
+                                                                                     : std::move(on_man);
     } catch (const Error&) {
         if (!on_woman) fail(VFIT_ERROR_DATA, fault);
         return std::move(*on_woman);
     }
 }
 
-CookedGarment cook_specification(const BodyModel& model, const FabricLibrary& fabrics, const CookRequest& request, std::span<const std::byte> text, Jobs& jobs) {
+CookedGarment cook_specification(const BodyModel& model, const FabricLibrary& fabrics,
+                                 const CookRequest& request, std::span<const std::byte> text, Jobs& jobs) {
     CookOptions options;
     if (!request.kind.empty()) options.kind = request.kind;
     if (!request.fabric.empty()) options.fabric = request.fabric;
     if (request.sex != VFIT_SEX_UNKNOWN) options.sex = request.sex;
     options.triangle_m = request.triangle_m;
     options.drape = request.drape;
-    const Pattern pattern = parse_garmentcode(text, request.name.empty() ? name_of(request.path) : request.name);
+    const Pattern pattern =
+        parse_garmentcode(text, request.name.empty() ? name_of(request.path) : request.name);
     const std::vector<PatternSize> sizes{{"", {}, pattern}};
     if (request.sex != VFIT_SEX_UNKNOWN) return cook_pattern(model, sizes, 0, fabrics, options, jobs);
     return cook_on_either(model, sizes, fabrics, options, jobs);
 }
 
-CookedGarment cook_design(const BodyModel& model, const FabricLibrary& fabrics, const CookRequest& request, std::span<const std::byte> text, Jobs& jobs) {
+CookedGarment cook_design(const BodyModel& model, const FabricLibrary& fabrics, const CookRequest& request,
+                          std::span<const std::byte> text, Jobs& jobs) {
     const GarmentDesign design = parse_design(text);
     const DraftedGarment drafted = draft(model, design);
     std::vector<PatternSize> sizes;
@@ -82,7 +88,8 @@ CookedGarment cook_design(const BodyModel& model, const FabricLibrary& fabrics, 
 /// ".obj" of ".../shirt.OBJ".
 std::string ending_of(const std::string& path) {
     std::string ending = std::filesystem::path(path).extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](char c) { return char(std::tolower(static_cast<unsigned char>(c))); });
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](char c) { return char(std::tolower(static_cast<unsigned char>(c))); });
     return ending;
 }
 
@@ -95,7 +102,8 @@ Model read_model(const std::string& path) {
     return read_obj({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, beside);
 }
 
-CookedGarment cook_mesh(const BodyModel& model, const FabricLibrary& fabrics, const CookRequest& request, Jobs& jobs) {
+CookedGarment cook_mesh(const BodyModel& model, const FabricLibrary& fabrics, const CookRequest& request,
+                        Jobs& jobs) {
     ModelOptions options;
     options.name = request.name.empty() ? name_of(request.path) : request.name;
     if (!request.kind.empty()) options.cook.kind = request.kind;
@@ -120,15 +128,21 @@ bool is_mesh_file(const std::string& path) {
     return ending == ".obj" || ending == ".gltf" || ending == ".glb";
 }
 
-CookedGarment cook_file(const BodyModel& model, const FabricLibrary& fabrics, const CookRequest& request, Jobs& jobs) {
+CookedGarment cook_file(const BodyModel& model, const FabricLibrary& fabrics, const CookRequest& request,
+                        Jobs& jobs) {
     if (is_mesh_file(request.path)) return cook_mesh(model, fabrics, request, jobs);
     const std::vector<std::byte> text = read_file(request.path);
     if (is_garmentcode(text)) return cook_specification(model, fabrics, request, text, jobs);
     const Json root = parse_json(text, "garment design");
-    const std::string format = root.is_object() && root.contains("format") && root["format"].is_string() ? root["format"].get<std::string>() : "";
+    const std::string format = root.is_object() && root.contains("format") && root["format"].is_string()
+                                   ? root["format"].get<std::string>()
+                                   : "";
     if (format == "vfit-sundress") return {cook_sundress(model, parse_sundress(text)), {}, {}, {}};
     if (format == "vfit-design") return cook_design(model, fabrics, request, text, jobs);
-    fail(VFIT_ERROR_UNSUPPORTED, request.path, " is no garment that can be cooked: neither a mesh (.obj, .gltf, .glb) nor a GarmentCode specification (\"pattern\" with \"panels\") nor a design of vfit's (\"format\": \"vfit-design\" or \"vfit-sundress\")");
+    fail(VFIT_ERROR_UNSUPPORTED, request.path,
+         " is no garment that can be cooked: neither a mesh (.obj, .gltf, .glb) nor a GarmentCode "
+         "specification (\"pattern\" with \"panels\") nor a design of vfit's (\"format\": \"vfit-design\" or "
+         "\"vfit-sundress\")");
 }
 
 }  // namespace vfit

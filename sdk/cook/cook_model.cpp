@@ -13,7 +13,8 @@ namespace vfit {
 
 namespace {
 
-/// Sleeves: what is nearer to an arm than to the trunk, in patches that reach along the upper arm; others only hang beside a hand.
+/// Sleeves: what is nearer to an arm than to the trunk, in patches that reach along the upper arm; others
+/// only hang beside a hand.
 std::vector<uint8_t> sleeves(const Surface& surface, const std::vector<Vec3>& places, const DrapeBody& body) {
     constexpr float kAlong_m = 0.08f;  // from the shoulder joint
     const size_t count = places.size();
@@ -22,11 +23,14 @@ std::vector<uint8_t> sleeves(const Surface& surface, const std::vector<Vec3>& pl
         const MeshQuery::Closest near = body.skin->closest(places[v]);
         const BodyPart part = body.parts[body.indices[3 * near.triangle]];
         near_arm[v] = is_arm(part);
-        const Vec3 joint(places[v].x < 0.0f ? -body.left_shoulder.x : body.left_shoulder.x, body.left_shoulder.y, body.left_shoulder.z);
-        seed[v] = (part == BodyPart::kLeftUpperArm || part == BodyPart::kRightUpperArm) && glm::length(near.point - joint) > kAlong_m;
+        const Vec3 joint(places[v].x < 0.0f ? -body.left_shoulder.x : body.left_shoulder.x,
+                         body.left_shoulder.y, body.left_shoulder.z);
+        seed[v] = (part == BodyPart::kLeftUpperArm || part == BodyPart::kRightUpperArm) &&
+                  glm::length(near.point - joint) > kAlong_m;
     }
     std::vector<std::vector<uint32_t>> beside(count);
-    for (size_t i = 0; i < surface.indices.size(); ++i) beside[surface.indices[i]].push_back(surface.indices[i - i % 3 + (i + 1) % 3]);
+    for (size_t i = 0; i < surface.indices.size(); ++i)
+        beside[surface.indices[i]].push_back(surface.indices[i - i % 3 + (i + 1) % 3]);
     std::vector<uint8_t> out(count, 0);
     std::vector<uint32_t> open;
     for (uint32_t v = 0; v < count; ++v)
@@ -40,26 +44,43 @@ std::vector<uint8_t> sleeves(const Surface& surface, const std::vector<Vec3>& pl
     return out;
 }
 
-void add_notes(const WholeCloth& cloth, float thickness_m, const Standing& standing, const Draped& draped, std::vector<std::string>& notes) {
+void add_notes(const WholeCloth& cloth, float thickness_m, const Standing& standing, const Draped& draped,
+               std::vector<std::string>& notes) {
     const auto percent = [](float share) { return int(share * 100.0f + 0.5f); };
     constexpr float kMuch = 0.05f, kStretched = 0.2f;
-    if (standing.moved.z != 0.0f) notes.push_back(text("it stood ", percent(std::abs(standing.moved.z)), " cm too far ", standing.moved.z < 0.0f ? "forward" : "back", " and was moved"));
+    if (standing.moved.z != 0.0f)
+        notes.push_back(text("it stood ", percent(std::abs(standing.moved.z)), " cm too far ",
+                             standing.moved.z < 0.0f ? "forward" : "back", " and was moved"));
     if (standing.inside_share > kMuch)
-        notes.push_back(text(percent(standing.inside_share), " % of the vertices lay in the default body, up to ", percent(standing.deepest_m),
-                             " cm deep: it was modelled on a slimmer body, or on one whose arms are held otherwise (ours at about 45 degrees)"));
+        notes.push_back(text(percent(standing.inside_share),
+                             " % of the vertices lay in the default body, up to ",
+                             percent(standing.deepest_m),
+                             " cm deep: it was modelled on a slimmer body, or on one whose arms are held "
+                             "otherwise (ours at about 45 degrees)"));
     constexpr float kCoarse_m = 0.04f;
     const int side_mm = int(mean_side(cloth) * 1000.0f + 0.5f);
-    if (mean_side(cloth) > kCoarse_m) notes.push_back(text("its triangles are ", side_mm, " mm large: it will fold coarsely (20 mm do well)"));
-    if (!keeps_layers_apart(cloth, thickness_m)) notes.push_back(text("its triangles are ", side_mm, " mm large: too small for its own layers to be kept apart while it settled (20 mm do well)"));
-    if (draped.report.strain_p99 > kStretched) notes.push_back(text("it is stretched on this body: a hundredth of its sides by ", percent(draped.report.strain_p99), " % or more"));
-    if (draped.report.skin_crossings > 0) notes.push_back(text("the skin stands out of it in ", draped.report.skin_crossings, " places"));
-    if (draped.report.self_crossings > 0) notes.push_back(text("it goes through itself in ", draped.report.self_crossings, " places"));
-    if (std::find(draped.simulated.begin(), draped.simulated.end(), 0) == draped.simulated.end()) notes.push_back("it is held nowhere: all of it is simulated, and may slide off");
+    if (mean_side(cloth) > kCoarse_m)
+        notes.push_back(
+            text("its triangles are ", side_mm, " mm large: it will fold coarsely (20 mm do well)"));
+    if (!keeps_layers_apart(cloth, thickness_m))
+        notes.push_back(text(
+            "its triangles are ", side_mm,
+            " mm large: too small for its own layers to be kept apart while it settled (20 mm do well)"));
+    if (draped.report.strain_p99 > kStretched)
+        notes.push_back(text("it is stretched on this body: a hundredth of its sides by ",
+                             percent(draped.report.strain_p99), " % or more"));
+    if (draped.report.skin_crossings > 0)
+        notes.push_back(text("the skin stands out of it in ", draped.report.skin_crossings, " places"));
+    if (draped.report.self_crossings > 0)
+        notes.push_back(text("it goes through itself in ", draped.report.self_crossings, " places"));
+    if (std::find(draped.simulated.begin(), draped.simulated.end(), 0) == draped.simulated.end())
+        notes.push_back("it is held nowhere: all of it is simulated, and may slide off");
 }
 
 }  // namespace
 
-CookedGarment cook_model(const BodyModel& body_model, const Model& model, const FabricLibrary& fabrics, const ModelOptions& options, Jobs& jobs) {
+CookedGarment cook_model(const BodyModel& body_model, const Model& model, const FabricLibrary& fabrics,
+                         const ModelOptions& options, Jobs& jobs) {
     const Stopwatch watch;
     Surface surface = make_surface(model, options.unit_m);
     const FabricMaterial material = fabrics.get(options.cook.fabric);
@@ -68,7 +89,8 @@ CookedGarment cook_model(const BodyModel& body_model, const Model& model, const 
     const BodyTopology& topology = body_model.topology(0);
     const MeshQuery skin(evaluated.positions, topology.indices);
     const BodyOutline outline(body_model, options.cook.sex);
-    const DrapeBody body{evaluated.positions, topology.indices, &skin, outline.left_shoulder(), topology.parts};
+    const DrapeBody body{evaluated.positions, topology.indices, &skin, outline.left_shoulder(),
+                         topology.parts};
     const float thickness = options.cook.drape.thickness_m;
     const Standing standing = stand(surface, outline, skin, thickness);
 
@@ -88,8 +110,10 @@ CookedGarment cook_model(const BodyModel& body_model, const Model& model, const 
     constexpr float kOtherBody = 0.005f;  // of its vertices that lie well within ours
     std::vector<Vec3> places = standing.places;
     if (options.cook.drape.watch) options.cook.drape.watch("placed", places);
-    if (standing.inside_share > kOtherBody) places = grow_body_into(cloth, std::move(places), evaluated, topology, thickness, jobs);
-    const Draped draped = settle(cloth, pushed_out(std::move(places), skin, thickness), standing.band, body, options.cook.drape, jobs);
+    if (standing.inside_share > kOtherBody)
+        places = grow_body_into(cloth, std::move(places), evaluated, topology, thickness, jobs);
+    const Draped draped = settle(cloth, pushed_out(std::move(places), skin, thickness), standing.band, body,
+                                 options.cook.drape, jobs);
     out.report = draped.report;
     out.report.hangs_on = standing.hangs_on;
     out.report.raised_m = standing.moved.y;

@@ -1,4 +1,5 @@
-// From a garment that is modelled as a mesh to a garment file's: made whole, draped on the default body of a sex, in its own lengths.
+// From a garment that is modelled as a mesh to a garment file's: made whole, draped on the default body of a
+// sex, in its own lengths.
 #pragma once
 
 #include <string>
@@ -16,6 +17,7 @@ struct ModelOptions {
 };
 
 /// VFIT_ERROR_DATA says what is no garment's mesh, and where.
-CookedGarment cook_model(const BodyModel& body_model, const Model& model, const FabricLibrary& fabrics, const ModelOptions& options, Jobs& jobs);
+CookedGarment cook_model(const BodyModel& body_model, const Model& model, const FabricLibrary& fabrics,
+                         const ModelOptions& options, Jobs& jobs);
 
 }  // namespace vfit

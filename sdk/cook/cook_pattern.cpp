@@ -8,13 +8,15 @@ namespace vfit {
 
 namespace {
 
-/// Vertices of panels in the order in which a garment has them: the first of each sewn vertex, then its copies.
+/// Vertices of panels in the order in which a garment has them: the first of each sewn vertex, then its
+/// copies.
 struct DrawnOrder {
     std::vector<uint32_t> panel_vertices;  // one a vertex and copy
     std::vector<uint32_t> copies;          // sewn vertices
     std::vector<uint32_t> place_of;        // of a panel vertex
 
-    explicit DrawnOrder(const SewnMesh& mesh) : panel_vertices(mesh.sewn_count, UINT32_MAX), place_of(mesh.panel_vertex_count()) {
+    explicit DrawnOrder(const SewnMesh& mesh)
+        : panel_vertices(mesh.sewn_count, UINT32_MAX), place_of(mesh.panel_vertex_count()) {
         for (uint32_t v = 0; v < mesh.panel_vertex_count(); ++v) {
             uint32_t& first = panel_vertices[mesh.sewn_of[v]];
             if (first == UINT32_MAX) first = v, place_of[v] = mesh.sewn_of[v];
@@ -41,14 +43,17 @@ std::vector<uint8_t> on_arms(const SewnMesh& mesh, const std::vector<Vec3>& plac
         size_t on = 0;
         const size_t count = mesh.panels[p].flat.size();
         for (uint32_t v = 0; v < count; ++v) {
-            const MeshQuery::Closest near = body.skin->closest(places[mesh.sewn_of[mesh.first_vertex[p] + v]]);
+            const MeshQuery::Closest near =
+                body.skin->closest(places[mesh.sewn_of[mesh.first_vertex[p] + v]]);
             on += is_arm(body.parts[body.indices[3 * near.triangle]]);
         }
         const bool sleeve = 2 * on > count;
         for (uint32_t v = 0; v < count; ++v) {
             const uint32_t sewn = mesh.sewn_of[mesh.first_vertex[p] + v];
-            if (sleeve) out[sewn] = 1;
-            else elsewhere[sewn] = 1;
+            if (sleeve)
+                out[sewn] = 1;
+            else
+                elsewhere[sewn] = 1;
         }
     }
     for (uint32_t v = 0; v < mesh.sewn_count; ++v)
@@ -64,8 +69,11 @@ std::vector<GarmentPart> parts_of(const Pattern& pattern, const SewnMesh& mesh) 
         for (const PatternMaterial& m : pattern.materials)
             if (m.name == pattern.panels[p].material) material = m;
         const uint32_t first = mesh.first_triangle[p], count = mesh.first_triangle[p + 1] - first;
-        if (!parts.empty() && parts.back().material == material.name) parts.back().triangle_count += count;
-        else parts.push_back({material.name, material.texture, Vec3(material.color[0], material.color[1], material.color[2]), first, count});
+        if (!parts.empty() && parts.back().material == material.name)
+            parts.back().triangle_count += count;
+        else
+            parts.push_back({material.name, material.texture,
+                             Vec3(material.color[0], material.color[1], material.color[2]), first, count});
     }
     return parts;
 }
@@ -81,7 +89,9 @@ std::vector<Vec2> uvs_of(std::vector<Vec2> flat) {
 void turn_outside_out(Garment& g, const MeshQuery& skin) {
     double outwards = 0.0;
     compute_normals(g.mesh.positions, g.mesh.indices, g.mesh.normals);
-    for (size_t i = 0; i < g.mesh.positions.size(); ++i) outwards += glm::dot(g.mesh.normals[i], g.mesh.positions[i] - skin.closest(g.mesh.positions[i]).point);
+    for (size_t i = 0; i < g.mesh.positions.size(); ++i)
+        outwards +=
+            glm::dot(g.mesh.normals[i], g.mesh.positions[i] - skin.closest(g.mesh.positions[i]).point);
     if (outwards >= 0.0) return;
     for (std::vector<uint32_t>* list : {&g.mesh.indices, &g.corners})
         for (size_t i = 0; i + 2 < list->size(); i += 3) std::swap((*list)[i + 1], (*list)[i + 2]);
@@ -90,8 +100,9 @@ void turn_outside_out(Garment& g, const MeshQuery& skin) {
 
 namespace {
 
-CookedGarment cook_once(const BodyModel& model, const std::vector<PatternSize>& sizes, size_t base, const FabricLibrary& fabrics,
-                        const CookOptions& options, float triangle_m, Jobs& jobs) {
+CookedGarment cook_once(const BodyModel& model, const std::vector<PatternSize>& sizes, size_t base,
+                        const FabricLibrary& fabrics, const CookOptions& options, float triangle_m,
+                        Jobs& jobs) {
     const Pattern& pattern = sizes[base].pattern;
     const SewnMesh mesh = sew(pattern, triangle_m);
     const FabricMaterial material = fabrics.get(options.fabric);
@@ -101,8 +112,10 @@ CookedGarment cook_once(const BodyModel& model, const std::vector<PatternSize>& 
     const BodyTopology& topology = model.topology(0);
     const MeshQuery skin(evaluated.positions, topology.indices);
     const BodyOutline outline(model, options.sex);
-    const DrapeBody body{evaluated.positions, topology.indices, &skin, outline.left_shoulder(), topology.parts};
-    const Draped draped = drape(pattern, mesh, material, body, place_panels(pattern, mesh, outline, skin), options.drape, jobs);
+    const DrapeBody body{evaluated.positions, topology.indices, &skin, outline.left_shoulder(),
+                         topology.parts};
+    const Draped draped =
+        drape(pattern, mesh, material, body, place_panels(pattern, mesh, outline, skin), options.drape, jobs);
 
     const DrawnOrder order(mesh);
     CookedGarment out;
@@ -126,7 +139,8 @@ CookedGarment cook_once(const BodyModel& model, const std::vector<PatternSize>& 
         if (size.label.empty()) continue;
         try {
             check_pattern(size.pattern);
-            g.sizes.push_back({size.label, size.nominal, order.pick(mesh.flat_of_size(pattern, size.pattern))});
+            g.sizes.push_back(
+                {size.label, size.nominal, order.pick(mesh.flat_of_size(pattern, size.pattern))});
         } catch (const Error& error) {
             fail(error.code(), "size ", size.label, ": ", error.what());
         }
@@ -138,17 +152,19 @@ CookedGarment cook_once(const BodyModel& model, const std::vector<PatternSize>& 
 
 }  // namespace
 
-CookedGarment cook_pattern(const BodyModel& model, const std::vector<PatternSize>& sizes, size_t base, const FabricLibrary& fabrics,
-                           const CookOptions& options, Jobs& jobs) {
+CookedGarment cook_pattern(const BodyModel& model, const std::vector<PatternSize>& sizes, size_t base,
+                           const FabricLibrary& fabrics, const CookOptions& options, Jobs& jobs) {
     if (base >= sizes.size()) fail(VFIT_ERROR_ARGUMENT, "there is no size ", base);
     check_pattern(sizes[base].pattern);
     CookedGarment best = cook_once(model, sizes, base, fabrics, options, options.triangle_m, jobs);
-    // Whether a fold gets caught when cloth falls from where it was sewn is chance: with triangles of a little another size it falls anew.
+    // Whether a fold gets caught when cloth falls from where it was sewn is chance: with triangles of a
+    // little another size it falls anew.
     double seconds = best.report.seconds;
     for (const float other : {0.95f, 1.05f, 0.9f}) {
         if (best.report.crossings() == 0) break;
         try {
-            CookedGarment again = cook_once(model, sizes, base, fabrics, options, options.triangle_m * other, jobs);
+            CookedGarment again =
+                cook_once(model, sizes, base, fabrics, options, options.triangle_m * other, jobs);
             seconds += again.report.seconds;
             if (again.report.crossings() < best.report.crossings()) best = std::move(again);
         } catch (const Error&) {

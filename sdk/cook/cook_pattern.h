@@ -1,4 +1,5 @@
-// From a sewing pattern, in one or several sizes, to a garment: meshed, sewn, draped on the default body of a sex.
+// From a sewing pattern, in one or several sizes, to a garment: meshed, sewn, draped on the default body of a
+// sex.
 #pragma once
 
 #include <string>
@@ -15,8 +16,8 @@ namespace vfit {
 
 /// A pattern in one size. Of one garment all have the same panels, edges and stitches.
 struct PatternSize {
-    std::string label;                  // may be empty where there is only one
-    std::vector<Measurement> nominal;   // girths that it is made for
+    std::string label;                 // may be empty where there is only one
+    std::vector<Measurement> nominal;  // girths that it is made for
     Pattern pattern;
 };
 
@@ -35,12 +36,14 @@ struct CookedGarment {
     std::vector<float> openings_m;   // around each
 };
 
-/// Triangles and seams agree on which side of the cloth is out, not on which of the two it is: that which looks away from the body.
+/// Triangles and seams agree on which side of the cloth is out, not on which of the two it is: that which
+/// looks away from the body.
 void turn_outside_out(Garment& garment, const MeshQuery& skin);
 
-/// base: the size that is draped; the others have its mesh in their own lengths. What crosses itself or the skin is draped again, up to
-/// three times, with triangles of a slightly other size. VFIT_ERROR_DATA names the panel, stitch or size.
-CookedGarment cook_pattern(const BodyModel& model, const std::vector<PatternSize>& sizes, size_t base, const FabricLibrary& fabrics,
-                           const CookOptions& options, Jobs& jobs);
+/// base: the size that is draped; the others have its mesh in their own lengths. What crosses itself or the
+/// skin is draped again, up to three times, with triangles of a slightly other size. VFIT_ERROR_DATA names
+/// the panel, stitch or size.
+CookedGarment cook_pattern(const BodyModel& model, const std::vector<PatternSize>& sizes, size_t base,
+                           const FabricLibrary& fabrics, const CookOptions& options, Jobs& jobs);
 
 }  // namespace vfit

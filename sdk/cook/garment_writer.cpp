@@ -42,8 +42,11 @@ void add_array(std::string& out, const char* key, const std::vector<T>& values) 
 
 std::string write_garment(const Garment& garment) {
     // Names come from files of others and file systems: JSON is UTF-8, whatever they are.
-    const auto quoted = [](const std::string& s) { return Json(s).dump(-1, ' ', false, Json::error_handler_t::replace); };
-    std::string out = std::string("{\n \"format\": \"vfit-garment\", \"version\": ") + (garment.has_own_lengths() ? "2" : "1") + ",\n";
+    const auto quoted = [](const std::string& s) {
+        return Json(s).dump(-1, ' ', false, Json::error_handler_t::replace);
+    };
+    std::string out = std::string("{\n \"format\": \"vfit-garment\", \"version\": ") +
+                      (garment.has_own_lengths() ? "2" : "1") + ",\n";
     out += " \"name\": " + quoted(garment.name) + ", \"kind\": " + quoted(garment.kind);
     out += ", \"fabric\": " + quoted(garment.fabric);
     out += std::string(", \"body_sex\": \"") + (garment.body_sex == VFIT_SEX_MALE ? "m" : "f") + "\",\n";
@@ -71,21 +74,26 @@ std::string write_garment(const Garment& garment) {
     out += ",\n";
     add_array(out, "backstop", garment.backstop);
     if (garment.has_own_lengths()) {
-        for (const auto& [key, values] : {std::pair("copies", &garment.copies), std::pair("corners", &garment.corners)}) {
+        for (const auto& [key, values] :
+             {std::pair("copies", &garment.copies), std::pair("corners", &garment.corners)}) {
             out += ",\n";
             add_array(out, key, *values);
         }
         out += ",\n";
-        if (garment.cut_shape.empty()) add_array(out, "flat", garment.flat);
-        else add_array(out, "shape", garment.cut_shape);
+        if (garment.cut_shape.empty())
+            add_array(out, "flat", garment.flat);
+        else
+            add_array(out, "shape", garment.cut_shape);
         out += ",\n";
         add_array(out, "on_arm", garment.on_arm);
         out += ",\n \"parts\": [";
         for (size_t i = 0; i < garment.parts.size(); ++i) {
             const GarmentPart& part = garment.parts[i];
-            out += (i > 0 ? ", " : "") + std::string("{\"material\": ") + quoted(part.material) + ", \"texture\": " + quoted(part.texture) + ", \"color\": [";
+            out += (i > 0 ? ", " : "") + std::string("{\"material\": ") + quoted(part.material) +
+                   ", \"texture\": " + quoted(part.texture) + ", \"color\": [";
             add(out, part.color);
-            out += "], \"triangles\": [" + std::to_string(part.first_triangle) + "," + std::to_string(part.triangle_count) + "]}";
+            out += "], \"triangles\": [" + std::to_string(part.first_triangle) + "," +
+                   std::to_string(part.triangle_count) + "]}";
         }
         out += "]";
     }

@@ -48,12 +48,14 @@ private:
         return garment_.vertex_count() - 1;
     }
 
-    /// The rectangle a b over c d, counter-clockwise seen from outside with b on a's left-hand side of the body;
-    /// the diagonal alternates.
+    /// The rectangle a b over c d, counter-clockwise seen from outside with b on a's left-hand side of the
+    /// body; the diagonal alternates.
     void add_quad(uint32_t a, uint32_t b, uint32_t c, uint32_t d, bool odd) {
         auto& list = garment_.mesh.indices;
-        if (odd) list.insert(list.end(), {a, c, d, a, d, b});
-        else list.insert(list.end(), {a, c, b, b, c, d});
+        if (odd)
+            list.insert(list.end(), {a, c, d, a, d, b});
+        else
+            list.insert(list.end(), {a, c, b, b, c, d});
     }
 
     Outline bodice_outline(float y) const {
@@ -87,14 +89,17 @@ private:
                  "sundress: the straps leave no armhole: \"strap_place\" or \"strap_columns\" is too large");
     }
 
-    /// Height of the top edge at a column: from the middle front up to the strap, down to the side, to the back.
+    /// Height of the top edge at a column: from the middle front up to the strap, down to the side, to the
+    /// back.
     float top_edge(uint32_t column) const {
         const float c = float(std::min(column, mirrored(column)));
         const float half = 0.5f * float(spec_.strap_columns - 1);
-        const float front = float(strap_front_) + half, side = 0.25f * float(columns()), back = 0.5f * float(columns());
-        const float share = c < front ? glm::mix(spec_.top_center, spec_.top_strap, smooth(c / front))
-                            : c < side ? glm::mix(spec_.top_strap, spec_.top_side, smooth((c - front) / (side - front)))
-                                       : glm::mix(spec_.top_side, spec_.top_back, smooth((c - side) / (back - side)));
+        const float front = float(strap_front_) + half, side = 0.25f * float(columns()),
+                    back = 0.5f * float(columns());
+        const float share =
+            c < front  ? glm::mix(spec_.top_center, spec_.top_strap, smooth(c / front))
+            : c < side ? glm::mix(spec_.top_strap, spec_.top_side, smooth((c - front) / (side - front)))
+                       : glm::mix(spec_.top_side, spec_.top_back, smooth((c - side) / (back - side)));
         return top_height(share);
     }
 
@@ -128,12 +133,14 @@ private:
     float flare_at(float y) const {
         const float middle = 0.5f * (levels_.waist + levels_.hip), soft = levels_.waist - middle;
         const float below = (middle - y) / soft;
-        const float softened = below <= -1.0f ? 0.0f : below >= 1.0f ? below : 0.25f * (below + 1.0f) * (below + 1.0f);
+        const float softened = below <= -1.0f  ? 0.0f
+                               : below >= 1.0f ? below
+                                               : 0.25f * (below + 1.0f) * (below + 1.0f);
         return spec_.flare * soft * softened;
     }
 
-    /// One row around the body, joined to the row above it. UVs in metres: u along the row from the middle front
-    /// (both halves alike, so that there is no seam), v down from the top of the shoulders.
+    /// One row around the body, joined to the row above it. UVs in metres: u along the row from the middle
+    /// front (both halves alike, so that there is no seam), v down from the top of the shoulders.
     void add_ring(const std::vector<Vec3>& line, bool simulated, bool backstop) {
         const uint32_t row = garment_.vertex_count() / columns();
         std::vector<float> u(columns(), 0.0f);
@@ -149,7 +156,8 @@ private:
         }
         if (row == 0) return;
         for (uint32_t c = 0; c < columns(); ++c)
-            add_quad(vertex(row - 1, c), vertex(row - 1, c + 1), vertex(row, c), vertex(row, c + 1), (row + c) % 2);
+            add_quad(vertex(row - 1, c), vertex(row - 1, c + 1), vertex(row, c), vertex(row, c + 1),
+                     (row + c) % 2);
     }
 
     void cut_strap(bool left) {
@@ -161,9 +169,8 @@ private:
             const uint32_t front = vertex(0, side(strap_front_ + k));
             const uint32_t back = vertex(0, side(strap_back_ + width - 1 - k));
             const Vec2 uv0 = garment_.mesh.uvs[front], uv1 = garment_.mesh.uvs[back];
-            const std::vector<Vec3> line = body_.over_shoulder(garment_.mesh.positions[front],
-                                                               garment_.mesh.positions[back], length,
-                                                               spec_.bodice_ease_m);
+            const std::vector<Vec3> line = body_.over_shoulder(
+                garment_.mesh.positions[front], garment_.mesh.positions[back], length, spec_.bodice_ease_m);
             std::vector<uint32_t> indices{front};
             float along = 0.0f;
             const float step = glm::length(line[1] - line[0]);
@@ -196,6 +203,8 @@ private:
 
 }  // namespace
 
-Garment cook_sundress(const BodyModel& model, const SundressSpec& spec) { return SundressCutter(model, spec).cut(); }
+Garment cook_sundress(const BodyModel& model, const SundressSpec& spec) {
+    return SundressCutter(model, spec).cut();
+}
 
 }  // namespace vfit

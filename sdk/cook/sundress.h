@@ -15,12 +15,14 @@ namespace vfit {
 
 struct SundressSpec {
     std::string name, kind, fabric;
-    // Vertices. Around the body (even, so that front and back have a middle), down, and across and along a strap.
+    // Vertices. Around the body (even, so that front and back have a middle), down, and across and along a
+    // strap.
     uint32_t columns = 0, bodice_rows = 0, skirt_rows = 0, strap_columns = 0, strap_rows = 0;
     // Height of the bodice's top edge: share of the way from the bust up to the shoulder joint.
     float top_center = 0.0f, top_strap = 0.0f, top_side = 0.0f, top_back = 0.0f;
-    float strap_place = 0.0f;  // of the strap's middle: share of the way from the body's middle to the shoulder joint
-    float hem = 0.0f;          // share of the way from the knee down to the ankle
+    float strap_place =
+        0.0f;          // of the strap's middle: share of the way from the body's middle to the shoulder joint
+    float hem = 0.0f;  // share of the way from the knee down to the ankle
     float bodice_ease_m = 0.0f;  // between skin and bodice
     float skirt_ease_m = 0.0f;   // between the widest section above and the skirt, reached at the hips
     float flare = 0.0f;          // what the skirt's radius grows by below the hips, metres a metre

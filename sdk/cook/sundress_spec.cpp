@@ -12,7 +12,8 @@ namespace {
 
 float number(const Json& root, const char* key, float low, float high) {
     const auto it = root.find(key);
-    if (it == root.end() || !it->is_number()) fail(VFIT_ERROR_DATA, "sundress: \"", key, "\" is not a number");
+    if (it == root.end() || !it->is_number())
+        fail(VFIT_ERROR_DATA, "sundress: \"", key, "\" is not a number");
     const float value = it->get<float>();
     if (!(value >= low && value <= high))
         fail(VFIT_ERROR_DATA, "sundress: \"", key, "\" must be ", low, " to ", high, ", is ", value);
@@ -37,7 +38,8 @@ std::string text_of(const Json& root, const char* key) {
 SundressSpec parse_sundress(std::span<const std::byte> json) {
     const Json root = parse_json(json, "sundress");
     if (!root.is_object()) fail(VFIT_ERROR_DATA, "sundress: not a JSON object");
-    if (text_of(root, "format") != "vfit-sundress") fail(VFIT_ERROR_DATA, "sundress: format is not \"vfit-sundress\"");
+    if (text_of(root, "format") != "vfit-sundress")
+        fail(VFIT_ERROR_DATA, "sundress: format is not \"vfit-sundress\"");
     if (count(root, "version", 1, 1u << 20) != 1) fail(VFIT_ERROR_VERSION, "sundress: version is not 1");
 
     SundressSpec spec;
@@ -60,7 +62,8 @@ SundressSpec parse_sundress(std::span<const std::byte> json) {
     spec.skirt_ease_m = number(root, "skirt_ease_m", 0.0f, 0.3f);
     spec.flare = number(root, "flare", 0.0f, 2.0f);
     const auto sizes = root.find("sizes");
-    if (sizes == root.end() || !sizes->is_array()) fail(VFIT_ERROR_DATA, "sundress: \"sizes\" is not an array");
+    if (sizes == root.end() || !sizes->is_array())
+        fail(VFIT_ERROR_DATA, "sundress: \"sizes\" is not an array");
     for (const Json& entry : *sizes) {
         GarmentSize size;
         size.label = text_of(entry, "label");

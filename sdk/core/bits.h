@@ -16,7 +16,8 @@ public:
     }
     void put(uint64_t value, int bits) {
         for (int i = 0; i < bits; ++i, ++at_)
-            if ((value >> i) & 1u) bytes_[at_ / 8] = static_cast<uint8_t>(bytes_[at_ / 8] | (1u << (at_ % 8)));
+            if ((value >> i) & 1u)
+                bytes_[at_ / 8] = static_cast<uint8_t>(bytes_[at_ / 8] | (1u << (at_ % 8)));
     }
     /// The nearest of 2^bits - 1 equal steps from `least` to `most`, both exact.
     void put_in_range(float value, float least, float most, int bits) {
@@ -43,7 +44,8 @@ public:
     }
     float get_in_range(float least, float most, int bits) {
         const double steps = double((uint64_t(1) << bits) - 1);
-        return static_cast<float>(double(least) + (double(most) - double(least)) * (double(get(bits)) / steps));
+        return static_cast<float>(double(least) +
+                                  (double(most) - double(least)) * (double(get(bits)) / steps));
     }
 
 private:

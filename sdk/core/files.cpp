@@ -11,9 +11,11 @@ std::vector<std::byte> read_file(const std::string& path, size_t max_bytes) {
     std::ifstream file(std::filesystem::path(path), std::ios::binary | std::ios::ate);
     std::error_code ignored;
     const std::streamoff end = file ? std::streamoff(file.tellg()) : -1;  // -1 as well: a pipe has no length
-    if (end < 0 || std::filesystem::is_directory(path, ignored)) fail(VFIT_ERROR_IO, path, ": cannot be read");
+    if (end < 0 || std::filesystem::is_directory(path, ignored))
+        fail(VFIT_ERROR_IO, path, ": cannot be read");
     const auto size = static_cast<size_t>(end);
-    if (size > max_bytes) fail(VFIT_ERROR_IO, path, ": ", size, " bytes are more than the ", max_bytes, " allowed");
+    if (size > max_bytes)
+        fail(VFIT_ERROR_IO, path, ": ", size, " bytes are more than the ", max_bytes, " allowed");
     std::vector<std::byte> bytes(size);
     file.seekg(0);
     if (size > 0 && !file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
@@ -29,8 +31,10 @@ std::string data_file(const std::string& data_dir, const std::string& kind, cons
     if (std::filesystem::exists(path, ignored)) return path;
     std::string known;
     for (const auto& entry : std::filesystem::directory_iterator(data_dir + "/" + kind, ignored))
-        if (entry.path().extension() == ".json") known += (known.empty() ? "" : ", ") + entry.path().stem().string();
-    fail(VFIT_ERROR_IO, "there is no \"", name, "\" in ", kind, "; there are: ", known.empty() ? "none" : known);
+        if (entry.path().extension() == ".json")
+            known += (known.empty() ? "" : ", ") + entry.path().stem().string();
+    fail(VFIT_ERROR_IO, "there is no \"", name, "\" in ", kind,
+         "; there are: ", known.empty() ? "none" : known);
 }
 
 }  // namespace vfit

@@ -10,7 +10,18 @@
 namespace vfit {
 
 enum class Kind : uint8_t {
-    none = 0, context, sensor, frame, tracker, scan, size_chart, motion, avatar, garment, cloth, recorder
+    none = 0,
+    context,
+    sensor,
+    frame,
+    tracker,
+    scan,
+    size_chart,
+    motion,
+    avatar,
+    garment,
+    cloth,
+    recorder
 };
 
 const char* kind_name(Kind kind);
@@ -22,7 +33,8 @@ public:
     /// A new id for object, counted once. The id dies with its parent's (0: no parent).
     uint64_t add(Kind kind, Ref<Object> object, uint64_t parent);
 
-    /// The object of a live id of that kind; else fails with VFIT_ERROR_HANDLE, naming null, stale or foreign.
+    /// The object of a live id of that kind; else fails with VFIT_ERROR_HANDLE, naming null, stale or
+    /// foreign.
     Ref<Object> get(uint64_t id, Kind kind) const;
 
     /// The same with its parent's object (null: none). `enter` runs under the table's lock: what it counts is

@@ -14,11 +14,11 @@ namespace vfit {
 
 class Jobs {
 public:
-    /// Own pool; workers beside the calling thread, which works too. 0 workers, or none that the system gives:
-    /// everything runs in the caller.
+    /// Own pool; workers beside the calling thread, which works too. 0 workers, or none that the system
+    /// gives: everything runs in the caller.
     static std::unique_ptr<Jobs> own(uint32_t workers);
-    /// The host's job system (vfit_context_desc). What an item starts runs inside that item: only a thread in a
-    /// vfit call may submit and wait.
+    /// The host's job system (vfit_context_desc). What an item starts runs inside that item: only a thread in
+    /// a vfit call may submit and wait.
     static std::unique_ptr<Jobs> host(vfit_submit_fn submit, vfit_wait_fn wait, void* user, uint32_t workers);
     virtual ~Jobs() = default;
 

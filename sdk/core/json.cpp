@@ -30,7 +30,8 @@ bool nests_deeper(std::string_view text, int levels) {
 }
 
 Json parse_json(std::string_view text, const char* what) {
-    if (nests_deeper(text, kDeepest)) fail(VFIT_ERROR_DATA, what, ": nested deeper than ", kDeepest, " levels");
+    if (nests_deeper(text, kDeepest))
+        fail(VFIT_ERROR_DATA, what, ": nested deeper than ", kDeepest, " levels");
     try {
         return Json::parse(text);
     } catch (const Json::exception& e) {

@@ -1,5 +1,5 @@
-// JSON text to values and back: what may be read and how a fault is told. Here alone, so that the parser and the
-// writer are compiled once.
+// JSON text to values and back: what may be read and how a fault is told. Here alone, so that the parser and
+// the writer are compiled once.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,8 +11,8 @@ namespace vfit {
 
 using Json = nlohmann::json;
 
-/// Fails with VFIT_ERROR_DATA, beginning with `what`, where the text is not JSON, is cut, or nests deeper than any
-/// file of ours: a file of brackets alone would cost gigabytes before anything looks at it.
+/// Fails with VFIT_ERROR_DATA, beginning with `what`, where the text is not JSON, is cut, or nests deeper
+/// than any file of ours: a file of brackets alone would cost gigabytes before anything looks at it.
 Json parse_json(std::string_view text, const char* what);
 Json parse_json(std::span<const std::byte> text, const char* what);
 

@@ -14,7 +14,8 @@ void Log::write(vfit_log_level level, const std::string& message) {
     if (callback_) {
         callback_(user_, level, message.c_str());
     } else if (level <= VFIT_LOG_WARNING) {
-        std::fprintf(stderr, "vfit: %s: %s\n", level == VFIT_LOG_ERROR ? "error" : "warning", message.c_str());
+        std::fprintf(stderr, "vfit: %s: %s\n", level == VFIT_LOG_ERROR ? "error" : "warning",
+                     message.c_str());
     }
 }
 

@@ -19,11 +19,17 @@ public:
     void write(vfit_log_level level, const std::string& message);
 
     template <typename... Parts>
-    void warning(const Parts&... parts) { write(VFIT_LOG_WARNING, text(parts...)); }
+    void warning(const Parts&... parts) {
+        write(VFIT_LOG_WARNING, text(parts...));
+    }
     template <typename... Parts>
-    void info(const Parts&... parts) { write(VFIT_LOG_INFO, text(parts...)); }
+    void info(const Parts&... parts) {
+        write(VFIT_LOG_INFO, text(parts...));
+    }
     template <typename... Parts>
-    void error(const Parts&... parts) { write(VFIT_LOG_ERROR, text(parts...)); }
+    void error(const Parts&... parts) {
+        write(VFIT_LOG_ERROR, text(parts...));
+    }
 
     /// The oldest line that was not polled yet.
     bool next(vfit_log_level& level, std::string& message);

@@ -16,7 +16,8 @@ public:
 
     void retain() const { references_.fetch_add(1, std::memory_order_relaxed); }
     void release() const {
-        if (references_.fetch_sub(1, std::memory_order_acq_rel) == 1) const_cast<Object*>(this)->unreferenced();
+        if (references_.fetch_sub(1, std::memory_order_acq_rel) == 1)
+            const_cast<Object*>(this)->unreferenced();
     }
 
 protected:

@@ -22,9 +22,11 @@ public:
             }
             const uint32_t phase = phase_of(seen);
             const uint32_t item = choose(uint32_t(seen), rank * work_.items(work_.data, phase) / threads);
-            if (!word_.compare_exchange_weak(seen, seen & ~(uint64_t(1) << item), std::memory_order_acquire)) continue;
+            if (!word_.compare_exchange_weak(seen, seen & ~(uint64_t(1) << item), std::memory_order_acquire))
+                continue;
             work_.run(work_.data, phase, item);
-            if (done_.fetch_add(1, std::memory_order_acq_rel) + 1 == work_.items(work_.data, phase)) open(phase + 1);
+            if (done_.fetch_add(1, std::memory_order_acq_rel) + 1 == work_.items(work_.data, phase))
+                open(phase + 1);
             seen = word_.load(std::memory_order_acquire);
         }
     }
@@ -63,7 +65,8 @@ void run_phases(Jobs& jobs, const PhasedWork& work) {
     const uint32_t threads = std::clamp(work.threads, 1u, jobs.concurrency());
     if (threads == 1) {
         for (uint32_t phase = 0; phase < work.phases; ++phase)
-            for (uint32_t item = 0; item < work.items(work.data, phase); ++item) work.run(work.data, phase, item);
+            for (uint32_t item = 0; item < work.items(work.data, phase); ++item)
+                work.run(work.data, phase, item);
         return;
     }
     Board board(work);

@@ -43,7 +43,8 @@ const char* library_suffix() { return ".dll"; }
 
 #else
 
-DynamicLibrary::DynamicLibrary(const std::string& path) : handle_(dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) {
+DynamicLibrary::DynamicLibrary(const std::string& path)
+    : handle_(dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) {
     if (!handle_) fail(VFIT_ERROR_PLUGIN, "cannot load plug-in: ", dlerror());
 }
 DynamicLibrary::~DynamicLibrary() { dlclose(handle_); }

@@ -14,8 +14,9 @@ inline void relax() {
 #endif
 }
 
-/// Tries `done` for about as long as it takes to wake a thread; false where it did not come true. Who waits longer has to
-/// sleep or yield: a thread that spins on starves the one that it waits for where another process holds a core.
+/// Tries `done` for about as long as it takes to wake a thread; false where it did not come true. Who waits
+/// longer has to sleep or yield: a thread that spins on starves the one that it waits for where another
+/// process holds a core.
 template <typename Done>
 bool spin_until(const Done& done) {
     constexpr auto kSpin = std::chrono::microseconds(50);

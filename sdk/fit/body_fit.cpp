@@ -12,12 +12,14 @@ namespace vfit {
 
 namespace {
 
-// How much firmer than their spread among bodies the components are held: rows err together, and clothes that hang off
-// the body pull the legs short and the hips wide. Chosen on virtual clothed people and judged on recordings.
+// How much firmer than their spread among bodies the components are held: rows err together, and clothes that
+// hang off the body pull the legs short and the hips wide. Chosen on virtual clothed people and judged on
+// recordings.
 constexpr double kFirmness = 50.0;
 constexpr float kUsualLayer = 0.8f, kLayerSpread = 1.0f;  // units of kLayerUnit_m
 constexpr float kLeastConfidence = 0.15f;                 // of a joint that is used at all
-// One frame's information about the shape that counts: the errors of frames that follow each other are much the same.
+// One frame's information about the shape that counts: the errors of frames that follow each other are much
+// the same.
 constexpr double kFrameShare = 0.5;
 constexpr int kShapeFrames = 300;   // then the shape moves by 1/150 of what a frame says
 constexpr int kSettledFrames = 30;  // a second: then the shape is held
@@ -128,7 +130,8 @@ FitShapeMatrix BodyFit::shape_hold() const {
 
 bool BodyFit::start_from_joints(const FitJoints& joints, FitState& state) const {
     const auto at = [&](int j) { return joints[size_t(j)].place; };
-    for (const int j : {VFIT_JOINT_LEFT_SHOULDER, VFIT_JOINT_RIGHT_SHOULDER, VFIT_JOINT_LEFT_HIP, VFIT_JOINT_RIGHT_HIP})
+    for (const int j :
+         {VFIT_JOINT_LEFT_SHOULDER, VFIT_JOINT_RIGHT_SHOULDER, VFIT_JOINT_LEFT_HIP, VFIT_JOINT_RIGHT_HIP})
         if (joints[size_t(j)].confidence <= 0.0f) return false;
     const Vec3 hips = 0.5f * (at(VFIT_JOINT_LEFT_HIP) + at(VFIT_JOINT_RIGHT_HIP));
     const Vec3 shoulders = 0.5f * (at(VFIT_JOINT_LEFT_SHOULDER) + at(VFIT_JOINT_RIGHT_SHOULDER));
@@ -180,8 +183,8 @@ FitScore BodyFit::score_of(const FitState& state) {
     return raster_.score(view_);
 }
 
-/// The last frame's pose, that pose moved to the joints, or one made from the joints alone: whichever meets the picture
-/// best, the later ones tried only where there is a reason.
+/// The last frame's pose, that pose moved to the joints, or one made from the joints alone: whichever meets
+/// the picture best, the later ones tried only where there is a reason.
 bool BodyFit::find_start(const BodyFitInput& input, bool follow, FitState& state) {
     bool started = false;
     const auto consider = [&](const FitState& candidate, bool from_last) {
@@ -212,23 +215,26 @@ bool BodyFit::find_start(const BodyFitInput& input, bool follow, FitState& state
 /// Whether every joint that the network is sure of lies near the body's as it is placed.
 bool BodyFit::agrees_with(const FitJoints& joints) const {
     for (size_t j = 0; j < size_t(kJointCount); ++j)
-        if (joints[j].confidence > 0.3f && glm::distance(joints[j].place, body_.joints()[j]) > kAgree_m) return false;
+        if (joints[j].confidence > 0.3f && glm::distance(joints[j].place, body_.joints()[j]) > kAgree_m)
+            return false;
     return true;
 }
 
-/// Whether the person stands so differently from the last frame's that the two do not follow each other: a recording
-/// that was cut, or another one. Nothing of the last pose then holds.
+/// Whether the person stands so differently from the last frame's that the two do not follow each other: a
+/// recording that was cut, or another one. Nothing of the last pose then holds.
 bool BodyFit::is_cut(const FitState& state) const {
     const Quat turn = state.rotation[VFIT_BONE_HIPS] * glm::conjugate(last_.rotation[VFIT_BONE_HIPS]);
     return angle_of(turn) > kCutTurn_rad || glm::distance(state.hips, last_.hips) > kCutStep_m;
 }
 
 /// From `state` as it was drawn.
-bool BodyFit::step(const BodyFitInput& input, const FitState* last, float frames, float robust_m, FitState& state) {
+bool BodyFit::step(const BodyFitInput& input, const FitState* last, float frames, float robust_m,
+                   FitState& state) {
     FitWeights weights = options_.weights;
     weights.robust_m = robust_m;
     equations_.start(body_);
-    out_.matched = options_.depth_rows ? add_depth_rows(view_, body_, raster_, weights, targets_, equations_) : 0;
+    out_.matched =
+        options_.depth_rows ? add_depth_rows(view_, body_, raster_, weights, targets_, equations_) : 0;
     if (options_.outline_rows) add_outline_rows(view_, body_, raster_, weights, equations_);
     if (options_.joint_rows) add_joint_rows(input.joints, body_, weights, equations_);
     equations_.finish();

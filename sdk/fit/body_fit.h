@@ -1,5 +1,5 @@
-// The body model fitted to one person, frame after frame: depth, outline and the network's joints in; pose, shape and
-// joints with rotations out.
+// The body model fitted to one person, frame after frame: depth, outline and the network's joints in; pose,
+// shape and joints with rotations out.
 #pragma once
 
 #include <cstdint>
@@ -26,9 +26,9 @@ enum class BodyFitState {
 
 struct BodyFitOutput {
     BodyFitState state = BodyFitState::kNothing;
-    FitState pose;                                // camera space
-    std::array<Vec3, kJointCount> joints{};       // camera space
-    std::array<Quat, kJointCount> rotations{};    // of the joint's bone, from the T-pose's axes to the camera's
+    FitState pose;                              // camera space
+    std::array<Vec3, kJointCount> joints{};     // camera space
+    std::array<Quat, kJointCount> rotations{};  // of the joint's bone, from the T-pose's axes to the camera's
     std::array<float, kJointCount> confidence{};  // 0 to 1
     FitShape shape_sd{};                          // standard deviations of the shape so far
     FitScore score;                               // how well the camera's picture is met
@@ -41,7 +41,8 @@ struct BodyFitOptions {
     FitWeights weights;
     int steps_at_first = 8;  // Gauss-Newton steps where there is no good last frame
     int steps = 2;           // after one
-    bool depth_rows = true, outline_rows = true, joint_rows = true, shape = true;  // for judging each one's part
+    bool depth_rows = true, outline_rows = true, joint_rows = true,
+         shape = true;  // for judging each one's part
 };
 
 class BodyFit {
@@ -51,7 +52,8 @@ public:
     BodyFit(const BodyFit&) = delete;
     BodyFit& operator=(const BodyFit&) = delete;
 
-    /// Does not allocate after its first run on an image of that size. The output stays valid until the next run.
+    /// Does not allocate after its first run on an image of that size. The output stays valid until the next
+    /// run.
     const BodyFitOutput& run(const BodyFitInput& input);
     /// Overwrites all that is of the person: another one comes.
     void reset();

@@ -15,8 +15,8 @@ constexpr size_t kTail = 3 + kFitShapes + 1;  // columns behind the bones': plac
 /// Adds direction . (turn * field) for every shape: `turned` is the direction in the field's frame.
 void add_fields(const float* fields, const Vec3& turned, float* out) {
     for (size_t s = 0; s < size_t(kFitShapeLanes); ++s)
-        out[s] +=
-            turned.x * fields[s] + turned.y * fields[kFitShapeLanes + s] + turned.z * fields[2 * kFitShapeLanes + s];
+        out[s] += turned.x * fields[s] + turned.y * fields[kFitShapeLanes + s] +
+                  turned.z * fields[2 * kFitShapeLanes + s];
 }
 
 bool is_ancestor(int ancestor, int bone) {
@@ -155,7 +155,8 @@ void FitEquations::add_joint_row(int joint, const Vec3& direction, float residua
     tail[0] = d.x, tail[1] = d.y, tail[2] = d.z;
     std::array<float, kFitShapeLanes> shapes{};
     add_fields(start_fields_[size_t(bone)].data(), d, shapes.data());
-    add_fields(model_->joints()[size_t(joint)].fields.data(), d * body_->bone_turns()[size_t(bone)], shapes.data());
+    add_fields(model_->joints()[size_t(joint)].fields.data(), d * body_->bone_turns()[size_t(bone)],
+               shapes.data());
     std::copy_n(shapes.data(), kFitShapes, tail + 3);
     tail[3 + kFitShapes] = root * residual;
 }
@@ -195,8 +196,10 @@ void FitEquations::finish() {
             for (int k = 0; k < 3; ++k)
                 *out[k] = double(r[k][0]) * w[0] + double(r[k][1]) * w[1] + double(r[k][2]) * w[2];
         };
-        for (size_t j = 0; j < size_t(kFitUnknowns); ++j) turned(matrix_[c][j], matrix_[c + 1][j], matrix_[c + 2][j]);
-        for (size_t i = 0; i < size_t(kFitUnknowns); ++i) turned(matrix_[i][c], matrix_[i][c + 1], matrix_[i][c + 2]);
+        for (size_t j = 0; j < size_t(kFitUnknowns); ++j)
+            turned(matrix_[c][j], matrix_[c + 1][j], matrix_[c + 2][j]);
+        for (size_t i = 0; i < size_t(kFitUnknowns); ++i)
+            turned(matrix_[i][c], matrix_[i][c + 1], matrix_[i][c + 2]);
         turned(right_[c], right_[c + 1], right_[c + 2]);
     }
 }
@@ -206,17 +209,20 @@ void FitEquations::add_prior(int column, double residual, double weight) {
     right_[size_t(column)] += weight * residual;
 }
 
-void FitEquations::add_turn_prior(int column, const Mat3& derivative, const Vec3& residual, const Vec3& weight) {
+void FitEquations::add_turn_prior(int column, const Mat3& derivative, const Vec3& residual,
+                                  const Vec3& weight) {
     for (int value = 0; value < 3; ++value)
         for (int i = 0; i < 3; ++i) {
-            const double di = double(derivative[i][value]) * double(weight[value]);  // column-major: [unknown][value]
+            const double di =
+                double(derivative[i][value]) * double(weight[value]);  // column-major: [unknown][value]
             right_[size_t(column + i)] += di * double(residual[value]);
             for (int j = 0; j < 3; ++j)
                 matrix_[size_t(column + i)][size_t(column + j)] += di * double(derivative[j][value]);
         }
 }
 
-void FitEquations::add_shape_prior(const FitShapeMatrix& information, const std::array<double, kFitShapes>& residual) {
+void FitEquations::add_shape_prior(const FitShapeMatrix& information,
+                                   const std::array<double, kFitShapes>& residual) {
     for (size_t i = 0; i < size_t(kFitShapes); ++i)
         for (size_t j = 0; j < size_t(kFitShapes); ++j) {
             matrix_[kFitPoseUnknowns + i][kFitPoseUnknowns + j] += information[i][j];
@@ -229,7 +235,8 @@ bool FitEquations::solve(FitVector& step) {
     constexpr size_t n = kFitUnknowns;
     constexpr size_t pose = kFitPoseUnknowns;
     for (size_t i = 0; i < n; ++i)
-        std::copy(matrix_[i].begin() + std::ptrdiff_t(i), matrix_[i].end(), factor_[i].begin() + std::ptrdiff_t(i));
+        std::copy(matrix_[i].begin() + std::ptrdiff_t(i), matrix_[i].end(),
+                  factor_[i].begin() + std::ptrdiff_t(i));
     FitVector& y = half_solved_;
     y = right_;
     for (size_t k = 0; k < n; ++k) {

@@ -1,9 +1,10 @@
-// The normal equations of one frame: rows of residuals with their derivatives by pose and shape, summed, solved, and
-// what they say of the shape alone when the pose is left open (for fits of one shape to many frames).
+// The normal equations of one frame: rows of residuals with their derivatives by pose and shape, summed,
+// solved, and what they say of the shape alone when the pose is left open (for fits of one shape to many
+// frames).
 //
 // A row says that the residual r = direction . (target - point) should vanish; its derivatives are those of
-// direction . point. With small turns about world axes w of bone k at c, a point x that k carries in full moves by
-// w x (x - c); a point of several bones by the weighted sum over the bones below k.
+// direction . point. With small turns about world axes w of bone k at c, a point x that k carries in full
+// moves by w x (x - c); a point of several bones by the weighted sum over the bones below k.
 #pragma once
 
 #include <array>
@@ -35,8 +36,8 @@ public:
 
     /// The step to the least sum of squares. False where there is none: nothing holds some unknown.
     bool solve(FitVector& step);
-    /// After solve, with the pose eliminated (Schur complement): information . shape step = right side. Those of many
-    /// frames of one person add up to the equations of their common shape.
+    /// After solve, with the pose eliminated (Schur complement): information . shape step = right side. Those
+    /// of many frames of one person add up to the equations of their common shape.
     const FitShapeMatrix& shape_information() const { return shape_information_; }
     const std::array<double, kFitShapes>& shape_right_side() const { return shape_right_; }
     /// After solve: the best step of the pose where the shape's is given; `step` holds it in its last places.
@@ -46,7 +47,8 @@ public:
     double right_side(int row) const { return right_[size_t(row)]; }
 
 private:
-    // Rows of one limb, or of joints, have the same columns: its bones', then place and shape, then the residual.
+    // Rows of one limb, or of joints, have the same columns: its bones', then place and shape, then the
+    // residual.
     struct Group {
         std::vector<int> bones;
         std::array<int, kBoneCount> place{};  // of a bone among them; -1

@@ -26,7 +26,8 @@ public:
     static constexpr uint32_t kNone = ~uint32_t(0);
 
 private:
-    friend uint32_t nearest_target(const FitTargets& targets, const Vec3& place, const Vec3& normal, float& score);
+    friend uint32_t nearest_target(const FitTargets& targets, const Vec3& place, const Vec3& normal,
+                                   float& score);
     uint32_t count_ = 0;
     std::vector<float> lanes_[7];  // -2 x, y, z; -bend times normal; squared length + bend
     std::vector<uint32_t> ids_;
@@ -35,8 +36,8 @@ private:
 /// The id with the least score, and that score; kNone without targets.
 uint32_t nearest_target(const FitTargets& targets, const Vec3& place, const Vec3& normal, float& score);
 
-/// product += rows^T rows, upper triangle (and some of the rest of the blocks on the diagonal). `rows`: count rows
-/// of `columns` floats each; `columns` is a multiple of kRowLanes. `product`: columns squared.
+/// product += rows^T rows, upper triangle (and some of the rest of the blocks on the diagonal). `rows`: count
+/// rows of `columns` floats each; `columns` is a multiple of kRowLanes. `product`: columns squared.
 inline constexpr size_t kRowLanes = 16;
 void add_row_products(const float* rows, size_t count, size_t columns, float* product);
 

@@ -74,7 +74,8 @@ std::vector<int> humanoid_of_rig(const BodyModel& model) {
 }
 
 int clothing_layer_of(int limb, int bone) {
-    if (bone == VFIT_BONE_HEAD || bone == VFIT_BONE_NECK || bone == VFIT_BONE_LEFT_HAND || bone == VFIT_BONE_RIGHT_HAND)
+    if (bone == VFIT_BONE_HEAD || bone == VFIT_BONE_NECK || bone == VFIT_BONE_LEFT_HAND ||
+        bone == VFIT_BONE_RIGHT_HAND)
         return -1;
     if (bone == VFIT_BONE_LEFT_FOOT || bone == VFIT_BONE_RIGHT_FOOT) return -1;
     return limb == kTrunk ? 0 : limb == kLeftArm || limb == kRightArm ? 1 : 2;
@@ -137,12 +138,14 @@ AvatarRig rig_of(const BodyModel& model, const EvaluatedBody& body) {
     for (const int hand : {VFIT_BONE_LEFT_HAND, VFIT_BONE_RIGHT_HAND}) {
         const char* finger = hand == VFIT_BONE_LEFT_HAND ? "finger3-1.L" : "finger3-1.R";
         for (size_t i = 0; i < model.bones().size(); ++i)
-            if (model.bones()[i].name == finger) bones[size_t(model.rig_bone(hand))].rest_tail = body.bone_heads[i];
+            if (model.bones()[i].name == finger)
+                bones[size_t(model.rig_bone(hand))].rest_tail = body.bone_heads[i];
     }
     return AvatarRig(std::move(bones), 0.0f, 0);
 }
 
-BodyInBones in_bones(const BodyModel& model, const EvaluatedBody& body, const std::vector<FitModel::Vertex>& vertices) {
+BodyInBones in_bones(const BodyModel& model, const EvaluatedBody& body,
+                     const std::vector<FitModel::Vertex>& vertices) {
     const AvatarRig rig = rig_of(model, body);
     PosedSkeleton posed;
     std::vector<Mat4> matrices(rig.bones().size());
@@ -158,7 +161,8 @@ BodyInBones in_bones(const BodyModel& model, const EvaluatedBody& body, const st
             const auto b = size_t(influence.bone);
             out.points.push_back(out.t_pose[b] * (body.positions[vertex.source] - head[b]));
         }
-    for (int b = 0; b < kBoneCount; ++b) out.points.push_back(b == 0 ? Vec3(0.0f) : rig.skeleton().offset[size_t(b)]);
+    for (int b = 0; b < kBoneCount; ++b)
+        out.points.push_back(b == 0 ? Vec3(0.0f) : rig.skeleton().offset[size_t(b)]);
     for (const JointPlace& place : kJointPlaces) {
         const AvatarBone& bone = rig.bones()[size_t(rig.rig_bone(place.bone))];
         const Vec3 at = glm::mix(bone.rest_head, bone.rest_tail, place.along);
@@ -264,7 +268,8 @@ void FitModel::place_normals(const BodyModel& model) {
     for (Vertex& vertex : vertices_) {
         for (const Influence& influence : vertex.influences)
             normals_.push_back(frames.t_pose[size_t(influence.bone)] * all_normals[vertex.source]);
-        vertex.bridged = between_legs(vertex.influences.front().bone, normals_[normals_.size() - kFitInfluences]);
+        vertex.bridged =
+            between_legs(vertex.influences.front().bone, normals_[normals_.size() - kFitInfluences]);
     }
 }
 
@@ -274,7 +279,8 @@ void FitModel::find_influences(const BodyModel& model) {
     for (Vertex& vertex : vertices_) {
         std::array<float, kBoneCount> weights{};
         for (size_t k = 0; k < size_t(kSkinBones); ++k)
-            weights[size_t(humanoid[topology.skin_bones[vertex.source][k]])] += topology.skin_weights[vertex.source][k];
+            weights[size_t(humanoid[topology.skin_bones[vertex.source][k]])] +=
+                topology.skin_weights[vertex.source][k];
         const int heaviest = int(std::max_element(weights.begin(), weights.end()) - weights.begin());
         vertex.limb = limb_of(heaviest);
         const auto bones = limb_bones(vertex.limb);
@@ -288,9 +294,9 @@ void FitModel::find_influences(const BodyModel& model) {
         float sum = 0.0f;
         for (int k = 0; k < vertex.influence_count; ++k) sum += found[size_t(k)].weight;
         for (int k = 0; k < kFitInfluences; ++k)  // unused ones stand on the first bone, without weight
-            vertex.influences[size_t(k)] = k < vertex.influence_count
-                                               ? Influence{found[size_t(k)].bone, found[size_t(k)].weight / sum}
-                                               : Influence{found[0].bone, 0.0f};
+            vertex.influences[size_t(k)] =
+                k < vertex.influence_count ? Influence{found[size_t(k)].bone, found[size_t(k)].weight / sum}
+                                           : Influence{found[0].bone, 0.0f};
     }
 }
 
@@ -323,11 +329,13 @@ void FitModel::learn_shapes(const BodyModel& model) {
         for (size_t p = 0; p < parameters; ++p) {
             parameter_means_[p] += shapes[i][p] / float(kSampleBodies);
             for (size_t c = 0; c < size_t(kFitComponents); ++c)
-                parameter_fields_[p * kFitComponents + c] += scores_[i][c] * shapes[i][p] / float(kSampleBodies);
+                parameter_fields_[p * kFitComponents + c] +=
+                    scores_[i][c] * shapes[i][p] / float(kSampleBodies);
         }
 }
 
-/// How each point moves with the components: the regression on their scores, which have mean 0 and variance 1.
+/// How each point moves with the components: the regression on their scores, which have mean 0 and
+/// variance 1.
 void FitModel::learn_fields(const BodyModel& model) {
     Bodies bodies;
     EvaluatedBody body;

@@ -1,5 +1,5 @@
-// The reduced body that is fitted to depth: about 1,200 vertices of the body model with skin weights and shape
-// fields of their own. Shape is a few principal components of the body space, and layers of clothing.
+// The reduced body that is fitted to depth: about 1,200 vertices of the body model with skin weights and
+// shape fields of their own. Shape is a few principal components of the body space, and layers of clothing.
 #pragma once
 
 #include <array>
@@ -15,7 +15,8 @@
 namespace vfit {
 
 inline constexpr int kFitComponents = 10;  // of the body space, unit variance
-inline constexpr int kFitLayers = 3;       // clothing on trunk, arms, legs: one unit is kLayerUnit_m along the normal
+inline constexpr int kFitLayers =
+    3;  // clothing on trunk, arms, legs: one unit is kLayerUnit_m along the normal
 inline constexpr int kFitShapes = kFitComponents + kFitLayers;
 inline constexpr int kFitShapeLanes = 16;  // kFitShapes, padded for vector arithmetic
 inline constexpr float kLayerUnit_m = 0.01f;
@@ -47,8 +48,9 @@ public:
         std::array<Influence, kFitInfluences> influences{};
         int influence_count = 0;
         int limb = 0;
-        bool bridged = false;  // between the legs, where cloth spans from one to the other: no outline of the body's
-        uint32_t source = 0;   // vertex of the body model, level 0
+        bool bridged =
+            false;  // between the legs, where cloth spans from one to the other: no outline of the body's
+        uint32_t source = 0;  // vertex of the body model, level 0
     };
 
     uint32_t vertex_count() const { return static_cast<uint32_t>(vertices_.size()); }

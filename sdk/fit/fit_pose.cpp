@@ -54,7 +54,8 @@ void FitBody::place_bones(const FitState& state) {
         bone_shape_ = state.shape;
         bones_shaped_ = true;
         for (size_t b = 0; b < offsets_.size(); ++b) offsets_[b] = model_.offsets()[b].at(bone_shape_);
-        for (size_t j = 0; j < joint_places_.size(); ++j) joint_places_[j] = model_.joints()[j].at(bone_shape_);
+        for (size_t j = 0; j < joint_places_.size(); ++j)
+            joint_places_[j] = model_.joints()[j].at(bone_shape_);
     }
     for (int b = 0; b < kBoneCount; ++b) {
         const auto i = size_t(b);

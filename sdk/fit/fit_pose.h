@@ -8,8 +8,8 @@
 
 namespace vfit {
 
-/// Camera space. Rotations are local to the parent bone and relative to the T-pose, as in Pose; that of the hips is
-/// from the T-pose's axes to the camera's.
+/// Camera space. Rotations are local to the parent bone and relative to the T-pose, as in Pose; that of the
+/// hips is from the T-pose's axes to the camera's.
 struct FitState {
     Vec3 hips{0.0f};
     std::array<Quat, kBoneCount> rotation;
@@ -18,7 +18,8 @@ struct FitState {
     FitState() { rotation.fill(Quat(1, 0, 0, 0)); }
 };
 
-// Unknowns: three a bone (a small turn about the bone's own axes, applied first), the hips' place, then the shape.
+// Unknowns: three a bone (a small turn about the bone's own axes, applied first), the hips' place, then the
+// shape.
 inline constexpr int kFitBones = 20;  // all but the toes
 inline constexpr int kFitHipsColumn = 3 * kFitBones;
 inline constexpr int kFitPoseUnknowns = kFitHipsColumn + 3;

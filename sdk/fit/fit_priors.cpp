@@ -20,7 +20,9 @@ struct BonePrior {
 };
 
 /// A bone in the middle, symmetric about x bend only.
-BonePrior middle(int bone, Vec3 spread, Vec3 least, Vec3 most) { return {bone, Vec3(0.0f), spread, least, most}; }
+BonePrior middle(int bone, Vec3 spread, Vec3 least, Vec3 most) {
+    return {bone, Vec3(0.0f), spread, least, most};
+}
 
 struct Priors {
     std::array<BonePrior, kFitBones - 1> bones;
@@ -49,22 +51,24 @@ struct Priors {
                 const Vec3 a = sided(least), b = sided(most);
                 bones[n++] = {id, sided(mean), spread, glm::min(a, b), glm::max(a, b)};
             };
-            add(bone(VFIT_BONE_LEFT_SHOULDER, VFIT_BONE_RIGHT_SHOULDER), Vec3(0.0f), Vec3(0.08f, 0.12f, 0.12f), -free,
-                free);
+            add(bone(VFIT_BONE_LEFT_SHOULDER, VFIT_BONE_RIGHT_SHOULDER), Vec3(0.0f),
+                Vec3(0.08f, 0.12f, 0.12f), -free, free);
             // Arms mostly hang. The range of a ball joint is no box of turn vectors: no walls.
-            add(bone(VFIT_BONE_LEFT_UPPER_ARM, VFIT_BONE_RIGHT_UPPER_ARM), Vec3(0, 0, -1.1f), Vec3(0.6f, 0.9f, 0.8f),
-                -free, free);
+            add(bone(VFIT_BONE_LEFT_UPPER_ARM, VFIT_BONE_RIGHT_UPPER_ARM), Vec3(0, 0, -1.1f),
+                Vec3(0.6f, 0.9f, 0.8f), -free, free);
             // The elbow: flexion about y, pronation about x; little else.
-            add(bone(VFIT_BONE_LEFT_LOWER_ARM, VFIT_BONE_RIGHT_LOWER_ARM), Vec3(0, -0.4f, 0), Vec3(0.4f, 0.9f, 0.10f),
+            add(bone(VFIT_BONE_LEFT_LOWER_ARM, VFIT_BONE_RIGHT_LOWER_ARM), Vec3(0, -0.4f, 0),
+                Vec3(0.4f, 0.9f, 0.10f),
                 Vec3(-rom.forearm_supination * kRad, -rom.elbow_flexion.most_deg * kRad, -kFree),
                 Vec3(rom.forearm_pronation * kRad, -rom.elbow_flexion.least_deg * kRad, kFree));
-            add(bone(VFIT_BONE_LEFT_HAND, VFIT_BONE_RIGHT_HAND), Vec3(0.0f), Vec3(0.05f, 0.20f, 0.25f), -free, free);
+            add(bone(VFIT_BONE_LEFT_HAND, VFIT_BONE_RIGHT_HAND), Vec3(0.0f), Vec3(0.05f, 0.20f, 0.25f), -free,
+                free);
             add(bone(VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_RIGHT_UPPER_LEG), Vec3(-0.1f, 0.05f, 0.04f),
                 Vec3(0.7f, 0.25f, 0.25f),
                 Vec3(-rom.hip_flexion.most_deg * kRad, -kFree, rom.hip_abduction.least_deg * kRad),
                 Vec3(-rom.hip_flexion.least_deg * kRad, kFree, rom.hip_abduction.most_deg * kRad));
-            add(bone(VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_RIGHT_LOWER_LEG), Vec3(0.15f, 0, 0), Vec3(0.8f, 0.06f, 0.05f),
-                Vec3(rom.knee_flexion.least_deg * kRad, -kFree, -kFree),
+            add(bone(VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_RIGHT_LOWER_LEG), Vec3(0.15f, 0, 0),
+                Vec3(0.8f, 0.06f, 0.05f), Vec3(rom.knee_flexion.least_deg * kRad, -kFree, -kFree),
                 Vec3(rom.knee_flexion.most_deg * kRad, kFree, kFree));
             add(bone(VFIT_BONE_LEFT_FOOT, VFIT_BONE_RIGHT_FOOT), Vec3(0.0f), Vec3(0.30f, 0.20f, 0.12f),
                 Vec3(rom.ankle_plantarflexion.least_deg * kRad, -kFree, -kFree),
@@ -73,14 +77,15 @@ struct Priors {
     }
 };
 
-// Spread of a bone's turn and of the hips' place from one frame of 1/30 s to the next: brisk motion (a hand at 3 m/s is
-// 0.2 rad of a forearm).
+// Spread of a bone's turn and of the hips' place from one frame of 1/30 s to the next: brisk motion (a hand
+// at 3 m/s is 0.2 rad of a forearm).
 constexpr float kLimbStep_rad = 0.25f, kTrunkStep_rad = 0.10f, kHipsStep_m = 0.05f;
 constexpr float kLongestGap = 6.0f;  // frames; after more the last pose says little
 
 bool is_limb(int bone) {
-    return bone == VFIT_BONE_LEFT_UPPER_ARM || bone == VFIT_BONE_LEFT_LOWER_ARM || bone == VFIT_BONE_LEFT_HAND ||
-           bone == VFIT_BONE_RIGHT_UPPER_ARM || bone == VFIT_BONE_RIGHT_LOWER_ARM || bone == VFIT_BONE_RIGHT_HAND ||
+    return bone == VFIT_BONE_LEFT_UPPER_ARM || bone == VFIT_BONE_LEFT_LOWER_ARM ||
+           bone == VFIT_BONE_LEFT_HAND || bone == VFIT_BONE_RIGHT_UPPER_ARM ||
+           bone == VFIT_BONE_RIGHT_LOWER_ARM || bone == VFIT_BONE_RIGHT_HAND ||
            bone >= VFIT_BONE_LEFT_UPPER_LEG;
 }
 
@@ -90,9 +95,10 @@ Mat3 turn_derivative(const Vec3& v) {
     const float angle = glm::length(v);
     const Mat3 cross(Vec3(0, v.z, -v.y), Vec3(-v.z, 0, v.x), Vec3(v.y, -v.x, 0));
     // 1 / angle^2 - (1 + cos) / (2 angle sin); its limit at 0 is 1/12.
-    const float c = angle < 1e-2f ? 1.0f / 12.0f
-                                  : 1.0f / (angle * angle) -
-                                        (1.0f + std::cos(angle)) / (2.0f * angle * std::max(1e-4f, std::sin(angle)));
+    const float c = angle < 1e-2f
+                        ? 1.0f / 12.0f
+                        : 1.0f / (angle * angle) -
+                              (1.0f + std::cos(angle)) / (2.0f * angle * std::max(1e-4f, std::sin(angle)));
     return Mat3(1.0f) + 0.5f * cross + c * (cross * cross);
 }
 
@@ -121,7 +127,8 @@ void add_motion_priors(const FitState& state, const FitState& last, float frames
     }
     const float weight = 1.0f / (kHipsStep_m * kHipsStep_m * frames * frames);
     for (int axis = 0; axis < 3; ++axis)
-        equations.add_prior(kFitHipsColumn + axis, double(last.hips[axis] - state.hips[axis]), double(weight));
+        equations.add_prior(kFitHipsColumn + axis, double(last.hips[axis] - state.hips[axis]),
+                            double(weight));
 }
 
 }  // namespace vfit

@@ -40,7 +40,8 @@ void FitRaster::draw(const FitBody& body, const FitView& view) {
         const int x1 = std::min(view.width() - 1, int(std::floor(std::max({a.x, b.x, c.x}))));
         const int y1 = std::min(view.height() - 1, int(std::floor(std::max({a.y, b.y, c.y}))));
         const float scale = 1.0f / area;
-        const float dbx = (b.y - c.y) * scale, dcx = (c.y - a.y) * scale;  // of the weights of a and b along x
+        const float dbx = (b.y - c.y) * scale,
+                    dcx = (c.y - a.y) * scale;  // of the weights of a and b along x
         for (int y = y0; y <= y1; ++y) {
             const float fy = float(y), fx = float(x0);
             float wa = ((b.x - fx) * (c.y - fy) - (b.y - fy) * (c.x - fx)) * scale;

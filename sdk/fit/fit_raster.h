@@ -1,5 +1,5 @@
-// The model as the camera would see it, on the cells of a FitView: which vertices are visible, and how well depth and
-// outline agree.
+// The model as the camera would see it, on the cells of a FitView: which vertices are visible, and how well
+// depth and outline agree.
 #pragma once
 
 #include <array>
@@ -30,7 +30,9 @@ public:
     bool hidden(const FitBody& body, const FitView& view, uint32_t vertex) const;
     /// Overwrites the last drawing.
     void wipe();
-    float depth(const FitView& view, int x, int y) const { return depths_[view.index(x, y)]; }  // 0: not the model
+    float depth(const FitView& view, int x, int y) const {
+        return depths_[view.index(x, y)];
+    }  // 0: not the model
 
 private:
     std::vector<Vec2> projected_;

@@ -10,12 +10,14 @@ namespace {
 
 constexpr float kGate_m2 = 0.06f;        // of the matching score: farther points have no match
 constexpr float kLeastAgreement = 0.2f;  // cosine between the normals of a match
-// Points this far aside of their vertex are not covered by the model: half the side of its triangles, and some.
+// Points this far aside of their vertex are not covered by the model: half the side of its triangles, and
+// some.
 constexpr float kBeside_m = 0.035f;
 constexpr int kFarthestCells = 16;  // from the outline: about 20 cm
 constexpr float kHiding_m = 0.05f;  // a reading this far before a vertex hides it
 constexpr float kNearest_m = 0.25f;
-constexpr float kRimCosine = 0.35f;   // of a normal to the line of sight: the vertex is on the model's own outline
+constexpr float kRimCosine =
+    0.35f;  // of a normal to the line of sight: the vertex is on the model's own outline
 constexpr int kOutwardCells = 8;      // about 10 cm
 constexpr float kSameLimb_m = 0.12f;  // in depth
 // Of the weight of other joints: under clothes the network takes the trousers' crotch for the body's.
@@ -48,11 +50,14 @@ bool nearest_person_cell(const FitView& view, int x, int y, int& found_x, int& f
 }
 
 /// How far outwards of a rim vertex the person goes on uncovered by the model, in cells along `step`.
-float uncovered_cells(const FitView& view, const FitRaster& raster, const Vec2& from, const Vec2& step, float depth_m) {
+float uncovered_cells(const FitView& view, const FitRaster& raster, const Vec2& from, const Vec2& step,
+                      float depth_m) {
     float last = 0.0f;
     for (int i = 1; i <= kOutwardCells; ++i) {
-        const int x = int(std::lround(from.x + float(i) * step.x)), y = int(std::lround(from.y + float(i) * step.y));
-        if (i == 1 && view.inside(x, y) && raster.depth(view, x, y) > 0.0f) continue;  // the vertex's own edge
+        const int x = int(std::lround(from.x + float(i) * step.x)),
+                  y = int(std::lround(from.y + float(i) * step.y));
+        if (i == 1 && view.inside(x, y) && raster.depth(view, x, y) > 0.0f)
+            continue;  // the vertex's own edge
         if (!view.inside(x, y) || view.cell(x, y) != FitCell::kPerson || raster.depth(view, x, y) > 0.0f ||
             std::abs(view.depth(x, y) - depth_m) > kSameLimb_m)
             break;
@@ -61,15 +66,16 @@ float uncovered_cells(const FitView& view, const FitRaster& raster, const Vec2& 
     return last;
 }
 
-/// Of z |(x/z, y/z) - a ray| by the point, the ray's depth moving along; `unit` points from the ray to the point.
+/// Of z |(x/z, y/z) - a ray| by the point, the ray's depth moving along; `unit` points from the ray to the
+/// point.
 Vec3 away_from_ray(const Vec2& unit, const Vec3& p) {
     return Vec3(unit.x, unit.y, -(unit.x * p.x + unit.y * p.y) / p.z);
 }
 
 }  // namespace
 
-uint32_t add_depth_rows(const FitView& view, const FitBody& body, const FitRaster& raster, const FitWeights& weights,
-                        FitTargets& targets, FitEquations& equations) {
+uint32_t add_depth_rows(const FitView& view, const FitBody& body, const FitRaster& raster,
+                        const FitWeights& weights, FitTargets& targets, FitEquations& equations) {
     targets.clear();
     const uint32_t count = body.model().vertex_count();
     // About the hips: differences of squares lose fewer digits near the origin.
@@ -87,8 +93,8 @@ uint32_t add_depth_rows(const FitView& view, const FitBody& body, const FitRaste
         const uint32_t v = nearest_target(targets, point.place - origin, point.normal, score);
         if (score > kGate_m2 || glm::dot(point.normal, body.normals()[v]) < kLeastAgreement) continue;
         ++matched;
-        // Both normals: what is left of the difference of two points of one curved surface vanishes to second order
-        // (Rusinkiewicz 2019).
+        // Both normals: what is left of the difference of two points of one curved surface vanishes to second
+        // order (Rusinkiewicz 2019).
         const Vec3 direction = glm::normalize(body.normals()[v] + point.normal);
         const Vec3 apart = point.place - body.positions()[v];
         const float residual = glm::dot(direction, apart);
@@ -103,8 +109,8 @@ uint32_t add_depth_rows(const FitView& view, const FitBody& body, const FitRaste
     return matched;
 }
 
-uint32_t add_outline_rows(const FitView& view, const FitBody& body, const FitRaster& raster, const FitWeights& weights,
-                          FitEquations& equations) {
+uint32_t add_outline_rows(const FitView& view, const FitBody& body, const FitRaster& raster,
+                          const FitWeights& weights, FitEquations& equations) {
     const float weight = weights.outline_share / (weights.outline_m * weights.outline_m);
     const float cell_angle = view.ray(1.0f, 0.0f).x - view.ray(0.0f, 0.0f).x;
     uint32_t rows = 0;
@@ -122,10 +128,12 @@ uint32_t add_outline_rows(const FitView& view, const FitBody& body, const FitRas
             const Vec3& n = body.normals()[v];
             const Vec3 look = glm::normalize(p), across = n - glm::dot(n, look) * look;
             if (std::abs(glm::dot(n, look)) > kRimCosine) continue;
-            const Vec2 unit = glm::normalize(Vec2(across.x - p.x / p.z * across.z, across.y - p.y / p.z * across.z));
+            const Vec2 unit =
+                glm::normalize(Vec2(across.x - p.x / p.z * across.z, across.y - p.y / p.z * across.z));
             const float beyond = cell_m * uncovered_cells(view, raster, at, unit, p.z);
             if (beyond == 0.0f) continue;
-            equations.add_vertex_row(v, away_from_ray(unit, p), beyond, weight * robust(beyond, weights.robust_m));
+            equations.add_vertex_row(v, away_from_ray(unit, p), beyond,
+                                     weight * robust(beyond, weights.robust_m));
             ++rows;
             continue;
         }
@@ -138,13 +146,15 @@ uint32_t add_outline_rows(const FitView& view, const FitBody& body, const FitRas
         // Half a cell belongs to the person's side.
         const float outside = p.z * angle - 0.5f * cell_m;
         if (outside <= 0.0f || angle < 1e-6f) continue;
-        equations.add_vertex_row(v, away_from_ray(out / angle, p), -outside, weight * robust(outside, weights.robust_m));
+        equations.add_vertex_row(v, away_from_ray(out / angle, p), -outside,
+                                 weight * robust(outside, weights.robust_m));
         ++rows;
     }
     return rows;
 }
 
-void add_joint_rows(const FitJoints& joints, const FitBody& body, const FitWeights& weights, FitEquations& equations) {
+void add_joint_rows(const FitJoints& joints, const FitBody& body, const FitWeights& weights,
+                    FitEquations& equations) {
     const float weight = 1.0f / (weights.joint_m * weights.joint_m);
     for (int j = 0; j < kJointCount; ++j) {
         const FitJoint& seen = joints[size_t(j)];

@@ -10,7 +10,8 @@ namespace vfit {
 
 namespace {
 
-std::vector<uint32_t> farthest_points(std::span<const Vec3> positions, std::span<const float> density, uint32_t count) {
+std::vector<uint32_t> farthest_points(std::span<const Vec3> positions, std::span<const float> density,
+                                      uint32_t count) {
     std::vector<float> nearest(positions.size(), std::numeric_limits<float>::max());
     std::vector<uint32_t> chosen;
     uint32_t next = 0;
@@ -65,14 +66,16 @@ std::vector<uint32_t> cells(std::span<const Vec3> positions, std::span<const uin
 CoarseSurface coarse_surface(std::span<const Vec3> positions, std::span<const uint32_t> triangles,
                              std::span<const float> density, uint32_t count) {
     CoarseSurface out;
-    out.vertices = farthest_points(positions, density, std::min(count, static_cast<uint32_t>(positions.size())));
+    out.vertices =
+        farthest_points(positions, density, std::min(count, static_cast<uint32_t>(positions.size())));
     const std::vector<uint32_t> cell = cells(positions, triangles, out.vertices);
     std::set<std::array<uint32_t, 3>> seen;
     for (size_t t = 0; t + 2 < triangles.size(); t += 3) {
         std::array<uint32_t, 3> corner = {cell[triangles[t]], cell[triangles[t + 1]], cell[triangles[t + 2]]};
         if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) continue;
         std::rotate(corner.begin(), std::min_element(corner.begin(), corner.end()), corner.end());
-        if (seen.insert(corner).second) out.triangles.insert(out.triangles.end(), corner.begin(), corner.end());
+        if (seen.insert(corner).second)
+            out.triangles.insert(out.triangles.end(), corner.begin(), corner.end());
     }
     return out;
 }

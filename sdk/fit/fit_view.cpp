@@ -9,14 +9,16 @@ namespace vfit {
 
 namespace {
 
-constexpr float kCell_m = 0.012f;        // at the person's depth: a third of the model's triangles' sides
-constexpr float kMargin_m = 0.25f;       // about the person, where the model may reach in error
-constexpr float kSameSurface_m = 0.05f;  // readings of one cell, or of a normal's window, that belong together
+constexpr float kCell_m = 0.012f;   // at the person's depth: a third of the model's triangles' sides
+constexpr float kMargin_m = 0.25f;  // about the person, where the model may reach in error
+constexpr float kSameSurface_m =
+    0.05f;  // readings of one cell, or of a normal's window, that belong together
 constexpr size_t kMostPoints = 600;
 constexpr int kWindow = 2;  // cells to either side that a normal is fitted to
 constexpr int kFewestInWindow = 8;
 constexpr float kSteepestCosine = 0.15f;  // depth of surfaces turned further away is mostly error
-constexpr int kManyRows = 240;  // of which every second pixel of every second one tells how far and where the person is
+constexpr int kManyRows =
+    240;  // of which every second pixel of every second one tells how far and where the person is
 constexpr float kBin_m = 0.02f;
 constexpr size_t kBins = 500;  // to 10 m
 
@@ -95,7 +97,8 @@ void FitView::fill_cells_of(const DepthImage& image, uint8_t user) {
     const auto reach = uint32_t(kSameSurface_m / unit_m);
     for (int cy = 0; cy < height_; ++cy)
         for (int cx = 0; cx < width_; ++cx) {
-            const size_t cell = index(cx, cy), first = image.index(uint32_t(left_ + cx * step), uint32_t(top_ + cy * step));
+            const size_t cell = index(cx, cy),
+                         first = image.index(uint32_t(left_ + cx * step), uint32_t(top_ + cy * step));
             uint32_t nearest = ~0u, own = 0, others = 0;
             uint64_t other = 0;
             for (int y = 0; y < step; ++y)
@@ -146,7 +149,8 @@ void FitView::find_points() {
                     if (cell(cx + dx, cy + dy) != FitCell::kPerson) continue;
                     const float z = depth(cx + dx, cy + dy) - here, x = float(dx), y = float(dy);
                     if (std::abs(z) > kSameSurface_m) continue;
-                    n += 1, x1 += x, y1 += y, xx += x * x, xy += x * y, yy += y * y, z1 += z, xz += x * z, yz += y * z;
+                    n += 1, x1 += x, y1 += y, xx += x * x, xy += x * y, yy += y * y, z1 += z, xz += x * z,
+                        yz += y * z;
                 }
             if (n < float(kFewestInWindow)) continue;
             const float mx = x1 / n, my = y1 / n, mz = z1 / n;
@@ -157,7 +161,8 @@ void FitView::find_points() {
             const float a = (sxz * syy - syz * sxy) / determinant, b = (syz * sxx - sxz * sxy) / determinant;
             const float z = here + mz - a * mx - b * my;
             const Vec3 look = ray(float(cx), float(cy));
-            const Vec3 along_x = look * a + Vec3(z / focal_.x, 0, 0), along_y = look * b + Vec3(0, z / focal_.y, 0);
+            const Vec3 along_x = look * a + Vec3(z / focal_.x, 0, 0),
+                       along_y = look * b + Vec3(0, z / focal_.y, 0);
             Vec3 normal = glm::normalize(glm::cross(along_y, along_x));
             const float cosine = -glm::dot(normal, look) / glm::length(look);
             if (!(cosine >= kSteepestCosine)) continue;

@@ -1,5 +1,5 @@
-// What one frame shows of one person: a grid of cells of about a centimetre with depth and mask, and depth points
-// with normals.
+// What one frame shows of one person: a grid of cells of about a centimetre with depth and mask, and depth
+// points with normals.
 #pragma once
 
 #include <cstdint>
@@ -22,17 +22,22 @@ struct FitDepthPoint {
 
 class FitView {
 public:
-    /// Looks at the pixels of `users` equal to `user` inside `box` (empty: all of the image). Does not allocate
-    /// after its first run on an image of that size. False where fewer than kFewestCells cells have a reading.
+    /// Looks at the pixels of `users` equal to `user` inside `box` (empty: all of the image). Does not
+    /// allocate after its first run on an image of that size. False where fewer than kFewestCells cells have
+    /// a reading.
     bool look(const DepthImage& image, uint8_t user, const PixelBox& box);
 
     int width() const { return width_; }
     int height() const { return height_; }
     size_t index(int x, int y) const { return size_t(y) * size_t(width_) + size_t(x); }
     /// Cell coordinates (whole at a cell's centre) of a camera-space point before the camera.
-    Vec2 project(const Vec3& p) const { return {p.x / p.z * focal_.x + centre_.x, p.y / p.z * focal_.y + centre_.y}; }
+    Vec2 project(const Vec3& p) const {
+        return {p.x / p.z * focal_.x + centre_.x, p.y / p.z * focal_.y + centre_.y};
+    }
     /// The direction, with z = 1, that a cell's centre looks into.
-    Vec3 ray(float x, float y) const { return {(x - centre_.x) / focal_.x, (y - centre_.y) / focal_.y, 1.0f}; }
+    Vec3 ray(float x, float y) const {
+        return {(x - centre_.x) / focal_.x, (y - centre_.y) / focal_.y, 1.0f};
+    }
     bool inside(int x, int y) const { return x >= 0 && y >= 0 && x < width_ && y < height_; }
 
     FitCell cell(int x, int y) const { return cells_[index(x, y)]; }

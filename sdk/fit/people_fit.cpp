@@ -9,7 +9,8 @@ namespace vfit {
 namespace {
 
 constexpr float kShareStep = 0.25f;  // a frame
-// A joint that was wrong comes back at this pace instead of in a leap; hands are seldom faster outside of sports.
+// A joint that was wrong comes back at this pace instead of in a leap; hands are seldom faster outside of
+// sports.
 constexpr float kFastest_m_s = 5.5f;
 constexpr double kGap_s = 0.2;  // after a longer one places are taken as they are
 
@@ -17,7 +18,8 @@ constexpr double kGap_s = 0.2;  // after a longer one places are taken as they a
 
 void PeopleFit::run(const DepthImage& image, const PixelBox& box, Body& body) {
     std::erase_if(people_, [&](const auto& entry) {
-        return body.time_ns < entry.second.seen_ns || seconds_between(entry.second.seen_ns, body.time_ns) > kForget_s;
+        return body.time_ns < entry.second.seen_ns ||
+               seconds_between(entry.second.seen_ns, body.time_ns) > kForget_s;
     });
     const bool is_new = !people_.contains(body.id);
     Person& person = people_[body.id];
@@ -34,7 +36,8 @@ void PeopleFit::run(const DepthImage& image, const PixelBox& box, Body& body) {
         if (body.has(j)) input.joints[size_t(j)] = {body.at(j), body.joints[size_t(j)].confidence};
     const BodyFitOutput& fit = person.fit->run(input);
     const bool good = fit.state == BodyFitState::kGood;
-    person.share = is_new && good ? 1.0f : std::clamp(person.share + (good ? kShareStep : -kShareStep), 0.0f, 1.0f);
+    person.share =
+        is_new && good ? 1.0f : std::clamp(person.share + (good ? kShareStep : -kShareStep), 0.0f, 1.0f);
     for (size_t j = 0; j < size_t(kJointCount); ++j) {
         Joint& joint = body.joints[j];
         if (!joint.seen()) continue;

@@ -1,5 +1,5 @@
-// The body fit of whoever is to be fitted: bodies that the tracker found get places and rotations of the body that
-// was fitted to them.
+// The body fit of whoever is to be fitted: bodies that the tracker found get places and rotations of the body
+// that was fitted to them.
 #pragma once
 
 #include <map>
@@ -13,9 +13,9 @@ class PeopleFit {
 public:
     explicit PeopleFit(std::shared_ptr<const FitModel> model) : model_(std::move(model)) {}
 
-    /// One person of an image with a user map. `body`: camera space, as Tracker::run found it; its id is its label in
-    /// the map. A fit that comes or goes moves the joints over a few frames; a body that cannot be fitted stays as it
-    /// is. A person unseen for kForget_s starts afresh.
+    /// One person of an image with a user map. `body`: camera space, as Tracker::run found it; its id is its
+    /// label in the map. A fit that comes or goes moves the joints over a few frames; a body that cannot be
+    /// fitted stays as it is. A person unseen for kForget_s starts afresh.
     void run(const DepthImage& image, const PixelBox& box, Body& body);
     /// Forgets everybody.
     void reset() { people_.clear(); }

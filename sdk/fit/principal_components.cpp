@@ -6,7 +6,8 @@ namespace vfit {
 
 namespace {
 
-constexpr int kPowerSteps = 60;  // of the subspace iteration; eigenvalues here fall by a third or more a component
+constexpr int kPowerSteps =
+    60;  // of the subspace iteration; eigenvalues here fall by a third or more a component
 
 double dot(const std::vector<double>& a, const std::vector<double>& b) {
     double sum = 0.0;

@@ -8,7 +8,8 @@ namespace vfit {
 
 /// A component's field is the mean over the samples of score times sample.
 struct PrincipalComponents {
-    std::vector<std::vector<double>> scores;  // by component, strongest first, of every sample: mean 0, variance 1
+    std::vector<std::vector<double>>
+        scores;  // by component, strongest first, of every sample: mean 0, variance 1
 };
 
 /// `samples`: vectors of one length. Components that do not vary are zero.

@@ -10,10 +10,10 @@ namespace vfit {
 namespace {
 
 constexpr const char* kNames[kJointCount] = {
-    "HEAD",       "NECK",           "TORSO",         "LEFT_SHOULDER", "RIGHT_SHOULDER", "LEFT_ELBOW",
-    "RIGHT_ELBOW", "LEFT_HAND",     "RIGHT_HAND",    "LEFT_HIP",      "RIGHT_HIP",      "LEFT_KNEE",
-    "RIGHT_KNEE", "LEFT_FOOT",      "RIGHT_FOOT",    "PELVIS",        "CHEST",          "LEFT_CLAVICLE",
-    "RIGHT_CLAVICLE", "LEFT_WRIST", "RIGHT_WRIST",   "LEFT_TOES",     "RIGHT_TOES"};
+    "HEAD",           "NECK",       "TORSO",       "LEFT_SHOULDER", "RIGHT_SHOULDER", "LEFT_ELBOW",
+    "RIGHT_ELBOW",    "LEFT_HAND",  "RIGHT_HAND",  "LEFT_HIP",      "RIGHT_HIP",      "LEFT_KNEE",
+    "RIGHT_KNEE",     "LEFT_FOOT",  "RIGHT_FOOT",  "PELVIS",        "CHEST",          "LEFT_CLAVICLE",
+    "RIGHT_CLAVICLE", "LEFT_WRIST", "RIGHT_WRIST", "LEFT_TOES",     "RIGHT_TOES"};
 
 }  // namespace
 

@@ -26,12 +26,13 @@ struct Joint {
 struct Body {
     uint32_t id = 0;
     int64_t time_ns = 0;
-    uint32_t flags = 0;  // VFIT_BODY_*
+    uint32_t flags = 0;                       // VFIT_BODY_*
     std::array<Joint, kJointCount> joints{};  // by id
 
     bool has(int joint) const { return joints[static_cast<size_t>(joint)].seen(); }
     const Vec3& at(int joint) const { return joints[static_cast<size_t>(joint)].position; }
-    void set(int joint, const Vec3& position, vfit_joint_state state = VFIT_JOINT_MEASURED, float confidence = 1.0f) {
+    void set(int joint, const Vec3& position, vfit_joint_state state = VFIT_JOINT_MEASURED,
+             float confidence = 1.0f) {
         Joint& j = joints[static_cast<size_t>(joint)];
         j.position = position;
         j.state = state;
@@ -51,8 +52,8 @@ const char* joint_name(int joint);
 /// The id of a joint name, or -1.
 int joint_from_name(const char* name);
 
-/// A joint of the C ABI, as it stands: no space is changed. Fails with VFIT_ERROR_ARGUMENT for an unknown id or
-/// state, with VFIT_ERROR_DATA naming the joint where a number is not finite.
+/// A joint of the C ABI, as it stands: no space is changed. Fails with VFIT_ERROR_ARGUMENT for an unknown id
+/// or state, with VFIT_ERROR_DATA naming the joint where a number is not finite.
 Joint joint_in(const vfit_joint& in);
 
 /// The joint of the other side; middle joints are their own mirror.

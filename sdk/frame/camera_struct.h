@@ -1,12 +1,13 @@
-// Cameras as the C structs of vfit.h say them: one reading for what a host, a plug-in and a tracker's description
-// give.
+// Cameras as the C structs of vfit.h say them: one reading for what a host, a plug-in and a tracker's
+// description give.
 #pragma once
 
 #include "frame/camera.h"
 
 namespace vfit {
 
-/// Takes the image's size and the lens. Fails with VFIT_ERROR_ARGUMENT naming the field, and changes nothing then.
+/// Takes the image's size and the lens. Fails with VFIT_ERROR_ARGUMENT naming the field, and changes nothing
+/// then.
 void set_intrinsics(Camera& camera, const vfit_intrinsics& in);
 
 /// Takes the depth unit and, unless floor_state is DEFAULT, the floor. Fails as above.

@@ -11,9 +11,9 @@ namespace vfit {
 namespace {
 
 constexpr size_t kAlignment = 16;
-constexpr size_t kReadablePastEnd = 16;  // so that SIMD loads of the last item stay inside
-constexpr uint32_t kMaxSide = 16384;     // pixels
-constexpr uint32_t kMaxItems = 1u << 28; // vertices of one stream
+constexpr size_t kReadablePastEnd = 16;   // so that SIMD loads of the last item stay inside
+constexpr uint32_t kMaxSide = 16384;      // pixels
+constexpr uint32_t kMaxItems = 1u << 28;  // vertices of one stream
 
 }  // namespace
 
@@ -61,7 +61,8 @@ void* Frame::add_stream(vfit_stream kind, vfit_format format, uint32_t width, ui
     if (stream_count_ == kMaxStreams)
         fail(VFIT_ERROR_ARGUMENT, "a frame holds at most ", kMaxStreams, " streams");
     const uint64_t row_bytes = uint64_t(item) * width;
-    if (row_bytes > UINT32_MAX) fail(VFIT_ERROR_ARGUMENT, "stream ", kind, ": ", width, " items are too many");
+    if (row_bytes > UINT32_MAX)
+        fail(VFIT_ERROR_ARGUMENT, "stream ", kind, ": ", width, " items are too many");
     Slot& slot = slots_[stream_count_];
     const auto row = static_cast<uint32_t>(row_bytes);
     const size_t before = slot.buffer.capacity();

@@ -48,7 +48,9 @@ struct Stream {
     uint64_t serial = 0;
 
     template <typename T>
-    const T* as() const { return static_cast<const T*>(data); }
+    const T* as() const {
+        return static_cast<const T*>(data);
+    }
     size_t items() const { return size_t(width) * height; }
 };
 
@@ -63,16 +65,17 @@ class FramePool;
 class Frame : public Object {
 public:
     int64_t time_ns = 0;
-    Camera camera;              // of the depth image; of no meaning in a mesh frame
-    std::vector<Body> bodies;   // world space
-    std::optional<ActiveBody> active;  // what the tracker says that made the frame
-    Ref<Frame> base;            // a tracked frame shares its images
-    Ref<Object> owner;          // keeps alive what views of add_view point to
+    Camera camera;                           // of the depth image; of no meaning in a mesh frame
+    std::vector<Body> bodies;                // world space
+    std::optional<ActiveBody> active;        // what the tracker says that made the frame
+    Ref<Frame> base;                         // a tracked frame shares its images
+    Ref<Object> owner;                       // keeps alive what views of add_view point to
     vfit_release_fn host_release = nullptr;  // pixels lent by the host
     void* host_user = nullptr;
 
     /// A stream with pixels of its own to fill before the frame is published; at most kMaxStreams. Fails with
-    /// VFIT_ERROR_ARGUMENT where the frame has one of its own already or the size is not sane. It hides the base's.
+    /// VFIT_ERROR_ARGUMENT where the frame has one of its own already or the size is not sane. It hides the
+    /// base's.
     void* add_stream(vfit_stream kind, vfit_format format, uint32_t width, uint32_t height);
     /// A stream over memory that outlives the frame (lent by the host, or static topology of a model).
     void add_view(const Stream& stream);

@@ -71,7 +71,8 @@ Vec3 rotation_vector(const Quat& q) {
 Quat rotation_by(const Vec3& vector) {
     const float half = 0.5f * glm::length(vector);
     const Vec3 axis = vector * (0.5f * (half < kSmallSine ? sine_over_arc(half) : std::sin(half) / half));
-    return Quat(half < kSmallSine ? std::sqrt(1.0f - glm::dot(axis, axis)) : std::cos(half), axis.x, axis.y, axis.z);
+    return Quat(half < kSmallSine ? std::sqrt(1.0f - glm::dot(axis, axis)) : std::cos(half), axis.x, axis.y,
+                axis.z);
 }
 
 float angle_of(const Quat& q) {

@@ -1,4 +1,5 @@
-// Random numbers that are the same on every platform: the standard library's distributions differ between its makers.
+// Random numbers that are the same on every platform: the standard library's distributions differ between its
+// makers.
 #pragma once
 
 #include <algorithm>

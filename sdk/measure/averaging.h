@@ -1,8 +1,9 @@
 // Algorithm 4: mean and deviation of a quantity over the frames of a scan.
 //
-// The paper takes the plain mean (kKeep). A person who moves gives single frames that are plainly wrong (an arm
-// before the trunk, a bent knee), which a plain mean takes in. kLeaveOut drops values further from the median
-// than three robust deviations: of normally scattered values, which the paper's mean is made for, one in 370.
+// The paper takes the plain mean (kKeep). A person who moves gives single frames that are plainly wrong (an
+// arm before the trunk, a bent knee), which a plain mean takes in. kLeaveOut drops values further from the
+// median than three robust deviations: of normally scattered values, which the paper's mean is made for, one
+// in 370.
 #pragma once
 
 #include <cstddef>

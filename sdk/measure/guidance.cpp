@@ -46,7 +46,8 @@ bool cut_vertically(const FilteredDepth& depth, const Camera& camera) {
     return depth.box.y0 <= 0 || depth.box.y1 >= int(depth.height);
 }
 
-/// Share of its length that the straighter leg stands upright (-1: upside down); 1 where no leg can be judged.
+/// Share of its length that the straighter leg stands upright (-1: upside down); 1 where no leg can be
+/// judged.
 float leg_uprightness(const Vec3& up, const Body& body) {
     constexpr float kNoLeg = -2.0f;
     float best = kNoLeg;

@@ -62,8 +62,8 @@ int measure_order(std::string_view key) {
 bool is_own_measure(std::string_view key) {
     constexpr size_t kLongest = 47;  // vfit_measurement.key
     const auto usual = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
-    return key.size() > 4 && key.size() <= kLongest && key.substr(0, 2) == "x_" && key.substr(key.size() - 2) == "_m" &&
-           std::all_of(key.begin(), key.end(), usual);
+    return key.size() > 4 && key.size() <= kLongest && key.substr(0, 2) == "x_" &&
+           key.substr(key.size() - 2) == "_m" && std::all_of(key.begin(), key.end(), usual);
 }
 
 }  // namespace vfit

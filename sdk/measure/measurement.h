@@ -9,8 +9,8 @@ namespace vfit {
 struct Measurement {
     std::string key;
     float value = 0.0f;
-    float sigma = 0.0f;      // one standard deviation; 0: unknown
-    bool observed = true;    // false: inferred from other measures
+    float sigma = 0.0f;    // one standard deviation; 0: unknown
+    bool observed = true;  // false: inferred from other measures
 };
 
 /// The measurement of that key, or null.

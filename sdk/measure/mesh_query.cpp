@@ -246,7 +246,9 @@ void push_out(const MeshQuery& mesh, float clearance_m, std::span<Vec3> points) 
         for (int i = 0; i < kTries; ++i) {
             constexpr float kUpright = 0.7f;  // cosine: before its nearest place, a point is outside
             const MeshQuery::Closest closest = mesh.closest(p);
-            if (closest.distance >= clearance_m && glm::dot(p - closest.point, closest.normal) > kUpright * closest.distance) break;
+            if (closest.distance >= clearance_m &&
+                glm::dot(p - closest.point, closest.normal) > kUpright * closest.distance)
+                break;
             const float distance = mesh.inside(p) ? -closest.distance : closest.distance;
             if (distance >= clearance_m) break;
             const Vec3 outward = closest.distance > 1e-6f ? (p - closest.point) / distance : closest.normal;

@@ -58,7 +58,8 @@ private:
     std::unique_ptr<Scene> scene_;
 };
 
-/// Moves each point out of a closed mesh, to that clearance at least; in a few tries, as out of one limb may be into another.
+/// Moves each point out of a closed mesh, to that clearance at least; in a few tries, as out of one limb may
+/// be into another.
 void push_out(const MeshQuery& mesh, float clearance_m, std::span<Vec3> points);
 
 /// Radius of the largest sphere about the centre that stays inside the skin; 0 where the centre lies outside.

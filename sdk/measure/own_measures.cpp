@@ -29,9 +29,15 @@ public:
         if (!skin_) skin_.emplace(tape.body().positions, tape.body().indices);
         return *skin_;
     }
-    float armpit() const { return lazily(armpit_, [&] { return armpit_height(tape); }); }
-    float waist() const { return lazily(waist_, [&] { return waist_height(tape); }); }
-    float crotch() const { return lazily(crotch_, [&] { return crotch_height(tape); }); }
+    float armpit() const {
+        return lazily(armpit_, [&] { return armpit_height(tape); });
+    }
+    float waist() const {
+        return lazily(waist_, [&] { return waist_height(tape); });
+    }
+    float crotch() const {
+        return lazily(crotch_, [&] { return crotch_height(tape); });
+    }
 
 private:
     template <typename Make>
@@ -59,8 +65,14 @@ Vec3 inside(const Ground& g, float y) {
 }
 
 constexpr Landmark kLandmarks[] = {
-    {"crown", [](const Ground& g) { return Vec3(g.tape.joint(VFIT_JOINT_HEAD).x, g.tape.crown(), g.tape.joint(VFIT_JOINT_HEAD).z); }},
-    {"floor", [](const Ground& g) { return Vec3(g.tape.joint(VFIT_JOINT_PELVIS).x, g.tape.floor(), g.tape.joint(VFIT_JOINT_PELVIS).z); }},
+    {"crown",
+     [](const Ground& g) {
+         return Vec3(g.tape.joint(VFIT_JOINT_HEAD).x, g.tape.crown(), g.tape.joint(VFIT_JOINT_HEAD).z);
+     }},
+    {"floor",
+     [](const Ground& g) {
+         return Vec3(g.tape.joint(VFIT_JOINT_PELVIS).x, g.tape.floor(), g.tape.joint(VFIT_JOINT_PELVIS).z);
+     }},
     {"crotch", [](const Ground& g) { return inside(g, g.crotch()); }},
     {"hips", [](const Ground& g) { return inside(g, hip_height(g.tape, g.crotch(), g.waist())); }},
     {"waist", [](const Ground& g) { return inside(g, g.waist()); }},
@@ -78,7 +90,8 @@ struct Way {
     const char* name;
     Vec3 direction;
 };
-const Way kWays[] = {{"front", {0, 0, 1}}, {"back", {0, 0, -1}}, {"left", {1, 0, 0}}, {"right", {-1, 0, 0}}, {"up", {0, 1, 0}}, {"down", {0, -1, 0}}};
+const Way kWays[] = {{"front", {0, 0, 1}},  {"back", {0, 0, -1}}, {"left", {1, 0, 0}},
+                     {"right", {-1, 0, 0}}, {"up", {0, 1, 0}},    {"down", {0, -1, 0}}};
 
 const Json& field(const Json& object, const char* name, const std::string& where) {
     const auto it = object.is_object() ? object.find(name) : object.end();
@@ -90,7 +103,8 @@ Point named_point(const std::string& name, const std::string& where) {
     for (int j = 0; j < kJointCount; ++j)
         if (name == joint_name(j))
             return [j, where](const Ground& g) {
-                if (!g.tape.body().joints.has(j)) fail(VFIT_ERROR_DATA, "own measures: ", where, ": the body has no joint ", joint_name(j));
+                if (!g.tape.body().joints.has(j))
+                    fail(VFIT_ERROR_DATA, "own measures: ", where, ": the body has no joint ", joint_name(j));
                 return g.tape.joint(j);
             };
     std::string known;
@@ -106,12 +120,13 @@ Point parse_point(const Json& json, const std::string& where, int depth = 0) {
     if (json.is_string()) return named_point(json.get<std::string>(), where);
     if (json.is_array()) {
         if (json.size() != 3 || !json[2].is_number())
-            fail(VFIT_ERROR_DATA, "own measures: ", where, ": a point between two others is [one, other, share of the way]");
+            fail(VFIT_ERROR_DATA, "own measures: ", where,
+                 ": a point between two others is [one, other, share of the way]");
         const float share = json[2].get<float>();
-        if (!(std::abs(share) <= 10.0f)) fail(VFIT_ERROR_DATA, "own measures: ", where, ": share ", share, " is out of range");
-        return [a = parse_point(json[0], where, depth + 1), b = parse_point(json[1], where, depth + 1), share](const Ground& g) {
-            return glm::mix(a(g), b(g), share);
-        };
+        if (!(std::abs(share) <= 10.0f))
+            fail(VFIT_ERROR_DATA, "own measures: ", where, ": share ", share, " is out of range");
+        return [a = parse_point(json[0], where, depth + 1), b = parse_point(json[1], where, depth + 1),
+                share](const Ground& g) { return glm::mix(a(g), b(g), share); };
     }
     if (json.is_object() && json.contains("skin")) {
         const Point from = parse_point(json["skin"], where, depth + 1);
@@ -124,9 +139,11 @@ Point parse_point(const Json& json, const std::string& where, int depth = 0) {
                     if (!hit) fail(VFIT_ERROR_DATA, "own measures: ", where, ": there is no skin that way");
                     return start + hit->distance * direction;
                 };
-        fail(VFIT_ERROR_DATA, "own measures: ", where, ": \"way\" is none of front, back, left, right, up, down");
+        fail(VFIT_ERROR_DATA, "own measures: ", where,
+             ": \"way\" is none of front, back, left, right, up, down");
     }
-    fail(VFIT_ERROR_DATA, "own measures: ", where, ": a point is a name, [one, other, share] or {\"skin\", \"way\"}");
+    fail(VFIT_ERROR_DATA, "own measures: ", where,
+         ": a point is a name, [one, other, share] or {\"skin\", \"way\"}");
 }
 
 struct Plane {
@@ -142,13 +159,16 @@ Plane parse_plane(const Json& json, const std::string& where) {
         const Json& axis = json["square_to"];
         if (!axis.is_array() || axis.size() != 2)
             fail(VFIT_ERROR_DATA, "own measures: ", where, ": \"square_to\" is not a list of two points");
-        plane.square_to = {parse_point(axis[0], where + ", square_to"), parse_point(axis[1], where + ", square_to")};
+        plane.square_to = {parse_point(axis[0], where + ", square_to"),
+                           parse_point(axis[1], where + ", square_to")};
     }
     if (json.contains("of")) {
-        if (json["of"] != "trunk" && json["of"] != "limb") fail(VFIT_ERROR_DATA, "own measures: ", where, ": \"of\" is neither trunk nor limb");
+        if (json["of"] != "trunk" && json["of"] != "limb")
+            fail(VFIT_ERROR_DATA, "own measures: ", where, ": \"of\" is neither trunk nor limb");
         plane.trunk = json["of"] == "trunk";
         if (plane.trunk && plane.square_to)
-            fail(VFIT_ERROR_DATA, "own measures: ", where, ": the trunk is cut level: leave \"square_to\" out");
+            fail(VFIT_ERROR_DATA, "own measures: ", where,
+                 ": the trunk is cut level: leave \"square_to\" out");
     }
     return plane;
 }
@@ -158,20 +178,22 @@ std::vector<Vec2> outline(const Ground& g, const Plane& plane, const std::string
     const Vec3 at = plane.at(g);
     if (plane.trunk) {
         std::vector<Vec2> points = g.tape.trunk(at.y).points();
-        if (points.size() < 3) fail(VFIT_ERROR_DATA, "own measures: ", where, ": the plane does not meet the trunk");
+        if (points.size() < 3)
+            fail(VFIT_ERROR_DATA, "own measures: ", where, ": the plane does not meet the trunk");
         return points;
     }
     Vec3 axis(0, 1, 0);
     if (plane.square_to) axis = plane.square_to->second(g) - plane.square_to->first(g);
-    if (!(glm::length(axis) > 1e-4f)) fail(VFIT_ERROR_DATA, "own measures: ", where, ": the points of \"square_to\" are one place");
+    if (!(glm::length(axis) > 1e-4f))
+        fail(VFIT_ERROR_DATA, "own measures: ", where, ": the points of \"square_to\" are one place");
     const Section section = cut(g.tape.body().positions, g.tape.body().indices, at, axis);
     const std::vector<Vec2>* loop = loop_about(section, at);
     if (!loop) fail(VFIT_ERROR_DATA, "own measures: ", where, ": no outline lies about its point");
     return *loop;
 }
 
-/// A taut tape over the skin from a to b: the convex hull of the outline's shorter way in the plane through both that
-/// stands on the skin.
+/// A taut tape over the skin from a to b: the convex hull of the outline's shorter way in the plane through
+/// both that stands on the skin.
 float over_skin(const Ground& g, const Vec3& a, const Vec3& b, const std::string& where) {
     const MeshQuery::Closest skin_a = g.skin().closest(a), skin_b = g.skin().closest(b);
     const Vec3 from = skin_a.point, to = skin_b.point, way = to - from;
@@ -179,16 +201,22 @@ float over_skin(const Ground& g, const Vec3& a, const Vec3& b, const std::string
     if (straight < 1e-4f) return 0.0f;
     Vec3 out = skin_a.normal + skin_b.normal;
     out -= glm::dot(out, way) / (straight * straight) * way;
-    if (!(glm::length(out) > 1e-3f)) fail(VFIT_ERROR_DATA, "own measures: ", where, ": the skin's way between two points is not clear; put a point between");
+    if (!(glm::length(out) > 1e-3f))
+        fail(VFIT_ERROR_DATA, "own measures: ", where,
+             ": the skin's way between two points is not clear; put a point between");
     const Section section = cut(g.tape.body().positions, g.tape.body().indices, from, glm::cross(way, out));
-    const auto place = [&](const Vec3& p) { return Vec2(glm::dot(p - section.origin, section.u), glm::dot(p - section.origin, section.v)); };
+    const auto place = [&](const Vec3& p) {
+        return Vec2(glm::dot(p - section.origin, section.u), glm::dot(p - section.origin, section.v));
+    };
     const Vec2 start = place(from), end = place(to);
     float best = 0.0f, off = 1e9f;
     for (const auto& loop : section.loops) {
         const auto nearest = [&](const Vec2& p) {
-            return size_t(std::min_element(loop.begin(), loop.end(), [&](const Vec2& x, const Vec2& y) {
-                              return glm::distance(x, p) < glm::distance(y, p);
-                          }) - loop.begin());
+            return size_t(std::min_element(loop.begin(), loop.end(),
+                                           [&](const Vec2& x, const Vec2& y) {
+                                               return glm::distance(x, p) < glm::distance(y, p);
+                                           }) -
+                          loop.begin());
         };
         const size_t i = nearest(start), j = nearest(end);
         const float apart = glm::distance(loop[i], start) + glm::distance(loop[j], end);
@@ -202,11 +230,13 @@ float over_skin(const Ground& g, const Vec3& a, const Vec3& b, const std::string
                 part.push_back(loop[k]);
                 length += glm::distance(loop[k], loop[(k + (forwards ? 1 : loop.size() - 1)) % loop.size()]);
             }
-            if (length < shortest) shortest = length, best = std::max(straight, hull_perimeter(part) - straight);
+            if (length < shortest)
+                shortest = length, best = std::max(straight, hull_perimeter(part) - straight);
         }
     }
     constexpr float kNear_m = 0.05f;
-    if (off > kNear_m) fail(VFIT_ERROR_DATA, "own measures: ", where, ": no skin leads from one point to the next");
+    if (off > kNear_m)
+        fail(VFIT_ERROR_DATA, "own measures: ", where, ": no skin leads from one point to the next");
     return best;
 }
 
@@ -234,28 +264,40 @@ OwnMeasures OwnMeasures::parse(std::string_view json) {
     for (const Json& item : measures) {
         const Json& name = field(item, "key", "a measure");
         if (!name.is_string() || !is_own_measure(name.get<std::string>()))
-            fail(VFIT_ERROR_DATA, "own measures: a key is x_, small letters, digits and _, and _m at the end, of less than 48 "
-                                  "bytes, as in x_calf_girth_m: ", json_text(name));
+            fail(VFIT_ERROR_DATA,
+                 "own measures: a key is x_, small letters, digits and _, and _m at the end, of less than 48 "
+                 "bytes, as in x_calf_girth_m: ",
+                 json_text(name));
         auto one = std::make_unique<Definition>();
         const std::string key = one->key = name.get<std::string>();
         for (const auto& other : out.list_)
             if (other->key == key) fail(VFIT_ERROR_DATA, "own measures: ", key, " stands twice");
         const auto kind = [&](const char* what) { return item.contains(what); };
         if (kind("girth") + kind("breadth") + kind("depth") + kind("height") + kind("path") != 1)
-            fail(VFIT_ERROR_DATA, "own measures: ", key, " has not exactly one of girth, breadth, depth, height and path");
+            fail(VFIT_ERROR_DATA, "own measures: ", key,
+                 " has not exactly one of girth, breadth, depth, height and path");
         if (kind("girth")) {
-            one->value = [plane = parse_plane(item["girth"], key), key](const Ground& g) { return hull_perimeter(outline(g, plane, key)); };
+            one->value = [plane = parse_plane(item["girth"], key), key](const Ground& g) {
+                return hull_perimeter(outline(g, plane, key));
+            };
         } else if (kind("breadth")) {
-            one->value = [plane = parse_plane(item["breadth"], key), key](const Ground& g) { return extent(outline(g, plane, key)).breadth(); };
+            one->value = [plane = parse_plane(item["breadth"], key), key](const Ground& g) {
+                return extent(outline(g, plane, key)).breadth();
+            };
         } else if (kind("depth")) {
-            one->value = [plane = parse_plane(item["depth"], key), key](const Ground& g) { return extent(outline(g, plane, key)).depth(); };
+            one->value = [plane = parse_plane(item["depth"], key), key](const Ground& g) {
+                return extent(outline(g, plane, key)).depth();
+            };
         } else if (kind("height")) {
-            one->value = [of = parse_point(item["height"], key)](const Ground& g) { return of(g).y - g.tape.floor(); };
+            one->value = [of = parse_point(item["height"], key)](const Ground& g) {
+                return of(g).y - g.tape.floor();
+            };
         } else {
             const Json& path = item["path"];
             const Json& points = field(path, "points", key);
             if (!points.is_array() || points.size() < 2 || points.size() > kMostPoints)
-                fail(VFIT_ERROR_DATA, "own measures: ", key, ": \"points\" is not a list of 2 to ", kMostPoints);
+                fail(VFIT_ERROR_DATA, "own measures: ", key, ": \"points\" is not a list of 2 to ",
+                     kMostPoints);
             bool skin = false;
             if (path.contains("over")) {
                 if (path["over"] != "skin" && path["over"] != "air")
@@ -283,7 +325,8 @@ std::vector<Measurement> OwnMeasures::measure(const TapeBody& body) const {
     std::vector<Measurement> out;
     for (const auto& one : list_) {
         const float value = one->value(ground);
-        if (!std::isfinite(value) || value <= 0.0f) fail(VFIT_ERROR_DATA, "own measures: ", one->key, " comes to nothing on this body");
+        if (!std::isfinite(value) || value <= 0.0f)
+            fail(VFIT_ERROR_DATA, "own measures: ", one->key, " comes to nothing on this body");
         out.push_back({one->key, value, 0.0f, false});
     }
     return out;

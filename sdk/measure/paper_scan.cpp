@@ -110,8 +110,8 @@ ScanProgress PaperScan::look(const ScanFrame& frame) {
     state.depth = state.filter.run(frame.image, frame.body ? frame.body->id : 0);
     progress.correction_m = state.depth.correction_m;
     const bool same_person = state.has_last && frame.body && state.last.id == frame.body->id;
-    progress.guidance = check_frame(state.depth, frame.image.camera, frame.body, same_person ? &state.last : nullptr,
-                                    frame.person_count);
+    progress.guidance = check_frame(state.depth, frame.image.camera, frame.body,
+                                    same_person ? &state.last : nullptr, frame.person_count);
     state.has_last = frame.body != nullptr;
     if (frame.body) state.last = *frame.body;
     progress.compute_ms = watch.ms();

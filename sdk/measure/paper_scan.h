@@ -62,8 +62,8 @@ public:
 
     /// Ignores frames once the scan is complete. Does not allocate after the first frame of a size.
     ScanProgress add(const ScanFrame& frame);
-    /// The two halves of add(), for who has more to ask of a frame: whether it is good, and that it is kept (the one
-    /// that was looked at last, which must live still).
+    /// The two halves of add(), for who has more to ask of a frame: whether it is good, and that it is kept
+    /// (the one that was looked at last, which must live still).
     ScanProgress look(const ScanFrame& frame);
     void take(const ScanFrame& frame);
     /// Forgets the person, and what extend() added.

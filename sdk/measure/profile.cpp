@@ -13,7 +13,8 @@ namespace {
 
 constexpr const char* kFormat = "vfit-profile";
 constexpr int kProfileVersion = 1;
-// Share of an error's variance that every scan of one person has in common (vfit-bench measure --only repeated).
+// Share of an error's variance that every scan of one person has in common (vfit-bench measure --only
+// repeated).
 constexpr float kOwn = 0.6f;
 constexpr float kTwoPeople = 6.0f;  // deviations between two statures
 
@@ -32,7 +33,8 @@ Measurement parse_one(const std::string& key, const Json& value) {
         m.value = number(*at, key);
         if (const auto s = value.find("sigma"); s != value.end()) m.sigma = number(*s, key + ": sigma");
         if (const auto o = value.find("observed"); o != value.end()) {
-            if (!o->is_boolean()) fail(VFIT_ERROR_DATA, "profile: \"observed\" of ", key, " is neither true nor false");
+            if (!o->is_boolean())
+                fail(VFIT_ERROR_DATA, "profile: \"observed\" of ", key, " is neither true nor false");
             m.observed = o->get<bool>();
         }
     } else {
@@ -44,7 +46,8 @@ Measurement parse_one(const std::string& key, const Json& value) {
 }
 
 Measurement merge_one(const Measurement& a, const Measurement& b) {
-    if (a.sigma == 0.0f && b.sigma == 0.0f) return {a.key, 0.5f * (a.value + b.value), 0.0f, a.observed || b.observed};
+    if (a.sigma == 0.0f && b.sigma == 0.0f)
+        return {a.key, 0.5f * (a.value + b.value), 0.0f, a.observed || b.observed};
     if (a.sigma == 0.0f || b.sigma == 0.0f) return a.sigma == 0.0f ? b : a;
     const float va = a.sigma * a.sigma, vb = b.sigma * b.sigma, wa = vb / (va + vb), wb = va / (va + vb);
     const float apart = a.value - b.value, room = (1.0f - kOwn) * (va + vb);
@@ -72,9 +75,11 @@ PersonProfile parse_profile(std::string_view text) {
     if (const auto format = file.find("format"); format != file.end()) {
         if (*format != kFormat) fail(VFIT_ERROR_DATA, "profile: the \"format\" is not ", kFormat);
         const auto version = file.find("version");
-        if (version == file.end() || !version->is_number_integer()) fail(VFIT_ERROR_DATA, "profile: no whole \"version\"");
+        if (version == file.end() || !version->is_number_integer())
+            fail(VFIT_ERROR_DATA, "profile: no whole \"version\"");
         if (*version != kProfileVersion)
-            fail(VFIT_ERROR_VERSION, "profile: version ", version->get<int64_t>(), " is unknown; this library reads ", kProfileVersion);
+            fail(VFIT_ERROR_VERSION, "profile: version ", version->get<int64_t>(),
+                 " is unknown; this library reads ", kProfileVersion);
     }
     if (const auto sex = file.find("sex"); sex != file.end()) {
         if (*sex != "f" && *sex != "m") fail(VFIT_ERROR_DATA, "profile: \"sex\" is neither f nor m");
@@ -84,9 +89,12 @@ PersonProfile parse_profile(std::string_view text) {
     const Json& all = whole ? file["measurements"] : file;
     if (!all.is_object()) fail(VFIT_ERROR_DATA, "profile: \"measurements\" is not an object");
     for (const auto& [key, value] : all.items())
-        if (whole || (key != "format" && key != "version" && key != "sex")) out.measurements.push_back(parse_one(key, value));
+        if (whole || (key != "format" && key != "version" && key != "sex"))
+            out.measurements.push_back(parse_one(key, value));
     std::stable_sort(out.measurements.begin(), out.measurements.end(),
-              [](const Measurement& a, const Measurement& b) { return measure_order(a.key) < measure_order(b.key); });
+                     [](const Measurement& a, const Measurement& b) {
+                         return measure_order(a.key) < measure_order(b.key);
+                     });
     return out;
 }
 
@@ -94,7 +102,8 @@ std::vector<Measurement> merge(const std::vector<Measurement>& a, const std::vec
     const Measurement *one = find(a, "stature_m"), *other = find(b, "stature_m");
     if (one && other && one->sigma > 0.0f && other->sigma > 0.0f &&
         std::abs(one->value - other->value) > kTwoPeople * std::hypot(one->sigma, other->sigma))
-        fail(VFIT_ERROR_DATA, "these are measurements of two people: stature_m ", one->value, " and ", other->value);
+        fail(VFIT_ERROR_DATA, "these are measurements of two people: stature_m ", one->value, " and ",
+             other->value);
     std::vector<Measurement> out;
     for (const Measurement& m : a) {
         const Measurement* again = find(b, m.key);
@@ -102,8 +111,9 @@ std::vector<Measurement> merge(const std::vector<Measurement>& a, const std::vec
     }
     for (const Measurement& m : b)
         if (!find(a, m.key)) out.push_back(m);
-    std::stable_sort(out.begin(), out.end(),
-              [](const Measurement& x, const Measurement& y) { return measure_order(x.key) < measure_order(y.key); });
+    std::stable_sort(out.begin(), out.end(), [](const Measurement& x, const Measurement& y) {
+        return measure_order(x.key) < measure_order(y.key);
+    });
     return out;
 }
 

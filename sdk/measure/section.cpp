@@ -20,9 +20,7 @@ struct End {
     uint32_t id;
 };
 
-uint64_t edge_key(uint32_t a, uint32_t b) {
-    return uint64_t(std::min(a, b)) << 32 | std::max(a, b);
-}
+uint64_t edge_key(uint32_t a, uint32_t b) { return uint64_t(std::min(a, b)) << 32 | std::max(a, b); }
 
 void set_axes(Section& section, const Vec3& point, const Vec3& normal) {
     // Beyond 0.9 (26 degrees from X) +X leaves too little in the plane to be a stable direction.

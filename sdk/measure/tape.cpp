@@ -70,17 +70,18 @@ void measure_limbs(const TapeMesh& body, Sheet& sheet) {
     constexpr float kThighShare = 0.6f, kUpperArmShare = 0.7f;
     const Axis spine = body.spine();
     sheet.set("thigh_girth_m", both([&](Side s) {
-        return largest_limb_girth(body, body.thigh(s), kThighShare,
-                                  body.thigh(s == Side::kLeft ? Side::kRight : Side::kLeft));
-    }));
+                  return largest_limb_girth(body, body.thigh(s), kThighShare,
+                                            body.thigh(s == Side::kLeft ? Side::kRight : Side::kLeft));
+              }));
     sheet.set("upper_arm_girth_m", both([&](Side s) {
                   return largest_limb_girth(body, body.upper_arm(s), kUpperArmShare, spine);
               }));
     const auto between = [&](int a, int b) { return glm::distance(body.joint(a), body.joint(b)); };
     sheet.set("arm_length_m", both([&](Side s) {
-        const Joints j = joints_of(s);
-        return glm::distance(acromion(body.body(), s), body.joint(j.elbow)) + between(j.elbow, j.wrist);
-    }));
+                  const Joints j = joints_of(s);
+                  return glm::distance(acromion(body.body(), s), body.joint(j.elbow)) +
+                         between(j.elbow, j.wrist);
+              }));
     const auto hand = [&](Side s) {
         return glm::distance(body.joint(joints_of(s).wrist), fingertip(body, s));
     };

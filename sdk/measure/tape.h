@@ -15,11 +15,11 @@ namespace vfit {
 
 /// A standing body in one posture: metres, Y up, facing +Z, its left on +X.
 struct TapeBody {
-    std::span<const Vec3> positions;     // closed surface
-    std::span<const uint32_t> indices;   // three a triangle
-    std::span<const BodyPart> parts;     // one a vertex at least
-    Body joints;                         // in the space of the positions
-    vfit_sex sex = VFIT_SEX_UNKNOWN;     // unknown: the chest as a man's
+    std::span<const Vec3> positions;    // closed surface
+    std::span<const uint32_t> indices;  // three a triangle
+    std::span<const BodyPart> parts;    // one a vertex at least
+    Body joints;                        // in the space of the positions
+    vfit_sex sex = VFIT_SEX_UNKNOWN;    // unknown: the chest as a man's
 };
 
 /// The postures that the definitions ask for. The same mesh in three postures, or, where only one is to be

@@ -18,8 +18,8 @@ float armpit_height(const TapeMesh& body);
 /// in people. The narrowest level is another: it lies near the lowest rib, and stout bodies have none.
 float waist_height(const TapeMesh& body);
 
-/// The bust point of the side: the middle of what stands out farthest before the straight line from the front of the
-/// rib arch to the front between the armpits; some two millimetres under the skin.
+/// The bust point of the side: the middle of what stands out farthest before the straight line from the front
+/// of the rib arch to the front between the armpits; some two millimetres under the skin.
 Vec3 bust_point(const TapeMesh& body, Side side, float armpit);
 
 /// Women: level of the bust points. Others: of the largest girth between the rib arch and a tape's half width
@@ -66,8 +66,8 @@ float skull_breadth(const TapeMesh& body, float chin);
 /// Tip of the middle finger: the point of the hand farthest from the wrist.
 Vec3 fingertip(const TapeMesh& body, Side side);
 
-/// The largest tape about a limb, square to its axis, between a tape's half width below where the limb leaves the
-/// body and that share of its length; `apart` runs through what it leaves.
+/// The largest tape about a limb, square to its axis, between a tape's half width below where the limb leaves
+/// the body and that share of its length; `apart` runs through what it leaves.
 float largest_limb_girth(const TapeMesh& body, const Axis& axis, float share, const Axis& apart);
 
 }  // namespace vfit

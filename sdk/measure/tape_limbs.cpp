@@ -41,7 +41,8 @@ float collar_bones_height(const TapeMesh& body) {
     return 0.5f * (body.joint(VFIT_JOINT_LEFT_CLAVICLE).y + body.joint(VFIT_JOINT_RIGHT_CLAVICLE).y);
 }
 
-/// Along the neck's axis: no neck reaches as far below its joint as the joint lies above the collar bones' own level.
+/// Along the neck's axis: no neck reaches as far below its joint as the joint lies above the collar bones'
+/// own level.
 float lowest_tape_on_neck(const TapeMesh& body) {
     return std::min(0.0f, collar_bones_height(body) - body.joint(VFIT_JOINT_NECK).y);
 }
@@ -53,7 +54,8 @@ float limb_girth(const TapeLimb& limb, float along_m, const Axis& apart) {
     const Section section = limb.across(along_m);
     const auto* loop = loop_about(section, place);
     if (!loop) return 0.0f;
-    const float share = glm::dot(place - apart.start, limb.direction()) / glm::dot(apart.end - apart.start, limb.direction());
+    const float share =
+        glm::dot(place - apart.start, limb.direction()) / glm::dot(apart.end - apart.start, limb.direction());
     if (std::isfinite(share) && loop == loop_about(section, apart.at(share))) return 0.0f;
     return hull_perimeter(*loop);
 }
@@ -64,7 +66,8 @@ Section frontal_near(const TapeBody& body, const Vec3& place) {
     std::vector<uint32_t> near;
     for (size_t t = 0; t < body.indices.size(); t += 3) {
         const uint32_t* v = &body.indices[t];
-        const auto [low, high] = std::minmax({body.positions[v[0]].y, body.positions[v[1]].y, body.positions[v[2]].y});
+        const auto [low, high] =
+            std::minmax({body.positions[v[0]].y, body.positions[v[1]].y, body.positions[v[2]].y});
         if (high >= place.y - kReach_m && low <= place.y + kReach_m) near.insert(near.end(), v, v + 3);
     }
     return cut(body.positions, near, place, Vec3(0, 0, 1));

@@ -14,25 +14,25 @@ namespace {
 const Vec3 kUp(0, 1, 0);
 
 constexpr int kNeededJoints[] = {
-    VFIT_JOINT_HEAD,          VFIT_JOINT_NECK,       VFIT_JOINT_TORSO,       VFIT_JOINT_PELVIS,
-    VFIT_JOINT_LEFT_SHOULDER, VFIT_JOINT_LEFT_ELBOW, VFIT_JOINT_LEFT_WRIST,  VFIT_JOINT_LEFT_HIP,
-    VFIT_JOINT_LEFT_KNEE,     VFIT_JOINT_LEFT_CLAVICLE, VFIT_JOINT_RIGHT_CLAVICLE,  VFIT_JOINT_RIGHT_SHOULDER,
-    VFIT_JOINT_RIGHT_ELBOW,   VFIT_JOINT_RIGHT_WRIST, VFIT_JOINT_RIGHT_HIP,  VFIT_JOINT_RIGHT_KNEE};
+    VFIT_JOINT_HEAD,          VFIT_JOINT_NECK,          VFIT_JOINT_TORSO,          VFIT_JOINT_PELVIS,
+    VFIT_JOINT_LEFT_SHOULDER, VFIT_JOINT_LEFT_ELBOW,    VFIT_JOINT_LEFT_WRIST,     VFIT_JOINT_LEFT_HIP,
+    VFIT_JOINT_LEFT_KNEE,     VFIT_JOINT_LEFT_CLAVICLE, VFIT_JOINT_RIGHT_CLAVICLE, VFIT_JOINT_RIGHT_SHOULDER,
+    VFIT_JOINT_RIGHT_ELBOW,   VFIT_JOINT_RIGHT_WRIST,   VFIT_JOINT_RIGHT_HIP,      VFIT_JOINT_RIGHT_KNEE};
 
 /// Joints that an axis runs between.
-constexpr int kAxes[][2] = {
-    {VFIT_JOINT_NECK, VFIT_JOINT_HEAD},
-    {VFIT_JOINT_PELVIS, VFIT_JOINT_NECK},
-    {VFIT_JOINT_LEFT_SHOULDER, VFIT_JOINT_LEFT_ELBOW},
-    {VFIT_JOINT_RIGHT_SHOULDER, VFIT_JOINT_RIGHT_ELBOW},
-    {VFIT_JOINT_LEFT_HIP, VFIT_JOINT_LEFT_KNEE},
-    {VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_RIGHT_KNEE}};
+constexpr int kAxes[][2] = {{VFIT_JOINT_NECK, VFIT_JOINT_HEAD},
+                            {VFIT_JOINT_PELVIS, VFIT_JOINT_NECK},
+                            {VFIT_JOINT_LEFT_SHOULDER, VFIT_JOINT_LEFT_ELBOW},
+                            {VFIT_JOINT_RIGHT_SHOULDER, VFIT_JOINT_RIGHT_ELBOW},
+                            {VFIT_JOINT_LEFT_HIP, VFIT_JOINT_LEFT_KNEE},
+                            {VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_RIGHT_KNEE}};
 
 std::vector<uint32_t> without_arms(const TapeBody& body) {
     std::vector<uint32_t> out;
     for (size_t t = 0; t < body.indices.size(); t += 3) {
         const uint32_t* v = &body.indices[t];
-        if (is_arm(body.parts[v[0]]) + is_arm(body.parts[v[1]]) + is_arm(body.parts[v[2]]) < 2) out.insert(out.end(), v, v + 3);
+        if (is_arm(body.parts[v[0]]) + is_arm(body.parts[v[1]]) + is_arm(body.parts[v[2]]) < 2)
+            out.insert(out.end(), v, v + 3);
     }
     return out;
 }
@@ -56,7 +56,8 @@ void check(const TapeBody& body) {
             fail(VFIT_ERROR_DATA, "the body to measure has no joint ", joint_name(joint));
     for (const auto& [from, to] : kAxes)
         if (!(glm::distance(body.joints.at(from), body.joints.at(to)) > 0.0f))
-            fail(VFIT_ERROR_DATA, "the body's joints ", joint_name(from), " and ", joint_name(to), " are one place");
+            fail(VFIT_ERROR_DATA, "the body's joints ", joint_name(from), " and ", joint_name(to),
+                 " are one place");
 }
 
 HeightRange height_range(std::span<const Vec3> positions) {
@@ -97,7 +98,9 @@ TapeLimb::TapeLimb(const TapeBody& body, const Axis& axis, float from_m, float t
       direction_(axis.direction()),
       layers_(body.positions, body.indices, axis.start, direction_, from_m, to_m) {}
 
-Section TapeLimb::across(float along_m) const { return cut(positions_, layers_.at(along_m), place(along_m), direction_); }
+Section TapeLimb::across(float along_m) const {
+    return cut(positions_, layers_.at(along_m), place(along_m), direction_);
+}
 
 const std::vector<Vec2>* loop_about(const Section& section, const Vec3& place) {
     const Vec3 p = place - section.origin;

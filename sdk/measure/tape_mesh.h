@@ -23,7 +23,8 @@ struct Axis {
 
 enum class Side { kLeft, kRight };
 
-/// VFIT_ERROR_DATA where the mesh is broken, lacks a joint that a landmark needs, or has two of them in one place.
+/// VFIT_ERROR_DATA where the mesh is broken, lacks a joint that a landmark needs, or has two of them in one
+/// place.
 void check(const TapeBody& body);
 
 struct HeightRange {

@@ -15,12 +15,12 @@ namespace {
 /// (0.630 - 0.519) / (0.857 - 0.519), men (0.621 - 0.513) / (0.864 - 0.513) of stature.
 constexpr float kWaistShareWomen = 0.328f, kWaistShareMen = 0.308f;
 
-/// The rib arch as a share of the way from the waist to the foot of the neck; the bust and a man's chest lie above it, by
-/// the same tables at 0.47 (0.735 of stature).
+/// The rib arch as a share of the way from the waist to the foot of the neck; the bust and a man's chest lie
+/// above it, by the same tables at 0.47 (0.735 of stature).
 constexpr float kRibArchShare = 0.2f;
 
-/// A breast's vertices lie a centimetre apart and a millimetre behind one another: what is so far behind the foremost one
-/// counts a third.
+/// A breast's vertices lie a centimetre apart and a millimetre behind one another: what is so far behind the
+/// foremost one counts a third.
 constexpr float kBustDepth_m = 0.002f;
 
 float hip_joints_height(const TapeMesh& body) {
@@ -90,8 +90,8 @@ float waist_height(const TapeMesh& body) {
     return glm::mix(hip_joints_height(body), body.joint(VFIT_JOINT_NECK).y, share);
 }
 
-/// The middle of what stands out most: where a breast does, it moves evenly with the body and does not leap from one vertex
-/// to the next one, a centimetre away.
+/// The middle of what stands out most: where a breast does, it moves evenly with the body and does not leap
+/// from one vertex to the next one, a centimetre away.
 Vec3 bust_point(const TapeMesh& body, Side side, float armpit) {
     // From the rib arch up: a round upper belly below it stands out more than a small breast.
     const float arch = rib_arch_height(body), middle = body.joint(VFIT_JOINT_NECK).x;
@@ -103,7 +103,9 @@ Vec3 bust_point(const TapeMesh& body, Side side, float armpit) {
     float most = -std::numeric_limits<float>::infinity();
     for (size_t i = 0; i < b.positions.size(); ++i) {
         const Vec3& p = b.positions[i];
-        if (b.parts[i] != BodyPart::kTorso || p.y <= arch || p.y >= armpit || (p.x > middle) != (side == Side::kLeft)) continue;
+        if (b.parts[i] != BodyPart::kTorso || p.y <= arch || p.y >= armpit ||
+            (p.x > middle) != (side == Side::kLeft))
+            continue;
         chest.push_back(p);
         most = std::max(most, prominence(p));
     }
@@ -131,8 +133,8 @@ float underbust_height(const TapeMesh& body, float armpit, float waist) {
         const Section profile = body.profile(bust.x);
         const float slope = (bust.z - front_at(profile, waist)) / (bust.y - waist);
         height += 0.5f * place_of_largest(waist, bust.y, [&](float y) {
-            return bust.z + slope * (y - bust.y) - front_at(profile, y);
-        });
+                      return bust.z + slope * (y - bust.y) - front_at(profile, y);
+                  });
     }
     return height;
 }

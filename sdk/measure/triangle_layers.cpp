@@ -15,9 +15,11 @@ constexpr float kMargin_m = 1e-5f;      // a plane's own rounding
 
 }  // namespace
 
-TriangleLayers::TriangleLayers(std::span<const Vec3> positions, std::span<const uint32_t> indices, const Vec3& origin,
-                               const Vec3& direction, float low, float high)
-    : low_(low), high_(std::max(low, high)), thickness_(std::max(kThickness_m, (high_ - low_) / kMostLayers)) {
+TriangleLayers::TriangleLayers(std::span<const Vec3> positions, std::span<const uint32_t> indices,
+                               const Vec3& origin, const Vec3& direction, float low, float high)
+    : low_(low),
+      high_(std::max(low, high)),
+      thickness_(std::max(kThickness_m, (high_ - low_) / kMostLayers)) {
     if (!std::isfinite(high_ - low_)) fail(VFIT_ERROR_DATA, "the mesh is too large to be measured");
     std::vector<float> places;
     places.reserve(positions.size());
@@ -32,7 +34,8 @@ TriangleLayers::TriangleLayers(std::span<const Vec3> positions, std::span<const 
         const float least = std::min({a, b, c}), most = std::max({a, b, c});
         if (most + kMargin_m < low_ || least - kMargin_m > high_) continue;
         reaches.push_back({t, uint32_t(layer_of(least - kMargin_m)), uint32_t(layer_of(most + kMargin_m))});
-        for (uint32_t layer = reaches.back().from; layer <= reaches.back().to; ++layer) first_[layer + 1] += 3;
+        for (uint32_t layer = reaches.back().from; layer <= reaches.back().to; ++layer)
+            first_[layer + 1] += 3;
     }
     for (size_t layer = 1; layer < first_.size(); ++layer) first_[layer] += first_[layer - 1];
     indices_.resize(first_.back());

@@ -11,8 +11,8 @@ namespace vfit {
 
 class TriangleLayers {
 public:
-    /// Of the triangles that reach into low to high, in metres from the origin along the direction (of length 1).
-    /// VFIT_ERROR_DATA where that is not finite.
+    /// Of the triangles that reach into low to high, in metres from the origin along the direction (of length
+    /// 1). VFIT_ERROR_DATA where that is not finite.
     TriangleLayers(std::span<const Vec3> positions, std::span<const uint32_t> indices, const Vec3& origin,
                    const Vec3& direction, float low, float high);
 

@@ -8,9 +8,9 @@ namespace vfit {
 namespace {
 
 constexpr int kRests = 0;
-// White acceleration of each mode, m/s^2 over a frame of 1/30 s. Who rests only drifts, as the sway of a standing body
-// does: metres per square root of a second. These and what follows: searched for on made noise at rest, swings and
-// reaches, and on real Kinect v2 streams (vfit-bench motion --only filters).
+// White acceleration of each mode, m/s^2 over a frame of 1/30 s. Who rests only drifts, as the sway of a
+// standing body does: metres per square root of a second. These and what follows: searched for on made noise
+// at rest, swings and reaches, and on real Kinect v2 streams (vfit-bench motion --only filters).
 constexpr float kAcceleration[AdaptiveFilter::kModes] = {0.0f, 0.05f, 15.0f};
 constexpr float kFrame_s = 1.0f / 30.0f;
 constexpr float kDrift = 0.0002f;
@@ -19,12 +19,12 @@ constexpr float kRestingSpeed = 0.105f;  // m/s: sd of the velocity of who rests
 constexpr float kSwitch[AdaptiveFilter::kModes][AdaptiveFilter::kModes] = {
     {0.9989f, 0.0006f, 0.0005f}, {0.03f, 0.96f, 0.01f}, {0.001f, 0.03f, 0.969f}};
 
-// Readings of trackers wander slowly beside their white noise, which differences do not show: the least noise stands
-// for that.
+// Readings of trackers wander slowly beside their white noise, which differences do not show: the least noise
+// stands for that.
 constexpr float kLeastNoiseM = 0.0075f, kLeastWhiteM = 0.002f, kMostNoiseM = 0.05f;
 constexpr float kEvenTimes = 1.3f;  // intervals that differ by less are even
 constexpr float kMedianOfNormal = 0.6745f;
-constexpr float kLeap = 18.0f;  // squared Mahalanobis distance: 0.04 % of honest readings lie farther
+constexpr float kLeap = 18.0f;     // squared Mahalanobis distance: 0.04 % of honest readings lie farther
 constexpr float kSameSide = 0.5f;  // cosine
 constexpr float kEvidence = 3.0f;  // of the white noise's length
 
@@ -51,18 +51,20 @@ void AdaptiveFilter::start(const Vec3& reading, const Vec3& velocity, float nois
     velocity_ = velocity;
 }
 
-/// The third difference of even readings is noise alone for whatever moves smoothly; its sd is sqrt(20) times theirs.
-/// A running median, so that throws and outliers do not count.
+/// The third difference of even readings is noise alone for whatever moves smoothly; its sd is sqrt(20) times
+/// theirs. A running median, so that throws and outliers do not count.
 void AdaptiveFilter::learn_noise(const Vec3& reading, float dt_s) {
     const bool even = dt_s < kEvenTimes * last_dt_s_ && last_dt_s_ < kEvenTimes * dt_s;
     even_count_ = even ? even_count_ + 1 : 0;
     if (even_count_ >= 2) {
         noise_count_ = std::min(noise_count_ + 1, 60);
         const float rate = std::max(0.02f, 0.6f / static_cast<float>(noise_count_));
-        const Vec3 third = (reading - 3.0f * readings_[0] + 3.0f * readings_[1] - readings_[2]) / std::sqrt(20.0f);
+        const Vec3 third =
+            (reading - 3.0f * readings_[0] + 3.0f * readings_[1] - readings_[2]) / std::sqrt(20.0f);
         for (int axis = 0; axis < 3; ++axis) {
             const bool above = std::abs(third[axis]) > kMedianOfNormal * white_[axis];
-            white_[axis] = std::clamp(white_[axis] * (above ? 1.0f + rate : 1.0f / (1.0f + rate)), kLeastWhiteM, kMostNoiseM);
+            white_[axis] = std::clamp(white_[axis] * (above ? 1.0f + rate : 1.0f / (1.0f + rate)),
+                                      kLeastWhiteM, kMostNoiseM);
         }
     }
     readings_ = {reading, readings_[0], readings_[1]};
@@ -114,8 +116,8 @@ void AdaptiveFilter::predict(float dt_s) {
     }
 }
 
-/// Far from where a joint that rests or coasts would be, or turns if that is what it does. Twice on the same side is
-/// no error but a motion.
+/// Far from where a joint that rests or coasts would be, or turns if that is what it does. Twice on the same
+/// side is no error but a motion.
 bool AdaptiveFilter::leaps(const Vec3& reading, const Vec3& variance) const {
     float nearest = 1e30f;
     for (int i = 0; i < kModes - 1; ++i) {
@@ -131,7 +133,8 @@ bool AdaptiveFilter::leaps(const Vec3& reading, const Vec3& variance) const {
     return nearest > kLeap;
 }
 
-/// The reading before, so far beside the joint as noise hardly lies, says that a leap to the same side is none.
+/// The reading before, so far beside the joint as noise hardly lies, says that a leap to the same side is
+/// none.
 bool AdaptiveFilter::is_evidence(const Vec3& before) const {
     const float far = glm::length(before), leap = glm::length(beside_);
     return far > kEvidence * glm::length(white_) && glm::dot(before, beside_) > kSameSide * far * leap;
@@ -143,7 +146,8 @@ void AdaptiveFilter::correct(const Vec3& reading, const Vec3& variance) {
         Mode& m = modes_[static_cast<size_t>(i)];
         const Vec3 s = m.pp + variance, innovation = reading - m.place;
         const Vec3 d = squared(innovation) / s;
-        logs[i] = -0.5f * (d.x + d.y + d.z + std::log(s.x * s.y * s.z)) + std::log(std::max(m.probability, 1e-12f));
+        logs[i] =
+            -0.5f * (d.x + d.y + d.z + std::log(s.x * s.y * s.z)) + std::log(std::max(m.probability, 1e-12f));
         most = std::max(most, logs[i]);
         const Vec3 gain_p = m.pp / s, gain_v = m.pv / s;
         m.place += gain_p * innovation;
@@ -153,7 +157,8 @@ void AdaptiveFilter::correct(const Vec3& reading, const Vec3& variance) {
         m.pp -= gain_p * m.pp;
     }
     float sum = 0.0f;
-    for (int i = 0; i < kModes; ++i) sum += modes_[static_cast<size_t>(i)].probability = std::exp(logs[i] - most);
+    for (int i = 0; i < kModes; ++i)
+        sum += modes_[static_cast<size_t>(i)].probability = std::exp(logs[i] - most);
     for (Mode& m : modes_) m.probability = std::max(m.probability / sum, 1e-5f);
 }
 

@@ -1,7 +1,7 @@
-// vfit's own filter of one joint position: an interacting multiple model (Blom and Bar-Shalom 1988) of a joint that
-// rests, one that coasts and one that turns, each a Kalman filter, weighed by how well it foretells the readings.
-// At rest it averages over seconds, in motion it follows within a frame. It learns how noisy its joint is along each
-// axis, and holds a reading that leaps until the next one bears it out.
+// vfit's own filter of one joint position: an interacting multiple model (Blom and Bar-Shalom 1988) of a
+// joint that rests, one that coasts and one that turns, each a Kalman filter, weighed by how well it
+// foretells the readings. At rest it averages over seconds, in motion it follows within a frame. It learns
+// how noisy its joint is along each axis, and holds a reading that leaps until the next one bears it out.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@ public:
     void reset() { *this = AdaptiveFilter(); }
     bool empty() const { return count_ == 0; }
 
-    /// Takes one reading, `dt_s` > 0 after the one before. `noise_scale`: how many times noisier than this joint's
-    /// readings usually are (1; more for an inferred or unsure one).
+    /// Takes one reading, `dt_s` > 0 after the one before. `noise_scale`: how many times noisier than this
+    /// joint's readings usually are (1; more for an inferred or unsure one).
     void update(const Vec3& reading, float noise_scale, float dt_s);
 
     const Vec3& position() const { return position_; }
@@ -44,13 +44,13 @@ private:
 
     std::array<Mode, kModes> modes_{};
     Vec3 position_{0.0f}, velocity_{0.0f};
-    Vec3 white_{0.0f};  // noise of readings as their third differences show it
+    Vec3 white_{0.0f};                // noise of readings as their third differences show it
     std::array<Vec3, 3> readings_{};  // the last ones, newest first
     float last_dt_s_ = 0.0f;
-    int count_ = 0;        // readings since the start, as far as it matters
-    int even_count_ = 0;   // readings in a row at even times
+    int count_ = 0;       // readings since the start, as far as it matters
+    int even_count_ = 0;  // readings in a row at even times
     int noise_count_ = 0;
-    Vec3 beside_{0.0f};    // from where the joint was shown to the last reading
+    Vec3 beside_{0.0f};  // from where the joint was shown to the last reading
 };
 
 }  // namespace vfit

@@ -9,8 +9,8 @@ namespace vfit {
 
 namespace {
 
-// Two bodies within a millisecond are one moment read twice: a speed taken from them would throw the joint out of the
-// room.
+// Two bodies within a millisecond are one moment read twice: a speed taken from them would throw the joint
+// out of the room.
 constexpr float kLeastIntervalS = 0.001f;
 
 float since_s(int64_t earlier_ns, int64_t later_ns) {

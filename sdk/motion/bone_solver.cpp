@@ -159,8 +159,7 @@ void BoneSolver::solve_limb(int index, const RestPose& rest, const Body& body, B
     if (has_upper) {
         const Vec3 hinge = hinge_of(index, limb, parent, upper, has_lower ? lower : upper, upper_m, lower_m);
         upper_rotation = align_pairs(limb.upper, limb.hinge, upper, hinge);
-        lower_rotation =
-            has_lower ? align_pairs(limb.lower, limb.hinge, lower, hinge) : upper_rotation;
+        lower_rotation = has_lower ? align_pairs(limb.lower, limb.hinge, lower, hinge) : upper_rotation;
     } else {
         const float lowered = parts.leg ? 0.0f : -parts.side * kHangingRad;
         upper_rotation = parent * glm::angleAxis(lowered, Vec3(0, 0, 1));
@@ -207,9 +206,7 @@ void BoneSolver::solve_foot(int side, const RestPose& rest, const Body& body, bo
         // Toes that nobody sees: the foot is level and points where the knee bends.
         const Vec3 across = shank * Vec3(1, 0, 0);
         const Vec3 level(across.x, 0.0f, across.z);
-        foot = glm::length(level) > 0.1f
-                   ? align_pairs(Vec3(1, 0, 0), floor_up, level, floor_up)
-                   : shank;
+        foot = glm::length(level) > 0.1f ? align_pairs(Vec3(1, 0, 0), floor_up, level, floor_up) : shank;
     }
     world[at(toes_bone)] = foot;
     rotation_of(body, parts.tip, world[at(toes_bone)]);

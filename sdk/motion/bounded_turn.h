@@ -1,5 +1,5 @@
-// A bone that follows its tracked rotation with a bounded angular acceleration: exactly, while that is one of people, and
-// catching up smoothly where it jumps.
+// A bone that follows its tracked rotation with a bounded angular acceleration: exactly, while that is one of
+// people, and catching up smoothly where it jumps.
 #pragma once
 
 #include "math/types.h"

@@ -10,14 +10,15 @@ namespace vfit {
 namespace {
 
 enum Point { kAnkle = 0, kToes = 2, kKnee = 4, kHip = 6, kPelvis = 8 };
-constexpr int kJoints[] = {VFIT_JOINT_LEFT_FOOT, VFIT_JOINT_RIGHT_FOOT, VFIT_JOINT_LEFT_TOES, VFIT_JOINT_RIGHT_TOES,
-                           VFIT_JOINT_LEFT_KNEE, VFIT_JOINT_RIGHT_KNEE, VFIT_JOINT_LEFT_HIP,  VFIT_JOINT_RIGHT_HIP};
+constexpr int kJoints[] = {VFIT_JOINT_LEFT_FOOT,  VFIT_JOINT_RIGHT_FOOT, VFIT_JOINT_LEFT_TOES,
+                           VFIT_JOINT_RIGHT_TOES, VFIT_JOINT_LEFT_KNEE,  VFIT_JOINT_RIGHT_KNEE,
+                           VFIT_JOINT_LEFT_HIP,   VFIT_JOINT_RIGHT_HIP};
 
 constexpr float kStep_s = 1.0f / 30.0f;
 constexpr float kFall_s = 0.1f, kRise = 0.02f;  // a level falls within this time and rises at that speed, m/s
 constexpr float kTrembleShare = 0.2f, kTrembleRate = 0.03f;
-constexpr float kLeastSpeed = 0.03f;            // m/s: slower is not told apart
-constexpr float kHeightScale = 20.0f;           // 5 cm are 1
+constexpr float kLeastSpeed = 0.03f;   // m/s: slower is not told apart
+constexpr float kHeightScale = 20.0f;  // 5 cm are 1
 constexpr float kPause_s = 0.5f;
 constexpr float kUnevenM = 0.03f;  // the feet of a person who stands may be reported at heights so far apart
 
@@ -33,7 +34,8 @@ void ContactFeatures::follow(Low& low, float height, float dt_s) {
 }
 
 void ContactFeatures::update(const Body& body) {
-    float dt_s = count_ > 0 ? static_cast<float>(seconds_between(history_[last_].time_ns, body.time_ns)) : 0.0f;
+    float dt_s =
+        count_ > 0 ? static_cast<float>(seconds_between(history_[last_].time_ns, body.time_ns)) : 0.0f;
     if (count_ > 0 && (dt_s <= 0.0f || dt_s > kPause_s)) {
         // After a pause nothing is known of speeds; where the floor is stays known.
         count_ = 0;
@@ -65,10 +67,12 @@ void ContactFeatures::update(const Body& body) {
     for (const size_t pair : {size_t{0}, size_t{2}})
         if (lows_[pair].known && lows_[pair + 1].known)
             for (size_t i = pair; i < pair + 2; ++i)
-                lows_[i].level = std::min(lows_[i].level, std::min(lows_[pair].level, lows_[pair + 1].level) + kUnevenM);
+                lows_[i].level =
+                    std::min(lows_[i].level, std::min(lows_[pair].level, lows_[pair + 1].level) + kUnevenM);
     for (size_t side = 0; side < 2 && dt_s > 0.0f; ++side) {
         const float speed = glm::length(now.at[kAnkle + side] - before.at[kAnkle + side]) / dt_s;
-        // A running quantile: up by its share, down by the rest, so that it comes to rest where a fifth lies below.
+        // A running quantile: up by its share, down by the rest, so that it comes to rest where a fifth lies
+        // below.
         float& quantile = tremble_[side];
         const float rate = kTrembleRate * dt_s / kStep_s;
         quantile *= std::exp(rate * (speed > quantile ? kTrembleShare : kTrembleShare - 1.0f));
@@ -108,17 +112,21 @@ bool ContactFeatures::of(int side, std::span<float, kContactFeatureCount> out) c
     std::array<std::array<Vec3, kTimes>, 5> at;  // ankle, toes, knee, other ankle, pelvis
     const int points[] = {kAnkle + side, kToes + side, kKnee + side, kAnkle + 1 - side, kPelvis};
     for (size_t p = 0; p < at.size(); ++p)
-        for (int t = 0; t < kTimes; ++t) at[p][static_cast<size_t>(t)] = place(points[p], kStep_s * static_cast<float>(t));
+        for (int t = 0; t < kTimes; ++t)
+            at[p][static_cast<size_t>(t)] = place(points[p], kStep_s * static_cast<float>(t));
 
     size_t n = 0;
     for (size_t lag = 0; lag < 3; ++lag) {
         const auto step = [&](size_t point) { return (at[point][lag] - at[point][lag + 1]) / kStep_s; };
-        const auto two_steps = [&](size_t point) { return (at[point][lag] - at[point][lag + 2]) / (2 * kStep_s); };
-        const float speeds[] = {glm::length(step(0)), glm::length(step(1)), glm::length(two_steps(0)), glm::length(two_steps(1)),
-                                glm::length(step(2)), glm::length(step(3))};
+        const auto two_steps = [&](size_t point) {
+            return (at[point][lag] - at[point][lag + 2]) / (2 * kStep_s);
+        };
+        const float speeds[] = {glm::length(step(0)),      glm::length(step(1)), glm::length(two_steps(0)),
+                                glm::length(two_steps(1)), glm::length(step(2)), glm::length(step(3))};
         for (const float speed : speeds) out[n++] = std::min(speed, 3.0f);
         for (size_t k = 0; k < 4; ++k) out[n++] = std::log(std::min(speeds[k], 3.0f) + kLeastSpeed);
-        for (const size_t point : {size_t{0}, size_t{1}, size_t{4}}) out[n++] = std::clamp(step(point).y, -3.0f, 3.0f);
+        for (const size_t point : {size_t{0}, size_t{1}, size_t{4}})
+            out[n++] = std::clamp(step(point).y, -3.0f, 3.0f);
         for (size_t k = 0; k < 2; ++k) {
             const float height = at[k][lag].y - lows_[2 * k + static_cast<size_t>(side)].level;
             out[n++] = std::clamp(kHeightScale * height, -2.0f, 8.0f);

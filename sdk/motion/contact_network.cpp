@@ -11,8 +11,8 @@ namespace {
 #include "motion/contact_weights.inc"
 
 static_assert(std::size(kMean) == kContactFeatureCount && std::size(kScale) == kContactFeatureCount);
-static_assert(std::size(kWeights1) == kHidden1 * kContactFeatureCount && std::size(kWeights2) == kHidden2 * kHidden1 &&
-              std::size(kWeights3) == kHidden2);
+static_assert(std::size(kWeights1) == kHidden1 * kContactFeatureCount &&
+              std::size(kWeights2) == kHidden2 * kHidden1 && std::size(kWeights3) == kHidden2);
 
 constexpr float kFarthest = 5.0f;  // deviations; training cuts there too
 
@@ -36,7 +36,8 @@ void squash(std::array<float, kCount>& values) {
 
 float chance_to_stand(std::span<const float, kContactFeatureCount> features) {
     std::array<float, kContactFeatureCount> in;
-    for (size_t i = 0; i < in.size(); ++i) in[i] = std::clamp((features[i] - kMean[i]) * kScale[i], -kFarthest, kFarthest);
+    for (size_t i = 0; i < in.size(); ++i)
+        in[i] = std::clamp((features[i] - kMean[i]) * kScale[i], -kFarthest, kFarthest);
     auto first = layer<kContactFeatureCount, kHidden1>(in, kWeights1, kBias1);
     squash(first);
     auto second = layer<kHidden1, kHidden2>(first, kWeights2, kBias2);

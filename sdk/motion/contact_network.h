@@ -1,5 +1,5 @@
-// The chance that a foot stands, from its features: a small network of three layers, learnt from virtual people who
-// step, turn and jump (training/contacts).
+// The chance that a foot stands, from its features: a small network of three layers, learnt from virtual
+// people who step, turn and jump (training/contacts).
 #pragma once
 
 #include <span>

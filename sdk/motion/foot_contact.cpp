@@ -10,20 +10,21 @@ namespace vfit {
 
 namespace {
 
-// The network's chance to stand: planted above the first; free below the second for two bodies in a row, or below the
-// third at once.
+// The network's chance to stand: planted above the first; free below the second for two bodies in a row, or
+// below the third at once.
 constexpr float kPlantChance = 0.5f, kFreeChance = 0.4f, kSurelyFreeChance = 0.1f;
 constexpr float kNeverStandsM = 0.12f;  // so high above where it stands: at the top of a jump it is slow, too
-// Whoever leaves the floor with both feet has pushed off: hips that move up or down slower than that carry nobody.
+// Whoever leaves the floor with both feet has pushed off: hips that move up or down slower than that carry
+// nobody.
 constexpr float kFlightSpeed = 0.35f;  // m/s
 constexpr float kHeldUnseenS = 0.4f;   // a foot that is hidden stays as it was for so long
 
-// Thresholds of common practice for marker-less ankles: a foot is planted when lower and slower than the first of each
-// pair for two frames of 1/30 s, and free when higher or faster than the second. The paper's line 10 waits for both and
-// so holds a foot that slides.
+// Thresholds of common practice for marker-less ankles: a foot is planted when lower and slower than the
+// first of each pair for two frames of 1/30 s, and free when higher or faster than the second. The paper's
+// line 10 waits for both and so holds a foot that slides.
 constexpr float kPlantHeightM = 0.04f, kFreeHeightM = 0.06f;
 constexpr float kPlantSpeed = 0.15f, kFreeSpeed = 0.30f;  // m/s
-constexpr float kPlantTimeS = 0.05f;  // between one and two intervals of 30 Hz
+constexpr float kPlantTimeS = 0.05f;                      // between one and two intervals of 30 Hz
 // A sensor whose planted feet move: thresholds of speed grow with that noise, up to twofold.
 constexpr float kQuietSpeed = 0.075f, kMostSpeedScale = 2.0f;
 constexpr float kNoiseTimeS = 2.0f;
@@ -117,7 +118,8 @@ void FootContact::update(const Body& body, vfit_contact_rule rule) {
             foot.planted_speed = speed;
             // The first frame decides by height alone, as lines 1-7 of Algorithm 5.
             const int other = kAnkles[1 - side];
-            foot.planted = stands[side] = pause && (!body.has(other) || ankle.y < body.at(other).y + kPlantHeightM);
+            foot.planted = stands[side] =
+                pause && (!body.has(other) || ankle.y < body.at(other).y + kPlantHeightM);
             continue;
         }
         follow(foot, ankle, dt_s);

@@ -1,5 +1,5 @@
-// Which feet stand on the floor: either foot, both, or neither (a jump). By a network that has learnt it, or by the
-// thresholds of height and speed of the paper's Algorithm 5, with hysteresis.
+// Which feet stand on the floor: either foot, both, or neither (a jump). By a network that has learnt it, or
+// by the thresholds of height and speed of the paper's Algorithm 5, with hysteresis.
 #pragma once
 
 #include <array>
@@ -29,11 +29,11 @@ private:
     struct Foot {
         bool known = false, planted = false;
         Vec3 position{0.0f}, velocity{0.0f};
-        float level = 0;         // the lowest height lately
-        float low_time_s = 0;    // low and slow for so long
-        float planted_speed = 0; // m/s, mean while planted: the sensor's noise
-        float unseen_s = 0;      // for so long
-        float chance = 0;        // to stand, of the last body
+        float level = 0;          // the lowest height lately
+        float low_time_s = 0;     // low and slow for so long
+        float planted_speed = 0;  // m/s, mean while planted: the sensor's noise
+        float unseen_s = 0;       // for so long
+        float chance = 0;         // to stand, of the last body
     };
     void follow(Foot& foot, const Vec3& ankle, float dt_s);
     bool by_thresholds(Foot& foot, float dt_s) const;

@@ -7,15 +7,15 @@ namespace vfit {
 
 namespace {
 
-// Time constants of the glide: a foot that touches down stands within two frames; one that is free returns to where it
-// is tracked in a few steps of a frame. A foot that came to stand beside the floor goes there unseen, two millimetres a
-// frame.
+// Time constants of the glide: a foot that touches down stands within two frames; one that is free returns to
+// where it is tracked in a few steps of a frame. A foot that came to stand beside the floor goes there
+// unseen, two millimetres a frame.
 constexpr float kStopS = 0.0065f, kReleaseS = 0.05f, kSettleSpeed = 0.06f;
 // No step is shorter in time and as short in space: a foot that is so soon tracked where it stood never left.
 constexpr float kNoStepS = 0.3f, kNoStepM = 0.03f;
-constexpr float kMeanS = 1.0f;        // of the tracked place of a foot that stands
-constexpr float kVelocityS = 0.03f;   // low-pass of the tracked velocity
-constexpr float kFastest = 1.0f;      // m/s: a foot that comes to stand was no faster
+constexpr float kMeanS = 1.0f;       // of the tracked place of a foot that stands
+constexpr float kVelocityS = 0.03f;  // low-pass of the tracked velocity
+constexpr float kFastest = 1.0f;     // m/s: a foot that comes to stand was no faster
 
 Vec3 at_most(const Vec3& velocity, float fastest) {
     const float speed = glm::length(velocity);
@@ -33,10 +33,12 @@ Vec3 FootPin::update(const Vec3& tracked, bool planted, float floor_y, float dt_
     }
     tracked_ = tracked;
     const Vec3 shown_velocity = glide_.velocity() + (planted_ ? Vec3(0.0f) : tracked_velocity_);
-    if (planted || planted_) place_.y += std::clamp(floor_y - place_.y, -kSettleSpeed * dt_s, kSettleSpeed * dt_s);
+    if (planted || planted_)
+        place_.y += std::clamp(floor_y - place_.y, -kSettleSpeed * dt_s, kSettleSpeed * dt_s);
     if (planted && !planted_) {
         const Vec3 shown = tracked + glide_.value();
-        const bool never_left = stood_s_ > 0.0f && free_s_ < kNoStepS && glm::length(tracked - tracked_there_) < kNoStepM;
+        const bool never_left =
+            stood_s_ > 0.0f && free_s_ < kNoStepS && glm::length(tracked - tracked_there_) < kNoStepM;
         if (!never_left) {
             place_ = shown;
             stood_s_ = 0.0f;
@@ -56,7 +58,9 @@ Vec3 FootPin::update(const Vec3& tracked, bool planted, float floor_y, float dt_
     }
     free_s_ = 0.0f;
     stood_s_ += dt_s;
-    tracked_there_ = stood_s_ > dt_s ? glm::mix(tracked_there_, tracked, std::min(1.0f, dt_s / std::min(stood_s_, kMeanS))) : tracked;
+    tracked_there_ =
+        stood_s_ > dt_s ? glm::mix(tracked_there_, tracked, std::min(1.0f, dt_s / std::min(stood_s_, kMeanS)))
+                        : tracked;
     glide_.fade(kStopS, dt_s);
     offset_ = place_ + glide_.value() - tracked;
     const float length = glm::length(offset_);

@@ -1,5 +1,5 @@
-// Where one foot is shown: at the place where it was planted (paper, Algorithm 5, recordFootPosition), and where it is
-// tracked while it is free. From one to the other it glides without a jump of place or of force.
+// Where one foot is shown: at the place where it was planted (paper, Algorithm 5, recordFootPosition), and
+// where it is tracked while it is free. From one to the other it glides without a jump of place or of force.
 #pragma once
 
 #include "math/types.h"
@@ -12,8 +12,8 @@ public:
     /// A planted foot that is tracked further than `leash_m` from its place is dragged along.
     explicit FootPin(float leash_m) : leash_m_(leash_m) {}
 
-    /// The place to show for a foot tracked at `tracked`. While planted it stands where it came down, or where it stood
-    /// before if it never left, at the height `floor_y`.
+    /// The place to show for a foot tracked at `tracked`. While planted it stands where it came down, or
+    /// where it stood before if it never left, at the height `floor_y`.
     Vec3 update(const Vec3& tracked, bool planted, float floor_y, float dt_s);
 
     /// A foot that is free was shown at `place` after all.
@@ -33,9 +33,9 @@ public:
 private:
     float leash_m_;
     bool planted_ = false, known_ = false;
-    Vec3 place_{0.0f};                               // recorded
-    Vec3 tracked_there_{0.0f};                       // where the foot was tracked while it stood there, mean
-    float stood_s_ = 0.0f, free_s_ = 0.0f;           // for so long
+    Vec3 place_{0.0f};                      // recorded
+    Vec3 tracked_there_{0.0f};              // where the foot was tracked while it stood there, mean
+    float stood_s_ = 0.0f, free_s_ = 0.0f;  // for so long
     Vec3 tracked_{0.0f}, tracked_velocity_{0.0f};
     Glide glide_;  // from where it goes to, place or tracked, to where it is shown
     Vec3 offset_{0.0f}, drag_{0.0f};

@@ -10,13 +10,14 @@ namespace vfit {
 
 namespace {
 
-// The root takes what this costs, a centimetre at most. (At a contact's switch 0.2 % turns knees harder, 3 % lowers whoever
-// stands straight: vfit-bench motion --only feet.)
+// The root takes what this costs, a centimetre at most. (At a contact's switch 0.2 % turns knees harder, 3 %
+// lowers whoever stands straight: vfit-bench motion --only feet.)
 constexpr float kSoftness = 0.01f;
-constexpr float kHeldM = 1e-3f;       // closer is close enough for a foot that limits have moved
-constexpr float kPullS = 0.1f;        // in a few of these a pull that no leg needs has gone
+constexpr float kHeldM = 1e-3f;  // closer is close enough for a foot that limits have moved
+constexpr float kPullS = 0.1f;   // in a few of these a pull that no leg needs has gone
 constexpr float kHeelStaysM = 0.05f, kHeelRisesM = 0.2f;  // the hip ahead of the ankle
-constexpr float kLeastLevel = 0.1f;  // of the toes' direction: a foot that points up or down points nowhere ahead
+constexpr float kLeastLevel =
+    0.1f;  // of the toes' direction: a foot that points up or down points nowhere ahead
 constexpr float kMostRoll = 0.1f;     // rad, of the pelvis
 constexpr float kLeastHipsM = 0.02f;  // apart, seen from above
 constexpr int kRootPasses = 12;       // two legs at the end of their reach pull the root in turns
@@ -24,8 +25,9 @@ constexpr float kReachedM = 2e-6f;    // at 0.05 mm, a straight knee still tremb
 
 size_t at(int id) { return static_cast<size_t>(id); }
 
-/// The pelvis' turn about its way ahead by which the left hip rises by `rise_m` against the right one. Trackers see one
-/// foot a centimetre higher than the other one on a level floor: 17 degrees of a straight knee, but 4 of the pelvis.
+/// The pelvis' turn about its way ahead by which the left hip rises by `rise_m` against the right one.
+/// Trackers see one foot a centimetre higher than the other one on a level floor: 17 degrees of a straight
+/// knee, but 4 of the pelvis.
 Quat pelvis_roll(const Leg legs[2], float rise_m) {
     const Vec3 across = legs[0].hip - legs[1].hip;
     const Vec3 ahead(-across.z, 0.0f, across.x);
@@ -34,8 +36,8 @@ Quat pelvis_roll(const Leg legs[2], float rise_m) {
     return glm::angleAxis(std::clamp(rise_m / length, -kMostRoll, kMostRoll), ahead / length);
 }
 
-/// The foot of a planted leg that the body has passed, its ankle held within its range: it turns heel up before it comes
-/// free, and not at once then. Who squats keeps the whole foot down.
+/// The foot of a planted leg that the body has passed, its ankle held within its range: it turns heel up
+/// before it comes free, and not at once then. Who squats keeps the whole foot down.
 Quat with_heel_off(const Leg& leg, int side, const RestPose& rest, const RangeOfMotion& rom) {
     const Vec3 toes = leg.foot * rest.toes[at(side)];
     const Vec2 ahead(toes.x, toes.z), past(leg.hip.x - leg.ankle.x, leg.hip.z - leg.ankle.z);
@@ -79,7 +81,8 @@ Vec3 FootPlanter::pull_root(const Leg legs[2], const bool planted[2], float lift
         for (int side = 0; side < 2; ++side) {
             if (!planted[side]) continue;
             const Vec3& place = feet_[at(side)].shown;
-            const Vec3 residual = place - legs[side].solve(legs[side].hip + shift, place, kSoftness).end;  // Alg. 6, line 10
+            const Vec3 residual =
+                place - legs[side].solve(legs[side].hip + shift, place, kSoftness).end;  // Alg. 6, line 10
             if (glm::length(residual) < kReachedM) continue;
             shift += residual;
             pulled = true;
@@ -92,7 +95,8 @@ Vec3 FootPlanter::pull_root(const Leg legs[2], const bool planted[2], float lift
 }
 
 /// One leg under its shifted hip: as it is planted, as it comes free, as it swings.
-void FootPlanter::move_leg(Foot& foot, Leg& leg, const Leg& tracked, bool planted, bool released, float dt_s) {
+void FootPlanter::move_leg(Foot& foot, Leg& leg, const Leg& tracked, bool planted, bool released,
+                           float dt_s) {
     if (planted) {
         Leg stood = leg;
         stood.reach(leg.hip, foot.shown, 0.0f);
@@ -108,8 +112,8 @@ void FootPlanter::move_leg(Foot& foot, Leg& leg, const Leg& tracked, bool plante
     foot.pin.showed(leg.ankle);
 }
 
-void FootPlanter::apply(const Skeleton& skeleton, const RestPose& rest, const RangeOfMotion& rom, const bool planted[2],
-                        const Vec3 drags[2], float dt_s, Pose& pose) {
+void FootPlanter::apply(const Skeleton& skeleton, const RestPose& rest, const RangeOfMotion& rom,
+                        const bool planted[2], const Vec3 drags[2], float dt_s, Pose& pose) {
     const PosedSkeleton posed = forward_kinematics(skeleton, pose);
     const Leg tracked[2] = {Leg(0, rest, posed), Leg(1, rest, posed)};
     Leg legs[2] = {tracked[0], tracked[1]};
@@ -130,7 +134,8 @@ void FootPlanter::apply(const Skeleton& skeleton, const RestPose& rest, const Ra
     }
     for (int side = 0; side < 2; ++side) {
         const int other = 1 - side;
-        if (!planted[side]) feet_[at(side)].vote.swing(planted[other] ? feet_[at(other)].vote.change_m() : 0.0f, dt_s);
+        if (!planted[side])
+            feet_[at(side)].vote.swing(planted[other] ? feet_[at(other)].vote.change_m() : 0.0f, dt_s);
     }
 
     float lift_m = 0.0f;
@@ -155,7 +160,8 @@ void FootPlanter::apply(const Skeleton& skeleton, const RestPose& rest, const Ra
     }
 }
 
-void FootPlanter::hold(const Skeleton& skeleton, const RestPose& rest, const bool planted[2], Pose& pose) const {
+void FootPlanter::hold(const Skeleton& skeleton, const RestPose& rest, const bool planted[2],
+                       Pose& pose) const {
     const PosedSkeleton posed = forward_kinematics(skeleton, pose);
     Vec3 shift(0.0f);
     float farthest = 0.0f, feet = 0.0f;

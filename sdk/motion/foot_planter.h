@@ -1,6 +1,6 @@
 // Foot-skate correction on the character (paper, Algorithm 6): planted feet are held where they were
-// recorded, hips and knees follow by inverse kinematics, and the root takes what the legs cannot reach: its height and
-// the pelvis' roll, which nobody sees, follow the knees, which everybody does.
+// recorded, hips and knees follow by inverse kinematics, and the root takes what the legs cannot reach: its
+// height and the pelvis' roll, which nobody sees, follow the knees, which everybody does.
 #pragma once
 
 #include <array>
@@ -24,10 +24,11 @@ public:
 
     /// Changes the legs and the root of `pose` and fills its contacts, root_correction and foot_correction_m.
     /// `drags`: how far the person slid each planted foot since the last call.
-    void apply(const Skeleton& skeleton, const RestPose& rest, const RangeOfMotion& rom, const bool planted[2],
-               const Vec3 drags[2], float dt_s, Pose& pose);
+    void apply(const Skeleton& skeleton, const RestPose& rest, const RangeOfMotion& rom,
+               const bool planted[2], const Vec3 drags[2], float dt_s, Pose& pose);
 
-    /// Where joint limits have since taken the legs off their places, the root gives way and the legs follow again.
+    /// Where joint limits have since taken the legs off their places, the root gives way and the legs follow
+    /// again.
     void hold(const Skeleton& skeleton, const RestPose& rest, const bool planted[2], Pose& pose) const;
 
 private:

@@ -16,7 +16,8 @@ inline float left_of_glide(float age_s, float time_s) {
 class Glide {
 public:
     Glide() = default;
-    explicit Glide(const Vec3& value, const Vec3& velocity = Vec3(0.0f)) : value_(value), velocity_(velocity) {}
+    explicit Glide(const Vec3& value, const Vec3& velocity = Vec3(0.0f))
+        : value_(value), velocity_(velocity) {}
 
     const Vec3& value() const { return value_; }
     const Vec3& velocity() const { return velocity_; }

@@ -21,7 +21,8 @@ void HeightVote::gain(float weight, float dt_s) {
 
 void HeightVote::stand(const Vec3& hip, const Vec3& target, float length_m, float dt_s) {
     const Vec3 way = target - hip;
-    const float rise_m = way.y + std::sqrt(std::max(length_m * length_m - way.x * way.x - way.z * way.z, 0.0f));
+    const float rise_m =
+        way.y + std::sqrt(std::max(length_m * length_m - way.x * way.x - way.z * way.z, 0.0f));
     if (!stands_) {
         jump_m_ = known_ ? rise_m_ - rise_m : 0.0f;
         stood_s_ = 0.0f;

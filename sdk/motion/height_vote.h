@@ -1,5 +1,5 @@
-// What one foot says about the root's height: as high as the knee, which everybody sees, was tracked. Near full stretch a
-// centimetre of height, which nobody sees, is 17 degrees of the knee.
+// What one foot says about the root's height: as high as the knee, which everybody sees, was tracked. Near
+// full stretch a centimetre of height, which nobody sees, is 17 degrees of the knee.
 #pragma once
 
 #include "math/types.h"

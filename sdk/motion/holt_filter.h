@@ -9,9 +9,9 @@ namespace vfit {
 inline constexpr float kHoltRateHz = 30.0f;  // the frame rate that the five parameters are tuned for
 
 struct HoltSettings {
-    float smoothing = 0.5f;    // 0..1, weight of the forecast against the reading
-    float correction = 0.5f;   // 0..1, how fast the trend follows
-    float prediction = 0.5f;   // frames of 1/30 s to look ahead
+    float smoothing = 0.5f;   // 0..1, weight of the forecast against the reading
+    float correction = 0.5f;  // 0..1, how fast the trend follows
+    float prediction = 0.5f;  // frames of 1/30 s to look ahead
     float jitter_radius_m = 0.05f;
     float max_deviation_radius_m = 0.04f;  // of the output from the reading
 };

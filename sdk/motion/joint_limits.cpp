@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "math/quaternion.h"
 #include "body/range_of_motion.h"
+#include "math/quaternion.h"
 
 namespace vfit {
 
@@ -137,9 +137,8 @@ void limit_spine(const RangeOfMotion& rom, BoneRotations& local) {
     Quat& chest = local[VFIT_BONE_CHEST];
     Quat& upper = local[VFIT_BONE_UPPER_CHEST];
     const Quat total = spine * chest * upper;
-    const Quat limited =
-        limit_upright(total, rom.spine_flexion, {-rom.spine_lateral, rom.spine_lateral},
-                      {-rom.spine_rotation, rom.spine_rotation});
+    const Quat limited = limit_upright(total, rom.spine_flexion, {-rom.spine_lateral, rom.spine_lateral},
+                                       {-rom.spine_rotation, rom.spine_rotation});
     if (limited == total) return;
     spine = chest = upper = fraction(limited, 1.0f / 3.0f);
 }
@@ -166,7 +165,8 @@ void limit_ankle(const RangeOfMotion& rom, int side, Quat& foot) {
     foot = limit_upright(foot, rom.ankle_plantarflexion, lean, turn);
 }
 
-void apply_joint_limits(const RestPose& rest, const bool planted[2], BoneRotations& local, const RangeOfMotion& rom) {
+void apply_joint_limits(const RestPose& rest, const bool planted[2], BoneRotations& local,
+                        const RangeOfMotion& rom) {
     limit_spine(rom, local);
     limit_neck(rom, local);
     for (int i = 0; i < kLimbCount; ++i) limit_limb(rom, i, rest.limbs[at(i)], local);
@@ -192,7 +192,8 @@ bool apply_joint_limits(const RestPose& rest, const bool planted[2], float slack
     limited = local;
     apply_joint_limits(rest, planted, limited, rom);
     for (size_t b = 0; b < local.size(); ++b)
-        if (limited[b] != local[b] && angle_of(glm::conjugate(limited[b]) * local[b]) > kMostSlack * slack_rad)
+        if (limited[b] != local[b] &&
+            angle_of(glm::conjugate(limited[b]) * local[b]) > kMostSlack * slack_rad)
             local[b] = limited[b];
     return true;
 }

@@ -2,8 +2,8 @@
 // joints.
 #pragma once
 
-#include "motion/bone_solver.h"
 #include "body/range_of_motion.h"
+#include "motion/bone_solver.h"
 
 namespace vfit {
 

@@ -18,8 +18,8 @@ Leg::Leg(int side, const RestPose& pose, const PosedSkeleton& posed)
       foot(posed.rotation[index_of(parts->last)]) {}
 
 TwoBoneSolution Leg::solve(const Vec3& root, const Vec3& goal, float softness) const {
-    // The knee's front: square to its axis and to the leg. This keeps the tracked swivel even where the leg is straight
-    // and the knee itself tells nothing.
+    // The knee's front: square to its axis and to the leg. This keeps the tracked swivel even where the leg
+    // is straight and the knee itself tells nothing.
     const Vec3 front = glm::cross(goal - root, knee_axis());
     return solve_two_bone(root, rest->upper_m, rest->lower_m, goal, front, softness);
 }

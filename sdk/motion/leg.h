@@ -1,4 +1,5 @@
-// One leg of a posed skeleton, in the world: hip, knee and ankle, and the inverse kinematics that puts its ankle in a place.
+// One leg of a posed skeleton, in the world: hip, knee and ankle, and the inverse kinematics that puts its
+// ankle in a place.
 #pragma once
 
 #include "body/skeleton.h"
@@ -19,8 +20,9 @@ struct Leg {
 
     float length() const { return glm::distance(hip, ankle); }
 
-    /// Where the knee and the ankle get with the hip at `root` and the ankle sent to `goal`, the knee turned as it is now.
-    /// Over the last `softness` of its length the leg eases into full extension against a knee that snaps.
+    /// Where the knee and the ankle get with the hip at `root` and the ankle sent to `goal`, the knee turned
+    /// as it is now. Over the last `softness` of its length the leg eases into full extension against a knee
+    /// that snaps.
     TwoBoneSolution solve(const Vec3& root, const Vec3& goal, float softness) const;
     /// Does it. The foot stays as it is in the world.
     void reach(const Vec3& root, const Vec3& goal, float softness);

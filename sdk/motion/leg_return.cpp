@@ -11,8 +11,9 @@ namespace vfit {
 namespace {
 
 constexpr float kReleaseS = 0.05f;  // in a few of these the posture is the tracked one
-// Angular acceleration of a leg that comes free and of a foot that stands, rad/s^2: trackers lose a hidden foot and find it
-// again elsewhere. It grows by e in each kFreedomS of a swing: who kicks is shown as fast as that.
+// Angular acceleration of a leg that comes free and of a foot that stands, rad/s^2: trackers lose a hidden
+// foot and find it again elsewhere. It grows by e in each kFreedomS of a swing: who kicks is shown as fast as
+// that.
 constexpr float kCalm = 45.0f, kFreedomS = 0.1f;
 
 }  // namespace

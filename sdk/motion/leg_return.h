@@ -1,5 +1,5 @@
-// How a leg whose foot came free returns to its tracked posture. The posture fades, not the ankle's place: a straight
-// leg's knee bends with the square root of how far its ankle comes nearer, and would snap.
+// How a leg whose foot came free returns to its tracked posture. The posture fades, not the ankle's place: a
+// straight leg's knee bends with the square root of how far its ankle comes nearer, and would snap.
 #pragma once
 
 #include "motion/bounded_turn.h"
@@ -25,7 +25,7 @@ private:
     float most() const;
 
     Quat by_upper_{1, 0, 0, 0}, by_lower_{1, 0, 0, 0};  // from the tracked leg to the stood one
-    float since_s_ = kLong;  // the release
+    float since_s_ = kLong;                             // the release
     bool stands_ = false;
     BoundedTurn upper_, lower_, standing_foot_, free_foot_;
 

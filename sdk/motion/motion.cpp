@@ -30,8 +30,8 @@ constexpr float kLimitSlackRad = 0.025f;  // 1.4 degrees
 // Over a longer time a trend foretells nothing.
 constexpr float kMostPredictionS = 0.2f;
 
-// A joint further from the origin, or a rotation with larger numbers, is a broken reading: its square would soon
-// be infinite, and one such body would stay in the filters for good.
+// A joint further from the origin, or a rotation with larger numbers, is a broken reading: its square would
+// soon be infinite, and one such body would stay in the filters for good.
 constexpr float kFarthestM = 1e4f, kLongestQuaternion = 1e3f;
 
 size_t at(int id) { return static_cast<size_t>(id); }
@@ -80,9 +80,11 @@ void validate(const MotionSettings& s) {
     if (s.filter.kind < VFIT_POSITION_ADAPTIVE || s.filter.kind > VFIT_POSITION_ONE_EURO)
         fail(VFIT_ERROR_ARGUMENT, "motion filter ", s.filter.kind, " is not one of VFIT_POSITION_*");
     if (s.contact_rule < VFIT_CONTACT_LEARNT || s.contact_rule > VFIT_CONTACT_THRESHOLDS)
-        fail(VFIT_ERROR_ARGUMENT, "motion contact_rule ", s.contact_rule, " is not one of VFIT_CONTACT_LEARNT, _THRESHOLDS");
+        fail(VFIT_ERROR_ARGUMENT, "motion contact_rule ", s.contact_rule,
+             " is not one of VFIT_CONTACT_LEARNT, _THRESHOLDS");
     if (!(s.prediction_s >= 0.0f && s.prediction_s <= kMostPredictionS))
-        fail(VFIT_ERROR_ARGUMENT, "motion prediction_s is ", s.prediction_s, ", not in 0..", kMostPredictionS);
+        fail(VFIT_ERROR_ARGUMENT, "motion prediction_s is ", s.prediction_s, ", not in 0..",
+             kMostPredictionS);
     check_divisor(s.rotation_divisor, "rotation_divisor");
     check_divisor(s.rotation_divisor_switched, "rotation_divisor_switched");
 }
@@ -256,7 +258,8 @@ bool Motion::State::update_pose(float dt_s) {
         planter.apply(skeleton, rest, settings.range_of_motion, planted, drags, dt_s, pose);
     }
     // What smoothing and planting have bent too far; a foot that stands is held as long as it can be.
-    if (enabled(VFIT_MOTION_NO_LIMITS) && apply_joint_limits(rest, planted, kLimitSlackRad, pose.rotation, settings.range_of_motion) &&
+    if (enabled(VFIT_MOTION_NO_LIMITS) &&
+        apply_joint_limits(rest, planted, kLimitSlackRad, pose.rotation, settings.range_of_motion) &&
         (planted[0] || planted[1])) {
         planter.hold(skeleton, rest, planted, pose);
         apply_joint_limits(rest, planted, kLimitSlackRad, pose.rotation, settings.range_of_motion);

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <memory>
 
+#include "body/range_of_motion.h"
 #include "body/skeleton.h"
 #include "frame/body.h"
 #include "motion/position_filter.h"
-#include "body/range_of_motion.h"
 
 namespace vfit {
 

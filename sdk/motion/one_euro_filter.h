@@ -1,4 +1,5 @@
-// One Euro filter on one joint position (Casiez, Roussel, Vogel 2012): a low-pass whose cutoff rises with speed.
+// One Euro filter on one joint position (Casiez, Roussel, Vogel 2012): a low-pass whose cutoff rises with
+// speed.
 #pragma once
 
 #include "math/types.h"

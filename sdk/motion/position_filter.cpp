@@ -11,8 +11,8 @@ constexpr float kInferredNoise = 3.0f, kLeastConfidence = 0.25f;
 
 }  // namespace
 
-Vec3 PositionFilter::update(const PositionFilterSettings& settings, const Vec3& reading, bool inferred, float confidence,
-                            float dt_s) {
+Vec3 PositionFilter::update(const PositionFilterSettings& settings, const Vec3& reading, bool inferred,
+                            float confidence, float dt_s) {
     switch (settings.kind) {
         case VFIT_POSITION_HOLT: {
             const float frames = holt_.empty() ? 1.0f : dt_s * kHoltRateHz;

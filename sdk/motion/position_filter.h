@@ -1,4 +1,5 @@
-// The filter of one joint position, by the host's choice: vfit's own, Holt's as the paper has it, or One Euro.
+// The filter of one joint position, by the host's choice: vfit's own, Holt's as the paper has it, or One
+// Euro.
 #pragma once
 
 #include "motion/adaptive_filter.h"
@@ -18,9 +19,10 @@ class PositionFilter {
 public:
     void reset() { *this = PositionFilter(); }
 
-    /// Takes one reading, `dt_s` > 0 after the one before (of the first it says nothing), and returns the output.
-    /// `confidence`: 0..1, of a reading that is not inferred.
-    Vec3 update(const PositionFilterSettings& settings, const Vec3& reading, bool inferred, float confidence, float dt_s);
+    /// Takes one reading, `dt_s` > 0 after the one before (of the first it says nothing), and returns the
+    /// output. `confidence`: 0..1, of a reading that is not inferred.
+    Vec3 update(const PositionFilterSettings& settings, const Vec3& reading, bool inferred, float confidence,
+                float dt_s);
 
     /// The trend at the last reading, m/s.
     const Vec3& velocity() const { return velocity_; }

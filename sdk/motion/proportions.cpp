@@ -11,21 +11,21 @@ namespace {
 // Before anything is measured: fractions of stature (Drillis & Contini, in Winter) of a person of 1.69 m, the
 // mean of both sexes in ANSUR II.
 constexpr float kStatureM = 1.69f;
-constexpr float kTrunkShare = 0.288f;         // shoulder height .818 less hip height .530
-constexpr float kHipHalfShare = 0.0955f / 2;  // joint centres: half of the hip breadth .191
-constexpr float kShoulderHalfShare = 0.1295f; // half of biacromial .259
+constexpr float kTrunkShare = 0.288f;          // shoulder height .818 less hip height .530
+constexpr float kHipHalfShare = 0.0955f / 2;   // joint centres: half of the hip breadth .191
+constexpr float kShoulderHalfShare = 0.1295f;  // half of biacromial .259
 constexpr float kShoulderDropShare = 0.0f;
-constexpr float kNeckShare = 0.052f;          // .870 (chin) less .818
+constexpr float kNeckShare = 0.052f;  // .870 (chin) less .818
 constexpr float kUpperArmShare = 0.186f, kForearmShare = 0.146f;
-constexpr float kPalmShare = 0.040f;          // wrist to the hand's centre of mass, as on the avatar
+constexpr float kPalmShare = 0.040f;  // wrist to the hand's centre of mass, as on the avatar
 constexpr float kThighShare = 0.245f, kShankShare = 0.246f, kAnkleShare = 0.039f;
-constexpr float kToesForwardShare = 0.070f;   // of the foot's .152: ankle to toe joint
+constexpr float kToesForwardShare = 0.070f;  // of the foot's .152: ankle to toe joint
 
-constexpr int kMeanCount = 300;         // readings that a mean spans: 10 s at 30 Hz
+constexpr int kMeanCount = 300;  // readings that a mean spans: 10 s at 30 Hz
 // Two joints of a segment that lie closer are one reading given twice: a leg without length would put the
 // character's hips nowhere.
 constexpr float kLeastSegmentM = 0.01f;
-constexpr float kClavicleStart = 0.15f; // its inner end, share of the half breadth: the sternum's half
+constexpr float kClavicleStart = 0.15f;  // its inner end, share of the half breadth: the sternum's half
 
 bool measured(const Body& body, int joint) {
     return body.joints[static_cast<size_t>(joint)].state == VFIT_JOINT_MEASURED;
@@ -37,9 +37,9 @@ Proportions::Proportions() { reset(); }
 
 void Proportions::reset() {
     constexpr float kShares[kSegmentCount] = {
-        kTrunkShare, kHipHalfShare, kShoulderHalfShare, kShoulderDropShare, kNeckShare, kUpperArmShare,
-        kForearmShare, kThighShare, kShankShare,
-        0.0801f};  // kFoot: sqrt(.039^2 + .070^2)
+        kTrunkShare, kHipHalfShare,  kShoulderHalfShare, kShoulderDropShare,
+        kNeckShare,  kUpperArmShare, kForearmShare,      kThighShare,
+        kShankShare, 0.0801f};  // kFoot: sqrt(.039^2 + .070^2)
     for (size_t i = 0; i < lengths_.size(); ++i) lengths_[i] = {kShares[i] * kStatureM, 0};
     build();
 }

@@ -20,8 +20,19 @@ public:
     const Skeleton& skeleton() const { return skeleton_; }
 
 private:
-    enum Segment { kTrunk, kHipHalf, kShoulderHalf, kShoulderDrop, kNeck, kUpperArm, kForearm, kThigh, kShank,
-                   kFoot, kSegmentCount };
+    enum Segment {
+        kTrunk,
+        kHipHalf,
+        kShoulderHalf,
+        kShoulderDrop,
+        kNeck,
+        kUpperArm,
+        kForearm,
+        kThigh,
+        kShank,
+        kFoot,
+        kSegmentCount
+    };
     struct Mean {
         float value_m = 0;
         int count = 0;

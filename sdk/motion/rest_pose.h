@@ -30,21 +30,23 @@ struct RestLimb {
     Vec3 upper{0, -1, 0}, lower{0, -1, 0};  // unit directions root->middle, middle->end
     Vec3 hinge{1, 0, 0};                    // kLimbParts' hinge made square to `upper`
     float upper_m = 0, lower_m = 0;
-    float bend_rad = 0;                     // flexion that the T-pose itself has
+    float bend_rad = 0;  // flexion that the T-pose itself has
 };
 
 struct RestPose {
     std::array<RestLimb, kLimbCount> limbs;
-    std::array<Vec3, 2> toes;      // unit, ankle to toes, left and right
-    Vec3 hip_middle{0.0f};         // midpoint of the hip joints, from the hips bone
-    Vec3 neck{0, 1, 0};            // base of the neck, from hip_middle
+    std::array<Vec3, 2> toes;                     // unit, ankle to toes, left and right
+    Vec3 hip_middle{0.0f};                        // midpoint of the hip joints, from the hips bone
+    Vec3 neck{0, 1, 0};                           // base of the neck, from hip_middle
     Vec3 hip_left{1, 0, 0}, chest_left{1, 0, 0};  // unit, along hip and shoulder joints
-    Vec3 head{0, 1, 0};            // unit, neck to head
+    Vec3 head{0, 1, 0};                           // unit, neck to head
 
     RestPose() = default;
     explicit RestPose(const Skeleton& skeleton);
-    float leg_m() const { return 0.5f * (limbs[kLeftLeg].upper_m + limbs[kLeftLeg].lower_m +
-                                         limbs[kRightLeg].upper_m + limbs[kRightLeg].lower_m); }
+    float leg_m() const {
+        return 0.5f * (limbs[kLeftLeg].upper_m + limbs[kLeftLeg].lower_m + limbs[kRightLeg].upper_m +
+                       limbs[kRightLeg].lower_m);
+    }
 };
 
 }  // namespace vfit

@@ -20,8 +20,8 @@ void RotationSmoother::apply(std::array<Quat, kBoneCount>& world, float divisor,
     if (started_) {
         const float share = smoothing_share(divisor, dt_s);
         for (size_t i = 0; i < world.size(); ++i) {
-            const Quat difference = world[i] * glm::conjugate(last_[i]);            // Eq. 8
-            world[i] = glm::normalize(fraction(difference, share) * last_[i]);      // Eq. 9 and 10
+            const Quat difference = world[i] * glm::conjugate(last_[i]);        // Eq. 8
+            world[i] = glm::normalize(fraction(difference, share) * last_[i]);  // Eq. 9 and 10
         }
     }
     last_ = world;

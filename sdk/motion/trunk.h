@@ -7,10 +7,10 @@
 namespace vfit {
 
 struct Trunk {
-    Vec3 hip_middle{0.0f};  // midpoint of the hip joints
-    Vec3 neck{0.0f};        // base of the neck
-    Vec3 hip_left{0.0f};    // unit vector to the person's left along the hip joints
-    Vec3 chest_left{0.0f};  // the same along the shoulders
+    Vec3 hip_middle{0.0f};   // midpoint of the hip joints
+    Vec3 neck{0.0f};         // base of the neck
+    Vec3 hip_left{0.0f};     // unit vector to the person's left along the hip joints
+    Vec3 chest_left{0.0f};   // the same along the shoulders
     bool hips_seen = false;  // both hip joints; else hip_middle is derived
 
     Vec3 up() const { return glm::normalize(neck - hip_middle); }

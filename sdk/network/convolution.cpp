@@ -14,8 +14,8 @@
 namespace vfit {
 namespace {
 
-constexpr size_t kBlock = 4;        // outputs at a time
-constexpr size_t kMostLanes = 8;    // longer vectors would mostly lie beyond a small picture
+constexpr size_t kBlock = 4;      // outputs at a time
+constexpr size_t kMostLanes = 8;  // longer vectors would mostly lie beyond a small picture
 constexpr size_t kSlack = 3 * kMostLanes;
 
 /// One block of outputs.
@@ -42,8 +42,8 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Three vectors of places times four outputs: twelve sums, which with an input vector each and a weight fill the
-// sixteen registers of AVX2. No arrays of vectors: those of SVE have no size.
+// Three vectors of places times four outputs: twelve sums, which with an input vector each and a weight fill
+// the sixteen registers of AVX2. No arrays of vectors: those of SVE have no size.
 void ConvolveBlock(const BlockJob& job) {
     const hn::CappedTag<float, kMostLanes> d;
     const size_t n = hn::Lanes(d);
@@ -113,8 +113,10 @@ int floor_of(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
 
 }  // namespace
 
-Convolution::Convolution(const ConvolutionShape& shape, const float* weights, const float* bias) : shape_(shape) {
-    const size_t inputs = size_t(shape.inputs), outputs = size_t(shape.outputs), area = size_t(shape.kernel) * size_t(shape.kernel);
+Convolution::Convolution(const ConvolutionShape& shape, const float* weights, const float* bias)
+    : shape_(shape) {
+    const size_t inputs = size_t(shape.inputs), outputs = size_t(shape.outputs),
+                 area = size_t(shape.kernel) * size_t(shape.kernel);
     const size_t blocks = (outputs + kBlock - 1) / kBlock;
     weights_.assign(blocks * inputs * area * kBlock, 0.0f);
     bias_.assign(blocks * kBlock, 0.0f);
@@ -183,7 +185,8 @@ void Convolution::run(const float* in, float* out, bool cut) {
         for (size_t o = first; o < std::min(first + kBlock, size_t(shape_.outputs)); ++o)
             for (int y = 0; y < out_height_; ++y)
                 std::memcpy(out + o * area + size_t(y) * size_t(out_width_),
-                            job.out + (o - first) * job.out_stride + size_t(y) * row_, size_t(out_width_) * sizeof(float));
+                            job.out + (o - first) * job.out_stride + size_t(y) * row_,
+                            size_t(out_width_) * sizeof(float));
     }
 }
 

@@ -10,8 +10,8 @@ namespace vfit {
 /// An ONNX network whose convolutions are vfit's where they fit. Throws what OpenCV throws.
 cv::dnn::Net read_network(const std::string& path);
 
-/// While one lives, layers that this thread makes are vfit's convolution where it fits; those of other threads are
-/// OpenCV's own as ever.
+/// While one lives, layers that this thread makes are vfit's convolution where it fits; those of other
+/// threads are OpenCV's own as ever.
 class UseOwnConvolution {
 public:
     UseOwnConvolution();

@@ -1,5 +1,5 @@
-// What the loadable network module gives the library: one symbol, vfit_joint_network. It is a module of its own so
-// that a host that brings its own joints ships no network run time.
+// What the loadable network module gives the library: one symbol, vfit_joint_network. It is a module of its
+// own so that a host that brings its own joints ships no network run time.
 #pragma once
 
 #include <stdint.h>
@@ -13,8 +13,8 @@ typedef struct vfit_joint_network_table {
     void* (*open)(const char* path, char* error, uint32_t capacity);
     void (*close)(void* network);
     /// Values are copied to maps (map_count floats) and answers (answer_count).
-    int (*run)(void* network, const float* crop, uint32_t side, float* maps, uint32_t map_count, float* answers,
-               uint32_t answer_count, char* error, uint32_t capacity);
+    int (*run)(void* network, const float* crop, uint32_t side, float* maps, uint32_t map_count,
+               float* answers, uint32_t answer_count, char* error, uint32_t capacity);
 } vfit_joint_network_table;
 
 typedef const vfit_joint_network_table* (*vfit_joint_network_fn)(void);

@@ -44,8 +44,8 @@ bool copy(const cv::Mat& from, float* to, uint32_t count) {
     return true;
 }
 
-int run_network(void* handle, const float* crop, uint32_t side, float* maps, uint32_t map_count, float* answers,
-                uint32_t answer_count, char* error, uint32_t capacity) {
+int run_network(void* handle, const float* crop, uint32_t side, float* maps, uint32_t map_count,
+                float* answers, uint32_t answer_count, char* error, uint32_t capacity) {
     try {
         auto& network = *static_cast<Network*>(handle);
         const int shape[] = {1, 1, int(side), int(side)};
@@ -61,7 +61,8 @@ int run_network(void* handle, const float* crop, uint32_t side, float* maps, uin
     return 0;
 }
 
-constexpr vfit_joint_network_table kTable = {VFIT_JOINT_NETWORK_VERSION, open_network, close_network, run_network};
+constexpr vfit_joint_network_table kTable = {VFIT_JOINT_NETWORK_VERSION, open_network, close_network,
+                                             run_network};
 
 }  // namespace
 
@@ -71,6 +72,7 @@ extern "C"
 #else
     __attribute__((visibility("default")))
 #endif
-    const vfit_joint_network_table* vfit_joint_network(void) {
+    const vfit_joint_network_table*
+    vfit_joint_network(void) {
     return &kTable;
 }

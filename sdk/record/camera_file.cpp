@@ -11,7 +11,8 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;  // fields in the order of the format
 
-/// The shortest decimal that reads back as the same float: 0.001, not 0.0010000000474974513; and 30, not 30.0.
+/// The shortest decimal that reads back as the same float: 0.001, not 0.0010000000474974513; and 30,
+/// not 30.0.
 OrderedJson number(float x) {
     char digits[32];
     const auto end = std::to_chars(digits, digits + sizeof digits, x).ptr;

@@ -36,7 +36,8 @@ const std::string& joints_header() {
     static const std::string header = [] {
         std::string text = "frame,id";
         for (int j = 0; j < kJointCount; ++j)
-            for (const char* column : {"_x", "_y", "_z", "_c"}) text.append(",").append(joint_name(j)).append(column);
+            for (const char* column : {"_x", "_y", "_z", "_c"})
+                text.append(",").append(joint_name(j)).append(column);
         return text;
     }();
     return header;

@@ -10,13 +10,15 @@ namespace vfit {
 
 namespace {
 
-constexpr float kCrownHalfWidth_m = 0.02f;  // columns about the head's middle: the crown is all but level there
-constexpr float kHeadReach_m = 0.30f;       // from the head's middle up to the highest crown, hair included
+constexpr float kCrownHalfWidth_m =
+    0.02f;                             // columns about the head's middle: the crown is all but level there
+constexpr float kHeadReach_m = 0.30f;  // from the head's middle up to the highest crown, hair included
 constexpr int kFewestColumns = 3;
 
 }  // namespace
 
-BodyScan::BodyScan(std::shared_ptr<const FitModel> model) : model_(std::move(model)), fit_(model_), residuals_(*model_) {}
+BodyScan::BodyScan(std::shared_ptr<const FitModel> model)
+    : model_(std::move(model)), fit_(model_), residuals_(*model_) {}
 
 void BodyScan::reset() {
     fit_.reset();
@@ -61,10 +63,12 @@ float BodyScan::crown_height(const DepthImage& image, uint8_t user) const {
     const Vec2 at = camera.project(head), above = camera.project(head + kHeadReach_m * up);
     // Along the image's axis that the head points up by: portrait cameras lie on their side.
     const Vec2 way = above - at;
-    const float length = std::min(glm::length(way), float(image.width() + image.height()));  // whatever the lens
+    const float length =
+        std::min(glm::length(way), float(image.width() + image.height()));  // whatever the lens
     if (!(length >= 4.0f)) return 0.0f;
     const Vec2 step = glm::normalize(way), aside(-step.y, step.x);
-    const int half = std::clamp(int(std::lround(kCrownHalfWidth_m * camera.fx / head.z)), 1, int(image.width()));
+    const int half =
+        std::clamp(int(std::lround(kCrownHalfWidth_m * camera.fx / head.z)), 1, int(image.width()));
     const auto belongs = [&](const Vec2& p) {
         const int x = int(std::lround(p.x)), y = int(std::lround(p.y));
         return x >= 0 && y >= 0 && x < int(image.width()) && y < int(image.height()) &&
@@ -109,7 +113,8 @@ ScanFeatures BodyScan::features(bool side) const {
     constexpr ViewKind kViews[] = {ViewKind::kFront, ViewKind::kSide};
     for (const ViewKind view : kViews)
         for (const Seen seen : {Seen::kFacing, Seen::kRim})
-            for (const float mean : residuals_.means_m(view, seen, shape())) out[n++] = counts(view) ? kCentimetres * mean : unseen;
+            for (const float mean : residuals_.means_m(view, seen, shape()))
+                out[n++] = counts(view) ? kCentimetres * mean : unseen;
     for (const ViewKind view : kViews)
         for (int level = 0; level < TrunkProfile::kLevels; ++level) {
             const TrunkProfile::Reaches reaches = profile_.reaches_m(view, level);

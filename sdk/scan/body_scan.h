@@ -1,5 +1,5 @@
-// What the fitted body tells of a person over the frames of a scan: one shape for all frames, and where the surface lies
-// beside it.
+// What the fitted body tells of a person over the frames of a scan: one shape for all frames, and where the
+// surface lies beside it.
 #pragma once
 
 #include <array>
@@ -13,14 +13,15 @@
 
 namespace vfit {
 
-/// The numbers that measures are estimated from, in a fixed order: shape values (kFitShapes), height of the crown (m),
-/// distance (m), size of a pixel there (mm), how far the person is turned from the front (rad, squared) and from the side
-/// (rad, and squared), then of each view (front, side) and way of seeing (facing, rim) every zone's distance outwards of
-/// the body of that shape (cm), then of each view the trunk's reaches by level (cm), then of each view the roughness of
-/// trunk, arms and legs (cm). NaN: not seen.
-inline constexpr size_t kScanFeatures = size_t(kFitShapes) + 6 + size_t(kViewKinds) * kSeenKinds * BodyZones::kCount +
-                                        size_t(TrunkProfile::kLevels) * (TrunkProfile::kReachesFromFront + TrunkProfile::kReaches) +
-                                        size_t(kViewKinds) * SurfaceResiduals::kRegions;
+/// The numbers that measures are estimated from, in a fixed order: shape values (kFitShapes), height of the
+/// crown (m), distance (m), size of a pixel there (mm), how far the person is turned from the front (rad,
+/// squared) and from the side (rad, and squared), then of each view (front, side) and way of seeing (facing,
+/// rim) every zone's distance outwards of the body of that shape (cm), then of each view the trunk's reaches
+/// by level (cm), then of each view the roughness of trunk, arms and legs (cm). NaN: not seen.
+inline constexpr size_t kScanFeatures =
+    size_t(kFitShapes) + 6 + size_t(kViewKinds) * kSeenKinds * BodyZones::kCount +
+    size_t(TrunkProfile::kLevels) * (TrunkProfile::kReachesFromFront + TrunkProfile::kReaches) +
+    size_t(kViewKinds) * SurfaceResiduals::kRegions;
 using ScanFeatures = std::array<float, kScanFeatures>;
 
 class BodyScan {
@@ -31,16 +32,16 @@ public:
     BodyScan(const BodyScan&) = delete;
     BodyScan& operator=(const BodyScan&) = delete;
 
-    /// Fits the body to a frame. Joints in camera space; the user map's id is the body's. What is seen is kept where the
-    /// fit is good and the person is seen from the front or the side: then that view is returned. Does not allocate
-    /// after the first frame of a size.
+    /// Fits the body to a frame. Joints in camera space; the user map's id is the body's. What is seen is
+    /// kept where the fit is good and the person is seen from the front or the side: then that view is
+    /// returned. Does not allocate after the first frame of a size.
     ViewKind add(const DepthImage& image, const Body& body);
     /// Forgets the person.
     void reset();
 
     uint32_t frames(ViewKind view) const { return residuals_.frames(view); }
-    /// VFIT_ERROR_STATE before the first frame that was kept. Without `side` as if nothing had been seen from there:
-    /// estimators for the front alone have not learnt what it means.
+    /// VFIT_ERROR_STATE before the first frame that was kept. Without `side` as if nothing had been seen from
+    /// there: estimators for the front alone have not learnt what it means.
     ScanFeatures features(bool side) const;
     /// The shape of all frames together.
     const FitShape& shape() const { return fit_.output().pose.shape; }

@@ -39,16 +39,19 @@ struct Part {
     int (*way)(const Vec3&, const Vec3&);
 };
 
-const Part kParts[] = {
-    {{VFIT_BONE_HIPS, VFIT_BONE_SPINE, VFIT_BONE_CHEST, VFIT_BONE_UPPER_CHEST, VFIT_BONE_LEFT_SHOULDER, VFIT_BONE_RIGHT_SHOULDER},
-     24, 5, false, around_trunk},
-    {{VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_RIGHT_UPPER_LEG}, 4, 4, false, around_leg},
-    {{VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_RIGHT_LOWER_LEG}, 2, 4, false, around_leg},
-    {{VFIT_BONE_LEFT_UPPER_ARM, VFIT_BONE_RIGHT_UPPER_ARM}, 3, 4, true, around_arm},
-    {{VFIT_BONE_LEFT_LOWER_ARM, VFIT_BONE_RIGHT_LOWER_ARM}, 2, 4, true, around_arm},
-    {{VFIT_BONE_NECK}, 1, 3, false, around_head},
-    {{VFIT_BONE_HEAD}, 1, 3, false, around_head},
-    {{VFIT_BONE_LEFT_FOOT, VFIT_BONE_RIGHT_FOOT}, 1, 1, false, anywhere}};
+const Part kParts[] = {{{VFIT_BONE_HIPS, VFIT_BONE_SPINE, VFIT_BONE_CHEST, VFIT_BONE_UPPER_CHEST,
+                         VFIT_BONE_LEFT_SHOULDER, VFIT_BONE_RIGHT_SHOULDER},
+                        24,
+                        5,
+                        false,
+                        around_trunk},
+                       {{VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_RIGHT_UPPER_LEG}, 4, 4, false, around_leg},
+                       {{VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_RIGHT_LOWER_LEG}, 2, 4, false, around_leg},
+                       {{VFIT_BONE_LEFT_UPPER_ARM, VFIT_BONE_RIGHT_UPPER_ARM}, 3, 4, true, around_arm},
+                       {{VFIT_BONE_LEFT_LOWER_ARM, VFIT_BONE_RIGHT_LOWER_ARM}, 2, 4, true, around_arm},
+                       {{VFIT_BONE_NECK}, 1, 3, false, around_head},
+                       {{VFIT_BONE_HEAD}, 1, 3, false, around_head},
+                       {{VFIT_BONE_LEFT_FOOT, VFIT_BONE_RIGHT_FOOT}, 1, 1, false, anywhere}};
 
 }  // namespace
 
@@ -62,14 +65,17 @@ BodyZones::BodyZones(const FitModel& model) : of_vertex_(model.vertex_count(), -
         };
         std::vector<uint32_t> members;
         for (uint32_t v = 0; v < model.vertex_count(); ++v)
-            if (std::find(part.bones.begin(), part.bones.end(), model.vertices()[v].influences[0].bone) != part.bones.end())
+            if (std::find(part.bones.begin(), part.bones.end(), model.vertices()[v].influences[0].bone) !=
+                part.bones.end())
                 members.push_back(v);
-        const auto [low, high] = std::minmax_element(members.begin(), members.end(),
-                                                     [&](uint32_t a, uint32_t b) { return along(a) < along(b); });
+        const auto [low, high] = std::minmax_element(
+            members.begin(), members.end(), [&](uint32_t a, uint32_t b) { return along(a) < along(b); });
         const float start = along(*low), length = along(*high) - start;
         for (const uint32_t v : members) {
-            const int level = std::min(part.levels - 1, int(float(part.levels) * (along(v) - start) / length));
-            of_vertex_[v] = int16_t(first + level * part.ways + part.way(body.positions()[v], body.normals()[v]));
+            const int level =
+                std::min(part.levels - 1, int(float(part.levels) * (along(v) - start) / length));
+            of_vertex_[v] =
+                int16_t(first + level * part.ways + part.way(body.positions()[v], body.normals()[v]));
         }
         first += part.levels * part.ways;
     }

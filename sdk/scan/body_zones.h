@@ -1,5 +1,6 @@
-// The fitted body's surface in patches: each part of the body by level along it and by the way that the surface faces.
-// Left and right are one: measures do not tell them apart, and so every patch is seen by twice as much.
+// The fitted body's surface in patches: each part of the body by level along it and by the way that the
+// surface faces. Left and right are one: measures do not tell them apart, and so every patch is seen by twice
+// as much.
 #pragma once
 
 #include <cstdint>

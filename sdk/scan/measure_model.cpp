@@ -15,16 +15,16 @@ namespace {
 
 constexpr int kVersion = 4;
 constexpr float kFarthest = 5.0f;  // deviations: what lies farther tells no more
-// What of the body itself lies farther out than nearly all grown-ups' do, a child's crown say, is guessed at: linear rules
-// do not reach there.
+// What of the body itself lies farther out than nearly all grown-ups' do, a child's crown say, is guessed at:
+// linear rules do not reach there.
 constexpr float kUsualReach = 3.0f;  // deviations
 constexpr float kBeyond = 4.0f;      // of a deviation beyond, squared
 constexpr size_t kCrown = size_t(kFitShapes);
 constexpr float kCrownApart_m = 0.03f;  // from stature, usually less: then the two contradict each other
 constexpr float kShortest_m = 0.001f, kLongest_m = 5.0f, kSmallestSigma_m = 1e-4f;
 constexpr float kLeastStrangeness = 0.01f;  // training/measures/train.py has the same
-constexpr float kUnseenScale = 1e30f;  // of a feature that a part does not look at
-constexpr float kMassScale = 100.0f;  // of these in kilograms
+constexpr float kUnseenScale = 1e30f;       // of a feature that a part does not look at
+constexpr float kMassScale = 100.0f;        // of these in kilograms
 constexpr const char* kKinds[] = {"front", "front_and_side", "front_tight", "front_and_side_tight"};
 
 const Json& field(const Json& object, const char* name, const std::string& where) {
@@ -44,10 +44,12 @@ float strangeness(const ScanFeatures& x) {
     return std::inner_product(x.begin(), x.end(), x.begin(), 0.0f) / float(x.size());
 }
 
-std::vector<float> numbers(const Json& object, const char* name, size_t count, const std::string& where, float unit = 1.0f) {
+std::vector<float> numbers(const Json& object, const char* name, size_t count, const std::string& where,
+                           float unit = 1.0f) {
     const Json& list = field(object, name, where);
     if (!list.is_array() || list.size() != count)
-        fail(VFIT_ERROR_DATA, "measure model: \"", name, "\" of ", where, " is not a list of ", count, " numbers");
+        fail(VFIT_ERROR_DATA, "measure model: \"", name, "\" of ", where, " is not a list of ", count,
+             " numbers");
     std::vector<float> out;
     const std::string item_of = where + ": an item of \"" + name + "\"";
     for (const Json& item : list) out.push_back(unit * number(item, item_of));
@@ -60,10 +62,12 @@ struct Chosen {
 
     Chosen(const Json& part, const char* name, const std::string& where) {
         const Json& list = field(part, name, where);
-        if (!list.is_array()) fail(VFIT_ERROR_DATA, "measure model: \"", name, "\" of ", where, " is not a list");
+        if (!list.is_array())
+            fail(VFIT_ERROR_DATA, "measure model: \"", name, "\" of ", where, " is not a list");
         for (const Json& item : list) {
             if (!item.is_number_unsigned() || item.get<size_t>() >= kScanFeatures)
-                fail(VFIT_ERROR_DATA, "measure model: \"", name, "\" of ", where, ": there is no such feature");
+                fail(VFIT_ERROR_DATA, "measure model: \"", name, "\" of ", where,
+                     ": there is no such feature");
             features.push_back(item.get<size_t>());
         }
     }
@@ -80,7 +84,8 @@ struct Chosen {
 
 std::shared_ptr<const MeasureModel> MeasureModel::load(const std::string& path) {
     const std::vector<std::byte> bytes = read_file(path);
-    return std::make_shared<const MeasureModel>(parse({reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
+    return std::make_shared<const MeasureModel>(
+        parse({reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
 }
 
 MeasureModel MeasureModel::parse(std::string_view text) {
@@ -99,13 +104,15 @@ MeasureModel MeasureModel::parse(std::string_view text) {
         const Chosen chosen(in, "features", where);
         const size_t features = chosen.features.size();
         if (features == 0) fail(VFIT_ERROR_DATA, "measure model: \"features\" of ", where, " is empty");
-        const auto of_features = [&](const Json& object, const char* name, const std::string& what, float scale, float others) {
+        const auto of_features = [&](const Json& object, const char* name, const std::string& what,
+                                     float scale, float others) {
             return chosen.among_all(numbers(object, name, features, what, scale), others);
         };
         part.mean = of_features(in, "mean", where, 1.0f, 0.0f);
         part.scale = of_features(in, "scale", where, 1.0f, kUnseenScale);
         part.usual_strangeness = number(field(in, "usual_strangeness", where), where + ": usual_strangeness");
-        part.shape_precision = numbers(in, "shape_precision", size_t(kFitComponents) * size_t(kFitComponents), where);
+        part.shape_precision =
+            numbers(in, "shape_precision", size_t(kFitComponents) * size_t(kFitComponents), where);
         if (std::any_of(part.scale.begin(), part.scale.end(), [](float s) { return !(s > 0.0f); }) ||
             !(part.usual_strangeness > 0.0f))
             fail(VFIT_ERROR_DATA, "measure model: a scale of ", where, " is not above 0");
@@ -114,9 +121,11 @@ MeasureModel MeasureModel::parse(std::string_view text) {
         const Json& centres = field(in, "centres", where);
         const size_t dimensions = field(in, "directions", where).size() / features;
         if (!centres.is_array() || centres.size() % std::max<size_t>(dimensions, 1) != 0)
-            fail(VFIT_ERROR_DATA, "measure model: \"centres\" of ", where, " are not places in its directions");
-        part.basis = RadialBasis(chosen.among_all(numbers(in, "directions", dimensions * features, where, unit_of_places)),
-                                 numbers(in, "centres", centres.size(), where, unit_of_places), kScanFeatures);
+            fail(VFIT_ERROR_DATA, "measure model: \"centres\" of ", where,
+                 " are not places in its directions");
+        part.basis = RadialBasis(
+            chosen.among_all(numbers(in, "directions", dimensions * features, where, unit_of_places)),
+            numbers(in, "centres", centres.size(), where, unit_of_places), kScanFeatures);
         part.sigma_features = Chosen(in, "sigma_features", where).features;
         const Json& bends = field(in, "bends", where);
         for (const auto& [sex, rows] : {std::pair("female", &part.female_rows), {"male", &part.male_rows}}) {
@@ -125,12 +134,15 @@ MeasureModel MeasureModel::parse(std::string_view text) {
                 fail(VFIT_ERROR_DATA, "measure model: ", where, ", ", sex, ": no measures");
             for (const auto& [key, one] : measures.items()) {
                 const std::string what = where + ", " + sex + ", " + key;
-                if (measure_index(key) < 0) fail(VFIT_ERROR_DATA, "measure model: ", what, ": no such measure");
-                rows->push_back({key, field(one, "observed", what) == Json(true),
-                                 {number(field(one, "base", what), what), of_features(one, "weights", what, unit, 0.0f)},
-                                 numbers(bends, key.c_str(), part.basis.size(), what, unit),
-                                 number(field(one, "log_sigma", what), what),
-                                 numbers(one, "sigma_weights", part.sigma_features.size() + 1, what)});
+                if (measure_index(key) < 0)
+                    fail(VFIT_ERROR_DATA, "measure model: ", what, ": no such measure");
+                rows->push_back(
+                    {key,
+                     field(one, "observed", what) == Json(true),
+                     {number(field(one, "base", what), what), of_features(one, "weights", what, unit, 0.0f)},
+                     numbers(bends, key.c_str(), part.basis.size(), what, unit),
+                     number(field(one, "log_sigma", what), what),
+                     numbers(one, "sigma_weights", part.sigma_features.size() + 1, what)});
             }
             std::sort(rows->begin(), rows->end(),
                       [](const Row& a, const Row& b) { return measure_index(a.key) < measure_index(b.key); });
@@ -148,7 +160,9 @@ float MeasureModel::Linear::of(const ScanFeatures& x) const {
 ScanFeatures MeasureModel::Part::standardised(const ScanFeatures& features) const {
     ScanFeatures x;
     for (size_t i = 0; i < x.size(); ++i)
-        x[i] = std::isnan(features[i]) ? 0.0f : std::clamp((features[i] - mean[i]) / scale[i], -kFarthest, kFarthest);
+        x[i] = std::isnan(features[i])
+                   ? 0.0f
+                   : std::clamp((features[i] - mean[i]) / scale[i], -kFarthest, kFarthest);
     return x;
 }
 
@@ -160,14 +174,16 @@ MeasureModel::Seen MeasureModel::Part::look(const ScanFeatures& features) const 
 float MeasureModel::Part::doubt(const ScanFeatures& features, const ScanFeatures& x) const {
     float beyond = 0.0f;
     const auto look = [&](size_t i) {
-        const float farther = std::isnan(features[i]) ? 0.0f : std::abs(features[i] - mean[i]) / scale[i] - kUsualReach;
+        const float farther =
+            std::isnan(features[i]) ? 0.0f : std::abs(features[i] - mean[i]) / scale[i] - kUsualReach;
         if (farther > 0.0f) beyond += farther * farther;
     };
     for (size_t i = 0; i < size_t(kFitComponents); ++i) look(i);
     look(kCrown);
     float shape = 0.0f;
     for (size_t i = 0; i < size_t(kFitComponents); ++i)
-        for (size_t j = 0; j < size_t(kFitComponents); ++j) shape += x[i] * shape_precision[i * size_t(kFitComponents) + j] * x[j];
+        for (size_t j = 0; j < size_t(kFitComponents); ++j)
+            shape += x[i] * shape_precision[i * size_t(kFitComponents) + j] * x[j];
     const float stranger = std::max(strangeness(x) / usual_strangeness, shape);
     return std::sqrt(std::max(1.0f, stranger) * (1.0f + kBeyond * beyond));
 }
@@ -176,12 +192,16 @@ std::vector<Measurement> MeasureModel::Part::measure(const std::vector<Row>& row
     const auto& [x, near, doubt] = seen;
     std::vector<Measurement> out;
     for (const Row& row : rows) {
-        float log_sigma = row.log_sigma + row.sigma_weights.back() * std::log(strangeness(x) + kLeastStrangeness);
-        for (size_t i = 0; i < sigma_features.size(); ++i) log_sigma += row.sigma_weights[i] * x[sigma_features[i]];
+        float log_sigma =
+            row.log_sigma + row.sigma_weights.back() * std::log(strangeness(x) + kLeastStrangeness);
+        for (size_t i = 0; i < sigma_features.size(); ++i)
+            log_sigma += row.sigma_weights[i] * x[sigma_features[i]];
         const float unit = is_mass(row.key) ? kMassScale : 1.0f;
-        const float value = row.value.of(x) + std::inner_product(near.begin(), near.end(), row.bends.begin(), 0.0f);
+        const float value =
+            row.value.of(x) + std::inner_product(near.begin(), near.end(), row.bends.begin(), 0.0f);
         out.push_back({row.key, std::clamp(value, unit * kShortest_m, unit * kLongest_m),
-                       std::clamp(doubt * std::exp(log_sigma), unit * kSmallestSigma_m, unit * kLongest_m), row.observed});
+                       std::clamp(doubt * std::exp(log_sigma), unit * kSmallestSigma_m, unit * kLongest_m),
+                       row.observed});
     }
     return out;
 }
@@ -191,15 +211,18 @@ float MeasureModel::female_probability(const ScanFeatures& features, ScanKind ki
     return 1.0f / (1.0f + std::exp(-one.female.of(one.standardised(features))));
 }
 
-std::vector<Measurement> MeasureModel::measure(const ScanFeatures& features, ScanKind kind, vfit_sex sex) const {
+std::vector<Measurement> MeasureModel::measure(const ScanFeatures& features, ScanKind kind,
+                                               vfit_sex sex) const {
     std::vector<Measurement> out = measure_anybody(features, kind, sex);
     for (Measurement& m : out)
         if (m.key == "stature_m" && !std::isnan(features[kCrown]))
-            m.sigma = std::hypot(m.sigma, std::max(0.0f, std::abs(m.value - features[kCrown]) - kCrownApart_m));
+            m.sigma =
+                std::hypot(m.sigma, std::max(0.0f, std::abs(m.value - features[kCrown]) - kCrownApart_m));
     return out;
 }
 
-std::vector<Measurement> MeasureModel::measure_anybody(const ScanFeatures& features, ScanKind kind, vfit_sex sex) const {
+std::vector<Measurement> MeasureModel::measure_anybody(const ScanFeatures& features, ScanKind kind,
+                                                       vfit_sex sex) const {
     const Part& learnt = part(kind);
     const Seen seen = learnt.look(features);
     if (sex == VFIT_SEX_FEMALE) return learnt.measure(learnt.female_rows, seen);
@@ -213,7 +236,8 @@ std::vector<Measurement> MeasureModel::measure_anybody(const ScanFeatures& featu
         if (!f) continue;  // a measure of one sex alone is told when the sex is
         // Mean and variance of the mixture.
         const float apart = f->value - m.value;
-        const float variance = p * f->sigma * f->sigma + (1.0f - p) * m.sigma * m.sigma + p * (1.0f - p) * apart * apart;
+        const float variance =
+            p * f->sigma * f->sigma + (1.0f - p) * m.sigma * m.sigma + p * (1.0f - p) * apart * apart;
         out.push_back({m.key, m.value + p * apart, std::sqrt(variance), m.observed && f->observed});
     }
     return out;

@@ -1,6 +1,6 @@
-// Measures learnt from scans of virtual people whose bodies are drawn from a survey of real ones: linear in what the
-// fitted body tells and bent by where the scan lies among theirs, a Gaussian process, with deviations that follow how sure
-// it can be (training/measures).
+// Measures learnt from scans of virtual people whose bodies are drawn from a survey of real ones: linear in
+// what the fitted body tells and bent by where the scan lies among theirs, a Gaussian process, with
+// deviations that follow how sure it can be (training/measures).
 #pragma once
 
 #include <array>
@@ -23,12 +23,13 @@ struct ScanKind {
 
 class MeasureModel {
 public:
-    /// VFIT_ERROR_IO, VFIT_ERROR_VERSION or VFIT_ERROR_DATA where the file is not such a model of these features.
+    /// VFIT_ERROR_IO, VFIT_ERROR_VERSION or VFIT_ERROR_DATA where the file is not such a model of these
+    /// features.
     static std::shared_ptr<const MeasureModel> load(const std::string& path);
     static MeasureModel parse(std::string_view json);
 
-    /// In the order of measure_keys(). Where the sex is unknown the measures of both are mixed by how likely each is. Of
-    /// a person unlike those that it has learnt from deviations are wider.
+    /// In the order of measure_keys(). Where the sex is unknown the measures of both are mixed by how likely
+    /// each is. Of a person unlike those that it has learnt from deviations are wider.
     std::vector<Measurement> measure(const ScanFeatures& features, ScanKind kind, vfit_sex sex) const;
     /// How likely it is a woman whom the features are of.
     float female_probability(const ScanFeatures& features, ScanKind kind) const;
@@ -43,10 +44,11 @@ private:
     struct Row {
         std::string key;
         bool observed = true;
-        Linear value;                      // metres
-        std::vector<float> bends;          // and of each centre
+        Linear value;              // metres
+        std::vector<float> bends;  // and of each centre
         float log_sigma = 0.0f;
-        std::vector<float> sigma_weights;  // of the part's sigma_features and, last, of how strange all of them are
+        std::vector<float>
+            sigma_weights;  // of the part's sigma_features and, last, of how strange all of them are
     };
     /// A scan as a part looks at it.
     struct Seen {
@@ -57,9 +59,10 @@ private:
     /// What is learnt from one kind of scan.
     struct Part {
         std::vector<float> mean, scale;  // of the features
-        float usual_strangeness = 1.0f;      // mean square of x that one person of a hundred exceeds
-        std::vector<float> shape_precision;  // quadratic form of the fitted shape's x: above 1 for one person of ten
-        Linear female;                   // the logit
+        float usual_strangeness = 1.0f;  // mean square of x that one person of a hundred exceeds
+        std::vector<float>
+            shape_precision;  // quadratic form of the fitted shape's x: above 1 for one person of ten
+        Linear female;        // the logit
         RadialBasis basis;
         std::vector<size_t> sigma_features;
         std::vector<Row> female_rows, male_rows;

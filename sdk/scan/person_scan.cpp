@@ -27,7 +27,8 @@ bool arms_out(const Body& body) {
     for (const float side : {1.0f, -1.0f}) {
         const int hand = side > 0 ? VFIT_JOINT_LEFT_HAND : VFIT_JOINT_RIGHT_HAND;
         const int hip = side > 0 ? VFIT_JOINT_LEFT_HIP : VFIT_JOINT_RIGHT_HIP;
-        if (body.has(hand) && side * glm::dot(across, body.at(hand) - body.at(hip)) < kArmsOut_m) return false;
+        if (body.has(hand) && side * glm::dot(across, body.at(hand) - body.at(hip)) < kArmsOut_m)
+            return false;
     }
     return true;
 }
@@ -80,7 +81,8 @@ vfit_guidance PersonScan::fit(const ScanFrame& frame) {
 
 vfit_sex PersonScan::likely_sex() const {
     if (desc_.paper.sex != VFIT_SEX_UNKNOWN || !fitted_shape()) return desc_.paper.sex;
-    const float female = desc_.measure_model->female_probability(body_->features(with_side()), {with_side(), desc_.tight});
+    const float female =
+        desc_.measure_model->female_probability(body_->features(with_side()), {with_side(), desc_.tight});
     return female > 0.5f ? VFIT_SEX_FEMALE : VFIT_SEX_MALE;
 }
 
@@ -88,7 +90,8 @@ std::vector<Measurement> PersonScan::measurements() const {
     if (!body_) return paper_.measurements();
     if (frames_taken() == 0) fail(VFIT_ERROR_STATE, "scan: no frame from the front has been taken yet");
     const bool side = with_side();
-    std::vector<Measurement> out = desc_.measure_model->measure(body_->features(side), {side, desc_.tight}, desc_.paper.sex);
+    std::vector<Measurement> out =
+        desc_.measure_model->measure(body_->features(side), {side, desc_.tight}, desc_.paper.sex);
     if (!desc_.bare)
         for (Measurement& m : out)
             if (m.key == "stature_m") m.sigma = std::hypot(m.sigma, kHairAndShoes_m);

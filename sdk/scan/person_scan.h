@@ -1,4 +1,5 @@
-// The scan of one person, by the paper's method alone or by the fitted body as well: which frames count, and for what.
+// The scan of one person, by the paper's method alone or by the fitted body as well: which frames count, and
+// for what.
 #pragma once
 
 #include "measure/paper_scan.h"

@@ -1,5 +1,5 @@
-// How near a scan is to each of some that measures were learnt from: exp(-d^2 / 2), where d is the distance of both in a
-// few directions of the features.
+// How near a scan is to each of some that measures were learnt from: exp(-d^2 / 2), where d is the distance
+// of both in a few directions of the features.
 #pragma once
 
 #include <span>
@@ -10,8 +10,8 @@ namespace vfit {
 class RadialBasis {
 public:
     RadialBasis() = default;
-    /// `directions`: one after the other, each as long as the features are. `centres`: one after the other, each a place in
-    /// those directions.
+    /// `directions`: one after the other, each as long as the features are. `centres`: one after the other,
+    /// each a place in those directions.
     RadialBasis(std::vector<float> directions, std::vector<float> centres, size_t features);
 
     size_t size() const { return dimensions_ ? centres_.size() / dimensions_ : 0; }

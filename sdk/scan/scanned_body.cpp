@@ -12,11 +12,13 @@ namespace {
 
 struct Girth {
     const char *measure, *slider;
-    float slope_m;  // of the girth, a whole slider: hardly differs from body to body. Of limbs twice that: hips move them too
+    float slope_m;  // of the girth, a whole slider: hardly differs from body to body. Of limbs twice that:
+                    // hips move them too
 };
-constexpr Girth kGirths[] = {{"chest_girth_m", "measure-bust-circ", 0.156f},   {"waist_girth_m", "measure-waist-circ", 0.100f},
-                             {"hip_girth_m", "measure-hips-circ", 0.137f},     {"thigh_girth_m", "measure-thigh-circ", 0.060f},
-                             {"neck_girth_m", "measure-neck-circ", 0.040f},    {"upper_arm_girth_m", "measure-upperarm-circ", 0.060f}};
+constexpr Girth kGirths[] = {
+    {"chest_girth_m", "measure-bust-circ", 0.156f}, {"waist_girth_m", "measure-waist-circ", 0.100f},
+    {"hip_girth_m", "measure-hips-circ", 0.137f},   {"thigh_girth_m", "measure-thigh-circ", 0.060f},
+    {"neck_girth_m", "measure-neck-circ", 0.040f},  {"upper_arm_girth_m", "measure-upperarm-circ", 0.060f}};
 constexpr int kSteps = 7;
 constexpr float kStill_m = 0.0005f;  // a step that moves no measure farther has met them, or cannot
 constexpr float kSliderEnd = 0.9f;
@@ -24,8 +26,8 @@ constexpr float kLeastScale = 0.8f, kMostScale = 1.25f;
 
 }  // namespace
 
-ScannedBody scanned_body(const std::shared_ptr<const BodyModel>& body, const FitModel& fit, const FitShape& shape,
-                         const std::vector<Measurement>& measured, vfit_sex sex) {
+ScannedBody scanned_body(const std::shared_ptr<const BodyModel>& body, const FitModel& fit,
+                         const FitShape& shape, const std::vector<Measurement>& measured, vfit_sex sex) {
     ScannedBody out;
     out.shape.resize(body->parameters().size());
     fit.body_shape(*body, shape, out.shape);
@@ -57,7 +59,8 @@ ScannedBody scanned_body(const std::shared_ptr<const BodyModel>& body, const Fit
             if (parameter < 0 || wanted <= 0.0f) continue;
             float& slider = out.shape[size_t(parameter)];
             const float before = slider;
-            slider = std::clamp(slider + (wanted - value(now, girth.measure)) / girth.slope_m, -kSliderEnd, kSliderEnd);
+            slider = std::clamp(slider + (wanted - value(now, girth.measure)) / girth.slope_m, -kSliderEnd,
+                                kSliderEnd);
             missed_m = std::max(missed_m, girth.slope_m * std::abs(slider - before));
         }
         if (missed_m < kStill_m) return good;

@@ -10,12 +10,14 @@ namespace vfit {
 
 namespace {
 
-constexpr float kFacingCosine = 0.5f;  // of a normal to the line of sight: depth says how far out the surface is
-constexpr float kEdgeCosine = 0.30f;    // the vertex is on the body's own outline
-constexpr float kFarthest_m = 0.06f;   // beyond it is something else: an arm before the trunk, the wall
+constexpr float kFacingCosine =
+    0.5f;  // of a normal to the line of sight: depth says how far out the surface is
+constexpr float kEdgeCosine = 0.30f;  // the vertex is on the body's own outline
+constexpr float kFarthest_m = 0.06f;  // beyond it is something else: an arm before the trunk, the wall
 constexpr float kTooNear_m = 0.25f;
 constexpr int kRimReach = 16;  // pixels
-constexpr uint32_t kFewestShare = 4;   // a vertex that was seen in less than a fourth of the frames was seen by chance
+constexpr uint32_t kFewestShare =
+    4;  // a vertex that was seen in less than a fourth of the frames was seen by chance
 
 /// Trunk, arms or legs; -1: head, hands and feet, which clothes leave bare.
 int region_of(const FitModel::Vertex& vertex) {
@@ -47,7 +49,8 @@ float depth_about(const DepthImage& image, uint8_t user, int x, int y, float z) 
 
 }  // namespace
 
-SurfaceResiduals::SurfaceResiduals(const FitModel& model) : model_(model), zones_(model), outwards_(model.vertex_count()) {
+SurfaceResiduals::SurfaceResiduals(const FitModel& model)
+    : model_(model), zones_(model), outwards_(model.vertex_count()) {
     for (uint32_t v = 0; v < model.vertex_count(); ++v) {
         // In the frame of its first bone, which carries it; normals hardly turn with shape.
         const FitPoint& place = model.places()[size_t(v) * kFitInfluences];
@@ -114,7 +117,9 @@ void SurfaceResiduals::add(const DepthImage& image, uint8_t user, const BodyFit&
     auto& facing = sums(view, Seen::kFacing);
     auto& rim = sums(view, Seen::kRim);
     const int width = int(image.width()), height = int(image.height());
-    const auto belongs = [&](int x, int y) { return image.users[image.index(uint32_t(x), uint32_t(y))] == user; };
+    const auto belongs = [&](int x, int y) {
+        return image.users[image.index(uint32_t(x), uint32_t(y))] == user;
+    };
     for (uint32_t v = 0; v < body.model().vertex_count(); ++v) {
         const Vec3 &p = body.positions()[v], &n = body.normals()[v];
         if (p.z < kTooNear_m || body.model().vertices()[v].bridged || fit.hidden(v)) continue;
@@ -139,7 +144,8 @@ void SurfaceResiduals::add(const DepthImage& image, uint8_t user, const BodyFit&
             int last = -kRimReach - 1;
             bool border = false;
             for (int i = -kRimReach; i <= kRimReach; ++i) {
-                const int u = int(std::lround(at.x + float(i) * step.x)), w = int(std::lround(at.y + float(i) * step.y));
+                const int u = int(std::lround(at.x + float(i) * step.x)),
+                          w = int(std::lround(at.y + float(i) * step.y));
                 if (u < 0 || w < 0 || u >= width || w >= height) break;
                 if (belongs(u, w))
                     last = i;

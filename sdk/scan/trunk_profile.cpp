@@ -11,9 +11,9 @@ namespace {
 
 // Of the way from between the hip joints to the neck's.
 constexpr float kLowest = -0.2f, kHighest = 0.82f;
-constexpr float kJump_m = 0.05f;      // from pixel to pixel: another part of the body begins
+constexpr float kJump_m = 0.05f;    // from pixel to pixel: another part of the body begins
 constexpr float kWidest_m = 0.40f;  // from the spine
-constexpr int kGap = 2;               // pixels without a reading inside the person
+constexpr int kGap = 2;             // pixels without a reading inside the person
 
 struct Edge {
     float metres = 0.0f;  // across the line of sight
@@ -68,7 +68,7 @@ void TrunkProfile::add(const DepthImage& image, uint8_t user, const BodyFit& fit
                     break;
                 }
                 if (here < z - kJump_m) return out;  // an arm before it
-                if (here > z + kJump_m) {             // an arm behind it
+                if (here > z + kJump_m) {            // an arm behind it
                     out.found = true;
                     break;
                 }
@@ -78,14 +78,17 @@ void TrunkProfile::add(const DepthImage& image, uint8_t user, const BodyFit& fit
             return out;
         };
         auto& sums = sums_[size_t(view)][size_t(l)];
-        const auto add_to = [&](int reach, float metres) { sums[size_t(reach)].metres += double(metres), ++sums[size_t(reach)].count; };
+        const auto add_to = [&](int reach, float metres) {
+            sums[size_t(reach)].metres += double(metres), ++sums[size_t(reach)].count;
+        };
         add_to(kTowards, centre.z - surface);
         const auto add_side = [&](float way, int reach) {
             const Edge outline = edge(way);
             if (!outline.found) return;
             add_to(reach, outline.metres);
             for (int quarters = 1; quarters <= 3; ++quarters) {
-                const float z = reading(at + way * 0.25f * float(quarters) * outline.metres / pixel_m * across);
+                const float z =
+                    reading(at + way * 0.25f * float(quarters) * outline.metres / pixel_m * across);
                 if (std::abs(z - surface) < kWidest_m) add_to(reach + quarters, centre.z - z);
             }
         };

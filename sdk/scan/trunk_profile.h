@@ -1,5 +1,6 @@
-// The trunk's outline by height, read off the image without a body's shape: how far it reaches to both sides of the fitted
-// spine and towards the camera, at levels from the hips to the armpits: the front of each section, and its sides.
+// The trunk's outline by height, read off the image without a body's shape: how far it reaches to both sides
+// of the fitted spine and towards the camera, at levels from the hips to the armpits: the front of each
+// section, and its sides.
 #pragma once
 
 #include <array>
@@ -14,9 +15,9 @@ namespace vfit {
 class TrunkProfile {
 public:
     static constexpr int kLevels = 24;
-    /// What is read at a level, metres from the fitted spine: across the picture to the outline, and towards the camera
-    /// where the spine is and at parts of the way to the outline. Seen from the side `ahead` is to the person's front and
-    /// `behind` to the back; from the front both sides are one, ahead.
+    /// What is read at a level, metres from the fitted spine: across the picture to the outline, and towards
+    /// the camera where the spine is and at parts of the way to the outline. Seen from the side `ahead` is to
+    /// the person's front and `behind` to the back; from the front both sides are one, ahead.
     enum Reach {
         kTowards,
         kAhead,

@@ -11,9 +11,9 @@ namespace vfit {
 
 namespace {
 
-constexpr size_t kMaxSensors = 256;         // of one plug-in; more is a runaway report
-constexpr size_t kMaxMessage = 1024;        // characters of a text by a plug-in that are kept
-constexpr size_t kMaxComplaints = 16;       // log lines about one plug-in's misuse
+constexpr size_t kMaxSensors = 256;    // of one plug-in; more is a runaway report
+constexpr size_t kMaxMessage = 1024;   // characters of a text by a plug-in that are kept
+constexpr size_t kMaxComplaints = 16;  // log lines about one plug-in's misuse
 
 }  // namespace
 

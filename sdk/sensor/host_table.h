@@ -95,8 +95,8 @@ private:
     static int64_t time_ns(void* self);
 
     Ref<SensorStream> stream(void* token) const;
-    bool is_open(void* token) const;       // with mutex_ held
-    Filling& filling(vfit_frame frame);    // with mutex_ held
+    bool is_open(void* token) const;     // with mutex_ held
+    Filling& filling(vfit_frame frame);  // with mutex_ held
     Filling take_filling(vfit_frame frame);
 
     Log& log_;

@@ -11,9 +11,9 @@ namespace vfit {
 
 namespace {
 
-constexpr size_t kMaxName = 63;       // characters, the room of vfit_plugin_info
+constexpr size_t kMaxName = 63;  // characters, the room of vfit_plugin_info
 constexpr std::chrono::seconds kPatience{10};
-constexpr size_t kMaxUsbIds = 4096;   // characters
+constexpr size_t kMaxUsbIds = 4096;     // characters
 constexpr size_t kMaxLastError = 1024;  // characters of last_error that are kept
 
 bool is_scheme(const std::string& scheme) {
@@ -91,7 +91,8 @@ bool Plugin::serves(const std::string& scheme) const {
 }
 
 void Plugin::fail_with_last_error(vfit_result result, const std::string& what) {
-    std::string message = table_.last_error ? bounded_text(table_.last_error(table_.self), kMaxLastError) : "";
+    std::string message =
+        table_.last_error ? bounded_text(table_.last_error(table_.self), kMaxLastError) : "";
     if (message.empty()) message = text("plug-in ", info_.name, ": ", what, " failed, result ", result);
     const bool known = result < 0 && result >= VFIT_ERROR_PLUGIN;
     fail(known ? result : VFIT_ERROR_PLUGIN, message);
@@ -109,7 +110,8 @@ vfit_result Plugin::ask_to_end(const char* what, std::function<vfit_result()> ca
     static auto& hanging = *new std::vector<Ref<Plugin>>;
     std::lock_guard lock(mutex);
     hanging.emplace_back(this);
-    host_.complain(text(what, " has not returned for ", kPatience.count(), " s: the plug-in is left alone from now on"));
+    host_.complain(
+        text(what, " has not returned for ", kPatience.count(), " s: the plug-in is left alone from now on"));
     return VFIT_ERROR_PLUGIN;
 }
 
@@ -167,7 +169,8 @@ void Plugin::shutdown() {
     for (const Ref<Sensor>& sensor : open) sensor->close();
     std::lock_guard lock(calls_);
     const vfit_plugin table = table_;
-    if (table.shutdown && !hangs_) ask_to_end("shutdown", [table] { return table.shutdown(table.self), VFIT_OK; });
+    if (table.shutdown && !hangs_)
+        ask_to_end("shutdown", [table] { return table.shutdown(table.self), VFIT_OK; });
     host_.retire();
     table_ = {};
     if (!hangs_) library_.reset();

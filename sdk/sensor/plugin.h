@@ -51,7 +51,8 @@ private:
         if (!thrown.empty()) host_.complain(thrown);
         return result;
     }
-    /// One that has to wait for its threads, and may do so for ever: it is given up then, with all that it holds.
+    /// One that has to wait for its threads, and may do so for ever: it is given up then, with all that it
+    /// holds.
     vfit_result ask_to_end(const char* what, std::function<vfit_result()> call);
     void check_well() const;
 

@@ -1,4 +1,5 @@
-// Calls into a plug-in. None may throw, and all are to return soon; what does neither must not take the host with it.
+// Calls into a plug-in. None may throw, and all are to return soon; what does neither must not take the host
+// with it.
 #pragma once
 
 #include <chrono>
@@ -31,7 +32,8 @@ struct Answer {
     std::string thrown;
 };
 /// The same on a thread of its own, which is left behind where it does not return in time; false then.
-inline bool ask_in_time(std::chrono::milliseconds patience, std::function<vfit_result()> call, Answer& answer) {
+inline bool ask_in_time(std::chrono::milliseconds patience, std::function<vfit_result()> call,
+                        Answer& answer) {
     auto promise = std::make_shared<std::promise<Answer>>();
     std::future<Answer> future = promise->get_future();
     std::thread([promise, call = std::move(call)] {

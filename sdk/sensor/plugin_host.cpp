@@ -97,7 +97,8 @@ std::vector<vfit_sensor_info> PluginHost::discover() {
 /// null: no plug-in declares a USB camera.
 UsbWatch* PluginHost::usb() {
     std::vector<UsbId> ids;
-    for (const Ref<Plugin>& plugin : all()) ids.insert(ids.end(), plugin->usb_ids().begin(), plugin->usb_ids().end());
+    for (const Ref<Plugin>& plugin : all())
+        ids.insert(ids.end(), plugin->usb_ids().begin(), plugin->usb_ids().end());
     {
         std::lock_guard lock(mutex_);
         if (usb_ || ids.empty() || down_) return usb_.get();
@@ -152,10 +153,9 @@ Ref<Sensor> PluginHost::open(const std::string& uri) {
     if (known.empty()) known = "none";
     if (scheme.empty())
         fail(VFIT_ERROR_UNSUPPORTED, uri,
-             ": is neither an existing folder nor a sensor's URI; known schemes: ",
-             known);
-    fail(VFIT_ERROR_UNSUPPORTED, uri, ": no plug-in serves the scheme '", scheme, "'; known schemes: ",
-         known);
+             ": is neither an existing folder nor a sensor's URI; known schemes: ", known);
+    fail(VFIT_ERROR_UNSUPPORTED, uri, ": no plug-in serves the scheme '", scheme,
+         "'; known schemes: ", known);
 }
 
 void PluginHost::shutdown() {

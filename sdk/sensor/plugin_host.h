@@ -15,8 +15,8 @@ namespace vfit {
 
 class PluginHost {
 public:
-    /// context_id: the handle below which frames live while a plug-in fills them. The memory of all its frames is
-    /// counted in frame_bytes.
+    /// context_id: the handle below which frames live while a plug-in fills them. The memory of all its
+    /// frames is counted in frame_bytes.
     PluginHost(Log& log, std::function<uint64_t()> context_id, Ref<FrameBytes> frame_bytes = nullptr);
     ~PluginHost();
     PluginHost(const PluginHost&) = delete;
@@ -36,7 +36,8 @@ public:
     /// "scheme:rest"; or the path of a folder (a recording), or of a file whose extension is a scheme.
     /// Fails with VFIT_ERROR_UNSUPPORTED, listing the schemes, where nobody serves it.
     Ref<Sensor> open(const std::string& uri);
-    /// Rises whenever discover() may have something else to tell: plug-ins were loaded, or a USB camera came or went.
+    /// Rises whenever discover() may have something else to tell: plug-ins were loaded, or a USB camera came
+    /// or went.
     uint64_t changes();
     /// Closes every sensor, then shuts down every plug-in. Nothing of a plug-in is called afterwards.
     void shutdown();

@@ -10,7 +10,7 @@ namespace vfit {
 
 namespace {
 
-constexpr uint32_t kMaxListed = 256;  // modes or options of one device; more is a list without end
+constexpr uint32_t kMaxListed = 256;     // modes or options of one device; more is a list without end
 constexpr size_t kMaxOptionText = 4096;  // characters of a key or a value
 
 Pace pace_from(const std::string& value) {
@@ -50,7 +50,10 @@ bool lists(const std::vector<vfit_sensor_option>& options, const std::string& ke
 }  // namespace
 
 Sensor::Sensor(Ref<Plugin> plugin, std::string uri, Ref<SensorStream> stream, void* token, void* device)
-    : plugin_(std::move(plugin)), uri_(std::move(uri)), stream_(std::move(stream)), token_(token),
+    : plugin_(std::move(plugin)),
+      uri_(std::move(uri)),
+      stream_(std::move(stream)),
+      token_(token),
       device_(device) {}
 
 void Sensor::check_open() const {
@@ -83,11 +86,12 @@ void Sensor::stop() {
 void Sensor::stop_device() {
     if (!running_) return;
     running_ = false;
-    // Once more under the lock: a start on another thread may have opened it since, and the plug-in's stop waits
-    // for a push that waits for the host.
+    // Once more under the lock: a start on another thread may have opened it since, and the plug-in's stop
+    // waits for a push that waits for the host.
     stream_->queue.close();
     if (plugin_->hangs_) return;
-    const vfit_result result = plugin_->ask_to_end("stop", [stop = plugin_->table_.stop, device = device_] { return stop(device); });
+    const vfit_result result =
+        plugin_->ask_to_end("stop", [stop = plugin_->table_.stop, device = device_] { return stop(device); });
     if (result != VFIT_OK) plugin_->host_.complain(text("stopping ", uri_, " failed, result ", result));
 }
 
@@ -97,7 +101,9 @@ void Sensor::close() {
     std::lock_guard lock(plugin_->calls_);
     if (!device_) return;
     stop_device();
-    if (!plugin_->hangs_) plugin_->ask_to_end("close", [close = plugin_->table_.close, device = device_] { return close(device), VFIT_OK; });
+    if (!plugin_->hangs_)
+        plugin_->ask_to_end(
+            "close", [close = plugin_->table_.close, device = device_] { return close(device), VFIT_OK; });
     device_ = nullptr;
     plugin_->host_.remove_stream(token_);
     plugin_->forget(this);
@@ -106,7 +112,9 @@ void Sensor::close() {
 std::vector<vfit_sensor_mode> Sensor::read_modes() {
     const auto mode = plugin_->table_.mode;
     if (!mode || plugin_->hangs_) return {};
-    auto modes = read_list<vfit_sensor_mode>([&](uint32_t i, vfit_sensor_mode* out) { return plugin_->ask([&] { return mode(device_, i, out); }); });
+    auto modes = read_list<vfit_sensor_mode>([&](uint32_t i, vfit_sensor_mode* out) {
+        return plugin_->ask([&] { return mode(device_, i, out); });
+    });
     for (vfit_sensor_mode& mode : modes) {
         end_text(mode.name);
         if (!std::isfinite(mode.rate_hz) || mode.rate_hz < 0.0f) mode.rate_hz = 0.0f;
@@ -117,7 +125,9 @@ std::vector<vfit_sensor_mode> Sensor::read_modes() {
 std::vector<vfit_sensor_option> Sensor::read_options() {
     const auto option_at = plugin_->table_.option;
     if (!option_at || plugin_->hangs_) return {};
-    auto options = read_list<vfit_sensor_option>([&](uint32_t i, vfit_sensor_option* out) { return plugin_->ask([&] { return option_at(device_, i, out); }); });
+    auto options = read_list<vfit_sensor_option>([&](uint32_t i, vfit_sensor_option* out) {
+        return plugin_->ask([&] { return option_at(device_, i, out); });
+    });
     for (vfit_sensor_option& option : options) {
         end_text(option.key);
         end_text(option.value);
@@ -155,7 +165,8 @@ void Sensor::forward_option(const std::string& key, const std::string& value) {
     if (!plugin_->table_.set_option)
         fail(VFIT_ERROR_UNSUPPORTED, "the sensor ", uri_, " has no option '", key, "'");
     plugin_->check_well();
-    const vfit_result result = plugin_->ask([&] { return plugin_->table_.set_option(device_, key.c_str(), value.c_str()); });
+    const vfit_result result =
+        plugin_->ask([&] { return plugin_->table_.set_option(device_, key.c_str(), value.c_str()); });
     if (result != VFIT_OK) plugin_->fail_with_last_error(result, text("option ", key));
 }
 

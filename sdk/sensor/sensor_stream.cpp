@@ -9,8 +9,8 @@ namespace vfit {
 
 namespace {
 
-constexpr uint32_t kMaxStreams = 3;  // depth, colour, user map
-constexpr uint32_t kMaxSide = 16384; // pixels
+constexpr uint32_t kMaxStreams = 3;   // depth, colour, user map
+constexpr uint32_t kMaxSide = 16384;  // pixels
 // Farthest a time stamp may lie in the future of the host's clock: a replay without pace runs ahead. 1 year.
 constexpr int64_t kFarthestFutureNs = 31'536'000'000'000'000;
 

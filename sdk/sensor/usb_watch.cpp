@@ -19,7 +19,9 @@ std::string name_of(const UsbId& id) {
 }
 
 bool has(const std::vector<UsbId>& ids, const UsbId& id) {
-    return std::any_of(ids.begin(), ids.end(), [&](const UsbId& other) { return other.vendor == id.vendor && other.product == id.product; });
+    return std::any_of(ids.begin(), ids.end(), [&](const UsbId& other) {
+        return other.vendor == id.vendor && other.product == id.product;
+    });
 }
 
 bool id_of(libusb_device* device, UsbId& id) {
@@ -43,7 +45,9 @@ int try_to_open(libusb_device* device) {
 
 std::vector<UsbId> parse_usb_ids(const std::string& text) {
     std::vector<UsbId> ids;
-    const auto refuse = [&] { fail(VFIT_ERROR_PLUGIN, "its USB ids '", text, "' are not 'vvvv:pppp,...' in hexadecimal"); };
+    const auto refuse = [&] {
+        fail(VFIT_ERROR_PLUGIN, "its USB ids '", text, "' are not 'vvvv:pppp,...' in hexadecimal");
+    };
     for (size_t at = 0; at < text.size(); at += 10) {
         constexpr size_t kId = 9;  // vvvv:pppp
         UsbId id{};
@@ -52,7 +56,9 @@ std::vector<UsbId> parse_usb_ids(const std::string& text) {
             const auto [end, error] = std::from_chars(begin, begin + 4, out, 16);
             if (error != std::errc() || end != begin + 4) refuse();
         };
-        if (text.size() < at + kId || text[at + 4] != ':' || (text.size() > at + kId && text[at + kId] != ',') || text.size() == at + kId + 1) refuse();
+        if (text.size() < at + kId || text[at + 4] != ':' ||
+            (text.size() > at + kId && text[at + kId] != ',') || text.size() == at + kId + 1)
+            refuse();
         number(at, id.vendor), number(at + 5, id.product);
         ids.push_back(id);
     }
@@ -66,10 +72,12 @@ UsbWatch::UsbWatch(Log& log, std::vector<UsbId> ids) : log_(log), ids_(std::move
         return;
     }
     if (!libusb_has_capability(LIBUSB_CAP_HAS_HOTPLUG)) return;
-    const auto callback = [](libusb_context* usb, libusb_device* device, libusb_hotplug_event event, void* self) { return on_change(usb, device, event, self); };
+    const auto callback = [](libusb_context* usb, libusb_device* device, libusb_hotplug_event event,
+                             void* self) { return on_change(usb, device, event, self); };
     const int events = LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED | LIBUSB_HOTPLUG_EVENT_DEVICE_LEFT;
-    if (libusb_hotplug_register_callback(usb_, events, LIBUSB_HOTPLUG_NO_FLAGS, LIBUSB_HOTPLUG_MATCH_ANY, LIBUSB_HOTPLUG_MATCH_ANY, LIBUSB_HOTPLUG_MATCH_ANY,
-                                         callback, this, &callback_) != LIBUSB_SUCCESS)
+    if (libusb_hotplug_register_callback(usb_, events, LIBUSB_HOTPLUG_NO_FLAGS, LIBUSB_HOTPLUG_MATCH_ANY,
+                                         LIBUSB_HOTPLUG_MATCH_ANY, LIBUSB_HOTPLUG_MATCH_ANY, callback, this,
+                                         &callback_) != LIBUSB_SUCCESS)
         return;
     thread_ = std::thread([this] { run(); });
 }
@@ -96,7 +104,8 @@ int UsbWatch::on_change(libusb_context*, libusb_device* device, int event, void*
     auto& watch = *static_cast<UsbWatch*>(self);
     UsbId id{};
     if (!id_of(device, id) || !has(watch.ids_, id)) return 0;
-    watch.log_.info("USB camera ", name_of(id), event == LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED ? ": plugged in" : ": unplugged");
+    watch.log_.info("USB camera ", name_of(id),
+                    event == LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED ? ": plugged in" : ": unplugged");
     ++watch.changes_;
     return 0;
 }
@@ -109,7 +118,10 @@ std::string UsbWatch::trouble(const std::vector<UsbId>& ids) const {
         UsbId id{};
         if (!id_of(devices[i], id) || !has(ids, id)) continue;
         const int error = try_to_open(devices[i]);
-        if (error == LIBUSB_ERROR_ACCESS) out = "USB camera " + name_of(id) + " is plugged in, but its node may not be opened: permission denied (a udev rule is missing)";
+        if (error == LIBUSB_ERROR_ACCESS)
+            out =
+                "USB camera " + name_of(id) +
+                " is plugged in, but its node may not be opened: permission denied (a udev rule is missing)";
         if (error == LIBUSB_ERROR_BUSY) out = "USB camera " + name_of(id) + " is in use by another process";
     }
     if (count >= 0) libusb_free_device_list(devices, 1);  // one of none as well

@@ -1,4 +1,5 @@
-// USB cameras of the makes that plug-ins declare: what comes and goes, and what stands in the way of one that is there.
+// USB cameras of the makes that plug-ins declare: what comes and goes, and what stands in the way of one that
+// is there.
 #pragma once
 
 #include <atomic>
@@ -32,7 +33,8 @@ public:
 
     /// Rises whenever a device of these comes or goes.
     uint64_t changes() const { return changes_; }
-    /// Why one of those that are plugged in cannot be opened: no permission, or somebody else has it. Empty: nothing is known.
+    /// Why one of those that are plugged in cannot be opened: no permission, or somebody else has it. Empty:
+    /// nothing is known.
     std::string trouble(const std::vector<UsbId>& ids) const;
 
 private:

@@ -14,10 +14,11 @@ namespace vfit {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// A sigma of 0 is "unknown": the value is then taken as exact to the millimetre of a tape, or the tenth of a scale.
+// A sigma of 0 is "unknown": the value is then taken as exact to the millimetre of a tape, or the tenth of a
+// scale.
 constexpr double kSmallestSigma_m = 0.001, kSmallestSigma_kg = 0.1;
-// Share of the variance that the measures of one scan have in common: clothes and distance act on all girths alike
-// (vfit-bench measure prints how errors correlate).
+// Share of the variance that the measures of one scan have in common: clothes and distance act on all girths
+// alike (vfit-bench measure prints how errors correlate).
 constexpr double kShared = 0.3;
 constexpr int kDraws = 8192;  // pairs of opposite ones: a probability is then true to about half a hundredth
 
@@ -32,7 +33,8 @@ double log_above(double x) {
 /// Logarithm of the share between a and b.
 double log_between(double a, double b) {
     // About the middle both parts add up, so that even a sliver of a very wide distribution keeps its share.
-    if (a < 0.0 && b > 0.0) return std::log(0.5 * (std::erf(b / std::sqrt(2.0)) + std::erf(-a / std::sqrt(2.0))));
+    if (a < 0.0 && b > 0.0)
+        return std::log(0.5 * (std::erf(b / std::sqrt(2.0)) + std::erf(-a / std::sqrt(2.0))));
     const double near = a >= 0.0 ? a : -b, far = a >= 0.0 ? b : -a;
     if (far == kInfinity) return log_above(near);
     return log_above(near) + std::log1p(-std::exp(log_above(far) - log_above(near)));
@@ -53,7 +55,8 @@ struct Known {
     double value, sigma;
 };
 
-std::vector<Known> known_of(const SizeChart& chart, const GarmentSizes& garment, const std::vector<Measurement>& measurements) {
+std::vector<Known> known_of(const SizeChart& chart, const GarmentSizes& garment,
+                            const std::vector<Measurement>& measurements) {
     std::vector<Known> out;
     std::string wanted;
     for (size_t m = 0; m < garment.measures.size(); ++m) {
@@ -62,12 +65,13 @@ std::vector<Known> known_of(const SizeChart& chart, const GarmentSizes& garment,
         const Measurement* measurement = find(measurements, key);
         if (!measurement) continue;
         check(*measurement);
-        out.push_back({m, key, double(measurement->value),
-                       std::max(double(measurement->sigma), is_mass(key) ? kSmallestSigma_kg : kSmallestSigma_m)});
+        out.push_back(
+            {m, key, double(measurement->value),
+             std::max(double(measurement->sigma), is_mass(key) ? kSmallestSigma_kg : kSmallestSigma_m)});
     }
     if (out.empty())
-        fail(VFIT_ERROR_DATA, "size chart \"", chart.name(), "\": ", garment.kind, " needs at least one of ", wanted,
-             "; none was given");
+        fail(VFIT_ERROR_DATA, "size chart \"", chart.name(), "\": ", garment.kind, " needs at least one of ",
+             wanted, "; none was given");
     return out;
 }
 
@@ -79,16 +83,21 @@ struct Steps {
     Steps(const GarmentSizes& garment, size_t measure) : of_row(garment.sizes.size()) {
         for (const SizeRow& row : garment.sizes) {
             const MeasureRange& r = row.ranges[measure];
-            const auto at = std::find_if(ranges.begin(), ranges.end(), [&](const MeasureRange& o) { return o.low >= r.low; });
+            const auto at = std::find_if(ranges.begin(), ranges.end(),
+                                         [&](const MeasureRange& o) { return o.low >= r.low; });
             if (at == ranges.end() || at->low != r.low) ranges.insert(at, r);
         }
         for (size_t row = 0; row < of_row.size(); ++row)
-            of_row[row] = size_t(std::find_if(ranges.begin(), ranges.end(), [&](const MeasureRange& o) {
-                                     return o.low == garment.sizes[row].ranges[measure].low;
-                                 }) - ranges.begin());
+            of_row[row] = size_t(std::find_if(ranges.begin(), ranges.end(),
+                                              [&](const MeasureRange& o) {
+                                                  return o.low == garment.sizes[row].ranges[measure].low;
+                                              }) -
+                                 ranges.begin());
     }
     /// What the step answers for: its range, half of the gaps beside it, and all that lies beyond the chart.
-    double low(size_t i) const { return i == 0 ? -kInfinity : 0.5 * (double(ranges[i - 1].high) + double(ranges[i].low)); }
+    double low(size_t i) const {
+        return i == 0 ? -kInfinity : 0.5 * (double(ranges[i - 1].high) + double(ranges[i].low));
+    }
     double high(size_t i) const { return i + 1 == ranges.size() ? kInfinity : low(i + 1); }
     double width() const {
         double sum = 0.0;
@@ -102,7 +111,8 @@ std::vector<double> by_one(const GarmentSizes& garment, const Known& known) {
     const Steps steps(garment, known.measure);
     std::vector<double> score, rows(steps.ranges.size(), 0.0), out(garment.sizes.size());
     for (size_t i = 0; i < steps.ranges.size(); ++i)
-        score.push_back(log_between((steps.low(i) - known.value) / known.sigma, (steps.high(i) - known.value) / known.sigma));
+        score.push_back(log_between((steps.low(i) - known.value) / known.sigma,
+                                    (steps.high(i) - known.value) / known.sigma));
     const double best = *std::max_element(score.begin(), score.end());
     for (const size_t step : steps.of_row) rows[step] += 1.0;
     for (size_t row = 0; row < out.size(); ++row)
@@ -110,7 +120,8 @@ std::vector<double> by_one(const GarmentSizes& garment, const Known& known) {
     return out;
 }
 
-/// Several: bodies drawn from what is known of this one, each given its label. The draws are the same each time.
+/// Several: bodies drawn from what is known of this one, each given its label. The draws are the same each
+/// time.
 std::vector<double> by_several(const GarmentSizes& garment, const std::vector<Known>& known) {
     std::vector<Steps> steps;
     std::vector<double> scale;
@@ -156,7 +167,8 @@ std::vector<SizeProbability> recommend(const SizeChart& chart, const std::string
                                        const std::vector<Measurement>& measurements) {
     const GarmentSizes& garment = chart.garment(garment_kind);
     const std::vector<Known> known = known_of(chart, garment, measurements);
-    const std::vector<double> rows = known.size() == 1 ? by_one(garment, known[0]) : by_several(garment, known);
+    const std::vector<double> rows =
+        known.size() == 1 ? by_one(garment, known[0]) : by_several(garment, known);
     double sum = 0.0;
     for (const double r : rows) sum += r;
     std::vector<SizeProbability> sizes;
@@ -171,27 +183,28 @@ std::vector<SizeProbability> recommend(const SizeChart& chart, const std::string
     return sizes;
 }
 
-std::vector<SizeZone> size_zones(const SizeChart& chart, const std::string& garment_kind, const std::string& label,
-                                 const std::vector<Measurement>& measurements) {
+std::vector<SizeZone> size_zones(const SizeChart& chart, const std::string& garment_kind,
+                                 const std::string& label, const std::vector<Measurement>& measurements) {
     const GarmentSizes& garment = chart.garment(garment_kind);
     const SizeRow* chosen = nullptr;
     for (const SizeRow& row : garment.sizes) {
         if (row.label != label) continue;
         if (chosen)
-            fail(VFIT_ERROR_ARGUMENT, "size chart \"", chart.name(), "\": label ", label, " of ", garment_kind,
-                 " serves several ranges of a table: how it sits cannot be told by measure");
+            fail(VFIT_ERROR_ARGUMENT, "size chart \"", chart.name(), "\": label ", label, " of ",
+                 garment_kind, " serves several ranges of a table: how it sits cannot be told by measure");
         chosen = &row;
     }
     if (!chosen) {
         std::string has;
         for (const std::string& one : garment.labels) has += text(has.empty() ? "" : ", ", one);
-        fail(VFIT_ERROR_ARGUMENT, "size chart \"", chart.name(), "\": ", garment_kind, " has no label \"", label,
-             "\"; it has: ", has);
+        fail(VFIT_ERROR_ARGUMENT, "size chart \"", chart.name(), "\": ", garment_kind, " has no label \"",
+             label, "\"; it has: ", has);
     }
     std::vector<SizeZone> zones;
     for (const Known& k : known_of(chart, garment, measurements)) {
         const MeasureRange& range = chosen->ranges[k.measure];
-        const double low = (double(range.low) - k.value) / k.sigma, high = (double(range.high) - k.value) / k.sigma;
+        const double low = (double(range.low) - k.value) / k.sigma,
+                     high = (double(range.high) - k.value) / k.sigma;
         SizeZone zone;
         zone.key = k.key;
         zone.ease = float(0.5 * (double(range.low) + double(range.high)) - k.value);

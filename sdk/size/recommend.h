@@ -1,5 +1,5 @@
-// From measurements to labels: how probable each size of a chart is, given how uncertain each measure is, and how a
-// chosen size sits.
+// From measurements to labels: how probable each size of a chart is, given how uncertain each measure is, and
+// how a chosen size sits.
 #pragma once
 
 #include <string>
@@ -15,12 +15,12 @@ struct SizeProbability {
     float probability = 0.0f;
 };
 
-/// Every label of that garment, best first; the probabilities sum to 1. A measure's value is taken as normal with its
-/// sigma; errors of one person's measures go partly together. A body's label is the one whose ranges it misses least:
-/// the squares of the distances from them, in widths of a range, times the measure's weight, summed. So the first and
-/// the last label also serve what lies beyond them, and a gap between two is split in its middle. Measures that are not
-/// given are left out. None of the garment's measures given: VFIT_ERROR_DATA naming them. A garment that the chart
-/// lacks: VFIT_ERROR_ARGUMENT.
+/// Every label of that garment, best first; the probabilities sum to 1. A measure's value is taken as normal
+/// with its sigma; errors of one person's measures go partly together. A body's label is the one whose ranges
+/// it misses least: the squares of the distances from them, in widths of a range, times the measure's weight,
+/// summed. So the first and the last label also serve what lies beyond them, and a gap between two is split
+/// in its middle. Measures that are not given are left out. None of the garment's measures given:
+/// VFIT_ERROR_DATA naming them. A garment that the chart lacks: VFIT_ERROR_ARGUMENT.
 std::vector<SizeProbability> recommend(const SizeChart& chart, const std::string& garment_kind,
                                        const std::vector<Measurement>& measurements);
 
@@ -32,9 +32,9 @@ struct SizeZone {
     float tight = 0.0f, regular = 0.0f, loose = 0.0f;  // probabilities: above, within, below the range
 };
 
-/// One zone a measure of the garment that was given. Errors as above; a label that the garment lacks, or one of a table
-/// (which is no range of one measure): VFIT_ERROR_ARGUMENT.
-std::vector<SizeZone> size_zones(const SizeChart& chart, const std::string& garment_kind, const std::string& label,
-                                 const std::vector<Measurement>& measurements);
+/// One zone a measure of the garment that was given. Errors as above; a label that the garment lacks, or one
+/// of a table (which is no range of one measure): VFIT_ERROR_ARGUMENT.
+std::vector<SizeZone> size_zones(const SizeChart& chart, const std::string& garment_kind,
+                                 const std::string& label, const std::vector<Measurement>& measurements);
 
 }  // namespace vfit

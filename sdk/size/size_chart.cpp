@@ -12,8 +12,8 @@ namespace vfit {
 namespace {
 
 constexpr int kVersion = 1;
-constexpr size_t kLongestName = 31;   // vfit_size.label and vfit_size_row.garment_kind hold 32 bytes
-constexpr float kLongest_m = 10.0f;   // no body measure is longer: the unit is wrong
+constexpr size_t kLongestName = 31;  // vfit_size.label and vfit_size_row.garment_kind hold 32 bytes
+constexpr float kLongest_m = 10.0f;  // no body measure is longer: the unit is wrong
 constexpr float kHeaviest_kg = 700.0f;
 constexpr float kRounding = 1e-5f;  // 94 cm is not exact in binary
 constexpr size_t kMostRows = 4096;  // of a garment
@@ -73,19 +73,22 @@ std::vector<std::string> parse_measures(const Json& garment, const std::string& 
     return measures;
 }
 
-MeasureRange parse_bounds(const Json& pair, const std::string& key, const Units& units, const std::string& place) {
+MeasureRange parse_bounds(const Json& pair, const std::string& key, const Units& units,
+                          const std::string& place) {
     if (!pair.is_array() || pair.size() != 2 || !pair[0].is_number() || !pair[1].is_number())
         fail(VFIT_ERROR_DATA, "size chart: the range of ", place, " is not [low, high]");
     const double low = pair[0].get<double>() * units.of(key), high = pair[1].get<double>() * units.of(key);
     const float most = is_mass(key) ? kHeaviest_kg : kLongest_m;
     if (!std::isfinite(low) || !std::isfinite(high) || low < 0.0 || high > most)
-        fail(VFIT_ERROR_DATA, "size chart: the range of ", place, " is not within 0 and ", most, is_mass(key) ? " kg" : " m");
+        fail(VFIT_ERROR_DATA, "size chart: the range of ", place, " is not within 0 and ", most,
+             is_mass(key) ? " kg" : " m");
     if (low >= high)
         fail(VFIT_ERROR_DATA, "size chart: the range of ", place, " is empty: low is not below high");
     return {key, float(low), float(high)};
 }
 
-MeasureRange parse_range(const Json& ranges, const std::string& key, const Units& units, const std::string& where) {
+MeasureRange parse_range(const Json& ranges, const std::string& key, const Units& units,
+                         const std::string& where) {
     const std::string place = text(where, ", ", key);
     const auto it = ranges.find(key);
     if (it == ranges.end()) fail(VFIT_ERROR_DATA, "size chart: ", place, " has no range");
@@ -93,7 +96,8 @@ MeasureRange parse_range(const Json& ranges, const std::string& key, const Units
 }
 
 /// A range that follows another: above it, and apart from it.
-void check_order(const MeasureRange& before, const MeasureRange& after, const std::string& place, const std::string& label_before) {
+void check_order(const MeasureRange& before, const MeasureRange& after, const std::string& place,
+                 const std::string& label_before) {
     if (after.low < before.low + kRounding || after.high < before.high + kRounding)
         fail(VFIT_ERROR_DATA, "size chart: ", place, " is not above that of label ", label_before,
              ": sizes must stand in ascending order");
@@ -101,7 +105,8 @@ void check_order(const MeasureRange& before, const MeasureRange& after, const st
         fail(VFIT_ERROR_DATA, "size chart: ", place, " overlaps that of label ", label_before);
 }
 
-SizeRow parse_row(const Json& item, const GarmentSizes& garment, const Units& units, const std::string& where) {
+SizeRow parse_row(const Json& item, const GarmentSizes& garment, const Units& units,
+                  const std::string& where) {
     require_object(item, text("a size of ", where));
     SizeRow row;
     row.label = short_name(item, "label", text("a size of ", where));
@@ -135,7 +140,8 @@ void parse_axes(const Json& item, const Units& units, const std::string& where, 
         require_object(axis, text("an axis of ", where));
         const std::string& key = string_field(axis, "measure", text("an axis of ", where));
         const std::string place = text(where, ", axis ", key);
-        if (!is_measure(key)) fail(VFIT_ERROR_DATA, "size chart: ", where, " uses the unknown measure \"", key, "\"");
+        if (!is_measure(key))
+            fail(VFIT_ERROR_DATA, "size chart: ", where, " uses the unknown measure \"", key, "\"");
         if (std::find(garment.measures.begin(), garment.measures.end(), key) != garment.measures.end())
             fail(VFIT_ERROR_DATA, "size chart: ", where, " names the measure \"", key, "\" twice");
         std::vector<SizeRow> steps;
@@ -145,7 +151,8 @@ void parse_axes(const Json& item, const Units& units, const std::string& where, 
             const std::string at = text(place, ", label ", one.label);
             for (const SizeRow& other : steps)
                 if (other.label == one.label) fail(VFIT_ERROR_DATA, "size chart: ", at, " stands twice");
-            one.ranges = {parse_bounds(field(step, "range", Json::value_t::array, "[low, high]", at), key, units, at)};
+            one.ranges = {
+                parse_bounds(field(step, "range", Json::value_t::array, "[low, high]", at), key, units, at)};
             if (!steps.empty()) check_order(steps.back().ranges[0], one.ranges[0], at, steps.back().label);
             steps.push_back(std::move(one));
         }
@@ -158,8 +165,8 @@ void parse_axes(const Json& item, const Units& units, const std::string& where, 
                 longer.back().label += (row.ranges.empty() ? "" : between) + step.label;
                 longer.back().ranges.push_back(step.ranges[0]);
                 if (longer.back().label.size() > kLongestName)
-                    fail(VFIT_ERROR_DATA, "size chart: label ", longer.back().label, " of ", where, " is longer than ",
-                         kLongestName, " bytes");
+                    fail(VFIT_ERROR_DATA, "size chart: label ", longer.back().label, " of ", where,
+                         " is longer than ", kLongestName, " bytes");
             }
         rows = std::move(longer);
         garment.measures.push_back(key);
@@ -167,18 +174,21 @@ void parse_axes(const Json& item, const Units& units, const std::string& where, 
     garment.sizes = std::move(rows);
 }
 
-/// The steps of a table's side, from the values in the middle of its rows or columns: each reaches halfway to the next.
-std::vector<MeasureRange> parse_side(const Json& table, const char* name, const Units& units, const std::string& where,
-                                     GarmentSizes& garment) {
+/// The steps of a table's side, from the values in the middle of its rows or columns: each reaches halfway to
+/// the next.
+std::vector<MeasureRange> parse_side(const Json& table, const char* name, const Units& units,
+                                     const std::string& where, GarmentSizes& garment) {
     const Json& side = field(table, name, Json::value_t::object, "an object", where);
     const std::string place = text(where, ", ", name);
     const std::string& key = string_field(side, "measure", place);
-    if (!is_measure(key)) fail(VFIT_ERROR_DATA, "size chart: ", where, " uses the unknown measure \"", key, "\"");
+    if (!is_measure(key))
+        fail(VFIT_ERROR_DATA, "size chart: ", where, " uses the unknown measure \"", key, "\"");
     if (std::find(garment.measures.begin(), garment.measures.end(), key) != garment.measures.end())
         fail(VFIT_ERROR_DATA, "size chart: ", where, " names the measure \"", key, "\" twice");
     garment.measures.push_back(key);
     const Json& values = array_field(side, "values", place);
-    if (values.size() < 2) fail(VFIT_ERROR_DATA, "size chart: \"values\" of ", place, " holds fewer than two");
+    if (values.size() < 2)
+        fail(VFIT_ERROR_DATA, "size chart: \"values\" of ", place, " holds fewer than two");
     std::vector<double> middle;
     for (const Json& v : values) {
         if (!v.is_number()) fail(VFIT_ERROR_DATA, "size chart: a value of ", place, " is not a number");
@@ -189,44 +199,53 @@ std::vector<MeasureRange> parse_side(const Json& table, const char* name, const 
     std::vector<MeasureRange> steps;
     for (size_t i = 0; i < middle.size(); ++i) {
         const double half_below = 0.5 * (i ? middle[i] - middle[i - 1] : middle[1] - middle[0]);
-        const double half_above = 0.5 * (i + 1 < middle.size() ? middle[i + 1] - middle[i] : middle[i] - middle[i - 1]);
-        steps.push_back(
-            parse_bounds(Json::array({middle[i] - half_below, middle[i] + half_above}), key, units, text(place, ", ", key)));
+        const double half_above =
+            0.5 * (i + 1 < middle.size() ? middle[i + 1] - middle[i] : middle[i] - middle[i - 1]);
+        steps.push_back(parse_bounds(Json::array({middle[i] - half_below, middle[i] + half_above}), key,
+                                     units, text(place, ", ", key)));
     }
     return steps;
 }
 
-/// Labels by two measures, as on the back of a packet: one row a step of the first, one label a step of the second.
+/// Labels by two measures, as on the back of a packet: one row a step of the first, one label a step of the
+/// second.
 void parse_table(const Json& item, const Units& units, const std::string& where, GarmentSizes& garment) {
     const Json& table = field(item, "table", Json::value_t::object, "an object", where);
     const auto rows = parse_side(table, "rows", units, where, garment);
     const auto columns = parse_side(table, "columns", units, where, garment);
     const Json& labels = array_field(table, "labels", where);
     if (labels.size() != rows.size())
-        fail(VFIT_ERROR_DATA, "size chart: \"labels\" of ", where, " has ", labels.size(), " rows, not ", rows.size());
+        fail(VFIT_ERROR_DATA, "size chart: \"labels\" of ", where, " has ", labels.size(), " rows, not ",
+             rows.size());
     if (rows.size() * columns.size() > kMostRows)
         fail(VFIT_ERROR_DATA, "size chart: ", where, " has more than ", kMostRows, " sizes");
     for (size_t r = 0; r < rows.size(); ++r) {
         if (!labels[r].is_array() || labels[r].size() != columns.size())
-            fail(VFIT_ERROR_DATA, "size chart: row ", r + 1, " of \"labels\" of ", where, " is not a list of ", columns.size());
+            fail(VFIT_ERROR_DATA, "size chart: row ", r + 1, " of \"labels\" of ", where,
+                 " is not a list of ", columns.size());
         for (size_t c = 0; c < columns.size(); ++c) {
             const std::string place = text(where, ", row ", r + 1);
-            garment.sizes.push_back({short_name(Json{{"label", labels[r][c]}}, "label", place), {rows[r], columns[c]}});
+            garment.sizes.push_back(
+                {short_name(Json{{"label", labels[r][c]}}, "label", place), {rows[r], columns[c]}});
         }
     }
 }
 
 /// How much each measure counts where they disagree: 1, or as "weights" says.
-std::vector<float> parse_weights(const Json& garment, const std::vector<std::string>& measures, const std::string& where) {
+std::vector<float> parse_weights(const Json& garment, const std::vector<std::string>& measures,
+                                 const std::string& where) {
     std::vector<float> out(measures.size(), 1.0f);
     if (!garment.contains("weights")) return out;
-    for (const auto& [key, value] : field(garment, "weights", Json::value_t::object, "an object", where).items()) {
+    for (const auto& [key, value] :
+         field(garment, "weights", Json::value_t::object, "an object", where).items()) {
         const auto at = std::find(measures.begin(), measures.end(), key);
         if (at == measures.end())
-            fail(VFIT_ERROR_DATA, "size chart: \"weights\" of ", where, " names \"", key, "\", which its measures do not");
+            fail(VFIT_ERROR_DATA, "size chart: \"weights\" of ", where, " names \"", key,
+                 "\", which its measures do not");
         const float weight = value.is_number() ? value.get<float>() : 0.0f;
         if (!(weight > 0.0f && weight <= 100.0f))
-            fail(VFIT_ERROR_DATA, "size chart: the weight of ", key, " of ", where, " is not above 0 and at most 100");
+            fail(VFIT_ERROR_DATA, "size chart: the weight of ", key, " of ", where,
+                 " is not above 0 and at most 100");
         out[size_t(at - measures.begin())] = weight;
     }
     return out;
@@ -240,7 +259,8 @@ GarmentSizes parse_garment(const Json& item, const std::vector<GarmentSizes>& be
     for (const GarmentSizes& other : before)
         if (other.kind == garment.kind) fail(VFIT_ERROR_DATA, "size chart: ", where, " stands twice");
     if (int(item.contains("sizes")) + int(item.contains("axes")) + int(item.contains("table")) > 1)
-        fail(VFIT_ERROR_DATA, "size chart: ", where, " has more than one of \"sizes\", \"axes\" and \"table\"");
+        fail(VFIT_ERROR_DATA, "size chart: ", where,
+             " has more than one of \"sizes\", \"axes\" and \"table\"");
     if (item.contains("axes")) {
         parse_axes(item, units, where, garment);
     } else if (item.contains("table")) {
@@ -285,8 +305,8 @@ SizeChart SizeChart::parse(std::string_view json) {
     if (version == chart.end() || !version->is_number_integer())
         fail(VFIT_ERROR_DATA, "size chart: the chart has no whole number \"version\"");
     if (*version != kVersion)
-        fail(VFIT_ERROR_VERSION, "size chart: version ", version->get<int64_t>(), " is unknown; this library reads ",
-             kVersion);
+        fail(VFIT_ERROR_VERSION, "size chart: version ", version->get<int64_t>(),
+             " is unknown; this library reads ", kVersion);
 
     SizeChart result;
     result.name_ = string_field(chart, "name", "the chart");

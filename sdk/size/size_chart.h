@@ -1,4 +1,5 @@
-// Size charts as data: which label of which garment serves which ranges of which measures (docs/size-charts.md).
+// Size charts as data: which label of which garment serves which ranges of which measures
+// (docs/size-charts.md).
 #pragma once
 
 #include <string>
@@ -22,9 +23,9 @@ struct SizeRow {
 struct GarmentSizes {
     std::string kind;  // "short_sleeves"
     std::vector<std::string> measures;
-    std::vector<float> weights;      // one a measure: how much it counts against the others
-    std::vector<SizeRow> sizes;      // of a list: smallest first
-    std::vector<std::string> labels; // each once, in the chart's order
+    std::vector<float> weights;       // one a measure: how much it counts against the others
+    std::vector<SizeRow> sizes;       // of a list: smallest first
+    std::vector<std::string> labels;  // each once, in the chart's order
 };
 
 class SizeChart {

@@ -69,11 +69,13 @@ void BackgroundModel::learn(const DepthGrid& grid, const uint8_t* people, float 
             candidate_[i] += kAverage * (z - candidate_[i]);
             steady_s_[i] += dt_s;
             // The first thing ever seen there need not wait: nobody has been known to stand before it.
-            if (steady_s_[i] > (settled_s_[i] > 0.0f ? kReplaced_s : kSettled_s)) set(i, candidate_[i], kSettled_s);
+            if (steady_s_[i] > (settled_s_[i] > 0.0f ? kReplaced_s : kSettled_s))
+                set(i, candidate_[i], kSettled_s);
         } else {
-            // What comes out from behind something nearer may be a person who was hidden by it: it waits as long as
-            // what takes a known background's place.
-            const bool revealed = settled_s_[i] == 0.0f && candidate_[i] > 0.0f && z > candidate_[i] + kGone_m;
+            // What comes out from behind something nearer may be a person who was hidden by it: it waits as
+            // long as what takes a known background's place.
+            const bool revealed =
+                settled_s_[i] == 0.0f && candidate_[i] > 0.0f && z > candidate_[i] + kGone_m;
             steady_s_[i] = revealed ? kSettled_s - kReplaced_s : 0.0f;
             candidate_[i] = z;
         }

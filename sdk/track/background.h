@@ -22,9 +22,9 @@ public:
     /// Cells of something that stands there and is no person.
     void add(const DepthGrid& grid, size_t cell);
 
-    /// Depth of each cell's background; kNothing where none is known yet. A reading there, or a little beyond, is no
-    /// news. Nobody sees through a thing: what is seen kGone_m behind was hidden by something that has gone, and may be
-    /// a person.
+    /// Depth of each cell's background; kNothing where none is known yet. A reading there, or a little
+    /// beyond, is no news. Nobody sees through a thing: what is seen kGone_m behind was hidden by something
+    /// that has gone, and may be a person.
     const std::vector<float>& known() const { return known_; }
     static constexpr float kNothing = 1e9f;
     static constexpr float kGone_m = 0.3f;  // deeper than what edges and slants jitter by

@@ -17,8 +17,8 @@ uint32_t Components::root(uint32_t i) {
 
 void Components::join(uint32_t a, uint32_t b) {
     const uint32_t ra = root(a), rb = root(b);
-    // The earlier cell becomes the root: components come out in the order of their first cells. Both point to it now,
-    // so that their neighbours find it at once.
+    // The earlier cell becomes the root: components come out in the order of their first cells. Both point to
+    // it now, so that their neighbours find it at once.
     parent_[a] = parent_[b] = parent_[ra] = parent_[rb] = std::min(ra, rb);
 }
 

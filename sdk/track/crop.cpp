@@ -24,7 +24,8 @@ std::pair<size_t, size_t> extent(const std::vector<uint32_t>& bins, size_t count
     return {first, last};
 }
 
-/// Columns of a crop row through `at` (its middle) that come within `margin` pixels of the box; others see nothing.
+/// Columns of a crop row through `at` (its middle) that come within `margin` pixels of the box; others see
+/// nothing.
 std::pair<int, int> columns_in(const PixelBox& box, const Vec2& at, const Vec2& right, float margin) {
     constexpr float n = CropView::kPixels;
     float first = 0.0f, last = n;
@@ -42,11 +43,12 @@ std::pair<int, int> columns_in(const PixelBox& box, const Vec2& at, const Vec2& 
     return first < last ? std::pair(int(first), int(last)) : std::pair(0, 0);
 }
 
-/// One row of the crop, from `first` to before `last`: the mean of the nearest surface that `grid` x `grid` points
-/// of each pixel see of the person; 1: nothing. All points are read alike, without branches, as most lie on the person.
+/// One row of the crop, from `first` to before `last`: the mean of the nearest surface that `grid` x `grid`
+/// points of each pixel see of the person; 1: nothing. All points are read alike, without branches, as most
+/// lie on the person.
 template <int grid>
-void read_row(const DepthImage& image, uint8_t user, const PixelBox& box, const CropView& view, int j, int first, int last,
-              float* out) {
+void read_row(const DepthImage& image, uint8_t user, const PixelBox& box, const CropView& view, int j,
+              int first, int last, float* out) {
     constexpr int n = CropView::kPixels;
     constexpr uint32_t nothing = ~0u;
     constexpr float apart = 1.0f / float(grid), first_at = 0.5f * apart - 0.5f * n;
@@ -73,7 +75,8 @@ void read_row(const DepthImage& image, uint8_t user, const PixelBox& box, const 
     for (int i = first; i < last; ++i) {
         uint32_t nearest = nothing;
         for (int b = 0; b < grid; ++b)
-            for (int a = 0; a < grid; ++a) nearest = std::min(nearest, depths[size_t((b * n + i) * grid + a)]);
+            for (int a = 0; a < grid; ++a)
+                nearest = std::min(nearest, depths[size_t((b * n + i) * grid + a)]);
         if (nearest == nothing) {
             out[i] = 1.0f;
             continue;
@@ -95,8 +98,8 @@ void read_row(const DepthImage& image, uint8_t user, const PixelBox& box, const 
 Vec3 CropView::from_camera(const Camera& camera, const Vec3& p) const {
     const Vec2 d = camera.project(p) - centre;
     const float half = 0.5f * kPixels;
-    return {glm::dot(d, right) / glm::dot(right, right) / half, glm::dot(d, down) / glm::dot(down, down) / half,
-            (p.z - depth_m) / (0.5f * kSide_m)};
+    return {glm::dot(d, right) / glm::dot(right, right) / half,
+            glm::dot(d, down) / glm::dot(down, down) / half, (p.z - depth_m) / (0.5f * kSide_m)};
 }
 
 Vec3 CropView::to_camera(const Camera& camera, const Vec3& crop) const {
@@ -105,7 +108,8 @@ Vec3 CropView::to_camera(const Camera& camera, const Vec3& crop) const {
     return camera.unproject(q.x, q.y, std::max(0.1f, depth_m + crop.z * 0.5f * kSide_m));
 }
 
-bool Cropper::look(const DepthImage& image, uint8_t user, const PixelBox& box, const Vec2& up, CropView& view) {
+bool Cropper::look(const DepthImage& image, uint8_t user, const PixelBox& box, const Vec2& up,
+                   CropView& view) {
     // Axes of the crop in the image; along them the extent is searched.
     const Vec2 down = -up, right(down.y, -down.x);
     const size_t reach = image.width() + image.height();  // more than the image's diagonal
@@ -144,8 +148,8 @@ bool Cropper::look(const DepthImage& image, uint8_t user, const PixelBox& box, c
     return true;
 }
 
-bool Cropper::run(const DepthImage& image, uint8_t user, const PixelBox& within, const Vec2& up, CropView& view,
-                  float* values) {
+bool Cropper::run(const DepthImage& image, uint8_t user, const PixelBox& within, const Vec2& up,
+                  CropView& view, float* values) {
     const int width = int(image.width()), height = int(image.height());
     const PixelBox box = within.empty() ? PixelBox{0, 0, width, height}
                                         : PixelBox{std::max(within.x0, 0), std::max(within.y0, 0),

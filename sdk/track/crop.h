@@ -16,12 +16,13 @@ struct CropView {
     static constexpr int kPixels = 128;
     static constexpr float kSide_m = 2.3f;
 
-    Vec2 centre{0.0f};          // image pixels
-    Vec2 right{1.0f, 0.0f};     // one crop pixel to the right, in image pixels
+    Vec2 centre{0.0f};       // image pixels
+    Vec2 right{1.0f, 0.0f};  // one crop pixel to the right, in image pixels
     Vec2 down{0.0f, 1.0f};
-    float depth_m = 0.0f;       // of the person: the median of the pixels
+    float depth_m = 0.0f;  // of the person: the median of the pixels
 
-    /// Crop coordinates: x and y from -1 (left, top) to 1, z of +-1 at kSide_m / 2 behind and before the person.
+    /// Crop coordinates: x and y from -1 (left, top) to 1, z of +-1 at kSide_m / 2 behind and before the
+    /// person.
     Vec3 from_camera(const Camera& camera, const Vec3& p) const;
     Vec3 to_camera(const Camera& camera, const Vec3& crop) const;
 };

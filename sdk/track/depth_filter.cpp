@@ -54,8 +54,9 @@ int gap_height(const DepthImage& image, size_t pixel, uint32_t user_id, int most
     return i + width >= count ? most + 1 : rows;
 }
 
-/// Half of a Gaussian kernel, its centre first: binomial up to 5 pixels, beyond by OpenCV's rule for the deviation that
-/// goes with a size. Written out, for it would be all that the library needs OpenCV for (20 MB with what that needs).
+/// Half of a Gaussian kernel, its centre first: binomial up to 5 pixels, beyond by OpenCV's rule for the
+/// deviation that goes with a size. Written out, for it would be all that the library needs OpenCV for (20 MB
+/// with what that needs).
 std::vector<float> gaussian_weights(int kernel_px) {
     if (kernel_px == 1) return {1.0f};
     if (kernel_px == 3) return {2.0f / 4, 1.0f / 4};

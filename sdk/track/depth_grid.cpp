@@ -41,8 +41,8 @@ void reduce_row(const uint16_t* const* rows, uint32_t width, uint16_t* nearest, 
     }
 }
 
-/// The same for 2 x 2 pixels, the common case, two pixels to a 32-bit word. Without comparisons and with an index
-/// that cannot wrap, so that compilers use vectors.
+/// The same for 2 x 2 pixels, the common case, two pixels to a 32-bit word. Without comparisons and with an
+/// index that cannot wrap, so that compilers use vectors.
 void reduce_pairs(const uint16_t* above, const uint16_t* below, uint32_t width, float unit, float* out) {
     const auto less = [](int32_t a, int32_t b) { return a < b ? a : b; };
     for (size_t x = 0; x < width; ++x) {

@@ -7,13 +7,13 @@ namespace vfit {
 
 namespace {
 
-constexpr uint32_t kSampleStep = 4;     // cells between samples: 80 x 60 of them for a 640 x 480 image
-constexpr float kFarthest_m = 6.0f;     // beyond, a reading of a structured-light camera says nothing
-constexpr float kSigmas = 2.5f;         // taken for the floor: 99 % of its readings
-constexpr float kUneven_m = 0.012f;     // carpets, tiles and the bow of a real floor
-constexpr float kThings = 0.3f;          // of that band: above, feet and cables begin
+constexpr uint32_t kSampleStep = 4;  // cells between samples: 80 x 60 of them for a 640 x 480 image
+constexpr float kFarthest_m = 6.0f;  // beyond, a reading of a structured-light camera says nothing
+constexpr float kSigmas = 2.5f;      // taken for the floor: 99 % of its readings
+constexpr float kUneven_m = 0.012f;  // carpets, tiles and the bow of a real floor
+constexpr float kThings = 0.3f;      // of that band: above, feet and cables begin
 constexpr double kThingsWeight = 0.3;
-constexpr float kBelow_m = 0.10f;       // a table has readings below it, a floor has none
+constexpr float kBelow_m = 0.10f;  // a table has readings below it, a floor has none
 
 // Where a camera for people can stand and look.
 constexpr float kLowest_m = 0.1f, kHighest_m = 4.0f;
@@ -25,17 +25,18 @@ constexpr float kFewestShare = 0.012f;  // of the image: a strip below the feet
 constexpr uint32_t kFewest = 40;        // samples
 constexpr float kMostBelow = 0.3f;      // readings below the plane per reading on it
 constexpr double kMemory = 0.9;         // of the last frame's sums: a third of a second at 30 Hz
-// After the first frame: this many tries now and then, so that no frame takes longer than others, until they show that
-// a whole search is worth it. While a floor is seen, a better one may come into view.
+// After the first frame: this many tries now and then, so that no frame takes longer than others, until they
+// show that a whole search is worth it. While a floor is seen, a better one may come into view.
 constexpr uint32_t kFewTries = 24;
-constexpr uint32_t kLeastRest = 4, kMostRest = 64;  // frames after a whole search, longer each time it was in vain
-constexpr uint32_t kLookAgain = 4;      // frames, while a floor is seen
+constexpr uint32_t kLeastRest = 4,
+                   kMostRest = 64;  // frames after a whole search, longer each time it was in vain
+constexpr uint32_t kLookAgain = 4;  // frames, while a floor is seen
 constexpr float kBetter = 1.5f;
 
 // What stands on a floor: a person, from a child to a tall man with the arms up (ANSUR II: stature to 2.0 m).
 constexpr float kStandsBelow_m = 0.2f, kShortest_m = 0.9f, kTallest_m = 2.4f, kWidest_m = 1.2f;
-constexpr float kSameThing_m = 0.25f;   // between neighbouring samples, 4 cells apart
-constexpr uint32_t kThing = 20;         // samples
+constexpr float kSameThing_m = 0.25f;  // between neighbouring samples, 4 cells apart
+constexpr uint32_t kThing = 20;        // samples
 
 const Vec3 kUps[] = {{0, -1, 0}, {1, 0, 0}, {-1, 0, 0}};  // landscape, portrait both ways
 
@@ -49,7 +50,8 @@ bool plausible(const Vec3& plane, const Vec3& up) {
 }
 
 bool plausible(const Vec3& plane) {
-    return std::any_of(std::begin(kUps), std::end(kUps), [&](const Vec3& up) { return plausible(plane, up); });
+    return std::any_of(std::begin(kUps), std::end(kUps),
+                       [&](const Vec3& up) { return plausible(plane, up); });
 }
 
 }  // namespace
@@ -103,7 +105,8 @@ void FloorFinder::take_samples(const DepthGrid& grid, uint32_t turn) {
         const uint32_t cy = std::min(y * kSampleStep + turn % kSampleStep, grid.height() - 1);
         const float* const depth = grid.depth().data() + size_t(cy) * grid.width();
         for (uint32_t x = 0; x < columns_; ++x) {
-            const uint32_t cx = std::min(x * kSampleStep + turn / kSampleStep % kSampleStep, grid.width() - 1);
+            const uint32_t cx =
+                std::min(x * kSampleStep + turn / kSampleStep % kSampleStep, grid.width() - 1);
             const float z = depth[cx];
             const size_t i = size_t(y) * columns_ + x;
             x_[i] = grid.ray_x()[cx];
@@ -154,7 +157,8 @@ FloorFinder::Fit FloorFinder::search(const Vec3& up, uint32_t tries) {
         for (int k = 0; k < 3 && whole; ++k) {
             const int dx = k == 0 ? 0 : int(random(2 * kWindow + 1)) - kWindow;
             const int dy = k == 0 ? 0 : int(random(2 * kWindow + 1)) - kWindow;
-            const int sx = std::clamp(x + dx, 0, int(columns_) - 1), sy = std::clamp(y + dy, 0, int(rows_) - 1);
+            const int sx = std::clamp(x + dx, 0, int(columns_) - 1),
+                      sy = std::clamp(y + dy, 0, int(rows_) - 1);
             const Sample s = sample(size_t(sy) * columns_ + size_t(sx));
             whole = s.inverse > 0.0f;
             sums.add(s);

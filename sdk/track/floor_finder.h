@@ -45,7 +45,7 @@ private:
         float score = 0.0f;
         bool valid() const { return score > 0.0f; }
     };
-    struct Sums {  // normal equations of the fit in a
+    struct Sums {                         // normal equations of the fit in a
         std::array<double, 6> product{};  // xx xy x yy y 1
         std::array<double, 3> side{};     // x/z y/z 1/z
         void add(const Sample& s, double weight = 1.0);
@@ -65,7 +65,7 @@ private:
     uint32_t random(uint32_t below);
 
     std::vector<float> x_, y_, inverse_;  // of the samples
-    std::vector<float> height_;        // of a coarse picture of the scene above a plane
+    std::vector<float> height_;           // of a coarse picture of the scene above a plane
     std::vector<uint32_t> pending_;
     Sums sums_;
     Plane plane_{0.0f};

@@ -9,25 +9,26 @@ namespace {
 
 // Heads are looked for in the outline's upper edge, from a column of 4 cm to the next, over 5 m.
 constexpr float kColumn_m = 0.04f;
-constexpr float kNothing_m = -1e9f;       // top of an empty column
+constexpr float kNothing_m = -1e9f;  // top of an empty column
 // On the floor: two people shoulder to shoulder, the one half behind the other.
 constexpr float kHeadsApart_m = 0.28f;
-constexpr int kLeastApart = 4;            // columns between them in the view
-constexpr float kSameTop_m = 0.05f;       // below the peak: the crown, whose middle is the axis
-constexpr int kCrownHalf = 3;             // columns
-constexpr float kNeck_m = 0.10f;          // that the outline falls between two heads
+constexpr int kLeastApart = 4;       // columns between them in the view
+constexpr float kSameTop_m = 0.05f;  // below the peak: the crown, whose middle is the axis
+constexpr int kCrownHalf = 3;        // columns
+constexpr float kNeck_m = 0.10f;     // that the outline falls between two heads
 constexpr float kLowestHead_m = 0.9f;
-// The head itself: from below the crown to the chin, to both sides of the axis. A forearm held up is half as broad.
+// The head itself: from below the crown to the chin, to both sides of the axis. A forearm held up is half as
+// broad.
 constexpr float kFaceFrom_m = 0.05f, kFaceTo_m = 0.20f, kLeastFace_m = 0.12f;
-constexpr int kFaceHalf = 2;              // columns
-constexpr float kHeadDeep_m = 0.17f;      // from the crown to the face, and less than between two heads
-// Shoulders and elbows below the top, and the breadth there to either side of the axis, as shares of the height (ANSUR
-// II, with a margin): a raised arm has none outside.
+constexpr int kFaceHalf = 2;          // columns
+constexpr float kHeadDeep_m = 0.17f;  // from the crown to the face, and less than between two heads
+// Shoulders and elbows below the top, and the breadth there to either side of the axis, as shares of the
+// height (ANSUR II, with a margin): a raised arm has none outside.
 constexpr float kShoulderFrom = 0.18f, kShoulderTo = 0.41f, kShoulder = 0.052f;
-constexpr int kBodyHalf = 5;              // columns: 0.2 m to both sides of the axis
-constexpr float kSlice_m = 0.10f;         // a body is looked for below the head slice by slice
-constexpr float kLeastSlice_m = 0.07f;    // breadth: a shin
-constexpr float kLeastTrunk_m = 0.55f;    // of slices in a row below the head
+constexpr int kBodyHalf = 5;            // columns: 0.2 m to both sides of the axis
+constexpr float kSlice_m = 0.10f;       // a body is looked for below the head slice by slice
+constexpr float kLeastSlice_m = 0.07f;  // breadth: a shin
+constexpr float kLeastTrunk_m = 0.55f;  // of slices in a row below the head
 
 }  // namespace
 
@@ -74,7 +75,8 @@ float HeadFinder::look(std::span<const Vec4> points, int axis, Head& head) const
     head.x_m = left_m_ + (float(axis) + 0.5f) * kColumn_m;
     float sum = 0.0f, area = 0.0f;
     for (const Vec4& p : points) {
-        if (p.y < head.top_m - kFaceFrom_m || p.y > head.top_m || std::abs(column(p.x) - axis) > kFaceHalf) continue;
+        if (p.y < head.top_m - kFaceFrom_m || p.y > head.top_m || std::abs(column(p.x) - axis) > kFaceHalf)
+            continue;
         sum += p.w * p.z;
         area += p.w;
     }
@@ -82,7 +84,8 @@ float HeadFinder::look(std::span<const Vec4> points, int axis, Head& head) const
     float face = 0.0f;
     for (const Vec4& p : points) {
         const bool high = p.y > head.top_m - kFaceTo_m && p.y < head.top_m - kFaceFrom_m;
-        if (high && std::abs(column(p.x) - axis) <= kFaceHalf && std::abs(p.z - head.z_m) < kHeadDeep_m) face += p.w;
+        if (high && std::abs(column(p.x) - axis) <= kFaceHalf && std::abs(p.z - head.z_m) < kHeadDeep_m)
+            face += p.w;
     }
     return face;
 }
@@ -106,7 +109,8 @@ bool HeadFinder::separate(int axis, const Head& head, float face_m2) const {
     for (size_t k = 0; k < count_; ++k) {
         const int a = std::min(axis, axes_[k]), b = std::max(axis, axes_[k]);
         if (b - a < kLeastApart) return false;
-        const bool neck = valley(a, b) < head.top_m - kNeck_m, step = std::abs(head.z_m - heads_[k].z_m) > kHeadDeep_m;
+        const bool neck =
+            valley(a, b)<head.top_m - kNeck_m, step = std::abs(head.z_m - heads_[k].z_m)> kHeadDeep_m;
         if (!neck && !step) return false;
         if (neck && float(b - a) * kColumn_m >= kHeadsApart_m) continue;
         // Close in the view, the one behind the other: there an arm held up is no head.
@@ -154,7 +158,8 @@ std::span<const Head> HeadFinder::run(std::span<const Vec4> points) {
         if (peak < 0) break;
         // What belongs to this peak is not tried again.
         const int near = int(kHeadsApart_m / kColumn_m) / 2;
-        for (int c = std::max(0, peak - near); c <= std::min(kColumns - 1, peak + near); ++c) tried_[size_t(c)] = true;
+        for (int c = std::max(0, peak - near); c <= std::min(kColumns - 1, peak + near); ++c)
+            tried_[size_t(c)] = true;
         Head head;
         head.top_m = top_[size_t(peak)];
         const int axis = middle_of_crown(peak);

@@ -1,4 +1,5 @@
-// Heads among the points of one component: peaks of its upper edge, with shoulders beside and a body below them.
+// Heads among the points of one component: peaks of its upper edge, with shoulders beside and a body below
+// them.
 #pragma once
 
 #include <array>
@@ -19,8 +20,8 @@ class HeadFinder {
 public:
     static constexpr size_t kMost = 8;
 
-    /// Each point carries the square metres that it stands for in w. Highest heads come first; valid until the next
-    /// run.
+    /// Each point carries the square metres that it stands for in w. Highest heads come first; valid until
+    /// the next run.
     std::span<const Head> run(std::span<const Vec4> points);
 
 private:
@@ -38,7 +39,7 @@ private:
     bool has_body(int axis, float top) const;
     float filled(int column, int slice) const { return filled_[size_t(column * kSlices + slice)]; }
 
-    std::array<float, kColumns> top_{}, top_z_{};  // highest point
+    std::array<float, kColumns> top_{}, top_z_{};     // highest point
     std::array<float, kColumns * kSlices> filled_{};  // m2
     std::array<bool, kColumns> tried_{};
     std::array<Head, kMost> heads_{};

@@ -15,11 +15,11 @@ constexpr float kReach_m = 1.2f;       // from the trunk to the fingertips, and 
 constexpr float kWalk_mps = 1.2f;      // while away: comfortable walking speed is 1.2 to 1.4 m/s
 constexpr float kGrown_m = 0.3f;       // arms up excepted: a head's height and more
 constexpr float kMoment_s = 1.0f;      // behind somebody who passes
-constexpr float kHidden = 0.3f;        // of the usual area is seen, at most: another part may come out elsewhere
-constexpr float kUsualShare = 0.1f;    // of the newest height and area in the usual ones
-constexpr float kSpeedShare = 0.3f;    // of the newest velocity in the kept one
+constexpr float kHidden = 0.3f;  // of the usual area is seen, at most: another part may come out elsewhere
+constexpr float kUsualShare = 0.1f;  // of the newest height and area in the usual ones
+constexpr float kSpeedShare = 0.3f;  // of the newest velocity in the kept one
 constexpr float kFastest_mps = 4.0f;
-constexpr float kForesight_s = 0.3f;   // beyond, people turn
+constexpr float kForesight_s = 0.3f;  // beyond, people turn
 constexpr uint32_t kIds = 254;
 
 }  // namespace
@@ -86,7 +86,8 @@ uint32_t Identity::adopt(const Shape& shape, int64_t time_ns) {
         bool used = true;
         while (used) {
             last_id_ = last_id_ % kIds + 1;
-            used = std::any_of(tracks_.begin(), tracks_.end(), [&](const auto& t) { return t.id == last_id_; });
+            used =
+                std::any_of(tracks_.begin(), tracks_.end(), [&](const auto& t) { return t.id == last_id_; });
         }
         best = free;
         tracks_[best] = {};

@@ -12,13 +12,13 @@
 namespace vfit {
 
 struct PersonTrack {
-    uint32_t id = 0;               // 1..254; 0: the slot is free
+    uint32_t id = 0;                    // 1..254; 0: the slot is free
     Vec3 centre{0.0f}, velocity{0.0f};  // world, m and m/s
     float height_m = 0.0f, area_m2 = 0.0f;
-    float usual_area_m2 = 0.0f;    // of what is seen of them where nothing hides them
-    uint32_t cells = 0;            // when last seen
+    float usual_area_m2 = 0.0f;  // of what is seen of them where nothing hides them
+    uint32_t cells = 0;          // when last seen
     int64_t first_ns = 0, seen_ns = 0;
-    bool seen = false;             // in the last frame
+    bool seen = false;  // in the last frame
 };
 
 /// Between two points of the world, on the floor.
@@ -38,8 +38,8 @@ public:
 
     /// Frees the slots of people who have been away for too long, and marks all as not seen.
     void begin(int64_t time_ns);
-    /// The slot of somebody who is away, or hidden but for a little, and may have come back as this shape; else a new
-    /// one. kMost: no slot is free.
+    /// The slot of somebody who is away, or hidden but for a little, and may have come back as this shape;
+    /// else a new one. kMost: no slot is free.
     uint32_t adopt(const Shape& shape, int64_t time_ns);
     /// The slot of somebody who was hidden a moment ago nearer to that shape than so far; kMost: nobody was.
     uint32_t hidden_near(const Shape& shape, float nearer_than_m, int64_t time_ns) const;

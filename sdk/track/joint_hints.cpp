@@ -7,8 +7,8 @@ namespace vfit {
 
 namespace {
 
-// How far a right hint lies from the joint as this network defines it; chosen, as are the shares below, so that
-// right hints help and wrong ones do little (tests/contract/hints_test.cpp).
+// How far a right hint lies from the joint as this network defines it; chosen, as are the shares below, so
+// that right hints help and wrong ones do little (tests/contract/hints_test.cpp).
 constexpr float kSigma_m = 0.05f;
 constexpr float kSigma = kSigma_m / (0.5f * CropView::kSide_m);  // in crop coordinates, from -1 to 1
 constexpr float kWrongHeat = 0.02f;  // share of cases in which the joint is not where the network's heat is
@@ -23,10 +23,13 @@ struct Evidence {
         place = {glm::dot(from_centre, view.right) / glm::dot(view.right, view.right) / half,
                  glm::dot(from_centre, view.down) / glm::dot(view.down, view.down) / half};
     }
-    bool counts() const { return confidence > 0.0f && std::abs(place.x) <= 1.0f && std::abs(place.y) <= 1.0f; }
+    bool counts() const {
+        return confidence > 0.0f && std::abs(place.x) <= 1.0f && std::abs(place.y) <= 1.0f;
+    }
     /// Density of the hint for a joint in that cell.
     float of(int x, int y) const {
-        const float dx = (JointMaps::place_of(x) - place.x) / kSigma, dy = (JointMaps::place_of(y) - place.y) / kSigma;
+        const float dx = (JointMaps::place_of(x) - place.x) / kSigma,
+                    dy = (JointMaps::place_of(y) - place.y) / kSigma;
         const float anywhere = 0.25f * (1.0f - confidence);  // over the crop, whose area is 4
         return anywhere + confidence / (2.0f * kPi * kSigma * kSigma) * std::exp(-0.5f * (dx * dx + dy * dy));
     }

@@ -23,8 +23,8 @@ struct JointHint {
 /// their left is the maps' right. Hints outside the crop are left out.
 void apply_hints(std::span<const JointHint> hints, const CropView& view, bool away, JointMaps& maps);
 
-/// Adds to the maps' answer which side the person faces: hinted left and right joints fit the maps either as they are
-/// or exchanged. Before apply_hints.
+/// Adds to the maps' answer which side the person faces: hinted left and right joints fit the maps either as
+/// they are or exchanged. Before apply_hints.
 void answer_facing(std::span<const JointHint> hints, const CropView& view, JointMaps& maps);
 
 /// Whose box a hint lies in, the box wider by a quarter of its size: a limb may be where the sensor sees

@@ -26,7 +26,8 @@ JointNetwork::~JointNetwork() {
 void JointNetwork::run(const float* crop, JointMaps& out) {
     char why[512] = "";
     float answers[2];
-    if (!table_->run(network_, crop, CropView::kPixels, maps_.data(), uint32_t(maps_.size()), answers, 2, why, sizeof why))
+    if (!table_->run(network_, crop, CropView::kPixels, maps_.data(), uint32_t(maps_.size()), answers, 2, why,
+                     sizeof why))
         fail(VFIT_ERROR_DATA, weights_path_, ": ", why);
     std::copy_n(maps_.begin(), out.heat.size(), out.heat.begin());
     std::copy_n(maps_.begin() + std::ptrdiff_t(out.heat.size()), out.depth.size(), out.depth.begin());

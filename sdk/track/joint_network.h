@@ -8,8 +8,8 @@
 
 #include "core/platform.h"
 #include "frame/body.h"
-#include "track/crop.h"
 #include "network/module.h"
+#include "track/crop.h"
 
 namespace vfit {
 
@@ -26,8 +26,8 @@ struct JointMaps {
 
 class JointNetwork {
 public:
-    /// VFIT_ERROR_UNSUPPORTED where the module is not there, VFIT_ERROR_DATA where the weights cannot be used;
-    /// both name the file.
+    /// VFIT_ERROR_UNSUPPORTED where the module is not there, VFIT_ERROR_DATA where the weights cannot be
+    /// used; both name the file.
     JointNetwork(const std::string& module_path, const std::string& weights_path);
     ~JointNetwork();
     JointNetwork(const JointNetwork&) = delete;

@@ -8,10 +8,10 @@ namespace vfit {
 
 namespace {
 
-constexpr float kLeastCutoff_hz = 3.0f;        // at rest: little trembling, 50 ms of lag
-constexpr float kCutoffPerSpeed = 12.0f;       // Hz for each m/s: a moving joint is hardly held back
+constexpr float kLeastCutoff_hz = 3.0f;   // at rest: little trembling, 50 ms of lag
+constexpr float kCutoffPerSpeed = 12.0f;  // Hz for each m/s: a moving joint is hardly held back
 constexpr float kSpeedCutoff_hz = 4.0f;
-constexpr float kSure = 0.6f;                  // confidence from which a place counts in full
+constexpr float kSure = 0.6f;  // confidence from which a place counts in full
 constexpr float kLongestGap_s = 0.5f;
 
 float share(float cutoff_hz, float dt) {

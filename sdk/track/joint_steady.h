@@ -1,5 +1,5 @@
-// Joints that tremble less and do not jump: one Euro filter each (Casiez, Roussel, Vogel 2012), with less trust in
-// places that the network is unsure of.
+// Joints that tremble less and do not jump: one Euro filter each (Casiez, Roussel, Vogel 2012), with less
+// trust in places that the network is unsure of.
 #pragma once
 
 #include <cstdint>

@@ -42,14 +42,15 @@ bool PeopleMap::part_of_scene(const Shape& s) const {
            goes_on(x, s.y1, 0, 1);
 }
 
-// Head and shoulders over a box that is carried, legs below a table: what stands in the same place, where the rest of
-// the person ends.
+// Head and shoulders over a box that is carried, legs below a table: what stands in the same place, where the
+// rest of the person ends.
 uint32_t PeopleMap::above_or_below(const Shape& part) const {
     uint32_t best = Identity::kMost;
     float least = kSamePlace_m;
     for (const Piece& p : pieces_) {
         if (p.slot >= Identity::kMost) continue;
-        const bool above = part.low_m > p.shape.high_m - kOverlap_m, below = part.high_m < p.shape.low_m + kOverlap_m;
+        const bool above = part.low_m > p.shape.high_m - kOverlap_m,
+                   below = part.high_m < p.shape.low_m + kOverlap_m;
         const float away = floor_distance(part.centre, p.shape.centre);
         if ((!above && !below) || away > least) continue;
         least = away;
@@ -121,8 +122,7 @@ void PeopleMap::grow_feet() {
     const auto floor_like = [&](int x, int y) {
         const size_t i = size_t(y * width + x);
         const float z = grid_.depth()[i];
-        return z > 0.0f && !wanted_[i] &&
-               std::abs(height_of(x, y)) < 2.0f * floor_cut_m(d, z);
+        return z > 0.0f && !wanted_[i] && std::abs(height_of(x, y)) < 2.0f * floor_cut_m(d, z);
     };
     size_t count = 0;
     int line = 0, row = 0;  // of the last one: they come in order
@@ -139,7 +139,8 @@ void PeopleMap::grow_feet() {
             const auto visit = [&](int x, int y) {
                 if (x < 1 || y < 1 || x >= width - 1 || y >= height - 1) return;
                 const size_t i = size_t(y * width + x);
-                if (slots_[i] || !floor_like(x, y) || std::abs(grid_.depth()[i] - z) > same_surface_m(z)) return;
+                if (slots_[i] || !floor_like(x, y) || std::abs(grid_.depth()[i] - z) > same_surface_m(z))
+                    return;
                 float sum = 0.0f;
                 int cells = 0;
                 for (int b = -1; b <= 1; ++b)

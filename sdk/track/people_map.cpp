@@ -14,7 +14,7 @@ constexpr uint32_t kFewestCells = 6;    // a finger at 3 m
 constexpr float kLeastSeen_m2 = 0.05f;  // of somebody known: head and a shoulder
 // Seen of two people in two places who were taken for one.
 constexpr float kWhole_m2 = 0.2f, kTwoApart_m = 0.35f;
-constexpr float kMostBorder = 0.08f;    // of the image, that a sensor leaves without readings
+constexpr float kMostBorder = 0.08f;  // of the image, that a sensor leaves without readings
 
 }  // namespace
 
@@ -69,7 +69,8 @@ void PeopleMap::cut_floor_and_background() {
     const bool floor = floor_seen_ || floor_.found();
     const Vec3 n = camera_.floor_normal;
     const float d = camera_.floor_distance_m;
-    // Above the floor cut, which is linear in z: z slope + d > floor_cut_m(d, z). Without a floor all is above it.
+    // Above the floor cut, which is linear in z: z slope + d > floor_cut_m(d, z). Without a floor all is
+    // above it.
     const float cut = floor_cut_m(d, 0.0f), rise = floor_cut_m(d, 1.0f) - cut;
     const float least = floor ? cut - d : -1e9f, farthest = options_.farthest_m;
     const uint32_t width = grid_.width();
@@ -84,8 +85,9 @@ void PeopleMap::cut_floor_and_background() {
             const float news = b - same_surface_m(z) - z;  // > 0: before the background
             // The floor itself is known better than as background: a learned one must not take the toes.
             const float on_floor = floor ? least - b * slope : -1.0f;
-            wanted[x] = uint8_t(int(z > 0.0f) & int(z < farthest) & int(z * slope > least) &
-                                (int(news >= 0.0f) | int(z > b + BackgroundModel::kGone_m) | int(on_floor > 0.0f)));
+            wanted[x] =
+                uint8_t(int(z > 0.0f) & int(z < farthest) & int(z * slope > least) &
+                        (int(news >= 0.0f) | int(z > b + BackgroundModel::kGone_m) | int(on_floor > 0.0f)));
         }
     }
 }
@@ -96,7 +98,8 @@ Shape PeopleMap::measure(std::span<const uint32_t> cells) const {
     return meter.finish();
 }
 
-// A part of somebody that does not hang together with the rest: it may be somebody else, who comes out from behind.
+// A part of somebody that does not hang together with the rest: it may be somebody else, who comes out from
+// behind.
 uint32_t PeopleMap::owner_of_part(const Piece& p, const std::array<const Piece*, Identity::kMost>& largest,
                                   int64_t time_ns) {
     const float away = floor_distance(p.shape.centre, largest[p.slot]->shape.centre);
@@ -117,7 +120,8 @@ void PeopleMap::name_people(int64_t time_ns) {
     // The largest piece of each stands for them.
     std::array<const Piece*, Identity::kMost> largest{};
     for (const Piece& p : pieces_)
-        if (p.slot < Identity::kMost && (!largest[p.slot] || p.shape.area_m2 > largest[p.slot]->shape.area_m2))
+        if (p.slot < Identity::kMost &&
+            (!largest[p.slot] || p.shape.area_m2 > largest[p.slot]->shape.area_m2))
             largest[p.slot] = &p;
     for (uint32_t slot = 0; slot < Identity::kMost; ++slot)
         if (largest[slot]) identity_.see(slot, largest[slot]->shape, time_ns);
@@ -200,7 +204,8 @@ std::span<const PersonRegion> PeopleMap::run(const DepthImage& image, int64_t ti
         if (p.slot == kFragment)
             for (const uint32_t cell : p.cells) slots_[cell] = 0;
     std::swap(slots_, last_slots_);
-    std::copy(grid_.depth().begin(), grid_.depth().begin() + std::ptrdiff_t(grid_.cells()), last_depth_.begin());
+    std::copy(grid_.depth().begin(), grid_.depth().begin() + std::ptrdiff_t(grid_.cells()),
+              last_depth_.begin());
     time_ns_ = time_ns;
     return regions_;
 }

@@ -21,7 +21,8 @@
 
 namespace vfit {
 
-/// visit(i) for every i with labels[i] != 0, in order; most cells are nobody's, and are left out eight at a time.
+/// visit(i) for every i with labels[i] != 0, in order; most cells are nobody's, and are left out eight at a
+/// time.
 template <typename Visit>
 void for_each_labelled(const std::vector<uint8_t>& labels, const Visit& visit) {
     for (size_t i = 0; i < labels.size(); ++i) {
@@ -35,17 +36,17 @@ void for_each_labelled(const std::vector<uint8_t>& labels, const Visit& visit) {
 }
 
 struct PersonRegion {
-    uint32_t id = 0;           // 1..254
-    PixelBox box;              // in pixels of the image
-    Vec3 centre{0.0f};         // world, mean of what is seen
-    float height_m = 0.0f;     // of the topmost point above the floor; from end to end where no floor is known
-    float width_m = 0.0f;      // 5th to 95th percentile across the view
-    uint32_t pixels = 0;       // of the cells that are theirs
+    uint32_t id = 0;        // 1..254
+    PixelBox box;           // in pixels of the image
+    Vec3 centre{0.0f};      // world, mean of what is seen
+    float height_m = 0.0f;  // of the topmost point above the floor; from end to end where no floor is known
+    float width_m = 0.0f;   // 5th to 95th percentile across the view
+    uint32_t pixels = 0;    // of the cells that are theirs
     uint32_t out_of_view = 0;  // OutOfView
 };
 
 struct PeopleMapOptions {
-    float farthest_m = 5.0f;      // people beyond are not looked for
+    float farthest_m = 5.0f;  // people beyond are not looked for
     bool learn_background = true;
 };
 
@@ -74,8 +75,8 @@ private:
     struct Piece {
         std::span<const uint32_t> cells;
         Shape shape;
-        uint32_t slot = 0;    // of Identity; kNew, kFragment or kThing
-        uint32_t home = 0;    // slot that a fragment goes to
+        uint32_t slot = 0;  // of Identity; kNew, kFragment or kThing
+        uint32_t home = 0;  // slot that a fragment goes to
     };
     static constexpr uint32_t kNew = 1000, kFragment = 1001, kThing = 1002;
 
@@ -113,7 +114,7 @@ private:
     bool floor_seen_ = false;
     int64_t time_ns_ = 0;
     uint32_t frames_ = 0;
-    uint32_t columns_ = 0;  // of the last grid
+    uint32_t columns_ = 0;                  // of the last grid
     std::array<int, 4> filled_{}, view_{};  // cells: ever filled by the sensor, taken for its view
     DepthGrid grid_;
     FloorFinder floor_;
@@ -122,10 +123,10 @@ private:
     Splitter splitter_;
     Identity identity_;
     std::vector<uint8_t> wanted_, slots_, last_slots_;  // by cell; slots count from 1
-    std::vector<uint8_t> labels_;  // ids by cell, in the end; until then Marks
+    std::vector<uint8_t> labels_;                       // ids by cell, in the end; until then Marks
     std::vector<float> last_depth_;
     std::vector<uint32_t> frontier_;  // of growing feet
-    std::vector<uint32_t> pool_;  // cells of split components
+    std::vector<uint32_t> pool_;      // cells of split components
     size_t pool_used_ = 0;
     std::vector<Piece> pieces_;
     std::vector<PersonRegion> regions_;

@@ -21,8 +21,8 @@ constexpr float kVoteShare = 0.1f;     // of the person's cells
 constexpr float kGrowth = 1.4f, kGrowth_m2 = 0.15f;
 constexpr float kBorder_m = 0.08f;     // a forearm
 constexpr float kGrowthPath_m = 0.3f;  // a hand's way in a frame: 9 m/s at 30 Hz
-// More than one person: looked at now and then only; more than two: nobody's limbs reach everywhere; more than a crowd:
-// a wall.
+// More than one person: looked at now and then only; more than two: nobody's limbs reach everywhere; more
+// than a crowd: a wall.
 constexpr float kWall_m2 = 1.5f, kCrowd_m2 = 2.5f, kOnlyWall_m2 = 6.0f;
 constexpr uint32_t kWallTurn = 30;     // frames
 constexpr float kTwo_m2 = 0.7f;        // seen of two people who were taken for one
@@ -35,7 +35,8 @@ constexpr float kHeadReach_m = 1.1f;   // along the surface from the axis to the
 
 }  // namespace
 
-// Below the lower end something stands that is nearer, or the person is at a piece of furniture that is known.
+// Below the lower end something stands that is nearer, or the person is at a piece of furniture that is
+// known.
 bool PeopleMap::feet_hidden(std::span<const uint32_t> cells, const Shape& shape) const {
     const ShapeMeter meter(grid_, camera_, {});
     const int down = meter.down();
@@ -50,7 +51,8 @@ bool PeopleMap::feet_hidden(std::span<const uint32_t> cells, const Shape& shape)
             if (std::abs(down) == 1 && next / width != int(y)) break;
             const float other = grid_.depth()[size_t(next)];
             if (other == 0.0f) continue;
-            nearer += other < z - same || (!wanted_[size_t(next)] && other < z + same && shape.low_m > kFloorBelow_m);
+            nearer += other < z - same ||
+                      (!wanted_[size_t(next)] && other < z + same && shape.low_m > kFloorBelow_m);
             farther += other > z + same;
             break;
         }
@@ -76,8 +78,9 @@ void PeopleMap::unmark(std::span<const uint32_t> cells, Mark m) {
     for (const uint32_t cell : cells) labels_[cell] &= uint8_t(~m);
 }
 
-// A patch of wall or floor, that somebody has hidden until now or that was cut out of more of it: the same surface goes
-// on beside it. Around a person the scene lies farther away. What is nearer says nothing: it hides whatever there is.
+// A patch of wall or floor, that somebody has hidden until now or that was cut out of more of it: the same
+// surface goes on beside it. Around a person the scene lies farther away. What is nearer says nothing: it
+// hides whatever there is.
 bool PeopleMap::surface_goes_on(std::span<const uint32_t> cells) {
     const uint32_t width = grid_.width(), height = grid_.height();
     const float* const depth = grid_.depth().data();
@@ -119,7 +122,8 @@ bool PeopleMap::disputed(uint32_t cell, uint32_t column, uint32_t row) const {
     const auto other = [&](int nx, int ny) {
         if (nx < 0 || ny < 0 || nx >= width || ny >= height) return false;
         const size_t i = size_t(ny * width + nx);
-        return last_slots_[i] != 0 && last_slots_[i] != last_slots_[cell] && std::abs(grid_.depth()[i] - z) < same;
+        return last_slots_[i] != 0 && last_slots_[i] != last_slots_[cell] &&
+               std::abs(grid_.depth()[i] - z) < same;
     };
     for (const int r : {reach, (reach + 1) / 2})
         if (other(x - r, y) || other(x + r, y) || other(x, y - r) || other(x, y + r)) return true;
@@ -127,7 +131,8 @@ bool PeopleMap::disputed(uint32_t cell, uint32_t column, uint32_t row) const {
 }
 
 // Every cell goes to the person whose last place is nearest along the surface.
-void PeopleMap::split_by_tracks(std::span<const uint32_t> cells, std::span<const uint32_t> slots, float farthest_m) {
+void PeopleMap::split_by_tracks(std::span<const uint32_t> cells, std::span<const uint32_t> slots,
+                                float farthest_m) {
     splitter_.begin(grid_, cells);
     const ShapeMeter meter(grid_, camera_, view_);
     std::array<bool, Splitter::kMostSeeds> sure{};
@@ -136,7 +141,9 @@ void PeopleMap::split_by_tracks(std::span<const uint32_t> cells, std::span<const
             const uint8_t last = last_slots_[cell];
             if (last == 0 || std::abs(grid_.depth()[cell] - last_depth_[cell]) > kSamePlace_m) return;
             const auto k = size_t(std::find(slots.begin(), slots.end(), last - 1u) - slots.begin());
-            if (k == slots.size() || (again && sure[k]) || !identity_.within_reach(slots[k], meter.world(x, y))) return;
+            if (k == slots.size() || (again && sure[k]) ||
+                !identity_.within_reach(slots[k], meter.world(x, y)))
+                return;
             if (!again && slots.size() > 1 && disputed(cell, x, y)) return;
             if (!again) sure[k] = true;
             splitter_.seed(cell, uint8_t(k + 1));
@@ -166,8 +173,10 @@ std::span<const uint32_t> PeopleMap::keep(std::span<const uint32_t> cells) {
 // Somebody known, who may have been two all the time.
 void PeopleMap::add_person(std::span<const uint32_t> cells, uint32_t slot) {
     const Shape shape = measure(cells);
-    // A wedge of wall between arm and trunk can pass for a person, until the arm moves and more of the wall is seen.
-    const bool young = seconds_between(identity_.track(slot).first_ns, identity_.track(slot).seen_ns) < kYoung_s;
+    // A wedge of wall between arm and trunk can pass for a person, until the arm moves and more of the wall
+    // is seen.
+    const bool young =
+        seconds_between(identity_.track(slot).first_ns, identity_.track(slot).seen_ns) < kYoung_s;
     if (young && (is_flat(shape) || surface_goes_on(cells))) {
         add_piece(cells, shape, kThing);
         return;
@@ -186,8 +195,8 @@ bool PeopleMap::split_by_heads(std::span<const uint32_t> cells, uint8_t fewest, 
     size_t most = 0;
     for (uint8_t k = 1; k <= heads && slot != kNew; ++k) {
         const auto piece = splitter_.piece(k);
-        const auto votes = size_t(std::count_if(piece.begin(), piece.end(),
-                                                [&](uint32_t cell) { return last_slots_[cell] == slot + 1; }));
+        const auto votes = size_t(std::count_if(
+            piece.begin(), piece.end(), [&](uint32_t cell) { return last_slots_[cell] == slot + 1; }));
         if (votes > most) {
             most = votes;
             keeper = k;

@@ -7,11 +7,11 @@ namespace vfit {
 
 namespace {
 
-constexpr float kBin_m = 0.025f;          // 160 of them: 4 m of height, and 2 m to both sides
-constexpr int kTopBins = 8;               // 20 cm
-constexpr int kBorderCells = 2;           // an image border is rarely straight
-constexpr size_t kSample = 1024;          // cells
-constexpr uint32_t kFewCells = 2;         // above which there is only speckle
+constexpr float kBin_m = 0.025f;   // 160 of them: 4 m of height, and 2 m to both sides
+constexpr int kTopBins = 8;        // 20 cm
+constexpr int kBorderCells = 2;    // an image border is rarely straight
+constexpr size_t kSample = 1024;   // cells
+constexpr uint32_t kFewCells = 2;  // above which there is only speckle
 constexpr float kLegsFrom_m = 0.2f, kLegsTo_m = 0.6f;
 
 // A standing or sitting person. Statures and breadths: ANSUR II (smallest woman to largest man), with a
@@ -22,11 +22,11 @@ constexpr float kFeetBelow_m = 0.35f;
 constexpr float kLeastArea_m2 = 0.12f, kLeastPart_m2 = 0.085f, kLeastBehind_m2 = 0.2f, kMostArea_m2 = 1.5f;
 constexpr float kLeastPart_m = 0.4f;
 constexpr float kWidestTrunk_m = 0.85f, kNarrowest_m = 0.14f, kThickest_m = 1.1f;
-constexpr float kFlat_m = 0.014f;         // a trunk's front alone bends by more than 3 cm
-constexpr float kFlatNoise = 1.2f;        // of what noise makes of a plane
-constexpr float kFlatArea_m2 = 0.15f;     // below, a flat thing may be a forearm
-constexpr float kMostTop_m2 = 0.085f;     // head with hair or hat: 0.05; a box as wide as a trunk: 0.1
-constexpr float kLeastLegs_m = 0.07f;     // one shin; a coat rack's pole is 3 to 5 cm
+constexpr float kFlat_m = 0.014f;      // a trunk's front alone bends by more than 3 cm
+constexpr float kFlatNoise = 1.2f;     // of what noise makes of a plane
+constexpr float kFlatArea_m2 = 0.15f;  // below, a flat thing may be a forearm
+constexpr float kMostTop_m2 = 0.085f;  // head with hair or hat: 0.05; a box as wide as a trunk: 0.1
+constexpr float kLeastLegs_m = 0.07f;  // one shin; a coat rack's pole is 3 to 5 cm
 
 /// Smallest eigenvalue of a symmetric matrix (trigonometric solution of its characteristic cubic).
 double least_eigenvalue(const std::array<double, 6>& m) {
@@ -82,14 +82,17 @@ void ShapeMeter::add(std::span<const uint32_t> cells) {
         origin_ = world(middle % grid_.width(), middle / grid_.width());
     }
     const Vec3 offset = Vec3(0, floor_m_, 0) - origin_;
-    // Extent in the image and height are of all cells; sums and breadths, of a large set, of a sample that is enough.
+    // Extent in the image and height are of all cells; sums and breadths, of a large set, of a sample that is
+    // enough.
     const size_t step = std::max<size_t>(1, cells.size() / kSample);
     size_t turn = 0;
     int left = shape_.x0, right = shape_.x1;
     float area_sum = 0.0f, depth_sum = 0.0f, legs = 0.0f;
     Vec3 sum(0.0f);
     std::array<float, 6> products{};
-    const auto bin = [](float v) { return size_t(std::clamp(int(v * (1.0f / kBin_m) + 0.5f * kBins), 0, kBins - 1)); };
+    const auto bin = [](float v) {
+        return size_t(std::clamp(int(v * (1.0f / kBin_m) + 0.5f * kBins), 0, kBins - 1));
+    };
     grid_.for_each(cells, [&](uint32_t cell, uint32_t x, uint32_t y) {
         left = std::min(left, int(x));
         right = std::max(right, int(x) + 1);
@@ -159,26 +162,27 @@ Shape ShapeMeter::finish() {
 
     // Image borders as the upright person sees them.
     const int width = int(grid_.width());
-    const bool left = s.x0 < view_[0] + kBorderCells, right = s.x1 > view_[2] - kBorderCells;
-    const bool top = s.y0 < view_[1] + kBorderCells, bottom = s.y1 > view_[3] - kBorderCells;
+    const bool left = s.x0<view_[0] + kBorderCells, right = s.x1> view_[2] - kBorderCells;
+    const bool top = s.y0<view_[1] + kBorderCells, bottom = s.y1> view_[3] - kBorderCells;
     const auto flag = [](bool on, uint32_t bit) { return on ? bit : 0u; };
     if (down_ == width)
         s.out_of_view = flag(left, kOutOfViewLeft) | flag(right, kOutOfViewRight) | flag(top, kOutOfViewTop) |
                         flag(bottom, kOutOfViewFeet);
     else if (down_ == -width)
-        s.out_of_view = flag(right, kOutOfViewLeft) | flag(left, kOutOfViewRight) | flag(bottom, kOutOfViewTop) |
-                        flag(top, kOutOfViewFeet);
+        s.out_of_view = flag(right, kOutOfViewLeft) | flag(left, kOutOfViewRight) |
+                        flag(bottom, kOutOfViewTop) | flag(top, kOutOfViewFeet);
     else if (down_ == 1)
-        s.out_of_view = flag(bottom, kOutOfViewLeft) | flag(top, kOutOfViewRight) | flag(left, kOutOfViewTop) |
-                        flag(right, kOutOfViewFeet);
+        s.out_of_view = flag(bottom, kOutOfViewLeft) | flag(top, kOutOfViewRight) |
+                        flag(left, kOutOfViewTop) | flag(right, kOutOfViewFeet);
     else
-        s.out_of_view = flag(top, kOutOfViewLeft) | flag(bottom, kOutOfViewRight) | flag(right, kOutOfViewTop) |
-                        flag(left, kOutOfViewFeet);
+        s.out_of_view = flag(top, kOutOfViewLeft) | flag(bottom, kOutOfViewRight) |
+                        flag(right, kOutOfViewTop) | flag(left, kOutOfViewFeet);
     return s;
 }
 
 bool is_flat(const Shape& s) {
-    return s.flatness_m < kFlatNoise * std::hypot(kFlat_m, depth_sigma_m(s.depth_m)) && s.area_m2 > kFlatArea_m2;
+    return s.flatness_m < kFlatNoise * std::hypot(kFlat_m, depth_sigma_m(s.depth_m)) &&
+           s.area_m2 > kFlatArea_m2;
 }
 
 bool looks_like_person(const Shape& s, bool floor_known, bool feet_hidden) {

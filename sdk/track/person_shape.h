@@ -23,8 +23,8 @@ struct Shape {
     uint32_t cells = 0;
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // of the cells, half open
     Vec3 centre{0.0f};
-    float area_m2 = 0.0f;        // facing the camera
-    float depth_m = 0.0f;        // mean
+    float area_m2 = 0.0f;  // facing the camera
+    float depth_m = 0.0f;  // mean
     float low_m = 0.0f, high_m = 0.0f;
     float width_m = 0.0f;        // 5th to 95th percentile across the view
     float trunk_width_m = 0.0f;  // 15th to 85th: arms held out are left out

@@ -8,10 +8,11 @@ namespace vfit {
 
 namespace {
 
-constexpr float kLeastHeat = -14.0f;   // logit below the highest: all cells of a map together then weigh under 0.001
-constexpr float kKeep = 0.9f;          // of the doubt, a frame
-constexpr float kAnswerLimit = 3.0f;   // one frame's logit counts no more
-constexpr float kTurnAbout = 18.0f;    // doubt at which the decision falls: nine frames of firm answers
+constexpr float kLeastHeat =
+    -14.0f;                    // logit below the highest: all cells of a map together then weigh under 0.001
+constexpr float kKeep = 0.9f;  // of the doubt, a frame
+constexpr float kAnswerLimit = 3.0f;  // one frame's logit counts no more
+constexpr float kTurnAbout = 18.0f;   // doubt at which the decision falls: nine frames of firm answers
 
 /// The first cell whose middle may lie within `reach` of `place`, and the one after the last.
 std::pair<int, int> cells_within(float place, float reach) {
@@ -22,7 +23,8 @@ std::pair<int, int> cells_within(float place, float reach) {
 
 void exchange_sides(SeenJoints& joints) {
     for (int j = 0; j < kJointCount; ++j)
-        if (const int other = mirrored_joint(j); other > j) std::swap(joints[size_t(j)], joints[size_t(other)]);
+        if (const int other = mirrored_joint(j); other > j)
+            std::swap(joints[size_t(j)], joints[size_t(other)]);
 }
 
 /// Sum over paired joints of the distance between the same joint in both.

@@ -22,9 +22,9 @@ inline constexpr float kNear_m = 0.10f;
 
 void read_maps(const JointMaps& maps, const CropView& view, const Camera& camera, SeenJoints& out);
 
-/// Decides, frame by frame, whether the person's left is the image's right or left. Front and back look alike in
-/// depth, and one frame's answer may be wrong: the sides that carry on the last frame's joints stand until the
-/// network has disagreed for a while.
+/// Decides, frame by frame, whether the person's left is the image's right or left. Front and back look alike
+/// in depth, and one frame's answer may be wrong: the sides that carry on the last frame's joints stand until
+/// the network has disagreed for a while.
 class Facing {
 public:
     /// Exchanges left and right in `joints` where the person faces away.

@@ -122,7 +122,8 @@ uint8_t Splitter::seed_heads(const ShapeMeter& meter) {
         // Of two heads, the one behind the other, the nearer to the axis.
         float least = kSeedDepth_m * kSeedDepth_m;
         for (size_t k = 0; k < heads.size(); ++k) {
-            const float x = points_[i].x - heads[k].x_m, z = points_[i].z - heads[k].z_m, away = x * x + z * z;
+            const float x = points_[i].x - heads[k].x_m, z = points_[i].z - heads[k].z_m,
+                        away = x * x + z * z;
             if (std::abs(x) > kSeedHalf_m || away > least) continue;
             least = away;
             seed(cells_[i], uint8_t(k + 1));

@@ -30,8 +30,8 @@ public:
     /// Cells of a seed; of 0: what no seed has reached.
     std::span<const uint32_t> piece(uint8_t number) const;
 
-    /// Seeds below the heads of people who stand side by side or before something. Returns their number; 0: none looks
-    /// like a head on a body.
+    /// Seeds below the heads of people who stand side by side or before something. Returns their number; 0:
+    /// none looks like a head on a body.
     uint8_t seed_heads(const ShapeMeter& meter);
 
 private:
@@ -46,12 +46,12 @@ private:
     std::span<const uint32_t> cells_;  // of members_
     std::vector<uint8_t> owner_;
     std::vector<uint32_t> members_, sorted_;
-    std::vector<float> path_m_;                // from the seed
-    std::vector<uint32_t> effort_;             // the same with what is climbed
-    std::vector<uint32_t> next_, previous_;    // cells of a bucket
+    std::vector<float> path_m_;                 // from the seed
+    std::vector<uint32_t> effort_;              // the same with what is climbed
+    std::vector<uint32_t> next_, previous_;     // cells of a bucket
     std::array<uint32_t, kBuckets> buckets_{};  // Dial's queue: first cell of each effort, modulo its size
     uint32_t waiting_ = 0;
-    std::vector<Vec4> points_;                 // of the cells: world, and their area
+    std::vector<Vec4> points_;  // of the cells: world, and their area
     HeadFinder finder_;
     std::array<uint32_t, kMostSeeds + 2> starts_{};
 };

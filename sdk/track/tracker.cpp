@@ -10,10 +10,10 @@ namespace vfit {
 
 namespace {
 
-constexpr float kBeliefShare = 0.3f;     // of the newest answer
-constexpr float kLeastBelief = -0.5f;    // logit
-constexpr float kSurelyNot = -2.5f;      // logit: one in twelve
-constexpr uint32_t kSureAfter = 15;      // frames in a row: who walks in or is being hidden shows an arm alone
+constexpr float kBeliefShare = 0.3f;   // of the newest answer
+constexpr float kLeastBelief = -0.5f;  // logit
+constexpr float kSurelyNot = -2.5f;    // logit: one in twelve
+constexpr uint32_t kSureAfter = 15;    // frames in a row: who walks in or is being hidden shows an arm alone
 
 }  // namespace
 
@@ -29,14 +29,16 @@ void find_targets(const DepthImage& image, size_t most, std::vector<TrackTarget>
             if (row[x] == 0) continue;
             Found& f = found[row[x]];
             ++f.pixels;
-            f.box = {std::min(f.box.x0, x), std::min(f.box.y0, y), std::max(f.box.x1, x + 1), std::max(f.box.y1, y + 1)};
+            f.box = {std::min(f.box.x0, x), std::min(f.box.y0, y), std::max(f.box.x1, x + 1),
+                     std::max(f.box.y1, y + 1)};
         }
     }
     out.clear();
     for (uint32_t id = 1; id < found.size(); ++id)
         if (found[id].pixels >= Cropper::kFewestPixels) out.push_back({id, found[id].box, 0});
-    std::sort(out.begin(), out.end(),
-              [&](const TrackTarget& a, const TrackTarget& b) { return found[a.id].pixels > found[b.id].pixels; });
+    std::sort(out.begin(), out.end(), [&](const TrackTarget& a, const TrackTarget& b) {
+        return found[a.id].pixels > found[b.id].pixels;
+    });
     if (out.size() > most) out.resize(most);
 }
 
@@ -89,7 +91,8 @@ bool Tracker::see(const DepthImage& image, int64_t time_ns, const TrackTarget& t
     CropView view;
     if (!cropper_.run(image, uint8_t(target.id), target.box, up, view, crop_.data())) return false;
     network_->run(crop_.data(), maps_);
-    person.belief = person.frames == 0 ? maps_.person : person.belief + kBeliefShare * (maps_.person - person.belief);
+    person.belief =
+        person.frames == 0 ? maps_.person : person.belief + kBeliefShare * (maps_.person - person.belief);
     hints_of_one_.clear();
     for (const JointHint& hint : hints_)
         if (hint.person == target.id) hints_of_one_.push_back(hint);

@@ -1,4 +1,5 @@
-// The whole tracker after the user map: each labelled person to joints, with state, confidence and a steady side.
+// The whole tracker after the user map: each labelled person to joints, with state, confidence and a steady
+// side.
 #pragma once
 
 #include <map>
@@ -51,8 +52,8 @@ private:
     };
     void give_hints(const DepthImage& image, std::span<const TrackTarget> targets,
                     std::span<const JointHint> hints);
-    bool see(const DepthImage& image, int64_t time_ns, const TrackTarget& target, const Vec2& up, Person& person,
-             Body& out);
+    bool see(const DepthImage& image, int64_t time_ns, const TrackTarget& target, const Vec2& up,
+             Person& person, Body& out);
 
     std::shared_ptr<JointNetwork> network_;
     bool steady_;

@@ -16,8 +16,14 @@ constexpr int kChunk = 256;  // pixels that are written at a time; more than the
 class Writer {
 public:
     Writer(const DepthImage& image, const DepthGrid& grid, const uint8_t* labels, uint8_t* users)
-        : image_(image), grid_(grid), labels_(labels), users_(users), width_(int(image.width())),
-          height_(int(image.height())), stride_(int(grid.stride())), per_metre_(1.0f / image.camera.depth_unit_m) {}
+        : image_(image),
+          grid_(grid),
+          labels_(labels),
+          users_(users),
+          width_(int(image.width())),
+          height_(int(image.height())),
+          stride_(int(grid.stride())),
+          per_metre_(1.0f / image.camera.depth_unit_m) {}
 
     void run() {
         std::memset(users_, 0, size_t(width_) * size_t(height_));
@@ -49,9 +55,8 @@ private:
     }
     bool alike(int x, int y) const {
         const uint64_t same = at_cell(x, y) * 0x0101010101010101ull;
-        return eight(x, y) == same &&
-               (same == 0 || (eight(x - 1, y) == same && eight(x + 1, y) == same && eight(x, y - 1) == same &&
-                              eight(x, y + 1) == same));
+        return eight(x, y) == same && (same == 0 || (eight(x - 1, y) == same && eight(x + 1, y) == same &&
+                                                     eight(x, y - 1) == same && eight(x, y + 1) == same));
     }
     bool surrounded(int x, int y) const {
         const uint8_t label = at_cell(x, y);
@@ -88,7 +93,8 @@ private:
             uint8_t* const to = users_ + index(x * stride_, v);
             if (stride_ == 2) {
                 for (int k = 0; k < cells; ++k)
-                    for (int i = 0; i < 2; ++i) to[2 * k + i] = label(from[2 * k + i], low[k], span[k], labels[k]);
+                    for (int i = 0; i < 2; ++i)
+                        to[2 * k + i] = label(from[2 * k + i], low[k], span[k], labels[k]);
             } else {
                 for (int k = 0; k < cells; ++k)
                     for (int i = 0; i < stride_; ++i)

@@ -1,5 +1,5 @@
-/* A host may unload the library while a thread of it still runs, as Mono does at its end: a plug-in that is slow to
- * end is left to a thread that outlives vfit_shutdown. So the code stays where it is, for good. */
+/* A host may unload the library while a thread of it still runs, as Mono does at its end: a plug-in that is
+ * slow to end is left to a thread that outlives vfit_shutdown. So the code stays where it is, for good. */
 #include <dlfcn.h>
 #include <pthread.h>
 #include <stdio.h>

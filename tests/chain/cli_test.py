@@ -5,6 +5,7 @@
 
 SHARED is the folder of real data; tests that need it are skipped by name where it is absent. CLASS: these tests alone.
 """
+
 import json
 import math
 import os
@@ -31,7 +32,9 @@ PAPER_JOINTS = 15
 
 
 def run_program(program, *args):
-    return subprocess.run([program, *map(str, args)], capture_output=True, text=True, errors="replace", timeout=300)
+    return subprocess.run(
+        [program, *map(str, args)], capture_output=True, text=True, errors="replace", timeout=300
+    )
 
 
 def run(*args):
@@ -54,8 +57,8 @@ def picture(path):
     """Width, height and RGB bytes of a PNG file as the tools write it: eight bits, not interlaced."""
     data, parts, at = path.read_bytes(), b"", 8
     while at < len(data):
-        length, kind = struct.unpack(">I4s", data[at:at + 8])
-        body = data[at + 8:at + 8 + length]
+        length, kind = struct.unpack(">I4s", data[at : at + 8])
+        body = data[at + 8 : at + 8 + length]
         if kind == b"IHDR":
             width, height, depth, colour = struct.unpack(">IIBB", body[:10])
             assert (depth, colour) == (8, 2), path
@@ -65,7 +68,7 @@ def picture(path):
     raw, row, out = zlib.decompress(parts), 3 * width, bytearray()
     before = bytearray(row)
     for y in range(height):
-        kind, line = raw[y * (row + 1)], bytearray(raw[y * (row + 1) + 1:(y + 1) * (row + 1)])
+        kind, line = raw[y * (row + 1)], bytearray(raw[y * (row + 1) + 1 : (y + 1) * (row + 1)])
         for i in range(row):
             a, b, c = line[i - 3] if i > 2 else 0, before[i], before[i - 3] if i > 2 else 0
             paeth = min((abs(b - c), 0, a), (abs(a - c), 1, b), (abs(a + b - 2 * c), 2, c))[2]
@@ -100,8 +103,10 @@ class Contract(unittest.TestCase):
         info = document(self, "info", "--json")
         self.assertRegex(info["version"], r"^\d+\.\d+\.\d+$")
         self.assertTrue(info["simd"])
-        self.assertEqual({p["name"] for p in info["plugins"]} & {"recording", "virtual_person"},
-                         {"recording", "virtual_person"})
+        self.assertEqual(
+            {p["name"] for p in info["plugins"]} & {"recording", "virtual_person"},
+            {"recording", "virtual_person"},
+        )
 
     def test_the_paper_as_printed_is_another_estimate(self):
         stature = {}
@@ -112,11 +117,23 @@ class Contract(unittest.TestCase):
         self.assertGreater(abs(stature["paper"] - stature["paper-as-printed"]), 0.01)
 
     def test_the_fitted_body_measures_girths_with_intervals(self):
-        result = document(self, "measure", VIRTUAL.replace("demo", "scan"), "--method", "fit", "--frames", "12",
-                          "--side-frames", "0", "--json")
+        result = document(
+            self,
+            "measure",
+            VIRTUAL.replace("demo", "scan"),
+            "--method",
+            "fit",
+            "--frames",
+            "12",
+            "--side-frames",
+            "0",
+            "--json",
+        )
         self.assertEqual((result["method"], result["frames"], result["side_frames"]), ("fit", 12, 0))
         measured = result["measurements"]
-        paper = document(self, "measure", VIRTUAL.replace("demo", "scan"), "--method", "paper", "--json")["measurements"]
+        paper = document(self, "measure", VIRTUAL.replace("demo", "scan"), "--method", "paper", "--json")[
+            "measurements"
+        ]
         self.assertAlmostEqual(measured["stature_m"]["value"], paper["stature_m"]["value"], delta=0.03)
         self.assertTrue(measured["stature_m"]["observed"])
         self.assertFalse(measured["chest_girth_m"]["observed"])  # from the front alone
@@ -124,7 +141,9 @@ class Contract(unittest.TestCase):
             self.assertTrue(0.002 < measured[key]["sigma"] < 0.1, key)
 
     def test_measure_prints_the_contract(self):
-        result = document(self, "measure", VIRTUAL, "--method", "paper", "--garment", "short_sleeves", "--json")
+        result = document(
+            self, "measure", VIRTUAL, "--method", "paper", "--garment", "short_sleeves", "--json"
+        )
         self.assertEqual(result["method"], "paper")
         self.assertEqual(result["frames"], 30)
         for key in ("stature_m", "shoulder_breadth_m"):
@@ -153,7 +172,9 @@ class Contract(unittest.TestCase):
             self.assertAlmostEqual(sum(p), 1, places=4)
             self.assertEqual(p, sorted(p, reverse=True))
             path.write_text('{"chest_girth_m": 0.98}')
-            result = document(self, "size", path, "--chart", "en13402_men", "--garment", "short_sleeves", "--json")
+            result = document(
+                self, "size", path, "--chart", "en13402_men", "--garment", "short_sleeves", "--json"
+            )
             self.assertEqual(result["sizes"][0]["label"], "M")
 
     def test_a_size_is_told_by_zone_and_between_two(self):
@@ -171,13 +192,17 @@ class Contract(unittest.TestCase):
             result = document(self, "size", path, "--chart", "jeans_men", "--garment", "trousers", "--json")
             self.assertEqual(result["sizes"][0]["label"], "W33/L32")
             path.write_text('{"stature_m": 1.75, "body_mass_kg": 71}')
-            result = document(self, "size", path, "--chart", "height_weight_men", "--garment", "short_sleeves", "--json")
+            result = document(
+                self, "size", path, "--chart", "height_weight_men", "--garment", "short_sleeves", "--json"
+            )
             self.assertEqual(result["sizes"][0]["label"], "M")
 
     def test_a_profile_is_kept_and_merged(self):
         with tempfile.TemporaryDirectory() as folder:
             first, both = pathlib.Path(folder) / "first.json", pathlib.Path(folder) / "both.json"
-            told = document(self, "measure", VIRTUAL, "--sex", "m", "--profile", first, "--json")["measurements"]
+            told = document(self, "measure", VIRTUAL, "--sex", "m", "--profile", first, "--json")[
+                "measurements"
+            ]
             profile = json.loads(first.read_text())
             self.assertEqual((profile["format"], profile["sex"]), ("vfit-profile", "m"))
             self.assertEqual(profile["measurements"], told)
@@ -185,8 +210,12 @@ class Contract(unittest.TestCase):
             merged = json.loads(both.read_text())["measurements"]
             self.assertEqual(set(merged), set(told))
             self.assertLess(abs(merged["stature_m"]["value"] - told["stature_m"]["value"]), 0.02)
-            self.check_failure(run("measure", VIRTUAL + "&height=0.1", "--merge", first), "two people", "stature_m")
-            self.check_failure(run("measure", VIRTUAL, "--merge", pathlib.Path(folder) / "gone.json"), "gone.json")
+            self.check_failure(
+                run("measure", VIRTUAL + "&height=0.1", "--merge", first), "two people", "stature_m"
+            )
+            self.check_failure(
+                run("measure", VIRTUAL, "--merge", pathlib.Path(folder) / "gone.json"), "gone.json"
+            )
 
     def test_track_prints_each_frame_in_camera_space_and_writes_the_map(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -203,21 +232,40 @@ class Contract(unittest.TestCase):
             folder = pathlib.Path(folder)
             source = VIRTUAL.replace("frames=60", "frames=3")
             tracked = ("--joints", "tracked", "--user-map", "tracked", "--json")
-            lines(self, "track", source, "--pictures", folder / "told", "--user-map-out", folder / "maps", "--json")
+            lines(
+                self,
+                "track",
+                source,
+                "--pictures",
+                folder / "told",
+                "--user-map-out",
+                folder / "maps",
+                "--json",
+            )
             lines(self, "track", source, "--pictures", folder / "found", *tracked)
-            lines(self, "track", source + "&distance=6", "--pictures", folder / "empty", *tracked)  # out of reach
-            files = [folder / name / f"00000{index}.png" for name in ("told", "found", "empty") for index in range(3)]
+            lines(
+                self, "track", source + "&distance=6", "--pictures", folder / "empty", *tracked
+            )  # out of reach
+            files = [
+                folder / name / f"00000{index}.png"
+                for name in ("told", "found", "empty")
+                for index in range(3)
+            ]
             self.assertEqual(sorted(files), sorted(folder.glob("[tfe]*/*")))
             self.assertEqual(len({file.read_bytes() for file in files}), 9, "no two are alike")
             shares = []
             for file in files[::3]:
                 width, height, pixels = picture(file)
-                self.assertEqual((width, height > 720), (960, True), "three times the image, and a line of text")
+                self.assertEqual(
+                    (width, height > 720), (960, True), "three times the image, and a line of text"
+                )
                 # The first person's colour, which is nowhere in a grey room.
                 shares.append(sum(r > b + 60 for r, b in zip(pixels[::3], pixels[2::3])) / (width * height))
             self.assertGreater(min(shares[:2]), 0.02)
             self.assertLess(shares[2], 0.001)
-            self.check_failure(run("track", source, "--pictures", folder, "--user-map-out", folder), "two folders")
+            self.check_failure(
+                run("track", source, "--pictures", folder, "--user-map-out", folder), "two folders"
+            )
 
     def test_the_tracker_finds_people_and_joints_by_itself(self):
         given = lines(self, "track", VIRTUAL, "--json")
@@ -261,11 +309,15 @@ class Contract(unittest.TestCase):
             path = pathlib.Path(folder) / "rec"
             document(self, "record", VIRTUAL, path, "--frames", 20, "--json")
             rows = (path / "joints.csv").read_text().splitlines(keepends=True)
-            (path / "joints.csv").write_text("".join(r for r in rows if r.split(",")[0] not in ("7", "8", "9")))
+            (path / "joints.csv").write_text(
+                "".join(r for r in rows if r.split(",")[0] not in ("7", "8", "9"))
+            )
             bodies = [len(f["bodies"]) for f in lines(self, "track", path, "--json")]
             self.assertEqual(bodies, [1] * 7 + [0] * 3 + [1] * 10)
-            self.assertEqual([f["frame"] for f in lines(self, "motion", path, "--json")],
-                             [i for i in range(20) if i not in (7, 8, 9)])
+            self.assertEqual(
+                [f["frame"] for f in lines(self, "motion", path, "--json")],
+                [i for i in range(20) if i not in (7, 8, 9)],
+            )
             self.assertEqual(document(self, "measure", path, "--json")["frames"], 17)
             # Gone for good before the scan is complete: what there is of the person is fitted.
             (path / "joints.csv").write_text("".join(r for r in rows if r.split(",")[0] not in ("18", "19")))
@@ -278,7 +330,9 @@ class Contract(unittest.TestCase):
             document(self, "record", VIRTUAL, path, "--frames", 20, "--json")
             rows = (path / "joints.csv").read_text().splitlines(keepends=True)
             self.assertEqual(rows[1].split(",")[:2], ["0", "1"])
-            (path / "joints.csv").write_text("".join(rows[:11]) + "".join(r.replace(",1,", ",2,", 1) for r in rows[11:]))
+            (path / "joints.csv").write_text(
+                "".join(rows[:11]) + "".join(r.replace(",1,", ",2,", 1) for r in rows[11:])
+            )
             self.assertEqual(document(self, "measure", path, "--json")["frames"], 10)
 
     def test_the_active_person_is_followed(self):
@@ -288,14 +342,23 @@ class Contract(unittest.TestCase):
             head, *rows = (path / "joints.csv").read_text().splitlines(keepends=True)
             # A second person, half a metre behind and a metre to the side of the first.
             names = head.strip().split(",")
+
             def moved(row):
                 shift = {"_x": 1.0, "_z": 0.5}
                 cells = zip(names, row.strip().split(","))
-                return ",".join("2" if n == "id" else str(float(c) + shift[n[-2:]]) if n[-2:] in shift and c else c
-                                for n, c in cells) + "\n"
+                return (
+                    ",".join(
+                        "2" if n == "id" else str(float(c) + shift[n[-2:]]) if n[-2:] in shift and c else c
+                        for n, c in cells
+                    )
+                    + "\n"
+                )
+
             (path / "joints.csv").write_text(head + "".join(r + moved(r) for r in rows))
+
             def follow(*args):
                 return [f["joints"]["TORSO"] for f in lines(self, "motion", path, "--json", *args)]
+
             nearest, second = follow(), follow("--active", "2")
             self.assertEqual(follow("--active", "nearest"), nearest)
             self.assertEqual(follow("--active", "centred"), nearest)
@@ -324,7 +387,9 @@ class Contract(unittest.TestCase):
 
     def test_a_source_without_end_is_fitted_in_a_moment(self):
         with tempfile.TemporaryDirectory() as folder:
-            result = document(self, "fit", VIRTUAL.replace("frames=60", "rate=5"), "--draft", "--out", folder, "--json")
+            result = document(
+                self, "fit", VIRTUAL.replace("frames=60", "rate=5"), "--draft", "--out", folder, "--json"
+            )
             self.assertEqual(result["frames"], 41, "eight seconds at 5 Hz")
 
     def test_plot_draws_the_papers_curves(self):
@@ -337,36 +402,71 @@ class Contract(unittest.TestCase):
 
     def test_a_character_is_written_told_and_moved(self):
         with tempfile.TemporaryDirectory() as folder:
-            file, moved, shown = (pathlib.Path(folder) / name for name in ("body.vrm", "moved.glb", "shown.png"))
+            file, moved, shown = (
+                pathlib.Path(folder) / name for name in ("body.vrm", "moved.glb", "shown.png")
+            )
             self.assertEqual(run("character", "--rig", "vrm0", "--sex", "m", "--out", file).returncode, 0)
-            about = document(self, "character", file, "--motion", VIRTUAL, "--frames", 5, "--out", moved, "--picture", shown, "--json")
+            about = document(
+                self,
+                "character",
+                file,
+                "--motion",
+                VIRTUAL,
+                "--frames",
+                5,
+                "--out",
+                moved,
+                "--picture",
+                shown,
+                "--json",
+            )
             self.assertEqual((about["kind"], about["bones"]["leftUpperArm"]), ("VRM 0", "J_leftUpperArm"))
             self.assertEqual(about["parts"], [{"mesh": "body", "material": "skin", "triangles": 27420}])
             data = moved.read_bytes()
-            content = json.loads(data[20:20 + struct.unpack("<I", data[12:16])[0]])
-            self.assertEqual(len(content["animations"][0]["channels"]), len(about["bones"]) + 1)  # and the hips' place
+            content = json.loads(data[20 : 20 + struct.unpack("<I", data[12:16])[0]])
+            self.assertEqual(
+                len(content["animations"][0]["channels"]), len(about["bones"]) + 1
+            )  # and the hips' place
             self.assertEqual([i["mimeType"] for i in content["images"]], ["image/png"])
             self.assertGreater(len(set(picture(shown)[2])), 10)
-            self.check_failure(run("character", file, "--motion", VIRTUAL, "--frames", 2, "--out", "/no/folder/moved.glb"), "/no/folder/moved.glb")
+            self.check_failure(
+                run("character", file, "--motion", VIRTUAL, "--frames", 2, "--out", "/no/folder/moved.glb"),
+                "/no/folder/moved.glb",
+            )
             # The same as text with its buffer and picture beside it: the moved copy has them in it.
             data = file.read_bytes()
             size = struct.unpack("<I", data[12:16])[0]
-            content, buffer = json.loads(data[20:20 + size]), data[28 + size:]
+            content, buffer = json.loads(data[20 : 20 + size]), data[28 + size :]
             view = content["bufferViews"][content["images"][0].pop("bufferView")]
-            texture = buffer[view["byteOffset"]:view["byteOffset"] + view["byteLength"]]
+            texture = buffer[view["byteOffset"] : view["byteOffset"] + view["byteLength"]]
             content["images"][0] = {"uri": "skin.png"}
             content["buffers"][0]["uri"] = "body.bin"
             beside = pathlib.Path(folder) / "beside"
             beside.mkdir()
-            for name, what in (("skin.png", texture), ("body.bin", buffer), ("body.gltf", json.dumps(content).encode())):
+            for name, what in (
+                ("skin.png", texture),
+                ("body.bin", buffer),
+                ("body.gltf", json.dumps(content).encode()),
+            ):
                 (beside / name).write_bytes(what)
-            document(self, "character", beside / "body.gltf", "--motion", VIRTUAL, "--frames", 2, "--out", moved, "--json")
+            document(
+                self,
+                "character",
+                beside / "body.gltf",
+                "--motion",
+                VIRTUAL,
+                "--frames",
+                2,
+                "--out",
+                moved,
+                "--json",
+            )
             data = moved.read_bytes()
             size = struct.unpack("<I", data[12:16])[0]
-            content, buffer = json.loads(data[20:20 + size]), data[28 + size:]
+            content, buffer = json.loads(data[20 : 20 + size]), data[28 + size :]
             self.assertNotIn("uri", content["buffers"][0])
             view = content["bufferViews"][content["images"][0]["bufferView"]]
-            self.assertEqual(buffer[view.get("byteOffset", 0):][:view["byteLength"]], texture)
+            self.assertEqual(buffer[view.get("byteOffset", 0) :][: view["byteLength"]], texture)
         self.check_failure(run("character", "/no/character.vrm"), "/no/character.vrm", "cannot be read")
         self.check_failure(run("character"), "file")
         self.assertEqual(run("character", "--rig", "sausage", "--out", "x.glb").returncode, 2)
@@ -385,20 +485,56 @@ class Contract(unittest.TestCase):
 
     def test_a_garment_size_changes_the_dress(self):
         with tempfile.TemporaryDirectory() as folder:
-            result = document(self, "fit", VIRTUAL, "--size", "XL", "--draft", "--frames", 2, "--out", folder, "--json")
+            result = document(
+                self, "fit", VIRTUAL, "--size", "XL", "--draft", "--frames", 2, "--out", folder, "--json"
+            )
             self.assertEqual(result["size"], "XL")
             self.check_failure(run("fit", VIRTUAL, "--size", "QQ", "--out", folder), "QQ")
 
     def test_wear_shows_sizes_and_layers_side_by_side(self):
         with tempfile.TemporaryDirectory() as folder:
-            report = document(self, "wear", "jeans_women+vest,sundress_pattern", "--size", "S,XXL", "--draft", "--out", folder, "--json")
-            self.assertEqual([(o["outfit"], o["size"]) for o in report["outfits"]],
-                             [("jeans_women+vest", "S"), ("jeans_women+vest", "XXL"), ("sundress_pattern", "S"), ("sundress_pattern", "XXL")])
-            zones = {(o["outfit"], o["size"]): {k: z["fit"] for g in o["garments"] for k, z in g["zones"].items()} for o in report["outfits"]}
-            self.assertEqual(zones["sundress_pattern", "S"]["chest_girth_m"], "right")  # as vfit size recommends for her
+            report = document(
+                self,
+                "wear",
+                "jeans_women+vest,sundress_pattern",
+                "--size",
+                "S,XXL",
+                "--draft",
+                "--out",
+                folder,
+                "--json",
+            )
+            self.assertEqual(
+                [(o["outfit"], o["size"]) for o in report["outfits"]],
+                [
+                    ("jeans_women+vest", "S"),
+                    ("jeans_women+vest", "XXL"),
+                    ("sundress_pattern", "S"),
+                    ("sundress_pattern", "XXL"),
+                ],
+            )
+            zones = {
+                (o["outfit"], o["size"]): {k: z["fit"] for g in o["garments"] for k, z in g["zones"].items()}
+                for o in report["outfits"]
+            }
+            self.assertEqual(
+                zones["sundress_pattern", "S"]["chest_girth_m"], "right"
+            )  # as vfit size recommends for her
             self.assertEqual(zones["sundress_pattern", "XXL"]["chest_girth_m"], "loose")
             self.assertGreater((pathlib.Path(folder) / "worn.png").stat().st_size, 10000)
-            heavy = document(self, "wear", "jeans_women", "--size", "XS", "--shape", "weight=1.15", "--draft", "--out", folder, "--json")
+            heavy = document(
+                self,
+                "wear",
+                "jeans_women",
+                "--size",
+                "XS",
+                "--shape",
+                "weight=1.15",
+                "--draft",
+                "--out",
+                folder,
+                "--json",
+            )
             self.assertIn("hip_girth_m", heavy["outfits"][0]["not_wearable"])
             self.check_failure(run("wear", "jeans_women", "--size", "QQ", "--out", folder), "QQ")
             self.check_failure(run("wear", "no_such", "--out", folder), "no_such")
@@ -412,10 +548,23 @@ class Contract(unittest.TestCase):
             (folder / "design.json").write_text(text)
             cooked = document(self, "cook", folder / "design.json", "--out", folder / "mine.json", "--json")
             self.assertEqual(cooked["garment"], '"mine"')
-            result = document(self, "fit", VIRTUAL, "--garment", folder / "mine.json", "--draft", "--frames", 2,
-                              "--out", folder / "out", "--json")
+            result = document(
+                self,
+                "fit",
+                VIRTUAL,
+                "--garment",
+                folder / "mine.json",
+                "--draft",
+                "--frames",
+                2,
+                "--out",
+                folder / "out",
+                "--json",
+            )
             self.assertEqual(result["cloth"]["vertices"], cooked["vertices"])
-            self.check_failure(run("cook", folder / "design.json", "--out", folder / "no" / "x.json"), "x.json")
+            self.check_failure(
+                run("cook", folder / "design.json", "--out", folder / "no" / "x.json"), "x.json"
+            )
             (folder / "none").mkdir()
             self.check_failure(run("cook", folder / "none", "--out", folder / "all"), str(folder / "none"))
             (folder / "catalogue" / "more").mkdir(parents=True)
@@ -423,7 +572,9 @@ class Contract(unittest.TestCase):
             (folder / "catalogue" / "more" / "a.json").write_text(text)
             (folder / "catalogue" / "notes.json").write_text("{}")
             report = document(self, "cook", folder / "catalogue", "--out", folder / "all", "--json")
-            self.assertEqual([pathlib.Path(c["file"]).name for c in report["cooked"]], ["a.json", "more_a.json"])
+            self.assertEqual(
+                [pathlib.Path(c["file"]).name for c in report["cooked"]], ["a.json", "more_a.json"]
+            )
             self.assertEqual([pathlib.Path(c).name for c in report["left_out"]], ["notes.json"])
             self.assertEqual(json.loads((folder / "all" / "report.json").read_text()), report)
             (folder / "catalogue" / "b.json").write_text(text.replace('"columns": 72', '"columns": 3'))
@@ -433,8 +584,12 @@ class Contract(unittest.TestCase):
             self.assertEqual(len(json.loads(failed.stdout)["cooked"]), 2)
             (folder / "design.json").write_text("{")
             self.check_failure(run("cook", folder / "design.json", "--out", folder / "x.json"))
-            self.check_failure(run("fit", VIRTUAL, "--garment", folder / "gone.json", "--out", folder), "gone.json")
-            self.check_failure(run("fit", VIRTUAL, "--garment", folder / "design.json", "--out", folder), "design.json")
+            self.check_failure(
+                run("fit", VIRTUAL, "--garment", folder / "gone.json", "--out", folder), "gone.json"
+            )
+            self.check_failure(
+                run("fit", VIRTUAL, "--garment", folder / "design.json", "--out", folder), "design.json"
+            )
 
     def test_a_mesh_is_cooked_and_worn(self):
         rows, columns = 16, 40
@@ -443,7 +598,9 @@ class Contract(unittest.TestCase):
             radius = 12.5 + 8 * row / rows
             for column in range(columns):
                 angle = 2 * math.pi * column / columns
-                lines.append(f"v {radius * math.sin(angle):.4f} {104 - 40 * row / rows:.4f} {radius * math.cos(angle):.4f}")
+                lines.append(
+                    f"v {radius * math.sin(angle):.4f} {104 - 40 * row / rows:.4f} {radius * math.cos(angle):.4f}"
+                )
         for row in range(rows):
             for column in range(columns):
                 a, b = row * columns + column + 1, row * columns + (column + 1) % columns + 1
@@ -453,13 +610,42 @@ class Contract(unittest.TestCase):
             (folder / "in").mkdir()
             mesh = folder / "in" / "skirt.OBJ"
             mesh.write_text("\n".join(lines))
-            self.check_failure(run("cook", mesh, "--out", folder / "skirt.json"), "skirt.OBJ", "centimetres", "--unit cm")
-            cooked = document(self, "cook", mesh, "--out", folder / "skirt.json", "--unit", "cm", "--size-label", "M", "--json")
-            self.assertEqual((cooked["vertices"], cooked["sizes"], cooked["hangs_on"]), ((rows + 1) * columns, ["M"], "waist"))
+            self.check_failure(
+                run("cook", mesh, "--out", folder / "skirt.json"), "skirt.OBJ", "centimetres", "--unit cm"
+            )
+            cooked = document(
+                self,
+                "cook",
+                mesh,
+                "--out",
+                folder / "skirt.json",
+                "--unit",
+                "cm",
+                "--size-label",
+                "M",
+                "--json",
+            )
+            self.assertEqual(
+                (cooked["vertices"], cooked["sizes"], cooked["hangs_on"]),
+                ((rows + 1) * columns, ["M"], "waist"),
+            )
             self.assertEqual(len(cooked["openings_m"]), 2)
             self.assertIn("skirt.mtl", " ".join(cooked["warnings"]))
             for size in ((), ("--size", "M")):
-                result = document(self, "fit", VIRTUAL, "--garment", folder / "skirt.json", "--draft", "--frames", 2, "--out", folder / "out", "--json", *size)
+                result = document(
+                    self,
+                    "fit",
+                    VIRTUAL,
+                    "--garment",
+                    folder / "skirt.json",
+                    "--draft",
+                    "--frames",
+                    2,
+                    "--out",
+                    folder / "out",
+                    "--json",
+                    *size,
+                )
                 self.assertEqual(result["cloth"]["vertices"], cooked["vertices"])
             (folder / "in" / "cut.glb").write_bytes(b"glTF")
             failed = run("cook", folder / "in", "--out", folder / "all", "--unit", "cm", "--json")
@@ -480,7 +666,9 @@ class Contract(unittest.TestCase):
         if pathlib.Path("/dev/full").exists():
             for args in (("info",), ("info", "--json"), ("track", VIRTUAL, "--json")):
                 with open("/dev/full", "w") as full:
-                    done = subprocess.run([VFIT, *args], stdout=full, stderr=subprocess.PIPE, text=True, timeout=300)
+                    done = subprocess.run(
+                        [VFIT, *args], stdout=full, stderr=subprocess.PIPE, text=True, timeout=300
+                    )
                 self.assertEqual(done.returncode, 1, args)
                 self.assertIn("standard output", done.stderr)
 
@@ -493,7 +681,14 @@ class Contract(unittest.TestCase):
 
     @unittest.skipUnless(pty, "no pseudo-terminals here")
     def test_long_work_shows_how_far_it_is_on_a_terminal_only(self):
-        args = [VFIT, "measure", VIRTUAL.replace("demo", "scan").replace("frames=60", "pace=realtime"), "--frames", "60", "--json"]
+        args = [
+            VFIT,
+            "measure",
+            VIRTUAL.replace("demo", "scan").replace("frames=60", "pace=realtime"),
+            "--frames",
+            "60",
+            "--json",
+        ]
         try:
             master, terminal = pty.openpty()
         except OSError as error:
@@ -513,14 +708,26 @@ class Contract(unittest.TestCase):
         self.assertEqual(run(*args[1:]).stderr, "")
 
     def test_wrong_usage_exits_2(self):
-        for args in ((), ("dance",), ("measure",), ("measure", VIRTUAL, "--method", "guess"),
-                     ("measure", VIRTUAL, "--frames", "0"), ("size", "x.json"), ("measure", VIRTUAL, "--nonsense"),
-                     ("measure", VIRTUAL, "--joints", "sideways"), ("measure", VIRTUAL, "--frames", "-1"),
-                     ("measure", VIRTUAL, "--frames", "nan"), ("measure", VIRTUAL, "--frames", "99999999999"),
-                     ("fit", VIRTUAL, "--out", "x", "--frames", "-1"), ("fit", VIRTUAL, "--out", "x", "--detail", "3"),
-                     ("fit", VIRTUAL, "--out", "x", "--frames", "1e99"), ("fit", VIRTUAL),
-                     ("record", VIRTUAL, "x", "--frames", "0"), ("plot", VIRTUAL, "--what", "feet", "--out", "x", "--frames", "0"),
-                     ("plot", VIRTUAL, "--what", "hats", "--out", "x")):
+        for args in (
+            (),
+            ("dance",),
+            ("measure",),
+            ("measure", VIRTUAL, "--method", "guess"),
+            ("measure", VIRTUAL, "--frames", "0"),
+            ("size", "x.json"),
+            ("measure", VIRTUAL, "--nonsense"),
+            ("measure", VIRTUAL, "--joints", "sideways"),
+            ("measure", VIRTUAL, "--frames", "-1"),
+            ("measure", VIRTUAL, "--frames", "nan"),
+            ("measure", VIRTUAL, "--frames", "99999999999"),
+            ("fit", VIRTUAL, "--out", "x", "--frames", "-1"),
+            ("fit", VIRTUAL, "--out", "x", "--detail", "3"),
+            ("fit", VIRTUAL, "--out", "x", "--frames", "1e99"),
+            ("fit", VIRTUAL),
+            ("record", VIRTUAL, "x", "--frames", "0"),
+            ("plot", VIRTUAL, "--what", "feet", "--out", "x", "--frames", "0"),
+            ("plot", VIRTUAL, "--what", "hats", "--out", "x"),
+        ):
             self.assertEqual(run(*args).returncode, 2, args)
         self.assertEqual(run("--help").returncode, 0)
         for command in ("info", "measure", "size", "track", "motion", "fit", "record", "cook", "plot"):
@@ -530,35 +737,56 @@ class Contract(unittest.TestCase):
         self.check_failure(run("measure", "/no/such/recording", "--json"), "/no/such/recording")
         self.check_failure(run("measure", "recording:/no/such", "--json"), "/no/such")
         self.check_failure(run("measure", "teapot:x", "--json"), "teapot", "virtual")
-        self.check_failure(run("measure", VIRTUAL, "--garment", "spacesuit", "--json"), "spacesuit", "trousers")
+        self.check_failure(
+            run("measure", VIRTUAL, "--garment", "spacesuit", "--json"), "spacesuit", "trousers"
+        )
         self.check_failure(run("measure", VIRTUAL + "&motion=fly", "--json"), "fly")
         self.check_failure(run("measure", VIRTUAL + "&distance=nan"), "distance")
         self.check_failure(run("measure", VIRTUAL + "&height=1e9"), "height")
         self.check_failure(run("measure", VIRTUAL + "&frames=-3"), "frames")
-        self.check_failure(run("size", "/no/file.json", "--chart", "paper", "--garment", "x"), "/no/file.json")
+        self.check_failure(
+            run("size", "/no/file.json", "--chart", "paper", "--garment", "x"), "/no/file.json"
+        )
         with tempfile.TemporaryDirectory() as folder:
             self.check_failure(run("measure", folder), "camera.json")
             self.check_failure(run("size", folder, "--chart", "paper", "--garment", "short_sleeves"), folder)
             self.check_failure(run("fit", VIRTUAL, "--garment", "toga", "--out", folder), "toga", "sundress")
             measures = pathlib.Path(folder) / "m.json"
-            for text, word in (("{", "JSON"), ('{"stature_m": "tall"}', "stature_m"), ('{"wingspan_m": 2}', "wingspan_m"),
-                               ('{"stature_m": -1}', "stature_m"), ('{"stature_m": 1e300}', "stature_m"),
-                               ('{"stature_m": null}', "stature_m"), ('{"stature_m": NaN}', "JSON"), ("[]", "object"),
-                               ('{"stature_m": {"sigma": 0.1}}', "stature_m"), ('{"measurements": 3}', "object"),
-                               ('{"stature_m": {"value": 1.7, "sigma": "small"}}', "sigma"),
-                               ('{"stature_m": {"value": 1.7, "sigma": -1}}', "sigma"), ("", "JSON"),
-                               ('{"' + "k" * 900 + '": 1}', "is no measure")):
+            for text, word in (
+                ("{", "JSON"),
+                ('{"stature_m": "tall"}', "stature_m"),
+                ('{"wingspan_m": 2}', "wingspan_m"),
+                ('{"stature_m": -1}', "stature_m"),
+                ('{"stature_m": 1e300}', "stature_m"),
+                ('{"stature_m": null}', "stature_m"),
+                ('{"stature_m": NaN}', "JSON"),
+                ("[]", "object"),
+                ('{"stature_m": {"sigma": 0.1}}', "stature_m"),
+                ('{"measurements": 3}', "object"),
+                ('{"stature_m": {"value": 1.7, "sigma": "small"}}', "sigma"),
+                ('{"stature_m": {"value": 1.7, "sigma": -1}}', "sigma"),
+                ("", "JSON"),
+                ('{"' + "k" * 900 + '": 1}', "is no measure"),
+            ):
                 measures.write_text(text)
-                self.check_failure(run("size", measures, "--chart", "paper", "--garment", "short_sleeves"), word)
+                self.check_failure(
+                    run("size", measures, "--chart", "paper", "--garment", "short_sleeves"), word
+                )
             measures.write_text('{"stature_m": 1.7}')
-            self.check_failure(run("size", measures, "--chart", "nowhere", "--garment", "x"), "nowhere", "paper")
+            self.check_failure(
+                run("size", measures, "--chart", "nowhere", "--garment", "x"), "nowhere", "paper"
+            )
             gone = pathlib.Path(folder) / "gone.json"
             self.check_failure(run("size", measures, "--chart", gone, "--garment", "x"), str(gone))
             chart = pathlib.Path(folder) / "chart.json"
-            chart.write_text('{"format": "vfit-size-chart", "version": 1, "name": "x", "unit": "cm", "garments": [{"kind": '
-                             '"dress", "measures": ["stature_m"], "sizes": [{"label": "S", "ranges": {"stature_m": '
-                             '[150, 170]}}, {"label": "M", "ranges": {"stature_m": [160, 180]}}]}]}')
-            self.check_failure(run("size", measures, "--chart", chart, "--garment", "dress"), "dress", "M", str(chart))
+            chart.write_text(
+                '{"format": "vfit-size-chart", "version": 1, "name": "x", "unit": "cm", "garments": [{"kind": '
+                '"dress", "measures": ["stature_m"], "sizes": [{"label": "S", "ranges": {"stature_m": '
+                '[150, 170]}}, {"label": "M", "ranges": {"stature_m": [160, 180]}}]}]}'
+            )
+            self.check_failure(
+                run("size", measures, "--chart", chart, "--garment", "dress"), "dress", "M", str(chart)
+            )
 
 
 class PaperSample(unittest.TestCase):
@@ -572,12 +800,14 @@ class PaperSample(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         for table in ("Table 1.", "Table 2.", "Table 3.", "Table 4."):
             self.assertIn(table, done.stdout)
-        table_3 = done.stdout[done.stdout.index("Table 3."):done.stdout.index("Table 4.")]
+        table_3 = done.stdout[done.stdout.index("Table 3.") : done.stdout.index("Table 4.")]
         _, _, fitted = table_3.partition("  fitted body ")
         subjects = [line.split() for line in fitted.splitlines() if line.strip()[:1].isdigit()]
         self.assertEqual([s[0] for s in subjects], [str(n) for n in range(1, 8)])
         for number, real, told, error, *_ in subjects:
-            self.assertAlmostEqual(100 * abs(float(told) / float(real) - 1), float(error), delta=0.3, msg=number)
+            self.assertAlmostEqual(
+                100 * abs(float(told) / float(real) - 1), float(error), delta=0.3, msg=number
+            )
             self.assertLess(float(error), 5, f"shoulders of subject {number}")
 
     def test_the_figures_are_drawn(self):
@@ -593,8 +823,11 @@ class PaperSample(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             done = self.run_paper("motion", "--source", VIRTUAL, "--feet", VIRTUAL, "--out", folder)
             self.assertEqual(done.returncode, 0, done.stderr)
-            kept = {line.split(":")[0].strip(): float(line.split(": ", 1)[1].split()[0])
-                    for line in done.stdout.splitlines() if line.startswith("  (")}
+            kept = {
+                line.split(":")[0].strip(): float(line.split(": ", 1)[1].split()[0])
+                for line in done.stdout.splitlines()
+                if line.startswith("  (")
+            }
             self.assertEqual(list(kept), ["(a) one bone", "(b) two bones", "(c) vfit's seven"])
             self.assertGreater(kept["(c) vfit's seven"], 98)
             for name in ("fig_5.png", "fig_6.png", "fig_7.png", "fig_11.png"):
@@ -612,27 +845,38 @@ class PaperSample(unittest.TestCase):
                 self.assertGreater(len(set(rgb)), 10, number)
             report = json.loads(done.stdout)
             outfits = {**report["fig_14"]["female"], **report["fig_14"]["male"]}
-            self.assertEqual(list(outfits), ["sundress", "duster", "jeans and vest", "flight suit", "pants and shirt", "martial suit"])
+            self.assertEqual(
+                list(outfits),
+                ["sundress", "duster", "jeans and vest", "flight suit", "pants and shirt", "martial suit"],
+            )
             for person in (*report["fig_14"].values(), *report["fig_15"].values()):
                 for outfit, garments in person.items():
                     for name, how in garments.items():
                         self.assertLess(how["strain_p99"], 0.3, f"{name} of {outfit}")
-                        self.assertLess(how["strain_max"], 4.0, f"{name} of {outfit}: caught on what is below")
+                        self.assertLess(
+                            how["strain_max"], 4.0, f"{name} of {outfit}: caught on what is below"
+                        )
                         self.assertLess(how["sank_m"], 0.02, f"{name} of {outfit}: it slides down")
 
     def test_the_frame_rate_is_told_by_phase(self):
         with tempfile.TemporaryDirectory() as folder:
-            done = self.run_paper("rates", "--not-drawn", "--garment", "sundress", "--seconds", "0.6", "--out", folder, "--json")
+            done = self.run_paper(
+                "rates", "--not-drawn", "--garment", "sundress", "--seconds", "0.6", "--out", folder, "--json"
+            )
             self.assertEqual(done.returncode, 0, done.stderr)
             (way,) = json.loads(done.stdout)
             phases = way["garments"]["sundress"]
-            self.assertEqual([p["phase"] for p in phases], ["static", "sensor on", "physics off", "sensor off"])
+            self.assertEqual(
+                [p["phase"] for p in phases], ["static", "sensor on", "physics off", "sensor off"]
+            )
             for p in phases:
                 self.assertGreater(p["frames"], 10, p["phase"])
                 self.assertLessEqual(p["frame_ms"]["median"], p["frame_ms"]["p95"], p["phase"])
             self.assertEqual([p["cloth_steps"] > 0 for p in phases], [True, True, False, False])
             for p in phases[:2]:
-                self.assertGreaterEqual(p["cloth_interval_ms"]["median"], 8.0, "the paper's pause between two steps")
+                self.assertGreaterEqual(
+                    p["cloth_interval_ms"]["median"], 8.0, "the paper's pause between two steps"
+                )
             width, height, rgb = picture(pathlib.Path(folder) / "fig_10_not_drawn.png")
             self.assertGreater(len(set(rgb)), 10)
 
@@ -640,17 +884,37 @@ class PaperSample(unittest.TestCase):
         done = self.run_paper("meshes", "--frames", "8", "--json")
         self.assertEqual(done.returncode, 0, done.stderr)
         meshes = json.loads(done.stdout)["meshes"]
-        self.assertEqual((meshes["sundress"]["skinned_vertices"], meshes["sundress"]["simulated_vertices"]), (1048, 3096), "as the paper's")
+        self.assertEqual(
+            (meshes["sundress"]["skinned_vertices"], meshes["sundress"]["simulated_vertices"]),
+            (1048, 3096),
+            "as the paper's",
+        )
         self.assertEqual(meshes["sundress, Meng's size"]["simulated_vertices"], 2400)
-        for name in ("duster", "sundress_pattern", "flight_suit", "pants_men", "shirt_men", "jeans_women", "vest", "martial_pants", "martial_jacket"):
+        for name in (
+            "duster",
+            "sundress_pattern",
+            "flight_suit",
+            "pants_men",
+            "shirt_men",
+            "jeans_women",
+            "vest",
+            "martial_pants",
+            "martial_jacket",
+        ):
             self.assertGreater(meshes[name]["simulated_vertices"], 1000, name)
             self.assertGreater(meshes[name]["step_ms"]["median"], 0, name)
 
     def test_programs_that_the_path_finds_find_their_data(self):
         bench = pathlib.Path(VFIT).with_name("vfit-bench").resolve()
         with tempfile.TemporaryDirectory() as folder:
-            done = subprocess.run([bench.name, "population", "--count", "1"], cwd=folder, capture_output=True, text=True,
-                                  env={**os.environ, "PATH": f"{bench.parent}:{os.environ['PATH']}"}, timeout=100)
+            done = subprocess.run(
+                [bench.name, "population", "--count", "1"],
+                cwd=folder,
+                capture_output=True,
+                text=True,
+                env={**os.environ, "PATH": f"{bench.parent}:{os.environ['PATH']}"},
+                timeout=100,
+            )
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_what_is_not_there_is_named(self):
@@ -673,7 +937,10 @@ class RealRecordings(unittest.TestCase):
     def test_real_people_are_tracked_from_depth_alone(self):
         """Against the joints of the recordings' own middleware, whose definitions differ by up to 10 cm."""
         for path in RECORDINGS:
-            given, found = lines(self, "track", path, "--json"), lines(self, "track", path, "--joints", "tracked", "--json")
+            given, found = (
+                lines(self, "track", path, "--json"),
+                lines(self, "track", path, "--joints", "tracked", "--json"),
+            )
             errors = []
             for f, g in zip(found, given):
                 self.assertEqual(len(f["bodies"]), 1, path)

@@ -1,4 +1,5 @@
-/* Opens a context and an avatar: the library, its data and its plug-ins were all found where they are installed. */
+/* Opens a context and an avatar: the library, its data and its plug-ins were all found where they are
+ * installed. */
 #include <stdio.h>
 #include <vfit.h>
 

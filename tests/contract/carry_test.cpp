@@ -16,7 +16,8 @@ protected:
         ContextTest::SetUp();
         vfit_avatar_desc body = vfit_avatar_desc_init();
         body.sex = VFIT_SEX_FEMALE;
-        ASSERT_EQ(vfit_avatar_create_from_shape(context, &body, nullptr, 0, 0, &avatar), VFIT_OK) << contract::last_error();
+        ASSERT_EQ(vfit_avatar_create_from_shape(context, &body, nullptr, 0, 0, &avatar), VFIT_OK)
+            << contract::last_error();
         pose(0.0f, 0.0f, 1);
         vfit_garment garment{};
         ASSERT_EQ(vfit_garment_open(context, "sundress", &garment), VFIT_OK) << contract::last_error();
@@ -65,7 +66,8 @@ protected:
     }
     static float apart(const std::vector<float>& a, const std::vector<float>& b) {
         float most = a.size() == b.size() ? 0.0f : 1e9f;
-        for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) most = std::max(most, std::fabs(a[i] - b[i]));
+        for (size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+            most = std::max(most, std::fabs(a[i] - b[i]));
         return most;
     }
     /// As pose(turn, aside) moves what stands as pose(0, 0) does.
@@ -86,7 +88,8 @@ protected:
     }
     void step_both(int times) {
         for (int i = 0; i < times; ++i)
-            for (const vfit_cloth c : {cloth, twin}) ASSERT_EQ(vfit_cloth_step(c, kCarryStep_s), VFIT_OK) << contract::last_error();
+            for (const vfit_cloth c : {cloth, twin})
+                ASSERT_EQ(vfit_cloth_step(c, kCarryStep_s), VFIT_OK) << contract::last_error();
     }
     vfit_avatar avatar{};
     vfit_cloth cloth{}, twin{};  // the twin is never carried
@@ -125,18 +128,21 @@ TEST_F(CarryTest, WhileAStepRunsTheOneBeforeIsCarried) {
     step_both(10);
     const Mesh before = mesh(cloth);
     pose(0.1f, 0.0f, 2);
-    for (const vfit_cloth c : {cloth, twin}) ASSERT_EQ(vfit_cloth_begin_step(c, kCarryStep_s), VFIT_OK) << contract::last_error();
+    for (const vfit_cloth c : {cloth, twin})
+        ASSERT_EQ(vfit_cloth_begin_step(c, kCarryStep_s), VFIT_OK) << contract::last_error();
     for (int i = 0; i < 3; ++i) {
         pose(0.5f, 0.2f, 3);
         ASSERT_EQ(vfit_cloth_carry(cloth), VFIT_OK) << contract::last_error();
         EXPECT_LT(apart(mesh(cloth).positions, moved(before.positions, 0.5f, 0.2f)), 5e-6f);
     }
-    for (const vfit_cloth c : {cloth, twin}) ASSERT_EQ(vfit_cloth_end_step(c), VFIT_OK) << contract::last_error();
+    for (const vfit_cloth c : {cloth, twin})
+        ASSERT_EQ(vfit_cloth_end_step(c), VFIT_OK) << contract::last_error();
     EXPECT_EQ(hash(cloth), hash(twin));
     const Mesh stepped = mesh(cloth);
     EXPECT_EQ(stepped.time_ns, 2) << "of the pose at its beginning";
     ASSERT_EQ(vfit_cloth_carry(cloth), VFIT_OK);
-    EXPECT_LT(apart(mesh(cloth).positions, moved(stepped.positions, 0.4f, 0.2f)), 0.2f) << "now from the new step";
+    EXPECT_LT(apart(mesh(cloth).positions, moved(stepped.positions, 0.4f, 0.2f)), 0.2f)
+        << "now from the new step";
     EXPECT_EQ(mesh(cloth).time_ns, 3);
 }
 
@@ -145,7 +151,8 @@ TEST_F(CarryTest, AfterAResetAndAStepOfNoTimeToo) {
     ASSERT_EQ(vfit_cloth_reset(cloth), VFIT_OK) << contract::last_error();
     const Mesh put_on = mesh(cloth);
     pose(0.7f, 0.0f, 3);
-    ASSERT_EQ(vfit_cloth_step(cloth, 0.0f), VFIT_OK) << contract::last_error();  // changes nothing, whatever the pose
+    ASSERT_EQ(vfit_cloth_step(cloth, 0.0f), VFIT_OK)
+        << contract::last_error();  // changes nothing, whatever the pose
     ASSERT_EQ(vfit_cloth_carry(cloth), VFIT_OK) << contract::last_error();
     EXPECT_LT(apart(mesh(cloth).positions, moved(put_on.positions, 0.4f, 0.0f)), 5e-6f);
 }

@@ -19,7 +19,8 @@ protected:
         ContextTest::SetUp();
         vfit_avatar_desc desc = vfit_avatar_desc_init();
         desc.sex = VFIT_SEX_FEMALE;
-        ASSERT_EQ(vfit_avatar_create_from_shape(context, &desc, nullptr, 0, 0, &avatar), VFIT_OK) << contract::last_error();
+        ASSERT_EQ(vfit_avatar_create_from_shape(context, &desc, nullptr, 0, 0, &avatar), VFIT_OK)
+            << contract::last_error();
         ASSERT_EQ(vfit_garment_open(context, "sundress", &garment), VFIT_OK) << contract::last_error();
     }
     vfit_cloth make(const vfit_cloth_desc& desc) {
@@ -32,7 +33,8 @@ protected:
         EXPECT_EQ(vfit_frame_view(frame, what, &view), VFIT_OK) << contract::last_error();
         std::vector<float> out(3 * size_t(view.width));
         for (size_t i = 0; i < view.width; ++i)
-            std::memcpy(&out[3 * i], static_cast<const char*>(view.data) + i * size_t(view.item_stride), 3 * sizeof(float));
+            std::memcpy(&out[3 * i], static_cast<const char*>(view.data) + i * size_t(view.item_stride),
+                        3 * sizeof(float));
         return out;
     }
     static std::vector<float> positions(vfit_cloth cloth) {
@@ -66,14 +68,16 @@ TEST_F(ClothOptionsTest, OnTheSkinItLiesOutsideOfTheSkin) {
         desc.gravity[2] = 6.0f, desc.gravity[1] = -6.0f;  // pressed against the body's back
         const vfit_cloth cloth = make(desc);
         const std::vector<float> before = positions(cloth);
-        for (int i = 0; i < 120; ++i) EXPECT_EQ(vfit_cloth_step(cloth, kFrame_s), VFIT_OK) << contract::last_error();
+        for (int i = 0; i < 120; ++i)
+            EXPECT_EQ(vfit_cloth_step(cloth, kFrame_s), VFIT_OK) << contract::last_error();
         vfit_cloth_stats stats = vfit_cloth_stats_init();
         EXPECT_EQ(vfit_cloth_describe(cloth, &stats), VFIT_OK);
         EXPECT_EQ(stats.collider_count == 31u, flags == 0 && cover_m == 0.0f) << stats.collider_count;
         const std::vector<float> after = positions(cloth);
         vfit_frame frame{};
         EXPECT_EQ(vfit_avatar_acquire(avatar, &frame), VFIT_OK) << contract::last_error();
-        const std::vector<float> skin = stream(frame, VFIT_STREAM_POSITION), normals = stream(frame, VFIT_STREAM_NORMAL);
+        const std::vector<float> skin = stream(frame, VFIT_STREAM_POSITION),
+                                 normals = stream(frame, VFIT_STREAM_NORMAL);
         vfit_frame_release(frame);
         size_t count = free = 0;
         for (size_t i = 0; i < after.size(); i += 3) {
@@ -81,7 +85,8 @@ TEST_F(ClothOptionsTest, OnTheSkinItLiesOutsideOfTheSkin) {
             ++free;
             float best = 0.03f * 0.03f, height = 1.0f;
             for (size_t k = 0; k < skin.size(); k += 3) {
-                const float d[3] = {after[i] - skin[k], after[i + 1] - skin[k + 1], after[i + 2] - skin[k + 2]};
+                const float d[3] = {after[i] - skin[k], after[i + 1] - skin[k + 1],
+                                    after[i + 2] - skin[k + 2]};
                 const float distance2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
                 if (distance2 >= best) continue;
                 best = distance2;
@@ -177,7 +182,8 @@ TEST_F(ClothOptionsTest, ADressOverADressStaysOutsideOfIt) {
     EXPECT_EQ(vfit_cloth_wear_over(outer, strange), VFIT_ERROR_ARGUMENT);
 }
 
-/// A coat that reaches below the hem of a dress wider than the legs: nothing of it is caught inside of the dress, and none of it tears.
+/// A coat that reaches below the hem of a dress wider than the legs: nothing of it is caught inside of the
+/// dress, and none of it tears.
 TEST_F(ClothOptionsTest, ACoatOverAWideDressOfItsSizeIsNotTorn) {
     vfit_cloth worn[2]{};
     const char* names[] = {"sundress_pattern", "duster"};
@@ -213,7 +219,8 @@ TEST_F(ClothOptionsTest, HidesTheSkinThatNobodySees) {
     vfit_frame_release(rest);
     std::vector<uint8_t> hidden(indices.size() / 3);
     hidden[0] = 1;  // by another garment: a toe, a tooth
-    ASSERT_EQ(vfit_cloth_hide_skin(cloth, 0.0f, hidden.data(), uint32_t(hidden.size())), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_cloth_hide_skin(cloth, 0.0f, hidden.data(), uint32_t(hidden.size())), VFIT_OK)
+        << contract::last_error();
     EXPECT_EQ(hidden[0], 1);
     float top = 0.0f;
     for (size_t i = 1; i < body.size(); i += 3) top = std::max(top, body[i]);
@@ -237,7 +244,8 @@ TEST_F(ClothOptionsTest, HidesTheSkinThatNobodySees) {
     EXPECT_GT(low, hem + 0.05f);
     EXPECT_LT(low, 0.5f * top);
     EXPECT_EQ(vfit_cloth_hide_skin(cloth, 0.0f, hidden.data(), 7), VFIT_ERROR_ARGUMENT);
-    EXPECT_NE(std::string(contract::last_error()).find("count is 7"), std::string::npos) << contract::last_error();
+    EXPECT_NE(std::string(contract::last_error()).find("count is 7"), std::string::npos)
+        << contract::last_error();
     EXPECT_EQ(vfit_cloth_hide_skin(cloth, 0.0f, nullptr, uint32_t(hidden.size())), VFIT_ERROR_ARGUMENT);
 }
 
@@ -247,7 +255,8 @@ TEST_F(ClothOptionsTest, WhatMakesNoSenseIsRefusedByName) {
         change(desc);
         vfit_cloth cloth{};
         EXPECT_EQ(vfit_cloth_create(avatar, garment, &desc, &cloth), VFIT_ERROR_ARGUMENT) << name;
-        EXPECT_NE(std::string(contract::last_error()).find(name), std::string::npos) << contract::last_error();
+        EXPECT_NE(std::string(contract::last_error()).find(name), std::string::npos)
+            << contract::last_error();
     };
     refused([](vfit_cloth_desc& d) { d.drag = -1.0f; }, "drag");
     refused([](vfit_cloth_desc& d) { d.inertia = 2.0f; }, "inertia");
@@ -255,7 +264,8 @@ TEST_F(ClothOptionsTest, WhatMakesNoSenseIsRefusedByName) {
     refused([](vfit_cloth_desc& d) { d.budget_ms = -1.0f; }, "budget_ms");
     refused([](vfit_cloth_desc& d) { d.cover_m = 0.001f; }, "cover_m");
     refused([](vfit_cloth_desc& d) { d.virtual_m = -0.01f; }, "virtual_m");
-    refused([](vfit_cloth_desc& d) { d.virtual_m = 0.001f; }, "virtual particles");  // of a dress: too many to step
+    refused([](vfit_cloth_desc& d) { d.virtual_m = 0.001f; },
+            "virtual particles");  // of a dress: too many to step
     refused([](vfit_cloth_desc& d) { d.cover_m = 0.01f, d.flags = VFIT_CLOTH_SKIN; }, "cover_m");
     refused([](vfit_cloth_desc& d) { d.cover_m = std::numeric_limits<float>::quiet_NaN(); }, "finite");
     refused([](vfit_cloth_desc& d) { d.wind[1] = std::numeric_limits<float>::infinity(); }, "finite");

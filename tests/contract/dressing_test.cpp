@@ -66,7 +66,8 @@ TEST_F(DressingTest, AnAvatarHasEveryStreamAndItsTopologyFits) {
     ASSERT_EQ(vfit_avatar_acquire(avatar, &frame), VFIT_OK);
     const uint32_t vertices = width_of(frame, VFIT_STREAM_POSITION);
     EXPECT_GE(vertices, 13718u);
-    for (const vfit_stream stream : {VFIT_STREAM_NORMAL, VFIT_STREAM_UV, VFIT_STREAM_SKIN_BONES, VFIT_STREAM_SKIN_WEIGHTS})
+    for (const vfit_stream stream :
+         {VFIT_STREAM_NORMAL, VFIT_STREAM_UV, VFIT_STREAM_SKIN_BONES, VFIT_STREAM_SKIN_WEIGHTS})
         EXPECT_EQ(width_of(frame, stream), vertices) << stream;
     vfit_view indices = vfit_view_init();
     ASSERT_EQ(vfit_frame_view(frame, VFIT_STREAM_INDEX, &indices), VFIT_OK);
@@ -79,15 +80,20 @@ TEST_F(DressingTest, AnAvatarHasEveryStreamAndItsTopologyFits) {
 }
 
 TEST_F(DressingTest, SkinningTheRestMeshGivesThePosedMesh) {
-    struct Weights { float w[8]; };
-    struct Bones { uint16_t b[8]; };
+    struct Weights {
+        float w[8];
+    };
+    struct Bones {
+        uint16_t b[8];
+    };
     const vfit_avatar avatar = make_avatar();
     vfit_pose pose = vfit_pose_init();
     std::vector<vfit_bone> bones = {bone(VFIT_BONE_HIPS), bone(VFIT_BONE_LEFT_UPPER_ARM)};
     bones[0].position[1] = 0.9f;
     bones[1].rotation[2] = std::sin(-0.4f);
     bones[1].rotation[3] = std::cos(-0.4f);
-    ASSERT_EQ(vfit_avatar_pose(avatar, &pose, bones.data(), sizeof(vfit_bone), 2), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_avatar_pose(avatar, &pose, bones.data(), sizeof(vfit_bone), 2), VFIT_OK)
+        << contract::last_error();
     vfit_frame posed{}, rest{};
     ASSERT_EQ(vfit_avatar_acquire(avatar, &posed), VFIT_OK);
     ASSERT_EQ(vfit_avatar_acquire_rest(avatar, &rest), VFIT_OK);
@@ -143,7 +149,9 @@ TEST_F(DressingTest, AnAvatarOfMeasuresHasThem) {
 
 TEST_F(DressingTest, ImpossibleMeasuresAndShapesAreRefusedByName) {
     vfit_avatar avatar{};
-    const auto create = [&](vfit_measurement m) { return vfit_avatar_create(context, nullptr, &m, sizeof m, 1, &avatar); };
+    const auto create = [&](vfit_measurement m) {
+        return vfit_avatar_create(context, nullptr, &m, sizeof m, 1, &avatar);
+    };
     EXPECT_EQ(create(measure("stature_m", 172.0f)), VFIT_ERROR_DATA) << "centimetres";
     EXPECT_EQ(create(measure("stature_m", -1.0f)), VFIT_ERROR_DATA);
     EXPECT_EQ(create(measure("stature_m", NAN)), VFIT_ERROR_DATA);
@@ -157,10 +165,12 @@ TEST_F(DressingTest, ImpossibleMeasuresAndShapesAreRefusedByName) {
     vfit_shape_value shape = vfit_shape_value_init();
     std::snprintf(shape.key, sizeof shape.key, "weight");
     shape.value = 40.0f;
-    EXPECT_EQ(vfit_avatar_create_from_shape(context, nullptr, &shape, sizeof shape, 1, &avatar), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_avatar_create_from_shape(context, nullptr, &shape, sizeof shape, 1, &avatar),
+              VFIT_ERROR_ARGUMENT);
     std::snprintf(shape.key, sizeof shape.key, "wings");
     shape.value = 0.5f;
-    EXPECT_EQ(vfit_avatar_create_from_shape(context, nullptr, &shape, sizeof shape, 1, &avatar), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_avatar_create_from_shape(context, nullptr, &shape, sizeof shape, 1, &avatar),
+              VFIT_ERROR_ARGUMENT);
     EXPECT_NE(contract::last_error().find("wings"), std::string::npos);
     EXPECT_EQ(avatar.id, 0u);
 }
@@ -217,7 +227,8 @@ TEST_F(DressingTest, ClothStepsAndItsStateIsHashed) {
     ASSERT_EQ(vfit_cloth_acquire(cloth, &frame), VFIT_OK);
     vfit_view view = vfit_view_init();
     ASSERT_EQ(vfit_frame_view(frame, VFIT_STREAM_POSITION, &view), VFIT_OK);
-    for (uint32_t i = 0; i < view.width * 3; ++i) ASSERT_TRUE(std::isfinite(static_cast<const float*>(view.data)[i]));
+    for (uint32_t i = 0; i < view.width * 3; ++i)
+        ASSERT_TRUE(std::isfinite(static_cast<const float*>(view.data)[i]));
     EXPECT_EQ(width_of(frame, VFIT_STREAM_STRAIN), view.width);
     EXPECT_NE(vfit_frame_view(frame, VFIT_STREAM_PRESSURE, &view), VFIT_OK);
     vfit_cloth_stats stats = vfit_cloth_stats_init();
@@ -326,7 +337,8 @@ TEST_F(DressingTest, AnIndexThatDoesNotFitSixteenBitsLeavesTheTargetAsItIs) {
     EXPECT_EQ(vfit_frame_write(frame, VFIT_STREAM_INDEX, &target, nullptr), VFIT_ERROR_CAPACITY);
     for (const uint16_t index : narrow) ASSERT_EQ(index, 0xABCD);
     ASSERT_EQ(vfit_avatar_acquire(make_avatar(0), &frame), VFIT_OK);
-    ASSERT_EQ(vfit_frame_write(frame, VFIT_STREAM_INDEX, &target, nullptr), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_frame_write(frame, VFIT_STREAM_INDEX, &target, nullptr), VFIT_OK)
+        << contract::last_error();
     vfit_view wide = vfit_view_init();
     ASSERT_EQ(vfit_frame_view(frame, VFIT_STREAM_INDEX, &wide), VFIT_OK);
     for (uint32_t i = 0; i < wide.width; ++i)
@@ -364,17 +376,21 @@ TEST_F(DressingTest, ChartsListTheirRowsAndRecommend) {
     ASSERT_EQ(vfit_size_chart_rows(chart, rows.data(), sizeof rows[0], &count), VFIT_OK);
     const vfit_measurement bust = measure("chest_girth_m", 0.94f, 0.02f);
     uint32_t sizes = 0;
-    ASSERT_EQ(vfit_size_recommend(chart, rows[0].garment_kind, &bust, sizeof bust, 1, nullptr, 0, &sizes), VFIT_OK)
+    ASSERT_EQ(vfit_size_recommend(chart, rows[0].garment_kind, &bust, sizeof bust, 1, nullptr, 0, &sizes),
+              VFIT_OK)
         << contract::last_error();
     std::vector<vfit_size> list(sizes);
-    ASSERT_EQ(vfit_size_recommend(chart, rows[0].garment_kind, &bust, sizeof bust, 1, list.data(), sizeof list[0], &sizes),
+    ASSERT_EQ(vfit_size_recommend(chart, rows[0].garment_kind, &bust, sizeof bust, 1, list.data(),
+                                  sizeof list[0], &sizes),
               VFIT_OK);
     EXPECT_STREQ(list[0].label, "M");  // EN 13402-3: 90 to 98 cm
     float sum = 0.0f;
     for (const auto& s : list) sum += s.probability;
     EXPECT_NEAR(sum, 1.0f, 1e-4f);
-    EXPECT_EQ(vfit_size_recommend(chart, "spacesuit", &bust, sizeof bust, 1, nullptr, 0, &sizes), VFIT_ERROR_ARGUMENT);
-    EXPECT_EQ(vfit_size_recommend(chart, rows[0].garment_kind, nullptr, 0, 0, nullptr, 0, &sizes), VFIT_ERROR_DATA);
+    EXPECT_EQ(vfit_size_recommend(chart, "spacesuit", &bust, sizeof bust, 1, nullptr, 0, &sizes),
+              VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_size_recommend(chart, rows[0].garment_kind, nullptr, 0, 0, nullptr, 0, &sizes),
+              VFIT_ERROR_DATA);
 }
 
 TEST(Contract, WrittenAxesKeepTheBodyTheSameBody) {
@@ -427,7 +443,8 @@ TEST_F(ContextTest, SensorsListOpenPlayAndClose) {
     vfit_sensor sensor{};
     EXPECT_EQ(vfit_sensor_open(context, nullptr, &sensor), VFIT_ERROR_ARGUMENT);
     EXPECT_EQ(vfit_sensor_open(context, "teapot:1", &sensor), VFIT_ERROR_UNSUPPORTED);
-    ASSERT_EQ(vfit_sensor_open(context, "virtual:sensor=kinect_v1_320&frames=3", &sensor), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_sensor_open(context, "virtual:sensor=kinect_v1_320&frames=3", &sensor), VFIT_OK)
+        << contract::last_error();
     vfit_frame frame{};
     EXPECT_EQ(vfit_sensor_acquire(sensor, 0, &frame), VFIT_ERROR_STATE) << "not started";
     EXPECT_EQ(vfit_sensor_set_option(sensor, "no_such", "1"), VFIT_ERROR_ARGUMENT);

@@ -9,7 +9,8 @@ namespace {
 
 class FitTest : public contract::ContextTest {
 protected:
-    /// Mean over the last frames of the first person's paper joints, metres, and who has rotations in the last one.
+    /// Mean over the last frames of the first person's paper joints, metres, and who has rotations in the
+    /// last one.
     struct Outcome {
         double error_m = 0.0;
         std::map<uint32_t, bool> rotations;
@@ -28,8 +29,9 @@ protected:
     Outcome run(vfit_track_fit fit, int people) {
         Outcome out;
         vfit_sensor sensor{};
-        const std::string uri = "virtual:motion=reach&rate=30&sensor=kinect_v1_320&clothing=0.02&seed=6&frames=24&people=" +
-                                std::to_string(people);
+        const std::string uri =
+            "virtual:motion=reach&rate=30&sensor=kinect_v1_320&clothing=0.02&seed=6&frames=24&people=" +
+            std::to_string(people);
         EXPECT_EQ(vfit_sensor_open(context, uri.c_str(), &sensor), VFIT_OK) << contract::last_error();
         EXPECT_EQ(vfit_sensor_start(sensor), VFIT_OK);
         vfit_tracker_desc desc = vfit_tracker_desc_init();

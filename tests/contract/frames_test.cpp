@@ -112,8 +112,8 @@ TEST_F(FrameTest, WrongPixelsAreRefusedByName) {
 }
 
 TEST_F(FrameTest, WrongCamerasAreRefusedByName) {
-    for (const float focal : {0.0f, -5.0f, std::numeric_limits<float>::quiet_NaN(),
-                              std::numeric_limits<float>::infinity()}) {
+    for (const float focal :
+         {0.0f, -5.0f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
         image.intrinsics.fx = focal;
         EXPECT_EQ(create(image.desc()), VFIT_ERROR_ARGUMENT) << focal;
     }
@@ -171,7 +171,8 @@ TEST_F(FrameTest, WritesAtTheHostsStrideAndFormatAndSkipsWhatItHas) {
     target.capacity = metres.size() * sizeof(float);
     target.item_stride = 8;
     uint64_t serial = 0;
-    ASSERT_EQ(vfit_frame_write(frame, VFIT_STREAM_DEPTH, &target, &serial), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_frame_write(frame, VFIT_STREAM_DEPTH, &target, &serial), VFIT_OK)
+        << contract::last_error();
     EXPECT_FLOAT_EQ(metres[0], 3.0f);
     EXPECT_FLOAT_EQ(metres[1], -1.0f) << "between items nothing is written";
     EXPECT_NE(serial, 0u);
@@ -356,7 +357,8 @@ TEST_F(SubmitTest, BadBodiesAreRefusedByName) {
     EXPECT_EQ(submit(frame), VFIT_ERROR_ARGUMENT);
     joints.clear();
     EXPECT_EQ(submit(frame), VFIT_ERROR_ARGUMENT);
-    EXPECT_EQ(vfit_tracker_submit(tracker, frame, &body, nullptr, sizeof(vfit_joint), 15, &tracked), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_tracker_submit(tracker, frame, &body, nullptr, sizeof(vfit_joint), 15, &tracked),
+              VFIT_ERROR_ARGUMENT);
     EXPECT_EQ(vfit_tracker_submit(tracker, frame, nullptr, joints.data(), sizeof(vfit_joint), 0, &tracked),
               VFIT_ERROR_ARGUMENT);
 }

@@ -24,7 +24,10 @@ protected:
             values.back().value = value;
         }
         vfit_avatar made{};
-        EXPECT_EQ(vfit_avatar_create_from_shape(context, &desc, values.data(), sizeof(vfit_shape_value), uint32_t(values.size()), &made), VFIT_OK) << contract::last_error();
+        EXPECT_EQ(vfit_avatar_create_from_shape(context, &desc, values.data(), sizeof(vfit_shape_value),
+                                                uint32_t(values.size()), &made),
+                  VFIT_OK)
+            << contract::last_error();
         return made;
     }
     vfit_garment open(const char* name) {
@@ -32,7 +35,8 @@ protected:
         EXPECT_EQ(vfit_garment_open(context, name, &garment), VFIT_OK) << contract::last_error();
         return garment;
     }
-    vfit_result put_on(vfit_avatar avatar, vfit_garment garment, const char* size, uint32_t flags, vfit_cloth& out) {
+    vfit_result put_on(vfit_avatar avatar, vfit_garment garment, const char* size, uint32_t flags,
+                       vfit_cloth& out) {
         vfit_cloth_desc desc = vfit_cloth_desc_init();
         desc.flags = VFIT_CLOTH_SKIN | flags;
         desc.size_label = size;
@@ -40,15 +44,19 @@ protected:
     }
     vfit_cloth worn(vfit_avatar avatar, vfit_garment garment, const char* size, int steps = 45) {
         vfit_cloth cloth{};
-        EXPECT_EQ(put_on(avatar, garment, size, VFIT_CLOTH_ANY_FIT, cloth), VFIT_OK) << contract::last_error();
-        for (int i = 0; i < steps; ++i) EXPECT_EQ(vfit_cloth_step(cloth, kGarmentStep_s), VFIT_OK) << contract::last_error();
+        EXPECT_EQ(put_on(avatar, garment, size, VFIT_CLOTH_ANY_FIT, cloth), VFIT_OK)
+            << contract::last_error();
+        for (int i = 0; i < steps; ++i)
+            EXPECT_EQ(vfit_cloth_step(cloth, kGarmentStep_s), VFIT_OK) << contract::last_error();
         return cloth;
     }
     static std::vector<vfit_fit_zone> fit_of(vfit_cloth cloth) {
         uint32_t count = 0;
-        EXPECT_EQ(vfit_cloth_fit(cloth, nullptr, sizeof(vfit_fit_zone), &count), VFIT_OK) << contract::last_error();
+        EXPECT_EQ(vfit_cloth_fit(cloth, nullptr, sizeof(vfit_fit_zone), &count), VFIT_OK)
+            << contract::last_error();
         std::vector<vfit_fit_zone> zones(count);
-        EXPECT_EQ(vfit_cloth_fit(cloth, zones.data(), sizeof(vfit_fit_zone), &count), VFIT_OK) << contract::last_error();
+        EXPECT_EQ(vfit_cloth_fit(cloth, zones.data(), sizeof(vfit_fit_zone), &count), VFIT_OK)
+            << contract::last_error();
         return zones;
     }
     static vfit_fit_zone zone(vfit_cloth cloth, const std::string& key) {
@@ -82,7 +90,9 @@ protected:
 TEST_F(GarmentsTest, KeepTheirLengthsAndTellHowTheySit) {
     const vfit_avatar avatar = body();
     const vfit_garment dress = open("sundress_pattern");
-    const vfit_fit_zone xs = zone(worn(avatar, dress, "XS"), "chest_girth_m"), s = zone(worn(avatar, dress, "S"), "chest_girth_m"), xl = zone(worn(avatar, dress, "XL"), "chest_girth_m");
+    const vfit_fit_zone xs = zone(worn(avatar, dress, "XS"), "chest_girth_m"),
+                        s = zone(worn(avatar, dress, "S"), "chest_girth_m"),
+                        xl = zone(worn(avatar, dress, "XL"), "chest_girth_m");
     EXPECT_EQ(xs.fit, VFIT_FIT_TIGHT);  // the default woman's chest of 84 cm is an S by EN 13402-3
     EXPECT_EQ(s.fit, VFIT_FIT_RIGHT);
     EXPECT_EQ(xl.fit, VFIT_FIT_LOOSE);
@@ -111,13 +121,15 @@ TEST_F(GarmentsTest, OneThatDoesNotCloseIsRefusedWithTheGirthAndTheFabric) {
     EXPECT_EQ(put_on(heavy, jeans, "XS", 0, cloth), VFIT_ERROR_NOT_WEARABLE);
     EXPECT_EQ(cloth.id, 0u);
     const std::string why = contract::last_error();
-    for (const char* word : {"jeans_women", "XS", "hip_girth_m", "denim"}) EXPECT_NE(why.find(word), std::string::npos) << why;
+    for (const char* word : {"jeans_women", "XS", "hip_girth_m", "denim"})
+        EXPECT_NE(why.find(word), std::string::npos) << why;
     EXPECT_EQ(put_on(heavy, jeans, "XS", VFIT_CLOTH_ANY_FIT, cloth), VFIT_OK) << contract::last_error();
     EXPECT_EQ(put_on(heavy, jeans, "XL", 0, cloth), VFIT_OK) << contract::last_error();
     const uint64_t before = hash(cloth);
     EXPECT_EQ(vfit_cloth_set_size(cloth, "XS"), VFIT_ERROR_NOT_WEARABLE);
     EXPECT_EQ(vfit_cloth_set_size(cloth, "XXXXL"), VFIT_ERROR_ARGUMENT);
-    EXPECT_NE(std::string(contract::last_error()).find("XS, S, M"), std::string::npos) << contract::last_error();
+    EXPECT_NE(std::string(contract::last_error()).find("XS, S, M"), std::string::npos)
+        << contract::last_error();
     EXPECT_EQ(hash(cloth), before);
 }
 
@@ -127,7 +139,8 @@ TEST_F(GarmentsTest, OneWhoseArmholesAreTooSmallIsRefusedAndTheOldSizeStaysOn) {
     vfit_cloth cloth{};
     EXPECT_EQ(put_on(tall, vest, "M", 0, cloth), VFIT_ERROR_NOT_WEARABLE);  // its chest would close
     const std::string why = contract::last_error();
-    for (const char* word : {"vest", "size M", "opening", "wool_suiting"}) EXPECT_NE(why.find(word), std::string::npos) << why;
+    for (const char* word : {"vest", "size M", "opening", "wool_suiting"})
+        EXPECT_NE(why.find(word), std::string::npos) << why;
     EXPECT_EQ(put_on(tall, vest, "M", VFIT_CLOTH_ANY_FIT, cloth), VFIT_OK) << contract::last_error();
     EXPECT_EQ(put_on(tall, vest, "XXL", 0, cloth), VFIT_OK) << contract::last_error();
     const auto of_xxl = positions(cloth);
@@ -154,9 +167,11 @@ TEST_F(GarmentsTest, TrousersThatAreTooShortInTheRiseAreRefused) {
     const vfit_avatar tall = body({{"height", 0.72f}}, VFIT_SEX_MALE);
     const vfit_garment pants = open("pants_men");
     vfit_cloth cloth{};
-    EXPECT_EQ(put_on(tall, pants, "S", 0, cloth), VFIT_ERROR_NOT_WEARABLE);  // around waist and hips they would go
+    EXPECT_EQ(put_on(tall, pants, "S", 0, cloth),
+              VFIT_ERROR_NOT_WEARABLE);  // around waist and hips they would go
     const std::string why = contract::last_error();
-    for (const char* word : {"pants_men", "size S", "crotch", "cotton_woven"}) EXPECT_NE(why.find(word), std::string::npos) << why;
+    for (const char* word : {"pants_men", "size S", "crotch", "cotton_woven"})
+        EXPECT_NE(why.find(word), std::string::npos) << why;
     EXPECT_EQ(put_on(tall, pants, "L", 0, cloth), VFIT_OK) << contract::last_error();
 }
 
@@ -173,7 +188,8 @@ TEST_F(GarmentsTest, SleevesAndLegsThatAreTooLongAreTakenUpAndTheirLengthIsTold)
     const vfit_cloth_stats shirt = taken_up(worn(small, open("shirt_men"), "M", 1));
     EXPECT_GT(shirt.sleeves_taken_up_m, 0.05f);
     EXPECT_EQ(shirt.legs_taken_up_m, 0.0f);
-    EXPECT_EQ(taken_up(worn(small, open("jeans_women"), nullptr, 1)).legs_taken_up_m, 0.0f) << "made to measure";
+    EXPECT_EQ(taken_up(worn(small, open("jeans_women"), nullptr, 1)).legs_taken_up_m, 0.0f)
+        << "made to measure";
 }
 
 TEST_F(GarmentsTest, ChangeTheirSizeWhileTheyAreWorn) {
@@ -184,11 +200,13 @@ TEST_F(GarmentsTest, ChangeTheirSizeWhileTheyAreWorn) {
     ASSERT_EQ(vfit_cloth_set_size(cloth, "XL"), VFIT_OK) << contract::last_error();
     for (int i = 0; i < 45; ++i) ASSERT_EQ(vfit_cloth_step(cloth, kGarmentStep_s), VFIT_OK);
     EXPECT_EQ(positions(cloth).size(), before.size());
-    EXPECT_NEAR(zone(cloth, "chest_girth_m").garment_m, zone(worn(avatar, dress, "XL"), "chest_girth_m").garment_m, 0.02f);
+    EXPECT_NEAR(zone(cloth, "chest_girth_m").garment_m,
+                zone(worn(avatar, dress, "XL"), "chest_girth_m").garment_m, 0.02f);
     ASSERT_EQ(vfit_cloth_set_size(cloth, nullptr), VFIT_OK) << contract::last_error();
     for (int i = 0; i < 45; ++i) ASSERT_EQ(vfit_cloth_step(cloth, kGarmentStep_s), VFIT_OK);
     // Made to the avatar, who is the body that it was made on: as in the size that it was made in.
-    EXPECT_NEAR(zone(cloth, "chest_girth_m").garment_m, zone(worn(avatar, dress, "S"), "chest_girth_m").garment_m, 0.02f);
+    EXPECT_NEAR(zone(cloth, "chest_girth_m").garment_m,
+                zone(worn(avatar, dress, "S"), "chest_girth_m").garment_m, 0.02f);
     // The one without lengths of its own has its sizes too.
     vfit_cloth other = worn(avatar, open("sundress"), nullptr, 1);
     EXPECT_EQ(vfit_cloth_set_size(other, "L"), VFIT_OK) << contract::last_error();
@@ -200,7 +218,8 @@ TEST_F(GarmentsTest, ChangeTheirSizeWhileTheyAreWorn) {
 TEST_F(GarmentsTest, MadeToMeasureKeepsTheEaseItWasMadeWith) {
     const vfit_garment dress = open("sundress_pattern");
     const vfit_fit_zone own = zone(worn(body(), dress, nullptr), "chest_girth_m");
-    for (const vfit_avatar avatar : {body({{"weight", 1.0f}}), body({{"height", 0.7f}}), body({{"height", 0.35f}, {"weight", 0.4f}})}) {
+    for (const vfit_avatar avatar :
+         {body({{"weight", 1.0f}}), body({{"height", 0.7f}}), body({{"height", 0.35f}, {"weight", 0.4f}})}) {
         const vfit_fit_zone z = zone(worn(avatar, dress, nullptr), "chest_girth_m");
         EXPECT_NEAR(z.ease_m, own.ease_m, 0.02f) << "on a chest of " << z.body_m;
         EXPECT_EQ(z.fit, VFIT_FIT_RIGHT) << "on a chest of " << z.body_m;
@@ -217,7 +236,8 @@ TEST_F(GarmentsTest, TheFitMapIsAboveZeroWhereItIsTight) {
         std::vector<float> map(positions(cloth).size(), 7.0f);
         EXPECT_EQ(vfit_cloth_fit_map(cloth, map.data(), uint32_t(map.size()) - 1), VFIT_ERROR_ARGUMENT);
         EXPECT_EQ(vfit_cloth_fit_map(cloth, nullptr, uint32_t(map.size())), VFIT_ERROR_ARGUMENT);
-        ASSERT_EQ(vfit_cloth_fit_map(cloth, map.data(), uint32_t(map.size())), VFIT_OK) << contract::last_error();
+        ASSERT_EQ(vfit_cloth_fit_map(cloth, map.data(), uint32_t(map.size())), VFIT_OK)
+            << contract::last_error();
         double sum = 0.0;
         for (const float value : map) {
             ASSERT_GE(value, -1.0f);
@@ -269,12 +289,15 @@ TEST_F(GarmentsTest, ForearmsStayInTheirSleeves) {
             bones[0].bone = VFIT_BONE_HIPS, bones[0].rotation[3] = 1.0f, bones[0].position[1] = 0.9f;
             for (int side = 0; side < 2; ++side) {
                 bones[1 + side].bone = side == 0 ? VFIT_BONE_LEFT_UPPER_ARM : VFIT_BONE_RIGHT_UPPER_ARM;
-                bones[1 + side].rotation[2] = side == 0 ? -0.72f : 0.72f, bones[1 + side].rotation[3] = 0.694f;
+                bones[1 + side].rotation[2] = side == 0 ? -0.72f : 0.72f,
+                          bones[1 + side].rotation[3] = 0.694f;
             }
-            ASSERT_EQ(vfit_avatar_pose(avatar, &pose, bones, sizeof bones[0], 1), VFIT_OK) << contract::last_error();
+            ASSERT_EQ(vfit_avatar_pose(avatar, &pose, bones, sizeof bones[0], 1), VFIT_OK)
+                << contract::last_error();
             vfit_cloth cloth{};
             ASSERT_EQ(put_on(avatar, garment, nullptr, flag, cloth), VFIT_OK) << contract::last_error();
-            ASSERT_EQ(vfit_avatar_pose(avatar, &pose, bones, sizeof bones[0], 3), VFIT_OK) << contract::last_error();
+            ASSERT_EQ(vfit_avatar_pose(avatar, &pose, bones, sizeof bones[0], 3), VFIT_OK)
+                << contract::last_error();
             for (int i = 0; i < 10; ++i) ASSERT_EQ(vfit_cloth_step(cloth, kGarmentStep_s), VFIT_OK);
             hashes[flag != 0] = hash(cloth);
         }

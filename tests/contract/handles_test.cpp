@@ -52,16 +52,22 @@ std::vector<Call> calls() {
         {"log_next", [](uint64_t h) { return vfit_log_next({h}, &level, buffer, sizeof buffer); }},
         {"plugin_load", [](uint64_t h) { return vfit_plugin_load({h}, "x"); }},
         {"plugin_list", [](uint64_t h) { return vfit_plugin_list({h}, nullptr, 0, &count); }},
-        {"frame_create", [](uint64_t h) { static contract::HostImage image; const auto d = image.desc();
-                                          return vfit_frame_create({h}, &d, &frame_out); }},
+        {"frame_create",
+         [](uint64_t h) {
+             static contract::HostImage image;
+             const auto d = image.desc();
+             return vfit_frame_create({h}, &d, &frame_out);
+         }},
         {"frame_retain", [](uint64_t h) { return vfit_frame_retain({h}); }},
         {"frame_release", [](uint64_t h) { return vfit_frame_release({h}); }},
         {"frame_streams", [](uint64_t h) { return vfit_frame_streams({h}, nullptr, &count); }},
         {"frame_view", [](uint64_t h) { return vfit_frame_view({h}, VFIT_STREAM_DEPTH, &view); }},
         {"frame_intrinsics", [](uint64_t h) { return vfit_frame_intrinsics({h}, &intrinsics); }},
         {"frame_camera", [](uint64_t h) { return vfit_frame_camera({h}, &camera); }},
-        {"frame_meta", [](uint64_t h) { return vfit_frame_meta({h}, "index", buffer, sizeof buffer, &count); }},
-        {"frame_write", [](uint64_t h) { return vfit_frame_write({h}, VFIT_STREAM_DEPTH, &target, nullptr); }},
+        {"frame_meta",
+         [](uint64_t h) { return vfit_frame_meta({h}, "index", buffer, sizeof buffer, &count); }},
+        {"frame_write",
+         [](uint64_t h) { return vfit_frame_write({h}, VFIT_STREAM_DEPTH, &target, nullptr); }},
         {"frame_bodies", [](uint64_t h) { return vfit_frame_bodies({h}, nullptr, 0, &count); }},
         {"frame_joints", [](uint64_t h) { return vfit_frame_joints({h}, 1, nullptr, 0, &count); }},
         {"sensor_list", [](uint64_t h) { return vfit_sensor_list({h}, nullptr, 0, &count); }},
@@ -75,13 +81,15 @@ std::vector<Call> calls() {
         {"sensor_close", [](uint64_t h) { return vfit_sensor_close({h}); }},
         {"sensor_acquire", [](uint64_t h) { return vfit_sensor_acquire({h}, 0, &frame_out); }},
         {"sensor_describe", [](uint64_t h) { return vfit_sensor_describe({h}, &sensor_stats); }},
-        {"recorder_create", [](uint64_t h) { return vfit_recorder_create({h}, "x", nullptr, &recorder_out); }},
+        {"recorder_create",
+         [](uint64_t h) { return vfit_recorder_create({h}, "x", nullptr, &recorder_out); }},
         {"recorder_write", [](uint64_t h) { return vfit_recorder_write({h}, {h}); }},
         {"recorder_destroy", [](uint64_t h) { return vfit_recorder_destroy({h}); }},
         {"tracker_create", [](uint64_t h) { return vfit_tracker_create({h}, nullptr, &tracker_out); }},
         {"tracker_destroy", [](uint64_t h) { return vfit_tracker_destroy({h}); }},
         {"tracker_update", [](uint64_t h) { return vfit_tracker_update({h}, {h}, &frame_out); }},
-        {"tracker_submit", [](uint64_t h) { return vfit_tracker_submit({h}, {h}, nullptr, nullptr, 0, 0, &frame_out); }},
+        {"tracker_submit",
+         [](uint64_t h) { return vfit_tracker_submit({h}, {h}, nullptr, nullptr, 0, 0, &frame_out); }},
         {"tracker_hint", [](uint64_t h) { return vfit_tracker_hint({h}, nullptr, 0, 0); }},
         {"tracker_set_active", [](uint64_t h) { return vfit_tracker_set_active({h}, 1); }},
         {"frame_active_body", [](uint64_t h) { return vfit_frame_active_body({h}, &count, nullptr); }},
@@ -97,8 +105,10 @@ std::vector<Call> calls() {
         {"size_chart_open", [](uint64_t h) { return vfit_size_chart_open({h}, "paper", &chart_out); }},
         {"size_chart_destroy", [](uint64_t h) { return vfit_size_chart_destroy({h}); }},
         {"size_chart_rows", [](uint64_t h) { return vfit_size_chart_rows({h}, nullptr, 0, &count); }},
-        {"size_recommend", [](uint64_t h) { return vfit_size_recommend({h}, "x", nullptr, 0, 0, nullptr, 0, &count); }},
-        {"size_zones", [](uint64_t h) { return vfit_size_zones({h}, "x", "M", nullptr, 0, 0, nullptr, 0, &count); }},
+        {"size_recommend",
+         [](uint64_t h) { return vfit_size_recommend({h}, "x", nullptr, 0, 0, nullptr, 0, &count); }},
+        {"size_zones",
+         [](uint64_t h) { return vfit_size_zones({h}, "x", "M", nullptr, 0, 0, nullptr, 0, &count); }},
         {"scan_extend", [](uint64_t h) { return vfit_scan_extend({h}, 1, 0); }},
         {"motion_create", [](uint64_t h) { return vfit_motion_create({h}, nullptr, &motion_out); }},
         {"motion_destroy", [](uint64_t h) { return vfit_motion_destroy({h}); }},
@@ -110,24 +120,28 @@ std::vector<Call> calls() {
         {"shape_list", [](uint64_t h) { return vfit_shape_list({h}, nullptr, 0, &count); }},
         {"avatar_create_from_shape",
          [](uint64_t h) { return vfit_avatar_create_from_shape({h}, nullptr, nullptr, 0, 0, &avatar_out); }},
-        {"avatar_create", [](uint64_t h) { return vfit_avatar_create({h}, nullptr, nullptr, 0, 0, &avatar_out); }},
+        {"avatar_create",
+         [](uint64_t h) { return vfit_avatar_create({h}, nullptr, nullptr, 0, 0, &avatar_out); }},
         {"avatar_create_from_scan",
          [](uint64_t h) { return vfit_avatar_create_from_scan({h}, nullptr, {h}, &avatar_out); }},
         {"avatar_destroy", [](uint64_t h) { return vfit_avatar_destroy({h}); }},
         {"avatar_pose", [](uint64_t h) { return vfit_avatar_pose({h}, &pose, nullptr, 0, 0); }},
-        {"avatar_pose_into", [](uint64_t h) { return vfit_avatar_pose_into({h}, &pose, nullptr, 0, 0, &target, nullptr); }},
+        {"avatar_pose_into",
+         [](uint64_t h) { return vfit_avatar_pose_into({h}, &pose, nullptr, 0, 0, &target, nullptr); }},
         {"avatar_load", [](uint64_t h) { return vfit_avatar_load({h}, nullptr, nullptr, &avatar_out); }},
         {"avatar_describe", [](uint64_t h) { return vfit_avatar_describe({h}, nullptr); }},
         {"avatar_parts", [](uint64_t h) { return vfit_avatar_parts({h}, nullptr, 0, &count); }},
         {"avatar_pack", [](uint64_t h) { return vfit_avatar_pack({h}, "M", nullptr, &count); }},
-        {"avatar_unpack", [](uint64_t h) { return vfit_avatar_unpack({h}, nullptr, "x", 1, nullptr, 0, &avatar_out); }},
+        {"avatar_unpack",
+         [](uint64_t h) { return vfit_avatar_unpack({h}, nullptr, "x", 1, nullptr, 0, &avatar_out); }},
         {"pose_pack", [](uint64_t h) { return vfit_pose_pack({h}, &pose, nullptr, 0, 0, nullptr, &count); }},
         {"pose_unpack", [](uint64_t h) { return vfit_pose_unpack({h}, "x", 1, &pose, nullptr, 0, &count); }},
         {"avatar_colliders", [](uint64_t h) { return vfit_avatar_colliders({h}, nullptr, 0, &count); }},
         {"avatar_joints", [](uint64_t h) { return vfit_avatar_joints({h}, nullptr, 0, &count); }},
         {"avatar_rig", [](uint64_t h) { return vfit_avatar_rig({h}, nullptr, 0, &count); }},
         {"avatar_measure", [](uint64_t h) { return vfit_avatar_measure({h}, nullptr, 0, &count); }},
-        {"avatar_measure_own", [](uint64_t h) { return vfit_avatar_measure_own({h}, "{}", 2, nullptr, 0, &count); }},
+        {"avatar_measure_own",
+         [](uint64_t h) { return vfit_avatar_measure_own({h}, "{}", 2, nullptr, 0, &count); }},
         {"avatar_acquire", [](uint64_t h) { return vfit_avatar_acquire({h}, &frame_out); }},
         {"avatar_acquire_rest", [](uint64_t h) { return vfit_avatar_acquire_rest({h}, &frame_out); }},
         {"garment_load", [](uint64_t h) { return vfit_garment_load({h}, "{}", 2, &garment_out); }},
@@ -140,10 +154,18 @@ std::vector<Call> calls() {
         {"cloth_step", [](uint64_t h) { return vfit_cloth_step({h}, 0.01f); }},
         {"cloth_begin_step", [](uint64_t h) { return vfit_cloth_begin_step({h}, 0.01f); }},
         {"cloth_end_step", [](uint64_t h) { return vfit_cloth_end_step({h}); }},
-        {"cloth_set_wind", [](uint64_t h) { static const float kWind[3] = {}; return vfit_cloth_set_wind({h}, kWind); }},
+        {"cloth_set_wind",
+         [](uint64_t h) {
+             static const float kWind[3] = {};
+             return vfit_cloth_set_wind({h}, kWind);
+         }},
         {"cloth_set_quality", [](uint64_t h) { return vfit_cloth_set_quality({h}, 8, 0.0f); }},
         {"cloth_wear_over", [](uint64_t h) { return vfit_cloth_wear_over({h}, {h}); }},
-        {"cloth_hide_skin", [](uint64_t h) { static uint8_t hidden[1]; return vfit_cloth_hide_skin({h}, 0.0f, hidden, 1); }},
+        {"cloth_hide_skin",
+         [](uint64_t h) {
+             static uint8_t hidden[1];
+             return vfit_cloth_hide_skin({h}, 0.0f, hidden, 1);
+         }},
         {"cloth_acquire", [](uint64_t h) { return vfit_cloth_acquire({h}, &frame_out); }},
         {"cloth_describe", [](uint64_t h) { return vfit_cloth_describe({h}, &cloth_stats); }},
         {"cloth_state_hash", [](uint64_t h) { return vfit_cloth_state_hash({h}, &hash); }},
@@ -230,13 +252,15 @@ TEST(Contract, ShutdownEndsEveryContext) {
 TEST(Contract, ShutdownIsWellAlsoWhereAPlugInHasAContextOfItsOwn) {
     const vfit_context_desc desc = contract::context_desc();
     for (int round = 0; round < 4; ++round) {
-        // The plug-in's context takes the place of one that is gone: it stands before its host's in the table.
+        // The plug-in's context takes the place of one that is gone: it stands before its host's in the
+        // table.
         vfit_context gone[8]{}, context{};
         for (vfit_context& c : gone) ASSERT_EQ(vfit_context_create(&desc, &c), VFIT_OK);
         ASSERT_EQ(vfit_context_create(&desc, &context), VFIT_OK);
         for (vfit_context& c : gone) ASSERT_EQ(vfit_context_destroy(c), VFIT_OK);
         vfit_sensor sensor{};
-        ASSERT_EQ(vfit_sensor_open(context, "virtual:sensor=kinect_v1_320", &sensor), VFIT_OK) << contract::last_error();
+        ASSERT_EQ(vfit_sensor_open(context, "virtual:sensor=kinect_v1_320", &sensor), VFIT_OK)
+            << contract::last_error();
         ASSERT_EQ(vfit_sensor_start(sensor), VFIT_OK);
         std::this_thread::sleep_for(std::chrono::milliseconds(round));  // it works on its first frames
         EXPECT_EQ(vfit_shutdown(), VFIT_OK) << contract::last_error();

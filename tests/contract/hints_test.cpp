@@ -80,7 +80,8 @@ protected:
                     if (std::find(std::begin(kHinted), std::end(kHinted), j.joint) != std::end(kHinted)) {
                         const vfit_joint& t = truth[size_t(j.joint)];
                         // Across the view of the level camera: a hint says nothing of depth.
-                        const double e = std::hypot(j.position[0] - t.position[0], j.position[1] - t.position[1]);
+                        const double e =
+                            std::hypot(j.position[0] - t.position[0], j.position[1] - t.position[1]);
                         (t.state == VFIT_JOINT_MEASURED ? errors.seen : errors.hidden).push_back(e);
                     }
             vfit_frame_release(tracked);
@@ -103,9 +104,9 @@ TEST_F(HintsTest, RightOnesHelpWhereAnArmIsHiddenAndWrongOnesDoLimitedHarm) {
         ASSERT_GT(without.seen.size(), 100u);
         for (const auto& [name, errors] :
              {std::pair{"without", &without}, {"right", &right}, {"wrong by 40 pixels", &wrong}})
-            std::printf("%s, %s: hidden %.0f mm (%zu), seen %.0f mm (%zu)\n", fit == VFIT_FIT_OFF ? "network" : "fit",
-                        name, 1000 * Errors::mean(errors->hidden), errors->hidden.size(),
-                        1000 * Errors::mean(errors->seen), errors->seen.size());
+            std::printf("%s, %s: hidden %.0f mm (%zu), seen %.0f mm (%zu)\n",
+                        fit == VFIT_FIT_OFF ? "network" : "fit", name, 1000 * Errors::mean(errors->hidden),
+                        errors->hidden.size(), 1000 * Errors::mean(errors->seen), errors->seen.size());
         EXPECT_LT(Errors::mean(right.hidden), 0.8 * Errors::mean(without.hidden));
         EXPECT_LT(Errors::mean(right.seen), Errors::mean(without.seen) + 0.002);
         EXPECT_LT(Errors::mean(wrong.hidden), Errors::mean(without.hidden) + 0.02);
@@ -132,7 +133,7 @@ TEST_F(HintsTest, BadOnesAreRefusedByNameAndNoneIsTaken) {
     EXPECT_EQ(give(), VFIT_ERROR_ARGUMENT);
     EXPECT_NE(contract::last_error().find("23"), std::string::npos);
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()})
-        for (float vfit_joint_hint::*field :
+        for (float vfit_joint_hint::* field :
              {&vfit_joint_hint::x, &vfit_joint_hint::y, &vfit_joint_hint::confidence}) {
             hints[1] = good;
             hints[1].*field = bad;

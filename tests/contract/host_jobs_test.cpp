@@ -27,7 +27,8 @@ void pose(vfit_avatar avatar, int step) {
     const vfit_bone bones[] = {hips, bone(VFIT_BONE_LEFT_UPPER_LEG, half, std::sqrt(1.0f - half * half))};
     vfit_pose header = vfit_pose_init();
     header.time_ns = step;
-    ASSERT_EQ(vfit_avatar_pose(avatar, &header, bones, sizeof bones[0], 2), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_avatar_pose(avatar, &header, bones, sizeof bones[0], 2), VFIT_OK)
+        << contract::last_error();
 }
 
 std::vector<float> positions(vfit_frame frame) {
@@ -44,7 +45,8 @@ struct Result {
     uint64_t hash = 0;
 };
 
-/// Three steps at once and three begun and ended, on the host's job system or, null, on the library's own pool.
+/// Three steps at once and three begun and ended, on the host's job system or, null, on the library's own
+/// pool.
 Result dress(HostJobSystem* host) {
     Result result;
     vfit_context_desc desc = contract::context_desc();

@@ -1,5 +1,5 @@
-// Objects that are destroyed while another thread uses them: the call that runs is finished, the next one gets an
-// error, and nothing of the host's is called once its context is gone.
+// Objects that are destroyed while another thread uses them: the call that runs is finished, the next one
+// gets an error, and nothing of the host's is called once its context is gone.
 #include <chrono>
 #include <functional>
 #include <thread>
@@ -194,7 +194,8 @@ TEST(Lifetime, AStreamThatRunsEndsWithoutComplaintWhenItsContextGoes) {
         vfit_context context{};
         ASSERT_EQ(vfit_context_create(&desc, &context), VFIT_OK) << contract::last_error();
         vfit_sensor sensor{};
-        ASSERT_EQ(vfit_sensor_open(context, "virtual:sensor=kinect_v1_320&pace=realtime&rate=240", &sensor), VFIT_OK);
+        ASSERT_EQ(vfit_sensor_open(context, "virtual:sensor=kinect_v1_320&pace=realtime&rate=240", &sensor),
+                  VFIT_OK);
         ASSERT_EQ(vfit_sensor_start(sensor), VFIT_OK);
         vfit_frame frame{};
         ASSERT_EQ(vfit_sensor_acquire(sensor, -1, &frame), VFIT_OK) << contract::last_error();
@@ -212,7 +213,8 @@ TEST(Lifetime, TwoThreadsDestroyOneContextOnce) {
             ++ready;
             while (ready.load() < 2) std::this_thread::yield();
             const vfit_result result = vfit_context_destroy(context);
-            EXPECT_TRUE(result == VFIT_OK || result == VFIT_ERROR_BUSY || result == VFIT_ERROR_HANDLE) << result;
+            EXPECT_TRUE(result == VFIT_OK || result == VFIT_ERROR_BUSY || result == VFIT_ERROR_HANDLE)
+                << result;
             done += result == VFIT_OK;
         };
         std::thread other(destroy);

@@ -41,17 +41,23 @@ class PacketTest : public ContextTest {
 protected:
     std::vector<uint8_t> pack(const std::vector<vfit_bone>& bones, const vfit_pose& pose, vfit_context in) {
         uint32_t count = 0;
-        EXPECT_EQ(vfit_pose_pack(in, &pose, bones.data(), sizeof(vfit_bone), uint32_t(bones.size()), nullptr, &count), VFIT_OK)
+        EXPECT_EQ(vfit_pose_pack(in, &pose, bones.data(), sizeof(vfit_bone), uint32_t(bones.size()), nullptr,
+                                 &count),
+                  VFIT_OK)
             << contract::last_error();
         EXPECT_LE(count, 120u);
         std::vector<uint8_t> bytes(count);
-        EXPECT_EQ(vfit_pose_pack(in, &pose, bones.data(), sizeof(vfit_bone), uint32_t(bones.size()), bytes.data(), &count), VFIT_OK);
+        EXPECT_EQ(vfit_pose_pack(in, &pose, bones.data(), sizeof(vfit_bone), uint32_t(bones.size()),
+                                 bytes.data(), &count),
+                  VFIT_OK);
         return bytes;
     }
     std::vector<vfit_bone> unpack(const std::vector<uint8_t>& bytes, vfit_pose& pose, vfit_context in) {
         std::vector<vfit_bone> bones(VFIT_BONE_COUNT);
         uint32_t count = VFIT_BONE_COUNT;
-        EXPECT_EQ(vfit_pose_unpack(in, bytes.data(), uint32_t(bytes.size()), &pose, bones.data(), sizeof(vfit_bone), &count), VFIT_OK)
+        EXPECT_EQ(vfit_pose_unpack(in, bytes.data(), uint32_t(bytes.size()), &pose, bones.data(),
+                                   sizeof(vfit_bone), &count),
+                  VFIT_OK)
             << contract::last_error();
         return bones;
     }
@@ -61,7 +67,8 @@ protected:
         std::snprintf(value.key, sizeof value.key, "weight");
         value.value = weight;
         vfit_avatar avatar{};
-        EXPECT_EQ(vfit_avatar_create_from_shape(context, &desc, &value, sizeof value, 1, &avatar), VFIT_OK) << contract::last_error();
+        EXPECT_EQ(vfit_avatar_create_from_shape(context, &desc, &value, sizeof value, 1, &avatar), VFIT_OK)
+            << contract::last_error();
         return avatar;
     }
 };
@@ -79,7 +86,9 @@ TEST_F(PacketTest, APoseComesBackWithinTenthsOfADegree) {
         const auto got = unpack(pack(bones, pose, context), back, context);
         EXPECT_EQ(back.time_ns, pose.time_ns);
         EXPECT_EQ(back.contact_flags, pose.contact_flags);
-        for (int i = 0; i < 3; ++i) EXPECT_NEAR(got[0].position[i], bones[0].position[i], 1e-4f + 1e-6f * std::abs(bones[0].position[i]));
+        for (int i = 0; i < 3; ++i)
+            EXPECT_NEAR(got[0].position[i], bones[0].position[i],
+                        1e-4f + 1e-6f * std::abs(bones[0].position[i]));
         for (size_t b = 0; b < got.size(); ++b) worst = std::max(worst, degrees_between(got[b], bones[b]));
     }
     std::cout << "packed rotations: " << worst << " degrees off at most\n";
@@ -107,7 +116,8 @@ TEST_F(PacketTest, BadPosesAndPacketsAreRefused) {
     uint32_t count = 0;
     const auto packed = [&](const std::vector<vfit_bone>& list) {
         count = 0;
-        return vfit_pose_pack(context, &pose, list.data(), sizeof(vfit_bone), uint32_t(list.size()), nullptr, &count);
+        return vfit_pose_pack(context, &pose, list.data(), sizeof(vfit_bone), uint32_t(list.size()), nullptr,
+                              &count);
     };
     auto far = bones, broken = bones, without = bones;
     far[0].position[2] = 900.0f;
@@ -119,7 +129,8 @@ TEST_F(PacketTest, BadPosesAndPacketsAreRefused) {
     EXPECT_EQ(packed(without), VFIT_ERROR_DATA);
     uint8_t small[8];
     count = sizeof small;
-    EXPECT_EQ(vfit_pose_pack(context, &pose, bones.data(), sizeof(vfit_bone), 22, small, &count), VFIT_ERROR_CAPACITY);
+    EXPECT_EQ(vfit_pose_pack(context, &pose, bones.data(), sizeof(vfit_bone), 22, small, &count),
+              VFIT_ERROR_CAPACITY);
     EXPECT_EQ(count, good.size());
 
     const auto unpacked = [&](const std::vector<uint8_t>& bytes) {
@@ -127,7 +138,8 @@ TEST_F(PacketTest, BadPosesAndPacketsAreRefused) {
         return vfit_pose_unpack(context, bytes.data(), uint32_t(bytes.size()), &pose, nullptr, 0, &count);
     };
     EXPECT_EQ(vfit_pose_unpack(context, nullptr, 0, &pose, nullptr, 0, &count), VFIT_ERROR_ARGUMENT);
-    for (size_t n = 1; n < good.size(); ++n) EXPECT_EQ(unpacked({good.begin(), good.begin() + std::ptrdiff_t(n)}), VFIT_ERROR_DATA) << n;
+    for (size_t n = 1; n < good.size(); ++n)
+        EXPECT_EQ(unpacked({good.begin(), good.begin() + std::ptrdiff_t(n)}), VFIT_ERROR_DATA) << n;
     auto version = good, longer = good;
     version[0] = 9;
     longer.push_back(0);
@@ -157,12 +169,14 @@ TEST_F(PacketTest, ABodyComesBackWithItsShapeAndSize) {
     ASSERT_EQ(vfit_avatar_pack(avatar, "XL long", bytes.data(), &count), VFIT_OK);
     vfit_avatar back{};
     char label[32];
-    ASSERT_EQ(vfit_avatar_unpack(context, nullptr, bytes.data(), count, label, sizeof label, &back), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_avatar_unpack(context, nullptr, bytes.data(), count, label, sizeof label, &back), VFIT_OK)
+        << contract::last_error();
     EXPECT_STREQ(label, "XL long");
     const auto measures = [](vfit_avatar a) {
         std::vector<vfit_measurement> list(64);
         uint32_t n = 64;
-        EXPECT_EQ(vfit_avatar_measure(a, list.data(), sizeof(vfit_measurement), &n), VFIT_OK) << contract::last_error();
+        EXPECT_EQ(vfit_avatar_measure(a, list.data(), sizeof(vfit_measurement), &n), VFIT_OK)
+            << contract::last_error();
         list.resize(n);
         return list;
     };
@@ -205,14 +219,17 @@ TEST_F(PacketTest, PosingIntoOwnMemoryGivesTheSameSkin) {
     const vfit_avatar avatar = make_avatar();
     vfit_pose pose = vfit_pose_init();
     const auto bones = random_bones(2);
-    ASSERT_EQ(vfit_avatar_pose(avatar, &pose, bones.data(), sizeof(vfit_bone), 22), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_avatar_pose(avatar, &pose, bones.data(), sizeof(vfit_bone), 22), VFIT_OK)
+        << contract::last_error();
     vfit_frame frame{};
     ASSERT_EQ(vfit_avatar_acquire(avatar, &frame), VFIT_OK);
     vfit_view p = vfit_view_init(), n = vfit_view_init();
     ASSERT_EQ(vfit_frame_view(frame, VFIT_STREAM_POSITION, &p), VFIT_OK);
     ASSERT_EQ(vfit_frame_view(frame, VFIT_STREAM_NORMAL, &n), VFIT_OK);
 
-    struct Vertex { float position[3], normal[3], uv[2]; };
+    struct Vertex {
+        float position[3], normal[3], uv[2];
+    };
     std::vector<Vertex> vertices(p.width, Vertex{{}, {}, {0.25f, 0.5f}});
     vfit_target to = vfit_target_init(), normals = vfit_target_init();
     to.data = vertices[0].position;
@@ -220,7 +237,9 @@ TEST_F(PacketTest, PosingIntoOwnMemoryGivesTheSameSkin) {
     to.item_stride = normals.item_stride = sizeof(Vertex);
     to.capacity = sizeof(Vertex) * (vertices.size() - 1) + 12;
     normals.capacity = to.capacity;
-    ASSERT_EQ(vfit_avatar_pose_into(avatar, &pose, bones.data(), sizeof(vfit_bone), 22, &to, &normals), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_avatar_pose_into(avatar, &pose, bones.data(), sizeof(vfit_bone), 22, &to, &normals),
+              VFIT_OK)
+        << contract::last_error();
     for (uint32_t v = 0; v < p.width; ++v) {
         ASSERT_EQ(std::memcmp(vertices[v].position, static_cast<const float*>(p.data) + 3 * v, 12), 0) << v;
         ASSERT_EQ(std::memcmp(vertices[v].normal, static_cast<const float*>(n.data) + 3 * v, 12), 0) << v;
@@ -261,7 +280,8 @@ TEST_F(PacketTest, DualQuaternionsAreAnotherSkinOfTheSameBones) {
     bones[1].rotation[3] = std::cos(0.96f);
     std::vector<std::vector<float>> skins;
     for (const vfit_avatar avatar : {dual, linear}) {
-        ASSERT_EQ(vfit_avatar_pose(avatar, &pose, bones.data(), sizeof(vfit_bone), 2), VFIT_OK) << contract::last_error();
+        ASSERT_EQ(vfit_avatar_pose(avatar, &pose, bones.data(), sizeof(vfit_bone), 2), VFIT_OK)
+            << contract::last_error();
         vfit_frame frame{};
         ASSERT_EQ(vfit_avatar_acquire(avatar, &frame), VFIT_OK);
         vfit_view view = vfit_view_init();

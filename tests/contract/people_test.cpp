@@ -1,5 +1,5 @@
-// The built-in tracker where people come, go and are hidden, as a host sees it: virtual people of whom it gets the
-// depth alone.
+// The built-in tracker where people come, go and are hidden, as a host sees it: virtual people of whom it
+// gets the depth alone.
 #include <functional>
 #include <set>
 
@@ -44,7 +44,8 @@ protected:
         m.tracked = bodies(tracked);
         return m;
     }
-    /// Half the Kinect's resolution: what is tested here does not hang on it, and it takes a third of the time.
+    /// Half the Kinect's resolution: what is tested here does not hang on it, and it takes a third of the
+    /// time.
     std::vector<Moment> watch(const std::string& options) {
         vfit_sensor sensor{};
         const std::string uri = "virtual:sensor=kinect_v1_320&floor=unknown&distance=3&" + options;

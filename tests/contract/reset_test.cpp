@@ -57,16 +57,19 @@ protected:
             bone.rotation[3] = std::cos(0.5f * angle);
             return bone;
         };
-        std::vector<vfit_bone> bones = {
-            turned(VFIT_BONE_HIPS, 0, 0.0f),           turned(VFIT_BONE_LEFT_UPPER_LEG, 0, -0.85f),
-            turned(VFIT_BONE_RIGHT_UPPER_LEG, 0, 0.6f), turned(VFIT_BONE_RIGHT_LOWER_LEG, 0, 0.4f),
-            turned(VFIT_BONE_LEFT_UPPER_ARM, 2, -1.3f), turned(VFIT_BONE_RIGHT_UPPER_ARM, 2, 1.3f)};
+        std::vector<vfit_bone> bones = {turned(VFIT_BONE_HIPS, 0, 0.0f),
+                                        turned(VFIT_BONE_LEFT_UPPER_LEG, 0, -0.85f),
+                                        turned(VFIT_BONE_RIGHT_UPPER_LEG, 0, 0.6f),
+                                        turned(VFIT_BONE_RIGHT_LOWER_LEG, 0, 0.4f),
+                                        turned(VFIT_BONE_LEFT_UPPER_ARM, 2, -1.3f),
+                                        turned(VFIT_BONE_RIGHT_UPPER_ARM, 2, 1.3f)};
         const Point pelvis = joint(VFIT_JOINT_PELVIS);
         bones[0].position[0] = pelvis.x;
         bones[0].position[1] = pelvis.y;
         bones[0].position[2] = pelvis.z;
         vfit_pose pose = vfit_pose_init();
-        ASSERT_EQ(vfit_avatar_pose(avatar, &pose, bones.data(), sizeof bones[0], uint32_t(bones.size())), VFIT_OK)
+        ASSERT_EQ(vfit_avatar_pose(avatar, &pose, bones.data(), sizeof bones[0], uint32_t(bones.size())),
+                  VFIT_OK)
             << contract::last_error();
     }
 
@@ -74,7 +77,8 @@ protected:
     int between_the_legs() const {
         const Thigh left{joint(VFIT_JOINT_LEFT_HIP), joint(VFIT_JOINT_LEFT_KNEE)};
         const Thigh right{joint(VFIT_JOINT_RIGHT_HIP), joint(VFIT_JOINT_RIGHT_KNEE)};
-        const float top = std::min(left.hip.y, right.hip.y) - 0.12f, low = std::max(left.knee.y, right.knee.y);
+        const float top = std::min(left.hip.y, right.hip.y) - 0.12f,
+                    low = std::max(left.knee.y, right.knee.y);
         vfit_frame frame{};
         EXPECT_EQ(vfit_cloth_acquire(cloth, &frame), VFIT_OK);
         vfit_view view = vfit_view_init();
@@ -123,8 +127,8 @@ TEST_F(ResetTest, PutsTheSkirtAroundBothLegsOfAStride) {
     EXPECT_LT(stats().strain_p99, 0.08f);
     EXPECT_LT(stats().strain_max, 0.2f);
     EXPECT_GT(caught.strain_max, 2.0f * stats().strain_max) << "the pose is no test";
-    std::printf("reset: %.0f ms; a second later the largest strain is %.2f, without reset %.2f\n", spent.count(),
-                double(stats().strain_max), double(caught.strain_max));
+    std::printf("reset: %.0f ms; a second later the largest strain is %.2f, without reset %.2f\n",
+                spent.count(), double(stats().strain_max), double(caught.strain_max));
 }
 
 TEST_F(ResetTest, GivesTheSameBitsEachTime) {

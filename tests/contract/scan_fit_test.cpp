@@ -18,9 +18,11 @@ protected:
         return scan;
     }
     /// Feeds what the virtual person shows; the truth of its measures by key.
-    vfit_result play(vfit_scan scan, const std::string& options, vfit_scan_state* state, std::string* truth = nullptr) {
+    vfit_result play(vfit_scan scan, const std::string& options, vfit_scan_state* state,
+                     std::string* truth = nullptr) {
         vfit_sensor sensor{};
-        EXPECT_EQ(vfit_sensor_open(context, ("virtual:sensor=kinect_v1&sex=f&" + options).c_str(), &sensor), VFIT_OK);
+        EXPECT_EQ(vfit_sensor_open(context, ("virtual:sensor=kinect_v1&sex=f&" + options).c_str(), &sensor),
+                  VFIT_OK);
         EXPECT_EQ(vfit_sensor_start(sensor), VFIT_OK);
         vfit_result result = VFIT_NOT_READY;
         vfit_frame frame{};
@@ -37,15 +39,20 @@ protected:
     }
     using Measures = std::map<std::string, vfit_measurement>;
     static Measures measures(vfit_scan scan) {
-        return by_key([scan](auto* items, uint32_t* count) { return vfit_scan_measure(scan, items, sizeof *items, count); });
+        return by_key([scan](auto* items, uint32_t* count) {
+            return vfit_scan_measure(scan, items, sizeof *items, count);
+        });
     }
     static Measures avatar_measures(vfit_avatar avatar) {
-        return by_key([avatar](auto* items, uint32_t* count) { return vfit_avatar_measure(avatar, items, sizeof *items, count); });
+        return by_key([avatar](auto* items, uint32_t* count) {
+            return vfit_avatar_measure(avatar, items, sizeof *items, count);
+        });
     }
     template <typename Measure>
     static Measures by_key(const Measure& measure) {
         uint32_t count = 0;
-        EXPECT_EQ(measure(static_cast<vfit_measurement*>(nullptr), &count), VFIT_OK) << contract::last_error();
+        EXPECT_EQ(measure(static_cast<vfit_measurement*>(nullptr), &count), VFIT_OK)
+            << contract::last_error();
         std::vector<vfit_measurement> items(count, vfit_measurement_init());
         EXPECT_EQ(measure(items.data(), &count), VFIT_OK);
         Measures out;
@@ -67,7 +74,8 @@ TEST_F(ScanFitTest, MeasuresFromTheFrontAndTheSide) {
     std::string truth;
     uint32_t count = 0;
     EXPECT_EQ(vfit_scan_measure(scan, nullptr, sizeof(vfit_measurement), &count), VFIT_ERROR_STATE);
-    EXPECT_EQ(play(scan, "motion=scan&frames=16", &state, &truth), VFIT_INCOMPLETE) << "one more than is wanted";
+    EXPECT_EQ(play(scan, "motion=scan&frames=16", &state, &truth), VFIT_INCOMPLETE)
+        << "one more than is wanted";
     EXPECT_EQ(state.frames_taken, 15u);
     EXPECT_EQ(state.guidance, VFIT_GUIDANCE_TURN_SIDEWAYS);
     EXPECT_EQ(state.side_frames_wanted, 15u);
@@ -86,7 +94,8 @@ TEST_F(ScanFitTest, MeasuresFromTheFrontAndTheSide) {
     EXPECT_EQ(both.at("waist_depth_m").observed, 1u);
     for (const char* key : {"chest_girth_m", "waist_girth_m", "hip_girth_m", "waist_depth_m"})
         EXPECT_LT(both.at(key).sigma, front.at(key).sigma) << key << ": a side view tells more";
-    for (const char* key : {"chest_girth_m", "waist_girth_m", "hip_girth_m", "inside_leg_m", "arm_length_m"}) {
+    for (const char* key :
+         {"chest_girth_m", "waist_girth_m", "hip_girth_m", "inside_leg_m", "arm_length_m"}) {
         const vfit_measurement& m = both.at(key);
         EXPECT_NEAR(m.value, number(truth, key), std::max(0.03f, 3.5f * m.sigma)) << key;
     }
@@ -118,24 +127,30 @@ TEST_F(ScanFitTest, AnAvatarHasTheScannedBody) {
         front_sigma = measures(scan).at("waist_girth_m").sigma;
         EXPECT_EQ(play(scan, heavy + "motion=side&facing=90&frames=12", &state), VFIT_OK);
     }
-    EXPECT_LT(measures(any).at("waist_girth_m").sigma, front_sigma) << "a side view tells more, of any clothes";
+    EXPECT_LT(measures(any).at("waist_girth_m").sigma, front_sigma)
+        << "a side view tells more, of any clothes";
     const auto told = measures(tight), untold = measures(any);
     for (const char* key : {"chest_girth_m", "waist_girth_m", "hip_girth_m"})
-        EXPECT_LT(told.at(key).sigma, 0.9f * untold.at(key).sigma) << key << ": tight clothes leave less open";
+        EXPECT_LT(told.at(key).sigma, 0.9f * untold.at(key).sigma)
+            << key << ": tight clothes leave less open";
 
     vfit_avatar avatar{}, usual{};
-    ASSERT_EQ(vfit_avatar_create_from_scan(context, nullptr, tight, &avatar), VFIT_OK) << contract::last_error();
-    ASSERT_EQ(vfit_avatar_create_from_shape(context, nullptr, nullptr, 0, 0, &usual), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_avatar_create_from_scan(context, nullptr, tight, &avatar), VFIT_OK)
+        << contract::last_error();
+    ASSERT_EQ(vfit_avatar_create_from_shape(context, nullptr, nullptr, 0, 0, &usual), VFIT_OK)
+        << contract::last_error();
     const auto tape = avatar_measures(avatar);
     for (const char* key : {"stature_m", "chest_girth_m", "waist_girth_m", "hip_girth_m"})
         EXPECT_NEAR(tape.at(key).value, told.at(key).value, 0.01f) << key;
-    EXPECT_GT(tape.at("waist_girth_m").value, avatar_measures(usual).at("waist_girth_m").value + 0.05f) << "a heavy person";
+    EXPECT_GT(tape.at("waist_girth_m").value, avatar_measures(usual).at("waist_girth_m").value + 0.05f)
+        << "a heavy person";
 
     const std::string own = R"({"format": "vfit-own-measures", "version": 1, "measures": [
         {"key": "x_waist_girth_m", "girth": {"at": "waist", "of": "trunk"}}]})";
     uint32_t count = 1;
     vfit_measurement mine = vfit_measurement_init();
-    ASSERT_EQ(vfit_avatar_measure_own(avatar, own.data(), own.size(), &mine, sizeof mine, &count), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_avatar_measure_own(avatar, own.data(), own.size(), &mine, sizeof mine, &count), VFIT_OK)
+        << contract::last_error();
     EXPECT_NEAR(mine.value, tape.at("waist_girth_m").value, 0.01f);
     EXPECT_GT(mine.sigma, 0.005f) << "no surer than the scan";
     EXPECT_LT(mine.sigma, 0.2f);

@@ -15,7 +15,8 @@ vfit_measurement measurement(const char* key, float value, float sigma) {
 
 class SizesTest : public contract::ContextTest {
 protected:
-    const std::vector<vfit_measurement> some_ = {measurement("stature_m", 1.7f, 0.01f), measurement("chest_girth_m", 0.98f, 0.02f)};
+    const std::vector<vfit_measurement> some_ = {measurement("stature_m", 1.7f, 0.01f),
+                                                 measurement("chest_girth_m", 0.98f, 0.02f)};
     const uint32_t count_ = 2;
 };
 
@@ -23,64 +24,89 @@ protected:
 
 TEST_F(SizesTest, MeasurementsComeBackFromTheirText) {
     uint32_t capacity = 0;
-    ASSERT_EQ(vfit_measurements_write(some_.data(), sizeof some_[0], count_, VFIT_SEX_MALE, nullptr, &capacity), VFIT_OK);
+    ASSERT_EQ(
+        vfit_measurements_write(some_.data(), sizeof some_[0], count_, VFIT_SEX_MALE, nullptr, &capacity),
+        VFIT_OK);
     std::string text(capacity, 'x');
     uint32_t short_by_one = capacity - 1;
-    EXPECT_EQ(vfit_measurements_write(some_.data(), sizeof some_[0], count_, VFIT_SEX_MALE, text.data(), &short_by_one),
+    EXPECT_EQ(vfit_measurements_write(some_.data(), sizeof some_[0], count_, VFIT_SEX_MALE, text.data(),
+                                      &short_by_one),
               VFIT_ERROR_CAPACITY);
     EXPECT_EQ(short_by_one, capacity) << "what is needed";
     EXPECT_EQ(text[0], 'x') << "nothing is written on an error";
-    ASSERT_EQ(vfit_measurements_write(some_.data(), sizeof some_[0], count_, VFIT_SEX_MALE, text.data(), &capacity), VFIT_OK);
+    ASSERT_EQ(
+        vfit_measurements_write(some_.data(), sizeof some_[0], count_, VFIT_SEX_MALE, text.data(), &capacity),
+        VFIT_OK);
     EXPECT_EQ(text.back(), 0);
 
     uint32_t count = 0;
     vfit_sex sex = VFIT_SEX_UNKNOWN;
-    ASSERT_EQ(vfit_measurements_read(text.data(), capacity - 1, nullptr, sizeof(vfit_measurement), &count, &sex), VFIT_OK);
+    ASSERT_EQ(
+        vfit_measurements_read(text.data(), capacity - 1, nullptr, sizeof(vfit_measurement), &count, &sex),
+        VFIT_OK);
     EXPECT_EQ(count, 2u);
     EXPECT_EQ(sex, VFIT_SEX_MALE);
     std::vector<vfit_measurement> back(2, vfit_measurement_init());
-    ASSERT_EQ(vfit_measurements_read(text.data(), capacity - 1, back.data(), sizeof back[0], &count, nullptr), VFIT_OK);
+    ASSERT_EQ(vfit_measurements_read(text.data(), capacity - 1, back.data(), sizeof back[0], &count, nullptr),
+              VFIT_OK);
     EXPECT_STREQ(back[0].key, "stature_m");
     EXPECT_EQ(back[1].value, some_[1].value);
-    EXPECT_EQ(vfit_measurements_read(text.data(), 10, nullptr, sizeof(vfit_measurement), &count, nullptr), VFIT_ERROR_DATA);
-    EXPECT_EQ(vfit_measurements_read(text.data(), UINT64_MAX, nullptr, sizeof(vfit_measurement), &count, nullptr), VFIT_ERROR_ARGUMENT);
-    EXPECT_EQ(vfit_measurements_read(nullptr, 10, nullptr, sizeof(vfit_measurement), &count, nullptr), VFIT_ERROR_ARGUMENT);
-    EXPECT_EQ(vfit_measurements_write(nullptr, sizeof some_[0], 2, 0, nullptr, &capacity), VFIT_ERROR_ARGUMENT);
-    EXPECT_EQ(vfit_measurements_write(some_.data(), sizeof some_[0], count_, 9, nullptr, &capacity), VFIT_ERROR_ARGUMENT);
-    EXPECT_EQ(vfit_measurements_write(some_.data(), sizeof some_[0], count_, 0, nullptr, nullptr), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_measurements_read(text.data(), 10, nullptr, sizeof(vfit_measurement), &count, nullptr),
+              VFIT_ERROR_DATA);
+    EXPECT_EQ(
+        vfit_measurements_read(text.data(), UINT64_MAX, nullptr, sizeof(vfit_measurement), &count, nullptr),
+        VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_measurements_read(nullptr, 10, nullptr, sizeof(vfit_measurement), &count, nullptr),
+              VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_measurements_write(nullptr, sizeof some_[0], 2, 0, nullptr, &capacity),
+              VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_measurements_write(some_.data(), sizeof some_[0], count_, 9, nullptr, &capacity),
+              VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_measurements_write(some_.data(), sizeof some_[0], count_, 0, nullptr, nullptr),
+              VFIT_ERROR_ARGUMENT);
 }
 
 TEST_F(SizesTest, TwoScansOfOnePersonAreMerged) {
-    const vfit_measurement again[] = {measurement("stature_m", 1.71f, 0.01f), measurement("hip_girth_m", 1.0f, 0.02f)};
+    const vfit_measurement again[] = {measurement("stature_m", 1.71f, 0.01f),
+                                      measurement("hip_girth_m", 1.0f, 0.02f)};
     std::vector<vfit_measurement> out(8, vfit_measurement_init());
     uint32_t count = 8;
-    ASSERT_EQ(vfit_measurements_merge(some_.data(), sizeof some_[0], count_, again, sizeof again[0], 2, out.data(), sizeof out[0], &count),
+    ASSERT_EQ(vfit_measurements_merge(some_.data(), sizeof some_[0], count_, again, sizeof again[0], 2,
+                                      out.data(), sizeof out[0], &count),
               VFIT_OK);
     ASSERT_EQ(count, 3u);
     EXPECT_NEAR(out[0].value, 1.705f, 1e-5f);
     const vfit_measurement other = measurement("stature_m", 1.5f, 0.01f);
-    EXPECT_EQ(vfit_measurements_merge(some_.data(), sizeof some_[0], count_, &other, sizeof other, 1, out.data(), sizeof out[0], &count),
+    EXPECT_EQ(vfit_measurements_merge(some_.data(), sizeof some_[0], count_, &other, sizeof other, 1,
+                                      out.data(), sizeof out[0], &count),
               VFIT_ERROR_DATA);
     EXPECT_NE(contract::last_error().find("two people"), std::string::npos);
-    EXPECT_EQ(vfit_measurements_merge(nullptr, sizeof other, 0, nullptr, sizeof other, 0, nullptr, sizeof other, &count), VFIT_OK);
+    EXPECT_EQ(vfit_measurements_merge(nullptr, sizeof other, 0, nullptr, sizeof other, 0, nullptr,
+                                      sizeof other, &count),
+              VFIT_OK);
     EXPECT_EQ(count, 0u);
 }
 
 TEST_F(SizesTest, TellHowASizeSits) {
     vfit_size_chart chart{};
     ASSERT_EQ(vfit_size_chart_open(context, "en13402_men", &chart), VFIT_OK) << contract::last_error();
-    vfit_size_zone zones[4] = {vfit_size_zone_init(), vfit_size_zone_init(), vfit_size_zone_init(), vfit_size_zone_init()};
+    vfit_size_zone zones[4] = {vfit_size_zone_init(), vfit_size_zone_init(), vfit_size_zone_init(),
+                               vfit_size_zone_init()};
     uint32_t count = 4;
-    ASSERT_EQ(vfit_size_zones(chart, "short_sleeves", "S", some_.data(), sizeof some_[0], count_, zones, sizeof zones[0], &count), VFIT_OK)
+    ASSERT_EQ(vfit_size_zones(chart, "short_sleeves", "S", some_.data(), sizeof some_[0], count_, zones,
+                              sizeof zones[0], &count),
+              VFIT_OK)
         << contract::last_error();
     ASSERT_EQ(count, 1u);
     EXPECT_STREQ(zones[0].key, "chest_girth_m");
     EXPECT_NEAR(zones[0].ease, 0.90f - 0.98f, 1e-5f);
     EXPECT_GT(zones[0].tight, 0.9f);
-    EXPECT_EQ(vfit_size_zones(chart, "short_sleeves", "QQ", some_.data(), sizeof some_[0], count_, nullptr, sizeof zones[0], &count),
+    EXPECT_EQ(vfit_size_zones(chart, "short_sleeves", "QQ", some_.data(), sizeof some_[0], count_, nullptr,
+                              sizeof zones[0], &count),
               VFIT_ERROR_ARGUMENT);
     EXPECT_NE(contract::last_error().find("XXL"), std::string::npos) << "names the labels that there are";
-    EXPECT_EQ(vfit_size_zones(chart, "short_sleeves", nullptr, some_.data(), sizeof some_[0], count_, nullptr, sizeof zones[0], &count),
+    EXPECT_EQ(vfit_size_zones(chart, "short_sleeves", nullptr, some_.data(), sizeof some_[0], count_, nullptr,
+                              sizeof zones[0], &count),
               VFIT_ERROR_ARGUMENT);
     EXPECT_EQ(vfit_size_chart_destroy(chart), VFIT_OK);
 }

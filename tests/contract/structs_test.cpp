@@ -20,7 +20,8 @@ struct Newer {
 
 TEST(Contract, VersionAndNamesAreThere) {
     EXPECT_EQ(vfit_version(), uint32_t(VFIT_VERSION));
-    for (vfit_result r = VFIT_ERROR_NOT_WEARABLE; r <= VFIT_END_OF_STREAM; ++r) EXPECT_STRNE(vfit_result_name(r), "?") << r;
+    for (vfit_result r = VFIT_ERROR_NOT_WEARABLE; r <= VFIT_END_OF_STREAM; ++r)
+        EXPECT_STRNE(vfit_result_name(r), "?") << r;
     EXPECT_STREQ(vfit_result_name(99), "?");
     vfit_library_info info = vfit_library_info_init();
     ASSERT_EQ(vfit_library_describe(&info), VFIT_OK);
@@ -70,8 +71,8 @@ TEST(Contract, AStructWithoutSizeIsRefused) {
 
 TEST_F(ContextTest, AShortStructReadsAsDefaultsBehindItsEnd) {
     vfit_scan_desc desc = vfit_scan_desc_init();
-    desc.struct_size = 8;                       // the caller knows `method` alone
-    desc.frame_count = 0xFFFFFFFF;              // beyond its struct: must not be read
+    desc.struct_size = 8;           // the caller knows `method` alone
+    desc.frame_count = 0xFFFFFFFF;  // beyond its struct: must not be read
     desc.sex = 99;
     vfit_scan scan{};
     EXPECT_EQ(vfit_scan_create(context, &desc, &scan), VFIT_OK) << contract::last_error();

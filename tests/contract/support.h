@@ -87,7 +87,8 @@ inline vfit_joint joint(vfit_joint_id id, float x, float y, float z) {
 inline std::vector<vfit_joint> joints_of(vfit_frame frame, uint32_t body) {
     std::vector<vfit_joint> out(VFIT_JOINT_COUNT);
     uint32_t count = VFIT_JOINT_COUNT;
-    EXPECT_EQ(vfit_frame_joints(frame, body, out.data(), sizeof(vfit_joint), &count), VFIT_OK) << last_error();
+    EXPECT_EQ(vfit_frame_joints(frame, body, out.data(), sizeof(vfit_joint), &count), VFIT_OK)
+        << last_error();
     out.resize(count);
     return out;
 }
@@ -95,13 +96,20 @@ inline std::vector<vfit_joint> joints_of(vfit_frame frame, uint32_t body) {
 /// The paper's 15 joints of someone 1.7 m tall in a T-pose, world space, 2 m before the camera.
 inline std::vector<vfit_joint> standing_joints() {
     const float z = -2.0f;
-    return {joint(VFIT_JOINT_HEAD, 0, 1.60f, z),           joint(VFIT_JOINT_NECK, 0, 1.42f, z),
-            joint(VFIT_JOINT_TORSO, 0, 1.15f, z),          joint(VFIT_JOINT_LEFT_SHOULDER, 0.18f, 1.38f, z),
-            joint(VFIT_JOINT_RIGHT_SHOULDER, -0.18f, 1.38f, z), joint(VFIT_JOINT_LEFT_ELBOW, 0.46f, 1.38f, z),
-            joint(VFIT_JOINT_RIGHT_ELBOW, -0.46f, 1.38f, z), joint(VFIT_JOINT_LEFT_HAND, 0.75f, 1.38f, z),
-            joint(VFIT_JOINT_RIGHT_HAND, -0.75f, 1.38f, z), joint(VFIT_JOINT_LEFT_HIP, 0.10f, 0.90f, z),
-            joint(VFIT_JOINT_RIGHT_HIP, -0.10f, 0.90f, z), joint(VFIT_JOINT_LEFT_KNEE, 0.10f, 0.50f, z),
-            joint(VFIT_JOINT_RIGHT_KNEE, -0.10f, 0.50f, z), joint(VFIT_JOINT_LEFT_FOOT, 0.10f, 0.08f, z),
+    return {joint(VFIT_JOINT_HEAD, 0, 1.60f, z),
+            joint(VFIT_JOINT_NECK, 0, 1.42f, z),
+            joint(VFIT_JOINT_TORSO, 0, 1.15f, z),
+            joint(VFIT_JOINT_LEFT_SHOULDER, 0.18f, 1.38f, z),
+            joint(VFIT_JOINT_RIGHT_SHOULDER, -0.18f, 1.38f, z),
+            joint(VFIT_JOINT_LEFT_ELBOW, 0.46f, 1.38f, z),
+            joint(VFIT_JOINT_RIGHT_ELBOW, -0.46f, 1.38f, z),
+            joint(VFIT_JOINT_LEFT_HAND, 0.75f, 1.38f, z),
+            joint(VFIT_JOINT_RIGHT_HAND, -0.75f, 1.38f, z),
+            joint(VFIT_JOINT_LEFT_HIP, 0.10f, 0.90f, z),
+            joint(VFIT_JOINT_RIGHT_HIP, -0.10f, 0.90f, z),
+            joint(VFIT_JOINT_LEFT_KNEE, 0.10f, 0.50f, z),
+            joint(VFIT_JOINT_RIGHT_KNEE, -0.10f, 0.50f, z),
+            joint(VFIT_JOINT_LEFT_FOOT, 0.10f, 0.08f, z),
             joint(VFIT_JOINT_RIGHT_FOOT, -0.10f, 0.08f, z)};
 }
 

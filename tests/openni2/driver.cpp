@@ -1,4 +1,5 @@
-// An OpenNI2 driver, for tests alone: the virtual person as a camera. OpenNI2 loads it from OpenNI2/Drivers beside its library.
+// An OpenNI2 driver, for tests alone: the virtual person as a camera. OpenNI2 loads it from OpenNI2/Drivers
+// beside its library.
 //   VFIT_TEST_PERSON   the URI of the virtual person
 //   VFIT_TEST_DRIVER   crash, hang, silent: from the sixth image on; no_depth, no_fov: as it opens
 //   VFIT_TEST_PLUG     a file: while it is not there, nor is the device
@@ -17,9 +18,9 @@
 // Names that OpenNI2's driver header expects from a library that is not shipped.
 #define XN_NEW(type, ...) new type(__VA_ARGS__)
 #define XN_DELETE(p) delete (p)
+#include <Driver/OniDriverAPI.h>
 #include <OniCAPI.h>
 #include <OniCProperties.h>
-#include <Driver/OniDriverAPI.h>
 
 #include <libusb.h>
 
@@ -70,7 +71,8 @@ bool is_plugged() {
 class Stream : public oni::driver::StreamBase {
 public:
     Stream(OniSensorType type, const vfit_intrinsics& in) : type_(type) {
-        mode_ = {type == ONI_SENSOR_DEPTH ? ONI_PIXEL_FORMAT_DEPTH_1_MM : ONI_PIXEL_FORMAT_RGB888, int(in.width), int(in.height), kRate_hz};
+        mode_ = {type == ONI_SENSOR_DEPTH ? ONI_PIXEL_FORMAT_DEPTH_1_MM : ONI_PIXEL_FORMAT_RGB888,
+                 int(in.width), int(in.height), kRate_hz};
         horizontal_fov_ = 2.0f * std::atan(0.5f * float(in.width) / in.fx);
         vertical_fov_ = 2.0f * std::atan(0.5f * float(in.height) / in.fy);
     }
@@ -83,7 +85,9 @@ public:
         const OniCropping cropping{};
         switch (id) {
             case ONI_STREAM_PROPERTY_VIDEO_MODE: return give(mode_, data, size);
-            case ONI_STREAM_PROPERTY_HORIZONTAL_FOV: return setting("VFIT_TEST_DRIVER") == "no_fov" ? ONI_STATUS_NOT_SUPPORTED : give(horizontal_fov_, data, size);
+            case ONI_STREAM_PROPERTY_HORIZONTAL_FOV:
+                return setting("VFIT_TEST_DRIVER") == "no_fov" ? ONI_STATUS_NOT_SUPPORTED
+                                                               : give(horizontal_fov_, data, size);
             case ONI_STREAM_PROPERTY_VERTICAL_FOV: return give(vertical_fov_, data, size);
             case ONI_STREAM_PROPERTY_MAX_VALUE: return give(10000, data, size);
             case ONI_STREAM_PROPERTY_MIN_VALUE: return give(0, data, size);
@@ -94,14 +98,19 @@ public:
         }
     }
     OniStatus setProperty(int id, const void* data, int) override {
-        if (id == ONI_STREAM_PROPERTY_VIDEO_MODE) return std::memcmp(data, &mode_, sizeof mode_) == 0 ? ONI_STATUS_OK : ONI_STATUS_BAD_PARAMETER;
-        return id == ONI_STREAM_PROPERTY_MIRRORING && *static_cast<const OniBool*>(data) == FALSE ? ONI_STATUS_OK : ONI_STATUS_NOT_SUPPORTED;
+        if (id == ONI_STREAM_PROPERTY_VIDEO_MODE)
+            return std::memcmp(data, &mode_, sizeof mode_) == 0 ? ONI_STATUS_OK : ONI_STATUS_BAD_PARAMETER;
+        return id == ONI_STREAM_PROPERTY_MIRRORING && *static_cast<const OniBool*>(data) == FALSE
+                   ? ONI_STATUS_OK
+                   : ONI_STATUS_NOT_SUPPORTED;
     }
     OniBool isPropertySupported(int id) override { return id <= ONI_STREAM_PROPERTY_MIRRORING; }
     /// A recorder writes what it is told here; without STRIDE and CROPPING the file does not play.
     void notifyAllProperties() override {
-        for (const int id : {ONI_STREAM_PROPERTY_VIDEO_MODE, ONI_STREAM_PROPERTY_HORIZONTAL_FOV, ONI_STREAM_PROPERTY_VERTICAL_FOV, ONI_STREAM_PROPERTY_MAX_VALUE,
-                             ONI_STREAM_PROPERTY_MIN_VALUE, ONI_STREAM_PROPERTY_STRIDE, ONI_STREAM_PROPERTY_MIRRORING, ONI_STREAM_PROPERTY_CROPPING}) {
+        for (const int id :
+             {ONI_STREAM_PROPERTY_VIDEO_MODE, ONI_STREAM_PROPERTY_HORIZONTAL_FOV,
+              ONI_STREAM_PROPERTY_VERTICAL_FOV, ONI_STREAM_PROPERTY_MAX_VALUE, ONI_STREAM_PROPERTY_MIN_VALUE,
+              ONI_STREAM_PROPERTY_STRIDE, ONI_STREAM_PROPERTY_MIRRORING, ONI_STREAM_PROPERTY_CROPPING}) {
             char value[64];
             int size = sizeof value;
             if (getProperty(id, value, &size) == ONI_STATUS_OK) raisePropertyChanged(id, value, size);
@@ -118,11 +127,15 @@ public:
         frame->stride = stride();
         frame->dataSize = frame->stride * frame->height;
         for (int y = 0; y < frame->height; ++y) {
-            const auto* from = reinterpret_cast<const uint16_t*>(reinterpret_cast<const char*>(depth) + size_t(y) * row_stride);
+            const auto* from = reinterpret_cast<const uint16_t*>(reinterpret_cast<const char*>(depth) +
+                                                                 size_t(y) * row_stride);
             auto* to = static_cast<uint8_t*>(frame->data) + size_t(y) * size_t(frame->stride);
-            if (type_ == ONI_SENSOR_DEPTH) std::memcpy(to, from, size_t(frame->stride));
+            if (type_ == ONI_SENSOR_DEPTH)
+                std::memcpy(to, from, size_t(frame->stride));
             else
-                for (int x = 0; x < frame->width; ++x) to[3 * x] = uint8_t(from[x] >> 4), to[3 * x + 1] = uint8_t(from[x]), to[3 * x + 2] = uint8_t(x);
+                for (int x = 0; x < frame->width; ++x)
+                    to[3 * x] = uint8_t(from[x] >> 4), to[3 * x + 1] = uint8_t(from[x]),
+                           to[3 * x + 2] = uint8_t(x);
         }
         raiseNewFrame(frame);
         getServices().releaseFrame(frame);
@@ -150,7 +163,11 @@ public:
         vfit_context_desc desc = vfit_context_desc_init();
         desc.api_version = VFIT_VERSION;
         if (vfit_context_create(&desc, &context_) != VFIT_OK) return;
-        if (vfit_sensor_open(context_, setting("VFIT_TEST_PERSON", "virtual:sensor=kinect_v1_320&motion=demo&seed=7").c_str(), &sensor_) != VFIT_OK) return;
+        if (vfit_sensor_open(
+                context_,
+                setting("VFIT_TEST_PERSON", "virtual:sensor=kinect_v1_320&motion=demo&seed=7").c_str(),
+                &sensor_) != VFIT_OK)
+            return;
         // The first image tells what the camera is like.
         vfit_sensor_start(sensor_);
         if (vfit_sensor_acquire(sensor_, -1, &first_) != VFIT_OK) return;
@@ -185,7 +202,8 @@ public:
         delete stream;
     }
     OniStatus getProperty(int id, void* data, int* size) override {
-        if (id != ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION || *size < int(sizeof registration_)) return ONI_STATUS_NOT_IMPLEMENTED;
+        if (id != ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION || *size < int(sizeof registration_))
+            return ONI_STATUS_NOT_IMPLEMENTED;
         std::memcpy(data, &registration_, sizeof registration_);
         *size = sizeof registration_;
         return ONI_STATUS_OK;
@@ -197,7 +215,9 @@ public:
     }
     OniBool isPropertySupported(int id) override { return id == ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION; }
     OniBool isImageRegistrationModeSupported(OniImageRegistrationMode) override { return TRUE; }
-    void notifyAllProperties() override { raisePropertyChanged(ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION, &registration_, sizeof registration_); }
+    void notifyAllProperties() override {
+        raisePropertyChanged(ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION, &registration_, sizeof registration_);
+    }
 
 private:
     void run() {
@@ -213,9 +233,12 @@ private:
             vfit_view view = vfit_view_init();
             vfit_frame_view(frame, VFIT_STREAM_DEPTH, &view);
             std::lock_guard lock(streams_);
-            if (index >= kMisbehaves_from && misbehaves == "hang") std::this_thread::sleep_for(std::chrono::hours(1));
+            if (index >= kMisbehaves_from && misbehaves == "hang")
+                std::this_thread::sleep_for(std::chrono::hours(1));
             for (Stream* stream : {color_, depth_})
-                if (stream && is_plugged()) stream->show(static_cast<const uint16_t*>(view.data), view.row_stride, index, uint64_t(1000000LL * index / kRate_hz));
+                if (stream && is_plugged())
+                    stream->show(static_cast<const uint16_t*>(view.data), view.row_stride, index,
+                                 uint64_t(1000000LL * index / kRate_hz));
             vfit_frame_release(frame);
         }
     }
@@ -244,12 +267,14 @@ public:
         std::strcpy(info_.vendor, "vfit");
         std::strcpy(info_.name, "Virtual person behind OpenNI2");
     }
-    OniStatus initialize(oni::driver::DeviceConnectedCallback connected, oni::driver::DeviceDisconnectedCallback disconnected,
+    OniStatus initialize(oni::driver::DeviceConnectedCallback connected,
+                         oni::driver::DeviceDisconnectedCallback disconnected,
                          oni::driver::DeviceStateChangedCallback changed, void* cookie) override {
         DriverBase::initialize(connected, disconnected, changed, cookie);
         plugged_ = is_plugged();
         if (plugged_) deviceConnected(&info_);
-        if (!(setting("VFIT_TEST_PLUG") + setting("VFIT_TEST_USB")).empty()) watch_ = std::thread([this] { watch(); });
+        if (!(setting("VFIT_TEST_PLUG") + setting("VFIT_TEST_USB")).empty())
+            watch_ = std::thread([this] { watch(); });
         return ONI_STATUS_OK;
     }
     oni::driver::DeviceBase* deviceOpen(const char*, const char*) override {
@@ -269,8 +294,10 @@ private:
         for (; going_; std::this_thread::sleep_for(std::chrono::milliseconds(5)))
             if (const bool is = is_plugged(); is != plugged_) {
                 plugged_ = is;
-                if (is) deviceConnected(&info_);
-                else deviceDisconnected(&info_);
+                if (is)
+                    deviceConnected(&info_);
+                else
+                    deviceDisconnected(&info_);
             }
     }
     OniDeviceInfo info_{};

@@ -1,5 +1,5 @@
-// The openni2 plug-in with the real OpenNI2 library: a driver of ours as a device, files of OpenNI2's own recorder, and files
-// that somebody has damaged. Each test has its own process of the reader.
+// The openni2 plug-in with the real OpenNI2 library: a driver of ours as a device, files of OpenNI2's own
+// recorder, and files that somebody has damaged. Each test has its own process of the reader.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -36,7 +36,9 @@ struct Image {
 std::vector<uint8_t> bytes_of(const vfit_view& view, size_t item) {
     std::vector<uint8_t> out(size_t(view.width) * view.height * item);
     for (uint32_t y = 0; y < view.height; ++y)
-        std::memcpy(out.data() + y * size_t(view.width) * item, static_cast<const char*>(view.data) + size_t(y) * view.row_stride, size_t(view.width) * item);
+        std::memcpy(out.data() + y * size_t(view.width) * item,
+                    static_cast<const char*>(view.data) + size_t(y) * view.row_stride,
+                    size_t(view.width) * item);
     return out;
 }
 
@@ -91,12 +93,14 @@ protected:
     /// By OpenNI2's recorder. Its own leaks are not ours to judge.
     static int record(const std::string& name, const std::string& words) {
         const std::string folder = VFIT_OPENNI2_FOLDER;
-        return std::system(("cd '" + folder_.string() + "' && ASAN_OPTIONS=detect_leaks=0 LD_LIBRARY_PATH='" + folder + "' '" + folder + "/openni2_record' " +
-                            name + " " + words).c_str());
+        return std::system(("cd '" + folder_.string() + "' && ASAN_OPTIONS=detect_leaks=0 LD_LIBRARY_PATH='" +
+                            folder + "' '" + folder + "/openni2_record' " + name + " " + words)
+                               .c_str());
     }
     static fs::path path(const std::string& name) { return folder_ / name; }
     static fs::path write(const std::string& name, const std::vector<uint8_t>& bytes) {
-        std::ofstream(path(name), std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+        std::ofstream(path(name), std::ios::binary)
+            .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
         return path(name);
     }
     vfit_sensor open(const std::string& uri) {
@@ -153,7 +157,9 @@ TEST_F(OpenNi2Test, ADeviceIsListedAndGivesWhatItsDriverSees) {
     uint32_t count = 8;
     ASSERT_EQ(vfit_sensor_list(context, list, sizeof list[0], &count), VFIT_OK) << last_error();
     const bool listed = std::any_of(list, list + count, [](const vfit_sensor_info& item) {
-        return std::string(item.uri) == "openni2:virtual-person" && std::string(item.name) == "Virtual person behind OpenNI2" && std::string(item.plugin) == "openni2";
+        return std::string(item.uri) == "openni2:virtual-person" &&
+               std::string(item.name) == "Virtual person behind OpenNI2" &&
+               std::string(item.plugin) == "openni2";
     });
     EXPECT_TRUE(listed);
 
@@ -174,12 +180,15 @@ TEST_F(OpenNi2Test, ADeviceIsListedAndGivesWhatItsDriverSees) {
 TEST_F(OpenNi2Test, ColourComesWhereDepthIsRegisteredToIt) {
     const vfit_sensor sensor = open("openni2:");
     for (const bool registered : {true, false}) {
-        ASSERT_EQ(vfit_sensor_set_option(sensor, "registration", registered ? "1" : "0"), VFIT_OK) << last_error();
+        ASSERT_EQ(vfit_sensor_set_option(sensor, "registration", registered ? "1" : "0"), VFIT_OK)
+            << last_error();
         const auto images = play(sensor, nullptr, 12);
         size_t with_color = 0;
         for (const auto& [index, image] : images) with_color += !image.color.empty();
-        if (registered) EXPECT_GT(with_color, 6u);
-        else EXPECT_EQ(with_color, 0u);
+        if (registered)
+            EXPECT_GT(with_color, 6u);
+        else
+            EXPECT_EQ(with_color, 0u);
     }
     ASSERT_EQ(vfit_sensor_set_option(sensor, "registration", "1"), VFIT_OK);
     ASSERT_EQ(vfit_sensor_set_option(sensor, "color", "0"), VFIT_OK);
@@ -308,15 +317,21 @@ TEST_F(OpenNi2Test, TwoHundredDamagedFilesTakeNobodyDown) {
     int refused = 0, ended = 0, broke = 0, crashed = 0;
     for (int i = 0; i < 200; ++i) {
         std::vector<uint8_t> bytes = whole;
-        if (i % 4 == 0) bytes.resize(below(bytes.size()));                                              // cut
-        else if (i % 4 == 1) for (int k = 0; k < 8; ++k) bytes[below(600)] = uint8_t(below(256));        // its head
-        else if (i % 4 == 2) for (int k = 0; k < 8; ++k) bytes[bytes.size() - 1 - below(6000)] ^= uint8_t(1 + below(255));  // its index
-        else for (int k = 0; k < 200; ++k) bytes[below(bytes.size())] ^= uint8_t(1 + below(255));        // anywhere
+        if (i % 4 == 0)
+            bytes.resize(below(bytes.size()));  // cut
+        else if (i % 4 == 1)
+            for (int k = 0; k < 8; ++k) bytes[below(600)] = uint8_t(below(256));  // its head
+        else if (i % 4 == 2)
+            for (int k = 0; k < 8; ++k)
+                bytes[bytes.size() - 1 - below(6000)] ^= uint8_t(1 + below(255));  // its index
+        else
+            for (int k = 0; k < 200; ++k) bytes[below(bytes.size())] ^= uint8_t(1 + below(255));  // anywhere
         const fs::path file = write("damaged.oni", bytes);
         vfit_sensor sensor{};
         const vfit_result result = vfit_sensor_open(context, file.c_str(), &sensor);
         if (result != VFIT_OK) {
-            EXPECT_TRUE(result == VFIT_ERROR_DATA || result == VFIT_ERROR_UNSUPPORTED) << i << ": " << result << " " << last_error();
+            EXPECT_TRUE(result == VFIT_ERROR_DATA || result == VFIT_ERROR_UNSUPPORTED)
+                << i << ": " << result << " " << last_error();
             EXPECT_NE(last_error().find("damaged.oni"), std::string::npos) << last_error();
             crashed += last_error().find("crashed") != std::string::npos;
             ++refused;
@@ -325,13 +340,14 @@ TEST_F(OpenNi2Test, TwoHundredDamagedFilesTakeNobodyDown) {
         vfit_sensor_set_option(sensor, "count", "12");
         vfit_result end = VFIT_OK;
         play(sensor, &end);
-        EXPECT_TRUE(end == VFIT_END_OF_STREAM || end == VFIT_ERROR_DATA || end == VFIT_ERROR_UNSUPPORTED) << i << ": " << end << " " << last_error();
+        EXPECT_TRUE(end == VFIT_END_OF_STREAM || end == VFIT_ERROR_DATA || end == VFIT_ERROR_UNSUPPORTED)
+            << i << ": " << end << " " << last_error();
         crashed += end != VFIT_END_OF_STREAM && last_error().find("crashed") != std::string::npos;
         (end == VFIT_END_OF_STREAM ? ended : broke) += 1;
         EXPECT_EQ(vfit_sensor_close(sensor), VFIT_OK);
     }
-    std::cout << "200 damaged files: " << refused << " refused, " << broke << " broke while they played, " << ended << " played to their end; "
-              << crashed << " crashed the reader\n";
+    std::cout << "200 damaged files: " << refused << " refused, " << broke << " broke while they played, "
+              << ended << " played to their end; " << crashed << " crashed the reader\n";
     EXPECT_GT(refused, 20);
 }
 

@@ -1,4 +1,5 @@
-// Records a device into an .oni file with OpenNI2's own recorder:  openni2_record FILE FRAMES [color]   (color: without depth)
+// Records a device into an .oni file with OpenNI2's own recorder:  openni2_record FILE FRAMES [color] (color:
+// without depth)
 #include <cstdio>
 #include <cstdlib>
 

@@ -1,5 +1,5 @@
-// A USB camera that comes and goes: umockdev's, seen by the library's own watch and, through libusb as well, by the OpenNI2
-// driver in the reader's process. To be run under umockdev-wrapper.
+// A USB camera that comes and goes: umockdev's, seen by the library's own watch and, through libusb as well,
+// by the OpenNI2 driver in the reader's process. To be run under umockdev-wrapper.
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
@@ -24,16 +24,19 @@ constexpr char kPath[] = "/sys/devices/pci0000:00/0000:00:14.0/usb1/1-1";
 constexpr char kCamera[] =
     "P: /devices/pci0000:00/0000:00:14.0/usb1/1-1\n"
     "N: bus/usb/001/005\n"
-    "E: BUSNUM=001\nE: DEVNUM=005\nE: DEVNAME=/dev/bus/usb/001/005\nE: DEVTYPE=usb_device\nE: MAJOR=189\nE: MINOR=4\n"
+    "E: BUSNUM=001\nE: DEVNUM=005\nE: DEVNAME=/dev/bus/usb/001/005\nE: DEVTYPE=usb_device\nE: MAJOR=189\nE: "
+    "MINOR=4\n"
     "E: PRODUCT=1d27/609/100\nE: SUBSYSTEM=usb\n"
-    "A: busnum=1\\n\nA: devnum=5\\n\nA: speed=480\\n\nA: bConfigurationValue=1\\n\nA: idVendor=1d27\\n\nA: idProduct=0609\\n\n"
+    "A: busnum=1\\n\nA: devnum=5\\n\nA: speed=480\\n\nA: bConfigurationValue=1\\n\nA: idVendor=1d27\\n\nA: "
+    "idProduct=0609\\n\n"
     "H: descriptors=";
 
 class UsbTest : public contract::ContextTest {
 protected:
     void SetUp() override {
         bed_ = umockdev_testbed_new();
-        ::setenv("VFIT_OPENNI2_LIBRARY", (std::filesystem::path(VFIT_OPENNI2_FOLDER) / "libOpenNI2.so.0").c_str(), 1);
+        ::setenv("VFIT_OPENNI2_LIBRARY",
+                 (std::filesystem::path(VFIT_OPENNI2_FOLDER) / "libOpenNI2.so.0").c_str(), 1);
         ::setenv("VFIT_TEST_USB", "1d27:0609", 1);
         ContextTest::SetUp();
     }
@@ -44,7 +47,8 @@ protected:
     void plug() {
         const std::string text = kCamera + descriptors() + "\n";
         GError* error = nullptr;
-        ASSERT_TRUE(umockdev_testbed_add_from_string(bed_, text.c_str(), &error)) << (error ? error->message : "");
+        ASSERT_TRUE(umockdev_testbed_add_from_string(bed_, text.c_str(), &error))
+            << (error ? error->message : "");
         umockdev_testbed_uevent(bed_, kPath, "add");
     }
     void unplug() {
@@ -52,9 +56,11 @@ protected:
         umockdev_testbed_remove_device(bed_, kPath);
     }
     static std::string descriptors() {
-        const std::vector<uint8_t> bytes = {18, 1, 0x00, 0x02, 0, 0, 0, 64, 0x27, 0x1d, 0x09, 0x06, 0x00, 0x01, 0, 0, 0, 1,  // the device
-                                            9, 2, 18, 0, 1, 1, 0, 0x80, 250,                                              // its configuration
-                                            9, 4, 0, 0, 0, 0xff, 0, 0, 0};                                                // its interface
+        const std::vector<uint8_t> bytes = {
+            18,   1,    0x00, 0x02, 0,    0,    0, 64,   0x27,
+            0x1d, 0x09, 0x06, 0x00, 0x01, 0,    0, 0,    1,    // the device
+            9,    2,    18,   0,    1,    1,    0, 0x80, 250,  // its configuration
+            9,    4,    0,    0,    0,    0xff, 0, 0,    0};   // its interface
         std::string out;
         char hex[3];
         for (const uint8_t byte : bytes) std::snprintf(hex, sizeof hex, "%02X", byte), out += hex;
@@ -125,7 +131,8 @@ TEST_F(UsbTest, UnpluggedAHundredTimesItComesBackAndNothingIsLeft) {
     constexpr int kRounds = 100, kWarm = 5;
     for (int round = 0; round < kRounds; ++round) {
         vfit_frame frame{};
-        ASSERT_EQ(vfit_sensor_acquire(sensor, 20'000'000'000, &frame), VFIT_OK) << round << " " << last_error();
+        ASSERT_EQ(vfit_sensor_acquire(sensor, 20'000'000'000, &frame), VFIT_OK)
+            << round << " " << last_error();
         vfit_frame_release(frame);
         if (round == kWarm) open_before = left_open(), kb_before = resident_kb();
         const uint64_t before = changes();

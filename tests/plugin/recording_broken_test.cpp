@@ -43,8 +43,8 @@ TEST_F(RecordingBroken, EachFieldOfTheCameraFileIsCheckedByName) {
         EXPECT_TRUE(replay.says("camera.json")) << replay.message;
         return replay;
     };
-    for (const char* field : {"format", "version", "width", "height", "fx", "fy", "cx", "cy", "fps",
-                              "depth_unit_m"}) {
+    for (const char* field :
+         {"format", "version", "width", "height", "fx", "fy", "cx", "cy", "fps", "depth_unit_m"}) {
         const Replay missing = broken("\"" + std::string(field) + "\"", "\"absent\"");
         EXPECT_TRUE(missing.says("\"" + std::string(field) + "\" is missing")) << missing.message;
     }

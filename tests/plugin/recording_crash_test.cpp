@@ -1,8 +1,8 @@
 // A writer that is killed leaves a recording that plays.
 #if !defined(_WIN32)
-#include <csignal>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <csignal>
 
 #include <random>
 
@@ -35,7 +35,8 @@ TEST_F(RecordingCrash, AKilledWriterLeavesEveryCompleteFrame) {
         uint32_t without_body = 0;
         const Replay replay = play({}, [&](const Frame& frame) {
             EXPECT_TRUE(depth_is_synthetic(frame, number)) << number;
-            if (frame.bodies.empty()) ++without_body;
+            if (frame.bodies.empty())
+                ++without_body;
             else
                 EXPECT_NEAR(frame.bodies[0].at(VFIT_JOINT_HEAD).x,
                             synthetic_frame(number)->bodies[0].at(VFIT_JOINT_HEAD).x, 1e-4f);

@@ -22,10 +22,10 @@ TEST_F(RecordingFuzz, DamagedFilesGiveAnErrorOrFrames) {
                                  "joints.csv",       "timestamps.csv",  "contacts.csv",     "measures.json"};
     const auto frame_with_all = [](uint32_t i) {
         auto frame = synthetic_frame(i);
-        auto* users = static_cast<uint8_t*>(frame->add_stream(VFIT_STREAM_USER_MAP, VFIT_FORMAT_U8, kWidth,
-                                                              kHeight));
-        auto* color = static_cast<uint8_t*>(frame->add_stream(VFIT_STREAM_COLOR, VFIT_FORMAT_RGBA8, kWidth,
-                                                              kHeight));
+        auto* users =
+            static_cast<uint8_t*>(frame->add_stream(VFIT_STREAM_USER_MAP, VFIT_FORMAT_U8, kWidth, kHeight));
+        auto* color =
+            static_cast<uint8_t*>(frame->add_stream(VFIT_STREAM_COLOR, VFIT_FORMAT_RGBA8, kWidth, kHeight));
         for (uint32_t p = 0; p < kWidth * kHeight; ++p) users[p] = p % 3 == 0;
         for (uint32_t p = 0; p < 4 * kWidth * kHeight; ++p) color[p] = static_cast<uint8_t>(p);
         return frame;

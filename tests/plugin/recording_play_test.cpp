@@ -68,7 +68,8 @@ TEST_F(RecordingTest, ALoopBeginsAgainWhileTimeGoesOn) {
                                    EXPECT_TRUE(depth_is_synthetic(frame, number++ % 3));
                                    EXPECT_EQ(frame.bodies.size(), 1u);
                                    last = frame.time_ns;
-                               }, 20);
+                               },
+                               20);
     EXPECT_EQ(replay.count, 20u);
 }
 
@@ -139,10 +140,10 @@ TEST_F(RecordingTest, SegmentedDepthIsTheUserMapWhereThereIsNoMask) {
 
 TEST_F(RecordingTest, MaskAndColourComeBackAsTheyWere) {
     const auto frame = synthetic_frame(0);
-    auto* users = static_cast<uint8_t*>(frame->add_stream(VFIT_STREAM_USER_MAP, VFIT_FORMAT_U8, kWidth,
-                                                          kHeight));
-    auto* color = static_cast<uint8_t*>(frame->add_stream(VFIT_STREAM_COLOR, VFIT_FORMAT_RGBA8, kWidth,
-                                                          kHeight));
+    auto* users =
+        static_cast<uint8_t*>(frame->add_stream(VFIT_STREAM_USER_MAP, VFIT_FORMAT_U8, kWidth, kHeight));
+    auto* color =
+        static_cast<uint8_t*>(frame->add_stream(VFIT_STREAM_COLOR, VFIT_FORMAT_RGBA8, kWidth, kHeight));
     for (uint32_t i = 0; i < kWidth * kHeight; ++i) users[i] = static_cast<uint8_t>(i % 255);
     for (uint32_t i = 0; i < 4 * kWidth * kHeight; ++i) color[i] = static_cast<uint8_t>(i * 7);
     Recorder(folder_.string(), {}).write(*frame);

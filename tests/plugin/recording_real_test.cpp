@@ -36,8 +36,8 @@ protected:
 };
 
 size_t depth_files(const fs::path& recording) {
-    return static_cast<size_t>(std::distance(fs::directory_iterator(recording / "depth"),
-                                             fs::directory_iterator()));
+    return static_cast<size_t>(
+        std::distance(fs::directory_iterator(recording / "depth"), fs::directory_iterator()));
 }
 
 TEST_F(RecordingReal, EveryFrameOfEveryRecordingIsRead) {
@@ -92,7 +92,10 @@ TEST_F(RecordingReal, RecordedAgainTheyAreTheSame) {
     const auto copy = [](const Frame& frame) {
         const auto* depth = frame.find(VFIT_STREAM_DEPTH)->as<uint16_t>();
         const auto* users = frame.find(VFIT_STREAM_USER_MAP)->as<uint8_t>();
-        return Copy{{depth, depth + 320 * 240}, {users, users + 320 * 240}, frame.bodies.at(0), frame.camera,
+        return Copy{{depth, depth + 320 * 240},
+                    {users, users + 320 * 240},
+                    frame.bodies.at(0),
+                    frame.camera,
                     frame.time_ns};
     };
     std::vector<Copy> first;

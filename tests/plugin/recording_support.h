@@ -28,8 +28,8 @@ inline uint16_t depth_at(uint32_t frame, uint32_t pixel) {
 
 inline Ref<Frame> synthetic_frame(uint32_t number, uint32_t width = kWidth, uint32_t height = kHeight) {
     auto frame = make<Frame>();
-    auto* depth = static_cast<uint16_t*>(frame->add_stream(VFIT_STREAM_DEPTH, VFIT_FORMAT_U16, width,
-                                                           height));
+    auto* depth =
+        static_cast<uint16_t*>(frame->add_stream(VFIT_STREAM_DEPTH, VFIT_FORMAT_U16, width, height));
     for (uint32_t i = 0; i < width * height; ++i) depth[i] = depth_at(number, i);
     frame->time_ns = 5'000'000'000 + int64_t(number) * 33'333'333 + (number % 3) * 1'000'000;
     Camera& c = frame->camera;
@@ -85,8 +85,7 @@ protected:
 
     /// Opens and plays to the end, or to `most` frames; `look` sees every frame.
     Replay play(const std::function<void(Sensor&)>& set_up = {},
-                const std::function<void(const Frame&)>& look = {},
-                size_t most = SIZE_MAX) {
+                const std::function<void(const Frame&)>& look = {}, size_t most = SIZE_MAX) {
         Replay replay;
         Ref<Sensor> sensor;
         try {

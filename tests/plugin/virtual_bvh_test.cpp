@@ -108,8 +108,9 @@ TEST(BvhMotion, AJointThatIsMissingIsNamed) {
 }
 
 TEST(Bvh, NumbersThatNoSkeletonHasAreRefused) {
-    const std::string text = "HIERARCHY ROOT Hips { OFFSET 0 0 0 CHANNELS 1 Xposition End Site { OFFSET 0 1 0 } } "
-                             "MOTION Frames: 1 Frame Time: 0.01 ";
+    const std::string text =
+        "HIERARCHY ROOT Hips { OFFSET 0 0 0 CHANNELS 1 Xposition End Site { OFFSET 0 1 0 } } "
+        "MOTION Frames: 1 Frame Time: 0.01 ";
     EXPECT_EQ(parse_bvh(text + "12.5", "walk.bvh").values.at(0), 12.5f);
     for (const char* value : {"1e30", "-1e300", "nan", "inf"})
         EXPECT_THROW(parse_bvh(text + value, "walk.bvh"), Error) << value;

@@ -45,7 +45,8 @@ TEST(Clothing, MovesTheCoveredSurfaceByItsThicknessOnAverage) {
             double area = 0, sum = 0;
             float most = 0;
             for (size_t i = 0; i < triangles.size(); i += 3) {
-                const Vec3 a = d.skin(triangles[i]), b = d.skin(triangles[i + 1]), c = d.skin(triangles[i + 2]);
+                const Vec3 a = d.skin(triangles[i]), b = d.skin(triangles[i + 1]),
+                           c = d.skin(triangles[i + 2]);
                 // Trunk and thighs, well within the hems.
                 const Vec3 middle = (a + b + c) / 3.0f;
                 if (std::abs(middle.x) > 0.3f || middle.y > 1.35f || middle.y < 0.3f) continue;
@@ -70,10 +71,10 @@ TEST(Clothing, IsAsThickInEachZoneAsItIsSaid) {
     for (size_t v = 0; v < d.bare.vertex_count(); ++v) {
         const Vec3 p = d.skin(v);
         // Well within the hems.
-        const int zone = std::abs(p.x) > 0.3f && std::abs(p.x) < 0.5f                      ? 0
-                         : std::abs(p.x) < 0.1f && p.y > 1.15f && p.y < 1.35f              ? 1
-                         : std::abs(p.x) < 0.3f && p.y > 0.3f && p.y < 0.8f                ? 2
-                                                                                           : -1;
+        const int zone = std::abs(p.x) > 0.3f && std::abs(p.x) < 0.5f         ? 0
+                         : std::abs(p.x) < 0.1f && p.y > 1.15f && p.y < 1.35f ? 1
+                         : std::abs(p.x) < 0.3f && p.y > 0.3f && p.y < 0.8f   ? 2
+                                                                              : -1;
         if (zone >= 0) sums[zone] += double(d.moved(v)), counts[zone] += 1;
     }
     EXPECT_EQ(sums[0], 0.0) << "sleeves";

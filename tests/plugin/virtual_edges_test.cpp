@@ -26,7 +26,8 @@ void expect_marked_about(const EdgeTiles& tiles, int x, int y) {
     constexpr int kReach = EdgeTiles::kReach;
     for (int v = std::max(0, y - kReach); v <= std::min(kImageHeight - 1, y + kReach); ++v)
         for (int u = std::max(0, x - kReach); u <= std::min(kImageWidth - 1, x + kReach); ++u)
-            ASSERT_TRUE(tiles.marked(uint32_t(u), uint32_t(v))) << u << " " << v << " beside " << x << " " << y;
+            ASSERT_TRUE(tiles.marked(uint32_t(u), uint32_t(v)))
+                << u << " " << v << " beside " << x << " " << y;
 }
 
 TEST(EdgeTiles, NoEdgeWithinReachIsMissed) {

@@ -93,8 +93,8 @@ TEST_P(EveryMotion, KneesBendForwardsAndNeverPastStraight) {
 
 TEST_P(EveryMotion, NoJointJumps) {
     // Fastest voluntary motions of arms are near 15 rad/s at the elbow; nothing here should come close. Hips
-    // move at walking speed, or at that of who leaves the floor: 1.72 m/s for 15 cm, with knees that extend by some
-    // 16 rad/s as those of jumpers do.
+    // move at walking speed, or at that of who leaves the floor: 1.72 m/s for 15 cm, with knees that extend
+    // by some 16 rad/s as those of jumpers do.
     const bool jumps = std::string(GetParam()) == "jump";
     const double fastest = jumps ? 1.73 : 1.5, quickest = jumps ? 16.0 : 10.0;
     BonePose before = motion->at(0);
@@ -110,8 +110,9 @@ TEST_P(EveryMotion, NoJointJumps) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scripts, EveryMotion,
-                         ::testing::Values("scan", "side", "sway", "turn", "walk", "wave", "reach", "squat", "demo",
-                                           "cross", "clap", "forward", "sit", "spin", "jog", "visit", "jump", "step", "balance"),
+                         ::testing::Values("scan", "side", "sway", "turn", "walk", "wave", "reach", "squat",
+                                           "demo", "cross", "clap", "forward", "sit", "spin", "jog", "visit",
+                                           "jump", "step", "balance"),
                          [](const auto& info) { return std::string(info.param); });
 
 TEST(JumpMotion, FliesAsHighAndAsLongAsABodyDoesAndLandsWhereItStood) {
@@ -142,7 +143,8 @@ TEST(BalanceMotion, HoldsOneFootUpAfterTheOther) {
     for (int i = 0; i < int(7 * kRate); ++i) {
         const BonePose pose = motion->at(i / kRate);
         EXPECT_TRUE(pose.contact[0] || pose.contact[1]) << i;
-        for (size_t side = 0; side < 2; ++side) up[side] += !pose.contact[side] && feet_of(p, pose).ankle[side].y > 0.2f;
+        for (size_t side = 0; side < 2; ++side)
+            up[side] += !pose.contact[side] && feet_of(p, pose).ankle[side].y > 0.2f;
     }
     EXPECT_GT(up[0], kRate);
     EXPECT_GT(up[1], kRate);
@@ -178,7 +180,8 @@ TEST(ScanMotion, ArmsAreHeldAsOptionArmsSays) {
     EXPECT_GT(ahead.z, 0.7f);
     EXPECT_LT(from_down(down), 3.0f);
     EXPECT_NEAR(from_down(arm_of("scan", -1.0f)), 35.0f, 1.0f) << "below 0: as the motion has them";
-    EXPECT_NEAR(from_down(arm_of("sway", 60.0f)), from_down(arm_of("sway", -1.0f)), 1e-3f) << "other motions have arms of their own";
+    EXPECT_NEAR(from_down(arm_of("sway", 60.0f)), from_down(arm_of("sway", -1.0f)), 1e-3f)
+        << "other motions have arms of their own";
 }
 
 TEST(TurnMotion, ShowsEverySideAndComesBack) {

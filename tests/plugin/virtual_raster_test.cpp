@@ -69,8 +69,8 @@ private:
     RTCScene scene_ = rtcNewScene(device_);
 };
 
-// A ray that passes within rounding of the outline may be told apart either way, and one that goes through an edge
-// between two triangles has the slant of either.
+// A ray that passes within rounding of the outline may be told apart either way, and one that goes through an
+// edge between two triangles has the slant of either.
 TEST(DepthCamera, SeesOfABodyWhatRaysMeet) {
     constexpr int kRoundedPixels = 2, kEdgePixels = 40;  // a frame, of more than 20,000 of the person
     const SensorModel& model = *find_sensor_model("kinect_v1");
@@ -92,11 +92,13 @@ TEST(DepthCamera, SeesOfABodyWhatRaysMeet) {
                 for (uint32_t x = 0; x < model.width; ++x) {
                     const size_t i = size_t{y} * model.width + x;
                     const Vec3 direction =
-                        camera.world_from_camera() * Vec3((float(x) - model.cx) / model.fx,
-                                                          (float(y) - model.cy) / model.fy, 1.0f);
-                    const float wall = room.depth_m[i] > 0 ? room.depth_m[i] : std::numeric_limits<float>::infinity();
+                        camera.world_from_camera() *
+                        Vec3((float(x) - model.cx) / model.fx, (float(y) - model.cy) / model.fy, 1.0f);
+                    const float wall =
+                        room.depth_m[i] > 0 ? room.depth_m[i] : std::numeric_limits<float>::infinity();
                     const auto hit = rays.cast({0, place.height_m, 0}, direction, wall);
-                    const float depth = hit ? hit->depth : room.depth_m[i], cosine = hit ? hit->cosine : room.cosine[i];
+                    const float depth = hit ? hit->depth : room.depth_m[i],
+                                cosine = hit ? hit->cosine : room.cosine[i];
                     of_person += hit.has_value();
                     if (hit.has_value() != (image.user[i] != 0) || std::abs(image.depth_m[i] - depth) > 2e-5f)
                         ++other_surface;

@@ -42,7 +42,8 @@ TEST(Solids, AnEllipsoidIsAsFarAsItsEquationSays) {
         for (uint32_t x = 0; x < kIdeal.width; ++x) {
             const float z = image.depth_m[size_t{y} * kIdeal.width + x];
             if (z > 2.9f || z == 0.0f) continue;
-            const Vec3 p((float(x) - kIdeal.cx) / kIdeal.fx * z, 1.0f - (float(y) - kIdeal.cy) / kIdeal.fy * z, -z);
+            const Vec3 p((float(x) - kIdeal.cx) / kIdeal.fx * z,
+                         1.0f - (float(y) - kIdeal.cy) / kIdeal.fy * z, -z);
             if (p.y < 0.01f) continue;  // the floor
             ASSERT_NEAR(glm::length((p - centre) / half), 1.0f, 1e-3f) << x << ", " << y;
             ++seen;
@@ -68,7 +69,8 @@ TEST(VirtualRoom, FurnitureIsSeenAndIsNobody) {
     TestHost host;
     const auto empty = host.run("virtual:sensor=ideal&frames=1&people=0");
     for (const char* piece : {"chair", "rack", "stool"}) {
-        const auto frames = host.run(std::string("virtual:sensor=ideal&frames=2&people=0&furniture=") + piece);
+        const auto frames =
+            host.run(std::string("virtual:sensor=ideal&frames=2&people=0&furniture=") + piece);
         ASSERT_EQ(frames.size(), 2u);
         for (const Taken& f : frames) {
             EXPECT_TRUE(f.everybody.empty());
@@ -94,7 +96,8 @@ TEST(VirtualRoom, FurnitureStandsBesideThePersonWithoutTouchingThem) {
 
 TEST(VirtualRoom, ThePersonSitsOnTheStool) {
     TestHost host;
-    const auto frames = host.run("virtual:sensor=ideal&frames=31&rate=10&motion=sit&furniture=stool&distance=3");
+    const auto frames =
+        host.run("virtual:sensor=ideal&frames=31&rate=10&motion=sit&furniture=stool&distance=3");
     const auto hip_height = [](const Taken& f) {
         const float* p = f.joints[VFIT_JOINT_LEFT_HIP].position;
         return f.camera.floor_distance_m - p[1];
@@ -128,7 +131,8 @@ TEST(VirtualRoom, ABoxHidesThePersonForAboutASecond) {
 
 TEST(VirtualRoom, AVisitorIsToldOnlyWhileTheyAreThere) {
     TestHost host;
-    const auto frames = host.run("virtual:frames=100&rate=5&motion=visit&distance=3&sensor=kinect_v1_320&noise=0");
+    const auto frames =
+        host.run("virtual:frames=100&rate=5&motion=visit&distance=3&sensor=kinect_v1_320&noise=0");
     ASSERT_EQ(frames.size(), 100u);
     int there = 0;
     for (const Taken& f : frames) {
@@ -154,7 +158,8 @@ TEST(VirtualRoom, ThreePeopleHaveLabelsAndJointsOfTheirOwn) {
             EXPECT_GT(f.pixels_of(uint8_t(id)), 8000u);
             for (const vfit_joint_id j : {VFIT_JOINT_HEAD, VFIT_JOINT_NECK, VFIT_JOINT_TORSO}) {
                 const Vec2 p = f.project(joints[size_t(j)]);
-                EXPECT_EQ(f.user[size_t(std::lround(p.y)) * f.width + size_t(std::lround(p.x))], id) << "joint " << j;
+                EXPECT_EQ(f.user[size_t(std::lround(p.y)) * f.width + size_t(std::lround(p.x))], id)
+                    << "joint " << j;
             }
         }
     }

@@ -3,6 +3,7 @@ something is missing.
 
     room_test.py VFIT_ROOM
 """
+
 import json
 import pathlib
 import shutil
@@ -35,8 +36,8 @@ def read_png(path):
     assert data[:8] == b"\x89PNG\r\n\x1a\n"
     at, packed = 8, b""
     while at < len(data):
-        length, kind = struct.unpack(">I4s", data[at:at + 8])
-        chunk = data[at + 8:at + 8 + length]
+        length, kind = struct.unpack(">I4s", data[at : at + 8])
+        chunk = data[at + 8 : at + 8 + length]
         if kind == b"IHDR":
             width, height, depth, colors = struct.unpack(">IIBB", chunk[:10])
             assert (depth, colors) == (8, 2)
@@ -45,7 +46,7 @@ def read_png(path):
     raw, pitch = zlib.decompress(packed), 3 * width
     rows, above = [], bytes(pitch)
     for y in range(height):
-        kind, line = raw[y * (pitch + 1)], bytearray(raw[y * (pitch + 1) + 1:(y + 1) * (pitch + 1)])
+        kind, line = raw[y * (pitch + 1)], bytearray(raw[y * (pitch + 1) + 1 : (y + 1) * (pitch + 1)])
         for i in range(pitch):
             left, up, corner = line[i - 3] if i >= 3 else 0, above[i], above[i - 3] if i >= 3 else 0
             if kind == 4:
@@ -61,7 +62,11 @@ def read_png(path):
 
 def share(rows, columns, lines, wanted):
     """Of the pixels of that part of the picture, those of which wanted(r, g, b) holds."""
-    pixels = [(row[3 * x], row[3 * x + 1], row[3 * x + 2]) for row in rows[lines[0]:lines[1]] for x in range(*columns)]
+    pixels = [
+        (row[3 * x], row[3 * x + 1], row[3 * x + 2])
+        for row in rows[lines[0] : lines[1]]
+        for x in range(*columns)
+    ]
     return sum(wanted(*p) for p in pixels) / len(pixels)
 
 
@@ -118,16 +123,27 @@ class Keys(unittest.TestCase):
         up = report(*SMALL, "--frames", 6, "--garment", "sundress", "--size", "M", "--keys", "1:up,3:up")
         self.assertEqual(up["size"], "XL")
         self.assertEqual(up["keys"], ["up", "up"])
-        down = report(*SMALL, "--frames", 4, "--garment", "martial_jacket", "--size", "XS", "--keys", "1:down")
+        down = report(
+            *SMALL, "--frames", 4, "--garment", "martial_jacket", "--size", "XS", "--keys", "1:down"
+        )
         self.assertEqual(down["size"], "made to measure")
         with tempfile.TemporaryDirectory() as folder:
             other, picture = pathlib.Path(folder) / "other.json", pathlib.Path(folder) / "other.png"
             shutil.copy(SUNDRESS, other)
             two = ["--garment", "sundress", "--garment", other]
-            self.assertEqual(report(*SMALL, "--frames", 4, *two, "--keys", "1:right,2:left")["garment"], "sundress")
-            self.assertEqual(report(*SMALL, "--frames", 4, *two, "--keys", "1:left", "--picture", picture)["garment"], "other")
+            self.assertEqual(
+                report(*SMALL, "--frames", 4, *two, "--keys", "1:right,2:left")["garment"], "sundress"
+            )
+            self.assertEqual(
+                report(*SMALL, "--frames", 4, *two, "--keys", "1:left", "--picture", picture)["garment"],
+                "other",
+            )
             width, _, rows = read_png(picture)
-            self.assertLess(share(rows, (width // 2 - 60, width // 2 + 60), (60, 340), is_red), 0.05, "it has a colour of its own")
+            self.assertLess(
+                share(rows, (width // 2 - 60, width // 2 + 60), (60, 340), is_red),
+                0.05,
+                "it has a colour of its own",
+            )
 
     def test_cloth_camera_and_mirror_are_switched(self):
         off = report(*SMALL, "--frames", 8, "--keys", "1:p,2:m,3:h,4:space,5:c")
@@ -162,7 +178,16 @@ class Trouble(unittest.TestCase):
             self.assertIn("no garment", self.say(*SMALL, "--data", empty))
 
     def test_a_source_that_ends_is_waited_for(self):
-        told = report("virtual:motion=demo&sex=f&seed=7&frames=60", "--offscreen", "--resolution", "640x360", "--samples", "0", "--seconds", "4")
+        told = report(
+            "virtual:motion=demo&sex=f&seed=7&frames=60",
+            "--offscreen",
+            "--resolution",
+            "640x360",
+            "--samples",
+            "0",
+            "--seconds",
+            "4",
+        )
         self.assertGreater(told["frames"], 10)
         self.assertGreater(told["camera_images"], 60, "it was opened again")
 

@@ -1,4 +1,5 @@
-// Random values as careless or hostile callers have them: mostly sane, at times at an edge, at times nonsense.
+// Random values as careless or hostile callers have them: mostly sane, at times at an edge, at times
+// nonsense.
 #pragma once
 
 #include <cmath>
@@ -19,16 +20,19 @@ public:
     uint32_t below(uint32_t n) { return uint32_t(bits() % n); }
     bool one_in(uint32_t n) { return below(n) == 0; }
     template <typename T, size_t N>
-    T pick(const T (&list)[N]) { return list[below(uint32_t(N))]; }
+    T pick(const T (&list)[N]) {
+        return list[below(uint32_t(N))];
+    }
 
     float number() {
         constexpr float kInf = std::numeric_limits<float>::infinity();
-        static const float kEdges[] = {0.0f, -0.0f, 1.0f, -1.0f, 0.5f, 1e-38f, 1e-6f, 1e6f, 3e38f, -3e38f, kInf, -kInf, NAN};
+        static const float kEdges[] = {0.0f, -0.0f, 1.0f,   -1.0f, 0.5f,  1e-38f, 1e-6f,
+                                       1e6f, 3e38f, -3e38f, kInf,  -kInf, NAN};
         return one_in(2) ? pick(kEdges) : float(below(2001)) * 1e-3f - 1.0f;
     }
     uint64_t whole() {
-        static const uint64_t kEdges[] = {0, 1, 2, 3, 7, 64, 255, 65535, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF, 1ull << 40,
-                                          ~0ull >> 1, ~0ull};
+        static const uint64_t kEdges[] = {
+            0, 1, 2, 3, 7, 64, 255, 65535, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF, 1ull << 40, ~0ull >> 1, ~0ull};
         return one_in(4) ? bits() : pick(kEdges);
     }
 
@@ -48,8 +52,10 @@ public:
             std::vector<const char*> values;
         };
         static const std::vector<Known> kKnown = {
-            {"uri", {"recording:recording", "recording:recording", "recording:recording", "recording",
-                     "virtual:sensor=kinect_v1_320", "virtual:", "virtual:height_m=9", "recording:/dev/null", "nothing:"}},
+            {"uri",
+             {"recording:recording", "recording:recording", "recording:recording", "recording",
+              "virtual:sensor=kinect_v1_320", "virtual:", "virtual:height_m=9", "recording:/dev/null",
+              "nothing:"}},
             {"key", {"pace", "mode", "measures", "contacts", "index", "bodies", "sensor"}},
             {"value", {"none", "realtime", "0", "1", "kinect_v1_320"}},
             {"path", {"/dev/null/x", "/"}},

@@ -7,6 +7,7 @@ each struct.
 What an argument may be follows from its type and from its neighbours (items, stride, count; buffer, capacity). A
 function whose arguments are not understood stops the writing, so that none is left out.
 """
+
 import pathlib
 import sys
 
@@ -21,8 +22,11 @@ class Writer:
         self.header = header
         self.structs = {s.name for s in header.structs}
         self.callbacks = {c.name for c in header.callbacks}
-        self.ranges = {e.type: (min(i.value for i in e.items), max(i.value for i in e.items))
-                       for e in header.enums if e.type}
+        self.ranges = {
+            e.type: (min(i.value for i in e.items), max(i.value for i in e.items))
+            for e in header.enums
+            if e.type
+        }
 
     def kinds(self):
         """Handle types, each with what lets go of it."""
@@ -39,7 +43,7 @@ class Writer:
         if v.pointer and v.type in self.structs:
             return f"    t.{v.name} = s.struct_in<{v.type}>();\n"
         if v.pointer:
-            return ""                       # memory of the host: what it may be is told by hand
+            return ""  # memory of the host: what it may be is told by hand
         if v.type == "char":
             return f"    s.letters(t.{v.name});\n"
         if v.type in self.structs:
@@ -138,9 +142,13 @@ class Writer:
         return "#define VFIT_STORM_HANDLES(X) \\\n" + "".join(self.kinds()) + "\n"
 
     def calls_text(self):
-        return ("".join(f"inline void fill(Storm&, {s.name}&);\n" for s in self.header.structs)
-                + "".join(self.filling(s) for s in self.header.structs)
-                + "inline const Call kCalls[] = {\n" + "".join(self.call(f) for f in self.header.functions) + "};\n")
+        return (
+            "".join(f"inline void fill(Storm&, {s.name}&);\n" for s in self.header.structs)
+            + "".join(self.filling(s) for s in self.header.structs)
+            + "inline const Call kCalls[] = {\n"
+            + "".join(self.call(f) for f in self.header.functions)
+            + "};\n"
+        )
 
 
 def main():

@@ -7,8 +7,8 @@
 #include <string>
 #include <unordered_map>
 
-#include "handles.h"
 #include "draw.h"
+#include "handles.h"
 #include "vfit.h"
 
 namespace storm {
@@ -23,11 +23,11 @@ enum Number : size_t {
         number_count
 };
 }  // namespace detail
-#define X(type, end)                                                      \
-    template <>                                                           \
-    struct HandleType<type> {                                             \
-        static constexpr size_t kNumber = detail::number_##type;          \
-        static vfit_result let_go(type handle) { return end(handle); }    \
+#define X(type, end)                                                   \
+    template <>                                                        \
+    struct HandleType<type> {                                          \
+        static constexpr size_t kNumber = detail::number_##type;       \
+        static vfit_result let_go(type handle) { return end(handle); } \
     };
 VFIT_STORM_HANDLES(X)
 #undef X
@@ -45,7 +45,8 @@ public:
     /// One that was let go of, mostly.
     uint64_t gone(Draw& draw) { return gone_[draw.below(kGone)].load(); }
 
-    /// Takes the place of another one, which is let go of. The first slots are kept for objects that work together.
+    /// Takes the place of another one, which is let go of. The first slots are kept for objects that work
+    /// together.
     template <typename H>
     void put(H handle, Draw& draw) {
         put_at(1 + draw.below(kSlots - 1), handle, draw);

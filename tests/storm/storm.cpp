@@ -1,11 +1,13 @@
-// A storm of random calls on the C ABI: every function of vfit.h with null, stale, foreign and invented handles, with
-// struct sizes, enums, numbers and texts of all kinds, from several threads that share and destroy each other's objects.
-// What may not happen: a crash or a sanitizer's report, VFIT_ERROR_UNKNOWN, an error without a sentence, a handle left by
-// an error, pixels that are not given back, a function that never succeeds, or a library that does its work no more.
+// A storm of random calls on the C ABI: every function of vfit.h with null, stale, foreign and invented
+// handles, with struct sizes, enums, numbers and texts of all kinds, from several threads that share and
+// destroy each other's objects. What may not happen: a crash or a sanitizer's report, VFIT_ERROR_UNKNOWN, an
+// error without a sentence, a handle left by an error, pixels that are not given back, a function that never
+// succeeds, or a library that does its work no more.
 //
 // A call that takes longer than --patience ends the program, for a debugger to see where it stands.
 //
 //     storm [--calls N] [--threads N] [--seed N] [--only PREFIX,PREFIX] [--patience SECONDS] [--times]
+#include <unistd.h>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -14,7 +16,6 @@
 #include <iterator>
 #include <map>
 #include <thread>
-#include <unistd.h>
 
 #include "storm.h"
 #include "usual.h"
@@ -32,24 +33,47 @@ struct Options {
     bool times = false;
 };
 
-/// How many times less often than others a function is called: it takes long, or ends what others would go on with.
+/// How many times less often than others a function is called: it takes long, or ends what others would go on
+/// with.
 uint32_t rarity(const std::string& name) {
-    static const std::map<std::string, uint32_t> kRare = {
-        {"vfit_shutdown", 2000},      {"vfit_context_destroy", 1000}, {"vfit_context_create", 300},
-        {"vfit_plugin_load", 10},     {"vfit_sensor_list", 100},      {"vfit_sensor_open", 20},
-        {"vfit_sensor_start", 10},    {"vfit_sensor_close", 40},      {"vfit_frame_retain", 20},
-        {"vfit_frame_release", 4},
-        {"vfit_tracker_update", 40},
-        {"vfit_tracker_destroy", 10}, {"vfit_recorder_create", 40},   {"vfit_recorder_destroy", 20},
-        {"vfit_scan_create", 10},     {"vfit_scan_measure", 20},      {"vfit_scan_add", 10},
-        {"vfit_scan_reset", 200},      {"vfit_scan_destroy", 20},      {"vfit_size_chart_destroy", 10},
-        {"vfit_motion_destroy", 10},  {"vfit_avatar_create", 20},     {"vfit_avatar_create_from_shape", 60},
-        {"vfit_avatar_create_from_scan", 40},                        {"vfit_avatar_load", 40},
-        {"vfit_avatar_unpack", 60},   {"vfit_avatar_measure", 300},   {"vfit_avatar_measure_own", 100},
-        {"vfit_avatar_destroy", 100}, {"vfit_garment_load", 100},     {"vfit_garment_open", 20},
-        {"vfit_garment_destroy", 100},                                {"vfit_cloth_create", 20},
-        {"vfit_cloth_reset", 100},    {"vfit_cloth_hide_skin", 40},  {"vfit_cloth_destroy", 100},
-        {"vfit_cloth_step", 4},       {"vfit_cloth_begin_step", 4}};
+    static const std::map<std::string, uint32_t> kRare = {{"vfit_shutdown", 2000},
+                                                          {"vfit_context_destroy", 1000},
+                                                          {"vfit_context_create", 300},
+                                                          {"vfit_plugin_load", 10},
+                                                          {"vfit_sensor_list", 100},
+                                                          {"vfit_sensor_open", 20},
+                                                          {"vfit_sensor_start", 10},
+                                                          {"vfit_sensor_close", 40},
+                                                          {"vfit_frame_retain", 20},
+                                                          {"vfit_frame_release", 4},
+                                                          {"vfit_tracker_update", 40},
+                                                          {"vfit_tracker_destroy", 10},
+                                                          {"vfit_recorder_create", 40},
+                                                          {"vfit_recorder_destroy", 20},
+                                                          {"vfit_scan_create", 10},
+                                                          {"vfit_scan_measure", 20},
+                                                          {"vfit_scan_add", 10},
+                                                          {"vfit_scan_reset", 200},
+                                                          {"vfit_scan_destroy", 20},
+                                                          {"vfit_size_chart_destroy", 10},
+                                                          {"vfit_motion_destroy", 10},
+                                                          {"vfit_avatar_create", 20},
+                                                          {"vfit_avatar_create_from_shape", 60},
+                                                          {"vfit_avatar_create_from_scan", 40},
+                                                          {"vfit_avatar_load", 40},
+                                                          {"vfit_avatar_unpack", 60},
+                                                          {"vfit_avatar_measure", 300},
+                                                          {"vfit_avatar_measure_own", 100},
+                                                          {"vfit_avatar_destroy", 100},
+                                                          {"vfit_garment_load", 100},
+                                                          {"vfit_garment_open", 20},
+                                                          {"vfit_garment_destroy", 100},
+                                                          {"vfit_cloth_create", 20},
+                                                          {"vfit_cloth_reset", 100},
+                                                          {"vfit_cloth_hide_skin", 40},
+                                                          {"vfit_cloth_destroy", 100},
+                                                          {"vfit_cloth_step", 4},
+                                                          {"vfit_cloth_begin_step", 4}};
     const auto found = kRare.find(name);
     return found == kRare.end() ? 1 : found->second;
 }
@@ -75,7 +99,9 @@ struct Tally {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 /// What a thread is in, since when: for the one who looks after calls that do not return.
 struct Now {
@@ -88,7 +114,8 @@ void watch(std::stop_token stop, const std::vector<Now>& threads, double patienc
         std::this_thread::sleep_for(std::chrono::milliseconds(200));
         for (const Now& now : threads) {
             const char* const function = now.function;
-            if (!function || seconds_since(Clock::time_point(Clock::duration(now.start))) < patience_s) continue;
+            if (!function || seconds_since(Clock::time_point(Clock::duration(now.start))) < patience_s)
+                continue;
             std::fprintf(stderr, "storm: %s has not returned for %.0f s\n", function, patience_s);
             std::abort();
         }
@@ -108,8 +135,10 @@ void judge(const char* function, vfit_result result, std::string broken, Report&
         if (result == VFIT_ERROR_UNKNOWN) broken = std::string("an unexpected exception: ") + text;
         if (result != VFIT_ERROR_HANDLE) report.functions[function].last_error = text;
     }
-    if (result < VFIT_ERROR_NOT_WEARABLE || result > VFIT_END_OF_STREAM) broken = "an unknown result " + std::to_string(result);
-    if (!broken.empty() && report.broken.size() < 20) report.broken.push_back(std::string(function) + ": " + broken);
+    if (result < VFIT_ERROR_NOT_WEARABLE || result > VFIT_END_OF_STREAM)
+        broken = "an unknown result " + std::to_string(result);
+    if (!broken.empty() && report.broken.size() < 20)
+        report.broken.push_back(std::string(function) + ": " + broken);
 }
 
 /// The documents that loaders get, whole or damaged.
@@ -148,7 +177,8 @@ struct MainJob {
         body.detail = 3;
         const bool well = done(vfit_context_create(&desc, &context)) &&
                           done(vfit_sensor_open(context, "virtual:sensor=kinect_v1_320", &sensor)) &&
-                          done(vfit_sensor_start(sensor)) && done(vfit_tracker_create(context, nullptr, &tracker)) &&
+                          done(vfit_sensor_start(sensor)) &&
+                          done(vfit_tracker_create(context, nullptr, &tracker)) &&
                           done(vfit_scan_create(context, nullptr, &scan)) &&
                           done(vfit_size_chart_open(context, "paper", &chart)) &&
                           done(vfit_motion_create(context, nullptr, &motion)) &&
@@ -176,7 +206,8 @@ private:
     }
     bool frames() {
         vfit_recorder recorder{};
-        vfit_recorder_create(context, "recording", nullptr, &recorder);  // the first job's alone: the folder is there then
+        vfit_recorder_create(context, "recording", nullptr,
+                             &recorder);  // the first job's alone: the folder is there then
         bool well = true;
         for (int i = 0; well && i < 5; ++i) {
             vfit_frame frame{}, tracked{};
@@ -207,8 +238,8 @@ uint64_t main_job() {
     return job.hash;
 }
 
-void run(Pool& pool, const Options& options, uint32_t thread, const std::vector<Call>& calls, std::atomic<uint64_t>& done,
-         Now& now, Report& report) {
+void run(Pool& pool, const Options& options, uint32_t thread, const std::vector<Call>& calls,
+         std::atomic<uint64_t>& done, Now& now, Report& report) {
     Storm storm(pool, options.seed * 1000 + thread);
     uint64_t sown = 0, own = 0;
     while (done.load() < options.calls) {
@@ -220,7 +251,8 @@ void run(Pool& pool, const Options& options, uint32_t thread, const std::vector<
             MainJob().give_to(pool, storm);
             pool.barren = false;
         }
-        while (thread > 0 && pool.barren && done < options.calls) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        while (thread > 0 && pool.barren && done < options.calls)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
         const auto start = Clock::now();
         now.start = start.time_since_epoch().count();
         now.function = call.name;
@@ -240,13 +272,15 @@ void run(Pool& pool, const Options& options, uint32_t thread, const std::vector<
 }
 
 void print(const Report& report, const Options& options, double seconds) {
-    std::printf("%llu calls of %zu functions in %.1f s on %u threads, seed %llu\n", (unsigned long long)options.calls,
-                report.functions.size(), seconds, options.threads, (unsigned long long)options.seed);
+    std::printf("%llu calls of %zu functions in %.1f s on %u threads, seed %llu\n",
+                (unsigned long long)options.calls, report.functions.size(), seconds, options.threads,
+                (unsigned long long)options.seed);
     for (const auto& [result, count] : report.results)
         std::printf("  %-20s %9llu\n", vfit_result_name(result), (unsigned long long)count);
     if (!options.times) return;
     std::vector<std::pair<std::string, Tally>> sorted(report.functions.begin(), report.functions.end());
-    std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second.seconds > b.second.seconds; });
+    std::sort(sorted.begin(), sorted.end(),
+              [](const auto& a, const auto& b) { return a.second.seconds > b.second.seconds; });
     std::printf("  %-34s %8s %9s %8s %10s\n", "function", "calls", "succeeded", "seconds", "longest");
     for (const auto& [name, tally] : sorted)
         std::printf("  %-34s %8llu %9llu %8.2f %8.1fms\n", name.c_str(), (unsigned long long)tally.calls,
@@ -262,12 +296,18 @@ bool parse(int argc, char** argv, Options& options) {
         }
         if (i + 1 == argc) return false;
         const char* value = argv[++i];
-        if (option == "--calls") options.calls = std::strtoull(value, nullptr, 10);
-        else if (option == "--threads") options.threads = uint32_t(std::max(1, std::atoi(value)));
-        else if (option == "--seed") options.seed = std::strtoull(value, nullptr, 10);
-        else if (option == "--patience") options.patience_s = std::atof(value);
-        else if (option == "--only") options.only = value;
-        else return false;
+        if (option == "--calls")
+            options.calls = std::strtoull(value, nullptr, 10);
+        else if (option == "--threads")
+            options.threads = uint32_t(std::max(1, std::atoi(value)));
+        else if (option == "--seed")
+            options.seed = std::strtoull(value, nullptr, 10);
+        else if (option == "--patience")
+            options.patience_s = std::atof(value);
+        else if (option == "--only")
+            options.only = value;
+        else
+            return false;
     }
     return true;
 }
@@ -281,7 +321,8 @@ int weather(const Options& options) {
         return 2;
     }
     // Recordings go where nobody else writes.
-    const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("vfit-storm-" + std::to_string(getpid()));
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("vfit-storm-" + std::to_string(getpid()));
     std::filesystem::create_directory(folder);
     std::filesystem::current_path(folder);
     Pool pool;
@@ -314,15 +355,21 @@ int weather(const Options& options) {
     print(all, options, seconds);
 
     if (vfit_shutdown() != VFIT_OK) all.broken.push_back("vfit_shutdown failed at the end");
-    if (Pixels::lent != 0) all.broken.push_back(std::to_string(Pixels::lent) + " lent images were not given back");
-    if (before == 0 || main_job() != before) all.broken.push_back("the main job ends otherwise after the storm");
+    if (Pixels::lent != 0)
+        all.broken.push_back(std::to_string(Pixels::lent) + " lent images were not given back");
+    if (before == 0 || main_job() != before)
+        all.broken.push_back("the main job ends otherwise after the storm");
     // A damaged plug-in or a path into nowhere is all that these get.
     static const char* const kNeverSucceed[] = {"vfit_plugin_load"};
-    constexpr uint64_t kEnoughTries = 3000;  // with fewer, slow functions under a sanitizer can be out of luck
+    constexpr uint64_t kEnoughTries =
+        3000;  // with fewer, slow functions under a sanitizer can be out of luck
     for (const Call& call : calls)
-        if (options.only.empty() && all.functions[call.name].calls >= kEnoughTries && all.functions[call.name].successes == 0 &&
-            std::ranges::none_of(kNeverSucceed, [&](const char* name) { return std::string(name) == call.name; }))
-            all.broken.push_back(std::string(call.name) + ": never succeeded; " + all.functions[call.name].last_error);
+        if (options.only.empty() && all.functions[call.name].calls >= kEnoughTries &&
+            all.functions[call.name].successes == 0 &&
+            std::ranges::none_of(kNeverSucceed,
+                                 [&](const char* name) { return std::string(name) == call.name; }))
+            all.broken.push_back(std::string(call.name) + ": never succeeded; " +
+                                 all.functions[call.name].last_error);
     std::filesystem::current_path(folder.parent_path());
     std::filesystem::remove_all(folder);
     for (const std::string& what : all.broken) std::printf("BROKEN %s\n", what.c_str());
@@ -335,7 +382,9 @@ int weather(const Options& options) {
 int main(int argc, char** argv) {
     storm::Options options;
     if (!storm::parse(argc, argv, options)) {
-        std::fprintf(stderr, "storm [--calls N] [--threads N] [--seed N] [--only PREFIX,PREFIX] [--patience SECONDS] [--times]\n");
+        std::fprintf(stderr,
+                     "storm [--calls N] [--threads N] [--seed N] [--only PREFIX,PREFIX] [--patience SECONDS] "
+                     "[--times]\n");
         return 2;
     }
     return storm::weather(options);

@@ -1,5 +1,5 @@
-// One thread's stream of random arguments. All memory that a call gets is of its exact size and is freed after it, so
-// that AddressSanitizer sees whoever reads or writes beyond, or later.
+// One thread's stream of random arguments. All memory that a call gets is of its exact size and is freed
+// after it, so that AddressSanitizer sees whoever reads or writes beyond, or later.
 #pragma once
 
 #include <cstdlib>
@@ -31,7 +31,8 @@ struct Call {
     vfit_result (*run)(Storm&);
 };
 
-/// What a careful caller puts into a struct, the i-th of a list; the header's _init alone where nothing stands here.
+/// What a careful caller puts into a struct, the i-th of a list; the header's _init alone where nothing
+/// stands here.
 template <typename T>
 void usual(Storm&, T&, uint32_t) {}
 /// What no caller may get wrong, such as memory that is not there; or what would take seconds.
@@ -131,7 +132,8 @@ public:
     ListIn<T> list_in() {
         const uint32_t count = below(32), stride = drawn_size<T>();
         if (one_in(20)) return {nullptr, stride, count};
-        if (stride < 8 || stride > 4096) return {static_cast<const T*>(block(count * sizeof(T))), stride, count};
+        if (stride < 8 || stride > 4096)
+            return {static_cast<const T*>(block(count * sizeof(T))), stride, count};
         char* memory = static_cast<char*>(block(size_t(stride) * count));
         for (uint32_t i = 0; i < count; ++i) copy_item(memory + size_t(i) * stride, filled<T>(i), stride);
         return {reinterpret_cast<const T*>(memory), stride, one_in(40) ? 0xFFFFFFFF : count};
@@ -147,7 +149,8 @@ public:
     ListOut<T> list_out() {
         static const uint32_t kRooms[] = {0, 1, 23, 100, 400};
         const uint32_t stride = drawn_size<T>(), room = pick(kRooms);
-        T* items = one_in(4) ? nullptr : static_cast<T*>(block(room * size_t(stride > 4096 ? sizeof(T) : stride)));
+        T* items =
+            one_in(4) ? nullptr : static_cast<T*>(block(room * size_t(stride > 4096 ? sizeof(T) : stride)));
         return {items, stride, count_cell(room)};
     }
 
@@ -191,7 +194,8 @@ public:
         return {data, static_cast<char*>(data), count_cell(room)};
     }
     void learn(const char* function, const BytesOut& out, vfit_result result) {
-        if (result == VFIT_OK && out.data && out.count) pool_.learn(function, {static_cast<char*>(out.data), *out.count});
+        if (result == VFIT_OK && out.data && out.count)
+            pool_.learn(function, {static_cast<char*>(out.data), *out.count});
     }
 
     struct Buffer {
@@ -209,7 +213,8 @@ public:
         uint32_t count;
     };
     Marks marks() {
-        static const uint32_t kCounts[] = {0, 1, 100, 2000, 180};   // of the smallest body, of a tiny character
+        static const uint32_t kCounts[] = {0, 1, 100, 2000,
+                                           180};  // of the smallest body, of a tiny character
         const uint32_t count = pick(kCounts);
         return {one_in(12) ? nullptr : static_cast<uint8_t*>(block(count)), count};
     }
@@ -254,7 +259,7 @@ public:
     }
     template <typename T>
     T a(const std::string& name) {
-        if (name == "timeout_ns") return T(below(3) * 100000);   // below 0: without end
+        if (name == "timeout_ns") return T(below(3) * 100000);  // below 0: without end
         if (name == "dt") return one_in(4) ? T(number()) : T(0.016);
         if (name == "body_id" && !one_in(6)) return T(1);
         if constexpr (std::is_floating_point_v<T>) {
@@ -308,7 +313,8 @@ private:
         std::memcpy(to, static_cast<const void*>(&value), std::min<size_t>(size, sizeof(T)));
         if (size > sizeof(T)) {
             std::memset(to + sizeof(T), 0, size - sizeof(T));
-            if (one_in(4)) to[sizeof(T) + below(uint32_t(size - sizeof(T)))] = 1;  // a field of a later version
+            if (one_in(4))
+                to[sizeof(T) + below(uint32_t(size - sizeof(T)))] = 1;  // a field of a later version
         }
     }
 

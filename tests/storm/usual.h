@@ -1,5 +1,5 @@
-// What a careful caller puts into structs, and what no caller may get wrong: pointers that lead to memory, sizes that
-// are those of the memory.
+// What a careful caller puts into structs, and what no caller may get wrong: pointers that lead to memory,
+// sizes that are those of the memory.
 #pragma once
 
 #include "storm.h"
@@ -53,7 +53,8 @@ inline void usual(Storm&, vfit_intrinsics& intrinsics, uint32_t) {
 inline void usual(Storm&, vfit_context_desc& desc, uint32_t) { desc.api_version = VFIT_VERSION; }
 
 inline void usual(Storm& s, vfit_target& target, uint32_t) {
-    static const vfit_format kFormats[] = {VFIT_FORMAT_F32X3, VFIT_FORMAT_F32X3, VFIT_FORMAT_U32, VFIT_FORMAT_U16};
+    static const vfit_format kFormats[] = {VFIT_FORMAT_F32X3, VFIT_FORMAT_F32X3, VFIT_FORMAT_U32,
+                                           VFIT_FORMAT_U16};
     target.format = s.pick(kFormats);
 }
 

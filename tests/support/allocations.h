@@ -1,5 +1,5 @@
-// Counts every allocation of the test program, so that a step that must not allocate can be held to it. Include
-// in exactly one source file of a program: it replaces the global operator new.
+// Counts every allocation of the test program, so that a step that must not allocate can be held to it.
+// Include in exactly one source file of a program: it replaces the global operator new.
 #pragma once
 
 #include <cstdlib>
@@ -45,8 +45,12 @@ void* operator new(std::size_t size, std::align_val_t align) {
     throw std::bad_alloc();
 }
 void* operator new[](std::size_t size, std::align_val_t align) { return operator new(size, align); }
-void* operator new(std::size_t size, std::align_val_t align, const std::nothrow_t&) noexcept { return vfit::test::counted(size, align); }
-void* operator new[](std::size_t size, std::align_val_t align, const std::nothrow_t&) noexcept { return vfit::test::counted(size, align); }
+void* operator new(std::size_t size, std::align_val_t align, const std::nothrow_t&) noexcept {
+    return vfit::test::counted(size, align);
+}
+void* operator new[](std::size_t size, std::align_val_t align, const std::nothrow_t&) noexcept {
+    return vfit::test::counted(size, align);
+}
 void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
 void operator delete[](void* p, std::align_val_t) noexcept { std::free(p); }
 void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }

@@ -1,4 +1,5 @@
-// A character of sixteen boxes: the least that is a skinned humanoid in a GLB file, to be changed and damaged.
+// A character of sixteen boxes: the least that is a skinned humanoid in a GLB file, to be changed and
+// damaged.
 #pragma once
 
 #include <cstdint>
@@ -21,11 +22,21 @@ public:
             float x, y, z;  // from its parent
         };
         // VRM's required ones, arms out, facing +Z, its left on +X.
-        const Bone bones[] = {{"hips", -1, 0, 0.95f, 0},        {"spine", 0, 0, 0.1f, 0},          {"head", 1, 0, 0.5f, 0},
-                              {"leftUpperArm", 1, 0.17f, 0.35f, 0}, {"leftLowerArm", 3, 0.28f, 0, 0}, {"leftHand", 4, 0.25f, 0, 0},
-                              {"rightUpperArm", 1, -0.17f, 0.35f, 0}, {"rightLowerArm", 6, -0.28f, 0, 0}, {"rightHand", 7, -0.25f, 0, 0},
-                              {"leftUpperLeg", 0, 0.1f, -0.05f, 0}, {"leftLowerLeg", 9, 0, -0.4f, 0}, {"leftFoot", 10, 0, -0.42f, 0},
-                              {"rightUpperLeg", 0, -0.1f, -0.05f, 0}, {"rightLowerLeg", 12, 0, -0.4f, 0}, {"rightFoot", 13, 0, -0.42f, 0}};
+        const Bone bones[] = {{"hips", -1, 0, 0.95f, 0},
+                              {"spine", 0, 0, 0.1f, 0},
+                              {"head", 1, 0, 0.5f, 0},
+                              {"leftUpperArm", 1, 0.17f, 0.35f, 0},
+                              {"leftLowerArm", 3, 0.28f, 0, 0},
+                              {"leftHand", 4, 0.25f, 0, 0},
+                              {"rightUpperArm", 1, -0.17f, 0.35f, 0},
+                              {"rightLowerArm", 6, -0.28f, 0, 0},
+                              {"rightHand", 7, -0.25f, 0, 0},
+                              {"leftUpperLeg", 0, 0.1f, -0.05f, 0},
+                              {"leftLowerLeg", 9, 0, -0.4f, 0},
+                              {"leftFoot", 10, 0, -0.42f, 0},
+                              {"rightUpperLeg", 0, -0.1f, -0.05f, 0},
+                              {"rightLowerLeg", 12, 0, -0.4f, 0},
+                              {"rightFoot", 13, 0, -0.42f, 0}};
         constexpr size_t kBones = std::size(bones);
         std::vector<float> positions, weights, binds;
         std::vector<uint16_t> joints, indices;
@@ -44,13 +55,15 @@ public:
             json["skins"][0]["joints"].push_back(b);
             const auto first = uint16_t(positions.size() / 3);
             for (int corner = 0; corner < 8; ++corner) {
-                for (int axis = 0; axis < 3; ++axis) positions.push_back(head[size_t(axis)] + ((corner >> axis) & 1 ? 0.06f : -0.06f));
+                for (int axis = 0; axis < 3; ++axis)
+                    positions.push_back(head[size_t(axis)] + ((corner >> axis) & 1 ? 0.06f : -0.06f));
                 const uint16_t row[4] = {uint16_t(b), 0, 0, 0};
                 joints.insert(joints.end(), row, row + 4);
                 const float weight[4] = {1, 0, 0, 0};
                 weights.insert(weights.end(), weight, weight + 4);
             }
-            for (const int i : {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5})
+            for (const int i : {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                                2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5})
                 indices.push_back(uint16_t(first + i));
         }
         json["scenes"] = {{{"nodes", {0, kBones}}}};
@@ -93,8 +106,12 @@ private:
     template <typename T>
     size_t add(const std::vector<T>& items, const char* type, int component, size_t count) {
         while (binary.size() % 4) binary.push_back(0);
-        json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", items.size() * sizeof(T)}});
-        json["accessors"].push_back({{"bufferView", json["bufferViews"].size() - 1}, {"componentType", component}, {"count", count}, {"type", type}});
+        json["bufferViews"].push_back(
+            {{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", items.size() * sizeof(T)}});
+        json["accessors"].push_back({{"bufferView", json["bufferViews"].size() - 1},
+                                     {"componentType", component},
+                                     {"count", count},
+                                     {"type", type}});
         const auto* from = reinterpret_cast<const unsigned char*>(items.data());
         binary.insert(binary.end(), from, from + items.size() * sizeof(T));
         return json["accessors"].size() - 1;

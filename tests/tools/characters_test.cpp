@@ -1,4 +1,5 @@
-// Character files: vfit's own body with four rigs, read back and posed, moved and written again, damaged and odd.
+// Character files: vfit's own body with four rigs, read back and posed, moved and written again, damaged and
+// odd.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +23,8 @@ using glm::mat4;
 using glm::quat;
 using glm::vec3;
 
-bool keep_bytes(tinygltf::Image* image, int, std::string*, std::string*, int, int, const unsigned char* bytes, int size, void*) {
+bool keep_bytes(tinygltf::Image* image, int, std::string*, std::string*, int, int, const unsigned char* bytes,
+                int size, void*) {
     image->image.assign(bytes, bytes + size);
     image->as_is = true;
     return true;
@@ -33,7 +35,8 @@ tinygltf::Model read_model(const std::string& bytes) {
     loader.SetImageLoader(keep_bytes, nullptr);
     tinygltf::Model model;
     std::string error, warning;
-    EXPECT_TRUE(loader.LoadBinaryFromMemory(&model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()),
+    EXPECT_TRUE(loader.LoadBinaryFromMemory(&model, &error, &warning,
+                                            reinterpret_cast<const unsigned char*>(bytes.data()),
                                             uint32_t(bytes.size())))
         << error;
     return model;
@@ -56,7 +59,8 @@ protected:
         export_character(context.get(), desc, {}, rig_style_from(rig), path(rig + ".glb"));
         return path(rig + ".glb");
     }
-    vfit_result load(const std::string& bytes, Avatar& avatar, const char* map = nullptr, uint32_t flags = 0) {
+    vfit_result load(const std::string& bytes, Avatar& avatar, const char* map = nullptr,
+                     uint32_t flags = 0) {
         vfit_avatar_desc desc = vfit_avatar_desc_init();
         desc.flags = flags;
         vfit_character_desc character = vfit_character_desc_init();
@@ -72,7 +76,8 @@ protected:
         writer.save(path("changed.glb"));
         return read_text(path("changed.glb"));
     }
-    void expect_refused(const std::string& bytes, vfit_result code, const char* word, const char* map = nullptr) {
+    void expect_refused(const std::string& bytes, vfit_result code, const char* word,
+                        const char* map = nullptr) {
         Avatar avatar;
         EXPECT_EQ(load(bytes, avatar, map), code) << word << ": " << last_error();
         EXPECT_NE(last_error().find(word), std::string::npos) << last_error();
@@ -136,8 +141,9 @@ TEST_F(Characters, OfFourRigsArePosedAsTheBodyItself) {
         vfit_character_kind kind;
         float mean_m;  // missing bones bend the trunk at other places; twist bones differ
     };
-    for (const Case& c : {Case{"vrm0", VFIT_CHARACTER_VRM0, 0.001f}, Case{"vrm1", VFIT_CHARACTER_VRM1, 0.015f},
-                          Case{"mixamo", VFIT_CHARACTER_GLTF, 0.001f}, Case{"bones31", VFIT_CHARACTER_GLTF, 0.006f}}) {
+    for (const Case& c :
+         {Case{"vrm0", VFIT_CHARACTER_VRM0, 0.001f}, Case{"vrm1", VFIT_CHARACTER_VRM1, 0.015f},
+          Case{"mixamo", VFIT_CHARACTER_GLTF, 0.001f}, Case{"bones31", VFIT_CHARACTER_GLTF, 0.006f}}) {
         Avatar avatar;
         ASSERT_EQ(load(read_text(exported(c.rig)), avatar), VFIT_OK) << c.rig << ": " << last_error();
         const vfit_character_info info = describe(avatar.get());
@@ -147,17 +153,23 @@ TEST_F(Characters, OfFourRigsArePosedAsTheBodyItself) {
         const std::vector<vec3> got = skin_of(avatar.get(), lively());
         ASSERT_EQ(got.size(), wanted.size()) << c.rig;
         double mean = 0.0;
-        for (size_t v = 0; v < got.size(); ++v) mean += double(glm::distance(got[v], wanted[v])) / double(got.size());
+        for (size_t v = 0; v < got.size(); ++v)
+            mean += double(glm::distance(got[v], wanted[v])) / double(got.size());
         std::printf("%s: skin %.2f mm from the body's own\n", c.rig, 1e3 * mean);
         EXPECT_LT(mean, c.mean_m) << c.rig;
         const auto joints = [](vfit_avatar a) {
-            return list<vfit_joint>([&](auto* items, uint32_t stride, uint32_t* n) { return vfit_avatar_joints(a, items, stride, n); });
+            return list<vfit_joint>([&](auto* items, uint32_t stride, uint32_t* n) {
+                return vfit_avatar_joints(a, items, stride, n);
+            });
         };
         const auto mine = joints(own.get()), theirs = joints(avatar.get());
         ASSERT_EQ(mine.size(), theirs.size());
         for (size_t j = 0; j < mine.size(); ++j) {
-            const auto at = [](const vfit_joint& joint) { return vec3(joint.position[0], joint.position[1], joint.position[2]); };
-            EXPECT_LT(glm::distance(at(mine[j]), at(theirs[j])), 0.09f) << c.rig << ": " << joint_name(mine[j].joint);
+            const auto at = [](const vfit_joint& joint) {
+                return vec3(joint.position[0], joint.position[1], joint.position[2]);
+            };
+            EXPECT_LT(glm::distance(at(mine[j]), at(theirs[j])), 0.09f)
+                << c.rig << ": " << joint_name(mine[j].joint);
         }
     }
 }
@@ -185,7 +197,9 @@ TEST_F(Characters, TwistBonesOfAFileShareTheTwist) {
         ADD_FAILURE() << name;
         return quat();
     };
-    const auto between = [&](const char* a, const char* b) { return 2.0f * std::acos(std::min(1.0f, std::abs(glm::dot(turn(a), turn(b))))); };
+    const auto between = [&](const char* a, const char* b) {
+        return 2.0f * std::acos(std::min(1.0f, std::abs(glm::dot(turn(a), turn(b)))));
+    };
     EXPECT_NEAR(between("lowerarm_l", "hand_l"), 1.4f, 0.01f);
     EXPECT_NEAR(between("lowerarm_l", "lowerarm_twist_01_l"), 0.7f, 0.01f);
     EXPECT_NEAR(between("upperarm_l", "upperarm_twist_01_l"), 0.0f, 0.01f);
@@ -197,7 +211,10 @@ std::vector<vec3> skin_by_gltf(const tinygltf::Model& model, size_t key) {
         const tinygltf::Accessor& a = model.accessors[size_t(accessor)];
         const tinygltf::BufferView& view = model.bufferViews[size_t(a.bufferView)];
         std::vector<float> out(count);
-        std::memcpy(out.data(), model.buffers[size_t(view.buffer)].data.data() + view.byteOffset + a.byteOffset + 4 * first, 4 * count);
+        std::memcpy(
+            out.data(),
+            model.buffers[size_t(view.buffer)].data.data() + view.byteOffset + a.byteOffset + 4 * first,
+            4 * count);
         return out;
     };
     std::vector<tinygltf::Node> nodes = model.nodes;
@@ -213,7 +230,8 @@ std::vector<vec3> skin_by_gltf(const tinygltf::Model& model, size_t key) {
         const tinygltf::Node& node = nodes[size_t(n)];
         mat4 m(1.0f);
         if (node.rotation.size() == 4)
-            m = glm::mat4_cast(quat(float(node.rotation[3]), float(node.rotation[0]), float(node.rotation[1]), float(node.rotation[2])));
+            m = glm::mat4_cast(quat(float(node.rotation[3]), float(node.rotation[0]), float(node.rotation[1]),
+                                    float(node.rotation[2])));
         for (int c = 0; c < 3; ++c) {
             if (node.scale.size() == 3) m[c] *= float(node.scale[size_t(c)]);
             if (node.translation.size() == 3) m[3][c] = float(node.translation[size_t(c)]);
@@ -225,7 +243,8 @@ std::vector<vec3> skin_by_gltf(const tinygltf::Model& model, size_t key) {
     const tinygltf::Skin& skin = model.skins[0];
     std::vector<mat4> joints;
     for (size_t j = 0; j < skin.joints.size(); ++j)
-        joints.push_back(world[size_t(skin.joints[j])] * glm::make_mat4(floats(skin.inverseBindMatrices, 16 * j, 16).data()));
+        joints.push_back(world[size_t(skin.joints[j])] *
+                         glm::make_mat4(floats(skin.inverseBindMatrices, 16 * j, 16).data()));
     const tinygltf::Primitive& p = model.meshes[0].primitives[0];
     const size_t count = model.accessors[size_t(p.attributes.at("POSITION"))].count;
     const auto positions = floats(p.attributes.at("POSITION"), 0, 3 * count);
@@ -238,7 +257,9 @@ std::vector<vec3> skin_by_gltf(const tinygltf::Model& model, size_t key) {
         std::memcpy(bones.data(), model.buffers[0].data.data() + view.byteOffset + a.byteOffset, 8 * count);
         for (size_t v = 0; v < count; ++v)
             for (size_t k = 4 * v; k < 4 * v + 4; ++k)
-                out[v] += weights[k] * vec3(joints[bones[k]] * glm::vec4(positions[3 * v], positions[3 * v + 1], positions[3 * v + 2], 1.0f));
+                out[v] +=
+                    weights[k] * vec3(joints[bones[k]] * glm::vec4(positions[3 * v], positions[3 * v + 1],
+                                                                   positions[3 * v + 2], 1.0f));
     }
     return out;
 }
@@ -256,7 +277,8 @@ TEST_F(Characters, AMovedCopyKeepsItsMaterialsAndMovesByTheRulesOfGltf) {
         }
         EXPECT_THROW(animation.write(path("no such folder/moved.glb")), Failure);
         animation.write(path("moved.glb"));
-        const tinygltf::Model before = read_model(read_text(file)), after = read_model(read_text(path("moved.glb")));
+        const tinygltf::Model before = read_model(read_text(file)),
+                              after = read_model(read_text(path("moved.glb")));
         ASSERT_EQ(after.materials.size(), 1u);
         EXPECT_TRUE(after.materials[0] == before.materials[0]) << rig;
         ASSERT_EQ(after.images.size(), 1u);
@@ -269,7 +291,8 @@ TEST_F(Characters, AMovedCopyKeepsItsMaterialsAndMovesByTheRulesOfGltf) {
             ASSERT_EQ(got.size(), shown[key].size());
             double worst = 0.0;
             for (size_t v = 0; v < got.size(); ++v)
-                worst = std::max(worst, double(glm::distance(got[v], vec3(to_file * glm::vec4(shown[key][v], 1.0f)))));
+                worst = std::max(
+                    worst, double(glm::distance(got[v], vec3(to_file * glm::vec4(shown[key][v], 1.0f)))));
             // bones31 hands limbs' weights to twist bones, which here follow their limb.
             EXPECT_LT(worst, 1e-4) << rig << ", key " << key;
         }
@@ -284,10 +307,16 @@ TEST_F(Characters, ThatCannotBePosedAreRefusedWithTheReason) {
     };
     expect_refused("not a glTF file at all, but text", VFIT_ERROR_DATA, "glTF");
     expect_refused("short", VFIT_ERROR_DATA, "5 bytes");
-    expect_refused(changed("mixamo", [](auto& m) { m.skins.clear(); for (auto& n : m.nodes) n.skin = -1; }), VFIT_ERROR_DATA, "no skinned mesh");
-    expect_refused(changed("mixamo", [](auto& m) { m.extensionsRequired = {"KHR_draco_mesh_compression"}; }), VFIT_ERROR_UNSUPPORTED,
-                   "KHR_draco_mesh_compression");
-    const std::string renamed = changed("mixamo", [&](auto& m) { node_named(m, "mixamorig:LeftArm").name = "Ast 7"; });
+    expect_refused(changed("mixamo",
+                           [](auto& m) {
+                               m.skins.clear();
+                               for (auto& n : m.nodes) n.skin = -1;
+                           }),
+                   VFIT_ERROR_DATA, "no skinned mesh");
+    expect_refused(changed("mixamo", [](auto& m) { m.extensionsRequired = {"KHR_draco_mesh_compression"}; }),
+                   VFIT_ERROR_UNSUPPORTED, "KHR_draco_mesh_compression");
+    const std::string renamed =
+        changed("mixamo", [&](auto& m) { node_named(m, "mixamorig:LeftArm").name = "Ast 7"; });
     expect_refused(renamed, VFIT_ERROR_DATA, "leftUpperArm");
     expect_refused(renamed, VFIT_ERROR_DATA, "JSON", "leftUpperArm=Ast 7");
     expect_refused(renamed, VFIT_ERROR_ARGUMENT, "leftWing", R"({"leftWing": "Ast 7"})");
@@ -295,29 +324,48 @@ TEST_F(Characters, ThatCannotBePosedAreRefusedWithTheReason) {
     expect_refused(renamed, VFIT_ERROR_DATA, "does not hang on", R"({"leftUpperArm": "mixamorig:RightArm"})");
     Avatar mapped;
     EXPECT_EQ(load(renamed, mapped, R"({"leftUpperArm": "Ast 7"})"), VFIT_OK) << last_error();
-    expect_refused(changed("mixamo", [&](auto& m) { node_named(m, "Armature").scale = {1, 1, 1}; }), VFIT_ERROR_DATA, "m tall");
-    expect_refused(changed("vrm1", [&](auto& m) { node_named(m, "Armature").rotation = {0.7071, 0, 0, 0.7071}; }), VFIT_ERROR_DATA, "upright");
-    expect_refused(changed("vrm1", [](auto& m) { m.meshes[0].primitives[0].mode = TINYGLTF_MODE_TRIANGLE_STRIP; }), VFIT_ERROR_UNSUPPORTED, "strips");
-    expect_refused(changed("vrm1", [](auto& m) { m.accessors[size_t(m.meshes[0].primitives[0].attributes["POSITION"])].count = 1u << 30; }),
+    expect_refused(changed("mixamo", [&](auto& m) { node_named(m, "Armature").scale = {1, 1, 1}; }),
+                   VFIT_ERROR_DATA, "m tall");
+    expect_refused(
+        changed("vrm1", [&](auto& m) { node_named(m, "Armature").rotation = {0.7071, 0, 0, 0.7071}; }),
+        VFIT_ERROR_DATA, "upright");
+    expect_refused(
+        changed("vrm1", [](auto& m) { m.meshes[0].primitives[0].mode = TINYGLTF_MODE_TRIANGLE_STRIP; }),
+        VFIT_ERROR_UNSUPPORTED, "strips");
+    expect_refused(changed("vrm1",
+                           [](auto& m) {
+                               m.accessors[size_t(m.meshes[0].primitives[0].attributes["POSITION"])].count =
+                                   1u << 30;
+                           }),
                    VFIT_ERROR_DATA, "beyond its buffer");
-    expect_refused(changed("vrm1", [](auto& m) {
-                       const float nan = std::nanf("");
-                       const auto& a = m.accessors[size_t(m.meshes[0].primitives[0].attributes["POSITION"])];
-                       std::memcpy(m.buffers[0].data.data() + m.bufferViews[size_t(a.bufferView)].byteOffset + 120, &nan, 4);
-                   }),
+    expect_refused(changed("vrm1",
+                           [](auto& m) {
+                               const float nan = std::nanf("");
+                               const auto& a =
+                                   m.accessors[size_t(m.meshes[0].primitives[0].attributes["POSITION"])];
+                               std::memcpy(m.buffers[0].data.data() +
+                                               m.bufferViews[size_t(a.bufferView)].byteOffset + 120,
+                                           &nan, 4);
+                           }),
                    VFIT_ERROR_DATA, "not finite");
-    expect_refused(changed("vrm1", [](auto& m) {
-                       const uint32_t far = 1'000'000;
-                       const auto& a = m.accessors[size_t(m.meshes[0].primitives[0].indices)];
-                       std::memcpy(m.buffers[0].data.data() + m.bufferViews[size_t(a.bufferView)].byteOffset + 8, &far, 4);
-                   }),
-                   VFIT_ERROR_DATA, "index 1000000");
-    expect_refused(changed("vrm1", [](auto& m) {
-                       const uint16_t far = 999;
-                       const auto& a = m.accessors[size_t(m.meshes[0].primitives[0].attributes["JOINTS_0"])];
-                       std::memcpy(m.buffers[0].data.data() + m.bufferViews[size_t(a.bufferView)].byteOffset, &far, 2);
-                   }),
-                   VFIT_ERROR_DATA, "joint 999");
+    expect_refused(
+        changed("vrm1",
+                [](auto& m) {
+                    const uint32_t far = 1'000'000;
+                    const auto& a = m.accessors[size_t(m.meshes[0].primitives[0].indices)];
+                    std::memcpy(m.buffers[0].data.data() + m.bufferViews[size_t(a.bufferView)].byteOffset + 8,
+                                &far, 4);
+                }),
+        VFIT_ERROR_DATA, "index 1000000");
+    expect_refused(
+        changed("vrm1",
+                [](auto& m) {
+                    const uint16_t far = 999;
+                    const auto& a = m.accessors[size_t(m.meshes[0].primitives[0].attributes["JOINTS_0"])];
+                    std::memcpy(m.buffers[0].data.data() + m.bufferViews[size_t(a.bufferView)].byteOffset,
+                                &far, 2);
+                }),
+        VFIT_ERROR_DATA, "joint 999");
     Avatar avatar;
     vfit_character_desc nothing = vfit_character_desc_init();
     EXPECT_EQ(vfit_avatar_load(context.get(), nullptr, &nothing, avatar.out()), VFIT_ERROR_ARGUMENT);
@@ -329,7 +377,8 @@ TEST_F(Characters, ThatCannotBePosedAreRefusedWithTheReason) {
 TEST_F(Characters, WhatTheyDoNotNeedIsLeftOut) {
     // A morph target, a mesh in nobody's hand, one on the head without a skin, vertices without weights.
     const std::string bytes = changed("mixamo", [](auto& m) {
-        m.meshes[0].primitives[0].targets = {{{"POSITION", m.meshes[0].primitives[0].attributes["POSITION"]}}};
+        m.meshes[0].primitives[0].targets = {
+            {{"POSITION", m.meshes[0].primitives[0].attributes["POSITION"]}}};
         tinygltf::Node lost, hat;
         lost.mesh = hat.mesh = 0;
         lost.name = "lost";
@@ -346,14 +395,17 @@ TEST_F(Characters, WhatTheyDoNotNeedIsLeftOut) {
     });
     Avatar avatar;
     ASSERT_EQ(load(bytes, avatar), VFIT_OK) << last_error();
-    const auto parts = list<vfit_avatar_part>([&](auto* items, uint32_t stride, uint32_t* n) { return vfit_avatar_parts(avatar.get(), items, stride, n); });
+    const auto parts = list<vfit_avatar_part>([&](auto* items, uint32_t stride, uint32_t* n) {
+        return vfit_avatar_parts(avatar.get(), items, stride, n);
+    });
     ASSERT_EQ(parts.size(), 2u);  // the skinned one and the hat
     EXPECT_STREQ(parts[0].material_name, "skin");
     EXPECT_EQ(parts[1].first_index, parts[0].index_count);
     // The hat keeps its distance to the head in every pose.
     const auto rest = skin_of(avatar.get(), {lively()[0]}), posed = skin_of(avatar.get(), lively());
     const size_t half = rest.size() / 2;
-    EXPECT_NEAR(glm::distance(posed[half], posed[half + 5000]), glm::distance(rest[half], rest[half + 5000]), 1e-3f);
+    EXPECT_NEAR(glm::distance(posed[half], posed[half + 5000]), glm::distance(rest[half], rest[half + 5000]),
+                1e-3f);
 }
 
 TEST_F(Characters, ThatAreDamagedNeverTakeTheHostDown) {
@@ -373,7 +425,8 @@ TEST_F(Characters, ThatAreDamagedNeverTakeTheHostDown) {
         for (int k = 0; k < 3; ++k) bad[20 + bits() % json_bytes] = char(bits());
         Avatar avatar;
         const vfit_result result = load(bad, avatar);
-        EXPECT_TRUE(result == VFIT_OK || result == VFIT_ERROR_DATA || result == VFIT_ERROR_UNSUPPORTED || result == VFIT_ERROR_OUT_OF_MEMORY)
+        EXPECT_TRUE(result == VFIT_OK || result == VFIT_ERROR_DATA || result == VFIT_ERROR_UNSUPPORTED ||
+                    result == VFIT_ERROR_OUT_OF_MEMORY)
             << vfit_result_name(result) << ": " << last_error();
     }
 }

@@ -15,7 +15,8 @@ std::shared_ptr<const BodyModel> model() { return BodyModel::load(VFIT_DATA_DIR 
 TEST(Anthropometry, DrawsPeopleWithTheSurveysMeansAndDeviations) {
     const Anthropometry survey(VFIT_SURVEY);
     Random random(5);
-    double sum = 0.0, squares = 0.0, chest_by_waist = 0.0, chest = 0.0, waist = 0.0, chest2 = 0.0, waist2 = 0.0;
+    double sum = 0.0, squares = 0.0, chest_by_waist = 0.0, chest = 0.0, waist = 0.0, chest2 = 0.0,
+           waist2 = 0.0;
     constexpr int n = 4000;
     for (int i = 0; i < n; ++i) {
         const SurveyMeasures m = survey.draw(VFIT_SEX_MALE, random);
@@ -26,7 +27,9 @@ TEST(Anthropometry, DrawsPeopleWithTheSurveysMeansAndDeviations) {
     EXPECT_NEAR(sum / n, 1756.2, 4.0);
     EXPECT_NEAR(std::sqrt(squares / n - sum * sum / n / n), 68.6, 3.0);
     const double covariance = chest_by_waist / n - chest * waist / n / n;
-    EXPECT_NEAR(covariance / std::sqrt((chest2 / n - chest * chest / n / n) * (waist2 / n - waist * waist / n / n)), 0.89, 0.02);
+    EXPECT_NEAR(
+        covariance / std::sqrt((chest2 / n - chest * chest / n / n) * (waist2 / n - waist * waist / n / n)),
+        0.89, 0.02);
     EXPECT_THROW(survey.draw(VFIT_SEX_MALE, random)["nose"], Failure);
 }
 
@@ -38,7 +41,8 @@ TEST(Anthropometry, ExpectsWhatOthersOfThoseMeasuresHave) {
     constexpr int n = 1000;
     for (int i = 0; i < n; ++i) {
         const SurveyMeasures m = survey.draw(VFIT_SEX_FEMALE, random);
-        const double left = m["stature"] - survey.expected(VFIT_SEX_FEMALE, "stature", m, {"cervicaleheight"});
+        const double left =
+            m["stature"] - survey.expected(VFIT_SEX_FEMALE, "stature", m, {"cervicaleheight"});
         sum += left, squares += left * left;
     }
     EXPECT_NEAR(sum / n, 0.0, 1.5);
@@ -62,7 +66,8 @@ TEST(ScanScene, ClothesAreThoseThatWereAskedFor) {
     bool thick = false, tight = false;
     for (uint32_t seed = 0; seed < 40; ++seed) {
         EXPECT_EQ(ScanScene::draw(Dress::kTight, seed).top_m, 0.0f);
-        const ScanScene clothed = ScanScene::draw(Dress::kClothed, seed), training = ScanScene::draw(Dress::kTraining, seed);
+        const ScanScene clothed = ScanScene::draw(Dress::kClothed, seed),
+                        training = ScanScene::draw(Dress::kTraining, seed);
         for (const float m : {clothed.top_m, clothed.sleeves_m, clothed.trousers_m}) {
             EXPECT_GE(m, 0.0f);
             EXPECT_LE(m, 0.03f);

@@ -1,4 +1,5 @@
 """Crops hold people, labelled where they are, the same ones every time."""
+
 import struct
 import subprocess
 import sys
@@ -11,7 +12,9 @@ command, body = sys.argv.pop(1), sys.argv.pop(1)
 
 
 def crops(seed, first, count):
-    made = subprocess.run([command, body, str(seed), str(first), str(count)], check=True, stdout=subprocess.PIPE).stdout
+    made = subprocess.run(
+        [command, body, str(seed), str(first), str(count)], check=True, stdout=subprocess.PIPE
+    ).stdout
     assert len(made) == count * RECORD.size, len(made)
     return made
 
@@ -21,21 +24,28 @@ class Crops(unittest.TestCase):
         made = crops(7, 0, 8)
         self.assertEqual(made, crops(7, 0, 8))
         self.assertNotEqual(made, crops(8, 0, 8))
-        self.assertEqual(made[5 * RECORD.size:], crops(7, 5, 3))
+        self.assertEqual(made[5 * RECORD.size :], crops(7, 5, 3))
 
     def test_people_are_where_their_labels_say(self):
         people = near = from_the_side = 0
         for values in RECORD.iter_unpack(crops(11, 0, COUNT)):
-            picture, joints, (yaw, person) = values[:SIDE * SIDE], values[SIDE * SIDE:-2 - JOINTS], values[-2:]
+            picture, joints, (yaw, person) = (
+                values[: SIDE * SIDE],
+                values[SIDE * SIDE : -2 - JOINTS],
+                values[-2:],
+            )
             self.assertTrue(any(z != NOBODY for z in picture))
             if not person:
                 continue
             people += 1
             from_the_side += 50 < abs(yaw) * 57.3 < 130
-            x, y, z = joints[3 * TORSO:3 * TORSO + 3]
+            x, y, z = joints[3 * TORSO : 3 * TORSO + 3]
             column, row = int((x + 1) * SIDE / 2), int((y + 1) * SIDE / 2)
-            seen = [picture[r * SIDE + c] / 32767 for r in range(max(0, row - 5), min(SIDE, row + 6))
-                    for c in range(max(0, column - 5), min(SIDE, column + 6))]
+            seen = [
+                picture[r * SIDE + c] / 32767
+                for r in range(max(0, row - 5), min(SIDE, row + 6))
+                for c in range(max(0, column - 5), min(SIDE, column + 6))
+            ]
             near += any(abs(s - z) < 0.3 for s in seen)
         self.assertGreater(people, 0.8 * COUNT)
         self.assertLess(people, COUNT + 1)

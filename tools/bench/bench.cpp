@@ -34,6 +34,8 @@ double Samples::quantile(double q) const {
     return sorted[static_cast<size_t>(std::lround(q * double(sorted.size() - 1)))];
 }
 
-Json Samples::json() const { return {{"median", quantile(0.5)}, {"p95", quantile(0.95)}, {"n", values_.size()}}; }
+Json Samples::json() const {
+    return {{"median", quantile(0.5)}, {"p95", quantile(0.95)}, {"n", values_.size()}};
+}
 
 }  // namespace vfit::tools

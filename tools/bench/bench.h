@@ -11,8 +11,8 @@
 
 namespace vfit::tools {
 
-/// Keeps this thread, and those it starts, on the first cores that the process may use, that many or all there are
-/// (Linux; elsewhere nothing).
+/// Keeps this thread, and those it starts, on the first cores that the process may use, that many or all
+/// there are (Linux; elsewhere nothing).
 void pin_to_cores(unsigned count);
 
 class Timer {

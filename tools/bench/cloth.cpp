@@ -24,10 +24,11 @@ void run(const Options& options) {
     std::ofstream file;
     if (!options.positions.empty()) file.open(options.positions, std::ios::binary);
     const auto jobs = Jobs::own(options.threads - 1);
-    const bench::ClothRun result =
-        bench::run_cloth_scene(scene, options.substeps, 1e-3f * options.self_mm, *jobs, [&](std::span<const Vec3> positions) {
+    const bench::ClothRun result = bench::run_cloth_scene(
+        scene, options.substeps, 1e-3f * options.self_mm, *jobs, [&](std::span<const Vec3> positions) {
             if (file.is_open())
-                file.write(reinterpret_cast<const char*>(positions.data()), std::streamsize(positions.size_bytes()));
+                file.write(reinterpret_cast<const char*>(positions.data()),
+                           std::streamsize(positions.size_bytes()));
         });
     if (!options.positions.empty() && !file.flush()) throw Failure(options.positions + ": cannot be written");
     Samples samples;
@@ -37,9 +38,10 @@ void run(const Options& options) {
                     {"vertices", result.last.vertex_count},
                     {"constraints", result.last.constraint_count}});
     else
-        std::cout << options.scene << ": " << samples.quantile(0.5) << " ms a frame (p95 " << samples.quantile(0.95)
-                  << "), " << result.last.vertex_count << " vertices, " << result.last.constraint_count
-                  << " constraints, " << options.substeps << " sub-steps, " << options.threads << " thread(s)\n";
+        std::cout << options.scene << ": " << samples.quantile(0.5) << " ms a frame (p95 "
+                  << samples.quantile(0.95) << "), " << result.last.vertex_count << " vertices, "
+                  << result.last.constraint_count << " constraints, " << options.substeps << " sub-steps, "
+                  << options.threads << " thread(s)\n";
 }
 
 }  // namespace
@@ -51,7 +53,8 @@ void add_cloth(Command& app) {
     command.add_option("scene", o->scene, "walk, kick, arm, kick8 or kick16").required();
     command.add_option("--substeps", o->substeps, "Sub-steps of 1/60 s").within(1, 256);
     command.add_option("--threads", o->threads, "Threads, pinned to as many cores").within(1, 64);
-    command.add_option("--self", o->self_mm, "Millimetres kept between the cloth's own layers (0: they pass)").within(0, 50);
+    command.add_option("--self", o->self_mm, "Millimetres kept between the cloth's own layers (0: they pass)")
+        .within(0, 50);
     command.add_option("--positions", o->positions, "Write the positions after each frame there");
     command.add_flag("--json", o->json, "Print JSON");
     command.callback([o] { run(*o); });

@@ -28,7 +28,8 @@ public:
     }
     template <typename T>
     std::vector<T> take(int64_t count) {
-        if (count < 0 || uint64_t(count) > (bytes_.size() - at_) / sizeof(T)) fail(VFIT_ERROR_DATA, path_, " is cut");
+        if (count < 0 || uint64_t(count) > (bytes_.size() - at_) / sizeof(T))
+            fail(VFIT_ERROR_DATA, path_, " is cut");
         std::vector<T> values(static_cast<size_t>(count));
         std::memcpy(values.data(), bytes_.data() + at_, values.size() * sizeof(T));
         at_ += values.size() * sizeof(T);
@@ -51,7 +52,8 @@ void load_mesh(const std::string& path, ClothScene& scene) {
     const std::vector<uint32_t> bends = reader.take<uint32_t>(int64_t(counts[3]) * 4);
     scene.pins = reader.take<uint32_t>(counts[4]);
     const auto distance = [&](uint32_t a, uint32_t b, float compliance) {
-        if (a >= scene.rest.size() || b >= scene.rest.size()) fail(VFIT_ERROR_DATA, path, " names no such vertex");
+        if (a >= scene.rest.size() || b >= scene.rest.size())
+            fail(VFIT_ERROR_DATA, path, " names no such vertex");
         return DistanceConstraint{a, b, glm::length(scene.rest[a] - scene.rest[b]), compliance};
     };
     for (size_t i = 0; i < edges.size(); i += 2)
@@ -70,7 +72,8 @@ void load_mesh(const std::string& path, ClothScene& scene) {
 void load_motion(const std::string& path, ClothScene& scene) {
     Reader reader(path);
     const std::vector<int32_t> counts = reader.take<int32_t>(4);
-    if (size_t(counts[3]) != scene.pins.size()) fail(VFIT_ERROR_DATA, path, " moves other pins than the mesh has");
+    if (size_t(counts[3]) != scene.pins.size())
+        fail(VFIT_ERROR_DATA, path, " moves other pins than the mesh has");
     const std::vector<int32_t> ends = reader.take<int32_t>(int64_t(counts[2]) * 2);
     const std::vector<float> radii = reader.take<float>(counts[1]);
     for (int32_t end : ends)

@@ -17,8 +17,8 @@ struct ClothScene {
     std::vector<Vec3> rest;
     std::vector<uint32_t> pins;
     std::shared_ptr<const Fabric> fabric;
-    std::vector<std::vector<Collider>> colliders;    // one list a frame; frame 0 is the rest state
-    std::vector<std::vector<Vec3>> pin_places;       // one list a frame
+    std::vector<std::vector<Collider>> colliders;  // one list a frame; frame 0 is the rest state
+    std::vector<std::vector<Vec3>> pin_places;     // one list a frame
 
     uint32_t frame_count() const { return uint32_t(colliders.size()); }
 };

@@ -1,6 +1,6 @@
-// vfit-bench contact-features: what the network of foot contacts learns from. Virtual people of many kinds who stand,
-// step, turn and jump at many paces; each as the tracker sees them, as that without toes, as the truth with noise of
-// another source laid over it, and as that with jumps.
+// vfit-bench contact-features: what the network of foot contacts learns from. Virtual people of many kinds
+// who stand, step, turn and jump at many paces; each as the tracker sees them, as that without toes, as the
+// truth with noise of another source laid over it, and as that with jumps.
 #include <cmath>
 #include <fstream>
 #include <iostream>
@@ -20,7 +20,8 @@ struct Options {
     uint32_t seed = 1, count = 20, frames = 240;
 };
 
-constexpr const char* kMotions[] = {"walk", "walk", "walk", "step", "step", "turn", "turn", "jump", "jump", "jog", "spin", "balance",
+constexpr const char* kMotions[] = {"walk", "walk", "walk",  "step",  "step", "turn",
+                                    "turn", "jump", "jump",  "jog",   "spin", "balance",
                                     "demo", "sway", "squat", "reach", "wave", "visit"};
 constexpr const char* kSensors[] = {"kinect_v1", "kinect_v1_320", "azure", "tof"};
 constexpr size_t kWarmUp = 20;
@@ -55,21 +56,23 @@ private:
 
 std::string uri_of(uint32_t seed, uint32_t frames) {
     std::mt19937 engine(seed);
-    const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(engine); };
+    const auto uniform = [&](double a, double b) {
+        return std::uniform_real_distribution<double>(a, b)(engine);
+    };
     const auto pick = [&](const auto& list) { return std::string(list[engine() % std::size(list)]); };
     // Frames count as 30 a second: at a rate of 24 the person is a quarter quicker.
-    return "virtual:sensor=" + pick(kSensors) + "&motion=" + pick(kMotions) + "&body=" + std::to_string(100000 + seed) +
-           "&seed=" + std::to_string(seed) + "&rate=" + std::to_string(uniform(23, 42)) +
-           "&distance=" + std::to_string(uniform(2.3, 3.6)) +
+    return "virtual:sensor=" + pick(kSensors) + "&motion=" + pick(kMotions) +
+           "&body=" + std::to_string(100000 + seed) + "&seed=" + std::to_string(seed) +
+           "&rate=" + std::to_string(uniform(23, 42)) + "&distance=" + std::to_string(uniform(2.3, 3.6)) +
            "&facing=" + std::to_string(engine() % 3 == 0 ? uniform(-180, 180) : uniform(-30, 30)) +
-           "&camera_height=" + std::to_string(uniform(0.6, 1.8)) + "&clothing=" + std::to_string(uniform(0, 0.03)) +
-           "&frames=" + std::to_string(frames);
+           "&camera_height=" + std::to_string(uniform(0.6, 1.8)) +
+           "&clothing=" + std::to_string(uniform(0, 0.03)) + "&frames=" + std::to_string(frames);
 }
 
 using Planted = std::vector<std::array<bool, 2>>;
 
-/// Whoever stands on both feet now and then flies up and comes down again, of a sudden and to any height that people
-/// jump: no source shows crouch and landing the same way.
+/// Whoever stands on both feet now and then flies up and comes down again, of a sudden and to any height that
+/// people jump: no source shows crouch and landing the same way.
 void add_jumps(uint32_t seed, std::vector<Body>& bodies, Planted& planted) {
     constexpr float kGravity = 9.81f, kFrame_s = 1.0f / 30.0f;
     std::mt19937 engine(seed);
@@ -89,13 +92,15 @@ void add_jumps(uint32_t seed, std::vector<Body>& bodies, Planted& planted) {
     }
 }
 
-void write_rows(const Planted& planted, const std::vector<Body>& bodies, uint32_t stream, std::ofstream& out) {
+void write_rows(const Planted& planted, const std::vector<Body>& bodies, uint32_t stream,
+                std::ofstream& out) {
     ContactFeatures features;
     for (size_t i = 0; i < bodies.size(); ++i) {
         features.update(bodies[i]);
         std::array<float, kContactFeatureCount + 3> row{};
         for (int side = 0; side < 2 && i >= kWarmUp; ++side) {
-            if (!features.of(side, std::span<float, kContactFeatureCount>(row.data(), kContactFeatureCount))) continue;
+            if (!features.of(side, std::span<float, kContactFeatureCount>(row.data(), kContactFeatureCount)))
+                continue;
             row[kContactFeatureCount] = planted[i][size_t(side)] ? 1.0f : 0.0f;
             row[kContactFeatureCount + 1] = float(2 * stream + uint32_t(side));
             row[kContactFeatureCount + 2] = float(i);
@@ -132,7 +137,8 @@ void contact_features(const Options& options) {
         }
         jumping = planted;
         add_jumps(options.seed + i, noisier, jumping);
-        for (const auto* bodies : {&tracked, &without_toes, &noisy}) write_rows(planted, *bodies, stream++, out);
+        for (const auto* bodies : {&tracked, &without_toes, &noisy})
+            write_rows(planted, *bodies, stream++, out);
         write_rows(jumping, noisier, stream++, out);
     }
     out.close();
@@ -142,7 +148,8 @@ void contact_features(const Options& options) {
 }  // namespace
 
 void add_contact_features(Command& app) {
-    Command command = app.add_subcommand("contact-features", "Write what the network of foot contacts learns from");
+    Command command =
+        app.add_subcommand("contact-features", "Write what the network of foot contacts learns from");
     auto o = std::make_shared<Options>();
     command.add_option("--out", o->out, "File of float rows: features, planted, stream, frame").required();
     command.add_option("--seed", o->seed, "Of the first person");

@@ -1,4 +1,5 @@
-// vfit-bench drape: what the cloth solver does beside the common scene: mechanics, contact, people, crowds, endurance.
+// vfit-bench drape: what the cloth solver does beside the common scene: mechanics, contact, people, crowds,
+// endurance.
 #include "bench/bench.h"
 #include "bench/drape_parts.h"
 #include "bench/parts.h"
@@ -14,8 +15,9 @@ struct Options {
 };
 
 // The crowd first: it wants two cores, and who is pinned to one does not get them back.
-constexpr Part<DrapeJudge> kParts[] = {{"crowd", judge_crowd}, {"strip", judge_strip}, {"fabrics", judge_fabrics}, {"scale", judge_scale}, {"self", judge_self},
-                           {"skin", judge_skin}, {"frame", judge_frame}, {"random", judge_random}};
+constexpr Part<DrapeJudge> kParts[] = {
+    {"crowd", judge_crowd}, {"strip", judge_strip}, {"fabrics", judge_fabrics}, {"scale", judge_scale},
+    {"self", judge_self},   {"skin", judge_skin},   {"frame", judge_frame},     {"random", judge_random}};
 
 void drape(const Options& options) {
     Targets targets(options.json);
@@ -25,7 +27,8 @@ void drape(const Options& options) {
 }  // namespace
 
 void add_drape(Command& app) {
-    Command command = app.add_subcommand("drape", "Judge the cloth solver: mechanics, contact, people, crowds, endurance (synthetic)");
+    Command command = app.add_subcommand(
+        "drape", "Judge the cloth solver: mechanics, contact, people, crowds, endurance (synthetic)");
     auto o = std::make_shared<Options>();
     command.add_option("--only", o->only, "One part").one_of(names_of(kParts));
     command.add_option("--minutes", o->minutes, "Minutes of random motion (default 10)");

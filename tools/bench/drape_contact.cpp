@@ -41,7 +41,9 @@ SelfScene layers() {
     SelfScene scene{"three layers", {}, {}, {bench::ball(Vec3(0.0f), 0.15f)}};
     for (int layer = 0; layer < 3; ++layer) {
         scene.sheets.add(31, 31, {-0.3f, 0.17f + 0.012f * float(layer), -0.3f}, {0.02f, 0, 0}, {0, 0, 0.02f});
-        while (scene.flat.size() < scene.sheets.positions.size()) scene.flat.push_back(scene.sheets.positions[scene.flat.size()] + Vec3(0, 10.0f * float(layer), 0));
+        while (scene.flat.size() < scene.sheets.positions.size())
+            scene.flat.push_back(scene.sheets.positions[scene.flat.size()] +
+                                 Vec3(0, 10.0f * float(layer), 0));
     }
     return scene;
 }
@@ -56,7 +58,7 @@ SelfScene heap() {
 
 struct SelfResult {
     double ms;
-    size_t crossed;      // in the worst look from half a second on
+    size_t crossed;  // in the worst look from half a second on
     size_t crossed_end;
     double spacing_mm;
 };
@@ -81,7 +83,8 @@ SelfResult run(const SelfScene& scene, float thickness_m) {
         }
     }
     out.ms = ms.quantile(0.5);
-    out.spacing_mm = 1e3 * bench::least_spacing(cloth.positions(), scene.sheets.indices, scene.flat, kAlong_m);
+    out.spacing_mm =
+        1e3 * bench::least_spacing(cloth.positions(), scene.sheets.indices, scene.flat, kAlong_m);
     return out;
 }
 
@@ -89,18 +92,24 @@ SelfResult run(const SelfScene& scene, float thickness_m) {
 
 Json judge_self(const DrapeJudge& judge) {
     constexpr float kThickness_m = 0.006f;
-    if (!judge.quiet) std::cout << "\nA cloth and itself, 6 mm apart; one core (vfit-bench cloth DIR walk --self 6 for the common scene)\n";
+    if (!judge.quiet)
+        std::cout << "\nA cloth and itself, 6 mm apart; one core (vfit-bench cloth DIR walk --self 6 for the "
+                     "common scene)\n";
     Json out;
     for (const SelfScene& scene : {fold(), layers(), heap()}) {
         const SelfResult without = run(scene, 0.0f), with = run(scene, kThickness_m);
         const std::string name = scene.name;
         if (!judge.quiet)
-            std::cout << "  " << name << ", " << scene.sheets.positions.size() << " vertices: " << std::fixed << std::setprecision(3) << without.ms
-                      << " ms without, " << with.ms << " ms with; crossed without " << without.crossed << "\n";
-        judge.targets.judge(name + ": crossed pairs of triangles from 0.5 s on", double(with.crossed), Aim::exactly, 0.0);
-        judge.targets.judge(name + ": least spacing over the thickness", with.spacing_mm / (1e3 * kThickness_m), Aim::at_least, 0.5, 2);
+            std::cout << "  " << name << ", " << scene.sheets.positions.size() << " vertices: " << std::fixed
+                      << std::setprecision(3) << without.ms << " ms without, " << with.ms
+                      << " ms with; crossed without " << without.crossed << "\n";
+        judge.targets.judge(name + ": crossed pairs of triangles from 0.5 s on", double(with.crossed),
+                            Aim::exactly, 0.0);
+        judge.targets.judge(name + ": least spacing over the thickness",
+                            with.spacing_mm / (1e3 * kThickness_m), Aim::at_least, 0.5, 2);
         judge.targets.judge(name + ": time over that without", with.ms / without.ms, Aim::at_most, 2.0, 2);
-        out[name] = {{"ms_without", without.ms}, {"ms", with.ms}, {"crossed_worst", with.crossed}, {"crossed_end", with.crossed_end},
+        out[name] = {{"ms_without", without.ms},           {"ms", with.ms},
+                     {"crossed_worst", with.crossed},      {"crossed_end", with.crossed_end},
                      {"crossed_without", without.crossed}, {"spacing_mm", with.spacing_mm}};
     }
     return out;
@@ -108,7 +117,9 @@ Json judge_self(const DrapeJudge& judge) {
 
 Json judge_scale(const DrapeJudge& judge) {
     pin_to_cores(1);
-    if (!judge.quiet) std::cout << "\nSheets that fall on a ball, 8 sub-steps, one core\n  vertices        ms  ns a vertex and frame\n";
+    if (!judge.quiet)
+        std::cout << "\nSheets that fall on a ball, 8 sub-steps, one core\n  vertices        ms  ns a vertex "
+                     "and frame\n";
     Json out = Json::array();
     double first = 0.0, last = 0.0;
     for (const uint32_t side : {32u, 55u, 100u, 173u}) {
@@ -128,8 +139,9 @@ Json judge_scale(const DrapeJudge& judge) {
         }
         const double count = double(side) * side, ns = 1e6 * ms.quantile(0.5) / count;
         if (!judge.quiet)
-            std::cout << std::setw(10) << uint32_t(count) << std::fixed << std::setprecision(3) << std::setw(10) << ms.quantile(0.5) << std::setprecision(0)
-                      << std::setw(8) << ns << "\n";
+            std::cout << std::setw(10) << uint32_t(count) << std::fixed << std::setprecision(3)
+                      << std::setw(10) << ms.quantile(0.5) << std::setprecision(0) << std::setw(8) << ns
+                      << "\n";
         out.push_back({{"vertices", count}, {"ms", ms.quantile(0.5)}, {"ns_a_vertex", ns}});
         if (side == 55) first = ns;
         last = ns;
@@ -151,7 +163,9 @@ double held_bytes() {
 /// Sheets of random shape and fabric, balls that fly about and jump, random steps.
 Json judge_random(const DrapeJudge& judge) {
     std::mt19937 random(7);
-    const auto number = [&](float low, float high) { return std::uniform_real_distribution<float>(low, high)(random); };
+    const auto number = [&](float low, float high) {
+        return std::uniform_real_distribution<float>(low, high)(random);
+    };
     const auto jobs = Jobs::own(0);
     double simulated_s = 0.0;
     size_t scenes = 0, lost = 0, crossed = 0, far = 0, tangled = 0, own_layers = 0;
@@ -161,7 +175,8 @@ Json judge_random(const DrapeJudge& judge) {
         if (++scenes == kWarm) first_bytes = held_bytes();
         bench::Sheets sheet;
         const auto rows = uint32_t(number(4, 40)), columns = uint32_t(number(4, 40));
-        const Vec3 across(number(0.008f, 0.03f), number(-0.003f, 0.003f), 0), down(0, -number(0.008f, 0.03f), number(-0.003f, 0.003f));
+        const Vec3 across(number(0.008f, 0.03f), number(-0.003f, 0.003f), 0),
+            down(0, -number(0.008f, 0.03f), number(-0.003f, 0.003f));
         sheet.add(rows, columns, Vec3(0.0f), across, down);
         for (uint32_t c = 0; c < columns; ++c) sheet.simulated[c] = number(0, 1) < 0.2f || c == 0;
         FabricMaterial material = bench::plain_weave();
@@ -188,8 +203,10 @@ Json judge_random(const DrapeJudge& judge) {
             ball.center += way;
             if (glm::length(ball.center - middle) > 2.0f * size + 0.3f) ball.center = middle;
             if (number(0, 1) < 0.005f) body += Vec3(2.0f, 0, 0);  // it jumps
-            // What is held trembles, but does not change places with what is held beside it: the cloth could not follow.
-            for (size_t i = 0; i < targets.size(); ++i) targets[i] = body + sheet.positions[i] + Vec3(number(-0.002f, 0.002f), 0, 0);
+            // What is held trembles, but does not change places with what is held beside it: the cloth could
+            // not follow.
+            for (size_t i = 0; i < targets.size(); ++i)
+                targets[i] = body + sheet.positions[i] + Vec3(number(-0.002f, 0.002f), 0, 0);
             cloth.step(dt, targets, std::span(&ball, 1), *jobs);
             simulated_s += dt;
             for (const Vec3& p : cloth.positions()) {
@@ -205,14 +222,24 @@ Json judge_random(const DrapeJudge& judge) {
         crossed += pairs, tangled += pairs > 0, ++own_layers;
     }
     // A cloth is some 500 kB. The heap keeps some of what was freed at hand.
-    const double grown_kb = scenes > kWarm ? (held_bytes() - first_bytes) / 1024.0 / double(scenes - kWarm) : 0.0;
-    if (!judge.quiet) std::cout << "\nRandom cloths: " << scenes << " of them, " << std::fixed << std::setprecision(1) << simulated_s / 60.0 << " minutes; " << tangled << " of "
-                  << own_layers << " with layers of their own cross somewhere\n";
+    const double grown_kb =
+        scenes > kWarm ? (held_bytes() - first_bytes) / 1024.0 / double(scenes - kWarm) : 0.0;
+    if (!judge.quiet)
+        std::cout << "\nRandom cloths: " << scenes << " of them, " << std::fixed << std::setprecision(1)
+                  << simulated_s / 60.0 << " minutes; " << tangled << " of " << own_layers
+                  << " with layers of their own cross somewhere\n";
     judge.targets.judge("vertices that are no number", double(lost), Aim::exactly, 0.0);
     judge.targets.judge("vertices far away", double(far), Aim::exactly, 0.0);
     judge.targets.judge("crossed pairs after half a second of rest", double(crossed), Aim::exactly, 0.0);
     judge.targets.judge("memory that each leaves behind", grown_kb, Aim::at_most, 4.0, 1, " kB");
-    return {{"scenes", scenes}, {"minutes", simulated_s / 60.0}, {"lost", lost}, {"far", far}, {"crossed", crossed}, {"tangled", tangled}, {"own_layers", own_layers}, {"grown_kb", grown_kb}};
+    return {{"scenes", scenes},
+            {"minutes", simulated_s / 60.0},
+            {"lost", lost},
+            {"far", far},
+            {"crossed", crossed},
+            {"tangled", tangled},
+            {"own_layers", own_layers},
+            {"grown_kb", grown_kb}};
 }
 
 }  // namespace vfit::tools

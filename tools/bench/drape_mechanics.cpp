@@ -22,7 +22,8 @@ double bessel0(double x) {
     return sum;
 }
 
-/// A strip that hangs from its first row, bent into the first mode of a hanging chain, x = A J0(2.4048 sqrt(z / L)).
+/// A strip that hangs from its first row, bent into the first mode of a hanging chain, x = A J0(2.4048 sqrt(z
+/// / L)).
 struct Swing {
     double period_s, kept;  // of the amplitude, a period
 };
@@ -38,7 +39,8 @@ Swing swing(float damping) {
     settings.damping = damping;
     settings.sleeps = false;
     std::vector<Vec3> start = strip.positions;
-    for (Vec3& p : start) p.z = kAmplitude_m * float(bessel0(2.404826 * std::sqrt((kLength_m + p.y) / kLength_m)));
+    for (Vec3& p : start)
+        p.z = kAmplitude_m * float(bessel0(2.404826 * std::sqrt((kLength_m + p.y) / kLength_m)));
     const auto jobs = Jobs::own(0);
     vfit::Cloth cloth(strip.cook(material), settings, start);
     std::vector<double> crossings, peaks;
@@ -64,7 +66,8 @@ FabricLibrary fabrics() { return FabricLibrary::parse(read_file(library_file("vf
 /// Modulus (N/m) along the strip, by what a load that should stretch it by 4 % does.
 double modulus(const FabricMaterial& given, bool along_warp) {
     constexpr uint32_t kRows = 17, kColumns = 6;
-    constexpr float kStep_m = 0.02f, kWidth_m = kStep_m * float(kColumns - 1), kLength_m = kStep_m * float(kRows - 1);
+    constexpr float kStep_m = 0.02f, kWidth_m = kStep_m * float(kColumns - 1),
+                    kLength_m = kStep_m * float(kRows - 1);
     const float expected = along_warp ? given.stretch_warp_n_m : given.stretch_weft_n_m;
     bench::Sheets strip;
     strip.add(kRows, kColumns, Vec3(0.0f), {kStep_m, 0, 0}, {0, -kStep_m, 0});
@@ -72,11 +75,12 @@ double modulus(const FabricMaterial& given, bool along_warp) {
         if (!along_warp) uv = Vec2(uv.y, uv.x);
     for (uint32_t c = 0; c < kColumns; ++c) strip.simulated[c] = 0;
     FabricMaterial material = given;
-    material.bend_n_m = 1e-9f;  // bends are springs too and would share the load
+    material.bend_n_m = 1e-9f;      // bends are springs too and would share the load
     material.density_kg_m2 = 4.0f;  // heavy, so that a pass carries the load
     FabricData data = cook_fabric({strip.positions, strip.indices, strip.uvs, strip.simulated}, material);
     data.tethers.clear();
-    const float force = 0.04f * expected * kWidth_m, own = 0.5f * kGravity * material.density_kg_m2 * kWidth_m * kLength_m;
+    const float force = 0.04f * expected * kWidth_m,
+                own = 0.5f * kGravity * material.density_kg_m2 * kWidth_m * kLength_m;
     for (uint32_t c = 0; c < kColumns; ++c) {
         const float share = (c == 0 || c + 1 == kColumns ? 0.5f : 1.0f) / float(kColumns - 1);
         float& w = data.inverse_mass[(kRows - 1) * kColumns + c];
@@ -89,11 +93,13 @@ double modulus(const FabricMaterial& given, bool along_warp) {
     vfit::Cloth cloth(std::make_shared<const Fabric>(std::move(data)), settings, strip.positions);
     for (int frame = 0; frame < 300; ++frame) cloth.step(kFrame_s, strip.positions, {}, *jobs);
     double lowest = 0.0;
-    for (uint32_t c = 0; c < kColumns; ++c) lowest += cloth.positions()[(kRows - 1) * kColumns + c].y / double(kColumns);
+    for (uint32_t c = 0; c < kColumns; ++c)
+        lowest += cloth.positions()[(kRows - 1) * kColumns + c].y / double(kColumns);
     return (std::max(force - own, 0.01f) + own) / kWidth_m / ((-lowest - kLength_m) / kLength_m);
 }
 
-/// Bending stiffness (N m) by Peirce's cantilever (1930): a strip held level droops by an angle that tells its bending length.
+/// Bending stiffness (N m) by Peirce's cantilever (1930): a strip held level droops by an angle that tells
+/// its bending length.
 double stiffness(const FabricMaterial& material) {
     const float bending_length = std::cbrt(material.bend_n_m / (material.density_kg_m2 * kGravity));
     constexpr uint32_t kRows = 17, kColumns = 5, kHeld = 2;
@@ -111,7 +117,8 @@ double stiffness(const FabricMaterial& material) {
     const auto jobs = Jobs::own(0);
     vfit::Cloth cloth(std::make_shared<const Fabric>(std::move(data)), settings, strip.positions);
     for (int frame = 0; frame < 300; ++frame) cloth.step(kFrame_s, strip.positions, {}, *jobs);
-    const Vec3 tip = cloth.positions()[strip.positions.size() - 3], edge = strip.positions[(kHeld - 1) * kColumns + 2] - Vec3(0, 0, 0.5f * step);
+    const Vec3 tip = cloth.positions()[strip.positions.size() - 3],
+               edge = strip.positions[(kHeld - 1) * kColumns + 2] - Vec3(0, 0, 0.5f * step);
     const double angle = std::atan2(edge.y - tip.y, tip.z - edge.z);
     const double length = overhang * std::cbrt(std::cos(0.5 * angle) / (8.0 * std::tan(angle)));
     return material.density_kg_m2 * kGravity * length * length * length;
@@ -130,24 +137,30 @@ Json judge_strip(const DrapeJudge& judge) {
     judge.targets.judge("amplitude kept in a period without damping", free.kept, Aim::at_least, 0.9, 3);
     judge.targets.judge("the same with damping 0.5, over theory", damped.kept / kept, Aim::at_least, 0.9, 3);
     judge.targets.judge("the same with damping 0.5, over theory", damped.kept / kept, Aim::at_most, 1.1, 3);
-    return {{"period_s", free.period_s}, {"theory_s", theory_s}, {"kept", free.kept}, {"kept_damped", damped.kept}};
+    return {{"period_s", free.period_s},
+            {"theory_s", theory_s},
+            {"kept", free.kept},
+            {"kept_damped", damped.kept}};
 }
 
 Json judge_fabrics(const DrapeJudge& judge) {
     if (!judge.quiet)
-        std::cout << "\nModuli of strips under a load, and stiffness of a cantilever, over what the fabric says\n  fabric              warp    weft    bending\n";
+        std::cout << "\nModuli of strips under a load, and stiffness of a cantilever, over what the fabric "
+                     "says\n  fabric              warp    weft    bending\n";
     Json out;
     double worst = 0.0, worst_bend = 0.0;
     const FabricLibrary library = fabrics();
     for (const std::string& name : library.names()) {
         const FabricMaterial& m = library.get(name);
-        const double warp = modulus(m, true) / m.stretch_warp_n_m, weft = modulus(m, false) / m.stretch_weft_n_m;
+        const double warp = modulus(m, true) / m.stretch_warp_n_m,
+                     weft = modulus(m, false) / m.stretch_weft_n_m;
         const double bend = stiffness(m) / m.bend_n_m;
         worst = std::max({worst, std::abs(warp - 1.0), std::abs(weft - 1.0)});
         worst_bend = std::max(worst_bend, std::abs(bend - 1.0));
         if (!judge.quiet)
-            std::cout << "  " << std::left << std::setw(18) << name << std::right << std::fixed << std::setprecision(3) << std::setw(7) << warp
-                      << std::setw(8) << weft << std::setw(10) << bend << "\n";
+            std::cout << "  " << std::left << std::setw(18) << name << std::right << std::fixed
+                      << std::setprecision(3) << std::setw(7) << warp << std::setw(8) << weft << std::setw(10)
+                      << bend << "\n";
         out[name] = {{"warp", warp}, {"weft", weft}, {"bending", bend}};
     }
     judge.targets.judge("worst modulus off", 100.0 * worst, Aim::at_most, 10.0, 1, " %");

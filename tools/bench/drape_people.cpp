@@ -77,8 +77,8 @@ uint32_t collider_count(vfit_cloth cloth) {
 
 std::vector<Vec3> positions_of(vfit_frame frame) { return items_of<Vec3>(frame, VFIT_STREAM_POSITION); }
 
-/// The corners of all triangles of which one touches the skin, in millimetres beyond the thickness; without those that are carried by
-/// bones, which are the same in the other cloth.
+/// The corners of all triangles of which one touches the skin, in millimetres beyond the thickness; without
+/// those that are carried by bones, which are the same in the other cloth.
 std::vector<float> gaps_where_it_rests(vfit_avatar avatar, vfit_cloth cloth, std::span<const Vec3> other) {
     Frame body, garment;
     check(vfit_avatar_acquire(avatar, body.out()));
@@ -126,7 +126,8 @@ Json judge_skin(const DrapeJudge& judge) {
         Frame posed;
         check(vfit_avatar_acquire(capsules.avatar.get(), posed.out()));
         const MeshQuery query(positions_of(posed.get()), items_of<uint32_t>(posed.get(), VFIT_STREAM_INDEX));
-        const std::vector<Vec3> other = places(cloths[kind == kCapsules ? kSkin : kCapsules]), own = places(cloths[kind]);
+        const std::vector<Vec3> other = places(cloths[kind == kCapsules ? kSkin : kCapsules]),
+                                own = places(cloths[kind]);
         std::vector<float> gaps;
         for (size_t i = 0; i < own.size(); ++i)
             if (own[i] != other[i]) gaps.push_back(query.signed_distance(own[i]));
@@ -140,7 +141,9 @@ Json judge_skin(const DrapeJudge& judge) {
             ms[k].add(timer.ms());
         }
     };
-    const auto deepest_of = [](const std::vector<float>& gaps) { return -1e3 * double(*std::min_element(gaps.begin(), gaps.end())); };
+    const auto deepest_of = [](const std::vector<float>& gaps) {
+        return -1e3 * double(*std::min_element(gaps.begin(), gaps.end()));
+    };
     set_pose(capsules.avatar.get(), steps.poses[0], steps.bones[0]);
     if (!judge.quiet) {
         std::cout << "\nSpheres and capsules beside the avatar's own, to cover the skin below the sundress:";
@@ -170,19 +173,31 @@ Json judge_skin(const DrapeJudge& judge) {
         seen += gaps.size();
     }
     std::sort(resting.begin(), resting.end());
-    const auto at = [&](double q) { return resting.empty() ? NAN : double(resting[size_t(q * double(resting.size() - 1))]); };
+    const auto at = [&](double q) {
+        return resting.empty() ? NAN : double(resting[size_t(q * double(resting.size() - 1))]);
+    };
     const double capsules_ms = ms[kCapsules].quantile(0.5), skin_ms = ms[kSkin].quantile(0.5);
     if (!judge.quiet)
-        std::cout << "\nThe sundress on the avatar's skin, who stands and then walks; one core: " << std::fixed << std::setprecision(2) << capsules_ms
-                  << " ms on spheres and capsules (walking, deepest " << deepest_mm[kCapsules] << " mm in the skin), " << ms[kMore].quantile(0.5)
-                  << " ms on those that cover it within 10 mm (" << deepest_mm[kMore] << " mm), " << skin_ms << " ms on the skin; walking, "
-                  << deep << " of " << seen << " vertices seen deeper than 2 mm in that\n";
+        std::cout << "\nThe sundress on the avatar's skin, who stands and then walks; one core: "
+                  << std::fixed << std::setprecision(2) << capsules_ms
+                  << " ms on spheres and capsules (walking, deepest " << deepest_mm[kCapsules]
+                  << " mm in the skin), " << ms[kMore].quantile(0.5)
+                  << " ms on those that cover it within 10 mm (" << deepest_mm[kMore] << " mm), " << skin_ms
+                  << " ms on the skin; walking, " << deep << " of " << seen
+                  << " vertices seen deeper than 2 mm in that\n";
     judge.targets.judge("added by the skin", skin_ms - capsules_ms, Aim::at_most, 1.0, 2, " ms");
     judge.targets.judge("deepest vertex, standing", deepest_rest_mm, Aim::at_most, 2.0, 1, " mm");
     judge.targets.judge("deepest vertex, walking", deepest_mm[kSkin], Aim::at_most, 2.0, 1, " mm");
-    judge.targets.judge("gap beyond the thickness where it touches, median", at(0.5), Aim::at_most, 3.0, 1, " mm");
+    judge.targets.judge("gap beyond the thickness where it touches, median", at(0.5), Aim::at_most, 3.0, 1,
+                        " mm");
     judge.targets.judge("the same, p95", at(0.95), Aim::at_most, 6.0, 1, " mm");
-    return {{"colliders_ms", capsules_ms}, {"skin_ms", skin_ms}, {"deepest_mm", deepest_mm[kSkin]}, {"cover_ms", ms[kMore].quantile(0.5)}, {"cover_deepest_mm", deepest_mm[kMore]}, {"gap_median_mm", at(0.5)}, {"gap_p95_mm", at(0.95)}};
+    return {{"colliders_ms", capsules_ms},
+            {"skin_ms", skin_ms},
+            {"deepest_mm", deepest_mm[kSkin]},
+            {"cover_ms", ms[kMore].quantile(0.5)},
+            {"cover_deepest_mm", deepest_mm[kMore]},
+            {"gap_median_mm", at(0.5)},
+            {"gap_p95_mm", at(0.95)}};
 }
 
 Json judge_frame(const DrapeJudge& judge) {
@@ -211,7 +226,8 @@ Json judge_frame(const DrapeJudge& judge) {
         vfit_pose pose = vfit_pose_init();
         const auto bones = bones_of(motion.get(), pose);
         const double moved = timer.ms();
-        check(vfit_avatar_pose_into(d.avatar.get(), &pose, bones.data(), sizeof(vfit_bone), uint32_t(bones.size()), &to[0], &to[1]));
+        check(vfit_avatar_pose_into(d.avatar.get(), &pose, bones.data(), sizeof(vfit_bone),
+                                    uint32_t(bones.size()), &to[0], &to[1]));
         const double posed = timer.ms();
         check(vfit_cloth_step(d.cloth.get(), kFrame_s));
         Frame cloth;
@@ -220,7 +236,8 @@ Json judge_frame(const DrapeJudge& judge) {
         motion_ms.add(moved), skin_ms.add(posed - moved), cloth_ms.add(whole - posed);
         return whole;
     };
-    // Some frames in a row, once the tracker has found so many people: the first of them is done with a cold cache.
+    // Some frames in a row, once the tracker has found so many people: the first of them is done with a cold
+    // cache.
     constexpr size_t kInARow = 6;
     std::vector<Frame> waiting;
     Samples ms, first_ms;
@@ -228,15 +245,21 @@ Json judge_frame(const DrapeJudge& judge) {
         check(vfit_frame_retain(tracked));
         waiting.emplace_back(tracked);
         if (waiting.size() < kInARow) return;
-        for (size_t i = 0; i < waiting.size(); ++i) (i == 0 ? first_ms : ms).add(frame(waiting[i].get(), body));
+        for (size_t i = 0; i < waiting.size(); ++i)
+            (i == 0 ? first_ms : ms).add(frame(waiting[i].get(), body));
         waiting.clear();
     });
     if (!judge.quiet)
-        std::cout << "\nA whole frame, one core: motion, " << vertices << " vertices of skin written, the sundress, its buffers; right after the tracker "
-                  << std::fixed << std::setprecision(2) << first_ms.quantile(0.5) << " ms\n  motion " << motion_ms.quantile(0.5) << " ms, skin "
-                  << skin_ms.quantile(0.5) << " ms, cloth " << cloth_ms.quantile(0.5) << " ms\n";
+        std::cout << "\nA whole frame, one core: motion, " << vertices
+                  << " vertices of skin written, the sundress, its buffers; right after the tracker "
+                  << std::fixed << std::setprecision(2) << first_ms.quantile(0.5) << " ms\n  motion "
+                  << motion_ms.quantile(0.5) << " ms, skin " << skin_ms.quantile(0.5) << " ms, cloth "
+                  << cloth_ms.quantile(0.5) << " ms\n";
     judge.targets.judge("whole frame", ms.quantile(0.5), Aim::at_most, 1.0, 2, " ms");
-    return {{"vertices", vertices}, {"ms", ms.quantile(0.5)}, {"p95_ms", ms.quantile(0.95)}, {"after_tracker_ms", first_ms.quantile(0.5)}};
+    return {{"vertices", vertices},
+            {"ms", ms.quantile(0.5)},
+            {"p95_ms", ms.quantile(0.95)},
+            {"after_tracker_ms", first_ms.quantile(0.5)}};
 }
 
 Json judge_crowd(const DrapeJudge& judge) {
@@ -265,7 +288,9 @@ Json judge_crowd(const DrapeJudge& judge) {
         for (const Dressed& person : people) check(vfit_cloth_end_step(person.cloth.get()));
         ms.add(timer.ms());
     }
-    if (!judge.quiet) std::cout << "\n20 dressed avatars, poses and garments, two cores: 4 by 8 sub-steps, 6 by 3, 10 by 1\n";
+    if (!judge.quiet)
+        std::cout
+            << "\n20 dressed avatars, poses and garments, two cores: 4 by 8 sub-steps, 6 by 3, 10 by 1\n";
     judge.targets.judge("a frame of the crowd", ms.quantile(0.5), Aim::at_most, 6.0, 2, " ms");
     return {{"ms", ms.quantile(0.5)}, {"p95_ms", ms.quantile(0.95)}};
 }

@@ -17,8 +17,10 @@ void Sheets::add(uint32_t rows, uint32_t columns, const Vec3& corner, const Vec3
     for (uint32_t r = 0; r + 1 < rows; ++r)
         for (uint32_t c = 0; c + 1 < columns; ++c) {
             const uint32_t a = first + r * columns + c, b = a + 1, d = a + columns, e = d + 1;
-            if ((r + c) % 2) indices.insert(indices.end(), {a, d, e, a, e, b});
-            else indices.insert(indices.end(), {a, d, b, b, d, e});
+            if ((r + c) % 2)
+                indices.insert(indices.end(), {a, d, e, a, e, b});
+            else
+                indices.insert(indices.end(), {a, d, b, b, d, e});
         }
     simulated.resize(positions.size(), 1);
 }
@@ -44,17 +46,21 @@ Collider rod(const Vec3& a, const Vec3& b, float radius) {
     return c;
 }
 
-float least_spacing(std::span<const Vec3> positions, std::span<const uint32_t> indices, std::span<const Vec3> flat, float along_m) {
+float least_spacing(std::span<const Vec3> positions, std::span<const uint32_t> indices,
+                    std::span<const Vec3> flat, float along_m) {
     constexpr float kReach_m = 0.05f;
     const TriangleFans fans(positions.size(), indices);
     float least2 = kReach_m * kReach_m;
     for (size_t v = 0; v < positions.size(); ++v)
         for (uint32_t other = 0; other < positions.size(); ++other) {
             const Vec3 way = positions[other] - positions[v];
-            if (glm::dot(way, way) > kReach_m * kReach_m || glm::length(flat[other] - flat[v]) < along_m) continue;
+            if (glm::dot(way, way) > kReach_m * kReach_m || glm::length(flat[other] - flat[v]) < along_m)
+                continue;
             for (const TriangleFans::Corners& corners : fans.of(other)) {
-                const Vec3 &a = positions[other], &b = positions[corners.second], &c = positions[corners.third];
-                const Vec3 w = nearest_on_triangle(positions[v], a, b, c), off = positions[v] - (w.x * a + w.y * b + w.z * c);
+                const Vec3 &a = positions[other], &b = positions[corners.second],
+                           &c = positions[corners.third];
+                const Vec3 w = nearest_on_triangle(positions[v], a, b, c),
+                           off = positions[v] - (w.x * a + w.y * b + w.z * c);
                 least2 = std::min(least2, glm::dot(off, off));
             }
         }

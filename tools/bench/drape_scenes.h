@@ -29,8 +29,9 @@ FabricMaterial plain_weave();
 Collider ball(const Vec3& center, float radius);
 Collider rod(const Vec3& a, const Vec3& b, float radius);
 
-/// The least distance of a vertex from a triangle that is further than `along_m` from it on the flat cloth, or on another
-/// piece of it.
-float least_spacing(std::span<const Vec3> positions, std::span<const uint32_t> indices, std::span<const Vec3> flat, float along_m);
+/// The least distance of a vertex from a triangle that is further than `along_m` from it on the flat cloth,
+/// or on another piece of it.
+float least_spacing(std::span<const Vec3> positions, std::span<const uint32_t> indices,
+                    std::span<const Vec3> flat, float along_m);
 
 }  // namespace vfit::bench

@@ -1,5 +1,6 @@
-// vfit-bench fit: the body model fitted to people, and what that does to their joints. It runs sdk/fit without the C
-// ABI, as the fit is a step inside the tracker. Figures of virtual and of real people stand apart.
+// vfit-bench fit: the body model fitted to people, and what that does to their joints. It runs sdk/fit
+// without the C ABI, as the fit is a step inside the tracker. Figures of virtual and of real people stand
+// apart.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -39,8 +40,9 @@ Models load() {
     m.coarse = std::make_shared<FitModel>(*m.body);
     std::cerr << "fit model made in " << timer.ms() << " ms\n";
     m.fine = std::make_shared<FitModel>(m.coarse->refined(*m.body));
-    m.network = std::make_shared<JointNetwork>(library_file("vfit_modules/vfit_joint_network") + library_suffix(),
-                                               library_file("vfit_data/networks/joints.onnx"));
+    m.network =
+        std::make_shared<JointNetwork>(library_file("vfit_modules/vfit_joint_network") + library_suffix(),
+                                       library_file("vfit_data/networks/joints.onnx"));
     return m;
 }
 
@@ -120,7 +122,8 @@ public:
     Trial(const Models& models, const Options& o)
         : tracker_(models.network), fit_(models.coarse, o.fit), judge_(*models.fine) {}
 
-    void look(const DepthImage& image, int64_t time_ns, const Joints& reference, Sequence& out, Samples& times) {
+    void look(const DepthImage& image, int64_t time_ns, const Joints& reference, Sequence& out,
+              Samples& times) {
         ++out.frames;
         find_targets(image, 1, targets_);
         tracker_.run(image, time_ns, targets_, bodies_);
@@ -166,21 +169,22 @@ private:
 };
 
 /// `shift`: frames that the reference lags behind the depth.
-Errors errors_of(const std::vector<Sequence>& all, std::vector<Pair> Sequence::*pairs, const Offsets& offsets,
-                 bool others_only, size_t shift = 0) {
+Errors errors_of(const std::vector<Sequence>& all, std::vector<Pair> Sequence::* pairs,
+                 const Offsets& offsets, bool others_only, size_t shift = 0) {
     Errors errors;
     for (const Sequence& s : all) {
         if (others_only && s.person == "s1") continue;
         for (size_t i = shift; i < (s.*pairs).size(); ++i) {
             const Joints found = offsets.apply((s.*pairs)[i - shift].tracked);
             for (int j = 0; j < kScored; ++j)
-                if (const double d = distance(found, (s.*pairs)[i].reference, j); std::isfinite(d)) errors.add(j, d);
+                if (const double d = distance(found, (s.*pairs)[i].reference, j); std::isfinite(d))
+                    errors.add(j, d);
         }
     }
     return errors;
 }
 
-Offsets offsets_of(const std::vector<Sequence>& all, std::vector<Pair> Sequence::*pairs) {
+Offsets offsets_of(const std::vector<Sequence>& all, std::vector<Pair> Sequence::* pairs) {
     std::vector<Pair> first;
     for (const Sequence& s : all)
         if (s.person == "s1") first.insert(first.end(), (s.*pairs).begin(), (s.*pairs).end());
@@ -188,14 +192,15 @@ Offsets offsets_of(const std::vector<Sequence>& all, std::vector<Pair> Sequence:
 }
 
 /// Trembling: the median second difference of joints, metres.
-double tremble(const std::vector<Sequence>& all, std::vector<Pair> Sequence::*pairs) {
+double tremble(const std::vector<Sequence>& all, std::vector<Pair> Sequence::* pairs) {
     std::vector<double> found;
     for (const Sequence& s : all)
         for (size_t i = 2; i < (s.*pairs).size(); ++i)
             for (size_t j = 0; j < size_t(kScored); ++j) {
                 double squares = 0.0;
                 for (size_t k = 0; k < 3; ++k) {
-                    const double d = (s.*pairs)[i].tracked.at[j][k] - 2.0 * (s.*pairs)[i - 1].tracked.at[j][k] +
+                    const double d = (s.*pairs)[i].tracked.at[j][k] -
+                                     2.0 * (s.*pairs)[i - 1].tracked.at[j][k] +
                                      (s.*pairs)[i - 2].tracked.at[j][k];
                     squares += d * d;
                 }
@@ -206,8 +211,8 @@ double tremble(const std::vector<Sequence>& all, std::vector<Pair> Sequence::*pa
 
 void print_errors(const char* title, const Errors& e) {
     std::cout << "  " << std::left << std::setw(44) << title << std::right << " mean " << std::fixed
-              << std::setprecision(1) << 1000 * e.mean() << "  median " << 1000 * e.median() << " mm  within 10 cm "
-              << std::setprecision(3) << e.within(0.1) << "\n";
+              << std::setprecision(1) << 1000 * e.mean() << "  median " << 1000 * e.median()
+              << " mm  within 10 cm " << std::setprecision(3) << e.within(0.1) << "\n";
 }
 
 Json report(const std::string& title, const std::vector<Sequence>& all, const Samples& times, bool offsets,
@@ -251,16 +256,18 @@ Json report(const std::string& title, const std::vector<Sequence>& all, const Sa
                                     {"network", errors_of({s}, &Sequence::network, none, false).mean()},
                                     {"fit", errors_of({s}, &Sequence::fitted, none, false).mean()}});
     if (o.json) return out;
-    std::cout << title << ": " << frames << " frames, " << poor << " poor, " << nothing << " without, " << from_last
-              << " from the last\n"
+    std::cout << title << ": " << frames << " frames, " << poor << " poor, " << nothing << " without, "
+              << from_last << " from the last\n"
               << std::fixed << std::setprecision(1) << "  depth difference on covered pixels: median "
-              << 1000 * median(median_m) << " mm; outline IoU: mean " << std::setprecision(3) << mean(iou) << "\n";
+              << 1000 * median(median_m) << " mm; outline IoU: mean " << std::setprecision(3) << mean(iou)
+              << "\n";
     for (const Sequence& s : all)
         std::cout << "    " << std::left << std::setw(28) << s.name << std::right << std::setprecision(1)
-                  << std::setw(5) << 1000 * median(s.median_m) << " mm, IoU " << std::setprecision(3) << mean(s.iou)
-                  << ", joints mean " << std::setprecision(1)
+                  << std::setw(5) << 1000 * median(s.median_m) << " mm, IoU " << std::setprecision(3)
+                  << mean(s.iou) << ", joints mean " << std::setprecision(1)
                   << 1000 * errors_of({s}, &Sequence::network, none, false).mean() << " -> "
-                  << 1000 * errors_of({s}, &Sequence::fitted, none, false).mean() << " mm, poor " << s.poor << "\n";
+                  << 1000 * errors_of({s}, &Sequence::fitted, none, false).mean() << " mm, poor " << s.poor
+                  << "\n";
     print_errors("network, as it is", raw_network);
     print_errors("network and fit, as it is", raw_fit);
     if (offsets) {
@@ -268,27 +275,29 @@ Json report(const std::string& title, const std::vector<Sequence>& all, const Sa
         print_errors("network and fit, the same", off_fit);
         for (const size_t shift : {size_t(1), size_t(2)}) {
             const std::string later = ", reference " + std::to_string(shift) + " later";
-            print_errors(("network" + later).c_str(),
-                         errors_of(all, &Sequence::network, offsets_of(all, &Sequence::network), true, shift));
+            print_errors(
+                ("network" + later).c_str(),
+                errors_of(all, &Sequence::network, offsets_of(all, &Sequence::network), true, shift));
             print_errors(("network and fit" + later).c_str(),
                          errors_of(all, &Sequence::fitted, offsets_of(all, &Sequence::fitted), true, shift));
         }
     }
-    std::cout << "    median mm by joint, network -> fit" << (offsets ? " (offsets: network -> fit)" : "") << "\n";
+    std::cout << "    median mm by joint, network -> fit" << (offsets ? " (offsets: network -> fit)" : "")
+              << "\n";
     for (int j = 0; j < kScored; ++j) {
         std::cout << "      " << std::left << std::setw(16) << joint_name(j) << std::right << std::setw(4)
                   << std::lround(1000 * raw_network.median(j)) << " -> " << std::setw(4)
                   << std::lround(1000 * raw_fit.median(j));
         if (offsets)
-            std::cout << "    (" << std::setw(4) << std::lround(1000 * off_network.median(j)) << " -> " << std::setw(4)
-                      << std::lround(1000 * off_fit.median(j)) << ")";
+            std::cout << "    (" << std::setw(4) << std::lround(1000 * off_network.median(j)) << " -> "
+                      << std::setw(4) << std::lround(1000 * off_fit.median(j)) << ")";
         std::cout << "\n";
     }
     std::cout << std::setprecision(1) << "  trembling (median second difference): network "
-              << 1000 * tremble(all, &Sequence::network) << " mm, fit " << 1000 * tremble(all, &Sequence::fitted)
-              << " mm\n"
-              << std::setprecision(2) << "  fit: median " << times.quantile(0.5) << " ms, p95 " << times.quantile(0.95)
-              << " ms\n\n";
+              << 1000 * tremble(all, &Sequence::network) << " mm, fit "
+              << 1000 * tremble(all, &Sequence::fitted) << " mm\n"
+              << std::setprecision(2) << "  fit: median " << times.quantile(0.5) << " ms, p95 "
+              << times.quantile(0.95) << " ms\n\n";
     return out;
 }
 
@@ -307,7 +316,8 @@ Json synthetic(const Models& models, const Options& o) {
         });
         all.push_back(std::move(s));
     }
-    return all.empty() ? Json{} : report("virtual people in clothes of 1 to 3 cm (synthetic)", all, times, false, o);
+    return all.empty() ? Json{}
+                       : report("virtual people in clothes of 1 to 3 cm (synthetic)", all, times, false, o);
 }
 
 Json real(const Models& models, const Options& o) {
@@ -337,8 +347,9 @@ Json real(const Models& models, const Options& o) {
         }
         all.push_back(std::move(s));
     }
-    return all.empty() ? Json{}
-                       : report("real people (recordings) against their middleware's joints", all, times, true, o);
+    return all.empty()
+               ? Json{}
+               : report("real people (recordings) against their middleware's joints", all, times, true, o);
 }
 
 void run(const Options& o) {
@@ -353,18 +364,22 @@ void run(const Options& o) {
 }  // namespace
 
 void add_fit(Command& app) {
-    Command command = app.add_subcommand("fit", "The body model fitted to people: depth, outline, joints, time");
+    Command command =
+        app.add_subcommand("fit", "The body model fitted to people: depth, outline, joints, time");
     auto o = std::make_shared<Options>();
-    command.add_option("folder", o->folder, "Folder of recordings named ..._s<person>_...: judges real people too");
+    command.add_option("folder", o->folder,
+                       "Folder of recordings named ..._s<person>_...: judges real people too");
     command.add_option("--people", o->people, "Virtual people; 0: none");
     command.add_option("--frames", o->frames, "Frames of each virtual person");
     command.add_option("--only", o->only, "Sequences whose name contains this");
     command.add_flag("--naked", o->naked, "Virtual people without clothes");
     command.add_option("--steps", o->fit.steps, "Gauss-Newton steps a frame");
     command.add_option("--depth-share", o->fit.weights.depth_share, "How much of a depth row counts");
-    command.add_option("--reach-share", o->fit.weights.reach_share, "How much of a row to a point aside counts");
+    command.add_option("--reach-share", o->fit.weights.reach_share,
+                       "How much of a row to a point aside counts");
     command.add_option("--outline-share", o->fit.weights.outline_share, "How much of an outline row counts");
-    command.add_option("--joint-sd", o->fit.weights.joint_m, "Standard deviation of the network's joints, metres");
+    command.add_option("--joint-sd", o->fit.weights.joint_m,
+                       "Standard deviation of the network's joints, metres");
     command.add_flag("--json", o->json, "Print JSON");
     command.callback([o] { run(*o); });
 }

@@ -52,8 +52,8 @@ Pose pose_of(const std::vector<vfit_joint>& joints) {
     world[VFIT_BONE_SPINE] = glm::slerp(world[VFIT_BONE_HIPS], world[VFIT_BONE_CHEST], 0.5f);
     for (int b = 0; b < kBoneCount; ++b) {
         const int parent = bone_parent(b);
-        pose.rotation[size_t(b)] =
-            glm::normalize(parent < 0 ? world[size_t(b)] : glm::conjugate(world[size_t(parent)]) * world[size_t(b)]);
+        pose.rotation[size_t(b)] = glm::normalize(
+            parent < 0 ? world[size_t(b)] : glm::conjugate(world[size_t(parent)]) * world[size_t(b)]);
     }
     return pose;
 }
@@ -137,12 +137,13 @@ void make_noisy(const std::vector<float>& exact, Random& random, FitShot& shot) 
 
 }  // namespace
 
-void draw_depth(const std::vector<Vec3>& positions, const std::vector<uint32_t>& triangles, const Camera& camera,
-                std::vector<float>& depth_m) {
+void draw_depth(const std::vector<Vec3>& positions, const std::vector<uint32_t>& triangles,
+                const Camera& camera, std::vector<float>& depth_m) {
     const int w = int(camera.width), h = int(camera.height);
     depth_m.assign(size_t(w) * size_t(h), 0.0f);
     for (size_t t = 0; t + 2 < triangles.size(); t += 3) {
-        const Vec3 &a = positions[triangles[t]], &b = positions[triangles[t + 1]], &c = positions[triangles[t + 2]];
+        const Vec3 &a = positions[triangles[t]], &b = positions[triangles[t + 1]],
+                   &c = positions[triangles[t + 2]];
         if (a.z < 0.25f || b.z < 0.25f || c.z < 0.25f) continue;
         const Vec2 p = camera.project(a), q = camera.project(b), r = camera.project(c);
         const float area = (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
@@ -171,8 +172,9 @@ void play_person(const std::shared_ptr<const BodyModel>& model, const std::strin
     if (!clothes) std::fill(layers.begin(), layers.end(), 0.0f);
     const Context context = open_context();
     const std::string distance = motion == "walk" ? "3.2" : "2.7";
-    Source source(context.get(), "virtual:sensor=kinect_v1_320&noise=0&motion=" + motion + "&distance=" + distance +
-                                     "&frames=" + std::to_string(frames) + "&seed=" + std::to_string(seed));
+    Source source(context.get(), "virtual:sensor=kinect_v1_320&noise=0&motion=" + motion +
+                                     "&distance=" + distance + "&frames=" + std::to_string(frames) +
+                                     "&seed=" + std::to_string(seed));
     FitShot shot;
     shot.camera.width = 640, shot.camera.height = 480;
     shot.camera.fx = shot.camera.fy = 571.26f;
@@ -191,7 +193,8 @@ void play_person(const std::shared_ptr<const BodyModel>& model, const std::strin
         pose.hips_position.y -= lowest;
         avatar.pose(pose, *jobs);
         for (size_t v = 0; v < seen.size(); ++v)
-            seen[v] = transform_point(to_camera_space, avatar.positions()[v] + layers[v] * avatar.normals()[v]);
+            seen[v] =
+                transform_point(to_camera_space, avatar.positions()[v] + layers[v] * avatar.normals()[v]);
         draw_depth(seen, avatar.topology().indices, shot.camera, exact);
         make_noisy(exact, random, shot);
         shot.truth = vfit::to_camera(avatar.joints(), shot.camera);

@@ -7,7 +7,8 @@
 namespace vfit::tools {
 
 /// Every design of the project in the size that is nearest to the default body, on that body: standing as a
-/// fitting room shows it, and with its arms held out as it was drafted on; with the usual sub-steps and with 32.
+/// fitting room shows it, and with its arms held out as it was drafted on; with the usual sub-steps and
+/// with 32.
 Json judge_ease(vfit_context context, bool quiet, Targets& targets);
 
 }  // namespace vfit::tools

@@ -1,4 +1,5 @@
-// vfit-bench layers: garments worn over each other, in all sizes that the default bodies can wear (synthetic).
+// vfit-bench layers: garments worn over each other, in all sizes that the default bodies can wear
+// (synthetic).
 #include <algorithm>
 #include <iomanip>
 #include <iostream>
@@ -22,14 +23,15 @@ struct Outfit {
     std::vector<const char*> garments;  // from the skin outwards
 };
 const std::vector<Outfit> kOutfits = {
-    {VFIT_SEX_FEMALE, {"sundress_pattern", "duster"}}, {VFIT_SEX_FEMALE, {"jeans_women", "vest"}},
-    {VFIT_SEX_FEMALE, {"jeans_women", "duster"}},      {VFIT_SEX_MALE, {"pants_men", "shirt_men"}},
+    {VFIT_SEX_FEMALE, {"sundress_pattern", "duster"}},   {VFIT_SEX_FEMALE, {"jeans_women", "vest"}},
+    {VFIT_SEX_FEMALE, {"jeans_women", "duster"}},        {VFIT_SEX_MALE, {"pants_men", "shirt_men"}},
     {VFIT_SEX_MALE, {"pants_men", "shirt_men", "vest"}}, {VFIT_SEX_MALE, {"martial_pants", "martial_jacket"}},
 };
 const char* const kSizes[] = {"XS", "S", "M", "L", "XL", "XXL", ""};
 
 /// False: one of them cannot be worn in that size.
-bool wear(vfit_context context, vfit_avatar avatar, const Outfit& outfit, const char* size, std::vector<Cloth>& worn) {
+bool wear(vfit_context context, vfit_avatar avatar, const Outfit& outfit, const char* size,
+          std::vector<Cloth>& worn) {
     for (const char* name : outfit.garments) {
         const Garment garment = open_garment(context, name);
         vfit_cloth_desc desc = vfit_cloth_desc_init();
@@ -52,7 +54,9 @@ bool wear(vfit_context context, vfit_avatar avatar, const Outfit& outfit, const 
 /// Triangles of the outer one that one of the inner goes through.
 size_t crossed(const Welded& outer, const Welded& inner) {
     std::vector<uint32_t> triangles;
-    for (const auto& [of_outer, of_inner] : crossed_triangles({outer.positions, outer.indices}, {inner.positions, inner.indices})) triangles.push_back(of_outer);
+    for (const auto& [of_outer, of_inner] :
+         crossed_triangles({outer.positions, outer.indices}, {inner.positions, inner.indices}))
+        triangles.push_back(of_outer);
     std::sort(triangles.begin(), triangles.end());
     return size_t(std::unique(triangles.begin(), triangles.end()) - triangles.begin());
 }
@@ -67,7 +71,8 @@ void judge_layers(bool json) {
             vfit_avatar_desc body = vfit_avatar_desc_init();
             body.sex = outfit.sex;
             Avatar avatar;
-            check(vfit_avatar_create_from_shape(context.get(), &body, nullptr, sizeof(vfit_shape_value), 0, avatar.out()));
+            check(vfit_avatar_create_from_shape(context.get(), &body, nullptr, sizeof(vfit_shape_value), 0,
+                                                avatar.out()));
             std::vector<Cloth> worn;
             if (!wear(context.get(), avatar.get(), outfit, size, worn)) {
                 ++refused;
@@ -82,25 +87,40 @@ void judge_layers(bool json) {
                 check(vfit_cloth_describe(worn[i].get(), &stats));
                 const double share = 100.0 * double(triangles) / double(layers[i].indices.size() / 3);
                 p99.add(stats.strain_p99), most.add(stats.strain_max), crossed_share.add(share);
-                rows.push_back({{"garment", outfit.garments[i]}, {"over", outfit.garments[i - 1]}, {"size", size}, {"strain_p99", stats.strain_p99}, {"strain_max", stats.strain_max}, {"crossed_triangles", triangles}});
+                rows.push_back({{"garment", outfit.garments[i]},
+                                {"over", outfit.garments[i - 1]},
+                                {"size", size},
+                                {"strain_p99", stats.strain_p99},
+                                {"strain_max", stats.strain_max},
+                                {"crossed_triangles", triangles}});
                 if (!json)
-                    std::cout << std::left << std::setw(16) << outfit.garments[i] << "over " << std::setw(18) << outfit.garments[i - 1] << std::setw(6) << (*size ? size : "made") << std::right << std::fixed << std::setprecision(2)
-                              << "stretch of 99 in 100 threads " << stats.strain_p99 << ", greatest " << stats.strain_max << ", crossed triangles " << triangles << " (" << share << " %)" << std::endl;
+                    std::cout << std::left << std::setw(16) << outfit.garments[i] << "over " << std::setw(18)
+                              << outfit.garments[i - 1] << std::setw(6) << (*size ? size : "made")
+                              << std::right << std::fixed << std::setprecision(2)
+                              << "stretch of 99 in 100 threads " << stats.strain_p99 << ", greatest "
+                              << stats.strain_max << ", crossed triangles " << triangles << " (" << share
+                              << " %)" << std::endl;
             }
         }
     Targets targets(json);
-    if (!json) std::cout << "\n" << rows.size() << " worn over others, " << refused << " outfits not wearable in that size\n";
+    if (!json)
+        std::cout << "\n"
+                  << rows.size() << " worn over others, " << refused
+                  << " outfits not wearable in that size\n";
     targets.judge("greatest stretch of a thread of an outer layer", most.quantile(1.0), Aim::at_most, 3.0, 2);
     targets.judge("stretch of 99 in 100 threads, worst", p99.quantile(1.0), Aim::at_most, 0.3, 2);
-    targets.judge("triangles of an outer layer that one below goes through, median", crossed_share.quantile(0.5), Aim::at_most, 0.0, 2, " %");
-    targets.judge("triangles of an outer layer that one below goes through, worst", crossed_share.quantile(1.0), Aim::at_most, 0.0, 2, " %");
+    targets.judge("triangles of an outer layer that one below goes through, median",
+                  crossed_share.quantile(0.5), Aim::at_most, 0.0, 2, " %");
+    targets.judge("triangles of an outer layer that one below goes through, worst",
+                  crossed_share.quantile(1.0), Aim::at_most, 0.0, 2, " %");
     if (json) print_document({{"rows", rows}, {"refused", refused}, {"targets", targets.json()}});
 }
 
 }  // namespace
 
 void add_layers(Command& app) {
-    Command command = app.add_subcommand("layers", "Judge garments worn over each other, in all sizes (synthetic)");
+    Command command =
+        app.add_subcommand("layers", "Judge garments worn over each other, in all sizes (synthetic)");
     auto json = std::make_shared<bool>(false);
     command.add_flag("--json", *json, "Print JSON");
     command.callback([json] { judge_layers(*json); });

@@ -1,4 +1,5 @@
-// vfit-bench garments: every garment in every size on bodies of several kinds, at rest and when it is changed (synthetic).
+// vfit-bench garments: every garment in every size on bodies of several kinds, at rest and when it is changed
+// (synthetic).
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -11,10 +12,10 @@
 #include "bench/targets.h"
 #include "bench/welded.h"
 #include "client/assets.h"
+#include "client/files.h"
 #include "client/output.h"
 #include "cloth/crossings.h"
 #include "measure/mesh_query.h"
-#include "client/files.h"
 #include "picture/contact_sheet.h"
 #include "picture/dressed_picture.h"
 
@@ -48,10 +49,14 @@ const std::vector<BodyKind> kBodies = {
 std::vector<BodyKind> random_bodies(int count) {
     std::vector<BodyKind> out;
     std::mt19937 random(1);
-    const auto between = [&](float low, float high) { return low + (high - low) * float(random()) / float(std::mt19937::max()); };
+    const auto between = [&](float low, float high) {
+        return low + (high - low) * float(random()) / float(std::mt19937::max());
+    };
     for (int i = 0; i < count; ++i) {
         BodyKind kind{"random " + std::to_string(i + 1), i % 2 ? VFIT_SEX_MALE : VFIT_SEX_FEMALE, {}};
-        kind.shape = {{"height", between(0.28f, 0.72f)}, {"weight", between(0.3f, 1.15f)}, {"muscle", between(0.3f, 0.8f)}};
+        kind.shape = {{"height", between(0.28f, 0.72f)},
+                      {"weight", between(0.3f, 1.15f)},
+                      {"muscle", between(0.3f, 0.8f)}};
         out.push_back(std::move(kind));
     }
     return out;
@@ -68,7 +73,8 @@ Avatar make_body(vfit_context context, const BodyKind& kind) {
         shape.push_back(v);
     }
     Avatar avatar;
-    check(vfit_avatar_create_from_shape(context, &desc, shape.data(), sizeof(vfit_shape_value), uint32_t(shape.size()), avatar.out()));
+    check(vfit_avatar_create_from_shape(context, &desc, shape.data(), sizeof(vfit_shape_value),
+                                        uint32_t(shape.size()), avatar.out()));
     stand(avatar.get(), 0.1f);
     return avatar;
 }
@@ -76,7 +82,8 @@ Avatar make_body(vfit_context context, const BodyKind& kind) {
 /// The way of 99 of 100 vertices, in millimetres, at most.
 double ways_mm(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
     Samples ways;
-    for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) ways.add(1e3 * double(glm::length(a[i] - b[i])));
+    for (size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+        ways.add(1e3 * double(glm::length(a[i] - b[i])));
     return ways.quantile(0.99);
 }
 std::vector<Vec3> places(vfit_cloth cloth) {
@@ -103,7 +110,8 @@ double gap_mm(vfit_cloth cloth, const Welded& skin) {
 }
 
 std::vector<vfit_fit_zone> fit_of(vfit_cloth cloth) {
-    return list<vfit_fit_zone>([&](auto* items, uint32_t stride, uint32_t* n) { return vfit_cloth_fit(cloth, items, stride, n); });
+    return list<vfit_fit_zone>(
+        [&](auto* items, uint32_t stride, uint32_t* n) { return vfit_cloth_fit(cloth, items, stride, n); });
 }
 
 struct Tally {
@@ -117,7 +125,8 @@ class GarmentJudge {
 public:
     explicit GarmentJudge(const Options& options) : options_(options) {}
 
-    Json wear(vfit_avatar avatar, const std::string& body_name, const Welded& skin, vfit_garment garment, const std::string& name, const std::vector<std::string>& labels) {
+    Json wear(vfit_avatar avatar, const std::string& body_name, const Welded& skin, vfit_garment garment,
+              const std::string& name, const std::vector<std::string>& labels) {
         Json rows = Json::array();
         for (const std::string& label : labels) {
             Json row = {{"garment", name}, {"body", body_name}, {"size", label}};
@@ -179,7 +188,8 @@ public:
             if (rows.back().size() == 8) rows.emplace_back();
             rows.back().push_back(std::move(item));
         }
-        contact_sheet("on the " + body_name + "; black: crosses the skin, blue: itself", rows, kStyle.width).write_png(options_.pictures + file);
+        contact_sheet("on the " + body_name + "; black: crosses the skin, blue: itself", rows, kStyle.width)
+            .write_png(options_.pictures + file);
         pictures_.clear();
     }
 
@@ -187,7 +197,8 @@ private:
     void judge(vfit_cloth cloth, const Welded& skin, Json& row) {
         settle(cloth, kFramesToRest);
         const Welded mesh = mesh_of(cloth);
-        const size_t with_skin = crossed_triangles({mesh.positions, mesh.indices}, {skin.positions, skin.indices}).size();
+        const size_t with_skin =
+            crossed_triangles({mesh.positions, mesh.indices}, {skin.positions, skin.indices}).size();
         const size_t with_self = crossed_triangles(mesh.positions, mesh.indices).size();
         vfit_cloth_stats stats = vfit_cloth_stats_init();
         check(vfit_cloth_describe(cloth, &stats));
@@ -198,7 +209,14 @@ private:
         row["step_ms"] = stats.step_ms;
         Json zones = Json::object();
         for (const vfit_fit_zone& z : fit_of(cloth))
-            zones[z.key] = {{"fit", z.fit == VFIT_FIT_TIGHT ? "tight" : z.fit == VFIT_FIT_LOOSE ? "loose" : "right"}, {"body_m", z.body_m}, {"garment_m", z.garment_m}, {"ease_m", z.ease_m}, {"strain", z.strain}, {"pressure_pa", z.pressure_pa}};
+            zones[z.key] = {{"fit", z.fit == VFIT_FIT_TIGHT   ? "tight"
+                                    : z.fit == VFIT_FIT_LOOSE ? "loose"
+                                                              : "right"},
+                            {"body_m", z.body_m},
+                            {"garment_m", z.garment_m},
+                            {"ease_m", z.ease_m},
+                            {"strain", z.strain},
+                            {"pressure_pa", z.pressure_pa}};
         row["fit"] = zones;
         ++tally_.worn;
         tally_.with_skin += with_skin > 0, tally_.with_self += with_self > 0;
@@ -209,15 +227,23 @@ private:
 
     void say(const Json& row) const {
         if (options_.json) return;
-        std::cout << std::left << std::setw(18) << row["garment"].get<std::string>() << std::setw(15) << row["body"].get<std::string>() << std::setw(5) << (row["size"].get<std::string>().empty() ? "made" : row["size"].get<std::string>()) << std::right;
+        std::cout << std::left << std::setw(18) << row["garment"].get<std::string>() << std::setw(15)
+                  << row["body"].get<std::string>() << std::setw(5)
+                  << (row["size"].get<std::string>().empty() ? "made" : row["size"].get<std::string>())
+                  << std::right;
         if (row.contains("not_wearable")) {
             std::cout << "  " << row["not_wearable"].get<std::string>() << std::endl;
             return;
         }
-        std::cout << std::fixed << std::setprecision(0) << " skin " << std::setw(4) << row["skin_crossings"].get<int>() << " self " << std::setw(4) << row["self_crossings"].get<int>() << std::setprecision(1) << "  gap "
-                  << row["gap_mm"].get<double>() << " mm  strain p99 " << 100.0 * row["strain_p99"].get<double>() << " %  dress " << row["dress_ms"].get<double>() << " ms ";
+        std::cout << std::fixed << std::setprecision(0) << " skin " << std::setw(4)
+                  << row["skin_crossings"].get<int>() << " self " << std::setw(4)
+                  << row["self_crossings"].get<int>() << std::setprecision(1) << "  gap "
+                  << row["gap_mm"].get<double>() << " mm  strain p99 "
+                  << 100.0 * row["strain_p99"].get<double>() << " %  dress " << row["dress_ms"].get<double>()
+                  << " ms ";
         for (const auto& [key, zone] : row["fit"].items())
-            std::cout << " " << key.substr(0, key.find('_')) << " " << zone["fit"].get<std::string>() << " (" << 100.0 * zone["ease_m"].get<double>() << ")";
+            std::cout << " " << key.substr(0, key.find('_')) << " " << zone["fit"].get<std::string>() << " ("
+                      << 100.0 * zone["ease_m"].get<double>() << ")";
         std::cout << std::endl;
     }
 
@@ -225,17 +251,25 @@ private:
         std::vector<RenderMesh> meshes = dressed_meshes(avatar, cloth);
         Frame frame;
         check(vfit_avatar_acquire(avatar, frame.out()));
-        meshes[0].indices = items_of<uint32_t>(frame.get(), VFIT_STREAM_INDEX);  // skin that shines through is to be seen
+        meshes[0].indices =
+            items_of<uint32_t>(frame.get(), VFIT_STREAM_INDEX);  // skin that shines through is to be seen
         RenderMesh& garment = meshes[1];
         garment.vertex_colors.assign(garment.positions.size(), garment.color);
-        for (const auto& [triangle, other] : crossed_triangles({garment.positions, garment.indices}, {skin.positions, skin.indices}))
-            for (size_t k = 0; k < 3; ++k) garment.vertex_colors[garment.indices[3 * triangle + k]] = {0.0f, 0.0f, 0.0f};
+        for (const auto& [triangle, other] :
+             crossed_triangles({garment.positions, garment.indices}, {skin.positions, skin.indices}))
+            for (size_t k = 0; k < 3; ++k)
+                garment.vertex_colors[garment.indices[3 * triangle + k]] = {0.0f, 0.0f, 0.0f};
         const Welded welded = mesh_of(cloth);
-        for (const auto& [a, b] : crossed_triangles(welded.positions, welded.indices))  // the triangles are in the same order
+        for (const auto& [a, b] :
+             crossed_triangles(welded.positions, welded.indices))  // the triangles are in the same order
             for (const uint32_t t : {a, b})
-                for (size_t k = 0; k < 3; ++k) garment.vertex_colors[garment.indices[3 * t + k]] = {0.1f, 0.2f, 0.9f};
-        const std::string caption = row["garment"].get<std::string>() + " " + (row["size"].get<std::string>().empty() ? "made" : row["size"].get<std::string>());
-        for (const float yaw : {0.35f, 3.5f}) pictures_.push_back({draw_dressed(meshes, centre_of(meshes[0]), yaw, kStyle), caption});
+                for (size_t k = 0; k < 3; ++k)
+                    garment.vertex_colors[garment.indices[3 * t + k]] = {0.1f, 0.2f, 0.9f};
+        const std::string caption =
+            row["garment"].get<std::string>() + " " +
+            (row["size"].get<std::string>().empty() ? "made" : row["size"].get<std::string>());
+        for (const float yaw : {0.35f, 3.5f})
+            pictures_.push_back({draw_dressed(meshes, centre_of(meshes[0]), yaw, kStyle), caption});
     }
 
     static constexpr PortraitStyle kStyle{300, 450, 1};
@@ -246,9 +280,12 @@ private:
 
 void say_body(vfit_avatar avatar, const char* name) {
     std::cout << name << ":";
-    for (const auto& m : list<vfit_measurement>([&](auto* items, uint32_t stride, uint32_t* n) { return vfit_avatar_measure(avatar, items, stride, n); }))
+    for (const auto& m : list<vfit_measurement>([&](auto* items, uint32_t stride, uint32_t* n) {
+             return vfit_avatar_measure(avatar, items, stride, n);
+         }))
         for (const char* key : {"stature_m", "chest_girth_m", "waist_girth_m", "hip_girth_m"})
-            if (std::string(m.key) == key) std::cout << " " << key << " " << std::fixed << std::setprecision(3) << m.value;
+            if (std::string(m.key) == key)
+                std::cout << " " << key << " " << std::fixed << std::setprecision(3) << m.value;
     std::cout << std::endl;
 }
 
@@ -269,7 +306,9 @@ void judge_garments(const Options& options) {
     const std::string folder = options.folder.empty() ? library_file("vfit_data/garments") : options.folder;
     std::vector<std::string> files;
     for (const auto& entry : std::filesystem::directory_iterator(folder))
-        if (entry.path().extension() == ".json" && entry.path().stem() != "report" && (options.garment.empty() || entry.path().stem() == options.garment)) files.push_back(entry.path().string());
+        if (entry.path().extension() == ".json" && entry.path().stem() != "report" &&
+            (options.garment.empty() || entry.path().stem() == options.garment))
+            files.push_back(entry.path().string());
     std::sort(files.begin(), files.end());
     if (files.empty()) throw Failure("there is no garment " + options.garment + " in " + folder);
 
@@ -278,7 +317,10 @@ void judge_garments(const Options& options) {
     Json rows = Json::array();
     if (options.random < 0 || options.random > 1000) throw Failure("--random: 1 to 1000 bodies");
     const std::vector<BodyKind> bodies = options.random ? random_bodies(options.random) : kBodies;
-    if (!options.body.empty() && std::none_of(bodies.begin(), bodies.end(), [&](const BodyKind& kind) { return kind.name == options.body; })) throw Failure("there is no body " + options.body);
+    if (!options.body.empty() && std::none_of(bodies.begin(), bodies.end(), [&](const BodyKind& kind) {
+            return kind.name == options.body;
+        }))
+        throw Failure("there is no body " + options.body);
     for (const BodyKind& kind : bodies) {
         if (!options.body.empty() && options.body != kind.name) continue;
         const Avatar avatar = make_body(context.get(), kind);
@@ -291,39 +333,60 @@ void judge_garments(const Options& options) {
             if (options.quick && labels.size() > 1) labels = {labels[labels.size() / 2 - 1]};
             labels.emplace_back();  // made to measure
             if (!options.size.empty()) labels = {options.size};
-            for (Json& row : judge.wear(avatar.get(), kind.name, skin, garment.get(), name, labels)) rows.push_back(std::move(row));
-            if (kind.shape.empty() && labels.size() > 1) judge.change_sizes(avatar.get(), garment.get(), labels_of(garment.get()));
+            for (Json& row : judge.wear(avatar.get(), kind.name, skin, garment.get(), name, labels))
+                rows.push_back(std::move(row));
+            if (kind.shape.empty() && labels.size() > 1)
+                judge.change_sizes(avatar.get(), garment.get(), labels_of(garment.get()));
         }
         judge.write_sheet(kind.name);
     }
 
     const Tally& tally = judge.tally();
     Targets targets(options.json);
-    if (!options.json) std::cout << "\n" << tally.worn << " worn, " << tally.refused << " not wearable in that size\n";
+    if (!options.json)
+        std::cout << "\n" << tally.worn << " worn, " << tally.refused << " not wearable in that size\n";
     targets.judge("drapes with a triangle that crosses the skin", double(tally.with_skin), Aim::exactly, 0.0);
     targets.judge("drapes that cross themselves", double(tally.with_self), Aim::exactly, 0.0);
-    targets.judge("gap beyond the thickness where it touches, worst median", tally.gaps_mm.quantile(1.0), Aim::at_most, 3.0, 1, " mm");
-    targets.judge("garment put on, to the first frame, 95 %", tally.dress_ms.quantile(0.95), Aim::at_most, 100.0, 0, " ms");
+    targets.judge("gap beyond the thickness where it touches, worst median", tally.gaps_mm.quantile(1.0),
+                  Aim::at_most, 3.0, 1, " mm");
+    targets.judge("garment put on, to the first frame, 95 %", tally.dress_ms.quantile(0.95), Aim::at_most,
+                  100.0, 0, " ms");
     if (!tally.size_ms.empty()) {
-        targets.judge("size changed, to the first frame, 95 %", tally.size_ms.quantile(0.95), Aim::at_most, 100.0, 0, " ms");
-        targets.judge("moving a second later, a frame, 99 of 100 vertices, 95 %", tally.moving_mm.quantile(0.95), Aim::at_most, 1.0, 2, " mm");
+        targets.judge("size changed, to the first frame, 95 %", tally.size_ms.quantile(0.95), Aim::at_most,
+                      100.0, 0, " ms");
+        targets.judge("moving a second later, a frame, 99 of 100 vertices, 95 %",
+                      tally.moving_mm.quantile(0.95), Aim::at_most, 1.0, 2, " mm");
     }
     const Json ease = judge_ease(context.get(), options.json, targets);
     if (options.json)
-        print_document({{"rows", rows}, {"ease", ease}, {"targets", targets.json()}, {"worn", tally.worn}, {"not_wearable", tally.refused}, {"skin_crossings", tally.skin_crossings}, {"self_crossings", tally.self_crossings},
-                        {"dress_ms", tally.dress_ms.json()}, {"size_ms", tally.size_ms.json()}, {"step_ms", tally.step_ms.json()}, {"gap_mm", tally.gaps_mm.json()}});
+        print_document({{"rows", rows},
+                        {"ease", ease},
+                        {"targets", targets.json()},
+                        {"worn", tally.worn},
+                        {"not_wearable", tally.refused},
+                        {"skin_crossings", tally.skin_crossings},
+                        {"self_crossings", tally.self_crossings},
+                        {"dress_ms", tally.dress_ms.json()},
+                        {"size_ms", tally.size_ms.json()},
+                        {"step_ms", tally.step_ms.json()},
+                        {"gap_mm", tally.gaps_mm.json()}});
 }
 
 }  // namespace
 
 void add_garments(Command& app) {
-    Command command = app.add_subcommand("garments", "Judge garments in all sizes on bodies of several kinds (synthetic)");
+    Command command =
+        app.add_subcommand("garments", "Judge garments in all sizes on bodies of several kinds (synthetic)");
     auto o = std::make_shared<Options>();
     command.add_option("--folder", o->folder, "Of cooked garments (default: those of the build)");
     command.add_option("--garment", o->garment, "One garment");
     command.add_option("--size", o->size, "One size");
-    command.add_option("--body", o->body, "One body: woman, man, very tall man, heavy woman, small woman; with --random: random 1, ...");
-    command.add_option("--random", o->random, "So many other bodies instead, of any height and weight, always the same for a number");
+    command.add_option(
+        "--body", o->body,
+        "One body: woman, man, very tall man, heavy woman, small woman; with --random: random 1, ...");
+    command.add_option(
+        "--random", o->random,
+        "So many other bodies instead, of any height and weight, always the same for a number");
     command.add_option("--pictures", o->pictures, "Folder for a sheet of pictures of each body");
     command.add_flag("--quick", o->quick, "One size of each");
     command.add_flag("--json", o->json, "Print JSON");

@@ -1,5 +1,6 @@
-// vfit-bench measure: measures of virtual people through the C ABI, against the truth, by each method. Synthetic: people
-// drawn from a survey before the virtual camera; bodies inside and outside the fit's space are kept apart.
+// vfit-bench measure: measures of virtual people through the C ABI, against the truth, by each method.
+// Synthetic: people drawn from a survey before the virtual camera; bodies inside and outside the fit's space
+// are kept apart.
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -49,11 +50,15 @@ public:
     }
     double mean() const { return absolute_ / n(); }
     /// Half of the 95 % confidence interval of mean().
-    double mean_confidence() const { return 1.96 * std::sqrt(std::max(0.0, squares_ / n() - mean() * mean()) / n()); }
+    double mean_confidence() const {
+        return 1.96 * std::sqrt(std::max(0.0, squares_ / n() - mean() * mean()) / n());
+    }
     double bias() const { return sum_ / n(); }
     double covered() const { return inside_ / n(); }
     std::pair<double, double> covered_confidence() const { return confidence(inside_, count_); }
-    Json json() const { return {{"mean_absolute", mean()}, {"bias", bias()}, {"covered", covered()}, {"n", count_}}; }
+    Json json() const {
+        return {{"mean_absolute", mean()}, {"bias", bias()}, {"covered", covered()}, {"n", count_}};
+    }
 
 private:
     double n() const { return std::max(1u, count_); }
@@ -104,21 +109,25 @@ vfit_measurement exactly(const char* key, const BodyMeasures& truth) {
 }
 
 /// The letter of the chest's girth, told and true, and what a chart by height and weight says.
-void judge_size(vfit_context context, const PersonOfPopulation& person, const std::vector<vfit_measurement>& measured, Letters& out) {
+void judge_size(vfit_context context, const PersonOfPopulation& person,
+                const std::vector<vfit_measurement>& measured, Letters& out) {
     const bool man = person.sex == VFIT_SEX_MALE;
     const SizeChart chart = open_chart(context, man ? "en13402_men" : "en13402_women"),
                     by_weight = open_chart(context, man ? "height_weight_men" : "height_weight_women");
     const Json truth = sizes_json(chart.get(), "short_sleeves", {exactly("chest_girth_m", person.measures)}),
                told = sizes_json(chart.get(), "short_sleeves", measured),
-               guess = sizes_json(by_weight.get(), "short_sleeves",
-                                  {exactly("stature_m", person.measures), exactly("body_mass_kg", person.measures)});
+               guess = sizes_json(
+                   by_weight.get(), "short_sleeves",
+                   {exactly("stature_m", person.measures), exactly("body_mass_kg", person.measures)});
     const std::string letter = truth[0]["label"];
     std::vector<std::string> order;
     for (const auto& row : list<vfit_size_row>([&](auto* items, uint32_t stride, uint32_t* n) {
              return vfit_size_chart_rows(chart.get(), items, stride, n);
          }))
         if (std::string(row.garment_kind) == "short_sleeves") order.push_back(row.label);
-    const auto place = [&](const std::string& label) { return int(std::find(order.begin(), order.end(), label) - order.begin()); };
+    const auto place = [&](const std::string& label) {
+        return int(std::find(order.begin(), order.end(), label) - order.begin());
+    };
     const std::string best = told[0]["label"];
     const double probability = told[0]["probability"];
     ++out.people;
@@ -127,13 +136,15 @@ void judge_size(vfit_context context, const PersonOfPopulation& person, const st
     if (probability >= 0.7 && probability <= 0.9) ++out.sure, out.sure_right += best == letter;
     ++out.chart_off[place(guess[0]["label"]) - place(letter)];
     for (const Json& size : told)
-        if (size["label"] == letter) out.log_loss -= std::log(std::max(1e-6, size["probability"].get<double>()));
+        if (size["label"] == letter)
+            out.log_loss -= std::log(std::max(1e-6, size["probability"].get<double>()));
 }
 
 /// One person before the camera, scanned in several ways at once.
 class ScanOfPerson {
 public:
-    ScanOfPerson(const ScanScene& scene, vfit_sex sex) : scene_(scene), context_(open_context()), tracker_(open_own_tracker(context_.get())) {
+    ScanOfPerson(const ScanScene& scene, vfit_sex sex)
+        : scene_(scene), context_(open_context()), tracker_(open_own_tracker(context_.get())) {
         vfit_scan_desc desc = vfit_scan_desc_init();
         desc.frame_count = scene.front_frames, desc.side_frame_count = scene.side_frames;
         desc.sex = sex;
@@ -148,13 +159,15 @@ public:
     bool front(const PersonOfPopulation& person) {
         play(scene_.front_uri(person), true);
         if (state_.frames_taken >= scene_.front_frames / 2) return true;
-        std::cerr << "no scan: " << guidance_text(state_.guidance) << ": " << scene_.front_uri(person) << "\n";
+        std::cerr << "no scan: " << guidance_text(state_.guidance) << ": " << scene_.front_uri(person)
+                  << "\n";
         return false;
     }
     bool side(const PersonOfPopulation& person) {
         play(scene_.side_uri(person), false);
         if (state_.side_frames_taken >= scene_.side_frames / 2) return true;
-        std::cerr << "no side view: " << guidance_text(state_.guidance) << ": " << scene_.side_uri(person) << "\n";
+        std::cerr << "no side view: " << guidance_text(state_.guidance) << ": " << scene_.side_uri(person)
+                  << "\n";
         return false;
     }
     vfit_context context() const { return context_.get(); }
@@ -210,11 +223,14 @@ void scan(const PersonOfPopulation& person, const ScanScene& scene, bool told_se
 }
 
 void print(const Set& set) {
-    std::vector<std::pair<const char*, const Tallies*>> columns = {{"front", &set.front}, {"front and side", &set.both}};
-    if (set.tight()) columns.insert(columns.end(), {{"front, told tight", &set.front_told}, {"and side", &set.both_told}});
+    std::vector<std::pair<const char*, const Tallies*>> columns = {{"front", &set.front},
+                                                                   {"front and side", &set.both}};
+    if (set.tight())
+        columns.insert(columns.end(), {{"front, told tight", &set.front_told}, {"and side", &set.both_told}});
     columns.push_back({"the paper's method", &set.paper});
     std::cout << "\nSYNTHETIC, " << set.name << ": " << set.scans << " scans, " << set.failed
-              << " of them failed. Absolute error with 95 % confidence, bias, share within the 90 % interval; mm, kg\n"
+              << " of them failed. Absolute error with 95 % confidence, bias, share within the 90 % "
+                 "interval; mm, kg\n"
               << std::left << std::setw(24) << "";
     for (const auto& [title, tallies] : columns) std::cout << std::setw(25) << (std::string("  ") + title);
     std::cout << std::right << "\n";
@@ -225,31 +241,37 @@ void print(const Set& set) {
             const auto found = tallies->find(key);
             if (found == tallies->end()) continue;
             const Tally& t = found->second;
-            std::cout << std::setprecision(1) << std::setw(6) << unit * t.mean() << " +-" << std::setw(4) << unit * t.mean_confidence()
-                      << std::setw(6) << unit * t.bias() << std::setw(4) << std::setprecision(0) << 100 * t.covered() << " %";
+            std::cout << std::setprecision(1) << std::setw(6) << unit * t.mean() << " +-" << std::setw(4)
+                      << unit * t.mean_confidence() << std::setw(6) << unit * t.bias() << std::setw(4)
+                      << std::setprecision(0) << 100 * t.covered() << " %";
         }
         std::cout << "\n";
     }
     const Letters& l = set.tight() ? set.letters_told : set.letters;
     const double n = std::max(1u, l.people);
-    std::cout << std::setprecision(3) << "  size letter, front and side: exact " << l.exact / n << between(confidence(l.exact, n))
-              << ", within one " << l.within_one / n << between(confidence(l.within_one, n)) << ", log loss " << l.log_loss / n
-              << "\n  a chart by true height and weight: exact " << l.chart_exact() << ", log loss (at its best) " << l.chart_log_loss()
-              << "\n";
+    std::cout << std::setprecision(3) << "  size letter, front and side: exact " << l.exact / n
+              << between(confidence(l.exact, n)) << ", within one " << l.within_one / n
+              << between(confidence(l.within_one, n)) << ", log loss " << l.log_loss / n
+              << "\n  a chart by true height and weight: exact " << l.chart_exact()
+              << ", log loss (at its best) " << l.chart_log_loss() << "\n";
 }
 
 /// Targets by set: inside, outside, clothed. Where clothes are tight the scan is told so.
 void judge(const Set& set, size_t column, Targets& targets) {
-    const Tallies &front = set.tight() ? set.front_told : set.front, &both = set.tight() ? set.both_told : set.both;
+    const Tallies &front = set.tight() ? set.front_told : set.front,
+                  &both = set.tight() ? set.both_told : set.both;
     if (front.count("stature_m") == 0 || both.count("stature_m") == 0) {
         targets.judge(set.name + ": scans that came about", 0.0, Aim::at_least, 1.0, 0);
         return;
     }
-    const auto most = [&](const char* what, const Tallies& tallies, const char* key, std::array<double, 3> mm) {
-        targets.judge(set.name + ": " + key + ", " + what, 1000 * tallies.at(key).mean(), Aim::at_most, mm[column], 1, " mm");
+    const auto most = [&](const char* what, const Tallies& tallies, const char* key,
+                          std::array<double, 3> mm) {
+        targets.judge(set.name + ": " + key + ", " + what, 1000 * tallies.at(key).mean(), Aim::at_most,
+                      mm[column], 1, " mm");
     };
     const auto bias = [&](const Tallies& tallies, const char* key, double mm) {
-        targets.judge(set.name + ": " + key + ", bias", 1000 * std::abs(tallies.at(key).bias()), Aim::at_most, mm, 1, " mm");
+        targets.judge(set.name + ": " + key + ", bias", 1000 * std::abs(tallies.at(key).bias()), Aim::at_most,
+                      mm, 1, " mm");
     };
     most("front", front, "stature_m", {5, 6, 8});
     bias(front, "stature_m", 4);
@@ -270,25 +292,31 @@ void judge(const Set& set, size_t column, Targets& targets) {
         if (!largest || t.covered() > largest->covered()) largest = &t;
         sum += t.covered();
     }
-    targets.judge(set.name + ": 90 % intervals cover, mean of measures", sum / double(both.size()), Aim::at_least, 0.85, 3);
+    targets.judge(set.name + ": 90 % intervals cover, mean of measures", sum / double(both.size()),
+                  Aim::at_least, 0.85, 3);
     targets.judge(set.name + ": the same, at most", sum / double(both.size()), Aim::at_most, 0.95, 3);
-    targets.judge(set.name + ": 90 % intervals cover, least covered measure" + between(least->covered_confidence()),
-                  least->covered(), Aim::at_least, 0.85, 3);
-    targets.judge(set.name + ": 90 % intervals cover, most covered measure" + between(largest->covered_confidence()),
-                  largest->covered(), Aim::at_most, 0.95, 3);
+    targets.judge(
+        set.name + ": 90 % intervals cover, least covered measure" + between(least->covered_confidence()),
+        least->covered(), Aim::at_least, 0.85, 3);
+    targets.judge(
+        set.name + ": 90 % intervals cover, most covered measure" + between(largest->covered_confidence()),
+        largest->covered(), Aim::at_most, 0.95, 3);
     const Letters& l = set.tight() ? set.letters_told : set.letters;
     const double n = std::max(1u, l.people);
     if (column < 2) {
-        targets.judge(set.name + ": size letter exact" + between(confidence(l.exact, n)), l.exact / n, Aim::at_least,
-                      column == 0 ? 0.85 : 0.82, 3);
+        targets.judge(set.name + ": size letter exact" + between(confidence(l.exact, n)), l.exact / n,
+                      Aim::at_least, column == 0 ? 0.85 : 0.82, 3);
         targets.judge(set.name + ": size letter within one", l.within_one / n, Aim::at_least, 0.995, 3);
     } else if (l.sure > 0) {
-        const std::string what = set.name + ": letters said with 0.7 to 0.9 are right" + between(confidence(l.sure_right, l.sure));
+        const std::string what =
+            set.name + ": letters said with 0.7 to 0.9 are right" + between(confidence(l.sure_right, l.sure));
         targets.judge(what + ", at least", double(l.sure_right) / l.sure, Aim::at_least, 0.7, 3);
         targets.judge(what + ", at most", double(l.sure_right) / l.sure, Aim::at_most, 0.9, 3);
-        targets.judge(set.name + ": log loss beside the chart's", l.log_loss / n, Aim::at_most, l.chart_log_loss(), 3);
+        targets.judge(set.name + ": log loss beside the chart's", l.log_loss / n, Aim::at_most,
+                      l.chart_log_loss(), 3);
     }
-    targets.judge(set.name + ": beyond the capture of the front view, median", set.last_ms.quantile(0.5), Aim::at_most, 60, 1, " ms");
+    targets.judge(set.name + ": beyond the capture of the front view, median", set.last_ms.quantile(0.5),
+                  Aim::at_most, 60, 1, " ms");
 }
 
 /// The same people in the same clothes before the same camera, who come back and stand anew.
@@ -298,7 +326,8 @@ struct Repeated {
     Dress dress;
 };
 
-void repeat(const Options& o, const std::shared_ptr<const BodyModel>& body, const Repeated& set, Targets& targets, Json& out) {
+void repeat(const Options& o, const std::shared_ptr<const BodyModel>& body, const Repeated& set,
+            Targets& targets, Json& out) {
     constexpr const char* kKeys[] = {"stature_m", "chest_girth_m", "waist_girth_m", "hip_girth_m"};
     std::map<std::string, double> squares;
     std::map<std::string, double> own;  // share of an error that repeats: squares of people's mean errors
@@ -328,25 +357,28 @@ void repeat(const Options& o, const std::shared_ptr<const BodyModel>& body, cons
         }
     }
     if (!o.json)
-        std::cout << "\nSYNTHETIC, " << set.name << ": " << people << " people, " << scans << " scans in all, front and side"
-                  << (tight ? ", told tight" : ", told nothing") << "\n";
+        std::cout << "\nSYNTHETIC, " << set.name << ": " << people << " people, " << scans
+                  << " scans in all, front and side" << (tight ? ", told tight" : ", told nothing") << "\n";
     Json one = {{"set", set.name}, {"people", people}, {"scans", scans}};
     for (const char* key : kKeys) {
-        const double sd = 1000 * std::sqrt(squares[key] / std::max(1u, people)), share = own[key] / std::max(1e-12, own[key] + squares[key]);
+        const double sd = 1000 * std::sqrt(squares[key] / std::max(1u, people)),
+                     share = own[key] / std::max(1e-12, own[key] + squares[key]);
         if (!o.json)
-            std::cout << "  " << std::left << std::setw(22) << key << std::right << std::fixed << std::setprecision(1)
-                      << " sd from scan to scan " << sd << " mm; share of the squared error that repeats " << std::setprecision(2)
-                      << share << "\n";
+            std::cout << "  " << std::left << std::setw(22) << key << std::right << std::fixed
+                      << std::setprecision(1) << " sd from scan to scan " << sd
+                      << " mm; share of the squared error that repeats " << std::setprecision(2) << share
+                      << "\n";
         one[key] = {{"sd_mm", sd}, {"repeats", share}};
-        targets.judge(set.name + ": " + key + ", sd over " + std::to_string(o.repeats) + " scans", sd, Aim::at_most,
-                      std::string(key) == "stature_m" ? 4.0 : 8.0, 1, " mm");
+        targets.judge(set.name + ": " + key + ", sd over " + std::to_string(o.repeats) + " scans", sd,
+                      Aim::at_most, std::string(key) == "stature_m" ? 4.0 : 8.0, 1, " mm");
     }
     out.push_back(one);
 }
 
 void run(const Options& o) {
     const auto body = BodyModel::load(library_file("vfit_data/body.bin"));
-    std::vector<Set> sets = {{"in space", BodySpace::kInside, Dress::kTight}, {"off space", BodySpace::kOutside, Dress::kTight},
+    std::vector<Set> sets = {{"in space", BodySpace::kInside, Dress::kTight},
+                             {"off space", BodySpace::kOutside, Dress::kTight},
                              {"clothed", BodySpace::kOutside, Dress::kClothed}};
     Targets targets(o.json);
     Json out = Json::array();
@@ -356,16 +388,24 @@ void run(const Options& o) {
     for (size_t column = 0; column < sets.size(); ++column) {
         Set& set = sets[column];
         if (!asked_for(set.name)) continue;
-        if (!population || made != set.space) population = std::make_unique<Population>(body, made = set.space, o.seed);
+        if (!population || made != set.space)
+            population = std::make_unique<Population>(body, made = set.space, o.seed);
         for (uint32_t i = o.first; i < o.first + o.count; ++i)
             scan(population->draw(i), ScanScene::draw(set.dress, o.seed * 104729u + i), o.told_sex, set);
         if (!o.json) print(set);
         judge(set, column, targets);
         const double n = std::max(1u, set.letters.people);
-        Json one = {{"set", set.name}, {"scans", set.scans}, {"failed", set.failed}, {"beyond_capture_ms", set.last_ms.json()},
-                    {"log_loss", set.letters.log_loss / n}, {"log_loss_height_by_weight", set.letters.chart_log_loss()}};
-        for (const auto& [name, tallies] : {std::pair("front", &set.front), {"both", &set.both}, {"front_told_tight", &set.front_told},
-                                            {"both_told_tight", &set.both_told}, {"paper", &set.paper}})
+        Json one = {{"set", set.name},
+                    {"scans", set.scans},
+                    {"failed", set.failed},
+                    {"beyond_capture_ms", set.last_ms.json()},
+                    {"log_loss", set.letters.log_loss / n},
+                    {"log_loss_height_by_weight", set.letters.chart_log_loss()}};
+        for (const auto& [name, tallies] : {std::pair("front", &set.front),
+                                            {"both", &set.both},
+                                            {"front_told_tight", &set.front_told},
+                                            {"both_told_tight", &set.both_told},
+                                            {"paper", &set.paper}})
             for (const auto& [key, t] : *tallies) one[name][key] = t.json();
         out.push_back(one);
     }
@@ -376,7 +416,8 @@ void run(const Options& o) {
     if (o.json)
         print_document({{"sets", out}, {"targets", targets.json()}});
     else
-        std::cout << "\n" << targets.count() - targets.missed() << " of " << targets.count() << " targets hit\n";
+        std::cout << "\n"
+                  << targets.count() - targets.missed() << " of " << targets.count() << " targets hit\n";
 }
 
 }  // namespace
@@ -385,11 +426,15 @@ void add_measure(Command& app) {
     Command command = app.add_subcommand("measure", "Measures of virtual people by each method (synthetic)");
     auto o = std::make_shared<Options>();
     command.add_option("--count", o->count, "People of each set").within(1, 100000);
-    command.add_option("--repeats", o->repeats, "Scans of each person of the repeated sets, which have a tenth of the people")
+    command
+        .add_option("--repeats", o->repeats,
+                    "Scans of each person of the repeated sets, which have a tenth of the people")
         .within(3, 1000);
     command.add_option("--first", o->first, "Number of the first");
     command.add_option("--seed", o->seed, "Of the population; those of training are 1000 and above");
-    command.add_option("--only", o->only, "Sets whose name begins so: in space, off space, clothed, repeated (in space, off space, in clothes)");
+    command.add_option("--only", o->only,
+                       "Sets whose name begins so: in space, off space, clothed, repeated (in space, off "
+                       "space, in clothes)");
     command.add_flag("--told-sex", o->told_sex, "Tell the scan the person's sex");
     command.add_flag("--json", o->json, "Print JSON");
     command.callback([o] { run(*o); });

@@ -15,8 +15,10 @@ struct Options {
     bool json = false;
 };
 
-constexpr Part<MotionJudge> kParts[] = {{"filters", judge_filters}, {"feet", judge_feet}, {"real", judge_real}, {"vicon", judge_vicon}, {"time", judge_time},
-                           {"skinning", judge_skinning}, {"characters", judge_characters}};
+constexpr Part<MotionJudge> kParts[] = {
+    {"filters", judge_filters},      {"feet", judge_feet}, {"real", judge_real},
+    {"vicon", judge_vicon},          {"time", judge_time}, {"skinning", judge_skinning},
+    {"characters", judge_characters}};
 
 void motion(const Options& options) {
     RealStreams real;
@@ -35,7 +37,8 @@ void motion(const Options& options) {
 }  // namespace
 
 void add_motion(Command& app) {
-    Command command = app.add_subcommand("motion", "Judge filters, feet, limits and times of the motion stage");
+    Command command =
+        app.add_subcommand("motion", "Judge filters, feet, limits and times of the motion stage");
     auto o = std::make_shared<Options>();
     command.add_option("--only", o->only, "One part").one_of(names_of(kParts));
     command.add_option("--shared", o->shared, "Folder with real streams (default ../shared)");

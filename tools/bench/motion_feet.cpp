@@ -16,15 +16,16 @@ namespace {
 
 constexpr uint32_t kPeople = 3, kFrames = 330;
 constexpr size_t kWarmUp = 30;
-constexpr int kNear = 1;           // frames: a contact may be seen so much earlier or later
-constexpr size_t kSettle = 2;      // frames after a touchdown that may move
-constexpr double kSkating = 0.025; // m/s
+constexpr int kNear = 1;            // frames: a contact may be seen so much earlier or later
+constexpr size_t kSettle = 2;       // frames after a touchdown that may move
+constexpr double kSkating = 0.025;  // m/s
 constexpr double kFrame_s = 1.0 / 30.0;
 
 constexpr int kFeet[2] = {VFIT_BONE_LEFT_FOOT, VFIT_BONE_RIGHT_FOOT};
 // Bones whose turning would show a pop, and the joints that have the truth of it.
-constexpr int kTurning[] = {VFIT_BONE_HIPS,           VFIT_BONE_LEFT_UPPER_LEG,  VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_LEFT_FOOT,
-                            VFIT_BONE_RIGHT_UPPER_LEG, VFIT_BONE_RIGHT_LOWER_LEG, VFIT_BONE_RIGHT_FOOT};
+constexpr int kTurning[] = {VFIT_BONE_HIPS,      VFIT_BONE_LEFT_UPPER_LEG,  VFIT_BONE_LEFT_LOWER_LEG,
+                            VFIT_BONE_LEFT_FOOT, VFIT_BONE_RIGHT_UPPER_LEG, VFIT_BONE_RIGHT_LOWER_LEG,
+                            VFIT_BONE_RIGHT_FOOT};
 
 int joint_of_bone(int bone) {
     for (int j = 0; j < kJointCount; ++j)
@@ -48,7 +49,8 @@ std::vector<Shown> play(const PersonStream& stream) {
         Shown shown;
         Body body = frame.tracked;
         body.id = 1;
-        const bool there = std::any_of(body.joints.begin(), body.joints.end(), [](const Joint& j) { return j.seen(); });
+        const bool there =
+            std::any_of(body.joints.begin(), body.joints.end(), [](const Joint& j) { return j.seen(); });
         if (motion.step(there ? &body : nullptr, body.time_ns)) {
             const Pose& pose = motion.pose();
             const PosedSkeleton posed = forward_kinematics(motion.skeleton(), pose);
@@ -95,7 +97,8 @@ struct Score {
     std::vector<double> jump_heights;        // share of the truth's
     void merge(const Score& s) {
         for (auto [a, b] : {std::pair{&lifted, &s.lifted}, std::pair{&planted, &s.planted}})
-            a->said += b->said, a->said_right += b->said_right, a->true_count += b->true_count, a->found += b->found;
+            a->said += b->said, a->said_right += b->said_right, a->true_count += b->true_count,
+                a->found += b->found;
         contact_frames += s.contact_frames, skating += s.skating;
         for (auto [a, b] : {std::pair{&drifts_m, &s.drifts_m}, std::pair{&jump_heights, &s.jump_heights},
                             std::pair{&pops, &s.pops}, std::pair{&true_turning, &s.true_turning}})
@@ -150,7 +153,8 @@ Score judge_stream(const PersonStream& stream, const std::vector<Shown>& shown) 
             if (!shown[i].valid || !shown[i - 1].valid || since <= kSettle) continue;
             if (since == kSettle + 1) place = shown[i].ankle[side], drift = 0;
             const Vec3 moved = shown[i].ankle[side] - shown[i - 1].ankle[side];
-            drift = std::max(drift, double(glm::length(Vec2(shown[i].ankle[side].x - place.x, shown[i].ankle[side].z - place.z))));
+            drift = std::max(drift, double(glm::length(Vec2(shown[i].ankle[side].x - place.x,
+                                                            shown[i].ankle[side].z - place.z))));
             if (since == kSettle + 1) continue;
             ++score.contact_frames;
             score.skating += double(glm::length(Vec2(moved.x, moved.z))) / kFrame_s > kSkating;
@@ -159,7 +163,8 @@ Score judge_stream(const PersonStream& stream, const std::vector<Shown>& shown) 
     for (size_t i = kWarmUp; i + 1 < n; ++i) {
         const bool valid = shown[i - 1].valid && shown[i].valid && shown[i + 1].valid;
         bool switches = false;
-        for (size_t k = i - 1; k <= i + 1; ++k) switches = switches || shown[k].planted != shown[k - 1].planted;
+        for (size_t k = i - 1; k <= i + 1; ++k)
+            switches = switches || shown[k].planted != shown[k - 1].planted;
         for (const int bone : kTurning) {
             const auto b = size_t(bone);
             const auto truly = [&](size_t k) {
@@ -167,16 +172,20 @@ Score judge_stream(const PersonStream& stream, const std::vector<Shown>& shown) 
             };
             score.true_turning.push_back(angular_acceleration(truly(i - 1), truly(i), truly(i + 1)));
             if (valid && switches)
-                score.pops.push_back(angular_acceleration(shown[i - 1].world[b], shown[i].world[b], shown[i + 1].world[b]));
+                score.pops.push_back(
+                    angular_acceleration(shown[i - 1].world[b], shown[i].world[b], shown[i + 1].world[b]));
         }
     }
     // Each flight: how high the lower foot gets, of how high it truly does.
     for (size_t i = kWarmUp; stream.motion == "jump" && i < n; ++i) {
-        const auto flies = [&](size_t k) { return k < n && !stream.frames[k].planted[0] && !stream.frames[k].planted[1]; };
+        const auto flies = [&](size_t k) {
+            return k < n && !stream.frames[k].planted[0] && !stream.frames[k].planted[1];
+        };
         if (!flies(i) || flies(i - 1)) continue;
         const auto lower_foot = [&](size_t k, bool truth) {
             const auto y = [&](size_t side) {
-                return truth ? stream.frames[k].truth.at(VFIT_JOINT_LEFT_FOOT + int(side)).y : shown[k].ankle[side].y;
+                return truth ? stream.frames[k].truth.at(VFIT_JOINT_LEFT_FOOT + int(side)).y
+                             : shown[k].ankle[side].y;
             };
             return double(std::min(y(0), y(1)));
         };
@@ -194,12 +203,14 @@ Score judge_stream(const PersonStream& stream, const std::vector<Shown>& shown) 
 double worst_pop(const Score& s) { return quantile(s.pops, 1.0) / quantile(s.true_turning, 0.99); }
 
 void print(const std::string& name, const Score& s) {
-    std::cout << "  " << std::left << std::setw(10) << name << std::right << std::fixed << std::setprecision(3) << std::setw(9)
-              << s.lifted.precision() << std::setw(9) << s.lifted.recall() << std::setw(9) << s.lifted.value() << std::setw(11)
-              << s.planted.value() << std::setprecision(2) << std::setw(11)
-              << 100.0 * double(s.skating) / double(std::max<size_t>(1, s.contact_frames)) << std::setprecision(1)
-              << std::setw(10) << 1e3 * quantile(s.drifts_m, 0.5) << std::setw(8) << 1e3 * quantile(s.drifts_m, 0.95)
-              << std::setprecision(2) << std::setw(8) << worst_pop(s) << "\n";
+    std::cout << "  " << std::left << std::setw(10) << name << std::right << std::fixed
+              << std::setprecision(3) << std::setw(9) << s.lifted.precision() << std::setw(9)
+              << s.lifted.recall() << std::setw(9) << s.lifted.value() << std::setw(11) << s.planted.value()
+              << std::setprecision(2) << std::setw(11)
+              << 100.0 * double(s.skating) / double(std::max<size_t>(1, s.contact_frames))
+              << std::setprecision(1) << std::setw(10) << 1e3 * quantile(s.drifts_m, 0.5) << std::setw(8)
+              << 1e3 * quantile(s.drifts_m, 0.95) << std::setprecision(2) << std::setw(8) << worst_pop(s)
+              << "\n";
 }
 
 }  // namespace
@@ -218,10 +229,13 @@ Json judge_feet(const MotionJudge& judge) {
     }
     const double share = double(lifted) / double(count);
     if (!judge.quiet) {
-        std::cout << "\nFeet. SYNTHETIC: virtual people, " << streams.size() << " streams, seen by the tracker in a Kinect v1's images; "
-                  << std::fixed << std::setprecision(1) << 100 * share << " % of feet are lifted\n(always planted scores "
-                  << std::setprecision(2) << 2 * (1 - share) / (2 - share) << " on the planted class). Within one frame.\n"
-                  << "  motion     lifted: P        R       F1  planted F1  skating, %  drift, mm: p50  p95     pop\n";
+        std::cout << "\nFeet. SYNTHETIC: virtual people, " << streams.size()
+                  << " streams, seen by the tracker in a Kinect v1's images; " << std::fixed
+                  << std::setprecision(1) << 100 * share << " % of feet are lifted\n(always planted scores "
+                  << std::setprecision(2) << 2 * (1 - share) / (2 - share)
+                  << " on the planted class). Within one frame.\n"
+                  << "  motion     lifted: P        R       F1  planted F1  skating, %  drift, mm: p50  p95  "
+                     "   pop\n";
         for (const auto& [name, score] : by_motion) print(name, score);
         print("all", all);
     }
@@ -229,18 +243,25 @@ Json judge_feet(const MotionJudge& judge) {
     t.judge("SYNTHETIC, lifted feet, F1 within a frame", all.lifted.value(), Aim::at_least, 0.90, 3);
     t.judge("SYNTHETIC, planted feet, F1 within a frame", all.planted.value(), Aim::at_least, 0.97, 3);
     t.judge("SYNTHETIC, frames of contact in which the foot skates",
-            100.0 * double(all.skating) / double(std::max<size_t>(1, all.contact_frames)), Aim::at_most, 2.0, 2, " %");
-    t.judge("SYNTHETIC, drift in a contact, 95 of 100", 1e3 * quantile(all.drifts_m, 0.95), Aim::at_most, 5.0, 1, " mm");
-    t.judge("SYNTHETIC, a jump's height, least share of the truth", quantile(all.jump_heights, 0.0), Aim::at_least, 0.5, 2);
+            100.0 * double(all.skating) / double(std::max<size_t>(1, all.contact_frames)), Aim::at_most, 2.0,
+            2, " %");
+    t.judge("SYNTHETIC, drift in a contact, 95 of 100", 1e3 * quantile(all.drifts_m, 0.95), Aim::at_most, 5.0,
+            1, " mm");
+    t.judge("SYNTHETIC, a jump's height, least share of the truth", quantile(all.jump_heights, 0.0),
+            Aim::at_least, 0.5, 2);
     Score captured;
-    for (const PersonStream& stream : captured_walks(judge.shared, kFrames)) captured.merge(judge_stream(stream, play(stream)));
+    for (const PersonStream& stream : captured_walks(judge.shared, kFrames))
+        captured.merge(judge_stream(stream, play(stream)));
     double pop = 0;
     for (const auto& [name, score] : by_motion) pop = std::max(pop, worst_pop(score));
-    t.judge("SYNTHETIC, largest angular acceleration at a contact's switch over that motion's p99", pop, Aim::at_most, 2.0, 2);
+    t.judge("SYNTHETIC, largest angular acceleration at a contact's switch over that motion's p99", pop,
+            Aim::at_most, 2.0, 2);
     if (captured.contact_frames) {
         if (!judge.quiet) print("captured", captured);
-        t.judge("SYNTHETIC people, captured walks: lifted feet, F1 within a frame", captured.lifted.value(), Aim::at_least, 0.90, 3);
-        t.judge("SYNTHETIC people, captured walks: planted feet, F1 within a frame", captured.planted.value(), Aim::at_least, 0.97, 3);
+        t.judge("SYNTHETIC people, captured walks: lifted feet, F1 within a frame", captured.lifted.value(),
+                Aim::at_least, 0.90, 3);
+        t.judge("SYNTHETIC people, captured walks: planted feet, F1 within a frame", captured.planted.value(),
+                Aim::at_least, 0.97, 3);
     }
     return {{"lifted_f1", all.lifted.value()}, {"planted_f1", all.planted.value()}, {"lifted_share", share}};
 }

@@ -1,5 +1,5 @@
-// Position filters beside each other on the same streams: made noise at rest and on a swinging hand, and the still
-// spans of real people.
+// Position filters beside each other on the same streams: made noise at rest and on a swinging hand, and the
+// still spans of real people.
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -23,7 +23,8 @@ struct NamedFilter {
     PositionFilterSettings settings;
 };
 
-PositionFilterSettings holt(float smoothing, float correction, float prediction, float jitter_m, float deviation_m) {
+PositionFilterSettings holt(float smoothing, float correction, float prediction, float jitter_m,
+                            float deviation_m) {
     PositionFilterSettings s;
     s.kind = VFIT_POSITION_HOLT;
     s.holt = {smoothing, correction, prediction, jitter_m, deviation_m};
@@ -70,7 +71,8 @@ std::vector<Vec3> run(const NamedFilter& filter, const std::vector<Vec3>& readin
     if (filter.raw) return readings;
     PositionFilter f;
     std::vector<Vec3> out;
-    for (const Vec3& reading : readings) out.push_back(f.update(filter.settings, reading, false, 1.0f, float(1.0 / kRateHz)));
+    for (const Vec3& reading : readings)
+        out.push_back(f.update(filter.settings, reading, false, 1.0f, float(1.0 / kRateHz)));
     return out;
 }
 
@@ -82,11 +84,13 @@ struct Swing {
 Swing fit_swing(const std::vector<Vec3>& shown) {
     double ss = 0, sc = 0, cc = 0, ys = 0, yc = 0;
     for (size_t i = kWarmUp; i < shown.size(); ++i) {
-        const double a = 2 * 3.14159265358979 * kSwingHz * double(i) / kRateHz, s = std::sin(a), c = std::cos(a);
+        const double a = 2 * 3.14159265358979 * kSwingHz * double(i) / kRateHz, s = std::sin(a),
+                     c = std::cos(a);
         ss += s * s, sc += s * c, cc += c * c, ys += double(shown[i].x) * s, yc += double(shown[i].x) * c;
     }
     const double det = ss * cc - sc * sc, p = (ys * cc - yc * sc) / det, q = (yc * ss - ys * sc) / det;
-    return {-std::atan2(q, p) / (2 * 3.14159265358979 * kSwingHz) * kRateHz, 1.0 - std::hypot(p, q) / kSwingM};
+    return {-std::atan2(q, p) / (2 * 3.14159265358979 * kSwingHz) * kRateHz,
+            1.0 - std::hypot(p, q) / kSwingM};
 }
 
 struct Row {
@@ -110,7 +114,8 @@ Row made_streams(const NamedFilter& filter) {
         std::vector<Vec3> still, still_read, swing, swing_read;
         for (int i = 0; i < kSeconds * int(kRateHz); ++i) {
             still.emplace_back(0.3f, 1.2f, -2.5f);
-            swing.emplace_back(kSwingM * std::sin(2 * kPi * kSwingHz * float(double(i) / kRateHz)), 1.2f, -2.5f);
+            swing.emplace_back(kSwingM * std::sin(2 * kPi * kSwingHz * float(double(i) / kRateHz)), 1.2f,
+                               -2.5f);
             still_read.push_back(sensor(still.back()));
             swing_read.push_back(sensor(swing.back()));
         }
@@ -157,7 +162,8 @@ void add_still(const JointStream& stream, const NamedFilter& filter, Jitter& jit
             const float dt_s = float(double(body.time_ns - before_ns) * 1e-9);
             before_ns = body.time_ns;
             raw.push_back(joint.position);
-            shown.push_back(filter.raw ? joint.position : f.update(filter.settings, joint.position, false, 1.0f, dt_s));
+            shown.push_back(filter.raw ? joint.position
+                                       : f.update(filter.settings, joint.position, false, 1.0f, dt_s));
         }
         if (raw.size() < size_t(kWarmUp + 2 * (kStillHalf + kMeanHalf))) continue;
         for (size_t i = kWarmUp; i + kStillHalf + kMeanHalf < raw.size(); ++i) {
@@ -183,10 +189,13 @@ Jitter still_jitter(const std::vector<JointStream>& streams, const NamedFilter& 
 
 Json judge_filters(const MotionJudge& judge) {
     if (!judge.quiet)
-        std::cout << "\nPosition filters. SYNTHETIC: white noise of sd 1 cm an axis, 1 % of readings 8 cm off, 30 Hz, " << kSeeds
-                  << " seeds of " << kSeconds << " s;\nswing: 30 cm from end to end at 0.5 Hz. REAL: RMS about the running mean "
+        std::cout << "\nPosition filters. SYNTHETIC: white noise of sd 1 cm an axis, 1 % of readings 8 cm "
+                     "off, 30 Hz, "
+                  << kSeeds << " seeds of " << kSeconds
+                  << " s;\nswing: 30 cm from end to end at 0.5 Hz. REAL: RMS about the running mean "
                   << "of a quarter of a second, joints that rest.\n"
-                  << "  filter                                    at rest, mm  an axis   swing, mm  lag, frames  loss, %   "
+                  << "  filter                                    at rest, mm  an axis   swing, mm  lag, "
+                     "frames  loss, %   "
                   << "Kinect v2, mm  UI-PRMD, mm\n";
     Json rows = Json::array();
     Row raw, own;
@@ -196,14 +205,19 @@ Json judge_filters(const MotionJudge& judge) {
         row.still_ui_mm = still_jitter(judge.real.ui_prmd, filter).rms_mm();
         if (filter.raw) raw = row;
         if (!filter.raw && filter.settings.kind == VFIT_POSITION_ADAPTIVE) own = row;
-        rows.push_back({{"filter", filter.name}, {"rest_m", 1e-3 * row.rest_mm}, {"rest_axis_m", 1e-3 * row.rest_axis_mm},
-                        {"swing_m", 1e-3 * row.swing_mm}, {"lag_frames", row.swing.lag_frames},
-                        {"amplitude_loss", row.swing.loss}, {"kinect2_still_m", 1e-3 * row.still_mm},
+        rows.push_back({{"filter", filter.name},
+                        {"rest_m", 1e-3 * row.rest_mm},
+                        {"rest_axis_m", 1e-3 * row.rest_axis_mm},
+                        {"swing_m", 1e-3 * row.swing_mm},
+                        {"lag_frames", row.swing.lag_frames},
+                        {"amplitude_loss", row.swing.loss},
+                        {"kinect2_still_m", 1e-3 * row.still_mm},
                         {"ui_prmd_still_m", 1e-3 * row.still_ui_mm}});
         if (!judge.quiet)
-            std::cout << "  " << std::left << std::setw(42) << filter.name << std::right << std::fixed << std::setprecision(2)
-                      << std::setw(11) << row.rest_mm << std::setw(9) << row.rest_axis_mm << std::setw(12) << row.swing_mm
-                      << std::setw(13) << row.swing.lag_frames << std::setw(9) << 100 * row.swing.loss << std::setw(15)
+            std::cout << "  " << std::left << std::setw(42) << filter.name << std::right << std::fixed
+                      << std::setprecision(2) << std::setw(11) << row.rest_mm << std::setw(9)
+                      << row.rest_axis_mm << std::setw(12) << row.swing_mm << std::setw(13)
+                      << row.swing.lag_frames << std::setw(9) << 100 * row.swing.loss << std::setw(15)
                       << row.still_mm << std::setw(13) << row.still_ui_mm << "\n";
     }
     Targets& t = judge.targets;
@@ -211,9 +225,11 @@ Json judge_filters(const MotionJudge& judge) {
     t.judge("SYNTHETIC, swing, lag", own.swing.lag_frames, Aim::at_most, 1.0, 2, " frames");
     t.judge("SYNTHETIC, swing, amplitude loss", 100 * std::abs(own.swing.loss), Aim::at_most, 5.0, 2, " %");
     if (!judge.real.kinect2.empty())
-        t.judge("REAL, Kinect v2, still spans: raw over filtered", raw.still_mm / own.still_mm, Aim::at_least, 5.0, 2);
+        t.judge("REAL, Kinect v2, still spans: raw over filtered", raw.still_mm / own.still_mm, Aim::at_least,
+                5.0, 2);
     if (!judge.real.ui_prmd.empty())
-        t.judge("REAL, UI-PRMD, still spans: raw over filtered", raw.still_ui_mm / own.still_ui_mm, Aim::at_least, 5.0, 2);
+        t.judge("REAL, UI-PRMD, still spans: raw over filtered", raw.still_ui_mm / own.still_ui_mm,
+                Aim::at_least, 5.0, 2);
     return rows;
 }
 

@@ -16,8 +16,9 @@ Body body_of(vfit_frame frame, uint32_t id) {
     Body body;
     body.id = id;
     body.time_ns = view_of(frame, VFIT_STREAM_DEPTH).time_ns;
-    const auto joints = list<vfit_joint>(
-        [&](auto* items, uint32_t stride, uint32_t* n) { return vfit_frame_joints(frame, id, items, stride, n); });
+    const auto joints = list<vfit_joint>([&](auto* items, uint32_t stride, uint32_t* n) {
+        return vfit_frame_joints(frame, id, items, stride, n);
+    });
     for (const vfit_joint& joint : joints) body.joints[size_t(joint.joint)] = joint_in(joint);
     return body;
 }
@@ -51,9 +52,11 @@ std::vector<PersonStream> people_on_their_feet(uint32_t people, uint32_t frames)
     std::vector<PersonStream> streams;
     for (const char* motion : kMotions)
         for (uint32_t person = 1; person <= people; ++person)
-            streams.push_back({motion, person_on_feet("virtual:sensor=kinect_v1&distance=2.9&clothing=0.02&motion=" +
-                                                      std::string(motion) + "&body=" + std::to_string(700 + person) +
-                                                      "&seed=" + std::to_string(person) + "&frames=" + std::to_string(frames))});
+            streams.push_back(
+                {motion,
+                 person_on_feet("virtual:sensor=kinect_v1&distance=2.9&clothing=0.02&motion=" +
+                                std::string(motion) + "&body=" + std::to_string(700 + person) +
+                                "&seed=" + std::to_string(person) + "&frames=" + std::to_string(frames))});
     return streams;
 }
 
@@ -67,8 +70,9 @@ std::vector<PersonStream> captured_walks(const std::string& shared, uint32_t fra
         if (entry.path().extension() == ".bvh") files.push_back(fs::absolute(entry.path()).string());
     std::sort(files.begin(), files.end());
     for (const std::string& file : files)
-        streams.push_back({"captured", person_on_feet("virtual:sensor=kinect_v1&distance=2.9&clothing=0.02&body=711&bvh=" + file +
-                                                      "&frames=" + std::to_string(frames))});
+        streams.push_back(
+            {"captured", person_on_feet("virtual:sensor=kinect_v1&distance=2.9&clothing=0.02&body=711&bvh=" +
+                                        file + "&frames=" + std::to_string(frames))});
     return streams;
 }
 

@@ -10,8 +10,8 @@
 namespace vfit::tools {
 
 struct PersonFrame {
-    Body tracked;  // world; joints not seen where the tracker found nobody
-    Body truth;    // world, with rotations
+    Body tracked;                   // world; joints not seen where the tracker found nobody
+    Body truth;                     // world, with rotations
     std::array<bool, 2> planted{};  // truth, left and right
 };
 

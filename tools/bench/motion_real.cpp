@@ -1,4 +1,5 @@
-// The motion stage on real streams of joints: feet that stand, bones that keep their length, joints within their limits.
+// The motion stage on real streams of joints: feet that stand, bones that keep their length, joints within
+// their limits.
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -34,7 +35,8 @@ Skeleton bound_skeleton() {
 /// How far the pose is outside of the joint limits, and by which bone.
 void add_excess(const vfit::Motion& motion, Tally& tally) {
     const Pose& pose = motion.pose();
-    const bool planted[2] = {(pose.contacts & VFIT_CONTACT_LEFT) != 0, (pose.contacts & VFIT_CONTACT_RIGHT) != 0};
+    const bool planted[2] = {(pose.contacts & VFIT_CONTACT_LEFT) != 0,
+                             (pose.contacts & VFIT_CONTACT_RIGHT) != 0};
     BoneRotations limited = pose.rotation;
     apply_joint_limits(RestPose(motion.skeleton()), planted, limited);
     for (size_t b = 0; b < limited.size(); ++b) {
@@ -65,8 +67,8 @@ void play(const std::vector<Body>& bodies, Tally& tally) {
         for (size_t b = 1; b < size_t(kBoneCount); ++b) {
             const auto parent = size_t(bone_parent(int(b)));
             const double length = double(glm::length(posed.position[b] - posed.position[parent]));
-            tally.longest_bone_change_m =
-                std::max(tally.longest_bone_change_m, std::abs(length - double(glm::length(skeleton.offset[b]))));
+            tally.longest_bone_change_m = std::max(
+                tally.longest_bone_change_m, std::abs(length - double(glm::length(skeleton.offset[b]))));
         }
         before = posed;
         contacts_before = contacts;
@@ -82,11 +84,12 @@ double p95(std::vector<double> v) {
 constexpr double kDegrees = 180.0 / 3.14159265358979;
 
 void print(const char* name, const Tally& t) {
-    std::cout << "  " << std::left << std::setw(22) << name << std::right << std::fixed << std::setprecision(1) << std::setw(12)
-              << 100.0 * double(t.planted) / double(std::max<size_t>(1, t.feet)) << std::setprecision(2) << std::setw(16)
-              << 1e3 * p95(t.steps_m) << std::setprecision(4) << std::setw(18) << 1e3 * t.longest_bone_change_m
-              << std::setprecision(1) << std::setw(14) << kDegrees * t.most_excess_rad << "  " << vfit::bone_name(t.worst_bone)
-              << "\n";
+    std::cout << "  " << std::left << std::setw(22) << name << std::right << std::fixed
+              << std::setprecision(1) << std::setw(12)
+              << 100.0 * double(t.planted) / double(std::max<size_t>(1, t.feet)) << std::setprecision(2)
+              << std::setw(16) << 1e3 * p95(t.steps_m) << std::setprecision(4) << std::setw(18)
+              << 1e3 * t.longest_bone_change_m << std::setprecision(1) << std::setw(14)
+              << kDegrees * t.most_excess_rad << "  " << vfit::bone_name(t.worst_bone) << "\n";
 }
 
 }  // namespace
@@ -94,7 +97,8 @@ void print(const char* name, const Tally& t) {
 Json judge_real(const MotionJudge& judge) {
     if (!judge.quiet)
         std::cout << "\nA bound character on joint streams.\n"
-                  << "  streams                 planted, %   moves p95, mm   bones change, mm  beyond limits, degrees\n";
+                  << "  streams                 planted, %   moves p95, mm   bones change, mm  beyond "
+                     "limits, degrees\n";
     Json rows = Json::object();
     double worst_excess = 0, worst_step = 0, worst_bone = 0;
     const auto add = [&](const char* name, bool real, const std::vector<std::vector<Body>>& streams) {
@@ -102,7 +106,8 @@ Json judge_real(const MotionJudge& judge) {
         Tally tally;
         for (const auto& bodies : streams) play(bodies, tally);
         if (!judge.quiet) print(name, tally);
-        rows[name] = {{"moves_p95_m", p95(tally.steps_m)}, {"beyond_limits_deg", kDegrees * tally.most_excess_rad}};
+        rows[name] = {{"moves_p95_m", p95(tally.steps_m)},
+                      {"beyond_limits_deg", kDegrees * tally.most_excess_rad}};
         worst_excess = std::max(worst_excess, kDegrees * tally.most_excess_rad);
         worst_bone = std::max(worst_bone, 1e3 * tally.longest_bone_change_m);
         if (real) worst_step = std::max(worst_step, 1e3 * p95(tally.steps_m));

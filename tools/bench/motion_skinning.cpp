@@ -93,12 +93,15 @@ Times time_skin(const Skin& skin, std::span<const Mat4> matrices, SkinMethod met
 }
 
 void print(const std::string& name, const Times& t) {
-    std::cout << "  " << std::left << std::setw(48) << name << std::right << std::fixed << std::setprecision(3) << std::setw(8)
-              << t.ms << " ms;" << std::setprecision(1) << std::setw(6) << t.megabytes << " MB moved, alone " << std::setprecision(3)
-              << t.copy_ms << " ms\n";
+    std::cout << "  " << std::left << std::setw(48) << name << std::right << std::fixed
+              << std::setprecision(3) << std::setw(8) << t.ms << " ms;" << std::setprecision(1)
+              << std::setw(6) << t.megabytes << " MB moved, alone " << std::setprecision(3) << t.copy_ms
+              << " ms\n";
 }
 
-Json json_of(const Times& t) { return {{"ms", t.ms}, {"memory_alone_ms", t.copy_ms}, {"megabytes", t.megabytes}}; }
+Json json_of(const Times& t) {
+    return {{"ms", t.ms}, {"memory_alone_ms", t.copy_ms}, {"megabytes", t.megabytes}};
+}
 
 /// A hundred people, each with a tracked body of their own moment of the walk.
 double crowd_ms(const std::shared_ptr<const BodyModel>& model, const PersonStream& stream) {
@@ -138,7 +141,8 @@ double crowd_ms(const std::shared_ptr<const BodyModel>& model, const PersonStrea
 
 Json judge_skinning(const MotionJudge& judge) {
     const auto model = BodyModel::load(library_file("vfit_data/body.bin"));
-    const PersonStream stream = {"walk", person_on_feet("virtual:sensor=kinect_v1_320&motion=walk&frames=120")};
+    const PersonStream stream = {"walk",
+                                 person_on_feet("virtual:sensor=kinect_v1_320&motion=walk&frames=120")};
     vfit::Motion motion{MotionSettings()};
     for (size_t i = 0; i < 20; ++i) motion.step(&stream.frames[i].tracked, stream.frames[i].tracked.time_ns);
     Json out;
@@ -166,7 +170,8 @@ Json judge_skinning(const MotionJudge& judge) {
         }
         judge.targets.judge(name, t.ms, Aim::at_most, size.target_ms, 3, " ms");
         judge.targets.judge(name + ", over memory alone", t.ms / t.copy_ms, Aim::at_most, 2.0, 2, " times");
-        out[std::to_string(size.vertices)] = {{"linear", json_of(t)}, {"strided", json_of(strided)}, {"dual", json_of(dual)}};
+        out[std::to_string(size.vertices)] = {
+            {"linear", json_of(t)}, {"strided", json_of(strided)}, {"dual", json_of(dual)}};
     }
     const double crowd = crowd_ms(model, stream);
     judge.targets.judge("100 people: motion and a skin of 1k vertices", crowd, Aim::at_most, 4.0, 2, " ms");

@@ -21,26 +21,49 @@ constexpr float kAnkleHeightM = 0.08f;
 constexpr double kUiPrmdRateHz = 30.0;
 constexpr float kRad = kPi / 180.0f;
 
-// What each of the Kinect v2's 25 joints is here, or -1: both its NECK (middle) and the finger tips have no counterpart.
-constexpr int kKinect2Joints[25] = {VFIT_JOINT_PELVIS,        VFIT_JOINT_TORSO,      -1,
-                                    VFIT_JOINT_HEAD,          VFIT_JOINT_LEFT_SHOULDER, VFIT_JOINT_LEFT_ELBOW,
-                                    VFIT_JOINT_LEFT_WRIST,    VFIT_JOINT_LEFT_HAND,  VFIT_JOINT_RIGHT_SHOULDER,
-                                    VFIT_JOINT_RIGHT_ELBOW,   VFIT_JOINT_RIGHT_WRIST, VFIT_JOINT_RIGHT_HAND,
-                                    VFIT_JOINT_LEFT_HIP,      VFIT_JOINT_LEFT_KNEE,  VFIT_JOINT_LEFT_FOOT,
-                                    VFIT_JOINT_LEFT_TOES,     VFIT_JOINT_RIGHT_HIP,  VFIT_JOINT_RIGHT_KNEE,
-                                    VFIT_JOINT_RIGHT_FOOT,    VFIT_JOINT_RIGHT_TOES, VFIT_JOINT_NECK,
-                                    -1, -1, -1, -1};
+// What each of the Kinect v2's 25 joints is here, or -1: both its NECK (middle) and the finger tips have no
+// counterpart.
+constexpr int kKinect2Joints[25] = {VFIT_JOINT_PELVIS,
+                                    VFIT_JOINT_TORSO,
+                                    -1,
+                                    VFIT_JOINT_HEAD,
+                                    VFIT_JOINT_LEFT_SHOULDER,
+                                    VFIT_JOINT_LEFT_ELBOW,
+                                    VFIT_JOINT_LEFT_WRIST,
+                                    VFIT_JOINT_LEFT_HAND,
+                                    VFIT_JOINT_RIGHT_SHOULDER,
+                                    VFIT_JOINT_RIGHT_ELBOW,
+                                    VFIT_JOINT_RIGHT_WRIST,
+                                    VFIT_JOINT_RIGHT_HAND,
+                                    VFIT_JOINT_LEFT_HIP,
+                                    VFIT_JOINT_LEFT_KNEE,
+                                    VFIT_JOINT_LEFT_FOOT,
+                                    VFIT_JOINT_LEFT_TOES,
+                                    VFIT_JOINT_RIGHT_HIP,
+                                    VFIT_JOINT_RIGHT_KNEE,
+                                    VFIT_JOINT_RIGHT_FOOT,
+                                    VFIT_JOINT_RIGHT_TOES,
+                                    VFIT_JOINT_NECK,
+                                    -1,
+                                    -1,
+                                    -1,
+                                    -1};
 
-// ui_prmd: waist, spine, chest, neck, head, its tip, then collar, upper arm, forearm, hand of the left and the right,
-// upper leg, lower leg, foot, toes of the left and the right. A segment's place is the joint that it turns about.
+// ui_prmd: waist, spine, chest, neck, head, its tip, then collar, upper arm, forearm, hand of the left and
+// the right, upper leg, lower leg, foot, toes of the left and the right. A segment's place is the joint that
+// it turns about.
 constexpr int kUiPrmdCount = 22;
-constexpr int kUiPrmdParents[kUiPrmdCount] = {-1, 0, 1, 2, 3, 4, 2, 6, 7, 8, 2, 10, 11, 12, 0, 14, 15, 16, 0, 18, 19, 20};
+constexpr int kUiPrmdParents[kUiPrmdCount] = {-1, 0,  1,  2, 3,  4,  2,  6, 7,  8,  2,
+                                              10, 11, 12, 0, 14, 15, 16, 0, 18, 19, 20};
 constexpr int kUiPrmdJoints[kUiPrmdCount] = {
-    VFIT_JOINT_PELVIS,         VFIT_JOINT_TORSO,       VFIT_JOINT_CHEST,      VFIT_JOINT_NECK, VFIT_JOINT_HEAD, -1,
-    VFIT_JOINT_LEFT_CLAVICLE,  VFIT_JOINT_LEFT_SHOULDER, VFIT_JOINT_LEFT_ELBOW, VFIT_JOINT_LEFT_HAND,
-    VFIT_JOINT_RIGHT_CLAVICLE, VFIT_JOINT_RIGHT_SHOULDER, VFIT_JOINT_RIGHT_ELBOW, VFIT_JOINT_RIGHT_HAND,
-    VFIT_JOINT_LEFT_HIP,       VFIT_JOINT_LEFT_KNEE,   VFIT_JOINT_LEFT_FOOT,  VFIT_JOINT_LEFT_TOES,
-    VFIT_JOINT_RIGHT_HIP,      VFIT_JOINT_RIGHT_KNEE,  VFIT_JOINT_RIGHT_FOOT, VFIT_JOINT_RIGHT_TOES};
+    VFIT_JOINT_PELVIS,        VFIT_JOINT_TORSO,          VFIT_JOINT_CHEST,
+    VFIT_JOINT_NECK,          VFIT_JOINT_HEAD,           -1,
+    VFIT_JOINT_LEFT_CLAVICLE, VFIT_JOINT_LEFT_SHOULDER,  VFIT_JOINT_LEFT_ELBOW,
+    VFIT_JOINT_LEFT_HAND,     VFIT_JOINT_RIGHT_CLAVICLE, VFIT_JOINT_RIGHT_SHOULDER,
+    VFIT_JOINT_RIGHT_ELBOW,   VFIT_JOINT_RIGHT_HAND,     VFIT_JOINT_LEFT_HIP,
+    VFIT_JOINT_LEFT_KNEE,     VFIT_JOINT_LEFT_FOOT,      VFIT_JOINT_LEFT_TOES,
+    VFIT_JOINT_RIGHT_HIP,     VFIT_JOINT_RIGHT_KNEE,     VFIT_JOINT_RIGHT_FOOT,
+    VFIT_JOINT_RIGHT_TOES};
 
 std::vector<float> numbers_of(const std::string& line, const std::string& file) {
     std::vector<float> out;
@@ -99,7 +122,8 @@ JointStream read_kinect2(const fs::path& file) {
             const int state = int(v[3]);
             if (state < 1) continue;
             // Camera space has the person's left at -X and looks along +Z: turned about Y.
-            body.set(kKinect2Joints[j], {-v[0], v[1], -v[2]}, state > 1 ? VFIT_JOINT_MEASURED : VFIT_JOINT_INFERRED);
+            body.set(kKinect2Joints[j], {-v[0], v[1], -v[2]},
+                     state > 1 ? VFIT_JOINT_MEASURED : VFIT_JOINT_INFERRED);
         }
         stream.bodies.push_back(body);
     }
@@ -109,7 +133,8 @@ JointStream read_kinect2(const fs::path& file) {
 
 Quat rotation_of(const float* degrees) {
     const Vec3 a = kRad * Vec3(degrees[0], degrees[1], degrees[2]);
-    return glm::angleAxis(a.z, Vec3(0, 0, 1)) * glm::angleAxis(a.x, Vec3(1, 0, 0)) * glm::angleAxis(a.y, Vec3(0, 1, 0));
+    return glm::angleAxis(a.z, Vec3(0, 0, 1)) * glm::angleAxis(a.x, Vec3(1, 0, 0)) *
+           glm::angleAxis(a.y, Vec3(0, 1, 0));
 }
 
 /// Forward kinematics of local offsets and rotations.
@@ -138,7 +163,9 @@ std::vector<fs::path> files_in(const fs::path& folder, const std::string& ending
     return files;
 }
 
-std::string episode_of(const fs::path& file) { return file.filename().string().substr(0, 11); }  // m01_s01_e01
+std::string episode_of(const fs::path& file) {
+    return file.filename().string().substr(0, 11);
+}  // m01_s01_e01
 
 }  // namespace
 
@@ -175,7 +202,8 @@ std::vector<MarkerStream> ui_prmd_markers(const std::string& shared) {
         MarkerStream stream{episode_of(file), {}};
         for (const std::vector<float>& row : read_gz(file)) {
             std::vector<Vec3> markers;
-            for (size_t i = 0; i + 2 < row.size(); i += 3) markers.push_back(0.001f * Vec3(row[i], row[i + 1], row[i + 2]));
+            for (size_t i = 0; i + 2 < row.size(); i += 3)
+                markers.push_back(0.001f * Vec3(row[i], row[i + 1], row[i + 2]));
             stream.frames.push_back(std::move(markers));
         }
         streams.push_back(std::move(stream));

@@ -14,8 +14,8 @@ struct JointStream {
     std::vector<Body> bodies;
 };
 
-/// Kinect v2, 30 Hz: the four of data/kinect2_joints, then the Kinect's of data/ui_prmd. The floor lies under the
-/// lowest ankle of each.
+/// Kinect v2, 30 Hz: the four of data/kinect2_joints, then the Kinect's of data/ui_prmd. The floor lies under
+/// the lowest ankle of each.
 std::vector<JointStream> kinect2_streams(const std::string& shared);
 std::vector<JointStream> ui_prmd_streams(const std::string& shared);
 

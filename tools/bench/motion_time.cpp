@@ -1,4 +1,5 @@
-// What a step of the motion stage costs: with a new body, and between bodies, as a quick renderer asks for it.
+// What a step of the motion stage costs: with a new body, and between bodies, as a quick renderer asks for
+// it.
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -18,7 +19,8 @@ constexpr int kPredicted = 20;  // steps between two bodies: 600 Hz over 30 Hz
 }  // namespace
 
 Json judge_time(const MotionJudge& judge) {
-    const PersonStream stream = {"walk", person_on_feet("virtual:sensor=kinect_v1_320&motion=walk&frames=120")};
+    const PersonStream stream = {"walk",
+                                 person_on_feet("virtual:sensor=kinect_v1_320&motion=walk&frames=120")};
     Samples body_us, between_us;
     for (int run = 0; run < kRuns; ++run) {
         vfit::Motion motion{MotionSettings()};

@@ -1,6 +1,7 @@
-// Angles of limbs against a marker system: the pose beside the raw joints, on exercises that both a Kinect v2 and a Vicon
-// system saw (UI-PRMD, REAL). The two were cut apart and run on clocks of their own: each episode is shifted in time to
-// where it agrees best, and angles are compared without their mean, since markers lie on the skin.
+// Angles of limbs against a marker system: the pose beside the raw joints, on exercises that both a Kinect v2
+// and a Vicon system saw (UI-PRMD, REAL). The two were cut apart and run on clocks of their own: each episode
+// is shifted in time to where it agrees best, and angles are compared without their mean, since markers lie
+// on the skin.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,16 +20,28 @@ namespace {
 constexpr double kKinectStep_s = 1.0 / 30.0, kViconStep_s = 0.01;
 constexpr double kMostLag_s = 1.5, kLagPlay_s = 0.15;
 constexpr double kLeastOverlap_s = 1.0;
-constexpr double kLeastRange_deg = 20.0;       // of an angle that the exercise is about
-constexpr double kLeastCorrelation = 0.8;      // of the raw joints: else the sensor saw something else
-constexpr size_t kLeastStill = 10;             // frames at rest of a curve that has a say
-constexpr double kStill_deg = 1.0, kStill_s = 0.5;  // before and after: at rest for a second, as in the table of filters
+constexpr double kLeastRange_deg = 20.0;   // of an angle that the exercise is about
+constexpr double kLeastCorrelation = 0.8;  // of the raw joints: else the sensor saw something else
+constexpr size_t kLeastStill = 10;         // frames at rest of a curve that has a say
+constexpr double kStill_deg = 1.0,
+                 kStill_s = 0.5;  // before and after: at rest for a second, as in the table of filters
 
-enum Angle { kLeftKnee, kRightKnee, kLeftElbow, kRightElbow, kLeftArm, kRightArm, kLeftThigh, kRightThigh, kAngles };
+enum Angle {
+    kLeftKnee,
+    kRightKnee,
+    kLeftElbow,
+    kRightElbow,
+    kLeftArm,
+    kRightArm,
+    kLeftThigh,
+    kRightThigh,
+    kAngles
+};
 using Angles = std::array<double, kAngles>;
 
 double degrees_between(const Vec3& a, const Vec3& b) {
-    return double(std::acos(std::clamp(glm::dot(glm::normalize(a), glm::normalize(b)), -1.0f, 1.0f))) * 180.0 / double(kPi);
+    return double(std::acos(std::clamp(glm::dot(glm::normalize(a), glm::normalize(b)), -1.0f, 1.0f))) *
+           180.0 / double(kPi);
 }
 
 /// A limb bent by 0 degrees is straight; arms and thighs are counted from the trunk's way down.
@@ -41,7 +54,8 @@ Angles angles_of(const Places& p) {
     const Vec3 down = p.bottom - p.top;
     for (size_t side = 0; side < 2; ++side) {
         out[kLeftKnee + side] = degrees_between(p.knee[side] - p.hip[side], p.ankle[side] - p.knee[side]);
-        out[kLeftElbow + side] = degrees_between(p.elbow[side] - p.shoulder[side], p.wrist[side] - p.elbow[side]);
+        out[kLeftElbow + side] =
+            degrees_between(p.elbow[side] - p.shoulder[side], p.wrist[side] - p.elbow[side]);
         out[kLeftArm + side] = degrees_between(down, p.elbow[side] - p.shoulder[side]);
         out[kLeftThigh + side] = degrees_between(down, p.knee[side] - p.hip[side]);
     }
@@ -113,13 +127,15 @@ struct Pair {
         double a = 0, b = 0, ab = 0, aa = 0, bb = 0;
         for (size_t i = 0; i < own.size(); ++i) a += own[i] / n, b += vicon[i] / n;
         for (size_t i = 0; i < own.size(); ++i)
-            ab += (own[i] - a) * (vicon[i] - b), aa += (own[i] - a) * (own[i] - a), bb += (vicon[i] - b) * (vicon[i] - b);
+            ab += (own[i] - a) * (vicon[i] - b), aa += (own[i] - a) * (own[i] - a),
+                bb += (vicon[i] - b) * (vicon[i] - b);
         return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0.0;
     }
     double rms() const {
         double mean = 0, sum = 0;
         for (size_t i = 0; i < own.size(); ++i) mean += (own[i] - vicon[i]) / double(own.size());
-        for (size_t i = 0; i < own.size(); ++i) sum += std::pow(own[i] - vicon[i] - mean, 2) / double(own.size());
+        for (size_t i = 0; i < own.size(); ++i)
+            sum += std::pow(own[i] - vicon[i] - mean, 2) / double(own.size());
         return std::sqrt(sum);
     }
 };
@@ -160,11 +176,15 @@ double best_lag(const Series& own, const Series& vicon, const std::vector<size_t
 }
 
 /// Second differences where the markers stand still: jitter alone.
-void add_jitter(const Series& own, const Series& vicon, size_t angle, double lag_s, double& squares, size_t& count) {
+void add_jitter(const Series& own, const Series& vicon, size_t angle, double lag_s, double& squares,
+                size_t& count) {
     for (size_t i = 1; i + 1 < own.size(); ++i) {
         const double t = double(i) * kKinectStep_s + lag_s;
-        const double before = vicon_at(vicon, angle, t - kStill_s), after = vicon_at(vicon, angle, t + kStill_s), now = vicon_at(vicon, angle, t);
-        if (std::isnan(before) || std::isnan(after) || std::abs(before - now) > kStill_deg || std::abs(after - now) > kStill_deg) continue;
+        const double before = vicon_at(vicon, angle, t - kStill_s),
+                     after = vicon_at(vicon, angle, t + kStill_s), now = vicon_at(vicon, angle, t);
+        if (std::isnan(before) || std::isnan(after) || std::abs(before - now) > kStill_deg ||
+            std::abs(after - now) > kStill_deg)
+            continue;
         const double bend = own[i - 1][angle] - 2.0 * own[i][angle] + own[i + 1][angle];
         squares += bend * bend;
         ++count;
@@ -226,25 +246,37 @@ Json judge_vicon(const MotionJudge& judge) {
             size_t raw_frames = 0, pose_frames = 0;
             add_jitter(raw, vicon, a, raw_lag, raw_sum, raw_frames);
             add_jitter(pose, vicon, a, pose_lag, pose_sum, pose_frames);
-            raw_squares += raw_sum, raw_count += raw_frames, pose_squares += pose_sum, pose_count += pose_frames;
+            raw_squares += raw_sum, raw_count += raw_frames, pose_squares += pose_sum,
+                pose_count += pose_frames;
             if (raw_frames >= kLeastStill && pose_frames >= kLeastStill)
-                calmer.push_back(std::sqrt((raw_sum / double(raw_frames)) / (pose_sum / double(pose_frames))));
+                calmer.push_back(
+                    std::sqrt((raw_sum / double(raw_frames)) / (pose_sum / double(pose_frames))));
         }
     }
     const double raw_jitter = std::sqrt(raw_squares / double(std::max<size_t>(1, raw_count)));
     const double pose_jitter = std::sqrt(pose_squares / double(std::max<size_t>(1, pose_count)));
     if (!judge.quiet)
-        std::cout << "\nAngles of knees, elbows, arms and thighs against Vicon markers (UI-PRMD, REAL): " << compared << " curves, "
-                  << left_out << " left out where the raw joints do not follow the markers\n"
-                  << std::fixed << std::setprecision(2) << "  RMS after alignment, median: raw joints " << median(raw_rms) << ", pose "
-                  << median(pose_rms) << " degrees; the pose is " << 1e3 * median(delays_s) << " ms later\n"
-                  << "  second difference where the markers are still for a second, RMS of all: raw " << raw_jitter << ", pose "
-                  << pose_jitter << " degrees (an arm that the sensor lost has most of it); by curve the median is " << median(calmer)
-                  << " times less, of " << calmer.size() << "\n";
-    judge.targets.judge("REAL, angles against Vicon, RMS of pose over raw", median(pose_rms) / median(raw_rms), Aim::at_most, 1.0, 3);
-    judge.targets.judge("REAL, jitter of angles at rest, raw over pose, median", median(calmer), Aim::at_least, 5.0, 1);
-    return {{"raw_rms_deg", median(raw_rms)}, {"pose_rms_deg", median(pose_rms)}, {"delay_s", median(delays_s)},
-            {"raw_jitter_deg", raw_jitter}, {"pose_jitter_deg", pose_jitter}, {"curves", compared}, {"left_out", left_out}};
+        std::cout << "\nAngles of knees, elbows, arms and thighs against Vicon markers (UI-PRMD, REAL): "
+                  << compared << " curves, " << left_out
+                  << " left out where the raw joints do not follow the markers\n"
+                  << std::fixed << std::setprecision(2) << "  RMS after alignment, median: raw joints "
+                  << median(raw_rms) << ", pose " << median(pose_rms) << " degrees; the pose is "
+                  << 1e3 * median(delays_s) << " ms later\n"
+                  << "  second difference where the markers are still for a second, RMS of all: raw "
+                  << raw_jitter << ", pose " << pose_jitter
+                  << " degrees (an arm that the sensor lost has most of it); by curve the median is "
+                  << median(calmer) << " times less, of " << calmer.size() << "\n";
+    judge.targets.judge("REAL, angles against Vicon, RMS of pose over raw",
+                        median(pose_rms) / median(raw_rms), Aim::at_most, 1.0, 3);
+    judge.targets.judge("REAL, jitter of angles at rest, raw over pose, median", median(calmer),
+                        Aim::at_least, 5.0, 1);
+    return {{"raw_rms_deg", median(raw_rms)},
+            {"pose_rms_deg", median(pose_rms)},
+            {"delay_s", median(delays_s)},
+            {"raw_jitter_deg", raw_jitter},
+            {"pose_jitter_deg", pose_jitter},
+            {"curves", compared},
+            {"left_out", left_out}};
 }
 
 }  // namespace vfit::tools

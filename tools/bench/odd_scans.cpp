@@ -1,5 +1,5 @@
-// vfit-bench odd-scans: people and scenes that a scan is not made for (synthetic). It must say what is wrong, or be unsure:
-// never surely wrong.
+// vfit-bench odd-scans: people and scenes that a scan is not made for (synthetic). It must say what is wrong,
+// or be unsure: never surely wrong.
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -41,7 +41,8 @@ constexpr Case kCases[] = {
     {"very thin", "sex=f&weight=0.05"},
     {"a wide dress", "sex=f&trousers=0.08&top=0.01&sleeves=0"},
 };
-constexpr const char* kKeys[] = {"stature_m", "chest_girth_m", "waist_girth_m", "hip_girth_m", "inside_leg_m"};
+constexpr const char* kKeys[] = {"stature_m", "chest_girth_m", "waist_girth_m", "hip_girth_m",
+                                 "inside_leg_m"};
 constexpr double kWrong = 3.0;  // deviations: by chance one of four hundred
 
 Json truth_of(vfit_context context, const std::string& uri) {
@@ -49,16 +50,20 @@ Json truth_of(vfit_context context, const std::string& uri) {
     const auto frame = source.next();
     if (!frame) throw Failure(uri + ": no frame");
     std::string text(4096, 0);
-    check(vfit_frame_meta(frame->get(), "measures", text.data(), static_cast<uint32_t>(text.size()), nullptr));
+    check(
+        vfit_frame_meta(frame->get(), "measures", text.data(), static_cast<uint32_t>(text.size()), nullptr));
     return Json::parse(text.c_str());
 }
 
-double number(const Json& value) { return value.is_object() ? value["value"].get<double>() : value.get<double>(); }
+double number(const Json& value) {
+    return value.is_object() ? value["value"].get<double>() : value.get<double>();
+}
 
 }  // namespace
 
 void add_odd_scans(Command& app) {
-    Command command = app.add_subcommand("odd-scans", "What scans say of people and scenes that they are not made for (synthetic)");
+    Command command = app.add_subcommand(
+        "odd-scans", "What scans say of people and scenes that they are not made for (synthetic)");
     auto json = std::make_shared<bool>(false);
     command.add_flag("--json", *json, "Print JSON");
     command.callback([json] {
@@ -82,13 +87,17 @@ void add_odd_scans(Command& app) {
                 if (!*json) std::cout << std::setw(3) << run.frames_taken << " frames ";
                 double worst = 0.0;
                 for (const vfit_measurement& m : measurements_of(run.scan.get())) {
-                    if (std::find(std::begin(kKeys), std::end(kKeys), std::string(m.key)) == std::end(kKeys) || !truth.contains(m.key)) continue;
+                    if (std::find(std::begin(kKeys), std::end(kKeys), std::string(m.key)) ==
+                            std::end(kKeys) ||
+                        !truth.contains(m.key))
+                        continue;
                     const double error = double(m.value) - number(truth[m.key]);
                     worst = std::max(worst, std::abs(error) / double(m.sigma));
                     row[m.key] = {{"error_m", error}, {"sigma_m", m.sigma}};
                     if (!*json)
-                        std::cout << "  " << std::string(m.key).substr(0, 7) << std::fixed << std::setprecision(0) << std::setw(5) << 1000 * error
-                                  << " +-" << std::setw(3) << 1000 * double(m.sigma);
+                        std::cout << "  " << std::string(m.key).substr(0, 7) << std::fixed
+                                  << std::setprecision(0) << std::setw(5) << 1000 * error << " +-"
+                                  << std::setw(3) << 1000 * double(m.sigma);
                 }
                 row["worst_sigmas"] = worst;
                 if (worst > kWrong) ++surely_wrong;
@@ -99,7 +108,8 @@ void add_odd_scans(Command& app) {
             }
             rows.push_back(row);
         }
-        targets.judge("scans that are surely wrong (an error beyond 3 sigma)", surely_wrong, Aim::at_most, 0, 0);
+        targets.judge("scans that are surely wrong (an error beyond 3 sigma)", surely_wrong, Aim::at_most, 0,
+                      0);
         if (*json) print_document({{"cases", rows}, {"targets", targets.json()}});
     });
 }

@@ -1,4 +1,5 @@
-// A bench that is made of parts, each a table and its targets: one of them or all, and what they find as text or JSON.
+// A bench that is made of parts, each a table and its targets: one of them or all, and what they find as text
+// or JSON.
 #pragma once
 
 #include <iostream>
@@ -30,8 +31,12 @@ void judge_parts(const Part<Judge> (&parts)[kCount], const std::string& only, co
     for (const Part<Judge>& part : parts)
         if (only.empty() || only == part.name) report[part.name] = part.judge(judge);
     report["targets"] = judge.targets.json();
-    if (judge.quiet) print_document(report);
-    else std::cout << "\n" << judge.targets.count() - judge.targets.missed() << " of " << judge.targets.count() << " targets hit\n";
+    if (judge.quiet)
+        print_document(report);
+    else
+        std::cout << "\n"
+                  << judge.targets.count() - judge.targets.missed() << " of " << judge.targets.count()
+                  << " targets hit\n";
 }
 
 }  // namespace vfit::tools

@@ -34,9 +34,9 @@ std::string uri_of(const Options& options, uint32_t i, std::mt19937& random) {
     };
     std::ostringstream uri;
     uri << "virtual:sensor=" << options.sensor << "&motion=scan&seed=" << options.seed + i
-        << "&sex=" << (i % 2 ? "m" : "f") << "&height=" << between(0.2, 0.8) << "&weight=" << between(0.3, 0.9)
-        << "&muscle=" << between(0.3, 0.8) << "&proportions=" << between(0.3, 0.8)
-        << "&distance=" << options.distance_m;
+        << "&sex=" << (i % 2 ? "m" : "f") << "&height=" << between(0.2, 0.8)
+        << "&weight=" << between(0.3, 0.9) << "&muscle=" << between(0.3, 0.8)
+        << "&proportions=" << between(0.3, 0.8) << "&distance=" << options.distance_m;
     return uri.str();
 }
 
@@ -93,15 +93,18 @@ void add_people(Command& app) {
     command.add_option("--seed", o->seed, "Of bodies and noise");
     command.add_option("--sensor", o->sensor, "Noise model of the virtual sensor");
     command.add_option("--distance", o->distance_m, "From camera to person, m");
-    command.add_option("--method", o->method, "paper, or paper-as-printed: canon ratios and plain means").one_of({"paper", "paper-as-printed"});
+    command.add_option("--method", o->method, "paper, or paper-as-printed: canon ratios and plain means")
+        .one_of({"paper", "paper-as-printed"});
     command.add_flag("--json", o->json, "Print JSON");
     command.callback([o] {
         pin_to_cores(1);
         std::mt19937 random(o->seed);
         Json rows = Json::array();
-        double height = 0.0, shoulder = 0.0, height_bias = 0.0, shoulder_bias = 0.0, last_ms = 0.0, mean_ms = 0.0;
+        double height = 0.0, shoulder = 0.0, height_bias = 0.0, shoulder_bias = 0.0, last_ms = 0.0,
+               mean_ms = 0.0;
         if (!o->json)
-            std::cout << " #    height real   est.  error    sd | shoulder real   est.  error    sd |   ms  (cm)\n";
+            std::cout
+                << " #    height real   est.  error    sd | shoulder real   est.  error    sd |   ms  (cm)\n";
         for (uint32_t i = 0; i < o->count; ++i) {
             const Row r = measure(uri_of(*o, i, random), i % 2 == 1, scan_method_from(o->method));
             const double he = error(r.height_true, r.height), se = error(r.shoulder_true, r.shoulder);
@@ -111,16 +114,18 @@ void add_people(Command& app) {
             shoulder_bias += 100.0 * (r.shoulder - r.shoulder_true) / o->count;
             last_ms += r.last_ms / o->count;
             mean_ms += r.compute_ms / o->count;
-            rows.push_back({{"sex", r.sex}, {"height_m", {r.height_true, r.height, r.height_sigma}},
+            rows.push_back({{"sex", r.sex},
+                            {"height_m", {r.height_true, r.height, r.height_sigma}},
                             {"shoulder_m", {r.shoulder_true, r.shoulder, r.shoulder_sigma}},
                             {"compute_ms", r.compute_ms}});
             if (!o->json)
-                std::cout << std::fixed << std::setw(2) << i + 1 << r.sex << std::setprecision(1) << std::setw(13)
-                          << 100 * r.height_true << std::setw(7) << 100 * r.height << std::setprecision(2)
-                          << std::setw(6) << he << "%" << std::setw(6) << 100 * r.height_sigma << " |"
-                          << std::setprecision(1) << std::setw(14) << 100 * r.shoulder_true << std::setw(7)
-                          << 100 * r.shoulder << std::setprecision(2) << std::setw(6) << se << "%" << std::setw(6)
-                          << 100 * r.shoulder_sigma << " |" << std::setprecision(1) << std::setw(6) << r.compute_ms << "\n";
+                std::cout << std::fixed << std::setw(2) << i + 1 << r.sex << std::setprecision(1)
+                          << std::setw(13) << 100 * r.height_true << std::setw(7) << 100 * r.height
+                          << std::setprecision(2) << std::setw(6) << he << "%" << std::setw(6)
+                          << 100 * r.height_sigma << " |" << std::setprecision(1) << std::setw(14)
+                          << 100 * r.shoulder_true << std::setw(7) << 100 * r.shoulder << std::setprecision(2)
+                          << std::setw(6) << se << "%" << std::setw(6) << 100 * r.shoulder_sigma << " |"
+                          << std::setprecision(1) << std::setw(6) << r.compute_ms << "\n";
         }
         if (o->json) {
             print_document({{"people", rows},
@@ -132,10 +137,10 @@ void add_people(Command& app) {
                             {"compute_ms", {{"all_frames", mean_ms}, {"after_the_last_frame", last_ms}}}});
             return;
         }
-        std::cout << std::setprecision(2) << "mean absolute error: height " << height << " % (paper 1.5 %), shoulder "
-                  << shoulder << " % (paper 4.2 %); bias " << height_bias << " and " << shoulder_bias
-                  << " cm; work " << mean_ms << " ms while the frames come, " << last_ms
-                  << " ms beyond capture (paper 5 ms)\n";
+        std::cout << std::setprecision(2) << "mean absolute error: height " << height
+                  << " % (paper 1.5 %), shoulder " << shoulder << " % (paper 4.2 %); bias " << height_bias
+                  << " and " << shoulder_bias << " cm; work " << mean_ms << " ms while the frames come, "
+                  << last_ms << " ms beyond capture (paper 5 ms)\n";
     });
 }
 

@@ -25,7 +25,8 @@ struct Person {
     std::vector<double> stature_m, mask_m;
 };
 
-/// Height of the user map in metres at the person's median depth: the crude figure to hold the method against.
+/// Height of the user map in metres at the person's median depth: the crude figure to hold the method
+/// against.
 double mask_height(vfit_frame frame) {
     const vfit_view depth = view_of(frame, VFIT_STREAM_DEPTH), map = view_of(frame, VFIT_STREAM_USER_MAP);
     vfit_intrinsics k = vfit_intrinsics_init();
@@ -75,7 +76,8 @@ double deviation(const std::vector<double>& v) {
     return v.size() > 1 ? std::sqrt(sum / double(v.size() - 1)) : 0.0;
 }
 
-/// By the paper's method on the recording's own joints; by the fitted body on the tracker's, from the front alone.
+/// By the paper's method on the recording's own joints; by the fitted body on the tracker's, from the front
+/// alone.
 ScanOptions scan_options(const std::string& method) {
     ScanOptions options;
     options.method = scan_method_from(method);
@@ -88,7 +90,8 @@ double worst_difference(const std::map<std::string, Person>& people) {
     double worst = 0.0;
     for (const auto& [name, a] : people)
         for (const auto& [other, b] : people)
-            worst = std::max(worst, std::abs((mean(a.stature_m) - mean(b.stature_m)) - (mean(a.mask_m) - mean(b.mask_m))));
+            worst = std::max(
+                worst, std::abs((mean(a.stature_m) - mean(b.stature_m)) - (mean(a.mask_m) - mean(b.mask_m))));
     return worst;
 }
 
@@ -117,7 +120,9 @@ void add_recordings(Command& app) {
                 run = run_scan(context.get(), source, scan_options(o->method));
             } catch (const Failure& failure) {  // nobody stands as a scan needs it
                 rows.push_back({{"recording", name}, {"frames", 0}, {"why", failure.what()}});
-                if (!o->json) std::cout << std::left << std::setw(32) << name << std::right << "  no scan: " << failure.what() << "\n";
+                if (!o->json)
+                    std::cout << std::left << std::setw(32) << name << std::right
+                              << "  no scan: " << failure.what() << "\n";
                 continue;
             }
             double stature = 0.0;
@@ -126,10 +131,14 @@ void add_recordings(Command& app) {
             const double mask = tallest_mask(path.string());
             people[person_of(name)].stature_m.push_back(stature);
             people[person_of(name)].mask_m.push_back(mask);
-            rows.push_back({{"recording", name}, {"frames", run.frames_taken}, {"stature_m", stature}, {"mask_m", mask}});
+            rows.push_back({{"recording", name},
+                            {"frames", run.frames_taken},
+                            {"stature_m", stature},
+                            {"mask_m", mask}});
             if (!o->json)
-                std::cout << std::left << std::setw(32) << name << std::right << std::setw(3) << run.frames_taken
-                          << " frames  stature " << std::fixed << std::setprecision(3) << stature << " m  mask " << mask << " m\n";
+                std::cout << std::left << std::setw(32) << name << std::right << std::setw(3)
+                          << run.frames_taken << " frames  stature " << std::fixed << std::setprecision(3)
+                          << stature << " m  mask " << mask << " m\n";
         }
         Json summary = Json::object();
         for (const auto& [name, p] : people) {
@@ -140,14 +149,15 @@ void add_recordings(Command& app) {
                              {"mask_sd_m", deviation(p.mask_m)}};
             if (!o->json)
                 std::cout << name << ": stature " << mean(p.stature_m) << " m, SD " << deviation(p.stature_m)
-                          << " m over " << p.stature_m.size() << " recordings; mask " << mean(p.mask_m) << " m, SD "
-                          << deviation(p.mask_m) << " m\n";
+                          << " m over " << p.stature_m.size() << " recordings; mask " << mean(p.mask_m)
+                          << " m, SD " << deviation(p.mask_m) << " m\n";
         }
         Targets targets(o->json);
         for (const auto& [name, p] : people)
-            targets.judge(name + ": stature, sd over " + std::to_string(p.stature_m.size()) + " recordings", 1000 * deviation(p.stature_m),
-                          Aim::at_most, 4.0, 1, " mm");
-        targets.judge("people's statures differ as their masks do, to", 1000 * worst_difference(people), Aim::at_most, 15.0, 1, " mm");
+            targets.judge(name + ": stature, sd over " + std::to_string(p.stature_m.size()) + " recordings",
+                          1000 * deviation(p.stature_m), Aim::at_most, 4.0, 1, " mm");
+        targets.judge("people's statures differ as their masks do, to", 1000 * worst_difference(people),
+                      Aim::at_most, 15.0, 1, " mm");
         if (o->json) print_document({{"recordings", rows}, {"people", summary}, {"targets", targets.json()}});
     });
 }

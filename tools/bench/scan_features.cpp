@@ -1,5 +1,5 @@
-// vfit-bench scan-features: what scans of virtual people tell, beside the truth, as JSON lines: what the measures are
-// learnt from (training/measures).
+// vfit-bench scan-features: what scans of virtual people tell, beside the truth, as JSON lines: what the
+// measures are learnt from (training/measures).
 #include <cmath>
 #include <fstream>
 #include <iostream>
@@ -28,8 +28,8 @@ Body body_of(vfit_frame frame, uint32_t id, const Camera& camera, int64_t time_n
     const Mat4 to_camera = camera.camera_from_world();
     for (const vfit_joint& j : joints_of(frame, id))
         if (j.state != VFIT_JOINT_NOT_SEEN)
-            body.set(j.joint, transform_point(to_camera, Vec3(j.position[0], j.position[1], j.position[2])), j.state,
-                     j.confidence);
+            body.set(j.joint, transform_point(to_camera, Vec3(j.position[0], j.position[1], j.position[2])),
+                     j.state, j.confidence);
     return body;
 }
 
@@ -41,14 +41,16 @@ void play(const std::string& uri, vfit_context context, vfit_tracker tracker, Bo
         const auto bodies = bodies_of(tracked.get());
         if (bodies.empty()) continue;
         const FrameImage image(tracked.get());
-        scan.add(image.image(), body_of(tracked.get(), bodies.front().body_id, image.camera, bodies.front().time_ns));
+        scan.add(image.image(),
+                 body_of(tracked.get(), bodies.front().body_id, image.camera, bodies.front().time_ns));
     }
 }
 
 /// Four digits are enough, and keep the file small; null: not seen.
 Json rounded(const ScanFeatures& features) {
     Json out = Json::array();
-    for (const float f : features) out.push_back(std::isnan(f) ? Json() : Json(std::round(double(f) * 1e4) * 1e-4));
+    for (const float f : features)
+        out.push_back(std::isnan(f) ? Json() : Json(std::round(double(f) * 1e4) * 1e-4));
     return out;
 }
 
@@ -61,8 +63,11 @@ void run(const Options& o) {
     if (!file) throw Failure(o.out + ": cannot be written");
     for (uint32_t i = o.first; i < o.first + o.count; ++i) {
         const PersonOfPopulation person = population.draw(i);
-        Json line = {{"number", i}, {"space", o.space}, {"sex", person.sex == VFIT_SEX_MALE ? "m" : "f"},
-                     {"bmi", person.bmi}, {"truth", person.measures}};
+        Json line = {{"number", i},
+                     {"space", o.space},
+                     {"sex", person.sex == VFIT_SEX_MALE ? "m" : "f"},
+                     {"bmi", person.bmi},
+                     {"truth", person.measures}};
         for (uint32_t s = 0; s < o.scans; ++s) {
             const ScanScene scene = ScanScene::draw(Dress::kTraining, o.seed * 7919u + i * 13u + s);
             const Tracker tracker = open_own_tracker(context.get());
@@ -72,7 +77,8 @@ void run(const Options& o) {
             line["scene"] = scene.json();
             line["front"] = rounded(scan.features(false));
             play(scene.side_uri(person), context.get(), tracker.get(), scan);
-            line["both"] = scan.frames(ViewKind::kSide) < scene.side_frames / 2 ? Json() : rounded(scan.features(true));
+            line["both"] =
+                scan.frames(ViewKind::kSide) < scene.side_frames / 2 ? Json() : rounded(scan.features(true));
             file << line.dump() << std::endl;
         }
     }
@@ -81,13 +87,15 @@ void run(const Options& o) {
 }  // namespace
 
 void add_scan_features(Command& app) {
-    Command command = app.add_subcommand("scan-features", "What scans of virtual people tell, beside the truth (for training)");
+    Command command = app.add_subcommand(
+        "scan-features", "What scans of virtual people tell, beside the truth (for training)");
     auto o = std::make_shared<Options>();
     command.add_option("--count", o->count, "How many people").within(1, 100000);
     command.add_option("--first", o->first, "Number of the first");
     command.add_option("--seed", o->seed, "Of the population");
     command.add_option("--scans", o->scans, "Scans of each, in other clothes").within(1, 100);
-    command.add_option("--space", o->space, "in: of the fit's own body space; out: beyond it").one_of({"in", "out"});
+    command.add_option("--space", o->space, "in: of the fit's own body space; out: beyond it")
+        .one_of({"in", "out"});
     command.add_option("--out", o->out, "File of JSON lines that is added to").required();
     command.callback([o] { run(*o); });
 }

@@ -170,8 +170,9 @@ void run(const Options& options, bool with_frames, Stages& stages) {
 void print(const char* title, const std::map<std::string, Samples>& samples) {
     std::cout << title << "\n";
     for (const auto& [name, s] : samples)
-        std::cout << "  " << std::left << std::setw(42) << name << std::right << std::fixed << std::setprecision(3)
-                  << std::setw(9) << s.quantile(0.5) << " ms median " << std::setw(9) << s.quantile(0.95) << " ms p95\n";
+        std::cout << "  " << std::left << std::setw(42) << name << std::right << std::fixed
+                  << std::setprecision(3) << std::setw(9) << s.quantile(0.5) << " ms median " << std::setw(9)
+                  << s.quantile(0.95) << " ms p95\n";
 }
 
 }  // namespace
@@ -193,7 +194,8 @@ void add_stages(Command& app) {
             print("once a person", stages.per_person);
         }
         Targets targets(o->json);
-        targets.judge(kShapedBody, stages.per_person[kShapedBody].quantile(0.5), Aim::at_most, kShapedBody_ms, 1, " ms");
+        targets.judge(kShapedBody, stages.per_person[kShapedBody].quantile(0.5), Aim::at_most, kShapedBody_ms,
+                      1, " ms");
         if (!o->json) return;
         Json out;
         for (const auto& [name, s] : stages.per_frame) out["per_frame_ms"][name] = s.json();

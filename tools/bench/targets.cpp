@@ -24,18 +24,23 @@ const char* sign_of(Aim aim) { return aim == Aim::at_least ? ">=" : aim == Aim::
 
 }  // namespace
 
-bool Targets::judge(const std::string& name, double figure, Aim aim, double target, int digits, const char* unit) {
+bool Targets::judge(const std::string& name, double figure, Aim aim, double target, int digits,
+                    const char* unit) {
     const bool hit = std::isfinite(figure) && (aim == Aim::at_least  ? figure >= target
                                                : aim == Aim::at_most ? figure <= target
                                                                      : figure == target);
     missed_ += !hit;
-    rows_.push_back({{"name", name}, {"figure", std::isfinite(figure) ? Json(figure) : Json()}, {"aim", sign_of(aim)},
-                     {"target", target}, {"unit", unit}, {"hit", hit}});
+    rows_.push_back({{"name", name},
+                     {"figure", std::isfinite(figure) ? Json(figure) : Json()},
+                     {"aim", sign_of(aim)},
+                     {"target", target},
+                     {"unit", unit},
+                     {"hit", hit}});
     if (!quiet_)
-        std::cout << "  " << std::left << std::setw(kNameWidth) << name << std::right << std::setw(kFigureWidth)
-                  << number(figure, digits, unit) << "   " << std::setw(2) << sign_of(aim) << " " << std::left
-                  << std::setw(kFigureWidth) << number(target, digits, unit) << (hit ? "hit" : "MISS") << std::right
-                  << std::endl;
+        std::cout << "  " << std::left << std::setw(kNameWidth) << name << std::right
+                  << std::setw(kFigureWidth) << number(figure, digits, unit) << "   " << std::setw(2)
+                  << sign_of(aim) << " " << std::left << std::setw(kFigureWidth)
+                  << number(target, digits, unit) << (hit ? "hit" : "MISS") << std::right << std::endl;
     return hit;
 }
 

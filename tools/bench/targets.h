@@ -13,8 +13,10 @@ class Targets {
 public:
     explicit Targets(bool quiet) : quiet_(quiet) {}
 
-    /// Prints the line (with that many digits after the point) and keeps it. A figure that is no number is a miss.
-    bool judge(const std::string& name, double figure, Aim aim, double target, int digits = 0, const char* unit = "");
+    /// Prints the line (with that many digits after the point) and keeps it. A figure that is no number is a
+    /// miss.
+    bool judge(const std::string& name, double figure, Aim aim, double target, int digits = 0,
+               const char* unit = "");
     size_t missed() const { return missed_; }
     size_t count() const { return rows_.size(); }
     /// [{"name", "figure", "aim", "target", "unit", "hit"}, ...]; all since the first.

@@ -1,5 +1,5 @@
-// vfit-bench track: how well and how fast the built-in tracker sees people. Real recordings and virtual people are
-// judged and printed apart, each figure beside its target.
+// vfit-bench track: how well and how fast the built-in tracker sees people. Real recordings and virtual
+// people are judged and printed apart, each figure beside its target.
 #include <filesystem>
 #include <iostream>
 
@@ -44,21 +44,30 @@ void run(const Options& o) {
 }  // namespace
 
 void add_track(Command& app) {
-    Command command = app.add_subcommand("track", "The tracker: joints, events and time, real and synthetic apart");
+    Command command =
+        app.add_subcommand("track", "The tracker: joints, events and time, real and synthetic apart");
     auto o = std::make_shared<Options>();
-    command.add_option("recordings", o->recordings, "Folder of recordings named ..._s<person>_...: real people too")
+    command
+        .add_option("recordings", o->recordings,
+                    "Folder of recordings named ..._s<person>_...: real people too")
         .existing_folder();
-    command.add_option("--scenes", o->scenes, "Folder of the real stills (default: scenes beside the recordings)")
+    command
+        .add_option("--scenes", o->scenes,
+                    "Folder of the real stills (default: scenes beside the recordings)")
         .existing_folder();
     command.add_option("--seed", o->people.seed, "Of bodies, rooms and noise").within(1, 1'000'000);
     command.add_flag("--long", o->people.long_run, "Each motion with both sensors and three people");
-    command.add_option("--only", o->only, "One part").one_of({"time", "joints", "events", "stills", "recordings"});
-    command.add_option_function(
-               "--fit",
-               [o](const std::string& value) {
-                   o->people.fit = value == "off" ? VFIT_FIT_OFF : value == "everybody" ? VFIT_FIT_EVERYBODY : VFIT_FIT_AUTO;
-               },
-               "Whose joints the body fit moves, in joints and recordings (default: auto)")
+    command.add_option("--only", o->only, "One part")
+        .one_of({"time", "joints", "events", "stills", "recordings"});
+    command
+        .add_option_function(
+            "--fit",
+            [o](const std::string& value) {
+                o->people.fit = value == "off"         ? VFIT_FIT_OFF
+                                : value == "everybody" ? VFIT_FIT_EVERYBODY
+                                                       : VFIT_FIT_AUTO;
+            },
+            "Whose joints the body fit moves, in joints and recordings (default: auto)")
         .one_of({"auto", "off", "everybody"});
     command.add_flag("--json", o->people.quiet, "Print JSON");
     command.callback([o] {

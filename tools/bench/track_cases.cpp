@@ -18,15 +18,24 @@ struct Play {
     double room_m;    // how much farther away, for motions that leave their spot
 };
 constexpr Play kPlays[] = {
-    {"waving", "wave", 0, 120, 0},          {"reaching to a shelf", "reach", 20, 160, 0},
-    {"squatting", "squat", -15, 110, 0},    {"clapping", "clap", 10, 110, 0},
-    {"reaching ahead", "forward", 0, 90, 0}, {"jogging", "jog", -20, 80, 0},
-    {"arms crossed", "cross", 0, 120, 0},   {"arms crossed", "cross", -25, 120, 0},
-    {"sitting down", "sit", 15, 140, 0},    {"sitting down", "sit", -30, 140, 0},
-    {"walking in a circle", "walk", 0, 150, 0.4}, {"turning round", "spin", 0, 216, 0},
-    {"seen from the left", "wave", -90, 100, 0},     {"seen from the right", "jog", 90, 80, 0},
-    {"seen from the left", "sway", -90, 60, 0},      {"seen from the right", "forward", 90, 80, 0},
-    {"seen from behind", "wave", 180, 100, 0},       {"seen from behind", "jog", 180, 80, 0},
+    {"waving", "wave", 0, 120, 0},
+    {"reaching to a shelf", "reach", 20, 160, 0},
+    {"squatting", "squat", -15, 110, 0},
+    {"clapping", "clap", 10, 110, 0},
+    {"reaching ahead", "forward", 0, 90, 0},
+    {"jogging", "jog", -20, 80, 0},
+    {"arms crossed", "cross", 0, 120, 0},
+    {"arms crossed", "cross", -25, 120, 0},
+    {"sitting down", "sit", 15, 140, 0},
+    {"sitting down", "sit", -30, 140, 0},
+    {"walking in a circle", "walk", 0, 150, 0.4},
+    {"turning round", "spin", 0, 216, 0},
+    {"seen from the left", "wave", -90, 100, 0},
+    {"seen from the right", "jog", 90, 80, 0},
+    {"seen from the left", "sway", -90, 60, 0},
+    {"seen from the right", "forward", 90, 80, 0},
+    {"seen from behind", "wave", 180, 100, 0},
+    {"seen from behind", "jog", 180, 80, 0},
 };
 
 class Draw {
@@ -54,11 +63,11 @@ TrackCase make_case(const Play& play, const char* sensor, uint32_t body, Draw& d
         if (play.room_m == 0.0 && draw.chance(0.25))  // who walks would walk into it
             furniture.append(furniture.empty() ? "" : ",").append(piece);
     std::ostringstream uri;
-    uri << "virtual:sensor=" << sensor << "&motion=" << motion << "&facing=" << play.facing_deg + draw.between(-5, 5)
-        << "&body=" << body << "&seed=" << body << "&clothing=" << draw.between(0.01, 0.03) << "&distance=" << distance
-        << "&camera_height=" << height << "&tilt=" << tilt << "&wall=" << draw.between(0.4, 1.4)
-        << "&side_wall=" << draw.between(1.3, 2.2) << "&furniture=" << furniture
-        << "&floor=unknown&frames=" << play.frames;
+    uri << "virtual:sensor=" << sensor << "&motion=" << motion
+        << "&facing=" << play.facing_deg + draw.between(-5, 5) << "&body=" << body << "&seed=" << body
+        << "&clothing=" << draw.between(0.01, 0.03) << "&distance=" << distance << "&camera_height=" << height
+        << "&tilt=" << tilt << "&wall=" << draw.between(0.4, 1.4) << "&side_wall=" << draw.between(1.3, 2.2)
+        << "&furniture=" << furniture << "&floor=unknown&frames=" << play.frames;
     return {play.what, sensor, uri.str()};
 }
 

@@ -1,5 +1,5 @@
-// The virtual people of vfit-bench track: what they do, before which sensor, in which room. Bodies, rooms and motions
-// share no code and no seed with those that the network is trained on (training/).
+// The virtual people of vfit-bench track: what they do, before which sensor, in which room. Bodies, rooms and
+// motions share no code and no seed with those that the network is trained on (training/).
 #pragma once
 
 #include <cstdint>

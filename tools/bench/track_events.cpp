@@ -41,7 +41,9 @@ std::vector<Moment> watch(const std::string& uri) {
         }
         m.bodies = uint32_t(bodies_of(tracked).size());
         if (m.in_view) m.id = body_near(tracked, truth);
-        if (m.id) m.trunk_m = distance(joints_in_camera(tracked, m.id, camera_of(tracked)), truth, VFIT_JOINT_TORSO);
+        if (m.id)
+            m.trunk_m =
+                distance(joints_in_camera(tracked, m.id, camera_of(tracked)), truth, VFIT_JOINT_TORSO);
         moments.push_back(m);
     });
     return moments;
@@ -71,7 +73,8 @@ std::string person(uint32_t bodies, const JudgeOptions& options) {
 
 Json visit(const std::string& sensor, const JudgeOptions& options, Targets& targets) {
     // The visit is over after 17 s; what remains is the turn outside.
-    const auto moments = watch("virtual:sensor=" + sensor + "&motion=visit&distance=3&frames=480" + person(9000, options));
+    const auto moments =
+        watch("virtual:sensor=" + sensor + "&motion=visit&distance=3&frames=480" + person(9000, options));
     const size_t whole = first_where(moments, 0, [](const Moment& m) { return m.whole; });
     const size_t part = first_where(moments, whole, [](const Moment& m) { return !m.whole; });
     const size_t gone = first_where(moments, part, [](const Moment& m) { return !m.in_view; });
@@ -81,19 +84,24 @@ Json visit(const std::string& sensor, const JudgeOptions& options, Targets& targ
     uint32_t before = 0;
     for (size_t i = 0; i < whole; ++i) before += moments[i].bodies > 0 && !moments[i].in_view;
     const uint32_t found = frames_until(moments, whole, part, is_tracked);
-    const uint32_t left = frames_until(moments, gone, moments.size(), [](const Moment& m) { return m.bodies == 0; });
-    targets.judge(sensor + ": a person comes in: tracked, frames after all of them is seen", found, Aim::at_most,
-                  kLastFrames);
+    const uint32_t left =
+        frames_until(moments, gone, moments.size(), [](const Moment& m) { return m.bodies == 0; });
+    targets.judge(sensor + ": a person comes in: tracked, frames after all of them is seen", found,
+                  Aim::at_most, kLastFrames);
     targets.judge(sensor + ": ids while they are in full view", double(ids.size()), Aim::exactly, 1);
     targets.judge(sensor + ": they leave: no body, frames after the last joint left", left, Aim::at_most,
                   kLastFrames);
     targets.judge(sensor + ": frames with a body before anybody was in view", before, Aim::exactly, 0);
-    return {{"event", "visit"}, {"sensor", sensor}, {"found_after", found}, {"ids", ids.size()}, {"gone_after", left}};
+    return {{"event", "visit"},
+            {"sensor", sensor},
+            {"found_after", found},
+            {"ids", ids.size()},
+            {"gone_after", left}};
 }
 
 Json occlusion(const std::string& sensor, const JudgeOptions& options, Targets& targets) {
-    const auto moments =
-        watch("virtual:sensor=" + sensor + "&motion=sway&distance=2.9&occluder=3&frames=195" + person(9100, options));
+    const auto moments = watch("virtual:sensor=" + sensor +
+                               "&motion=sway&distance=2.9&occluder=3&frames=195" + person(9100, options));
     const auto hidden = [](const Moment& m) { return m.seen == 0; };
     const auto half_seen = [](const Moment& m) { return m.seen >= kSeenJoints; };
     const size_t begin = first_where(moments, 0, hidden), end = first_where(moments, begin, half_seen);
@@ -111,8 +119,8 @@ Json occlusion(const std::string& sensor, const JudgeOptions& options, Targets& 
                   recovered, Aim::at_most, kLastFrames);
     targets.judge(sensor + ": same id before and after the box (1: yes)", same, Aim::exactly, 1);
     targets.judge(sensor + ": frames in which the box is a body", boxes, Aim::exactly, 0);
-    return {{"event", "occlusion"}, {"sensor", sensor}, {"hidden_frames", end - begin}, {"recovered_after", recovered},
-            {"same_id", same}, {"frames_with_box_as_body", boxes}};
+    return {{"event", "occlusion"},         {"sensor", sensor}, {"hidden_frames", end - begin},
+            {"recovered_after", recovered}, {"same_id", same},  {"frames_with_box_as_body", boxes}};
 }
 
 Json nobody(const std::string& sensor, const char* furniture, const char* name, const JudgeOptions& options,
@@ -120,7 +128,8 @@ Json nobody(const std::string& sensor, const char* furniture, const char* name, 
     uint32_t with_body = 0;
     play_tracked("virtual:sensor=" + sensor + "&people=0&floor=unknown&frames=90&furniture=" + furniture +
                      "&seed=" + std::to_string(options.seed),
-                 VFIT_FIT_AUTO, [&](vfit_frame, vfit_frame tracked) { with_body += !bodies_of(tracked).empty(); });
+                 VFIT_FIT_AUTO,
+                 [&](vfit_frame, vfit_frame tracked) { with_body += !bodies_of(tracked).empty(); });
     targets.judge(sensor + ": " + name + ": frames with a body", with_body, Aim::exactly, 0);
     return {{"event", name}, {"sensor", sensor}, {"frames_with_body", with_body}};
 }

@@ -1,4 +1,5 @@
-// The parts of vfit-bench track. Each prints its table, unless it is told to be quiet, and returns it as JSON.
+// The parts of vfit-bench track. Each prints its table, unless it is told to be quiet, and returns it as
+// JSON.
 #pragma once
 
 #include <cstdint>

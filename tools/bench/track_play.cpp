@@ -29,8 +29,9 @@ void play_tracked(const std::string& uri, vfit_track_fit fit,
 }
 
 std::vector<vfit_body> bodies_of(vfit_frame frame) {
-    return list<vfit_body>(
-        [&](auto* items, uint32_t stride, uint32_t* n) { return vfit_frame_bodies(frame, items, stride, n); });
+    return list<vfit_body>([&](auto* items, uint32_t stride, uint32_t* n) {
+        return vfit_frame_bodies(frame, items, stride, n);
+    });
 }
 
 uint32_t body_near(vfit_frame tracked, const Joints& reference) {

@@ -13,8 +13,8 @@ namespace vfit::tools {
 
 namespace {
 
-// The reference's joints and the depth were stored by clocks of their own: how many frames later the depth shows what a
-// reference frame says.
+// The reference's joints and the depth were stored by clocks of their own: how many frames later the depth
+// shows what a reference frame says.
 constexpr int kMostLead = 2;
 using ByLead = std::array<std::vector<Pair>, 2 * kMostLead + 1>;
 
@@ -28,17 +28,21 @@ struct Run {
 };
 
 constexpr const char* kFirstPerson = "s1";
-constexpr double kBoneTolerance = 0.15;  // of the recording's median, beyond which a reference frame is left out
+constexpr double kBoneTolerance =
+    0.15;  // of the recording's median, beyond which a reference frame is left out
 constexpr int kSilhouettePixels = 3;
 constexpr double kSurface_m = 0.12;  // of an arm's joint to its skin, and the sensor's error
 
 /// The bones by which the reference's frames are judged.
-constexpr std::array<std::pair<int, int>, 9> kBones = {
-    {{VFIT_JOINT_LEFT_SHOULDER, VFIT_JOINT_LEFT_ELBOW}, {VFIT_JOINT_RIGHT_SHOULDER, VFIT_JOINT_RIGHT_ELBOW},
-     {VFIT_JOINT_LEFT_ELBOW, VFIT_JOINT_LEFT_HAND}, {VFIT_JOINT_RIGHT_ELBOW, VFIT_JOINT_RIGHT_HAND},
-     {VFIT_JOINT_LEFT_HIP, VFIT_JOINT_LEFT_KNEE}, {VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_RIGHT_KNEE},
-     {VFIT_JOINT_LEFT_KNEE, VFIT_JOINT_LEFT_FOOT}, {VFIT_JOINT_RIGHT_KNEE, VFIT_JOINT_RIGHT_FOOT},
-     {VFIT_JOINT_NECK, VFIT_JOINT_TORSO}}};
+constexpr std::array<std::pair<int, int>, 9> kBones = {{{VFIT_JOINT_LEFT_SHOULDER, VFIT_JOINT_LEFT_ELBOW},
+                                                        {VFIT_JOINT_RIGHT_SHOULDER, VFIT_JOINT_RIGHT_ELBOW},
+                                                        {VFIT_JOINT_LEFT_ELBOW, VFIT_JOINT_LEFT_HAND},
+                                                        {VFIT_JOINT_RIGHT_ELBOW, VFIT_JOINT_RIGHT_HAND},
+                                                        {VFIT_JOINT_LEFT_HIP, VFIT_JOINT_LEFT_KNEE},
+                                                        {VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_RIGHT_KNEE},
+                                                        {VFIT_JOINT_LEFT_KNEE, VFIT_JOINT_LEFT_FOOT},
+                                                        {VFIT_JOINT_RIGHT_KNEE, VFIT_JOINT_RIGHT_FOOT},
+                                                        {VFIT_JOINT_NECK, VFIT_JOINT_TORSO}}};
 
 double bone_length(const Joints& joints, size_t bone) {
     double sum = 0.0;
@@ -65,25 +69,31 @@ void mark_usable(std::vector<Pair>& pairs) {
 /// Whether the reference joint lies on the person's pixels, or a few beside them.
 bool on_silhouette(vfit_frame frame, const vfit_intrinsics& k, const std::array<double, 3>& p) {
     const vfit_view map = view_of(frame, VFIT_STREAM_USER_MAP);
-    const int u = int(std::lround(p[0] / p[2] * k.fx + k.cx)), v = int(std::lround(p[1] / p[2] * k.fy + k.cy));
+    const int u = int(std::lround(p[0] / p[2] * k.fx + k.cx)),
+              v = int(std::lround(p[1] / p[2] * k.fy + k.cy));
     for (int y = v - kSilhouettePixels; y <= v + kSilhouettePixels; ++y)
         for (int x = u - kSilhouettePixels; x <= u + kSilhouettePixels; ++x)
-            if (x >= 0 && y >= 0 && x < int(map.width) && y < int(map.height) && row_of<uint8_t>(map, uint32_t(y))[x]) return true;
+            if (x >= 0 && y >= 0 && x < int(map.width) && y < int(map.height) &&
+                row_of<uint8_t>(map, uint32_t(y))[x])
+                return true;
     return false;
 }
 
 bool is_of_lower_arm(int joint) {
-    return joint == VFIT_JOINT_LEFT_HAND || joint == VFIT_JOINT_RIGHT_HAND || joint == VFIT_JOINT_LEFT_ELBOW ||
-           joint == VFIT_JOINT_RIGHT_ELBOW;
+    return joint == VFIT_JOINT_LEFT_HAND || joint == VFIT_JOINT_RIGHT_HAND ||
+           joint == VFIT_JOINT_LEFT_ELBOW || joint == VFIT_JOINT_RIGHT_ELBOW;
 }
 
 /// Whether the reference joint lies at the depth that is measured there, give or take an arm's thickness.
 bool on_surface(vfit_frame frame, const vfit_intrinsics& k, double unit_m, const std::array<double, 3>& p) {
     const vfit_view map = view_of(frame, VFIT_STREAM_USER_MAP), depth = view_of(frame, VFIT_STREAM_DEPTH);
-    const int u = int(std::lround(p[0] / p[2] * k.fx + k.cx)), v = int(std::lround(p[1] / p[2] * k.fy + k.cy));
+    const int u = int(std::lround(p[0] / p[2] * k.fx + k.cx)),
+              v = int(std::lround(p[1] / p[2] * k.fy + k.cy));
     uint16_t nearest = 65535;
-    for (int y = std::max(0, v - kSilhouettePixels); y <= std::min(int(map.height) - 1, v + kSilhouettePixels); ++y)
-        for (int x = std::max(0, u - kSilhouettePixels); x <= std::min(int(map.width) - 1, u + kSilhouettePixels); ++x) {
+    for (int y = std::max(0, v - kSilhouettePixels);
+         y <= std::min(int(map.height) - 1, v + kSilhouettePixels); ++y)
+        for (int x = std::max(0, u - kSilhouettePixels);
+             x <= std::min(int(map.width) - 1, u + kSilhouettePixels); ++x) {
             const uint16_t z = row_of<uint16_t>(depth, uint32_t(y))[x];
             if (z && row_of<uint8_t>(map, uint32_t(y))[x]) nearest = std::min(nearest, z);
         }
@@ -130,15 +140,16 @@ Run track(const std::string& path, vfit_track_fit fit, Samples& times) {
         check(vfit_frame_intrinsics(frame->get(), &k));
         for (int lead = -kMostLead; lead <= kMostLead; ++lead) {
             const int i = index - lead;
-            if (i < 0 || i >= int(references.size()) || !references[size_t(i)].has(VFIT_JOINT_TORSO)) continue;
+            if (i < 0 || i >= int(references.size()) || !references[size_t(i)].has(VFIT_JOINT_TORSO))
+                continue;
             pair.reference = references[size_t(i)];
             for (int j = 0; j < kScored; ++j) {
                 if (!pair.reference.has(j)) continue;
                 pair.on_body[size_t(j)] = on_silhouette(tracked.get(), k, pair.reference.at[size_t(j)]);
                 // Joints of trunk and head may lie deep in the body.
                 pair.on_surface[size_t(j)] =
-                    !is_of_lower_arm(j) ||
-                    on_surface(tracked.get(), k, camera_of(tracked.get()).depth_unit_m, pair.reference.at[size_t(j)]);
+                    !is_of_lower_arm(j) || on_surface(tracked.get(), k, camera_of(tracked.get()).depth_unit_m,
+                                                      pair.reference.at[size_t(j)]);
             }
             run.at(lead).push_back(pair);
         }
@@ -156,7 +167,8 @@ void count_swaps_and_jumps(Run& run) {
         run.longest_swap = std::max(run.longest_swap, swapped);
         if (i == 0) continue;
         for (int j = 0; j < kScored; ++j)
-            if (distance(p.tracked, pairs[i - 1].tracked, j) > 0.20 && distance(p.reference, pairs[i - 1].reference, j) < 0.05)
+            if (distance(p.tracked, pairs[i - 1].tracked, j) > 0.20 &&
+                distance(p.reference, pairs[i - 1].reference, j) < 0.05)
                 ++run.jumps;
     }
 }
@@ -165,7 +177,8 @@ void count_swaps_and_jumps(Run& run) {
 enum class Which { kAll, kOnSilhouette, kOnSurface };
 
 bool counts(const Pair& p, size_t joint, Which which) {
-    return which == Which::kAll || (p.on_body[joint] && (which == Which::kOnSilhouette || p.on_surface[joint]));
+    return which == Which::kAll ||
+           (p.on_body[joint] && (which == Which::kOnSilhouette || p.on_surface[joint]));
 }
 
 /// Whose runs.
@@ -184,7 +197,8 @@ Errors errors_of(const std::vector<Run>& runs, Whose whose, const Offsets& offse
             if (!p.usable) continue;
             const Joints found = offsets.apply(p.tracked);
             for (int j = 0; j < kScored; ++j)
-                if (const double d = distance(found, p.reference, j); std::isfinite(d) && counts(p, size_t(j), which))
+                if (const double d = distance(found, p.reference, j);
+                    std::isfinite(d) && counts(p, size_t(j), which))
                     errors.add(j, d);
         }
     }
@@ -215,8 +229,8 @@ Definition definition_of(const std::vector<Run>& runs) {
     return best;
 }
 
-/// Of the reference's hands and elbows: how many lie on the depth that was measured that many frames later. It owes
-/// nothing to our joints.
+/// Of the reference's hands and elbows: how many lie on the depth that was measured that many frames later.
+/// It owes nothing to our joints.
 double on_surface_share(const std::vector<Run>& runs, int lead) {
     size_t all = 0, on = 0;
     for (const Run& run : runs)
@@ -227,47 +241,55 @@ double on_surface_share(const std::vector<Run>& runs, int lead) {
 }
 
 void print_errors(const char* title, const Errors& e) {
-    std::cout << std::left << std::setw(62) << title << std::right << " median " << std::setw(4) << std::lround(1000 * e.median())
-              << " mm  within 10 cm " << std::fixed << std::setprecision(3) << e.within(0.1) << "  (" << e.count() << " joints)\n";
+    std::cout << std::left << std::setw(62) << title << std::right << " median " << std::setw(4)
+              << std::lround(1000 * e.median()) << " mm  within 10 cm " << std::fixed << std::setprecision(3)
+              << e.within(0.1) << "  (" << e.count() << " joints)\n";
 }
 
 void print_table(const Errors& raw, const Errors& off, const Errors& best, const Offsets& offsets) {
-    std::cout << "                   raw            offset         offset, lead, on the silhouette   (median mm, within 10 cm);"
+    std::cout << "                   raw            offset         offset, lead, on the silhouette   (median "
+                 "mm, within 10 cm);"
                  "   the offset to the left, up, ahead (mm)\n";
     for (int j = 0; j < kScored; ++j) {
         std::cout << "  " << std::left << std::setw(16) << joint_name(j) << std::right;
         for (const Errors* e : {&raw, &off, &best})
-            std::cout << std::setw(5) << std::lround(1000 * e->median(j)) << "  " << std::setprecision(2) << e->within(0.1, j) << "    ";
+            std::cout << std::setw(5) << std::lround(1000 * e->median(j)) << "  " << std::setprecision(2)
+                      << e->within(0.1, j) << "    ";
         for (const double x : offsets.of(j)) std::cout << std::setw(6) << std::lround(1000 * x);
         std::cout << "\n";
     }
 }
 
-void print(const std::vector<Run>& runs, const Errors& raw, const Errors& off, const Errors& best, const Errors& surface,
-           const Definition& definition, const Samples& times) {
-    std::cout << "REAL recordings, own joints against those of the recordings' middleware, which err by 5 to 10 cm themselves\n";
+void print(const std::vector<Run>& runs, const Errors& raw, const Errors& off, const Errors& best,
+           const Errors& surface, const Definition& definition, const Samples& times) {
+    std::cout << "REAL recordings, own joints against those of the recordings' middleware, which err by 5 to "
+                 "10 cm themselves\n";
     for (const Run& run : runs) {
         const Errors e = errors_of({run}, Whose::kEverybody, Offsets{}, 0, Which::kAll);
-        std::cout << "  " << std::left << std::setw(28) << run.name << std::right << std::setw(4) << run.frames << " frames, "
-                  << run.missed << " missed, raw median " << std::setw(4) << std::lround(1000 * e.median()) << " mm, within 10 cm "
-                  << std::fixed << std::setprecision(2) << e.within(0.1) << ", longest swap " << run.longest_swap << ", jumps "
-                  << run.jumps << "\n";
+        std::cout << "  " << std::left << std::setw(28) << run.name << std::right << std::setw(4)
+                  << run.frames << " frames, " << run.missed << " missed, raw median " << std::setw(4)
+                  << std::lround(1000 * e.median()) << " mm, within 10 cm " << std::fixed
+                  << std::setprecision(2) << e.within(0.1) << ", longest swap " << run.longest_swap
+                  << ", jumps " << run.jumps << "\n";
     }
     std::cout << "the reference's hands and elbows on the depth of the frame";
     for (int lead = -kMostLead; lead <= kMostLead; ++lead)
-        std::cout << (lead == -kMostLead ? " " : ", ") << std::showpos << lead << std::noshowpos << ": " << std::setprecision(3)
-                  << on_surface_share(runs, lead);
+        std::cout << (lead == -kMostLead ? " " : ", ") << std::showpos << lead << std::noshowpos << ": "
+                  << std::setprecision(3) << on_surface_share(runs, lead);
     std::cout << "\n";
     print_errors("raw, everybody", raw);
     print_errors("offset per joint fitted on s1, the others", off);
-    print_errors(("same, depth " + std::to_string(definition.lead) + " frames later (by s1), reference on it").c_str(), best);
+    print_errors(
+        ("same, depth " + std::to_string(definition.lead) + " frames later (by s1), reference on it").c_str(),
+        best);
     print_errors("same, not judged: without arms that hang in the air", surface);
     print_table(raw, off, best, definition.offsets);
     std::cout << "  update: median " << times.quantile(0.5) << " ms, p95 " << times.quantile(0.95)
               << " ms while the reader of the files shares the core\n";
 }
 
-void judge_errors(const std::vector<Run>& runs, const Errors& raw, const Errors& off, const Errors& best, Targets& targets) {
+void judge_errors(const std::vector<Run>& runs, const Errors& raw, const Errors& off, const Errors& best,
+                  Targets& targets) {
     uint32_t swap = 0, jumps = 0;
     for (const Run& run : runs) swap = std::max(swap, run.longest_swap), jumps += run.jumps;
     double hands = 0.0, others = 0.0;
@@ -309,17 +331,26 @@ Json judge_real(const std::string& folder, const JudgeOptions& options, Targets&
     const Definition definition = definition_of(runs);
     const Errors raw = errors_of(runs, Whose::kEverybody, none, 0, Which::kAll),
                  off = errors_of(runs, Whose::kOthers, offsets_of(runs, 0), 0, Which::kAll),
-                 best = errors_of(runs, Whose::kOthers, definition.offsets, definition.lead, Which::kOnSilhouette),
+                 best = errors_of(runs, Whose::kOthers, definition.offsets, definition.lead,
+                                  Which::kOnSilhouette),
                  // Says how much of what is missed is the reference's own: some of its hands hang in the air.
-                 surface = errors_of(runs, Whose::kOthers, definition.offsets, definition.lead, Which::kOnSurface);
+        surface = errors_of(runs, Whose::kOthers, definition.offsets, definition.lead, Which::kOnSurface);
 
     Json rows = Json::array();
     for (const Run& run : runs)
-        rows.push_back({{"recording", run.name}, {"frames", run.frames}, {"missed", run.missed},
-                        {"longest_swap", run.longest_swap}, {"jumps", run.jumps},
+        rows.push_back({{"recording", run.name},
+                        {"frames", run.frames},
+                        {"missed", run.missed},
+                        {"longest_swap", run.longest_swap},
+                        {"jumps", run.jumps},
                         {"raw", errors_of({run}, Whose::kEverybody, none, 0, Which::kAll).json()}});
-    const Json report = {{"update_ms", times.json()}, {"raw", raw.json()}, {"offset", off.json()}, {"lead_frames", definition.lead},
-                         {"offset_lead_on_body", best.json()}, {"on_surface", surface.json()}, {"recordings", rows}};
+    const Json report = {{"update_ms", times.json()},
+                         {"raw", raw.json()},
+                         {"offset", off.json()},
+                         {"lead_frames", definition.lead},
+                         {"offset_lead_on_body", best.json()},
+                         {"on_surface", surface.json()},
+                         {"recordings", rows}};
     if (!options.quiet) print(runs, raw, off, best, surface, definition, times);
     judge_errors(runs, raw, off, best, targets);
     return report;

@@ -115,7 +115,8 @@ Offsets Offsets::fit(const std::vector<Pair>& pairs) {
     }
     Offsets out;
     for (size_t j = 0; j < kScored; ++j)
-        for (size_t k = 0; k < 3; ++k) out.by_joint_[j][k] = found[j][k].empty() ? 0.0 : median_of(found[j][k]);
+        for (size_t k = 0; k < 3; ++k)
+            out.by_joint_[j][k] = found[j][k].empty() ? 0.0 : median_of(found[j][k]);
     return out;
 }
 
@@ -154,8 +155,11 @@ double Errors::within(double metres, int joint) const {
 
 Json Errors::json() const {
     const auto one = [&](int j) {
-        return Json{{"median_m", median(j)}, {"mean_m", mean(j)}, {"within_10cm", within(0.1, j)},
-                    {"n", values(j).size()}, {"missing", missing(j)}};
+        return Json{{"median_m", median(j)},
+                    {"mean_m", mean(j)},
+                    {"within_10cm", within(0.1, j)},
+                    {"n", values(j).size()},
+                    {"missing", missing(j)}};
     };
     Json out = one(-1);
     for (int j = 0; j < kScored; ++j)

@@ -1,4 +1,5 @@
-// How far tracked joints lie from reference joints: shares, medians, offsets between two definitions of a joint.
+// How far tracked joints lie from reference joints: shares, medians, offsets between two definitions of a
+// joint.
 #pragma once
 
 #include <array>
@@ -25,8 +26,8 @@ double distance(const Joints& a, const Joints& b, int joint);
 Joints with_sides_exchanged(const Joints& joints);
 /// Whether shoulders, arms and legs lie nearer to the reference with left and right exchanged.
 bool sides_are_exchanged(const Joints& tracked, const Joints& reference);
-/// How far the hips are turned away from a camera that looks at them, 0 (faces it) to pi; not a number where a hip is
-/// missing.
+/// How far the hips are turned away from a camera that looks at them, 0 (faces it) to pi; not a number where
+/// a hip is missing.
 double turned_away_rad(const Joints& joints);
 
 /// A frame of a recording: what was tracked and what the reference says.
@@ -37,7 +38,8 @@ struct Pair {
     std::array<bool, kScored> on_surface{};  // and, an arm's, near the depth that was measured there
 };
 
-/// A constant place of each joint in the body's own axes that carries tracked joints to the reference's definition.
+/// A constant place of each joint in the body's own axes that carries tracked joints to the reference's
+/// definition.
 class Offsets {
 public:
     /// Component-wise medians over the pairs.

@@ -1,5 +1,5 @@
-// Time of the whole tracker: frames are made first and then sent at 30 Hz as by a camera of the host's, so that
-// nothing but the host's own work shares the core.
+// Time of the whole tracker: frames are made first and then sent at 30 Hz as by a camera of the host's, so
+// that nothing but the host's own work shares the core.
 #include <iostream>
 #include <thread>
 
@@ -66,7 +66,8 @@ Times play(const Reel& reel) {
         for (const vfit_body& body : bodies) joints_of(tracked.get(), body.body_id);
         int64_t now_ns = 0;
         check(vfit_context_time(context.get(), &now_ns));
-        if (!bodies.empty()) check(vfit_motion_step(motion.get(), tracked.get(), bodies.front().body_id, now_ns));
+        if (!bodies.empty())
+            check(vfit_motion_step(motion.get(), tracked.get(), bodies.front().body_id, now_ns));
         check(vfit_context_time(context.get(), &now_ns));
         if (i < kWarmUp) continue;
         times.update.add(update_ms);
@@ -77,7 +78,9 @@ Times play(const Reel& reel) {
 }
 
 Json json(const char* name, const Times& t) {
-    return {{"scene", name}, {"update_ms", t.update.json()}, {"latency_ms", t.latency.json()},
+    return {{"scene", name},
+            {"update_ms", t.update.json()},
+            {"latency_ms", t.latency.json()},
             {"bodies", t.bodies.quantile(0.5)}};
 }
 
@@ -91,12 +94,17 @@ Json judge_time(const JudgeOptions& options, Targets& targets) {
     const Times one = play(take(common + "&motion=demo&distance=2.7"));
     const Times three = play(take(common + "&motion=wave&people=3&distance=3"));
     targets.judge("one person: bodies tracked", one.bodies.quantile(0.5), Aim::exactly, 1);
-    targets.judge("one person: whole tracker a frame, median", one.update.quantile(0.5), Aim::at_most, 8, 1, " ms");
-    targets.judge("one person: whole tracker a frame, p95", one.update.quantile(0.95), Aim::at_most, 12, 1, " ms");
-    targets.judge("one person: time stamp to pose, median", one.latency.quantile(0.5), Aim::at_most, 12, 1, " ms");
-    targets.judge("one person: time stamp to pose, p95", one.latency.quantile(0.95), Aim::at_most, 12, 1, " ms");
+    targets.judge("one person: whole tracker a frame, median", one.update.quantile(0.5), Aim::at_most, 8, 1,
+                  " ms");
+    targets.judge("one person: whole tracker a frame, p95", one.update.quantile(0.95), Aim::at_most, 12, 1,
+                  " ms");
+    targets.judge("one person: time stamp to pose, median", one.latency.quantile(0.5), Aim::at_most, 12, 1,
+                  " ms");
+    targets.judge("one person: time stamp to pose, p95", one.latency.quantile(0.95), Aim::at_most, 12, 1,
+                  " ms");
     targets.judge("three people: bodies tracked", three.bodies.quantile(0.5), Aim::exactly, 3);
-    targets.judge("three people: whole tracker a frame, median", three.update.quantile(0.5), Aim::at_most, 16, 1, " ms");
+    targets.judge("three people: whole tracker a frame, median", three.update.quantile(0.5), Aim::at_most, 16,
+                  1, " ms");
     return Json::array({json("one person", one), json("three people", three)});
 }
 

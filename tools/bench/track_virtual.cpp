@@ -14,7 +14,8 @@ namespace vfit::tools {
 
 namespace {
 
-constexpr uint32_t kWarmUp = 15;  // frames: half a second in which the tracker gets to know the room and the person
+constexpr uint32_t kWarmUp =
+    15;  // frames: half a second in which the tracker gets to know the room and the person
 constexpr double kDegree = 3.14159265358979 / 180.0;
 // Views by how far the person is turned away in that frame; between them nobody is judged apart.
 constexpr double kFront_rad = 45 * kDegree, kSideFrom_rad = 60 * kDegree, kSideTo_rad = 120 * kDegree,
@@ -38,14 +39,17 @@ struct Tally {
     Json json() const {
         Json out = errors.json();
         out["frames"] = frames, out["frames_without_body"] = missed, out["frames_swapped"] = swapped;
-        out["longest_swap"] = longest_swap, out["extra_bodies"] = extra_bodies, out["id_changes"] = id_changes;
+        out["longest_swap"] = longest_swap, out["extra_bodies"] = extra_bodies,
+        out["id_changes"] = id_changes;
         return out;
     }
 };
 
 struct Views {
     Tally all, front, side, back;
-    void merge(const Views& v) { all.merge(v.all), front.merge(v.front), side.merge(v.side), back.merge(v.back); }
+    void merge(const Views& v) {
+        all.merge(v.all), front.merge(v.front), side.merge(v.side), back.merge(v.back);
+    }
 };
 
 Views play(const TrackCase& one, vfit_track_fit fit) {
@@ -78,18 +82,20 @@ Views play(const TrackCase& one, vfit_track_fit fit) {
 }
 
 void print_line(const std::string& name, const Tally& t) {
-    std::cout << "  " << std::left << std::setw(34) << name << std::right << std::fixed << std::setprecision(3) << std::setw(8)
-              << t.errors.within(0.1) << std::setprecision(1) << std::setw(9) << 100 * t.errors.mean() << std::setw(9)
-              << 100 * t.errors.median() << std::setw(8) << t.frames << std::setw(9) << t.missed << std::setw(9) << t.swapped
+    std::cout << "  " << std::left << std::setw(34) << name << std::right << std::fixed
+              << std::setprecision(3) << std::setw(8) << t.errors.within(0.1) << std::setprecision(1)
+              << std::setw(9) << 100 * t.errors.mean() << std::setw(9) << 100 * t.errors.median()
+              << std::setw(8) << t.frames << std::setw(9) << t.missed << std::setw(9) << t.swapped
               << std::setw(7) << t.longest_swap << "\n";
 }
 
 void print_joints(const Views& v) {
-    std::cout << "\n  joint              front: mAP   mean  median    side: mAP   mean    back: mAP   mean   (cm)\n";
+    std::cout << "\n  joint              front: mAP   mean  median    side: mAP   mean    back: mAP   mean   "
+                 "(cm)\n";
     for (int j = 0; j < kScored; ++j) {
         const auto cell = [&](const Errors& e, bool median) {
-            std::cout << std::setprecision(3) << std::setw(12) << e.within(0.1, j) << std::setprecision(1) << std::setw(7)
-                      << 100 * e.mean(j);
+            std::cout << std::setprecision(3) << std::setw(12) << e.within(0.1, j) << std::setprecision(1)
+                      << std::setw(7) << 100 * e.mean(j);
             if (median) std::cout << std::setw(8) << 100 * e.median(j);
         };
         std::cout << "  " << std::left << std::setw(16) << joint_name(j) << std::right;
@@ -113,15 +119,19 @@ Json judge_virtual(const JudgeOptions& options, Targets& targets) {
     std::vector<std::pair<std::string, Views>> by_what;
     Json rows = Json::array();
     if (!options.quiet)
-        std::cout << "\nSYNTHETIC: " << cases.size() << " virtual people whom no training has seen, clothes of 1 to 3 cm, "
+        std::cout << "\nSYNTHETIC: " << cases.size()
+                  << " virtual people whom no training has seen, clothes of 1 to 3 cm, "
                   << "seed " << options.seed << "\n"
-                  << "  what                                   mAP     mean   median  frames  no body  swapped longest\n";
+                  << "  what                                   mAP     mean   median  frames  no body  "
+                     "swapped longest\n";
     for (const TrackCase& one : cases) {
         const Views views = play(one, options.fit);
-        rows.push_back({{"what", one.what}, {"sensor", one.sensor}, {"uri", one.uri}, {"all", views.all.json()}});
+        rows.push_back(
+            {{"what", one.what}, {"sensor", one.sensor}, {"uri", one.uri}, {"all", views.all.json()}});
         everything.merge(views);
         by_sensor[one.sensor].merge(views);
-        const auto row = std::find_if(by_what.begin(), by_what.end(), [&](const auto& r) { return r.first == one.what; });
+        const auto row =
+            std::find_if(by_what.begin(), by_what.end(), [&](const auto& r) { return r.first == one.what; });
         if (row == by_what.end())
             by_what.emplace_back(one.what, views);
         else
@@ -146,11 +156,14 @@ Json judge_virtual(const JudgeOptions& options, Targets& targets) {
         std::cout << "  bodies reported where nobody is: " << everything.all.extra_bodies
                   << ", changes of the id: " << everything.all.id_changes << "\n\n";
     }
-    const Errors &front = everything.front.errors, &side = everything.side.errors, &back = everything.back.errors;
+    const Errors &front = everything.front.errors, &side = everything.side.errors,
+                 &back = everything.back.errors;
     targets.judge("front: joints within 10 cm", front.within(0.1), Aim::at_least, 0.96, 3);
     targets.judge("front: mean joint error", 100 * front.mean(), Aim::at_most, 3.5, 1, " cm");
-    targets.judge("front: elbows within 10 cm", pair_within(front, VFIT_JOINT_LEFT_ELBOW), Aim::at_least, 0.90, 3);
-    targets.judge("front: hands within 10 cm", pair_within(front, VFIT_JOINT_LEFT_HAND), Aim::at_least, 0.90, 3);
+    targets.judge("front: elbows within 10 cm", pair_within(front, VFIT_JOINT_LEFT_ELBOW), Aim::at_least,
+                  0.90, 3);
+    targets.judge("front: hands within 10 cm", pair_within(front, VFIT_JOINT_LEFT_HAND), Aim::at_least, 0.90,
+                  3);
     targets.judge("side view: joints within 10 cm", side.within(0.1), Aim::at_least, 0.88, 3);
     targets.judge("back view: joints within 10 cm", back.within(0.1), Aim::at_least, 0.88, 3);
     return report;

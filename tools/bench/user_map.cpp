@@ -1,5 +1,6 @@
-// vfit-bench user_map: how well people are found in bare depth images, and how fast. It runs sdk/track without the
-// C ABI, as the user map is a step inside the tracker. Figures of virtual and of real people stand apart.
+// vfit-bench user_map: how well people are found in bare depth images, and how fast. It runs sdk/track
+// without the C ABI, as the user map is a step inside the tracker. Figures of virtual and of real people
+// stand apart.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -23,9 +24,10 @@ namespace {
 
 constexpr float kJudgedTo_m = 3.0f;  // pixels with a reading up to there count
 constexpr size_t kMostPeople = 8;
-// Who is hidden but for this share of their largest view so far is not judged: nobody could say whose hand that is.
+// Who is hidden but for this share of their largest view so far is not judged: nobody could say whose hand
+// that is.
 constexpr double kHiddenShare = 0.1;
-constexpr float kFoot_m = 0.10f;     // pixels of the person below that height above the true floor
+constexpr float kFoot_m = 0.10f;  // pixels of the person below that height above the true floor
 
 struct Options {
     std::string shared, only, pictures;
@@ -36,10 +38,10 @@ struct Options {
 /// Counts over a sequence; with several people in it, each of them counts in each image.
 struct Figures {
     double iou_sum = 0.0, iou_worst = 1.0;
-    uint32_t views = 0, missed = 0;  // a person in an image, unless hidden; without a label
+    uint32_t views = 0, missed = 0;                 // a person in an image, unless hidden; without a label
     std::array<size_t, kMostPeople + 1> largest{};  // view of each person so far, pixels
     size_t foot = 0, foot_found = 0, hit = 0, truth = 0, labelled = 0;
-    std::map<int, std::set<int>> ids;  // labels of each person
+    std::map<int, std::set<int>> ids;       // labels of each person
     double floor_deg = 0.0, floor_m = 0.0;  // of the last frame
     bool floor_found = false;
     std::vector<double> ms;  // of each image
@@ -49,7 +51,8 @@ struct Figures {
     double precision() const { return labelled ? double(hit) / double(labelled) : 0.0; }
     double foot_recall() const { return foot ? double(foot_found) / double(foot) : 1.0; }
     bool id_changed() const {
-        return std::any_of(ids.begin(), ids.end(), [](const auto& person) { return person.second.size() > 1; });
+        return std::any_of(ids.begin(), ids.end(),
+                           [](const auto& person) { return person.second.size() > 1; });
     }
 };
 
@@ -93,7 +96,8 @@ void judge(const Shot& shot, const std::vector<uint8_t>& users, bool alone, Figu
             if (is) ++views[is].truth, views[is].hit += found;
             ++labelled[users[i]];
             if (is && shot.floor_known &&
-                (world * shot.camera.unproject(float(x), float(y), z)).y + shot.camera.floor_distance_m < kFoot_m) {
+                (world * shot.camera.unproject(float(x), float(y), z)).y + shot.camera.floor_distance_m <
+                    kFoot_m) {
                 ++f.foot;
                 f.foot_found += found;
             }
@@ -116,8 +120,8 @@ void judge(const Shot& shot, const std::vector<uint8_t>& users, bool alone, Figu
     }
 }
 
-/// Depth in grey; the people of the truth where they are found in green (each a shade), where they are missed in red,
-/// where others have their label in blue; people who are not judged in violet.
+/// Depth in grey; the people of the truth where they are found in green (each a shade), where they are missed
+/// in red, where others have their label in blue; people who are not judged in violet.
 void write_picture(const std::string& path, const Shot& shot, const std::vector<uint8_t>& users,
                    const std::array<uint8_t, kMostPeople + 1>& own) {
     std::ofstream file(path, std::ios::binary);
@@ -127,11 +131,15 @@ void write_picture(const std::string& path, const Shot& shot, const std::vector<
         const auto grey = uint8_t(d == 0 ? 0 : 30 + d / 8 % 128);
         uint8_t rgb[3] = {grey, grey, grey};
         const size_t is = std::min<size_t>(shot.truth[i], kMostPeople);
-        if (is && d && users[i] && users[i] == own[is]) rgb[0] = uint8_t(30 * (is - 1)), rgb[1] = 255;
-        else if (is && d) rgb[0] = 255;
-        else if (users[i] && std::find(own.begin() + 1, own.end(), users[i]) != own.end()) rgb[2] = 255;
+        if (is && d && users[i] && users[i] == own[is])
+            rgb[0] = uint8_t(30 * (is - 1)), rgb[1] = 255;
+        else if (is && d)
+            rgb[0] = 255;
+        else if (users[i] && std::find(own.begin() + 1, own.end(), users[i]) != own.end())
+            rgb[2] = 255;
         else if (users[i])
-            rgb[0] = uint8_t(60 + 40 * (users[i] % 5)), rgb[1] = 0, rgb[2] = uint8_t(120 + 60 * (users[i] % 3));
+            rgb[0] = uint8_t(60 + 40 * (users[i] % 5)), rgb[1] = 0,
+            rgb[2] = uint8_t(120 + 60 * (users[i] % 3));
         file.write(reinterpret_cast<const char*>(rgb), 3);
     }
 }
@@ -172,10 +180,19 @@ Figures play(const Scene& scene, const Options& o) {
 Json figures_json(const std::string& name, const Figures& f) {
     Json ids = Json::array();
     for (const auto& [person, labels] : f.ids) ids.push_back(labels.size());
-    return {{"scene", name}, {"views", f.views}, {"iou", f.iou()}, {"iou_worst_view", f.iou_worst},
-            {"recall", f.recall()}, {"precision", f.precision()}, {"foot_recall", f.foot_recall()},
-            {"views_missed", f.missed}, {"ids_of_each_person", ids}, {"floor_found", f.floor_found},
-            {"floor_deg", f.floor_deg}, {"floor_m", f.floor_m}, {"ms", samples(f.ms).json()}};
+    return {{"scene", name},
+            {"views", f.views},
+            {"iou", f.iou()},
+            {"iou_worst_view", f.iou_worst},
+            {"recall", f.recall()},
+            {"precision", f.precision()},
+            {"foot_recall", f.foot_recall()},
+            {"views_missed", f.missed},
+            {"ids_of_each_person", ids},
+            {"floor_found", f.floor_found},
+            {"floor_deg", f.floor_deg},
+            {"floor_m", f.floor_m},
+            {"ms", samples(f.ms).json()}};
 }
 
 void print(const std::string& name, const Figures& f) {
@@ -188,8 +205,8 @@ void print(const std::string& name, const Figures& f) {
     else
         std::cout << "  no floor";
     const Samples ms = samples(f.ms);
-    std::cout << std::setprecision(2) << "  " << ms.quantile(0.5) << " ms (p95 " << ms.quantile(0.95) << ")  " << name
-              << "\n";
+    std::cout << std::setprecision(2) << "  " << ms.quantile(0.5) << " ms (p95 " << ms.quantile(0.95) << ")  "
+              << name << "\n";
 }
 
 /// Mean over sequences, worst sequence, pixels of feet, time of an image.
@@ -205,13 +222,15 @@ Json summary(const std::string& group, const std::vector<Figures>& all, bool jso
         ids += f.id_changed();
         for (const double value : f.ms) ms.add(value);
     }
-    const double mean = sum / double(std::max<size_t>(1, all.size())), feet = foot ? double(found) / double(foot) : 1.0;
+    const double mean = sum / double(std::max<size_t>(1, all.size())),
+                 feet = foot ? double(found) / double(foot) : 1.0;
     if (!json)
         std::cout << std::setprecision(3) << group << ": " << all.size() << " sequences, IoU mean " << mean
-                  << ", worst "
-                  << worst << ", foot recall " << feet << ", sequences with a changed id " << ids << ", "
-                  << std::setprecision(2) << ms.quantile(0.5) << " ms an image (p95 " << ms.quantile(0.95) << ")\n\n";
-    return {{"sequences", all.size()}, {"iou", mean}, {"iou_worst_sequence", worst}, {"foot_recall", feet},
+                  << ", worst " << worst << ", foot recall " << feet << ", sequences with a changed id "
+                  << ids << ", " << std::setprecision(2) << ms.quantile(0.5) << " ms an image (p95 "
+                  << ms.quantile(0.95) << ")\n\n";
+    return {{"sequences", all.size()},          {"iou", mean},
+            {"iou_worst_sequence", worst},      {"foot_recall", feet},
             {"sequences_with_changed_id", ids}, {"ms", ms.json()}};
 }
 
@@ -229,26 +248,31 @@ Json stills(const std::string& folder, const Options& o) {
         const auto people = map.run(image, 1, users.data());
         const double ms = timer.ms();
         const Camera& c = map.camera();
-        Json row = {{"picture", name}, {"people", people.size()}, {"first_frame_ms", ms},
+        Json row = {{"picture", name},
+                    {"people", people.size()},
+                    {"first_frame_ms", ms},
                     {"floor_found", c.floor_state == VFIT_FLOOR_ESTIMATED},
                     {"floor", {c.floor_normal.x, c.floor_normal.y, c.floor_normal.z, c.floor_distance_m}}};
         if (!o.json) {
             std::cout << name << ": " << people.size() << " people, ";
             if (c.floor_state == VFIT_FLOOR_ESTIMATED)
-                std::cout << std::setprecision(5) << "floor " << c.floor_normal.x << " " << c.floor_normal.y << " "
-                          << c.floor_normal.z << " " << c.floor_distance_m << "\n";
+                std::cout << std::setprecision(5) << "floor " << c.floor_normal.x << " " << c.floor_normal.y
+                          << " " << c.floor_normal.z << " " << c.floor_distance_m << "\n";
             else
                 std::cout << "no floor\n";
         }
         for (const PersonRegion& r : people) {
-            row["regions"].push_back({{"id", r.id}, {"box", {r.box.x0, r.box.y0, r.box.x1, r.box.y1}},
-                                      {"height_m", r.height_m}, {"width_m", r.width_m}, {"pixels", r.pixels},
+            row["regions"].push_back({{"id", r.id},
+                                      {"box", {r.box.x0, r.box.y0, r.box.x1, r.box.y1}},
+                                      {"height_m", r.height_m},
+                                      {"width_m", r.width_m},
+                                      {"pixels", r.pixels},
                                       {"out_of_view", r.out_of_view}});
             if (!o.json)
-                std::cout << "  id " << r.id << " box " << r.box.x0 << "," << r.box.y0 << ".." << r.box.x1 << ","
-                          << r.box.y1 << std::setprecision(2) << " height " << r.height_m << " m width " << r.width_m
-                          << " m pixels " << r.pixels << " out of view " << r.out_of_view << " at " << r.centre.x << " "
-                          << r.centre.z << "\n";
+                std::cout << "  id " << r.id << " box " << r.box.x0 << "," << r.box.y0 << ".." << r.box.x1
+                          << "," << r.box.y1 << std::setprecision(2) << " height " << r.height_m
+                          << " m width " << r.width_m << " m pixels " << r.pixels << " out of view "
+                          << r.out_of_view << " at " << r.centre.x << " " << r.centre.z << "\n";
         }
         if (!o.pictures.empty()) write_picture(o.pictures + "/" + name + ".ppm", shot, users, {});
         rows.push_back(row);
@@ -268,7 +292,8 @@ void run(const Options& o) {
             rows.push_back(figures_json(scene.name, all.back()));
             if (!o.json) print(scene.name, all.back());
         }
-        if (!all.empty()) report[group.name] = {{"summary", summary(group.name, all, o.json)}, {"scenes", rows}};
+        if (!all.empty())
+            report[group.name] = {{"summary", summary(group.name, all, o.json)}, {"scenes", rows}};
     };
     judge_group(virtual_scenes(o.frames));
     if (!o.shared.empty()) {
@@ -286,7 +311,8 @@ void run(const Options& o) {
 void add_user_map(Command& app) {
     Command command = app.add_subcommand("user_map", "User map: overlap with the truth, feet, floor, time");
     auto o = std::make_shared<Options>();
-    command.add_option("shared", o->shared, "Folder with data/recordings and data/scenes: judges real people too");
+    command.add_option("shared", o->shared,
+                       "Folder with data/recordings and data/scenes: judges real people too");
     command.add_option("--frames", o->frames, "Images of each virtual sequence");
     command.add_option("--only", o->only, "Scenes whose name contains this");
     command.add_option("--pictures", o->pictures, "Write every 15th image there, truth and error in colour");

@@ -20,18 +20,18 @@ namespace {
 using Show = std::function<void(const Shot&)>;
 
 constexpr int64_t kFrame_ns = 33'333'333;  // every source here runs at 30 Hz
-constexpr float kRoom_m = 0.9f;        // from the person to the wall behind
-constexpr float kSideWall_m = 1.7f;    // from the camera
-constexpr float kKinectRange_m = 4.0f;  // default mode, from the maker
+constexpr float kRoom_m = 0.9f;            // from the person to the wall behind
+constexpr float kSideWall_m = 1.7f;        // from the camera
+constexpr float kKinectRange_m = 4.0f;     // default mode, from the maker
 /// Where the recorded person is put into the still: world x and z.
 struct Place {
     const char *name, *means;
     float x_m, z_m;
 };
-// Five people stand there. Of the places where the feet are in view, the first is the farthest from everybody: 0.36 m
-// from its axis to the nearest of their surfaces (a body goes 0.2 m deeper than what is seen of it). The second has
-// 0.16 m: arms touch those of who stands beside. The third has 0.05 m: the bodies are inside each other, and hands come
-// out of somebody's back.
+// Five people stand there. Of the places where the feet are in view, the first is the farthest from
+// everybody: 0.36 m from its axis to the nearest of their surfaces (a body goes 0.2 m deeper than what is
+// seen of it). The second has 0.16 m: arms touch those of who stands beside. The third has 0.05 m: the bodies
+// are inside each other, and hands come out of somebody's back.
 constexpr Place kPlaces[] = {{"free", "where nobody stands", 0.0f, -2.2f},
                              {"beside", "arm against arm with others", -0.15f, -2.6f},
                              {"into", "in part inside another body", -0.3f, -2.6f}};
@@ -45,8 +45,8 @@ float plane_depth(const Vec3& normal, float distance, const Vec3& ray) {
     return along < -1e-6f ? -distance / along : 0.0f;
 }
 
-/// A room of three planes as a Kinect v1 sees it: noise of Nguyen, Izadi and Lovell 2012, steps of disparity of
-/// Khoshelham and Elberink 2012.
+/// A room of three planes as a Kinect v1 sees it: noise of Nguyen, Izadi and Lovell 2012, steps of disparity
+/// of Khoshelham and Elberink 2012.
 class Room {
 public:
     Room(const Camera& camera, float wall_z) : camera_(camera), wall_z_(wall_z) {}
@@ -93,7 +93,8 @@ Stand stand_of(const std::string& recording) {
         size_t n = 0;
         for (uint32_t v = 0; v < shot.camera.height; ++v)
             for (uint32_t u = 0; u < shot.camera.width; ++u) {
-                const float d = float(shot.depth[size_t(v) * shot.camera.width + u]) * shot.camera.depth_unit_m;
+                const float d =
+                    float(shot.depth[size_t(v) * shot.camera.width + u]) * shot.camera.depth_unit_m;
                 if (d <= 0.0f) continue;
                 const Vec3 p = shot.camera.unproject(float(u), float(v), d);
                 low = std::max(low, p.y);
@@ -154,7 +155,8 @@ void put(const Shot& source, const Stand& stand, float x_m, float z_m, uint8_t n
             p += Vec3(x_m - stand.mean_x, 0.0f, z_m + stand.near_z);
             p = transform_point(into, p);
             const Vec2 at = to.project(p);
-            // A pixel of the recording covers this many of the picture, and a little more so that none is left out.
+            // A pixel of the recording covers this many of the picture, and a little more so that none is
+            // left out.
             const float half = 0.6f * to.fx / from.fx * d / p.z;
             for (int y = int(std::ceil(at.y - half)); float(y) < at.y + half; ++y)
                 for (int x = int(std::ceil(at.x - half)); float(x) < at.x + half; ++x) {
@@ -208,7 +210,8 @@ const std::vector<Crowd>& crowds() {
         {"two who cross close by",
          {{"s5_walking_1", -0.8f, -2.4f, 0.8f, -2.4f}, {"s6_walking_1", 0.8f, -2.75f, -0.8f, -2.75f}}},
         {"two who meet and part",
-         {{"s1_walking_1", -0.7f, -2.5f, -0.18f, -2.5f, true}, {"s6_walking_1", 0.7f, -2.5f, 0.18f, -2.5f, true}}},
+         {{"s1_walking_1", -0.7f, -2.5f, -0.18f, -2.5f, true},
+          {"s6_walking_1", 0.7f, -2.5f, 0.18f, -2.5f, true}}},
         {"one who leaves for a second and comes back",
          {{"s5_walking_1", 0.0f, -2.5f, 2.6f, -2.5f, true}, {"s2_walking_1", -0.7f, -2.7f, -0.7f, -2.7f}}},
     };
@@ -224,7 +227,8 @@ void play_crowd(const Crowd& crowd, const std::string& folder, const Show& show)
     for (const Walker& walker : crowd.people) {
         const std::string path = folder + "/kinect1_" + walker.recording;
         stands.push_back(stand_of(path));
-        play_source(path, [&, &shots = recordings.emplace_back()](const Shot& shot) { shots.push_back(shot); });
+        play_source(path,
+                    [&, &shots = recordings.emplace_back()](const Shot& shot) { shots.push_back(shot); });
     }
     Camera camera = recordings[0][0].camera;
     camera.width *= 2, camera.height *= 2;
@@ -247,7 +251,8 @@ void play_crowd(const Crowd& crowd, const std::string& folder, const Show& show)
             const float x = w.x_m + way * (w.to_x_m - w.x_m), z = w.z_m + way * (w.to_z_m - w.z_m);
             // To and fro through the recording, so that nobody jumps.
             const auto length = uint32_t(recordings[i].size()), turn = frame % (2 * length);
-            put(recordings[i][turn < length ? turn : 2 * length - 1 - turn], stands[i], x, z, uint8_t(i + 1), shot);
+            put(recordings[i][turn < length ? turn : 2 * length - 1 - turn], stands[i], x, z, uint8_t(i + 1),
+                shot);
         }
         show(shot);
     }
@@ -297,13 +302,23 @@ void play_source(const std::string& uri, const std::function<void(const Shot&)>&
 
 Shot load_still(const std::string& path, float focal_px, float cx, float cy) {
     // A name of its own: two runs at a time must not share the folder.
-    const fs::path folder = fs::temp_directory_path() / ("vfit-bench-still-" + std::to_string(std::random_device{}()));
+    const fs::path folder =
+        fs::temp_directory_path() / ("vfit-bench-still-" + std::to_string(std::random_device{}()));
     if (!fs::create_directory(folder)) throw Failure(folder.string() + ": is there already");
     fs::create_directory(folder / "depth");
     fs::copy_file(path, folder / "depth" / "000000.png");
-    std::ofstream(folder / "camera.json") << Json{{"format", "vfit-recording"}, {"version", 1}, {"sensor", "kinect_v1"},
-        {"width", 640}, {"height", 480}, {"fx", focal_px}, {"fy", focal_px}, {"cx", cx}, {"cy", cy}, {"fps", 30},
-        {"depth_unit_m", 0.001}, {"segmented", false}};
+    std::ofstream(folder / "camera.json") << Json{{"format", "vfit-recording"},
+                                                  {"version", 1},
+                                                  {"sensor", "kinect_v1"},
+                                                  {"width", 640},
+                                                  {"height", 480},
+                                                  {"fx", focal_px},
+                                                  {"fy", focal_px},
+                                                  {"cx", cx},
+                                                  {"cy", cy},
+                                                  {"fps", 30},
+                                                  {"depth_unit_m", 0.001},
+                                                  {"segmented", false}};
     Shot still;
     play_source(folder.string(), [&](const Shot& shot) { still = shot; });
     fs::remove_all(folder);
@@ -335,7 +350,8 @@ SceneGroup virtual_scenes(uint32_t frames) {
     SceneGroup group{"virtual person (synthetic)", {}};
     for (const char* sensor : {"kinect_v1", "tof"}) {
         const auto uri = [&](const char* options) {
-            return std::string("virtual:sensor=") + sensor + "&" + options + "&frames=" + std::to_string(frames);
+            return std::string("virtual:sensor=") + sensor + "&" + options +
+                   "&frames=" + std::to_string(frames);
         };
         for (const char* options : kCases)
             group.scenes.push_back({std::string(sensor) + " " + options, true,
@@ -378,17 +394,17 @@ std::vector<SceneGroup> real_scenes(const std::string& recordings, const std::st
             SceneGroup& group = groups.emplace_back();
             group.name = std::string("real people, in the still ") + place.means;
             for (const auto& path : paths)
-                group.scenes.push_back(
-                    {std::string("still, ") + place.name + " " + path.filename().string(), false,
-                     [uri = path.string(), still, &place](const Show& show) {
-                         play_in_still(uri, *still, place, show);
-                     }});
+                group.scenes.push_back({std::string("still, ") + place.name + " " + path.filename().string(),
+                                        false, [uri = path.string(), still, &place](const Show& show) {
+                                            play_in_still(uri, *still, place, show);
+                                        }});
         }
     }
     SceneGroup& several = groups.emplace_back(SceneGroup{"real people, several in a virtual room", {}});
     for (const Crowd& crowd : crowds())
-        several.scenes.push_back({std::string("several, ") + crowd.name, crowd.people.size() == 1,
-                                  [&crowd, recordings](const Show& show) { play_crowd(crowd, recordings, show); }});
+        several.scenes.push_back(
+            {std::string("several, ") + crowd.name, crowd.people.size() == 1,
+             [&crowd, recordings](const Show& show) { play_crowd(crowd, recordings, show); }});
     return groups;
 }
 

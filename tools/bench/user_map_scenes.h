@@ -1,5 +1,5 @@
-// Scenes with known people for vfit-bench user_map: the virtual person, real people cut out of their recordings,
-// and those put into virtual rooms and into a real picture by depth test.
+// Scenes with known people for vfit-bench user_map: the virtual person, real people cut out of their
+// recordings, and those put into virtual rooms and into a real picture by depth test.
 #pragma once
 
 #include <functional>
@@ -22,7 +22,7 @@ struct Shot {
 
 struct Scene {
     std::string name;
-    bool alone = true;        // one person and nobody else in the picture: whatever else is labelled is wrong
+    bool alone = true;  // one person and nobody else in the picture: whatever else is labelled is wrong
     std::function<void(const std::function<void(const Shot&)>&)> play;
 };
 
@@ -33,8 +33,8 @@ struct SceneGroup {
 
 /// Motions, distances and cameras of the virtual person, `frames` images each.
 SceneGroup virtual_scenes(uint32_t frames);
-/// Every recording below the folder, alone, in rooms, and (where the file exists) in the still; and several of them
-/// at a time in one room.
+/// Every recording below the folder, alone, in rooms, and (where the file exists) in the still; and several
+/// of them at a time in one room.
 std::vector<SceneGroup> real_scenes(const std::string& recordings, const std::string& still);
 
 /// The frames of a sensor or recording as shots; the truth is its user map.

@@ -65,8 +65,9 @@ std::optional<Frame> Source::next() {
 }
 
 uint32_t first_body(vfit_frame frame) {
-    const auto bodies =
-        list<vfit_body>([&](auto* items, uint32_t stride, uint32_t* n) { return vfit_frame_bodies(frame, items, stride, n); });
+    const auto bodies = list<vfit_body>([&](auto* items, uint32_t stride, uint32_t* n) {
+        return vfit_frame_bodies(frame, items, stride, n);
+    });
     return bodies.empty() ? 0 : bodies.front().body_id;
 }
 
@@ -105,8 +106,9 @@ std::vector<vfit_rig_bone> rig_of(vfit_avatar avatar) {
 }
 
 std::vector<vfit_bone> bones_of(vfit_motion motion, vfit_pose& pose) {
-    return list<vfit_bone>(
-        [&](auto* items, uint32_t stride, uint32_t* n) { return vfit_motion_pose(motion, &pose, items, stride, n); });
+    return list<vfit_bone>([&](auto* items, uint32_t stride, uint32_t* n) {
+        return vfit_motion_pose(motion, &pose, items, stride, n);
+    });
 }
 
 std::vector<uint32_t> seen_triangles(vfit_avatar avatar, vfit_cloth cloth) {
@@ -122,7 +124,8 @@ std::vector<uint32_t> seen_triangles(vfit_avatar avatar, vfit_cloth cloth) {
 }
 
 void set_pose(vfit_avatar avatar, const vfit_pose& pose, const std::vector<vfit_bone>& bones) {
-    check(vfit_avatar_pose(avatar, &pose, bones.data(), sizeof(vfit_bone), static_cast<uint32_t>(bones.size())));
+    check(vfit_avatar_pose(avatar, &pose, bones.data(), sizeof(vfit_bone),
+                           static_cast<uint32_t>(bones.size())));
 }
 
 Point to_camera(const vfit_camera& camera, const float (&world)[3]) {
@@ -144,7 +147,11 @@ Json joints_json(const std::vector<vfit_joint>& joints, const vfit_camera& camer
 
 void stand(vfit_avatar avatar, float leg_rad) {
     constexpr float kArm_rad = 0.785f;
-    const std::map<vfit_bone_id, float> turned_rad{{VFIT_BONE_HIPS, 0.0f}, {VFIT_BONE_LEFT_UPPER_ARM, -kArm_rad}, {VFIT_BONE_RIGHT_UPPER_ARM, kArm_rad}, {VFIT_BONE_LEFT_UPPER_LEG, leg_rad}, {VFIT_BONE_RIGHT_UPPER_LEG, -leg_rad}};
+    const std::map<vfit_bone_id, float> turned_rad{{VFIT_BONE_HIPS, 0.0f},
+                                                   {VFIT_BONE_LEFT_UPPER_ARM, -kArm_rad},
+                                                   {VFIT_BONE_RIGHT_UPPER_ARM, kArm_rad},
+                                                   {VFIT_BONE_LEFT_UPPER_LEG, leg_rad},
+                                                   {VFIT_BONE_RIGHT_UPPER_LEG, -leg_rad}};
     std::vector<vfit_bone> bones;
     for (const vfit_rig_bone& rig : rig_of(avatar)) {
         const auto turn = turned_rad.find(rig.bone);

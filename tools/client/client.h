@@ -115,7 +115,8 @@ bool has_stream(vfit_frame frame, vfit_stream stream);
 /// A row of an image.
 template <typename T>
 const T* row_of(const vfit_view& view, uint32_t y) {
-    return reinterpret_cast<const T*>(static_cast<const unsigned char*>(view.data) + size_t(y) * view.row_stride);
+    return reinterpret_cast<const T*>(static_cast<const unsigned char*>(view.data) +
+                                      size_t(y) * view.row_stride);
 }
 
 /// A copy of vertex data.
@@ -124,7 +125,8 @@ std::vector<T> items_of(vfit_frame frame, vfit_stream stream) {
     const vfit_view view = view_of(frame, stream);
     std::vector<T> items(view.width);
     for (size_t i = 0; i < items.size(); ++i)
-        std::memcpy(&items[i], static_cast<const unsigned char*>(view.data) + i * view.item_stride, sizeof(T));
+        std::memcpy(&items[i], static_cast<const unsigned char*>(view.data) + i * view.item_stride,
+                    sizeof(T));
     return items;
 }
 

@@ -19,7 +19,9 @@ CLI::App& app_of(void* app) { return *static_cast<CLI::App*>(app); }
 
 Argument& Argument::required() { return option_of(option_).required(), *this; }
 Argument& Argument::positive() { return option_of(option_).check(CLI::PositiveNumber), *this; }
-Argument& Argument::within(int low, int high) { return option_of(option_).check(CLI::Range(low, high)), *this; }
+Argument& Argument::within(int low, int high) {
+    return option_of(option_).check(CLI::Range(low, high)), *this;
+}
 Argument& Argument::existing_folder() { return option_of(option_).check(CLI::ExistingDirectory), *this; }
 Argument& Argument::one_of(const std::vector<std::string>& values) {
     return option_of(option_).check(CLI::IsMember(values)), *this;
@@ -43,11 +45,14 @@ template Argument Command::add_option(const char*, uint64_t&, const char*);
 template Argument Command::add_option(const char*, float&, const char*);
 template Argument Command::add_option(const char*, double&, const char*);
 
-Argument Command::add_option_function(const char* name, std::function<void(const std::string&)> set, const char* help) {
+Argument Command::add_option_function(const char* name, std::function<void(const std::string&)> set,
+                                      const char* help) {
     return Argument(app_of(app_).add_option_function<std::string>(name, std::move(set), help));
 }
 
-void Command::add_flag(const char* name, bool& value, const char* help) { app_of(app_).add_flag(name, value, help); }
+void Command::add_flag(const char* name, bool& value, const char* help) {
+    app_of(app_).add_flag(name, value, help);
+}
 
 void Command::callback(std::function<void()> work) { app_of(app_).callback(std::move(work)); }
 

@@ -1,5 +1,6 @@
-// What a program takes on its command line, and how it ends: 0 done; 1 failed, with one line on standard error that
-// says why; 2 wrong usage. Only the source beside this header sees the parser's own headers, which are slow to compile.
+// What a program takes on its command line, and how it ends: 0 done; 1 failed, with one line on standard
+// error that says why; 2 wrong usage. Only the source beside this header sees the parser's own headers, which
+// are slow to compile.
 #pragma once
 
 #include <functional>
@@ -25,8 +26,8 @@ private:
     void* option_;
 };
 
-/// A command of the program. The values that arguments are bound to must outlive the parsing: commands keep them in
-/// the callback.
+/// A command of the program. The values that arguments are bound to must outlive the parsing: commands keep
+/// them in the callback.
 class Command {
 public:
     explicit Command(void* app) : app_(app) {}
@@ -34,7 +35,8 @@ public:
     /// T: a text, a whole number or a floating-point number.
     template <typename T>
     Argument add_option(const char* name, T& value, const char* help);
-    Argument add_option_function(const char* name, std::function<void(const std::string&)> set, const char* help);
+    Argument add_option_function(const char* name, std::function<void(const std::string&)> set,
+                                 const char* help);
     void add_flag(const char* name, bool& value, const char* help);
     void callback(std::function<void()> work);
 
@@ -42,8 +44,8 @@ private:
     void* app_;
 };
 
-/// Parses the command line and runs the command that it names; returns the exit code. `name` opens the line of a
-/// failure. What a command throws ends the program.
+/// Parses the command line and runs the command that it names; returns the exit code. `name` opens the line
+/// of a failure. What a command throws ends the program.
 int run_program(const char* name, const char* help, const std::vector<void (*)(Command&)>& commands, int argc,
                 char** argv);
 

@@ -10,7 +10,8 @@ namespace vfit::tools {
 namespace {
 
 constexpr double kClothStep_s = 1.0 / 60.0;
-constexpr int64_t kLongestPause_ns = 500'000'000;  // a recording that rests for an hour is not played for an hour
+constexpr int64_t kLongestPause_ns =
+    500'000'000;  // a recording that rests for an hour is not played for an hour
 
 double seconds(int64_t ns) { return double(ns) * 1e-9; }
 
@@ -41,7 +42,8 @@ void Fitting::dress() {
     check(vfit_motion_step(motion_.get(), scan_frame_.get(), scan_.body_id, depth.time_ns));
     pose_avatar();
     vfit_cloth_desc cloth = vfit_cloth_desc_init();
-    cloth.flags = VFIT_CLOTH_SKIN | VFIT_CLOTH_PRESSURE | (options_.hands ? 0u : uint32_t(VFIT_CLOTH_NO_HANDS));
+    cloth.flags =
+        VFIT_CLOTH_SKIN | VFIT_CLOTH_PRESSURE | (options_.hands ? 0u : uint32_t(VFIT_CLOTH_NO_HANDS));
     if (!options_.size.empty()) cloth.size_label = options_.size.c_str();
     check(vfit_cloth_create(avatar_.get(), garment_.get(), &cloth, cloth_.out()));
     Frame body, garment;
@@ -76,7 +78,8 @@ void Fitting::play(const std::function<bool(vfit_frame, double)>& on_frame) {
             first_ns += std::max<int64_t>(0, now_ns - last_ns - kLongestPause_ns);
             last_ns = now_ns;
             const double time = seconds(now_ns - first_ns);
-            for (; cloth_time < time; cloth_time += kClothStep_s) check(vfit_cloth_step(cloth_.get(), float(kClothStep_s)));
+            for (; cloth_time < time; cloth_time += kClothStep_s)
+                check(vfit_cloth_step(cloth_.get(), float(kClothStep_s)));
             if (!on_frame(tracked.get(), time)) break;
         }
         if (options_.max_frames && frames_played_ == options_.max_frames) break;

@@ -1,5 +1,5 @@
-// JSON that leaves the programs. Paths and names may hold bytes that are not UTF-8: they are replaced, so that a
-// strange file name does not cost the result of the work.
+// JSON that leaves the programs. Paths and names may hold bytes that are not UTF-8: they are replaced, so
+// that a strange file name does not cost the result of the work.
 #pragma once
 
 #include <string>

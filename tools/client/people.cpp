@@ -63,8 +63,9 @@ ScanRun run_scan(vfit_context context, Source& source, const ScanOptions& option
         if (result == VFIT_OK || ++seen == kPatience * state.frames_wanted) break;
     }
     if (run.frames_taken == 0)
-        throw Failure(seen == 0 ? "the source has no frames"
-                                : std::string("no frame could be measured: ") + guidance_text(state.guidance));
+        throw Failure(seen == 0
+                          ? "the source has no frames"
+                          : std::string("no frame could be measured: ") + guidance_text(state.guidance));
     return run;
 }
 
@@ -88,19 +89,23 @@ StoredMeasures measurements_from(const std::string& text) {
     return out;
 }
 
-std::vector<vfit_measurement> merged_measurements(const std::vector<vfit_measurement>& a, const std::vector<vfit_measurement>& b) {
+std::vector<vfit_measurement> merged_measurements(const std::vector<vfit_measurement>& a,
+                                                  const std::vector<vfit_measurement>& b) {
     return list<vfit_measurement>([&](auto* items, uint32_t stride, uint32_t* n) {
-        return vfit_measurements_merge(a.data(), sizeof(vfit_measurement), static_cast<uint32_t>(a.size()), b.data(),
-                                       sizeof(vfit_measurement), static_cast<uint32_t>(b.size()), items, stride, n);
+        return vfit_measurements_merge(a.data(), sizeof(vfit_measurement), static_cast<uint32_t>(a.size()),
+                                       b.data(), sizeof(vfit_measurement), static_cast<uint32_t>(b.size()),
+                                       items, stride, n);
     });
 }
 
 std::string profile_text(const std::vector<vfit_measurement>& measurements, vfit_sex sex) {
     const auto count = static_cast<uint32_t>(measurements.size());
     uint32_t capacity = 0;
-    check(vfit_measurements_write(measurements.data(), sizeof(vfit_measurement), count, sex, nullptr, &capacity));
+    check(vfit_measurements_write(measurements.data(), sizeof(vfit_measurement), count, sex, nullptr,
+                                  &capacity));
     std::string text(capacity, 0);
-    check(vfit_measurements_write(measurements.data(), sizeof(vfit_measurement), count, sex, text.data(), &capacity));
+    check(vfit_measurements_write(measurements.data(), sizeof(vfit_measurement), count, sex, text.data(),
+                                  &capacity));
     text.resize(capacity - 1);
     return text;
 }
@@ -119,12 +124,17 @@ Json sizes_json(vfit_size_chart chart, const std::string& garment_kind,
 Json zones_json(vfit_size_chart chart, const std::string& garment_kind, const std::string& label,
                 const std::vector<vfit_measurement>& measurements) {
     const auto zones = list<vfit_size_zone>([&](auto* items, uint32_t stride, uint32_t* n) {
-        return vfit_size_zones(chart, garment_kind.c_str(), label.c_str(), measurements.data(), sizeof(vfit_measurement),
-                               static_cast<uint32_t>(measurements.size()), items, stride, n);
+        return vfit_size_zones(chart, garment_kind.c_str(), label.c_str(), measurements.data(),
+                               sizeof(vfit_measurement), static_cast<uint32_t>(measurements.size()), items,
+                               stride, n);
     });
     Json out = Json::object();
     for (const vfit_size_zone& z : zones)
-        out[z.key] = {{"ease", z.ease}, {"sigma", z.sigma}, {"tight", z.tight}, {"regular", z.regular}, {"loose", z.loose}};
+        out[z.key] = {{"ease", z.ease},
+                      {"sigma", z.sigma},
+                      {"tight", z.tight},
+                      {"regular", z.regular},
+                      {"loose", z.loose}};
     return out;
 }
 

@@ -17,15 +17,16 @@ struct ScanOptions {
 struct ScanRun {
     Scan scan;
     uint32_t frames_taken = 0, frames_wanted = 0, side_frames_taken = 0;
-    uint32_t body_id = 0;                 // who was scanned: the first that a frame was taken of
-    double compute_ms = 0.0;              // of all frames taken
-    double last_ms = 0.0;                 // of the last: what is left to do when capture ends
-    std::vector<float> corrections_m;     // one a frame taken (Fig. 9)
+    uint32_t body_id = 0;              // who was scanned: the first that a frame was taken of
+    double compute_ms = 0.0;           // of all frames taken
+    double last_ms = 0.0;              // of the last: what is left to do when capture ends
+    std::vector<float> corrections_m;  // one a frame taken (Fig. 9)
 };
 
 /// Feeds frames into a scan until it is complete or the source ends. Fails where not one frame could be
 /// taken, saying why. last_frame, where given, gets the tracked frame that was taken last.
-ScanRun run_scan(vfit_context context, Source& source, const ScanOptions& options, Frame* last_frame = nullptr);
+ScanRun run_scan(vfit_context context, Source& source, const ScanOptions& options,
+                 Frame* last_frame = nullptr);
 
 const char* guidance_text(vfit_guidance guidance);
 
@@ -38,7 +39,8 @@ struct StoredMeasures {
 /// From a profile, a report of vfit measure, or a plain {"stature_m": 1.7}; sigma 0 where it is not given.
 StoredMeasures measurements_from(const std::string& text);
 /// Two scans of one person in one.
-std::vector<vfit_measurement> merged_measurements(const std::vector<vfit_measurement>& a, const std::vector<vfit_measurement>& b);
+std::vector<vfit_measurement> merged_measurements(const std::vector<vfit_measurement>& a,
+                                                  const std::vector<vfit_measurement>& b);
 /// What measurements_from reads again.
 std::string profile_text(const std::vector<vfit_measurement>& measurements, vfit_sex sex);
 

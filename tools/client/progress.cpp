@@ -29,7 +29,9 @@ bool is_terminal(int descriptor) {
 }  // namespace
 
 Progress::Progress(std::string what, bool prints)
-    : what_(std::move(what)), wanted_(is_terminal(2) && !(prints && is_terminal(1))), next_(Clock::now() + kQuiet) {}
+    : what_(std::move(what)),
+      wanted_(is_terminal(2) && !(prints && is_terminal(1))),
+      next_(Clock::now() + kQuiet) {}
 
 Progress::~Progress() {
     if (shown_) std::fputs("\r\033[K", stderr);

@@ -1,4 +1,5 @@
-// vfit character: what vfit makes of a character's file, the same file moved by somebody, and own bodies as characters.
+// vfit character: what vfit makes of a character's file, the same file moved by somebody, and own bodies as
+// characters.
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -47,20 +48,28 @@ Json report(vfit_avatar avatar) {
     Json bones = Json::object(), parts = Json::array();
     for (const vfit_rig_bone& bone : rig_of(avatar))
         if (bone.bone >= 0) bones[bone_name(bone.bone)] = bone.name;
-    for (const auto& part : list<vfit_avatar_part>([&](auto* items, uint32_t stride, uint32_t* n) { return vfit_avatar_parts(avatar, items, stride, n); }))
-        parts.push_back({{"mesh", part.mesh}, {"material", part.material_name}, {"triangles", part.index_count / 3}});
-    return {{"kind", kind_name(info.kind)}, {"name", info.name},           {"stature_m", std::round(1e4 * double(info.stature_m)) / 1e4},
-            {"vertices", info.vertex_count}, {"rig_bones", info.bone_count}, {"bones", bones},
+    for (const auto& part : list<vfit_avatar_part>([&](auto* items, uint32_t stride, uint32_t* n) {
+             return vfit_avatar_parts(avatar, items, stride, n);
+         }))
+        parts.push_back(
+            {{"mesh", part.mesh}, {"material", part.material_name}, {"triangles", part.index_count / 3}});
+    return {{"kind", kind_name(info.kind)},
+            {"name", info.name},
+            {"stature_m", std::round(1e4 * double(info.stature_m)) / 1e4},
+            {"vertices", info.vertex_count},
+            {"rig_bones", info.bone_count},
+            {"bones", bones},
             {"parts", parts}};
 }
 
 void print(const Json& report) {
-    std::cout << report["kind"].get<std::string>() << " character, " << report["stature_m"] << " m, " << report["vertices"]
-              << " vertices, " << report["rig_bones"] << " bones in the rig\n";
-    for (const auto& [bone, node] : report["bones"].items()) std::cout << "  " << bone << ": " << node.get<std::string>() << "\n";
+    std::cout << report["kind"].get<std::string>() << " character, " << report["stature_m"] << " m, "
+              << report["vertices"] << " vertices, " << report["rig_bones"] << " bones in the rig\n";
+    for (const auto& [bone, node] : report["bones"].items())
+        std::cout << "  " << bone << ": " << node.get<std::string>() << "\n";
     for (const auto& part : report["parts"])
-        std::cout << "  part " << part["mesh"].get<std::string>() << ", material " << part["material"].get<std::string>() << ", "
-                  << part["triangles"] << " triangles\n";
+        std::cout << "  part " << part["mesh"].get<std::string>() << ", material "
+                  << part["material"].get<std::string>() << ", " << part["triangles"] << " triangles\n";
 }
 
 /// The source's person moves the character; each frame a key.
@@ -78,7 +87,9 @@ void move(vfit_context context, vfit_avatar avatar, const Options& options, Char
         Frame tracked;
         check(vfit_tracker_update(tracker.get(), frame->get(), tracked.out()));
         const int64_t now_ns = view_of(tracked.get(), VFIT_STREAM_DEPTH).time_ns;
-        if (check(vfit_motion_step(motion.get(), tracked.get(), active_body(tracked.get()), now_ns)) == VFIT_NOT_READY) continue;
+        if (check(vfit_motion_step(motion.get(), tracked.get(), active_body(tracked.get()), now_ns)) ==
+            VFIT_NOT_READY)
+            continue;
         if (start_ns < 0) start_ns = now_ns;
         vfit_pose pose = vfit_pose_init();
         const auto bones = bones_of(motion.get(), pose);
@@ -133,11 +144,13 @@ void character(const Options& options) {
 }  // namespace
 
 void add_character(Command& app) {
-    Command command = app.add_subcommand("character", "Look at a character's file, move it, or write vfit's body as one");
+    Command command =
+        app.add_subcommand("character", "Look at a character's file, move it, or write vfit's body as one");
     auto o = std::make_shared<Options>();
     command.add_option("file", o->file, "glTF or VRM file of a skinned humanoid");
     command.add_option("--bone-map", o->bone_map, "JSON file {\"hips\": \"name of a node\", ...}");
-    command.add_option("--motion", o->motion, "Recording folder or sensor URI whose person moves the character");
+    command.add_option("--motion", o->motion,
+                       "Recording folder or sensor URI whose person moves the character");
     command.add_option("--frames", o->frames, "Frames of it (default: all)");
     command.add_option("--rig", o->rig, "Write vfit's body with that rig").one_of(rig_style_names());
     command.add_option("--sex", o->sex, "Of that body").one_of({"f", "m"});

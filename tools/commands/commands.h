@@ -2,7 +2,6 @@
 // exception it throws ends the program (client/command_line.h).
 #pragma once
 
-
 #include "client/client.h"
 #include "client/command_line.h"
 

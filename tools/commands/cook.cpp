@@ -36,10 +36,18 @@ Json report_of(const CookedGarment& cooked) {
     const DrapeReport& r = cooked.report;
     Json sizes = Json::array();
     for (const GarmentSize& size : g.sizes) sizes.push_back(size.label);
-    Json out = {{"garment", g.name}, {"kind", g.kind}, {"fabric", g.fabric}, {"body_sex", g.body_sex == VFIT_SEX_MALE ? "m" : "f"}, {"vertices", g.vertex_count()}, {"simulated", g.simulated_count()}, {"sizes", sizes}};
+    Json out = {{"garment", g.name},
+                {"kind", g.kind},
+                {"fabric", g.fabric},
+                {"body_sex", g.body_sex == VFIT_SEX_MALE ? "m" : "f"},
+                {"vertices", g.vertex_count()},
+                {"simulated", g.simulated_count()},
+                {"sizes", sizes}};
     if (!g.has_own_lengths()) return out;
     out["triangles"] = g.mesh.indices.size() / 3;
-    out["hangs_on"] = r.hangs_on == HangsOn::shoulders ? "shoulders" : r.hangs_on == HangsOn::waist ? "waist" : "nothing";
+    out["hangs_on"] = r.hangs_on == HangsOn::shoulders ? "shoulders"
+                      : r.hangs_on == HangsOn::waist   ? "waist"
+                                                       : "nothing";
     out["raised_m"] = r.raised_m;
     out["widest_seam_m"] = r.widest_seam_m;
     out["skin_crossings"] = r.skin_crossings;
@@ -57,7 +65,8 @@ public:
     explicit Cook(const Options& options)
         : options_(options),
           model_(BodyModel::load(options.body.empty() ? data_beside("body.bin") : options.body)),
-          fabrics_(FabricLibrary::parse(read_file(options.fabrics.empty() ? data_beside("fabrics.json") : options.fabrics))),
+          fabrics_(FabricLibrary::parse(
+              read_file(options.fabrics.empty() ? data_beside("fabrics.json") : options.fabrics))),
           jobs_(Jobs::own(1)) {}
 
     Json cook(const std::string& design, const std::string& out) {
@@ -65,7 +74,9 @@ public:
         request.path = design;
         request.kind = options_.kind;
         request.fabric = options_.fabric;
-        request.sex = options_.sex.empty() ? VFIT_SEX_UNKNOWN : options_.sex == "m" ? VFIT_SEX_MALE : VFIT_SEX_FEMALE;
+        request.sex = options_.sex.empty()  ? VFIT_SEX_UNKNOWN
+                      : options_.sex == "m" ? VFIT_SEX_MALE
+                                            : VFIT_SEX_FEMALE;
         request.triangle_m = options_.triangle_mm / 1000.0f;
         request.unit_m = options_.unit == "mm" ? 0.001f : options_.unit == "cm" ? 0.01f : 1.0f;
         request.size_label = options_.size_label;
@@ -84,9 +95,12 @@ private:
 };
 
 std::string line_of(const Json& r) {
-    std::string line = text(r["garment"].get<std::string>(), ": ", r["vertices"].get<int>(), " vertices, ", r["simulated"].get<int>(), " of them simulated");
+    std::string line = text(r["garment"].get<std::string>(), ": ", r["vertices"].get<int>(), " vertices, ",
+                            r["simulated"].get<int>(), " of them simulated");
     if (r.contains("seconds"))
-        line += text(", ", r["skin_crossings"].get<int>(), " crossings with the skin, ", r["self_crossings"].get<int>(), " with itself, in ", int(r["seconds"].get<double>() * 10.0) / 10.0, " s");
+        line += text(", ", r["skin_crossings"].get<int>(), " crossings with the skin, ",
+                     r["self_crossings"].get<int>(), " with itself, in ",
+                     int(r["seconds"].get<double>() * 10.0) / 10.0, " s");
     line += ", in " + r["file"].get<std::string>();
     if (r.contains("warnings"))
         for (const Json& warning : r["warnings"]) line += "\n  " + warning.get<std::string>();
@@ -99,7 +113,9 @@ bool is_simulation(const std::filesystem::path& design) {
     const std::string tail = "_specification";
     for (const auto& entry : std::filesystem::directory_iterator(design.parent_path())) {
         const std::string name = entry.path().stem().string();
-        if (entry.path().extension() == ".json" && name.size() > tail.size() && name.compare(name.size() - tail.size(), tail.size(), tail) == 0) return true;
+        if (entry.path().extension() == ".json" && name.size() > tail.size() &&
+            name.compare(name.size() - tail.size(), tail.size(), tail) == 0)
+            return true;
     }
     return false;
 }
@@ -108,16 +124,21 @@ void cook(const Options& options) {
     Cook kitchen(options);
     if (!std::filesystem::is_directory(options.design)) {
         const Json report = kitchen.cook(options.design, options.out);
-        if (options.json) print_document(report);
-        else std::cout << line_of(report) << "\n";
+        if (options.json)
+            print_document(report);
+        else
+            std::cout << line_of(report) << "\n";
         return;
     }
     // A catalogue: every design below the folder; one that fails does not stop the others.
     std::vector<std::filesystem::path> designs;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(options.design))
-        if (entry.is_regular_file() && (entry.path().extension() == ".json" || is_mesh_file(entry.path().string()))) designs.push_back(entry.path());
+        if (entry.is_regular_file() &&
+            (entry.path().extension() == ".json" || is_mesh_file(entry.path().string())))
+            designs.push_back(entry.path());
     std::sort(designs.begin(), designs.end());
-    if (designs.empty()) throw Failure("there is no design (*.json) and no mesh (*.obj, *.gltf, *.glb) in " + options.design);
+    if (designs.empty())
+        throw Failure("there is no design (*.json) and no mesh (*.obj, *.gltf, *.glb) in " + options.design);
     create_folder(options.out);
     Json cooked = Json::array(), failed = Json::array(), left_out = Json::array();
     std::set<std::string> names;
@@ -132,36 +153,58 @@ void cook(const Options& options) {
             for (int i = 2; !names.insert(name).second; ++i) name = vfit::text(first, "_", i);
         }
         try {
-            cooked.push_back(kitchen.cook(design.string(), (std::filesystem::path(options.out) / (name + ".json")).string()));
+            cooked.push_back(kitchen.cook(design.string(),
+                                          (std::filesystem::path(options.out) / (name + ".json")).string()));
             if (!options.json) std::cout << line_of(cooked.back()) << std::endl;
         } catch (const Error& error) {
-            if (error.code() == VFIT_ERROR_UNSUPPORTED) left_out.push_back(design.string());
-            else failed.push_back({{"design", design.string()}, {"error", error.what()}});
+            if (error.code() == VFIT_ERROR_UNSUPPORTED)
+                left_out.push_back(design.string());
+            else
+                failed.push_back({{"design", design.string()}, {"error", error.what()}});
             if (!options.json) std::cout << design.string() << ": " << error.what() << std::endl;
         }
     }
     const Json report = {{"cooked", cooked}, {"failed", failed}, {"left_out", left_out}};
     write_text((std::filesystem::path(options.out) / "report.json").string(), document_text(report));
-    if (options.json) print_document(report);
-    else std::cout << cooked.size() << " cooked, " << failed.size() << " failed, " << left_out.size() << " no designs; report.json beside them\n";
-    if (!failed.empty()) throw Failure(vfit::text(failed.size(), " of ", cooked.size() + failed.size(), " designs could not be cooked: see report.json in ", options.out));
+    if (options.json)
+        print_document(report);
+    else
+        std::cout << cooked.size() << " cooked, " << failed.size() << " failed, " << left_out.size()
+                  << " no designs; report.json beside them\n";
+    if (!failed.empty())
+        throw Failure(vfit::text(failed.size(), " of ", cooked.size() + failed.size(),
+                                 " designs could not be cooked: see report.json in ", options.out));
 }
 
 }  // namespace
 
 void add_cook(Command& app) {
-    Command command = app.add_subcommand("cook", "Make garment files from designs, sewing patterns or meshes");
+    Command command =
+        app.add_subcommand("cook", "Make garment files from designs, sewing patterns or meshes");
     auto o = std::make_shared<Options>();
-    command.add_option("design", o->design, "Design, GarmentCode specification, mesh (.obj, .gltf, .glb), or a folder of them (docs/garments.md)").required();
+    command
+        .add_option("design", o->design,
+                    "Design, GarmentCode specification, mesh (.obj, .gltf, .glb), or a folder of them "
+                    "(docs/garments.md)")
+        .required();
     command.add_option("--out", o->out, "Garment file to write; of a folder: the folder for them").required();
     command.add_option("--body", o->body, "Baked body (default: the one beside the program)");
     command.add_option("--fabrics", o->fabrics, "Fabrics (default: those beside the program)");
-    command.add_option("--kind", o->kind, "Of a specification or mesh: garment kind of the size charts (default dress)");
-    command.add_option("--fabric", o->fabric, "Of a specification or mesh: its fabric (default cotton_woven)");
-    command.add_option("--sex", o->sex, "Of a specification or mesh: on whose default body it is draped (default f; of a specification the better of both)").one_of({"f", "m"});
-    command.add_option("--size-label", o->size_label, "Of a mesh: the label of the size that it is modelled in");
-    command.add_option("--unit", o->unit, "Of an OBJ file: m, cm or mm (default m)").one_of({"m", "cm", "mm"});
-    command.add_option("--triangle", o->triangle_mm, "Side of a triangle of a pattern in mm (default 20)").within(5, 100);
+    command.add_option("--kind", o->kind,
+                       "Of a specification or mesh: garment kind of the size charts (default dress)");
+    command.add_option("--fabric", o->fabric,
+                       "Of a specification or mesh: its fabric (default cotton_woven)");
+    command
+        .add_option("--sex", o->sex,
+                    "Of a specification or mesh: on whose default body it is draped (default f; of a "
+                    "specification the better of both)")
+        .one_of({"f", "m"});
+    command.add_option("--size-label", o->size_label,
+                       "Of a mesh: the label of the size that it is modelled in");
+    command.add_option("--unit", o->unit, "Of an OBJ file: m, cm or mm (default m)")
+        .one_of({"m", "cm", "mm"});
+    command.add_option("--triangle", o->triangle_mm, "Side of a triangle of a pattern in mm (default 20)")
+        .within(5, 100);
     command.add_flag("--json", o->json, "Print JSON");
     command.callback([o] { cook(*o); });
 }

@@ -21,7 +21,8 @@ namespace {
 constexpr PortraitStyle kFine{620, 930, 3}, kDraft{310, 465, 1};
 constexpr size_t kPortraits = 4;        // moments of the motion
 constexpr double kKeyInterval_s = 0.1;  // of the GLB's key frames
-constexpr double kLength_s = 8.0;       // a key frame is a morph target of the garment, and a sensor may have no end
+constexpr double kLength_s =
+    8.0;  // a key frame is a morph target of the garment, and a sensor may have no end
 
 struct Options {
     FittingOptions fitting;
@@ -49,8 +50,9 @@ Json timings(vfit_context context) {
 Json cloth_json(vfit_cloth cloth) {
     vfit_cloth_stats s = vfit_cloth_stats_init();
     check(vfit_cloth_describe(cloth, &s));
-    return {{"vertices", s.vertex_count},      {"simulated", s.simulated_count}, {"constraints", s.constraint_count},
-            {"strain_mean", s.strain_mean}, {"strain_p99", s.strain_p99},     {"strain_max", s.strain_max}};
+    return {{"vertices", s.vertex_count},        {"simulated", s.simulated_count},
+            {"constraints", s.constraint_count}, {"strain_mean", s.strain_mean},
+            {"strain_p99", s.strain_p99},        {"strain_max", s.strain_max}};
 }
 
 /// Pictures are scaled up so that a 320 x 240 image is not a stamp.
@@ -101,8 +103,8 @@ std::vector<Moment> choose(const std::vector<Moment>& all) {
     return out;
 }
 
-void draw_all(Album& album, const Fitting& fitting, const std::vector<Moment>& moments, const std::string& title,
-              const PortraitStyle& style) {
+void draw_all(Album& album, const Fitting& fitting, const std::vector<Moment>& moments,
+              const std::string& title, const PortraitStyle& style) {
     const vfit_frame frame = fitting.scan_frame();
     const int scale = depth_scale(frame);
     Canvas depth = draw_depth(frame, scale);
@@ -131,8 +133,9 @@ void draw_all(Album& album, const Fitting& fitting, const std::vector<Moment>& m
     album.add("dressed_back.png", back);
     rows[1].push_back({back, "from behind"});
     rows.emplace_back();
-    for (const auto& [map, name, caption] : {std::tuple(FitMap::stretch, "stretch", "stretch: blue loose, yellow 4 %, red 10 %"),
-                                             std::tuple(FitMap::pressure, "pressure", "pressure: yellow 0.5 kPa, red 2 kPa")}) {
+    for (const auto& [map, name, caption] :
+         {std::tuple(FitMap::stretch, "stretch", "stretch: blue loose, yellow 4 %, red 10 %"),
+          std::tuple(FitMap::pressure, "pressure", "pressure: yellow 0.5 kPa, red 2 kPa")}) {
         const auto meshes = dressed_meshes(fitting.avatar(), fitting.cloth(), map);
         for (const auto& [yaw, side] : {std::pair(0.35f, ""), std::pair(3.5f, "_back")}) {
             const Canvas picture = draw_dressed(meshes, centre_of(meshes[0]), yaw, style);
@@ -187,7 +190,8 @@ Json fit(const Options& options) {
     result["measurements"] = measurements_json(measurements_of(fitting.scan().scan.get()));
     vfit_scale scale = vfit_scale_init();
     // Algorithm 3 knows the paper's three kinds.
-    const bool scaled = vfit_scan_scale(fitting.scan().scan.get(), fitting.garment_kind().c_str(), &scale) == VFIT_OK;
+    const bool scaled =
+        vfit_scan_scale(fitting.scan().scan.get(), fitting.garment_kind().c_str(), &scale) == VFIT_OK;
     result["scale"] = scaled ? Json{{"x", scale.x}, {"y", scale.y}} : Json();
     result["chart"] = chain.chart;
     result["sizes"] = fitting.sizes();
@@ -215,8 +219,10 @@ void add_fit(Command& app) {
     command.add_option("--size", o->fitting.size, "A label of the garment; default: made to measure");
     command.add_option("--chart", o->fitting.chart, "Size chart by name or file (default paper)");
     command.add_option("--sex", o->sex, "Whose default body: f, m or unknown").one_of({"f", "m", "unknown"});
-    command.add_option("--frames", o->fitting.max_frames, "Play that many frames at most (8 seconds at most)").positive();
-    command.add_option("--detail", o->fitting.detail, "Level of detail of the avatar: 0, 1 or 2").within(0, 2);
+    command.add_option("--frames", o->fitting.max_frames, "Play that many frames at most (8 seconds at most)")
+        .positive();
+    command.add_option("--detail", o->fitting.detail, "Level of detail of the avatar: 0, 1 or 2")
+        .within(0, 2);
     command.add_option("--out", o->out, "Folder for the results").required();
     command.add_flag("--hands", o->fitting.hands, "Let forearms and hands push the garment");
     command.add_flag("--draft", o->draft, "Small, grainy pictures in a tenth of the time");
@@ -227,8 +233,9 @@ void add_fit(Command& app) {
         if (o->json)
             print_document(result);
         else
-            std::cout << title_of(result) << "\nin " << o->out << ": result.json, contact_sheet.png, avatar.glb, "
-                      << result["pictures"].size() - 1 << " pictures\n";
+            std::cout << title_of(result) << "\nin " << o->out
+                      << ": result.json, contact_sheet.png, avatar.glb, " << result["pictures"].size() - 1
+                      << " pictures\n";
     });
 }
 

@@ -14,7 +14,8 @@ Json describe() {
     check(vfit_library_describe(&library));
     const uint32_t v = library.version;
     Json out;
-    out["version"] = std::to_string(v >> 22) + "." + std::to_string(v >> 12 & 0x3FF) + "." + std::to_string(v & 0xFFF);
+    out["version"] =
+        std::to_string(v >> 22) + "." + std::to_string(v >> 12 & 0x3FF) + "." + std::to_string(v & 0xFFF);
     out["build"] = library.build;
     out["simd"] = library.simd;
     vfit_context_stats stats = vfit_context_stats_init();
@@ -34,13 +35,16 @@ Json describe() {
 }
 
 void print(const Json& info) {
-    std::cout << "vfit " << info["version"].get<std::string>() << " (" << info["build"].get<std::string>() << ")\n"
-              << "SIMD     " << info["simd"].get<std::string>() << ", " << info["workers"] << " worker threads\n";
+    std::cout << "vfit " << info["version"].get<std::string>() << " (" << info["build"].get<std::string>()
+              << ")\n"
+              << "SIMD     " << info["simd"].get<std::string>() << ", " << info["workers"]
+              << " worker threads\n";
     for (const Json& p : info["plugins"])
-        std::cout << "plug-in  " << p["name"].get<std::string>() << ": opens " << p["schemes"].get<std::string>()
-                  << ":...\n";
+        std::cout << "plug-in  " << p["name"].get<std::string>() << ": opens "
+                  << p["schemes"].get<std::string>() << ":...\n";
     for (const Json& s : info["sensors"])
-        std::cout << "sensor   " << s["uri"].get<std::string>() << "  " << s["name"].get<std::string>() << "\n";
+        std::cout << "sensor   " << s["uri"].get<std::string>() << "  " << s["name"].get<std::string>()
+                  << "\n";
 }
 
 }  // namespace

@@ -27,8 +27,10 @@ Json measure(const Options& options) {
     const std::string own = options.own.empty() ? std::string() : read_text(options.own);
     const Context context = open_context();
     Source source(context.get(), options.source);
-    const ScanRun run = run_scan(context.get(), source, {options.frames, sex_from(options.sex), method, options.track, options.side_frames,
-                                 (options.bare ? uint32_t{VFIT_SCAN_BARE} : 0u) | (options.tight ? uint32_t{VFIT_SCAN_TIGHT} : 0u)});
+    const ScanRun run = run_scan(
+        context.get(), source,
+        {options.frames, sex_from(options.sex), method, options.track, options.side_frames,
+         (options.bare ? uint32_t{VFIT_SCAN_BARE} : 0u) | (options.tight ? uint32_t{VFIT_SCAN_TIGHT} : 0u)});
     Json out;
     out["method"] = options.method;
     out["frames"] = run.frames_taken;
@@ -38,7 +40,8 @@ Json measure(const Options& options) {
     if (!options.own.empty()) {
         Avatar avatar;
         check(vfit_avatar_create_from_scan(context.get(), nullptr, run.scan.get(), avatar.out()));
-        for (const vfit_measurement& m : list<vfit_measurement>([&](auto* items, uint32_t stride, uint32_t* n) {
+        for (const vfit_measurement& m :
+             list<vfit_measurement>([&](auto* items, uint32_t stride, uint32_t* n) {
                  return vfit_avatar_measure_own(avatar.get(), own.data(), own.size(), items, stride, n);
              }))
             measured.push_back(m);
@@ -82,9 +85,9 @@ void add_track_options(Command& command, TrackOptions& options) {
             source = value == "tracked" ? VFIT_TRACK_BUILT_IN : VFIT_TRACK_GIVEN;
         };
         command
-            .add_option_function(
-                name, set,
-                "recorded: the source's own; tracked: the tracker's (default: the source's where it has them)")
+            .add_option_function(name, set,
+                                 "recorded: the source's own; tracked: the tracker's (default: the source's "
+                                 "where it has them)")
             .one_of({"recorded", "tracked"});
     };
     add("--joints", options.joints);
@@ -121,14 +124,18 @@ void add_measure(Command& app) {
     command.add_option("--method", o->method, "How to measure").one_of({"fit", "paper", "paper-as-printed"});
     command.add_option("--garment", o->garment, "Garment kind that the scale is for");
     command.add_option("--frames", o->frames, "Frames to average (default 30)").within(1, 3000);
-    command.add_option("--side-frames", o->side_frames,
-                       "Of --method fit: frames to wait for from the side, after those from the front (default 15)")
+    command
+        .add_option(
+            "--side-frames", o->side_frames,
+            "Of --method fit: frames to wait for from the side, after those from the front (default 15)")
         .within(0, 3000);
     command.add_option("--sex", o->sex, "f or m, where known").one_of({"f", "m", "unknown"});
     command.add_flag("--bare", o->bare, "Of --method fit: no shoes, and no hair on the crown");
     command.add_flag("--tight", o->tight, "Of --method fit: the clothes lie on the skin");
-    command.add_option("--own", o->own, "File of measures of your own (docs/measuring.md), taken on the avatar of the scan");
-    command.add_option("--merge", o->merged, "Profile of an earlier scan of the same person, to merge with this one");
+    command.add_option("--own", o->own,
+                       "File of measures of your own (docs/measuring.md), taken on the avatar of the scan");
+    command.add_option("--merge", o->merged,
+                       "Profile of an earlier scan of the same person, to merge with this one");
     command.add_option("--profile", o->profile, "File to write the measures to, for vfit size and --merge");
     command.add_flag("--json", o->json, "Print JSON");
     add_track_options(command, o->track);
@@ -140,7 +147,8 @@ void add_measure(Command& app) {
             print(result);
         // Last: what cannot be written costs nothing that was measured.
         if (!o->profile.empty())
-            write_text(o->profile, profile_text(measurements_from(result.dump()).measurements, sex_from(o->sex)));
+            write_text(o->profile,
+                       profile_text(measurements_from(result.dump()).measurements, sex_from(o->sex)));
     });
 }
 

@@ -25,8 +25,9 @@ struct Step {
 Step read_step(vfit_motion motion) {
     Step step;
     step.bones = bones_of(motion, step.pose);
-    step.joints = list<vfit_joint>(
-        [&](auto* items, uint32_t stride, uint32_t* n) { return vfit_motion_joints(motion, items, stride, n); });
+    step.joints = list<vfit_joint>([&](auto* items, uint32_t stride, uint32_t* n) {
+        return vfit_motion_joints(motion, items, stride, n);
+    });
     return step;
 }
 
@@ -53,7 +54,8 @@ void motion(const Options& options) {
     const Tracker tracker = open_tracker(context.get(), options.track);
     vfit_motion_desc desc = vfit_motion_desc_init();
     if (options.raw)
-        desc.flags = VFIT_MOTION_NO_FILTER | VFIT_MOTION_NO_LIMITS | VFIT_MOTION_NO_SMOOTHING | VFIT_MOTION_NO_FEET;
+        desc.flags =
+            VFIT_MOTION_NO_FILTER | VFIT_MOTION_NO_LIMITS | VFIT_MOTION_NO_SMOOTHING | VFIT_MOTION_NO_FEET;
     Motion motion;
     check(vfit_motion_create(context.get(), &desc, motion.out()));
     Progress progress("frames", true);
@@ -64,7 +66,8 @@ void motion(const Options& options) {
         const auto start = std::chrono::steady_clock::now();
         const vfit_result result =
             check(vfit_motion_step(motion.get(), tracked.get(), active_body(tracked.get()), depth.time_ns));
-        const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        const double ms =
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         const uint32_t index = source.taken() - 1;
         progress.at(source.taken(), 0);
         if (result == VFIT_NOT_READY) {
@@ -75,7 +78,8 @@ void motion(const Options& options) {
         if (options.json)
             print_line(step_json(step, camera_of(tracked.get()), index, ms));
         else
-            std::cout << "frame " << index << ": contacts " << (step.pose.contact_flags & VFIT_CONTACT_LEFT ? "L" : "-")
+            std::cout << "frame " << index << ": contacts "
+                      << (step.pose.contact_flags & VFIT_CONTACT_LEFT ? "L" : "-")
                       << (step.pose.contact_flags & VFIT_CONTACT_RIGHT ? "R" : "-") << "\n";
     }
 }

@@ -29,8 +29,9 @@ Curve depth_correction(vfit_context context, const Options& options) {
 
 void plot(const Options& options) {
     const Context context = open_context();
-    const Curve curve =
-        options.what == "depth" ? depth_correction(context.get(), options) : foot_correction(context.get(), options.source, options.frames);
+    const Curve curve = options.what == "depth"
+                            ? depth_correction(context.get(), options)
+                            : foot_correction(context.get(), options.source, options.frames);
     if (curve.points.empty()) throw Failure("nothing to plot: nobody was in view");
     draw_curve(curve, 900, 500).write_png(options.out);
     double sum = 0.0;
@@ -49,9 +50,14 @@ void add_plot(Command& app) {
     Command command = app.add_subcommand("plot", "Draw the paper's curves of a recording");
     auto o = std::make_shared<Options>();
     command.add_option("source", o->source, "Recording folder or sensor URI").required();
-    command.add_option("--what", o->what, "depth (Fig. 9) or feet (Fig. 11)").required().one_of({"depth", "feet"});
+    command.add_option("--what", o->what, "depth (Fig. 9) or feet (Fig. 11)")
+        .required()
+        .one_of({"depth", "feet"});
     command.add_option("--out", o->out, "PNG file to write").required();
-    command.add_option("--frames", o->frames, "Frames to scan (default 30), or to follow the feet for (default 300)").within(1, 3000);
+    command
+        .add_option("--frames", o->frames,
+                    "Frames to scan (default 30), or to follow the feet for (default 300)")
+        .within(1, 3000);
     command.add_flag("--json", o->json, "Print JSON");
     command.callback([o] { plot(*o); });
 }

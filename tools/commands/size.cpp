@@ -13,7 +13,8 @@ namespace vfit::tools {
 
 namespace {
 
-// A label that is likelier than this is named alone; else the two best are, where one of them is right as often.
+// A label that is likelier than this is named alone; else the two best are, where one of them is right as
+// often.
 constexpr double kSure = 0.7;
 
 struct Options {
@@ -46,7 +47,8 @@ Json size(const Options& options) {
 std::string amount(const std::string& key, double value) {
     const bool mass = key.size() > 3 && key.substr(key.size() - 3) == "_kg";
     std::ostringstream out;
-    out << std::fixed << std::setprecision(1) << std::abs(mass ? value : 100.0 * value) << (mass ? " kg" : " cm");
+    out << std::fixed << std::setprecision(1) << std::abs(mass ? value : 100.0 * value)
+        << (mass ? " kg" : " cm");
     return out.str();
 }
 
@@ -55,8 +57,9 @@ void print(const Json& result) {
     constexpr double kNotWorthALine = 0.0005;
     for (const Json& s : result["sizes"])
         if (s["probability"] >= kNotWorthALine)
-            std::cout << std::left << std::setw(8) << s["label"].get<std::string>() << std::right << std::fixed
-                      << std::setprecision(1) << std::setw(5) << 100.0 * s["probability"].get<double>() << " %\n";
+            std::cout << std::left << std::setw(8) << s["label"].get<std::string>() << std::right
+                      << std::fixed << std::setprecision(1) << std::setw(5)
+                      << 100.0 * s["probability"].get<double>() << " %\n";
     if (result.contains("between"))
         std::cout << "between " << result["between"][0].get<std::string>() << " and "
                   << result["between"][1].get<std::string>() << "\n";
@@ -64,10 +67,12 @@ void print(const Json& result) {
     std::cout << "size " << result["label"].get<std::string>() << ":\n";
     for (const auto& [key, zone] : result["zones"].items()) {
         const double ease = zone["ease"];
-        std::cout << "  " << std::left << std::setw(20) << key << amount(key, ease) << (ease < 0.0 ? " short of" : " more than")
-                  << " the middle of the size (+- " << amount(key, zone["sigma"]) << "):";
+        std::cout << "  " << std::left << std::setw(20) << key << amount(key, ease)
+                  << (ease < 0.0 ? " short of" : " more than") << " the middle of the size (+- "
+                  << amount(key, zone["sigma"]) << "):";
         for (const char* how : {"tight", "regular", "loose"})
-            std::cout << " " << how << " " << std::fixed << std::setprecision(0) << 100.0 * zone[how].get<double>() << " %";
+            std::cout << " " << how << " " << std::fixed << std::setprecision(0)
+                      << 100.0 * zone[how].get<double>() << " %";
         std::cout << "\n";
     }
 }
@@ -77,7 +82,8 @@ void print(const Json& result) {
 void add_size(Command& app) {
     Command command = app.add_subcommand("size", "Name the clothing size from measures");
     auto o = std::make_shared<Options>();
-    command.add_option("measures", o->measures, "JSON file as vfit measure prints it, or a profile").required();
+    command.add_option("measures", o->measures, "JSON file as vfit measure prints it, or a profile")
+        .required();
     command.add_option("--chart", o->chart, "Chart name, or file").required();
     command.add_option("--garment", o->garment, "Garment kind of the chart").required();
     command.add_option("--size", o->label, "Also tell how this size sits");

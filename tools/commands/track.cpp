@@ -58,7 +58,8 @@ Json bodies_json(vfit_frame frame) {
     for (const auto& body : list<vfit_body>([&](auto* items, uint32_t stride, uint32_t* n) {
              return vfit_frame_bodies(frame, items, stride, n);
          }))
-        out.push_back({{"id", body.body_id}, {"joints", joints_json(joints_of(frame, body.body_id), camera)}});
+        out.push_back(
+            {{"id", body.body_id}, {"joints", joints_json(joints_of(frame, body.body_id), camera)}});
     return out;
 }
 
@@ -106,7 +107,7 @@ void add_track(Command& app) {
     command.add_option("source", o->source, "Recording folder or sensor URI").required();
     command.add_option("--user-map-out", o->map_folder, "Write each frame's user map there as PNG");
     command.add_option("--pictures", o->picture_folder,
-                        "Draw each frame there as PNG: depth, people, skeletons");
+                       "Draw each frame there as PNG: depth, people, skeletons");
     command.add_flag("--json", o->json, "Print JSON lines");
     add_track_options(command, o->track);
     command.callback([o] { track(*o); });

@@ -17,7 +17,7 @@ namespace {
 constexpr PortraitStyle kFine{420, 640, 3}, kDraft{280, 420, 1};
 constexpr float kFrame_s = 1.0f / 60.0f, kOwnLayers_m = 0.004f;
 constexpr int kFramesToRest = 90;
-constexpr uint32_t kSubsteps = 32;  // of 1/60 s: with few, cloth sags
+constexpr uint32_t kSubsteps = 32;      // of 1/60 s: with few, cloth sags
 constexpr size_t kLongestCaption = 36;  // characters that fit below a picture
 
 struct Options {
@@ -28,8 +28,10 @@ struct Options {
 std::vector<std::string> split(const std::string& text, char at) {
     std::vector<std::string> parts(1);
     for (const char c : text) {
-        if (c == at) parts.emplace_back();
-        else parts.back() += c;
+        if (c == at)
+            parts.emplace_back();
+        else
+            parts.back() += c;
     }
     return parts;
 }
@@ -43,23 +45,28 @@ std::vector<vfit_shape_value> shape_of(const std::string& text) {
         vfit_shape_value v = vfit_shape_value_init();
         char* end = nullptr;
         if (parts.size() == 2) v.value = std::strtof(parts[1].c_str(), &end);
-        if (parts.size() != 2 || parts[0].size() >= sizeof v.key || !end || end == parts[1].c_str() || *end) throw Failure("--shape: \"" + part + "\" is not KEY=NUMBER");
+        if (parts.size() != 2 || parts[0].size() >= sizeof v.key || !end || end == parts[1].c_str() || *end)
+            throw Failure("--shape: \"" + part + "\" is not KEY=NUMBER");
         std::snprintf(v.key, sizeof v.key, "%s", parts[0].c_str());
         values.push_back(v);
     }
     return values;
 }
 
-const char* word_of(vfit_fit fit) { return fit == VFIT_FIT_TIGHT ? "tight" : fit == VFIT_FIT_LOOSE ? "loose" : "right"; }
+const char* word_of(vfit_fit fit) {
+    return fit == VFIT_FIT_TIGHT ? "tight" : fit == VFIT_FIT_LOOSE ? "loose" : "right";
+}
 
 /// One body in garments that are worn over each other.
 class Outfit {
 public:
-    Outfit(vfit_context context, const Options& options, const std::string& names, const std::string& size) : size_(size) {
+    Outfit(vfit_context context, const Options& options, const std::string& names, const std::string& size)
+        : size_(size) {
         vfit_avatar_desc desc = vfit_avatar_desc_init();
         desc.sex = sex_from(options.sex);
         const auto shape = shape_of(options.shape);
-        check(vfit_avatar_create_from_shape(context, &desc, shape.data(), sizeof(vfit_shape_value), uint32_t(shape.size()), avatar_.out()));
+        check(vfit_avatar_create_from_shape(context, &desc, shape.data(), sizeof(vfit_shape_value),
+                                            uint32_t(shape.size()), avatar_.out()));
         stand(avatar_.get(), 0.08f);
         for (const std::string& name : split(names, '+')) put_on(context, name);
     }
@@ -76,9 +83,15 @@ public:
         Json out = Json::array();
         for (size_t i = 0; i < cloths_.size(); ++i) {
             Json zones = Json::object();
-            for (const vfit_fit_zone& z : list<vfit_fit_zone>([&](auto* items, uint32_t stride, uint32_t* n) { return vfit_cloth_fit(cloths_[i].get(), items, stride, n); }))
-                zones[z.key] = {{"fit", word_of(z.fit)}, {"body_m", z.body_m}, {"garment_m", z.garment_m}, {"ease_m", z.ease_m}, {"strain", z.strain}, {"pressure_pa", z.pressure_pa}};
-            out.push_back({{"garment", names_[i]}, {"size", size_.empty() ? Json("made to measure") : Json(size_)}, {"zones", zones}});
+            for (const vfit_fit_zone& z : list<vfit_fit_zone>([&](auto* items, uint32_t stride, uint32_t* n) {
+                     return vfit_cloth_fit(cloths_[i].get(), items, stride, n);
+                 }))
+                zones[z.key] = {{"fit", word_of(z.fit)},    {"body_m", z.body_m},
+                                {"garment_m", z.garment_m}, {"ease_m", z.ease_m},
+                                {"strain", z.strain},       {"pressure_pa", z.pressure_pa}};
+            out.push_back({{"garment", names_[i]},
+                           {"size", size_.empty() ? Json("made to measure") : Json(size_)},
+                           {"zones", zones}});
         }
         return out;
     }
@@ -117,8 +130,12 @@ private:
 
     static void paint(vfit_garment garment, RenderMesh& mesh) {
         mesh.vertex_colors.assign(mesh.positions.size(), mesh.color);
-        for (const vfit_garment_part& part : list<vfit_garment_part>([&](auto* items, uint32_t stride, uint32_t* n) { return vfit_garment_parts(garment, items, stride, n); }))
-            for (uint32_t i = part.first_index; i < part.first_index + part.index_count; ++i) mesh.vertex_colors[mesh.indices[i]] = {part.color[0], part.color[1], part.color[2]};
+        for (const vfit_garment_part& part :
+             list<vfit_garment_part>([&](auto* items, uint32_t stride, uint32_t* n) {
+                 return vfit_garment_parts(garment, items, stride, n);
+             }))
+            for (uint32_t i = part.first_index; i < part.first_index + part.index_count; ++i)
+                mesh.vertex_colors[mesh.indices[i]] = {part.color[0], part.color[1], part.color[2]};
     }
 
     std::string size_, refused_;
@@ -149,10 +166,13 @@ void wear(const Options& options) {
             report.push_back({{"outfit", names}, {"size", size}, {"garments", fit}});
             if (!options.json)
                 for (const Json& garment : fit) {
-                    std::cout << garment["garment"].get<std::string>() << ", " << garment["size"].get<std::string>() << ":";
+                    std::cout << garment["garment"].get<std::string>() << ", "
+                              << garment["size"].get<std::string>() << ":";
                     for (const auto& [key, zone] : garment["zones"].items()) {
                         char text[96];
-                        std::snprintf(text, sizeof text, "  %s %s (ease %.1f cm)", key.substr(0, key.find('_')).c_str(), zone["fit"].get<std::string>().c_str(), 100.0 * zone["ease_m"].get<double>());
+                        std::snprintf(
+                            text, sizeof text, "  %s %s (ease %.1f cm)", key.substr(0, key.find('_')).c_str(),
+                            zone["fit"].get<std::string>().c_str(), 100.0 * zone["ease_m"].get<double>());
                         std::cout << text;
                     }
                     std::cout << "\n";
@@ -162,19 +182,24 @@ void wear(const Options& options) {
             rows[2].push_back({outfit.draw(FitMap::fit, 0.35f, style), "fit: red tight, blue loose"});
             rows[3].push_back({outfit.draw(FitMap::fit, 3.5f, style), "from behind"});
         }
-    if (!rows[0].empty()) contact_sheet(options.outfits, rows, style.width).write_png(options.out + "/worn.png");
+    if (!rows[0].empty())
+        contact_sheet(options.outfits, rows, style.width).write_png(options.out + "/worn.png");
     const Json document = {{"sex", options.sex}, {"shape", options.shape}, {"outfits", report}};
     write_text(options.out + "/worn.json", document_text(document));
-    if (options.json) print_document(document);
-    else std::cout << "in " << options.out << ": worn.json" << (rows[0].empty() ? "" : ", worn.png") << "\n";
+    if (options.json)
+        print_document(document);
+    else
+        std::cout << "in " << options.out << ": worn.json" << (rows[0].empty() ? "" : ", worn.png") << "\n";
 }
 
 }  // namespace
 
 void add_wear(Command& app) {
-    Command command = app.add_subcommand("wear", "Garments on a body, side by side: outfits, sizes, how they sit");
+    Command command =
+        app.add_subcommand("wear", "Garments on a body, side by side: outfits, sizes, how they sit");
     auto o = std::make_shared<Options>();
-    command.add_option("outfits", o->outfits, "Garments by name or file; A+B: B over A; A,B: side by side").required();
+    command.add_option("outfits", o->outfits, "Garments by name or file; A+B: B over A; A,B: side by side")
+        .required();
     command.add_option("--size", o->sizes, "Labels, side by side: S,M,L (default: made to measure)");
     command.add_option("--sex", o->sex, "Whose default body: f, m or unknown").one_of({"f", "m", "unknown"});
     command.add_option("--shape", o->shape, "Of the body: height=0.7,weight=1 (docs/virtual-person.md)");

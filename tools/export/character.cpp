@@ -17,7 +17,7 @@ using glm::vec3;
 /// A bone of the style: its name, and the humanoid bone that it is or shares the twist of.
 struct StyleBone {
     std::string name;
-    int bone = -1;       // VFIT_BONE_*; of a twist bone that of its limb
+    int bone = -1;  // VFIT_BONE_*; of a twist bone that of its limb
     int parent = -1;
     bool twist = false;
 };
@@ -26,15 +26,18 @@ struct Style {
     const char* name;
     RigStyle style;
 };
-constexpr Style kStyles[] = {
-    {"vrm0", RigStyle::vrm0}, {"vrm1", RigStyle::vrm1}, {"mixamo", RigStyle::mixamo}, {"bones31", RigStyle::bones31}};
+constexpr Style kStyles[] = {{"vrm0", RigStyle::vrm0},
+                             {"vrm1", RigStyle::vrm1},
+                             {"mixamo", RigStyle::mixamo},
+                             {"bones31", RigStyle::bones31}};
 
 // A picture of 1 x 1 pixels (PNG): so that there is a texture to carry along.
-constexpr unsigned char kPixel[] = {
-    0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A, 0x00, 0x00, 0x00, 0x0D, 0x49, 0x48, 0x44, 0x52, 0x00, 0x00, 0x00,
-    0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00, 0x00, 0x90, 0x77, 0x53, 0xDE, 0x00, 0x00, 0x00, 0x0C, 0x49,
-    0x44, 0x41, 0x54, 0x08, 0xD7, 0x63, 0xF8, 0xFF, 0xFF, 0x3F, 0x00, 0x05, 0xFE, 0x02, 0xFE, 0xDC, 0xCC, 0x59, 0xE7,
-    0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4E, 0x44, 0xAE, 0x42, 0x60, 0x82};
+constexpr unsigned char kPixel[] = {0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A, 0x00, 0x00, 0x00, 0x0D,
+                                    0x49, 0x48, 0x44, 0x52, 0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01,
+                                    0x08, 0x02, 0x00, 0x00, 0x00, 0x90, 0x77, 0x53, 0xDE, 0x00, 0x00, 0x00,
+                                    0x0C, 0x49, 0x44, 0x41, 0x54, 0x08, 0xD7, 0x63, 0xF8, 0xFF, 0xFF, 0x3F,
+                                    0x00, 0x05, 0xFE, 0x02, 0xFE, 0xDC, 0xCC, 0x59, 0xE7, 0x00, 0x00, 0x00,
+                                    0x00, 0x49, 0x45, 0x4E, 0x44, 0xAE, 0x42, 0x60, 0x82};
 
 bool is_required(int bone) {
     switch (bone) {
@@ -50,19 +53,24 @@ bool is_required(int bone) {
 }
 
 bool is_limb(int bone) {
-    for (const int b : {VFIT_BONE_LEFT_UPPER_ARM, VFIT_BONE_LEFT_LOWER_ARM, VFIT_BONE_RIGHT_UPPER_ARM, VFIT_BONE_RIGHT_LOWER_ARM,
-                        VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_RIGHT_UPPER_LEG, VFIT_BONE_RIGHT_LOWER_LEG})
+    for (const int b : {VFIT_BONE_LEFT_UPPER_ARM, VFIT_BONE_LEFT_LOWER_ARM, VFIT_BONE_RIGHT_UPPER_ARM,
+                        VFIT_BONE_RIGHT_LOWER_ARM, VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_LEFT_LOWER_LEG,
+                        VFIT_BONE_RIGHT_UPPER_LEG, VFIT_BONE_RIGHT_LOWER_LEG})
         if (b == bone) return true;
     return false;
 }
 
 std::string style_name(RigStyle style, int bone) {
-    constexpr const char* kMixamo[] = {"Hips", "Spine", "Spine1", "Spine2", "Neck", "Head", "LeftShoulder", "LeftArm", "LeftForeArm",
-                                       "LeftHand", "RightShoulder", "RightArm", "RightForeArm", "RightHand", "LeftUpLeg", "LeftLeg",
-                                       "LeftFoot", "LeftToeBase", "RightUpLeg", "RightLeg", "RightFoot", "RightToeBase"};
-    constexpr const char* kUnreal[] = {"pelvis", "spine_01", "spine_02", "spine_03", "neck_01", "head", "clavicle_l", "upperarm_l",
-                                       "lowerarm_l", "hand_l", "clavicle_r", "upperarm_r", "lowerarm_r", "hand_r", "thigh_l",
-                                       "calf_l", "foot_l", "ball_l", "thigh_r", "calf_r", "foot_r", "ball_r"};
+    constexpr const char* kMixamo[] = {
+        "Hips",         "Spine",     "Spine1",      "Spine2",      "Neck",          "Head",
+        "LeftShoulder", "LeftArm",   "LeftForeArm", "LeftHand",    "RightShoulder", "RightArm",
+        "RightForeArm", "RightHand", "LeftUpLeg",   "LeftLeg",     "LeftFoot",      "LeftToeBase",
+        "RightUpLeg",   "RightLeg",  "RightFoot",   "RightToeBase"};
+    constexpr const char* kUnreal[] = {"pelvis",     "spine_01",   "spine_02",   "spine_03",   "neck_01",
+                                       "head",       "clavicle_l", "upperarm_l", "lowerarm_l", "hand_l",
+                                       "clavicle_r", "upperarm_r", "lowerarm_r", "hand_r",     "thigh_l",
+                                       "calf_l",     "foot_l",     "ball_l",     "thigh_r",    "calf_r",
+                                       "foot_r",     "ball_r"};
     static_assert(std::size(kMixamo) == VFIT_BONE_COUNT && std::size(kUnreal) == VFIT_BONE_COUNT);
     switch (style) {
         case RigStyle::mixamo: return std::string("mixamorig:") + kMixamo[bone];
@@ -82,7 +90,8 @@ std::vector<StyleBone> bones_of_style(RigStyle style) {
         int above = vfit_bone_parent(b);
         while (above >= 0 && of[size_t(above)] < 0) above = vfit_bone_parent(above);
         of[size_t(b)] = int(bones.size());
-        bones.push_back({style_name(style, b), b, above >= 0 ? of[size_t(above)] : int(style == RigStyle::bones31) - 1, false});
+        bones.push_back({style_name(style, b), b,
+                         above >= 0 ? of[size_t(above)] : int(style == RigStyle::bones31) - 1, false});
     }
     if (style == RigStyle::bones31)
         for (int b = 0; b < int(VFIT_BONE_COUNT); ++b)
@@ -106,8 +115,12 @@ struct Bind {
 };
 
 Bind bind_of(vfit_avatar avatar, bool t_pose) {
-    struct Bones { std::array<uint16_t, 8> bone; };
-    struct Weights { std::array<float, 8> weight; };
+    struct Bones {
+        std::array<uint16_t, 8> bone;
+    };
+    struct Weights {
+        std::array<float, 8> weight;
+    };
     Frame frame;
     check(t_pose ? vfit_avatar_acquire(avatar, frame.out()) : vfit_avatar_acquire_rest(avatar, frame.out()));
     Bind bind;
@@ -115,8 +128,10 @@ Bind bind_of(vfit_avatar avatar, bool t_pose) {
     bind.normals = items_of<vec3>(frame.get(), VFIT_STREAM_NORMAL);
     bind.uvs = items_of<glm::vec2>(frame.get(), VFIT_STREAM_UV);
     bind.indices = items_of<uint32_t>(frame.get(), VFIT_STREAM_INDEX);
-    for (const Bones& b : items_of<Bones>(frame.get(), VFIT_STREAM_SKIN_BONES)) bind.skin_bones.push_back(b.bone);
-    for (const Weights& w : items_of<Weights>(frame.get(), VFIT_STREAM_SKIN_WEIGHTS)) bind.skin_weights.push_back(w.weight);
+    for (const Bones& b : items_of<Bones>(frame.get(), VFIT_STREAM_SKIN_BONES))
+        bind.skin_bones.push_back(b.bone);
+    for (const Weights& w : items_of<Weights>(frame.get(), VFIT_STREAM_SKIN_WEIGHTS))
+        bind.skin_weights.push_back(w.weight);
     bind.rig = rig_of(avatar);
     const auto matrices = items_of<mat4>(frame.get(), VFIT_STREAM_BONE_MATRIX);
     for (size_t i = 0; i < bind.rig.size(); ++i) {
@@ -152,7 +167,8 @@ StyleSkin style_skin(const Bind& bind, const std::vector<StyleBone>& style, cons
             for (size_t n = 0; n < style.size(); ++n)
                 if (style[n].parent == style[s].parent && !style[n].twist) next = n;
             const vec3 start = heads[size_t(style[s].parent)], axis = heads[next] - start;
-            const float along = std::clamp(glm::dot(bind.positions[v] - start, axis) / glm::dot(axis, axis), 0.0f, 1.0f);
+            const float along =
+                std::clamp(glm::dot(bind.positions[v] - start, axis) / glm::dot(axis, axis), 0.0f, 1.0f);
             float& limb = share[style[s].parent];
             share[int(s)] = along * limb;
             limb *= 1.0f - along;
@@ -183,21 +199,27 @@ quat along_y(const vec3& direction) {
     return glm::normalize(quat(1.0f + d.y, axis.x, axis.y, axis.z));
 }
 
-tinygltf::Value object(const std::map<std::string, tinygltf::Value>& members) { return tinygltf::Value(members); }
+tinygltf::Value object(const std::map<std::string, tinygltf::Value>& members) {
+    return tinygltf::Value(members);
+}
 
-void add_vrm(tinygltf::Model& model, RigStyle style, const std::vector<StyleBone>& bones, const std::vector<int>& nodes) {
+void add_vrm(tinygltf::Model& model, RigStyle style, const std::vector<StyleBone>& bones,
+             const std::vector<int>& nodes) {
     using Value = tinygltf::Value;
     if (style == RigStyle::vrm0) {
         std::vector<Value> list;
         for (size_t i = 0; i < bones.size(); ++i)
-            list.push_back(object({{"bone", Value(bone_name(bones[i].bone))}, {"node", Value(nodes[i])}, {"useDefaultValues", Value(true)}}));
+            list.push_back(object({{"bone", Value(bone_name(bones[i].bone))},
+                                   {"node", Value(nodes[i])},
+                                   {"useDefaultValues", Value(true)}}));
         model.extensions["VRM"] = object({{"specVersion", Value(std::string("0.0"))},
                                           {"meta", object({{"title", Value(std::string("vfit body"))}})},
                                           {"humanoid", object({{"humanBones", Value(list)}})}});
         model.extensionsUsed = {"VRM"};
     } else {
         std::map<std::string, Value> members;
-        for (size_t i = 0; i < bones.size(); ++i) members[bone_name(bones[i].bone)] = object({{"node", Value(nodes[i])}});
+        for (size_t i = 0; i < bones.size(); ++i)
+            members[bone_name(bones[i].bone)] = object({{"node", Value(nodes[i])}});
         model.extensions["VRMC_vrm"] = object({{"specVersion", Value(std::string("1.0"))},
                                                {"meta", object({{"name", Value(std::string("vfit body"))}})},
                                                {"humanoid", object({{"humanBones", object(members)}})}});
@@ -234,12 +256,13 @@ std::vector<std::string> rig_style_names() {
     return names;
 }
 
-void export_character(vfit_context context, const vfit_avatar_desc& body, const std::vector<vfit_shape_value>& shape, RigStyle style,
-                      const std::string& path) {
+void export_character(vfit_context context, const vfit_avatar_desc& body,
+                      const std::vector<vfit_shape_value>& shape, RigStyle style, const std::string& path) {
     vfit_avatar_desc desc = body;
     desc.flags |= VFIT_AVATAR_SINGLE_BONES;
     Avatar avatar;
-    check(vfit_avatar_create_from_shape(context, &desc, shape.data(), sizeof(vfit_shape_value), uint32_t(shape.size()), avatar.out()));
+    check(vfit_avatar_create_from_shape(context, &desc, shape.data(), sizeof(vfit_shape_value),
+                                        uint32_t(shape.size()), avatar.out()));
     const Bind bind = bind_of(avatar.get(), style != RigStyle::bones31);
     const std::vector<StyleBone> bones = bones_of_style(style);
     std::vector<vec3> heads(bones.size(), vec3(0.0f));
@@ -279,13 +302,15 @@ void export_character(vfit_context context, const vfit_avatar_desc& body, const 
     if (centimetres) armature.scale = {0.01, 0.01, 0.01};
     const int armature_node = writer.add_node(armature);
     for (size_t s = 0; s < bones.size(); ++s) {
-        const mat4 local = bones[s].parent < 0 ? worlds[s] : glm::inverse(worlds[size_t(bones[s].parent)]) * worlds[s];
+        const mat4 local =
+            bones[s].parent < 0 ? worlds[s] : glm::inverse(worlds[size_t(bones[s].parent)]) * worlds[s];
         tinygltf::Node node;
         node.name = bones[s].name;
         node.translation = values(vec3(local[3]));
         node.rotation = values(glm::normalize(glm::quat_cast(glm::mat3(local))));
         nodes.push_back(writer.add_node(node));
-        model.nodes[size_t(bones[s].parent < 0 ? armature_node : nodes[size_t(bones[s].parent)])].children.push_back(nodes.back());
+        model.nodes[size_t(bones[s].parent < 0 ? armature_node : nodes[size_t(bones[s].parent)])]
+            .children.push_back(nodes.back());
     }
     tinygltf::Skin rig;
     rig.joints = nodes;
@@ -310,8 +335,8 @@ void export_character(vfit_context context, const vfit_avatar_desc& body, const 
                 b.push_back(skin.bones[v][k]);
                 w.push_back(skin.weights[v][k]);
             }
-        primitive.attributes["JOINTS_" + std::to_string(set)] =
-            writer.add(b, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TARGET_ARRAY_BUFFER);
+        primitive.attributes["JOINTS_" + std::to_string(set)] = writer.add(
+            b, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TARGET_ARRAY_BUFFER);
         primitive.attributes["WEIGHTS_" + std::to_string(set)] =
             writer.add(w, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TARGET_ARRAY_BUFFER);
     }

@@ -1,5 +1,5 @@
-// vfit's own body as a character file, with the rigs that characters commonly have: for games that have none yet, and
-// as test characters.
+// vfit's own body as a character file, with the rigs that characters commonly have: for games that have none
+// yet, and as test characters.
 #pragma once
 
 #include <string>
@@ -20,9 +20,9 @@ enum class RigStyle {
 RigStyle rig_style_from(const std::string& name);
 std::vector<std::string> rig_style_names();
 
-/// Writes the avatar's body as a GLB or VRM file with one material and a small texture. Bones that the style lacks
-/// hand their skin to the next one towards the hips.
-void export_character(vfit_context context, const vfit_avatar_desc& body, const std::vector<vfit_shape_value>& shape, RigStyle style,
-                      const std::string& path);
+/// Writes the avatar's body as a GLB or VRM file with one material and a small texture. Bones that the style
+/// lacks hand their skin to the next one towards the hips.
+void export_character(vfit_context context, const vfit_avatar_desc& body,
+                      const std::vector<vfit_shape_value>& shape, RigStyle style, const std::string& path);
 
 }  // namespace vfit::tools

@@ -15,7 +15,8 @@ using glm::mat4;
 using glm::quat;
 using glm::vec3;
 
-bool keep_picture(tinygltf::Image* image, int, std::string*, std::string*, int, int, const unsigned char* bytes, int size, void*) {
+bool keep_picture(tinygltf::Image* image, int, std::string*, std::string*, int, int,
+                  const unsigned char* bytes, int size, void*) {
     image->image.assign(bytes, bytes + size);
     image->as_is = true;
     return true;
@@ -29,9 +30,12 @@ tinygltf::Model read_model(const std::string& path) {
     std::string error, warning;
     const std::string folder = std::filesystem::path(path).parent_path().string();
     const bool binary = bytes.compare(0, 4, "glTF") == 0;
-    const bool read = binary ? loader.LoadBinaryFromMemory(&model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()),
-                                                           uint32_t(bytes.size()), folder)
-                             : loader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), uint32_t(bytes.size()), folder);
+    const bool read = binary
+                          ? loader.LoadBinaryFromMemory(&model, &error, &warning,
+                                                        reinterpret_cast<const unsigned char*>(bytes.data()),
+                                                        uint32_t(bytes.size()), folder)
+                          : loader.LoadASCIIFromString(&model, &error, &warning, bytes.data(),
+                                                       uint32_t(bytes.size()), folder);
     if (!read) throw Failure(path + ": " + error);
     return model;
 }
@@ -65,8 +69,8 @@ Local local_of(const tinygltf::Node& node) {
     local.translation = vector(node.translation, vec3(0.0f));
     local.scale = vector(node.scale, vec3(1.0f));
     if (node.rotation.size() == 4)
-        local.rotation = glm::normalize(
-            quat(float(node.rotation[3]), float(node.rotation[0]), float(node.rotation[1]), float(node.rotation[2])));
+        local.rotation = glm::normalize(quat(float(node.rotation[3]), float(node.rotation[0]),
+                                             float(node.rotation[1]), float(node.rotation[2])));
     return local;
 }
 
@@ -82,7 +86,8 @@ void take_in(GlbWriter& writer) {
     for (tinygltf::Image& image : model.images) {
         if (image.bufferView >= 0 || image.image.empty()) continue;
         constexpr unsigned char kPng[] = {0x89, 'P', 'N', 'G'};
-        const bool png = image.image.size() > sizeof kPng && std::equal(std::begin(kPng), std::end(kPng), image.image.begin());
+        const bool png = image.image.size() > sizeof kPng &&
+                         std::equal(std::begin(kPng), std::end(kPng), image.image.begin());
         image.mimeType = png ? "image/png" : "image/jpeg";
         image.bufferView = writer.add_view(image.image.data(), image.image.size(), 0);
         image.uri.clear();
@@ -135,9 +140,12 @@ void CharacterAnimation::write(const std::string& path) const {
             if (const int b = bone_of[n]; b >= 0) {
                 const vfit_rig_bone& bone = rig[size_t(b)];
                 const mat4 posed = to_file * key.bone_matrices[size_t(b)];
-                const quat axes(bone.rest_rotation[3], bone.rest_rotation[0], bone.rest_rotation[1], bone.rest_rotation[2]);
-                local.rotation = glm::normalize(glm::conjugate(rotation_of(above)) * rotation_of(posed) * axes);
-                if (!rotations[n].empty() && glm::dot(local.rotation, rotations[n].back()) < 0.0f) local.rotation = -local.rotation;
+                const quat axes(bone.rest_rotation[3], bone.rest_rotation[0], bone.rest_rotation[1],
+                                bone.rest_rotation[2]);
+                local.rotation =
+                    glm::normalize(glm::conjugate(rotation_of(above)) * rotation_of(posed) * axes);
+                if (!rotations[n].empty() && glm::dot(local.rotation, rotations[n].back()) < 0.0f)
+                    local.rotation = -local.rotation;
                 rotations[n].push_back(local.rotation);
                 if (bone.bone == VFIT_BONE_HIPS) {
                     const vec3 head(bone.rest_position[0], bone.rest_position[1], bone.rest_position[2]);

@@ -1,5 +1,5 @@
-// A character's own file with a motion in it: meshes, materials and textures go through as they are, the nodes of its
-// bones get key frames.
+// A character's own file with a motion in it: meshes, materials and textures go through as they are, the
+// nodes of its bones get key frames.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -29,7 +29,8 @@ std::vector<Local> locals(const std::vector<vfit_rig_bone>& rig, const std::vect
     std::vector<Local> out(rig.size());
     for (size_t i = 0; i < rig.size(); ++i) {
         world[i] = joint_world(rig[i], skinning[i]);
-        const mat4 local = rig[i].parent < 0 ? world[i] : glm::inverse(world[size_t(rig[i].parent)]) * world[i];
+        const mat4 local =
+            rig[i].parent < 0 ? world[i] : glm::inverse(world[size_t(rig[i].parent)]) * world[i];
         out[i] = {glm::normalize(glm::quat_cast(glm::mat3(local))), vec3(local[3])};
     }
     return out;
@@ -37,8 +38,12 @@ std::vector<Local> locals(const std::vector<vfit_rig_bone>& rig, const std::vect
 
 /// Joint indices and weights 4 by 4; an unused place names joint 0 with weight 0.
 void add_skin_attributes(GlbWriter& writer, tinygltf::Primitive& primitive, vfit_frame rest) {
-    struct Bones { uint16_t bone[8]; };
-    struct Weights { float weight[8]; };
+    struct Bones {
+        uint16_t bone[8];
+    };
+    struct Weights {
+        float weight[8];
+    };
     const auto bones = items_of<Bones>(rest, VFIT_STREAM_SKIN_BONES);
     const auto weights = items_of<Weights>(rest, VFIT_STREAM_SKIN_WEIGHTS);
     for (int set = 0; set < 2; ++set) {
@@ -50,8 +55,8 @@ void add_skin_attributes(GlbWriter& writer, tinygltf::Primitive& primitive, vfit
                 b.push_back(weights[i].weight[k] > 0.0f ? bones[i].bone[k] : uint16_t(0));
             }
         const std::string suffix = std::to_string(set);
-        primitive.attributes["JOINTS_" + suffix] =
-            writer.add(b, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TARGET_ARRAY_BUFFER);
+        primitive.attributes["JOINTS_" + suffix] = writer.add(
+            b, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TARGET_ARRAY_BUFFER);
         primitive.attributes["WEIGHTS_" + suffix] =
             writer.add(w, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TARGET_ARRAY_BUFFER);
     }
@@ -103,7 +108,8 @@ void GlbAnimation::write(const std::string& path) const {
         node.translation = values(first[i].translation);
         skin.joints.push_back(writer.add_node(node));
         mat4 bind(1.0f);
-        bind[3] = glm::vec4(-rig_[i].rest_position[0], -rig_[i].rest_position[1], -rig_[i].rest_position[2], 1.0f);
+        bind[3] =
+            glm::vec4(-rig_[i].rest_position[0], -rig_[i].rest_position[1], -rig_[i].rest_position[2], 1.0f);
         inverse_bind.push_back(bind);
         if (rig_[i].parent < 0)
             roots.push_back(skin.joints.back());
@@ -141,8 +147,8 @@ void GlbAnimation::write(const std::string& path) const {
     body.attributes["POSITION"] = writer.add_vectors(items_of<vec3>(rest.get(), VFIT_STREAM_POSITION), true);
     body.attributes["NORMAL"] = writer.add_vectors(items_of<vec3>(rest.get(), VFIT_STREAM_NORMAL), false);
     body.attributes["TEXCOORD_0"] =
-        writer.add(items_of<glm::vec2>(rest.get(), VFIT_STREAM_UV), TINYGLTF_TYPE_VEC2, TINYGLTF_COMPONENT_TYPE_FLOAT,
-                   TINYGLTF_TARGET_ARRAY_BUFFER);
+        writer.add(items_of<glm::vec2>(rest.get(), VFIT_STREAM_UV), TINYGLTF_TYPE_VEC2,
+                   TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TARGET_ARRAY_BUFFER);
     add_skin_attributes(writer, body, rest.get());
     body.indices = writer.add_indices(seen_triangles(avatar_, cloth_));
     body_mesh.primitives.push_back(body);

@@ -54,7 +54,8 @@ int GlbWriter::add_view(const unsigned char* from, size_t count, int target) {
     return static_cast<int>(model_.bufferViews.size()) - 1;
 }
 
-int GlbWriter::add_bytes(const unsigned char* bytes, size_t count, int type, int component, int target, bool bounds) {
+int GlbWriter::add_bytes(const unsigned char* bytes, size_t count, int type, int component, int target,
+                         bool bounds) {
     tinygltf::Accessor accessor;
     accessor.bufferView = add_view(bytes, count, target);
     accessor.componentType = component;
@@ -74,7 +75,8 @@ int GlbWriter::add_times(const std::vector<float>& times) {
 }
 
 int GlbWriter::add_indices(const std::vector<uint32_t>& indices) {
-    return add(indices, TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    return add(indices, TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+               TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
 }
 
 int GlbWriter::add_matrices(const std::vector<glm::mat4>& matrices) {
@@ -86,7 +88,8 @@ int GlbWriter::add_rotations(const std::vector<glm::quat>& rotations) {
     return add(rotations, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_FLOAT, 0);
 }
 
-int GlbWriter::add_material(const std::string& name, const std::vector<double>& color, double roughness, bool two_sided) {
+int GlbWriter::add_material(const std::string& name, const std::vector<double>& color, double roughness,
+                            bool two_sided) {
     tinygltf::Material material;
     material.name = name;
     material.pbrMetallicRoughness.baseColorFactor = color;

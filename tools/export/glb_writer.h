@@ -23,15 +23,16 @@ public:
     /// The accessor of these items.
     template <typename T>
     int add(const std::vector<T>& items, int type, int component, int target, bool bounds = false) {
-        return add_bytes(reinterpret_cast<const unsigned char*>(items.data()), items.size() * sizeof(T), type, component, target,
-                         bounds);
+        return add_bytes(reinterpret_cast<const unsigned char*>(items.data()), items.size() * sizeof(T), type,
+                         component, target, bounds);
     }
     int add_vectors(const std::vector<glm::vec3>& v, bool bounds);
     int add_times(const std::vector<float>& times);
     int add_indices(const std::vector<uint32_t>& indices);
     int add_matrices(const std::vector<glm::mat4>& matrices);
     int add_rotations(const std::vector<glm::quat>& rotations);
-    int add_material(const std::string& name, const std::vector<double>& color, double roughness, bool two_sided);
+    int add_material(const std::string& name, const std::vector<double>& color, double roughness,
+                     bool two_sided);
     int add_node(tinygltf::Node node);
     /// Bytes that no accessor reads (a picture); the buffer view's index.
     int add_view(const unsigned char* bytes, size_t count, int target);

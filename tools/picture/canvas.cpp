@@ -21,24 +21,28 @@ uint8_t byte(float x) { return static_cast<uint8_t>(std::lround(std::clamp(x, 0.
 cv::Scalar scalar(const Color& c) { return {double(byte(c.r)), double(byte(c.g)), double(byte(c.b))}; }
 
 cv::Point fixed(float x, float y) {
-    const auto f = [](float v) { return static_cast<int>(std::lround(std::clamp(v, -1e5f, 1e5f) * (1 << kShift))); };
+    const auto f = [](float v) {
+        return static_cast<int>(std::lround(std::clamp(v, -1e5f, 1e5f) * (1 << kShift)));
+    };
     return {f(x), f(y)};
 }
 
-void write_png(const std::string& path, const void* pixels, uint32_t width, uint32_t height, uint32_t row_stride,
-               uint32_t format) {
+void write_png(const std::string& path, const void* pixels, uint32_t width, uint32_t height,
+               uint32_t row_stride, uint32_t format) {
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
     image.width = width;
     image.height = height;
     image.format = format;
-    if (!png_image_write_to_file(&image, path.c_str(), 0, pixels, static_cast<png_int_32>(row_stride), nullptr))
+    if (!png_image_write_to_file(&image, path.c_str(), 0, pixels, static_cast<png_int_32>(row_stride),
+                                 nullptr))
         throw Failure(path + ": cannot be written: " + image.message);
 }
 
 }  // namespace
 
-Canvas::Canvas(int width, int height, const Color& background) : image_(height, width, CV_8UC3, scalar(background)) {}
+Canvas::Canvas(int width, int height, const Color& background)
+    : image_(height, width, CV_8UC3, scalar(background)) {}
 
 void Canvas::set(int x, int y, const Color& color, float alpha) {
     if (x < 0 || y < 0 || x >= width() || y >= height()) return;
@@ -87,8 +91,8 @@ void Canvas::blit(const Canvas& from, int x, int y, int width, int height) {
 }
 
 void Canvas::write_png(const std::string& path) const {
-    tools::write_png(path, image_.data, static_cast<uint32_t>(image_.cols), static_cast<uint32_t>(image_.rows),
-                     static_cast<uint32_t>(image_.step), PNG_FORMAT_RGB);
+    tools::write_png(path, image_.data, static_cast<uint32_t>(image_.cols),
+                     static_cast<uint32_t>(image_.rows), static_cast<uint32_t>(image_.step), PNG_FORMAT_RGB);
 }
 
 void write_grey_png(const std::string& path, const uint8_t* pixels, uint32_t width, uint32_t height,

@@ -18,7 +18,8 @@ int row_width(const std::vector<SheetItem>& row, int height) {
 }
 
 /// As high as wanted, or lower, so that it is no wider.
-void write_within(Canvas& sheet, int x, int y, const std::string& text, int height, int width, const Color& color) {
+void write_within(Canvas& sheet, int x, int y, const std::string& text, int height, int width,
+                  const Color& color) {
     constexpr int kLegible = 7;
     while (height > kLegible && Canvas::text_width(text, height) > width) --height;
     sheet.text(x, y, text, height, color);
@@ -26,7 +27,8 @@ void write_within(Canvas& sheet, int x, int y, const std::string& text, int heig
 
 }  // namespace
 
-Canvas contact_sheet(const std::string& title, const std::vector<std::vector<SheetItem>>& rows, int cell_height) {
+Canvas contact_sheet(const std::string& title, const std::vector<std::vector<SheetItem>>& rows,
+                     int cell_height) {
     // Every row is as wide as the widest at the common height: the others grow to fill it.
     int width = 0;
     for (const auto& row : rows) width = std::max(width, row_width(row, cell_height));

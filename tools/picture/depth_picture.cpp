@@ -44,7 +44,8 @@ Canvas draw_depth(vfit_frame frame, int scale) {
     std::vector<uint16_t> of_room, of_person;
     for (uint32_t y = 0; y < depth.height; ++y)
         for (uint32_t x = 0; x < depth.width; ++x)
-            if (const uint16_t d = row_of<uint16_t>(depth, y)[x]) (is_person(x, y) ? of_person : of_room).push_back(d);
+            if (const uint16_t d = row_of<uint16_t>(depth, y)[x])
+                (is_person(x, y) ? of_person : of_room).push_back(d);
     const Range room = depth_range(std::move(of_room), 0.01), body = depth_range(std::move(of_person), 0.08);
     Canvas canvas(static_cast<int>(depth.width) * scale, static_cast<int>(depth.height) * scale);
     for (int y = 0; y < canvas.height(); ++y)
@@ -70,7 +71,8 @@ void draw_skeleton(Canvas& canvas, vfit_frame frame, const std::vector<vfit_join
             canvas.disc(p->x, p->y, 2.2f * static_cast<float>(scale), side_color(j.joint));
 }
 
-void draw_colliders(Canvas& canvas, vfit_frame frame, const std::vector<vfit_collider>& colliders, int scale) {
+void draw_colliders(Canvas& canvas, vfit_frame frame, const std::vector<vfit_collider>& colliders,
+                    int scale) {
     const Projection project(frame, scale);
     for (const vfit_collider& c : colliders) {
         const auto p = project(c.center);
@@ -87,7 +89,8 @@ void draw_colliders(Canvas& canvas, vfit_frame frame, const std::vector<vfit_col
         // Outer tangents of the two circles.
         const float sine = (ra - rb) / length, cosine = std::sqrt(1.0f - sine * sine);
         for (const float side : {-1.0f, 1.0f}) {
-            const float nx = (dx * sine - side * dy * cosine) / length, ny = (dy * sine + side * dx * cosine) / length;
+            const float nx = (dx * sine - side * dy * cosine) / length,
+                        ny = (dy * sine + side * dx * cosine) / length;
             canvas.line(p->x + nx * ra, p->y + ny * ra, q->x + nx * rb, q->y + ny * rb, 1, kCapsule);
         }
     }

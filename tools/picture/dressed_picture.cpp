@@ -16,7 +16,8 @@ struct Stop {
     float value;
     Color color;
 };
-constexpr Color kFits{0.93f, 0.93f, 0.91f}, kLoose{0.20f, 0.42f, 0.80f}, kFirm{0.98f, 0.80f, 0.25f}, kTight{0.78f, 0.10f, 0.12f};
+constexpr Color kFits{0.93f, 0.93f, 0.91f}, kLoose{0.20f, 0.42f, 0.80f}, kFirm{0.98f, 0.80f, 0.25f},
+    kTight{0.78f, 0.10f, 0.12f};
 constexpr Stop kStretch[] = {{-0.05f, kLoose}, {0.0f, kFits}, {0.04f, kFirm}, {0.1f, kTight}};
 constexpr Stop kFit[] = {{-1.0f, kLoose}, {-0.1f, kFits}, {0.15f, kFits}, {0.5f, kFirm}, {1.0f, kTight}};
 constexpr Stop kPressure_pa[] = {{0.0f, kFits}, {500.0f, kFirm}, {2000.0f, kTight}};

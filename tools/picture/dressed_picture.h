@@ -7,9 +7,9 @@
 
 namespace vfit::tools {
 
-/// What the garment is coloured by: nothing; how much it is stretched (blue: 5 % too long, red: 10 %); what the body presses with
-/// against it (yellow: 0.5 kPa, red: 2 kPa; the cloth needs VFIT_CLOTH_PRESSURE); how it sits (vfit_cloth_fit_map;
-/// red: tight, blue: loose).
+/// What the garment is coloured by: nothing; how much it is stretched (blue: 5 % too long, red: 10 %); what
+/// the body presses with against it (yellow: 0.5 kPa, red: 2 kPa; the cloth needs VFIT_CLOTH_PRESSURE); how
+/// it sits (vfit_cloth_fit_map; red: tight, blue: loose).
 enum class FitMap { none, stretch, pressure, fit };
 
 /// Avatar and garment as meshes to render, the skin under the garment left out. cloth may be null.

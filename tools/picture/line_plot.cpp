@@ -9,7 +9,8 @@ namespace vfit::tools {
 namespace {
 
 constexpr int kLeft = 90, kRight = 30, kTop = 60, kBottom = 70;  // pixels
-constexpr Color kPaper{1, 1, 1}, kInk{0.16f, 0.17f, 0.20f}, kGrid{0.88f, 0.88f, 0.90f}, kMark{0.50f, 0.52f, 0.56f}, kLine{0.80f, 0.27f, 0.30f};
+constexpr Color kPaper{1, 1, 1}, kInk{0.16f, 0.17f, 0.20f}, kGrid{0.88f, 0.88f, 0.90f},
+    kMark{0.50f, 0.52f, 0.56f}, kLine{0.80f, 0.27f, 0.30f};
 constexpr Color kBehind[] = {{0.55f, 0.60f, 0.72f}, {0.45f, 0.68f, 0.50f}, {0.80f, 0.65f, 0.35f}};
 
 /// The step of 1, 2 or 5 times a power of ten that cuts the range in about five.
@@ -44,8 +45,12 @@ Canvas draw_curve(const Curve& curve, int width, int height) {
     const float y_step = nice_step(y1 - y0), x_step = nice_step(x1 - x0);
     y0 = std::floor(y0 / y_step) * y_step;
     y1 = std::ceil(y1 / y_step) * y_step;
-    const auto px = [&](float x) { return float(kLeft) + (x - x0) / (x1 - x0) * float(width - kLeft - kRight); };
-    const auto py = [&](float y) { return float(height - kBottom) - (y - y0) / (y1 - y0) * float(height - kTop - kBottom); };
+    const auto px = [&](float x) {
+        return float(kLeft) + (x - x0) / (x1 - x0) * float(width - kLeft - kRight);
+    };
+    const auto py = [&](float y) {
+        return float(height - kBottom) - (y - y0) / (y1 - y0) * float(height - kTop - kBottom);
+    };
     for (int i = 0; y0 + float(i) * y_step <= y1 + 0.01f * y_step; ++i) {
         const float y = y0 + float(i) * y_step;
         canvas.line(px(x0), py(y), px(x1), py(y), 1, kGrid);
@@ -53,7 +58,8 @@ Canvas draw_curve(const Curve& curve, int width, int height) {
         canvas.text(kLeft - 10 - Canvas::text_width(label, 11), static_cast<int>(py(y)) + 5, label, 11, kInk);
     }
     for (int i = 0; float(i) * x_step <= x1 * 1.001f; ++i)
-        canvas.text(static_cast<int>(px(float(i) * x_step)) - 5, height - kBottom + 22, number(float(i) * x_step), 11, kInk);
+        canvas.text(static_cast<int>(px(float(i) * x_step)) - 5, height - kBottom + 22,
+                    number(float(i) * x_step), 11, kInk);
     canvas.line(px(x0), py(0), px(x1), py(0), 1, kInk);
     for (const auto& [x, name] : curve.marks) {
         canvas.line(px(x), float(kTop), px(x), float(height - kBottom), 1, kMark);
@@ -62,7 +68,8 @@ Canvas draw_curve(const Curve& curve, int width, int height) {
     int legend = width - kRight;
     const auto draw = [&](const CurvePoints& points, const std::string& name, const Color& color) {
         for (size_t i = 1; i < points.size(); ++i)
-            canvas.line(px(points[i - 1].first), py(points[i - 1].second), px(points[i].first), py(points[i].second), 2, color);
+            canvas.line(px(points[i - 1].first), py(points[i - 1].second), px(points[i].first),
+                        py(points[i].second), 2, color);
         if (name.empty()) return;
         legend -= Canvas::text_width(name, 11);
         canvas.text(legend, kTop - 6, name, 11, color);

@@ -20,7 +20,8 @@ struct Curve {
         CurvePoints points;
     };
     std::vector<Line> behind{};  // further lines, drawn first
-    std::vector<std::pair<float, std::string>> marks{};  // places of x with a name, such as where a phase begins
+    std::vector<std::pair<float, std::string>>
+        marks{};  // places of x with a name, such as where a phase begins
 };
 
 Canvas draw_curve(const Curve& curve, int width, int height);

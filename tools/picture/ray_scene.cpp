@@ -49,7 +49,8 @@ void RayScene::add(const std::vector<glm::vec3>& positions, const std::vector<ui
 
 void RayScene::commit() { rtcCommitScene(scene_); }
 
-std::optional<RayScene::Hit> RayScene::first_hit(const glm::vec3& origin, const glm::vec3& direction, float far) const {
+std::optional<RayScene::Hit> RayScene::first_hit(const glm::vec3& origin, const glm::vec3& direction,
+                                                 float far) const {
     RTCRayHit query{};
     query.ray = ray(origin, direction, far);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;

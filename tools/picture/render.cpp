@@ -13,9 +13,9 @@ namespace {
 using glm::vec3;
 
 constexpr float kPi = 3.14159265f;
-constexpr float kFar = 100.0f;       // m
-constexpr float kShadowReach = 3.0f; // m, farther things throw no shadow
-constexpr float kOffset = 1e-4f;     // m, off the surface that a shadow ray leaves
+constexpr float kFar = 100.0f;                // m
+constexpr float kShadowReach = 3.0f;          // m, farther things throw no shadow
+constexpr float kOffset = 1e-4f;              // m, off the surface that a shadow ray leaves
 constexpr int kShadowRays = 3, kSkyRays = 5;  // a primary ray
 const vec3 kKeyLight = glm::normalize(vec3(-0.45f, 0.85f, 0.75f));
 constexpr float kKeySpread = 0.22f;  // tangent of the light's half angle: how soft its shadows are
@@ -158,7 +158,8 @@ Canvas render(const std::vector<RenderMesh>& meshes, const RenderView& view) {
             for (int x = 0; x < view.width; ++x) {
                 vec3 sum(0.0f);
                 for (int k = 0; k < view.samples * view.samples; ++k) {
-                    Noise noise(static_cast<uint32_t>((y * view.width + x) * view.samples * view.samples + k));
+                    Noise noise(
+                        static_cast<uint32_t>((y * view.width + x) * view.samples * view.samples + k));
                     const float sx = (float(k % view.samples) + noise.next()) / float(view.samples);
                     const float sy = (float(k / view.samples) + noise.next()) / float(view.samples);
                     const vec3 direction = camera.direction(float(x) + sx, float(y) + sy);
@@ -168,7 +169,8 @@ Canvas render(const std::vector<RenderMesh>& meshes, const RenderView& view) {
             }
     };
     std::vector<std::thread> threads;
-    for (unsigned i = 1; i < std::max(1u, std::thread::hardware_concurrency()); ++i) threads.emplace_back(rows);
+    for (unsigned i = 1; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
+        threads.emplace_back(rows);
     rows();
     for (std::thread& t : threads) t.join();
     return canvas;

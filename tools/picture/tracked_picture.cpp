@@ -54,8 +54,8 @@ cv::Mat smooth_depth(vfit_frame frame) {
 
 /// Slope of the depth along one axis, in metres a pixel, from the neighbours on the same surface.
 float slope(float before, float here, float after) {
-    const bool b =
-        before > 0.0f && std::abs(before - here)<kEdge_m, a = after> 0.0f && std::abs(after - here) < kEdge_m;
+    const bool b = before > 0.0f && std::abs(before - here) < kEdge_m,
+               a = after > 0.0f && std::abs(after - here) < kEdge_m;
     return a && b ? 0.5f * (after - before) : a ? after - here : b ? here - before : 0.0f;
 }
 

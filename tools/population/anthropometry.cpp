@@ -28,7 +28,8 @@ Anthropometry::Anthropometry(const std::string& path) {
         out.mean = in.at("mean").get<std::vector<double>>();
         out.covariance = in.at("corr").get<Matrix>();
         const auto sd = in.at("sd").get<std::vector<double>>();
-        if (out.mean.size() != keys_.size() || sd.size() != keys_.size() || out.covariance.size() != keys_.size())
+        if (out.mean.size() != keys_.size() || sd.size() != keys_.size() ||
+            out.covariance.size() != keys_.size())
             throw Failure(path + ": not one mean, deviation and row a key");
         for (size_t a = 0; a < keys_.size(); ++a)
             for (size_t b = 0; b < keys_.size(); ++b) out.covariance[a].at(b) *= sd[a] * sd[b];

@@ -1,5 +1,5 @@
-// Measures of real people as a normal distribution: ANSUR II (Gordon et al. 2014, 4,082 men and 1,986 women), by its
-// means, deviations and correlations. People are drawn from it.
+// Measures of real people as a normal distribution: ANSUR II (Gordon et al. 2014, 4,082 men and 1,986 women),
+// by its means, deviations and correlations. People are drawn from it.
 #pragma once
 
 #include <array>

@@ -17,11 +17,12 @@ constexpr double kNavelShare = 0.601;  // of stature (ANSUR II)
 constexpr double kFarthestStep = 1.5;  // spreads: as far as slopes hold
 constexpr double kMargin = 1e-3;       // inside a value's range, so that its text is as well
 constexpr double kStill = 0.01;        // spreads: then it has come to rest
-// Bodies about which slopes are looked at: heavy ones gain more centimetres by the same change than slim ones.
+// Bodies about which slopes are looked at: heavy ones gain more centimetres by the same change than slim
+// ones.
 constexpr float kAnchorWeights[] = {0.4f, 0.7f, 1.0f};
 
-/// The least of |system x - right|'s quadratic form with every x between its bounds: values that would leave them are
-/// held there and the others solved for again.
+/// The least of |system x - right|'s quadratic form with every x between its bounds: values that would leave
+/// them are held there and the others solved for again.
 cv::Mat_<double> solve_within(const cv::Mat_<double>& system, const cv::Mat_<double>& right,
                               const cv::Mat_<double>& least, const cv::Mat_<double>& most) {
     const int n = right.rows;
@@ -49,20 +50,21 @@ cv::Mat_<double> solve_within(const cv::Mat_<double>& system, const cv::Mat_<dou
 
 }  // namespace
 
-BodyMeasures measures_of(const std::shared_ptr<const BodyModel>& model, vfit_sex sex, const std::vector<float>& shape,
-                         double navel_share) {
+BodyMeasures measures_of(const std::shared_ptr<const BodyModel>& model, vfit_sex sex,
+                         const std::vector<float>& shape, double navel_share) {
     const vfit::Avatar avatar(model, {sex}, shape, Vec2(1.0f));
     BodyMeasures out;
     for (const Measurement& m : measure_avatar(avatar, sex)) out[m.key] = double(m.value);
     Body joints;
     const Mesh mesh = avatar.measuring_mesh({}, &joints);
-    const TapeMesh tape({mesh.positions, mesh.indices, avatar.parts().first(mesh.positions.size()), joints, sex});
+    const TapeMesh tape(
+        {mesh.positions, mesh.indices, avatar.parts().first(mesh.positions.size()), joints, sex});
     out["navel_girth_m"] = double(hull_perimeter(tape.trunk(float(navel_share * out["stature_m"])).points()));
     return out;
 }
 
-BodyWithMeasures::BodyWithMeasures(std::shared_ptr<const BodyModel> model, vfit_sex sex, std::vector<FreeShape> free,
-                                   std::vector<std::string> keys)
+BodyWithMeasures::BodyWithMeasures(std::shared_ptr<const BodyModel> model, vfit_sex sex,
+                                   std::vector<FreeShape> free, std::vector<std::string> keys)
     : model_(std::move(model)), sex_(sex), free_(std::move(free)) {
     std::vector<float> shape = model_->default_shape(sex);
     for (const float weight : kAnchorWeights) {
@@ -88,12 +90,13 @@ BodyMeasures BodyWithMeasures::solve(const std::vector<WantedMeasure>& wanted, d
     const int measures = int(wanted.size()), values = int(free_.size());
     BodyMeasures here = measures_of(model_, sex_, shape, navel_share);
     const float weight = shape[size_t(model_->parameter("weight"))];
-    const auto nearest = std::min_element(std::begin(kAnchorWeights), std::end(kAnchorWeights),
-                                          [&](float a, float b) { return std::abs(a - weight) < std::abs(b - weight); });
+    const auto nearest =
+        std::min_element(std::begin(kAnchorWeights), std::end(kAnchorWeights),
+                         [&](float a, float b) { return std::abs(a - weight) < std::abs(b - weight); });
     cv::Mat_<double> slopes = slopes_[size_t(nearest - std::begin(kAnchorWeights))].clone();
     for (int step = 0; step < kSteps; ++step) {
-        cv::Mat_<double> system = cv::Mat_<double>::zeros(values, values), right = cv::Mat_<double>::zeros(values, 1),
-                         least(values, 1), most(values, 1);
+        cv::Mat_<double> system = cv::Mat_<double>::zeros(values, values),
+                         right = cv::Mat_<double>::zeros(values, 1), least(values, 1), most(values, 1);
         for (int w = 0; w < measures; ++w) {
             const WantedMeasure& one = wanted[size_t(w)];
             const double firmness = 1.0 / (one.tolerance_m * one.tolerance_m);

@@ -25,10 +25,11 @@ struct FreeShape {
     double usual, spread;
 };
 
-/// Every tape measure of the body, and the girth of the trunk at that share of its stature as "navel_girth_m".
+/// Every tape measure of the body, and the girth of the trunk at that share of its stature as
+/// "navel_girth_m".
 using BodyMeasures = std::map<std::string, double>;
-BodyMeasures measures_of(const std::shared_ptr<const BodyModel>& model, vfit_sex sex, const std::vector<float>& shape,
-                         double navel_share);
+BodyMeasures measures_of(const std::shared_ptr<const BodyModel>& model, vfit_sex sex,
+                         const std::vector<float>& shape, double navel_share);
 
 class BodyWithMeasures {
 public:
@@ -36,9 +37,10 @@ public:
     BodyWithMeasures(std::shared_ptr<const BodyModel> model, vfit_sex sex, std::vector<FreeShape> free,
                      std::vector<std::string> keys);
 
-    /// Changes the free values of `shape`; returns the measures of what it came to. `wanted` are those of the keys, in
-    /// their order.
-    BodyMeasures solve(const std::vector<WantedMeasure>& wanted, double navel_share, std::vector<float>& shape) const;
+    /// Changes the free values of `shape`; returns the measures of what it came to. `wanted` are those of the
+    /// keys, in their order.
+    BodyMeasures solve(const std::vector<WantedMeasure>& wanted, double navel_share,
+                       std::vector<float>& shape) const;
 
 private:
     std::shared_ptr<const BodyModel> model_;

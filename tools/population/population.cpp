@@ -15,9 +15,11 @@ namespace {
 
 constexpr double kLeastBmi = 18.0, kMostBmi = 35.0, kLeastStature_mm = 1500.0, kMostStature_mm = 2000.0;
 constexpr int kTries = 40;
-// A body one of whose sizes came out farther off than this from what was drawn: the space does not hold that person.
+// A body one of whose sizes came out farther off than this from what was drawn: the space does not hold that
+// person.
 constexpr double kFarthest_m = 0.03;
-constexpr const char* kToBeMet[] = {"stature_m", "inside_leg_m", "chest_girth_m", "navel_girth_m", "hip_girth_m"};
+constexpr const char* kToBeMet[] = {"stature_m", "inside_leg_m", "chest_girth_m", "navel_girth_m",
+                                    "hip_girth_m"};
 
 struct SurveyRow {
     const char *measure, *survey;
@@ -50,14 +52,14 @@ const std::vector<std::string> kOthers = {
 
 std::vector<FreeShape> free_shapes(bool with_depths) {
     std::vector<FreeShape> free = {{"height", 0.5, 0.3}, {"weight", 0.6, 0.4}};
-    for (const char* key :
-         {"measure-upperarm-length", "measure-upperarm-circ", "measure-lowerarm-length", "measure-upperleg-height",
-          "measure-lowerleg-height", "measure-thigh-circ", "measure-neck-circ", "measure-underbust-circ",
-          "measure-shoulder-dist", "measure-hips-circ", "measure-waist-circ", "measure-bust-circ"})
+    for (const char* key : {"measure-upperarm-length", "measure-upperarm-circ", "measure-lowerarm-length",
+                            "measure-upperleg-height", "measure-lowerleg-height", "measure-thigh-circ",
+                            "measure-neck-circ", "measure-underbust-circ", "measure-shoulder-dist",
+                            "measure-hips-circ", "measure-waist-circ", "measure-bust-circ"})
         free.push_back({key, 0.0, 0.35});
     if (with_depths)
-        for (const char* key : {"torso-scale-depth", "torso-scale-horiz", "hip-scale-depth", "hip-scale-horiz",
-                                "stomach-pregnant", "stomach-tone", "buttocks-volume"})
+        for (const char* key : {"torso-scale-depth", "torso-scale-horiz", "hip-scale-depth",
+                                "hip-scale-horiz", "stomach-pregnant", "stomach-tone", "buttocks-volume"})
             free.push_back({key, 0.0, 0.25});
     return free;
 }
@@ -71,19 +73,29 @@ std::vector<std::string> wanted_keys(bool with_depths) {
 }
 
 // Changes of the surface that the fit's bodies do not make. Limbs come in pairs.
-constexpr const char* kLocal[] = {
-    "torso-vshape",         "torso-muscle-pectoral", "torso-muscle-dorsi",    "torso-trans-backward-forward",
-    "stomach-navel-in-out", "pelvis-tone",           "breast-point",          "breast-dist",
-    "breast-trans-down-up", "hip-trans-in-out",      "hip-waist-down-up",     "hip-trans-backward-forward",
-    "neck-scale-depth",     "neck-back-scale-depth", "neck-trans-backward-forward"};
+constexpr const char* kLocal[] = {"torso-vshape",
+                                  "torso-muscle-pectoral",
+                                  "torso-muscle-dorsi",
+                                  "torso-trans-backward-forward",
+                                  "stomach-navel-in-out",
+                                  "pelvis-tone",
+                                  "breast-point",
+                                  "breast-dist",
+                                  "breast-trans-down-up",
+                                  "hip-trans-in-out",
+                                  "hip-waist-down-up",
+                                  "hip-trans-backward-forward",
+                                  "neck-scale-depth",
+                                  "neck-back-scale-depth",
+                                  "neck-trans-backward-forward"};
 constexpr const char* kLocalPairs[] = {
-    "-upperarm-shoulder-muscle", "-upperarm-muscle", "-upperarm-fat", "-upperleg-fat", "-upperleg-muscle",
-    "-upperleg-scale-depth",     "-lowerleg-muscle", "-leg-valgus"};
+    "-upperarm-shoulder-muscle", "-upperarm-muscle",      "-upperarm-fat",    "-upperleg-fat",
+    "-upperleg-muscle",          "-upperleg-scale-depth", "-lowerleg-muscle", "-leg-valgus"};
 constexpr float kLocalSpread = 0.25f, kSidesDiffer = 0.05f;
 // Sliders inside the fit's space of which the survey says nothing.
-constexpr const char* kUnmeasured[] = {"measure-calf-circ",       "measure-knee-circ",      "measure-neck-height",
-                                       "measure-napetowaist-dist", "measure-waisttohip-dist", "measure-frontchest-dist",
-                                       "measure-ankle-circ",      "measure-wrist-circ"};
+constexpr const char* kUnmeasured[] = {
+    "measure-calf-circ",       "measure-knee-circ",       "measure-neck-height", "measure-napetowaist-dist",
+    "measure-waisttohip-dist", "measure-frontchest-dist", "measure-ankle-circ",  "measure-wrist-circ"};
 
 }  // namespace
 
@@ -96,7 +108,10 @@ std::string PersonOfPopulation::options() const {
 }
 
 Population::Population(std::shared_ptr<const BodyModel> model, BodySpace space, uint32_t seed)
-    : model_(std::move(model)), space_(space), seed_(seed), survey_(VFIT_POPULATION_DIR "/ansur2_moments.json") {}
+    : model_(std::move(model)),
+      space_(space),
+      seed_(seed),
+      survey_(VFIT_POPULATION_DIR "/ansur2_moments.json") {}
 
 std::vector<float> Population::random_shape(vfit_sex sex, Random& random) const {
     std::vector<float> shape = model_->default_shape(sex);
@@ -122,7 +137,8 @@ void Population::change_locally(Random& random, std::vector<float>& shape) const
     for (const char* key : kLocal) set(key, kLocalSpread * random.normal());
     for (const char* key : kLocalPairs) {
         const float both = kLocalSpread * random.normal();
-        for (const char* side : {"l", "r"}) set(std::string(side) + key, both + kSidesDiffer * random.normal());
+        for (const char* side : {"l", "r"})
+            set(std::string(side) + key, both + kSidesDiffer * random.normal());
     }
 }
 
@@ -140,7 +156,8 @@ PersonOfPopulation Population::draw(uint32_t number) {
         if (real.bmi() < kLeastBmi || real.bmi() > kMostBmi || real["stature"] < kLeastStature_mm ||
             real["stature"] > kMostStature_mm)
             continue;
-        shape[size_t(model_->parameter("weight"))] = std::clamp(float(0.5 + 0.05 * (real.bmi() - 22.0)), 0.3f, 1.1f);
+        shape[size_t(model_->parameter("weight"))] =
+            std::clamp(float(0.5 + 0.05 * (real.bmi() - 22.0)), 0.3f, 1.1f);
         const double navel_share = real["waistheightomphalion"] / real["stature"];
         std::vector<WantedMeasure> wanted;
         for (const SurveyRow& row : kRows)
@@ -160,7 +177,8 @@ PersonOfPopulation Population::draw(uint32_t number) {
             continue;  // legs that never part and the like
         }
         const bool met = std::all_of(wanted.begin(), wanted.end(), [&](const WantedMeasure& w) {
-            const bool counts = std::find(std::begin(kToBeMet), std::end(kToBeMet), w.key) != std::end(kToBeMet);
+            const bool counts =
+                std::find(std::begin(kToBeMet), std::end(kToBeMet), w.key) != std::end(kToBeMet);
             return !counts || std::abs(out.measures[w.key] - w.value_m) <= kFarthest_m;
         });
         if (!met) continue;

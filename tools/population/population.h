@@ -1,4 +1,5 @@
-// Virtual people for judging and training the measuring: bodies whose measures are drawn from a survey of real ones.
+// Virtual people for judging and training the measuring: bodies whose measures are drawn from a survey of
+// real ones.
 #pragma once
 
 #include <array>
@@ -13,8 +14,10 @@
 namespace vfit::tools {
 
 enum class BodySpace {
-    kInside,   // shapes of the phenotypes and measure-* sliders alone, which the body fit's own bodies are made of
-    kOutside,  // besides, depths that differ from what girths say as real people's do, and local changes of the surface
+    kInside,   // shapes of the phenotypes and measure-* sliders alone, which the body fit's own bodies are
+               // made of
+    kOutside,  // besides, depths that differ from what girths say as real people's do, and local changes of
+               // the surface
 };
 
 struct PersonOfPopulation {
@@ -40,7 +43,8 @@ private:
     BodySpace space_;
     uint32_t seed_;
     Anthropometry survey_;
-    std::array<std::optional<BodyWithMeasures>, 2> usual_, deep_;  // women, men, made when needed; deep_: with depths besides
+    std::array<std::optional<BodyWithMeasures>, 2> usual_,
+        deep_;  // women, men, made when needed; deep_: with depths besides
 };
 
 }  // namespace vfit::tools

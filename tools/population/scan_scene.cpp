@@ -16,7 +16,6 @@ std::string text_of(float value) {
     return out.str();
 }
 
-
 // Nearer, a Kinect v1 does not see head and feet at once; a time-of-flight camera sees more.
 constexpr float kNearestKinect_m = 2.65f, kNearestTof_m = 2.4f, kFarthest_m = 3.1f, kTall_m = 1.85f;
 constexpr float kThickest_m = 0.03f;
@@ -36,8 +35,10 @@ ScanScene ScanScene::draw(Dress dress, uint32_t seed) {
     const bool kinect = random.unit() < 0.5f;
     scene.sensor = kinect ? "kinect_v1" : "tof";
     scene.distance_m = random.between(kinect ? kNearestKinect_m : kNearestTof_m, kFarthest_m);
-    scene.camera_height_m = random.unit() < 0.5f ? random.between(kUsualLeast_m, kUsualMost_m) : random.between(kLowest_m, kHighest_m);
-    scene.tilt_deg = glm::degrees(std::atan2(scene.camera_height_m - kMiddle_m, scene.distance_m)) + random.between(-kAim_deg, kAim_deg);
+    scene.camera_height_m = random.unit() < 0.5f ? random.between(kUsualLeast_m, kUsualMost_m)
+                                                 : random.between(kLowest_m, kHighest_m);
+    scene.tilt_deg = glm::degrees(std::atan2(scene.camera_height_m - kMiddle_m, scene.distance_m)) +
+                     random.between(-kAim_deg, kAim_deg);
     scene.floor_given = random.unit() >= kFloorFound;
     scene.turned_deg = random.between(-kTurned_deg, kTurned_deg);
     scene.side_turned_deg = 90.0f + random.between(-kTurned_deg, kTurned_deg);
@@ -71,9 +72,10 @@ std::string ScanScene::uri(const PersonOfPopulation& person) const {
     const double far = person.measures.at("stature_m") > double(kTall_m) ? 0.3 : 0.0;
     std::ostringstream out;
     out.imbue(std::locale::classic());
-    out << "virtual:" << person.options() << "&sensor=" << sensor << "&seed=" << seed << "&distance=" << double(distance_m) + far
-        << "&camera_height=" << camera_height_m << "&tilt=" << tilt_deg << "&floor=" << (floor_given ? "given" : "unknown")
-        << "&top=" << top_m << "&sleeves=" << sleeves_m << "&trousers=" << trousers_m;
+    out << "virtual:" << person.options() << "&sensor=" << sensor << "&seed=" << seed
+        << "&distance=" << double(distance_m) + far << "&camera_height=" << camera_height_m
+        << "&tilt=" << tilt_deg << "&floor=" << (floor_given ? "given" : "unknown") << "&top=" << top_m
+        << "&sleeves=" << sleeves_m << "&trousers=" << trousers_m;
     return out.str();
 }
 
@@ -83,14 +85,22 @@ std::string ScanScene::front_uri(const PersonOfPopulation& person) const {
 }
 
 std::string ScanScene::side_uri(const PersonOfPopulation& person) const {
-    return uri(person) + "&motion=side&facing=" + text_of(side_turned_deg) + "&arms=" + text_of(side_arms_deg) +
-           "&frames=" + std::to_string(side_frames);
+    return uri(person) + "&motion=side&facing=" + text_of(side_turned_deg) +
+           "&arms=" + text_of(side_arms_deg) + "&frames=" + std::to_string(side_frames);
 }
 
 Json ScanScene::json() const {
-    return {{"sensor", sensor}, {"distance_m", distance_m}, {"camera_height_m", camera_height_m}, {"tilt_deg", tilt_deg},
-            {"floor_given", floor_given}, {"turned_deg", turned_deg}, {"side_turned_deg", side_turned_deg},
-            {"arms_deg", arms_deg}, {"side_arms_deg", side_arms_deg}, {"top_m", top_m}, {"sleeves_m", sleeves_m},
+    return {{"sensor", sensor},
+            {"distance_m", distance_m},
+            {"camera_height_m", camera_height_m},
+            {"tilt_deg", tilt_deg},
+            {"floor_given", floor_given},
+            {"turned_deg", turned_deg},
+            {"side_turned_deg", side_turned_deg},
+            {"arms_deg", arms_deg},
+            {"side_arms_deg", side_arms_deg},
+            {"top_m", top_m},
+            {"sleeves_m", sleeves_m},
             {"trousers_m", trousers_m}};
 }
 

@@ -24,10 +24,11 @@ struct ScanScene {
     float top_m = 0.0f, sleeves_m = 0.0f, trousers_m = 0.0f;
     uint32_t front_frames = 30, side_frames = 15, seed = 1;
 
-    /// A Kinect v1 or a time-of-flight camera on a stand or a shelf, looking at the middle of the person, as near as it
-    /// sees all of them or up to 3.1 m away; clothes as said.
+    /// A Kinect v1 or a time-of-flight camera on a stand or a shelf, looking at the middle of the person, as
+    /// near as it sees all of them or up to 3.1 m away; clothes as said.
     static ScanScene draw(Dress dress, uint32_t seed);
-    /// The same clothes before the same camera on another day: another seed of noise and sway, another place to stand.
+    /// The same clothes before the same camera on another day: another seed of noise and sway, another place
+    /// to stand.
     ScanScene again(uint32_t day) const;
     /// Of the front view, and of the side view after it.
     std::string front_uri(const PersonOfPopulation& person) const;

@@ -5,6 +5,7 @@
     train.py ROWS [ROWS ...] --out sdk/motion/contact_weights.inc [--seed 1]
 
 A tenth of the streams is kept back and printed as held out. Needs NumPy alone."""
+
 import argparse
 
 import numpy as np
@@ -95,8 +96,11 @@ def judge(name, network, rows):
         part = rows[rows[:, FEATURES + 1] == stream]
         streams.append((part[:, FEATURES] > 0.5, decide(network.chance(part[:, :FEATURES]))))
     lifted, planted = f1([(~t, ~s) for t, s in streams]), f1(streams)
-    print(f"{name}: lifted P {lifted[0]:.3f} R {lifted[1]:.3f} F1 {lifted[2]:.3f}, planted F1 {planted[2]:.3f}, "
-          f"{len(streams)} feet", flush=True)
+    print(
+        f"{name}: lifted P {lifted[0]:.3f} R {lifted[1]:.3f} F1 {lifted[2]:.3f}, planted F1 {planted[2]:.3f}, "
+        f"{len(streams)} feet",
+        flush=True,
+    )
 
 
 def write(network, file):
@@ -120,7 +124,9 @@ def write(network, file):
 
 
 def main():
-    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     arguments.add_argument("rows", nargs="+")
     arguments.add_argument("--out", required=True)
     arguments.add_argument("--seed", type=int, default=1)
@@ -139,7 +145,9 @@ def main():
     judge("learnt from", network, learnt)
     judge("held out", network, rows[held])
     version = (rows[:, FEATURES + 1] // 2 % 4).astype(int)
-    for v, name in enumerate(("tracked", "tracked, no toes", "truth with noise", "truth with noise and jumps")):
+    for v, name in enumerate(
+        ("tracked", "tracked, no toes", "truth with noise", "truth with noise and jumps")
+    ):
         judge("held out, " + name, network, rows[held & (version == v)])
     write(network, options.out)
 

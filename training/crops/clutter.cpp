@@ -9,12 +9,14 @@ namespace {
 Mat3 size(float x, float y, float z) { return Mat3(x, 0, 0, 0, y, 0, 0, 0, z); }
 
 void add_chair(Random& random, Mesh& out) {
-    const float seat = random.between(0.4f, 0.55f), half = random.between(0.2f, 0.3f), back = random.between(0.35f, 0.7f);
+    const float seat = random.between(0.4f, 0.55f), half = random.between(0.2f, 0.3f),
+                back = random.between(0.35f, 0.7f);
     add_box({0, seat, 0}, size(half, 0.03f, half), out);
     add_box({0, seat + 0.5f * back, -half}, size(half, 0.5f * back, 0.025f), out);
     if (random.chance(0.5f)) {
         for (const float x : {-0.9f, 0.9f})
-            for (const float z : {-0.9f, 0.9f}) add_box({x * half, 0.5f * seat, z * half}, size(0.02f, 0.5f * seat, 0.02f), out);
+            for (const float z : {-0.9f, 0.9f})
+                add_box({x * half, 0.5f * seat, z * half}, size(0.02f, 0.5f * seat, 0.02f), out);
     } else {
         add_box({0, 0.5f * seat, 0}, size(0.04f, 0.5f * seat, 0.04f), out);
         add_box({0, 0.04f, 0}, size(half, 0.03f, half), out);
@@ -30,7 +32,8 @@ void add_rack(Random& random, Mesh& out) {
     const uint32_t coats = random.below(4);
     for (uint32_t i = 0; i < coats; ++i) {
         const float length = random.between(0.3f, 0.6f), wide = random.between(0.12f, 0.3f);
-        const Vec3 at(random.between(-0.15f, 0.15f), height - length - random.between(0.0f, 0.2f), random.between(-0.12f, 0.12f));
+        const Vec3 at(random.between(-0.15f, 0.15f), height - length - random.between(0.0f, 0.2f),
+                      random.between(-0.12f, 0.12f));
         add_ellipsoid(at, size(wide, length, random.between(0.06f, 0.15f)), out);
     }
     if (random.chance(0.4f)) add_ellipsoid({0, height, 0}, size(0.14f, 0.08f, 0.14f), out);  // a hat
@@ -41,8 +44,10 @@ void add_plant(Random& random, Mesh& out) {
     add_ellipsoid({0, 0.5f * pot, 0}, size(0.16f, 0.5f * pot, 0.16f), out);
     add_box({0, 0.5f * height, 0}, size(0.02f, 0.5f * height, 0.02f), out);
     for (int i = 0; i < 12; ++i)
-        add_ellipsoid(Vec3(0, height * random.between(0.5f, 1.0f), 0) + 0.3f * random.direction(),
-                      size(random.between(0.03f, 0.15f), random.between(0.03f, 0.2f), random.between(0.02f, 0.1f)), out);
+        add_ellipsoid(
+            Vec3(0, height * random.between(0.5f, 1.0f), 0) + 0.3f * random.direction(),
+            size(random.between(0.03f, 0.15f), random.between(0.03f, 0.2f), random.between(0.02f, 0.1f)),
+            out);
 }
 
 void add_pile(Random& random, Mesh& out) {
@@ -58,8 +63,11 @@ void add_pile(Random& random, Mesh& out) {
 
 /// A board, a door, a screen on its feet: as tall and as wide as a person.
 void add_board(Random& random, Mesh& out) {
-    const float height = random.between(0.6f, 2.0f), foot = random.chance(0.6f) ? 0.0f : random.between(0.1f, 0.7f);
-    add_box({0, 0.5f * (foot + height), 0}, size(random.between(0.15f, 0.6f), 0.5f * (height - foot) + 0.05f, random.between(0.01f, 0.15f)), out);
+    const float height = random.between(0.6f, 2.0f),
+                foot = random.chance(0.6f) ? 0.0f : random.between(0.1f, 0.7f);
+    add_box({0, 0.5f * (foot + height), 0},
+            size(random.between(0.15f, 0.6f), 0.5f * (height - foot) + 0.05f, random.between(0.01f, 0.15f)),
+            out);
     if (foot > 0.0f) add_box({0, 0.5f * foot, 0}, size(0.03f, 0.5f * foot, 0.03f), out);
 }
 
@@ -67,9 +75,13 @@ void add_anything(Random& random, Mesh& out) {
     const uint32_t count = 2 + random.below(7);
     for (uint32_t i = 0; i < count; ++i) {
         const Vec3 at(random.normal(0, 0.25f), random.between(0.1f, 1.6f), random.normal(0, 0.2f));
-        const Mat3 axes = glm::mat3_cast(glm::angleAxis(random.between(0, 2 * kPi), random.direction())) *
-                          size(random.between(0.04f, 0.4f), random.between(0.04f, 0.4f), random.between(0.04f, 0.3f));
-        if (random.chance(0.5f)) add_box(at, axes, out); else add_ellipsoid(at, axes, out);
+        const Mat3 axes =
+            glm::mat3_cast(glm::angleAxis(random.between(0, 2 * kPi), random.direction())) *
+            size(random.between(0.04f, 0.4f), random.between(0.04f, 0.4f), random.between(0.04f, 0.3f));
+        if (random.chance(0.5f))
+            add_box(at, axes, out);
+        else
+            add_ellipsoid(at, axes, out);
     }
 }
 

@@ -1,4 +1,5 @@
-// Things that are no person but stand on the floor like one: chairs, racks with coats, boxes, plants, columns.
+// Things that are no person but stand on the floor like one: chairs, racks with coats, boxes, plants,
+// columns.
 #pragma once
 
 #include "body/mesh.h"

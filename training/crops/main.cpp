@@ -1,5 +1,5 @@
-// vfit-crops: an endless stream of labelled training crops on standard output (binary Sample records), or a few of
-// them as pictures.
+// vfit-crops: an endless stream of labelled training crops on standard output (binary Sample records), or a
+// few of them as pictures.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -15,7 +15,8 @@ int main(int argc, char** argv) {
             return 2;
         }
         const auto model = vfit::BodyModel::load(argv[1]);
-        const uint64_t seed = std::stoull(argv[2]), first = std::stoull(argv[3]), count = std::stoull(argv[4]);
+        const uint64_t seed = std::stoull(argv[2]), first = std::stoull(argv[3]),
+                       count = std::stoull(argv[4]);
         vfit::training::Sampler sampler(model, seed);
         vfit::training::Sample sample;
         for (uint64_t i = 0; i < count; ++i) {

@@ -10,7 +10,8 @@ namespace vfit::training {
 
 /// In [-1, 1), by a hash of the lattice corner.
 inline float corner_value(uint32_t seed, int x, int y, int z) {
-    uint32_t h = seed ^ (uint32_t(x) * 0x8DA6B343u) ^ (uint32_t(y) * 0xD8163841u) ^ (uint32_t(z) * 0xCB1AB31Fu);
+    uint32_t h =
+        seed ^ (uint32_t(x) * 0x8DA6B343u) ^ (uint32_t(y) * 0xD8163841u) ^ (uint32_t(z) * 0xCB1AB31Fu);
     h ^= h >> 16, h *= 0x7FEB352Du, h ^= h >> 15, h *= 0x846CA68Bu, h ^= h >> 16;
     return static_cast<float>(h >> 8) * 0x1p-23f - 1.0f;
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kFold_m = 0.35f, kWrinkle_m = 0.10f;  // sizes of the smooth and the fine unevenness of cloth
 constexpr float kCrotch = 0.09f;  // below the hip joints, share of the leg's length (.53 - .48 of stature)
-constexpr size_t kBands = 24;                         // of the trunk's height, in which its outline is measured
+constexpr size_t kBands = 24;     // of the trunk's height, in which its outline is measured
 
 /// Where the rest pose's bone begins.
 Vec3 rest_head(const Avatar& avatar, int bone) {
@@ -60,13 +60,20 @@ Outfit::Outfit(const Avatar& avatar, Random& random) {
     for (uint32_t v = 0; v < count; ++v) {
         float layer = 0.0f;
         switch (avatar.parts()[v]) {
-            case BodyPart::kHead: layer = rest[v].y > crown - 0.14f || rest[v].z < -0.02f ? hair : 0.0f; break;
+            case BodyPart::kHead:
+                layer = rest[v].y > crown - 0.14f || rest[v].z < -0.02f ? hair : 0.0f;
+                break;
             case BodyPart::kTorso: layer = top; break;
-            case BodyPart::kLeftUpperArm: case BodyPart::kRightUpperArm: layer = std::max(sleeves, 0.6f * top); break;
-            case BodyPart::kLeftForearm: case BodyPart::kRightForearm: layer = sleeves; break;
-            case BodyPart::kLeftHand: case BodyPart::kRightHand: layer = 0.0f; break;
-            case BodyPart::kLeftThigh: case BodyPart::kRightThigh: layer = trousers; break;
-            case BodyPart::kLeftShank: case BodyPart::kRightShank: layer = short_trousers ? 0.0f : trousers; break;
+            case BodyPart::kLeftUpperArm:
+            case BodyPart::kRightUpperArm: layer = std::max(sleeves, 0.6f * top); break;
+            case BodyPart::kLeftForearm:
+            case BodyPart::kRightForearm: layer = sleeves; break;
+            case BodyPart::kLeftHand:
+            case BodyPart::kRightHand: layer = 0.0f; break;
+            case BodyPart::kLeftThigh:
+            case BodyPart::kRightThigh: layer = trousers; break;
+            case BodyPart::kLeftShank:
+            case BodyPart::kRightShank: layer = short_trousers ? 0.0f : trousers; break;
             default: layer = shoes;
         }
         const float folds = 1.0f + 0.5f * smooth_noise(seed, rest[v] / kFold_m);
@@ -75,10 +82,12 @@ Outfit::Outfit(const Avatar& avatar, Random& random) {
     }
     if (random.chance(0.65f)) fall_straight(avatar, random);
     if (!short_trousers && random.chance(0.65f)) straighten_legs(avatar, random);
-    if (random.chance(0.75f)) seat_ = kCrotch + random.between(0.0f, 0.26f);  // as low as the middle of the thigh
-    if (random.chance(0.12f)) {  // a skirt or a coat
+    if (random.chance(0.75f))
+        seat_ = kCrotch + random.between(0.0f, 0.26f);  // as low as the middle of the thigh
+    if (random.chance(0.12f)) {                         // a skirt or a coat
         const float ease = random.between(0.01f, 0.06f);
-        shells_.push_back({random.between(0.3f, 0.95f), 0.10f + ease, 0.10f + ease, 0.3f, random.between(1.0f, 1.5f)});
+        shells_.push_back(
+            {random.between(0.3f, 0.95f), 0.10f + ease, 0.10f + ease, 0.3f, random.between(1.0f, 1.5f)});
     }
     hair_ = random.chance(0.35f);
     hair_length_m_ = random.between(0.05f, 0.35f);
@@ -111,7 +120,7 @@ void Outfit::fall_straight(const Avatar& avatar, Random& random) {
     }
     for (size_t i = 0; i < kBands; ++i) {
         const float t = float(i) / float(kBands - 1);
-        const auto bridged = [&](float Outline::*side) {
+        const auto bridged = [&](float Outline::* side) {
             const float own = body[i].*side, line = glm::mix(body.front().*side, body.back().*side, t);
             return own + loose * std::max(0.0f, line - own);
         };
@@ -128,7 +137,8 @@ void Outfit::fall_straight(const Avatar& avatar, Random& random) {
     }
     const float ease = random.between(-0.015f, 0.015f);
     shells_.push_back({random.between(0.01f, 0.2f), body.front().side - std::abs(hip.x) + ease,
-                       std::max(body.front().front, body.front().back) + ease, 0.0f, random.between(0.8f, 1.05f)});
+                       std::max(body.front().front, body.front().back) + ease, 0.0f,
+                       random.between(0.8f, 1.05f)});
 }
 
 /// Trousers narrow evenly to their hem, past knee and calf.
@@ -166,7 +176,8 @@ void Outfit::dress(const Avatar& avatar, Random& random, Mesh& out) const {
     const uint32_t count = avatar.topology().vertex_count;
     out.positions.resize(count);
     out.indices = avatar.topology().indices;
-    for (uint32_t v = 0; v < count; ++v) out.positions[v] = avatar.positions()[v] + offset_m_[v] * avatar.normals()[v];
+    for (uint32_t v = 0; v < count; ++v)
+        out.positions[v] = avatar.positions()[v] + offset_m_[v] * avatar.normals()[v];
     for (const Shell& shell : shells_) add_shell(avatar, shell, out);
     if (seat_ > 0.0f) add_seat(avatar, out);
     if (hair_) add_hair(avatar, out);
@@ -181,7 +192,8 @@ std::array<Vec3, 2> legs_at(const Avatar& avatar, float t) {
     std::array<Vec3, 2> leg;
     for (size_t side = 0; side < 2; ++side) {
         const auto hip = size_t(side ? VFIT_BONE_RIGHT_UPPER_LEG : VFIT_BONE_LEFT_UPPER_LEG);
-        leg[side] = t < 0.5f ? glm::mix(at[hip], at[hip + 1], 2 * t) : glm::mix(at[hip + 1], at[hip + 2], 2 * t - 1);
+        leg[side] =
+            t < 0.5f ? glm::mix(at[hip], at[hip + 1], 2 * t) : glm::mix(at[hip + 1], at[hip + 2], 2 * t - 1);
     }
     return leg;
 }
@@ -198,21 +210,23 @@ void Outfit::add_shell(const Avatar& avatar, const Shell& shell, Mesh& out) cons
         const auto leg = legs_at(avatar, t);
         const Vec3 middle = 0.5f * (leg[0] + leg[1]) + (r == 0 ? pelvis * Vec3(0, 0.12f, 0) : Vec3(0.0f));
         constexpr float kWaist = 0.88f;  // the first ring's share of the hips'
-        const float grow = (r == 0 ? kWaist : 1.0f) * (1.0f - shell.taper * t) * (1.0f + (shell.flare - 1.0f) * t);
+        const float grow =
+            (r == 0 ? kWaist : 1.0f) * (1.0f - shell.taper * t) * (1.0f + (shell.flare - 1.0f) * t);
         const Vec3 between = leg[0] - leg[1];
         const float wide = 0.5f * std::abs(glm::dot(between, right_way)) + shell.side_m * grow;
         const float deep = 0.5f * std::abs(glm::dot(between, ahead)) + shell.deep_m * grow;
         rings.emplace_back();
         for (int i = 0; i < 24; ++i) {
             const float turn = 2.0f * kPi * float(i) / 24.0f;
-            rings.back().push_back(middle + right_way * (wide * std::cos(turn)) + ahead * (deep * std::sin(turn)));
+            rings.back().push_back(middle + right_way * (wide * std::cos(turn)) +
+                                   ahead * (deep * std::sin(turn)));
         }
     }
     add_tube(rings, out);
 }
 
-// The crotch of trousers lies lower than the body's, and their legs touch further down: a flat tube from one leg's
-// axis to the other's, as far down as they stay close.
+// The crotch of trousers lies lower than the body's, and their legs touch further down: a flat tube from one
+// leg's axis to the other's, as far down as they stay close.
 void Outfit::add_seat(const Avatar& avatar, Mesh& out) const {
     constexpr float kHalfThickness_m = 0.055f, kClose_m = 0.26f;
     const Vec3 ahead = avatar.posed_skeleton().rotation[VFIT_BONE_HIPS] * Vec3(0, 0, 1);

@@ -1,6 +1,6 @@
-// What covers a body: clothes and shoes as offsets of the skin; shirts that fall straight, skirts and coats as a shell
-// about the legs; the cloth between the legs of trousers; hair; things held. Rough shapes: they teach the network what
-// not to rely on.
+// What covers a body: clothes and shoes as offsets of the skin; shirts that fall straight, skirts and coats
+// as a shell about the legs; the cloth between the legs of trousers; hair; things held. Rough shapes: they
+// teach the network what not to rely on.
 #pragma once
 
 #include "avatar/avatar.h"
@@ -19,10 +19,10 @@ public:
 private:
     /// A shell about both legs, from above the hips down to its hem.
     struct Shell {
-        float hem = 0.0f;                // share of the leg's length below the hips
+        float hem = 0.0f;                    // share of the leg's length below the hips
         float side_m = 0.0f, deep_m = 0.0f;  // beyond the legs' axes
-        float taper = 0.0f;              // what of both is lost towards the ankles
-        float flare = 1.0f;              // at the ankles
+        float taper = 0.0f;                  // what of both is lost towards the ankles
+        float flare = 1.0f;                  // at the ankles
     };
 
     void fall_straight(const Avatar& avatar, Random& random);
@@ -34,7 +34,8 @@ private:
 
     std::vector<float> offset_m_;  // along the normal, one a vertex
     std::vector<Shell> shells_;
-    float seat_ = 0.0f;  // how far down the cloth between the legs reaches, share of the leg's length; 0: none
+    float seat_ =
+        0.0f;  // how far down the cloth between the legs reaches, share of the leg's length; 0: none
     bool hair_;
     float hair_length_m_, hair_width_m_;
 };

@@ -1,5 +1,5 @@
-// Postures are drawn as anatomical angles within human limits (ranges as in reference tables of joint motion);
-// arms that have a task get there by two-bone inverse kinematics.
+// Postures are drawn as anatomical angles within human limits (ranges as in reference tables of joint
+// motion); arms that have a task get there by two-bone inverse kinematics.
 #include "posture.h"
 
 #include <algorithm>
@@ -76,7 +76,8 @@ private:
         const float yaw = std::atan2(-flat.z, flat.x);
         Quat local = glm::conjugate(shank) * turn(glm::degrees(yaw), {0, 1, 0}) * about_x(foot_pitch);
         // The ankle gives way no further than it can.
-        const float most = glm::radians(55.0f), angle = 2.0f * std::acos(std::clamp(std::abs(local.w), 0.0f, 1.0f));
+        const float most = glm::radians(55.0f),
+                    angle = 2.0f * std::acos(std::clamp(std::abs(local.w), 0.0f, 1.0f));
         if (angle > most) local = glm::slerp(Quat(1, 0, 0, 0), local.w < 0 ? -local : local, most / angle);
         rotation(b.foot) = local;
         if (foot_pitch > 15.0f) rotation(b.toes) = about_x(-std::min(foot_pitch - 10.0f, 35.0f));
@@ -87,33 +88,40 @@ private:
         rotation(VFIT_BONE_HIPS) = about_z(spread(random_, 0, 2)) * about_x(spread(random_, 0, 3));
         for (const Side side : {kLeft, kRight}) {
             const float knee = std::abs(spread(random_, 2, 4));
-            leg(side, spread(random_, knee * 0.5f, 4), apart + spread(random_, 0, 2), spread(random_, 8, 8), knee, 0);
+            leg(side, spread(random_, knee * 0.5f, 4), apart + spread(random_, 0, 2), spread(random_, 8, 8),
+                knee, 0);
         }
         if (random_.chance(0.15f)) wide_stance();
     }
 
     void wide_stance() {
         for (const Side side : {kLeft, kRight})
-            leg(side, spread(random_, 5, 6), random_.between(8, 25), random_.between(0, 30), random_.between(0, 15), 0);
+            leg(side, spread(random_, 5, 6), random_.between(8, 25), random_.between(0, 30),
+                random_.between(0, 15), 0);
     }
 
     void walking() {
-        const float phase = random_.between(0, 2 * kPi), stride = random_.between(6, 34), lift = random_.between(10, 70);
-        const float heel_strike = random_.between(-5, 25), push_off = random_.between(0, 40), bend = random_.between(20, 65);
+        const float phase = random_.between(0, 2 * kPi), stride = random_.between(6, 34),
+                    lift = random_.between(10, 70);
+        const float heel_strike = random_.between(-5, 25), push_off = random_.between(0, 40),
+                    bend = random_.between(20, 65);
         const bool in_place = random_.chance(0.35f);
         for (const Side side : {kLeft, kRight}) {
             const float p = phase + (side == kLeft ? 0.0f : kPi), swing = std::max(0.0f, std::cos(p));
             if (in_place) {  // marching or jogging on the spot: the knee rises, the shank hangs or kicks back
                 const float heel = random_.between(-20, 40) * swing;
-                leg(side, lift * swing + 3, spread(random_, 1, 3), spread(random_, 5, 6), lift * 1.3f * swing + heel * swing + 4,
-                    25 * swing * random_.unit());
+                leg(side, lift * swing + 3, spread(random_, 1, 3), spread(random_, 5, 6),
+                    lift * 1.3f * swing + heel * swing + 4, 25 * swing * random_.unit());
             } else {
                 // Toes up as the heel comes down before the body, heel up as the foot is left behind it.
-                const float ahead = std::sin(p), pitch = ahead < 0 ? -push_off * ahead : -heel_strike * ahead * ahead;
-                leg(side, stride * ahead + 4, spread(random_, 0, 2), spread(random_, 5, 5), 8 + bend * swing, pitch);
+                const float ahead = std::sin(p),
+                            pitch = ahead < 0 ? -push_off * ahead : -heel_strike * ahead * ahead;
+                leg(side, stride * ahead + 4, spread(random_, 0, 2), spread(random_, 5, 5), 8 + bend * swing,
+                    pitch);
             }
         }
-        rotation(VFIT_BONE_HIPS) = about_y(6 * std::sin(phase) + spread(random_, 0, 3)) * about_x(spread(random_, 2, 3));
+        rotation(VFIT_BONE_HIPS) =
+            about_y(6 * std::sin(phase) + spread(random_, 0, 3)) * about_x(spread(random_, 2, 3));
     }
 
     void squat() {
@@ -129,16 +137,18 @@ private:
     void one_leg_free() {
         const Side free = random_.chance(0.5f) ? kLeft : kRight;
         standing();
-        leg(free, random_.between(-20, 80), random_.between(-8, 35), random_.between(-20, 30), random_.between(0, 100),
-            random_.between(0, 30));
+        leg(free, random_.between(-20, 80), random_.between(-8, 35), random_.between(-20, 30),
+            random_.between(0, 100), random_.between(0, 30));
         rotation(VFIT_BONE_HIPS) = about_z(sign_of(free) * random_.between(-4, 10));
     }
 
     void sitting() {
-        const float pelvis = spread(random_, -5, 6), knee = random_.between(70, 105), apart = random_.between(0, 20);
+        const float pelvis = spread(random_, -5, 6), knee = random_.between(70, 105),
+                    apart = random_.between(0, 20);
         rotation(VFIT_BONE_HIPS) = about_x(pelvis);
         for (const Side side : {kLeft, kRight})
-            leg(side, random_.between(75, 95) + pelvis, apart + spread(random_, 0, 4), spread(random_, 0, 8), knee, 0);
+            leg(side, random_.between(75, 95) + pelvis, apart + spread(random_, 0, 4), spread(random_, 0, 8),
+                knee, 0);
     }
 
     void any_legs() {
@@ -154,7 +164,8 @@ private:
         const Quat third = about_y(spread(random_, 0, 9 * width) / 3) *
                            about_x((spread(random_, 2, 5 * width) + bend_) / 3) *
                            about_z(spread(random_, 0, 5 * width) / 3);
-        for (const int bone : {VFIT_BONE_SPINE, VFIT_BONE_CHEST, VFIT_BONE_UPPER_CHEST}) rotation(bone) = third;
+        for (const int bone : {VFIT_BONE_SPINE, VFIT_BONE_CHEST, VFIT_BONE_UPPER_CHEST})
+            rotation(bone) = third;
     }
 
     void head() {
@@ -195,12 +206,13 @@ private:
     }
 
     void hang(Side side) {
-        arm(side, std::max(3.0f, random_.normal(12, 6)), spread(random_, 2, 9), std::abs(spread(random_, 14, 10)),
-            spread(random_, 0, 20));
+        arm(side, std::max(3.0f, random_.normal(12, 6)), spread(random_, 2, 9),
+            std::abs(spread(random_, 14, 10)), spread(random_, 0, 20));
     }
 
     void any_arm(Side side) {
-        arm(side, random_.between(0, 165), random_.between(-35, 120), random_.between(0, 140), random_.between(-60, 80));
+        arm(side, random_.between(0, 165), random_.between(-35, 120), random_.between(0, 140),
+            random_.between(-60, 80));
     }
 
     void jog() {
@@ -213,11 +225,13 @@ private:
     /// Where the bones are, with the pose as far as it is made.
     PosedSkeleton placed() const { return forward_kinematics(skeleton_, pose_); }
     float arm_length() const {
-        return glm::length(skeleton_.offset[VFIT_BONE_LEFT_LOWER_ARM]) + glm::length(skeleton_.offset[VFIT_BONE_LEFT_HAND]);
+        return glm::length(skeleton_.offset[VFIT_BONE_LEFT_LOWER_ARM]) +
+               glm::length(skeleton_.offset[VFIT_BONE_LEFT_HAND]);
     }
     /// A point in the chest's own axes, metres from the middle between the shoulders, in the unit of an arm.
     Vec3 before_chest(const PosedSkeleton& at, float left, float up, float ahead) const {
-        const Vec3 middle = 0.5f * (at.position[VFIT_BONE_LEFT_UPPER_ARM] + at.position[VFIT_BONE_RIGHT_UPPER_ARM]);
+        const Vec3 middle =
+            0.5f * (at.position[VFIT_BONE_LEFT_UPPER_ARM] + at.position[VFIT_BONE_RIGHT_UPPER_ARM]);
         return middle + at.rotation[VFIT_BONE_UPPER_CHEST] * (arm_length() * Vec3(left, up, ahead));
     }
 
@@ -238,7 +252,8 @@ private:
         const Quat parent = at.rotation[static_cast<size_t>(b.clavicle)];
         const Quat upper_world = frame_turn(s, along, hinge), lower_world = frame_turn(s, on, hinge);
         rotation(b.upper_arm) = glm::normalize(glm::conjugate(parent) * upper_world);
-        rotation(b.forearm) = glm::normalize(glm::conjugate(upper_world) * lower_world * about_x(spread(random_, 0, 30)));
+        rotation(b.forearm) =
+            glm::normalize(glm::conjugate(upper_world) * lower_world * about_x(spread(random_, 0, 30)));
     }
 
     /// From the T-pose's arm (along +-X, elbow hinge +-Y) to that direction and hinge.
@@ -256,7 +271,8 @@ private:
         do d = random_.direction();
         while (d.z < -0.25f || s * d.x < -0.8f);
         const float far = random_.between(0.45f, 1.0f), raised = std::max(0.0f, d.y);
-        rotation(kBones[side].clavicle) = about_z(s * 20.0f * raised) * about_y(-s * 15.0f * std::max(0.0f, d.z) * far);
+        rotation(kBones[side].clavicle) =
+            about_z(s * 20.0f * raised) * about_y(-s * 15.0f * std::max(0.0f, d.z) * far);
         const PosedSkeleton at = placed();
         const Vec3 shoulder = at.position[static_cast<size_t>(kBones[side].upper_arm)];
         Vec3 target = shoulder + at.rotation[VFIT_BONE_UPPER_CHEST] * (d * far * arm_length());
@@ -275,7 +291,8 @@ private:
 
     void clap() {
         const PosedSkeleton at = placed();
-        const float left = random_.normal(0, 0.1f), up = random_.normal(-0.1f, 0.3f), ahead = random_.between(0.4f, 0.95f);
+        const float left = random_.normal(0, 0.1f), up = random_.normal(-0.1f, 0.3f),
+                    ahead = random_.between(0.4f, 0.95f);
         const float half = random_.chance(0.5f) ? random_.between(0.02f, 0.1f) : random_.between(0.1f, 0.8f);
         for (const Side side : {kLeft, kRight}) {
             const float s = sign_of(side);
@@ -286,10 +303,12 @@ private:
 
     void cross() {
         const PosedSkeleton at = placed();
-        const float over = random_.between(-0.35f, 0.55f), up = random_.normal(-0.25f, 0.15f), ahead = random_.between(0.32f, 0.75f);
+        const float over = random_.between(-0.35f, 0.55f), up = random_.normal(-0.25f, 0.15f),
+                    ahead = random_.between(0.32f, 0.75f);
         for (const Side side : {kLeft, kRight}) {
             const float s = sign_of(side);
-            place_wrist(side, keep_ahead(at, before_chest(at, -s * (over + random_.normal(0, 0.05f)), up + random_.normal(0, 0.08f),
+            place_wrist(side, keep_ahead(at, before_chest(at, -s * (over + random_.normal(0, 0.05f)),
+                                                          up + random_.normal(0, 0.08f),
                                                           ahead + (side == kLeft ? 0.08f : 0.0f))));
         }
     }
@@ -301,7 +320,8 @@ private:
         for (const Side side : {kLeft, kRight}) {
             const float over = random_.between(0.12f, 0.48f), level = random_.normal(0, 0.05f);
             const float on_top = side == upper ? random_.between(0.04f, 0.16f) : 0.0f;
-            place_wrist(side, keep_ahead(at, before_chest(at, -sign_of(side) * over, up + level + 0.5f * on_top, ahead + on_top)));
+            place_wrist(side, keep_ahead(at, before_chest(at, -sign_of(side) * over,
+                                                          up + level + 0.5f * on_top, ahead + on_top)));
         }
     }
 
@@ -309,7 +329,8 @@ private:
     void sweep(Side side) {
         const PosedSkeleton at = placed();
         const float out = sign_of(side) * random_.between(-0.75f, 0.6f);
-        place_wrist(side, keep_ahead(at, before_chest(at, out, random_.normal(-0.1f, 0.2f), random_.between(0.35f, 0.95f))));
+        place_wrist(side, keep_ahead(at, before_chest(at, out, random_.normal(-0.1f, 0.2f),
+                                                      random_.between(0.35f, 0.95f))));
     }
 
     /// Hands held before the trunk, each for itself.
@@ -320,7 +341,8 @@ private:
                 hang(side);
                 continue;
             }
-            const float out = sign_of(side) * random_.between(-0.3f, 0.5f), ahead = random_.between(0.35f, 0.85f);
+            const float out = sign_of(side) * random_.between(-0.3f, 0.5f),
+                        ahead = random_.between(0.35f, 0.85f);
             place_wrist(side, keep_ahead(at, before_chest(at, out, random_.between(-0.85f, 0.1f), ahead)));
         }
     }
@@ -333,11 +355,14 @@ private:
             if (random_.chance(0.3f)) {
                 hang(side);
             } else if (where == 0) {  // on the hip
-                place_wrist(side, before_chest(at, s * 0.42f, random_.between(-0.85f, -0.65f), random_.between(0.0f, 0.2f)));
+                place_wrist(side, before_chest(at, s * 0.42f, random_.between(-0.85f, -0.65f),
+                                               random_.between(0.0f, 0.2f)));
             } else if (where == 1) {  // at the head
-                place_wrist(side, before_chest(at, s * random_.between(0.1f, 0.3f), random_.between(0.1f, 0.5f), random_.between(0.1f, 0.3f)));
+                place_wrist(side, before_chest(at, s * random_.between(0.1f, 0.3f),
+                                               random_.between(0.1f, 0.5f), random_.between(0.1f, 0.3f)));
             } else {  // overhead
-                place_wrist(side, before_chest(at, s * random_.between(0.0f, 0.6f), random_.between(0.6f, 1.2f), random_.between(-0.1f, 0.4f)));
+                place_wrist(side, before_chest(at, s * random_.between(0.0f, 0.6f),
+                                               random_.between(0.6f, 1.2f), random_.between(-0.1f, 0.4f)));
             }
         }
     }

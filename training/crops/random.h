@@ -11,8 +11,8 @@ namespace vfit::training {
 
 class Random {
 public:
-    /// The seed is mixed before the index is added and once more after, so that neither neighbouring seeds nor
-    /// neighbouring indices give the same sequence a step apart.
+    /// The seed is mixed before the index is added and once more after, so that neither neighbouring seeds
+    /// nor neighbouring indices give the same sequence a step apart.
     Random(uint64_t seed, uint64_t index) : state_(seed) {
         state_ = bits() + index;
         state_ = bits();

@@ -30,15 +30,19 @@ std::vector<float> random_shape(const BodyModel& model, Random& random) {
     for (size_t i = 0; i < shape.size(); ++i) {
         const ShapeParameter& p = model.parameters()[i];
         float value;
-        if (p.key == "gender") value = random.chance(0.5f) ? random.between(0, 0.25f) : random.between(0.75f, 1);
-        else if (p.key == "age") value = random.between(0.4f, 0.9f);
-        else if (p.minimum >= 0.0f) value = std::clamp(random.normal(0.5f, 0.2f), 0.05f, 1.0f);
+        if (p.key == "gender")
+            value = random.chance(0.5f) ? random.between(0, 0.25f) : random.between(0.75f, 1);
+        else if (p.key == "age")
+            value = random.between(0.4f, 0.9f);
+        else if (p.minimum >= 0.0f)
+            value = std::clamp(random.normal(0.5f, 0.2f), 0.05f, 1.0f);
         else {
             const bool sided = p.key.size() > 2 && p.key[1] == '-';
             const std::string key = sided ? p.key.substr(2) : p.key;
             const auto known = sides.find(key);
-            value = known != sides.end() ? known->second
-                                         : std::clamp(random.normal(usual_measure(p.key), 0.22f), -0.7f, 0.9f);
+            value = known != sides.end()
+                        ? known->second
+                        : std::clamp(random.normal(usual_measure(p.key), 0.22f), -0.7f, 0.9f);
             sides[key] = value;
         }
         shape[i] = value;
@@ -46,7 +50,8 @@ std::vector<float> random_shape(const BodyModel& model, Random& random) {
     return shape;
 }
 
-/// Mostly towards the sensor; often from the side, where one leg hides the other; every other way now and then.
+/// Mostly towards the sensor; often from the side, where one leg hides the other; every other way now and
+/// then.
 float random_facing(Random& random) {
     switch (random.pick({0.44f, 0.28f, 0.28f})) {
         case 0: return std::clamp(random.normal(0, glm::radians(22.0f)), -1.2f, 1.2f);
@@ -66,10 +71,12 @@ void Sampler::make_person(uint64_t number) {
     desc.twist_steps = 2;
     avatar_ = std::make_unique<Avatar>(model_, desc, shape, Vec2(1.0f));
     // Statures of grown-ups, now and then of a child.
-    const float stature = random.chance(0.08f) ? random.between(1.2f, 1.5f) : std::clamp(random.normal(1.70f, 0.1f), 1.45f, 2.05f);
+    const float stature = random.chance(0.08f) ? random.between(1.2f, 1.5f)
+                                               : std::clamp(random.normal(1.70f, 0.1f), 1.45f, 2.05f);
     const float scale = stature / avatar_->stature();
     if (std::abs(scale - 1.0f) > 0.02f)
-        avatar_ = std::make_unique<Avatar>(model_, desc, shape, Vec2(scale * random.between(0.97f, 1.03f), scale));
+        avatar_ =
+            std::make_unique<Avatar>(model_, desc, shape, Vec2(scale * random.between(0.97f, 1.03f), scale));
     outfit_ = std::make_unique<Outfit>(*avatar_, random);
 }
 
@@ -148,7 +155,9 @@ void Sampler::label(const Camera& camera, const CropView& view, Sample& out) con
         for (int k = 0; k < 3; ++k) out.joints[size_t(3 * j + k)] = c[k];
         const Vec2 q = camera.project(p);
         out.inside[size_t(j)] =
-            p.z > 0.3f && q.x >= 0 && q.y >= 0 && q.x < float(camera.width) && q.y < float(camera.height) ? 1.0f : 0.0f;
+            p.z > 0.3f && q.x >= 0 && q.y >= 0 && q.x < float(camera.width) && q.y < float(camera.height)
+                ? 1.0f
+                : 0.0f;
     }
 }
 

@@ -11,7 +11,7 @@ namespace vfit::training {
 
 namespace {
 
-constexpr float kBaseline_m = 0.075f;      // projector to camera
+constexpr float kBaseline_m = 0.075f;        // projector to camera
 constexpr float kStepPerSquareM = 2.85e-3f;  // depth step = this * z^2
 
 /// Tiles of noise, made once, read from a random corner: one look-up a pixel.
@@ -22,7 +22,8 @@ public:
     explicit Tile(float cell) : values_(size_t(kSide) * kSide) {
         for (int y = 0; y < kSide; ++y)
             for (int x = 0; x < kSide; ++x)
-                values_[size_t(y) * kSide + size_t(x)] = smooth_noise(12345u, Vec2(float(x), float(y)) / cell);
+                values_[size_t(y) * kSide + size_t(x)] =
+                    smooth_noise(12345u, Vec2(float(x), float(y)) / cell);
     }
     static Tile white() {
         Tile tile(1.0f);
@@ -30,7 +31,9 @@ public:
         for (float& v : tile.values_) v = std::clamp(random.normal(0, 1), -3.0f, 3.0f);
         return tile;
     }
-    float at(int x, int y) const { return values_[size_t(y & (kSide - 1)) * kSide + size_t(x & (kSide - 1))]; }
+    float at(int x, int y) const {
+        return values_[size_t(y & (kSide - 1)) * kSide + size_t(x & (kSide - 1))];
+    }
 
 private:
     std::vector<float> values_;
@@ -41,16 +44,33 @@ struct Corner {
     explicit Corner(Random& random) : x(int(random.below(Tile::kSide))), y(int(random.below(Tile::kSide))) {}
 };
 
-const Tile& fine() { static const Tile tile(2.3f); return tile; }
-const Tile& middle() { static const Tile tile(7.0f); return tile; }
-const Tile& coarse() { static const Tile tile(21.0f); return tile; }
-const Tile& white() { static const Tile tile = Tile::white(); return tile; }
+const Tile& fine() {
+    static const Tile tile(2.3f);
+    return tile;
+}
+const Tile& middle() {
+    static const Tile tile(7.0f);
+    return tile;
+}
+const Tile& coarse() {
+    static const Tile tile(21.0f);
+    return tile;
+}
+const Tile& white() {
+    static const Tile tile = Tile::white();
+    return tile;
+}
 
 class Look {
 public:
     Look(const Shot& shot, Light light, float wall_m, Random& random)
-        : shot_(shot), light_(light), wall_m_(wall_m), random_(random), width_(int(shot.camera.width)),
-          height_(int(shot.camera.height)), to_world_(shot.camera.world_from_camera()) {
+        : shot_(shot),
+          light_(light),
+          wall_m_(wall_m),
+          random_(random),
+          width_(int(shot.camera.width)),
+          height_(int(shot.camera.height)),
+          to_world_(shot.camera.world_from_camera()) {
         // Effects that are a few pixels wide on a 320 x 240 image are so in angle.
         scale_ = shot.camera.fx / 285.0f;
     }
@@ -79,9 +99,11 @@ private:
         const Corner a(random_), b(random_);
         for (int y = 0; y < height_; ++y)
             for (int x = 0; x < width_; ++x) {
-                const float jump = 0.6f * fine().at(x + a.x, y + a.y) + 0.5f * white().at(x + b.x, y + b.y) * 0.5f;
+                const float jump =
+                    0.6f * fine().at(x + a.x, y + a.y) + 0.5f * white().at(x + b.x, y + b.y) * 0.5f;
                 const int sx = std::clamp(int(std::lround(float(x) + across * jump)), 0, width_ - 1);
-                const int sy = std::clamp(int(std::lround(float(y) + along * fine().at(x + b.x, y + a.y))), 0, height_ - 1);
+                const int sy = std::clamp(int(std::lround(float(y) + along * fine().at(x + b.x, y + a.y))), 0,
+                                          height_ - 1);
                 depth_[index(x, y)] = shot_.depth_m[index(sx, sy)];
                 cosine_[index(x, y)] = shot_.cosine[index(sx, sy)];
             }
@@ -99,7 +121,8 @@ private:
             for (int x = 0; x < width_; ++x) {
                 float best = value(x, y);
                 for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
-                    best = grow ? std::min(best, value(x + dx, y + dy)) : std::max(best, value(x + dx, y + dy));
+                    best =
+                        grow ? std::min(best, value(x + dx, y + dy)) : std::max(best, value(x + dx, y + dy));
                 depth_[index(x, y)] = best == far ? 0.0f : best;
             }
     }
@@ -126,7 +149,8 @@ private:
 
     void holes() {
         const bool patches = random_.chance(0.35f);
-        const float patch_level = random_.between(0.45f, 0.8f), speckle = random_.chance(0.4f) ? random_.between(2.2f, 3.0f) : 9.0f;
+        const float patch_level = random_.between(0.45f, 0.8f),
+                    speckle = random_.chance(0.4f) ? random_.between(2.2f, 3.0f) : 9.0f;
         const float grazing = random_.between(0.05f, 0.22f);
         const bool wide = random_.chance(0.5f);
         const Corner a(random_), b(random_);
@@ -204,8 +228,10 @@ private:
 
     /// Something stands before the person.
     void occlude() {
-        const int x0 = int(random_.between(-0.5f, 1.0f) * float(width_)), w = int(random_.between(0.1f, 0.6f) * float(width_));
-        const int y0 = int(random_.between(0.2f, 1.1f) * float(height_)), h = int(random_.between(0.1f, 0.6f) * float(height_));
+        const int x0 = int(random_.between(-0.5f, 1.0f) * float(width_)),
+                  w = int(random_.between(0.1f, 0.6f) * float(width_));
+        const int y0 = int(random_.between(0.2f, 1.1f) * float(height_)),
+                  h = int(random_.between(0.1f, 0.6f) * float(height_));
         clear(x0, y0, x0 + w, y0 + h);
     }
 
@@ -223,7 +249,8 @@ private:
     void report(RealShot& out) {
         out.camera = shot_.camera;
         out.depth_mm.assign(depth_.size(), 0), out.users.assign(depth_.size(), 0);
-        const float strength = random_.between(0.3f, 1.6f), bias = 1.0f + std::clamp(random_.normal(0, 0.006f), -0.015f, 0.015f);
+        const float strength = random_.between(0.3f, 1.6f),
+                    bias = 1.0f + std::clamp(random_.normal(0, 0.006f), -0.015f, 0.015f);
         const float together = random_.unit();  // share of the noise that neighbours have in common
         const bool steps = light_ == Light::kStructured;
         const Corner a(random_), b(random_);
@@ -235,7 +262,8 @@ private:
                 const float sigma = light_ == Light::kStructured ? 0.0012f + 0.0019f * (z - 0.4f) * (z - 0.4f)
                                                                  : 0.0015f + 0.0007f * z;
                 const float grazing = 0.002f * (1.0f / std::max(0.15f, cosine_[i]) - 1.0f);
-                const float noise = together * 1.6f * fine().at(x + a.x, y + a.y) + (1.0f - together) * white().at(x + b.x, y + b.y);
+                const float noise = together * 1.6f * fine().at(x + a.x, y + a.y) +
+                                    (1.0f - together) * white().at(x + b.x, y + b.y);
                 z = z * bias + strength * (sigma + grazing) * noise;
                 if (steps) {
                     const float step = kStepPerSquareM * z * z;

@@ -1,12 +1,13 @@
-// Makes a perfect window of depth look as if a real sensor and a real segmentation had made it: jittered edges,
-// shadows, holes, noise, steps of depth, and a user map that cuts feet, keeps pieces of floor and loses parts.
+// Makes a perfect window of depth look as if a real sensor and a real segmentation had made it: jittered
+// edges, shadows, holes, noise, steps of depth, and a user map that cuts feet, keeps pieces of floor and
+// loses parts.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "random.h"
 #include "frame/depth_image.h"
+#include "random.h"
 #include "shot.h"
 
 namespace vfit::training {

@@ -33,9 +33,11 @@ void add_box(const Vec3& centre, const Mat3& axes, Mesh& out) {
     const auto first = static_cast<uint32_t>(out.positions.size());
     for (int i = 0; i < 8; ++i)
         out.positions.push_back(centre + axes * Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
-    constexpr uint32_t kFaces[6][4] = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}};
+    constexpr uint32_t kFaces[6][4] = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1},
+                                       {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}};
     for (const auto& f : kFaces)
-        for (const uint32_t corner : {f[0], f[1], f[2], f[0], f[2], f[3]}) out.indices.push_back(first + corner);
+        for (const uint32_t corner : {f[0], f[1], f[2], f[0], f[2], f[3]})
+            out.indices.push_back(first + corner);
 }
 
 }  // namespace vfit::training

@@ -9,38 +9,63 @@ Williams 2006, chapter 2) with the sum of both kernels, the second one by its va
 regression of the logarithm of errors on people who were held out, scaled so that 90 % of those errors lie within 1.645
 of them. Needs numpy alone.
 """
+
 import argparse
 import json
 
 import numpy as np
 
-FOLDS = 5                  # people are held out whole
-TOGETHER = 0.8             # how much of what the features tell is the same for both sexes
-CLOTHED = 0.1              # weight of a clothed scan for those in tight clothes: what the cloth adds is told to the regression
-FIRM = 3.0                 # of the ridge, for the body's own numbers, by a measure's variance
-FIRM_SURFACE = [100.0, 300.0, 1000.0, 3000.0]  # for its surface: each measure takes what serves people held out best
-SMOOTH = 30.0              # variance of the smooth function
+FOLDS = 5  # people are held out whole
+TOGETHER = 0.8  # how much of what the features tell is the same for both sexes
+CLOTHED = (
+    0.1  # weight of a clothed scan for those in tight clothes: what the cloth adds is told to the regression
+)
+FIRM = 3.0  # of the ridge, for the body's own numbers, by a measure's variance
+FIRM_SURFACE = [
+    100.0,
+    300.0,
+    1000.0,
+    3000.0,
+]  # for its surface: each measure takes what serves people held out best
+SMOOTH = 30.0  # variance of the smooth function
 CENTRES, DIRECTIONS = 1000, 40  # where it is known, and in how many directions of the features
-WIDTH = 1.2                # of a centre, squared, by the usual squared distance of two scans
-LEVEL = 100.0              # variance of what a sex has in common
-JITTER = 1e-3              # of the kernel between centres: two that are alike say the same
-FARTHEST = 5.0             # deviations: sdk/scan/measure_model.cpp cuts there too
+WIDTH = 1.2  # of a centre, squared, by the usual squared distance of two scans
+LEVEL = 100.0  # variance of what a sex has in common
+JITTER = 1e-3  # of the kernel between centres: two that are alike say the same
+FARTHEST = 5.0  # deviations: sdk/scan/measure_model.cpp cuts there too
 # The order of sdk/scan/body_scan.h.
-SHAPE = 10                 # of the base: of the body itself, without clothes
+SHAPE = 10  # of the base: of the body itself, without clothes
 BASE, ZONES, PROFILE, REGIONS = 19, 2 * 2 * 171, 24 * (5 + 9), 2 * 3
 FEATURES = BASE + ZONES + PROFILE + REGIONS
 # What deviations follow: the fitted shape and its clothes, distance and pixel, roughness; and how strange all of it is.
 SIGMA_FEATURES = list(range(13)) + [14, 15] + list(range(BASE + ZONES + PROFILE, FEATURES))
 LEAST_ERROR = 0.0005
-LEAST_STRANGENESS = 0.01    # sdk/scan/measure_model.cpp has the same
+LEAST_STRANGENESS = 0.01  # sdk/scan/measure_model.cpp has the same
 UNIT, UNIT_OF_PLACES = 1e-6, 1e-5  # the file's numbers are whole ones of these
 # What is learnt apart: which features, from which scans.
-KINDS = {"front": ("front", False), "front_and_side": ("both", False), "front_tight": ("front", True),
-         "front_and_side_tight": ("both", True)}
+KINDS = {
+    "front": ("front", False),
+    "front_and_side": ("both", False),
+    "front_tight": ("front", True),
+    "front_and_side_tight": ("both", True),
+}
 # Seen itself from the front, and from both; the rest is inferred from what is seen.
-SEEN_FROM_FRONT = {"stature_m", "shoulder_breadth_m", "inside_leg_m", "arm_length_m", "hip_breadth_m", "waist_breadth_m",
-                   "chest_breadth_m", "head_width_m", "head_height_m", "hip_height_m", "torso_height_m",
-                   "elbow_fingertip_m", "hand_length_m", "biacromial_breadth_m"}
+SEEN_FROM_FRONT = {
+    "stature_m",
+    "shoulder_breadth_m",
+    "inside_leg_m",
+    "arm_length_m",
+    "hip_breadth_m",
+    "waist_breadth_m",
+    "chest_breadth_m",
+    "head_width_m",
+    "head_height_m",
+    "hip_height_m",
+    "torso_height_m",
+    "elbow_fingertip_m",
+    "hand_length_m",
+    "biacromial_breadth_m",
+}
 NEVER_SEEN = {"body_mass_kg"}
 
 
@@ -61,8 +86,10 @@ def read(files):
     for row in rows:
         for view in ("front", "both"):
             if row[view] and len(row[view]) != FEATURES:
-                raise SystemExit(f"a scan of person {row['number']} has {len(row[view])} features, not {FEATURES}: "
-                                 "it was made by another version")
+                raise SystemExit(
+                    f"a scan of person {row['number']} has {len(row[view])} features, not {FEATURES}: "
+                    "it was made by another version"
+                )
     return rows
 
 
@@ -94,7 +121,9 @@ class Centres:
         relevance = np.sqrt((relevance / relevance.sum(0)).mean(1))
         vectors = np.linalg.eigh(np.cov((x * relevance).T, aweights=weight))[1][:, ::-1][:, :DIRECTIONS]
         self.directions = relevance[:, None] * vectors
-        chosen = np.random.default_rng(1).choice(len(x), min(CENTRES, len(x)), replace=False, p=weight / weight.sum())
+        chosen = np.random.default_rng(1).choice(
+            len(x), min(CENTRES, len(x)), replace=False, p=weight / weight.sum()
+        )
         self.centres = x[chosen] @ self.directions
         usual = np.sqrt(WIDTH * np.median(self.squares(self.centres)))
         self.directions /= usual
@@ -103,7 +132,9 @@ class Centres:
         self.root = vectors / np.sqrt(values)
 
     def squares(self, z):
-        return np.maximum((z * z).sum(1)[:, None] + (self.centres * self.centres).sum(1) - 2 * z @ self.centres.T, 0.0)
+        return np.maximum(
+            (z * z).sum(1)[:, None] + (self.centres * self.centres).sum(1) - 2 * z @ self.centres.T, 0.0
+        )
 
     def near(self, x):
         return np.exp(-0.5 * self.squares(x @ self.directions))
@@ -119,8 +150,14 @@ class Part:
         count = np.maximum(seen.sum(0), 1)
         self.used = seen.any(0)
         self.mean = np.where(seen, features, 0.0).sum(0) / count
-        self.scale = np.maximum(np.sqrt((np.where(seen, features - self.mean, 0.0) ** 2).sum(0) / count), 1e-3)
-        self.x, self.female, self.weight = self.standard(scans.features), scans.female, np.where(own, 1.0, CLOTHED)
+        self.scale = np.maximum(
+            np.sqrt((np.where(seen, features - self.mean, 0.0) ** 2).sum(0) / count), 1e-3
+        )
+        self.x, self.female, self.weight = (
+            self.standard(scans.features),
+            scans.female,
+            np.where(own, 1.0, CLOTHED),
+        )
         self.logit = logistic(self.x[own], scans.female[own])
         self.usual_strangeness = float(np.quantile((self.x[own] ** 2).mean(1), 0.99))
         self.mean_y = np.average(scans.truth, 0, self.weight)
@@ -143,13 +180,19 @@ class Part:
         firm = np.sqrt(np.where(np.flatnonzero(self.used) < BASE, FIRM, firm_surface))
         both, apart = np.sqrt(TOGETHER) / firm, np.sqrt(1.0 - TOGETHER) / firm
         sex, x = np.c_[self.female, 1.0 - self.female], self.x[:, self.used]
-        columns = np.c_[x * both, x * apart * sex[:, :1], x * apart * sex[:, 1:],
-                        np.sqrt(SMOOTH) * self.centres.near(x) @ self.centres.root, np.sqrt(LEVEL) * sex, self.cloth]
+        columns = np.c_[
+            x * both,
+            x * apart * sex[:, :1],
+            x * apart * sex[:, 1:],
+            np.sqrt(SMOOTH) * self.centres.near(x) @ self.centres.root,
+            np.sqrt(LEVEL) * sex,
+            self.cloth,
+        ]
         a, b = columns * np.sqrt(self.weight)[:, None], self.y * np.sqrt(self.weight)[:, None]
         solved = np.linalg.solve(a.T @ a + np.eye(a.shape[1]), a.T @ b)
-        shared, smooth = both[:, None] * solved[:count], solved[3 * count:][:len(self.centres.root)]
-        level = self.mean_y + np.sqrt(LEVEL) * solved[3 * count + len(smooth):][:2]
-        sexes = [(shared + apart[:, None] * solved[(s + 1) * count:][:count], level[s]) for s in (0, 1)]
+        shared, smooth = both[:, None] * solved[:count], solved[3 * count :][: len(self.centres.root)]
+        level = self.mean_y + np.sqrt(LEVEL) * solved[3 * count + len(smooth) :][:2]
+        sexes = [(shared + apart[:, None] * solved[(s + 1) * count :][:count], level[s]) for s in (0, 1)]
         return sexes, np.sqrt(SMOOTH) * self.centres.root @ smooth
 
     def __call__(self, features, firm_surface):
@@ -163,7 +206,9 @@ class Part:
 class Scans:
     def __init__(self, rows, view, keys):
         self.rows = [r for r in rows if r[view]]
-        self.features = np.array([[np.nan if value is None else value for value in r[view]] for r in self.rows])  # null: not seen
+        self.features = np.array(
+            [[np.nan if value is None else value for value in r[view]] for r in self.rows]
+        )  # null: not seen
         truth = np.array([[r["truth"].get(k, np.nan) for k in keys] for r in self.rows])
         # A man has no underbust: the mean of women stands in, and is not written for men.
         self.truth = np.where(np.isnan(truth), np.nanmean(truth, 0), truth)
@@ -198,7 +243,9 @@ class Sigma:
         x = self.tells(x)
         self.weights, base = ridge(x, np.log(np.abs(error) + LEAST_ERROR), np.ones(len(x)), 30.0)
         ratio = np.abs(error) / np.exp(base + x @ self.weights)
-        within = np.quantile(np.r_[ratio, ratio[off_space]], 0.90, axis=0)  # off space counts twice: real people are like that
+        within = np.quantile(
+            np.r_[ratio, ratio[off_space]], 0.90, axis=0
+        )  # off space counts twice: real people are like that
         self.base = base + np.log(within / 1.645)
 
     def __call__(self, x):
@@ -206,7 +253,7 @@ class Sigma:
 
     @staticmethod
     def tells(x):
-        return np.c_[x[:, SIGMA_FEATURES], np.log((x ** 2).mean(1) + LEAST_STRANGENESS)]
+        return np.c_[x[:, SIGMA_FEATURES], np.log((x**2).mean(1) + LEAST_STRANGENESS)]
 
 
 def digits(values, count):
@@ -217,8 +264,11 @@ def whole(values, unit):
     return np.rint(np.asarray(values).ravel() / unit).astype(int).tolist()
 
 
-SETS = {"in space": lambda r: tight(r) and r["space"] == "in", "off space": lambda r: tight(r) and r["space"] == "out",
-        "clothed": lambda r: not tight(r)}
+SETS = {
+    "in space": lambda r: tight(r) and r["space"] == "in",
+    "off space": lambda r: tight(r) and r["space"] == "out",
+    "clothed": lambda r: not tight(r),
+}
 
 
 def train(rows, kind, keys):
@@ -233,24 +283,40 @@ def train(rows, kind, keys):
     x = part.standard(scans.features[own])
     sigma = Sigma(x, error, np.array([r["space"] == "out" for r in rows]))
     inside = np.abs(error) <= 1.645 * sigma(x)
-    print(f"\n{kind}: {len(rows)} scans of {len(set(zip(number, [r['space'] for r in rows])))} people, "
-          "held out: mean absolute error (mm, kg) and share within 90 % intervals")
+    print(
+        f"\n{kind}: {len(rows)} scans of {len(set(zip(number, [r['space'] for r in rows])))} people, "
+        "held out: mean absolute error (mm, kg) and share within 90 % intervals"
+    )
     chosen = {name: np.array([test(r) for r in rows]) for name, test in SETS.items()}
     for k, key in enumerate(keys):
         unit = 1 if key.endswith("_kg") else 1000
-        print(f"  {key:22s}" + "".join(
-            f"   {name} {unit * np.abs(error[m, k]).mean():5.1f} {100 * inside[m, k].mean():3.0f} %"
-            for name, m in chosen.items() if m.any()))
+        print(
+            f"  {key:22s}"
+            + "".join(
+                f"   {name} {unit * np.abs(error[m, k]).mean():5.1f} {100 * inside[m, k].mean():3.0f} %"
+                for name, m in chosen.items()
+                if m.any()
+            )
+        )
     girths = [keys.index(k) for k in ("chest_girth_m", "waist_girth_m", "hip_girth_m")]
     correlation = np.corrcoef(error[:, girths].T)
-    print(f"  errors' correlation: chest and waist {correlation[0, 1]:.2f}, chest and hip {correlation[0, 2]:.2f}, "
-          f"waist and hip {correlation[1, 2]:.2f}")
+    print(
+        f"  errors' correlation: chest and waist {correlation[0, 1]:.2f}, chest and hip {correlation[0, 2]:.2f}, "
+        f"waist and hip {correlation[1, 2]:.2f}"
+    )
     used = part.used
-    out = {"features": np.flatnonzero(used).tolist(), "mean": digits(part.mean[used], 7), "scale": digits(part.scale[used], 5),
-           "usual_strangeness": part.usual_strangeness,
-           "shape_precision": digits(part.shape_precision, 5), "female_weights": digits(part.logit[:-1][used], 4),
-           "female_base": float(part.logit[-1]), "directions": whole(part.centres.directions.T, UNIT_OF_PLACES),
-           "centres": whole(part.centres.centres, UNIT_OF_PLACES), "sigma_features": SIGMA_FEATURES}
+    out = {
+        "features": np.flatnonzero(used).tolist(),
+        "mean": digits(part.mean[used], 7),
+        "scale": digits(part.scale[used], 5),
+        "usual_strangeness": part.usual_strangeness,
+        "shape_precision": digits(part.shape_precision, 5),
+        "female_weights": digits(part.logit[:-1][used], 4),
+        "female_base": float(part.logit[-1]),
+        "directions": whole(part.centres.directions.T, UNIT_OF_PLACES),
+        "centres": whole(part.centres.centres, UNIT_OF_PLACES),
+        "sigma_features": SIGMA_FEATURES,
+    }
     solved = [part.ridges(firm) for firm in FIRM_SURFACE]
     out["bends"] = {key: whole(solved[best[k]][1][:, k], UNIT) for k, key in enumerate(keys)}
     for s, sex in enumerate(("female", "male")):
@@ -259,9 +325,13 @@ def train(rows, kind, keys):
             if sex == "male" and key == "underbust_girth_m":
                 continue
             weights, base = solved[best[k]][0][s]
-            out[sex][key] = {"observed": key in SEEN_FROM_FRONT or (view == "both" and key not in NEVER_SEEN),
-                             "base": float(base[k]), "weights": whole(weights[:, k], UNIT),
-                             "log_sigma": float(sigma.base[k]), "sigma_weights": digits(sigma.weights[:, k], 4)}
+            out[sex][key] = {
+                "observed": key in SEEN_FROM_FRONT or (view == "both" and key not in NEVER_SEEN),
+                "base": float(base[k]),
+                "weights": whole(weights[:, k], UNIT),
+                "log_sigma": float(sigma.base[k]),
+                "sigma_weights": digits(sigma.weights[:, k], 4),
+            }
     check_rounding(out, part, solved, best, keys, scans.features)
     return out
 
@@ -269,10 +339,16 @@ def train(rows, kind, keys):
 def check_rounding(out, part, solved, best, keys, features):
     """What the file's numbers tell is what was learnt: a mean of three digits once cost three millimetres of stature."""
     features, exact_x = features[:, part.used], part.standard(features)[:, part.used]
-    x = np.where(np.isfinite(features), np.clip((features - np.array(out["mean"])) / np.array(out["scale"]), -FARTHEST, FARTHEST), 0.0)
+    x = np.where(
+        np.isfinite(features),
+        np.clip((features - np.array(out["mean"])) / np.array(out["scale"]), -FARTHEST, FARTHEST),
+        0.0,
+    )
     place = x @ (UNIT_OF_PLACES * np.array(out["directions"]).reshape(-1, x.shape[1]).T)
     centres = UNIT_OF_PLACES * np.array(out["centres"]).reshape(-1, place.shape[1])
-    near = np.exp(-0.5 * ((place * place).sum(1)[:, None] + (centres * centres).sum(1) - 2 * place @ centres.T))
+    near = np.exp(
+        -0.5 * ((place * place).sum(1)[:, None] + (centres * centres).sum(1) - 2 * place @ centres.T)
+    )
     exact_near = part.centres.near(exact_x)
     for s, sex in enumerate(("female", "male")):
         for k, key in enumerate(keys):
@@ -281,7 +357,10 @@ def check_rounding(out, part, solved, best, keys, features):
             sexes, smooth = solved[best[k]]
             weights, base = sexes[s]
             exact = exact_x @ weights[:, k] + base[k] + exact_near @ smooth[:, k]
-            told = UNIT * (x @ np.array(out[sex][key]["weights"]) + near @ np.array(out["bends"][key])) + out[sex][key]["base"]
+            told = (
+                UNIT * (x @ np.array(out[sex][key]["weights"]) + near @ np.array(out["bends"][key]))
+                + out[sex][key]["base"]
+            )
             if np.abs(told - exact).max() > LEAST_ERROR * (100 if key.endswith("_kg") else 1):
                 raise SystemExit(f"{key}: rounding costs {np.abs(told - exact).max()}")
 

@@ -19,29 +19,18 @@ Layout layout(std::vector<py::ssize_t> shape = {}, std::vector<py::ssize_t> stri
 
 Layout layout_of(vfit_format format) {
     switch (format) {
-        case VFIT_FORMAT_U8:
-            return layout<uint8_t>();
-        case VFIT_FORMAT_U16:
-            return layout<uint16_t>();
-        case VFIT_FORMAT_U32:
-            return layout<uint32_t>();
-        case VFIT_FORMAT_F32:
-            return layout<float>();
-        case VFIT_FORMAT_RGBA8:
-            return layout<uint8_t>({4});
-        case VFIT_FORMAT_F32X2:
-            return layout<float>({2});
-        case VFIT_FORMAT_F32X3:
-            return layout<float>({3});
+        case VFIT_FORMAT_U8: return layout<uint8_t>();
+        case VFIT_FORMAT_U16: return layout<uint16_t>();
+        case VFIT_FORMAT_U32: return layout<uint32_t>();
+        case VFIT_FORMAT_F32: return layout<float>();
+        case VFIT_FORMAT_RGBA8: return layout<uint8_t>({4});
+        case VFIT_FORMAT_F32X2: return layout<float>({2});
+        case VFIT_FORMAT_F32X3: return layout<float>({3});
         // Column-major in memory, so that [row, column] steps by 4 and 16 bytes.
-        case VFIT_FORMAT_F32X16:
-            return layout<float>({4, 4}, {4, 16});
-        case VFIT_FORMAT_U16X8:
-            return layout<uint16_t>({8});
-        case VFIT_FORMAT_F32X8:
-            return layout<float>({8});
-        default:
-            fail(VFIT_ERROR_UNSUPPORTED, "the binding does not know format " + std::to_string(format));
+        case VFIT_FORMAT_F32X16: return layout<float>({4, 4}, {4, 16});
+        case VFIT_FORMAT_U16X8: return layout<uint16_t>({8});
+        case VFIT_FORMAT_F32X8: return layout<float>({8});
+        default: fail(VFIT_ERROR_UNSUPPORTED, "the binding does not know format " + std::to_string(format));
     }
 }
 

@@ -48,9 +48,10 @@ std::shared_ptr<Cloth> create(const Avatar& avatar, const Garment& garment,
                               const std::optional<std::string>& size, uint32_t substeps,
                               const std::optional<std::array<float, 3>>& gravity,
                               const std::optional<float>& friction, const std::optional<float>& damping,
-                              float thickness_m, bool hands, bool skin, bool sleeps, const std::array<float, 3>& wind, float drag,
-                              float lift, const std::optional<float>& inertia, float self_thickness_m, float budget_ms, bool pressure, float cover_m, float virtual_m,
-                              bool any_fit) {
+                              float thickness_m, bool hands, bool skin, bool sleeps,
+                              const std::array<float, 3>& wind, float drag, float lift,
+                              const std::optional<float>& inertia, float self_thickness_m, float budget_ms,
+                              bool pressure, float cover_m, float virtual_m, bool any_fit) {
     vfit_cloth_desc desc = vfit_cloth_desc_init();
     desc.size_label = size ? size->c_str() : nullptr;
     desc.substeps = substeps;
@@ -62,8 +63,9 @@ std::shared_ptr<Cloth> create(const Avatar& avatar, const Garment& garment,
     desc.friction = setting(friction);
     desc.damping = setting(damping);
     desc.thickness_m = thickness_m;
-    desc.flags = flag(!hands, VFIT_CLOTH_NO_HANDS) | flag(skin, VFIT_CLOTH_SKIN) | flag(!sleeps, VFIT_CLOTH_AWAKE) |
-                 flag(pressure, VFIT_CLOTH_PRESSURE) | flag(any_fit, VFIT_CLOTH_ANY_FIT);
+    desc.flags = flag(!hands, VFIT_CLOTH_NO_HANDS) | flag(skin, VFIT_CLOTH_SKIN) |
+                 flag(!sleeps, VFIT_CLOTH_AWAKE) | flag(pressure, VFIT_CLOTH_PRESSURE) |
+                 flag(any_fit, VFIT_CLOTH_ANY_FIT);
     std::copy(wind.begin(), wind.end(), desc.wind);
     desc.drag = drag;
     desc.lift = lift;
@@ -79,7 +81,9 @@ std::shared_ptr<Cloth> create(const Avatar& avatar, const Garment& garment,
     return cloth;
 }
 
-py::array_t<bool> hide_skin(const Cloth& cloth, float margin_m, const std::optional<py::array_t<bool, py::array::c_style | py::array::forcecast>>& before) {
+py::array_t<bool> hide_skin(
+    const Cloth& cloth, float margin_m,
+    const std::optional<py::array_t<bool, py::array::c_style | py::array::forcecast>>& before) {
     vfit_frame rest{};
     check(vfit_avatar_acquire_rest(cloth.wearer, &rest));
     vfit_view indices = vfit_view_init();
@@ -105,7 +109,8 @@ py::object stats(const Cloth& cloth) {
     vfit_cloth_stats s = vfit_cloth_stats_init();
     check(vfit_cloth_describe(cloth.get(), &s));
     return value("ClothStats", s.vertex_count, s.simulated_count, s.constraint_count, s.strain_mean,
-                 s.strain_p99, s.strain_max, s.step_ms, s.substeps, s.collider_count, s.sleeves_taken_up_m, s.legs_taken_up_m);
+                 s.strain_p99, s.strain_max, s.step_ms, s.substeps, s.collider_count, s.sleeves_taken_up_m,
+                 s.legs_taken_up_m);
 }
 
 uint64_t state_hash(const Cloth& cloth) {
@@ -121,7 +126,8 @@ py::list parts(const Garment& garment) {
     check(vfit_garment_parts(garment.get(), items.data(), sizeof(vfit_garment_part), &count));
     py::list out;
     for (const vfit_garment_part& p : items)
-        out.append(value("GarmentPart", field(p.material), field(p.texture), py::make_tuple(p.color[0], p.color[1], p.color[2]), p.first_index, p.index_count));
+        out.append(value("GarmentPart", field(p.material), field(p.texture),
+                         py::make_tuple(p.color[0], p.color[1], p.color[2]), p.first_index, p.index_count));
     return out;
 }
 
@@ -133,7 +139,8 @@ py::list fit(const Cloth& cloth) {
     py::list out;
     for (const vfit_fit_zone& z : items) {
         const char* verdict = z.fit == VFIT_FIT_TIGHT ? "tight" : z.fit == VFIT_FIT_LOOSE ? "loose" : "right";
-        out.append(value("FitZone", field(z.key), verdict, z.body_m, z.garment_m, z.ease_m, z.strain, z.pressure_pa, z.opening_m));
+        out.append(value("FitZone", field(z.key), verdict, z.body_m, z.garment_m, z.ease_m, z.strain,
+                         z.pressure_pa, z.opening_m));
     }
     return out;
 }
@@ -166,19 +173,23 @@ void bind_cloth(py::module_& m) {
     closable(
         py::class_<Cloth, std::shared_ptr<Cloth>>(m, "Cloth",
                                                   "A garment on an avatar. Pose the avatar first, then step.")
-            .def(py::init(&create), py::keep_alive<1, 2>(), "avatar"_a, "garment"_a, py::kw_only(),
-                 "size"_a = py::none(), "substeps"_a = 0, "gravity"_a = py::none(), "friction"_a = py::none(),
-                 "damping"_a = py::none(), "thickness_m"_a = 0.0f, "hands"_a = true, "skin"_a = false, "sleeps"_a = true,
-                 "wind"_a = std::array<float, 3>{}, "drag"_a = 0.0f, "lift"_a = 0.0f, "inertia"_a = py::none(),
-                 "self_thickness_m"_a = 0.0f, "budget_ms"_a = 0.0f, "pressure"_a = false, "cover_m"_a = 0.0f, "virtual_m"_a = 0.0f, "any_fit"_a = false,
-                 "size None: made to the avatar. substeps 0: 8 a 1/60 s. hands False: forearms and hands pass "
-                 "through the garment. skin True: kept out of the avatar's skin itself, not of its spheres and capsules. "
-                 "drag and lift: of the air, about 1. inertia: share of the body's own motion that the cloth feels. "
-                 "self_thickness_m: kept between the cloth's own layers. budget_ms: of a step. "
-                 "pressure True: frames tell what the body presses with, in Pa. "
-                 "cover_m: more spheres and capsules, until no skin is so far outside of all. "
-                 "virtual_m: points of triangles so near each other meet the body too: for coarse meshes. "
-                 "any_fit True: worn even where it would not close.")
+            .def(
+                py::init(&create), py::keep_alive<1, 2>(), "avatar"_a, "garment"_a, py::kw_only(),
+                "size"_a = py::none(), "substeps"_a = 0, "gravity"_a = py::none(), "friction"_a = py::none(),
+                "damping"_a = py::none(), "thickness_m"_a = 0.0f, "hands"_a = true, "skin"_a = false,
+                "sleeps"_a = true, "wind"_a = std::array<float, 3>{}, "drag"_a = 0.0f, "lift"_a = 0.0f,
+                "inertia"_a = py::none(), "self_thickness_m"_a = 0.0f, "budget_ms"_a = 0.0f,
+                "pressure"_a = false, "cover_m"_a = 0.0f, "virtual_m"_a = 0.0f, "any_fit"_a = false,
+                "size None: made to the avatar. substeps 0: 8 a 1/60 s. hands False: forearms and hands pass "
+                "through the garment. skin True: kept out of the avatar's skin itself, not of its spheres "
+                "and capsules. "
+                "drag and lift: of the air, about 1. inertia: share of the body's own motion that the cloth "
+                "feels. "
+                "self_thickness_m: kept between the cloth's own layers. budget_ms: of a step. "
+                "pressure True: frames tell what the body presses with, in Pa. "
+                "cover_m: more spheres and capsules, until no skin is so far outside of all. "
+                "virtual_m: points of triangles so near each other meet the body too: for coarse meshes. "
+                "any_fit True: worn even where it would not close.")
             .def(
                 "set_wind",
                 [](const Cloth& c, const std::array<float, 3>& wind) {
@@ -190,13 +201,15 @@ void bind_cloth(py::module_& m) {
                 [](const Cloth& c, uint32_t substeps, float budget_ms) {
                     run([=, h = c.get()] { return vfit_cloth_set_quality(h, substeps, budget_ms); });
                 },
-                "substeps"_a = 0, "budget_ms"_a = 0.0f, "Sub-steps a 1/60 s at most, and what a step may take.")
+                "substeps"_a = 0, "budget_ms"_a = 0.0f,
+                "Sub-steps a 1/60 s at most, and what a step may take.")
             .def(
                 "set_size",
                 [](const Cloth& c, const std::optional<std::string>& size) {
                     run([&, h = c.get()] { return vfit_cloth_set_size(h, size ? size->c_str() : nullptr); });
                 },
-                "size"_a = py::none(), "Another size of the garment, from how it hangs now; None: made to the avatar.")
+                "size"_a = py::none(),
+                "Another size of the garment, from how it hangs now; None: made to the avatar.")
             .def("fit", &fit, "How it sits, by girths of the trunk.")
             .def("fit_map", &fit_map, "One value a vertex: above 0 tight, below 0 loose.")
             .def(
@@ -205,9 +218,10 @@ void bind_cloth(py::module_& m) {
                     run([h = c.get(), i = inner.get()] { return vfit_cloth_wear_over(h, i); });
                 },
                 "inner"_a, "Stays outside of that cloth from now on; step the inner one first.")
-            .def("hide_skin", &hide_skin, "margin_m"_a = 0.0f, "hidden"_a = py::none(),
-                 "One True a triangle of the avatar's that this garment hides: leave it out of what you draw. "
-                 "hidden: of the garments before, to add to.")
+            .def(
+                "hide_skin", &hide_skin, "margin_m"_a = 0.0f, "hidden"_a = py::none(),
+                "One True a triangle of the avatar's that this garment hides: leave it out of what you draw. "
+                "hidden: of the garments before, to add to.")
             .def(
                 "step",
                 [](const Cloth& c, float dt) { run([h = c.get(), dt] { return vfit_cloth_step(h, dt); }); },
@@ -223,7 +237,8 @@ void bind_cloth(py::module_& m) {
                 "Waits for the step that was begun.")
             .def(
                 "carry", [](const Cloth& c) { run([h = c.get()] { return vfit_cloth_carry(h); }); },
-                "Between steps: acquire then gives the last step's cloth, carried into the avatar's pose of now.")
+                "Between steps: acquire then gives the last step's cloth, carried into the avatar's pose of "
+                "now.")
             .def(
                 "reset", [](const Cloth& c) { run([h = c.get()] { return vfit_cloth_reset(h); }); },
                 "Put on anew, on a body that stands straight and goes into the avatar's pose: about 0.1 s.")

@@ -14,11 +14,12 @@ public:
 
 using Number = std::optional<float>;
 
-std::shared_ptr<Motion> create(const Context& context, const std::variant<bool, std::string>& filter, bool limits,
-                               bool smooth_rotations, bool feet, const Number& smoothing, const Number& correction,
-                               const Number& prediction, const Number& jitter_radius_m,
-                               const Number& max_deviation_radius_m, const Number& rotation_divisor,
-                               const Number& rotation_divisor_switched, const Number& min_cutoff_hz, const Number& beta,
+std::shared_ptr<Motion> create(const Context& context, const std::variant<bool, std::string>& filter,
+                               bool limits, bool smooth_rotations, bool feet, const Number& smoothing,
+                               const Number& correction, const Number& prediction,
+                               const Number& jitter_radius_m, const Number& max_deviation_radius_m,
+                               const Number& rotation_divisor, const Number& rotation_divisor_switched,
+                               const Number& min_cutoff_hz, const Number& beta,
                                const Number& derivative_cutoff_hz, const Number& prediction_s,
                                const std::string& contact_rule, const py::object& range_of_motion) {
     vfit_motion_desc desc = vfit_motion_desc_init();
@@ -127,9 +128,10 @@ void bind_motion(py::module_& m) {
                       "correction"_a = preset, "prediction"_a = preset, "jitter_radius_m"_a = preset,
                       "max_deviation_radius_m"_a = preset, "rotation_divisor"_a = preset,
                       "rotation_divisor_switched"_a = preset, "min_cutoff_hz"_a = preset, "beta"_a = preset,
-                      "derivative_cutoff_hz"_a = preset, "prediction_s"_a = preset, "contact_rule"_a = "learnt",
-                      "range_of_motion"_a = preset,
-                      "Stages by the first four; filter may also name one: 'adaptive' (the default), 'holt' with the "
+                      "derivative_cutoff_hz"_a = preset, "prediction_s"_a = preset,
+                      "contact_rule"_a = "learnt", "range_of_motion"_a = preset,
+                      "Stages by the first four; filter may also name one: 'adaptive' (the default), 'holt' "
+                      "with the "
                       "five names of the Kinect SDK, 'one_euro'. None: the library's default.")
                  .def(
                      "bind",

@@ -26,8 +26,8 @@ py::object add(const Scan& scan, const Frame& frame, const std::optional<uint32_
     const vfit_result result =
         run([&, s = scan.get(), f = frame.get()] { return vfit_scan_add(s, f, body, &state); });
     return value("ScanState", result != VFIT_INCOMPLETE, result == VFIT_OK, state.frames_taken,
-                 state.frames_wanted, value("Guidance", state.guidance), state.correction_m,
-                 state.compute_ms, state.side_frames_taken, state.side_frames_wanted);
+                 state.frames_wanted, value("Guidance", state.guidance), state.correction_m, state.compute_ms,
+                 state.side_frames_taken, state.side_frames_wanted);
 }
 
 py::dict measure(const Scan& scan) { return measurements_out(list(vfit_scan_measure, scan.get())); }
@@ -47,7 +47,8 @@ void bind_scan(py::module_& m) {
                  m, "Scan", "Measures one person over several frames; closing it wipes the body data.")
                  .def(py::init(&create), "context"_a, py::kw_only(), "frames"_a = 0, "sex"_a = py::none(),
                       "method"_a = 0, "side_frames"_a = 0, "bare"_a = false, "tight"_a = false,
-                      "frames 0: 30, as in the paper. Of method FIT: side_frames, from the side, 15 are enough; bare: no shoes "
+                      "frames 0: 30, as in the paper. Of method FIT: side_frames, from the side, 15 are "
+                      "enough; bare: no shoes "
                       "and no hair on the crown; tight: the clothes lie on the skin.")
                  .def("add", &add, "frame"_a, "body_id"_a = py::none(),
                       "One tracked frame; the state says whether it was taken, and if not why. Default: its "

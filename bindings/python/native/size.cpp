@@ -48,8 +48,9 @@ py::list zones(const SizeChart& chart, const std::string& garment_kind, const st
     py::list out;
     for (const vfit_size_zone& z :
          list<vfit_size_zone>([&, c = chart.get()](auto* items, uint32_t stride, uint32_t* n) {
-             return vfit_size_zones(c, garment_kind.c_str(), label.c_str(), given.data(), sizeof(vfit_measurement),
-                                    static_cast<uint32_t>(given.size()), items, stride, n);
+             return vfit_size_zones(c, garment_kind.c_str(), label.c_str(), given.data(),
+                                    sizeof(vfit_measurement), static_cast<uint32_t>(given.size()), items,
+                                    stride, n);
          }))
         out.append(value("SizeZone", field(z.key), z.ease, z.sigma, z.tight, z.regular, z.loose));
     return out;
@@ -78,8 +79,9 @@ py::tuple read_measurements(const std::string& json) {
 py::dict merge_measurements(const py::object& a, const py::object& b) {
     const std::vector<vfit_measurement> one = measurements_in(a), other = measurements_in(b);
     return measurements_out(list<vfit_measurement>([&](auto* items, uint32_t stride, uint32_t* n) {
-        return vfit_measurements_merge(one.data(), sizeof(vfit_measurement), static_cast<uint32_t>(one.size()), other.data(),
-                                       sizeof(vfit_measurement), static_cast<uint32_t>(other.size()), items, stride, n);
+        return vfit_measurements_merge(
+            one.data(), sizeof(vfit_measurement), static_cast<uint32_t>(one.size()), other.data(),
+            sizeof(vfit_measurement), static_cast<uint32_t>(other.size()), items, stride, n);
     }));
 }
 
@@ -95,7 +97,8 @@ void bind_size(py::module_& m) {
             .def("recommend", &recommend, "garment_kind"_a, "measurements"_a,
                  "Every label of that kind with its probability, best first.")
             .def("zones", &zones, "garment_kind"_a, "label"_a, "measurements"_a,
-                 "How that size sits, by measure: ease, its sigma, and the probabilities of tight, regular and loose."));
+                 "How that size sits, by measure: ease, its sigma, and the probabilities of tight, regular "
+                 "and loose."));
     m.def("write_measurements", &write_measurements, "measurements"_a, "sex"_a = py::none(),
           "As JSON text, for an app that keeps them with the person's consent.");
     m.def("read_measurements", &read_measurements, "json"_a, "(measurements, sex) of such a text.");

@@ -95,32 +95,32 @@ std::unique_ptr<Frame> submit(const Tracker& tracker, const Frame& frame, const 
 }  // namespace
 
 void bind_tracker(py::module_& m) {
-    closable(py::class_<Tracker, std::shared_ptr<Tracker>>(
-                 m, "Tracker", "Makes tracked frames: images, user map and bodies.")
-                 .def(py::init(&create), "context"_a, py::kw_only(), "floor"_a = py::none(),
-                      "joints"_a = "auto", "user_map"_a = "auto", "follow"_a = "nearest", "filter"_a = "auto",
-                      "fit"_a = "auto",
-                      "floor: a Camera that says where the floor is, if the frames do not. joints, user_map: "
-                      "\"auto\" (the source's where it tells them, else the tracker's), \"built_in\" or "
-                      "\"given\". follow: who is the active person, \"nearest\", \"centred\", \"first\" or "
-                      "\"chosen\". filter: joints steadied over time, \"auto\" (not those of the source), "
-                      "\"on\" or \"off\". fit: whose joints are those of a body fitted to the depth, \"auto\" "
-                      "(the active person's), \"off\" or \"everybody\".")
-                 .def("update", &update, "frame"_a,
-                      "The frame with the bodies that its source supplies, or those that the tracker finds.")
-                 .def("track", &track, "depth"_a, "intrinsics"_a, py::kw_only(), "users"_a = py::none(),
-                      "camera"_a = py::none(), "time_ns"_a = 0,
-                      "From a depth image (height, width) uint16 in millimetres and (fx, fy, cx, cy) to the "
-                      "frame with user map and bodies.")
-                 .def("hint", &hint, "hints"_a, py::kw_only(), "body_id"_a = 0,
-                      "Joints that you see in the image, name -> (x, y) or (x, y, confidence) in pixels, for "
-                      "the next update alone.")
-                 .def("choose", &choose, "body_id"_a,
-                      "That person is the active one from the next frame on; None: by the rule again.")
-                 .def("submit", &submit, "frame"_a, "joints"_a, py::kw_only(), "body_id"_a = 1,
-                      "time_ns"_a = 0, "camera_space"_a = false, "partly_out_of_view"_a = false,
-                      "The frame with a body of your own; submit to the result to add a second one.")
-                 .def("reset", [](const Tracker& t) { check(vfit_tracker_reset(t.get())); }));
+    closable(
+        py::class_<Tracker, std::shared_ptr<Tracker>>(m, "Tracker",
+                                                      "Makes tracked frames: images, user map and bodies.")
+            .def(py::init(&create), "context"_a, py::kw_only(), "floor"_a = py::none(), "joints"_a = "auto",
+                 "user_map"_a = "auto", "follow"_a = "nearest", "filter"_a = "auto", "fit"_a = "auto",
+                 "floor: a Camera that says where the floor is, if the frames do not. joints, user_map: "
+                 "\"auto\" (the source's where it tells them, else the tracker's), \"built_in\" or "
+                 "\"given\". follow: who is the active person, \"nearest\", \"centred\", \"first\" or "
+                 "\"chosen\". filter: joints steadied over time, \"auto\" (not those of the source), "
+                 "\"on\" or \"off\". fit: whose joints are those of a body fitted to the depth, \"auto\" "
+                 "(the active person's), \"off\" or \"everybody\".")
+            .def("update", &update, "frame"_a,
+                 "The frame with the bodies that its source supplies, or those that the tracker finds.")
+            .def("track", &track, "depth"_a, "intrinsics"_a, py::kw_only(), "users"_a = py::none(),
+                 "camera"_a = py::none(), "time_ns"_a = 0,
+                 "From a depth image (height, width) uint16 in millimetres and (fx, fy, cx, cy) to the "
+                 "frame with user map and bodies.")
+            .def("hint", &hint, "hints"_a, py::kw_only(), "body_id"_a = 0,
+                 "Joints that you see in the image, name -> (x, y) or (x, y, confidence) in pixels, for "
+                 "the next update alone.")
+            .def("choose", &choose, "body_id"_a,
+                 "That person is the active one from the next frame on; None: by the rule again.")
+            .def("submit", &submit, "frame"_a, "joints"_a, py::kw_only(), "body_id"_a = 1, "time_ns"_a = 0,
+                 "camera_space"_a = false, "partly_out_of_view"_a = false,
+                 "The frame with a body of your own; submit to the result to add a second one.")
+            .def("reset", [](const Tracker& t) { check(vfit_tracker_reset(t.get())); }));
 }
 
 }  // namespace vfit_python

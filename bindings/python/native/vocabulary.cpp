@@ -111,8 +111,11 @@ void bind_vocabulary(py::module_& m) {
              "Why somebody is the active person; LOST: out of sight and waited for.");
     add_enum(m, "Sex", {{"UNKNOWN", VFIT_SEX_UNKNOWN}, {"FEMALE", VFIT_SEX_FEMALE}, {"MALE", VFIT_SEX_MALE}},
              "Which default body; UNKNOWN: halfway.");
-    add_enum(m, "ScanMethod", {{"DEFAULT", VFIT_SCAN_DEFAULT}, {"PROPORTIONS", VFIT_SCAN_PROPORTIONS},
-              {"PROPORTIONS_AS_PRINTED", VFIT_SCAN_PROPORTIONS_AS_PRINTED}, {"FIT", VFIT_SCAN_FIT}},
+    add_enum(m, "ScanMethod",
+             {{"DEFAULT", VFIT_SCAN_DEFAULT},
+              {"PROPORTIONS", VFIT_SCAN_PROPORTIONS},
+              {"PROPORTIONS_AS_PRINTED", VFIT_SCAN_PROPORTIONS_AS_PRINTED},
+              {"FIT", VFIT_SCAN_FIT}},
              "How a scan measures; PROPORTIONS is the paper's way, FIT a body fitted to all frames.");
     add_enum(m, "Guidance",
              {{"NONE", VFIT_GUIDANCE_NONE},

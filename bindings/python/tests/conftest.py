@@ -39,13 +39,21 @@ def standing():
     """The paper's 15 joints of someone 1.7 m tall in a T-pose, world space, 2 m before the camera."""
     z = -2.0
     return {
-        "HEAD": (0, 1.60, z), "NECK": (0, 1.42, z), "TORSO": (0, 1.15, z),
-        "LEFT_SHOULDER": (0.18, 1.38, z), "RIGHT_SHOULDER": (-0.18, 1.38, z),
-        "LEFT_ELBOW": (0.46, 1.38, z), "RIGHT_ELBOW": (-0.46, 1.38, z),
-        "LEFT_HAND": (0.75, 1.38, z), "RIGHT_HAND": (-0.75, 1.38, z),
-        "LEFT_HIP": (0.10, 0.90, z), "RIGHT_HIP": (-0.10, 0.90, z),
-        "LEFT_KNEE": (0.10, 0.50, z), "RIGHT_KNEE": (-0.10, 0.50, z),
-        "LEFT_FOOT": (0.10, 0.08, z), "RIGHT_FOOT": (-0.10, 0.08, z),
+        "HEAD": (0, 1.60, z),
+        "NECK": (0, 1.42, z),
+        "TORSO": (0, 1.15, z),
+        "LEFT_SHOULDER": (0.18, 1.38, z),
+        "RIGHT_SHOULDER": (-0.18, 1.38, z),
+        "LEFT_ELBOW": (0.46, 1.38, z),
+        "RIGHT_ELBOW": (-0.46, 1.38, z),
+        "LEFT_HAND": (0.75, 1.38, z),
+        "RIGHT_HAND": (-0.75, 1.38, z),
+        "LEFT_HIP": (0.10, 0.90, z),
+        "RIGHT_HIP": (-0.10, 0.90, z),
+        "LEFT_KNEE": (0.10, 0.50, z),
+        "RIGHT_KNEE": (-0.10, 0.50, z),
+        "LEFT_FOOT": (0.10, 0.08, z),
+        "RIGHT_FOOT": (-0.10, 0.08, z),
     }
 
 

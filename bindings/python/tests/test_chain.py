@@ -94,21 +94,38 @@ def test_a_size_sits_somehow_in_each_zone(fitted):
 
 def test_measures_of_ones_own(fitted):
     _, _, _, _, avatar, _ = fitted
-    own = json.dumps({"format": "vfit-own-measures", "version": 1, "measures": [
-        {"key": "x_calf_girth_m", "girth": {"at": ["LEFT_KNEE", "LEFT_FOOT", 0.3], "square_to": ["LEFT_KNEE", "LEFT_FOOT"]}}]})
+    own = json.dumps(
+        {
+            "format": "vfit-own-measures",
+            "version": 1,
+            "measures": [
+                {
+                    "key": "x_calf_girth_m",
+                    "girth": {"at": ["LEFT_KNEE", "LEFT_FOOT", 0.3], "square_to": ["LEFT_KNEE", "LEFT_FOOT"]},
+                }
+            ],
+        }
+    )
     assert 0.2 < avatar.measure_own(own)["x_calf_girth_m"].value < 0.5
     with pytest.raises(vfit.DataError, match="format"):
         avatar.measure_own("{}")
 
 
 def test_measurements_are_kept_as_text_and_merged():
-    measures = {"stature_m": vfit.Measurement(1.7, 0.01, True), "waist_girth_m": vfit.Measurement(0.8, 0.02, False)}
+    measures = {
+        "stature_m": vfit.Measurement(1.7, 0.01, True),
+        "waist_girth_m": vfit.Measurement(0.8, 0.02, False),
+    }
     text = vfit.write_measurements(measures, "f")
     again, sex = vfit.read_measurements(text)
     assert sex == vfit.Sex.FEMALE and again["waist_girth_m"].observed is False
     assert again["stature_m"].value == pytest.approx(1.7)
     merged = vfit.merge_measurements(again, {"stature_m": (1.71, 0.01), "hip_girth_m": 1.0})
-    assert merged["stature_m"].value == pytest.approx(1.705) and set(merged) == {"stature_m", "waist_girth_m", "hip_girth_m"}
+    assert merged["stature_m"].value == pytest.approx(1.705) and set(merged) == {
+        "stature_m",
+        "waist_girth_m",
+        "hip_girth_m",
+    }
     with pytest.raises(vfit.DataError, match="two people"):
         vfit.merge_measurements(again, {"stature_m": (1.9, 0.01)})
     with pytest.raises(vfit.DataError, match="JSON"):
@@ -179,7 +196,9 @@ def test_cloth_hangs_on_the_avatar(fitted):
     assert frame.triangles.max() < info.vertex_count
     assert cloth.stats().step_ms > 0 and np.isfinite(cloth.stats().strain_max)
     body = avatar.acquire().positions
-    assert (frame.positions.min(0) > body.min(0) - 0.5).all() and (frame.positions.max(0) < body.max(0) + 0.5).all()
+    assert (frame.positions.min(0) > body.min(0) - 0.5).all() and (
+        frame.positions.max(0) < body.max(0) + 0.5
+    ).all()
     buffer = np.zeros((info.vertex_count, 8), np.float32)
     frame.write(vfit.Stream.POSITION, buffer[:, :3])
     frame.write(vfit.Stream.NORMAL, buffer[:, 3:6])
@@ -211,7 +230,10 @@ def test_equal_contexts_make_equal_cloth():
     hashes = []
     for workers in (1, 2):
         with vfit.Context(deterministic=True, workers=workers) as ctx:
-            cloth = vfit.Cloth(vfit.Avatar.from_measures(ctx, {"stature_m": 1.68}, sex="f"), vfit.Garment.open(ctx, "sundress"))
+            cloth = vfit.Cloth(
+                vfit.Avatar.from_measures(ctx, {"stature_m": 1.68}, sex="f"),
+                vfit.Garment.open(ctx, "sundress"),
+            )
             for _ in range(5):
                 cloth.step()
             hashes.append(cloth.state_hash())
@@ -221,8 +243,15 @@ def test_equal_contexts_make_equal_cloth():
 def test_what_a_cloth_may_be_told(ctx):
     avatar = vfit.Avatar.from_measures(ctx, {"stature_m": 1.68}, sex="f")
     garment = vfit.Garment.open(ctx, "sundress")
-    cloths = [vfit.Cloth(avatar, garment, **options)
-              for options in ({}, {"cover_m": 0.02}, {"skin": True, "pressure": True}, {"virtual_m": 0.01, "self_thickness_m": 0.005})]
+    cloths = [
+        vfit.Cloth(avatar, garment, **options)
+        for options in (
+            {},
+            {"cover_m": 0.02},
+            {"skin": True, "pressure": True},
+            {"virtual_m": 0.01, "self_thickness_m": 0.005},
+        )
+    ]
     for cloth in cloths:
         cloth.step()
     own, more, none, same = (cloth.stats().collider_count for cloth in cloths)
@@ -250,7 +279,10 @@ def test_a_garment_keeps_its_lengths_and_tells_how_it_sits(ctx):
     heavy = vfit.Avatar.from_shape(ctx, {"weight": 1.15}, sex="f")
     with pytest.raises(vfit.NotWearableError, match="hip_girth_m"):
         vfit.Cloth(heavy, vfit.Garment.open(ctx, "jeans_women"), size="XS")
-    assert vfit.Cloth(heavy, vfit.Garment.open(ctx, "jeans_women"), size="XS", any_fit=True).stats().vertex_count > 0
+    assert (
+        vfit.Cloth(heavy, vfit.Garment.open(ctx, "jeans_women"), size="XS", any_fit=True).stats().vertex_count
+        > 0
+    )
 
 
 def test_hidden_skin_adds_up_over_garments(ctx):
@@ -308,7 +340,9 @@ def test_poses_and_bodies_go_over_the_network(fitted):
     assert len(body) <= 200
     other, label = vfit.Avatar.unpack(ctx, body)
     assert label == "M"
-    assert other.measure()["waist_girth_m"].value == pytest.approx(avatar.measure()["waist_girth_m"].value, abs=2e-3)
+    assert other.measure()["waist_girth_m"].value == pytest.approx(
+        avatar.measure()["waist_girth_m"].value, abs=2e-3
+    )
     with pytest.raises(vfit.DataError):
         ctx.unpack_pose(packet[:50])
     with pytest.raises(vfit.VersionError):
@@ -321,7 +355,9 @@ def test_the_skin_goes_into_arrays_of_ones_own(fitted):
     frame = avatar.acquire()
     vertices = np.zeros(len(frame.positions), dtype=[("position", "3f4"), ("normal", "3f4"), ("uv", "2f4")])
     avatar.pose_into(motion.pose(), vertices["position"], vertices["normal"])
-    assert np.array_equal(vertices["position"], frame.positions) and np.array_equal(vertices["normal"], frame.normals)
+    assert np.array_equal(vertices["position"], frame.positions) and np.array_equal(
+        vertices["normal"], frame.normals
+    )
     assert not vertices["uv"].any()
     with pytest.raises(vfit.CapacityError):
         avatar.pose_into(motion.pose(), vertices["position"][:100])

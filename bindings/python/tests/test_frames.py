@@ -115,7 +115,9 @@ def test_submitted_joints_come_back_by_name_and_as_arrays(ctx, frame, standing):
     assert joints["HEAD"] == pytest.approx((0, 1.6, -2, 1))
     assert joints[vfit.Joint.HEAD].y == pytest.approx(1.6)
     assert joints.state("HEAD") is vfit.JointState.MEASURED
-    assert joints.positions.shape == (15, 3) and joints.ids.tolist() == sorted(vfit.Joint[n] for n in standing)
+    assert joints.positions.shape == (15, 3) and joints.ids.tolist() == sorted(
+        vfit.Joint[n] for n in standing
+    )
     assert joints.rotations.shape == (15, 4) and joints.confidence.tolist() == [1.0] * 15
     with pytest.raises(KeyError):
         joints["TAIL"]

@@ -70,11 +70,19 @@ def test_the_stub_names_what_the_module_has():
     for name in public:
         actual = getattr(_vfit, name)
         if issubclass(actual, enum.Enum):
-            members = {n.targets[0].id: ast.literal_eval(n.value) for n in stub[name].body if isinstance(n, ast.Assign)}
+            members = {
+                n.targets[0].id: ast.literal_eval(n.value)
+                for n in stub[name].body
+                if isinstance(n, ast.Assign)
+            }
             assert members == {m.name: m.value for m in actual}, name
             continue
         named = {node.name for node in stub[name].body if isinstance(node, ast.FunctionDef)} | shared
-        has = {n for n in vars(actual) if not n.startswith("_") or n in ("__enter__", "__exit__", "__iter__", "__next__", "__contains__")}
+        has = {
+            n
+            for n in vars(actual)
+            if not n.startswith("_") or n in ("__enter__", "__exit__", "__iter__", "__next__", "__contains__")
+        }
         assert named - {"__init__"} == has, name
 
 
@@ -83,7 +91,9 @@ def test_every_function_of_the_library_is_bound():
     native = "".join(file.read_text() for file in (ROOT / "bindings" / "python" / "native").iterdir())
     functions = set(re.findall(r"^VFIT_API [^;]*?\b(vfit_\w+)\(", header, re.MULTILINE))
     assert len(functions) > 100
-    assert {name for name in functions if not re.search(rf"\b{name}\b", native)} == {"vfit_shutdown"}  # arrays may be alive
+    assert {name for name in functions if not re.search(rf"\b{name}\b", native)} == {
+        "vfit_shutdown"
+    }  # arrays may be alive
 
 
 def test_every_class_of_the_module_is_exported():
@@ -107,8 +117,21 @@ def test_mypy_sees_the_types(tmp_path):
         "    vfit.Scan(ctx, frames='many')\n"
     )
     sample = ROOT / "samples" / "01_fit_a_recording" / "fit.py"
-    run = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(tmp_path / "cache"), str(program), str(sample)],
-                         capture_output=True, text=True, cwd=tmp_path)
+    run = subprocess.run(
+        [
+            sys.executable,
+            "-m",
+            "mypy",
+            "--strict",
+            "--cache-dir",
+            str(tmp_path / "cache"),
+            str(program),
+            str(sample),
+        ],
+        capture_output=True,
+        text=True,
+        cwd=tmp_path,
+    )
     assert "unsignedinteger" in run.stdout and run.stdout.count('"float"') == 2, run.stdout + run.stderr
     errors = [line for line in run.stdout.splitlines() if ": error:" in line]
     assert len(errors) == 1 and 'has incompatible type "str"; expected "int"' in errors[0], run.stdout

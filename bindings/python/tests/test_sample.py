@@ -9,8 +9,13 @@ SAMPLE = ROOT / "samples" / "01_fit_a_recording" / "fit.py"
 
 
 def fit(folder, *arguments):
-    run = subprocess.run([sys.executable, str(SAMPLE), *map(str, arguments)], capture_output=True, text=True,
-                         cwd=folder, timeout=120)
+    run = subprocess.run(
+        [sys.executable, str(SAMPLE), *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        cwd=folder,
+        timeout=120,
+    )
     assert list(folder.iterdir()) == []
     return run
 

@@ -25,8 +25,11 @@ def test_a_depth_image_becomes_a_user_map_and_a_body(ctx):
     assert (found & person).sum() / (found | person).sum() > 0.9
     assert body.joints.positions.shape == (len(body.joints), 3) and len(body.joints) > 15
     told = truth.joints()
-    errors = [np.linalg.norm(a - b) for name, a in zip(body.joints, in_camera(tracked, body.joints))
-              for b in [in_camera(truth, told)[list(told).index(name)]]]
+    errors = [
+        np.linalg.norm(a - b)
+        for name, a in zip(body.joints, in_camera(tracked, body.joints))
+        for b in [in_camera(truth, told)[list(told).index(name)]]
+    ]
     assert np.median(errors) < 0.08
     # Joints drawn into the depth image lie on the person.
     pixels = tracked.intrinsics.project(in_camera(tracked, body.joints))
@@ -47,7 +50,9 @@ def test_images_that_follow_each_other_keep_the_person(ctx):
 
 def test_a_map_of_ones_own_is_taken(ctx):
     frame = next(ctx.open(SOURCE))
-    tracked = vfit.Tracker(ctx).track(frame.depth, frame.intrinsics, users=(frame.users == 1), camera=frame.camera)
+    tracked = vfit.Tracker(ctx).track(
+        frame.depth, frame.intrinsics, users=(frame.users == 1), camera=frame.camera
+    )
     assert np.array_equal(tracked.users, frame.users)
     (body,) = tracked.bodies()
     assert body.id == 1
@@ -87,7 +92,9 @@ def test_whose_joints_and_map_are_taken_is_a_choice(ctx):
     frame = next(ctx.open(SOURCE))
     told = frame.joints().positions
     assert np.array_equal(vfit.Tracker(ctx).update(frame).joints().positions, told)
-    assert np.array_equal(vfit.Tracker(ctx, joints="given", user_map="given").update(frame).joints().positions, told)
+    assert np.array_equal(
+        vfit.Tracker(ctx, joints="given", user_map="given").update(frame).joints().positions, told
+    )
     found = vfit.Tracker(ctx, joints="built_in").update(frame)
     assert not np.array_equal(found.joints().positions, told)
     assert np.array_equal(found.users, frame.users)
@@ -110,14 +117,17 @@ def test_given_joints_that_are_not_there_are_unsupported(frame, ctx, images):
 
 
 def test_points_go_to_camera_space_and_to_pixels(ctx, images):
-    frame = vfit.Frame.from_numpy(ctx, images[0], INTRINSICS,
-                                  camera=vfit.Camera.over((0.0, -np.cos(0.2), -np.sin(0.2)), 1.5))
+    frame = vfit.Frame.from_numpy(
+        ctx, images[0], INTRINSICS, camera=vfit.Camera.over((0.0, -np.cos(0.2), -np.sin(0.2)), 1.5)
+    )
     points = np.array([(0.1, 0.9, -2.0), (-0.4, 1.6, -2.5)], np.float32)
     camera = frame.camera.from_world(points)
     back = (frame.camera.world_from_camera @ np.c_[camera, np.ones(2)].T).T[:, :3]
     assert np.allclose(back, points, atol=1e-5)
     x, y, z = camera[0]
-    assert np.allclose(frame.intrinsics.project(camera)[0], (x / z * 120 + 79.5, y / z * 120 + 59.5), atol=1e-3)
+    assert np.allclose(
+        frame.intrinsics.project(camera)[0], (x / z * 120 + 79.5, y / z * 120 + 59.5), atol=1e-3
+    )
     with pytest.raises(ValueError, match="world_from_camera"):
         vfit.Camera().from_world(points)
 
@@ -182,10 +192,12 @@ def test_hints_are_for_one_update(ctx):
     assert hinted.x != plain.x
     tracker.reset()
     assert tracker.update(frame).joints()["LEFT_HAND"] == plain
-    for wrong, kind, message in (({"TAIL": (1, 2)}, vfit.ArgumentError, "TAIL"),
-                                 ({"HEAD": (1,)}, vfit.ArgumentError, "HEAD"),
-                                 ({"HEAD": (1, 2, 3)}, vfit.ArgumentError, "confidence"),
-                                 ({vfit.Joint.HEAD: (1, float("nan"))}, vfit.DataError, "HEAD")):
+    for wrong, kind, message in (
+        ({"TAIL": (1, 2)}, vfit.ArgumentError, "TAIL"),
+        ({"HEAD": (1,)}, vfit.ArgumentError, "HEAD"),
+        ({"HEAD": (1, 2, 3)}, vfit.ArgumentError, "confidence"),
+        ({vfit.Joint.HEAD: (1, float("nan"))}, vfit.DataError, "HEAD"),
+    ):
         with pytest.raises(kind, match=message):
             tracker.hint(wrong)
     tracker.hint({})

@@ -1,4 +1,5 @@
-// An open OpenNI2 device or file: its depth stream and, where there is one of the same size, its colour stream.
+// An open OpenNI2 device or file: its depth stream and, where there is one of the same size, its colour
+// stream.
 #pragma once
 
 #include <atomic>
@@ -18,8 +19,8 @@ struct Picture {
 
 class Camera {
 public:
-    /// An empty URI: the first device. Where it throws, what it opened stays so: the process is about to end, and closing what
-    /// is damaged has crashed before anybody was told why.
+    /// An empty URI: the first device. Where it throws, what it opened stays so: the process is about to end,
+    /// and closing what is damaged has crashed before anybody was told why.
     Camera(const Library& library, const std::string& uri);
     ~Camera();
     Camera(const Camera&) = delete;
@@ -61,11 +62,11 @@ private:
     float horizontal_fov_rad_ = 0.0f, vertical_fov_rad_ = 0.0f;
     Start start_{};
     bool running_ = false;
-    uint32_t read_ = 0;      // frames of the file
+    uint32_t read_ = 0;  // frames of the file
     Clock::time_point newest_depth_;
     std::vector<uint8_t> newest_color_;
-    int64_t color_us_ = 0;   // of that
-    Picture held_{};         // depth whose colour may still come
+    int64_t color_us_ = 0;  // of that
+    Picture held_{};        // depth whose colour may still come
     bool holds_ = false;
 };
 

@@ -1,5 +1,5 @@
-// The OpenNI2 library, found at run time: a machine without it still has all other sensors, and a vendor's own copy, with
-// drivers beside it, can be named by VFIT_OPENNI2_LIBRARY.
+// The OpenNI2 library, found at run time: a machine without it still has all other sensors, and a vendor's
+// own copy, with drivers beside it, can be named by VFIT_OPENNI2_LIBRARY.
 #pragma once
 
 #include <stdexcept>
@@ -21,15 +21,20 @@ private:
     Ending ending_;
 };
 
-#define VFIT_OPENNI2_FUNCTIONS(DO)                                                                                       \
-    DO(oniInitialize) DO(oniGetDeviceList) DO(oniReleaseDeviceList) DO(oniRegisterDeviceCallbacks) DO(oniUnregisterDeviceCallbacks) \
-    DO(oniWaitForAnyStream) DO(oniGetExtendedError) DO(oniDeviceOpen) DO(oniDeviceClose) DO(oniDeviceGetSensorInfo)          \
-    DO(oniDeviceGetInfo) DO(oniDeviceCreateStream) DO(oniDeviceSetProperty) DO(oniDeviceGetProperty)                         \
-    DO(oniDeviceIsImageRegistrationModeSupported) DO(oniStreamDestroy) DO(oniStreamStart) DO(oniStreamStop)                  \
-    DO(oniStreamReadFrame) DO(oniStreamSetProperty) DO(oniStreamGetProperty) DO(oniFrameRelease) DO(oniSetLogConsoleOutput)  \
-    DO(oniSetLogFileOutput)
+#define VFIT_OPENNI2_FUNCTIONS(DO)                                                                        \
+    DO(oniInitialize)                                                                                     \
+    DO(oniGetDeviceList)                                                                                  \
+    DO(oniReleaseDeviceList) DO(oniRegisterDeviceCallbacks) DO(oniUnregisterDeviceCallbacks)              \
+        DO(oniWaitForAnyStream) DO(oniGetExtendedError) DO(oniDeviceOpen) DO(oniDeviceClose)              \
+            DO(oniDeviceGetSensorInfo) DO(oniDeviceGetInfo) DO(oniDeviceCreateStream)                     \
+                DO(oniDeviceSetProperty) DO(oniDeviceGetProperty)                                         \
+                    DO(oniDeviceIsImageRegistrationModeSupported) DO(oniStreamDestroy) DO(oniStreamStart) \
+                        DO(oniStreamStop) DO(oniStreamReadFrame) DO(oniStreamSetProperty)                 \
+                            DO(oniStreamGetProperty) DO(oniFrameRelease) DO(oniSetLogConsoleOutput)       \
+                                DO(oniSetLogFileOutput)
 
-/// Initialised, and never shut down: with its drivers' threads about, that crashes now and then, and the process ends anyway.
+/// Initialised, and never shut down: with its drivers' threads about, that crashes now and then, and the
+/// process ends anyway.
 class Library {
 public:
     Library();

@@ -1,5 +1,5 @@
-// Reads one device or file through OpenNI2 in a process of its own, so that a driver that crashes, or a file that makes the
-// library crash, takes no host with it. Started by the plug-in alone:
+// Reads one device or file through OpenNI2 in a process of its own, so that a driver that crashes, or a file
+// that makes the library crash, takes no host with it. Started by the plug-in alone:
 //   vfit_openni2_reader list | open [URI]      (its end of the socket is descriptor 3)
 #include <cstdio>
 #include <cstring>
@@ -63,7 +63,8 @@ private:
     void look() {
         watch([&] {
             if (!camera_.next(kLook_ms, picture_)) return;
-            const size_t depth = picture_.depth.size() * sizeof(uint16_t), color = picture_.image.has_color ? picture_.color.size() : 0;
+            const size_t depth = picture_.depth.size() * sizeof(uint16_t),
+                         color = picture_.image.has_color ? picture_.color.size() : 0;
             const Head head{kMagic, Kind::image, uint32_t(sizeof picture_.image + depth + color), 0};
             socket_.send(&head, sizeof head);
             socket_.send(&picture_.image, sizeof picture_.image);
@@ -92,8 +93,10 @@ private:
 void leave_with_the_plugin(int socket) {
     std::thread([socket] {
         pollfd entry{socket, POLLRDHUP, 0};
-        while (::poll(&entry, 1, -1) < 0) {}
-        // Those who read the socket hear of it as well, and close the device in order; a driver that hangs does not.
+        while (::poll(&entry, 1, -1) < 0) {
+        }
+        // Those who read the socket hear of it as well, and close the device in order; a driver that hangs
+        // does not.
         std::this_thread::sleep_for(std::chrono::seconds(3));
         ::_exit(1);
     }).detach();
@@ -103,7 +106,8 @@ void leave_with_the_plugin(int socket) {
 void limit_memory() {
     const rlimit none{0, 0};
     ::setrlimit(RLIMIT_CORE, &none);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which want an address space of terabytes
+#if !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)  // which want an address space of terabytes
     const rlimit memory{rlim_t(4) << 30, rlim_t(4) << 30};
     ::setrlimit(RLIMIT_AS, &memory);
 #endif
@@ -113,16 +117,21 @@ int run(int count, char** words) {
     const Socket socket(kReaderSocket);
     leave_with_the_plugin(kReaderSocket);
     // Drivers print what no host wants among its own output.
-    if (const int nothing = ::open("/dev/null", O_WRONLY); nothing >= 0) ::dup2(nothing, 1), ::dup2(nothing, 2);
+    if (const int nothing = ::open("/dev/null", O_WRONLY); nothing >= 0)
+        ::dup2(nothing, 1), ::dup2(nothing, 2);
     try {
         try {
-            if (count == 2 && std::strcmp(words[1], "list") == 0) list(socket);
-            else if (count == 3 && std::strcmp(words[1], "open") == 0) Session(socket, words[2]).run();
-            else return 2;
+            if (count == 2 && std::strcmp(words[1], "list") == 0)
+                list(socket);
+            else if (count == 3 && std::strcmp(words[1], "open") == 0)
+                Session(socket, words[2]).run();
+            else
+                return 2;
         } catch (const Ended& ended) {
             tell(socket, ended);
         } catch (const std::bad_alloc&) {
-            tell(socket, Ended(Ending::damaged, std::string(words[count - 1]) + ": asks for more memory than there is"));
+            tell(socket, Ended(Ending::damaged,
+                               std::string(words[count - 1]) + ": asks for more memory than there is"));
         }
     } catch (const Broken&) {
         // The plug-in has closed the device.

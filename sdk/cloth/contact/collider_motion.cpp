@@ -23,10 +23,13 @@ void ColliderMotion::accept(std::span<const Collider> colliders, float thickness
 bool ColliderMotion::is_end_of_another(uint32_t ball) const {
     if (!current_[ball].is_ball()) return false;
     const auto end_of = [&](const Capsule& c, const Capsule& other) {
-        return (c.a == other.a && c.radius_a <= other.radius_a) || (c.a == other.b && c.radius_a <= other.radius_b);
+        return (c.a == other.a && c.radius_a <= other.radius_a) ||
+               (c.a == other.b && c.radius_a <= other.radius_b);
     };
     for (size_t i = 0; i < current_.size(); ++i)
-        if (!current_[i].is_ball() && end_of(current_[ball], current_[i]) && end_of(previous_[ball], previous_[i])) return true;
+        if (!current_[i].is_ball() && end_of(current_[ball], current_[i]) &&
+            end_of(previous_[ball], previous_[i]))
+            return true;
     return false;
 }
 
@@ -51,7 +54,8 @@ float ColliderMotion::greatest_way() const {
 void ColliderMotion::sweep(float from, float to, std::vector<SweptCapsule>& out) const {
     out.reserve(current_.size());
     out.resize(needed_.size());
-    for (size_t i = 0; i < needed_.size(); ++i) out[i] = vfit::sweep(previous_[needed_[i]], current_[needed_[i]], from, to);
+    for (size_t i = 0; i < needed_.size(); ++i)
+        out[i] = vfit::sweep(previous_[needed_[i]], current_[needed_[i]], from, to);
 }
 
 }  // namespace vfit

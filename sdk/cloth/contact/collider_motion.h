@@ -14,8 +14,8 @@ namespace vfit {
 
 class ColliderMotion {
 public:
-    /// Where they are at the end of this step, in the same order each time, with that much more radius. Those that were not
-    /// there before stand still. Does not allocate while their number stays.
+    /// Where they are at the end of this step, in the same order each time, with that much more radius. Those
+    /// that were not there before stand still. Does not allocate while their number stays.
     void accept(std::span<const Collider> colliders, float thickness_m);
     /// The step has ended.
     void arrive() { std::swap(previous_, current_); }
@@ -24,7 +24,8 @@ public:
     void forget() { previous_.clear(); }
     /// Their last places were carried along.
     void carry(const RigidMotion& motion);
-    /// How far any of them went in this step, at most; infinite where one appeared, vanished or changed its kind.
+    /// How far any of them went in this step, at most; infinite where one appeared, vanished or changed its
+    /// kind.
     float greatest_way() const;
 
     /// Between two shares of the step; as many as count().
@@ -35,7 +36,7 @@ private:
     bool is_end_of_another(uint32_t ball) const;
 
     std::vector<Capsule> previous_, current_;
-    bool same_ = true;  // as in the last step, but for their places
+    bool same_ = true;              // as in the last step, but for their places
     std::vector<uint32_t> needed_;  // that are not part of another
 };
 

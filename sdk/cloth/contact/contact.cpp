@@ -79,14 +79,21 @@ Capsule capsule_of(const Collider& collider, float thickness_m) {
     c.b = collider.center_b;
     c.radius_b = collider.radius_b + thickness_m;
     if (glm::length(c.b - c.a) <= 1.0001f * std::abs(c.radius_b - c.radius_a) || c.a == c.b) {
-        if (c.radius_b > c.radius_a) c = {c.b, c.b, c.radius_b, c.radius_b};
-        else c = {c.a, c.a, c.radius_a, c.radius_a};
+        if (c.radius_b > c.radius_a)
+            c = {c.b, c.b, c.radius_b, c.radius_b};
+        else
+            c = {c.a, c.a, c.radius_a, c.radius_a};
     }
     return c;
 }
 
 CapsuleShape::CapsuleShape(const Capsule& c)
-    : a(c.a), axis(c.b - c.a), radius(c.radius_a), taper(c.radius_b - c.radius_a), inverse_length2(0.0f), lean(0.0f) {
+    : a(c.a),
+      axis(c.b - c.a),
+      radius(c.radius_a),
+      taper(c.radius_b - c.radius_a),
+      inverse_length2(0.0f),
+      lean(0.0f) {
     const float length2 = glm::dot(axis, axis);
     // On the way of a capsule that turns round, its ends come too close for a cone: the bigger ball is left.
     if (length2 <= 1.0001f * taper * taper || length2 < kLeastLength_m * kLeastLength_m) {
@@ -130,8 +137,10 @@ void apply_friction(const Vec3& start, const Vec3& surface_motion, const Vec3& n
     const Vec3 relative = p - start - surface_motion;
     const Vec3 sliding = relative - normal * glm::dot(relative, normal);
     const float length = glm::length(sliding);
-    if (length <= settings.friction_static * depth_m) p -= sliding;
-    else p -= sliding * (settings.friction_kinetic * depth_m / length);
+    if (length <= settings.friction_static * depth_m)
+        p -= sliding;
+    else
+        p -= sliding * (settings.friction_kinetic * depth_m / length);
 }
 
 bool resolve_contact(const SweptCapsule& c, const Vec3& start, const ContactSettings& settings, Vec3& p) {
@@ -162,8 +171,9 @@ bool resolve_contact(const SweptCapsule& c, const Vec3& start, const ContactSett
     Vec3 surface_motion = center_to - center_from;
     if (const float inverse_length2 = c.to.inverse_length2; inverse_length2 > 0.0f) {
         const Vec3 turned = c.to.axis - c.from.axis;
-        surface_motion += radius * inverse_length2 *
-                          (turned * glm::dot(c.to.axis, hit.normal) - c.to.axis * glm::dot(turned, hit.normal));
+        surface_motion +=
+            radius * inverse_length2 *
+            (turned * glm::dot(c.to.axis, hit.normal) - c.to.axis * glm::dot(turned, hit.normal));
     }
     apply_friction(start, surface_motion, hit.normal, depth, settings, p);
     return true;

@@ -35,10 +35,10 @@ struct Capsule {
 
 /// A capsule with what the distance to it needs again and again.
 struct CapsuleShape {
-    Vec3 a, axis;            // from a to b
-    float radius, taper;     // at a, and what it grows by towards b
-    float inverse_length2;   // 0: a ball
-    float lean;              // taper over the length of the cone's side
+    Vec3 a, axis;           // from a to b
+    float radius, taper;    // at a, and what it grows by towards b
+    float inverse_length2;  // 0: a ball
+    float lean;             // taper over the length of the cone's side
 
     CapsuleShape() = default;
     explicit CapsuleShape(const Capsule& capsule);
@@ -89,7 +89,8 @@ struct ContactSettings {
 };
 
 /// Moves p, the end of a vertex's way from `start`, out of the collider; true where it touched.
-bool resolve_contact(const SweptCapsule& collider, const Vec3& start, const ContactSettings& settings, Vec3& p);
+bool resolve_contact(const SweptCapsule& collider, const Vec3& start, const ContactSettings& settings,
+                     Vec3& p);
 
 /// Coulomb friction on p, pushed out by `depth_m` along `normal`: takes away the sliding relative to the
 /// surface's own motion, all of it within the cone, else the kinetic share.

@@ -14,15 +14,20 @@ namespace {
 constexpr float kFastest_m = 0.1f;  // further than that in a step, a mesh is not looked for
 constexpr float kRises_m = 0.001f;  // of what is lifted, in a step
 constexpr float kFaces_m = 0.002f;  // so far before each other lie the two sides of a hollow
-constexpr float kCornerReach = 0.6f;  // of an edge: so far off may the corner be by which a place of a triangle is found
+constexpr float kCornerReach =
+    0.6f;  // of an edge: so far off may the corner be by which a place of a triangle is found
 
-std::vector<uint32_t> counted(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts) {
+std::vector<uint32_t> counted(size_t vertices, std::span<const uint32_t> indices,
+                              std::span<const uint8_t> counts) {
     std::vector<uint32_t> out;
     for (size_t i = 0; i + 2 < indices.size(); i += 3) {
         for (size_t k = 0; k < 3; ++k)
-            if (indices[i + k] >= vertices) fail(VFIT_ERROR_DATA, "a contact mesh's triangle names vertex ", indices[i + k], " of ", vertices);
+            if (indices[i + k] >= vertices)
+                fail(VFIT_ERROR_DATA, "a contact mesh's triangle names vertex ", indices[i + k], " of ",
+                     vertices);
         if (counts.empty() || (counts[indices[i]] && counts[indices[i + 1]] && counts[indices[i + 2]]))
-            out.insert(out.end(), indices.begin() + std::ptrdiff_t(i), indices.begin() + std::ptrdiff_t(i) + 3);
+            out.insert(out.end(), indices.begin() + std::ptrdiff_t(i),
+                       indices.begin() + std::ptrdiff_t(i) + 3);
     }
     return out;
 }
@@ -40,7 +45,8 @@ bool face_each_other(const Vec3& a, const Vec3& normal_a, const Vec3& b, const V
 
 }  // namespace
 
-ContactMesh::ContactMesh(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts, MeshOf what)
+ContactMesh::ContactMesh(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts,
+                         MeshOf what)
     : vertex_count_(vertices), what_(what), indices_(counted(vertices, indices, counts)) {}
 
 /// Along a Morton curve of cells of 8 mm: neighbours in space follow each other.
@@ -59,8 +65,10 @@ void ContactMesh::order(std::span<const Vec3> positions) {
     std::vector<std::pair<uint32_t, uint32_t>> codes;
     for (uint32_t v = 0; v < vertex_count_; ++v) {
         if (!is_used[v]) continue;
-        const Vec3 cell = finite(positions[v]) ? glm::clamp((positions[v] - low) * 128.0f, 0.0f, 1023.0f) : Vec3(0.0f);
-        codes.emplace_back(spread(uint32_t(cell.x)) | spread(uint32_t(cell.y)) << 1 | spread(uint32_t(cell.z)) << 2, v);
+        const Vec3 cell =
+            finite(positions[v]) ? glm::clamp((positions[v] - low) * 128.0f, 0.0f, 1023.0f) : Vec3(0.0f);
+        codes.emplace_back(
+            spread(uint32_t(cell.x)) | spread(uint32_t(cell.y)) << 1 | spread(uint32_t(cell.z)) << 2, v);
     }
     std::sort(codes.begin(), codes.end());
     std::vector<uint32_t> point_of(vertex_count_, 0), corners;
@@ -70,12 +78,16 @@ void ContactMesh::order(std::span<const Vec3> positions) {
     }
     for (uint32_t v : indices_) corners.push_back(point_of[v]);
     fans_ = TriangleFans(vertex_of_.size(), corners);
-    // Next to an edge within the mesh a point has two triangles: one where that edge comes first, one where it comes last.
+    // Next to an edge within the mesh a point has two triangles: one where that edge comes first, one where
+    // it comes last.
     on_border_.assign(vertex_of_.size(), 0);
     for (uint32_t i = 0; i < vertex_of_.size(); ++i)
         for (const TriangleFans::Corners& c : fans_.of(i)) {
-            const auto ends_with = [&](const TriangleFans::Corners& other) { return other.third == c.second; };
-            if (std::none_of(fans_.of(i).begin(), fans_.of(i).end(), ends_with)) on_border_[i] = on_border_[c.second] = 1;
+            const auto ends_with = [&](const TriangleFans::Corners& other) {
+                return other.third == c.second;
+            };
+            if (std::none_of(fans_.of(i).begin(), fans_.of(i).end(), ends_with))
+                on_border_[i] = on_border_[c.second] = 1;
         }
     const size_t runs = (vertex_of_.size() + kLanes - 1) / kLanes;
     places_.assign(runs * kLanes, Particle{Vec3(NAN)});
@@ -128,7 +140,8 @@ void ContactMesh::carry(const RigidMotion& motion) {
 }
 
 Vec3 ContactMesh::Place::at(const Particles& points) const {
-    return weights.x * points[corner[0]].x + weights.y * points[corner[1]].x + weights.z * points[corner[2]].x;
+    return weights.x * points[corner[0]].x + weights.y * points[corner[1]].x +
+           weights.z * points[corner[2]].x;
 }
 
 Vec3 ContactMesh::Place::normal(const Particles& points) const {
@@ -144,8 +157,8 @@ ContactMesh::Place ContactMesh::place_of(const NearestOnFans& nearest, size_t la
     return {{point, c.second, c.third}, nearest.weights(lane)};
 }
 
-/// On the triangles about the points; where the nearest place is at another corner, about that one too. points: in the end
-/// those about which the places are.
+/// On the triangles about the points; where the nearest place is at another corner, about that one too.
+/// points: in the end those about which the places are.
 void ContactMesh::find_nearest(const Particle* run, uint32_t* points, NearestOnFans& out) const {
     constexpr int kSteps = 2;
     find_nearest_on_fans(run, points, fans_, begin_.data(), out);
@@ -156,7 +169,8 @@ void ContactMesh::find_nearest(const Particle* run, uint32_t* points, NearestOnF
         for (size_t lane = 0; lane < kLanes; ++lane) {
             uint32_t next = NearestOnFans::kNone;
             // Where the last step brought nothing, `at` is not where the place is any more.
-            if (at[lane] == points[lane] && out.corners[lane] != NearestOnFans::kNone) next = place_of(out, lane, points[lane]).nearest_corner();
+            if (at[lane] == points[lane] && out.corners[lane] != NearestOnFans::kNone)
+                next = place_of(out, lane, points[lane]).nearest_corner();
             at[lane] = next == points[lane] ? NearestOnFans::kNone : next;
             any |= at[lane] != NearestOnFans::kNone;
         }
@@ -180,7 +194,8 @@ Vec3 ContactMesh::outward_at(const Place& place) const {
     for (int k = 0; k < 3; ++k) {
         if (place.weights[k] <= kInside) continue;
         const uint32_t own = place.corner[k];
-        for (const TriangleFans::Corners& c : fans_.of(own)) sum += unit_normal(begin_[own].x, begin_[c.second].x, begin_[c.third].x);
+        for (const TriangleFans::Corners& c : fans_.of(own))
+            sum += unit_normal(begin_[own].x, begin_[c.second].x, begin_[c.third].x);
     }
     return sum;
 }
@@ -189,28 +204,36 @@ bool ContactMesh::is_at_border(const Place& place) const {
     constexpr float kInside = 1e-4f;
     bool inside = true, border = true;
     for (int k = 0; k < 3; ++k) {
-        if (place.weights[k] > kInside) border = border && on_border_[place.corner[k]];
-        else inside = false;
+        if (place.weights[k] > kInside)
+            border = border && on_border_[place.corner[k]];
+        else
+            inside = false;
     }
     return !inside && border;
 }
 
-void ContactMesh::find_crossed(const TriangleGroups& cloth, uint32_t group, std::vector<uint32_t>& near, std::vector<uint32_t>& triangles) const {
+void ContactMesh::find_crossed(const TriangleGroups& cloth, uint32_t group, std::vector<uint32_t>& near,
+                               std::vector<uint32_t>& triangles) const {
     const Bounds box = cloth.box_of(group);
     find_meeting(boxes_, box.low, box.high, near);
     for (const uint32_t run : near) {
-        const float reach = kCornerReach * edges_m_[run];  // a triangle comes into the box by a corner no further off
+        const float reach =
+            kCornerReach * edges_m_[run];  // a triangle comes into the box by a corner no further off
         const Bounds wide{box.low - reach, box.high + reach};
-        for (uint32_t point = run * uint32_t(kLanes); point < std::min((run + 1) * uint32_t(kLanes), uint32_t(vertex_of_.size())); ++point) {
+        for (uint32_t point = run * uint32_t(kLanes);
+             point < std::min((run + 1) * uint32_t(kLanes), uint32_t(vertex_of_.size())); ++point) {
             const Vec3& p = begin_[point].x;
             if (!wide.overlaps({p, p})) continue;
-            for (const TriangleFans::Corners& c : fans_.of(point)) cloth.find_crossed(group, {{p, begin_[c.second].x, begin_[c.third].x}}, triangles);
+            for (const TriangleFans::Corners& c : fans_.of(point))
+                cloth.find_crossed(group, {{p, begin_[c.second].x, begin_[c.third].x}}, triangles);
         }
     }
 }
 
-/// Fills near with the mesh's runs that a run of particles may meet; how near they have to be. 0: there is none.
-float ContactMesh::reach_of(const Moving& moving, uint32_t first, float dt, float thickness_m, std::vector<uint32_t>& near) const {
+/// Fills near with the mesh's runs that a run of particles may meet; how near they have to be. 0: there is
+/// none.
+float ContactMesh::reach_of(const Moving& moving, uint32_t first, float dt, float thickness_m,
+                            std::vector<uint32_t>& near) const {
     Vec3 low(INFINITY), high(-INFINITY);
     float speed2 = 0.0f;
     for (size_t i = first; i < first + kLanes; ++i) {
@@ -233,17 +256,22 @@ bool ContactMesh::touch_at(const Place& place, const Vec3& particle, float reach
     const float distance = glm::length(off);
     const Vec3 outward = outward_at(place);
     const bool inside = glm::dot(off, outward) < 0.0f;
-    // What hangs beyond a hem is on neither side of it: a coat's sleeve is not to be drawn to the armhole of a dress.
+    // What hangs beyond a hem is on neither side of it: a coat's sleeve is not to be drawn to the armhole of
+    // a dress.
     if (inside && is_at_border(place)) return false;
     if ((!inside && distance > reach) || !finite(on) || !finite(to)) return false;
-    const Vec3 normal = distance > kOnIt_m ? (inside ? -off : off) / distance : outward / std::max(glm::length(outward), 1e-12f);
+    const Vec3 normal = distance > kOnIt_m ? (inside ? -off : off) / distance
+                                           : outward / std::max(glm::length(outward), 1e-12f);
     const Vec3 turned = normal + place.normal(end_) - place.normal(begin_);
     out = {on, to, normal, turned / std::max(glm::length(turned), 1e-12f) - normal};
     return true;
 }
 
-/// Of particles that touched another place before, and still are near there. touches, points: of now, by lanes.
-void ContactMesh::add_other_sides(const Particle* run, float reach, const Touch* touches, const uint32_t* points, float thickness_m, Touched* touched, RunPlanes& out) const {
+/// Of particles that touched another place before, and still are near there. touches, points: of now, by
+/// lanes.
+void ContactMesh::add_other_sides(const Particle* run, float reach, const Touch* touches,
+                                  const uint32_t* points, float thickness_m, Touched* touched,
+                                  RunPlanes& out) const {
     uint32_t other[kLanes];
     bool any = false;
     for (size_t lane = 0; lane < kLanes; ++lane) {
@@ -252,22 +280,28 @@ void ContactMesh::add_other_sides(const Particle* run, float reach, const Touch*
                    glm::dot(begin_[before].x - touches[lane].on, touches[lane].normal) > kFaces_m;
         };
         const Touched before = touched[lane];
-        other[lane] = may_face(before.nearest) ? before.nearest : may_face(before.other) ? before.other : NearestOnFans::kNone;
+        other[lane] = may_face(before.nearest) ? before.nearest
+                      : may_face(before.other) ? before.other
+                                               : NearestOnFans::kNone;
         touched[lane] = {points[lane], NearestOnFans::kNone};
         any |= other[lane] != NearestOnFans::kNone;
     }
     if (!any) return;
-    // Where a particle has gone along the plane, it says nothing any more: it would stop cloth on its way around a limb.
+    // Where a particle has gone along the plane, it says nothing any more: it would stop cloth on its way
+    // around a limb.
     constexpr float kAside_m = 0.008f;
     NearestOnFans nearest;
-    find_nearest_on_fans(run, other, fans_, begin_.data(), nearest);  // from there on down would lead to where it is nearest now
+    find_nearest_on_fans(run, other, fans_, begin_.data(),
+                         nearest);  // from there on down would lead to where it is nearest now
     for (size_t lane = 0; lane < kLanes; ++lane) {
-        if (nearest.corners[lane] == NearestOnFans::kNone || nearest.distance2[lane] > reach * reach) continue;
+        if (nearest.corners[lane] == NearestOnFans::kNone || nearest.distance2[lane] > reach * reach)
+            continue;
         const Place place = place_of(nearest, lane, other[lane]);
         Touch touch;
         if (!touch_at(place, run[particle_at(lane)].x, reach, touch)) continue;
         touch.normal = place.normal(begin_), touch.turn = place.normal(end_) - touch.normal;
-        const Vec3 off = run[particle_at(lane)].x - touch.on, aside = off - glm::dot(off, touch.normal) * touch.normal;
+        const Vec3 off = run[particle_at(lane)].x - touch.on,
+                   aside = off - glm::dot(off, touch.normal) * touch.normal;
         if (glm::dot(aside, aside) > kAside_m * kAside_m) continue;
         if (!face_each_other(touches[lane].on, touches[lane].normal, touch.on, touch.normal)) continue;
         touched[lane].other = other[lane];
@@ -275,13 +309,15 @@ void ContactMesh::add_other_sides(const Particle* run, float reach, const Touch*
     }
 }
 
-void ContactMesh::find_planes(const Moving& moving, float dt, float thickness_m, std::span<const float> lift_m, std::vector<uint32_t>& near, std::vector<Touched>& touched,
-                              std::vector<RunPlanes>& out) const {
+void ContactMesh::find_planes(const Moving& moving, float dt, float thickness_m,
+                              std::span<const float> lift_m, std::vector<uint32_t>& near,
+                              std::vector<Touched>& touched, std::vector<RunPlanes>& out) const {
     touched.resize(moving.count);
     for (uint32_t first = 0; first < moving.count; first += uint32_t(kLanes)) {
         const Particle* run = moving.places + first;
         float lift = 0.0f;
-        if (!lift_m.empty()) lift = std::max(lift, *std::max_element(&lift_m[first], &lift_m[first] + kLanes));
+        if (!lift_m.empty())
+            lift = std::max(lift, *std::max_element(&lift_m[first], &lift_m[first] + kLanes));
         const float reach = reach_of(moving, first, dt, thickness_m + lift, near);
         if (near.empty()) continue;
         float edge = 0.0f;
@@ -289,7 +325,8 @@ void ContactMesh::find_planes(const Moving& moving, float dt, float thickness_m,
         NearestOfRun nearest_points(reach + kCornerReach * edge);
         find_nearest_in_runs(run, places_.data(), near, nearest_points);
         uint32_t* points = nearest_points.id[0];
-        if (std::all_of(points, points + kLanes, [](uint32_t id) { return id == NearestOnFans::kNone; })) continue;
+        if (std::all_of(points, points + kLanes, [](uint32_t id) { return id == NearestOnFans::kNone; }))
+            continue;
         NearestOnFans nearest;
         find_nearest(run, points, nearest);
         RunPlanes planes{}, others{};
@@ -298,7 +335,9 @@ void ContactMesh::find_planes(const Moving& moving, float dt, float thickness_m,
         bool any = false;
         for (size_t lane = 0; lane < kLanes; ++lane) {
             planes.thickness_m[lane] = others.thickness_m[lane] = RunPlanes::kNone;
-            if (nearest.corners[lane] == NearestOnFans::kNone || !touch_at(place_of(nearest, lane, points[lane]), run[particle_at(lane)].x, reach, touches[lane])) {
+            if (nearest.corners[lane] == NearestOnFans::kNone ||
+                !touch_at(place_of(nearest, lane, points[lane]), run[particle_at(lane)].x, reach,
+                          touches[lane])) {
                 points[lane] = NearestOnFans::kNone;
                 continue;
             }
@@ -307,13 +346,19 @@ void ContactMesh::find_planes(const Moving& moving, float dt, float thickness_m,
             const float own_lift = lift_m.empty() ? 0.0f : lift_m[first + particle_at(lane)];
             float keeps_m = thickness_m + own_lift;
             // Lifted over a hollow at once, it would be thrown from one of its sides to the other.
-            if (own_lift > 0.0f) keeps_m = std::min(keeps_m, std::max(thickness_m, glm::dot(run[particle_at(lane)].x - touch.on, touch.normal) + kRises_m));
+            if (own_lift > 0.0f)
+                keeps_m = std::min(
+                    keeps_m,
+                    std::max(thickness_m,
+                             glm::dot(run[particle_at(lane)].x - touch.on, touch.normal) + kRises_m));
             planes.set(lane, touch.on, touch.to - touch.on, touch.normal, touch.turn, keeps_m);
         }
         if (any) out.push_back(planes);
         if (what_ != MeshOf::solid) continue;
         add_other_sides(run, reach, touches, points, thickness_m, &touched[first], others);
-        if (std::any_of(others.thickness_m, others.thickness_m + kLanes, [](float t) { return t != RunPlanes::kNone; })) out.push_back(others);
+        if (std::any_of(others.thickness_m, others.thickness_m + kLanes,
+                        [](float t) { return t != RunPlanes::kNone; }))
+            out.push_back(others);
     }
 }
 

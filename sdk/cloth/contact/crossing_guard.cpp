@@ -8,20 +8,26 @@ namespace vfit {
 
 namespace {
 constexpr uint32_t kNone = UINT32_MAX;
-constexpr int kRounds = 12;           // in which zones may grow
-constexpr size_t kLargestZone = 150;  // vertices: where more is in a jam, holding it would tear at what is about it
-constexpr size_t kMostCrossed = 40;   // one pair for so many triangles: beyond, cloth lies in a heap, which is left to contact
+constexpr int kRounds = 12;  // in which zones may grow
+constexpr size_t kLargestZone =
+    150;  // vertices: where more is in a jam, holding it would tear at what is about it
+constexpr size_t kMostCrossed =
+    40;  // one pair for so many triangles: beyond, cloth lies in a heap, which is left to contact
 constexpr float kUntangles_m = 0.001f;  // a step
 constexpr int kRoundsToPart = 30;
-constexpr float kParts_m = 0.002f;      // a round
+constexpr float kParts_m = 0.002f;  // a round
 }  // namespace
 
 CrossingGuard::CrossingGuard(const FabricData& fabric)
-    : indices_(fabric.indices), parent_(fabric.inverse_mass.size(), kNone), wanted_(fabric.inverse_mass.size()), untangle_(fabric.inverse_mass.size()) {
+    : indices_(fabric.indices),
+      parent_(fabric.inverse_mass.size(), kNone),
+      wanted_(fabric.inverse_mass.size()),
+      untangle_(fabric.inverse_mass.size()) {
     for (const float inverse : fabric.inverse_mass) is_fixed_.push_back(inverse == 0.0f);
 }
 
-void CrossingGuard::keep(std::span<const Vec3> before, std::span<Vec3> now, TriangleGroups& cloth, bool even_heaps, Jobs& jobs) {
+void CrossingGuard::keep(std::span<const Vec3> before, std::span<Vec3> now, TriangleGroups& cloth,
+                         bool even_heaps, Jobs& jobs) {
     for (const uint32_t v : zoned_) parent_[v] = kNone;
     zoned_.clear();
     const auto find = [&] {
@@ -53,7 +59,9 @@ void CrossingGuard::part(std::span<Vec3> places, TriangleGroups& cloth, Jobs& jo
 }
 
 bool CrossingGuard::crossed_before(const TrianglePair& pair, std::span<const Vec3> before) const {
-    const auto corners = [&](uint32_t t) { return Corners{{before[indices_[3 * t]], before[indices_[3 * t + 1]], before[indices_[3 * t + 2]]}}; };
+    const auto corners = [&](uint32_t t) {
+        return Corners{{before[indices_[3 * t]], before[indices_[3 * t + 1]], before[indices_[3 * t + 2]]}};
+    };
     return cross(corners(pair.first), corners(pair.second));
 }
 
@@ -85,14 +93,16 @@ bool CrossingGuard::unite_crossed(std::span<const Vec3> before) {
 }
 
 void CrossingGuard::move_zones(std::span<const Vec3> before, std::span<Vec3> now) {
-    std::sort(zoned_.begin(), zoned_.end(), [&](uint32_t a, uint32_t b) { return std::pair(root(a), a) < std::pair(root(b), b); });
+    std::sort(zoned_.begin(), zoned_.end(),
+              [&](uint32_t a, uint32_t b) { return std::pair(root(a), a) < std::pair(root(b), b); });
     for (size_t begin = 0, end; begin < zoned_.size(); begin = end) {
         for (end = begin + 1; end < zoned_.size() && root(zoned_[end]) == root(zoned_[begin]);) ++end;
         move_zone(std::span(zoned_).subspan(begin, end - begin), before, now);
     }
 }
 
-void CrossingGuard::move_zone(std::span<const uint32_t> zone, std::span<const Vec3> before, std::span<Vec3> now) {
+void CrossingGuard::move_zone(std::span<const uint32_t> zone, std::span<const Vec3> before,
+                              std::span<Vec3> now) {
     fixed_.clear();
     for (const uint32_t v : zone)
         if (is_fixed_[v]) fixed_.push_back(v);

@@ -1,6 +1,6 @@
-// The last word on a cloth's own layers, after a step. What crosses that did not cross before moves as one, the way it moves on the
-// whole: rigid impact zones (Provot 1997; Bridson, Fedkiw and Anderson 2002, section 7.5), of what has crossed instead of what will
-// touch. What crossed before is untangled.
+// The last word on a cloth's own layers, after a step. What crosses that did not cross before moves as one,
+// the way it moves on the whole: rigid impact zones (Provot 1997; Bridson, Fedkiw and Anderson 2002,
+// section 7.5), of what has crossed instead of what will touch. What crossed before is untangled.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,11 @@ class CrossingGuard {
 public:
     explicit CrossingGuard(const FabricData& fabric);
 
-    /// From before to now, one place a vertex: changes `now` so that as little crosses as can be. cloth: has been moved to now.
-    /// even_heaps: however much crosses; else cloth that lies in a heap is left to contact.
-    /// Does not allocate once it has met as many crossings.
-    void keep(std::span<const Vec3> before, std::span<Vec3> now, TriangleGroups& cloth, bool even_heaps, Jobs& jobs);
+    /// From before to now, one place a vertex: changes `now` so that as little crosses as can be. cloth: has
+    /// been moved to now. even_heaps: however much crosses; else cloth that lies in a heap is left to
+    /// contact. Does not allocate once it has met as many crossings.
+    void keep(std::span<const Vec3> before, std::span<Vec3> now, TriangleGroups& cloth, bool even_heaps,
+              Jobs& jobs);
     /// Before a first step: moves what crosses apart, a few centimetres at most.
     void part(std::span<Vec3> places, TriangleGroups& cloth, Jobs& jobs);
     /// The vertices that it moved in the last call.

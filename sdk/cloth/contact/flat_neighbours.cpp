@@ -27,14 +27,20 @@ public:
                 const uint32_t a = data.indices[t + k], b = data.indices[t + (k + 1) % 3];
                 if (data.inverse_mass[a] == 0.0f && data.inverse_mass[b] == 0.0f) add(a, b, 0.0f);
             }
-        std::sort(links_.begin(), links_.end(), [](const Link& x, const Link& y) { return std::pair(x.from, x.to) < std::pair(y.from, y.to); });
+        std::sort(links_.begin(), links_.end(), [](const Link& x, const Link& y) {
+            return std::pair(x.from, x.to) < std::pair(y.from, y.to);
+        });
         for (const Link& link : links_) ++first_[link.from + 1];
         std::partial_sum(first_.begin(), first_.end(), first_.begin());
     }
-    std::span<const Link> of(uint32_t v) const { return std::span(links_).subspan(first_[v], first_[v + 1] - first_[v]); }
+    std::span<const Link> of(uint32_t v) const {
+        return std::span(links_).subspan(first_[v], first_[v + 1] - first_[v]);
+    }
 
 private:
-    void add(uint32_t a, uint32_t b, float length_m) { links_.push_back({a, b, length_m}), links_.push_back({b, a, length_m}); }
+    void add(uint32_t a, uint32_t b, float length_m) {
+        links_.push_back({a, b, length_m}), links_.push_back({b, a, length_m});
+    }
 
     std::vector<Link> links_;
     std::vector<uint32_t> first_;
@@ -44,16 +50,24 @@ private:
 class Finder {
 public:
     Finder(const Fabric& fabric, const Links& links, float radius_m, float never_m)
-        : fabric_(fabric), links_(links), radius_m_(radius_m), never_m_(never_m), distance_m_(fabric.vertex_count(), INFINITY), never_(fabric.vertex_count(), 0), beside_(never_) {}
+        : fabric_(fabric),
+          links_(links),
+          radius_m_(radius_m),
+          never_m_(never_m),
+          distance_m_(fabric.vertex_count(), INFINITY),
+          never_(fabric.vertex_count(), 0),
+          beside_(never_) {}
 
     void find(uint32_t run, std::vector<NearRun>& out) {
         const ParticleLayout& layout = fabric_.layout();
         of_run_.clear();
         for (uint32_t i = 0; i < kLanes; ++i) {
             const uint32_t seed = layout.vertex_of[run * kLanes + i];
-            if (seed != ParticleLayout::kNobody && fabric_.data().inverse_mass[seed] > 0.0f) reach_from(seed, uint8_t(1u << lane_of(i)));
+            if (seed != ParticleLayout::kNobody && fabric_.data().inverse_mass[seed] > 0.0f)
+                reach_from(seed, uint8_t(1u << lane_of(i)));
         }
-        std::sort(of_run_.begin(), of_run_.end(), [&](uint32_t a, uint32_t b) { return layout.particle_of[a] < layout.particle_of[b]; });
+        std::sort(of_run_.begin(), of_run_.end(),
+                  [&](uint32_t a, uint32_t b) { return layout.particle_of[a] < layout.particle_of[b]; });
         const size_t first = out.size();
         for (const uint32_t v : of_run_) {
             const uint32_t particle = layout.particle_of[v], other = particle / uint32_t(kLanes);

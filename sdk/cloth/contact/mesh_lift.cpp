@@ -10,12 +10,16 @@ struct Pace {
     float step_m, most_m;
     float forgets;  // share, for each millimetre that the mesh moves
 };
-/// The skin stands out by little, and what is lifted is seen. Of other cloth whole folds may have come through.
-constexpr Pace pace_off(MeshOf what) { return what == MeshOf::solid ? Pace{0.0005f, 0.012f, 0.05f} : Pace{0.0015f, 0.03f, 0.01f}; }
+/// The skin stands out by little, and what is lifted is seen. Of other cloth whole folds may have come
+/// through.
+constexpr Pace pace_off(MeshOf what) {
+    return what == MeshOf::solid ? Pace{0.0005f, 0.012f, 0.05f} : Pace{0.0015f, 0.03f, 0.01f};
+}
 
 }  // namespace
 
-MeshLift::MeshLift(std::shared_ptr<const Fabric> fabric, MeshOf what) : fabric_(std::move(fabric)), what_(what), lift_m_(fabric_->layout().count(), 0.0f) {}
+MeshLift::MeshLift(std::shared_ptr<const Fabric> fabric, MeshOf what)
+    : fabric_(std::move(fabric)), what_(what), lift_m_(fabric_->layout().count(), 0.0f) {}
 
 void MeshLift::forget(std::span<const ContactMesh> meshes) {
     float way_m = 0.0f;
@@ -29,12 +33,14 @@ void MeshLift::forget(std::span<const ContactMesh> meshes) {
 /// By a fixed vertex.
 bool MeshLift::is_held(uint32_t triangle) const {
     const uint32_t* v = &fabric_->data().indices[3 * triangle];
-    return std::any_of(v, v + 3, [&](uint32_t corner) { return fabric_->data().inverse_mass[corner] == 0.0f; });
+    return std::any_of(v, v + 3,
+                       [&](uint32_t corner) { return fabric_->data().inverse_mass[corner] == 0.0f; });
 }
 
 void MeshLift::look(const TriangleGroups& cloth, std::span<const ContactMesh> meshes, uint32_t steps) {
     forget(meshes);
-    const uint32_t count = cloth.group_count(), first = next_ >= count ? 0 : next_, end = std::min(count, first + count / steps + 1);
+    const uint32_t count = cloth.group_count(), first = next_ >= count ? 0 : next_,
+                   end = std::min(count, first + count / steps + 1);
     next_ = end;
     groups_.swap(looked_again_);
     for (uint32_t group = first; group < end; ++group)

@@ -1,5 +1,6 @@
-// How much further than others some vertices stay off meshes: contact keeps vertices off the skin, and where it stands out between
-// them, the triangle's three go outwards until it is clear. Off the skin that is of no use where one of the three is fixed to it.
+// How much further than others some vertices stay off meshes: contact keeps vertices off the skin, and where
+// it stands out between them, the triangle's three go outwards until it is clear. Off the skin that is of no
+// use where one of the three is fixed to it.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,8 @@ public:
     /// Off meshes of that kind.
     MeshLift(std::shared_ptr<const Fabric> fabric, MeshOf what);
 
-    /// After a step: looks at some of the cloth's triangles, moved to where they are now, at all of them in so many steps.
+    /// After a step: looks at some of the cloth's triangles, moved to where they are now, at all of them in
+    /// so many steps.
     void look(const TriangleGroups& cloth, std::span<const ContactMesh> meshes, uint32_t steps);
     /// One a particle, metres.
     std::span<const float> particles() const { return lift_m_; }
@@ -32,7 +34,7 @@ private:
     std::vector<float> lift_m_;
     std::vector<uint32_t> groups_, looked_again_;  // of triangles that crossed at the last look
     std::vector<uint32_t> crossed_, near_;         // room to work in
-    uint32_t next_ = 0;  // group
+    uint32_t next_ = 0;                            // group
 };
 
 }  // namespace vfit

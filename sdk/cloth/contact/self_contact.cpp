@@ -9,11 +9,12 @@ namespace vfit {
 
 namespace {
 
-// Ways along edges are up to sqrt(2) longer than straight ones, and a triangle reaches nearer than the corner by which it is
-// found.
+// Ways along edges are up to sqrt(2) longer than straight ones, and a triangle reaches nearer than the corner
+// by which it is found.
 constexpr float kAlong = 1.8f;
-// Layers are looked at before they touch. Between two looks they may come nearer by so much; the faster, the more often; in each
-// sub-step those that would come nearer still. Nothing is looked for further than this off in a step.
+// Layers are looked at before they touch. Between two looks they may come nearer by so much; the faster, the
+// more often; in each sub-step those that would come nearer still. Nothing is looked for further than this
+// off in a step.
 constexpr float kMargin_m = 0.008f, kFarthestWay_m = 0.1f;
 
 // Of a triangle's longest edge, how far its places may be from the nearest corner: 0.58 at most.
@@ -22,8 +23,8 @@ constexpr float kCorner = 0.6f;
 // A piece whose triangles all face one way does not meet itself (Volino and Thalmann 1994).
 constexpr float kAlike = 0.6f;  // cosine
 
-// Sub-steps for which a particle that got onto the wrong side of a layer is pushed back. After that the two have grown into
-// each other: pulling would stretch them, and bring nothing.
+// Sub-steps for which a particle that got onto the wrong side of a layer is pushed back. After that the two
+// have grown into each other: pulling would stretch them, and bring nothing.
 constexpr int kPatience = 24;
 
 // What lies beside a triangle rather than before it is the same layer, or passes its border.
@@ -34,8 +35,7 @@ constexpr float kSquare = 0.5f;  // cosine
 float SelfContact::reach() const { return thickness_m_ + kMargin_m; }
 
 SelfContact::SelfContact(std::shared_ptr<const Fabric> fabric, float thickness_m, Jobs* jobs)
-    : fabric_(std::move(fabric)),
-      thickness_m_(thickness_m) {
+    : fabric_(std::move(fabric)), thickness_m_(thickness_m) {
     const ParticleLayout& layout = fabric_->layout();
     corner_m_.assign(layout.count() / kLanes, 0.0f);
     for (const DistanceConstraint& e : fabric_->data().edges)
@@ -84,25 +84,30 @@ void SelfContact::forget() {
     for (auto& list : seen_) std::fill(list.begin(), list.end(), Seen());
 }
 
-void SelfContact::find_runs(const Particles& places, const Particles& velocities, const Particles& normals, float dt, int substeps, Jobs& jobs) {
+void SelfContact::find_runs(const Particles& places, const Particles& velocities, const Particles& normals,
+                            float dt, int substeps, Jobs& jobs) {
     const ParticleLayout& layout = fabric_->layout();
     Vec3 drift(0.0f);  // what all share brings nothing nearer
     for (const Particle& v : velocities) drift += v.x / float(velocities.size());
     parallel_for(jobs, uint32_t(parts_.size()), [&](uint32_t part) {
-        for (uint32_t run = layout.parts[part].begin / uint32_t(kLanes); run < layout.parts[part].end / kLanes; ++run)
+        for (uint32_t run = layout.parts[part].begin / uint32_t(kLanes);
+             run < layout.parts[part].end / kLanes; ++run)
             look_at(places, velocities, normals, drift, dt, run);
     });
     boxes_.find_blocks();
-    parallel_for(jobs, uint32_t(parts_.size()), [&](uint32_t part) { find_runs_of(places, normals, substeps, part); });
+    parallel_for(jobs, uint32_t(parts_.size()),
+                 [&](uint32_t part) { find_runs_of(places, normals, substeps, part); });
 }
 
-void SelfContact::look_at(const Particles& places, const Particles& velocities, const Particles& normals, const Vec3& drift, float dt, uint32_t run) {
+void SelfContact::look_at(const Particles& places, const Particles& velocities, const Particles& normals,
+                          const Vec3& drift, float dt, uint32_t run) {
     Vec3 low(INFINITY), high(-INFINITY);
     Ways ways{Vec3(INFINITY), Vec3(-INFINITY)};
     for (size_t i = run * kLanes; i < (run + 1) * kLanes; ++i) {
         if (!counts_[i]) continue;
         low = glm::min(low, places[i].x), high = glm::max(high, places[i].x);
-        const Vec3 way = glm::clamp((velocities[i].x - drift) * dt, Vec3(-kFarthestWay_m), Vec3(kFarthestWay_m));
+        const Vec3 way =
+            glm::clamp((velocities[i].x - drift) * dt, Vec3(-kFarthestWay_m), Vec3(kFarthestWay_m));
         ways.least = glm::min(ways.least, way), ways.most = glm::max(ways.most, way);
     }
     ways_[run] = ways;
@@ -129,7 +134,8 @@ void SelfContact::let_go(std::span<const uint32_t> vertices) {
     for (const uint32_t particle : let_go_) is_let_go_[particle] = 1;
 }
 
-void SelfContact::find_runs_of(const Particles& places, const Particles& normals, int substeps, uint32_t number) {
+void SelfContact::find_runs_of(const Particles& places, const Particles& normals, int substeps,
+                               uint32_t number) {
     const ParticleLayout::Part& p = fabric_->layout().parts[number];
     Part& part = parts_[number];
     part.watched.clear(), part.near.clear();
@@ -144,16 +150,19 @@ void SelfContact::find_runs_of(const Particles& places, const Particles& normals
             const bool beside = own < first_neighbour_[run + 1] && neighbours_[own].run == other;
             if (beside && glm::dot(facing_[run], facing_[other]) > kAlike) continue;
             NearRun near = beside ? neighbours_[own] : NearRun{other, 0, 0, 0, 0, false};
-            const Vec3 towards = glm::max(ways_[run].most - ways_[other].least, ways_[other].most - ways_[run].least);
+            const Vec3 towards =
+                glm::max(ways_[run].most - ways_[other].least, ways_[other].most - ways_[run].least);
             near.way_m = glm::length(glm::max(towards, Vec3(0.0f)));
             near.reach_m = reach() + corner_m_[other];
             near.excluded |= nobody_[other];
             if (~near.excluded == 0) continue;
             part.near.push_back(near);
         }
-        part.near.resize(before + keep_near(run, places.data(), normals.data(), std::span(part.near).subspan(before)));
+        part.near.resize(before +
+                         keep_near(run, places.data(), normals.data(), std::span(part.near).subspan(before)));
         if (part.near.size() == before) {
-            for (auto* list : {&seen_[0], &seen_[1], &seen_now_[0], &seen_now_[1]}) std::fill_n(list->begin() + run * kLanes, kLanes, Seen());
+            for (auto* list : {&seen_[0], &seen_[1], &seen_now_[0], &seen_now_[1]})
+                std::fill_n(list->begin() + run * kLanes, kLanes, Seen());
             continue;
         }
         float way_m = 0.0f, corner_m = 0.0f;
@@ -163,24 +172,35 @@ void SelfContact::find_runs_of(const Particles& places, const Particles& normals
         }
         const float substep_way_m = way_m / float(substeps);
         const int every = std::clamp(int(kMargin_m / std::max(substep_way_m, 1e-6f)), 1, substeps);
-        part.watched.push_back({run, uint32_t(before), uint32_t(part.near.size()), every, thickness_m_ + std::max(kMargin_m, substep_way_m), corner_m, 0, {}});
+        part.watched.push_back({run,
+                                uint32_t(before),
+                                uint32_t(part.near.size()),
+                                every,
+                                thickness_m_ + std::max(kMargin_m, substep_way_m),
+                                corner_m,
+                                0,
+                                {}});
     }
 }
 
-void SelfContact::find(const Particles& places, const Particles& starts, const Particles& normals, int substep, uint32_t number) {
+void SelfContact::find(const Particles& places, const Particles& starts, const Particles& normals,
+                       int substep, uint32_t number) {
     Part& part = parts_[number];
     Meetings meetings;
     for (Watched& watched : part.watched) {
         if (substep % watched.every != 0) {
             for (size_t side = 0; side < 2; ++side)
-                std::copy_n(seen_[side].begin() + watched.run * kLanes, kLanes, seen_now_[side].begin() + watched.run * kLanes);
+                std::copy_n(seen_[side].begin() + watched.run * kLanes, kLanes,
+                            seen_now_[side].begin() + watched.run * kLanes);
             continue;
         }
         part.changed = true;
         watched.contact_count = 0;
         for (auto& list : seen_now_) std::fill_n(list.begin() + watched.run * kLanes, kLanes, Seen());
         NearestOfRun nearest(watched.reach_m + watched.corner_m);
-        find_nearest_in_cloth(watched.run, places.data(), normals.data(), std::span(part.near).subspan(watched.first, watched.end - watched.first), nearest);
+        find_nearest_in_cloth(watched.run, places.data(), normals.data(),
+                              std::span(part.near).subspan(watched.first, watched.end - watched.first),
+                              nearest);
         for (size_t side = 0; side < 2; ++side)
             for (size_t lane = 0; lane < kLanes; ++lane) {
                 const auto particle = uint32_t(watched.run * kLanes + particle_at(lane));
@@ -206,14 +226,17 @@ void SelfContact::meet(const Particles& places, const Particles& starts, Meeting
 }
 
 /// A particle with the nearest triangle about the point.
-void SelfContact::meet(const Particles& places, const Particles& starts, const Meetings& meetings, const NearestOnFans& nearest, size_t lane) {
+void SelfContact::meet(const Particles& places, const Particles& starts, const Meetings& meetings,
+                       const NearestOnFans& nearest, size_t lane) {
     Watched& watched = *meetings.watched[lane];
     if (!(nearest.distance2[lane] < watched.reach_m * watched.reach_m)) return;
     const uint32_t particle = meetings.particles[lane], point = meetings.points[lane];
     const TriangleFans::Corners& c = fabric_->fans().corners()[nearest.corners[lane]];
     if (is_let_go_[particle] && (is_let_go_[point] || is_let_go_[c.second] || is_let_go_[c.third])) return;
-    const Vec3 &a = places[point].x, &b = places[c.second].x, &third = places[c.third].x, weights = nearest.weights(lane);
-    const Vec3 off = places[particle].x - (weights.x * a + weights.y * b + weights.z * third), across = glm::cross(b - a, third - a);
+    const Vec3 &a = places[point].x, &b = places[c.second].x, &third = places[c.third].x,
+               weights = nearest.weights(lane);
+    const Vec3 off = places[particle].x - (weights.x * a + weights.y * b + weights.z * third),
+               across = glm::cross(b - a, third - a);
     const float before = glm::dot(off, across);
     const uint32_t vertex = fabric_->layout().vertex_of[point];
     Seen& now = seen_now_[meetings.sides[lane]][particle];
@@ -233,13 +256,14 @@ void SelfContact::meet(const Particles& places, const Particles& starts, const M
     watched.contacts[watched.contact_count++] = {particle, {point, c.second, c.third}, weights, now.side};
 }
 
-float SelfContact::before_triangle(const Particles& at, uint32_t particle, uint32_t corner, const TriangleFans::Corners& others) {
+float SelfContact::before_triangle(const Particles& at, uint32_t particle, uint32_t corner,
+                                   const TriangleFans::Corners& others) {
     const Vec3 &a = at[corner].x, across = glm::cross(at[others.second].x - a, at[others.third].x - a);
     return glm::dot(at[particle].x - a, across);
 }
 
-/// On which side of the layer about that vertex. One whose neighbours were all on the other side slipped through alone, and goes
-/// back.
+/// On which side of the layer about that vertex. One whose neighbours were all on the other side slipped
+/// through alone, and goes back.
 float SelfContact::side_of(uint32_t particle, uint32_t vertex, float own) const {
     constexpr float kAlone = 4.0f;  // neighbours that have to agree
     float votes = 0.0f, voters = 0.0f;
@@ -268,10 +292,13 @@ void SelfContact::pack() {
     all_.clear();
     for (Part& part : parts_) {
         part.changed = false;
-        for (const Watched& watched : part.watched) all_.insert(all_.end(), watched.contacts, watched.contacts + watched.contact_count);
+        for (const Watched& watched : part.watched)
+            all_.insert(all_.end(), watched.contacts, watched.contacts + watched.contact_count);
     }
     const ParticleLayout& layout = fabric_->layout();
-    const auto inverse_mass = [&](uint32_t particle) { return fabric_->data().inverse_mass[layout.vertex_of[particle]]; };
+    const auto inverse_mass = [&](uint32_t particle) {
+        return fabric_->data().inverse_mass[layout.vertex_of[particle]];
+    };
     batches_.resize((all_.size() + kLanes - 1) / kLanes);
     const auto spare = uint32_t(layout.parts[0].spare() * sizeof(Particle));
     for (size_t i = 0; i < batches_.size(); ++i) {
@@ -284,7 +311,8 @@ void SelfContact::pack() {
             if (at >= all_.size()) continue;
             const Contact& c = all_[at];
             const float own = inverse_mass(c.particle);
-            const Vec3 others(inverse_mass(c.corners[0]), inverse_mass(c.corners[1]), inverse_mass(c.corners[2]));
+            const Vec3 others(inverse_mass(c.corners[0]), inverse_mass(c.corners[1]),
+                              inverse_mass(c.corners[2]));
             const float share = 1.0f / (own + glm::dot(c.weights * c.weights, others));
             batch.vertex[k] = uint32_t(c.particle * sizeof(Particle));
             batch.a[k] = uint32_t(c.corners[0] * sizeof(Particle));

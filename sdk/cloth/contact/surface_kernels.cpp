@@ -14,8 +14,8 @@ namespace vfit {
 namespace HWY_NAMESPACE {
 
 constexpr float kAside_m = 0.015f;
-// Two places of a cloth that are near along it come as near as its thickness in a fold alone, where they face away from each
-// other.
+// Two places of a cloth that are near along it come as near as its thickness in a fold alone, where they face
+// away from each other.
 constexpr float kAway = -0.5f;  // cosine
 
 constexpr hn::FixedTag<uint32_t, kWide> kInts;
@@ -31,8 +31,10 @@ struct Looking {
     Points p, n;
     size_t k;
 
-    HWY_INLINE Looking(const Particle* run, const Particle* normals, size_t from) : p(Columns(Load(run, from))), n(Columns(Load(normals, from))), k(from) {}
-    HWY_INLINE explicit Looking(const Particle* run, size_t from) : p(Columns(Load(run, from))), n(Set(Vec3(0.0f))), k(from) {}
+    HWY_INLINE Looking(const Particle* run, const Particle* normals, size_t from)
+        : p(Columns(Load(run, from))), n(Columns(Load(normals, from))), k(from) {}
+    HWY_INLINE explicit Looking(const Particle* run, size_t from)
+        : p(Columns(Load(run, from))), n(Set(Vec3(0.0f))), k(from) {}
     /// Squares of distances; infinite for those that do not count.
     HWY_INLINE V Distance2(const Points& way, const NearRun& other, uint32_t j, const Vec3& normal) const {
         V distance2 = Dot(way, way);
@@ -85,10 +87,12 @@ HWY_INLINE bool FacesAway(const Looking& looking, const Particle* normals) {
     return !hn::AllFalse(kTag, hn::Lt(least, Set(kAway)));
 }
 
-HWY_INLINE bool IsNear(const Looking& looking, const NearRun& other, const Particle* places, const Particle* normals) {
+HWY_INLINE bool IsNear(const Looking& looking, const NearRun& other, const Particle* places,
+                       const Particle* normals) {
     if (~(other.excluded | other.beside) == 0 && !FacesAway(looking, normals)) return false;
     V least = Set(INFINITY);
-    for (uint32_t j = 0; j < kLanes; ++j) least = hn::Min(least, looking.Distance2(Sub(Set(places[j].x), looking.p), other, j, normals[j].x));
+    for (uint32_t j = 0; j < kLanes; ++j)
+        least = hn::Min(least, looking.Distance2(Sub(Set(places[j].x), looking.p), other, j, normals[j].x));
     const float reach = other.reach_m + other.way_m;
     return !hn::AllFalse(kTag, hn::Lt(least, Set(reach * reach)));
 }
@@ -97,7 +101,9 @@ size_t KeepNear(uint32_t run, const Particle* all, const Particle* normals, std:
     for (NearRun& other : runs) other.near = false;
     for (size_t k = 0; k < kLanes; k += kWide) {
         const Looking looking(all + run * kLanes, normals + run * kLanes, k);
-        for (NearRun& other : runs) other.near = other.near || IsNear(looking, other, all + other.run * kLanes, normals + other.run * kLanes);
+        for (NearRun& other : runs)
+            other.near =
+                other.near || IsNear(looking, other, all + other.run * kLanes, normals + other.run * kLanes);
     }
     size_t kept = 0;
     for (const NearRun& other : runs) {
@@ -108,7 +114,8 @@ size_t KeepNear(uint32_t run, const Particle* all, const Particle* normals, std:
     return kept;
 }
 
-void FindNearestInRuns(const Particle* run, const Particle* all, std::span<const uint32_t> runs, NearestOfRun& out) {
+void FindNearestInRuns(const Particle* run, const Particle* all, std::span<const uint32_t> runs,
+                       NearestOfRun& out) {
     for (size_t k = 0; k < kLanes; k += kWide) {
         const Looking looking(run, k);
         Nearest nearest(looking, out);
@@ -121,7 +128,8 @@ void FindNearestInRuns(const Particle* run, const Particle* all, std::span<const
     }
 }
 
-void FindNearestInCloth(uint32_t run, const Particle* all, const Particle* normals, std::span<const NearRun> runs, NearestOfRun& out) {
+void FindNearestInCloth(uint32_t run, const Particle* all, const Particle* normals,
+                        std::span<const NearRun> runs, NearestOfRun& out) {
     for (size_t k = 0; k < kLanes; k += kWide) {
         const Looking looking(all + run * kLanes, normals + run * kLanes, k);
         Nearest nearest(looking, out);
@@ -148,8 +156,10 @@ struct OnTriangle {
 HWY_INLINE OnTriangle NearestOnTriangle(const Points& p, const Points& a, const Points& b, const Points& c) {
     const V zero = hn::Zero(kTag);
     const Points ab = Sub(b, a), ac = Sub(c, a), ap = Sub(p, a), bp = Sub(p, b), cp = Sub(p, c);
-    const V d1 = Dot(ab, ap), d2 = Dot(ac, ap), d3 = Dot(ab, bp), d4 = Dot(ac, bp), d5 = Dot(ab, cp), d6 = Dot(ac, cp);
-    const V beside_ab = hn::NegMulAdd(d3, d2, hn::Mul(d1, d4)), beside_ac = hn::NegMulAdd(d1, d6, hn::Mul(d5, d2));
+    const V d1 = Dot(ab, ap), d2 = Dot(ac, ap), d3 = Dot(ab, bp), d4 = Dot(ac, bp), d5 = Dot(ab, cp),
+            d6 = Dot(ac, cp);
+    const V beside_ab = hn::NegMulAdd(d3, d2, hn::Mul(d1, d4)),
+            beside_ac = hn::NegMulAdd(d1, d6, hn::Mul(d5, d2));
     const V beside_bc = hn::NegMulAdd(d5, d4, hn::Mul(d3, d6));
     const auto none = [&](V v) HWY_ATTR { return hn::Le(v, zero); };
     const auto some = [&](V v) HWY_ATTR { return hn::Ge(v, zero); };
@@ -174,7 +184,8 @@ HWY_INLINE OnTriangle NearestOnTriangle(const Points& p, const Points& a, const 
     return {at_b, at_c, Dot(off, off)};
 }
 
-void FindNearestOnFans(const Particle* run, const uint32_t* points, const TriangleFans& fans, const Particle* all, NearestOnFans& out) {
+void FindNearestOnFans(const Particle* run, const uint32_t* points, const TriangleFans& fans,
+                       const Particle* all, NearestOnFans& out) {
     const auto at = [all](uint32_t index) HWY_ATTR { return all + index; };
     alignas(32) uint32_t own[kLanes], second[kLanes], third[kLanes], corner[kLanes], left[kLanes];
     uint32_t most = 0;
@@ -198,16 +209,20 @@ void FindNearestOnFans(const Particle* run, const uint32_t* points, const Triang
         }
         for (size_t k = 0; k < kLanes; k += kWide) {
             const Points p = Columns(Load(run, k)), a = Columns(Gather(at, own + k));
-            const OnTriangle found = NearestOnTriangle(p, a, Columns(Gather(at, second + k)), Columns(Gather(at, third + k)));
+            const OnTriangle found =
+                NearestOnTriangle(p, a, Columns(Gather(at, second + k)), Columns(Gather(at, third + k)));
             const V before = hn::Load(kTag, out.distance2 + k);
             const auto there = hn::RebindMask(kTag, hn::Lt(hn::Set(ints, step), hn::Load(ints, left + k)));
             // On an edge, the first of its two triangles: rounding does not choose.
             const auto nearer = hn::And(there, hn::Lt(found.distance2, hn::Mul(before, Set(0.9999f))));
             hn::Store(hn::IfThenElse(nearer, found.distance2, before), kTag, out.distance2 + k);
-            hn::Store(hn::IfThenElse(nearer, found.at_b, hn::Load(kTag, out.at_second + k)), kTag, out.at_second + k);
-            hn::Store(hn::IfThenElse(nearer, found.at_c, hn::Load(kTag, out.at_third + k)), kTag, out.at_third + k);
+            hn::Store(hn::IfThenElse(nearer, found.at_b, hn::Load(kTag, out.at_second + k)), kTag,
+                      out.at_second + k);
+            hn::Store(hn::IfThenElse(nearer, found.at_c, hn::Load(kTag, out.at_third + k)), kTag,
+                      out.at_third + k);
             const auto which = hn::Add(hn::Load(ints, corner + k), hn::Set(ints, step));
-            hn::Store(hn::IfThenElse(hn::RebindMask(ints, nearer), which, hn::Load(ints, out.corners + k)), ints, out.corners + k);
+            hn::Store(hn::IfThenElse(hn::RebindMask(ints, nearer), which, hn::Load(ints, out.corners + k)),
+                      ints, out.corners + k);
         }
     }
 }
@@ -243,7 +258,7 @@ HWY_INLINE void ScatterAdd(const Rows& rows, const At& at, const uint32_t* index
 #if HWY_TARGET == HWY_SCALAR
     at(*index)->x += Vec3(hn::GetLane(rows.p.x), hn::GetLane(rows.p.y), hn::GetLane(rows.p.z));
 #else
-    const auto add = [&](const hn::Vec<hn::FixedTag<float, 4>>& what, uint32_t to) HWY_ATTR {
+    const auto add = [&](const hn::Vec<hn::FixedTag<float, 4> >& what, uint32_t to) HWY_ATTR {
         float* place = &at(to)->x.x;
         hn::Store(hn::Add(hn::Load(kFour, place), what), kFour, place);
     };
@@ -263,32 +278,40 @@ struct Before {
     V distance;
     Points off, normal;
 };
-HWY_INLINE Before BeforeTriangle(const SurfaceContacts& s, size_t k, const Points& p, const Points& a, const Points& b, const Points& c) {
+HWY_INLINE Before BeforeTriangle(const SurfaceContacts& s, size_t k, const Points& p, const Points& a,
+                                 const Points& b, const Points& c) {
     const Points across = Cross(Sub(b, a), Sub(c, a));
-    const Points normal = Mul(across, hn::Div(hn::Load(kTag, s.side + k), hn::Max(hn::Sqrt(Dot(across, across)), Set(kNoLength))));
-    const Points on = MulAdd(c, hn::Load(kTag, s.at_c + k), MulAdd(b, hn::Load(kTag, s.at_b + k), Mul(a, hn::Load(kTag, s.at_a + k))));
+    const Points normal = Mul(
+        across, hn::Div(hn::Load(kTag, s.side + k), hn::Max(hn::Sqrt(Dot(across, across)), Set(kNoLength))));
+    const Points on = MulAdd(c, hn::Load(kTag, s.at_c + k),
+                             MulAdd(b, hn::Load(kTag, s.at_b + k), Mul(a, hn::Load(kTag, s.at_a + k))));
     const Points off = Sub(p, on);
     return {Dot(off, normal), off, normal};
 }
 
-void SolveSurfaceContacts(std::span<const SurfaceContacts> contacts, const Particle* starts, float most_back_m, Particle* particles) {
+void SolveSurfaceContacts(std::span<const SurfaceContacts> contacts, const Particle* starts,
+                          float most_back_m, Particle* particles) {
     auto* bytes = reinterpret_cast<unsigned char*>(particles);
     const auto* start_bytes = reinterpret_cast<const unsigned char*>(starts);
     const auto at = [bytes](uint32_t offset) HWY_ATTR { return reinterpret_cast<Particle*>(bytes + offset); };
-    const auto start_of = [start_bytes](uint32_t offset) HWY_ATTR { return reinterpret_cast<const Particle*>(start_bytes + offset); };
+    const auto start_of = [start_bytes](uint32_t offset)
+                              HWY_ATTR { return reinterpret_cast<const Particle*>(start_bytes + offset); };
     for (const SurfaceContacts& s : contacts)
         for (size_t k = 0; k < kLanes; k += kWide) {
-            const Before end = BeforeTriangle(s, k, Columns(Gather(at, s.vertex + k)), Columns(Gather(at, s.a + k)), Columns(Gather(at, s.b + k)),
-                                              Columns(Gather(at, s.c + k)));
+            const Before end =
+                BeforeTriangle(s, k, Columns(Gather(at, s.vertex + k)), Columns(Gather(at, s.a + k)),
+                               Columns(Gather(at, s.b + k)), Columns(Gather(at, s.c + k)));
             const V thickness = hn::Load(kTag, s.thickness_m + k);
             const V amiss = hn::Sub(thickness, end.distance);
             // Where the particle has slid away from the triangle, its plane says nothing any more.
             const V aside2 = hn::NegMulAdd(end.distance, end.distance, Dot(end.off, end.off));
             const auto touching = hn::And(hn::Gt(amiss, Set(0.0f)), hn::Lt(aside2, Set(kAside_m * kAside_m)));
             if (hn::AllFalse(kTag, touching)) continue;
-            const Before start = BeforeTriangle(s, k, Columns(Gather(start_of, s.vertex + k)), Columns(Gather(start_of, s.a + k)),
-                                                Columns(Gather(start_of, s.b + k)), Columns(Gather(start_of, s.c + k)));
-            const V residue = hn::Max(Set(0.0f), hn::Sub(hn::Sub(thickness, start.distance), Set(most_back_m)));
+            const Before start = BeforeTriangle(
+                s, k, Columns(Gather(start_of, s.vertex + k)), Columns(Gather(start_of, s.a + k)),
+                Columns(Gather(start_of, s.b + k)), Columns(Gather(start_of, s.c + k)));
+            const V residue =
+                hn::Max(Set(0.0f), hn::Sub(hn::Sub(thickness, start.distance), Set(most_back_m)));
             const V depth = hn::Max(Set(0.0f), hn::Sub(amiss, residue));
             const Points push = Mul(end.normal, hn::IfThenElseZero(touching, depth));
             ScatterAdd(RowsOf(Mul(push, hn::Load(kTag, s.vertex_gain + k))), at, s.vertex + k);
@@ -335,27 +358,32 @@ void RunBoxes::resize(size_t count) {
 void RunBoxes::find_blocks() {
     for (size_t block = 0; block < runs.low[0].size() / kLanes; ++block) {
         Vec3 low(INFINITY), high(-INFINITY);
-        for (size_t i = block * kLanes; i < (block + 1) * kLanes; ++i) low = glm::min(low, runs.low_of(i)), high = glm::max(high, runs.high_of(i));
+        for (size_t i = block * kLanes; i < (block + 1) * kLanes; ++i)
+            low = glm::min(low, runs.low_of(i)), high = glm::max(high, runs.high_of(i));
         blocks.set(block, low, high);
     }
 }
 
-void find_nearest_in_runs(const Particle* run, const Particle* all, std::span<const uint32_t> runs, NearestOfRun& out) {
+void find_nearest_in_runs(const Particle* run, const Particle* all, std::span<const uint32_t> runs,
+                          NearestOfRun& out) {
     HWY_DYNAMIC_DISPATCH(FindNearestInRuns)(run, all, runs, out);
 }
 size_t keep_near(uint32_t run, const Particle* all, const Particle* normals, std::span<NearRun> runs) {
     return HWY_DYNAMIC_DISPATCH(KeepNear)(run, all, normals, runs);
 }
-void find_nearest_in_cloth(uint32_t run, const Particle* all, const Particle* normals, std::span<const NearRun> runs, NearestOfRun& out) {
+void find_nearest_in_cloth(uint32_t run, const Particle* all, const Particle* normals,
+                           std::span<const NearRun> runs, NearestOfRun& out) {
     HWY_DYNAMIC_DISPATCH(FindNearestInCloth)(run, all, normals, runs, out);
 }
 void find_meeting(const RunBoxes& boxes, const Vec3& low, const Vec3& high, std::vector<uint32_t>& runs) {
     HWY_DYNAMIC_DISPATCH(FindMeeting)(boxes, low, high, runs);
 }
-void find_nearest_on_fans(const Particle* run, const uint32_t* points, const TriangleFans& fans, const Particle* all, NearestOnFans& out) {
+void find_nearest_on_fans(const Particle* run, const uint32_t* points, const TriangleFans& fans,
+                          const Particle* all, NearestOnFans& out) {
     HWY_DYNAMIC_DISPATCH(FindNearestOnFans)(run, points, fans, all, out);
 }
-void solve_surface_contacts(std::span<const SurfaceContacts> contacts, const Particle* starts, float most_back_m, Particle* particles) {
+void solve_surface_contacts(std::span<const SurfaceContacts> contacts, const Particle* starts,
+                            float most_back_m, Particle* particles) {
     HWY_DYNAMIC_DISPATCH(SolveSurfaceContacts)(contacts, starts, most_back_m, particles);
 }
 

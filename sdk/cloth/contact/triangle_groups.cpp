@@ -20,8 +20,10 @@ uint32_t spread(uint32_t x) {
 /// All corners of t on one side of the plane of the other triangle, and clear of it.
 bool is_beside(const Vec3 (&t)[3], const Vec3 (&plane)[3]) {
     constexpr float kClear = 1e-5f;  // of the lengths: what rounding may bring
-    const Vec3 across = glm::cross(plane[1] - plane[0], plane[2] - plane[0]), off = glm::abs(t[0] - plane[0]), size = glm::abs(across);
-    const float a = glm::dot(t[0] - plane[0], across), b = glm::dot(t[1] - plane[0], across), c = glm::dot(t[2] - plane[0], across);
+    const Vec3 across = glm::cross(plane[1] - plane[0], plane[2] - plane[0]), off = glm::abs(t[0] - plane[0]),
+               size = glm::abs(across);
+    const float a = glm::dot(t[0] - plane[0], across), b = glm::dot(t[1] - plane[0], across),
+                c = glm::dot(t[2] - plane[0], across);
     const float clear = kClear * (size.x + size.y + size.z) * (off.x + off.y + off.z);
     return std::min({a, b, c}) > clear || std::max({a, b, c}) < -clear;
 }
@@ -36,7 +38,9 @@ bool goes_through(const Vec3& p, const Vec3& q, const Vec3 (&t)[3]) {
     return u >= 0 && v >= 0 && u + v <= 1 && at >= 0 && at <= 1;
 }
 
-Bounds bounds_of(const Corners& t) { return {glm::min(glm::min(t.at[0], t.at[1]), t.at[2]), glm::max(glm::max(t.at[0], t.at[1]), t.at[2])}; }
+Bounds bounds_of(const Corners& t) {
+    return {glm::min(glm::min(t.at[0], t.at[1]), t.at[2]), glm::max(glm::max(t.at[0], t.at[1]), t.at[2])};
+}
 
 /// Places by the order in which the curve meets them.
 std::vector<uint32_t> along_morton_curve(const std::vector<Vec3>& places) {
@@ -47,8 +51,11 @@ std::vector<uint32_t> along_morton_curve(const std::vector<Vec3>& places) {
     const float most = std::max({size.x, size.y, size.z, 1e-6f});
     std::vector<std::pair<uint32_t, uint32_t>> codes;
     for (uint32_t i = 0; i < places.size(); ++i) {
-        const Vec3 cell = finite(places[i]) ? glm::clamp((places[i] - all.low) / most * 1023.0f, 0.0f, 1023.0f) : Vec3(0.0f);
-        codes.emplace_back(spread(uint32_t(cell.x)) | spread(uint32_t(cell.y)) << 1 | spread(uint32_t(cell.z)) << 2, i);
+        const Vec3 cell = finite(places[i])
+                              ? glm::clamp((places[i] - all.low) / most * 1023.0f, 0.0f, 1023.0f)
+                              : Vec3(0.0f);
+        codes.emplace_back(
+            spread(uint32_t(cell.x)) | spread(uint32_t(cell.y)) << 1 | spread(uint32_t(cell.z)) << 2, i);
     }
     std::sort(codes.begin(), codes.end());
     std::vector<uint32_t> out;
@@ -59,13 +66,16 @@ std::vector<uint32_t> along_morton_curve(const std::vector<Vec3>& places) {
 /// Those about each vertex.
 class TrianglesAbout {
 public:
-    TrianglesAbout(size_t vertices, std::span<const uint32_t> indices) : first_(vertices + 1, 0), all_(indices.size()) {
+    TrianglesAbout(size_t vertices, std::span<const uint32_t> indices)
+        : first_(vertices + 1, 0), all_(indices.size()) {
         for (const uint32_t v : indices) ++first_[v + 1];
         for (size_t v = 0; v < vertices; ++v) first_[v + 1] += first_[v];
         std::vector<uint32_t> next(first_.begin(), first_.end() - 1);
         for (uint32_t i = 0; i < indices.size(); ++i) all_[next[indices[i]]++] = i / 3;
     }
-    std::span<const uint32_t> of(uint32_t vertex) const { return {all_.data() + first_[vertex], first_[vertex + 1] - first_[vertex]}; }
+    std::span<const uint32_t> of(uint32_t vertex) const {
+        return {all_.data() + first_[vertex], first_[vertex + 1] - first_[vertex]};
+    }
 
 private:
     std::vector<uint32_t> first_, all_;
@@ -76,14 +86,18 @@ private:
 bool cross(const Corners& a, const Corners& b) {
     if (is_beside(a.at, b.at) || is_beside(b.at, a.at)) return false;
     for (size_t e = 0; e < 3; ++e)
-        if (goes_through(a.at[e], a.at[(e + 1) % 3], b.at) || goes_through(b.at[e], b.at[(e + 1) % 3], a.at)) return true;
+        if (goes_through(a.at[e], a.at[(e + 1) % 3], b.at) || goes_through(b.at[e], b.at[(e + 1) % 3], a.at))
+            return true;
     return false;
 }
 
 TriangleGroups::TriangleGroups(std::span<const Vec3> positions, std::span<const uint32_t> indices) {
     const auto count = uint32_t(indices.size() / 3);
     std::vector<Vec3> middles;
-    for (uint32_t t = 0; t < count; ++t) middles.push_back((positions[indices[3 * t]] + positions[indices[3 * t + 1]] + positions[indices[3 * t + 2]]) / 3.0f);
+    for (uint32_t t = 0; t < count; ++t)
+        middles.push_back(
+            (positions[indices[3 * t]] + positions[indices[3 * t + 1]] + positions[indices[3 * t + 2]]) /
+            3.0f);
     const std::vector<uint32_t> seeds = along_morton_curve(middles);
     std::vector<uint32_t> around(indices.begin(), indices.begin() + std::ptrdiff_t(3 * count));
     const TrianglesAbout about(positions.size(), around);
@@ -97,13 +111,16 @@ TriangleGroups::TriangleGroups(std::span<const Vec3> positions, std::span<const 
             // The nearest to the seed of those that touch the group.
             auto next = beside.end();
             for (auto it = beside.begin(); it != beside.end(); ++it)
-                if (!taken[*it] && (next == beside.end() || glm::length(middles[*it] - middles[seed]) < glm::length(middles[*next] - middles[seed]))) next = it;
+                if (!taken[*it] && (next == beside.end() || glm::length(middles[*it] - middles[seed]) <
+                                                                glm::length(middles[*next] - middles[seed])))
+                    next = it;
             if (next == beside.end()) break;
             const uint32_t t = *next;
             taken[t] = 1;
             triangles_.push_back({{indices[3 * t], indices[3 * t + 1], indices[3 * t + 2]}, t});
             for (const uint32_t v : triangles_.back().vertex)
-                for (const uint32_t other : about.of(v)) if (!taken[other]) beside.push_back(other);
+                for (const uint32_t other : about.of(v))
+                    if (!taken[other]) beside.push_back(other);
         }
         ends_.push_back(uint32_t(triangles_.size()));
     }
@@ -126,7 +143,8 @@ void TriangleGroups::list_beside(size_t vertices) {
     for (uint32_t group = 0; group < group_count(); ++group) {
         const auto begin = std::ptrdiff_t(beside_.size());
         for (uint32_t t = begin_of(group); t < ends_[group]; ++t)
-            for (const uint32_t v : triangles_[t].vertex) beside_.insert(beside_.end(), of_vertex[v].begin(), of_vertex[v].end());
+            for (const uint32_t v : triangles_[t].vertex)
+                beside_.insert(beside_.end(), of_vertex[v].begin(), of_vertex[v].end());
         std::sort(beside_.begin() + begin, beside_.end());
         beside_.erase(std::unique(beside_.begin() + begin, beside_.end()), beside_.end());
         first_beside_.push_back(uint32_t(beside_.size()));
@@ -136,7 +154,8 @@ void TriangleGroups::list_beside(size_t vertices) {
 template <typename Body>
 void TriangleGroups::for_shares(Jobs& jobs, Body&& body) {
     parallel_for(jobs, uint32_t(shares_.size()), [&](uint32_t i) {
-        body(shares_[i], i * group_count() / uint32_t(shares_.size()), (i + 1) * group_count() / uint32_t(shares_.size()));
+        body(shares_[i], i * group_count() / uint32_t(shares_.size()),
+             (i + 1) * group_count() / uint32_t(shares_.size()));
     });
 }
 
@@ -150,7 +169,8 @@ void TriangleGroups::move_groups(std::span<const Vec3> positions, uint32_t begin
         Bounds box, normals;
         for (uint32_t t = begin_of(group); t < ends_[group]; ++t) {
             const auto& vertex = triangles_[t].vertex;
-            const auto& at = (corners_[t] = {{positions[vertex[0]], positions[vertex[1]], positions[vertex[2]]}}).at;
+            const auto& at =
+                (corners_[t] = {{positions[vertex[0]], positions[vertex[1]], positions[vertex[2]]}}).at;
             boxes_[t] = bounds_of(corners_[t]);
             box.add(boxes_[t].low), box.add(boxes_[t].high);
             const Vec3 across = glm::cross(at[1] - at[0], at[2] - at[0]);
@@ -162,22 +182,27 @@ void TriangleGroups::move_groups(std::span<const Vec3> positions, uint32_t begin
 }
 
 bool TriangleGroups::are_beside(uint32_t group, uint32_t other) const {
-    const auto begin = beside_.begin() + std::ptrdiff_t(first_beside_[group]), end = beside_.begin() + std::ptrdiff_t(first_beside_[group + 1]);
+    const auto begin = beside_.begin() + std::ptrdiff_t(first_beside_[group]),
+               end = beside_.begin() + std::ptrdiff_t(first_beside_[group + 1]);
     return std::find(begin, end, other) != end;
 }
 
 bool TriangleGroups::face_one_way(uint32_t group, uint32_t other) const {
-    constexpr float kOneWay = 0.5f;  // within 60 degrees: where a surface bends more, it may meet itself all the same
+    constexpr float kOneWay =
+        0.5f;  // within 60 degrees: where a surface bends more, it may meet itself all the same
     const Bounds &a = normals_[group], &b = normals_[other];
-    const Vec3 low = glm::min(a.low, b.low), high = glm::max(a.high, b.high), middle = low + high, least = glm::min(middle * low, middle * high);
+    const Vec3 low = glm::min(a.low, b.low), high = glm::max(a.high, b.high), middle = low + high,
+               least = glm::min(middle * low, middle * high);
     return least.x + least.y + least.z > kOneWay * glm::length(middle);
 }
 
 void TriangleGroups::find_crossings(bool flat_do_not, std::vector<TrianglePair>& out, Jobs& jobs) {
     find_in_shares(jobs, out, [&](Share& share, uint32_t group) {
         find_meeting(groups_, groups_.runs.low_of(group), groups_.runs.high_of(group), share.near);
-        for (auto other = std::lower_bound(share.near.begin(), share.near.end(), group); other != share.near.end(); ++other)
-            if (!flat_do_not || !face_one_way(group, *other) || !are_beside(group, *other)) meet(group, *this, *other, share.pairs);
+        for (auto other = std::lower_bound(share.near.begin(), share.near.end(), group);
+             other != share.near.end(); ++other)
+            if (!flat_do_not || !face_one_way(group, *other) || !are_beside(group, *other))
+                meet(group, *this, *other, share.pairs);
     });
 }
 
@@ -198,24 +223,30 @@ void TriangleGroups::find_in_shares(Jobs& jobs, std::vector<TrianglePair>& out, 
     for (const Share& share : shares_) out.insert(out.end(), share.pairs.begin(), share.pairs.end());
 }
 
-void TriangleGroups::find_crossed(uint32_t group, const Corners& other, std::vector<uint32_t>& triangles) const {
+void TriangleGroups::find_crossed(uint32_t group, const Corners& other,
+                                  std::vector<uint32_t>& triangles) const {
     const Bounds box = bounds_of(other);
     if (!box.overlaps(box_of(group))) return;
     for (uint32_t i = begin_of(group); i < ends_[group]; ++i)
         if (boxes_[i].overlaps(box) && cross(corners_[i], other)) triangles.push_back(triangles_[i].number);
 }
 
-void TriangleGroups::meet(uint32_t group, const TriangleGroups& other, uint32_t of_other, std::vector<TrianglePair>& out) const {
+void TriangleGroups::meet(uint32_t group, const TriangleGroups& other, uint32_t of_other,
+                          std::vector<TrianglePair>& out) const {
     const bool own = this == &other;
     const Bounds near{other.groups_.runs.low_of(of_other), other.groups_.runs.high_of(of_other)};
     for (uint32_t i = begin_of(group); i < ends_[group]; ++i) {
         if (!boxes_[i].overlaps(near)) continue;
         const uint32_t* u = triangles_[i].vertex;
-        for (uint32_t k = own && group == of_other ? i + 1 : other.begin_of(of_other); k < other.ends_[of_other]; ++k) {
+        for (uint32_t k = own && group == of_other ? i + 1 : other.begin_of(of_other);
+             k < other.ends_[of_other]; ++k) {
             if (!boxes_[i].overlaps(other.boxes_[k])) continue;
             const uint32_t* v = other.triangles_[k].vertex;
-            if (own && std::any_of(u, u + 3, [&](uint32_t at) { return at == v[0] || at == v[1] || at == v[2]; })) continue;
-            if (cross(corners_[i], other.corners_[k])) out.emplace_back(triangles_[i].number, other.triangles_[k].number);
+            if (own &&
+                std::any_of(u, u + 3, [&](uint32_t at) { return at == v[0] || at == v[1] || at == v[2]; }))
+                continue;
+            if (cross(corners_[i], other.corners_[k]))
+                out.emplace_back(triangles_[i].number, other.triangles_[k].number);
         }
     }
 }

@@ -1,4 +1,5 @@
-// Boxes about the triangles of a mesh that keeps its triangles and moves its vertices: which of them go through each other.
+// Boxes about the triangles of a mesh that keeps its triangles and moves its vertices: which of them go
+// through each other.
 #pragma once
 
 #include <cstdint>
@@ -30,8 +31,8 @@ public:
     /// Does not allocate.
     void move(std::span<const Vec3> positions, Jobs& jobs);
 
-    /// Adds the pairs of triangles that cross and share no vertex. flat_do_not: groups, alone and with those beside them, whose
-    /// triangles all face one way are taken not to cross (Volino and Thalmann 1994).
+    /// Adds the pairs of triangles that cross and share no vertex. flat_do_not: groups, alone and with those
+    /// beside them, whose triangles all face one way are taken not to cross (Volino and Thalmann 1994).
     void find_crossings(bool flat_do_not, std::vector<TrianglePair>& out, Jobs& jobs);
     /// Adds the pairs of a triangle of this mesh and one of the other that cross.
     void find_crossings(const TriangleGroups& other, std::vector<TrianglePair>& out, Jobs& jobs);
@@ -60,16 +61,17 @@ private:
     void list_beside(size_t vertices);
     bool are_beside(uint32_t group, uint32_t other) const;
     bool face_one_way(uint32_t group, uint32_t other) const;
-    void meet(uint32_t group, const TriangleGroups& other, uint32_t of_other, std::vector<TrianglePair>& out) const;
+    void meet(uint32_t group, const TriangleGroups& other, uint32_t of_other,
+              std::vector<TrianglePair>& out) const;
 
     std::vector<Triangle> triangles_;  // group by group
     std::vector<uint32_t> ends_;       // of groups in these
     std::vector<Corners> corners_;     // of these
     std::vector<Bounds> boxes_;        // of these
     RunBoxes groups_;
-    std::vector<Bounds> normals_;      // of groups, as long as their triangles are large
+    std::vector<Bounds> normals_;                  // of groups, as long as their triangles are large
     std::vector<uint32_t> first_beside_, beside_;  // of each group, those that share a vertex with it, rising
-    std::vector<Share> shares_;        // of the work
+    std::vector<Share> shares_;                    // of the work
 };
 
 }  // namespace vfit

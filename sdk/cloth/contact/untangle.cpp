@@ -11,10 +11,13 @@ Vec3 unit(const Vec3& v) { return v / std::max(glm::length(v), 1e-12f); }
 
 }  // namespace
 
-std::span<const uint32_t> Untangle::move(std::span<const TrianglePair> crossed, std::span<const uint32_t> indices, std::span<const uint8_t> is_fixed, float step_m, std::span<Vec3> places) {
+std::span<const uint32_t> Untangle::move(std::span<const TrianglePair> crossed,
+                                         std::span<const uint32_t> indices, std::span<const uint8_t> is_fixed,
+                                         float step_m, std::span<Vec3> places) {
     vertices_.clear();
     for (const auto& [a, b] : crossed) {
-        const uint32_t first[3] = {indices[3 * a], indices[3 * a + 1], indices[3 * a + 2]}, second[3] = {indices[3 * b], indices[3 * b + 1], indices[3 * b + 2]};
+        const uint32_t first[3] = {indices[3 * a], indices[3 * a + 1], indices[3 * a + 2]},
+                       second[3] = {indices[3 * b], indices[3 * b + 1], indices[3 * b + 2]};
         shorten(first, second, places);
         shorten(second, first, places);
         vertices_.insert(vertices_.end(), first, first + 3);
@@ -32,14 +35,17 @@ std::span<const uint32_t> Untangle::move(std::span<const TrianglePair> crossed, 
 /// Of the sides of `own` that go through `other`; the triangle beyond a side does its own part.
 void Untangle::shorten(const uint32_t (&own)[3], const uint32_t (&other)[3], std::span<const Vec3> places) {
     constexpr float kParallel = 1e-4f, kGrazing = 0.2f;
-    const auto normal_of = [&](const uint32_t (&t)[3]) { return glm::cross(places[t[1]] - places[t[0]], places[t[2]] - places[t[0]]); };
+    const auto normal_of = [&](const uint32_t(&t)[3]) {
+        return glm::cross(places[t[1]] - places[t[0]], places[t[2]] - places[t[0]]);
+    };
     const Vec3 across = normal_of(other), normal = unit(across), own_normal = unit(normal_of(own));
     Vec3 line = glm::cross(own_normal, normal);
     if (glm::length(line) < kParallel) return;
     line = unit(line);
     for (size_t e = 0; e < 3; ++e) {
         const uint32_t from = own[e], to = own[(e + 1) % 3];
-        const float above_from = glm::dot(places[from] - places[other[0]], normal), above_to = glm::dot(places[to] - places[other[0]], normal);
+        const float above_from = glm::dot(places[from] - places[other[0]], normal),
+                    above_to = glm::dot(places[to] - places[other[0]], normal);
         if (above_from * above_to >= 0.0f) continue;
         const float at = above_from / (above_from - above_to);
         const Vec3 off = glm::mix(places[from], places[to], at) - places[other[0]];
@@ -51,7 +57,8 @@ void Untangle::shorten(const uint32_t (&own)[3], const uint32_t (&other)[3], std
         const Vec3 along = unit(places[to] - places[from]);
         const Vec3 inwards = glm::cross(own_normal, along);
         const Vec3 contour = glm::dot(line, inwards) > 0.0f ? line : -line;
-        const float upright = glm::dot(along, normal), steep = std::copysign(std::max(std::abs(upright), kGrazing), upright);
+        const float upright = glm::dot(along, normal),
+                    steep = std::copysign(std::max(std::abs(upright), kGrazing), upright);
         const Vec3 way = contour - normal * (2.0f * glm::dot(along, contour) / steep);  // their equation 2
         ways_[from] += (1.0f - at) * way, ways_[to] += at * way;
         ways_[other[0]] -= first * way, ways_[other[1]] -= second * way, ways_[other[2]] -= third * way;

@@ -24,7 +24,8 @@ VirtualParticles::VirtualParticles(const Fabric& fabric, float spacing_m) {
         const auto found = lengths.find(std::minmax(a, b));
         return found == lengths.end() ? 0.0f : found->second;  // between fixed vertices: skinned
     };
-    // A triangle cut into n x n: the middle of each. Of equal sides none of its corners is further off than spacing_m.
+    // A triangle cut into n x n: the middle of each. Of equal sides none of its corners is further off than
+    // spacing_m.
     std::vector<float> cuts;
     float wanted = 0.0f;
     for (size_t t = 0; t + 2 < data.indices.size(); t += 3) {
@@ -34,13 +35,15 @@ VirtualParticles::VirtualParticles(const Fabric& fabric, float spacing_m) {
         if (cuts.back() > 1.0f) wanted += cuts.back() * cuts.back();
     }
     if (wanted > kMost)
-        fail(VFIT_ERROR_ARGUMENT, "virtual particles ", spacing_m, " m from each other are ", size_t(std::min(wanted, 1e9f)), ", more than ", size_t(kMost));
+        fail(VFIT_ERROR_ARGUMENT, "virtual particles ", spacing_m, " m from each other are ",
+             size_t(std::min(wanted, 1e9f)), ", more than ", size_t(kMost));
     for (size_t t = 0; t + 2 < data.indices.size(); t += 3) {
         const uint32_t* v = &data.indices[t];
         if (cuts[t / 3] <= 1.0f) continue;
         const int n = int(cuts[t / 3]);
         const auto add = [&](float a, float b) {
-            const float weights[3] = {a / (3.0f * float(n)), b / (3.0f * float(n)), 1.0f - (a + b) / (3.0f * float(n))};
+            const float weights[3] = {a / (3.0f * float(n)), b / (3.0f * float(n)),
+                                      1.0f - (a + b) / (3.0f * float(n))};
             Point point{};
             float sum = 0.0f;
             for (size_t k = 0; k < 3; ++k) {
@@ -63,10 +66,12 @@ VirtualParticles::VirtualParticles(const Fabric& fabric, float spacing_m) {
 }
 
 Vec3 VirtualParticles::at(const Point& p, const Particles& particles) {
-    return p.weights[0] * particles[p.corners[0]].x + p.weights[1] * particles[p.corners[1]].x + p.weights[2] * particles[p.corners[2]].x;
+    return p.weights[0] * particles[p.corners[0]].x + p.weights[1] * particles[p.corners[1]].x +
+           p.weights[2] * particles[p.corners[2]].x;
 }
 
-void VirtualParticles::find_near(const Particles& places, const Particles& velocities, float dt, std::span<const SweptCapsule> colliders) {
+void VirtualParticles::find_near(const Particles& places, const Particles& velocities, float dt,
+                                 std::span<const SweptCapsule> colliders) {
     near_.clear();
     for (size_t i = 0; i < points_.size(); ++i) {
         Near& near = of_point_[i];
@@ -79,8 +84,8 @@ void VirtualParticles::find_near(const Particles& places, const Particles& veloc
     }
 }
 
-void VirtualParticles::meet(const Point& point, const SweptCapsule& collider, const ContactSettings& settings, const Particles& starts,
-                            Particles& places, Particles& pushed) const {
+void VirtualParticles::meet(const Point& point, const SweptCapsule& collider, const ContactSettings& settings,
+                            const Particles& starts, Particles& places, Particles& pushed) const {
     const Vec3 place = at(point, places);
     Vec3 to = place;
     if (!resolve_contact(collider, at(point, starts), settings, to)) return;
@@ -91,15 +96,17 @@ void VirtualParticles::meet(const Point& point, const SweptCapsule& collider, co
     }
 }
 
-void VirtualParticles::solve(std::span<const SweptCapsule> colliders, const ContactSettings& settings, const Particles& starts, Particles& places,
-                             Particles& pushed) const {
+void VirtualParticles::solve(std::span<const SweptCapsule> colliders, const ContactSettings& settings,
+                             const Particles& starts, Particles& places, Particles& pushed) const {
     for (size_t i = 0; i < points_.size(); ++i) {
         const Near& near = of_point_[i];
         const Vec3 way = at(points_[i], places) - near.center;
         if (glm::dot(way, way) > near.way_m * near.way_m) {
-            for (const SweptCapsule& collider : colliders) meet(points_[i], collider, settings, starts, places, pushed);
+            for (const SweptCapsule& collider : colliders)
+                meet(points_[i], collider, settings, starts, places, pushed);
         } else {
-            for (uint32_t c = near.first; c < near.last; ++c) meet(points_[i], colliders[near_[c]], settings, starts, places, pushed);
+            for (uint32_t c = near.first; c < near.last; ++c)
+                meet(points_[i], colliders[near_[c]], settings, starts, places, pushed);
         }
     }
 }

@@ -1,5 +1,5 @@
-// Points of a coarse mesh's triangles that meet colliders as its vertices do, so that no sphere gets through between them (the
-// paper's virtual particles).
+// Points of a coarse mesh's triangles that meet colliders as its vertices do, so that no sphere gets through
+// between them (the paper's virtual particles).
 #pragma once
 
 #include <memory>
@@ -19,10 +19,12 @@ public:
 
     size_t count() const { return points_.size(); }
     /// What each may meet in a step of dt, by its speed and that of colliders on their way through the step.
-    void find_near(const Particles& places, const Particles& velocities, float dt, std::span<const SweptCapsule> colliders);
-    /// The end of a sub-step: out of the colliders, by moving the corners. `pushed`, empty or one a particle, gets what they are
-    /// moved by added.
-    void solve(std::span<const SweptCapsule> colliders, const ContactSettings& settings, const Particles& starts, Particles& places, Particles& pushed) const;
+    void find_near(const Particles& places, const Particles& velocities, float dt,
+                   std::span<const SweptCapsule> colliders);
+    /// The end of a sub-step: out of the colliders, by moving the corners. `pushed`, empty or one a particle,
+    /// gets what they are moved by added.
+    void solve(std::span<const SweptCapsule> colliders, const ContactSettings& settings,
+               const Particles& starts, Particles& places, Particles& pushed) const;
 
 private:
     struct Point {
@@ -36,7 +38,8 @@ private:
         uint32_t first, last;  // of near_
     };
     static Vec3 at(const Point& point, const Particles& particles);
-    void meet(const Point& point, const SweptCapsule& collider, const ContactSettings& settings, const Particles& starts, Particles& places, Particles& pushed) const;
+    void meet(const Point& point, const SweptCapsule& collider, const ContactSettings& settings,
+              const Particles& starts, Particles& places, Particles& pushed) const;
 
     std::vector<Point> points_;
     std::vector<Near> of_point_;

@@ -29,7 +29,8 @@ std::vector<Batch> fill(const std::vector<Bond>& bonds) {
     std::vector<Batch> done;
     std::deque<Batch> open;
     for (const Bond& bond : bonds) {
-        const auto place = std::find_if(open.begin(), open.end(), [&](const Batch& b) { return !shares(b, bond); });
+        const auto place =
+            std::find_if(open.begin(), open.end(), [&](const Batch& b) { return !shares(b, bond); });
         if (place == open.end()) {
             if (open.size() == kOpen) {
                 done.push_back(std::move(open.front()));
@@ -60,10 +61,13 @@ std::vector<Batch> spread(std::vector<Batch> batches) {
     std::deque<Batch> waiting;
     size_t next = 0;
     while (next < batches.size() || !waiting.empty()) {
-        while (next < batches.size() && waiting.size() < kAhead) waiting.push_back(std::move(batches[next++]));
+        while (next < batches.size() && waiting.size() < kAhead)
+            waiting.push_back(std::move(batches[next++]));
         const auto apart = std::find_if(waiting.begin(), waiting.end(), [&](const Batch& b) {
             return std::all_of(b.begin(), b.end(), [&](const Bond& bond) {
-                return std::all_of(bond.particles.begin(), bond.particles.end(), [&](uint32_t p) { return last[p] == 0 || last[p] + kApart <= out.size(); });
+                return std::all_of(bond.particles.begin(), bond.particles.end(), [&](uint32_t p) {
+                    return last[p] == 0 || last[p] + kApart <= out.size();
+                });
             });
         });
         const auto chosen = apart == waiting.end() ? waiting.begin() : apart;
@@ -78,8 +82,11 @@ std::vector<Batch> spread(std::vector<Batch> batches) {
 }  // namespace
 
 std::vector<std::vector<Bond>> batch_up(std::vector<Bond> bonds) {
-    const auto lowest = [](const Bond& j) { return *std::min_element(j.particles.begin(), j.particles.end()); };
-    std::stable_sort(bonds.begin(), bonds.end(), [&](const Bond& x, const Bond& y) { return lowest(x) < lowest(y); });
+    const auto lowest = [](const Bond& j) {
+        return *std::min_element(j.particles.begin(), j.particles.end());
+    };
+    std::stable_sort(bonds.begin(), bonds.end(),
+                     [&](const Bond& x, const Bond& y) { return lowest(x) < lowest(y); });
     return spread(fill(bonds));
 }
 

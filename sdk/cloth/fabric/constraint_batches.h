@@ -1,5 +1,5 @@
-// Constraints in batches of kLanes that share no particle, and batches in an order in which those next to each other share
-// none either, where that can be.
+// Constraints in batches of kLanes that share no particle, and batches in an order in which those next to
+// each other share none either, where that can be.
 #pragma once
 
 #include <array>

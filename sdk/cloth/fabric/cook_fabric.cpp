@@ -21,11 +21,11 @@ struct BesideEdge {
 
 /// An edge of the mesh with what its one or two triangles say about it.
 struct MeshEdge {
-    float area_m2 = 0.0f;     // of its triangles
-    float length_m = 0.0f;    // mean over them
-    float warp2 = 0.0f;       // share (squared) of its direction that runs along the warp, mean over them
+    float area_m2 = 0.0f;   // of its triangles
+    float length_m = 0.0f;  // mean over them
+    float warp2 = 0.0f;     // share (squared) of its direction that runs along the warp, mean over them
     uint32_t triangles = 0;
-    BesideEdge beside[2];     // the first two
+    BesideEdge beside[2];  // the first two
 };
 struct EdgeOfEnds {
     uint32_t a, b;  // the lower first
@@ -51,17 +51,21 @@ CutTriangle cut_triangle(const FabricShape& shape, size_t first) {
     for (size_t k = 0; k < 3; ++k) {
         const uint32_t v = shape.indices[first + k];
         t.at[k] = shape.cut.empty() ? shape.positions[v] * scale : Vec3(shape.cut[first + k], 0.0f);
-        t.cloth[k] = !shape.cut.empty() ? shape.cut[first + k] : !shape.uvs.empty() ? shape.uvs[v] : Vec2(0.0f);
+        t.cloth[k] = !shape.cut.empty()   ? shape.cut[first + k]
+                     : !shape.uvs.empty() ? shape.uvs[v]
+                                          : Vec2(0.0f);
     }
     return t;
 }
 
 /// By rising ends.
 std::vector<EdgeOfEnds> edges_of(const FabricShape& shape) {
-    std::vector<std::pair<uint64_t, uint32_t>> sides;  // ends, and the corner at which a triangle's side begins
+    std::vector<std::pair<uint64_t, uint32_t>>
+        sides;  // ends, and the corner at which a triangle's side begins
     sides.reserve(shape.indices.size());
     for (uint32_t corner = 0; corner < shape.indices.size(); ++corner) {
-        const auto [low, high] = std::minmax(shape.indices[corner], shape.indices[corner % 3 == 2 ? corner - 2 : corner + 1]);
+        const auto [low, high] =
+            std::minmax(shape.indices[corner], shape.indices[corner % 3 == 2 ? corner - 2 : corner + 1]);
         sides.emplace_back(uint64_t(low) << 32 | high, corner);
     }
     std::sort(sides.begin(), sides.end());
@@ -69,7 +73,8 @@ std::vector<EdgeOfEnds> edges_of(const FabricShape& shape) {
     std::vector<EdgeOfEnds> edges;
     edges.reserve(sides.size());
     for (size_t i = 0; i < sides.size(); ++i) {
-        if (i == 0 || sides[i].first != sides[i - 1].first) edges.push_back({uint32_t(sides[i].first >> 32), uint32_t(sides[i].first), {}});
+        if (i == 0 || sides[i].first != sides[i - 1].first)
+            edges.push_back({uint32_t(sides[i].first >> 32), uint32_t(sides[i].first), {}});
         edge_of[sides[i].second] = uint32_t(edges.size()) - 1;
     }
     for (size_t first = 0; first + 2 < shape.indices.size(); first += 3) {
@@ -79,7 +84,8 @@ std::vector<EdgeOfEnds> edges_of(const FabricShape& shape) {
             const uint32_t a = shape.indices[first + size_t(k)], b = shape.indices[first + size_t(k + 1) % 3];
             const int from = a < b ? k : (k + 1) % 3, to = a < b ? (k + 1) % 3 : k, off = (k + 2) % 3;
             const Vec3 edge_way = t.at[to] - t.at[from], corner_way = t.at[off] - t.at[from];
-            const float length = glm::length(edge_way), along = glm::dot(corner_way, edge_way) / (length * length);
+            const float length = glm::length(edge_way),
+                        along = glm::dot(corner_way, edge_way) / (length * length);
             MeshEdge& edge = edges[edge_of[first + size_t(k)]].edge;
             edge.area_m2 += area;
             edge.length_m += length;
@@ -89,7 +95,9 @@ std::vector<EdgeOfEnds> edges_of(const FabricShape& shape) {
             } else {
                 edge.warp2 += t.warp_cosine2(k);
             }
-            if (edge.triangles < 2) edge.beside[edge.triangles] = {shape.indices[first + size_t(off)], along, glm::length(corner_way - along * edge_way)};
+            if (edge.triangles < 2)
+                edge.beside[edge.triangles] = {shape.indices[first + size_t(off)], along,
+                                               glm::length(corner_way - along * edge_way)};
             ++edge.triangles;
         }
     }
@@ -101,10 +109,11 @@ std::vector<EdgeOfEnds> edges_of(const FabricShape& shape) {
     return edges;
 }
 
-/// Moduli (N/m) of springs along warp, weft and between that together stretch and shear as the fabric does. On a grid with
-/// diagonals these add D = G to the stiffness along both axes and couple the two: a strip that is free to narrow pulls with
-/// A + D - D^2 / (B + D), which is to be its modulus. Springs at 45 degrees are never softer than warp and weft make them:
-/// a network of springs shears with a third of its modulus or more.
+/// Moduli (N/m) of springs along warp, weft and between that together stretch and shear as the fabric does.
+/// On a grid with diagonals these add D = G to the stiffness along both axes and couple the two: a strip that
+/// is free to narrow pulls with A + D - D^2 / (B + D), which is to be its modulus. Springs at 45 degrees are
+/// never softer than warp and weft make them: a network of springs shears with a third of its modulus or
+/// more.
 struct Springs {
     float warp, weft, between;
 
@@ -113,24 +122,26 @@ struct Springs {
         constexpr float kLeast = 0.25f, kStiffest = 1e6f;
         between = m.shear_n_m;
         for (int i = 0; i < kRounds; ++i) {
-            between = 1.0f / std::max(1.0f / m.shear_n_m - 1.0f / warp - 1.0f / weft, 1.0f / (kStiffest * m.shear_n_m));
+            between = 1.0f / std::max(1.0f / m.shear_n_m - 1.0f / warp - 1.0f / weft,
+                                      1.0f / (kStiffest * m.shear_n_m));
             const float d = 1.0f / (1.0f / warp + 1.0f / weft + 1.0f / between);
-            const float along = m.stretch_warp_n_m - d + d * d / (weft + d), across = m.stretch_weft_n_m - d + d * d / (warp + d);
+            const float along = m.stretch_warp_n_m - d + d * d / (weft + d),
+                        across = m.stretch_weft_n_m - d + d * d / (warp + d);
             warp = std::max(along, kLeast * m.stretch_warp_n_m);
             weft = std::max(across, kLeast * m.stretch_weft_n_m);
         }
     }
-    /// At an angle to the warp: 1/E = c^4/A + s^4/B + c^2 s^2/G (Jones, Mechanics of Composite Materials, off-axis modulus,
-    /// Poisson's ratio taken as zero).
+    /// At an angle to the warp: 1/E = c^4/A + s^4/B + c^2 s^2/G (Jones, Mechanics of Composite Materials,
+    /// off-axis modulus, Poisson's ratio taken as zero).
     float modulus(float c2) const {
         const float s2 = 1.0f - c2;
         return 1.0f / (c2 * c2 / warp + s2 * s2 / weft + c2 * s2 / between);
     }
 };
 
-/// Bending stiffness B over a fold of angle t is an energy B l^2 / (2 (A1 + A2)) t^2: exact for cloth that is bent to a
-/// cylinder, on triangles of equal sides and on squares cut across. (Factors of 3 that are in use make it three times too
-/// stiff there.)
+/// Bending stiffness B over a fold of angle t is an energy B l^2 / (2 (A1 + A2)) t^2: exact for cloth that is
+/// bent to a cylinder, on triangles of equal sides and on squares cut across. (Factors of 3 that are in use
+/// make it three times too stiff there.)
 Hinge hinge_over(uint32_t a, uint32_t b, const MeshEdge& edge, float bend_n_m) {
     Hinge hinge{{a, b, edge.beside[0].corner, edge.beside[1].corner}, {}, 0.0f};
     float areas = 0.0f;
@@ -146,14 +157,16 @@ Hinge hinge_over(uint32_t a, uint32_t b, const MeshEdge& edge, float bend_n_m) {
     return hinge;
 }
 
-/// A hinge as linear as ours gives way where a fold closes: its push goes with the sine of half the angle. A distance over the
-/// fold does not; it is next to nothing over a flat one and stores what the hinge does at 30 degrees.
+/// A hinge as linear as ours gives way where a fold closes: its push goes with the sine of half the angle. A
+/// distance over the fold does not; it is next to nothing over a flat one and stores what the hinge does at
+/// 30 degrees.
 DistanceConstraint fold_limit_over(const MeshEdge& edge, float distance_m, float bend_n_m) {
     constexpr float kFold_rad = kPi / 6.0f;
     const BesideEdge &c = edge.beside[0], &d = edge.beside[1];
     const float areas = 0.5f * edge.length_m * (c.height_m + d.height_m);
     const float stiffness_n_m = bend_n_m * edge.length_m * edge.length_m / areas;  // N m
-    const float shorter_m = 0.5f * c.height_m * d.height_m / (c.height_m + d.height_m) * kFold_rad;  // times the angle: what the distance loses by it
+    const float shorter_m = 0.5f * c.height_m * d.height_m / (c.height_m + d.height_m) *
+                            kFold_rad;  // times the angle: what the distance loses by it
     return {c.corner, d.corner, distance_m, shorter_m * shorter_m / stiffness_n_m};
 }
 
@@ -179,21 +192,24 @@ FabricData cook_fabric(const FabricShape& shape, const FabricMaterial& material)
     if (!(shape.horizontal_scale > 0.0f) || !std::isfinite(shape.horizontal_scale))
         fail(VFIT_ERROR_ARGUMENT, "the size's scale is ", shape.horizontal_scale);
 
-    if (!shape.cut.empty() && shape.cut.size() != shape.indices.size()) fail(VFIT_ERROR_ARGUMENT, shape.cut.size(), " cut corners for ", shape.indices.size());
+    if (!shape.cut.empty() && shape.cut.size() != shape.indices.size())
+        fail(VFIT_ERROR_ARGUMENT, shape.cut.size(), " cut corners for ", shape.indices.size());
 
     const Springs springs(material);
     FabricData data;
     std::vector<float> mass(n, 0.0f);
     for (size_t first = 0; first + 2 < shape.indices.size(); first += 3) {
         const float area = cut_triangle(shape, first).area();
-        if (!shape.cut.empty() && !(area > 0.0f)) fail(VFIT_ERROR_DATA, "triangle ", first / 3, " has no area");
+        if (!shape.cut.empty() && !(area > 0.0f))
+            fail(VFIT_ERROR_DATA, "triangle ", first / 3, " has no area");
         for (size_t k = 0; k < 3; ++k) mass[shape.indices[first + k]] += area * material.density_kg_m2 / 3.0f;
     }
     data.indices.assign(shape.indices.begin(), shape.indices.end());
     data.density_kg_m2 = material.density_kg_m2;
     data.inverse_mass.resize(n);
     for (size_t i = 0; i < n; ++i) {
-        if (shape.simulated[i] && !(mass[i] > 0.0f)) fail(VFIT_ERROR_DATA, "simulated vertex ", i, " has no triangle");
+        if (shape.simulated[i] && !(mass[i] > 0.0f))
+            fail(VFIT_ERROR_DATA, "simulated vertex ", i, " has no triangle");
         data.inverse_mass[i] = shape.simulated[i] ? 1.0f / mass[i] : 0.0f;
     }
     for (const auto& [a, b, edge] : edges_of(shape)) {
@@ -206,17 +222,20 @@ FabricData cook_fabric(const FabricShape& shape, const FabricMaterial& material)
         }
         if (edge.triangles != 2) continue;
         const uint32_t c = edge.beside[0].corner, d = edge.beside[1].corner;
-        const bool moves = shape.simulated[a] || shape.simulated[b] || shape.simulated[c] || shape.simulated[d];
+        const bool moves =
+            shape.simulated[a] || shape.simulated[b] || shape.simulated[c] || shape.simulated[d];
         if (c == d) continue;
         if (moves) data.hinges.push_back(hinge_over(a, b, edge, material.bend_n_m));
         const float apart = flat_distance(shape, edge);
-        if ((shape.simulated[c] || shape.simulated[d]) && apart > 0.0f) data.bends.push_back(fold_limit_over(edge, apart, material.bend_n_m));
+        if ((shape.simulated[c] || shape.simulated[d]) && apart > 0.0f)
+            data.bends.push_back(fold_limit_over(edge, apart, material.bend_n_m));
     }
     data.tethers = cook_tethers(data.inverse_mass, data.edges);
     return data;
 }
 
-std::vector<Tether> cook_tethers(std::span<const float> inverse_mass, std::span<const DistanceConstraint> edges) {
+std::vector<Tether> cook_tethers(std::span<const float> inverse_mass,
+                                 std::span<const DistanceConstraint> edges) {
     struct Link {
         uint32_t to;
         float length;
@@ -227,7 +246,8 @@ std::vector<Tether> cook_tethers(std::span<const float> inverse_mass, std::span<
     std::partial_sum(first.begin(), first.end(), first.begin());
     std::vector<Link> links(2 * edges.size());
     std::vector<uint32_t> fill(first.begin(), first.end() - 1);
-    for (const DistanceConstraint& e : edges) links[fill[e.a]++] = {e.b, e.rest_m}, links[fill[e.b]++] = {e.a, e.rest_m};
+    for (const DistanceConstraint& e : edges)
+        links[fill[e.a]++] = {e.b, e.rest_m}, links[fill[e.b]++] = {e.a, e.rest_m};
     // Dijkstra from all fixed vertices at once.
     std::vector<float> distance(n, INFINITY);
     std::vector<uint32_t> anchor(n, 0);

@@ -34,8 +34,8 @@ DistanceBatches pack(std::vector<Bond> joints, std::span<const DistanceConstrain
 
 }  // namespace
 
-std::vector<DistanceBatches> make_batches(std::span<const DistanceConstraint> list, std::span<const float> inverse_mass,
-                                          const ParticleLayout& layout) {
+std::vector<DistanceBatches> make_batches(std::span<const DistanceConstraint> list,
+                                          std::span<const float> inverse_mass, const ParticleLayout& layout) {
     std::vector<std::vector<Bond>> groups(layout.group_count());
     for (uint32_t i = 0; i < list.size(); ++i) {
         const auto [a, b] = std::pair(list[i].a, list[i].b);
@@ -44,7 +44,8 @@ std::vector<DistanceBatches> make_batches(std::span<const DistanceConstraint> li
         const uint32_t group = layout.group_of(ends, inverse_mass);
         const bool of_part = group < layout.parts.size();
         groups[group].push_back(Bond::of_two(of_part ? layout.particle_in(group, a) : layout.particle_of[a],
-                                              of_part ? layout.particle_in(group, b) : layout.particle_of[b], i));
+                                             of_part ? layout.particle_in(group, b) : layout.particle_of[b],
+                                             i));
     }
     std::vector<DistanceBatches> out;
     for (uint32_t group = 0; group < groups.size(); ++group)

@@ -31,7 +31,7 @@ struct DistanceBatches {
 };
 
 /// Those of each group of the layout. Constraints between two vertices that cannot move are left out.
-std::vector<DistanceBatches> make_batches(std::span<const DistanceConstraint> list, std::span<const float> inverse_mass,
-                                          const ParticleLayout& layout);
+std::vector<DistanceBatches> make_batches(std::span<const DistanceConstraint> list,
+                                          std::span<const float> inverse_mass, const ParticleLayout& layout);
 
 }  // namespace vfit

@@ -37,20 +37,27 @@ void check(const FabricData& d) {
     for (size_t i = 0; i < d.hinges.size(); ++i) {
         const Hinge& h = d.hinges[i];
         for (size_t k = 0; k < 4; ++k)
-            if (h.vertices[k] >= n || !std::isfinite(h.weights[k]) || std::count(h.vertices.begin(), h.vertices.end(), h.vertices[k]) != 1)
-                fail(VFIT_ERROR_DATA, "hinge ", i, " joins vertices ", h.vertices[0], ", ", h.vertices[1], ", ", h.vertices[2], " and ", h.vertices[3], " of ", n);
-        if (!(h.compliance_m_n >= 0.0f) || !std::isfinite(h.compliance_m_n)) fail(VFIT_ERROR_DATA, "hinge ", i, " has compliance ", h.compliance_m_n, " m/N");
+            if (h.vertices[k] >= n || !std::isfinite(h.weights[k]) ||
+                std::count(h.vertices.begin(), h.vertices.end(), h.vertices[k]) != 1)
+                fail(VFIT_ERROR_DATA, "hinge ", i, " joins vertices ", h.vertices[0], ", ", h.vertices[1],
+                     ", ", h.vertices[2], " and ", h.vertices[3], " of ", n);
+        if (!(h.compliance_m_n >= 0.0f) || !std::isfinite(h.compliance_m_n))
+            fail(VFIT_ERROR_DATA, "hinge ", i, " has compliance ", h.compliance_m_n, " m/N");
     }
     for (const Tether& t : d.tethers)
         if (t.vertex >= n || t.anchor >= n || !(t.length_m > 0.0f) || !std::isfinite(t.length_m))
-            fail(VFIT_ERROR_DATA, "tether of vertex ", t.vertex, " to ", t.anchor, " of length ", t.length_m, " m");
+            fail(VFIT_ERROR_DATA, "tether of vertex ", t.vertex, " to ", t.anchor, " of length ", t.length_m,
+                 " m");
         else if (d.inverse_mass[t.anchor] > 0.0f)
-            fail(VFIT_ERROR_DATA, "tether of vertex ", t.vertex, " to vertex ", t.anchor, ", which is not fixed");
+            fail(VFIT_ERROR_DATA, "tether of vertex ", t.vertex, " to vertex ", t.anchor,
+                 ", which is not fixed");
     for (const Backstop& b : d.backstops)
-        if (b.vertex >= n || d.inverse_mass[b.vertex] == 0.0f || !(b.radius_m > 0.0f) || !std::isfinite(b.radius_m))
+        if (b.vertex >= n || d.inverse_mass[b.vertex] == 0.0f || !(b.radius_m > 0.0f) ||
+            !std::isfinite(b.radius_m))
             fail(VFIT_ERROR_DATA, "backstop of vertex ", b.vertex, " with radius ", b.radius_m, " m");
     for (const DistanceLimit& l : d.limits)
-        if (l.vertex >= n || d.inverse_mass[l.vertex] == 0.0f || !(l.distance_m > 0.0f) || !std::isfinite(l.distance_m))
+        if (l.vertex >= n || d.inverse_mass[l.vertex] == 0.0f || !(l.distance_m > 0.0f) ||
+            !std::isfinite(l.distance_m))
             fail(VFIT_ERROR_DATA, "greatest distance of vertex ", l.vertex, ": ", l.distance_m, " m");
 }
 
@@ -60,9 +67,12 @@ Fabric::Fabric(FabricData data, Jobs* jobs) : data_(std::move(data)) {
     check(data_);
     const std::vector<float>& inverse_mass = data_.inverse_mass;
     for (auto* list : {&data_.edges, &data_.bends})
-        std::erase_if(*list, [&](const DistanceConstraint& c) { return inverse_mass[c.a] == 0.0f && inverse_mass[c.b] == 0.0f; });
+        std::erase_if(*list, [&](const DistanceConstraint& c) {
+            return inverse_mass[c.a] == 0.0f && inverse_mass[c.b] == 0.0f;
+        });
     std::erase_if(data_.hinges, [&](const Hinge& h) {
-        return std::all_of(h.vertices.begin(), h.vertices.end(), [&](uint32_t v) { return inverse_mass[v] == 0.0f; });
+        return std::all_of(h.vertices.begin(), h.vertices.end(),
+                           [&](uint32_t v) { return inverse_mass[v] == 0.0f; });
     });
     std::erase_if(data_.tethers, [&](const Tether& t) { return inverse_mass[t.vertex] == 0.0f; });
     for (uint32_t i = 0; i < vertex_count(); ++i)
@@ -70,9 +80,12 @@ Fabric::Fabric(FabricData data, Jobs* jobs) : data_(std::move(data)) {
 
     layout_ = lay_out(data_);
     parallel_for(jobs, 3, [&](uint32_t kind) {
-        if (kind == 0) hinges_ = make_hinge_batches(data_.hinges, inverse_mass, layout_);
-        else if (kind == 1) edges_ = make_batches(data_.edges, inverse_mass, layout_);
-        else bends_ = make_batches(data_.bends, inverse_mass, layout_);
+        if (kind == 0)
+            hinges_ = make_hinge_batches(data_.hinges, inverse_mass, layout_);
+        else if (kind == 1)
+            edges_ = make_batches(data_.edges, inverse_mass, layout_);
+        else
+            bends_ = make_batches(data_.bends, inverse_mass, layout_);
     });
     tether_anchors_.resize(layout_.count());
     tether_lengths_.assign(layout_.count(), kNoTether_m);
@@ -92,19 +105,23 @@ Fabric::Fabric(FabricData data, Jobs* jobs) : data_(std::move(data)) {
 }
 
 /// at_vertices: their centres are the vertices' own targets, else those that follow them.
-std::vector<std::vector<BallRun>> Fabric::place_balls(std::span<const Backstop> balls, bool at_vertices) const {
+std::vector<std::vector<BallRun>> Fabric::place_balls(std::span<const Backstop> balls,
+                                                      bool at_vertices) const {
     std::vector<std::vector<BallRun>> parts(layout_.parts.size());
     for (uint32_t i = 0; i < balls.size(); ++i) {
         const uint32_t particle = layout_.particle_of[balls[i].vertex], run = particle / uint32_t(kLanes);
         std::vector<BallRun>& runs = parts[layout_.part_of(particle)];
         const size_t lane = lane_of(particle % kLanes);
-        const auto place = std::find_if(runs.begin(), runs.end(), [&](const BallRun& r) { return r.run == run && r.radius_m[lane] == 0.0f; });
+        const auto place = std::find_if(runs.begin(), runs.end(), [&](const BallRun& r) {
+            return r.run == run && r.radius_m[lane] == 0.0f;
+        });
         BallRun& of = place != runs.end() ? *place : runs.emplace_back(BallRun{run, {}, {}});
         of.target[lane] = at_vertices ? balls[i].vertex : vertex_count() + i;
         of.radius_m[lane] = balls[i].radius_m;
     }
     for (auto& runs : parts)
-        std::stable_sort(runs.begin(), runs.end(), [](const BallRun& x, const BallRun& y) { return x.run < y.run; });
+        std::stable_sort(runs.begin(), runs.end(),
+                         [](const BallRun& x, const BallRun& y) { return x.run < y.run; });
     return parts;
 }
 

@@ -26,8 +26,9 @@ struct DistanceConstraint {
     float compliance_m_n;
 };
 
-/// A fold over the edge of two triangles: |sum of weights * places| of its ends and the two other corners is the edge's length
-/// times the fold's angle, and 0 where it is flat: isometric bending (Bergou et al. 2006), linear in the places.
+/// A fold over the edge of two triangles: |sum of weights * places| of its ends and the two other corners is
+/// the edge's length times the fold's angle, and 0 where it is flat: isometric bending (Bergou et al. 2006),
+/// linear in the places.
 struct Hinge {
     std::array<uint32_t, 4> vertices;
     std::array<float, 4> weights;  // their sum is 0
@@ -65,7 +66,8 @@ struct FabricData {
     float density_kg_m2 = 0.0f;       // 0: not known, and then no pressure is
     std::vector<uint32_t> indices;    // three a triangle, for the normals
     std::vector<DistanceConstraint> edges;
-    std::vector<DistanceConstraint> bends;  // distances over folds: beside hinges they keep folds from closing, alone they bend
+    std::vector<DistanceConstraint>
+        bends;  // distances over folds: beside hinges they keep folds from closing, alone they bend
     std::vector<Hinge> hinges;
     std::vector<Tether> tethers;
     std::vector<Backstop> backstops;
@@ -75,7 +77,8 @@ struct FabricData {
 /// Immutable and cooked: laid out for the solver. Made by cook_fabric or from explicit data.
 class Fabric {
 public:
-    /// Fails with VFIT_ERROR_DATA, naming the constraint, where the data do not fit together. jobs: may share the work.
+    /// Fails with VFIT_ERROR_DATA, naming the constraint, where the data do not fit together. jobs: may share
+    /// the work.
     explicit Fabric(FabricData data, Jobs* jobs = nullptr);
 
     uint32_t vertex_count() const { return uint32_t(data_.inverse_mass.size()); }
@@ -83,7 +86,9 @@ public:
     /// Places that a step wants: one a vertex, then the centre of each backstop.
     uint32_t target_count() const { return vertex_count() + uint32_t(data_.backstops.size()); }
     /// Edges, bends and hinges.
-    uint32_t constraint_count() const { return uint32_t(data_.edges.size() + data_.bends.size() + data_.hinges.size()); }
+    uint32_t constraint_count() const {
+        return uint32_t(data_.edges.size() + data_.bends.size() + data_.hinges.size());
+    }
     const FabricData& data() const { return data_; }
     const std::vector<uint32_t>& kinematic_vertices() const { return kinematic_; }
 
@@ -124,8 +129,9 @@ struct FabricShape {
     std::span<const Vec2> uvs;
     std::span<const uint8_t> simulated;
     float horizontal_scale = 1.0f;  // of the rest lengths' X and Z: the size of the garment over the shape's
-    // One a corner of a triangle, or empty: the triangles as they were cut from flat cloth, metres, y along the warp. Then lengths
-    // are theirs, not those between positions; where two that are sewn together differ, the mean.
+    // One a corner of a triangle, or empty: the triangles as they were cut from flat cloth, metres, y along
+    // the warp. Then lengths are theirs, not those between positions; where two that are sewn together
+    // differ, the mean.
     std::span<const Vec2> cut = {};
 };
 
@@ -134,6 +140,7 @@ FabricData cook_fabric(const FabricShape& shape, const FabricMaterial& material)
 
 /// A tether from each free vertex that is connected to a fixed one (inverse mass 0), as long as the
 /// shortest path along the edges.
-std::vector<Tether> cook_tethers(std::span<const float> inverse_mass, std::span<const DistanceConstraint> edges);
+std::vector<Tether> cook_tethers(std::span<const float> inverse_mass,
+                                 std::span<const DistanceConstraint> edges);
 
 }  // namespace vfit

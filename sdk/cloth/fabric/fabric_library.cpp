@@ -11,7 +11,8 @@ namespace {
 
 float positive_number(const Json& preset, const std::string& name, const char* key) {
     const auto it = preset.find(key);
-    if (it == preset.end() || !it->is_number()) fail(VFIT_ERROR_DATA, "fabric ", name, ": ", key, " is not a number");
+    if (it == preset.end() || !it->is_number())
+        fail(VFIT_ERROR_DATA, "fabric ", name, ": ", key, " is not a number");
     const float value = it->get<float>();
     if (!std::isfinite(value) || value <= 0.0f)
         fail(VFIT_ERROR_DATA, "fabric ", name, ": ", key, " must be above zero, is ", value);
@@ -34,11 +35,13 @@ FabricLibrary FabricLibrary::parse(std::span<const std::byte> json) {
     for (const auto& [name, preset] : presets->items()) {
         if (!preset.is_object()) fail(VFIT_ERROR_DATA, "fabric ", name, " is not an object");
         FabricMaterial material{positive_number(preset, name, "density_kg_m2"),
-                           positive_number(preset, name, "stretch_warp_n_m"),
-                           positive_number(preset, name, "stretch_weft_n_m"),
-                           positive_number(preset, name, "shear_n_m"), positive_number(preset, name, "bend_n_m"),
-                           positive_number(preset, name, "friction")};
-        if (preset.contains("most_strain")) material.most_strain = positive_number(preset, name, "most_strain");
+                                positive_number(preset, name, "stretch_warp_n_m"),
+                                positive_number(preset, name, "stretch_weft_n_m"),
+                                positive_number(preset, name, "shear_n_m"),
+                                positive_number(preset, name, "bend_n_m"),
+                                positive_number(preset, name, "friction")};
+        if (preset.contains("most_strain"))
+            material.most_strain = positive_number(preset, name, "most_strain");
         library.add(name, material);
     }
     return library;

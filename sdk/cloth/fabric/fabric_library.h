@@ -14,9 +14,9 @@ struct FabricMaterial {
     float stretch_warp_n_m = 0.0f;  // tension per width and unit strain, along the length of the cloth
     float stretch_weft_n_m = 0.0f;  // across it
     float shear_n_m = 0.0f;
-    float bend_n_m = 0.0f;          // bending stiffness B (moment per width and unit curvature), N m
-    float friction = 0.0f;          // static, against the body
-    float most_strain = 0.1f;       // along a girth, with which a garment of it can still be worn
+    float bend_n_m = 0.0f;     // bending stiffness B (moment per width and unit curvature), N m
+    float friction = 0.0f;     // static, against the body
+    float most_strain = 0.1f;  // along a girth, with which a garment of it can still be worn
 };
 
 class FabricLibrary {

@@ -32,6 +32,7 @@ struct HingeBatches {
 };
 
 /// Those of each group of the layout.
-std::vector<HingeBatches> make_hinge_batches(std::span<const Hinge> list, std::span<const float> inverse_mass, const ParticleLayout& layout);
+std::vector<HingeBatches> make_hinge_batches(std::span<const Hinge> list, std::span<const float> inverse_mass,
+                                             const ParticleLayout& layout);
 
 }  // namespace vfit

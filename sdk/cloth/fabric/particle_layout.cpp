@@ -15,20 +15,23 @@ constexpr uint32_t kLeastOfPart = 512, kMostParts = 8;
 /// Who is joined to whom by edges.
 class Neighbours {
 public:
-    Neighbours(size_t vertices, std::span<const DistanceConstraint> edges) : first_(vertices + 1, 0), list_(2 * edges.size()) {
+    Neighbours(size_t vertices, std::span<const DistanceConstraint> edges)
+        : first_(vertices + 1, 0), list_(2 * edges.size()) {
         for (const DistanceConstraint& e : edges) ++first_[e.a + 1], ++first_[e.b + 1];
         for (size_t i = 0; i < vertices; ++i) first_[i + 1] += first_[i];
         std::vector<uint32_t> fill(first_.begin(), first_.end() - 1);
         for (const DistanceConstraint& e : edges) list_[fill[e.a]++] = e.b, list_[fill[e.b]++] = e.a;
     }
-    std::span<const uint32_t> of(uint32_t v) const { return {list_.data() + first_[v], first_[v + 1] - first_[v]}; }
+    std::span<const uint32_t> of(uint32_t v) const {
+        return {list_.data() + first_[v], first_[v + 1] - first_[v]};
+    }
 
 private:
     std::vector<uint32_t> first_, list_;
 };
 
-/// The moving vertices by how many edges they are from where the cloth is held (a piece that nothing holds: from one of its
-/// ends); pieces one after the other. levels: of each vertex, rising along the list.
+/// The moving vertices by how many edges they are from where the cloth is held (a piece that nothing holds:
+/// from one of its ends); pieces one after the other. levels: of each vertex, rising along the list.
 std::vector<uint32_t> from_the_top(std::span<const float> inverse_mass, const Neighbours& neighbours,
                                    std::vector<uint32_t>& levels) {
     const size_t n = inverse_mass.size();
@@ -69,7 +72,8 @@ std::vector<uint32_t> from_the_top(std::span<const float> inverse_mass, const Ne
 }
 
 /// The part of each moving vertex, cut between levels.
-std::vector<uint32_t> cut_across(const std::vector<uint32_t>& order, const std::vector<uint32_t>& levels, uint32_t parts) {
+std::vector<uint32_t> cut_across(const std::vector<uint32_t>& order, const std::vector<uint32_t>& levels,
+                                 uint32_t parts) {
     std::vector<uint32_t> part_of(levels.size(), ParticleLayout::kNobody);
     uint32_t part = 0;
     for (size_t i = 0; i < order.size(); ++i) {
@@ -90,16 +94,19 @@ void for_each_joint(const FabricData& data, const Take& take) {
     for (const Hinge& h : data.hinges) take(std::span<const uint32_t>(h.vertices));
 }
 
-/// What is joined lies in one part or in two that are next to each other, and no vertex is joined across two cuts: then
-/// cuts can be worked on side by side. A fixed vertex is a part's own copy, and has no place in a cut.
+/// What is joined lies in one part or in two that are next to each other, and no vertex is joined across two
+/// cuts: then cuts can be worked on side by side. A fixed vertex is a part's own copy, and has no place in a
+/// cut.
 bool cuts_are_apart(const FabricData& data, const std::vector<uint32_t>& part_of) {
     std::vector<uint32_t> cut_of(part_of.size(), ParticleLayout::kNobody);
     bool apart = true;
     for_each_joint(data, [&](std::span<const uint32_t> vertices) {
         uint32_t low = ParticleLayout::kNobody, high = 0, fixed = 0;
         for (uint32_t v : vertices) {
-            if (data.inverse_mass[v] == 0.0f) ++fixed;
-            else low = std::min(low, part_of[v]), high = std::max(high, part_of[v]);
+            if (data.inverse_mass[v] == 0.0f)
+                ++fixed;
+            else
+                low = std::min(low, part_of[v]), high = std::max(high, part_of[v]);
         }
         if (low >= high) return;
         if (high != low + 1 || fixed > 0) apart = false;
@@ -142,7 +149,8 @@ uint32_t ParticleLayout::part_of(uint32_t particle) const {
     return part;
 }
 
-uint32_t ParticleLayout::group_of(std::span<const uint32_t> vertices, std::span<const float> inverse_mass) const {
+uint32_t ParticleLayout::group_of(std::span<const uint32_t> vertices,
+                                  std::span<const float> inverse_mass) const {
     uint32_t low = kNobody, high = 0;
     for (uint32_t v : vertices) {
         if (inverse_mass[v] == 0.0f) continue;
@@ -176,7 +184,8 @@ ParticleLayout lay_out(const FabricData& data) {
     std::vector<std::vector<uint32_t>> moving(count), fixed(count);
     for (uint32_t v : order) moving[part_of[v]].push_back(v);
     const auto needs = [&](uint32_t v, uint32_t other) {
-        if (data.inverse_mass[v] > 0.0f && data.inverse_mass[other] == 0.0f) fixed[part_of[v]].push_back(other);
+        if (data.inverse_mass[v] > 0.0f && data.inverse_mass[other] == 0.0f)
+            fixed[part_of[v]].push_back(other);
     };
     for_each_joint(data, [&](std::span<const uint32_t> vertices) {
         for (uint32_t a : vertices)
@@ -206,7 +215,8 @@ ParticleLayout lay_out(const FabricData& data) {
     out.particle_of.assign(n, ParticleLayout::kNobody);
     for (uint32_t p = 0; p < out.count(); ++p) {
         const uint32_t v = out.vertex_of[p];
-        if (v != ParticleLayout::kNobody && out.particle_of[v] == ParticleLayout::kNobody) out.particle_of[v] = p;
+        if (v != ParticleLayout::kNobody && out.particle_of[v] == ParticleLayout::kNobody)
+            out.particle_of[v] = p;
     }
     return out;
 }

@@ -13,10 +13,12 @@ namespace {
 
 void check(const Garment& garment, const BoundBody& body) {
     const size_t n = body.positions.size();
-    if (n == 0 || body.skin_bones.size() < n || body.skin_weights.size() < n || (!body.parts.empty() && body.parts.size() < n))
+    if (n == 0 || body.skin_bones.size() < n || body.skin_weights.size() < n ||
+        (!body.parts.empty() && body.parts.size() < n))
         fail(VFIT_ERROR_ARGUMENT, "garment ", garment.name, ": the body's skin has too few vertices");
     for (uint32_t i : body.indices)
-        if (i >= n) fail(VFIT_ERROR_ARGUMENT, "garment ", garment.name, ": the body's triangles name no such vertex");
+        if (i >= n)
+            fail(VFIT_ERROR_ARGUMENT, "garment ", garment.name, ": the body's triangles name no such vertex");
 }
 
 /// Weights of all bones, one row a vertex.
@@ -40,10 +42,11 @@ struct Table {
 };
 
 void smooth(const HangingSmoother& smoother, Table& table, Jobs* jobs) {
-    constexpr size_t kColumns = 8;  // at a time: a register
+    constexpr size_t kColumns = 8;                               // at a time: a register
     const std::vector<size_t> columns = table.columns_in_use();  // of the body's bones a dress has a fourth
     parallel_for(jobs, uint32_t((columns.size() + kColumns - 1) / kColumns), [&](uint32_t at) {
-        const std::span<const size_t> some = std::span(columns).subspan(at * kColumns, std::min(kColumns, columns.size() - at * kColumns));
+        const std::span<const size_t> some =
+            std::span(columns).subspan(at * kColumns, std::min(kColumns, columns.size() - at * kColumns));
         std::vector<std::array<float, kColumns>> rows(table.rows(), std::array<float, kColumns>{});
         for (size_t i = 0; i < rows.size(); ++i)
             for (size_t k = 0; k < some.size(); ++k) rows[i][k] = table.row(i)[some[k]];
@@ -83,11 +86,13 @@ Binding Binding::of(const MeshQuery::Closest& closest, std::span<const uint32_t>
 
 void Binding::add_bones(const BoundBody& body, std::span<float> bones) const {
     for (int k = 0; k < 3; ++k)
-        for (size_t j = 0; j < kSkinBones; ++j) bones[body.skin_bones[corner[k]][j]] += body.skin_weights[corner[k]][j] * weight[k];
+        for (size_t j = 0; j < kSkinBones; ++j)
+            bones[body.skin_bones[corner[k]][j]] += body.skin_weights[corner[k]][j] * weight[k];
 }
 
 HangingSmoother::HangingSmoother(const Garment& garment, std::span<const float> skin_distances) {
-    constexpr float kCloseToSkin_m = 0.02f;  // a common ease: closer than that, cloth goes where its skin goes
+    constexpr float kCloseToSkin_m =
+        0.02f;  // a common ease: closer than that, cloth goes where its skin goes
     std::vector<std::vector<uint32_t>> neighbours(garment.vertex_count());
     const std::vector<uint32_t>& indices = garment.mesh.indices;
     for (uint32_t corner = 0; corner < indices.size() / 3 * 3; ++corner) {
@@ -102,14 +107,16 @@ HangingSmoother::HangingSmoother(const Garment& garment, std::span<const float> 
         const float kept = std::exp(-skin_distances[v] / kCloseToSkin_m);
         const auto first = uint32_t(neighbours_.size());
         neighbours_.insert(neighbours_.end(), list.begin(), list.end());
-        hanging_.push_back({v, first, uint32_t(neighbours_.size()), kept, (1.0f - kept) / float(list.size())});
+        hanging_.push_back(
+            {v, first, uint32_t(neighbours_.size()), kept, (1.0f - kept) / float(list.size())});
     }
 }
 
 BoundGarment::BoundGarment(const Garment& garment, const BoundBody& body, Jobs* jobs) {
     check(garment, body);
     const uint32_t n = garment.vertex_count();
-    const std::vector<uint32_t> triangles = body.bindable_triangles(false), with_arms = body.bindable_triangles(true);
+    const std::vector<uint32_t> triangles = body.bindable_triangles(false),
+                                with_arms = body.bindable_triangles(true);
     const bool sleeves = garment.has_sleeves();
     const MeshQuery skin(body.positions, triangles);
     std::optional<MeshQuery> skin_of_arms;

@@ -1,5 +1,5 @@
-// A garment bound to the body it was authored on: the place of the skin below each vertex, and the bones that carry it. The same for
-// all avatars of one topology.
+// A garment bound to the body it was authored on: the place of the skin below each vertex, and the bones that
+// carry it. The same for all avatars of one topology.
 #pragma once
 
 #include <array>
@@ -20,10 +20,10 @@ namespace vfit {
 /// A body in its rest pose; all spans are one a vertex but indices.
 struct BoundBody {
     std::span<const Vec3> positions;
-    std::span<const uint32_t> indices;    // three a triangle
+    std::span<const uint32_t> indices;  // three a triangle
     std::span<const SkinBones> skin_bones;
     std::span<const SkinWeights> skin_weights;  // sum 1
-    std::span<const BodyPart> parts;      // empty: all vertices may carry the garment; else none of the arms
+    std::span<const BodyPart> parts;  // empty: all vertices may carry the garment; else none of the arms
 
     /// The triangles that may carry a garment: without arms, or, for sleeves, without hands.
     std::vector<uint32_t> bindable_triangles(bool with_arms) const;
@@ -36,20 +36,24 @@ struct Binding {
     float weight[3];
 
     static Binding of(const MeshQuery::Closest& closest, std::span<const uint32_t> triangles);
-    Vec3 on(std::span<const Vec3> body) const { return weight[0] * body[corner[0]] + weight[1] * body[corner[1]] + weight[2] * body[corner[2]]; }
+    Vec3 on(std::span<const Vec3> body) const {
+        return weight[0] * body[corner[0]] + weight[1] * body[corner[1]] + weight[2] * body[corner[2]];
+    }
     /// Weight of each bone there.
     void add_bones(const BoundBody& body, std::span<float> bones) const;
 };
 
-/// Hanging cloth is bound to whichever leg is nearer; between them it must not tear. Evens the rows of simulated vertices out over
-/// their neighbours, the more the further they hang from the skin; the skinned ones keep theirs.
+/// Hanging cloth is bound to whichever leg is nearer; between them it must not tear. Evens the rows of
+/// simulated vertices out over their neighbours, the more the further they hang from the skin; the skinned
+/// ones keep theirs.
 class HangingSmoother {
 public:
     HangingSmoother(const Garment& garment, std::span<const float> skin_distances);
 
     template <size_t kColumns>
     void smooth(std::vector<std::array<float, kColumns>>& rows) const {
-        // Spreads over about 10 vertices, the gap between the legs, with steps that go beyond the mean (successive over-relaxation).
+        // Spreads over about 10 vertices, the gap between the legs, with steps that go beyond the mean
+        // (successive over-relaxation).
         constexpr int kRounds = 28;
         constexpr float kBeyond = 1.7f;
         const std::vector<std::array<float, kColumns>> own = rows;
@@ -59,7 +63,8 @@ public:
                 for (uint32_t at = v.first; at < v.end; ++at)
                     for (size_t k = 0; k < kColumns; ++k) sum[k] += rows[neighbours_[at]][k];
                 std::array<float, kColumns>& row = rows[v.vertex];
-                for (size_t k = 0; k < kColumns; ++k) row[k] += kBeyond * (v.kept * own[v.vertex][k] + v.share * sum[k] - row[k]);
+                for (size_t k = 0; k < kColumns; ++k)
+                    row[k] += kBeyond * (v.kept * own[v.vertex][k] + v.share * sum[k] - row[k]);
             }
     }
 

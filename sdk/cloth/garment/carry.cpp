@@ -11,8 +11,8 @@ namespace {
 
 constexpr uint32_t kCarryChunk = 1024;  // vertices of one item of work
 
-/// Of the volume that a rigid motion keeps. A blend of bones that are turned far against each other is flat, and its inverse
-/// would throw vertices far away: these go with one bone.
+/// Of the volume that a rigid motion keeps. A blend of bones that are turned far against each other is flat,
+/// and its inverse would throw vertices far away: these go with one bone.
 constexpr float kFlattest = 0.2f;
 
 Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
@@ -37,25 +37,31 @@ Carry::Carry(std::span<const SkinBones> bones, std::span<const SkinWeights> weig
 
 const Mat4& Carry::heaviest(uint32_t i, std::span<const Mat4> matrices) const {
     const Influence* first = &influences_[starts_[i]];
-    return matrices[std::max_element(first, &influences_[0] + starts_[i + 1], [](const Influence& a, const Influence& b) { return a.weight < b.weight; })->bone];
+    return matrices[std::max_element(
+                        first, &influences_[0] + starts_[i + 1],
+                        [](const Influence& a, const Influence& b) { return a.weight < b.weight; })
+                        ->bone];
 }
 
 /// Calls vertex(i, blended matrix) for all.
 template <typename Vertex>
 void Carry::for_all(std::span<const Mat4> matrices, Jobs& jobs, const Vertex& vertex) const {
-    if (matrices.size() < bone_count_) fail(VFIT_ERROR_ARGUMENT, matrices.size(), " skinning matrices for cloth on ", bone_count_, " bones");
+    if (matrices.size() < bone_count_)
+        fail(VFIT_ERROR_ARGUMENT, matrices.size(), " skinning matrices for cloth on ", bone_count_, " bones");
     const uint32_t count = vertex_count();
     parallel_for(jobs, (count + kCarryChunk - 1) / kCarryChunk, [&](uint32_t chunk) {
         const uint32_t last = std::min(count, (chunk + 1) * kCarryChunk);
         for (uint32_t i = chunk * kCarryChunk; i < last; ++i) {
             Mat4 blended(0.0f);
-            for (uint32_t k = starts_[i]; k < starts_[i + 1]; ++k) blended += influences_[k].weight * matrices[influences_[k].bone];
+            for (uint32_t k = starts_[i]; k < starts_[i + 1]; ++k)
+                blended += influences_[k].weight * matrices[influences_[k].bone];
             vertex(i, blended);
         }
     });
 }
 
-void Carry::take_out(std::span<const Mat4> matrices, std::span<const Vec3> positions, std::span<const Vec3> normals, Unposed& out, Jobs& jobs) const {
+void Carry::take_out(std::span<const Mat4> matrices, std::span<const Vec3> positions,
+                     std::span<const Vec3> normals, Unposed& out, Jobs& jobs) const {
     out.positions.resize(vertex_count());
     out.normals.resize(vertex_count());
     out.by_heaviest.resize(vertex_count());
@@ -73,12 +79,14 @@ std::vector<Vec3> Carry::on_axes(std::span<const BoneAxis> axes, std::span<const
     std::vector<Vec3> out;
     for (uint32_t i = 0; i < vertex_count(); ++i) {
         Vec3& on = out.emplace_back(0.0f);
-        for (uint32_t k = starts_[i]; k < starts_[i + 1]; ++k) on += influences_[k].weight * axes[influences_[k].bone].nearest(positions[i]);
+        for (uint32_t k = starts_[i]; k < starts_[i + 1]; ++k)
+            on += influences_[k].weight * axes[influences_[k].bone].nearest(positions[i]);
     }
     return out;
 }
 
-void Carry::put_in(std::span<const Mat4> matrices, const Unposed& cloth, std::span<Vec3> positions, std::span<Vec3> normals, Jobs& jobs) const {
+void Carry::put_in(std::span<const Mat4> matrices, const Unposed& cloth, std::span<Vec3> positions,
+                   std::span<Vec3> normals, Jobs& jobs) const {
     for_all(matrices, jobs, [&](uint32_t i, const Mat4& blended) {
         const Mat4& m = cloth.by_heaviest[i] ? heaviest(i, matrices) : blended;
         const Mat3 linear(m);

@@ -18,19 +18,22 @@ public:
 
     uint32_t vertex_count() const { return static_cast<uint32_t>(starts_.size()) - 1; }
 
-    /// Cloth with the pose in which it was simulated taken out. Kept by the caller, so that nothing allocates after the first
-    /// call.
+    /// Cloth with the pose in which it was simulated taken out. Kept by the caller, so that nothing allocates
+    /// after the first call.
     struct Unposed {
         std::vector<Vec3> positions, normals;
         std::vector<uint8_t> by_heaviest;  // 1: by its heaviest bone alone
     };
     /// Matrices are skinning matrices, world = M * rest, one a rig bone.
-    void take_out(std::span<const Mat4> matrices, std::span<const Vec3> positions, std::span<const Vec3> normals, Unposed& out, Jobs& jobs) const;
-    /// Into another pose, in world space; normals of unit length. Both have vertex_count() places. What was taken out with the
-    /// same matrices up to one rigid motion is moved by that motion.
-    void put_in(std::span<const Mat4> matrices, const Unposed& cloth, std::span<Vec3> positions, std::span<Vec3> normals, Jobs& jobs) const;
+    void take_out(std::span<const Mat4> matrices, std::span<const Vec3> positions,
+                  std::span<const Vec3> normals, Unposed& out, Jobs& jobs) const;
+    /// Into another pose, in world space; normals of unit length. Both have vertex_count() places. What was
+    /// taken out with the same matrices up to one rigid motion is moved by that motion.
+    void put_in(std::span<const Mat4> matrices, const Unposed& cloth, std::span<Vec3> positions,
+                std::span<Vec3> normals, Jobs& jobs) const;
 
-    /// One a vertex: within the bones that carry it, nearest to where it is; of several, by their weights. axes: one a rig bone.
+    /// One a vertex: within the bones that carry it, nearest to where it is; of several, by their weights.
+    /// axes: one a rig bone.
     std::vector<Vec3> on_axes(std::span<const BoneAxis> axes, std::span<const Vec3> positions) const;
 
 private:

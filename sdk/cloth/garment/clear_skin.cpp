@@ -14,7 +14,8 @@ constexpr int kRounds = 40;
 constexpr float kStep_m = 0.0005f;
 
 /// The triangles of the skin that come near the cloth as it is moved.
-std::vector<uint32_t> near(const SkinSurface& skin, std::span<const uint32_t> triangles, std::span<const Vec3> places) {
+std::vector<uint32_t> near(const SkinSurface& skin, std::span<const uint32_t> triangles,
+                           std::span<const Vec3> places) {
     constexpr float kMost_m = float(kRounds) * kStep_m;
     Bounds cloth;
     for (const uint32_t v : triangles) cloth.add(places[v] - kMost_m), cloth.add(places[v] + kMost_m);
@@ -42,11 +43,14 @@ void clear_skin(const SkinSurface& skin, std::span<const uint32_t> triangles, st
         cloth.find_crossings(body, crossed, *alone);
         if (crossed.empty()) return;
         std::set<uint32_t> moved;
-        for (const TrianglePair& pair : crossed) moved.insert(&triangles[3 * pair.first], &triangles[3 * pair.first] + 3);
+        for (const TrianglePair& pair : crossed)
+            moved.insert(&triangles[3 * pair.first], &triangles[3 * pair.first] + 3);
         for (const uint32_t v : moved) {
             const MeshQuery::Closest closest = skin.query.closest(places[v]);
             const float side = skin.query.inside(places[v]) ? -1.0f : 1.0f;
-            const Vec3 outward = closest.distance > 1e-6f ? (places[v] - closest.point) * (side / closest.distance) : closest.normal;
+            const Vec3 outward = closest.distance > 1e-6f
+                                     ? (places[v] - closest.point) * (side / closest.distance)
+                                     : closest.normal;
             places[v] += outward * kStep_m;
         }
     }

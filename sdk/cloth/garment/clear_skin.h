@@ -15,8 +15,8 @@ struct SkinSurface {
     const MeshQuery& query;  // of these
 };
 
-/// Vertices are kept off the skin, what lies between them is not: where skin stands out through one of these triangles (three indices
-/// each), its corners move outwards, by half millimetres, 2 cm at most.
+/// Vertices are kept off the skin, what lies between them is not: where skin stands out through one of these
+/// triangles (three indices each), its corners move outwards, by half millimetres, 2 cm at most.
 void clear_skin(const SkinSurface& skin, std::span<const uint32_t> triangles, std::span<Vec3> places);
 
 }  // namespace vfit

@@ -15,11 +15,12 @@ namespace vfit {
 namespace {
 
 void check(const Garment& garment, const BoundGarment& bound, const DressBody& body) {
-    if (body.positions.size() != bound.body_vertices) fail(VFIT_ERROR_ARGUMENT, "garment ", garment.name, ": authored body and avatar differ in topology");
+    if (body.positions.size() != bound.body_vertices)
+        fail(VFIT_ERROR_ARGUMENT, "garment ", garment.name, ": authored body and avatar differ in topology");
 }
 
-/// The ball inside the body that touches the skin below p: half as thick as the body there, at most as wide as the
-/// trunk's rounding, so that a vertex that slid sideways finds the skin curve away below it.
+/// The ball inside the body that touches the skin below p: half as thick as the body there, at most as wide
+/// as the trunk's rounding, so that a vertex that slid sideways finds the skin curve away below it.
 struct BodyBall {
     Vec3 center;
     float radius_m;
@@ -46,8 +47,9 @@ void with_sides(const Vec2 (&like)[3], const float (&sides)[3], Vec2 (&out)[3]) 
     out[2] = like[0] + along * x + left * (side * y);
 }
 
-/// The triangles as they are cut, one place a corner: in a size, or with the garment's lengths as much longer as its shape is on
-/// this body. So what was loose, tight, gathered or flared by some share where it was made stays so, place by place.
+/// The triangles as they are cut, one place a corner: in a size, or with the garment's lengths as much longer
+/// as its shape is on this body. So what was loose, tight, gathered or flared by some share where it was made
+/// stays so, place by place.
 std::vector<Vec2> cut_of(const Garment& garment, std::span<const Vec3> rest, const GarmentSize* size) {
     std::vector<Vec2> cut = cut_corners(garment, size);
     if (size) return cut;
@@ -79,28 +81,31 @@ std::vector<uint32_t> skinned_triangles(const Garment& garment) {
     std::vector<uint32_t> out;
     for (size_t i = 0; i + 2 < garment.mesh.indices.size(); i += 3) {
         const uint32_t* v = &garment.mesh.indices[i];
-        if (std::any_of(v, v + 3, [&](uint32_t corner) { return !garment.simulated[corner]; })) out.insert(out.end(), v, v + 3);
+        if (std::any_of(v, v + 3, [&](uint32_t corner) { return !garment.simulated[corner]; }))
+            out.insert(out.end(), v, v + 3);
     }
     return out;
 }
 
 }  // namespace
 
-Dress::Dress(const Garment& garment, const BoundGarment& bound, const FabricMaterial& material, const DressBody& body, float size_ratio,
-             float thickness_m, const GarmentSize* size, Jobs* jobs)
+Dress::Dress(const Garment& garment, const BoundGarment& bound, const FabricMaterial& material,
+             const DressBody& body, float size_ratio, float thickness_m, const GarmentSize* size, Jobs* jobs)
     : indices_(garment.mesh.indices) {
     check(garment, bound, body);
     const uint32_t n = garment.vertex_count();
-    // Both bodies stand in the same pose: what lies off the skin is carried as it is, so that ease and flare stay
-    // what they were cut to.
+    // Both bodies stand in the same pose: what lies off the skin is carried as it is, so that ease and flare
+    // stay what they were cut to.
     std::vector<std::array<float, 3>> shifts(n);
     for (uint32_t i = 0; i < n; ++i) {
         const Vec3 shift = bound.bindings[i].on(body.positions) - bound.skin_below.rest[i];
         shifts[i] = {shift.x, shift.y, shift.z};
     }
     bound.smoother->smooth(shifts);
-    for (uint32_t i = 0; i < n; ++i) rest_.push_back(carried_to(garment.mesh.positions[i], {shifts[i][0], shifts[i][1], shifts[i][2]}));
-    parallel_for_vertices(jobs, n, [&](uint32_t i) { push_out(body.skin, thickness_m, std::span(&rest_[i], 1)); });
+    for (uint32_t i = 0; i < n; ++i)
+        rest_.push_back(carried_to(garment.mesh.positions[i], {shifts[i][0], shifts[i][1], shifts[i][2]}));
+    parallel_for_vertices(jobs, n,
+                          [&](uint32_t i) { push_out(body.skin, thickness_m, std::span(&rest_[i], 1)); });
     clear_skin({body.positions, body.indices, body.skin}, skinned_triangles(garment), rest_);
 
     carried_ = bound.skin_below;
@@ -124,7 +129,8 @@ Dress::Dress(const Garment& garment, const BoundGarment& bound, const FabricMate
     for (const LimbHem& hem : hems_)
         for (const uint32_t v : hem.vertices) of_hem[v] = 1;
     for (uint32_t i = 0; i < carried_.rest.size(); ++i) {
-        const bool limited = i < n && ((!garment.most_way.empty() && garment.most_way[i] > 0.0f) || of_hem[i]);
+        const bool limited =
+            i < n && ((!garment.most_way.empty() && garment.most_way[i] > 0.0f) || of_hem[i]);
         if (i >= n || !garment.simulated[i] || limited) followed_.push_back(i);
     }
     fabric_ = fabric_of(garment, material, size_ratio, size, &taken_up_, jobs);
@@ -146,7 +152,8 @@ void Dress::lift_over(const Dress& below, float thickness_m) {
         Vec3& place = carried_.rest[v];
         const MeshQuery::Closest near = cloth.closest(place);
         const float above = glm::dot(place - near.point, near.normal);
-        const bool lies_there = near.distance < kFarthest_m && glm::length(place - near.point - above * near.normal) < kAside_m;
+        const bool lies_there =
+            near.distance < kFarthest_m && glm::length(place - near.point - above * near.normal) < kAside_m;
         if (lies_there && above < thickness_m) place += (thickness_m - above) * near.normal;
     }
     skin();
@@ -159,7 +166,8 @@ std::vector<Vec2> Dress::cut(const Garment& garment, float size_ratio, const Gar
     std::vector<Vec2> out;
     for (size_t i = 0; i + 2 < indices_.size(); i += 3) {
         float sides[3];
-        for (size_t k = 0; k < 3; ++k) sides[k] = glm::length((rest_[indices_[i + (k + 1) % 3]] - rest_[indices_[i + k]]) * scale);
+        for (size_t k = 0; k < 3; ++k)
+            sides[k] = glm::length((rest_[indices_[i + (k + 1) % 3]] - rest_[indices_[i + k]]) * scale);
         Vec2 corners[3];
         with_sides({{0, 0}, {1, 0}, {0, 1}}, sides, corners);
         out.insert(out.end(), corners, corners + 3);
@@ -167,7 +175,9 @@ std::vector<Vec2> Dress::cut(const Garment& garment, float size_ratio, const Gar
     return out;
 }
 
-std::shared_ptr<const Fabric> Dress::fabric_of(const Garment& garment, const FabricMaterial& material, float size_ratio, const GarmentSize* size, TakenUp* taken_up, Jobs* jobs) const {
+std::shared_ptr<const Fabric> Dress::fabric_of(const Garment& garment, const FabricMaterial& material,
+                                               float size_ratio, const GarmentSize* size, TakenUp* taken_up,
+                                               Jobs* jobs) const {
     std::vector<Vec2> cut = garment.has_own_lengths() ? cut_of(garment, rest_, size) : std::vector<Vec2>();
     const TakenUp taken = take_up(hems_, indices_, garment.simulated, cut);
     if (taken_up) *taken_up = taken;
@@ -175,16 +185,19 @@ std::shared_ptr<const Fabric> Dress::fabric_of(const Garment& garment, const Fab
     FabricData data = cook_fabric({rest_, indices_, uvs, garment.simulated, size_ratio, cut}, material);
     data.backstops = backstops_;
     for (uint32_t i = 0; i < garment.vertex_count(); ++i)
-        if (!garment.most_way.empty() && garment.most_way[i] > 0.0f && garment.simulated[i]) data.limits.push_back({i, garment.most_way[i]});
+        if (!garment.most_way.empty() && garment.most_way[i] > 0.0f && garment.simulated[i])
+            data.limits.push_back({i, garment.most_way[i]});
     keep_hems(hems_, data);
     return std::make_shared<const Fabric>(std::move(data), jobs);
 }
 
-void Dress::place(std::span<const Mat4> matrices, std::vector<Vec3>& targets, Scratch& scratch, Jobs& jobs) const {
+void Dress::place(std::span<const Mat4> matrices, std::vector<Vec3>& targets, Scratch& scratch,
+                  Jobs& jobs) const {
     skin_->carry(matrices, targets, scratch.bones, jobs);
 }
 
-void Dress::follow(std::span<const Mat4> matrices, std::vector<Vec3>& targets, Scratch& scratch, Jobs& jobs) const {
+void Dress::follow(std::span<const Mat4> matrices, std::vector<Vec3>& targets, Scratch& scratch,
+                   Jobs& jobs) const {
     if (!followed_skin_) return;
     followed_skin_->carry(matrices, scratch.places, scratch.bones, jobs);
     for (size_t i = 0; i < followed_.size(); ++i) targets[followed_[i]] = scratch.places[i];

@@ -28,11 +28,13 @@ struct DressBody : BoundBody {
 
 class Dress {
 public:
-    /// size_ratio: of the rest lengths around the body (size_ratio of garment.h; 1: made to measure), of a garment that has neither
-    /// flat triangles nor a cut_shape. thickness_m: the clearance that the carried garment keeps from the body. size: one of the
-    /// garment's with lengths of its own (with a cut_shape: the garment's); null: made to the body, its ease where the author gave it.
-    Dress(const Garment& garment, const BoundGarment& bound, const FabricMaterial& material, const DressBody& body, float size_ratio = 1.0f,
-          float thickness_m = 0.004f, const GarmentSize* size = nullptr, Jobs* jobs = nullptr);
+    /// size_ratio: of the rest lengths around the body (size_ratio of garment.h; 1: made to measure), of a
+    /// garment that has neither flat triangles nor a cut_shape. thickness_m: the clearance that the carried
+    /// garment keeps from the body. size: one of the garment's with lengths of its own (with a cut_shape: the
+    /// garment's); null: made to the body, its ease where the author gave it.
+    Dress(const Garment& garment, const BoundGarment& bound, const FabricMaterial& material,
+          const DressBody& body, float size_ratio = 1.0f, float thickness_m = 0.004f,
+          const GarmentSize* size = nullptr, Jobs* jobs = nullptr);
 
     const std::shared_ptr<const Fabric>& fabric() const { return fabric_; }
     /// The garment's triangles as they are cut in that size, one place an index.
@@ -41,14 +43,16 @@ public:
     /// What was taken up of sleeves and legs that are too long.
     const TakenUp& taken_up() const { return taken_up_; }
     /// The same garment in another size: as many vertices and targets, other lengths.
-    std::shared_ptr<const Fabric> fabric_of(const Garment& garment, const FabricMaterial& material, float size_ratio, const GarmentSize* size, TakenUp* taken_up = nullptr, Jobs* jobs = nullptr) const;
+    std::shared_ptr<const Fabric> fabric_of(const Garment& garment, const FabricMaterial& material,
+                                            float size_ratio, const GarmentSize* size,
+                                            TakenUp* taken_up = nullptr, Jobs* jobs = nullptr) const;
     /// The garment on the avatar's rest body; one a garment vertex.
     const std::vector<Vec3>& rest() const { return rest_; }
     const std::vector<uint32_t>& indices() const { return indices_; }
     /// Where the bones carry it from: rest(), and what was lifted over garments below. One a garment vertex.
     std::span<const Vec3> carried_from() const { return std::span(carried_.rest).first(rest_.size()); }
-    /// What is fixed goes with the skin, as that of a garment worn below does: from now on so far off that one, where the two lie on
-    /// each other.
+    /// What is fixed goes with the skin, as that of a garment worn below does: from now on so far off that
+    /// one, where the two lie on each other.
     void lift_over(const Dress& below, float thickness_m);
     /// The garment's vertices by the bones that carry them.
     const Carry& carry() const { return *carry_; }
@@ -57,11 +61,14 @@ public:
         Skin::Scratch bones;
         std::vector<Vec3> places;
     };
-    /// Start and targets of a Cloth, as the avatar's skinning matrices (posed from rest, one a rig bone) carry them: the garment's
-    /// vertices, then the backstops' centres.
-    void place(std::span<const Mat4> matrices, std::vector<Vec3>& targets, Scratch& scratch, Jobs& jobs) const;
-    /// The same of those alone that a step looks at: of vertices the fixed and the limited ones. All have been placed before.
-    void follow(std::span<const Mat4> matrices, std::vector<Vec3>& targets, Scratch& scratch, Jobs& jobs) const;
+    /// Start and targets of a Cloth, as the avatar's skinning matrices (posed from rest, one a rig bone)
+    /// carry them: the garment's vertices, then the backstops' centres.
+    void place(std::span<const Mat4> matrices, std::vector<Vec3>& targets, Scratch& scratch,
+               Jobs& jobs) const;
+    /// The same of those alone that a step looks at: of vertices the fixed and the limited ones. All have
+    /// been placed before.
+    void follow(std::span<const Mat4> matrices, std::vector<Vec3>& targets, Scratch& scratch,
+                Jobs& jobs) const;
 
 private:
     std::shared_ptr<const Fabric> fabric_;
@@ -73,8 +80,8 @@ private:
     void skin();
 
     std::optional<Carry> carry_;
-    Carried carried_;           // rest_ as it was lifted, then the backstops' centres
-    std::optional<Skin> skin_;  // of these
+    Carried carried_;                 // rest_ as it was lifted, then the backstops' centres
+    std::optional<Skin> skin_;        // of these
     std::vector<uint32_t> followed_;  // of these
     std::optional<Skin> followed_skin_;
 };

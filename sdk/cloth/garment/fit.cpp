@@ -10,7 +10,8 @@ namespace vfit {
 
 namespace {
 
-/// Where a plane crosses two sides of a triangle: the corners of each, and the share of the way from the first to the second.
+/// Where a plane crosses two sides of a triangle: the corners of each, and the share of the way from the
+/// first to the second.
 struct CrossedSides {
     uint32_t from[2], to[2];  // of indices
     float share[2];
@@ -36,7 +37,9 @@ void for_crossed(std::span<const uint32_t> indices, Above&& above, Call&& call) 
 /// The line that the crossed sides make in a triangle, with one place an index.
 template <typename Place>
 auto across(const CrossedSides& sides, Place&& place) {
-    const auto at = [&](int end) { return glm::mix(place(sides.from[end]), place(sides.to[end]), sides.share[end]); };
+    const auto at = [&](int end) {
+        return glm::mix(place(sides.from[end]), place(sides.to[end]), sides.share[end]);
+    };
     return std::pair(at(0), at(1));
 }
 
@@ -102,11 +105,12 @@ private:
     std::map<Edge, std::vector<uint32_t>> at_;
 };
 
-/// As a tape would lie on the flat garment: where the cloth hangs in folds, a level runs up and down in it, on ways of some
-/// centimetres; those are evened out. A piece that is cut round stays round.
+/// As a tape would lie on the flat garment: where the cloth hangs in folds, a level runs up and down in it,
+/// on ways of some centimetres; those are evened out. A piece that is cut round stays round.
 float taped_length(const std::vector<Vec2>& line) {
     constexpr float kStep_m = 0.01f;
-    constexpr int kRounds = 60;  // half way to the mean of the two beside: of a wave of 10 cm nothing stays, of 20 cm a fourth, of 50 cm four fifths
+    constexpr int kRounds = 60;  // half way to the mean of the two beside: of a wave of 10 cm nothing stays,
+                                 // of 20 cm a fourth, of 50 cm four fifths
     float length = 0.0f;
     for (size_t i = 1; i < line.size(); ++i) length += glm::length(line[i] - line[i - 1]);
     const auto steps = size_t(std::ceil(length / kStep_m));
@@ -125,7 +129,8 @@ float taped_length(const std::vector<Vec2>& line) {
     even.push_back(line.back());
     std::vector<Vec2> next = even;
     for (int round = 0; round < kRounds; ++round) {
-        for (size_t i = 1; i + 1 < even.size(); ++i) next[i] = 0.5f * even[i] + 0.25f * (even[i - 1] + even[i + 1]);
+        for (size_t i = 1; i + 1 < even.size(); ++i)
+            next[i] = 0.5f * even[i] + 0.25f * (even[i - 1] + even[i + 1]);
         std::swap(even, next);
     }
     float taped = 0.0f;
@@ -136,25 +141,30 @@ float taped_length(const std::vector<Vec2>& line) {
 Cut cut_at(const WornGarment& g, const GirthLevel& level) {
     Cut out;
     std::vector<std::pair<Edge, Vec3>> crossed;  // once for each of its triangles, and where
-    for_crossed(g.indices, [&](uint32_t v) { return g.positions[v].y - level.height_m; }, [&](const CrossedSides& sides) {
-        const uint32_t* v = &g.indices[sides.from[0] - sides.from[0] % 3];
-        if (!g.on_arm.empty() && (g.on_arm[v[0]] || g.on_arm[v[1]] || g.on_arm[v[2]])) return;  // of a sleeve
-        const auto flat = across(sides, [&](uint32_t corner) { return g.cut[corner]; });
-        const auto worn = across(sides, [&](uint32_t corner) { return g.positions[g.indices[corner]]; });
-        CutPiece piece{{}, {flat.first, flat.second}};
-        for (int end = 0; end < 2; ++end) {
-            piece.edge[end] = std::minmax(g.indices[sides.from[end]], g.indices[sides.to[end]]);
-            crossed.emplace_back(piece.edge[end], end == 0 ? worn.first : worn.second);
-        }
-        out.pieces.push_back(piece);
-        out.cut_m += glm::length(flat.second - flat.first);
-        out.worn_m += glm::length(worn.second - worn.first);
-        const Vec2 p(worn.first.x, worn.first.z - level.axis_z_m), q(worn.second.x, worn.second.z - level.axis_z_m);
-        out.around_rad += std::abs(std::atan2(p.x * q.y - p.y * q.x, glm::dot(p, q)));
-    });
+    for_crossed(
+        g.indices, [&](uint32_t v) { return g.positions[v].y - level.height_m; },
+        [&](const CrossedSides& sides) {
+            const uint32_t* v = &g.indices[sides.from[0] - sides.from[0] % 3];
+            if (!g.on_arm.empty() && (g.on_arm[v[0]] || g.on_arm[v[1]] || g.on_arm[v[2]]))
+                return;  // of a sleeve
+            const auto flat = across(sides, [&](uint32_t corner) { return g.cut[corner]; });
+            const auto worn = across(sides, [&](uint32_t corner) { return g.positions[g.indices[corner]]; });
+            CutPiece piece{{}, {flat.first, flat.second}};
+            for (int end = 0; end < 2; ++end) {
+                piece.edge[end] = std::minmax(g.indices[sides.from[end]], g.indices[sides.to[end]]);
+                crossed.emplace_back(piece.edge[end], end == 0 ? worn.first : worn.second);
+            }
+            out.pieces.push_back(piece);
+            out.cut_m += glm::length(flat.second - flat.first);
+            out.worn_m += glm::length(worn.second - worn.first);
+            const Vec2 p(worn.first.x, worn.first.z - level.axis_z_m),
+                q(worn.second.x, worn.second.z - level.axis_z_m);
+            out.around_rad += std::abs(std::atan2(p.x * q.y - p.y * q.x, glm::dot(p, q)));
+        });
     std::sort(crossed.begin(), crossed.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
     for (size_t i = 0; i < crossed.size(); ++i) {
-        const bool alone = (i == 0 || crossed[i - 1].first != crossed[i].first) && (i + 1 == crossed.size() || crossed[i + 1].first != crossed[i].first);
+        const bool alone = (i == 0 || crossed[i - 1].first != crossed[i].first) &&
+                           (i + 1 == crossed.size() || crossed[i + 1].first != crossed[i].first);
         if (alone) out.ends.push_back(crossed[i].second);
     }
     return out;
@@ -168,7 +178,9 @@ float taped_length(Cut& cut) {
 }
 
 /// Across the opening of a coat: between its two ends, where there are just two.
-float opening_of(const Cut& cut) { return cut.ends.size() == 2 ? glm::length(cut.ends[0] - cut.ends[1]) : 0.0f; }
+float opening_of(const Cut& cut) {
+    return cut.ends.size() == 2 ? glm::length(cut.ends[0] - cut.ends[1]) : 0.0f;
+}
 
 /// Armholes open it at a side, a coat's fronts in the middle.
 bool is_through_armhole(const Cut& cut, float axis_z_m) {
@@ -186,14 +198,18 @@ std::vector<GirthFit> fit_of(const WornGarment& garment, std::span<const GirthLe
         // Where an armhole reaches below the body's level, the garment's own is below the armhole.
         constexpr float kStep_m = 0.01f, kLowest_m = 0.09f;
         Cut cut = cut_at(garment, level);
-        for (float down = kStep_m; is_through_armhole(cut, level.axis_z_m) && down <= kLowest_m; down += kStep_m) {
+        for (float down = kStep_m; is_through_armhole(cut, level.axis_z_m) && down <= kLowest_m;
+             down += kStep_m) {
             level.height_m -= kStep_m;
             cut = cut_at(garment, level);
         }
         if (cut.around_rad < kMostOfTheWay_rad || is_through_armhole(cut, level.axis_z_m)) continue;
         // Cloth below, too: else the gap is no open front but a hem that swings about that level.
         constexpr float kBelow_m = 0.03f;
-        if (!cut.ends.empty() && cut_at(garment, {level.key, level.height_m - kBelow_m, level.body_m, level.axis_z_m}).around_rad < kMostOfTheWay_rad) continue;
+        if (!cut.ends.empty() &&
+            cut_at(garment, {level.key, level.height_m - kBelow_m, level.body_m, level.axis_z_m}).around_rad <
+                kMostOfTheWay_rad)
+            continue;
         GirthFit fit;
         fit.key = level.key;
         fit.body_m = level.body_m;
@@ -205,7 +221,9 @@ std::vector<GirthFit> fit_of(const WornGarment& garment, std::span<const GirthLe
             float sum = 0.0f;
             int count = 0;
             for (size_t v = 0; v < garment.positions.size(); ++v) {
-                if (std::abs(garment.positions[v].y - level.height_m) > kNear_m || (!garment.on_arm.empty() && garment.on_arm[v])) continue;
+                if (std::abs(garment.positions[v].y - level.height_m) > kNear_m ||
+                    (!garment.on_arm.empty() && garment.on_arm[v]))
+                    continue;
                 sum += garment.pressure_pa[v];
                 ++count;
             }
@@ -229,10 +247,12 @@ Fit judge_fit(const Garment& garment, const std::string& label, const GirthFit& 
     }
     if (own <= 0.0f) {
         constexpr float kTight = 0.03f, kLoose_m = 0.12f;
-        if (fit.opening_m == 0.0f && (fit.strain > kTight || fit.ease_m < -kTight * fit.body_m)) return Fit::tight;
+        if (fit.opening_m == 0.0f && (fit.strain > kTight || fit.ease_m < -kTight * fit.body_m))
+            return Fit::tight;
         return fit.ease_m > kLoose_m ? Fit::loose : Fit::right;
     }
-    // A half of the step to the next size; at the ends of the table, and of a single size, of the step on the other side.
+    // A half of the step to the next size; at the ends of the table, and of a single size, of the step on the
+    // other side.
     float smaller = 0.0f, larger = 0.0f;
     for (const float g : girths) {
         if (g > 0.0f && g < own) smaller = std::max(smaller, g);
@@ -279,14 +299,18 @@ CrotchLine crotch_line(const WornGarment& garment, std::span<const Vec3> now) {
     CrotchLine out;
     float worn_m = 0.0f;
     std::map<Edge, int> crossed;
-    for_crossed(garment.indices, [&](uint32_t v) { return garment.positions[v].x; }, [&](const CrossedSides& sides) {
-        for (int end = 0; end < 2; ++end) ++crossed[std::minmax(garment.indices[sides.from[end]], garment.indices[sides.to[end]])];
-        const auto flat = across(sides, [&](uint32_t corner) { return garment.cut[corner]; });
-        const auto worn = across(sides, [&](uint32_t corner) { return now[garment.indices[corner]]; });
-        out.garment_m += glm::length(flat.second - flat.first);
-        worn_m += glm::length(worn.second - worn.first);
-    });
-    // One line that goes down and up again. Of what ends in a hem there are two; of a coat one, behind, which ends at its lowest.
+    for_crossed(
+        garment.indices, [&](uint32_t v) { return garment.positions[v].x; },
+        [&](const CrossedSides& sides) {
+            for (int end = 0; end < 2; ++end)
+                ++crossed[std::minmax(garment.indices[sides.from[end]], garment.indices[sides.to[end]])];
+            const auto flat = across(sides, [&](uint32_t corner) { return garment.cut[corner]; });
+            const auto worn = across(sides, [&](uint32_t corner) { return now[garment.indices[corner]]; });
+            out.garment_m += glm::length(flat.second - flat.first);
+            worn_m += glm::length(worn.second - worn.first);
+        });
+    // One line that goes down and up again. Of what ends in a hem there are two; of a coat one, behind, which
+    // ends at its lowest.
     constexpr float kDeep_m = 0.1f;
     float low = INFINITY, end = INFINITY;
     int ends = 0;
@@ -308,7 +332,8 @@ float most_strained(std::span<const float> strain) {
     return *at;
 }
 
-std::vector<float> tightness_of(const WornGarment& garment, std::span<const float> strain, float most_strain, const MeshQuery& skin) {
+std::vector<float> tightness_of(const WornGarment& garment, std::span<const float> strain, float most_strain,
+                                const MeshQuery& skin) {
     constexpr float kFirm_pa = 2000.0f, kLoose_m = 0.06f, kTouches_m = 0.008f;
     std::vector<float> out;
     for (size_t v = 0; v < garment.positions.size(); ++v) {
@@ -316,7 +341,8 @@ std::vector<float> tightness_of(const WornGarment& garment, std::span<const floa
         float tight = strain[v] / most_strain;
         if (!garment.pressure_pa.empty()) tight = std::max(tight, garment.pressure_pa[v] / kFirm_pa);
         // Cloth that hangs is stretched by its own weight, which presses on nobody.
-        out.push_back(gap > kTouches_m ? -std::min(1.0f, (gap - kTouches_m) / kLoose_m) : std::clamp(tight, 0.0f, 1.0f));
+        out.push_back(gap > kTouches_m ? -std::min(1.0f, (gap - kTouches_m) / kLoose_m)
+                                       : std::clamp(tight, 0.0f, 1.0f));
     }
     return out;
 }

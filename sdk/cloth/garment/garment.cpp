@@ -34,7 +34,8 @@ std::vector<float> numbers(const Json& root, const char* key, size_t width) {
     std::vector<float> values;
     values.reserve(list.size());
     for (const Json& value : list) {
-        if (!value.is_number()) fail(VFIT_ERROR_DATA, "garment: ", key, "[", values.size(), "] is not a number");
+        if (!value.is_number())
+            fail(VFIT_ERROR_DATA, "garment: ", key, "[", values.size(), "] is not a number");
         values.push_back(value.get<float>());
     }
     return values;
@@ -114,7 +115,8 @@ std::vector<GarmentPart> parts(const Json& root) {
         if (color.size() != 3) fail(VFIT_ERROR_DATA, what, ": \"color\" is not three numbers");
         part.color = {color[0], color[1], color[2]};
         const std::vector<uint32_t> range = indices(entry, "triangles");
-        if (range.size() != 2) fail(VFIT_ERROR_DATA, what, ": \"triangles\" is not the first one and their number");
+        if (range.size() != 2)
+            fail(VFIT_ERROR_DATA, what, ": \"triangles\" is not the first one and their number");
         part.first_triangle = range[0], part.triangle_count = range[1];
         out.push_back(std::move(part));
     }
@@ -124,8 +126,10 @@ std::vector<GarmentPart> parts(const Json& root) {
 void validate_sizes(const Garment& g) {
     std::set<std::string> labels;
     for (const GarmentSize& size : g.sizes) {
-        if (!labels.insert(size.label).second) fail(VFIT_ERROR_DATA, "garment: size ", size.label, " occurs twice");
-        if (size.nominal.empty() && g.cut_shape.empty()) fail(VFIT_ERROR_DATA, "garment: size ", size.label, " names no girth");
+        if (!labels.insert(size.label).second)
+            fail(VFIT_ERROR_DATA, "garment: size ", size.label, " occurs twice");
+        if (size.nominal.empty() && g.cut_shape.empty())
+            fail(VFIT_ERROR_DATA, "garment: size ", size.label, " names no girth");
         for (const Measurement& m : size.nominal) {
             if (measure_index(m.key) < 0)
                 fail(VFIT_ERROR_DATA, "garment: size ", size.label, " names the unknown measure ", m.key);
@@ -139,7 +143,9 @@ constexpr float kFarthest_m = 10.0f;  // a garment in centimetres or millimetres
 // A sliver below this is as good as none: a garment's triangles are a centimetre or so a side.
 constexpr float kSmallestArea_m2 = 1e-9f;
 
-float area(const Vec3& a, const Vec3& b, const Vec3& c) { return 0.5f * glm::length(glm::cross(b - a, c - a)); }
+float area(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return 0.5f * glm::length(glm::cross(b - a, c - a));
+}
 
 void validate_triangles(const Mesh& mesh) {
     std::map<std::pair<uint32_t, uint32_t>, size_t> edges;  // directed edge -> its triangle
@@ -152,7 +158,8 @@ void validate_triangles(const Mesh& mesh) {
                      mesh.positions.size());
         if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
             fail(VFIT_ERROR_DATA, "garment: triangle ", triangle, " names a vertex twice");
-        if (!(area(mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]) >= kSmallestArea_m2)) fail(VFIT_ERROR_DATA, "garment: triangle ", triangle, " is degenerate");
+        if (!(area(mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]) >= kSmallestArea_m2))
+            fail(VFIT_ERROR_DATA, "garment: triangle ", triangle, " is degenerate");
         for (int k = 0; k < 3; ++k) {
             const auto [other, fresh] = edges.insert({{v[k], v[(k + 1) % 3]}, triangle});
             if (!fresh)
@@ -162,28 +169,35 @@ void validate_triangles(const Mesh& mesh) {
     }
 }
 
-
 /// Triangles as they are cut, of the garment or one of its sizes.
 void validate_flat(const Garment& g, std::span<const Vec2> flat, const std::string& whose) {
     if (flat.size() != g.drawn_count())
-        fail(VFIT_ERROR_DATA, "garment: ", whose, " has ", flat.size(), " flat places for ", g.drawn_count(), " vertices and copies");
+        fail(VFIT_ERROR_DATA, "garment: ", whose, " has ", flat.size(), " flat places for ", g.drawn_count(),
+             " vertices and copies");
     for (size_t i = 0; i < flat.size(); ++i)
         if (!finite(flat[i].x) || !finite(flat[i].y) || glm::length(flat[i]) > kFarthest_m)
-            fail(VFIT_ERROR_DATA, "garment: ", whose, ": flat place ", i, " is not finite or further than ", kFarthest_m, " m away");
+            fail(VFIT_ERROR_DATA, "garment: ", whose, ": flat place ", i, " is not finite or further than ",
+                 kFarthest_m, " m away");
     for (size_t i = 0; i + 2 < g.drawn_indices().size(); i += 3) {
         const uint32_t* v = &g.drawn_indices()[i];
         const Vec2 a = flat[v[1]] - flat[v[0]], b = flat[v[2]] - flat[v[0]];
-        if (!(0.5f * std::abs(a.x * b.y - a.y * b.x) >= kSmallestArea_m2)) fail(VFIT_ERROR_DATA, "garment: ", whose, ": triangle ", i / 3, " is cut without an area");
+        if (!(0.5f * std::abs(a.x * b.y - a.y * b.x) >= kSmallestArea_m2))
+            fail(VFIT_ERROR_DATA, "garment: ", whose, ": triangle ", i / 3, " is cut without an area");
     }
 }
 
 /// The triangles' own lengths in space.
 void validate_cut_shape(const Garment& g) {
-    if (!g.flat.empty()) fail(VFIT_ERROR_DATA, "garment: there are both \"flat\" and \"shape\": its lengths are the one or the other");
-    if (g.cut_shape.size() != g.vertex_count()) fail(VFIT_ERROR_DATA, "garment: \"shape\" has ", g.cut_shape.size(), " places for ", g.vertex_count(), " vertices");
+    if (!g.flat.empty())
+        fail(VFIT_ERROR_DATA,
+             "garment: there are both \"flat\" and \"shape\": its lengths are the one or the other");
+    if (g.cut_shape.size() != g.vertex_count())
+        fail(VFIT_ERROR_DATA, "garment: \"shape\" has ", g.cut_shape.size(), " places for ", g.vertex_count(),
+             " vertices");
     for (size_t i = 0; i < g.cut_shape.size(); ++i)
         if (!finite(g.cut_shape[i]) || glm::length(g.cut_shape[i]) > kFarthest_m)
-            fail(VFIT_ERROR_DATA, "garment: place ", i, " of \"shape\" is not finite or further than ", kFarthest_m, " m away");
+            fail(VFIT_ERROR_DATA, "garment: place ", i, " of \"shape\" is not finite or further than ",
+                 kFarthest_m, " m away");
     for (size_t i = 0; i < g.mesh.indices.size(); i += 3) {
         const uint32_t* v = &g.mesh.indices[i];
         if (!(area(g.cut_shape[v[0]], g.cut_shape[v[1]], g.cut_shape[v[2]]) >= kSmallestArea_m2))
@@ -194,30 +208,41 @@ void validate_cut_shape(const Garment& g) {
 void validate_cut(const Garment& g) {
     const uint32_t n = g.vertex_count();
     for (size_t i = 0; i < g.copies.size(); ++i)
-        if (g.copies[i] >= n) fail(VFIT_ERROR_DATA, "garment: copies[", i, "] names vertex ", g.copies[i], " of ", n);
-    if (!g.copies.empty() && g.corners.empty()) fail(VFIT_ERROR_DATA, "garment: there are copies of vertices, but no \"corners\"");
+        if (g.copies[i] >= n)
+            fail(VFIT_ERROR_DATA, "garment: copies[", i, "] names vertex ", g.copies[i], " of ", n);
+    if (!g.copies.empty() && g.corners.empty())
+        fail(VFIT_ERROR_DATA, "garment: there are copies of vertices, but no \"corners\"");
     if (!g.corners.empty() && g.corners.size() != g.mesh.indices.size())
-        fail(VFIT_ERROR_DATA, "garment: ", g.corners.size(), " corners for ", g.mesh.indices.size(), " indices");
+        fail(VFIT_ERROR_DATA, "garment: ", g.corners.size(), " corners for ", g.mesh.indices.size(),
+             " indices");
     for (size_t i = 0; i < g.corners.size(); ++i) {
         const uint32_t v = g.corners[i];
         if (v >= g.drawn_count() || (v < n ? v : g.copies[v - n]) != g.mesh.indices[i])
-            fail(VFIT_ERROR_DATA, "garment: corners[", i, "] is ", v, ", no copy of vertex ", g.mesh.indices[i]);
+            fail(VFIT_ERROR_DATA, "garment: corners[", i, "] is ", v, ", no copy of vertex ",
+                 g.mesh.indices[i]);
     }
     if (!g.flat.empty()) validate_flat(g, g.flat, "the garment");
     if (!g.cut_shape.empty()) validate_cut_shape(g);
     for (const GarmentSize& size : g.sizes) {
-        if (size.flat.empty() != g.flat.empty()) fail(VFIT_ERROR_DATA, "garment: size ", size.label, " and the garment: one of the two has no \"flat\"");
+        if (size.flat.empty() != g.flat.empty())
+            fail(VFIT_ERROR_DATA, "garment: size ", size.label,
+                 " and the garment: one of the two has no \"flat\"");
         if (!size.flat.empty()) validate_flat(g, size.flat, "size " + size.label);
     }
-    if (!g.on_arm.empty() && g.on_arm.size() != n) fail(VFIT_ERROR_DATA, "garment: \"on_arm\" has ", g.on_arm.size(), " flags for ", n, " vertices");
+    if (!g.on_arm.empty() && g.on_arm.size() != n)
+        fail(VFIT_ERROR_DATA, "garment: \"on_arm\" has ", g.on_arm.size(), " flags for ", n, " vertices");
     uint32_t next = 0;
     for (const GarmentPart& part : g.parts) {
-        if (part.first_triangle != next || part.triangle_count == 0 || part.triangle_count > g.mesh.indices.size() / 3 - next)
-            fail(VFIT_ERROR_DATA, "garment: the triangles of part ", part.material, " do not follow on those of the one before, or are more than there are");
+        if (part.first_triangle != next || part.triangle_count == 0 ||
+            part.triangle_count > g.mesh.indices.size() / 3 - next)
+            fail(VFIT_ERROR_DATA, "garment: the triangles of part ", part.material,
+                 " do not follow on those of the one before, or are more than there are");
         next += part.triangle_count;
-        if (!finite(part.color)) fail(VFIT_ERROR_DATA, "garment: the colour of part ", part.material, " is not finite");
+        if (!finite(part.color))
+            fail(VFIT_ERROR_DATA, "garment: the colour of part ", part.material, " is not finite");
     }
-    if (!g.parts.empty() && next != g.mesh.indices.size() / 3) fail(VFIT_ERROR_DATA, "garment: ", g.mesh.indices.size() / 3 - next, " triangles are in no part");
+    if (!g.parts.empty() && next != g.mesh.indices.size() / 3)
+        fail(VFIT_ERROR_DATA, "garment: ", g.mesh.indices.size() / 3 - next, " triangles are in no part");
 }
 
 }  // namespace
@@ -240,22 +265,28 @@ void validate_garment(const Garment& g, const FabricLibrary& fabrics) {
     if (n == 0) fail(VFIT_ERROR_DATA, "garment: there are no vertices");
     if (g.mesh.indices.empty() || g.mesh.indices.size() % 3 != 0)
         fail(VFIT_ERROR_DATA, "garment: ", g.mesh.indices.size(), " indices are no list of triangles");
-    if (g.mesh.uvs.size() != g.drawn_count()) fail(VFIT_ERROR_DATA, "garment: ", g.mesh.uvs.size(), " uvs for ", g.drawn_count(), " vertices and copies");
+    if (g.mesh.uvs.size() != g.drawn_count())
+        fail(VFIT_ERROR_DATA, "garment: ", g.mesh.uvs.size(), " uvs for ", g.drawn_count(),
+             " vertices and copies");
     if (g.simulated.size() != n)
-        fail(VFIT_ERROR_DATA, "garment: \"simulated\" has ", g.simulated.size(), " flags for ", n, " vertices");
+        fail(VFIT_ERROR_DATA, "garment: \"simulated\" has ", g.simulated.size(), " flags for ", n,
+             " vertices");
     if (g.backstop.size() != n)
         fail(VFIT_ERROR_DATA, "garment: \"backstop\" has ", g.backstop.size(), " flags for ", n, " vertices");
     if (!g.most_way.empty() && g.most_way.size() != n)
-        fail(VFIT_ERROR_DATA, "garment: \"max_distance\" has ", g.most_way.size(), " numbers for ", n, " vertices");
+        fail(VFIT_ERROR_DATA, "garment: \"max_distance\" has ", g.most_way.size(), " numbers for ", n,
+             " vertices");
     for (const float way : g.most_way)
         if (!finite(way) || way < 0.0f) fail(VFIT_ERROR_DATA, "garment: a \"max_distance\" is ", way, " m");
     for (size_t i = 0; i < n; ++i) {
         if (!finite(g.mesh.positions[i])) fail(VFIT_ERROR_DATA, "garment: position ", i, " is not finite");
         if (glm::length(g.mesh.positions[i]) > kFarthest_m)
-            fail(VFIT_ERROR_DATA, "garment: position ", i, " is more than ", kFarthest_m, " m from the body: positions are metres");
+            fail(VFIT_ERROR_DATA, "garment: position ", i, " is more than ", kFarthest_m,
+                 " m from the body: positions are metres");
     }
     for (size_t i = 0; i < g.mesh.uvs.size(); ++i)
-        if (!finite(g.mesh.uvs[i].x) || !finite(g.mesh.uvs[i].y)) fail(VFIT_ERROR_DATA, "garment: uv ", i, " is not finite");
+        if (!finite(g.mesh.uvs[i].x) || !finite(g.mesh.uvs[i].y))
+            fail(VFIT_ERROR_DATA, "garment: uv ", i, " is not finite");
     fabrics.get(g.fabric);
     validate_triangles(g.mesh);
     validate_cut(g);

@@ -20,7 +20,8 @@ namespace vfit {
 struct GarmentSize {
     std::string label;
     std::vector<Measurement> nominal;  // may be empty where the garment has a cut_shape
-    std::vector<Vec2> flat;  // as Garment::flat, in this size; empty: the garment's cut_shape, or its shape's lengths times nominal over own girths
+    std::vector<Vec2> flat;  // as Garment::flat, in this size; empty: the garment's cut_shape, or its shape's
+                             // lengths times nominal over own girths
 };
 
 /// How triangles look; passed through to whoever draws them.
@@ -37,17 +38,18 @@ struct Garment {
     vfit_sex body_sex = VFIT_SEX_FEMALE;
     Mesh mesh;  // positions on that body, indices, uvs (one a vertex, then one a copy)
     // Where panels are sewn together, renderers need a vertex for each: copies, numbered after the vertices.
-    std::vector<uint32_t> copies;    // of each, the vertex that it is one of
-    std::vector<uint32_t> corners;   // the triangles by vertices and copies, three each; empty: mesh.indices
-    std::vector<Vec2> flat;          // empty, or one a vertex and copy: the triangles as they are cut from cloth, metres, y along the
-                                     // warp: the garment's own lengths, in which positions were found
-    std::vector<Vec3> cut_shape;     // empty, or one a vertex: a shape in space whose sides have the garment's own lengths, of what
-                                     // was modelled and not cut; there is no flat then
-    std::vector<uint8_t> on_arm;     // empty, or one a vertex: 1 carried by an arm
+    std::vector<uint32_t> copies;   // of each, the vertex that it is one of
+    std::vector<uint32_t> corners;  // the triangles by vertices and copies, three each; empty: mesh.indices
+    std::vector<Vec2>
+        flat;  // empty, or one a vertex and copy: the triangles as they are cut from cloth, metres, y along
+               // the warp: the garment's own lengths, in which positions were found
+    std::vector<Vec3> cut_shape;  // empty, or one a vertex: a shape in space whose sides have the garment's
+                                  // own lengths, of what was modelled and not cut; there is no flat then
+    std::vector<uint8_t> on_arm;  // empty, or one a vertex: 1 carried by an arm
     std::vector<GarmentPart> parts;  // empty: one, without a name
     std::vector<uint8_t> simulated;  // one a vertex: 1 simulated, 0 skinned with the body
     std::vector<uint8_t> backstop;   // one a vertex: 1 kept out of the body below it
-    std::vector<float> most_way;     // empty, or one a vertex: metres from where the skin would carry it; 0: any
+    std::vector<float> most_way;  // empty, or one a vertex: metres from where the skin would carry it; 0: any
     std::vector<GarmentSize> sizes;
 
     uint32_t vertex_count() const { return uint32_t(mesh.positions.size()); }

@@ -9,22 +9,32 @@ namespace vfit {
 
 namespace {
 
-constexpr float kFolds_m = 0.015f;  // that sleeves and legs may be too long by: what lies in folds above the hem
+constexpr float kFolds_m =
+    0.015f;  // that sleeves and legs may be too long by: what lies in folds above the hem
 
-bool at_end_of_arm(BodyPart part) { return part == BodyPart::kLeftForearm || part == BodyPart::kRightForearm || part == BodyPart::kLeftHand || part == BodyPart::kRightHand; }
-bool at_end_of_leg(BodyPart part) { return part == BodyPart::kLeftShank || part == BodyPart::kRightShank || part == BodyPart::kLeftFoot || part == BodyPart::kRightFoot; }
+bool at_end_of_arm(BodyPart part) {
+    return part == BodyPart::kLeftForearm || part == BodyPart::kRightForearm || part == BodyPart::kLeftHand ||
+           part == BodyPart::kRightHand;
+}
+bool at_end_of_leg(BodyPart part) {
+    return part == BodyPart::kLeftShank || part == BodyPart::kRightShank || part == BodyPart::kLeftFoot ||
+           part == BodyPart::kRightFoot;
+}
 
 /// One a side of each triangle, of that length.
 template <typename Length>
 std::vector<DistanceConstraint> sides_of(std::span<const uint32_t> indices, Length&& length) {
     std::vector<DistanceConstraint> out;
     out.reserve(indices.size());
-    for (uint32_t i = 0; i < indices.size() / 3 * 3; ++i) out.push_back({indices[i], indices[next_corner(i)], length(i), 0.0f});
+    for (uint32_t i = 0; i < indices.size() / 3 * 3; ++i)
+        out.push_back({indices[i], indices[next_corner(i)], length(i), 0.0f});
     return out;
 }
 
-/// Along the cloth from the nearest place that is fixed (inverse_mass 0), one a vertex; infinite: no way leads there.
-std::vector<float> ways_from(std::span<const float> inverse_mass, const std::vector<DistanceConstraint>& sides) {
+/// Along the cloth from the nearest place that is fixed (inverse_mass 0), one a vertex; infinite: no way
+/// leads there.
+std::vector<float> ways_from(std::span<const float> inverse_mass,
+                             const std::vector<DistanceConstraint>& sides) {
     std::vector<float> ways;
     for (const float inverse : inverse_mass) ways.push_back(inverse > 0.0f ? INFINITY : 0.0f);
     for (const Tether& t : cook_tethers(inverse_mass, sides)) ways[t.vertex] = t.length_m;
@@ -44,18 +54,22 @@ float mean_way(const std::vector<float>& ways, std::span<const uint32_t> vertice
 Vec2 growth(const Vec2* corner, const float (&value)[3]) {
     const Vec2 p = corner[1] - corner[0], q = corner[2] - corner[0];
     const float a = value[1] - value[0], b = value[2] - value[0];
-    const Vec2 way = Vec2(a * q.y - b * p.y, b * p.x - a * q.x) * (p.x * q.y - p.y * q.x < 0.0f ? -1.0f : 1.0f);
+    const Vec2 way =
+        Vec2(a * q.y - b * p.y, b * p.x - a * q.x) * (p.x * q.y - p.y * q.x < 0.0f ? -1.0f : 1.0f);
     const float length = glm::length(way);
     return length > 1e-12f ? way / length : Vec2(0.0f);
 }
 
 }  // namespace
 
-std::vector<LimbHem> limb_hems(std::span<const uint32_t> indices, std::span<const BodyPart> part_below, std::span<const uint8_t> simulated, std::span<const Vec3> carried) {
+std::vector<LimbHem> limb_hems(std::span<const uint32_t> indices, std::span<const BodyPart> part_below,
+                               std::span<const uint8_t> simulated, std::span<const Vec3> carried) {
     std::vector<LimbHem> hems;
     for (const std::vector<uint32_t>& line : border_lines(indices)) {
         size_t arm = 0, leg = 0;
-        for (const uint32_t corner : line) arm += at_end_of_arm(part_below[indices[corner]]), leg += at_end_of_leg(part_below[indices[corner]]);
+        for (const uint32_t corner : line)
+            arm += at_end_of_arm(part_below[indices[corner]]),
+                leg += at_end_of_leg(part_below[indices[corner]]);
         if (2 * (arm + leg) <= line.size()) continue;
         LimbHem& hem = hems.emplace_back();
         hem.of_arm = arm > leg;
@@ -63,20 +77,26 @@ std::vector<LimbHem> limb_hems(std::span<const uint32_t> indices, std::span<cons
     }
     if (hems.empty()) return hems;
     const std::vector<float> inverse_mass(simulated.begin(), simulated.end());
-    const auto ways = ways_from(inverse_mass, sides_of(indices, [&](uint32_t i) { return glm::length(carried[indices[i]] - carried[indices[next_corner(i)]]); }));
+    const auto ways =
+        ways_from(inverse_mass, sides_of(indices, [&](uint32_t i) {
+                      return glm::length(carried[indices[i]] - carried[indices[next_corner(i)]]);
+                  }));
     for (LimbHem& hem : hems) hem.way_m = mean_way(ways, hem.vertices);
     return hems;
 }
 
-TakenUp take_up(std::span<const LimbHem> hems, std::span<const uint32_t> indices, std::span<const uint8_t> simulated, std::vector<Vec2>& cut) {
+TakenUp take_up(std::span<const LimbHem> hems, std::span<const uint32_t> indices,
+                std::span<const uint8_t> simulated, std::vector<Vec2>& cut) {
     // So much of the way to the hem is of the limb: less than from the crotch or the armhole.
     constexpr float kOfLimb = 0.7f, kShortest = 0.3f;
     TakenUp taken;
     if (hems.empty()) return taken;
-    const auto sides = sides_of(indices, [&](uint32_t i) { return glm::length(cut[i] - cut[next_corner(i)]); });
+    const auto sides =
+        sides_of(indices, [&](uint32_t i) { return glm::length(cut[i] - cut[next_corner(i)]); });
     const std::vector<float> ways = ways_from(std::vector<float>(simulated.begin(), simulated.end()), sides);
     for (const LimbHem& hem : hems) {
-        const float own = mean_way(ways, hem.vertices), reach = kOfLimb * own, surplus = std::min(own - hem.way_m - kFolds_m, (1.0f - kShortest) * reach);
+        const float own = mean_way(ways, hem.vertices), reach = kOfLimb * own,
+                    surplus = std::min(own - hem.way_m - kFolds_m, (1.0f - kShortest) * reach);
         if (hem.way_m == 0.0f || surplus <= 0.0f) continue;
         float& most = hem.of_arm ? taken.sleeves_m : taken.legs_m;
         most = std::max(most, surplus);
@@ -87,7 +107,8 @@ TakenUp take_up(std::span<const LimbHem> hems, std::span<const uint32_t> indices
             const float way[3] = {from_hem[indices[i]], from_hem[indices[i + 1]], from_hem[indices[i + 2]]};
             if (!(way[0] + way[1] + way[2] < 3.0f * reach)) continue;
             const Vec2 along = growth(&cut[i], way);
-            for (size_t k = 1; k < 3; ++k) cut[i + k] -= (surplus / reach) * glm::dot(cut[i + k] - cut[i], along) * along;
+            for (size_t k = 1; k < 3; ++k)
+                cut[i + k] -= (surplus / reach) * glm::dot(cut[i + k] - cut[i], along) * along;
         }
     }
     return taken;

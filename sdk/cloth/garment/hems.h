@@ -1,4 +1,5 @@
-// Hems of sleeves and trouser legs that are too long for the limb: as a tailor would, they are taken up, and end at wrist and ankle.
+// Hems of sleeves and trouser legs that are too long for the limb: as a tailor would, they are taken up, and
+// end at wrist and ankle.
 #pragma once
 
 #include <cstdint>
@@ -14,25 +15,28 @@ namespace vfit {
 struct LimbHem {
     std::vector<uint32_t> vertices;
     bool of_arm = false;
-    float way_m = 0.0f;  // mean way along the cloth to them from what is fixed, where the garment lies on the body; 0: there is none
+    float way_m = 0.0f;  // mean way along the cloth to them from what is fixed, where the garment lies on the
+                         // body; 0: there is none
 };
 
-/// The borders of the garment that go around a forearm or a shank, a hand or a foot. part_below: of each vertex, the body's part that
-/// it lies on; simulated: flags; carried: the garment on the body.
-std::vector<LimbHem> limb_hems(std::span<const uint32_t> indices, std::span<const BodyPart> part_below, std::span<const uint8_t> simulated, std::span<const Vec3> carried);
+/// The borders of the garment that go around a forearm or a shank, a hand or a foot. part_below: of each
+/// vertex, the body's part that it lies on; simulated: flags; carried: the garment on the body.
+std::vector<LimbHem> limb_hems(std::span<const uint32_t> indices, std::span<const BodyPart> part_below,
+                               std::span<const uint8_t> simulated, std::span<const Vec3> carried);
 
 /// What hems went up by, at most.
 struct TakenUp {
     float sleeves_m = 0.0f, legs_m = 0.0f;
 };
 
-/// Shortens the triangles (cut: one place an index) of sleeves and legs, along the limb, by what they are longer than on the body,
-/// but a little that folds may take: heaped above the wrist, their cloth would have to lie in folds finer than its triangles. Girths
-/// stay as they are cut.
-TakenUp take_up(std::span<const LimbHem> hems, std::span<const uint32_t> indices, std::span<const uint8_t> simulated, std::vector<Vec2>& cut);
+/// Shortens the triangles (cut: one place an index) of sleeves and legs, along the limb, by what they are
+/// longer than on the body, but a little that folds may take: heaped above the wrist, their cloth would have
+/// to lie in folds finer than its triangles. Girths stay as they are cut.
+TakenUp take_up(std::span<const LimbHem> hems, std::span<const uint32_t> indices,
+                std::span<const uint8_t> simulated, std::vector<Vec2>& cut);
 
-/// A cuff does not slide over the hand and a hem does not slide under the foot: each vertex of hems to which the way from what is
-/// fixed is longer in the cloth than on the body stays near its place.
+/// A cuff does not slide over the hand and a hem does not slide under the foot: each vertex of hems to which
+/// the way from what is fixed is longer in the cloth than on the body stays near its place.
 void keep_hems(std::span<const LimbHem> hems, FabricData& fabric);
 
 }  // namespace vfit

@@ -12,7 +12,8 @@ namespace vfit {
 
 namespace {
 
-constexpr float kSteepest = -0.7071068f;  // sine of the rays' slope: nobody looks up under a skirt more steeply
+constexpr float kSteepest =
+    -0.7071068f;  // sine of the rays' slope: nobody looks up under a skirt more steeply
 constexpr float kFar_m = 3.0f;
 constexpr int kRays = 64;
 constexpr uint32_t kChunk = 256;  // vertices of a job
@@ -23,14 +24,17 @@ std::array<Vec3, kRays> hemisphere() {
     const float golden = kPi * (3.0f - std::sqrt(5.0f));
     std::array<Vec3, kRays> rays;
     for (int i = 0; i < kRays; ++i) {
-        const float z = 1.0f - (1.0f - kLowest) * (float(i) + 0.5f) / float(kRays), r = std::sqrt(1.0f - z * z), turn = golden * float(i);
+        const float z = 1.0f - (1.0f - kLowest) * (float(i) + 0.5f) / float(kRays),
+                    r = std::sqrt(1.0f - z * z), turn = golden * float(i);
         rays[size_t(i)] = {r * std::cos(turn), r * std::sin(turn), z};
     }
     return rays;
 }
 
-bool is_enclosed(const MeshQuery& garment, const std::array<Vec3, kRays>& rays, const Vec3& p, const Vec3& normal) {
-    const Vec3 side = glm::normalize(glm::cross(normal, std::abs(normal.x) < 0.5f ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
+bool is_enclosed(const MeshQuery& garment, const std::array<Vec3, kRays>& rays, const Vec3& p,
+                 const Vec3& normal) {
+    const Vec3 side =
+        glm::normalize(glm::cross(normal, std::abs(normal.x) < 0.5f ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
     const Vec3 other = glm::cross(normal, side);
     for (const Vec3& ray : rays) {
         const Vec3 outward = ray.x * side + ray.y * other + ray.z * normal;
@@ -62,7 +66,8 @@ std::vector<float> distances_to_seen(const Covered& c, const std::vector<uint8_t
         open.pop();
         if (distance > distances[v] || distance > most_m) continue;
         for (const Neighbour& n : neighbours[v])
-            if (distance + n.distance < distances[n.vertex]) open.emplace(distances[n.vertex] = distance + n.distance, n.vertex);
+            if (distance + n.distance < distances[n.vertex])
+                open.emplace(distances[n.vertex] = distance + n.distance, n.vertex);
     }
     return distances;
 }
@@ -78,7 +83,8 @@ std::vector<uint8_t> hidden_triangles(const Covered& covered, float margin_m, Jo
     const uint32_t count = uint32_t(body.size());
     std::vector<uint8_t> enclosed(count);
     parallel_for(jobs, (count + kChunk - 1) / kChunk, [&](uint32_t chunk) {
-        for (uint32_t v = chunk * kChunk; v < std::min(count, (chunk + 1) * kChunk); ++v) enclosed[v] = is_enclosed(garment, rays, body[v], normals[v]);
+        for (uint32_t v = chunk * kChunk; v < std::min(count, (chunk + 1) * kChunk); ++v)
+            enclosed[v] = is_enclosed(garment, rays, body[v], normals[v]);
     });
     const std::vector<float> to_seen = distances_to_seen(covered, enclosed, margin_m);
     std::vector<uint8_t> hidden(covered.body_indices.size() / 3);

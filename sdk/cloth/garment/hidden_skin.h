@@ -18,8 +18,8 @@ struct Covered {
     std::span<const uint32_t> garment_indices;
 };
 
-/// One a body triangle, 1: the garment alone, without arms or other limbs that move away, hides it, and all skin nearer than
-/// margin_m, from all who do not look up under it by more than 45 degrees.
+/// One a body triangle, 1: the garment alone, without arms or other limbs that move away, hides it, and all
+/// skin nearer than margin_m, from all who do not look up under it by more than 45 degrees.
 std::vector<uint8_t> hidden_triangles(const Covered& covered, float margin_m, Jobs& jobs);
 
 }  // namespace vfit

@@ -12,8 +12,10 @@ class Laplacian {
 public:
     explicit Laplacian(size_t rows) : diagonal_(rows, 0.0f) {}
     void add(uint32_t i, uint32_t j, float value) {
-        if (i == j) diagonal_[i] += value;
-        else pairs_.push_back({i, j, value});
+        if (i == j)
+            diagonal_[i] += value;
+        else
+            pairs_.push_back({i, j, value});
     }
     const std::vector<float>& diagonal() const { return diagonal_; }
     void times(const std::vector<float>& x, std::vector<float>& out) const {
@@ -37,7 +39,8 @@ double dot(const std::vector<float>& a, const std::vector<float>& b) {
 }
 
 /// By conjugate gradients, preconditioned with the diagonal; unknown: those that may differ from 0.
-std::vector<float> solve(const Laplacian& matrix, std::vector<float> right, std::span<const uint8_t> unknown) {
+std::vector<float> solve(const Laplacian& matrix, std::vector<float> right,
+                         std::span<const uint8_t> unknown) {
     constexpr int kRounds = 400;
     constexpr double kClose = 1e-8;  // of the square of what is left
     const size_t n = right.size();
@@ -49,7 +52,8 @@ std::vector<float> solve(const Laplacian& matrix, std::vector<float> right, std:
     mask(right);
     double before = 0.0, first = 0.0;
     for (int round = 0; round < kRounds; ++round) {
-        for (size_t i = 0; i < n; ++i) scaled[i] = matrix.diagonal()[i] > 0.0f ? right[i] / matrix.diagonal()[i] : 0.0f;
+        for (size_t i = 0; i < n; ++i)
+            scaled[i] = matrix.diagonal()[i] > 0.0f ? right[i] / matrix.diagonal()[i] : 0.0f;
         const double left = dot(right, scaled);
         if (round == 0) first = left;
         if (left <= kClose * first) break;
@@ -72,7 +76,8 @@ struct FlatTriangle {
     Vec2 gradient[3];
 
     explicit FlatTriangle(const Vec2* corner) {
-        const float twice = (corner[1].x - corner[0].x) * (corner[2].y - corner[0].y) - (corner[1].y - corner[0].y) * (corner[2].x - corner[0].x);
+        const float twice = (corner[1].x - corner[0].x) * (corner[2].y - corner[0].y) -
+                            (corner[1].y - corner[0].y) * (corner[2].x - corner[0].x);
         area_m2 = 0.5f * std::abs(twice);
         for (size_t k = 0; k < 3; ++k) {
             const Vec2 side = corner[(k + 2) % 3] - corner[(k + 1) % 3];
@@ -81,9 +86,10 @@ struct FlatTriangle {
     }
 };
 
-/// The most that its own weight stretches a garment by, at any height. In a sub-step h, gravity moves what hangs on an edge by g h^2 and
-/// the edge gives back as much, shared by inverse masses: with the area A below, the width W there and edges of the length a, the
-/// strain is 2 g h^2 A / (W a^2); the threads' own compliance (XPBD) is far less.
+/// The most that its own weight stretches a garment by, at any height. In a sub-step h, gravity moves what
+/// hangs on an edge by g h^2 and the edge gives back as much, shared by inverse masses: with the area A
+/// below, the width W there and edges of the length a, the strain is 2 g h^2 A / (W a^2); the threads' own
+/// compliance (XPBD) is far less.
 class WeightStrain {
 public:
     WeightStrain(const WornGarment& g, const Sagging& sagging) {
@@ -93,14 +99,18 @@ public:
         float whole = 0.0f;
         for (size_t i = 0; i + 2 < g.indices.size(); i += 3) {
             const float area = FlatTriangle(&g.cut[i]).area_m2;
-            areas[band_of((g.positions[g.indices[i]].y + g.positions[g.indices[i + 1]].y + g.positions[g.indices[i + 2]].y) / 3.0f)] += area;
+            areas[band_of((g.positions[g.indices[i]].y + g.positions[g.indices[i + 1]].y +
+                           g.positions[g.indices[i + 2]].y) /
+                          3.0f)] += area;
             whole += area;
         }
         const float side2 = whole / float(std::max<size_t>(g.indices.size() / 3, 1)) * 4.0f / std::sqrt(3.0f);
         float below = 0.0f;
         for (const float area : areas) {
             below += area;
-            strains_.push_back(area > 0.0f ? 2.0f * sagging.gravity_m_s2 * sagging.substep_s * sagging.substep_s * below * kBand_m / (area * side2) : 0.0f);
+            strains_.push_back(area > 0.0f ? 2.0f * sagging.gravity_m_s2 * sagging.substep_s *
+                                                 sagging.substep_s * below * kBand_m / (area * side2)
+                                           : 0.0f);
         }
     }
     float at(float height_m) const { return strains_[band_of(height_m)]; }
@@ -119,11 +129,14 @@ private:
 
 }  // namespace
 
-std::vector<Vec3> without_sag(const WornGarment& g, std::span<const uint8_t> simulated, const Sagging& sagging) {
-    // The slope of the height in flat cloth, without the stretch along it; then the heights with that slope (Poisson's equation).
+std::vector<Vec3> without_sag(const WornGarment& g, std::span<const uint8_t> simulated,
+                              const Sagging& sagging) {
+    // The slope of the height in flat cloth, without the stretch along it; then the heights with that slope
+    // (Poisson's equation).
     const size_t n = g.positions.size();
     std::vector<Vec3> out(g.positions.begin(), g.positions.end());
-    if (std::all_of(simulated.begin(), simulated.end(), [](uint8_t s) { return s != 0; })) return out;  // it hangs on nothing
+    if (std::all_of(simulated.begin(), simulated.end(), [](uint8_t s) { return s != 0; }))
+        return out;  // it hangs on nothing
     const WeightStrain weight(g, sagging);
     Laplacian matrix(n);
     std::vector<float> right(n, 0.0f);
@@ -142,7 +155,8 @@ std::vector<Vec3> without_sag(const WornGarment& g, std::span<const uint8_t> sim
         const Vec2 missing = slope * (-std::clamp(stretch - 1.0f, -most, most) / stretch);
         for (size_t k = 0; k < 3; ++k) {
             right[v[k]] += flat.area_m2 * glm::dot(flat.gradient[k], missing);
-            for (size_t j = k; j < 3; ++j) matrix.add(v[k], v[j], flat.area_m2 * glm::dot(flat.gradient[k], flat.gradient[j]));
+            for (size_t j = k; j < 3; ++j)
+                matrix.add(v[k], v[j], flat.area_m2 * glm::dot(flat.gradient[k], flat.gradient[j]));
         }
     }
     const std::vector<float> raise = solve(matrix, std::move(right), simulated);

@@ -11,7 +11,8 @@ std::vector<uint8_t> below_garment(const DressBody& body, std::span<const Vec3> 
     float low = INFINITY, high = -INFINITY;
     for (const Vec3& p : garment) low = std::min(low, p.y), high = std::max(high, p.y);
     const auto is_hand = [](BodyPart part) {
-        return part == BodyPart::kLeftForearm || part == BodyPart::kLeftHand || part == BodyPart::kRightForearm || part == BodyPart::kRightHand;
+        return part == BodyPart::kLeftForearm || part == BodyPart::kLeftHand ||
+               part == BodyPart::kRightForearm || part == BodyPart::kRightHand;
     };
     const auto counts = [&](size_t v) {
         const float y = body.positions[v].y;

@@ -10,8 +10,8 @@
 
 namespace vfit {
 
-/// One a body vertex, 1: from a hand above the garment's upper edge to a foot's length below its hem, and the arms; without
-/// forearms and hands where those are to pass through.
+/// One a body vertex, 1: from a hand above the garment's upper edge to a foot's length below its hem, and the
+/// arms; without forearms and hands where those are to pass through.
 std::vector<uint8_t> below_garment(const DressBody& body, std::span<const Vec3> garment, bool with_hands);
 
 /// Of the skin as cloth meets it (wrapped_skin.h), what is below the garment.
@@ -21,16 +21,18 @@ struct SkinBelow {
 };
 SkinBelow skin_below(const DressBody& body, std::span<const Vec3> wrapped, std::span<const uint8_t> below);
 
-/// Spheres and capsules beside the colliders of the body at rest, so many that none of its skin `below`, but for hands and feet,
-/// is further than tolerance_m outside of all. They stick out of the skin by no more than that, and go with the bones that carry
-/// the skin that they touch.
+/// Spheres and capsules beside the colliders of the body at rest, so many that none of its skin `below`, but
+/// for hands and feet, is further than tolerance_m outside of all. They stick out of the skin by no more than
+/// that, and go with the bones that carry the skin that they touch.
 class SkinCover {
 public:
-    SkinCover(const DressBody& body, std::span<const uint8_t> below, std::span<const Collider> colliders, float tolerance_m);
+    SkinCover(const DressBody& body, std::span<const uint8_t> below, std::span<const Collider> colliders,
+              float tolerance_m);
 
     size_t size() const { return shapes_.size(); }
     /// Adds those that the skinning matrices carry.
-    void append(std::span<const Mat4> matrices, std::vector<Collider>& out, Skin::Scratch& scratch, std::vector<Vec3>& places, Jobs& jobs) const;
+    void append(std::span<const Mat4> matrices, std::vector<Collider>& out, Skin::Scratch& scratch,
+                std::vector<Vec3>& places, Jobs& jobs) const;
 
 private:
     std::vector<Collider> shapes_;

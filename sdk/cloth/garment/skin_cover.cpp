@@ -12,7 +12,8 @@ namespace vfit {
 
 namespace {
 
-constexpr float kLargest_m = 0.2f, kLongest_m = 0.25f;  // a ball's radius; from one end of a capsule to the other
+constexpr float kLargest_m = 0.2f,
+                kLongest_m = 0.25f;  // a ball's radius; from one end of a capsule to the other
 
 /// A joint at the end of the limb that the part belongs to, as the paper's spheres are named.
 int joint_of(BodyPart part) {
@@ -36,7 +37,8 @@ int joint_of(BodyPart part) {
 }
 
 bool is_hand_or_foot(BodyPart part) {
-    return part == BodyPart::kLeftHand || part == BodyPart::kRightHand || part == BodyPart::kLeftFoot || part == BodyPart::kRightFoot;
+    return part == BodyPart::kLeftHand || part == BodyPart::kRightHand || part == BodyPart::kLeftFoot ||
+           part == BodyPart::kRightFoot;
 }
 
 struct Ball {
@@ -100,7 +102,8 @@ private:
 
 }  // namespace
 
-SkinCover::SkinCover(const DressBody& body, std::span<const uint8_t> below, std::span<const Collider> colliders, float tolerance_m) {
+SkinCover::SkinCover(const DressBody& body, std::span<const uint8_t> below,
+                     std::span<const Collider> colliders, float tolerance_m) {
     constexpr size_t kTried = 64;  // other ends of a capsule
     const std::vector<Vec3> rest(body.positions.begin(), body.positions.end());
     std::vector<Vec3> normals;
@@ -108,26 +111,30 @@ SkinCover::SkinCover(const DressBody& body, std::span<const uint8_t> below, std:
     const MeshQuery skin(body.positions, body.indices);
     InnerBalls balls(skin, rest, normals, 0.5f * tolerance_m);
 
-    std::vector<uint32_t> open;      // what is not covered yet, and how far outside it is
+    std::vector<uint32_t> open;  // what is not covered yet, and how far outside it is
     std::vector<float> outside_m(rest.size(), INFINITY);
     std::vector<CapsuleShape> shapes;
     for (const Collider& c : colliders) shapes.emplace_back(capsule_of(c, 0.0f));
     for (uint32_t v = 0; v < rest.size(); ++v) {
         if (!below[v] || (!body.parts.empty() && is_hand_or_foot(body.parts[v]))) continue;
-        for (const CapsuleShape& shape : shapes) outside_m[v] = std::min(outside_m[v], nearest_ball(shape, rest[v]).distance);
+        for (const CapsuleShape& shape : shapes)
+            outside_m[v] = std::min(outside_m[v], nearest_ball(shape, rest[v]).distance);
         if (outside_m[v] > tolerance_m) open.push_back(v);
     }
 
     Carried carried;
     while (!open.empty()) {
-        const uint32_t worst = *std::max_element(open.begin(), open.end(), [&](uint32_t a, uint32_t b) { return outside_m[a] < outside_m[b]; });
+        const uint32_t worst = *std::max_element(
+            open.begin(), open.end(), [&](uint32_t a, uint32_t b) { return outside_m[a] < outside_m[b]; });
         // The two balls, or one, that together with all between them cover most, the worst place among it.
         const Ball first = balls.at(worst);
         Pair best{first, first, worst, worst};
         size_t most = 0;
         const auto try_pair = [&](const Ball& second, uint32_t seed) {
             const CapsuleShape shape(Capsule{first.center, second.center, first.radius, second.radius});
-            const size_t count = size_t(std::count_if(open.begin(), open.end(), [&](uint32_t v) { return nearest_ball(shape, rest[v]).distance <= tolerance_m; }));
+            const size_t count = size_t(std::count_if(open.begin(), open.end(), [&](uint32_t v) {
+                return nearest_ball(shape, rest[v]).distance <= tolerance_m;
+            }));
             if (count > most) most = count, best = {first, second, worst, seed};
         };
         try_pair(first, worst);
@@ -160,8 +167,8 @@ SkinCover::SkinCover(const DressBody& body, std::span<const uint8_t> below, std:
     if (!shapes_.empty()) skin_.emplace(carried.skin());
 }
 
-void SkinCover::append(std::span<const Mat4> matrices, std::vector<Collider>& out, Skin::Scratch& scratch, std::vector<Vec3>& places,
-                       Jobs& jobs) const {
+void SkinCover::append(std::span<const Mat4> matrices, std::vector<Collider>& out, Skin::Scratch& scratch,
+                       std::vector<Vec3>& places, Jobs& jobs) const {
     if (!skin_) return;
     skin_->carry(matrices, places, scratch, jobs);
     const Vec3* place = places.data();

@@ -25,7 +25,8 @@ struct SkinNeighbours {
 
 void raise_hollows(std::vector<Vec3>& places, std::span<const uint32_t> indices) {
     constexpr int kRounds = 12;  // reaches as far as a triangle of cloth, some 2 cm
-    constexpr float kMost_m = 0.005f;  // what a side of 2.2 cm spans over a hollow of 12 mm radius; into wider ones cloth hangs
+    constexpr float kMost_m =
+        0.005f;  // what a side of 2.2 cm spans over a hollow of 12 mm radius; into wider ones cloth hangs
     const std::vector<Vec3> skin = places;
     const SkinNeighbours neighbours(places.size(), indices);
     std::vector<Vec3> normals;
@@ -53,7 +54,8 @@ void raise_rounds(std::vector<Vec3>& places, std::span<const uint32_t> indices) 
         float curvature = 0.0f;  // the greatest along the ways to its neighbours, 1/m
         for (uint32_t i = neighbours.first[v]; i < neighbours.first[v + 1]; ++i) {
             const Vec3 way = places[neighbours.of[i]] - places[v];
-            curvature = std::max(curvature, -2.0f * glm::dot(way, normals[v]) / std::max(glm::dot(way, way), 1e-8f));
+            curvature =
+                std::max(curvature, -2.0f * glm::dot(way, normals[v]) / std::max(glm::dot(way, way), 1e-8f));
         }
         by[v] = std::min(kMost_m, 0.125f * kSide_m * kSide_m * curvature);
     }

@@ -4,7 +4,8 @@
 
 namespace vfit {
 
-void blow(const Air& air, float dt, const Fabric& fabric, uint32_t part, const Particles& places, Particles& velocities) {
+void blow(const Air& air, float dt, const Fabric& fabric, uint32_t part, const Particles& places,
+          Particles& velocities) {
     constexpr float kDensity_kg_m3 = 1.2f;  // of air at 20 degrees
     const ParticleLayout& layout = fabric.layout();
     const ParticleLayout::Part& p = layout.parts[part];
@@ -18,7 +19,8 @@ void blow(const Air& air, float dt, const Fabric& fabric, uint32_t part, const P
         if (area_m2 < 1e-12f || speed < 1e-6f) continue;
         const Vec3 normal = area / area_m2, along = flow / speed;
         const float facing = glm::dot(normal, along);
-        const float push = 0.5f * kDensity_kg_m3 * area_m2 * std::abs(facing) * speed * dt * fabric.data().inverse_mass[layout.vertex_of[i]];
+        const float push = 0.5f * kDensity_kg_m3 * area_m2 * std::abs(facing) * speed * dt *
+                           fabric.data().inverse_mass[layout.vertex_of[i]];
         // Square to the flow, to the side to which the sheet leans.
         const Vec3 aside = (facing > 0.0f ? normal : -normal) - along * std::abs(facing);
         // Implicit in the speed: however strong, drag brings it to the wind's and no further.

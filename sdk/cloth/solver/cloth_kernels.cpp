@@ -28,8 +28,10 @@ float FindGains(std::span<const BatchMasses> masses, float h, float force, std::
     V most = Set(0.0f);
     for (size_t i = 0; i < masses.size(); ++i)
         for (size_t k = 0; k < kLanes; k += kWide) {
-            const V a = hn::Load(kTag, masses[i].a + k), b = hn::Load(kTag, masses[i].b + k), sum = hn::Add(a, b);
-            const V inverse = hn::Div(Set(1.0f), hn::MulAdd(hn::Load(kTag, masses[i].compliance + k), rate2, sum));
+            const V a = hn::Load(kTag, masses[i].a + k), b = hn::Load(kTag, masses[i].b + k),
+                    sum = hn::Add(a, b);
+            const V inverse =
+                hn::Div(Set(1.0f), hn::MulAdd(hn::Load(kTag, masses[i].compliance + k), rate2, sum));
             hn::Store(hn::Mul(a, inverse), kTag, gains[i].a + k);
             hn::Store(hn::Mul(b, inverse), kTag, gains[i].b + k);
             most = hn::Max(most, hn::Mul(sum, inverse));
@@ -37,7 +39,8 @@ float FindGains(std::span<const BatchMasses> masses, float h, float force, std::
     return hn::GetLane(hn::MaxOfLanes(kTag, most));
 }
 
-void SolveDistances(std::span<const DistanceBatch> batches, std::span<const BatchGains> gains, Particle* particles) {
+void SolveDistances(std::span<const DistanceBatch> batches, std::span<const BatchGains> gains,
+                    Particle* particles) {
     const V one = Set(1.0f), no_length = Set(kNoLength);
     auto* bytes = reinterpret_cast<unsigned char*>(particles);
     const auto at = [bytes](uint32_t offset) HWY_ATTR { return reinterpret_cast<Particle*>(bytes + offset); };
@@ -57,7 +60,8 @@ void SolveDistances(std::span<const DistanceBatch> batches, std::span<const Batc
 }
 
 /// Of one batch; the greatest share of a fold that one of its hinges takes back.
-HWY_INLINE float FindHingeGains(const HingeBatch& batch, const HingeMasses& masses, float h, float force, HingeGains& gains) {
+HWY_INLINE float FindHingeGains(const HingeBatch& batch, const HingeMasses& masses, float h, float force,
+                                HingeGains& gains) {
     const V rate2 = Set(1.0f / (force * h * h));
     V most = Set(0.0f);
     for (size_t lane = 0; lane < kLanes; lane += kWide) {
@@ -67,13 +71,15 @@ HWY_INLINE float FindHingeGains(const HingeBatch& batch, const HingeMasses& mass
             share[k] = hn::Mul(hn::Load(kTag, masses.inverse_mass[k] + lane), weight);
             sum = hn::MulAdd(share[k], weight, sum);
         }
-        const V inverse = hn::Div(Set(1.0f), hn::MulAdd(hn::Load(kTag, masses.compliance + lane), rate2, sum));
+        const V inverse =
+            hn::Div(Set(1.0f), hn::MulAdd(hn::Load(kTag, masses.compliance + lane), rate2, sum));
         for (size_t k = 0; k < 4; ++k) hn::Store(hn::Mul(share[k], inverse), kTag, gains.at[k] + lane);
         most = hn::Max(most, hn::Mul(sum, inverse));
     }
     return hn::GetLane(hn::MaxOfLanes(kTag, most));
 }
-void FindAllHingeGains(std::span<const HingeBatch> batches, std::span<const HingeMasses> masses, float h, float soft, std::span<HingeGains> gains) {
+void FindAllHingeGains(std::span<const HingeBatch> batches, std::span<const HingeMasses> masses, float h,
+                       float soft, std::span<HingeGains> gains) {
     for (size_t i = 0; i < batches.size(); ++i) {
         gains[i].soft = FindHingeGains(batches[i], masses[i], h, 2.0f, gains[i]) <= soft;
         if (!gains[i].soft) FindHingeGains(batches[i], masses[i], h, 1.0f, gains[i]);
@@ -81,7 +87,8 @@ void FindAllHingeGains(std::span<const HingeBatch> batches, std::span<const Hing
 }
 
 /// All is linear: nothing has to be turned into columns.
-void SolveHinges(std::span<const HingeBatch> batches, std::span<const HingeGains> gains, bool with_soft, Particle* particles) {
+void SolveHinges(std::span<const HingeBatch> batches, std::span<const HingeGains> gains, bool with_soft,
+                 Particle* particles) {
     auto* bytes = reinterpret_cast<unsigned char*>(particles);
     const auto at = [bytes](uint32_t offset) HWY_ATTR { return reinterpret_cast<Particle*>(bytes + offset); };
     for (size_t i = 0; i < batches.size(); ++i) {
@@ -91,14 +98,17 @@ void SolveHinges(std::span<const HingeBatch> batches, std::span<const HingeGains
             Rows x[4];
             for (size_t k = 0; k < 4; ++k) x[k] = Gather(at, batch.at[k] + lane);
             Rows amiss = Times(x[0], hn::Load(kTag, batch.weight[0] + lane));
-            for (size_t k = 1; k < 4; ++k) amiss = AddScaled(amiss, x[k], hn::Load(kTag, batch.weight[k] + lane));
+            for (size_t k = 1; k < 4; ++k)
+                amiss = AddScaled(amiss, x[k], hn::Load(kTag, batch.weight[k] + lane));
             for (size_t k = 0; k < 4; ++k)
-                Scatter(AddScaled(x[k], amiss, hn::Neg(hn::Load(kTag, gains[i].at[k] + lane))), at, batch.at[k] + lane);
+                Scatter(AddScaled(x[k], amiss, hn::Neg(hn::Load(kTag, gains[i].at[k] + lane))), at,
+                        batch.at[k] + lane);
         }
     }
 }
 
-void FindRunBalls(std::span<const Particle> moving, std::span<const Particle> velocities, NearColliders& near) {
+void FindRunBalls(std::span<const Particle> moving, std::span<const Particle> velocities,
+                  NearColliders& near) {
     for (size_t run = 0; run < moving.size() / kLanes; ++run) {
         const Particle *places = moving.data() + run * kLanes, *speeds = velocities.data() + run * kLanes;
         const Points p = Columns(Load(places, 0)), v = Columns(Load(speeds, 0));
@@ -112,10 +122,13 @@ void FindRunBalls(std::span<const Particle> moving, std::span<const Particle> ve
         }
         const auto least = [](V v) HWY_ATTR { return hn::GetLane(hn::MinOfLanes(kTag, v)); };
         const auto most = [](V v) HWY_ATTR { return hn::GetLane(hn::MaxOfLanes(kTag, v)); };
-        const Vec3 from(least(low.x), least(low.y), least(low.z)), to(most(high.x), most(high.y), most(high.z));
-        near.x[run] = 0.5f * (from.x + to.x), near.y[run] = 0.5f * (from.y + to.y), near.z[run] = 0.5f * (from.z + to.z);
+        const Vec3 from(least(low.x), least(low.y), least(low.z)),
+            to(most(high.x), most(high.y), most(high.z));
+        near.x[run] = 0.5f * (from.x + to.x), near.y[run] = 0.5f * (from.y + to.y),
+        near.z[run] = 0.5f * (from.z + to.z);
         const Vec3 diagonal = to - from;
-        near.radii_m[run] = 0.5f * std::sqrt(diagonal.x * diagonal.x + diagonal.y * diagonal.y + diagonal.z * diagonal.z);
+        near.radii_m[run] =
+            0.5f * std::sqrt(diagonal.x * diagonal.x + diagonal.y * diagonal.y + diagonal.z * diagonal.z);
         near.speeds2[run] = most(speed2);
     }
 }
@@ -137,12 +150,14 @@ HWY_INLINE auto Near(const SweptCapsule& c, const Points& p, V way) {
     return hn::Lt(Dot(off, off), hn::Mul(reach, reach));
 }
 
-void FindNear(std::span<const SweptCapsule> colliders, std::span<const Particle> moving, NearColliders& near) {
+void FindNear(std::span<const SweptCapsule> colliders, std::span<const Particle> moving,
+              NearColliders& near) {
     const size_t runs = moving.size() / kLanes, words = near.words();
     for (uint64_t& word : near.bits) word = 0;
     for (size_t run = 0; run < runs; run += kWide) {
         // The vectors are filled up to whole registers.
-        const Points center{hn::LoadU(kTag, near.x.data() + run), hn::LoadU(kTag, near.y.data() + run), hn::LoadU(kTag, near.z.data() + run)};
+        const Points center{hn::LoadU(kTag, near.x.data() + run), hn::LoadU(kTag, near.y.data() + run),
+                            hn::LoadU(kTag, near.z.data() + run)};
         const V radius = hn::LoadU(kTag, near.radii_m.data() + run);
         uint64_t* bits = near.bits.data() + run * words;
         for (size_t i = 0; i < colliders.size(); ++i) {
@@ -182,36 +197,42 @@ HWY_INLINE Nearest NearestBallOf(const CapsuleShape& c, V along, const Points& f
     const V radius = hn::MulAdd(Set(c.taper), along, Set(c.radius));
     const auto centred = hn::Le(length, Set(1e-9f));
     const Points n = Mul(from_center, hn::Div(Set(1.0f), hn::Max(length, Set(1e-9f))));
-    return {along, hn::Sub(length, radius),
-            {hn::IfThenZeroElse(centred, n.x), hn::IfThenElse(centred, Set(1.0f), n.y), hn::IfThenZeroElse(centred, n.z)}};
+    return {along,
+            hn::Sub(length, radius),
+            {hn::IfThenZeroElse(centred, n.x), hn::IfThenElse(centred, Set(1.0f), n.y),
+             hn::IfThenZeroElse(centred, n.z)}};
 }
 HWY_INLINE Points FromCenter(const CapsuleShape& c, V along, const Points& p) {
     return Sub(p, MulAdd(Set(c.axis), along, Set(c.a)));
 }
 
 /// apply_friction(): Coulomb's, all of the sliding within the cone, else the kinetic share.
-HWY_INLINE Points Held(const Points& p, const Points& start, const Points& surface_motion, const Points& normal, V depth,
-                       const ContactSettings& settings) {
+HWY_INLINE Points Held(const Points& p, const Points& start, const Points& surface_motion,
+                       const Points& normal, V depth, const ContactSettings& settings) {
     const Points relative = Sub(Sub(p, start), surface_motion);
     const Points sliding = MulAdd(normal, hn::Neg(Dot(relative, normal)), relative);
     const V length = hn::Sqrt(Dot(sliding, sliding));
-    const V kinetic = hn::Div(hn::Mul(Set(settings.friction_kinetic), depth), hn::Max(length, Set(kNoLength)));
-    const V share = hn::IfThenElse(hn::Le(length, hn::Mul(Set(settings.friction_static), depth)), Set(1.0f), kinetic);
+    const V kinetic =
+        hn::Div(hn::Mul(Set(settings.friction_kinetic), depth), hn::Max(length, Set(kNoLength)));
+    const V share =
+        hn::IfThenElse(hn::Le(length, hn::Mul(Set(settings.friction_static), depth)), Set(1.0f), kinetic);
     return MulAdd(sliding, hn::Neg(share), p);
 }
 
-/// resolve_contact() for all particles of a register whose way through the sub-step was short; the others are named in the
-/// result, a bit each, and left as they are.
-HWY_INLINE uint32_t Resolve(const SweptCapsule& c, const Points& start, V travel, const ContactSettings& settings, Points& p) {
+/// resolve_contact() for all particles of a register whose way through the sub-step was short; the others are
+/// named in the result, a bit each, and left as they are.
+HWY_INLINE uint32_t Resolve(const SweptCapsule& c, const Points& start, V travel,
+                            const ContactSettings& settings, Points& p) {
     const V along = NearestAlong(c.to, p), radius = hn::MulAdd(Set(c.to.taper), along, Set(c.to.radius));
     const Points from_center = FromCenter(c.to, along, p);
-    const V reach = hn::Add(travel, Set(c.travel_m)), length2 = Dot(from_center, from_center), touching = hn::Add(radius, reach);
+    const V reach = hn::Add(travel, Set(c.travel_m)), length2 = Dot(from_center, from_center),
+            touching = hn::Add(radius, reach);
     const auto near = hn::Lt(length2, hn::Mul(touching, touching));
     if (HWY_LIKELY(hn::AllFalse(kTag, near))) return 0;
     const Nearest end = NearestBallOf(c.to, along, from_center, length2);
     const auto inside = hn::Lt(end.distance, Set(0.0f));
-    // Who ends outside, and went no further than the radius, cannot have come through; the surface's bulge is met from
-    // the side on which it began.
+    // Who ends outside, and went no further than the radius, cannot have come through; the surface's bulge is
+    // met from the side on which it began.
     const auto far = hn::And(near, hn::And(hn::Not(inside), hn::Gt(reach, radius)));
     uint8_t bits[8] = {};
     hn::StoreMaskBits(kTag, far, bits);
@@ -230,7 +251,8 @@ HWY_INLINE uint32_t Resolve(const SweptCapsule& c, const Points& start, V travel
         const auto same_side = hn::Gt(Dot(begin.normal, end.normal), Set(0.0f));
         hn::StoreMaskBits(kTag, hn::AndNot(same_side, inside), bits);
         special |= bits[0];
-        depth = hn::Sub(depth, hn::Max(Set(0.0f), hn::Sub(hn::Neg(begin.distance), Set(settings.max_depenetration_m))));
+        depth = hn::Sub(
+            depth, hn::Max(Set(0.0f), hn::Sub(hn::Neg(begin.distance), Set(settings.max_depenetration_m))));
         push = hn::And(hn::And(inside, same_side), hn::Gt(depth, Set(0.0f)));
         if (hn::AllFalse(kTag, push)) return special;
     }
@@ -249,8 +271,8 @@ HWY_INLINE uint32_t Resolve(const SweptCapsule& c, const Points& start, V travel
 }
 
 /// The lanes from k on of a run that begins with particle `at`, against one collider.
-HWY_INLINE void Resolve(const SubstepEnd& end, const SweptCapsule& collider, size_t at, size_t k, const Points& start, V travel,
-                        Points& p) {
+HWY_INLINE void Resolve(const SubstepEnd& end, const SweptCapsule& collider, size_t at, size_t k,
+                        const Points& start, V travel, Points& p) {
     uint32_t special = Resolve(collider, start, travel, end.contact, p);
     if (HWY_LIKELY(special == 0)) return;
     Particle* places = end.moving.places + at;
@@ -263,10 +285,12 @@ HWY_INLINE void Resolve(const SubstepEnd& end, const SweptCapsule& collider, siz
 }
 
 HWY_INLINE Points WayOf(const RunBalls& balls, size_t k) {
-    return {hn::Load(kTag, balls.way_x + k), hn::Load(kTag, balls.way_y + k), hn::Load(kTag, balls.way_z + k)};
+    return {hn::Load(kTag, balls.way_x + k), hn::Load(kTag, balls.way_y + k),
+            hn::Load(kTag, balls.way_z + k)};
 }
 HWY_INLINE Points CenterAt(const RunBalls& balls, size_t k, float share) {
-    return MulAdd(WayOf(balls, k), Set(share), {hn::Load(kTag, balls.x + k), hn::Load(kTag, balls.y + k), hn::Load(kTag, balls.z + k)});
+    return MulAdd(WayOf(balls, k), Set(share),
+                  {hn::Load(kTag, balls.x + k), hn::Load(kTag, balls.y + k), hn::Load(kTag, balls.z + k)});
 }
 
 /// Back to the balls' surface, as by a tether.
@@ -275,11 +299,15 @@ HWY_INLINE void KeepIn(const SubstepEnd& end, const RunBalls& balls, size_t k, P
     const Points way = Sub(p, CenterAt(balls, k, end.to));
     const V length2 = Dot(way, way);
     const auto beyond = hn::And(hn::Gt(radius, Set(0.0f)), hn::Gt(length2, hn::Mul(radius, radius)));
-    p = MulAdd(way, hn::IfThenElseZero(beyond, hn::Sub(hn::Div(radius, hn::Max(hn::Sqrt(length2), Set(kNoLength))), Set(1.0f))), p);
+    p = MulAdd(way,
+               hn::IfThenElseZero(
+                   beyond, hn::Sub(hn::Div(radius, hn::Max(hn::Sqrt(length2), Set(kNoLength))), Set(1.0f))),
+               p);
 }
 
 /// Out of the balls, as out of colliders.
-HWY_INLINE void KeepOut(const SubstepEnd& end, const RunBalls& balls, size_t k, const Points& start, Points& p) {
+HWY_INLINE void KeepOut(const SubstepEnd& end, const RunBalls& balls, size_t k, const Points& start,
+                        Points& p) {
     const ContactSettings& settings = end.contact;
     const V radius = hn::Load(kTag, balls.radius_m + k);
     const Points was = CenterAt(balls, k, end.from), way = Mul(WayOf(balls, k), Set(end.to - end.from));
@@ -303,8 +331,10 @@ HWY_INLINE Points Lanes(const float* x, const float* y, const float* z, size_t k
 }
 
 /// Before the planes, as out of colliders.
-HWY_INLINE void KeepBefore(const SubstepEnd& end, const RunPlanes& planes, size_t k, const Points& start, Points& p) {
-    const Points way = Lanes(planes.way_x, planes.way_y, planes.way_z, k), first = Lanes(planes.x, planes.y, planes.z, k);
+HWY_INLINE void KeepBefore(const SubstepEnd& end, const RunPlanes& planes, size_t k, const Points& start,
+                           Points& p) {
+    const Points way = Lanes(planes.way_x, planes.way_y, planes.way_z, k),
+                 first = Lanes(planes.x, planes.y, planes.z, k);
     const Points turn = Lanes(planes.turn_x, planes.turn_y, planes.turn_z, k);
     const Points upright = Lanes(planes.normal_x, planes.normal_y, planes.normal_z, k);
     const Points normal = MulAdd(turn, Set(end.to), upright), before = MulAdd(turn, Set(end.from), upright);
@@ -315,7 +345,9 @@ HWY_INLINE void KeepBefore(const SubstepEnd& end, const RunPlanes& planes, size_
     const V depth = hn::Sub(deep, hn::Max(Set(0.0f), hn::Sub(began, Set(end.contact.max_depenetration_m))));
     const auto push = hn::Gt(depth, Set(0.0f));
     const V out = hn::IfThenElseZero(push, depth);
-    p = Choose(push, Held(MulAdd(normal, out, p), start, Mul(way, Set(end.to - end.from)), normal, out, end.contact), p);
+    p = Choose(
+        push, Held(MulAdd(normal, out, p), start, Mul(way, Set(end.to - end.from)), normal, out, end.contact),
+        p);
 }
 
 /// Of a register's particles, those beyond their tethers; `p` is set where there are any.
@@ -368,14 +400,18 @@ void EndSubstep(const SubstepEnd& given) {
                 const Points way = Sub(p, from);
                 const V travel = hn::Sqrt(Dot(way, way));
                 if (HWY_UNLIKELY(strayed)) {
-                    for (const SweptCapsule& collider : end.colliders) Resolve(end, collider, at, k, from, travel, p);
+                    for (const SweptCapsule& collider : end.colliders)
+                        Resolve(end, collider, at, k, from, travel, p);
                 } else {
                     for (size_t word = 0; word < words; ++word)
                         for (uint64_t left = bits[word]; left; left &= left - 1)
-                            Resolve(end, end.colliders[word * 64 + hwy::Num0BitsBelowLS1Bit_Nonzero64(left)], at, k, from, travel, p);
+                            Resolve(end, end.colliders[word * 64 + hwy::Num0BitsBelowLS1Bit_Nonzero64(left)],
+                                    at, k, from, travel, p);
                 }
                 moved = true;
-                if (end.pushed) Store(AddScaled(Load(end.pushed + at, k), RowsOf(Sub(p, free)), Set(1.0f)), end.pushed + at, k);
+                if (end.pushed)
+                    Store(AddScaled(Load(end.pushed + at, k), RowsOf(Sub(p, free)), Set(1.0f)),
+                          end.pushed + at, k);
             }
             if (moved) place = RowsOf(p);
             const Rows v = Load(m.velocities + at, k);
@@ -411,23 +447,30 @@ HWY_EXPORT(FindRunBalls);
 HWY_EXPORT(FindNear);
 HWY_EXPORT(EndSubstep);
 
-void predict(const Moving& moving, const Vec3& half_fall, float h) { HWY_DYNAMIC_DISPATCH(Predict)(moving, half_fall, h); }
+void predict(const Moving& moving, const Vec3& half_fall, float h) {
+    HWY_DYNAMIC_DISPATCH(Predict)(moving, half_fall, h);
+}
 float find_gains(std::span<const BatchMasses> masses, float h, float force, std::span<BatchGains> gains) {
     return HWY_DYNAMIC_DISPATCH(FindGains)(masses, h, force, gains);
 }
-void solve_distances(std::span<const DistanceBatch> batches, std::span<const BatchGains> gains, Particle* particles) {
+void solve_distances(std::span<const DistanceBatch> batches, std::span<const BatchGains> gains,
+                     Particle* particles) {
     HWY_DYNAMIC_DISPATCH(SolveDistances)(batches, gains, particles);
 }
-void find_hinge_gains(std::span<const HingeBatch> batches, std::span<const HingeMasses> masses, float h, float soft, std::span<HingeGains> gains) {
+void find_hinge_gains(std::span<const HingeBatch> batches, std::span<const HingeMasses> masses, float h,
+                      float soft, std::span<HingeGains> gains) {
     HWY_DYNAMIC_DISPATCH(FindAllHingeGains)(batches, masses, h, soft, gains);
 }
-void solve_hinges(std::span<const HingeBatch> batches, std::span<const HingeGains> gains, bool with_soft, Particle* particles) {
+void solve_hinges(std::span<const HingeBatch> batches, std::span<const HingeGains> gains, bool with_soft,
+                  Particle* particles) {
     HWY_DYNAMIC_DISPATCH(SolveHinges)(batches, gains, with_soft, particles);
 }
-void find_run_balls(std::span<const Particle> moving, std::span<const Particle> velocities, NearColliders& near) {
+void find_run_balls(std::span<const Particle> moving, std::span<const Particle> velocities,
+                    NearColliders& near) {
     HWY_DYNAMIC_DISPATCH(FindRunBalls)(moving, velocities, near);
 }
-void find_near(std::span<const SweptCapsule> colliders, std::span<const Particle> moving, NearColliders& near) {
+void find_near(std::span<const SweptCapsule> colliders, std::span<const Particle> moving,
+               NearColliders& near) {
     HWY_DYNAMIC_DISPATCH(FindNear)(colliders, moving, near);
 }
 void end_substep(const SubstepEnd& end) { HWY_DYNAMIC_DISPATCH(EndSubstep)(end); }

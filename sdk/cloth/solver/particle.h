@@ -12,8 +12,8 @@ namespace vfit {
 
 /// Particles that the kernels work on together.
 inline constexpr size_t kLanes = 8;
-/// Two neighbours are loaded as one, and what is loaded as rows of four floats is worked on as columns: so a run's even
-/// particles come first.
+/// Two neighbours are loaded as one, and what is loaded as rows of four floats is worked on as columns: so a
+/// run's even particles come first.
 constexpr size_t lane_of(size_t particle) { return particle % 2 * (kLanes / 2) + particle / 2; }
 constexpr size_t particle_at(size_t lane) { return lane % (kLanes / 2) * 2 + lane / (kLanes / 2); }
 

@@ -38,7 +38,9 @@ struct Points {
 HWY_INLINE V Dot(const Points& a, const Points& b) {
     return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
 }
-HWY_INLINE Points Sub(const Points& a, const Points& b) { return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)}; }
+HWY_INLINE Points Sub(const Points& a, const Points& b) {
+    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
 /// p + d * s
 HWY_INLINE Points MulAdd(const Points& d, V s, const Points& p) {
     return {hn::MulAdd(d.x, s, p.x), hn::MulAdd(d.y, s, p.y), hn::MulAdd(d.z, s, p.z)};
@@ -119,12 +121,13 @@ HWY_INLINE Rows Sub(const Rows& a, const Rows& b) {
 /// a + d * s, s one a particle.
 HWY_INLINE Rows AddScaled(const Rows& a, const Rows& d, V s) {
     return {{hn::MulAdd(d.r[0], hn::Broadcast<0>(s), a.r[0]), hn::MulAdd(d.r[1], hn::Broadcast<1>(s), a.r[1]),
-             hn::MulAdd(d.r[2], hn::Broadcast<2>(s), a.r[2]), hn::MulAdd(d.r[3], hn::Broadcast<3>(s), a.r[3])}};
+             hn::MulAdd(d.r[2], hn::Broadcast<2>(s), a.r[2]),
+             hn::MulAdd(d.r[3], hn::Broadcast<3>(s), a.r[3])}};
 }
 /// a * s, s one a particle.
 HWY_INLINE Rows Times(const Rows& a, V s) {
-    return {{hn::Mul(hn::Broadcast<0>(s), a.r[0]), hn::Mul(hn::Broadcast<1>(s), a.r[1]), hn::Mul(hn::Broadcast<2>(s), a.r[2]),
-             hn::Mul(hn::Broadcast<3>(s), a.r[3])}};
+    return {{hn::Mul(hn::Broadcast<0>(s), a.r[0]), hn::Mul(hn::Broadcast<1>(s), a.r[1]),
+             hn::Mul(hn::Broadcast<2>(s), a.r[2]), hn::Mul(hn::Broadcast<3>(s), a.r[3])}};
 }
 using Pairs = hn::Repartition<double, Tag>;
 HWY_INLINE V LowerPairs(V a, V b) {
@@ -134,15 +137,18 @@ HWY_INLINE V UpperPairs(V a, V b) {
     return hn::BitCast(kTag, hn::InterleaveUpper(Pairs(), hn::BitCast(Pairs(), a), hn::BitCast(Pairs(), b)));
 }
 HWY_INLINE Points Columns(const Rows& rows) {
-    const V xy01 = hn::InterleaveLower(kTag, rows.r[0], rows.r[1]), xy23 = hn::InterleaveLower(kTag, rows.r[2], rows.r[3]);
-    const V zw01 = hn::InterleaveUpper(kTag, rows.r[0], rows.r[1]), zw23 = hn::InterleaveUpper(kTag, rows.r[2], rows.r[3]);
+    const V xy01 = hn::InterleaveLower(kTag, rows.r[0], rows.r[1]),
+            xy23 = hn::InterleaveLower(kTag, rows.r[2], rows.r[3]);
+    const V zw01 = hn::InterleaveUpper(kTag, rows.r[0], rows.r[1]),
+            zw23 = hn::InterleaveUpper(kTag, rows.r[2], rows.r[3]);
     return {LowerPairs(xy01, xy23), UpperPairs(xy01, xy23), LowerPairs(zw01, zw23)};
 }
 HWY_INLINE Rows RowsOf(const Points& p) {
     const V zero = hn::Zero(kTag);
     const V xy_low = hn::InterleaveLower(kTag, p.x, p.y), xy_high = hn::InterleaveUpper(kTag, p.x, p.y);
     const V z_low = hn::InterleaveLower(kTag, p.z, zero), z_high = hn::InterleaveUpper(kTag, p.z, zero);
-    return {{LowerPairs(xy_low, z_low), UpperPairs(xy_low, z_low), LowerPairs(xy_high, z_high), UpperPairs(xy_high, z_high)}};
+    return {{LowerPairs(xy_low, z_low), UpperPairs(xy_low, z_low), LowerPairs(xy_high, z_high),
+             UpperPairs(xy_high, z_high)}};
 }
 HWY_INLINE void Store(const Rows& rows, Particle* run, size_t k) {
     for (size_t i = 0; i < 4; ++i) hn::Store(rows.r[i], kTag, &run[2 * i + k / 4].x.x);
@@ -169,7 +175,8 @@ HWY_INLINE Rows MulAdd(const Rows& a, V s, const Rows& b) {
 
 template <typename Mask>
 HWY_INLINE Points Choose(Mask mask, const Points& yes, const Points& no) {
-    return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y), hn::IfThenElse(mask, yes.z, no.z)};
+    return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
+            hn::IfThenElse(mask, yes.z, no.z)};
 }
 
 }  // namespace HWY_NAMESPACE

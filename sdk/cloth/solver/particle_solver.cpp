@@ -11,15 +11,15 @@ namespace vfit {
 
 namespace {
 
-// Bends that take back no more than this share of a fold in a sub-step are so soft that they may push in every second one, with
-// twice the force: the impulse is the same, at half the work.
+// Bends that take back no more than this share of a fold in a sub-step are so soft that they may push in
+// every second one, with twice the force: the impulse is the same, at half the work.
 constexpr float kSoft = 0.5f;
 
 // So fast do the cloth's own layers part that have come too near: pushed out at once, they would fly.
 constexpr float kBack_m_s = 1.0f;
 
-// Passes over the edges in a second, at least: with fewer, a limb that kicks stretches the few triangles that it meets until
-// it is through between their corners.
+// Passes over the edges in a second, at least: with fewer, a limb that kicks stretches the few triangles that
+// it meets until it is through between their corners.
 constexpr float kLeastPasses_hz = 240.0f;
 int passes(float h) { return std::max(1, int(std::ceil(kLeastPasses_hz * h - 1e-3f))); }
 
@@ -29,8 +29,10 @@ Vec3 half_fall(const ParticleSolver::Step& step) { return step.gravity * (0.5f *
 
 }  // namespace
 
-ParticleSolver::ParticleSolver(std::shared_ptr<const Fabric> fabric, const Options& options, Jobs* jobs) : fabric_(std::move(fabric)) {
-    if (options.self_thickness_m > 0.0f) self_ = std::make_unique<SelfContact>(fabric_, options.self_thickness_m, jobs);
+ParticleSolver::ParticleSolver(std::shared_ptr<const Fabric> fabric, const Options& options, Jobs* jobs)
+    : fabric_(std::move(fabric)) {
+    if (options.self_thickness_m > 0.0f)
+        self_ = std::make_unique<SelfContact>(fabric_, options.self_thickness_m, jobs);
     if (options.virtual_m > 0.0f) virtual_ = std::make_unique<VirtualParticles>(*fabric_, options.virtual_m);
     const ParticleLayout& layout = fabric_->layout();
     for (Particles* list : {&places_, &starts_, &velocities_, &normals_}) list->resize(layout.count());
@@ -90,11 +92,12 @@ Moving ParticleSolver::moving(uint32_t part) {
 void ParticleSolver::bounds(Vec3& low, Vec3& high) const {
     low = Vec3(INFINITY), high = Vec3(-INFINITY);
     for (const ParticleLayout::Part& part : fabric_->layout().parts)
-        for (uint32_t i = part.begin; i < part.moving_end; ++i) low = glm::min(low, places_[i].x), high = glm::max(high, places_[i].x);
+        for (uint32_t i = part.begin; i < part.moving_end; ++i)
+            low = glm::min(low, places_[i].x), high = glm::max(high, places_[i].x);
 }
 
-/// Parts, then cuts, then what the cloth does to itself, then parts ...: a part ends one sub-step and begins the next, up to
-/// what its own constraints do.
+/// Parts, then cuts, then what the cloth does to itself, then parts ...: a part ends one sub-step and begins
+/// the next, up to what its own constraints do.
 void ParticleSolver::advance(const Step& step, Jobs& jobs) {
     const auto parts = uint32_t(parts_.size());
     set_gains(substep_s(step), step.substeps);
@@ -102,7 +105,8 @@ void ParticleSolver::advance(const Step& step, Jobs& jobs) {
     step.colliders.sweep(0.0f, 1.0f, swept_step_);
     for (uint32_t part = 0; part < parts; ++part) fill_up(part);
     if (step.air.drag != 0.0f || step.air.lift != 0.0f)
-        parallel_for(jobs, parts, [&](uint32_t part) { blow(step.air, step.dt, *fabric_, part, places_, velocities_); });
+        parallel_for(jobs, parts,
+                     [&](uint32_t part) { blow(step.air, step.dt, *fabric_, part, places_, velocities_); });
     if (self_) {
         parallel_for(jobs, parts, [&](uint32_t part) { find_normals(part); });
         self_->find_runs(places_, velocities_, normals_, step.dt, step.substeps, jobs);
@@ -118,19 +122,25 @@ void ParticleSolver::advance(const Step& step, Jobs& jobs) {
         const int substep = int(phase / phases);
         switch (cycle[phase % phases]) {
             case Phase::parts:
-                if (phase == 0) begin_part(step, item);
-                else end_part(step, substep - 1, item);
+                if (phase == 0)
+                    begin_part(step, item);
+                else
+                    end_part(step, substep - 1, item);
                 if (substep < step.substeps) begin_substep(step, substep, item);
                 return;
             case Phase::cuts:
-                if (item + 1 < parts) solve_group(substep, parts + item);
-                else step.colliders.sweep(share(step, substep), share(step, substep + 1), swept_);
+                if (item + 1 < parts)
+                    solve_group(substep, parts + item);
+                else
+                    step.colliders.sweep(share(step, substep), share(step, substep + 1), swept_);
                 return;
             case Phase::find_self: return self_->find(places_, starts_, normals_, substep, item);
             case Phase::part_layers:
                 self_->pack();
-                return solve_surface_contacts(self_->contacts(), starts_.data(), kBack_m_s * substep_s(step), places_.data());
-            case Phase::virtual_particles: return virtual_->solve(swept_, step.contact, starts_, places_, pushed_);
+                return solve_surface_contacts(self_->contacts(), starts_.data(), kBack_m_s * substep_s(step),
+                                              places_.data());
+            case Phase::virtual_particles:
+                return virtual_->solve(swept_, step.contact, starts_, places_, pushed_);
         }
     });
 }
@@ -142,7 +152,8 @@ void ParticleSolver::set_gains(float h, int substeps) {
     may_alternate_ = alternate;
     const auto find_bend_gains = [&](float force) {
         float most = 0.0f;
-        for (size_t i = 0; i < gains_.size(); ++i) most = std::max(most, find_gains(fabric_->bend_batches()[i].masses, h, force, gains_[i].bends));
+        for (size_t i = 0; i < gains_.size(); ++i)
+            most = std::max(most, find_gains(fabric_->bend_batches()[i].masses, h, force, gains_[i].bends));
         return most;
     };
     // Beside hinges, distances over folds only keep folds from closing.
@@ -157,8 +168,10 @@ void ParticleSolver::set_gains(float h, int substeps) {
 }
 
 void ParticleSolver::solve_group(int substep, uint32_t group) {
-    if (substep % bend_every_ == 0) solve_distances(fabric_->bend_batches()[group].joints, gains_[group].bends, places_.data());
-    solve_hinges(fabric_->hinge_batches()[group].hinges, gains_[group].hinges, substep % 2 == 0, places_.data());
+    if (substep % bend_every_ == 0)
+        solve_distances(fabric_->bend_batches()[group].joints, gains_[group].bends, places_.data());
+    solve_hinges(fabric_->hinge_batches()[group].hinges, gains_[group].hinges, substep % 2 == 0,
+                 places_.data());
     for (int i = passes(gains_h_); i > 0; --i)
         solve_distances(fabric_->edge_batches()[group].joints, gains_[group].edges, places_.data());
 }
@@ -169,13 +182,19 @@ void ParticleSolver::begin_part(const Step& step, uint32_t part) {
     place_fixed(step, part);
     const Moving m = moving(part);
     parts_[part].planes.clear();
-    const auto of_part = [&](std::span<const float> lift_m) { return lift_m.empty() ? lift_m : lift_m.subspan(fabric_->layout().parts[part].begin); };
-    const std::span<const float> off_solids_m = of_part(step.lift_m), off_cloth_m = of_part(step.cloth_lift_m);
+    const auto of_part = [&](std::span<const float> lift_m) {
+        return lift_m.empty() ? lift_m : lift_m.subspan(fabric_->layout().parts[part].begin);
+    };
+    const std::span<const float> off_solids_m = of_part(step.lift_m),
+                                 off_cloth_m = of_part(step.cloth_lift_m);
     parts_[part].touched.resize(step.meshes.size());
     for (size_t i = 0; i < step.meshes.size(); ++i)
-        step.meshes[i].find_planes(m, step.dt, step.thickness_m, step.meshes[i].what() == MeshOf::solid ? off_solids_m : off_cloth_m, parts_[part].near_runs, parts_[part].touched[i], parts_[part].planes);
+        step.meshes[i].find_planes(m, step.dt, step.thickness_m,
+                                   step.meshes[i].what() == MeshOf::solid ? off_solids_m : off_cloth_m,
+                                   parts_[part].near_runs, parts_[part].touched[i], parts_[part].planes);
     if (step.meshes.size() > 1)
-        std::stable_sort(parts_[part].planes.begin(), parts_[part].planes.end(), [](const RunPlanes& a, const RunPlanes& b) { return a.run < b.run; });
+        std::stable_sort(parts_[part].planes.begin(), parts_[part].planes.end(),
+                         [](const RunPlanes& a, const RunPlanes& b) { return a.run < b.run; });
     NearColliders& near = parts_[part].near;
     reserve(near, m.count, swept_step_.size());
     cull({m.places, m.count}, {m.velocities, m.count}, step.dt, swept_step_, near);
@@ -188,7 +207,8 @@ void ParticleSolver::find_normals(uint32_t part) {
     for (uint32_t i = p.begin; i < p.end; ++i) {
         const std::span<const TriangleFans::Corners> fan = fabric_->fans().of(i);
         if (fan.empty()) continue;
-        const Vec3 across = glm::cross(places_[fan[0].second].x - places_[i].x, places_[fan[0].third].x - places_[i].x);
+        const Vec3 across =
+            glm::cross(places_[fan[0].second].x - places_[i].x, places_[fan[0].third].x - places_[i].x);
         normals_[i].x = across / std::max(glm::length(across), 1e-12f);
     }
 }
@@ -203,7 +223,8 @@ void ParticleSolver::fill_up(uint32_t part) {
     }
 }
 
-void ParticleSolver::place_balls(const Step& step, uint32_t part, std::span<const BallRun> runs, float more_m, std::vector<RunBalls>& out) const {
+void ParticleSolver::place_balls(const Step& step, uint32_t part, std::span<const BallRun> runs, float more_m,
+                                 std::vector<RunBalls>& out) const {
     const uint32_t first_run = fabric_->layout().parts[part].begin / uint32_t(kLanes);
     out.resize(runs.size());
     for (size_t i = 0; i < runs.size(); ++i) {

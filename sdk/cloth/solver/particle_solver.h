@@ -1,5 +1,5 @@
-// The particles of one cloth and their way through a step: small sub-steps of one XPBD pass each (Macklin et al. 2019), part
-// by part on as many threads as there are.
+// The particles of one cloth and their way through a step: small sub-steps of one XPBD pass each (Macklin et
+// al. 2019), part by part on as many threads as there are.
 #pragma once
 
 #include <cstdint>
@@ -7,14 +7,14 @@
 #include <span>
 #include <vector>
 
-#include "cloth/solver/air.h"
-#include "cloth/solver/cloth_kernels.h"
 #include "cloth/contact/collider_motion.h"
 #include "cloth/contact/contact_mesh.h"
-#include "cloth/fabric/fabric.h"
-#include "cloth/rigid_motion.h"
 #include "cloth/contact/self_contact.h"
 #include "cloth/contact/virtual_particles.h"
+#include "cloth/fabric/fabric.h"
+#include "cloth/rigid_motion.h"
+#include "cloth/solver/air.h"
+#include "cloth/solver/cloth_kernels.h"
 #include "core/jobs.h"
 
 namespace vfit {
@@ -22,9 +22,10 @@ namespace vfit {
 class ParticleSolver {
 public:
     struct Options {
-        float self_thickness_m = 0.0f;  // kept between the cloth's own layers; 0: they pass through each other
-        float virtual_m = 0.0f;         // between points of triangles that meet colliders as well; 0: none
-        bool with_pushes = false;       // copy_pushes() is asked for
+        float self_thickness_m =
+            0.0f;                  // kept between the cloth's own layers; 0: they pass through each other
+        float virtual_m = 0.0f;    // between points of triangles that meet colliders as well; 0: none
+        bool with_pushes = false;  // copy_pushes() is asked for
     };
     ParticleSolver(std::shared_ptr<const Fabric> fabric, const Options& options, Jobs* jobs = nullptr);
 
@@ -47,16 +48,18 @@ public:
         Air air;
         float keep;  // of the speed, a sub-step
         ContactSettings contact;
-        float thickness_m;  // of backstops; colliders have theirs
+        float thickness_m;               // of backstops; colliders have theirs
         std::span<const Vec3> from, to;  // the fabric's targets at both ends of the step
         const ColliderMotion& colliders;
         std::span<const ContactMesh> meshes;
-        std::span<const float> lift_m, cloth_lift_m;  // off these, one a particle, of solids and of cloth below; may be empty
+        std::span<const float> lift_m,
+            cloth_lift_m;  // off these, one a particle, of solids and of cloth below; may be empty
     };
     /// The box about all particles.
     void bounds(Vec3& low, Vec3& high) const;
 
-    /// The result is the same for any number of threads. Does not allocate while the number of colliders stays.
+    /// The result is the same for any number of threads. Does not allocate while the number of colliders
+    /// stays.
     void advance(const Step& step, Jobs& jobs);
 
     /// One a vertex; and how far they are from what was there before.
@@ -85,7 +88,8 @@ private:
     Moving moving(uint32_t part);
     void set_gains(float h, int substeps);
     void begin_part(const Step& step, uint32_t part);
-    void place_balls(const Step& step, uint32_t part, std::span<const BallRun> runs, float more_m, std::vector<RunBalls>& out) const;
+    void place_balls(const Step& step, uint32_t part, std::span<const BallRun> runs, float more_m,
+                     std::vector<RunBalls>& out) const;
     void place_fixed(const Step& step, uint32_t part);
     void begin_substep(const Step& step, int substep, uint32_t part);
     void end_part(const Step& step, int substep, uint32_t part);
@@ -104,7 +108,8 @@ private:
     std::vector<Part> parts_;
     std::unique_ptr<SelfContact> self_;
     std::unique_ptr<VirtualParticles> virtual_;
-    std::vector<SweptCapsule> swept_step_, swept_;  // over the step, and over the sub-step that comes to its end
+    std::vector<SweptCapsule> swept_step_,
+        swept_;  // over the step, and over the sub-step that comes to its end
 };
 
 }  // namespace vfit

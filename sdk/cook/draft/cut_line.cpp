@@ -84,7 +84,8 @@ float CutLine::length(std::string_view label) const {
 Panel CutLine::panel(std::string name) const {
     Panel panel;
     panel.name = std::move(name);
-    if (glm::distance(start_, end()) > kSamePlace_m) fail(VFIT_ERROR_DATA, "draft: panel ", panel.name, " is not closed");
+    if (glm::distance(start_, end()) > kSamePlace_m)
+        fail(VFIT_ERROR_DATA, "draft: panel ", panel.name, " is not closed");
     Vec2 from = start_;
     for (uint32_t i = 0; i < pieces_.size(); ++i) {
         PatternEdge edge = pieces_[i].edge;

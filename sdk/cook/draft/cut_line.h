@@ -1,4 +1,5 @@
-// The outline of a pattern piece while it is drafted: a pen that goes round counter-clockwise and names each edge.
+// The outline of a pattern piece while it is drafted: a pen that goes round counter-clockwise and names each
+// edge.
 #pragma once
 
 #include <string>
@@ -9,8 +10,8 @@
 
 namespace vfit {
 
-/// Drawn as the person's left half (x > 0), seen from the outside with the body facing the viewer: front and back alike.
-/// Metres; y = 0 is the waist line, or the sleeve's widest line.
+/// Drawn as the person's left half (x > 0), seen from the outside with the body facing the viewer: front and
+/// back alike. Metres; y = 0 is the waist line, or the sleeve's widest line.
 class CutLine {
 public:
     explicit CutLine(const Vec2& start) : start_(start) {}
@@ -25,7 +26,8 @@ public:
     CutLine& prefix(const std::string& words);
 
     const Vec2& end() const { return pieces_.empty() ? start_ : pieces_.back().to; }
-    /// The person's other side: reflected in x = 0, and gone along backwards so that it stays counter-clockwise.
+    /// The person's other side: reflected in x = 0, and gone along backwards so that it stays
+    /// counter-clockwise.
     CutLine mirrored() const;
     /// The length of the edges of that label.
     float length(std::string_view label) const;
@@ -43,8 +45,8 @@ private:
     std::vector<Piece> pieces_;
 };
 
-/// A whole piece from its left half, which goes from the middle's lower end to its upper end: both halves, with labels
-/// "left ..." and "right ...".
+/// A whole piece from its left half, which goes from the middle's lower end to its upper end: both halves,
+/// with labels "left ..." and "right ...".
 CutLine whole(CutLine left_half);
 /// The left half closed along the middle by an edge "middle"; labels "left ...".
 CutLine closed_left(CutLine left_half);

@@ -17,7 +17,8 @@ namespace {
 class DesignObject {
 public:
     DesignObject(const Json& json, std::string name) : json_(json), name_(std::move(name)) {
-        if (!json.is_object()) fail(VFIT_ERROR_DATA, "design: ", name_.empty() ? "the file" : name_, " is not a JSON object");
+        if (!json.is_object())
+            fail(VFIT_ERROR_DATA, "design: ", name_.empty() ? "the file" : name_, " is not a JSON object");
     }
 
     bool has(const char* key) const { return json_.contains(key); }
@@ -49,15 +50,18 @@ public:
 
     LevelShare level(const char* key, BodyLevel highest) {
         const Json& value = field(key);
-        if (!value.is_array() || value.size() != 3 || !value[0].is_string() || !value[1].is_string() || !value[2].is_number())
+        if (!value.is_array() || value.size() != 3 || !value[0].is_string() || !value[1].is_string() ||
+            !value[2].is_number())
             fail(VFIT_ERROR_DATA, "design: ", path(key), " is not of the form [\"hip\", \"knee\", 0.5]");
         LevelShare out;
         out.from = body_level(value[0].get<std::string>(), key);
         out.to = body_level(value[1].get<std::string>(), key);
         out.share = in_range(value[2].get<float>(), path(key), -0.5f, 1.5f);
-        if (out.from >= out.to) fail(VFIT_ERROR_DATA, "design: ", path(key), " must go from a level down to a lower one");
+        if (out.from >= out.to)
+            fail(VFIT_ERROR_DATA, "design: ", path(key), " must go from a level down to a lower one");
         if (out.from < highest)
-            fail(VFIT_ERROR_DATA, "design: ", path(key), " must not start at the ", value[0].get<std::string>());
+            fail(VFIT_ERROR_DATA, "design: ", path(key), " must not start at the ",
+                 value[0].get<std::string>());
         return out;
     }
 
@@ -96,7 +100,8 @@ private:
 };
 
 // Ranges: what a garment can have at all; beyond them lies a slip of the unit.
-constexpr float kMostEase_m = 0.6f, kLeastEase_m = -0.15f;  // knitted and stretch fabrics are cut smaller than the body
+constexpr float kMostEase_m = 0.6f,
+                kLeastEase_m = -0.15f;  // knitted and stretch fabrics are cut smaller than the body
 
 constexpr float kLeastStrip_m = 0.015f;  // of bands and collars: a row of triangles
 
@@ -119,16 +124,18 @@ TorsoDesign read_torso(const Json& json) {
     if (o.has("neck")) t.v_neck = o.choice("neck", {"round", "v"}) == 1;
     t.collar_height_m = o.number_or("collar_height_m", 0.0f, 0.0f, 0.12f);
     if (t.collar_height_m > 0.0f && t.collar_height_m < kLeastStrip_m)
-        fail(VFIT_ERROR_DATA, "design: \"torso.collar_height_m\" must be 0 or at least ", kLeastStrip_m, ", is ",
-             t.collar_height_m);
+        fail(VFIT_ERROR_DATA, "design: \"torso.collar_height_m\" must be 0 or at least ", kLeastStrip_m,
+             ", is ", t.collar_height_m);
     if (t.collar_height_m > 0.0f && (t.v_neck || t.front == TorsoDesign::Front::open))
-        fail(VFIT_ERROR_DATA, "design: \"torso.collar_height_m\" wants a round neck and a front that is not open");
+        fail(VFIT_ERROR_DATA,
+             "design: \"torso.collar_height_m\" wants a round neck and a front that is not open");
     t.shoulder = o.number_or("shoulder", 1.0f, 0.4f, 1.6f);
     t.armhole_drop_m = o.number_or("armhole_drop_m", 0.0f, -0.02f, 0.2f);
     t.bust_dart = o.number_or("bust_dart", 0.0f, 0.0f, 1.0f);
     t.waist_dart = o.number_or("waist_dart", 0.0f, 0.0f, 1.0f);
     if (t.waist_dart > 0.0f && t.hem)
-        fail(VFIT_ERROR_DATA, "design: \"torso.waist_dart\" wants a torso that ends at the waist, without \"torso.hem\"");
+        fail(VFIT_ERROR_DATA,
+             "design: \"torso.waist_dart\" wants a torso that ends at the waist, without \"torso.hem\"");
     o.no_others();
     return t;
 }
@@ -169,8 +176,8 @@ TrousersDesign read_trousers(const Json& json) {
     t.band_height_m = o.number_or("band_height_m", 0.0f, 0.0f, 0.15f);
     t.gather = o.number_or("gather", 0.0f, 0.0f, 1.0f);
     if (t.band_height_m > 0.0f && t.band_height_m < kLeastStrip_m)
-        fail(VFIT_ERROR_DATA, "design: \"trousers.band_height_m\" must be 0 or at least ", kLeastStrip_m, ", is ",
-             t.band_height_m);
+        fail(VFIT_ERROR_DATA, "design: \"trousers.band_height_m\" must be 0 or at least ", kLeastStrip_m,
+             ", is ", t.band_height_m);
     if (t.gather > 0.0f && t.band_height_m == 0.0f)
         fail(VFIT_ERROR_DATA, "design: \"trousers.gather\" wants a waistband, \"trousers.band_height_m\"");
     o.no_others();
@@ -211,7 +218,8 @@ GarmentDesign parse_design(std::span<const std::byte> json) {
     design.sex = root.choice("body_sex", {"f", "m"}) == 0 ? VFIT_SEX_FEMALE : VFIT_SEX_MALE;
     if (root.has("color")) {
         const Json& color = root.field("color");
-        if (!color.is_array() || color.size() != 3) fail(VFIT_ERROR_DATA, "design: \"color\" is not three numbers");
+        if (!color.is_array() || color.size() != 3)
+            fail(VFIT_ERROR_DATA, "design: \"color\" is not three numbers");
         for (size_t i = 0; i < 3; ++i) {
             if (!color[i].is_number() || !(color[i].get<float>() >= 0.0f && color[i].get<float>() <= 1.0f))
                 fail(VFIT_ERROR_DATA, "design: \"color\" is not three numbers from 0 to 1");
@@ -222,19 +230,23 @@ GarmentDesign parse_design(std::span<const std::byte> json) {
     if (root.has("sleeve")) design.sleeve = read_sleeve(root.field("sleeve"));
     if (root.has("skirt")) design.skirt = read_skirt(root.field("skirt"));
     if (root.has("trousers")) design.trousers = read_trousers(root.field("trousers"));
-    if (!design.torso && !design.trousers) fail(VFIT_ERROR_DATA, "design: it has neither \"torso\" nor \"trousers\"");
+    if (!design.torso && !design.trousers)
+        fail(VFIT_ERROR_DATA, "design: it has neither \"torso\" nor \"trousers\"");
     if (design.sleeve && !design.torso) fail(VFIT_ERROR_DATA, "design: \"sleeve\" wants a \"torso\"");
     if (design.skirt && !design.torso) fail(VFIT_ERROR_DATA, "design: \"skirt\" wants a \"torso\"");
-    if (design.skirt && design.trousers) fail(VFIT_ERROR_DATA, "design: \"skirt\" and \"trousers\" do not go together");
+    if (design.skirt && design.trousers)
+        fail(VFIT_ERROR_DATA, "design: \"skirt\" and \"trousers\" do not go together");
     if (design.torso) {
         const bool joined = design.skirt || design.trousers;
         if (joined == design.torso->hem.has_value())
-            fail(VFIT_ERROR_DATA, "design: \"torso.hem\" is wanted where nothing is sewn on at the waist, and only there");
+            fail(VFIT_ERROR_DATA,
+                 "design: \"torso.hem\" is wanted where nothing is sewn on at the waist, and only there");
         if (joined && design.torso->front == TorsoDesign::Front::open)
             fail(VFIT_ERROR_DATA, "design: \"torso.front\" must not be open above \"skirt\" or \"trousers\"");
         if (design.trousers && (design.trousers->band_height_m > 0.0f || design.trousers->rise > 0.0f ||
                                 design.trousers->dart > 0.0f || design.torso->waist_dart > 0.0f))
-            fail(VFIT_ERROR_DATA, "design: \"torso\" and \"trousers\" join at the waist: no band, no rise, no darts there");
+            fail(VFIT_ERROR_DATA,
+                 "design: \"torso\" and \"trousers\" join at the waist: no band, no rise, no darts there");
     }
     read_sizes(root, design);
     root.no_others();

@@ -4,21 +4,23 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
 #include "cook/draft/blocks.h"
-#include "cook/draft/measures.h"
 #include "cook/draft/dress_form.h"
+#include "cook/draft/measures.h"
+#include "core/error.h"
 
 namespace vfit {
 
 namespace {
 
-// Halves of a trunk are held turned outwards about its middle: flat before it, front and back would meet only beyond the arms.
+// Halves of a trunk are held turned outwards about its middle: flat before it, front and back would meet only
+// beyond the arms.
 constexpr float kTurned_rad = 0.7f;        // 40 degrees
 constexpr float kAboveShoulder_m = 0.01f;  // of the shoulder seam, before it is sewn
-constexpr float kGap_m = 0.01f;            // between pieces that are held above each other or beside the middle
-constexpr float kHemHeight_m = 0.13f;      // above the soles: there a leg's hem closes about the ankle and not about the foot
-constexpr float kSameLength = 0.005f;      // of two edges that are sewn together, share
+constexpr float kGap_m = 0.01f;  // between pieces that are held above each other or beside the middle
+constexpr float kHemHeight_m =
+    0.13f;  // above the soles: there a leg's hem closes about the ankle and not about the foot
+constexpr float kSameLength = 0.005f;  // of two edges that are sewn together, share
 
 const std::string kSides[] = {"left", "right"};
 
@@ -27,7 +29,8 @@ public:
     GarmentDrafter(const DraftMeasures& measures, const DressForm& form, const GarmentDesign& design)
         : body_(measures), form_(form), design_(design) {
         if (!design.torso) return;
-        for (float* length : {&body_.front_length, &body_.back_length, &body_.bust_length}) *length += design.torso->length_ease_m;
+        for (float* length : {&body_.front_length, &body_.back_length, &body_.bust_length})
+            *length += design.torso->length_ease_m;
     }
 
     Pattern draft() {
@@ -48,15 +51,19 @@ public:
     std::vector<Measurement> finished() const {
         std::vector<Measurement> out;
         for (const GirthLine& line : girths_) {
-            const auto it = std::find_if(out.begin(), out.end(), [&](const Measurement& m) { return m.key == line.key; });
-            if (it == out.end()) out.push_back({line.key, line.length_m});
-            else it->value += line.length_m;
+            const auto it =
+                std::find_if(out.begin(), out.end(), [&](const Measurement& m) { return m.key == line.key; });
+            if (it == out.end())
+                out.push_back({line.key, line.length_m});
+            else
+                it->value += line.length_m;
         }
         return out;
     }
 
 private:
-    // ---- pieces ------------------------------------------------------------------------------------------------------
+    // ---- pieces
+    // ------------------------------------------------------------------------------------------------------
     void add(Panel panel) {
         panel.material = design_.name;
         pattern_.panels.push_back(std::move(panel));
@@ -73,19 +80,22 @@ private:
         return form_.upright(whole(half), name, side, {0.0f, body_.waist_height + above_waist}, 0.0f, 0.0f);
     }
 
-    /// Above the body's waist, where the waist line of the trunk's pieces is held: lower than it will lie, as the way over
-    /// chest and back is longer than the way straight up. So the shoulder seams meet just over the shoulders, and the
-    /// underarm points below the arms.
+    /// Above the body's waist, where the waist line of the trunk's pieces is held: lower than it will lie, as
+    /// the way over chest and back is longer than the way straight up. So the shoulder seams meet just over
+    /// the shoulders, and the underarm points below the arms.
     float trunk_above_waist() const {
         if (!design_.torso) return 0.0f;
-        const float over = 0.5f * (body_.front_length + body_.back_length) -
-                           (body_.shoulder_half_m - body_.side_of_neck_m()) * std::tan(body_.shoulder_slope_rad);
+        const float over =
+            0.5f * (body_.front_length + body_.back_length) -
+            (body_.shoulder_half_m - body_.side_of_neck_m()) * std::tan(body_.shoulder_slope_rad);
         return std::min(0.0f, body_.shoulder_above_waist + kAboveShoulder_m - over);
     }
     std::string front(const std::string& side) const {
         return design_.torso->front == TorsoDesign::Front::whole ? "front" : "front_" + side;
     }
-    std::string back(const std::string& side) const { return design_.torso->back_seam ? "back_" + side : "back"; }
+    std::string back(const std::string& side) const {
+        return design_.torso->back_seam ? "back_" + side : "back";
+    }
 
     void draft_trunk() {
         std::optional<JoinedWaist> joined;
@@ -105,10 +115,10 @@ private:
         if (design_.torso->back_seam) sew(back("left"), "left middle", back("right"), "right middle");
         if (const float height = design_.torso->collar_height_m; height > 0.0f) {
             const float above_neck = above + kGap_m;
-            add(whole_at_waist(draft_collar(torso_.front.length("neck"), height), "collar_front", PieceSide::front,
-                               body_.front_length + above_neck));
-            add(whole_at_waist(draft_collar(torso_.back.length("neck"), height), "collar_back", PieceSide::back,
-                               body_.back_length + above_neck));
+            add(whole_at_waist(draft_collar(torso_.front.length("neck"), height), "collar_front",
+                               PieceSide::front, body_.front_length + above_neck));
+            add(whole_at_waist(draft_collar(torso_.back.length("neck"), height), "collar_back",
+                               PieceSide::back, body_.back_length + above_neck));
         }
         for (const std::string& side : kSides) {
             if (design_.torso->collar_height_m > 0.0f) {
@@ -117,8 +127,10 @@ private:
                 sew("collar_back", side + " neck", back(side), side + " neck");
             }
             for (const char* seam : {"side skirt", "side hip", "side waist", "side chest", "shoulder"})
-                if (torso_.back.length(seam) > 0.0f) sew(front(side), side + " " + seam, back(side), side + " " + seam);
-            if (design_.torso->bust_dart > 0.0f) sew(front(side), side + " bust dart a", front(side), side + " bust dart b");
+                if (torso_.back.length(seam) > 0.0f)
+                    sew(front(side), side + " " + seam, back(side), side + " " + seam);
+            if (design_.torso->bust_dart > 0.0f)
+                sew(front(side), side + " bust dart a", front(side), side + " bust dart b");
             if (design_.torso->waist_dart > 0.0f)
                 for (const std::string& piece : {front(side), back(side)})
                     sew(piece, side + " dart a", piece, side + " dart b");
@@ -126,11 +138,11 @@ private:
     }
 
     void draft_sleeves() {
-        const SleeveBlock sleeve =
-            draft_sleeve(body_, *design_.sleeve, torso_.front.length("armhole"), torso_.back.length("armhole"));
+        const SleeveBlock sleeve = draft_sleeve(body_, *design_.sleeve, torso_.front.length("armhole"),
+                                                torso_.back.length("armhole"));
         const auto place = [&](CutLine line, const char* name, PieceSide side, float width, float hem) {
-            add_both(form_.along_left_arm(line.prefix("left "), name, side, sleeve.cap_height_m, sleeve.length_m, width,
-                                          hem));
+            add_both(form_.along_left_arm(line.prefix("left "), name, side, sleeve.cap_height_m,
+                                          sleeve.length_m, width, hem));
         };
         place(sleeve.front, "sleeve_front", PieceSide::front, sleeve.front_width_m, sleeve.front_hem_m);
         place(sleeve.back, "sleeve_back", PieceSide::back, sleeve.back_width_m, sleeve.back_hem_m);
@@ -162,7 +174,8 @@ private:
         place(skirt.front, "skirt_front", PieceSide::front);
         place(skirt.back, "skirt_back", PieceSide::back);
         for (const std::string& side : kSides) {
-            for (const char* seam : {" side hip", " side skirt"}) sew("skirt_front", side + seam, "skirt_back", side + seam);
+            for (const char* seam : {" side hip", " side skirt"})
+                sew("skirt_front", side + seam, "skirt_back", side + seam);
             sew_waist(front(side), "skirt_front", side, front_waist.size());
             sew_waist(back(side), "skirt_back", side, back_waist.size());
         }
@@ -171,18 +184,23 @@ private:
     void draft_legs() {
         const TrousersDesign& design = *design_.trousers;
         for (const GirthLine& line : trousers_.girths) {
-            if (line.key != "waist_girth_m") girths_.push_back(line);
-            else if (!design_.torso) girths_.push_back({design.rise == 0.0f ? line.key : "x_top_girth_m", line.length_m});
+            if (line.key != "waist_girth_m")
+                girths_.push_back(line);
+            else if (!design_.torso)
+                girths_.push_back({design.rise == 0.0f ? line.key : "x_top_girth_m", line.length_m});
         }
         float rise = 0.0f;
         const Panel back = trousers_.back.panel("back");
         for (const Vec2& p : back.corners) rise = std::max(rise, p.y - trousers_.top_m);
         // Worn level: front and back pull each other even where the back rises to the middle.
-        if (!design_.torso) pattern_.worn_top_m = body_.waist_height + trousers_.top_m + design.band_height_m + 0.25f * rise;
-        // Under a torso, below its edge; but so high that the hems can close above the feet, then before that edge.
+        if (!design_.torso)
+            pattern_.worn_top_m = body_.waist_height + trousers_.top_m + design.band_height_m + 0.25f * rise;
+        // Under a torso, below its edge; but so high that the hems can close above the feet, then before that
+        // edge.
         float above = 0.0f;
-        if (design_.torso) above = std::max(trunk_above_waist() - rise - kGap_m,
-                                             kHemHeight_m - (body_.waist_height - body_.depth(design.hem)));
+        if (design_.torso)
+            above = std::max(trunk_above_waist() - rise - kGap_m,
+                             kHemHeight_m - (body_.waist_height - body_.depth(design.hem)));
         const auto place = [&](CutLine line, const char* name, PieceSide side) {
             Panel panel = form_.along_left_leg(line.prefix("left "), name, side, body_.waist_height + above);
             if (design_.torso) {
@@ -197,8 +215,10 @@ private:
         place(trousers_.front, "trousers_front", PieceSide::front);
         place(trousers_.back, "trousers_back", PieceSide::back);
         if (design.band_height_m > 0.0f) {
-            const auto band = [&](const std::vector<float>& waist, const char* name, PieceSide side, float above) {
-                add(whole_at_waist(draft_band(waist, design.band_height_m, design.gather), name, side, above));
+            const auto band = [&](const std::vector<float>& waist, const char* name, PieceSide side,
+                                  float above) {
+                add(whole_at_waist(draft_band(waist, design.band_height_m, design.gather), name, side,
+                                   above));
             };
             band(trousers_.front_waist_m, "band_front", PieceSide::front, trousers_.top_m + kGap_m);
             band(trousers_.back_waist_m, "band_back", PieceSide::back, trousers_.top_m + rise + kGap_m);
@@ -214,7 +234,8 @@ private:
             }
         for (const std::string& side : kSides) {
             const std::string before = "trousers_front_" + side, behind = "trousers_back_" + side;
-            for (const char* seam : {" side shank", " side thigh", " side hip", " inseam thigh", " inseam shank"})
+            for (const char* seam :
+                 {" side shank", " side thigh", " side hip", " inseam thigh", " inseam shank"})
                 sew(before, side + seam, behind, side + seam);
             if (design.dart > 0.0f) sew(behind, side + " dart b", behind, side + " dart a");
             if (design.band_height_m > 0.0f) {
@@ -229,7 +250,8 @@ private:
         }
     }
 
-    // ---- seams -------------------------------------------------------------------------------------------------------
+    // ---- seams
+    // -------------------------------------------------------------------------------------------------------
     void sew_waist(const std::string& upper, const std::string& lower, const std::string& side, size_t pieces,
                    float gather = 0.0f) {
         for (size_t i = 1; i <= pieces; ++i) {
@@ -249,8 +271,8 @@ private:
     }
 
     /// The first edge is longer by that share.
-    void sew(const std::string& panel_a, const std::string& label_a, const std::string& panel_b, const std::string& label_b,
-             float longer = 0.0f) {
+    void sew(const std::string& panel_a, const std::string& label_a, const std::string& panel_b,
+             const std::string& label_b, float longer = 0.0f) {
         const Stitch stitch{edge(panel_a, label_a), edge(panel_b, label_b)};
         const auto length = [&](const EdgeName& name) {
             const Panel& panel = pattern_.panels[name.panel];
@@ -258,8 +280,8 @@ private:
         };
         const float a = length(stitch.a), b = length(stitch.b) * (1.0f + longer);
         if (std::abs(a - b) > kSameLength * b)
-            fail(VFIT_ERROR_DATA, "draft: ", panel_a, " ", label_a, " is ", a, " m long, ", panel_b, " ", label_b, " wants ", b,
-                 " m");
+            fail(VFIT_ERROR_DATA, "draft: ", panel_a, " ", label_a, " is ", a, " m long, ", panel_b, " ",
+                 label_b, " wants ", b, " m");
         pattern_.stitches.push_back(stitch);
     }
 
@@ -303,7 +325,8 @@ DraftedGarment draft(const BodyModel& model, const GarmentDesign& design) {
         } catch (const Error& e) {
             fail(e.code(), "design ", design.name, ", size ", size.label, ": ", e.what());
         }
-        // What hangs on the shoulders goes by the chest alone: a trunk that is too narrow there cannot be sewn around the body.
+        // What hangs on the shoulders goes by the chest alone: a trunk that is too narrow there cannot be
+        // sewn around the body.
         const size_t count = design.torso ? 1 : own.size();
         float distance = 0.0f;
         for (size_t k = 0; k < count; ++k) distance += std::pow(size.nominal[k].value - own[k].value, 2.0f);

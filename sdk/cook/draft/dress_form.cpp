@@ -9,10 +9,10 @@ namespace vfit {
 
 namespace {
 
-constexpr float kBeforeSkin_m = 0.025f;   // between skin and a piece that is held before it
-constexpr float kAround_m = 0.03f;   // the body so far to the left and right of a piece counts too
-// Of the sleeve's cap beyond the armhole, and of a wide sleeve more, that its corner below the arm does not cross the trunk's
-// pieces.
+constexpr float kBeforeSkin_m = 0.025f;  // between skin and a piece that is held before it
+constexpr float kAround_m = 0.03f;       // the body so far to the left and right of a piece counts too
+// Of the sleeve's cap beyond the armhole, and of a wide sleeve more, that its corner below the arm does not
+// cross the trunk's pieces.
 constexpr float kSleeveGap_m = 0.05f, kSleeveGapPerWidth = 0.7f, kNarrowSleeve_m = 0.2f;
 constexpr float kBesideMiddle_m = 0.01f;  // of a leg's fork, that left and right do not cross
 constexpr uint32_t kEdgePoints = 6;
@@ -20,7 +20,9 @@ constexpr uint32_t kEdgePoints = 6;
 /// Half a turn about the upright axis: a back piece shows its outside to -Z.
 const Quat kTurnedBack(0, 0, 1, 0);
 
-CutLine seen_from(const CutLine& line, PieceSide side) { return side == PieceSide::back ? line.mirrored() : line; }
+CutLine seen_from(const CutLine& line, PieceSide side) {
+    return side == PieceSide::back ? line.mirrored() : line;
+}
 
 }  // namespace
 
@@ -33,11 +35,12 @@ DressForm::DressForm(const BodyModel& model, vfit_sex sex) {
     ankle_ = head(VFIT_BONE_LEFT_FOOT);
 }
 
-Panel DressForm::upright(const CutLine& line, std::string name, PieceSide side, const Vec2& at, float turned_rad,
-                         float leaning_rad) const {
+Panel DressForm::upright(const CutLine& line, std::string name, PieceSide side, const Vec2& at,
+                         float turned_rad, float leaning_rad) const {
     Panel panel = seen_from(line, side).panel(std::move(name));
     const bool back = side == PieceSide::back;
-    // Turning outwards and leaning are told as the person's left sees them from before; a back piece is turned round first.
+    // Turning outwards and leaning are told as the person's left sees them from before; a back piece is
+    // turned round first.
     panel.rotation = glm::angleAxis(back ? -turned_rad : turned_rad, Vec3(0, 1, 0)) *
                      glm::angleAxis(leaning_rad, Vec3(0, 0, 1)) * (back ? kTurnedBack : Quat(1, 0, 0, 0));
     panel.translation = Vec3(at, 0.0f);
@@ -61,8 +64,8 @@ Panel DressForm::along_left_leg(const CutLine& line, std::string name, PieceSide
     return upright(line, std::move(name), side, {x, height}, 0.0f, lean);
 }
 
-Panel DressForm::along_left_arm(const CutLine& line, std::string name, PieceSide side, float cap_height_m, float length_m,
-                                float width_m, float hem_m) const {
+Panel DressForm::along_left_arm(const CutLine& line, std::string name, PieceSide side, float cap_height_m,
+                                float length_m, float width_m, float hem_m) const {
     Panel panel = seen_from(line, side).panel(std::move(name));
     const float out = side == PieceSide::back ? -1.0f : 1.0f;
     const Vec3 up = glm::normalize(shoulder_ - wrist_);  // along the arm, from the hand
@@ -98,14 +101,17 @@ void DressForm::clear_of_body(Panel& panel, const Vec3& direction) const {
         float most = -INFINITY;
         for (const Vec3& p : body_.positions) {
             const Vec3 q = to_panel * (p - panel.translation);
-            if (q.z <= most || std::abs(q.x - middle.x) > half.x + kAround_m || std::abs(q.y - middle.y) > half.y) continue;
+            if (q.z <= most || std::abs(q.x - middle.x) > half.x + kAround_m ||
+                std::abs(q.y - middle.y) > half.y)
+                continue;
             if (encloses(outline, Vec2(q))) most = q.z;
         }
         return most;
     };
     const float straight = glm::dot(normal, direction);
     if (straight > 0.999f) {
-        if (const float most = reach(); most > -INFINITY) panel.translation += direction * (most + kBeforeSkin_m);
+        if (const float most = reach(); most > -INFINITY)
+            panel.translation += direction * (most + kBeforeSkin_m);
         return;
     }
     // What lies behind a turned piece changes as it moves: it comes from afar until it would touch.

@@ -1,4 +1,5 @@
-// The default body at rest as a dress form: where a flat piece is held about it, clear of it, before it is sewn.
+// The default body at rest as a dress form: where a flat piece is held about it, clear of it, before it is
+// sewn.
 #pragma once
 
 #include "body/body_model.h"
@@ -14,16 +15,17 @@ class DressForm {
 public:
     DressForm(const BodyModel& model, vfit_sex sex);
 
-    /// A piece of the trunk, or of a leg: `at` is where its y = 0 and its middle are held, z chosen clear of the body.
-    /// `turned_rad` turns a left piece outwards about the upright line through `at`; `leaning_rad` moves its lower end to the
-    /// person's left.
+    /// A piece of the trunk, or of a leg: `at` is where its y = 0 and its middle are held, z chosen clear of
+    /// the body. `turned_rad` turns a left piece outwards about the upright line through `at`; `leaning_rad`
+    /// moves its lower end to the person's left.
     Panel upright(const CutLine& line, std::string name, PieceSide side, const Vec2& at, float turned_rad,
                   float leaning_rad) const;
     /// A piece of the left sleeve, along the arm.
-    Panel along_left_arm(const CutLine& line, std::string name, PieceSide side, float cap_height_m, float length_m,
-                         float width_m, float hem_m) const;
+    Panel along_left_arm(const CutLine& line, std::string name, PieceSide side, float cap_height_m,
+                         float length_m, float width_m, float hem_m) const;
 
-    /// A piece of the left leg, its y = 0 at that height: the fork beside the middle, the hem's middle before the leg's.
+    /// A piece of the left leg, its y = 0 at that height: the fork beside the middle, the hem's middle before
+    /// the leg's.
     Panel along_left_leg(const CutLine& line, std::string name, PieceSide side, float height) const;
 
 private:

@@ -11,31 +11,33 @@ namespace vfit {
 
 namespace {
 
-/// How much a measure grows with one centimetre of a girth, in centimetres. Engineering values, rounded from the steps of
-/// the women's and men's size tables that drafting books grade by (4 cm of chest a size); lengths down the body grow far
-/// less, as the letters of EN 13402 imply no stature.
+/// How much a measure grows with one centimetre of a girth, in centimetres. Engineering values, rounded from
+/// the steps of the women's and men's size tables that drafting books grade by (4 cm of chest a size);
+/// lengths down the body grow far less, as the letters of EN 13402 imply no stature.
 struct GradeRule {
     float DraftMeasures::* measure;
     float per_chest, per_waist, per_hip;
 };
 constexpr GradeRule kGradeRules[] = {
-    {&DraftMeasures::neck, 0.25f, 0.0f, 0.0f},              // 1 cm a size
-    {&DraftMeasures::shoulder_half_m, 0.11f, 0.0f, 0.0f},   // with the neckline's 2 mm: shoulder seam 2.4 mm a size
-    {&DraftMeasures::upper_arm, 0.33f, 0.0f, 0.0f},         // 1.3 cm a size
+    {&DraftMeasures::neck, 0.25f, 0.0f, 0.0f},  // 1 cm a size
+    {&DraftMeasures::shoulder_half_m, 0.11f, 0.0f,
+     0.0f},                                          // with the neckline's 2 mm: shoulder seam 2.4 mm a size
+    {&DraftMeasures::upper_arm, 0.33f, 0.0f, 0.0f},  // 1.3 cm a size
     {&DraftMeasures::elbow, 0.2f, 0.0f, 0.0f},
-    {&DraftMeasures::wrist, 0.12f, 0.0f, 0.0f},             // 0.5 cm a size
-    {&DraftMeasures::thigh, 0.0f, 0.0f, 0.55f},             // 2.2 cm a size
+    {&DraftMeasures::wrist, 0.12f, 0.0f, 0.0f},  // 0.5 cm a size
+    {&DraftMeasures::thigh, 0.0f, 0.0f, 0.55f},  // 2.2 cm a size
     {&DraftMeasures::knee, 0.0f, 0.0f, 0.3f},
     {&DraftMeasures::ankle, 0.0f, 0.0f, 0.15f},
-    {&DraftMeasures::front_length, 0.08f, 0.0f, 0.0f},      // 3 mm a size, over the fuller chest
-    {&DraftMeasures::back_length, 0.05f, 0.0f, 0.0f},       // 2 mm a size
-    {&DraftMeasures::bust_length, 0.1f, 0.0f, 0.0f},        // 4 mm a size
-    {&DraftMeasures::bust_half_m, 0.1f, 0.0f, 0.0f},        // 8 mm from point to point a size
+    {&DraftMeasures::front_length, 0.08f, 0.0f, 0.0f},  // 3 mm a size, over the fuller chest
+    {&DraftMeasures::back_length, 0.05f, 0.0f, 0.0f},   // 2 mm a size
+    {&DraftMeasures::bust_length, 0.1f, 0.0f, 0.0f},    // 4 mm a size
+    {&DraftMeasures::bust_half_m, 0.1f, 0.0f, 0.0f},    // 8 mm from point to point a size
     {&DraftMeasures::arm_length, 0.04f, 0.0f, 0.0f},
     {&DraftMeasures::armpit_above_waist, -0.06f, 0.0f, 0.0f},  // the armhole deepens by 4 mm a size
     {&DraftMeasures::crotch_below_waist, 0.0f, 0.0f, 0.1f},    // 4 mm a size
 };
-/// Hips where the chart has none (men): a mean of how chest and waist grow, so that short and stout rows both stay in shape.
+/// Hips where the chart has none (men): a mean of how chest and waist grow, so that short and stout rows both
+/// stay in shape.
 constexpr float kHipPerChest = 0.45f, kHipPerWaist = 0.45f;
 
 /// The natural neckline's half width: a fifth of the neck's girth and 2 mm, as flat drafts take it.
@@ -50,7 +52,8 @@ public:
         AvatarDesc desc;
         desc.sex = sex;
         // The caller keeps the model for as long as this.
-        const Avatar avatar(std::shared_ptr<const BodyModel>(std::shared_ptr<void>(), &model), desc, {}, Vec2(1.0f));
+        const Avatar avatar(std::shared_ptr<const BodyModel>(std::shared_ptr<void>(), &model), desc, {},
+                            Vec2(1.0f));
         mesh_ = avatar.measuring_mesh({}, &tape_.joints);
         const BodyTopology& topology = model.topology(0);
         tape_.positions = mesh_.positions;
@@ -103,10 +106,12 @@ std::vector<Vec2> profile_points(const TapeMesh& body, float x) {
     return points;
 }
 
-/// The top of the shoulder above x, beside the neck: up from the chest until the skin is passed, where that is highest.
+/// The top of the shoulder above x, beside the neck: up from the chest until the skin is passed, where that
+/// is highest.
 Vec2 shoulder_ridge(const TapeMesh& body, float x) {
     const Section section = body.profile(x);
-    const float middle = body.joint(VFIT_JOINT_LEFT_SHOULDER).z, inside = body.joint(VFIT_JOINT_LEFT_SHOULDER).y - 0.05f;
+    const float middle = body.joint(VFIT_JOINT_LEFT_SHOULDER).z,
+                inside = body.joint(VFIT_JOINT_LEFT_SHOULDER).y - 0.05f;
     constexpr float kReach_m = 0.06f, kStep_m = 0.005f;  // of the shoulder's thickness about the joint
     Vec2 best(middle, 0.0f);
     for (float z = middle - kReach_m; z <= middle + kReach_m; z += kStep_m) {
@@ -164,7 +169,9 @@ float DraftMeasures::level(BodyLevel level) const {
     return 0.0f;
 }
 
-float DraftMeasures::hip_depth() const { return std::hypot(waist_height - hip_height, (hip - waist) / (2.0f * kPi)); }
+float DraftMeasures::hip_depth() const {
+    return std::hypot(waist_height - hip_height, (hip - waist) / (2.0f * kPi));
+}
 
 float DraftMeasures::depth(const LevelShare& place) const {
     return waist_height - glm::mix(level(place.from), level(place.to), place.share);

@@ -40,8 +40,10 @@ CutLine piece(float width, float hem, float height, float length) {
 
 }  // namespace
 
-SleeveBlock draft_sleeve(const DraftMeasures& body, const SleeveDesign& design, float front_armhole_m, float back_armhole_m) {
-    const float front = front_armhole_m * (1.0f + design.cap_ease), back = back_armhole_m * (1.0f + design.cap_ease);
+SleeveBlock draft_sleeve(const DraftMeasures& body, const SleeveDesign& design, float front_armhole_m,
+                         float back_armhole_m) {
+    const float front = front_armhole_m * (1.0f + design.cap_ease),
+                back = back_armhole_m * (1.0f + design.cap_ease);
     const float wanted = body.upper_arm + design.width_ease_m;
     const auto width = [&](float height) { return width_of_cap(front, height) + width_of_cap(back, height); };
     // The flattest cap is the widest: the sleeve's width is given, the cap's height follows from the armhole.
@@ -49,14 +51,16 @@ SleeveBlock draft_sleeve(const DraftMeasures& body, const SleeveDesign& design, 
     const float highest = 0.95f * std::min(front, back);
     if (width(kFlattest_m) < wanted)
         fail(VFIT_ERROR_DATA,
-             "the armhole is too small for the sleeve's width: \"torso.armhole_drop_m\", \"sleeve.width_ease_m\"");
+             "the armhole is too small for the sleeve's width: \"torso.armhole_drop_m\", "
+             "\"sleeve.width_ease_m\"");
     SleeveBlock block;
     block.cap_height_m = solve(kFlattest_m, highest, -wanted, [&](float height) { return -width(height); });
     block.front_width_m = width_of_cap(front, block.cap_height_m);
     block.back_width_m = width_of_cap(back, block.cap_height_m);
     block.length_m = body.arm_length * design.length - block.cap_height_m;
     if (block.length_m < kLeastSeam_m)
-        fail(VFIT_ERROR_DATA, "the sleeve ends within its cap: \"sleeve.length\" or a smaller \"torso.armhole_drop_m\"");
+        fail(VFIT_ERROR_DATA,
+             "the sleeve ends within its cap: \"sleeve.length\" or a smaller \"torso.armhole_drop_m\"");
 
     // Where the hem is: the arm narrows from its widest place over the elbow, halfway down, to the wrist.
     const float share = std::clamp(design.length, 0.2f, 1.0f);

@@ -9,8 +9,8 @@ namespace vfit {
 
 namespace {
 
-// Proportions of the neckline: its depth in front is a fifth of the neck's girth and 1 cm; the back's lies 2 cm below the
-// side of the neck.
+// Proportions of the neckline: its depth in front is a fifth of the neck's girth and 1 cm; the back's lies 2
+// cm below the side of the neck.
 constexpr float kNeckDepthShare = 0.2f, kNeckDepth_m = 0.01f, kBackNeckDepth_m = 0.02f;
 // A dart ends before the point that it makes room for, else it makes a cone there.
 constexpr float kBustDartShort_m = 0.025f, kWaistDartShort_m = 0.025f, kBackDartShort_m = 0.03f;
@@ -25,12 +25,14 @@ constexpr float kBelowHips_m = 0.03f;
 
 Vec2 turned(const Vec2& p, const Vec2& about, float angle) {
     const Vec2 r = p - about;
-    return about + Vec2(std::cos(angle) * r.x - std::sin(angle) * r.y, std::sin(angle) * r.x + std::cos(angle) * r.y);
+    return about +
+           Vec2(std::cos(angle) * r.x - std::sin(angle) * r.y, std::sin(angle) * r.x + std::cos(angle) * r.y);
 }
 
 class TorsoDrafter {
 public:
-    TorsoDrafter(const DraftMeasures& body, const TorsoDesign& design, const std::optional<JoinedWaist>& joined)
+    TorsoDrafter(const DraftMeasures& body, const TorsoDesign& design,
+                 const std::optional<JoinedWaist>& joined)
         : body_(body), design_(design), joined_(joined) {}
 
     TorsoBlock draft() {
@@ -38,13 +40,16 @@ public:
         chest_ = 0.25f * (body_.chest + design_.chest_ease_m);
         waist_ = 0.25f * (body_.waist + design_.waist_ease_m);
         underarm_ = body_.armpit_above_waist - design_.armhole_drop_m;
-        if (underarm_ < 0.06f) fail(VFIT_ERROR_DATA, "the armhole reaches down to the waist: \"torso.armhole_drop_m\"");
-        side_chest_ = design_.bust_dart > 0.0f ? kBustDartBelow_m
-                                               : std::max(kLeastSideChest_m, underarm_ - body_.bust_above_waist);
+        if (underarm_ < 0.06f)
+            fail(VFIT_ERROR_DATA, "the armhole reaches down to the waist: \"torso.armhole_drop_m\"");
+        side_chest_ = design_.bust_dart > 0.0f
+                          ? kBustDartBelow_m
+                          : std::max(kLeastSideChest_m, underarm_ - body_.bust_above_waist);
         side_chest_ = std::min(side_chest_, 0.5f * underarm_);
 
         // The back is drawn freely; the front's side seam then is as long as the back's.
-        const float back_wanted = joined_ ? joined_->back_m : waist_, front_wanted = joined_ ? joined_->front_m : waist_;
+        const float back_wanted = joined_ ? joined_->back_m : waist_,
+                    front_wanted = joined_ ? joined_->front_m : waist_;
         const float back_dart = dart(back_wanted), front_dart = dart(front_wanted);
         const Vec2 back_waist(back_wanted + back_dart, 0.0f), front_waist(front_wanted + front_dart, 0.0f);
         const Vec2 underarm(chest_, underarm_), chest(chest_, underarm_ - side_chest_);
@@ -121,19 +126,20 @@ private:
         return over_hip(line, hip);
     }
 
-    /// From the waist, where the back of a piece that goes on below it is upright: what hangs a little lower or higher than it was
-    /// drawn is as wide there all the same. The front's is the same curve, turned.
+    /// From the waist, where the back of a piece that goes on below it is upright: what hangs a little lower
+    /// or higher than it was drawn is as wide there all the same. The front's is the same curve, turned.
     void side_waist(CutLine& line, const Vec2& to) const {
         if (!design_.hem) {
             line.line(to, "side waist");
             return;
         }
-        const Vec2 from = line.end(), third = (to - from) / 3.0f, up = side_upright_.x * third + side_upright_.y * Vec2(-third.y, third.x);
+        const Vec2 from = line.end(), third = (to - from) / 3.0f,
+                   up = side_upright_.x * third + side_upright_.y * Vec2(-third.y, third.x);
         line.cubic(from + up, to - up, to, "side waist");
     }
 
-    /// The front's side seam up to the underarm point, which it returns: "side waist" is that long, the dart's upper leg is the
-    /// lower one turned about the dart's point.
+    /// The front's side seam up to the underarm point, which it returns: "side waist" is that long, the
+    /// dart's upper leg is the lower one turned about the dart's point.
     Vec2 front_side(CutLine& line, const Vec2& waist, float side, float bust_y) const {
         const Vec2 point(body_.bust_half_m + kBustDartShort_m, bust_y);
         const bool darted = design_.bust_dart > 0.0f;
@@ -141,11 +147,14 @@ private:
         if (darted) {
             if (chest_ - point.x < 0.03f)
                 fail(VFIT_ERROR_DATA, "the front is too narrow for its bust dart: \"torso.bust_dart\"");
-            const float intake = std::max(kLeastDart_m, (body_.front_length - body_.back_length) * design_.bust_dart);
+            const float intake =
+                std::max(kLeastDart_m, (body_.front_length - body_.back_length) * design_.bust_dart);
             angle = 2.0f * std::asin(std::min(0.5f, 0.5f * intake / (chest_ - point.x)));
         }
         // The seam's direction from the waist: that at which it ends below the underarm point.
-        const auto lower_end = [&](float direction) { return waist + side * Vec2(std::cos(direction), std::sin(direction)); };
+        const auto lower_end = [&](float direction) {
+            return waist + side * Vec2(std::cos(direction), std::sin(direction));
+        };
         const auto upper_x = [&](float direction) { return turned(lower_end(direction), point, angle).x; };
         float steep = 0.9f * kPi, flat = 0.1f * kPi;
         if (!(upper_x(steep) < chest_ && upper_x(flat) > chest_))
@@ -174,21 +183,30 @@ private:
         const float neck = body_.side_of_neck_m() + design_.neck_width_m;
         const Vec2 tip = shoulder_tip(length), side = on_shoulder(neck, length);
         if (tip.x - side.x < 0.02f)
-            fail(VFIT_ERROR_DATA, "the shoulder seam is shorter than 2 cm: \"torso.shoulder\", \"torso.neck_width_m\"");
-        if (tip.y - underarm.y < 0.06f) fail(VFIT_ERROR_DATA, "the armhole is too shallow: \"torso.shoulder\"");
-        // Leaves the shoulder squarely and comes to the underarm point level, hollowed where the arm bends forwards.
+            fail(VFIT_ERROR_DATA,
+                 "the shoulder seam is shorter than 2 cm: \"torso.shoulder\", \"torso.neck_width_m\"");
+        if (tip.y - underarm.y < 0.06f)
+            fail(VFIT_ERROR_DATA, "the armhole is too shallow: \"torso.shoulder\"");
+        // Leaves the shoulder squarely and comes to the underarm point level, hollowed where the arm bends
+        // forwards.
         const float out = std::max(underarm.x - tip.x, 0.0f), hollow = front ? 0.018f : 0.008f;
         const Vec2 down = -Vec2(std::sin(body_.shoulder_slope_rad), std::cos(body_.shoulder_slope_rad));
-        line.cubic(underarm - Vec2(0.75f * out + hollow, 0.0f), tip + 0.55f * (tip.y - underarm.y) * down, tip, "armhole");
+        line.cubic(underarm - Vec2(0.75f * out + hollow, 0.0f), tip + 0.55f * (tip.y - underarm.y) * down,
+                   tip, "armhole");
         line.line(side, "shoulder");
         const float depth = front ? kNeckDepthShare * body_.neck + kNeckDepth_m + design_.neck_depth_m
                                   : kBackNeckDepth_m + design_.back_neck_depth_m;
         const Vec2 middle(0.0f, length - depth);
-        if (middle.y > side.y - 0.004f) fail(VFIT_ERROR_DATA, "the neckline rises to the middle: \"torso.neck_depth_m\"");
-        if (middle.y < 0.03f) fail(VFIT_ERROR_DATA, "the neckline reaches down to the waist: \"torso.neck_depth_m\"");
+        if (middle.y > side.y - 0.004f)
+            fail(VFIT_ERROR_DATA, "the neckline rises to the middle: \"torso.neck_depth_m\"");
+        if (middle.y < 0.03f)
+            fail(VFIT_ERROR_DATA, "the neckline reaches down to the waist: \"torso.neck_depth_m\"");
         const float drop = side.y - middle.y;
-        if (front && design_.v_neck) line.quadratic(glm::mix(side, middle, 0.5f) + Vec2(-0.01f, -0.01f), middle, "neck");
-        else line.cubic(side - Vec2(0.1f * neck, 0.6f * drop), middle + Vec2(0.6f * neck, 0.0f), middle, "neck");
+        if (front && design_.v_neck)
+            line.quadratic(glm::mix(side, middle, 0.5f) + Vec2(-0.01f, -0.01f), middle, "neck");
+        else
+            line.cubic(side - Vec2(0.1f * neck, 0.6f * drop), middle + Vec2(0.6f * neck, 0.0f), middle,
+                       "neck");
     }
 
     const DraftMeasures& body_;
@@ -200,7 +218,8 @@ private:
 
 }  // namespace
 
-TorsoBlock draft_torso(const DraftMeasures& body, const TorsoDesign& design, const std::optional<JoinedWaist>& joined) {
+TorsoBlock draft_torso(const DraftMeasures& body, const TorsoDesign& design,
+                       const std::optional<JoinedWaist>& joined) {
     return TorsoDrafter(body, design, joined).draft();
 }
 
@@ -208,7 +227,8 @@ CutLine draft_collar(float neck_m, float height_m) {
     // The neck narrows upwards: by this of the collar's height on each quarter, a slope of 14 degrees.
     constexpr float kSlope = 0.25f;
     const float top = neck_m - kSlope * height_m;
-    if (top < 0.5f * neck_m) fail(VFIT_ERROR_DATA, "the collar is higher than its neckline allows: \"torso.collar_height_m\"");
+    if (top < 0.5f * neck_m)
+        fail(VFIT_ERROR_DATA, "the collar is higher than its neckline allows: \"torso.collar_height_m\"");
     CutLine line(Vec2(0.0f));
     return line.line({neck_m, 0.0f}, "neck").line({top, height_m}, "side").line({0.0f, height_m}, "top");
 }

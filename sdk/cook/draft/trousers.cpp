@@ -10,15 +10,17 @@ namespace vfit {
 
 namespace {
 
-// Of the fork, what the two pieces reach beyond the middle to pass between the legs: the front's part; the seat takes the rest.
+// Of the fork, what the two pieces reach beyond the middle to pass between the legs: the front's part; the
+// seat takes the rest.
 constexpr float kFrontForkShare = 0.3f;
-// What the back is wider than the front at the hips, for the seat. In overalls nothing: the bodice has its side seam in the
-// middle.
+// What the back is wider than the front at the hips, for the seat. In overalls nothing: the bodice has its
+// side seam in the middle.
 constexpr float kSeatWider_m = 0.02f;
-// What it is wider at knee and hem: so much of what its fork is longer, else its inseam would slant far more than the front's.
+// What it is wider at knee and hem: so much of what its fork is longer, else its inseam would slant far more
+// than the front's.
 constexpr float kLegWider = 0.45f;
-// How the shaping from hips to waist that no dart takes is shared out: middle of the front, middle of the back (the seat
-// angle), each side seam.
+// How the shaping from hips to waist that no dart takes is shared out: middle of the front, middle of the
+// back (the seat angle), each side seam.
 constexpr float kFrontShaping = 0.1f, kBackShaping = 0.32f, kSideShaping = 0.29f;
 static_assert(kFrontShaping + kBackShaping + 2.0f * kSideShaping > 0.999f);
 constexpr float kLeastSeatDart_m = 0.01f, kDartLength_m = 0.1f;
@@ -26,8 +28,8 @@ constexpr float kLeastSeatDart_m = 0.01f, kDartLength_m = 0.1f;
 constexpr float kBackRise_m = 0.025f;
 
 struct Leg {
-    float hip_x;                   // of the side seam at the hips
-    Vec2 side, middle;             // ends of the upper edge
+    float hip_x;        // of the side seam at the hips
+    Vec2 side, middle;  // ends of the upper edge
     float fork_x, fork_y;
     Vec2 knee_out, hem_out;
     float knee_width, hem_width;
@@ -44,10 +46,12 @@ public:
         const float top = design_.rise * hips_, crotch = -(body_.crotch_below_waist + design_.crotch_ease_m);
         knee_ = body_.knee_height - body_.waist_height;
         hem_ = -body_.depth(design_.hem);
-        if (crotch > hips_ - 0.02f) fail(VFIT_ERROR_DATA, "the crotch lies at the hips: \"trousers.crotch_ease_m\"");
+        if (crotch > hips_ - 0.02f)
+            fail(VFIT_ERROR_DATA, "the crotch lies at the hips: \"trousers.crotch_ease_m\"");
         if (hem_ > knee_ - 0.03f) fail(VFIT_ERROR_DATA, "the trousers end at the knee: \"trousers.hem\"");
         const float hip = 0.5f * (body_.hip + design_.hip_ease_m), seat = joined_ ? 0.0f : kSeatWider_m;
-        const float waist = 0.5f * (body_.girth_between(design_.rise) + design_.waist_ease_m) * (1.0f + design_.gather);
+        const float waist =
+            0.5f * (body_.girth_between(design_.rise) + design_.waist_ease_m) * (1.0f + design_.gather);
         const float shaping = hip - waist;
         const float dart = design_.dart > 0.0f ? std::max(kLeastSeatDart_m, shaping * design_.dart) : 0.0f;
         const float rest = shaping - dart;
@@ -63,7 +67,8 @@ public:
         const float back_edge = back.side.x - kBackShaping * rest;
         if (front.side.x - front.middle.x < 0.08f || back_edge - dart < 0.08f)
             fail(VFIT_ERROR_DATA, "the trousers' waist is too narrow: \"trousers.waist_ease_m\"");
-        back.middle = {back.side.x - std::sqrt(back_edge * back_edge - kBackRise_m * kBackRise_m), top + kBackRise_m};
+        back.middle = {back.side.x - std::sqrt(back_edge * back_edge - kBackRise_m * kBackRise_m),
+                       top + kBackRise_m};
 
         const float fork = design_.fork * (body_.hip + design_.hip_ease_m);
         front.fork_x = -kFrontForkShare * fork;
@@ -74,8 +79,10 @@ public:
         front.hem_width = 0.5f * (body_.ankle + design_.hem_ease_m - wider);
         back.knee_width = front.knee_width + wider;
         back.hem_width = front.hem_width + wider;
-        if (front.hem_width < 0.05f) fail(VFIT_ERROR_DATA, "the leg's hem is too narrow: \"trousers.hem_ease_m\"");
-        // The front's crease runs down the middle of its thigh; the back's side seam is the front's, moved aside.
+        if (front.hem_width < 0.05f)
+            fail(VFIT_ERROR_DATA, "the leg's hem is too narrow: \"trousers.hem_ease_m\"");
+        // The front's crease runs down the middle of its thigh; the back's side seam is the front's, moved
+        // aside.
         const float crease = 0.5f * (front.hip_x + front.fork_x);
         front.knee_out = {crease + 0.5f * front.knee_width, knee_};
         front.hem_out = {crease + 0.5f * front.hem_width, hem_};
@@ -106,7 +113,8 @@ private:
     CutLine inseam(const Leg& leg, float fork_y) const {
         const Vec2 fork(leg.fork_x, fork_y), knee = knee_in(leg);
         CutLine line(fork);
-        return line.quadratic(Vec2(glm::mix(knee.x, fork.x, 0.15f), glm::mix(fork.y, knee.y, 0.45f)), knee, "inseam thigh");
+        return line.quadratic(Vec2(glm::mix(knee.x, fork.x, 0.15f), glm::mix(fork.y, knee.y, 0.45f)), knee,
+                              "inseam thigh");
     }
 
     /// The back's fork is lowered until its longer way to the knee is as long as the front's.
@@ -118,7 +126,8 @@ private:
             (inseam(back, middle).length("inseam thigh") < wanted ? low : high) = middle;
         }
         if (std::abs(low - front.fork_y) > 0.05f)
-            fail(VFIT_ERROR_DATA, "the back's inseam cannot be made as long as the front's: \"trousers.knee_ease_m\"");
+            fail(VFIT_ERROR_DATA,
+                 "the back's inseam cannot be made as long as the front's: \"trousers.knee_ease_m\"");
         return low;
     }
 
@@ -140,7 +149,8 @@ private:
         }
         line.line(leg.middle, "waist 1").line(seat, "middle");
         const Vec2 down = glm::normalize(seat - leg.middle);
-        line.cubic(seat + 0.7f * (seat.y - fork.y) * down, fork - Vec2(0.65f * leg.fork_x, 0.0f), fork, "crotch");
+        line.cubic(seat + 0.7f * (seat.y - fork.y) * down, fork - Vec2(0.65f * leg.fork_x, 0.0f), fork,
+                   "crotch");
         line.append(inseam(leg, leg.fork_y));
         return line.line(leg.hem_out - Vec2(leg.hem_width, 0.0f), "inseam shank");
     }

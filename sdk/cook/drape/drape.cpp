@@ -12,11 +12,12 @@ namespace vfit {
 namespace {
 
 constexpr float kFrame_s = 1.0f / 60.0f;
-constexpr float kSewn_m = 0.0001f;       // as good as one place
-constexpr float kClosed_m = 0.002f;      // the widest that a seam should be when its two sides become one
-// Of a stitch's spring: thread pulls panels along, and stretches them by a little only; at the end it is pulled tight.
+constexpr float kSewn_m = 0.0001f;   // as good as one place
+constexpr float kClosed_m = 0.002f;  // the widest that a seam should be when its two sides become one
+// Of a stitch's spring: thread pulls panels along, and stretches them by a little only; at the end it is
+// pulled tight.
 constexpr float kSewing_n_m = 400.0f, kClosing_n_m = 20000.0f;
-constexpr float kStage_m = 0.02f;        // by which the widest seams close in a stage
+constexpr float kStage_m = 0.02f;  // by which the widest seams close in a stage
 constexpr int kFramesAStage = 3, kFramesToClose = 180;
 
 /// Corners of the triangles in flat cloth, one an index.
@@ -28,8 +29,15 @@ std::vector<Vec2> cut_of(const std::vector<uint32_t>& panel_indices, const std::
 
 class Draper {
 public:
-    Draper(const Pattern& pattern, const SewnMesh& mesh, const FabricMaterial& material, const DrapeBody& body, const DrapeSettings& settings, Jobs& jobs)
-        : pattern_(pattern), mesh_(mesh), material_(material), body_(body), settings_(settings), jobs_(jobs), cut_(cut_of(mesh.panel_indices, mesh.flat())) {}
+    Draper(const Pattern& pattern, const SewnMesh& mesh, const FabricMaterial& material,
+           const DrapeBody& body, const DrapeSettings& settings, Jobs& jobs)
+        : pattern_(pattern),
+          mesh_(mesh),
+          material_(material),
+          body_(body),
+          settings_(settings),
+          jobs_(jobs),
+          cut_(cut_of(mesh.panel_indices, mesh.flat())) {}
 
     Draped run(const Placement& placement) {
         const Stopwatch watch;
@@ -40,14 +48,22 @@ public:
         check_closed(places);
         std::vector<Vec3> one(mesh_.sewn_count, Vec3(0.0f));
         std::vector<float> count(mesh_.sewn_count, 0.0f);
-        for (uint32_t v = 0; v < places.size(); ++v) one[mesh_.sewn_of[v]] += places[v], count[mesh_.sewn_of[v]] += 1.0f;
+        for (uint32_t v = 0; v < places.size(); ++v)
+            one[mesh_.sewn_of[v]] += places[v], count[mesh_.sewn_of[v]] += 1.0f;
         for (uint32_t v = 0; v < mesh_.sewn_count; ++v) one[v] /= count[v];
         DrapeSettings of_sewn = settings_;
-        if (settings_.watch) of_sewn.watch = [this](const char* stage, const std::vector<Vec3>& sewn) { look(stage, spread(sewn)); };
+        if (settings_.watch)
+            of_sewn.watch = [this](const char* stage, const std::vector<Vec3>& sewn) {
+                look(stage, spread(sewn));
+            };
         const Band band = band_of(placement, one);
-        Draped out = settle({mesh_.sewn_indices, cut_, &material_}, std::move(one), band, body_, of_sewn, jobs_);
-        if (placement.hangs_on == HangsOn::shoulders && std::count(out.simulated.begin(), out.simulated.end(), 0) == 0)
-            fail(VFIT_ERROR_DATA, "the garment slides off the shoulders of this body: no part of it lies on them when it has fallen");
+        Draped out =
+            settle({mesh_.sewn_indices, cut_, &material_}, std::move(one), band, body_, of_sewn, jobs_);
+        if (placement.hangs_on == HangsOn::shoulders &&
+            std::count(out.simulated.begin(), out.simulated.end(), 0) == 0)
+            fail(VFIT_ERROR_DATA,
+                 "the garment slides off the shoulders of this body: no part of it lies on them when it has "
+                 "fallen");
         out.report.hangs_on = placement.hangs_on;
         out.report.raised_m = placement.raised_m;
         out.report.widest_seam_m = widest;
@@ -65,9 +81,9 @@ private:
         return out;
     }
 
-    /// Pulls the two sides of the seams together, without gravity, as slowly as panels can slide around the body. The widest come
-    /// first, and wait for nobody: those over the shoulders and around the body hold the garment up before a skirt is sewn on.
-    /// Returns what the widest is apart at the end.
+    /// Pulls the two sides of the seams together, without gravity, as slowly as panels can slide around the
+    /// body. The widest come first, and wait for nobody: those over the shoulders and around the body hold
+    /// the garment up before a skirt is sewn on. Returns what the widest is apart at the end.
     float close_seams(std::vector<Vec3>& places) {
         const std::vector<uint8_t> all(places.size(), 1);
         const FabricData panels = cook_fabric({places, mesh_.panel_indices, {}, all, 1.0f, cut_}, material_);
@@ -82,7 +98,8 @@ private:
             const bool last = limit == kSewn_m;
             FabricData data = panels;
             for (const SewnMesh::Pair& pair : mesh_.pairs)
-                if (last || glm::length(places[pair.a] - places[pair.b]) > limit) data.edges.push_back({pair.a, pair.b, limit, 1.0f / (last ? kClosing_n_m : kSewing_n_m)});
+                if (last || glm::length(places[pair.a] - places[pair.b]) > limit)
+                    data.edges.push_back({pair.a, pair.b, limit, 1.0f / (last ? kClosing_n_m : kSewing_n_m)});
             Cloth cloth(std::make_shared<const Fabric>(std::move(data)), settings, places);
             const uint32_t skin = cloth.add_mesh(body_.positions.size(), body_.indices, but_fingers(body_));
             for (int frame = 0; frame < (last ? kFramesToClose : kFramesAStage); ++frame) {
@@ -103,14 +120,17 @@ private:
             const float apart = glm::length(places[pair.a] - places[pair.b]);
             if (apart <= kOpen_m) continue;
             const Stitch& stitch = pattern_.stitches[pair.stitch];
-            fail(VFIT_ERROR_DATA, "the seam of ", pattern_.text(stitch.a), " with ", pattern_.text(stitch.b), " does not close on this body: ", apart * 100.0f,
-                 " cm stay between them. The garment is too small for it, or its panels are placed so that a limb is in between");
+            fail(VFIT_ERROR_DATA, "the seam of ", pattern_.text(stitch.a), " with ", pattern_.text(stitch.b),
+                 " does not close on this body: ", apart * 100.0f,
+                 " cm stay between them. The garment is too small for it, or its panels are placed so that a "
+                 "limb is in between");
         }
     }
 
     float widest_seam(const std::vector<Vec3>& places) const {
         float widest = 0.0f;
-        for (const SewnMesh::Pair& pair : mesh_.pairs) widest = std::max(widest, glm::length(places[pair.a] - places[pair.b]));
+        for (const SewnMesh::Pair& pair : mesh_.pairs)
+            widest = std::max(widest, glm::length(places[pair.a] - places[pair.b]));
         return widest;
     }
 
@@ -119,7 +139,8 @@ private:
         band.of.assign(sewn.size(), 0);
         float height = 0.0f, count = 0.0f;
         for (const EdgeName& edge : placement.band)
-            for (const uint32_t v : mesh_.panels[edge.panel].edge_vertices[edge.edge]) band.of[mesh_.sewn_of[mesh_.first_vertex[edge.panel] + v]] = 1;
+            for (const uint32_t v : mesh_.panels[edge.panel].edge_vertices[edge.edge])
+                band.of[mesh_.sewn_of[mesh_.first_vertex[edge.panel] + v]] = 1;
         for (uint32_t v = 0; v < sewn.size(); ++v)
             if (band.of[v]) height += sewn[v].y, count += 1.0f;
         if (count > 0.0f) band.lowered_m = height / count - placement.band_m;
@@ -137,8 +158,8 @@ private:
 
 }  // namespace
 
-Draped drape(const Pattern& pattern, const SewnMesh& mesh, const FabricMaterial& material, const DrapeBody& body, const Placement& placement,
-             const DrapeSettings& settings, Jobs& jobs) {
+Draped drape(const Pattern& pattern, const SewnMesh& mesh, const FabricMaterial& material,
+             const DrapeBody& body, const Placement& placement, const DrapeSettings& settings, Jobs& jobs) {
     return Draper(pattern, mesh, material, body, settings, jobs).run(placement);
 }
 

@@ -7,8 +7,9 @@
 
 namespace vfit {
 
-/// Positions and flags are one a sewn vertex. VFIT_ERROR_DATA, naming the stitch, where a seam does not close.
-Draped drape(const Pattern& pattern, const SewnMesh& mesh, const FabricMaterial& material, const DrapeBody& body, const Placement& placement,
-             const DrapeSettings& settings, Jobs& jobs);
+/// Positions and flags are one a sewn vertex. VFIT_ERROR_DATA, naming the stitch, where a seam does not
+/// close.
+Draped drape(const Pattern& pattern, const SewnMesh& mesh, const FabricMaterial& material,
+             const DrapeBody& body, const Placement& placement, const DrapeSettings& settings, Jobs& jobs);
 
 }  // namespace vfit

@@ -11,10 +11,11 @@ namespace vfit {
 
 namespace {
 
-constexpr float kClear_m = 0.02f;     // between a panel and the body
-constexpr float kFarthest_m = 0.8f;   // that a panel is moved for that
+constexpr float kClear_m = 0.02f;      // between a panel and the body
+constexpr float kFarthest_m = 0.8f;    // that a panel is moved for that
 constexpr float kAboveSkin_m = 0.01f;  // a shoulder seam
-constexpr float kAboveFeet_m = 0.12f;  // of the soles: there a leg's hem closes around the ankle, not around the foot
+constexpr float kAboveFeet_m =
+    0.12f;  // of the soles: there a leg's hem closes around the ankle, not around the foot
 
 /// An edge as it is placed.
 struct PlacedEdge {
@@ -54,7 +55,8 @@ float lowest(const Pattern& pattern) {
 
 class Hanger {
 public:
-    Hanger(const Pattern& pattern, const SewnMesh& mesh, const BodyOutline& outline) : pattern_(pattern), mesh_(mesh), outline_(outline) {}
+    Hanger(const Pattern& pattern, const SewnMesh& mesh, const BodyOutline& outline)
+        : pattern_(pattern), mesh_(mesh), outline_(outline) {}
 
     std::optional<float> by_shoulders() const {
         float sum = 0.0f;
@@ -70,7 +72,8 @@ public:
             constexpr float kInner_m = 0.03f, kOuter_m = 0.25f;  // of shoulders, from the middle
             if (!level(a) || !level(b) || !on_top(stitch.a, a) || !on_top(stitch.b, b)) continue;
             if (std::abs(middle.x) < kInner_m || std::abs(middle.x) > kOuter_m) continue;
-            const auto hit = outline_.skin().cast({middle.x, 3.0f, outline_.left_shoulder().z}, {0, -1, 0}, 3.0f);
+            const auto hit =
+                outline_.skin().cast({middle.x, 3.0f, outline_.left_shoulder().z}, {0, -1, 0}, 3.0f);
             if (!hit) continue;
             sum += 3.0f - hit->distance + kAboveSkin_m - middle.y;
             ++count;
@@ -78,7 +81,8 @@ public:
         return count > 0 ? std::optional(sum / float(count)) : std::nullopt;
     }
 
-    /// Where the crotch is at the body's. The highest end of seams between front and back that run down the inside of both legs.
+    /// Where the crotch is at the body's. The highest end of seams between front and back that run down the
+    /// inside of both legs.
     std::optional<float> by_crotch() const {
         constexpr float kMiddle_m = 0.1f;
         float crotch = -INFINITY;
@@ -88,7 +92,8 @@ public:
                 const Panel& panel = pattern_.panels[name.panel];
                 const PlacedEdge e = edge(name);
                 if (std::abs(e.way.y) < 2.0f * std::abs(e.way.x) || std::abs(e.way.y) < 0.05f) continue;
-                const float top_x = e.middle.x + 0.5f * (e.way.y > 0.0f ? e.way.x : -e.way.x), top_y = e.middle.y + 0.5f * std::abs(e.way.y);
+                const float top_x = e.middle.x + 0.5f * (e.way.y > 0.0f ? e.way.x : -e.way.x),
+                            top_y = e.middle.y + 0.5f * std::abs(e.way.y);
                 const float center_x = 0.5f * (extent_x(panel).x + extent_x(panel).y);
                 if (std::abs(top_x) > kMiddle_m || std::abs(e.middle.x) > std::abs(center_x)) continue;
                 (center_x > 0.0f ? left : right) = true;
@@ -96,7 +101,8 @@ public:
             }
         }
         if (!left || !right) return std::nullopt;
-        const auto hit = outline_.skin().cast({0.0f, outline_.levels().knee, outline_.axis_z()}, {0, 1, 0}, 1.0f);
+        const auto hit =
+            outline_.skin().cast({0.0f, outline_.levels().knee, outline_.axis_z()}, {0, 1, 0}, 1.0f);
         if (!hit) return std::nullopt;
         constexpr float kBelow_m = 0.02f;
         return outline_.levels().knee + hit->distance - kBelow_m - crotch;
@@ -105,7 +111,8 @@ public:
     /// The upper border where it is worn.
     std::optional<float> by_waist() const {
         if (upper_border().empty()) return std::nullopt;
-        const float raised = pattern_.worn_top_m.value_or(outline_.levels().waist) - border_height();  // what is wider than it is worn with a belt
+        const float raised = pattern_.worn_top_m.value_or(outline_.levels().waist) -
+                             border_height();  // what is wider than it is worn with a belt
         const auto crotch = by_crotch();
         return crotch ? std::min(raised, *crotch) : raised;
     }
@@ -113,7 +120,8 @@ public:
     float border_height() const {
         float length = 0.0f, height = 0.0f;
         for (const EdgeName& name : upper_border()) {
-            const float l = edge_length(pattern_.panels[name.panel], pattern_.panels[name.panel].edges[name.edge]);
+            const float l =
+                edge_length(pattern_.panels[name.panel], pattern_.panels[name.panel].edges[name.edge]);
             length += l, height += l * edge(name).middle.y;
         }
         return height / length;
@@ -123,7 +131,8 @@ public:
     std::vector<EdgeName> upper_border() const {
         std::vector<EdgeName> out;
         float top = -INFINITY;
-        for (uint32_t p = 0; p < pattern_.panels.size(); ++p) top = std::max(top, heights_of(pattern_.panels[p]).high);
+        for (uint32_t p = 0; p < pattern_.panels.size(); ++p)
+            top = std::max(top, heights_of(pattern_.panels[p]).high);
         for (uint32_t p = 0; p < pattern_.panels.size(); ++p)
             for (uint32_t e = 0; e < pattern_.panels[p].edges.size(); ++e) {
                 const PlacedEdge at = edge({p, e});
@@ -135,14 +144,19 @@ public:
     }
 
 private:
-    PlacedEdge edge(const EdgeName& name) const { return placed(pattern_.panels[name.panel], pattern_.panels[name.panel].edges[name.edge]); }
+    PlacedEdge edge(const EdgeName& name) const {
+        return placed(pattern_.panels[name.panel], pattern_.panels[name.panel].edges[name.edge]);
+    }
     bool is_sewn(const EdgeName& name) const {
-        return std::any_of(pattern_.stitches.begin(), pattern_.stitches.end(), [&](const Stitch& s) { return s.a == name || s.b == name; });
+        return std::any_of(pattern_.stitches.begin(), pattern_.stitches.end(),
+                           [&](const Stitch& s) { return s.a == name || s.b == name; });
     }
     std::vector<Stitch> front_to_back() const {
         std::vector<Stitch> out;
         for (const Stitch& s : pattern_.stitches)
-            if ((depth_of(pattern_.panels[s.a.panel]) > outline_.axis_z()) != (depth_of(pattern_.panels[s.b.panel]) > outline_.axis_z())) out.push_back(s);
+            if ((depth_of(pattern_.panels[s.a.panel]) > outline_.axis_z()) !=
+                (depth_of(pattern_.panels[s.b.panel]) > outline_.axis_z()))
+                out.push_back(s);
         return out;
     }
     static Vec2 extent_x(const Panel& panel) {
@@ -161,27 +175,38 @@ private:
 
 }  // namespace
 
-Placement place_panels(const Pattern& pattern, const SewnMesh& mesh, const BodyOutline& outline, const MeshQuery& skin) {
+Placement place_panels(const Pattern& pattern, const SewnMesh& mesh, const BodyOutline& outline,
+                       const MeshQuery& skin) {
     Placement out;
     const Hanger hanger(pattern, mesh, outline);
-    if (const auto by = hanger.by_shoulders()) out.hangs_on = HangsOn::shoulders, out.raised_m = *by;
-    else if (const auto waist = hanger.by_waist()) out.hangs_on = HangsOn::waist, out.raised_m = *waist, out.band = hanger.upper_border(), out.band_m = hanger.border_height() + *waist;
-    if (const auto crotch = hanger.by_crotch()) out.lifted_m = std::clamp(kAboveFeet_m - lowest(pattern) - out.raised_m, 0.0f, std::max(0.0f, *crotch - out.raised_m));
+    if (const auto by = hanger.by_shoulders())
+        out.hangs_on = HangsOn::shoulders, out.raised_m = *by;
+    else if (const auto waist = hanger.by_waist())
+        out.hangs_on = HangsOn::waist, out.raised_m = *waist, out.band = hanger.upper_border(),
+        out.band_m = hanger.border_height() + *waist;
+    if (const auto crotch = hanger.by_crotch())
+        out.lifted_m = std::clamp(kAboveFeet_m - lowest(pattern) - out.raised_m, 0.0f,
+                                  std::max(0.0f, *crotch - out.raised_m));
 
     for (size_t p = 0; p < pattern.panels.size(); ++p) {
         const Panel& panel = pattern.panels[p];
         const PanelMesh& flat = mesh.panels[p];
         const Vec3 raised = panel.translation + Vec3(0, out.raised_m + out.lifted_m, 0);
         Vec3 middle(0.0f);
-        for (const Vec2& v : flat.flat) middle += (panel.rotation * Vec3(v, 0.0f) + raised) / float(flat.flat.size());
+        for (const Vec2& v : flat.flat)
+            middle += (panel.rotation * Vec3(v, 0.0f) + raised) / float(flat.flat.size());
         Vec3 outward = panel.rotation * Vec3(0, 0, 1);
         const MeshQuery::Closest near = skin.closest(middle);
-        if (glm::dot(outward, middle - near.point) * (skin.inside(middle) ? -1.0f : 1.0f) < 0.0f) outward = -outward;
+        if (glm::dot(outward, middle - near.point) * (skin.inside(middle) ? -1.0f : 1.0f) < 0.0f)
+            outward = -outward;
         constexpr float kStep_m = 0.01f;
         float moved = 0.0f;
         std::vector<Vec3> places(flat.flat.size());
         for (bool clear = false; !clear; moved += kStep_m) {
-            if (moved > kFarthest_m) fail(VFIT_ERROR_DATA, "panel ", panel.name, " cannot be placed clear of the body: it cuts it wherever it is moved to along its own normal");
+            if (moved > kFarthest_m)
+                fail(VFIT_ERROR_DATA, "panel ", panel.name,
+                     " cannot be placed clear of the body: it cuts it wherever it is moved to along its own "
+                     "normal");
             clear = true;
             for (size_t i = 0; i < places.size(); ++i) {
                 places[i] = panel.rotation * Vec3(flat.flat[i], 0.0f) + raised + outward * moved;

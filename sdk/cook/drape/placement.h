@@ -13,15 +13,16 @@ namespace vfit {
 struct Placement {
     std::vector<Vec3> places;  // one a panel vertex
     HangsOn hangs_on = HangsOn::nothing;
-    float raised_m = 0.0f;     // by which all panels were to fit the body
-    float lifted_m = 0.0f;     // and by which trousers were beside that, to be sewn above the feet
-    float band_m = 0.0f;       // height at which a garment that hangs on the waist is worn: of the band below
+    float raised_m = 0.0f;  // by which all panels were to fit the body
+    float lifted_m = 0.0f;  // and by which trousers were beside that, to be sewn above the feet
+    float band_m = 0.0f;    // height at which a garment that hangs on the waist is worn: of the band below
     std::vector<EdgeName> band;  // of a garment that hangs on the waist: its upper border
 };
 
-/// The panels as the pattern places them, raised or lowered so that its shoulder seams lie on the body's shoulders (else its upper
-/// border where it is worn, if its crotch is not above the body's there), then each moved outwards until it is clear of the body.
-/// VFIT_ERROR_DATA names the panel that cannot be.
-Placement place_panels(const Pattern& pattern, const SewnMesh& mesh, const BodyOutline& outline, const MeshQuery& skin);
+/// The panels as the pattern places them, raised or lowered so that its shoulder seams lie on the body's
+/// shoulders (else its upper border where it is worn, if its crotch is not above the body's there), then each
+/// moved outwards until it is clear of the body. VFIT_ERROR_DATA names the panel that cannot be.
+Placement place_panels(const Pattern& pattern, const SewnMesh& mesh, const BodyOutline& outline,
+                       const MeshQuery& skin);
 
 }  // namespace vfit

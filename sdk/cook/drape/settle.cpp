@@ -15,7 +15,8 @@ namespace vfit {
 namespace {
 
 constexpr float kSettleFrame_s = 1.0f / 60.0f;
-constexpr uint32_t kFreeSubsteps = 16, kHeldSubsteps = 16;  // of 1/60 s: the more, the less it stretches by its own weight
+constexpr uint32_t kFreeSubsteps = 16,
+                   kHeldSubsteps = 16;  // of 1/60 s: the more, the less it stretches by its own weight
 
 class Settler {
 public:
@@ -36,13 +37,15 @@ public:
         out.simulated.assign(places.size(), 1);
         for (uint32_t v = 0; v < places.size(); ++v)
             if (has_band ? band.of[v] != 0 : lies_on_shoulder(places[v])) out.simulated[v] = 0;
-        out.report.strain_p99 = fall(cook(places, out.simulated), places, {120, 0, 0.0f, kHeldSubsteps, true});
+        out.report.strain_p99 =
+            fall(cook(places, out.simulated), places, {120, 0, 0.0f, kHeldSubsteps, true});
         part_layers(places);
         clear_skin({body_.positions, body_.indices, *body_.skin}, cloth_.indices, places);
         look("at rest", places);
         out.positions = std::move(places);
         out.report.self_crossings = uint32_t(crossed_triangles(out.positions, cloth_.indices).size());
-        out.report.skin_crossings = uint32_t(crossed_triangles({out.positions, cloth_.indices}, {body_.positions, body_.indices}).size());
+        out.report.skin_crossings = uint32_t(
+            crossed_triangles({out.positions, cloth_.indices}, {body_.positions, body_.indices}).size());
         return out;
     }
 
@@ -61,17 +64,20 @@ private:
         uint32_t substeps;
         bool meets_fingers;
     };
-    /// With layers of its own, unless its triangles are too small for that. Returns the 99th percentile of strain.
+    /// With layers of its own, unless its triangles are too small for that. Returns the 99th percentile of
+    /// strain.
     float fall(FabricData data, std::vector<Vec3>& places, const Fall& how) {
         ClothSettings settings;
         settings.substeps = how.substeps * fineness();
         settings.friction = cloth_.material->friction;
         settings.thickness_m = settings_.thickness_m;
-        settings.self_thickness_m = keeps_layers_apart(cloth_, settings_.thickness_m) ? settings_.thickness_m : 0.0f;
+        settings.self_thickness_m =
+            keeps_layers_apart(cloth_, settings_.thickness_m) ? settings_.thickness_m : 0.0f;
         settings.damping = 0.95f;
         std::vector<Vec3> targets = places;
         Cloth cloth(std::make_shared<const Fabric>(std::move(data)), settings, places);
-        const uint32_t skin = cloth.add_mesh(body_.positions.size(), body_.indices, how.meets_fingers ? std::vector<uint8_t>() : but_fingers(body_));
+        const uint32_t skin = cloth.add_mesh(body_.positions.size(), body_.indices,
+                                             how.meets_fingers ? std::vector<uint8_t>() : but_fingers(body_));
         for (int frame = 0; frame < how.frames; ++frame) {
             cloth.move_mesh(skin, body_.positions);
             if (frame < how.lowering_frames)
@@ -88,8 +94,8 @@ private:
         return uint32_t(std::clamp(std::lround(kSide_m / mean_side(cloth_)), 1L, 4L));
     }
 
-    /// Where layers went through each other while they were sewn, as two legs do below the crotch: they meet with their outsides, so each
-    /// goes inwards, back to its own limb. Taken back where that parts none.
+    /// Where layers went through each other while they were sewn, as two legs do below the crotch: they meet
+    /// with their outsides, so each goes inwards, back to its own limb. Taken back where that parts none.
     void part_layers(std::vector<Vec3>& places) const {
         constexpr int kRounds = 40;
         constexpr float kStep_m = 0.0005f;
@@ -97,7 +103,8 @@ private:
         std::vector<Vec3> normals;
         compute_normals(places, cloth_.indices, normals);
         double outwards = 0.0;  // seams may have left it inside out
-        for (size_t v = 0; v < places.size(); v += 8) outwards += double(glm::dot(normals[v], places[v] - body_.skin->closest(places[v]).point));
+        for (size_t v = 0; v < places.size(); v += 8)
+            outwards += double(glm::dot(normals[v], places[v] - body_.skin->closest(places[v]).point));
         const float step_m = outwards < 0.0 ? kStep_m : -kStep_m;
         const size_t first = crossed_triangles(places, cloth_.indices).size();
         size_t left = first;
@@ -116,7 +123,8 @@ private:
     bool lies_on_shoulder(const Vec3& place) const {
         constexpr float kTouches_m = 0.006f, kUpwards = 0.75f, kNeck_m = 0.03f, kBelowJoint_m = 0.02f;
         const Vec3 joint = body_.left_shoulder;
-        if (std::abs(place.x) < kNeck_m || std::abs(place.x) > joint.x || place.y < joint.y - kBelowJoint_m) return false;
+        if (std::abs(place.x) < kNeck_m || std::abs(place.x) > joint.x || place.y < joint.y - kBelowJoint_m)
+            return false;
         const MeshQuery::Closest near = body_.skin->closest(place);
         return near.distance < settings_.thickness_m + kTouches_m && near.normal.y > kUpwards;
     }
@@ -139,7 +147,8 @@ std::vector<uint8_t> but_fingers(const DrapeBody& body) {
             if (body.parts[v] == part) sum += body.positions[v], count += 1.0f;
         return sum / std::max(count, 1.0f);
     };
-    for (const auto& [forearm, hand] : {std::pair(BodyPart::kLeftForearm, BodyPart::kLeftHand), std::pair(BodyPart::kRightForearm, BodyPart::kRightHand)}) {
+    for (const auto& [forearm, hand] : {std::pair(BodyPart::kLeftForearm, BodyPart::kLeftHand),
+                                        std::pair(BodyPart::kRightForearm, BodyPart::kRightHand)}) {
         const Vec3 along = glm::normalize(middle_of(hand) - middle_of(forearm));
         float wrist = INFINITY;
         for (size_t v = 0; v < counts.size(); ++v)
@@ -152,18 +161,20 @@ std::vector<uint8_t> but_fingers(const DrapeBody& body) {
 
 float mean_side(const WholeCloth& cloth) {
     double sum = 0.0;
-    for (size_t i = 0; i < cloth.cut.size(); ++i) sum += double(glm::length(cloth.cut[i - i % 3 + (i + 1) % 3] - cloth.cut[i]));
+    for (size_t i = 0; i < cloth.cut.size(); ++i)
+        sum += double(glm::length(cloth.cut[i - i % 3 + (i + 1) % 3] - cloth.cut[i]));
     return float(sum / double(std::max<size_t>(cloth.cut.size(), 1)));
 }
 
 bool keeps_layers_apart(const WholeCloth& cloth, float thickness_m) {
-    // A skirt gathered to a belt goes through itself in 0 places with triangles of 16 mm, in 100 with 12 mm and in 1800 with 8 mm,
-    // there without contact in none.
+    // A skirt gathered to a belt goes through itself in 0 places with triangles of 16 mm, in 100 with 12 mm
+    // and in 1800 with 8 mm, there without contact in none.
     constexpr float kLeastSide = 3.5f;  // in thicknesses
     return mean_side(cloth) >= kLeastSide * thickness_m;
 }
 
-Draped settle(const WholeCloth& cloth, std::vector<Vec3> places, const Band& band, const DrapeBody& body, const DrapeSettings& settings, Jobs& jobs) {
+Draped settle(const WholeCloth& cloth, std::vector<Vec3> places, const Band& band, const DrapeBody& body,
+              const DrapeSettings& settings, Jobs& jobs) {
     return Settler(cloth, body, settings, jobs).run(std::move(places), band);
 }
 

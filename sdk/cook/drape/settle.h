@@ -19,19 +19,19 @@ enum class HangsOn { shoulders, waist, nothing };
 struct DrapeBody {
     std::vector<Vec3> positions;
     std::vector<uint32_t> indices;
-    const MeshQuery* skin;   // of these
-    Vec3 left_shoulder;      // joint
+    const MeshQuery* skin;            // of these
+    Vec3 left_shoulder;               // joint
     std::span<const BodyPart> parts;  // one a vertex, or more
 };
 
-/// Flags, one a vertex, of what sleeves meet while they are sewn. They are sewn shut before the cap draws them up the arm; fingers in
-/// their way would be sewn in.
+/// Flags, one a vertex, of what sleeves meet while they are sewn. They are sewn shut before the cap draws
+/// them up the arm; fingers in their way would be sewn in.
 std::vector<uint8_t> but_fingers(const DrapeBody& body);
 
 struct DrapeReport {
     HangsOn hangs_on = HangsOn::nothing;
     float raised_m = 0.0f;
-    float widest_seam_m = 0.0f;  // before what it joins became one
+    float widest_seam_m = 0.0f;                       // before what it joins became one
     uint32_t skin_crossings = 0, self_crossings = 0;  // pairs of triangles, at rest
     uint32_t crossings() const { return skin_crossings + self_crossings; }
     float strain_p99 = 0.0f;
@@ -40,13 +40,15 @@ struct DrapeReport {
 
 struct Draped {
     std::vector<Vec3> positions;  // one a vertex
-    std::vector<uint8_t> simulated;  // the same: 0 where the garment hangs on shoulders or waist and goes with the skin
+    std::vector<uint8_t>
+        simulated;  // the same: 0 where the garment hangs on shoulders or waist and goes with the skin
     DrapeReport report;
 };
 
 struct DrapeSettings {
-    float thickness_m = 0.004f;   // from skin to cloth
-    std::function<void(const char* stage, const std::vector<Vec3>& panel_vertices)> watch;  // for pictures of the way
+    float thickness_m = 0.004f;  // from skin to cloth
+    std::function<void(const char* stage, const std::vector<Vec3>& panel_vertices)>
+        watch;  // for pictures of the way
 };
 
 /// Cloth of one piece.
@@ -58,7 +60,8 @@ struct WholeCloth {
 
 /// Of its triangles.
 float mean_side(const WholeCloth& cloth);
-/// Whether it settles with its own layers kept apart: where triangles are small against a layer, contact tangles small folds.
+/// Whether it settles with its own layers kept apart: where triangles are small against a layer, contact
+/// tangles small folds.
 bool keeps_layers_apart(const WholeCloth& cloth, float thickness_m);
 
 /// What is held at the waist, and where; flags, one a vertex, empty: nothing is.
@@ -67,8 +70,10 @@ struct Band {
     float lowered_m = 0.0f;  // from where it is to where it is worn
 };
 
-/// From those places to rest: first free, held by friction and a belt; then on what it hangs on, which from now on goes with the
-/// skin. Fills the report's figures but for those of a placement, seams and time. watch is called with one place a vertex.
-Draped settle(const WholeCloth& cloth, std::vector<Vec3> places, const Band& band, const DrapeBody& body, const DrapeSettings& settings, Jobs& jobs);
+/// From those places to rest: first free, held by friction and a belt; then on what it hangs on, which from
+/// now on goes with the skin. Fills the report's figures but for those of a placement, seams and time. watch
+/// is called with one place a vertex.
+Draped settle(const WholeCloth& cloth, std::vector<Vec3> places, const Band& band, const DrapeBody& body,
+              const DrapeSettings& settings, Jobs& jobs);
 
 }  // namespace vfit

@@ -21,7 +21,9 @@ float distance_to(const Vec2& p, const Vec2& a, const Vec2& b) {
 bool inside(const std::vector<Vec2>& line, const Vec2& p) {
     bool in = false;
     for (size_t i = 0, k = line.size() - 1; i < line.size(); k = i++)
-        if ((line[i].y > p.y) != (line[k].y > p.y) && p.x < (line[k].x - line[i].x) * (p.y - line[i].y) / (line[k].y - line[i].y) + line[i].x) in = !in;
+        if ((line[i].y > p.y) != (line[k].y > p.y) &&
+            p.x < (line[k].x - line[i].x) * (p.y - line[i].y) / (line[k].y - line[i].y) + line[i].x)
+            in = !in;
     return in;
 }
 
@@ -39,7 +41,8 @@ void add_lattice(const std::vector<Vec2>& line, float length_m, std::vector<Vec2
             const Vec2 p(middle + (float(column) + (row % 2 ? 0.5f : 0.0f)) * length_m, y);
             if (!inside(line, p)) continue;
             float nearest = INFINITY;
-            for (size_t i = 0, k = line.size() - 1; i < line.size(); k = i++) nearest = std::min(nearest, distance_to(p, line[k], line[i]));
+            for (size_t i = 0, k = line.size() - 1; i < line.size(); k = i++)
+                nearest = std::min(nearest, distance_to(p, line[k], line[i]));
             if (nearest >= kApart * length_m) out.push_back(p);
         }
 }
@@ -47,7 +50,8 @@ void add_lattice(const std::vector<Vec2>& line, float length_m, std::vector<Vec2
 std::vector<std::vector<uint32_t>> neighbours_of(const Triangles& triangles, size_t count) {
     std::vector<std::set<uint32_t>> sets(count);
     for (const auto& t : triangles)
-        for (int k = 0; k < 3; ++k) sets[t[size_t(k)]].insert(t[size_t(k + 1) % 3]), sets[t[size_t(k)]].insert(t[size_t(k + 2) % 3]);
+        for (int k = 0; k < 3; ++k)
+            sets[t[size_t(k)]].insert(t[size_t(k + 1) % 3]), sets[t[size_t(k)]].insert(t[size_t(k + 2) % 3]);
     std::vector<std::vector<uint32_t>> out;
     for (const auto& set : sets) out.emplace_back(set.begin(), set.end());
     return out;
@@ -67,7 +71,8 @@ void relax(std::vector<Vec2>& points, uint32_t outline, const Triangles& triangl
 }
 
 /// The outline's vertices in their order; of an edge of no steps both ends are the same.
-std::vector<Vec2> place_outline(const Panel& panel, const std::vector<uint32_t>& steps, std::vector<std::vector<uint32_t>>& edge_vertices) {
+std::vector<Vec2> place_outline(const Panel& panel, const std::vector<uint32_t>& steps,
+                                std::vector<std::vector<uint32_t>>& edge_vertices) {
     std::vector<Vec2> line;
     edge_vertices.assign(panel.edges.size(), {});
     for (size_t e = 0; e < panel.edges.size(); ++e) {
@@ -94,7 +99,9 @@ PanelMesh mesh_panel(const Panel& panel, const std::vector<uint32_t>& steps, flo
     PanelMesh mesh;
     mesh.flat = place_outline(panel, steps, mesh.edge_vertices);
     mesh.outline = uint32_t(mesh.flat.size());
-    if (mesh.outline < 3) fail(VFIT_ERROR_DATA, "panel ", panel.name, " is smaller than a triangle of ", length_m * 100.0f, " cm");
+    if (mesh.outline < 3)
+        fail(VFIT_ERROR_DATA, "panel ", panel.name, " is smaller than a triangle of ", length_m * 100.0f,
+             " cm");
     const std::vector<Vec2> line = mesh.flat;
     add_lattice(line, length_m, mesh.flat);
     try {
@@ -105,7 +112,8 @@ PanelMesh mesh_panel(const Panel& panel, const std::vector<uint32_t>& steps, flo
         fail(VFIT_ERROR_DATA, "panel ", panel.name, ": ", error.what());
     }
     float area2 = 0.0f;
-    for (size_t i = 0, k = line.size() - 1; i < line.size(); k = i++) area2 += line[k].x * line[i].y - line[k].y * line[i].x;
+    for (size_t i = 0, k = line.size() - 1; i < line.size(); k = i++)
+        area2 += line[k].x * line[i].y - line[k].y * line[i].x;
     if (area2 < 0.0f)
         for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
     return mesh;
@@ -116,8 +124,8 @@ std::vector<Vec2> carry_to_size(const PanelMesh& mesh, const Panel& size) {
     for (const auto& vertices : mesh.edge_vertices) steps.push_back(uint32_t(vertices.size()) - 1);
     std::vector<std::vector<uint32_t>> edge_vertices;
     const std::vector<Vec2> line = place_outline(size, steps, edge_vertices);
-    // What the outline's places moved by, spread over the inside as a membrane spreads it (harmonic, with weights of the mesh as
-    // it lies: Gauss-Seidel steps on the mean of neighbours).
+    // What the outline's places moved by, spread over the inside as a membrane spreads it (harmonic, with
+    // weights of the mesh as it lies: Gauss-Seidel steps on the mean of neighbours).
     std::vector<Vec2> ways(mesh.flat.size(), Vec2(0.0f));
     for (uint32_t i = 0; i < mesh.outline; ++i) ways[i] = line[i] - mesh.flat[i];
     const auto neighbours = neighbours_of(mesh.triangles, mesh.flat.size());

@@ -15,12 +15,15 @@ namespace {
 using Point = glm::dvec2;
 constexpr int kNone = -1;
 
-double turn(const Point& a, const Point& b, const Point& c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+double turn(const Point& a, const Point& b, const Point& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
 
 /// Is d inside the circle through a, b, c (counter-clockwise)?
 bool in_circle(const Point& a, const Point& b, const Point& c, const Point& d) {
     const Point p = a - d, q = b - d, r = c - d;
-    const double det = glm::dot(p, p) * (q.x * r.y - q.y * r.x) - glm::dot(q, q) * (p.x * r.y - p.y * r.x) + glm::dot(r, r) * (p.x * q.y - p.y * q.x);
+    const double det = glm::dot(p, p) * (q.x * r.y - q.y * r.x) - glm::dot(q, q) * (p.x * r.y - p.y * r.x) +
+                       glm::dot(r, r) * (p.x * q.y - p.y * q.x);
     constexpr double kSure = 1e-14;  // of coordinates about 1: on the circle is as good as outside
     return det > kSure;
 }
@@ -48,14 +51,16 @@ public:
         std::vector<int> side(cells_.size(), kNone);
         std::deque<int> open;
         for (int c = 0; c < int(cells_.size()); ++c)
-            if (std::any_of(cells_[c].v.begin(), cells_[c].v.end(), [&](uint32_t v) { return v >= count_; })) side[c] = 0, open.push_back(c);
+            if (std::any_of(cells_[c].v.begin(), cells_[c].v.end(), [&](uint32_t v) { return v >= count_; }))
+                side[c] = 0, open.push_back(c);
         while (!open.empty()) {
             const int c = open.front();
             open.pop_front();
             for (int k = 0; k < 3; ++k) {
                 const int n = cells_[c].next[k];
                 if (n == kNone || side[n] != kNone) continue;
-                side[n] = side[c] ^ int(line.count(std::minmax(cells_[c].v[(k + 1) % 3], cells_[c].v[(k + 2) % 3])));
+                side[n] = side[c] ^
+                          int(line.count(std::minmax(cells_[c].v[(k + 1) % 3], cells_[c].v[(k + 2) % 3])));
                 open.push_back(n);
             }
         }
@@ -67,10 +72,12 @@ public:
 
 private:
     struct Cell {
-        std::array<uint32_t, 3> v;   // counter-clockwise
-        std::array<int, 3> next;     // over the edge opposite to each
+        std::array<uint32_t, 3> v;  // counter-clockwise
+        std::array<int, 3> next;    // over the edge opposite to each
         int corner(uint32_t p) const { return v[0] == p ? 0 : v[1] == p ? 1 : v[2] == p ? 2 : kNone; }
-        int edge_to(int cell) const { return next[0] == cell ? 0 : next[1] == cell ? 1 : next[2] == cell ? 2 : kNone; }
+        int edge_to(int cell) const {
+            return next[0] == cell ? 0 : next[1] == cell ? 1 : next[2] == cell ? 2 : kNone;
+        }
     };
 
     int locate(const Point& p) const {
@@ -92,7 +99,8 @@ private:
         const int c = locate(at_[p]);
         const Cell old = cells_[c];
         for (const uint32_t v : old.v)
-            if (glm::length(at_[v] - at_[p]) < 1e-9) fail(VFIT_ERROR_DATA, "two points of the outline are at the same place");
+            if (glm::length(at_[v] - at_[p]) < 1e-9)
+                fail(VFIT_ERROR_DATA, "two points of the outline are at the same place");
         const int b = int(cells_.size()), d = b + 1;
         cells_.push_back({{p, old.v[1], old.v[2]}, {old.next[0], d, c}});
         cells_.push_back({{p, old.v[2], old.v[0]}, {old.next[1], c, b}});
@@ -122,7 +130,8 @@ private:
         for (const uint32_t v : cells_[cell].v) where_[v] = cell;
     }
 
-    /// Exchanges the edge opposite to corner k of t for the other diagonal. Both cells keep their corner off that edge.
+    /// Exchanges the edge opposite to corner k of t for the other diagonal. Both cells keep their corner off
+    /// that edge.
     void flip(int t, int k) {
         const int n = cells_[t].next[k], m = cells_[n].edge_to(t);
         const Cell a = cells_[t], b = cells_[n];
@@ -155,7 +164,8 @@ private:
 
     bool crosses(uint32_t a, uint32_t b, uint32_t u, uint32_t v) const {
         if (u == a || u == b || v == a || v == b) return false;
-        return turn(at_[a], at_[b], at_[u]) * turn(at_[a], at_[b], at_[v]) < 0.0 && turn(at_[u], at_[v], at_[a]) * turn(at_[u], at_[v], at_[b]) < 0.0;
+        return turn(at_[a], at_[b], at_[u]) * turn(at_[a], at_[b], at_[v]) < 0.0 &&
+               turn(at_[u], at_[v], at_[a]) * turn(at_[u], at_[v], at_[b]) < 0.0;
     }
 
     /// Makes the edge from a to b one of the triangulation's.
@@ -169,7 +179,8 @@ private:
             }
         const size_t most = 50 * (crossed.size() + 1) * (crossed.size() + 1);
         for (size_t tries = 0; !crossed.empty(); ++tries) {
-            if (tries > most) fail(VFIT_ERROR_DATA, "the outline cannot be meshed between its points ", a, " and ", b);
+            if (tries > most)
+                fail(VFIT_ERROR_DATA, "the outline cannot be meshed between its points ", a, " and ", b);
             const auto [u, v] = crossed.front();
             crossed.pop_front();
             int t = kNone, k = kNone;
@@ -183,14 +194,16 @@ private:
             const int n = cells_[t].next[k];
             const uint32_t p = cells_[t].v[k], s = cells_[n].v[cells_[n].edge_to(t)];
             const uint32_t q = cells_[t].v[(k + 1) % 3], r = cells_[t].v[(k + 2) % 3];
-            if (turn(at_[p], at_[q], at_[s]) <= 0.0 || turn(at_[p], at_[s], at_[r]) <= 0.0) {  // not convex: later
+            if (turn(at_[p], at_[q], at_[s]) <= 0.0 ||
+                turn(at_[p], at_[s], at_[r]) <= 0.0) {  // not convex: later
                 crossed.emplace_back(u, v);
                 continue;
             }
             flip(t, k);
             if (crosses(a, b, p, s)) crossed.emplace_back(p, s);
         }
-        if (!joined(a, b)) fail(VFIT_ERROR_DATA, "the outline touches itself between its points ", a, " and ", b);
+        if (!joined(a, b))
+            fail(VFIT_ERROR_DATA, "the outline touches itself between its points ", a, " and ", b);
     }
 
     uint32_t outline_, count_ = 0;
@@ -201,6 +214,8 @@ private:
 
 }  // namespace
 
-Triangles triangulate(std::span<const Vec2> points, uint32_t outline) { return Triangulation(points, outline).inside(); }
+Triangles triangulate(std::span<const Vec2> points, uint32_t outline) {
+    return Triangulation(points, outline).inside();
+}
 
 }  // namespace vfit

@@ -27,10 +27,14 @@ Beside::Found Beside::find(std::string name) const {
     return {Place::inside, real.string()};
 }
 
-void note_missing_texture(const Beside& beside, const std::string& texture, const std::string& of, std::vector<std::string>& notes) {
+void note_missing_texture(const Beside& beside, const std::string& texture, const std::string& of,
+                          std::vector<std::string>& notes) {
     const Beside::Place place = beside.find(texture).place;
-    if (place == Beside::Place::missing) notes.push_back("the texture \"" + texture + "\"" + of + " is not there");
-    if (place == Beside::Place::outside) notes.push_back("the texture \"" + texture + "\"" + of + " is outside of the garment's folder: it was not looked for");
+    if (place == Beside::Place::missing)
+        notes.push_back("the texture \"" + texture + "\"" + of + " is not there");
+    if (place == Beside::Place::outside)
+        notes.push_back("the texture \"" + texture + "\"" + of +
+                        " is outside of the garment's folder: it was not looked for");
 }
 
 }  // namespace vfit

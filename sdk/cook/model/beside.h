@@ -27,6 +27,7 @@ private:
 };
 
 /// A note where a texture is not there: what is drawn with it is up to others. of: " of material ...".
-void note_missing_texture(const Beside& beside, const std::string& texture, const std::string& of, std::vector<std::string>& notes);
+void note_missing_texture(const Beside& beside, const std::string& texture, const std::string& of,
+                          std::vector<std::string>& notes);
 
 }  // namespace vfit

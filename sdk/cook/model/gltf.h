@@ -9,8 +9,8 @@
 
 namespace vfit {
 
-/// All meshes where the file's nodes put them, skinned ones as their bones stand; metres. file: its name, for textures that lie
-/// inside of it. VFIT_ERROR_DATA and VFIT_ERROR_UNSUPPORTED name the mesh and its part.
+/// All meshes where the file's nodes put them, skinned ones as their bones stand; metres. file: its name, for
+/// textures that lie inside of it. VFIT_ERROR_DATA and VFIT_ERROR_UNSUPPORTED name the mesh and its part.
 Model read_gltf(const GltfDocument& document, const std::string& file, const Beside& beside);
 
 }  // namespace vfit

@@ -1,4 +1,5 @@
-// A garment as its author modelled it: polygons in space, of which nothing is known yet but that their numbers are numbers.
+// A garment as its author modelled it: polygons in space, of which nothing is known yet but that their
+// numbers are numbers.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +15,8 @@ namespace vfit {
 inline constexpr uint32_t kNoUv = UINT32_MAX;
 
 struct ModelMaterial {
-    std::string name, texture;  // texture: a path as the author gave it, or "FILE#/images/N" where it lies inside of the file
+    std::string name, texture;  // texture: a path as the author gave it, or "FILE#/images/N" where it lies
+                                // inside of the file
     Vec3 color{0.8f};           // linear RGB
 };
 
@@ -24,7 +26,7 @@ struct ModelCorner {
 
 struct ModelFace {
     uint32_t first_corner, corner_count;
-    uint32_t material;  // one past the last: none
+    uint32_t material;       // one past the last: none
     uint32_t group, number;  // for its name
 };
 
@@ -40,12 +42,18 @@ struct Model {
     std::vector<std::string> groups;  // "the face in line ", before its number
     std::vector<std::string> notes;   // of what was left out or not found
 
-    std::string name_of(size_t face) const { return groups[faces[face].group] + std::to_string(faces[face].number); }
-    std::string material_of(size_t face) const { return faces[face].material < materials.size() ? materials[faces[face].material].name : ""; }
+    std::string name_of(size_t face) const {
+        return groups[faces[face].group] + std::to_string(faces[face].number);
+    }
+    std::string material_of(size_t face) const {
+        return faces[face].material < materials.size() ? materials[faces[face].material].name : "";
+    }
     /// VFIT_ERROR_DATA where there are more than any garment has.
     void check_count() const {
-        if (positions.size() > kMostPositions) fail(VFIT_ERROR_DATA, "the file has more than ", kMostPositions, " vertices");
-        if (corners.size() > kMostCorners) fail(VFIT_ERROR_DATA, "the faces of the file have more than ", kMostCorners, " corners");
+        if (positions.size() > kMostPositions)
+            fail(VFIT_ERROR_DATA, "the file has more than ", kMostPositions, " vertices");
+        if (corners.size() > kMostCorners)
+            fail(VFIT_ERROR_DATA, "the faces of the file have more than ", kMostCorners, " corners");
     }
 };
 

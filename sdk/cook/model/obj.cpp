@@ -70,7 +70,8 @@ public:
 private:
     void cut_remark() {
         for (size_t i = 0; i < rest_.size(); ++i)
-            if (rest_[i] == '#' && (i == 0 || is_blank(rest_[i - 1]))) return rest_.remove_suffix(rest_.size() - i);
+            if (rest_[i] == '#' && (i == 0 || is_blank(rest_[i - 1])))
+                return rest_.remove_suffix(rest_.size() - i);
     }
 
     std::string_view text_, rest_;
@@ -83,7 +84,9 @@ std::optional<float> number_of(std::string_view word) {
     if (!word.empty() && word.front() == '+') word.remove_prefix(1);
     double value = 0.0;  // what a float cannot hold is too large, or as good as 0
     const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (fault != std::errc() || end != word.data() + word.size() || word.empty() || !std::isfinite(float(value))) return std::nullopt;
+    if (fault != std::errc() || end != word.data() + word.size() || word.empty() ||
+        !std::isfinite(float(value)))
+        return std::nullopt;
     return float(value);
 }
 
@@ -96,7 +99,8 @@ std::string shown(std::string_view word) {
 /// Words of which each is followed by that many others in map_Kd, before the picture's name.
 size_t option_values(std::string_view option) {
     if (option == "-mm") return 2;
-    for (const char* known : {"-blendu", "-blendv", "-boost", "-bm", "-cc", "-clamp", "-imfchan", "-texres", "-type"})
+    for (const char* known :
+         {"-blendu", "-blendv", "-boost", "-bm", "-cc", "-clamp", "-imfchan", "-texres", "-type"})
         if (option == known) return 1;
     return 0;
 }
@@ -111,16 +115,24 @@ public:
         model_.groups = {"the face in line "};
         while (lines_.next()) {
             const std::string_view key = lines_.word();
-            if (key == "v") model_.positions.emplace_back(read_vector<3>("vertex"));
-            else if (key == "vt") add_uv();
-            else if (key == "f") add_face();
-            else if (key == "usemtl") material_ = material_named(std::string(lines_.rest()));
-            else if (key == "mtllib") add_library();
-            else refuse_curved(key);
+            if (key == "v")
+                model_.positions.emplace_back(read_vector<3>("vertex"));
+            else if (key == "vt")
+                add_uv();
+            else if (key == "f")
+                add_face();
+            else if (key == "usemtl")
+                material_ = material_named(std::string(lines_.rest()));
+            else if (key == "mtllib")
+                add_library();
+            else
+                refuse_curved(key);
             model_.check_count();
         }
-        if (model_.positions.empty()) fail(VFIT_ERROR_DATA, "no OBJ mesh: there is no vertex (a line \"v X Y Z\") in it");
-        if (model_.faces.empty()) fail(VFIT_ERROR_DATA, "no OBJ mesh: there is no face (a line \"f 1 2 3\") in it");
+        if (model_.positions.empty())
+            fail(VFIT_ERROR_DATA, "no OBJ mesh: there is no vertex (a line \"v X Y Z\") in it");
+        if (model_.faces.empty())
+            fail(VFIT_ERROR_DATA, "no OBJ mesh: there is no face (a line \"f 1 2 3\") in it");
         note_materials();
         return std::move(model_);
     }
@@ -131,16 +143,21 @@ private:
         glm::vec<kCount, float> out(0.0f);
         for (int i = 0; i < kCount; ++i) {
             const std::string_view word = lines_.word();
-            if (word.empty()) fail(VFIT_ERROR_DATA, "line ", lines_.number(), ": the ", what, " has ", i, " numbers, ", kCount, " are needed: is the file cut?");
+            if (word.empty())
+                fail(VFIT_ERROR_DATA, "line ", lines_.number(), ": the ", what, " has ", i, " numbers, ",
+                     kCount, " are needed: is the file cut?");
             const auto value = number_of(word);
-            if (!value) fail(VFIT_ERROR_DATA, "line ", lines_.number(), ": \"", shown(word), "\" of the ", what, " is no finite number");
+            if (!value)
+                fail(VFIT_ERROR_DATA, "line ", lines_.number(), ": \"", shown(word), "\" of the ", what,
+                     " is no finite number");
             out[i] = *value;
         }
         return out;
     }
 
     void add_uv() {
-        if (model_.uvs.size() >= Model::kMostCorners) fail(VFIT_ERROR_DATA, "the file has more than ", Model::kMostCorners, " uvs");
+        if (model_.uvs.size() >= Model::kMostCorners)
+            fail(VFIT_ERROR_DATA, "the file has more than ", Model::kMostCorners, " uvs");
         const Vec2 uv = read_vector<2>("uv");
         model_.uvs.emplace_back(uv.x, 1.0f - uv.y);  // OBJ counts from the picture's lower edge
     }
@@ -150,9 +167,11 @@ private:
         int64_t value = 0;
         const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
         if (fault != std::errc() || end != word.data() + word.size())
-            fail(VFIT_ERROR_DATA, "line ", lines_.number(), ": \"", shown(word), "\" of the face is no index of a ", what);
+            fail(VFIT_ERROR_DATA, "line ", lines_.number(), ": \"", shown(word),
+                 "\" of the face is no index of a ", what);
         if (value == 0 || value > int64_t(count) || value < -int64_t(count))
-            fail(VFIT_ERROR_DATA, "line ", lines_.number(), ": the face names ", what, " ", value, " of ", count);
+            fail(VFIT_ERROR_DATA, "line ", lines_.number(), ": the face names ", what, " ", value, " of ",
+                 count);
         return uint32_t(value > 0 ? value - 1 : int64_t(count) + value);
     }
 
@@ -166,15 +185,21 @@ private:
                 if (!uv.empty()) corner.uv = index_of(uv, model_.uvs.size(), "uv");
             }
             model_.corners.push_back(corner);
-            if (++face.corner_count > kMostFaceCorners) fail(VFIT_ERROR_DATA, "line ", lines_.number(), ": the face has more than ", kMostFaceCorners, " corners");
+            if (++face.corner_count > kMostFaceCorners)
+                fail(VFIT_ERROR_DATA, "line ", lines_.number(), ": the face has more than ", kMostFaceCorners,
+                     " corners");
         }
-        if (face.corner_count < 3) fail(VFIT_ERROR_DATA, "line ", lines_.number(), ": the face has ", face.corner_count, " corners, 3 are needed: is the file cut?");
+        if (face.corner_count < 3)
+            fail(VFIT_ERROR_DATA, "line ", lines_.number(), ": the face has ", face.corner_count,
+                 " corners, 3 are needed: is the file cut?");
         model_.faces.push_back(face);
     }
 
     void refuse_curved(std::string_view key) const {
         for (const char* curved : {"cstype", "curv", "curv2", "surf", "bmat"})
-            if (key == curved) fail(VFIT_ERROR_UNSUPPORTED, "line ", lines_.number(), ": curves and curved surfaces are not read: export polygons");
+            if (key == curved)
+                fail(VFIT_ERROR_UNSUPPORTED, "line ", lines_.number(),
+                     ": curves and curved surfaces are not read: export polygons");
     }
 
     uint32_t material_named(const std::string& name) {
@@ -188,13 +213,17 @@ private:
     void add_library() {
         const std::string all(lines_.rest());
         if (beside_.find(all).place == Beside::Place::inside) return read_library(all);
-        for (std::string_view word = lines_.word(); !word.empty(); word = lines_.word()) read_library(std::string(word));
+        for (std::string_view word = lines_.word(); !word.empty(); word = lines_.word())
+            read_library(std::string(word));
     }
 
     void read_library(const std::string& name) {
         const Beside::Found found = beside_.find(name);
         if (found.place != Beside::Place::inside) {
-            model_.notes.push_back("the material library \"" + shown(name) + (found.place == Beside::Place::outside ? "\" is outside of the garment's folder: it is not read" : "\" is not there: materials are grey"));
+            model_.notes.push_back("the material library \"" + shown(name) +
+                                   (found.place == Beside::Place::outside
+                                        ? "\" is outside of the garment's folder: it is not read"
+                                        : "\" is not there: materials are grey"));
             return;
         }
         if (!libraries_.insert(found.path).second) return;
@@ -220,9 +249,12 @@ private:
         Vec3 color(0.0f);
         for (int i = 0; i < 3; ++i) {
             const std::string_view word = lines.word();
-            const auto value = word.empty() && i > 0 ? std::optional(color.x) : number_of(word);  // one number: grey
+            const auto value =
+                word.empty() && i > 0 ? std::optional(color.x) : number_of(word);  // one number: grey
             if (!value || *value < 0.0f || *value > 1.0f) {
-                model_.notes.push_back(text("line ", lines.number(), " of ", shown(library), ": the colour of material \"", material.name, "\" is not three numbers from 0 to 1: it is grey"));
+                model_.notes.push_back(text("line ", lines.number(), " of ", shown(library),
+                                            ": the colour of material \"", material.name,
+                                            "\" is not three numbers from 0 to 1: it is grey"));
                 return;
             }
             color[i] = *value;
@@ -247,13 +279,17 @@ private:
     void note_materials() {
         std::set<uint32_t> used;
         for (ModelFace& face : model_.faces) {
-            if (face.material == UINT32_MAX) face.material = uint32_t(model_.materials.size());
-            else used.insert(face.material);
+            if (face.material == UINT32_MAX)
+                face.material = uint32_t(model_.materials.size());
+            else
+                used.insert(face.material);
         }
         for (const uint32_t m : used) {
             const ModelMaterial& material = model_.materials[m];
             const std::string of = " of material \"" + shown(material.name) + "\"";
-            if (!defined_.count(material.name)) model_.notes.push_back("material \"" + shown(material.name) + "\" is in no material library: it is grey");
+            if (!defined_.count(material.name))
+                model_.notes.push_back("material \"" + shown(material.name) +
+                                       "\" is in no material library: it is grey");
             if (!material.texture.empty()) note_missing_texture(beside_, material.texture, of, model_.notes);
         }
     }

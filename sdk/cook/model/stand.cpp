@@ -12,13 +12,15 @@ namespace vfit {
 
 namespace {
 
-constexpr float kHigh_m = 4.0f;   // above all bodies
+constexpr float kHigh_m = 4.0f;  // above all bodies
 
 class Stander {
 public:
-    Stander(const Surface& surface, const BodyOutline& outline, const MeshQuery& skin) : surface_(surface), outline_(outline), skin_(skin), cloth_(surface.positions, surface.indices) {}
+    Stander(const Surface& surface, const BodyOutline& outline, const MeshQuery& skin)
+        : surface_(surface), outline_(outline), skin_(skin), cloth_(surface.positions, surface.indices) {}
 
-    /// What brings the cloth over the shoulders onto the body's: none where there is no such cloth on both sides.
+    /// What brings the cloth over the shoulders onto the body's: none where there is no such cloth on both
+    /// sides.
     std::optional<Vec3> by_shoulders(float thickness_m) const {
         constexpr float kInner_m = 0.04f, kSlope_m = 0.08f;
         constexpr float kNear_m = 0.08f, kAnywhere_m = 0.25f, kBelowChin_m = 0.1f;
@@ -30,7 +32,9 @@ public:
             std::vector<std::pair<Vec3, Vec3>> ridges;  // of cloth and body
             float top = -INFINITY;
             for (float x = kInner_m; x < joint.x; x += kStep_m) {
-                const auto cloth = ridge(cloth_, {side * x, kHigh_m, 0.0f}, kAnywhere_m), body = ridge(outline_.skin(), {side * x, joint.y + kBelowChin_m, joint.z}, kNear_m);
+                const auto cloth = ridge(cloth_, {side * x, kHigh_m, 0.0f}, kAnywhere_m),
+                           body =
+                               ridge(outline_.skin(), {side * x, joint.y + kBelowChin_m, joint.z}, kNear_m);
                 if (!cloth || !body || cloth->y < lowest || body->y < lowest) continue;
                 ridges.emplace_back(*cloth, *body);
                 top = std::max(top, cloth->y);
@@ -55,15 +59,20 @@ public:
         const std::vector<uint32_t>* best = nullptr;
         for (const auto& opening : surface_.openings) {
             std::vector<Vec2> seen;
-            for (const uint32_t v : opening) seen.emplace_back(surface_.positions[v].x, surface_.positions[v].z);
-            if (encloses(seen, {0.0f, outline_.axis_z()}) && (!best || height(opening) > height(*best))) best = &opening;
+            for (const uint32_t v : opening)
+                seen.emplace_back(surface_.positions[v].x, surface_.positions[v].z);
+            if (encloses(seen, {0.0f, outline_.axis_z()}) && (!best || height(opening) > height(*best)))
+                best = &opening;
         }
         std::vector<uint32_t> edge;
-        if (best) edge = *best;
+        if (best)
+            edge = *best;
         else
-            for (const auto& opening : surface_.openings) edge.insert(edge.end(), opening.begin(), opening.end());
+            for (const auto& opening : surface_.openings)
+                edge.insert(edge.end(), opening.begin(), opening.end());
         float top = -INFINITY, low = INFINITY;
-        for (const uint32_t v : edge) top = std::max(top, surface_.positions[v].y), low = std::min(low, surface_.positions[v].y);
+        for (const uint32_t v : edge)
+            top = std::max(top, surface_.positions[v].y), low = std::min(low, surface_.positions[v].y);
         // A waist may be lower in front, but a slit, a fly or a hem is no part of it.
         constexpr float kNearTop_m = 0.05f, kSlanted_m = 0.15f;
         if (best && top - low < kSlanted_m) return edge;
@@ -80,7 +89,8 @@ public:
         float raised = sits_at(edge) - own;
         if (crotch) raised = std::min(raised, *crotch);
         float front = -INFINITY, back = INFINITY;
-        for (const uint32_t v : edge) front = std::max(front, surface_.positions[v].z), back = std::min(back, surface_.positions[v].z);
+        for (const uint32_t v : edge)
+            front = std::max(front, surface_.positions[v].z), back = std::min(back, surface_.positions[v].z);
         return {0.0f, raised, only_if_far(outline_.axis_z() - 0.5f * (front + back))};
     }
 
@@ -112,12 +122,13 @@ private:
         return sum / float(std::max<size_t>(of.size(), 1));
     }
 
-    /// The nearest height to its own, between hips and waist, at which the body about fills the opening. One that is wider than the
-    /// hips is worn at the waist, with a belt.
+    /// The nearest height to its own, between hips and waist, at which the body about fills the opening. One
+    /// that is wider than the hips is worn at the waist, with a belt.
     float sits_at(const std::vector<uint32_t>& edge) const {
         const TailorLevels& levels = outline_.levels();
         const float around = surface_.length_of(edge), own = height(edge);
-        constexpr float kStep_m = 0.005f, kTight_m = 0.02f, kLoose = 0.85f;  // stretched around by so much; filled by so much
+        constexpr float kStep_m = 0.005f, kTight_m = 0.02f,
+                        kLoose = 0.85f;  // stretched around by so much; filled by so much
         float best = levels.waist, least = INFINITY;
         for (float y = levels.waist; y > levels.hip; y -= kStep_m) {
             const float girth = outline_.at(y).perimeter();
@@ -132,7 +143,8 @@ private:
     std::optional<float> by_crotch() const {
         constexpr float kBelow_m = 0.02f;
         const Vec3 from(0.0f, -kHigh_m, outline_.axis_z());
-        const auto cloth = cloth_.cast(from, {0, 1, 0}, 2.0f * kHigh_m), body = skin_.cast(from, {0, 1, 0}, 2.0f * kHigh_m);
+        const auto cloth = cloth_.cast(from, {0, 1, 0}, 2.0f * kHigh_m),
+                   body = skin_.cast(from, {0, 1, 0}, 2.0f * kHigh_m);
         if (!cloth || !body) return std::nullopt;
         return body->distance - kBelow_m - cloth->distance;
     }
@@ -149,8 +161,10 @@ std::vector<Vec3> bones_below(const EvaluatedBody& body, const BodyTopology& top
     for (size_t v = 0; v < body.positions.size(); ++v) {
         Vec3 sum(0.0f);
         for (size_t k = 0; k < size_t(kSkinBones); ++k) {
-            const Vec3 &head = body.bone_heads[topology.skin_bones[v][k]], along = body.bone_tails[topology.skin_bones[v][k]] - head;
-            const float length2 = glm::dot(along, along), t = length2 > 0.0f ? glm::dot(body.positions[v] - head, along) / length2 : 0.0f;
+            const Vec3 &head = body.bone_heads[topology.skin_bones[v][k]],
+                       along = body.bone_tails[topology.skin_bones[v][k]] - head;
+            const float length2 = glm::dot(along, along),
+                        t = length2 > 0.0f ? glm::dot(body.positions[v] - head, along) / length2 : 0.0f;
             sum += topology.skin_weights[v][k] * (head + std::clamp(t, 0.0f, 1.0f) * along);
         }
         out.push_back(sum);
@@ -160,7 +174,8 @@ std::vector<Vec3> bones_below(const EvaluatedBody& body, const BodyTopology& top
 
 }  // namespace
 
-std::vector<Vec3> grow_body_into(const WholeCloth& cloth, std::vector<Vec3> places, const EvaluatedBody& body, const BodyTopology& topology, float thickness_m, Jobs& jobs) {
+std::vector<Vec3> grow_body_into(const WholeCloth& cloth, std::vector<Vec3> places, const EvaluatedBody& body,
+                                 const BodyTopology& topology, float thickness_m, Jobs& jobs) {
     constexpr int kFrames = 90;
     constexpr float kThinnest = 0.2f;  // of its thickness: thinner, the skin would fold into itself
     constexpr float kFrame_s = 1.0f / 60.0f;
@@ -171,7 +186,9 @@ std::vector<Vec3> grow_body_into(const WholeCloth& cloth, std::vector<Vec3> plac
     settings.thickness_m = thickness_m;
     settings.sleeps = false;
     const std::vector<uint8_t> all(places.size(), 1);
-    Cloth simulated(std::make_shared<const Fabric>(cook_fabric({places, cloth.indices, {}, all, 1.0f, cloth.cut}, *cloth.material)), settings, places);
+    Cloth simulated(std::make_shared<const Fabric>(
+                        cook_fabric({places, cloth.indices, {}, all, 1.0f, cloth.cut}, *cloth.material)),
+                    settings, places);
     const uint32_t skin = simulated.add_mesh(body.positions.size(), topology.indices);
     const std::vector<Vec3> bones = bones_below(body, topology);
     std::vector<Vec3> grown(body.positions.size());

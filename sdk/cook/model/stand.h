@@ -18,15 +18,17 @@ struct Standing {
     float inside_share = 0.0f;  // of its vertices that lie in it by more than a centimetre
 };
 
-/// Moved up or down, and forward or back, from the unknown body that it was modelled on: cloth over both shoulders to the body's
-/// shoulders; else the upper opening to where the body is as wide, between hips and waist, if the crotch is not above the body's
-/// there; what is worn higher stays where it is.
+/// Moved up or down, and forward or back, from the unknown body that it was modelled on: cloth over both
+/// shoulders to the body's shoulders; else the upper opening to where the body is as wide, between hips and
+/// waist, if the crotch is not above the body's there; what is worn higher stays where it is.
 Standing stand(const Surface& surface, const BodyOutline& outline, const MeshQuery& skin, float thickness_m);
 
 /// Clear of the skin, where a little of it lies within: each vertex by itself.
 std::vector<Vec3> pushed_out(std::vector<Vec3> places, const MeshQuery& skin, float thickness_m);
 
-/// Clear of a body that is another than the garment was modelled on: as if that grew thick within, and pushed the cloth ahead of it.
-std::vector<Vec3> grow_body_into(const WholeCloth& cloth, std::vector<Vec3> places, const EvaluatedBody& body, const BodyTopology& topology, float thickness_m, Jobs& jobs);
+/// Clear of a body that is another than the garment was modelled on: as if that grew thick within, and pushed
+/// the cloth ahead of it.
+std::vector<Vec3> grow_body_into(const WholeCloth& cloth, std::vector<Vec3> places, const EvaluatedBody& body,
+                                 const BodyTopology& topology, float thickness_m, Jobs& jobs);
 
 }  // namespace vfit

@@ -1,4 +1,5 @@
-// Makes a modelled garment whole: one surface of cloth, of which each side is of two triangles or of the border.
+// Makes a modelled garment whole: one surface of cloth, of which each side is of two triangles or of the
+// border.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +24,9 @@ struct Surface {
     float length_of(const std::vector<uint32_t>& opening) const;
 };
 
-/// unit_m: of the positions. Vertices at one place become one; polygons are cut into triangles; pieces of a few triangles that are
-/// not joined to the others (buttons) are left out; holes that are no openings are closed; triangles are turned the same way.
-/// VFIT_ERROR_DATA says what is no garment's mesh, and where.
+/// unit_m: of the positions. Vertices at one place become one; polygons are cut into triangles; pieces of a
+/// few triangles that are not joined to the others (buttons) are left out; holes that are no openings are
+/// closed; triangles are turned the same way. VFIT_ERROR_DATA says what is no garment's mesh, and where.
 Surface make_surface(const Model& model, float unit_m);
 
 }  // namespace vfit

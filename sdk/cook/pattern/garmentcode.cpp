@@ -19,7 +19,8 @@ float number(const Json& value, const std::string& what) {
 }
 
 std::vector<float> numbers(const Json& value, size_t count, const std::string& what) {
-    if (!value.is_array() || value.size() != count) fail(VFIT_ERROR_DATA, "pattern: ", what, " is no list of ", count, " numbers");
+    if (!value.is_array() || value.size() != count)
+        fail(VFIT_ERROR_DATA, "pattern: ", what, " is no list of ", count, " numbers");
     std::vector<float> out;
     for (const Json& v : value) out.push_back(number(v, what));
     return out;
@@ -27,12 +28,14 @@ std::vector<float> numbers(const Json& value, size_t count, const std::string& w
 
 const Json& field(const Json& object, const char* key, const std::string& what) {
     const auto it = object.is_object() ? object.find(key) : object.end();
-    if (!object.is_object() || it == object.end()) fail(VFIT_ERROR_DATA, "pattern: ", what, " has no \"", key, "\"");
+    if (!object.is_object() || it == object.end())
+        fail(VFIT_ERROR_DATA, "pattern: ", what, " has no \"", key, "\"");
     return *it;
 }
 
 uint32_t index(const Json& value, size_t count, const std::string& what) {
-    if (!value.is_number_unsigned() || value.get<uint64_t>() >= count) fail(VFIT_ERROR_DATA, "pattern: ", what, " is no index below ", count);
+    if (!value.is_number_unsigned() || value.get<uint64_t>() >= count)
+        fail(VFIT_ERROR_DATA, "pattern: ", what, " is no index below ", count);
     return value.get<uint32_t>();
 }
 
@@ -54,17 +57,21 @@ private:
     void read_properties() {
         const Json properties = root_.contains("properties") ? root_["properties"] : Json::object();
         if (!properties.is_object()) fail(VFIT_ERROR_DATA, "pattern: \"properties\" is not an object");
-        if (properties.contains("units_in_meter")) units_in_meter_ = number(properties["units_in_meter"], "units_in_meter");
-        if (!(units_in_meter_ > 0.0f) || !std::isfinite(units_in_meter_)) fail(VFIT_ERROR_DATA, "pattern: units_in_meter is ", units_in_meter_);
+        if (properties.contains("units_in_meter"))
+            units_in_meter_ = number(properties["units_in_meter"], "units_in_meter");
+        if (!(units_in_meter_ > 0.0f) || !std::isfinite(units_in_meter_))
+            fail(VFIT_ERROR_DATA, "pattern: units_in_meter is ", units_in_meter_);
         if (!properties.contains("curvature_coords")) return;
         const Json& kind = properties["curvature_coords"];
-        if (kind != "relative" && kind != "absolute") fail(VFIT_ERROR_DATA, "pattern: curvature_coords is neither \"relative\" nor \"absolute\"");
+        if (kind != "relative" && kind != "absolute")
+            fail(VFIT_ERROR_DATA, "pattern: curvature_coords is neither \"relative\" nor \"absolute\"");
         relative_ = kind == "relative";
     }
 
     void read_panels(const Json& panels) {
         if (!panels.is_object() || panels.empty()) fail(VFIT_ERROR_DATA, "pattern: there are no panels");
-        if (panels.size() > kMostPanels) fail(VFIT_ERROR_DATA, "pattern: ", panels.size(), " panels, at most ", kMostPanels, " are read");
+        if (panels.size() > kMostPanels)
+            fail(VFIT_ERROR_DATA, "pattern: ", panels.size(), " panels, at most ", kMostPanels, " are read");
         for (const auto& [name, json] : panels.items()) {
             panel_of_[name] = uint32_t(pattern_.panels.size());
             pattern_.panels.push_back(read_panel(name, json));
@@ -76,20 +83,26 @@ private:
         Panel panel;
         panel.name = name;
         const Json &vertices = field(json, "vertices", what), &edges = field(json, "edges", what);
-        if (!vertices.is_array() || !edges.is_array() || vertices.size() > kMostEdges || edges.size() > kMostEdges)
-            fail(VFIT_ERROR_DATA, "pattern: ", what, ": \"vertices\" and \"edges\" are no lists of at most ", kMostEdges);
+        if (!vertices.is_array() || !edges.is_array() || vertices.size() > kMostEdges ||
+            edges.size() > kMostEdges)
+            fail(VFIT_ERROR_DATA, "pattern: ", what, ": \"vertices\" and \"edges\" are no lists of at most ",
+                 kMostEdges);
         for (const Json& v : vertices) {
-            const std::vector<float> p = numbers(v, 2, what + ", vertex " + std::to_string(panel.corners.size()));
+            const std::vector<float> p =
+                numbers(v, 2, what + ", vertex " + std::to_string(panel.corners.size()));
             panel.corners.push_back(Vec2(p[0], p[1]) / units_in_meter_);
         }
-        for (const Json& e : edges) panel.edges.push_back(read_edge(panel, e, what + ", edge " + std::to_string(panel.edges.size())));
+        for (const Json& e : edges)
+            panel.edges.push_back(read_edge(panel, e, what + ", edge " + std::to_string(panel.edges.size())));
         if (json.contains("translation")) {
             const std::vector<float> t = numbers(json["translation"], 3, what + ", translation");
             panel.translation = Vec3(t[0], t[1], t[2]) / units_in_meter_;
         }
         if (json.contains("rotation")) {
             const std::vector<float> r = numbers(json["rotation"], 3, what + ", rotation");
-            const auto turn = [](float degrees, const Vec3& axis) { return glm::angleAxis(degrees * kPi / 180.0f, axis); };
+            const auto turn = [](float degrees, const Vec3& axis) {
+                return glm::angleAxis(degrees * kPi / 180.0f, axis);
+            };
             panel.rotation = turn(r[2], {0, 0, 1}) * turn(r[1], {0, 1, 0}) * turn(r[0], {1, 0, 0});
         }
         return panel;
@@ -98,10 +111,12 @@ private:
     PatternEdge read_edge(const Panel& panel, const Json& json, const std::string& what) {
         PatternEdge edge;
         const Json& ends = field(json, "endpoints", what);
-        if (!ends.is_array() || ends.size() != 2) fail(VFIT_ERROR_DATA, "pattern: ", what, ": \"endpoints\" are no two indices");
+        if (!ends.is_array() || ends.size() != 2)
+            fail(VFIT_ERROR_DATA, "pattern: ", what, ": \"endpoints\" are no two indices");
         edge.from = index(ends[0], panel.corners.size(), what + ", its begin,");
         edge.to = index(ends[1], panel.corners.size(), what + ", its end,");
-        if (json.contains("label") && json["label"].is_string()) edge.label = json["label"].get<std::string>();
+        if (json.contains("label") && json["label"].is_string())
+            edge.label = json["label"].get<std::string>();
         if (!json.contains("curvature")) return edge;
         const Json& curve = json["curvature"];
         if (curve.is_array()) {  // of older files: the control point of a quadratic one
@@ -109,9 +124,11 @@ private:
             edge.control[0] = control(panel, edge, curve, what);
             return edge;
         }
-        const Json &type = field(curve, "type", what + ", curvature,"), &params = field(curve, "params", what + ", curvature,");
+        const Json &type = field(curve, "type", what + ", curvature,"),
+                   &params = field(curve, "params", what + ", curvature,");
         const auto points = [&](size_t count) {
-            if (!params.is_array() || params.size() != count) fail(VFIT_ERROR_DATA, "pattern: ", what, ": its curve has not ", count, " control points");
+            if (!params.is_array() || params.size() != count)
+                fail(VFIT_ERROR_DATA, "pattern: ", what, ": its curve has not ", count, " control points");
             for (size_t i = 0; i < count; ++i) edge.control[i] = control(panel, edge, params[i], what);
         };
         if (type == "quadratic") {
@@ -127,13 +144,15 @@ private:
             edge.large_arc = p[1] != 0.0f;
             edge.turns_left = p[2] != 0.0f;
         } else {
-            fail(VFIT_ERROR_DATA, "pattern: ", what, ": a curve of type ", type.dump(), " is not known; quadratic, cubic and circle are");
+            fail(VFIT_ERROR_DATA, "pattern: ", what, ": a curve of type ", type.dump(),
+                 " is not known; quadratic, cubic and circle are");
         }
         return edge;
     }
 
     /// Relative ones are told along the edge and to its left, in lengths of it.
-    Vec2 control(const Panel& panel, const PatternEdge& edge, const Json& json, const std::string& what) const {
+    Vec2 control(const Panel& panel, const PatternEdge& edge, const Json& json,
+                 const std::string& what) const {
         const std::vector<float> p = numbers(json, 2, what + ", control point");
         if (!relative_) return Vec2(p[0], p[1]) / units_in_meter_;
         const Vec2 from = panel.corners[edge.from], along = panel.corners[edge.to] - from;
@@ -144,12 +163,14 @@ private:
         if (!stitches.is_array()) fail(VFIT_ERROR_DATA, "pattern: \"stitches\" is not a list");
         for (const Json& json : stitches) {
             const std::string what = "stitch " + std::to_string(pattern_.stitches.size());
-            if (!json.is_array() || json.size() < 2) fail(VFIT_ERROR_DATA, "pattern: ", what, " does not pair: it names fewer than two edges");
+            if (!json.is_array() || json.size() < 2)
+                fail(VFIT_ERROR_DATA, "pattern: ", what, " does not pair: it names fewer than two edges");
             Stitch stitch;
             stitch.a = read_side(json[0], what);
             stitch.b = read_side(json[1], what);
             stitch.turned = json.size() == 3 && json[2] == "right_wrong";
-            if (json.size() > 2 && !stitch.turned) fail(VFIT_ERROR_DATA, "pattern: ", what, " has a third part that is not \"right_wrong\"");
+            if (json.size() > 2 && !stitch.turned)
+                fail(VFIT_ERROR_DATA, "pattern: ", what, " has a third part that is not \"right_wrong\"");
             pattern_.stitches.push_back(stitch);
         }
     }
@@ -157,9 +178,11 @@ private:
     EdgeName read_side(const Json& json, const std::string& what) const {
         const Json& name = field(json, "panel", what);
         const auto panel = name.is_string() ? panel_of_.find(name.get<std::string>()) : panel_of_.end();
-        if (panel == panel_of_.end()) fail(VFIT_ERROR_DATA, "pattern: ", what, " names a panel ", name.dump(), " that is not there");
+        if (panel == panel_of_.end())
+            fail(VFIT_ERROR_DATA, "pattern: ", what, " names a panel ", name.dump(), " that is not there");
         const size_t edges = pattern_.panels[panel->second].edges.size();
-        return {panel->second, index(field(json, "edge", what), edges, what + ": the edge of panel " + panel->first)};
+        return {panel->second,
+                index(field(json, "edge", what), edges, what + ": the edge of panel " + panel->first)};
     }
 
     /// What is no garment's size in the unit that the file tells is so mostly because of the unit.
@@ -167,14 +190,17 @@ private:
         constexpr float kSmallest_m = 0.1f, kLargest_m = 4.0f;
         float largest = 0.0f;
         for (const Panel& panel : pattern_.panels)
-            for (const Vec2& a : panel.corners) largest = std::max(largest, glm::length(a - panel.corners[0]));
+            for (const Vec2& a : panel.corners)
+                largest = std::max(largest, glm::length(a - panel.corners[0]));
         if (largest >= kSmallest_m && largest <= kLargest_m) return;
         const float raw = largest * units_in_meter_;
-        const char* fits = raw >= kSmallest_m && raw <= kLargest_m                          ? "metres: units_in_meter 1"
-                           : raw >= 100.0f * kSmallest_m && raw <= 100.0f * kLargest_m      ? "centimetres: units_in_meter 100"
-                           : raw >= 1000.0f * kSmallest_m && raw <= 1000.0f * kLargest_m    ? "millimetres: units_in_meter 1000"
-                                                                                            : nullptr;
-        fail(VFIT_ERROR_DATA, "pattern: its largest panel is ", largest, " m long by its own unit (units_in_meter ", units_in_meter_, ")",
+        const char* fits =
+            raw >= kSmallest_m && raw <= kLargest_m                       ? "metres: units_in_meter 1"
+            : raw >= 100.0f * kSmallest_m && raw <= 100.0f * kLargest_m   ? "centimetres: units_in_meter 100"
+            : raw >= 1000.0f * kSmallest_m && raw <= 1000.0f * kLargest_m ? "millimetres: units_in_meter 1000"
+                                                                          : nullptr;
+        fail(VFIT_ERROR_DATA, "pattern: its largest panel is ", largest,
+             " m long by its own unit (units_in_meter ", units_in_meter_, ")",
              fits ? std::string(": the numbers look like ") + fits : std::string(": no garment is"));
     }
 
@@ -189,7 +215,8 @@ private:
 
 bool is_garmentcode(std::span<const std::byte> json) {
     const Json root = parse_json(json, "pattern");
-    return root.is_object() && root.contains("pattern") && root["pattern"].is_object() && root["pattern"].contains("panels");
+    return root.is_object() && root.contains("pattern") && root["pattern"].is_object() &&
+           root["pattern"].contains("panels");
 }
 
 Pattern parse_garmentcode(std::span<const std::byte> json, const std::string& name) {

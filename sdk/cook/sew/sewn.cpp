@@ -40,17 +40,21 @@ std::vector<std::vector<uint32_t>> choose_steps(const Pattern& pattern, float le
     std::vector<std::vector<uint32_t>> steps;
     for (const Panel& panel : pattern.panels) {
         steps.emplace_back();
-        for (const PatternEdge& edge : panel.edges) steps.back().push_back(steps_of(edge_length(panel, edge), length_m));
+        for (const PatternEdge& edge : panel.edges)
+            steps.back().push_back(steps_of(edge_length(panel, edge), length_m));
     }
     for (const Stitch& stitch : pattern.stitches) {
         float sum = 0.0f;
-        for (const EdgeName& n : {stitch.a, stitch.b}) sum += edge_length(pattern.panels[n.panel], pattern.panels[n.panel].edges[n.edge]);
-        for (const EdgeName& n : {stitch.a, stitch.b}) steps[n.panel][n.edge] = steps_of(0.5f * sum, length_m);
+        for (const EdgeName& n : {stitch.a, stitch.b})
+            sum += edge_length(pattern.panels[n.panel], pattern.panels[n.panel].edges[n.edge]);
+        for (const EdgeName& n : {stitch.a, stitch.b})
+            steps[n.panel][n.edge] = steps_of(0.5f * sum, length_m);
     }
     return steps;
 }
 
-/// Of each panel, whether its triangles have to be turned over so that seams join what shows to the same side.
+/// Of each panel, whether its triangles have to be turned over so that seams join what shows to the same
+/// side.
 std::vector<uint8_t> turned_panels(const Pattern& pattern) {
     std::vector<int> side(pattern.panels.size(), -1);
     for (uint32_t first = 0; first < side.size(); ++first) {
@@ -69,8 +73,10 @@ std::vector<uint8_t> turned_panels(const Pattern& pattern) {
                     side[other] = wanted;
                     open.push_back(other);
                 } else if (side[other] != wanted) {
-                    fail(VFIT_ERROR_DATA, "stitch ", s, " (", pattern.text(stitch.a), " to ", pattern.text(stitch.b),
-                         ") joins the outside of the cloth to its inside: seen over the other stitches, one of the two runs the wrong way round");
+                    fail(VFIT_ERROR_DATA, "stitch ", s, " (", pattern.text(stitch.a), " to ",
+                         pattern.text(stitch.b),
+                         ") joins the outside of the cloth to its inside: seen over the other stitches, one "
+                         "of the two runs the wrong way round");
                 }
             }
         }
@@ -127,7 +133,8 @@ private:
             const Stitch& stitch = pattern_.stitches[s];
             const size_t count = mesh_.panels[stitch.a.panel].edge_vertices[stitch.a.edge].size();
             for (size_t i = 0; i < count; ++i) {
-                const uint32_t a = vertex_on(stitch.a, i), b = vertex_on(stitch.b, stitch.turned ? i : count - 1 - i);
+                const uint32_t a = vertex_on(stitch.a, i),
+                               b = vertex_on(stitch.b, stitch.turned ? i : count - 1 - i);
                 sets.join(a, b);
                 if (a != b) mesh_.pairs.push_back({a, b, s});
             }
@@ -144,11 +151,14 @@ private:
     }
 
     uint32_t panel_of(size_t triangle) const {
-        return uint32_t(std::upper_bound(mesh_.first_triangle.begin(), mesh_.first_triangle.end(), uint32_t(triangle)) - mesh_.first_triangle.begin()) - 1;
+        return uint32_t(std::upper_bound(mesh_.first_triangle.begin(), mesh_.first_triangle.end(),
+                                         uint32_t(triangle)) -
+                        mesh_.first_triangle.begin()) -
+               1;
     }
 
-    /// Where two panels have a side from seam to seam each, between the same sewn vertices, four triangles would meet: both sides
-    /// get a vertex in the middle. True where there were any.
+    /// Where two panels have a side from seam to seam each, between the same sewn vertices, four triangles
+    /// would meet: both sides get a vertex in the middle. True where there were any.
     bool split_doubled() {
         std::map<DirectedEdge, std::vector<size_t>> at;  // first index of the triangle, plus the corner
         for (size_t i = 0; i < mesh_.sewn_indices.size(); i += 3)
@@ -156,7 +166,8 @@ private:
                 const uint32_t a = mesh_.sewn_indices[i + k], b = mesh_.sewn_indices[i + (k + 1) % 3];
                 if (a == b)
                     fail(VFIT_ERROR_DATA, "the seams of panel ", pattern_.panels[panel_of(i / 3)].name,
-                         " close one of its triangles: two of its edges that meet in a corner are sewn to one and the same vertex; with smaller triangles they may part");
+                         " close one of its triangles: two of its edges that meet in a corner are sewn to "
+                         "one and the same vertex; with smaller triangles they may part");
                 at[{a, b}].push_back(i + k);
             }
         std::vector<std::set<DirectedEdge>> split(mesh_.panels.size());
@@ -166,9 +177,11 @@ private:
             for (const size_t place : places) {
                 const size_t first = place / 3 * 3;
                 const uint32_t panel = panel_of(first / 3), base = mesh_.first_vertex[panel];
-                const uint32_t a = mesh_.panel_indices[place] - base, b = mesh_.panel_indices[first + (place + 1) % 3] - base;
+                const uint32_t a = mesh_.panel_indices[place] - base,
+                               b = mesh_.panel_indices[first + (place + 1) % 3] - base;
                 if (is_outline(panel, a, b))
-                    fail(VFIT_ERROR_DATA, "more than two edges of panels meet along a seam of panel ", pattern_.panels[panel].name, ", or one lies on it the wrong way round");
+                    fail(VFIT_ERROR_DATA, "more than two edges of panels meet along a seam of panel ",
+                         pattern_.panels[panel].name, ", or one lies on it the wrong way round");
                 split[panel].insert(std::minmax(a, b));
                 any = true;
             }
@@ -214,11 +227,14 @@ std::vector<Vec2> SewnMesh::flat() const {
 }
 
 std::vector<Vec2> SewnMesh::flat_of_size(const Pattern& base, const Pattern& size) const {
-    if (size.panels.size() != base.panels.size()) fail(VFIT_ERROR_DATA, "a size has ", size.panels.size(), " panels, the base size ", base.panels.size());
+    if (size.panels.size() != base.panels.size())
+        fail(VFIT_ERROR_DATA, "a size has ", size.panels.size(), " panels, the base size ",
+             base.panels.size());
     std::vector<Vec2> out;
     for (size_t p = 0; p < panels.size(); ++p) {
         if (size.panels[p].edges.size() != base.panels[p].edges.size())
-            fail(VFIT_ERROR_DATA, "panel ", size.panels[p].name, " of a size has ", size.panels[p].edges.size(), " edges, that of the base size ", base.panels[p].edges.size());
+            fail(VFIT_ERROR_DATA, "panel ", size.panels[p].name, " of a size has ",
+                 size.panels[p].edges.size(), " edges, that of the base size ", base.panels[p].edges.size());
         const std::vector<Vec2> flat = carry_to_size(panels[p], size.panels[p]);
         out.insert(out.end(), flat.begin(), flat.end());
     }

@@ -98,13 +98,14 @@ TEST(Avatar, TPoseKeepsThePalmsDownAndTheSolesOnTheFloor) {
     EXPECT_NEAR(low, 0.0f, 0.005f);  // the skin of the ankle gives a little when the legs straighten
 }
 
-// Winter: the hand's centre of mass lies .506 of the way from the wrist to the middle finger's second knuckle, and
-// wrist to fingertip is .108 of stature.
+// Winter: the hand's centre of mass lies .506 of the way from the wrist to the middle finger's second
+// knuckle, and wrist to fingertip is .108 of stature.
 TEST(Avatar, HandJointLiesInThePalmAThirdOfTheHandFromTheWrist) {
     const Avatar avatar = make_avatar();
     const Body joints = avatar.joints();
     for (const int side : {0, 1}) {
-        const Vec3 wrist = joints.at(VFIT_JOINT_LEFT_WRIST + side), hand = joints.at(VFIT_JOINT_LEFT_HAND + side);
+        const Vec3 wrist = joints.at(VFIT_JOINT_LEFT_WRIST + side),
+                   hand = joints.at(VFIT_JOINT_LEFT_HAND + side);
         const Vec3 elbow = joints.at(VFIT_JOINT_LEFT_ELBOW + side);
         EXPECT_NEAR(glm::distance(wrist, hand), 0.38f * 0.108f * avatar.stature(), 0.006f);
         EXPECT_GT(glm::dot(glm::normalize(hand - wrist), glm::normalize(wrist - elbow)), 0.9f);
@@ -138,14 +139,18 @@ TEST(Avatar, JointsStandWhereForwardKinematicsPutsTheBones) {
     const PosedSkeleton expected = forward_kinematics(avatar.skeleton(), pose);
     const Body joints = avatar.joints();
     EXPECT_EQ(joints.time_ns, 77);
-    const std::pair<int, int> pairs[] = {
-        {VFIT_JOINT_PELVIS, VFIT_BONE_HIPS},           {VFIT_JOINT_TORSO, VFIT_BONE_CHEST},
-        {VFIT_JOINT_CHEST, VFIT_BONE_UPPER_CHEST},     {VFIT_JOINT_NECK, VFIT_BONE_NECK},
-        {VFIT_JOINT_LEFT_CLAVICLE, VFIT_BONE_LEFT_SHOULDER},
-        {VFIT_JOINT_LEFT_SHOULDER, VFIT_BONE_LEFT_UPPER_ARM},
-        {VFIT_JOINT_LEFT_ELBOW, VFIT_BONE_LEFT_LOWER_ARM}, {VFIT_JOINT_LEFT_WRIST, VFIT_BONE_LEFT_HAND},
-        {VFIT_JOINT_RIGHT_HIP, VFIT_BONE_RIGHT_UPPER_LEG}, {VFIT_JOINT_RIGHT_KNEE, VFIT_BONE_RIGHT_LOWER_LEG},
-        {VFIT_JOINT_RIGHT_FOOT, VFIT_BONE_RIGHT_FOOT},     {VFIT_JOINT_RIGHT_TOES, VFIT_BONE_RIGHT_TOES}};
+    const std::pair<int, int> pairs[] = {{VFIT_JOINT_PELVIS, VFIT_BONE_HIPS},
+                                         {VFIT_JOINT_TORSO, VFIT_BONE_CHEST},
+                                         {VFIT_JOINT_CHEST, VFIT_BONE_UPPER_CHEST},
+                                         {VFIT_JOINT_NECK, VFIT_BONE_NECK},
+                                         {VFIT_JOINT_LEFT_CLAVICLE, VFIT_BONE_LEFT_SHOULDER},
+                                         {VFIT_JOINT_LEFT_SHOULDER, VFIT_BONE_LEFT_UPPER_ARM},
+                                         {VFIT_JOINT_LEFT_ELBOW, VFIT_BONE_LEFT_LOWER_ARM},
+                                         {VFIT_JOINT_LEFT_WRIST, VFIT_BONE_LEFT_HAND},
+                                         {VFIT_JOINT_RIGHT_HIP, VFIT_BONE_RIGHT_UPPER_LEG},
+                                         {VFIT_JOINT_RIGHT_KNEE, VFIT_BONE_RIGHT_LOWER_LEG},
+                                         {VFIT_JOINT_RIGHT_FOOT, VFIT_BONE_RIGHT_FOOT},
+                                         {VFIT_JOINT_RIGHT_TOES, VFIT_BONE_RIGHT_TOES}};
     for (const auto& [joint, bone] : pairs) {
         const Joint& j = joints.joints[static_cast<size_t>(joint)];
         EXPECT_LT(glm::distance(j.position, expected.position[static_cast<size_t>(bone)]), kRoundingM)
@@ -231,8 +236,8 @@ TEST(Avatar, NormalsAreUnitAndCloseToThoseOfThePosedSurface) {
     Avatar avatar = make_avatar();
     avatar.pose(lively(avatar), *Jobs::own(0));
     const size_t count = avatar.topology().vertex_count;
-    const std::vector<Vec3> posed(avatar.positions().begin(), avatar.positions().begin() +
-        std::ptrdiff_t(count));
+    const std::vector<Vec3> posed(avatar.positions().begin(),
+                                  avatar.positions().begin() + std::ptrdiff_t(count));
     std::vector<Vec3> recomputed;
     compute_normals(posed, avatar.topology().indices, recomputed);
     double cosines = 0.0;

@@ -38,8 +38,8 @@ Turned turn_by(int bone, const AvatarDesc& desc) {
     float worst = 0.0f;
     for (size_t t = 0; t < topology.indices.size(); ++t) {
         const uint32_t a = topology.indices[t], b = topology.indices[t - t % 3 + (t + 1) % 3];
-        const bool arm = topology.parts[a] == BodyPart::kLeftUpperArm || topology.parts[a] ==
-            BodyPart::kLeftForearm;
+        const bool arm =
+            topology.parts[a] == BodyPart::kLeftUpperArm || topology.parts[a] == BodyPart::kLeftForearm;
         if (arm)
             worst = std::max(worst, glm::distance(avatar.positions()[a], avatar.positions()[b]) /
                                         glm::distance(before[a], before[b]));

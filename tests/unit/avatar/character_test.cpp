@@ -21,15 +21,18 @@ TEST(HumanoidMap, KnowsTheNamesThatCommonToolsGive) {
         const char* name;
         int bone;
     };
-    for (const Case& c : {Case{"mixamorig:LeftUpLeg", VFIT_BONE_LEFT_UPPER_LEG}, Case{"mixamorig1:RightLeg", VFIT_BONE_RIGHT_LOWER_LEG},
-                          Case{"upperarm_l", VFIT_BONE_LEFT_UPPER_ARM}, Case{"Bip01 R Calf", VFIT_BONE_RIGHT_LOWER_LEG},
-                          Case{"J_Bip_L_LowerArm", VFIT_BONE_LEFT_LOWER_ARM}, Case{"DEF-upper_arm.R", VFIT_BONE_RIGHT_UPPER_ARM},
-                          Case{"lowerleg01.L", VFIT_BONE_LEFT_LOWER_LEG}, Case{"Left shoulder", VFIT_BONE_LEFT_SHOULDER},
-                          Case{"RightHand", VFIT_BONE_RIGHT_HAND}, Case{"ball_r", VFIT_BONE_RIGHT_TOES}, Case{"Head", VFIT_BONE_HEAD},
-                          Case{"pelvis", VFIT_BONE_HIPS}, Case{"J_Bip_C_Hips", VFIT_BONE_HIPS},
-                          // Not these:
-                          Case{"HeadTop_End", -1}, Case{"LeftHandThumb1", -1}, Case{"upperarm_twist_01_l", -1}, Case{"Hand", -1},
-                          Case{"LeftHead", -1}, Case{"", -1}, Case{"arm_l_r", -1}})
+    for (const Case& c :
+         {Case{"mixamorig:LeftUpLeg", VFIT_BONE_LEFT_UPPER_LEG},
+          Case{"mixamorig1:RightLeg", VFIT_BONE_RIGHT_LOWER_LEG},
+          Case{"upperarm_l", VFIT_BONE_LEFT_UPPER_ARM}, Case{"Bip01 R Calf", VFIT_BONE_RIGHT_LOWER_LEG},
+          Case{"J_Bip_L_LowerArm", VFIT_BONE_LEFT_LOWER_ARM},
+          Case{"DEF-upper_arm.R", VFIT_BONE_RIGHT_UPPER_ARM}, Case{"lowerleg01.L", VFIT_BONE_LEFT_LOWER_LEG},
+          Case{"Left shoulder", VFIT_BONE_LEFT_SHOULDER}, Case{"RightHand", VFIT_BONE_RIGHT_HAND},
+          Case{"ball_r", VFIT_BONE_RIGHT_TOES}, Case{"Head", VFIT_BONE_HEAD}, Case{"pelvis", VFIT_BONE_HIPS},
+          Case{"J_Bip_C_Hips", VFIT_BONE_HIPS},
+          // Not these:
+          Case{"HeadTop_End", -1}, Case{"LeftHandThumb1", -1}, Case{"upperarm_twist_01_l", -1},
+          Case{"Hand", -1}, Case{"LeftHead", -1}, Case{"", -1}, Case{"arm_l_r", -1}})
         EXPECT_EQ(bone_of_name(c.name), c.bone) << c.name;
 }
 
@@ -47,7 +50,8 @@ TEST(Character, TheLeastOfThemMovesAndHasNormals) {
     pose.hips_position = avatar.skeleton().offset[VFIT_BONE_HIPS];
     pose.rotation[VFIT_BONE_LEFT_UPPER_ARM] = glm::angleAxis(-0.5f * kPi, Vec3(0, 0, 1));
     avatar.pose(pose, *Jobs::own(0));
-    const Vec3 shoulder = avatar.joints().at(VFIT_JOINT_LEFT_SHOULDER), wrist = avatar.joints().at(VFIT_JOINT_LEFT_WRIST);
+    const Vec3 shoulder = avatar.joints().at(VFIT_JOINT_LEFT_SHOULDER),
+               wrist = avatar.joints().at(VFIT_JOINT_LEFT_WRIST);
     EXPECT_NEAR(wrist.y, shoulder.y - 0.53f, 1e-3f);  // the arm hangs
     EXPECT_NEAR(wrist.x, shoulder.x, 1e-3f);
 }
@@ -57,11 +61,14 @@ TEST(Character, FacesForwardFromWhereverItLooks) {
     for (const float quarter : {1.0f, 2.0f, 3.0f}) {
         TinyCharacter turned;
         const float half = 0.25f * kPi * quarter;
-        turned.json["nodes"].push_back({{"name", "root"}, {"rotation", {0, std::sin(half), 0, std::cos(half)}}, {"children", {0}}});
+        turned.json["nodes"].push_back(
+            {{"name", "root"}, {"rotation", {0, std::sin(half), 0, std::cos(half)}}, {"children", {0}}});
         turned.json["scenes"][0]["nodes"] = {16, 15};
         const Character character = load(turned);
         for (size_t v = 0; v < straight.source.rest.positions.size(); ++v)
-            EXPECT_LT(glm::distance(character.source.rest.positions[v], straight.source.rest.positions[v]), 1e-4f) << quarter << " " << v;
+            EXPECT_LT(glm::distance(character.source.rest.positions[v], straight.source.rest.positions[v]),
+                      1e-4f)
+                << quarter << " " << v;
     }
 }
 
@@ -90,14 +97,20 @@ TEST(Character, AreRefusedWithTheReason) {
     expect_error(with([](auto& j) { j["accessors"][0]["type"] = "VEC2"; }), "another shape");
     expect_error(with([](auto& j) { j["accessors"][1]["componentType"] = 5122; }), "whole numbers");
     expect_error(with([](auto& j) { j["accessors"][2]["count"] = 7; }), "another count");
-    expect_error(with([](auto& j) { j["meshes"][0]["primitives"][0]["attributes"].erase("POSITION"); }), "positions");
+    expect_error(with([](auto& j) { j["meshes"][0]["primitives"][0]["attributes"].erase("POSITION"); }),
+                 "positions");
     expect_error(with([](auto& j) { j["nodes"][15]["mesh"] = 4; }), "mesh that is not there");
     expect_error(with([](auto& j) { j["nodes"][15]["skin"] = 4; }), "skin that is not there");
     expect_error(with([](auto& j) { j["nodes"][3]["scale"] = {0, 0, 0}; }), "scaled to nothing");
-    expect_error(with([](auto& j) { j["nodes"][3]["scale"] = {-1, 1, 1}; }), "mirrored", VFIT_ERROR_UNSUPPORTED);
+    expect_error(with([](auto& j) { j["nodes"][3]["scale"] = {-1, 1, 1}; }), "mirrored",
+                 VFIT_ERROR_UNSUPPORTED);
     expect_error(with([](auto& j) { j["nodes"][0]["translation"] = {0, 1e30, 0}; }), "");
     expect_error(with([](auto& j) { j["asset"]["version"] = "1.0"; }), "version", VFIT_ERROR_UNSUPPORTED);
-    expect_error(with([](auto& j) { j["accessors"][0]["sparse"] = {{"count", 1}, {"indices", {{"bufferView", 0}, {"componentType", 5123}}}, {"values", {{"bufferView", 0}}}}; }),
+    expect_error(with([](auto& j) {
+                     j["accessors"][0]["sparse"] = {{"count", 1},
+                                                    {"indices", {{"bufferView", 0}, {"componentType", 5123}}},
+                                                    {"values", {{"bufferView", 0}}}};
+                 }),
                  "sparse", VFIT_ERROR_UNSUPPORTED);
 }
 
@@ -105,7 +118,8 @@ TEST(Character, AreRefusedWithTheReason) {
 class OwnFolder : public testing::Test {
 protected:
     void SetUp() override {
-        folder = std::filesystem::temp_directory_path() / ("vfit_gltf_" + std::to_string(std::random_device()()));
+        folder =
+            std::filesystem::temp_directory_path() / ("vfit_gltf_" + std::to_string(std::random_device()()));
         std::filesystem::create_directories(folder / "inside" / "buffers");
         before = std::filesystem::current_path();
     }
@@ -139,14 +153,15 @@ protected:
 };
 
 TEST_F(OwnFolder, IsTheOnlyPlaceThatAFileMayReadFrom) {
-    for (const char* name : {"inside/own.bin", "inside/buffers/own.bin", "outside.bin"}) write(name, buffer());
+    for (const char* name : {"inside/own.bin", "inside/buffers/own.bin", "outside.bin"})
+        write(name, buffer());
     EXPECT_TRUE(loads("own.bin"));
     EXPECT_TRUE(loads("buffers/own.bin"));
     EXPECT_FALSE(loads("../outside.bin"));
     EXPECT_FALSE(loads("buffers/../../outside.bin"));
     EXPECT_FALSE(loads((folder / "outside.bin").string()));
     EXPECT_FALSE(loads("missing.bin"));
-    EXPECT_FALSE(loads("buffers"));  // a folder
+    EXPECT_FALSE(loads("buffers"));         // a folder
     std::filesystem::current_path(folder);  // nor is where the host happens to work
     EXPECT_FALSE(loads("outside.bin"));
     // By a bare name its folder is the one the host works in.
@@ -205,8 +220,8 @@ TEST(Character, DamageNeverReadsBeyondTheFile) {
             // Digits of the text lead somewhere else, or any byte of the file is another one.
             for (int k = 0; k < 3; ++k) {
                 size_t at = bits() % bad.size();
-                if (run % 3 == 1)
-                    do at = 20 + bits() % text_size;
+                if (run % 3 == 1) do
+                        at = 20 + bits() % text_size;
                     while (!std::isdigit(std::to_integer<int>(bad[at])));
                 bad[at] = std::byte(run % 3 == 1 ? '0' + bits() % 10 : bits());
             }
@@ -216,7 +231,8 @@ TEST(Character, DamageNeverReadsBeyondTheFile) {
             Avatar avatar(character.source, AvatarDesc());
             ++accepted;
         } catch (const Error& error) {
-            EXPECT_TRUE(error.code() == VFIT_ERROR_DATA || error.code() == VFIT_ERROR_UNSUPPORTED) << error.what();
+            EXPECT_TRUE(error.code() == VFIT_ERROR_DATA || error.code() == VFIT_ERROR_UNSUPPORTED)
+                << error.what();
         }
     }
     EXPECT_GT(accepted, 10);  // many a digit does no harm

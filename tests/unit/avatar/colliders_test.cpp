@@ -93,8 +93,8 @@ TEST(AvatarColliders, CapsulesJoinTheSpheres) {
 TEST(AvatarColliders, RadiusThatIsNoLengthIsRefusedAndChangesNothing) {
     Avatar avatar = make_avatar();
     const float before = colliders_of(avatar)[VFIT_JOINT_HEAD].radius;
-    for (const float bad : {-0.01f, std::numeric_limits<float>::quiet_NaN(),
-            std::numeric_limits<float>::infinity()}) {
+    for (const float bad :
+         {-0.01f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
         std::array<float, kPaperJointCount> radii = all(0.02f);
         radii[VFIT_JOINT_RIGHT_FOOT] = bad;
         try {

@@ -24,7 +24,8 @@ float hand_depth(const Avatar& avatar) {
         const BodyPart part = avatar.topology().parts[v];
         if (part != BodyPart::kLeftHand && part != BodyPart::kRightHand) continue;
         const auto near = query.closest(avatar.positions()[v]);
-        if (glm::dot(avatar.positions()[v] - near.point, near.normal) < 0.0f) deepest = std::max(deepest, near.distance);
+        if (glm::dot(avatar.positions()[v] - near.point, near.normal) < 0.0f)
+            deepest = std::max(deepest, near.distance);
     }
     return deepest;
 }
@@ -37,7 +38,8 @@ Pose hanging(const Avatar& avatar, float across_deg, float forward_deg = 0.0f, f
     pose.rotation[VFIT_BONE_SPINE] = glm::angleAxis(lean_deg * kDeg, Vec3(0, 0, 1));
     for (const float side : {1.0f, -1.0f}) {
         const auto arm = size_t(side > 0 ? VFIT_BONE_LEFT_UPPER_ARM : VFIT_BONE_RIGHT_UPPER_ARM);
-        pose.rotation[arm] = glm::angleAxis(-forward_deg * kDeg, Vec3(1, 0, 0)) * glm::angleAxis(-side * (90.0f + across_deg) * kDeg, Vec3(0, 0, 1));
+        pose.rotation[arm] = glm::angleAxis(-forward_deg * kDeg, Vec3(1, 0, 0)) *
+                             glm::angleAxis(-side * (90.0f + across_deg) * kDeg, Vec3(0, 0, 1));
     }
     return pose;
 }
@@ -54,15 +56,19 @@ TEST(HandsClear, AreLedOutOfTheBody) {
                 free_hands.pose(pose, *jobs);
                 kept.pose(pose, *jobs);
                 const float before = hand_depth(free_hands), after = hand_depth(kept);
-                std::printf("across %.0f, forward %.0f, lean %.0f: hands %.1f mm deep, kept clear %.1f mm\n", double(across), double(forward),
-                            double(lean), 1e3 * double(before), 1e3 * double(after));
-                // Fingers and thumb stand off the line that is led out: of a hand deep inside, a quarter may touch.
+                std::printf("across %.0f, forward %.0f, lean %.0f: hands %.1f mm deep, kept clear %.1f mm\n",
+                            double(across), double(forward), double(lean), 1e3 * double(before),
+                            1e3 * double(after));
+                // Fingers and thumb stand off the line that is led out: of a hand deep inside, a quarter may
+                // touch.
                 EXPECT_LT(after, std::max(0.012f, 0.25f * before)) << across << " " << forward << " " << lean;
                 EXPECT_TRUE(before > 0.02f || across < 10.0f || forward > 0.0f);
                 // The arm follows, and the hand keeps its own turn in the world.
                 const PosedSkeleton posed = forward_kinematics(kept.skeleton(), kept.shown_pose());
                 const PosedSkeleton was = forward_kinematics(kept.skeleton(), pose);
-                EXPECT_GT(std::abs(glm::dot(posed.rotation[VFIT_BONE_LEFT_HAND], was.rotation[VFIT_BONE_LEFT_HAND])), 0.9999f);
+                EXPECT_GT(std::abs(glm::dot(posed.rotation[VFIT_BONE_LEFT_HAND],
+                                            was.rotation[VFIT_BONE_LEFT_HAND])),
+                          0.9999f);
             }
 }
 
@@ -73,7 +79,8 @@ TEST(HandsClear, ThatAreClearStayToTheBit) {
     for (const float across : {-90.0f, -40.0f}) {
         const Pose pose = hanging(kept, across);
         kept.move(pose);
-        for (size_t b = 0; b < size_t(kBoneCount); ++b) EXPECT_EQ(kept.shown_pose().rotation[b], pose.rotation[b]) << bone_name(int(b));
+        for (size_t b = 0; b < size_t(kBoneCount); ++b)
+            EXPECT_EQ(kept.shown_pose().rotation[b], pose.rotation[b]) << bone_name(int(b));
     }
 }
 

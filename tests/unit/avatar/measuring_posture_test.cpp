@@ -62,13 +62,13 @@ TEST(MeasuringPosture, ForearmsAndHandsStayClearOfLightAndHeavyBodies) {
             const Avatar avatar(model, {}, shape, Vec2(1.0f));
             const Mesh mesh = avatar.measuring_mesh();
             const auto of_arm = [&](uint32_t v) {
-                return avatar.parts()[v] >= BodyPart::kLeftUpperArm && avatar.parts()[v] <=
-                    BodyPart::kRightHand;
+                return avatar.parts()[v] >= BodyPart::kLeftUpperArm &&
+                       avatar.parts()[v] <= BodyPart::kRightHand;
             };
             std::vector<uint32_t> trunk;  // and legs
             for (size_t t = 0; t < mesh.indices.size(); t += 3) {
-                if (of_arm(mesh.indices[t]) || of_arm(mesh.indices[t + 1]) || of_arm(mesh.indices[t +
-                    2])) continue;
+                if (of_arm(mesh.indices[t]) || of_arm(mesh.indices[t + 1]) || of_arm(mesh.indices[t + 2]))
+                    continue;
                 trunk.insert(trunk.end(), mesh.indices.begin() + std::ptrdiff_t(t),
                              mesh.indices.begin() + std::ptrdiff_t(t) + 3);
             }
@@ -102,9 +102,9 @@ TEST(MeasuringPosture, MeasuringLeavesThePosedAvatarAlone) {
 TEST(MeasuringPosture, AngleOrDistanceThatNoBodyTakesIsRefused) {
     const Avatar avatar = make_avatar();
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    for (const MeasuringPosture& bad : {MeasuringPosture{-0.1f, 0.2f}, MeasuringPosture{2.0f, 0.2f},
-                                        MeasuringPosture{nan, 0.2f}, MeasuringPosture{0.2f, -0.1f},
-                                        MeasuringPosture{0.2f, nan}}) {
+    for (const MeasuringPosture& bad :
+         {MeasuringPosture{-0.1f, 0.2f}, MeasuringPosture{2.0f, 0.2f}, MeasuringPosture{nan, 0.2f},
+          MeasuringPosture{0.2f, -0.1f}, MeasuringPosture{0.2f, nan}}) {
         try {
             avatar.measuring_mesh(bad);
             ADD_FAILURE() << "accepted";

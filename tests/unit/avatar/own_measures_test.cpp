@@ -24,7 +24,10 @@ protected:
         return R"({"format": "vfit-own-measures", "version": 1, "measures": [)" + measures + "]}";
     }
     float of(const std::string& definition) const {
-        return OwnMeasures::parse(list(R"({"key": "x_one_m", )" + definition + "}")).measure(tape_).at(0).value;
+        return OwnMeasures::parse(list(R"({"key": "x_one_m", )" + definition + "}"))
+            .measure(tape_)
+            .at(0)
+            .value;
     }
     float told(const char* key) const { return find(known_, key)->value; }
 
@@ -53,17 +56,21 @@ TEST_F(OwnMeasuresTest, SayWhatTheTapeSaysOfKnownMeasures) {
     EXPECT_NEAR(0.5f * (left + right), of(R"("height": "chest")"), 1e-4f);
     EXPECT_NEAR(left, right, 0.01f);
     // At its largest place the thigh is as wide as anywhere near.
-    EXPECT_NEAR(of(R"("girth": {"at": ["LEFT_HIP", "LEFT_KNEE", 0.35], "square_to": ["LEFT_HIP", "LEFT_KNEE"]})"), told("thigh_girth_m"), 0.05f);
+    EXPECT_NEAR(
+        of(R"("girth": {"at": ["LEFT_HIP", "LEFT_KNEE", 0.35], "square_to": ["LEFT_HIP", "LEFT_KNEE"]})"),
+        told("thigh_girth_m"), 0.05f);
 }
 
 TEST_F(OwnMeasuresTest, FollowPathsOverTheSkin) {
     const char* points = R"("points": [{"skin": "NECK", "way": "back"}, {"skin": "waist", "way": "back"}])";
-    const float air = of("\"path\": {" + std::string(points) + "}"), skin = of("\"path\": {" + std::string(points) + R"(, "over": "skin"})");
+    const float air = of("\"path\": {" + std::string(points) + "}"),
+                skin = of("\"path\": {" + std::string(points) + R"(, "over": "skin"})");
     EXPECT_GT(air, 0.3f);
     EXPECT_GE(skin, air);
     EXPECT_LT(skin, 1.15f * air) << "down the back a tape is hardly longer than the way through the air";
     // From side to side over the belly.
-    const char* across = R"("points": [{"skin": "waist", "way": "left"}, {"skin": "waist", "way": "front"}, {"skin": "waist", "way": "right"}])";
+    const char* across =
+        R"("points": [{"skin": "waist", "way": "left"}, {"skin": "waist", "way": "front"}, {"skin": "waist", "way": "right"}])";
     const float half = of("\"path\": {" + std::string(across) + R"(, "over": "skin"})");
     EXPECT_NEAR(half, 0.5f * told("waist_girth_m"), 0.05f);
 }
@@ -82,10 +89,13 @@ TEST_F(OwnMeasuresTest, AreRefusedWithTheNameOfWhatIsWrong) {
     expect_refused(list(R"({"key": "x_a_m", "height": ["waist", "hips", 1e9]})"), "share");
     expect_refused(list(R"({"key": "x_a_m", "height": {"skin": "waist", "way": "north"}})"), "way");
     expect_refused(list(R"({"key": "x_a_m", "girth": {"at": "waist", "of": "head"}})"), "trunk");
-    expect_refused(list(R"({"key": "x_a_m", "girth": {"at": "waist", "square_to": ["waist"]}})"), "square_to");
+    expect_refused(list(R"({"key": "x_a_m", "girth": {"at": "waist", "square_to": ["waist"]}})"),
+                   "square_to");
     expect_refused(list(R"({"key": "x_a_m", "path": {"points": ["waist"]}})"), "points");
-    expect_refused(list(R"({"key": "x_a_m", "path": {"points": ["waist", "hips"], "over": "water"}})"), "over");
-    expect_refused(list(R"({"key": "x_a_m", "height": "waist"}, {"key": "x_a_m", "height": "waist"})"), "twice");
+    expect_refused(list(R"({"key": "x_a_m", "path": {"points": ["waist", "hips"], "over": "water"}})"),
+                   "over");
+    expect_refused(list(R"({"key": "x_a_m", "height": "waist"}, {"key": "x_a_m", "height": "waist"})"),
+                   "twice");
     std::string deep = "\"waist\"";
     for (int i = 0; i < 20; ++i) deep = "[" + deep + ", \"hips\", 0.5]";
     expect_refused(list(R"({"key": "x_a_m", "height": )" + deep + "}"), "nested");

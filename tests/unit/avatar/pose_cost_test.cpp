@@ -52,7 +52,7 @@ TEST(PoseCost, MedianTimeOfAFrameOnOneCore) {
         }
         std::nth_element(ms.begin(), ms.begin() + 100, ms.end());
         std::printf("pose, detail %u, %zu vertices: median %.3f ms\n", detail, avatar.positions().size(),
-            ms[100]);
+                    ms[100]);
         EXPECT_GT(ms[100], 0.0);
     }
 }

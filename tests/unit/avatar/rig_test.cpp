@@ -70,8 +70,8 @@ TEST(AvatarRig, TPoseStandsOnTheFloor) {
     const Posed posed = run(rig, pose);
     EXPECT_NEAR(posed.skeleton.position[VFIT_BONE_LEFT_FOOT].y, 0.09f, kChainRoundingM);
     EXPECT_NEAR(rig.skeleton().ankle_height, 0.09f, kChainRoundingM);
-    const Vec3 between = posed.skeleton.position[VFIT_BONE_LEFT_FOOT] +
-        posed.skeleton.position[VFIT_BONE_RIGHT_FOOT];
+    const Vec3 between =
+        posed.skeleton.position[VFIT_BONE_LEFT_FOOT] + posed.skeleton.position[VFIT_BONE_RIGHT_FOOT];
     EXPECT_NEAR(between.x, 0.0f, kChainRoundingM);
     EXPECT_NEAR(between.z, 0.0f, kChainRoundingM);
 }
@@ -85,8 +85,8 @@ TEST(AvatarRig, BonesStandWhereForwardKinematicsPutsThem) {
         for (int b = 0; b < kBoneCount; ++b) {
             const int bone = rig.rig_bone(b);
             const Vec3 at = carried(rig, posed, bone, rig.bones()[static_cast<size_t>(bone)].rest_head);
-            EXPECT_LT(glm::distance(at, expected.position[static_cast<size_t>(b)]),
-                kChainRoundingM) << bone_name(b);
+            EXPECT_LT(glm::distance(at, expected.position[static_cast<size_t>(b)]), kChainRoundingM)
+                << bone_name(b);
         }
     }
 }
@@ -98,7 +98,7 @@ TEST(AvatarRig, ChildrenStayAttachedToTheirLimb) {
         for (const int bone : limb.rig_bones) {
             const Vec3 end = carried(rig, posed, bone, limb.far_joint);
             EXPECT_LT(glm::distance(end, posed.skeleton.position[static_cast<size_t>(limb.end_bone)]),
-                kChainRoundingM)
+                      kChainRoundingM)
                 << rig.bones()[static_cast<size_t>(bone)].name;
         }
 }
@@ -123,8 +123,8 @@ TEST(AvatarRig, OriginalBoneKeepsPitchAndRollAndExtensionTakesTheTwist) {
     Pose still, swung, twisted;
     swung.rotation[VFIT_BONE_LEFT_UPPER_ARM] = swing;
     twisted.rotation[VFIT_BONE_LEFT_UPPER_ARM] = swing * twist;
-    const auto original = static_cast<size_t>(arm.rig_bones[0]), extension =
-        static_cast<size_t>(arm.rig_bones[1]);
+    const auto original = static_cast<size_t>(arm.rig_bones[0]),
+               extension = static_cast<size_t>(arm.rig_bones[1]);
     const Posed a = run(rig, swung), b = run(rig, twisted);
     EXPECT_NEAR(angle_between(turn_of(a.matrices[original]), turn_of(b.matrices[original])), 0.0f, 1e-3f);
     EXPECT_NEAR(angle_between(turn_of(a.matrices[extension]), turn_of(b.matrices[extension])), 0.6f, 1e-3f);
@@ -224,19 +224,25 @@ TEST(AvatarRig, RigWithoutARequiredBoneIsRefusedByName) {
 }
 
 TEST(AvatarRig, OthersTurnForMissingBones) {
-    const AvatarRig rig(rig_without({VFIT_BONE_CHEST, VFIT_BONE_UPPER_CHEST, VFIT_BONE_NECK, VFIT_BONE_LEFT_SHOULDER}), 0.0f, 1);
+    const AvatarRig rig(
+        rig_without({VFIT_BONE_CHEST, VFIT_BONE_UPPER_CHEST, VFIT_BONE_NECK, VFIT_BONE_LEFT_SHOULDER}), 0.0f,
+        1);
     const AvatarRig full(synthetic_rig(), 0.0f, 1);
     const Posed posed = run(rig, lively_pose()), wanted = run(full, lively_pose());
     const auto turn = [](const AvatarRig& r, const Posed& p, int bone) {
         return turn_of(p.matrices[static_cast<size_t>(r.rig_bone(bone))]);
     };
     // What hangs on missing bones is turned as by a full rig; the spine takes what the chest would.
-    for (const int b : {VFIT_BONE_HIPS, VFIT_BONE_HEAD, VFIT_BONE_LEFT_UPPER_ARM, VFIT_BONE_LEFT_HAND, VFIT_BONE_RIGHT_UPPER_ARM})
+    for (const int b : {VFIT_BONE_HIPS, VFIT_BONE_HEAD, VFIT_BONE_LEFT_UPPER_ARM, VFIT_BONE_LEFT_HAND,
+                        VFIT_BONE_RIGHT_UPPER_ARM})
         EXPECT_LT(angle_between(turn(rig, posed, b), turn(full, wanted, b)), 0.1f) << bone_name(b);
-    EXPECT_LT(angle_between(turn(rig, posed, VFIT_BONE_SPINE), turn(full, wanted, VFIT_BONE_UPPER_CHEST)), 1e-3f);
+    EXPECT_LT(angle_between(turn(rig, posed, VFIT_BONE_SPINE), turn(full, wanted, VFIT_BONE_UPPER_CHEST)),
+              1e-3f);
     // The head turns in its place: on the neck's way it would leave the trunk.
     const Vec3 head = posed.skeleton.position[VFIT_BONE_HEAD];
-    EXPECT_LT(glm::distance(head, carried(rig, posed, rig.rig_bone(VFIT_BONE_SPINE), rig.rest_head(VFIT_BONE_HEAD))), 1e-4f);
+    EXPECT_LT(glm::distance(
+                  head, carried(rig, posed, rig.rig_bone(VFIT_BONE_SPINE), rig.rest_head(VFIT_BONE_HEAD))),
+              1e-4f);
 }
 
 TEST(AvatarRig, RigWithoutTwistSegmentsGetsThem) {

@@ -23,13 +23,13 @@ struct Tube {
 Tube tube_about(const LimbChain& limb) {
     Tube tube;
     const Vec3 axis = limb.far_joint - limb.near_joint;
-    const Vec3 a = glm::normalize(glm::cross(axis, Vec3(0, 1, 0.3f))), b = glm::normalize(glm::cross(axis,
-        a));
+    const Vec3 a = glm::normalize(glm::cross(axis, Vec3(0, 1, 0.3f))),
+               b = glm::normalize(glm::cross(axis, a));
     for (int i = 0; i <= 10; ++i)
         for (int k = 0; k < 8; ++k) {
             const float t = 0.1f * float(i), angle = 0.25f * kPi * float(k);
-            tube.rest.push_back(limb.near_joint + axis * t + 0.04f * (std::cos(angle) * a +
-                std::sin(angle) * b));
+            tube.rest.push_back(limb.near_joint + axis * t +
+                                0.04f * (std::cos(angle) * a + std::sin(angle) * b));
             tube.bones.push_back({static_cast<uint16_t>(limb.rig_bones[0])});
             tube.weights.push_back({1.0f});
             tube.t.push_back(t);
@@ -60,7 +60,7 @@ TEST(SplitLimbWeights, KeepTheShareOfOtherBonesAndSumToOne) {
     Tube tube = tube_about(limb);
     for (size_t v = 0; v < tube.rest.size(); ++v) {
         tube.bones[v] = {static_cast<uint16_t>(limb.rig_bones[0]),
-            static_cast<uint16_t>(limb.rig_bones.back()), hand};
+                         static_cast<uint16_t>(limb.rig_bones.back()), hand};
         tube.weights[v] = {0.3f, 0.3f, 0.4f};
     }
     split_limb_weights(tube.rest, rig.limbs(), tube.bones, tube.weights);
@@ -112,7 +112,7 @@ struct PosedSkin {
 };
 
 PosedSkin pose_skin(const SkinnedTube& t, SkinMethod method = SkinMethod::linear, const Axes& axes = Axes(),
-                uint32_t workers = 0) {
+                    uint32_t workers = 0) {
     PosedSkin out{std::vector<Vec3>(t.tube.rest.size()), std::vector<Vec3>(t.tube.rest.size())};
     SkinTarget target;
     target.positions = out.positions.data();
@@ -146,7 +146,8 @@ TEST(Skin, IsWrittenInTheHostsAxes) {
                 const Axes axes(convention, mirror);
                 const PosedSkin own = pose_skin(t, method), out = pose_skin(t, method, axes);
                 for (size_t v = 0; v < own.positions.size(); ++v) {
-                    EXPECT_LT(glm::distance(out.positions[v], axes.point_out(own.positions[v])), 1e-6f * axes.unit());
+                    EXPECT_LT(glm::distance(out.positions[v], axes.point_out(own.positions[v])),
+                              1e-6f * axes.unit());
                     EXPECT_LT(glm::distance(out.normals[v], axes.direction_out(own.normals[v])), 1e-5f);
                 }
             }
@@ -169,8 +170,7 @@ TEST(Skin, LeavesTheHostsOtherBytesAlone) {
         EXPECT_EQ(std::memcmp(&bytes[v * kStride + 16], &packed.normals[v], 12), 0);
         for (size_t k = 0; k < 12; ++k) written[v * kStride + 1 + k] = written[v * kStride + 16 + k] = true;
     }
-    for (size_t i = 0; i < bytes.size(); ++i)
-        EXPECT_TRUE(written[i] || bytes[i] == 0xA5) << i;
+    for (size_t i = 0; i < bytes.size(); ++i) EXPECT_TRUE(written[i] || bytes[i] == 0xA5) << i;
 }
 
 TEST(Skin, PositionsAloneAreTheSame) {
@@ -193,7 +193,8 @@ TEST(Skin, OneBoneMovesItsVerticesRigidlyByEitherMethod) {
     for (const SkinMethod method : {SkinMethod::linear, SkinMethod::dual_quaternion}) {
         const PosedSkin out = pose_skin(t, method);
         for (size_t v = 1; v < out.positions.size(); ++v) {
-            EXPECT_LT(glm::distance(out.positions[v], Vec3(t.matrices[bone] * Vec4(t.tube.rest[v], 1.0f))), 1e-6f);
+            EXPECT_LT(glm::distance(out.positions[v], Vec3(t.matrices[bone] * Vec4(t.tube.rest[v], 1.0f))),
+                      1e-6f);
             EXPECT_LT(glm::distance(out.normals[v], Mat3(t.matrices[bone]) * t.normals[v]), 1e-5f);
         }
     }

@@ -25,9 +25,9 @@ inline std::vector<AvatarBone> synthetic_rig() {
         const bool left = s > 0.0f;
         const auto pick = [&](int l, int r) { return left ? l : r; };
         const std::string side = left ? ".L" : ".R";
-        const int clavicle = add("clavicle" + side, upper,
-                                 pick(VFIT_BONE_LEFT_SHOULDER, VFIT_BONE_RIGHT_SHOULDER), {s * 0.03f, 1.4f,
-                                     0});
+        const int clavicle =
+            add("clavicle" + side, upper, pick(VFIT_BONE_LEFT_SHOULDER, VFIT_BONE_RIGHT_SHOULDER),
+                {s * 0.03f, 1.4f, 0});
         const int shoulder = add("shoulder" + side, clavicle, -1, {s * 0.1f, 1.42f, 0});
         const int arm = add("arm" + side, shoulder, pick(VFIT_BONE_LEFT_UPPER_ARM, VFIT_BONE_RIGHT_UPPER_ARM),
                             {s * 0.17f, 1.40f, 0});
@@ -42,9 +42,9 @@ inline std::vector<AvatarBone> synthetic_rig() {
         const int thigh = add("thigh" + side, root, pick(VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_RIGHT_UPPER_LEG),
                               {s * 0.09f, 0.93f, 0});
         const int thigh2 = add("thigh2" + side, thigh, -1, {s * 0.1f, 0.8f, -0.01f});
-        const int shank = add("shank" + side, thigh2,
-                              pick(VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_RIGHT_LOWER_LEG), {s * 0.12f, 0.5f,
-                                  0.01f});
+        const int shank =
+            add("shank" + side, thigh2, pick(VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_RIGHT_LOWER_LEG),
+                {s * 0.12f, 0.5f, 0.01f});
         const int foot = add("foot" + side, shank, pick(VFIT_BONE_LEFT_FOOT, VFIT_BONE_RIGHT_FOOT),
                              {s * 0.15f, 0.09f, -0.02f});
         add("toes" + side, foot, pick(VFIT_BONE_LEFT_TOES, VFIT_BONE_RIGHT_TOES), {s * 0.16f, 0.02f, 0.1f});

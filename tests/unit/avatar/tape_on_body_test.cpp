@@ -46,15 +46,22 @@ TEST(TapeOnBody, DefaultBodiesLieWithinTheAdultRange) {
     // Mean -+ 3 standard deviations of ANSUR II where it has the measure, lengths by its share of stature -+
     // 10 %. The default bodies are slim: the lower ends of waist and hip are those of EN 13402-3's smallest
     // sizes.
-    const Range ranges[] = {
-        {"stature_m", 1.44f, 1.82f, 1.55f, 1.96f},        {"chest_girth_m", 0.80f, 1.05f, 0.80f, 1.32f},
-        {"underbust_girth_m", 0.60f, 0.90f, 0.0f, 0.0f},  {"waist_girth_m", 0.60f, 1.00f, 0.68f, 1.10f},
-        {"hip_girth_m", 0.84f, 1.10f, 0.82f, 1.15f},      {"neck_girth_m", 0.27f, 0.39f, 0.32f, 0.48f},
-        {"thigh_girth_m", 0.47f, 0.75f, 0.47f, 0.75f},    {"upper_arm_girth_m", 0.22f, 0.38f, 0.25f, 0.42f},
-        {"inside_leg_m", 0.65f, 0.92f, 0.71f, 0.98f},     {"shoulder_breadth_m", 0.37f, 0.53f, 0.42f, 0.60f},
-        {"biacromial_breadth_m", 0.31f, 0.42f, 0.36f, 0.47f}, {"hip_breadth_m", 0.30f, 0.42f, 0.28f, 0.41f},
-        {"head_height_m", 0.19f, 0.25f, 0.20f, 0.26f},    {"head_width_m", 0.12f, 0.16f, 0.13f, 0.17f},
-        {"arm_length_m", 0.45f, 0.62f, 0.50f, 0.68f},     {"hand_length_m", 0.15f, 0.21f, 0.16f, 0.22f}};
+    const Range ranges[] = {{"stature_m", 1.44f, 1.82f, 1.55f, 1.96f},
+                            {"chest_girth_m", 0.80f, 1.05f, 0.80f, 1.32f},
+                            {"underbust_girth_m", 0.60f, 0.90f, 0.0f, 0.0f},
+                            {"waist_girth_m", 0.60f, 1.00f, 0.68f, 1.10f},
+                            {"hip_girth_m", 0.84f, 1.10f, 0.82f, 1.15f},
+                            {"neck_girth_m", 0.27f, 0.39f, 0.32f, 0.48f},
+                            {"thigh_girth_m", 0.47f, 0.75f, 0.47f, 0.75f},
+                            {"upper_arm_girth_m", 0.22f, 0.38f, 0.25f, 0.42f},
+                            {"inside_leg_m", 0.65f, 0.92f, 0.71f, 0.98f},
+                            {"shoulder_breadth_m", 0.37f, 0.53f, 0.42f, 0.60f},
+                            {"biacromial_breadth_m", 0.31f, 0.42f, 0.36f, 0.47f},
+                            {"hip_breadth_m", 0.30f, 0.42f, 0.28f, 0.41f},
+                            {"head_height_m", 0.19f, 0.25f, 0.20f, 0.26f},
+                            {"head_width_m", 0.12f, 0.16f, 0.13f, 0.17f},
+                            {"arm_length_m", 0.45f, 0.62f, 0.50f, 0.68f},
+                            {"hand_length_m", 0.15f, 0.21f, 0.16f, 0.22f}};
     for (const vfit_sex sex : kSexes) {
         const auto m = measures(sex);
         for (const Range& r : ranges) {
@@ -142,7 +149,10 @@ TEST(TapeOnBody, ABellyIsNotTakenForTheBust) {
 
 TEST(TapeOnBody, NorIsAnUpperBellyOverASmallBust) {
     const auto woman = [](float stomach, float waist) {
-        return measures(VFIT_SEX_FEMALE, {{"weight", 0.9f}, {"measure-bust-circ", -1.0f}, {"stomach-pregnant", stomach}, {"measure-waist-circ", waist}});
+        return measures(VFIT_SEX_FEMALE, {{"weight", 0.9f},
+                                          {"measure-bust-circ", -1.0f},
+                                          {"stomach-pregnant", stomach},
+                                          {"measure-waist-circ", waist}});
     };
     const auto flat = woman(0.0f, 0.0f);
     for (const float stomach : {0.0f, 0.5f, 1.0f}) {
@@ -161,7 +171,8 @@ TEST(TapeOnBody, TheBustDoesNotLeapFromOneVertexToTheNext) {
         const Avatar avatar(body_model(), {VFIT_SEX_FEMALE}, shape, Vec2(1.0f));
         Body joints;
         const Mesh mesh = avatar.measuring_mesh({}, &joints);
-        const TapeMesh tape({mesh.positions, mesh.indices, avatar.parts().first(mesh.positions.size()), joints, VFIT_SEX_FEMALE});
+        const TapeMesh tape({mesh.positions, mesh.indices, avatar.parts().first(mesh.positions.size()),
+                             joints, VFIT_SEX_FEMALE});
         return chest_height(tape, armpit_height(tape));
     };
     for (const char* slider : {"measure-waist-circ", "measure-bust-circ", "weight"}) {

@@ -24,7 +24,8 @@ Avatar striding() {
     pose.hips_position = Vec3(0.5f, 0.95f, -2.0f);
     pose.rotation[VFIT_BONE_HIPS] = glm::angleAxis(0.8f, Vec3(0, 1, 0));
     pose.rotation[VFIT_BONE_LEFT_UPPER_LEG] = glm::angleAxis(-0.6f, Vec3(1, 0, 0));
-    pose.rotation[VFIT_BONE_RIGHT_UPPER_LEG] = -glm::angleAxis(0.5f, Vec3(1, 0, 0));  // the same turn, other sign
+    pose.rotation[VFIT_BONE_RIGHT_UPPER_LEG] =
+        -glm::angleAxis(0.5f, Vec3(1, 0, 0));  // the same turn, other sign
     pose.rotation[VFIT_BONE_LEFT_UPPER_ARM] = glm::angleAxis(-1.4f, Vec3(0, 0, 1));
     avatar.pose(pose, *Jobs::own(0));
     return avatar;
@@ -35,7 +36,8 @@ TEST(WhileDressing, EndsInThePose) {
     const Dressed end(avatar, 1.0f);
     for (size_t i = 0; i < end.matrices.size(); ++i)
         for (int column = 0; column < 4; ++column)
-            ASSERT_LT(glm::length(end.matrices[i][column] - avatar.skinning_matrices()[i][column]), 1e-5f) << i;
+            ASSERT_LT(glm::length(end.matrices[i][column] - avatar.skinning_matrices()[i][column]), 1e-5f)
+                << i;
     std::vector<Collider> posed;
     avatar.colliders(posed);
     ASSERT_EQ(end.colliders.size(), posed.size());

@@ -106,8 +106,9 @@ TEST_F(BodyFile, OfAnotherKindOrVersionIsRefused) {
 
 TEST_F(BodyFile, WithSealedNonsenseIsRefused) {
     const std::pair<const char*, size_t> spots[] = {
-        {"COUNTS", 0}, {"COUNTS", 16}, {"COUNTS", 28}, {"QUADS", 0}, {"QUADUVS", 8}, {"SKINBONE", 0},
-        {"SKINWGT", 2}, {"TERMS", 0}, {"TERMS", 4}, {"OFFSETS", 0}, {"SCALES", 0}, {"BASE", 0}, {"UVS", 4}};
+        {"COUNTS", 0},   {"COUNTS", 16}, {"COUNTS", 28}, {"QUADS", 0}, {"QUADUVS", 8},
+        {"SKINBONE", 0}, {"SKINWGT", 2}, {"TERMS", 0},   {"TERMS", 4}, {"OFFSETS", 0},
+        {"SCALES", 0},   {"BASE", 0},    {"UVS", 4}};
     for (const auto& [name, offset] : spots) {
         std::memset(bytes_.data() + section(name) + offset, 0xFF, 4);
         seal();

@@ -45,7 +45,8 @@ TEST(BodySurface, TheCoarseOneIsThatOfTheFineBodyWithFewerVertices) {
     ASSERT_EQ(coarse.size(), t.vertex_count);
     const auto volume = [](const std::vector<Vec3>& p, const std::vector<uint32_t>& i) {
         double sum = 0.0;
-        for (size_t k = 0; k < i.size(); k += 3) sum += double(glm::dot(p[i[k]], glm::cross(p[i[k + 1]], p[i[k + 2]]))) / 6.0;
+        for (size_t k = 0; k < i.size(); k += 3)
+            sum += double(glm::dot(p[i[k]], glm::cross(p[i[k + 1]], p[i[k + 2]]))) / 6.0;
         return sum;
     };
     const double ratio = volume(coarse, t.indices) / volume(fine, body().topology(0).indices);

@@ -1,4 +1,5 @@
-// Carry: cloth goes with the bones between steps; rigidly where they do, as the skinned garment where it is skinned.
+// Carry: cloth goes with the bones between steps; rigidly where they do, as the skinned garment where it is
+// skinned.
 #include "cloth/garment/carry.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +38,9 @@ TEST(Carry, FindsPlacesWithinTheBones) {
     const std::vector<SkinBones> bones{{0}, {1}, {0, 1}};
     const std::vector<SkinWeights> weights{{1.0f}, {1.0f}, {0.25f, 0.75f}};
     const std::vector<BoneAxis> axes{{{-0.1f, 0, 0}, {-0.1f, 1, 0}}, {{0.1f, 0, 0}, {0.1f, 1, 0}}};
-    const std::vector<Vec3> on = Carry(bones, weights).on_axes(axes, std::vector<Vec3>{{-0.4f, 0.5f, 0.2f}, {0.3f, 1.5f, 0.1f}, {0, 0.5f, 0.3f}});
+    const std::vector<Vec3> on =
+        Carry(bones, weights)
+            .on_axes(axes, std::vector<Vec3>{{-0.4f, 0.5f, 0.2f}, {0.3f, 1.5f, 0.1f}, {0, 0.5f, 0.3f}});
     EXPECT_LT(glm::distance(on[0], Vec3(-0.1f, 0.5f, 0)), 1e-6f);
     EXPECT_LT(glm::distance(on[1], Vec3(0.1f, 1, 0)), 1e-6f) << "not beyond its end";
     EXPECT_LT(glm::distance(on[2], Vec3(0.05f, 0.5f, 0)), 1e-6f);
@@ -60,13 +63,15 @@ std::vector<Vec3> moved(const Mat4& m, const std::vector<Vec3>& all, float w) {
     return out;
 }
 
-const std::vector<Mat4> kBent = {turned({1, 0, 0}, 0.2f, {0, 1, 0}), turned({1, 0, 0.3f}, 1.1f, {0, 0.5f, 0})};
+const std::vector<Mat4> kBent = {turned({1, 0, 0}, 0.2f, {0, 1, 0}),
+                                 turned({1, 0, 0.3f}, 1.1f, {0, 0.5f, 0})};
 
 TEST(Carry, ARigidMotionOfAllBonesIsThatOfTheCloth) {
     const Strip strip;
     const Carry carry(strip.bones, strip.weights);
     const auto jobs = Jobs::own(1);
-    const Mat4 motion = turned({0.3f, 1, -0.2f}, 2.0f, {0.5f, 0, 2}) * glm::translate(Mat4(1.0f), Vec3(1, -0.5f, 2));
+    const Mat4 motion =
+        turned({0.3f, 1, -0.2f}, 2.0f, {0.5f, 0, 2}) * glm::translate(Mat4(1.0f), Vec3(1, -0.5f, 2));
     Carry::Unposed unposed;
     carry.take_out(kBent, strip.positions, strip.normals, unposed, *jobs);
     std::vector<Vec3> positions(Strip::kCount), normals(Strip::kCount);
@@ -103,7 +108,8 @@ TEST(Carry, BonesTurnedAgainstEachOtherThrowNothingAway) {
     const Carry carry(strip.bones, strip.weights);
     const auto jobs = Jobs::own(0);
     // Half a turn: the blend in the middle is flat, and back again it must not be an inverse of that.
-    const std::vector<Mat4> folded = {Mat4(1.0f), turned({0, 1, 0}, 3.14159f, {0, 0, 0})}, straight(2, Mat4(1.0f));
+    const std::vector<Mat4> folded = {Mat4(1.0f), turned({0, 1, 0}, 3.14159f, {0, 0, 0})},
+                            straight(2, Mat4(1.0f));
     Carry::Unposed unposed;
     carry.take_out(folded, strip.positions, strip.normals, unposed, *jobs);
     std::vector<Vec3> positions(Strip::kCount), normals(Strip::kCount);

@@ -78,7 +78,8 @@ TEST(ClothPressure, ATubeThatIsTooNarrowPressesByLaplacesLaw) {
             const float angle = 6.2831853f * float(c) / float(kRound);
             start.emplace_back(kRadius_m * std::cos(angle), -0.013f * float(r), kRadius_m * std::sin(angle));
             if (r + 1 == kRows) continue;
-            const uint32_t a = r * kRound + c, b = r * kRound + (c + 1) % kRound, d = a + kRound, e = b + kRound;
+            const uint32_t a = r * kRound + c, b = r * kRound + (c + 1) % kRound, d = a + kRound,
+                           e = b + kRound;
             indices.insert(indices.end(), {a, b, d, b, e, d});
         }
     const std::vector<uint8_t> simulated(start.size(), 1);
@@ -166,11 +167,13 @@ TEST(ClothLimits, AVertexStaysAsNearToItsTargetAsItIsTold) {
     hanging.cloth->set_air({Vec3(0, 0, 8.0f), 1.0f, 0.0f});
     hanging.step(120);
     for (const DistanceLimit& limit : limits)
-        EXPECT_LT(glm::length(hanging.cloth->positions()[limit.vertex] - hanging.targets[limit.vertex]), 0.0101f);
+        EXPECT_LT(glm::length(hanging.cloth->positions()[limit.vertex] - hanging.targets[limit.vertex]),
+                  0.0101f);
     EXPECT_GT(hanging.lowest(14).z, 0.05f) << "the others blow";
     FabricData data = hanging.sheet.cook(cotton());
     data.limits = {{0, 0.1f}};
-    EXPECT_NE(test::error_of([&] { Fabric bad(data); }).find("greatest distance of vertex 0"), std::string::npos);
+    EXPECT_NE(test::error_of([&] { Fabric bad(data); }).find("greatest distance of vertex 0"),
+              std::string::npos);
 }
 
 TEST(ClothInertia, WhatIsNotFeltCarriesTheClothAlong) {
@@ -262,7 +265,9 @@ TEST(ClothSleep, BeginsBetweenTheTwoStepsOfOneInHaste) {
     std::set<uint32_t> last;  // sub-steps of the last step before it sleeps
     for (const float first_s : {1.0f / 60.0f, 1.0f / 120.0f, 1.0f / 90.0f}) {
         Cloth cloth(fabric(sheet.cook(cotton())), {}, sheet.positions);
-        cloth.come_to_lengths([&](float, std::vector<Vec3>& targets, std::vector<Collider>&) { targets = sheet.positions; }, *jobs);
+        cloth.come_to_lengths(
+            [&](float, std::vector<Vec3>& targets, std::vector<Collider>&) { targets = sheet.positions; },
+            *jobs);
         cloth.step(first_s, sheet.positions, {}, *jobs);
         uint32_t substeps = 0;
         for (int frame = 0; frame < 40 && cloth.stats().substeps > 0; ++frame) {
@@ -279,15 +284,18 @@ TEST(ClothLengths, WhatComesToThemHangsStillWithinASecond) {
     Sheet sheet(9, 5, 0.1f);  // 0.8 m, as a coat below the waist
     sheet.pin_top();
     std::vector<Vec3> start;
-    for (const Vec3& p : sheet.positions) start.emplace_back(p.x, 0.94f * p.y, 0.34f * p.y);  // by 20 degrees aside
+    for (const Vec3& p : sheet.positions)
+        start.emplace_back(p.x, 0.94f * p.y, 0.34f * p.y);  // by 20 degrees aside
     Cloth cloth(fabric(sheet.cook(cotton())), {}, start);
     const auto jobs = Jobs::own(0);
-    cloth.come_to_lengths([&](float, std::vector<Vec3>& targets, std::vector<Collider>&) { targets = start; }, *jobs);
+    cloth.come_to_lengths([&](float, std::vector<Vec3>& targets, std::vector<Collider>&) { targets = start; },
+                          *jobs);
     for (int i = 0; i < 59; ++i) cloth.step(kFrame_s, start, {}, *jobs);
     const std::vector<Vec3> before = cloth.positions();
     cloth.step(kFrame_s, start, {}, *jobs);
     float most = 0.0f;
-    for (size_t v = 0; v < before.size(); ++v) most = std::max(most, glm::length(cloth.positions()[v] - before[v]));
+    for (size_t v = 0; v < before.size(); ++v)
+        most = std::max(most, glm::length(cloth.positions()[v] - before[v]));
     EXPECT_LT(most, 0.001f);
     EXPECT_LT(std::abs(before.back().z), 0.02f) << "and straight down";
     EXPECT_EQ(cloth.stats().substeps, 8u) << "twice as many only until then";
@@ -297,7 +305,9 @@ TEST(ClothLengths, HasteIsWhatABudgetSparesFirst) {
     Hanging hanging;
     const auto settle = [&](float budget_ms) {
         hanging.cloth->set_quality(8, budget_ms);
-        hanging.cloth->come_to_lengths([&](float, std::vector<Vec3>& targets, std::vector<Collider>&) { targets = hanging.targets; }, *hanging.jobs);
+        hanging.cloth->come_to_lengths(
+            [&](float, std::vector<Vec3>& targets, std::vector<Collider>&) { targets = hanging.targets; },
+            *hanging.jobs);
         hanging.step(2);
         return hanging.cloth->stats().substeps;
     };
@@ -332,7 +342,8 @@ struct OnABall {
 
     OnABall() {
         for (const Vec3& p : sheet.positions) start.emplace_back(p.x, 0.1f, p.y);
-        for (const Vec2 at : {Vec2(0.167f, -0.133f), Vec2(0.233f, -0.267f), Vec2(0.133f, -0.333f), Vec2(0.067f, -0.067f), Vec2(0.333f, -0.167f)}) {
+        for (const Vec2 at : {Vec2(0.167f, -0.133f), Vec2(0.233f, -0.267f), Vec2(0.133f, -0.333f),
+                              Vec2(0.067f, -0.067f), Vec2(0.333f, -0.167f)}) {
             balls.push_back(sphere({at.x, 0.0f, at.y}, kRadius));
         }
     }
@@ -351,8 +362,10 @@ struct OnABall {
             for (int i = 0; i <= kCuts; ++i)
                 for (int k = 0; i + k <= kCuts; ++k) {
                     const float a = float(i) / kCuts, b = float(k) / kCuts;
-                    const Vec3 p = a * places[sheet.indices[t]] + b * places[sheet.indices[t + 1]] + (1.0f - a - b) * places[sheet.indices[t + 2]];
-                    for (const Collider& ball : balls) most = std::max(most, kRadius - glm::length(p - ball.center));
+                    const Vec3 p = a * places[sheet.indices[t]] + b * places[sheet.indices[t + 1]] +
+                                   (1.0f - a - b) * places[sheet.indices[t + 2]];
+                    for (const Collider& ball : balls)
+                        most = std::max(most, kRadius - glm::length(p - ball.center));
                 }
         return most;
     }

@@ -1,4 +1,5 @@
-// The hot loops on every instruction set that this machine has, against their formulas one particle at a time.
+// The hot loops on every instruction set that this machine has, against their formulas one particle at a
+// time.
 #include "cloth/solver/cloth_kernels.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,8 @@ namespace {
 using namespace test;
 
 void expect_near(const Vec3& a, const Vec3& b, float tolerance, size_t i) {
-    EXPECT_LT(glm::length(a - b), tolerance) << i << ": " << a.x << " " << a.y << " " << a.z << " for " << b.x << " " << b.y << " " << b.z;
+    EXPECT_LT(glm::length(a - b), tolerance)
+        << i << ": " << a.x << " " << a.y << " " << a.z << " for " << b.x << " " << b.y << " " << b.z;
 }
 
 /// The end of a sub-step in which nothing but what a test adds acts on these particles.
@@ -66,7 +68,8 @@ TEST(ClothKernels, FreeFlightIsExact) {
         }
         Particles next_places = places, next_starts = starts, next_velocities = velocities;
         end_substep(end.job);
-        for (size_t i = 0; i < 16; ++i) expect_near(velocities[i].x, (speeds[i].x + 2.0f * half_fall + pull / h) * keep, 1e-4f, i);
+        for (size_t i = 0; i < 16; ++i)
+            expect_near(velocities[i].x, (speeds[i].x + 2.0f * half_fall + pull / h) * keep, 1e-4f, i);
         // With the begin of the next one.
         predict(end.job.moving, half_fall, h);
         End both(next_places, next_starts, next_velocities, 16);
@@ -141,12 +144,14 @@ TEST(ClothKernels, HingesAreThoseOfXpbd) {
                 float mass = 0.0f;
                 for (size_t k = 0; k < 4; ++k) {
                     sum += batch.weight[k][lane] * expected[batch.at[k][lane] / sizeof(Particle)].x;
-                    mass += batches.masses[i].inverse_mass[k][lane] * batch.weight[k][lane] * batch.weight[k][lane];
+                    mass += batches.masses[i].inverse_mass[k][lane] * batch.weight[k][lane] *
+                            batch.weight[k][lane];
                 }
                 lanes += batch.weight[2][lane] > 0.0f;
                 const Vec3 impulse = -sum / (mass + batches.masses[i].compliance[lane] / (h * h));
                 for (size_t k = 0; k < 4; ++k)
-                    expected[batch.at[k][lane] / sizeof(Particle)].x += impulse * batches.masses[i].inverse_mass[k][lane] * batch.weight[k][lane];
+                    expected[batch.at[k][lane] / sizeof(Particle)].x +=
+                        impulse * batches.masses[i].inverse_mass[k][lane] * batch.weight[k][lane];
             }
         EXPECT_EQ(lanes, fabric.data().hinges.size());
         std::vector<HingeGains> gains(batches.hinges.size());
@@ -169,7 +174,8 @@ TEST(ClothKernels, TwiceTheForceIsHalfTheCompliance) {
         find_gains(batches.masses, 1.0f / 480.0f, 2.0f, doubled);
         find_gains(halved, 1.0f / 480.0f, 1.0f, expected);
         for (size_t i = 0; i < halved.size(); ++i)
-            for (size_t k = 0; k < kLanes; ++k) EXPECT_NEAR(doubled[i].a[k], expected[i].a[k], 1e-5f * expected[i].a[k]);
+            for (size_t k = 0; k < kLanes; ++k)
+                EXPECT_NEAR(doubled[i].a[k], expected[i].a[k], 1e-5f * expected[i].a[k]);
     });
 }
 
@@ -191,7 +197,8 @@ TEST(ClothKernels, TethersPullBackWhatIsBeyondThem) {
         for (size_t i = 0; i < 16; ++i) {
             const Vec3 d = before[i].x - before[anchors[i]].x;
             const float length = glm::length(d);
-            expect_near(particles[i].x, before[anchors[i]].x + d * std::min(1.0f, lengths[i] / length), 1e-6f, i);
+            expect_near(particles[i].x, before[anchors[i]].x + d * std::min(1.0f, lengths[i] / length), 1e-6f,
+                        i);
         }
     });
 }
@@ -211,9 +218,11 @@ TEST(ClothKernels, BackstopsAreBallsThatMove) {
             const size_t lane = lane_of(i % kLanes);
             const Vec3 off = random_point(random, 1.0f);
             // Some inside by up to what comes out at once, some outside.
-            const Vec3 center = centers[i - 8] = starts[i].x + off / glm::length(off) * (radius + 0.001f * (float(i) - 12.0f));
+            const Vec3 center = centers[i - 8] =
+                starts[i].x + off / glm::length(off) * (radius + 0.001f * (float(i) - 12.0f));
             balls.x[lane] = center.x, balls.y[lane] = center.y, balls.z[lane] = center.z;
-            balls.way_x[lane] = 2.0f * way.x, balls.way_y[lane] = 2.0f * way.y, balls.way_z[lane] = 2.0f * way.z;
+            balls.way_x[lane] = 2.0f * way.x, balls.way_y[lane] = 2.0f * way.y,
+            balls.way_z[lane] = 2.0f * way.z;
             balls.radius_m[lane] = i == 10 ? 0.0f : radius;
         }
         balls.run = 1;
@@ -263,7 +272,8 @@ struct ContactScene {
         }
         for (int i = 0; i < 4096; ++i) {
             // In runs of neighbours, as on a cloth.
-            const Vec3 start = i % int(kLanes) == 0 ? random_point(random, 0.6f) : starts.back().x + random_point(random, 0.01f);
+            const Vec3 start = i % int(kLanes) == 0 ? random_point(random, 0.6f)
+                                                    : starts.back().x + random_point(random, 0.01f);
             starts.push_back(Particle{start});
             places.push_back(Particle{start + random_point(random, travel_m)});
             velocities.push_back(Particle{});
@@ -279,7 +289,8 @@ TEST(ClothKernels, CullingLeavesOutNothingThatCanTouch) {
         for (size_t i = 0; i < scene.starts.size(); ++i)
             for (size_t c = 0; c < scene.colliders.size(); ++c)
                 if (may_touch(scene.colliders[c], scene.starts[i].x, 0.0f)) {
-                    EXPECT_TRUE(scene.near.bits[i / kLanes * scene.near.words() + c / 64] >> (c % 64) & 1) << i << " " << c;
+                    EXPECT_TRUE(scene.near.bits[i / kLanes * scene.near.words() + c / 64] >> (c % 64) & 1)
+                        << i << " " << c;
                 }
     });
 }
@@ -291,7 +302,8 @@ TEST(ClothKernels, ContactsAreThoseOfOneParticleAtATime) {
             Particles expected = scene.places;
             size_t touched = 0, other = 0;
             for (size_t i = 0; i < expected.size(); ++i)
-                for (const SweptCapsule& c : scene.colliders) touched += resolve_contact(c, scene.starts[i].x, scene.settings, expected[i].x);
+                for (const SweptCapsule& c : scene.colliders)
+                    touched += resolve_contact(c, scene.starts[i].x, scene.settings, expected[i].x);
             const size_t moving = scene.places.size();
             scene.places.emplace_back();
             End end(scene.places, scene.starts, scene.velocities, moving);
@@ -329,7 +341,8 @@ TEST(ClothLayout, BatchesHoldEachConstraintOnceAndNoParticleTwice) {
                     continue;
                 }
                 ++lanes;
-                const uint32_t a = layout.vertex_of[batch.a[k] / sizeof(Particle)], b = layout.vertex_of[batch.b[k] / sizeof(Particle)];
+                const uint32_t a = layout.vertex_of[batch.a[k] / sizeof(Particle)],
+                               b = layout.vertex_of[batch.b[k] / sizeof(Particle)];
                 found.insert(std::minmax(a, b));
                 seen.push_back(batch.a[k]);
                 seen.push_back(batch.b[k]);
@@ -338,8 +351,10 @@ TEST(ClothLayout, BatchesHoldEachConstraintOnceAndNoParticleTwice) {
             EXPECT_EQ(std::adjacent_find(seen.begin(), seen.end()), seen.end());
         }
     EXPECT_EQ(lanes, fabric.data().edges.size());
-    for (const DistanceConstraint& e : fabric.data().edges) EXPECT_TRUE(found.count(std::minmax(e.a, e.b))) << e.a << " " << e.b;
-    EXPECT_LT(double(batches), 1.1 * double(lanes) / double(kLanes) + 24.0 * layout.group_count()) << "most lanes are filled";
+    for (const DistanceConstraint& e : fabric.data().edges)
+        EXPECT_TRUE(found.count(std::minmax(e.a, e.b))) << e.a << " " << e.b;
+    EXPECT_LT(double(batches), 1.1 * double(lanes) / double(kLanes) + 24.0 * layout.group_count())
+        << "most lanes are filled";
 }
 
 TEST(ClothLayout, WhatThreadsWorkOnSideBySideShareNoParticle) {

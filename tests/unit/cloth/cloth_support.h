@@ -31,7 +31,8 @@ std::string error_of(const Call& call) {
     return {};
 }
 
-/// A grid in the plane z = 0, hanging down from y = 0; row r, column c at (c, -r) steps; alternating diagonals.
+/// A grid in the plane z = 0, hanging down from y = 0; row r, column c at (c, -r) steps; alternating
+/// diagonals.
 struct Sheet {
     uint32_t rows, columns;
     float step_m;
@@ -39,14 +40,18 @@ struct Sheet {
     std::vector<uint32_t> indices;
     std::vector<uint8_t> simulated;
 
-    Sheet(uint32_t row_count, uint32_t column_count, float step) : rows(row_count), columns(column_count), step_m(step) {
+    Sheet(uint32_t row_count, uint32_t column_count, float step)
+        : rows(row_count), columns(column_count), step_m(step) {
         for (uint32_t r = 0; r < rows; ++r)
-            for (uint32_t c = 0; c < columns; ++c) positions.emplace_back(float(c) * step, -float(r) * step, 0.0f);
+            for (uint32_t c = 0; c < columns; ++c)
+                positions.emplace_back(float(c) * step, -float(r) * step, 0.0f);
         for (uint32_t r = 0; r + 1 < rows; ++r)
             for (uint32_t c = 0; c + 1 < columns; ++c) {
                 const uint32_t a = at(r, c), b = at(r, c + 1), d = at(r + 1, c), e = at(r + 1, c + 1);
-                if ((r + c) % 2) indices.insert(indices.end(), {a, d, e, a, e, b});
-                else indices.insert(indices.end(), {a, d, b, b, d, e});
+                if ((r + c) % 2)
+                    indices.insert(indices.end(), {a, d, e, a, e, b});
+                else
+                    indices.insert(indices.end(), {a, d, b, b, d, e});
             }
         simulated.assign(positions.size(), 1);
     }
@@ -61,7 +66,9 @@ struct Sheet {
 
 inline FabricMaterial cotton() { return {0.2f, 2000.0f, 2000.0f, 50.0f, 1e-4f, 0.4f}; }
 
-inline std::shared_ptr<const Fabric> fabric(FabricData data) { return std::make_shared<const Fabric>(std::move(data)); }
+inline std::shared_ptr<const Fabric> fabric(FabricData data) {
+    return std::make_shared<const Fabric>(std::move(data));
+}
 
 /// One free vertex, without any constraint.
 inline std::shared_ptr<const Fabric> lone_vertex() {

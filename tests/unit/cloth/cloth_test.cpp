@@ -77,7 +77,8 @@ TEST(Cloth, StepDoesNotAllocateWhenCollidersPart) {
     Cloth cloth(curtain.data, {}, curtain.sheet.positions);
     const Collider limb = capsule({0.1f, -0.3f, 0.3f}, 0.05f, {0.5f, -0.3f, 0.3f}, 0.05f);
     // First the ball is an end of the capsule and not needed; then it is a collider of its own.
-    const std::vector<Collider> joined{limb, sphere(limb.center, 0.05f)}, parted{limb, sphere({0, -0.9f, 0}, 0.05f)};
+    const std::vector<Collider> joined{limb, sphere(limb.center, 0.05f)},
+        parted{limb, sphere({0, -0.9f, 0}, 0.05f)};
     cloth.step(kFrame_s, curtain.sheet.positions, joined, *jobs);
     const uint64_t before = allocations;
     cloth.step(kFrame_s, curtain.sheet.positions, parted, *jobs);
@@ -208,7 +209,8 @@ TEST(Cloth, RefusesWhatIsNotFiniteAndStaysAsItWas) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     std::vector<Vec3> targets = curtain.sheet.positions;
     targets[7].y = nan;
-    EXPECT_EQ(error_of([&] { cloth.step(kFrame_s, targets, {}, *jobs); }), "-11 skinned targets 7 is not finite");
+    EXPECT_EQ(error_of([&] { cloth.step(kFrame_s, targets, {}, *jobs); }),
+              "-11 skinned targets 7 is not finite");
     auto ball = Curtain::ball(0);
     ball[1].center_b.x = INFINITY;
     EXPECT_EQ(error_of([&] { cloth.step(kFrame_s, curtain.sheet.positions, ball, *jobs); }),

@@ -27,11 +27,13 @@ TEST(Contact, NearestBallIsThatOfADenseScan) {
     const Capsule c{{0.1f, 0.2f, -0.1f}, {0.4f, -0.3f, 0.2f}, 0.05f, 0.15f};
     const CapsuleShape shape(c);
     for (int i = 0; i < 500; ++i) {
-        const Vec3 p(std::sin(1.7f * float(i)), std::sin(2.3f * float(i) + 1.0f), std::sin(3.1f * float(i) + 2.0f));
+        const Vec3 p(std::sin(1.7f * float(i)), std::sin(2.3f * float(i) + 1.0f),
+                     std::sin(3.1f * float(i) + 2.0f));
         float best = INFINITY;
         for (int k = 0; k <= 4000; ++k) {
             const float t = float(k) / 4000.0f;
-            best = std::min(best, glm::length(p - glm::mix(c.a, c.b, t)) - glm::mix(c.radius_a, c.radius_b, t));
+            best =
+                std::min(best, glm::length(p - glm::mix(c.a, c.b, t)) - glm::mix(c.radius_a, c.radius_b, t));
         }
         ASSERT_NEAR(nearest_ball(shape, p).distance, best, 1e-5f);
         ASSERT_EQ(may_touch({shape, shape, 0.0f, {}}, p, best + 1e-4f), true);

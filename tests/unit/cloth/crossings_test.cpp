@@ -26,7 +26,8 @@ struct TwoSheets {
     TwoSheets(uint32_t n, float side, const Vec3& second) : of_one(n * n) {
         for (const Vec3& at : {Vec3(0.0f), second})
             for (uint32_t r = 0; r < n; ++r)
-                for (uint32_t c = 0; c < n; ++c) positions.push_back(at + Vec3(float(c) * side, 0.0f, float(r) * side));
+                for (uint32_t c = 0; c < n; ++c)
+                    positions.push_back(at + Vec3(float(c) * side, 0.0f, float(r) * side));
         for (uint32_t sheet = 0; sheet < 2; ++sheet)
             for (uint32_t r = 0; r + 1 < n; ++r)
                 for (uint32_t c = 0; c + 1 < n; ++c) {
@@ -65,7 +66,9 @@ TEST(Crossings, AreThoseOfAllPairs) {
     std::set<TrianglePair> all, found;
     for (uint32_t a = 0; a < 300; ++a)
         for (uint32_t b = a + 1; b < 300; ++b)
-            if (cross({{positions[3 * a], positions[3 * a + 1], positions[3 * a + 2]}}, {{positions[3 * b], positions[3 * b + 1], positions[3 * b + 2]}})) all.insert({a, b});
+            if (cross({{positions[3 * a], positions[3 * a + 1], positions[3 * a + 2]}},
+                      {{positions[3 * b], positions[3 * b + 1], positions[3 * b + 2]}}))
+                all.insert({a, b});
     const auto jobs = Jobs::own(2);
     TriangleGroups groups(positions, indices);
     groups.move(positions, *jobs);
@@ -80,20 +83,25 @@ TEST(Crossings, AreThoseOfAllPairs) {
 TEST(Crossings, FlatPiecesAreLeftOutAndFoldedOnesAreNot) {
     TwoSheets sheets(9, 0.02f, {0.003f, 0.05f, 0.004f});
     EXPECT_TRUE(sheets.crossed(true).empty());
-    for (uint32_t v = 0; v < sheets.of_one; ++v) sheets.positions[v].y += 0.6f * (sheets.positions[v].x - 0.01f);  // through the upper one
+    for (uint32_t v = 0; v < sheets.of_one; ++v)
+        sheets.positions[v].y += 0.6f * (sheets.positions[v].x - 0.01f);  // through the upper one
     EXPECT_FALSE(sheets.crossed(true).empty());
     EXPECT_EQ(sheets.crossed(true).size(), sheets.crossed(false).size());
 }
 
 TEST(Crossings, FoldsOfSmallTrianglesBesideLargeOnesAreNotLeftOut) {
-    // A strip whose triangles shrink along it, rolled up: by their areas, the large ones would hide which way the small ones face.
+    // A strip whose triangles shrink along it, rolled up: by their areas, the large ones would hide which way
+    // the small ones face.
     std::vector<Vec3> positions;
     std::vector<uint32_t> indices;
     float way = 0.0f, side = 0.03f;
     for (uint32_t r = 0; r < 26; ++r, way += side, side *= 0.86f) {
         const float angle = way < 0.1f ? 0.0f : (way - 0.1f) / 0.006f, radius = 0.006f;
-        const Vec3 at = way < 0.1f ? Vec3(0, 0, way) : Vec3(0, radius * (1.0f - std::cos(angle)), 0.1f + radius * std::sin(angle));
-        positions.push_back(at + Vec3(0.001f * float(r % 2), 0, 0)), positions.push_back(at + Vec3(0.02f + 0.001f * float(r % 3), 0, 0));
+        const Vec3 at = way < 0.1f
+                            ? Vec3(0, 0, way)
+                            : Vec3(0, radius * (1.0f - std::cos(angle)), 0.1f + radius * std::sin(angle));
+        positions.push_back(at + Vec3(0.001f * float(r % 2), 0, 0)),
+            positions.push_back(at + Vec3(0.02f + 0.001f * float(r % 3), 0, 0));
         if (r == 25) break;
         const uint32_t a = 2 * r;
         indices.insert(indices.end(), {a, a + 1, a + 3, a, a + 3, a + 2});
@@ -111,7 +119,8 @@ TEST(Crossings, FoldsOfSmallTrianglesBesideLargeOnesAreNotLeftOut) {
 TEST(CrossingGuard, LayersThatBeginCrossedAreParted) {
     const auto jobs = Jobs::own(0);
     TwoSheets sheets(8, 0.02f, {0.004f, 0.004f, 0.005f});
-    for (const uint32_t v : {27u, 28u, 35u, 36u}) sheets.positions[sheets.of_one + v].y -= 0.012f;  // a bulge of the upper one
+    for (const uint32_t v : {27u, 28u, 35u, 36u})
+        sheets.positions[sheets.of_one + v].y -= 0.012f;  // a bulge of the upper one
     ASSERT_GT(sheets.crossed().size(), 0u);
     const FabricData data = sheets.fabric();
     CrossingGuard guard(data);
@@ -169,10 +178,12 @@ TEST(CrossingGuard, AJumpOfTheBodyIsNoSpeedOfWhatCrosses) {
         held.pin_top();
         const FabricData one = held.cook(cotton());
         const auto first = uint32_t(start.size());
-        for (const Vec3& p : sheet.positions) start.emplace_back(p.x + 0.003f * lean, p.y, (p.y + 0.09f) * lean);
+        for (const Vec3& p : sheet.positions)
+            start.emplace_back(p.x + 0.003f * lean, p.y, (p.y + 0.09f) * lean);
         data.inverse_mass.insert(data.inverse_mass.end(), one.inverse_mass.begin(), one.inverse_mass.end());
         for (const uint32_t i : one.indices) data.indices.push_back(first + i);
-        for (const DistanceConstraint& e : one.edges) data.edges.push_back({first + e.a, first + e.b, e.rest_m, e.compliance_m_n});
+        for (const DistanceConstraint& e : one.edges)
+            data.edges.push_back({first + e.a, first + e.b, e.rest_m, e.compliance_m_n});
     }
     ClothSettings settings;
     settings.gravity = Vec3(0.0f);
@@ -185,7 +196,8 @@ TEST(CrossingGuard, AJumpOfTheBodyIsNoSpeedOfWhatCrosses) {
     cloth.step(kFrame_s, there, {}, *jobs);
     const std::vector<Vec3> arrived = cloth.positions();
     cloth.step(kFrame_s, there, {}, *jobs);
-    for (size_t v = 0; v < arrived.size(); ++v) EXPECT_LT(glm::length(cloth.positions()[v] - arrived[v]), 0.05f) << v;
+    for (size_t v = 0; v < arrived.size(); ++v)
+        EXPECT_LT(glm::length(cloth.positions()[v] - arrived[v]), 0.05f) << v;
 }
 
 TEST(Untangle, AVertexThatPokesThroughGoesBack) {
@@ -201,7 +213,8 @@ TEST(Untangle, AVertexThatPokesThroughGoesBack) {
         pairs = sheets.crossed();
     }
     EXPECT_TRUE(pairs.empty()) << "after " << round << " rounds";
-    for (size_t v = 0; v < sheets.positions.size(); ++v) EXPECT_LT(std::abs(sheets.positions[v].y - 0.004f), 0.012f);
+    for (size_t v = 0; v < sheets.positions.size(); ++v)
+        EXPECT_LT(std::abs(sheets.positions[v].y - 0.004f), 0.012f);
 }
 
 TEST(Untangle, WhatIsFixedStays) {
@@ -209,7 +222,8 @@ TEST(Untangle, WhatIsFixedStays) {
     sheets.positions[12].y = 0.009f;
     const std::vector<Vec3> before = sheets.positions;
     Untangle untangle(sheets.positions.size());
-    untangle.move(sheets.crossed(), sheets.indices, std::vector<uint8_t>(before.size(), 1), 0.001f, sheets.positions);
+    untangle.move(sheets.crossed(), sheets.indices, std::vector<uint8_t>(before.size(), 1), 0.001f,
+                  sheets.positions);
     EXPECT_EQ(sheets.positions, before);
 }
 
@@ -220,7 +234,9 @@ TEST(ClearSkin, SkinThatStandsOutBetweenVerticesIsCleared) {
     const MeshQuery query(body.positions, body.indices);
     std::vector<Vec3> cloth{{0.005f, 0.004f, 0.005f}, {0.04f, 0.004f, 0.09f}, {0.08f, 0.004f, 0.01f}};
     const std::vector<uint32_t> triangle{0, 1, 2};
-    const auto crossed = [&] { return crossed_triangles({cloth, triangle}, {body.positions, body.indices}).size(); };
+    const auto crossed = [&] {
+        return crossed_triangles({cloth, triangle}, {body.positions, body.indices}).size();
+    };
     ASSERT_GT(crossed(), 0u);
     clear_skin({body.positions, body.indices, query}, triangle, cloth);
     EXPECT_EQ(crossed(), 0u);
@@ -237,13 +253,18 @@ struct BumpyGround {
         for (uint32_t r = 0; r < kSide; ++r)
             for (uint32_t c = 0; c < kSide; ++c) {
                 const Vec3 p(0.004f * float(c), 0.0f, 0.004f * float(r));
-                positions.push_back(p + Vec3(0.0f, steepness * std::max(0.0f, 0.01f - glm::length(p - Vec3(0.128f, 0.0f, 0.116f))), 0.0f));
+                positions.push_back(
+                    p + Vec3(0.0f,
+                             steepness * std::max(0.0f, 0.01f - glm::length(p - Vec3(0.128f, 0.0f, 0.116f))),
+                             0.0f));
                 if (r + 1 == kSide || c + 1 == kSide) continue;
                 const uint32_t a = r * kSide + c, b = a + 1, d = a + kSide, e = d + 1;
                 indices.insert(indices.end(), {a, d, e, a, e, b});
             }
     }
-    size_t crossed(const Cloth& cloth, const Sheet& sheet) const { return crossed_triangles({cloth.positions(), sheet.indices}, {positions, indices}).size(); }
+    size_t crossed(const Cloth& cloth, const Sheet& sheet) const {
+        return crossed_triangles({cloth.positions(), sheet.indices}, {positions, indices}).size();
+    }
 };
 
 /// Of large triangles, at that height over it.
@@ -304,7 +325,8 @@ TEST(MeshLift, WhatIsHeldInTheSkinByAFixedVertexDoesNotRise) {
     const BumpyGround ground;
     Sheet sheet(9, 9, 0.025f);
     for (uint32_t r = 0; r < 5; ++r)
-        for (uint32_t c = 0; c < 9; ++c) sheet.simulated[sheet.at(r, c)] = 0;  // the bump is below the triangles next to them
+        for (uint32_t c = 0; c < 9; ++c)
+            sheet.simulated[sheet.at(r, c)] = 0;  // the bump is below the triangles next to them
     const std::vector<Vec3> start = over_ground(sheet, 0.004f);
     Cloth cloth(fabric(sheet.cook(cotton())), {}, start);
     ASSERT_GT(ground.crossed(cloth, sheet), 0u);
@@ -313,7 +335,8 @@ TEST(MeshLift, WhatIsHeldInTheSkinByAFixedVertexDoesNotRise) {
         cloth.move_mesh(mesh, ground.positions);
         cloth.step(kFrame_s, start, {}, *jobs);
     }
-    for (uint32_t c = 0; c < 9; ++c) EXPECT_LT(cloth.positions()[sheet.at(5, c)].y, 0.006f) << "a hem beside it would have teeth";
+    for (uint32_t c = 0; c < 9; ++c)
+        EXPECT_LT(cloth.positions()[sheet.at(5, c)].y, 0.006f) << "a hem beside it would have teeth";
 }
 
 TEST(MeshLift, OffOtherClothItIsAsHighAsAFold) {
@@ -359,12 +382,16 @@ TEST(FlatNeighbours, AreThoseThatEdgesReach) {
     const uint32_t n = cloth.vertex_count();
     std::vector<float> way(size_t(n) * n, INFINITY);
     std::vector<uint8_t> joined(size_t(n) * n, 0);
-    for (const DistanceConstraint& e : cloth.data().edges) way[e.a * n + e.b] = way[e.b * n + e.a] = e.rest_m, joined[e.a * n + e.b] = joined[e.b * n + e.a] = 1;
-    for (uint32_t c = 0; c + 1 < sheet.columns; ++c) way[c * n + c + 1] = way[(c + 1) * n + c] = 0.0f, joined[c * n + c + 1] = joined[(c + 1) * n + c] = 1;  // pinned: no constraints
+    for (const DistanceConstraint& e : cloth.data().edges)
+        way[e.a * n + e.b] = way[e.b * n + e.a] = e.rest_m, joined[e.a * n + e.b] = joined[e.b * n + e.a] = 1;
+    for (uint32_t c = 0; c + 1 < sheet.columns; ++c)
+        way[c * n + c + 1] = way[(c + 1) * n + c] = 0.0f,
+                        joined[c * n + c + 1] = joined[(c + 1) * n + c] = 1;  // pinned: no constraints
     for (uint32_t v = 0; v < n; ++v) way[v * n + v] = 0.0f;
     for (uint32_t k = 0; k < n; ++k)
         for (uint32_t i = 0; i < n; ++i)
-            for (uint32_t j = 0; j < n; ++j) way[i * n + j] = std::min(way[i * n + j], way[i * n + k] + way[k * n + j]);
+            for (uint32_t j = 0; j < n; ++j)
+                way[i * n + j] = std::min(way[i * n + j], way[i * n + k] + way[k * n + j]);
     const ParticleLayout& layout = cloth.layout();
     for (uint32_t particle = 0; particle < layout.count(); ++particle) {
         const uint32_t v = layout.vertex_of[particle];
@@ -382,7 +409,8 @@ TEST(FlatNeighbours, AreThoseThatEdgesReach) {
             const float along = way[v * n + other];
             if (std::abs(along - kRadius_m) < 1e-4f || std::abs(along - kNever_m) < 1e-4f) continue;
             ASSERT_EQ(beside[other], along < kRadius_m) << v << " " << other << " " << along;
-            ASSERT_EQ(never[other], along < kNever_m || joined[v * n + other]) << v << " " << other << " " << along;
+            ASSERT_EQ(never[other], along < kNever_m || joined[v * n + other])
+                << v << " " << other << " " << along;
         }
     }
     const auto two = Jobs::own(2);
@@ -403,11 +431,15 @@ TEST(CrossingGuard, LayersThatComeToTheirLengthsDoNotGoThroughEachOther) {
         std::vector<uint8_t> simulated(sheets.positions.size(), 1);  // but for their edges
         for (uint32_t sheet = 0; sheet < 2; ++sheet)
             for (uint32_t i = 0; i < 13; ++i)
-                for (const uint32_t at : {i, 12 * 13 + i, 13 * i, 13 * i + 12}) simulated[sheet * sheets.of_one + at] = 0;
+                for (const uint32_t at : {i, 12 * 13 + i, 13 * i, 13 * i + 12})
+                    simulated[sheet * sheets.of_one + at] = 0;
         ClothSettings settings;
         settings.self_thickness_m = 0.004f;
-        Cloth cloth(fabric(cook_fabric({sheets.positions, sheets.indices, {}, simulated, ratio}, cotton())), settings, sheets.positions);
-        cloth.come_to_lengths([&](float, std::vector<Vec3>& targets, std::vector<Collider>&) { targets = sheets.positions; }, *jobs);
+        Cloth cloth(fabric(cook_fabric({sheets.positions, sheets.indices, {}, simulated, ratio}, cotton())),
+                    settings, sheets.positions);
+        cloth.come_to_lengths(
+            [&](float, std::vector<Vec3>& targets, std::vector<Collider>&) { targets = sheets.positions; },
+            *jobs);
         EXPECT_TRUE(crossed_triangles(cloth.positions(), sheets.indices).empty()) << ratio;
     }
 }
@@ -418,7 +450,8 @@ TEST(Borders, OfTwoSheetsAreTwoClosedLines) {
     ASSERT_EQ(lines.size(), 2u);
     for (const auto& line : lines) {
         EXPECT_EQ(line.size(), 12u);
-        for (size_t i = 0; i < line.size(); ++i) EXPECT_EQ(sheets.indices[next_corner(line[i])], sheets.indices[line[(i + 1) % line.size()]]);
+        for (size_t i = 0; i < line.size(); ++i)
+            EXPECT_EQ(sheets.indices[next_corner(line[i])], sheets.indices[line[(i + 1) % line.size()]]);
     }
 }
 

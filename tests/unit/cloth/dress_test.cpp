@@ -118,7 +118,8 @@ TEST(Dress, AStepFollowsWhatIsFixedOrLimitedAndTheBackstops) {
     const uint32_t limited = g.vertex_count() - 1;
     g.most_way[limited] = 0.05f;
     const Dress dress = dress_of(g, post, post);
-    const std::vector<Mat4> still(2, Mat4(1.0f)), moved{glm::translate(Mat4(1.0f), Vec3(0, 0, 0.1f)), glm::translate(Mat4(1.0f), Vec3(0.3f, 0, 0))};
+    const std::vector<Mat4> still(2, Mat4(1.0f)),
+        moved{glm::translate(Mat4(1.0f), Vec3(0, 0, 0.1f)), glm::translate(Mat4(1.0f), Vec3(0.3f, 0, 0))};
     const auto jobs = Jobs::own(0);
     std::vector<Vec3> before, after, followed;
     Dress::Scratch scratch;
@@ -159,12 +160,14 @@ TEST(Dress, HangsOnThePostAndStaysOutsideIt) {
     dress.place(still, targets, scratch, *jobs);
     Cloth cloth(dress.fabric(), {}, targets);
     for (int frame = 0; frame < 120; ++frame) {
-        const std::vector<Mat4> sway(2, glm::translate(Mat4(1.0f), Vec3(0.1f * std::sin(0.2f * float(frame)), 0, 0)));
+        const std::vector<Mat4> sway(
+            2, glm::translate(Mat4(1.0f), Vec3(0.1f * std::sin(0.2f * float(frame)), 0, 0)));
         dress.follow(sway, targets, scratch, *jobs);
         cloth.step(kFrame_s, targets, {}, *jobs);
         const float x = 0.1f * std::sin(0.2f * float(frame));
         // Without any collider, the backstops alone keep the post free.
-        for (const Vec3& p : cloth.positions()) ASSERT_GT(radius_of(p - Vec3(x, 0, 0)), 0.1f) << "frame " << frame;
+        for (const Vec3& p : cloth.positions())
+            ASSERT_GT(radius_of(p - Vec3(x, 0, 0)), 0.1f) << "frame " << frame;
     }
     EXPECT_LT(cloth.stats().strain_mean, 0.02f);
 }

@@ -1,4 +1,5 @@
-// What the fit of garments is made of: girths of a cut mesh, verdicts, hems, skin as cloth meets it, crossings.
+// What the fit of garments is made of: girths of a cut mesh, verdicts, hems, skin as cloth meets it,
+// crossings.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,17 +18,22 @@ struct Tube {
     std::vector<uint32_t> indices;
     std::vector<Vec2> cut;
 
-    Tube(float radius, float height, uint32_t columns, uint32_t rows, float wider, uint32_t open_columns = 0) {
+    Tube(float radius, float height, uint32_t columns, uint32_t rows, float wider,
+         uint32_t open_columns = 0) {
         const float step = 2.0f * kPi * radius / float(columns);
         for (uint32_t r = 0; r <= rows; ++r)
             for (uint32_t c = 0; c < columns; ++c) {
                 const float angle = 2.0f * kPi * float(c) / float(columns);
-                positions.emplace_back(radius * std::sin(angle), height * float(r) / float(rows), radius * std::cos(angle));
+                positions.emplace_back(radius * std::sin(angle), height * float(r) / float(rows),
+                                       radius * std::cos(angle));
             }
-        const auto flat = [&](uint32_t c, uint32_t r) { return Vec2(float(c) * step * wider, height * float(r) / float(rows)); };
+        const auto flat = [&](uint32_t c, uint32_t r) {
+            return Vec2(float(c) * step * wider, height * float(r) / float(rows));
+        };
         for (uint32_t r = 0; r < rows; ++r)
             for (uint32_t c = 0; c + open_columns < columns; ++c) {
-                const uint32_t a = r * columns + c, b = r * columns + (c + 1) % columns, d = a + columns, e = b + columns;
+                const uint32_t a = r * columns + c, b = r * columns + (c + 1) % columns, d = a + columns,
+                               e = b + columns;
                 indices.insert(indices.end(), {a, b, e, a, e, d});
                 const Vec2 fa = flat(c, r), fb = flat(c + 1, r), fe = flat(c + 1, r + 1), fd = flat(c, r + 1);
                 cut.insert(cut.end(), {fa, fb, fe, fa, fe, fd});
@@ -49,7 +55,8 @@ TEST(FitParts, AGirthIsThatOfTheFlatCloth) {
 
 TEST(FitParts, AGirthIsTapedAcrossTheFoldsThatItsLevelRunsThrough) {
     Tube tube(0.15f, 0.4f, 96, 80, 1.0f);
-    for (Vec3& p : tube.positions) p.y += 0.015f * std::sin(12.0f * std::atan2(p.x, p.z));  // hangs in waves of 8 cm
+    for (Vec3& p : tube.positions)
+        p.y += 0.015f * std::sin(12.0f * std::atan2(p.x, p.z));  // hangs in waves of 8 cm
     const GirthLevel level{"waist_girth_m", 0.22f, 0.9f, 0.0f};
     const auto fits = fit_of({tube.positions, tube.indices, tube.cut, {}, {}}, std::span(&level, 1));
     ASSERT_EQ(fits.size(), 1u);
@@ -59,7 +66,8 @@ TEST(FitParts, AGirthIsTapedAcrossTheFoldsThatItsLevelRunsThrough) {
 
 TEST(FitParts, APieceThatIsCutRoundIsTapedRound) {
     Tube tube(0.15f, 0.4f, 96, 40, 1.0f);
-    constexpr float kApex_m = 0.18f, kRound_m = kApex_m + 0.22f;  // four gores of a cone: the level is an arc of that radius
+    constexpr float kApex_m = 0.18f,
+                    kRound_m = kApex_m + 0.22f;  // four gores of a cone: the level is an arc of that radius
     const float gore_m = 0.25f * 2.0f * kPi * 0.15f;
     for (size_t i = 0; i < tube.cut.size(); ++i) {
         const auto gore = float(i / 6 % 96 / 24);
@@ -84,23 +92,27 @@ TEST(FitParts, TheLineThroughTheCrotchIsStretchedWhereTheBodyIsDeeper) {
         return Vec3(0.0f, 1.0f - depth * std::sin(angle), 0.1f * std::cos(angle));
     };
     for (uint32_t r = 0; r <= kRows; ++r)
-        for (const float x : {-0.05f, 0.05f}) rest.push_back(along(r, 0.3f) + Vec3(x, 0, 0)), deeper.push_back(along(r, 0.36f) + Vec3(x, 0, 0));
+        for (const float x : {-0.05f, 0.05f})
+            rest.push_back(along(r, 0.3f) + Vec3(x, 0, 0)), deeper.push_back(along(r, 0.36f) + Vec3(x, 0, 0));
     float way = 0.0f;
     for (uint32_t r = 0; r < kRows; ++r) {
         const float next = way + glm::length(along(r + 1, 0.3f) - along(r, 0.3f));
         const uint32_t a = 2 * r;
         indices.insert(indices.end(), {a, a + 1, a + 3, a, a + 3, a + 2});
-        cut.insert(cut.end(), {Vec2(0, way), Vec2(0.1f, way), Vec2(0.1f, next), Vec2(0, way), Vec2(0.1f, next), Vec2(0, next)});
+        cut.insert(cut.end(), {Vec2(0, way), Vec2(0.1f, way), Vec2(0.1f, next), Vec2(0, way),
+                               Vec2(0.1f, next), Vec2(0, next)});
         way = next;
     }
-    const CrotchLine as_cut = crotch_line({rest, indices, cut, {}, {}}, rest), pulled = crotch_line({rest, indices, cut, {}, {}}, deeper);
+    const CrotchLine as_cut = crotch_line({rest, indices, cut, {}, {}}, rest),
+                     pulled = crotch_line({rest, indices, cut, {}, {}}, deeper);
     EXPECT_NEAR(as_cut.garment_m, way, 1e-4f);
     EXPECT_NEAR(as_cut.strain, 0.0f, 1e-3f);
     float wanted = 0.0f;
     for (uint32_t r = 0; r < kRows; ++r) wanted += glm::length(along(r + 1, 0.36f) - along(r, 0.36f));
     EXPECT_NEAR(pulled.strain, wanted / way - 1.0f, 1e-3f);
     const Tube skirt(0.15f, 0.4f, 48, 10, 1.0f);  // ends in a hem, in front and behind
-    EXPECT_EQ(crotch_line({skirt.positions, skirt.indices, skirt.cut, {}, {}}, skirt.positions).garment_m, 0.0f);
+    EXPECT_EQ(crotch_line({skirt.positions, skirt.indices, skirt.cut, {}, {}}, skirt.positions).garment_m,
+              0.0f);
 }
 
 TEST(FitParts, AnOpenFrontIsToldApart) {
@@ -139,7 +151,8 @@ TEST(FitParts, TheStrainThatIsNeededIsTheGirthsWorst) {
 
 TEST(FitParts, VerdictsGoByTheGirthsOfTheSizes) {
     Garment g;
-    for (const auto& [label, girth] : {std::pair("S", 0.86f), std::pair("M", 0.94f), std::pair("L", 1.04f)}) g.sizes.push_back({label, {{"chest_girth_m", girth}}, {}});
+    for (const auto& [label, girth] : {std::pair("S", 0.86f), std::pair("M", 0.94f), std::pair("L", 1.04f)})
+        g.sizes.push_back({label, {{"chest_girth_m", girth}}, {}});
     GirthFit fit;
     fit.key = "chest_girth_m";
     const auto verdict = [&](const char* label, float body) {
@@ -184,11 +197,13 @@ struct Sleeve {
         for (uint32_t v = 120; v < 132; ++v) simulated[v] = 0;
         std::vector<Vec3> carried = tube.positions;
         for (Vec3& p : carried) p.y *= limb;
-        hems = limb_hems(tube.indices, std::vector<BodyPart>(tube.positions.size(), BodyPart::kLeftForearm), simulated, carried);
+        hems = limb_hems(tube.indices, std::vector<BodyPart>(tube.positions.size(), BodyPart::kLeftForearm),
+                         simulated, carried);
         std::erase_if(hems, [&](const LimbHem& hem) { return hem.vertices[0] >= 12; });
     }
     FabricData fabric(const std::vector<Vec2>& cut) const {
-        return cook_fabric({tube.positions, tube.indices, {}, simulated, 1.0f, cut}, {0.2f, 1000.0f, 1000.0f, 50.0f, 2e-5f, 0.3f});
+        return cook_fabric({tube.positions, tube.indices, {}, simulated, 1.0f, cut},
+                           {0.2f, 1000.0f, 1000.0f, 50.0f, 2e-5f, 0.3f});
     }
 };
 
@@ -212,7 +227,8 @@ TEST(FitParts, SleevesThatAreTooLongAreTakenUpAndKeepTheirGirth) {
     EXPECT_EQ(taken.legs_m, 0.0f);
     const auto hem_of = [&](const std::vector<Vec2>& of) {
         float way = 0.0f;
-        for (const Tether& t : shorter.fabric(of).tethers) way = t.vertex < 12 ? std::max(way, t.length_m) : way;
+        for (const Tether& t : shorter.fabric(of).tethers)
+            way = t.vertex < 12 ? std::max(way, t.length_m) : way;
         return way;
     };
     EXPECT_NEAR(hem_of(shorter.tube.cut) - hem_of(cut), taken.sleeves_m, 0.015f);
@@ -255,13 +271,15 @@ TEST(FitParts, SkinIsRaisedAroundABumpAndNeverLowered) {
     std::vector<uint32_t> indices;
     for (const float y : {0.0f, -0.05f})
         for (uint32_t r = 0; r < kSide; ++r)
-            for (uint32_t c = 0; c < kSide; ++c) positions.emplace_back(0.005f * float(c), y, 0.005f * float(r));
+            for (uint32_t c = 0; c < kSide; ++c)
+                positions.emplace_back(0.005f * float(c), y, 0.005f * float(r));
     const uint32_t bump = kSide * (kSide / 2) + kSide / 2;
     positions[bump].y = 0.01f;
     for (uint32_t r = 0; r + 1 < kSide; ++r)
         for (uint32_t c = 0; c + 1 < kSide; ++c) {
             const uint32_t a = r * kSide + c, b = a + 1, d = a + kSide, e = d + 1, below = kSide * kSide;
-            indices.insert(indices.end(), {a, d, b, b, d, e, below + a, below + b, below + d, below + b, below + e, below + d});
+            indices.insert(indices.end(), {a, d, b, b, d, e, below + a, below + b, below + d, below + b,
+                                           below + e, below + d});
         }
     const std::vector<Vec3> wrapped = wrapped_skin(positions, indices);
     for (uint32_t v = 0; v < kSide * kSide; ++v) EXPECT_GE(wrapped[v].y, positions[v].y - 1e-6f) << v;
@@ -278,12 +296,14 @@ TEST(FitParts, ADeepHollowOfTheSkinIsNotFilledUp) {
         for (uint32_t r = 0; r < kSide; ++r)
             for (uint32_t c = 0; c < kSide; ++c) {
                 const float x = 0.005f * float(c), aside = std::abs(x - 0.1f);
-                positions.emplace_back(x, y == 0.0f ? -2.0f * std::max(0.0f, 0.02f - aside) : y, 0.005f * float(r));
+                positions.emplace_back(x, y == 0.0f ? -2.0f * std::max(0.0f, 0.02f - aside) : y,
+                                       0.005f * float(r));
             }
     for (uint32_t r = 0; r + 1 < kSide; ++r)
         for (uint32_t c = 0; c + 1 < kSide; ++c) {
             const uint32_t a = r * kSide + c, b = a + 1, d = a + kSide, e = d + 1, below = kSide * kSide;
-            indices.insert(indices.end(), {a, d, b, b, d, e, below + a, below + b, below + d, below + b, below + e, below + d});
+            indices.insert(indices.end(), {a, d, b, b, d, e, below + a, below + b, below + d, below + b,
+                                           below + e, below + d});
         }
     const uint32_t bottom = kSide * (kSide / 2) + kSide / 2;
     ASSERT_FLOAT_EQ(positions[bottom].y, -0.04f);
@@ -293,7 +313,8 @@ TEST(FitParts, ADeepHollowOfTheSkinIsNotFilledUp) {
 }
 
 TEST(FitParts, CrossingsAreFoundOnceAndNeighboursAreNone) {
-    const std::vector<Vec3> positions{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0.2f, -0.5f, 0.2f}, {0.3f, 0.5f, 0.2f}, {0.2f, 0.5f, 0.4f}, {1, 0, 1}};
+    const std::vector<Vec3> positions{{0, 0, 0},          {1, 0, 0},          {0, 0, 1}, {0.2f, -0.5f, 0.2f},
+                                      {0.3f, 0.5f, 0.2f}, {0.2f, 0.5f, 0.4f}, {1, 0, 1}};
     const std::vector<uint32_t> crossed{0, 1, 2, 3, 4, 5}, beside{0, 1, 2, 1, 6, 2};
     ASSERT_EQ(crossed_triangles(positions, crossed).size(), 1u);
     EXPECT_TRUE(crossed_triangles(positions, beside).empty());

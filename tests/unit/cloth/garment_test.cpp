@@ -52,7 +52,8 @@ TEST(Garment, IsReadWhole) {
 TEST(Garment, RefusesEndlessNestingAtOnce) {
     const char* const message = "-11 garment: nested deeper than 32 levels";
     EXPECT_EQ(error_of([] { parse(std::string(1u << 22, '[')); }), message);
-    EXPECT_EQ(refusal("\"scarf\"", "\"scarf\", \"maker\": " + std::string(32, '[') + std::string(32, ']')), message);
+    EXPECT_EQ(refusal("\"scarf\"", "\"scarf\", \"maker\": " + std::string(32, '[') + std::string(32, ']')),
+              message);
     parse(with("\"scarf\"", "\"" + std::string(99, '[') + "\", \"maker\": [[{\"name\": []}]]"));
 }
 
@@ -64,9 +65,11 @@ TEST(Garment, RefusesBadMeshesByName) {
     EXPECT_EQ(refusal("[0,2,1, 1,2,3]", "[0,2,1, -1,2,3]"), "-11 garment: indices[3] is not an index");
     EXPECT_EQ(refusal("0,0,0, 1,0,0]", "0.5,1,0, 1,0,0]"), "-11 garment: triangle 0 is degenerate");
     EXPECT_EQ(refusal("[0,2,1, 1,2,3]", "[0,2,1, 2,1,3]"),
-              "-11 garment: edge 2-1 of triangle 1 is not manifold: triangle 0 runs along it in the same direction");
+              "-11 garment: edge 2-1 of triangle 1 is not manifold: triangle 0 runs along it in the same "
+              "direction");
     EXPECT_EQ(refusal("[0,2,1, 1,2,3]", "[0,2,1, 1,2,3, 1,2,0]"),
-              "-11 garment: edge 1-2 of triangle 2 is not manifold: triangle 1 runs along it in the same direction");
+              "-11 garment: edge 1-2 of triangle 2 is not manifold: triangle 1 runs along it in the same "
+              "direction");
 }
 
 TEST(Garment, RefusesBadFieldsByName) {
@@ -91,16 +94,22 @@ TEST(Garment, RefusesBadFieldsByName) {
 }
 
 TEST(Garment, AShapeOfItsOwnLengthsIsReadAndChecked) {
-    const std::string sizes = "\"sizes\": [{\"label\": \"S\", \"chest_girth_m\": 0.8}, {\"label\": \"L\", \"chest_girth_m\": 1.0, \"hip_girth_m\": 1.2}]";
-    const auto with_shape = [&](const std::string& more) { return with(sizes, "\"sizes\": [{\"label\": \"M\"}], " + more); };
+    const std::string sizes =
+        "\"sizes\": [{\"label\": \"S\", \"chest_girth_m\": 0.8}, {\"label\": \"L\", \"chest_girth_m\": 1.0, "
+        "\"hip_girth_m\": 1.2}]";
+    const auto with_shape = [&](const std::string& more) {
+        return with(sizes, "\"sizes\": [{\"label\": \"M\"}], " + more);
+    };
     const auto refused = [&](const std::string& more) { return error_of([&] { parse(with_shape(more)); }); };
     const Garment g = parse(with_shape("\"shape\": [0,2,0, 2,2,0, 0,0,0, 2,0,0]"));
     EXPECT_EQ(g.cut_shape[1], Vec3(2, 2, 0));
     EXPECT_TRUE(g.size("M").nominal.empty());  // its own lengths are the size
     EXPECT_EQ(refused("\"note\": 1"), "-11 garment: size M names no girth");
     EXPECT_EQ(refused("\"shape\": [0,2,0, 2,2,0]"), "-11 garment: \"shape\" has 2 places for 4 vertices");
-    EXPECT_EQ(refused("\"shape\": [0,2,0, 2,2,0, 0,0,0, 1e39,0,0]"), "-11 garment: place 3 of \"shape\" is not finite or further than 10 m away");
-    EXPECT_EQ(refused("\"shape\": [0,2,0, 0,1,0, 0,0,0, 2,0,0]"), "-11 garment: triangle 0 has no area in \"shape\"");
+    EXPECT_EQ(refused("\"shape\": [0,2,0, 2,2,0, 0,0,0, 1e39,0,0]"),
+              "-11 garment: place 3 of \"shape\" is not finite or further than 10 m away");
+    EXPECT_EQ(refused("\"shape\": [0,2,0, 0,1,0, 0,0,0, 2,0,0]"),
+              "-11 garment: triangle 0 has no area in \"shape\"");
     EXPECT_EQ(refused("\"shape\": [0,2]"), "-11 garment: \"shape\" is not a flat array of 3 numbers an item");
     EXPECT_EQ(refused("\"shape\": [0,2,0, 2,2,0, 0,0,0, 2,0,0], \"flat\": [0,0, 1,0, 0,1, 1,1]"),
               "-11 garment: there are both \"flat\" and \"shape\": its lengths are the one or the other");
@@ -109,7 +118,8 @@ TEST(Garment, AShapeOfItsOwnLengthsIsReadAndChecked) {
 TEST(Garment, RefusesEveryCutOfItsText) {
     const std::string text = kGarment;
     for (size_t length = 0; length < text.size(); ++length)
-        ASSERT_EQ(error_of([&] { parse(text.substr(0, length)); }).find("-11 garment: not JSON: "), 0u) << length;
+        ASSERT_EQ(error_of([&] { parse(text.substr(0, length)); }).find("-11 garment: not JSON: "), 0u)
+            << length;
     EXPECT_EQ(error_of([] { parse("[]"); }), "-11 garment: not a JSON object");
 }
 
@@ -118,8 +128,10 @@ TEST(Garment, SizeRatioIsTheMeanOverCommonGirths) {
     const std::vector<Measurement> body{{"chest_girth_m", 0.9f}, {"hip_girth_m", 1.0f}};
     EXPECT_NEAR(size_ratio(g, "S", body), 0.8f / 0.9f, 1e-6f);
     EXPECT_NEAR(size_ratio(g, "L", body), 0.5f * (1.0f / 0.9f + 1.2f), 1e-6f);
-    EXPECT_EQ(error_of([&] { size_ratio(g, "XS", body); }), "-2 garment scarf has no size \"XS\"; there are: S, L");
-    EXPECT_EQ(error_of([&] { size_ratio(g, "S", {}); }), "-11 size S: none of its girths is known of the body");
+    EXPECT_EQ(error_of([&] { size_ratio(g, "XS", body); }),
+              "-2 garment scarf has no size \"XS\"; there are: S, L");
+    EXPECT_EQ(error_of([&] { size_ratio(g, "S", {}); }),
+              "-11 size S: none of its girths is known of the body");
 }
 
 TEST(Fabrics, ThoseOfTheProjectAreRead) {
@@ -133,7 +145,8 @@ TEST(Fabrics, ThoseOfTheProjectAreRead) {
 }
 
 TEST(Fabrics, RefusesBadNumbersByName) {
-    const std::string start = R"({"format": "vfit-fabrics", "version": 1, "fabrics": {"felt": {"density_kg_m2": )";
+    const std::string start =
+        R"({"format": "vfit-fabrics", "version": 1, "fabrics": {"felt": {"density_kg_m2": )";
     EXPECT_EQ(error_of([&] { FabricLibrary::parse(bytes_of(start + "0}}}")); }),
               "-11 fabric felt: density_kg_m2 must be above zero, is 0");
     EXPECT_EQ(error_of([&] { FabricLibrary::parse(bytes_of(start + "1}}}")); }),
@@ -153,10 +166,14 @@ TEST(FabricCooking, RefusesExplicitDataThatDoNotFit) {
     EXPECT_EQ(cook([](FabricData& d) { d.edges[0].b = 2; }), "-11 edge 0 joins vertices 0 and 2 of 2");
     EXPECT_EQ(cook([](FabricData& d) { d.edges[0].rest_m = 0; }), "-11 edge 0 has rest length 0 m");
     EXPECT_EQ(cook([](FabricData& d) { d.inverse_mass[0] = -1; }), "-11 vertex 0 has inverse mass -1");
-    EXPECT_EQ(cook([](FabricData& d) { d.indices = {0, 1}; }), "-11 the fabric's indices are not whole triangles");
-    EXPECT_EQ(cook([](FabricData& d) { d.backstops = {{0, 0.1f}}; }), "-11 backstop of vertex 0 with radius 0.1 m");
-    EXPECT_EQ(cook([](FabricData& d) { d.hinges = {{{0, 1, 2, 3}, {}, 1.0f}}; }), "-11 hinge 0 joins vertices 0, 1, 2 and 3 of 2");
-    EXPECT_EQ(cook([](FabricData& d) { d.tethers = {{1, 1, 0.1f}}; }), "-11 tether of vertex 1 to vertex 1, which is not fixed");
+    EXPECT_EQ(cook([](FabricData& d) { d.indices = {0, 1}; }),
+              "-11 the fabric's indices are not whole triangles");
+    EXPECT_EQ(cook([](FabricData& d) { d.backstops = {{0, 0.1f}}; }),
+              "-11 backstop of vertex 0 with radius 0.1 m");
+    EXPECT_EQ(cook([](FabricData& d) { d.hinges = {{{0, 1, 2, 3}, {}, 1.0f}}; }),
+              "-11 hinge 0 joins vertices 0, 1, 2 and 3 of 2");
+    EXPECT_EQ(cook([](FabricData& d) { d.tethers = {{1, 1, 0.1f}}; }),
+              "-11 tether of vertex 1 to vertex 1, which is not fixed");
     EXPECT_EQ(cook([](FabricData& d) { d.inverse_mass.clear(); }), "-11 the fabric has no vertices");
 }
 
@@ -194,8 +211,10 @@ TEST(FabricCooking, ADistanceOverAFoldStoresAt30DegreesWhatTheHingeDoes) {
         std::vector<Vec3> folded = sheet.positions;
         const Vec3 &a = folded[hinge.vertices[0]], &b = folded[hinge.vertices[1]];
         folded[limit.a] = a + glm::angleAxis(angle, glm::normalize(b - a)) * (folded[limit.a] - a);
-        const float shorter = limit.rest_m - glm::length(folded[limit.a] - folded[limit.b]), length = glm::length(b - a);
-        return std::pair{0.5f * shorter * shorter / limit.compliance_m_n, 0.5f * angle * angle * length * length / hinge.compliance_m_n};
+        const float shorter = limit.rest_m - glm::length(folded[limit.a] - folded[limit.b]),
+                    length = glm::length(b - a);
+        return std::pair{0.5f * shorter * shorter / limit.compliance_m_n,
+                         0.5f * angle * angle * length * length / hinge.compliance_m_n};
     };
     const auto [fold, bent] = energies(kPi / 6.0f);
     EXPECT_NEAR(fold, bent, 0.05f * bent);

@@ -1,4 +1,5 @@
-// A garment that grows below another: from a part of its width outwards, with a curtain below the hem and none at the upper border.
+// A garment that grows below another: from a part of its width outwards, with a curtain below the hem and
+// none at the upper border.
 #include "cloth/garment/grown_below.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +42,8 @@ TEST(GrownBelow, GrowsWithACurtainBelowItsHemAlone) {
     }
     // All triangles of the curtain face outwards, as those of the garment do.
     for (size_t i = 0; i < grown.indices().size(); i += 3) {
-        const Vec3 &a = places[grown.indices()[i]], &b = places[grown.indices()[i + 1]], &c = places[grown.indices()[i + 2]];
+        const Vec3 &a = places[grown.indices()[i]], &b = places[grown.indices()[i + 1]],
+                   &c = places[grown.indices()[i + 2]];
         if (!std::isfinite(a.x + b.x + c.x)) continue;
         const Vec3 out = glm::cross(b - a, c - a), middle = (a + b + c) / 3.0f;
         ASSERT_GT(out.x * middle.x + out.z * middle.z, 0.0f) << i;

@@ -59,7 +59,8 @@ inline Garment sleeve(float radius) {
     for (uint32_t r = 0; r < kRows; ++r)
         for (uint32_t i = 0; i < kRound; ++i) {
             const float angle = 2.0f * kPi * float(i) / float(kRound);
-            g.mesh.positions.emplace_back(radius * std::sin(angle), 0.7f - 0.05f * float(r), radius * std::cos(angle));
+            g.mesh.positions.emplace_back(radius * std::sin(angle), 0.7f - 0.05f * float(r),
+                                          radius * std::cos(angle));
             g.mesh.uvs.emplace_back(float(i), float(r));
             g.simulated.push_back(r > 0);
             g.backstop.push_back(1);

@@ -19,7 +19,9 @@ struct Strip {
         sheet.pin_top();
         for (const uint32_t v : sheet.indices) cut.emplace_back(sheet.positions[v].x, sheet.positions[v].y);
     }
-    std::vector<Vec3> raised(const std::vector<Vec3>& worn, const Sagging& sagging) const { return without_sag({worn, sheet.indices, cut, {}, {}}, sheet.simulated, sagging); }
+    std::vector<Vec3> raised(const std::vector<Vec3>& worn, const Sagging& sagging) const {
+        return without_sag({worn, sheet.indices, cut, {}, {}}, sheet.simulated, sagging);
+    }
 };
 
 constexpr Sagging kUsual{9.81f, 1.0f / 480.0f};
@@ -30,8 +32,11 @@ TEST(Sag, StretchThatWeightExplainsIsTakenOut) {
     for (Vec3& p : worn) p.y *= 1.03f;
     const auto raised = strip.raised(worn, kUsual);
     // All but the lowest bands, on which hardly anything hangs.
-    for (uint32_t row = 0; row < 36; ++row) EXPECT_NEAR(raised[strip.sheet.at(row, 2)].y, strip.sheet.positions[strip.sheet.at(row, 2)].y, 0.001f) << row;
-    for (size_t v = 0; v < worn.size(); ++v) EXPECT_TRUE(raised[v].x == worn[v].x && raised[v].z == worn[v].z);
+    for (uint32_t row = 0; row < 36; ++row)
+        EXPECT_NEAR(raised[strip.sheet.at(row, 2)].y, strip.sheet.positions[strip.sheet.at(row, 2)].y, 0.001f)
+            << row;
+    for (size_t v = 0; v < worn.size(); ++v)
+        EXPECT_TRUE(raised[v].x == worn[v].x && raised[v].z == worn[v].z);
 }
 
 TEST(Sag, WhatWeightCannotDoStays) {
@@ -55,7 +60,8 @@ TEST(Sag, AsItHangsWithFewSubstepsItIsToldAsWithMany) {
         Cloth cloth(fabric(std::move(data)), settings, strip.sheet.positions);
         for (int i = 0; i < 600; ++i) cloth.step(kFrame_s, strip.sheet.positions, {}, *jobs);
         EXPECT_NEAR(cloth.substep_s(), kFrame_s / float(substeps), 1e-6f);
-        return std::pair(cloth.positions().back().y, strip.raised(cloth.positions(), {9.81f, cloth.substep_s()}).back().y);
+        return std::pair(cloth.positions().back().y,
+                         strip.raised(cloth.positions(), {9.81f, cloth.substep_s()}).back().y);
     };
     const auto [few, few_raised] = hung(6);
     const float cut = strip.sheet.positions.back().y;

@@ -1,4 +1,5 @@
-// What a garment can meet of a body: which skin, spheres and capsules that fill it, triangles that nobody sees.
+// What a garment can meet of a body: which skin, spheres and capsules that fill it, triangles that nobody
+// sees.
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -24,7 +25,8 @@ std::vector<Collider> shapes_of(const SkinCover& cover, std::span<const Mat4> ma
 }
 float outside_of(std::span<const Collider> shapes, const Vec3& p) {
     float least = INFINITY;
-    for (const Collider& c : shapes) least = std::min(least, nearest_ball(CapsuleShape(capsule_of(c, 0.0f)), p).distance);
+    for (const Collider& c : shapes)
+        least = std::min(least, nearest_ball(CapsuleShape(capsule_of(c, 0.0f)), p).distance);
     return least;
 }
 
@@ -58,16 +60,20 @@ TEST(SkinCover, ItIsTheBodysOwnCollidersThatComeFirst) {
     pole.center = {0, 0, 0}, pole.center_b = {0, 1, 0};
     pole.radius = pole.radius_b = 0.1f;
     pole.joint_b = 1;
-    EXPECT_EQ(SkinCover(post.body(), std::vector<uint8_t>(post.positions.size(), 1), {&pole, 1}, 0.01f).size(), 0u);
-    EXPECT_EQ(SkinCover(post.body(), std::vector<uint8_t>(post.positions.size(), 0), {}, 0.01f).size(), 0u) << "nothing is below";
+    EXPECT_EQ(
+        SkinCover(post.body(), std::vector<uint8_t>(post.positions.size(), 1), {&pole, 1}, 0.01f).size(), 0u);
+    EXPECT_EQ(SkinCover(post.body(), std::vector<uint8_t>(post.positions.size(), 0), {}, 0.01f).size(), 0u)
+        << "nothing is below";
 }
 
 TEST(SkinCover, GoesWithTheBones) {
     const Post post(0.1f);
     const SkinCover cover(post.body(), std::vector<uint8_t>(post.positions.size(), 1), {}, 0.02f);
-    const std::vector<Mat4> moved(2, glm::rotate(glm::translate(Mat4(1.0f), Vec3(0.3f, 0.1f, -0.2f)), 1.0f, Vec3(0, 0, 1)));
+    const std::vector<Mat4> moved(
+        2, glm::rotate(glm::translate(Mat4(1.0f), Vec3(0.3f, 0.1f, -0.2f)), 1.0f, Vec3(0, 0, 1)));
     const std::vector<Collider> shapes = shapes_of(cover, moved);
-    for (const Vec3& p : post.positions) EXPECT_LT(outside_of(shapes, Vec3(moved[0] * Vec4(p, 1.0f))), 0.0201f);
+    for (const Vec3& p : post.positions)
+        EXPECT_LT(outside_of(shapes, Vec3(moved[0] * Vec4(p, 1.0f))), 0.0201f);
 }
 
 TEST(HiddenSkin, IsWhatNobodySeesUnderASleeve) {
@@ -75,7 +81,8 @@ TEST(HiddenSkin, IsWhatNobodySeesUnderASleeve) {
     const Garment g = sleeve(0.11f);  // from 0.3 to 0.7 m
     const auto jobs = Jobs::own(1);
     const auto levels = [&](float margin) {
-        const std::vector<uint8_t> hidden = hidden_triangles({post.positions, post.indices, g.mesh.positions, g.mesh.indices}, margin, *jobs);
+        const std::vector<uint8_t> hidden =
+            hidden_triangles({post.positions, post.indices, g.mesh.positions, g.mesh.indices}, margin, *jobs);
         Vec2 range(1.0f, 0.0f);
         for (size_t t = 0; t < hidden.size(); ++t)
             for (size_t k = 0; hidden[t] && k < 3; ++k) {
@@ -84,7 +91,8 @@ TEST(HiddenSkin, IsWhatNobodySeesUnderASleeve) {
             }
         return range;
     };
-    // From above one sees in 1 cm of gap below the edge at a slope of 1 in 20, from below at 45 degrees at most.
+    // From above one sees in 1 cm of gap below the edge at a slope of 1 in 20, from below at 45 degrees at
+    // most.
     const Vec2 wide = levels(0.0f), narrow = levels(0.06f);
     EXPECT_NEAR(wide.x, 0.35f, 0.051f);
     EXPECT_LT(wide.y, 0.66f);

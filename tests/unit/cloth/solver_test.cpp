@@ -57,7 +57,8 @@ TEST(ClothSolver, ConstraintsKeepTheCentreOfMassWhereItIs) {
     settings.gravity = Vec3(0.0f);
     std::vector<Vec3> start = sheet.positions;
     for (size_t i = 0; i < start.size(); ++i)  // crumpled: every constraint is violated
-        start[i] += 0.004f * Vec3(std::sin(7.0f * float(i)), std::cos(5.0f * float(i)), std::sin(3.0f * float(i)));
+        start[i] +=
+            0.004f * Vec3(std::sin(7.0f * float(i)), std::cos(5.0f * float(i)), std::sin(3.0f * float(i)));
     const auto data = fabric(sheet.cook(cotton()));
     const auto center = [&](const std::vector<Vec3>& x) {
         glm::dvec3 sum(0.0);
@@ -82,7 +83,7 @@ float stretches_too_far(FabricMaterial material) {
     Sheet strip(17, 6, 0.02f);
     strip.pin_top();
     material.density_kg_m2 = 4.0f;  // heavy: a pass carries the load where compliance / h^2 outweighs 1 / m
-    material.bend_n_m = 1e-6f;  // bends are springs too and would share the load
+    material.bend_n_m = 1e-6f;      // bends are springs too and would share the load
     FabricData data = strip.cook(material);
     data.tethers.clear();
     const float load_kg = material.stretch_warp_n_m / 3000.0f, width = 0.1f, length = 0.32f;
@@ -109,7 +110,8 @@ TEST(ClothSolver, StripStretchesAsItsModulusSays) {
     FabricMaterial material = cotton();
     material.stretch_warp_n_m = 300.0f;
     EXPECT_NEAR(stretches_too_far(material), 0.0f, 0.1f);
-    // Leather: diagonals that shear as it does would take the load off warp and weft, but for their narrowing.
+    // Leather: diagonals that shear as it does would take the load off warp and weft, but for their
+    // narrowing.
     material.stretch_warp_n_m = 1000.0f, material.stretch_weft_n_m = 800.0f, material.shear_n_m = 300.0f;
     EXPECT_NEAR(stretches_too_far(material), 0.0f, 0.1f);
     // Shears more stiffly than springs that stretch so can.
@@ -193,8 +195,8 @@ TEST(ClothSolver, FewSubstepsGetMorePasses) {
         for (int frame = 0; frame < 240; ++frame) cloth.step(kFrame_s, strip.positions, {}, *jobs);
         return cloth.stats().strain_mean;
     };
-    // With n sub-steps of one pass it goes as 1 / n^2: 1 would stretch 3.9 times as much as 2. With four passes a frame for
-    // both it is 2.6 times.
+    // With n sub-steps of one pass it goes as 1 / n^2: 1 would stretch 3.9 times as much as 2. With four
+    // passes a frame for both it is 2.6 times.
     EXPECT_LT(stretch(1), 3.0f * stretch(2));
 }
 

@@ -1,4 +1,5 @@
-// Contact with meshes and of a cloth with itself: nearest points, cloth on a ball of triangles, layers that stay layers.
+// Contact with meshes and of a cloth with itself: nearest points, cloth on a ball of triangles, layers that
+// stay layers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +22,8 @@ using namespace test;
 TEST(NearestOnTriangle, NoPlaceOfItIsNearer) {
     std::mt19937 random(1);
     for (int i = 0; i < 300; ++i) {
-        const Vec3 a = random_point(random, 1), b = random_point(random, 1), c = i % 10 ? random_point(random, 1) : a + 0.5f * (b - a);
+        const Vec3 a = random_point(random, 1), b = random_point(random, 1),
+                   c = i % 10 ? random_point(random, 1) : a + 0.5f * (b - a);
         const Vec3 p = random_point(random, 2);
         const Vec3 w = nearest_on_triangle(p, a, b, c);
         EXPECT_NEAR(w.x + w.y + w.z, 1.0f, 1e-4f);
@@ -41,8 +43,10 @@ TEST(SurfaceKernels, NearestPlaceOnTheTrianglesAboutAPoint) {
         for (Particle& p : all) p.x = random_point(random, 1.0f);
         std::vector<uint32_t> indices;
         for (int i = 0; i < 100; ++i) {  // the last has no triangle
-            const uint32_t first = uint32_t(random() % (kPoints - 1)), second = (first + 1 + uint32_t(random() % 10)) % (kPoints - 1);
-            indices.insert(indices.end(), {first, second, (second + 1 + uint32_t(random() % 10)) % (kPoints - 1)});
+            const uint32_t first = uint32_t(random() % (kPoints - 1)),
+                           second = (first + 1 + uint32_t(random() % 10)) % (kPoints - 1);
+            indices.insert(indices.end(),
+                           {first, second, (second + 1 + uint32_t(random() % 10)) % (kPoints - 1)});
         }
         all[7].x = all[8].x;
         all[9].x = Vec3(NAN);
@@ -60,7 +64,8 @@ TEST(SurfaceKernels, NearestPlaceOnTheTrianglesAboutAPoint) {
                 if (points[lane] != NearestOnFans::kNone)
                     for (const TriangleFans::Corners& c : fans.of(points[lane])) {
                         const Vec3 a = all[points[lane]].x, b = all[c.second].x, third = all[c.third].x;
-                        const Vec3 w = nearest_on_triangle(p, a, b, third), off = p - (w.x * a + w.y * b + w.z * third);
+                        const Vec3 w = nearest_on_triangle(p, a, b, third),
+                                   off = p - (w.x * a + w.y * b + w.z * third);
                         if (const float distance2 = glm::dot(off, off); distance2 < best2) best2 = distance2;
                     }
                 if (best2 == INFINITY) {
@@ -70,7 +75,8 @@ TEST(SurfaceKernels, NearestPlaceOnTheTrianglesAboutAPoint) {
                 ASSERT_NE(found.corners[lane], NearestOnFans::kNone);
                 const TriangleFans::Corners& c = fans.corners()[found.corners[lane]];
                 const Vec3 w = found.weights(lane);
-                const Vec3 off = p - (w.x * all[points[lane]].x + w.y * all[c.second].x + w.z * all[c.third].x);
+                const Vec3 off =
+                    p - (w.x * all[points[lane]].x + w.y * all[c.second].x + w.z * all[c.third].x);
                 EXPECT_GE(std::min({w.x, w.y, w.z}), -1e-5f);
                 EXPECT_NEAR(glm::length(off), std::sqrt(best2), 2e-4f);
                 EXPECT_NEAR(found.distance2[lane], best2, 1e-3f * std::max(best2, 0.1f));
@@ -85,7 +91,10 @@ TEST(SurfaceKernels, NearestPointsBeforeAndBehindEachLane) {
         Particles all(kLanes * 6), normals(kLanes * 6);
         for (Particle& p : all) p.x = random_point(random, 0.1f);
         for (Particle& n : normals) n.x = glm::normalize(random_point(random, 1.0f));
-        const std::vector<NearRun> runs{{1, 0, 0, 0, 0.08f}, {2, 0x00ff00f0f0ull, 0x0f0f0f0f00ull, 0, 0.08f}, {4, ~0ull, 0, 0, 0.08f}, {5, 0x8001ull, ~0ull, 0, 0.08f}};
+        const std::vector<NearRun> runs{{1, 0, 0, 0, 0.08f},
+                                        {2, 0x00ff00f0f0ull, 0x0f0f0f0f00ull, 0, 0.08f},
+                                        {4, ~0ull, 0, 0, 0.08f},
+                                        {5, 0x8001ull, ~0ull, 0, 0.08f}};
         all[5 * kLanes + 3].x = Vec3(NAN);
         const float reach = 0.08f;
         NearestOfRun nearest(reach), of_all(reach);
@@ -109,7 +118,8 @@ TEST(SurfaceKernels, NearestPointsBeforeAndBehindEachLane) {
                     const int side = glm::dot(way, normals[own].x) >= 0.0f ? 0 : 1;
                     if (distance2 < best[side]) best[side] = distance2, id[side] = at;
                 }
-            for (int side = 0; side < 2; ++side) EXPECT_EQ(nearest.id[side][lane], id[side]) << lane << " " << side;
+            for (int side = 0; side < 2; ++side)
+                EXPECT_EQ(nearest.id[side][lane], id[side]) << lane << " " << side;
             EXPECT_EQ(of_all.id[0][lane], id[2]) << lane;
         }
         EXPECT_GT(apart, 10u);
@@ -139,7 +149,9 @@ TEST(SurfaceKernels, BoxesThatMeet) {
         std::vector<uint32_t> expected, found;
         const Vec3 low(-0.2f), high(0.4f);
         for (uint32_t i = 0; i < kCount; ++i)
-            if (glm::all(glm::lessThanEqual(boxes.runs.low_of(i), high)) && glm::all(glm::greaterThanEqual(boxes.runs.high_of(i), low))) expected.push_back(i);
+            if (glm::all(glm::lessThanEqual(boxes.runs.low_of(i), high)) &&
+                glm::all(glm::greaterThanEqual(boxes.runs.high_of(i), low)))
+                expected.push_back(i);
         find_meeting(boxes, low, high, found);
         EXPECT_EQ(found, expected);
         EXPECT_GT(found.size(), 3u);
@@ -152,13 +164,15 @@ TEST(SurfaceKernels, AParticleIsPushedToItsSideAndTheTriangleBack) {
         SurfaceContacts c{};
         for (size_t k = 0; k < kLanes; ++k) c.vertex[k] = c.a[k] = c.b[k] = c.c[k] = 16 * sizeof(Particle);
         const Vec3 corners[3] = {{0, 0, 0}, {0.02f, 0, 0}, {0, 0.02f, 0}};
-        const float heights[4] = {0.001f, -0.001f, 0.01f, 0.001f};  // too near on either side, far enough, and
-        for (uint32_t i = 0; i < 4; ++i) {                          // too far aside
+        const float heights[4] = {0.001f, -0.001f, 0.01f,
+                                  0.001f};  // too near on either side, far enough, and
+        for (uint32_t i = 0; i < 4; ++i) {  // too far aside
             const uint32_t first = 4 * i, lane = 2 * i;
             for (uint32_t k = 0; k < 3; ++k) p[first + k].x = corners[k];
             p[first + 3].x = Vec3(i == 3 ? 0.05f : 0.005f, 0.005f, heights[i]);
             const auto bytes = [](uint32_t particle) { return particle * uint32_t(sizeof(Particle)); };
-            c.a[lane] = bytes(first), c.b[lane] = bytes(first + 1), c.c[lane] = bytes(first + 2), c.vertex[lane] = bytes(first + 3);
+            c.a[lane] = bytes(first), c.b[lane] = bytes(first + 1), c.c[lane] = bytes(first + 2),
+            c.vertex[lane] = bytes(first + 3);
             c.at_a[lane] = 0.5f, c.at_b[lane] = c.at_c[lane] = 0.25f;
             c.side[lane] = i == 1 ? -1.0f : 1.0f, c.thickness_m[lane] = 0.004f;
             c.vertex_gain[lane] = 0.75f, c.a_gain[lane] = 0.2f, c.b_gain[lane] = c.c_gain[lane] = 0.1f;
@@ -197,11 +211,13 @@ struct BallMesh {
         for (uint32_t r = 0; r <= rings; ++r)
             for (uint32_t c = 0; c < 2 * rings; ++c) {
                 const float polar = kPi * float(r) / float(rings), round = kPi * float(c) / float(rings);
-                positions.push_back(center + radius * Vec3(std::sin(polar) * std::cos(round), std::cos(polar), std::sin(polar) * std::sin(round)));
+                positions.push_back(center + radius * Vec3(std::sin(polar) * std::cos(round), std::cos(polar),
+                                                           std::sin(polar) * std::sin(round)));
             }
         for (uint32_t r = 0; r < rings; ++r)
             for (uint32_t c = 0; c < 2 * rings; ++c) {
-                const uint32_t a = r * 2 * rings + c, b = r * 2 * rings + (c + 1) % (2 * rings), d = a + 2 * rings, e = b + 2 * rings;
+                const uint32_t a = r * 2 * rings + c, b = r * 2 * rings + (c + 1) % (2 * rings),
+                               d = a + 2 * rings, e = b + 2 * rings;
                 if (r > 0) indices.insert(indices.end(), {a, b, d});
                 if (r + 1 < rings) indices.insert(indices.end(), {b, e, d});
             }
@@ -273,7 +289,8 @@ TEST(MeshContact, WhatDoesNotFitIsRefusedAndWhatIsNotFiniteIsLeftOut) {
     Cloth cloth(fabric(sheet.cook(cotton())), {}, sheet.positions);
     BallMesh ball({0.04f, -0.3f, 0}, 0.1f);
     EXPECT_NE(error_of([&] { cloth.add_mesh(10, ball.indices); }).find("of 10"), std::string::npos);
-    EXPECT_NE(error_of([&] { cloth.add_mesh(ball.positions.size(), ball.indices, std::vector<uint8_t>(3)); }), "");
+    EXPECT_NE(error_of([&] { cloth.add_mesh(ball.positions.size(), ball.indices, std::vector<uint8_t>(3)); }),
+              "");
     const uint32_t mesh = cloth.add_mesh(ball.positions.size(), ball.indices);
     EXPECT_NE(error_of([&] { cloth.move_mesh(mesh + 1, ball.positions); }), "");
     EXPECT_NE(error_of([&] { cloth.move_mesh(mesh, sheet.positions); }), "");
@@ -305,7 +322,8 @@ TEST(MeshContact, WhatIsTooTightForTheClothBelowGivesWayBeforeItTears) {
             const float z = std::min(0.0f, -0.1f + 0.001f * float(frame)) + 0.06f;
             cloth.move_mesh(mesh, BallMesh(middle + Vec3(0, 0, z), 0.05f).positions);
             cloth.step(kFrame_s, sheet.positions, {}, *jobs);
-            if (frame > 200) most = std::max(most, *std::max_element(cloth.strain().begin(), cloth.strain().end()));
+            if (frame > 200)
+                most = std::max(most, *std::max_element(cloth.strain().begin(), cloth.strain().end()));
         }
         return most;
     };
@@ -314,15 +332,19 @@ TEST(MeshContact, WhatIsTooTightForTheClothBelowGivesWayBeforeItTears) {
 }
 
 TEST(MeshContact, ClothThatIsDrawnIntoAHollowStaysOutOfBothSides) {
-    // A groove along x, 40 degrees wide; into it hangs a strip, the end of which is drawn through one side and the other in turn.
+    // A groove along x, 40 degrees wide; into it hangs a strip, the end of which is drawn through one side
+    // and the other in turn.
     const auto jobs = Jobs::own(0);
     std::vector<Vec3> groove;
     std::vector<uint32_t> indices;
     constexpr float kHalf_rad = 0.35f;
-    const auto profile = [](float s) { return Vec3(0.0f, -0.1f + std::abs(s) * std::cos(kHalf_rad), s * std::sin(kHalf_rad)); };
+    const auto profile = [](float s) {
+        return Vec3(0.0f, -0.1f + std::abs(s) * std::cos(kHalf_rad), s * std::sin(kHalf_rad));
+    };
     constexpr uint32_t kAcross = 24, kAlong = 16;
     for (uint32_t r = 0; r <= kAlong; ++r)
-        for (uint32_t c = 0; c <= kAcross; ++c) groove.push_back(profile(-0.12f + 0.01f * float(c)) + Vec3(0.02f * float(r) - 0.1f, 0, 0));
+        for (uint32_t c = 0; c <= kAcross; ++c)
+            groove.push_back(profile(-0.12f + 0.01f * float(c)) + Vec3(0.02f * float(r) - 0.1f, 0, 0));
     for (uint32_t r = 0; r < kAlong; ++r)
         for (uint32_t c = 0; c < kAcross; ++c) {
             const uint32_t a = r * (kAcross + 1) + c, b = a + 1, d = a + kAcross + 1, e = d + 1;
@@ -347,7 +369,9 @@ TEST(MeshContact, ClothThatIsDrawnIntoAHollowStaysOutOfBothSides) {
             for (uint32_t r = 5; r < 8; ++r)
                 for (uint32_t c = 0; c < 9 && frame > 30; ++c) {
                     const Vec3& p = cloth.positions()[sheet.at(r, c)];
-                    if (p.y < -0.01f) deepest = std::max(deepest, std::abs(p.z) * std::cos(kHalf_rad) - (p.y + 0.1f) * std::sin(kHalf_rad));
+                    if (p.y < -0.01f)
+                        deepest = std::max(deepest, std::abs(p.z) * std::cos(kHalf_rad) -
+                                                        (p.y + 0.1f) * std::sin(kHalf_rad));
                 }
         }
         return deepest;
@@ -391,8 +415,11 @@ TEST(MeshContact, WhatHangsBelowAHemIsNotDrawnUpToIt) {
         cloth.step(kFrame_s, curtain.positions, {}, *jobs);
     }
     for (uint32_t c = 2; c < 19; ++c) {
-        EXPECT_GT(cloth.positions()[curtain.at(5, c)].z, 0.002f) << "outside of it, where there is something to be outside of";
-        for (const uint32_t r : {11u, 12u}) EXPECT_NEAR(cloth.positions()[curtain.at(r, c)].y, curtain.positions[curtain.at(r, c)].y, 0.006f) << r;
+        EXPECT_GT(cloth.positions()[curtain.at(5, c)].z, 0.002f)
+            << "outside of it, where there is something to be outside of";
+        for (const uint32_t r : {11u, 12u})
+            EXPECT_NEAR(cloth.positions()[curtain.at(r, c)].y, curtain.positions[curtain.at(r, c)].y, 0.006f)
+                << r;
     }
 }
 
@@ -413,7 +440,9 @@ TEST(MeshContact, WhereAHemComesThroughTheClothGoesOutwards) {
             cloth.move_mesh(mesh, inner.positions);
             cloth.step(kFrame_s, curtain.positions, {}, *jobs);
         }
-        EXPECT_EQ(crossed_triangles({cloth.positions(), curtain.indices}, {inner.positions, inner.indices}).empty(), clears);
+        EXPECT_EQ(
+            crossed_triangles({cloth.positions(), curtain.indices}, {inner.positions, inner.indices}).empty(),
+            clears);
     }
 }
 
@@ -431,10 +460,13 @@ struct ThreeLayers {
             const auto first = uint32_t(start.size());
             const std::vector<Vec3> places = lying(sheet, {-0.24f, 0.17f + 0.012f * float(layer), -0.24f});
             start.insert(start.end(), places.begin(), places.end());
-            data.inverse_mass.insert(data.inverse_mass.end(), one.inverse_mass.begin(), one.inverse_mass.end());
+            data.inverse_mass.insert(data.inverse_mass.end(), one.inverse_mass.begin(),
+                                     one.inverse_mass.end());
             for (uint32_t i : one.indices) data.indices.push_back(first + i);
-            for (DistanceConstraint e : one.edges) data.edges.push_back({first + e.a, first + e.b, e.rest_m, e.compliance_m_n});
-            for (DistanceConstraint b : one.bends) data.bends.push_back({first + b.a, first + b.b, b.rest_m, b.compliance_m_n});
+            for (DistanceConstraint e : one.edges)
+                data.edges.push_back({first + e.a, first + e.b, e.rest_m, e.compliance_m_n});
+            for (DistanceConstraint b : one.bends)
+                data.bends.push_back({first + b.a, first + b.b, b.rest_m, b.compliance_m_n});
             for (Hinge h : one.hinges) {
                 for (uint32_t& v : h.vertices) v += first;
                 data.hinges.push_back(h);

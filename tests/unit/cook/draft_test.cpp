@@ -1,4 +1,5 @@
-// Drafted garments: pieces that can be cut and sewn, of the intended girths, alike in every size, clear of the body.
+// Drafted garments: pieces that can be cut and sewn, of the intended girths, alike in every size, clear of
+// the body.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,8 +18,9 @@
 namespace vfit {
 namespace {
 
-constexpr const char* kDesigns[] = {"sundress_pattern", "duster",    "jeans_women",    "vest",         "flight_suit",
-                                    "pants_men",        "shirt_men", "martial_jacket", "martial_pants"};
+constexpr const char* kDesigns[] = {"sundress_pattern", "duster",    "jeans_women", "vest",
+                                    "flight_suit",      "pants_men", "shirt_men",   "martial_jacket",
+                                    "martial_pants"};
 constexpr float kSameGirth_m = 0.005f;
 
 std::vector<std::byte> design_bytes(const std::string& text) {
@@ -73,7 +75,9 @@ float labelled_length(const Panel& panel, const std::string& words) {
     return sum;
 }
 
-bool torso_piece(const Panel& panel) { return panel.name.starts_with("front") || panel.name.starts_with("back"); }
+bool torso_piece(const Panel& panel) {
+    return panel.name.starts_with("front") || panel.name.starts_with("back");
+}
 bool leg_piece(const Panel& panel) { return panel.name.starts_with("trousers"); }
 
 Vec3 held(const Panel& panel, const Vec2& p) { return panel.rotation * Vec3(p, 0.0f) + panel.translation; }
@@ -82,7 +86,8 @@ class Draft : public testing::Test {
 protected:
     static void SetUpTestSuite() {
         model = BodyModel::load(VFIT_DATA_DIR "/body.bin");
-        for (const vfit_sex sex : {VFIT_SEX_FEMALE, VFIT_SEX_MALE}) measures[sex] = measure_default_body(*model, sex);
+        for (const vfit_sex sex : {VFIT_SEX_FEMALE, VFIT_SEX_MALE})
+            measures[sex] = measure_default_body(*model, sex);
         for (const char* name : kDesigns) {
             Drafted d;
             d.design = parse_design(design_bytes(design_text(name)));
@@ -147,7 +152,8 @@ TEST_F(Draft, OutlinesDoNotCrossThemselves) {
                     const Vec2 &a = line[i], &b = line[(i + 1) % n], &c = line[k], &d = line[(k + 1) % n];
                     // Edges on one line, as those beside a dart, differ from it by rounding.
                     constexpr double kRounding = -1e-14;
-                    const bool cross = side(a, b, c) * side(a, b, d) < kRounding && side(c, d, a) * side(c, d, b) < kRounding;
+                    const bool cross = side(a, b, c) * side(a, b, d) < kRounding &&
+                                       side(c, d, a) * side(c, d, b) < kRounding;
                     ASSERT_FALSE(cross) << panel.name << " at " << a.x << " " << a.y;
                 }
         }
@@ -163,8 +169,10 @@ TEST_F(Draft, SewnEdgesAreEquallyLongAndSewnOnce) {
             const PatternEdge &ea = a.edges[stitch.a.edge], &eb = b.edges[stitch.b.edge];
             float longer = 1.0f;
             if (ea.label.ends_with(" cap")) longer += design.sleeve->cap_ease;
-            if (b.name.starts_with("band") && ea.label.find(" waist ") != std::string::npos) longer += design.trousers->gather;
-            EXPECT_NEAR(edge_length(a, ea) / (edge_length(b, eb) * longer), 1.0f, 0.005f) << a.name << " " << ea.label;
+            if (b.name.starts_with("band") && ea.label.find(" waist ") != std::string::npos)
+                longer += design.trousers->gather;
+            EXPECT_NEAR(edge_length(a, ea) / (edge_length(b, eb) * longer), 1.0f, 0.005f)
+                << a.name << " " << ea.label;
             EXPECT_EQ(++sewn[std::make_pair(stitch.a.panel, stitch.a.edge)], 1) << a.name << " " << ea.label;
             EXPECT_EQ(++sewn[std::make_pair(stitch.b.panel, stitch.b.edge)], 1) << b.name << " " << eb.label;
         }
@@ -181,7 +189,8 @@ TEST_F(Draft, OnlyHemsAndOpeningsStayOpen) {
             for (uint32_t e = 0; e < panel.edges.size(); ++e) {
                 if (sewn.contains(std::make_pair(p, e))) continue;
                 const std::string label = panel.edges[e].label.substr(panel.edges[e].label.find(' ') + 1);
-                const bool open_front = design.torso && design.torso->front == TorsoDesign::Front::open && label == "middle";
+                const bool open_front =
+                    design.torso && design.torso->front == TorsoDesign::Front::open && label == "middle";
                 const bool sleeveless = !design.sleeve && label == "armhole";
                 EXPECT_TRUE(label == "hem" || label == "neck" || label == "top" || open_front || sleeveless)
                     << panel.name << " " << label;
@@ -228,25 +237,31 @@ TEST_F(Draft, ChestIsTheBodysAndItsEase) {
                     underarm = std::max({underarm, panel.corners[edge.from].y, panel.corners[edge.to].y});
             girth += width_at(panel, underarm - 0.001f);
         }
-        EXPECT_NEAR(girth, find(size.nominal, "chest_girth_m")->value + design.torso->chest_ease_m, kSameGirth_m);
+        EXPECT_NEAR(girth, find(size.nominal, "chest_girth_m")->value + design.torso->chest_ease_m,
+                    kSameGirth_m);
         EXPECT_NEAR(girth, find(size.finished, "chest_girth_m")->value, kSameGirth_m);
     });
 }
 
 TEST_F(Draft, WaistIsTheBodysAndItsEase) {
     for_each_pattern([](const GarmentDesign& design, const DraftedSize& size) {
-        const size_t i = size_t(std::find(design.labels.begin(), design.labels.end(), size.label) - design.labels.begin());
+        const size_t i =
+            size_t(std::find(design.labels.begin(), design.labels.end(), size.label) - design.labels.begin());
         const DraftMeasures body = graded(measures[design.sex], design.girths[i]);
         float girth = 0.0f, wanted = body.waist;
         for (const Panel& panel : size.pattern.panels) {
             if (design.torso && torso_piece(panel))
                 girth += design.torso->hem ? width_at(panel, 0.0f) : labelled_length(panel, " waist ");
-            else if (!design.torso && panel.name.starts_with("band")) girth += labelled_length(panel, " waist ");
+            else if (!design.torso && panel.name.starts_with("band"))
+                girth += labelled_length(panel, " waist ");
         }
-        if (design.torso) wanted += design.trousers ? design.trousers->waist_ease_m : design.torso->waist_ease_m;
-        else wanted = body.girth_between(design.trousers->rise) + design.trousers->waist_ease_m;
+        if (design.torso)
+            wanted += design.trousers ? design.trousers->waist_ease_m : design.torso->waist_ease_m;
+        else
+            wanted = body.girth_between(design.trousers->rise) + design.trousers->waist_ease_m;
         EXPECT_NEAR(girth, wanted, kSameGirth_m);
-        EXPECT_NEAR(girth, find(size.finished, design.torso ? "waist_girth_m" : "x_top_girth_m")->value, kSameGirth_m);
+        EXPECT_NEAR(girth, find(size.finished, design.torso ? "waist_girth_m" : "x_top_girth_m")->value,
+                    kSameGirth_m);
     });
 }
 
@@ -268,7 +283,8 @@ TEST_F(Draft, HipsAreTheBodysAndTheirEase) {
     for_each_pattern([](const GarmentDesign& design, const DraftedSize& size) {
         const Measurement* finished = find(size.finished, "hip_girth_m");
         if (!finished) return;
-        const size_t i = size_t(std::find(design.labels.begin(), design.labels.end(), size.label) - design.labels.begin());
+        const size_t i =
+            size_t(std::find(design.labels.begin(), design.labels.end(), size.label) - design.labels.begin());
         const DraftMeasures body = graded(measures[design.sex], design.girths[i]);
         const float depth = body.waist_height - body.hip_height;
         float girth = 0.0f, wanted = body.hip;
@@ -282,8 +298,10 @@ TEST_F(Draft, HipsAreTheBodysAndTheirEase) {
                 girth += width_at(panel, -depth + 0.0005f);
             }
         }
-        if (design.skirt) wanted += design.skirt->hip_ease_m;
-        else wanted += design.trousers ? design.trousers->hip_ease_m : design.torso->hip_ease_m;
+        if (design.skirt)
+            wanted += design.skirt->hip_ease_m;
+        else
+            wanted += design.trousers ? design.trousers->hip_ease_m : design.torso->hip_ease_m;
         EXPECT_NEAR(girth, wanted, kSameGirth_m);
         EXPECT_NEAR(girth, finished->value, kSameGirth_m);
     });
@@ -293,7 +311,8 @@ TEST_F(Draft, LeftAndRightAreMirrorImages) {
     for_each_pattern([](const GarmentDesign&, const DraftedSize& size) {
         for (const Panel& panel : size.pattern.panels) {
             std::string partner = panel.name;
-            if (const size_t at = partner.find("_left"); at != std::string::npos) partner.replace(at, 5, "_right");
+            if (const size_t at = partner.find("_left"); at != std::string::npos)
+                partner.replace(at, 5, "_right");
             std::vector<Vec3> left, right;
             for (const Panel& other : size.pattern.panels)
                 for (const Vec2& p : outline_of(other)) {
@@ -341,7 +360,8 @@ TEST_F(Draft, StitchesJoinBeginToEnd) {
             const PatternEdge &ea = a.edges[stitch.a.edge], &eb = b.edges[stitch.b.edge];
             const Vec3 a0 = held(a, a.corners[ea.from]), a1 = held(a, a.corners[ea.to]);
             const Vec3 b0 = held(b, b.corners[eb.from]), b1 = held(b, b.corners[eb.to]);
-            // Laid together they run the same way, but for the crotch's: its two edges stand away from each other.
+            // Laid together they run the same way, but for the crotch's: its two edges stand away from each
+            // other.
             if (ea.label.ends_with("crotch")) continue;
             EXPECT_GT(glm::dot(a1 - a0, b0 - b1), 0.0f)
                 << a.name << " " << ea.label << " to " << b.name << " " << eb.label;
@@ -424,7 +444,9 @@ TEST(DraftMeasures, AreThoseOfAPerson) {
 
 TEST(CutLine, MirroredRunsTheOtherSideBackwards) {
     CutLine half(Vec2(0.0f, 0.0f));
-    half.line({0.2f, 0.0f}, "hem").cubic({0.25f, 0.1f}, {0.15f, 0.2f}, {0.2f, 0.3f}, "side").arc(0.5f, false, {0.0f, 0.28f}, "top");
+    half.line({0.2f, 0.0f}, "hem")
+        .cubic({0.25f, 0.1f}, {0.15f, 0.2f}, {0.2f, 0.3f}, "side")
+        .arc(0.5f, false, {0.0f, 0.28f}, "top");
     const Panel panel = whole(half).panel("piece");
     ASSERT_EQ(panel.edges.size(), 6u);
     EXPECT_EQ(panel.edges[1].label, "left side");
@@ -465,21 +487,27 @@ std::string refusal(const std::string& design, const std::string& from, const st
 }
 
 TEST(GarmentDesign, RefusesBadParametersByName) {
-    EXPECT_EQ(refusal("shirt_men", "\"format\": \"vfit-design\"", "\"format\": \"vfit\""), "design: format is not \"vfit-design\"");
+    EXPECT_EQ(refusal("shirt_men", "\"format\": \"vfit-design\"", "\"format\": \"vfit\""),
+              "design: format is not \"vfit-design\"");
     EXPECT_EQ(refusal("shirt_men", "\"version\": 1", "\"version\": 2"), "design: version is not 1");
-    EXPECT_EQ(refusal("shirt_men", "\"body_sex\": \"m\"", "\"body_sex\": \"x\""), "design: \"body_sex\" must be one of f, m, is x");
+    EXPECT_EQ(refusal("shirt_men", "\"body_sex\": \"m\"", "\"body_sex\": \"x\""),
+              "design: \"body_sex\" must be one of f, m, is x");
     EXPECT_EQ(refusal("shirt_men", "\"chest_ease_m\": 0.12", "\"chest_ease_m\": 12"),
               "design: \"torso.chest_ease_m\" must be -0.15 to 0.6, is 12");
-    EXPECT_EQ(refusal("shirt_men", "\"chest_ease_m\": 0.12, ", ""), "design: \"torso.chest_ease_m\" is missing");
+    EXPECT_EQ(refusal("shirt_men", "\"chest_ease_m\": 0.12, ", ""),
+              "design: \"torso.chest_ease_m\" is missing");
     EXPECT_EQ(refusal("shirt_men", "\"chest_ease_m\": 0.12", "\"chest_ease_m\": \"wide\""),
               "design: \"torso.chest_ease_m\" is not a number");
-    EXPECT_EQ(refusal("shirt_men", "\"neck_depth_m\"", "\"neck_deep_m\""), "design: \"torso.neck_deep_m\" is no field of a design");
+    EXPECT_EQ(refusal("shirt_men", "\"neck_depth_m\"", "\"neck_deep_m\""),
+              "design: \"torso.neck_deep_m\" is no field of a design");
     EXPECT_EQ(refusal("shirt_men", "[\"waist\", \"hip\", 0.97]", "[\"hip\", \"waist\", 0.97]"),
               "design: \"torso.hem\" must go from a level down to a lower one");
     EXPECT_EQ(refusal("shirt_men", "[\"waist\", \"hip\", 0.97]", "0.4"),
               "design: \"torso.hem\" is not of the form [\"hip\", \"knee\", 0.5]");
-    EXPECT_EQ(refusal("shirt_men", "\"sleeve\"", "\"sleeves\""), "design: \"sleeves\" is no field of a design");
-    EXPECT_EQ(refusal("shirt_men", "\"torso\"", "\"trunk\""), "design: it has neither \"torso\" nor \"trousers\"");
+    EXPECT_EQ(refusal("shirt_men", "\"sleeve\"", "\"sleeves\""),
+              "design: \"sleeves\" is no field of a design");
+    EXPECT_EQ(refusal("shirt_men", "\"torso\"", "\"trunk\""),
+              "design: it has neither \"torso\" nor \"trousers\"");
     EXPECT_EQ(refusal("shirt_men", "\"label\": \"S\"", "\"label\": \"XS\""), "design: size XS occurs twice");
     EXPECT_EQ(refusal("sundress_pattern", "\"front\": \"whole\"", "\"front\": \"open\""),
               "design: \"torso.front\" must not be open above \"skirt\" or \"trousers\"");
@@ -489,11 +517,15 @@ TEST(GarmentDesign, RefusesBadParametersByName) {
 
 TEST(GarmentDesign, TellsWhatCannotBeDrawnAndInWhichSize) {
     EXPECT_EQ(refusal("shirt_men", "\"width_ease_m\": 0.08", "\"width_ease_m\": 0.5"),
-              "design shirt_men, size XS: the armhole is too small for the sleeve's width: \"torso.armhole_drop_m\", "
+              "design shirt_men, size XS: the armhole is too small for the sleeve's width: "
+              "\"torso.armhole_drop_m\", "
               "\"sleeve.width_ease_m\"");
-    EXPECT_NE(refusal("sundress_pattern", "\"neck_width_m\": 0.04", "\"neck_width_m\": 0.15").find("shoulder seam"), std::string::npos);
+    EXPECT_NE(
+        refusal("sundress_pattern", "\"neck_width_m\": 0.04", "\"neck_width_m\": 0.15").find("shoulder seam"),
+        std::string::npos);
     EXPECT_EQ(refusal("sundress_pattern", "\"waist_ease_m\": 0.05", "\"waist_ease_m\": 0.5"),
-              "design sundress_pattern, size XS: the skirt's hips are no wider than its waist: \"skirt.hip_ease_m\"");
+              "design sundress_pattern, size XS: the skirt's hips are no wider than its waist: "
+              "\"skirt.hip_ease_m\"");
 }
 
 }  // namespace

@@ -35,7 +35,9 @@ float mean_length_ratio(const Garment& g) {
     for (size_t i = 0; i < g.corners.size(); i += 3)
         for (size_t k = 0; k < 3; ++k) {
             const size_t n = (k + 1) % 3;
-            sum += glm::length(g.mesh.positions[g.mesh.indices[i + k]] - g.mesh.positions[g.mesh.indices[i + n]]) / glm::length(g.flat[g.corners[i + k]] - g.flat[g.corners[i + n]]);
+            sum += glm::length(g.mesh.positions[g.mesh.indices[i + k]] -
+                               g.mesh.positions[g.mesh.indices[i + n]]) /
+                   glm::length(g.flat[g.corners[i + k]] - g.flat[g.corners[i + n]]);
         }
     return float(sum / double(g.corners.size()));
 }
@@ -51,7 +53,8 @@ TEST_F(Cooking, ATubeBecomesASkirtOnTheWaist) {
     EXPECT_LT(g.simulated_count(), g.vertex_count());
     // In world space, with its outside out: normals point away from the body's axis.
     size_t out = 0;
-    for (size_t i = 0; i < g.mesh.positions.size(); ++i) out += glm::dot(g.mesh.normals[i], Vec3(g.mesh.positions[i].x, 0, g.mesh.positions[i].z)) > 0.0f;
+    for (size_t i = 0; i < g.mesh.positions.size(); ++i)
+        out += glm::dot(g.mesh.normals[i], Vec3(g.mesh.positions[i].x, 0, g.mesh.positions[i].z)) > 0.0f;
     EXPECT_GT(out, g.mesh.positions.size() * 9 / 10);
 }
 
@@ -64,12 +67,14 @@ TEST_F(Cooking, TurnsTheOutsideOut) {
     pattern.stitches = {{{0, 2}, {1, 0}}, {{0, 0}, {1, 2}}};
     const Garment g = cook(pattern).garment;
     size_t out = 0;
-    for (size_t i = 0; i < g.mesh.positions.size(); ++i) out += glm::dot(g.mesh.normals[i], Vec3(g.mesh.positions[i].x, 0, g.mesh.positions[i].z)) > 0.0f;
+    for (size_t i = 0; i < g.mesh.positions.size(); ++i)
+        out += glm::dot(g.mesh.normals[i], Vec3(g.mesh.positions[i].x, 0, g.mesh.positions[i].z)) > 0.0f;
     EXPECT_GT(out, g.mesh.positions.size() * 9 / 10);
 }
 
 TEST_F(Cooking, IsTheSameEachTimeAndReadsBackAsWritten) {
-    const Garment a = cook(tube(0.25f, 0.3f, 1.1f), "M").garment, b = cook(tube(0.25f, 0.3f, 1.1f), "M").garment;
+    const Garment a = cook(tube(0.25f, 0.3f, 1.1f), "M").garment,
+                  b = cook(tube(0.25f, 0.3f, 1.1f), "M").garment;
     EXPECT_EQ(write_garment(a), write_garment(b));
     const Garment read = parse_garment(bytes_of_text(write_garment(a)), fabrics);
     EXPECT_EQ(read.copies, a.copies);
@@ -83,7 +88,8 @@ TEST_F(Cooking, IsTheSameEachTimeAndReadsBackAsWritten) {
 }
 
 TEST_F(Cooking, SizesShareTheMeshAndHaveTheirOwnLengths) {
-    const std::vector<PatternSize> sizes{{"S", {{"waist_girth_m", 0.7f}}, tube(0.25f, 0.3f, 1.1f)}, {"L", {{"waist_girth_m", 0.9f}}, tube(0.3f, 0.36f, 1.1f)}};
+    const std::vector<PatternSize> sizes{{"S", {{"waist_girth_m", 0.7f}}, tube(0.25f, 0.3f, 1.1f)},
+                                         {"L", {{"waist_girth_m", 0.9f}}, tube(0.3f, 0.36f, 1.1f)}};
     const Garment g = cook_pattern(*model, sizes, 0, fabrics, {}, *jobs).garment;
     ASSERT_EQ(g.sizes.size(), 2u);
     const auto width = [&](const std::vector<Vec2>& flat) {
@@ -145,7 +151,8 @@ TEST_F(Cooking, DrapesEveryDesignOfOurs) {
 TEST_F(Cooking, DrapesRealSpecifications) {
     const std::string shared = shared_folder();
     if (shared.empty()) GTEST_SKIP() << "no shared/data/patterns";
-    for (const auto& [name, sex, hangs_on] : {std::tuple("sundress_f", VFIT_SEX_FEMALE, HangsOn::shoulders), std::tuple("jeans_m", VFIT_SEX_MALE, HangsOn::waist)}) {
+    for (const auto& [name, sex, hangs_on] : {std::tuple("sundress_f", VFIT_SEX_FEMALE, HangsOn::shoulders),
+                                              std::tuple("jeans_m", VFIT_SEX_MALE, HangsOn::waist)}) {
         CookRequest request;
         request.path = shared + "/data/patterns/" + name + "/" + name + "_specification.json";
         request.sex = sex;

@@ -29,7 +29,8 @@ protected:
         jobs = Jobs::own(1);
     }
     void SetUp() override {
-        folder = std::filesystem::temp_directory_path() / ("vfit_mesh_" + std::to_string(std::random_device()()));
+        folder =
+            std::filesystem::temp_directory_path() / ("vfit_mesh_" + std::to_string(std::random_device()()));
         std::filesystem::create_directories(folder / "own");
     }
     void TearDown() override { std::filesystem::remove_all(folder); }
@@ -46,7 +47,10 @@ protected:
         request.size_label = "M";
         return request;
     }
-    CookedGarment cook(const std::string& name, const std::string& bytes, vfit_sex sex = VFIT_SEX_FEMALE) const { return cook_file(*model, fabrics, request_of(write(name, bytes), sex), *jobs); }
+    CookedGarment cook(const std::string& name, const std::string& bytes,
+                       vfit_sex sex = VFIT_SEX_FEMALE) const {
+        return cook_file(*model, fabrics, request_of(write(name, bytes), sex), *jobs);
+    }
 
     std::filesystem::path folder;
     static inline std::shared_ptr<const BodyModel> model;
@@ -55,21 +59,26 @@ protected:
 };
 
 bool has_note(const std::vector<std::string>& notes, const std::string& words) {
-    return std::any_of(notes.begin(), notes.end(), [&](const std::string& note) { return note.find(words) != std::string::npos; });
+    return std::any_of(notes.begin(), notes.end(),
+                       [&](const std::string& note) { return note.find(words) != std::string::npos; });
 }
 
 /// Of all sides, by length.
 std::vector<float> side_lengths(const std::vector<Vec3>& positions, const std::vector<uint32_t>& indices) {
     std::vector<float> out;
-    for (size_t i = 0; i < indices.size(); ++i) out.push_back(glm::length(positions[indices[i]] - positions[indices[i - i % 3 + (i + 1) % 3]]));
+    for (size_t i = 0; i < indices.size(); ++i)
+        out.push_back(glm::length(positions[indices[i]] - positions[indices[i - i % 3 + (i + 1) % 3]]));
     std::sort(out.begin(), out.end());
     return out;
 }
 
 TEST_F(MeshGarment, ATubeBecomesASkirtOnTheWaist) {
     const TubeMesh tube;
-    write("skirt.mtl", "newmtl red wool\nKd 0.5 0.1 0.05\nmap_Kd -s 2 2 -bm 0.5 wool pictures/red wool.png\nnewmtl unused\nmap_Kd gone.png\n");
-    const CookedGarment cooked = cook("skirt.obj", "# made by hand\r\nmtllib skirt.mtl\no skirt\nusemtl red wool\n" + obj_of(tube));
+    write("skirt.mtl",
+          "newmtl red wool\nKd 0.5 0.1 0.05\nmap_Kd -s 2 2 -bm 0.5 wool pictures/red wool.png\nnewmtl "
+          "unused\nmap_Kd gone.png\n");
+    const CookedGarment cooked =
+        cook("skirt.obj", "# made by hand\r\nmtllib skirt.mtl\no skirt\nusemtl red wool\n" + obj_of(tube));
     const Garment& g = cooked.garment;
     EXPECT_EQ(g.name, "skirt");
     EXPECT_EQ(cooked.report.hangs_on, HangsOn::waist);
@@ -84,18 +93,24 @@ TEST_F(MeshGarment, ATubeBecomesASkirtOnTheWaist) {
     EXPECT_EQ(g.parts[0].material, "red wool");
     EXPECT_EQ(g.parts[0].texture, "wool pictures/red wool.png");
     EXPECT_LT(glm::length(g.parts[0].color - Vec3(0.5f, 0.1f, 0.05f)), 1e-6f);
-    EXPECT_TRUE(has_note(cooked.notes, "\"wool pictures/red wool.png\" of material \"red wool\" is not there"));
+    EXPECT_TRUE(
+        has_note(cooked.notes, "\"wool pictures/red wool.png\" of material \"red wool\" is not there"));
     EXPECT_FALSE(has_note(cooked.notes, "gone.png"));  // of a material that nothing is made of
     // The uvs of both ends of the picture are there.
-    for (const Vec2& uv : tube.uvs()) EXPECT_TRUE(std::any_of(g.mesh.uvs.begin(), g.mesh.uvs.end(), [&](const Vec2& own) { return glm::length(own - uv) < 1e-5f; }));
+    for (const Vec2& uv : tube.uvs())
+        EXPECT_TRUE(std::any_of(g.mesh.uvs.begin(), g.mesh.uvs.end(),
+                                [&](const Vec2& own) { return glm::length(own - uv) < 1e-5f; }));
     // Outside out, in its own lengths.
     size_t out = 0;
-    for (size_t i = 0; i < g.mesh.positions.size(); ++i) out += glm::dot(g.mesh.normals[i], Vec3(g.mesh.positions[i].x, 0, g.mesh.positions[i].z)) > 0.0f;
+    for (size_t i = 0; i < g.mesh.positions.size(); ++i)
+        out += glm::dot(g.mesh.normals[i], Vec3(g.mesh.positions[i].x, 0, g.mesh.positions[i].z)) > 0.0f;
     EXPECT_GT(out, g.mesh.positions.size() * 9 / 10);
     const Garment read = parse_garment(bytes_of_text(write_garment(g)), fabrics);
-    const std::vector<float> shape = side_lengths(read.cut_shape, read.mesh.indices), rest = side_lengths(read.mesh.positions, read.mesh.indices);
+    const std::vector<float> shape = side_lengths(read.cut_shape, read.mesh.indices),
+                             rest = side_lengths(read.mesh.positions, read.mesh.indices);
     double ratio = 0.0;
-    for (size_t i = 0; i < shape.size(); ++i) ratio += double(rest[i]) / double(shape[i]) / double(shape.size());
+    for (size_t i = 0; i < shape.size(); ++i)
+        ratio += double(rest[i]) / double(shape[i]) / double(shape.size());
     EXPECT_NEAR(ratio, 1.0, 0.03);
     ASSERT_EQ(read.sizes.size(), 1u);
     EXPECT_EQ(read.sizes[0].label, "M");
@@ -104,7 +119,9 @@ TEST_F(MeshGarment, ATubeBecomesASkirtOnTheWaist) {
 }
 
 TEST_F(MeshGarment, AShirtOfOursReadsBackInBothFormats) {
-    const Garment shirt = cook_file(*model, fabrics, request_of(VFIT_SOURCE_DIR "/assets/garments/shirt_men.json"), *jobs).garment;
+    const Garment shirt =
+        cook_file(*model, fabrics, request_of(VFIT_SOURCE_DIR "/assets/garments/shirt_men.json"), *jobs)
+            .garment;
     std::vector<Vec3> drawn = shirt.mesh.positions;
     for (const uint32_t v : shirt.copies) drawn.push_back(shirt.mesh.positions[v]);
     const std::vector<float> lengths = side_lengths(shirt.mesh.positions, shirt.mesh.indices);
@@ -124,7 +141,9 @@ TEST_F(MeshGarment, AShirtOfOursReadsBackInBothFormats) {
         ASSERT_EQ(own.size(), lengths.size());
         for (size_t i = 0; i < own.size(); ++i) ASSERT_NEAR(own[i], lengths[i], 1e-4f) << name;
         // Its sleeves are those of the pattern, but for the seam around the armhole.
-        const auto count = [](const Garment& of) { return std::count(of.on_arm.begin(), of.on_arm.end(), 1); };
+        const auto count = [](const Garment& of) {
+            return std::count(of.on_arm.begin(), of.on_arm.end(), 1);
+        };
         EXPECT_NEAR(double(count(g)), double(count(shirt)), 0.2 * double(count(shirt))) << name;
         EXPECT_TRUE(cooked.notes.empty()) << cooked.notes[0];
         if (std::string(name) == "shirt.glb") {
@@ -142,10 +161,14 @@ TEST_F(MeshGarment, ComesToItsPlaceFromAnotherBodys) {
     EXPECT_NEAR(raised.report.raised_m - as_it_is.report.raised_m, 0.25f, 0.1f);
     EXPECT_EQ(raised.report.skin_crossings, 0u);
     // The men's waistcoat that was a women's: what lay within comes out.
-    const Garment vest = cook_file(*model, fabrics, request_of(VFIT_SOURCE_DIR "/assets/garments/vest.json"), *jobs).garment;
+    const Garment vest =
+        cook_file(*model, fabrics, request_of(VFIT_SOURCE_DIR "/assets/garments/vest.json"), *jobs).garment;
     std::vector<Vec3> forward = vest.mesh.positions;
     for (Vec3& p : forward) p.z += 0.1f;
-    const CookedGarment mens = cook("vest.obj", obj_vertices(forward, std::vector<Vec2>(forward.size())) + obj_faces(vest.mesh.indices, 3), VFIT_SEX_MALE);
+    const CookedGarment mens =
+        cook("vest.obj",
+             obj_vertices(forward, std::vector<Vec2>(forward.size())) + obj_faces(vest.mesh.indices, 3),
+             VFIT_SEX_MALE);
     EXPECT_EQ(mens.report.hangs_on, HangsOn::shoulders);
     EXPECT_GT(mens.report.raised_m, 0.05f);
     EXPECT_EQ(mens.report.skin_crossings, 0u);
@@ -166,7 +189,8 @@ TEST_F(MeshGarment, SmallTrianglesSettleAsWell) {
     coarse.columns = 12, coarse.rows = 5;
     EXPECT_TRUE(has_note(cook("coarse.obj", obj_of(coarse)).notes, "fold coarsely"));
     // Names in whatever bytes: a garment file is UTF-8 all the same.
-    EXPECT_NO_THROW(parse_garment(bytes_of_text(write_garment(cook("caf.obj", "usemtl caf\xe9\n" + obj_of(coarse)).garment)), fabrics));
+    EXPECT_NO_THROW(parse_garment(
+        bytes_of_text(write_garment(cook("caf.obj", "usemtl caf\xe9\n" + obj_of(coarse)).garment)), fabrics));
 }
 
 TEST_F(MeshGarment, CountsInTheUnitThatIsSaid) {
@@ -179,7 +203,9 @@ TEST_F(MeshGarment, CountsInTheUnitThatIsSaid) {
     EXPECT_NEAR(a.back(), side_lengths(TubeMesh().positions(), TubeMesh().triangles()).back(), 1e-4f);
 }
 
-Surface surface_of(const std::string& obj, float unit_m = 1.0f) { return make_surface(read_obj(obj, Beside()), unit_m); }
+Surface surface_of(const std::string& obj, float unit_m = 1.0f) {
+    return make_surface(read_obj(obj, Beside()), unit_m);
+}
 
 std::string refusal_of(const std::string& obj, float unit_m = 1.0f) {
     try {
@@ -220,7 +246,10 @@ TEST(ObjFile, NamesTheLineOfWhatCannotBeRead) {
     for (int i = 0; i < 300; ++i) wide += " 1";
     expect_refused(wide, {"line 5", "256"});
     // As programs write them all the same.
-    const Model model = read_obj("v +1. 2e0 3 1 0.5 0.5 0.5\r\nv 0 1 \\\n 0 # remark\rv 0 0 0\nvn 0 0 1\nf -3//1 2//-1 3//1\nl 1 2\ns off\n", Beside());
+    const Model model = read_obj(
+        "v +1. 2e0 3 1 0.5 0.5 0.5\r\nv 0 1 \\\n 0 # remark\rv 0 0 0\nvn 0 0 1\nf -3//1 2//-1 3//1\nl 1 2\ns "
+        "off\n",
+        Beside());
     EXPECT_EQ(model.positions.size(), 3u);
     EXPECT_EQ(model.positions[0], Vec3(1, 2, 3));
     EXPECT_EQ(model.positions[1], Vec3(0, 1, 0));
@@ -253,7 +282,8 @@ TEST(MeshSurface, RefusesWhatIsNoClothByName) {
     const auto next = [&](int i) { return std::to_string(tube.positions().size() + size_t(i)); };
     EXPECT_EQ(refusal_of(good), "");
     // A third triangle at a side.
-    expect_refused(good + "v 0.5 1 0\nf 1 2 " + next(1) + "\nf 40 2 " + next(1) + "\n", {"is of 3 triangles", "the face in line"});
+    expect_refused(good + "v 0.5 1 0\nf 1 2 " + next(1) + "\nf 40 2 " + next(1) + "\n",
+                   {"is of 3 triangles", "the face in line"});
     // A sliver, joined to the border.
     std::vector<Vec3> p = tube.positions();
     const Vec3 middle = 0.5f * (p[0] + p[1]);
@@ -262,8 +292,12 @@ TEST(MeshSurface, RefusesWhatIsNoClothByName) {
     on_line << "v " << middle.x << ' ' << middle.y << ' ' << middle.z << '\n';
     expect_refused(good + on_line.str() + "f 2 1 " + next(1) + "\n", {"degenerate", "the face in line"});
     // A polygon that crosses itself, and one that is not flat.
-    expect_refused(good + "v 0.3 1 0\nv 0.4 1.1 0\nv 0.4 1 0\nv 0.3 1.1 0\nv 0.5 1.05 0\nf " + next(1) + " " + next(2) + " " + next(5) + " " + next(3) + " " + next(4) + "\n", {"the face in line", "crosses itself"});
-    expect_refused(good + "v 0.3 1 0\nv 0.4 1 0.1\nv 0.4 1.1 -0.1\nv 0.3 1.1 0.1\nv 0.2 1.05 -0.1\nf " + next(1) + " " + next(2) + " " + next(3) + " " + next(4) + " " + next(5) + "\n", {"the face in line", "not in a plane"});
+    expect_refused(good + "v 0.3 1 0\nv 0.4 1.1 0\nv 0.4 1 0\nv 0.3 1.1 0\nv 0.5 1.05 0\nf " + next(1) + " " +
+                       next(2) + " " + next(5) + " " + next(3) + " " + next(4) + "\n",
+                   {"the face in line", "crosses itself"});
+    expect_refused(good + "v 0.3 1 0\nv 0.4 1 0.1\nv 0.4 1.1 -0.1\nv 0.3 1.1 0.1\nv 0.2 1.05 -0.1\nf " +
+                       next(1) + " " + next(2) + " " + next(3) + " " + next(4) + " " + next(5) + "\n",
+                   {"the face in line", "not in a plane"});
     // Few and many.
     TubeMesh coarse;
     coarse.columns = 6, coarse.rows = 2;
@@ -275,7 +309,10 @@ TEST(MeshSurface, RefusesWhatIsNoClothByName) {
     std::string band;
     for (int i = 0; i < 40; ++i) {
         const float a = 2.0f * kPi * float(i) / 40.0f;
-        for (const float side : {-0.1f, 0.1f}) band += vfit::text("v ", (0.3f + side * std::sin(0.5f * a)) * std::sin(a), " ", 1.0f + side * std::cos(0.5f * a), " ", (0.3f + side * std::sin(0.5f * a)) * std::cos(a), "\n");
+        for (const float side : {-0.1f, 0.1f})
+            band += vfit::text("v ", (0.3f + side * std::sin(0.5f * a)) * std::sin(a), " ",
+                               1.0f + side * std::cos(0.5f * a), " ",
+                               (0.3f + side * std::sin(0.5f * a)) * std::cos(a), "\n");
     }
     for (int i = 0; i < 40; ++i) {
         const int a = 2 * i + 1, b = i < 39 ? a + 2 : 2, c = i < 39 ? a + 3 : 1;
@@ -305,29 +342,35 @@ TEST(MeshSurface, KnowsClothThatIsModelledWithThickness) {
     const int c = tube.columns, last = tube.rows * (c + 1);
     for (int i = 0; i < c; ++i) {
         rims += vfit::text("f ", i + 1, " ", i + 2, " ", int(n) + i + 2, " ", int(n) + i + 1, "\n");
-        rims += vfit::text("f ", last + i + 2, " ", last + i + 1, " ", int(n) + last + i + 1, " ", int(n) + last + i + 2, "\n");
+        rims += vfit::text("f ", last + i + 2, " ", last + i + 1, " ", int(n) + last + i + 1, " ",
+                           int(n) + last + i + 2, "\n");
     }
     expect_refused(two + rims, {"thickness", "mm apart", "outer shell"});
     // A sack, closed all around.
     std::string lids = "v 0 1.05 0\nv 0 0.6 0\n";
-    for (int i = 0; i < c; ++i) lids += vfit::text("f ", i + 1, " ", i + 2, " ", n + 1, "\nf ", last + i + 2, " ", last + i + 1, " ", n + 2, "\n");
+    for (int i = 0; i < c; ++i)
+        lids += vfit::text("f ", i + 1, " ", i + 2, " ", n + 1, "\nf ", last + i + 2, " ", last + i + 1, " ",
+                           n + 2, "\n");
     expect_refused(obj_of(tube) + lids, {"no opening", "closed all around"});
     // And one with a hole that is too small for a head.
     std::vector<uint32_t> squares = tube.squares();
     squares.resize(squares.size() - 4);
-    expect_refused(obj_vertices(tube.positions(), tube.uvs()) + obj_faces(squares, 4) + lids, {"no opening for a body", "cm around"});
+    expect_refused(obj_vertices(tube.positions(), tube.uvs()) + obj_faces(squares, 4) + lids,
+                   {"no opening for a body", "cm around"});
 }
 
 TEST(MeshSurface, MendsWhatCanBe) {
     const TubeMesh tube;
     const std::string vertices = obj_vertices(tube.positions(), tube.uvs());
-    // Every fifth square the wrong way round, one twice, a button, a hole of the size of a buttonhole, and a square of no size.
+    // Every fifth square the wrong way round, one twice, a button, a hole of the size of a buttonhole, and a
+    // square of no size.
     std::vector<uint32_t> squares = tube.squares();
     for (size_t i = 0; i < squares.size(); i += 20) std::swap(squares[i + 1], squares[i + 3]);
     squares.insert(squares.end(), squares.begin() + 4, squares.begin() + 8);
     std::string text = vertices + obj_faces(squares, 4) + "f 50 50 51\n";
     const size_t n = tube.positions().size();
-    text += vfit::text("usemtl buttons\nv 0 0.9 0.3\nv 0.01 0.9 0.3\nv 0 0.91 0.3\nf ", n + 1, " ", n + 2, " ", n + 3, "\n");
+    text += vfit::text("usemtl buttons\nv 0 0.9 0.3\nv 0.01 0.9 0.3\nv 0 0.91 0.3\nf ", n + 1, " ", n + 2,
+                       " ", n + 3, "\n");
     const Surface surface = surface_of(text);
     EXPECT_EQ(surface.positions.size(), 36u * 21);
     EXPECT_EQ(surface.indices.size(), tube.triangles().size());
@@ -336,7 +379,8 @@ TEST(MeshSurface, MendsWhatCanBe) {
     EXPECT_TRUE(has_note(surface.notes, "1 pieces (1 triangles of material \"buttons\") are left out"));
     EXPECT_TRUE(has_note(surface.notes, "1 faces are left out whose corners lie at one place or two"));
     std::set<std::pair<uint32_t, uint32_t>> sides;
-    for (size_t i = 0; i < surface.indices.size(); ++i) EXPECT_TRUE(sides.insert({surface.indices[i], surface.indices[i - i % 3 + (i + 1) % 3]}).second);
+    for (size_t i = 0; i < surface.indices.size(); ++i)
+        EXPECT_TRUE(sides.insert({surface.indices[i], surface.indices[i - i % 3 + (i + 1) % 3]}).second);
 
     TubeMesh fine;
     fine.columns = 90, fine.rows = 60;  // squares of 8 mm
@@ -363,7 +407,9 @@ TEST(MeshSurface, PiecesThatAreNotJoinedAreNamed) {
     bottom.top_m = 0.798f;
     std::vector<uint32_t> below = bottom.squares();
     for (uint32_t& v : below) v += uint32_t(top.positions().size());
-    expect_refused(obj_of(top) + obj_vertices(bottom.positions(), bottom.uvs()) + "usemtl hem\n" + obj_faces(below, 4), {"in pieces", "\"hem\"", "2 mm away"});
+    expect_refused(
+        obj_of(top) + obj_vertices(bottom.positions(), bottom.uvs()) + "usemtl hem\n" + obj_faces(below, 4),
+        {"in pieces", "\"hem\"", "2 mm away"});
 }
 
 TEST(MeshSurface, CutsPolygonsThatAreNotConvex) {
@@ -373,11 +419,14 @@ TEST(MeshSurface, CutsPolygonsThatAreNotConvex) {
     std::string faces;
     const auto at = [&](int r, int c) { return r * 37 + c + 1; };
     for (int c = 0; c < 36; c += 2) {
-        faces += vfit::text("f ", at(0, c), " ", at(1, c), " ", at(2, c), " ", at(2, c + 1), " ", at(2, c + 2), " ", at(1, c + 2), " ", at(1, c + 1), " ", at(0, c + 1), "\n");
-        faces += vfit::text("f ", at(0, c + 1), " ", at(1, c + 1), " ", at(1, c + 2), " ", at(0, c + 2), "\n");
+        faces += vfit::text("f ", at(0, c), " ", at(1, c), " ", at(2, c), " ", at(2, c + 1), " ",
+                            at(2, c + 2), " ", at(1, c + 2), " ", at(1, c + 1), " ", at(0, c + 1), "\n");
+        faces +=
+            vfit::text("f ", at(0, c + 1), " ", at(1, c + 1), " ", at(1, c + 2), " ", at(0, c + 2), "\n");
     }
     const std::vector<uint32_t> rest(q.begin() + 4 * 72, q.end());
-    const Surface surface = surface_of(obj_vertices(tube.positions(), tube.uvs()) + faces + obj_faces(rest, 4));
+    const Surface surface =
+        surface_of(obj_vertices(tube.positions(), tube.uvs()) + faces + obj_faces(rest, 4));
     EXPECT_EQ(surface.indices.size(), tube.triangles().size());
     EXPECT_EQ(surface.openings.size(), 2u);
 }
@@ -387,10 +436,14 @@ TEST_F(MeshGarment, FilesAreTakenFromItsOwnFolderAlone) {
     std::ofstream(folder / "outside.png") << "x";
     write("inside.mtl", "newmtl cloth\nKd 0 1 0\nmap_Kd ..\\outside.png\n");
     const TubeMesh tube;
-    const auto read = [&](const std::string& library) { return read_obj("mtllib " + library + "\nusemtl cloth\n" + obj_of(tube), Beside((folder / "own").string())); };
+    const auto read = [&](const std::string& library) {
+        return read_obj("mtllib " + library + "\nusemtl cloth\n" + obj_of(tube),
+                        Beside((folder / "own").string()));
+    };
     EXPECT_EQ(read("inside.mtl").materials[0].color, Vec3(0, 1, 0));
     EXPECT_TRUE(has_note(read("inside.mtl").notes, "outside of the garment's folder"));
-    for (const std::string& library : {std::string("../outside.mtl"), (folder / "outside.mtl").string(), std::string("x/../../outside.mtl")}) {
+    for (const std::string& library : {std::string("../outside.mtl"), (folder / "outside.mtl").string(),
+                                       std::string("x/../../outside.mtl")}) {
         const Model model = read(library);
         EXPECT_EQ(model.materials[0].color, Vec3(0.8f)) << library;
         EXPECT_TRUE(has_note(model.notes, "outside of the garment's folder: it is not read")) << library;
@@ -406,19 +459,22 @@ TinyGlb tube_glb() { return {TubeMesh().positions(), TubeMesh().uvs(), TubeMesh(
 
 Model read_glb(const TinyGlb& glb) {
     const std::string bytes = glb.bytes();
-    return read_gltf(GltfDocument(std::as_bytes(std::span(bytes.data(), bytes.size()))), "shirt.glb", Beside());
+    return read_gltf(GltfDocument(std::as_bytes(std::span(bytes.data(), bytes.size()))), "shirt.glb",
+                     Beside());
 }
 
 TEST(GltfGarment, IsReadWithItsNodesSkinsAndTextures) {
     TinyGlb glb = tube_glb();
-    glb.json["nodes"] = {{{"translation", {0, 0.5, 0}}, {"scale", {0.5, 0.5, 0.5}}, {"children", {1}}}, {{"mesh", 0}, {"scale", {-1, 1, 1}}}};
+    glb.json["nodes"] = {{{"translation", {0, 0.5, 0}}, {"scale", {0.5, 0.5, 0.5}}, {"children", {1}}},
+                         {{"mesh", 0}, {"scale", {-1, 1, 1}}}};
     glb.json["images"] = {{{"bufferView", 0}, {"mimeType", "image/png"}}, {{"uri", "a%20b.png"}}};
     glb.json["textures"] = {{{"source", 0}}, {{"source", 1}}};
     glb.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
     const Model model = read_glb(glb);
     EXPECT_EQ(model.materials[0].texture, "shirt.glb#/images/0");
     const Vec3 first = TubeMesh().positions()[1];
-    EXPECT_LT(glm::length(model.positions[1] - Vec3(-0.5f * first.x, 0.5f + 0.5f * first.y, 0.5f * first.z)), 1e-6f);
+    EXPECT_LT(glm::length(model.positions[1] - Vec3(-0.5f * first.x, 0.5f + 0.5f * first.y, 0.5f * first.z)),
+              1e-6f);
     // Mirrored, the triangles are turned over with it.
     EXPECT_EQ(model.corners[1].position, TubeMesh().triangles()[2]);
     glb.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 1;
@@ -430,8 +486,10 @@ TEST(GltfGarment, IsReadWithItsNodesSkinsAndTextures) {
     const std::vector<uint16_t> joints(4 * n, 0);
     std::vector<float> weights(4 * n, 0.0f);
     for (size_t i = 0; i < n; ++i) weights[4 * i] = 1.0f;
-    skinned.json["meshes"][0]["primitives"][0]["attributes"]["JOINTS_0"] = skinned.add(joints.data(), joints.size() * 2, "VEC4", 5123, n);
-    skinned.json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"] = skinned.add(weights.data(), weights.size() * 4, "VEC4", 5126, n);
+    skinned.json["meshes"][0]["primitives"][0]["attributes"]["JOINTS_0"] =
+        skinned.add(joints.data(), joints.size() * 2, "VEC4", 5123, n);
+    skinned.json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"] =
+        skinned.add(weights.data(), weights.size() * 4, "VEC4", 5126, n);
     skinned.json["nodes"] = {{{"mesh", 0}, {"skin", 0}}, {{"translation", {0, 0.5, 0}}}};
     skinned.json["skins"] = {{{"joints", {1}}}};
     EXPECT_LT(glm::length(read_glb(skinned).positions[1] - (first + Vec3(0, 0.5f, 0))), 1e-6f);
@@ -449,9 +507,25 @@ TEST(GltfGarment, IsRefusedWithTheReason) {
             EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
         }
     };
-    refused([](auto& j) { j["extensionsRequired"] = {"KHR_draco_mesh_compression"}; j["extensionsUsed"] = {"KHR_draco_mesh_compression"}; }, "KHR_draco_mesh_compression", VFIT_ERROR_UNSUPPORTED);
-    refused([](auto& j) { j["extensionsRequired"] = {"EXT_meshopt_compression"}; j["extensionsUsed"] = {"EXT_meshopt_compression"}; }, "EXT_meshopt_compression", VFIT_ERROR_UNSUPPORTED);
-    refused([](auto& j) { j["accessors"][0]["sparse"] = {{"count", 1}, {"indices", {{"bufferView", 0}, {"componentType", 5123}}}, {"values", {{"bufferView", 0}}}}; }, "sparse", VFIT_ERROR_UNSUPPORTED);
+    refused(
+        [](auto& j) {
+            j["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+            j["extensionsUsed"] = {"KHR_draco_mesh_compression"};
+        },
+        "KHR_draco_mesh_compression", VFIT_ERROR_UNSUPPORTED);
+    refused(
+        [](auto& j) {
+            j["extensionsRequired"] = {"EXT_meshopt_compression"};
+            j["extensionsUsed"] = {"EXT_meshopt_compression"};
+        },
+        "EXT_meshopt_compression", VFIT_ERROR_UNSUPPORTED);
+    refused(
+        [](auto& j) {
+            j["accessors"][0]["sparse"] = {{"count", 1},
+                                           {"indices", {{"bufferView", 0}, {"componentType", 5123}}},
+                                           {"values", {{"bufferView", 0}}}};
+        },
+        "sparse", VFIT_ERROR_UNSUPPORTED);
     refused([](auto& j) { j["meshes"][0]["primitives"][0]["mode"] = 5; }, "strips", VFIT_ERROR_UNSUPPORTED);
     refused([](auto& j) { j["meshes"][0]["primitives"][0]["mode"] = 1; }, "no triangles");
     refused([](auto& j) { j["accessors"][0]["count"] = j["accessors"][1]["count"] = 100; }, "names vertex");
@@ -462,10 +536,15 @@ TEST(GltfGarment, IsRefusedWithTheReason) {
     refused([](auto& j) { j["nodes"][0]["skin"] = 3; }, "skin that is not there");
     refused([](auto& j) { j["nodes"][0]["scale"] = {100, 100, 100}; }, "glTF counts in metres");
     refused([](auto& j) { j["nodes"][0]["scale"] = {0, 0, 0}; }, "0 m large");
-    refused([](auto& j) { j["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 7}}; }, "texture that is not there");
+    refused([](auto& j) { j["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 7}}; },
+            "texture that is not there");
     refused([](auto& j) { j["asset"]["version"] = "1.0"; }, "version", VFIT_ERROR_UNSUPPORTED);
     // A small file that asks for many copies.
-    refused([](auto& j) { for (int i = 0; i < 20000; ++i) j["nodes"].push_back({{"mesh", 0}}); }, "more than");
+    refused(
+        [](auto& j) {
+            for (int i = 0; i < 20000; ++i) j["nodes"].push_back({{"mesh", 0}});
+        },
+        "more than");
     TinyGlb nan = tube_glb();
     const float none = NAN;
     std::memcpy(nan.binary.data() + 12 * 5, &none, 4);
@@ -473,7 +552,9 @@ TEST(GltfGarment, IsRefusedWithTheReason) {
         read_glb(nan);
         ADD_FAILURE();
     } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("mesh \"shirt\", part 0: POSITION 5 is not finite"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("mesh \"shirt\", part 0: POSITION 5 is not finite"),
+                  std::string::npos)
+            << error.what();
     }
 }
 
@@ -496,15 +577,19 @@ int damaged(const std::string& good, uint32_t seed, int runs, const Read& read) 
     int accepted = 0;
     for (int run = 0; run < runs; ++run) {
         std::string bad = good;
-        if (run % 4 == 0) bad.resize(bits() % bad.size());
-        else if (run % 4 == 1) bad.erase(bits() % bad.size(), bits() % 40);
+        if (run % 4 == 0)
+            bad.resize(bits() % bad.size());
+        else if (run % 4 == 1)
+            bad.erase(bits() % bad.size(), bits() % 40);
         else
-            for (uint32_t k = 0; k < 1 + bits() % 4; ++k) bad[bits() % bad.size()] = run % 4 == 2 ? char('0' + bits() % 10) : char(bits());
+            for (uint32_t k = 0; k < 1 + bits() % 4; ++k)
+                bad[bits() % bad.size()] = run % 4 == 2 ? char('0' + bits() % 10) : char(bits());
         try {
             read(bad);
             ++accepted;
         } catch (const Error& error) {
-            EXPECT_TRUE(error.code() == VFIT_ERROR_DATA || error.code() == VFIT_ERROR_UNSUPPORTED) << error.what();
+            EXPECT_TRUE(error.code() == VFIT_ERROR_DATA || error.code() == VFIT_ERROR_UNSUPPORTED)
+                << error.what();
         }
     }
     return accepted;
@@ -515,7 +600,14 @@ TEST(MeshFiles, DamageIsAnErrorAndNothingElse) {
     small.columns = 12, small.rows = 5;
     EXPECT_GT(damaged(obj_of(small), 5, 800, [](const std::string& bad) { surface_of(bad); }), 50);
     const std::string glb = TinyGlb(small.positions(), small.uvs(), small.triangles()).bytes();
-    EXPECT_GT(damaged(glb, 6, 800, [](const std::string& bad) { make_surface(read_gltf(GltfDocument(std::as_bytes(std::span(bad.data(), bad.size()))), "x.glb", Beside()), 1.0f); }), 20);
+    EXPECT_GT(damaged(glb, 6, 800,
+                      [](const std::string& bad) {
+                          make_surface(
+                              read_gltf(GltfDocument(std::as_bytes(std::span(bad.data(), bad.size()))),
+                                        "x.glb", Beside()),
+                              1.0f);
+                      }),
+              20);
 }
 
 TEST_F(MeshGarment, WhatIsAcceptedAfterDamageIsAGarmentOrAnError) {

@@ -35,8 +35,10 @@ inline Pattern tube(float half_width_m, float height_m, float top_m) {
     Pattern pattern;
     pattern.name = "tube";
     const float w = half_width_m, h = height_m;
-    pattern.panels.push_back(straight_panel("front", {{-w, 0}, {w, 0}, {w, h}, {-w, h}}, {0, top_m - h, 0.3f}));
-    pattern.panels.push_back(straight_panel("back", {{w, 0}, {-w, 0}, {-w, h}, {w, h}}, {0, top_m - h, -0.3f}));
+    pattern.panels.push_back(
+        straight_panel("front", {{-w, 0}, {w, 0}, {w, h}, {-w, h}}, {0, top_m - h, 0.3f}));
+    pattern.panels.push_back(
+        straight_panel("back", {{w, 0}, {-w, 0}, {-w, h}, {w, h}}, {0, top_m - h, -0.3f}));
     pattern.stitches = {{{0, 1}, {1, 3}}, {{0, 3}, {1, 1}}};
     return pattern;
 }

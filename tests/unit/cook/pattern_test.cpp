@@ -30,7 +30,10 @@ OrderedJson specification() {
     const auto panel = [](float z) {
         OrderedJson edges = OrderedJson::array();
         for (int i = 0; i < 4; ++i) edges.push_back({{"endpoints", {i, (i + 1) % 4}}});
-        return OrderedJson{{"translation", {0, 100, z}}, {"rotation", {0, 0, 0}}, {"vertices", {{0, 0}, {40, 0}, {40, 40}, {0, 40}}}, {"edges", edges}};
+        return OrderedJson{{"translation", {0, 100, z}},
+                           {"rotation", {0, 0, 0}},
+                           {"vertices", {{0, 0}, {40, 0}, {40, 40}, {0, 40}}},
+                           {"edges", edges}};
     };
     OrderedJson root;
     root["pattern"]["panels"] = {{"a", panel(30)}, {"b", panel(-30)}};
@@ -52,7 +55,8 @@ void expect_names(const std::string& fault, const std::string& what) {
 TEST(Pattern, SamplesCurvesAtEvenLengths) {
     Panel panel = straight_panel("p", {{0, 0}, {0.4f, 0}, {0.2f, 0.3f}});
     PatternEdge& edge = panel.edges[0];
-    for (const auto curve : {PatternEdge::Curve::line, PatternEdge::Curve::quadratic, PatternEdge::Curve::cubic, PatternEdge::Curve::arc}) {
+    for (const auto curve : {PatternEdge::Curve::line, PatternEdge::Curve::quadratic,
+                             PatternEdge::Curve::cubic, PatternEdge::Curve::arc}) {
         edge.curve = curve;
         edge.control[0] = {0.05f, -0.2f};
         edge.control[1] = {0.1f, -0.1f};
@@ -62,7 +66,8 @@ TEST(Pattern, SamplesCurvesAtEvenLengths) {
         EXPECT_EQ(places.front(), panel.corners[0]);
         EXPECT_EQ(places.back(), panel.corners[1]);
         for (size_t i = 1; i < places.size(); ++i)
-            EXPECT_NEAR(glm::length(places[i] - places[i - 1]), edge_length(panel, edge) / 10.0f, 0.002f) << int(curve);  // chords of a curve
+            EXPECT_NEAR(glm::length(places[i] - places[i - 1]), edge_length(panel, edge) / 10.0f, 0.002f)
+                << int(curve);  // chords of a curve
     }
 }
 
@@ -102,22 +107,44 @@ TEST(GarmentCode, TurnsPanelsAboutXThenYThenZ) {
 
 TEST(GarmentCode, NamesWhatIsWrong) {
     const auto panel = [](OrderedJson& root) -> OrderedJson& { return root["pattern"]["panels"]["a"]; };
-    expect_names(fault_with([&](OrderedJson& r) { panel(r)["edges"][2]["endpoints"] = {2, 9}; }), "panel a, edge 2");
-    expect_names(fault_with([&](OrderedJson& r) { panel(r)["edges"][1]["endpoints"] = {1, 3}; }), "no closed line");
-    expect_names(fault_with([&](OrderedJson& r) { panel(r)["edges"][1]["curvature"] = {{"type", "spline"}, {"params", {{0.5, 0.1}}}}; }), "spline");
-    expect_names(fault_with([&](OrderedJson& r) { panel(r)["vertices"] = {{0, 0}, {40, 40}, {40, 0}, {0, 40}}; }), "panel a crosses itself: edges 0 and 2");
-    expect_names(fault_with([&](OrderedJson& r) { panel(r)["vertices"][1] = {"wide", 0}; }), "panel a, vertex 1");
-    expect_names(fault_with([&](OrderedJson& r) { panel(r)["vertices"] = {{0, 0}, {40, 0}, {20, 0}, {10, 0}}; }), "panel a has an area");
-    expect_names(fault_with([&](OrderedJson& r) { r["pattern"]["stitches"][0][1]["panel"] = "c"; }), "stitch 0 names a panel \"c\"");
+    expect_names(fault_with([&](OrderedJson& r) { panel(r)["edges"][2]["endpoints"] = {2, 9}; }),
+                 "panel a, edge 2");
+    expect_names(fault_with([&](OrderedJson& r) { panel(r)["edges"][1]["endpoints"] = {1, 3}; }),
+                 "no closed line");
+    expect_names(fault_with([&](OrderedJson& r) {
+                     panel(r)["edges"][1]["curvature"] = {{"type", "spline"}, {"params", {{0.5, 0.1}}}};
+                 }),
+                 "spline");
+    expect_names(
+        fault_with([&](OrderedJson& r) { panel(r)["vertices"] = {{0, 0}, {40, 40}, {40, 0}, {0, 40}}; }),
+        "panel a crosses itself: edges 0 and 2");
+    expect_names(fault_with([&](OrderedJson& r) { panel(r)["vertices"][1] = {"wide", 0}; }),
+                 "panel a, vertex 1");
+    expect_names(
+        fault_with([&](OrderedJson& r) { panel(r)["vertices"] = {{0, 0}, {40, 0}, {20, 0}, {10, 0}}; }),
+        "panel a has an area");
+    expect_names(fault_with([&](OrderedJson& r) { r["pattern"]["stitches"][0][1]["panel"] = "c"; }),
+                 "stitch 0 names a panel \"c\"");
     expect_names(fault_with([&](OrderedJson& r) { r["pattern"]["stitches"][0][1]["edge"] = 7; }), "stitch 0");
-    expect_names(fault_with([&](OrderedJson& r) { r["pattern"]["stitches"][0].erase(1); }), "stitch 0 does not pair");
-    expect_names(fault_with([&](OrderedJson& r) { r["pattern"]["stitches"].push_back(r["pattern"]["stitches"][0]); }), "a second time");
-    expect_names(fault_with([&](OrderedJson& r) { r["pattern"]["stitches"][0][1] = r["pattern"]["stitches"][0][0]; }), "to itself");
-    expect_names(fault_with([&](OrderedJson& r) { r["pattern"]["panels"]["b"]["vertices"] = {{0, 0}, {40, 0}, {40, 5}, {0, 5}}; }), "stitch 0 does not pair");
-    expect_names(fault_with([&](OrderedJson& r) { r["pattern"]["panels"] = OrderedJson::object(); }), "no panels");
+    expect_names(fault_with([&](OrderedJson& r) { r["pattern"]["stitches"][0].erase(1); }),
+                 "stitch 0 does not pair");
+    expect_names(
+        fault_with([&](OrderedJson& r) { r["pattern"]["stitches"].push_back(r["pattern"]["stitches"][0]); }),
+        "a second time");
+    expect_names(
+        fault_with([&](OrderedJson& r) { r["pattern"]["stitches"][0][1] = r["pattern"]["stitches"][0][0]; }),
+        "to itself");
+    expect_names(fault_with([&](OrderedJson& r) {
+                     r["pattern"]["panels"]["b"]["vertices"] = {{0, 0}, {40, 0}, {40, 5}, {0, 5}};
+                 }),
+                 "stitch 0 does not pair");
+    expect_names(fault_with([&](OrderedJson& r) { r["pattern"]["panels"] = OrderedJson::object(); }),
+                 "no panels");
     expect_names(fault_with([&](OrderedJson& r) { r["pattern"].erase("panels"); }), "panels");
-    expect_names(fault_with([&](OrderedJson& r) { r["properties"]["units_in_meter"] = 0; }), "units_in_meter");
-    expect_names(fault_with([&](OrderedJson& r) { r["properties"]["curvature_coords"] = "polar"; }), "curvature_coords");
+    expect_names(fault_with([&](OrderedJson& r) { r["properties"]["units_in_meter"] = 0; }),
+                 "units_in_meter");
+    expect_names(fault_with([&](OrderedJson& r) { r["properties"]["curvature_coords"] = "polar"; }),
+                 "curvature_coords");
 }
 
 TEST(GarmentCode, SaysWhichUnitTheNumbersLookLike) {
@@ -137,7 +164,8 @@ TEST(GarmentCode, SaysWhichUnitTheNumbersLookLike) {
 TEST(GarmentCode, RefusesTextThatIsCutAnywhere) {
     const std::string text = specification().dump();
     for (size_t length = 0; length < text.size(); length += 7)
-        EXPECT_NE(fault_of([&] { parse_garmentcode(bytes_of_text(text.substr(0, length)), "test"); }), "") << length;
+        EXPECT_NE(fault_of([&] { parse_garmentcode(bytes_of_text(text.substr(0, length)), "test"); }), "")
+            << length;
 }
 
 }  // namespace

@@ -14,10 +14,14 @@
 namespace vfit {
 namespace {
 
-float area2(const Vec2& a, const Vec2& b, const Vec2& c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+float area2(const Vec2& a, const Vec2& b, const Vec2& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
 
 float smallest_angle(const Vec2& a, const Vec2& b, const Vec2& c) {
-    const auto angle = [](const Vec2& at, const Vec2& p, const Vec2& q) { return std::acos(std::clamp(glm::dot(glm::normalize(p - at), glm::normalize(q - at)), -1.0f, 1.0f)); };
+    const auto angle = [](const Vec2& at, const Vec2& p, const Vec2& q) {
+        return std::acos(std::clamp(glm::dot(glm::normalize(p - at), glm::normalize(q - at)), -1.0f, 1.0f));
+    };
     return std::min({angle(a, b, c), angle(b, c, a), angle(c, a, b)}) * 180.0f / kPi;
 }
 
@@ -58,7 +62,8 @@ TEST(PanelMesh, IsNearRegular) {
     std::vector<float> angles, sides;
     for (const auto& t : mesh.triangles) {
         angles.push_back(smallest_angle(mesh.flat[t[0]], mesh.flat[t[1]], mesh.flat[t[2]]));
-        for (int k = 0; k < 3; ++k) sides.push_back(glm::length(mesh.flat[t[size_t(k)]] - mesh.flat[t[size_t(k + 1) % 3]]));
+        for (int k = 0; k < 3; ++k)
+            sides.push_back(glm::length(mesh.flat[t[size_t(k)]] - mesh.flat[t[size_t(k + 1) % 3]]));
         EXPECT_GT(area2(mesh.flat[t[0]], mesh.flat[t[1]], mesh.flat[t[2]]), 0.0f);
     }
     std::sort(angles.begin(), angles.end());
@@ -81,7 +86,8 @@ TEST(PanelMesh, GoesToAnotherSizeAndBack) {
         area += 0.5f * area2(graded[t[0]], graded[t[1]], graded[t[2]]);
     }
     float wanted = 0.0f;
-    for (size_t i = 0; i < 4; ++i) wanted += 0.5f * area2({0, 0}, large.corners[i], large.corners[(i + 1) % 4]);
+    for (size_t i = 0; i < 4; ++i)
+        wanted += 0.5f * area2({0, 0}, large.corners[i], large.corners[(i + 1) % 4]);
     EXPECT_NEAR(area, wanted, 1e-4f);
 }
 
@@ -89,7 +95,8 @@ TEST(PanelMesh, GoesToAnotherSizeAndBack) {
 size_t border_loops(const SewnMesh& mesh) {
     std::map<std::pair<uint32_t, uint32_t>, int> sides;
     for (size_t i = 0; i < mesh.sewn_indices.size(); i += 3)
-        for (size_t k = 0; k < 3; ++k) EXPECT_EQ(++sides[std::pair(mesh.sewn_indices[i + k], mesh.sewn_indices[i + (k + 1) % 3])], 1);
+        for (size_t k = 0; k < 3; ++k)
+            EXPECT_EQ(++sides[std::pair(mesh.sewn_indices[i + k], mesh.sewn_indices[i + (k + 1) % 3])], 1);
     std::map<uint32_t, uint32_t> next;
     for (const auto& [side, count] : sides)
         if (!sides.count({side.second, side.first})) next[side.first] = side.second;
@@ -115,7 +122,8 @@ TEST(Sewn, MakesATubeOfTwoPanels) {
 
 TEST(Sewn, ClosesADartOfOnePanel) {
     Pattern pattern;
-    pattern.panels.push_back(straight_panel("p", {{0, 0}, {0.18f, 0}, {0.2f, 0.15f}, {0.22f, 0}, {0.4f, 0}, {0.4f, 0.4f}, {0, 0.4f}}));
+    pattern.panels.push_back(straight_panel(
+        "p", {{0, 0}, {0.18f, 0}, {0.2f, 0.15f}, {0.22f, 0}, {0.4f, 0}, {0.4f, 0.4f}, {0, 0.4f}}));
     pattern.stitches = {{{0, 1}, {0, 2}}};
     const SewnMesh mesh = sew(pattern, 0.02f);
     EXPECT_EQ(border_loops(mesh), 1u);
@@ -139,7 +147,8 @@ TEST(Sewn, ShortEdgesBecomeOneCorner) {
 TEST(Sewn, TurnsAPanelThatShowsItsInside) {
     Pattern pattern = tube(0.3f, 0.4f, 1.0f);
     std::reverse(pattern.panels[1].corners.begin(), pattern.panels[1].corners.end());
-    // Mirrored corners: edge 0 is now at the other end of the panel's outline, and both seams run begin to begin.
+    // Mirrored corners: edge 0 is now at the other end of the panel's outline, and both seams run begin to
+    // begin.
     pattern.stitches = {{{0, 1}, {1, 3}, true}, {{0, 3}, {1, 1}, true}};
     EXPECT_EQ(border_loops(sew(pattern, 0.03f)), 2u);
     pattern.stitches[1].turned = false;

@@ -49,7 +49,8 @@ TEST_F(Sundress, HasThePapersVertexCounts) {  // Table 5: 1,048 skinned, 3,096 s
 }
 
 TEST_F(Sundress, IsASoundGarmentAndReadsBackAsWritten) {
-    const FabricLibrary fabrics = FabricLibrary::parse(bytes_of(file(VFIT_SOURCE_DIR "/assets/fabrics.json")));
+    const FabricLibrary fabrics =
+        FabricLibrary::parse(bytes_of(file(VFIT_SOURCE_DIR "/assets/fabrics.json")));
     validate_garment(garment, fabrics);
     const std::string text = write_garment(garment);
     EXPECT_LT(text.size(), 600'000u);
@@ -84,7 +85,8 @@ TEST_F(Sundress, TrianglesFaceOutwards) {
     EXPECT_GT(double(outward), 0.995 * double(all));
 }
 
-TEST_F(Sundress, HasFourOpenEdgesAndNoOther) {  // hem, and the top edge in three parts between and beside the straps
+TEST_F(Sundress,
+       HasFourOpenEdgesAndNoOther) {  // hem, and the top edge in three parts between and beside the straps
     std::map<std::pair<uint32_t, uint32_t>, int> edges;
     for (size_t i = 0; i < garment.mesh.indices.size(); i += 3)
         for (size_t k = 0; k < 3; ++k) {
@@ -132,7 +134,8 @@ TEST_F(Sundress, TrianglesAreNearRegular) {
 TEST_F(Sundress, IsSymmetric) {
     for (uint32_t row = 0; row < 56; ++row)
         for (uint32_t c = 1; c < 36; ++c) {
-            const Vec3 &left = garment.mesh.positions[row * 72 + c], &right = garment.mesh.positions[row * 72 + 72 - c];
+            const Vec3 &left = garment.mesh.positions[row * 72 + c],
+                       &right = garment.mesh.positions[row * 72 + 72 - c];
             ASSERT_NEAR(left.x, -right.x, 2e-3f);
             ASSERT_NEAR(left.z, right.z, 2e-3f);
         }
@@ -162,8 +165,9 @@ TEST_F(Sundress, UvsAreMetres) {
         for (uint32_t c = 0; c < 36; ++c) {
             const uint32_t a = row * 72 + c, b = a + 1;
             const float along = garment.mesh.uvs[b].x - garment.mesh.uvs[a].x;
-            worst = std::max(worst, double(std::abs(
-                                        along - glm::length(garment.mesh.positions[b] - garment.mesh.positions[a]))));
+            worst = std::max(
+                worst,
+                double(std::abs(along - glm::length(garment.mesh.positions[b] - garment.mesh.positions[a]))));
         }
     EXPECT_LT(worst, 1e-3);
 }

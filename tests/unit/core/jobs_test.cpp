@@ -28,7 +28,10 @@ TEST_P(JobsTest, EveryItemRunsOnce) {
 
 TEST_P(JobsTest, TheFirstExceptionOfAnItemComesBack) {
     const auto jobs = Jobs::own(GetParam());
-    EXPECT_THROW(parallel_for(*jobs, 64, [](uint32_t i) { if (i == 7) throw std::runtime_error("seven"); }),
+    EXPECT_THROW(parallel_for(*jobs, 64,
+                              [](uint32_t i) {
+                                  if (i == 7) throw std::runtime_error("seven");
+                              }),
                  std::runtime_error);
     int after = 0;
     parallel_for(*jobs, 1, [&](uint32_t) { ++after; });
@@ -104,7 +107,8 @@ TEST(HostJobs, TheHostRunsTheItemsInAnyOrder) {
     parallel_for(*jobs, 10, [&](uint32_t i) { ++runs[i]; });
     EXPECT_EQ(host.submits, 1u);
     for (const int n : runs) EXPECT_EQ(n, 1);
-    EXPECT_THROW(parallel_for(*jobs, 3, [](uint32_t) { throw std::runtime_error("item"); }), std::runtime_error);
+    EXPECT_THROW(parallel_for(*jobs, 3, [](uint32_t) { throw std::runtime_error("item"); }),
+                 std::runtime_error);
 }
 
 TEST(HostJobs, WhatAnItemStartsRunsInsideIt) {

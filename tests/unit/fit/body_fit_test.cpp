@@ -37,8 +37,8 @@ TEST(BodyFit, TellsHowJointsAreTurned) {
     const BodyFitOutput* out = nullptr;
     for (int i = 0; i < 5; ++i)
         out = &fit.run(input_of(person.scene, person.scene.seen(0.02f, uint32_t(i)), i * kFrameNs));
-    for (const int j :
-         {VFIT_JOINT_PELVIS, VFIT_JOINT_CHEST, VFIT_JOINT_LEFT_KNEE, VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_LEFT_SHOULDER}) {
+    for (const int j : {VFIT_JOINT_PELVIS, VFIT_JOINT_CHEST, VFIT_JOINT_LEFT_KNEE, VFIT_JOINT_RIGHT_HIP,
+                        VFIT_JOINT_LEFT_SHOULDER}) {
         const Quat& truth = person.scene.joints.joints[size_t(j)].rotation;
         const float angle = glm::length(log_of(glm::conjugate(truth) * out->rotations[size_t(j)]));
         EXPECT_LT(angle, 0.35f) << joint_name(j);
@@ -62,18 +62,22 @@ TEST(BodyFit, KeepsNothingOfWhoWasForgotten) {
 TEST(BodyFit, ACutFromFrontToSideIsFittedAsWellAtOnceAsAfterAWhile) {
     Person person;
     Pose turned = easy_pose(person.avatar.skeleton());
-    turned.rotation[VFIT_BONE_HIPS] = glm::angleAxis(0.5f * kPi, Vec3(0, 1, 0)) * turned.rotation[VFIT_BONE_HIPS];
+    turned.rotation[VFIT_BONE_HIPS] =
+        glm::angleAxis(0.5f * kPi, Vec3(0, 1, 0)) * turned.rotation[VFIT_BONE_HIPS];
     const FitScene side = shoot(person.avatar, turned);
     std::array<BodyFitOutput, 2> ends;
     for (size_t late = 0; late < 2; ++late) {
         BodyFit fit(fit_model());
-        for (int i = 0; i < 5; ++i) fit.run(input_of(person.scene, person.scene.seen(0.02f, uint32_t(i)), i * kFrameNs));
+        for (int i = 0; i < 5; ++i)
+            fit.run(input_of(person.scene, person.scene.seen(0.02f, uint32_t(i)), i * kFrameNs));
         const int64_t gap_ns = late ? 2'000'000'000 : 3 * kFrameNs;
-        for (int i = 5; i < 8; ++i) ends[late] = fit.run(input_of(side, side.seen(0.02f, uint32_t(i)), i * kFrameNs + gap_ns));
+        for (int i = 5; i < 8; ++i)
+            ends[late] = fit.run(input_of(side, side.seen(0.02f, uint32_t(i)), i * kFrameNs + gap_ns));
         EXPECT_EQ(ends[late].state, BodyFitState::kGood);
         EXPECT_LT(mean_joint_error(ends[late], side), 0.03f) << (late ? "after two seconds" : "at once");
     }
-    for (size_t i = 0; i < ends[0].pose.shape.size(); ++i) EXPECT_NEAR(ends[0].pose.shape[i], ends[1].pose.shape[i], 0.03f) << i;
+    for (size_t i = 0; i < ends[0].pose.shape.size(); ++i)
+        EXPECT_NEAR(ends[0].pose.shape[i], ends[1].pose.shape[i], 0.03f) << i;
 }
 
 TEST(BodyFit, HolesDoItLittleHarm) {
@@ -92,7 +96,8 @@ TEST(BodyFit, HolesDoItLittleHarm) {
         }
     BodyFit fit(fit_model());
     const BodyFitOutput* out = nullptr;
-    for (int i = 0; i < 5; ++i) out = &fit.run(input_of(holed, person.scene.seen(0.05f, uint32_t(i)), i * kFrameNs));
+    for (int i = 0; i < 5; ++i)
+        out = &fit.run(input_of(holed, person.scene.seen(0.05f, uint32_t(i)), i * kFrameNs));
     EXPECT_EQ(out->state, BodyFitState::kGood);
     EXPECT_LT(mean_joint_error(*out, person.scene), 0.03f);
 }
@@ -133,7 +138,8 @@ TEST(BodyFit, SaysSoWhereTheBodyIsSomethingElse) {
     scene.depth.assign(640 * 480, 0);
     scene.users.assign(640 * 480, 0);
     for (int y = 60; y < 420; ++y)
-        for (int x = 140; x < 500; ++x) scene.depth[size_t(y * 640 + x)] = 2500, scene.users[size_t(y * 640 + x)] = 1;
+        for (int x = 140; x < 500; ++x)
+            scene.depth[size_t(y * 640 + x)] = 2500, scene.users[size_t(y * 640 + x)] = 1;
     Person person;
     BodyFit fit(fit_model());
     EXPECT_EQ(fit.run(input_of(scene, person.scene.seen(), 0)).state, BodyFitState::kPoor);
@@ -143,7 +149,8 @@ TEST(BodyFit, NeverGivesNumbersThatAreNone) {
     Person person;
     BodyFit fit(fit_model());
     FitJoints joints = person.scene.seen();
-    const float none = std::numeric_limits<float>::quiet_NaN(), endless = std::numeric_limits<float>::infinity();
+    const float none = std::numeric_limits<float>::quiet_NaN(),
+                endless = std::numeric_limits<float>::infinity();
     joints[VFIT_JOINT_LEFT_HAND].place = Vec3(none);
     joints[VFIT_JOINT_RIGHT_HAND].place.x = endless;
     joints[VFIT_JOINT_HEAD].confidence = none;
@@ -166,7 +173,8 @@ TEST(BodyFit, TheShapeSettlesAndIsForgottenOnReset) {
     BodyFit fit(fit_model());
     FitShape first_sd{}, at_second{}, later{};
     for (int i = 0; i < 60; ++i) {
-        const BodyFitOutput& out = fit.run(input_of(person.scene, person.scene.seen(0.03f, uint32_t(i)), i * kFrameNs));
+        const BodyFitOutput& out =
+            fit.run(input_of(person.scene, person.scene.seen(0.03f, uint32_t(i)), i * kFrameNs));
         if (i == 0) first_sd = out.shape_sd;
         if (i == 30) at_second = out.pose.shape;
         later = out.pose.shape;

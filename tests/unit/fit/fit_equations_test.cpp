@@ -53,15 +53,17 @@ void expect_derivatives(Row&& add_row, Value&& value_at) {
 TEST(FitEquations, DerivativesOfAVertexAreThoseOfDifferences) {
     const Vec3 direction = glm::normalize(Vec3(0.3f, -0.5f, 0.8f));
     for (uint32_t v = 7; v < fit_model()->vertex_count(); v += 131)
-        expect_derivatives([&](FitEquations& e, float residual) { e.add_vertex_row(v, direction, residual, 1.0f); },
-                           [&](const FitBody& body) { return glm::dot(direction, body.positions()[v]); });
+        expect_derivatives(
+            [&](FitEquations& e, float residual) { e.add_vertex_row(v, direction, residual, 1.0f); },
+            [&](const FitBody& body) { return glm::dot(direction, body.positions()[v]); });
 }
 
 TEST(FitEquations, DerivativesOfAJointAreThoseOfDifferences) {
     const Vec3 direction = glm::normalize(Vec3(-0.6f, 0.2f, 0.7f));
     for (int j = 0; j < kJointCount; ++j)
-        expect_derivatives([&](FitEquations& e, float residual) { e.add_joint_row(j, direction, residual, 1.0f); },
-                           [&](const FitBody& body) { return glm::dot(direction, body.joints()[size_t(j)]); });
+        expect_derivatives(
+            [&](FitEquations& e, float residual) { e.add_joint_row(j, direction, residual, 1.0f); },
+            [&](const FitBody& body) { return glm::dot(direction, body.joints()[size_t(j)]); });
 }
 
 TEST(FitEquations, DerivativeOfATurnVectorIsThatOfDifferences) {
@@ -71,7 +73,8 @@ TEST(FitEquations, DerivativeOfATurnVectorIsThatOfDifferences) {
             constexpr float h = 1e-2f;
             Vec3 step(0.0f);
             step[i] = h;
-            const Vec3 difference = (log_of(exp_of(v) * exp_of(step)) - log_of(exp_of(v) * exp_of(-step))) / (2 * h);
+            const Vec3 difference =
+                (log_of(exp_of(v) * exp_of(step)) - log_of(exp_of(v) * exp_of(-step))) / (2 * h);
             EXPECT_LT(glm::length(difference - derivative[i]), 2e-3f);
         }
     }
@@ -92,8 +95,8 @@ TEST(FitEquations, AStepFromManyRowsBringsThePointsHome) {
             for (int axis = 0; axis < 3; ++axis) {
                 Vec3 direction(0.0f);
                 direction[axis] = 1.0f;
-                equations.add_vertex_row(v, direction, target.positions()[v][axis] - body.positions()[v][axis],
-                                         1000.0f);
+                equations.add_vertex_row(v, direction,
+                                         target.positions()[v][axis] - body.positions()[v][axis], 1000.0f);
             }
         equations.finish();
         for (int c = 0; c < kFitUnknowns; ++c) equations.add_prior(c, 0.0, 1e-4);
@@ -170,12 +173,13 @@ TEST(FitKernels, TheNearestIsThatOfAPlainLoop) {
             float best = 1e9f;
             for (uint32_t i = 0; i < count; ++i) {
                 const Vec3 d = place - places[i];
-                best = std::min(best, glm::dot(d, d) + FitTargets::kBend_m2 * (1.0f - glm::dot(n, normals[i])));
+                best =
+                    std::min(best, glm::dot(d, d) + FitTargets::kBend_m2 * (1.0f - glm::dot(n, normals[i])));
             }
             EXPECT_NEAR(score, best, 1e-5f);
             const Vec3 d = place - places[found - 100];
-            EXPECT_NEAR(glm::dot(d, d) + FitTargets::kBend_m2 * (1.0f - glm::dot(n, normals[found - 100])), best,
-                        1e-5f);
+            EXPECT_NEAR(glm::dot(d, d) + FitTargets::kBend_m2 * (1.0f - glm::dot(n, normals[found - 100])),
+                        best, 1e-5f);
         }
     }
 }
@@ -191,7 +195,8 @@ TEST(FitKernels, ProductsOfRowsAreThoseOfAPlainLoop) {
         for (size_t i = 0; i < columns; ++i)
             for (size_t j = i; j < columns; ++j) {
                 double sum = 1.0;
-                for (size_t r = 0; r < count; ++r) sum += double(rows[r * columns + i]) * double(rows[r * columns + j]);
+                for (size_t r = 0; r < count; ++r)
+                    sum += double(rows[r * columns + i]) * double(rows[r * columns + j]);
                 EXPECT_NEAR(product[i * columns + j], sum, 1e-4);
             }
     }

@@ -58,7 +58,8 @@ TEST(FitModel, FineAndCoarseVerticesMoveAlike) {
     a.place(state);
     b.place(state);
     std::vector<Vec3> by_source(fine.vertex_count());
-    for (uint32_t v = 0; v < fine.vertex_count(); ++v) by_source[fine.vertices()[v].source] = b.positions()[v];
+    for (uint32_t v = 0; v < fine.vertex_count(); ++v)
+        by_source[fine.vertices()[v].source] = b.positions()[v];
     for (uint32_t v = 0; v < fit_model()->vertex_count(); v += 50)
         EXPECT_LT(glm::distance(a.positions()[v], by_source[fit_model()->vertices()[v].source]), 1e-4f);
 }

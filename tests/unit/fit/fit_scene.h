@@ -1,4 +1,5 @@
-// A virtual person before a virtual camera, for the tests of the fit: the exact depth of an avatar, and its joints.
+// A virtual person before a virtual camera, for the tests of the fit: the exact depth of an avatar, and its
+// joints.
 #pragma once
 
 #include <cmath>
@@ -108,7 +109,8 @@ inline Pose easy_pose(const Skeleton& skeleton) {
     Pose pose;
     pose.hips_position = skeleton.offset[VFIT_BONE_HIPS];
     const auto turn = [](float x, float y, float z) {
-        return glm::angleAxis(y, Vec3(0, 1, 0)) * glm::angleAxis(x, Vec3(1, 0, 0)) * glm::angleAxis(z, Vec3(0, 0, 1));
+        return glm::angleAxis(y, Vec3(0, 1, 0)) * glm::angleAxis(x, Vec3(1, 0, 0)) *
+               glm::angleAxis(z, Vec3(0, 0, 1));
     };
     pose.rotation[VFIT_BONE_HIPS] = turn(0.0f, 0.2f, 0.0f);
     pose.rotation[VFIT_BONE_SPINE] = turn(0.05f, 0.05f, 0.02f);
@@ -134,7 +136,8 @@ inline BodyFitInput input_of(const FitScene& scene, const FitJoints& joints, int
 
 inline float mean_joint_error(const BodyFitOutput& out, const FitScene& scene) {
     float sum = 0.0f;
-    for (int j = 0; j < kPaperJointCount; ++j) sum += glm::distance(out.joints[size_t(j)], scene.joints.at(j));
+    for (int j = 0; j < kPaperJointCount; ++j)
+        sum += glm::distance(out.joints[size_t(j)], scene.joints.at(j));
     return sum / kPaperJointCount;
 }
 

@@ -70,7 +70,8 @@ TEST(FitView, CellsHoldThePersonsMeanDepthFromNearAndFar) {
 TEST(FitView, TellsThePersonFromWhatIsBehindAndFromHoles) {
     FitScene scene = board(0.0f);
     for (int y = 200; y < 220; ++y)
-        for (int x = 300; x < 320; ++x) scene.depth[size_t(y * 640 + x)] = 0, scene.users[size_t(y * 640 + x)] = 0;
+        for (int x = 300; x < 320; ++x)
+            scene.depth[size_t(y * 640 + x)] = 0, scene.users[size_t(y * 640 + x)] = 0;
     FitView view;
     ASSERT_TRUE(view.look(scene.image(), 1, {}));
     const auto cell_at = [&](float u, float v) {

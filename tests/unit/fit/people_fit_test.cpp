@@ -101,7 +101,8 @@ TEST_F(PeopleFitTest, AFitThatGoesBadLetsGoOfTheJointsStepByStep) {
         if (scene.users[i]) scene.depth[i] = 2000;
     }
     for (int frame = 5; frame <= 9; ++frame)
-        EXPECT_NEAR(moved_by_fit(frame), whole * std::max(0.0f, 1.0f - 0.25f * float(frame - 4)), 1e-5f) << frame;
+        EXPECT_NEAR(moved_by_fit(frame), whole * std::max(0.0f, 1.0f - 0.25f * float(frame - 4)), 1e-5f)
+            << frame;
 }
 
 }  // namespace

@@ -55,9 +55,9 @@ TEST_P(AxesTest, MirroredBonesComeInPairs) {
     for (int joint = 0; joint < kJointCount; ++joint) EXPECT_EQ(axes.joint_out(axes.joint_out(joint)), joint);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, AxesTest,
-                         testing::Combine(testing::Values(VFIT_AXES_RH_Y_UP, VFIT_AXES_UNITY, VFIT_AXES_UNREAL),
-                                          testing::Bool()));
+INSTANTIATE_TEST_SUITE_P(
+    All, AxesTest,
+    testing::Combine(testing::Values(VFIT_AXES_RH_Y_UP, VFIT_AXES_UNITY, VFIT_AXES_UNREAL), testing::Bool()));
 
 TEST(Axes, UnityKeepsUpAndForwardAndPutsTheLeftOnMinusX) {
     const Axes axes(VFIT_AXES_UNITY, false);

@@ -51,7 +51,8 @@ TEST_P(CameraPoseTest, HeightTiltAndRollComeBackAndWorldIsRigidAndUpright) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Poses, CameraPoseTest,
-                         testing::Combine(testing::Values(0.4f, 1.0f, 2.2f), testing::Values(-0.3f, 0.0f, 0.5f),
+                         testing::Combine(testing::Values(0.4f, 1.0f, 2.2f),
+                                          testing::Values(-0.3f, 0.0f, 0.5f),
                                           testing::Values(-0.2f, 0.0f, 0.1f)));
 
 TEST(Camera, NonsenseIsRefusedByName) {

@@ -74,7 +74,8 @@ TEST(Quaternion, SmallTurnsByTheirSeriesAgreeWithTheSines) {
         const Quat q = glm::angleAxis(angle, axis);
         for (const float t : {0.1f, 0.5f, 1.0f, -1.0f}) {
             const Quat part = fraction(q, t), exact = glm::angleAxis(angle * t, axis);
-            EXPECT_LT(glm::length(Vec3(part.x - exact.x, part.y - exact.y, part.z - exact.z)), 3e-7f) << angle << " " << t;
+            EXPECT_LT(glm::length(Vec3(part.x - exact.x, part.y - exact.y, part.z - exact.z)), 3e-7f)
+                << angle << " " << t;
             EXPECT_NEAR(part.w, exact.w, 3e-7f) << angle << " " << t;
         }
         EXPECT_LT(glm::length(rotation_vector(-q) - axis * angle), 2e-6f) << angle;

@@ -16,7 +16,9 @@ struct Trial {
 
 Trial random_trial(Random& random, float least_reach, float most_reach) {
     Trial t;
-    const auto v = [&random] { return Vec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)); };
+    const auto v = [&random] {
+        return Vec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+    };
     t.root = 2.0f * v();
     t.upper = random.between(0.2f, 0.6f);
     t.lower = random.between(0.2f, 0.6f);

@@ -11,7 +11,9 @@ namespace vfit {
 namespace {
 
 std::vector<Measurement> some() {
-    return {{"stature_m", 1.7123f, 0.0123f, true}, {"waist_girth_m", 0.8f, 0.0f, false}, {"body_mass_kg", 71.5f, 3.0f, false}};
+    return {{"stature_m", 1.7123f, 0.0123f, true},
+            {"waist_girth_m", 0.8f, 0.0f, false},
+            {"body_mass_kg", 71.5f, 3.0f, false}};
 }
 
 void expect_refused(const std::string& json, const char* word, vfit_result code = VFIT_ERROR_DATA) {
@@ -40,7 +42,8 @@ TEST(Profile, ComesBackAsItWas) {
 
 TEST(Profile, ReadsReportsAndPlainNumbers) {
     EXPECT_FLOAT_EQ(parse_profile(R"({"stature_m": 1.8})").measurements[0].value, 1.8f);
-    const PersonProfile report = parse_profile(R"({"method": "fit", "frames": 30, "measurements": {"stature_m": {"value": 1.8, "sigma": 0.02}}})");
+    const PersonProfile report = parse_profile(
+        R"({"method": "fit", "frames": 30, "measurements": {"stature_m": {"value": 1.8, "sigma": 0.02}}})");
     EXPECT_FLOAT_EQ(report.measurements[0].sigma, 0.02f);
     EXPECT_TRUE(report.measurements[0].observed);
 }
@@ -49,7 +52,8 @@ TEST(Profile, SaysWhatIsWrong) {
     expect_refused("", "JSON");
     expect_refused("[]", "object");
     expect_refused(R"({"format": "other"})", "format");
-    expect_refused(R"({"format": "vfit-profile", "version": 7, "measurements": {}})", "version 7", VFIT_ERROR_VERSION);
+    expect_refused(R"({"format": "vfit-profile", "version": 7, "measurements": {}})", "version 7",
+                   VFIT_ERROR_VERSION);
     expect_refused(R"({"format": "vfit-profile", "measurements": {}})", "version");
     expect_refused(R"({"measurements": 3})", "measurements");
     expect_refused(R"({"height": 1.8})", "height");
@@ -64,20 +68,25 @@ TEST(Profile, SaysWhatIsWrong) {
 }
 
 TEST(Merge, WeighsByVarianceAndHardlyGetsSurer) {
-    const auto merged = merge({{"stature_m", 1.70f, 0.01f, true}}, {{"stature_m", 1.703f, 0.02f, false}, {"hip_girth_m", 1.0f, 0.02f, true}});
+    const auto merged = merge({{"stature_m", 1.70f, 0.01f, true}},
+                              {{"stature_m", 1.703f, 0.02f, false}, {"hip_girth_m", 1.0f, 0.02f, true}});
     ASSERT_EQ(merged.size(), 2u);
     EXPECT_EQ(merged[0].key, "stature_m");
     EXPECT_NEAR(merged[0].value, 1.7006f, 1e-5f);
     EXPECT_TRUE(merged[0].observed);
     EXPECT_EQ(merged[1].value, 1.0f) << "what one alone holds";
-    const float alike = merge({{"waist_girth_m", 0.8f, 0.02f, true}}, {{"waist_girth_m", 0.8f, 0.02f, true}})[0].sigma;
-    EXPECT_NEAR(alike, 0.02f * std::sqrt(0.6f + 0.4f / 2.0f), 1e-5f) << "0.6 of the variance comes again with every scan";
-    const float apart = merge({{"waist_girth_m", 0.8f, 0.02f, true}}, {{"waist_girth_m", 0.9f, 0.02f, true}})[0].sigma;
+    const float alike =
+        merge({{"waist_girth_m", 0.8f, 0.02f, true}}, {{"waist_girth_m", 0.8f, 0.02f, true}})[0].sigma;
+    EXPECT_NEAR(alike, 0.02f * std::sqrt(0.6f + 0.4f / 2.0f), 1e-5f)
+        << "0.6 of the variance comes again with every scan";
+    const float apart =
+        merge({{"waist_girth_m", 0.8f, 0.02f, true}}, {{"waist_girth_m", 0.9f, 0.02f, true}})[0].sigma;
     EXPECT_GT(apart, 0.04f) << "10 cm apart is more than either is unsure of";
 }
 
 TEST(Merge, TakesAnUnknownSigmaForWhatItIs) {
-    EXPECT_EQ(merge({{"waist_girth_m", 0.8f, 0.0f, true}}, {{"waist_girth_m", 0.9f, 0.02f, true}})[0].value, 0.9f);
+    EXPECT_EQ(merge({{"waist_girth_m", 0.8f, 0.0f, true}}, {{"waist_girth_m", 0.9f, 0.02f, true}})[0].value,
+              0.9f);
     const auto both = merge({{"waist_girth_m", 0.8f, 0.0f, true}}, {{"waist_girth_m", 0.9f, 0.0f, true}});
     EXPECT_NEAR(both[0].value, 0.85f, 1e-6f);
     EXPECT_EQ(both[0].sigma, 0.0f);

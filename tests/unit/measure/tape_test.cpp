@@ -62,10 +62,9 @@ struct Person {
         const auto lower_arm = [hand](const Vec3& p) {
             return capsule_field({std::abs(p.x), p.y, p.z}, kElbow, hand, 0.03f);
         };
-        mesh = implicit_mesh(Vec3(-0.52f, -0.033f, -0.18f), Vec3(0.52f, 1.8f, 0.18f), 0.0117f,
-                             [&](const Vec3& p) {
-                                 return std::min({head(p), trunk(p), leg(p), upper_arm(p), lower_arm(p)});
-                             });
+        mesh = implicit_mesh(
+            Vec3(-0.52f, -0.033f, -0.18f), Vec3(0.52f, 1.8f, 0.18f), 0.0117f,
+            [&](const Vec3& p) { return std::min({head(p), trunk(p), leg(p), upper_arm(p), lower_arm(p)}); });
         for (const Vec3& p : mesh.positions) {
             const bool left = p.x > 0.0f;
             BodyPart part = BodyPart::kTorso;

@@ -18,7 +18,8 @@ using namespace test;
 TEST(TriangleLayers, HoldEveryTriangleThatAPlaneCuts) {
     const Mesh mesh = ellipsoid({0.3f, 0.5f, 0.4f}, 60, 60);
     const Vec3 leaning = glm::normalize(Vec3(0.3f, -0.8f, 0.5f)), far_off(100, -50, 30);
-    for (const auto& [origin, direction] : {std::pair(Vec3(0.0f), Vec3(0, 1, 0)), {Vec3(0.0f), leaning}, {far_off, leaning}}) {
+    for (const auto& [origin, direction] :
+         {std::pair(Vec3(0.0f), Vec3(0, 1, 0)), {Vec3(0.0f), leaning}, {far_off, leaning}}) {
         std::vector<Vec3> positions = mesh.positions;
         for (Vec3& p : positions) p += origin;
         const float low = -0.2f, high = 0.25f;
@@ -38,7 +39,8 @@ TEST(TriangleLayers, HoldEveryTriangleThatAPlaneCuts) {
                     least = std::min(least, corner), most = std::max(most, corner);
                 }
                 if (least <= place && place <= most) {
-                    EXPECT_TRUE(found.count({mesh.indices[t], mesh.indices[t + 1], mesh.indices[t + 2]})) << place;
+                    EXPECT_TRUE(found.count({mesh.indices[t], mesh.indices[t + 1], mesh.indices[t + 2]}))
+                        << place;
                 }
             }
         }
@@ -58,10 +60,13 @@ TEST(TriangleLayers, HoldNothingOfWhatLiesElsewhere) {
 TEST(TriangleLayers, TakePlacesBeyondTheEndsForTheEnds) {
     const Mesh mesh = ellipsoid(Vec3(0.3f), 12, 12);
     const TriangleLayers layers(mesh.positions, mesh.indices, Vec3(0.0f), {0, 1, 0}, -0.1f, 0.1f);
-    const auto same = [](std::span<const uint32_t> a, std::span<const uint32_t> b) { return a.data() == b.data() && a.size() == b.size(); };
+    const auto same = [](std::span<const uint32_t> a, std::span<const uint32_t> b) {
+        return a.data() == b.data() && a.size() == b.size();
+    };
     EXPECT_FALSE(layers.at(0.0f).empty());
     EXPECT_FALSE(same(layers.at(-0.1f), layers.at(0.1f)));
-    for (const float beyond : {-1.0f, -1e30f, std::numeric_limits<float>::quiet_NaN()}) EXPECT_TRUE(same(layers.at(beyond), layers.at(-0.1f))) << beyond;
+    for (const float beyond : {-1.0f, -1e30f, std::numeric_limits<float>::quiet_NaN()})
+        EXPECT_TRUE(same(layers.at(beyond), layers.at(-0.1f))) << beyond;
     for (const float beyond : {1.0f, 1e30f}) EXPECT_TRUE(same(layers.at(beyond), layers.at(0.1f))) << beyond;
     // Turned round there is one layer, and a mesh in millimetres has no more layers than one in metres.
     const TriangleLayers round(mesh.positions, mesh.indices, Vec3(0.0f), {0, 1, 0}, 0.1f, -0.1f);

@@ -43,7 +43,8 @@ TEST(BoneRotations, ReproduceBendAndTwistOfBentLimbs) {
             if (angle_of(bend) < 25 * testing::kDeg) continue;
             // The limbs of this skeleton slope by up to 3 degrees against each other in the T-pose.
             ASSERT_LT(angle_of(a.rotation[size_t(bone)] * glm::conjugate(b.rotation[size_t(bone)])),
-                      10 * testing::kDeg) << "pose " << i << " " << bone_name(bone);
+                      10 * testing::kDeg)
+                << "pose " << i << " " << bone_name(bone);
         }
     }
 }
@@ -72,8 +73,8 @@ TEST(BoneRotations, ManageWithTheFifteenJointsOfThePaper) {
         body.joints[VFIT_JOINT_TORSO] = Joint();
         const Pose found = recovered(skeleton, body);
         const Body again = testing::joints_of(skeleton, found, 0);
-        for (int j : {VFIT_JOINT_LEFT_ELBOW, VFIT_JOINT_RIGHT_ELBOW, VFIT_JOINT_LEFT_KNEE, VFIT_JOINT_RIGHT_FOOT,
-                      VFIT_JOINT_NECK})
+        for (int j : {VFIT_JOINT_LEFT_ELBOW, VFIT_JOINT_RIGHT_ELBOW, VFIT_JOINT_LEFT_KNEE,
+                      VFIT_JOINT_RIGHT_FOOT, VFIT_JOINT_NECK})
             ASSERT_LT(glm::length(again.at(j) - body.at(j)), 1e-3f) << joint_name(j);
     }
 }
@@ -82,7 +83,8 @@ TEST(BoneRotations, PlaceAPersonSeenToTheWaistOnly) {
     const Skeleton skeleton = testing::test_skeleton();
     Body body = testing::joints_of(skeleton, Pose(), 0);
     for (int j = VFIT_JOINT_LEFT_HIP; j <= VFIT_JOINT_RIGHT_FOOT; ++j) body.joints[size_t(j)] = Joint();
-    for (int j : {VFIT_JOINT_PELVIS, VFIT_JOINT_TORSO, VFIT_JOINT_NECK, VFIT_JOINT_LEFT_TOES, VFIT_JOINT_RIGHT_TOES})
+    for (int j :
+         {VFIT_JOINT_PELVIS, VFIT_JOINT_TORSO, VFIT_JOINT_NECK, VFIT_JOINT_LEFT_TOES, VFIT_JOINT_RIGHT_TOES})
         body.joints[size_t(j)] = Joint();
     const Pose found = recovered(skeleton, body);
     EXPECT_TRUE(finite(found.hips_position));

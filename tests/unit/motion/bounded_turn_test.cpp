@@ -18,8 +18,10 @@ TEST(BoundedTurn, ShowsASwingThatPeopleCanDoAsItIs) {
     BoundedTurn turn;
     float farthest = 0.0f;
     for (int i = 0; i < 120; ++i) {
-        const Quat tracked = turned_to(0.8f * (1.0f - std::cos(2.0f * kPi * 0.8f * float(i) * kStepS)));  // 20 rad/s^2
-        farthest = std::max(farthest, angle_of(turn.follow(tracked, kMost, kStepS) * glm::conjugate(tracked)));
+        const Quat tracked =
+            turned_to(0.8f * (1.0f - std::cos(2.0f * kPi * 0.8f * float(i) * kStepS)));  // 20 rad/s^2
+        farthest =
+            std::max(farthest, angle_of(turn.follow(tracked, kMost, kStepS) * glm::conjugate(tracked)));
     }
     EXPECT_LT(farthest, 1e-3f);
 }

@@ -49,8 +49,10 @@ TEST(FootPin, AFootThatNeverLeftReturnsToItsPlaceAndOneThatSteppedDoesNot) {
         Vec3 tracked(0.0f, kFloor, 0.0f), shown(0.0f);
         for (int i = 0; i < 30; ++i) shown = pin.update(tracked, true, kFloor, kFrameS);
         const Vec3 place = shown;
-        for (int i = 0; i < 3; ++i) pin.update(tracked + Vec3(0.01f + step_m, 0.01f, 0), false, kFloor, kFrameS);
-        for (int i = 0; i < 20; ++i) shown = pin.update(tracked + Vec3(0.01f + step_m, 0, 0), true, kFloor, kFrameS);
+        for (int i = 0; i < 3; ++i)
+            pin.update(tracked + Vec3(0.01f + step_m, 0.01f, 0), false, kFloor, kFrameS);
+        for (int i = 0; i < 20; ++i)
+            shown = pin.update(tracked + Vec3(0.01f + step_m, 0, 0), true, kFloor, kFrameS);
         if (step_m == 0.0f) {
             EXPECT_LT(glm::length(shown - place), 1e-4f);
         } else {

@@ -72,7 +72,8 @@ TEST(FootSkate, CorrectionCutsTheSlideOfPlantedFeetFivefold) {
     for (const Skeleton* bound : {&skeleton, static_cast<const Skeleton*>(nullptr)}) {
         const Slide slide = walk_slide(bound);
         ASSERT_GT(slide.frames, 100);
-        RecordProperty(bound ? "bound_mm_s" : "person_mm_s", std::to_string(slide.corrected / slide.frames * 3e4));
+        RecordProperty(bound ? "bound_mm_s" : "person_mm_s",
+                       std::to_string(slide.corrected / slide.frames * 3e4));
         std::printf("slide in contact, %s: %.1f -> %.2f mm/s, joints %.1f -> %.2f mm/s (%d foot frames)\n",
                     bound ? "bound" : "person", slide.plain / slide.frames * 3e4,
                     slide.corrected / slide.frames * 3e4, slide.plain_joint / slide.frames * 3e4,
@@ -97,7 +98,8 @@ TEST(FootSkate, ContactsOfAWalkAreRightMostOfTheTime) {
             wrong += contact && !frame.planted[side];
         }
     }
-    std::printf("walk contacts: recall %.2f, false %.3f\n", double(found) / truth, double(wrong) / (found + wrong));
+    std::printf("walk contacts: recall %.2f, false %.3f\n", double(found) / truth,
+                double(wrong) / (found + wrong));
     EXPECT_GT(found, 0.6 * truth);
     EXPECT_LT(wrong, 0.15 * (found + wrong));
 }
@@ -150,8 +152,8 @@ TEST(FootSkate, AJumpHasNoContactInTheAir) {
 }
 
 TEST(FootSkate, NothingPopsWhenAFootIsPlantedOrFreed) {
-    // Corrected feet may not move faster than tracked ones by more than the glide of a full leash. Those that are free go
-    // along with their hips, which a tracker may move by 3 cm at once.
+    // Corrected feet may not move faster than tracked ones by more than the glide of a full leash. Those that
+    // are free go along with their hips, which a tracker may move by 3 cm at once.
     const Skeleton skeleton = testing::test_skeleton();
     SyntheticWalk walk(skeleton);
     walk.slide_m = 0.04f;
@@ -184,7 +186,8 @@ TEST(FootSkate, ReportsHowFarItMovedTheFootAndTheRoot) {
     for (int f = 0; f < 60; ++f) {
         Pose pose;
         testing::stand_on_floor(skeleton, pose);
-        pose.hips_position.x += 0.04f * std::sin(static_cast<float>(f) * 0.1f);  // slow: both feet slide along
+        pose.hips_position.x +=
+            0.04f * std::sin(static_cast<float>(f) * 0.1f);  // slow: both feet slide along
         const Body body = testing::joints_of(skeleton, pose, frame_ns(f));
         const Step step = take(motion, &body, body.time_ns);
         EXPECT_EQ(step.contacts, 3u);

@@ -13,7 +13,8 @@ constexpr float kStepTime = 1.0f / 30.0f;
 
 TEST(HeightVote, AsksForTheHeightAtWhichTheLegIsAsLongAsItWasTracked) {
     HeightVote vote;
-    vote.stand({0, 0.9f, 0}, {0.3f, 0.1f, 0}, 0.5f, kStepTime);  // level distance 0.3, so the hip belongs at 0.1 + 0.4
+    vote.stand({0, 0.9f, 0}, {0.3f, 0.1f, 0}, 0.5f,
+               kStepTime);  // level distance 0.3, so the hip belongs at 0.1 + 0.4
     EXPECT_NEAR(vote.rise_m(), -0.4f, 1e-6f);
     EXPECT_EQ(vote.weight(), 1.0f) << "the first frame is not eased into";
 }

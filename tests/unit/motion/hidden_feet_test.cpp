@@ -44,7 +44,8 @@ TEST(HiddenFeet, OneThatStepsIsFree) {
     constexpr bool free[2] = {true, false};  // a step past the other foot
     for (int step = 0; step < 12; ++step, ++f) {
         const Body body = stride(f, kApart - 0.07f * float(step));
-        EXPECT_EQ(feet.put_back(body, free).at(VFIT_JOINT_RIGHT_FOOT), body.at(VFIT_JOINT_RIGHT_FOOT)) << step;
+        EXPECT_EQ(feet.put_back(body, free).at(VFIT_JOINT_RIGHT_FOOT), body.at(VFIT_JOINT_RIGHT_FOOT))
+            << step;
     }
 }
 

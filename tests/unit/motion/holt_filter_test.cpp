@@ -16,7 +16,8 @@ TEST(HoltFilter, GivesTheNumbersOfItsDefinitionAt30Hz) {
     const float outputs[] = {0.0f, 0.0125f, 0.045625f, 0.16f, 0.2125390625f, 0.2361819458f};
     HoltFilter filter;
     for (int i = 0; i < 6; ++i)
-        EXPECT_NEAR(filter.update({}, along_x(readings[i]), false, 1.0f).x, outputs[i], 1e-6f) << "reading " << i;
+        EXPECT_NEAR(filter.update({}, along_x(readings[i]), false, 1.0f).x, outputs[i], 1e-6f)
+            << "reading " << i;
     EXPECT_NEAR(filter.trend().x, 0.0426915283f, 1e-6f);
 }
 

@@ -42,10 +42,10 @@ TEST_F(Limits, LeavesNaturalPosesBitForBit) {
 TEST_F(Limits, HoldKneesBetweenStraightAnd145Degrees) {
     for (int knee : {VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_RIGHT_LOWER_LEG}) {
         EXPECT_NEAR(angle_after(knee, 100, kX), 100, 0.01f);
-        EXPECT_NEAR(angle_after(knee, 170, kX), 145, 3.0f);   // the T-pose is bent by 1.4 degrees itself
-        EXPECT_LT(angle_after(knee, -40, kX), 3.0f);          // never forwards
-        EXPECT_NEAR(angle_after(knee, 30, kZ), 10, 3.0f);     // hardly out of its plane
-        EXPECT_NEAR(angle_after(knee, 30, kY), 10, 1.0f);     // nor about its axis
+        EXPECT_NEAR(angle_after(knee, 170, kX), 145, 3.0f);  // the T-pose is bent by 1.4 degrees itself
+        EXPECT_LT(angle_after(knee, -40, kX), 3.0f);         // never forwards
+        EXPECT_NEAR(angle_after(knee, 30, kZ), 10, 3.0f);    // hardly out of its plane
+        EXPECT_NEAR(angle_after(knee, 30, kY), 10, 1.0f);    // nor about its axis
     }
 }
 
@@ -53,7 +53,8 @@ TEST_F(Limits, AreDataThatAHostMayReplace) {
     const RangeOfMotion& natural = RangeOfMotion::natural();
     EXPECT_EQ(natural.knee_flexion.most_deg, 145.0f);
     EXPECT_EQ(natural.wrist_radial.least_deg, -40.0f);
-    const RangeOfMotion stiff = RangeOfMotion::read(R"({"knee": {"flexion": 60}, "neck": {"extension": 10}})", natural);
+    const RangeOfMotion stiff =
+        RangeOfMotion::read(R"({"knee": {"flexion": 60}, "neck": {"extension": 10}})", natural);
     EXPECT_EQ(stiff.knee_flexion.most_deg, 60.0f);
     EXPECT_EQ(stiff.neck_flexion.least_deg, -10.0f);
     EXPECT_EQ(stiff.neck_flexion.most_deg, natural.neck_flexion.most_deg);
@@ -62,8 +63,9 @@ TEST_F(Limits, AreDataThatAHostMayReplace) {
     local[VFIT_BONE_LEFT_LOWER_LEG] = glm::angleAxis(100 * kDeg, kX);
     apply_joint_limits(rest, planted, local, stiff);
     EXPECT_NEAR(angle_of(local[VFIT_BONE_LEFT_LOWER_LEG]) / kDeg, 60.0f, 3.0f);
-    for (const char* bad : {"", "[]", "{", R"({"knee": 3})", R"({"knee": {"flexion": "far"}})", R"({"knee": {"flexion": 200}})",
-                            R"({"knee": {"flexion": -1}})", R"({"knee": {"bend": 3}})", R"({"tail": {"flexion": 3}})"})
+    for (const char* bad :
+         {"", "[]", "{", R"({"knee": 3})", R"({"knee": {"flexion": "far"}})", R"({"knee": {"flexion": 200}})",
+          R"({"knee": {"flexion": -1}})", R"({"knee": {"bend": 3}})", R"({"tail": {"flexion": 3}})"})
         try {
             RangeOfMotion::read(bad, natural);
             ADD_FAILURE() << "accepted " << bad;

@@ -61,8 +61,9 @@ inline Body joints_of(const Skeleton& skeleton, const Pose& pose, int64_t time_n
         body.set(parts.root, p.position[static_cast<size_t>(parts.upper)]);
         body.set(parts.middle, p.position[static_cast<size_t>(parts.lower)]);
         body.set(parts.end, p.position[last]);
-        body.set(parts.tip, parts.leg ? p.position[last + 1]
-                                      : p.position[last] + p.rotation[last] * rest.limbs[size_t(i)].lower * 0.08f);
+        body.set(parts.tip, parts.leg
+                                ? p.position[last + 1]
+                                : p.position[last] + p.rotation[last] * rest.limbs[size_t(i)].lower * 0.08f);
     }
     return body;
 }
@@ -80,7 +81,8 @@ public:
     float uniform(float low, float high) { return std::uniform_real_distribution<float>(low, high)(engine_); }
     float degrees(float low, float high) { return kDeg * uniform(low, high); }
 
-    /// Inside the natural ranges; the spine straight but twisted, which is what hips, neck and shoulders tell.
+    /// Inside the natural ranges; the spine straight but twisted, which is what hips, neck and shoulders
+    /// tell.
     Pose next(const Skeleton& skeleton) {
         const Vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
         const RestPose rest(skeleton);

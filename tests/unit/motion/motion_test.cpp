@@ -113,8 +113,10 @@ TEST(Motion, RefusesSettingsOutOfRangeAndNamesThem) {
         return "";
     };
     EXPECT_NE(message_of([](auto& s) { s.filter.holt.smoothing = 2; }).find("smoothing"), std::string::npos);
-    EXPECT_NE(message_of([](auto& s) { s.filter.holt.jitter_radius_m = -1; }).find("jitter_radius_m"), std::string::npos);
-    EXPECT_NE(message_of([](auto& s) { s.rotation_divisor = 0.5f; }).find("rotation_divisor"), std::string::npos);
+    EXPECT_NE(message_of([](auto& s) { s.filter.holt.jitter_radius_m = -1; }).find("jitter_radius_m"),
+              std::string::npos);
+    EXPECT_NE(message_of([](auto& s) { s.rotation_divisor = 0.5f; }).find("rotation_divisor"),
+              std::string::npos);
     EXPECT_EQ(message_of([](auto&) {}), "");
 }
 
@@ -150,8 +152,8 @@ TEST(Motion, MeasuresThePersonWhereNoCharacterIsBound) {
         motion.step(&body, body.time_ns);
     }
     const Skeleton& s = motion.skeleton();
-    for (int bone : {VFIT_BONE_LEFT_LOWER_ARM, VFIT_BONE_RIGHT_HAND, VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_RIGHT_FOOT,
-                     VFIT_BONE_LEFT_TOES})
+    for (int bone : {VFIT_BONE_LEFT_LOWER_ARM, VFIT_BONE_RIGHT_HAND, VFIT_BONE_LEFT_LOWER_LEG,
+                     VFIT_BONE_RIGHT_FOOT, VFIT_BONE_LEFT_TOES})
         EXPECT_NEAR(glm::length(s.offset[size_t(bone)]), glm::length(truth.offset[size_t(bone)]), 1e-3f)
             << bone_name(bone);
     EXPECT_NEAR(s.ankle_height, truth.ankle_height, 1e-3f);
@@ -177,8 +179,10 @@ Body stepping(const Skeleton& skeleton, int frame, int64_t time_ns) {
     const float phase = 0.2f * static_cast<float>(frame);
     for (const bool left : {true, false}) {
         const float lift = std::max(0.0f, left ? std::sin(phase) : -std::sin(phase));
-        pose.rotation[left ? VFIT_BONE_LEFT_UPPER_LEG : VFIT_BONE_RIGHT_UPPER_LEG] = glm::angleAxis(-0.7f * lift, Vec3(1, 0, 0));
-        pose.rotation[left ? VFIT_BONE_LEFT_LOWER_LEG : VFIT_BONE_RIGHT_LOWER_LEG] = glm::angleAxis(1.1f * lift, Vec3(1, 0, 0));
+        pose.rotation[left ? VFIT_BONE_LEFT_UPPER_LEG : VFIT_BONE_RIGHT_UPPER_LEG] =
+            glm::angleAxis(-0.7f * lift, Vec3(1, 0, 0));
+        pose.rotation[left ? VFIT_BONE_LEFT_LOWER_LEG : VFIT_BONE_RIGHT_LOWER_LEG] =
+            glm::angleAxis(1.1f * lift, Vec3(1, 0, 0));
     }
     testing::stand_on_floor(skeleton, pose);
     return testing::joints_of(skeleton, pose, time_ns);
@@ -187,7 +191,8 @@ Body stepping(const Skeleton& skeleton, int frame, int64_t time_ns) {
 TEST(Motion, SurvivesGapsNoTimeAndTimeThatRunsWild) {
     const Skeleton skeleton = testing::test_skeleton();
     // Steps of no time, a nanosecond, a second, a minute, a year, back by a frame, back to the beginning.
-    const int64_t jumps[] = {0, 1, 33'333'333, 1'000'000'000, 60'000'000'000, 31'536'000'000'000'000, -33'333'333};
+    const int64_t jumps[] = {0,          1, 33'333'333, 1'000'000'000, 60'000'000'000, 31'536'000'000'000'000,
+                             -33'333'333};
     for (const bool bound : {false, true}) {
         Motion motion{MotionSettings{}};
         if (bound) motion.bind(skeleton);
@@ -242,7 +247,8 @@ TEST(Motion, GivesTheSameBitsForTheSameBodies) {
             motion->step(nullptr, body.time_ns + 11'000'000);
         }
         ASSERT_EQ(a.pose().hips_position, b.pose().hips_position) << f;
-        for (size_t i = 0; i < size_t(kBoneCount); ++i) ASSERT_EQ(a.pose().rotation[i], b.pose().rotation[i]) << f;
+        for (size_t i = 0; i < size_t(kBoneCount); ++i)
+            ASSERT_EQ(a.pose().rotation[i], b.pose().rotation[i]) << f;
     }
 }
 
@@ -258,8 +264,9 @@ Pose knees_bent_by_16_degrees(const Skeleton& skeleton) {
 }
 
 TEST(Motion, AFootThatStandsKeepsTheKneeAsItWasSeen) {
-    // All above the ankles bobs by a centimetre, as a sensor sees it. Where the root's height does not take that, the
-    // distance from hip to ankle does, and near full stretch a centimetre of it is 17 degrees of the knee.
+    // All above the ankles bobs by a centimetre, as a sensor sees it. Where the root's height does not take
+    // that, the distance from hip to ankle does, and near full stretch a centimetre of it is 17 degrees of
+    // the knee.
     const Skeleton skeleton = testing::test_skeleton();
     Motion motion{MotionSettings{}};
     motion.bind(skeleton);
@@ -278,8 +285,9 @@ TEST(Motion, AFootThatStandsKeepsTheKneeAsItWasSeen) {
 }
 
 TEST(Motion, ALegSeenHigherThanTheOtherOnALevelFloorBendsNoKnee) {
-    // Sensors see one leg, hip to toes, a centimetre higher than the other one. Both feet stand on the floor: the pelvis
-    // rolls by what they differ in, or one knee would bend by another 15 degrees. Nothing above it turns.
+    // Sensors see one leg, hip to toes, a centimetre higher than the other one. Both feet stand on the floor:
+    // the pelvis rolls by what they differ in, or one knee would bend by another 15 degrees. Nothing above it
+    // turns.
     const Skeleton skeleton = testing::test_skeleton();
     Motion motion{MotionSettings{}};
     motion.bind(skeleton);
@@ -287,7 +295,8 @@ TEST(Motion, ALegSeenHigherThanTheOtherOnALevelFloorBendsNoKnee) {
     for (int f = 0; f < 240; ++f) {
         Body body = testing::joints_of(skeleton, knees_bent_by_16_degrees(skeleton), frame_ns(f));
         const float higher = 0.01f * std::clamp(static_cast<float>(f - 60) / 60.0f, 0.0f, 1.0f);
-        for (const int j : {VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_RIGHT_KNEE, VFIT_JOINT_RIGHT_FOOT, VFIT_JOINT_RIGHT_TOES})
+        for (const int j :
+             {VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_RIGHT_KNEE, VFIT_JOINT_RIGHT_FOOT, VFIT_JOINT_RIGHT_TOES})
             body.joints[size_t(j)].position.y += higher;
         motion.step(&body, body.time_ns);
         const PosedSkeleton posed = forward_kinematics(skeleton, motion.pose());
@@ -298,7 +307,9 @@ TEST(Motion, ALegSeenHigherThanTheOtherOnALevelFloorBendsNoKnee) {
             EXPECT_NEAR(angle_of(motion.pose().rotation[size_t(lower)]) / testing::kDeg, 16.0f, 2.0f) << f;
             EXPECT_NEAR(posed.position[size_t(lower) + 1].y, skeleton.ankle_height, 1e-3f) << f;
         }
-        EXPECT_LT(angle_of(glm::conjugate(spine_level) * posed.rotation[VFIT_BONE_SPINE]) / testing::kDeg, 1.2f) << f;
+        EXPECT_LT(angle_of(glm::conjugate(spine_level) * posed.rotation[VFIT_BONE_SPINE]) / testing::kDeg,
+                  1.2f)
+            << f;
     }
 }
 
@@ -317,7 +328,8 @@ TEST(Motion, KeepsTheSignOfEveryQuaternion) {
         const Body body = testing::joints_of(skeleton, pose, frame_ns(f));
         motion.step(&body, body.time_ns);
         for (size_t b = 0; f > 0 && b < before.size(); ++b)
-            ASSERT_GT(glm::dot(motion.pose().rotation[b], before[b]), 0.9f) << bone_name(int(b)) << " at " << f;
+            ASSERT_GT(glm::dot(motion.pose().rotation[b], before[b]), 0.9f)
+                << bone_name(int(b)) << " at " << f;
         before = motion.pose().rotation;
     }
 }
@@ -387,13 +399,16 @@ TEST(Motion, RefusesFiltersAndRulesThatAreNone) {
     EXPECT_NE(refused([](auto& s) { s.contact_rule = -1; }).find("contact_rule"), std::string::npos);
     EXPECT_NE(refused([](auto& s) { s.prediction_s = 0.3f; }).find("prediction_s"), std::string::npos);
     EXPECT_NE(refused([](auto& s) { s.filter.one_euro.beta = -1.0f; }).find("beta"), std::string::npos);
-    EXPECT_NE(refused([](auto& s) { s.filter.one_euro.min_cutoff_hz = 0.0f; }).find("min_cutoff_hz"), std::string::npos);
-    EXPECT_NE(refused([](auto& s) { s.filter.one_euro.derivative_cutoff_hz = NAN; }).find("derivative_cutoff_hz"),
+    EXPECT_NE(refused([](auto& s) { s.filter.one_euro.min_cutoff_hz = 0.0f; }).find("min_cutoff_hz"),
               std::string::npos);
+    EXPECT_NE(
+        refused([](auto& s) { s.filter.one_euro.derivative_cutoff_hz = NAN; }).find("derivative_cutoff_hz"),
+        std::string::npos);
 }
 
 TEST(Motion, ItsPosesAreWithinTheJointLimits) {
-    // Random bodies that jump from pose to pose: what smoothing and planting make of them bends no joint too far.
+    // Random bodies that jump from pose to pose: what smoothing and planting make of them bends no joint too
+    // far.
     const Skeleton skeleton = testing::test_skeleton();
     Motion motion{MotionSettings()};
     motion.bind(skeleton);

@@ -75,7 +75,9 @@ TEST(AdaptiveFilter, HoldsOneReadingThatLeapsAndFollowsTwo) {
     PositionFilter filter;
     Sensor sensor;
     Vec3 shown(0.0f);
-    const auto read = [&](const Vec3& at) { return shown = filter.update(own, at + sensor.noise(0.002f), false, 1.0f, kFrame_s); };
+    const auto read = [&](const Vec3& at) {
+        return shown = filter.update(own, at + sensor.noise(0.002f), false, 1.0f, kFrame_s);
+    };
     for (int i = 0; i < 60; ++i) read({0, 1, -2});
     read({0.3f, 1, -2});
     EXPECT_LT(glm::length(shown - Vec3(0, 1, -2)), 0.01f);
@@ -89,7 +91,8 @@ TEST(AdaptiveFilter, HoldsOneReadingThatLeapsAndFollowsTwo) {
 TEST(AdaptiveFilter, LearnsHowNoisyEachAxisIs) {
     AdaptiveFilter filter;
     Sensor sensor;
-    for (int i = 0; i < 300; ++i) filter.update(Vec3(1.0f) + sensor.noise(1.0f) * Vec3(0.008f, 0.008f, 0.03f), 1.0f, kFrame_s);
+    for (int i = 0; i < 300; ++i)
+        filter.update(Vec3(1.0f) + sensor.noise(1.0f) * Vec3(0.008f, 0.008f, 0.03f), 1.0f, kFrame_s);
     EXPECT_NEAR(filter.noise_m().x, 0.008f, 0.003f);
     EXPECT_NEAR(filter.noise_m().z, 0.03f, 0.01f);
 }
@@ -100,7 +103,8 @@ TEST(PositionFilter, AnUnsureReadingMovesLess) {
         PositionFilter filter;
         for (int i = 0; i < 30; ++i) filter.update(own, Vec3(0.0f), false, 1.0f, kFrame_s);
         Vec3 shown(0.0f);
-        for (int i = 0; i < 2; ++i) shown = filter.update(own, Vec3(0.02f, 0, 0), inferred, confidence, kFrame_s);
+        for (int i = 0; i < 2; ++i)
+            shown = filter.update(own, Vec3(0.02f, 0, 0), inferred, confidence, kFrame_s);
         return shown.x;
     };
     EXPECT_LT(moved(true, 1.0f), 0.7f * moved(false, 1.0f));

@@ -60,7 +60,7 @@ struct Played {
 };
 
 Played play(const std::vector<Body>& bodies, uint32_t flags, const std::vector<uint32_t>* contacts_of,
-         std::vector<uint32_t>* contacts) {
+            std::vector<uint32_t>* contacts) {
     MotionSettings settings;
     settings.flags = flags;
     Motion motion(settings);
@@ -107,9 +107,11 @@ TEST(Recordings, RunThroughTheMotionWithFeetOnTheFloor) {
         std::vector<uint32_t> contacts;
         const Played corrected = play(bodies, 0, nullptr, &contacts);
         const Played plain = play(bodies, VFIT_MOTION_NO_FEET, &contacts, nullptr);
-        std::printf("%-32s contact %3.0f%%  slide %6.1f -> %5.2f mm/s  foot moved by %5.1f mm\n", name.c_str(),
-                    100 * corrected.contact_share, plain.slide_mm_s, corrected.slide_mm_s, corrected.correction_mm);
-        const bool stands = name.find("walking") == std::string::npos && name.find("jogging") == std::string::npos;
+        std::printf("%-32s contact %3.0f%%  slide %6.1f -> %5.2f mm/s  foot moved by %5.1f mm\n",
+                    name.c_str(), 100 * corrected.contact_share, plain.slide_mm_s, corrected.slide_mm_s,
+                    corrected.correction_mm);
+        const bool stands =
+            name.find("walking") == std::string::npos && name.find("jogging") == std::string::npos;
         EXPECT_GT(corrected.contact_share, stands ? 0.9 : 0.2) << name;
         EXPECT_LT(corrected.contact_share, 1.01);
         EXPECT_LT(corrected.slide_mm_s * 5, std::max(plain.slide_mm_s, 1.0)) << name;

@@ -16,9 +16,9 @@ class SyntheticWalk {
 public:
     explicit SyntheticWalk(const Skeleton& skeleton) : skeleton_(skeleton), rest_(skeleton) {}
 
-    float speed = 0.8f, step_s = 0.6f;             // m/s; one foot swings while the other stands
+    float speed = 0.8f, step_s = 0.6f;  // m/s; one foot swings while the other stands
     float lift_m = 0.12f;
-    float slide_m = 0.02f, slide_hz = 1.3f;        // of the planted feet, as sensors report them
+    float slide_m = 0.02f, slide_hz = 1.3f;  // of the planted feet, as sensors report them
     float noise_m = 0.002f;
 
     /// Both feet stand for the first 15 % of each step.
@@ -30,7 +30,8 @@ public:
         out.body = joints_of(skeleton_, pose, frame_ns(frame, rate_hz));
         for (int side = 0; side < 2; ++side) place_leg(t, side, out);
         for (Joint& joint : out.body.joints)
-            if (joint.seen()) joint.position += noise_m * Vec3(normal_(engine_), normal_(engine_), normal_(engine_));
+            if (joint.seen())
+                joint.position += noise_m * Vec3(normal_(engine_), normal_(engine_), normal_(engine_));
         return out;
     }
 

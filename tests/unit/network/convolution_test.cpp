@@ -1,4 +1,5 @@
-// vfit's convolution gives what the sum in its definition and OpenCV's own give, alone and inside OpenCV's dnn.
+// vfit's convolution gives what the sum in its definition and OpenCV's own give, alone and inside OpenCV's
+// dnn.
 #include "network/convolution.h"
 
 #include <gtest/gtest.h>
@@ -24,9 +25,11 @@ std::vector<float> noise(size_t count, uint32_t seed) {
 }
 
 /// The definition, in double.
-std::vector<float> by_definition(const ConvolutionShape& s, const std::vector<float>& weights, const std::vector<float>& bias,
-                                 const std::vector<float>& in, int height, int width, bool cut) {
-    const int h = (height + 2 * s.pad - s.kernel) / s.stride + 1, w = (width + 2 * s.pad - s.kernel) / s.stride + 1;
+std::vector<float> by_definition(const ConvolutionShape& s, const std::vector<float>& weights,
+                                 const std::vector<float>& bias, const std::vector<float>& in, int height,
+                                 int width, bool cut) {
+    const int h = (height + 2 * s.pad - s.kernel) / s.stride + 1,
+              w = (width + 2 * s.pad - s.kernel) / s.stride + 1;
     std::vector<float> out;
     for (int o = 0; o < s.outputs; ++o)
         for (int y = 0; y < h; ++y)
@@ -37,8 +40,9 @@ std::vector<float> by_definition(const ConvolutionShape& s, const std::vector<fl
                         for (int j = 0; j < s.kernel; ++j) {
                             const int v = y * s.stride + i - s.pad, u = x * s.stride + j - s.pad;
                             if (v < 0 || u < 0 || v >= height || u >= width) continue;
-                            sum += double(weights[size_t(((o * s.inputs + c) * s.kernel + i) * s.kernel + j)]) *
-                                   double(in[size_t((c * height + v) * width + u)]);
+                            sum +=
+                                double(weights[size_t(((o * s.inputs + c) * s.kernel + i) * s.kernel + j)]) *
+                                double(in[size_t((c * height + v) * width + u)]);
                         }
                 out.push_back(float(cut ? std::max(0.0, sum) : sum));
             }
@@ -57,12 +61,20 @@ int count_theirs(cv::dnn::Net net) {
 
 TEST(Convolution, IsTheSumOfItsDefinition) {
     uint32_t seed = 0;
-    for (const ConvolutionShape& shape :
-         {ConvolutionShape{1, 16, 5, 2, 2}, {3, 4, 3, 1, 1}, {5, 7, 3, 2, 1}, {8, 46, 1, 1, 0}, {2, 1, 3, 1, 0}, {3, 5, 3, 3, 1},
-          {2, 6, 4, 2, 1}, {1, 3, 1, 2, 0}, {2, 3, 7, 1, 3}, {2, 2, 5, 2, 4}})
+    for (const ConvolutionShape& shape : {ConvolutionShape{1, 16, 5, 2, 2},
+                                          {3, 4, 3, 1, 1},
+                                          {5, 7, 3, 2, 1},
+                                          {8, 46, 1, 1, 0},
+                                          {2, 1, 3, 1, 0},
+                                          {3, 5, 3, 3, 1},
+                                          {2, 6, 4, 2, 1},
+                                          {1, 3, 1, 2, 0},
+                                          {2, 3, 7, 1, 3},
+                                          {2, 2, 5, 2, 4}})
         for (const auto& [height, width] : {std::pair(32, 32), {4, 4}, {8, 8}, {7, 13}, {9, 64}, {65, 5}}) {
             if (height + 2 * shape.pad < shape.kernel || width + 2 * shape.pad < shape.kernel) continue;
-            const auto weights = noise(size_t(shape.outputs * shape.inputs * shape.kernel * shape.kernel), ++seed);
+            const auto weights =
+                noise(size_t(shape.outputs * shape.inputs * shape.kernel * shape.kernel), ++seed);
             const auto bias = seed % 3 == 0 ? std::vector<float>() : noise(size_t(shape.outputs), ++seed);
             Convolution convolution(shape, weights.data(), bias.empty() ? nullptr : bias.data());
             for (const bool cut : {false, true, false}) {  // again: nothing of the last picture stays
@@ -73,8 +85,8 @@ TEST(Convolution, IsTheSumOfItsDefinition) {
                 convolution.run(in.data(), out.data(), cut);
                 for (size_t i = 0; i < expected.size(); ++i)
                     ASSERT_NEAR(out[i], expected[i], 1e-5f)
-                        << "kernel " << shape.kernel << " stride " << shape.stride << " pad " << shape.pad << " at " << height << " x "
-                        << width << ", value " << i;
+                        << "kernel " << shape.kernel << " stride " << shape.stride << " pad " << shape.pad
+                        << " at " << height << " x " << width << ", value " << i;
                 EXPECT_EQ(out.back(), 77.0f) << "nothing is written past the end";
             }
         }
@@ -109,7 +121,8 @@ TEST(ConvolutionLayer, GivesTheSkeletonNetworkTheSameAnswers) {
         theirs.forward(b, outputs);
         for (size_t k = 0; k < outputs.size(); ++k) {
             ASSERT_EQ(a[k].total(), b[k].total());
-            for (size_t n = 0; n < a[k].total(); ++n) ASSERT_NEAR(a[k].ptr<float>()[n], b[k].ptr<float>()[n], 1e-3f);
+            for (size_t n = 0; n < a[k].total(); ++n)
+                ASSERT_NEAR(a[k].ptr<float>()[n], b[k].ptr<float>()[n], 1e-3f);
         }
     }
 }

@@ -45,8 +45,8 @@ protected:
 
 Ref<Frame> frame_of(uint16_t seed, uint32_t width = 5, uint32_t height = 3) {
     auto frame = make<Frame>();
-    auto* depth = static_cast<uint16_t*>(frame->add_stream(VFIT_STREAM_DEPTH, VFIT_FORMAT_U16, width,
-                                                           height));
+    auto* depth =
+        static_cast<uint16_t*>(frame->add_stream(VFIT_STREAM_DEPTH, VFIT_FORMAT_U16, width, height));
     for (uint32_t i = 0; i < width * height; ++i) depth[i] = static_cast<uint16_t>(seed * 257u + i * 4099u);
     frame->time_ns = 1000 + seed;
     frame->camera.width = width;
@@ -161,7 +161,8 @@ TEST_F(RecorderTest, JointsAreInCameraSpaceWithConfidenceAndId) {
     recorder.write(*frame);
     Body next_body = body_in_camera(3);
     next_body.joints[VFIT_JOINT_LEFT_FOOT].state = VFIT_JOINT_NOT_SEEN;
-    next_body.set(VFIT_JOINT_RIGHT_TOES, {-0.2f, 1.1f, 2.8f});  // of a joint that the first frame does not show
+    next_body.set(VFIT_JOINT_RIGHT_TOES,
+                  {-0.2f, 1.1f, 2.8f});  // of a joint that the first frame does not show
     const auto next = frame_of(2);
     next->bodies = {to_world(next_body, next->camera)};
     recorder.write(*next);
@@ -251,7 +252,9 @@ TEST_F(RecorderTest, TimeStampsContactsAndMeasuresGoToTheirFiles) {
 
 TEST_F(RecorderTest, OnlyANewOrEmptyFolderIsTaken) {
     fs::create_directories(folder_);
-    { Recorder in_empty(path(), {}); }
+    {
+        Recorder in_empty(path(), {});
+    }
     EXPECT_EQ(code_of([&] { Recorder again(path(), {}); }), VFIT_ERROR_ARGUMENT) << "it holds a folder now";
     const std::string file = path() + "/depth/file";
     std::ofstream(file) << "x";

@@ -56,7 +56,8 @@ TEST(SurfaceResiduals, TellHowFarTheSurfaceLiesOutside) {
     for (size_t z = 0; z < a.size(); ++z) {
         if (std::isnan(a[z]) || std::isnan(b[z])) continue;
         EXPECT_LT(std::abs(a[z]), 0.04f) << "zone " << z;
-        EXPECT_GT(b[z], a[z] + 0.008f) << "20 mm nearer is 10 to 20 mm farther out of a surface that faces the camera";
+        EXPECT_GT(b[z], a[z] + 0.008f)
+            << "20 mm nearer is 10 to 20 mm farther out of a surface that faces the camera";
         EXPECT_LT(b[z], a[z] + 0.022f);
         ++moved;
     }
@@ -111,7 +112,8 @@ TEST(SurfaceResiduals, ARoughSurfaceIsRougher) {
     FitScene rough = person.scene;
     for (int y = 0; y < 480; ++y)
         for (int x = 0; x < 640; ++x)
-            if (rough.users[size_t(y * 640 + x)]) rough.depth[size_t(y * 640 + x)] += uint16_t((x / 8 + y / 8) % 2 ? 30 : 0);
+            if (rough.users[size_t(y * 640 + x)])
+                rough.depth[size_t(y * 640 + x)] += uint16_t((x / 8 + y / 8) % 2 ? 30 : 0);
     const SurfaceResiduals smooth = person.residuals(person.scene), uneven = person.residuals(rough);
     for (int region = 0; region < SurfaceResiduals::kRegions; ++region)
         EXPECT_GT(uneven.roughness_m(ViewKind::kFront, region, person.shape()),
@@ -127,7 +129,8 @@ TEST(TrunkProfile, TellsBreadthFromTheFrontAndDepthFromTheSide) {
         for (int i = 0; i < 3; ++i) profile.add(person.scene.image(), 1, person.fit, view);
         return profile;
     };
-    const TrunkProfile front = profile_of({}, ViewKind::kFront), side = profile_of(sideways(), ViewKind::kSide);
+    const TrunkProfile front = profile_of({}, ViewKind::kFront),
+                       side = profile_of(sideways(), ViewKind::kSide);
     // The level of the waist: a default body is 0.31 m broad and 0.22 m deep there.
     constexpr int kWaist = 10;
     const auto f = front.reaches_m(ViewKind::kFront, kWaist), s = side.reaches_m(ViewKind::kSide, kWaist);
@@ -137,7 +140,8 @@ TEST(TrunkProfile, TellsBreadthFromTheFrontAndDepthFromTheSide) {
     for (const auto& [inner, outer] : {std::pair(TrunkProfile::kTowards, TrunkProfile::kAheadHalf),
                                        {TrunkProfile::kAheadQuarter, TrunkProfile::kAheadThreeQuarters}})
         EXPECT_GT(f[inner], f[outer]) << "a trunk is round";
-    EXPECT_TRUE(std::isnan(front.reaches_m(ViewKind::kSide, kWaist)[TrunkProfile::kAhead])) << "not seen from there";
+    EXPECT_TRUE(std::isnan(front.reaches_m(ViewKind::kSide, kWaist)[TrunkProfile::kAhead]))
+        << "not seen from there";
     TrunkProfile gone = front;
     gone.reset();
     EXPECT_TRUE(std::isnan(gone.reaches_m(ViewKind::kFront, kWaist)[TrunkProfile::kAhead]));
@@ -192,14 +196,16 @@ TEST(BodyScan, TellsHowFarThePersonIsTurnedFromTheView) {
         }
         return scan.features(true);
     };
-    constexpr size_t kFrontSquared = kCrownFeature + 3, kSide = kCrownFeature + 4, kSideSquared = kCrownFeature + 5;
+    constexpr size_t kFrontSquared = kCrownFeature + 3, kSide = kCrownFeature + 4,
+                     kSideSquared = kCrownFeature + 5;
     const ScanFeatures straight = features(0.0f, 0.0f), turned = features(0.25f, 0.25f);
     EXPECT_LT(straight[kFrontSquared], 0.01f);
     EXPECT_NEAR(turned[kFrontSquared], 0.25f * 0.25f, 0.04f);
     EXPECT_GT(turned[kFrontSquared], straight[kFrontSquared] + 0.02f);
     EXPECT_GT(turned[kSide], straight[kSide] + 0.1f);
     EXPECT_GT(turned[kSideSquared], straight[kSideSquared] + 0.01f);
-    EXPECT_GE(turned[kSideSquared] + 1e-4f, turned[kSide] * turned[kSide]) << "a mean of squares is the square of the mean or more";
+    EXPECT_GE(turned[kSideSquared] + 1e-4f, turned[kSide] * turned[kSide])
+        << "a mean of squares is the square of the mean or more";
 }
 
 TEST(BodyScan, DoesNotAllocateAfterItsFirstFrame) {

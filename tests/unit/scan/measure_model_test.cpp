@@ -35,19 +35,36 @@ constexpr float kUsualCrown_m = 1.7f;
 /// Stature is the crown's height; women are 0.1 m shorter and have an underbust besides.
 Json small_model() {
     const auto measure = [](float base, float log_sigma) {
-        return Json{{"observed", true}, {"base", base}, {"weights", weights(1.0f)}, {"log_sigma", log_sigma},
+        return Json{{"observed", true},
+                    {"base", base},
+                    {"weights", weights(1.0f)},
+                    {"log_sigma", log_sigma},
                     {"sigma_weights", {0.5f, 0.0f}}};
     };
     std::vector<float> mean(kUsed, 0.0f);
     mean[kCrown] = kUsualCrown_m;
-    const Json part = {{"features", used()}, {"mean", mean}, {"scale", std::vector<float>(kUsed, 1.0f)},
-                       {"directions", Json::array()}, {"centres", Json::array()},
-                       {"bends", {{"stature_m", Json::array()}, {"underbust_girth_m", Json::array()}}},
-                       {"usual_strangeness", 1.0f}, {"shape_precision", std::vector<float>(size_t(kFitComponents) * size_t(kFitComponents), 0.0f)}, {"female_weights", weights(-1000.0f)}, {"female_base", 0.0f},
-                       {"sigma_features", {kScanFeatures - 1}},
-                       {"female", {{"stature_m", measure(1.6f, std::log(0.01f))}, {"underbust_girth_m", measure(0.8f, 0.0f)}}},
-                       {"male", {{"stature_m", measure(1.7f, std::log(0.01f))}}}};
-    return {{"format", "vfit-measure-model"}, {"version", 4}, {"unit", 1.0f}, {"unit_of_places", 1.0f}, {"front", part}, {"front_and_side", part}, {"front_tight", part},
+    const Json part = {
+        {"features", used()},
+        {"mean", mean},
+        {"scale", std::vector<float>(kUsed, 1.0f)},
+        {"directions", Json::array()},
+        {"centres", Json::array()},
+        {"bends", {{"stature_m", Json::array()}, {"underbust_girth_m", Json::array()}}},
+        {"usual_strangeness", 1.0f},
+        {"shape_precision", std::vector<float>(size_t(kFitComponents) * size_t(kFitComponents), 0.0f)},
+        {"female_weights", weights(-1000.0f)},
+        {"female_base", 0.0f},
+        {"sigma_features", {kScanFeatures - 1}},
+        {"female",
+         {{"stature_m", measure(1.6f, std::log(0.01f))}, {"underbust_girth_m", measure(0.8f, 0.0f)}}},
+        {"male", {{"stature_m", measure(1.7f, std::log(0.01f))}}}};
+    return {{"format", "vfit-measure-model"},
+            {"version", 4},
+            {"unit", 1.0f},
+            {"unit_of_places", 1.0f},
+            {"front", part},
+            {"front_and_side", part},
+            {"front_tight", part},
             {"front_and_side_tight", part}};
 }
 
@@ -64,7 +81,8 @@ TEST(MeasureModel, IsLinearInWhatTheScanTells) {
     EXPECT_EQ(male[0].key, "stature_m");
     EXPECT_NEAR(male[0].value, 1.75f, 1e-5f);
     EXPECT_NEAR(male[0].sigma, 0.01f, 1e-5f);
-    EXPECT_NEAR(model.measure(features(0.05f, 2.0f), ScanKind{}, VFIT_SEX_MALE)[0].sigma, 0.01f * std::exp(1.0f), 1e-4f);
+    EXPECT_NEAR(model.measure(features(0.05f, 2.0f), ScanKind{}, VFIT_SEX_MALE)[0].sigma,
+                0.01f * std::exp(1.0f), 1e-4f);
 }
 
 TEST(MeasureModel, IsBentByWhatItIsNear) {
@@ -77,7 +95,9 @@ TEST(MeasureModel, IsBentByWhatItIsNear) {
     json["front"]["centres"] = {0, 20};
     json["front"]["bends"] = {{"stature_m", {5, -2}}, {"underbust_girth_m", {0, 0}}};
     const MeasureModel model = MeasureModel::parse(json_text(json));
-    const auto stature = [&](float last) { return model.measure(features(0.1f, last), {}, VFIT_SEX_MALE)[0].value; };
+    const auto stature = [&](float last) {
+        return model.measure(features(0.1f, last), {}, VFIT_SEX_MALE)[0].value;
+    };
     EXPECT_NEAR(stature(0.0f), 1.8f + 0.05f - 0.02f * std::exp(-2.0f), 1e-5f);
     EXPECT_NEAR(stature(2.0f), 1.8f + 0.05f * std::exp(-2.0f) - 0.02f, 1e-5f);
     EXPECT_NEAR(stature(-5.0f), 1.8f, 1e-5f) << "far from all, the linear rule";
@@ -113,7 +133,8 @@ TEST(MeasureModel, KnowsEachKindOfScanByItself) {
     Json json = small_model();
     json["front_and_side_tight"]["male"]["stature_m"]["base"] = 1.9f;
     const MeasureModel model = MeasureModel::parse(json_text(json));
-    EXPECT_NEAR(model.measure(features(0.0f), {.side = true, .tight = true}, VFIT_SEX_MALE)[0].value, 1.9f, 1e-5f);
+    EXPECT_NEAR(model.measure(features(0.0f), {.side = true, .tight = true}, VFIT_SEX_MALE)[0].value, 1.9f,
+                1e-5f);
     EXPECT_NEAR(model.measure(features(0.0f), {.tight = true}, VFIT_SEX_MALE)[0].value, 1.7f, 1e-5f);
     EXPECT_NEAR(model.measure(features(0.0f), {.side = true}, VFIT_SEX_MALE)[0].value, 1.7f, 1e-5f);
 }
@@ -141,14 +162,17 @@ TEST(MeasureModel, IsLessSureOfAPersonUnlikeAllOthers) {
     const float usual = float(kUsed) / float(kScanFeatures) / 4.0f;
     Json easily_surprised = small_model();
     for (const char* kind : {"front", "front_and_side"}) easily_surprised[kind]["usual_strangeness"] = usual;
-    EXPECT_NEAR(MeasureModel::parse(json_text(easily_surprised)).measure(strange, ScanKind{}, VFIT_SEX_MALE)[0].sigma,
-                0.04f * std::sqrt(float(kCrown) / float(kUsed)), 1e-3f);
+    EXPECT_NEAR(
+        MeasureModel::parse(json_text(easily_surprised)).measure(strange, ScanKind{}, VFIT_SEX_MALE)[0].sigma,
+        0.04f * std::sqrt(float(kCrown) / float(kUsed)), 1e-3f);
     // One of the body's own numbers far out, as a child's crown is, is enough.
     Json json = small_model();
     json["front"]["scale"][kCrown] = 0.1f;
     json["front"]["male"]["stature_m"]["weights"][kCrown] = 0.1f;
     const MeasureModel in_decimetres = MeasureModel::parse(json_text(json));
-    const auto sigma = [&](float crown) { return in_decimetres.measure(features(crown), {}, VFIT_SEX_MALE)[0].sigma; };
+    const auto sigma = [&](float crown) {
+        return in_decimetres.measure(features(crown), {}, VFIT_SEX_MALE)[0].sigma;
+    };
     EXPECT_NEAR(sigma(-0.3f), 0.01f, 1e-4f);
     EXPECT_GT(sigma(-0.5f), 0.035f);
     EXPECT_GT(sigma(-0.7f), 0.15f) << "the rule ends at five deviations: the crown contradicts it";
@@ -167,7 +191,8 @@ TEST(MeasureModel, DeviationsFollowHowStrangeTheScanIs) {
     const float usual = model.measure(f, {}, VFIT_SEX_MALE)[0].sigma;
     std::fill(f.begin(), f.begin() + kCrown, 2.0f);
     const float square = 4.0f * float(kCrown) / float(kScanFeatures);
-    EXPECT_NEAR(model.measure(f, {}, VFIT_SEX_MALE)[0].sigma / usual, std::sqrt((square + 0.01f) / 0.01f), 1e-3f);
+    EXPECT_NEAR(model.measure(f, {}, VFIT_SEX_MALE)[0].sigma / usual, std::sqrt((square + 0.01f) / 0.01f),
+                1e-3f);
 }
 
 TEST(MeasureModel, RefusesWhatIsNoModelAndNamesTheFault) {
@@ -190,13 +215,16 @@ TEST(MeasureModel, RefusesWhatIsNoModelAndNamesTheFault) {
     m = small_model(), m["front"]["features"] = Json::array(), refused(m, "features");
     m = small_model(), m["front"]["features"][0] = kScanFeatures, refused(m, "feature");
     m = small_model(), m["front"]["directions"] = 3, refused(m, "directions");
-    m = small_model(), m["front"]["directions"] = weights(1.0f), m["front"]["centres"] = {0.0f, "x"}, refused(m, "centres");
-    m = small_model(), m["front"]["directions"] = weights(1.0f), m["front"]["centres"] = {0.0f}, refused(m, "stature_m");
+    m = small_model(), m["front"]["directions"] = weights(1.0f), m["front"]["centres"] = {0.0f, "x"},
+    refused(m, "centres");
+    m = small_model(), m["front"]["directions"] = weights(1.0f), m["front"]["centres"] = {0.0f},
+    refused(m, "stature_m");
     m = small_model(), m["front"].erase("bends"), refused(m, "bends");
     m = small_model(), m.erase("unit"), refused(m, "unit");
     m = small_model(), m["front"]["sigma_features"] = {100000}, refused(m, "feature");
     m = small_model(), m["front"]["male"]["stature_m"]["weights"][2] = "x", refused(m, "stature_m");
-    m = small_model(), m["front"]["male"] = {{"nose_m", m["front"]["male"]["stature_m"]}}, refused(m, "nose_m");
+    m = small_model(), m["front"]["male"] = {{"nose_m", m["front"]["male"]["stature_m"]}},
+    refused(m, "nose_m");
     m = small_model(), m["front"]["male"] = Json::object(), refused(m, "male");
 }
 
@@ -205,7 +233,8 @@ TEST(MeasureModel, TheOneThatComesWithTheLibraryIsRead) {
     const auto all = model->measure(ScanFeatures{}, {.side = true}, VFIT_SEX_FEMALE);
     EXPECT_GT(all.size(), 20u);
     EXPECT_NE(find(all, "chest_girth_m"), nullptr);
-    EXPECT_EQ(find(model->measure(ScanFeatures{}, {.side = true}, VFIT_SEX_MALE), "underbust_girth_m"), nullptr);
+    EXPECT_EQ(find(model->measure(ScanFeatures{}, {.side = true}, VFIT_SEX_MALE), "underbust_girth_m"),
+              nullptr);
 }
 
 }  // namespace

@@ -68,12 +68,14 @@ TEST_F(PersonScanTest, GirthsFollowThePersonAndNotTheMean) {
         float chest, waist, hip;
     };
     const auto girths = [](const std::vector<Measurement>& m) {
-        return Girths{find(m, "chest_girth_m")->value, find(m, "waist_girth_m")->value, find(m, "hip_girth_m")->value};
+        return Girths{find(m, "chest_girth_m")->value, find(m, "waist_girth_m")->value,
+                      find(m, "hip_girth_m")->value};
     };
     Girths told[2], truth[2];
     for (int heavy = 0; heavy < 2; ++heavy) {
         std::vector<float> shape = body_model()->default_shape(VFIT_SEX_MALE);
-        // As in people, chest, waist and hip grow together: weight alone leaves this model's chest all but as it is.
+        // As in people, chest, waist and hip grow together: weight alone leaves this model's chest all but as
+        // it is.
         shape[size_t(body_model()->parameter("weight"))] = heavy ? 0.95f : 0.45f;
         for (const char* key : {"measure-bust-circ", "measure-waist-circ", "measure-hips-circ"})
             shape[size_t(body_model()->parameter(key))] = heavy ? 0.4f : -0.4f;
@@ -89,7 +91,8 @@ TEST_F(PersonScanTest, GirthsFollowThePersonAndNotTheMean) {
     }
     const auto follows = [](float told_m, float truth_m, const char* what) {
         EXPECT_GT(truth_m, 0.06f) << what;
-        // An estimator that knew the mean alone would tell no difference; extremes are drawn towards it, as they are rare.
+        // An estimator that knew the mean alone would tell no difference; extremes are drawn towards it, as
+        // they are rare.
         EXPECT_NEAR(told_m / truth_m, 1.0f, 0.5f) << what << ": " << told_m << " m of " << truth_m;
     };
     follows(told[1].chest - told[0].chest, truth[1].chest - truth[0].chest, "chest");
@@ -108,9 +111,12 @@ TEST_F(PersonScanTest, AScannedBodyHasTheMeasuredGirths) {
     EXPECT_EQ(scan.likely_sex(), VFIT_SEX_MALE);
     ASSERT_NE(scan.fitted_shape(), nullptr);
     const std::vector<Measurement> measured = scan.measurements();
-    const ScannedBody body = scanned_body(body_model(), *fit_model(), *scan.fitted_shape(), measured, VFIT_SEX_MALE);
-    const std::vector<Measurement> has = measure_avatar(Avatar(body_model(), {VFIT_SEX_MALE}, body.shape, body.scale), VFIT_SEX_MALE);
-    for (const char* key : {"stature_m", "shoulder_breadth_m", "chest_girth_m", "waist_girth_m", "hip_girth_m"})
+    const ScannedBody body =
+        scanned_body(body_model(), *fit_model(), *scan.fitted_shape(), measured, VFIT_SEX_MALE);
+    const std::vector<Measurement> has =
+        measure_avatar(Avatar(body_model(), {VFIT_SEX_MALE}, body.shape, body.scale), VFIT_SEX_MALE);
+    for (const char* key :
+         {"stature_m", "shoulder_breadth_m", "chest_girth_m", "waist_girth_m", "hip_girth_m"})
         EXPECT_NEAR(find(has, key)->value, find(measured, key)->value, 0.015f) << key;
 }
 
@@ -181,8 +187,10 @@ TEST_F(PersonScanTest, ABodyThatCannotBeIsNoReasonToFail) {
     std::vector<Measurement> absurd = scan.measurements();
     for (Measurement& m : absurd) m.value *= m.key == "stature_m" ? 1.0f : 3.0f;
     ScannedBody body;
-    ASSERT_NO_THROW(body = scanned_body(body_model(), *fit_model(), *scan.fitted_shape(), absurd, VFIT_SEX_MALE));
-    EXPECT_NO_THROW(measure_avatar(Avatar(body_model(), {VFIT_SEX_MALE}, body.shape, body.scale), VFIT_SEX_MALE));
+    ASSERT_NO_THROW(
+        body = scanned_body(body_model(), *fit_model(), *scan.fitted_shape(), absurd, VFIT_SEX_MALE));
+    EXPECT_NO_THROW(
+        measure_avatar(Avatar(body_model(), {VFIT_SEX_MALE}, body.shape, body.scale), VFIT_SEX_MALE));
 }
 
 TEST_F(PersonScanTest, ForgetsThePerson) {

@@ -7,8 +7,8 @@
 namespace vfit {
 
 struct Stance {
-    float turned_rad = 0.0f;     // to the person's left
-    float arms_rad = 0.6f;       // of the upper arms from the vertical
+    float turned_rad = 0.0f;  // to the person's left
+    float arms_rad = 0.6f;    // of the upper arms from the vertical
     float arms_ahead_rad = 0.0f;
 };
 

@@ -23,9 +23,15 @@ TEST(HostilePlugin, WhatItThrowsBecomesAnErrorAndIsLogged) {
     fake.plugin.on_discover = [] { throw std::runtime_error("no list"); };
     table.start = [](void*) -> vfit_result { throw std::runtime_error("no start"); };
     table.stop = [](void*) -> vfit_result { throw 7; };
-    table.mode = [](void*, uint32_t, vfit_sensor_mode*) -> vfit_result { throw std::runtime_error("no modes"); };
-    table.option = [](void*, uint32_t, vfit_sensor_option*) -> vfit_result { throw std::runtime_error("no options"); };
-    table.set_option = [](void*, const char*, const char*) -> vfit_result { throw std::runtime_error("no gain"); };
+    table.mode = [](void*, uint32_t, vfit_sensor_mode*) -> vfit_result {
+        throw std::runtime_error("no modes");
+    };
+    table.option = [](void*, uint32_t, vfit_sensor_option*) -> vfit_result {
+        throw std::runtime_error("no options");
+    };
+    table.set_option = [](void*, const char*, const char*) -> vfit_result {
+        throw std::runtime_error("no gain");
+    };
     fake.attach();
     EXPECT_TRUE(fake.host.discover().empty());
     EXPECT_TRUE(logged(fake, "threw an exception: no list"));
@@ -42,7 +48,9 @@ TEST(HostilePlugin, WhatItThrowsBecomesAnErrorAndIsLogged) {
 
 TEST(HostilePlugin, AnOpenThatThrowsLeavesNothing) {
     FakeHost fake;
-    fake.plugin.table.open = [](void*, const char*, void*, void**) -> vfit_result { throw std::runtime_error("no device"); };
+    fake.plugin.table.open = [](void*, const char*, void*, void**) -> vfit_result {
+        throw std::runtime_error("no device");
+    };
     fake.attach();
     EXPECT_EQ(failure_of([&] { fake.host.open("fake:1"); }).code, VFIT_ERROR_PLUGIN);
     EXPECT_TRUE(logged(fake, "no device"));

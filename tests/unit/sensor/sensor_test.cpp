@@ -124,9 +124,10 @@ TEST(Sensor, StopWakesAWaitingAcquireAndAWaitingPush) {
     auto acquired = std::async(std::launch::async, [&] {
         Ref<Frame> frame;
         return failure_of([&] {
-            while (sensor->acquire(-1, frame) == VFIT_OK) {
-            }
-        }).code;
+                   while (sensor->acquire(-1, frame) == VFIT_OK) {
+                   }
+               })
+            .code;
     });
     auto pushed = std::async(std::launch::async, [&] {
         vfit_result result = VFIT_OK;

@@ -18,7 +18,8 @@ TEST(UsbIds, AreReadAsTheyAreWritten) {
 }
 
 TEST(UsbIds, AnythingElseIsRefusedWithItsText) {
-    for (const char* text : {"1d27", "1d27:0609,", ",1d27:0609", "1d27-0609", "1d27:060", "1d27:0609 045e:02ae", "1d2g:0609", "-d27:0609", "0x1d27:0609"}) {
+    for (const char* text : {"1d27", "1d27:0609,", ",1d27:0609", "1d27-0609", "1d27:060",
+                             "1d27:0609 045e:02ae", "1d2g:0609", "-d27:0609", "0x1d27:0609"}) {
         const Failure failure = failure_of([&] { parse_usb_ids(text); });
         EXPECT_EQ(failure.code, VFIT_ERROR_PLUGIN) << text;
         EXPECT_TRUE(failure.says(text)) << text;

@@ -86,17 +86,21 @@ TEST(Recommend, TakesTheLabelThatAllMeasuresMissLeast) {
 TEST(Recommend, AMeasureThatIsKnownExactlyLeavesTheOthersDistribution) {
     // The waist stands on the border: the chest alone decides.
     const float by_chest = of(recommend(chart(), "dress", {chest(0.95f, 0.02f)}), "M");
-    EXPECT_NEAR(of(recommend(chart(), "dress", {chest(0.95f, 0.02f), waist(0.74f, 0.0f)}), "M"), by_chest, 0.02f);
+    EXPECT_NEAR(of(recommend(chart(), "dress", {chest(0.95f, 0.02f), waist(0.74f, 0.0f)}), "M"), by_chest,
+                0.02f);
 }
 
 TEST(Recommend, WeighsTheMeasuresAsTheChartSays) {
     const auto by_weight = [](const char* weights) {
         const std::string text =
-            std::string(R"({"format": "vfit-size-chart", "version": 1, "name": "t", "unit": "cm", "garments": [
-          {"kind": "dress", "measures": ["chest_girth_m", "waist_girth_m"], )") + weights + R"("sizes": [
+            std::string(
+                R"({"format": "vfit-size-chart", "version": 1, "name": "t", "unit": "cm", "garments": [
+          {"kind": "dress", "measures": ["chest_girth_m", "waist_girth_m"], )") +
+            weights + R"("sizes": [
             {"label": "S", "ranges": {"chest_girth_m": [86, 94], "waist_girth_m": [66, 74]}},
             {"label": "M", "ranges": {"chest_girth_m": [94, 102], "waist_girth_m": [74, 82]}}]}]})";
-        return of(recommend(SizeChart::parse(text), "dress", {chest(0.90f, 0.005f), waist(0.80f, 0.005f)}), "M");
+        return of(recommend(SizeChart::parse(text), "dress", {chest(0.90f, 0.005f), waist(0.80f, 0.005f)}),
+                  "M");
     };
     EXPECT_GT(by_weight(""), 0.9f) << "4 cm of chest against 6 of waist";
     EXPECT_LT(by_weight(R"("weights": {"waist_girth_m": 0.2}, )"), 0.1f);
@@ -131,9 +135,10 @@ TEST(Recommend, JoinsTheLabelsOfTwoAxes) {
 }
 
 TEST(Recommend, ErrorsOfOnePersonGoPartlyTogether) {
-    // Both on the border. Were errors independent each of the four labels had a quarter; with a correlation of 0.3 both
-    // are on the same side in 1/2 + asin(0.3) / pi.
-    const auto sizes = recommend(other_chart(), "jeans", {waist(31 * 0.0254f, 0.004f), {"inside_leg_m", 31 * 0.0254f, 0.004f, true}});
+    // Both on the border. Were errors independent each of the four labels had a quarter; with a correlation
+    // of 0.3 both are on the same side in 1/2 + asin(0.3) / pi.
+    const auto sizes = recommend(other_chart(), "jeans",
+                                 {waist(31 * 0.0254f, 0.004f), {"inside_leg_m", 31 * 0.0254f, 0.004f, true}});
     const float same = of(sizes, "W30/L30") + of(sizes, "W32/L32");
     EXPECT_NEAR(same, 0.5 + std::asin(0.3) / 3.14159265, 0.015);
 }
@@ -141,7 +146,8 @@ TEST(Recommend, ErrorsOfOnePersonGoPartlyTogether) {
 TEST(Recommend, ReadsATableByHeightAndWeight) {
     const auto label = [](double lb, double inch) {
         return recommend(other_chart(), "wetsuit",
-                         {{"body_mass_kg", float(lb * 0.45359237), 0.5f, true}, {"stature_m", float(inch * 0.0254), 0.003f, true}})[0]
+                         {{"body_mass_kg", float(lb * 0.45359237), 0.5f, true},
+                          {"stature_m", float(inch * 0.0254), 0.003f, true}})[0]
             .label;
     };
     EXPECT_EQ(label(100, 60), "S") << "beyond the table: its nearest cell";
@@ -166,7 +172,8 @@ TEST(SizeZones, TellEaseAndWhatIsTight) {
     EXPECT_GT(large[0].loose, 0.999f);
     EXPECT_THROW(size_zones(chart(), "top", "XL", {chest(0.98f, 0.01f)}), Error);
     EXPECT_THROW(size_zones(chart(), "top", "L", {waist(0.8f, 0.01f)}), Error);
-    EXPECT_THROW(size_zones(other_chart(), "wetsuit", "M", {{"stature_m", 1.7f, 0.0f, true}}), Error) << "a label of many ranges";
+    EXPECT_THROW(size_zones(other_chart(), "wetsuit", "M", {{"stature_m", 1.7f, 0.0f, true}}), Error)
+        << "a label of many ranges";
     EXPECT_EQ(size_zones(other_chart(), "jeans", "W32/L30", {waist(0.8f, 0.01f)}).size(), 1u);
 }
 

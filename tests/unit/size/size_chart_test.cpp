@@ -111,11 +111,13 @@ TEST(SizeChart, RefusesUnknownDoubleAndEmptyEntries) {
 }
 
 std::string chart_of(const std::string& garment) {
-    return R"({"format": "vfit-size-chart", "version": 1, "name": "t", "unit": "cm", "garments": [{"kind": "g", )" + garment + "}]}";
+    return R"({"format": "vfit-size-chart", "version": 1, "name": "t", "unit": "cm", "garments": [{"kind": "g", )" +
+           garment + "}]}";
 }
 
 TEST(SizeChart, NamesWhatIsWrongWithAxes) {
-    const std::string good = R"("axes": [{"measure": "waist_girth_m", "sizes": [{"label": "a", "range": [70, 80]},
+    const std::string good =
+        R"("axes": [{"measure": "waist_girth_m", "sizes": [{"label": "a", "range": [70, 80]},
         {"label": "b", "range": [80, 90]}]}, {"measure": "inside_leg_m", "sizes": [{"label": "c", "range": [70, 80]}]}])";
     const auto with = [&](const std::string& from, const std::string& to) {
         std::string text = good;
@@ -136,8 +138,8 @@ TEST(SizeChart, NamesWhatIsWrongWithAxes) {
     for (const char* key : {"waist_girth_m", "inside_leg_m", "hip_girth_m", "chest_girth_m"}) {
         many += std::string(many.back() == '[' ? "" : ",") + R"({"measure": ")" + key + R"(", "sizes": [)";
         for (int i = 0; i < 9; ++i)
-            many += (i ? "," : "") + std::string(R"({"label": ")") + char('a' + i) + R"(", "range": [)" + std::to_string(50 + i) + "," +
-                    std::to_string(51 + i) + "]}";
+            many += (i ? "," : "") + std::string(R"({"label": ")") + char('a' + i) + R"(", "range": [)" +
+                    std::to_string(50 + i) + "," + std::to_string(51 + i) + "]}";
         many += "]}";
     }
     expect_refused(chart_of(many + "]"), {"garment g", "4096"});
@@ -192,7 +194,8 @@ TEST(SizeChart, ShipsChartsThatFollowTheRules) {
         EXPECT_FALSE(chart.source().empty()) << "says where its numbers come from";
         const std::string name = file.path().stem().string();
         if (name == "paper" || name.rfind("en13402", 0) == 0) {
-            for (const char* kind : {"short_sleeves", "long_sleeves", "trousers"}) EXPECT_NO_THROW(chart.garment(kind));
+            for (const char* kind : {"short_sleeves", "long_sleeves", "trousers"})
+                EXPECT_NO_THROW(chart.garment(kind));
         }
         ++charts;
     }

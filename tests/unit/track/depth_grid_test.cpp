@@ -38,7 +38,8 @@ TEST(DepthGrid, IsAsFineAsTheImageAllowsAndNoWiderThanItsLimit) {
 }
 
 TEST(DepthGrid, IsNeverEmptyHoweverThinTheImage) {
-    for (const auto& [width, height] : {std::pair{16384u, 1u}, {16384u, 2u}, {1000u, 2u}, {1u, 1u}, {1u, 3000u}, {721u, 5u}}) {
+    for (const auto& [width, height] :
+         {std::pair{16384u, 1u}, {16384u, 2u}, {1000u, 2u}, {1u, 1u}, {1u, 3000u}, {721u, 5u}}) {
         Picture picture(width, height, 2000);
         DepthGrid grid;
         grid.run(picture.view());
@@ -57,7 +58,8 @@ TEST(DepthGrid, ACellIsTheMeanOfItsNearestSurface) {
     picture.at(10, 11) = 0;
     DepthGrid grid;
     grid.run(picture.view());
-    EXPECT_NEAR(grid.depth()[5 * 320 + 5], 2.010f, 1e-4f) << "without the wall behind and the missing reading";
+    EXPECT_NEAR(grid.depth()[5 * 320 + 5], 2.010f, 1e-4f)
+        << "without the wall behind and the missing reading";
     for (const uint32_t y : {20u, 21u})
         for (const uint32_t x : {20u, 21u}) picture.at(x, y) = 0;
     grid.run(picture.view());

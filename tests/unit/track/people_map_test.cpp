@@ -54,7 +54,13 @@ TEST(PeopleMap, WhoStandsBehindAThingIsFoundAgainWhenItHasGone) {
 TEST(PeopleMap, TakesImagesOfAnyShapeOneAfterTheOther) {
     PeopleMap map;
     int64_t time_ns = 0;
-    for (const auto& [width, height] : {std::pair{320u, 240u}, {240u, 320u}, {16384u, 1u}, {1000u, 2u}, {1u, 1u}, {1u, 500u}, {320u, 240u}}) {
+    for (const auto& [width, height] : {std::pair{320u, 240u},
+                                        {240u, 320u},
+                                        {16384u, 1u},
+                                        {1000u, 2u},
+                                        {1u, 1u},
+                                        {1u, 500u},
+                                        {320u, 240u}}) {
         std::vector<uint16_t> depth(size_t(width) * height, 2000);
         std::vector<uint8_t> users(depth.size(), 9);
         DepthImage image;
@@ -63,7 +69,8 @@ TEST(PeopleMap, TakesImagesOfAnyShapeOneAfterTheOther) {
         image.camera.fx = image.camera.fy = 285.0f;
         image.camera.cx = 0.5f * float(width), image.camera.cy = 0.5f * float(height);
         for (int frame = 0; frame < 3; ++frame) {
-            EXPECT_EQ(map.run(image, time_ns += kFrame_ns, users.data()).size(), 0u) << width << " x " << height;
+            EXPECT_EQ(map.run(image, time_ns += kFrame_ns, users.data()).size(), 0u)
+                << width << " x " << height;
             EXPECT_EQ(users.front() | users.back(), 0);
         }
     }
@@ -122,14 +129,14 @@ TEST(PeopleMap, ReportsNobodyInARoomWithFurniture) {
     RoomScene scene;
     scene.side_x = 1.6f;
     scene.things = {
-        {{-1.2f, 0.0f, -2.6f}, {-0.7f, 1.5f, -2.1f}},    // cupboard
-        {{0.2f, 0.4f, -2.4f}, {0.65f, 0.46f, -2.0f}},    // chair: seat, back, legs
+        {{-1.2f, 0.0f, -2.6f}, {-0.7f, 1.5f, -2.1f}},  // cupboard
+        {{0.2f, 0.4f, -2.4f}, {0.65f, 0.46f, -2.0f}},  // chair: seat, back, legs
         {{0.2f, 0.46f, -2.4f}, {0.65f, 0.95f, -2.36f}},
         {{0.22f, 0.0f, -2.04f}, {0.25f, 0.4f, -2.01f}},
         {{0.6f, 0.0f, -2.04f}, {0.63f, 0.4f, -2.01f}},
         {{-0.22f, 0.0f, -2.52f}, {-0.18f, 1.7f, -2.48f}},  // coat rack: pole, coat
         {{-0.38f, 1.0f, -2.6f}, {-0.02f, 1.6f, -2.4f}},
-        {{-1.6f, 0.0f, -3.7f}, {1.0f, 2.2f, -3.68f}},    // curtain
+        {{-1.6f, 0.0f, -3.7f}, {1.0f, 2.2f, -3.68f}},  // curtain
     };
     People people;
     for (int i = 0; i < 5; ++i) EXPECT_EQ(people.see(scene).size(), 0u);
@@ -194,7 +201,8 @@ TEST(PeopleMap, WhoComesBackWithinTwoSecondsIsTheSame) {
     for (int i = 0; i < 100; ++i) people.see(scene);
     scene.people.push_back(standing_person(0.3f, -2.8f));
     ASSERT_EQ(people.see(scene).size(), 1u);
-    EXPECT_NE(people.map.run(scene.bare(), people.time_ns + 1, people.users.data())[0].id, id) << "three seconds later";
+    EXPECT_NE(people.map.run(scene.bare(), people.time_ns + 1, people.users.data())[0].id, id)
+        << "three seconds later";
 }
 
 TEST(PeopleMap, ABoxBeforeThePersonForASecondDoesNotChangeTheNumber) {

@@ -1,5 +1,5 @@
-// The user map where it is hard: people at furniture and walls, close to each other, with things in their hands, and
-// things that have a person's shape.
+// The user map where it is hard: people at furniture and walls, close to each other, with things in their
+// hands, and things that have a person's shape.
 #include <gtest/gtest.h>
 
 #include "people_player.h"
@@ -34,8 +34,8 @@ TEST(HardScene, TenCentimetresBeforeAWall) {
 
 TEST(HardScene, OnAChair) {
     RoomScene scene;
-    scene.things = {{{-0.25f, 0.41f, -2.85f}, {0.25f, 0.45f, -2.35f}},    // seat
-                    {{-0.25f, 0.45f, -2.9f}, {0.25f, 0.95f, -2.86f}},     // back
+    scene.things = {{{-0.25f, 0.41f, -2.85f}, {0.25f, 0.45f, -2.35f}},  // seat
+                    {{-0.25f, 0.45f, -2.9f}, {0.25f, 0.95f, -2.86f}},   // back
                     {{-0.24f, 0.0f, -2.4f}, {-0.2f, 0.41f, -2.36f}},
                     {{0.2f, 0.0f, -2.4f}, {0.24f, 0.41f, -2.36f}}};
     scene.people.push_back(sitting_person(0.0f, -2.65f));
@@ -139,7 +139,8 @@ TEST(HardScene, AForearmBeforeSomebodyElseStaysWithItsOwner) {
 TEST(HardScene, OneHalfBehindTheOtherAreTwoInTheFirstImage) {
     RoomScene scene;
     scene.people = {standing_person(-0.13f, -2.5f), standing_person(0.13f, -2.8f)};
-    scene.people[1].push_back({{-0.05f, 1.15f, -2.5f}, {0.13f, 1.15f, -2.7f}, 0.05f});  // a hand on the other's back
+    scene.people[1].push_back(
+        {{-0.05f, 1.15f, -2.5f}, {0.13f, 1.15f, -2.7f}, 0.05f});  // a hand on the other's back
     People people;
     EXPECT_EQ(people.see(scene).size(), 2u);
     EXPECT_GT(people.iou(scene, 1), 0.85);
@@ -237,8 +238,9 @@ TEST(HardScene, ADummyThatWasRejectedStaysAThingWhoeverPasses) {
 TEST(HardScene, APlantInAPotComesNotBackOnceItWasRejected) {
     RoomScene scene;
     scene.dummies.push_back({{{0.0f, 0.1f, -2.5f}, {0.0f, 0.25f, -2.5f}, 0.16f}});  // pot
-    for (int i = 0; i < 40; ++i) {  // leaves
-        const float turn = 2.4f * float(i), out = 0.08f + 0.18f * float(i % 7) / 6.0f, up = 0.45f + 0.022f * float(i);
+    for (int i = 0; i < 40; ++i) {                                                  // leaves
+        const float turn = 2.4f * float(i), out = 0.08f + 0.18f * float(i % 7) / 6.0f,
+                    up = 0.45f + 0.022f * float(i);
         const Vec3 leaf(out * std::cos(turn), up, -2.5f + out * std::sin(turn));
         scene.dummies[0].push_back({{0.0f, up - 0.1f, -2.5f}, leaf, 0.03f});
     }

@@ -17,7 +17,8 @@ struct Shown {
     Shown(const std::vector<Capsule>& capsules, uint8_t number) : figure(&capsules), who(number) {
         for (const Capsule& c : capsules) centre += (c.a + c.b) / (2.0f * float(capsules.size()));
         for (const Capsule& c : capsules)
-            for (const Vec3& end : {c.a, c.b}) radius = std::max(radius, glm::distance(centre, end) + c.radius);
+            for (const Vec3& end : {c.a, c.b})
+                radius = std::max(radius, glm::distance(centre, end) + c.radius);
     }
     bool near(const Vec3& eye, const Vec3& ray) const {
         const Vec3 to = centre - eye;
@@ -47,7 +48,8 @@ float meet(const Vec3& eye, const Vec3& ray, const Capsule& c) {
     const Vec3 axis = c.b - c.a, o = eye - c.a;
     const float aa = glm::dot(axis, axis), ar = glm::dot(axis, ray), ao = glm::dot(axis, o);
     const float rr = glm::dot(ray, ray), ro = glm::dot(ray, o), oo = glm::dot(o, o);
-    const float p = aa * rr - ar * ar, q = aa * ro - ao * ar, s = aa * oo - ao * ao - c.radius * c.radius * aa;
+    const float p = aa * rr - ar * ar, q = aa * ro - ao * ar,
+                s = aa * oo - ao * ao - c.radius * c.radius * aa;
     const float root = q * q - p * s;
     if (root < 0) return -1.0f;
     const float t = (-q - std::sqrt(root)) / p, along = ao + t * ar;

@@ -73,10 +73,10 @@ inline Figure placed(Figure p, float x, float z, float scale = 1.0f) {
 /// Head, neck, shoulders and trunk of somebody 1.72 m tall; `lower` lowers them all, for those who sit.
 inline Figure upper_body(float lower = 0.0f) {
     Figure p = {
-        {{0, 1.60f, 0}, {0, 1.62f, 0}, 0.10f},        // head
-        {{0, 1.42f, 0}, {0, 1.52f, 0}, 0.06f},        // neck
+        {{0, 1.60f, 0}, {0, 1.62f, 0}, 0.10f},           // head
+        {{0, 1.42f, 0}, {0, 1.52f, 0}, 0.06f},           // neck
         {{-0.10f, 1.30f, 0}, {0.10f, 1.30f, 0}, 0.13f},  // shoulders
-        {{0, 0.98f, 0}, {0, 1.28f, 0}, 0.15f},        // trunk
+        {{0, 0.98f, 0}, {0, 1.28f, 0}, 0.15f},           // trunk
         {{-0.06f, 0.93f, 0}, {0.06f, 0.93f, 0}, 0.12f},  // hips
     };
     for (Capsule& c : p) c.a.y -= lower, c.b.y -= lower;
@@ -92,7 +92,8 @@ inline Figure standing_legs() {
     return p;
 }
 
-/// Both arms from the shoulders over the elbows to hands at (+-hand.x, hand.y, hand.z); z: before the trunk's axis.
+/// Both arms from the shoulders over the elbows to hands at (+-hand.x, hand.y, hand.z); z: before the trunk's
+/// axis.
 inline Figure arms(const Vec3& elbow, const Vec3& hand, float lower = 0.0f) {
     Figure p;
     for (const float s : {-1.0f, 1.0f}) {
@@ -111,7 +112,8 @@ inline Figure operator+(Figure a, const Figure& b) {
 /// Upright, 1.72 m tall, facing the camera; arms hang a little off the trunk.
 inline Figure standing_person(float x, float z, float scale = 1.0f) {
     Figure p = upper_body() + standing_legs();
-    for (const float s : {-1.0f, 1.0f}) p.push_back({{s * 0.20f, 1.36f, 0}, {s * 0.30f, 0.80f, 0.03f}, 0.045f});
+    for (const float s : {-1.0f, 1.0f})
+        p.push_back({{s * 0.20f, 1.36f, 0}, {s * 0.30f, 0.80f, 0.03f}, 0.045f});
     return placed(p, x, z, scale);
 }
 

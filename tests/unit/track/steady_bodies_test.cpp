@@ -99,8 +99,8 @@ TEST(SteadyBodies, AJointThatWasNotSeenStartsWhereItIsSeenAgain) {
 
 TEST(SteadyBodies, APauseAndAnEarlierTimeStartAfresh) {
     SteadyBodies steady;
-    for (const int64_t next : {10 * kStep_ns, 11 * kStep_ns, 30 * kStep_ns, 29 * kStep_ns,
-                               1000 * kStep_ns, int64_t(0), INT64_MAX, INT64_MIN}) {
+    for (const int64_t next : {10 * kStep_ns, 11 * kStep_ns, 30 * kStep_ns, 29 * kStep_ns, 1000 * kStep_ns,
+                               int64_t(0), INT64_MAX, INT64_MIN}) {
         Body body = body_at(next, float(next % 7));
         steady.run(body);
         if (next != 11 * kStep_ns) {

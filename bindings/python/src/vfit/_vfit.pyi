@@ -3,15 +3,54 @@
 from enum import IntEnum
 from os import PathLike
 from types import TracebackType
-from typing import Any, Final, Iterator, List, Literal, Mapping, Optional, Sequence, Tuple, Type, TypeVar, Union
+from typing import (
+    Any,
+    Final,
+    Iterator,
+    List,
+    Literal,
+    Mapping,
+    Optional,
+    Sequence,
+    Tuple,
+    Type,
+    TypeVar,
+    Union,
+)
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .values import (
-    AvatarPart, Body, Camera, CharacterInfo, ClothStats, Collider, ContextStats, FitZone, GarmentInfo, GarmentPart, Intrinsics, Joints, LibraryInfo, LogLine,
-    Measurement, PluginInfo, Pose, RigBone, Scale, ScanState, SensorInfo, SensorMode, SensorOption, SensorStats,
-    ShapeValue, Size, SizeRow, SizeZone, StageTime,
+    AvatarPart,
+    Body,
+    Camera,
+    CharacterInfo,
+    ClothStats,
+    Collider,
+    ContextStats,
+    FitZone,
+    GarmentInfo,
+    GarmentPart,
+    Intrinsics,
+    Joints,
+    LibraryInfo,
+    LogLine,
+    Measurement,
+    PluginInfo,
+    Pose,
+    RigBone,
+    Scale,
+    ScanState,
+    SensorInfo,
+    SensorMode,
+    SensorOption,
+    SensorStats,
+    ShapeValue,
+    Size,
+    SizeRow,
+    SizeZone,
+    StageTime,
 )
 
 _Path = Union[str, "PathLike[str]"]
@@ -197,16 +236,29 @@ class _Closable:
     def closed(self) -> bool: ...
     def close(self) -> None: ...
     def __enter__(self: _Self) -> _Self: ...
-    def __exit__(self, kind: Optional[Type[BaseException]], error: Optional[BaseException],
-                 trace: Optional[TracebackType], /) -> None: ...
+    def __exit__(
+        self,
+        kind: Optional[Type[BaseException]],
+        error: Optional[BaseException],
+        trace: Optional[TracebackType],
+        /,
+    ) -> None: ...
 
 class Context(_Closable):
     """All that vfit does happens in a context; contexts share nothing. Closing it closes every object of it, but
     for frames and arrays: those stay valid, and the last of them frees the rest."""
 
-    def __init__(self, *, axes: Axes = ..., validate: bool = False, deterministic: bool = False,
-                 mirror: bool = False, workers: int = 0, plugin_dir: Optional[_Path] = None,
-                 data_dir: Optional[_Path] = None) -> None: ...
+    def __init__(
+        self,
+        *,
+        axes: Axes = ...,
+        validate: bool = False,
+        deterministic: bool = False,
+        mirror: bool = False,
+        workers: int = 0,
+        plugin_dir: Optional[_Path] = None,
+        data_dir: Optional[_Path] = None,
+    ) -> None: ...
     @property
     def time_ns(self) -> int:
         """Now, on the clock of all time stamps of this context."""
@@ -233,11 +285,16 @@ class Frame(_Closable):
     does not have raises ArgumentError; `Stream.COLOR in frame` asks first."""
 
     @staticmethod
-    def from_numpy(context: Context, depth: NDArray[np.uint16],
-                   intrinsics: Union[Intrinsics, Sequence[Any]], *,
-                   users: Union[NDArray[np.uint8], NDArray[np.bool_], None] = None,
-                   color: Optional[NDArray[np.uint8]] = None, camera: Optional[Camera] = None,
-                   time_ns: int = 0) -> Frame:
+    def from_numpy(
+        context: Context,
+        depth: NDArray[np.uint16],
+        intrinsics: Union[Intrinsics, Sequence[Any]],
+        *,
+        users: Union[NDArray[np.uint8], NDArray[np.bool_], None] = None,
+        color: Optional[NDArray[np.uint8]] = None,
+        camera: Optional[Camera] = None,
+        time_ns: int = 0,
+    ) -> Frame:
         """A frame from your own pixels, which are copied: depth (h, w), users (h, w), color (h, w, 4)."""
     @property
     def streams(self) -> Tuple[Stream, ...]: ...
@@ -309,8 +366,15 @@ class Sensor(_Closable):
 class Recorder(_Closable):
     """Writes a recording folder (docs/recording.md)."""
 
-    def __init__(self, context: Context, path: _Path, *, sensor_name: Optional[str] = None, rate_hz: float = 30.0,
-                 segmented: bool = False) -> None: ...
+    def __init__(
+        self,
+        context: Context,
+        path: _Path,
+        *,
+        sensor_name: Optional[str] = None,
+        rate_hz: float = 30.0,
+        segmented: bool = False,
+    ) -> None: ...
     def write(self, frame: Frame) -> None: ...
 
 class Tracker(_Closable):
@@ -323,36 +387,69 @@ class Tracker(_Closable):
     "auto" for the tracker's own and submitted ones, "on" for the source's too, "off". fit: the body model fitted to
     depth and outline moves the joints that the tracker finds and gives them rotations; "auto" is the active person's."""
 
-    def __init__(self, context: Context, *, floor: Optional[Camera] = None, joints: _TrackSource = "auto",
-                 user_map: _TrackSource = "auto",
-                 follow: Literal["nearest", "centred", "first", "chosen"] = "nearest",
-                 filter: Literal["auto", "on", "off"] = "auto",
-                 fit: Literal["auto", "off", "everybody"] = "auto") -> None: ...
+    def __init__(
+        self,
+        context: Context,
+        *,
+        floor: Optional[Camera] = None,
+        joints: _TrackSource = "auto",
+        user_map: _TrackSource = "auto",
+        follow: Literal["nearest", "centred", "first", "chosen"] = "nearest",
+        filter: Literal["auto", "on", "off"] = "auto",
+        fit: Literal["auto", "off", "everybody"] = "auto",
+    ) -> None: ...
     def update(self, frame: Frame) -> Frame:
         """The frame with the bodies that its source supplies, or those that the tracker finds."""
-    def track(self, depth: NDArray[np.uint16], intrinsics: Union[Intrinsics, Sequence[Any]], *,
-              users: Union[NDArray[np.uint8], NDArray[np.bool_], None] = None, camera: Optional[Camera] = None,
-              time_ns: int = 0) -> Frame:
+    def track(
+        self,
+        depth: NDArray[np.uint16],
+        intrinsics: Union[Intrinsics, Sequence[Any]],
+        *,
+        users: Union[NDArray[np.uint8], NDArray[np.bool_], None] = None,
+        camera: Optional[Camera] = None,
+        time_ns: int = 0,
+    ) -> Frame:
         """User map (`.users`) and people (`.bodies()`) of a depth image (h, w) in millimetres, 0 where there is no
         reading; intrinsics are fx, fy, cx, cy in pixels. Images that follow each other want their time stamps:
         people keep their ids and joints are steadied over time. time_ns 0: now."""
-    def hint(self, hints: Union[Mapping[str, Sequence[float]], Mapping[Joint, Sequence[float]]], *,
-             body_id: int = 0) -> None:
+    def hint(
+        self,
+        hints: Union[Mapping[str, Sequence[float]], Mapping[Joint, Sequence[float]]],
+        *,
+        body_id: int = 0,
+    ) -> None:
         """Joints that you see in the image, as (x, y) or (x, y, confidence) in pixels of the depth image, for the
         next update or track alone. body_id 0: of whose pixel each is."""
     def choose(self, body_id: Optional[int]) -> None:
         """That person is the active one from the next frame on; when they have left for two seconds the rule holds
         again. None: by the rule again."""
-    def submit(self, frame: Frame, joints: _JointsIn, *, body_id: int = 1, time_ns: int = 0,
-               camera_space: bool = False, partly_out_of_view: bool = False) -> Frame:
+    def submit(
+        self,
+        frame: Frame,
+        joints: _JointsIn,
+        *,
+        body_id: int = 1,
+        time_ns: int = 0,
+        camera_space: bool = False,
+        partly_out_of_view: bool = False,
+    ) -> Frame:
         """The frame with a body of your own; submit to the result to add a second one."""
     def reset(self) -> None: ...
 
 class Scan(_Closable):
     """Measures one person over several frames; closing it wipes the body data."""
 
-    def __init__(self, context: Context, *, frames: int = 0, sex: _Sex = None, method: ScanMethod = ...,
-                 side_frames: int = 0, bare: bool = False, tight: bool = False) -> None: ...
+    def __init__(
+        self,
+        context: Context,
+        *,
+        frames: int = 0,
+        sex: _Sex = None,
+        method: ScanMethod = ...,
+        side_frames: int = 0,
+        bare: bool = False,
+        tight: bool = False,
+    ) -> None: ...
     def add(self, frame: Frame, body_id: Optional[int] = None) -> ScanState: ...
     def measure(self) -> dict[str, Measurement]: ...
     def colliders(self) -> list[Collider]: ...
@@ -374,8 +471,10 @@ class SizeChart(_Closable):
 
 def write_measurements(measurements: _Measures, sex: _Sex = None) -> str:
     """As JSON text, for an app that keeps them with the person's consent."""
+
 def read_measurements(json: Union[str, bytes]) -> tuple[dict[str, Measurement], Sex]:
     """Of such a text, a report of vfit measure, or {"stature_m": 1.7}."""
+
 def merge_measurements(a: _Measures, b: _Measures) -> dict[str, Measurement]:
     """Two scans of one person in one."""
 
@@ -383,24 +482,59 @@ class Avatar(_Closable):
     """A posable body. detail 0: 13.7k vertices, 1: 54.8k, 2: 219k, 3: 1.0k, for crowds."""
 
     @staticmethod
-    def from_scan(scan: Scan, *, sex: _Sex = None, detail: int = 0, paper_colliders: bool = False,
-                  single_bones: bool = False, dual_quaternions: bool = False) -> Avatar: ...
+    def from_scan(
+        scan: Scan,
+        *,
+        sex: _Sex = None,
+        detail: int = 0,
+        paper_colliders: bool = False,
+        single_bones: bool = False,
+        dual_quaternions: bool = False,
+    ) -> Avatar: ...
     @staticmethod
-    def from_measures(context: Context, measurements: _Measures, *, sex: _Sex = None, detail: int = 0,
-                      paper_colliders: bool = False, single_bones: bool = False,
-                      dual_quaternions: bool = False) -> Avatar: ...
+    def from_measures(
+        context: Context,
+        measurements: _Measures,
+        *,
+        sex: _Sex = None,
+        detail: int = 0,
+        paper_colliders: bool = False,
+        single_bones: bool = False,
+        dual_quaternions: bool = False,
+    ) -> Avatar: ...
     @staticmethod
-    def from_shape(context: Context, shape: Mapping[str, float] = ..., *, sex: _Sex = None, detail: int = 0,
-                   paper_colliders: bool = False, single_bones: bool = False,
-                   dual_quaternions: bool = False) -> Avatar: ...
+    def from_shape(
+        context: Context,
+        shape: Mapping[str, float] = ...,
+        *,
+        sex: _Sex = None,
+        detail: int = 0,
+        paper_colliders: bool = False,
+        single_bones: bool = False,
+        dual_quaternions: bool = False,
+    ) -> Avatar: ...
     @staticmethod
-    def load(context: Context, file: Union[_Path, bytes], *, bone_map: Optional[Mapping[str, str]] = None,
-             hands_as_posed: bool = False, paper_colliders: bool = False, single_bones: bool = False,
-             dual_quaternions: bool = False) -> Avatar:
+    def load(
+        context: Context,
+        file: Union[_Path, bytes],
+        *,
+        bone_map: Optional[Mapping[str, str]] = None,
+        hands_as_posed: bool = False,
+        paper_colliders: bool = False,
+        single_bones: bool = False,
+        dual_quaternions: bool = False,
+    ) -> Avatar:
         """A character of yours, glTF 2.0 or VRM. bone_map: {"hips": "name of a node", ...}."""
     @staticmethod
-    def unpack(context: Context, packet: bytes, *, detail: int = 0, paper_colliders: bool = False,
-               single_bones: bool = False, dual_quaternions: bool = False) -> tuple[Avatar, str]:
+    def unpack(
+        context: Context,
+        packet: bytes,
+        *,
+        detail: int = 0,
+        paper_colliders: bool = False,
+        single_bones: bool = False,
+        dual_quaternions: bool = False,
+    ) -> tuple[Avatar, str]:
         """The avatar and the size label of what pack gave."""
     def pack(self, size_label: str = "") -> bytes:
         """Body and size for the network, at most 200 bytes."""
@@ -423,17 +557,32 @@ class Motion(_Closable):
     'holt' (with the five names of the Kinect SDK) or 'one_euro'; contact_rule: 'learnt' or 'thresholds'.
     range_of_motion: {'knee': {'flexion': 60}} in place of the natural angles, degrees."""
 
-    def __init__(self, context: Context, *, filter: Union[bool, str] = True, limits: bool = True, smooth_rotations: bool = True,
-                 feet: bool = True, smoothing: Optional[float] = None, correction: Optional[float] = None,
-                 prediction: Optional[float] = None, jitter_radius_m: Optional[float] = None,
-                 max_deviation_radius_m: Optional[float] = None, rotation_divisor: Optional[float] = None,
-                 rotation_divisor_switched: Optional[float] = None, min_cutoff_hz: Optional[float] = None,
-                 beta: Optional[float] = None, derivative_cutoff_hz: Optional[float] = None,
-                 prediction_s: Optional[float] = None, contact_rule: str = "learnt",
-                 range_of_motion: Optional[Mapping[str, Mapping[str, float]]] = None) -> None: ...
+    def __init__(
+        self,
+        context: Context,
+        *,
+        filter: Union[bool, str] = True,
+        limits: bool = True,
+        smooth_rotations: bool = True,
+        feet: bool = True,
+        smoothing: Optional[float] = None,
+        correction: Optional[float] = None,
+        prediction: Optional[float] = None,
+        jitter_radius_m: Optional[float] = None,
+        max_deviation_radius_m: Optional[float] = None,
+        rotation_divisor: Optional[float] = None,
+        rotation_divisor_switched: Optional[float] = None,
+        min_cutoff_hz: Optional[float] = None,
+        beta: Optional[float] = None,
+        derivative_cutoff_hz: Optional[float] = None,
+        prediction_s: Optional[float] = None,
+        contact_rule: str = "learnt",
+        range_of_motion: Optional[Mapping[str, Mapping[str, float]]] = None,
+    ) -> None: ...
     def bind(self, avatar: Avatar) -> None: ...
-    def step(self, frame: Optional[Frame] = None, body_id: Optional[int] = None,
-             now_ns: Optional[int] = None) -> bool:
+    def step(
+        self, frame: Optional[Frame] = None, body_id: Optional[int] = None, now_ns: Optional[int] = None
+    ) -> bool:
         """True where the body was there. No frame: predicts to now_ns."""
     def pose(self) -> Pose: ...
     def joints(self) -> Joints: ...
@@ -452,12 +601,31 @@ class Garment(_Closable):
 class Cloth(_Closable):
     """A garment on an avatar. Pose the avatar first, then step."""
 
-    def __init__(self, avatar: Avatar, garment: Garment, *, size: Optional[str] = None, substeps: int = 0,
-                 gravity: Optional[Tuple[float, float, float]] = None, friction: Optional[float] = None,
-                 damping: Optional[float] = None, thickness_m: float = 0.0, hands: bool = True, skin: bool = False,
-                 sleeps: bool = True, wind: Tuple[float, float, float] = ..., drag: float = 0.0, lift: float = 0.0,
-                 inertia: Optional[float] = None, self_thickness_m: float = 0.0, budget_ms: float = 0.0,
-                 pressure: bool = False, cover_m: float = 0.0, virtual_m: float = 0.0, any_fit: bool = False) -> None:
+    def __init__(
+        self,
+        avatar: Avatar,
+        garment: Garment,
+        *,
+        size: Optional[str] = None,
+        substeps: int = 0,
+        gravity: Optional[Tuple[float, float, float]] = None,
+        friction: Optional[float] = None,
+        damping: Optional[float] = None,
+        thickness_m: float = 0.0,
+        hands: bool = True,
+        skin: bool = False,
+        sleeps: bool = True,
+        wind: Tuple[float, float, float] = ...,
+        drag: float = 0.0,
+        lift: float = 0.0,
+        inertia: Optional[float] = None,
+        self_thickness_m: float = 0.0,
+        budget_ms: float = 0.0,
+        pressure: bool = False,
+        cover_m: float = 0.0,
+        virtual_m: float = 0.0,
+        any_fit: bool = False,
+    ) -> None:
         """hands False: forearms and hands pass through, so that none catches a skirt. skin True: kept out of the avatar's
         skin itself. self_thickness_m: kept between the cloth's own layers. pressure True: frames have pressure, in Pa.
         cover_m: more spheres and capsules, until no skin below the garment is so far outside of all.
@@ -472,7 +640,9 @@ class Cloth(_Closable):
     def fit_map(self) -> NDArray[np.float32]:
         """One value a vertex: above 0 tight, below 0 loose."""
     def wear_over(self, inner: Cloth) -> None: ...
-    def hide_skin(self, margin_m: float = 0.0, hidden: Optional[NDArray[np.bool_]] = None) -> NDArray[np.bool_]:
+    def hide_skin(
+        self, margin_m: float = 0.0, hidden: Optional[NDArray[np.bool_]] = None
+    ) -> NDArray[np.bool_]:
         """One True a triangle of the avatar's that this garment hides; hidden: of the garments before."""
     def step(self, dt: float = ...) -> None: ...
     def begin_step(self, dt: float = ...) -> None: ...

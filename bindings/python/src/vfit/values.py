@@ -21,9 +21,35 @@ from ._vfit import (
 )
 
 __all__ = [
-    "AvatarPart", "Body", "Camera", "CharacterInfo", "ClothStats", "Collider", "ContextStats", "FitZone", "GarmentInfo", "GarmentPart", "Intrinsics", "JointPoint", "Joints",
-    "LibraryInfo", "LogLine", "Measurement", "PluginInfo", "Pose", "RigBone", "Scale", "ScanState", "SensorInfo",
-    "SensorMode", "SensorOption", "SensorStats", "ShapeValue", "Size", "SizeRow", "SizeZone",
+    "AvatarPart",
+    "Body",
+    "Camera",
+    "CharacterInfo",
+    "ClothStats",
+    "Collider",
+    "ContextStats",
+    "FitZone",
+    "GarmentInfo",
+    "GarmentPart",
+    "Intrinsics",
+    "JointPoint",
+    "Joints",
+    "LibraryInfo",
+    "LogLine",
+    "Measurement",
+    "PluginInfo",
+    "Pose",
+    "RigBone",
+    "Scale",
+    "ScanState",
+    "SensorInfo",
+    "SensorMode",
+    "SensorOption",
+    "SensorStats",
+    "ShapeValue",
+    "Size",
+    "SizeRow",
+    "SizeZone",
     "StageTime",
 ]
 
@@ -151,8 +177,14 @@ class Joints(Mapping[str, JointPoint]):
 
     __slots__ = ("ids", "positions", "confidence", "states", "rotations", "_rows")
 
-    def __init__(self, ids: NDArray[np.int32], positions: NDArray[np.float32], confidence: NDArray[np.float32],
-                 states: NDArray[np.int32], rotations: NDArray[np.float32]) -> None:
+    def __init__(
+        self,
+        ids: NDArray[np.int32],
+        positions: NDArray[np.float32],
+        confidence: NDArray[np.float32],
+        states: NDArray[np.int32],
+        rotations: NDArray[np.float32],
+    ) -> None:
         self.ids = ids
         self.positions = positions
         self.confidence = confidence

@@ -297,7 +297,7 @@ namespace Vfit
         internal static extern Result vfit_scan_scale(ScanId scan, byte* garmentKind, Scale* @out);
 
         /// <summary>Measurements as JSON text, for an app that keeps them with the person's consent (docs/measuring.md).
-        /// text null sets capacity to what is needed, the end included; too little: VFIT_ERROR_CAPACITY, and the same.
+        /// text null sets *capacity to what is needed, the end included; too little: VFIT_ERROR_CAPACITY, and the same.
         /// [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_measurements_write(Measurement* items, uint stride, uint count, Sex sex, byte* text, uint* capacity);
