@@ -2,7 +2,6 @@
 // harm, those of nobody do nothing.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "contract/support.h"
@@ -102,11 +101,12 @@ TEST_F(HintsTest, RightOnesHelpWhereAnArmIsHiddenAndWrongOnesDoLimitedHarm) {
         const Errors wrong = run(0.5f, 40.0f, frames, fit);
         ASSERT_GT(without.hidden.size(), 20u);
         ASSERT_GT(without.seen.size(), 100u);
-        for (const auto& [name, errors] :
-             {std::pair{"without", &without}, {"right", &right}, {"wrong by 40 pixels", &wrong}})
-            std::printf("%s, %s: hidden %.0f mm (%zu), seen %.0f mm (%zu)\n",
-                        fit == VFIT_FIT_OFF ? "network" : "fit", name, 1000 * Errors::mean(errors->hidden),
-                        errors->hidden.size(), 1000 * Errors::mean(errors->seen), errors->seen.size());
+        const std::string joints = fit == VFIT_FIT_OFF ? "network" : "fit";
+        for (const auto& [hints, errors] :
+             {std::pair{"none", &without}, {"right", &right}, {"wrong_by_40_pixels", &wrong}})
+            for (const auto& [arm, of] : {std::pair{"hidden", &errors->hidden}, {"seen", &errors->seen}})
+                RecordProperty(joints + "_" + hints + "_" + arm + "_mm",
+                               std::to_string(std::lround(1000 * Errors::mean(*of))));
         EXPECT_LT(Errors::mean(right.hidden), 0.8 * Errors::mean(without.hidden));
         EXPECT_LT(Errors::mean(right.seen), Errors::mean(without.seen) + 0.002);
         EXPECT_LT(Errors::mean(wrong.hidden), Errors::mean(without.hidden) + 0.02);

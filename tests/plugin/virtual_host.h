@@ -97,7 +97,6 @@ public:
             h.filling.time_ns = time_ns;
             std::lock_guard lock(h.mutex);
             h.frames.push_back(std::move(h.filling));
-            h.push_times.push_back(std::chrono::steady_clock::now());
             h.changed.notify_all();
             return vfit_result{h.frames.size() < h.capacity ? VFIT_OK : VFIT_ERROR_STATE};
         };
@@ -119,7 +118,7 @@ public:
 
     /// Frames of one whole stream.
     std::vector<Taken> run(const std::string& uri) {
-        frames.clear(), push_times.clear();
+        frames.clear();
         state = VFIT_OK;
         void* device = nullptr;
         EXPECT_EQ(plugin.open(plugin.self, uri.c_str(), this, &device), VFIT_OK)
@@ -140,7 +139,6 @@ public:
     vfit_plugin plugin{};
     std::vector<vfit_sensor_info> found;
     std::vector<Taken> frames;
-    std::vector<std::chrono::steady_clock::time_point> push_times;
     Taken filling;
     size_t capacity = 1000;
     std::atomic<int64_t> now_ns{1'000'000'000};

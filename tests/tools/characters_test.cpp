@@ -155,7 +155,6 @@ TEST_F(Characters, OfFourRigsArePosedAsTheBodyItself) {
         double mean = 0.0;
         for (size_t v = 0; v < got.size(); ++v)
             mean += double(glm::distance(got[v], wanted[v])) / double(got.size());
-        std::printf("%s: skin %.2f mm from the body's own\n", c.rig, 1e3 * mean);
         EXPECT_LT(mean, c.mean_m) << c.rig;
         const auto joints = [](vfit_avatar a) {
             return list<vfit_joint>([&](auto* items, uint32_t stride, uint32_t* n) {

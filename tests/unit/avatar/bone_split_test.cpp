@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "body_fixture.h"
 
@@ -64,8 +63,6 @@ TEST(BoneSplit, TurnedForearmKeepsMoreOfItsVolumeThanWithASingleBone) {
     const Turned split = turn_by(VFIT_BONE_LEFT_LOWER_ARM, {});
     EXPECT_GT(split.forearm_share, one.forearm_share);
     EXPECT_GT(split.whole_arm_share, one.whole_arm_share);
-    std::printf("forearm keeps %.3f of its volume with a single bone, %.3f split; whole arm %.3f and %.3f\n",
-                one.forearm_share, split.forearm_share, one.whole_arm_share, split.whole_arm_share);
 }
 
 TEST(BoneSplit, HandsTurnKeepsMoreOfTheArmsVolumeThanWithASingleBone) {
@@ -77,8 +74,6 @@ TEST(BoneSplit, ThePapersTwoBonesSpreadTheTearAtTheElbow) {
     const Turned one = turn_by(VFIT_BONE_LEFT_LOWER_ARM, single_bones());
     const Turned two = turn_by(VFIT_BONE_LEFT_LOWER_ARM, two_bones());
     const Turned split = turn_by(VFIT_BONE_LEFT_LOWER_ARM, {});
-    std::printf("worst stretch of an edge: %.2f with a single bone, %.2f with two, %.2f by default\n",
-                one.worst_stretch, two.worst_stretch, split.worst_stretch);
     EXPECT_LT(two.worst_stretch, one.worst_stretch);
     EXPECT_LT(split.worst_stretch, one.worst_stretch);
 }

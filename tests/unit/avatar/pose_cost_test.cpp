@@ -1,12 +1,9 @@
-// What posing costs: no allocation once the avatar stands, and the time of a frame, printed.
+// Posing allocates nothing once the avatar stands; vfit-bench stages prints its time.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "body_fixture.h"
-#include "core/clock.h"
 #include "support/allocations.h"
 
 namespace vfit {
@@ -35,26 +32,6 @@ TEST(PoseCost, NothingIsAllocatedPerFrame) {
         EXPECT_GT(avatar.joints().at(VFIT_JOINT_HEAD).y, 1.0f);
     }
     EXPECT_EQ(test::allocations - before, 0u);
-}
-
-TEST(PoseCost, MedianTimeOfAFrameOnOneCore) {
-    const auto jobs = Jobs::own(0);
-    for (const uint32_t detail : {0u, 1u}) {
-        AvatarDesc desc;
-        desc.detail = detail;
-        Avatar avatar = make_avatar(desc);
-        std::vector<double> ms;
-        for (int frame = 0; frame < 200; ++frame) {
-            const Pose pose = step_of_a_walk(avatar, frame);
-            const Stopwatch watch;
-            avatar.pose(pose, *jobs);
-            ms.push_back(watch.ms());
-        }
-        std::nth_element(ms.begin(), ms.begin() + 100, ms.end());
-        std::printf("pose, detail %u, %zu vertices: median %.3f ms\n", detail, avatar.positions().size(),
-                    ms[100]);
-        EXPECT_GT(ms[100], 0.0);
-    }
 }
 
 }  // namespace

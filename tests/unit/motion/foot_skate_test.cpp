@@ -72,12 +72,6 @@ TEST(FootSkate, CorrectionCutsTheSlideOfPlantedFeetFivefold) {
     for (const Skeleton* bound : {&skeleton, static_cast<const Skeleton*>(nullptr)}) {
         const Slide slide = walk_slide(bound);
         ASSERT_GT(slide.frames, 100);
-        RecordProperty(bound ? "bound_mm_s" : "person_mm_s",
-                       std::to_string(slide.corrected / slide.frames * 3e4));
-        std::printf("slide in contact, %s: %.1f -> %.2f mm/s, joints %.1f -> %.2f mm/s (%d foot frames)\n",
-                    bound ? "bound" : "person", slide.plain / slide.frames * 3e4,
-                    slide.corrected / slide.frames * 3e4, slide.plain_joint / slide.frames * 3e4,
-                    slide.corrected_joint / slide.frames * 3e4, slide.frames);
         EXPECT_LT(slide.corrected * 5, slide.plain);
         EXPECT_LT(slide.corrected_joint * 5, slide.plain_joint);
     }
@@ -98,8 +92,6 @@ TEST(FootSkate, ContactsOfAWalkAreRightMostOfTheTime) {
             wrong += contact && !frame.planted[side];
         }
     }
-    std::printf("walk contacts: recall %.2f, false %.3f\n", double(found) / truth,
-                double(wrong) / (found + wrong));
     EXPECT_GT(found, 0.6 * truth);
     EXPECT_LT(wrong, 0.15 * (found + wrong));
 }
