@@ -57,6 +57,34 @@ bool read_whole_file(std::vector<unsigned char>* out, std::string* error, const 
     }
 }
 
+bool get_file_size(size_t* size, std::string* error, const std::string& path, void* own) {
+    std::error_code failed;
+    if (!file_exists(path, own)) return false;
+    const auto bytes = std::filesystem::file_size(path, failed);
+    if (failed && error) *error += failed.message();
+    *size = failed ? 0 : size_t(bytes);
+    return !failed;
+}
+
+bool refuse_to_write(std::string* error, const std::string&, const std::vector<unsigned char>&, void*) {
+    if (error) *error += "a document that is read is never written";
+    return false;
+}
+
+/// tinygltf asks these for the files beside a .gltf. By name: 2.8 added a field before user_data, and takes
+/// no set of callbacks in which one is missing.
+template <typename Callbacks = tinygltf::FsCallbacks>
+Callbacks callbacks_of(OwnFolder& own) {
+    Callbacks callbacks{};
+    callbacks.FileExists = file_exists;
+    callbacks.ExpandFilePath = as_it_is;
+    callbacks.ReadWholeFile = read_whole_file;
+    callbacks.WriteWholeFile = refuse_to_write;
+    if constexpr (requires { callbacks.GetFileSizeInBytes; }) callbacks.GetFileSizeInBytes = get_file_size;
+    callbacks.user_data = &own;
+    return callbacks;
+}
+
 /// The JSON of a GLB, or the whole file.
 std::string_view text_of(std::span<const std::byte> bytes, bool binary) {
     const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -136,7 +164,7 @@ void GltfDocument::parse(std::span<const std::byte> bytes, const std::string& fo
     loader.SetImageLoader(keep_picture_as_it_is, nullptr);
     OwnFolder own;
     if (!folder.empty()) own.folder = std::filesystem::absolute(folder).lexically_normal();
-    loader.SetFsCallbacks({file_exists, as_it_is, read_whole_file, nullptr, &own});
+    loader.SetFsCallbacks(callbacks_of(own));
     std::string error, warning;
     const auto size = static_cast<unsigned int>(bytes.size());
     const bool binary = std::memcmp(bytes.data(), "glTF", 4) == 0;
