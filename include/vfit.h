@@ -51,7 +51,7 @@
 #include <stdint.h>
 
 #define VFIT_MAKE_VERSION(a, b, c) (((uint32_t)(a) << 22) | ((uint32_t)(b) << 12) | (uint32_t)(c))
-#define VFIT_VERSION VFIT_MAKE_VERSION(0, 1, 0)
+#define VFIT_VERSION VFIT_MAKE_VERSION(0, 2, 0)
 
 #if defined(_WIN32) && defined(vfit_EXPORTS)
 #define VFIT_EXPORT __declspec(dllexport)
@@ -160,6 +160,11 @@ typedef struct vfit_plugin_info {
     uint32_t struct_size, version;
     char name[64], schemes[64], path[256];
 } vfit_plugin_info;
+/* A file of data_dir, by the name that opens it. */
+typedef struct vfit_data_name {
+    uint32_t struct_size;
+    char name[64];
+} vfit_data_name;
 typedef struct vfit_context_stats {
     uint32_t struct_size, handle_count, frame_count, worker_count;
     uint64_t frame_bytes; /* held by this context's frames, pools included */
@@ -172,6 +177,7 @@ typedef struct vfit_profile {
 } vfit_profile;
 VFIT_STRUCT(vfit_context_desc)
 VFIT_STRUCT(vfit_library_info)
+VFIT_STRUCT(vfit_data_name)
 VFIT_STRUCT(vfit_plugin_info)
 VFIT_STRUCT(vfit_context_stats)
 VFIT_STRUCT(vfit_profile)
@@ -556,7 +562,7 @@ typedef int32_t vfit_sex;
 enum { VFIT_SEX_UNKNOWN = 0, VFIT_SEX_FEMALE = 1, VFIT_SEX_MALE = 2 };
 typedef int32_t vfit_scan_method;
 enum {
-    VFIT_SCAN_DEFAULT = 0, /* PROPORTIONS as yet */
+    VFIT_SCAN_DEFAULT = 0, /* FIT */
     VFIT_SCAN_PROPORTIONS =
         1, /* the paper's, with anthropometric ratios, weighted means, outliers left out */
     VFIT_SCAN_PROPORTIONS_AS_PRINTED = 2, /* the artists' canon and plain means of the paper's text */
@@ -660,6 +666,10 @@ VFIT_API vfit_result vfit_scan_add(vfit_scan scan, vfit_frame tracked, uint32_t 
 /* From the first frame on; the values settle with each. No frame yet: VFIT_ERROR_STATE.        [read] */
 VFIT_API vfit_result vfit_scan_measure(vfit_scan scan, vfit_measurement* items, uint32_t stride,
                                        uint32_t* count);
+/* The sex that the scan was told, else the likelier one, with its probability (1 where it was told). A scan
+ * by proportions infers none: VFIT_SEX_UNKNOWN, 0. probability may be null. No frame yet: VFIT_ERROR_STATE.
+ * [read] */
+VFIT_API vfit_result vfit_scan_sex(vfit_scan scan, vfit_sex* sex, float* probability);
 VFIT_API vfit_result vfit_scan_colliders(vfit_scan scan, vfit_collider* items, uint32_t stride,
                                          uint32_t* count); /* centres are those of the last frame [read] */
 VFIT_API vfit_result vfit_scan_scale(vfit_scan scan, const char* garment_kind, vfit_scale* out);
@@ -678,6 +688,9 @@ VFIT_API vfit_result vfit_measurements_read(const void* text, uint64_t byte_coun
 VFIT_API vfit_result vfit_measurements_merge(const vfit_measurement* a, uint32_t a_stride, uint32_t a_count,
                                              const vfit_measurement* b, uint32_t b_stride, uint32_t b_count,
                                              vfit_measurement* items, uint32_t stride, uint32_t* count);
+/* Names of the size charts in data_dir/charts, in alphabetical order. [any] */
+VFIT_API vfit_result vfit_size_chart_list(vfit_context context, vfit_data_name* items, uint32_t stride,
+                                          uint32_t* count);
 /* A chart as JSON (docs/size-charts.md), or by the name of a file in data_dir/charts.          [any] */
 VFIT_API vfit_result vfit_size_chart_load(vfit_context context, const void* bytes, uint64_t byte_count,
                                           vfit_size_chart* out);
@@ -905,15 +918,21 @@ VFIT_API vfit_result vfit_avatar_acquire(vfit_avatar avatar, vfit_frame* out);
 /* The same streams of the unposed mesh that the rig binds to.                                  [any] */
 VFIT_API vfit_result vfit_avatar_acquire_rest(vfit_avatar avatar, vfit_frame* out);
 
+/* Names of the garments in data_dir/garments, in alphabetical order. [any] */
+VFIT_API vfit_result vfit_garment_list(vfit_context context, vfit_data_name* items, uint32_t stride,
+                                       uint32_t* count);
 /* A garment as JSON (docs/garments.md), or by the name of a file in data_dir/garments.          [any] */
 VFIT_API vfit_result vfit_garment_load(vfit_context context, const void* bytes, uint64_t byte_count,
                                        vfit_garment* out);
 VFIT_API vfit_result vfit_garment_open(vfit_context context, const char* name, vfit_garment* out);
 VFIT_API vfit_result vfit_garment_destroy(vfit_garment garment); /* [any] */
-/* garment_kind: as size charts name it. */
 typedef struct vfit_garment_info {
     uint32_t struct_size, vertex_count, simulated_count, size_count;
-    char name[64], garment_kind[32], fabric[32];
+    char name[64];
+    char garment_kind[32]; /* as size charts name it */
+    char fabric[32];
+    char size_chart[60]; /* name of the chart that its labels follow; empty: the file states none */
+    vfit_sex body_sex;   /* of the default body that it was made on */
 } vfit_garment_info;
 VFIT_STRUCT(vfit_garment_info)
 VFIT_API vfit_result vfit_garment_describe(vfit_garment garment, vfit_garment_info* out); /* [read] */

@@ -505,6 +505,13 @@ struct ClothObject : ContextChild {
 
 }  // namespace
 
+vfit_result vfit_garment_list(vfit_context handle, vfit_data_name* items, uint32_t stride, uint32_t* count) {
+    return guard([&] {
+        UseContext<Mode::any> context(handle);
+        return write_data_names(data_names(context->data_dir, "garments"), items, stride, count);
+    });
+}
+
 vfit_result vfit_garment_load(vfit_context handle, const void* bytes, uint64_t byte_count,
                               vfit_garment* out) {
     return guard([&] {
@@ -552,6 +559,8 @@ vfit_result vfit_garment_describe(vfit_garment handle, vfit_garment_info* out) {
         set_text(info.name, g.name);
         set_text(info.garment_kind, g.kind);
         set_text(info.fabric, g.fabric);
+        set_text(info.size_chart, g.size_chart);
+        info.body_sex = g.body_sex;
         write(out, info);
         return VFIT_OK;
     });

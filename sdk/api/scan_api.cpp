@@ -46,7 +46,7 @@ vfit_result vfit_scan_create(vfit_context handle, const vfit_scan_desc* desc, vf
         if (d.method == VFIT_SCAN_PROPORTIONS_AS_PRINTED) settings.paper = ScanDesc::as_printed();
         settings.paper.frame_count = d.frame_count ? d.frame_count : kPaperFrames;
         settings.paper.sex = d.sex;
-        if (d.method == VFIT_SCAN_FIT) {
+        if (d.method == VFIT_SCAN_FIT || d.method == VFIT_SCAN_DEFAULT) {
             settings.measure_model = context->measure_model();
             settings.fit_model = context->fit_model().get();
             settings.side_frame_count = d.side_frame_count;
@@ -138,6 +138,18 @@ vfit_result vfit_scan_measure(vfit_scan handle, vfit_measurement* items, uint32_
         Use<ScanObject, Mode::read> scan(handle.id);
         require_frames(*scan);
         return write_measurements(scan->scan.measurements(), items, stride, count);
+    });
+}
+
+vfit_result vfit_scan_sex(vfit_scan handle, vfit_sex* sex, float* probability) {
+    return guard([&] {
+        Use<ScanObject, Mode::read> scan(handle.id);
+        check_pointer(sex, "sex");
+        require_frames(*scan);
+        const InferredSex inferred = scan->scan.inferred_sex();
+        *sex = inferred.sex;
+        if (probability) *probability = inferred.probability;
+        return VFIT_OK;
     });
 }
 

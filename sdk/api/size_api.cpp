@@ -25,6 +25,14 @@ std::string_view as_text(const std::byte* bytes, size_t count) {
 
 }  // namespace
 
+vfit_result vfit_size_chart_list(vfit_context handle, vfit_data_name* items, uint32_t stride,
+                                 uint32_t* count) {
+    return guard([&] {
+        UseContext<Mode::any> context(handle);
+        return write_data_names(data_names(context->data_dir, "charts"), items, stride, count);
+    });
+}
+
 vfit_result vfit_size_chart_load(vfit_context handle, const void* bytes, uint64_t byte_count,
                                  vfit_size_chart* out) {
     return guard([&] {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <string>
+#include <vector>
 
 #include "core/error.h"
 #include "vfit.h"
@@ -162,6 +163,15 @@ inline void check_enum(int32_t value, int32_t last, const char* name) {
 
 inline void check_flags(uint32_t value, uint32_t known, const char* name) {
     if (value & ~known) fail(VFIT_ERROR_ARGUMENT, name, ": unknown bits in ", value);
+}
+
+inline vfit_result write_data_names(const std::vector<std::string>& names, vfit_data_name* items,
+                                    uint32_t stride, uint32_t* count) {
+    return write_list(items, stride, count, names.size(), [&](size_t i) {
+        vfit_data_name name{};
+        set_text(name.name, names[i]);
+        return name;
+    });
 }
 
 }  // namespace vfit::api

@@ -58,6 +58,7 @@ CookedGarment cook_specification(const BodyModel& model, const FabricLibrary& fa
     CookOptions options;
     if (!request.kind.empty()) options.kind = request.kind;
     if (!request.fabric.empty()) options.fabric = request.fabric;
+    options.size_chart = request.size_chart;
     if (request.sex != VFIT_SEX_UNKNOWN) options.sex = request.sex;
     options.triangle_m = request.triangle_m;
     options.drape = request.drape;
@@ -77,6 +78,7 @@ CookedGarment cook_design(const BodyModel& model, const FabricLibrary& fabrics, 
     CookOptions options;
     options.kind = request.kind.empty() ? design.kind : request.kind;
     options.fabric = request.fabric.empty() ? design.fabric : request.fabric;
+    options.size_chart = request.size_chart.empty() ? design.size_chart : request.size_chart;
     options.sex = design.sex;
     options.triangle_m = request.triangle_m;
     options.drape = request.drape;
@@ -108,6 +110,7 @@ CookedGarment cook_mesh(const BodyModel& model, const FabricLibrary& fabrics, co
     options.name = request.name.empty() ? name_of(request.path) : request.name;
     if (!request.kind.empty()) options.cook.kind = request.kind;
     if (!request.fabric.empty()) options.cook.fabric = request.fabric;
+    options.cook.size_chart = request.size_chart;
     if (request.sex != VFIT_SEX_UNKNOWN) options.cook.sex = request.sex;
     options.cook.drape = request.drape;
     options.unit_m = ending_of(request.path) == ".obj" ? request.unit_m : 1.0f;

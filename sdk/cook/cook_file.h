@@ -10,7 +10,7 @@ namespace vfit {
 struct CookRequest {
     std::string path;
     // Empty: as the file tells, or as CookOptions has it.
-    std::string name, kind, fabric;
+    std::string name, kind, fabric, size_chart;
     vfit_sex sex = VFIT_SEX_UNKNOWN;
     // Of a mesh: the unit of an OBJ file's numbers, and the label of its size (empty: none).
     float unit_m = 1.0f;

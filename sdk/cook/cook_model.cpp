@@ -98,6 +98,7 @@ CookedGarment cook_model(const BodyModel& body_model, const Model& model, const 
     Garment& g = out.garment;
     g.name = options.name;
     g.kind = options.cook.kind;
+    g.size_chart = options.cook.size_chart;
     g.fabric = options.cook.fabric;
     g.body_sex = options.cook.sex;
     g.mesh.indices = surface.indices;

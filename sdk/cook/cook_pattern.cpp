@@ -123,6 +123,7 @@ CookedGarment cook_once(const BodyModel& model, const std::vector<PatternSize>& 
     Garment& g = out.garment;
     g.name = pattern.name;
     g.kind = options.kind;
+    g.size_chart = options.size_chart;
     g.fabric = options.fabric;
     g.body_sex = options.sex;
     g.mesh.positions = draped.positions;

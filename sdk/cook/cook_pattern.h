@@ -23,6 +23,7 @@ struct PatternSize {
 
 struct CookOptions {
     std::string kind = "dress", fabric = "cotton_woven";
+    std::string size_chart;  // name of the chart that the labels follow; empty: not stated
     vfit_sex sex = VFIT_SEX_FEMALE;
     float triangle_m = 0.02f;  // side
     DrapeSettings drape;

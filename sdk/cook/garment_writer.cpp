@@ -48,6 +48,7 @@ std::string write_garment(const Garment& garment) {
     std::string out = std::string("{\n \"format\": \"vfit-garment\", \"version\": ") +
                       (garment.has_own_lengths() ? "2" : "1") + ",\n";
     out += " \"name\": " + quoted(garment.name) + ", \"kind\": " + quoted(garment.kind);
+    if (!garment.size_chart.empty()) out += ", \"size_chart\": " + quoted(garment.size_chart);
     out += ", \"fabric\": " + quoted(garment.fabric);
     out += std::string(", \"body_sex\": \"") + (garment.body_sex == VFIT_SEX_MALE ? "m" : "f") + "\",\n";
     out += " \"sizes\": [";

@@ -23,6 +23,7 @@ public:
     Garment cut() {
         garment_.name = spec_.name;
         garment_.kind = spec_.kind;
+        garment_.size_chart = spec_.size_chart;
         garment_.fabric = spec_.fabric;
         garment_.body_sex = VFIT_SEX_FEMALE;
         garment_.sizes = spec_.sizes;

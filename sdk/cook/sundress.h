@@ -14,7 +14,8 @@
 namespace vfit {
 
 struct SundressSpec {
-    std::string name, kind, fabric;
+    std::string name, fabric;
+    std::string kind, size_chart;  // of the size charts; size_chart may be empty
     // Vertices. Around the body (even, so that front and back have a middle), down, and across and along a
     // strap.
     uint32_t columns = 0, bodice_rows = 0, skirt_rows = 0, strap_columns = 0, strap_rows = 0;

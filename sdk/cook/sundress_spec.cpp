@@ -45,6 +45,7 @@ SundressSpec parse_sundress(std::span<const std::byte> json) {
     SundressSpec spec;
     spec.name = text_of(root, "name");
     spec.kind = text_of(root, "kind");
+    if (root.contains("size_chart")) spec.size_chart = text_of(root, "size_chart");
     spec.fabric = text_of(root, "fabric");
     spec.columns = count(root, "columns", 24, 400);
     if (spec.columns % 2 != 0) fail(VFIT_ERROR_DATA, "sundress: \"columns\" must be even, is ", spec.columns);

@@ -1,5 +1,6 @@
 #include "core/files.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -23,6 +24,15 @@ std::vector<std::byte> read_file(const std::string& path, size_t max_bytes) {
     return bytes;
 }
 
+std::vector<std::string> data_names(const std::string& data_dir, const std::string& kind) {
+    std::vector<std::string> names;
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(data_dir + "/" + kind, ignored))
+        if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
 std::string data_file(const std::string& data_dir, const std::string& kind, const std::string& name) {
     const bool plain = !name.empty() && name.find_first_of("/\\:") == std::string::npos && name[0] != '.';
     if (!plain) fail(VFIT_ERROR_ARGUMENT, "\"", name, "\" is not the name of a file in ", kind);
@@ -30,9 +40,7 @@ std::string data_file(const std::string& data_dir, const std::string& kind, cons
     std::error_code ignored;
     if (std::filesystem::exists(path, ignored)) return path;
     std::string known;
-    for (const auto& entry : std::filesystem::directory_iterator(data_dir + "/" + kind, ignored))
-        if (entry.path().extension() == ".json")
-            known += (known.empty() ? "" : ", ") + entry.path().stem().string();
+    for (const std::string& other : data_names(data_dir, kind)) known += (known.empty() ? "" : ", ") + other;
     fail(VFIT_ERROR_IO, "there is no \"", name, "\" in ", kind,
          "; there are: ", known.empty() ? "none" : known);
 }

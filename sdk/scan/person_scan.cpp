@@ -79,11 +79,13 @@ vfit_guidance PersonScan::fit(const ScanFrame& frame) {
     return VFIT_GUIDANCE_NONE;
 }
 
-vfit_sex PersonScan::likely_sex() const {
-    if (desc_.paper.sex != VFIT_SEX_UNKNOWN || !fitted_shape()) return desc_.paper.sex;
+InferredSex PersonScan::inferred_sex() const {
+    if (desc_.paper.sex != VFIT_SEX_UNKNOWN) return {desc_.paper.sex, 1.0f};
+    if (!fitted_shape()) return {};
     const float female =
         desc_.measure_model->female_probability(body_->features(with_side()), {with_side(), desc_.tight});
-    return female > 0.5f ? VFIT_SEX_FEMALE : VFIT_SEX_MALE;
+    if (female > 0.5f) return {VFIT_SEX_FEMALE, female};
+    return {VFIT_SEX_MALE, 1.0f - female};
 }
 
 std::vector<Measurement> PersonScan::measurements() const {

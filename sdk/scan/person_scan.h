@@ -18,6 +18,11 @@ struct PersonScanDesc {
     bool tight = false;  // clothes lie on the skin
 };
 
+struct InferredSex {
+    vfit_sex sex = VFIT_SEX_UNKNOWN;
+    float probability = 0.0f;  // of that sex; 1 where the scan was told
+};
+
 class PersonScan {
 public:
     /// Errors as those of PaperScan.
@@ -41,8 +46,9 @@ public:
     std::vector<Measurement> measurements() const;
     /// What the fitted body tells; null by the paper's method alone, or before the first frame.
     const FitShape* fitted_shape() const { return body_ && frames_taken() ? &body_->shape() : nullptr; }
-    /// As it was told, else the likelier of the two.
-    vfit_sex likely_sex() const;
+    /// As it was told, else the likelier of the two. Unknown by the paper's method alone.
+    vfit_sex likely_sex() const { return inferred_sex().sex; }
+    InferredSex inferred_sex() const;
     /// The paper's part, which gives spheres and garment scale in either method.
     const PaperScan& paper() const { return paper_; }
 

@@ -34,6 +34,10 @@ OFFSET(vfit_plugin_info, schemes, 72);
 OFFSET(vfit_plugin_info, path, 136);
 SIZE(vfit_plugin_info, 392);
 
+OFFSET(vfit_data_name, struct_size, 0);
+OFFSET(vfit_data_name, name, 4);
+SIZE(vfit_data_name, 68);
+
 OFFSET(vfit_context_stats, struct_size, 0);
 OFFSET(vfit_context_stats, handle_count, 4);
 OFFSET(vfit_context_stats, frame_count, 8);
@@ -330,7 +334,9 @@ OFFSET(vfit_garment_info, size_count, 12);
 OFFSET(vfit_garment_info, name, 16);
 OFFSET(vfit_garment_info, garment_kind, 80);
 OFFSET(vfit_garment_info, fabric, 112);
-SIZE(vfit_garment_info, 144);
+OFFSET(vfit_garment_info, size_chart, 144);
+OFFSET(vfit_garment_info, body_sex, 204);
+SIZE(vfit_garment_info, 208);
 
 OFFSET(vfit_garment_part, struct_size, 0);
 OFFSET(vfit_garment_part, first_index, 4);

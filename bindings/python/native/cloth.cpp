@@ -41,7 +41,7 @@ py::object info(const Garment& garment) {
     for (uint32_t n = 0; n < i.size_count; ++n)
         sizes.append(text([&](char* b, uint32_t c) { return vfit_garment_size_label(handle, n, b, c); }));
     return value("GarmentInfo", field(i.name), field(i.garment_kind), field(i.fabric), i.vertex_count,
-                 i.simulated_count, py::tuple(sizes));
+                 i.simulated_count, py::tuple(sizes), field(i.size_chart), value("Sex", i.body_sex));
 }
 
 std::shared_ptr<Cloth> create(const Avatar& avatar, const Garment& garment,

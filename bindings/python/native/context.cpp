@@ -64,6 +64,14 @@ py::list plugins(const Context& context) {
     return out;
 }
 
+/// Names of vfit_garment_list or vfit_size_chart_list.
+template <typename List>
+py::list data_names(const Context& context, List list_call) {
+    py::list out;
+    for (const vfit_data_name& n : list(list_call, context.handle())) out.append(field(n.name));
+    return out;
+}
+
 py::list sensors(const Context& context) {
     py::list out;
     for (const vfit_sensor_info& s : list(vfit_sensor_list, context.handle()))
@@ -98,6 +106,12 @@ void bind_context(py::module_& m) {
             },
             "path"_a, "Loads a sensor plug-in from its file.")
         .def("plugins", &plugins, "The plug-ins that are loaded.")
+        .def(
+            "garments", [](const Context& c) { return data_names(c, vfit_garment_list); },
+            "Names that Garment.open takes.")
+        .def(
+            "size_charts", [](const Context& c) { return data_names(c, vfit_size_chart_list); },
+            "Names that SizeChart.open takes.")
         .def("sensors", &sensors, "The sensors that can be opened now.")
         .def(
             "sensor_changes",

@@ -203,7 +203,7 @@ inline int32_t choice(const std::string& word, const char* name,
 
 inline uint32_t flag(bool on, uint32_t bit) { return on ? bit : 0u; }
 
-/// "0.1.0"
+/// "0.2.0"
 std::string version_text(uint32_t version);
 
 /// A float vector as a tuple.

@@ -32,6 +32,13 @@ py::object add(const Scan& scan, const Frame& frame, const std::optional<uint32_
 
 py::dict measure(const Scan& scan) { return measurements_out(list(vfit_scan_measure, scan.get())); }
 
+py::tuple sex(const Scan& scan) {
+    vfit_sex sex = VFIT_SEX_UNKNOWN;
+    float probability = 0.0f;
+    run([&, h = scan.get()] { return vfit_scan_sex(h, &sex, &probability); });
+    return py::make_tuple(value("Sex", sex), probability);
+}
+
 py::list colliders(const Scan& scan) { return colliders_out(list(vfit_scan_colliders, scan.get())); }
 
 py::object scale(const Scan& scan, const std::string& garment_kind) {
@@ -55,6 +62,8 @@ void bind_scan(py::module_& m) {
                       "active body.")
                  .def("measure", &measure,
                       "key -> Measurement, from the first frame on; the values settle with each.")
+                 .def("sex", &sex,
+                      "(Sex, probability): as the scan was told, else as it infers from the fitted body.")
                  .def("colliders", &colliders, "Spheres of the person, centres as in the last frame.")
                  .def("scale", &scale, "garment_kind"_a,
                       "Algorithm 3 for \"short_sleeves\", \"long_sleeves\" or \"trousers\".")

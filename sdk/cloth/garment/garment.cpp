@@ -307,6 +307,7 @@ Garment parse_garment(std::span<const std::byte> json, const FabricLibrary& fabr
     Garment g;
     g.name = text_field(root, "name");
     g.kind = text_field(root, "kind");
+    if (root.contains("size_chart")) g.size_chart = text_field(root, "size_chart");
     g.fabric = text_field(root, "fabric");
     const std::string sex = text_field(root, "body_sex");
     if (sex != "f" && sex != "m") fail(VFIT_ERROR_DATA, "garment: body_sex is neither \"f\" nor \"m\"");

@@ -33,8 +33,9 @@ struct GarmentPart {
 
 struct Garment {
     std::string name;
-    std::string kind;    // garment kind of the size charts
-    std::string fabric;  // name in the fabric library
+    std::string kind;        // garment kind of the size charts
+    std::string size_chart;  // name of the chart that its labels follow; empty: not stated
+    std::string fabric;      // name in the fabric library
     vfit_sex body_sex = VFIT_SEX_FEMALE;
     Mesh mesh;  // positions on that body, indices, uvs (one a vertex, then one a copy)
     // Where panels are sewn together, renderers need a vertex for each: copies, numbered after the vertices.

@@ -214,6 +214,7 @@ GarmentDesign parse_design(std::span<const std::byte> json) {
     GarmentDesign design;
     design.name = root.word("name");
     design.kind = root.word("kind");
+    if (root.has("size_chart")) design.size_chart = root.word("size_chart");
     design.fabric = root.word("fabric");
     design.sex = root.choice("body_sex", {"f", "m"}) == 0 ? VFIT_SEX_FEMALE : VFIT_SEX_MALE;
     if (root.has("color")) {

@@ -73,7 +73,8 @@ struct TrousersDesign {
 };
 
 struct GarmentDesign {
-    std::string name, kind /* of the size charts */, fabric;
+    std::string name, fabric;
+    std::string kind, size_chart;  // of the size charts; size_chart may be empty
     vfit_sex sex = VFIT_SEX_UNKNOWN;
     std::array<float, 3> color{0.8f, 0.8f, 0.8f};
     std::optional<TorsoDesign> torso;

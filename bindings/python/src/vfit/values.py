@@ -18,6 +18,7 @@ from ._vfit import (
     JointState,
     LogLevel,
     ResultCode,
+    Sex,
 )
 
 __all__ = [
@@ -328,6 +329,8 @@ class GarmentInfo(NamedTuple):
     vertex_count: int
     simulated_count: int
     sizes: Tuple[str, ...]
+    size_chart: str  # name of the chart that the sizes follow; empty: the file states none
+    body_sex: Sex  # of the default body that it was made on
 
 
 class GarmentPart(NamedTuple):

@@ -7,6 +7,12 @@ namespace Vfit
     {
         private Garment(Context context) : base(new GarmentHandle(Context.Of(context, "context"))) { }
 
+        /// <summary>Names of the garments in the data folder.</summary>
+        public static DataName[] List(Context context)
+        {
+            return Calls.GarmentList(context.Handle);
+        }
+
         /// <summary>A garment of the data folder, by name.</summary>
         public static Garment Open(Context context, string name)
         {

@@ -5,7 +5,7 @@ namespace Vfit
 {
     public static unsafe class Library
     {
-        /// <summary>Version of the library that was loaded, as "0.1.0".</summary>
+        /// <summary>Version of the library that was loaded, as "0.2.0".</summary>
         public static string Version
         {
             get

@@ -46,6 +46,16 @@ namespace Vfit
             return Calls.ScanMeasure(Handle, into);
         }
 
+        /// <summary>The sex that the scan was told, else the likelier one, with its probability.</summary>
+        public Sex LikelySex(out float probability)
+        {
+            Sex sex;
+            float likely;
+            Calls.ScanSex(Handle, &sex, &likely);
+            probability = likely;
+            return sex;
+        }
+
         public Collider[] Colliders()
         {
             return Calls.ScanColliders(Handle);

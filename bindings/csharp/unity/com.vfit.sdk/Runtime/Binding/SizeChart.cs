@@ -7,6 +7,12 @@ namespace Vfit
     {
         private SizeChart(Context context) : base(new SizeChartHandle(Context.Of(context, "context"))) { }
 
+        /// <summary>Names of the charts in the data folder.</summary>
+        public static DataName[] List(Context context)
+        {
+            return Calls.SizeChartList(context.Handle);
+        }
+
         /// <summary>A chart of the data folder, by name.</summary>
         public static SizeChart Open(Context context, string name)
         {

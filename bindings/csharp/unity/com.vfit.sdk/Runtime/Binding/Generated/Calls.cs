@@ -1140,6 +1140,20 @@ namespace Vfit
             return (int)listed;
         }
 
+        internal static Result ScanSex(ScanHandle scan, Sex* sex, float* probability)
+        {
+            bool scanHeld = false;
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_scan_sex(new ScanId(VfitHandle.Hold(scan, ref scanHeld)), sex, probability));
+                return result;
+            }
+            finally
+            {
+                if (scanHeld) scan.DangerousRelease();
+            }
+        }
+
         internal static Result ScanColliders(ScanHandle scan, Collider* items, uint stride, uint* count)
         {
             bool scanHeld = false;
@@ -1253,6 +1267,51 @@ namespace Vfit
             uint listed = (uint)into.Length;
             if (listed == 0) MeasurementsMerge(a, aStride, aCount, b, bStride, bCount, &none, (uint)sizeof(Measurement), &listed);     // an empty array is not the question how many
             else fixed (Measurement* first = into) MeasurementsMerge(a, aStride, aCount, b, bStride, bCount, first, (uint)sizeof(Measurement), &listed);
+            return (int)listed;
+        }
+
+        internal static Result SizeChartList(ContextHandle context, DataName* items, uint stride, uint* count)
+        {
+            bool contextHeld = false;
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_size_chart_list(new ContextId(VfitHandle.Hold(context, ref contextHeld)), items, stride, count));
+                return result;
+            }
+            finally
+            {
+                if (contextHeld) context.DangerousRelease();
+            }
+        }
+
+        internal static DataName[] SizeChartList(ContextHandle context)
+        {
+            uint listed = 0;
+            SizeChartList(context, null, (uint)sizeof(DataName), &listed);
+            for (;;)
+            {
+                var list = new DataName[listed];
+                if (listed == 0) return list;
+                try
+                {
+                    fixed (DataName* first = list) SizeChartList(context, first, (uint)sizeof(DataName), &listed);
+                }
+                catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
+                {
+                    continue;   // it grew between the two calls
+                }
+                if (listed < list.Length) Array.Resize(ref list, (int)listed);
+                return list;
+            }
+        }
+
+        internal static int SizeChartList(ContextHandle context, DataName[] into)
+        {
+            if (into == null) throw new ArgumentNullException("into");
+            DataName none;
+            uint listed = (uint)into.Length;
+            if (listed == 0) SizeChartList(context, &none, (uint)sizeof(DataName), &listed);     // an empty array is not the question how many
+            else fixed (DataName* first = into) SizeChartList(context, first, (uint)sizeof(DataName), &listed);
             return (int)listed;
         }
 
@@ -2167,6 +2226,51 @@ namespace Vfit
             {
                 if (avatarHeld) avatar.DangerousRelease();
             }
+        }
+
+        internal static Result GarmentList(ContextHandle context, DataName* items, uint stride, uint* count)
+        {
+            bool contextHeld = false;
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_garment_list(new ContextId(VfitHandle.Hold(context, ref contextHeld)), items, stride, count));
+                return result;
+            }
+            finally
+            {
+                if (contextHeld) context.DangerousRelease();
+            }
+        }
+
+        internal static DataName[] GarmentList(ContextHandle context)
+        {
+            uint listed = 0;
+            GarmentList(context, null, (uint)sizeof(DataName), &listed);
+            for (;;)
+            {
+                var list = new DataName[listed];
+                if (listed == 0) return list;
+                try
+                {
+                    fixed (DataName* first = list) GarmentList(context, first, (uint)sizeof(DataName), &listed);
+                }
+                catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
+                {
+                    continue;   // it grew between the two calls
+                }
+                if (listed < list.Length) Array.Resize(ref list, (int)listed);
+                return list;
+            }
+        }
+
+        internal static int GarmentList(ContextHandle context, DataName[] into)
+        {
+            if (into == null) throw new ArgumentNullException("into");
+            DataName none;
+            uint listed = (uint)into.Length;
+            if (listed == 0) GarmentList(context, &none, (uint)sizeof(DataName), &listed);     // an empty array is not the question how many
+            else fixed (DataName* first = into) GarmentList(context, first, (uint)sizeof(DataName), &listed);
+            return (int)listed;
         }
 
         internal static Result GarmentLoad(ContextHandle context, void* bytes, ulong byteCount, GarmentHandle @out)

@@ -289,6 +289,12 @@ namespace Vfit
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_scan_measure(ScanId scan, Measurement* items, uint stride, uint* count);
 
+        /// <summary>The sex that the scan was told, else the likelier one, with its probability (1 where it was told). A
+        /// scan by proportions infers none: VFIT_SEX_UNKNOWN, 0. probability may be null. No frame yet: VFIT_ERROR_STATE.
+        /// [read]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_scan_sex(ScanId scan, Sex* sex, float* probability);
+
         /// <summary>centres are those of the last frame [read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_scan_colliders(ScanId scan, Collider* items, uint stride, uint* count);
@@ -309,6 +315,10 @@ namespace Vfit
         /// <summary>Two scans of one person in one list. The statures of two people: VFIT_ERROR_DATA. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_measurements_merge(Measurement* a, uint aStride, uint aCount, Measurement* b, uint bStride, uint bCount, Measurement* items, uint stride, uint* count);
+
+        /// <summary>Names of the size charts in data_dir/charts, in alphabetical order. [any]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_size_chart_list(ContextId context, DataName* items, uint stride, uint* count);
 
         /// <summary>A chart as JSON (docs/size-charts.md), or by the name of a file in data_dir/charts. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -464,6 +474,10 @@ namespace Vfit
         /// <summary>The same streams of the unposed mesh that the rig binds to. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_avatar_acquire_rest(AvatarId avatar, FrameId* @out);
+
+        /// <summary>Names of the garments in data_dir/garments, in alphabetical order. [any]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_garment_list(ContextId context, DataName* items, uint stride, uint* count);
 
         /// <summary>A garment as JSON (docs/garments.md), or by the name of a file in data_dir/garments. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]

@@ -252,7 +252,7 @@ namespace Vfit
 
     public enum ScanMethod : int
     {
-        /// <summary>PROPORTIONS as yet</summary>
+        /// <summary>FIT</summary>
         Default = 0,
         /// <summary>the paper's, with anthropometric ratios, weighted means, outliers left out</summary>
         Proportions = 1,
@@ -520,6 +520,19 @@ namespace Vfit
         {
             get { fixed (byte* bytes = pathBytes) return Utf8Text.Read(bytes, 256); }
             set { fixed (byte* bytes = pathBytes) Utf8Text.Write(value, bytes, 256, "Path"); }
+        }
+    }
+
+    /// <summary>A file of data_dir, by the name that opens it.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 68)]
+    public unsafe partial struct DataName
+    {
+        internal uint StructSize;
+        internal fixed byte nameBytes[64];
+        public string Name
+        {
+            get { fixed (byte* bytes = nameBytes) return Utf8Text.Read(bytes, 64); }
+            set { fixed (byte* bytes = nameBytes) Utf8Text.Write(value, bytes, 64, "Name"); }
         }
     }
 
@@ -1081,8 +1094,7 @@ namespace Vfit
         }
     }
 
-    /// <summary>garment_kind: as size charts name it.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 144)]
+    [StructLayout(LayoutKind.Sequential, Size = 208)]
     public unsafe partial struct GarmentInfo
     {
         internal uint StructSize;
@@ -1096,6 +1108,7 @@ namespace Vfit
             set { fixed (byte* bytes = nameBytes) Utf8Text.Write(value, bytes, 64, "Name"); }
         }
         internal fixed byte garmentKindBytes[32];
+        /// <summary>as size charts name it</summary>
         public string GarmentKind
         {
             get { fixed (byte* bytes = garmentKindBytes) return Utf8Text.Read(bytes, 32); }
@@ -1107,6 +1120,15 @@ namespace Vfit
             get { fixed (byte* bytes = fabricBytes) return Utf8Text.Read(bytes, 32); }
             set { fixed (byte* bytes = fabricBytes) Utf8Text.Write(value, bytes, 32, "Fabric"); }
         }
+        internal fixed byte sizeChartBytes[60];
+        /// <summary>name of the chart that its labels follow; empty: the file states none</summary>
+        public string SizeChart
+        {
+            get { fixed (byte* bytes = sizeChartBytes) return Utf8Text.Read(bytes, 60); }
+            set { fixed (byte* bytes = sizeChartBytes) Utf8Text.Write(value, bytes, 60, "SizeChart"); }
+        }
+        /// <summary>of the default body that it was made on</summary>
+        public Sex BodySex;
     }
 
     /// <summary>Triangles of one look: indices first_index on of what vfit_cloth_acquire gives. texture: the path of a
@@ -1221,6 +1243,6 @@ namespace Vfit
     {
         public const int JointCount = 23;
         public const int BoneCount = 22;
-        internal const uint HeaderVersion = 0u << 22 | 1u << 12 | 0u;
+        internal const uint HeaderVersion = 0u << 22 | 2u << 12 | 0u;
     }
 }
