@@ -1,6 +1,7 @@
 // vfit-bench garments: every garment in every size on bodies of several kinds, at rest and when it is changed
 // (synthetic).
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iomanip>
@@ -248,7 +249,7 @@ private:
     }
 
     void draw(vfit_avatar avatar, vfit_cloth cloth, const Welded& skin, const Json& row) {
-        std::vector<RenderMesh> meshes = dressed_meshes(avatar, cloth);
+        std::vector<RenderMesh> meshes = dressed_meshes(avatar, std::array{DrawnCloth{cloth}});
         Frame frame;
         check(vfit_avatar_acquire(avatar, frame.out()));
         meshes[0].indices =

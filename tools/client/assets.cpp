@@ -24,7 +24,25 @@ Object open_or_load(vfit_context context, const std::string& name, Open open, Lo
     return object;
 }
 
+std::vector<std::string> names_of(const std::vector<vfit_data_name>& entries) {
+    std::vector<std::string> names;
+    for (const vfit_data_name& entry : entries) names.emplace_back(entry.name);
+    return names;
+}
+
 }  // namespace
+
+std::vector<std::string> garment_names(vfit_context context) {
+    return names_of(list<vfit_data_name>([&](auto* items, uint32_t stride, uint32_t* n) {
+        return vfit_garment_list(context, items, stride, n);
+    }));
+}
+
+std::vector<std::string> chart_names(vfit_context context) {
+    return names_of(list<vfit_data_name>([&](auto* items, uint32_t stride, uint32_t* n) {
+        return vfit_size_chart_list(context, items, stride, n);
+    }));
+}
 
 SizeChart open_chart(vfit_context context, const std::string& name_or_path) {
     return open_or_load<SizeChart>(context, name_or_path, vfit_size_chart_open, vfit_size_chart_load);

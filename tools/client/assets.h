@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "client/client.h"
 
@@ -9,6 +10,9 @@ namespace vfit::tools {
 
 /// A path has a slash in it or ends in ".json"; anything else is a name.
 SizeChart open_chart(vfit_context context, const std::string& name_or_path);
+/// Names that open_garment and open_chart take.
+std::vector<std::string> garment_names(vfit_context context);
+std::vector<std::string> chart_names(vfit_context context);
 Garment open_garment(vfit_context context, const std::string& name_or_path);
 
 }  // namespace vfit::tools

@@ -111,12 +111,13 @@ std::vector<vfit_bone> bones_of(vfit_motion motion, vfit_pose& pose) {
     });
 }
 
-std::vector<uint32_t> seen_triangles(vfit_avatar avatar, vfit_cloth cloth) {
+std::vector<uint32_t> seen_triangles(vfit_avatar avatar, std::span<const vfit_cloth> cloths) {
     Frame rest;
     check(vfit_avatar_acquire_rest(avatar, rest.out()));
     const auto indices = items_of<uint32_t>(rest.get(), VFIT_STREAM_INDEX);
     std::vector<uint8_t> hidden(indices.size() / 3);
-    check(vfit_cloth_hide_skin(cloth, 0.0f, hidden.data(), uint32_t(hidden.size())));
+    for (const vfit_cloth cloth : cloths)
+        check(vfit_cloth_hide_skin(cloth, 0.0f, hidden.data(), uint32_t(hidden.size())));
     std::vector<uint32_t> seen;
     for (size_t t = 0; t < hidden.size(); ++t)
         if (!hidden[t]) seen.insert(seen.end(), &indices[3 * t], &indices[3 * t] + 3);

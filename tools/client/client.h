@@ -4,6 +4,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -138,8 +139,8 @@ void set_pose(vfit_avatar avatar, const vfit_pose& pose, const std::vector<vfit_
 /// Upright, the arms at 45 degrees, each leg turned out by that much.
 void stand(vfit_avatar avatar, float leg_rad);
 
-/// Triangles of the avatar's that the cloth does not hide: three indices each.
-std::vector<uint32_t> seen_triangles(vfit_avatar avatar, vfit_cloth cloth);
+/// Triangles of the avatar that the cloths leave visible: three indices each.
+std::vector<uint32_t> seen_triangles(vfit_avatar avatar, std::span<const vfit_cloth> cloths);
 
 /// A world-space point in the camera space of that camera.
 struct Point {

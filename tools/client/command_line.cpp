@@ -69,6 +69,9 @@ int run_program(const char* name, const char* help, const std::vector<void (*)(C
         return 0;
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
+    } catch (const WrongUsage& wrong) {
+        std::fprintf(stderr, "%s: %s\nRun with --help for more information.\n", name, wrong.what());
+        return 2;
     } catch (const std::exception& error) {
         std::cout.flush();  // what was printed before the failure stands before its line
         std::string line = error.what();

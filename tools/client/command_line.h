@@ -5,10 +5,17 @@
 
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace vfit::tools {
+
+/// Arguments that contradict each other or lack one: ends the program with exit code 2.
+class WrongUsage : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
 
 /// Limits of one argument, checked before the command runs.
 class Argument {

@@ -23,19 +23,15 @@ Fitting::Fitting(vfit_context context, const FittingOptions& options) : context_
     const auto start = std::chrono::steady_clock::now();
     dress();
     dress_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    const SizeChart chart = open_chart(context, options.chart);
-    sizes_ = sizes_json(chart.get(), garment_kind_, measurements_of(scan_.scan.get()));
+    for (const Layer& layer : outfit_->layers()) advice_.push_back(advise(layer));
 }
 
 void Fitting::dress() {
+    check(vfit_scan_sex(scan_.scan.get(), &sex_, &sex_probability_));
     vfit_avatar_desc desc = vfit_avatar_desc_init();
-    desc.sex = options_.scan.sex;
+    desc.sex = sex_;
     desc.detail = options_.detail;
     check(vfit_avatar_create_from_scan(context_, &desc, scan_.scan.get(), avatar_.out()));
-    garment_ = open_garment(context_, options_.garment);
-    vfit_garment_info info = vfit_garment_info_init();
-    check(vfit_garment_describe(garment_.get(), &info));
-    garment_kind_ = info.garment_kind;
     check(vfit_motion_create(context_, nullptr, motion_.out()));
     check(vfit_motion_bind(motion_.get(), avatar_.get()));
     const vfit_view depth = view_of(scan_frame_.get(), VFIT_STREAM_DEPTH);
@@ -45,10 +41,29 @@ void Fitting::dress() {
     cloth.flags =
         VFIT_CLOTH_SKIN | VFIT_CLOTH_PRESSURE | (options_.hands ? 0u : uint32_t(VFIT_CLOTH_NO_HANDS));
     if (!options_.size.empty()) cloth.size_label = options_.size.c_str();
-    check(vfit_cloth_create(avatar_.get(), garment_.get(), &cloth, cloth_.out()));
+    outfit_.emplace(context_, avatar_.get(),
+                    options_.garments.empty() ? default_outfit(sex_) : options_.garments, cloth);
     Frame body, garment;
     check(vfit_avatar_acquire(avatar_.get(), body.out()));
-    check(vfit_cloth_acquire(cloth_.get(), garment.out()));
+    for (const vfit_cloth worn : outfit_->cloths()) check(vfit_cloth_acquire(worn, garment.out()));
+}
+
+SizeAdvice Fitting::advise(const Layer& layer) const {
+    SizeAdvice out;
+    out.kind = options_.chart_kind.empty() ? layer.info.garment_kind : options_.chart_kind;
+    out.chart = !options_.chart.empty()                ? options_.chart
+                : layer.info.size_chart[0] != 0        ? layer.info.size_chart
+                : layer.info.body_sex == VFIT_SEX_MALE ? "en13402_men"
+                                                       : "en13402_women";
+    try {
+        const SizeChart chart = open_chart(context_, out.chart);
+        out.sizes = sizes_json(chart.get(), out.kind, measurements_of(scan_.scan.get()));
+    } catch (const Failure& failure) {
+        // A garment of somebody else's may be of a kind that no chart here knows: it is worn all the same.
+        if (!options_.chart.empty()) throw;
+        out.reason = failure.what();
+    }
+    return out;
 }
 
 void Fitting::pose_avatar() {
@@ -73,18 +88,17 @@ void Fitting::play(const std::function<bool(vfit_frame, double)>& on_frame) {
             pose_avatar();
             if (frames_played_++ == 0) {
                 first_ns = last_ns = now_ns;
-                check(vfit_cloth_reset(cloth_.get()));
+                outfit_->reset();
             }
             first_ns += std::max<int64_t>(0, now_ns - last_ns - kLongestPause_ns);
             last_ns = now_ns;
             const double time = seconds(now_ns - first_ns);
-            for (; cloth_time < time; cloth_time += kClothStep_s)
-                check(vfit_cloth_step(cloth_.get(), float(kClothStep_s)));
+            for (; cloth_time < time; cloth_time += kClothStep_s) outfit_->step(float(kClothStep_s));
             if (!on_frame(tracked.get(), time)) break;
         }
         if (options_.max_frames && frames_played_ == options_.max_frames) break;
     }
-    if (frames_played_ == 0) throw Failure("nobody was in view while the source played");
+    if (frames_played_ == 0) throw Failure("the source ended without a person in view");
 }
 
 }  // namespace vfit::tools

@@ -19,7 +19,7 @@ namespace vfit::tools {
 namespace {
 
 struct Options {
-    std::string design, out, body, fabrics, kind, fabric, sex, unit = "m", size_label;
+    std::string design, out, body, fabrics, kind, size_chart, fabric, sex, unit = "m", size_label;
     float triangle_mm = 20.0f;
     bool json = false;
 };
@@ -38,6 +38,7 @@ Json report_of(const CookedGarment& cooked) {
     for (const GarmentSize& size : g.sizes) sizes.push_back(size.label);
     Json out = {{"garment", g.name},
                 {"kind", g.kind},
+                {"size_chart", g.size_chart},
                 {"fabric", g.fabric},
                 {"body_sex", g.body_sex == VFIT_SEX_MALE ? "m" : "f"},
                 {"vertices", g.vertex_count()},
@@ -73,6 +74,7 @@ public:
         CookRequest request;
         request.path = design;
         request.kind = options_.kind;
+        request.size_chart = options_.size_chart;
         request.fabric = options_.fabric;
         request.sex = options_.sex.empty()  ? VFIT_SEX_UNKNOWN
                       : options_.sex == "m" ? VFIT_SEX_MALE
@@ -192,6 +194,9 @@ void add_cook(Command& app) {
     command.add_option("--fabrics", o->fabrics, "Fabrics (default: those beside the program)");
     command.add_option("--kind", o->kind,
                        "Of a specification or mesh: garment kind of the size charts (default dress)");
+    command.add_option("--size-chart", o->size_chart,
+                       "Name of the size chart that the garment's labels follow (default: the design's; of "
+                       "others none is stated)");
     command.add_option("--fabric", o->fabric,
                        "Of a specification or mesh: its fabric (default cotton_woven)");
     command

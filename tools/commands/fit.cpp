@@ -1,9 +1,12 @@
 // vfit fit: the whole chain on one source; leaves result.json, pictures and an animated GLB.
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <iostream>
 #include <tuple>
 
+#include "client/assets.h"
+#include "client/command_line.h"
 #include "client/files.h"
 #include "client/fitting.h"
 #include "client/output.h"
@@ -26,7 +29,7 @@ constexpr double kLength_s =
 
 struct Options {
     FittingOptions fitting;
-    std::string sex = "f", out;
+    std::string sex = "unknown", method = "fit", out;
     bool json = false, draft = false;
     TrackOptions track;
 };
@@ -53,6 +56,33 @@ Json cloth_json(vfit_cloth cloth) {
     return {{"vertices", s.vertex_count},        {"simulated", s.simulated_count},
             {"constraints", s.constraint_count}, {"strain_mean", s.strain_mean},
             {"strain_p99", s.strain_p99},        {"strain_max", s.strain_max}};
+}
+
+Json garment_json(const Layer& layer, const SizeAdvice& advice, const std::string& size) {
+    Json out = {{"garment", layer.name},
+                {"kind", layer.info.garment_kind},
+                {"size", size.empty() ? Json("made to measure") : Json(size)},
+                {"chart", advice.chart},
+                {"chart_kind", advice.kind},
+                {"sizes", advice.sizes}};
+    if (advice.sizes.empty()) out["no_size"] = advice.reason;
+    out["cloth"] = cloth_json(layer.cloth.get());
+    return out;
+}
+
+/// The fields of a single garment that an outfit has as a whole: sizes are those of the outermost layer,
+/// counts are sums, strains the largest.
+void add_whole_outfit(Json& result, const Json& garments) {
+    result["chart"] = garments.back().at("chart");
+    result["sizes"] = garments.back().at("sizes");
+    Json whole = garments[0].at("cloth");
+    for (size_t i = 1; i < garments.size(); ++i)
+        for (const auto& [key, value] : garments[i].at("cloth").items())
+            if (key.rfind("strain", 0) == 0)
+                whole[key] = std::max(whole[key].get<double>(), value.get<double>());
+            else
+                whole[key] = whole[key].get<int64_t>() + value.get<int64_t>();
+    result["cloth"] = whole;
 }
 
 /// Pictures are scaled up so that a 320 x 240 image is not a stamp.
@@ -136,7 +166,7 @@ void draw_all(Album& album, const Fitting& fitting, const std::vector<Moment>& m
     for (const auto& [map, name, caption] :
          {std::tuple(FitMap::stretch, "stretch", "stretch: blue loose, yellow 4 %, red 10 %"),
           std::tuple(FitMap::pressure, "pressure", "pressure: yellow 0.5 kPa, red 2 kPa")}) {
-        const auto meshes = dressed_meshes(fitting.avatar(), fitting.cloth(), map);
+        const auto meshes = dressed_meshes(fitting.avatar(), drawn(fitting.outfit()), map);
         for (const auto& [yaw, side] : {std::pair(0.35f, ""), std::pair(3.5f, "_back")}) {
             const Canvas picture = draw_dressed(meshes, centre_of(meshes[0]), yaw, style);
             album.add(std::string("fit_map_") + name + side + ".png", picture);
@@ -147,16 +177,22 @@ void draw_all(Album& album, const Fitting& fitting, const std::vector<Moment>& m
 }
 
 std::string title_of(const Json& result) {
-    char text[160];
     const auto centimetres = [&](const char* key) {
         return 100.0 * result.at("measurements").at(key).at("value").get<double>();
     };
-    const Json& best = result.at("sizes").at(0);
-    std::snprintf(text, sizeof text, "%s: %.1f cm tall, shoulders %.1f cm, size %s (%.0f %%)",
-                  result.at("garment").get<std::string>().c_str(), centimetres("stature_m"),
-                  centimetres("shoulder_breadth_m"), best.at("label").get<std::string>().c_str(),
-                  100.0 * best.at("probability").get<double>());
-    return text;
+    char text[160];
+    std::snprintf(text, sizeof text, "%.1f cm tall, shoulders %.1f cm", centimetres("stature_m"),
+                  centimetres("shoulder_breadth_m"));
+    std::string title = text;
+    for (const Json& garment : result.at("garments")) {
+        title += "; " + garment.at("garment").get<std::string>();
+        if (garment.at("sizes").empty()) continue;
+        const Json& best = garment.at("sizes").at(0);
+        std::snprintf(text, sizeof text, " in %s (%.0f %%)", best.at("label").get<std::string>().c_str(),
+                      100.0 * best.at("probability").get<double>());
+        title += text;
+    }
+    return title;
 }
 
 Json fit(const Options& options) {
@@ -164,9 +200,10 @@ Json fit(const Options& options) {
     const Context context = open_context();
     FittingOptions chain = options.fitting;
     chain.scan.sex = sex_from(options.sex);
+    chain.scan.method = scan_method_from(options.method);
     chain.scan.track = options.track;
     Fitting fitting(context.get(), chain);
-    GlbAnimation animation(fitting.avatar(), fitting.cloth());
+    GlbAnimation animation(fitting.avatar(), fitting.outfit());
     std::vector<Moment> moments;
     {
         Progress progress("moving");
@@ -175,7 +212,7 @@ Json fit(const Options& options) {
             if (time_s >= kLength_s) return false;
             if (time_s < double(moments.size()) * kKeyInterval_s) return true;
             animation.add_key(static_cast<float>(time_s));
-            Moment moment{time_s, dressed_meshes(fitting.avatar(), fitting.cloth()), {}};
+            Moment moment{time_s, dressed_meshes(fitting.avatar(), drawn(fitting.outfit())), {}};
             moment.centre = centre_of(moment.meshes[0]);
             moments.push_back(std::move(moment));
             return true;
@@ -184,23 +221,39 @@ Json fit(const Options& options) {
 
     Json result;
     result["source"] = chain.source;
-    result["garment"] = chain.garment;
-    result["size"] = chain.size.empty() ? Json("made to measure") : Json(chain.size);
+    Json garments = Json::array();
+    std::string names;
+    for (size_t i = 0; i < fitting.outfit().layers().size(); ++i) {
+        garments.push_back(garment_json(fitting.outfit().layers()[i], fitting.advice()[i], chain.size));
+        names += (i > 0 ? "+" : "") + fitting.outfit().layers()[i].name;
+    }
+    result["garment"] = names;
+    result["size"] = garments[0].at("size");
+    result["method"] = options.method;
+    result["sex"] = {{"value", sex_text(fitting.sex())},
+                     {"probability", fitting.sex_probability()},
+                     {"told", chain.scan.sex != VFIT_SEX_UNKNOWN}};
     result["scan_frames"] = fitting.scan().frames_taken;
     result["measurements"] = measurements_json(measurements_of(fitting.scan().scan.get()));
     vfit_scale scale = vfit_scale_init();
     // Algorithm 3 knows the paper's three kinds.
     const bool scaled =
-        vfit_scan_scale(fitting.scan().scan.get(), fitting.garment_kind().c_str(), &scale) == VFIT_OK;
+        vfit_scan_scale(fitting.scan().scan.get(), fitting.outfit().layers().back().info.garment_kind,
+                        &scale) == VFIT_OK;
     result["scale"] = scaled ? Json{{"x", scale.x}, {"y", scale.y}} : Json();
-    result["chart"] = chain.chart;
-    result["sizes"] = fitting.sizes();
+    result["garments"] = garments;
+    add_whole_outfit(result, garments);
+    const WornOutfit::Worst& worst = fitting.outfit().worst();
+    const std::string warning = fitting.outfit().warning();
+    result["torn"] = !warning.empty();
+    result["worst_strain"] = {{"strain", worst.strain}, {"garment", worst.garment}, {"time_s", worst.time_s}};
+    if (!warning.empty()) result["warning"] = warning;
     result["frames"] = fitting.frames_played();
-    result["cloth"] = cloth_json(fitting.cloth());
     result["dress_ms"] = fitting.dress_ms();
     result["stage_ms"] = timings(context.get());
 
-    draw_all(album, fitting, choose(moments), title_of(result), options.draft ? kDraft : kFine);
+    draw_all(album, fitting, choose(moments), warned(title_of(result), warning),
+             options.draft ? kDraft : kFine);
     animation.write(album.path("avatar.glb"));
     result["pictures"] = album.names();
     result["animation"] = "avatar.glb";
@@ -208,34 +261,72 @@ Json fit(const Options& options) {
     return result;
 }
 
+void list_garments(bool json) {
+    const Context context = open_context();
+    Json out = Json::array();
+    for (const std::string& name : garment_names(context.get())) {
+        const Garment garment = open_garment(context.get(), name);
+        vfit_garment_info info = vfit_garment_info_init();
+        check(vfit_garment_describe(garment.get(), &info));
+        Json sizes = Json::array();
+        for (uint32_t i = 0; i < info.size_count; ++i) {
+            char label[32];
+            vfit_garment_size_label(garment.get(), i, label, sizeof label);
+            sizes.push_back(label);
+        }
+        out.push_back({{"garment", name},
+                       {"kind", info.garment_kind},
+                       {"chart", info.size_chart},
+                       {"fabric", info.fabric},
+                       {"made_for", sex_text(info.body_sex)},
+                       {"sizes", sizes}});
+    }
+    if (json) return print_document(out);
+    for (const Json& g : out) {
+        std::cout << std::left << std::setw(20) << g["garment"].get<std::string>() << std::setw(14)
+                  << g["kind"].get<std::string>() << std::setw(18) << g["chart"].get<std::string>();
+        for (const Json& label : g["sizes"]) std::cout << " " << label.get<std::string>();
+        std::cout << "\n";
+    }
+}
+
 }  // namespace
 
 void add_fit(Command& app) {
     Command command = app.add_subcommand("fit", "Scan, size, move and dress; leaves pictures and a GLB");
     auto o = std::make_shared<Options>();
-    o->fitting.chart = "paper";
-    command.add_option("source", o->fitting.source, "Recording folder or sensor URI").required();
-    command.add_option("--garment", o->fitting.garment, "Garment by name or file (default sundress)");
-    command.add_option("--size", o->fitting.size, "A label of the garment; default: made to measure");
-    command.add_option("--chart", o->fitting.chart, "Size chart by name or file (default paper)");
-    command.add_option("--sex", o->sex, "Whose default body: f, m or unknown").one_of({"f", "m", "unknown"});
+    command.add_option("source", o->fitting.source, "Recording folder or sensor URI");
+    command.add_option(
+        "--garment", o->fitting.garments,
+        "Garments by name or file, A+B: B over A; \"list\" prints the names (default: sundress for "
+        "a woman, pants_men+shirt_men for a man)");
+    command.add_option("--size", o->fitting.size, "A label of the garments (default: made to measure)");
+    command.add_option("--chart", o->fitting.chart,
+                       "Size chart by name or file (default: the one that each garment names)");
+    command.add_option("--kind", o->fitting.chart_kind,
+                       "Garment kind of that chart (default: the garment's own)");
+    command.add_option("--method", o->method, "How to measure (default fit)")
+        .one_of({"fit", "paper", "paper-as-printed"});
+    command.add_option("--sex", o->sex, "f or m, where known (default: as the scan finds)")
+        .one_of({"f", "m", "unknown"});
     command.add_option("--frames", o->fitting.max_frames, "Play that many frames at most (8 seconds at most)")
         .positive();
     command.add_option("--detail", o->fitting.detail, "Level of detail of the avatar: 0, 1 or 2")
         .within(0, 2);
-    command.add_option("--out", o->out, "Folder for the results").required();
+    command.add_option("--out", o->out, "Folder for the results");
     command.add_flag("--hands", o->fitting.hands, "Let forearms and hands push the garment");
     command.add_flag("--draft", o->draft, "Small, grainy pictures in a tenth of the time");
     command.add_flag("--json", o->json, "Print the result as JSON");
     add_track_options(command, o->track);
     command.callback([o] {
+        if (o->fitting.garments == "list") return list_garments(o->json);
+        if (o->fitting.source.empty()) throw WrongUsage("fit: source is required");
+        if (o->out.empty()) throw WrongUsage("fit: --out is required");
         const Json result = fit(*o);
-        if (o->json)
-            print_document(result);
-        else
-            std::cout << title_of(result) << "\nin " << o->out
-                      << ": result.json, contact_sheet.png, avatar.glb, " << result["pictures"].size() - 1
-                      << " pictures\n";
+        if (o->json) return print_document(result);
+        std::cout << title_of(result) << "\nin " << o->out << ": result.json, contact_sheet.png, avatar.glb, "
+                  << result["pictures"].size() - 1 << " pictures\n";
+        if (result.contains("warning")) std::cout << result["warning"].get<std::string>() << "\n";
     });
 }
 

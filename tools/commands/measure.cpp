@@ -12,7 +12,7 @@ namespace vfit::tools {
 namespace {
 
 struct Options {
-    std::string source, method = "paper", garment = "short_sleeves", sex = "unknown";
+    std::string source, method = "fit", garment = "short_sleeves", sex = "unknown";
     uint32_t frames = 0, side_frames = 15;
     bool json = false, bare = false, tight = false;
     std::string profile, merged, own;

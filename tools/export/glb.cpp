@@ -62,20 +62,73 @@ void add_skin_attributes(GlbWriter& writer, tinygltf::Primitive& primitive, vfit
     }
 }
 
+int add_material(GlbWriter& writer, const Layer& layer) {
+    const auto parts = stated_parts(layer.garment.get());
+    if (parts.empty()) return writer.add_material(layer.info.name, {0.75, 0.20, 0.28, 1.0}, 0.85, true);
+    const float* c = parts[0].color;
+    return writer.add_material(layer.info.name, {c[0], c[1], c[2], 1.0}, 0.85, true);
+}
+
+/// The node of one garment: the shape of the first key, and one morph target for each later key.
+int add_garment(GlbWriter& writer, const Layer& layer, const std::vector<GlbKey>& keys, size_t index,
+                int time_accessor, tinygltf::Animation& animation) {
+    tinygltf::Model& model = writer.model();
+    Frame topology;
+    check(vfit_cloth_acquire(layer.cloth.get(), topology.out()));
+    const GlbKey::Shape& first = keys[0].garments[index];
+    tinygltf::Primitive primitive;
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    primitive.material = add_material(writer, layer);
+    primitive.attributes["POSITION"] = writer.add_vectors(first.positions, true);
+    primitive.attributes["NORMAL"] = writer.add_vectors(first.normals, false);
+    primitive.indices = writer.add_indices(items_of<uint32_t>(topology.get(), VFIT_STREAM_INDEX));
+    const size_t targets = keys.size() - 1;
+    for (size_t k = 1; k < keys.size(); ++k) {
+        const GlbKey::Shape& shape = keys[k].garments[index];
+        std::vector<vec3> moved(shape.positions.size()), turned(moved.size());
+        for (size_t i = 0; i < moved.size(); ++i) {
+            moved[i] = shape.positions[i] - first.positions[i];
+            turned[i] = shape.normals[i] - first.normals[i];
+        }
+        primitive.targets.push_back(
+            {{"POSITION", writer.add_vectors(moved, true)}, {"NORMAL", writer.add_vectors(turned, false)}});
+    }
+    tinygltf::Mesh mesh;
+    mesh.name = layer.info.name;
+    mesh.weights.assign(targets, 0.0);
+    mesh.primitives.push_back(primitive);
+    model.meshes.push_back(mesh);
+    tinygltf::Node node;
+    node.name = layer.info.name;
+    node.mesh = int(model.meshes.size()) - 1;
+    const int added = writer.add_node(node);
+    if (targets > 0) {
+        // At key k the target k - 1 counts alone; between two keys they blend.
+        std::vector<float> weights(keys.size() * targets, 0.0f);
+        for (size_t k = 1; k < keys.size(); ++k) weights[k * targets + k - 1] = 1.0f;
+        const int w = writer.add(weights, TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_FLOAT, 0);
+        add_channel(animation, added, "weights", time_accessor, w);
+    }
+    return added;
+}
+
 }  // namespace
 
-GlbAnimation::GlbAnimation(vfit_avatar avatar, vfit_cloth cloth)
-    : avatar_(avatar), cloth_(cloth), rig_(rig_of(avatar)) {}
+GlbAnimation::GlbAnimation(vfit_avatar avatar, const WornOutfit& outfit)
+    : avatar_(avatar), outfit_(outfit), rig_(rig_of(avatar)) {}
 
 void GlbAnimation::add_key(float time_s) {
-    Frame body, garment;
+    Frame body;
     check(vfit_avatar_acquire(avatar_, body.out()));
-    check(vfit_cloth_acquire(cloth_, garment.out()));
     GlbKey key;
     key.time_s = time_s;
     key.bone_matrices = items_of<mat4>(body.get(), VFIT_STREAM_BONE_MATRIX);
-    key.garment_positions = items_of<vec3>(garment.get(), VFIT_STREAM_POSITION);
-    key.garment_normals = items_of<vec3>(garment.get(), VFIT_STREAM_NORMAL);
+    for (const vfit_cloth cloth : outfit_.cloths()) {
+        Frame garment;
+        check(vfit_cloth_acquire(cloth, garment.out()));
+        key.garments.push_back({items_of<vec3>(garment.get(), VFIT_STREAM_POSITION),
+                                items_of<vec3>(garment.get(), VFIT_STREAM_NORMAL)});
+    }
     keys_.push_back(std::move(key));
 }
 
@@ -83,11 +136,9 @@ void GlbAnimation::write(const std::string& path) const {
     if (keys_.empty()) throw Failure("the animation has no key frame");
     GlbWriter writer;
     tinygltf::Model& model = writer.model();
-    Frame rest, garment;
+    Frame rest;
     check(vfit_avatar_acquire_rest(avatar_, rest.out()));
-    check(vfit_cloth_acquire(cloth_, garment.out()));
     const int skin_material = writer.add_material("skin", {0.80, 0.60, 0.48, 1.0}, 0.6, false);
-    const int cloth_material = writer.add_material("garment", {0.75, 0.20, 0.28, 1.0}, 0.85, true);
 
     std::vector<float> times;
     for (const GlbKey& key : keys_) times.push_back(key.time_s);
@@ -150,51 +201,21 @@ void GlbAnimation::write(const std::string& path) const {
         writer.add(items_of<glm::vec2>(rest.get(), VFIT_STREAM_UV), TINYGLTF_TYPE_VEC2,
                    TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TARGET_ARRAY_BUFFER);
     add_skin_attributes(writer, body, rest.get());
-    body.indices = writer.add_indices(seen_triangles(avatar_, cloth_));
+    body.indices = writer.add_indices(seen_triangles(avatar_, outfit_.cloths()));
     body_mesh.primitives.push_back(body);
     model.meshes.push_back(body_mesh);
 
-    tinygltf::Mesh cloth_mesh;
-    cloth_mesh.name = "garment";
-    tinygltf::Primitive cloth;
-    cloth.mode = TINYGLTF_MODE_TRIANGLES;
-    cloth.material = cloth_material;
-    cloth.attributes["POSITION"] = writer.add_vectors(keys_[0].garment_positions, true);
-    cloth.attributes["NORMAL"] = writer.add_vectors(keys_[0].garment_normals, false);
-    cloth.indices = writer.add_indices(items_of<uint32_t>(garment.get(), VFIT_STREAM_INDEX));
-    const size_t targets = keys_.size() - 1;
-    for (size_t k = 1; k < keys_.size(); ++k) {
-        std::vector<vec3> moved(keys_[k].garment_positions.size()), turned(moved.size());
-        for (size_t i = 0; i < moved.size(); ++i) {
-            moved[i] = keys_[k].garment_positions[i] - keys_[0].garment_positions[i];
-            turned[i] = keys_[k].garment_normals[i] - keys_[0].garment_normals[i];
-        }
-        cloth.targets.push_back(
-            {{"POSITION", writer.add_vectors(moved, true)}, {"NORMAL", writer.add_vectors(turned, false)}});
-    }
-    cloth_mesh.weights.assign(targets, 0.0);
-    cloth_mesh.primitives.push_back(cloth);
-    model.meshes.push_back(cloth_mesh);
-
-    tinygltf::Node body_node, cloth_node;
+    tinygltf::Node body_node;
     body_node.name = "body";
     body_node.mesh = 0;
     body_node.skin = 0;
-    cloth_node.name = "garment";
-    cloth_node.mesh = 1;
-    const int body_index = writer.add_node(body_node), cloth_index = writer.add_node(cloth_node);
-    if (targets > 0) {
-        // At key k the target k - 1 counts alone; between two keys they blend.
-        std::vector<float> weights(keys_.size() * targets, 0.0f);
-        for (size_t k = 1; k < keys_.size(); ++k) weights[k * targets + k - 1] = 1.0f;
-        const int w = writer.add(weights, TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_FLOAT, 0);
-        add_channel(animation, cloth_index, "weights", time_accessor, w);
-        model.animations.push_back(animation);
-    }
+    std::vector<int> nodes{writer.add_node(body_node)};
+    for (size_t g = 0; g < outfit_.layers().size(); ++g)
+        nodes.push_back(add_garment(writer, outfit_.layers()[g], keys_, g, time_accessor, animation));
+    if (keys_.size() > 1) model.animations.push_back(animation);
     tinygltf::Scene scene;
     scene.nodes = roots;
-    scene.nodes.push_back(body_index);
-    scene.nodes.push_back(cloth_index);
+    scene.nodes.insert(scene.nodes.end(), nodes.begin(), nodes.end());
     model.scenes.push_back(scene);
     model.defaultScene = 0;
 

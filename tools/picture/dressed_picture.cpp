@@ -9,7 +9,6 @@ namespace vfit::tools {
 namespace {
 
 constexpr Color kSkin{0.86f, 0.67f, 0.56f};
-constexpr Color kCloth{0.80f, 0.27f, 0.30f};
 constexpr float kClothSheen = 0.35f;
 
 struct Stop {
@@ -33,7 +32,6 @@ Color color_at(std::span<const Stop> stops, float value) {
 
 std::vector<Color> colors_of(vfit_cloth garment, vfit_frame cloth, FitMap map) {
     std::vector<Color> colors;
-    if (map == FitMap::none) return colors;
     if (map == FitMap::fit) {
         std::vector<float> values(view_of(cloth, VFIT_STREAM_POSITION).width);
         check(vfit_cloth_fit_map(garment, values.data(), uint32_t(values.size())));
@@ -55,21 +53,46 @@ RenderMesh mesh_of(vfit_frame frame, const Color& color) {
     return mesh;
 }
 
+/// IEC 61966-2-1, near enough for a picture.
+float srgb(float linear) { return std::pow(std::max(linear, 0.0f), 1.0f / 2.2f); }
+
+void paint(vfit_garment garment, RenderMesh& mesh) {
+    for (const vfit_garment_part& part : stated_parts(garment)) {
+        mesh.vertex_colors.resize(mesh.positions.size(), mesh.color);
+        const Color color{srgb(part.color[0]), srgb(part.color[1]), srgb(part.color[2])};
+        for (uint32_t i = part.first_index; i < part.first_index + part.index_count; ++i)
+            mesh.vertex_colors[mesh.indices[i]] = color;
+    }
+}
+
 }  // namespace
 
-std::vector<RenderMesh> dressed_meshes(vfit_avatar avatar, vfit_cloth cloth, FitMap map) {
+std::vector<RenderMesh> dressed_meshes(vfit_avatar avatar, std::span<const DrawnCloth> cloths, FitMap map) {
     Frame body_frame;
     check(vfit_avatar_acquire(avatar, body_frame.out()));
     std::vector<RenderMesh> meshes{mesh_of(body_frame.get(), kSkin)};
-    if (cloth.id) {
+    std::vector<vfit_cloth> hiding;
+    for (const DrawnCloth& drawn : cloths) {
         Frame cloth_frame;
-        check(vfit_cloth_acquire(cloth, cloth_frame.out()));
-        meshes.push_back(mesh_of(cloth_frame.get(), kCloth));
-        meshes[1].sheen = map == FitMap::none ? kClothSheen : 0.0f;
-        meshes[1].vertex_colors = colors_of(cloth, cloth_frame.get(), map);
-        meshes[0].indices = seen_triangles(avatar, cloth);
+        check(vfit_cloth_acquire(drawn.cloth, cloth_frame.out()));
+        RenderMesh mesh = mesh_of(cloth_frame.get(), kGarmentColor);
+        if (map == FitMap::none) {
+            mesh.sheen = kClothSheen;
+            if (drawn.garment.id) paint(drawn.garment, mesh);
+        } else {
+            mesh.vertex_colors = colors_of(drawn.cloth, cloth_frame.get(), map);
+        }
+        meshes.push_back(std::move(mesh));
+        hiding.push_back(drawn.cloth);
     }
+    if (!hiding.empty()) meshes[0].indices = seen_triangles(avatar, hiding);
     return meshes;
+}
+
+std::vector<DrawnCloth> drawn(const WornOutfit& outfit) {
+    std::vector<DrawnCloth> out;
+    for (const Layer& layer : outfit.layers()) out.push_back({layer.cloth.get(), layer.garment.get()});
+    return out;
 }
 
 glm::vec3 centre_of(const RenderMesh& mesh) {

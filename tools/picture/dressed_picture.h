@@ -1,19 +1,33 @@
 // Pictures of the dressed avatar as it stands now.
 #pragma once
 
+#include <span>
+
 #include "client/client.h"
+#include "client/outfit.h"
 #include "picture/canvas.h"
 #include "picture/render.h"
 
 namespace vfit::tools {
+
+constexpr Color kGarmentColor{0.80f, 0.27f, 0.30f};  // of garments that state none
 
 /// What the garment is coloured by: nothing; how much it is stretched (blue: 5 % too long, red: 10 %); what
 /// the body presses with against it (yellow: 0.5 kPa, red: 2 kPa; the cloth needs VFIT_CLOTH_PRESSURE); how
 /// it sits (vfit_cloth_fit_map; red: tight, blue: loose).
 enum class FitMap { none, stretch, pressure, fit };
 
-/// Avatar and garment as meshes to render, the skin under the garment left out. cloth may be null.
-std::vector<RenderMesh> dressed_meshes(vfit_avatar avatar, vfit_cloth cloth, FitMap map = FitMap::none);
+/// A simulated garment, and the file that states its colors; without one it is painted in kGarmentColor.
+struct DrawnCloth {
+    vfit_cloth cloth{};
+    vfit_garment garment{};
+};
+
+/// Meshes to render: the avatar without the skin that the garments hide, then each garment.
+std::vector<RenderMesh> dressed_meshes(vfit_avatar avatar, std::span<const DrawnCloth> cloths,
+                                       FitMap map = FitMap::none);
+
+std::vector<DrawnCloth> drawn(const WornOutfit& outfit);
 
 struct PortraitStyle {
     int width, height;  // pixels

@@ -1,0 +1,88 @@
+#include "client/outfit.h"
+
+#include <cstdio>
+
+#include "client/assets.h"
+
+namespace vfit::tools {
+
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts(1);
+    for (const char c : text) {
+        if (c == separator)
+            parts.emplace_back();
+        else
+            parts.back() += c;
+    }
+    return parts;
+}
+
+std::string default_outfit(vfit_sex sex) { return sex == VFIT_SEX_MALE ? "pants_men+shirt_men" : "sundress"; }
+
+std::string warned(const std::string& title, const std::string& warning) {
+    return warning.empty() ? title : warning + ". " + title;
+}
+
+std::vector<vfit_garment_part> stated_parts(vfit_garment garment) {
+    auto parts = list<vfit_garment_part>([&](auto* items, uint32_t stride, uint32_t* n) {
+        return vfit_garment_parts(garment, items, stride, n);
+    });
+    // A file that states no parts is one part without a material.
+    if (parts.size() == 1 && parts[0].material[0] == 0) parts.clear();
+    return parts;
+}
+
+WornOutfit::WornOutfit(vfit_context context, vfit_avatar avatar, const std::string& names,
+                       const vfit_cloth_desc& desc) {
+    for (const std::string& name : split(names, '+')) {
+        if (name.empty()) throw Failure("\"" + names + "\": a garment has no name");
+        Layer layer;
+        layer.name = name;
+        layer.garment = open_garment(context, name);
+        check(vfit_garment_describe(layer.garment.get(), &layer.info));
+        const vfit_result made = vfit_cloth_create(avatar, layer.garment.get(), &desc, layer.cloth.out());
+        if (made == VFIT_ERROR_NOT_WEARABLE) throw NotWearable(last_error());
+        check(made);
+        for (const Layer& inner : layers_) check(vfit_cloth_wear_over(layer.cloth.get(), inner.cloth.get()));
+        // A layer on top of others is put on from outside of them.
+        if (!layers_.empty()) check(vfit_cloth_reset(layer.cloth.get()));
+        layers_.push_back(std::move(layer));
+    }
+}
+
+std::vector<vfit_cloth> WornOutfit::cloths() const {
+    std::vector<vfit_cloth> out;
+    for (const Layer& layer : layers_) out.push_back(layer.cloth.get());
+    return out;
+}
+
+void WornOutfit::reset() {
+    for (const Layer& layer : layers_) check(vfit_cloth_reset(layer.cloth.get()));
+    worst_ = {};
+    time_s_ = 0.0f;
+}
+
+void WornOutfit::step(float seconds) {
+    for (const Layer& layer : layers_) check(vfit_cloth_step(layer.cloth.get(), seconds));
+    time_s_ += seconds;
+    look_at_strain();
+}
+
+void WornOutfit::look_at_strain() {
+    for (const Layer& layer : layers_) {
+        vfit_cloth_stats stats = vfit_cloth_stats_init();
+        check(vfit_cloth_describe(layer.cloth.get(), &stats));
+        if (stats.strain_max > worst_.strain) worst_ = {stats.strain_max, time_s_, layer.info.name};
+    }
+}
+
+std::string WornOutfit::warning() const {
+    if (worst_.strain <= kMaxPlausibleStrain) return "";
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "TORN: %s stretched to %.1f times its length after %.1f s; not a valid fit",
+                  worst_.garment.c_str(), 1.0 + worst_.strain, worst_.time_s);
+    return text;
+}
+
+}  // namespace vfit::tools

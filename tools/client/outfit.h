@@ -1,0 +1,71 @@
+// Garments worn over each other on one avatar.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "client/client.h"
+
+namespace vfit::tools {
+
+/// The garment, in the size asked for, does not close around the body.
+class NotWearable : public Failure {
+public:
+    using Failure::Failure;
+};
+
+/// Cloth whose longest edge exceeds twice its rest length has torn: a picture of it shows no fit.
+constexpr float kMaxPlausibleStrain = 1.0f;
+
+struct Layer {
+    std::string name;  // as it was asked for: a name or a path
+    vfit_garment_info info = vfit_garment_info_init();
+    Garment garment;
+    Cloth cloth;
+};
+
+class WornOutfit {
+public:
+    /// names: garments by name or path from the innermost to the outermost, "A+B": B over A. The avatar must
+    /// outlive the outfit. Throws NotWearable where a garment cannot be put on in the size that desc names.
+    WornOutfit(vfit_context context, vfit_avatar avatar, const std::string& names,
+               const vfit_cloth_desc& desc);
+
+    const std::vector<Layer>& layers() const { return layers_; }
+    std::vector<vfit_cloth> cloths() const;
+
+    /// Puts everything on again, from the innermost layer outwards.
+    void reset();
+    void step(float seconds);
+
+    /// The largest strain of any edge since the last reset: 1 is twice the rest length.
+    struct Worst {
+        float strain = 0.0f, time_s = 0.0f;
+        std::string garment;
+    };
+    const Worst& worst() const { return worst_; }
+    /// Empty, or a sentence in capitals on the largest strain, where it exceeds kMaxPlausibleStrain.
+    std::string warning() const;
+
+private:
+    void look_at_strain();
+
+    std::vector<Layer> layers_;
+    Worst worst_;
+    float time_s_ = 0.0f;
+};
+
+/// A picture's title with the warning in front, so that no reader misses it.
+std::string warned(const std::string& title, const std::string& warning);
+
+/// The garment's parts whose look its file states; empty: none.
+std::vector<vfit_garment_part> stated_parts(vfit_garment garment);
+
+/// What a person of that sex wears where nothing is asked for: covered from the shoulders down.
+std::string default_outfit(vfit_sex sex);
+
+/// Splits "a+b" at `separator`.
+std::vector<std::string> split(const std::string& text, char separator);
+
+}  // namespace vfit::tools
