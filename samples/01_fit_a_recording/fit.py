@@ -13,7 +13,7 @@ source = sys.argv[1] if len(sys.argv) > 1 else "virtual:motion=demo&sex=f&frames
 
 with vfit.Context() as ctx:
     # Scan: the same tracked frames tell the measures and drive the motion.
-    tracker, scan, motion = vfit.Tracker(ctx), vfit.Scan(ctx, sex="f"), vfit.Motion(ctx)
+    tracker, scan, motion = vfit.Tracker(ctx), vfit.Scan(ctx), vfit.Motion(ctx)
     for frame in ctx.open(source):
         tracked = tracker.update(frame)
         state = scan.add(tracked)
@@ -25,7 +25,8 @@ with vfit.Context() as ctx:
         print(f"  {key:22} {m.value:.3f} +- {m.sigma:.3f} m{'' if m.observed else '  (inferred)'}")
 
     # Size: every label with its probability.
-    chart, garment = vfit.SizeChart.open(ctx, "paper"), vfit.Garment.open(ctx, "sundress")
+    garment = vfit.Garment.open(ctx, "sundress")
+    chart = vfit.SizeChart.open(ctx, garment.info.size_chart)
     for label, probability in chart.recommend(garment.info.garment_kind, measures)[:3]:
         print(f"size {label}: {probability:.0%}")
 

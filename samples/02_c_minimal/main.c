@@ -46,7 +46,8 @@ static void scan_person(vfit_context context, const char* uri, vfit_scan scan, v
     vfit_sensor_close(sensor);
 }
 
-static void print_size(vfit_context context, vfit_scan scan, const char* garment_kind) {
+static void print_size(vfit_context context, vfit_scan scan, const char* chart_name,
+                       const char* garment_kind) {
     vfit_measurement measures[64];
     vfit_size sizes[32];
     vfit_size_chart chart;
@@ -54,7 +55,7 @@ static void print_size(vfit_context context, vfit_scan scan, const char* garment
     check(vfit_scan_measure(scan, measures, sizeof measures[0], &measure_count), "measure");
     for (i = 0; i < measure_count; ++i)
         printf("  %-22s %.3f +- %.3f m\n", measures[i].key, measures[i].value, measures[i].sigma);
-    check(vfit_size_chart_open(context, "paper", &chart), "chart");
+    check(vfit_size_chart_open(context, chart_name, &chart), "chart");
     check(vfit_size_recommend(chart, garment_kind, measures, sizeof measures[0], measure_count, sizes,
                               sizeof sizes[0], &size_count),
           "size");
@@ -94,7 +95,7 @@ int main(int argc, char** argv) {
     check(vfit_garment_open(context, "sundress", &garment), "garment");
     check(vfit_garment_describe(garment, &info), "garment");
     scan_person(context, argc > 1 ? argv[1] : "virtual:motion=demo&sex=f&frames=60&seed=7", scan, motion);
-    print_size(context, scan, info.garment_kind);
+    print_size(context, scan, info.size_chart, info.garment_kind);
 
     avatar_desc.sex = VFIT_SEX_FEMALE;
     check(vfit_avatar_create_from_scan(context, &avatar_desc, scan, &avatar), "avatar");

@@ -1,8 +1,5 @@
 #include "wardrobe.h"
 
-#include <dlfcn.h>
-
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -34,6 +31,7 @@ Piece piece_of(vfit_context context, const std::string& name) {
     vfit_garment_info info = vfit_garment_info_init();
     check(vfit_garment_describe(piece.garment.get(), &info));
     piece.kind = info.garment_kind;
+    piece.chart = info.size_chart;
     for (uint32_t i = 0; i < info.size_count; ++i) {
         char label[32];
         vfit_garment_size_label(piece.garment.get(), i, label, sizeof label);
@@ -45,22 +43,16 @@ Piece piece_of(vfit_context context, const std::string& name) {
 
 }  // namespace
 
-std::string usual_data_dir() {
-    Dl_info library{};
-    if (!dladdr(reinterpret_cast<void*>(&vfit_version), &library) || !library.dli_fname) return "vfit_data";
-    return (fs::weakly_canonical(library.dli_fname).parent_path() / "vfit_data").string();
-}
-
-Wardrobe::Wardrobe(vfit_context context, const std::string& data_dir, const std::vector<std::string>& named) {
+Wardrobe::Wardrobe(vfit_context context, const std::vector<std::string>& named) {
     std::vector<std::string> names = named;
-    const fs::path folder = fs::path(data_dir.empty() ? usual_data_dir() : data_dir) / "garments";
     if (names.empty()) {
-        std::error_code none;
-        for (const auto& entry : fs::directory_iterator(folder, none))
-            if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
-        std::sort(names.begin(), names.end());
+        uint32_t count = 0;
+        check(vfit_garment_list(context, nullptr, sizeof(vfit_data_name), &count));
+        std::vector<vfit_data_name> entries(count);
+        check(vfit_garment_list(context, entries.data(), sizeof(vfit_data_name), &count));
+        for (const vfit_data_name& entry : entries) names.emplace_back(entry.name);
     }
-    if (names.empty()) throw Failure("there is no garment in " + folder.string());
+    if (names.empty()) throw Failure("the data folder holds no garment");
     for (const std::string& name : names) pieces_.push_back(piece_of(context, name));
 }
 

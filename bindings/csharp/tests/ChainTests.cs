@@ -40,7 +40,7 @@ namespace Vfit.Tests
                 Assert.That(scan.Scale("short_sleeves").X, Is.InRange(0.5f, 2.0f));
 
                 using (Garment garment = Garment.Open(Context, "sundress"))
-                using (SizeChart chart = SizeChart.Open(Context, "paper"))
+                using (SizeChart chart = SizeChart.Open(Context, garment.Describe().SizeChart))
                 using (Avatar avatar = Avatar.FromScan(scan, new AvatarDesc { Sex = Sex.Female }))
                 {
                     string kind = garment.Describe().GarmentKind;
