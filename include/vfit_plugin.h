@@ -8,6 +8,11 @@
  * THREADS  The host calls one function of a plug-in at a time, for all its devices together, so that
  *          last_error belongs to the call that failed; a plug-in calls the host from any thread of its own.
  *          The host calls nothing after shutdown, and the plug-in nothing once shutdown has returned.
+ * URIS     The host splits "SCHEME:ADDRESS?KEY=VALUE&KEY=VALUE": open gets "SCHEME:ADDRESS" with %XX decoded,
+ *          then set_option gets each option, decoded, in the order of the URI. sensor_added and
+ *          sensor_removed take "SCHEME:ADDRESS" as open does; the host encodes it for vfit_sensor_list.
+ *          Where caps has VFIT_PLUGIN_NO_ADDRESS, options follow the colon: "SCHEME:KEY=VALUE&KEY=VALUE";
+ *          open gets "SCHEME:", and sensor_added takes a URI as vfit_sensor_open does.
  * STREAMS  A stream is a token for the host's functions, not a pointer; it dies with close.
  * FRAMES   frame_begin gives a pooled frame with room for its streams: DEPTH U16, COLOR RGBA8, USER_MAP U8
  *          of the size of DEPTH, at most 16384 pixels a side. Fill the pixels in place (they hold what was
@@ -67,6 +72,8 @@ typedef struct vfit_host { /* valid from negotiate until shutdown returns; all a
     void (*stream_state)(void* self, void* stream, vfit_result state, const char* message);
     int64_t (*time_ns)(void* self); /* now, on the clock that frame_push expects */
 } vfit_host;
+
+enum { VFIT_PLUGIN_NO_ADDRESS = 1 }; /* bits of vfit_plugin.caps; see URIS */
 
 /* Filled by the plug-in; functions that it lacks stay null. Required: abi, name, schemes, open, start,
  * stop, close. struct_size holds the host's size before. */

@@ -1,25 +1,18 @@
 #include "options.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <vector>
 
 #include "support/failure.h"
+#include "support/whole_number.h"
 
 namespace openni2 {
 
 using plugin::fail;
+using plugin::whole_number;
 
 namespace {
-
-uint32_t whole_number(const std::string& key, const std::string& value, uint32_t high) {
-    uint32_t number = 0;
-    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-    if (error != std::errc() || end != value.data() + value.size() || number > high)
-        fail(VFIT_ERROR_ARGUMENT, "option ", key, ": '", value, "' is not a whole number in 0..", high);
-    return number;
-}
 
 std::string name_of(const Mode& mode) {
     char name[64];

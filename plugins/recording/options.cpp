@@ -1,25 +1,14 @@
 #include "options.h"
 
-#include <charconv>
 #include <cstdio>
 
 #include "support/failure.h"
+#include "support/whole_number.h"
 
 namespace recording {
 
 using plugin::fail;
-
-namespace {
-
-uint32_t whole_number(const std::string& key, const std::string& value, uint32_t high) {
-    uint32_t number = 0;
-    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-    if (error != std::errc() || end != value.data() + value.size() || number > high)
-        fail(VFIT_ERROR_ARGUMENT, "option ", key, ": '", value, "' is not a whole number in 0..", high);
-    return number;
-}
-
-}  // namespace
+using plugin::whole_number;
 
 void Options::set(const std::string& key, const std::string& value, uint32_t frame_count) {
     if (key == "pace") {
@@ -34,7 +23,7 @@ void Options::set(const std::string& key, const std::string& value, uint32_t fra
         count = whole_number(key, value, UINT32_MAX);
     } else {
         fail(VFIT_ERROR_UNSUPPORTED, "a recording has no option '", key,
-             "'; it has pace, loop, start, count");
+             "'; it has mode, pace, loop, start, count");
     }
 }
 

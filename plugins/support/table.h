@@ -6,6 +6,7 @@
 //   Device(const vfit_host&, void* stream, const std::string& uri), set_option(key, value), start(), stop()
 //   bool mode(index, vfit_sensor_mode&), bool option(index, vfit_sensor_option&): false past the last
 // and may have
+//   static constexpr uint32_t kCaps
 //   static void discover(const vfit_host&)
 #pragma once
 
@@ -31,6 +32,7 @@ public:
         out->struct_size = sizeof(vfit_plugin);
         out->abi = VFIT_PLUGIN_ABI;
         out->version = VFIT_VERSION;
+        if constexpr (requires { Device::kCaps; }) out->caps = Device::kCaps;
         out->name = Device::kName;
         out->schemes = Device::kSchemes;
         out->usb_ids = Device::kUsbIds;

@@ -22,10 +22,8 @@ void Device::discover(const vfit_host& host) {
     host.sensor_added(host.self, &info);
 }
 
-Device::Device(const vfit_host& host, void* stream, const std::string& uri)
-    : host_(&host), stream_(stream), shape_keys_(shape_list(context_.get())) {
-    for (const auto& [key, value] : parse_uri(uri)) set_option(key, value);
-}
+Device::Device(const vfit_host& host, void* stream, const std::string&)
+    : host_(&host), stream_(stream), shape_keys_(shape_list(context_.get())) {}
 
 void Device::set_option(const std::string& key, const std::string& value) {
     if (thread_.joinable())

@@ -18,6 +18,7 @@ namespace vfit::virtual_person {
 class Device {
 public:
     static constexpr const char *kName = "virtual_person", *kSchemes = "virtual", *kUsbIds = nullptr;
+    static constexpr uint32_t kCaps = VFIT_PLUGIN_NO_ADDRESS;
     static void discover(const vfit_host& host);
 
     Device(const vfit_host& host, void* stream, const std::string& uri);

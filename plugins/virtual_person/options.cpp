@@ -113,28 +113,6 @@ void check_value(const Entry& e, const std::string& value) {
     }
 }
 
-int hex_digit(char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    return -1;
-}
-
-std::string unescape(const std::string& text) {
-    std::string out;
-    for (size_t i = 0; i < text.size(); ++i) {
-        const bool escape = text[i] == '%' && i + 2 < text.size() && hex_digit(text[i + 1]) >= 0 &&
-                            hex_digit(text[i + 2]) >= 0;
-        if (escape) {
-            out += static_cast<char>(hex_digit(text[i + 1]) * 16 + hex_digit(text[i + 2]));
-            i += 2;
-        } else {
-            out += text[i];
-        }
-    }
-    return out;
-}
-
 void copy_text(char* out, size_t capacity, const std::string& text) {
     const size_t n = std::min(capacity - 1, text.size());
     std::memcpy(out, text.data(), n);
@@ -190,26 +168,6 @@ std::string Options::names() {
     std::string names;
     for (const Entry& e : kEntries) names += (names.empty() ? "" : ", ") + std::string(e.key);
     return names;
-}
-
-std::vector<KeyValue> parse_uri(const std::string& uri) {
-    const std::string scheme = "virtual:";
-    if (uri.compare(0, scheme.size(), scheme) != 0)
-        fail(VFIT_ERROR_ARGUMENT, "virtual: '", uri, "' does not start with virtual:");
-    std::vector<KeyValue> pairs;
-    std::string rest = uri.substr(scheme.size());
-    if (!rest.empty() && rest[0] == '?') rest.erase(0, 1);
-    for (size_t at = 0; at < rest.size();) {
-        const size_t end = std::min(rest.find('&', at), rest.size());
-        const std::string part = rest.substr(at, end - at);
-        at = end + 1;
-        if (part.empty()) continue;
-        const size_t equals = part.find('=');
-        if (equals == std::string::npos)
-            fail(VFIT_ERROR_ARGUMENT, "virtual: '", part, "' in the URI is not key=value");
-        pairs.emplace_back(unescape(part.substr(0, equals)), unescape(part.substr(equals + 1)));
-    }
-    return pairs;
 }
 
 }  // namespace vfit::virtual_person

@@ -1,10 +1,8 @@
-// What can be said about a virtual person, in its URI or by set_option: one table of keys, defaults and
-// texts.
+// The options of a virtual person: one table of keys, defaults and texts.
 #pragma once
 
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "vfit.h"
@@ -34,9 +32,6 @@ private:
     std::vector<std::string> values_;
 };
 
-using KeyValue = std::pair<std::string, std::string>;
-/// The pairs of "virtual:key=value&key=value"; percent escapes are resolved.
-std::vector<KeyValue> parse_uri(const std::string& uri);
 /// Fails with VFIT_ERROR_ARGUMENT unless the text is a number within the bounds.
 double parse_number(const std::string& key, const std::string& value, double least, double most);
 

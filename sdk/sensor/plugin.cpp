@@ -1,11 +1,13 @@
 #include "sensor/plugin.h"
 
 #include <algorithm>
+#include <cstring>
 #include <sstream>
 
 #include "core/error.h"
 #include "sensor/sensor.h"
 #include "sensor/sized_struct.h"
+#include "sensor/source_uri.h"
 
 namespace vfit {
 
@@ -121,12 +123,29 @@ void Plugin::check_well() const {
 
 std::vector<vfit_sensor_info> Plugin::discover() {
     std::lock_guard lock(calls_);
-    if (down_ || hangs_ || !table_.discover) return host_.sensors();
+    if (down_ || hangs_ || !table_.discover) return listed();
     host_.begin_discovery();
     const vfit_result result = ask([&] { return table_.discover(table_.self); });
     host_.end_discovery(result == VFIT_OK);
     if (result != VFIT_OK) host_.complain(text("discover failed, result ", result));
-    return host_.sensors();
+    return listed();
+}
+
+/// The sensors that it reported. A plug-in knows addresses as they are; a URI encodes them.
+std::vector<vfit_sensor_info> Plugin::listed() {
+    std::vector<vfit_sensor_info> out;
+    for (vfit_sensor_info info : host_.sensors()) {
+        const std::string uri = has_addresses() ? encode_device(info.uri) : info.uri;
+        if (uri.size() >= sizeof info.uri) {
+            host_.complain(text(uri, ": is not listed, a URI of a sensor has at most ", sizeof info.uri - 1,
+                                " characters"));
+            continue;
+        }
+        std::memset(info.uri, 0, sizeof info.uri);
+        uri.copy(info.uri, sizeof info.uri - 1);
+        out.push_back(info);
+    }
+    return out;
 }
 
 Ref<Sensor> Plugin::open(const std::string& uri) {

@@ -32,8 +32,12 @@ public:
     const std::vector<std::string>& schemes() const { return schemes_; }
     const std::vector<UsbId>& usb_ids() const { return usb_ids_; }
     bool serves(const std::string& scheme) const;
+    /// False: in its URIs options follow the colon.
+    bool has_addresses() const { return !(info_.caps & VFIT_PLUGIN_NO_ADDRESS); }
 
+    /// Its sensors, with URIs that PluginHost::open takes.
     std::vector<vfit_sensor_info> discover();
+    /// A device without options: "scheme:address", decoded.
     Ref<Sensor> open(const std::string& uri);
     void shutdown();
 
@@ -43,6 +47,7 @@ private:
     /// Turns a failed call's result into an Error with the plug-in's own words.
     [[noreturn]] void fail_with_last_error(vfit_result result, const std::string& what);
     void forget(Sensor* sensor);
+    std::vector<vfit_sensor_info> listed();
     /// What it throws is complained about, and becomes VFIT_ERROR_PLUGIN.
     template <typename Call>
     vfit_result ask(Call&& call) {

@@ -13,12 +13,6 @@ namespace {
 
 constexpr size_t kMaxUri = 4096;  // characters
 
-std::string scheme_of(const std::string& uri) {
-    const size_t colon = uri.find(':');
-    // One letter before a colon is a drive of Windows.
-    return colon == std::string::npos || colon < 2 ? std::string() : uri.substr(0, colon);
-}
-
 }  // namespace
 
 PluginHost::PluginHost(Log& log, std::function<uint64_t()> context_id, Ref<FrameBytes> frame_bytes)
@@ -121,33 +115,60 @@ Ref<Plugin> PluginHost::serving(const std::string& scheme) const {
     return nullptr;
 }
 
-/// The URI with its scheme, also where only a path was given.
-std::string PluginHost::complete(const std::string& uri) const {
-    if (serving(scheme_of(uri))) return uri;
+/// The scheme of an existing path: a folder is a recording, a file goes by its extension. Empty otherwise.
+std::string PluginHost::scheme_of_path(const std::string& name) const {
     std::error_code ignored;
-    const fs::path path(uri);
-    if (fs::is_directory(path, ignored)) return "recording:" + uri;
+    const fs::path path(name);
+    if (fs::is_directory(path, ignored)) return "recording";
     const std::string extension = path.extension().string();
-    if (extension.size() > 1 && serving(extension.substr(1)) && fs::is_regular_file(path, ignored))
-        return extension.substr(1) + ":" + uri;
-    return uri;
+    const bool is_known = extension.size() > 1 && serving(extension.substr(1));
+    return is_known && fs::is_regular_file(path, ignored) ? extension.substr(1) : std::string();
+}
+
+/// A scheme decides. Without one, the longest existing path does, and what follows its ? are options: a path
+/// that exists as written is taken literally.
+SourceUri PluginHost::resolve(const std::string& uri) const {
+    const std::string scheme = scheme_of(uri);
+    if (const Ref<Plugin> plugin = serving(scheme)) return parse_source_uri(uri, plugin->has_addresses());
+    size_t end = uri.size();
+    while (end != std::string::npos && end > 0) {
+        const std::string path = uri.substr(0, end);
+        const std::string of_path = scheme_of_path(path);
+        if (!of_path.empty())
+            return {of_path, path, parse_source_options(uri.substr(std::min(end + 1, uri.size())))};
+        end = uri.rfind('?', end - 1);
+    }
+    return {scheme, uri, {}};
+}
+
+Ref<Sensor> PluginHost::open_device(Plugin& plugin, const std::string& device) {
+    try {
+        return plugin.open(device);
+    } catch (const Error& e) {
+        const UsbWatch* watch = e.code() == VFIT_ERROR_IO && !plugin.usb_ids().empty() ? usb() : nullptr;
+        const std::string trouble = watch ? watch->trouble(plugin.usb_ids()) : "";
+        if (trouble.empty()) throw;
+        fail(e.code(), e.what(), "; ", trouble);
+    }
 }
 
 Ref<Sensor> PluginHost::open(const std::string& uri) {
     if (uri.empty() || uri.size() > kMaxUri)
         fail(VFIT_ERROR_ARGUMENT, "a sensor's URI has 1 to ", kMaxUri, " characters");
-    const std::string whole = complete(uri);
-    const std::string scheme = scheme_of(whole);
-    if (const Ref<Plugin> plugin = serving(scheme)) {
-        try {
-            return plugin->open(whole);
-        } catch (const Error& e) {
-            const UsbWatch* watch = e.code() == VFIT_ERROR_IO && !plugin->usb_ids().empty() ? usb() : nullptr;
-            const std::string trouble = watch ? watch->trouble(plugin->usb_ids()) : "";
-            if (trouble.empty()) throw;
-            fail(e.code(), e.what(), "; ", trouble);
-        }
+    const SourceUri source = resolve(uri);
+    const Ref<Plugin> plugin = serving(source.scheme);
+    if (!plugin) refuse(uri, source.scheme);
+    Ref<Sensor> sensor = open_device(*plugin, source.device());
+    try {
+        for (const SourceOption& option : source.options) sensor->set_option(option.key, option.value);
+    } catch (...) {
+        sensor->close();
+        throw;
     }
+    return sensor;
+}
+
+void PluginHost::refuse(const std::string& uri, const std::string& scheme) const {
     std::string known;
     for (const Ref<Plugin>& plugin : all()) known += (known.empty() ? "" : ", ") + plugin->info().schemes;
     if (known.empty()) known = "none";

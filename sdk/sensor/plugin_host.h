@@ -9,6 +9,7 @@
 #include "core/log.h"
 #include "sensor/plugin.h"
 #include "sensor/sensor.h"
+#include "sensor/source_uri.h"
 #include "sensor/usb_watch.h"
 
 namespace vfit {
@@ -33,8 +34,10 @@ public:
     std::vector<PluginInfo> plugins() const;
     /// Asks every plug-in; sensors that came or went between two calls are in the list or not.
     std::vector<vfit_sensor_info> discover();
-    /// "scheme:rest"; or the path of a folder (a recording), or of a file whose extension is a scheme.
-    /// Fails with VFIT_ERROR_UNSUPPORTED, listing the schemes, where nobody serves it.
+    /// "scheme:address?key=value&key=value" (source_uri.h); or the path of a folder (a recording), or of a
+    /// file whose extension is a scheme, with or without options. Each option is set as Sensor::set_option
+    /// does and fails as it does. Fails with VFIT_ERROR_UNSUPPORTED, listing the schemes, where no plug-in
+    /// serves it.
     Ref<Sensor> open(const std::string& uri);
     /// Rises whenever discover() may have something else to tell: plug-ins were loaded, or a USB camera came
     /// or went.
@@ -45,7 +48,10 @@ public:
 private:
     void add(std::string path, std::unique_ptr<DynamicLibrary> library, vfit_plugin_negotiate_fn negotiate);
     Ref<Plugin> serving(const std::string& scheme) const;
-    std::string complete(const std::string& uri) const;
+    std::string scheme_of_path(const std::string& name) const;
+    SourceUri resolve(const std::string& uri) const;
+    Ref<Sensor> open_device(Plugin& plugin, const std::string& device);
+    [[noreturn]] void refuse(const std::string& uri, const std::string& scheme) const;
     std::vector<Ref<Plugin>> all() const;
     UsbWatch* usb();
 

@@ -12,6 +12,7 @@ namespace {
 
 constexpr uint32_t kMaxListed = 256;     // modes or options of one device; more is a list without end
 constexpr size_t kMaxOptionText = 4096;  // characters of a key or a value
+constexpr size_t kShownText = 64;        // characters of a refused key that a message repeats
 
 Pace pace_from(const std::string& value) {
     if (value == "realtime") return Pace::realtime;
@@ -163,7 +164,7 @@ std::vector<vfit_sensor_option> Sensor::options() {
 
 void Sensor::forward_option(const std::string& key, const std::string& value) {
     if (!plugin_->table_.set_option)
-        fail(VFIT_ERROR_UNSUPPORTED, "the sensor ", uri_, " has no option '", key, "'");
+        fail(VFIT_ERROR_UNSUPPORTED, "the sensor ", uri_, " has no option '", key, "'; it has mode, pace");
     plugin_->check_well();
     const vfit_result result =
         plugin_->ask([&] { return plugin_->table_.set_option(device_, key.c_str(), value.c_str()); });
@@ -186,7 +187,8 @@ void Sensor::choose_mode(const std::string& name) {
 
 void Sensor::set_option(const std::string& key, const std::string& value) {
     if (key.empty() || key.size() > kMaxOptionText || value.size() > kMaxOptionText)
-        fail(VFIT_ERROR_ARGUMENT, "an option's key and value have 1 to ", kMaxOptionText, " characters");
+        fail(VFIT_ERROR_ARGUMENT, "option '", key.substr(0, kShownText), "': a key has 1 to ", kMaxOptionText,
+             " characters, a value at most ", kMaxOptionText);
     std::lock_guard lock(plugin_->calls_);
     check_open();
     if (key == "mode") {

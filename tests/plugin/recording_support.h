@@ -81,7 +81,7 @@ protected:
         for (uint32_t i = 0; i < frames; ++i) recorder.write(*synthetic_frame(i));
     }
 
-    Ref<Sensor> open() { return host_.open("recording:" + folder_.string()); }
+    Ref<Sensor> open() { return host_.open("recording:" + folder_.string() + query_); }
 
     /// Opens and plays to the end, or to `most` frames; `look` sees every frame.
     Replay play(const std::function<void(Sensor&)>& set_up = {},
@@ -124,6 +124,7 @@ protected:
     }
 
     fs::path folder_;
+    std::string query_;  // the options of the URI, from the ? on
     Log log_{[](void*, vfit_log_level, const char*) {}, nullptr};
     PluginHost host_{log_, [] { return uint64_t(0); }};
 };

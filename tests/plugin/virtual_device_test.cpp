@@ -58,8 +58,7 @@ TEST(VirtualPerson, BadOptionsAreRefusedByName) {
     TestHost host;
     const auto refusal = [&](const char* uri) {
         void* device = nullptr;
-        EXPECT_EQ(host.plugin.open(host.plugin.self, uri, &host, &device), VFIT_ERROR_ARGUMENT) << uri;
-        EXPECT_EQ(device, nullptr);
+        EXPECT_EQ(host.open(uri, device), VFIT_ERROR_ARGUMENT) << uri;
         return std::string(host.plugin.last_error(host.plugin.self));
     };
     EXPECT_NE(refusal("virtual:colour=red").find("'colour'"), std::string::npos);
@@ -69,7 +68,7 @@ TEST(VirtualPerson, BadOptionsAreRefusedByName) {
     EXPECT_NE(refusal("virtual:sex=q").find("sex"), std::string::npos);
 
     void* device = nullptr;
-    ASSERT_EQ(host.plugin.open(host.plugin.self, "virtual:bvh=/no/such.bvh", &host, &device), VFIT_OK);
+    ASSERT_EQ(host.open("virtual:bvh=/no/such.bvh", device), VFIT_OK);
     EXPECT_EQ(host.plugin.start(device), VFIT_ERROR_IO);
     EXPECT_NE(std::string(host.plugin.last_error(host.plugin.self)).find("/no/such.bvh"), std::string::npos);
     EXPECT_EQ(host.plugin.set_option(device, "bvh", ""), VFIT_OK);
@@ -79,7 +78,7 @@ TEST(VirtualPerson, BadOptionsAreRefusedByName) {
 TEST(VirtualPerson, ListsModesAndOptions) {
     TestHost host;
     void* device = nullptr;
-    ASSERT_EQ(host.plugin.open(host.plugin.self, "virtual:weight=0.7", &host, &device), VFIT_OK);
+    ASSERT_EQ(host.open("virtual:weight=0.7", device), VFIT_OK);
     vfit_sensor_mode mode = vfit_sensor_mode_init();
     ASSERT_EQ(host.plugin.mode(device, 1, &mode), VFIT_OK);
     EXPECT_STREQ(mode.name, "kinect_v1_320");
@@ -127,6 +126,18 @@ TEST(VirtualPerson, IsASensorOfLibvfit) {
     vfit_context context{};
     ASSERT_EQ(vfit_context_create(&desc, &context), VFIT_OK);
     vfit_sensor sensor{};
+    EXPECT_EQ(vfit_sensor_open(context, "virtual:frames=5&motion=fly", &sensor), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(sensor.id, 0u);
+    ASSERT_EQ(vfit_sensor_open(context, "virtual:?frames=1&seed=%37", &sensor), VFIT_OK);
+    uint32_t option_count = 0;
+    ASSERT_EQ(vfit_sensor_options(sensor, nullptr, 0, &option_count), VFIT_OK);
+    std::vector<vfit_sensor_option> options(option_count, vfit_sensor_option_init());
+    ASSERT_EQ(vfit_sensor_options(sensor, options.data(), sizeof options[0], &option_count), VFIT_OK);
+    const auto seed = std::find_if(options.begin(), options.end(),
+                                   [](const vfit_sensor_option& o) { return std::string(o.key) == "seed"; });
+    ASSERT_NE(seed, options.end());
+    EXPECT_STREQ(seed->value, "7");
+    EXPECT_EQ(vfit_sensor_close(sensor), VFIT_OK);
     ASSERT_EQ(vfit_sensor_open(context, "virtual:frames=5&sensor=kinect_v1_320", &sensor), VFIT_OK);
     ASSERT_EQ(vfit_sensor_start(sensor), VFIT_OK);
     vfit_frame frame{};

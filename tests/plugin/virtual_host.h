@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sensor/source_uri.h"
 #include "types.h"
 #include "vfit_plugin.h"
 
@@ -116,13 +117,25 @@ public:
     }
     ~TestHost() { plugin.shutdown(plugin.self); }
 
+    /// Opens a device and sets the options of the URI, as the host of libvfit does. `device` is null where
+    /// the result is an error.
+    vfit_result open(const std::string& uri, void*& device) {
+        const SourceUri source = parse_source_uri(uri, !(plugin.caps & VFIT_PLUGIN_NO_ADDRESS));
+        device = nullptr;
+        vfit_result result = plugin.open(plugin.self, source.device().c_str(), this, &device);
+        for (const SourceOption& option : source.options)
+            if (result == VFIT_OK)
+                result = plugin.set_option(device, option.key.c_str(), option.value.c_str());
+        if (result != VFIT_OK && device) plugin.close(std::exchange(device, nullptr));
+        return result;
+    }
+
     /// Frames of one whole stream.
     std::vector<Taken> run(const std::string& uri) {
         frames.clear();
         state = VFIT_OK;
         void* device = nullptr;
-        EXPECT_EQ(plugin.open(plugin.self, uri.c_str(), this, &device), VFIT_OK)
-            << plugin.last_error(plugin.self);
+        EXPECT_EQ(open(uri, device), VFIT_OK) << plugin.last_error(plugin.self);
         if (!device) return {};
         EXPECT_EQ(plugin.start(device), VFIT_OK) << plugin.last_error(plugin.self);
         {

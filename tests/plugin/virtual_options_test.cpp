@@ -1,4 +1,4 @@
-// Options of the virtual person, from URI and by name.
+// Options of the virtual person.
 #include <functional>
 
 #include <gtest/gtest.h>
@@ -18,22 +18,6 @@ std::string message_of(const std::function<void()>& call, vfit_result expected) 
     }
     ADD_FAILURE() << "nothing was thrown";
     return {};
-}
-
-TEST(VirtualUri, GivesItsPairsInOrder) {
-    const auto pairs = parse_uri("virtual:sensor=azure&seed=7&bvh=%2Fdata%2Fa%20b.bvh");
-    ASSERT_EQ(pairs.size(), 3u);
-    EXPECT_EQ(pairs[0], KeyValue("sensor", "azure"));
-    EXPECT_EQ(pairs[1], KeyValue("seed", "7"));
-    EXPECT_EQ(pairs[2], KeyValue("bvh", "/data/a b.bvh"));
-    EXPECT_TRUE(parse_uri("virtual:").empty());
-    EXPECT_EQ(parse_uri("virtual:?seed=1").size(), 1u);
-}
-
-TEST(VirtualUri, AnotherSchemeOrAWordWithoutValueIsRefused) {
-    message_of([] { parse_uri("recording:x"); }, VFIT_ERROR_ARGUMENT);
-    EXPECT_NE(message_of([] { parse_uri("virtual:fast"); }, VFIT_ERROR_ARGUMENT).find("fast"),
-              std::string::npos);
 }
 
 TEST(VirtualOptions, HaveDefaultsAndTexts) {

@@ -55,6 +55,17 @@ Json truth_of(vfit_context context, const std::string& uri) {
     return Json::parse(text.c_str());
 }
 
+/// The case's options, and the usual ones that it does not give itself.
+std::string uri_of(const Case& one) {
+    std::string uri = std::string("virtual:sensor=kinect_v1&seed=5&frames=60&") + one.options;
+    const auto add_usual = [&](const std::string& key, const char* value) {
+        if (uri.find("&" + key + "=") == std::string::npos) uri += "&" + key + "=" + value;
+    };
+    add_usual("motion", "scan");
+    add_usual("distance", "2.8");
+    return uri;
+}
+
 double number(const Json& value) {
     return value.is_object() ? value["value"].get<double>() : value.get<double>();
 }
@@ -71,8 +82,7 @@ void add_odd_scans(Command& app) {
         Json rows = Json::array();
         uint32_t surely_wrong = 0;
         for (const Case& one : kCases) {
-            const std::string usual = "virtual:sensor=kinect_v1&motion=scan&distance=2.8&seed=5&frames=60&";
-            const std::string uri = usual + one.options;  // of a key that stands twice the last counts
+            const std::string uri = uri_of(one);
             const Context context = open_context();
             ScanOptions options;
             options.method = VFIT_SCAN_FIT;

@@ -206,6 +206,22 @@ TEST(Sensor, ModeMustBeOneOfTheList) {
     EXPECT_EQ(failure_of([&] { sensor->set_option("taste", "3"); }).code, VFIT_ERROR_UNSUPPORTED);
 }
 
+TEST(Sensor, AKeyHasALengthAndAValueABound) {
+    FakeHost fake;
+    fake.attach();
+    const Ref<Sensor> sensor = fake.host.open("fake:1");
+    const std::string longest(4096, 'x');
+    for (const auto& [key, value] :
+         {std::pair<std::string, std::string>("", "1"), {longest + "x", "1"}, {"gain", longest + "x"}}) {
+        const Failure failure = failure_of([&] { sensor->set_option(key, value); });
+        EXPECT_EQ(failure.code, VFIT_ERROR_ARGUMENT);
+        EXPECT_TRUE(failure.says("'" + key.substr(0, 64) + "'") && failure.says("4096")) << failure.message;
+    }
+    sensor->set_option("gain", longest);
+    sensor->set_option("gain", "");
+    EXPECT_EQ(fake.plugin.set.size(), 2u);
+}
+
 TEST(Sensor, DiscoveryFollowsWhatThePluginReports) {
     FakeHost fake;
     fake.attach();
