@@ -287,17 +287,18 @@ TEST(FitParts, SkinIsRaisedAroundABumpAndNeverLowered) {
     EXPECT_LT(wrapped[bump + 8].y, 0.002f);  // 4 cm away it is as it was, but for rounding
 }
 
-TEST(FitParts, ADeepHollowOfTheSkinIsNotFilledUp) {
-    // A groove 4 cm deep and wide in a block.
+/// By how much the bottom of a groove in the middle of a block of 20 cm is raised.
+float raised_in_groove(float half_width_m, float depth_m) {
     constexpr uint32_t kSide = 41;
+    constexpr float kStep_m = 0.005f;
     std::vector<Vec3> positions;
     std::vector<uint32_t> indices;
     for (const float y : {0.0f, -0.1f})
         for (uint32_t r = 0; r < kSide; ++r)
             for (uint32_t c = 0; c < kSide; ++c) {
-                const float x = 0.005f * float(c), aside = std::abs(x - 0.1f);
-                positions.emplace_back(x, y == 0.0f ? -2.0f * std::max(0.0f, 0.02f - aside) : y,
-                                       0.005f * float(r));
+                const float x = kStep_m * float(c), aside = std::abs(x - 0.1f);
+                const float groove = depth_m * std::min(0.0f, aside / half_width_m - 1.0f);
+                positions.emplace_back(x, y == 0.0f ? groove : y, kStep_m * float(r));
             }
     for (uint32_t r = 0; r + 1 < kSide; ++r)
         for (uint32_t c = 0; c + 1 < kSide; ++c) {
@@ -306,10 +307,33 @@ TEST(FitParts, ADeepHollowOfTheSkinIsNotFilledUp) {
                                            below + e, below + d});
         }
     const uint32_t bottom = kSide * (kSide / 2) + kSide / 2;
-    ASSERT_FLOAT_EQ(positions[bottom].y, -0.04f);
-    const float raised = wrapped_skin(positions, indices)[bottom].y - positions[bottom].y;
-    EXPECT_GT(raised, 0.002f);
-    EXPECT_LT(raised, 0.0055f) << "a strap would stand off it";
+    EXPECT_NEAR(positions[bottom].y, -depth_m, 1e-6f);
+    return wrapped_skin(positions, indices)[bottom].y - positions[bottom].y;
+}
+
+TEST(FitParts, ADeepHollowOfTheSkinIsNotFilledUp) {
+    // Straps lie in the groove: three quarters of its depth stay.
+    for (const float depth_m : {0.03f, 0.06f}) {
+        EXPECT_GT(raised_in_groove(0.02f, depth_m), 0.002f) << depth_m;
+        EXPECT_LT(raised_in_groove(0.02f, depth_m), 0.25f * depth_m) << depth_m;
+    }
+    // An edge of cloth spans a groove that is narrower than the edge is long.
+    EXPECT_GT(raised_in_groove(0.01f, 0.004f), 0.5f * 0.004f);
+    EXPECT_LE(raised_in_groove(0.01f, 0.004f), 0.004f);
+}
+
+TEST(FitParts, AnEdgeOfClothOnARoundLimbStaysOutOfTheSkin) {
+    constexpr float kEdge_m = 0.022f;
+    for (const float radius_m : {0.027f, 0.05f, 0.15f}) {  // wrist, upper arm, thorax
+        const Tube limb(radius_m, 0.2f, 96, 40, 1.0f);
+        const uint32_t middle = 20 * 96;
+        const Vec3 on = wrapped_skin(limb.positions, limb.indices)[middle];
+        const float proxy_m = std::hypot(on.x, on.z);
+        // Both ends on the proxy, the edge's middle is nearest to the axis.
+        EXPECT_GE(std::sqrt(proxy_m * proxy_m - 0.25f * kEdge_m * kEdge_m), radius_m) << radius_m;
+        const float sagitta_m = radius_m - std::sqrt(radius_m * radius_m - 0.25f * kEdge_m * kEdge_m);
+        EXPECT_LT(proxy_m - radius_m, 1.2f * sagitta_m) << "no further off than the edge needs";
+    }
 }
 
 TEST(FitParts, CrossingsAreFoundOnceAndNeighboursAreNone) {

@@ -21,6 +21,9 @@ public:
     float slide_m = 0.02f, slide_hz = 1.3f;  // of the planted feet, as sensors report them
     float noise_m = 0.002f;
 
+    /// Of an ankle in the middle of its swing, m/s.
+    float swing_speed() const { return 2.0f * speed / kSwings; }
+
     /// Both feet stand for the first 15 % of each step.
     WalkFrame at(int frame, double rate_hz = 30.0) {
         const float t = static_cast<float>(frame / rate_hz);
@@ -36,13 +39,15 @@ public:
     }
 
 private:
+    static constexpr float kSwings = 0.425f;  // of a cycle of two steps
+
     void place_leg(float t, int side, WalkFrame& out) {
         const float cycle = t / (2 * step_s) + (side == 0 ? 0.0f : 0.5f);
         const float whole = std::floor(cycle), phase = cycle - whole;  // swings in 0.575..1
         const float length = 2 * step_s * speed;
         const float from = (whole - (side == 0 ? 0.0f : 0.5f)) * length - 3.0f + 0.28f * length;
         Vec3 ankle(side == 0 ? 0.1f : -0.1f, skeleton_.ankle_height, from);
-        const float swing = (phase - 0.575f) / 0.425f;
+        const float swing = (phase - (1.0f - kSwings)) / kSwings;
         out.planted[side] = swing <= 0;
         if (swing > 0) {
             ankle.z += length * (swing - std::sin(2 * kPi * swing) / (2 * kPi));

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "avatar/avatar_measures.h"
 #include "core/error.h"
 #include "scan_people.h"
 #include "support/allocations.h"
@@ -131,20 +132,27 @@ TEST(TrunkProfile, TellsBreadthFromTheFrontAndDepthFromTheSide) {
     };
     const TrunkProfile front = profile_of({}, ViewKind::kFront),
                        side = profile_of(sideways(), ViewKind::kSide);
-    // The level of the waist: a default body is 0.31 m broad and 0.22 m deep there.
-    constexpr int kWaist = 10;
-    const auto f = front.reaches_m(ViewKind::kFront, kWaist), s = side.reaches_m(ViewKind::kSide, kWaist);
-    EXPECT_NEAR(2.0f * f[TrunkProfile::kAhead], 0.30f, 0.04f);
+    // The waist is where the trunk is narrowest.
+    const auto breadth = [&](int level) {
+        return 2.0f * front.reaches_m(ViewKind::kFront, level)[TrunkProfile::kAhead];
+    };
+    int waist = 8;
+    for (int level = waist; level < 18; ++level)
+        if (breadth(level) < breadth(waist)) waist = level;
+    const auto f = front.reaches_m(ViewKind::kFront, waist), s = side.reaches_m(ViewKind::kSide, waist);
+    const auto truth = measure_avatar(Fitted().avatar, VFIT_SEX_UNKNOWN);
+    EXPECT_NEAR(breadth(waist), find(truth, "waist_breadth_m")->value, 0.015f);
     EXPECT_TRUE(std::isnan(f[TrunkProfile::kBehind])) << "from the front both sides are one";
-    EXPECT_NEAR(s[TrunkProfile::kAhead] + s[TrunkProfile::kBehind], 0.21f, 0.04f);
+    EXPECT_NEAR(s[TrunkProfile::kAhead] + s[TrunkProfile::kBehind], find(truth, "waist_depth_m")->value,
+                0.01f);
     for (const auto& [inner, outer] : {std::pair(TrunkProfile::kTowards, TrunkProfile::kAheadHalf),
                                        {TrunkProfile::kAheadQuarter, TrunkProfile::kAheadThreeQuarters}})
         EXPECT_GT(f[inner], f[outer]) << "a trunk is round";
-    EXPECT_TRUE(std::isnan(front.reaches_m(ViewKind::kSide, kWaist)[TrunkProfile::kAhead]))
+    EXPECT_TRUE(std::isnan(front.reaches_m(ViewKind::kSide, waist)[TrunkProfile::kAhead]))
         << "not seen from there";
     TrunkProfile gone = front;
     gone.reset();
-    EXPECT_TRUE(std::isnan(gone.reaches_m(ViewKind::kFront, kWaist)[TrunkProfile::kAhead]));
+    EXPECT_TRUE(std::isnan(gone.reaches_m(ViewKind::kFront, waist)[TrunkProfile::kAhead]));
 }
 
 TEST(BodyScan, KeepsFrontAndSideApart) {

@@ -13,6 +13,16 @@
 namespace vfit {
 namespace {
 
+/// Of a closed surface.
+float volume_m3(const Mesh& mesh) {
+    double sum = 0.0;
+    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const auto corner = [&](size_t k) { return mesh.positions[mesh.indices[i + k]]; };
+        sum += double(glm::dot(corner(0), glm::cross(corner(1), corner(2)))) / 6.0;
+    }
+    return float(sum);
+}
+
 class PersonScanTest : public ::testing::Test {
 protected:
     PersonScanDesc desc(uint32_t front, uint32_t side) const {
@@ -52,14 +62,19 @@ TEST_F(PersonScanTest, MeasuresAPersonOfItsOwnSpace) {
     PersonScan scan(desc(8, 0));
     for (int i = 0; i < 8; ++i) add(scan, front_);
     ASSERT_TRUE(scan.complete());
-    const auto m = scan.measurements();
-    const Measurement* stature = find(m, "stature_m");
-    ASSERT_NE(stature, nullptr);
-    EXPECT_NEAR(stature->value, avatar_.stature(), 0.02f);
-    for (const Measurement& one : m) {
-        EXPECT_GT(one.value, 0.05f) << one.key;
+    const auto measured = scan.measurements(), truth = measure_avatar(avatar_, VFIT_SEX_UNKNOWN);
+    EXPECT_GT(measured.size(), 20u);
+    for (const Measurement& one : measured) {
         EXPECT_GT(one.sigma, 0.0f) << one.key;
-        EXPECT_LT(one.sigma, 0.2f * one.value) << one.key;
+        EXPECT_LT(one.sigma, 0.06f * one.value) << one.key;
+        if (one.key == "body_mass_kg") {
+            // A body is about as dense as water.
+            EXPECT_NEAR(one.value, 1010.0f * volume_m3(avatar_.measuring_mesh()), 0.1f * one.value);
+            continue;
+        }
+        const Measurement* taped = find(truth, one.key);
+        ASSERT_NE(taped, nullptr) << one.key;
+        EXPECT_NEAR(one.value, taped->value, std::min(0.02f, 0.04f * taped->value)) << one.key;
     }
 }
 
@@ -89,15 +104,18 @@ TEST_F(PersonScanTest, GirthsFollowThePersonAndNotTheMean) {
         told[heavy] = girths(scan.measurements());
         truth[heavy] = girths(measure_avatar(avatar, VFIT_SEX_MALE));
     }
-    const auto follows = [](float told_m, float truth_m, const char* what) {
-        EXPECT_GT(truth_m, 0.06f) << what;
-        // An estimator that knew the mean alone would tell no difference; extremes are drawn towards it, as
-        // they are rare.
-        EXPECT_NEAR(told_m / truth_m, 1.0f, 0.5f) << what << ": " << told_m << " m of " << truth_m;
+    // An estimator that knew the mean alone would tell no difference. The two differ by 15 to 19 cm;
+    // measured, 1 to 7 % of that is lost at chest and waist, and 15 % at the hips: extremes are rare, and
+    // drawn towards the mean.
+    const auto follows = [&](float Girths::* girth, float lost, const char* what) {
+        const float truth_m = truth[1].*girth - truth[0].*girth, told_m = told[1].*girth - told[0].*girth;
+        EXPECT_GT(truth_m, 0.14f) << what;
+        EXPECT_NEAR(told_m / truth_m, 1.0f, lost) << what << ": " << told_m << " m of " << truth_m;
+        for (int heavy = 0; heavy < 2; ++heavy) EXPECT_NEAR(told[heavy].*girth, truth[heavy].*girth, 0.02f);
     };
-    follows(told[1].chest - told[0].chest, truth[1].chest - truth[0].chest, "chest");
-    follows(told[1].waist - told[0].waist, truth[1].waist - truth[0].waist, "waist");
-    follows(told[1].hip - told[0].hip, truth[1].hip - truth[0].hip, "hip");
+    follows(&Girths::chest, 0.1f, "chest");
+    follows(&Girths::waist, 0.1f, "waist");
+    follows(&Girths::hip, 0.2f, "hip");
 }
 
 TEST_F(PersonScanTest, AScannedBodyHasTheMeasuredGirths) {
