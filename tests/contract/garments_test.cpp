@@ -175,6 +175,17 @@ TEST_F(GarmentsTest, TrousersThatAreTooShortInTheRiseAreRefused) {
     EXPECT_EQ(put_on(tall, pants, "L", 0, cloth), VFIT_OK) << contract::last_error();
 }
 
+TEST_F(GarmentsTest, OneThatClosesButIsStretchedAllOverIsRefused) {
+    const vfit_avatar tall = body({{"height", 0.72f}, {"weight", 0.6f}}, VFIT_SEX_MALE);
+    const vfit_garment shirt = open("shirt_men");
+    vfit_cloth cloth{};
+    EXPECT_EQ(put_on(tall, shirt, "S", 0, cloth), VFIT_ERROR_NOT_WEARABLE);
+    const std::string why = contract::last_error();
+    for (const char* word : {"shirt_men", "size S", "a tenth", "light_woven"})
+        EXPECT_NE(why.find(word), std::string::npos) << why;
+    EXPECT_EQ(put_on(tall, shirt, "M", 0, cloth), VFIT_OK) << contract::last_error();
+}
+
 TEST_F(GarmentsTest, SleevesAndLegsThatAreTooLongAreTakenUpAndTheirLengthIsTold) {
     const auto taken_up = [](vfit_cloth cloth) {
         vfit_cloth_stats stats = vfit_cloth_stats_init();
