@@ -1,13 +1,14 @@
 #include "size/recommend.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "core/error.h"
 #include "math/random.h"
 #include "measure/measure_keys.h"
+#include "size/measure_steps.h"
 
 namespace vfit {
 
@@ -55,6 +56,7 @@ struct Known {
     double value, sigma;
 };
 
+/// Fails where none is known, unless the garment has one label alone, for which nothing need be known.
 std::vector<Known> known_of(const SizeChart& chart, const GarmentSizes& garment,
                             const std::vector<Measurement>& measurements) {
     std::vector<Known> out;
@@ -69,96 +71,113 @@ std::vector<Known> known_of(const SizeChart& chart, const GarmentSizes& garment,
             {m, key, double(measurement->value),
              std::max(double(measurement->sigma), is_mass(key) ? kSmallestSigma_kg : kSmallestSigma_m)});
     }
-    if (out.empty())
+    if (out.empty() && garment.labels.size() > 1)
         fail(VFIT_ERROR_DATA, "size chart \"", chart.name(), "\": ", garment.kind, " needs at least one of ",
              wanted, "; none was given");
     return out;
 }
 
-/// Rows as one measure tells them apart: those with the same range are one, in ascending order.
-struct Steps {
-    std::vector<MeasureRange> ranges;
-    std::vector<size_t> of_row;
-
-    Steps(const GarmentSizes& garment, size_t measure) : of_row(garment.sizes.size()) {
-        for (const SizeRow& row : garment.sizes) {
-            const MeasureRange& r = row.ranges[measure];
-            const auto at = std::find_if(ranges.begin(), ranges.end(),
-                                         [&](const MeasureRange& o) { return o.low >= r.low; });
-            if (at == ranges.end() || at->low != r.low) ranges.insert(at, r);
-        }
-        for (size_t row = 0; row < of_row.size(); ++row)
-            of_row[row] = size_t(std::find_if(ranges.begin(), ranges.end(),
-                                              [&](const MeasureRange& o) {
-                                                  return o.low == garment.sizes[row].ranges[measure].low;
-                                              }) -
-                                 ranges.begin());
-    }
-    /// What the step answers for: its range, half of the gaps beside it, and all that lies beyond the chart.
-    double low(size_t i) const {
-        return i == 0 ? -kInfinity : 0.5 * (double(ranges[i - 1].high) + double(ranges[i].low));
-    }
-    double high(size_t i) const { return i + 1 == ranges.size() ? kInfinity : low(i + 1); }
-    double width() const {
-        double sum = 0.0;
-        for (const MeasureRange& r : ranges) sum += double(r.high) - double(r.low);
-        return sum / double(ranges.size());
-    }
-};
-
-/// One measure: the normal distribution's share of each step, shared by the labels that have it.
+/// One measure: the normal distribution's share of each step, shared by the rows that have it.
 std::vector<double> by_one(const GarmentSizes& garment, const Known& known) {
-    const Steps steps(garment, known.measure);
-    std::vector<double> score, rows(steps.ranges.size(), 0.0), out(garment.sizes.size());
-    for (size_t i = 0; i < steps.ranges.size(); ++i)
+    const MeasureSteps steps(garment, known.measure);
+    std::vector<double> score, rows(steps.ranges().size(), 0.0), out(garment.sizes.size());
+    for (size_t i = 0; i < steps.ranges().size(); ++i)
         score.push_back(log_between((steps.low(i) - known.value) / known.sigma,
                                     (steps.high(i) - known.value) / known.sigma));
     const double best = *std::max_element(score.begin(), score.end());
-    for (const size_t step : steps.of_row) rows[step] += 1.0;
+    for (size_t row = 0; row < out.size(); ++row) rows[steps.of_row(row)] += 1.0;
     for (size_t row = 0; row < out.size(); ++row)
-        out[row] = std::exp(score[steps.of_row[row]] - best) / rows[steps.of_row[row]];
+        out[row] = std::exp(score[steps.of_row(row)] - best) / rows[steps.of_row(row)];
     return out;
 }
+
+/// Rows that the known measures do not tell apart.
+struct Cell {
+    std::vector<size_t> steps;  // one a known measure
+    double rows = 0.0, bodies = 0.0;
+};
+
+/// The distance of one body from every cell of a garment.
+class Distances {
+public:
+    Distances(const GarmentSizes& garment, const std::vector<Known>& known) {
+        std::vector<MeasureSteps> steps;
+        for (const Known& k : known) {
+            steps.emplace_back(garment, k.measure);
+            ranges_.push_back(steps.back().ranges());
+            weights_.push_back(double(garment.weights[k.measure]) /
+                               (steps.back().scale() * steps.back().scale()));
+            missed_.emplace_back(ranges_.back().size());
+        }
+        std::map<std::vector<size_t>, size_t> at;
+        for (size_t row = 0; row < garment.sizes.size(); ++row) {
+            Cell cell;
+            for (const MeasureSteps& s : steps) cell.steps.push_back(s.of_row(row));
+            const size_t place = at.try_emplace(cell.steps, cells_.size()).first->second;
+            if (place == cells_.size()) cells_.push_back(cell);
+            cells_[place].rows += 1.0;
+            of_row_.push_back(place);
+        }
+    }
+
+    /// The cell that a body of those values misses least. Of cells that it misses alike, which are those
+    /// whose ranges overlap about it: the one whose middles are nearest.
+    Cell& nearest(const std::vector<double>& values) {
+        for (size_t k = 0; k < values.size(); ++k)
+            for (size_t i = 0; i < missed_[k].size(); ++i)
+                missed_[k][i] = square(k, ranges_[k][i].missed(values[k]));
+        Cell* best = nullptr;
+        double least = kInfinity;
+        for (Cell& cell : cells_) {
+            double sum = 0.0;
+            for (size_t k = 0; k < values.size(); ++k) sum += missed_[k][cell.steps[k]];
+            if (!best || sum < least ||
+                (sum == least && off_middle(cell, values) < off_middle(*best, values)))
+                least = sum, best = &cell;
+        }
+        return *best;
+    }
+
+    /// The part of the bodies counted that each row has.
+    std::vector<double> rows() const {
+        std::vector<double> out;
+        for (const size_t cell : of_row_) out.push_back(cells_[cell].bodies / cells_[cell].rows);
+        return out;
+    }
+
+private:
+    double square(size_t k, double distance) const { return weights_[k] * distance * distance; }
+
+    double off_middle(const Cell& cell, const std::vector<double>& values) const {
+        double sum = 0.0;
+        for (size_t k = 0; k < values.size(); ++k)
+            sum += square(k, ranges_[k][cell.steps[k]].ease(values[k]));
+        return sum;
+    }
+
+    std::vector<std::vector<MeasureRange>> ranges_;  // one list a known measure: its steps
+    std::vector<std::vector<double>> missed_;
+    std::vector<double> weights_;
+    std::vector<Cell> cells_;
+    std::vector<size_t> of_row_;
+};
 
 /// Several: bodies drawn from what is known of this one, each given its label. The draws are the same each
 /// time.
 std::vector<double> by_several(const GarmentSizes& garment, const std::vector<Known>& known) {
-    std::vector<Steps> steps;
-    std::vector<double> scale;
-    for (const Known& k : known) {
-        steps.emplace_back(garment, k.measure);
-        scale.push_back(std::sqrt(double(garment.weights[k.measure])) / steps.back().width());
-    }
-    std::vector<std::vector<double>> missed(known.size());
-    for (size_t k = 0; k < known.size(); ++k) missed[k].resize(steps[k].ranges.size());
-    std::vector<double> out(garment.sizes.size(), 0.0);
-    std::vector<double> errors(known.size());
+    Distances distances(garment, known);
+    std::vector<double> errors(known.size()), values(known.size());
     Random random(1);
-    const auto count = [&](double way) {
-        for (size_t k = 0; k < known.size(); ++k) {
-            const double value = known[k].value + way * errors[k];
-            for (size_t i = 0; i < missed[k].size(); ++i) {
-                const MeasureRange& r = steps[k].ranges[i];
-                const double off = scale[k] * std::max({0.0, double(r.low) - value, value - double(r.high)});
-                missed[k][i] = off * off;
-            }
-        }
-        size_t best = 0;
-        double least = kInfinity;
-        for (size_t row = 0; row < out.size(); ++row) {
-            double sum = 0.0;
-            for (size_t k = 0; k < known.size(); ++k) sum += missed[k][steps[k].of_row[row]];
-            if (sum < least) least = sum, best = row;
-        }
-        out[best] += 1.0;
-    };
     for (int i = 0; i < kDraws; ++i) {
         const double shared = std::sqrt(kShared) * double(random.normal());
         for (size_t k = 0; k < known.size(); ++k)
             errors[k] = known[k].sigma * (shared + std::sqrt(1.0 - kShared) * double(random.normal()));
-        count(1.0), count(-1.0);
+        for (const double way : {1.0, -1.0}) {
+            for (size_t k = 0; k < known.size(); ++k) values[k] = known[k].value + way * errors[k];
+            distances.nearest(values).bodies += 1.0;
+        }
     }
-    return out;
+    return distances.rows();
 }
 
 }  // namespace
@@ -166,7 +185,10 @@ std::vector<double> by_several(const GarmentSizes& garment, const std::vector<Kn
 std::vector<SizeProbability> recommend(const SizeChart& chart, const std::string& garment_kind,
                                        const std::vector<Measurement>& measurements) {
     const GarmentSizes& garment = chart.garment(garment_kind);
-    const std::vector<Known> known = known_of(chart, garment, measurements);
+    std::vector<Known> known = known_of(chart, garment, measurements);
+    // A measure with one step says nothing about the label.
+    std::erase_if(known,
+                  [&](const Known& k) { return MeasureSteps(garment, k.measure).ranges().size() == 1; });
     const std::vector<double> rows =
         known.size() == 1 ? by_one(garment, known[0]) : by_several(garment, known);
     double sum = 0.0;
@@ -203,11 +225,11 @@ std::vector<SizeZone> size_zones(const SizeChart& chart, const std::string& garm
     std::vector<SizeZone> zones;
     for (const Known& k : known_of(chart, garment, measurements)) {
         const MeasureRange& range = chosen->ranges[k.measure];
-        const double low = (double(range.low) - k.value) / k.sigma,
-                     high = (double(range.high) - k.value) / k.sigma;
+        const double low = range.open_low ? -kInfinity : (double(range.low) - k.value) / k.sigma,
+                     high = range.open_high ? kInfinity : (double(range.high) - k.value) / k.sigma;
         SizeZone zone;
         zone.key = k.key;
-        zone.ease = float(0.5 * (double(range.low) + double(range.high)) - k.value);
+        zone.ease = float(range.ease(k.value));
         zone.sigma = float(k.sigma);
         zone.tight = float(std::exp(log_between(high, kInfinity)));
         zone.regular = float(std::exp(log_between(low, high)));

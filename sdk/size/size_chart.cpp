@@ -1,11 +1,11 @@
 #include "size/size_chart.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/error.h"
 #include "core/json.h"
 #include "measure/measure_keys.h"
+#include "size/printed_ranges.h"
 
 namespace vfit {
 
@@ -13,10 +13,7 @@ namespace {
 
 constexpr int kVersion = 1;
 constexpr size_t kLongestName = 31;  // vfit_size.label and vfit_size_row.garment_kind hold 32 bytes
-constexpr float kLongest_m = 10.0f;  // no body measure is longer: the unit is wrong
-constexpr float kHeaviest_kg = 700.0f;
-constexpr float kRounding = 1e-5f;  // 94 cm is not exact in binary
-constexpr size_t kMostRows = 4096;  // of a garment
+constexpr size_t kMostRows = 4096;   // of a garment
 
 /// What a number of the chart is worth in the measure's own unit.
 struct Units {
@@ -73,62 +70,88 @@ std::vector<std::string> parse_measures(const Json& garment, const std::string& 
     return measures;
 }
 
-MeasureRange parse_bounds(const Json& pair, const std::string& key, const Units& units,
+/// The labels of a garment or an axis, in the chart's order; their ranges follow.
+std::vector<SizeRow> parse_labels(const Json& sizes, const std::string& where) {
+    if (sizes.size() > kMostRows)
+        fail(VFIT_ERROR_DATA, "size chart: ", where, " has more than ", kMostRows, " sizes");
+    std::vector<SizeRow> rows;
+    for (const Json& item : sizes) {
+        require_object(item, text("a size of ", where));
+        const std::string label = short_name(item, "label", text("a size of ", where));
+        for (const SizeRow& other : rows)
+            if (other.label == label)
+                fail(VFIT_ERROR_DATA, "size chart: ", where, ", label ", label, " stands twice");
+        rows.push_back({label, {}});
+    }
+    return rows;
+}
+
+/// `range` may be null where the garment has one label: it then serves everyone.
+PrintedRange parse_range(const Json* range, const std::string& key, const Units& units,
+                         const std::string& label, const std::string& place, size_t label_count) {
+    if (range) return read_printed_range(*range, key, units.of(key), label, place);
+    if (label_count > 1) fail(VFIT_ERROR_DATA, "size chart: ", place, " has no range");
+    return {label, place, 0.0, 0.0, true, true};
+}
+
+const Json* find_field(const Json& object, const std::string& name) {
+    const auto it = object.find(name);
+    return it == object.end() ? nullptr : &*it;
+}
+
+void require_known_ranges(const Json& ranges, const std::vector<std::string>& measures,
                           const std::string& place) {
-    if (!pair.is_array() || pair.size() != 2 || !pair[0].is_number() || !pair[1].is_number())
-        fail(VFIT_ERROR_DATA, "size chart: the range of ", place, " is not [low, high]");
-    const double low = pair[0].get<double>() * units.of(key), high = pair[1].get<double>() * units.of(key);
-    const float most = is_mass(key) ? kHeaviest_kg : kLongest_m;
-    if (!std::isfinite(low) || !std::isfinite(high) || low < 0.0 || high > most)
-        fail(VFIT_ERROR_DATA, "size chart: the range of ", place, " is not within 0 and ", most,
-             is_mass(key) ? " kg" : " m");
-    if (low >= high)
-        fail(VFIT_ERROR_DATA, "size chart: the range of ", place, " is empty: low is not below high");
-    return {key, float(low), float(high)};
-}
-
-MeasureRange parse_range(const Json& ranges, const std::string& key, const Units& units,
-                         const std::string& where) {
-    const std::string place = text(where, ", ", key);
-    const auto it = ranges.find(key);
-    if (it == ranges.end()) fail(VFIT_ERROR_DATA, "size chart: ", place, " has no range");
-    return parse_bounds(*it, key, units, place);
-}
-
-/// A range that follows another: above it, and apart from it.
-void check_order(const MeasureRange& before, const MeasureRange& after, const std::string& place,
-                 const std::string& label_before) {
-    if (after.low < before.low + kRounding || after.high < before.high + kRounding)
-        fail(VFIT_ERROR_DATA, "size chart: ", place, " is not above that of label ", label_before,
-             ": sizes must stand in ascending order");
-    if (after.low < before.high - kRounding)
-        fail(VFIT_ERROR_DATA, "size chart: ", place, " overlaps that of label ", label_before);
-}
-
-SizeRow parse_row(const Json& item, const GarmentSizes& garment, const Units& units,
-                  const std::string& where) {
-    require_object(item, text("a size of ", where));
-    SizeRow row;
-    row.label = short_name(item, "label", text("a size of ", where));
-    const std::string place = text(where, ", label ", row.label);
-    for (const SizeRow& other : garment.sizes)
-        if (other.label == row.label) fail(VFIT_ERROR_DATA, "size chart: ", place, " stands twice");
-
-    const Json& ranges = field(item, "ranges", Json::value_t::object, "an object", place);
     for (const auto& range : ranges.items())
-        if (std::find(garment.measures.begin(), garment.measures.end(), range.key()) ==
-            garment.measures.end())
+        if (std::find(measures.begin(), measures.end(), range.key()) == measures.end())
             fail(VFIT_ERROR_DATA, "size chart: ", place, " gives a range of \"", range.key(),
                  "\", which the garment's measures do not name");
-    for (const std::string& key : garment.measures)
-        row.ranges.push_back(parse_range(ranges, key, units, place));
+}
 
-    if (!garment.sizes.empty()) {
-        const SizeRow& before = garment.sizes.back();
-        for (size_t i = 0; i < row.ranges.size(); ++i)
-            check_order(before.ranges[i], row.ranges[i], text(place, ", ", row.ranges[i].key), before.label);
+/// A row of labels, each with a range of every measure.
+void parse_list(const Json& item, const Units& units, const std::string& where, GarmentSizes& garment) {
+    const Json& sizes = array_field(item, "sizes", where);
+    if (sizes.size() > 1 || item.contains("measures")) garment.measures = parse_measures(item, where);
+    garment.sizes = parse_labels(sizes, where);
+    const Json none = Json::object();
+    std::vector<const Json*> ranges;
+    for (size_t i = 0; i < sizes.size(); ++i) {
+        const std::string place = text(where, ", label ", garment.sizes[i].label);
+        ranges.push_back(sizes.size() == 1 && !sizes[i].contains("ranges")
+                             ? &none
+                             : &field(sizes[i], "ranges", Json::value_t::object, "an object", place));
+        require_known_ranges(*ranges.back(), garment.measures, place);
     }
-    return row;
+    for (const std::string& key : garment.measures) {
+        std::vector<PrintedRange> printed;
+        for (size_t i = 0; i < sizes.size(); ++i) {
+            const std::string& label = garment.sizes[i].label;
+            printed.push_back(parse_range(find_field(*ranges[i], key), key, units, label,
+                                          text(where, ", label ", label, ", ", key), sizes.size()));
+        }
+        const auto resolved = ranges_of(printed, key, units.of(key));
+        for (size_t i = 0; i < sizes.size(); ++i) garment.sizes[i].ranges.push_back(resolved[i]);
+    }
+}
+
+void require_new_measure(const std::string& key, const std::string& where, const GarmentSizes& garment) {
+    if (!is_measure(key))
+        fail(VFIT_ERROR_DATA, "size chart: ", where, " uses the unknown measure \"", key, "\"");
+    if (std::find(garment.measures.begin(), garment.measures.end(), key) != garment.measures.end())
+        fail(VFIT_ERROR_DATA, "size chart: ", where, " names the measure \"", key, "\" twice");
+}
+
+/// The labels of one axis, each with its one range.
+std::vector<SizeRow> parse_axis(const Json& axis, const std::string& key, const Units& units,
+                                const std::string& place) {
+    const Json& sizes = array_field(axis, "sizes", place);
+    std::vector<SizeRow> steps = parse_labels(sizes, place);
+    std::vector<PrintedRange> printed;
+    for (size_t i = 0; i < sizes.size(); ++i)
+        printed.push_back(parse_range(find_field(sizes[i], "range"), key, units, steps[i].label,
+                                      text(place, ", label ", steps[i].label), sizes.size()));
+    const auto resolved = ranges_of(printed, key, units.of(key));
+    for (size_t i = 0; i < steps.size(); ++i) steps[i].ranges = {resolved[i]};
+    return steps;
 }
 
 /// "W32" and "L34" of two axes, each of one measure, make the label "W32/L34".
@@ -139,23 +162,8 @@ void parse_axes(const Json& item, const Units& units, const std::string& where, 
     for (const Json& axis : array_field(item, "axes", where)) {
         require_object(axis, text("an axis of ", where));
         const std::string& key = string_field(axis, "measure", text("an axis of ", where));
-        const std::string place = text(where, ", axis ", key);
-        if (!is_measure(key))
-            fail(VFIT_ERROR_DATA, "size chart: ", where, " uses the unknown measure \"", key, "\"");
-        if (std::find(garment.measures.begin(), garment.measures.end(), key) != garment.measures.end())
-            fail(VFIT_ERROR_DATA, "size chart: ", where, " names the measure \"", key, "\" twice");
-        std::vector<SizeRow> steps;
-        for (const Json& step : array_field(axis, "sizes", place)) {
-            require_object(step, text("a size of ", place));
-            SizeRow one{short_name(step, "label", text("a size of ", place)), {}};
-            const std::string at = text(place, ", label ", one.label);
-            for (const SizeRow& other : steps)
-                if (other.label == one.label) fail(VFIT_ERROR_DATA, "size chart: ", at, " stands twice");
-            one.ranges = {
-                parse_bounds(field(step, "range", Json::value_t::array, "[low, high]", at), key, units, at)};
-            if (!steps.empty()) check_order(steps.back().ranges[0], one.ranges[0], at, steps.back().label);
-            steps.push_back(std::move(one));
-        }
+        require_new_measure(key, where, garment);
+        const std::vector<SizeRow> steps = parse_axis(axis, key, units, text(where, ", axis ", key));
         if (rows.size() * steps.size() > kMostRows)
             fail(VFIT_ERROR_DATA, "size chart: ", where, " has more than ", kMostRows, " sizes");
         std::vector<SizeRow> longer;
@@ -174,37 +182,27 @@ void parse_axes(const Json& item, const Units& units, const std::string& where, 
     garment.sizes = std::move(rows);
 }
 
-/// The steps of a table's side, from the values in the middle of its rows or columns: each reaches halfway to
-/// the next.
+/// The steps of a table's side, from the values in the middle of its rows or columns.
 std::vector<MeasureRange> parse_side(const Json& table, const char* name, const Units& units,
                                      const std::string& where, GarmentSizes& garment) {
     const Json& side = field(table, name, Json::value_t::object, "an object", where);
     const std::string place = text(where, ", ", name);
     const std::string& key = string_field(side, "measure", place);
-    if (!is_measure(key))
-        fail(VFIT_ERROR_DATA, "size chart: ", where, " uses the unknown measure \"", key, "\"");
-    if (std::find(garment.measures.begin(), garment.measures.end(), key) != garment.measures.end())
-        fail(VFIT_ERROR_DATA, "size chart: ", where, " names the measure \"", key, "\" twice");
+    require_new_measure(key, where, garment);
     garment.measures.push_back(key);
     const Json& values = array_field(side, "values", place);
     if (values.size() < 2)
         fail(VFIT_ERROR_DATA, "size chart: \"values\" of ", place, " holds fewer than two");
-    std::vector<double> middle;
+    std::vector<PrintedRange> printed;
     for (const Json& v : values) {
         if (!v.is_number()) fail(VFIT_ERROR_DATA, "size chart: a value of ", place, " is not a number");
-        if (!middle.empty() && !(v.get<double>() > middle.back()))
+        const std::string value = v.dump();
+        printed.push_back(
+            read_printed_range(v, key, units.of(key), value, text(place, ", ", key, ", ", value)));
+        if (printed.size() > 1 && !(printed.back().low > printed[printed.size() - 2].low))
             fail(VFIT_ERROR_DATA, "size chart: the values of ", place, " do not ascend");
-        middle.push_back(v.get<double>());
     }
-    std::vector<MeasureRange> steps;
-    for (size_t i = 0; i < middle.size(); ++i) {
-        const double half_below = 0.5 * (i ? middle[i] - middle[i - 1] : middle[1] - middle[0]);
-        const double half_above =
-            0.5 * (i + 1 < middle.size() ? middle[i + 1] - middle[i] : middle[i] - middle[i - 1]);
-        steps.push_back(parse_bounds(Json::array({middle[i] - half_below, middle[i] + half_above}), key,
-                                     units, text(place, ", ", key)));
-    }
-    return steps;
+    return ranges_of(printed, key, units.of(key));
 }
 
 /// Labels by two measures, as on the back of a packet: one row a step of the first, one label a step of the
@@ -266,9 +264,7 @@ GarmentSizes parse_garment(const Json& item, const std::vector<GarmentSizes>& be
     } else if (item.contains("table")) {
         parse_table(item, units, where, garment);
     } else {
-        garment.measures = parse_measures(item, where);
-        for (const Json& size : array_field(item, "sizes", where))
-            garment.sizes.push_back(parse_row(size, garment, units, where));
+        parse_list(item, units, where, garment);
     }
     garment.weights = parse_weights(item, garment.measures, where);
     for (const SizeRow& row : garment.sizes)

@@ -6,13 +6,9 @@
 #include <string_view>
 #include <vector>
 
-namespace vfit {
+#include "size/measure_range.h"
 
-/// Of one measure, in its unit (metres, or kilograms for body_mass_kg).
-struct MeasureRange {
-    std::string key;  // "chest_girth_m"
-    float low = 0.0f, high = 0.0f;
-};
+namespace vfit {
 
 /// A label and the ranges that it serves. A label of a table has several rows.
 struct SizeRow {
@@ -21,11 +17,11 @@ struct SizeRow {
 };
 
 struct GarmentSizes {
-    std::string kind;  // "short_sleeves"
-    std::vector<std::string> measures;
-    std::vector<float> weights;       // one a measure: how much it counts against the others
-    std::vector<SizeRow> sizes;       // of a list: smallest first
-    std::vector<std::string> labels;  // each once, in the chart's order
+    std::string kind;                   // "short_sleeves"
+    std::vector<std::string> measures;  // none: a garment of one label that serves everyone
+    std::vector<float> weights;         // one a measure: how much it counts against the others
+    std::vector<SizeRow> sizes;         // of a list: smallest first
+    std::vector<std::string> labels;    // each once, in the chart's order
 };
 
 class SizeChart {

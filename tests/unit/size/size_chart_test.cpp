@@ -81,16 +81,29 @@ TEST(SizeChart, RefusesNamesThatNoReaderInCCanTell) {
 TEST(SizeChart, NamesGarmentLabelAndMeasureOfABrokenRange) {
     const std::initializer_list<const char*> place = {"trousers", "label M", "hip_girth_m"};
     expect_refused(with("[99, 106.5]", "[106.5, 99]"), place);
-    expect_refused(with("[99, 106.5]", "[99, 99]"), place);
-    expect_refused(with("[99, 106.5]", "[97, 106.5]"),
-                   {"trousers", "label M", "hip_girth_m", "overlaps", "label S"});
-    expect_refused(with("[99, 106.5]", "[80, 86]"), {"trousers", "label M", "hip_girth_m", "ascending"});
+    expect_refused(with("[99, 106.5]", "[80, 86]"),
+                   {"trousers", "label M", "hip_girth_m", "ascending", "label S"});
+    expect_refused(with("[99, 106.5]", "[90, 98]"),
+                   {"trousers", "label M", "hip_girth_m", "ascending", "label S"});
+    expect_refused(with("[99, 106.5]", "[89, 106.5]"),
+                   {"trousers", "label M", "hip_girth_m", "ascending", "label S"});
+    expect_refused(with("[99, 106.5]", "97"), {"trousers", "label M", "hip_girth_m", "ascending", "label S"});
+    expect_refused(with("[99, 106.5]", "98"),
+                   {"trousers", "label M", "hip_girth_m", "single value", "no room"});
     expect_refused(with("[99, 106.5]", "[-5, 106.5]"), place);
     expect_refused(with("[99, 106.5]", "[99, 10650]"), place);
+    expect_refused(with("[99, 106.5]", "10650"), place);
     expect_refused(with("[99, 106.5]", "[99]"), place);
+    expect_refused(with("[99, 106.5]", "[99, 106, 107]"), place);
     expect_refused(with("[99, 106.5]", "[99, \"106\"]"), place);
+    expect_refused(with("[99, 106.5]", "\"99-106\""), place);
+    expect_refused(with("[99, 106.5]", "null"), place);
     expect_refused(with("[99, 106.5]", "[99, 1e999]"), {"not JSON"});
-    expect_refused(with("[99, 106.5]", "[99, null]"), place);
+    expect_refused(with("[99, 106.5]", "[null, null]"), place);
+    expect_refused(with("[99, 106.5]", "[null, 106.5]"),
+                   {"trousers", "label M", "hip_girth_m", "open", "first label"});
+    expect_refused(with("[90, 98]", "[90, null]"),
+                   {"trousers", "label S", "hip_girth_m", "open", "last label"});
     expect_refused(with(", \"hip_girth_m\": [99, 106.5]", ""), place);
 }
 
@@ -111,14 +124,103 @@ TEST(SizeChart, RefusesUnknownDoubleAndEmptyEntries) {
 }
 
 std::string chart_of(const std::string& garment) {
-    return R"({"format": "vfit-size-chart", "version": 1, "name": "t", "unit": "cm", "garments": [{"kind": "g", )" +
+    return R"({"format": "vfit-size-chart", "version": 1, "name": "t", "unit": "cm",
+        "garments": [{"kind": "g", )" +
            garment + "}]}";
+}
+
+std::string labels_of(const std::string& sizes) {
+    return chart_of(R"("measures": ["waist_girth_m"], "sizes": )" + sizes);
+}
+
+TEST(SizeChart, ReadsSingleValuesAsTheMiddlesOfSizes) {
+    const auto ranges = [](const std::string& s, const std::string& m, const std::string& l) {
+        std::vector<MeasureRange> out;
+        const SizeChart chart =
+            SizeChart::parse(labels_of(R"([{"label": "S", "ranges": {"waist_girth_m": )" + s +
+                                       R"(}}, {"label": "M", "ranges": {"waist_girth_m": )" + m +
+                                       R"(}}, {"label": "L", "ranges": {"waist_girth_m": )" + l + "}}]"));
+        for (const SizeRow& row : chart.garments()[0].sizes) out.push_back(row.ranges[0]);
+        return out;
+    };
+    for (const auto& values : {ranges("70", "80", "86"), ranges("[70, 70]", "[80, 80]", "[86, 86]")}) {
+        EXPECT_FLOAT_EQ(values[0].low, 0.65f) << "outwards as far as inwards";
+        EXPECT_FLOAT_EQ(values[0].high, 0.75f) << "halfway to the next";
+        EXPECT_FLOAT_EQ(values[1].low, 0.75f);
+        EXPECT_FLOAT_EQ(values[1].high, 0.83f);
+        EXPECT_FLOAT_EQ(values[2].low, 0.83f);
+        EXPECT_FLOAT_EQ(values[2].high, 0.89f);
+    }
+    const auto between = ranges("[70, 76]", "80", "[86, 90]");
+    EXPECT_FLOAT_EQ(between[0].high, 0.76f) << "a range stays as it is printed";
+    EXPECT_FLOAT_EQ(between[1].low, 0.78f) << "halfway to the neighbour's end";
+    EXPECT_FLOAT_EQ(between[1].high, 0.83f);
+    EXPECT_FLOAT_EQ(ranges("3", "10", "86")[0].low, 0.0f) << "no length is below 0";
+}
+
+TEST(SizeChart, ReadsRangesThatOverlapOrAreOpen) {
+    const auto waists = [](const std::string& json) {
+        std::vector<MeasureRange> out;
+        const SizeChart chart = SizeChart::parse(json);
+        for (const SizeRow& row : chart.garments()[0].sizes) out.push_back(row.ranges[0]);
+        return out;
+    };
+    const auto overlapping = waists(labels_of(R"([{"label": "S", "ranges": {"waist_girth_m": [70, 80]}},
+        {"label": "M", "ranges": {"waist_girth_m": [70, 84]}},
+          {"label": "L", "ranges": {"waist_girth_m": [82, 84]}}])"));
+    EXPECT_FLOAT_EQ(overlapping[0].high, 0.80f);
+    EXPECT_FLOAT_EQ(overlapping[1].low, 0.70f);
+    const auto open = waists(labels_of(R"([{"label": "S", "ranges": {"waist_girth_m": [null, 70]}},
+        {"label": "M", "ranges": {"waist_girth_m": [70, 78]}},
+          {"label": "L", "ranges": {"waist_girth_m": [78, null]}}])"));
+    EXPECT_TRUE(open[0].open_low && open[2].open_high && !open[0].open_high && !open[2].open_low);
+    EXPECT_FLOAT_EQ(open[0].low, 0.62f) << "as wide as its neighbour";
+    EXPECT_FLOAT_EQ(open[2].high, 0.86f);
+    EXPECT_EQ(open[2].missed(2.0), 0.0);
+    EXPECT_NEAR(open[2].missed(0.77), 0.01, 1e-6);
+    EXPECT_EQ(open[2].ease(2.0), 0.0) << "the open side has no middle";
+    EXPECT_NEAR(open[2].ease(0.80), 0.02, 1e-6);
+    EXPECT_NO_THROW(waists(labels_of(R"([{"label": "S", "ranges": {"waist_girth_m": [null, 80]}},
+        {"label": "L", "ranges": {"waist_girth_m": [80, null]}}])")));
+    expect_refused(labels_of(R"([{"label": "S", "ranges": {"waist_girth_m": [null, 81]}},
+        {"label": "L", "ranges": {"waist_girth_m": [80, null]}}])"),
+                   {"label L", "waist_girth_m", "ascending"});
+    expect_refused(labels_of(R"([{"label": "S", "ranges": {"waist_girth_m": [70, 80]}},
+        {"label": "L", "ranges": {"waist_girth_m": [70, null]}}])"),
+                   {"label L", "waist_girth_m", "ascending"});
+}
+
+TEST(SizeChart, ReadsOneSize) {
+    const SizeChart cap = SizeChart::parse(chart_of(R"("sizes": [{"label": "one size"}])"));
+    EXPECT_EQ(cap.garments()[0].labels, std::vector<std::string>{"one size"});
+    EXPECT_TRUE(cap.garments()[0].measures.empty());
+    EXPECT_NO_THROW(SizeChart::parse(labels_of(R"([{"label": "one size"}])")));
+    EXPECT_NO_THROW(SizeChart::parse(labels_of(R"([{"label": "one size", "ranges": {}}])")));
+    EXPECT_NO_THROW(
+        SizeChart::parse(labels_of(R"([{"label": "one size", "ranges": {"waist_girth_m": [60, null]}}])")));
+    expect_refused(labels_of(R"([{"label": "one size", "ranges": {"waist_girth_m": 60}}])"),
+                   {"garment g", "label one size", "waist_girth_m", "single value"});
+    expect_refused(labels_of(R"([{"label": "one size", "ranges": {"waist_girth_m": [null, null]}}])"),
+                   {"garment g", "label one size", "waist_girth_m", "open at both ends"});
+    expect_refused(chart_of(R"("sizes": [{"label": "one size", "ranges": {"waist_girth_m": [60, 70]}}])"),
+                   {"label one size", "waist_girth_m", "do not name"});
+    expect_refused(chart_of(R"("sizes": [{"label": "S"}, {"label": "L"}])"), {"garment g", "measures"});
+    expect_refused(labels_of(R"([{"label": "S"}, {"label": "L"}])"), {"garment g", "label S", "ranges"});
+}
+
+TEST(SizeChart, RefusesMoreLabelsThanItHolds) {
+    std::string sizes = "[";
+    for (int i = 0; i <= 4096; ++i)
+        sizes += text(i ? "," : "", R"({"label": ")", i, R"(", "ranges": {"waist_girth_m": )", 50 + 0.01 * i,
+                      "}}");
+    expect_refused(labels_of(sizes + "]"), {"garment g", "4096"});
 }
 
 TEST(SizeChart, NamesWhatIsWrongWithAxes) {
     const std::string good =
         R"("axes": [{"measure": "waist_girth_m", "sizes": [{"label": "a", "range": [70, 80]},
-        {"label": "b", "range": [80, 90]}]}, {"measure": "inside_leg_m", "sizes": [{"label": "c", "range": [70, 80]}]}])";
+        {"label": "b", "range": [80, 90]}]}, {"measure": "inside_leg_m",
+          "sizes": [{"label": "c", "range": [70, 80]}]}])";
     const auto with = [&](const std::string& from, const std::string& to) {
         std::string text = good;
         const size_t at = text.find(from);
@@ -131,6 +233,9 @@ TEST(SizeChart, NamesWhatIsWrongWithAxes) {
     expect_refused(with("[80, 90]", "[60, 70]"), {"garment g", "waist_girth_m", "label b", "ascending"});
     expect_refused(with("\"b\"", "\"a\""), {"label a", "twice"});
     expect_refused(with("[80, 90]", "7"), {"range", "label b"});
+    expect_refused(with("[80, 90]", "\"80-90\""), {"range", "label b"});
+    expect_refused(with(R"({"label": "b", "range": [80, 90]})", R"({"label": "b"})"),
+                   {"label b", "no range"});
     expect_refused(with("\"c\"", "\"a label of thirty-one bytes, alone\""), {"label"});
     expect_refused(chart_of(good + R"(, "sizes": [])"), {"more than one of"});
     expect_refused(chart_of(R"("axes": [])"), {"axes", "empty"});
