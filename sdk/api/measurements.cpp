@@ -1,8 +1,6 @@
 #include "api/measurements.h"
 
-#include <cmath>
-
-#include "measure/measure_keys.h"
+#include "measure/measurement_check.h"
 
 namespace vfit::api {
 
@@ -11,12 +9,8 @@ std::vector<Measurement> measurements_in(const vfit_measurement* items, uint32_t
     const Items<vfit_measurement> list(items, stride, count, "items");
     for (uint32_t i = 0; i < list.size(); ++i) {
         const vfit_measurement m = list[i];
-        const std::string key = get_text(m.key);
-        if (!is_measure(key)) fail(VFIT_ERROR_DATA, "\"", key, "\" is no measure; see vfit_measure_key");
-        if (!std::isfinite(m.value) || m.value <= 0.0f)
-            fail(VFIT_ERROR_DATA, key, ": value ", m.value, " is not a positive length in metres");
-        if (!std::isfinite(m.sigma) || m.sigma < 0.0f) fail(VFIT_ERROR_DATA, key, ": sigma ", m.sigma);
-        out.push_back({key, m.value, m.sigma, m.observed != 0});
+        out.push_back({get_text(m.key), m.value, m.sigma, m.observed != 0});
+        check_measurement(out.back());
     }
     return out;
 }

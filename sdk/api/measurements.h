@@ -8,7 +8,8 @@
 
 namespace vfit::api {
 
-/// Fails with VFIT_ERROR_DATA naming the key whose value or sigma is not finite, not positive, or unknown.
+/// Each checked (check_measurement): VFIT_ERROR_DATA naming the key that is unknown or whose value is not
+/// plausible.
 std::vector<Measurement> measurements_in(const vfit_measurement* items, uint32_t stride, uint32_t count);
 
 vfit_result write_measurements(const std::vector<Measurement>& list, vfit_measurement* items, uint32_t stride,

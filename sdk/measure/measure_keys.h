@@ -7,8 +7,9 @@
 namespace vfit {
 
 struct MeasureKey {
-    const char* key;   // "chest_girth_m"
-    const char* text;  // one line
+    const char* key;          // "chest_girth_m"
+    const char* text;         // one line
+    float smallest, largest;  // plausible of a person, from newborns to the largest adults known
 };
 
 std::span<const MeasureKey> measure_keys();

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/json.h"
 #include "measure/measure_keys.h"
+#include "measure/measurement_check.h"
 
 namespace vfit {
 
@@ -40,8 +41,7 @@ Measurement parse_one(const std::string& key, const Json& value) {
     } else {
         m.value = number(value, key);
     }
-    if (m.value <= 0.0f) fail(VFIT_ERROR_DATA, "profile: ", key, ": ", m.value, " is not above 0");
-    if (m.sigma < 0.0f) fail(VFIT_ERROR_DATA, "profile: ", key, ": sigma ", m.sigma, " is below 0");
+    check_measurement(m, "profile: ");
     return m;
 }
 

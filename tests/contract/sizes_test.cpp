@@ -110,3 +110,51 @@ TEST_F(SizesTest, TellHowASizeSits) {
               VFIT_ERROR_ARGUMENT);
     EXPECT_EQ(vfit_size_chart_destroy(chart), VFIT_OK);
 }
+
+TEST_F(SizesTest, ImplausibleMeasurementsAreRefusedWhereverTheyComeIn) {
+    const vfit_measurement cm = measurement("stature_m", 172.0f, 0.0f);
+    vfit_size_chart chart{};
+    ASSERT_EQ(vfit_size_chart_open(context, "height_weight_men", &chart), VFIT_OK) << contract::last_error();
+    uint32_t count = 0;
+    const auto refused = [](vfit_result result) {
+        EXPECT_EQ(result, VFIT_ERROR_DATA);
+        for (const char* word : {"stature_m", "172", "0.28 to 3 m", "centimetres"})
+            EXPECT_NE(contract::last_error().find(word), std::string::npos) << contract::last_error();
+    };
+    refused(
+        vfit_size_recommend(chart, "short_sleeves", &cm, sizeof cm, 1, nullptr, sizeof(vfit_size), &count));
+    refused(vfit_size_zones(chart, "short_sleeves", "M", &cm, sizeof cm, 1, nullptr, sizeof(vfit_size_zone),
+                            &count));
+    refused(vfit_measurements_merge(some_.data(), sizeof some_[0], count_, &cm, sizeof cm, 1, nullptr,
+                                    sizeof(vfit_measurement), &count));
+    refused(vfit_measurements_write(&cm, sizeof cm, 1, VFIT_SEX_UNKNOWN, nullptr, &count));
+    const std::string text = R"({"stature_m": 172})";
+    refused(
+        vfit_measurements_read(text.data(), text.size(), nullptr, sizeof(vfit_measurement), &count, nullptr));
+    vfit_avatar avatar{};
+    refused(vfit_avatar_create(context, nullptr, &cm, sizeof cm, 1, &avatar));
+    EXPECT_EQ(vfit_size_chart_destroy(chart), VFIT_OK);
+}
+
+TEST_F(SizesTest, OneSizeNeedsNoMeasurement) {
+    const std::string text = R"({"format": "vfit-size-chart", "version": 1, "name": "t", "unit": "cm",
+        "garments": [{"kind": "cap", "sizes": [{"label": "one size"}]}]})";
+    vfit_size_chart chart{};
+    ASSERT_EQ(vfit_size_chart_load(context, text.data(), text.size(), &chart), VFIT_OK)
+        << contract::last_error();
+    vfit_size_row row = vfit_size_row_init();
+    uint32_t count = 1;
+    ASSERT_EQ(vfit_size_chart_rows(chart, &row, sizeof row, &count), VFIT_OK);
+    EXPECT_EQ(row.measure_count, 0u);
+    vfit_size size = vfit_size_init();
+    ASSERT_EQ(vfit_size_recommend(chart, "cap", nullptr, 0, 0, &size, sizeof size, &count), VFIT_OK)
+        << contract::last_error();
+    EXPECT_STREQ(size.label, "one size");
+    EXPECT_EQ(size.probability, 1.0f);
+    count = 7;
+    EXPECT_EQ(vfit_size_zones(chart, "cap", "one size", some_.data(), sizeof some_[0], count_, nullptr,
+                              sizeof(vfit_size_zone), &count),
+              VFIT_OK);
+    EXPECT_EQ(count, 0u);
+    EXPECT_EQ(vfit_size_chart_destroy(chart), VFIT_OK);
+}

@@ -39,5 +39,16 @@ TEST(MeasureKeys, HoldEveryDocumentedKey) {
         EXPECT_GE(measure_index(key), 0) << key;
 }
 
+TEST(MeasureKeys, HaveBoundsThatTellMetresFromInches) {
+    constexpr float kInch_m = 0.0254f;
+    for (const MeasureKey& key : measure_keys()) {
+        EXPECT_GT(key.smallest, 0.0f) << key.key;
+        EXPECT_LT(key.smallest, key.largest) << key.key;
+        if (is_mass(key.key)) continue;
+        // A newborn has at least 1.5 times the smallest bound.
+        EXPECT_GT(1.5f * key.smallest / kInch_m, key.largest) << key.key;
+    }
+}
+
 }  // namespace
 }  // namespace vfit
