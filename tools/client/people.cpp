@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "client/progress.h"
+#include "client/refused_frames.h"
 
 namespace vfit::tools {
 
@@ -10,6 +11,15 @@ namespace {
 
 // A source without end must not be waited on for ever: ten times the frames that are wanted.
 constexpr uint32_t kPatience = 10;
+
+std::string no_frame_text(const ScanRun& run, const RefusedFrames& refused) {
+    std::string out = "no frame ";
+    if (run.side_frames_taken)
+        out += "from the front could be used, " + std::to_string(run.side_frames_taken) + " from the side";
+    else
+        out += "could be used";
+    return refused.text().empty() ? out : out + ": " + refused.text();
+}
 
 }  // namespace
 
@@ -23,7 +33,7 @@ const char* guidance_text(vfit_guidance guidance) {
         case VFIT_GUIDANCE_TURN_SIDEWAYS: return "a side view is wanted";
         case VFIT_GUIDANCE_FEET_NOT_VISIBLE: return "the feet are not visible";
         case VFIT_GUIDANCE_ONE_PERSON_ONLY: return "more than one person is in view";
-        case VFIT_GUIDANCE_NOBODY: return "nobody is in view";
+        case VFIT_GUIDANCE_NOBODY: return "no person is in view";
         case VFIT_GUIDANCE_JOINTS_MISSING: return "joints are missing";
         case VFIT_GUIDANCE_FACE_CAMERA: return "the person does not face the camera";
         default: return "unknown reason";
@@ -42,6 +52,7 @@ ScanRun run_scan(vfit_context context, Source& source, const ScanOptions& option
     check(vfit_scan_create(context, &desc, run.scan.out()));
     vfit_scan_state state = vfit_scan_state_init();
     uint32_t seen = 0;
+    RefusedFrames refused;
     Progress progress("scanning");
     while (auto frame = source.next()) {
         Frame tracked;
@@ -56,16 +67,16 @@ ScanRun run_scan(vfit_context context, Source& source, const ScanOptions& option
             run.last_ms = state.compute_ms;
             run.corrections_m.push_back(state.correction_m);
             if (last_frame) *last_frame = std::move(tracked);
+        } else {
+            refused.add(state.guidance);
         }
         run.frames_taken = state.frames_taken;
         run.side_frames_taken = state.side_frames_taken;
         progress.at(run.frames_taken, run.frames_wanted);
         if (result == VFIT_OK || ++seen == kPatience * state.frames_wanted) break;
     }
-    if (run.frames_taken == 0)
-        throw Failure(seen == 0
-                          ? "the source has no frames"
-                          : std::string("no frame could be measured: ") + guidance_text(state.guidance));
+    if (seen == 0) throw Failure("the source has no frames");
+    if (run.frames_taken == 0) throw Failure(no_frame_text(run, refused));
     return run;
 }
 

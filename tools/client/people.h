@@ -24,7 +24,7 @@ struct ScanRun {
 };
 
 /// Feeds frames into a scan until it is complete or the source ends. Fails where not one frame could be
-/// taken, saying why. last_frame, where given, gets the tracked frame that was taken last.
+/// taken, with the reasons counted. last_frame, where given, gets the tracked frame that was taken last.
 ScanRun run_scan(vfit_context context, Source& source, const ScanOptions& options,
                  Frame* last_frame = nullptr);
 
