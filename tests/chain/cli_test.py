@@ -199,6 +199,82 @@ class Contract(unittest.TestCase):
             )
             self.assertEqual(result["sizes"][0]["label"], "M")
 
+    def test_one_size_and_long_labels_are_printed_in_columns(self):
+        with tempfile.TemporaryDirectory() as folder:
+            measures, chart = pathlib.Path(folder) / "m.json", pathlib.Path(folder) / "chart.json"
+            measures.write_text('{"waist_girth_m": {"value": 0.8, "sigma": 0.02}, "stature_m": 1.9}')
+            head = {"format": "vfit-size-chart", "version": 1, "name": "x", "unit": "cm"}
+            steps = [("W32/L34 long", [76, 80]), ("W33/L34 \u00fcberlang, weit", [80, 84]), ("W34", [84, 88])]
+            sizes = [{"label": label, "ranges": {"waist_girth_m": r}} for label, r in steps]
+            one = {"label": "one size", "ranges": {"stature_m": [None, 185]}}
+            garments = [
+                {"kind": "jeans", "measures": ["waist_girth_m"], "sizes": sizes},
+                {"kind": "cape", "measures": ["stature_m"], "sizes": [one]},
+                {"kind": "cap", "sizes": [{"label": "one size"}]},
+            ]
+            chart.write_text(json.dumps({**head, "garments": garments}))
+            told = run("size", measures, "--chart", chart, "--garment", "jeans").stdout.splitlines()
+            table = [line for line in told if line.endswith(" %")]
+            self.assertEqual(len(table), 3, told)
+            self.assertEqual(len({len(line) for line in table}), 1, "the percentages stand in one column")
+            for line in table:
+                self.assertRegex(line, r"\S  +\d+\.\d %$")
+            for garment, outside in (("cape", {"stature_m": "above"}), ("cap", None)):
+                args = ("size", measures, "--chart", chart, "--garment", garment)
+                result = document(self, *args, "--json")
+                self.assertEqual(result["sizes"], [{"label": "one size", "probability": 1.0}])
+                self.assertEqual(result.get("outside"), outside)
+                self.assertEqual("above the range of one size" in run(*args).stdout, garment == "cape")
+
+    def test_a_body_beyond_the_chart_is_told(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "measures.json"
+            args = ("size", path, "--chart", "en13402_men", "--garment", "short_sleeves")
+            path.write_text('{"chest_girth_m": 1.6}')
+            result = document(self, *args, "--json")
+            self.assertEqual(result["outside"], {"chest_girth_m": "above"})
+            self.assertIn("chest_girth_m is above the range of 3XL", run(*args).stdout)
+            path.write_text('{"chest_girth_m": 0.98}')
+            self.assertEqual(set(document(self, *args, "--json")), {"chart", "garment", "sizes"})
+
+    def test_centimetres_under_a_metre_key_are_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "cm.json"
+            path.write_text('{"stature_m": 172, "chest_girth_m": 95}')
+            args = ("size", path, "--chart", "en13402_men", "--garment", "short_sleeves")
+            self.check_failure(run(*args), "chest_girth_m", "95", "0.14 to 3.7 m", "centimetres")
+            path.write_text('{"stature_m": 0.5, "chest_girth_m": 0.36}')
+            self.assertEqual(document(self, *args, "--json")["sizes"][0]["label"], "XXS", "a newborn")
+            self.check_failure(run("measure", VIRTUAL, "--merge", self.cm_profile(path)), "stature_m", "172")
+
+    @staticmethod
+    def cm_profile(path):
+        path.write_text('{"stature_m": 172}')
+        return path
+
+    @unittest.skipUnless((SHARED / "data" / "field" / "charts").is_dir(), f"no published charts at {SHARED}")
+    def test_published_charts_are_read(self):
+        charts = SHARED / "data" / "field" / "charts"
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "measures.json"
+
+            def best(chart, **inches):
+                path.write_text(json.dumps({key: 0.0254 * value for key, value in inches.items()}))
+                result = document(self, "size", path, "--chart", charts / chart, "--garment", "x", "--json")
+                self.assertAlmostEqual(sum(s["probability"] for s in result["sizes"]), 1, places=4)
+                return result["sizes"][0]["label"]
+
+            trousers = {"waist_girth_m": 36, "hip_girth_m": 42, "inside_leg_m": 32}
+            self.assertEqual(best("mens-bottoms.json", **trousers), "L")
+            self.assertEqual(best("mens-bottoms.json", inside_leg_m=31.2), "XS")
+            child = {"chest_girth_m": 20.9, "waist_girth_m": 20.9}
+            self.assertEqual(best("toddler.json", **child, stature_m=34), "2T")
+            self.assertEqual(best("toddler.json", **child, stature_m=36), "3T")
+            self.check_failure(
+                run("size", charts / "cm.json", "--chart", "en13402_men", "--garment", "short_sleeves"),
+                "centimetres",
+            )
+
     def test_a_profile_is_kept_and_merged(self):
         with tempfile.TemporaryDirectory() as folder:
             first, both = pathlib.Path(folder) / "first.json", pathlib.Path(folder) / "both.json"
@@ -374,6 +450,24 @@ class Contract(unittest.TestCase):
             self.check_failure(run("measure", path, "--json"), "more than one person")
         for wrong in ("", "0", "256", "-1", "tallest", "1.5", "99999999999"):
             self.assertEqual(run("track", VIRTUAL, "--active", wrong).returncode, 2, wrong)
+
+    def test_a_refused_scan_counts_its_reasons(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "rec"
+            document(self, "record", VIRTUAL, path, "--frames", 20, "--json")
+            head, *rows = (path / "joints.csv").read_text().splitlines(keepends=True)
+            # Two people in frames 0 to 11, none in the others.
+            rows = [r for r in rows if int(r.split(",")[0]) < 12]
+            twice = [r + r.replace(",1,", ",2,", 1) for r in rows]
+            (path / "joints.csv").write_text(head + "".join(twice))
+            reasons = "12 of 20 frames: more than one person is in view; 8: no person is in view"
+            picture = pathlib.Path(folder) / "depth.png"
+            for args in (
+                ("measure", path, "--json"),
+                ("fit", path, "--draft", "--out", pathlib.Path(folder) / "out"),
+                ("plot", path, "--what", "depth", "--out", picture),
+            ):
+                self.check_failure(run(*args), f"no frame could be used: {reasons}")
 
     def test_a_pause_in_the_time_stamps_costs_no_time(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -784,7 +878,7 @@ class Contract(unittest.TestCase):
             chart.write_text(
                 '{"format": "vfit-size-chart", "version": 1, "name": "x", "unit": "cm", "garments": [{"kind": '
                 '"dress", "measures": ["stature_m"], "sizes": [{"label": "S", "ranges": {"stature_m": '
-                '[150, 170]}}, {"label": "M", "ranges": {"stature_m": [160, 180]}}]}]}'
+                '[150, 170]}}, {"label": "M", "ranges": {"stature_m": [140, 180]}}]}]}'
             )
             self.check_failure(
                 run("size", measures, "--chart", chart, "--garment", "dress"), "dress", "M", str(chart)

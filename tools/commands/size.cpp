@@ -1,4 +1,5 @@
 // vfit size: labels with probabilities from a file of measures, and how a size sits.
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -17,10 +18,34 @@ namespace {
 // often.
 constexpr double kSure = 0.7;
 
+// A body is outside a range where it is likelier than not to be.
+constexpr double kOutside = 0.5;
+
 struct Options {
     std::string measures, chart, garment, label;
     bool json = false;
 };
+
+/// A label of a table serves several ranges: none of them can be told by measure.
+bool has_one_range(vfit_size_chart chart, const std::string& garment, const std::string& label) {
+    const auto rows = list<vfit_size_row>([&](auto* items, uint32_t stride, uint32_t* n) {
+        return vfit_size_chart_rows(chart, items, stride, n);
+    });
+    return std::count_if(rows.begin(), rows.end(), [&](const vfit_size_row& row) {
+               return garment == row.garment_kind && label == row.label;
+           }) == 1;
+}
+
+/// {"chest_girth_m": "above"}: measures of the body that lie outside the ranges of a label.
+Json outside_json(const Json& zones) {
+    Json out = Json::object();
+    for (const auto& [key, zone] : zones.items())
+        if (zone["tight"] > kOutside)
+            out[key] = "above";
+        else if (zone["loose"] > kOutside)
+            out[key] = "below";
+    return out;
+}
 
 Json size(const Options& options) {
     const StoredMeasures stored = measurements_from(read_text(options.measures));
@@ -35,6 +60,12 @@ Json size(const Options& options) {
     if (sizes.size() > 1 && best < kSure) {
         const double second = sizes[1]["probability"];
         if (best + second >= kSure) out["between"] = {sizes[0]["label"], sizes[1]["label"]};
+    }
+    const std::string label = sizes[0]["label"];
+    if (has_one_range(chart.get(), options.garment, label)) {
+        const Json outside =
+            outside_json(zones_json(chart.get(), options.garment, label, stored.measurements));
+        if (!outside.empty()) out["outside"] = outside;
     }
     if (!options.label.empty()) {
         out["label"] = options.label;
@@ -52,22 +83,33 @@ std::string amount(const std::string& key, double value) {
     return out.str();
 }
 
-void print(const Json& result) {
+/// Columns that a text takes: UTF-8 characters, not bytes.
+size_t columns(const std::string& text) {
+    return size_t(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+}
+
+std::string padded(const std::string& text, size_t width) {
+    return text + std::string(width - columns(text), ' ');
+}
+
+void print_labels(const Json& sizes) {
     // A chart of two axes has a hundred labels.
     constexpr double kNotWorthALine = 0.0005;
-    for (const Json& s : result["sizes"])
+    size_t width = 0;
+    for (const Json& s : sizes)
+        if (s["probability"] >= kNotWorthALine) width = std::max(width, columns(s["label"]));
+    for (const Json& s : sizes)
         if (s["probability"] >= kNotWorthALine)
-            std::cout << std::left << std::setw(8) << s["label"].get<std::string>() << std::right
-                      << std::fixed << std::setprecision(1) << std::setw(5)
-                      << 100.0 * s["probability"].get<double>() << " %\n";
-    if (result.contains("between"))
-        std::cout << "between " << result["between"][0].get<std::string>() << " and "
-                  << result["between"][1].get<std::string>() << "\n";
-    if (!result.contains("zones")) return;
-    std::cout << "size " << result["label"].get<std::string>() << ":\n";
-    for (const auto& [key, zone] : result["zones"].items()) {
+            std::cout << padded(s["label"], width) << std::right << std::fixed << std::setprecision(1)
+                      << std::setw(7) << 100.0 * s["probability"].get<double>() << " %\n";
+}
+
+void print_zones(const Json& zones) {
+    size_t width = 0;
+    for (const auto& [key, zone] : zones.items()) width = std::max(width, columns(key));
+    for (const auto& [key, zone] : zones.items()) {
         const double ease = zone["ease"];
-        std::cout << "  " << std::left << std::setw(20) << key << amount(key, ease)
+        std::cout << "  " << padded(key, width) << "  " << amount(key, ease)
                   << (ease < 0.0 ? " short of" : " more than") << " the middle of the size (+- "
                   << amount(key, zone["sigma"]) << "):";
         for (const char* how : {"tight", "regular", "loose"})
@@ -75,6 +117,20 @@ void print(const Json& result) {
                       << 100.0 * zone[how].get<double>() << " %";
         std::cout << "\n";
     }
+}
+
+void print(const Json& result) {
+    print_labels(result["sizes"]);
+    if (result.contains("between"))
+        std::cout << "between " << result["between"][0].get<std::string>() << " and "
+                  << result["between"][1].get<std::string>() << "\n";
+    if (result.contains("outside"))
+        for (const auto& [key, side] : result["outside"].items())
+            std::cout << key << " is " << side.get<std::string>() << " the range of "
+                      << result["sizes"][0]["label"].get<std::string>() << "\n";
+    if (!result.contains("zones")) return;
+    std::cout << "size " << result["label"].get<std::string>() << ":\n";
+    print_zones(result["zones"]);
 }
 
 }  // namespace
