@@ -28,7 +28,7 @@ namespace Vfit.Tests
                 context.Plugins();
                 Assert.IsTrue(context.NextLog(out level, out line));
                 Assert.AreEqual(LogLevel.Warning, level);
-                Assert.That(line, Is.StringContaining("vfit_broken"));
+                StringAssert.Contains("vfit_broken", line);
                 Assert.IsFalse(context.NextLog(out level, out line));
                 Assert.AreEqual("", line);
             }
@@ -40,7 +40,8 @@ namespace Vfit.Tests
             var lines = new List<string>();
             using (var context = new Context(Warned((level, message) => lines.Add(level + " " + message)))) context.Plugins();
             Assert.That(lines, Has.Count.EqualTo(1));
-            Assert.That(lines[0], Is.StringStarting("Warning ").And.StringContaining("vfit_broken"));
+            StringAssert.StartsWith("Warning ", lines[0]);
+            StringAssert.Contains("vfit_broken", lines[0]);
         }
 
         [Test]

@@ -136,7 +136,7 @@ namespace Vfit.Unity.Tests
             room.settings.sensor = "recording:/nowhere";
             room.gameObject.SetActive(true);
             Assert.AreEqual(FittingState.Failed, room.State);
-            Assert.That(room.Error, Is.StringContaining("nowhere"));
+            StringAssert.Contains("nowhere", room.Error);
             Assert.IsFalse(room.enabled);
             RunUntil(FittingState.Off, 5);
             Assert.AreEqual(1, Debug.lines.Count(l => l.StartsWith("error")));
@@ -152,7 +152,7 @@ namespace Vfit.Unity.Tests
             room.humanoid = new GameObject("robot").AddComponent<Animator>();
             room.gameObject.SetActive(true);
             Assert.AreEqual(FittingState.Failed, room.State);
-            Assert.That(room.Error, Is.StringContaining("robot"));
+            StringAssert.Contains("robot", room.Error);
         }
 
         [Test]
@@ -215,11 +215,11 @@ namespace Vfit.Unity.Tests
             inspector.OnInspectorGUI();
             GUILayout.clicked = "virtual:";
             inspector.OnInspectorGUI();
-            Assert.That(room.settings.sensor, Is.StringStarting("virtual:"));
+            StringAssert.StartsWith("virtual:", room.settings.sensor);
             Application.isPlaying = true;
             inspector.OnInspectorGUI();
             Application.isPlaying = false;
-            Assert.That(UnityEditor.EditorGUILayout.boxes.Last(), Is.StringContaining("Off"));
+            StringAssert.Contains("Off", UnityEditor.EditorGUILayout.boxes.Last());
         }
 
         [Test]
