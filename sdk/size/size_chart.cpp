@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kVersion = 1;
 constexpr size_t kLongestName = 31;  // vfit_size.label and vfit_size_row.garment_kind hold 32 bytes
-constexpr size_t kMostRows = 4096;   // of a garment
+constexpr size_t kMaxRows = 4096;    // of a garment
 
 /// What a number of the chart is worth in the measure's own unit.
 struct Units {
@@ -72,8 +72,8 @@ std::vector<std::string> parse_measures(const Json& garment, const std::string& 
 
 /// The labels of a garment or an axis, in the chart's order; their ranges follow.
 std::vector<SizeRow> parse_labels(const Json& sizes, const std::string& where) {
-    if (sizes.size() > kMostRows)
-        fail(VFIT_ERROR_DATA, "size chart: ", where, " has more than ", kMostRows, " sizes");
+    if (sizes.size() > kMaxRows)
+        fail(VFIT_ERROR_DATA, "size chart: ", where, " has more than ", kMaxRows, " sizes");
     std::vector<SizeRow> rows;
     for (const Json& item : sizes) {
         require_object(item, text("a size of ", where));
@@ -164,8 +164,8 @@ void parse_axes(const Json& item, const Units& units, const std::string& where, 
         const std::string& key = string_field(axis, "measure", text("an axis of ", where));
         require_new_measure(key, where, garment);
         const std::vector<SizeRow> steps = parse_axis(axis, key, units, text(where, ", axis ", key));
-        if (rows.size() * steps.size() > kMostRows)
-            fail(VFIT_ERROR_DATA, "size chart: ", where, " has more than ", kMostRows, " sizes");
+        if (rows.size() * steps.size() > kMaxRows)
+            fail(VFIT_ERROR_DATA, "size chart: ", where, " has more than ", kMaxRows, " sizes");
         std::vector<SizeRow> longer;
         for (const SizeRow& row : rows)
             for (const SizeRow& step : steps) {
@@ -215,8 +215,8 @@ void parse_table(const Json& item, const Units& units, const std::string& where,
     if (labels.size() != rows.size())
         fail(VFIT_ERROR_DATA, "size chart: \"labels\" of ", where, " has ", labels.size(), " rows, not ",
              rows.size());
-    if (rows.size() * columns.size() > kMostRows)
-        fail(VFIT_ERROR_DATA, "size chart: ", where, " has more than ", kMostRows, " sizes");
+    if (rows.size() * columns.size() > kMaxRows)
+        fail(VFIT_ERROR_DATA, "size chart: ", where, " has more than ", kMaxRows, " sizes");
     for (size_t r = 0; r < rows.size(); ++r) {
         if (!labels[r].is_array() || labels[r].size() != columns.size())
             fail(VFIT_ERROR_DATA, "size chart: row ", r + 1, " of \"labels\" of ", where,

@@ -286,6 +286,17 @@ TEST(SizeChart, NamesTheKindsThatItHas) {
     }
 }
 
+TEST(SizeChart, ReadsTheExampleOfItsPage) {
+    std::ifstream in(VFIT_SOURCE_DIR "/docs/size-charts.md");
+    std::stringstream page;
+    page << in.rdbuf();
+    const std::string fence = "```json\n", text = page.str();
+    const size_t begin = text.find(fence) + fence.size();
+    ASSERT_LT(begin, text.size());
+    const SizeChart chart = SizeChart::parse(text.substr(begin, text.find("```", begin) - begin));
+    for (const char* kind : {"trousers", "jeans", "wetsuit", "cap"}) EXPECT_NO_THROW(chart.garment(kind));
+}
+
 TEST(SizeChart, ShipsChartsThatFollowTheRules) {
     int charts = 0;
     for (const auto& file : std::filesystem::directory_iterator(VFIT_SOURCE_DIR "/assets/charts")) {
