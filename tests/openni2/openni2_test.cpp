@@ -260,6 +260,47 @@ TEST_F(OpenNi2Test, AFilePlaysAPartAndAgainAndAgain) {
     EXPECT_EQ(vfit_sensor_set_option(sensor, "start", "100000"), VFIT_ERROR_ARGUMENT);
 }
 
+TEST_F(OpenNi2Test, AFileTakesOptionsInItsUri) {
+    const std::string file = path("all.oni").string();
+    for (const std::string& source : {file, "oni:" + file, "openni2:" + file}) {
+        const vfit_sensor sensor = open(source + "?start=10&count=5&color=1");
+        vfit_result end = VFIT_OK;
+        const auto part = play(sensor, &end);
+        EXPECT_EQ(end, VFIT_END_OF_STREAM) << last_error();
+        ASSERT_EQ(part.size(), 5u) << source;
+        EXPECT_EQ(part.begin()->first, 10);
+        EXPECT_EQ(part.rbegin()->first, 14);
+        EXPECT_FALSE(part.rbegin()->second.color.empty());
+    }
+    const vfit_sensor loop = open("openni2:" + file + "?loop=1&start=10&count=4");
+    ASSERT_EQ(vfit_sensor_start(loop), VFIT_OK) << last_error();
+    int64_t last_ns = 0;
+    for (int i = 0; i < 10; ++i) {
+        vfit_frame frame{};
+        ASSERT_EQ(vfit_sensor_acquire(loop, 20'000'000'000, &frame), VFIT_OK) << last_error();
+        EXPECT_EQ(index_of(frame), 10 + i % 4);
+        const int64_t time_ns = image_of(frame).time_ns;
+        EXPECT_GT(time_ns, last_ns);
+        last_ns = time_ns;
+        vfit_frame_release(frame);
+    }
+    for (const char* value : {"-1", "abc", "100000", ""})
+        refused(file + "?start=" + value, VFIT_ERROR_ARGUMENT,
+                "option start: '" + std::string(value) + "' is not a whole number in 0..");
+    refused("oni:" + file + "?exposure=1", VFIT_ERROR_UNSUPPORTED, "loop, start, count");
+    refused("openni2:" + file + "?start=1&start=2", VFIT_ERROR_ARGUMENT, "option start: is given twice");
+    refused("openni2:" + file + "?=2", VFIT_ERROR_ARGUMENT, "has no key");
+    refused("oni:" + file + "?mode=1x1@1", VFIT_ERROR_ARGUMENT, "'1x1@1'");
+}
+
+TEST_F(OpenNi2Test, ADeviceTakesOptionsInItsUri) {
+    for (const auto& [index, image] : play(open("openni2:virtual-person?color=0"), nullptr, 6))
+        EXPECT_TRUE(image.color.empty());
+    EXPECT_EQ(play(open("openni2:?pace=none"), nullptr, 3).size(), 3u);
+    refused("openni2:virtual-person?start=1", VFIT_ERROR_UNSUPPORTED, "'start'");
+    refused("openni2:?registration=2", VFIT_ERROR_ARGUMENT, "'2'");
+}
+
 TEST_F(OpenNi2Test, InRealTimeAFileLastsAsLongAsItsRecording) {
     const vfit_sensor sensor = open(path("all.oni").string());
     ASSERT_EQ(vfit_sensor_set_option(sensor, "pace", "realtime"), VFIT_OK) << last_error();
