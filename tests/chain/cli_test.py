@@ -382,6 +382,94 @@ class Contract(unittest.TestCase):
                 self.assertAlmostEqual(m["value"], replay[key]["value"], places=3, msg=key)
             self.check_failure(run("record", VIRTUAL, path, "--frames", 1), str(path))
 
+    def test_a_source_takes_options_in_its_uri(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "rec"
+            document(self, "record", VIRTUAL, path, "--frames", 12, "--json")
+
+            def bodies(source):
+                return [frame["bodies"] for frame in lines(self, "track", source, "--json")]
+
+            whole = bodies(path)
+            self.assertEqual(len(whole), 12)
+            self.assertEqual(bodies(f"recording:{path}?start=5"), whole[5:])
+            self.assertEqual(bodies(f"recording:{path}?start=5&count=4"), whole[5:9])
+            self.assertEqual(bodies(f"{path}?start=5&count=4"), whole[5:9])
+            self.assertEqual(bodies(f"{path}?"), whole)
+            fitted = document(
+                self,
+                "fit",
+                f"recording:{path}?start=5",
+                "--draft",
+                "--out",
+                path.with_name("out"),
+                "--json",
+            )
+            self.assertEqual(fitted["frames"], 7)
+            few = VIRTUAL.replace("60", "3").split(":")[1]
+            self.assertEqual(bodies("virtual:?" + few), bodies("virtual:" + few))
+
+    def test_a_looped_recording_plays_again_and_again(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path, again = pathlib.Path(folder) / "rec", pathlib.Path(folder) / "again"
+            document(self, "record", VIRTUAL, path, "--frames", 12, "--json")
+
+            def measured(query):
+                source = f"recording:{path}?{query}"
+                return document(self, "measure", source, "--method", "paper", "--json")["frames"]
+
+            self.assertEqual((measured("start=5"), measured("loop=1&start=5")), (7, 30))
+            document(self, "record", f"{path}?loop=1&start=9", again, "--frames", 10, "--json")
+            for i in range(10):
+                self.assertEqual(
+                    (again / "depth" / f"{i:06}.png").read_bytes(),
+                    (path / "depth" / f"{9 + i % 3:06}.png").read_bytes(),
+                    i,
+                )
+            rows = (again / "timestamps.csv").read_text().splitlines()[1:]
+            times = [int(row.split(",")[1]) for row in rows]
+            self.assertEqual(len(times), 10)
+            self.assertTrue(all(a < b for a, b in zip(times, times[1:])), times)
+
+    def test_a_wrong_option_of_a_source_is_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "rec"
+            document(self, "record", VIRTUAL, path, "--frames", 12, "--json")
+            for query, *words in (
+                ("start=-1", "start", "'-1'", "0..11"),
+                ("start=abc", "start", "'abc'", "0..11"),
+                ("start=99999", "start", "'99999'", "0..11"),
+                ("start=12", "start", "'12'", "0..11"),
+                ("loop=yes", "loop", "'yes'", "0..1"),
+                ("pace=fast", "pace", "'fast'", "realtime"),
+                ("volume=1", "'volume'", "loop, start, count"),
+                ("start=1&start=2", "start", "'1'", "'2'", "once"),
+                ("=5", "'=5'", "no key", "KEY=VALUE"),
+                ("loop", "'loop'", "no value", "KEY=VALUE"),
+            ):
+                for source in (f"recording:{path}?{query}", f"{path}?{query}"):
+                    with self.subTest(source):
+                        self.check_failure(run("measure", source, "--json"), *words)
+            self.check_failure(run("measure", f"{path}x?start=1"), f"{path}x?start=1", "recording")
+        self.check_failure(run("measure", VIRTUAL + "&volume=1"), "'volume'", "seed", "shape keys")
+        self.check_failure(run("measure", VIRTUAL + "&seed=4"), "seed", "'3'", "'4'", "once")
+
+    @unittest.skipIf(os.name == "nt", "a path of Windows has no question mark")
+    def test_a_path_with_a_question_mark_is_opened_as_it_is_or_encoded(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "rec?start=9"
+            document(self, "record", VIRTUAL, path, "--frames", 12, "--json")
+            encoded = str(path).replace("?", "%3F")
+            for source, count in (
+                (path, 12),
+                (f"{path}?start=10", 2),
+                (f"recording:{encoded}", 12),
+                (f"recording:{encoded}?count=5", 5),
+            ):
+                self.assertEqual(len(lines(self, "track", source, "--json")), count, source)
+            self.check_failure(run("track", f"recording:{path}"), f"{folder}/rec", "no such folder")
+            self.check_failure(run("track", encoded), encoded)
+
     def test_a_person_who_leaves_and_returns_does_not_end_the_chain(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "rec"
