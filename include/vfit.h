@@ -407,8 +407,14 @@ VFIT_API vfit_result vfit_sensor_list(vfit_context context, vfit_sensor_info* it
 /* Rises when the list may have become another: a USB camera of a kind that a plug-in knows was plugged in or
  * unplugged, a plug-in was loaded. Cheap: ask each frame, and list again when it has changed.  [any] */
 VFIT_API vfit_result vfit_sensor_changes(vfit_context context, uint64_t* count);
+/* Opens a source: a path, or a URI "SCHEME:ADDRESS?KEY=VALUE&KEY=VALUE", such as
+ * "recording:PATH?loop=1&start=5", "oni:PATH?start=3" or "openni2:?registration=0". The virtual person has no
+ * address: "virtual:motion=demo&sex=f". Each option is set, and fails, as by vfit_sensor_set_option; a key
+ * stands at most once. %XX is one byte: %3F is a ? in a path, %26 an & in a value. A path is not decoded: an
+ * existing folder is a recording, an existing file goes by its extension, and options may follow:
+ * "PATH?start=5". The longest existing path counts, so that a path that exists as written has no options.
+ * [any] */
 VFIT_API vfit_result vfit_sensor_open(vfit_context context, const char* uri, vfit_sensor* out);
-/* [any] */
 VFIT_API vfit_result vfit_sensor_modes(vfit_sensor sensor, vfit_sensor_mode* items, uint32_t stride,
                                        uint32_t* count); /* [read] */
 VFIT_API vfit_result vfit_sensor_options(vfit_sensor sensor, vfit_sensor_option* items, uint32_t stride,

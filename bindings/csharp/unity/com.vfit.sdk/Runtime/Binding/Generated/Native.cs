@@ -160,10 +160,16 @@ namespace Vfit
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_sensor_changes(ContextId context, ulong* count);
 
+        /// <summary>Opens a source: a path, or a URI "SCHEME:ADDRESS?KEY=VALUE&amp;KEY=VALUE", such as
+        /// "recording:PATH?loop=1&amp;start=5", "oni:PATH?start=3" or "openni2:?registration=0". The virtual person has no
+        /// address: "virtual:motion=demo&amp;sex=f". Each option is set, and fails, as by vfit_sensor_set_option; a key
+        /// stands at most once. %XX is one byte: %3F is a ? in a path, %26 an &amp; in a value. A path is not decoded: an
+        /// existing folder is a recording, an existing file goes by its extension, and options may follow: "PATH?start=5".
+        /// The longest existing path counts, so that a path that exists as written has no options. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_sensor_open(ContextId context, byte* uri, SensorId* @out);
 
-        /// <summary>[any] [read]</summary>
+        /// <summary>[read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_sensor_modes(SensorId sensor, SensorMode* items, uint stride, uint* count);
 
