@@ -667,6 +667,103 @@ class Contract(unittest.TestCase):
             glb = (out / "avatar.glb").read_bytes()
             self.assertEqual(struct.unpack("<4sII", glb[:12]), (b"glTF", 2, len(glb)))
 
+    def test_fit_dresses_by_the_sex_that_the_scan_finds(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for sex, outfit in (("f", ["sundress"]), ("m", ["pants_men", "shirt_men"])):
+                person = f"virtual:motion=scan&sex={sex}&sensor=kinect_v1_320&seed=3&frames=40"
+                result = document(self, "fit", person, "--draft", "--frames", 2, "--out", folder, "--json")
+                self.assertEqual((result["sex"]["value"], result["sex"]["told"]), (sex, False))
+                self.assertGreater(result["sex"]["probability"], 0.5)
+                self.assertEqual(result["garment"], "+".join(outfit))
+                self.assertEqual([g["garment"] for g in result["garments"]], outfit)
+                self.assertEqual(result["method"], "fit")
+            told = document(
+                self, "fit", person, "--sex", "f", "--draft", "--frames", 2, "--out", folder, "--json"
+            )
+            self.assertEqual(told["sex"], {"value": "f", "probability": 1.0, "told": True})
+            self.assertEqual(told["garment"], "sundress")
+
+    def test_every_bundled_garment_is_listed_sized_and_worn(self):
+        listed = document(self, "fit", "--garment", "list", "--json")
+        names = [g["garment"] for g in listed]
+        self.assertEqual(names, sorted(p.stem for p in GARMENTS.glob("*.json")))
+        self.assertEqual(len(run("fit", "--garment", "list").stdout.splitlines()), len(names))
+        with tempfile.TemporaryDirectory() as folder:
+            for garment in listed:
+                person = (
+                    f"virtual:motion=scan&sex={garment['made_for']}&sensor=kinect_v1_320&seed=3&frames=40"
+                )
+                result = document(
+                    self,
+                    "fit",
+                    person,
+                    "--garment",
+                    garment["garment"],
+                    "--draft",
+                    "--frames",
+                    2,
+                    "--out",
+                    folder,
+                    "--json",
+                )
+                worn = result["garments"][0]
+                self.assertEqual((worn["kind"], worn["chart"]), (garment["kind"], garment["chart"]))
+                self.assertAlmostEqual(sum(s["probability"] for s in worn["sizes"]), 1.0, places=3)
+                self.assertTrue(set(garment["sizes"]) <= {s["label"] for s in worn["sizes"]}, garment)
+
+    def test_fit_says_in_every_place_whether_cloth_is_torn(self):
+        for source in [VIRTUAL, *RECORDINGS[:2]]:
+            with tempfile.TemporaryDirectory() as folder:
+                done = run("fit", source, "--draft", "--out", folder)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                result = json.loads((pathlib.Path(folder) / "result.json").read_text())
+                self.assertEqual(result["torn"], result["worst_strain"]["strain"] > 1.0, source)
+                self.assertEqual(result["torn"], "TORN" in done.stdout, source)
+                self.assertEqual(result["torn"], "warning" in result, source)
+                self.assertGreaterEqual(
+                    result["worst_strain"]["strain"], result["cloth"]["strain_max"] - 1e-6
+                )
+
+    def test_fit_takes_outfits_charts_and_kinds(self):
+        person = "virtual:motion=scan&sex=m&sensor=kinect_v1_320&seed=3&frames=40"
+        quick = ("--draft", "--frames", 2)
+        with tempfile.TemporaryDirectory() as folder:
+            result = document(
+                self,
+                "fit",
+                person,
+                *quick,
+                "--garment",
+                "pants_men+vest",
+                "--chart",
+                "paper",
+                "--kind",
+                "short_sleeves",
+                "--method",
+                "paper",
+                "--out",
+                folder,
+                "--json",
+            )
+            self.assertEqual([g["chart_kind"] for g in result["garments"]], ["short_sleeves"] * 2)
+            self.assertEqual((result["chart"], result["method"]), ("paper", "paper"))
+            layers = [g["cloth"]["vertices"] for g in result["garments"]]
+            self.assertEqual(result["cloth"]["vertices"], sum(layers))
+            glb = (pathlib.Path(folder) / "avatar.glb").read_bytes()
+            for name in ("pants_men", "vest"):
+                self.assertIn(b'"' + name.encode() + b'"', glb)
+            out = ("--out", folder)
+            # A chart that the user names must know the garment; the one that a garment names always does.
+            self.check_failure(
+                run("fit", person, *quick, "--garment", "duster", "--chart", "paper", *out), "paper", "jacket"
+            )
+            self.check_failure(run("fit", person, *quick, "--garment", "vest+", *out), "vest+")
+            self.check_failure(run("fit", person, *quick, "--garment", "vest+toga", *out), "toga", "sundress")
+        for lacking, word in ((("fit", "--out", "x"), "source"), (("fit", person), "--out")):
+            done = run(*lacking)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn(word, done.stderr)
+
     def test_a_garment_size_changes_the_dress(self):
         with tempfile.TemporaryDirectory() as folder:
             result = document(
@@ -869,6 +966,8 @@ class Contract(unittest.TestCase):
             VFIT,
             "measure",
             VIRTUAL.replace("demo", "scan").replace("frames=60", "pace=realtime"),
+            "--method",
+            "paper",
             "--frames",
             "60",
             "--json",

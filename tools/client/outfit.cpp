@@ -76,12 +76,12 @@ void WornOutfit::look_at_strain() {
     }
 }
 
-std::string WornOutfit::warning() const {
-    if (worst_.strain <= kMaxPlausibleStrain) return "";
+std::string WornOutfit::warning_of(const Worst& worst) {
+    if (worst.strain <= kMaxPlausibleStrain) return "";
     char text[200];
     std::snprintf(text, sizeof text,
                   "TORN: %s stretched to %.1f times its length after %.1f s; not a valid fit",
-                  worst_.garment.c_str(), 1.0 + worst_.strain, worst_.time_s);
+                  worst.garment.c_str(), 1.0 + worst.strain, worst.time_s);
     return text;
 }
 

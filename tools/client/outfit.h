@@ -45,8 +45,9 @@ public:
         std::string garment;
     };
     const Worst& worst() const { return worst_; }
-    /// Empty, or a sentence in capitals on the largest strain, where it exceeds kMaxPlausibleStrain.
-    std::string warning() const;
+    /// Empty, or a sentence on the largest strain, where it exceeds kMaxPlausibleStrain.
+    static std::string warning_of(const Worst& worst);
+    std::string warning() const { return warning_of(worst_); }
 
 private:
     void look_at_strain();
