@@ -154,6 +154,10 @@ vfit_scan_method scan_method_from(const std::string& option) {
     return option == "paper-as-printed" ? VFIT_SCAN_PROPORTIONS_AS_PRINTED : VFIT_SCAN_PROPORTIONS;
 }
 
+const char* sex_text(vfit_sex sex) {
+    return sex == VFIT_SEX_FEMALE ? "f" : sex == VFIT_SEX_MALE ? "m" : "unknown";
+}
+
 vfit_sex sex_from(const std::string& option) {
     return option == "f" ? VFIT_SEX_FEMALE : option == "m" ? VFIT_SEX_MALE : VFIT_SEX_UNKNOWN;
 }

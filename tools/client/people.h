@@ -53,6 +53,8 @@ Json zones_json(vfit_size_chart chart, const std::string& garment_kind, const st
                 const std::vector<vfit_measurement>& measurements);
 
 vfit_sex sex_from(const std::string& option);
+/// "f", "m" or "unknown".
+const char* sex_text(vfit_sex sex);
 /// "fit", "paper" or "paper-as-printed".
 vfit_scan_method scan_method_from(const std::string& option);
 

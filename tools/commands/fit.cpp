@@ -235,12 +235,11 @@ Json fit(const Options& options) {
                      {"told", chain.scan.sex != VFIT_SEX_UNKNOWN}};
     result["scan_frames"] = fitting.scan().frames_taken;
     result["measurements"] = measurements_json(measurements_of(fitting.scan().scan.get()));
+    // Algorithm 3 knows the paper's three kinds; of another kind there is no scale.
     vfit_scale scale = vfit_scale_init();
-    // Algorithm 3 knows the paper's three kinds.
-    const bool scaled =
-        vfit_scan_scale(fitting.scan().scan.get(), fitting.outfit().layers().back().info.garment_kind,
-                        &scale) == VFIT_OK;
-    result["scale"] = scaled ? Json{{"x", scale.x}, {"y", scale.y}} : Json();
+    if (vfit_scan_scale(fitting.scan().scan.get(), fitting.outfit().layers().back().info.garment_kind,
+                        &scale) == VFIT_OK)
+        result["scale"] = {{"x", scale.x}, {"y", scale.y}};
     result["garments"] = garments;
     add_whole_outfit(result, garments);
     const WornOutfit::Worst& worst = fitting.outfit().worst();
