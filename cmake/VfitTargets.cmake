@@ -17,7 +17,7 @@ set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 
 # For programs around the library whose own speed does not matter but whose templates are slow to compile: little
 # optimisation, and these headers (or REUSE_FROM a target with the same options) compiled once.
-function(vfit_quick_to_compile target)
+function(vfit_precompiled_headers target)
   if(NOT MSVC)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
@@ -28,34 +28,31 @@ function(vfit_quick_to_compile target)
   endif()
 endfunction()
 
-# Several sources at once, so that their headers are read once.
-function(vfit_together target)
+# With VFIT_UNITY_BUILD, several sources of the target in one translation unit, so that their headers are read
+# once. The option is for speed alone: sources need not avoid each other's names in unnamed namespaces, and those
+# that clash are listed here or marked SKIP_UNITY_BUILD_INCLUSION.
+function(vfit_unity_build target)
+  set(without vfit_math vfit_motion)  # code for several SIMD targets, or the same names in several sources
+  if(NOT VFIT_UNITY_BUILD OR target IN_LIST without)
+    return()
+  endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
   # An unnamed namespace is then one of an included file, which GCC warns of.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
-# The library's own sources too, unless somebody works on them.
-function(vfit_together_in_the_library target)
-  # These hold code for several SIMD targets, or the same names in several sources.
-  set(apart vfit_math vfit_motion)
-  if(VFIT_UNITY_BUILD AND NOT target IN_LIST apart)
-    vfit_together(${target})
-  endif()
-endfunction()
-
-# One room of sdk/ as a static library vfit_<room>: every .cpp in it. Further arguments: what it links.
-function(vfit_add_room room)
-  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/sdk/${room}/*.cpp)
+# One module of sdk/ as a static library vfit_<module>: every .cpp in it. Further arguments: what it links.
+function(vfit_add_module module)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/sdk/${module}/*.cpp)
   if(NOT sources)
-    add_library(vfit_${room} INTERFACE)
-    target_link_libraries(vfit_${room} INTERFACE ${ARGN})
+    add_library(vfit_${module} INTERFACE)
+    target_link_libraries(vfit_${module} INTERFACE ${ARGN})
     return()
   endif()
-  add_library(vfit_${room} STATIC ${sources})
-  target_include_directories(vfit_${room} PUBLIC ${CMAKE_SOURCE_DIR}/sdk ${CMAKE_SOURCE_DIR}/include)
-  target_link_libraries(vfit_${room} PRIVATE vfit_settings PUBLIC ${ARGN})
-  vfit_together_in_the_library(vfit_${room})
+  add_library(vfit_${module} STATIC ${sources})
+  target_include_directories(vfit_${module} PUBLIC ${CMAKE_SOURCE_DIR}/sdk ${CMAKE_SOURCE_DIR}/include)
+  target_link_libraries(vfit_${module} PRIVATE vfit_settings PUBLIC ${ARGN})
+  vfit_unity_build(vfit_${module})
 endfunction()
 
 # A program of tests. Under sanitizers its own templates would take most of the time to compile: undefined behaviour is
@@ -69,24 +66,24 @@ function(vfit_test_program target)
   endif()
   target_compile_definitions(${target} PRIVATE VFIT_SOURCE_DIR="${CMAKE_SOURCE_DIR}" VFIT_DATA_DIR="${VFIT_DATA_DIR}"
     VFIT_PLUGIN_DIR="${CMAKE_BINARY_DIR}/lib/vfit_plugins")
-  vfit_together(${target})
+  vfit_unity_build(${target})
   if(target STREQUAL unit_core)
-    vfit_quick_to_compile(${target} <gtest/gtest.h> <algorithm> <string> <vector>)
+    vfit_precompiled_headers(${target} <gtest/gtest.h> <algorithm> <string> <vector>)
   else()
-    vfit_quick_to_compile(${target} REUSE_FROM unit_core)
+    vfit_precompiled_headers(${target} REUSE_FROM unit_core)
   endif()
 endfunction()
 
-# The unit tests of one room: every .cpp in tests/unit/<room>, as unit_<room>. Further arguments: what they link.
-function(vfit_add_unit_test room)
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/unit/${room}/*.cpp)
+# The unit tests of one module: every .cpp in tests/unit/<module>, as unit_<module>. Further arguments: what they link.
+function(vfit_add_unit_test module)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/unit/${module}/*.cpp)
   if(NOT sources)
     return()
   endif()
-  add_executable(unit_${room} ${sources})
-  target_include_directories(unit_${room} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
-  target_link_libraries(unit_${room} PRIVATE vfit_settings vfit_${room} ${ARGN} GTest::gtest_main)
-  vfit_test_program(unit_${room})
-  add_test(NAME unit_${room} COMMAND unit_${room})
-  set_tests_properties(unit_${room} PROPERTIES LABELS unit)
+  add_executable(unit_${module} ${sources})
+  target_include_directories(unit_${module} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
+  target_link_libraries(unit_${module} PRIVATE vfit_settings vfit_${module} ${ARGN} GTest::gtest_main)
+  vfit_test_program(unit_${module})
+  add_test(NAME unit_${module} COMMAND unit_${module})
+  set_tests_properties(unit_${module} PROPERTIES LABELS unit)
 endfunction()
