@@ -26,7 +26,8 @@ namespace Vfit.Tests
                     ScanState state;
                     complete |= scan.Add(tracked, out state) == Result.Ok;
                     Assert.LessOrEqual(state.FramesTaken, state.FramesWanted);
-                    Assert.AreEqual(Result.Ok, motion.Step(tracked, tracked.ActiveBody(), tracked.View(StreamKind.Depth).TimeNs));
+                    long now = tracked.View(StreamKind.Depth).TimeNs;
+                    Assert.AreEqual(Result.Ok, motion.Step(tracked, tracked.ActiveBody(), now));
                 }
                 Assert.IsTrue(complete);
 
@@ -158,7 +159,8 @@ namespace Vfit.Tests
                 back.Unpack(other, packet, length);
                 Assert.AreEqual(-0.5f, back.Bones[0].Position.X, 1e-3f, "Unity's x is turned round");
                 Assert.AreEqual(pose.Bones[7].Rotation.W, back.Bones[7].Rotation.W, 1e-3f);
-                Assert.AreEqual(Result.ErrorData, Support.CodeOf(() => back.Unpack(other, packet, length / 2)));
+                Assert.AreEqual(
+                    Result.ErrorData, Support.CodeOf(() => back.Unpack(other, packet, length / 2)));
                 Assert.AreEqual(Result.ErrorCapacity, Support.CodeOf(() => pose.Pack(Context, new byte[0])));
 
                 byte[] body = avatar.Pack("M");
@@ -175,14 +177,18 @@ namespace Vfit.Tests
         [Test]
         public void MeasurementsAreKeptReadAndMerged()
         {
-            var list = new[] { Measurements.Known("stature_m", 1.7f, 0.01f), Measurements.Known("chest_girth_m", 0.9f, 0.02f) };
+            var list = new[]
+            {
+                Measurements.Known("stature_m", 1.7f, 0.01f), Measurements.Known("chest_girth_m", 0.9f, 0.02f)
+            };
             string text = Measurements.Write(list, Sex.Female);
             Sex sex;
             Measurement[] back = Measurements.Read(text, out sex);
             Assert.AreEqual(Sex.Female, sex);
             Assert.AreEqual(list.Select(m => m.Key), back.Select(m => m.Key));
             Assert.AreEqual(2, Measurements.Merge(list, back).Length);
-            Assert.AreEqual(0, Measurements.Read("{}", out sex).Length + Measurements.Merge(new Measurement[0], new Measurement[0]).Length);
+            Assert.AreEqual(0, Measurements.Read("{}", out sex).Length);
+            Assert.AreEqual(0, Measurements.Merge(new Measurement[0], new Measurement[0]).Length);
             Assert.AreEqual(Result.ErrorData, Support.CodeOf(() => Measurements.Read("{", out sex)));
         }
 
@@ -191,7 +197,8 @@ namespace Vfit.Tests
         {
             ShapeValue[] shapes = Context.Shapes();
             Assert.Greater(shapes.Length, 100);
-            using (Avatar avatar = Avatar.FromShape(Context, new[] { new ShapeValue { Key = "weight", Value = 0.9f } }))
+            var heavy = new[] { new ShapeValue { Key = "weight", Value = 0.9f } };
+            using (Avatar avatar = Avatar.FromShape(Context, heavy))
             {
                 Assert.Greater(avatar.Measure().Length, 10);
                 Assert.That(avatar.Rig().Select(b => b.Name), Has.No.Member(""));
@@ -230,7 +237,8 @@ namespace Vfit.Tests
                 mesh.Write(StreamKind.Position, wanted);
                 avatar.PoseInto(pose, positions, normals);
                 CollectionAssert.AreEqual(wanted, positions);
-                Assert.AreEqual(Result.ErrorCapacity, Support.CodeOf(() => avatar.PoseInto(pose, new Float3[10], null)));
+                Assert.AreEqual(
+                    Result.ErrorCapacity, Support.CodeOf(() => avatar.PoseInto(pose, new Float3[10], null)));
             }
         }
 
@@ -240,7 +248,8 @@ namespace Vfit.Tests
             string nobody = Path.Combine(Support.TemporaryFolder(), "nobody.gltf");
             File.WriteAllText(nobody, "{\"asset\": {\"version\": \"2.0\"}}");
             Assert.AreEqual(Result.ErrorData, Support.CodeOf(() => Avatar.Load(Context, nobody)));
-            Assert.AreEqual(Result.ErrorData, Support.CodeOf(() => Avatar.Load(Context, File.ReadAllBytes(nobody))));
+            byte[] bytes = File.ReadAllBytes(nobody);
+            Assert.AreEqual(Result.ErrorData, Support.CodeOf(() => Avatar.Load(Context, bytes)));
             Assert.AreEqual(Result.ErrorIo, Support.CodeOf(() => Avatar.Load(Context, nobody + ".vrm")));
             Assert.AreEqual(0u, Context.Stats().HandleCount);
         }

@@ -21,10 +21,12 @@ namespace Vfit.Tests
                 Case(Result.ErrorData, () => Garment.Load(Context, "not json")),
                 Case(Result.ErrorState, () => new Scan(Context).Measure()),
                 Case(Result.ErrorState, () => new Motion(Context).Pose(new BodyPose())),
-                Case(Result.ErrorArgument, () => new Motion(Context, new MotionDesc { Filter = (PositionFilter)99 })),
+                Case(Result.ErrorArgument,
+                     () => new Motion(Context, new MotionDesc { Filter = (PositionFilter)99 })),
                 Case(Result.ErrorArgument, () => new Motion(Context, new MotionDesc { PredictionS = 1 })),
                 Case(Result.ErrorArgument, () => new Scan(Context, new ScanDesc { Sex = (Sex)7 })),
-                Case(Result.ErrorArgument, () => Avatar.FromShape(Context, new[] { new ShapeValue { Key = "wings", Value = 1 } })),
+                Case(Result.ErrorArgument,
+                     () => Avatar.FromShape(Context, new[] { new ShapeValue { Key = "wings", Value = 1 } })),
                 Case(Result.ErrorData, () => Avatar.FromMeasures(Context, new Measurement[0])),
                 Case(Result.ErrorArgument, () => new Context(new ContextOptions { Axes = (Axes)9 })),
                 Case(Result.ErrorArgument, () => new Context(new ContextOptions { WorkerCount = 100000 })),
@@ -58,7 +60,8 @@ namespace Vfit.Tests
                 pose = BodyPose.Rest(new Float3(0, 1, 0));
                 pose.Bones[3].Rotation.X = float.PositiveInfinity;
                 Assert.Throws<VfitException>(() => avatar.Pose(pose));
-                Assert.Throws<VfitException>(() => Avatar.FromMeasures(Context, new[] { Measurements.Known("stature_m", float.NaN) }));
+                Measurement[] bad = { Measurements.Known("stature_m", float.NaN) };
+                Assert.Throws<VfitException>(() => Avatar.FromMeasures(Context, bad));
                 Assert.Throws<VfitException>(() => cloth.HideSkin(new byte[3]));
             }
         }
@@ -75,7 +78,8 @@ namespace Vfit.Tests
                 for (int i = 0; i < 10; i++) cloth.Step(1f / 60f);
                 FitZone[] zones = cloth.Fit();
                 Assert.IsTrue(zones.Length > 0);
-                foreach (FitZone zone in zones) Assert.AreEqual(zone.GarmentM - zone.BodyM, zone.EaseM, 1e-4f);
+                foreach (FitZone zone in zones)
+                    Assert.AreEqual(zone.GarmentM - zone.BodyM, zone.EaseM, 1e-4f);
                 Assert.Throws<VfitException>(() => cloth.SetSize("QQ"));
                 Assert.Throws<VfitException>(() => cloth.FitMap(new float[3]));
                 cloth.SetSize("XL");
@@ -90,7 +94,8 @@ namespace Vfit.Tests
             using (var frame = new Frame(Context))
             {
                 Assert.Throws<ArgumentOutOfRangeException>(() => tracker.Hint(new JointHint[2], 3));
-                Assert.Throws<ArgumentOutOfRangeException>(() => tracker.Submit(frame, default(Body), new Joint[2], -1, frame));
+                Assert.Throws<ArgumentOutOfRangeException>(
+                    () => tracker.Submit(frame, default(Body), new Joint[2], -1, frame));
                 var pose = new BodyPose { Count = 1000 };
                 Assert.Throws<ArgumentOutOfRangeException>(() => pose.Pack(Context, new byte[200]));
                 Assert.Throws<ArgumentOutOfRangeException>(() => pose.Unpack(Context, new byte[10], 11));
@@ -105,12 +110,18 @@ namespace Vfit.Tests
             {
                 avatar.Acquire(mesh);
                 var few = new Float3[8];
-                Assert.AreEqual(Result.ErrorCapacity, Support.CodeOf(() => mesh.Write(StreamKind.Position, few)));
+                Assert.AreEqual(
+                    Result.ErrorCapacity, Support.CodeOf(() => mesh.Write(StreamKind.Position, few)));
                 Assert.AreEqual(0, few[0].Y);
-                Assert.AreEqual(Result.ErrorUnsupported, Support.CodeOf(() => mesh.Write(StreamKind.Position, new int[100000])));
-                Assert.AreEqual(Result.ErrorArgument, Support.CodeOf(() => mesh.Write(StreamKind.Depth, new float[100])));
-                Assert.Throws<ArgumentOutOfRangeException>(() => mesh.Write(StreamKind.Position, (IntPtr)16, -1, Format.F32x3, 0));
-                Assert.Throws<VfitException>(() => mesh.Write(StreamKind.Position, IntPtr.Zero, 1 << 30, Format.F32x3, 0));
+                Assert.AreEqual(
+                    Result.ErrorUnsupported,
+                    Support.CodeOf(() => mesh.Write(StreamKind.Position, new int[100000])));
+                Assert.AreEqual(
+                    Result.ErrorArgument, Support.CodeOf(() => mesh.Write(StreamKind.Depth, new float[100])));
+                Assert.Throws<ArgumentOutOfRangeException>(
+                    () => mesh.Write(StreamKind.Position, (IntPtr)16, -1, Format.F32x3, 0));
+                Assert.Throws<VfitException>(
+                    () => mesh.Write(StreamKind.Position, IntPtr.Zero, 1 << 30, Format.F32x3, 0));
             }
         }
 
@@ -173,7 +184,8 @@ namespace Vfit.Tests
                 Assert.That(Array.Find(sensor.Options(), o => o.Key == "motion").Value, Is.EqualTo("scan"));
                 Assert.Greater(sensor.Modes()[0].Width, 0);
                 sensor.SetOption("frames", "1");
-                Assert.AreEqual(Result.ErrorArgument, Support.CodeOf(() => sensor.SetOption("motion", "fly")));
+                Assert.AreEqual(
+                    Result.ErrorArgument, Support.CodeOf(() => sensor.SetOption("motion", "fly")));
                 int frames = 0;
                 foreach (Frame frame in sensor.Frames()) frames++;
                 Assert.AreEqual(1, frames);

@@ -1,6 +1,7 @@
-// Nothing is allocated on the managed heap in the loop that runs once a rendered frame, and what a call costs.
+// The loop of a rendered frame allocates nothing on the managed heap; the cost of a call.
 using System;
 using System.Diagnostics;
+using System.Runtime.InteropServices;
 using NUnit.Framework;
 
 namespace Vfit.Tests
@@ -39,7 +40,8 @@ namespace Vfit.Tests
             using (var motion = new Motion(Context))
             using (Avatar avatar = Support.MakeAvatar(Context))
             using (Garment garment = Garment.Open(Context, "sundress"))
-            using (Frame frame = new Frame(Context), tracked = new Frame(Context), skin = new Frame(Context), dress = new Frame(Context))
+            using (Frame frame = new Frame(Context), tracked = new Frame(Context))
+            using (Frame skin = new Frame(Context), dress = new Frame(Context))
             {
                 sensor.Start();
                 motion.Bind(avatar);
@@ -83,7 +85,8 @@ namespace Vfit.Tests
                         long now = Context.TimeNs;
                         if (sensor.Acquire(frame, 0) < 0 || now < 0) throw new InvalidOperationException();
                     });
-                    Console.WriteLine("garbage: " + bytes + " bytes in " + Frames + " frames of sensor, tracker, motion, avatar, cloth, buffers");
+                    Console.WriteLine("garbage: " + bytes + " bytes in " + Frames +
+                                      " frames of sensor, tracker, motion, avatar, cloth, buffers");
                     Assert.AreEqual(0, bytes);
                 }
             }
@@ -93,8 +96,7 @@ namespace Vfit.Tests
         public void FramesOfTheHostMakeNoGarbage()
         {
             var depth = new ushort[320 * 240];
-            System.Runtime.InteropServices.GCHandle pin =
-                System.Runtime.InteropServices.GCHandle.Alloc(depth, System.Runtime.InteropServices.GCHandleType.Pinned);
+            GCHandle pin = GCHandle.Alloc(depth, GCHandleType.Pinned);
             using (var frame = new Frame(Context))
             {
                 long bytes = Allocated(1000, i =>
@@ -121,7 +123,8 @@ namespace Vfit.Tests
                 avatar.Acquire(frame);
                 double plain = NanosecondsEach(() => Native.vfit_bone_parent(0));
                 double held = NanosecondsEach(() => frame.View(StreamKind.Position));
-                Console.WriteLine("call: " + plain.ToString("0") + " ns P/Invoke alone, " + held.ToString("0") +
+                Console.WriteLine("call: " + plain.ToString("0") + " ns P/Invoke alone, " +
+                                  held.ToString("0") +
                                   " ns with the handle held and checked (vfit_frame_view)");
                 Assert.Less(held, 20000);
             }

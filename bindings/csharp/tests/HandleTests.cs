@@ -54,18 +54,24 @@ namespace Vfit.Tests
             TestDelegate[] calls =
             {
                 () => new Sensor(null, "virtual:"), () => new Sensor(Context, null), () => new Scan(null),
-                () => new Tracker(null), () => new Motion(null), () => new Frame(null), () => new Recorder(null, "x"),
+                () => new Tracker(null), () => new Motion(null), () => new Frame(null),
+                () => new Recorder(null, "x"),
                 () => new Recorder(Context, null), () => new Cloth(null, null), () => Garment.Open(null, "x"),
-                () => Garment.Open(Context, null), () => SizeChart.Load(Context, null), () => Avatar.FromScan(null),
+                () => Garment.Open(Context, null), () => SizeChart.Load(Context, null),
+                () => Avatar.FromScan(null),
                 () => Avatar.Load(Context, (string)null), () => Avatar.Load(Context, (byte[])null),
                 () => Avatar.FromShape(Context, null), () => Avatar.FromMeasures(Context, null),
                 () => motion.Bind(null), () => motion.Pose(null), () => tracker.Update(null, frame),
                 () => tracker.Update(frame, null), () => tracker.Submit(frame, default(Body), null, 0, frame),
-                () => frame.Write(StreamKind.Depth, (float[])null), () => frame.Meta(null), () => frame.Bodies(null),
+                () => frame.Write(StreamKind.Depth, (float[])null), () => frame.Meta(null),
+                () => frame.Bodies(null),
                 () => Context.LoadPlugin(null), () => Measurements.Write(null, Sex.Unknown)
             };
             for (int i = 0; i < calls.Length; i++)
-                Assert.IsNotNull(Assert.Throws<ArgumentNullException>(calls[i], "call " + i).ParamName, "call " + i);
+                {
+                    var error = Assert.Throws<ArgumentNullException>(calls[i], "call " + i);
+                    Assert.IsNotNull(error.ParamName, "call " + i);
+                }
         }
 
         [Test]
@@ -75,7 +81,8 @@ namespace Vfit.Tests
             using (var tracker = new Tracker(Context))
             {
                 Assert.AreEqual(Result.ErrorHandle, Support.CodeOf(() => frame.View(StreamKind.Depth)));
-                Assert.AreEqual(Result.ErrorHandle, Support.CodeOf(() => frame.Write(StreamKind.Depth, new ushort[4])));
+                Assert.AreEqual(
+                    Result.ErrorHandle, Support.CodeOf(() => frame.Write(StreamKind.Depth, new ushort[4])));
                 Assert.AreEqual(Result.ErrorHandle, Support.CodeOf(() => tracker.Update(frame, frame)));
                 frame.Clear();
             }
@@ -111,7 +118,7 @@ namespace Vfit.Tests
             }
         }
 
-        /// <summary>All functions that take a handle first, with ids that are invented, stale and of another kind.</summary>
+        /// <summary>All functions that take a handle first, with invented, stale and foreign ids.</summary>
         [Test]
         public void NoFunctionTakesAnIdThatIsNotItsOwn()
         {
@@ -121,17 +128,21 @@ namespace Vfit.Tests
             using (var other = new Recorder(Context, recorderPath))
             {
                 foreign = Id(other.Handle);
-                foreach (MethodInfo call in typeof(Native).GetMethods(BindingFlags.Static | BindingFlags.NonPublic))
+                const BindingFlags imports = BindingFlags.Static | BindingFlags.NonPublic;
+                foreach (MethodInfo call in typeof(Native).GetMethods(imports))
                 {
                     ParameterInfo[] parameters = call.GetParameters();
-                    if (call.ReturnType != typeof(Result) || parameters.Length == 0 || !IsId(parameters[0].ParameterType)) continue;
+                    if (call.ReturnType != typeof(Result) || parameters.Length == 0) continue;
+                    if (!IsId(parameters[0].ParameterType)) continue;
                     foreach (ulong id in new[] { 1ul, ulong.MaxValue, 0x0100000100000FFFul, stale, foreign })
                     {
                         if (id == foreign && call.Name.StartsWith("vfit_recorder_")) continue;
                         object[] arguments = parameters.Select(p => Argument(p.ParameterType, id)).ToArray();
                         // Some look at their pointers first, which are null here.
-                        Assert.That(call.Invoke(null, arguments), Is.EqualTo(Result.ErrorHandle).Or.EqualTo(Result.ErrorArgument),
-                                    call.Name + " " + id);
+                        Assert.That(
+                            call.Invoke(null, arguments),
+                            Is.EqualTo(Result.ErrorHandle).Or.EqualTo(Result.ErrorArgument),
+                            call.Name + " " + id);
                     }
                 }
             }
@@ -154,7 +165,8 @@ namespace Vfit.Tests
         {
             if (type.IsPointer) return null;
             object value = Activator.CreateInstance(type);
-            FieldInfo field = IsId(type) ? type.GetField("Value", BindingFlags.Instance | BindingFlags.NonPublic) : null;
+            const BindingFlags hidden = BindingFlags.Instance | BindingFlags.NonPublic;
+            FieldInfo field = IsId(type) ? type.GetField("Value", hidden) : null;
             if (field != null) field.SetValue(value, id);
             return value;
         }

@@ -10,7 +10,8 @@ namespace Vfit.Tests
     public class HostFrameTests : ContextTest
     {
         private const int Width = 160, Height = 120;
-        private static readonly Intrinsics intrinsics = new Intrinsics { Fx = 120, Fy = 120, Cx = 79.5f, Cy = 59.5f };
+        private static readonly Intrinsics intrinsics =
+            new Intrinsics { Fx = 120, Fy = 120, Cx = 79.5f, Cy = 59.5f };
 
         /// <summary>A box person 2 m away.</summary>
         private static ushort[] Depth(byte[] users)
@@ -29,8 +30,10 @@ namespace Vfit.Tests
         {
             float[,] places =
             {
-                { 0, 1.60f }, { 0, 1.42f }, { 0, 1.15f }, { 0.18f, 1.38f }, { -0.18f, 1.38f }, { 0.46f, 1.38f }, { -0.46f, 1.38f },
-                { 0.75f, 1.38f }, { -0.75f, 1.38f }, { 0.10f, 0.90f }, { -0.10f, 0.90f }, { 0.10f, 0.50f }, { -0.10f, 0.50f },
+                { 0, 1.60f }, { 0, 1.42f }, { 0, 1.15f }, { 0.18f, 1.38f }, { -0.18f, 1.38f },
+                { 0.46f, 1.38f }, { -0.46f, 1.38f },
+                { 0.75f, 1.38f }, { -0.75f, 1.38f }, { 0.10f, 0.90f }, { -0.10f, 0.90f },
+                { 0.10f, 0.50f }, { -0.10f, 0.50f },
                 { 0.10f, 0.08f }, { -0.10f, 0.08f }
             };
             var joints = new Joint[places.GetLength(0)];
@@ -73,10 +76,18 @@ namespace Vfit.Tests
             ushort[] depth = Depth(null);
             GCHandle pin = GCHandle.Alloc(depth, GCHandleType.Pinned);
             int released = 0;
-            var images = new HostImages { Width = Width, Height = Height, Depth = pin.AddrOfPinnedObject(), Intrinsics = intrinsics };
+            var images = new HostImages
+            {
+                Width = Width, Height = Height, Depth = pin.AddrOfPinnedObject(), Intrinsics = intrinsics
+            };
+            Action release = () =>
+            {
+                Interlocked.Increment(ref released);
+                throw new InvalidOperationException();
+            };
             using (var frame = new Frame(Context))
             {
-                Frame.Lend(Context, ref images, () => { Interlocked.Increment(ref released); throw new InvalidOperationException(); }, frame);
+                Frame.Lend(Context, ref images, release, frame);
                 Assert.AreEqual(pin.AddrOfPinnedObject(), frame.View(StreamKind.Depth).Data, "no copy");
                 Assert.AreEqual(0, released);
             }
@@ -125,7 +136,8 @@ namespace Vfit.Tests
                 Assert.AreEqual(Result.NotReady, motion.Step(frame, 9, 2000), "nobody with that id");
                 Assert.GreaterOrEqual(motion.Joints().Length, joints.Length);
                 joints[0].Position.X = float.NaN;
-                Assert.AreEqual(Result.ErrorData, Support.CodeOf(() => tracker.Submit(frame, new Body { BodyId = 1 }, joints, joints.Length, frame)));
+                Assert.AreEqual(Result.ErrorData, Support.CodeOf(
+                    () => tracker.Submit(frame, new Body { BodyId = 1 }, joints, joints.Length, frame)));
                 tracker.Reset();
                 tracker.SetActive(0);
                 motion.Reset();
@@ -135,11 +147,15 @@ namespace Vfit.Tests
         [Test]
         public void WrongImagesAreRefused()
         {
-            Assert.Throws<ArgumentException>(() => Frame.FromDepth(Context, new ushort[5], null, Width, Height, intrinsics, 0));
-            Assert.Throws<ArgumentException>(() => Frame.FromDepth(Context, new ushort[0], null, 0, 0, intrinsics, 0));
-            Assert.Throws<ArgumentException>(() => Frame.FromDepth(Context, Depth(null), new byte[3], Width, Height, intrinsics, 0));
+            Assert.Throws<ArgumentException>(
+                () => Frame.FromDepth(Context, new ushort[5], null, Width, Height, intrinsics, 0));
+            Assert.Throws<ArgumentException>(
+                () => Frame.FromDepth(Context, new ushort[0], null, 0, 0, intrinsics, 0));
+            Assert.Throws<ArgumentException>(
+                () => Frame.FromDepth(Context, Depth(null), new byte[3], Width, Height, intrinsics, 0));
             var bad = new Intrinsics { Fx = float.NaN, Fy = 1 };
-            Assert.Throws<VfitException>(() => Frame.FromDepth(Context, Depth(null), null, Width, Height, bad, 0));
+            Assert.Throws<VfitException>(
+                () => Frame.FromDepth(Context, Depth(null), null, Width, Height, bad, 0));
             Assert.AreEqual(0u, Context.Stats().FrameCount);
         }
     }

@@ -1,4 +1,4 @@
-// Structs lie in memory as the header's do: sizes and offsets against tests/abi/offsets.c, which the C build proves.
+// Structs have the header's sizes and offsets, by tests/abi/offsets.c, which the C build checks.
 using System;
 using System.IO;
 using System.Linq;
@@ -12,8 +12,10 @@ namespace Vfit.Tests
     [TestFixture]
     public class LayoutTests
     {
-        private static readonly string[] lines = File.ReadAllLines(Path.Combine(Support.Root, "tests", "abi", "offsets.c"));
-        private static readonly string header = File.ReadAllText(Path.Combine(Support.Root, "include", "vfit.h"));
+        private static readonly string[] lines =
+            File.ReadAllLines(Path.Combine(Support.Root, "tests", "abi", "offsets.c"));
+        private static readonly string header =
+            File.ReadAllText(Path.Combine(Support.Root, "include", "vfit.h"));
 
         [Test]
         public void EveryStructHasTheSizeOfTheHeaders()
@@ -41,7 +43,8 @@ namespace Vfit.Tests
                 if (!match.Success || !IsPublic(match.Groups[1].Value)) continue;
                 Type type = TypeOf(match.Groups[1].Value);
                 string field = FieldOf(type, match.Groups[2].Value);
-                Assert.AreEqual(int.Parse(match.Groups[3].Value), (int)Marshal.OffsetOf(type, field), type.Name + "." + field);
+                int wanted = int.Parse(match.Groups[3].Value);
+                Assert.AreEqual(wanted, (int)Marshal.OffsetOf(type, field), type.Name + "." + field);
                 checkedFields++;
             }
             Assert.Greater(checkedFields, 200);
@@ -52,20 +55,24 @@ namespace Vfit.Tests
         {
             MethodInfo[] functions = typeof(Native).GetMethods(BindingFlags.Static | BindingFlags.NonPublic)
                 .Where(m => m.Name.StartsWith("vfit_")).ToArray();
-            Assert.AreEqual(Regex.Matches(header, "^VFIT_API ", RegexOptions.Multiline).Count, functions.Length);
+            int declared = Regex.Matches(header, "^VFIT_API ", RegexOptions.Multiline).Count;
+            Assert.AreEqual(declared, functions.Length);
             foreach (MethodInfo function in functions) Marshal.Prelink(function);
         }
 
         [Test]
         public void EveryFunctionHasItsPlaceInAClass()
         {
-            string folder = Path.Combine(Support.Root, "bindings", "csharp", "unity", "com.vfit.sdk", "Runtime", "Binding");
+            string package = Path.Combine(Support.Root, "bindings", "csharp", "unity", "com.vfit.sdk");
+            string folder = Path.Combine(package, "Runtime", "Binding");
             string written = string.Concat(Directory.GetFiles(folder, "*.cs").Select(File.ReadAllText));
-            foreach (Match match in Regex.Matches(header, @"^VFIT_API .*?(vfit_\w+)\(", RegexOptions.Multiline))
+            const string declaration = @"^VFIT_API .*?(vfit_\w+)\(";
+            foreach (Match match in Regex.Matches(header, declaration, RegexOptions.Multiline))
             {
                 string name = match.Groups[1].Value;
                 if (Regex.IsMatch(name, "_(destroy|close|release)$")) continue;     // of the handles
-                bool used = written.Contains("Calls." + Pascal(name.Substring("vfit_".Length)) + "(") || written.Contains("Native." + name + "(");
+                string wrapped = "Calls." + Pascal(name.Substring("vfit_".Length)) + "(";
+                bool used = written.Contains(wrapped) || written.Contains("Native." + name + "(");
                 Assert.IsTrue(used, name);
             }
         }
@@ -88,9 +95,9 @@ namespace Vfit.Tests
         private static string FieldOf(Type type, string name)
         {
             string pascal = Pascal(name), camel = char.ToLowerInvariant(pascal[0]) + pascal.Substring(1);
+            const BindingFlags all = BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic;
             foreach (string candidate in new[] { camel, camel + "Bytes", pascal, "Id" })
-                if (type.GetField(candidate, BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic) != null)
-                    return candidate;
+                if (type.GetField(candidate, all) != null) return candidate;
             throw new MissingFieldException(type.Name, name);
         }
 

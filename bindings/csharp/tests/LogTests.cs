@@ -38,7 +38,8 @@ namespace Vfit.Tests
         public void LinesGoToTheCallback()
         {
             var lines = new List<string>();
-            using (var context = new Context(Warned((level, message) => lines.Add(level + " " + message)))) context.Plugins();
+            using (var context = new Context(Warned((level, message) => lines.Add(level + " " + message))))
+                context.Plugins();
             Assert.That(lines, Has.Count.EqualTo(1));
             StringAssert.StartsWith("Warning ", lines[0]);
             StringAssert.Contains("vfit_broken", lines[0]);
@@ -48,8 +49,12 @@ namespace Vfit.Tests
         public void WhatACallbackThrowsStaysInIt()
         {
             int calls = 0;
-            using (var context = new Context(Warned((level, message) => { calls++; throw new InvalidOperationException(); })))
-                context.Plugins();
+            Action<LogLevel, string> log = (level, message) =>
+            {
+                calls++;
+                throw new InvalidOperationException();
+            };
+            using (var context = new Context(Warned(log))) context.Plugins();
             Assert.AreEqual(1, calls);
         }
 

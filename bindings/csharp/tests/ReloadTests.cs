@@ -34,8 +34,10 @@ namespace Vfit.Tests
         {
             for (int round = 0; round < 5; round++)
             {
-                AppDomain domain = AppDomain.CreateDomain("scripts " + round, null, AppDomain.CurrentDomain.SetupInformation);
-                var code = (ReloadedCode)domain.CreateInstanceAndUnwrap(typeof(ReloadedCode).Assembly.FullName, typeof(ReloadedCode).FullName);
+                AppDomainSetup setup = AppDomain.CurrentDomain.SetupInformation;
+                AppDomain domain = AppDomain.CreateDomain("scripts " + round, null, setup);
+                var code = (ReloadedCode)domain.CreateInstanceAndUnwrap(
+                    typeof(ReloadedCode).Assembly.FullName, typeof(ReloadedCode).FullName);
                 Assert.Greater(code.Leave(), 0);
                 Thread.Sleep(20 * round);
                 AppDomain.Unload(domain);

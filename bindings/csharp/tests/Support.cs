@@ -66,7 +66,8 @@ namespace Vfit.Tests
         /// <summary>Folders of real recordings; the test is skipped where there are none.</summary>
         internal static List<string> RealRecordings()
         {
-            string shared = Environment.GetEnvironmentVariable("VFIT_SHARED") ?? Path.Combine(Root, "..", "shared");
+            string shared = Environment.GetEnvironmentVariable("VFIT_SHARED");
+            if (shared == null) shared = Path.Combine(Root, "..", "shared");
             string folder = Path.Combine(shared, "data", "recordings");
             var found = new List<string>();
             if (Directory.Exists(folder))
@@ -92,13 +93,15 @@ namespace Vfit.Tests
         internal static void Turn(BodyPose pose, int step)
         {
             double half = 0.05 * Math.Sin(0.1 * step);
-            pose.Bones[(int)BoneId.LeftUpperArm].Rotation = new Float4(0, 0, (float)Math.Sin(half), (float)Math.Cos(half));
+            pose.Bones[(int)BoneId.LeftUpperArm].Rotation =
+                new Float4(0, 0, (float)Math.Sin(half), (float)Math.Cos(half));
         }
 
         private static string Needed(string variable)
         {
             string value = Environment.GetEnvironmentVariable(variable);
-            if (string.IsNullOrEmpty(value)) throw new InvalidOperationException(variable + " is not set: run scripts/test-csharp");
+            if (string.IsNullOrEmpty(value))
+                throw new InvalidOperationException(variable + " is not set: run scripts/test-csharp");
             return value;
         }
     }

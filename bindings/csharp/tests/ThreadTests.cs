@@ -123,7 +123,7 @@ namespace Vfit.Tests
             Assert.AreEqual(0u, Context.Stats().HandleCount);
         }
 
-        /// <summary>Nobody but the running call refers to avatar and context any more while the collector runs.</summary>
+        /// <summary>While the collector runs, only the running call refers to avatar and context.</summary>
         [Test]
         public void AnObjectIsNotCollectedUnderItsOwnCall()
         {
@@ -155,7 +155,7 @@ namespace Vfit.Tests
             Assert.Greater(steps, 3);
         }
 
-        /// <summary>A garment has no reference to its context's object, its handle has one to the context's handle.</summary>
+        /// <summary>A garment refers to its context's handle only through its own handle.</summary>
         [Test]
         public void AChildKeepsItsContextAlive()
         {
@@ -221,7 +221,8 @@ namespace Vfit.Tests
 
         private void StartAndForget()
         {
-            var thread = new Thread(() => new Sensor(Context, "virtual:pace=realtime&sensor=kinect_v1_320").Start());
+            const string uri = "virtual:pace=realtime&sensor=kinect_v1_320";
+            var thread = new Thread(() => new Sensor(Context, uri).Start());
             thread.Start();
             thread.Join();
         }

@@ -1,4 +1,4 @@
-// The component's life without Unity: enabled, updated, disabled, reloaded, on a recording, against the stand-ins.
+// The component's life on a recording, against stand-ins for Unity: enabled, updated, disabled, reloaded.
 using System;
 using System.IO;
 using System.Linq;
@@ -73,7 +73,9 @@ namespace Vfit.Unity.Tests
             Assert.That(body.vertices.Max(v => v.y), Is.InRange(1.3f, 2.2f));
             Assert.Greater(cloth.vertices.Length, 1000);
             Assert.That(cloth.normals.All(n => Math.Abs(n.magnitude - 1) < 1e-3f));
-            Assert.That(body.triangles.Length, Is.LessThan(6 * 13718).And.GreaterThan(10000), "hidden skin is left out");
+            Assert.That(
+                body.triangles.Length, Is.LessThan(6 * 13718).And.GreaterThan(10000),
+                "hidden skin is left out");
             Assert.That(Debug.lines.Where(l => l.StartsWith("error")), Is.Empty);
         }
 
@@ -195,7 +197,8 @@ namespace Vfit.Unity.Tests
         public void PlayWithoutAReloadBeginsClean()
         {
             room.gameObject.SetActive(true);
-            MethodInfo onPlay = typeof(VfitProcess).GetMethod("OnPlay", BindingFlags.Static | BindingFlags.NonPublic);
+            const BindingFlags hidden = BindingFlags.Static | BindingFlags.NonPublic;
+            MethodInfo onPlay = typeof(VfitProcess).GetMethod("OnPlay", hidden);
             onPlay.Invoke(null, null);
             onPlay.Invoke(null, null);
             RunUntil(FittingState.Failed, 1);
@@ -238,7 +241,8 @@ namespace Vfit.Unity.Tests
         [Test]
         public void ABuiltPlayerGetsTheFoldersBesideItsLibrary()
         {
-            string top = Support.TemporaryFolder(), plugins = Path.Combine(top, "Plugins", "x86_64"), player = Path.Combine(top, "out");
+            string top = Support.TemporaryFolder(), player = Path.Combine(top, "out");
+            string plugins = Path.Combine(top, "Plugins", "x86_64");
             Directory.CreateDirectory(Path.Combine(plugins, "vfit_data", "charts"));
             Directory.CreateDirectory(Path.Combine(player, "Game_Data", "Plugins"));
             File.WriteAllText(Path.Combine(plugins, "libvfit.so"), "");

@@ -7,35 +7,53 @@ using Vfit.Tests;
 
 namespace Vfit.Unity.Tests
 {
-    /// <summary>A character in a T-pose that faces +Z, with a turn of its own in each bone, as files come with.</summary>
+    /// <summary>A character in a T-pose that faces +Z; each bone has its own rotation, as in files.</summary>
     internal static class StandInHumanoid
     {
-        private static readonly Dictionary<HumanBodyBones, Vector3> places = new Dictionary<HumanBodyBones, Vector3>
+        private static readonly Dictionary<HumanBodyBones, Vector3> places =
+            new Dictionary<HumanBodyBones, Vector3>
         {
-            { HumanBodyBones.Hips, new Vector3(0, 1.0f, 0) }, { HumanBodyBones.Spine, new Vector3(0, 1.1f, 0) },
-            { HumanBodyBones.Chest, new Vector3(0, 1.25f, 0) }, { HumanBodyBones.Neck, new Vector3(0, 1.5f, 0) },
+            { HumanBodyBones.Hips, new Vector3(0, 1.0f, 0) },
+            { HumanBodyBones.Spine, new Vector3(0, 1.1f, 0) },
+            { HumanBodyBones.Chest, new Vector3(0, 1.25f, 0) },
+            { HumanBodyBones.Neck, new Vector3(0, 1.5f, 0) },
             { HumanBodyBones.Head, new Vector3(0, 1.6f, 0) },
-            { HumanBodyBones.LeftShoulder, new Vector3(-0.05f, 1.45f, 0) }, { HumanBodyBones.LeftUpperArm, new Vector3(-0.2f, 1.45f, 0) },
-            { HumanBodyBones.LeftLowerArm, new Vector3(-0.5f, 1.45f, 0) }, { HumanBodyBones.LeftHand, new Vector3(-0.75f, 1.45f, 0) },
-            { HumanBodyBones.RightShoulder, new Vector3(0.05f, 1.45f, 0) }, { HumanBodyBones.RightUpperArm, new Vector3(0.2f, 1.45f, 0) },
-            { HumanBodyBones.RightLowerArm, new Vector3(0.5f, 1.45f, 0) }, { HumanBodyBones.RightHand, new Vector3(0.75f, 1.45f, 0) },
-            { HumanBodyBones.LeftUpperLeg, new Vector3(-0.1f, 0.95f, 0) }, { HumanBodyBones.LeftLowerLeg, new Vector3(-0.1f, 0.52f, 0) },
+            { HumanBodyBones.LeftShoulder, new Vector3(-0.05f, 1.45f, 0) },
+            { HumanBodyBones.LeftUpperArm, new Vector3(-0.2f, 1.45f, 0) },
+            { HumanBodyBones.LeftLowerArm, new Vector3(-0.5f, 1.45f, 0) },
+            { HumanBodyBones.LeftHand, new Vector3(-0.75f, 1.45f, 0) },
+            { HumanBodyBones.RightShoulder, new Vector3(0.05f, 1.45f, 0) },
+            { HumanBodyBones.RightUpperArm, new Vector3(0.2f, 1.45f, 0) },
+            { HumanBodyBones.RightLowerArm, new Vector3(0.5f, 1.45f, 0) },
+            { HumanBodyBones.RightHand, new Vector3(0.75f, 1.45f, 0) },
+            { HumanBodyBones.LeftUpperLeg, new Vector3(-0.1f, 0.95f, 0) },
+            { HumanBodyBones.LeftLowerLeg, new Vector3(-0.1f, 0.52f, 0) },
             { HumanBodyBones.LeftFoot, new Vector3(-0.1f, 0.09f, 0) },
-            { HumanBodyBones.RightUpperLeg, new Vector3(0.1f, 0.95f, 0) }, { HumanBodyBones.RightLowerLeg, new Vector3(0.1f, 0.52f, 0) },
+            { HumanBodyBones.RightUpperLeg, new Vector3(0.1f, 0.95f, 0) },
+            { HumanBodyBones.RightLowerLeg, new Vector3(0.1f, 0.52f, 0) },
             { HumanBodyBones.RightFoot, new Vector3(0.1f, 0.09f, 0) }
         };
 
         private static readonly HumanBodyBones[,] parents =
         {
-            { HumanBodyBones.Spine, HumanBodyBones.Hips }, { HumanBodyBones.Chest, HumanBodyBones.Spine },
-            { HumanBodyBones.Neck, HumanBodyBones.Chest }, { HumanBodyBones.Head, HumanBodyBones.Neck },
-            { HumanBodyBones.LeftShoulder, HumanBodyBones.Chest }, { HumanBodyBones.LeftUpperArm, HumanBodyBones.LeftShoulder },
-            { HumanBodyBones.LeftLowerArm, HumanBodyBones.LeftUpperArm }, { HumanBodyBones.LeftHand, HumanBodyBones.LeftLowerArm },
-            { HumanBodyBones.RightShoulder, HumanBodyBones.Chest }, { HumanBodyBones.RightUpperArm, HumanBodyBones.RightShoulder },
-            { HumanBodyBones.RightLowerArm, HumanBodyBones.RightUpperArm }, { HumanBodyBones.RightHand, HumanBodyBones.RightLowerArm },
-            { HumanBodyBones.LeftUpperLeg, HumanBodyBones.Hips }, { HumanBodyBones.LeftLowerLeg, HumanBodyBones.LeftUpperLeg },
-            { HumanBodyBones.LeftFoot, HumanBodyBones.LeftLowerLeg }, { HumanBodyBones.RightUpperLeg, HumanBodyBones.Hips },
-            { HumanBodyBones.RightLowerLeg, HumanBodyBones.RightUpperLeg }, { HumanBodyBones.RightFoot, HumanBodyBones.RightLowerLeg }
+            { HumanBodyBones.Spine, HumanBodyBones.Hips },
+            { HumanBodyBones.Chest, HumanBodyBones.Spine },
+            { HumanBodyBones.Neck, HumanBodyBones.Chest },
+            { HumanBodyBones.Head, HumanBodyBones.Neck },
+            { HumanBodyBones.LeftShoulder, HumanBodyBones.Chest },
+            { HumanBodyBones.LeftUpperArm, HumanBodyBones.LeftShoulder },
+            { HumanBodyBones.LeftLowerArm, HumanBodyBones.LeftUpperArm },
+            { HumanBodyBones.LeftHand, HumanBodyBones.LeftLowerArm },
+            { HumanBodyBones.RightShoulder, HumanBodyBones.Chest },
+            { HumanBodyBones.RightUpperArm, HumanBodyBones.RightShoulder },
+            { HumanBodyBones.RightLowerArm, HumanBodyBones.RightUpperArm },
+            { HumanBodyBones.RightHand, HumanBodyBones.RightLowerArm },
+            { HumanBodyBones.LeftUpperLeg, HumanBodyBones.Hips },
+            { HumanBodyBones.LeftLowerLeg, HumanBodyBones.LeftUpperLeg },
+            { HumanBodyBones.LeftFoot, HumanBodyBones.LeftLowerLeg },
+            { HumanBodyBones.RightUpperLeg, HumanBodyBones.Hips },
+            { HumanBodyBones.RightLowerLeg, HumanBodyBones.RightUpperLeg },
+            { HumanBodyBones.RightFoot, HumanBodyBones.RightLowerLeg }
         };
 
         internal static Animator Make(bool bentBeforeUse)
@@ -48,14 +66,21 @@ namespace Vfit.Unity.Tests
                 Add(animator, parents[i, 0], animator.bones[parents[i, 1]], null, random);
             var skeleton = new List<SkeletonBone>();
             foreach (Transform bone in animator.bones.Values)
-                skeleton.Add(new SkeletonBone { name = bone.name, position = bone.localPosition, rotation = bone.localRotation, scale = bone.localScale });
-            animator.avatar = new UnityEngine.Avatar { isHuman = true, humanDescription = new HumanDescription { skeleton = skeleton.ToArray() } };
+                skeleton.Add(new SkeletonBone
+                {
+                    name = bone.name, position = bone.localPosition, rotation = bone.localRotation,
+                    scale = bone.localScale
+                });
+            var description = new HumanDescription { skeleton = skeleton.ToArray() };
+            animator.avatar = new UnityEngine.Avatar { isHuman = true, humanDescription = description };
             if (bentBeforeUse)
-                foreach (Transform bone in animator.bones.Values) bone.localRotation = Turn(random) * bone.localRotation;
+                foreach (Transform bone in animator.bones.Values)
+                    bone.localRotation = Turn(random) * bone.localRotation;
             return animator;
         }
 
-        private static void Add(Animator animator, HumanBodyBones name, Transform parent, Transform above, System.Random random)
+        private static void Add(
+            Animator animator, HumanBodyBones name, Transform parent, Transform above, System.Random random)
         {
             if (above != null)
             {
@@ -72,7 +97,8 @@ namespace Vfit.Unity.Tests
 
         private static Quaternion Turn(System.Random random)
         {
-            double x = random.NextDouble() - 0.5, y = random.NextDouble() - 0.5, z = random.NextDouble() - 0.5, w = random.NextDouble();
+            double x = random.NextDouble() - 0.5, y = random.NextDouble() - 0.5;
+            double z = random.NextDouble() - 0.5, w = random.NextDouble();
             double n = Math.Sqrt(x * x + y * y + z * z + w * w);
             return new Quaternion((float)(x / n), (float)(y / n), (float)(z / n), (float)(w / n));
         }
@@ -91,10 +117,14 @@ namespace Vfit.Unity.Tests
 
         private static readonly HumanBodyBones[,] bones =
         {
-            { HumanBodyBones.LeftLowerArm, HumanBodyBones.LeftHand }, { HumanBodyBones.RightLowerArm, HumanBodyBones.RightHand },
-            { HumanBodyBones.LeftUpperArm, HumanBodyBones.LeftLowerArm }, { HumanBodyBones.RightUpperArm, HumanBodyBones.RightLowerArm },
-            { HumanBodyBones.LeftUpperLeg, HumanBodyBones.LeftLowerLeg }, { HumanBodyBones.RightUpperLeg, HumanBodyBones.RightLowerLeg },
-            { HumanBodyBones.LeftLowerLeg, HumanBodyBones.LeftFoot }, { HumanBodyBones.RightLowerLeg, HumanBodyBones.RightFoot }
+            { HumanBodyBones.LeftLowerArm, HumanBodyBones.LeftHand },
+            { HumanBodyBones.RightLowerArm, HumanBodyBones.RightHand },
+            { HumanBodyBones.LeftUpperArm, HumanBodyBones.LeftLowerArm },
+            { HumanBodyBones.RightUpperArm, HumanBodyBones.RightLowerArm },
+            { HumanBodyBones.LeftUpperLeg, HumanBodyBones.LeftLowerLeg },
+            { HumanBodyBones.RightUpperLeg, HumanBodyBones.RightLowerLeg },
+            { HumanBodyBones.LeftLowerLeg, HumanBodyBones.LeftFoot },
+            { HumanBodyBones.RightLowerLeg, HumanBodyBones.RightFoot }
         };
 
         [TestCase(false)]
@@ -105,7 +135,10 @@ namespace Vfit.Unity.Tests
             hero.transform.localRotation = new Quaternion(0, 0.6f, 0, 0.8f);
             hero.transform.localPosition = new Vector3(3, 0, 1);
             var driver = new HumanoidDriver(hero);
-            var options = new ContextOptions { Axes = Axes.Unity, Flags = mirror ? ContextFlags.Mirror : ContextFlags.None };
+            var options = new ContextOptions
+            {
+                Axes = Axes.Unity, Flags = mirror ? ContextFlags.Mirror : ContextFlags.None
+            };
             float worst = 0, lowest = 9;
             using (var context = new Context(options))
             using (var sensor = new Sensor(context, Support.Recording()))
@@ -121,23 +154,28 @@ namespace Vfit.Unity.Tests
                 foreach (Frame frame in sensor.Frames())
                 {
                     tracker.Update(frame, tracked);
-                    if (motion.Step(tracked, tracked.ActiveBody(), tracked.View(StreamKind.Depth).TimeNs) != Result.Ok) continue;
+                    long now = tracked.View(StreamKind.Depth).TimeNs;
+                    if (motion.Step(tracked, tracked.ActiveBody(), now) != Result.Ok) continue;
                     motion.Pose(pose);
                     avatar.Pose(pose);
                     avatar.Joints(joints);
                     driver.Apply(pose);
                     for (int i = 0; i < limbs.GetLength(0); i++)
                     {
-                        Vector3 wanted = hero.transform.rotation * (Place(joints, limbs[i, 1]) - Place(joints, limbs[i, 0]));
+                        Vector3 limb = Place(joints, limbs[i, 1]) - Place(joints, limbs[i, 0]);
+                        Vector3 wanted = hero.transform.rotation * limb;
                         Vector3 made = hero.bones[bones[i, 1]].position - hero.bones[bones[i, 0]].position;
                         worst = Math.Max(worst, Vector3.Angle(wanted, made));
                     }
-                    lowest = Math.Min(lowest, Math.Min(hero.bones[HumanBodyBones.LeftFoot].position.y, hero.bones[HumanBodyBones.RightFoot].position.y));
+                    lowest = Math.Min(lowest, hero.bones[HumanBodyBones.LeftFoot].position.y);
+                    lowest = Math.Min(lowest, hero.bones[HumanBodyBones.RightFoot].position.y);
                     frames++;
                 }
                 Assert.Greater(frames, 30);
             }
-            Console.WriteLine("humanoid: limbs at most " + worst.ToString("0.0") + " degrees apart from the avatar's, lowest ankle at " + lowest.ToString("0.00") + " m");
+            Console.WriteLine("humanoid: limbs at most " + worst.ToString("0.0") +
+                              " degrees apart from the avatar's, lowest ankle at " + lowest.ToString("0.00") +
+                              " m");
             // The avatar's own limbs are not quite straight in its T-pose, the stand-in's are.
             Assert.Less(worst, 15);
             Assert.That(lowest, Is.InRange(0.0f, 0.15f), "it stands on the floor");
@@ -158,7 +196,10 @@ namespace Vfit.Unity.Tests
             Animator hero = StandInHumanoid.Make(true), straight = StandInHumanoid.Make(false);
             new HumanoidDriver(hero).Apply(BodyPose.Rest(new Float3(0, 1, 0)));
             foreach (KeyValuePair<HumanBodyBones, Transform> bone in straight.bones)
-                Assert.Less((hero.bones[bone.Key].position - bone.Value.position).magnitude, 1e-3f, bone.Key.ToString());
+                {
+                    Vector3 apart = hero.bones[bone.Key].position - bone.Value.position;
+                    Assert.Less(apart.magnitude, 1e-3f, bone.Key.ToString());
+                }
         }
 
         private static Vector3 Place(Joint[] joints, JointId id)

@@ -1,4 +1,5 @@
-// Stand-ins for the objects of UnityEngine that the package uses. A test plays the engine: it calls the messages.
+// Stand-ins for the objects of UnityEngine that the package uses. A test calls their messages as the engine
+// does.
 using System;
 using System.Collections.Generic;
 
@@ -74,7 +75,8 @@ namespace UnityEngine
             active = value;
             if (was == value) return;
             foreach (Component c in components.ToArray())
-                if (c is MonoBehaviour && ((MonoBehaviour)c).enabled) Messages.Send(c, value ? "OnEnable" : "OnDisable");
+                if (c is MonoBehaviour && ((MonoBehaviour)c).enabled)
+                    Messages.Send(c, value ? "OnEnable" : "OnDisable");
         }
 
         public T AddComponent<T>() where T : Component, new()
@@ -109,8 +111,10 @@ namespace UnityEngine
             get { return parent == null ? localPosition : parent.TransformPoint(localPosition); }
             set
             {
-                Vector3 v = parent == null ? value : Quaternion.Inverse(parent.rotation) * (value - parent.position);
-                Vector3 s = parent == null ? Vector3.one : parent.lossyScale;
+                localPosition = value;
+                if (parent == null) return;
+                Vector3 v = Quaternion.Inverse(parent.rotation) * (value - parent.position);
+                Vector3 s = parent.lossyScale;
                 localPosition = new Vector3(v.x / s.x, v.y / s.y, v.z / s.z);
             }
         }
@@ -128,9 +132,11 @@ namespace UnityEngine
 
     public enum HumanBodyBones
     {
-        Hips = 0, LeftUpperLeg = 1, RightUpperLeg = 2, LeftLowerLeg = 3, RightLowerLeg = 4, LeftFoot = 5, RightFoot = 6,
+        Hips = 0, LeftUpperLeg = 1, RightUpperLeg = 2, LeftLowerLeg = 3, RightLowerLeg = 4,
+        LeftFoot = 5, RightFoot = 6,
         Spine = 7, Chest = 8, Neck = 9, Head = 10, LeftShoulder = 11, RightShoulder = 12, LeftUpperArm = 13,
-        RightUpperArm = 14, LeftLowerArm = 15, RightLowerArm = 16, LeftHand = 17, RightHand = 18, LeftToes = 19,
+        RightUpperArm = 14, LeftLowerArm = 15, RightLowerArm = 16, LeftHand = 17, RightHand = 18,
+        LeftToes = 19,
         RightToes = 20, UpperChest = 54
     }
 
@@ -155,7 +161,8 @@ namespace UnityEngine
     public sealed class Animator : Behaviour
     {
         public Avatar avatar;
-        public readonly Dictionary<HumanBodyBones, Transform> bones = new Dictionary<HumanBodyBones, Transform>();
+        public readonly Dictionary<HumanBodyBones, Transform> bones =
+            new Dictionary<HumanBodyBones, Transform>();
 
         public Transform GetBoneTransform(HumanBodyBones bone)
         {
@@ -213,7 +220,8 @@ namespace UnityEngine
         {
             foreach (int index in values)
                 if (index < 0 || index >= vertices.Length) throw new ArgumentException("index " + index);
-            if (indexFormat == Rendering.IndexFormat.UInt16 && vertices.Length > 65535) throw new ArgumentException("too many");
+            if (indexFormat == Rendering.IndexFormat.UInt16 && vertices.Length > 65535)
+                throw new ArgumentException("too many");
             indices = (int[])values.Clone();
         }
 

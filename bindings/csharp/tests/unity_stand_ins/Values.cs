@@ -1,5 +1,5 @@
-// Stand-ins for the values of UnityEngine that the package uses: signatures as Unity's, so that the package compiles and
-// runs without Unity. For tests alone.
+// Stand-ins for the values of UnityEngine that the package uses. They have Unity's signatures, so that the
+// package compiles and runs in tests without Unity.
 using System;
 
 namespace UnityEngine
@@ -38,7 +38,8 @@ namespace UnityEngine
         public static float Angle(Vector3 a, Vector3 b)
         {
             double dot = (double)a.x * b.x + (double)a.y * b.y + (double)a.z * b.z;
-            return (float)(Math.Acos(Math.Max(-1, Math.Min(1, dot / (a.magnitude * (double)b.magnitude)))) * 180 / Math.PI);
+            double cosine = Math.Max(-1, Math.Min(1, dot / (a.magnitude * (double)b.magnitude)));
+            return (float)(Math.Acos(cosine) * 180 / Math.PI);
         }
 
         public float magnitude
@@ -81,8 +82,10 @@ namespace UnityEngine
 
         public static Quaternion operator *(Quaternion a, Quaternion b)
         {
-            return new Quaternion(a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y + a.y * b.w + a.z * b.x - a.x * b.z,
-                                  a.w * b.z + a.z * b.w + a.x * b.y - a.y * b.x, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z);
+            return new Quaternion(a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+                                  a.w * b.y + a.y * b.w + a.z * b.x - a.x * b.z,
+                                  a.w * b.z + a.z * b.w + a.x * b.y - a.y * b.x,
+                                  a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z);
         }
 
         public static Vector3 operator *(Quaternion q, Vector3 v)

@@ -22,7 +22,7 @@ namespace Vfit.Unity.Editor
             PackageInfo package = PackageInfo.FindForAssembly(typeof(PlayerFolders).Assembly);
             string player = Path.GetDirectoryName(report.summary.outputPath);
             if (package == null || Copy(Path.Combine(package.resolvedPath, "Plugins"), player) == 0)
-                Debug.LogWarning("vfit: the player has no native library of vfit, so nothing was put beside it");
+                Debug.LogWarning("vfit: the player has no native library of vfit; its data was not copied");
         }
 
         /// <summary>Puts the folders beside each library of the player; returns how many there are.</summary>
@@ -31,13 +31,17 @@ namespace Vfit.Unity.Editor
             int found = 0;
             foreach (string library in libraries)
             {
-                string[] sources = Directory.Exists(plugins) ? Directory.GetFiles(plugins, library, SearchOption.AllDirectories) : new string[0];
+                string[] sources = Directory.Exists(plugins)
+                    ? Directory.GetFiles(plugins, library, SearchOption.AllDirectories)
+                    : new string[0];
                 if (sources.Length == 0) continue;
                 foreach (string target in Directory.GetFiles(player, library, SearchOption.AllDirectories))
                 {
                     found++;
                     foreach (string folder in folders)
-                        CopyFolder(Path.Combine(Path.GetDirectoryName(sources[0]), folder), Path.Combine(Path.GetDirectoryName(target), folder));
+                        CopyFolder(
+                            Path.Combine(Path.GetDirectoryName(sources[0]), folder),
+                            Path.Combine(Path.GetDirectoryName(target), folder));
                 }
             }
             return found;

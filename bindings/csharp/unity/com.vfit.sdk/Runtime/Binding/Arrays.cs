@@ -9,7 +9,8 @@ namespace Vfit
         {
             if (array == null) throw new ArgumentNullException(name);
             if (count < 0 || count > array.Length)
-                throw new ArgumentOutOfRangeException(name, "count " + count + " of " + array.Length + " items");
+                throw new ArgumentOutOfRangeException(
+                    name, "count " + count + " of " + array.Length + " items");
         }
     }
 }

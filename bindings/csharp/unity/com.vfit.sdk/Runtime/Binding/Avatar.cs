@@ -32,12 +32,13 @@ namespace Vfit
         {
             if (pose == null) throw new ArgumentNullException("pose");
             Pose info = pose.Header();
-            fixed (Bone* bones = pose.Bones) Calls.AvatarPose(Handle, &info, bones, (uint)sizeof(Bone), pose.CheckedCount());
+            fixed (Bone* bones = pose.Bones)
+                Calls.AvatarPose(Handle, &info, bones, (uint)sizeof(Bone), pose.CheckedCount());
         }
 
         /// <summary>
-        /// The same, the skin written straight into memory of the engine: vertexCount vertices of three floats, stride bytes
-        /// apart (0: packed). normals may be zero.
+        /// The same, and writes the skin into memory of the engine: vertexCount vertices of three floats,
+        /// stride bytes apart (0: packed). normals may be zero.
         /// </summary>
         public void PoseInto(BodyPose pose, IntPtr positions, IntPtr normals, int vertexCount, int stride)
         {
@@ -59,7 +60,8 @@ namespace Vfit
             Arrays.Check(positions, 0, "positions");
             if (normals != null && normals.Length != positions.Length)
                 throw new ArgumentException("as many normals as positions", "normals");
-            fixed (Float3* p = positions, n = normals) PoseInto(pose, (IntPtr)p, (IntPtr)n, positions.Length, 0);
+            fixed (Float3* p = positions, n = normals)
+                PoseInto(pose, (IntPtr)p, (IntPtr)n, positions.Length, 0);
         }
 
         public Collider[] Colliders()

@@ -16,29 +16,38 @@ namespace Vfit
         }
 
         /// <summary>The default body scaled to stature_m and, where given, shoulder_breadth_m.</summary>
-        public static Avatar FromMeasures(Context context, Measurement[] measures, AvatarDesc desc = default(AvatarDesc))
+        public static Avatar FromMeasures(
+            Context context, Measurement[] measures, AvatarDesc desc = default(AvatarDesc))
         {
             Arrays.Check(measures, 0, "measures");
             var avatar = new Avatar(context);
             desc.StructSize = (uint)sizeof(AvatarDesc);
             fixed (Measurement* items = measures)
-                Calls.AvatarCreate(context.Handle, &desc, items, (uint)sizeof(Measurement), (uint)measures.Length, avatar.Handle);
+                Calls.AvatarCreate(
+                    context.Handle, &desc, items, (uint)sizeof(Measurement), (uint)measures.Length,
+                    avatar.Handle);
             return avatar;
         }
 
-        /// <summary>A body of that shape; keys that are not given keep the value of the default body.</summary>
-        public static Avatar FromShape(Context context, ShapeValue[] shape, AvatarDesc desc = default(AvatarDesc))
+        /// <summary>A body of that shape; omitted keys keep the value of the default body.</summary>
+        public static Avatar FromShape(
+            Context context, ShapeValue[] shape, AvatarDesc desc = default(AvatarDesc))
         {
             Arrays.Check(shape, 0, "shape");
             var avatar = new Avatar(context);
             desc.StructSize = (uint)sizeof(AvatarDesc);
             fixed (ShapeValue* items = shape)
-                Calls.AvatarCreateFromShape(context.Handle, &desc, items, (uint)sizeof(ShapeValue), (uint)shape.Length, avatar.Handle);
+                Calls.AvatarCreateFromShape(
+                    context.Handle, &desc, items, (uint)sizeof(ShapeValue), (uint)shape.Length,
+                    avatar.Handle);
             return avatar;
         }
 
-        /// <summary>A character from a glTF or VRM file; boneMap: null, or VRM bone names and nodes as JSON.</summary>
-        public static Avatar Load(Context context, string path, string boneMap = null, AvatarDesc desc = default(AvatarDesc))
+        /// <summary>
+        /// A character from a glTF or VRM file; boneMap: null, or JSON of VRM bones and nodes.
+        /// </summary>
+        public static Avatar Load(
+            Context context, string path, string boneMap = null, AvatarDesc desc = default(AvatarDesc))
         {
             var character = new CharacterDesc();
             fixed (byte* file = Utf8Text.Encode(path, "path"))
@@ -49,7 +58,8 @@ namespace Vfit
         }
 
         /// <summary>The same from the file's bytes.</summary>
-        public static Avatar Load(Context context, byte[] file, string boneMap = null, AvatarDesc desc = default(AvatarDesc))
+        public static Avatar Load(
+            Context context, byte[] file, string boneMap = null, AvatarDesc desc = default(AvatarDesc))
         {
             Arrays.Check(file, 0, "file");
             var character = new CharacterDesc();
@@ -62,7 +72,8 @@ namespace Vfit
         }
 
         /// <summary>What Avatar.Pack made on another machine, and the size that came with it.</summary>
-        public static Avatar Unpack(Context context, byte[] packet, out string sizeLabel, AvatarDesc desc = default(AvatarDesc))
+        public static Avatar Unpack(
+            Context context, byte[] packet, out string sizeLabel, AvatarDesc desc = default(AvatarDesc))
         {
             Arrays.Check(packet, 0, "packet");
             var avatar = new Avatar(context);
@@ -70,12 +81,14 @@ namespace Vfit
             const int capacity = 64;    // a label has at most 19 bytes
             byte* label = stackalloc byte[capacity];
             fixed (byte* bytes = packet)
-                Calls.AvatarUnpack(context.Handle, &desc, bytes, (uint)packet.Length, label, capacity, avatar.Handle);
+                Calls.AvatarUnpack(
+                    context.Handle, &desc, bytes, (uint)packet.Length, label, capacity, avatar.Handle);
             sizeLabel = Utf8Text.Read(label, capacity);
             return avatar;
         }
 
-        private static Avatar Load(Context context, ref CharacterDesc character, string boneMap, ref AvatarDesc desc)
+        private static Avatar Load(
+            Context context, ref CharacterDesc character, string boneMap, ref AvatarDesc desc)
         {
             var avatar = new Avatar(context);
             fixed (byte* map = Utf8Text.Encode(boneMap))

@@ -24,7 +24,7 @@ namespace Vfit
             return pose;
         }
 
-        /// <summary>For the network: at most 120 bytes, written into an array of the caller's; returns how many.</summary>
+        /// <summary>For the network: writes at most 120 bytes into the array and returns how many.</summary>
         public int Pack(Context context, byte[] into)
         {
             if (into == null) throw new ArgumentNullException("into");
@@ -34,13 +34,14 @@ namespace Vfit
             fixed (Bone* bones = Bones)
             {
                 Pose info = Header();
-                Calls.PosePack(Context.Of(context, "context"), &info, bones, (uint)sizeof(Bone), CheckedCount(),
-                               array == null ? &none : array, &count);
+                Calls.PosePack(
+                    Context.Of(context, "context"), &info, bones, (uint)sizeof(Bone), CheckedCount(),
+                    array == null ? &none : array, &count);
             }
             return (int)count;
         }
 
-        /// <summary>What another machine packed, whatever its axes. Positions of all bones but the hips are zero.</summary>
+        /// <summary>Reads a packet from any axes. Positions of all bones except the hips are zero.</summary>
         public void Unpack(Context context, byte[] packet, int length)
         {
             Arrays.Check(packet, length, "packet");
@@ -49,7 +50,9 @@ namespace Vfit
             {
                 Pose info = Header();
                 uint count = Counts.BoneCount;
-                Calls.PoseUnpack(Context.Of(context, "context"), bytes, (uint)length, &info, bones, (uint)sizeof(Bone), &count);
+                Calls.PoseUnpack(
+                    Context.Of(context, "context"), bytes, (uint)length, &info, bones, (uint)sizeof(Bone),
+                    &count);
                 Info = info;
                 Count = (int)count;
             }
@@ -64,7 +67,9 @@ namespace Vfit
 
         internal uint CheckedCount()
         {
-            if (Count < 0 || Count > Counts.BoneCount) throw new ArgumentOutOfRangeException("Count", "Count " + Count + " of " + Counts.BoneCount + " bones");
+            if (Count < 0 || Count > Counts.BoneCount)
+                throw new ArgumentOutOfRangeException(
+                    "Count", "Count " + Count + " of " + Counts.BoneCount + " bones");
             return (uint)Count;
         }
     }

@@ -7,11 +7,12 @@ namespace Vfit
     {
         public Avatar Avatar { get; private set; }
 
-        /// <summary>What this one is worn over, if anything; kept here, so that it is not collected.</summary>
+        /// <summary>The cloth below this one, or null; the reference keeps it from collection.</summary>
         public Cloth Inner { get; private set; }
 
         /// <summary>sizeLabel: null is made to the avatar.</summary>
-        public Cloth(Avatar avatar, Garment garment, ClothDesc desc = default(ClothDesc), string sizeLabel = null)
+        public Cloth(
+            Avatar avatar, Garment garment, ClothDesc desc = default(ClothDesc), string sizeLabel = null)
             : base(new ClothHandle(Avatar.Of(avatar, "avatar")))
         {
             Avatar = avatar;
@@ -47,7 +48,7 @@ namespace Vfit
         }
 
         /// <summary>
-        /// Between steps: Acquire then gives the last step's cloth, carried into the pose that the avatar has now. Does not
+        /// Between steps: moves the last step's cloth into the avatar's current pose, for Acquire. Does not
         /// wait for a step that runs.
         /// </summary>
         public void Carry()
@@ -94,13 +95,14 @@ namespace Vfit
         }
 
         /// <summary>
-        /// Sets to 1 those triangles of the avatar that this garment hides; the others stay as they were, so that garments
-        /// add up. One byte a triangle. Takes as long as some 100 steps.
+        /// Sets the bytes of the avatar's triangles that this garment hides to 1 and leaves the others as
+        /// they are, so that garments add up. One byte per triangle. Cost: about 100 steps.
         /// </summary>
         public void HideSkin(byte[] triangles, float marginM = 0)
         {
             Arrays.Check(triangles, 0, "triangles");
-            fixed (byte* bytes = triangles) Calls.ClothHideSkin(Handle, marginM, bytes, (uint)triangles.Length);
+            fixed (byte* bytes = triangles)
+                Calls.ClothHideSkin(Handle, marginM, bytes, (uint)triangles.Length);
         }
 
         /// <summary>Positions, normals, uv, indices, strain and, where asked for, pressure.</summary>

@@ -20,8 +20,8 @@ namespace Vfit
         /// <summary>0: physical cores less one.</summary>
         public int WorkerCount;
         /// <summary>
-        /// A job system of the host: C function pointers vfit_submit_fn and vfit_wait_fn and their first argument. Not
-        /// together with Log, which has the same first argument.
+        /// The host's job system: C function pointers vfit_submit_fn and vfit_wait_fn and their first
+        /// argument. Not together with Log, which has the same first argument.
         /// </summary>
         public IntPtr NativeSubmit, NativeWait, NativeUser;
     }
@@ -33,7 +33,8 @@ namespace Vfit
         public Context(ContextOptions options) : base(new ContextHandle(null))
         {
             options = options ?? new ContextOptions();
-            if (options.WorkerCount < 0) throw new ArgumentOutOfRangeException("options", "WorkerCount is below 0");
+            if (options.WorkerCount < 0)
+                throw new ArgumentOutOfRangeException("options", "WorkerCount is below 0");
             bool hasJobs = options.NativeSubmit != IntPtr.Zero || options.NativeWait != IntPtr.Zero;
             if (hasJobs && options.Log != null)
                 throw new ArgumentException("Log and a native job system exclude each other", "options");

@@ -1,11 +1,11 @@
-// A frame: images and bodies of a sensor, or the streams of a mesh. One object carries one frame after the other.
+// A frame: images and bodies of a sensor, or the streams of a mesh. One object holds one frame after another.
 using System;
 
 namespace Vfit
 {
     public sealed unsafe partial class Frame : VfitObject<FrameHandle>
     {
-        /// <summary>Empty, to be filled by Acquire, Update and the like: make it once, outside of the loop.</summary>
+        /// <summary>Empty; Acquire, Update and others fill it. Make it once, outside of the loop.</summary>
         public Frame(Context context) : base(new FrameHandle(Context.Of(context, "context"))) { }
 
         public bool IsEmpty
@@ -13,13 +13,13 @@ namespace Vfit
             get { return Handle.IsEmpty; }
         }
 
-        /// <summary>Gives the frame back now and leaves this object empty; pools of frames are bounded.</summary>
+        /// <summary>Gives the frame back now and empties this object; pools of frames are bounded.</summary>
         public void Clear()
         {
             Handle.Put(0);
         }
 
-        /// <summary>The other object carries this frame as well, for as long as it likes: to hand it to another thread.</summary>
+        /// <summary>The other object holds this frame too, for example for another thread.</summary>
         public void Share(Frame with)
         {
             FrameHandle other = Of(with, "with");
@@ -41,7 +41,7 @@ namespace Vfit
             return Calls.FrameStreams(Handle);
         }
 
-        /// <summary>Where a stream lies; its memory is valid until this object is filled again, cleared or disposed.</summary>
+        /// <summary>A stream in memory, valid until this object is filled, cleared or disposed.</summary>
         public View View(StreamKind stream)
         {
             return Calls.FrameView(Handle, stream);
@@ -64,7 +64,7 @@ namespace Vfit
             return Calls.FrameCamera(Handle);
         }
 
-        /// <summary>What the source says beside the pixels, as JSON; null: it says nothing under that key.</summary>
+        /// <summary>The source's data under that key, as JSON; null if there is none.</summary>
         public string Meta(string key)
         {
             uint length;

@@ -6,10 +6,11 @@ namespace Vfit
     public sealed unsafe partial class Frame
     {
         /// <summary>
-        /// Item i goes to data + i * stride (0: packed), capacity bytes at most. NotReady, and no copy, where serial is
-        /// that of the frame already: meshes that did not change cost nothing.
+        /// Writes item i to data + i * stride (0: packed), at most capacity bytes. Returns NotReady without a
+        /// copy if serial is the frame's: meshes that did not change cost nothing.
         /// </summary>
-        public Result Write(StreamKind stream, IntPtr data, long capacity, Format format, int stride, ref ulong serial)
+        public Result Write(
+            StreamKind stream, IntPtr data, long capacity, Format format, int stride, ref ulong serial)
         {
             fixed (ulong* known = &serial) return Write(stream, (void*)data, capacity, format, stride, known);
         }
@@ -22,7 +23,8 @@ namespace Vfit
         /// <summary>Vertex data as floats, or depth in metres.</summary>
         public Result Write(StreamKind stream, float[] into)
         {
-            fixed (float* data = into) return Write(stream, data, Bytes(into, sizeof(float)), FloatFormat(stream), 0, null);
+            fixed (float* data = into)
+                return Write(stream, data, Bytes(into, sizeof(float)), FloatFormat(stream), 0, null);
         }
 
         public Result Write(StreamKind stream, float[] into, ref ulong serial)
@@ -35,7 +37,8 @@ namespace Vfit
         /// <summary>Positions or normals.</summary>
         public Result Write(StreamKind stream, Float3[] into)
         {
-            fixed (Float3* data = into) return Write(stream, data, Bytes(into, sizeof(Float3)), Format.F32x3, 0, null);
+            fixed (Float3* data = into)
+                return Write(stream, data, Bytes(into, sizeof(Float3)), Format.F32x3, 0, null);
         }
 
         public Result Write(StreamKind stream, Float3[] into, ref ulong serial)
@@ -48,14 +51,16 @@ namespace Vfit
         /// <summary>Indices of a mesh, three a triangle.</summary>
         public Result Write(StreamKind stream, int[] into)
         {
-            fixed (int* data = into) return Write(stream, data, Bytes(into, sizeof(int)), Format.U32, 0, null);
+            fixed (int* data = into)
+                return Write(stream, data, Bytes(into, sizeof(int)), Format.U32, 0, null);
         }
 
-        /// <summary>Depth in the camera's unit, the bones of a skin (eight a vertex), or indices of a small mesh.</summary>
+        /// <summary>Depth in the camera's unit, bones of a skin (8 per vertex), or 16-bit indices.</summary>
         public Result Write(StreamKind stream, ushort[] into)
         {
             Format format = stream == StreamKind.SkinBones ? Format.U16x8 : Format.U16;
-            fixed (ushort* data = into) return Write(stream, data, Bytes(into, sizeof(ushort)), format, 0, null);
+            fixed (ushort* data = into)
+                return Write(stream, data, Bytes(into, sizeof(ushort)), format, 0, null);
         }
 
         /// <summary>Colour, four bytes a pixel, or the user map.</summary>
@@ -65,7 +70,8 @@ namespace Vfit
             fixed (byte* data = into) return Write(stream, data, Bytes(into, 1), format, 0, null);
         }
 
-        private Result Write(StreamKind stream, void* data, long capacity, Format format, int stride, ulong* serial)
+        private Result Write(
+            StreamKind stream, void* data, long capacity, Format format, int stride, ulong* serial)
         {
             Target target = Vfit.Target.At(data, capacity, format, stride);
             return Calls.FrameWrite(Handle, stream, &target, serial);

@@ -27,7 +27,8 @@ namespace Vfit
         {
             byte[] text = Utf8Text.Encode(json, "json");
             var garment = new Garment(context);
-            fixed (byte* bytes = text) Calls.GarmentLoad(context.Handle, bytes, (ulong)text.Length - 1, garment.Handle);
+            fixed (byte* bytes = text)
+                Calls.GarmentLoad(context.Handle, bytes, (ulong)text.Length - 1, garment.Handle);
             return garment;
         }
 

@@ -8,7 +8,9 @@ namespace Vfit
     public struct HostImages
     {
         public int Width, Height;
-        /// <summary>Of 16 bits a pixel, in units of Camera.DepthUnitM (0: millimetres); 0: no reading.</summary>
+        /// <summary>
+        /// 16 bits per pixel, in units of Camera.DepthUnitM (0: millimetres); 0: no reading.
+        /// </summary>
         public IntPtr Depth;
         /// <summary>Of 8 bits a pixel: 0 background, else the body's id.</summary>
         public IntPtr Users;
@@ -31,8 +33,8 @@ namespace Vfit
         }
 
         /// <summary>
-        /// The same without a copy: the pixels must stay as they are until released is called, once, on any thread, when
-        /// the last reference has gone. It is not called where this call fails.
+        /// The same without a copy: the pixels must not change until released is called, once, on any thread,
+        /// when the last reference is gone. It is not called if this call fails.
         /// </summary>
         public static void Lend(Context context, ref HostImages images, Action released, Frame into)
         {
@@ -41,7 +43,9 @@ namespace Vfit
         }
 
         /// <summary>From arrays: users (may be null) has one byte a pixel.</summary>
-        public static Frame FromDepth(Context context, ushort[] depth, byte[] users, int width, int height, Intrinsics intrinsics, long timeNs)
+        public static Frame FromDepth(
+            Context context, ushort[] depth, byte[] users, int width, int height, Intrinsics intrinsics,
+            long timeNs)
         {
             if (depth == null) throw new ArgumentNullException("depth");
             if (width <= 0 || height <= 0 || depth.LongLength != (long)width * height)
@@ -72,7 +76,8 @@ namespace Vfit
 
         private static void Create(Context context, ref HostImages images, Frame into, Action released)
         {
-            if (images.Width <= 0 || images.Height <= 0) throw new ArgumentException("images without a size", "images");
+            if (images.Width <= 0 || images.Height <= 0)
+                throw new ArgumentException("images without a size", "images");
             FrameHandle target = Of(into, "into");
             const int most = 3;
             StreamKind* streams = stackalloc StreamKind[most];
@@ -115,8 +120,9 @@ namespace Vfit
             }
         }
 
-        private static void Add(StreamKind* streams, View* views, ref uint count, ref HostImages images, StreamKind stream,
-                                Format format, IntPtr data)
+        private static void Add(
+            StreamKind* streams, View* views, ref uint count, ref HostImages images, StreamKind stream,
+            Format format, IntPtr data)
         {
             if (data == IntPtr.Zero) return;
             streams[count] = stream;

@@ -22,8 +22,8 @@ namespace Vfit
         }
 
         /// <summary>
-        /// Ends all contexts of the process and joins their threads: for a host that reloads its code. What is left of
-        /// their objects in C# gives ErrorHandle from then on.
+        /// Ends all contexts of the process and joins their threads, for a host that reloads its code. Their
+        /// remaining objects in C# give ErrorHandle from then on.
         /// </summary>
         public static void Shutdown()
         {
@@ -54,7 +54,7 @@ namespace Vfit
             return Native.vfit_bone_parent(bone);
         }
 
-        /// <summary>Key and one-line definition of every measure: "chest_girth_m" and what the tape does.</summary>
+        /// <summary>Key and one-line definition of every measure, for example "chest_girth_m".</summary>
         public static List<KeyValuePair<string, string>> Measures()
         {
             var measures = new List<KeyValuePair<string, string>>();

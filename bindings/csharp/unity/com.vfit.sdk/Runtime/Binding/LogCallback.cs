@@ -1,11 +1,12 @@
-// Log lines to a delegate of the host: through one static function, the only kind that ahead-of-time compilers can export.
+// Log lines to a delegate of the host, through one static function, the only kind that ahead-of-time
+// compilers can export.
 using System;
 using System.Collections.Generic;
 using System.Runtime.InteropServices;
 
 namespace Vfit
 {
-    /// <summary>Marks what native code calls. IL2CPP goes by the name alone, wherever the attribute is declared.</summary>
+    /// <summary>Marks functions that native code calls. IL2CPP looks at the attribute's name only.</summary>
     [AttributeUsage(AttributeTargets.Method)]
     internal sealed class MonoPInvokeCallbackAttribute : Attribute
     {
@@ -16,12 +17,13 @@ namespace Vfit
     {
         // Kept for the life of the process: contexts hold the pointer.
         private static readonly LogFn kept = OnLine;
-        private static readonly Dictionary<long, Action<LogLevel, string>> receivers = new Dictionary<long, Action<LogLevel, string>>();
+        private static readonly Dictionary<long, Action<LogLevel, string>> receivers =
+            new Dictionary<long, Action<LogLevel, string>>();
         private static long lastKey;
 
         internal static readonly IntPtr Function = Marshal.GetFunctionPointerForDelegate(kept);
 
-        /// <summary>A key that the library hands back with each line; a number, as a moved object has no address.</summary>
+        /// <summary>The key that the library returns with each line: objects have no fixed address.</summary>
         internal static long Add(Action<LogLevel, string> receiver)
         {
             lock (receivers)

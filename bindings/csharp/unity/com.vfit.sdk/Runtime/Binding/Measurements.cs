@@ -19,7 +19,7 @@ namespace Vfit
             return false;
         }
 
-        /// <summary>A measure that somebody knows: its value, and one standard deviation (0: unknown).</summary>
+        /// <summary>A known measure: its value and its standard deviation (0: unknown).</summary>
         public static Measurement Known(string key, float value, float sigma = 0)
         {
             return new Measurement { Key = key, Value = value, Sigma = sigma, Observed = 1 };
@@ -32,10 +32,12 @@ namespace Vfit
             uint capacity = 0;
             fixed (Measurement* items = list)
             {
-                Calls.MeasurementsWrite(items, (uint)sizeof(Measurement), (uint)list.Length, sex, null, &capacity);
+                Calls.MeasurementsWrite(
+                    items, (uint)sizeof(Measurement), (uint)list.Length, sex, null, &capacity);
                 var text = new byte[capacity];
                 fixed (byte* bytes = text)
-                    Calls.MeasurementsWrite(items, (uint)sizeof(Measurement), (uint)list.Length, sex, bytes, &capacity);
+                    Calls.MeasurementsWrite(
+                        items, (uint)sizeof(Measurement), (uint)list.Length, sex, bytes, &capacity);
                 fixed (byte* bytes = text) return Utf8Text.Read(bytes, text.Length);
             }
         }
@@ -51,7 +53,9 @@ namespace Vfit
                 Calls.MeasurementsRead(bytes, length, null, (uint)sizeof(Measurement), &count, &found);
                 var list = new Measurement[count];
                 fixed (Measurement* items = list)
-                    if (count > 0) Calls.MeasurementsRead(bytes, length, items, (uint)sizeof(Measurement), &count, &found);
+                    if (count > 0)
+                        Calls.MeasurementsRead(
+                            bytes, length, items, (uint)sizeof(Measurement), &count, &found);
                 sex = found;
                 return list;
             }

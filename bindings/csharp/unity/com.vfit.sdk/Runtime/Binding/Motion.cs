@@ -30,8 +30,8 @@ namespace Vfit
         }
 
         /// <summary>
-        /// A new body, or the same or no frame: then it predicts to nowNs. NotReady: that body is not in the frame, the pose
-        /// holds.
+        /// Takes a new body, or predicts to nowNs if the frame is the same or null. NotReady: that body is
+        /// not in the frame, and the pose holds.
         /// </summary>
         public Result Step(Frame tracked, uint bodyId, long nowNs)
         {
@@ -45,7 +45,8 @@ namespace Vfit
             if (into == null) throw new System.ArgumentNullException("into");
             Pose info = into.Header();
             uint count = Counts.BoneCount;
-            fixed (Bone* bones = into.Bones) Calls.MotionPose(Handle, &info, bones, (uint)sizeof(Bone), &count);
+            fixed (Bone* bones = into.Bones)
+                Calls.MotionPose(Handle, &info, bones, (uint)sizeof(Bone), &count);
             into.Info = info;
             into.Count = (int)count;
         }

@@ -3,8 +3,9 @@ namespace Vfit
 {
     public sealed unsafe class Recorder : VfitObject<RecorderHandle>
     {
-        /// <summary>path must not exist, or be an empty folder. A rate of 0 means 30 frames a second.</summary>
-        public Recorder(Context context, string path, string sensorName = null, float rateHz = 0, bool segmented = false)
+        /// <summary>path must not exist or be an empty folder. A rate of 0 means 30 Hz.</summary>
+        public Recorder(
+            Context context, string path, string sensorName = null, float rateHz = 0, bool segmented = false)
             : base(new RecorderHandle(Context.Of(context, "context")))
         {
             fixed (byte* folder = Utf8Text.Encode(path, "path"), name = Utf8Text.Encode(sensorName))

@@ -5,14 +5,17 @@ namespace Vfit
     {
         public Context Context { get; private set; }
 
-        public Scan(Context context, ScanDesc desc = default(ScanDesc)) : base(new ScanHandle(Context.Of(context, "context")))
+        public Scan(Context context, ScanDesc desc = default(ScanDesc))
+            : base(new ScanHandle(Context.Of(context, "context")))
         {
             Context = context;
             desc.StructSize = (uint)sizeof(ScanDesc);
             Calls.ScanCreate(context.Handle, &desc, Handle);
         }
 
-        /// <summary>Ok: complete. NotReady: taken, more are wanted. Incomplete: not taken, state.Guidance says why.</summary>
+        /// <summary>
+        /// Ok: complete. NotReady: taken, more needed. Incomplete: refused, see state.Guidance.
+        /// </summary>
         public Result Add(Frame tracked, uint bodyId, out ScanState state)
         {
             var filled = new ScanState();
@@ -64,7 +67,8 @@ namespace Vfit
         /// <summary>What a garment of that kind has to be scaled by (Algorithm 3).</summary>
         public Scale Scale(string garmentKind)
         {
-            fixed (byte* kind = Utf8Text.Encode(garmentKind, "garmentKind")) return Calls.ScanScale(Handle, kind);
+            fixed (byte* kind = Utf8Text.Encode(garmentKind, "garmentKind"))
+                return Calls.ScanScale(Handle, kind);
         }
 
         /// <summary>Asks for more frames of this person, also of a complete scan.</summary>

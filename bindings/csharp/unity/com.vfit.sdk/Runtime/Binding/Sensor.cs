@@ -25,10 +25,13 @@ namespace Vfit
             return Calls.SensorOptions(Handle);
         }
 
-        /// <summary>Before the start. "pace" is "realtime", which drops frames as a camera does, or "none".</summary>
+        /// <summary>
+        /// Before the start. "pace" is "realtime" (drops frames as a camera does) or "none".
+        /// </summary>
         public void SetOption(string key, string value)
         {
-            fixed (byte* k = Utf8Text.Encode(key, "key"), v = Utf8Text.Encode(value, "value")) Calls.SensorSetOption(Handle, k, v);
+            fixed (byte* k = Utf8Text.Encode(key, "key"), v = Utf8Text.Encode(value, "value"))
+                Calls.SensorSetOption(Handle, k, v);
         }
 
         public void Start()
@@ -47,8 +50,8 @@ namespace Vfit
         }
 
         /// <summary>
-        /// The newest frame, into one that is used again and again; empty but for Result.Ok. 0 seconds never wait, below 0
-        /// waits without end. Timeout and EndOfStream are news, an error of the stream is thrown.
+        /// Fills the frame with the newest one; it is empty unless the result is Ok. 0 seconds never wait,
+        /// below 0 waits without end. Timeout and EndOfStream are returned, errors of the stream are thrown.
         /// </summary>
         public Result Acquire(Frame into, double timeoutS)
         {
@@ -56,8 +59,8 @@ namespace Vfit
         }
 
         /// <summary>
-        /// Starts the sensor where it does not run and gives frames until the stream ends: the same Frame again and again,
-        /// so copy what is to stay.
+        /// Starts the sensor if it does not run, and gives frames until the stream ends. It is the same Frame
+        /// every time: copy the data to keep.
         /// </summary>
         public IEnumerable<Frame> Frames()
         {

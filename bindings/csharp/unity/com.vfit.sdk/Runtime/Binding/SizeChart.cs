@@ -27,7 +27,8 @@ namespace Vfit
         {
             byte[] text = Utf8Text.Encode(json, "json");
             var chart = new SizeChart(context);
-            fixed (byte* bytes = text) Calls.SizeChartLoad(context.Handle, bytes, (ulong)text.Length - 1, chart.Handle);
+            fixed (byte* bytes = text)
+                Calls.SizeChartLoad(context.Handle, bytes, (ulong)text.Length - 1, chart.Handle);
             return chart;
         }
 
@@ -42,16 +43,19 @@ namespace Vfit
             Arrays.Check(measures, 0, "measures");
             fixed (byte* kind = Utf8Text.Encode(garmentKind, "garmentKind"))
             fixed (Measurement* items = measures)
-                return Calls.SizeRecommend(Handle, kind, items, (uint)sizeof(Measurement), (uint)measures.Length);
+                return Calls.SizeRecommend(
+                    Handle, kind, items, (uint)sizeof(Measurement), (uint)measures.Length);
         }
 
         /// <summary>How that size sits, measure by measure.</summary>
         public SizeZone[] Zones(string garmentKind, string label, Measurement[] measures)
         {
             Arrays.Check(measures, 0, "measures");
-            fixed (byte* kind = Utf8Text.Encode(garmentKind, "garmentKind"), size = Utf8Text.Encode(label, "label"))
+            fixed (byte* kind = Utf8Text.Encode(garmentKind, "garmentKind"),
+                   size = Utf8Text.Encode(label, "label"))
             fixed (Measurement* items = measures)
-                return Calls.SizeZones(Handle, kind, size, items, (uint)sizeof(Measurement), (uint)measures.Length);
+                return Calls.SizeZones(
+                    Handle, kind, size, items, (uint)sizeof(Measurement), (uint)measures.Length);
         }
     }
 }

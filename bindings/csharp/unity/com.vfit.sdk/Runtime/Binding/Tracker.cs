@@ -18,29 +18,34 @@ namespace Vfit
             Calls.TrackerCreate(context.Handle, &desc, Handle);
         }
 
-        /// <summary>The frame with its bodies; both may be the same object, which then holds the tracked frame.</summary>
+        /// <summary>
+        /// The frame with its bodies; both may be one object, which gets the tracked frame.
+        /// </summary>
         public void Update(Frame frame, Frame tracked)
         {
             Calls.TrackerUpdate(Handle, Frame.Of(frame, "frame"), Frame.Of(tracked, "tracked"));
         }
 
         /// <summary>
-        /// Joints of the host's own middleware, one call a body; to add a second body, frame is what the call before made.
+        /// Joints of the host's own middleware, one call per body. For a second body, pass the frame that the
+        /// first call made.
         /// </summary>
         public void Submit(Frame frame, Body body, Joint[] joints, int count, Frame tracked)
         {
             Arrays.Check(joints, count, "joints");
             body.StructSize = (uint)sizeof(Body);
             fixed (Joint* items = joints)
-                Calls.TrackerSubmit(Handle, Frame.Of(frame, "frame"), &body, items, (uint)sizeof(Joint), (uint)count,
-                                    Frame.Of(tracked, "tracked"));
+                Calls.TrackerSubmit(
+                    Handle, Frame.Of(frame, "frame"), &body, items, (uint)sizeof(Joint), (uint)count,
+                    Frame.Of(tracked, "tracked"));
         }
 
         /// <summary>For the next update: where a network of the host's sees joints in the picture.</summary>
         public void Hint(JointHint[] hints, int count)
         {
             Arrays.Check(hints, count, "hints");
-            fixed (JointHint* items = hints) Calls.TrackerHint(Handle, items, (uint)sizeof(JointHint), (uint)count);
+            fixed (JointHint* items = hints)
+                Calls.TrackerHint(Handle, items, (uint)sizeof(JointHint), (uint)count);
         }
 
         /// <summary>Forgets people, room and choice.</summary>

@@ -22,7 +22,8 @@ namespace Vfit
         {
             byte[] encoded = Encode(text ?? "");
             if (encoded.Length > capacity)
-                throw new ArgumentException("\"" + text + "\" is longer than " + (capacity - 1) + " bytes", name);
+                throw new ArgumentException(
+                    "\"" + text + "\" is longer than " + (capacity - 1) + " bytes", name);
             for (int i = 0; i < capacity; i++) bytes[i] = i < encoded.Length ? encoded[i] : (byte)0;
         }
 
@@ -30,7 +31,8 @@ namespace Vfit
         internal static byte[] Encode(string text)
         {
             if (text == null) return null;
-            if (text.IndexOf('\0') >= 0) throw new ArgumentException("a text for vfit must not contain a null character");
+            if (text.IndexOf('\0') >= 0)
+                throw new ArgumentException("a text for vfit must not contain a null character");
             var bytes = new byte[Encoding.UTF8.GetByteCount(text) + 1];
             Encoding.UTF8.GetBytes(text, 0, text.Length, bytes, 0);
             return bytes;

@@ -13,7 +13,9 @@ namespace Vfit
             Code = code;
         }
 
-        /// <summary>Passes success and news on. To be called on the thread of the call that gave the result.</summary>
+        /// <summary>
+        /// Returns success and news. Must run on the thread of the call that gave the result.
+        /// </summary>
         internal static Result Check(Result result)
         {
             if (result < 0) throw Last(result);

@@ -1,4 +1,4 @@
-// A handle of the library that is given back once, by Dispose or by the finalizer, whatever happens around it.
+// A handle of the library, which Dispose or the finalizer gives back exactly once.
 using System;
 using System.Runtime.InteropServices;
 using System.Threading;
@@ -6,8 +6,8 @@ using System.Threading;
 namespace Vfit
 {
     /// <summary>
-    /// While a call runs, the handle is held, so that no finalizer ends an object in the middle of a step. A child holds
-    /// its parent: of a whole tree that nobody refers to any more, children go first.
+    /// A call holds the handle while it runs, so that no finalizer ends an object in the middle of a step. A
+    /// child holds its parent: in a tree without references, children end first.
     /// </summary>
     public abstract class VfitHandle : SafeHandle
     {
@@ -48,7 +48,9 @@ namespace Vfit
         /// <summary>Called once the library has let go of the object.</summary>
         protected virtual void Ended() { }
 
-        /// <summary>The id for one call; a null handle is the library's null. Release where held has become true.</summary>
+        /// <summary>
+        /// The id for one call; null gives the library's null handle. Release if held is true.
+        /// </summary>
         internal static ulong Hold(VfitHandle handle, ref bool held)
         {
             if (handle == null) return 0;
@@ -57,7 +59,7 @@ namespace Vfit
             return (ulong)handle.handle;
         }
 
-        /// <summary>Takes over a new id and ends the one before: so one object carries frame after frame.</summary>
+        /// <summary>Takes over a new id and ends the last: one object holds frame after frame.</summary>
         internal void Put(ulong id)
         {
             bool held = false;
@@ -79,8 +81,8 @@ namespace Vfit
         }
 
         /// <summary>
-        /// Ends the object now, also while another thread is in a call on it: the library lets that call finish, or
-        /// wakes it where it waits. Where it may not be disturbed (BUSY), the last call to leave ends it.
+        /// Ends the object now, also while another thread is in a call on it: the library lets that call
+        /// finish, or wakes it if it waits. If the object is BUSY, the last call that returns ends it.
         /// </summary>
         internal void EndNow()
         {
@@ -123,7 +125,9 @@ namespace Vfit
             Handle = handle;
         }
 
-        /// <summary>Closed by Dispose. An object whose context was closed does not know it until it is used.</summary>
+        /// <summary>
+        /// Closed by Dispose. If its context was closed, an object learns it at the next call.
+        /// </summary>
         public bool IsClosed
         {
             get { return Handle.IsDisposed; }

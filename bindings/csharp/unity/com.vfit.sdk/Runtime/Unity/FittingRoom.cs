@@ -1,4 +1,5 @@
-// The component: opens a sensor, follows the active person, drives a humanoid, fills the meshes of body and cloth.
+// The component: opens a sensor, tracks the active person, drives a humanoid, fills the meshes of body and
+// cloth.
 using System;
 using UnityEngine;
 
@@ -135,7 +136,7 @@ namespace Vfit.Unity
             {
                 open();
             }
-            catch (Exception error)     // no library, no such sensor, no humanoid: said in Error whichever it is
+            catch (Exception error)     // no library, no such sensor, or no humanoid: Error says which
             {
                 Fail(error);
             }

@@ -5,8 +5,8 @@ using UnityEngine;
 namespace Vfit.Unity
 {
     /// <summary>
-    /// Begin and End once a rendered frame; between the two the cloth is stepped on a worker. Once the avatar follows,
-    /// neither makes garbage.
+    /// Call Begin and End once per rendered frame; between them a worker steps the cloth. Once the avatar
+    /// follows the person, neither makes garbage.
     /// </summary>
     public sealed class FittingSession : IDisposable
     {
@@ -90,7 +90,8 @@ namespace Vfit.Unity
             if (person != 0 && State == FittingState.Waiting) State = FittingState.Scanning;
             // Without a new frame motion predicts to now: a camera of 30 frames drives a screen of 144.
             long now = settings.realtime ? context.TimeNs : tracked.View(StreamKind.Depth).TimeNs;
-            if (State == FittingState.Ended || motion.Step(isNew ? tracked : null, person, now) != Result.Ok) return;
+            if (State == FittingState.Ended) return;
+            if (motion.Step(isNew ? tracked : null, person, now) != Result.Ok) return;
             motion.Pose(Pose);
             HasPose = true;
             if (avatar == null) return;
@@ -156,8 +157,9 @@ namespace Vfit.Unity
             avatar = made;
             motion.Bind(avatar);
             if (string.IsNullOrEmpty(settings.garment)) return;
+            string size = string.IsNullOrEmpty(settings.size) ? null : settings.size;
             using (Garment garment = Garment.Open(context, settings.garment))
-                cloth = new Cloth(avatar, garment, default(ClothDesc), string.IsNullOrEmpty(settings.size) ? null : settings.size);
+                cloth = new Cloth(avatar, garment, default(ClothDesc), size);
             if (!settings.hideSkin) return;
             hiddenSkin = new byte[avatar.Describe().IndexCount / 3];
             cloth.HideSkin(hiddenSkin);

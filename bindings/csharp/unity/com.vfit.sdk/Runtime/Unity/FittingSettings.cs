@@ -9,7 +9,7 @@ namespace Vfit.Unity
     {
         [Tooltip("recording:PATH, virtual:motion=demo&sex=f, or a camera of a plug-in")]
         public string sensor = "virtual:motion=demo&sex=f";
-        [Tooltip("Recordings and the virtual person at the speed of life; otherwise one frame of theirs each rendered frame")]
+        [Tooltip("Play recordings and the virtual person in real time, not one frame per rendered frame")]
         public bool realtime = true;
         [Tooltip("Starts a recording over when it ends")]
         public bool loop = true;

@@ -6,22 +6,26 @@ using UnityEngine;
 namespace Vfit.Unity
 {
     /// <summary>
-    /// vfit's rotations are relative to a T-pose in which every bone has the axes of the world. A bone of the character is
-    /// turned by the same rotation from where it stands in the character's own T-pose. That one is taken from the
-    /// humanoid's avatar asset, so the character may stand in any pose when this is made. Bones that it lacks pass their
-    /// turn on to the ones below.
+    /// vfit's rotations are relative to a T-pose in which every bone has the axes of world space. They are
+    /// applied to the character's bones in its own T-pose. The T-pose comes from the humanoid's avatar asset,
+    /// so the character may have any pose when this is made. Bones that the character lacks pass their
+    /// rotation on to their children.
     /// </summary>
     public sealed class HumanoidDriver
     {
         // In the order of BoneId.
         private static readonly HumanBodyBones[] names =
         {
-            HumanBodyBones.Hips, HumanBodyBones.Spine, HumanBodyBones.Chest, HumanBodyBones.UpperChest, HumanBodyBones.Neck,
-            HumanBodyBones.Head,
-            HumanBodyBones.LeftShoulder, HumanBodyBones.LeftUpperArm, HumanBodyBones.LeftLowerArm, HumanBodyBones.LeftHand,
-            HumanBodyBones.RightShoulder, HumanBodyBones.RightUpperArm, HumanBodyBones.RightLowerArm, HumanBodyBones.RightHand,
-            HumanBodyBones.LeftUpperLeg, HumanBodyBones.LeftLowerLeg, HumanBodyBones.LeftFoot, HumanBodyBones.LeftToes,
-            HumanBodyBones.RightUpperLeg, HumanBodyBones.RightLowerLeg, HumanBodyBones.RightFoot, HumanBodyBones.RightToes
+            HumanBodyBones.Hips, HumanBodyBones.Spine, HumanBodyBones.Chest, HumanBodyBones.UpperChest,
+            HumanBodyBones.Neck, HumanBodyBones.Head,
+            HumanBodyBones.LeftShoulder, HumanBodyBones.LeftUpperArm, HumanBodyBones.LeftLowerArm,
+            HumanBodyBones.LeftHand,
+            HumanBodyBones.RightShoulder, HumanBodyBones.RightUpperArm, HumanBodyBones.RightLowerArm,
+            HumanBodyBones.RightHand,
+            HumanBodyBones.LeftUpperLeg, HumanBodyBones.LeftLowerLeg, HumanBodyBones.LeftFoot,
+            HumanBodyBones.LeftToes,
+            HumanBodyBones.RightUpperLeg, HumanBodyBones.RightLowerLeg, HumanBodyBones.RightFoot,
+            HumanBodyBones.RightToes
         };
 
         private readonly Transform root;
@@ -36,7 +40,8 @@ namespace Vfit.Unity
         {
             if (animator == null) throw new ArgumentNullException("animator");
             if (animator.avatar == null || !animator.avatar.isHuman)
-                throw new ArgumentException("the animator " + animator.name + " has no humanoid avatar", "animator");
+                throw new ArgumentException(
+                    "the animator " + animator.name + " has no humanoid avatar", "animator");
             root = animator.transform;
             Dictionary<string, SkeletonBone> tPose = TPose(animator);
             Vector3 hips = Vector3.zero, foot = Vector3.zero;
@@ -68,13 +73,17 @@ namespace Vfit.Unity
             if (bones[0] == null) return;
             Float3 hips = pose.Bones[0].Position;
             float scale = LegScale(pose);
-            bones[0].position = root.TransformPoint(new Vector3(hips.X * scale, hips.Y * scale, hips.Z * scale));
+            var place = new Vector3(hips.X * scale, hips.Y * scale, hips.Z * scale);
+            bones[0].position = root.TransformPoint(place);
         }
 
-        /// <summary>How much longer the character's legs are; positions of a pose are offsets in the T-pose.</summary>
+        /// <summary>
+        /// Ratio of leg lengths, character to pose; positions of a pose are T-pose offsets.
+        /// </summary>
         private float LegScale(BodyPose pose)
         {
-            float leg = -(pose.Bones[(int)BoneId.LeftUpperLeg].Position.Y + pose.Bones[(int)BoneId.LeftLowerLeg].Position.Y +
+            float leg = -(pose.Bones[(int)BoneId.LeftUpperLeg].Position.Y +
+                          pose.Bones[(int)BoneId.LeftLowerLeg].Position.Y +
                           pose.Bones[(int)BoneId.LeftFoot].Position.Y);
             return leg > 0.1f && hipsAboveFoot > 0 ? hipsAboveFoot / leg : 1;
         }
@@ -86,8 +95,10 @@ namespace Vfit.Unity
             return found;
         }
 
-        /// <summary>Place and rotation of a bone in the T-pose; as it stands now where the asset does not know it.</summary>
-        private void ToRoot(Transform bone, Dictionary<string, SkeletonBone> tPose, out Vector3 place, out Quaternion rotation)
+        /// <summary>Position and rotation of a bone in the T-pose, or now if the asset lacks it.</summary>
+        private void ToRoot(
+            Transform bone, Dictionary<string, SkeletonBone> tPose, out Vector3 place,
+            out Quaternion rotation)
         {
             place = Vector3.zero;
             rotation = Quaternion.identity;

@@ -19,7 +19,9 @@ namespace Vfit.Unity
             mesh.MarkDynamic();
         }
 
-        /// <summary>The streams of the frame; uv and triangles only where the number of vertices has changed.</summary>
+        /// <summary>
+        /// The streams of the frame; uv and triangles only if the number of vertices changed.
+        /// </summary>
         public void Write(Frame frame)
         {
             int count = frame.Count(StreamKind.Position);
@@ -63,7 +65,8 @@ namespace Vfit.Unity
             frame.Write(StreamKind.Index, triangles);
             Fetch(frame);
             Mesh.Clear();
-            Mesh.indexFormat = IndexFormat.UInt32;  // the body has more vertices than 16 bits count at detail 1
+            // At detail 1, the body has more vertices than 16-bit indices can address.
+            Mesh.indexFormat = IndexFormat.UInt32;
             Mesh.SetVertices(positions);
             Mesh.SetUVs(0, uv);
         }
@@ -72,9 +75,11 @@ namespace Vfit.Unity
         private bool Fetch(Frame frame)
         {
             long capacity = (long)positions.Length * sizeof(Vector3);
+            Result result;
             fixed (Vector3* first = positions)
-                if (frame.Write(StreamKind.Position, (IntPtr)first, capacity, Format.F32x3, 0, ref serial) == Result.NotReady)
-                    return false;
+                result = frame.Write(
+                    StreamKind.Position, (IntPtr)first, capacity, Format.F32x3, 0, ref serial);
+            if (result == Result.NotReady) return false;
             fixed (Vector3* first = normals)
                 frame.Write(StreamKind.Normal, (IntPtr)first, capacity, Format.F32x3, 0);
             return true;

@@ -1,4 +1,4 @@
-// The end of all contexts where the scripts that made them go: at quit, and where a play mode starts without a reload.
+// Ends all contexts when the scripts that made them end: at quit, and when play mode starts without a reload.
 using System;
 using UnityEngine;
 
@@ -7,7 +7,8 @@ namespace Vfit.Unity
     public static class VfitProcess
     {
         /// <summary>
-        /// Ends what an earlier play mode has left: with "Reload Domain" switched off statics live on, and so would cameras.
+        /// Ends the contexts that an earlier play mode left: with "Reload Domain" off, static fields and open
+        /// cameras outlive it.
         /// </summary>
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
         private static void OnPlay()
@@ -26,7 +27,8 @@ namespace Vfit.Unity
             }
             catch (DllNotFoundException)
             {
-                Debug.LogWarning("vfit: the native library is not installed; see the package's documentation");
+                Debug.LogWarning(
+                    "vfit: the native library is not installed; see the package's documentation");
             }
             catch (VfitException error)
             {

@@ -1,4 +1,5 @@
-// A mirror on an empty object: makes what a fitting room fills, shows the person dressed and says what they should do.
+// A mirror on an empty object: makes the objects that a fitting room fills, shows the dressed person and says
+// what they should do.
 using UnityEngine;
 using Vfit;
 using Vfit.Unity;
@@ -38,7 +39,8 @@ public sealed class MirrorSample : MonoBehaviour
     {
         if (Room == null) return;
         ScanState scan = Room.Scan;
-        GUILayout.Label(Room.State + "  " + scan.FramesTaken + " of " + scan.FramesWanted + "  " + scan.Guidance);
+        string frames = scan.FramesTaken + " of " + scan.FramesWanted;
+        GUILayout.Label(Room.State + "  " + frames + "  " + scan.Guidance);
     }
 
     private static MeshFilter Shown(string name, Material material, Transform parent)
