@@ -36,7 +36,7 @@ public:
         std::fprintf(stderr, "drawn by %s%s\n", renderer_.name.c_str(),
                      renderer_.software ? " (a software renderer)" : "");
         view_.emplace(window_->width(), window_->height(), options.samples);
-        overlay_.emplace(window_->width(), window_->height());
+        overlay_.emplace();
         if (!options.record.empty()) std::filesystem::create_directories(options.record);
     }
 
@@ -87,6 +87,23 @@ private:
         if (!window_) return;
         for (const Key key : window_->keys()) press(key);
         window_->keys().clear();
+        take_clicks();
+    }
+
+    /// What the overlay's widgets were clicked for in the last picture, and the pointer for the next.
+    void take_clicks() {
+        const Wish wish = overlay_->take_wish();
+        if (wish.garment != 0) room_.choose_garment(wish.garment);
+        if (wish.size != 0) room_.choose_size(wish.size);
+        press(wish.key);
+        if (options_.clicks.empty()) {
+            pointer_ = window_->pointer();
+            return;
+        }
+        pointer_.down = false;  // a planned click is held for one picture
+        for (const PlannedClick& click : options_.clicks)
+            if (room_.dressed() && click.frame == times_.frames())
+                pointer_ = {float(click.x), float(click.y), true};
     }
 
     void press(Key key) {
@@ -140,7 +157,7 @@ private:
         view_->resize(window_->width(), window_->height());
         view_->draw(room_, {mirror_, fit_map_, seconds}, window_->framebuffer());
         overlay_->draw(room_, times_, {mirror_, fit_map_, help_, renderer_.name.c_str(), renderer_.software},
-                       view_->width(), view_->height());
+                       pointer_, view_->width(), view_->height(), seconds);
     }
     void draw(float seconds) {
         compose(seconds);
@@ -166,6 +183,7 @@ private:
     StageMs stages_{};
     float last_frame_ms_ = 0.0f;
     std::vector<Key> pressed_;
+    Pointer pointer_;
     bool mirror_ = true, fit_map_ = false, help_ = false, ended_ = false;
 };
 

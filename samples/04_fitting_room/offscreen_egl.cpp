@@ -48,6 +48,7 @@ public:
     int height() const override { return height_; }
     GLuint framebuffer() const override { return framebuffer_; }
     std::vector<Key>& keys() override { return none_; }
+    Pointer pointer() override { return {}; }
     // Nobody looks, and yet the picture has to be drawn before its time is taken.
     void present() override { glFinish(); }
 

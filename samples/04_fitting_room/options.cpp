@@ -4,18 +4,21 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <tuple>
+#include <utility>
 
 namespace room {
 
 namespace {
 
 constexpr const char* kHelp =
-    R"(A live fitting room: scans who stands before the camera, names the size, and shows the dressed avatar in a mirror.
+    R"(A live fitting room: scans the person before the camera, recommends a size, and shows the dressed
+avatar as in a mirror.
     vfit-room [SOURCE] [options]
 SOURCE              sensor URI or recording folder (default: a virtual person)
   --garment NAME    by name, or a file; again for more (default: all that come with vfit)
   --size LABEL      of the first garment, or "made to measure" (default: the recommended size)
-  --sex f|m         whose default body the scan starts from (default f)
+  --sex f|m         of the person (default: as the scan finds)
   --tracked         joints by vfit's own tracker, also where the source tells them
   --min-interval MS between two steps of the cloth at least (default 8)
   --detail N        of the body's mesh, 0 to 2 (default 0)
@@ -26,10 +29,11 @@ SOURCE              sensor URI or recording folder (default: a virtual person)
   --film            one camera image a picture, however long a picture takes (with --record always)
   --frames N        ends so many pictures after the person was dressed; --seconds S likewise
   --keys LIST       presses keys so many pictures after that: "30:right,60:up"
+  --clicks LIST     clicks into the picture likewise, in pixels: "30:100x320"
   --picture FILE    the last picture as PNG;  --record FOLDER  all of them
   --json            prints a report;  --renderer  prints what draws, and ends
-Keys: left right (garment) up down (size) p (cloth on and off) c (camera) m (mirror) space (put on anew) f (fit map)
-      h (help) esc
+Keys: left right (garment) up down (size) p (cloth on and off) c (camera) m (mirror) space (put on anew)
+      f (fit map) h (help) esc
 )";
 
 constexpr struct {
@@ -49,29 +53,35 @@ T number(const char* option, const std::string& text, T least, T most) {
     return value;
 }
 
-std::vector<PlannedKey> planned_keys(const std::string& text) {
-    std::vector<PlannedKey> keys;
+/// Calls add(frame, rest) for each "FRAME:REST" of a list with commas. what: REST in words.
+template <typename Add>
+void read_plan(const char* option, const std::string& text, const char* what, Add&& add) {
     for (size_t from = 0; from < text.size();) {
         size_t to = text.find(',', from);
         if (to == std::string::npos) to = text.size();
         const std::string item = text.substr(from, to - from);
         from = to + 1;
         const size_t colon = item.find(':');
-        if (colon == std::string::npos) throw Usage{"--keys: '" + item + "' is not FRAME:KEY"};
-        PlannedKey planned{number<uint64_t>("--keys", item.substr(0, colon), 0, 1'000'000'000), Key::none};
-        for (const auto& known : kKeys)
-            if (item.substr(colon + 1) == known.name) planned.key = known.key;
-        if (planned.key == Key::none) throw Usage{"--keys: there is no key '" + item.substr(colon + 1) + "'"};
-        keys.push_back(planned);
+        if (colon == std::string::npos)
+            throw Usage{std::string(option) + ": '" + item + "' is not FRAME:" + what};
+        add(number<uint64_t>(option, item.substr(0, colon), 0, 1'000'000'000), item.substr(colon + 1));
     }
-    return keys;
 }
 
-void read_resolution(const std::string& text, Options& o) {
+Key key_named(const std::string& name) {
+    for (const auto& known : kKeys)
+        if (name == known.name) return known.key;
+    throw Usage{"--keys: there is no key '" + name + "'"};
+}
+
+/// Two numbers with an x between them.
+std::pair<int, int> pair_of(const char* option, const std::string& text, const char* what, int least_x,
+                            int least_y) {
+    constexpr int kMost = 8192;
     const size_t x = text.find('x');
-    if (x == std::string::npos) throw Usage{"--resolution: '" + text + "' is not WIDTHxHEIGHT"};
-    o.width = number("--resolution", text.substr(0, x), 320, 8192);
-    o.height = number("--resolution", text.substr(x + 1), 240, 8192);
+    if (x == std::string::npos) throw Usage{std::string(option) + ": '" + text + "' is not " + what};
+    return {number(option, text.substr(0, x), least_x, kMost),
+            number(option, text.substr(x + 1), least_y, kMost)};
 }
 
 vfit_sex sex_of(const std::string& text) {
@@ -115,7 +125,7 @@ Options parse_options(int argc, char** argv) {
         else if (is("--data"))
             o.data_dir = value();
         else if (is("--resolution"))
-            read_resolution(value(), o);
+            std::tie(o.width, o.height) = pair_of("--resolution", value(), "WIDTHxHEIGHT", 320, 240);
         else if (is("--samples"))
             o.samples = number("--samples", value(), 0, 16);
         else if (is("--offscreen"))
@@ -129,7 +139,14 @@ Options parse_options(int argc, char** argv) {
         else if (is("--seconds"))
             o.seconds = number("--seconds", value(), 0.1, 1e9);
         else if (is("--keys"))
-            o.keys = planned_keys(value());
+            read_plan("--keys", value(), "KEY", [&](uint64_t frame, const std::string& name) {
+                o.keys.push_back({frame, key_named(name)});
+            });
+        else if (is("--clicks"))
+            read_plan("--clicks", value(), "XxY", [&](uint64_t frame, const std::string& place) {
+                const auto [x, y] = pair_of("--clicks", place, "XxY", 0, 0);
+                o.clicks.push_back({frame, x, y});
+            });
         else if (is("--picture"))
             o.picture = value();
         else if (is("--record"))

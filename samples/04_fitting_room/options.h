@@ -17,11 +17,17 @@ struct PlannedKey {
     Key key;
 };
 
+/// A click of the script of --clicks, in pixels of the picture.
+struct PlannedClick {
+    uint64_t frame;
+    int x, y;
+};
+
 struct Options {
     std::string source;
     std::vector<std::string> garments;  // empty: all that there are
     std::string size;                   // empty: the recommended one
-    vfit_sex sex = VFIT_SEX_FEMALE;
+    vfit_sex sex = VFIT_SEX_UNKNOWN;  // as the scan finds
     double min_interval_s = 0.008;  // as in the paper
     bool tracked = false;           // joints by vfit's tracker, also where the source tells its own
     std::string data_dir;           // empty: vfit_data beside the library
@@ -34,6 +40,7 @@ struct Options {
     double seconds = 0.0;  // 0: no end
     std::string picture, record;
     std::vector<PlannedKey> keys;
+    std::vector<PlannedClick> clicks;
 };
 
 /// Exits with 0 after --help; throws Usage for what it does not understand.

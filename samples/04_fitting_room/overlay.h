@@ -1,13 +1,10 @@
-// What is written over the picture: who, which size, what to do, and where the time goes.
+// What is laid over the picture: guidance, panels, the camera's image. Dear ImGui draws it.
 #pragma once
 
-#include <cstdarg>
 #include <cstdint>
-#include <string>
-#include <vector>
 
-#include "font.h"
-#include "gl.h"
+#include "gui.h"
+#include "options.h"
 #include "room.h"
 #include "times.h"
 
@@ -19,49 +16,39 @@ struct OverlayState {
     bool software = false;
 };
 
+/// What the user has clicked in one picture. Garment and size are relative to the chosen ones.
+struct Wish {
+    Key key = Key::none;
+    int garment = 0, size = 0;
+};
+
 class Overlay {
 public:
-    /// Letters fit a picture of that size.
-    Overlay(int picture_width, int picture_height);
+    Overlay();
 
-    /// Over the framebuffer that is bound.
-    void draw(const Room& room, const Times& times, const OverlayState& state, int width, int height);
+    /// Over the bound framebuffer, which has that size in pixels. seconds: since the last picture.
+    void draw(const Room& room, const Times& times, const OverlayState& state, const Pointer& pointer,
+              int width, int height, float seconds);
+    /// What was clicked since the last call.
+    Wish take_wish();
 
 private:
-    struct Color {
-        uint8_t r, g, b, a;
-    };
-    struct Corner {
-        float x, y, u, v;
-        Color color;
-    };
-    struct Face {  // letters of one size in the texture
-        int width, height, columns;
-        float u, v, du, dv;  // of the first cell
-    };
-    void box(float x, float y, float width, float height, Color color);
-    void quad(float x, float y, float width, float height, float u0, float v0, float u1, float v1,
-              Color color);
-    float text(const Face& face, float x, float y, Color color, const char* format, ...);
-    void right_text(const Face& face, float right, float y, Color color, const char* format, ...);
-    void letters(const Face& face, float x, float y, Color color, const char* line);
-    void person(const Room& room);
-    void worn(const Room& room, const OverlayState& state);
-    void rate(const Times& times, const OverlayState& state);
-    void plot(const Times& times);
-    void message(const Room& room);
+    void take_camera_image(const CameraPicture& camera);
+    void camera(const Room& room, bool mirror);
+    void banner(const Room& room);
+    void introduction();
+    void fitting(const Room& room, const OverlayState& state);
+    void measured(const Room& room, const Times& times, const OverlayState& state);
     void help();
-    void flush(GLuint texture, bool picture);
+    bool begin_panel(const char* name, ImVec2 place, ImVec2 pivot, float width);
 
-    float scale_;  // pixels of what is one in a picture of 1280 x 720
-    float width_ = 0, height_ = 0;
-    Face small_{}, large_{};
-    float white_u_ = 0, white_v_ = 0;
-    GLuint program_, array_ = 0, letters_texture_ = 0, camera_texture_ = 0;
-    StreamBuffer buffer_;
+    Gui gui_;
+    Wish wish_;
+    float width_ = 0.0f, height_ = 0.0f, em_ = 0.0f;
+    bool compact_ = false;  // a window that has no space for lists and plots
+    GLuint camera_texture_ = 0;
     uint64_t camera_version_ = 0;
     uint32_t camera_width_ = 0, camera_height_ = 0;
-    std::vector<Corner> corners_;
 };
 
 }  // namespace room

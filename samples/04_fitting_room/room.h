@@ -81,9 +81,11 @@ public:
     bool camera_on() const { return camera_on_; }
     bool physics() const { return physics_; }
     size_t garment_index() const { return garment_; }
-    size_t garment_count() const { return wardrobe_.count(); }
+    const Wardrobe& wardrobe() const { return wardrobe_; }
     const std::string& garment() const { return wardrobe_.piece(garment_).name; }
     const std::string& size() const { return wardrobe_.piece(garment_).sizes[size_]; }
+    size_t size_index() const { return size_; }
+    const std::vector<vfit_measurement>& measures() const { return measures_; }
     struct Person {
         float stature_m = 0, stature_sigma_m = 0;
         std::string size;  // recommended for the garment that is worn

@@ -61,7 +61,8 @@ vec3 lit(vec3 color, vec3 n) {
     float fill = max(0.0, dot(n, vec3(0.80, 0.15, 0.58)));
     float rim = 1.0 - max(0.0, n.z);
     rim *= rim * rim;
-    vec3 light = vec3(1.00, 0.97, 0.92) * (key * key * 1.02) + vec3(0.16, 0.19, 0.24) * fill + vec3(0.21, 0.205, 0.20) * (0.75 - 0.25 * n.y);
+    vec3 light = vec3(1.00, 0.97, 0.92) * (key * key * 1.02) + vec3(0.16, 0.19, 0.24) * fill
+               + vec3(0.21, 0.205, 0.20) * (0.75 - 0.25 * n.y);
     return sqrt(color * light + vec3(0.10) * (rim * (0.4 + 0.6 * key)));
 }
 )";
@@ -86,7 +87,7 @@ void main() {
     // Loose is blue, 0 grey, 4 % yellow, 10 % red.
     vec3 map = strain < 0.0 ? mix(vec3(0.60), vec3(0.10, 0.26, 0.80), min(1.0, -strain / 0.04))
              : strain < 0.04 ? mix(vec3(0.60), vec3(0.95, 0.75, 0.10), strain / 0.04)
-                             : mix(vec3(0.95, 0.75, 0.10), vec3(0.80, 0.04, 0.03), min(1.0, (strain - 0.04) / 0.06));
+             : mix(vec3(0.95, 0.75, 0.10), vec3(0.80, 0.04, 0.03), min(1.0, (strain - 0.04) / 0.06));
     n = normal;
     shade = mix(color, map, fit_map);
     thread = uv;

@@ -1,8 +1,9 @@
-// Where pictures go: a window, or memory alone.
+// Where pictures go: a window or memory. A window has keys and a pointer.
 #pragma once
 
 #include <epoxy/gl.h>
 
+#include <cfloat>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,6 +11,13 @@
 #include "options.h"
 
 namespace room {
+
+/// The mouse, in pixels of the picture from its upper left corner.
+struct Pointer {
+    float x = -FLT_MAX, y = -FLT_MAX;  // ImGui's place for no mouse
+    bool down = false;                 // the left button
+    float wheel = 0.0f;                // since the last picture
+};
 
 class Window {
 public:
@@ -19,6 +27,7 @@ public:
     virtual GLuint framebuffer() const = 0;
     /// What was pressed since the last call, oldest first. Key::quit: the window was closed.
     virtual std::vector<Key>& keys() = 0;
+    virtual Pointer pointer() = 0;
     /// Shows the picture; returns once it is drawn.
     virtual void present() = 0;
 };

@@ -3,6 +3,9 @@
 // After the header that brings OpenGL.
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "abi.h"
 #include "window.h"
 
@@ -51,6 +54,11 @@ public:
         glfwMakeContextCurrent(window_);
         glfwSwapInterval(1);
         glfwSetWindowUserPointer(window_, this);
+        // A click between two pictures is reported once.
+        glfwSetInputMode(window_, GLFW_STICKY_MOUSE_BUTTONS, GLFW_TRUE);
+        glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double y) {
+            static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window))->wheel_ += float(y);
+        });
         glfwSetKeyCallback(window_, [](GLFWwindow* window, int code, int, int action, int) {
             if (action != GLFW_PRESS) return;
             const Key key = key_of(code);
@@ -70,6 +78,18 @@ public:
         if (glfwWindowShouldClose(window_)) keys_.push_back(Key::quit);
         return keys_;
     }
+    Pointer pointer() override {
+        // The place is in units of the desktop, the picture in pixels.
+        int desktop_width = 0, desktop_height = 0;
+        glfwGetWindowSize(window_, &desktop_width, &desktop_height);
+        double x = 0.0, y = 0.0;
+        glfwGetCursorPos(window_, &x, &y);
+        const auto [pixels_x, pixels_y] = size();
+        return {float(x) * float(pixels_x) / float(std::max(1, desktop_width)),
+                float(y) * float(pixels_y) / float(std::max(1, desktop_height)),
+                glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS,
+                std::exchange(wheel_, 0.0f)};
+    }
     void present() override { glfwSwapBuffers(window_); }
 
 private:
@@ -80,6 +100,7 @@ private:
     }
     GLFWwindow* window_;
     std::vector<Key> keys_;
+    float wheel_ = 0.0f;
 };
 
 }  // namespace

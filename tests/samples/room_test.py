@@ -15,13 +15,17 @@ import unittest
 import zlib
 
 ROOM = sys.argv.pop(1)
-SUNDRESS = pathlib.Path(ROOM).parent.parent / "lib/vfit_data/garments/sundress.json"
+GARMENTS = pathlib.Path(ROOM).parent.parent / "lib/vfit_data/garments"
+SUNDRESS = GARMENTS / "sundress.json"
 SKIPPED = 77  # as the test's SKIP_RETURN_CODE
 SMALL = ["--offscreen", "--film", "--resolution", "640x360", "--samples", "0"]
+LARGE = ["--offscreen", "--film", "--resolution", "1280x720", "--samples", "0"]
+LEGEND = (510, 630), (60, 110)  # columns and lines of a small picture: below the pictures a second
 
 
-def run(*arguments, code=0):
-    done = subprocess.run([ROOM, *map(str, arguments)], capture_output=True, text=True, timeout=240)
+def run(*arguments, code=0, cwd=None):
+    command = [ROOM, *map(str, arguments)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=240, cwd=cwd)
     assert done.returncode == code, f"exit {done.returncode}: {done.stderr}"
     return done
 
@@ -70,8 +74,26 @@ def share(rows, columns, lines, wanted):
     return sum(wanted(*p) for p in pixels) / len(pixels)
 
 
-def is_red(r, g, b):  # the first garment's cloth
+def is_red(r, g, b):  # the first garment's cloth, and the overlay's accent
     return r > 90 and g < 0.6 * r and b < 0.6 * r
+
+
+def is_dark(r, g, b):  # letters, and the paper of the guidance
+    return max(r, g, b) < 110
+
+
+def centre(rows, columns, lines, wanted):
+    """Of the topmost block of lines in which wanted(r, g, b) holds of some pixels: its middle, in pixels."""
+    found = {}
+    for y in range(*lines):
+        xs = [x for x in range(*columns) if wanted(*rows[y][3 * x : 3 * x + 3])]
+        if xs:
+            found[y] = xs
+        elif found:
+            break
+    assert found, f"no such pixel in columns {columns}, lines {lines}"
+    xs = [x for line in found.values() for x in line]
+    return (min(xs) + max(xs)) // 2, (min(found) + max(found)) // 2
 
 
 class Pictures(unittest.TestCase):
@@ -98,8 +120,9 @@ class Pictures(unittest.TestCase):
         self.assertGreater(share(rows, *middle, is_skin), 0.08, "the person")
         is_studio = lambda r, g, b: min(r, g, b) > 150 and max(r, g, b) - min(r, g, b) < 12  # noqa: E731
         self.assertGreater(share(rows, (180, 220), (100, 260), is_studio), 0.95, "nothing beside")
-        is_ink = lambda r, g, b: max(r, g, b) < 110  # noqa: E731
-        self.assertGreater(share(rows, (10, 130), (10, 60), is_ink), 0.01, "what is written")
+        self.assertGreater(share(rows, (10, 130), (10, 60), is_dark), 0.01, "what is written")
+        self.assertLess(share(rows, (200, 440), (5, 40), is_dark), 0.01, "no guidance")
+        self.assertEqual(share(rows, *LEGEND, is_red), 0, "no legend")
 
     def test_the_fit_map_colours_the_cloth_anew(self):
         picture = self.folder / "map.png"
@@ -107,15 +130,26 @@ class Pictures(unittest.TestCase):
         self.assertTrue(told["fit_map"])
         width, _, rows = read_png(picture)
         self.assertLess(share(rows, (width // 2 - 60, width // 2 + 60), (60, 340), is_red), 0.05)
+        is_blue = lambda r, g, b: b > 180 and b > 1.3 * r  # noqa: E731
+        for color in (is_red, is_blue):
+            self.assertGreater(share(rows, *LEGEND, color), 0.01, "both ends of the legend")
 
     def test_a_film_has_a_picture_for_each_camera_image(self):
         told = report(*SMALL, "--frames", 3, "--record", self.folder / "film")
         pictures = sorted((self.folder / "film").glob("*.png"))
         self.assertEqual(len(pictures), told["camera_images"])
         self.assertGreater(len(pictures), 30, "the scan is in it")
-        first, last = pictures[0].read_bytes(), pictures[-1].read_bytes()
-        self.assertNotEqual(first, last)
+        width, _, first = read_png(pictures[15])
+        last = read_png(pictures[-1])[2]
+        guidance = (width // 2 - 120, width // 2 + 120), (14, 62)
+        self.assertGreater(share(first, *guidance, is_dark), 0.4)
+        self.assertGreater(share(first, *guidance, is_red), 0.02, "how much of the scan is done")
+        self.assertLess(share(last, *guidance, is_dark), 0.01)
         self.assertAlmostEqual(told["cloth_ms"]["interval"]["median"], 1000 / 30, delta=0.1)
+
+    def test_nothing_but_the_picture_is_written(self):
+        run(*SMALL, "--frames", 3, "--picture", "room.png", cwd=self.folder)
+        self.assertEqual([p.name for p in self.folder.iterdir()], ["room.png"])
 
 
 class Keys(unittest.TestCase):
@@ -162,6 +196,44 @@ class Keys(unittest.TestCase):
         self.assertNotIn("draw", told["stage_ms"])
 
 
+class Clicks(unittest.TestCase):
+    """Widgets are found in a picture by their color, then clicked by their place."""
+
+    LIST, BOXES = (20, 260), (28, 50)  # columns of the panel, and of its check boxes
+
+    def picture(self, *arguments):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "room.png"
+            run(*LARGE, "--frames", 3, "--picture", path, *arguments)
+            return read_png(path)[2]
+
+    def test_a_garment_is_chosen_in_the_list(self):
+        garments = sorted(p.stem for p in GARMENTS.glob("*.json"))
+        is_chosen = lambda r, g, b: r > 210 and 15 < r - g < 60 and 15 < r - b < 60  # noqa: E731
+        x, first = centre(self.picture(), self.LIST, (100, 600), is_chosen)
+        x, third = centre(self.picture("--keys", "1:right,2:right"), self.LIST, (100, 600), is_chosen)
+        self.assertGreater(third - first, 30, "two lines below")
+        told = report(*LARGE, "--frames", 8, "--clicks", f"2:{x}x{third}")
+        self.assertEqual(told["garment"], garments[2])
+        beside = report(*LARGE, "--frames", 8, "--clicks", f"2:400x{third}")
+        self.assertEqual(beside["garment"], garments[0])
+
+    def test_sizes_and_switches_are_buttons(self):
+        dress = ["--garment", "sundress"]
+        recommended = report(*SMALL, "--frames", 1, *dress)["size"]
+        rows = self.picture(*dress)
+        x, y = centre(rows, self.LIST, (230, 600), is_red)
+        told = report(*LARGE, "--frames", 8, *dress, "--size", "XXL", "--clicks", f"2:{x}x{y}")
+        self.assertEqual((told["size"], told["keys"]), (recommended, []))
+        x, y = centre(rows, self.BOXES, (y + 20, 700), is_red)
+        told = report(*LARGE, "--frames", 8, *dress, "--clicks", f"2:{x}x{y}")
+        self.assertEqual((told["physics"], told["keys"]), (False, ["p"]))
+
+    def test_a_small_window_has_menus(self):
+        told = report(*SMALL, "--frames", 12, "--clicks", "2:60x93,7:60x150")
+        self.assertNotEqual(told["garment"], report(*SMALL, "--frames", 1)["garment"])
+
+
 class Trouble(unittest.TestCase):
     def say(self, *arguments, code=1):
         said = run(*arguments, code=code).stderr.strip().splitlines()[-1]
@@ -174,6 +246,8 @@ class Trouble(unittest.TestCase):
         self.assertIn("3XL", self.say(*SMALL, "--garment", "sundress", "--size", "3XL"))
         self.assertIn("nowhere", self.say("/nowhere", *SMALL))
         self.assertIn("--nonsense", self.say("--nonsense", code=2))
+        self.assertIn("'5' is not FRAME:XxY", self.say("--clicks", "5", code=2))
+        self.assertIn("'7' is not XxY", self.say("--clicks", "5:7", code=2))
         with tempfile.TemporaryDirectory() as empty:
             self.assertIn("no garment", self.say(*SMALL, "--data", empty))
 
