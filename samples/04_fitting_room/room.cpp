@@ -77,7 +77,7 @@ vfit_target target_of(void* data, size_t count, size_t stride, size_t offset, vf
 Room::Room(const Options& options)
     : options_(options),
       context_(open_context(options)),
-      wardrobe_(context_.get(), options.data_dir, options.garments) {
+      wardrobe_(context_.get(), options.garments) {
     if (!options.size.empty()) {
         const auto& sizes = wardrobe_.piece(0).sizes;
         const auto found = std::find(sizes.begin(), sizes.end(), options.size);
@@ -114,7 +114,6 @@ void Room::begin_scan() {
     stepping_ = false;
     avatar_.clear();
     vfit_scan_desc desc = vfit_scan_desc_init();
-    desc.method = VFIT_SCAN_FIT;
     desc.sex = options_.sex;
     check(vfit_scan_create(context_.get(), &desc, scan_.out()));
     check(vfit_motion_reset(motion_.get()));
@@ -205,13 +204,13 @@ void Room::meet_person() {
     put_on();
 }
 
-/// Sizes by the standard for that sex. A garment that does not come in the best one gets the best of those
-/// that it has.
+/// Sizes by the chart that the garment names. A garment that does not come in the best size gets the best of
+/// those that it has.
 void Room::recommend() {
     const Piece& piece = wardrobe_.piece(garment_);
     SizeChart chart;
-    check(vfit_size_chart_open(context_.get(),
-                               options_.sex == VFIT_SEX_MALE ? "en13402_men" : "en13402_women", chart.out()));
+    check(vfit_size_chart_open(context_.get(), piece.chart.empty() ? "en13402_women" : piece.chart.c_str(),
+                               chart.out()));
     std::array<vfit_size, 64> sizes{};
     uint32_t count = uint32_t(sizes.size());
     person_.size = kMadeToMeasure;

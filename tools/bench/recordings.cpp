@@ -17,7 +17,7 @@ namespace vfit::tools {
 namespace {
 
 struct Options {
-    std::string folder, method = "paper";
+    std::string folder, method = "fit";
     bool json = false;
 };
 

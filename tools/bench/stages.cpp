@@ -126,7 +126,7 @@ void run(const Options& options, bool with_frames, Stages& stages) {
         result = check(vfit_scan_add(scan.get(), tracked.get(), body, nullptr));
         const double ms = timer.ms();
         scan_ms += ms;
-        if (with_frames) stages.per_frame["scan (paper)"].add(ms);
+        if (with_frames) stages.per_frame["scan"].add(ms);
     }
     stages.per_person["scan of 30 frames beyond capture"].add(scan_ms);
     Dressed d = dress(context.get(), scan.get(), tracked.get(), body, stages);
