@@ -1,5 +1,5 @@
-# Puts the library, vfit_plugins, vfit_modules and vfit_data into the package folder. The library looks for the folders
-# beside itself, the plug-ins for the library one folder up.
+# Puts the library, vfit_plugins, vfit_modules and vfit_data into the package folder. The library looks for
+# the folders beside itself, the plug-ins for the library one folder up.
 get_filename_component(vfit_library_dir "${VFIT_LIBRARY_FILE}" DIRECTORY)
 foreach(folder IN ITEMS vfit_plugins vfit_modules vfit_data)
   if(NOT IS_DIRECTORY "${vfit_library_dir}/${folder}")
@@ -17,13 +17,15 @@ if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
 endif()
 
 install(FILES "${vfit_real_library}" DESTINATION . RENAME ${vfit_packaged_name})
-install(DIRECTORY "${vfit_library_dir}/vfit_plugins" "${vfit_library_dir}/vfit_modules" "${vfit_library_dir}/vfit_data" DESTINATION . USE_SOURCE_PERMISSIONS)
+install(DIRECTORY "${vfit_library_dir}/vfit_plugins" "${vfit_library_dir}/vfit_modules"
+  "${vfit_library_dir}/vfit_data" DESTINATION . USE_SOURCE_PERMISSIONS)
 
 if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
   # No path of the machine that built it stays in the package.
   install(CODE "
     file(GLOB plugins \"\${CMAKE_INSTALL_PREFIX}/vfit_plugins/*.so\")
     execute_process(COMMAND \"${PATCHELF}\" --set-rpath \\\$ORIGIN/.. \${plugins} COMMAND_ERROR_IS_FATAL ANY)
-    execute_process(COMMAND \"${PATCHELF}\" --set-rpath \\\$ORIGIN \"\${CMAKE_INSTALL_PREFIX}/${vfit_packaged_name}\"
-                    COMMAND_ERROR_IS_FATAL ANY)")
+    execute_process(
+      COMMAND \"${PATCHELF}\" --set-rpath \\\$ORIGIN \"\${CMAKE_INSTALL_PREFIX}/${vfit_packaged_name}\"
+      COMMAND_ERROR_IS_FATAL ANY)")
 endif()

@@ -1,4 +1,4 @@
-"""What the tests share: a context, frames of the host with a person in it, real recordings where there are any."""
+"""What the tests share: a context, frames of the host with a person in it, real recordings if present."""
 
 import os
 from pathlib import Path

@@ -145,7 +145,16 @@ def test_closing_wakes_a_thread_that_waits(ctx):
 
 @pytest.mark.parametrize("end", ["pass", "raise SystemExit(0)", "ctx.close()", "del ctx"])
 def test_the_process_ends_cleanly_in_mid_stream(end):
-    script = f"import vfit\nctx = vfit.Context()\nsensor = ctx.open({VIRTUAL!r})\nkept = next(sensor).depth\n{end}\n"
+    script = "\n".join(
+        [
+            "import vfit",
+            "ctx = vfit.Context()",
+            f"sensor = ctx.open({VIRTUAL!r})",
+            "kept = next(sensor).depth",
+            end,
+            "",
+        ]
+    )
     run = subprocess.run(
         [sys.executable, "-X", "faulthandler", "-c", script], capture_output=True, text=True, timeout=60
     )

@@ -245,8 +245,8 @@ class _Closable:
     ) -> None: ...
 
 class Context(_Closable):
-    """All that vfit does happens in a context; contexts share nothing. Closing it closes every object of it, but
-    for frames and arrays: those stay valid, and the last of them frees the rest."""
+    """All that vfit does happens in a context; contexts share nothing. Closing it closes every object of it,
+    except frames and arrays: those stay valid, and the last of them frees the rest."""
 
     def __init__(
         self,
@@ -284,9 +284,9 @@ class Context(_Closable):
         """The log lines since the last call; the library keeps the newest 256."""
 
 class Frame(_Closable):
-    """Immutable bundle of images or vertex data with one time stamp. Arrays are read-only views without a copy and
-    stay valid for as long as you hold them, also after close() of the frame or its context. A stream that the frame
-    does not have raises ArgumentError; `Stream.COLOR in frame` asks first."""
+    """Immutable bundle of images or vertex data with one time stamp. Arrays are read-only views without a
+    copy and stay valid for as long as you hold them, also after close() of the frame or its context. A stream
+    that the frame does not have raises ArgumentError; `Stream.COLOR in frame` asks first."""
 
     @staticmethod
     def from_numpy(
@@ -345,14 +345,14 @@ class Frame(_Closable):
         """Of one body, by default of the active one."""
     @property
     def active_body(self) -> Optional[int]:
-        """The id of the person to follow, who may be out of sight (ActiveState.LOST); None: nobody. What Scan.add and
-        Motion.step take by default. Of a frame that no tracker made: the first body."""
+        """The id of the person to follow, who may be out of sight (ActiveState.LOST); None: no person. What
+        Scan.add and Motion.step take by default. Of a frame that no tracker made: the first body."""
     @property
     def active_state(self) -> ActiveState: ...
 
 class Sensor(_Closable):
-    """A camera, a recording or a virtual person; iterate it for its frames. Its pool holds few frames: copy what
-    you keep."""
+    """A camera, a recording or a virtual person; iterate it for its frames. Its pool holds few frames: copy
+    what you keep."""
 
     def __iter__(self) -> Iterator[Frame]: ...
     def __next__(self) -> Frame: ...
@@ -384,12 +384,13 @@ class Recorder(_Closable):
 class Tracker(_Closable):
     """Makes tracked frames: images, user map and bodies.
 
-    floor says where the floor is, if the frames do not. joints and user_map say whose are taken: "auto" is the
-    source's where it tells them, else the tracker's own; "given" is the source's alone (UnsupportedError where it
-    tells none). follow is the rule of the active person: "nearest" to the camera, most "centred", who came "first",
-    or nobody but the one "chosen". filter: joints are steadied over time and their states follow their confidence,
-    "auto" for the tracker's own and submitted ones, "on" for the source's too, "off". fit: the body model fitted to
-    depth and outline moves the joints that the tracker finds and gives them rotations; "auto" is the active person's."""
+    floor says where the floor is, if the frames do not. joints and user_map say whose are taken: "auto" is
+    the source's where it tells them, else the tracker's own; "given" is the source's alone (UnsupportedError
+    where it tells none). follow is the rule of the active person: "nearest" to the camera, most "centred",
+    who came "first", or only the one "chosen". filter: joints are steadied over time and their states
+    follow their confidence, "auto" for the tracker's own and submitted ones, "on" for the source's too,
+    "off". fit: the body model fitted to depth and outline moves the joints that the tracker finds and gives
+    them rotations; "auto" is the active person's."""
 
     def __init__(
         self,
@@ -413,20 +414,20 @@ class Tracker(_Closable):
         camera: Optional[Camera] = None,
         time_ns: int = 0,
     ) -> Frame:
-        """User map (`.users`) and people (`.bodies()`) of a depth image (h, w) in millimetres, 0 where there is no
-        reading; intrinsics are fx, fy, cx, cy in pixels. Images that follow each other want their time stamps:
-        people keep their ids and joints are steadied over time. time_ns 0: now."""
+        """User map (`.users`) and people (`.bodies()`) of a depth image (h, w) in millimetres, 0 where there
+        is no reading; intrinsics are fx, fy, cx, cy in pixels. Images that follow each other want their time
+        stamps: people keep their ids and joints are steadied over time. time_ns 0: now."""
     def hint(
         self,
         hints: Union[Mapping[str, Sequence[float]], Mapping[Joint, Sequence[float]]],
         *,
         body_id: int = 0,
     ) -> None:
-        """Joints that you see in the image, as (x, y) or (x, y, confidence) in pixels of the depth image, for the
-        next update or track alone. body_id 0: of whose pixel each is."""
+        """Joints that you see in the image, as (x, y) or (x, y, confidence) in pixels of the depth image, for
+        the next update or track alone. body_id 0: of whose pixel each is."""
     def choose(self, body_id: Optional[int]) -> None:
-        """That person is the active one from the next frame on; when they have left for two seconds the rule holds
-        again. None: by the rule again."""
+        """That person is the active one from the next frame on; when they have left for two seconds the rule
+        holds again. None: by the rule again."""
     def submit(
         self,
         frame: Frame,
@@ -559,9 +560,9 @@ class Avatar(_Closable):
         """Measures of your own (docs/measuring.md), taken on the avatar's mesh."""
 
 class Motion(_Closable):
-    """Turns the bodies of tracked frames into clean poses. None: the library's default. filter: True, False, 'adaptive',
-    'holt' (with the five names of the Kinect SDK) or 'one_euro'; contact_rule: 'learnt' or 'thresholds'.
-    range_of_motion: {'knee': {'flexion': 60}} in place of the natural angles, degrees."""
+    """Turns the bodies of tracked frames into clean poses. None: the library's default. filter: True, False,
+    'adaptive', 'holt' (with the five names of the Kinect SDK) or 'one_euro'; contact_rule: 'learnt' or
+    'thresholds'. range_of_motion: {'knee': {'flexion': 60}} in place of the natural angles, degrees."""
 
     def __init__(
         self,
@@ -632,11 +633,11 @@ class Cloth(_Closable):
         virtual_m: float = 0.0,
         any_fit: bool = False,
     ) -> None:
-        """hands False: forearms and hands pass through, so that none catches a skirt. skin True: kept out of the avatar's
-        skin itself. self_thickness_m: kept between the cloth's own layers. pressure True: frames have pressure, in Pa.
-        cover_m: more spheres and capsules, until no skin below the garment is so far outside of all.
-        virtual_m: points of triangles so near each other meet the body too: for coarse meshes.
-        any_fit True: worn even where it would not close; else NotWearableError."""
+        """hands False: forearms and hands pass through, so that none catches a skirt. skin True: kept out of
+        the avatar's skin itself. self_thickness_m: kept between the cloth's own layers. pressure True: frames
+        have pressure, in Pa. cover_m: more spheres and capsules, until no skin below the garment is so far
+        outside of all. virtual_m: points of triangles so near each other meet the body too: for coarse
+        meshes. any_fit True: worn even where it would not close; else NotWearableError."""
     def set_wind(self, wind: Tuple[float, float, float]) -> None: ...
     def set_quality(self, substeps: int = 0, budget_ms: float = 0.0) -> None: ...
     def set_size(self, size: Optional[str] = None) -> None:

@@ -158,8 +158,8 @@ class Camera(NamedTuple):
         return cls(FloorState.GIVEN, depth_unit_m, floor_normal=normal, floor_distance_m=distance_m)
 
     def from_world(self, points: NDArray[np.float32]) -> NDArray[np.float32]:
-        """World-space points (n, 3), such as Joints.positions, in camera space: x right, y down, z forward. World
-        space is that of a context with the default axes."""
+        """World-space points (n, 3), such as Joints.positions, in camera space: x right, y down, z forward.
+        World space is that of a context with the default axes."""
         if self.world_from_camera is None:
             raise ValueError("this camera is none of a frame: it has no world_from_camera")
         turn, shift = self.world_from_camera[:3, :3], self.world_from_camera[:3, 3]
@@ -274,7 +274,8 @@ class SizeRow(NamedTuple):
 
 
 class SizeZone(NamedTuple):
-    """How a size sits by one measure: the room beyond the body in the middle of the size's range, and probabilities."""
+    """How a size sits by one measure: the room beyond the body in the middle of the size's range, and
+    probabilities."""
 
     key: str
     ease: float
