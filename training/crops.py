@@ -1,4 +1,4 @@
-"""Streams of training crops: processes of vfit-crops, mixed in a pool so that one body's crops are spread out."""
+"""Streams of training crops: processes of vfit-crops, mixed in a pool that spreads the crops of a body."""
 
 import queue
 import subprocess
@@ -29,8 +29,8 @@ def read(command, body, seed, first, count):
 
 
 class Stream:
-    """Batches without end. The pool is filled once and then renewed piece by piece: crops that come slower than
-    they are used are used again (`reuse` times on average)."""
+    """Batches without end. The pool is filled once and then renewed piece by piece: crops that come slower
+    than they are used are used again (`reuse` times on average)."""
 
     def __init__(self, command, body, seed, first, processes, pool=16384, reuse=1):
         self.pool = np.empty(pool, RECORD)
@@ -75,12 +75,12 @@ SIDE = 0.64  # cosine of 50 degrees
 
 
 def tensors(records, random=None):
-    """crop [n, 1, 128, 128], joints [n, COUNT, 3], weight [n, COUNT], away [n], person [n], side [n]. With `random`
-    half are mirrored.
+    """crop [n, 1, 128, 128], joints [n, COUNT, 3], weight [n, COUNT], away [n], person [n], side [n]. With
+    `random` half are mirrored.
 
-    A person who faces away is labelled as if they faced the sensor (left and right exchanged) and marked `away`:
-    front and back look alike in depth, and so the network need not decide before it can say where joints are.
-    `side` marks side views, in which either way of labelling will do.
+    A person who faces away is labelled as if they faced the sensor (left and right exchanged) and marked
+    `away`: front and back look alike in depth, and so the network need not decide before it can say where
+    joints are. `side` marks side views, in which either way of labelling will do.
     """
     crop = torch.from_numpy(records["crop"].astype(np.float32) / 32767.0)[:, None]
     joints, inside = torch.from_numpy(records["joints"].copy()), torch.from_numpy(records["inside"].copy())

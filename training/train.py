@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Trains the skeleton network on virtual people. Stops and goes on at any time: the state lies in --run.
 
-Loss: L1 of the joints in crop coordinates, plus a little cross-entropy of the heat maps to a Gaussian, plus the
-facing. The weights that are kept are a running average. Recipe and figures: README.md.
+Loss: L1 of the joints in crop coordinates, plus a little cross-entropy of the heat maps to a Gaussian, plus
+the facing. The weights that are kept are a running average. Recipe and figures: README.md.
 """
 
 import argparse
@@ -38,8 +38,9 @@ def joint_weights():
 def as_labelled(found, batch):
     """The batch with left and right of side views exchanged where `found` has them so.
 
-    Who turns about changes from one labelling to the other somewhere on the way. With the change set at 90 degrees,
-    where no picture tells 89 from 91, the network would answer the mean of both: both shoulders in the spine.
+    A person who turns around changes from one labelling to the other somewhere on the way. With the change
+    set at 90 degrees, where no picture tells 89 from 91, the network would answer the mean of both: both
+    shoulders in the spine.
     """
     crop, joints, inside, away, person, side = batch
 
@@ -64,7 +65,7 @@ def loss_of(network, batch, weight):
     crop, joints, inside, away, person, side = as_labelled(found, batch)
     each = (found - joints).abs().sum(-1) * inside * weight
     place = (torch.arange(MAP, device=maps.device) + 0.5) / (MAP / 2) - 1
-    # A Gaussian about the joint; its cross-entropy with the heat from the logits, without the heat's logarithm.
+    # A Gaussian about the joint; its cross-entropy with the heat comes from the logits, not from log(heat).
     across = torch.exp(-((place - joints[..., 0, None]) ** 2) / (2 * HEAT_SIGMA**2))
     along = torch.exp(-((place - joints[..., 1, None]) ** 2) / (2 * HEAT_SIGMA**2))
     wanted = (along[..., :, None] * across[..., None, :]).flatten(2)
@@ -78,8 +79,8 @@ def loss_of(network, batch, weight):
 
 @torch.no_grad()
 def judge(network, batch):
-    """Mean error in metres and share within 10 cm of the joints in view (a crop unit is METRE only at the person's
-    own depth), shares of right answers to facing and to person."""
+    """Mean error in metres and fraction within 10 cm of the joints in view (a crop unit is METRE only at the
+    person's own depth), fractions of right answers to facing and to person."""
     network.eval()
     found, answers = [], []
     for part in range(0, len(batch[0]), 64):

@@ -9,8 +9,9 @@ from network import Network
 
 @torch.no_grad()
 def from_onnx(path, crops):
-    """export.py folds batch norms into the convolutions before them. Here each norm gets back the spread that its
-    convolution has on `crops` [n, 1, CROP, CROP], and such a scale and shift that the network says what the file says."""
+    """export.py folds batch norms into the convolutions before them. Here each norm gets back the spread that
+    its convolution has on `crops` [n, 1, CROP, CROP], and such a scale and shift that the network says what
+    the file says."""
     weights = {
         w.name: torch.from_numpy(numpy_helper.to_array(w).copy())
         for w in onnx.load(str(path)).graph.initializer

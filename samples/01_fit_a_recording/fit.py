@@ -1,4 +1,4 @@
-"""Fits a recording, or the virtual person: prints the measures and the size, drapes the sundress. Writes nothing.
+"""Fits a recording or the virtual person: prints measures and size, drapes the sundress. Writes nothing.
 
 python fit.py [RECORDING or sensor URI]
 """

@@ -3,7 +3,8 @@
 
     cli_test.py VFIT [SHARED [CLASS ...]]
 
-SHARED is the folder of real data; tests that need it are skipped by name where it is absent. CLASS: these tests alone.
+SHARED is the folder of real data; tests that need it are skipped by name where it is absent. CLASS: only
+these tests.
 """
 
 import json
@@ -879,9 +880,8 @@ class Contract(unittest.TestCase):
             radius = 12.5 + 8 * row / rows
             for column in range(columns):
                 angle = 2 * math.pi * column / columns
-                lines.append(
-                    f"v {radius * math.sin(angle):.4f} {104 - 40 * row / rows:.4f} {radius * math.cos(angle):.4f}"
-                )
+                x, y, z = radius * math.sin(angle), 104 - 40 * row / rows, radius * math.cos(angle)
+                lines.append(f"v {x:.4f} {y:.4f} {z:.4f}")
         for row in range(rows):
             for column in range(columns):
                 a, b = row * columns + column + 1, row * columns + (column + 1) % columns + 1
@@ -1063,9 +1063,10 @@ class Contract(unittest.TestCase):
             self.check_failure(run("size", measures, "--chart", gone, "--garment", "x"), str(gone))
             chart = pathlib.Path(folder) / "chart.json"
             chart.write_text(
-                '{"format": "vfit-size-chart", "version": 1, "name": "x", "unit": "cm", "garments": [{"kind": '
-                '"dress", "measures": ["stature_m"], "sizes": [{"label": "S", "ranges": {"stature_m": '
-                '[150, 170]}}, {"label": "M", "ranges": {"stature_m": [140, 180]}}]}]}'
+                '{"format": "vfit-size-chart", "version": 1, "name": "x", "unit": "cm", "garments": ['
+                '{"kind": "dress", "measures": ["stature_m"], "sizes": ['
+                '{"label": "S", "ranges": {"stature_m": [150, 170]}}, '
+                '{"label": "M", "ranges": {"stature_m": [140, 180]}}]}]}'
             )
             self.check_failure(
                 run("size", measures, "--chart", chart, "--garment", "dress"), "dress", "M", str(chart)

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Writes the storm's calls for include/vfit.h as it is now: one random call of each function, one random filling of
-each struct.
+"""Writes the storm's calls for include/vfit.h as it is now: one random call of each function, one random
+filling of each struct.
 
     make_calls.py ../../include/vfit.h FOLDER       writes handles.h and calls.h
 
-What an argument may be follows from its type and from its neighbours (items, stride, count; buffer, capacity). A
-function whose arguments are not understood stops the writing, so that none is left out.
+What an argument may be follows from its type and from its neighbours (items, stride, count; buffer,
+capacity). A function whose arguments are not understood stops the writing, so that none is left out.
 """
 
 import pathlib

@@ -150,7 +150,8 @@ void teach(Pool& pool) {
     pool.learn("vfit_size_chart_load", file("charts/shirts_men.json"));
     pool.learn("vfit_garment_load", file("garments/sundress.json"));
     pool.learn("vfit_avatar_measure_own", R"({"format": "vfit-own-measures", "version": 1, "measures": [
-        {"key": "x_knee_height_m", "height": "LEFT_KNEE"}, {"key": "x_waist_girth_m", "girth": {"at": "waist", "of": "trunk"}}]})");
+        {"key": "x_knee_height_m", "height": "LEFT_KNEE"},
+        {"key": "x_waist_girth_m", "girth": {"at": "waist", "of": "trunk"}}]})");
     pool.learn("vfit_measurements_write", R"({"stature_m": 1.7})");
 }
 

@@ -97,8 +97,8 @@ def judge(name, network, rows):
         streams.append((part[:, FEATURES] > 0.5, decide(network.chance(part[:, :FEATURES]))))
     lifted, planted = f1([(~t, ~s) for t, s in streams]), f1(streams)
     print(
-        f"{name}: lifted P {lifted[0]:.3f} R {lifted[1]:.3f} F1 {lifted[2]:.3f}, planted F1 {planted[2]:.3f}, "
-        f"{len(streams)} feet",
+        f"{name}: lifted P {lifted[0]:.3f} R {lifted[1]:.3f} F1 {lifted[2]:.3f}, "
+        f"planted F1 {planted[2]:.3f}, {len(streams)} feet",
         flush=True,
     )
 

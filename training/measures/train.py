@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Learns measures from scans of virtual people (vfit-bench scan-features) and writes the model that the library reads.
+"""Learns measures from scans of generated people (vfit-bench scan-features), writes the library's model.
 
-A tape measure is linear in the features of a scan, with weights that are partly the same and partly apart for each sex,
-plus a smooth function of where the scan lies among those that were learnt from: a Gaussian process (Rasmussen and
-Williams 2006, chapter 2) with the sum of both kernels, the second one by its values at some of the scans (their section
-8.3.1). Whose sex nobody tells gets the mixture of both by a logistic regression. Deviations follow the scan: a ridge
-regression of the logarithm of errors on people who were held out, scaled so that 90 % of those errors lie within 1.645
-of them. Needs numpy alone.
+A tape measure is linear in the features of a scan, with weights that are partly the same and partly apart for
+each sex, plus a smooth function of where the scan lies among those that were learnt from: a Gaussian process
+(Rasmussen and Williams 2006, chapter 2) with the sum of both kernels, the second one by its values at some of
+the scans (their section 8.3.1). A person of unknown sex gets the mixture of both by a logistic regression.
+Deviations follow the scan: a ridge regression of the logarithm of errors on people who were held out, scaled
+so that 90 % of those errors lie within 1.645 of them. Needs numpy alone.
 """
 
 import argparse
@@ -37,7 +37,8 @@ FARTHEST = 5.0  # deviations: sdk/scan/measure_model.cpp cuts there too
 SHAPE = 10  # of the base: of the body itself, without clothes
 BASE, ZONES, PROFILE, REGIONS = 19, 2 * 2 * 171, 24 * (5 + 9), 2 * 3
 FEATURES = BASE + ZONES + PROFILE + REGIONS
-# What deviations follow: the fitted shape and its clothes, distance and pixel, roughness; and how strange all of it is.
+# What deviations follow: the fitted shape and its clothes, distance and pixel, roughness, and how strange
+# all of it is.
 SIGMA_FEATURES = list(range(13)) + [14, 15] + list(range(BASE + ZONES + PROFILE, FEATURES))
 LEAST_ERROR = 0.0005
 LEAST_STRANGENESS = 0.01  # sdk/scan/measure_model.cpp has the same
@@ -141,8 +142,8 @@ class Centres:
 
 
 class Part:
-    """What is learnt from one kind of scan, whatever the firmness of the ridge. `own`: of that kind; of the other rows
-    the thickness of the clothes is known, and what is learnt is for none."""
+    """What is learnt from one kind of scan, whatever the firmness of the ridge. `own`: of that kind; of the
+    other rows the thickness of the clothes is known, and what is learnt is for none."""
 
     def __init__(self, scans, own):
         features = scans.features[own]
@@ -175,7 +176,7 @@ class Part:
         return np.where(np.isfinite(x), x, 0.0)
 
     def ridges(self, firm_surface):
-        """Weights of women and of men with their base, and of the centres, for every measure with that firmness."""
+        """Weights of women and of men with their base, and of the centres, for every measure."""
         count = self.used.sum()
         firm = np.sqrt(np.where(np.flatnonzero(self.used) < BASE, FIRM, firm_surface))
         both, apart = np.sqrt(TOGETHER) / firm, np.sqrt(1.0 - TOGETHER) / firm
@@ -225,8 +226,8 @@ class Scans:
 
 
 def held_out(scans, own):
-    """What each row is told by a model that has not seen its person, one answer a firmness; and for each measure which of
-    them is nearest to the truth."""
+    """What each row is told by a model that has not seen its person, one answer a firmness; and for each
+    measure which of them is nearest to the truth."""
     told = np.empty((len(FIRM_SURFACE),) + scans.truth.shape)
     for fold in range(FOLDS):
         out = scans.number % FOLDS == fold
@@ -301,8 +302,8 @@ def train(rows, kind, keys):
     girths = [keys.index(k) for k in ("chest_girth_m", "waist_girth_m", "hip_girth_m")]
     correlation = np.corrcoef(error[:, girths].T)
     print(
-        f"  errors' correlation: chest and waist {correlation[0, 1]:.2f}, chest and hip {correlation[0, 2]:.2f}, "
-        f"waist and hip {correlation[1, 2]:.2f}"
+        f"  errors' correlation: chest and waist {correlation[0, 1]:.2f}, "
+        f"chest and hip {correlation[0, 2]:.2f}, waist and hip {correlation[1, 2]:.2f}"
     )
     used = part.used
     out = {
@@ -337,7 +338,7 @@ def train(rows, kind, keys):
 
 
 def check_rounding(out, part, solved, best, keys, features):
-    """What the file's numbers tell is what was learnt: a mean of three digits once cost three millimetres of stature."""
+    """The file's numbers tell what was learnt: a mean of three digits once cost 3 mm of stature."""
     features, exact_x = features[:, part.used], part.standard(features)[:, part.used]
     x = np.where(
         np.isfinite(features),
