@@ -1,7 +1,11 @@
-// Patterns made of few numbers, for the tests of the cook.
+// For the tests of the cook: patterns made of few numbers, and the designs of assets/garments.
 #pragma once
 
+#include <algorithm>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -13,6 +17,24 @@ inline std::vector<std::byte> bytes_of_text(const std::string& text) {
     std::vector<std::byte> bytes(text.size());
     if (!text.empty()) std::memcpy(bytes.data(), text.data(), text.size());
     return bytes;
+}
+
+/// The names of all designs in assets/garments, in order. A new one is tested without a change to the tests.
+inline std::vector<std::string> shipped_designs() {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(VFIT_SOURCE_DIR "/assets/garments"))
+        if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+inline std::string design_path(const std::string& name) {
+    return VFIT_SOURCE_DIR "/assets/garments/" + name + ".json";
+}
+
+inline std::string design_text(const std::string& name) {
+    std::ifstream stream(design_path(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 /// A panel of straight edges through these corners.
