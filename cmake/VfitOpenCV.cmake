@@ -1,5 +1,5 @@
-# opencv_core, opencv_imgproc and opencv_dnn as targets. Debian ships OpenCVConfig.cmake only in libopencv-dev (963 MB), so
-# where it is absent the libraries are found by themselves.
+# opencv_core, opencv_imgproc and opencv_dnn as targets. Debian ships OpenCVConfig.cmake only in libopencv-dev
+# (963 MB), so where it is absent the libraries are found one by one.
 find_package(OpenCV 4 QUIET COMPONENTS core imgproc dnn)
 if(NOT OpenCV_FOUND)
   find_path(VFIT_OPENCV_INCLUDE opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)

@@ -15,8 +15,8 @@ set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_C_VISIBILITY_PRESET hidden)
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 
-# For programs around the library whose own speed does not matter but whose templates are slow to compile: little
-# optimisation, and these headers (or REUSE_FROM a target with the same options) compiled once.
+# For programs around the library whose own speed does not matter but whose templates are slow to compile:
+# little optimisation, and these headers (or REUSE_FROM a target with the same options) compiled once.
 function(vfit_precompiled_headers target)
   if(NOT MSVC)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
@@ -29,8 +29,8 @@ function(vfit_precompiled_headers target)
 endfunction()
 
 # With VFIT_UNITY_BUILD, several sources of the target in one translation unit, so that their headers are read
-# once. The option is for speed alone: sources need not avoid each other's names in unnamed namespaces, and those
-# that clash are listed here or marked SKIP_UNITY_BUILD_INCLUSION.
+# once. The option is for speed alone: sources need not avoid each other's names in unnamed namespaces, and
+# those that clash are listed here or marked SKIP_UNITY_BUILD_INCLUSION.
 function(vfit_unity_build target)
   set(without vfit_math vfit_motion)  # code for several SIMD targets, or the same names in several sources
   if(NOT VFIT_UNITY_BUILD OR target IN_LIST without)
@@ -55,8 +55,8 @@ function(vfit_add_module module)
   vfit_unity_build(vfit_${module})
 endfunction()
 
-# A program of tests. Under sanitizers its own templates would take most of the time to compile: undefined behaviour is
-# looked for in the code under test, and the tests are not optimised.
+# A program of tests. Under sanitizers its own templates would take most of the time to compile: undefined
+# behaviour is looked for in the code under test, and the tests are not optimised.
 function(vfit_test_program target)
   if(VFIT_SANITIZE)
     target_compile_options(${target} PRIVATE -O0)
@@ -64,8 +64,8 @@ function(vfit_test_program target)
   if(VFIT_SANITIZE MATCHES undefined)
     target_compile_options(${target} PRIVATE -fno-sanitize=undefined)
   endif()
-  target_compile_definitions(${target} PRIVATE VFIT_SOURCE_DIR="${CMAKE_SOURCE_DIR}" VFIT_DATA_DIR="${VFIT_DATA_DIR}"
-    VFIT_PLUGIN_DIR="${CMAKE_BINARY_DIR}/lib/vfit_plugins")
+  target_compile_definitions(${target} PRIVATE VFIT_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
+    VFIT_DATA_DIR="${VFIT_DATA_DIR}" VFIT_PLUGIN_DIR="${CMAKE_BINARY_DIR}/lib/vfit_plugins")
   vfit_unity_build(${target})
   if(target STREQUAL unit_core)
     vfit_precompiled_headers(${target} <gtest/gtest.h> <algorithm> <string> <vector>)
@@ -74,7 +74,8 @@ function(vfit_test_program target)
   endif()
 endfunction()
 
-# The unit tests of one module: every .cpp in tests/unit/<module>, as unit_<module>. Further arguments: what they link.
+# The unit tests of one module: every .cpp in tests/unit/<module>, as unit_<module>. Further arguments: what
+# they link.
 function(vfit_add_unit_test module)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/unit/${module}/*.cpp)
   if(NOT sources)
