@@ -1,9 +1,13 @@
 """Reads include/vfit.h into plain values: enums, structs, callbacks, handles and functions with their comments.
 
+    python3 scripts/vfit_header.py      prints them as JSON
+
 Whoever generates a binding starts here. A line that is not understood stops the reading: a binding that silently
 lacks a function is worse than none.
 """
 
+import json
+import pathlib
 import re
 from typing import NamedTuple
 
@@ -43,6 +47,18 @@ class Function(NamedTuple):
     result: str
     parameters: list
     doc: str
+
+    def output_list(self):
+        """First parameter and number of parameters of the list that the function fills: items, stride (if any)
+        and a pointer to the count. None where it fills none."""
+        for at, count in enumerate(self.parameters):
+            length = 3 if at and self.parameters[at - 1].name.endswith("stride") else 2
+            if at + 1 < length or not (count.pointer and count.name.endswith("count")):
+                continue
+            items = self.parameters[at + 1 - length]
+            if items.pointer and not items.const and items.type not in ("void", "char", "uint8_t"):
+                return at + 1 - length, length
+        return None
 
 
 class Header(NamedTuple):
@@ -239,3 +255,20 @@ def attach(header, last, doc):
     else:
         function = header.functions[index]
         header.functions[index] = function._replace(doc=" ".join(filter(None, (function.doc, doc))))
+
+
+def plain(value):
+    """Named tuples as dictionaries; a function also says which of its parameters are a list that it fills."""
+    if isinstance(value, list):
+        return [plain(item) for item in value]
+    if not hasattr(value, "_asdict"):
+        return value
+    fields = {name: plain(field) for name, field in value._asdict().items()}
+    if isinstance(value, Function):
+        fields["output_list"] = value.output_list()
+    return fields
+
+
+if __name__ == "__main__":
+    path = pathlib.Path(__file__).resolve().parent.parent / "include" / "vfit.h"
+    print(json.dumps(plain(read_header(path.read_text(encoding="utf-8"))), indent=1))
