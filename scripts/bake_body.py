@@ -61,9 +61,10 @@ def fetch_wheel(cache):
         ]
         if subprocess.run(command).returncode != 0 or not wheel.exists():
             raise SystemExit(
-                f"bake_body: cannot download {WHEEL}. pip's own configuration (pip config list) names the index "
-                f"and the proxy. Without a network: fetch it elsewhere by 'pip download --no-deps {PACKAGE}', "
-                f"put the file into {cache}, and build again; VFIT_CACHE names another folder."
+                f"bake_body: cannot download {WHEEL}. pip's own configuration (pip config list) names the "
+                "index and the proxy. Without a network: fetch it elsewhere by "
+                f"'pip download --no-deps {PACKAGE}', put the file into {cache}, and build again; "
+                "VFIT_CACHE names another folder."
             )
     digest = hashlib.sha256(wheel.read_bytes()).hexdigest()
     if digest != WHEEL_SHA256:
