@@ -50,6 +50,24 @@ def test_what_is_recorded_is_played(ctx, tmp_path):
     assert played == 5
 
 
+def test_a_source_takes_options_in_its_uri(ctx, tmp_path):
+    folder = tmp_path / "out"
+    with vfit.Recorder(ctx, folder, sensor_name="virtual") as recorder:
+        for frame in ctx.open("virtual:motion=demo&frames=6"):
+            recorder.write(frame)
+
+    def indices(uri, most, **options):
+        with ctx.open(uri, **options) as sensor:
+            return [frame.meta("index") for frame in itertools.islice(sensor, most)]
+
+    assert indices(f"recording:{folder}?start=4", 9) == [4, 5]
+    assert indices(f"{folder}?start=4", 9, count=1) == [4]
+    assert indices(f"recording:{folder}?loop=1&start=4", 5) == [4, 5, 4, 5, 4]
+    for value in (-1, "abc", 6):
+        with pytest.raises(vfit.Error, match=rf"option start: '{value}' is not a whole number in 0\.\.5"):
+            ctx.open(f"recording:{folder}?start={value}")
+
+
 def test_options_modes_and_info(ctx):
     sensor = ctx.open("virtual:", motion="scan", frames=2, noise=0, shadow=False)
     options = sensor.options()
