@@ -3,8 +3,9 @@
 
     cli_test.py VFIT [SHARED [CLASS ...]]
 
-SHARED is the folder of real data; tests that need it are skipped by name where it is absent. CLASS: only
-these tests.
+SHARED is the folder of real data (VFIT_SHARED overrules it); tests that need it are skipped by name where it
+is absent. CLASS: only these tests. VFIT_TEST_REPORTS: a folder in which a report tells which tests passed,
+failed and were skipped.
 """
 
 import json
@@ -27,7 +28,7 @@ except ImportError:  # Windows
     pty = None
 
 VFIT = sys.argv[1]
-SHARED = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else pathlib.Path("/nonexistent")
+SHARED = pathlib.Path(os.environ.get("VFIT_SHARED", sys.argv[2] if len(sys.argv) > 2 else "/nonexistent"))
 RECORDINGS = sorted(p for p in (SHARED / "data" / "recordings").glob("*") if p.is_dir())
 VIRTUAL = "virtual:motion=demo&sex=f&sensor=kinect_v1_320&seed=3&frames=60"
 GARMENTS = pathlib.Path(VFIT).parents[1] / "lib" / "vfit_data" / "garments"
@@ -844,6 +845,15 @@ class Contract(unittest.TestCase):
                 "--json",
             )
             self.assertEqual(result["cloth"]["vertices"], cooked["vertices"])
+            # A kind that its chart does not list: worn, with the reason why no size is recommended.
+            self.assertEqual(cooked["kind"], "dress")
+            (folder / "gown.json").write_text(
+                (folder / "mine.json").read_text().replace('"dress"', '"gown"', 1)
+            )
+            worn = ("--garment", folder / "gown.json", "--draft", "--frames", 2, "--out", folder / "out")
+            done = run("fit", VIRTUAL, *worn)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertRegex(done.stdout, r"gown\.json: no size: .*en13402_women.*\bgown\b.*\bdress\b")
             self.check_failure(
                 run("cook", folder / "design.json", "--out", folder / "no" / "x.json"), "x.json"
             )
@@ -1257,5 +1267,36 @@ class RealRecordings(unittest.TestCase):
             self.assertEqual(len(done.stdout.splitlines()), 3, "frames before the cut one are printed")
 
 
+class Report(unittest.TextTestResult):
+    """Keeps what passes, too."""
+
+    def __init__(self, *arguments, **options):
+        super().__init__(*arguments, **options)
+        self.passed = []
+
+    def addSuccess(self, test):
+        super().addSuccess(test)
+        self.passed.append((test, ""))
+
+    def write(self, path):
+        def named(tests):
+            return [
+                {"name": test.id().removeprefix("__main__."), "reason": str(reason)} for test, reason in tests
+            ]
+
+        report = {
+            "passed": named(self.passed),
+            "failed": named(self.failures + self.errors),
+            "skipped": named(self.skipped),
+        }
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(json.dumps(report, indent=2))
+
+
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)
+    classes = sys.argv[3:]
+    runner = unittest.TextTestRunner(verbosity=2, resultclass=Report)
+    result = unittest.main(argv=sys.argv[:1] + classes, testRunner=runner, exit=False).result
+    if folder := os.environ.get("VFIT_TEST_REPORTS"):
+        result.write(pathlib.Path(folder) / f"chain_{'_'.join(classes) or 'all'}.json")
+    sys.exit(not result.wasSuccessful())
