@@ -40,7 +40,8 @@ private:
 /// Base of the objects behind handles, but for frames.
 class ContextChild : public Object {
 public:
-    explicit ContextChild(Ref<Context> owner) : context(std::move(owner)) {}
+    explicit ContextChild(Ref<Context> owner);
+    ~ContextChild() override;
     const Ref<Context> context;
     Access access;
 };

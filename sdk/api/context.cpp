@@ -22,6 +22,9 @@ std::string folder_or_default(const char* given, const char* beside_library) {
 
 }  // namespace
 
+ContextChild::ContextChild(Ref<Context> owner) : context(std::move(owner)) {}
+ContextChild::~ContextChild() = default;
+
 void Inside::enter(Context& context) {
     std::lock_guard lock(context.mutex_);
     ++context.inside_;

@@ -1,7 +1,10 @@
 // The object behind vfit_scan.
 #pragma once
 
+#include <vector>
+
 #include "api/context.h"
+#include "body/collider.h"
 #include "scan/person_scan.h"
 
 namespace vfit::api {
