@@ -173,7 +173,7 @@ def main():
     )
     weight, begin, last, running = joint_weights().to(device), time.time(), time.time(), []
     log = (arguments.run / "curve.csv").open("a", newline="")
-    writer = csv.writer(log)
+    writer = csv.writer(log, lineterminator="\n")
     if step == 0:
         writer.writerow(["step", "minutes", "loss", "mean_mm", "within_10cm", "facing", "person"])
     while time.time() - begin < 60 * arguments.minutes:

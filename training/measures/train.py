@@ -377,7 +377,7 @@ def main():
     for kind in KINDS:
         model[kind] = train(rows, kind, keys)
     with open(arguments.out, "w") as file:
-        file.write(json.dumps(model, separators=(",", ":")))
+        file.write(json.dumps(model, separators=(",", ":")) + "\n")
 
 
 if __name__ == "__main__":
