@@ -325,6 +325,10 @@ void add_fit(Command& app) {
         if (o->json) return print_document(result);
         std::cout << title_of(result) << "\nin " << o->out << ": result.json, contact_sheet.png, avatar.glb, "
                   << result["pictures"].size() - 1 << " pictures\n";
+        for (const Json& garment : result["garments"])
+            if (garment.contains("no_size"))
+                std::cout << garment["garment"].get<std::string>()
+                          << ": no size: " << garment["no_size"].get<std::string>() << "\n";
         if (result.contains("warning")) std::cout << result["warning"].get<std::string>() << "\n";
     });
 }
