@@ -93,7 +93,7 @@ struct Way {
 const Way kWays[] = {{"front", {0, 0, 1}},  {"back", {0, 0, -1}}, {"left", {1, 0, 0}},
                      {"right", {-1, 0, 0}}, {"up", {0, 1, 0}},    {"down", {0, -1, 0}}};
 
-const Json& field(const Json& object, const char* name, const std::string& where) {
+const Json& field(const Json& object, const char* name, std::string_view where) {
     const auto it = object.is_object() ? object.find(name) : object.end();
     if (it == object.end()) fail(VFIT_ERROR_DATA, "own measures: ", where, " has no \"", name, "\"");
     return *it;

@@ -122,7 +122,7 @@ Estimate estimate_primary(const Lines& measured, Line primary, RatioTable table,
     return mean(estimates.data(), count, combination);
 }
 
-const GarmentKind& garment_kind(const std::string& name) {
+const GarmentKind& garment_kind(std::string_view name) {
     for (const GarmentKind& kind : kTable2)
         if (name == kind.name) return kind;
     std::string known;

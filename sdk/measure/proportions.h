@@ -74,6 +74,6 @@ struct GarmentKind {
     std::array<float, 2> nominal_widths_m;
 };
 /// VFIT_ERROR_ARGUMENT naming the known kinds.
-const GarmentKind& garment_kind(const std::string& name);
+const GarmentKind& garment_kind(std::string_view name);
 
 }  // namespace vfit

@@ -27,7 +27,7 @@ constexpr float kUnseenScale = 1e30f;       // of a feature that a part does not
 constexpr float kMassScale = 100.0f;        // of these in kilograms
 constexpr const char* kKinds[] = {"front", "front_and_side", "front_tight", "front_and_side_tight"};
 
-const Json& field(const Json& object, const char* name, const std::string& where) {
+const Json& field(const Json& object, const char* name, std::string_view where) {
     const auto it = object.is_object() ? object.find(name) : object.end();
     if (it == object.end()) fail(VFIT_ERROR_DATA, "measure model: ", where, " has no \"", name, "\"");
     return *it;

@@ -22,7 +22,7 @@ struct Units {
 };
 
 const Json& field(const Json& object, const char* name, Json::value_t type, const char* type_name,
-                  const std::string& where) {
+                  std::string_view where) {
     const auto it = object.find(name);
     if (it == object.end()) fail(VFIT_ERROR_DATA, "size chart: ", where, " has no \"", name, "\"");
     if (it->type() != type)
@@ -30,13 +30,13 @@ const Json& field(const Json& object, const char* name, Json::value_t type, cons
     return *it;
 }
 
-const Json& array_field(const Json& object, const char* name, const std::string& where) {
+const Json& array_field(const Json& object, const char* name, std::string_view where) {
     const Json& array = field(object, name, Json::value_t::array, "a list", where);
     if (array.empty()) fail(VFIT_ERROR_DATA, "size chart: \"", name, "\" of ", where, " is empty");
     return array;
 }
 
-const std::string& string_field(const Json& object, const char* name, const std::string& where) {
+const std::string& string_field(const Json& object, const char* name, std::string_view where) {
     return field(object, name, Json::value_t::string, "a text", where).get_ref<const std::string&>();
 }
 

@@ -26,7 +26,7 @@ std::vector<float> numbers(const Json& value, size_t count, const std::string& w
     return out;
 }
 
-const Json& field(const Json& object, const char* key, const std::string& what) {
+const Json& field(const Json& object, const char* key, std::string_view what) {
     const auto it = object.is_object() ? object.find(key) : object.end();
     if (!object.is_object() || it == object.end())
         fail(VFIT_ERROR_DATA, "pattern: ", what, " has no \"", key, "\"");
