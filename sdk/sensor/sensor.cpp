@@ -175,6 +175,7 @@ void Sensor::choose_mode(const std::string& name) {
     std::string known;
     bool found = false;
     const std::vector<vfit_sensor_mode> modes = read_modes();
+    if (modes.empty()) fail(VFIT_ERROR_ARGUMENT, "option mode: the sensor ", uri_, " lists no modes");
     for (const vfit_sensor_mode& mode : modes) {
         found = found || name == mode.name;
         known += (known.empty() ? "" : ", ") + std::string(mode.name);

@@ -206,6 +206,16 @@ TEST(Sensor, ModeMustBeOneOfTheList) {
     EXPECT_EQ(failure_of([&] { sensor->set_option("taste", "3"); }).code, VFIT_ERROR_UNSUPPORTED);
 }
 
+TEST(Sensor, ASensorWithoutModesSaysSo) {
+    FakeHost fake;
+    fake.plugin.table.mode = nullptr;
+    fake.attach();
+    const Ref<Sensor> sensor = fake.host.open("fake:1");
+    const Failure failure = failure_of([&] { sensor->set_option("mode", "small"); });
+    EXPECT_EQ(failure.code, VFIT_ERROR_ARGUMENT);
+    EXPECT_TRUE(failure.says("fake:1") && failure.says("no modes")) << failure.message;
+}
+
 TEST(Sensor, AKeyHasALengthAndAValueABound) {
     FakeHost fake;
     fake.attach();
