@@ -12,8 +12,8 @@ namespace room {
 
 namespace {
 
-constexpr float kEm = 16.0f, kLeastEm = 13.0f;  // pixels: of a window that is 720 high or wide, and at least
-constexpr float kLarge = 2.0f;                  // size of large text in em
+constexpr float kEm = 16.0f, kMinEm = 13.0f;  // pixels: of a window that is 720 high or wide, and at least
+constexpr float kLarge = 2.0f;                // size of large text in em
 
 /// The font that the build has found, or ImGui's own where that file is not on this machine.
 ImFont* add_font(float pixels) {
@@ -22,7 +22,7 @@ ImFont* add_font(float pixels) {
     if (std::filesystem::exists(VFIT_ROOM_FONT, none))
         if (ImFont* font = atlas.AddFontFromFileTTF(VFIT_ROOM_FONT, pixels)) return font;
     ImFontConfig config;
-    config.SizePixels = std::max(kLeastEm, std::round(0.82f * pixels));  // its letters are wider
+    config.SizePixels = std::max(kMinEm, std::round(0.82f * pixels));  // its letters are wider
     return atlas.AddFontDefault(&config);
 }
 
@@ -94,7 +94,7 @@ void Gui::open(float em) {
 }
 
 void Gui::begin(int width, int height, float seconds, const Pointer& pointer) {
-    const float em = std::max(kLeastEm, std::round(kEm * float(std::min(width, height)) / 720.0f));
+    const float em = std::max(kMinEm, std::round(kEm * float(std::min(width, height)) / 720.0f));
     if (em != em_) open(em);
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {float(width), float(height)};

@@ -75,13 +75,13 @@ Key key_named(const std::string& name) {
 }
 
 /// Two numbers with an x between them.
-std::pair<int, int> pair_of(const char* option, const std::string& text, const char* what, int least_x,
-                            int least_y) {
-    constexpr int kMost = 8192;
+std::pair<int, int> pair_of(const char* option, const std::string& text, const char* what, int min_x,
+                            int min_y) {
+    constexpr int kMaxPixels = 8192;
     const size_t x = text.find('x');
     if (x == std::string::npos) throw Usage{std::string(option) + ": '" + text + "' is not " + what};
-    return {number(option, text.substr(0, x), least_x, kMost),
-            number(option, text.substr(x + 1), least_y, kMost)};
+    return {number(option, text.substr(0, x), min_x, kMaxPixels),
+            number(option, text.substr(x + 1), min_y, kMaxPixels)};
 }
 
 vfit_sex sex_of(const std::string& text) {

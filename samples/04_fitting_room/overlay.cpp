@@ -14,7 +14,8 @@ namespace {
 
 // In em.
 constexpr float kMargin = 1.0f, kCompactMargin = 0.6f;
-constexpr float kLeftPanel = 16.0f, kRightPanel = 17.0f, kCompactPanel = 12.5f, kCompactTimes = 10.0f;
+constexpr float kLeftPanel = 16.4f, kRightPanel = 17.0f, kCompactPanel = 12.5f, kCompactRate = 5.5f,
+                kCompactLegend = 10.0f;
 constexpr float kFullWidth = 60.0f, kFullHeight = 43.0f;  // windows below it are compact
 
 constexpr ImGuiWindowFlags kStill = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
@@ -82,9 +83,9 @@ void Overlay::banner(const Room& room) {
     // Between the panels, or, in a compact window, below them.
     const bool low = compact_ && room.dressed();
     const float beside = compact_ ? kCompactMargin : kRightPanel + 2.0f * kMargin;
-    const float most = width_ - 2.0f * beside * em_ - 2.0f * em_;
+    const float max_width = width_ - 2.0f * beside * em_ - 2.0f * em_;
     if (large) gui_.push_large();
-    const ImVec2 size = ImGui::CalcTextSize(what, nullptr, false, most);
+    const ImVec2 size = ImGui::CalcTextSize(what, nullptr, false, max_width);
     ImGui::SetNextWindowPos({0.5f * width_, low ? height_ - kCompactMargin * em_ : kMargin * em_},
                             ImGuiCond_Always, {0.5f, low ? 1.0f : 0.0f});
     ImGui::SetNextWindowSize({size.x + 2.0f * em_, 0.0f});
@@ -137,7 +138,7 @@ void Overlay::fitting(const Room& room, const OverlayState& state) {
 /// Times of the pictures, and the legend of the fit map.
 void Overlay::measured(const Room& room, const Times& times, const OverlayState& state) {
     const float margin = (compact_ ? kCompactMargin : kMargin) * em_;
-    const float width = (compact_ ? kCompactTimes : kRightPanel) * em_;
+    const float width = (!compact_ ? kRightPanel : state.fit_map ? kCompactLegend : kCompactRate) * em_;
     if (begin_panel("times", {width_ - margin, margin}, {1.0f, 0.0f}, width)) {
         show_rate(times, state, gui_, compact_);
         if (!compact_ && room.dressed()) show_stages(times, em_);

@@ -1,4 +1,4 @@
-// The panel on the left: who was measured, what is worn, and what can be chosen.
+// The panel on the left: measurements, the garment, and the lists to choose from.
 #include <algorithm>
 #include <cfloat>
 #include <cstdarg>
@@ -59,8 +59,8 @@ int difference(size_t to, size_t from) { return int(to) - int(from); }
 
 void choose_garment_in_list(const Room& room, Wish& wish) {
     const Wardrobe& wardrobe = room.wardrobe();
-    constexpr size_t kMostRows = 10;
-    const float rows = float(std::min(wardrobe.count(), kMostRows));
+    constexpr size_t kMaxRows = 10;
+    const float rows = float(std::min(wardrobe.count(), kMaxRows));
     faint("garment");
     if (ImGui::BeginChild("garments", {0.0f, rows * ImGui::GetTextLineHeightWithSpacing()})) {
         int& scrolled_to = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("scrolled to"), -1);

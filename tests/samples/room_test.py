@@ -1,4 +1,4 @@
-"""vfit-room (samples/04_fitting_room), drawing into memory: what is in its pictures, what its keys do, what it says when
+"""vfit-room (samples/04_fitting_room), drawing into memory: its pictures, keys, clicks, and messages when
 something is missing.
 
     room_test.py VFIT_ROOM
