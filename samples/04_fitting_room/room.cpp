@@ -75,9 +75,7 @@ vfit_target target_of(void* data, size_t count, size_t stride, size_t offset, vf
 }  // namespace
 
 Room::Room(const Options& options)
-    : options_(options),
-      context_(open_context(options)),
-      wardrobe_(context_.get(), options.garments) {
+    : options_(options), context_(open_context(options)), wardrobe_(context_.get(), options.garments) {
     if (!options.size.empty()) {
         const auto& sizes = wardrobe_.piece(0).sizes;
         const auto found = std::find(sizes.begin(), sizes.end(), options.size);
