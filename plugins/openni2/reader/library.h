@@ -21,17 +21,33 @@ private:
     Ending ending_;
 };
 
-#define VFIT_OPENNI2_FUNCTIONS(DO)                                                                        \
-    DO(oniInitialize)                                                                                     \
-    DO(oniGetDeviceList)                                                                                  \
-    DO(oniReleaseDeviceList) DO(oniRegisterDeviceCallbacks) DO(oniUnregisterDeviceCallbacks)              \
-        DO(oniWaitForAnyStream) DO(oniGetExtendedError) DO(oniDeviceOpen) DO(oniDeviceClose)              \
-            DO(oniDeviceGetSensorInfo) DO(oniDeviceGetInfo) DO(oniDeviceCreateStream)                     \
-                DO(oniDeviceSetProperty) DO(oniDeviceGetProperty)                                         \
-                    DO(oniDeviceIsImageRegistrationModeSupported) DO(oniStreamDestroy) DO(oniStreamStart) \
-                        DO(oniStreamStop) DO(oniStreamReadFrame) DO(oniStreamSetProperty)                 \
-                            DO(oniStreamGetProperty) DO(oniFrameRelease) DO(oniSetLogConsoleOutput)       \
-                                DO(oniSetLogFileOutput)
+// clang-format off
+#define VFIT_OPENNI2_FUNCTIONS(DO)                \
+    DO(oniInitialize)                             \
+    DO(oniGetDeviceList)                          \
+    DO(oniReleaseDeviceList)                      \
+    DO(oniRegisterDeviceCallbacks)                \
+    DO(oniUnregisterDeviceCallbacks)              \
+    DO(oniWaitForAnyStream)                       \
+    DO(oniGetExtendedError)                       \
+    DO(oniDeviceOpen)                             \
+    DO(oniDeviceClose)                            \
+    DO(oniDeviceGetSensorInfo)                    \
+    DO(oniDeviceGetInfo)                          \
+    DO(oniDeviceCreateStream)                     \
+    DO(oniDeviceSetProperty)                      \
+    DO(oniDeviceGetProperty)                      \
+    DO(oniDeviceIsImageRegistrationModeSupported) \
+    DO(oniStreamDestroy)                          \
+    DO(oniStreamStart)                            \
+    DO(oniStreamStop)                             \
+    DO(oniStreamReadFrame)                        \
+    DO(oniStreamSetProperty)                      \
+    DO(oniStreamGetProperty)                      \
+    DO(oniFrameRelease)                           \
+    DO(oniSetLogConsoleOutput)                    \
+    DO(oniSetLogFileOutput)
+// clang-format on
 
 /// Initialised, and never shut down: with its drivers' threads about, that crashes now and then, and the
 /// process ends anyway.
