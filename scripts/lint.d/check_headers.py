@@ -14,13 +14,15 @@ import subprocess
 import sys
 
 from include_graph import IncludeGraph, roots
-from tree import PROJECT, Breach
+from tree import Breach
 
 COMPILER = os.environ.get("CXX", "g++")
 CXX = ("-x", "c++", "-std=gnu++20")
 PUBLIC_CXX = ("-x", "c++", "-std=c++17", "-pedantic-errors")
 PUBLIC_C = ("-x", "c", "-std=c99", "-pedantic-errors")
-PASSED = PROJECT / "build/lint/headers.json"
+# Below the tree under check.
+PASSED = "build/lint/headers.json"
+WRITTEN = "build/lint/written"
 FOLDERS = ("sdk/", "include/", "tools/", "plugins/", "samples/", "tests/", "training/")
 # Headers of libraries that are not on the compiler's own path, by their pkg-config names.
 LIBRARIES = ("libusb-1.0", "libopenni2", "opencv4")
@@ -28,7 +30,6 @@ OPENCV_WITHOUT_PKG_CONFIG = "/usr/include/opencv4"
 # What CMake defines for every program of tests.
 DEFINITIONS = ['-DVFIT_SOURCE_DIR="."', '-DVFIT_DATA_DIR="."', '-DVFIT_PLUGIN_DIR="."']
 # Headers that the build writes, and some headers include: by whom they are written.
-WRITTEN = PROJECT / "build/lint/written"
 WRITER, WRITER_INPUT = "tests/storm/make_calls.py", "include/vfit.h"
 
 
@@ -45,7 +46,7 @@ def _library_flags():
 
 def _write_headers(tree):
     if WRITER in tree.files:
-        subprocess.run([sys.executable, "-B", WRITER, WRITER_INPUT, str(WRITTEN)], cwd=tree.root, check=True)
+        subprocess.run([sys.executable, "-B", WRITER, WRITER_INPUT, WRITTEN], cwd=tree.root, check=True)
 
 
 class Compiler:
@@ -77,16 +78,17 @@ def _digest(compiler, graph, header):
     return parts.hexdigest()
 
 
-def _read_passed():
+def _read_passed(tree):
     try:
-        return set(json.loads(PASSED.read_text()))
+        return set(json.loads((tree.root / PASSED).read_text()))
     except (OSError, ValueError):
         return set()
 
 
-def _keep_passed(digests):
-    PASSED.parent.mkdir(parents=True, exist_ok=True)
-    PASSED.write_text(json.dumps(sorted(digests), indent=0))
+def _keep_passed(tree, digests):
+    file = tree.root / PASSED
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(json.dumps(sorted(digests), indent=0))
 
 
 def _breach(header, errors):
@@ -124,7 +126,7 @@ def check(tree):
     compiler = Compiler(tree.root)
     _write_headers(tree)
     digests = {header: _digest(compiler, graph, header) for header in headers}
-    passed = _read_passed()
+    passed = _read_passed(tree)
     waiting = [header for header in headers if digests[header] not in passed]
     absent = set()
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -135,6 +137,6 @@ def check(tree):
                 absent.add(_absent_library(errors))
             else:
                 yield _breach(header, errors)
-    _keep_passed(passed)
+    _keep_passed(tree, passed)
     if absent:
         tree.skip("headers", f"not installed (scripts/setup): {', '.join(sorted(absent))}")

@@ -73,6 +73,7 @@ def check(tree):
         for number in sorted(numbers):
             for word in listed:
                 lines = scopes.get(word.scope, [])
-                found = word.pattern.search(lines[number - 1]) if number <= len(lines) else None
-                if found and not (word.scope == "code" and tree.has_word(base, found.group())):
-                    yield Breach(path, number, f"'{found.group().strip()}': say {word.advice}")
+                for found in word.pattern.finditer(lines[number - 1] if lines else ""):
+                    text = (found.groupdict().get("word") or found.group()).strip()
+                    if word.scope != "code" or not tree.has_word(base, text):
+                        yield Breach(path, number, f"'{text}': say {word.advice}")

@@ -55,15 +55,20 @@ def _install():
             raise Missing(f"{WITHOUT_NETWORK}\npip: {last}")
 
 
-def find():
-    """Paths of both programs, installed where they are not here yet."""
+def present():
+    """Paths of both programs where they are here; None where they have to be installed."""
     own = os.environ.get("VFIT_FORMATTERS")
     if own:
         paths = _usable(own)
         if not paths:
             raise Missing(f"VFIT_FORMATTERS={own} does not hold {VERSIONS}")
         return paths
-    paths = _usable(FOLDER / "bin") or _usable(None)
+    return _usable(FOLDER / "bin") or _usable(None)
+
+
+def find():
+    """Paths of both programs, installed where they are not here yet."""
+    paths = present()
     if not paths:
         _install()
         paths = _usable(FOLDER / "bin")
