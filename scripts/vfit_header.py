@@ -1,8 +1,8 @@
-"""Reads include/vfit.h into plain values: enums, structs, callbacks, handles and functions with their comments.
+"""Reads include/vfit.h into plain values: enums, structs, callbacks, handles, functions and their comments.
 
     python3 scripts/vfit_header.py      prints them as JSON
 
-Whoever generates a binding starts here. A line that is not understood stops the reading: a binding that silently
+A generator of a binding starts here. A line that is not understood stops the reading: a binding that silently
 lacks a function is worse than none.
 """
 
@@ -49,8 +49,8 @@ class Function(NamedTuple):
     doc: str
 
     def output_list(self):
-        """First parameter and number of parameters of the list that the function fills: items, stride (if any)
-        and a pointer to the count. None where it fills none."""
+        """First parameter and number of parameters of the list that the function fills: items, stride (if
+        any) and a pointer to the count. None where it fills none."""
         for at, count in enumerate(self.parameters):
             length = 3 if at and self.parameters[at - 1].name.endswith("stride") else 2
             if at + 1 < length or not (count.pointer and count.name.endswith("count")):
@@ -79,7 +79,8 @@ TOKEN = re.compile(
   | (?P<alias>typedef\s+int32_t\s+(?P<alias_name>\w+)\s*;)
   | (?P<enum>enum\s*\{(?P<enum_body>.*?)\}\s*;)
   | (?P<struct>typedef\s+struct\s+(?P<struct_name>\w+)\s*\{(?P<struct_body>.*?)\}\s*(?P=struct_name)\s*;)
-  | (?P<callback>typedef\s+(?P<callback_result>\w+\s*\**)\s*\(\*(?P<callback_name>\w+)\)\s*\((?P<callback_body>.*?)\)\s*;)
+  | (?P<callback>typedef\s+(?P<callback_result>\w+\s*\**)\s*
+      \(\*(?P<callback_name>\w+)\)\s*\((?P<callback_body>.*?)\)\s*;)
   | (?P<function>VFIT_API\s+(?P<result>(?:const\s+)?\w+\s*\**)\s*(?P<name>\w+)\s*\((?P<body>.*?)\)\s*;)
 """,
     re.X | re.S,

@@ -61,7 +61,8 @@ namespace Vfit
             bool contextHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_context_destroy(new ContextId(VfitHandle.Hold(context, ref contextHeld))));
+                Result result = VfitException.Check(Native.vfit_context_destroy(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld))));
                 return result;
             }
             finally
@@ -81,7 +82,8 @@ namespace Vfit
             bool contextHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_context_describe(new ContextId(VfitHandle.Hold(context, ref contextHeld)), @out));
+                Result result = VfitException.Check(Native.vfit_context_describe(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), @out));
                 return result;
             }
             finally
@@ -103,7 +105,8 @@ namespace Vfit
             bool contextHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_context_time(new ContextId(VfitHandle.Hold(context, ref contextHeld)), timeNs));
+                Result result = VfitException.Check(Native.vfit_context_time(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), timeNs));
                 return result;
             }
             finally
@@ -117,7 +120,8 @@ namespace Vfit
             bool contextHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_profile_list(new ContextId(VfitHandle.Hold(context, ref contextHeld)), items, stride, count));
+                Result result = VfitException.Check(Native.vfit_profile_list(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), items, stride, count));
                 return result;
             }
             finally
@@ -152,7 +156,8 @@ namespace Vfit
             if (into == null) throw new ArgumentNullException("into");
             Profile none;
             uint listed = (uint)into.Length;
-            if (listed == 0) ProfileList(context, &none, (uint)sizeof(Profile), &listed);     // an empty array is not the question how many
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) ProfileList(context, &none, (uint)sizeof(Profile), &listed);
             else fixed (Profile* first = into) ProfileList(context, first, (uint)sizeof(Profile), &listed);
             return (int)listed;
         }
@@ -162,7 +167,8 @@ namespace Vfit
             bool contextHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_profile_reset(new ContextId(VfitHandle.Hold(context, ref contextHeld))));
+                Result result = VfitException.Check(Native.vfit_profile_reset(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld))));
                 return result;
             }
             finally
@@ -176,7 +182,8 @@ namespace Vfit
             bool contextHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_log_next(new ContextId(VfitHandle.Hold(context, ref contextHeld)), level, buffer, capacity));
+                Result result = VfitException.Check(Native.vfit_log_next(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), level, buffer, capacity));
                 return result;
             }
             finally
@@ -190,7 +197,8 @@ namespace Vfit
             bool contextHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_plugin_load(new ContextId(VfitHandle.Hold(context, ref contextHeld)), path));
+                Result result = VfitException.Check(Native.vfit_plugin_load(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), path));
                 return result;
             }
             finally
@@ -204,7 +212,8 @@ namespace Vfit
             bool contextHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_plugin_list(new ContextId(VfitHandle.Hold(context, ref contextHeld)), items, stride, count));
+                Result result = VfitException.Check(Native.vfit_plugin_list(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), items, stride, count));
                 return result;
             }
             finally
@@ -223,7 +232,8 @@ namespace Vfit
                 if (listed == 0) return list;
                 try
                 {
-                    fixed (PluginInfo* first = list) PluginList(context, first, (uint)sizeof(PluginInfo), &listed);
+                    fixed (PluginInfo* first = list) PluginList(context, first, (uint)sizeof(PluginInfo),
+                        &listed);
                 }
                 catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
                 {
@@ -239,8 +249,10 @@ namespace Vfit
             if (into == null) throw new ArgumentNullException("into");
             PluginInfo none;
             uint listed = (uint)into.Length;
-            if (listed == 0) PluginList(context, &none, (uint)sizeof(PluginInfo), &listed);     // an empty array is not the question how many
-            else fixed (PluginInfo* first = into) PluginList(context, first, (uint)sizeof(PluginInfo), &listed);
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) PluginList(context, &none, (uint)sizeof(PluginInfo), &listed);
+            else fixed (PluginInfo* first = into) PluginList(context, first, (uint)sizeof(PluginInfo),
+                &listed);
             return (int)listed;
         }
 
@@ -327,7 +339,8 @@ namespace Vfit
             var outId = new FrameId();
             try
             {
-                Result result = VfitException.Check(Native.vfit_frame_create(new ContextId(VfitHandle.Hold(context, ref contextHeld)), desc, &outId));
+                Result result = VfitException.Check(Native.vfit_frame_create(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), desc, &outId));
                 @out.Put(outId.Value);
                 return result;
             }
@@ -342,7 +355,8 @@ namespace Vfit
             bool frameHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_frame_retain(new FrameId(VfitHandle.Hold(frame, ref frameHeld))));
+                Result result = VfitException.Check(Native.vfit_frame_retain(
+                    new FrameId(VfitHandle.Hold(frame, ref frameHeld))));
                 return result;
             }
             finally
@@ -356,7 +370,8 @@ namespace Vfit
             bool frameHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_frame_release(new FrameId(VfitHandle.Hold(frame, ref frameHeld))));
+                Result result = VfitException.Check(Native.vfit_frame_release(
+                    new FrameId(VfitHandle.Hold(frame, ref frameHeld))));
                 return result;
             }
             finally
@@ -370,7 +385,8 @@ namespace Vfit
             bool frameHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_frame_streams(new FrameId(VfitHandle.Hold(frame, ref frameHeld)), items, count));
+                Result result = VfitException.Check(Native.vfit_frame_streams(
+                    new FrameId(VfitHandle.Hold(frame, ref frameHeld)), items, count));
                 return result;
             }
             finally
@@ -405,7 +421,8 @@ namespace Vfit
             if (into == null) throw new ArgumentNullException("into");
             StreamKind none;
             uint listed = (uint)into.Length;
-            if (listed == 0) FrameStreams(frame, &none, &listed);     // an empty array is not the question how many
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) FrameStreams(frame, &none, &listed);
             else fixed (StreamKind* first = into) FrameStreams(frame, first, &listed);
             return (int)listed;
         }
@@ -415,7 +432,8 @@ namespace Vfit
             bool frameHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_frame_view(new FrameId(VfitHandle.Hold(frame, ref frameHeld)), stream, @out));
+                Result result = VfitException.Check(Native.vfit_frame_view(
+                    new FrameId(VfitHandle.Hold(frame, ref frameHeld)), stream, @out));
                 return result;
             }
             finally
@@ -437,7 +455,8 @@ namespace Vfit
             bool frameHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_frame_intrinsics(new FrameId(VfitHandle.Hold(frame, ref frameHeld)), @out));
+                Result result = VfitException.Check(Native.vfit_frame_intrinsics(
+                    new FrameId(VfitHandle.Hold(frame, ref frameHeld)), @out));
                 return result;
             }
             finally
@@ -459,7 +478,8 @@ namespace Vfit
             bool frameHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_frame_camera(new FrameId(VfitHandle.Hold(frame, ref frameHeld)), @out));
+                Result result = VfitException.Check(Native.vfit_frame_camera(
+                    new FrameId(VfitHandle.Hold(frame, ref frameHeld)), @out));
                 return result;
             }
             finally
@@ -476,12 +496,14 @@ namespace Vfit
             return value;
         }
 
-        internal static Result FrameMeta(FrameHandle frame, byte* key, byte* buffer, uint capacity, uint* length)
+        internal static Result FrameMeta(FrameHandle frame, byte* key, byte* buffer, uint capacity,
+            uint* length)
         {
             bool frameHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_frame_meta(new FrameId(VfitHandle.Hold(frame, ref frameHeld)), key, buffer, capacity, length));
+                Result result = VfitException.Check(Native.vfit_frame_meta(
+                    new FrameId(VfitHandle.Hold(frame, ref frameHeld)), key, buffer, capacity, length));
                 return result;
             }
             finally
@@ -495,7 +517,8 @@ namespace Vfit
             bool frameHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_frame_write(new FrameId(VfitHandle.Hold(frame, ref frameHeld)), stream, target, serial));
+                Result result = VfitException.Check(Native.vfit_frame_write(
+                    new FrameId(VfitHandle.Hold(frame, ref frameHeld)), stream, target, serial));
                 return result;
             }
             finally
@@ -509,7 +532,8 @@ namespace Vfit
             bool contextHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_sensor_list(new ContextId(VfitHandle.Hold(context, ref contextHeld)), items, stride, count));
+                Result result = VfitException.Check(Native.vfit_sensor_list(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), items, stride, count));
                 return result;
             }
             finally
@@ -528,7 +552,8 @@ namespace Vfit
                 if (listed == 0) return list;
                 try
                 {
-                    fixed (SensorInfo* first = list) SensorList(context, first, (uint)sizeof(SensorInfo), &listed);
+                    fixed (SensorInfo* first = list) SensorList(context, first, (uint)sizeof(SensorInfo),
+                        &listed);
                 }
                 catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
                 {
@@ -544,8 +569,10 @@ namespace Vfit
             if (into == null) throw new ArgumentNullException("into");
             SensorInfo none;
             uint listed = (uint)into.Length;
-            if (listed == 0) SensorList(context, &none, (uint)sizeof(SensorInfo), &listed);     // an empty array is not the question how many
-            else fixed (SensorInfo* first = into) SensorList(context, first, (uint)sizeof(SensorInfo), &listed);
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) SensorList(context, &none, (uint)sizeof(SensorInfo), &listed);
+            else fixed (SensorInfo* first = into) SensorList(context, first, (uint)sizeof(SensorInfo),
+                &listed);
             return (int)listed;
         }
 
@@ -554,7 +581,8 @@ namespace Vfit
             bool contextHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_sensor_changes(new ContextId(VfitHandle.Hold(context, ref contextHeld)), count));
+                Result result = VfitException.Check(Native.vfit_sensor_changes(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), count));
                 return result;
             }
             finally
@@ -569,7 +597,8 @@ namespace Vfit
             var outId = new SensorId();
             try
             {
-                Result result = VfitException.Check(Native.vfit_sensor_open(new ContextId(VfitHandle.Hold(context, ref contextHeld)), uri, &outId));
+                Result result = VfitException.Check(Native.vfit_sensor_open(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), uri, &outId));
                 @out.Put(outId.Value);
                 return result;
             }
@@ -584,7 +613,8 @@ namespace Vfit
             bool sensorHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_sensor_modes(new SensorId(VfitHandle.Hold(sensor, ref sensorHeld)), items, stride, count));
+                Result result = VfitException.Check(Native.vfit_sensor_modes(
+                    new SensorId(VfitHandle.Hold(sensor, ref sensorHeld)), items, stride, count));
                 return result;
             }
             finally
@@ -603,7 +633,8 @@ namespace Vfit
                 if (listed == 0) return list;
                 try
                 {
-                    fixed (SensorMode* first = list) SensorModes(sensor, first, (uint)sizeof(SensorMode), &listed);
+                    fixed (SensorMode* first = list) SensorModes(sensor, first, (uint)sizeof(SensorMode),
+                        &listed);
                 }
                 catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
                 {
@@ -619,17 +650,21 @@ namespace Vfit
             if (into == null) throw new ArgumentNullException("into");
             SensorMode none;
             uint listed = (uint)into.Length;
-            if (listed == 0) SensorModes(sensor, &none, (uint)sizeof(SensorMode), &listed);     // an empty array is not the question how many
-            else fixed (SensorMode* first = into) SensorModes(sensor, first, (uint)sizeof(SensorMode), &listed);
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) SensorModes(sensor, &none, (uint)sizeof(SensorMode), &listed);
+            else fixed (SensorMode* first = into) SensorModes(sensor, first, (uint)sizeof(SensorMode),
+                &listed);
             return (int)listed;
         }
 
-        internal static Result SensorOptions(SensorHandle sensor, SensorOption* items, uint stride, uint* count)
+        internal static Result SensorOptions(SensorHandle sensor, SensorOption* items, uint stride,
+            uint* count)
         {
             bool sensorHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_sensor_options(new SensorId(VfitHandle.Hold(sensor, ref sensorHeld)), items, stride, count));
+                Result result = VfitException.Check(Native.vfit_sensor_options(
+                    new SensorId(VfitHandle.Hold(sensor, ref sensorHeld)), items, stride, count));
                 return result;
             }
             finally
@@ -648,7 +683,8 @@ namespace Vfit
                 if (listed == 0) return list;
                 try
                 {
-                    fixed (SensorOption* first = list) SensorOptions(sensor, first, (uint)sizeof(SensorOption), &listed);
+                    fixed (SensorOption* first = list) SensorOptions(sensor, first,
+                        (uint)sizeof(SensorOption), &listed);
                 }
                 catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
                 {
@@ -664,8 +700,10 @@ namespace Vfit
             if (into == null) throw new ArgumentNullException("into");
             SensorOption none;
             uint listed = (uint)into.Length;
-            if (listed == 0) SensorOptions(sensor, &none, (uint)sizeof(SensorOption), &listed);     // an empty array is not the question how many
-            else fixed (SensorOption* first = into) SensorOptions(sensor, first, (uint)sizeof(SensorOption), &listed);
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) SensorOptions(sensor, &none, (uint)sizeof(SensorOption), &listed);
+            else fixed (SensorOption* first = into) SensorOptions(sensor, first, (uint)sizeof(SensorOption),
+                &listed);
             return (int)listed;
         }
 
@@ -674,7 +712,8 @@ namespace Vfit
             bool sensorHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_sensor_set_option(new SensorId(VfitHandle.Hold(sensor, ref sensorHeld)), key, value));
+                Result result = VfitException.Check(Native.vfit_sensor_set_option(
+                    new SensorId(VfitHandle.Hold(sensor, ref sensorHeld)), key, value));
                 return result;
             }
             finally
@@ -688,7 +727,8 @@ namespace Vfit
             bool sensorHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_sensor_start(new SensorId(VfitHandle.Hold(sensor, ref sensorHeld))));
+                Result result = VfitException.Check(Native.vfit_sensor_start(
+                    new SensorId(VfitHandle.Hold(sensor, ref sensorHeld))));
                 return result;
             }
             finally
@@ -702,7 +742,8 @@ namespace Vfit
             bool sensorHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_sensor_stop(new SensorId(VfitHandle.Hold(sensor, ref sensorHeld))));
+                Result result = VfitException.Check(Native.vfit_sensor_stop(
+                    new SensorId(VfitHandle.Hold(sensor, ref sensorHeld))));
                 return result;
             }
             finally
@@ -716,7 +757,8 @@ namespace Vfit
             bool sensorHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_sensor_close(new SensorId(VfitHandle.Hold(sensor, ref sensorHeld))));
+                Result result = VfitException.Check(Native.vfit_sensor_close(
+                    new SensorId(VfitHandle.Hold(sensor, ref sensorHeld))));
                 return result;
             }
             finally
@@ -731,7 +773,8 @@ namespace Vfit
             var outId = new FrameId();
             try
             {
-                Result result = VfitException.Check(Native.vfit_sensor_acquire(new SensorId(VfitHandle.Hold(sensor, ref sensorHeld)), timeoutNs, &outId));
+                Result result = VfitException.Check(Native.vfit_sensor_acquire(
+                    new SensorId(VfitHandle.Hold(sensor, ref sensorHeld)), timeoutNs, &outId));
                 @out.Put(outId.Value);
                 return result;
             }
@@ -746,7 +789,8 @@ namespace Vfit
             bool sensorHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_sensor_describe(new SensorId(VfitHandle.Hold(sensor, ref sensorHeld)), @out));
+                Result result = VfitException.Check(Native.vfit_sensor_describe(
+                    new SensorId(VfitHandle.Hold(sensor, ref sensorHeld)), @out));
                 return result;
             }
             finally
@@ -763,13 +807,15 @@ namespace Vfit
             return value;
         }
 
-        internal static Result RecorderCreate(ContextHandle context, byte* path, RecorderDesc* desc, RecorderHandle @out)
+        internal static Result RecorderCreate(ContextHandle context, byte* path, RecorderDesc* desc,
+            RecorderHandle @out)
         {
             bool contextHeld = false;
             var outId = new RecorderId();
             try
             {
-                Result result = VfitException.Check(Native.vfit_recorder_create(new ContextId(VfitHandle.Hold(context, ref contextHeld)), path, desc, &outId));
+                Result result = VfitException.Check(Native.vfit_recorder_create(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), path, desc, &outId));
                 @out.Put(outId.Value);
                 return result;
             }
@@ -785,7 +831,9 @@ namespace Vfit
             bool frameHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_recorder_write(new RecorderId(VfitHandle.Hold(recorder, ref recorderHeld)), new FrameId(VfitHandle.Hold(frame, ref frameHeld))));
+                Result result = VfitException.Check(Native.vfit_recorder_write(
+                    new RecorderId(VfitHandle.Hold(recorder, ref recorderHeld)),
+                    new FrameId(VfitHandle.Hold(frame, ref frameHeld))));
                 return result;
             }
             finally
@@ -800,7 +848,8 @@ namespace Vfit
             bool recorderHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_recorder_destroy(new RecorderId(VfitHandle.Hold(recorder, ref recorderHeld))));
+                Result result = VfitException.Check(Native.vfit_recorder_destroy(
+                    new RecorderId(VfitHandle.Hold(recorder, ref recorderHeld))));
                 return result;
             }
             finally
@@ -814,7 +863,8 @@ namespace Vfit
             bool frameHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_frame_bodies(new FrameId(VfitHandle.Hold(frame, ref frameHeld)), items, stride, count));
+                Result result = VfitException.Check(Native.vfit_frame_bodies(
+                    new FrameId(VfitHandle.Hold(frame, ref frameHeld)), items, stride, count));
                 return result;
             }
             finally
@@ -849,17 +899,20 @@ namespace Vfit
             if (into == null) throw new ArgumentNullException("into");
             Body none;
             uint listed = (uint)into.Length;
-            if (listed == 0) FrameBodies(frame, &none, (uint)sizeof(Body), &listed);     // an empty array is not the question how many
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) FrameBodies(frame, &none, (uint)sizeof(Body), &listed);
             else fixed (Body* first = into) FrameBodies(frame, first, (uint)sizeof(Body), &listed);
             return (int)listed;
         }
 
-        internal static Result FrameJoints(FrameHandle frame, uint bodyId, Joint* items, uint stride, uint* count)
+        internal static Result FrameJoints(FrameHandle frame, uint bodyId, Joint* items, uint stride,
+            uint* count)
         {
             bool frameHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_frame_joints(new FrameId(VfitHandle.Hold(frame, ref frameHeld)), bodyId, items, stride, count));
+                Result result = VfitException.Check(Native.vfit_frame_joints(
+                    new FrameId(VfitHandle.Hold(frame, ref frameHeld)), bodyId, items, stride, count));
                 return result;
             }
             finally
@@ -878,7 +931,8 @@ namespace Vfit
                 if (listed == 0) return list;
                 try
                 {
-                    fixed (Joint* first = list) FrameJoints(frame, bodyId, first, (uint)sizeof(Joint), &listed);
+                    fixed (Joint* first = list) FrameJoints(frame, bodyId, first, (uint)sizeof(Joint),
+                        &listed);
                 }
                 catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
                 {
@@ -894,7 +948,8 @@ namespace Vfit
             if (into == null) throw new ArgumentNullException("into");
             Joint none;
             uint listed = (uint)into.Length;
-            if (listed == 0) FrameJoints(frame, bodyId, &none, (uint)sizeof(Joint), &listed);     // an empty array is not the question how many
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) FrameJoints(frame, bodyId, &none, (uint)sizeof(Joint), &listed);
             else fixed (Joint* first = into) FrameJoints(frame, bodyId, first, (uint)sizeof(Joint), &listed);
             return (int)listed;
         }
@@ -905,7 +960,8 @@ namespace Vfit
             var outId = new TrackerId();
             try
             {
-                Result result = VfitException.Check(Native.vfit_tracker_create(new ContextId(VfitHandle.Hold(context, ref contextHeld)), desc, &outId));
+                Result result = VfitException.Check(Native.vfit_tracker_create(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), desc, &outId));
                 @out.Put(outId.Value);
                 return result;
             }
@@ -920,7 +976,8 @@ namespace Vfit
             bool trackerHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_tracker_destroy(new TrackerId(VfitHandle.Hold(tracker, ref trackerHeld))));
+                Result result = VfitException.Check(Native.vfit_tracker_destroy(
+                    new TrackerId(VfitHandle.Hold(tracker, ref trackerHeld))));
                 return result;
             }
             finally
@@ -936,7 +993,9 @@ namespace Vfit
             var trackedId = new FrameId();
             try
             {
-                Result result = VfitException.Check(Native.vfit_tracker_update(new TrackerId(VfitHandle.Hold(tracker, ref trackerHeld)), new FrameId(VfitHandle.Hold(frame, ref frameHeld)), &trackedId));
+                Result result = VfitException.Check(Native.vfit_tracker_update(
+                    new TrackerId(VfitHandle.Hold(tracker, ref trackerHeld)),
+                    new FrameId(VfitHandle.Hold(frame, ref frameHeld)), &trackedId));
                 tracked.Put(trackedId.Value);
                 return result;
             }
@@ -947,14 +1006,18 @@ namespace Vfit
             }
         }
 
-        internal static Result TrackerSubmit(TrackerHandle tracker, FrameHandle frame, Body* body, Joint* items, uint stride, uint count, FrameHandle tracked)
+        internal static Result TrackerSubmit(TrackerHandle tracker, FrameHandle frame, Body* body,
+            Joint* items, uint stride, uint count, FrameHandle tracked)
         {
             bool trackerHeld = false;
             bool frameHeld = false;
             var trackedId = new FrameId();
             try
             {
-                Result result = VfitException.Check(Native.vfit_tracker_submit(new TrackerId(VfitHandle.Hold(tracker, ref trackerHeld)), new FrameId(VfitHandle.Hold(frame, ref frameHeld)), body, items, stride, count, &trackedId));
+                Result result = VfitException.Check(Native.vfit_tracker_submit(
+                    new TrackerId(VfitHandle.Hold(tracker, ref trackerHeld)),
+                    new FrameId(VfitHandle.Hold(frame, ref frameHeld)), body, items, stride, count,
+                    &trackedId));
                 tracked.Put(trackedId.Value);
                 return result;
             }
@@ -970,7 +1033,8 @@ namespace Vfit
             bool trackerHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_tracker_hint(new TrackerId(VfitHandle.Hold(tracker, ref trackerHeld)), items, stride, count));
+                Result result = VfitException.Check(Native.vfit_tracker_hint(
+                    new TrackerId(VfitHandle.Hold(tracker, ref trackerHeld)), items, stride, count));
                 return result;
             }
             finally
@@ -984,7 +1048,8 @@ namespace Vfit
             bool trackerHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_tracker_reset(new TrackerId(VfitHandle.Hold(tracker, ref trackerHeld))));
+                Result result = VfitException.Check(Native.vfit_tracker_reset(
+                    new TrackerId(VfitHandle.Hold(tracker, ref trackerHeld))));
                 return result;
             }
             finally
@@ -998,7 +1063,8 @@ namespace Vfit
             bool trackerHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_tracker_set_active(new TrackerId(VfitHandle.Hold(tracker, ref trackerHeld)), bodyId));
+                Result result = VfitException.Check(Native.vfit_tracker_set_active(
+                    new TrackerId(VfitHandle.Hold(tracker, ref trackerHeld)), bodyId));
                 return result;
             }
             finally
@@ -1012,7 +1078,8 @@ namespace Vfit
             bool frameHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_frame_active_body(new FrameId(VfitHandle.Hold(frame, ref frameHeld)), bodyId, state));
+                Result result = VfitException.Check(Native.vfit_frame_active_body(
+                    new FrameId(VfitHandle.Hold(frame, ref frameHeld)), bodyId, state));
                 return result;
             }
             finally
@@ -1027,7 +1094,8 @@ namespace Vfit
             var outId = new ScanId();
             try
             {
-                Result result = VfitException.Check(Native.vfit_scan_create(new ContextId(VfitHandle.Hold(context, ref contextHeld)), desc, &outId));
+                Result result = VfitException.Check(Native.vfit_scan_create(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), desc, &outId));
                 @out.Put(outId.Value);
                 return result;
             }
@@ -1042,7 +1110,8 @@ namespace Vfit
             bool scanHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_scan_destroy(new ScanId(VfitHandle.Hold(scan, ref scanHeld))));
+                Result result = VfitException.Check(Native.vfit_scan_destroy(
+                    new ScanId(VfitHandle.Hold(scan, ref scanHeld))));
                 return result;
             }
             finally
@@ -1056,7 +1125,8 @@ namespace Vfit
             bool scanHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_scan_reset(new ScanId(VfitHandle.Hold(scan, ref scanHeld))));
+                Result result = VfitException.Check(Native.vfit_scan_reset(
+                    new ScanId(VfitHandle.Hold(scan, ref scanHeld))));
                 return result;
             }
             finally
@@ -1070,7 +1140,8 @@ namespace Vfit
             bool scanHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_scan_extend(new ScanId(VfitHandle.Hold(scan, ref scanHeld)), frames, sideFrames));
+                Result result = VfitException.Check(Native.vfit_scan_extend(
+                    new ScanId(VfitHandle.Hold(scan, ref scanHeld)), frames, sideFrames));
                 return result;
             }
             finally
@@ -1085,7 +1156,9 @@ namespace Vfit
             bool trackedHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_scan_add(new ScanId(VfitHandle.Hold(scan, ref scanHeld)), new FrameId(VfitHandle.Hold(tracked, ref trackedHeld)), bodyId, state));
+                Result result = VfitException.Check(Native.vfit_scan_add(
+                    new ScanId(VfitHandle.Hold(scan, ref scanHeld)), new FrameId(VfitHandle.Hold(tracked,
+                    ref trackedHeld)), bodyId, state));
                 return result;
             }
             finally
@@ -1100,7 +1173,8 @@ namespace Vfit
             bool scanHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_scan_measure(new ScanId(VfitHandle.Hold(scan, ref scanHeld)), items, stride, count));
+                Result result = VfitException.Check(Native.vfit_scan_measure(
+                    new ScanId(VfitHandle.Hold(scan, ref scanHeld)), items, stride, count));
                 return result;
             }
             finally
@@ -1119,7 +1193,8 @@ namespace Vfit
                 if (listed == 0) return list;
                 try
                 {
-                    fixed (Measurement* first = list) ScanMeasure(scan, first, (uint)sizeof(Measurement), &listed);
+                    fixed (Measurement* first = list) ScanMeasure(scan, first, (uint)sizeof(Measurement),
+                        &listed);
                 }
                 catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
                 {
@@ -1135,8 +1210,10 @@ namespace Vfit
             if (into == null) throw new ArgumentNullException("into");
             Measurement none;
             uint listed = (uint)into.Length;
-            if (listed == 0) ScanMeasure(scan, &none, (uint)sizeof(Measurement), &listed);     // an empty array is not the question how many
-            else fixed (Measurement* first = into) ScanMeasure(scan, first, (uint)sizeof(Measurement), &listed);
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) ScanMeasure(scan, &none, (uint)sizeof(Measurement), &listed);
+            else fixed (Measurement* first = into) ScanMeasure(scan, first, (uint)sizeof(Measurement),
+                &listed);
             return (int)listed;
         }
 
@@ -1145,7 +1222,8 @@ namespace Vfit
             bool scanHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_scan_sex(new ScanId(VfitHandle.Hold(scan, ref scanHeld)), sex, probability));
+                Result result = VfitException.Check(Native.vfit_scan_sex(
+                    new ScanId(VfitHandle.Hold(scan, ref scanHeld)), sex, probability));
                 return result;
             }
             finally
@@ -1159,7 +1237,8 @@ namespace Vfit
             bool scanHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_scan_colliders(new ScanId(VfitHandle.Hold(scan, ref scanHeld)), items, stride, count));
+                Result result = VfitException.Check(Native.vfit_scan_colliders(
+                    new ScanId(VfitHandle.Hold(scan, ref scanHeld)), items, stride, count));
                 return result;
             }
             finally
@@ -1178,7 +1257,8 @@ namespace Vfit
                 if (listed == 0) return list;
                 try
                 {
-                    fixed (Collider* first = list) ScanColliders(scan, first, (uint)sizeof(Collider), &listed);
+                    fixed (Collider* first = list) ScanColliders(scan, first, (uint)sizeof(Collider),
+                        &listed);
                 }
                 catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
                 {
@@ -1194,7 +1274,8 @@ namespace Vfit
             if (into == null) throw new ArgumentNullException("into");
             Collider none;
             uint listed = (uint)into.Length;
-            if (listed == 0) ScanColliders(scan, &none, (uint)sizeof(Collider), &listed);     // an empty array is not the question how many
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) ScanColliders(scan, &none, (uint)sizeof(Collider), &listed);
             else fixed (Collider* first = into) ScanColliders(scan, first, (uint)sizeof(Collider), &listed);
             return (int)listed;
         }
@@ -1204,7 +1285,8 @@ namespace Vfit
             bool scanHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_scan_scale(new ScanId(VfitHandle.Hold(scan, ref scanHeld)), garmentKind, @out));
+                Result result = VfitException.Check(Native.vfit_scan_scale(
+                    new ScanId(VfitHandle.Hold(scan, ref scanHeld)), garmentKind, @out));
                 return result;
             }
             finally
@@ -1221,35 +1303,44 @@ namespace Vfit
             return value;
         }
 
-        internal static Result MeasurementsWrite(Measurement* items, uint stride, uint count, Sex sex, byte* text, uint* capacity)
+        internal static Result MeasurementsWrite(Measurement* items, uint stride, uint count, Sex sex,
+            byte* text, uint* capacity)
         {
-            Result result = VfitException.Check(Native.vfit_measurements_write(items, stride, count, sex, text, capacity));
+            Result result = VfitException.Check(Native.vfit_measurements_write(
+                items, stride, count, sex, text, capacity));
             return result;
         }
 
-        internal static Result MeasurementsRead(void* text, ulong byteCount, Measurement* items, uint stride, uint* count, Sex* sex)
+        internal static Result MeasurementsRead(void* text, ulong byteCount, Measurement* items, uint stride,
+            uint* count, Sex* sex)
         {
-            Result result = VfitException.Check(Native.vfit_measurements_read(text, byteCount, items, stride, count, sex));
+            Result result = VfitException.Check(Native.vfit_measurements_read(
+                text, byteCount, items, stride, count, sex));
             return result;
         }
 
-        internal static Result MeasurementsMerge(Measurement* a, uint aStride, uint aCount, Measurement* b, uint bStride, uint bCount, Measurement* items, uint stride, uint* count)
+        internal static Result MeasurementsMerge(Measurement* a, uint aStride, uint aCount, Measurement* b,
+            uint bStride, uint bCount, Measurement* items, uint stride, uint* count)
         {
-            Result result = VfitException.Check(Native.vfit_measurements_merge(a, aStride, aCount, b, bStride, bCount, items, stride, count));
+            Result result = VfitException.Check(Native.vfit_measurements_merge(
+                a, aStride, aCount, b, bStride, bCount, items, stride, count));
             return result;
         }
 
-        internal static Measurement[] MeasurementsMerge(Measurement* a, uint aStride, uint aCount, Measurement* b, uint bStride, uint bCount)
+        internal static Measurement[] MeasurementsMerge(Measurement* a, uint aStride, uint aCount,
+            Measurement* b, uint bStride, uint bCount)
         {
             uint listed = 0;
-            MeasurementsMerge(a, aStride, aCount, b, bStride, bCount, null, (uint)sizeof(Measurement), &listed);
+            MeasurementsMerge(a, aStride, aCount, b, bStride, bCount, null, (uint)sizeof(Measurement),
+                &listed);
             for (;;)
             {
                 var list = new Measurement[listed];
                 if (listed == 0) return list;
                 try
                 {
-                    fixed (Measurement* first = list) MeasurementsMerge(a, aStride, aCount, b, bStride, bCount, first, (uint)sizeof(Measurement), &listed);
+                    fixed (Measurement* first = list) MeasurementsMerge(a, aStride, aCount, b, bStride,
+                        bCount, first, (uint)sizeof(Measurement), &listed);
                 }
                 catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
                 {
@@ -1260,13 +1351,17 @@ namespace Vfit
             }
         }
 
-        internal static int MeasurementsMerge(Measurement* a, uint aStride, uint aCount, Measurement* b, uint bStride, uint bCount, Measurement[] into)
+        internal static int MeasurementsMerge(Measurement* a, uint aStride, uint aCount, Measurement* b,
+            uint bStride, uint bCount, Measurement[] into)
         {
             if (into == null) throw new ArgumentNullException("into");
             Measurement none;
             uint listed = (uint)into.Length;
-            if (listed == 0) MeasurementsMerge(a, aStride, aCount, b, bStride, bCount, &none, (uint)sizeof(Measurement), &listed);     // an empty array is not the question how many
-            else fixed (Measurement* first = into) MeasurementsMerge(a, aStride, aCount, b, bStride, bCount, first, (uint)sizeof(Measurement), &listed);
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) MeasurementsMerge(a, aStride, aCount, b, bStride, bCount, &none,
+                (uint)sizeof(Measurement), &listed);
+            else fixed (Measurement* first = into) MeasurementsMerge(a, aStride, aCount, b, bStride, bCount,
+                first, (uint)sizeof(Measurement), &listed);
             return (int)listed;
         }
 
@@ -1275,7 +1370,8 @@ namespace Vfit
             bool contextHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_size_chart_list(new ContextId(VfitHandle.Hold(context, ref contextHeld)), items, stride, count));
+                Result result = VfitException.Check(Native.vfit_size_chart_list(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), items, stride, count));
                 return result;
             }
             finally
@@ -1294,7 +1390,8 @@ namespace Vfit
                 if (listed == 0) return list;
                 try
                 {
-                    fixed (DataName* first = list) SizeChartList(context, first, (uint)sizeof(DataName), &listed);
+                    fixed (DataName* first = list) SizeChartList(context, first, (uint)sizeof(DataName),
+                        &listed);
                 }
                 catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
                 {
@@ -1310,18 +1407,22 @@ namespace Vfit
             if (into == null) throw new ArgumentNullException("into");
             DataName none;
             uint listed = (uint)into.Length;
-            if (listed == 0) SizeChartList(context, &none, (uint)sizeof(DataName), &listed);     // an empty array is not the question how many
-            else fixed (DataName* first = into) SizeChartList(context, first, (uint)sizeof(DataName), &listed);
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) SizeChartList(context, &none, (uint)sizeof(DataName), &listed);
+            else fixed (DataName* first = into) SizeChartList(context, first, (uint)sizeof(DataName),
+                &listed);
             return (int)listed;
         }
 
-        internal static Result SizeChartLoad(ContextHandle context, void* bytes, ulong byteCount, SizeChartHandle @out)
+        internal static Result SizeChartLoad(ContextHandle context, void* bytes, ulong byteCount,
+            SizeChartHandle @out)
         {
             bool contextHeld = false;
             var outId = new SizeChartId();
             try
             {
-                Result result = VfitException.Check(Native.vfit_size_chart_load(new ContextId(VfitHandle.Hold(context, ref contextHeld)), bytes, byteCount, &outId));
+                Result result = VfitException.Check(Native.vfit_size_chart_load(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), bytes, byteCount, &outId));
                 @out.Put(outId.Value);
                 return result;
             }
@@ -1337,7 +1438,8 @@ namespace Vfit
             var outId = new SizeChartId();
             try
             {
-                Result result = VfitException.Check(Native.vfit_size_chart_open(new ContextId(VfitHandle.Hold(context, ref contextHeld)), name, &outId));
+                Result result = VfitException.Check(Native.vfit_size_chart_open(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), name, &outId));
                 @out.Put(outId.Value);
                 return result;
             }
@@ -1352,7 +1454,8 @@ namespace Vfit
             bool chartHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_size_chart_destroy(new SizeChartId(VfitHandle.Hold(chart, ref chartHeld))));
+                Result result = VfitException.Check(Native.vfit_size_chart_destroy(
+                    new SizeChartId(VfitHandle.Hold(chart, ref chartHeld))));
                 return result;
             }
             finally
@@ -1366,7 +1469,8 @@ namespace Vfit
             bool chartHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_size_chart_rows(new SizeChartId(VfitHandle.Hold(chart, ref chartHeld)), items, stride, count));
+                Result result = VfitException.Check(Native.vfit_size_chart_rows(
+                    new SizeChartId(VfitHandle.Hold(chart, ref chartHeld)), items, stride, count));
                 return result;
             }
             finally
@@ -1401,17 +1505,21 @@ namespace Vfit
             if (into == null) throw new ArgumentNullException("into");
             SizeRow none;
             uint listed = (uint)into.Length;
-            if (listed == 0) SizeChartRows(chart, &none, (uint)sizeof(SizeRow), &listed);     // an empty array is not the question how many
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) SizeChartRows(chart, &none, (uint)sizeof(SizeRow), &listed);
             else fixed (SizeRow* first = into) SizeChartRows(chart, first, (uint)sizeof(SizeRow), &listed);
             return (int)listed;
         }
 
-        internal static Result SizeRecommend(SizeChartHandle chart, byte* garmentKind, Measurement* items, uint stride, uint count, Size* sizes, uint sizeStride, uint* sizeCount)
+        internal static Result SizeRecommend(SizeChartHandle chart, byte* garmentKind, Measurement* items,
+            uint stride, uint count, Size* sizes, uint sizeStride, uint* sizeCount)
         {
             bool chartHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_size_recommend(new SizeChartId(VfitHandle.Hold(chart, ref chartHeld)), garmentKind, items, stride, count, sizes, sizeStride, sizeCount));
+                Result result = VfitException.Check(Native.vfit_size_recommend(
+                    new SizeChartId(VfitHandle.Hold(chart, ref chartHeld)), garmentKind, items, stride,
+                    count, sizes, sizeStride, sizeCount));
                 return result;
             }
             finally
@@ -1420,7 +1528,8 @@ namespace Vfit
             }
         }
 
-        internal static Size[] SizeRecommend(SizeChartHandle chart, byte* garmentKind, Measurement* items, uint stride, uint count)
+        internal static Size[] SizeRecommend(SizeChartHandle chart, byte* garmentKind, Measurement* items,
+            uint stride, uint count)
         {
             uint listed = 0;
             SizeRecommend(chart, garmentKind, items, stride, count, null, (uint)sizeof(Size), &listed);
@@ -1430,7 +1539,8 @@ namespace Vfit
                 if (listed == 0) return list;
                 try
                 {
-                    fixed (Size* first = list) SizeRecommend(chart, garmentKind, items, stride, count, first, (uint)sizeof(Size), &listed);
+                    fixed (Size* first = list) SizeRecommend(chart, garmentKind, items, stride, count, first,
+                        (uint)sizeof(Size), &listed);
                 }
                 catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
                 {
@@ -1441,22 +1551,29 @@ namespace Vfit
             }
         }
 
-        internal static int SizeRecommend(SizeChartHandle chart, byte* garmentKind, Measurement* items, uint stride, uint count, Size[] into)
+        internal static int SizeRecommend(SizeChartHandle chart, byte* garmentKind, Measurement* items,
+            uint stride, uint count, Size[] into)
         {
             if (into == null) throw new ArgumentNullException("into");
             Size none;
             uint listed = (uint)into.Length;
-            if (listed == 0) SizeRecommend(chart, garmentKind, items, stride, count, &none, (uint)sizeof(Size), &listed);     // an empty array is not the question how many
-            else fixed (Size* first = into) SizeRecommend(chart, garmentKind, items, stride, count, first, (uint)sizeof(Size), &listed);
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) SizeRecommend(chart, garmentKind, items, stride, count, &none,
+                (uint)sizeof(Size), &listed);
+            else fixed (Size* first = into) SizeRecommend(chart, garmentKind, items, stride, count, first,
+                (uint)sizeof(Size), &listed);
             return (int)listed;
         }
 
-        internal static Result SizeZones(SizeChartHandle chart, byte* garmentKind, byte* label, Measurement* items, uint stride, uint count, SizeZone* zones, uint zoneStride, uint* zoneCount)
+        internal static Result SizeZones(SizeChartHandle chart, byte* garmentKind, byte* label,
+            Measurement* items, uint stride, uint count, SizeZone* zones, uint zoneStride, uint* zoneCount)
         {
             bool chartHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_size_zones(new SizeChartId(VfitHandle.Hold(chart, ref chartHeld)), garmentKind, label, items, stride, count, zones, zoneStride, zoneCount));
+                Result result = VfitException.Check(Native.vfit_size_zones(
+                    new SizeChartId(VfitHandle.Hold(chart, ref chartHeld)), garmentKind, label, items,
+                    stride, count, zones, zoneStride, zoneCount));
                 return result;
             }
             finally
@@ -1465,7 +1582,8 @@ namespace Vfit
             }
         }
 
-        internal static SizeZone[] SizeZones(SizeChartHandle chart, byte* garmentKind, byte* label, Measurement* items, uint stride, uint count)
+        internal static SizeZone[] SizeZones(SizeChartHandle chart, byte* garmentKind, byte* label,
+            Measurement* items, uint stride, uint count)
         {
             uint listed = 0;
             SizeZones(chart, garmentKind, label, items, stride, count, null, (uint)sizeof(SizeZone), &listed);
@@ -1475,7 +1593,8 @@ namespace Vfit
                 if (listed == 0) return list;
                 try
                 {
-                    fixed (SizeZone* first = list) SizeZones(chart, garmentKind, label, items, stride, count, first, (uint)sizeof(SizeZone), &listed);
+                    fixed (SizeZone* first = list) SizeZones(chart, garmentKind, label, items, stride, count,
+                        first, (uint)sizeof(SizeZone), &listed);
                 }
                 catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
                 {
@@ -1486,13 +1605,17 @@ namespace Vfit
             }
         }
 
-        internal static int SizeZones(SizeChartHandle chart, byte* garmentKind, byte* label, Measurement* items, uint stride, uint count, SizeZone[] into)
+        internal static int SizeZones(SizeChartHandle chart, byte* garmentKind, byte* label,
+            Measurement* items, uint stride, uint count, SizeZone[] into)
         {
             if (into == null) throw new ArgumentNullException("into");
             SizeZone none;
             uint listed = (uint)into.Length;
-            if (listed == 0) SizeZones(chart, garmentKind, label, items, stride, count, &none, (uint)sizeof(SizeZone), &listed);     // an empty array is not the question how many
-            else fixed (SizeZone* first = into) SizeZones(chart, garmentKind, label, items, stride, count, first, (uint)sizeof(SizeZone), &listed);
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) SizeZones(chart, garmentKind, label, items, stride, count, &none,
+                (uint)sizeof(SizeZone), &listed);
+            else fixed (SizeZone* first = into) SizeZones(chart, garmentKind, label, items, stride, count,
+                first, (uint)sizeof(SizeZone), &listed);
             return (int)listed;
         }
 
@@ -1502,7 +1625,8 @@ namespace Vfit
             var outId = new MotionId();
             try
             {
-                Result result = VfitException.Check(Native.vfit_motion_create(new ContextId(VfitHandle.Hold(context, ref contextHeld)), desc, &outId));
+                Result result = VfitException.Check(Native.vfit_motion_create(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), desc, &outId));
                 @out.Put(outId.Value);
                 return result;
             }
@@ -1517,7 +1641,8 @@ namespace Vfit
             bool motionHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_motion_destroy(new MotionId(VfitHandle.Hold(motion, ref motionHeld))));
+                Result result = VfitException.Check(Native.vfit_motion_destroy(
+                    new MotionId(VfitHandle.Hold(motion, ref motionHeld))));
                 return result;
             }
             finally
@@ -1531,7 +1656,8 @@ namespace Vfit
             bool motionHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_motion_reset(new MotionId(VfitHandle.Hold(motion, ref motionHeld))));
+                Result result = VfitException.Check(Native.vfit_motion_reset(
+                    new MotionId(VfitHandle.Hold(motion, ref motionHeld))));
                 return result;
             }
             finally
@@ -1546,7 +1672,9 @@ namespace Vfit
             bool avatarHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_motion_bind(new MotionId(VfitHandle.Hold(motion, ref motionHeld)), new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld))));
+                Result result = VfitException.Check(Native.vfit_motion_bind(
+                    new MotionId(VfitHandle.Hold(motion, ref motionHeld)),
+                    new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld))));
                 return result;
             }
             finally
@@ -1562,7 +1690,9 @@ namespace Vfit
             bool trackedHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_motion_step(new MotionId(VfitHandle.Hold(motion, ref motionHeld)), new FrameId(VfitHandle.Hold(tracked, ref trackedHeld)), bodyId, nowNs));
+                Result result = VfitException.Check(Native.vfit_motion_step(
+                    new MotionId(VfitHandle.Hold(motion, ref motionHeld)),
+                    new FrameId(VfitHandle.Hold(tracked, ref trackedHeld)), bodyId, nowNs));
                 return result;
             }
             finally
@@ -1572,12 +1702,14 @@ namespace Vfit
             }
         }
 
-        internal static Result MotionPose(MotionHandle motion, Pose* pose, Bone* items, uint stride, uint* count)
+        internal static Result MotionPose(MotionHandle motion, Pose* pose, Bone* items, uint stride,
+            uint* count)
         {
             bool motionHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_motion_pose(new MotionId(VfitHandle.Hold(motion, ref motionHeld)), pose, items, stride, count));
+                Result result = VfitException.Check(Native.vfit_motion_pose(
+                    new MotionId(VfitHandle.Hold(motion, ref motionHeld)), pose, items, stride, count));
                 return result;
             }
             finally
@@ -1612,17 +1744,21 @@ namespace Vfit
             if (into == null) throw new ArgumentNullException("into");
             Bone none;
             uint listed = (uint)into.Length;
-            if (listed == 0) MotionPose(motion, pose, &none, (uint)sizeof(Bone), &listed);     // an empty array is not the question how many
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) MotionPose(motion, pose, &none, (uint)sizeof(Bone), &listed);
             else fixed (Bone* first = into) MotionPose(motion, pose, first, (uint)sizeof(Bone), &listed);
             return (int)listed;
         }
 
-        internal static Result PosePack(ContextHandle context, Pose* pose, Bone* items, uint stride, uint count, void* bytes, uint* byteCount)
+        internal static Result PosePack(ContextHandle context, Pose* pose, Bone* items, uint stride,
+            uint count, void* bytes, uint* byteCount)
         {
             bool contextHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_pose_pack(new ContextId(VfitHandle.Hold(context, ref contextHeld)), pose, items, stride, count, bytes, byteCount));
+                Result result = VfitException.Check(Native.vfit_pose_pack(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), pose, items, stride, count,
+                    bytes, byteCount));
                 return result;
             }
             finally
@@ -1631,12 +1767,15 @@ namespace Vfit
             }
         }
 
-        internal static Result PoseUnpack(ContextHandle context, void* bytes, uint byteCount, Pose* pose, Bone* items, uint stride, uint* count)
+        internal static Result PoseUnpack(ContextHandle context, void* bytes, uint byteCount, Pose* pose,
+            Bone* items, uint stride, uint* count)
         {
             bool contextHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_pose_unpack(new ContextId(VfitHandle.Hold(context, ref contextHeld)), bytes, byteCount, pose, items, stride, count));
+                Result result = VfitException.Check(Native.vfit_pose_unpack(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), bytes, byteCount, pose, items,
+                    stride, count));
                 return result;
             }
             finally
@@ -1655,7 +1794,8 @@ namespace Vfit
                 if (listed == 0) return list;
                 try
                 {
-                    fixed (Bone* first = list) PoseUnpack(context, bytes, byteCount, pose, first, (uint)sizeof(Bone), &listed);
+                    fixed (Bone* first = list) PoseUnpack(context, bytes, byteCount, pose, first,
+                        (uint)sizeof(Bone), &listed);
                 }
                 catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
                 {
@@ -1666,13 +1806,16 @@ namespace Vfit
             }
         }
 
-        internal static int PoseUnpack(ContextHandle context, void* bytes, uint byteCount, Pose* pose, Bone[] into)
+        internal static int PoseUnpack(ContextHandle context, void* bytes, uint byteCount, Pose* pose,
+            Bone[] into)
         {
             if (into == null) throw new ArgumentNullException("into");
             Bone none;
             uint listed = (uint)into.Length;
-            if (listed == 0) PoseUnpack(context, bytes, byteCount, pose, &none, (uint)sizeof(Bone), &listed);     // an empty array is not the question how many
-            else fixed (Bone* first = into) PoseUnpack(context, bytes, byteCount, pose, first, (uint)sizeof(Bone), &listed);
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) PoseUnpack(context, bytes, byteCount, pose, &none, (uint)sizeof(Bone), &listed);
+            else fixed (Bone* first = into) PoseUnpack(context, bytes, byteCount, pose, first,
+                (uint)sizeof(Bone), &listed);
             return (int)listed;
         }
 
@@ -1681,7 +1824,8 @@ namespace Vfit
             bool motionHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_motion_joints(new MotionId(VfitHandle.Hold(motion, ref motionHeld)), items, stride, count));
+                Result result = VfitException.Check(Native.vfit_motion_joints(
+                    new MotionId(VfitHandle.Hold(motion, ref motionHeld)), items, stride, count));
                 return result;
             }
             finally
@@ -1716,7 +1860,8 @@ namespace Vfit
             if (into == null) throw new ArgumentNullException("into");
             Joint none;
             uint listed = (uint)into.Length;
-            if (listed == 0) MotionJoints(motion, &none, (uint)sizeof(Joint), &listed);     // an empty array is not the question how many
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) MotionJoints(motion, &none, (uint)sizeof(Joint), &listed);
             else fixed (Joint* first = into) MotionJoints(motion, first, (uint)sizeof(Joint), &listed);
             return (int)listed;
         }
@@ -1726,7 +1871,8 @@ namespace Vfit
             bool contextHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_shape_list(new ContextId(VfitHandle.Hold(context, ref contextHeld)), items, stride, count));
+                Result result = VfitException.Check(Native.vfit_shape_list(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), items, stride, count));
                 return result;
             }
             finally
@@ -1745,7 +1891,8 @@ namespace Vfit
                 if (listed == 0) return list;
                 try
                 {
-                    fixed (ShapeValue* first = list) ShapeList(context, first, (uint)sizeof(ShapeValue), &listed);
+                    fixed (ShapeValue* first = list) ShapeList(context, first, (uint)sizeof(ShapeValue),
+                        &listed);
                 }
                 catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
                 {
@@ -1761,18 +1908,23 @@ namespace Vfit
             if (into == null) throw new ArgumentNullException("into");
             ShapeValue none;
             uint listed = (uint)into.Length;
-            if (listed == 0) ShapeList(context, &none, (uint)sizeof(ShapeValue), &listed);     // an empty array is not the question how many
-            else fixed (ShapeValue* first = into) ShapeList(context, first, (uint)sizeof(ShapeValue), &listed);
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) ShapeList(context, &none, (uint)sizeof(ShapeValue), &listed);
+            else fixed (ShapeValue* first = into) ShapeList(context, first, (uint)sizeof(ShapeValue),
+                &listed);
             return (int)listed;
         }
 
-        internal static Result AvatarCreateFromShape(ContextHandle context, AvatarDesc* desc, ShapeValue* items, uint stride, uint count, AvatarHandle @out)
+        internal static Result AvatarCreateFromShape(ContextHandle context, AvatarDesc* desc,
+            ShapeValue* items, uint stride, uint count, AvatarHandle @out)
         {
             bool contextHeld = false;
             var outId = new AvatarId();
             try
             {
-                Result result = VfitException.Check(Native.vfit_avatar_create_from_shape(new ContextId(VfitHandle.Hold(context, ref contextHeld)), desc, items, stride, count, &outId));
+                Result result = VfitException.Check(Native.vfit_avatar_create_from_shape(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), desc, items, stride, count,
+                    &outId));
                 @out.Put(outId.Value);
                 return result;
             }
@@ -1782,13 +1934,16 @@ namespace Vfit
             }
         }
 
-        internal static Result AvatarCreate(ContextHandle context, AvatarDesc* desc, Measurement* items, uint stride, uint count, AvatarHandle @out)
+        internal static Result AvatarCreate(ContextHandle context, AvatarDesc* desc, Measurement* items,
+            uint stride, uint count, AvatarHandle @out)
         {
             bool contextHeld = false;
             var outId = new AvatarId();
             try
             {
-                Result result = VfitException.Check(Native.vfit_avatar_create(new ContextId(VfitHandle.Hold(context, ref contextHeld)), desc, items, stride, count, &outId));
+                Result result = VfitException.Check(Native.vfit_avatar_create(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), desc, items, stride, count,
+                    &outId));
                 @out.Put(outId.Value);
                 return result;
             }
@@ -1798,14 +1953,17 @@ namespace Vfit
             }
         }
 
-        internal static Result AvatarCreateFromScan(ContextHandle context, AvatarDesc* desc, ScanHandle scan, AvatarHandle @out)
+        internal static Result AvatarCreateFromScan(ContextHandle context, AvatarDesc* desc, ScanHandle scan,
+            AvatarHandle @out)
         {
             bool contextHeld = false;
             bool scanHeld = false;
             var outId = new AvatarId();
             try
             {
-                Result result = VfitException.Check(Native.vfit_avatar_create_from_scan(new ContextId(VfitHandle.Hold(context, ref contextHeld)), desc, new ScanId(VfitHandle.Hold(scan, ref scanHeld)), &outId));
+                Result result = VfitException.Check(Native.vfit_avatar_create_from_scan(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), desc,
+                    new ScanId(VfitHandle.Hold(scan, ref scanHeld)), &outId));
                 @out.Put(outId.Value);
                 return result;
             }
@@ -1816,13 +1974,15 @@ namespace Vfit
             }
         }
 
-        internal static Result AvatarLoad(ContextHandle context, AvatarDesc* desc, CharacterDesc* character, AvatarHandle @out)
+        internal static Result AvatarLoad(ContextHandle context, AvatarDesc* desc, CharacterDesc* character,
+            AvatarHandle @out)
         {
             bool contextHeld = false;
             var outId = new AvatarId();
             try
             {
-                Result result = VfitException.Check(Native.vfit_avatar_load(new ContextId(VfitHandle.Hold(context, ref contextHeld)), desc, character, &outId));
+                Result result = VfitException.Check(Native.vfit_avatar_load(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), desc, character, &outId));
                 @out.Put(outId.Value);
                 return result;
             }
@@ -1837,7 +1997,8 @@ namespace Vfit
             bool avatarHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_avatar_describe(new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld)), @out));
+                Result result = VfitException.Check(Native.vfit_avatar_describe(
+                    new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld)), @out));
                 return result;
             }
             finally
@@ -1859,7 +2020,8 @@ namespace Vfit
             bool avatarHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_avatar_parts(new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld)), items, stride, count));
+                Result result = VfitException.Check(Native.vfit_avatar_parts(
+                    new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld)), items, stride, count));
                 return result;
             }
             finally
@@ -1878,7 +2040,8 @@ namespace Vfit
                 if (listed == 0) return list;
                 try
                 {
-                    fixed (AvatarPart* first = list) AvatarParts(avatar, first, (uint)sizeof(AvatarPart), &listed);
+                    fixed (AvatarPart* first = list) AvatarParts(avatar, first, (uint)sizeof(AvatarPart),
+                        &listed);
                 }
                 catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
                 {
@@ -1894,8 +2057,10 @@ namespace Vfit
             if (into == null) throw new ArgumentNullException("into");
             AvatarPart none;
             uint listed = (uint)into.Length;
-            if (listed == 0) AvatarParts(avatar, &none, (uint)sizeof(AvatarPart), &listed);     // an empty array is not the question how many
-            else fixed (AvatarPart* first = into) AvatarParts(avatar, first, (uint)sizeof(AvatarPart), &listed);
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) AvatarParts(avatar, &none, (uint)sizeof(AvatarPart), &listed);
+            else fixed (AvatarPart* first = into) AvatarParts(avatar, first, (uint)sizeof(AvatarPart),
+                &listed);
             return (int)listed;
         }
 
@@ -1904,7 +2069,8 @@ namespace Vfit
             bool avatarHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_avatar_pack(new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld)), sizeLabel, bytes, byteCount));
+                Result result = VfitException.Check(Native.vfit_avatar_pack(
+                    new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld)), sizeLabel, bytes, byteCount));
                 return result;
             }
             finally
@@ -1913,13 +2079,16 @@ namespace Vfit
             }
         }
 
-        internal static Result AvatarUnpack(ContextHandle context, AvatarDesc* desc, void* bytes, uint byteCount, byte* sizeLabel, uint capacity, AvatarHandle @out)
+        internal static Result AvatarUnpack(ContextHandle context, AvatarDesc* desc, void* bytes,
+            uint byteCount, byte* sizeLabel, uint capacity, AvatarHandle @out)
         {
             bool contextHeld = false;
             var outId = new AvatarId();
             try
             {
-                Result result = VfitException.Check(Native.vfit_avatar_unpack(new ContextId(VfitHandle.Hold(context, ref contextHeld)), desc, bytes, byteCount, sizeLabel, capacity, &outId));
+                Result result = VfitException.Check(Native.vfit_avatar_unpack(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), desc, bytes, byteCount,
+                    sizeLabel, capacity, &outId));
                 @out.Put(outId.Value);
                 return result;
             }
@@ -1934,7 +2103,8 @@ namespace Vfit
             bool avatarHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_avatar_destroy(new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld))));
+                Result result = VfitException.Check(Native.vfit_avatar_destroy(
+                    new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld))));
                 return result;
             }
             finally
@@ -1943,12 +2113,14 @@ namespace Vfit
             }
         }
 
-        internal static Result AvatarPose(AvatarHandle avatar, Pose* pose, Bone* items, uint stride, uint count)
+        internal static Result AvatarPose(AvatarHandle avatar, Pose* pose, Bone* items, uint stride,
+            uint count)
         {
             bool avatarHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_avatar_pose(new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld)), pose, items, stride, count));
+                Result result = VfitException.Check(Native.vfit_avatar_pose(
+                    new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld)), pose, items, stride, count));
                 return result;
             }
             finally
@@ -1957,12 +2129,15 @@ namespace Vfit
             }
         }
 
-        internal static Result AvatarPoseInto(AvatarHandle avatar, Pose* pose, Bone* items, uint stride, uint count, Target* positions, Target* normals)
+        internal static Result AvatarPoseInto(AvatarHandle avatar, Pose* pose, Bone* items, uint stride,
+            uint count, Target* positions, Target* normals)
         {
             bool avatarHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_avatar_pose_into(new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld)), pose, items, stride, count, positions, normals));
+                Result result = VfitException.Check(Native.vfit_avatar_pose_into(
+                    new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld)), pose, items, stride, count,
+                    positions, normals));
                 return result;
             }
             finally
@@ -1976,7 +2151,8 @@ namespace Vfit
             bool avatarHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_avatar_colliders(new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld)), items, stride, count));
+                Result result = VfitException.Check(Native.vfit_avatar_colliders(
+                    new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld)), items, stride, count));
                 return result;
             }
             finally
@@ -1995,7 +2171,8 @@ namespace Vfit
                 if (listed == 0) return list;
                 try
                 {
-                    fixed (Collider* first = list) AvatarColliders(avatar, first, (uint)sizeof(Collider), &listed);
+                    fixed (Collider* first = list) AvatarColliders(avatar, first, (uint)sizeof(Collider),
+                        &listed);
                 }
                 catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
                 {
@@ -2011,8 +2188,10 @@ namespace Vfit
             if (into == null) throw new ArgumentNullException("into");
             Collider none;
             uint listed = (uint)into.Length;
-            if (listed == 0) AvatarColliders(avatar, &none, (uint)sizeof(Collider), &listed);     // an empty array is not the question how many
-            else fixed (Collider* first = into) AvatarColliders(avatar, first, (uint)sizeof(Collider), &listed);
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) AvatarColliders(avatar, &none, (uint)sizeof(Collider), &listed);
+            else fixed (Collider* first = into) AvatarColliders(avatar, first, (uint)sizeof(Collider),
+                &listed);
             return (int)listed;
         }
 
@@ -2021,7 +2200,8 @@ namespace Vfit
             bool avatarHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_avatar_joints(new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld)), items, stride, count));
+                Result result = VfitException.Check(Native.vfit_avatar_joints(
+                    new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld)), items, stride, count));
                 return result;
             }
             finally
@@ -2056,7 +2236,8 @@ namespace Vfit
             if (into == null) throw new ArgumentNullException("into");
             Joint none;
             uint listed = (uint)into.Length;
-            if (listed == 0) AvatarJoints(avatar, &none, (uint)sizeof(Joint), &listed);     // an empty array is not the question how many
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) AvatarJoints(avatar, &none, (uint)sizeof(Joint), &listed);
             else fixed (Joint* first = into) AvatarJoints(avatar, first, (uint)sizeof(Joint), &listed);
             return (int)listed;
         }
@@ -2066,7 +2247,8 @@ namespace Vfit
             bool avatarHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_avatar_rig(new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld)), items, stride, count));
+                Result result = VfitException.Check(Native.vfit_avatar_rig(
+                    new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld)), items, stride, count));
                 return result;
             }
             finally
@@ -2101,17 +2283,20 @@ namespace Vfit
             if (into == null) throw new ArgumentNullException("into");
             RigBone none;
             uint listed = (uint)into.Length;
-            if (listed == 0) AvatarRig(avatar, &none, (uint)sizeof(RigBone), &listed);     // an empty array is not the question how many
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) AvatarRig(avatar, &none, (uint)sizeof(RigBone), &listed);
             else fixed (RigBone* first = into) AvatarRig(avatar, first, (uint)sizeof(RigBone), &listed);
             return (int)listed;
         }
 
-        internal static Result AvatarMeasure(AvatarHandle avatar, Measurement* items, uint stride, uint* count)
+        internal static Result AvatarMeasure(AvatarHandle avatar, Measurement* items, uint stride,
+            uint* count)
         {
             bool avatarHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_avatar_measure(new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld)), items, stride, count));
+                Result result = VfitException.Check(Native.vfit_avatar_measure(
+                    new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld)), items, stride, count));
                 return result;
             }
             finally
@@ -2130,7 +2315,8 @@ namespace Vfit
                 if (listed == 0) return list;
                 try
                 {
-                    fixed (Measurement* first = list) AvatarMeasure(avatar, first, (uint)sizeof(Measurement), &listed);
+                    fixed (Measurement* first = list) AvatarMeasure(avatar, first, (uint)sizeof(Measurement),
+                        &listed);
                 }
                 catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
                 {
@@ -2146,17 +2332,22 @@ namespace Vfit
             if (into == null) throw new ArgumentNullException("into");
             Measurement none;
             uint listed = (uint)into.Length;
-            if (listed == 0) AvatarMeasure(avatar, &none, (uint)sizeof(Measurement), &listed);     // an empty array is not the question how many
-            else fixed (Measurement* first = into) AvatarMeasure(avatar, first, (uint)sizeof(Measurement), &listed);
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) AvatarMeasure(avatar, &none, (uint)sizeof(Measurement), &listed);
+            else fixed (Measurement* first = into) AvatarMeasure(avatar, first, (uint)sizeof(Measurement),
+                &listed);
             return (int)listed;
         }
 
-        internal static Result AvatarMeasureOwn(AvatarHandle avatar, void* text, ulong byteCount, Measurement* items, uint stride, uint* count)
+        internal static Result AvatarMeasureOwn(AvatarHandle avatar, void* text, ulong byteCount,
+            Measurement* items, uint stride, uint* count)
         {
             bool avatarHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_avatar_measure_own(new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld)), text, byteCount, items, stride, count));
+                Result result = VfitException.Check(Native.vfit_avatar_measure_own(
+                    new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld)), text, byteCount, items, stride,
+                    count));
                 return result;
             }
             finally
@@ -2175,7 +2366,8 @@ namespace Vfit
                 if (listed == 0) return list;
                 try
                 {
-                    fixed (Measurement* first = list) AvatarMeasureOwn(avatar, text, byteCount, first, (uint)sizeof(Measurement), &listed);
+                    fixed (Measurement* first = list) AvatarMeasureOwn(avatar, text, byteCount, first,
+                        (uint)sizeof(Measurement), &listed);
                 }
                 catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
                 {
@@ -2186,13 +2378,17 @@ namespace Vfit
             }
         }
 
-        internal static int AvatarMeasureOwn(AvatarHandle avatar, void* text, ulong byteCount, Measurement[] into)
+        internal static int AvatarMeasureOwn(AvatarHandle avatar, void* text, ulong byteCount,
+            Measurement[] into)
         {
             if (into == null) throw new ArgumentNullException("into");
             Measurement none;
             uint listed = (uint)into.Length;
-            if (listed == 0) AvatarMeasureOwn(avatar, text, byteCount, &none, (uint)sizeof(Measurement), &listed);     // an empty array is not the question how many
-            else fixed (Measurement* first = into) AvatarMeasureOwn(avatar, text, byteCount, first, (uint)sizeof(Measurement), &listed);
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) AvatarMeasureOwn(avatar, text, byteCount, &none, (uint)sizeof(Measurement),
+                &listed);
+            else fixed (Measurement* first = into) AvatarMeasureOwn(avatar, text, byteCount, first,
+                (uint)sizeof(Measurement), &listed);
             return (int)listed;
         }
 
@@ -2202,7 +2398,8 @@ namespace Vfit
             var outId = new FrameId();
             try
             {
-                Result result = VfitException.Check(Native.vfit_avatar_acquire(new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld)), &outId));
+                Result result = VfitException.Check(Native.vfit_avatar_acquire(
+                    new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld)), &outId));
                 @out.Put(outId.Value);
                 return result;
             }
@@ -2218,7 +2415,8 @@ namespace Vfit
             var outId = new FrameId();
             try
             {
-                Result result = VfitException.Check(Native.vfit_avatar_acquire_rest(new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld)), &outId));
+                Result result = VfitException.Check(Native.vfit_avatar_acquire_rest(
+                    new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld)), &outId));
                 @out.Put(outId.Value);
                 return result;
             }
@@ -2233,7 +2431,8 @@ namespace Vfit
             bool contextHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_garment_list(new ContextId(VfitHandle.Hold(context, ref contextHeld)), items, stride, count));
+                Result result = VfitException.Check(Native.vfit_garment_list(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), items, stride, count));
                 return result;
             }
             finally
@@ -2252,7 +2451,8 @@ namespace Vfit
                 if (listed == 0) return list;
                 try
                 {
-                    fixed (DataName* first = list) GarmentList(context, first, (uint)sizeof(DataName), &listed);
+                    fixed (DataName* first = list) GarmentList(context, first, (uint)sizeof(DataName),
+                        &listed);
                 }
                 catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
                 {
@@ -2268,18 +2468,21 @@ namespace Vfit
             if (into == null) throw new ArgumentNullException("into");
             DataName none;
             uint listed = (uint)into.Length;
-            if (listed == 0) GarmentList(context, &none, (uint)sizeof(DataName), &listed);     // an empty array is not the question how many
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) GarmentList(context, &none, (uint)sizeof(DataName), &listed);
             else fixed (DataName* first = into) GarmentList(context, first, (uint)sizeof(DataName), &listed);
             return (int)listed;
         }
 
-        internal static Result GarmentLoad(ContextHandle context, void* bytes, ulong byteCount, GarmentHandle @out)
+        internal static Result GarmentLoad(ContextHandle context, void* bytes, ulong byteCount,
+            GarmentHandle @out)
         {
             bool contextHeld = false;
             var outId = new GarmentId();
             try
             {
-                Result result = VfitException.Check(Native.vfit_garment_load(new ContextId(VfitHandle.Hold(context, ref contextHeld)), bytes, byteCount, &outId));
+                Result result = VfitException.Check(Native.vfit_garment_load(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), bytes, byteCount, &outId));
                 @out.Put(outId.Value);
                 return result;
             }
@@ -2295,7 +2498,8 @@ namespace Vfit
             var outId = new GarmentId();
             try
             {
-                Result result = VfitException.Check(Native.vfit_garment_open(new ContextId(VfitHandle.Hold(context, ref contextHeld)), name, &outId));
+                Result result = VfitException.Check(Native.vfit_garment_open(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), name, &outId));
                 @out.Put(outId.Value);
                 return result;
             }
@@ -2310,7 +2514,8 @@ namespace Vfit
             bool garmentHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_garment_destroy(new GarmentId(VfitHandle.Hold(garment, ref garmentHeld))));
+                Result result = VfitException.Check(Native.vfit_garment_destroy(
+                    new GarmentId(VfitHandle.Hold(garment, ref garmentHeld))));
                 return result;
             }
             finally
@@ -2324,7 +2529,8 @@ namespace Vfit
             bool garmentHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_garment_describe(new GarmentId(VfitHandle.Hold(garment, ref garmentHeld)), @out));
+                Result result = VfitException.Check(Native.vfit_garment_describe(
+                    new GarmentId(VfitHandle.Hold(garment, ref garmentHeld)), @out));
                 return result;
             }
             finally
@@ -2341,12 +2547,14 @@ namespace Vfit
             return value;
         }
 
-        internal static Result GarmentParts(GarmentHandle garment, GarmentPart* items, uint stride, uint* count)
+        internal static Result GarmentParts(GarmentHandle garment, GarmentPart* items, uint stride,
+            uint* count)
         {
             bool garmentHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_garment_parts(new GarmentId(VfitHandle.Hold(garment, ref garmentHeld)), items, stride, count));
+                Result result = VfitException.Check(Native.vfit_garment_parts(
+                    new GarmentId(VfitHandle.Hold(garment, ref garmentHeld)), items, stride, count));
                 return result;
             }
             finally
@@ -2365,7 +2573,8 @@ namespace Vfit
                 if (listed == 0) return list;
                 try
                 {
-                    fixed (GarmentPart* first = list) GarmentParts(garment, first, (uint)sizeof(GarmentPart), &listed);
+                    fixed (GarmentPart* first = list) GarmentParts(garment, first, (uint)sizeof(GarmentPart),
+                        &listed);
                 }
                 catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
                 {
@@ -2381,8 +2590,10 @@ namespace Vfit
             if (into == null) throw new ArgumentNullException("into");
             GarmentPart none;
             uint listed = (uint)into.Length;
-            if (listed == 0) GarmentParts(garment, &none, (uint)sizeof(GarmentPart), &listed);     // an empty array is not the question how many
-            else fixed (GarmentPart* first = into) GarmentParts(garment, first, (uint)sizeof(GarmentPart), &listed);
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) GarmentParts(garment, &none, (uint)sizeof(GarmentPart), &listed);
+            else fixed (GarmentPart* first = into) GarmentParts(garment, first, (uint)sizeof(GarmentPart),
+                &listed);
             return (int)listed;
         }
 
@@ -2391,7 +2602,8 @@ namespace Vfit
             bool garmentHeld = false;
             try
             {
-                return Native.vfit_garment_size_label(new GarmentId(VfitHandle.Hold(garment, ref garmentHeld)), index, buffer, capacity);
+                return Native.vfit_garment_size_label(
+                    new GarmentId(VfitHandle.Hold(garment, ref garmentHeld)), index, buffer, capacity);
             }
             finally
             {
@@ -2412,14 +2624,17 @@ namespace Vfit
             }
         }
 
-        internal static Result ClothCreate(AvatarHandle avatar, GarmentHandle garment, ClothDesc* desc, ClothHandle @out)
+        internal static Result ClothCreate(AvatarHandle avatar, GarmentHandle garment, ClothDesc* desc,
+            ClothHandle @out)
         {
             bool avatarHeld = false;
             bool garmentHeld = false;
             var outId = new ClothId();
             try
             {
-                Result result = VfitException.Check(Native.vfit_cloth_create(new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld)), new GarmentId(VfitHandle.Hold(garment, ref garmentHeld)), desc, &outId));
+                Result result = VfitException.Check(Native.vfit_cloth_create(
+                    new AvatarId(VfitHandle.Hold(avatar, ref avatarHeld)),
+                    new GarmentId(VfitHandle.Hold(garment, ref garmentHeld)), desc, &outId));
                 @out.Put(outId.Value);
                 return result;
             }
@@ -2435,7 +2650,8 @@ namespace Vfit
             bool clothHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_cloth_destroy(new ClothId(VfitHandle.Hold(cloth, ref clothHeld))));
+                Result result = VfitException.Check(Native.vfit_cloth_destroy(
+                    new ClothId(VfitHandle.Hold(cloth, ref clothHeld))));
                 return result;
             }
             finally
@@ -2449,7 +2665,8 @@ namespace Vfit
             bool clothHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_cloth_reset(new ClothId(VfitHandle.Hold(cloth, ref clothHeld))));
+                Result result = VfitException.Check(Native.vfit_cloth_reset(
+                    new ClothId(VfitHandle.Hold(cloth, ref clothHeld))));
                 return result;
             }
             finally
@@ -2463,7 +2680,8 @@ namespace Vfit
             bool clothHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_cloth_set_size(new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), sizeLabel));
+                Result result = VfitException.Check(Native.vfit_cloth_set_size(
+                    new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), sizeLabel));
                 return result;
             }
             finally
@@ -2477,7 +2695,8 @@ namespace Vfit
             bool clothHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_cloth_step(new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), dt));
+                Result result = VfitException.Check(Native.vfit_cloth_step(
+                    new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), dt));
                 return result;
             }
             finally
@@ -2491,7 +2710,8 @@ namespace Vfit
             bool clothHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_cloth_begin_step(new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), dt));
+                Result result = VfitException.Check(Native.vfit_cloth_begin_step(
+                    new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), dt));
                 return result;
             }
             finally
@@ -2505,7 +2725,8 @@ namespace Vfit
             bool clothHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_cloth_end_step(new ClothId(VfitHandle.Hold(cloth, ref clothHeld))));
+                Result result = VfitException.Check(Native.vfit_cloth_end_step(
+                    new ClothId(VfitHandle.Hold(cloth, ref clothHeld))));
                 return result;
             }
             finally
@@ -2519,7 +2740,8 @@ namespace Vfit
             bool clothHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_cloth_carry(new ClothId(VfitHandle.Hold(cloth, ref clothHeld))));
+                Result result = VfitException.Check(Native.vfit_cloth_carry(
+                    new ClothId(VfitHandle.Hold(cloth, ref clothHeld))));
                 return result;
             }
             finally
@@ -2533,7 +2755,8 @@ namespace Vfit
             bool clothHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_cloth_set_wind(new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), wind));
+                Result result = VfitException.Check(Native.vfit_cloth_set_wind(
+                    new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), wind));
                 return result;
             }
             finally
@@ -2547,7 +2770,8 @@ namespace Vfit
             bool clothHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_cloth_set_quality(new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), substeps, budgetMs));
+                Result result = VfitException.Check(Native.vfit_cloth_set_quality(
+                    new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), substeps, budgetMs));
                 return result;
             }
             finally
@@ -2562,7 +2786,9 @@ namespace Vfit
             bool innerHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_cloth_wear_over(new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), new ClothId(VfitHandle.Hold(inner, ref innerHeld))));
+                Result result = VfitException.Check(Native.vfit_cloth_wear_over(
+                    new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), new ClothId(VfitHandle.Hold(inner,
+                    ref innerHeld))));
                 return result;
             }
             finally
@@ -2577,7 +2803,8 @@ namespace Vfit
             bool clothHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_cloth_hide_skin(new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), marginM, triangles, count));
+                Result result = VfitException.Check(Native.vfit_cloth_hide_skin(
+                    new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), marginM, triangles, count));
                 return result;
             }
             finally
@@ -2591,7 +2818,8 @@ namespace Vfit
             bool clothHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_cloth_fit(new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), items, stride, count));
+                Result result = VfitException.Check(Native.vfit_cloth_fit(
+                    new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), items, stride, count));
                 return result;
             }
             finally
@@ -2626,7 +2854,8 @@ namespace Vfit
             if (into == null) throw new ArgumentNullException("into");
             FitZone none;
             uint listed = (uint)into.Length;
-            if (listed == 0) ClothFit(cloth, &none, (uint)sizeof(FitZone), &listed);     // an empty array is not the question how many
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) ClothFit(cloth, &none, (uint)sizeof(FitZone), &listed);
             else fixed (FitZone* first = into) ClothFit(cloth, first, (uint)sizeof(FitZone), &listed);
             return (int)listed;
         }
@@ -2636,7 +2865,8 @@ namespace Vfit
             bool clothHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_cloth_fit_map(new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), values, count));
+                Result result = VfitException.Check(Native.vfit_cloth_fit_map(
+                    new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), values, count));
                 return result;
             }
             finally
@@ -2651,7 +2881,8 @@ namespace Vfit
             var outId = new FrameId();
             try
             {
-                Result result = VfitException.Check(Native.vfit_cloth_acquire(new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), &outId));
+                Result result = VfitException.Check(Native.vfit_cloth_acquire(
+                    new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), &outId));
                 @out.Put(outId.Value);
                 return result;
             }
@@ -2666,7 +2897,8 @@ namespace Vfit
             bool clothHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_cloth_describe(new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), @out));
+                Result result = VfitException.Check(Native.vfit_cloth_describe(
+                    new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), @out));
                 return result;
             }
             finally
@@ -2688,7 +2920,8 @@ namespace Vfit
             bool clothHeld = false;
             try
             {
-                Result result = VfitException.Check(Native.vfit_cloth_state_hash(new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), @out));
+                Result result = VfitException.Check(Native.vfit_cloth_state_hash(
+                    new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), @out));
                 return result;
             }
             finally

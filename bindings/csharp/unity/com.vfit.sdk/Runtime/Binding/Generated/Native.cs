@@ -7,9 +7,10 @@ namespace Vfit
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     internal unsafe delegate void LogFn(IntPtr user, LogLevel level, byte* message);
 
-    /// <summary>The host's job system: submit starts count items and returns a job, wait returns when all have run.
-    /// Both are called only on a thread that is inside a vfit call. An item never waits for one that has not started;
-    /// one worker alone completes any step. A null job means that all items have run already.</summary>
+    /// <summary>The host's job system: submit starts count items and returns a job, wait returns when all
+    /// have run. Both are called only on a thread that is inside a vfit call. An item never waits for one
+    /// that has not started; one worker alone completes any step. A null job means that all items have
+    /// run already.</summary>
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     internal unsafe delegate void TaskFn(IntPtr task, uint index);
 
@@ -19,9 +20,10 @@ namespace Vfit
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     internal unsafe delegate void WaitFn(IntPtr user, IntPtr job);
 
-    /// <summary>A frame from pixels of the host (its own camera): views[i] is stream streams[i]. The pixels are copied
-    /// unless release is given, which is then called once, from any thread, when the last reference has gone (and not
-    /// at all where the call fails). Lent pixels are packed and aligned to their format.</summary>
+    /// <summary>A frame from pixels of the host (its own camera): views[i] is stream streams[i]. The
+    /// pixels are copied unless release is given, which is then called once, from any thread, when the
+    /// last reference has gone (and not at all where the call fails). Lent pixels are packed and aligned
+    /// to their format.</summary>
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     internal unsafe delegate void ReleaseFn(IntPtr user);
 
@@ -71,16 +73,18 @@ namespace Vfit
 
         /// <summary>[any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_profile_list(ContextId context, Profile* items, uint stride, uint* count);
+        internal static extern Result vfit_profile_list(ContextId context, Profile* items, uint stride,
+            uint* count);
 
         /// <summary>[any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_profile_reset(ContextId context);
 
-        /// <summary>The next log line where no callback is wanted (Unity reloads, Python); VFIT_NOT_READY: none.
-        /// [any]</summary>
+        /// <summary>The next log line where no callback is wanted (Unity reloads, Python); VFIT_NOT_READY:
+        /// none. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_log_next(ContextId context, LogLevel* level, byte* buffer, uint capacity);
+        internal static extern Result vfit_log_next(ContextId context, LogLevel* level, byte* buffer,
+            uint capacity);
 
         /// <summary>[excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -88,10 +92,11 @@ namespace Vfit
 
         /// <summary>[any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_plugin_list(ContextId context, PluginInfo* items, uint stride, uint* count);
+        internal static extern Result vfit_plugin_list(ContextId context, PluginInfo* items, uint stride,
+            uint* count);
 
-        /// <summary>Names "HEAD", "LEFT_ELBOW"; "hips", "leftUpperArm". An unknown id gives length 0 and an empty text. The
-        /// parent of the first bone is -1; of an unknown one -2. [any]</summary>
+        /// <summary>Names "HEAD", "LEFT_ELBOW"; "hips", "leftUpperArm". An unknown id gives length 0 and an
+        /// empty text. The parent of the first bone is -1; of an unknown one -2. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern uint vfit_joint_name(JointId joint, byte* buffer, uint capacity);
 
@@ -103,8 +108,8 @@ namespace Vfit
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int vfit_bone_parent(BoneId bone);
 
-        /// <summary>Key ("chest_girth_m") and one-line definition of the measure at index; length 0 past the last.
-        /// [any]</summary>
+        /// <summary>Key ("chest_girth_m") and one-line definition of the measure at index; length 0 past the
+        /// last. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern uint vfit_measure_key(uint index, byte* buffer, uint capacity);
 
@@ -139,47 +144,55 @@ namespace Vfit
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_frame_camera(FrameId frame, Camera* @out);
 
-        /// <summary>What the source says beside the pixels, one JSON document a key: "measures" (ground truth of a virtual
-        /// person, {"stature_m": ...}), "contacts" ({"left": 0, "right": 1}), "index" (the number of a recorded frame),
-        /// "bodies" (true: the source tells its bodies, also when nobody is in view). *length is the whole text's; no such
-        /// key: VFIT_NOT_READY. [any]</summary>
+        /// <summary>What the source says beside the pixels, one JSON document a key: "measures" (ground truth
+        /// of a virtual person, {"stature_m": ...}), "contacts" ({"left": 0, "right": 1}), "index" (the
+        /// number of a recorded frame), "bodies" (true: the source tells its bodies, also when nobody is in
+        /// view). *length is the whole text's; no such key: VFIT_NOT_READY. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_frame_meta(FrameId frame, byte* key, byte* buffer, uint capacity, uint* length);
+        internal static extern Result vfit_frame_meta(FrameId frame, byte* key, byte* buffer, uint capacity,
+            uint* length);
 
-        /// <summary>Copies into memory of the engine (mapped vertex buffer, NativeArray) at its own format and stride;
-        /// VFIT_NOT_READY and no copy if *serial is already that of the frame. serial may be null. [any]</summary>
+        /// <summary>Copies into memory of the engine (mapped vertex buffer, NativeArray) at its own format
+        /// and stride; VFIT_NOT_READY and no copy if *serial is already that of the frame. serial may be
+        /// null. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_frame_write(FrameId frame, StreamKind stream, Target* target, ulong* serial);
+        internal static extern Result vfit_frame_write(FrameId frame, StreamKind stream, Target* target,
+            ulong* serial);
 
         /// <summary>[any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_sensor_list(ContextId context, SensorInfo* items, uint stride, uint* count);
+        internal static extern Result vfit_sensor_list(ContextId context, SensorInfo* items, uint stride,
+            uint* count);
 
-        /// <summary>Rises when the list may have become another: a USB camera of a kind that a plug-in knows was plugged in
-        /// or unplugged, a plug-in was loaded. Cheap: ask each frame, and list again when it has changed. [any]</summary>
+        /// <summary>Rises when the list may have become another: a USB camera of a kind that a plug-in knows
+        /// was plugged in or unplugged, a plug-in was loaded. Cheap: ask each frame, and list again when it
+        /// has changed. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_sensor_changes(ContextId context, ulong* count);
 
         /// <summary>Opens a source: a path, or a URI "SCHEME:ADDRESS?KEY=VALUE&amp;KEY=VALUE", such as
-        /// "recording:PATH?loop=1&amp;start=5", "oni:PATH?start=3" or "openni2:?registration=0". The virtual person has no
-        /// address: "virtual:motion=demo&amp;sex=f". Each option is set, and fails, as by vfit_sensor_set_option; a key
-        /// stands at most once. %XX is one byte: %3F is a ? in a path, %26 an &amp; in a value. A path is not decoded: an
-        /// existing folder is a recording, an existing file goes by its extension, and options may follow: "PATH?start=5".
-        /// The longest existing path counts, so that a path that exists as written has no options. [any]</summary>
+        /// "recording:PATH?loop=1&amp;start=5", "oni:PATH?start=3" or "openni2:?registration=0". The virtual
+        /// person has no address: "virtual:motion=demo&amp;sex=f". Each option is set, and fails, as by
+        /// vfit_sensor_set_option; a key stands at most once. %XX is one byte: %3F is a ? in a path, %26 an
+        /// &amp; in a value. A path is not decoded: an existing folder is a recording, an existing file goes
+        /// by its extension, and options may follow: "PATH?start=5". The longest existing path counts, so
+        /// that a path that exists as written has no options. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_sensor_open(ContextId context, byte* uri, SensorId* @out);
 
         /// <summary>[read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_sensor_modes(SensorId sensor, SensorMode* items, uint stride, uint* count);
+        internal static extern Result vfit_sensor_modes(SensorId sensor, SensorMode* items, uint stride,
+            uint* count);
 
         /// <summary>[read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_sensor_options(SensorId sensor, SensorOption* items, uint stride, uint* count);
+        internal static extern Result vfit_sensor_options(SensorId sensor, SensorOption* items, uint stride,
+            uint* count);
 
-        /// <summary>Options of every sensor: "mode" (a name from vfit_sensor_modes) and "pace": "realtime" drops as a
-        /// camera does; "none" (the default of recordings and of the virtual person) makes a push wait until the frame
-        /// before was taken, so that nothing is dropped. [excl]</summary>
+        /// <summary>Options of every sensor: "mode" (a name from vfit_sensor_modes) and "pace": "realtime"
+        /// drops as a camera does; "none" (the default of recordings and of the virtual person) makes a push
+        /// wait until the frame before was taken, so that nothing is dropped. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_sensor_set_option(SensorId sensor, byte* key, byte* value);
 
@@ -195,8 +208,9 @@ namespace Vfit
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_sensor_close(SensorId sensor);
 
-        /// <summary>The newest frame, once; VFIT_END_OF_STREAM when a replay has ended; the error of the stream when it
-        /// failed. timeout_ns 0 never waits: call it so from a render loop; &lt; 0 waits without end. [any]</summary>
+        /// <summary>The newest frame, once; VFIT_END_OF_STREAM when a replay has ended; the error of the
+        /// stream when it failed. timeout_ns 0 never waits: call it so from a render loop; &lt; 0 waits
+        /// without end. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_sensor_acquire(SensorId sensor, long timeoutNs, FrameId* @out);
 
@@ -204,10 +218,11 @@ namespace Vfit
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_sensor_describe(SensorId sensor, SensorStats* @out);
 
-        /// <summary>path must not exist or be an empty folder. What was written stays readable if the process dies: each
-        /// file is complete before its name appears. [any]</summary>
+        /// <summary>path must not exist or be an empty folder. What was written stays readable if the process
+        /// dies: each file is complete before its name appears. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_recorder_create(ContextId context, byte* path, RecorderDesc* desc, RecorderId* @out);
+        internal static extern Result vfit_recorder_create(ContextId context, byte* path, RecorderDesc* desc,
+            RecorderId* @out);
 
         /// <summary>[excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -217,55 +232,62 @@ namespace Vfit
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_recorder_destroy(RecorderId recorder);
 
-        /// <summary>Bodies are part of a tracked frame (or of a recording's, or of the host's own). [any]</summary>
+        /// <summary>Bodies are part of a tracked frame (or of a recording's, or of the host's own).
+        /// [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_frame_bodies(FrameId frame, Body* items, uint stride, uint* count);
 
         /// <summary>Only joints that are seen or inferred are listed. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_frame_joints(FrameId frame, uint bodyId, Joint* items, uint stride, uint* count);
+        internal static extern Result vfit_frame_joints(FrameId frame, uint bodyId, Joint* items,
+            uint stride, uint* count);
 
         /// <summary>[any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_tracker_create(ContextId context, TrackerDesc* desc, TrackerId* @out);
+        internal static extern Result vfit_tracker_create(ContextId context, TrackerDesc* desc,
+            TrackerId* @out);
 
         /// <summary>[any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_tracker_destroy(TrackerId tracker);
 
-        /// <summary>tracked shares the images and user map of frame and holds the bodies that its source supplies, or those
-        /// that the tracker sees in it. Where it looks for people by itself *tracked has a user map of its own, with the
-        /// ids of its source's bodies where those are taken. VFIT_ERROR_PLUGIN where the tracker has to find joints and the
-        /// network module is not installed; VFIT_ERROR_IO or VFIT_ERROR_DATA, naming the file, where weights or body data
-        /// cannot be read. [excl]</summary>
+        /// <summary>tracked shares the images and user map of frame and holds the bodies that its source
+        /// supplies, or those that the tracker sees in it. Where it looks for people by itself *tracked has a
+        /// user map of its own, with the ids of its source's bodies where those are taken. VFIT_ERROR_PLUGIN
+        /// where the tracker has to find joints and the network module is not installed; VFIT_ERROR_IO or
+        /// VFIT_ERROR_DATA, naming the file, where weights or body data cannot be read. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_tracker_update(TrackerId tracker, FrameId frame, FrameId* tracked);
 
-        /// <summary>The host's own middleware in place of the built-in tracker, one call a body; frame may be a *tracked of
-        /// the call before, to add a second body. A joint that is not finite gives VFIT_ERROR_DATA. Positions are filtered
-        /// over the calls with one body_id, by time_ns, unless desc.filter is OFF. [excl]</summary>
+        /// <summary>The host's own middleware in place of the built-in tracker, one call a body; frame may be
+        /// a *tracked of the call before, to add a second body. A joint that is not finite gives
+        /// VFIT_ERROR_DATA. Positions are filtered over the calls with one body_id, by time_ns, unless
+        /// desc.filter is OFF. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_tracker_submit(TrackerId tracker, FrameId frame, Body* body, Joint* items, uint stride, uint count, FrameId* tracked);
+        internal static extern Result vfit_tracker_submit(TrackerId tracker, FrameId frame, Body* body,
+            Joint* items, uint stride, uint count, FrameId* tracked);
 
-        /// <summary>For the next update alone, in place of earlier ones: where the tracker's own network wavers between
-        /// places of a joint, the hinted one counts more (across the view; depth is the depth image's). Does little where
-        /// the network is sure, and nothing far from anybody or where the joints are the source's. Bad items:
-        /// VFIT_ERROR_ARGUMENT or VFIT_ERROR_DATA, none of them is taken. [excl]</summary>
+        /// <summary>For the next update alone, in place of earlier ones: where the tracker's own network
+        /// wavers between places of a joint, the hinted one counts more (across the view; depth is the depth
+        /// image's). Does little where the network is sure, and nothing far from anybody or where the joints
+        /// are the source's. Bad items: VFIT_ERROR_ARGUMENT or VFIT_ERROR_DATA, none of them is taken.
+        /// [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_tracker_hint(TrackerId tracker, JointHint* items, uint stride, uint count);
+        internal static extern Result vfit_tracker_hint(TrackerId tracker, JointHint* items, uint stride,
+            uint count);
 
         /// <summary>Forgets people, room and choice. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_tracker_reset(TrackerId tracker);
 
-        /// <summary>From the next update or submit on that person is the active one, whatever the rule; 0: by the rule
-        /// again. Who is not in view is waited for, then the rule holds again; with VFIT_FOLLOW_CHOSEN for ever.
-        /// [excl]</summary>
+        /// <summary>From the next update or submit on that person is the active one, whatever the rule; 0: by
+        /// the rule again. Who is not in view is waited for, then the rule holds again; with
+        /// VFIT_FOLLOW_CHOSEN for ever. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_tracker_set_active(TrackerId tracker, uint bodyId);
 
-        /// <summary>The body to hand to vfit_scan_add and vfit_motion_step: the active one; 0: nobody. Of a frame that no
-        /// tracker made: its first body. state may be null. [any]</summary>
+        /// <summary>The body to hand to vfit_scan_add and vfit_motion_step: the active one; 0: nobody. Of a
+        /// frame that no tracker made: its first body. state may be null. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_frame_active_body(FrameId frame, uint* bodyId, ActiveState* state);
 
@@ -281,54 +303,67 @@ namespace Vfit
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_scan_reset(ScanId scan);
 
-        /// <summary>Asks for more frames of this person from the front and the side, also of a complete scan, which then
-        /// goes on; vfit_scan_reset takes it back. [excl]</summary>
+        /// <summary>Asks for more frames of this person from the front and the side, also of a complete scan,
+        /// which then goes on; vfit_scan_reset takes it back. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_scan_extend(ScanId scan, uint frames, uint sideFrames);
 
-        /// <summary>VFIT_INCOMPLETE: the frame was not taken, state-&gt;guidance says why. VFIT_NOT_READY: taken, more are
-        /// wanted. VFIT_OK: the scan is complete (further frames are ignored). state may be null. [excl]</summary>
+        /// <summary>VFIT_INCOMPLETE: the frame was not taken, state-&gt;guidance says why. VFIT_NOT_READY:
+        /// taken, more are wanted. VFIT_OK: the scan is complete (further frames are ignored). state may be
+        /// null. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_scan_add(ScanId scan, FrameId tracked, uint bodyId, ScanState* state);
+        internal static extern Result vfit_scan_add(ScanId scan, FrameId tracked, uint bodyId,
+            ScanState* state);
 
-        /// <summary>From the first frame on; the values settle with each. No frame yet: VFIT_ERROR_STATE. [read]</summary>
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_scan_measure(ScanId scan, Measurement* items, uint stride, uint* count);
-
-        /// <summary>The sex that the scan was told, else the likelier one, with its probability (1 where it was told). A
-        /// scan by proportions infers none: VFIT_SEX_UNKNOWN, 0. probability may be null. No frame yet: VFIT_ERROR_STATE.
+        /// <summary>From the first frame on; the values settle with each. No frame yet: VFIT_ERROR_STATE.
         /// [read]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_scan_measure(ScanId scan, Measurement* items, uint stride,
+            uint* count);
+
+        /// <summary>The sex that the scan was told, else the likelier one, with its probability (1 where it
+        /// was told). A scan by proportions infers none: VFIT_SEX_UNKNOWN, 0. probability may be null. No
+        /// frame yet: VFIT_ERROR_STATE. [read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_scan_sex(ScanId scan, Sex* sex, float* probability);
 
         /// <summary>centres are those of the last frame [read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_scan_colliders(ScanId scan, Collider* items, uint stride, uint* count);
+        internal static extern Result vfit_scan_colliders(ScanId scan, Collider* items, uint stride,
+            uint* count);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_scan_scale(ScanId scan, byte* garmentKind, Scale* @out);
 
-        /// <summary>Measurements as JSON text, for an app that keeps them with the person's consent (docs/measuring.md).
-        /// text null sets *capacity to what is needed, the end included; too little: VFIT_ERROR_CAPACITY, and the same.
+        /// <summary>Measurements as JSON text, for an app that keeps them with the person's consent
+        /// (docs/measuring.md). text null sets *capacity to what is needed, the end included; too little:
+        /// VFIT_ERROR_CAPACITY, and the same. [any]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_measurements_write(Measurement* items, uint stride, uint count,
+            Sex sex, byte* text, uint* capacity);
+
+        /// <summary>That text, a report of vfit measure, or {"stature_m": 1.7}. sex may be null.
         /// [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_measurements_write(Measurement* items, uint stride, uint count, Sex sex, byte* text, uint* capacity);
+        internal static extern Result vfit_measurements_read(void* text, ulong byteCount, Measurement* items,
+            uint stride, uint* count, Sex* sex);
 
-        /// <summary>That text, a report of vfit measure, or {"stature_m": 1.7}. sex may be null. [any]</summary>
+        /// <summary>Two scans of one person in one list. The statures of two people: VFIT_ERROR_DATA.
+        /// [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_measurements_read(void* text, ulong byteCount, Measurement* items, uint stride, uint* count, Sex* sex);
-
-        /// <summary>Two scans of one person in one list. The statures of two people: VFIT_ERROR_DATA. [any]</summary>
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_measurements_merge(Measurement* a, uint aStride, uint aCount, Measurement* b, uint bStride, uint bCount, Measurement* items, uint stride, uint* count);
+        internal static extern Result vfit_measurements_merge(Measurement* a, uint aStride, uint aCount,
+            Measurement* b, uint bStride, uint bCount, Measurement* items, uint stride, uint* count);
 
         /// <summary>Names of the size charts in data_dir/charts, in alphabetical order. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_size_chart_list(ContextId context, DataName* items, uint stride, uint* count);
+        internal static extern Result vfit_size_chart_list(ContextId context, DataName* items, uint stride,
+            uint* count);
 
-        /// <summary>A chart as JSON (docs/size-charts.md), or by the name of a file in data_dir/charts. [any]</summary>
+        /// <summary>A chart as JSON (docs/size-charts.md), or by the name of a file in data_dir/charts.
+        /// [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_size_chart_load(ContextId context, void* bytes, ulong byteCount, SizeChartId* @out);
+        internal static extern Result vfit_size_chart_load(ContextId context, void* bytes, ulong byteCount,
+            SizeChartId* @out);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_size_chart_open(ContextId context, byte* name, SizeChartId* @out);
@@ -339,15 +374,20 @@ namespace Vfit
 
         /// <summary>[read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_size_chart_rows(SizeChartId chart, SizeRow* items, uint stride, uint* count);
+        internal static extern Result vfit_size_chart_rows(SizeChartId chart, SizeRow* items, uint stride,
+            uint* count);
 
-        /// <summary>Every label of that garment kind with its probability, best first; they sum to 1. [read]</summary>
+        /// <summary>Every label of that garment kind with its probability, best first; they sum to 1.
+        /// [read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_size_recommend(SizeChartId chart, byte* garmentKind, Measurement* items, uint stride, uint count, Size* sizes, uint sizeStride, uint* sizeCount);
+        internal static extern Result vfit_size_recommend(SizeChartId chart, byte* garmentKind,
+            Measurement* items, uint stride, uint count, Size* sizes, uint sizeStride, uint* sizeCount);
 
-        /// <summary>How that size sits: an item a measure of the garment kind that was given. [read]</summary>
+        /// <summary>How that size sits: an item a measure of the garment kind that was given.
+        /// [read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_size_zones(SizeChartId chart, byte* garmentKind, byte* label, Measurement* items, uint stride, uint count, SizeZone* zones, uint zoneStride, uint* zoneCount);
+        internal static extern Result vfit_size_zones(SizeChartId chart, byte* garmentKind, byte* label,
+            Measurement* items, uint stride, uint count, SizeZone* zones, uint zoneStride, uint* zoneCount);
 
         /// <summary>[any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -361,61 +401,76 @@ namespace Vfit
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_motion_reset(MotionId motion);
 
-        /// <summary>The proportions that the feet are planted with; without: those of the tracked person. [excl]</summary>
+        /// <summary>The proportions that the feet are planted with; without: those of the tracked person.
+        /// [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_motion_bind(MotionId motion, AvatarId avatar);
 
-        /// <summary>A body whose time_ns differs from the last is new; the same or a null frame: the filter predicts to
-        /// now_ns, so that a 30 Hz camera drives a 600 Hz renderer. Body not in the frame: VFIT_NOT_READY, the pose holds.
-        /// [excl]</summary>
+        /// <summary>A body whose time_ns differs from the last is new; the same or a null frame: the filter
+        /// predicts to now_ns, so that a 30 Hz camera drives a 600 Hz renderer. Body not in the frame:
+        /// VFIT_NOT_READY, the pose holds. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_motion_step(MotionId motion, FrameId tracked, uint bodyId, long nowNs);
+        internal static extern Result vfit_motion_step(MotionId motion, FrameId tracked, uint bodyId,
+            long nowNs);
 
         /// <summary>[read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_motion_pose(MotionId motion, Pose* pose, Bone* items, uint stride, uint* count);
+        internal static extern Result vfit_motion_pose(MotionId motion, Pose* pose, Bone* items, uint stride,
+            uint* count);
 
-        /// <summary>A pose for the network, at most 120 bytes: rotations to 0.1 degrees, the hips to 0.1 mm, contacts,
-        /// time. bytes null sets *byte_count to what is needed. It is the same whatever the axes of the two contexts.
-        /// Unpacked bones come as from vfit_motion_pose, but for positions of all but the hips, which are the receiver's
-        /// avatar's own: zero. Hips over 800 m away: VFIT_ERROR_DATA; a packet of another version: VFIT_ERROR_VERSION; a
-        /// damaged one: VFIT_ERROR_DATA. [any]</summary>
+        /// <summary>A pose for the network, at most 120 bytes: rotations to 0.1 degrees, the hips to 0.1 mm,
+        /// contacts, time. bytes null sets *byte_count to what is needed. It is the same whatever the axes of
+        /// the two contexts. Unpacked bones come as from vfit_motion_pose, but for positions of all but the
+        /// hips, which are the receiver's avatar's own: zero. Hips over 800 m away: VFIT_ERROR_DATA; a packet
+        /// of another version: VFIT_ERROR_VERSION; a damaged one: VFIT_ERROR_DATA. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_pose_pack(ContextId context, Pose* pose, Bone* items, uint stride, uint count, void* bytes, uint* byteCount);
+        internal static extern Result vfit_pose_pack(ContextId context, Pose* pose, Bone* items, uint stride,
+            uint count, void* bytes, uint* byteCount);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_pose_unpack(ContextId context, void* bytes, uint byteCount, Pose* pose, Bone* items, uint stride, uint* count);
+        internal static extern Result vfit_pose_unpack(ContextId context, void* bytes, uint byteCount,
+            Pose* pose, Bone* items, uint stride, uint* count);
 
         /// <summary>The filtered joints behind the pose, feet corrected. [read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_motion_joints(MotionId motion, Joint* items, uint stride, uint* count);
+        internal static extern Result vfit_motion_joints(MotionId motion, Joint* items, uint stride,
+            uint* count);
 
         /// <summary>[any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_shape_list(ContextId context, ShapeValue* items, uint stride, uint* count);
+        internal static extern Result vfit_shape_list(ContextId context, ShapeValue* items, uint stride,
+            uint* count);
 
-        /// <summary>A body of that shape; keys that are not given keep the value of the sex's default body. [any]</summary>
+        /// <summary>A body of that shape; keys that are not given keep the value of the sex's default body.
+        /// [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_avatar_create_from_shape(ContextId context, AvatarDesc* desc, ShapeValue* items, uint stride, uint count, AvatarId* @out);
+        internal static extern Result vfit_avatar_create_from_shape(ContextId context, AvatarDesc* desc,
+            ShapeValue* items, uint stride, uint count, AvatarId* @out);
 
-        /// <summary>The default body scaled to stature_m and, where given, shoulder_breadth_m. [any]</summary>
+        /// <summary>The default body scaled to stature_m and, where given, shoulder_breadth_m.
+        /// [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_avatar_create(ContextId context, AvatarDesc* desc, Measurement* items, uint stride, uint count, AvatarId* @out);
+        internal static extern Result vfit_avatar_create(ContextId context, AvatarDesc* desc,
+            Measurement* items, uint stride, uint count, AvatarId* @out);
 
-        /// <summary>Size and collider radii of the scanned person; by FIT their shape and girths too. [read] on
-        /// scan</summary>
+        /// <summary>Size and collider radii of the scanned person; by FIT their shape and girths too. [read]
+        /// on scan</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_avatar_create_from_scan(ContextId context, AvatarDesc* desc, ScanId scan, AvatarId* @out);
+        internal static extern Result vfit_avatar_create_from_scan(ContextId context, AvatarDesc* desc,
+            ScanId scan, AvatarId* @out);
 
-        /// <summary>Your character as an avatar: bind motion to it, pose it, fetch its buffers. It is turned to face +Z and
-        /// stood on the floor; whatever its proportions, the bones of a pose turn it, feet that motion plants stand, limbs
-        /// get twist bones, and hands are kept out of its trunk and thighs (unless desc.flags has HANDS_AS_POSED). Missing
-        /// of VRM's optional bones are stood in for. Morph targets, animations and meshes that hang on no bone are left out
-        /// and logged. desc.sex and detail do not apply. Buffers are read from the file's own folder alone, from memory
-        /// from nowhere else. VFIT_ERROR_IO; VFIT_ERROR_DATA for a damaged file, one without a humanoid or skin, of no
-        /// person's size, or that lies down; VFIT_ERROR_UNSUPPORTED for compressed meshes and sparse data. [any]</summary>
+        /// <summary>Your character as an avatar: bind motion to it, pose it, fetch its buffers. It is turned
+        /// to face +Z and stood on the floor; whatever its proportions, the bones of a pose turn it, feet
+        /// that motion plants stand, limbs get twist bones, and hands are kept out of its trunk and thighs
+        /// (unless desc.flags has HANDS_AS_POSED). Missing of VRM's optional bones are stood in for. Morph
+        /// targets, animations and meshes that hang on no bone are left out and logged. desc.sex and detail
+        /// do not apply. Buffers are read from the file's own folder alone, from memory from nowhere else.
+        /// VFIT_ERROR_IO; VFIT_ERROR_DATA for a damaged file, one without a humanoid or skin, of no person's
+        /// size, or that lies down; VFIT_ERROR_UNSUPPORTED for compressed meshes and sparse data.
+        /// [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_avatar_load(ContextId context, AvatarDesc* desc, CharacterDesc* character, AvatarId* @out);
+        internal static extern Result vfit_avatar_load(ContextId context, AvatarDesc* desc,
+            CharacterDesc* character, AvatarId* @out);
 
         /// <summary>[read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -423,17 +478,21 @@ namespace Vfit
 
         /// <summary>[read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_avatar_parts(AvatarId avatar, AvatarPart* items, uint stride, uint* count);
+        internal static extern Result vfit_avatar_parts(AvatarId avatar, AvatarPart* items, uint stride,
+            uint* count);
 
-        /// <summary>A body and its clothing size for the network, at most 200 bytes: shape, scale, collider radii, a label
-        /// of up to 19 bytes (may be null). bytes null sets *byte_count to what is needed. Of a character from a file:
-        /// VFIT_ERROR_UNSUPPORTED. The receiver gets the label as TEXT; a packet of another version of body or library is
-        /// VFIT_ERROR_VERSION, a damaged one VFIT_ERROR_DATA; desc.sex is the packet's. [read], [any]</summary>
+        /// <summary>A body and its clothing size for the network, at most 200 bytes: shape, scale, collider
+        /// radii, a label of up to 19 bytes (may be null). bytes null sets *byte_count to what is needed. Of
+        /// a character from a file: VFIT_ERROR_UNSUPPORTED. The receiver gets the label as TEXT; a packet of
+        /// another version of body or library is VFIT_ERROR_VERSION, a damaged one VFIT_ERROR_DATA; desc.sex
+        /// is the packet's. [read], [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_avatar_pack(AvatarId avatar, byte* sizeLabel, void* bytes, uint* byteCount);
+        internal static extern Result vfit_avatar_pack(AvatarId avatar, byte* sizeLabel, void* bytes,
+            uint* byteCount);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_avatar_unpack(ContextId context, AvatarDesc* desc, void* bytes, uint byteCount, byte* sizeLabel, uint capacity, AvatarId* @out);
+        internal static extern Result vfit_avatar_unpack(ContextId context, AvatarDesc* desc, void* bytes,
+            uint byteCount, byte* sizeLabel, uint capacity, AvatarId* @out);
 
         /// <summary>[any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -441,39 +500,48 @@ namespace Vfit
 
         /// <summary>[excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_avatar_pose(AvatarId avatar, Pose* pose, Bone* items, uint stride, uint count);
+        internal static extern Result vfit_avatar_pose(AvatarId avatar, Pose* pose, Bone* items, uint stride,
+            uint count);
 
-        /// <summary>The same, the skin written straight into the engine's memory (a mapped vertex buffer), each vertex as
-        /// three floats in the context's axes at the target's stride: no copy is made, and acquire gives the mesh of the
-        /// last vfit_avatar_pose. Bones, joints, colliders and cloth follow as with it. normals may be null. Bad targets:
-        /// VFIT_ERROR_ARGUMENT, UNSUPPORTED or CAPACITY, and nothing moves. [excl]</summary>
+        /// <summary>The same, the skin written straight into the engine's memory (a mapped vertex buffer),
+        /// each vertex as three floats in the context's axes at the target's stride: no copy is made, and
+        /// acquire gives the mesh of the last vfit_avatar_pose. Bones, joints, colliders and cloth follow as
+        /// with it. normals may be null. Bad targets: VFIT_ERROR_ARGUMENT, UNSUPPORTED or CAPACITY, and
+        /// nothing moves. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_avatar_pose_into(AvatarId avatar, Pose* pose, Bone* items, uint stride, uint count, Target* positions, Target* normals);
+        internal static extern Result vfit_avatar_pose_into(AvatarId avatar, Pose* pose, Bone* items,
+            uint stride, uint count, Target* positions, Target* normals);
 
         /// <summary>[read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_avatar_colliders(AvatarId avatar, Collider* items, uint stride, uint* count);
+        internal static extern Result vfit_avatar_colliders(AvatarId avatar, Collider* items, uint stride,
+            uint* count);
 
         /// <summary>Every joint of the posed avatar, at the avatar's own true place. [read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_avatar_joints(AvatarId avatar, Joint* items, uint stride, uint* count);
+        internal static extern Result vfit_avatar_joints(AvatarId avatar, Joint* items, uint stride,
+            uint* count);
 
         /// <summary>[read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_avatar_rig(AvatarId avatar, RigBone* items, uint stride, uint* count);
+        internal static extern Result vfit_avatar_rig(AvatarId avatar, RigBone* items, uint stride,
+            uint* count);
 
-        /// <summary>Tape measures of the avatar's own body, in the posture of each definition, taken on its mesh. A
-        /// character from a file has clothes and no body: VFIT_ERROR_UNSUPPORTED. [read]</summary>
+        /// <summary>Tape measures of the avatar's own body, in the posture of each definition, taken on its
+        /// mesh. A character from a file has clothes and no body: VFIT_ERROR_UNSUPPORTED. [read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_avatar_measure(AvatarId avatar, Measurement* items, uint stride, uint* count);
+        internal static extern Result vfit_avatar_measure(AvatarId avatar, Measurement* items, uint stride,
+            uint* count);
 
-        /// <summary>Measures of your own (docs/measuring.md: landmarks, planes and paths as JSON), taken on the avatar's
-        /// mesh. sigma is that of the least sure measure of the scan that it was made from, relative; 0: made of none.
-        /// [read]</summary>
+        /// <summary>Measures of your own (docs/measuring.md: landmarks, planes and paths as JSON), taken on
+        /// the avatar's mesh. sigma is that of the least sure measure of the scan that it was made from,
+        /// relative; 0: made of none. [read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_avatar_measure_own(AvatarId avatar, void* text, ulong byteCount, Measurement* items, uint stride, uint* count);
+        internal static extern Result vfit_avatar_measure_own(AvatarId avatar, void* text, ulong byteCount,
+            Measurement* items, uint stride, uint* count);
 
-        /// <summary>Posed mesh: POSITION, NORMAL, UV, INDEX, BONE_MATRIX, SKIN_BONES, SKIN_WEIGHTS. [any]</summary>
+        /// <summary>Posed mesh: POSITION, NORMAL, UV, INDEX, BONE_MATRIX, SKIN_BONES, SKIN_WEIGHTS.
+        /// [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_avatar_acquire(AvatarId avatar, FrameId* @out);
 
@@ -483,11 +551,14 @@ namespace Vfit
 
         /// <summary>Names of the garments in data_dir/garments, in alphabetical order. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_garment_list(ContextId context, DataName* items, uint stride, uint* count);
+        internal static extern Result vfit_garment_list(ContextId context, DataName* items, uint stride,
+            uint* count);
 
-        /// <summary>A garment as JSON (docs/garments.md), or by the name of a file in data_dir/garments. [any]</summary>
+        /// <summary>A garment as JSON (docs/garments.md), or by the name of a file in data_dir/garments.
+        /// [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_garment_load(ContextId context, void* bytes, ulong byteCount, GarmentId* @out);
+        internal static extern Result vfit_garment_load(ContextId context, void* bytes, ulong byteCount,
+            GarmentId* @out);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_garment_open(ContextId context, byte* name, GarmentId* @out);
@@ -502,38 +573,42 @@ namespace Vfit
 
         /// <summary>[read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_garment_parts(GarmentId garment, GarmentPart* items, uint stride, uint* count);
+        internal static extern Result vfit_garment_parts(GarmentId garment, GarmentPart* items, uint stride,
+            uint* count);
 
         /// <summary>The label of the size at index; length 0 past the last. [read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern uint vfit_garment_size_label(GarmentId garment, uint index, byte* buffer, uint capacity);
+        internal static extern uint vfit_garment_size_label(GarmentId garment, uint index, byte* buffer,
+            uint capacity);
 
-        /// <summary>VFIT_ERROR_NOT_WEARABLE where a labelled size would have to stretch around chest, waist or hips by more
-        /// than its fabric takes, or at an opening or over a tenth of it by far more (docs/garments.md), unless desc.flags
-        /// has ANY_FIT. [excl] on avatar</summary>
+        /// <summary>VFIT_ERROR_NOT_WEARABLE where a labelled size would have to stretch around chest, waist
+        /// or hips by more than its fabric takes, or at an opening or over a tenth of it by far more
+        /// (docs/garments.md), unless desc.flags has ANY_FIT. [excl] on avatar</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_cloth_create(AvatarId avatar, GarmentId garment, ClothDesc* desc, ClothId* @out);
+        internal static extern Result vfit_cloth_create(AvatarId avatar, GarmentId garment, ClothDesc* desc,
+            ClothId* @out);
 
         /// <summary>[any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_destroy(ClothId cloth);
 
-        /// <summary>Put on anew: simulated on a body that stands straight, arms held out, and goes into the pose that the
-        /// avatar has now, so that limbs push the cloth aside. create carries it into the pose as it is, at once: right for
-        /// somebody who stands, not for a stride or a hand at the hip. Takes as long as some 35 steps (the sundress 0.1 s),
-        /// whatever the settings. [excl]</summary>
+        /// <summary>Put on anew: simulated on a body that stands straight, arms held out, and goes into the
+        /// pose that the avatar has now, so that limbs push the cloth aside. create carries it into the pose
+        /// as it is, at once: right for somebody who stands, not for a stride or a hand at the hip. Takes as
+        /// long as some 35 steps (the sundress 0.1 s), whatever the settings. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_reset(ClothId cloth);
 
-        /// <summary>The same garment in another of its sizes (null: made to the avatar), from how it hangs now: it comes to
-        /// rest within a second, for which its steps take twice as long. Takes some ten steps' time. VFIT_ERROR_ARGUMENT
-        /// where it has no such size, VFIT_ERROR_NOT_WEARABLE as with create, and nothing changes. [excl]</summary>
+        /// <summary>The same garment in another of its sizes (null: made to the avatar), from how it hangs
+        /// now: it comes to rest within a second, for which its steps take twice as long. Takes some ten
+        /// steps' time. VFIT_ERROR_ARGUMENT where it has no such size, VFIT_ERROR_NOT_WEARABLE as with
+        /// create, and nothing changes. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_set_size(ClothId cloth, byte* sizeLabel);
 
-        /// <summary>Fixed sub-steps inside; dt is clamped to 0.1 ms..0.1 s, 0 changes nothing. Reads the avatar: pose that
-        /// one first. begin hands the work to a worker and returns, end waits: between the two the engine renders. To a
-        /// host's job system such a step is one item. [excl]</summary>
+        /// <summary>Fixed sub-steps inside; dt is clamped to 0.1 ms..0.1 s, 0 changes nothing. Reads the
+        /// avatar: pose that one first. begin hands the work to a worker and returns, end waits: between the
+        /// two the engine renders. To a host's job system such a step is one item. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_step(ClothId cloth, float dt);
 
@@ -543,54 +618,58 @@ namespace Vfit
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_end_step(ClothId cloth);
 
-        /// <summary>Between steps, for cloth that runs on a slower clock than the picture: acquire then gives the cloth as
-        /// the last step left it, carried from that step's pose into the one that the avatar has now by the bones that
-        /// carry the garment, at the time of that pose. The next step goes on as if it had not been called. While a step
-        /// runs it does not wait: the one before is carried, until end_step. [excl]</summary>
+        /// <summary>Between steps, for cloth that runs on a slower clock than the picture: acquire then gives
+        /// the cloth as the last step left it, carried from that step's pose into the one that the avatar has
+        /// now by the bones that carry the garment, at the time of that pose. The next step goes on as if it
+        /// had not been called. While a step runs it does not wait: the one before is carried, until
+        /// end_step. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_carry(ClothId cloth);
 
-        /// <summary>Velocity of the air, in the context's axes and unit a second, from the next step on. [excl]</summary>
+        /// <summary>Velocity of the air, in the context's axes and unit a second, from the next step on.
+        /// [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_set_wind(ClothId cloth, float* wind);
 
-        /// <summary>Sub-steps a 1/60 s at most, and the time that a step may take: where more would take longer, fewer are
-        /// done (at least one), and then a state is no longer the same on each run. 0 sub-steps: 8; 0 ms: no budget.
-        /// [excl]</summary>
+        /// <summary>Sub-steps a 1/60 s at most, and the time that a step may take: where more would take
+        /// longer, fewer are done (at least one), and then a state is no longer the same on each run. 0
+        /// sub-steps: 8; 0 ms: no budget. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_set_quality(ClothId cloth, uint substeps, float budgetMs);
 
-        /// <summary>From now on cloth is worn over inner, a cloth of the same avatar, and stays outside of it by its
-        /// thickness: step inner first, each frame. vfit_cloth_reset then puts cloth on over it; without, inner is there at
-        /// once, and may catch parts of cloth inside of it. Where cloth is too tight for what is below, it lets that
-        /// through rather than tear. An inner one that gets destroyed stays where it was. VFIT_ERROR_ARGUMENT where cloth
-        /// is worn below inner already. [excl]</summary>
+        /// <summary>From now on cloth is worn over inner, a cloth of the same avatar, and stays outside of it
+        /// by its thickness: step inner first, each frame. vfit_cloth_reset then puts cloth on over it;
+        /// without, inner is there at once, and may catch parts of cloth inside of it. Where cloth is too
+        /// tight for what is below, it lets that through rather than tear. An inner one that gets destroyed
+        /// stays where it was. VFIT_ERROR_ARGUMENT where cloth is worn below inner already. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_wear_over(ClothId cloth, ClothId inner);
 
-        /// <summary>Skin that this garment alone hides from all who do not look up under it by more than 45 degrees:
-        /// triangles[i] becomes 1 for those triangles of the avatar's INDEX, and stays what it was for the others, so that
-        /// garments add up. Leave them out of what you draw. Found on the body at rest, of a labelled size as the last step
-        /// left it there: what is nearer than margin_m to skin that is seen is left, as cloth slides and hems lift (0:
-        /// 0.03). VFIT_ERROR_STATE while a step runs. Takes as long as some 100 steps: once a garment and size.
-        /// [read]</summary>
+        /// <summary>Skin that this garment alone hides from all who do not look up under it by more than 45
+        /// degrees: triangles[i] becomes 1 for those triangles of the avatar's INDEX, and stays what it was
+        /// for the others, so that garments add up. Leave them out of what you draw. Found on the body at
+        /// rest, of a labelled size as the last step left it there: what is nearer than margin_m to skin that
+        /// is seen is left, as cloth slides and hems lift (0: 0.03). VFIT_ERROR_STATE while a step runs.
+        /// Takes as long as some 100 steps: once a garment and size. [read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vfit_cloth_hide_skin(ClothId cloth, float marginM, byte* triangles, uint count);
+        internal static extern Result vfit_cloth_hide_skin(ClothId cloth, float marginM, byte* triangles,
+            uint count);
 
-        /// <summary>By girths that the garment goes around, of the cloth as it was left by the last step, less what it sags
-        /// by: let it come to rest first, best on somebody who stands (docs/garments.md). Takes as long as some five steps.
-        /// [read]</summary>
+        /// <summary>By girths that the garment goes around, of the cloth as it was left by the last step,
+        /// less what it sags by: let it come to rest first, best on somebody who stands (docs/garments.md).
+        /// Takes as long as some five steps. [read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_fit(ClothId cloth, FitZone* items, uint stride, uint* count);
 
-        /// <summary>The same place by place, one a vertex of what acquire gives: above 0 tight (1: its fabric's most
-        /// strain, or 2 kPa), below 0 loose (-1: 6 cm off the skin). Takes as long as some ten steps. [read]</summary>
+        /// <summary>The same place by place, one a vertex of what acquire gives: above 0 tight (1: its
+        /// fabric's most strain, or 2 kPa), below 0 loose (-1: 6 cm off the skin). Takes as long as some ten
+        /// steps. [read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_fit_map(ClothId cloth, float* values, uint count);
 
-        /// <summary>POSITION, NORMAL, UV, INDEX, STRAIN, and with VFIT_CLOTH_PRESSURE PRESSURE: of a vertex that touches
-        /// the body, what its threads and its weight pull with against it, over the flat cloth's area; 0 where the garment
-        /// is skinned. Pa whatever the unit. [any]</summary>
+        /// <summary>POSITION, NORMAL, UV, INDEX, STRAIN, and with VFIT_CLOTH_PRESSURE PRESSURE: of a vertex
+        /// that touches the body, what its threads and its weight pull with against it, over the flat cloth's
+        /// area; 0 where the garment is skinned. Pa whatever the unit. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_acquire(ClothId cloth, FrameId* @out);
 

@@ -47,8 +47,8 @@ namespace Vfit
         Debug = 3,
     }
 
-    /// <summary>DETERMINISTIC: equal bits for equal input, binary and SIMD level, any worker count. Always so as
-    /// yet.</summary>
+    /// <summary>DETERMINISTIC: equal bits for equal input, binary and SIMD level, any worker count.
+    /// Always so as yet.</summary>
     [Flags]
     public enum ContextFlags : uint
     {
@@ -59,9 +59,9 @@ namespace Vfit
         Mirror = 4,
     }
 
-    /// <summary>One meaning everywhere: SHOULDER is the head of the humerus, HIP that of the femur, HAND the hand's
-    /// centre of mass in the palm (some 7 cm from the wrist), FOOT the ankle joint; LEFT is the person's own
-    /// left.</summary>
+    /// <summary>One meaning everywhere: SHOULDER is the head of the humerus, HIP that of the femur, HAND
+    /// the hand's centre of mass in the palm (some 7 cm from the wrist), FOOT the ankle joint; LEFT is
+    /// the person's own left.</summary>
     public enum JointId : int
     {
         Head = 0,
@@ -193,13 +193,13 @@ namespace Vfit
         Given = 2,
     }
 
-    /// <summary>Joints steadied over time by a one-Euro filter, their states lowered to what their confidence bears
-    /// out: MEASURED from 0.5 on, INFERRED from 0.15 on; where a body has states and no confidence those stand for
-    /// it.</summary>
+    /// <summary>Joints steadied over time by a one-Euro filter, their states lowered to what their
+    /// confidence bears out: MEASURED from 0.5 on, INFERRED from 0.15 on; where a body has states and no
+    /// confidence those stand for it.</summary>
     public enum JointFilter : int
     {
-        /// <summary>the tracker's own joints and submitted ones; a source's own stay as they are (a recording's, the truth
-        /// of a virtual person)</summary>
+        /// <summary>the tracker's own joints and submitted ones; a source's own stay as they are (a
+        /// recording's, the truth of a virtual person)</summary>
         Auto = 0,
         /// <summary>a source's own too</summary>
         On = 1,
@@ -207,8 +207,8 @@ namespace Vfit
         Off = 2,
     }
 
-    /// <summary>The active person, whom a mirror serves. Somebody else becomes it who has been better by 0.3 m for one
-    /// second without a break; who is out of sight is waited for two seconds.</summary>
+    /// <summary>The active person, whom a mirror serves. Somebody else becomes it who has been better by
+    /// 0.3 m for one second without a break; who is out of sight is waited for two seconds.</summary>
     public enum Follow : int
     {
         /// <summary>to the camera</summary>
@@ -230,9 +230,9 @@ namespace Vfit
         Lost = 3,
     }
 
-    /// <summary>The body model fitted to a person's depth and outline, where the tracker finds the joints by itself:
-    /// they move to the fitted body's and get rotations, as long as it meets the picture. The first frame with a person
-    /// may take half a second longer.</summary>
+    /// <summary>The body model fitted to a person's depth and outline, where the tracker finds the joints
+    /// by itself: they move to the fitted body's and get rotations, as long as it meets the picture. The
+    /// first frame with a person may take half a second longer.</summary>
     public enum TrackFit : int
     {
         /// <summary>of the active person</summary>
@@ -281,11 +281,11 @@ namespace Vfit
     public enum ScanFlags : uint
     {
         None = 0,
-        /// <summary>bits of flags. Bare feet and no hair on the crown: otherwise the deviation of FIT's stature allows for
-        /// both</summary>
+        /// <summary>bits of flags. Bare feet and no hair on the crown: otherwise the deviation of FIT's
+        /// stature allows for both</summary>
         Bare = 1,
-        /// <summary>of FIT: the clothes lie on the skin, as sportswear does. Otherwise up to 3 cm of cloth are reckoned
-        /// with</summary>
+        /// <summary>of FIT: the clothes lie on the skin, as sportswear does. Otherwise up to 3 cm of cloth
+        /// are reckoned with</summary>
         Tight = 2,
     }
 
@@ -311,9 +311,9 @@ namespace Vfit
         NoFeet = 8,
     }
 
-    /// <summary>Of joint positions. ADAPTIVE learns how noisy each joint is: it averages over seconds at rest and
-    /// follows within a frame in motion. HOLT is the paper's, by the five names of the Kinect SDK. All are converted by
-    /// elapsed time.</summary>
+    /// <summary>Of joint positions. ADAPTIVE learns how noisy each joint is: it averages over seconds at
+    /// rest and follows within a frame in motion. HOLT is the paper's, by the five names of the Kinect
+    /// SDK. All are converted by elapsed time.</summary>
     public enum PositionFilter : int
     {
         Adaptive = 0,
@@ -321,8 +321,8 @@ namespace Vfit
         OneEuro = 2,
     }
 
-    /// <summary>How feet that stand are found: by a network that has learnt it, or by the paper's thresholds of height
-    /// and speed (Alg. 5), with hysteresis.</summary>
+    /// <summary>How feet that stand are found: by a network that has learnt it, or by the paper's
+    /// thresholds of height and speed (Alg. 5), with hysteresis.</summary>
     public enum ContactRule : int
     {
         Learnt = 0,
@@ -337,8 +337,8 @@ namespace Vfit
         PaperColliders = 1,
         /// <summary>no twist bones in the limbs (Fig. 7a)</summary>
         SingleBones = 2,
-        /// <summary>skinned by dual quaternions in place of linear blending: joints that bend or twist far keep their
-        /// section. An engine that skins by BONE_MATRIX shows the linear blend</summary>
+        /// <summary>skinned by dual quaternions in place of linear blending: joints that bend or twist far
+        /// keep their section. An engine that skins by BONE_MATRIX shows the linear blend</summary>
         DualQuaternions = 4,
         /// <summary>of vfit_avatar_load</summary>
         HandsAsPosed = 8,
@@ -357,10 +357,11 @@ namespace Vfit
     public enum ClothFlags : uint
     {
         None = 0,
-        /// <summary>forearms and hands pass through: a hand beside the thigh catches a skirt, and 15 spheres know no
-        /// fingers to let it slip. Not of garments with sleeves</summary>
+        /// <summary>forearms and hands pass through: a hand beside the thigh catches a skirt, and 15 spheres
+        /// know no fingers to let it slip. Not of garments with sleeves</summary>
         NoHands = 1,
-        /// <summary>kept out of the avatar's skin itself, not of its spheres and capsules: closer, and slower</summary>
+        /// <summary>kept out of the avatar's skin itself, not of its spheres and capsules: closer, and
+        /// slower</summary>
         Skin = 2,
         /// <summary>stepped even where cloth and body have lain still for half a second</summary>
         Awake = 4,
@@ -370,9 +371,9 @@ namespace Vfit
         AnyFit = 16,
     }
 
-    /// <summary>How a garment sits at one girth of the trunk. RIGHT: the body's girth is nearer to that which the size
-    /// is made for than to another size's; of a garment that tells of none: it closes by less than 3 % of stretch and
-    /// has less than 12 cm of ease.</summary>
+    /// <summary>How a garment sits at one girth of the trunk. RIGHT: the body's girth is nearer to that
+    /// which the size is made for than to another size's; of a garment that tells of none: it closes by
+    /// less than 3 % of stretch and has less than 12 cm of ease.</summary>
     public enum Fit : int
     {
         Right = 0,
@@ -547,7 +548,8 @@ namespace Vfit
         public ulong FrameBytes;
     }
 
-    /// <summary>Time spent in one stage since the context was created (or since vfit_profile_reset).</summary>
+    /// <summary>Time spent in one stage since the context was created (or since
+    /// vfit_profile_reset).</summary>
     [StructLayout(LayoutKind.Sequential, Size = 64)]
     public unsafe partial struct Profile
     {
@@ -740,7 +742,8 @@ namespace Vfit
         public uint Segmented;
     }
 
-    /// <summary>rotation: of the joint in world space, relative to a T-pose that faces +Z; all zero: unknown.</summary>
+    /// <summary>rotation: of the joint in world space, relative to a T-pose that faces +Z; all zero:
+    /// unknown.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 48)]
     public unsafe partial struct Joint
     {
@@ -778,8 +781,8 @@ namespace Vfit
         internal uint Reserved2;
     }
 
-    /// <summary>Where a joint is in the depth image, as a pose network sees it in a registered colour image. LEFT is
-    /// the person's own left, whatever the context mirrors.</summary>
+    /// <summary>Where a joint is in the depth image, as a pose network sees it in a registered colour
+    /// image. LEFT is the person's own left, whatever the context mirrors.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 24)]
     public unsafe partial struct JointHint
     {
@@ -827,8 +830,9 @@ namespace Vfit
         public uint SideFramesWanted;
     }
 
-    /// <summary>key: "stature_m", "chest_girth_m", "body_mass_kg", ... (vfit_measure_key): the unit is in the key;
-    /// observed 0: inferred from others. sigma is one standard deviation of value; 0: unknown.</summary>
+    /// <summary>key: "stature_m", "chest_girth_m", "body_mass_kg", ... (vfit_measure_key): the unit is in
+    /// the key; observed 0: inferred from others. sigma is one standard deviation of value; 0:
+    /// unknown.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 64)]
     public unsafe partial struct Measurement
     {
@@ -858,8 +862,9 @@ namespace Vfit
         internal uint Reserved;
     }
 
-    /// <summary>Algorithm 3: x and y relative to the nominal width and height of a garment kind ("short_sleeves",
-    /// "long_sleeves", "trousers"); apply to body and garment as a whole, width and depth by x.</summary>
+    /// <summary>Algorithm 3: x and y relative to the nominal width and height of a garment kind
+    /// ("short_sleeves", "long_sleeves", "trousers"); apply to body and garment as a whole, width and
+    /// depth by x.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 32)]
     public unsafe partial struct Scale
     {
@@ -905,9 +910,9 @@ namespace Vfit
         }
     }
 
-    /// <summary>How a size sits by one measure: ease is the room beyond the body in the middle of the size's range
-    /// (below 0: too little of it), sigma its deviation; probabilities that the body is above, within and below that
-    /// range.</summary>
+    /// <summary>How a size sits by one measure: ease is the room beyond the body in the middle of the
+    /// size's range (below 0: too little of it), sigma its deviation; probabilities that the body is
+    /// above, within and below that range.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 72)]
     public unsafe partial struct SizeZone
     {
@@ -925,9 +930,9 @@ namespace Vfit
         }
     }
 
-    /// <summary>rotation is local to the parent and relative to a T-pose in which every bone has the axes of the world
-    /// (so that rest is the identity); position is the hips' in world space, else the offset from the parent in that
-    /// T-pose.</summary>
+    /// <summary>rotation is local to the parent and relative to a T-pose in which every bone has the axes
+    /// of the world (so that rest is the identity); position is the hips' in world space, else the offset
+    /// from the parent in that T-pose.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 40)]
     public unsafe partial struct Bone
     {
@@ -950,7 +955,8 @@ namespace Vfit
         public float FootCorrectionM;
     }
 
-    /// <summary>Of the floats, 0 means the default and &lt; 0 means 0 (where 0 is in the range).</summary>
+    /// <summary>Of the floats, 0 means the default and &lt; 0 means 0 (where 0 is in the
+    /// range).</summary>
     [StructLayout(LayoutKind.Sequential, Size = 72)]
     public unsafe partial struct MotionDesc
     {
@@ -996,8 +1002,9 @@ namespace Vfit
         public uint Detail;
     }
 
-    /// <summary>key: a phenotype ("gender", "age", "muscle", "weight", "height", "proportions", in 0..1; weight up to
-    /// 1.15) or a local slider ("measure-waist-circ", in -1..1); see vfit_shape_list.</summary>
+    /// <summary>key: a phenotype ("gender", "age", "muscle", "weight", "height", "proportions", in 0..1;
+    /// weight up to 1.15) or a local slider ("measure-waist-circ", in -1..1); see
+    /// vfit_shape_list.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 64)]
     public unsafe partial struct ShapeValue
     {
@@ -1036,7 +1043,8 @@ namespace Vfit
         internal uint Reserved;
     }
 
-    /// <summary>A character of yours: a skinned humanoid from a glTF 2.0 (.glb, .gltf) or VRM 0 or 1 file.</summary>
+    /// <summary>A character of yours: a skinned humanoid from a glTF 2.0 (.glb, .gltf) or VRM 0 or 1
+    /// file.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 40)]
     public unsafe partial struct CharacterDesc
     {
@@ -1071,8 +1079,8 @@ namespace Vfit
         internal uint Reserved;
     }
 
-    /// <summary>Triangles of one material of the file: indices first_index on. vfit's own body is one part
-    /// without.</summary>
+    /// <summary>Triangles of one material of the file: indices first_index on. vfit's own body is one
+    /// part without.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 112)]
     public unsafe partial struct AvatarPart
     {
@@ -1131,8 +1139,8 @@ namespace Vfit
         public Sex BodySex;
     }
 
-    /// <summary>Triangles of one look: indices first_index on of what vfit_cloth_acquire gives. texture: the path of a
-    /// picture as the garment's author gave it, or empty; color: linear RGB.</summary>
+    /// <summary>Triangles of one look: indices first_index on of what vfit_cloth_acquire gives. texture:
+    /// the path of a picture as the garment's author gave it, or empty; color: linear RGB.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 272)]
     public unsafe partial struct GarmentPart
     {
@@ -1184,11 +1192,12 @@ namespace Vfit
         public float SelfThicknessM;
         /// <summary>of a step, 0: none. See vfit_cloth_set_quality</summary>
         public float BudgetMs;
-        /// <summary>more spheres and capsules, until no skin below the garment, but hands and feet, is so far outside of
-        /// all; 0.005..0.1; 0: the avatar's 31 alone</summary>
+        /// <summary>more spheres and capsules, until no skin below the garment, but hands and feet, is so far
+        /// outside of all; 0.005..0.1; 0: the avatar's 31 alone</summary>
         public float CoverM;
-        /// <summary>points of triangles meet spheres and capsules as vertices do: so many that none is further from the
-        /// next, 65,536 at most; 0.001..0.1; 0: none. For meshes coarser than a wrist</summary>
+        /// <summary>points of triangles meet spheres and capsules as vertices do: so many that none is
+        /// further from the next, 65,536 at most; 0.001..0.1; 0: none. For meshes coarser than a
+        /// wrist</summary>
         public float VirtualM;
     }
 
@@ -1205,8 +1214,9 @@ namespace Vfit
         public float StepMs;
         /// <summary>of the last step; 0: it slept</summary>
         public uint Substeps;
-        /// <summary>spheres and capsules that it met So much too long, in metres, were sleeves and legs for these limbs:
-        /// they were taken up to wrist and ankle, but for what folds take (docs/garments.md).</summary>
+        /// <summary>spheres and capsules that it met So much too long, in metres, were sleeves and legs for
+        /// these limbs: they were taken up to wrist and ankle, but for what folds take
+        /// (docs/garments.md).</summary>
         public uint ColliderCount;
         public float SleevesTakenUpM;
         public float LegsTakenUpM;
