@@ -7,7 +7,8 @@ SUFFIXES = (".c", ".h", ".cpp", ".hpp", ".inc", ".cs", ".py", ".pyi", ".sh", ".c
 
 
 def is_source(tree, path):
-    if tree.is_generated(path):
+    # Generated C# is wrapped by its generator.
+    if tree.is_generated(path) and not path.endswith(".cs"):
         return False
     name = path.rsplit("/", 1)[-1]
     return name == "CMakeLists.txt" or name.endswith(SUFFIXES) or tree.is_python(path) or tree.is_shell(path)

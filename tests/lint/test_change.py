@@ -1,4 +1,4 @@
-"""Checks that look at what a change adds: words and commit subjects, and how the base of a change is found."""
+"""Checks that look at what a change adds: words, commit subjects, and how the base is found."""
 
 import os
 import pathlib

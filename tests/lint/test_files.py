@@ -48,6 +48,10 @@ class ColumnsTest(RepositoryTest):
         self.write("README.md", "a" * 200 + "\n")
         self.assert_clean("columns")
 
+    def test_generated_csharp_counts(self):
+        self.write("bindings/csharp/a/Generated/Calls.cs", "/" * 111 + "\n")
+        self.assert_breach("columns", "bindings/csharp/a/Generated/Calls.cs:1:")
+
     def test_programs_without_a_suffix_count(self):
         self.write("scripts/run", "#!/usr/bin/env bash\n" + "#" * 111 + "\n")
         self.assert_breach("columns", "scripts/run:2:")
@@ -92,7 +96,7 @@ class PlacesTest(RepositoryTest):
             "cd /wo" + "rk/vfit",
             '"C:\\' + 'Users\\ann"',
             "https://py" + "pi.org/simple",
-            "http://mirror" + ".example.org/debian",
+            "http:/" + "/mirror.example.org/debian",
             "https://build.ex" + "ample.internal/x",
         ):
             with self.subTest(text):

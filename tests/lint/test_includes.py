@@ -1,4 +1,4 @@
-"""Checks that follow #include lines: arrows between folders with their debts, headers that compile by themselves."""
+"""Checks that follow #include lines: arrows between folders, debts, headers that compile by themselves."""
 
 import unittest
 
