@@ -27,10 +27,10 @@ struct Options {
     std::string source;
     std::vector<std::string> garments;  // empty: all that there are
     std::string size;                   // empty: the recommended one
-    vfit_sex sex = VFIT_SEX_UNKNOWN;  // as the scan finds
-    double min_interval_s = 0.008;  // as in the paper
-    bool tracked = false;           // joints by vfit's tracker, also where the source tells its own
-    std::string data_dir;           // empty: vfit_data beside the library
+    vfit_sex sex = VFIT_SEX_UNKNOWN;    // as the scan finds
+    double min_interval_s = 0.008;      // as in the paper
+    bool tracked = false;               // joints by vfit's tracker, also where the source tells its own
+    std::string data_dir;               // empty: vfit_data beside the library
 
     bool offscreen = false, draw = true, json = false, renderer = false;
     bool film = false;  // one camera image a picture, on the camera's clock
