@@ -1225,13 +1225,27 @@ class PaperSample(unittest.TestCase):
 @unittest.skipUnless(RECORDINGS, f"real recordings are not at {SHARED}")
 class RealRecordings(unittest.TestCase):
     def test_every_recording_is_measured_and_dressed(self):
+        fitted = []
         for recording in RECORDINGS:
             with self.subTest(recording.name), tempfile.TemporaryDirectory() as folder:
-                measured = document(self, "measure", recording, "--json")
+                measured = document(self, "measure", recording, "--method", "paper", "--json")
                 self.assertGreaterEqual(measured["frames"], 10)
-                self.assertTrue(1.4 < measured["measurements"]["stature_m"]["value"] < 2.1)
-                result = document(self, "fit", recording, "--draft", "--frames", 6, "--out", folder, "--json")
+                stature_m = measured["measurements"]["stature_m"]["value"]
+                self.assertTrue(1.4 < stature_m < 2.1)
+                # A body is fitted where arms are clear of it; not all of these people hold them so.
+                done, method = run("measure", recording, "--json"), ()
+                if done.returncode == 0:
+                    fitted.append(recording.name)
+                    told_m = json.loads(done.stdout)["measurements"]["stature_m"]["value"]
+                    self.assertAlmostEqual(told_m, stature_m, delta=0.06)
+                else:
+                    self.assertRegex(done.stderr, "no frame could be used.*arms")
+                    method = ("--method", "paper")
+                result = document(
+                    self, "fit", recording, "--draft", "--frames", 6, "--out", folder, "--json", *method
+                )
                 self.assertTrue(all(math.isfinite(x) for x in numbers(result)))
+        self.assertGreaterEqual(len(fitted), len(RECORDINGS) * 3 // 4)
 
     def test_real_people_are_tracked_from_depth_alone(self):
         """Against the joints of the recordings' own middleware, whose definitions differ by up to 10 cm."""
