@@ -5,6 +5,7 @@ A change can only break the headers that it touches and those that include them,
 it, something that it includes, or the compiler changes: build/lint/headers.json has the hashes.
 """
 
+import collections
 import concurrent.futures
 import hashlib
 import json
@@ -23,6 +24,19 @@ PUBLIC_C = ("-x", "c", "-std=c99", "-pedantic-errors")
 # Below the tree under check.
 PASSED = "build/lint/headers.json"
 WRITTEN = "build/lint/written"
+PRECOMPILED = "build/lint/precompiled"
+# Libraries' headers that take most of the time, from light to heavy sets. A set is precompiled for the
+# headers that include all of it anyway, themselves or by what they include: they get nothing that they do not
+# ask for. Never add a header of the tree, or one that is included under a condition.
+GLM = ("glm/glm.hpp", "glm/gtc/quaternion.hpp")
+SETS = (
+    ("string",),
+    GLM,
+    (*GLM, "vector"),
+    (*GLM, "vector", "memory"),
+    ("nlohmann/json.hpp", "string", "vector"),
+)
+USERS = 8  # of a set, for its compilation to pay
 FOLDERS = ("sdk/", "include/", "tools/", "plugins/", "samples/", "tests/", "training/")
 # Headers of libraries that are not on the compiler's own path, by their pkg-config names.
 LIBRARIES = ("libusb-1.0", "libopenni2", "opencv4")
@@ -57,10 +71,21 @@ class Compiler:
         self.flags = ["-fsyntax-only", "-w", *DEFINITIONS, *_library_flags(), f"-I{WRITTEN}", "-I."]
         self.version = subprocess.run([COMPILER, "--version"], capture_output=True, text=True).stdout
 
-    def errors(self, header):
+    def precompile(self, names, path):
+        """Compiles a set of libraries' headers; where it fails, each header reads what it includes."""
+        file = self.root / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text("".join(f"#include <{name}>\n" for name in names))
+        flags = [flag for flag in self.flags if flag != "-fsyntax-only"]
+        command = [COMPILER, "-std=gnu++20", *flags, "-x", "c++-header", path, "-o", f"{path}.gch"]
+        subprocess.run(command, cwd=self.root, capture_output=True)
+
+    def errors(self, header, precompiled=None):
         """What the compiler says of a file that includes nothing else; empty where it compiles."""
         languages = (PUBLIC_C, PUBLIC_CXX) if header.startswith("include/") else (CXX,)
         folders = [f"-I{folder}" for folder in roots(header)]
+        if precompiled:
+            folders += ["-include", precompiled]
         for language in languages:
             command = [COMPILER, *language, *self.flags, *folders, "-"]
             source = f'#include "{header}"\n'
@@ -105,6 +130,18 @@ def _absent_library(errors):
     return name and name[1]
 
 
+def _precompiled(graph, headers):
+    """{header: the set that is precompiled for it}, of sets with enough users."""
+    chosen = {}
+    for header in headers:
+        if not header.startswith("include/"):
+            files = graph.closure(header) | {header}
+            names = {i.name[1:] for file in files for i in graph.includes(file) if not i.target}
+            chosen[header] = next((s for s in reversed(SETS) if names.issuperset(s)), None)
+    users = collections.Counter(chosen.values())
+    return {header: names for header, names in chosen.items() if names and users[names] >= USERS}
+
+
 def _to_compile(tree, graph):
     """The headers that the change can break, or all; None where no base tells what the change is."""
     headers = [path for path in tree.files if path.endswith(".h") and path.startswith(FOLDERS)]
@@ -128,9 +165,13 @@ def check(tree):
     digests = {header: _digest(compiler, graph, header) for header in headers}
     passed = _read_passed(tree)
     waiting = [header for header in headers if digests[header] not in passed]
+    chosen = _precompiled(graph, waiting)
+    paths = {names: f"{PRECOMPILED}/{SETS.index(names)}.h" for names in set(chosen.values())}
     absent = set()
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for header, errors in zip(waiting, pool.map(compiler.errors, waiting)):
+        list(pool.map(compiler.precompile, paths.keys(), paths.values()))
+        prefixes = [paths.get(chosen.get(header)) for header in waiting]
+        for header, errors in zip(waiting, pool.map(compiler.errors, waiting, prefixes)):
             if not errors:
                 passed.add(digests[header])
             elif _absent_library(errors):

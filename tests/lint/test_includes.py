@@ -4,6 +4,7 @@ import unittest
 
 from repository import RepositoryTest
 
+import check_headers
 import check_includes
 
 ARROWS = """# a comment
@@ -101,6 +102,16 @@ class HeadersTest(RepositoryTest):
         self.write("sdk/core/a.h", "#pragma once\nclass B;\ninline int size() { return sizeof(B); }\n")
         self.write("sdk/core/b.h", '#pragma once\nclass B {};\n#include "core/a.h"\n')
         self.assert_breach("headers", "sdk/core/a.h:3:")
+
+    def test_precompiled_sets_give_nothing_away(self):
+        # As many that include <string> as make lint precompile it, and one that uses it without.
+        for n in range(check_headers.USERS):
+            self.write(f"sdk/core/a{n}.h", f"#pragma once\n#include <string>\nstd::string a{n}();\n")
+        self.assert_clean("headers")
+        self.assertTrue((self.root / check_headers.PRECOMPILED / "0.h.gch").exists())
+        self.write("sdk/core/b.h", "#pragma once\nstd::string b();\n")
+        (self.root / check_headers.PASSED).unlink()
+        self.assert_breach("headers", "sdk/core/b.h:2:")
 
     def test_public_headers_are_c99(self):
         self.write("include/vfit.h", "typedef struct vfit_a { int a; } vfit_a;\n")
