@@ -1233,17 +1233,21 @@ class RealRecordings(unittest.TestCase):
                 stature_m = measured["measurements"]["stature_m"]["value"]
                 self.assertTrue(1.4 < stature_m < 2.1)
                 # A body is fitted where arms are clear of it; not all of these people hold them so.
-                done, method = run("measure", recording, "--json"), ()
-                if done.returncode == 0:
+                told = document(self, "measure", recording, "--json")
+                told_m = told["measurements"]["stature_m"]["value"]
+                if told["method"] == "fit":
                     fitted.append(recording.name)
-                    told_m = json.loads(done.stdout)["measurements"]["stature_m"]["value"]
+                    self.assertNotIn("note", told)
                     self.assertAlmostEqual(told_m, stature_m, delta=0.06)
                 else:
-                    self.assertRegex(done.stderr, "no frame could be used.*arms")
-                    method = ("--method", "paper")
-                result = document(
-                    self, "fit", recording, "--draft", "--frames", 6, "--out", folder, "--json", *method
-                )
+                    self.assertEqual((told["method"], told_m), ("paper", stature_m))
+                    self.assertRegex(told["note"], "paper's method.*no frame could be used.*arms")
+                    refused = run("measure", recording, "--method", "fit")
+                    self.assertEqual(refused.returncode, 1)
+                    self.assertRegex(refused.stderr, "no frame could be used.*arms")
+                result = document(self, "fit", recording, "--draft", "--frames", 6, "--out", folder, "--json")
+                self.assertEqual(result["method"], told["method"])
+                self.assertTrue(all(garment["sizes"] for garment in result["garments"]))
                 self.assertTrue(all(math.isfinite(x) for x in numbers(result)))
         self.assertGreaterEqual(len(fitted), len(RECORDINGS) * 3 // 4)
 

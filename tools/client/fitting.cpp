@@ -18,8 +18,7 @@ double seconds(int64_t ns) { return double(ns) * 1e-9; }
 }  // namespace
 
 Fitting::Fitting(vfit_context context, const FittingOptions& options) : context_(context), options_(options) {
-    Source source(context, options.source);
-    scan_ = run_scan(context, source, options.scan, &scan_frame_);
+    scan_ = scan_source(context, options.source, options.scan, &scan_frame_);
     const auto start = std::chrono::steady_clock::now();
     dress();
     dress_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -51,18 +50,22 @@ void Fitting::dress() {
 SizeAdvice Fitting::advise(const Layer& layer) const {
     SizeAdvice out;
     out.kind = options_.chart_kind.empty() ? layer.info.garment_kind : options_.chart_kind;
-    out.chart = !options_.chart.empty()                ? options_.chart
-                : layer.info.size_chart[0] != 0        ? layer.info.size_chart
-                : layer.info.body_sex == VFIT_SEX_MALE ? "en13402_men"
-                                                       : "en13402_women";
-    try {
-        const SizeChart chart = open_chart(context_, out.chart);
-        out.sizes = sizes_json(chart.get(), out.kind, measurements_of(scan_.scan.get()));
-    } catch (const Failure& failure) {
-        // A garment of somebody else's may be of a kind that no chart here knows: it is worn all the same.
-        if (!options_.chart.empty()) throw;
-        out.reason = failure.what();
+    // The chart that is asked for, or the garment's own; without girths, the one by breadths.
+    std::vector<std::string> charts{options_.chart};
+    if (options_.chart.empty()) {
+        const char* by_sex = layer.info.body_sex == VFIT_SEX_MALE ? "en13402_men" : "en13402_women";
+        charts = {layer.info.size_chart[0] != 0 ? layer.info.size_chart : by_sex, "paper"};
     }
+    for (const std::string& name : charts) try {
+            const SizeChart chart = open_chart(context_, name);
+            out.sizes = sizes_json(chart.get(), out.kind, measurements_of(scan_.scan.get()));
+            out.chart = name;
+            return out;
+        } catch (const Failure& failure) {
+            // A garment may be of a kind that no chart here knows: it is worn all the same.
+            if (!options_.chart.empty()) throw;
+            if (out.reason.empty()) out.chart = name, out.reason = failure.what();
+        }
     return out;
 }
 

@@ -76,8 +76,31 @@ ScanRun run_scan(vfit_context context, Source& source, const ScanOptions& option
         if (result == VFIT_OK || ++seen == kPatience * state.frames_wanted) break;
     }
     if (seen == 0) throw Failure("the source has no frames");
-    if (run.frames_taken == 0) throw Failure(no_frame_text(run, refused));
+    if (run.frames_taken == 0) throw NoFrameTaken(no_frame_text(run, refused));
+    run.method = options.method == VFIT_SCAN_DEFAULT ? VFIT_SCAN_FIT : options.method;
     return run;
+}
+
+ScanRun scan_source(vfit_context context, const std::string& uri, const ScanOptions& options,
+                    Frame* last_frame) {
+    std::string reason;
+    try {
+        Source source(context, uri);
+        return run_scan(context, source, options, last_frame);
+    } catch (const NoFrameTaken& refused) {
+        if (options.method != VFIT_SCAN_DEFAULT) throw;
+        reason = refused.what();
+    }
+    ScanOptions paper = options;
+    paper.method = VFIT_SCAN_PROPORTIONS;
+    Source again(context, uri);
+    try {
+        ScanRun run = run_scan(context, again, paper, last_frame);
+        run.note = "measured by the paper's method, without girths: for the fitted body, " + reason;
+        return run;
+    } catch (const NoFrameTaken&) {
+        throw NoFrameTaken(reason);
+    }
 }
 
 Json measurements_json(const std::vector<vfit_measurement>& measurements) {
@@ -149,7 +172,14 @@ Json zones_json(vfit_size_chart chart, const std::string& garment_kind, const st
     return out;
 }
 
+const char* scan_method_text(vfit_scan_method method) {
+    return method == VFIT_SCAN_PROPORTIONS              ? "paper"
+           : method == VFIT_SCAN_PROPORTIONS_AS_PRINTED ? "paper-as-printed"
+                                                        : "fit";
+}
+
 vfit_scan_method scan_method_from(const std::string& option) {
+    if (option.empty()) return VFIT_SCAN_DEFAULT;
     if (option == "fit") return VFIT_SCAN_FIT;
     return option == "paper-as-printed" ? VFIT_SCAN_PROPORTIONS_AS_PRINTED : VFIT_SCAN_PROPORTIONS;
 }

@@ -17,16 +17,28 @@ struct ScanOptions {
 struct ScanRun {
     Scan scan;
     uint32_t frames_taken = 0, frames_wanted = 0, side_frames_taken = 0;
-    uint32_t body_id = 0;              // who was scanned: the first that a frame was taken of
+    uint32_t body_id = 0;  // who was scanned: the first that a frame was taken of
+    vfit_scan_method method = VFIT_SCAN_DEFAULT;
+    std::string note;                  // why another method than the default measured; empty: it did not
     double compute_ms = 0.0;           // of all frames taken
     double last_ms = 0.0;              // of the last: what is left to do when capture ends
     std::vector<float> corrections_m;  // one a frame taken (Fig. 9)
+};
+
+/// No frame of the source was good enough for the scan; the text counts the reasons.
+class NoFrameTaken : public Failure {
+public:
+    using Failure::Failure;
 };
 
 /// Feeds frames into a scan until it is complete or the source ends. Fails where not one frame could be
 /// taken, with the reasons counted. last_frame, where given, gets the tracked frame that was taken last.
 ScanRun run_scan(vfit_context context, Source& source, const ScanOptions& options,
                  Frame* last_frame = nullptr);
+/// Opens the source and scans. Where no method is asked for, the fitted body measures; a source without a
+/// frame that it can use is played again for the paper's method, and `note` says so.
+ScanRun scan_source(vfit_context context, const std::string& uri, const ScanOptions& options,
+                    Frame* last_frame = nullptr);
 
 const char* guidance_text(vfit_guidance guidance);
 
@@ -55,7 +67,8 @@ Json zones_json(vfit_size_chart chart, const std::string& garment_kind, const st
 vfit_sex sex_from(const std::string& option);
 /// "f", "m" or "unknown".
 const char* sex_text(vfit_sex sex);
-/// "fit", "paper" or "paper-as-printed".
+/// "fit", "paper" or "paper-as-printed"; empty: the default.
 vfit_scan_method scan_method_from(const std::string& option);
+const char* scan_method_text(vfit_scan_method method);
 
 }  // namespace vfit::tools

@@ -29,7 +29,7 @@ constexpr double kLength_s =
 
 struct Options {
     FittingOptions fitting;
-    std::string sex = "unknown", method = "fit", out;
+    std::string sex = "unknown", method, out;
     bool json = false, draft = false;
     TrackOptions track;
 };
@@ -229,7 +229,8 @@ Json fit(const Options& options) {
     }
     result["garment"] = names;
     result["size"] = garments[0].at("size");
-    result["method"] = options.method;
+    result["method"] = scan_method_text(fitting.scan().method);
+    if (!fitting.scan().note.empty()) result["note"] = fitting.scan().note;
     result["sex"] = {{"value", sex_text(fitting.sex())},
                      {"probability", fitting.sex_probability()},
                      {"told", chain.scan.sex != VFIT_SEX_UNKNOWN}};
@@ -304,7 +305,9 @@ void add_fit(Command& app) {
                        "Size chart by name or file (default: the one that each garment names)");
     command.add_option("--kind", o->fitting.chart_kind,
                        "Garment kind of that chart (default: the garment's own)");
-    command.add_option("--method", o->method, "How to measure (default fit)")
+    command
+        .add_option("--method", o->method,
+                    "How to measure (default: fit; paper where no frame can be fitted)")
         .one_of({"fit", "paper", "paper-as-printed"});
     command.add_option("--sex", o->sex, "f or m, where known (default: as the scan finds)")
         .one_of({"f", "m", "unknown"});
@@ -329,6 +332,7 @@ void add_fit(Command& app) {
             if (garment.contains("no_size"))
                 std::cout << garment["garment"].get<std::string>()
                           << ": no size: " << garment["no_size"].get<std::string>() << "\n";
+        if (result.contains("note")) std::cout << result["note"].get<std::string>() << "\n";
         if (result.contains("warning")) std::cout << result["warning"].get<std::string>() << "\n";
     });
 }

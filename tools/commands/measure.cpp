@@ -12,7 +12,7 @@ namespace vfit::tools {
 namespace {
 
 struct Options {
-    std::string source, method = "fit", garment = "short_sleeves", sex = "unknown";
+    std::string source, method, garment = "short_sleeves", sex = "unknown";
     uint32_t frames = 0, side_frames = 15;
     bool json = false, bare = false, tight = false;
     std::string profile, merged, own;
@@ -26,15 +26,15 @@ Json measure(const Options& options) {
     if (!options.merged.empty()) earlier = measurements_from(read_text(options.merged)).measurements;
     const std::string own = options.own.empty() ? std::string() : read_text(options.own);
     const Context context = open_context();
-    Source source(context.get(), options.source);
-    const ScanRun run = run_scan(
-        context.get(), source,
+    const ScanRun run = scan_source(
+        context.get(), options.source,
         {options.frames, sex_from(options.sex), method, options.track, options.side_frames,
          (options.bare ? uint32_t{VFIT_SCAN_BARE} : 0u) | (options.tight ? uint32_t{VFIT_SCAN_TIGHT} : 0u)});
     Json out;
-    out["method"] = options.method;
+    out["method"] = scan_method_text(run.method);
+    if (!run.note.empty()) out["note"] = run.note;
     out["frames"] = run.frames_taken;
-    if (method == VFIT_SCAN_FIT) out["side_frames"] = run.side_frames_taken;
+    if (run.method == VFIT_SCAN_FIT) out["side_frames"] = run.side_frames_taken;
     std::vector<vfit_measurement> measured = measurements_of(run.scan.get());
     if (!options.merged.empty()) measured = merged_measurements(earlier, measured);
     if (!options.own.empty()) {
@@ -66,6 +66,7 @@ void print_amount(const std::string& key, double value) {
 }
 
 void print(const Json& result) {
+    if (result.contains("note")) std::cout << result["note"].get<std::string>() << "\n";
     std::cout << result["frames"] << " frames, " << std::fixed << std::setprecision(2)
               << result["compute_ms"]["total"].get<double>() << " ms\n";
     for (const auto& [key, m] : result["measurements"].items()) {
@@ -121,7 +122,10 @@ void add_measure(Command& app) {
     Command command = app.add_subcommand("measure", "Measure the person of a recording or sensor");
     auto o = std::make_shared<Options>();
     command.add_option("source", o->source, "Recording folder or sensor URI").required();
-    command.add_option("--method", o->method, "How to measure").one_of({"fit", "paper", "paper-as-printed"});
+    command
+        .add_option("--method", o->method,
+                    "How to measure (default: fit; paper where no frame can be fitted)")
+        .one_of({"fit", "paper", "paper-as-printed"});
     command.add_option("--garment", o->garment, "Garment kind that the scale is for");
     command.add_option("--frames", o->frames, "Frames to average (default 30)").within(1, 3000);
     command
