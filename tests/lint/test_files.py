@@ -69,9 +69,9 @@ class SyntaxTest(RepositoryTest):
         for path, text, line in (
             ("a.py", "\nprint('a'\n", 2),
             ("escape.py", "\na = '\\d'\n", 2),
-            ("run", "#!/usr/bin/env bash\nif true; then\n", 3),
+            ("run", "#!/usr/bin/env bash\necho )\n", 2),
             ("make", "#!/usr/bin/env python3\ndef\n", 2),
-            ("a.json", '{\n"a": 1,\n}\n', 3),
+            ("a.json", '{\n"a": 1\n"b": 2\n}\n', 3),
             ("a.asmdef", "[\n", 2),
         ):
             with self.subTest(path):
