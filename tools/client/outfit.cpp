@@ -17,7 +17,9 @@ std::vector<std::string> split(const std::string& text, char separator) {
     return parts;
 }
 
-std::string default_outfit(vfit_sex sex) { return sex == VFIT_SEX_FEMALE ? "sundress" : "pants_men+shirt_men"; }
+std::string default_outfit(vfit_sex sex) {
+    return sex == VFIT_SEX_FEMALE ? "sundress" : "pants_men+shirt_men";
+}
 
 std::string warned(const std::string& title, const std::string& warning) {
     return warning.empty() ? title : warning + ". " + title;
