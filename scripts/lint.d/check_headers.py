@@ -39,7 +39,7 @@ SETS = (
 USERS = 8  # of a set, for its compilation to pay
 FOLDERS = ("sdk/", "include/", "tools/", "plugins/", "samples/", "tests/", "training/")
 # Headers of libraries that are not on the compiler's own path, by their pkg-config names.
-LIBRARIES = ("libusb-1.0", "libopenni2", "opencv4")
+LIBRARIES = ("libusb-1.0", "libopenni2", "opencv4", "imgui")
 OPENCV_WITHOUT_PKG_CONFIG = "/usr/include/opencv4"
 # What CMake defines for every program of tests.
 DEFINITIONS = ['-DVFIT_SOURCE_DIR="."', '-DVFIT_DATA_DIR="."', '-DVFIT_PLUGIN_DIR="."']
