@@ -22,7 +22,8 @@ with vfit.Context() as ctx:
     print(f"{state.frames_taken} of {state.frames_wanted} frames taken, last guidance {state.guidance.name}")
     measures = scan.measure()
     for key, m in measures.items():
-        print(f"  {key:22} {m.value:.3f} +- {m.sigma:.3f} m{'' if m.observed else '  (inferred)'}")
+        unit = key.rpartition("_")[2]
+        print(f"  {key:22} {m.value:.3f} +- {m.sigma:.3f} {unit}{'' if m.observed else '  (inferred)'}")
 
     # Size: every label with its probability.
     garment = vfit.Garment.open(ctx, "sundress")
