@@ -14,6 +14,8 @@ NOT_SOURCE = {".git", "build", "out", "__pycache__", ".ruff_cache"}
 GENERATED = re.compile(
     r"^(tests/abi/(offsets\.c|vfit\.abi)|sdk/motion/contact_weights\.inc|bindings/csharp/.*/Generated/.*)$"
 )
+# White space, and the marks of comments and strings, which a formatter moves.
+LAYOUT = re.compile(r"[\s/*#\"]+")
 NO_COMMIT = "0" * 40
 PROJECT = pathlib.Path(__file__).resolve().parent.parent.parent
 
@@ -137,7 +139,17 @@ class Tree:
                 left = removed + count
             elif line.startswith("+++ "):
                 path = line[4:].split("\t")[0]
-        return {p: numbers for p, numbers in added.items() if numbers and p in set(self.files)}
+        tracked = set(self.files)
+        new = {p: self._without_layout(base, p, numbers) for p, numbers in added.items() if p in tracked}
+        return {p: numbers for p, numbers in new.items() if numbers}
+
+    def _without_layout(self, base, path, numbers):
+        """The lines whose text the file at the base does not have: a formatter's new breaks add no text."""
+        before = self._git("show", f"{base}:{path}", strip=False)
+        if before is None:
+            return numbers
+        old, lines = LAYOUT.sub("", before), self.lines(path)
+        return {n for n in numbers if n <= len(lines) and LAYOUT.sub("", lines[n - 1]) not in old}
 
     def changed_files(self, base):
         """The files that the commits since the base and the working tree change, add or remove."""

@@ -115,6 +115,16 @@ class WordsTest(RepositoryTest):
         self.write("docs/a.md", "Nobody is in view.\nAnother line, but for this.\n")
         self.assert_breach("words", "docs/a.md:2: 'but for'")
 
+    def test_new_line_breaks_add_no_words(self):
+        self.write("sdk/a.cpp", '// Nobody is in view.\nconst char* a = "nobody is here";\n')
+        self.commit_base()
+        self.write("sdk/a.cpp", '// Nobody\n// is in view.\nconst char* a =\n    "nobody "\n    "is here";\n')
+        self.assert_clean("words")
+        self.write(
+            "sdk/a.cpp", '// Nobody\n// is out of view.\nconst char* a = "nobody is here";\n// But for\n'
+        )
+        self.assert_breach("words", "sdk/a.cpp:4: 'But for'")
+
     def test_moved_files_do_not_count(self):
         self.write("docs/a.md", "Nobody is in view.\n" + "A line.\n" * 9)
         self.commit_base()
