@@ -1,5 +1,6 @@
 """samples/01_fit_a_recording runs, prints measures and size, and writes nothing."""
 
+import re
 import subprocess
 import sys
 
@@ -36,3 +37,14 @@ def test_a_real_recording_is_fitted(tmp_path, recordings):
 def test_a_missing_recording_is_named(tmp_path):
     run = fit(tmp_path, "recording:/no/such/folder")
     assert run.returncode == 1 and "/no/such/folder" in run.stderr.splitlines()[-1]
+
+
+def test_the_example_of_the_readme_runs(tmp_path):
+    example = re.search(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL).group(1)
+    run = subprocess.run(
+        [sys.executable, "-c", example], capture_output=True, text=True, cwd=tmp_path, timeout=120
+    )
+    assert run.returncode == 0 and run.stderr == "", run.stderr
+    size, shape = run.stdout.splitlines()
+    assert re.fullmatch(r"Size\(label='\w+', probability=[\d.]+\)", size), size
+    assert re.fullmatch(r"\(\d{4}, 3\)", shape), shape
