@@ -53,6 +53,11 @@ function(vfit_add_module module)
   target_include_directories(vfit_${module} PUBLIC ${CMAKE_SOURCE_DIR}/sdk ${CMAKE_SOURCE_DIR}/include)
   target_link_libraries(vfit_${module} PRIVATE vfit_settings PUBLIC ${ARGN})
   vfit_unity_build(vfit_${module})
+  if(VFIT_SANITIZE AND NOT module STREQUAL core)
+    # Only here: the release build finds a missing include.
+    target_precompile_headers(vfit_${module} PRIVATE <algorithm> <cmath> <glm/glm.hpp> <glm/gtc/quaternion.hpp>
+      <memory> <optional> <span> <string> <vector>)
+  endif()
 endfunction()
 
 # A program of tests. Under sanitizers its own templates would take most of the time to compile: undefined

@@ -57,7 +57,7 @@ bool read_whole_file(std::vector<unsigned char>* out, std::string* error, const 
     }
 }
 
-bool get_file_size(size_t* size, std::string* error, const std::string& path, void* own) {
+[[maybe_unused]] bool get_file_size(size_t* size, std::string* error, const std::string& path, void* own) {
     std::error_code failed;
     if (!file_exists(path, own)) return false;
     const auto bytes = std::filesystem::file_size(path, failed);
