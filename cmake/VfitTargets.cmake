@@ -55,8 +55,8 @@ function(vfit_add_module module)
   vfit_unity_build(vfit_${module})
   if(VFIT_SANITIZE AND NOT module STREQUAL core)
     # Only here: the release build finds a missing include.
-    target_precompile_headers(vfit_${module} PRIVATE <algorithm> <cmath> <glm/glm.hpp> <glm/gtc/quaternion.hpp>
-      <memory> <optional> <span> <string> <vector>)
+    target_precompile_headers(vfit_${module} PRIVATE <algorithm> <cmath> <glm/glm.hpp>
+      <glm/gtc/quaternion.hpp> <memory> <optional> <span> <string> <vector>)
   endif()
 endfunction()
 
