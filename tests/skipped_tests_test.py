@@ -65,6 +65,16 @@ class SkippedTests(unittest.TestCase):
         self.assertNotIn("real_test.cpp", line)
         self.assertEqual(self.say(files, "--none-allowed")[0], 1)
 
+    def test_what_the_distribution_does_not_have_is_told_and_allowed(self):
+        test = {"name": "scripts/test-csharp", "reason": "no Mono here", "unavailable": True}
+        report = {"passed": [], "failed": [], "skipped": [test]}
+        code, line = self.say({"csharp.json": json.dumps(report)}, "--none-allowed")
+        self.assertEqual(
+            (code, line), (0, "skipped-tests: 0 tests ran, 1 not: no Mono here: scripts/test-csharp\n")
+        )
+        report["skipped"].append({"name": "A", "reason": "no pictures"})
+        self.assertEqual(self.say({"csharp.json": json.dumps(report)}, "--none-allowed")[0], 1)
+
     def test_what_runs_in_one_of_two_builds_has_run(self):
         code, line = self.say(
             {"release/unit_real.xml": GOOGLETEST, "asan/unit_real.xml": RUN}, "--none-allowed"
