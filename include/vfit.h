@@ -187,10 +187,10 @@ VFIT_API vfit_result vfit_library_describe(vfit_library_info* out);             
 VFIT_API const char* vfit_result_name(vfit_result result);                                  /* [any] */
 VFIT_API uint32_t vfit_last_error(char* buffer, uint32_t capacity);                         /* [any] */
 VFIT_API vfit_result vfit_context_create(const vfit_context_desc* desc, vfit_context* out); /* [any] */
-VFIT_API vfit_result vfit_context_destroy(vfit_context context); /* joins all threads      [excl] */
-VFIT_API vfit_result vfit_shutdown(void); /* all contexts; for a host that reloads      [excl] */
+VFIT_API vfit_result vfit_context_destroy(vfit_context context); /* joins all threads [excl] */
+VFIT_API vfit_result vfit_shutdown(void); /* all contexts; for a host that reloads [excl] */
 VFIT_API vfit_result vfit_context_describe(vfit_context context, vfit_context_stats* out); /* [any] */
-/* Now, on the clock of all time stamps of this context.                                       [any] */
+/* Now, on the clock of all time stamps of this context. [any] */
 VFIT_API vfit_result vfit_context_time(vfit_context context, int64_t* time_ns);
 VFIT_API vfit_result vfit_profile_list(vfit_context context, vfit_profile* items, uint32_t stride,
                                        uint32_t* count);       /* [any] */
@@ -369,11 +369,11 @@ VFIT_API vfit_result vfit_frame_camera(vfit_frame frame, vfit_camera* out);     
 /* What the source says beside the pixels, one JSON document a key: "measures" (ground truth of a virtual
  * person, {"stature_m": ...}), "contacts" ({"left": 0, "right": 1}), "index" (the number of a recorded
  * frame), "bodies" (true: the source tells its bodies, also when nobody is in view). *length is the whole
- * text's; no such key: VFIT_NOT_READY.                                                         [any] */
+ * text's; no such key: VFIT_NOT_READY. [any] */
 VFIT_API vfit_result vfit_frame_meta(vfit_frame frame, const char* key, char* buffer, uint32_t capacity,
                                      uint32_t* length);
 /* Copies into memory of the engine (mapped vertex buffer, NativeArray) at its own format and stride;
- * VFIT_NOT_READY and no copy if *serial is already that of the frame. serial may be null.     [any] */
+ * VFIT_NOT_READY and no copy if *serial is already that of the frame. serial may be null. [any] */
 VFIT_API vfit_result vfit_frame_write(vfit_frame frame, vfit_stream stream, const vfit_target* target,
                                       uint64_t* serial);
 
@@ -405,7 +405,7 @@ VFIT_STRUCT(vfit_sensor_stats)
 VFIT_API vfit_result vfit_sensor_list(vfit_context context, vfit_sensor_info* items, uint32_t stride,
                                       uint32_t* count); /* [any] */
 /* Rises when the list may have become another: a USB camera of a kind that a plug-in knows was plugged in or
- * unplugged, a plug-in was loaded. Cheap: ask each frame, and list again when it has changed.  [any] */
+ * unplugged, a plug-in was loaded. Cheap: ask each frame, and list again when it has changed. [any] */
 VFIT_API vfit_result vfit_sensor_changes(vfit_context context, uint64_t* count);
 /* Opens a source: a path, or a URI "SCHEME:ADDRESS?KEY=VALUE&KEY=VALUE", such as
  * "recording:PATH?loop=1&start=5", "oni:PATH?start=3" or "openni2:?registration=0". The virtual person has no
@@ -421,13 +421,13 @@ VFIT_API vfit_result vfit_sensor_options(vfit_sensor sensor, vfit_sensor_option*
                                          uint32_t* count); /* [read] */
 /* Options of every sensor: "mode" (a name from vfit_sensor_modes) and "pace": "realtime" drops as a
  * camera does; "none" (the default of recordings and of the virtual person) makes a push wait until the
- * frame before was taken, so that nothing is dropped.                                         [excl] */
+ * frame before was taken, so that nothing is dropped. [excl] */
 VFIT_API vfit_result vfit_sensor_set_option(vfit_sensor sensor, const char* key, const char* value);
 VFIT_API vfit_result vfit_sensor_start(vfit_sensor sensor); /* [excl] */
-VFIT_API vfit_result vfit_sensor_stop(vfit_sensor sensor);  /* wakes waiting acquires     [excl] */
+VFIT_API vfit_result vfit_sensor_stop(vfit_sensor sensor);  /* wakes waiting acquires [excl] */
 VFIT_API vfit_result vfit_sensor_close(vfit_sensor sensor); /* [excl] */
 /* The newest frame, once; VFIT_END_OF_STREAM when a replay has ended; the error of the stream when it
- * failed. timeout_ns 0 never waits: call it so from a render loop; < 0 waits without end.     [any] */
+ * failed. timeout_ns 0 never waits: call it so from a render loop; < 0 waits without end. [any] */
 VFIT_API vfit_result vfit_sensor_acquire(vfit_sensor sensor, int64_t timeout_ns, vfit_frame* out);
 VFIT_API vfit_result vfit_sensor_describe(vfit_sensor sensor, vfit_sensor_stats* out); /* [any] */
 
@@ -528,9 +528,9 @@ VFIT_STRUCT(vfit_joint)
 VFIT_STRUCT(vfit_body)
 VFIT_STRUCT(vfit_tracker_desc)
 VFIT_STRUCT(vfit_joint_hint)
-/* Bodies are part of a tracked frame (or of a recording's, or of the host's own).              [any] */
+/* Bodies are part of a tracked frame (or of a recording's, or of the host's own). [any] */
 VFIT_API vfit_result vfit_frame_bodies(vfit_frame frame, vfit_body* items, uint32_t stride, uint32_t* count);
-/* Only joints that are seen or inferred are listed.                                            [any] */
+/* Only joints that are seen or inferred are listed. [any] */
 VFIT_API vfit_result vfit_frame_joints(vfit_frame frame, uint32_t body_id, vfit_joint* items, uint32_t stride,
                                        uint32_t* count);
 VFIT_API vfit_result vfit_tracker_create(vfit_context context, const vfit_tracker_desc* desc,
@@ -544,23 +544,23 @@ VFIT_API vfit_result vfit_tracker_destroy(vfit_tracker tracker); /* [any] */
 VFIT_API vfit_result vfit_tracker_update(vfit_tracker tracker, vfit_frame frame, vfit_frame* tracked);
 /* The host's own middleware in place of the built-in tracker, one call a body; frame may be a *tracked
  * of the call before, to add a second body. A joint that is not finite gives VFIT_ERROR_DATA. Positions are
- * filtered over the calls with one body_id, by time_ns, unless desc.filter is OFF.             [excl] */
+ * filtered over the calls with one body_id, by time_ns, unless desc.filter is OFF. [excl] */
 VFIT_API vfit_result vfit_tracker_submit(vfit_tracker tracker, vfit_frame frame, const vfit_body* body,
                                          const vfit_joint* items, uint32_t stride, uint32_t count,
                                          vfit_frame* tracked);
 /* For the next update alone, in place of earlier ones: where the tracker's own network wavers between places
  * of a joint, the hinted one counts more (across the view; depth is the depth image's). Does little where
  * the network is sure, and nothing far from anybody or where the joints are the source's. Bad items:
- * VFIT_ERROR_ARGUMENT or VFIT_ERROR_DATA, none of them is taken.                               [excl] */
+ * VFIT_ERROR_ARGUMENT or VFIT_ERROR_DATA, none of them is taken. [excl] */
 VFIT_API vfit_result vfit_tracker_hint(vfit_tracker tracker, const vfit_joint_hint* items, uint32_t stride,
                                        uint32_t count);
-/* Forgets people, room and choice.                                                              [excl] */
+/* Forgets people, room and choice. [excl] */
 VFIT_API vfit_result vfit_tracker_reset(vfit_tracker tracker);
 /* From the next update or submit on that person is the active one, whatever the rule; 0: by the rule again.
- * Who is not in view is waited for, then the rule holds again; with VFIT_FOLLOW_CHOSEN for ever.  [excl] */
+ * Who is not in view is waited for, then the rule holds again; with VFIT_FOLLOW_CHOSEN for ever. [excl] */
 VFIT_API vfit_result vfit_tracker_set_active(vfit_tracker tracker, uint32_t body_id);
 /* The body to hand to vfit_scan_add and vfit_motion_step: the active one; 0: nobody. Of a frame that no
- * tracker made: its first body. state may be null.                                             [any] */
+ * tracker made: its first body. state may be null. [any] */
 VFIT_API vfit_result vfit_frame_active_body(vfit_frame frame, uint32_t* body_id, vfit_active_state* state);
 
 /* ---- scan -> measurements -> size ---------------------------------------------------------------- */
@@ -660,16 +660,16 @@ VFIT_STRUCT(vfit_collider)
 VFIT_STRUCT(vfit_size_zone)
 VFIT_API vfit_result vfit_scan_create(vfit_context context, const vfit_scan_desc* desc,
                                       vfit_scan* out);  /* [any] */
-VFIT_API vfit_result vfit_scan_destroy(vfit_scan scan); /* wipes the body data        [any] */
+VFIT_API vfit_result vfit_scan_destroy(vfit_scan scan); /* wipes the body data [any] */
 VFIT_API vfit_result vfit_scan_reset(vfit_scan scan);   /* [excl] */
 /* Asks for more frames of this person from the front and the side, also of a complete scan, which then goes
  * on; vfit_scan_reset takes it back. [excl] */
 VFIT_API vfit_result vfit_scan_extend(vfit_scan scan, uint32_t frames, uint32_t side_frames);
 /* VFIT_INCOMPLETE: the frame was not taken, state->guidance says why. VFIT_NOT_READY: taken, more are
- * wanted. VFIT_OK: the scan is complete (further frames are ignored). state may be null.      [excl] */
+ * wanted. VFIT_OK: the scan is complete (further frames are ignored). state may be null. [excl] */
 VFIT_API vfit_result vfit_scan_add(vfit_scan scan, vfit_frame tracked, uint32_t body_id,
                                    vfit_scan_state* state);
-/* From the first frame on; the values settle with each. No frame yet: VFIT_ERROR_STATE.        [read] */
+/* From the first frame on; the values settle with each. No frame yet: VFIT_ERROR_STATE. [read] */
 VFIT_API vfit_result vfit_scan_measure(vfit_scan scan, vfit_measurement* items, uint32_t stride,
                                        uint32_t* count);
 /* The sex that the scan was told, else the likelier one, with its probability (1 where it was told). A scan
@@ -685,30 +685,30 @@ VFIT_API vfit_result vfit_scan_scale(vfit_scan scan, const char* garment_kind, v
  * [any] */
 VFIT_API vfit_result vfit_measurements_write(const vfit_measurement* items, uint32_t stride, uint32_t count,
                                              vfit_sex sex, char* text, uint32_t* capacity);
-/* That text, a report of vfit measure, or {"stature_m": 1.7}. sex may be null.                        [any]
- */
+/* That text, a report of vfit measure, or {"stature_m": 1.7}. sex may be null. A value that no person has,
+ * such as 172 for stature_m: VFIT_ERROR_DATA with the probable unit. [any] */
 VFIT_API vfit_result vfit_measurements_read(const void* text, uint64_t byte_count, vfit_measurement* items,
                                             uint32_t stride, uint32_t* count, vfit_sex* sex);
-/* Two scans of one person in one list. The statures of two people: VFIT_ERROR_DATA.                   [any]
- */
+/* Two scans of one person in one list. The statures of two people: VFIT_ERROR_DATA. [any] */
 VFIT_API vfit_result vfit_measurements_merge(const vfit_measurement* a, uint32_t a_stride, uint32_t a_count,
                                              const vfit_measurement* b, uint32_t b_stride, uint32_t b_count,
                                              vfit_measurement* items, uint32_t stride, uint32_t* count);
 /* Names of the size charts in data_dir/charts, in alphabetical order. [any] */
 VFIT_API vfit_result vfit_size_chart_list(vfit_context context, vfit_data_name* items, uint32_t stride,
                                           uint32_t* count);
-/* A chart as JSON (docs/size-charts.md), or by the name of a file in data_dir/charts.          [any] */
+/* A chart as JSON (docs/size-charts.md), or by the name of a file in data_dir/charts. [any] */
 VFIT_API vfit_result vfit_size_chart_load(vfit_context context, const void* bytes, uint64_t byte_count,
                                           vfit_size_chart* out);
 VFIT_API vfit_result vfit_size_chart_open(vfit_context context, const char* name, vfit_size_chart* out);
 VFIT_API vfit_result vfit_size_chart_destroy(vfit_size_chart chart); /* [any] */
 VFIT_API vfit_result vfit_size_chart_rows(vfit_size_chart chart, vfit_size_row* items, uint32_t stride,
                                           uint32_t* count); /* [read] */
-/* Every label of that garment kind with its probability, best first; they sum to 1.          [read] */
+/* Every label of that garment kind with its probability, best first; they sum to 1. A garment of one size
+ * needs no measurement. A value that no person has: VFIT_ERROR_DATA. [read] */
 VFIT_API vfit_result vfit_size_recommend(vfit_size_chart chart, const char* garment_kind,
                                          const vfit_measurement* items, uint32_t stride, uint32_t count,
                                          vfit_size* sizes, uint32_t size_stride, uint32_t* size_count);
-/* How that size sits: an item a measure of the garment kind that was given.                   [read] */
+/* How that size sits: an item a measure of the garment kind that was given. [read] */
 VFIT_API vfit_result vfit_size_zones(vfit_size_chart chart, const char* garment_kind, const char* label,
                                      const vfit_measurement* items, uint32_t stride, uint32_t count,
                                      vfit_size_zone* zones, uint32_t zone_stride, uint32_t* zone_count);
@@ -767,11 +767,11 @@ VFIT_API vfit_result vfit_motion_create(vfit_context context, const vfit_motion_
                                         vfit_motion* out);    /* [any] */
 VFIT_API vfit_result vfit_motion_destroy(vfit_motion motion); /* [any] */
 VFIT_API vfit_result vfit_motion_reset(vfit_motion motion);   /* [excl] */
-/* The proportions that the feet are planted with; without: those of the tracked person.       [excl] */
+/* The proportions that the feet are planted with; without: those of the tracked person. [excl] */
 VFIT_API vfit_result vfit_motion_bind(vfit_motion motion, vfit_avatar avatar);
 /* A body whose time_ns differs from the last is new; the same or a null frame: the filter predicts to
  * now_ns, so that a 30 Hz camera drives a 600 Hz renderer. Body not in the frame: VFIT_NOT_READY, the
- * pose holds.                                                                                [excl] */
+ * pose holds. [excl] */
 VFIT_API vfit_result vfit_motion_step(vfit_motion motion, vfit_frame tracked, uint32_t body_id,
                                       int64_t now_ns);
 VFIT_API vfit_result vfit_motion_pose(vfit_motion motion, vfit_pose* pose, vfit_bone* items, uint32_t stride,
@@ -785,7 +785,7 @@ VFIT_API vfit_result vfit_pose_pack(vfit_context context, const vfit_pose* pose,
                                     uint32_t stride, uint32_t count, void* bytes, uint32_t* byte_count);
 VFIT_API vfit_result vfit_pose_unpack(vfit_context context, const void* bytes, uint32_t byte_count,
                                       vfit_pose* pose, vfit_bone* items, uint32_t stride, uint32_t* count);
-/* The filtered joints behind the pose, feet corrected.                                         [read] */
+/* The filtered joints behind the pose, feet corrected. [read] */
 VFIT_API vfit_result vfit_motion_joints(vfit_motion motion, vfit_joint* items, uint32_t stride,
                                         uint32_t* count);
 
@@ -859,15 +859,15 @@ VFIT_STRUCT(vfit_character_info)
 VFIT_STRUCT(vfit_avatar_part)
 VFIT_API vfit_result vfit_shape_list(vfit_context context, vfit_shape_value* items, uint32_t stride,
                                      uint32_t* count); /* [any] */
-/* A body of that shape; keys that are not given keep the value of the sex's default body.       [any] */
+/* A body of that shape; keys that are not given keep the value of the sex's default body. [any] */
 VFIT_API vfit_result vfit_avatar_create_from_shape(vfit_context context, const vfit_avatar_desc* desc,
                                                    const vfit_shape_value* items, uint32_t stride,
                                                    uint32_t count, vfit_avatar* out);
-/* The default body scaled to stature_m and, where given, shoulder_breadth_m.                    [any] */
+/* The default body scaled to stature_m and, where given, shoulder_breadth_m. [any] */
 VFIT_API vfit_result vfit_avatar_create(vfit_context context, const vfit_avatar_desc* desc,
                                         const vfit_measurement* items, uint32_t stride, uint32_t count,
                                         vfit_avatar* out);
-/* Size and collider radii of the scanned person; by FIT their shape and girths too.   [read] on scan */
+/* Size and collider radii of the scanned person; by FIT their shape and girths too. [read] on scan */
 VFIT_API vfit_result vfit_avatar_create_from_scan(vfit_context context, const vfit_avatar_desc* desc,
                                                   vfit_scan scan, vfit_avatar* out);
 /* Your character as an avatar: bind motion to it, pose it, fetch its buffers. It is turned to face +Z and
@@ -877,7 +877,7 @@ VFIT_API vfit_result vfit_avatar_create_from_scan(vfit_context context, const vf
  * that hang on no bone are left out and logged. desc.sex and detail do not apply. Buffers are read from the
  * file's own folder alone, from memory from nowhere else. VFIT_ERROR_IO; VFIT_ERROR_DATA for a damaged file,
  * one without a humanoid or skin, of no person's size, or that lies down; VFIT_ERROR_UNSUPPORTED for
- * compressed meshes and sparse data.       [any] */
+ * compressed meshes and sparse data. [any] */
 VFIT_API vfit_result vfit_avatar_load(vfit_context context, const vfit_avatar_desc* desc,
                                       const vfit_character_desc* character, vfit_avatar* out);
 VFIT_API vfit_result vfit_avatar_describe(vfit_avatar avatar, vfit_character_info* out); /* [read] */
@@ -886,7 +886,7 @@ VFIT_API vfit_result vfit_avatar_parts(vfit_avatar avatar, vfit_avatar_part* ite
 /* A body and its clothing size for the network, at most 200 bytes: shape, scale, collider radii, a label of
  * up to 19 bytes (may be null). bytes null sets *byte_count to what is needed. Of a character from a file:
  * VFIT_ERROR_UNSUPPORTED. The receiver gets the label as TEXT; a packet of another version of body or library
- * is VFIT_ERROR_VERSION, a damaged one VFIT_ERROR_DATA; desc.sex is the packet's.          [read], [any] */
+ * is VFIT_ERROR_VERSION, a damaged one VFIT_ERROR_DATA; desc.sex is the packet's. [read], [any] */
 VFIT_API vfit_result vfit_avatar_pack(vfit_avatar avatar, const char* size_label, void* bytes,
                                       uint32_t* byte_count);
 VFIT_API vfit_result vfit_avatar_unpack(vfit_context context, const vfit_avatar_desc* desc, const void* bytes,
@@ -904,14 +904,13 @@ VFIT_API vfit_result vfit_avatar_pose_into(vfit_avatar avatar, const vfit_pose* 
                                            const vfit_target* normals);
 VFIT_API vfit_result vfit_avatar_colliders(vfit_avatar avatar, vfit_collider* items, uint32_t stride,
                                            uint32_t* count); /* [read] */
-/* Every joint of the posed avatar, at the avatar's own true place.                             [read] */
+/* Every joint of the posed avatar, at the avatar's own true place. [read] */
 VFIT_API vfit_result vfit_avatar_joints(vfit_avatar avatar, vfit_joint* items, uint32_t stride,
                                         uint32_t* count);
 VFIT_API vfit_result vfit_avatar_rig(vfit_avatar avatar, vfit_rig_bone* items, uint32_t stride,
                                      uint32_t* count); /* [read] */
 /* Tape measures of the avatar's own body, in the posture of each definition, taken on its mesh. A character
- * from a file has clothes and no body: VFIT_ERROR_UNSUPPORTED.                                        [read]
- */
+ * from a file has clothes and no body: VFIT_ERROR_UNSUPPORTED. [read] */
 VFIT_API vfit_result vfit_avatar_measure(vfit_avatar avatar, vfit_measurement* items, uint32_t stride,
                                          uint32_t* count);
 /* Measures of your own (docs/measuring.md: landmarks, planes and paths as JSON), taken on the avatar's mesh.
@@ -919,15 +918,15 @@ VFIT_API vfit_result vfit_avatar_measure(vfit_avatar avatar, vfit_measurement* i
  * [read] */
 VFIT_API vfit_result vfit_avatar_measure_own(vfit_avatar avatar, const void* text, uint64_t byte_count,
                                              vfit_measurement* items, uint32_t stride, uint32_t* count);
-/* Posed mesh: POSITION, NORMAL, UV, INDEX, BONE_MATRIX, SKIN_BONES, SKIN_WEIGHTS.              [any] */
+/* Posed mesh: POSITION, NORMAL, UV, INDEX, BONE_MATRIX, SKIN_BONES, SKIN_WEIGHTS. [any] */
 VFIT_API vfit_result vfit_avatar_acquire(vfit_avatar avatar, vfit_frame* out);
-/* The same streams of the unposed mesh that the rig binds to.                                  [any] */
+/* The same streams of the unposed mesh that the rig binds to. [any] */
 VFIT_API vfit_result vfit_avatar_acquire_rest(vfit_avatar avatar, vfit_frame* out);
 
 /* Names of the garments in data_dir/garments, in alphabetical order. [any] */
 VFIT_API vfit_result vfit_garment_list(vfit_context context, vfit_data_name* items, uint32_t stride,
                                        uint32_t* count);
-/* A garment as JSON (docs/garments.md), or by the name of a file in data_dir/garments.          [any] */
+/* A garment as JSON (docs/garments.md), or by the name of a file in data_dir/garments. [any] */
 VFIT_API vfit_result vfit_garment_load(vfit_context context, const void* bytes, uint64_t byte_count,
                                        vfit_garment* out);
 VFIT_API vfit_result vfit_garment_open(vfit_context context, const char* name, vfit_garment* out);
@@ -952,7 +951,7 @@ typedef struct vfit_garment_part {
 VFIT_STRUCT(vfit_garment_part)
 VFIT_API vfit_result vfit_garment_parts(vfit_garment garment, vfit_garment_part* items, uint32_t stride,
                                         uint32_t* count); /* [read] */
-/* The label of the size at index; length 0 past the last.                                      [read] */
+/* The label of the size at index; length 0 past the last. [read] */
 VFIT_API uint32_t vfit_garment_size_label(vfit_garment garment, uint32_t index, char* buffer,
                                           uint32_t capacity);
 enum {
@@ -1004,7 +1003,7 @@ VFIT_API vfit_result vfit_cloth_destroy(vfit_cloth cloth); /* [any] */
 /* Put on anew: simulated on a body that stands straight, arms held out, and goes into the pose that the
  * avatar has now, so that limbs push the cloth aside. create carries it into the pose as it is, at once:
  * right for somebody who stands, not for a stride or a hand at the hip. Takes as long as some 35 steps
- * (the sundress 0.1 s), whatever the settings.                                                [excl] */
+ * (the sundress 0.1 s), whatever the settings. [excl] */
 VFIT_API vfit_result vfit_cloth_reset(vfit_cloth cloth);
 /* The same garment in another of its sizes (null: made to the avatar), from how it hangs now: it comes to
  * rest within a second, for which its steps take twice as long. Takes some ten steps' time.
@@ -1013,7 +1012,7 @@ VFIT_API vfit_result vfit_cloth_reset(vfit_cloth cloth);
 VFIT_API vfit_result vfit_cloth_set_size(vfit_cloth cloth, const char* size_label);
 /* Fixed sub-steps inside; dt is clamped to 0.1 ms..0.1 s, 0 changes nothing. Reads the avatar: pose that
  * one first. begin hands the work to a worker and returns, end waits: between the two the engine renders.
- * To a host's job system such a step is one item.                                             [excl] */
+ * To a host's job system such a step is one item. [excl] */
 VFIT_API vfit_result vfit_cloth_step(vfit_cloth cloth, float dt);
 VFIT_API vfit_result vfit_cloth_begin_step(vfit_cloth cloth, float dt);
 VFIT_API vfit_result vfit_cloth_end_step(vfit_cloth cloth);
@@ -1022,7 +1021,7 @@ VFIT_API vfit_result vfit_cloth_end_step(vfit_cloth cloth);
  * carry the garment, at the time of that pose. The next step goes on as if it had not been called. While a
  * step runs it does not wait: the one before is carried, until end_step. [excl] */
 VFIT_API vfit_result vfit_cloth_carry(vfit_cloth cloth);
-/* Velocity of the air, in the context's axes and unit a second, from the next step on.         [excl] */
+/* Velocity of the air, in the context's axes and unit a second, from the next step on. [excl] */
 VFIT_API vfit_result vfit_cloth_set_wind(vfit_cloth cloth, const float wind[3]);
 /* Sub-steps a 1/60 s at most, and the time that a step may take: where more would take longer, fewer are done
  * (at least one), and then a state is no longer the same on each run. 0 sub-steps: 8; 0 ms: no budget. [excl]
@@ -1039,7 +1038,7 @@ VFIT_API vfit_result vfit_cloth_wear_over(vfit_cloth cloth, vfit_cloth inner);
  * that garments add up. Leave them out of what you draw. Found on the body at rest, of a labelled size as the
  * last step left it there: what is nearer than margin_m to skin that is seen is left, as cloth slides and
  * hems lift (0: 0.03). VFIT_ERROR_STATE while a step runs. Takes as long as some 100 steps: once a garment
- * and size.                                      [read] */
+ * and size. [read] */
 VFIT_API vfit_result vfit_cloth_hide_skin(vfit_cloth cloth, float margin_m, uint8_t* triangles,
                                           uint32_t count);
 /* How a garment sits at one girth of the trunk. RIGHT: the body's girth is nearer to that which the size is
@@ -1061,11 +1060,10 @@ typedef struct vfit_fit_zone {
 VFIT_STRUCT(vfit_fit_zone)
 /* By girths that the garment goes around, of the cloth as it was left by the last step, less what it sags by:
  * let it come to rest first, best on somebody who stands (docs/garments.md). Takes as long as some five
- * steps.               [read] */
+ * steps. [read] */
 VFIT_API vfit_result vfit_cloth_fit(vfit_cloth cloth, vfit_fit_zone* items, uint32_t stride, uint32_t* count);
 /* The same place by place, one a vertex of what acquire gives: above 0 tight (1: its fabric's most strain, or
- * 2 kPa), below 0 loose (-1: 6 cm off the skin). Takes as long as some ten steps.                      [read]
- */
+ * 2 kPa), below 0 loose (-1: 6 cm off the skin). Takes as long as some ten steps. [read] */
 VFIT_API vfit_result vfit_cloth_fit_map(vfit_cloth cloth, float* values, uint32_t count);
 /* POSITION, NORMAL, UV, INDEX, STRAIN, and with VFIT_CLOTH_PRESSURE PRESSURE: of a vertex that touches the
  * body, what its threads and its weight pull with against it, over the flat cloth's area; 0 where the garment

@@ -342,8 +342,8 @@ namespace Vfit
         internal static extern Result vfit_measurements_write(Measurement* items, uint stride, uint count,
             Sex sex, byte* text, uint* capacity);
 
-        /// <summary>That text, a report of vfit measure, or {"stature_m": 1.7}. sex may be null.
-        /// [any]</summary>
+        /// <summary>That text, a report of vfit measure, or {"stature_m": 1.7}. sex may be null. A value that
+        /// no person has, such as 172 for stature_m: VFIT_ERROR_DATA with the probable unit. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_measurements_read(void* text, ulong byteCount, Measurement* items,
             uint stride, uint* count, Sex* sex);
@@ -377,7 +377,8 @@ namespace Vfit
         internal static extern Result vfit_size_chart_rows(SizeChartId chart, SizeRow* items, uint stride,
             uint* count);
 
-        /// <summary>Every label of that garment kind with its probability, best first; they sum to 1.
+        /// <summary>Every label of that garment kind with its probability, best first; they sum to 1. A
+        /// garment of one size needs no measurement. A value that no person has: VFIT_ERROR_DATA.
         /// [read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_size_recommend(SizeChartId chart, byte* garmentKind,
