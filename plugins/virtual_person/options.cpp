@@ -50,7 +50,7 @@ constexpr Entry kEntries[] = {
     {"side_wall", Kind::kNumber, "1.7", 0, 50,
      "From the camera to the wall on the image's left, in metres; 0: none"},
     {"noise", Kind::kNumber, "1", 0, 10,
-     "Scale of noise and drop-out; 0 leaves depth exact but for its steps"},
+     "Scale of noise and drop-out; 0 leaves depth exact except for its steps"},
     {"quantise", Kind::kWhole, "1", 0, 1, "Depth in steps of 1/8 px of disparity (kinect_v1)"},
     {"shadow", Kind::kWhole, "1", 0, 1, "No depth where the projector's light does not reach (kinect_v1)"},
     {"body", Kind::kWhole, "0", 0, kMostWhole,

@@ -59,7 +59,7 @@ public:
                 // were.
                 waited_s += 1e-3 * double(last_frame_ms_);
                 if (is_limited() && waited_s > kPatience_s)
-                    throw Failure(std::string("nobody could be dressed within two minutes: ") +
+                    throw Failure(std::string("no person could be dressed within two minutes: ") +
                                   room_.message());
                 continue;
             }

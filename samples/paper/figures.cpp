@@ -111,7 +111,7 @@ Canvas figure_8(vfit_frame frame, uint32_t body) {
     const FilteredDepth filtered = filter.run(image.image(), body);
     const PixelBox& box = filtered.box;
     const int width = box.x1 - box.x0, height = (box.y1 - box.y0) * 6 / 10;
-    if (width <= 0 || height <= 0) throw Failure("Fig. 8: nobody is in the picture");
+    if (width <= 0 || height <= 0) throw Failure("Fig. 8: no person is in the picture");
     constexpr float kReach_m = 0.25f;  // before and behind the person's mean
     const auto grey = [&](float metres) {
         const float t = std::clamp(0.5f - 0.5f * (metres - filtered.mean_m) / kReach_m, 0.0f, 1.0f);

@@ -61,7 +61,7 @@ CurvePoints humerus_roll(vfit_context context, const std::string& uri, uint32_t 
             points.emplace_back(float(source.taken() - 1), before = roll);
         }
     }
-    if (points.empty()) throw Failure("Fig. 5: " + uri + " shows nobody");
+    if (points.empty()) throw Failure("Fig. 5: " + uri + " shows no person");
     return points;
 }
 

@@ -26,7 +26,7 @@ void take_postures(vfit_context context, vfit_avatar avatar, const std::string& 
         set_pose(avatar, pose, bones);
         if (!on_frame(tracked.get(), 1e-9f * float(now_ns - first_ns))) return;
     }
-    if (!seen) throw Failure(source + " shows nobody");
+    if (!seen) throw Failure(source + " shows no person");
 }
 
 Avatar avatar_of_shape(vfit_context context, vfit_sex sex, const std::vector<vfit_shape_value>& shape,

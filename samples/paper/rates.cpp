@@ -92,7 +92,7 @@ Run run(const RateOptions& o, const std::string& garment, Drawing* drawing) {
         room::Times before;
         for (double waited_s = 0.0; !room.dressed(); waited_s += 1e-3 * double(last_ms = watch.lap_ms())) {
             if (waited_s > kPatience_s)
-                throw Failure("Fig. 10: nobody could be dressed within two minutes: " +
+                throw Failure("Fig. 10: no person could be dressed within two minutes: " +
                               std::string(room.message()));
             mirror.picture(before, 1e-3f * last_ms);
         }

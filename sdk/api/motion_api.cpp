@@ -46,7 +46,7 @@ MotionSettings motion_settings(const vfit_motion_desc& d) {
 }
 
 void require_pose(const MotionObject& motion) {
-    if (!motion.seen) fail(VFIT_ERROR_STATE, "the motion has seen nobody yet");
+    if (!motion.seen) fail(VFIT_ERROR_STATE, "the motion has not seen a person yet");
 }
 
 }  // namespace

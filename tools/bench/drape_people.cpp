@@ -46,7 +46,7 @@ Walk walk(vfit_context context) {
         out.bones.push_back(bones_of(motion.get(), pose));
         out.poses.push_back(pose);
     });
-    if (out.poses.empty()) throw Failure("the walk shows nobody");
+    if (out.poses.empty()) throw Failure("the walk shows no person");
     return out;
 }
 

@@ -153,7 +153,7 @@ Json judge_virtual(const JudgeOptions& options, Targets& targets) {
     keep("all", "everything", everything.all);
     if (!options.quiet) {
         print_joints(everything);
-        std::cout << "  bodies reported where nobody is: " << everything.all.extra_bodies
+        std::cout << "  bodies reported where no person is: " << everything.all.extra_bodies
                   << ", changes of the id: " << everything.all.id_changes << "\n\n";
     }
     const Errors &front = everything.front.errors, &side = everything.side.errors,

@@ -109,7 +109,7 @@ Stand stand_of(const std::string& recording) {
         xs.push_back(float(x / double(n)));
         zs.push_back(float(z / double(n)));
     });
-    if (lowest.empty()) throw Failure(recording + ": nobody is in it");
+    if (lowest.empty()) throw Failure(recording + ": no person is in it");
     const auto median = [](std::vector<float> v) {
         std::nth_element(v.begin(), v.begin() + long(v.size() / 2), v.end());
         return v[v.size() / 2];

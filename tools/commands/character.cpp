@@ -97,7 +97,7 @@ void move(vfit_context context, vfit_avatar avatar, const Options& options, Char
         animation.add_key(float(double(now_ns - start_ns) * 1e-9));
         progress.at(source.taken(), options.frames);
     }
-    if (animation.key_count() == 0) throw Failure(options.motion + ": nobody was seen");
+    if (animation.key_count() == 0) throw Failure(options.motion + ": no person was seen");
 }
 
 void draw(vfit_avatar avatar, const std::string& path) {

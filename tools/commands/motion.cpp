@@ -71,7 +71,7 @@ void motion(const Options& options) {
         const uint32_t index = source.taken() - 1;
         progress.at(source.taken(), 0);
         if (result == VFIT_NOT_READY) {
-            if (!options.json) std::cout << "frame " << index << ": nobody\n";
+            if (!options.json) std::cout << "frame " << index << ": no person\n";
             continue;
         }
         const Step step = read_step(motion.get());

@@ -32,7 +32,7 @@ void plot(const Options& options) {
     const Curve curve = options.what == "depth"
                             ? depth_correction(context.get(), options)
                             : foot_correction(context.get(), options.source, options.frames);
-    if (curve.points.empty()) throw Failure("nothing to plot: nobody was in view");
+    if (curve.points.empty()) throw Failure("nothing to plot: no person was in view");
     draw_curve(curve, 900, 500).write_png(options.out);
     double sum = 0.0;
     for (const auto& p : curve.points) sum += p.second;

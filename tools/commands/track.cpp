@@ -34,7 +34,7 @@ void write_user_map(vfit_frame frame, const std::string& path) {
 
 void write_picture(vfit_frame frame, const std::string& path, uint32_t index, size_t people) {
     const uint32_t width = view_of(frame, VFIT_STREAM_DEPTH).width;
-    const std::string who = people == 0   ? "nobody"
+    const std::string who = people == 0   ? "no person"
                             : people == 1 ? "1 person"
                                           : std::to_string(people) + " people";
     draw_tracked(frame, static_cast<int>((kPictureWidth + width - 1) / width),

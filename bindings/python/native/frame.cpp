@@ -214,7 +214,7 @@ void bind_frame(py::module_& m) {
                 const uint32_t id = active_of(f).id;
                 return id ? py::object(py::int_(id)) : py::none();
             },
-            "The id of the person to follow, who may be out of sight (ActiveState.LOST); None: nobody.")
+            "The id of the person to follow, who may be out of sight (ActiveState.LOST); None: no person.")
         .def_property_readonly("active_state",
                                [](const Frame& f) { return value("ActiveState", active_of(f).state); })
         .def(

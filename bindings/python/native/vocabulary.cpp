@@ -108,7 +108,7 @@ void bind_vocabulary(py::module_& m) {
               {"BY_RULE", VFIT_ACTIVE_BY_RULE},
               {"CHOSEN", VFIT_ACTIVE_CHOSEN},
               {"LOST", VFIT_ACTIVE_LOST}},
-             "Why somebody is the active person; LOST: out of sight and waited for.");
+             "Why a person is the active one; LOST: out of sight and waited for.");
     add_enum(m, "Sex", {{"UNKNOWN", VFIT_SEX_UNKNOWN}, {"FEMALE", VFIT_SEX_FEMALE}, {"MALE", VFIT_SEX_MALE}},
              "Which default body; UNKNOWN: halfway.");
     add_enum(m, "ScanMethod",

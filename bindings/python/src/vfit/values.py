@@ -74,7 +74,7 @@ class PluginInfo(NamedTuple):
 class ContextStats(NamedTuple):
     handle_count: int
     frame_count: int
-    """Frames that somebody holds."""
+    """Frames that the host holds."""
     worker_count: int
     frame_bytes: int
 
