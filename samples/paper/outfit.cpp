@@ -50,10 +50,10 @@ const std::vector<Outfit>& outfits() {
     return all;
 }
 
-const Outfit& outfit(const std::string& name) {
+const Outfit& outfit(std::string_view name) {
     for (const Outfit& o : outfits())
         if (o.name == name) return o;
-    throw Failure("there is no outfit " + name);
+    throw Failure("there is no outfit " + std::string(name));
 }
 
 Worn::Worn(vfit_context context, vfit_avatar avatar, const Outfit& outfit) : avatar_(avatar) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "client/client.h"
@@ -18,7 +19,7 @@ struct Outfit {
 
 /// Three of women, then three of men.
 const std::vector<Outfit>& outfits();
-const Outfit& outfit(const std::string& name);
+const Outfit& outfit(std::string_view name);
 
 /// Several garments over each other on the avatar's skin, as they come when they are made to measure.
 class Worn {

@@ -18,7 +18,10 @@ public:
     ConvolutionLayer(const cv::dnn::LayerParams& params, const ConvolutionShape& shape)
         : Layer(params),
           shape_(shape),
-          convolution_(shape, blobs[0].ptr<float>(), blobs.size() > 1 ? blobs[1].ptr<float>() : nullptr) {}
+          convolution_(shape, blobs[0].ptr<float>(), blobs.size() > 1 ? blobs[1].ptr<float>() : nullptr) {
+        // OpenCV 4.7 and later cast every layer of type "Convolution" to their own class without a check.
+        type = "VfitConvolution";
+    }
 
     bool getMemoryShapes(const std::vector<cv::dnn::MatShape>& inputs, int,
                          std::vector<cv::dnn::MatShape>& outputs,
