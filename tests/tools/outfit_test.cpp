@@ -10,7 +10,7 @@ TEST(Outfit, IsCalledTornBeyondTwiceTheRestLengthOnly) {
     EXPECT_EQ(WornOutfit::warning_of({0.0f, 0.0f, ""}), "");
     EXPECT_EQ(WornOutfit::warning_of({1.0f, 2.0f, "coat"}), "");
     const std::string warning = WornOutfit::warning_of({2.5f, 1.25f, "coat"});
-    for (const char* part : {"TORN", "coat", "3.5 times", "1.2 s", "not a valid fit"})
+    for (const char* part : {"TORN", "coat", "3.5 times as long as cut", "1.2 s", "not a valid fit"})
         EXPECT_NE(warning.find(part), std::string::npos) << part << " in " << warning;
     EXPECT_EQ(warned("172 cm", ""), "172 cm");
     EXPECT_EQ(warned("172 cm", warning).find(warning), 0u);

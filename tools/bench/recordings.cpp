@@ -154,8 +154,10 @@ void add_recordings(Command& app) {
         }
         Targets targets(o->json);
         for (const auto& [name, p] : people)
-            targets.judge(name + ": stature, sd over " + std::to_string(p.stature_m.size()) + " recordings",
-                          1000 * deviation(p.stature_m), Aim::at_most, 4.0, 1, " mm");
+            if (p.stature_m.size() > 1)  // one has no deviation
+                targets.judge(
+                    name + ": stature, sd over " + std::to_string(p.stature_m.size()) + " recordings",
+                    1000 * deviation(p.stature_m), Aim::at_most, 4.0, 1, " mm");
         targets.judge("people's statures differ as their masks do, to", 1000 * worst_difference(people),
                       Aim::at_most, 15.0, 1, " mm");
         if (o->json) print_document({{"recordings", rows}, {"people", summary}, {"targets", targets.json()}});

@@ -18,6 +18,10 @@ double seconds(int64_t ns) { return double(ns) * 1e-9; }
 }  // namespace
 
 Fitting::Fitting(vfit_context context, const FittingOptions& options) : context_(context), options_(options) {
+    // What cannot be opened is said before a person has stood still for it.
+    for (const std::string& name : split(options.garments, '+'))
+        if (!options.garments.empty()) open_garment(context, name);
+    if (!options.chart.empty()) open_chart(context, options.chart);
     scan_ = scan_source(context, options.source, options.scan, &scan_frame_);
     const auto start = std::chrono::steady_clock::now();
     dress();

@@ -25,7 +25,7 @@ struct FittingOptions {
 struct SizeAdvice {
     std::string chart, kind;
     Json sizes = Json::array();  // best first
-    std::string reason;          // why sizes is empty
+    std::string reason;          // why sizes is empty, or of another chart than the garment's own
 };
 
 class Fitting {

@@ -74,7 +74,7 @@ void WornOutfit::look_at_strain() {
     for (const Layer& layer : layers_) {
         vfit_cloth_stats stats = vfit_cloth_stats_init();
         check(vfit_cloth_describe(layer.cloth.get(), &stats));
-        if (stats.strain_max > worst_.strain) worst_ = {stats.strain_max, time_s_, layer.info.name};
+        if (stats.strain_max > worst_.strain) worst_ = {stats.strain_max, time_s_, layer.name};
     }
 }
 
@@ -82,7 +82,7 @@ std::string WornOutfit::warning_of(const Worst& worst) {
     if (worst.strain <= kMaxPlausibleStrain) return "";
     char text[200];
     std::snprintf(text, sizeof text,
-                  "TORN: %s stretched to %.1f times its length after %.1f s; not a valid fit",
+                  "TORN: an edge of %s is %.1f times as long as cut after %.1f s; not a valid fit",
                   worst.garment.c_str(), 1.0 + worst.strain, worst.time_s);
     return text;
 }

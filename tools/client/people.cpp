@@ -1,7 +1,10 @@
 #include "client/people.h"
 
+#include <cmath>
 #include <cstring>
+#include <string>
 
+#include "client/files.h"
 #include "client/progress.h"
 #include "client/refused_frames.h"
 
@@ -11,6 +14,10 @@ namespace {
 
 // A source without end must not be waited on for ever: ten times the frames that are wanted.
 constexpr uint32_t kPatience = 10;
+
+// A label that is likelier than this is named alone; else the two best are, where one of them is right as
+// often.
+constexpr double kSure = 0.7;
 
 std::string no_frame_text(const ScanRun& run, const RefusedFrames& refused) {
     std::string out = "no frame ";
@@ -123,6 +130,15 @@ StoredMeasures measurements_from(const std::string& text) {
     return out;
 }
 
+StoredMeasures read_measures(const std::string& path) {
+    const std::string text = read_text(path);
+    try {
+        return measurements_from(text);
+    } catch (const Failure& failure) {
+        throw Failure(path + ": " + failure.what());
+    }
+}
+
 std::vector<vfit_measurement> merged_measurements(const std::vector<vfit_measurement>& a,
                                                   const std::vector<vfit_measurement>& b) {
     return list<vfit_measurement>([&](auto* items, uint32_t stride, uint32_t* n) {
@@ -153,6 +169,23 @@ Json sizes_json(vfit_size_chart chart, const std::string& garment_kind,
     Json out = Json::array();
     for (const vfit_size& s : sizes) out.push_back({{"label", s.label}, {"probability", s.probability}});
     return out;
+}
+
+Json between_json(const Json& sizes) {
+    const double best = sizes.at(0).at("probability");
+    if (sizes.size() < 2 || best >= kSure) return Json();
+    const double second = sizes.at(1).at("probability");
+    return best + second >= kSure ? Json{sizes.at(0).at("label"), sizes.at(1).at("label")} : Json();
+}
+
+std::string size_text(const Json& sizes) {
+    const std::string label = sizes.at(0).at("label");
+    const double best = sizes.at(0).at("probability");
+    const std::string percent = " (" + std::to_string(std::lround(100.0 * best)) + " %)";
+    if (best >= kSure) return label + percent;
+    const Json between = between_json(sizes);
+    if (between.empty()) return "no clear size, " + label + " is likeliest" + percent;
+    return "between " + between.at(0).get<std::string>() + " and " + between.at(1).get<std::string>();
 }
 
 Json zones_json(vfit_size_chart chart, const std::string& garment_kind, const std::string& label,

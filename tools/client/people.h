@@ -50,6 +50,8 @@ struct StoredMeasures {
 };
 /// From a profile, a report of vfit measure, or a plain {"stature_m": 1.7}; sigma 0 where it is not given.
 StoredMeasures measurements_from(const std::string& text);
+/// The same from a file, which a failure names.
+StoredMeasures read_measures(const std::string& path);
 /// Two scans of one person in one.
 std::vector<vfit_measurement> merged_measurements(const std::vector<vfit_measurement>& a,
                                                   const std::vector<vfit_measurement>& b);
@@ -59,6 +61,11 @@ std::string profile_text(const std::vector<vfit_measurement>& measurements, vfit
 /// [{"label", "probability"}, ...], best first.
 Json sizes_json(vfit_size_chart chart, const std::string& garment_kind,
                 const std::vector<vfit_measurement>& measurements);
+
+/// The two labels that the size lies between, where no label is sure and the best two are; empty otherwise.
+Json between_json(const Json& sizes);
+/// "M (84 %)", "between M and L", or "no clear size, M is likeliest (26 %)".
+std::string size_text(const Json& sizes);
 
 /// {"chest_girth_m": {"ease", "sigma", "tight", "regular", "loose"}, ...}: how the label sits.
 Json zones_json(vfit_size_chart chart, const std::string& garment_kind, const std::string& label,

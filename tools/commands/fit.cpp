@@ -65,7 +65,10 @@ Json garment_json(const Layer& layer, const SizeAdvice& advice, const std::strin
                 {"chart", advice.chart},
                 {"chart_kind", advice.kind},
                 {"sizes", advice.sizes}};
-    if (advice.sizes.empty()) out["no_size"] = advice.reason;
+    if (advice.sizes.empty())
+        out["no_size"] = advice.reason;
+    else if (!advice.reason.empty())
+        out["chart_note"] = "sized by the chart \"" + advice.chart + "\": " + advice.reason;
     out["cloth"] = cloth_json(layer.cloth.get());
     return out;
 }
@@ -111,9 +114,16 @@ float difference(const Moment& a, const Moment& b) {
     return sum;
 }
 
-/// The first moment, and those that differ most from each other, in the order of time.
-std::vector<Moment> choose(const std::vector<Moment>& all) {
+/// The first moment, the one nearest to `worst_s` if that is not negative, and those that differ most from
+/// each other, in the order of time.
+std::vector<Moment> choose(const std::vector<Moment>& all, double worst_s) {
     std::vector<size_t> chosen{0};
+    if (worst_s >= 0.0) {
+        size_t worst = 0;
+        for (size_t i = 0; i < all.size(); ++i)
+            if (std::abs(all[i].time_s - worst_s) < std::abs(all[worst].time_s - worst_s)) worst = i;
+        if (worst != 0) chosen.push_back(worst);
+    }
     while (chosen.size() < std::min(kPortraits, all.size())) {
         size_t best = 0;
         float widest = -1.0f;
@@ -184,13 +194,13 @@ std::string title_of(const Json& result) {
     std::snprintf(text, sizeof text, "%.1f cm tall, shoulders %.1f cm", centimetres("stature_m"),
                   centimetres("shoulder_breadth_m"));
     std::string title = text;
+    if (result.contains("note")) title += " by the paper's method";
     for (const Json& garment : result.at("garments")) {
         title += "; " + garment.at("garment").get<std::string>();
-        if (garment.at("sizes").empty()) continue;
-        const Json& best = garment.at("sizes").at(0);
-        std::snprintf(text, sizeof text, " in %s (%.0f %%)", best.at("label").get<std::string>().c_str(),
-                      100.0 * best.at("probability").get<double>());
-        title += text;
+        title += garment.at("size") == "made to measure"
+                     ? ", made to measure"
+                     : " worn in " + garment.at("size").get<std::string>();
+        if (!garment.at("sizes").empty()) title += ", recommended: " + size_text(garment.at("sizes"));
     }
     return title;
 }
@@ -252,8 +262,8 @@ Json fit(const Options& options) {
     result["dress_ms"] = fitting.dress_ms();
     result["stage_ms"] = timings(context.get());
 
-    draw_all(album, fitting, choose(moments), warned(title_of(result), warning),
-             options.draft ? kDraft : kFine);
+    draw_all(album, fitting, choose(moments, warning.empty() ? -1.0 : double(worst.time_s)),
+             warned(title_of(result), warning), options.draft ? kDraft : kFine);
     animation.write(album.path("avatar.glb"));
     result["pictures"] = album.names();
     result["animation"] = "avatar.glb";
@@ -329,7 +339,10 @@ void add_fit(Command& app) {
         std::cout << title_of(result) << "\nin " << o->out << ": result.json, contact_sheet.png, avatar.glb, "
                   << result["pictures"].size() - 1 << " pictures\n";
         for (const Json& garment : result["garments"])
-            if (garment.contains("no_size"))
+            if (garment.contains("chart_note"))
+                std::cout << garment["garment"].get<std::string>() << ": "
+                          << garment["chart_note"].get<std::string>() << "\n";
+            else if (garment.contains("no_size"))
                 std::cout << garment["garment"].get<std::string>()
                           << ": no size: " << garment["no_size"].get<std::string>() << "\n";
         if (result.contains("note")) std::cout << result["note"].get<std::string>() << "\n";

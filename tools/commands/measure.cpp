@@ -23,7 +23,7 @@ Json measure(const Options& options) {
     const vfit_scan_method method = scan_method_from(options.method);
     // A file that cannot be read is told of before the scan.
     std::vector<vfit_measurement> earlier;
-    if (!options.merged.empty()) earlier = measurements_from(read_text(options.merged)).measurements;
+    if (!options.merged.empty()) earlier = read_measures(options.merged).measurements;
     const std::string own = options.own.empty() ? std::string() : read_text(options.own);
     const Context context = open_context();
     const ScanRun run = scan_source(

@@ -14,10 +14,6 @@ namespace vfit::tools {
 
 namespace {
 
-// A label that is likelier than this is named alone; else the two best are, where one of them is right as
-// often.
-constexpr double kSure = 0.7;
-
 // A body is outside a range where it is likelier than not to be.
 constexpr double kOutside = 0.5;
 
@@ -48,7 +44,7 @@ Json outside_json(const Json& zones) {
 }
 
 Json size(const Options& options) {
-    const StoredMeasures stored = measurements_from(read_text(options.measures));
+    const StoredMeasures stored = read_measures(options.measures);
     const Context context = open_context();
     const SizeChart chart = open_chart(context.get(), options.chart);
     Json out;
@@ -56,11 +52,7 @@ Json size(const Options& options) {
     out["garment"] = options.garment;
     const Json sizes = sizes_json(chart.get(), options.garment, stored.measurements);
     out["sizes"] = sizes;
-    const double best = sizes[0]["probability"];
-    if (sizes.size() > 1 && best < kSure) {
-        const double second = sizes[1]["probability"];
-        if (best + second >= kSure) out["between"] = {sizes[0]["label"], sizes[1]["label"]};
-    }
+    if (const Json between = between_json(sizes); !between.empty()) out["between"] = between;
     const std::string label = sizes[0]["label"];
     if (has_one_range(chart.get(), options.garment, label)) {
         const Json outside =
