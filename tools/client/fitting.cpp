@@ -19,8 +19,7 @@ double seconds(int64_t ns) { return double(ns) * 1e-9; }
 
 Fitting::Fitting(vfit_context context, const FittingOptions& options) : context_(context), options_(options) {
     // What cannot be opened is said before a person has stood still for it.
-    for (const std::string& name : split(options.garments, '+'))
-        if (!options.garments.empty()) open_garment(context, name);
+    if (!options.garments.empty()) open_outfit(context, options.garments);
     if (!options.chart.empty()) open_chart(context, options.chart);
     scan_ = scan_source(context, options.source, options.scan, &scan_frame_);
     const auto start = std::chrono::steady_clock::now();

@@ -34,13 +34,23 @@ std::vector<vfit_garment_part> stated_parts(vfit_garment garment) {
     return parts;
 }
 
-WornOutfit::WornOutfit(vfit_context context, vfit_avatar avatar, const std::string& names,
-                       const vfit_cloth_desc& desc) {
+std::vector<Garment> open_outfit(vfit_context context, const std::string& names) {
+    std::vector<Garment> out;
     for (const std::string& name : split(names, '+')) {
         if (name.empty()) throw Failure("\"" + names + "\": a garment has no name");
+        out.push_back(open_garment(context, name));
+    }
+    return out;
+}
+
+WornOutfit::WornOutfit(vfit_context context, vfit_avatar avatar, const std::string& names,
+                       const vfit_cloth_desc& desc) {
+    std::vector<Garment> garments = open_outfit(context, names);
+    const std::vector<std::string> called = split(names, '+');
+    for (size_t i = 0; i < garments.size(); ++i) {
         Layer layer;
-        layer.name = name;
-        layer.garment = open_garment(context, name);
+        layer.name = called[i];
+        layer.garment = std::move(garments[i]);
         check(vfit_garment_describe(layer.garment.get(), &layer.info));
         const vfit_result made = vfit_cloth_create(avatar, layer.garment.get(), &desc, layer.cloth.out());
         if (made == VFIT_ERROR_NOT_WEARABLE) throw NotWearable(last_error());

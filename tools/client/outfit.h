@@ -66,6 +66,9 @@ std::vector<vfit_garment_part> stated_parts(vfit_garment garment);
 /// What a person of that sex wears where nothing is asked for: covered from the shoulders down.
 std::string default_outfit(vfit_sex sex);
 
+/// Opens the garments of "A+B"; a failure names the one that cannot be opened.
+std::vector<Garment> open_outfit(vfit_context context, const std::string& names);
+
 /// Splits "a+b" at `separator`.
 std::vector<std::string> split(const std::string& text, char separator);
 
