@@ -117,7 +117,7 @@ void PngReader::read(const std::filesystem::path& path, uint32_t width, uint32_t
     Source source{bytes_.data(), bytes_.size(), 0, "out of memory"};
     const Picture want{width, height, bit_depth, static_cast<unsigned char*>(pixels), row_stride};
     if (!decode(&source, want))
-        fail(VFIT_ERROR_DATA, path.string(), ": is no sound picture: ", source.message);
+        fail(VFIT_ERROR_DATA, path.string(), ": is no readable image: ", source.message);
 }
 
 void PngReader::read_grey16(const std::filesystem::path& path, uint32_t width, uint32_t height, void* pixels,

@@ -152,6 +152,9 @@ DressedSize dressed_size(const GarmentObject& garment, const char* label, Avatar
     return {size_ratio(garment.garment, label, avatar.measures()), nullptr};
 }
 
+/// To a tenth, for messages.
+float rounded(float value) { return std::round(value * 10.0f) / 10.0f; }
+
 /// A garment of that cut as it lies before it was simulated: does it go around the avatar with what its
 /// fabric gives?
 void check_wearable(const GarmentObject& garment, const char* label, const Dress& dress,
@@ -162,8 +165,9 @@ void check_wearable(const GarmentObject& garment, const char* label, const Dress
     const float strain = needed_strain(fits, &at);
     if (strain <= garment.material.most_strain) return;
     fail(VFIT_ERROR_NOT_WEARABLE, "garment ", garment.garment.name, " does not close in size ", label, ": ",
-         at->key, " of the body is ", at->body_m * 100.0f, " cm, of the garment ", at->garment_m * 100.0f,
-         " cm; ", garment.garment.fabric, " gives ", garment.material.most_strain * 100.0f, " %");
+         at->key, " of the body is ", rounded(at->body_m * 100.0f), " cm, of the garment ",
+         rounded(at->garment_m * 100.0f), " cm; ", garment.garment.fabric, " stretches by at most ",
+         rounded(garment.material.most_strain * 100.0f), " %");
 }
 
 struct ClothObject : ContextChild {
@@ -439,14 +443,15 @@ struct ClothObject : ContextChild {
         const float crotch_gives = std::max(kCrotchGives, garment->material.most_strain);
         if (crotch.strain > crotch_gives)
             fail(VFIT_ERROR_NOT_WEARABLE, "garment ", garment->garment.name, " is too small in size ", label,
-                 ": its ", crotch.garment_m * 100.0f,
-                 " cm from front to back through the crotch would be stretched by ", crotch.strain * 100.0f,
-                 " %; ", garment->garment.fabric, " gives ", crotch_gives * 100.0f, " % there");
+                 ": its ", rounded(crotch.garment_m * 100.0f),
+                 " cm from front to back through the crotch would be stretched by ",
+                 rounded(crotch.strain * 100.0f), " %; ", garment->garment.fabric, " stretches by at most ",
+                 rounded(crotch_gives * 100.0f), " % there");
         const float strain = most_strained(cloth.strain()), most = kDrawn * garment->material.most_strain;
         if (strain > most)
             fail(VFIT_ERROR_NOT_WEARABLE, "garment ", garment->garment.name, " is too small in size ", label,
-                 ": a tenth of it would be stretched by more than ", strain * 100.0f, " %; of ",
-                 garment->garment.fabric, " ", most * 100.0f, " % are drawn");
+                 ": a tenth of it would be stretched by more than ", rounded(strain * 100.0f), " %; ",
+                 garment->garment.fabric, " stretches by at most ", rounded(most * 100.0f), " %");
         std::vector<uint8_t> counts = garment->garment.simulated;
         for (const LimbHem& hem : dress.hems())
             for (const uint32_t v : hem.vertices) counts[v] = 0;

@@ -35,7 +35,12 @@ Json parse_json(std::string_view text, const char* what) {
     try {
         return Json::parse(text);
     } catch (const Json::exception& e) {
-        fail(VFIT_ERROR_DATA, what, ": not JSON: ", e.what());
+        // Without the library's own "[json.exception...]", and of a long token its beginning.
+        constexpr size_t kMaxText = 200;
+        std::string reason = e.what();
+        if (const size_t end = reason.find("] "); end != std::string::npos) reason.erase(0, end + 2);
+        if (reason.size() > kMaxText) reason = reason.substr(0, kMaxText) + " ...";
+        fail(VFIT_ERROR_DATA, what, ": not JSON: ", reason);
     }
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 
 #include "client/client.h"
@@ -15,10 +16,23 @@ namespace {
 CLI::Option& option_of(void* option) { return *static_cast<CLI::Option*>(option); }
 CLI::App& app_of(void* app) { return *static_cast<CLI::App*>(app); }
 
+std::string version_text() {
+    const uint32_t version = vfit_version();  // as VFIT_MAKE_VERSION packs it
+    return std::to_string(version >> 22) + "." + std::to_string(version >> 12 & 0x3ff) + "." +
+           std::to_string(version & 0xfff);
+}
+
 }  // namespace
 
 Argument& Argument::required() { return option_of(option_).required(), *this; }
-Argument& Argument::positive() { return option_of(option_).check(CLI::PositiveNumber), *this; }
+Argument& Argument::positive() {
+    const auto fault = [](const std::string& text) {
+        char* end = nullptr;
+        const double value = std::strtod(text.c_str(), &end);
+        return end != text.c_str() && *end == 0 && value > 0.0 ? "" : "\"" + text + "\" is no number above 0";
+    };
+    return option_of(option_).check(fault), *this;
+}
 Argument& Argument::within(int low, int high) {
     return option_of(option_).check(CLI::Range(low, high)), *this;
 }
@@ -60,6 +74,7 @@ int run_program(const char* name, const char* help, const std::vector<void (*)(C
                 char** argv) {
     CLI::App app{help};
     app.require_subcommand(1);
+    app.set_version_flag("--version", version_text());
     app.set_help_all_flag("--help-all", "Help of all commands");
     Command root(&app);
     for (const auto add : commands) add(root);

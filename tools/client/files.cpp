@@ -2,7 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <vector>
 
 #include "client/client.h"
 
@@ -12,9 +12,17 @@ std::string read_text(const std::string& path) {
     std::error_code error;
     std::ifstream file;
     if (!std::filesystem::is_directory(path, error)) file.open(path, std::ios::binary);
-    std::stringstream text;
-    if (!file.is_open() || (text << file.rdbuf(), file.bad())) throw Failure(path + ": cannot be read");
-    return text.str();
+    if (!file.is_open()) throw Failure(path + ": cannot be read");
+    // More than any file that a command reads, and an end for devices that have none.
+    constexpr size_t kMaxBytes = size_t(256) << 20, kBlock = size_t(1) << 20;
+    std::string text;
+    std::vector<char> block(kBlock);
+    while (file.read(block.data(), std::streamsize(kBlock)) || file.gcount() > 0) {
+        text.append(block.data(), size_t(file.gcount()));
+        if (text.size() > kMaxBytes) throw Failure(path + ": is larger than 256 MiB");
+    }
+    if (file.bad()) throw Failure(path + ": cannot be read");
+    return text;
 }
 
 void create_folder(const std::string& path) {
