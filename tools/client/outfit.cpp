@@ -22,7 +22,7 @@ std::string default_outfit(vfit_sex sex) {
 }
 
 std::string warned(const std::string& title, const std::string& warning) {
-    return warning.empty() ? title : warning + ". " + title;
+    return warning.empty() ? title : warning + "\n" + title;
 }
 
 std::vector<vfit_garment_part> stated_parts(vfit_garment garment) {

@@ -57,7 +57,7 @@ private:
     float time_s_ = 0.0f;
 };
 
-/// A picture's title with the warning in front, so that no reader misses it.
+/// A picture's title below the warning, so that no reader misses it.
 std::string warned(const std::string& title, const std::string& warning);
 
 /// The garment's parts whose look its file states; empty: none.

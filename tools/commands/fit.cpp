@@ -196,7 +196,7 @@ std::string title_of(const Json& result) {
     std::string title = text;
     if (result.contains("note")) title += " by the paper's method";
     for (const Json& garment : result.at("garments")) {
-        title += "; " + garment.at("garment").get<std::string>();
+        title += "\n" + garment.at("garment").get<std::string>();
         title += garment.at("size") == "made to measure"
                      ? ", made to measure"
                      : " worn in " + garment.at("size").get<std::string>();

@@ -13,8 +13,8 @@ struct SheetItem {
     std::string caption;
 };
 
-/// `title` over rows of pictures, each as wide as its own shape wants. The widest row is `cell_height` pixels
-/// high; the others grow to its width.
+/// `title`, one line or more, over rows of pictures, each as wide as its own shape wants. The widest row is
+/// `cell_height` pixels high; the others grow to its width.
 Canvas contact_sheet(const std::string& title, const std::vector<std::vector<SheetItem>>& rows,
                      int cell_height);
 
