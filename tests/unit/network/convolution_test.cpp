@@ -127,6 +127,13 @@ TEST(ConvolutionLayer, GivesTheSkeletonNetworkTheSameAnswers) {
     }
 }
 
+// OpenCV 4.7 and later cast layers of that type to their own class without a check, and crash on another one.
+TEST(ConvolutionLayer, IsNotOfTheTypeThatOpenCvCasts) {
+    cv::dnn::Net own = read_network(kWeights);
+    for (const cv::String& name : own.getLayerNames())
+        EXPECT_NE(own.getLayer(own.getLayerId(name))->type, "Convolution") << name;
+}
+
 TEST(ConvolutionLayer, LeavesTheNetworksOfOthersAlone) {
     {
         const UseOwnConvolution use;
