@@ -9,11 +9,16 @@ namespace vfit {
 
 namespace {
 
-// Distance of elbow or knee from the line between the limb's ends: below the first the plane of the limb is
-// noise and the last one holds; above the second it is trusted; blended between. First: reference for leg IK
-// swivel (r < 5 mm); second: one standard deviation of a depth sensor's joint (about 2.5 cm).
-constexpr float kPlaneHeldM = 0.005f;
-constexpr float kPlaneTrustedM = 0.025f;
+// A limb's roll. The plane through shoulder, elbow and wrist tells it to within the joints' deviation over
+// the elbow's distance from the line between the limb's ends; below the least distance it tells nothing.
+constexpr float kJointDeviationM = 0.025f;  // one standard deviation of a depth sensor's joint
+constexpr float kLeastOffLineM = 0.005f;
+constexpr float kReadingS = 1.0f / 30.0f;  // the time that one reading of a sensor speaks for
+constexpr float kRollDrift = 1.0f;         // rad^2 a second by which the roll may have changed
+constexpr float kFastestRoll = 12.0f;      // rad/s; a quick throw's
+constexpr float kRollOutlier = 2.0f;  // standard deviations beyond which a reading is followed no further
+// Readings further from the natural axis bend the limb backwards.
+constexpr float kMostRollArm = 2.3f, kMostRollLeg = 1.2f;
 // An arm that was never seen hangs, this far below the T-pose.
 constexpr float kHangingRad = 80.0f * kPi / 180.0f;
 // Readings that the running mean of a flat foot's direction spans: two seconds at 30 Hz.
@@ -57,9 +62,9 @@ void BoneSolver::learn_flat_feet(const Body& body, const bool planted[2]) {
 }
 
 void BoneSolver::solve(const Skeleton& skeleton, const RestPose& rest, const Body& body, const Trunk& trunk,
-                       const bool planted[2], BoneRotations& world) {
+                       const bool planted[2], float dt_s, BoneRotations& world) {
     solve_spine(skeleton, rest, body, trunk, world);
-    for (int i = 0; i < kLimbCount; ++i) solve_limb(i, rest, body, world);
+    for (int i = 0; i < kLimbCount; ++i) solve_limb(i, rest, body, dt_s, world);
     for (int side = 0; side < 2; ++side) solve_foot(side, rest, body, planted[side], world);
 }
 
@@ -112,37 +117,44 @@ void BoneSolver::solve_spine(const Skeleton& skeleton, const RestPose& rest, con
     }
 }
 
-/// The axis about which the lower bone bends, from the plane of the limb or, where that is noise, carried
-/// along from the last one.
+void BoneSolver::Roll::observe(float seen, float elbow_off_line_m, float dt_s) {
+    const float deviation = kJointDeviationM / elbow_off_line_m;
+    if (!known) {
+        *this = {true, seen * glm::smoothstep(kLeastOffLineM, kJointDeviationM, elbow_off_line_m),
+                 deviation * deviation};
+        return;
+    }
+    if (dt_s <= 0.0f) return;
+    const float noise = deviation * deviation * std::max(1.0f, kReadingS / dt_s);
+    variance += kRollDrift * dt_s;
+    const float gain = variance / (variance + noise), most = kRollOutlier * std::sqrt(variance + noise);
+    variance *= 1.0f - gain;
+    // The angles are not wrapped: a limb never rolls through the side to which it does not bend.
+    const float step = gain * std::clamp(seen - angle, -most, most);
+    angle += std::clamp(step, -kFastestRoll * dt_s, kFastestRoll * dt_s);
+}
+
+/// The axis about which the lower bone bends.
 Vec3 BoneSolver::hinge_of(int index, const RestLimb& rest, const Quat& parent, const Vec3& upper,
-                          const Vec3& lower, float upper_m, float lower_m) {
-    Limb& limb = limbs_[at(index)];
+                          const Vec3& lower, float upper_m, float lower_m, float dt_s) {
+    Roll& roll = rolls_[at(index)];
     const Quat to_parent = glm::conjugate(parent);
     const Vec3 upper_local = to_parent * upper;
     const Vec3 natural = shortest_arc(rest.upper, upper_local) * rest.hinge;
-    const Vec3 carried = limb.held ? shortest_arc(limb.upper, upper_local) * limb.hinge : natural;
-
     const Vec3 normal = to_parent * glm::cross(upper, lower);
-    const float sine = glm::length(normal);
     const float span = glm::length(upper * upper_m + lower * lower_m);
-    const float radius = span > 1e-3f ? upper_m * lower_m * sine / span : 0.0f;
-    float trust = glm::smoothstep(kPlaneHeldM, kPlaneTrustedM, radius);
-    Vec3 hinge = carried;
-    if (trust > 0.0f) {
-        const Vec3 seen = normal / sine;
-        // A nearly straight limb that seems to bend the other way, and a knee that does at all, is noise.
-        const bool flipped = glm::dot(seen, carried) < 0.0f && trust < 1.0f;
-        const bool backwards = kLimbParts[index].leg && glm::dot(seen, natural) < 0.0f;
-        if (!flipped && !backwards) hinge = glm::mix(carried, seen, trust);
+    const float off_line = span > 1e-3f ? upper_m * lower_m * glm::length(normal) / span : 0.0f;
+    if (off_line > kLeastOffLineM) {
+        const float seen =
+            std::atan2(glm::dot(glm::cross(natural, normal), upper_local), glm::dot(natural, normal));
+        if (std::abs(seen) < (kLimbParts[index].leg ? kMostRollLeg : kMostRollArm))
+            roll.observe(seen, off_line, dt_s);
     }
-    hinge -= glm::dot(hinge, upper_local) * upper_local;
-    const float length = glm::length(hinge);
-    hinge = length > 1e-3f ? hinge / length : natural;
-    limb = {true, upper_local, hinge};
-    return parent * hinge;
+    return parent * (glm::angleAxis(roll.angle, upper_local) * natural);
 }
 
-void BoneSolver::solve_limb(int index, const RestPose& rest, const Body& body, BoneRotations& world) {
+void BoneSolver::solve_limb(int index, const RestPose& rest, const Body& body, float dt_s,
+                            BoneRotations& world) {
     const LimbParts& parts = kLimbParts[index];
     const RestLimb& limb = rest.limbs[at(index)];
     const Quat parent = world[at(parts.parent)];
@@ -157,7 +169,8 @@ void BoneSolver::solve_limb(int index, const RestPose& rest, const Body& body, B
     const bool has_lower =
         direction_between(body, parts.middle, has_end || parts.leg ? parts.end : parts.tip, lower, lower_m);
     if (has_upper) {
-        const Vec3 hinge = hinge_of(index, limb, parent, upper, has_lower ? lower : upper, upper_m, lower_m);
+        const Vec3 hinge =
+            hinge_of(index, limb, parent, upper, has_lower ? lower : upper, upper_m, lower_m, dt_s);
         upper_rotation = align_pairs(limb.upper, limb.hinge, upper, hinge);
         lower_rotation = has_lower ? align_pairs(limb.lower, limb.hinge, lower, hinge) : upper_rotation;
     } else {

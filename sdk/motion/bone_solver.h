@@ -20,23 +20,27 @@ public:
     /// To be called once a body.
     void learn_flat_feet(const Body& body, const bool planted[2]);
 
-    /// `planted`: the foot stands on the floor, left and right.
+    /// `planted`: the foot stands on the floor, left and right. dt_s: since the last call.
     void solve(const Skeleton& skeleton, const RestPose& rest, const Body& body, const Trunk& trunk,
-               const bool planted[2], BoneRotations& world);
+               const bool planted[2], float dt_s, BoneRotations& world);
 
 private:
-    struct Limb {
-        bool held = false;
-        Vec3 upper{0.0f}, hinge{0.0f};  // in the parent's space, as last solved
+    /// Roll of a limb about its upper bone: the angle from its natural hinge axis to the one that it has. Its
+    /// plane tells it, the worse the straighter the limb; a Kalman filter weighs the two.
+    struct Roll {
+        bool known = false;
+        float angle = 0.0f, variance = 0.0f;  // rad, rad^2
+
+        void observe(float seen, float elbow_off_line_m, float dt_s);
     };
     void solve_spine(const Skeleton& skeleton, const RestPose& rest, const Body& body, const Trunk& trunk,
                      BoneRotations& world) const;
-    void solve_limb(int index, const RestPose& rest, const Body& body, BoneRotations& world);
+    void solve_limb(int index, const RestPose& rest, const Body& body, float dt_s, BoneRotations& world);
     void solve_foot(int side, const RestPose& rest, const Body& body, bool planted, BoneRotations& world);
     Vec3 hinge_of(int index, const RestLimb& rest, const Quat& parent, const Vec3& upper, const Vec3& lower,
-                  float upper_m, float lower_m);
+                  float upper_m, float lower_m, float dt_s);
 
-    std::array<Limb, kLimbCount> limbs_;
+    std::array<Roll, kLimbCount> rolls_;
     struct FlatFoot {
         int count = 0;
         float elevation_rad = 0;  // of ankle to toes as this source reports it for a foot on the floor

@@ -231,7 +231,7 @@ bool Motion::State::update_pose(float dt_s) {
     const bool feet = enabled(VFIT_MOTION_NO_FEET);
     const bool planted[2] = {feet && contact.planted(0), feet && contact.planted(1)};
     BoneRotations world, local;
-    solver.solve(skeleton, rest, joints, trunk, planted, world);
+    solver.solve(skeleton, rest, joints, trunk, planted, dt_s, world);
     if (enabled(VFIT_MOTION_NO_LIMITS)) {
         to_local(world, local);
         apply_joint_limits(rest, planted, local, settings.range_of_motion);

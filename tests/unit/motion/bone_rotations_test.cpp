@@ -136,5 +136,78 @@ TEST(BoneRotations, HoldThePlaneOfAnArmThatIsStretchedOut) {
     }
 }
 
+/// The left arm bent by so much, of bones that run straight in the T-pose, with that noise on elbow and
+/// wrist.
+Body bent_arm(const Skeleton& skeleton, float flexion_deg, float noise_m, testing::RandomPose& random,
+              int frame) {
+    Pose pose;
+    testing::stand_on_floor(skeleton, pose);
+    pose.rotation[VFIT_BONE_LEFT_UPPER_ARM] = glm::angleAxis(-80 * testing::kDeg, Vec3(0, 0, 1));
+    pose.rotation[VFIT_BONE_LEFT_LOWER_ARM] = glm::angleAxis(-flexion_deg * testing::kDeg, Vec3(0, 1, 0));
+    Body body = testing::joints_of(skeleton, pose, frame_ns(frame));
+    for (const int j : {VFIT_JOINT_LEFT_ELBOW, VFIT_JOINT_LEFT_WRIST})
+        body.joints[size_t(j)].position +=
+            noise_m * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    return body;
+}
+
+Skeleton with_straight_arm() {
+    Skeleton skeleton = testing::test_skeleton();
+    skeleton.offset[VFIT_BONE_LEFT_LOWER_ARM] = {0.28f, 0, 0};
+    skeleton.offset[VFIT_BONE_LEFT_HAND] = {0.25f, 0, 0};
+    return skeleton;
+}
+
+/// How far the upper arm turns about its own axis, its swing taken out.
+float roll_between(const Quat& from, const Quat& to) {
+    const Vec3 axis(1, 0, 0);
+    return angle_of(split_swing_twist(glm::conjugate(from) * to, axis).twist);
+}
+
+TEST(BoneRotations, ANearlyStraightArmDoesNotFlipItsRoll) {
+    // As a depth sensor sees an arm that hangs: the noise bends it to every side.
+    const Skeleton skeleton = with_straight_arm();
+    MotionSettings settings;
+    settings.flags = kAllOff;
+    Motion motion(settings);
+    motion.bind(skeleton);
+    testing::RandomPose random(16);
+    Quat before(1, 0, 0, 0);
+    for (int f = 0; f < 600; ++f) {
+        const Body body = bent_arm(skeleton, 12.0f, 0.045f, random, f);
+        motion.step(&body, body.time_ns);
+        const Quat now = motion.pose().rotation[VFIT_BONE_LEFT_UPPER_ARM];
+        // 12 rad/s, and what the swing of noisy joints adds.
+        if (f > 0) {
+            ASSERT_LT(roll_between(before, now), 40 * testing::kDeg) << f;
+        }
+        before = now;
+    }
+}
+
+TEST(BoneRotations, ABentArmFollowsItsRollWithinAQuarterOfASecond) {
+    const Skeleton skeleton = with_straight_arm();
+    MotionSettings settings;
+    settings.flags = kAllOff;
+    Motion motion(settings);
+    motion.bind(skeleton);
+    testing::RandomPose random(17);
+    const auto turned = [&](float roll_deg, int frame) {
+        Pose pose;
+        testing::stand_on_floor(skeleton, pose);
+        pose.rotation[VFIT_BONE_LEFT_UPPER_ARM] = glm::angleAxis(-80 * testing::kDeg, Vec3(0, 0, 1)) *
+                                                  glm::angleAxis(roll_deg * testing::kDeg, Vec3(1, 0, 0));
+        pose.rotation[VFIT_BONE_LEFT_LOWER_ARM] = glm::angleAxis(-80 * testing::kDeg, Vec3(0, 1, 0));
+        const Body body = testing::joints_of(skeleton, pose, frame_ns(frame));
+        motion.step(&body, body.time_ns);
+        return roll_between(pose.rotation[VFIT_BONE_LEFT_UPPER_ARM],
+                            motion.pose().rotation[VFIT_BONE_LEFT_UPPER_ARM]);
+    };
+    for (int f = 0; f < 30; ++f) turned(0.0f, f);
+    float off = 0.0f;
+    for (int f = 30; f < 38; ++f) off = turned(60.0f, f);
+    EXPECT_LT(off, 8 * testing::kDeg);
+}
+
 }  // namespace
 }  // namespace vfit

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "math/finite.h"
+#include "math/quaternion.h"
 #include "motion_support.h"
 
 namespace vfit {
@@ -114,6 +115,36 @@ TEST(Recordings, RunThroughTheMotionWithFeetOnTheFloor) {
         ++count;
     }
     EXPECT_GT(count, 0);
+}
+
+/// The largest turn of an arm's bones from one frame to the next.
+float largest_turn_of_arms(const std::vector<Body>& bodies) {
+    Motion motion{MotionSettings()};
+    motion.bind(testing::test_skeleton());
+    PosedSkeleton before;
+    float largest = 0.0f;
+    for (size_t f = 0; f < bodies.size(); ++f) {
+        motion.step(&bodies[f], bodies[f].time_ns);
+        const PosedSkeleton posed = forward_kinematics(motion.skeleton(), motion.pose());
+        for (const int bone : {VFIT_BONE_LEFT_UPPER_ARM, VFIT_BONE_RIGHT_UPPER_ARM, VFIT_BONE_LEFT_LOWER_ARM,
+                               VFIT_BONE_RIGHT_LOWER_ARM}) {
+            const size_t b = size_t(bone);
+            if (f > 0)
+                largest = std::max(largest, angle_of(posed.rotation[b] * glm::conjugate(before.rotation[b])));
+        }
+        before = posed;
+    }
+    return largest;
+}
+
+TEST(Recordings, ArmsDoNotFlipAboutTheirAxes) {
+    if (!fs::exists(recordings())) GTEST_SKIP() << "no shared recordings at " << recordings();
+    for (const auto& entry : fs::directory_iterator(recordings())) {
+        if (!fs::exists(entry.path() / "joints.csv")) continue;
+        // A quick swing turns an arm by up to 80 degrees; a roll that flips takes 160.
+        EXPECT_LT(largest_turn_of_arms(read_bodies(entry.path() / "joints.csv")), 100 * testing::kDeg)
+            << entry.path().filename();
+    }
 }
 
 }  // namespace
