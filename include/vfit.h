@@ -796,8 +796,9 @@ enum {
     VFIT_AVATAR_DUAL_QUATERNIONS = 4, /* skinned by dual quaternions in place of linear blending: joints that
                                        * bend or twist far keep their section. An engine that skins by
                                        * BONE_MATRIX shows the linear blend */
-    VFIT_AVATAR_HANDS_AS_POSED = 8
-}; /* of vfit_avatar_load */
+    VFIT_AVATAR_LIMBS_AS_POSED = 8    /* arms stay where the pose puts them; without, they are moved out of
+                                       * trunk, thighs and each other, with 2 cm of room for cloth */
+};
 typedef struct vfit_avatar_desc {
     uint32_t struct_size, flags;
     vfit_sex sex;    /* which default body; UNKNOWN: halfway */
@@ -872,8 +873,8 @@ VFIT_API vfit_result vfit_avatar_create_from_scan(vfit_context context, const vf
                                                   vfit_scan scan, vfit_avatar* out);
 /* Your character as an avatar: bind motion to it, pose it, fetch its buffers. It is turned to face +Z and
  * stood on the floor; whatever its proportions, the bones of a pose turn it, feet that motion plants stand,
- * limbs get twist bones, and hands are kept out of its trunk and thighs (unless desc.flags has
- * HANDS_AS_POSED). Missing of VRM's optional bones are stood in for. Morph targets, animations and meshes
+ * limbs get twist bones, and arms are kept out of its trunk and thighs (unless desc.flags has
+ * LIMBS_AS_POSED). Missing of VRM's optional bones are stood in for. Morph targets, animations and meshes
  * that hang on no bone are left out and logged. desc.sex and detail do not apply. Buffers are read from the
  * file's own folder alone, from memory from nowhere else. VFIT_ERROR_IO; VFIT_ERROR_DATA for a damaged file,
  * one without a humanoid or skin, of no person's size, or that lies down; VFIT_ERROR_UNSUPPORTED for
@@ -955,9 +956,9 @@ VFIT_API vfit_result vfit_garment_parts(vfit_garment garment, vfit_garment_part*
 VFIT_API uint32_t vfit_garment_size_label(vfit_garment garment, uint32_t index, char* buffer,
                                           uint32_t capacity);
 enum {
-    VFIT_CLOTH_NO_HANDS = 1, /* forearms and hands pass through: a hand beside the thigh catches
-                              * a skirt, and 15 spheres know no fingers to let it slip. Not of garments
-                              * with sleeves */
+    VFIT_CLOTH_NO_HANDS = 1, /* hands pass through, and forearms too unless the garment has sleeves: a
+                              * hand beside the thigh catches a skirt. On spheres and capsules, garments
+                              * with sleeves keep both */
     VFIT_CLOTH_SKIN = 2,     /* kept out of the avatar's skin itself, not of its spheres and capsules: closer,
                               * and slower */
     VFIT_CLOTH_AWAKE = 4,    /* stepped even where cloth and body have lain still for half a second */
@@ -982,6 +983,9 @@ typedef struct vfit_cloth_desc {
     float virtual_m; /* points of triangles meet spheres and capsules as vertices do: so many that none is
                       * further from the next, 65,536 at most; 0.001..0.1; 0: none. For meshes coarser
                       * than a wrist */
+    float carry_speed_m_s; /* a step in which the bones move any part of the garment faster, */
+    float carry_way_m;     /* or further, is a jump, as after vfit_cloth_teleport. 0: 6, and 0.06; < 0: no
+                            * limit */
 } vfit_cloth_desc;
 typedef struct vfit_cloth_stats {
     uint32_t struct_size, vertex_count, simulated_count, constraint_count;
@@ -1021,6 +1025,12 @@ VFIT_API vfit_result vfit_cloth_end_step(vfit_cloth cloth);
  * carry the garment, at the time of that pose. The next step goes on as if it had not been called. While a
  * step runs it does not wait: the one before is carried, until end_step. [excl] */
 VFIT_API vfit_result vfit_cloth_carry(vfit_cloth cloth);
+/* Makes the next step (of more than 0 s) a jump, however short the way is from the pose of the last step: a
+ * snap turn, a correction over the network. The bones move the cloth as it hangs, each vertex with those that
+ * it is skinned to, and nothing is swept through it. It keeps its velocity relative to the body. Longer and
+ * faster motions are jumps anyway (vfit_cloth_desc.carry_speed_m_s). Call it for each cloth of an outfit.
+ * While a step runs, it applies to the step after it. vfit_cloth_reset cancels it. [excl] */
+VFIT_API vfit_result vfit_cloth_teleport(vfit_cloth cloth);
 /* Velocity of the air, in the context's axes and unit a second, from the next step on. [excl] */
 VFIT_API vfit_result vfit_cloth_set_wind(vfit_cloth cloth, const float wind[3]);
 /* Sub-steps a 1/60 s at most, and the time that a step may take: where more would take longer, fewer are done

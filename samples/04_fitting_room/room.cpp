@@ -50,11 +50,6 @@ std::vector<T> copy_of(vfit_frame frame, vfit_stream stream, size_t values_an_it
     return out;
 }
 
-/// Whose forearms are in the garment: elsewhere they would catch it.
-bool has_sleeves(const std::string& kind) {
-    return kind == "long_sleeves" || kind == "jacket" || kind == "overall";
-}
-
 void grow(Room::Place& low, Room::Place& high, const Room::Place& p) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
@@ -238,7 +233,7 @@ void Room::put_on() {
     stepping_ = false;
     vfit_cloth_desc desc = vfit_cloth_desc_init();
     constexpr float kBudget_ms = 10.0f;  // a slow machine gets fewer sub-steps, not fewer pictures
-    desc.flags = has_sleeves(piece.kind) ? VFIT_CLOTH_SKIN : VFIT_CLOTH_SKIN | VFIT_CLOTH_NO_HANDS;
+    desc.flags = VFIT_CLOTH_SKIN | VFIT_CLOTH_NO_HANDS;
     desc.budget_ms = kBudget_ms;
     if (size() != kMadeToMeasure) desc.size_label = size().c_str();
     check(vfit_cloth_create(avatar_.get(), piece.garment.get(), &desc, cloth_.out()));

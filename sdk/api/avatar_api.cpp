@@ -23,13 +23,14 @@ AvatarDesc avatar_desc(const vfit_avatar_desc* desc) {
     const vfit_avatar_desc d = read_or_default(desc, "desc");
     check_flags(d.flags,
                 VFIT_AVATAR_PAPER_COLLIDERS | VFIT_AVATAR_SINGLE_BONES | VFIT_AVATAR_DUAL_QUATERNIONS |
-                    VFIT_AVATAR_HANDS_AS_POSED,
+                    VFIT_AVATAR_LIMBS_AS_POSED,
                 "desc.flags");
     check_enum(d.sex, VFIT_SEX_MALE, "desc.sex");
     if (d.detail > kMaxDetail)
         fail(VFIT_ERROR_ARGUMENT, "desc.detail ", d.detail, " is more than ", kMaxDetail);
     AvatarDesc out;
     out.sex = d.sex;
+    out.limbs_clear = (d.flags & VFIT_AVATAR_LIMBS_AS_POSED) == 0;
     out.detail = d.detail;
     out.single_bones = (d.flags & VFIT_AVATAR_SINGLE_BONES) != 0;
     if ((d.flags & VFIT_AVATAR_DUAL_QUATERNIONS) != 0) out.skinning = SkinMethod::dual_quaternion;
@@ -201,7 +202,6 @@ vfit_result vfit_avatar_load(vfit_context handle, const vfit_avatar_desc* desc,
         out->id = 0;
         UseContext<Mode::any> context(handle);
         AvatarDesc d = avatar_desc(desc);
-        d.hands_clear = !desc || (desc->flags & VFIT_AVATAR_HANDS_AS_POSED) == 0;
         const vfit_character_desc c = read(character, "character");
         if (!c.path == !c.bytes) fail(VFIT_ERROR_ARGUMENT, "character: either path or bytes must be given");
         const GltfDocument document =

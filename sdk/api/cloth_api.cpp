@@ -10,6 +10,7 @@
 #include "api/guard.h"
 #include "api/structs.h"
 #include "cloth/cloth.h"
+#include "cloth/garment/body_jump.h"
 #include "cloth/garment/dress.h"
 #include "cloth/garment/fit.h"
 #include "cloth/garment/garment.h"
@@ -78,7 +79,7 @@ Ref<GarmentObject> parse(const Ref<Context>& context, std::span<const std::byte>
 ClothSettings cloth_settings(const vfit_cloth_desc& d, const FabricMaterial& material, const Axes& axes) {
     for (const float x : {d.gravity[0], d.gravity[1], d.gravity[2], d.friction, d.damping, d.thickness_m,
                           d.wind[0], d.wind[1], d.wind[2], d.drag, d.lift, d.inertia, d.self_thickness_m,
-                          d.budget_ms, d.cover_m, d.virtual_m})
+                          d.budget_ms, d.cover_m, d.virtual_m, d.carry_speed_m_s, d.carry_way_m})
         if (!std::isfinite(x)) fail(VFIT_ERROR_ARGUMENT, "desc: a number is not finite");
     if (d.substeps > kMaxSubsteps)
         fail(VFIT_ERROR_ARGUMENT, "desc.substeps ", d.substeps, " is more than ", kMaxSubsteps);
@@ -94,6 +95,12 @@ ClothSettings cloth_settings(const vfit_cloth_desc& d, const FabricMaterial& mat
     if (d.thickness_m > 0.0f) s.thickness_m = d.thickness_m;
     if (d.inertia > 1.0f) fail(VFIT_ERROR_ARGUMENT, "desc.inertia ", d.inertia, " is more than 1");
     s.inertia = setting(d.inertia, 1.0f);
+    const auto limit = [](float given, float preset) {
+        return given < 0.0f ? INFINITY : setting(given, preset);
+    };
+    s.carry_speed_m_s = limit(d.carry_speed_m_s, s.carry_speed_m_s);
+    s.carry_way_m = limit(d.carry_way_m, s.carry_way_m);
+    s.follows_fixed = false;
     if (d.drag < 0.0f || d.lift < 0.0f)
         fail(VFIT_ERROR_ARGUMENT, "desc.drag ", d.drag, " and lift ", d.lift, " must not be negative");
     s.air = {axes.point_in({d.wind[0], d.wind[1], d.wind[2]}), d.drag, d.lift};
@@ -186,7 +193,7 @@ struct ClothObject : ContextChild {
           cloth(dress.fabric(), settings, placed(), context->jobs.get()),
           output(*context) {
         time_ns = avatar->avatar.time_ns();
-        keep_pose();
+        stand();
         output.topology().set_indices(garment->garment.drawn_indices(), context->axes);
         output.topology().set_uvs(garment->garment.mesh.uvs, context->axes);
         if (skin) skin_mesh = cloth.add_mesh(skin->skin.vertex_count(), skin->indices);
@@ -220,6 +227,8 @@ struct ClothObject : ContextChild {
     const ClothSettings settings;
     std::vector<Vec3> targets, skin_places;
     Dress::Scratch scratch;
+    BodyJump body{dress.carry(), dress.rest()};
+    bool jumps = false;  // in the next step, however slow it is
     Cloth cloth;
     uint32_t skin_mesh = 0;
     struct Inner {
@@ -235,6 +244,7 @@ struct ClothObject : ContextChild {
     // One step between begin and end; inputs are taken at begin, so that the avatar may move on.
     bool stepping = false;
     float dt = 0.0f;
+    float carried = 0.0f;    // fraction of the body's motion in it that the cloth does not feel
     int64_t time_ns = 0;     // of the pose
     std::vector<Mat4> pose;  // of that step: skinning matrices
     Ref<Frame> next;
@@ -260,6 +270,12 @@ struct ClothObject : ContextChild {
     void keep_pose() {
         const auto matrices = avatar->avatar.skinning_matrices();
         pose.assign(matrices.begin(), matrices.end());
+    }
+    /// The body is in the avatar's pose, and did not move there.
+    void stand() {
+        keep_pose();
+        body.stand(pose);
+        jumps = false;
     }
     const std::vector<Vec3>& placed() {
         dress.place(avatar->avatar.skinning_matrices(), targets, scratch, *context->jobs);
@@ -310,8 +326,14 @@ struct ClothObject : ContextChild {
         move_skin(avatar->avatar.skinning_matrices());
         move_inner();
         time_ns = avatar->avatar.time_ns();
-        if (step_dt > 0.0f) keep_pose();  // else the cloth stays where the step before left it
         dt = step_dt;
+        if (step_dt == 0.0f) return;  // the cloth stays where the step before left it
+        keep_pose();
+        const float simulated_dt = std::clamp(step_dt, kMinStep_s, kMaxStep_s);
+        body.move_to(pose, simulated_dt);
+        jumps = jumps || settings.is_jump(body.greatest_way_m(), simulated_dt);
+        carried = jumps ? 1.0f : 1.0f - settings.inertia;
+        jumps = false;
     }
     void start_with_legs_apart() {
         std::vector<Mat4> matrices(avatar->avatar.skinning_matrices().size());
@@ -339,7 +361,7 @@ struct ClothObject : ContextChild {
         const auto reading = read_avatar();
         next = output.begin();
         time_ns = avatar->avatar.time_ns();
-        keep_pose();
+        stand();
         std::vector<Mat4> matrices(avatar->avatar.skinning_matrices().size());
         const auto body = [&](float share, std::vector<Vec3>& places, std::vector<Collider>& limbs) {
             avatar->avatar.while_dressing(share, matrices, limbs);
@@ -382,7 +404,21 @@ struct ClothObject : ContextChild {
     }
     void step() {
         Profile::Scope time(context->profile, Stage::cloth);
+        if (dt > 0.0f) carry_along();
         cloth.step(dt, targets, colliders, *context->jobs);
+    }
+    void carry_along() {
+        if (!body.moves() || (carried == 0.0f && !body.follows_jump())) return;
+        body.carry(cloth.positions(), carried, *context->jobs);
+        cloth.carry_along({carried, body.places(), body.turns(), body.speeds(), body.is_rigid()});
+    }
+    /// From the pose of the last step.
+    void jump_to_pose() {
+        const std::span<const Mat4> matrices = avatar->avatar.skinning_matrices();
+        body.move_to(matrices, kMaxStep_s);
+        carried = 1.0f;
+        carry_along();
+        body.stand(matrices);
     }
     void finish() {
         stepping = false;
@@ -478,11 +514,13 @@ struct ClothObject : ContextChild {
         std::swap(cut, new_cut);
         try {
             const auto reading = read_avatar();
+            jump_to_pose();
             come_to_lengths(false);
             if (size.own && !any_fit) check_not_drawn(label_text);
         } catch (...) {
             cloth = std::move(resized);
             cut = std::move(new_cut);
+            body.stand(pose);
             throw;
         }
         taken_up = taken;
@@ -638,7 +676,8 @@ vfit_result vfit_cloth_create(vfit_avatar avatar_handle, vfit_garment garment_ha
         if (on_skin && d.cover_m > 0.0f)
             fail(VFIT_ERROR_ARGUMENT, "desc.cover_m is of no use with VFIT_CLOTH_SKIN");
         if (on_skin || d.cover_m > 0.0f) {
-            const std::vector<uint8_t> below = below_garment(wearer, dress.rest(), hands);
+            const std::vector<uint8_t> below =
+                below_garment(wearer, dress.rest(), {hands, (d.flags & VFIT_CLOTH_NO_HANDS) == 0});
             if (on_skin)
                 skin = skin_below(wearer, avatar->wrapped_rest(), below);
             else
@@ -713,6 +752,14 @@ vfit_result vfit_cloth_carry(vfit_cloth handle) {
     return guard([&] {
         Use<ClothObject, Mode::exclusive> cloth(handle.id);
         cloth->carry();
+        return VFIT_OK;
+    });
+}
+
+vfit_result vfit_cloth_teleport(vfit_cloth handle) {
+    return guard([&] {
+        Use<ClothObject, Mode::exclusive> cloth(handle.id);
+        cloth->jumps = true;  // a step that runs has taken its pose
         return VFIT_OK;
     });
 }

@@ -46,7 +46,7 @@ Avatar::Avatar(AvatarSource source, const AvatarDesc& desc)
       skin_(split_skin(desc, rig_, rest_, skin_bones_, skin_weights_)),
       skinning_(desc.skinning),
       matrices_(rig_.bones().size()) {
-    if (desc.hands_clear) hands_clear_.emplace(rig_, rest_.positions, topology_->parts);
+    if (desc.limbs_clear) limbs_clear_.emplace(rig_, rest_.positions, topology_->parts);
     place_joints();
     measure_inner_spheres();
     const Mesh standing = measuring_mesh(kStaturePosture);
@@ -75,8 +75,8 @@ std::vector<BoneAxis> Avatar::bone_axes(std::span<const Mat4> matrices) const {
 void Avatar::move(const Pose& pose) {
     rig_.pose(pose, posed_, matrices_);
     pose_ = pose;
-    if (!hands_clear_) return;
-    hands_clear_->run(posed_, matrices_, pose_);
+    if (!limbs_clear_) return;
+    limbs_clear_->run(posed_, matrices_, pose_);
     rig_.pose(pose_, posed_, matrices_);
 }
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "avatar/avatar_source.h"
-#include "avatar/hands_clear.h"
+#include "avatar/limbs_clear.h"
 #include "body/collider.h"
 #include "body/skeleton.h"
 #include "core/jobs.h"
@@ -27,7 +27,7 @@ struct AvatarDesc {
     // forearm loses less of its volume than it does as a single bone (2 % against 3 %).
     uint32_t twist_steps = 6;
     SkinMethod skinning = SkinMethod::linear;
-    bool hands_clear = false;  // kept out of trunk and thighs: for a body that is not the person's own
+    bool limbs_clear = false;  // kept out of trunk and thighs: for a body that is not the person's own
 };
 
 /// Standing upright, arms hanging beside the body: the posture in which tape measures are taken.
@@ -66,7 +66,7 @@ public:
     /// Both: moves, then writes positions() and normals().
     void pose(const Pose& pose, Jobs& jobs);
     int64_t time_ns() const { return pose_.time_ns; }  // of the last pose
-    /// The pose as it is shown: desc.hands_clear may have moved the arms.
+    /// The pose as it is shown: desc.limbs_clear may have moved the arms.
     const Pose& shown_pose() const { return pose_; }
 
     /// Proportions that motion is bound to: forward_kinematics(skeleton(), pose) gives the places of the
@@ -143,7 +143,7 @@ private:
     float stature_m_ = 0.0f;
 
     SkinMethod skinning_;
-    std::optional<HandsClear> hands_clear_;
+    std::optional<LimbsClear> limbs_clear_;
     Skin::Scratch scratch_;
     Pose pose_;  // arms as they are shown
     PosedSkeleton posed_;

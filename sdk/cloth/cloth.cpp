@@ -74,8 +74,9 @@ void check(const ClothSettings& s) {
         fail(VFIT_ERROR_ARGUMENT, "damping must be 0..1, is ", s.damping);
     if (!finite(s.thickness_m) || s.thickness_m < 0.0f)
         fail(VFIT_ERROR_ARGUMENT, "thickness is ", s.thickness_m);
-    if (!finite(s.teleport_m) || s.teleport_m <= 0.0f)
-        fail(VFIT_ERROR_ARGUMENT, "teleport distance is ", s.teleport_m);
+    if (!(s.carry_speed_m_s > 0.0f) || !(s.carry_way_m > 0.0f))  // may be infinite
+        fail(VFIT_ERROR_ARGUMENT, "a jump is faster than ", s.carry_speed_m_s, " m/s, or further than ",
+             s.carry_way_m, " m");
     if (!finite(s.inertia) || s.inertia < 0.0f || s.inertia > 1.0f)
         fail(VFIT_ERROR_ARGUMENT, "inertia must be 0..1, is ", s.inertia);
     if (!finite(s.budget_ms) || s.budget_ms < 0.0f)
@@ -140,10 +141,11 @@ struct Cloth::State {
     ParticleSolver solver;
     ColliderMotion colliders;
     std::vector<ContactMesh> meshes;
-    std::vector<std::vector<Vec3>> mesh_places;  // that they go to
-    std::vector<Vec3> held;                      // targets, where fixed vertices are lifted off other cloth
-    std::vector<Vec3> previous_targets;          // one a vertex, then one a backstop: as held
-    bool backstops_placed = false;               // previous_targets holds the backstops as well
+    std::vector<std::vector<Vec3>> mesh_places, mesh_before;  // that they go to, and come from
+    std::vector<Vec3> mesh_begin;                             // where a part of that way is over
+    std::vector<Vec3> held;              // targets, where fixed vertices are lifted off other cloth
+    std::vector<Vec3> previous_targets;  // one a vertex, then one a backstop: as held
+    bool backstops_placed = false;       // previous_targets holds the backstops as well
 
     std::vector<Vec3> positions;    // what callers read
     std::vector<Vec3> before, now;  // with own layers: the same at the begin of the step, carried along; and
@@ -170,19 +172,21 @@ struct Cloth::State {
     int guarded_every = 1,
         unguarded = 0;            // steps: after so many it is looked whether layers crossed; those since
     std::vector<Vec3> asleep_at;  // the targets at which it fell asleep; empty: it is awake
+    float carried = 0.0f;         // fraction of the body's motion in the next step that moved the cloth
+    bool sleeps_on = false;       // after it was moved so
 
     bool stays_asleep(std::span<const Vec3> targets) const;
     void wake() { asleep_at.clear(), still_s = 0.0f; }
-    void accept_body(std::span<const Collider> limbs);
+    void follow_fixed(float dt, std::span<const Vec3> targets);
+    void meet_body(std::span<const Vec3> targets, std::span<const Collider> limbs);
+    void accept_mesh(size_t mesh, const Vec3& low, const Vec3& high);
+    void skip_targets(std::span<const Vec3> targets);
     float body_way() const;
     int affordable(int wanted) const;
-    void feel_less(std::span<const Vec3> targets);
     std::span<const Vec3> held_at(std::span<const Vec3> targets);
     void check_body(std::span<const Vec3> targets, std::span<const Collider> colliders) const;
     void reset(std::span<const Vec3> start);
     void advance(float dt, int count, float damping, std::span<const Vec3> targets, Jobs& jobs);
-    void teleport(std::span<const Vec3> targets);
-    void carry(const RigidMotion& motion);
     void rest_if_still(float dt, std::span<const Vec3> held, std::span<const Vec3> targets);
     TriangleGroups& triangles_now(std::span<const Vec3> places, Jobs& jobs);
     CrossingGuard& guarding();
@@ -234,6 +238,7 @@ Cloth Cloth::with_fabric(std::shared_ptr<const Fabric> fabric, Jobs* jobs) const
     o.colliders = s.colliders;
     o.meshes = s.meshes;
     o.mesh_places = s.mesh_places;
+    o.mesh_before = s.mesh_before;
     o.previous_targets = s.previous_targets;
     o.backstops_placed = s.backstops_placed;
     return out;
@@ -254,6 +259,7 @@ void Cloth::State::reset(std::span<const Vec3> start) {
     colliders.forget();
     for (ContactMesh& mesh : meshes) mesh.forget();
     off_solids.reset(), off_cloth.reset(), yield.reset();  // what crossed did so elsewhere
+    carried = 0.0f;
     wake();
     publish();
 }
@@ -268,7 +274,7 @@ void Cloth::put_on(const BodyOnItsWay& body, Jobs& jobs) {
     const auto frame = [&](const PutOnPhase& phase, float share) {
         body(share, targets, colliders);
         s.check_body(targets, colliders);
-        s.accept_body(colliders);
+        s.meet_body(targets, colliders);
         s.advance(1.0f / kSubstepRate_hz, phase.substeps, kPutOnDamping, targets, jobs);
     };
     for (int i = 0; i < kHang.frames; ++i) frame(kHang, 0.0f);
@@ -293,7 +299,7 @@ void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
     for (int i = 0; i < kSteps; ++i) {
         body(float(i) / float(kSteps - 1), targets, colliders);
         s.check_body(targets, colliders);
-        s.accept_body(colliders);
+        s.meet_body(targets, colliders);
         const float dt = kShortest_s * std::pow(kLongest_s / kShortest_s, float(i) / float(kSteps - 1));
         s.advance(dt, kSubsteps, kStopped, targets, jobs);
     }
@@ -308,6 +314,7 @@ uint32_t Cloth::add_mesh(size_t vertices, std::span<const uint32_t> indices, std
         fail(VFIT_ERROR_ARGUMENT, counts.size(), " flags for a mesh of ", vertices, " vertices");
     state_->meshes.emplace_back(vertices, indices, counts, what);
     state_->mesh_places.emplace_back();
+    state_->mesh_before.emplace_back();
     state_->wake();
     return uint32_t(state_->meshes.size()) - 1;
 }
@@ -319,12 +326,14 @@ void Cloth::move_mesh(uint32_t mesh, std::span<const Vec3> positions) {
         fail(VFIT_ERROR_ARGUMENT, positions.size(), " places for a mesh of ", s.meshes[mesh].vertex_count(),
              " vertices");
     if (s.mesh_places[mesh].empty()) s.wake();
+    std::swap(s.mesh_places[mesh], s.mesh_before[mesh]);
     s.mesh_places[mesh].assign(positions.begin(), positions.end());
 }
 
 void Cloth::hide_mesh(uint32_t mesh) {
     if (mesh >= state_->meshes.size()) fail(VFIT_ERROR_ARGUMENT, "there is no mesh ", mesh);
     state_->mesh_places[mesh].clear();
+    state_->mesh_before[mesh].clear();
     state_->meshes[mesh].hide();
     state_->wake();
 }
@@ -352,7 +361,8 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
     if (dt == 0.0f) return;
     const Stopwatch watch;
     dt = std::clamp(dt, kMinStep_s, kMaxStep_s);
-    s.accept_body(colliders);
+    if (s.settings.follows_fixed) s.follow_fixed(dt, skinned_targets);
+    s.meet_body(skinned_targets, colliders);
     if (s.stays_asleep(skinned_targets)) {
         s.substeps = 0;
         s.step_ms = float(watch.ms());
@@ -378,14 +388,61 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
     s.substep_ms = s.substep_ms == 0.0f ? substep_ms : s.substep_ms + kLatest * (substep_ms - s.substep_ms);
 }
 
-void Cloth::State::accept_body(std::span<const Collider> limbs) {
+void Cloth::State::meet_body(std::span<const Vec3> targets, std::span<const Collider> limbs) {
     colliders.accept(limbs, settings.thickness_m);
-    if (meshes.empty()) return;
-    Vec3 low, high;
-    solver.bounds(low, high);
-    for (size_t i = 0; i < meshes.size(); ++i)
-        if (!mesh_places[i].empty())
-            meshes[i].accept(mesh_places[i], low - kMeshAround_m, high + kMeshAround_m);
+    if (carried > 0.0f) skip_targets(targets), colliders.skip(carried);
+    if (!meshes.empty()) {
+        Vec3 low, high;
+        solver.bounds(low, high);
+        for (size_t i = 0; i < meshes.size(); ++i) accept_mesh(i, low - kMeshAround_m, high + kMeshAround_m);
+    }
+    carried = 0.0f;
+}
+
+void Cloth::State::accept_mesh(size_t mesh, const Vec3& low, const Vec3& high) {
+    const std::vector<Vec3>&from = mesh_before[mesh], &to = mesh_places[mesh];
+    if (to.empty()) return;
+    if (carried > 0.0f) meshes[mesh].forget();
+    if (carried > 0.0f && carried < 1.0f && from.size() == to.size()) {
+        mesh_begin.resize(to.size());
+        for (size_t i = 0; i < to.size(); ++i) mesh_begin[i] = glm::mix(from[i], to[i], carried);
+        meshes[mesh].accept(mesh_begin, low, high);
+    }
+    meshes[mesh].accept(to, low, high);
+}
+
+/// Targets begin the step as far on their way as the cloth was moved.
+void Cloth::State::skip_targets(std::span<const Vec3> targets) {
+    for (size_t i = 0; i < targets.size(); ++i)
+        previous_targets[i] = glm::mix(previous_targets[i], targets[i], carried);
+    for (const uint32_t v : fabric->kinematic_vertices()) previous_targets[v] = positions[v];
+    if (carried < 1.0f) return;
+    if (sleeps_on && !asleep_at.empty())
+        asleep_at.assign(targets.begin(), targets.end());
+    else
+        wake();
+}
+
+void Cloth::carry_along(const CarriedAlong& by) {
+    State& s = *state_;
+    by.check(s.fabric->vertex_count());
+    by.move(*s.fabric, s.solver);
+    s.publish();
+    s.carried = by.fraction;
+    s.sleeps_on = by.keeps_rest(s.settings.gravity, s.settings.air);
+}
+
+/// The body's motion as the rigid one that fits the pinned vertices; velocities only turn.
+void Cloth::State::follow_fixed(float dt, std::span<const Vec3> targets) {
+    const std::vector<uint32_t>& fixed = fabric->kinematic_vertices();
+    float way = 0.0f;
+    for (const uint32_t v : fixed) way = std::max(way, glm::distance(previous_targets[v], targets[v]));
+    const float unfelt = settings.is_jump(way, dt) ? 1.0f : 1.0f - settings.inertia;
+    if (unfelt == 0.0f || fixed.empty() || (!asleep_at.empty() && way <= kStill_m)) return;
+    solver.carry(fit_rigid_motion(fixed, previous_targets, targets).part(unfelt));
+    publish();
+    carried = unfelt;
+    sleeps_on = false;
 }
 
 /// Of colliders and meshes in this step, at most.
@@ -415,8 +472,6 @@ void Cloth::State::advance(float dt, int count, float damping, std::span<const V
                            Jobs& jobs) {
     if (settings.self_thickness_m > 0.0f && unguarded == 0) before = positions;
     const std::span<const Vec3> targets = held_at(skinned_targets);
-    teleport(targets);
-    feel_less(targets);
     if (!backstops_placed) {
         const uint32_t vertices = fabric->vertex_count();
         std::copy(targets.begin() + vertices, targets.end(), previous_targets.begin() + vertices);
@@ -517,37 +572,6 @@ void Cloth::State::rest_if_still(float dt, std::span<const Vec3> held, std::span
     if (!settings.sleeps || still_s < kFallsAsleep_s) return;
     // Their velocities stay: by them contact knows who is drawn to the body how fast, when it wakes.
     asleep_at.assign(targets.begin(), targets.end());
-}
-
-/// What of the body's own motion the cloth is not to feel carries it along before the step.
-void Cloth::State::feel_less(std::span<const Vec3> targets) {
-    const std::vector<uint32_t>& fixed = fabric->kinematic_vertices();
-    if (settings.inertia == 1.0f || fixed.empty()) return;
-    RigidMotion motion = fit_rigid_motion(fixed, previous_targets, targets);
-    const float unfelt = 1.0f - settings.inertia;
-    motion.rotation = glm::slerp(Quat(1, 0, 0, 0), motion.rotation, unfelt);
-    motion.to_center = motion.from_center + unfelt * (motion.to_center - motion.from_center);
-    carry(motion);
-    colliders.carry(motion);
-    for (ContactMesh& mesh : meshes) mesh.carry(motion);
-}
-
-void Cloth::State::carry(const RigidMotion& motion) {
-    solver.carry(motion);
-    for (Vec3& target : previous_targets) target = motion.point(target);
-    for (Vec3& place : before) place = motion.point(place);
-}
-
-/// A jump of the body is no motion: the cloth goes along as it hangs, and nothing is swept through it.
-void Cloth::State::teleport(std::span<const Vec3> targets) {
-    const std::vector<uint32_t>& fixed = fabric->kinematic_vertices();
-    float distance = 0.0f;
-    for (uint32_t i : fixed) distance += glm::length(targets[i] - previous_targets[i]);
-    if (fixed.empty() || distance <= settings.teleport_m * float(fixed.size())) return;
-    const RigidMotion motion = fit_rigid_motion(fixed, previous_targets, targets);
-    carry(motion);
-    colliders.jump();
-    for (ContactMesh& mesh : meshes) mesh.jump();
 }
 
 void Cloth::State::publish() {

@@ -13,6 +13,11 @@ struct RigidMotion {
 
     Vec3 point(const Vec3& p) const { return to_center + rotation * (p - from_center); }
     Vec3 direction(const Vec3& v) const { return rotation * v; }
+    /// A fraction of its translation and of its rotation.
+    RigidMotion part(float fraction) const {
+        return {glm::slerp(Quat(1, 0, 0, 0), rotation, fraction), from_center,
+                glm::mix(from_center, to_center, fraction)};
+    }
 };
 
 /// Least squares over the points named by `indices` (at least one); does not allocate.

@@ -363,7 +363,9 @@ OFFSET(vfit_cloth_desc, self_thickness_m, 72);
 OFFSET(vfit_cloth_desc, budget_ms, 76);
 OFFSET(vfit_cloth_desc, cover_m, 80);
 OFFSET(vfit_cloth_desc, virtual_m, 84);
-SIZE(vfit_cloth_desc, 88);
+OFFSET(vfit_cloth_desc, carry_speed_m_s, 88);
+OFFSET(vfit_cloth_desc, carry_way_m, 92);
+SIZE(vfit_cloth_desc, 96);
 
 OFFSET(vfit_cloth_stats, struct_size, 0);
 OFFSET(vfit_cloth_stats, vertex_count, 4);

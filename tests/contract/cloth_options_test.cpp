@@ -276,6 +276,8 @@ TEST_F(ClothOptionsTest, WhatMakesNoSenseIsRefusedByName) {
             "virtual particles");  // of a dress: too many to step
     refused([](vfit_cloth_desc& d) { d.cover_m = 0.01f, d.flags = VFIT_CLOTH_SKIN; }, "cover_m");
     refused([](vfit_cloth_desc& d) { d.cover_m = std::numeric_limits<float>::quiet_NaN(); }, "finite");
+    refused([](vfit_cloth_desc& d) { d.carry_speed_m_s = std::numeric_limits<float>::infinity(); }, "finite");
+    refused([](vfit_cloth_desc& d) { d.carry_way_m = std::numeric_limits<float>::quiet_NaN(); }, "finite");
     refused([](vfit_cloth_desc& d) { d.wind[1] = std::numeric_limits<float>::infinity(); }, "finite");
     refused([](vfit_cloth_desc& d) { d.flags = 1u << 20; }, "flags");
 }

@@ -288,9 +288,9 @@ TEST_F(GarmentsTest, TellTheirParts) {
     }
 }
 
-TEST_F(GarmentsTest, ForearmsStayInTheirSleeves) {
+TEST_F(GarmentsTest, HandsPassWhereTheyAreToldTo) {
     const vfit_avatar avatar = body();
-    for (const auto& [name, same] : {std::pair("shirt_men", true), std::pair("sundress_pattern", false)}) {
+    for (const char* name : {"shirt_men", "sundress_pattern"}) {
         const vfit_garment garment = open(name);
         uint64_t hashes[2];
         for (const uint32_t flag : {0u, uint32_t(VFIT_CLOTH_NO_HANDS)}) {
@@ -311,8 +311,12 @@ TEST_F(GarmentsTest, ForearmsStayInTheirSleeves) {
                 << contract::last_error();
             for (int i = 0; i < 10; ++i) ASSERT_EQ(vfit_cloth_step(cloth, kGarmentStep_s), VFIT_OK);
             hashes[flag != 0] = hash(cloth);
+            if (flag == 0) continue;
+            vfit_cloth_stats stats = vfit_cloth_stats_init();
+            ASSERT_EQ(vfit_cloth_describe(cloth, &stats), VFIT_OK);
+            EXPECT_LT(stats.strain_max, 0.6f) << name;
         }
-        EXPECT_EQ(hashes[0] == hashes[1], same) << name;
+        EXPECT_NE(hashes[0], hashes[1]) << name;
     }
 }
 

@@ -154,6 +154,7 @@ std::vector<Call> calls() {
         {"cloth_step", [](uint64_t h) { return vfit_cloth_step({h}, 0.01f); }},
         {"cloth_begin_step", [](uint64_t h) { return vfit_cloth_begin_step({h}, 0.01f); }},
         {"cloth_end_step", [](uint64_t h) { return vfit_cloth_end_step({h}); }},
+        {"cloth_teleport", [](uint64_t h) { return vfit_cloth_teleport({h}); }},
         {"cloth_set_wind",
          [](uint64_t h) {
              static const float kWind[3] = {};

@@ -10,6 +10,8 @@
 
 #include "bench/bench.h"
 #include "bench/garment_ease.h"
+#include "bench/garment_jumps.h"
+#include "bench/garment_recordings.h"
 #include "bench/targets.h"
 #include "bench/welded.h"
 #include "client/assets.h"
@@ -379,6 +381,28 @@ void add_garments(Command& app) {
     Command command =
         app.add_subcommand("garments", "Judge garments in all sizes on bodies of several kinds (synthetic)");
     auto o = std::make_shared<Options>();
+    auto real = std::make_shared<RecordingsOptions>();
+    command.add_option("--recordings", real->folder,
+                       "Folder of recordings of people: judge garments, made to measure, on their motion");
+    command.add_option("--recording", real->recording, "With --recordings: those whose name holds this");
+    command.add_flag("--own-tracker", real->own_tracker,
+                     "With --recordings: joints by vfit instead of the recording's");
+    command.add_flag("--hands", real->hands, "With --recordings: hands push the garments");
+    command.add_option("--substeps", real->substeps, "With --recordings: sub-steps per 1/60 s")
+        .within(1, 256);
+    auto jumps = std::make_shared<JumpsOptions>();
+    auto with_jumps = std::make_shared<bool>(false);
+    command.add_flag("--jumps", *with_jumps,
+                     "Judge garments on a body that jumps, turns or moves a limb within one step");
+    command.add_flag("--all", jumps->all, "With --jumps: a line for each case");
+    command.add_option("--inertia", jumps->inertia, "With --jumps: of the cloth");
+    command.add_option("--carry-speed", jumps->carry_speed_m_s,
+                       "With --jumps, --recordings: in m/s, what is faster is a jump; below 0: no limit");
+    command.add_option(
+        "--carry-way", jumps->carry_way_m,
+        "With --jumps, --recordings: in metres, what goes further in a step is a jump; below 0: no limit");
+    command.add_flag("--spheres", jumps->spheres,
+                     "With --jumps: on spheres and capsules instead of the skin");
     command.add_option("--folder", o->folder, "Of cooked garments (default: those of the build)");
     command.add_option("--garment", o->garment, "One garment");
     command.add_option("--size", o->size, "One size");
@@ -391,7 +415,16 @@ void add_garments(Command& app) {
     command.add_option("--pictures", o->pictures, "Folder for a sheet of pictures of each body");
     command.add_flag("--quick", o->quick, "One size of each");
     command.add_flag("--json", o->json, "Print JSON");
-    command.callback([o] { judge_garments(*o); });
+    command.callback([o, real, jumps, with_jumps] {
+        if (*with_jumps) {
+            jumps->garment = o->garment, jumps->json = o->json;
+            return judge_jumps(*jumps);
+        }
+        if (real->folder.empty()) return judge_garments(*o);
+        real->carry_speed_m_s = jumps->carry_speed_m_s, real->carry_way_m = jumps->carry_way_m;
+        real->garment = o->garment, real->pictures = o->pictures, real->json = o->json;
+        judge_recordings(*real);
+    });
 }
 
 }  // namespace vfit::tools

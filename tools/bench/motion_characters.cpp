@@ -152,7 +152,7 @@ Json judge_characters(const MotionJudge& judge) {
             desc.sex = figure.sex;
             export_character(context.get(), desc, shape_of(figure), rig_style_from(rig), path);
             AvatarDesc settings;
-            settings.hands_clear = true;
+            settings.limbs_clear = true;
             vfit::Avatar character(load_character(GltfDocument(path), "").source, settings);
             vfit::Avatar free_hands(load_character(GltfDocument(path), "").source, AvatarDesc());
             AvatarDesc body;

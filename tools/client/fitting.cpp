@@ -9,7 +9,7 @@ namespace vfit::tools {
 
 namespace {
 
-constexpr double kClothStep_s = 1.0 / 60.0;
+constexpr double kLongestStep_s = 0.1;  // vfit_cloth_step shortens longer ones
 constexpr int64_t kLongestPause_ns =
     500'000'000;  // a recording that rests for an hour is not played for an hour
 
@@ -42,6 +42,7 @@ void Fitting::dress() {
     vfit_cloth_desc cloth = vfit_cloth_desc_init();
     cloth.flags =
         VFIT_CLOTH_SKIN | VFIT_CLOTH_PRESSURE | (options_.hands ? 0u : uint32_t(VFIT_CLOTH_NO_HANDS));
+    cloth.substeps = options_.substeps;
     if (!options_.size.empty()) cloth.size_label = options_.size.c_str();
     outfit_.emplace(context_, avatar_.get(),
                     options_.garments.empty() ? default_outfit(sex_) : options_.garments, cloth);
@@ -99,7 +100,8 @@ void Fitting::play(const std::function<bool(vfit_frame, double)>& on_frame) {
             first_ns += std::max<int64_t>(0, now_ns - last_ns - kLongestPause_ns);
             last_ns = now_ns;
             const double time = seconds(now_ns - first_ns);
-            for (; cloth_time < time; cloth_time += kClothStep_s) outfit_->step(float(kClothStep_s));
+            for (; cloth_time < time; cloth_time += std::min(kLongestStep_s, time - cloth_time))
+                outfit_->step(float(std::min(kLongestStep_s, time - cloth_time)));
             if (!on_frame(tracked.get(), time)) break;
         }
         if (options_.max_frames && frames_played_ == options_.max_frames) break;

@@ -17,6 +17,7 @@ struct FittingOptions {
     std::string chart_kind;  // garment kind of that chart; empty: the garment's own
     ScanOptions scan;
     uint32_t detail = 0;
+    uint32_t substeps = 0;    // of the cloth per 1/60 s; 0: the library's default
     bool hands = false;       // forearms and hands push the garment
     uint32_t max_frames = 0;  // of the moving part; 0: all
 };
@@ -46,7 +47,7 @@ public:
     /// From the last scan frame to the first buffer of the dressed avatar.
     double dress_ms() const { return dress_ms_; }
 
-    /// Plays the source from its start: each frame moves the avatar and the outfit, which runs at 60 Hz.
+    /// Plays the source from its start: each frame moves the avatar, and the outfit by one step.
     /// on_frame sees the tracked frame and the seconds since the first, long pauses cut short; false ends the
     /// play.
     void play(const std::function<bool(vfit_frame tracked, double time_s)>& on_frame);

@@ -10,12 +10,13 @@ namespace vfit_python {
 namespace {
 
 vfit_avatar_desc desc_in(const py::object& sex, uint32_t detail, bool paper_colliders, bool single_bones,
-                         bool dual) {
+                         bool dual, bool limbs_as_posed) {
     vfit_avatar_desc desc = vfit_avatar_desc_init();
     desc.sex = sex_in(sex);
     desc.detail = detail;
     desc.flags = flag(paper_colliders, VFIT_AVATAR_PAPER_COLLIDERS) |
-                 flag(single_bones, VFIT_AVATAR_SINGLE_BONES) | flag(dual, VFIT_AVATAR_DUAL_QUATERNIONS);
+                 flag(single_bones, VFIT_AVATAR_SINGLE_BONES) | flag(dual, VFIT_AVATAR_DUAL_QUATERNIONS) |
+                 flag(limbs_as_posed, VFIT_AVATAR_LIMBS_AS_POSED);
     return desc;
 }
 
@@ -27,8 +28,8 @@ std::shared_ptr<Avatar> create(const std::shared_ptr<Core>& core, Create&& call)
 }
 
 std::shared_ptr<Avatar> from_scan(const Scan& scan, const py::object& sex, uint32_t detail, bool paper,
-                                  bool single, bool dual) {
-    const vfit_avatar_desc desc = desc_in(sex, detail, paper, single, dual);
+                                  bool single, bool dual, bool limbs_as_posed) {
+    const vfit_avatar_desc desc = desc_in(sex, detail, paper, single, dual, limbs_as_posed);
     return create(scan.core(), [&, c = scan.core()->open_handle(), s = scan.get()](vfit_avatar* out) {
         return vfit_avatar_create_from_scan(c, &desc, s, out);
     });
@@ -36,8 +37,8 @@ std::shared_ptr<Avatar> from_scan(const Scan& scan, const py::object& sex, uint3
 
 std::shared_ptr<Avatar> from_measures(const Context& context, const py::object& measurements,
                                       const py::object& sex, uint32_t detail, bool paper, bool single,
-                                      bool dual) {
-    const vfit_avatar_desc desc = desc_in(sex, detail, paper, single, dual);
+                                      bool dual, bool limbs_as_posed) {
+    const vfit_avatar_desc desc = desc_in(sex, detail, paper, single, dual, limbs_as_posed);
     const std::vector<vfit_measurement> items = measurements_in(measurements);
     return create(context.core(), [&, c = context.handle()](vfit_avatar* out) {
         return vfit_avatar_create(c, &desc, items.data(), sizeof(vfit_measurement),
@@ -46,8 +47,8 @@ std::shared_ptr<Avatar> from_measures(const Context& context, const py::object& 
 }
 
 std::shared_ptr<Avatar> from_shape(const Context& context, const py::object& shape, const py::object& sex,
-                                   uint32_t detail, bool paper, bool single, bool dual) {
-    const vfit_avatar_desc desc = desc_in(sex, detail, paper, single, dual);
+                                   uint32_t detail, bool paper, bool single, bool dual, bool limbs_as_posed) {
+    const vfit_avatar_desc desc = desc_in(sex, detail, paper, single, dual, limbs_as_posed);
     std::vector<vfit_shape_value> items;
     for (const auto& [key, given] : py::dict(shape)) {
         vfit_shape_value v = vfit_shape_value_init();
@@ -79,9 +80,8 @@ void set_pose(const Avatar& avatar, const py::object& given) {
 
 /// An own character from a path or from the bytes of a file.
 std::shared_ptr<Avatar> load(const Context& context, const py::object& file, const py::object& bone_map,
-                             bool hands_as_posed, bool paper, bool single, bool dual) {
-    vfit_avatar_desc desc = desc_in(py::none(), 0, paper, single, dual);
-    desc.flags |= flag(hands_as_posed, VFIT_AVATAR_HANDS_AS_POSED);
+                             bool paper, bool single, bool dual, bool limbs_as_posed) {
+    const vfit_avatar_desc desc = desc_in(py::none(), 0, paper, single, dual, limbs_as_posed);
     vfit_character_desc character = vfit_character_desc_init();
     std::string path, bytes, map;
     if (py::isinstance<py::bytes>(file)) {
@@ -138,8 +138,8 @@ py::bytes pack(const Avatar& avatar, const std::string& size_label) {
 }
 
 py::tuple unpack(const Context& context, const py::bytes& given, uint32_t detail, bool paper, bool single,
-                 bool dual) {
-    const vfit_avatar_desc desc = desc_in(py::none(), detail, paper, single, dual);
+                 bool dual, bool limbs_as_posed) {
+    const vfit_avatar_desc desc = desc_in(py::none(), detail, paper, single, dual, limbs_as_posed);
     const std::string bytes = given;
     char label[32] = "";
     const auto avatar = create(context.core(), [&, c = context.handle()](vfit_avatar* out) {
@@ -218,22 +218,23 @@ void bind_avatar(py::module_& m) {
             m, "Avatar", "A posable body. detail 0: 13.7k vertices, 1: 54.8k, 2: 219k, 3: 1.0k, for crowds.")
             .def_static("from_scan", &from_scan, "scan"_a, py::kw_only(), "sex"_a = py::none(),
                         "detail"_a = 0, "paper_colliders"_a = false, "single_bones"_a = false,
-                        "dual_quaternions"_a = false, "Size and collider radii of the scanned person.")
+                        "dual_quaternions"_a = false, "limbs_as_posed"_a = false,
+                        "Size and collider radii of the scanned person.")
             .def_static("from_measures", &from_measures, "context"_a, "measurements"_a, py::kw_only(),
                         "sex"_a = py::none(), "detail"_a = 0, "paper_colliders"_a = false,
-                        "single_bones"_a = false, "dual_quaternions"_a = false,
+                        "single_bones"_a = false, "dual_quaternions"_a = false, "limbs_as_posed"_a = false,
                         "The default body scaled to stature_m and, where given, shoulder_breadth_m.")
             .def_static("from_shape", &from_shape, "context"_a, "shape"_a = py::dict(), py::kw_only(),
                         "sex"_a = py::none(), "detail"_a = 0, "paper_colliders"_a = false,
-                        "single_bones"_a = false, "dual_quaternions"_a = false,
+                        "single_bones"_a = false, "dual_quaternions"_a = false, "limbs_as_posed"_a = false,
                         "A body by its shape values; see shape_values().")
             .def_static("load", &load, "context"_a, "file"_a, py::kw_only(), "bone_map"_a = py::none(),
-                        "hands_as_posed"_a = false, "paper_colliders"_a = false, "single_bones"_a = false,
-                        "dual_quaternions"_a = false,
+                        "paper_colliders"_a = false, "single_bones"_a = false, "dual_quaternions"_a = false,
+                        "limbs_as_posed"_a = false,
                         "A character of yours: glTF 2.0 or VRM, a path or the file's bytes.")
             .def_static("unpack", &unpack, "context"_a, "packet"_a, py::kw_only(), "detail"_a = 0,
                         "paper_colliders"_a = false, "single_bones"_a = false, "dual_quaternions"_a = false,
-                        "(avatar, size label) of what pack gave.")
+                        "limbs_as_posed"_a = false, "(avatar, size label) of what pack gave.")
             .def("pack", &pack, "size_label"_a = "", "Body and size for the network, at most 200 bytes.")
             .def("describe", &describe)
             .def("parts", &parts, "Triangles by material.")

@@ -51,7 +51,8 @@ std::shared_ptr<Cloth> create(const Avatar& avatar, const Garment& garment,
                               float thickness_m, bool hands, bool skin, bool sleeps,
                               const std::array<float, 3>& wind, float drag, float lift,
                               const std::optional<float>& inertia, float self_thickness_m, float budget_ms,
-                              bool pressure, float cover_m, float virtual_m, bool any_fit) {
+                              bool pressure, float cover_m, float virtual_m, bool any_fit,
+                              float carry_speed_m_s, float carry_way_m) {
     vfit_cloth_desc desc = vfit_cloth_desc_init();
     desc.size_label = size ? size->c_str() : nullptr;
     desc.substeps = substeps;
@@ -74,6 +75,8 @@ std::shared_ptr<Cloth> create(const Avatar& avatar, const Garment& garment,
     desc.budget_ms = budget_ms;
     desc.cover_m = cover_m;
     desc.virtual_m = virtual_m;
+    desc.carry_speed_m_s = carry_speed_m_s;
+    desc.carry_way_m = carry_way_m;
     vfit_cloth handle{};
     run([&, a = avatar.get(), g = garment.get()] { return vfit_cloth_create(a, g, &desc, &handle); });
     auto cloth = make<Cloth>(avatar.core(), handle);
@@ -180,6 +183,7 @@ void bind_cloth(py::module_& m) {
                 "sleeps"_a = true, "wind"_a = std::array<float, 3>{}, "drag"_a = 0.0f, "lift"_a = 0.0f,
                 "inertia"_a = py::none(), "self_thickness_m"_a = 0.0f, "budget_ms"_a = 0.0f,
                 "pressure"_a = false, "cover_m"_a = 0.0f, "virtual_m"_a = 0.0f, "any_fit"_a = false,
+                "carry_speed_m_s"_a = 0.0f, "carry_way_m"_a = 0.0f,
                 "size None: made to the avatar. substeps 0: 8 a 1/60 s. hands False: forearms and hands pass "
                 "through the garment. skin True: kept out of the avatar's skin itself, not of its spheres "
                 "and capsules. "
@@ -189,7 +193,12 @@ void bind_cloth(py::module_& m) {
                 "pressure True: frames tell what the body presses with, in Pa. "
                 "cover_m: more spheres and capsules, until no skin is so far outside of all. "
                 "virtual_m: points of triangles so near each other meet the body too: for coarse meshes. "
-                "any_fit True: worn even where it would not close.")
+                "any_fit True: worn even where it would not close. "
+                "carry_speed_m_s, carry_way_m: a body that moves faster or further in a step jumps, and the "
+                "cloth feels nothing of it; 0: 6 and 0.06, below 0: no limit.")
+            .def(
+                "teleport", [](const Cloth& c) { run([h = c.get()] { return vfit_cloth_teleport(h); }); },
+                "The avatar's pose at the next step is a jump from the last one: the cloth is carried along.")
             .def(
                 "set_wind",
                 [](const Cloth& c, const std::array<float, 3>& wind) {

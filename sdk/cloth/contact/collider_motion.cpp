@@ -33,11 +33,15 @@ bool ColliderMotion::is_end_of_another(uint32_t ball) const {
     return false;
 }
 
-void ColliderMotion::carry(const RigidMotion& motion) {
-    for (Capsule& c : previous_) {
-        const bool ball = c.is_ball();
-        c.a = motion.point(c.a);
-        c.b = ball ? c.a : motion.point(c.b);
+void ColliderMotion::skip(float fraction) {
+    for (size_t i = 0; i < current_.size(); ++i) {
+        Capsule& from = previous_[i];
+        const Capsule& to = current_[i];
+        const bool ball = from.is_ball();
+        from.a = glm::mix(from.a, to.a, fraction);
+        from.b = ball ? from.a : glm::mix(from.b, to.b, fraction);
+        from.radius_a = glm::mix(from.radius_a, to.radius_a, fraction);
+        from.radius_b = glm::mix(from.radius_b, to.radius_b, fraction);
     }
 }
 

@@ -8,7 +8,6 @@
 
 #include "body/collider.h"
 #include "cloth/contact/contact.h"
-#include "cloth/rigid_motion.h"
 
 namespace vfit {
 
@@ -19,11 +18,9 @@ public:
     void accept(std::span<const Collider> colliders, float thickness_m);
     /// The step has ended.
     void arrive() { std::swap(previous_, current_); }
-    /// They were where they are now.
-    void jump() { previous_ = current_; }
+    /// A fraction of their way in this step lies behind them when it begins; 1: they jump.
+    void skip(float fraction);
     void forget() { previous_.clear(); }
-    /// Their last places were carried along.
-    void carry(const RigidMotion& motion);
     /// How far any of them went in this step, at most; infinite where one appeared, vanished or changed its
     /// kind.
     float greatest_way() const;

@@ -135,10 +135,6 @@ void ContactMesh::hide() {
     boxes_.resize(ways_m_.size());
 }
 
-void ContactMesh::carry(const RigidMotion& motion) {
-    for (Particle& p : begin_) p.x = motion.point(p.x);
-}
-
 Vec3 ContactMesh::Place::at(const Particles& points) const {
     return weights.x * points[corner[0]].x + weights.y * points[corner[1]].x +
            weights.z * points[corner[2]].x;

@@ -12,7 +12,6 @@
 #include "cloth/contact/mesh_of.h"
 #include "cloth/contact/surface_kernels.h"
 #include "cloth/contact/triangle_groups.h"
-#include "cloth/rigid_motion.h"
 #include "cloth/solver/cloth_kernels.h"
 #include "cloth/triangle_fans.h"
 
@@ -30,17 +29,12 @@ public:
     MeshOf what() const { return what_; }
     /// Where its vertices are at the end of this step. `around`: the box in which it is looked for.
     void accept(std::span<const Vec3> positions, const Vec3& low, const Vec3& high);
-    /// They were where they are now.
-    void jump() {
-        if (!begin_.empty()) begin_ = end_;
-    }
     /// They were nowhere before: the next step begins where it ends.
     void forget() { begin_.clear(); }
     void hide();
     void arrive() {
         if (!begin_.empty()) std::swap(begin_, end_);
     }
-    void carry(const RigidMotion& motion);
     float greatest_way() const { return greatest_way_; }
 
     /// Points of the mesh about which a particle was nearest to it in the step before, and where it faced

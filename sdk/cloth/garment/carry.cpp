@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/gtc/matrix_inverse.hpp>
+
 #include "core/error.h"
 
 namespace vfit {
@@ -35,28 +37,39 @@ Carry::Carry(std::span<const SkinBones> bones, std::span<const SkinWeights> weig
     starts_.push_back(static_cast<uint32_t>(influences_.size()));
 }
 
-const Mat4& Carry::heaviest(uint32_t i, std::span<const Mat4> matrices) const {
-    const Influence* first = &influences_[starts_[i]];
-    return matrices[std::max_element(
-                        first, &influences_[0] + starts_[i + 1],
-                        [](const Influence& a, const Influence& b) { return a.weight < b.weight; })
-                        ->bone];
+uint32_t Carry::heaviest_bone(uint32_t vertex) const {
+    const std::span<const Influence> all = of_vertex(vertex);
+    return std::max_element(all.begin(), all.end(),
+                            [](const Influence& a, const Influence& b) { return a.weight < b.weight; })
+        ->bone;
+}
+
+Mat4 Carry::blended(uint32_t vertex, std::span<const Mat4> matrices) const {
+    Mat4 out(0.0f);
+    for (const Influence& by : of_vertex(vertex)) out += by.weight * matrices[by.bone];
+    return out;
+}
+
+Mat4 Carry::motion(uint32_t vertex, std::span<const Mat4> from, std::span<const Mat4> to) const {
+    const Mat4 before = blended(vertex, from);
+    if (glm::determinant(Mat3(before)) < kFlattest)
+        return to[heaviest_bone(vertex)] * glm::affineInverse(from[heaviest_bone(vertex)]);
+    return blended(vertex, to) * glm::affineInverse(before);
+}
+
+void Carry::check_matrices(std::span<const Mat4> matrices) const {
+    if (matrices.size() < bone_count_)
+        fail(VFIT_ERROR_ARGUMENT, matrices.size(), " skinning matrices for cloth on ", bone_count_, " bones");
 }
 
 /// Calls vertex(i, blended matrix) for all.
 template <typename Vertex>
 void Carry::for_all(std::span<const Mat4> matrices, Jobs& jobs, const Vertex& vertex) const {
-    if (matrices.size() < bone_count_)
-        fail(VFIT_ERROR_ARGUMENT, matrices.size(), " skinning matrices for cloth on ", bone_count_, " bones");
+    check_matrices(matrices);
     const uint32_t count = vertex_count();
     parallel_for(jobs, (count + kCarryChunk - 1) / kCarryChunk, [&](uint32_t chunk) {
         const uint32_t last = std::min(count, (chunk + 1) * kCarryChunk);
-        for (uint32_t i = chunk * kCarryChunk; i < last; ++i) {
-            Mat4 blended(0.0f);
-            for (uint32_t k = starts_[i]; k < starts_[i + 1]; ++k)
-                blended += influences_[k].weight * matrices[influences_[k].bone];
-            vertex(i, blended);
-        }
+        for (uint32_t i = chunk * kCarryChunk; i < last; ++i) vertex(i, blended(i, matrices));
     });
 }
 
@@ -67,7 +80,7 @@ void Carry::take_out(std::span<const Mat4> matrices, std::span<const Vec3> posit
     out.by_heaviest.resize(vertex_count());
     for_all(matrices, jobs, [&](uint32_t i, const Mat4& blended) {
         const bool flat = glm::determinant(Mat3(blended)) < kFlattest;
-        const Mat4& m = flat ? heaviest(i, matrices) : blended;
+        const Mat4& m = flat ? matrices[heaviest_bone(i)] : blended;
         const Mat3 back = glm::inverse(Mat3(m));
         out.by_heaviest[i] = flat;
         out.positions[i] = back * (positions[i] - Vec3(m[3]));
@@ -88,7 +101,7 @@ std::vector<Vec3> Carry::on_axes(std::span<const BoneAxis> axes, std::span<const
 void Carry::put_in(std::span<const Mat4> matrices, const Unposed& cloth, std::span<Vec3> positions,
                    std::span<Vec3> normals, Jobs& jobs) const {
     for_all(matrices, jobs, [&](uint32_t i, const Mat4& blended) {
-        const Mat4& m = cloth.by_heaviest[i] ? heaviest(i, matrices) : blended;
+        const Mat4& m = cloth.by_heaviest[i] ? matrices[heaviest_bone(i)] : blended;
         const Mat3 linear(m);
         positions[i] = linear * cloth.positions[i] + Vec3(m[3]);
         normals[i] = unit_or(linear * cloth.normals[i], Vec3(0.0f, 1.0f, 0.0f));

@@ -18,6 +18,18 @@ public:
 
     uint32_t vertex_count() const { return static_cast<uint32_t>(starts_.size()) - 1; }
 
+    struct Influence {
+        uint32_t bone;
+        float weight;
+    };
+    std::span<const Influence> of_vertex(uint32_t vertex) const {
+        return std::span(influences_).subspan(starts_[vertex], starts_[vertex + 1] - starts_[vertex]);
+    }
+    Mat4 blended(uint32_t vertex, std::span<const Mat4> matrices) const;
+    uint32_t heaviest_bone(uint32_t vertex) const;
+    /// The skinning blend of a vertex in the pose `to` times the inverse of that in the pose `from`.
+    Mat4 motion(uint32_t vertex, std::span<const Mat4> from, std::span<const Mat4> to) const;
+
     /// Cloth with the pose in which it was simulated taken out. Kept by the caller, so that nothing allocates
     /// after the first call.
     struct Unposed {
@@ -36,12 +48,10 @@ public:
     /// axes: one a rig bone.
     std::vector<Vec3> on_axes(std::span<const BoneAxis> axes, std::span<const Vec3> positions) const;
 
+    /// VFIT_ERROR_ARGUMENT where these are too few.
+    void check_matrices(std::span<const Mat4> matrices) const;
+
 private:
-    struct Influence {
-        uint32_t bone;
-        float weight;
-    };
-    const Mat4& heaviest(uint32_t i, std::span<const Mat4> matrices) const;
     template <typename Vertex>
     void for_all(std::span<const Mat4> matrices, Jobs& jobs, const Vertex& vertex) const;
 

@@ -6,20 +6,20 @@
 
 namespace vfit {
 
-std::vector<uint8_t> below_garment(const DressBody& body, std::span<const Vec3> garment, bool with_hands) {
+std::vector<uint8_t> below_garment(const DressBody& body, std::span<const Vec3> garment, ArmsMet arms) {
     constexpr float kAbove_m = 0.1f, kBelow_m = 0.25f;
     float low = INFINITY, high = -INFINITY;
     for (const Vec3& p : garment) low = std::min(low, p.y), high = std::max(high, p.y);
-    const auto is_hand = [](BodyPart part) {
-        return part == BodyPart::kLeftForearm || part == BodyPart::kLeftHand ||
-               part == BodyPart::kRightForearm || part == BodyPart::kRightHand;
+    const auto passes = [&](BodyPart part) {
+        if (part == BodyPart::kLeftHand || part == BodyPart::kRightHand) return !arms.hands;
+        return (part == BodyPart::kLeftForearm || part == BodyPart::kRightForearm) && !arms.forearms;
     };
     const auto counts = [&](size_t v) {
         const float y = body.positions[v].y;
         const bool level = y > low - kBelow_m && y < high + kAbove_m;
         if (body.parts.empty()) return level;
         const BodyPart part = body.parts[v];
-        if (!with_hands && is_hand(part)) return false;
+        if (passes(part)) return false;
         return level || is_arm(part);
     };
     std::vector<uint8_t> below(body.positions.size());

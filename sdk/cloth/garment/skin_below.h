@@ -10,9 +10,14 @@
 
 namespace vfit {
 
+/// Which parts of the arms cloth meets; through the others it passes.
+struct ArmsMet {
+    bool forearms = true, hands = true;
+};
+
 /// One a body vertex, 1: from a hand above the garment's upper edge to a foot's length below its hem, and the
-/// arms; without forearms and hands where those are to pass through.
-std::vector<uint8_t> below_garment(const DressBody& body, std::span<const Vec3> garment, bool with_hands);
+/// arms.
+std::vector<uint8_t> below_garment(const DressBody& body, std::span<const Vec3> garment, ArmsMet arms);
 
 /// Of the skin as cloth meets it (wrapped_skin.h), what is below the garment.
 struct SkinBelow {

@@ -54,6 +54,22 @@ TEST(SkinCover, CoversTheSkinAndSticksOutOfItNoFurther) {
     EXPECT_LT(last, post.positions.size() / 8);
 }
 
+TEST(SkinBelow, HandsMayPassWhileForearmsAreMet) {
+    const Post post(0.1f);
+    DressBody body = post.body();
+    std::vector<BodyPart> parts(post.positions.size(), BodyPart::kTorso);
+    parts[0] = BodyPart::kLeftForearm, parts[1] = BodyPart::kLeftHand;
+    parts[2] = BodyPart::kRightForearm, parts[3] = BodyPart::kRightHand;
+    body.parts = parts;
+    const auto counted = [&](ArmsMet arms) {
+        const std::vector<uint8_t> below = below_garment(body, post.positions, arms);
+        return std::vector<uint8_t>(below.begin(), below.begin() + 4);
+    };
+    EXPECT_EQ(counted({true, true}), (std::vector<uint8_t>{1, 1, 1, 1}));
+    EXPECT_EQ(counted({true, false}), (std::vector<uint8_t>{1, 0, 1, 0}));
+    EXPECT_EQ(counted({false, false}), (std::vector<uint8_t>{0, 0, 0, 0}));
+}
+
 TEST(SkinCover, ItIsTheBodysOwnCollidersThatComeFirst) {
     const Post post(0.1f);
     Collider pole;

@@ -497,6 +497,7 @@ class Avatar(_Closable):
         paper_colliders: bool = False,
         single_bones: bool = False,
         dual_quaternions: bool = False,
+        limbs_as_posed: bool = False,
     ) -> Avatar: ...
     @staticmethod
     def from_measures(
@@ -508,6 +509,7 @@ class Avatar(_Closable):
         paper_colliders: bool = False,
         single_bones: bool = False,
         dual_quaternions: bool = False,
+        limbs_as_posed: bool = False,
     ) -> Avatar: ...
     @staticmethod
     def from_shape(
@@ -519,6 +521,7 @@ class Avatar(_Closable):
         paper_colliders: bool = False,
         single_bones: bool = False,
         dual_quaternions: bool = False,
+        limbs_as_posed: bool = False,
     ) -> Avatar: ...
     @staticmethod
     def load(
@@ -526,10 +529,10 @@ class Avatar(_Closable):
         file: Union[_Path, bytes],
         *,
         bone_map: Optional[Mapping[str, str]] = None,
-        hands_as_posed: bool = False,
         paper_colliders: bool = False,
         single_bones: bool = False,
         dual_quaternions: bool = False,
+        limbs_as_posed: bool = False,
     ) -> Avatar:
         """A character of yours, glTF 2.0 or VRM. bone_map: {"hips": "name of a node", ...}."""
     @staticmethod
@@ -541,6 +544,7 @@ class Avatar(_Closable):
         paper_colliders: bool = False,
         single_bones: bool = False,
         dual_quaternions: bool = False,
+        limbs_as_posed: bool = False,
     ) -> tuple[Avatar, str]:
         """The avatar and the size label of what pack gave."""
     def pack(self, size_label: str = "") -> bytes:
@@ -632,12 +636,18 @@ class Cloth(_Closable):
         cover_m: float = 0.0,
         virtual_m: float = 0.0,
         any_fit: bool = False,
+        carry_speed_m_s: float = 0.0,
+        carry_way_m: float = 0.0,
     ) -> None:
         """hands False: forearms and hands pass through, so that none catches a skirt. skin True: kept out of
         the avatar's skin itself. self_thickness_m: kept between the cloth's own layers. pressure True: frames
         have pressure, in Pa. cover_m: more spheres and capsules, until no skin below the garment is so far
         outside of all. virtual_m: points of triangles so near each other meet the body too: for coarse
-        meshes. any_fit True: worn even where it would not close; else NotWearableError."""
+        meshes. any_fit True: worn even where it would not close; else NotWearableError. carry_speed_m_s,
+        carry_way_m: a body that moves faster or further in a step jumps, and the cloth feels nothing of it;
+        0: 6 and 0.06, below 0: no limit."""
+    def teleport(self) -> None:
+        """The avatar's pose at the next step is a jump from the last one: the cloth is carried along."""
     def set_wind(self, wind: Tuple[float, float, float]) -> None: ...
     def set_quality(self, substeps: int = 0, budget_ms: float = 0.0) -> None: ...
     def set_size(self, size: Optional[str] = None) -> None:

@@ -75,6 +75,15 @@ namespace Vfit
             fixed (float* to = values) Calls.ClothFitMap(Handle, to, (uint)values.Length);
         }
 
+        /// <summary>
+        /// The avatar's pose at the next step is a jump from the last one: the bones carry the cloth along,
+        /// and it feels none of the way.
+        /// </summary>
+        public void Teleport()
+        {
+            Calls.ClothTeleport(Handle);
+        }
+
         /// <summary>Velocity of the air in the context's axes.</summary>
         public void SetWind(Float3 wind)
         {

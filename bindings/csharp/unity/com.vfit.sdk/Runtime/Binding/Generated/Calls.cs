@@ -2750,6 +2750,21 @@ namespace Vfit
             }
         }
 
+        internal static Result ClothTeleport(ClothHandle cloth)
+        {
+            bool clothHeld = false;
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_cloth_teleport(
+                    new ClothId(VfitHandle.Hold(cloth, ref clothHeld))));
+                return result;
+            }
+            finally
+            {
+                if (clothHeld) cloth.DangerousRelease();
+            }
+        }
+
         internal static Result ClothSetWind(ClothHandle cloth, float* wind)
         {
             bool clothHeld = false;

@@ -462,8 +462,8 @@ namespace Vfit
 
         /// <summary>Your character as an avatar: bind motion to it, pose it, fetch its buffers. It is turned
         /// to face +Z and stood on the floor; whatever its proportions, the bones of a pose turn it, feet
-        /// that motion plants stand, limbs get twist bones, and hands are kept out of its trunk and thighs
-        /// (unless desc.flags has HANDS_AS_POSED). Missing of VRM's optional bones are stood in for. Morph
+        /// that motion plants stand, limbs get twist bones, and arms are kept out of its trunk and thighs
+        /// (unless desc.flags has LIMBS_AS_POSED). Missing of VRM's optional bones are stood in for. Morph
         /// targets, animations and meshes that hang on no bone are left out and logged. desc.sex and detail
         /// do not apply. Buffers are read from the file's own folder alone, from memory from nowhere else.
         /// VFIT_ERROR_IO; VFIT_ERROR_DATA for a damaged file, one without a humanoid or skin, of no person's
@@ -626,6 +626,15 @@ namespace Vfit
         /// end_step. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_carry(ClothId cloth);
+
+        /// <summary>Makes the next step (of more than 0 s) a jump, however short the way is from the pose of
+        /// the last step: a snap turn, a correction over the network. The bones move the cloth as it hangs,
+        /// each vertex with those that it is skinned to, and nothing is swept through it. It keeps its
+        /// velocity relative to the body. Longer and faster motions are jumps anyway
+        /// (vfit_cloth_desc.carry_speed_m_s). Call it for each cloth of an outfit. While a step runs, it
+        /// applies to the step after it. vfit_cloth_reset cancels it. [excl]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_cloth_teleport(ClothId cloth);
 
         /// <summary>Velocity of the air, in the context's axes and unit a second, from the next step on.
         /// [excl]</summary>

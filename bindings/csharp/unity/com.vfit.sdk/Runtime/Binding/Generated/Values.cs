@@ -340,8 +340,9 @@ namespace Vfit
         /// <summary>skinned by dual quaternions in place of linear blending: joints that bend or twist far
         /// keep their section. An engine that skins by BONE_MATRIX shows the linear blend</summary>
         DualQuaternions = 4,
-        /// <summary>of vfit_avatar_load</summary>
-        HandsAsPosed = 8,
+        /// <summary>arms stay where the pose puts them; without, they are moved out of trunk, thighs and each
+        /// other, with 2 cm of room for cloth</summary>
+        LimbsAsPosed = 8,
     }
 
     public enum CharacterKind : int
@@ -357,8 +358,8 @@ namespace Vfit
     public enum ClothFlags : uint
     {
         None = 0,
-        /// <summary>forearms and hands pass through: a hand beside the thigh catches a skirt, and 15 spheres
-        /// know no fingers to let it slip. Not of garments with sleeves</summary>
+        /// <summary>hands pass through, and forearms too unless the garment has sleeves: a hand beside the
+        /// thigh catches a skirt. On spheres and capsules, garments with sleeves keep both</summary>
         NoHands = 1,
         /// <summary>kept out of the avatar's skin itself, not of its spheres and capsules: closer, and
         /// slower</summary>
@@ -1162,7 +1163,7 @@ namespace Vfit
         }
     }
 
-    [StructLayout(LayoutKind.Sequential, Size = 88)]
+    [StructLayout(LayoutKind.Sequential, Size = 96)]
     public unsafe partial struct ClothDesc
     {
         internal uint StructSize;
@@ -1199,6 +1200,11 @@ namespace Vfit
         /// further from the next, 65,536 at most; 0.001..0.1; 0: none. For meshes coarser than a
         /// wrist</summary>
         public float VirtualM;
+        /// <summary>a step in which the bones move any part of the garment faster,</summary>
+        public float CarrySpeedMS;
+        /// <summary>or further, is a jump, as after vfit_cloth_teleport. 0: 6, and 0.06; &lt; 0: no
+        /// limit</summary>
+        public float CarryWayM;
     }
 
     [StructLayout(LayoutKind.Sequential, Size = 48)]

@@ -1,4 +1,4 @@
-// Hands that a pose of somebody else would put into the trunk or the thighs.
+// Arms that a tracker, or a pose of somebody else, puts into the trunk, the thighs or each other.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -43,9 +43,9 @@ Pose hanging(const Avatar& avatar, float across_deg, float forward_deg = 0.0f, f
     return pose;
 }
 
-TEST(HandsClear, AreLedOutOfTheBody) {
+TEST(LimbsClear, AreLedOutOfTheBody) {
     AvatarDesc clear;
-    clear.hands_clear = true;
+    clear.limbs_clear = true;
     Avatar kept = make_avatar(clear), free_hands = make_avatar();
     const auto jobs = Jobs::own(0);
     for (const float across : {5.0f, 12.0f, 20.0f})
@@ -69,9 +69,9 @@ TEST(HandsClear, AreLedOutOfTheBody) {
             }
 }
 
-TEST(HandsClear, ThatAreClearStayToTheBit) {
+TEST(LimbsClear, ThatAreClearStayToTheBit) {
     AvatarDesc clear;
-    clear.hands_clear = true;
+    clear.limbs_clear = true;
     Avatar kept = make_avatar(clear);
     for (const float across : {-90.0f, -40.0f}) {
         const Pose pose = hanging(kept, across);
@@ -81,9 +81,9 @@ TEST(HandsClear, ThatAreClearStayToTheBit) {
     }
 }
 
-TEST(HandsClear, MoveWithoutAJumpWhereTheyTouch) {
+TEST(LimbsClear, MoveWithoutAJumpWhereTheyTouch) {
     AvatarDesc clear;
-    clear.hands_clear = true;
+    clear.limbs_clear = true;
     Avatar kept = make_avatar(clear);
     Vec3 before(0.0f);
     float largest = 0.0f;
@@ -94,6 +94,77 @@ TEST(HandsClear, MoveWithoutAJumpWhereTheyTouch) {
         before = hand;
     }
     EXPECT_LT(largest, 0.01f);  // a tenth of a degree moves a free hand by 1 mm, and the skin has edges
+}
+
+/// How near the skin of one set of parts comes to that of another; negative: inside.
+float gap_between(const Avatar& avatar, const std::vector<BodyPart>& of, const std::vector<BodyPart>& to) {
+    std::vector<uint32_t> triangles;
+    for (const BodyPart part : to) {
+        const auto some = triangles_of(avatar.topology(), part);
+        triangles.insert(triangles.end(), some.begin(), some.end());
+    }
+    const MeshQuery query(avatar.positions(), triangles);
+    float least = INFINITY;
+    for (size_t v = 0; v < avatar.topology().vertex_count; ++v) {
+        if (std::find(of.begin(), of.end(), avatar.topology().parts[v]) == of.end()) continue;
+        const auto near = query.closest(avatar.positions()[v]);
+        const bool inside = glm::dot(avatar.positions()[v] - near.point, near.normal) < 0.0f;
+        least = std::min(least, inside ? -near.distance : near.distance);
+    }
+    return least;
+}
+
+TEST(LimbsClear, ForearmsStayOutOfTheTrunkWithRoomForCloth) {
+    AvatarDesc clear;
+    clear.limbs_clear = true;
+    Avatar kept = make_avatar(clear), as_posed = make_avatar();
+    const auto jobs = Jobs::own(0);
+    const std::vector<BodyPart> forearms = {BodyPart::kLeftForearm, BodyPart::kRightForearm},
+                                middle = {BodyPart::kTorso, BodyPart::kLeftThigh, BodyPart::kRightThigh};
+    for (const float across : {0.0f, 8.0f, 15.0f}) {
+        const Pose pose = hanging(kept, across);
+        kept.pose(pose, *jobs);
+        as_posed.pose(pose, *jobs);
+        EXPECT_GT(gap_between(kept, forearms, middle), 0.008f)
+            << across << " degrees across, as posed " << gap_between(as_posed, forearms, middle) << " m";
+    }
+}
+
+TEST(LimbsClear, CrossedForearmsStayOutOfEachOther) {
+    AvatarDesc clear;
+    clear.limbs_clear = true;
+    Avatar kept = make_avatar(clear), as_posed = make_avatar();
+    const auto jobs = Jobs::own(0);
+    // Upper arms forward and down, forearms across the chest, at one height: they meet.
+    Pose pose;
+    pose.hips_position = kept.skeleton().offset[VFIT_BONE_HIPS];
+    for (const float side : {1.0f, -1.0f}) {
+        const bool left = side > 0.0f;
+        pose.rotation[left ? VFIT_BONE_LEFT_UPPER_ARM : VFIT_BONE_RIGHT_UPPER_ARM] =
+            glm::angleAxis(-0.9f, Vec3(1, 0, 0)) * glm::angleAxis(-side * 1.3f, Vec3(0, 0, 1)) *
+            glm::angleAxis(1.4f, Vec3(1, 0, 0));
+        pose.rotation[left ? VFIT_BONE_LEFT_LOWER_ARM : VFIT_BONE_RIGHT_LOWER_ARM] =
+            glm::angleAxis(-side * 1.7f, Vec3(0, 1, 0));
+    }
+    kept.pose(pose, *jobs);
+    as_posed.pose(pose, *jobs);
+    const float before = gap_between(as_posed, {BodyPart::kLeftForearm}, {BodyPart::kRightForearm}),
+                after = gap_between(kept, {BodyPart::kLeftForearm}, {BodyPart::kRightForearm});
+    EXPECT_LT(before, 0.0f);
+    EXPECT_GT(after, 0.005f);
+}
+
+TEST(LimbsClear, ArmsThatHangFreelyAreLeftAlone) {
+    AvatarDesc clear;
+    clear.limbs_clear = true;
+    for (const vfit_sex sex : {VFIT_SEX_FEMALE, VFIT_SEX_MALE}) {
+        clear.sex = sex;
+        Avatar kept = make_avatar(clear);
+        const Pose pose = hanging(kept, -20.0f);
+        kept.move(pose);
+        for (size_t b = 0; b < size_t(kBoneCount); ++b)
+            EXPECT_EQ(kept.shown_pose().rotation[b], pose.rotation[b]) << bone_name(int(b));
+    }
 }
 
 }  // namespace

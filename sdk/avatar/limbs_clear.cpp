@@ -1,0 +1,326 @@
+#include "avatar/limbs_clear.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "body/joint_bones.h"
+#include "math/quaternion.h"
+#include "math/two_bone_ik.h"
+
+namespace vfit {
+
+namespace {
+
+constexpr float kRoom_m = 0.02f;  // between two limbs: for two layers of cloth at 4 mm, and the 8 mm by which
+                                  // they span the skin's hollows and roundings
+constexpr float kBlend_m = 0.02f;  // over which two neighbouring bones share a place
+constexpr int kRounds = 8;         // of the chain; each is one pass over all contacts
+constexpr size_t kReach = 2;       // cells of an outline that a vertex speaks for, to either side
+constexpr float kAlongHand[] = {0.1f, kHandCentre, 1.0f,
+                                1.6f};  // from the wrist to the knuckles, and on to the fingers
+// Of the upper arm only what is below the armpit: above, it is one with the trunk.
+constexpr float kAlongUpper[] = {0.65f, 0.8f, 1.0f}, kAlongLower[] = {0.25f, 0.5f, 0.75f};
+constexpr float kLeastOut_m = 1e-4f;
+constexpr float kLeastLever = 0.4f;  // of the upper arm: nearer to the shoulder, the elbow would go too far
+// Quantile of a limb's radii. Of a hand's, fingers and thumb are the larger ones: the palm is meant, from the
+// side.
+constexpr float kRound = 0.5f, kPalm = 0.25f;
+
+struct ArmBones {
+    int upper, lower, hand;
+    float side;  // of the body: +X is left
+};
+constexpr ArmBones kArms[2] = {
+    {VFIT_BONE_LEFT_UPPER_ARM, VFIT_BONE_LEFT_LOWER_ARM, VFIT_BONE_LEFT_HAND, 1.0f},
+    {VFIT_BONE_RIGHT_UPPER_ARM, VFIT_BONE_RIGHT_LOWER_ARM, VFIT_BONE_RIGHT_HAND, -1.0f}};
+
+using glm::dot;
+
+Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
+    const float length = glm::length(v);
+    return length > 1e-9f ? v / length : otherwise;
+}
+
+struct Segment {
+    Vec3 from, to;
+    Vec3 at(float share) const { return glm::mix(from, to, share); }
+};
+struct NearestOfSegments {
+    float on_a, on_b;
+};
+/// Ericson, Real-Time Collision Detection, 5.1.9.
+NearestOfSegments nearest_of(const Segment& a, const Segment& b) {
+    const Vec3 d1 = a.to - a.from, d2 = b.to - b.from, r = a.from - b.from;
+    const float l1 = std::max(dot(d1, d1), 1e-8f), l2 = std::max(dot(d2, d2), 1e-8f), f = dot(d2, r),
+                c = dot(d1, r), along = dot(d1, d2), square = l1 * l2 - along * along;
+    float s = square > 1e-6f * l1 * l2 ? std::clamp((along * f - c * l2) / square, 0.0f, 1.0f) : 0.5f;
+    const float t = std::clamp((along * s + f) / l2, 0.0f, 1.0f);
+    s = std::clamp((along * t - c) / l1, 0.0f, 1.0f);
+    return {s, t};
+}
+
+/// Quantile of the distance from the axis of the part's skin within a tenth of the bone's length.
+float radius_about(std::span<const Vec3> rest, std::span<const BodyPart> parts, BodyPart part,
+                   const Segment& axis, float share, float quantile) {
+    constexpr float kAlong = 0.1f;
+    const Vec3 way = axis.to - axis.from;
+    std::vector<float> off;
+    for (size_t v = 0; v < rest.size(); ++v) {
+        if (parts[v] != part) continue;
+        const float along = dot(rest[v] - axis.from, way) / std::max(dot(way, way), 1e-8f);
+        if (std::abs(along - share) < kAlong) off.push_back(glm::distance(rest[v], axis.at(along)));
+    }
+    if (off.empty()) return 0.0f;
+    const auto rank = size_t(quantile * float(off.size() - 1));
+    std::nth_element(off.begin(), off.begin() + std::ptrdiff_t(rank), off.end());
+    return off[rank];
+}
+
+}  // namespace
+
+void LimbsClear::Outline::learn(std::span<const Vec3> points) {
+    radius.fill(0.0f);
+    std::array<bool, kLevels * kAngles> known{};
+    for (const Vec3& p : points) {
+        const Vec3 d = p - start;
+        const float level = (dot(d, axis) - least) / length * float(kLevels);
+        if (level < 0.0f || level >= float(kLevels)) continue;
+        const float out = std::hypot(dot(d, x), dot(d, z));
+        const float angle = std::atan2(dot(d, z), dot(d, x)) / (2.0f * kPi) + 0.5f;
+        const auto cell =
+            size_t(level) * kAngles + size_t(std::min(angle * float(kAngles), float(kAngles) - 0.5f));
+        radius[cell] = std::max(radius[cell], out);
+        known[cell] = true;
+    }
+    // Cells without a vertex take their neighbours' on the same level; where these have none either, nothing
+    // is there.
+    for (size_t level = 0; level < size_t(kLevels); ++level)
+        for (size_t a = 0; a < size_t(kAngles); ++a) {
+            const size_t cell = level * kAngles + a;
+            if (known[cell]) continue;
+            for (size_t step = 1; step <= kReach && radius[cell] == 0.0f; ++step) {
+                const size_t row = level * kAngles;
+                const size_t before = row + (a + kAngles - step) % kAngles,
+                             after = row + (a + step) % kAngles;
+                if (known[before] || known[after])
+                    radius[cell] =
+                        std::max(known[before] ? radius[before] : 0.0f, known[after] ? radius[after] : 0.0f);
+            }
+        }
+}
+
+float LimbsClear::Outline::at(float height, float angle) const {
+    const float level =
+        std::clamp((height - least) / length * float(kLevels) - 0.5f, 0.0f, float(kLevels - 1));
+    const float turn = (angle / (2.0f * kPi) + 0.5f) * float(kAngles) - 0.5f + float(kAngles);
+    const auto l0 = std::min(size_t(level), size_t(kLevels - 2));
+    const auto a0 = size_t(turn) % kAngles, a1 = (a0 + 1) % kAngles;
+    const float tl = level - float(l0), ta = turn - std::floor(turn);
+    const auto cell = [&](size_t l, size_t a) { return radius[l * kAngles + a]; };
+    return glm::mix(glm::mix(cell(l0, a0), cell(l0, a1), ta),
+                    glm::mix(cell(l0 + 1, a0), cell(l0 + 1, a1), ta), tl);
+}
+
+LimbsClear::LimbsClear(const AvatarRig& rig, std::span<const Vec3> rest, std::span<const BodyPart> parts) {
+    const auto add = [&](std::vector<int> humanoid, const Vec3& start, const Vec3& end, float before,
+                         auto&& belongs) {
+        Outline o;
+        o.start = start;
+        const float length = glm::distance(o.start, end);
+        o.axis = length > 1e-3f ? (end - o.start) / length : Vec3(0, 1, 0);
+        o.x = glm::normalize(Vec3(1, 0, 0) - o.axis.x * o.axis);
+        o.z = glm::cross(o.x, o.axis);
+        o.least = -before * length;
+        o.length = std::max(length - o.least, 1e-3f);
+        for (const int b : humanoid)
+            if (rig.rig_bone(b) >= 0) {
+                o.bones.push_back(rig.rig_bone(b));
+                o.heights.push_back(dot(rig.rest_head(b) - o.start, o.axis));
+            }
+        std::vector<Vec3> points;
+        for (size_t v = 0; v < rest.size(); ++v)
+            if (belongs(parts[v])) points.push_back(rest[v]);
+        o.learn(points);
+        outlines_.push_back(std::move(o));
+    };
+    // From the crotch up to the armpits' height: above, shoulders and arms themselves are in the way.
+    const Vec3 hips = rig.rest_head(VFIT_BONE_HIPS);
+    const Vec3 shoulders =
+        0.5f * (rig.rest_head(VFIT_BONE_LEFT_UPPER_ARM) + rig.rest_head(VFIT_BONE_RIGHT_UPPER_ARM));
+    constexpr float kArmpit = 0.85f, kBelowHips = 0.3f;
+    add({VFIT_BONE_HIPS, VFIT_BONE_SPINE, VFIT_BONE_CHEST, VFIT_BONE_UPPER_CHEST}, hips,
+        glm::mix(hips, shoulders, kArmpit), kBelowHips,
+        [](BodyPart part) { return part == BodyPart::kTorso; });
+    // Thighs as seen from between them, so that the way out is always the hand's own side.
+    const auto between = [&](int left, int right) {
+        return 0.5f * (rig.rest_head(left) + rig.rest_head(right));
+    };
+    const Vec3 legs = between(VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_RIGHT_UPPER_LEG);
+    const Vec3 knees = between(VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_RIGHT_LOWER_LEG);
+    add({VFIT_BONE_LEFT_UPPER_LEG}, legs, knees, 0.0f,
+        [](BodyPart part) { return part == BodyPart::kLeftThigh || part == BodyPart::kTorso; });
+    add({VFIT_BONE_RIGHT_UPPER_LEG}, legs, knees, 0.0f,
+        [](BodyPart part) { return part == BodyPart::kRightThigh || part == BodyPart::kTorso; });
+
+    for (size_t i = 0; i < 2; ++i) learn_arm(rig, rest, parts, i);
+}
+
+void LimbsClear::learn_arm(const AvatarRig& rig, std::span<const Vec3> rest, std::span<const BodyPart> parts,
+                           size_t number) {
+    const ArmBones& bones = kArms[number];
+    Arm& arm = arms_[number];
+    const Vec3 shoulder = rig.rest_head(bones.upper), elbow = rig.rest_head(bones.lower),
+               wrist = rig.rest_head(bones.hand);
+    arm.hand_bone = rig.rig_bone(bones.hand);
+    arm.hand = rig.bones()[size_t(arm.hand_bone)].rest_tail - wrist;
+    const auto radius = [&](BodyPart part, const Vec3& from, const Vec3& to, float share) {
+        return radius_about(rest, parts, part, {from, to}, share, kRound);
+    };
+    const bool left = number == 0;
+    const BodyPart upper = left ? BodyPart::kLeftUpperArm : BodyPart::kRightUpperArm,
+                   lower = left ? BodyPart::kLeftForearm : BodyPart::kRightForearm,
+                   hand = left ? BodyPart::kLeftHand : BodyPart::kRightHand;
+    for (const float share : kAlongUpper)
+        arm.balls.push_back({share, 0.0f, 0.0f, radius(upper, shoulder, elbow, share)});
+    for (const float share : kAlongLower)
+        arm.balls.push_back({1.0f - share, share, 0.0f, radius(lower, elbow, wrist, share)});
+    arm.upper_radius_m = radius(upper, shoulder, elbow, 0.5f);
+    arm.lower_radius_m = radius(lower, elbow, wrist, 0.5f);
+    const Vec3 tail = wrist + arm.hand;
+    const float palm_m = radius_about(rest, parts, hand, {wrist, tail}, kHandCentre, kPalm);
+    for (const float share : kAlongHand) arm.balls.push_back({0.0f, 1.0f, share, palm_m});
+}
+
+LimbsClear::Exit LimbsClear::exit_of(const Outline& o, std::span<const Mat4> matrices, const Vec3& p,
+                                     float radius, float side) const {
+    // The place in the rest mesh, as the bones near it see it.
+    Vec3 rest(0.0f);
+    Mat3 turn(0.0f);
+    float total = 0.0f;
+    for (size_t i = 0; i < o.bones.size(); ++i) {
+        const Mat4& m = matrices[size_t(o.bones[i])];
+        const Vec3 own = glm::transpose(Mat3(m)) * (p - Vec3(m[3]));
+        const float height = dot(own - o.start, o.axis);
+        const float low = i == 0 ? -1e9f : o.heights[i],
+                    high = i + 1 < o.bones.size() ? o.heights[i + 1] : 1e9f;
+        const float beyond = std::max({low - height, height - high, 0.0f});
+        const float w = std::exp(-beyond * beyond / (kBlend_m * kBlend_m)) + 1e-6f;
+        rest += w * own;
+        turn += w * Mat3(m);
+        total += w;
+    }
+    rest /= total;
+    const Vec3 d = rest - o.start;
+    const float height = dot(d, o.axis);
+    const float along_x = dot(d, o.x), along_z = dot(d, o.z);
+    const float distance = std::hypot(along_x, along_z);
+    // Beyond the ends the outline fades out over the hand's own size.
+    const float past = std::max(o.least - height, height - (o.least + o.length));
+    const float fade = std::clamp(1.0f - past / std::max(radius, 0.02f), 0.0f, 1.0f);
+    if (fade <= 0.0f) return {};
+    const float clear = o.at(height, std::atan2(along_z, along_x)) + radius + kRoom_m;
+    const float depth = fade * (clear - distance);
+    if (depth <= 0.0f) return {};
+    const Vec3 out = distance > 0.01f ? (along_x * o.x + along_z * o.z) / distance : side * o.x;
+    return {glm::normalize(turn * out), depth};
+}
+
+void LimbsClear::Chain::move(float on_elbow, float on_wrist, const Vec3& by) {
+    const float square = on_elbow * on_elbow + on_wrist * on_wrist;
+    elbow += by * (on_elbow / square);
+    wrist += by * (on_wrist / square);
+}
+
+void LimbsClear::Chain::keep_lengths() {
+    elbow = shoulder + upper_m * unit_or(elbow - shoulder, Vec3(0, -1, 0));
+    wrist = elbow + lower_m * unit_or(wrist - elbow, Vec3(0, -1, 0));
+}
+
+bool LimbsClear::clear_of_body(size_t arm, std::span<const Mat4> matrices, Chain& chain) const {
+    bool moved = false;
+    for (const Outline& outline : outlines_)
+        for (const Ball& ball : arms_[arm].balls) {
+            const Exit exit = exit_of(outline, matrices, chain.at(ball), ball.radius_m, kArms[arm].side);
+            if (exit.depth_m <= 0.0f) continue;
+            chain.move(ball.elbow, ball.wrist, exit.depth_m * exit.direction);
+            moved = true;
+        }
+    if (moved) chain.keep_lengths();
+    return moved;
+}
+
+/// Capsules of one arm against those of the other. Where their axes nearly meet, the direction between them
+/// says little: the arm that is in front is kept in front.
+bool LimbsClear::clear_of_each_other(const Vec3& forward, Chain (&chains)[2]) const {
+    bool moved = false;
+    for (int of_left = 0; of_left < 2; ++of_left)
+        for (int of_right = 0; of_right < 2; ++of_right) {
+            const auto bone = [&](size_t arm, int lower) {
+                const Chain& c = chains[arm];
+                return lower ? Segment{c.elbow, c.wrist + c.hand} : Segment{c.shoulder, c.elbow};
+            };
+            const Segment a = bone(0, of_left), b = bone(1, of_right);
+            const NearestOfSegments near = nearest_of(a, b);
+            const auto radius = [&](size_t arm, int lower) {
+                return lower ? arms_[arm].lower_radius_m : arms_[arm].upper_radius_m;
+            };
+            const float apart = radius(0, of_left) + radius(1, of_right) + kRoom_m;
+            const Vec3 way = a.at(near.on_a) - b.at(near.on_b);
+            const float distance = glm::length(way);
+            if (distance >= apart) continue;
+            const float in_front = dot(way, forward) < 0.0f ? -1.0f : 1.0f;
+            const Vec3 direction =
+                unit_or(way + forward * (in_front * std::max(0.0f, 0.5f * apart - distance)), forward);
+            const float depth = apart - dot(way, direction);
+            const auto push = [&](Chain& c, int lower, float share, float by) {
+                if (lower)
+                    c.move(1.0f - share, share, by * direction);
+                else if (share > kLeastLever)
+                    c.move(share, 0.0f, by * direction);
+            };
+            moved = true;
+            push(chains[0], of_left, near.on_a, 0.5f * depth);
+            push(chains[1], of_right, near.on_b, -0.5f * depth);
+        }
+    if (moved)
+        for (Chain& chain : chains) chain.keep_lengths();
+    return moved;
+}
+
+void LimbsClear::run(const PosedSkeleton& posed, std::span<const Mat4> matrices, Pose& pose) const {
+    const auto at = [&](int bone) { return posed.position[size_t(bone)]; };
+    const auto turn = [&](int bone) { return posed.rotation[size_t(bone)]; };
+    Chain chains[2];
+    for (size_t i = 0; i < 2; ++i) {
+        const ArmBones& arm = kArms[i];
+        const Mat4& hand = matrices[size_t(arms_[i].hand_bone)];
+        chains[i] = {at(arm.upper),
+                     at(arm.lower),
+                     at(arm.hand),
+                     Mat3(hand) * arms_[i].hand,
+                     glm::distance(at(arm.upper), at(arm.lower)),
+                     glm::distance(at(arm.lower), at(arm.hand))};
+    }
+    const Vec3 forward = turn(VFIT_BONE_CHEST) * Vec3(0, 0, 1);
+    for (int round = 0; round < kRounds; ++round) {
+        bool moved = false;
+        for (size_t i = 0; i < 2; ++i) moved |= clear_of_body(i, matrices, chains[i]);
+        moved |= clear_of_each_other(forward, chains);
+        if (!moved) break;
+    }
+    for (size_t i = 0; i < 2; ++i) {
+        const ArmBones& arm = kArms[i];
+        const Vec3 shoulder = at(arm.upper), elbow = at(arm.lower), wrist = at(arm.hand);
+        const Chain& to = chains[i];
+        if (glm::distance(to.elbow, elbow) + glm::distance(to.wrist, wrist) < kLeastOut_m) continue;
+        const Quat upper_turn =
+            glm::normalize(shortest_arc(elbow - shoulder, to.elbow - shoulder) * turn(arm.upper));
+        const Quat lower_turn =
+            glm::normalize(shortest_arc(wrist - elbow, to.wrist - to.elbow) * turn(arm.lower));
+        pose.rotation[size_t(arm.upper)] = glm::conjugate(turn(bone_parent(arm.upper))) * upper_turn;
+        pose.rotation[size_t(arm.lower)] = glm::conjugate(upper_turn) * lower_turn;
+        pose.rotation[size_t(arm.hand)] = glm::conjugate(lower_turn) * turn(arm.hand);
+    }
+}
+
+}  // namespace vfit

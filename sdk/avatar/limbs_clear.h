@@ -1,0 +1,77 @@
+// Limbs that stay out of each other: a tracker's pose, or the pose of another person, puts arms into the
+// trunk or through each other. Each arm is a chain shoulder, elbow, wrist with capsules around it;
+// position-based dynamics (Mueller et al. 2007) moves elbow and wrist until the capsules are clear of trunk,
+// thighs and the other arm, with room for cloth. The shoulder, the lengths and the hand's rotation in the
+// world stay.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "avatar/rig.h"
+#include "body/body_model.h"
+
+namespace vfit {
+
+class LimbsClear {
+public:
+    /// Learns how thick trunk, thighs, arms and hands are from the rest mesh.
+    LimbsClear(const AvatarRig& rig, std::span<const Vec3> rest, std::span<const BodyPart> parts);
+
+    /// Turns arms where needed; an arm that is clear stays where it is, to the bit. `matrices` are those of
+    /// the pose. Does not allocate.
+    void run(const PosedSkeleton& posed, std::span<const Mat4> matrices, Pose& pose) const;
+
+private:
+    static constexpr int kLevels = 16, kAngles = 16;
+    /// How far the skin reaches from an axis of the rest mesh, by height along it and by angle about it.
+    struct Outline {
+        Vec3 start{0.0f}, axis{0.0f}, x{0.0f}, z{0.0f};  // unit vectors
+        float least = 0.0f, length = 0.0f;               // of heights along the axis
+        std::array<float, kLevels * kAngles> radius{};
+        std::vector<int> bones;      // rig bones that carry it, from the start on
+        std::vector<float> heights;  // where each of them starts
+
+        void learn(std::span<const Vec3> points);
+        float at(float height, float angle) const;
+    };
+    struct Exit {
+        Vec3 direction{0.0f};  // world, unit length
+        float depth_m = 0.0f;
+    };
+    /// A ball of the arm: its centre is (1 - elbow - wrist) shoulder + elbow E + wrist W + offset.
+    struct Ball {
+        float elbow, wrist;
+        float along_hand;  // share of the way from the wrist to the knuckles, beyond the wrist
+        float radius_m;
+    };
+    struct Arm {
+        int hand_bone = 0;
+        Vec3 hand{0.0f};  // rest: from the wrist to the knuckles
+        float upper_radius_m = 0.0f, lower_radius_m = 0.0f;
+        std::vector<Ball> balls;
+    };
+    /// An arm while it is moved.
+    struct Chain {
+        Vec3 shoulder, elbow, wrist, hand;  // hand: from the wrist to the knuckles
+        float upper_m, lower_m;
+        Vec3 at(const Ball& ball) const {
+            return (1.0f - ball.elbow - ball.wrist) * shoulder + ball.elbow * elbow + ball.wrist * wrist +
+                   ball.along_hand * hand;
+        }
+        void move(float on_elbow, float on_wrist, const Vec3& by);
+        void keep_lengths();
+    };
+    void learn_arm(const AvatarRig& rig, std::span<const Vec3> rest, std::span<const BodyPart> parts,
+                   size_t number);
+    Exit exit_of(const Outline& outline, std::span<const Mat4> matrices, const Vec3& p, float radius,
+                 float side) const;
+    /// One pass; true where something was moved.
+    bool clear_of_body(size_t arm, std::span<const Mat4> matrices, Chain& chain) const;
+    bool clear_of_each_other(const Vec3& forward, Chain (&chains)[2]) const;
+
+    std::vector<Outline> outlines_;  // trunk, thighs
+    std::array<Arm, 2> arms_;
+};
+
+}  // namespace vfit

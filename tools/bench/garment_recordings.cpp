@@ -1,0 +1,210 @@
+#include "bench/garment_recordings.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+
+#include "bench/bench.h"
+#include "bench/limb_cover.h"
+#include "bench/targets.h"
+#include "bench/welded.h"
+#include "client/assets.h"
+#include "client/files.h"
+#include "client/fitting.h"
+#include "client/output.h"
+#include "cloth/crossings.h"
+#include "picture/contact_sheet.h"
+#include "picture/dressed_picture.h"
+
+namespace vfit::tools {
+
+namespace {
+
+constexpr double kSettled_s = 1.0;  // figures are of what comes later
+constexpr float kOwnLayers_m = 0.004f;
+constexpr float kAround = 0.5f;     // turns about a limb: fewer are none
+
+/// The worst of all frames of one garment on one recording.
+struct Worst {
+    size_t frames = 0, with_skin = 0, with_self = 0, with_layers = 0, off_limb = 0;  // frames that have any
+    size_t skin_pairs = 0, self_pairs = 0;                                           // in the worst frame
+    float strain_max = 0.0f, strain_p99 = 0.0f;
+    double at_s = 0.0;  // of strain_max
+};
+
+class WornJudge {
+public:
+    WornJudge(vfit_context context, vfit_avatar avatar, const std::string& names, const vfit_cloth_desc& desc)
+        : names_(names), avatar_(avatar), outfit_(context, avatar, names, desc) {}
+
+    const std::string& names() const { return names_; }
+    const Worst& worst() const { return worst_; }
+    WornOutfit& outfit() { return outfit_; }
+    const std::vector<RenderMesh>& worst_meshes() const { return worst_meshes_; }
+
+    void look(const Welded& skin, double time_s, bool pictures) {
+        std::vector<Welded> layers;
+        for (const vfit_cloth cloth : outfit_.cloths()) layers.push_back(mesh_of(cloth));
+        std::vector<std::vector<float>> turns;
+        for (const Welded& layer : layers) turns.push_back(turns_around_limbs(avatar_, layer));
+        if (covered_.empty()) covered_ = turns;
+        if (time_s < kSettled_s) return;
+        ++worst_.frames;
+        size_t with_skin = 0, with_self = 0, with_layers = 0;
+        for (size_t i = 0; i < layers.size(); ++i) {
+            const MeshView own{layers[i].positions, layers[i].indices};
+            with_skin += crossed_triangles(own, {skin.positions, skin.indices}).size();
+            with_self += crossed_triangles(own.positions, own.indices).size();
+            for (size_t k = 0; k < i; ++k)
+                with_layers += crossed_triangles(own, {layers[k].positions, layers[k].indices}).size();
+        }
+        worst_.with_skin += with_skin > 0, worst_.with_self += with_self > 0;
+        worst_.with_layers += with_layers > 0;
+        worst_.skin_pairs = std::max(worst_.skin_pairs, with_skin);
+        worst_.self_pairs = std::max(worst_.self_pairs, with_self);
+        bool off = false;
+        for (size_t i = 0; i < layers.size(); ++i)
+            for (size_t k = 0; k < turns[i].size(); ++k)
+                off = off || (covered_[i][k] > kAround && turns[i][k] < kAround);
+        worst_.off_limb += off;
+        for (const vfit_cloth cloth : outfit_.cloths()) {
+            vfit_cloth_stats stats = vfit_cloth_stats_init();
+            check(vfit_cloth_describe(cloth, &stats));
+            worst_.strain_p99 = std::max(worst_.strain_p99, stats.strain_p99);
+            if (stats.strain_max <= worst_.strain_max) continue;
+            worst_.strain_max = stats.strain_max, worst_.at_s = time_s;
+            if (pictures) worst_meshes_ = dressed_meshes(avatar_, drawn(outfit_));
+        }
+    }
+
+private:
+    std::string names_;
+    vfit_avatar avatar_;
+    WornOutfit outfit_;
+    Worst worst_;
+    std::vector<std::vector<float>> covered_;  // of each layer, as it was put on
+    std::vector<RenderMesh> worst_meshes_;
+};
+
+Json json_of(const Worst& w) {
+    return {{"frames", w.frames},
+            {"frames_crossing_skin", w.with_skin},
+            {"frames_crossing_self", w.with_self},
+            {"frames_crossing_layers", w.with_layers},
+            {"frames_off_limb", w.off_limb},
+            {"skin_pairs_worst", w.skin_pairs},
+            {"self_pairs_worst", w.self_pairs},
+            {"strain_max", w.strain_max},
+            {"strain_max_s", w.at_s},
+            {"strain_p99", w.strain_p99}};
+}
+
+void say(const std::string& recording, const std::string& garment, const Worst& w) {
+    std::cout << std::left << std::setw(26) << recording << std::setw(18) << garment << std::right
+              << std::fixed << std::setprecision(2) << " strain max " << std::setw(6) << w.strain_max
+              << " at " << w.at_s << " s, p99 " << w.strain_p99 << "; frames " << std::setw(3) << w.frames
+              << ": skin " << std::setw(3) << w.with_skin << " (" << w.skin_pairs << ") self " << std::setw(3)
+              << w.with_self << " (" << w.self_pairs << ") layers " << std::setw(3) << w.with_layers
+              << " off limb " << std::setw(3) << w.off_limb << std::endl;
+}
+
+std::vector<std::filesystem::path> recordings_in(const RecordingsOptions& options) {
+    std::vector<std::filesystem::path> out;
+    for (const auto& entry : std::filesystem::directory_iterator(options.folder))
+        if (entry.is_directory() &&
+            entry.path().filename().string().find(options.recording) != std::string::npos)
+            out.push_back(entry.path());
+    std::sort(out.begin(), out.end());
+    if (out.empty()) throw Failure(options.folder + ": holds no recordings");
+    return out;
+}
+
+}  // namespace
+
+void judge_recordings(const RecordingsOptions& options) {
+    if (!options.pictures.empty()) create_folder(options.pictures);
+    Json rows = Json::array();
+    Samples strain_max, strain_p99;
+    size_t skin = 0, self = 0, layers = 0, off = 0, frames = 0;
+    for (const auto& path : recordings_in(options)) {
+        const Context context = open_context();
+        const std::vector<std::string> names = options.garment.empty()
+                                                   ? garment_names(context.get())
+                                                   : std::vector<std::string>{options.garment};
+        FittingOptions chain;
+        chain.source = path.string();
+        chain.garments = names.front();
+        chain.hands = options.hands;
+        chain.substeps = uint32_t(options.substeps);
+        if (options.own_tracker)
+            chain.scan.track.joints = chain.scan.track.user_map = VFIT_TRACK_BUILT_IN;
+        Fitting fitting(context.get(), chain);
+        std::vector<std::unique_ptr<WornJudge>> judges;
+        for (const std::string& name : names) {
+            vfit_cloth_desc desc = vfit_cloth_desc_init();
+            desc.flags = VFIT_CLOTH_SKIN | (options.hands ? 0u : uint32_t(VFIT_CLOTH_NO_HANDS));
+            desc.self_thickness_m = kOwnLayers_m;
+            desc.substeps = uint32_t(options.substeps);
+            desc.carry_speed_m_s = options.carry_speed_m_s, desc.carry_way_m = options.carry_way_m;
+            judges.push_back(std::make_unique<WornJudge>(context.get(), fitting.avatar(), name, desc));
+        }
+        double last_s = -1.0;
+        fitting.play([&](vfit_frame, double time_s) {
+            const Welded skin_now = mesh_of(fitting.avatar());
+            for (const auto& judge : judges) {
+                if (last_s < 0.0)
+                    judge->outfit().reset();
+                else
+                    judge->outfit().step(float(time_s - last_s));
+                judge->look(skin_now, time_s, !options.pictures.empty());
+            }
+            last_s = time_s;
+            return true;
+        });
+        const std::string recording = path.filename().string();
+        std::vector<SheetItem> pictures;
+        for (const auto& judge : judges) {
+            const Worst& w = judge->worst();
+            Json row = json_of(w);
+            row["recording"] = recording, row["garment"] = judge->names();
+            rows.push_back(std::move(row));
+            if (!options.json) say(recording, judge->names(), w);
+            frames += w.frames, skin += w.with_skin, self += w.with_self, layers += w.with_layers;
+            off += w.off_limb;
+            strain_max.add(w.strain_max), strain_p99.add(w.strain_p99);
+            if (judge->worst_meshes().empty()) continue;
+            constexpr PortraitStyle kStyle{300, 450, 1};
+            char caption[80];
+            std::snprintf(caption, sizeof caption, "%s, %.1f at %.1f s", judge->names().c_str(), w.strain_max,
+                          w.at_s);
+            for (const float yaw : {0.35f, 3.5f})
+                pictures.push_back({draw_dressed(judge->worst_meshes(), centre_of(judge->worst_meshes()[0]),
+                                                 yaw, kStyle),
+                                    caption});
+        }
+        if (pictures.empty()) continue;
+        std::vector<std::vector<SheetItem>> sheet(1);
+        for (SheetItem& item : pictures) {
+            if (sheet.back().size() == 8) sheet.emplace_back();
+            sheet.back().push_back(std::move(item));
+        }
+        contact_sheet(recording + ": each garment where it is stretched most", sheet, 300)
+            .write_png(options.pictures + "/" + recording + ".png");
+    }
+    Targets targets(options.json);
+    if (!options.json)
+        std::cout << "\n" << rows.size() << " garments on recordings, " << frames << " frames after "
+                  << kSettled_s << " s\n";
+    targets.judge("frames in which cloth crosses the skin", double(skin), Aim::exactly, 0.0);
+    targets.judge("frames in which cloth crosses itself", double(self), Aim::exactly, 0.0);
+    targets.judge("frames in which layers cross", double(layers), Aim::exactly, 0.0);
+    targets.judge("frames with a sleeve or leg off its limb", double(off), Aim::exactly, 0.0);
+    targets.judge("strain_max, worst", strain_max.quantile(1.0), Aim::at_most, 0.6, 2);
+    targets.judge("strain_p99, worst", strain_p99.quantile(1.0), Aim::at_most, 0.2, 2);
+    targets.judge("strain_max, median", strain_max.quantile(0.5), Aim::at_most, 0.6, 2);
+    targets.judge("strain_p99, median", strain_p99.quantile(0.5), Aim::at_most, 0.2, 2);
+    if (options.json) print_document({{"rows", rows}, {"frames", frames}, {"targets", targets.json()}});
+}
+
+}  // namespace vfit::tools
