@@ -21,7 +21,7 @@ constexpr float kAlongHand[] = {0.1f, kHandCentre, 1.0f,
 // Of the upper arm only what is below the armpit: above, it is one with the trunk.
 constexpr float kAlongUpper[] = {0.65f, 0.8f, 1.0f}, kAlongLower[] = {0.25f, 0.5f, 0.75f};
 constexpr float kLeastOut_m = 1e-4f;
-constexpr float kLeastLever = 0.4f;  // of the upper arm: nearer to the shoulder, the elbow would go too far
+constexpr float kMinLever = 0.4f;  // of the upper arm: nearer to the shoulder, the elbow would go too far
 // Quantile of a limb's radii. Of a hand's, fingers and thumb are the larger ones: the palm is meant, from the
 // side.
 constexpr float kRound = 0.5f, kPalm = 0.25f;
@@ -260,12 +260,12 @@ bool LimbsClear::clear_of_each_other(const Vec3& forward, Chain (&chains)[2]) co
                 return lower ? Segment{c.elbow, c.wrist + c.hand} : Segment{c.shoulder, c.elbow};
             };
             const Segment a = bone(0, of_left), b = bone(1, of_right);
-            const NearestOfSegments near = nearest_of(a, b);
+            const NearestOfSegments nearest = nearest_of(a, b);
             const auto radius = [&](size_t arm, int lower) {
                 return lower ? arms_[arm].lower_radius_m : arms_[arm].upper_radius_m;
             };
             const float apart = radius(0, of_left) + radius(1, of_right) + kRoom_m;
-            const Vec3 way = a.at(near.on_a) - b.at(near.on_b);
+            const Vec3 way = a.at(nearest.on_a) - b.at(nearest.on_b);
             const float distance = glm::length(way);
             if (distance >= apart) continue;
             const float in_front = dot(way, forward) < 0.0f ? -1.0f : 1.0f;
@@ -275,12 +275,12 @@ bool LimbsClear::clear_of_each_other(const Vec3& forward, Chain (&chains)[2]) co
             const auto push = [&](Chain& c, int lower, float share, float by) {
                 if (lower)
                     c.move(1.0f - share, share, by * direction);
-                else if (share > kLeastLever)
+                else if (share > kMinLever)
                     c.move(share, 0.0f, by * direction);
             };
             moved = true;
-            push(chains[0], of_left, near.on_a, 0.5f * depth);
-            push(chains[1], of_right, near.on_b, -0.5f * depth);
+            push(chains[0], of_left, nearest.on_a, 0.5f * depth);
+            push(chains[1], of_right, nearest.on_b, -0.5f * depth);
         }
     if (moved)
         for (Chain& chain : chains) chain.keep_lengths();

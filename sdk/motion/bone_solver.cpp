@@ -12,13 +12,13 @@ namespace {
 // A limb's roll. The plane through shoulder, elbow and wrist tells it to within the joints' deviation over
 // the elbow's distance from the line between the limb's ends; below the least distance it tells nothing.
 constexpr float kJointDeviationM = 0.025f;  // one standard deviation of a depth sensor's joint
-constexpr float kLeastOffLineM = 0.005f;
+constexpr float kMinOffLineM = 0.005f;
 constexpr float kReadingS = 1.0f / 30.0f;  // the time that one reading of a sensor speaks for
 constexpr float kRollDrift = 1.0f;         // rad^2 a second by which the roll may have changed
 constexpr float kFastestRoll = 12.0f;      // rad/s; a quick throw's
 constexpr float kRollOutlier = 2.0f;  // standard deviations beyond which a reading is followed no further
 // Readings further from the natural axis bend the limb backwards.
-constexpr float kMostRollArm = 2.3f, kMostRollLeg = 1.2f;
+constexpr float kMaxRollArm = 2.3f, kMaxRollLeg = 1.2f;
 // An arm that was never seen hangs, this far below the T-pose.
 constexpr float kHangingRad = 80.0f * kPi / 180.0f;
 // Readings that the running mean of a flat foot's direction spans: two seconds at 30 Hz.
@@ -120,7 +120,7 @@ void BoneSolver::solve_spine(const Skeleton& skeleton, const RestPose& rest, con
 void BoneSolver::Roll::observe(float seen, float elbow_off_line_m, float dt_s) {
     const float deviation = kJointDeviationM / elbow_off_line_m;
     if (!known) {
-        *this = {true, seen * glm::smoothstep(kLeastOffLineM, kJointDeviationM, elbow_off_line_m),
+        *this = {true, seen * glm::smoothstep(kMinOffLineM, kJointDeviationM, elbow_off_line_m),
                  deviation * deviation};
         return;
     }
@@ -144,10 +144,10 @@ Vec3 BoneSolver::hinge_of(int index, const RestLimb& rest, const Quat& parent, c
     const Vec3 normal = to_parent * glm::cross(upper, lower);
     const float span = glm::length(upper * upper_m + lower * lower_m);
     const float off_line = span > 1e-3f ? upper_m * lower_m * glm::length(normal) / span : 0.0f;
-    if (off_line > kLeastOffLineM) {
+    if (off_line > kMinOffLineM) {
         const float seen =
             std::atan2(glm::dot(glm::cross(natural, normal), upper_local), glm::dot(natural, normal));
-        if (std::abs(seen) < (kLimbParts[index].leg ? kMostRollLeg : kMostRollArm))
+        if (std::abs(seen) < (kLimbParts[index].leg ? kMaxRollLeg : kMaxRollArm))
             roll.observe(seen, off_line, dt_s);
     }
     return parent * (glm::angleAxis(roll.angle, upper_local) * natural);

@@ -9,7 +9,6 @@
 #include "bench/welded.h"
 #include "client/assets.h"
 #include "client/output.h"
-#include "cloth/crossings.h"
 
 namespace vfit::tools {
 
@@ -54,9 +53,7 @@ bool wear(vfit_context context, vfit_avatar avatar, const Outfit& outfit, const 
 /// Triangles of the outer one that one of the inner goes through.
 size_t crossed(const Welded& outer, const Welded& inner) {
     std::vector<uint32_t> triangles;
-    for (const auto& [of_outer, of_inner] :
-         crossed_triangles({outer.positions, outer.indices}, {inner.positions, inner.indices}))
-        triangles.push_back(of_outer);
+    for (const auto& [of_outer, of_inner] : crossings(outer, inner)) triangles.push_back(of_outer);
     std::sort(triangles.begin(), triangles.end());
     return size_t(std::unique(triangles.begin(), triangles.end()) - triangles.begin());
 }

@@ -13,7 +13,6 @@
 #include "client/files.h"
 #include "client/fitting.h"
 #include "client/output.h"
-#include "cloth/crossings.h"
 #include "picture/contact_sheet.h"
 #include "picture/dressed_picture.h"
 
@@ -23,7 +22,7 @@ namespace {
 
 constexpr double kSettled_s = 1.0;  // figures are of what comes later
 constexpr float kOwnLayers_m = 0.004f;
-constexpr float kAround = 0.5f;     // turns about a limb: fewer are none
+constexpr float kAround = 0.5f;  // turns about a limb: fewer are none
 
 /// The worst of all frames of one garment on one recording.
 struct Worst {
@@ -53,11 +52,9 @@ public:
         ++worst_.frames;
         size_t with_skin = 0, with_self = 0, with_layers = 0;
         for (size_t i = 0; i < layers.size(); ++i) {
-            const MeshView own{layers[i].positions, layers[i].indices};
-            with_skin += crossed_triangles(own, {skin.positions, skin.indices}).size();
-            with_self += crossed_triangles(own.positions, own.indices).size();
-            for (size_t k = 0; k < i; ++k)
-                with_layers += crossed_triangles(own, {layers[k].positions, layers[k].indices}).size();
+            with_skin += crossings(layers[i], skin).size();
+            with_self += crossings(layers[i]).size();
+            for (size_t k = 0; k < i; ++k) with_layers += crossings(layers[i], layers[k]).size();
         }
         worst_.with_skin += with_skin > 0, worst_.with_self += with_self > 0;
         worst_.with_layers += with_layers > 0;
@@ -137,8 +134,7 @@ void judge_recordings(const RecordingsOptions& options) {
         chain.garments = names.front();
         chain.hands = options.hands;
         chain.substeps = uint32_t(options.substeps);
-        if (options.own_tracker)
-            chain.scan.track.joints = chain.scan.track.user_map = VFIT_TRACK_BUILT_IN;
+        if (options.own_tracker) chain.scan.track.joints = chain.scan.track.user_map = VFIT_TRACK_BUILT_IN;
         Fitting fitting(context.get(), chain);
         std::vector<std::unique_ptr<WornJudge>> judges;
         for (const std::string& name : names) {
@@ -179,9 +175,9 @@ void judge_recordings(const RecordingsOptions& options) {
             std::snprintf(caption, sizeof caption, "%s, %.1f at %.1f s", judge->names().c_str(), w.strain_max,
                           w.at_s);
             for (const float yaw : {0.35f, 3.5f})
-                pictures.push_back({draw_dressed(judge->worst_meshes(), centre_of(judge->worst_meshes()[0]),
-                                                 yaw, kStyle),
-                                    caption});
+                pictures.push_back(
+                    {draw_dressed(judge->worst_meshes(), centre_of(judge->worst_meshes()[0]), yaw, kStyle),
+                     caption});
         }
         if (pictures.empty()) continue;
         std::vector<std::vector<SheetItem>> sheet(1);
@@ -194,8 +190,9 @@ void judge_recordings(const RecordingsOptions& options) {
     }
     Targets targets(options.json);
     if (!options.json)
-        std::cout << "\n" << rows.size() << " garments on recordings, " << frames << " frames after "
-                  << kSettled_s << " s\n";
+        std::cout << "\n"
+                  << rows.size() << " garments on recordings, " << frames << " frames after " << kSettled_s
+                  << " s\n";
     targets.judge("frames in which cloth crosses the skin", double(skin), Aim::exactly, 0.0);
     targets.judge("frames in which cloth crosses itself", double(self), Aim::exactly, 0.0);
     targets.judge("frames in which layers cross", double(layers), Aim::exactly, 0.0);

@@ -6,14 +6,14 @@
 namespace vfit::tools {
 
 struct RecordingsOptions {
-    std::string folder;   // of recordings
-    std::string garment;  // one, or an outfit "A+B"; empty: every bundled garment
-    std::string recording;  // part of a name; empty: all
-    std::string pictures;   // folder for a sheet of each recording; empty: none
+    std::string folder;        // of recordings
+    std::string garment;       // one, or an outfit "A+B"; empty: every bundled garment
+    std::string recording;     // part of a name; empty: all
+    std::string pictures;      // folder for a sheet of each recording; empty: none
     bool hands = false;        // push the garments, as with vfit fit --hands
     bool own_tracker = false;  // instead of the recording's joints
     float carry_speed_m_s = 0.0f, carry_way_m = 0.0f;  // of vfit_cloth_desc
-    int substeps = 0;          // 0: the library's default
+    int substeps = 0;                                  // 0: the library's default
     bool json = false;
 };
 void judge_recordings(const RecordingsOptions& options);

@@ -3,6 +3,8 @@
 #include <map>
 #include <tuple>
 
+#include "cloth/crossings.h"
+
 namespace vfit::tools {
 
 namespace {
@@ -31,6 +33,11 @@ Welded mesh_of(vfit_cloth cloth) {
     Frame frame;
     check(vfit_cloth_acquire(cloth, frame.out()));
     return weld(frame.get());
+}
+
+CrossedTriangles crossings(const Welded& mesh) { return crossed_triangles(mesh.positions, mesh.indices); }
+CrossedTriangles crossings(const Welded& a, const Welded& b) {
+    return crossed_triangles({a.positions, a.indices}, {b.positions, b.indices});
 }
 
 }  // namespace vfit::tools

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "client/client.h"
@@ -16,5 +17,10 @@ struct Welded {
 };
 Welded mesh_of(vfit_avatar avatar);
 Welded mesh_of(vfit_cloth cloth);
+
+/// Pairs of triangles that cross: of one mesh, which share no vertex, or one of each mesh.
+using CrossedTriangles = std::vector<std::pair<uint32_t, uint32_t>>;
+CrossedTriangles crossings(const Welded& mesh);
+CrossedTriangles crossings(const Welded& a, const Welded& b);
 
 }  // namespace vfit::tools

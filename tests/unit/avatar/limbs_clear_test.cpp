@@ -1,4 +1,4 @@
-// Arms that a tracker, or a pose of somebody else, puts into the trunk, the thighs or each other.
+// Arms that a tracker, or the pose of another person, puts into the trunk, the thighs or each other.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -96,7 +96,7 @@ TEST(LimbsClear, MoveWithoutAJumpWhereTheyTouch) {
     EXPECT_LT(largest, 0.01f);  // a tenth of a degree moves a free hand by 1 mm, and the skin has edges
 }
 
-/// How near the skin of one set of parts comes to that of another; negative: inside.
+/// How close the skin of one set of parts comes to that of another; negative: inside.
 float gap_between(const Avatar& avatar, const std::vector<BodyPart>& of, const std::vector<BodyPart>& to) {
     std::vector<uint32_t> triangles;
     for (const BodyPart part : to) {
@@ -107,9 +107,9 @@ float gap_between(const Avatar& avatar, const std::vector<BodyPart>& of, const s
     float least = INFINITY;
     for (size_t v = 0; v < avatar.topology().vertex_count; ++v) {
         if (std::find(of.begin(), of.end(), avatar.topology().parts[v]) == of.end()) continue;
-        const auto near = query.closest(avatar.positions()[v]);
-        const bool inside = glm::dot(avatar.positions()[v] - near.point, near.normal) < 0.0f;
-        least = std::min(least, inside ? -near.distance : near.distance);
+        const auto nearest = query.closest(avatar.positions()[v]);
+        const bool inside = glm::dot(avatar.positions()[v] - nearest.point, nearest.normal) < 0.0f;
+        least = std::min(least, inside ? -nearest.distance : nearest.distance);
     }
     return least;
 }

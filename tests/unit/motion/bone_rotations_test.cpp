@@ -136,7 +136,7 @@ TEST(BoneRotations, HoldThePlaneOfAnArmThatIsStretchedOut) {
     }
 }
 
-/// The left arm bent by so much, of bones that run straight in the T-pose, with that noise on elbow and
+/// The left arm bent by flexion_deg, of bones that run straight in the T-pose, with that noise on elbow and
 /// wrist.
 Body bent_arm(const Skeleton& skeleton, float flexion_deg, float noise_m, testing::RandomPose& random,
               int frame) {
