@@ -331,7 +331,7 @@ struct ClothObject : ContextChild {
         keep_pose();
         const float simulated_dt = std::clamp(step_dt, kMinStep_s, kMaxStep_s);
         body.move_to(pose, simulated_dt);
-        jumps = jumps || settings.is_jump(body.greatest_way_m(), simulated_dt);
+        jumps = jumps || settings.is_jump(body.way(), simulated_dt);
         carried = jumps ? 1.0f : 1.0f - settings.inertia;
         jumps = false;
     }

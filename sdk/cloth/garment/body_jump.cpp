@@ -57,7 +57,7 @@ void BodyJump::stand(std::span<const Mat4> pose) {
     for (std::vector<Mat4>* at : {&earlier_, &before_, &now_}) at->assign(pose.begin(), pose.end());
     dt_ = earlier_dt_ = 0.0f;
     felt_ = earlier_felt_ = 1.0f;
-    greatest_way_m_ = 0.0f;
+    way_ = {};
 }
 
 void BodyJump::move_to(std::span<const Mat4> pose, float dt) {
@@ -67,11 +67,12 @@ void BodyJump::move_to(std::span<const Mat4> pose, float dt) {
     now_.assign(pose.begin(), pose.end());
     earlier_dt_ = dt_, dt_ = dt;
     earlier_felt_ = felt_, felt_ = 1.0f;
-    greatest_way_m_ = 0.0f;
-    for (const Sample& s : outermost_)
-        greatest_way_m_ =
-            std::max(greatest_way_m_, glm::distance(moved(carry_->blended(s.vertex, before_), s.rest),
-                                                    moved(carry_->blended(s.vertex, now_), s.rest)));
+    way_ = {outermost_.empty() ? 0.0f : INFINITY, 0.0f};
+    for (const Sample& s : outermost_) {
+        const float own_m = glm::distance(moved(carry_->blended(s.vertex, before_), s.rest),
+                                          moved(carry_->blended(s.vertex, now_), s.rest));
+        way_ = {std::min(way_.least_m, own_m), std::max(way_.greatest_m, own_m)};
+    }
 }
 
 bool BodyJump::is_rigid() const {

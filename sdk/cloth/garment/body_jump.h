@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "body/body_way.h"
 #include "cloth/garment/carry.h"
 #include "math/types.h"
 
@@ -21,8 +22,8 @@ public:
     /// It goes from its last pose to that one in a step of dt.
     void move_to(std::span<const Mat4> pose, float dt);
 
-    /// Largest displacement of a vertex of the skinned garment in that step.
-    float greatest_way_m() const { return greatest_way_m_; }
+    /// Of vertices of the skinned garment in that step.
+    const BodyWay& way() const { return way_; }
     /// All bones move as one.
     bool is_rigid() const;
     bool moves() const { return now_ != before_; }
@@ -52,7 +53,7 @@ private:
     std::vector<Sample> outermost_;  // of the vertices whose heaviest bone is the same, along each axis
     std::vector<Mat4> earlier_, before_, now_;
     float earlier_dt_ = 0.0f, dt_ = 0.0f;      // from earlier to before, from before to now
-    float greatest_way_m_ = 0.0f;              // in dt_
+    BodyWay way_;                              // in dt_
     float felt_ = 1.0f, earlier_felt_ = 1.0f;  // fractions of these motions that the cloth felt
     std::vector<Vec3> places_, speeds_;
     std::vector<Mat3> turns_;

@@ -66,7 +66,7 @@ struct Worn {
     }
     void step(bool jumps = false, const std::vector<Collider>& colliders = {}) {
         body->move_to(pose, kFrame_s);
-        jumps = jumps || settings.is_jump(body->greatest_way_m(), kFrame_s);
+        jumps = jumps || settings.is_jump(body->way(), kFrame_s);
         const float fraction = jumps ? 1.0f : 1.0f - settings.inertia;
         if (body->moves() && (fraction > 0.0f || body->follows_jump())) {
             body->carry(cloth->positions(), fraction, *jobs);
@@ -135,12 +135,13 @@ TEST(BodyJump, TheFastestPartOfTheGarmentCounts) {
     // The lowest row, 0.38 m below, goes 0.19 m.
     worn.pose[1] = turned({1, 0, 0}, 0.5f, {0, 0, 0});
     worn.body->move_to(worn.pose, kFrame_s);
-    EXPECT_NEAR(worn.body->greatest_way_m(), 2.0f * std::sin(0.25f) * 0.38f, 1e-5f);
+    EXPECT_NEAR(worn.body->way().greatest_m, 2.0f * std::sin(0.25f) * 0.38f, 1e-5f);
     const ClothSettings settings;
-    EXPECT_TRUE(settings.is_jump(1.01f * kCarryWay_m, 1.0f / 30.0f));
-    EXPECT_FALSE(settings.is_jump(0.99f * kCarryWay_m, 1.0f / 30.0f));
-    EXPECT_TRUE(settings.is_jump(1.01f * kCarrySpeed_m_s / 240.0f, 1.0f / 240.0f));
-    EXPECT_FALSE(settings.is_jump(0.99f * kCarrySpeed_m_s / 240.0f, 1.0f / 240.0f));
+    const float all_m = 1.01f * kCarryWay_m, limb_m = 1.01f * kCarrySpeed_m_s / 240.0f;
+    EXPECT_TRUE(settings.is_jump({all_m, all_m}, 1.0f / 30.0f));
+    EXPECT_FALSE(settings.is_jump({0.98f * all_m, all_m}, 1.0f / 30.0f));  // a limb that swings
+    EXPECT_TRUE(settings.is_jump({0.0f, limb_m}, 1.0f / 240.0f));
+    EXPECT_FALSE(settings.is_jump({0.0f, 0.98f * limb_m}, 1.0f / 240.0f));
 }
 
 TEST(BodyJump, MotionOfTheBodyIsTakenOutInAJumpAndGivenBackAfter) {
@@ -241,7 +242,7 @@ TEST(BodyJump, DoesNotAllocateAfterTheFirst) {
     const auto frame = [&](int i) {
         worn.pose = all(i % 3 ? shifted({0.01f, 0, 0}) : kFar, worn.pose);
         worn.body->move_to(worn.pose, kFrame_s);
-        const float fraction = settings.is_jump(worn.body->greatest_way_m(), kFrame_s) ? 1.0f : 0.5f;
+        const float fraction = settings.is_jump(worn.body->way(), kFrame_s) ? 1.0f : 0.5f;
         worn.body->carry(worn.cloth->positions(), fraction, *worn.jobs);
         worn.cloth->carry_along({fraction, worn.body->places(), worn.body->turns(), worn.body->speeds()});
         worn.cloth->step(kFrame_s, worn.targets, {}, *worn.jobs);

@@ -1202,7 +1202,7 @@ namespace Vfit
         public float VirtualM;
         /// <summary>a step in which the bones move any part of the garment faster,</summary>
         public float CarrySpeedMS;
-        /// <summary>or further, is a jump, as after vfit_cloth_teleport. 0: 6, and 0.06; &lt; 0: no
+        /// <summary>or all of it further, is a jump, as after vfit_cloth_teleport. 0: 6, and 0.06; &lt; 0: no
         /// limit</summary>
         public float CarryWayM;
     }

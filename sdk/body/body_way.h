@@ -1,0 +1,11 @@
+// How far the body moves in one step.
+#pragma once
+
+namespace vfit {
+
+/// Displacements of the parts of the body that carry cloth.
+struct BodyWay {
+    float least_m = 0.0f, greatest_m = 0.0f;
+};
+
+}  // namespace vfit
