@@ -5,7 +5,7 @@ namespace vfit {
 
 /// Displacements of the parts of the body that carry cloth.
 struct BodyWay {
-    float least_m = 0.0f, greatest_m = 0.0f;
+    float min_m = 0.0f, max_m = 0.0f;
 };
 
 }  // namespace vfit

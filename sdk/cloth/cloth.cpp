@@ -438,10 +438,10 @@ void Cloth::State::follow_fixed(float dt, std::span<const Vec3> targets) {
     BodyWay way{INFINITY, 0.0f};
     for (const uint32_t v : fixed) {
         const float own_m = glm::distance(previous_targets[v], targets[v]);
-        way = {std::min(way.least_m, own_m), std::max(way.greatest_m, own_m)};
+        way = {std::min(way.min_m, own_m), std::max(way.max_m, own_m)};
     }
     const float unfelt = settings.is_jump(way, dt) ? 1.0f : 1.0f - settings.inertia;
-    if (unfelt == 0.0f || fixed.empty() || (!asleep_at.empty() && way.greatest_m <= kStill_m)) return;
+    if (unfelt == 0.0f || fixed.empty() || (!asleep_at.empty() && way.max_m <= kStill_m)) return;
     solver.carry(fit_rigid_motion(fixed, previous_targets, targets).part(unfelt));
     publish();
     carried = unfelt;

@@ -53,7 +53,7 @@ struct ClothSettings {
     bool sleeps = true;  // a cloth that lies still, on a body that does, is not stepped
 
     bool is_jump(const BodyWay& way, float dt) const {
-        return way.greatest_m > carry_speed_m_s * dt || way.least_m > carry_way_m;
+        return way.max_m > carry_speed_m_s * dt || way.min_m > carry_way_m;
     }
 };
 

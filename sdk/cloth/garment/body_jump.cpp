@@ -71,7 +71,7 @@ void BodyJump::move_to(std::span<const Mat4> pose, float dt) {
     for (const Sample& s : outermost_) {
         const float own_m = glm::distance(moved(carry_->blended(s.vertex, before_), s.rest),
                                           moved(carry_->blended(s.vertex, now_), s.rest));
-        way_ = {std::min(way_.least_m, own_m), std::max(way_.greatest_m, own_m)};
+        way_ = {std::min(way_.min_m, own_m), std::max(way_.max_m, own_m)};
     }
 }
 

@@ -135,7 +135,7 @@ TEST(BodyJump, TheFastestPartOfTheGarmentCounts) {
     // The lowest row, 0.38 m below, goes 0.19 m.
     worn.pose[1] = turned({1, 0, 0}, 0.5f, {0, 0, 0});
     worn.body->move_to(worn.pose, kFrame_s);
-    EXPECT_NEAR(worn.body->way().greatest_m, 2.0f * std::sin(0.25f) * 0.38f, 1e-5f);
+    EXPECT_NEAR(worn.body->way().max_m, 2.0f * std::sin(0.25f) * 0.38f, 1e-5f);
     const ClothSettings settings;
     const float all_m = 1.01f * kCarryWay_m, limb_m = 1.01f * kCarrySpeed_m_s / 240.0f;
     EXPECT_TRUE(settings.is_jump({all_m, all_m}, 1.0f / 30.0f));
