@@ -20,7 +20,7 @@ constexpr float kAlongHand[] = {0.1f, kHandCentre, 1.0f,
                                 1.6f};  // from the wrist to the knuckles, and on to the fingers
 // Of the upper arm only what is below the armpit: above, it is one with the trunk.
 constexpr float kAlongUpper[] = {0.65f, 0.8f, 1.0f}, kAlongLower[] = {0.25f, 0.5f, 0.75f};
-constexpr float kLeastOut_m = 1e-4f;
+constexpr float kLeastOut_m = 1e-4f, kMinBone_m = 1e-3f;
 constexpr float kMinLever = 0.4f;  // of the upper arm: nearer to the shoulder, the elbow would go too far
 // Quantile of a limb's radii. Of a hand's, fingers and thumb are the larger ones: the palm is meant, from the
 // side.
@@ -312,6 +312,7 @@ void LimbsClear::run(const PosedSkeleton& posed, std::span<const Mat4> matrices,
         const ArmBones& arm = kArms[i];
         const Vec3 shoulder = at(arm.upper), elbow = at(arm.lower), wrist = at(arm.hand);
         const Chain& to = chains[i];
+        if (std::min(to.upper_m, to.lower_m) < kMinBone_m) continue;  // a rig without one has no direction
         if (glm::distance(to.elbow, elbow) + glm::distance(to.wrist, wrist) < kLeastOut_m) continue;
         const Quat upper_turn =
             glm::normalize(shortest_arc(elbow - shoulder, to.elbow - shoulder) * turn(arm.upper));

@@ -320,6 +320,25 @@ TEST_F(GarmentsTest, HandsPassWhereTheyAreToldTo) {
     }
 }
 
+TEST_F(GarmentsTest, OnSpheresSleevesKeepForearmsAndHands) {
+    const vfit_avatar avatar = body();
+    for (const auto& [name, same] : {std::pair("shirt_men", true), std::pair("sundress_pattern", false)}) {
+        const vfit_garment garment = open(name);
+        uint32_t met[2];
+        for (const uint32_t flag : {0u, uint32_t(VFIT_CLOTH_NO_HANDS)}) {
+            vfit_cloth_desc desc = vfit_cloth_desc_init();
+            desc.flags = flag;
+            vfit_cloth cloth{};
+            ASSERT_EQ(vfit_cloth_create(avatar, garment, &desc, &cloth), VFIT_OK) << contract::last_error();
+            for (int i = 0; i < 3; ++i) ASSERT_EQ(vfit_cloth_step(cloth, kGarmentStep_s), VFIT_OK);
+            vfit_cloth_stats stats = vfit_cloth_stats_init();
+            ASSERT_EQ(vfit_cloth_describe(cloth, &stats), VFIT_OK);
+            met[flag != 0] = stats.collider_count;
+        }
+        EXPECT_EQ(met[0] == met[1], same) << name << ": spheres and capsules that are met";
+    }
+}
+
 TEST_F(GarmentsTest, AreTheSameEachTime) {
     const vfit_avatar avatar = body();
     const vfit_garment vest = open("vest");

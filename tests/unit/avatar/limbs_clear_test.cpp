@@ -10,26 +10,32 @@
 namespace vfit {
 namespace {
 
-/// How deep any vertex of the hands is inside trunk and thighs.
-float hand_depth(const Avatar& avatar) {
-    std::vector<uint32_t> middle;
-    for (const BodyPart part : {BodyPart::kTorso, BodyPart::kLeftThigh, BodyPart::kRightThigh}) {
-        const auto triangles = triangles_of(avatar.topology(), part);
-        middle.insert(middle.end(), triangles.begin(), triangles.end());
+const std::vector<BodyPart> kMiddle = {BodyPart::kTorso, BodyPart::kLeftThigh, BodyPart::kRightThigh};
+
+/// How close the skin of one set of parts comes to that of another; negative: inside.
+float gap_between(const Avatar& avatar, const std::vector<BodyPart>& of, const std::vector<BodyPart>& to) {
+    std::vector<uint32_t> triangles;
+    for (const BodyPart part : to) {
+        const auto some = triangles_of(avatar.topology(), part);
+        triangles.insert(triangles.end(), some.begin(), some.end());
     }
-    const MeshQuery query(avatar.positions(), middle);
-    float deepest = 0.0f;
+    const MeshQuery query(avatar.positions(), triangles);
+    float least = INFINITY;
     for (size_t v = 0; v < avatar.topology().vertex_count; ++v) {
-        const BodyPart part = avatar.topology().parts[v];
-        if (part != BodyPart::kLeftHand && part != BodyPart::kRightHand) continue;
-        const auto near = query.closest(avatar.positions()[v]);
-        if (glm::dot(avatar.positions()[v] - near.point, near.normal) < 0.0f)
-            deepest = std::max(deepest, near.distance);
+        if (std::find(of.begin(), of.end(), avatar.topology().parts[v]) == of.end()) continue;
+        const auto nearest = query.closest(avatar.positions()[v]);
+        const bool inside = glm::dot(avatar.positions()[v] - nearest.point, nearest.normal) < 0.0f;
+        least = std::min(least, inside ? -nearest.distance : nearest.distance);
     }
-    return deepest;
+    return least;
 }
 
-/// Arms hanging, turned across the body by so much.
+/// How deep any vertex of the hands is inside trunk and thighs.
+float hand_depth(const Avatar& avatar) {
+    return std::max(0.0f, -gap_between(avatar, {BodyPart::kLeftHand, BodyPart::kRightHand}, kMiddle));
+}
+
+/// Arms hanging, turned across the body by across_deg.
 Pose hanging(const Avatar& avatar, float across_deg, float forward_deg = 0.0f, float lean_deg = 0.0f) {
     constexpr float kDeg = kPi / 180.0f;
     Pose pose;
@@ -60,7 +66,7 @@ TEST(LimbsClear, AreLedOutOfTheBody) {
                 EXPECT_LT(after, std::max(0.012f, 0.25f * before))
                     << across << " " << forward << " " << lean << ": " << before << " m before";
                 EXPECT_TRUE(before > 0.02f || across < 10.0f || forward > 0.0f);
-                // The arm follows, and the hand keeps its own turn in the world.
+                // The arm follows, and the hand keeps its own turn in world space.
                 const PosedSkeleton posed = forward_kinematics(kept.skeleton(), kept.shown_pose());
                 const PosedSkeleton was = forward_kinematics(kept.skeleton(), pose);
                 EXPECT_GT(std::abs(glm::dot(posed.rotation[VFIT_BONE_LEFT_HAND],
@@ -96,37 +102,18 @@ TEST(LimbsClear, MoveWithoutAJumpWhereTheyTouch) {
     EXPECT_LT(largest, 0.01f);  // a tenth of a degree moves a free hand by 1 mm, and the skin has edges
 }
 
-/// How close the skin of one set of parts comes to that of another; negative: inside.
-float gap_between(const Avatar& avatar, const std::vector<BodyPart>& of, const std::vector<BodyPart>& to) {
-    std::vector<uint32_t> triangles;
-    for (const BodyPart part : to) {
-        const auto some = triangles_of(avatar.topology(), part);
-        triangles.insert(triangles.end(), some.begin(), some.end());
-    }
-    const MeshQuery query(avatar.positions(), triangles);
-    float least = INFINITY;
-    for (size_t v = 0; v < avatar.topology().vertex_count; ++v) {
-        if (std::find(of.begin(), of.end(), avatar.topology().parts[v]) == of.end()) continue;
-        const auto nearest = query.closest(avatar.positions()[v]);
-        const bool inside = glm::dot(avatar.positions()[v] - nearest.point, nearest.normal) < 0.0f;
-        least = std::min(least, inside ? -nearest.distance : nearest.distance);
-    }
-    return least;
-}
-
 TEST(LimbsClear, ForearmsStayOutOfTheTrunkWithRoomForCloth) {
     AvatarDesc clear;
     clear.limbs_clear = true;
     Avatar kept = make_avatar(clear), as_posed = make_avatar();
     const auto jobs = Jobs::own(0);
-    const std::vector<BodyPart> forearms = {BodyPart::kLeftForearm, BodyPart::kRightForearm},
-                                middle = {BodyPart::kTorso, BodyPart::kLeftThigh, BodyPart::kRightThigh};
+    const std::vector<BodyPart> forearms = {BodyPart::kLeftForearm, BodyPart::kRightForearm};
     for (const float across : {0.0f, 8.0f, 15.0f}) {
         const Pose pose = hanging(kept, across);
         kept.pose(pose, *jobs);
         as_posed.pose(pose, *jobs);
-        EXPECT_GT(gap_between(kept, forearms, middle), 0.008f)
-            << across << " degrees across, as posed " << gap_between(as_posed, forearms, middle) << " m";
+        EXPECT_GT(gap_between(kept, forearms, kMiddle), 0.008f)
+            << across << " degrees across, as posed " << gap_between(as_posed, forearms, kMiddle) << " m";
     }
 }
 

@@ -136,19 +136,14 @@ TEST(BoneRotations, HoldThePlaneOfAnArmThatIsStretchedOut) {
     }
 }
 
-/// The left arm bent by flexion_deg, of bones that run straight in the T-pose, with that noise on elbow and
-/// wrist.
-Body bent_arm(const Skeleton& skeleton, float flexion_deg, float noise_m, testing::RandomPose& random,
-              int frame) {
+/// The left arm hangs, rolled about itself and bent, of bones that run straight in the T-pose.
+Pose hanging_arm(const Skeleton& skeleton, float roll_deg, float flexion_deg) {
     Pose pose;
     testing::stand_on_floor(skeleton, pose);
-    pose.rotation[VFIT_BONE_LEFT_UPPER_ARM] = glm::angleAxis(-80 * testing::kDeg, Vec3(0, 0, 1));
+    pose.rotation[VFIT_BONE_LEFT_UPPER_ARM] = glm::angleAxis(-80 * testing::kDeg, Vec3(0, 0, 1)) *
+                                              glm::angleAxis(roll_deg * testing::kDeg, Vec3(1, 0, 0));
     pose.rotation[VFIT_BONE_LEFT_LOWER_ARM] = glm::angleAxis(-flexion_deg * testing::kDeg, Vec3(0, 1, 0));
-    Body body = testing::joints_of(skeleton, pose, frame_ns(frame));
-    for (const int j : {VFIT_JOINT_LEFT_ELBOW, VFIT_JOINT_LEFT_WRIST})
-        body.joints[size_t(j)].position +=
-            noise_m * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-    return body;
+    return pose;
 }
 
 Skeleton with_straight_arm() {
@@ -174,7 +169,10 @@ TEST(BoneRotations, ANearlyStraightArmDoesNotFlipItsRoll) {
     testing::RandomPose random(16);
     Quat before(1, 0, 0, 0);
     for (int f = 0; f < 600; ++f) {
-        const Body body = bent_arm(skeleton, 12.0f, 0.045f, random, f);
+        Body body = testing::joints_of(skeleton, hanging_arm(skeleton, 0.0f, 12.0f), frame_ns(f));
+        for (const int j : {VFIT_JOINT_LEFT_ELBOW, VFIT_JOINT_LEFT_WRIST})
+            body.joints[size_t(j)].position +=
+                0.045f * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
         motion.step(&body, body.time_ns);
         const Quat now = motion.pose().rotation[VFIT_BONE_LEFT_UPPER_ARM];
         // 12 rad/s, and what the swing of noisy joints adds.
@@ -191,13 +189,8 @@ TEST(BoneRotations, ABentArmFollowsItsRollWithinAQuarterOfASecond) {
     settings.flags = kAllOff;
     Motion motion(settings);
     motion.bind(skeleton);
-    testing::RandomPose random(17);
     const auto turned = [&](float roll_deg, int frame) {
-        Pose pose;
-        testing::stand_on_floor(skeleton, pose);
-        pose.rotation[VFIT_BONE_LEFT_UPPER_ARM] = glm::angleAxis(-80 * testing::kDeg, Vec3(0, 0, 1)) *
-                                                  glm::angleAxis(roll_deg * testing::kDeg, Vec3(1, 0, 0));
-        pose.rotation[VFIT_BONE_LEFT_LOWER_ARM] = glm::angleAxis(-80 * testing::kDeg, Vec3(0, 1, 0));
+        const Pose pose = hanging_arm(skeleton, roll_deg, 80.0f);
         const Body body = testing::joints_of(skeleton, pose, frame_ns(frame));
         motion.step(&body, body.time_ns);
         return roll_between(pose.rotation[VFIT_BONE_LEFT_UPPER_ARM],
