@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "body/mesh.h"
-#include "cloth/contact/crossing_guard.h"
 #include "cloth/contact/mesh_lift.h"
 #include "cloth/contact/mesh_yield.h"
+#include "cloth/contact/self_contact.h"
 #include "cloth/rigid_motion.h"
 #include "cloth/solver/particle_solver.h"
 #include "core/clock.h"
@@ -133,8 +133,8 @@ uint64_t hash(uint64_t state, const Vec3& v) {
 }  // namespace
 
 struct Cloth::State {
-    State(std::shared_ptr<const Fabric> f, const ClothSettings& s, Jobs* jobs)
-        : fabric(f), settings(s), solver(std::move(f), {s.self_thickness_m, s.virtual_m, s.pressure}, jobs) {}
+    State(std::shared_ptr<const Fabric> f, const ClothSettings& s)
+        : fabric(f), settings(s), solver(std::move(f), {s.virtual_m, s.pressure}) {}
 
     std::shared_ptr<const Fabric> fabric;
     ClothSettings settings;
@@ -151,7 +151,9 @@ struct Cloth::State {
     std::vector<Vec3> before, now;  // with own layers: the same at the begin of the step, carried along; and
                                     // what the step made of it
     std::optional<TriangleGroups> groups;  // of the cloth
-    std::optional<CrossingGuard> guard;
+    std::optional<SelfContact> self;       // with own layers
+    bool self_is_placed = false;           // it knows where the cloth was placed anew
+    bool self_is_free = false;             // layers do not cross, which is proven
     std::optional<MeshLift> off_solids, off_cloth;  // made when there are such meshes
     std::optional<MeshYield> yield;
     // The same, found when they are asked for.
@@ -169,8 +171,6 @@ struct Cloth::State {
     float still_s = 0.0f;       // since the cloth last moved
     float settles_s = 0.0f;     // so long it comes to rest from other lengths, or once it was put on
     int haste = 1;              // steps in one, so long
-    int guarded_every = 1,
-        unguarded = 0;            // steps: after so many it is looked whether layers crossed; those since
     std::vector<Vec3> asleep_at;  // the targets at which it fell asleep; empty: it is awake
     float carried = 0.0f;         // fraction of the body's motion in the next step that moved the cloth
     bool sleeps_on = false;       // after it was moved so
@@ -189,9 +189,8 @@ struct Cloth::State {
     void advance(float dt, int count, float damping, std::span<const Vec3> targets, Jobs& jobs);
     void rest_if_still(float dt, std::span<const Vec3> held, std::span<const Vec3> targets);
     TriangleGroups& triangles_now(std::span<const Vec3> places, Jobs& jobs);
-    CrossingGuard& guarding();
     void part_layers(Jobs& jobs);
-    void guard_layers(float dt, Jobs& jobs);
+    void keep_layers(float dt, Jobs& jobs);
     void lift_off_meshes(uint32_t steps, Jobs& jobs);
     void yield_to_cloth();
     void publish();
@@ -204,7 +203,7 @@ Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings
              Jobs* jobs) {
     if (!fabric) fail(VFIT_ERROR_ARGUMENT, "a cloth needs a fabric");
     check(settings);
-    state_ = std::make_unique<State>(fabric, settings, jobs);
+    state_ = std::make_unique<State>(fabric, settings);
     State& s = *state_;
     const uint32_t n = fabric->vertex_count();
     const FabricData& data = fabric->data();
@@ -221,6 +220,10 @@ Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings
     for (const DistanceConstraint& e : data.edges)
         for (uint32_t v : {e.a, e.b}) s.inverse_edge_count[v] += 1.0f;
     for (float& count : s.inverse_edge_count) count = count > 0.0f ? 1.0f / count : 0.0f;
+    if (settings.self_thickness_m > 0.0f) {
+        s.self.emplace(fabric, settings.self_thickness_m, start.first(n), jobs);
+        s.before.resize(n), s.now.resize(n);
+    }
     reset(start);
 }
 
@@ -259,6 +262,7 @@ void Cloth::State::reset(std::span<const Vec3> start) {
     colliders.forget();
     for (ContactMesh& mesh : meshes) mesh.forget();
     off_solids.reset(), off_cloth.reset(), yield.reset();  // what crossed did so elsewhere
+    self_is_placed = false;
     carried = 0.0f;
     wake();
     publish();
@@ -288,12 +292,11 @@ void Cloth::put_on(const BodyOnItsWay& body, Jobs& jobs) {
 void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
     // The shorter a step, the softer is all that gives way in it (XPBD): at first cloth moves by a millimetre
     // or so between two looks at what it may meet, itself included.
-    constexpr int kSteps = 14, kSubsteps = 4, kGuardedEvery = 2;
+    constexpr int kSteps = 14, kSubsteps = 4;
     constexpr float kShortest_s = 1.5e-4f, kLongest_s = 1.0f / 120.0f, kStopped = 1.0f;
     State& s = *state_;
     s.settles_s = kSettles_s, s.haste = kSettlingHaste;
     s.part_layers(jobs);
-    s.guarded_every = kGuardedEvery;
     std::vector<Vec3> targets;
     std::vector<Collider> colliders;
     for (int i = 0; i < kSteps; ++i) {
@@ -303,7 +306,6 @@ void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
         const float dt = kShortest_s * std::pow(kLongest_s / kShortest_s, float(i) / float(kSteps - 1));
         s.advance(dt, kSubsteps, kStopped, targets, jobs);
     }
-    s.guarded_every = 1;
     s.solver.rest();
     s.wake();
 }
@@ -473,7 +475,11 @@ void Cloth::State::check_body(std::span<const Vec3> targets, std::span<const Col
 /// The colliders have been accepted.
 void Cloth::State::advance(float dt, int count, float damping, std::span<const Vec3> skinned_targets,
                            Jobs& jobs) {
-    if (settings.self_thickness_m > 0.0f && unguarded == 0) before = positions;
+    if (self) {
+        before = positions;
+        if (!self_is_placed) self->place(positions, jobs);
+        self_is_placed = true;
+    }
     const std::span<const Vec3> targets = held_at(skinned_targets);
     if (!backstops_placed) {
         const uint32_t vertices = fabric->vertex_count();
@@ -489,12 +495,10 @@ void Cloth::State::advance(float dt, int count, float damping, std::span<const V
     const ContactSettings contact{settings.friction, settings.friction * kKineticShare,
                                   kMaxDepenetration_m_s * h};
     solver.advance({dt, count, settings.gravity, settings.air, std::pow(1.0f - damping, h), contact,
-                    settings.thickness_m, previous_targets, targets, colliders, meshes, lift_m, cloth_lift_m},
+                    settings.thickness_m, previous_targets, targets, colliders, meshes, lift_m, cloth_lift_m,
+                    self ? &self->contacts() : nullptr},
                    jobs);
-    if (++unguarded >= guarded_every) {
-        guard_layers(float(unguarded) * dt, jobs);
-        unguarded = 0;
-    }
+    keep_layers(dt, jobs);
     publish();
     yield_to_cloth();
     rest_if_still(dt, targets, skinned_targets);
@@ -509,31 +513,30 @@ TriangleGroups& Cloth::State::triangles_now(std::span<const Vec3> places, Jobs& 
     return *groups;
 }
 
-CrossingGuard& Cloth::State::guarding() {
-    if (!guard) guard.emplace(fabric->data());
-    now.resize(positions.size());
-    solver.copy_positions(now);
-    return *guard;
-}
-
 void Cloth::State::part_layers(Jobs& jobs) {
-    if (settings.self_thickness_m == 0.0f) return;
-    guarding().part(now, triangles_now(now, jobs), jobs);
+    if (!self) return;
+    solver.copy_positions(now);
+    self->part(now, jobs);
     solver.place(now);
+    self_is_placed = false;
     publish();
 }
 
-void Cloth::State::guard_layers(float dt, Jobs& jobs) {
-    if (settings.self_thickness_m == 0.0f) return;
-    guarding();
-    guard->keep(before, now, triangles_now(now, jobs), settles_s > 0.0f, jobs);
-    for (const uint32_t v : guard->moved()) solver.place(v, now[v], (now[v] - before[v]) / dt);
-    solver.let_go(guard->tangled());
+void Cloth::State::keep_layers(float dt, Jobs& jobs) {
+    if (!self) return;
+    solver.copy_positions(now);
+    self_is_free = self->keep(before, now, jobs);
+    for (const uint32_t v : self->moved()) {
+        const uint32_t particle = fabric->layout().particle_of[v];
+        const Vec3 way = self->is_in_zone(v) ? now[v] - before[v] : now[v] - solver.places()[particle].x,
+                   velocity = self->is_in_zone(v) ? Vec3(0.0f) : solver.velocities()[particle].x;
+        solver.place(v, now[v], velocity + way / dt);
+    }
 }
 
 void Cloth::State::lift_off_meshes(uint32_t steps, Jobs& jobs) {
     if (meshes.empty() || !settings.clears_meshes) return;
-    if (!guard) triangles_now(positions, jobs);
+    triangles_now(positions, jobs);
     const auto lift = [&](MeshOf what, std::optional<MeshLift>& off, uint32_t in_steps) {
         if (std::none_of(meshes.begin(), meshes.end(),
                          [&](const ContactMesh& mesh) { return mesh.what() == what; }))

@@ -320,7 +320,7 @@ void ContactMesh::find_planes(const Moving& moving, float dt, float thickness_m,
         for (uint32_t other : near) edge = std::max(edge, edges_m_[other]);
         NearestOfRun nearest_points(reach + kCornerReach * edge);
         find_nearest_in_runs(run, places_.data(), near, nearest_points);
-        uint32_t* points = nearest_points.id[0];
+        uint32_t* points = nearest_points.id;
         if (std::all_of(points, points + kLanes, [](uint32_t id) { return id == NearestOnFans::kNone; }))
             continue;
         NearestOnFans nearest;

@@ -1,68 +1,207 @@
 #include "cloth/contact/crossing_guard.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 #include "cloth/rigid_motion.h"
 
 namespace vfit {
 
 namespace {
-constexpr uint32_t kNone = UINT32_MAX;
-constexpr int kRounds = 12;  // in which zones may grow
-constexpr size_t kLargestZone =
-    150;  // vertices: where more is in a jam, holding it would tear at what is about it
-constexpr size_t kMostCrossed =
-    40;  // one pair for so many triangles: beyond, cloth lies in a heap, which is left to contact
+
+// Rounds of a repair: projections, then zones that may grow, then crossing triangles go back to the begin.
+constexpr int kProjections = 8, kZones = 24, kRounds = 40;
+constexpr int kPasses = 4;  // over the hits of a round
+constexpr float kTouch_m = 4e-6f;
+// What is kept of the distance at the begin: half, but no less than rounding needs, nor more than 1 mm.
+constexpr float kKept = 0.5f, kMinKept_m = 1e-4f, kMaxKept_m = 1e-3f;
+// Two that begin within kResting_m of each other touch in the same way at the end, unless they come closer.
+constexpr float kResting_m = 6e-6f, kCloser = 0.7f;
 constexpr float kUntangles_m = 0.001f;  // a step
 constexpr int kRoundsToPart = 30;
 constexpr float kParts_m = 0.002f;  // a round
+
+template <typename Body>
+void for_all_pairs(const Proximity::Triangle& a, const Proximity::Triangle& b, Body&& body) {
+    for (uint32_t j = 0; j < 3; ++j) {
+        body(PairKind::vertex_face, std::array{a.vertex[j], b.vertex[0], b.vertex[1], b.vertex[2]});
+        body(PairKind::vertex_face, std::array{b.vertex[j], a.vertex[0], a.vertex[1], a.vertex[2]});
+        for (uint32_t k = 0; k < 3; ++k)
+            body(PairKind::edge_edge,
+                 std::array{a.vertex[j], a.vertex[(j + 1) % 3], b.vertex[k], b.vertex[(k + 1) % 3]});
+    }
+}
+
+bool has_twice(const std::array<uint32_t, 4>& v) {
+    return v[0] == v[1] || v[0] == v[2] || v[0] == v[3] || v[1] == v[2] || v[1] == v[3] || v[2] == v[3];
+}
+
+Corners corners_of(const Proximity::Triangle& t, std::span<const Particle> at) {
+    return {{at[t.vertex[0]].x, at[t.vertex[1]].x, at[t.vertex[2]].x}};
+}
+
+bool cross_at(const Proximity::Pair& pair, std::span<const Particle> at) {
+    return !pair.shares_vertex() && cross(corners_of(*pair.first, at), corners_of(*pair.second, at));
+}
+
 }  // namespace
 
 CrossingGuard::CrossingGuard(const FabricData& fabric)
-    : indices_(fabric.indices),
-      parent_(fabric.inverse_mass.size(), kNone),
+    : inverse_mass_(fabric.inverse_mass),
+      indices_(fabric.indices),
+      is_marked_(fabric.inverse_mass.size(), 0),
+      is_moved_(is_marked_),
       wanted_(fabric.inverse_mass.size()),
+      found_at_(fabric.inverse_mass.size()),
+      parent_(fabric.inverse_mass.size(), kNone),
+      places_(fabric.inverse_mass.size()),
       untangle_(fabric.inverse_mass.size()) {
-    for (const float inverse : fabric.inverse_mass) is_fixed_.push_back(inverse == 0.0f);
+    for (const float inverse : inverse_mass_) is_fixed_.push_back(inverse == 0.0f);
 }
 
-void CrossingGuard::keep(std::span<const Vec3> before, std::span<Vec3> now, TriangleGroups& cloth,
-                         bool even_heaps, Jobs& jobs) {
+bool CrossingGuard::keep(std::span<const Particle> begin, std::span<Particle> end, Proximity& proximity,
+                         float reach_m, Jobs& jobs) {
     for (const uint32_t v : zoned_) parent_[v] = kNone;
-    zoned_.clear();
-    const auto find = [&] {
-        pairs_.clear();
-        cloth.find_crossings(true, pairs_, jobs);
-    };
-    find();
-    moved_.clear(), tangled_ = {};
-    if (!even_heaps && pairs_.size() * kMostCrossed > indices_.size() / 3) return;
-    if (!pairs_.empty()) std::copy(now.begin(), now.end(), wanted_.begin());
-    for (int round = 0; round < kRounds && unite_crossed(before); ++round) {
-        move_zones(before, now);
-        cloth.move(now, jobs);
-        find();
+    for (const uint32_t v : moved_) is_moved_[v] = 0;
+    zoned_.clear(), moved_.clear(), tangles_.clear(), tangled_ = {};
+    zones_grow_ = false;
+    proximity.find(begin, end, reach_m, jobs);
+    bool solved = false;
+    for (int round = 0; round < kRounds; ++round) {
+        rounds_ = round;
+        find_hits(begin, end, proximity);
+        solved = hits_.empty() && crossed_.empty();
+        if (solved) break;
+        if (moved_.empty()) {
+            std::copy(end.begin(), end.end(), wanted_.begin());
+            for (size_t v = 0; v < end.size(); ++v) found_at_[v] = end[v].x;
+        }
+        std::fill(is_marked_.begin(), is_marked_.end(), uint8_t(0));
+        if (hits_.empty()) round = std::max(round, kProjections);
+        if (round < kProjections) {
+            project(end);
+        } else if (round < kZones) {
+            zones_grow_ = true;
+            unite_hits();
+            move_zones(begin, end);
+        } else {
+            take_back(begin, end);
+        }
+        // Pairs were found with a margin, which vertices that have moved may have used up.
+        const bool is_beyond = std::any_of(moved_.begin(), moved_.end(), [&](uint32_t v) {
+            return glm::distance(found_at_[v], end[v].x) > 0.5f * kMaxKept_m;
+        });
+        if (is_beyond) {
+            proximity.find(begin, end, reach_m, jobs);
+            for (size_t v = 0; v < end.size(); ++v) found_at_[v] = end[v].x;
+            tangles_.clear();
+        } else {
+            proximity.find_uncertain_of(is_marked_, begin, end, jobs);
+        }
     }
-    tangled_ = untangle_.move(pairs_, indices_, is_fixed_, kUntangles_m, now);
-    moved_.assign(zoned_.begin(), zoned_.end());
-    moved_.insert(moved_.end(), tangled_.begin(), tangled_.end());
+    if (!solved)
+        for (const auto& [first, second] : crossed_) tangles_.emplace_back(first->number, second->number);
+    const bool is_free = solved && tangles_.empty();
+    if (!tangles_.empty()) untangle(end, kUntangles_m);
+    return is_free;
 }
 
-void CrossingGuard::part(std::span<Vec3> places, TriangleGroups& cloth, Jobs& jobs) {
+void CrossingGuard::untangle(std::span<Particle> places, float step_m) {
+    for (size_t v = 0; v < places.size(); ++v) places_[v] = places[v].x;
+    tangled_ = untangle_.move(tangles_, indices_, is_fixed_, step_m, places_);
+    for (const uint32_t v : tangled_) {
+        places[v].x = places_[v];
+        mark(v);
+    }
+}
+
+void CrossingGuard::part(std::span<Particle> places, Proximity& proximity, Jobs& jobs) {
     for (int round = 0; round < kRoundsToPart; ++round) {
-        cloth.move(places, jobs);
-        pairs_.clear();
-        cloth.find_crossings(true, pairs_, jobs);
-        if (pairs_.empty()) return;
-        untangle_.move(pairs_, indices_, is_fixed_, kParts_m, places);
+        proximity.find(places, places, 0.0f, jobs);
+        tangles_.clear();
+        proximity.for_uncertain([&](const Proximity::Pair& pair) {
+            if (cross_at(pair, places)) tangles_.emplace_back(pair.first->number, pair.second->number);
+        });
+        if (tangles_.empty()) return;
+        untangle(places, kParts_m);
     }
 }
 
-bool CrossingGuard::crossed_before(const TrianglePair& pair, std::span<const Vec3> before) const {
-    const auto corners = [&](uint32_t t) {
-        return Corners{{before[indices_[3 * t]], before[indices_[3 * t + 1]], before[indices_[3 * t + 2]]}};
-    };
-    return cross(corners(pair.first), corners(pair.second));
+void CrossingGuard::find_hits(std::span<const Particle> begin, std::span<const Particle> end,
+                              const Proximity& proximity) {
+    hits_.clear(), crossed_.clear();
+    proximity.for_uncertain([&](const Proximity::Pair& pair) {
+        if (cross_at(pair, begin)) {
+            if (cross_at(pair, end)) tangles_.emplace_back(pair.first->number, pair.second->number);
+            return;
+        }
+        if (cross_at(pair, end)) crossed_.emplace_back(pair.first, pair.second);
+        for_all_pairs(*pair.first, *pair.second, [&](PairKind kind, const std::array<uint32_t, 4>& v) {
+            test(kind, v, begin, end);
+        });
+    });
+    std::erase_if(crossed_, [&](const auto& pair) {
+        const uint32_t *a = pair.first->vertex, *b = pair.second->vertex;
+        return in_one_zone(std::array{a[0], a[1], a[2], b[0], b[1], b[2]});
+    });
+}
+
+void CrossingGuard::test(PairKind kind, const std::array<uint32_t, 4>& v, std::span<const Particle> begin,
+                         std::span<const Particle> end) {
+    if (has_twice(v)) return;
+    if (is_fixed_[v[0]] && is_fixed_[v[1]] && is_fixed_[v[2]] && is_fixed_[v[3]]) return;
+    if (zones_grow_ && in_one_zone(v)) return;
+    std::array<Vec3, 4> from, to;
+    for (size_t k = 0; k < 4; ++k) from[k] = begin[v[k]].x, to[k] = end[v[k]].x;
+    const size_t second = kind == PairKind::edge_edge ? 2 : 1;
+    Bounds box, other;
+    for (size_t k = 0; k < 4; ++k) {
+        Bounds& of = k < second ? box : other;
+        of.add(from[k]), of.add(to[k]);
+    }
+    box.low -= 2.0f * kTouch_m, box.high += 2.0f * kTouch_m;
+    if (!box.overlaps(other)) return;
+    Hit hit;
+    const std::optional<float> time = first_touch(kind, from, to, kTouch_m, hit.weights);
+    if (!time) return;
+    const ClosestPoints began = closest_points(kind, from);
+    const float distance = glm::length(began.way);
+    if (*time == 1.0f && distance < kResting_m) {
+        const ClosestPoints ended = closest_points(kind, to);
+        if (glm::length(ended.way) >= kCloser * distance && glm::dot(ended.way, began.way) > 0.0f) return;
+    }
+    hit.vertices = v;
+    hit.normal = distance > 1e-7f ? began.way / distance : Vec3(0, 1, 0);
+    hit.margin_m = std::clamp(kKept * distance, kMinKept_m, kMaxKept_m);
+    hits_.push_back(hit);
+}
+
+void CrossingGuard::mark(uint32_t v) {
+    is_marked_[v] = 1;
+    if (!is_moved_[v]) moved_.push_back(v);
+    is_moved_[v] = 1;
+}
+
+/// Gauss-Seidel over the hits: each pair gets its margin back.
+void CrossingGuard::project(std::span<Particle> end) {
+    for (int pass = 0; pass < kPasses; ++pass)
+        for (const Hit& hit : hits_) {
+            Vec3 between(0.0f);
+            float sum = 0.0f;
+            for (size_t k = 0; k < 4; ++k) {
+                between += hit.weights[k] * end[hit.vertices[k]].x;
+                sum += inverse_mass_[hit.vertices[k]] * hit.weights[k] * hit.weights[k];
+            }
+            const float depth = hit.margin_m - glm::dot(between, hit.normal);
+            if (depth <= 0.0f || sum <= 0.0f) continue;
+            for (size_t k = 0; k < 4; ++k) {
+                const uint32_t v = hit.vertices[k];
+                if (is_fixed_[v]) continue;
+                end[v].x += hit.normal * (depth / sum * inverse_mass_[v] * hit.weights[k]);
+                mark(v);
+            }
+        }
 }
 
 uint32_t CrossingGuard::root(uint32_t vertex) {
@@ -80,39 +219,68 @@ void CrossingGuard::unite(uint32_t a, uint32_t b) {
     parent_[std::max(x, y)] = std::min(x, y);
 }
 
-/// False if nothing crosses that did not before.
-bool CrossingGuard::unite_crossed(std::span<const Vec3> before) {
-    bool any = false;
-    for (const TrianglePair& pair : pairs_) {
-        if (crossed_before(pair, before)) continue;
-        for (const uint32_t t : {pair.first, pair.second})
-            for (size_t k = 0; k < 3; ++k) unite(indices_[3 * pair.first], indices_[3 * t + k]);
-        any = true;
-    }
-    return any;
+/// All of which the zone moves: a fixed vertex does not go with it.
+bool CrossingGuard::in_one_zone(std::span<const uint32_t> vertices) {
+    return std::all_of(vertices.begin(), vertices.end(), [&](uint32_t v) {
+        return !is_fixed_[v] && parent_[v] != kNone && root(v) == root(vertices[0]);
+    });
 }
 
-void CrossingGuard::move_zones(std::span<const Vec3> before, std::span<Vec3> now) {
+void CrossingGuard::unite_hits() {
+    for (const Hit& hit : hits_)
+        for (const uint32_t v : hit.vertices) unite(hit.vertices[0], v);
+    for (const auto& [first, second] : crossed_)
+        for (const Proximity::Triangle* t : {first, second})
+            for (const uint32_t v : t->vertex) unite(first->vertex[0], v);
+}
+
+void CrossingGuard::move_zones(std::span<const Particle> begin, std::span<Particle> end) {
     std::sort(zoned_.begin(), zoned_.end(),
               [&](uint32_t a, uint32_t b) { return std::pair(root(a), a) < std::pair(root(b), b); });
-    for (size_t begin = 0, end; begin < zoned_.size(); begin = end) {
-        for (end = begin + 1; end < zoned_.size() && root(zoned_[end]) == root(zoned_[begin]);) ++end;
-        move_zone(std::span(zoned_).subspan(begin, end - begin), before, now);
+    for (size_t first = 0, last; first < zoned_.size(); first = last) {
+        for (last = first + 1; last < zoned_.size() && root(zoned_[last]) == root(zoned_[first]);) ++last;
+        move_zone(std::span(zoned_).subspan(first, last - first), begin, end);
     }
 }
 
-void CrossingGuard::move_zone(std::span<const uint32_t> zone, std::span<const Vec3> before,
-                              std::span<Vec3> now) {
-    fixed_.clear();
-    for (const uint32_t v : zone)
-        if (is_fixed_[v]) fixed_.push_back(v);
+/// As the rigid motion that is closest to what the step wanted. With fixed vertices it goes as they do on average, and
+/// does not turn about two or three of them.
+void CrossingGuard::move_zone(std::span<const uint32_t> zone, std::span<const Particle> begin,
+                              std::span<Particle> end) {
+    Vec3 way(0.0f);
+    float fixed = 0.0f;
+    from_.clear(), to_.clear();
+    for (const uint32_t v : zone) {
+        from_.push_back(begin[v].x), to_.push_back(wanted_[v].x);
+        if (is_fixed_[v]) way += wanted_[v].x - begin[v].x, fixed += 1.0f;
+    }
+    numbers_.resize(zone.size());
+    std::iota(numbers_.begin(), numbers_.end(), 0u);
     RigidMotion motion;
-    // With what is fixed it goes, but does not turn about two or three places of it.
-    for (const uint32_t v : fixed_) motion.to_center += (wanted_[v] - before[v]) / float(fixed_.size());
-    if (fixed_.empty()) motion = fit_rigid_motion(zone, before, wanted_);
-    const bool jams = zone.size() > kLargestZone;
-    for (const uint32_t v : zone)
-        if (!is_fixed_[v]) now[v] = jams ? wanted_[v] : motion.point(before[v]);
+    if (fixed > 0.0f)
+        motion.to_center = way / fixed;
+    else
+        motion = fit_rigid_motion(numbers_, from_, to_);
+    for (const uint32_t v : zone) {
+        if (is_fixed_[v]) continue;
+        end[v].x = motion.point(begin[v].x);
+        mark(v);
+    }
+}
+
+/// What still crosses stays where it was.
+void CrossingGuard::take_back(std::span<const Particle> begin, std::span<Particle> end) {
+    const auto back = [&](uint32_t v) {
+        if (is_fixed_[v]) return;
+        unite(v, v);
+        end[v].x = begin[v].x;
+        mark(v);
+    };
+    for (const Hit& hit : hits_)
+        for (const uint32_t v : hit.vertices) back(v);
+    for (const auto& [first, second] : crossed_)
+        for (const Proximity::Triangle* t : {first, second})
+            for (const uint32_t v : t->vertex) back(v);
 }
 
 }  // namespace vfit

@@ -1,12 +1,17 @@
-// The last word on a cloth's own layers, after a step. What crosses that did not cross before moves as one,
-// the way it moves on the whole: rigid impact zones (Provot 1997; Bridson, Fedkiw and Anderson 2002,
-// section 7.5), of what has crossed instead of what will touch. What crossed before is untangled.
+// Keeps a cloth from crossing itself: the ways of all vertices through a step are certified by continuous
+// collision detection, and changed where two triangles would touch. First single contacts are projected; what
+// that does not solve moves as one, in rigid impact zones (Provot 1997; Bridson, Fedkiw, Anderson 2002).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "cloth/contact/contact_pair.h"
+#include "cloth/contact/proximity.h"
+#include "cloth/contact/triangle_groups.h"
 #include "cloth/contact/untangle.h"
 #include "cloth/fabric/fabric.h"
 
@@ -14,37 +19,63 @@ namespace vfit {
 
 class CrossingGuard {
 public:
+    /// Vertices without a finite mass do not give way.
     explicit CrossingGuard(const FabricData& fabric);
 
-    /// From before to now, one place a vertex: changes `now` so that as little crosses as can be. cloth: has
-    /// been moved to now. even_heaps: however much crosses; else cloth that lies in a heap is left to
-    /// contact. Does not allocate once it has met as many crossings.
-    void keep(std::span<const Vec3> before, std::span<Vec3> now, TriangleGroups& cloth, bool even_heaps,
+    /// Changes `end` so that no triangles cross on linear ways from `begin`, except those that crossed at
+    /// `begin` already, which are moved apart a little. proximity: finds the pairs within reach_m, which is
+    /// left as of the last find. True: nothing crosses at the end, which is proven.
+    bool keep(std::span<const Particle> begin, std::span<Particle> end, Proximity& proximity, float reach_m,
               Jobs& jobs);
-    /// Before a first step: moves what crosses apart, a few centimetres at most.
-    void part(std::span<Vec3> places, TriangleGroups& cloth, Jobs& jobs);
-    /// The vertices that it moved in the last call.
+    /// Moves triangles that cross apart, at rest.
+    void part(std::span<Particle> places, Proximity& proximity, Jobs& jobs);
+
+    /// Vertices that the last call moved, and whether as part of a zone: then their velocity is its.
     std::span<const uint32_t> moved() const { return moved_; }
-    /// Those of triangles that crossed in the last two steps: contact would hold them where they are.
+    bool is_in_zone(uint32_t vertex) const { return parent_[vertex] != kNone; }
+    /// Vertices of triangles that crossed at the begin, and still do.
     std::span<const uint32_t> tangled() const { return tangled_; }
 
+    int rounds_ = 0;
 private:
-    bool crossed_before(const TrianglePair& pair, std::span<const Vec3> before) const;
-    bool unite_crossed(std::span<const Vec3> before);
+    static constexpr uint32_t kNone = UINT32_MAX;
+    struct Hit {
+        std::array<uint32_t, 4> vertices;
+        std::array<float, 4> weights;  // of the closest points where the two touch
+        Vec3 normal;                   // between the two at the begin
+        float margin_m;                // that they are to keep along it
+    };
+    using TrianglePlaces = std::array<Vec3, 3>;
+    void find_hits(std::span<const Particle> begin, std::span<const Particle> end, const Proximity& proximity);
+    void test(PairKind kind, const std::array<uint32_t, 4>& vertices, std::span<const Particle> begin,
+              std::span<const Particle> end);
+    bool in_one_zone(std::span<const uint32_t> vertices);
+    void project(std::span<Particle> end);
     void unite(uint32_t a, uint32_t b);
     uint32_t root(uint32_t vertex);
-    void move_zones(std::span<const Vec3> before, std::span<Vec3> now);
-    void move_zone(std::span<const uint32_t> zone, std::span<const Vec3> before, std::span<Vec3> now);
+    void unite_hits();
+    void move_zones(std::span<const Particle> begin, std::span<Particle> end);
+    void move_zone(std::span<const uint32_t> zone, std::span<const Particle> begin, std::span<Particle> end);
+    void take_back(std::span<const Particle> begin, std::span<Particle> end);
+    void mark(uint32_t vertex);
+    void untangle(std::span<Particle> places, float step_m);
 
-    std::span<const uint32_t> indices_;
-    std::vector<uint8_t> is_fixed_;
-    std::vector<TrianglePair> pairs_;
-    std::vector<uint32_t> parent_;  // of each vertex in a zone
-    std::vector<uint32_t> zoned_;   // vertices, zone by zone
-    std::vector<uint32_t> fixed_;   // of a zone
-    std::vector<Vec3> wanted_;
-    Untangle untangle_;
+    std::vector<float> inverse_mass_;
+    std::vector<uint32_t> indices_;
+    std::vector<Hit> hits_;
+    std::vector<std::pair<const Proximity::Triangle*, const Proximity::Triangle*>> crossed_;  // at the end alone
+    std::vector<TrianglePair> tangles_;  // at both ends, by their numbers
+    std::vector<uint8_t> is_marked_, is_moved_;  // in this round, in all
     std::vector<uint32_t> moved_;
+    std::vector<Particle> wanted_;  // the end that the step made
+    std::vector<Vec3> found_at_;    // where the pairs were found
+    std::vector<uint32_t> parent_, zoned_;  // of each vertex in a zone; those, zone by zone
+    std::vector<uint32_t> numbers_;
+    std::vector<Vec3> from_, to_;  // of a zone
+    bool zones_grow_ = false;
+    std::vector<uint8_t> is_fixed_;
+    std::vector<Vec3> places_;  // room for untangle
+    Untangle untangle_;
     std::span<const uint32_t> tangled_;
 };
 

@@ -10,10 +10,10 @@
 
 namespace vfit {
 
-/// The nearest point to each lane of a run, apart for what lies before its normal and behind it.
+/// The nearest point to each lane of a run.
 struct NearestOfRun {
-    alignas(32) float distance2[2][kLanes];
-    alignas(32) uint32_t id[2][kLanes];
+    alignas(32) float distance2[kLanes];
+    alignas(32) uint32_t id[kLanes];
 
     explicit NearestOfRun(float reach);  // none within that
 };
@@ -34,25 +34,9 @@ struct RunBoxes {
 /// The runs whose boxes meet that one, rising.
 void find_meeting(const RunBoxes& boxes, const Vec3& low, const Vec3& high, std::vector<uint32_t>& runs);
 /// Looks at the particles of these runs, which are their ids (not finite: nobody), for a run's eight
-/// particles. What is nearer than out says, replaces it; all is before.
+/// particles. What is nearer than out says, replaces it.
 void find_nearest_in_runs(const Particle* run, const Particle* all, std::span<const uint32_t> runs,
                           NearestOfRun& out);
-
-/// Another run of the same cloth, with a byte for each of its particles, of which a bit stands for a lane of
-/// the one that looks.
-struct NearRun {
-    uint32_t run;
-    uint64_t excluded;  // does not count
-    uint64_t beside;    // counts only where the two face away from each other: in a fold
-    float way_m;        // that the two may come nearer in the step
-    float reach_m;      // near enough, then
-    bool near = false;  // of keep_near
-};
-/// Keeps of the runs those of which a particle that counts may come near enough to one of this run; how many.
-size_t keep_near(uint32_t run, const Particle* all, const Particle* normals, std::span<NearRun> runs);
-/// As above among particles that count; normals (of unit length) of all tell who is before and who behind.
-void find_nearest_in_cloth(uint32_t run, const Particle* all, const Particle* normals,
-                           std::span<const NearRun> runs, NearestOfRun& out);
 
 /// For each lane of a run the nearest place on the triangles about one point.
 struct alignas(32) NearestOnFans {
@@ -68,19 +52,5 @@ struct alignas(32) NearestOnFans {
 /// points: one a lane, kNone: nobody; of them and of their corners `all` holds the places.
 void find_nearest_on_fans(const Particle* run, const uint32_t* points, const TriangleFans& fans,
                           const Particle* all, NearestOnFans& out);
-
-/// Eight contacts of a particle with a triangle of the same cloth: it stays on one side of it, that far off.
-struct alignas(32) SurfaceContacts {
-    uint32_t vertex[kLanes], a[kLanes], b[kLanes], c[kLanes];  // bytes from the first particle
-    float at_a[kLanes], at_b[kLanes], at_c[kLanes];            // the place on the triangle, weights
-    float side[kLanes];                                        // 1: before it, -1: behind it
-    float thickness_m[kLanes];
-    // Of what is amiss: how far each of the four moves.
-    float vertex_gain[kLanes], a_gain[kLanes], b_gain[kLanes], c_gain[kLanes];
-};
-/// One batch after the other; what the eight lanes of one do to one particle is added up. What was amiss
-/// already at the begin of the sub-step (starts) is taken back by most_back_m at most.
-void solve_surface_contacts(std::span<const SurfaceContacts> contacts, const Particle* starts,
-                            float most_back_m, Particle* particles);
 
 }  // namespace vfit

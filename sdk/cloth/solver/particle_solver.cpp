@@ -15,8 +15,9 @@ namespace {
 // every second one, with twice the force: the impulse is the same, at half the work.
 constexpr float kSoft = 0.5f;
 
-// So fast do the cloth's own layers part that have come too near: pushed out at once, they would fly.
-constexpr float kBack_m_s = 1.0f;
+// So fast do layers of the cloth part that are closer than its thickness: pushed out at once, they would fly.
+constexpr float kParts_m_s = 1.0f;
+constexpr int kRefreshedEvery = 2;  // sub-steps: contacts' closest points
 
 // Passes over the edges in a second, at least: with fewer, a limb that kicks stretches the few triangles that
 // it meets until it is through between their corners.
@@ -29,13 +30,11 @@ Vec3 half_fall(const ParticleSolver::Step& step) { return step.gravity * (0.5f *
 
 }  // namespace
 
-ParticleSolver::ParticleSolver(std::shared_ptr<const Fabric> fabric, const Options& options, Jobs* jobs)
+ParticleSolver::ParticleSolver(std::shared_ptr<const Fabric> fabric, const Options& options)
     : fabric_(std::move(fabric)) {
-    if (options.self_thickness_m > 0.0f)
-        self_ = std::make_unique<SelfContact>(fabric_, options.self_thickness_m, jobs);
     if (options.virtual_m > 0.0f) virtual_ = std::make_unique<VirtualParticles>(*fabric_, options.virtual_m);
     const ParticleLayout& layout = fabric_->layout();
-    for (Particles* list : {&places_, &starts_, &velocities_, &normals_}) list->resize(layout.count());
+    for (Particles* list : {&places_, &starts_, &velocities_}) list->resize(layout.count());
     if (options.with_pushes) pushed_.resize(layout.count());
     for (uint32_t i = 0; i < layout.group_count(); ++i) {
         Gains& gains = gains_.emplace_back();
@@ -51,7 +50,6 @@ void ParticleSolver::place(std::span<const Vec3> vertices) {
     for (uint32_t i = 0; i < layout.count(); ++i)
         if (layout.vertex_of[i] != ParticleLayout::kNobody) places_[i].x = vertices[layout.vertex_of[i]];
     rest();
-    if (self_) self_->forget();
 }
 
 void ParticleSolver::place(uint32_t vertex, const Vec3& at, const Vec3& velocity) {
@@ -107,17 +105,23 @@ void ParticleSolver::advance(const Step& step, Jobs& jobs) {
     if (step.air.drag != 0.0f || step.air.lift != 0.0f)
         parallel_for(jobs, parts,
                      [&](uint32_t part) { blow(step.air, step.dt, *fabric_, part, places_, velocities_); });
-    if (self_) {
-        parallel_for(jobs, parts, [&](uint32_t part) { find_normals(part); });
-        self_->find_runs(places_, velocities_, normals_, step.dt, step.substeps, jobs);
-    }
     if (virtual_) virtual_->find_near(places_, velocities_, step.dt, swept_step_);
-    enum class Phase { parts, cuts, find_self, part_layers, virtual_particles };
+    enum class Phase { parts, cuts, refresh_contacts, solve_contacts, virtual_particles };
     std::array<Phase, 5> cycle{Phase::parts, Phase::cuts};
     uint32_t phases = 2;
-    if (self_) cycle[phases++] = Phase::find_self, cycle[phases++] = Phase::part_layers;
+    if (step.contacts && step.contacts->size() > 0)
+        cycle[phases++] = Phase::refresh_contacts, cycle[phases++] = Phase::solve_contacts;
     if (virtual_) cycle[phases++] = Phase::virtual_particles;
-    const auto items = [&](uint32_t phase) { return cycle[phase % phases] < Phase::part_layers ? parts : 1; };
+    const auto items = [&](uint32_t phase) -> uint32_t {
+        switch (cycle[phase % phases]) {
+            case Phase::parts:
+            case Phase::cuts: return parts;
+            case Phase::refresh_contacts:
+                return int(phase / phases) % kRefreshedEvery == 0 ? step.contacts->share_count() : 1;
+            default: return 1;
+        }
+    };
+    const ContactPush push{kParts_m_s * substep_s(step), step.contact.friction_static};
     run_phases(jobs, phases * uint32_t(step.substeps) + 1, parts, items, [&](uint32_t phase, uint32_t item) {
         const int substep = int(phase / phases);
         switch (cycle[phase % phases]) {
@@ -134,11 +138,10 @@ void ParticleSolver::advance(const Step& step, Jobs& jobs) {
                 else
                     step.colliders.sweep(share(step, substep), share(step, substep + 1), swept_);
                 return;
-            case Phase::find_self: return self_->find(places_, starts_, normals_, substep, item);
-            case Phase::part_layers:
-                self_->pack();
-                return solve_surface_contacts(self_->contacts(), starts_.data(), kBack_m_s * substep_s(step),
-                                              places_.data());
+            case Phase::refresh_contacts:
+                if (substep % kRefreshedEvery == 0) step.contacts->refresh(places_, item);
+                return;
+            case Phase::solve_contacts: return step.contacts->solve(push, starts_, places_);
             case Phase::virtual_particles:
                 return virtual_->solve(swept_, step.contact, starts_, places_, pushed_);
         }
@@ -201,18 +204,6 @@ void ParticleSolver::begin_part(const Step& step, uint32_t part) {
     predict(m, half_fall(step), substep_s(step));
 }
 
-/// By one triangle each: all that is asked is who is before the cloth and who behind.
-void ParticleSolver::find_normals(uint32_t part) {
-    const ParticleLayout::Part& p = fabric_->layout().parts[part];
-    for (uint32_t i = p.begin; i < p.end; ++i) {
-        const std::span<const TriangleFans::Corners> fan = fabric_->fans().of(i);
-        if (fan.empty()) continue;
-        const Vec3 across =
-            glm::cross(places_[fan[0].second].x - places_[i].x, places_[fan[0].third].x - places_[i].x);
-        normals_[i].x = across / std::max(glm::length(across), 1e-12f);
-    }
-}
-
 /// Particles that only fill up the last run lie with the first of it, so that it stays small.
 void ParticleSolver::fill_up(uint32_t part) {
     const ParticleLayout& layout = fabric_->layout();
@@ -257,7 +248,7 @@ void ParticleSolver::begin_substep(const Step& step, int substep, uint32_t part)
     const Part& own = parts_[part];
     for (size_t i = 0; i < own.fixed.size(); ++i) {
         const size_t at = p.moving_end + i;
-        if (self_ || virtual_) starts_[at] = places_[at];
+        if (step.contacts || virtual_) starts_[at] = places_[at];
         places_[at].x = own.fixed[i].x + own.fixed_ways[i].x * to;
     }
     solve_group(substep, part);

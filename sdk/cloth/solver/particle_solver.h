@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "cloth/contact/collider_motion.h"
+#include "cloth/contact/contact_list.h"
 #include "cloth/contact/contact_mesh.h"
-#include "cloth/contact/self_contact.h"
 #include "cloth/contact/virtual_particles.h"
 #include "cloth/fabric/fabric.h"
 #include "cloth/rigid_motion.h"
@@ -22,22 +22,16 @@ namespace vfit {
 class ParticleSolver {
 public:
     struct Options {
-        float self_thickness_m =
-            0.0f;                  // kept between the cloth's own layers; 0: they pass through each other
         float virtual_m = 0.0f;    // between points of triangles that meet colliders as well; 0: none
         bool with_pushes = false;  // copy_pushes() is asked for
     };
-    ParticleSolver(std::shared_ptr<const Fabric> fabric, const Options& options, Jobs* jobs = nullptr);
+    ParticleSolver(std::shared_ptr<const Fabric> fabric, const Options& options);
 
     /// At rest at these places, one a vertex.
     void place(std::span<const Vec3> vertices);
     void rest();
     /// One vertex is there and moves so.
     void place(uint32_t vertex, const Vec3& at, const Vec3& velocity);
-    /// Vertices that contact of the cloth with itself does not hold until the next call.
-    void let_go(std::span<const uint32_t> vertices) {
-        if (self_) self_->let_go(vertices);
-    }
     /// As the cloth lies and moves.
     void carry(const RigidMotion& motion);
 
@@ -54,6 +48,7 @@ public:
         std::span<const ContactMesh> meshes;
         std::span<const float> lift_m,
             cloth_lift_m;  // off these, one a particle, of solids and of cloth below; may be empty
+        ContactList* contacts = nullptr;  // of the cloth with itself
     };
     /// The box about all particles.
     void bounds(Vec3& low, Vec3& high) const;
@@ -94,19 +89,16 @@ private:
     void begin_substep(const Step& step, int substep, uint32_t part);
     void end_part(const Step& step, int substep, uint32_t part);
     void solve_group(int substep, uint32_t group);
-    void find_normals(uint32_t part);
     void fill_up(uint32_t part);
 
     std::shared_ptr<const Fabric> fabric_;
     Particles places_, starts_, velocities_;  // in the fabric's layout
-    Particles normals_;                       // of the cloth at the begin of the step, where it meets itself
     Particles pushed_;                        // by contacts in this step; empty: nobody asks
     std::vector<Gains> gains_;                // of its groups
     float gains_h_ = 0.0f;                    // the sub-step that they are for,
     bool may_alternate_ = false;              // and whether a step has an even number of them
     int bend_every_ = 1;                      // so many sub-steps
     std::vector<Part> parts_;
-    std::unique_ptr<SelfContact> self_;
     std::unique_ptr<VirtualParticles> virtual_;
     std::vector<SweptCapsule> swept_step_,
         swept_;  // over the step, and over the sub-step that comes to its end

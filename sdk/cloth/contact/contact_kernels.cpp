@@ -1,0 +1,297 @@
+#include "cloth/contact/contact_kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "cloth/contact/contact_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "cloth/contact/nearest_on_triangle-inl.h"
+#include "cloth/solver/particle_registers-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace vfit {
+namespace HWY_NAMESPACE {
+
+constexpr float kRounding_m = 2e-5f;  // of a gap between places some metres from the origin
+constexpr float kTouching_m = -4e-6f;  // a gap of triangles that share a vertex
+constexpr hn::FixedTag<uint32_t, kWide> kInts;
+
+template <typename Mask>
+HWY_INLINE uint32_t Bits(Mask mask) {
+    uint8_t bits[8] = {};
+    hn::StoreMaskBits(kTag, mask, bits);
+    return bits[0];
+}
+
+/// A bit for each of the kWide boxes from there on.
+HWY_INLINE uint32_t MeetingBoxes(const MovingBoxes& boxes, size_t at, const Bounds& box, const Bounds& way,
+                                 float reach_m) {
+    auto meets = hn::FirstN(kTag, kWide);
+    for (int axis = 0; axis < 3; ++axis) {
+        // How much further apart the two were, or will be, than now.
+        const V back = hn::Abs(hn::Sub(hn::LoadU(kTag, &boxes.ways.high[axis][at]), Set(way.low[axis]))),
+                forth = hn::Abs(hn::Sub(Set(way.high[axis]), hn::LoadU(kTag, &boxes.ways.low[axis][at])));
+        const V margin = hn::Add(hn::Max(back, forth), Set(reach_m));
+        const V low = hn::Sub(hn::LoadU(kTag, &boxes.at.low[axis][at]), margin),
+                high = hn::Add(hn::LoadU(kTag, &boxes.at.high[axis][at]), margin);
+        meets = hn::And(meets, hn::And(hn::Le(low, Set(box.high[axis])), hn::Ge(high, Set(box.low[axis]))));
+    }
+    return Bits(meets);
+}
+
+void FindMeetingMoving(const MovingBoxes& boxes, uint32_t first, uint32_t end, const Bounds& box, const Bounds& way,
+                       float reach_m, std::vector<uint32_t>& out) {
+    for (uint32_t i = first / uint32_t(kWide) * uint32_t(kWide); i < end; i += uint32_t(kWide))
+        for (uint32_t left = MeetingBoxes(boxes, i, box, way, reach_m); left; left &= left - 1) {
+            const uint32_t at = i + uint32_t(hwy::Num0BitsBelowLS1Bit_Nonzero32(left));
+            if (at >= first && at < end) out.push_back(at);
+        }
+}
+
+void MeetingTriangles(const PatchBoxes& a, const PatchBoxes& b, const Vec3& margin, uint8_t* out) {
+    for (size_t i = 0; i < kLanes; ++i) {
+        uint32_t bits = 0;
+        for (size_t k = 0; k < kLanes; k += kWide) {
+            auto meets = hn::FirstN(kTag, kWide);
+            for (int axis = 0; axis < 3; ++axis) {
+                const V high = Set(a.high[axis][i] + margin[axis]), low = Set(a.low[axis][i] - margin[axis]);
+                meets = hn::And(meets, hn::Le(hn::Load(kTag, b.low[axis] + k), high));
+                meets = hn::And(meets, hn::Ge(hn::Load(kTag, b.high[axis] + k), low));
+            }
+            bits |= Bits(meets) << k;
+        }
+        out[i] = uint8_t(bits);
+    }
+}
+
+HWY_INLINE Points CrossProduct(const Points& a, const Points& b) {
+    return {hn::NegMulAdd(a.z, b.y, hn::Mul(a.y, b.z)), hn::NegMulAdd(a.x, b.z, hn::Mul(a.z, b.x)),
+            hn::NegMulAdd(a.y, b.x, hn::Mul(a.x, b.y))};
+}
+HWY_INLINE Points Plus(const Points& a, const Points& b) {
+    return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+
+/// Corners of two triangles at both ends, and how far they are apart.
+struct TwoTriangles {
+    Points first_begin[3], second_begin[3], first[3], second[3];
+    V far_m, clear_m;  // gaps that make a pair far, and safe
+    V far, safe;       // the widest gap less these
+
+    HWY_INLINE Points Normal(const Points* corners) const {
+        return CrossProduct(Sub(corners[1], corners[0]), Sub(corners[2], corners[0]));
+    }
+    HWY_INLINE Points BetweenMiddles() const {
+        return Sub(Plus(first[0], Plus(first[1], first[2])), Plus(second[0], Plus(second[1], second[2])));
+    }
+    HWY_INLINE void Look(const Points& axis) {
+        const V inverse = hn::Div(Set(1.0f), hn::Sqrt(hn::Add(Dot(axis, axis), Set(1e-30f))));
+        const Points n = Mul(axis, inverse);
+        V low[3][2], high[3][2];  // begin, end, and the same way again; first, second
+        for (int side = 0; side < 2; ++side) {
+            const Points *from = side ? second_begin : first_begin, *to = side ? second : first;
+            for (int k = 0; k < 3; ++k) {
+                const V begin = Dot(n, from[k]), end = Dot(n, to[k]), next = hn::Sub(hn::Add(end, end), begin);
+                const V at[3] = {begin, end, next};
+                for (int t = 0; t < 3; ++t) {
+                    low[t][side] = k ? hn::Min(low[t][side], at[t]) : at[t];
+                    high[t][side] = k ? hn::Max(high[t][side], at[t]) : at[t];
+                }
+            }
+        }
+        for (int side = 0; side < 2; ++side) {
+            const auto gap = [&](int t) HWY_ATTR { return hn::Sub(low[t][side], high[t][1 - side]); };
+            safe = hn::Max(safe, hn::Sub(hn::Min(gap(0), gap(1)), clear_m));
+            far = hn::Max(far, hn::Sub(hn::Min(gap(1), gap(2)), far_m));
+        }
+    }
+};
+
+void Classify(std::span<TrianglePairs> pairs, const Particle* begin, const Particle* end, float reach_m) {
+    const auto from = [begin](uint32_t index) HWY_ATTR { return begin + index; };
+    const auto to = [end](uint32_t index) HWY_ATTR { return end + index; };
+    for (TrianglePairs& pair : pairs) {
+        uint32_t uncertain = 0, close = 0;
+        for (size_t k = 0; k < kLanes; k += kWide) {
+            TwoTriangles two;
+            auto shared = hn::Zero(kInts);
+            for (size_t i = 0; i < 3; ++i) {
+                two.first_begin[i] = Columns(Gather(from, pair.first[i] + k));
+                two.second_begin[i] = Columns(Gather(from, pair.second[i] + k));
+                two.first[i] = Columns(Gather(to, pair.first[i] + k));
+                two.second[i] = Columns(Gather(to, pair.second[i] + k));
+                for (size_t j = 0; j < 3; ++j)
+                    shared = hn::Add(shared, hn::IfThenElseZero(hn::Eq(hn::Load(kInts, pair.first[i] + k),
+                                                                       hn::Load(kInts, pair.second[j] + k)),
+                                                                hn::Set(kInts, 1)));
+            }
+            const auto share_one = hn::RebindMask(kTag, hn::Ne(shared, hn::Zero(kInts))),
+                       share_two = hn::RebindMask(kTag, hn::Gt(shared, hn::Set(kInts, 1)));
+            two.far_m = Set(reach_m);
+            two.far = two.safe = Set(-1.0f);
+            two.clear_m = hn::IfThenElse(share_one, Set(kTouching_m), Set(kRounding_m));
+            const Points first = two.Normal(two.first), second = two.Normal(two.second),
+                         between = two.BetweenMiddles();
+            two.Look(first);
+            two.Look(second);
+            two.Look(between);
+            const auto opposed = hn::Lt(Dot(first, second), Set(0.0f));
+            const Points mean = Choose(opposed, Sub(first, second), Plus(first, second));
+            const V part = hn::Div(Dot(mean, between), hn::Add(Dot(mean, mean), Set(1e-30f)));
+            two.Look(MulAdd(mean, hn::Neg(part), between));
+            const V zero = hn::Zero(kTag);
+            uncertain |= Bits(hn::AndNot(share_two, hn::Le(two.safe, zero))) << k;
+            close |= Bits(hn::AndNot(share_one, hn::Le(two.far, zero))) << k;
+        }
+        pair.uncertain = uint8_t(uncertain), pair.close = uint8_t(close);
+    }
+}
+
+/// Where on each of two edges they are closest (Ericson 2004, 5.1.9).
+struct OnEdges {
+    V first, second;
+};
+HWY_INLINE OnEdges ClosestOnEdges(const Points& p, const Points& p_end, const Points& q, const Points& q_end) {
+    const V zero = hn::Zero(kTag), one = Set(1.0f), tiny = Set(1e-20f);
+    const auto clamp = [&](V v) HWY_ATTR { return hn::Min(one, hn::Max(zero, v)); };
+    const Points d1 = Sub(p_end, p), d2 = Sub(q_end, q), r = Sub(p, q);
+    const V a = hn::Max(Dot(d1, d1), tiny), e = hn::Max(Dot(d2, d2), tiny), f = Dot(d2, r), c = Dot(d1, r),
+            b = Dot(d1, d2);
+    const V denominator = hn::NegMulAdd(b, b, hn::Mul(a, e));
+    const auto crossed = hn::Gt(denominator, hn::Mul(Set(1e-7f), hn::Mul(a, e)));
+    const V s0 = hn::IfThenElse(
+        crossed, clamp(hn::Div(hn::NegMulAdd(c, e, hn::Mul(b, f)), hn::IfThenElse(crossed, denominator, one))),
+        Set(0.5f));
+    const V t0 = hn::Div(hn::MulAdd(b, s0, f), e);
+    const V t = clamp(t0);
+    const V s = hn::IfThenElse(hn::Eq(t0, t), s0, clamp(hn::Div(hn::NegMulAdd(Set(1.0f), c, hn::Mul(b, t)), a)));
+    return {s, t};
+}
+
+void FindClosest(std::span<PrimitivePairs> pairs, bool edges, const Particle* begin, const Particle* end,
+                 float sideways) {
+    const auto from = [begin](uint32_t index) HWY_ATTR { return begin + index; };
+    const auto to = [end](uint32_t index) HWY_ATTR { return end + index; };
+    const V one = Set(1.0f), third = Set(1.0f / 3.0f), half = Set(0.5f), zero = hn::Zero(kTag);
+    for (PrimitivePairs& pair : pairs)
+        for (size_t k = 0; k < kLanes; k += kWide) {
+            Points p[4], moved[4];
+            for (size_t i = 0; i < 4; ++i) {
+                p[i] = Columns(Gather(to, pair.at[i] + k));
+                moved[i] = Sub(p[i], Columns(Gather(from, pair.at[i] + k)));
+            }
+            V weight[4];
+            Points relative;
+            if (edges) {
+                const OnEdges on = ClosestOnEdges(p[0], p[1], p[2], p[3]);
+                weight[0] = hn::Sub(one, on.first), weight[1] = on.first;
+                weight[2] = hn::Sub(on.second, one), weight[3] = hn::Neg(on.second);
+                relative = Mul(Sub(Plus(moved[0], moved[1]), Plus(moved[2], moved[3])), half);
+            } else {
+                const OnTriangle on = NearestOnTriangle(p[0], p[1], p[2], p[3]);
+                weight[0] = one, weight[1] = hn::Sub(hn::Add(on.at_b, on.at_c), one);
+                weight[2] = hn::Neg(on.at_b), weight[3] = hn::Neg(on.at_c);
+                relative = MulAdd(Plus(moved[1], Plus(moved[2], moved[3])), hn::Neg(third), moved[0]);
+            }
+            Points way = Mul(p[0], weight[0]);
+            for (size_t i = 1; i < 4; ++i) way = MulAdd(p[i], weight[i], way);
+            const V distance = hn::Sqrt(Dot(way, way)), length = hn::Sqrt(Dot(relative, relative));
+            const V closing = hn::Div(hn::Neg(Dot(way, relative)), hn::Max(distance, Set(1e-9f)));
+            for (size_t i = 0; i < 4; ++i) hn::Store(weight[i], kTag, pair.weight[i] + k);
+            hn::Store(way.x, kTag, pair.way[0] + k), hn::Store(way.y, kTag, pair.way[1] + k),
+                hn::Store(way.z, kTag, pair.way[2] + k);
+            hn::Store(distance, kTag, pair.distance_m + k);
+            hn::Store(hn::MulAdd(Set(sideways), length, hn::Max(zero, closing)), kTag, pair.comes_m + k);
+        }
+}
+
+/// Adds to each particle in turn, so that one that several lanes name gets it all.
+template <typename At>
+HWY_INLINE void ScatterSum(const Rows& rows, const At& at, const uint32_t* index) {
+#if HWY_TARGET == HWY_SCALAR
+    at(*index)->x += Vec3(hn::GetLane(rows.p.x), hn::GetLane(rows.p.y), hn::GetLane(rows.p.z));
+#else
+    const auto add = [&](const hn::Vec<hn::FixedTag<float, 4> >& what, uint32_t to) HWY_ATTR {
+        float* place = &at(to)->x.x;
+        hn::Store(hn::Add(hn::Load(kFour, place), what), kFour, place);
+    };
+    for (size_t k = 0; k < 4; ++k) {
+#if !HWY_HAVE_SCALABLE && HWY_MAX_BYTES >= 32
+        add(hn::LowerHalf(kFour, rows.r[k]), index[k]);
+        add(hn::UpperHalf(kFour, rows.r[k]), index[k + 4]);
+#else
+        add(rows.r[k], index[k]);
+#endif
+    }
+#endif
+}
+
+void SolveContacts(std::span<const ContactBatch> contacts, const ContactPush& push, const Particle* starts,
+                   Particle* particles) {
+    auto* bytes = reinterpret_cast<unsigned char*>(particles);
+    const auto* start_bytes = reinterpret_cast<const unsigned char*>(starts);
+    const auto at = [bytes](uint32_t offset) HWY_ATTR { return reinterpret_cast<Particle*>(bytes + offset); };
+    const auto start_of = [start_bytes](uint32_t offset)
+                              HWY_ATTR { return reinterpret_cast<const Particle*>(start_bytes + offset); };
+    for (const ContactBatch& c : contacts)
+        for (size_t k = 0; k < kLanes; k += kWide) {
+            const auto between = [&](const auto& place) HWY_ATTR {
+                Points sum = Mul(Columns(Gather(place, c.at[0] + k)), hn::Load(kTag, c.weight[0] + k));
+                for (int i = 1; i < 4; ++i)
+                    sum = MulAdd(Columns(Gather(place, c.at[i] + k)), hn::Load(kTag, c.weight[i] + k), sum);
+                return sum;
+            };
+            const Points normal{hn::Load(kTag, c.normal[0] + k), hn::Load(kTag, c.normal[1] + k),
+                                hn::Load(kTag, c.normal[2] + k)};
+            const Points now = between(at);
+            const V distance = Dot(normal, now), kept = hn::Load(kTag, c.distance_m + k);
+            if (hn::AllFalse(kTag, hn::Lt(distance, kept))) continue;
+            const Points start = between(start_of);
+            const V began = hn::Max(Dot(normal, start), hn::Zero(kTag));
+            const V depth = hn::Max(
+                hn::Zero(kTag), hn::Sub(hn::Min(kept, hn::Add(began, Set(push.max_m))), distance));
+            const Points way = Sub(now, start), slide = MulAdd(normal, hn::Neg(Dot(way, normal)), way);
+            const V length = hn::Sqrt(hn::Add(Dot(slide, slide), Set(kNoLength * kNoLength)));
+            const V held = hn::Min(Set(1.0f), hn::Div(hn::Mul(Set(push.friction), depth), length));
+            const Points move = MulAdd(slide, hn::Neg(held), Mul(normal, depth));
+            for (int i = 0; i < 4; ++i)
+                ScatterSum(RowsOf(Mul(move, hn::Load(kTag, c.gain[i] + k))), at, c.at[i] + k);
+        }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace vfit
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace vfit {
+
+HWY_EXPORT(FindMeetingMoving);
+HWY_EXPORT(FindClosest);
+HWY_EXPORT(MeetingTriangles);
+HWY_EXPORT(Classify);
+HWY_EXPORT(SolveContacts);
+
+void find_meeting(const MovingBoxes& boxes, uint32_t first, uint32_t end, const Bounds& box, const Bounds& way,
+                  float reach_m, std::vector<uint32_t>& out) {
+    HWY_DYNAMIC_DISPATCH(FindMeetingMoving)(boxes, first, end, box, way, reach_m, out);
+}
+void find_closest(std::span<PrimitivePairs> pairs, bool edges, const Particle* begin, const Particle* end,
+                  float sideways) {
+    HWY_DYNAMIC_DISPATCH(FindClosest)(pairs, edges, begin, end, sideways);
+}
+std::array<uint8_t, kLanes> meeting_triangles(const PatchBoxes& a, const PatchBoxes& b, const Vec3& margin) {
+    std::array<uint8_t, kLanes> out;
+    HWY_DYNAMIC_DISPATCH(MeetingTriangles)(a, b, margin, out.data());
+    return out;
+}
+void classify(std::span<TrianglePairs> pairs, const Particle* begin, const Particle* end, float reach_m) {
+    HWY_DYNAMIC_DISPATCH(Classify)(pairs, begin, end, reach_m);
+}
+void solve_contacts(std::span<const ContactBatch> contacts, const ContactPush& push, const Particle* starts,
+                    Particle* particles) {
+    HWY_DYNAMIC_DISPATCH(SolveContacts)(contacts, push, starts, particles);
+}
+
+}  // namespace vfit
+#endif

@@ -1,0 +1,76 @@
+// The hot loops of contact between triangles, in SIMD with run-time dispatch.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cloth/contact/contact.h"
+#include "cloth/contact/surface_kernels.h"
+#include "cloth/solver/particle.h"
+#include "math/types.h"
+
+namespace vfit {
+
+/// Boxes, and the ways of what is in them, eight to a register.
+struct MovingBoxes {
+    Boxes at, ways;
+    void resize(size_t count) { at.resize(count), ways.resize(count); }
+    void set(size_t i, const Bounds& box, const Bounds& way) {
+        at.set(i, box.low, box.high), ways.set(i, way.low, way.high);
+    }
+};
+/// Adds those of the boxes from `first` to `end` that come within reach_m of a box, now, on the way from where
+/// they were, or on the same way again.
+void find_meeting(const MovingBoxes& boxes, uint32_t first, uint32_t end, const Bounds& box, const Bounds& way,
+                  float reach_m, std::vector<uint32_t>& out);
+
+/// Boxes about the triangles of a patch; empty where there is none.
+struct alignas(32) PatchBoxes {
+    float low[3][kLanes], high[3][kLanes];
+};
+/// Bit k of entry i: triangle k of b comes within `margin` of triangle i of a.
+std::array<uint8_t, kLanes> meeting_triangles(const PatchBoxes& a, const PatchBoxes& b, const Vec3& margin);
+
+/// Eight pairs of triangles by the indices of their corners, and what is known of them.
+struct alignas(32) TrianglePairs {
+    uint32_t first[3][kLanes], second[3][kLanes];
+    uint8_t uncertain;  // bit k: no axis separates the two at both ends of their ways: they may have crossed
+    uint8_t close;      // bit k: no axis keeps the two further apart than reach_m, now or after the same way again
+};
+/// Looks along four axes: both normals, the way between the middles, and that way within the mean plane. Of two
+/// that share a vertex, or two vertices, an axis need only touch; they are never close.
+void classify(std::span<TrianglePairs> pairs, const Particle* begin, const Particle* end, float reach_m);
+
+/// Eight pairs of primitives by the indices of their vertices, and their closest points.
+struct alignas(32) PrimitivePairs {
+    uint32_t at[4][kLanes];
+    float weight[4][kLanes];  // of the closest points: the first minus the second
+    float way[3][kLanes];     // from the second to the first
+    float distance_m[kLanes];
+    float comes_m[kLanes];  // how much closer the two may be after the same way again
+};
+/// Of a vertex and the triangle of the other three, or of two edges. sideways: share of the way past each other
+/// that counts as well, as the direction between the two turns.
+void find_closest(std::span<PrimitivePairs> pairs, bool edges, const Particle* begin, const Particle* end,
+                  float sideways);
+
+/// Eight contacts: the sum of weights * places, along the normal, is kept at distance_m.
+struct alignas(32) ContactBatch {
+    uint32_t at[4][kLanes];  // bytes from the first particle
+    float weight[4][kLanes];
+    float gain[4][kLanes];  // how far each of the four moves, of what the distance lacks
+    float normal[3][kLanes];
+    float distance_m[kLanes];
+};
+struct ContactPush {
+    float max_m = 0.0f;  // by which a contact opens in a sub-step
+    float friction = 0.0f;
+};
+/// One batch after the other; what the eight lanes of one do to one particle is added up. starts: places at
+/// the begin of the sub-step.
+void solve_contacts(std::span<const ContactBatch> contacts, const ContactPush& push, const Particle* starts,
+                    Particle* particles);
+
+}  // namespace vfit

@@ -1,0 +1,194 @@
+#include "cloth/contact/contact_list.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vfit {
+
+namespace {
+
+constexpr float kMargin_m = 0.001f;   // beyond the thickness, for what acceleration brings closer in a step
+constexpr float kSideways = 0.25f;    // of the way past each other: the normal may turn so far
+constexpr float kEdgeShare = 0.5f;    // of the thickness, between two edges
+constexpr float kFlatShare = 0.45f;   // of the shortest way along edges, which is longer than the straight one
+constexpr float kFlatReach = 1.0f / kFlatShare;
+constexpr float kCrossedEdges = 0.05f;  // sine of the angle from which on two edges have a normal of their own
+constexpr float kOn_m = 1e-6f;        // closer, a way has no direction
+
+Vec3 unit(const Vec3& v) { return v / std::max(glm::length(v), 1e-20f); }
+
+template <typename Body>
+void for_own_pairs(const Proximity::Triangle& a, const Proximity::Triangle& b, Body&& body) {
+    for (uint32_t j = 0; j < 3; ++j) {
+        if (a.own_vertices >> j & 1)
+            body(PairKind::vertex_face, std::array{a.vertex[j], b.vertex[0], b.vertex[1], b.vertex[2]});
+        if (b.own_vertices >> j & 1)
+            body(PairKind::vertex_face, std::array{b.vertex[j], a.vertex[0], a.vertex[1], a.vertex[2]});
+        if (!(a.own_edges >> j & 1)) continue;
+        for (uint32_t k = 0; k < 3; ++k)
+            if (b.own_edges >> k & 1)
+                body(PairKind::edge_edge,
+                     std::array{a.vertex[j], a.vertex[(j + 1) % 3], b.vertex[k], b.vertex[(k + 1) % 3]});
+    }
+}
+
+}  // namespace
+
+ContactList::ContactList(std::shared_ptr<const Fabric> fabric, float thickness_m, Jobs* jobs)
+    : fabric_(std::move(fabric)),
+      thickness_m_(thickness_m),
+      flat_(fabric_->data(), kFlatReach * thickness_m, jobs),
+      is_let_go_(fabric_->vertex_count(), 0) {}
+
+float ContactList::reach_m() const { return thickness_m_ + kMargin_m; }
+
+void ContactList::fill(const Proximity& proximity, std::span<const Particle> begin,
+                       std::span<const Particle> end, std::span<const uint32_t> let_go) {
+    contacts_.clear();
+    for (Candidates& of : candidates_) of.count = 0;
+    for (const uint32_t v : let_go) is_let_go_[v] = 1;
+    proximity.for_close([&](const Proximity::Pair& pair) {
+        for_own_pairs(*pair.first, *pair.second, [&](PairKind kind, const std::array<uint32_t, 4>& v) {
+            candidates_[size_t(kind)].add(v);
+        });
+    });
+    for (const PairKind kind : {PairKind::vertex_face, PairKind::edge_edge}) {
+        Candidates& of = candidates_[size_t(kind)];
+        of.fill_up();
+        find_closest(std::span(of.pairs).first((of.count + kLanes - 1) / kLanes), kind == PairKind::edge_edge,
+                     begin.data(), end.data(), kSideways);
+        add(kind, of, end);
+    }
+    for (const uint32_t v : let_go) is_let_go_[v] = 0;
+    pack();
+}
+
+void ContactList::Candidates::add(const std::array<uint32_t, 4>& vertices) {
+    if (count == pairs.size() * kLanes) pairs.emplace_back();
+    for (size_t k = 0; k < 4; ++k) pairs[count / kLanes].at[k][count % kLanes] = vertices[k];
+    ++count;
+}
+
+void ContactList::Candidates::fill_up() {
+    for (size_t i = count; i % kLanes != 0; ++i)
+        for (size_t k = 0; k < 4; ++k) pairs[i / kLanes].at[k][i % kLanes] = pairs[count / kLanes].at[k][0];
+}
+
+void ContactList::add(PairKind kind, const Candidates& of, std::span<const Particle> end) {
+    const float reach = (kind == PairKind::edge_edge ? kEdgeShare : 1.0f) * thickness_m_ + kMargin_m;
+    for (size_t i = 0; i < of.count; ++i) {
+        const PrimitivePairs& pairs = of.pairs[i / kLanes];
+        if (pairs.distance_m[i % kLanes] <= reach + pairs.comes_m[i % kLanes]) add(kind, pairs, i % kLanes, end);
+    }
+}
+
+void ContactList::add(PairKind kind, const PrimitivePairs& pairs, size_t lane, std::span<const Particle> end) {
+    const bool edges = kind == PairKind::edge_edge;
+    const float distance = pairs.distance_m[lane];
+    if (distance < kOn_m) return;
+    const std::array<uint32_t, 4> v{pairs.at[0][lane], pairs.at[1][lane], pairs.at[2][lane], pairs.at[3][lane]};
+    const auto is_moved = [&](uint32_t vertex) { return fabric_->data().inverse_mass[vertex] > 0.0f; };
+    const auto is_let_go = [&](uint32_t vertex) { return is_let_go_[vertex] != 0; };
+    if (std::none_of(v.begin(), v.end(), is_moved)) return;
+    const auto second = v.begin() + (edges ? 2 : 1);
+    if (std::any_of(v.begin(), second, is_let_go) && std::any_of(second, v.end(), is_let_go)) return;
+    const float kept_m = std::min((edges ? kEdgeShare : 1.0f) * thickness_m_, flat_limit_m(kind, v));
+    if (kept_m <= 0.0f || distance > kept_m + kMargin_m + pairs.comes_m[lane]) return;
+    const Vec3 normal = Vec3(pairs.way[0][lane], pairs.way[1][lane], pairs.way[2][lane]) / distance;
+    Contact contact{v, kind, 0, {}, normal, kept_m};
+    for (size_t k = 0; k < 4; ++k) contact.weights[k] = pairs.weight[k][lane];
+    if (!edges && std::max({contact.weights[1], contact.weights[2], contact.weights[3]}) < 0.0f) {
+        const Vec3 face = glm::cross(end[v[2]].x - end[v[1]].x, end[v[3]].x - end[v[1]].x);
+        contact.side = glm::dot(face, normal) >= 0.0f ? 1 : -1;
+    }
+    contacts_.push_back(contact);
+}
+
+/// How far apart the two may be held: less than where the cloth lies flat.
+float ContactList::flat_limit_m(PairKind kind, const std::array<uint32_t, 4>& v) const {
+    float min_m = INFINITY;
+    const size_t second = kind == PairKind::edge_edge ? 2 : 1;
+    for (size_t i = 0; i < second; ++i)
+        for (size_t k = second; k < 4; ++k) min_m = std::min(min_m, flat_.between(v[i], v[k]));
+    return kFlatShare * min_m;
+}
+
+/// The normal of a vertex above its triangle is the triangle's, of two crossed edges the one square to both: the
+/// way between the closest points turns with each rounding, and turns round where one goes through the other.
+void ContactList::look(Contact& contact, const std::array<Vec3, 4>& at) {
+    const ClosestPoints closest = closest_points(contact.kind, at);
+    contact.weights = closest.weights;
+    const bool inside = closest.is_inside(contact.kind);
+    if (contact.kind == PairKind::vertex_face) {
+        if (inside) {
+            const Vec3 face = unit(glm::cross(at[2] - at[1], at[3] - at[1]));
+            if (contact.side == 0) contact.side = glm::dot(face, at[0] - at[1]) >= 0.0f ? 1 : -1;
+            contact.normal = face * float(contact.side);
+            return;
+        }
+        contact.side = 0;
+    } else if (inside) {
+        const Vec3 first = at[1] - at[0], second = at[3] - at[2], square = glm::cross(first, second);
+        const float length = glm::length(square);
+        if (length > kCrossedEdges * glm::length(first) * glm::length(second)) {
+            contact.normal = square * ((glm::dot(square, contact.normal) < 0.0f ? -1.0f : 1.0f) / length);
+            return;
+        }
+    }
+    const float distance = glm::length(closest.way);
+    if (distance > kOn_m && glm::dot(closest.way, contact.normal) > 0.0f)
+        contact.normal = closest.way / distance;
+}
+
+/// Lanes of a batch far apart in the list: what they push is seldom the same.
+void ContactList::pack() {
+    batches_.resize((contacts_.size() + kLanes - 1) / kLanes);
+    const uint32_t spare = uint32_t(fabric_->layout().parts[0].spare() * sizeof(Particle));
+    for (size_t i = 0; i < batches_.size(); ++i)
+        for (size_t k = 0; k < kLanes; ++k) {
+            const size_t at = k * batches_.size() + i;
+            if (at < contacts_.size()) {
+                for (size_t j = 0; j < 4; ++j)
+                    batches_[i].at[j][k] = uint32_t(
+                        fabric_->layout().particle_of[contacts_[at].vertices[j]] * sizeof(Particle));
+                put(contacts_[at], k, batches_[i]);
+                continue;
+            }
+            for (size_t j = 0; j < 4; ++j)
+                batches_[i].at[j][k] = spare, batches_[i].weight[j][k] = batches_[i].gain[j][k] = 0.0f;
+            for (auto& component : batches_[i].normal) component[k] = 0.0f;
+            batches_[i].distance_m[k] = -1.0f;
+        }
+}
+
+void ContactList::put(const Contact& contact, size_t lane, ContactBatch& batch) const {
+    float sum = 0.0f;
+    std::array<float, 4> share;
+    for (size_t j = 0; j < 4; ++j) {
+        share[j] = fabric_->data().inverse_mass[contact.vertices[j]] * contact.weights[j];
+        sum += share[j] * contact.weights[j];
+    }
+    const float inverse = sum > 0.0f ? 1.0f / sum : 0.0f;
+    for (size_t j = 0; j < 4; ++j) {
+        batch.weight[j][lane] = contact.weights[j];
+        batch.gain[j][lane] = share[j] * inverse;
+    }
+    for (int j = 0; j < 3; ++j) batch.normal[j][lane] = contact.normal[j];
+    batch.distance_m[lane] = contact.distance_m;
+}
+
+void ContactList::refresh(const Particles& places, uint32_t share) {
+    const auto count = uint32_t(batches_.size());
+    for (uint32_t i = share * count / kShares; i < (share + 1) * count / kShares; ++i)
+        for (size_t k = 0; k < kLanes; ++k) {
+            const size_t at = k * count + i;
+            if (at >= contacts_.size()) continue;
+            Contact& contact = contacts_[at];
+            std::array<Vec3, 4> now;
+            for (size_t j = 0; j < 4; ++j) now[j] = places[batches_[i].at[j][k] / sizeof(Particle)].x;
+            look(contact, now);
+            put(contact, k, batches_[i]);
+        }
+}
+
+}  // namespace vfit

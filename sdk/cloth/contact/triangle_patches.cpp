@@ -1,0 +1,268 @@
+#include "cloth/contact/triangle_patches.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "math/finite.h"
+
+namespace vfit {
+
+namespace {
+
+constexpr uint32_t kPatchesOfAJob = 64;
+// Normals of one cone, 75 degrees from its axis: beyond, a patch may fold onto itself.
+constexpr float kConeCosine = 0.26f;
+
+/// Triangles about each vertex.
+class TrianglesAbout {
+public:
+    TrianglesAbout(size_t vertices, std::span<const uint32_t> indices)
+        : first_(vertices + 1, 0), all_(indices.size()) {
+        for (const uint32_t v : indices) ++first_[v + 1];
+        std::partial_sum(first_.begin(), first_.end(), first_.begin());
+        std::vector<uint32_t> next(first_.begin(), first_.end() - 1);
+        for (uint32_t i = 0; i < indices.size(); ++i) all_[next[indices[i]]++] = i / 3;
+    }
+    std::span<const uint32_t> of(uint32_t vertex) const {
+        return {all_.data() + first_[vertex], first_[vertex + 1] - first_[vertex]};
+    }
+
+private:
+    std::vector<uint32_t> first_, all_;
+};
+
+/// Grows connected patches: each from the triangle that has the fewest neighbours left, by those closest to it.
+class Growth {
+public:
+    Growth(std::span<const Vec3> positions, std::span<const uint32_t> indices)
+        : indices_(indices), about_(positions.size(), indices) {
+        for (size_t i = 0; i + 2 < indices.size(); i += 3) {
+            const Vec3 sum = positions[indices[i]] + positions[indices[i + 1]] + positions[indices[i + 2]];
+            middles_.push_back(finite(sum) ? sum / 3.0f : Vec3(0.0f));
+        }
+        is_taken_.assign(middles_.size(), 0);
+        border_.assign(1, 0);
+        for (uint32_t next = 0; next < middles_.size();) {
+            if (is_taken_[next]) {
+                ++next;
+                continue;
+            }
+            grow(border_seed(next));
+        }
+    }
+    const std::vector<uint32_t>& order() const { return order_; }
+    const std::vector<uint32_t>& ends() const { return ends_; }
+
+private:
+    /// A free triangle beside the patches so far: between them no islands are left.
+    uint32_t border_seed(uint32_t otherwise) {
+        while (!border_.empty()) {
+            const uint32_t t = border_.front();
+            if (!is_taken_[t]) return t;
+            border_.erase(border_.begin());
+        }
+        return otherwise;
+    }
+    void grow(uint32_t seed) {
+        std::vector<uint32_t> beside{seed};
+        for (size_t size = 0; size < kLanes; ++size) {
+            auto next = beside.end();
+            float best = INFINITY;
+            for (auto it = beside.begin(); it != beside.end(); ++it) {
+                const Vec3 way = middles_[*it] - middles_[seed];
+                if (is_taken_[*it] || glm::dot(way, way) >= best) continue;
+                next = it, best = glm::dot(way, way);
+            }
+            if (next == beside.end()) break;
+            const uint32_t t = *next;
+            is_taken_[t] = 1;
+            order_.push_back(t);
+            for (size_t k = 0; k < 3; ++k)
+                for (const uint32_t other : about_.of(indices_[3 * t + k]))
+                    if (!is_taken_[other]) beside.push_back(other);
+        }
+        ends_.push_back(uint32_t(order_.size()));
+        for (const uint32_t t : beside)
+            if (!is_taken_[t]) border_.push_back(t);
+    }
+
+    std::span<const uint32_t> indices_;
+    TrianglesAbout about_;
+    std::vector<Vec3> middles_;
+    std::vector<uint8_t> is_taken_;
+    std::vector<uint32_t> border_, order_, ends_;
+};
+
+/// Cosine of the sum of two angles; -1 where it may be more than 180 degrees.
+float cosine_of_sum(float a, float b) {
+    if (a <= 0.0f && b <= 0.0f) return -1.0f;
+    return a * b - std::sqrt(std::max(0.0f, 1.0f - a * a)) * std::sqrt(std::max(0.0f, 1.0f - b * b));
+}
+
+Vec3 across(std::span<const Particle> at, const uint32_t* v) {
+    return glm::cross(at[v[1]].x - at[v[0]].x, at[v[2]].x - at[v[0]].x);
+}
+
+Vec3 farther(const Vec3& a, const Vec3& b) { return glm::max(glm::abs(a), glm::abs(b)); }
+
+}  // namespace
+
+TrianglePatches::TrianglePatches(std::span<const Vec3> positions, std::span<const uint32_t> indices,
+                                 uint32_t first_vertex) {
+    const Growth growth(positions, indices);
+    for (const uint32_t t : growth.order())
+        triangles_.push_back({{first_vertex + indices[3 * t], first_vertex + indices[3 * t + 1],
+                               first_vertex + indices[3 * t + 2]},
+                              t,
+                              0,
+                              0});
+    ends_ = growth.ends();
+    patches_.resize(ends_.size());
+    boxes_.resize(ends_.size());
+    moving_.resize(ends_.size());
+    blocks_.resize((ends_.size() + kLanes - 1) / kLanes);
+    shares_.resize((ends_.size() + kPatchesOfAJob - 1) / kPatchesOfAJob);
+    list_owners(first_vertex + positions.size());
+    list_adjacent(first_vertex + positions.size());
+}
+
+void TrianglePatches::list_owners(size_t vertices) {
+    std::vector<uint8_t> seen(vertices, 0);
+    std::vector<std::pair<uint64_t, uint32_t>> edges;  // and where it is: 4 * triangle + side
+    for (uint32_t t = 0; t < triangles_.size(); ++t)
+        for (uint32_t k = 0; k < 3; ++k) {
+            const uint32_t a = triangles_[t].vertex[k], b = triangles_[t].vertex[(k + 1) % 3];
+            if (!seen[a]) triangles_[t].own_vertices |= uint8_t(1u << k);
+            seen[a] = 1;
+            edges.emplace_back(uint64_t(std::min(a, b)) << 32 | std::max(a, b), 4 * t + k);
+        }
+    std::sort(edges.begin(), edges.end());
+    for (size_t i = 0; i < edges.size(); ++i)
+        if (i == 0 || edges[i].first != edges[i - 1].first)
+            triangles_[edges[i].second / 4].own_edges |= uint8_t(1u << edges[i].second % 4);
+}
+
+void TrianglePatches::list_adjacent(size_t vertices) {
+    std::vector<std::vector<uint32_t>> of_vertex(vertices);
+    const auto count = uint32_t(ends_.size());
+    for (uint32_t patch = 0; patch < count; ++patch)
+        for (uint32_t t = begin_of(patch); t < ends_[patch]; ++t)
+            for (const uint32_t v : triangles_[t].vertex)
+                if (of_vertex[v].empty() || of_vertex[v].back() != patch) of_vertex[v].push_back(patch);
+    first_adjacent_.assign(1, 0);
+    for (uint32_t patch = 0; patch < count; ++patch) {
+        const auto first = std::ptrdiff_t(adjacent_.size());
+        for (uint32_t t = begin_of(patch); t < ends_[patch]; ++t)
+            for (const uint32_t v : triangles_[t].vertex)
+                adjacent_.insert(adjacent_.end(), of_vertex[v].begin(), of_vertex[v].end());
+        std::sort(adjacent_.begin() + first, adjacent_.end());
+        adjacent_.erase(std::unique(adjacent_.begin() + first, adjacent_.end()), adjacent_.end());
+        first_adjacent_.push_back(uint32_t(adjacent_.size()));
+    }
+}
+
+bool TrianglePatches::are_adjacent(uint32_t patch, uint32_t other) const {
+    const auto begin = adjacent_.begin() + std::ptrdiff_t(first_adjacent_[patch]),
+               end = adjacent_.begin() + std::ptrdiff_t(first_adjacent_[patch + 1]);
+    return std::binary_search(begin, end, other);
+}
+
+void TrianglePatches::move(std::span<const Particle> begin, std::span<const Particle> end, Jobs& jobs) {
+    parallel_for(jobs, uint32_t(shares_.size()), [&](uint32_t share) {
+        const auto last = std::min((share + 1) * kPatchesOfAJob, uint32_t(ends_.size()));
+        for (uint32_t patch = share * kPatchesOfAJob; patch < last; ++patch) move_patch(begin, end, patch);
+    });
+    for (size_t block = 0; block * kLanes < patches_.size(); ++block) {
+        Bounds box, way;
+        for (size_t i = block * kLanes; i < std::min((block + 1) * kLanes, patches_.size()); ++i) {
+            box.add(patches_[i].box.low), box.add(patches_[i].box.high);
+            way.add(patches_[i].way.low), way.add(patches_[i].way.high);
+        }
+        blocks_.set(block, box, way);
+    }
+}
+
+void TrianglePatches::move_patch(std::span<const Particle> begin, std::span<const Particle> end,
+                                 uint32_t number) {
+    Patch patch;
+    PatchBoxes& boxes = boxes_[number];
+    const uint32_t first = begin_of(number), count = ends_[number] - first;
+    Vec3 sum(0.0f), before[kLanes], after[kLanes];
+    for (uint32_t i = 0; i < kLanes; ++i) {
+        Bounds box;
+        for (const uint32_t v : triangles_[first + std::min(i, count - 1)].vertex) {
+            box.add(end[v].x);
+            patch.way.add(end[v].x - begin[v].x);
+        }
+        patch.box.add(box.low), patch.box.add(box.high);
+        for (int k = 0; k < 3; ++k) {
+            boxes.low[k][i] = i < count ? box.low[k] : INFINITY;
+            boxes.high[k][i] = i < count ? box.high[k] : -INFINITY;
+        }
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        before[i] = across(begin, triangles_[first + i].vertex);
+        after[i] = across(end, triangles_[first + i].vertex);
+        sum += after[i];
+    }
+    patch.normal = sum / std::max(glm::length(sum), 1e-20f);
+    patch.min_cosine = 1.0f;
+    for (uint32_t i = 0; i < count; ++i)
+        for (const Vec3& normal : {before[i], after[i]})
+            patch.min_cosine = std::min(
+                patch.min_cosine, glm::dot(normal, patch.normal) / std::max(glm::length(normal), 1e-20f));
+    patches_[number] = patch;
+    moving_.set(number, patch.box, patch.way);
+}
+
+/// All normals of both, at either end.
+bool TrianglePatches::in_one_cone(uint32_t patch, uint32_t other) const {
+    const Patch &a = patches_[patch], &b = patches_[other];
+    if (patch == other) return a.min_cosine > kConeCosine;
+    const Vec3 axis = a.normal + b.normal;
+    const float length = glm::length(axis);
+    if (length < 0.5f) return false;
+    return cosine_of_sum(glm::dot(a.normal, axis) / length, a.min_cosine) > kConeCosine &&
+           cosine_of_sum(glm::dot(b.normal, axis) / length, b.min_cosine) > kConeCosine;
+}
+
+void TrianglePatches::find_pairs(const TrianglePatches& other, float reach_m, std::vector<Pair>& out,
+                                 Jobs& jobs) {
+    const bool own = this == &other;
+    parallel_for(jobs, uint32_t(shares_.size()), [&](uint32_t number) {
+        Share& share = shares_[number];
+        share.pairs.clear();
+        const auto count = uint32_t(other.patches_.size()),
+                   last = std::min((number + 1) * kPatchesOfAJob, uint32_t(ends_.size()));
+        for (uint32_t patch = number * kPatchesOfAJob; patch < last; ++patch) {
+            const Patch& p = patches_[patch];
+            const uint32_t first = own ? patch : 0;
+            share.blocks.clear(), share.meeting.clear();
+            find_meeting(other.blocks_, first / uint32_t(kLanes), (count + uint32_t(kLanes) - 1) / uint32_t(kLanes),
+                         p.box, p.way, reach_m, share.blocks);
+            for (const uint32_t block : share.blocks)
+                find_meeting(other.moving_, std::max(first, block * uint32_t(kLanes)),
+                             std::min(count, (block + 1) * uint32_t(kLanes)), p.box, p.way, reach_m, share.meeting);
+            for (const uint32_t q : share.meeting) {
+                if (own && are_adjacent(patch, q) && in_one_cone(patch, q)) continue;
+                const Bounds& way = other.patches_[q].way;
+                meet(patch, other, q, farther(p.way.low - way.high, p.way.high - way.low) + reach_m, share.pairs);
+            }
+        }
+    });
+    for (const Share& share : shares_) out.insert(out.end(), share.pairs.begin(), share.pairs.end());
+}
+
+void TrianglePatches::meet(uint32_t patch, const TrianglePatches& other, uint32_t of_other, const Vec3& margin,
+                           std::vector<Pair>& out) const {
+    const bool own = this == &other && patch == of_other;
+    const uint32_t first = begin_of(patch), of_second = other.begin_of(of_other);
+    const std::array<uint8_t, kLanes> all = meeting_triangles(boxes_[patch], other.boxes_[of_other], margin);
+    for (uint32_t i = 0; i < ends_[patch] - first; ++i)
+        for (uint32_t left = own ? all[i] & ~0u << (i + 1) : all[i]; left; left &= left - 1)
+            out.push_back({first + i, of_second + uint32_t(std::countr_zero(left))});
+}
+
+}  // namespace vfit

@@ -1,0 +1,77 @@
+// Patches of neighbouring triangles of one surface, with boxes about them over the motion of one step: which
+// triangles may come close to each other.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cloth/contact/contact.h"
+#include "cloth/contact/contact_kernels.h"
+#include "cloth/contact/surface_kernels.h"
+#include "cloth/solver/particle.h"
+#include "core/jobs.h"
+#include "math/types.h"
+
+namespace vfit {
+
+class TrianglePatches {
+public:
+    struct Triangle {
+        uint32_t vertex[3];
+        uint32_t number;  // in the mesh
+        // The vertices, and the edges from vertex k to k + 1, that this triangle is the first to have: bit k.
+        // Each primitive of the surface has one owner.
+        uint8_t own_vertices, own_edges;
+    };
+
+    /// Three indices a triangle; positions by which triangles are grouped. first_vertex: of the surface in the
+    /// arrays of positions that follow.
+    TrianglePatches(std::span<const Vec3> positions, std::span<const uint32_t> indices,
+                    uint32_t first_vertex = 0);
+
+    /// Where the vertices are at both ends of the step. Does not allocate.
+    void move(std::span<const Particle> begin, std::span<const Particle> end, Jobs& jobs);
+
+    std::span<const Triangle> triangles() const { return triangles_; }
+
+    /// Indices into triangles() of two surfaces.
+    struct Pair {
+        uint32_t first, second;
+    };
+    /// Adds the pairs of triangles of this surface and of `other` whose boxes come within reach_m of each
+    /// other between both ends, or would by moving on in the same way. On the same surface, adjacent patches
+    /// whose normals lie in one cone do not meet (Volino and Magnenat-Thalmann 1994). The order of the pairs is
+    /// the same for any number of threads.
+    void find_pairs(const TrianglePatches& other, float reach_m, std::vector<Pair>& out, Jobs& jobs);
+
+private:
+    struct Patch {
+        Bounds box;              // at the end
+        Bounds way;              // of its vertices
+        Vec3 normal;             // mean
+        float min_cosine = 0.0f;  // of a triangle's normal, at either end, with the mean
+    };
+    struct Share {
+        std::vector<uint32_t> blocks, meeting;
+        std::vector<Pair> pairs;
+    };
+    uint32_t begin_of(uint32_t patch) const { return patch == 0 ? 0 : ends_[patch - 1]; }
+    void list_owners(size_t vertices);
+    void list_adjacent(size_t vertices);
+    bool are_adjacent(uint32_t patch, uint32_t other) const;
+    bool in_one_cone(uint32_t patch, uint32_t other) const;
+    void move_patch(std::span<const Particle> begin, std::span<const Particle> end, uint32_t patch);
+    void meet(uint32_t patch, const TrianglePatches& other, uint32_t of_other, const Vec3& margin,
+              std::vector<Pair>& out) const;
+
+    std::vector<Triangle> triangles_;  // patch by patch
+    std::vector<uint32_t> ends_;       // of patches in these
+    std::vector<Patch> patches_;
+    std::vector<PatchBoxes> boxes_;     // at the end
+    MovingBoxes moving_, blocks_;       // of patches, and of eight in a row each
+    std::vector<uint32_t> first_adjacent_, adjacent_;  // patches that share a vertex with each, rising
+    std::vector<Share> shares_;
+};
+
+}  // namespace vfit
