@@ -9,7 +9,7 @@
 #include "body/mesh.h"
 #include "cloth/contact/mesh_lift.h"
 #include "cloth/contact/mesh_yield.h"
-#include "cloth/contact/self_contact.h"
+#include "cloth/contact/triangle_contact.h"
 #include "cloth/rigid_motion.h"
 #include "cloth/solver/particle_solver.h"
 #include "core/clock.h"
@@ -31,6 +31,9 @@ constexpr uint32_t kRunsOfAJob = 128;  // of particles: enough to outweigh the h
 // is so slow only for an instant, where it turns round; single vertices may tremble in a contact.
 constexpr float kStillMean_m_s = 0.002f, kStillMost_m_s = 0.05f, kStill_m = 2e-5f, kFallsAsleep_s = 0.5f;
 constexpr float kFinestVirtual_m = 0.001f;
+// Of the thickness, between a mesh's vertices or edges and the cloth: its own vertices keep all of it, so that
+// few of the others are in contact.
+constexpr float kMeshShare = 0.5f;
 constexpr float kMeshAround_m =
     0.15f;  // about the cloth, in which meshes are looked for: a fast limb's way in a step
 constexpr float kLatest = 0.1f;           // weight of the last step in the mean time of a sub-step
@@ -151,7 +154,7 @@ struct Cloth::State {
     std::vector<Vec3> before, now;  // with own layers: the same at the begin of the step, carried along; and
                                     // what the step made of it
     std::optional<TriangleGroups> groups;  // of the cloth
-    std::optional<SelfContact> self;       // with own layers
+    std::optional<TriangleContact> self;   // with own layers
     bool self_is_placed = false;           // it knows where the cloth was placed anew
     bool self_is_free = false;             // layers do not cross, which is proven
     std::optional<MeshLift> off_solids, off_cloth;  // made when there are such meshes
@@ -220,7 +223,7 @@ Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings
     for (const DistanceConstraint& e : data.edges)
         for (uint32_t v : {e.a, e.b}) s.inverse_edge_count[v] += 1.0f;
     for (float& count : s.inverse_edge_count) count = count > 0.0f ? 1.0f / count : 0.0f;
-    if (settings.self_thickness_m > 0.0f) {
+    if (settings.self_thickness_m > 0.0f || settings.certifies) {
         s.self.emplace(fabric, settings.self_thickness_m, start.first(n), jobs);
         s.before.resize(n), s.now.resize(n);
     }
@@ -263,6 +266,7 @@ void Cloth::State::reset(std::span<const Vec3> start) {
     for (ContactMesh& mesh : meshes) mesh.forget();
     off_solids.reset(), off_cloth.reset(), yield.reset();  // what crossed did so elsewhere
     self_is_placed = false;
+    if (self) self->forget_meshes();
     carried = 0.0f;
     wake();
     publish();
@@ -317,6 +321,9 @@ uint32_t Cloth::add_mesh(size_t vertices, std::span<const uint32_t> indices, std
     state_->meshes.emplace_back(vertices, indices, counts, what);
     state_->mesh_places.emplace_back();
     state_->mesh_before.emplace_back();
+    if (state_->settings.certifies)
+        state_->self->add_mesh(vertices, state_->meshes.back().indices(),
+                               kMeshShare * state_->settings.thickness_m);
     state_->wake();
     return uint32_t(state_->meshes.size()) - 1;
 }
@@ -337,6 +344,7 @@ void Cloth::hide_mesh(uint32_t mesh) {
     state_->mesh_places[mesh].clear();
     state_->mesh_before[mesh].clear();
     state_->meshes[mesh].hide();
+    if (state_->settings.certifies) state_->self->hide_mesh(mesh);
     state_->wake();
 }
 
@@ -411,6 +419,10 @@ void Cloth::State::accept_mesh(size_t mesh, const Vec3& low, const Vec3& high) {
         meshes[mesh].accept(mesh_begin, low, high);
     }
     meshes[mesh].accept(to, low, high);
+    if (!settings.certifies) return;
+    const bool part = carried > 0.0f && carried < 1.0f && from.size() == to.size();
+    self->move_mesh(uint32_t(mesh), to,
+                    part ? mesh_begin : carried > 0.0f ? to : std::span<const Vec3>());
 }
 
 /// Targets begin the step as far on their way as the cloth was moved.
@@ -496,7 +508,7 @@ void Cloth::State::advance(float dt, int count, float damping, std::span<const V
                                   kMaxDepenetration_m_s * h};
     solver.advance({dt, count, settings.gravity, settings.air, std::pow(1.0f - damping, h), contact,
                     settings.thickness_m, previous_targets, targets, colliders, meshes, lift_m, cloth_lift_m,
-                    self ? &self->contacts() : nullptr},
+                    self ? &*self : nullptr},
                    jobs);
     keep_layers(dt, jobs);
     publish();
@@ -505,6 +517,7 @@ void Cloth::State::advance(float dt, int count, float damping, std::span<const V
     std::copy(targets.begin(), targets.end(), previous_targets.begin());
     colliders.arrive();
     for (ContactMesh& mesh : meshes) mesh.arrive();
+    if (self) self->arrive();
 }
 
 TriangleGroups& Cloth::State::triangles_now(std::span<const Vec3> places, Jobs& jobs) {

@@ -1,5 +1,8 @@
 #include "cloth/contact/contact_kernels.h"
 
+#include <algorithm>
+#include <cmath>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "cloth/contact/contact_kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -23,29 +26,53 @@ HWY_INLINE uint32_t Bits(Mask mask) {
     return bits[0];
 }
 
-/// A bit for each of the kWide boxes from there on.
-HWY_INLINE uint32_t MeetingBoxes(const MovingBoxes& boxes, size_t at, const Bounds& box, const Bounds& way,
-                                 float reach_m) {
-    auto meets = hn::FirstN(kTag, kWide);
-    for (int axis = 0; axis < 3; ++axis) {
-        // How much further apart the two were, or will be, than now.
-        const V back = hn::Abs(hn::Sub(hn::LoadU(kTag, &boxes.ways.high[axis][at]), Set(way.low[axis]))),
-                forth = hn::Abs(hn::Sub(Set(way.high[axis]), hn::LoadU(kTag, &boxes.ways.low[axis][at])));
-        const V margin = hn::Add(hn::Max(back, forth), Set(reach_m));
-        const V low = hn::Sub(hn::LoadU(kTag, &boxes.at.low[axis][at]), margin),
-                high = hn::Add(hn::LoadU(kTag, &boxes.at.high[axis][at]), margin);
-        meets = hn::And(meets, hn::And(hn::Le(low, Set(box.high[axis])), hn::Ge(high, Set(box.low[axis]))));
+/// A bit for each of the eight boxes from there on.
+HWY_INLINE uint32_t MeetingBoxes(const MovingBoxes::Level& level, size_t from, const Bounds& box,
+                                 const Bounds& way, float reach_m) {
+    uint32_t bits = 0;
+    for (size_t k = 0; k < kLanes; k += kWide) {
+        const size_t at = from + k;
+        auto meets = hn::FirstN(kTag, kWide);
+        for (int axis = 0; axis < 3; ++axis) {
+            // How much further apart the two were, or will be, than now.
+            const V back = hn::Abs(hn::Sub(hn::LoadU(kTag, &level.ways.high[axis][at]), Set(way.low[axis]))),
+                    forth = hn::Abs(hn::Sub(Set(way.high[axis]), hn::LoadU(kTag, &level.ways.low[axis][at])));
+            const V margin = hn::Add(hn::Max(back, forth), Set(reach_m));
+            const V low = hn::Sub(hn::LoadU(kTag, &level.boxes.low[axis][at]), margin),
+                    high = hn::Add(hn::LoadU(kTag, &level.boxes.high[axis][at]), margin);
+            meets =
+                hn::And(meets, hn::And(hn::Le(low, Set(box.high[axis])), hn::Ge(high, Set(box.low[axis]))));
+        }
+        bits |= Bits(meets) << k;
     }
-    return Bits(meets);
+    return bits;
 }
 
-void FindMeetingMoving(const MovingBoxes& boxes, uint32_t first, uint32_t end, const Bounds& box, const Bounds& way,
+void FindMeetingMoving(const MovingBoxes& patches, uint32_t first, const Bounds& box, const Bounds& way,
                        float reach_m, std::vector<uint32_t>& out) {
-    for (uint32_t i = first / uint32_t(kWide) * uint32_t(kWide); i < end; i += uint32_t(kWide))
-        for (uint32_t left = MeetingBoxes(boxes, i, box, way, reach_m); left; left &= left - 1) {
-            const uint32_t at = i + uint32_t(hwy::Num0BitsBelowLS1Bit_Nonzero32(left));
-            if (at >= first && at < end) out.push_back(at);
+    constexpr size_t kMostLevels = 12;
+    uint32_t left[kMostLevels], base[kMostLevels];  // of each level: bits to visit, and the box of the lowest
+    size_t level = patches.levels.size() - 1;
+    const auto enter = [&](size_t at, uint32_t from) HWY_ATTR {
+        base[at] = from;
+        left[at] = MeetingBoxes(patches.levels[at], from, box, way, reach_m);
+        // Boxes before the first one's are done.
+        const uint32_t begin = first >> (3 * at);
+        if (begin > from) left[at] &= begin - from < kLanes ? ~0u << (begin - from) : 0u;
+    };
+    enter(level, 0);
+    for (;;) {
+        if (left[level] == 0) {
+            if (++level == patches.levels.size()) return;
+            continue;
         }
+        const uint32_t at = base[level] + uint32_t(hwy::Num0BitsBelowLS1Bit_Nonzero32(left[level]));
+        left[level] &= left[level] - 1;
+        if (level == 0)
+            out.push_back(at);
+        else
+            enter(--level, at * uint32_t(kLanes));
+    }
 }
 
 void MeetingTriangles(const PatchBoxes& a, const PatchBoxes& b, const Vec3& margin, uint8_t* out) {
@@ -70,6 +97,59 @@ HWY_INLINE Points CrossProduct(const Points& a, const Points& b) {
 }
 HWY_INLINE Points Plus(const Points& a, const Points& b) {
     return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+
+HWY_INLINE float MinLane(V v) { return hn::GetLane(hn::MinOfLanes(kTag, v)); }
+HWY_INLINE float MaxLane(V v) { return hn::GetLane(hn::MaxOfLanes(kTag, v)); }
+HWY_INLINE float SumLanes(V v) { return hn::GetLane(hn::SumOfLanes(kTag, v)); }
+/// The least and the greatest of all lanes, by axes.
+HWY_INLINE Bounds BoundsOf(const Points& low, const Points& high) {
+    return {{MinLane(low.x), MinLane(low.y), MinLane(low.z)},
+            {MaxLane(high.x), MaxLane(high.y), MaxLane(high.z)}};
+}
+HWY_INLINE Points Lower(const Points& a, const Points& b) {
+    return {hn::Min(a.x, b.x), hn::Min(a.y, b.y), hn::Min(a.z, b.z)};
+}
+HWY_INLINE Points Higher(const Points& a, const Points& b) {
+    return {hn::Max(a.x, b.x), hn::Max(a.y, b.y), hn::Max(a.z, b.z)};
+}
+
+void FindShape(const uint32_t (&corners)[3][kLanes], uint32_t count, const Particle* begin, const Particle* end,
+               PatchBoxes& boxes, PatchShape& out) {
+    const auto from = [begin](uint32_t index) HWY_ATTR { return begin + index; };
+    const auto to = [end](uint32_t index) HWY_ATTR { return end + index; };
+    out = PatchShape{};
+    Vec3 sum(0.0f);
+    Points normals[kLanes / kWide][2];
+    for (size_t k = 0; k < kLanes; k += kWide) {
+        Points a[3], b[3];
+        for (size_t i = 0; i < 3; ++i)
+            a[i] = Columns(Gather(from, corners[i] + k)), b[i] = Columns(Gather(to, corners[i] + k));
+        const Points low = Lower(b[0], Lower(b[1], b[2])), high = Higher(b[0], Higher(b[1], b[2]));
+        const Points way[3] = {Sub(b[0], a[0]), Sub(b[1], a[1]), Sub(b[2], a[2])};
+        const Bounds box = BoundsOf(low, high), ways = BoundsOf(Lower(way[0], Lower(way[1], way[2])),
+                                                                Higher(way[0], Higher(way[1], way[2])));
+        out.box.add(box.low), out.box.add(box.high), out.way.add(ways.low), out.way.add(ways.high);
+        const auto is_there = hn::FirstN(kTag, count > k ? count - k : 0);
+        const V nowhere = Set(INFINITY);
+        hn::Store(hn::IfThenElse(is_there, low.x, nowhere), kTag, boxes.low[0] + k);
+        hn::Store(hn::IfThenElse(is_there, low.y, nowhere), kTag, boxes.low[1] + k);
+        hn::Store(hn::IfThenElse(is_there, low.z, nowhere), kTag, boxes.low[2] + k);
+        hn::Store(hn::IfThenElse(is_there, high.x, hn::Neg(nowhere)), kTag, boxes.high[0] + k);
+        hn::Store(hn::IfThenElse(is_there, high.y, hn::Neg(nowhere)), kTag, boxes.high[1] + k);
+        hn::Store(hn::IfThenElse(is_there, high.z, hn::Neg(nowhere)), kTag, boxes.high[2] + k);
+        Points* n = normals[k / kWide];
+        n[0] = CrossProduct(Sub(a[1], a[0]), Sub(a[2], a[0]));
+        n[1] = CrossProduct(Sub(b[1], b[0]), Sub(b[2], b[0]));
+        sum += Vec3(SumLanes(n[1].x), SumLanes(n[1].y), SumLanes(n[1].z));
+    }
+    out.normal = sum / std::max(std::sqrt(sum.x * sum.x + sum.y * sum.y + sum.z * sum.z), 1e-20f);
+    const Points mean = Set(out.normal);
+    V cosine = Set(1.0f);
+    for (const auto& both : normals)
+        for (const Points& n : both)
+            cosine = hn::Min(cosine, hn::Div(Dot(n, mean), hn::Max(hn::Sqrt(Dot(n, n)), Set(1e-20f))));
+    out.min_cosine = MinLane(cosine);
 }
 
 /// Corners of two triangles at both ends, and how far they are apart.
@@ -247,7 +327,7 @@ void SolveContacts(std::span<const ContactBatch> contacts, const ContactPush& pu
             const V distance = Dot(normal, now), kept = hn::Load(kTag, c.distance_m + k);
             if (hn::AllFalse(kTag, hn::Lt(distance, kept))) continue;
             const Points start = between(start_of);
-            const V began = hn::Max(Dot(normal, start), hn::Zero(kTag));
+            const V began = Dot(normal, start);
             const V depth = hn::Max(
                 hn::Zero(kTag), hn::Sub(hn::Min(kept, hn::Add(began, Set(push.max_m))), distance));
             const Points way = Sub(now, start), slide = MulAdd(normal, hn::Neg(Dot(way, normal)), way);
@@ -268,13 +348,44 @@ namespace vfit {
 
 HWY_EXPORT(FindMeetingMoving);
 HWY_EXPORT(FindClosest);
+HWY_EXPORT(FindShape);
 HWY_EXPORT(MeetingTriangles);
 HWY_EXPORT(Classify);
 HWY_EXPORT(SolveContacts);
 
-void find_meeting(const MovingBoxes& boxes, uint32_t first, uint32_t end, const Bounds& box, const Bounds& way,
-                  float reach_m, std::vector<uint32_t>& out) {
-    HWY_DYNAMIC_DISPATCH(FindMeetingMoving)(boxes, first, end, box, way, reach_m, out);
+void MovingBoxes::resize(size_t count) {
+    levels.clear();
+    do {
+        levels.emplace_back();
+        levels.back().boxes.resize(count), levels.back().ways.resize(count);
+        count = (count + kLanes - 1) / kLanes;
+    } while (levels.back().boxes.low[0].size() > kLanes);
+}
+
+void MovingBoxes::find_levels() {
+    for (size_t i = 1; i < levels.size(); ++i)
+        for (size_t at = 0; at * kLanes < levels[i - 1].boxes.low[0].size(); ++at) {
+            Bounds box, way;
+            for (size_t k = at * kLanes; k < (at + 1) * kLanes; ++k) {
+                const Level& below = levels[i - 1];
+                box.low = glm::min(box.low, below.boxes.low_of(k));
+                box.high = glm::max(box.high, below.boxes.high_of(k));
+                way.low = glm::min(way.low, below.ways.low_of(k));
+                way.high = glm::max(way.high, below.ways.high_of(k));
+            }
+            levels[i].boxes.set(at, box.low, box.high), levels[i].ways.set(at, way.low, way.high);
+        }
+}
+
+void find_meeting(const MovingBoxes& patches, uint32_t first, const Bounds& box, const Bounds& way, float reach_m,
+                  std::vector<uint32_t>& out) {
+    HWY_DYNAMIC_DISPATCH(FindMeetingMoving)(patches, first, box, way, reach_m, out);
+}
+PatchShape find_shape(const uint32_t (&corners)[3][kLanes], uint32_t count, const Particle* begin,
+                      const Particle* end, PatchBoxes& boxes) {
+    PatchShape out;
+    HWY_DYNAMIC_DISPATCH(FindShape)(corners, count, begin, end, boxes, out);
+    return out;
 }
 void find_closest(std::span<PrimitivePairs> pairs, bool edges, const Particle* begin, const Particle* end,
                   float sideways) {

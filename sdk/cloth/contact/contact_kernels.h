@@ -13,23 +13,38 @@
 
 namespace vfit {
 
-/// Boxes, and the ways of what is in them, eight to a register.
+/// Boxes about patches and the ways of their vertices, eight to a register; and of eight in a row each, level by
+/// level, up to one register.
 struct MovingBoxes {
-    Boxes at, ways;
-    void resize(size_t count) { at.resize(count), ways.resize(count); }
+    struct Level {
+        Boxes boxes, ways;
+    };
+    std::vector<Level> levels;  // the patches' first
+
+    void resize(size_t count);
     void set(size_t i, const Bounds& box, const Bounds& way) {
-        at.set(i, box.low, box.high), ways.set(i, way.low, way.high);
+        levels[0].boxes.set(i, box.low, box.high), levels[0].ways.set(i, way.low, way.high);
     }
+    void find_levels();  // once all patches are set
 };
-/// Adds those of the boxes from `first` to `end` that come within reach_m of a box, now, on the way from where
-/// they were, or on the same way again.
-void find_meeting(const MovingBoxes& boxes, uint32_t first, uint32_t end, const Bounds& box, const Bounds& way,
-                  float reach_m, std::vector<uint32_t>& out);
+/// Adds the patches from `first` on that come within reach_m of a box, now, on the way from where they were, or on
+/// the same way again. Rising.
+void find_meeting(const MovingBoxes& patches, uint32_t first, const Bounds& box, const Bounds& way, float reach_m,
+                  std::vector<uint32_t>& out);
 
 /// Boxes about the triangles of a patch; empty where there is none.
 struct alignas(32) PatchBoxes {
     float low[3][kLanes], high[3][kLanes];
 };
+/// A patch over the motion of a step: boxes at its end.
+struct PatchShape {
+    Bounds box, way;
+    Vec3 normal;       // mean, at the end
+    float min_cosine;  // of a triangle's normal, at either end, with the mean
+};
+/// corners: indices of the corners of eight triangles; the last one again where there are fewer (count).
+PatchShape find_shape(const uint32_t (&corners)[3][kLanes], uint32_t count, const Particle* begin,
+                      const Particle* end, PatchBoxes& boxes);
 /// Bit k of entry i: triangle k of b comes within `margin` of triangle i of a.
 std::array<uint8_t, kLanes> meeting_triangles(const PatchBoxes& a, const PatchBoxes& b, const Vec3& margin);
 

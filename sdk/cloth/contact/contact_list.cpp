@@ -13,6 +13,7 @@ constexpr float kEdgeShare = 0.5f;    // of the thickness, between two edges
 constexpr float kFlatShare = 0.45f;   // of the shortest way along edges, which is longer than the straight one
 constexpr float kFlatReach = 1.0f / kFlatShare;
 constexpr float kCrossedEdges = 0.05f;  // sine of the angle from which on two edges have a normal of their own
+constexpr float kAlongSide = 0.3f;    // cosine: beside that, a way does not tell on which side of a mesh one is
 constexpr float kOn_m = 1e-6f;        // closer, a way has no direction
 
 Vec3 unit(const Vec3& v) { return v / std::max(glm::length(v), 1e-20f); }
@@ -36,22 +37,33 @@ void for_own_pairs(const Proximity::Triangle& a, const Proximity::Triangle& b, B
 
 ContactList::ContactList(std::shared_ptr<const Fabric> fabric, float thickness_m, Jobs* jobs)
     : fabric_(std::move(fabric)),
-      thickness_m_(thickness_m),
+      keeps_m_{thickness_m},
+      inverse_mass_(fabric_->data().inverse_mass),
       flat_(fabric_->data(), kFlatReach * thickness_m, jobs),
       is_let_go_(fabric_->vertex_count(), 0) {}
 
-float ContactList::reach_m() const { return thickness_m_ + kMargin_m; }
+void ContactList::add_mesh(size_t vertices, float keeps_m) {
+    keeps_m_.push_back(keeps_m);
+    inverse_mass_.resize(inverse_mass_.size() + vertices, 0.0f);
+    is_let_go_.resize(inverse_mass_.size(), 0);
+    slots_.resize(inverse_mass_.size(), 0);
+    slot_rounds_.resize(inverse_mass_.size(), 0);
+}
+
+float ContactList::reach_m(float thickness_m) { return thickness_m + kMargin_m; }
+
+float ContactList::keeps_m(PairKind kind, uint32_t surface) const {
+    return kind == PairKind::edge_edge && surface == Proximity::kSelf ? kEdgeShare * keeps_m_[surface]
+                                                                      : keeps_m_[surface];
+}
 
 void ContactList::fill(const Proximity& proximity, std::span<const Particle> begin,
                        std::span<const Particle> end, std::span<const uint32_t> let_go) {
     contacts_.clear();
-    for (Candidates& of : candidates_) of.count = 0;
+    for (Candidates& of : candidates_) of.count = 0, of.sides.clear();
     for (const uint32_t v : let_go) is_let_go_[v] = 1;
-    proximity.for_close([&](const Proximity::Pair& pair) {
-        for_own_pairs(*pair.first, *pair.second, [&](PairKind kind, const std::array<uint32_t, 4>& v) {
-            candidates_[size_t(kind)].add(v);
-        });
-    });
+    proximity.for_close(
+        [&](const Proximity::Pair& pair, uint32_t surface) { add_candidates(pair, surface, end); });
     for (const PairKind kind : {PairKind::vertex_face, PairKind::edge_edge}) {
         Candidates& of = candidates_[size_t(kind)];
         of.fill_up();
@@ -63,9 +75,25 @@ void ContactList::fill(const Proximity& proximity, std::span<const Particle> beg
     pack();
 }
 
-void ContactList::Candidates::add(const std::array<uint32_t, 4>& vertices) {
+/// Vertices of the cloth and triangles of a mesh are left out: planes keep those apart (ContactMesh).
+void ContactList::add_candidates(const Proximity::Pair& pair, uint32_t surface, std::span<const Particle> end) {
+    const bool own = surface == Proximity::kSelf;
+    Vec3 outward(0.0f);
+    if (!own) {
+        const uint32_t* v = pair.second->vertex;
+        outward = unit(glm::cross(end[v[1]].x - end[v[0]].x, end[v[2]].x - end[v[0]].x));
+    }
+    for_own_pairs(*pair.first, *pair.second, [&](PairKind kind, const std::array<uint32_t, 4>& v) {
+        if (own) return candidates_[size_t(kind)].add(v, {});
+        if (kind == PairKind::edge_edge) return candidates_[1].add(v, {outward, surface});
+        if (v[0] >= fabric_->vertex_count()) candidates_[0].add(v, {-outward, surface});
+    });
+}
+
+void ContactList::Candidates::add(const std::array<uint32_t, 4>& vertices, const Side& side) {
     if (count == pairs.size() * kLanes) pairs.emplace_back();
     for (size_t k = 0; k < 4; ++k) pairs[count / kLanes].at[k][count % kLanes] = vertices[k];
+    sides.push_back(side);
     ++count;
 }
 
@@ -75,26 +103,34 @@ void ContactList::Candidates::fill_up() {
 }
 
 void ContactList::add(PairKind kind, const Candidates& of, std::span<const Particle> end) {
-    const float reach = (kind == PairKind::edge_edge ? kEdgeShare : 1.0f) * thickness_m_ + kMargin_m;
     for (size_t i = 0; i < of.count; ++i) {
         const PrimitivePairs& pairs = of.pairs[i / kLanes];
-        if (pairs.distance_m[i % kLanes] <= reach + pairs.comes_m[i % kLanes]) add(kind, pairs, i % kLanes, end);
+        const float reach = reach_m(keeps_m(kind, of.sides[i].surface));
+        if (pairs.distance_m[i % kLanes] <= reach + pairs.comes_m[i % kLanes])
+            add(kind, pairs, i % kLanes, of.sides[i], end);
     }
 }
 
-void ContactList::add(PairKind kind, const PrimitivePairs& pairs, size_t lane, std::span<const Particle> end) {
+void ContactList::add(PairKind kind, const PrimitivePairs& pairs, size_t lane, const Side& side,
+                      std::span<const Particle> end) {
     const bool edges = kind == PairKind::edge_edge;
     const float distance = pairs.distance_m[lane];
     if (distance < kOn_m) return;
     const std::array<uint32_t, 4> v{pairs.at[0][lane], pairs.at[1][lane], pairs.at[2][lane], pairs.at[3][lane]};
-    const auto is_moved = [&](uint32_t vertex) { return fabric_->data().inverse_mass[vertex] > 0.0f; };
+    const auto is_moved = [&](uint32_t vertex) { return inverse_mass_[vertex] > 0.0f; };
     const auto is_let_go = [&](uint32_t vertex) { return is_let_go_[vertex] != 0; };
     if (std::none_of(v.begin(), v.end(), is_moved)) return;
     const auto second = v.begin() + (edges ? 2 : 1);
     if (std::any_of(v.begin(), second, is_let_go) && std::any_of(second, v.end(), is_let_go)) return;
-    const float kept_m = std::min((edges ? kEdgeShare : 1.0f) * thickness_m_, flat_limit_m(kind, v));
-    if (kept_m <= 0.0f || distance > kept_m + kMargin_m + pairs.comes_m[lane]) return;
-    const Vec3 normal = Vec3(pairs.way[0][lane], pairs.way[1][lane], pairs.way[2][lane]) / distance;
+    float kept_m = keeps_m(kind, side.surface);
+    if (side.surface == Proximity::kSelf) kept_m = std::min(kept_m, flat_limit_m(kind, v));
+    if (kept_m <= 0.0f || distance > reach_m(kept_m) + pairs.comes_m[lane]) return;
+    Vec3 normal = Vec3(pairs.way[0][lane], pairs.way[1][lane], pairs.way[2][lane]) / distance;
+    if (side.surface != Proximity::kSelf) {
+        const float along = glm::dot(normal, side.way);
+        if (std::abs(along) < kAlongSide) return;
+        if (along < 0.0f) normal = -normal;  // it is on the wrong side
+    }
     Contact contact{v, kind, 0, {}, normal, kept_m};
     for (size_t k = 0; k < 4; ++k) contact.weights[k] = pairs.weight[k][lane];
     if (!edges && std::max({contact.weights[1], contact.weights[2], contact.weights[3]}) < 0.0f) {
@@ -102,6 +138,26 @@ void ContactList::add(PairKind kind, const PrimitivePairs& pairs, size_t lane, s
         contact.side = glm::dot(face, normal) >= 0.0f ? 1 : -1;
     }
     contacts_.push_back(contact);
+}
+
+uint32_t ContactList::particle_of(uint32_t vertex) {
+    if (vertex < fabric_->vertex_count()) return fabric_->layout().particle_of[vertex];
+    if (slot_rounds_[vertex] != round_) {
+        slot_rounds_[vertex] = round_;
+        slots_[vertex] = fabric_->layout().count() + uint32_t(mesh_vertices_.size());
+        mesh_vertices_.push_back(vertex);
+    }
+    return slots_[vertex];
+}
+
+void ContactList::place_meshes(std::span<const Particle> begin, std::span<const Particle> end, float from,
+                               float to, Particles& starts, Particles& places) const {
+    const uint32_t first = fabric_->layout().count();
+    for (size_t i = 0; i < mesh_vertices_.size(); ++i) {
+        const Vec3 &a = begin[mesh_vertices_[i]].x, way = end[mesh_vertices_[i]].x - a;
+        starts[first + i].x = a + way * from;
+        places[first + i].x = a + way * to;
+    }
 }
 
 /// How far apart the two may be held: less than where the cloth lies flat.
@@ -142,6 +198,8 @@ void ContactList::look(Contact& contact, const std::array<Vec3, 4>& at) {
 
 /// Lanes of a batch far apart in the list: what they push is seldom the same.
 void ContactList::pack() {
+    ++round_;
+    mesh_vertices_.clear();
     batches_.resize((contacts_.size() + kLanes - 1) / kLanes);
     const uint32_t spare = uint32_t(fabric_->layout().parts[0].spare() * sizeof(Particle));
     for (size_t i = 0; i < batches_.size(); ++i)
@@ -149,8 +207,8 @@ void ContactList::pack() {
             const size_t at = k * batches_.size() + i;
             if (at < contacts_.size()) {
                 for (size_t j = 0; j < 4; ++j)
-                    batches_[i].at[j][k] = uint32_t(
-                        fabric_->layout().particle_of[contacts_[at].vertices[j]] * sizeof(Particle));
+                    batches_[i].at[j][k] =
+                        particle_of(contacts_[at].vertices[j]) * uint32_t(sizeof(Particle));
                 put(contacts_[at], k, batches_[i]);
                 continue;
             }
@@ -165,7 +223,7 @@ void ContactList::put(const Contact& contact, size_t lane, ContactBatch& batch) 
     float sum = 0.0f;
     std::array<float, 4> share;
     for (size_t j = 0; j < 4; ++j) {
-        share[j] = fabric_->data().inverse_mass[contact.vertices[j]] * contact.weights[j];
+        share[j] = inverse_mass_[contact.vertices[j]] * contact.weights[j];
         sum += share[j] * contact.weights[j];
     }
     const float inverse = sum > 0.0f ? 1.0f / sum : 0.0f;

@@ -18,17 +18,25 @@ namespace vfit {
 
 class ContactList {
 public:
-    /// thickness_m: kept between a vertex and a triangle; two edges keep half of it. Parts of the cloth that
-    /// are closer than that where it lies flat are not held further apart.
+    /// thickness_m: kept between a vertex and a triangle of the cloth; two edges keep half of it. Parts of the
+    /// cloth that are closer than that where it lies flat are not held further apart.
     ContactList(std::shared_ptr<const Fabric> fabric, float thickness_m, Jobs* jobs = nullptr);
+    /// A mesh that the cloth stays outside of, whose vertices follow; keeps_m: between its vertices and the cloth's
+    /// triangles, and between edges.
+    void add_mesh(size_t vertices, float keeps_m);
 
     /// Pairs further apart than that now, and after the same way again, are no contacts.
-    float reach_m() const;
+    static float reach_m(float thickness_m);
     /// Contacts of the step that follows one with these ends. let_go: vertices of triangles that cross; where
     /// two of them meet there is no contact. Does not allocate once it has met as many.
     void fill(const Proximity& proximity, std::span<const Particle> begin, std::span<const Particle> end,
               std::span<const uint32_t> let_go);
-    void clear() { contacts_.clear(), batches_.clear(); }
+
+    /// Particles beyond the fabric's that stand for vertices of meshes.
+    size_t mesh_particle_count() const { return mesh_vertices_.size(); }
+    /// Places them for a sub-step, as shares of the step with these ends.
+    void place_meshes(std::span<const Particle> begin, std::span<const Particle> end, float from, float to,
+                      Particles& starts, Particles& places) const;
 
     /// Contacts are looked at in that many shares.
     uint32_t share_count() const { return kShares; }
@@ -50,25 +58,40 @@ private:
         Vec3 normal;
         float distance_m;
     };
+    /// Which way the first of two primitives has to lie from the second.
+    struct Side {
+        Vec3 way{0.0f};  // unit length; 0: the way it does
+        uint32_t surface = 0;
+    };
     struct Candidates {
         std::vector<PrimitivePairs> pairs;
+        std::vector<Side> sides;
         size_t count = 0;
 
-        void add(const std::array<uint32_t, 4>& vertices);
+        void add(const std::array<uint32_t, 4>& vertices, const Side& side);
         void fill_up();
     };
     void add(PairKind kind, const Candidates& of, std::span<const Particle> end);
-    void add(PairKind kind, const PrimitivePairs& pairs, size_t lane, std::span<const Particle> end);
+    void add(PairKind kind, const PrimitivePairs& pairs, size_t lane, const Side& side,
+             std::span<const Particle> end);
+    void add_candidates(const Proximity::Pair& pair, uint32_t surface, std::span<const Particle> end);
+    float keeps_m(PairKind kind, uint32_t surface) const;
+    uint32_t particle_of(uint32_t vertex);
     float flat_limit_m(PairKind kind, const std::array<uint32_t, 4>& vertices) const;
     static void look(Contact& contact, const std::array<Vec3, 4>& at);
     void pack();
     void put(const Contact& contact, size_t lane, ContactBatch& batch) const;
 
     std::shared_ptr<const Fabric> fabric_;
-    float thickness_m_;
+    std::vector<float> keeps_m_;       // of each surface
+    std::vector<float> inverse_mass_;  // of each vertex, meshes included
     FlatDistances flat_;
     std::vector<uint8_t> is_let_go_;  // of each vertex
     std::array<Candidates, 2> candidates_;  // of each kind
+    std::vector<uint32_t> slots_;          // of a mesh's vertex: its particle, if its round is this one
+    std::vector<uint32_t> slot_rounds_;
+    uint32_t round_ = 0;
+    std::vector<uint32_t> mesh_vertices_;  // of the particles beyond the fabric's
     std::vector<Contact> contacts_;
     std::vector<ContactBatch> batches_;
 };

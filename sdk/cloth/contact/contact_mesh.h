@@ -26,6 +26,8 @@ public:
                 MeshOf what = MeshOf::solid);
 
     size_t vertex_count() const { return vertex_count_; }
+    /// Of the triangles that count.
+    std::span<const uint32_t> indices() const { return indices_; }
     MeshOf what() const { return what_; }
     /// Where its vertices are at the end of this step. `around`: the box in which it is looked for.
     void accept(std::span<const Vec3> positions, const Vec3& low, const Vec3& high);

@@ -48,7 +48,8 @@ bool cross_at(const Proximity::Pair& pair, std::span<const Particle> at) {
 }  // namespace
 
 CrossingGuard::CrossingGuard(const FabricData& fabric)
-    : inverse_mass_(fabric.inverse_mass),
+    : cloth_vertices_(uint32_t(fabric.inverse_mass.size())),
+      inverse_mass_(fabric.inverse_mass),
       indices_(fabric.indices),
       is_marked_(fabric.inverse_mass.size(), 0),
       is_moved_(is_marked_),
@@ -60,16 +61,23 @@ CrossingGuard::CrossingGuard(const FabricData& fabric)
     for (const float inverse : inverse_mass_) is_fixed_.push_back(inverse == 0.0f);
 }
 
+void CrossingGuard::add_mesh(size_t vertices) {
+    const size_t count = inverse_mass_.size() + vertices;
+    inverse_mass_.resize(count, 0.0f);
+    is_marked_.resize(count, 0), is_moved_.resize(count, 0), is_fixed_.resize(count, 1);
+    wanted_.resize(count), found_at_.resize(count), places_.resize(count);
+    parent_.resize(count, kNone);
+}
+
 bool CrossingGuard::keep(std::span<const Particle> begin, std::span<Particle> end, Proximity& proximity,
-                         float reach_m, Jobs& jobs) {
+                         Jobs& jobs) {
     for (const uint32_t v : zoned_) parent_[v] = kNone;
     for (const uint32_t v : moved_) is_moved_[v] = 0;
     zoned_.clear(), moved_.clear(), tangles_.clear(), tangled_ = {};
-    zones_grow_ = false;
-    proximity.find(begin, end, reach_m, jobs);
+    zones_grow_ = crosses_mesh_ = false;
+    proximity.find(begin, end, jobs);
     bool solved = false;
     for (int round = 0; round < kRounds; ++round) {
-        rounds_ = round;
         find_hits(begin, end, proximity);
         solved = hits_.empty() && crossed_.empty();
         if (solved) break;
@@ -93,7 +101,7 @@ bool CrossingGuard::keep(std::span<const Particle> begin, std::span<Particle> en
             return glm::distance(found_at_[v], end[v].x) > 0.5f * kMaxKept_m;
         });
         if (is_beyond) {
-            proximity.find(begin, end, reach_m, jobs);
+            proximity.find(begin, end, jobs);
             for (size_t v = 0; v < end.size(); ++v) found_at_[v] = end[v].x;
             tangles_.clear();
         } else {
@@ -101,8 +109,9 @@ bool CrossingGuard::keep(std::span<const Particle> begin, std::span<Particle> en
         }
     }
     if (!solved)
-        for (const auto& [first, second] : crossed_) tangles_.emplace_back(first->number, second->number);
-    const bool is_free = solved && tangles_.empty();
+        for (const auto& [first, second] : crossed_)
+            if (second->vertex[0] < cloth_vertices_) tangles_.emplace_back(first->number, second->number);
+    const bool is_free = solved && tangles_.empty() && !crosses_mesh_;
     if (!tangles_.empty()) untangle(end, kUntangles_m);
     return is_free;
 }
@@ -118,10 +127,10 @@ void CrossingGuard::untangle(std::span<Particle> places, float step_m) {
 
 void CrossingGuard::part(std::span<Particle> places, Proximity& proximity, Jobs& jobs) {
     for (int round = 0; round < kRoundsToPart; ++round) {
-        proximity.find(places, places, 0.0f, jobs);
+        proximity.find(places, places, jobs);
         tangles_.clear();
-        proximity.for_uncertain([&](const Proximity::Pair& pair) {
-            if (cross_at(pair, places)) tangles_.emplace_back(pair.first->number, pair.second->number);
+        proximity.for_uncertain([&](const Proximity::Pair& pair, uint32_t surface) {
+            if (surface == Proximity::kSelf && cross_at(pair, places)) tangles_.emplace_back(pair.first->number, pair.second->number);
         });
         if (tangles_.empty()) return;
         untangle(places, kParts_m);
@@ -131,9 +140,15 @@ void CrossingGuard::part(std::span<Particle> places, Proximity& proximity, Jobs&
 void CrossingGuard::find_hits(std::span<const Particle> begin, std::span<const Particle> end,
                               const Proximity& proximity) {
     hits_.clear(), crossed_.clear();
-    proximity.for_uncertain([&](const Proximity::Pair& pair) {
+    proximity.for_uncertain([&](const Proximity::Pair& pair, uint32_t surface) {
+        if (is_held(*pair.first) && is_held(*pair.second)) return;
+        if (surface != Proximity::kSelf && getenv("NOGM")) return;
         if (cross_at(pair, begin)) {
-            if (cross_at(pair, end)) tangles_.emplace_back(pair.first->number, pair.second->number);
+            if (!cross_at(pair, end)) return;
+            if (surface == Proximity::kSelf)
+                tangles_.emplace_back(pair.first->number, pair.second->number);
+            else
+                crosses_mesh_ = true;
             return;
         }
         if (cross_at(pair, end)) crossed_.emplace_back(pair.first, pair.second);
@@ -145,6 +160,10 @@ void CrossingGuard::find_hits(std::span<const Particle> begin, std::span<const P
         const uint32_t *a = pair.first->vertex, *b = pair.second->vertex;
         return in_one_zone(std::array{a[0], a[1], a[2], b[0], b[1], b[2]});
     });
+}
+
+bool CrossingGuard::is_held(const Proximity::Triangle& t) const {
+    return is_fixed_[t.vertex[0]] && is_fixed_[t.vertex[1]] && is_fixed_[t.vertex[2]];
 }
 
 void CrossingGuard::test(PairKind kind, const std::array<uint32_t, 4>& v, std::span<const Particle> begin,

@@ -1,4 +1,4 @@
-// Keeps a cloth from crossing itself: the ways of all vertices through a step are certified by continuous
+// Keeps a cloth from crossing itself and meshes: the ways of all vertices through a step are certified by continuous
 // collision detection, and changed where two triangles would touch. First single contacts are projected; what
 // that does not solve moves as one, in rigid impact zones (Provot 1997; Bridson, Fedkiw, Anderson 2002).
 #pragma once
@@ -21,12 +21,13 @@ class CrossingGuard {
 public:
     /// Vertices without a finite mass do not give way.
     explicit CrossingGuard(const FabricData& fabric);
+    /// Vertices of a mesh follow, which do not give way either.
+    void add_mesh(size_t vertices);
 
     /// Changes `end` so that no triangles cross on linear ways from `begin`, except those that crossed at
-    /// `begin` already, which are moved apart a little. proximity: finds the pairs within reach_m, which is
-    /// left as of the last find. True: nothing crosses at the end, which is proven.
-    bool keep(std::span<const Particle> begin, std::span<Particle> end, Proximity& proximity, float reach_m,
-              Jobs& jobs);
+    /// `begin` already: those of the cloth are moved apart a little, those of a mesh are left to contact. True:
+    /// nothing crosses at the end, which is proven.
+    bool keep(std::span<const Particle> begin, std::span<Particle> end, Proximity& proximity, Jobs& jobs);
     /// Moves triangles that cross apart, at rest.
     void part(std::span<Particle> places, Proximity& proximity, Jobs& jobs);
 
@@ -36,7 +37,6 @@ public:
     /// Vertices of triangles that crossed at the begin, and still do.
     std::span<const uint32_t> tangled() const { return tangled_; }
 
-    int rounds_ = 0;
 private:
     static constexpr uint32_t kNone = UINT32_MAX;
     struct Hit {
@@ -49,6 +49,7 @@ private:
     void find_hits(std::span<const Particle> begin, std::span<const Particle> end, const Proximity& proximity);
     void test(PairKind kind, const std::array<uint32_t, 4>& vertices, std::span<const Particle> begin,
               std::span<const Particle> end);
+    bool is_held(const Proximity::Triangle& t) const;
     bool in_one_zone(std::span<const uint32_t> vertices);
     void project(std::span<Particle> end);
     void unite(uint32_t a, uint32_t b);
@@ -60,11 +61,13 @@ private:
     void mark(uint32_t vertex);
     void untangle(std::span<Particle> places, float step_m);
 
+    uint32_t cloth_vertices_;
     std::vector<float> inverse_mass_;
     std::vector<uint32_t> indices_;
     std::vector<Hit> hits_;
     std::vector<std::pair<const Proximity::Triangle*, const Proximity::Triangle*>> crossed_;  // at the end alone
-    std::vector<TrianglePair> tangles_;  // at both ends, by their numbers
+    std::vector<TrianglePair> tangles_;  // of the cloth at both ends, by their numbers
+    bool crosses_mesh_ = false;          // at both ends
     std::vector<uint8_t> is_marked_, is_moved_;  // in this round, in all
     std::vector<uint32_t> moved_;
     std::vector<Particle> wanted_;  // the end that the step made

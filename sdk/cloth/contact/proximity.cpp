@@ -4,56 +4,72 @@
 
 namespace vfit {
 
-Proximity::Proximity(std::span<const Vec3> positions, std::span<const uint32_t> indices)
-    : patches_(positions, indices) {}
-
-bool Proximity::Pair::shares_vertex() const {
-    return std::any_of(first->vertex, first->vertex + 3, [&](uint32_t v) {
-        return v == second->vertex[0] || v == second->vertex[1] || v == second->vertex[2];
-    });
+Proximity::Proximity(std::span<const Vec3> positions, std::span<const uint32_t> indices, float reach_m)
+    : cloth_(positions, indices), vertex_count_(positions.size()) {
+    surfaces_.emplace_back().is_shown = reach_m > 0.0f;
+    surfaces_.back().reach_m = reach_m;
 }
 
-void Proximity::find(std::span<const Particle> begin, std::span<const Particle> end, float reach_m,
-                     Jobs& jobs) {
-    reach_m_ = reach_m;
-    patches_.move(begin, end, jobs);
-    all_.pairs.clear();
-    patches_.find_pairs(patches_, reach_m, all_.pairs, jobs);
-    classify_all(all_, begin, end, jobs);
-    last_ = &all_;
+void Proximity::add_mesh(size_t vertices, std::span<const uint32_t> indices, float reach_m) {
+    Surface& surface = surfaces_.emplace_back();
+    surface.reach_m = reach_m, surface.is_shown = false;
+    surface.first_vertex = uint32_t(vertex_count_);
+    surface.indices.assign(indices.begin(), indices.end());
+    vertex_count_ += vertices;
+}
+
+void Proximity::show_mesh(uint32_t mesh, std::span<const Vec3> positions) {
+    Surface& surface = surfaces_[mesh + 1];
+    if (!surface.patches)
+        surface.patches = std::make_unique<TrianglePatches>(positions, surface.indices, surface.first_vertex);
+    surface.indices.clear();
+    surface.is_shown = true;
+}
+
+void Proximity::find(std::span<const Particle> begin, std::span<const Particle> end, Jobs& jobs) {
+    cloth_.move(begin, end, jobs);
+    only_marked_ = false;
+    for (Surface& surface : surfaces_) {
+        surface.all.pairs.clear();
+        if (surface.is_shown) {
+            if (surface.patches) surface.patches->move(begin, end, jobs);
+            cloth_.find_pairs(surface.patches ? *surface.patches : cloth_, surface.reach_m, surface.all.pairs,
+                              jobs);
+        }
+        classify_all(surface.all, begin, end, surface.reach_m, jobs);
+    }
 }
 
 void Proximity::find_uncertain_of(std::span<const uint8_t> marked, std::span<const Particle> begin,
                                   std::span<const Particle> end, Jobs& jobs) {
-    const std::span<const Triangle> triangles = patches_.triangles();
-    const auto has_marked = [&](uint32_t t) {
-        const uint32_t* v = triangles[t].vertex;
-        return marked[v[0]] || marked[v[1]] || marked[v[2]];
+    const auto has_marked = [&](const Triangle* t) {
+        return marked[t->vertex[0]] || marked[t->vertex[1]] || marked[t->vertex[2]];
     };
-    of_marked_.pairs.clear();
-    for (const TrianglePatches::Pair& pair : all_.pairs)
-        if (has_marked(pair.first) || has_marked(pair.second)) of_marked_.pairs.push_back(pair);
-    classify_all(of_marked_, begin, end, jobs);
-    last_ = &of_marked_;
+    only_marked_ = true;
+    for (Surface& surface : surfaces_) {
+        surface.of_marked.pairs.clear();
+        for (const Pair& pair : surface.all.pairs)
+            if (has_marked(pair.first) || has_marked(pair.second)) surface.of_marked.pairs.push_back(pair);
+        classify_all(surface.of_marked, begin, end, surface.reach_m, jobs);
+    }
 }
 
 void Proximity::classify_all(Classified& of, std::span<const Particle> begin, std::span<const Particle> end,
-                             Jobs& jobs) const {
+                             float reach_m, Jobs& jobs) {
     constexpr uint32_t kBatchesOfAJob = 256;
-    const std::span<const Triangle> triangles = patches_.triangles();
     of.batches.resize((of.pairs.size() + kLanes - 1) / kLanes);
     const auto count = uint32_t(of.batches.size());
     parallel_for(jobs, (count + kBatchesOfAJob - 1) / kBatchesOfAJob, [&](uint32_t share) {
         const uint32_t first = share * kBatchesOfAJob, last = std::min(first + kBatchesOfAJob, count);
         for (uint32_t i = first; i < last; ++i)
             for (size_t k = 0; k < kLanes; ++k) {
-                const TrianglePatches::Pair& pair = of.pairs[std::min(i * kLanes + k, of.pairs.size() - 1)];
+                const Pair& pair = of.pairs[std::min(i * kLanes + k, of.pairs.size() - 1)];
                 for (size_t corner = 0; corner < 3; ++corner) {
-                    of.batches[i].first[corner][k] = triangles[pair.first].vertex[corner];
-                    of.batches[i].second[corner][k] = triangles[pair.second].vertex[corner];
+                    of.batches[i].first[corner][k] = pair.first->vertex[corner];
+                    of.batches[i].second[corner][k] = pair.second->vertex[corner];
                 }
             }
-        classify(std::span(of.batches).subspan(first, last - first), begin.data(), end.data(), reach_m_);
+        classify(std::span(of.batches).subspan(first, last - first), begin.data(), end.data(), reach_m);
     });
     if (const size_t in_last = of.pairs.size() % kLanes; in_last != 0) {
         of.batches.back().uncertain &= uint8_t((1u << in_last) - 1);

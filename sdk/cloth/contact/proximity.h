@@ -1,8 +1,10 @@
-// Pairs of triangles that come close to each other in a step, and which of them may have crossed on the way.
+// Pairs of triangles, of a cloth or of a cloth and a mesh, that come close to each other in a step, and which of
+// them may have crossed on the way.
 #pragma once
 
 #include <bit>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -15,59 +17,71 @@ namespace vfit {
 class Proximity {
 public:
     using Triangle = TrianglePatches::Triangle;
+    using Pair = TrianglePatches::Pair;  // the first triangle is the cloth's
+    /// Of the cloth's own triangles against each other; mesh k is surface k + 1.
+    static constexpr uint32_t kSelf = 0;
 
-    /// Triangles of one surface against each other.
-    Proximity(std::span<const Vec3> positions, std::span<const uint32_t> indices);
+    /// reach_m: pairs of the cloth's own triangles that are further apart are not close; 0: none are looked at.
+    Proximity(std::span<const Vec3> positions, std::span<const uint32_t> indices, float reach_m);
+    /// Its vertices follow those of the cloth and of the meshes before. It is hidden.
+    void add_mesh(size_t vertices, std::span<const uint32_t> indices, float reach_m);
+    /// positions: by which its triangles are grouped, the first time.
+    void show_mesh(uint32_t mesh, std::span<const Vec3> positions);
+    /// It meets nothing.
+    void hide_mesh(uint32_t mesh) { surfaces_[mesh + 1].is_shown = false; }
+    size_t vertex_count() const { return vertex_count_; }
 
-    /// Finds the pairs within reach_m between both ends of the step, and classifies them. Does not allocate
-    /// once it has met as many.
-    void find(std::span<const Particle> begin, std::span<const Particle> end, float reach_m, Jobs& jobs);
+    /// Finds the pairs within reach between both ends of the step, and classifies them. Positions of all
+    /// vertices. Does not allocate once it has met as many.
+    void find(std::span<const Particle> begin, std::span<const Particle> end, Jobs& jobs);
     /// Classifies anew the pairs with a marked vertex (one flag a vertex), as the vertices are now; all others
     /// count as certain. Pairs stay those that were found.
     void find_uncertain_of(std::span<const uint8_t> marked, std::span<const Particle> begin,
                            std::span<const Particle> end, Jobs& jobs);
 
-    struct Pair {
-        const Triangle *first, *second;
-
-        bool shares_vertex() const;
-    };
-    /// Pairs that no axis separates at both ends of their ways.
+    /// Pairs that no axis separates at both ends of their ways, and the surface that the second is of.
     template <typename Body>
     void for_uncertain(Body&& body) const {
-        for_bits(*last_, [](const TrianglePairs& pairs) { return pairs.uncertain; }, body);
+        for_bits(only_marked_, [](const TrianglePairs& pairs) { return pairs.uncertain; }, body);
     }
     /// Pairs that find() saw within the reach now, or after the same way again; none that share a vertex.
     template <typename Body>
     void for_close(Body&& body) const {
-        for_bits(all_, [](const TrianglePairs& pairs) { return pairs.close; }, body);
+        for_bits(false, [](const TrianglePairs& pairs) { return pairs.close; }, body);
     }
-    size_t pair_count() const { return all_.pairs.size(); }
 
 private:
     struct Classified {
-        std::vector<TrianglePatches::Pair> pairs;
+        std::vector<Pair> pairs;
         std::vector<TrianglePairs> batches;  // of these, eight by eight
     };
+    struct Surface {
+        float reach_m;
+        bool is_shown;
+        uint32_t first_vertex = 0;
+        std::vector<uint32_t> indices;             // until it is shown
+        std::unique_ptr<TrianglePatches> patches;  // null: the cloth's
+        Classified all, of_marked;
+    };
     template <typename Bits, typename Body>
-    void for_bits(const Classified& of, Bits&& bits, Body&& body) const;
-    void classify_all(Classified& of, std::span<const Particle> begin, std::span<const Particle> end,
-                      Jobs& jobs) const;
+    void for_bits(bool of_marked, Bits&& bits, Body&& body) const;
+    static void classify_all(Classified& of, std::span<const Particle> begin, std::span<const Particle> end,
+                             float reach_m, Jobs& jobs);
 
-    TrianglePatches patches_;
-    float reach_m_ = 0.0f;
-    Classified all_, of_marked_;
-    const Classified* last_ = &all_;
+    TrianglePatches cloth_;
+    std::vector<Surface> surfaces_;
+    size_t vertex_count_;
+    bool only_marked_ = false;
 };
 
 template <typename Bits, typename Body>
-void Proximity::for_bits(const Classified& of, Bits&& bits, Body&& body) const {
-    const std::span<const Triangle> triangles = patches_.triangles();
-    for (size_t i = 0; i < of.batches.size(); ++i)
-        for (uint32_t left = bits(of.batches[i]); left; left &= left - 1) {
-            const TrianglePatches::Pair& pair = of.pairs[i * kLanes + size_t(std::countr_zero(left))];
-            body(Pair{&triangles[pair.first], &triangles[pair.second]});
-        }
+void Proximity::for_bits(bool of_marked, Bits&& bits, Body&& body) const {
+    for (uint32_t surface = 0; surface < surfaces_.size(); ++surface) {
+        const Classified& of = of_marked ? surfaces_[surface].of_marked : surfaces_[surface].all;
+        for (size_t i = 0; i < of.batches.size(); ++i)
+            for (uint32_t left = bits(of.batches[i]); left; left &= left - 1)
+                body(of.pairs[i * kLanes + size_t(std::countr_zero(left))], surface);
+    }
 }
 
 }  // namespace vfit

@@ -33,6 +33,24 @@ private:
     std::vector<uint32_t> first_, all_;
 };
 
+/// Divides at the median of the longest side, so that registers and blocks of them (powers of eight) are compact.
+void sort_in_space(const std::vector<Vec3>& places, std::span<uint32_t> which) {
+    if (which.size() <= kLanes) return;
+    Bounds box;
+    for (const uint32_t i : which) box.add(places[i]);
+    const Vec3 size = box.high - box.low;
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    size_t block = kLanes;
+    while (block * kLanes <= which.size() / 2) block *= kLanes;
+    const size_t middle = std::max(block, which.size() / 2 / block * block);
+    std::nth_element(which.begin(), which.begin() + std::ptrdiff_t(middle), which.end(),
+                     [&](uint32_t a, uint32_t b) {
+                         return std::pair(places[a][axis], a) < std::pair(places[b][axis], b);
+                     });
+    sort_in_space(places, which.first(middle));
+    sort_in_space(places, which.subspan(middle));
+}
+
 /// Grows connected patches: each from the triangle that has the fewest neighbours left, by those closest to it.
 class Growth {
 public:
@@ -52,10 +70,23 @@ public:
             grow(border_seed(next));
         }
     }
-    const std::vector<uint32_t>& order() const { return order_; }
-    const std::vector<uint32_t>& ends() const { return ends_; }
+    /// Triangles patch by patch, and where each patch ends; patches that follow each other lie together.
+    void list(std::vector<uint32_t>& triangles, std::vector<uint32_t>& ends) const {
+        std::vector<Vec3> middles;
+        std::vector<uint32_t> patches;
+        for (uint32_t patch = 0; patch < ends_.size(); ++patch) {
+            patches.push_back(patch);
+            middles.push_back(middles_[order_[begin_of(patch)]]);
+        }
+        sort_in_space(middles, patches);
+        for (const uint32_t patch : patches) {
+            triangles.insert(triangles.end(), order_.begin() + begin_of(patch), order_.begin() + ends_[patch]);
+            ends.push_back(uint32_t(triangles.size()));
+        }
+    }
 
 private:
+    uint32_t begin_of(uint32_t patch) const { return patch == 0 ? 0 : ends_[patch - 1]; }
     /// A free triangle beside the patches so far: between them no islands are left.
     uint32_t border_seed(uint32_t otherwise) {
         while (!border_.empty()) {
@@ -101,28 +132,35 @@ float cosine_of_sum(float a, float b) {
     return a * b - std::sqrt(std::max(0.0f, 1.0f - a * a)) * std::sqrt(std::max(0.0f, 1.0f - b * b));
 }
 
-Vec3 across(std::span<const Particle> at, const uint32_t* v) {
-    return glm::cross(at[v[1]].x - at[v[0]].x, at[v[2]].x - at[v[0]].x);
-}
-
 Vec3 farther(const Vec3& a, const Vec3& b) { return glm::max(glm::abs(a), glm::abs(b)); }
 
 }  // namespace
 
+bool TrianglePatches::Pair::shares_vertex() const {
+    return std::any_of(first->vertex, first->vertex + 3, [&](uint32_t v) {
+        return v == second->vertex[0] || v == second->vertex[1] || v == second->vertex[2];
+    });
+}
+
 TrianglePatches::TrianglePatches(std::span<const Vec3> positions, std::span<const uint32_t> indices,
                                  uint32_t first_vertex) {
-    const Growth growth(positions, indices);
-    for (const uint32_t t : growth.order())
+    std::vector<uint32_t> order;
+    Growth(positions, indices).list(order, ends_);
+    for (const uint32_t t : order)
         triangles_.push_back({{first_vertex + indices[3 * t], first_vertex + indices[3 * t + 1],
                                first_vertex + indices[3 * t + 2]},
                               t,
                               0,
                               0});
-    ends_ = growth.ends();
     patches_.resize(ends_.size());
     boxes_.resize(ends_.size());
     moving_.resize(ends_.size());
-    blocks_.resize((ends_.size() + kLanes - 1) / kLanes);
+    for (uint32_t patch = 0; patch < ends_.size(); ++patch) {
+        Corners& corners = corners_.emplace_back();
+        for (uint32_t k = 0; k < 3; ++k)
+            for (uint32_t i = 0; i < kLanes; ++i)
+                corners.at[k][i] = triangles_[std::min(begin_of(patch) + i, ends_[patch] - 1)].vertex[k];
+    }
     shares_.resize((ends_.size() + kPatchesOfAJob - 1) / kPatchesOfAJob);
     list_owners(first_vertex + positions.size());
     list_adjacent(first_vertex + positions.size());
@@ -174,52 +212,19 @@ void TrianglePatches::move(std::span<const Particle> begin, std::span<const Part
         const auto last = std::min((share + 1) * kPatchesOfAJob, uint32_t(ends_.size()));
         for (uint32_t patch = share * kPatchesOfAJob; patch < last; ++patch) move_patch(begin, end, patch);
     });
-    for (size_t block = 0; block * kLanes < patches_.size(); ++block) {
-        Bounds box, way;
-        for (size_t i = block * kLanes; i < std::min((block + 1) * kLanes, patches_.size()); ++i) {
-            box.add(patches_[i].box.low), box.add(patches_[i].box.high);
-            way.add(patches_[i].way.low), way.add(patches_[i].way.high);
-        }
-        blocks_.set(block, box, way);
-    }
+    moving_.find_levels();
 }
 
 void TrianglePatches::move_patch(std::span<const Particle> begin, std::span<const Particle> end,
-                                 uint32_t number) {
-    Patch patch;
-    PatchBoxes& boxes = boxes_[number];
-    const uint32_t first = begin_of(number), count = ends_[number] - first;
-    Vec3 sum(0.0f), before[kLanes], after[kLanes];
-    for (uint32_t i = 0; i < kLanes; ++i) {
-        Bounds box;
-        for (const uint32_t v : triangles_[first + std::min(i, count - 1)].vertex) {
-            box.add(end[v].x);
-            patch.way.add(end[v].x - begin[v].x);
-        }
-        patch.box.add(box.low), patch.box.add(box.high);
-        for (int k = 0; k < 3; ++k) {
-            boxes.low[k][i] = i < count ? box.low[k] : INFINITY;
-            boxes.high[k][i] = i < count ? box.high[k] : -INFINITY;
-        }
-    }
-    for (uint32_t i = 0; i < count; ++i) {
-        before[i] = across(begin, triangles_[first + i].vertex);
-        after[i] = across(end, triangles_[first + i].vertex);
-        sum += after[i];
-    }
-    patch.normal = sum / std::max(glm::length(sum), 1e-20f);
-    patch.min_cosine = 1.0f;
-    for (uint32_t i = 0; i < count; ++i)
-        for (const Vec3& normal : {before[i], after[i]})
-            patch.min_cosine = std::min(
-                patch.min_cosine, glm::dot(normal, patch.normal) / std::max(glm::length(normal), 1e-20f));
-    patches_[number] = patch;
-    moving_.set(number, patch.box, patch.way);
+                                 uint32_t patch) {
+    patches_[patch] = find_shape(corners_[patch].at, ends_[patch] - begin_of(patch), begin.data(), end.data(),
+                                 boxes_[patch]);
+    moving_.set(patch, patches_[patch].box, patches_[patch].way);
 }
 
 /// All normals of both, at either end.
 bool TrianglePatches::in_one_cone(uint32_t patch, uint32_t other) const {
-    const Patch &a = patches_[patch], &b = patches_[other];
+    const PatchShape &a = patches_[patch], &b = patches_[other];
     if (patch == other) return a.min_cosine > kConeCosine;
     const Vec3 axis = a.normal + b.normal;
     const float length = glm::length(axis);
@@ -234,17 +239,11 @@ void TrianglePatches::find_pairs(const TrianglePatches& other, float reach_m, st
     parallel_for(jobs, uint32_t(shares_.size()), [&](uint32_t number) {
         Share& share = shares_[number];
         share.pairs.clear();
-        const auto count = uint32_t(other.patches_.size()),
-                   last = std::min((number + 1) * kPatchesOfAJob, uint32_t(ends_.size()));
+        const auto last = std::min((number + 1) * kPatchesOfAJob, uint32_t(ends_.size()));
         for (uint32_t patch = number * kPatchesOfAJob; patch < last; ++patch) {
-            const Patch& p = patches_[patch];
-            const uint32_t first = own ? patch : 0;
-            share.blocks.clear(), share.meeting.clear();
-            find_meeting(other.blocks_, first / uint32_t(kLanes), (count + uint32_t(kLanes) - 1) / uint32_t(kLanes),
-                         p.box, p.way, reach_m, share.blocks);
-            for (const uint32_t block : share.blocks)
-                find_meeting(other.moving_, std::max(first, block * uint32_t(kLanes)),
-                             std::min(count, (block + 1) * uint32_t(kLanes)), p.box, p.way, reach_m, share.meeting);
+            const PatchShape& p = patches_[patch];
+            share.meeting.clear();
+            find_meeting(other.moving_, own ? patch : 0, p.box, p.way, reach_m, share.meeting);
             for (const uint32_t q : share.meeting) {
                 if (own && are_adjacent(patch, q) && in_one_cone(patch, q)) continue;
                 const Bounds& way = other.patches_[q].way;
@@ -262,7 +261,7 @@ void TrianglePatches::meet(uint32_t patch, const TrianglePatches& other, uint32_
     const std::array<uint8_t, kLanes> all = meeting_triangles(boxes_[patch], other.boxes_[of_other], margin);
     for (uint32_t i = 0; i < ends_[patch] - first; ++i)
         for (uint32_t left = own ? all[i] & ~0u << (i + 1) : all[i]; left; left &= left - 1)
-            out.push_back({first + i, of_second + uint32_t(std::countr_zero(left))});
+            out.push_back({&triangles_[first + i], &other.triangles_[of_second + uint32_t(std::countr_zero(left))]});
 }
 
 }  // namespace vfit

@@ -35,9 +35,10 @@ public:
 
     std::span<const Triangle> triangles() const { return triangles_; }
 
-    /// Indices into triangles() of two surfaces.
     struct Pair {
-        uint32_t first, second;
+        const Triangle *first, *second;
+
+        bool shares_vertex() const;
     };
     /// Adds the pairs of triangles of this surface and of `other` whose boxes come within reach_m of each
     /// other between both ends, or would by moving on in the same way. On the same surface, adjacent patches
@@ -46,14 +47,11 @@ public:
     void find_pairs(const TrianglePatches& other, float reach_m, std::vector<Pair>& out, Jobs& jobs);
 
 private:
-    struct Patch {
-        Bounds box;              // at the end
-        Bounds way;              // of its vertices
-        Vec3 normal;             // mean
-        float min_cosine = 0.0f;  // of a triangle's normal, at either end, with the mean
+    struct Corners {
+        uint32_t at[3][kLanes];
     };
     struct Share {
-        std::vector<uint32_t> blocks, meeting;
+        std::vector<uint32_t> meeting;
         std::vector<Pair> pairs;
     };
     uint32_t begin_of(uint32_t patch) const { return patch == 0 ? 0 : ends_[patch - 1]; }
@@ -67,9 +65,10 @@ private:
 
     std::vector<Triangle> triangles_;  // patch by patch
     std::vector<uint32_t> ends_;       // of patches in these
-    std::vector<Patch> patches_;
+    std::vector<Corners> corners_;     // of each patch's triangles
+    std::vector<PatchShape> patches_;
     std::vector<PatchBoxes> boxes_;     // at the end
-    MovingBoxes moving_, blocks_;       // of patches, and of eight in a row each
+    MovingBoxes moving_;
     std::vector<uint32_t> first_adjacent_, adjacent_;  // patches that share a vertex with each, rising
     std::vector<Share> shares_;
 };

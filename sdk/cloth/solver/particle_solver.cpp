@@ -109,7 +109,7 @@ void ParticleSolver::advance(const Step& step, Jobs& jobs) {
     enum class Phase { parts, cuts, refresh_contacts, solve_contacts, virtual_particles };
     std::array<Phase, 5> cycle{Phase::parts, Phase::cuts};
     uint32_t phases = 2;
-    if (step.contacts && step.contacts->size() > 0)
+    if (step.contacts && step.contacts->contact_count() > 0)
         cycle[phases++] = Phase::refresh_contacts, cycle[phases++] = Phase::solve_contacts;
     if (virtual_) cycle[phases++] = Phase::virtual_particles;
     const auto items = [&](uint32_t phase) -> uint32_t {
@@ -121,6 +121,10 @@ void ParticleSolver::advance(const Step& step, Jobs& jobs) {
             default: return 1;
         }
     };
+    if (step.contacts) {
+        const size_t with_meshes = fabric_->layout().count() + step.contacts->mesh_particle_count();
+        if (places_.size() < with_meshes) places_.resize(with_meshes), starts_.resize(with_meshes);
+    }
     const ContactPush push{kParts_m_s * substep_s(step), step.contact.friction_static};
     run_phases(jobs, phases * uint32_t(step.substeps) + 1, parts, items, [&](uint32_t phase, uint32_t item) {
         const int substep = int(phase / phases);
@@ -133,10 +137,11 @@ void ParticleSolver::advance(const Step& step, Jobs& jobs) {
                 if (substep < step.substeps) begin_substep(step, substep, item);
                 return;
             case Phase::cuts:
-                if (item + 1 < parts)
-                    solve_group(substep, parts + item);
-                else
-                    step.colliders.sweep(share(step, substep), share(step, substep + 1), swept_);
+                if (item + 1 < parts) return solve_group(substep, parts + item);
+                step.colliders.sweep(share(step, substep), share(step, substep + 1), swept_);
+                if (step.contacts)
+                    step.contacts->place_meshes(share(step, substep), share(step, substep + 1), starts_,
+                                                places_);
                 return;
             case Phase::refresh_contacts:
                 if (substep % kRefreshedEvery == 0) step.contacts->refresh(places_, item);

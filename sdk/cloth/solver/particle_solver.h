@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "cloth/contact/collider_motion.h"
-#include "cloth/contact/contact_list.h"
 #include "cloth/contact/contact_mesh.h"
+#include "cloth/contact/triangle_contact.h"
 #include "cloth/contact/virtual_particles.h"
 #include "cloth/fabric/fabric.h"
 #include "cloth/rigid_motion.h"
@@ -48,7 +48,7 @@ public:
         std::span<const ContactMesh> meshes;
         std::span<const float> lift_m,
             cloth_lift_m;  // off these, one a particle, of solids and of cloth below; may be empty
-        ContactList* contacts = nullptr;  // of the cloth with itself
+        TriangleContact* contacts = nullptr;
     };
     /// The box about all particles.
     void bounds(Vec3& low, Vec3& high) const;

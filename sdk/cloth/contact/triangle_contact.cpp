@@ -1,0 +1,72 @@
+#include "cloth/contact/triangle_contact.h"
+
+#include <algorithm>
+
+namespace vfit {
+
+namespace {
+
+void copy(std::span<const Vec3> from, std::span<Particle> to) {
+    for (size_t v = 0; v < from.size(); ++v) to[v].x = from[v];
+}
+void copy(std::span<const Particle> from, std::span<Vec3> to) {
+    for (size_t v = 0; v < to.size(); ++v) to[v] = from[v].x;
+}
+float reach_m(float thickness_m) { return thickness_m > 0.0f ? ContactList::reach_m(thickness_m) : 0.0f; }
+
+}  // namespace
+
+TriangleContact::TriangleContact(std::shared_ptr<const Fabric> fabric, float thickness_m,
+                                 std::span<const Vec3> positions, Jobs* jobs)
+    : cloth_vertices_(fabric->vertex_count()),
+      proximity_(positions, fabric->data().indices, reach_m(thickness_m)),
+      contacts_(fabric, thickness_m, jobs),
+      guard_(fabric->data()),
+      begin_(cloth_vertices_),
+      end_(cloth_vertices_),
+      first_vertices_{uint32_t(cloth_vertices_)} {}
+
+void TriangleContact::add_mesh(size_t vertices, std::span<const uint32_t> indices, float keeps_m) {
+    proximity_.add_mesh(vertices, indices, ContactList::reach_m(keeps_m));
+    contacts_.add_mesh(vertices, keeps_m);
+    guard_.add_mesh(vertices);
+    begin_.resize(begin_.size() + vertices), end_.resize(begin_.size());
+    first_vertices_.push_back(uint32_t(begin_.size()));
+    is_known_.push_back(0);
+}
+
+void TriangleContact::move_mesh(uint32_t mesh, std::span<const Vec3> end, std::span<const Vec3> begin) {
+    proximity_.show_mesh(mesh, end);
+    if (begin.empty() && !is_known_[mesh]) begin = end;
+    is_known_[mesh] = 1;
+    copy(begin, std::span(begin_).subspan(first_vertices_[mesh]));
+    copy(end, std::span(end_).subspan(first_vertices_[mesh]));
+}
+
+void TriangleContact::arrive() {
+    std::copy(end_.begin() + std::ptrdiff_t(cloth_vertices_), end_.end(),
+              begin_.begin() + std::ptrdiff_t(cloth_vertices_));
+}
+
+void TriangleContact::place(std::span<const Vec3> positions, Jobs& jobs) {
+    copy(positions, end_);
+    copy(positions, begin_);
+    proximity_.find(end_, end_, jobs);
+    contacts_.fill(proximity_, end_, end_, {});
+}
+
+void TriangleContact::part(std::span<Vec3> positions, Jobs& jobs) {
+    copy(positions, end_);
+    guard_.part(end_, proximity_, jobs);
+    copy(end_, positions);
+}
+
+bool TriangleContact::keep(std::span<const Vec3> begin, std::span<Vec3> end, Jobs& jobs) {
+    copy(begin, begin_), copy(end, end_);
+    const bool is_free = guard_.keep(begin_, end_, proximity_, jobs);
+    contacts_.fill(proximity_, begin_, end_, guard_.tangled());
+    if (!guard_.moved().empty()) copy(end_, end);
+    return is_free;
+}
+
+}  // namespace vfit

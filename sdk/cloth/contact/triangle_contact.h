@@ -1,0 +1,70 @@
+// Contact between triangles: of a cloth with itself and with meshes. Contacts keep a step's layers apart, and what
+// would end up crossing all the same is set right once the step is over.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cloth/contact/contact_list.h"
+#include "cloth/contact/crossing_guard.h"
+#include "cloth/contact/proximity.h"
+#include "cloth/fabric/fabric.h"
+#include "core/jobs.h"
+
+namespace vfit {
+
+class TriangleContact {
+public:
+    /// thickness_m: kept between the cloth's own layers; 0: they pass through each other. positions: one a vertex,
+    /// by which triangles are grouped.
+    TriangleContact(std::shared_ptr<const Fabric> fabric, float thickness_m, std::span<const Vec3> positions,
+                    Jobs* jobs = nullptr);
+
+    /// Triangles counter-clockwise from outside; keeps_m: between its vertices and the cloth's triangles, and
+    /// between edges. It is hidden until it is moved.
+    void add_mesh(size_t vertices, std::span<const uint32_t> indices, float keeps_m);
+    /// Where it goes in the next step, from where it went in the last, or from `begin`.
+    void move_mesh(uint32_t mesh, std::span<const Vec3> end, std::span<const Vec3> begin = {});
+    void hide_mesh(uint32_t mesh) { proximity_.hide_mesh(mesh), is_known_[mesh] = 0; }
+    /// Meshes were nowhere before: their next step begins where it ends.
+    void forget_meshes() { std::fill(is_known_.begin(), is_known_.end(), uint8_t(0)); }
+    /// Meshes stay where they are.
+    void arrive();
+
+    /// The cloth was placed there anew, at rest.
+    void place(std::span<const Vec3> positions, Jobs& jobs);
+    /// Moves triangles of the cloth that cross each other apart.
+    void part(std::span<Vec3> positions, Jobs& jobs);
+
+    /// After a step: changes its `end` so that nothing crosses which did not at its begin, and finds the
+    /// contacts of the next step. True: the cloth crosses neither itself nor a mesh, which is proven.
+    bool keep(std::span<const Vec3> begin, std::span<Vec3> end, Jobs& jobs);
+    /// Vertices that keep() moved; is_in_zone: as one with others, whose velocity is their way.
+    std::span<const uint32_t> moved() const { return guard_.moved(); }
+    bool is_in_zone(uint32_t vertex) const { return guard_.is_in_zone(vertex); }
+
+    size_t contact_count() const { return contacts_.size(); }
+    size_t mesh_particle_count() const { return contacts_.mesh_particle_count(); }
+    /// For a sub-step between those shares of the step: particles that stand for vertices of meshes.
+    void place_meshes(float from, float to, Particles& starts, Particles& places) const {
+        contacts_.place_meshes(begin_, end_, from, to, starts, places);
+    }
+    uint32_t share_count() const { return contacts_.share_count(); }
+    void refresh(const Particles& places, uint32_t share) { contacts_.refresh(places, share); }
+    void solve(const ContactPush& push, const Particles& starts, Particles& places) const {
+        contacts_.solve(push, starts, places);
+    }
+
+private:
+    size_t cloth_vertices_;
+    Proximity proximity_;
+    ContactList contacts_;
+    CrossingGuard guard_;
+    std::vector<Particle> begin_, end_;    // of all vertices, in a step
+    std::vector<uint32_t> first_vertices_;  // of the meshes, and the end
+    std::vector<uint8_t> is_known_;         // where a mesh is
+};
+
+}  // namespace vfit
