@@ -17,6 +17,8 @@ namespace HWY_NAMESPACE {
 
 constexpr float kRounding_m = 2e-5f;  // of a gap between places some metres from the origin
 constexpr float kTouching_m = -4e-6f;  // a gap of triangles that share a vertex
+constexpr float kCrossedEdges = 0.05f;  // sine of the angle from which on two edges have a normal of their own
+constexpr float kOn_m = 1e-6f;          // closer, a way has no direction
 constexpr hn::FixedTag<uint32_t, kWide> kInts;
 
 template <typename Mask>
@@ -306,6 +308,64 @@ HWY_INLINE void ScatterSum(const Rows& rows, const At& at, const uint32_t* index
 #endif
 }
 
+void RefreshContacts(std::span<ContactBatch> contacts, bool edges, const Particle* particles) {
+    const auto* bytes = reinterpret_cast<const unsigned char*>(particles);
+    const auto at = [bytes](uint32_t offset)
+                        HWY_ATTR { return reinterpret_cast<const Particle*>(bytes + offset); };
+    const V zero = hn::Zero(kTag), one = Set(1.0f), tiny = Set(1e-20f);
+    for (ContactBatch& c : contacts)
+        for (size_t k = 0; k < kLanes; k += kWide) {
+            Points p[4];
+            for (size_t i = 0; i < 4; ++i) p[i] = Columns(Gather(at, c.at[i] + k));
+            const Points old{hn::Load(kTag, c.normal[0] + k), hn::Load(kTag, c.normal[1] + k),
+                             hn::Load(kTag, c.normal[2] + k)};
+            V weight[4], length, towards;
+            Points square;  // the normal of a triangle, or of two edges, and whether it holds
+            auto holds = hn::FirstN(kTag, 0);
+            if (edges) {
+                const OnEdges on = ClosestOnEdges(p[0], p[1], p[2], p[3]);
+                weight[0] = hn::Sub(one, on.first), weight[1] = on.first;
+                weight[2] = hn::Sub(on.second, one), weight[3] = hn::Neg(on.second);
+                const Points first = Sub(p[1], p[0]), second = Sub(p[3], p[2]);
+                square = CrossProduct(first, second);
+                length = hn::Sqrt(hn::Add(Dot(square, square), tiny));
+                const V both = hn::Sqrt(hn::Mul(Dot(first, first), Dot(second, second)));
+                holds = hn::And(hn::And(hn::Gt(hn::Mul(weight[0], weight[1]), zero),
+                                        hn::Gt(hn::Mul(weight[2], weight[3]), zero)),
+                                hn::Gt(length, hn::Mul(Set(kCrossedEdges), both)));
+                towards = Dot(square, old);
+            } else {
+                const OnTriangle on = NearestOnTriangle(p[0], p[1], p[2], p[3]);
+                weight[0] = one, weight[1] = hn::Sub(hn::Add(on.at_b, on.at_c), one);
+                weight[2] = hn::Neg(on.at_b), weight[3] = hn::Neg(on.at_c);
+                square = CrossProduct(Sub(p[2], p[1]), Sub(p[3], p[1]));
+                length = hn::Sqrt(hn::Add(Dot(square, square), tiny));
+                holds = hn::Lt(hn::Max(weight[1], hn::Max(weight[2], weight[3])), zero);
+                const V side = hn::Load(kTag, c.side + k), above = Dot(square, Sub(p[0], p[1]));
+                towards = hn::IfThenElse(hn::Eq(side, zero), above, side);
+                hn::Store(hn::IfThenElseZero(holds, hn::CopySign(one, towards)), kTag, c.side + k);
+            }
+            Points way = Mul(p[0], weight[0]);
+            for (size_t i = 1; i < 4; ++i) way = MulAdd(p[i], weight[i], way);
+            const V distance = hn::Sqrt(Dot(way, way));
+            const auto agrees = hn::And(hn::Gt(distance, Set(kOn_m)), hn::Gt(Dot(way, old), zero));
+            Points normal = Choose(agrees, Mul(way, hn::Div(one, hn::Max(distance, Set(kOn_m)))), old);
+            normal = Choose(holds, Mul(square, hn::Div(hn::CopySign(one, towards), length)), normal);
+            hn::Store(normal.x, kTag, c.normal[0] + k), hn::Store(normal.y, kTag, c.normal[1] + k);
+            hn::Store(normal.z, kTag, c.normal[2] + k);
+            V share[4], sum = tiny;
+            for (size_t i = 0; i < 4; ++i) {
+                share[i] = hn::Mul(weight[i], hn::Load(kTag, c.inverse_mass[i] + k));
+                sum = hn::MulAdd(share[i], weight[i], sum);
+            }
+            const V inverse = hn::Div(one, sum);
+            for (size_t i = 0; i < 4; ++i) {
+                hn::Store(weight[i], kTag, c.weight[i] + k);
+                hn::Store(hn::Mul(share[i], inverse), kTag, c.gain[i] + k);
+            }
+        }
+}
+
 void SolveContacts(std::span<const ContactBatch> contacts, const ContactPush& push, const Particle* starts,
                    Particle* particles) {
     auto* bytes = reinterpret_cast<unsigned char*>(particles);
@@ -351,6 +411,7 @@ HWY_EXPORT(FindClosest);
 HWY_EXPORT(FindShape);
 HWY_EXPORT(MeetingTriangles);
 HWY_EXPORT(Classify);
+HWY_EXPORT(RefreshContacts);
 HWY_EXPORT(SolveContacts);
 
 void MovingBoxes::resize(size_t count) {
@@ -398,6 +459,9 @@ std::array<uint8_t, kLanes> meeting_triangles(const PatchBoxes& a, const PatchBo
 }
 void classify(std::span<TrianglePairs> pairs, const Particle* begin, const Particle* end, float reach_m) {
     HWY_DYNAMIC_DISPATCH(Classify)(pairs, begin, end, reach_m);
+}
+void refresh_contacts(std::span<ContactBatch> contacts, bool edges, const Particle* particles) {
+    HWY_DYNAMIC_DISPATCH(RefreshContacts)(contacts, edges, particles);
 }
 void solve_contacts(std::span<const ContactBatch> contacts, const ContactPush& push, const Particle* starts,
                     Particle* particles) {

@@ -71,14 +71,22 @@ struct alignas(32) PrimitivePairs {
 void find_closest(std::span<PrimitivePairs> pairs, bool edges, const Particle* begin, const Particle* end,
                   float sideways);
 
-/// Eight contacts: the sum of weights * places, along the normal, is kept at distance_m.
+/// Eight contacts of a vertex with a triangle, or of two edges: the sum of weights * places, along the normal, is
+/// kept at distance_m.
 struct alignas(32) ContactBatch {
     uint32_t at[4][kLanes];  // bytes from the first particle
-    float weight[4][kLanes];
-    float gain[4][kLanes];  // how far each of the four moves, of what the distance lacks
+    float inverse_mass[4][kLanes];
     float normal[3][kLanes];
     float distance_m[kLanes];
+    float side[kLanes];  // of a vertex above its triangle: 1 on the outside, -1 inside; 0: it is not above it
+    // Of refresh_contacts:
+    float weight[4][kLanes];
+    float gain[4][kLanes];  // how far each of the four moves, of what the distance lacks
 };
+/// Closest points and normals as particles lie now. The normal of a vertex above its triangle is the triangle's, of
+/// two crossed edges the one square to both: the way between the closest points turns with each rounding, and turns
+/// round where one goes through the other.
+void refresh_contacts(std::span<ContactBatch> contacts, bool edges, const Particle* particles);
 struct ContactPush {
     float max_m = 0.0f;  // by which a contact opens in a sub-step
     float friction = 0.0f;

@@ -12,7 +12,6 @@ constexpr float kSideways = 0.25f;    // of the way past each other: the normal 
 constexpr float kEdgeShare = 0.5f;    // of the thickness, between two edges
 constexpr float kFlatShare = 0.45f;   // of the shortest way along edges, which is longer than the straight one
 constexpr float kFlatReach = 1.0f / kFlatShare;
-constexpr float kCrossedEdges = 0.05f;  // sine of the angle from which on two edges have a normal of their own
 constexpr float kAlongSide = 0.3f;    // cosine: beside that, a way does not tell on which side of a mesh one is
 constexpr float kOn_m = 1e-6f;        // closer, a way has no direction
 
@@ -59,7 +58,7 @@ float ContactList::keeps_m(PairKind kind, uint32_t surface) const {
 
 void ContactList::fill(const Proximity& proximity, std::span<const Particle> begin,
                        std::span<const Particle> end, std::span<const uint32_t> let_go) {
-    contacts_.clear();
+    for (OfKind& of : of_kind_) of.contacts.clear();
     for (Candidates& of : candidates_) of.count = 0, of.sides.clear();
     for (const uint32_t v : let_go) is_let_go_[v] = 1;
     proximity.for_close(
@@ -72,7 +71,9 @@ void ContactList::fill(const Proximity& proximity, std::span<const Particle> beg
         add(kind, of, end);
     }
     for (const uint32_t v : let_go) is_let_go_[v] = 0;
-    pack();
+    ++round_;
+    mesh_vertices_.clear();
+    for (OfKind& of : of_kind_) pack(of);
 }
 
 /// Vertices of the cloth and triangles of a mesh are left out: planes keep those apart (ContactMesh).
@@ -131,13 +132,12 @@ void ContactList::add(PairKind kind, const PrimitivePairs& pairs, size_t lane, c
         if (std::abs(along) < kAlongSide) return;
         if (along < 0.0f) normal = -normal;  // it is on the wrong side
     }
-    Contact contact{v, kind, 0, {}, normal, kept_m};
-    for (size_t k = 0; k < 4; ++k) contact.weights[k] = pairs.weight[k][lane];
-    if (!edges && std::max({contact.weights[1], contact.weights[2], contact.weights[3]}) < 0.0f) {
+    Contact contact{v, normal, kept_m, 0.0f};
+    if (!edges && std::max({pairs.weight[1][lane], pairs.weight[2][lane], pairs.weight[3][lane]}) < 0.0f) {
         const Vec3 face = glm::cross(end[v[2]].x - end[v[1]].x, end[v[3]].x - end[v[1]].x);
-        contact.side = glm::dot(face, normal) >= 0.0f ? 1 : -1;
+        contact.side = glm::dot(face, normal) >= 0.0f ? 1.0f : -1.0f;
     }
-    contacts_.push_back(contact);
+    of_kind_[size_t(kind)].contacts.push_back(contact);
 }
 
 uint32_t ContactList::particle_of(uint32_t vertex) {
@@ -169,84 +169,37 @@ float ContactList::flat_limit_m(PairKind kind, const std::array<uint32_t, 4>& v)
     return kFlatShare * min_m;
 }
 
-/// The normal of a vertex above its triangle is the triangle's, of two crossed edges the one square to both: the
-/// way between the closest points turns with each rounding, and turns round where one goes through the other.
-void ContactList::look(Contact& contact, const std::array<Vec3, 4>& at) {
-    const ClosestPoints closest = closest_points(contact.kind, at);
-    contact.weights = closest.weights;
-    const bool inside = closest.is_inside(contact.kind);
-    if (contact.kind == PairKind::vertex_face) {
-        if (inside) {
-            const Vec3 face = unit(glm::cross(at[2] - at[1], at[3] - at[1]));
-            if (contact.side == 0) contact.side = glm::dot(face, at[0] - at[1]) >= 0.0f ? 1 : -1;
-            contact.normal = face * float(contact.side);
-            return;
-        }
-        contact.side = 0;
-    } else if (inside) {
-        const Vec3 first = at[1] - at[0], second = at[3] - at[2], square = glm::cross(first, second);
-        const float length = glm::length(square);
-        if (length > kCrossedEdges * glm::length(first) * glm::length(second)) {
-            contact.normal = square * ((glm::dot(square, contact.normal) < 0.0f ? -1.0f : 1.0f) / length);
-            return;
-        }
-    }
-    const float distance = glm::length(closest.way);
-    if (distance > kOn_m && glm::dot(closest.way, contact.normal) > 0.0f)
-        contact.normal = closest.way / distance;
-}
-
 /// Lanes of a batch far apart in the list: what they push is seldom the same.
-void ContactList::pack() {
-    ++round_;
-    mesh_vertices_.clear();
-    batches_.resize((contacts_.size() + kLanes - 1) / kLanes);
-    const uint32_t spare = uint32_t(fabric_->layout().parts[0].spare() * sizeof(Particle));
-    for (size_t i = 0; i < batches_.size(); ++i)
+void ContactList::pack(OfKind& of) {
+    of.batches.resize((of.contacts.size() + kLanes - 1) / kLanes);
+    const auto spare = uint32_t(fabric_->layout().parts[0].spare() * sizeof(Particle));
+    for (size_t i = 0; i < of.batches.size(); ++i) {
+        ContactBatch& batch = of.batches[i];
         for (size_t k = 0; k < kLanes; ++k) {
-            const size_t at = k * batches_.size() + i;
-            if (at < contacts_.size()) {
-                for (size_t j = 0; j < 4; ++j)
-                    batches_[i].at[j][k] =
-                        particle_of(contacts_[at].vertices[j]) * uint32_t(sizeof(Particle));
-                put(contacts_[at], k, batches_[i]);
-                continue;
+            const size_t at = k * of.batches.size() + i;
+            const bool is_there = at < of.contacts.size();
+            const Contact contact = is_there ? of.contacts[at] : Contact{{}, Vec3(0.0f), -1.0f, 0.0f};
+            for (size_t j = 0; j < 4; ++j) {
+                const uint32_t v = contact.vertices[j];
+                batch.at[j][k] = is_there ? particle_of(v) * uint32_t(sizeof(Particle)) : spare;
+                batch.inverse_mass[j][k] = is_there ? inverse_mass_[v] : 0.0f;
             }
-            for (size_t j = 0; j < 4; ++j)
-                batches_[i].at[j][k] = spare, batches_[i].weight[j][k] = batches_[i].gain[j][k] = 0.0f;
-            for (auto& component : batches_[i].normal) component[k] = 0.0f;
-            batches_[i].distance_m[k] = -1.0f;
+            for (int j = 0; j < 3; ++j) batch.normal[j][k] = contact.normal[j];
+            batch.distance_m[k] = contact.distance_m, batch.side[k] = contact.side;
         }
-}
-
-void ContactList::put(const Contact& contact, size_t lane, ContactBatch& batch) const {
-    float sum = 0.0f;
-    std::array<float, 4> share;
-    for (size_t j = 0; j < 4; ++j) {
-        share[j] = inverse_mass_[contact.vertices[j]] * contact.weights[j];
-        sum += share[j] * contact.weights[j];
     }
-    const float inverse = sum > 0.0f ? 1.0f / sum : 0.0f;
-    for (size_t j = 0; j < 4; ++j) {
-        batch.weight[j][lane] = contact.weights[j];
-        batch.gain[j][lane] = share[j] * inverse;
-    }
-    for (int j = 0; j < 3; ++j) batch.normal[j][lane] = contact.normal[j];
-    batch.distance_m[lane] = contact.distance_m;
 }
 
 void ContactList::refresh(const Particles& places, uint32_t share) {
-    const auto count = uint32_t(batches_.size());
-    for (uint32_t i = share * count / kShares; i < (share + 1) * count / kShares; ++i)
-        for (size_t k = 0; k < kLanes; ++k) {
-            const size_t at = k * count + i;
-            if (at >= contacts_.size()) continue;
-            Contact& contact = contacts_[at];
-            std::array<Vec3, 4> now;
-            for (size_t j = 0; j < 4; ++j) now[j] = places[batches_[i].at[j][k] / sizeof(Particle)].x;
-            look(contact, now);
-            put(contact, k, batches_[i]);
-        }
+    for (size_t kind = 0; kind < 2; ++kind) {
+        const std::span<ContactBatch> all(of_kind_[kind].batches);
+        const size_t first = share * all.size() / kShares, end = (share + 1) * all.size() / kShares;
+        refresh_contacts(all.subspan(first, end - first), kind == size_t(PairKind::edge_edge), places.data());
+    }
+}
+
+void ContactList::solve(const ContactPush& push, const Particles& starts, Particles& places) const {
+    for (const OfKind& of : of_kind_) solve_contacts(of.batches, push, starts.data(), places.data());
 }
 
 }  // namespace vfit

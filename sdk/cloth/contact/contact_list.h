@@ -38,25 +38,24 @@ public:
     void place_meshes(std::span<const Particle> begin, std::span<const Particle> end, float from, float to,
                       Particles& starts, Particles& places) const;
 
-    /// Contacts are looked at in that many shares.
+    /// Contacts are refreshed in that many shares.
     uint32_t share_count() const { return kShares; }
     /// Closest points and normals of a share of the contacts, as particles lie now. May run for several shares
     /// at the same time.
     void refresh(const Particles& places, uint32_t share);
-    void solve(const ContactPush& push, const Particles& starts, Particles& places) const {
-        solve_contacts(batches_, push, starts.data(), places.data());
-    }
-    size_t size() const { return contacts_.size(); }
+    void solve(const ContactPush& push, const Particles& starts, Particles& places) const;
+    size_t size() const { return of_kind_[0].contacts.size() + of_kind_[1].contacts.size(); }
 
 private:
     static constexpr uint32_t kShares = 8;
     struct Contact {
         std::array<uint32_t, 4> vertices;
-        PairKind kind;
-        int8_t side;  // of a vertex above its triangle: 1 on the outside, -1 inside; 0: it is not above it
-        std::array<float, 4> weights;
         Vec3 normal;
-        float distance_m;
+        float distance_m, side;
+    };
+    struct OfKind {
+        std::vector<Contact> contacts;
+        std::vector<ContactBatch> batches;
     };
     /// Which way the first of two primitives has to lie from the second.
     struct Side {
@@ -78,9 +77,7 @@ private:
     float keeps_m(PairKind kind, uint32_t surface) const;
     uint32_t particle_of(uint32_t vertex);
     float flat_limit_m(PairKind kind, const std::array<uint32_t, 4>& vertices) const;
-    static void look(Contact& contact, const std::array<Vec3, 4>& at);
-    void pack();
-    void put(const Contact& contact, size_t lane, ContactBatch& batch) const;
+    void pack(OfKind& of);
 
     std::shared_ptr<const Fabric> fabric_;
     std::vector<float> keeps_m_;       // of each surface
@@ -92,8 +89,7 @@ private:
     std::vector<uint32_t> slot_rounds_;
     uint32_t round_ = 0;
     std::vector<uint32_t> mesh_vertices_;  // of the particles beyond the fabric's
-    std::vector<Contact> contacts_;
-    std::vector<ContactBatch> batches_;
+    std::array<OfKind, 2> of_kind_;
 };
 
 }  // namespace vfit
