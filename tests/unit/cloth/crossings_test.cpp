@@ -5,51 +5,16 @@
 #include <random>
 #include <set>
 
-#include "cloth/contact/crossing_guard.h"
-#include "cloth/contact/flat_neighbours.h"
 #include "cloth/contact/triangle_groups.h"
 #include "cloth/contact/untangle.h"
 #include "cloth/crossings.h"
 #include "cloth/garment/borders.h"
 #include "cloth/garment/clear_skin.h"
 #include "cloth_support.h"
+#include "two_sheets.h"
 
 namespace vfit::test {
 namespace {
-
-/// Two square sheets of one mesh, n by n vertices each, `side` apart.
-struct TwoSheets {
-    std::vector<Vec3> positions;
-    std::vector<uint32_t> indices;
-    uint32_t of_one;
-
-    TwoSheets(uint32_t n, float side, const Vec3& second) : of_one(n * n) {
-        for (const Vec3& at : {Vec3(0.0f), second})
-            for (uint32_t r = 0; r < n; ++r)
-                for (uint32_t c = 0; c < n; ++c)
-                    positions.push_back(at + Vec3(float(c) * side, 0.0f, float(r) * side));
-        for (uint32_t sheet = 0; sheet < 2; ++sheet)
-            for (uint32_t r = 0; r + 1 < n; ++r)
-                for (uint32_t c = 0; c + 1 < n; ++c) {
-                    const uint32_t a = sheet * n * n + r * n + c, b = a + 1, d = a + n, e = d + 1;
-                    indices.insert(indices.end(), {a, d, e, a, e, b});
-                }
-    }
-    FabricData fabric() const {
-        FabricData data;
-        data.indices = indices;
-        data.inverse_mass.assign(positions.size(), 1.0f);
-        return data;
-    }
-    std::vector<TrianglePair> crossed(bool flat_do_not = false) const {
-        const auto jobs = Jobs::own(0);
-        TriangleGroups groups(positions, indices);
-        groups.move(positions, *jobs);
-        std::vector<TrianglePair> pairs;
-        groups.find_crossings(flat_do_not, pairs, *jobs);
-        return pairs;
-    }
-};
 
 TEST(Crossings, AreThoseOfAllPairs) {
     std::mt19937 random(3);
@@ -114,137 +79,6 @@ TEST(Crossings, FoldsOfSmallTrianglesBesideLargeOnesAreNotLeftOut) {
     groups.find_crossings(true, but_flat, *jobs);
     ASSERT_GT(all.size(), 0u) << "the scene would show it";
     EXPECT_EQ(but_flat, all);
-}
-
-TEST(CrossingGuard, LayersThatBeginCrossedAreParted) {
-    const auto jobs = Jobs::own(0);
-    TwoSheets sheets(8, 0.02f, {0.004f, 0.004f, 0.005f});
-    for (const uint32_t v : {27u, 28u, 35u, 36u})
-        sheets.positions[sheets.of_one + v].y -= 0.012f;  // a bulge of the upper one
-    ASSERT_GT(sheets.crossed().size(), 0u);
-    const FabricData data = sheets.fabric();
-    CrossingGuard guard(data);
-    TriangleGroups groups(sheets.positions, sheets.indices);
-    const std::vector<Vec3> before = sheets.positions;
-    guard.part(sheets.positions, groups, *jobs);
-    EXPECT_EQ(sheets.crossed().size(), 0u);
-    for (size_t v = 0; v < before.size(); ++v) EXPECT_LT(glm::length(sheets.positions[v] - before[v]), 0.03f);
-}
-
-TEST(CrossingGuard, SheetsThatWouldGoThroughEachOtherMoveOnTogether) {
-    const auto jobs = Jobs::own(0);
-    const TwoSheets sheets(3, 0.02f, {0.003f, 0.004f, 0.004f});
-    ASSERT_TRUE(sheets.crossed().empty());
-    // The upper one falls by 1 cm over one corner, the lower one rises by as much there.
-    TwoSheets wanted = sheets;
-    wanted.positions[sheets.of_one].y -= 0.01f;
-    wanted.positions[sheets.of_one + 1].y -= 0.01f;
-    wanted.positions[0].y += 0.004f;
-    ASSERT_FALSE(wanted.crossed().empty());
-    const FabricData fabric = sheets.fabric();
-    CrossingGuard guard(fabric);
-    TriangleGroups groups(sheets.positions, sheets.indices);
-    groups.move(wanted.positions, *jobs);
-    guard.keep(sheets.positions, wanted.positions, groups, true, *jobs);
-    EXPECT_TRUE(wanted.crossed().empty());
-    EXPECT_FALSE(guard.moved().empty());
-    Vec3 way(0.0f);
-    for (size_t v = 0; v < wanted.positions.size(); ++v) way += wanted.positions[v] - sheets.positions[v];
-    EXPECT_NEAR(way.y, -0.016f, 1e-4f) << "what moves as one moves as all did in the mean";
-}
-
-/// Two sheets of n by n vertices, and a step in which every other vertex of a corner of the upper one falls
-/// through the lower one.
-struct FallenSheet {
-    TwoSheets before, now;
-    FallenSheet(uint32_t n, uint32_t corner) : before(n, 0.02f, {0.003f, 0.004f, 0.004f}), now(before) {
-        for (uint32_t r = 0; r < corner; ++r)
-            for (uint32_t c = 0; c < corner; ++c)
-                now.positions[now.of_one + r * n + c].y -= (r + c) % 2 ? 0.002f : 0.012f;
-    }
-    /// The largest way that the guard moves a vertex from where it fell.
-    float keep(bool even_heaps) {
-        const auto jobs = Jobs::own(0);
-        const FabricData fabric = before.fabric();
-        CrossingGuard guard(fabric);
-        TriangleGroups groups(before.positions, before.indices);
-        groups.move(now.positions, *jobs);
-        const std::vector<Vec3> fell = now.positions;
-        guard.keep(before.positions, now.positions, groups, even_heaps, *jobs);
-        float way_m = 0.0f;
-        for (size_t v = 0; v < fell.size(); ++v)
-            way_m = std::max(way_m, glm::distance(now.positions[v], fell[v]));
-        return way_m;
-    }
-};
-
-TEST(CrossingGuard, AHeapIsLeftToContactUnlessItIsAskedFor) {
-    FallenSheet heap(6, 6), asked(6, 6), corner(12, 1);
-    ASSERT_GT(heap.now.crossed().size(), 20u) << "of 100 triangles";
-    EXPECT_EQ(heap.keep(false), 0.0f);
-    EXPECT_GT(asked.keep(true), 0.002f);
-    // A few crossings in much cloth are no heap.
-    ASSERT_FALSE(corner.now.crossed().empty());
-    EXPECT_GT(corner.keep(false), 0.002f);
-    EXPECT_TRUE(corner.now.crossed().empty());
-}
-
-TEST(CrossingGuard, AJamOfManyVerticesIsNotMovedAsOne) {
-    // One motion for most of a garment would tear at what is about it. A jam is untangled by a millimetre a
-    // step.
-    FallenSheet few(6, 6), jam(20, 20);
-    EXPECT_GT(few.keep(true), 0.002f);
-    EXPECT_TRUE(few.now.crossed().empty());
-    const float way_m = jam.keep(true);
-    EXPECT_GT(way_m, 0.0f);
-    EXPECT_LT(way_m, 0.002f);
-}
-
-TEST(CrossingGuard, WhatDoesNotCrossIsLeftAlone) {
-    const auto jobs = Jobs::own(0);
-    const TwoSheets sheets(5, 0.02f, {0.0f, 0.01f, 0.0f});
-    TwoSheets now = sheets;
-    for (Vec3& p : now.positions) p.x += 0.3f;
-    const FabricData fabric = sheets.fabric();
-    CrossingGuard guard(fabric);
-    TriangleGroups groups(sheets.positions, sheets.indices);
-    groups.move(now.positions, *jobs);
-    const std::vector<Vec3> wanted = now.positions;
-    guard.keep(sheets.positions, now.positions, groups, false, *jobs);
-    EXPECT_EQ(now.positions, wanted);
-    EXPECT_TRUE(guard.moved().empty());
-}
-
-TEST(CrossingGuard, AJumpOfTheBodyIsNoSpeedOfWhatCrosses) {
-    const auto jobs = Jobs::own(0);
-    const Sheet sheet(61, 3, 0.02f);  // two of them, through each other, both held at their upper borders
-    FabricData data;
-    std::vector<Vec3> start;
-    for (const float lean : {-0.3f, 0.3f}) {
-        Sheet held = sheet;
-        held.pin_top();
-        const FabricData one = held.cook(cotton());
-        const auto first = uint32_t(start.size());
-        for (const Vec3& p : sheet.positions)
-            start.emplace_back(p.x + 0.003f * lean, p.y, (p.y + 0.09f) * lean);
-        data.inverse_mass.insert(data.inverse_mass.end(), one.inverse_mass.begin(), one.inverse_mass.end());
-        for (const uint32_t i : one.indices) data.indices.push_back(first + i);
-        for (const DistanceConstraint& e : one.edges)
-            data.edges.push_back({first + e.a, first + e.b, e.rest_m, e.compliance_m_n});
-    }
-    ClothSettings settings;
-    settings.gravity = Vec3(0.0f);
-    settings.self_thickness_m = 0.004f;
-    Cloth cloth(fabric(data), settings, start);
-    cloth.step(kFrame_s, start, {}, *jobs);
-    ASSERT_FALSE(crossed_triangles(cloth.positions(), data.indices).empty()) << "the scene would show it";
-    std::vector<Vec3> there = start;
-    for (Vec3& p : there) p.x += 3.0f;
-    cloth.step(kFrame_s, there, {}, *jobs);
-    const std::vector<Vec3> arrived = cloth.positions();
-    cloth.step(kFrame_s, there, {}, *jobs);
-    for (size_t v = 0; v < arrived.size(); ++v)
-        EXPECT_LT(glm::length(cloth.positions()[v] - arrived[v]), 0.05f) << v;
 }
 
 TEST(Untangle, AVertexThatPokesThroughGoesBack) {
@@ -417,78 +251,6 @@ TEST(MeshLift, WhatComesOutFromBelowPushesAndLiftsNothing) {
         cloth.step(kFrame_s, start, {}, *jobs);
     }
     for (uint32_t v = 0; v + 1 < start.size(); ++v) EXPECT_EQ(cloth.positions()[v], start[v]) << v;
-}
-
-TEST(FlatNeighbours, AreThoseThatEdgesReach) {
-    Sheet sheet(20, 20, 0.02f);
-    sheet.pin_top();
-    const Fabric cloth(sheet.cook(cotton()));
-    constexpr float kRadius_m = 0.05f, kNever_m = 0.025f;
-    const FlatNeighbours found = flat_neighbours(cloth, kRadius_m, kNever_m);
-    // All ways along edges at once (Floyd and Warshall), to compare.
-    const uint32_t n = cloth.vertex_count();
-    std::vector<float> way(size_t(n) * n, INFINITY);
-    std::vector<uint8_t> joined(size_t(n) * n, 0);
-    for (const DistanceConstraint& e : cloth.data().edges)
-        way[e.a * n + e.b] = way[e.b * n + e.a] = e.rest_m, joined[e.a * n + e.b] = joined[e.b * n + e.a] = 1;
-    for (uint32_t c = 0; c + 1 < sheet.columns; ++c)
-        way[c * n + c + 1] = way[(c + 1) * n + c] = 0.0f,
-                        joined[c * n + c + 1] = joined[(c + 1) * n + c] = 1;  // pinned: no constraints
-    for (uint32_t v = 0; v < n; ++v) way[v * n + v] = 0.0f;
-    for (uint32_t k = 0; k < n; ++k)
-        for (uint32_t i = 0; i < n; ++i)
-            for (uint32_t j = 0; j < n; ++j)
-                way[i * n + j] = std::min(way[i * n + j], way[i * n + k] + way[k * n + j]);
-    const ParticleLayout& layout = cloth.layout();
-    for (uint32_t particle = 0; particle < layout.count(); ++particle) {
-        const uint32_t v = layout.vertex_of[particle];
-        if (v == ParticleLayout::kNobody || cloth.data().inverse_mass[v] == 0.0f) continue;
-        const uint32_t run = particle / uint32_t(kLanes);
-        std::vector<uint8_t> beside(n, 0), never(n, 0);
-        for (uint32_t i = found.first[run]; i < found.first[run + 1]; ++i)
-            for (uint32_t at = 0; at < kLanes; ++at) {
-                const uint32_t other = layout.vertex_of[found.of_runs[i].run * kLanes + at];
-                if (other == ParticleLayout::kNobody) continue;
-                beside[other] = found.of_runs[i].beside >> (8 * at + lane_of(particle % kLanes)) & 1;
-                never[other] = found.of_runs[i].excluded >> (8 * at + lane_of(particle % kLanes)) & 1;
-            }
-        for (uint32_t other = 0; other < n; ++other) {
-            const float along = way[v * n + other];
-            if (std::abs(along - kRadius_m) < 1e-4f || std::abs(along - kNever_m) < 1e-4f) continue;
-            ASSERT_EQ(beside[other], along < kRadius_m) << v << " " << other << " " << along;
-            ASSERT_EQ(never[other], along < kNever_m || joined[v * n + other])
-                << v << " " << other << " " << along;
-        }
-    }
-    const auto two = Jobs::own(2);
-    const FlatNeighbours again = flat_neighbours(cloth, kRadius_m, kNever_m, two.get());
-    EXPECT_EQ(again.first, found.first);
-    ASSERT_EQ(again.of_runs.size(), found.of_runs.size());
-    for (size_t i = 0; i < found.of_runs.size(); ++i) {
-        EXPECT_EQ(again.of_runs[i].run, found.of_runs[i].run);
-        EXPECT_EQ(again.of_runs[i].beside, found.of_runs[i].beside);
-        EXPECT_EQ(again.of_runs[i].excluded, found.of_runs[i].excluded);
-    }
-}
-
-TEST(CrossingGuard, LayersThatComeToTheirLengthsDoNotGoThroughEachOther) {
-    const auto jobs = Jobs::own(0);
-    for (const float ratio : {1.1f, 1.15f, 1.2f}) {
-        const TwoSheets sheets(13, 0.02f, {0.007f, 0.006f, 0.006f});
-        std::vector<uint8_t> simulated(sheets.positions.size(), 1);  // but for their edges
-        for (uint32_t sheet = 0; sheet < 2; ++sheet)
-            for (uint32_t i = 0; i < 13; ++i)
-                for (const uint32_t at : {i, 12 * 13 + i, 13 * i, 13 * i + 12})
-                    simulated[sheet * sheets.of_one + at] = 0;
-        ClothSettings settings;
-        settings.self_thickness_m = 0.004f;
-        Cloth cloth(fabric(cook_fabric({sheets.positions, sheets.indices, {}, simulated, ratio}, cotton())),
-                    settings, sheets.positions);
-        cloth.come_to_lengths(
-            [&](float, std::vector<Vec3>& targets, std::vector<Collider>&) { targets = sheets.positions; },
-            *jobs);
-        EXPECT_TRUE(crossed_triangles(cloth.positions(), sheets.indices).empty()) << ratio;
-    }
 }
 
 TEST(Borders, OfTwoSheetsAreTwoClosedLines) {

@@ -85,53 +85,26 @@ TEST(SurfaceKernels, NearestPlaceOnTheTrianglesAboutAPoint) {
     });
 }
 
-TEST(SurfaceKernels, NearestPointsBeforeAndBehindEachLane) {
+TEST(SurfaceKernels, NearestPointOfRuns) {
     on_each_target([] {
         std::mt19937 random(3);
-        Particles all(kLanes * 6), normals(kLanes * 6);
+        Particles all(kLanes * 6);
         for (Particle& p : all) p.x = random_point(random, 0.1f);
-        for (Particle& n : normals) n.x = glm::normalize(random_point(random, 1.0f));
-        const std::vector<NearRun> runs{{1, 0, 0, 0, 0.08f},
-                                        {2, 0x00ff00f0f0ull, 0x0f0f0f0f00ull, 0, 0.08f},
-                                        {4, ~0ull, 0, 0, 0.08f},
-                                        {5, 0x8001ull, ~0ull, 0, 0.08f}};
         all[5 * kLanes + 3].x = Vec3(NAN);
         const float reach = 0.08f;
-        NearestOfRun nearest(reach), of_all(reach);
-        find_nearest_in_cloth(0, all.data(), normals.data(), runs, nearest);
-        find_nearest_in_runs(all.data(), all.data(), std::vector<uint32_t>{1, 2, 4, 5}, of_all);
-        size_t apart = 0;  // what lies beside and faces the other way
+        NearestOfRun nearest(reach);
+        const std::vector<uint32_t> runs{1, 2, 4, 5};
+        find_nearest_in_runs(all.data(), all.data(), runs, nearest);
         for (size_t lane = 0; lane < kLanes; ++lane) {
-            const size_t own = particle_at(lane);
-            float best[3] = {reach * reach, reach * reach, reach * reach};  // before, behind, of all
-            uint32_t id[3] = {UINT32_MAX, UINT32_MAX, UINT32_MAX};
-            for (const NearRun& other : runs)
-                for (uint32_t k = 0; k < kLanes; ++k) {
-                    const uint32_t at = other.run * uint32_t(kLanes) + k;
-                    const Vec3 way = all[at].x - all[own].x;
-                    const float distance2 = glm::dot(way, way);
-                    if (distance2 < best[2]) best[2] = distance2, id[2] = at;
-                    if (other.excluded >> (8 * k + lane) & 1) continue;
-                    const bool beside = other.beside >> (8 * k + lane) & 1;
-                    if (beside && glm::dot(normals[own].x, normals[at].x) >= -0.5f) continue;
-                    apart += beside;
-                    const int side = glm::dot(way, normals[own].x) >= 0.0f ? 0 : 1;
-                    if (distance2 < best[side]) best[side] = distance2, id[side] = at;
+            float best2 = reach * reach;
+            uint32_t id = UINT32_MAX;
+            for (const uint32_t run : runs)
+                for (uint32_t at = run * uint32_t(kLanes); at < (run + 1) * kLanes; ++at) {
+                    const Vec3 way = all[at].x - all[particle_at(lane)].x;
+                    if (glm::dot(way, way) < best2) best2 = glm::dot(way, way), id = at;
                 }
-            for (int side = 0; side < 2; ++side)
-                EXPECT_EQ(nearest.id[side][lane], id[side]) << lane << " " << side;
-            EXPECT_EQ(of_all.id[0][lane], id[2]) << lane;
+            EXPECT_EQ(nearest.id[lane], id) << lane;
         }
-        EXPECT_GT(apart, 10u);
-        // Runs of which nothing is near are left out.
-        std::vector<NearRun> kept = runs;
-        for (size_t i = 0; i < kLanes; ++i) all[2 * kLanes + i].x += Vec3(1, 0, 0);
-        ASSERT_EQ(keep_near(0, all.data(), normals.data(), kept), 2u);
-        EXPECT_EQ(kept[0].run, 1u);
-        EXPECT_EQ(kept[1].run, 5u);
-        kept = runs;
-        kept[1].way_m = 1.0f;
-        EXPECT_EQ(keep_near(0, all.data(), normals.data(), kept), 3u);
     });
 }
 
@@ -155,50 +128,6 @@ TEST(SurfaceKernels, BoxesThatMeet) {
         find_meeting(boxes, low, high, found);
         EXPECT_EQ(found, expected);
         EXPECT_GT(found.size(), 3u);
-    });
-}
-
-TEST(SurfaceKernels, AParticleIsPushedToItsSideAndTheTriangleBack) {
-    on_each_target([] {
-        Particles p(17);
-        SurfaceContacts c{};
-        for (size_t k = 0; k < kLanes; ++k) c.vertex[k] = c.a[k] = c.b[k] = c.c[k] = 16 * sizeof(Particle);
-        const Vec3 corners[3] = {{0, 0, 0}, {0.02f, 0, 0}, {0, 0.02f, 0}};
-        const float heights[4] = {0.001f, -0.001f, 0.01f,
-                                  0.001f};  // too near on either side, far enough, and
-        for (uint32_t i = 0; i < 4; ++i) {  // too far aside
-            const uint32_t first = 4 * i, lane = 2 * i;
-            for (uint32_t k = 0; k < 3; ++k) p[first + k].x = corners[k];
-            p[first + 3].x = Vec3(i == 3 ? 0.05f : 0.005f, 0.005f, heights[i]);
-            const auto bytes = [](uint32_t particle) { return particle * uint32_t(sizeof(Particle)); };
-            c.a[lane] = bytes(first), c.b[lane] = bytes(first + 1), c.c[lane] = bytes(first + 2),
-            c.vertex[lane] = bytes(first + 3);
-            c.at_a[lane] = 0.5f, c.at_b[lane] = c.at_c[lane] = 0.25f;
-            c.side[lane] = i == 1 ? -1.0f : 1.0f, c.thickness_m[lane] = 0.004f;
-            c.vertex_gain[lane] = 0.75f, c.a_gain[lane] = 0.2f, c.b_gain[lane] = c.c_gain[lane] = 0.1f;
-        }
-        // What has come too near in this sub-step is undone, what was so before only slowly.
-        Particles starts = p, slow = p;
-        starts[3].x.z = 0.02f, starts[7].x.z = -0.02f;
-        solve_surface_contacts({&c, 1}, slow.data(), 0.001f, slow.data());
-        EXPECT_NEAR(slow[3].x.z, 0.001f + 0.75f * 0.001f, 1e-6f);
-        solve_surface_contacts({&c, 1}, starts.data(), 0.001f, p.data());
-        for (const uint32_t first : {0u, 4u}) {
-            const float side = first == 0 ? 1.0f : -1.0f;
-            EXPECT_NEAR(p[first + 3].x.z, side * (0.001f + 0.75f * 0.003f), 1e-6f);
-            EXPECT_NEAR(p[first].x.z, -side * 0.2f * 0.003f, 1e-6f);
-            EXPECT_NEAR(p[first + 2].x.z, -side * 0.1f * 0.003f, 1e-6f);
-        }
-        for (const uint32_t first : {8u, 12u}) {
-            EXPECT_EQ(p[first + 3].x.z, heights[first / 4]);
-            EXPECT_EQ(p[first].x, corners[0]);
-        }
-        // Lanes that name one particle all move it.
-        for (size_t k = 0; k < kLanes; ++k) c.a[k] = 0;
-        p[0].x = Vec3(0.0f);
-        p[3].x = Vec3(0.005f, 0.005f, 0.001f), p[7].x = Vec3(0.005f, 0.005f, -0.001f);
-        solve_surface_contacts({&c, 1}, starts.data(), 0.001f, p.data());
-        EXPECT_LT(std::abs(p[0].x.z), 0.0002f) << "pushed nearly as much from either side";
     });
 }
 
