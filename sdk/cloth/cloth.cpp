@@ -34,6 +34,7 @@ constexpr float kFinestVirtual_m = 0.001f;
 // Of the thickness, between a mesh's vertices or edges and the cloth: its own vertices keep all of it, so that
 // few of the others are in contact.
 constexpr float kMeshShare = 0.5f;
+constexpr uint32_t kNoMesh = UINT32_MAX;
 constexpr float kMeshAround_m =
     0.15f;  // about the cloth, in which meshes are looked for: a fast limb's way in a step
 constexpr float kLatest = 0.1f;           // weight of the last step in the mean time of a sub-step
@@ -144,6 +145,8 @@ struct Cloth::State {
     ParticleSolver solver;
     ColliderMotion colliders;
     std::vector<ContactMesh> meshes;
+    std::vector<uint32_t> in_triangles;  // their numbers in self, or kNoMesh
+    uint32_t triangle_meshes = 0;
     std::vector<std::vector<Vec3>> mesh_places, mesh_before;  // that they go to, and come from
     std::vector<Vec3> mesh_begin;                             // where a part of that way is over
     std::vector<Vec3> held;              // targets, where fixed vertices are lifted off other cloth
@@ -223,7 +226,7 @@ Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings
     for (const DistanceConstraint& e : data.edges)
         for (uint32_t v : {e.a, e.b}) s.inverse_edge_count[v] += 1.0f;
     for (float& count : s.inverse_edge_count) count = count > 0.0f ? 1.0f / count : 0.0f;
-    if (settings.self_thickness_m > 0.0f || settings.certifies) {
+    if (settings.self_thickness_m > 0.0f) {
         s.self.emplace(fabric, settings.self_thickness_m, start.first(n), jobs);
         s.before.resize(n), s.now.resize(n);
     }
@@ -243,6 +246,12 @@ Cloth Cloth::with_fabric(std::shared_ptr<const Fabric> fabric, Jobs* jobs) const
     State& o = *out.state_;
     o.colliders = s.colliders;
     o.meshes = s.meshes;
+    o.in_triangles = s.in_triangles, o.triangle_meshes = s.triangle_meshes;
+    if (o.self)
+        for (size_t i = 0; i < s.meshes.size(); ++i)
+            if (o.in_triangles[i] != kNoMesh)
+                o.self->add_mesh(s.meshes[i].vertex_count(), s.meshes[i].indices(),
+                                 kMeshShare * s.settings.thickness_m, s.meshes[i].what());
     o.mesh_places = s.mesh_places;
     o.mesh_before = s.mesh_before;
     o.previous_targets = s.previous_targets;
@@ -279,6 +288,7 @@ void Cloth::put_on(const BodyOnItsWay& body, Jobs& jobs) {
     body(0.0f, targets, colliders);
     s.check_body(targets, colliders);
     s.reset(targets);
+    s.part_layers(jobs);
     const auto frame = [&](const PutOnPhase& phase, float share) {
         body(share, targets, colliders);
         s.check_body(targets, colliders);
@@ -321,9 +331,10 @@ uint32_t Cloth::add_mesh(size_t vertices, std::span<const uint32_t> indices, std
     state_->meshes.emplace_back(vertices, indices, counts, what);
     state_->mesh_places.emplace_back();
     state_->mesh_before.emplace_back();
-    if (state_->settings.certifies)
+    state_->in_triangles.push_back(state_->self && what != MeshOf::solid ? state_->triangle_meshes++ : kNoMesh);
+    if (state_->in_triangles.back() != kNoMesh)
         state_->self->add_mesh(vertices, state_->meshes.back().indices(),
-                               kMeshShare * state_->settings.thickness_m);
+                               kMeshShare * state_->settings.thickness_m, what);
     state_->wake();
     return uint32_t(state_->meshes.size()) - 1;
 }
@@ -344,7 +355,7 @@ void Cloth::hide_mesh(uint32_t mesh) {
     state_->mesh_places[mesh].clear();
     state_->mesh_before[mesh].clear();
     state_->meshes[mesh].hide();
-    if (state_->settings.certifies) state_->self->hide_mesh(mesh);
+    if (state_->in_triangles[mesh] != kNoMesh) state_->self->hide_mesh(state_->in_triangles[mesh]);
     state_->wake();
 }
 
@@ -419,9 +430,9 @@ void Cloth::State::accept_mesh(size_t mesh, const Vec3& low, const Vec3& high) {
         meshes[mesh].accept(mesh_begin, low, high);
     }
     meshes[mesh].accept(to, low, high);
-    if (!settings.certifies) return;
+    if (in_triangles[mesh] == kNoMesh) return;
     const bool part = carried > 0.0f && carried < 1.0f && from.size() == to.size();
-    self->move_mesh(uint32_t(mesh), to,
+    self->move_mesh(in_triangles[mesh], to,
                     part ? mesh_begin : carried > 0.0f ? to : std::span<const Vec3>());
 }
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdlib>
 #include <functional>
 #include <memory>
 #include <span>
@@ -51,7 +50,6 @@ struct ClothSettings {
     bool yields = true;     // to cloth below, rather than tear
     bool clears_meshes =
         true;            // where a mesh stands out between vertices, they go further off it than thickness_m
-    bool certifies = getenv("CERT") != nullptr;
     bool sleeps = true;  // a cloth that lies still, on a body that does, is not stepped
 
     bool is_jump(const BodyWay& way, float dt) const {

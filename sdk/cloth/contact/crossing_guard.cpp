@@ -19,7 +19,7 @@ constexpr float kKept = 0.5f, kMinKept_m = 1e-4f, kMaxKept_m = 1e-3f;
 // Two that begin within kResting_m of each other touch in the same way at the end, unless they come closer.
 constexpr float kResting_m = 6e-6f, kCloser = 0.7f;
 constexpr float kUntangles_m = 0.001f;  // a step
-constexpr int kRoundsToPart = 30;
+constexpr int kRoundsToPart = 60;
 constexpr float kParts_m = 0.002f;  // a round
 
 template <typename Body>
@@ -61,7 +61,8 @@ CrossingGuard::CrossingGuard(const FabricData& fabric)
     for (const float inverse : inverse_mass_) is_fixed_.push_back(inverse == 0.0f);
 }
 
-void CrossingGuard::add_mesh(size_t vertices) {
+void CrossingGuard::add_mesh(size_t vertices, bool keeps) {
+    keeps_.push_back(keeps);
     const size_t count = inverse_mass_.size() + vertices;
     inverse_mass_.resize(count, 0.0f);
     is_marked_.resize(count, 0), is_moved_.resize(count, 0), is_fixed_.resize(count, 1);
@@ -78,7 +79,7 @@ bool CrossingGuard::keep(std::span<const Particle> begin, std::span<Particle> en
     proximity.find(begin, end, jobs);
     bool solved = false;
     for (int round = 0; round < kRounds; ++round) {
-        find_hits(begin, end, proximity);
+        find_hits(begin, end, proximity, round < kProjections);
         solved = hits_.empty() && crossed_.empty();
         if (solved) break;
         if (moved_.empty()) {
@@ -138,11 +139,14 @@ void CrossingGuard::part(std::span<Particle> places, Proximity& proximity, Jobs&
 }
 
 void CrossingGuard::find_hits(std::span<const Particle> begin, std::span<const Particle> end,
-                              const Proximity& proximity) {
+                              const Proximity& proximity, bool of_meshes) {
     hits_.clear(), crossed_.clear();
     proximity.for_uncertain([&](const Proximity::Pair& pair, uint32_t surface) {
         if (is_held(*pair.first) && is_held(*pair.second)) return;
-        if (surface != Proximity::kSelf && getenv("NOGM")) return;
+        if (surface != Proximity::kSelf && !(of_meshes && keeps_[surface])) {
+            crosses_mesh_ = true;  // perhaps
+            return;
+        }
         if (cross_at(pair, begin)) {
             if (!cross_at(pair, end)) return;
             if (surface == Proximity::kSelf)

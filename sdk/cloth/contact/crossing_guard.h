@@ -21,8 +21,9 @@ class CrossingGuard {
 public:
     /// Vertices without a finite mass do not give way.
     explicit CrossingGuard(const FabricData& fabric);
-    /// Vertices of a mesh follow, which do not give way either.
-    void add_mesh(size_t vertices);
+    /// Vertices of a mesh follow, which do not give way either. keeps: the cloth is kept from crossing it as far as
+    /// projections do.
+    void add_mesh(size_t vertices, bool keeps);
 
     /// Changes `end` so that no triangles cross on linear ways from `begin`, except those that crossed at
     /// `begin` already: those of the cloth are moved apart a little, those of a mesh are left to contact. True:
@@ -46,7 +47,8 @@ private:
         float margin_m;                // that they are to keep along it
     };
     using TrianglePlaces = std::array<Vec3, 3>;
-    void find_hits(std::span<const Particle> begin, std::span<const Particle> end, const Proximity& proximity);
+    void find_hits(std::span<const Particle> begin, std::span<const Particle> end, const Proximity& proximity,
+                   bool of_meshes);
     void test(PairKind kind, const std::array<uint32_t, 4>& vertices, std::span<const Particle> begin,
               std::span<const Particle> end);
     bool is_held(const Proximity::Triangle& t) const;
@@ -67,7 +69,8 @@ private:
     std::vector<Hit> hits_;
     std::vector<std::pair<const Proximity::Triangle*, const Proximity::Triangle*>> crossed_;  // at the end alone
     std::vector<TrianglePair> tangles_;  // of the cloth at both ends, by their numbers
-    bool crosses_mesh_ = false;          // at both ends
+    bool crosses_mesh_ = false;          // at both ends, or it was not kept from it
+    std::vector<uint8_t> keeps_{1};      // of each surface
     std::vector<uint8_t> is_marked_, is_moved_;  // in this round, in all
     std::vector<uint32_t> moved_;
     std::vector<Particle> wanted_;  // the end that the step made

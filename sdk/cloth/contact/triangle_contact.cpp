@@ -26,10 +26,11 @@ TriangleContact::TriangleContact(std::shared_ptr<const Fabric> fabric, float thi
       end_(cloth_vertices_),
       first_vertices_{uint32_t(cloth_vertices_)} {}
 
-void TriangleContact::add_mesh(size_t vertices, std::span<const uint32_t> indices, float keeps_m) {
+void TriangleContact::add_mesh(size_t vertices, std::span<const uint32_t> indices, float keeps_m,
+                               MeshOf what) {
     proximity_.add_mesh(vertices, indices, ContactList::reach_m(keeps_m));
     contacts_.add_mesh(vertices, keeps_m);
-    guard_.add_mesh(vertices);
+    guard_.add_mesh(vertices, what != MeshOf::coming_cloth);
     begin_.resize(begin_.size() + vertices), end_.resize(begin_.size());
     first_vertices_.push_back(uint32_t(begin_.size()));
     is_known_.push_back(0);

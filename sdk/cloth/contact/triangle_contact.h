@@ -9,6 +9,7 @@
 
 #include "cloth/contact/contact_list.h"
 #include "cloth/contact/crossing_guard.h"
+#include "cloth/contact/mesh_of.h"
 #include "cloth/contact/proximity.h"
 #include "cloth/fabric/fabric.h"
 #include "core/jobs.h"
@@ -24,7 +25,7 @@ public:
 
     /// Triangles counter-clockwise from outside; keeps_m: between its vertices and the cloth's triangles, and
     /// between edges. It is hidden until it is moved.
-    void add_mesh(size_t vertices, std::span<const uint32_t> indices, float keeps_m);
+    void add_mesh(size_t vertices, std::span<const uint32_t> indices, float keeps_m, MeshOf what);
     /// Where it goes in the next step, from where it went in the last, or from `begin`.
     void move_mesh(uint32_t mesh, std::span<const Vec3> end, std::span<const Vec3> begin = {});
     void hide_mesh(uint32_t mesh) { proximity_.hide_mesh(mesh), is_known_[mesh] = 0; }
