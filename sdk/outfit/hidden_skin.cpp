@@ -1,4 +1,4 @@
-#include "cloth/garment/hidden_skin.h"
+#include "outfit/hidden_skin.h"
 
 #include <algorithm>
 #include <array>

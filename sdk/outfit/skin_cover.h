@@ -1,6 +1,8 @@
-// The part of the avatar's body that a garment can meet: its skin as a mesh, or shapes that fill it.
+// Further spheres and capsules that fill the part of the avatar's body that a garment can touch: the paper's
+// future work.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,22 +11,6 @@
 #include "cloth/garment/dress.h"
 
 namespace vfit {
-
-/// Which parts of the arms cloth meets; through the others it passes.
-struct ArmsMet {
-    bool forearms = true, hands = true;
-};
-
-/// One a body vertex, 1: from a hand above the garment's upper edge to a foot's length below its hem, and the
-/// arms.
-std::vector<uint8_t> below_garment(const DressBody& body, std::span<const Vec3> garment, ArmsMet arms);
-
-/// Of the skin as cloth meets it (wrapped_skin.h), what is below the garment.
-struct SkinBelow {
-    Skin skin;
-    std::vector<uint32_t> indices;  // three a triangle
-};
-SkinBelow skin_below(const DressBody& body, std::span<const Vec3> wrapped, std::span<const uint8_t> below);
 
 /// Spheres and capsules beside the colliders of the body at rest, so many that none of its skin `below`, but
 /// for hands and feet, is further than tolerance_m outside of all. They stick out of the skin by no more than

@@ -1,12 +1,12 @@
 // A garment that grows below another: from a part of its width outwards, with a curtain below the hem and
 // none at the upper border.
-#include "cloth/garment/grown_below.h"
+#include "outfit/grown_below.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "post.h"
+#include "unit/cloth/post.h"
 
 namespace vfit {
 namespace {

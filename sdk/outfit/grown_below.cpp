@@ -1,4 +1,4 @@
-#include "cloth/garment/grown_below.h"
+#include "outfit/grown_below.h"
 
 #include <cmath>
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "cloth/garment/sag.h"
-#include "cloth_support.h"
+#include "outfit/sag.h"
+#include "unit/cloth/cloth_support.h"
 
 namespace vfit {
 namespace {

@@ -1,13 +1,13 @@
 // Jumps of the body: by the bones that carry the garment, as if the cloth had hung there before.
-#include "cloth/garment/body_jump.h"
+#include "outfit/body_jump.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <memory>
 
-#include "cloth_support.h"
-#include "support/allocation_count.h"  // counted by cloth_test.cpp
+#include "support/allocations.h"
+#include "unit/cloth/cloth_support.h"
 
 namespace vfit {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "cloth/garment/fit.h"
+#include "outfit/garment_fit.h"
 
 namespace vfit {
 
@@ -19,7 +19,7 @@ struct Sagging {
 /// Where the vertices would be, were the cloth as long as it is cut wherever it runs down, but for what its
 /// weight does not explain: that stretch is held by the body, as at an armhole below a lifted arm. What is
 /// not simulated stays. simulated: flags, one a vertex.
-std::vector<Vec3> without_sag(const WornGarment& garment, std::span<const uint8_t> simulated,
+std::vector<Vec3> without_sag(const UnposedGarment& garment, std::span<const uint8_t> simulated,
                               const Sagging& sagging);
 
 }  // namespace vfit

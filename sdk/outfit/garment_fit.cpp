@@ -1,4 +1,4 @@
-#include "cloth/garment/fit.h"
+#include "outfit/garment_fit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -138,7 +138,7 @@ float taped_length(const std::vector<Vec2>& line) {
     return taped;
 }
 
-Cut cut_at(const WornGarment& g, const GirthLevel& level) {
+Cut cut_at(const UnposedGarment& g, const GirthLevel& level) {
     Cut out;
     std::vector<std::pair<Edge, Vec3>> crossed;  // once for each of its triangles, and where
     for_crossed(
@@ -191,7 +191,7 @@ bool is_through_armhole(const Cut& cut, float axis_z_m) {
 
 }  // namespace
 
-std::vector<GirthFit> fit_of(const WornGarment& garment, std::span<const GirthLevel> levels) {
+std::vector<GirthFit> fit_of(const UnposedGarment& garment, std::span<const GirthLevel> levels) {
     constexpr float kMostOfTheWay_rad = 1.5f * kPi, kNear_m = 0.02f;
     std::vector<GirthFit> out;
     for (GirthLevel level : levels) {
@@ -277,7 +277,7 @@ float needed_strain(std::span<const GirthFit> fits, const GirthFit** at) {
     return most;
 }
 
-Opening tightest_opening(const WornGarment& garment, std::span<const uint8_t> counts) {
+Opening tightest_opening(const UnposedGarment& garment, std::span<const uint8_t> counts) {
     Opening tightest;
     for (const std::vector<uint32_t>& line : border_lines(garment.indices)) {
         Opening opening;
@@ -295,7 +295,7 @@ Opening tightest_opening(const WornGarment& garment, std::span<const uint8_t> co
     return tightest;
 }
 
-CrotchLine crotch_line(const WornGarment& garment, std::span<const Vec3> now) {
+CrotchLine crotch_line(const UnposedGarment& garment, std::span<const Vec3> now) {
     CrotchLine out;
     float worn_m = 0.0f;
     std::map<Edge, int> crossed;
@@ -332,8 +332,8 @@ float most_strained(std::span<const float> strain) {
     return *at;
 }
 
-std::vector<float> tightness_of(const WornGarment& garment, std::span<const float> strain, float most_strain,
-                                const MeshQuery& skin) {
+std::vector<float> tightness_of(const UnposedGarment& garment, std::span<const float> strain,
+                                float most_strain, const MeshQuery& skin) {
     constexpr float kFirm_pa = 2000.0f, kLoose_m = 0.06f, kTouches_m = 0.008f;
     std::vector<float> out;
     for (size_t v = 0; v < garment.positions.size(); ++v) {

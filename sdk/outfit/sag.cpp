@@ -1,4 +1,4 @@
-#include "cloth/garment/sag.h"
+#include "outfit/sag.h"
 
 #include <algorithm>
 #include <cmath>
@@ -92,7 +92,7 @@ struct FlatTriangle {
 /// compliance (XPBD) is far less.
 class WeightStrain {
 public:
-    WeightStrain(const WornGarment& g, const Sagging& sagging) {
+    WeightStrain(const UnposedGarment& g, const Sagging& sagging) {
         lowest_m_ = INFINITY;
         for (const Vec3& p : g.positions) lowest_m_ = std::min(lowest_m_, p.y);
         std::vector<float> areas(kBands, 0.0f);
@@ -129,7 +129,7 @@ private:
 
 }  // namespace
 
-std::vector<Vec3> without_sag(const WornGarment& g, std::span<const uint8_t> simulated,
+std::vector<Vec3> without_sag(const UnposedGarment& g, std::span<const uint8_t> simulated,
                               const Sagging& sagging) {
     // The slope of the height in flat cloth, without the stretch along it; then the heights with that slope
     // (Poisson's equation).

@@ -1,4 +1,4 @@
-#include "cloth/garment/skin_below.h"
+#include "outfit/skin_below.h"
 
 #include <cmath>
 

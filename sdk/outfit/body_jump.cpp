@@ -1,4 +1,4 @@
-#include "cloth/garment/body_jump.h"
+#include "outfit/body_jump.h"
 
 #include <algorithm>
 #include <cmath>

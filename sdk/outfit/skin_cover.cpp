@@ -1,11 +1,11 @@
-// The paper's future work: more spheres and capsules, placed until they fill the body.
+#include "outfit/skin_cover.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "body/mesh.h"
 #include "cloth/contact/contact.h"
 #include "cloth/garment/carried.h"
-#include "cloth/garment/skin_below.h"
 #include "measure/mesh_query.h"
 
 namespace vfit {

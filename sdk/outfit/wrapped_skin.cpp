@@ -1,4 +1,4 @@
-#include "cloth/garment/wrapped_skin.h"
+#include "outfit/wrapped_skin.h"
 
 #include <algorithm>
 

@@ -22,7 +22,7 @@ struct GirthLevel {
 };
 
 /// A garment on a body at rest; one a vertex but where it says otherwise.
-struct WornGarment {
+struct UnposedGarment {
     std::span<const Vec3> positions;    // with the pose taken out
     std::span<const uint32_t> indices;  // three a triangle
     std::span<const Vec2> cut;          // one an index: the triangles as they are cut from flat cloth, metres
@@ -42,7 +42,7 @@ struct GirthFit {
 };
 
 /// Of those levels that the garment goes around. Sleeves are left out.
-std::vector<GirthFit> fit_of(const WornGarment& garment, std::span<const GirthLevel> levels);
+std::vector<GirthFit> fit_of(const UnposedGarment& garment, std::span<const GirthLevel> levels);
 
 enum class Fit { right, tight, loose };
 /// By the girths that sizes are made for: within the half of the way to the next smaller and the next larger
@@ -62,7 +62,7 @@ struct Opening {
 inline constexpr float kOpeningGives = 0.15f;
 /// The one that is stretched most, as the garment is worn; what is skinned does not count, nor what slides
 /// along a limb. counts: flags, one a vertex.
-Opening tightest_opening(const WornGarment& garment, std::span<const uint8_t> counts);
+Opening tightest_opening(const UnposedGarment& garment, std::span<const uint8_t> counts);
 
 /// Of trousers and overalls: from the upper border in front to that behind, between the legs, as long as it
 /// is cut; how much it is stretched. 0: the garment has no such line.
@@ -72,7 +72,7 @@ struct CrotchLine {
 /// Stretched by more, trousers that are too short in their rise cut into the body instead of being worn.
 inline constexpr float kCrotchGives = 0.08f;
 /// garment: on the body at rest, whose middle is x = 0. now: where its vertices are, in any pose.
-CrotchLine crotch_line(const WornGarment& garment, std::span<const Vec3> now);
+CrotchLine crotch_line(const UnposedGarment& garment, std::span<const Vec3> now);
 
 /// A tenth of the cloth is stretched by more, in the mean about its vertices.
 float most_strained(std::span<const float> strain);
@@ -81,7 +81,7 @@ inline constexpr float kDrawn = 2.5f;
 
 /// One a vertex, from -1 to 1: above 0 tight, the share of `most_strain` or of 2 kPa, whichever is more;
 /// below 0 loose, the way to the skin over 6 cm.
-std::vector<float> tightness_of(const WornGarment& garment, std::span<const float> strain, float most_strain,
-                                const MeshQuery& skin);
+std::vector<float> tightness_of(const UnposedGarment& garment, std::span<const float> strain,
+                                float most_strain, const MeshQuery& skin);
 
 }  // namespace vfit

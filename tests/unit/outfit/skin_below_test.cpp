@@ -5,11 +5,12 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "cloth/contact/contact.h"
-#include "cloth/garment/hidden_skin.h"
-#include "cloth/garment/skin_below.h"
-#include "cloth_support.h"
 #include "measure/mesh_query.h"
-#include "post.h"
+#include "outfit/hidden_skin.h"
+#include "outfit/skin_below.h"
+#include "outfit/skin_cover.h"
+#include "unit/cloth/cloth_support.h"
+#include "unit/cloth/post.h"
 
 namespace vfit {
 namespace {
