@@ -178,6 +178,7 @@ WornGarment::Resized WornGarment::in_size(const SizeLabel& label) const {
 }
 
 void WornGarment::change_to(Resized resized) {
+    const BodyJump body = body_;
     std::swap(cloth_, resized.cloth);
     std::swap(cut_, resized.cut);
     try {
@@ -188,7 +189,7 @@ void WornGarment::change_to(Resized resized) {
     } catch (...) {
         cloth_ = std::move(resized.cloth);
         cut_ = std::move(resized.cut);
-        body_.stand(pose_);
+        body_ = body;
         throw;
     }
     taken_up_ = resized.taken_up;
