@@ -19,6 +19,18 @@ const std::vector<Vec3>& Wearer::wrapped() const {
     return wrapped_;
 }
 
+std::vector<Vec3> Wearer::posed(std::span<const Mat4> pose, Jobs& jobs) const {
+    std::call_once(has_skinning_, [&] {
+        const size_t count = positions().size();
+        skinning_.emplace(avatar_.skin_bones().first(count), avatar_.skin_weights().first(count), positions(),
+                          std::span<const Vec3>());
+    });
+    std::vector<Vec3> out;
+    Skin::Scratch scratch;
+    skinning_->carry(pose, out, scratch, jobs);
+    return out;
+}
+
 DressBody Wearer::body() const {
     const size_t count = positions().size();
     return {{positions(), indices(), avatar_.skin_bones().first(count), avatar_.skin_weights().first(count),

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "avatar/avatar.h"
+#include "avatar/skin.h"
 #include "cloth/garment/dress.h"
 #include "measure/measurement.h"
 #include "measure/mesh_query.h"
@@ -33,6 +34,8 @@ public:
     const MeshQuery& skin() const;
     /// The collision proxy of the skin (wrapped_skin.h).
     const std::vector<Vec3>& wrapped() const;
+    /// The skin in a pose (skinning matrices, one a rig bone), linearly blended, world space.
+    std::vector<Vec3> posed(std::span<const Mat4> pose, Jobs& jobs) const;
     /// The same body as a garment is bound to it. Refers to this and to the avatar.
     DressBody body() const;
 
@@ -45,9 +48,10 @@ private:
     const Avatar& avatar_;
     const vfit_sex sex_;
     const uint32_t detail_;
-    mutable std::once_flag has_skin_, has_wrapped_;
+    mutable std::once_flag has_skin_, has_wrapped_, has_skinning_;
     mutable std::optional<MeshQuery> skin_;
     mutable std::vector<Vec3> wrapped_;
+    mutable std::optional<Skin> skinning_;
     mutable std::mutex measures_mutex_;
     mutable std::vector<Measurement> measures_;
     mutable std::vector<GirthLevel> girth_levels_;

@@ -85,6 +85,7 @@ public:
     /// One a triangle of the body: hidden by this garment, and all skin nearer than margin_m.
     std::vector<uint8_t> hidden_skin(float margin_m) const;
 
+    const Wearer& wearer() const { return wearer_; }
     const Garment& garment() const { return garment_.garment(); }
     const Dress& dress() const { return dress_; }
     const std::vector<Vec3>& positions() const { return cloth_.positions(); }
