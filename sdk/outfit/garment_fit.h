@@ -1,5 +1,4 @@
-// How a garment sits: by zones of the body, a girth of the body against the garment's own; and place by
-// place.
+// The garment fit: girths of the body against those of the garment, and tightness vertex by vertex.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +20,7 @@ struct GirthLevel {
     float axis_z_m = 0.0f;  // middle of the body there
 };
 
-/// A garment on a body at rest; one a vertex but where it says otherwise.
+/// A garment on a body at rest; one value a vertex unless it says otherwise.
 struct UnposedGarment {
     std::span<const Vec3> positions;    // with the pose taken out
     std::span<const uint32_t> indices;  // three a triangle
@@ -41,46 +40,46 @@ struct GirthFit {
         0.0f;  // across the front of a coat that is open there, beside garment_m; 0: it is closed
 };
 
-/// Of those levels that the garment goes around. Sleeves are left out.
+/// One for each level that the garment goes around, without sleeves.
 std::vector<GirthFit> fit_of(const UnposedGarment& garment, std::span<const GirthLevel> levels);
 
 enum class Fit { right, tight, loose };
-/// By the girths that sizes are made for: within the half of the way to the next smaller and the next larger
-/// one. label empty, or a garment that tells of no such girth: by stretch and ease.
+/// Right: the body's girth is nearer to that of the size than to that of the next smaller or larger size. For
+/// an empty label, and a garment without nominal girths: by strain and ease.
 Fit judge_fit(const Garment& garment, const std::string& label, const GirthFit& fit);
 
-/// The most strain, over the levels at which the garment is closed, with which it would go around the body;
-/// 0: it does without. `at`: where.
+/// The maximum, over the levels at which the garment is closed, of the strain with which it goes around the
+/// body; 0: it goes around without strain. `at`: where.
 float needed_strain(std::span<const GirthFit> fits, const GirthFit** at);
 
-/// A neck, an armhole, a skirt's hem: as long as it is cut, and stretched so much.
+/// A neck, an armhole, a hem of a skirt: its length as it is cut, and its strain.
 struct Opening {
     float garment_m = 0.0f, strain = 0.0f;
     Vec3 middle{0.0f};
 };
-/// So much gives cloth of little stretch at an opening, which runs across its threads for most of its way.
+/// Woven cloth gives this strain at an opening, which runs across its yarns for most of its length.
 inline constexpr float kOpeningGives = 0.15f;
-/// The one that is stretched most, as the garment is worn; what is skinned does not count, nor what slides
-/// along a limb. counts: flags, one a vertex.
+/// The opening of maximum strain, as the garment is worn. counts: flags, one a vertex; edges without a
+/// counted vertex, such as pinned ones and those that slide along a limb, are left out.
 Opening tightest_opening(const UnposedGarment& garment, std::span<const uint8_t> counts);
 
-/// Of trousers and overalls: from the upper border in front to that behind, between the legs, as long as it
-/// is cut; how much it is stretched. 0: the garment has no such line.
+/// Of trousers and overalls: the line from the upper border in front, between the legs, to that behind: its
+/// length as it is cut, and its strain. 0: the garment has no such line.
 struct CrotchLine {
     float garment_m = 0.0f, strain = 0.0f;
 };
-/// Stretched by more, trousers that are too short in their rise cut into the body instead of being worn.
+/// With more strain, trousers whose rise is too short cut into the body.
 inline constexpr float kCrotchGives = 0.08f;
-/// garment: on the body at rest, whose middle is x = 0. now: where its vertices are, in any pose.
+/// garment: on the body at rest, whose middle is x = 0. now: positions of its vertices, in any pose.
 CrotchLine crotch_line(const UnposedGarment& garment, std::span<const Vec3> now);
 
-/// A tenth of the cloth is stretched by more, in the mean about its vertices.
+/// The 90th percentile of the strain at vertices.
 float most_strained(std::span<const float> strain);
-/// More than so many times what its fabric gives, the cloth is drawn rather than worn.
+/// Times the fabric's maximum strain: beyond it, cloth is too small to be worn.
 inline constexpr float kDrawn = 2.5f;
 
-/// One a vertex, from -1 to 1: above 0 tight, the share of `most_strain` or of 2 kPa, whichever is more;
-/// below 0 loose, the way to the skin over 6 cm.
+/// One value a vertex, from -1 to 1. Above 0 tight: strain as a fraction of `most_strain`, or pressure as a
+/// fraction of 2 kPa, whichever is more. Below 0 loose: distance from the skin as a fraction of 6 cm.
 std::vector<float> tightness_of(const UnposedGarment& garment, std::span<const float> strain,
                                 float most_strain, const MeshQuery& skin);
 

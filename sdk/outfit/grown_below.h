@@ -1,6 +1,6 @@
-// A garment as it is worn over by another that is put on: it grows from the bones that carry it to where it
-// hangs. Below its hems hang curtains, so that what reaches further down is taken outwards too, and not
-// caught inside.
+// A layer below a garment that is put on: it grows from the bones that it is skinned to, to where it hangs.
+// Curtains below its hems push outwards what of the garment reaches further down, so that it is not caught
+// inside.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,16 @@ namespace vfit {
 
 class GrownBelow {
 public:
-    /// Of a garment of so many vertices, three indices a triangle.
+    /// Of a garment with that number of vertices, three indices a triangle.
     GrownBelow(size_t vertices, std::span<const uint32_t> indices);
 
     /// The garment's vertices and triangles, then those of the curtains.
     size_t vertex_count() const { return vertices_ + kRows * drops_.size(); }
     const std::vector<uint32_t>& indices() const { return indices_; }
 
-    /// From the bones (place within them, one a garment vertex) to where the garment hangs: 0 to 1 of the
-    /// way. Where a border does not point down it has no curtain: places that are not finite.
+    /// share: fraction of the way, from 0 to 1, from the bones (within: one position a garment vertex) to
+    /// where the garment hangs. A border that does not point down has no curtain: its positions are not
+    /// finite.
     void place(std::span<const Vec3> hangs, std::span<const Vec3> within, float share,
                std::vector<Vec3>& places) const;
 

@@ -1,4 +1,4 @@
-// Skin that nobody sees under a garment: engines leave its triangles out, and nothing can shine through.
+// Skin that a garment hides: engines leave its triangles out, so that it cannot show through the cloth.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@ struct Covered {
     std::span<const uint32_t> garment_indices;
 };
 
-/// One a body triangle, 1: the garment alone, without arms or other limbs that move away, hides it, and all
-/// skin nearer than margin_m, from all who do not look up under it by more than 45 degrees.
+/// One flag a body triangle. 1: it, and all skin nearer than margin_m, is hidden by the garment alone (arms
+/// and other limbs move away) from every direction that looks up by at most 45 degrees.
 std::vector<uint8_t> hidden_triangles(const Covered& covered, float margin_m, Jobs& jobs);
 
 }  // namespace vfit

@@ -9,16 +9,16 @@
 
 namespace vfit {
 
-/// Which parts of the arms cloth meets; through the others it passes.
+/// Parts of the arms that are obstacles; the others pass through the cloth.
 struct ArmsMet {
     bool forearms = true, hands = true;
 };
 
-/// One a body vertex, 1: from a hand above the garment's upper edge to a foot's length below its hem, and the
-/// arms.
+/// One flag a body vertex. 1: it lies between a hand's breadth above the garment's upper edge and a foot's
+/// length below its hem, or on an arm that is an obstacle.
 std::vector<uint8_t> below_garment(const DressBody& body, std::span<const Vec3> garment, ArmsMet arms);
 
-/// Of the skin as cloth meets it (wrapped_skin.h), what is below the garment.
+/// The part of the collision proxy of the skin (wrapped_skin.h) that is below the garment.
 struct SkinBelow {
     Skin skin;
     std::vector<uint32_t> indices;  // three a triangle

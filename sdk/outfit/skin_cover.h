@@ -12,9 +12,9 @@
 
 namespace vfit {
 
-/// Spheres and capsules beside the colliders of the body at rest, so many that none of its skin `below`, but
-/// for hands and feet, is further than tolerance_m outside of all. They stick out of the skin by no more than
-/// that, and go with the bones that carry the skin that they touch.
+/// Spheres and capsules beside the colliders of the body at rest: as many as are needed until no skin
+/// `below`, except hands and feet, is further than tolerance_m outside of all of them. They stick out of the
+/// skin by at most as much, and move with the bones of the skin that they touch.
 class SkinCover {
 public:
     SkinCover(const DressBody& body, std::span<const uint8_t> below, std::span<const Collider> colliders,

@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-constexpr Vec3 kFar(0.4f, 0.0f, 0.2f), kNear(0.02f, 0.0f, 0.0f);
+constexpr Vec3 kJumpWay(0.4f, 0.0f, 0.2f), kStepWay(0.02f, 0.0f, 0.0f);
 
 class WornGarmentTest : public testing::Test {
 protected:
@@ -34,20 +34,21 @@ TEST_F(WornGarmentTest, AJumpOfTheBodyCarriesTheCloth) {
     WornGarment jumps(dress, moves.wearer, {}, *jobs), hangs(dress, stays.wearer, {}, *jobs);
     for (int i = 0; i < 10; ++i) step(jumps), step(hangs);
     EXPECT_EQ(jumps.state_hash(), hangs.state_hash());
-    moves.stand_at(kFar);
+    moves.stand_at(kJumpWay);
     step(jumps), step(hangs);
-    EXPECT_LT(distance_m(hangs, jumps, kFar), 1e-3f) << "far enough to be a jump";
-    moves.stand_at(kFar + kNear);
+    EXPECT_LT(distance_m(hangs, jumps, kJumpWay), 1e-3f) << "far enough to be a jump";
+    moves.stand_at(kJumpWay + kStepWay);
     jumps.teleport();
     step(jumps, 0.0f);  // moves nothing, and the jump is still to come
-    EXPECT_LT(distance_m(hangs, jumps, kFar), 1e-3f);
+    EXPECT_LT(distance_m(hangs, jumps, kJumpWay), 1e-3f);
     step(jumps), step(hangs);
-    EXPECT_LT(distance_m(hangs, jumps, kFar + kNear), 1e-3f) << "declared to be one";
-    for (const Vec3& at : {kFar, kFar + kNear}) {
+    EXPECT_LT(distance_m(hangs, jumps, kJumpWay + kStepWay), 1e-3f) << "declared to be one";
+    for (const Vec3& at : {kJumpWay, kJumpWay + kStepWay}) {
         moves.stand_at(at);
         step(jumps), step(hangs);
     }
-    EXPECT_GT(distance_m(hangs, jumps, kFar + kNear), 5e-3f) << "a step like others: the cloth lags behind";
+    EXPECT_GT(distance_m(hangs, jumps, kJumpWay + kStepWay), 5e-3f)
+        << "a step like others: the cloth lags behind";
 }
 
 TEST_F(WornGarmentTest, BodyMotionIsFeltInTheGivenFraction) {
@@ -57,10 +58,10 @@ TEST_F(WornGarmentTest, BodyMotionIsFeltInTheGivenFraction) {
     options.cloth.inertia = 0.0f;
     WornGarment carried(dress, moves.wearer, options, *jobs), hangs(dress, stays.wearer, options, *jobs);
     for (int i = 1; i <= 5; ++i) {
-        moves.stand_at(float(i) * kNear);
+        moves.stand_at(float(i) * kStepWay);
         step(carried), step(hangs);
     }
-    EXPECT_LT(distance_m(hangs, carried, 5.0f * kNear), 1e-3f);
+    EXPECT_LT(distance_m(hangs, carried, 5.0f * kStepWay), 1e-3f);
 }
 
 TEST_F(WornGarmentTest, ARefusedSizeRollsBackCompletely) {
@@ -85,9 +86,9 @@ TEST_F(WornGarmentTest, ARefusedSizeRollsBackCompletely) {
             EXPECT_EQ(a[i].verdict, b[i].verdict) << when;
         }
     };
-    for (int i = 1; i <= 5; ++i) step_both(float(i) * kNear);
-    step_both(kFar);
-    tall.stand_at(kFar + kNear);  // a pose that no step has seen
+    for (int i = 1; i <= 5; ++i) step_both(float(i) * kStepWay);
+    step_both(kJumpWay);
+    tall.stand_at(kJumpWay + kStepWay);  // a pose that no step has seen
     EXPECT_NE(error_of([&] { refuses.in_size("XS"); }).find("does not close in size XS: chest_girth_m"),
               std::string::npos);
     EXPECT_NE(error_of([&] { refuses.in_size("huge"); }).find("no size \"huge\""), std::string::npos);
@@ -95,7 +96,7 @@ TEST_F(WornGarmentTest, ARefusedSizeRollsBackCompletely) {
     const std::string why = error_of([&] { refuses.change_to(std::move(too_small)); });
     EXPECT_NE(why.find("garment vest is too small in size M"), std::string::npos) << why;
     expect_equal("after the refusal");
-    step_both(kFar + kNear);
+    step_both(kJumpWay + kStepWay);
     expect_equal("after a step: what the cloth felt of the jump before is known still");
     step_both({});
     expect_equal("after a jump");
@@ -144,7 +145,7 @@ TEST_F(WornGarmentTest, AStepIsReskinnedWithTheBody) {
     WornGarment worn(dress, she.wearer, options, *jobs);
     for (int i = 0; i < 5; ++i) step(worn);
     const uint64_t before = worn.state_hash();
-    for (const Vec3& way : {Vec3(0.0f), kFar, Vec3(0.0f)}) {
+    for (const Vec3& way : {Vec3(0.0f), kJumpWay, Vec3(0.0f)}) {
         she.stand_at(way);
         const auto [positions, normals] = worn.reskin();
         for (size_t v = 0; v < positions.size(); ++v) {
