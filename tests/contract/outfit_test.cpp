@@ -1,4 +1,4 @@
-// vfit_outfit_check: crossings of garments with themselves, the skin and each other.
+// Outfits: crossings of garments with themselves, the skin and each other; layers while they are stepped.
 #include <cstring>
 #include <limits>
 #include <vector>
@@ -85,6 +85,26 @@ TEST_F(OutfitTest, AStepThatRunsIsNotWaitedFor) {
     EXPECT_EQ(during[0].pair_count, before[0].pair_count);
     ASSERT_EQ(vfit_cloth_end_step(cloth), VFIT_OK);
     EXPECT_LT(check({cloth, twin})[0].pair_count, before[0].pair_count);
+}
+
+TEST_F(OutfitTest, WhileALayerStepsTheOuterOneIsRefusedAndStaysAsItIs) {
+    const vfit_cloth inner = make(), outer = make();
+    ASSERT_EQ(vfit_cloth_wear_over(outer, inner), VFIT_OK) << contract::last_error();
+    const auto hash = [&] {
+        uint64_t out = 0;
+        EXPECT_EQ(vfit_cloth_state_hash(outer, &out), VFIT_OK) << contract::last_error();
+        return out;
+    };
+    const uint64_t before = hash();
+    ASSERT_EQ(vfit_cloth_begin_step(inner, kOutfitStep_s), VFIT_OK) << contract::last_error();
+    EXPECT_EQ(vfit_cloth_step(outer, kOutfitStep_s), VFIT_ERROR_STATE);
+    EXPECT_EQ(vfit_cloth_begin_step(outer, kOutfitStep_s), VFIT_ERROR_STATE);
+    EXPECT_EQ(vfit_cloth_reset(outer), VFIT_ERROR_STATE);
+    EXPECT_EQ(vfit_cloth_set_size(outer, "M"), VFIT_ERROR_STATE);
+    EXPECT_EQ(hash(), before);
+    ASSERT_EQ(vfit_cloth_end_step(inner), VFIT_OK) << contract::last_error();
+    EXPECT_EQ(vfit_cloth_reset(outer), VFIT_OK) << contract::last_error();
+    EXPECT_EQ(vfit_cloth_step(outer, kOutfitStep_s), VFIT_OK) << contract::last_error();
 }
 
 TEST_F(OutfitTest, WhatIsNoOutfitIsRefused) {
