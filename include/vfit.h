@@ -1081,4 +1081,32 @@ VFIT_API vfit_result vfit_cloth_fit_map(vfit_cloth cloth, float* values, uint32_
 VFIT_API vfit_result vfit_cloth_acquire(vfit_cloth cloth, vfit_frame* out);
 VFIT_API vfit_result vfit_cloth_describe(vfit_cloth cloth, vfit_cloth_stats* out); /* [read] */
 VFIT_API vfit_result vfit_cloth_state_hash(vfit_cloth cloth, uint64_t* out);       /* [read] */
+
+/* The surfaces that cross. */
+typedef int32_t vfit_crossing_kind;
+enum {
+    VFIT_CROSSING_SELF = 0, /* the garment and itself */
+    VFIT_CROSSING_SKIN = 1, /* the garment and the skin of the avatar, linearly blended */
+    VFIT_CROSSING_CLOTH = 2 /* the garment and another of the list */
+};
+/* Two surfaces of an outfit of which triangles cross. */
+typedef struct vfit_crossing {
+    uint32_t struct_size;
+    vfit_crossing_kind kind;
+    uint32_t cloth;          /* index in cloths */
+    uint32_t other;          /* of CLOTH: index of the other one; else as cloth */
+    uint32_t pair_count;     /* pairs of triangles that cross */
+    uint32_t triangle;       /* of the first pair: number in the INDEX stream of cloth */
+    uint32_t other_triangle; /* number in the INDEX stream of cloth, of the avatar, or of other, by kind */
+    uint32_t reserved;
+} vfit_crossing;
+VFIT_STRUCT(vfit_crossing)
+/* Tests the last finished steps of an outfit, 1 to 64 cloths of one avatar, for triangles that cross: of each
+ * garment with itself, with the skin in the pose of that step, and with each later garment of the list. Every
+ * pair of triangles that share no vertex is tested: an empty list proves that none cross. At most
+ * n (n + 3) / 2 items for n cloths: with room for these, one call is enough. VFIT_ERROR_ARGUMENT where a
+ * cloth is listed twice or is of another avatar. While a step runs, the one before it is tested. Cost: about
+ * eight steps of these cloths. [read] on each cloth */
+VFIT_API vfit_result vfit_outfit_check(const vfit_cloth* cloths, uint32_t cloth_count, vfit_crossing* items,
+                                       uint32_t stride, uint32_t* count);
 #endif

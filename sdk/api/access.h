@@ -5,6 +5,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
+#include <utility>
 
 #include "core/error.h"
 #include "core/handles.h"
@@ -35,6 +36,20 @@ public:
 private:
     static constexpr int32_t kExclusive = -1;
     std::atomic<int32_t> state_{0};  // number of readers, or kExclusive
+};
+
+/// A [read] call's access to an object beside the one that it was called on.
+class Reading {
+public:
+    Reading(Access& access, const char* what) : access_(&access) { access.begin_read(what); }
+    Reading(Reading&& other) noexcept : access_(std::exchange(other.access_, nullptr)) {}
+    Reading& operator=(Reading&&) = delete;
+    ~Reading() {
+        if (access_) access_->end_read();
+    }
+
+private:
+    Access* access_;
 };
 
 /// Base of the objects behind handles, but for frames.

@@ -1,8 +1,5 @@
 #include "api/avatar_object.h"
 
-#include "avatar/avatar_measures.h"
-#include "cloth/garment/wrapped_skin.h"
-
 namespace vfit::api {
 
 namespace {
@@ -99,39 +96,10 @@ void AvatarObject::pose_into(const Pose& pose, const SkinTarget& target) {
     avatar.skin(target, context->axes, *context->jobs);
 }
 
-const std::vector<Measurement>& AvatarObject::measures() {
+const std::vector<Measurement>& AvatarObject::measures() const {
     if (!is_body())
         fail(VFIT_ERROR_UNSUPPORTED, "a character from a file has no body that could be measured");
-    std::lock_guard lock(measures_mutex_);
-    if (measures_.empty()) measures_ = measure_avatar(avatar, sex);
-    return measures_;
-}
-
-const MeshQuery& AvatarObject::rest_skin() {
-    std::call_once(has_rest_skin_, [&] {
-        const BodyTopology& topology = avatar.topology();
-        rest_skin_.emplace(std::span(avatar.rest().positions).first(topology.vertex_count), topology.indices);
-    });
-    return *rest_skin_;
-}
-
-const std::vector<Vec3>& AvatarObject::wrapped_rest() {
-    std::call_once(has_wrapped_rest_, [&] {
-        const BodyTopology& topology = avatar.topology();
-        wrapped_rest_ =
-            wrapped_skin(std::span(avatar.rest().positions).first(topology.vertex_count), topology.indices);
-    });
-    return wrapped_rest_;
-}
-
-const std::vector<GirthLevel>& AvatarObject::girth_levels() {
-    const std::vector<Measurement>& own = measures();
-    std::lock_guard lock(measures_mutex_);
-    if (girth_levels_.empty())
-        for (const TrunkLevel& level : trunk_levels(avatar, sex))
-            if (const Measurement* girth = find(own, level.key))
-                girth_levels_.push_back({level.key, level.height_m, girth->value, level.axis_z_m});
-    return girth_levels_;
+    return wearer.measures();
 }
 
 }  // namespace vfit::api

@@ -5,8 +5,8 @@
 #include "avatar/avatar.h"
 #include "avatar/character.h"
 #include "avatar/packed_body.h"
-#include "cloth/garment/fit.h"
 #include "measure/measurement.h"
+#include "outfit/wearer.h"
 
 namespace vfit::api {
 
@@ -19,9 +19,10 @@ struct AvatarObject : ContextChild {
 
     Avatar avatar;
     const vfit_sex sex;
-    const uint32_t detail = 0;  // of a body
-    const PackedBody body;      // what a body is made of; empty of a character
-    const Character character;  // its mesh moved into `avatar`; without parts of a body
+    const uint32_t detail = 0;                 // of a body
+    const Wearer wearer{avatar, sex, detail};  // where it is a body
+    const PackedBody body;                     // what a body is made of; empty of a character
+    const Character character;                 // its mesh moved into `avatar`; without parts of a body
     bool is_body() const { return !body.shape.empty(); }
     MeshOutput posed, rest;
     std::array<float, kPaperJointCount> radii{};  // that set_collider_radii was told
@@ -37,23 +38,11 @@ struct AvatarObject : ContextChild {
     /// Poses the avatar and writes its skin into the host's memory; the published mesh stays as it was.
     void pose_into(const Pose& pose, const SkinTarget& target);
     /// Tape measures of its own body; taken when first asked for.
-    const std::vector<Measurement>& measures();
-    /// Of its body at rest; made when first asked for.
-    const MeshQuery& rest_skin();
-    /// The same as cloth meets it (wrapped_skin.h).
-    const std::vector<Vec3>& wrapped_rest();
-    /// Where on the rest mesh its trunk's girths are taken; found when first asked for.
-    const std::vector<GirthLevel>& girth_levels();
+    const std::vector<Measurement>& measures() const;
 
 private:
     void make_outputs();
     void add_matrices(Frame& frame, std::span<const Mat4> matrices) const;
-    std::mutex measures_mutex_;
-    std::vector<Measurement> measures_;
-    std::vector<GirthLevel> girth_levels_;
-    std::once_flag has_rest_skin_, has_wrapped_rest_;
-    std::optional<MeshQuery> rest_skin_;
-    std::vector<Vec3> wrapped_rest_;
 };
 
 }  // namespace vfit::api

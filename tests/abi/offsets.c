@@ -392,6 +392,16 @@ OFFSET(vfit_fit_zone, opening_m, 28);
 OFFSET(vfit_fit_zone, key, 32);
 SIZE(vfit_fit_zone, 80);
 
+OFFSET(vfit_crossing, struct_size, 0);
+OFFSET(vfit_crossing, kind, 4);
+OFFSET(vfit_crossing, cloth, 8);
+OFFSET(vfit_crossing, other, 12);
+OFFSET(vfit_crossing, pair_count, 16);
+OFFSET(vfit_crossing, triangle, 20);
+OFFSET(vfit_crossing, other_triangle, 24);
+OFFSET(vfit_crossing, reserved, 28);
+SIZE(vfit_crossing, 32);
+
 OFFSET(vfit_frame_layout, struct_size, 0);
 OFFSET(vfit_frame_layout, stream, 4);
 OFFSET(vfit_frame_layout, format, 8);

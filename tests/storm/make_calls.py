@@ -76,6 +76,9 @@ class Writer:
                 i += len(fields)
 
             if v.type in self.header.handles:
+                if v.pointer and v.const:
+                    take(f"s.handles_in<{v.type}>()", ["handles", "count"])
+                    continue
                 if v.pointer:
                     take(f"s.handle_out<{v.type}>()", ["place"])
                     kept.append(name)

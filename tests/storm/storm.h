@@ -94,6 +94,20 @@ public:
         if (result == VFIT_OK) pool_.put(*out.place, *this);
     }
 
+    template <typename H>
+    struct HandlesIn {
+        const H* handles;
+        uint32_t count;
+    };
+    template <typename H>
+    HandlesIn<H> handles_in() {
+        const uint32_t count = below(5);
+        if (one_in(20)) return {nullptr, count};
+        H* memory = static_cast<H*>(block(count * sizeof(H)));
+        for (uint32_t i = 0; i < count; ++i) memory[i] = handle<H>();
+        return {memory, one_in(40) ? 0xFFFFFFFF : count};
+    }
+
     // ---- structs
 
     template <typename T>

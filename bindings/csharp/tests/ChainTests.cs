@@ -86,6 +86,25 @@ namespace Vfit.Tests
         }
 
         [Test]
+        public void AnOutfitIsTestedForCrossings()
+        {
+            using (Avatar avatar = Support.MakeAvatar(Context))
+            using (Garment garment = Garment.Open(Context, "sundress"))
+            using (var inner = new Cloth(avatar, garment))
+            using (var outer = new Cloth(avatar, garment))
+            {
+                foreach (var cloth in new[] { inner, outer }) cloth.Step(1 / 60f);
+                Crossing twice = Cloth.CheckOutfit(inner, outer).Single(c => c.Kind == CrossingKind.Cloth);
+                Assert.AreEqual(0u, twice.Cloth);
+                Assert.AreEqual(1u, twice.Other);
+                Assert.Greater(twice.PairCount, 100u);
+                Assert.That(Cloth.CheckOutfit(inner).Select(c => c.Kind), Has.No.Member(CrossingKind.Cloth));
+                Assert.Throws<VfitException>(() => Cloth.CheckOutfit());
+                Assert.Throws<VfitException>(() => Cloth.CheckOutfit(inner, inner));
+            }
+        }
+
+        [Test]
         public void ARecordingPlaysWhatWasRecorded()
         {
             using (var live = new Sensor(Context, Support.Person))

@@ -161,11 +161,31 @@ py::array_t<float> fit_map(const Cloth& cloth) {
     return out;
 }
 
+py::list outfit_check(const std::vector<std::shared_ptr<Cloth>>& cloths) {
+    std::vector<vfit_cloth> handles;
+    for (const auto& cloth : cloths) handles.push_back(cloth->get());
+    const auto n = uint32_t(handles.size());
+    uint32_t count = n * (n + 3) / 2;  // one for each pair of surfaces
+    std::vector<vfit_crossing> items(count);
+    run([&] { return vfit_outfit_check(handles.data(), n, items.data(), sizeof(vfit_crossing), &count); });
+    py::list out;
+    for (uint32_t i = 0; i < count; ++i) {
+        const vfit_crossing& c = items[i];
+        const char* kind = c.kind == VFIT_CROSSING_SELF   ? "self"
+                           : c.kind == VFIT_CROSSING_SKIN ? "skin"
+                                                          : "cloth";
+        out.append(value("Crossing", kind, c.cloth, c.other, c.pair_count, c.triangle, c.other_triangle));
+    }
+    return out;
+}
+
 constexpr float kStep_s = 1.0f / 60.0f;
 
 }  // namespace
 
 void bind_cloth(py::module_& m) {
+    m.def("outfit_check", &outfit_check, "cloths"_a,
+          "Pairs of surfaces of an outfit that cross after its last steps; empty: none do.");
     closable(
         py::class_<Garment, std::shared_ptr<Garment>>(m, "Garment",
                                                       "A garment that can be worn (docs/garments.md).")

@@ -303,6 +303,22 @@ def test_hidden_skin_adds_up_over_garments(ctx):
     assert heights.max() < 0.85 * body.positions[:, 1].max()
 
 
+def test_an_outfit_is_tested_for_crossings(ctx):
+    avatar = vfit.Avatar.from_shape(ctx, sex="f")
+    dress = vfit.Garment.open(ctx, "sundress")
+    inner, outer = (vfit.Cloth(avatar, dress, skin=True) for _ in range(2))
+    for cloth in inner, outer:
+        cloth.step()
+    found = {(c.kind, c.cloth, c.other): c for c in vfit.outfit_check([inner, outer])}
+    twice = found["cloth", 0, 1]
+    triangles = len(outer.acquire().triangles)
+    assert twice.pair_count > 100 and twice.triangle < triangles and twice.other_triangle < triangles
+    assert ("cloth", 0, 1) not in {(c.kind, c.cloth, c.other) for c in vfit.outfit_check([inner])}
+    for bad in [], [inner, inner]:
+        with pytest.raises(vfit.ArgumentError):
+            vfit.outfit_check(bad)
+
+
 def test_a_cloth_goes_with_its_avatar(ctx):
     avatar = vfit.Avatar.from_shape(ctx, {"weight": 0.6}, sex="m")
     assert "weight" in ctx.shape_values()

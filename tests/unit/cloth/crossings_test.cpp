@@ -264,5 +264,17 @@ TEST(Borders, OfTwoSheetsAreTwoClosedLines) {
     }
 }
 
+TEST(Crossings, CrossingsAreFoundOnceAndNeighboursAreNone) {
+    const std::vector<Vec3> positions{{0, 0, 0},          {1, 0, 0},          {0, 0, 1}, {0.2f, -0.5f, 0.2f},
+                                      {0.3f, 0.5f, 0.2f}, {0.2f, 0.5f, 0.4f}, {1, 0, 1}};
+    const std::vector<uint32_t> crossed{0, 1, 2, 3, 4, 5}, beside{0, 1, 2, 1, 6, 2};
+    ASSERT_EQ(crossed_triangles(positions, crossed).size(), 1u);
+    EXPECT_TRUE(crossed_triangles(positions, beside).empty());
+    const std::vector<uint32_t> a{0, 1, 2}, b{3, 4, 5, 1, 6, 2};
+    const auto pairs = crossed_triangles({positions, a}, {positions, b});
+    ASSERT_EQ(pairs.size(), 1u);
+    EXPECT_EQ(pairs[0], std::pair(0u, 0u));
+}
+
 }  // namespace
 }  // namespace vfit::test

@@ -39,6 +39,7 @@ from ._vfit import (
     __version__,
     info,
     merge_measurements,
+    outfit_check,
     read_measurements,
     write_measurements,
 )
@@ -66,6 +67,7 @@ from .values import (
     ClothStats,
     Collider,
     ContextStats,
+    Crossing,
     FitZone,
     GarmentInfo,
     GarmentPart,
@@ -110,6 +112,7 @@ __all__ = [
     "Collider",
     "Context",
     "ContextStats",
+    "Crossing",
     "DataError",
     "DeviceLostError",
     "Error",
@@ -165,6 +168,7 @@ __all__ = [
     "__version__",
     "info",
     "merge_measurements",
+    "outfit_check",
     "read_measurements",
     "write_measurements",
 ]

@@ -29,6 +29,7 @@ from .values import (
     ClothStats,
     Collider,
     ContextStats,
+    Crossing,
     FitZone,
     GarmentInfo,
     GarmentPart,
@@ -669,3 +670,6 @@ class Cloth(_Closable):
     def acquire(self) -> Frame: ...
     def stats(self) -> ClothStats: ...
     def state_hash(self) -> int: ...
+
+def outfit_check(cloths: Sequence[Cloth]) -> List[Crossing]:
+    """Tests the last steps of cloths of one avatar for triangles that cross. Empty: none do."""

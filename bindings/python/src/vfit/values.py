@@ -29,6 +29,7 @@ __all__ = [
     "ClothStats",
     "Collider",
     "ContextStats",
+    "Crossing",
     "FitZone",
     "GarmentInfo",
     "GarmentPart",
@@ -355,6 +356,17 @@ class FitZone(NamedTuple):
     strain: float
     pressure_pa: float
     opening_m: float  #: across an open front, beside garment_m
+
+
+class Crossing(NamedTuple):
+    """Two surfaces of an outfit of which triangles cross."""
+
+    kind: str  #: "self", "skin" or "cloth": what the cloth crosses
+    cloth: int  #: index in the list
+    other: int  #: index of the other cloth; else as cloth
+    pair_count: int  #: pairs of triangles that cross
+    triangle: int  #: of the first pair: one of the cloth's triangles
+    other_triangle: int  #: one of the cloth's own, of the avatar's, or of the other cloth's, by kind
 
 
 class ClothStats(NamedTuple):

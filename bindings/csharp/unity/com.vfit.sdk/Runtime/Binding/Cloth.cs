@@ -104,6 +104,32 @@ namespace Vfit
         }
 
         /// <summary>
+        /// Tests the last finished steps of an outfit, 1 to 64 cloths of one avatar, for triangles that
+        /// cross: of a garment with itself, with the skin, with another one. Empty: none do.
+        /// </summary>
+        public static Crossing[] CheckOutfit(params Cloth[] cloths)
+        {
+            if (cloths == null) throw new ArgumentNullException("cloths");
+            int counted = Math.Min(cloths.Length, 64);
+            var found = new Crossing[counted * (counted + 3) / 2];  // one for each pair of surfaces
+            var ids = new ClothId[cloths.Length];
+            var held = new bool[cloths.Length];
+            try
+            {
+                for (int i = 0; i < ids.Length; i++)
+                    ids[i] = new ClothId(VfitHandle.Hold(Of(cloths[i], "cloths"), ref held[i]));
+                fixed (ClothId* first = ids)
+                    Array.Resize(ref found, Calls.OutfitCheck(first, (uint)ids.Length, found));
+            }
+            finally
+            {
+                for (int i = 0; i < held.Length; i++)
+                    if (held[i]) cloths[i].Handle.DangerousRelease();
+            }
+            return found;
+        }
+
+        /// <summary>
         /// Sets the bytes of the avatar's triangles that this garment hides to 1 and leaves the others as
         /// they are, so that garments add up. One byte per triangle. Cost: about 100 steps.
         /// </summary>

@@ -2944,6 +2944,48 @@ namespace Vfit
                 if (clothHeld) cloth.DangerousRelease();
             }
         }
+
+        internal static Result OutfitCheck(ClothId* cloths, uint clothCount, Crossing* items, uint stride,
+            uint* count)
+        {
+            Result result = VfitException.Check(Native.vfit_outfit_check(
+                cloths, clothCount, items, stride, count));
+            return result;
+        }
+
+        internal static Crossing[] OutfitCheck(ClothId* cloths, uint clothCount)
+        {
+            uint listed = 0;
+            OutfitCheck(cloths, clothCount, null, (uint)sizeof(Crossing), &listed);
+            for (;;)
+            {
+                var list = new Crossing[listed];
+                if (listed == 0) return list;
+                try
+                {
+                    fixed (Crossing* first = list) OutfitCheck(cloths, clothCount, first,
+                        (uint)sizeof(Crossing), &listed);
+                }
+                catch (VfitException error) when (error.Code == Result.ErrorCapacity && listed > list.Length)
+                {
+                    continue;   // it grew between the two calls
+                }
+                if (listed < list.Length) Array.Resize(ref list, (int)listed);
+                return list;
+            }
+        }
+
+        internal static int OutfitCheck(ClothId* cloths, uint clothCount, Crossing[] into)
+        {
+            if (into == null) throw new ArgumentNullException("into");
+            Crossing none;
+            uint listed = (uint)into.Length;
+            // An empty array does not ask for the count: only null does.
+            if (listed == 0) OutfitCheck(cloths, clothCount, &none, (uint)sizeof(Crossing), &listed);
+            else fixed (Crossing* first = into) OutfitCheck(cloths, clothCount, first,
+                (uint)sizeof(Crossing), &listed);
+            return (int)listed;
+        }
     }
 
     public sealed partial class ContextHandle : VfitHandle

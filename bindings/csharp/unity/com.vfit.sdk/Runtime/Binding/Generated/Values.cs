@@ -382,6 +382,17 @@ namespace Vfit
         Loose = 2,
     }
 
+    /// <summary>The surfaces that cross.</summary>
+    public enum CrossingKind : int
+    {
+        /// <summary>the garment and itself</summary>
+        Self = 0,
+        /// <summary>the garment and the skin of the avatar, linearly blended</summary>
+        Skin = 1,
+        /// <summary>the garment and another of the list</summary>
+        Cloth = 2,
+    }
+
     [StructLayout(LayoutKind.Sequential, Size = 8)]
     internal struct ContextId
     {
@@ -1252,6 +1263,25 @@ namespace Vfit
             get { fixed (byte* bytes = keyBytes) return Utf8Text.Read(bytes, 48); }
             set { fixed (byte* bytes = keyBytes) Utf8Text.Write(value, bytes, 48, "Key"); }
         }
+    }
+
+    /// <summary>Two surfaces of an outfit of which triangles cross.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 32)]
+    public unsafe partial struct Crossing
+    {
+        internal uint StructSize;
+        public CrossingKind Kind;
+        /// <summary>index in cloths</summary>
+        public uint Cloth;
+        /// <summary>of CLOTH: index of the other one; else as cloth</summary>
+        public uint Other;
+        /// <summary>pairs of triangles that cross</summary>
+        public uint PairCount;
+        /// <summary>of the first pair: number in the INDEX stream of cloth</summary>
+        public uint Triangle;
+        /// <summary>number in the INDEX stream of cloth, of the avatar, or of other, by kind</summary>
+        public uint OtherTriangle;
+        internal uint Reserved;
     }
 
     /// <summary>Numbers of the header that this binding was made from.</summary>

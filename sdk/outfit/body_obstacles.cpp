@@ -1,0 +1,51 @@
+#include "outfit/body_obstacles.h"
+
+namespace vfit {
+
+namespace {
+
+/// A forearm or a hand: sphere or capsule that starts or ends at a hand.
+bool is_forearm(const Collider& c) {
+    const auto hand = [](int joint) {
+        return joint == VFIT_JOINT_LEFT_HAND || joint == VFIT_JOINT_RIGHT_HAND;
+    };
+    return hand(c.joint) || hand(c.joint_b);
+}
+
+}  // namespace
+
+BodyObstacles::BodyObstacles(const Wearer& wearer, const Garment& garment, const Dress& dress,
+                             const WearOptions& options)
+    : forearms_(options.hands || garment.has_sleeves()) {  // without its forearm a sleeve collapses
+    if (!options.on_skin && options.cover_m <= 0.0f) return;
+    const DressBody body = wearer.body();
+    const std::vector<uint8_t> below = below_garment(body, dress.rest(), {forearms_, options.hands});
+    if (options.on_skin) {
+        skin_ = skin_below(body, wearer.wrapped(), below);
+        return;
+    }
+    std::vector<Collider> colliders;
+    wearer.avatar().rest_colliders(colliders);
+    if (!forearms_) std::erase_if(colliders, is_forearm);
+    cover_.emplace(body, below, colliders, options.cover_m);
+}
+
+void BodyObstacles::add_to(Cloth& cloth) {
+    if (skin_) skin_mesh_ = cloth.add_mesh(skin_->skin.vertex_count(), skin_->indices);
+}
+
+void BodyObstacles::select(std::span<const Mat4> matrices, std::vector<Collider>& colliders, Jobs& jobs) {
+    if (skin_)
+        colliders.clear();
+    else if (!forearms_)
+        std::erase_if(colliders, is_forearm);
+    if (cover_) cover_->append(matrices, colliders, scratch_, cover_centers_, jobs);
+}
+
+void BodyObstacles::move_skin(std::span<const Mat4> matrices, Cloth& cloth, Jobs& jobs) {
+    if (!skin_) return;
+    skin_->skin.carry(matrices, skin_positions_, scratch_, jobs);
+    cloth.move_mesh(skin_mesh_, skin_positions_);
+}
+
+}  // namespace vfit

@@ -1,0 +1,40 @@
+// The obstacles that the avatar's body is to a garment: its skin as a mesh, or its spheres and capsules.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "body/collider.h"
+#include "cloth/cloth.h"
+#include "cloth/garment/dress.h"
+#include "outfit/skin_below.h"
+#include "outfit/skin_cover.h"
+#include "outfit/wear_options.h"
+#include "outfit/wearer.h"
+
+namespace vfit {
+
+class BodyObstacles {
+public:
+    /// Of that garment on the body at rest.
+    BodyObstacles(const Wearer& wearer, const Garment& garment, const Dress& dress,
+                  const WearOptions& options);
+
+    /// Adds the skin's mesh to the cloth, where the skin is the obstacle. Once, before all others.
+    void add_to(Cloth& cloth);
+    /// From all colliders of the posed avatar to those that the cloth meets.
+    void select(std::span<const Mat4> matrices, std::vector<Collider>& colliders, Jobs& jobs);
+    /// Moves the skin's mesh with these skinning matrices, one a rig bone.
+    void move_skin(std::span<const Mat4> matrices, Cloth& cloth, Jobs& jobs);
+
+private:
+    bool forearms_;  // and hands; false: they pass through the cloth
+    std::optional<SkinBelow> skin_;
+    std::optional<SkinCover> cover_;
+    uint32_t skin_mesh_ = 0;
+    std::vector<Vec3> skin_positions_, cover_centers_;
+    Skin::Scratch scratch_;
+};
+
+}  // namespace vfit

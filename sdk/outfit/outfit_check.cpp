@@ -1,0 +1,59 @@
+#include "outfit/outfit_check.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace vfit {
+
+namespace {
+
+void check(std::span<const WornGarment* const> outfit) {
+    for (size_t i = 0; i < outfit.size(); ++i) {
+        if (&outfit[i]->wearer() != &outfit[0]->wearer())
+            fail(VFIT_ERROR_ARGUMENT, "cloth ", i, " is of another avatar than cloth 0");
+        for (size_t k = 0; k < i; ++k)
+            if (outfit[k] == outfit[i]) fail(VFIT_ERROR_ARGUMENT, "cloths ", k, " and ", i, " are the same");
+    }
+}
+
+MeshView mesh_of(const WornGarment& garment) {
+    return {garment.finished().positions(), garment.dress().indices()};
+}
+
+/// Posed for each garment: cloths may have been stepped in different poses.
+std::vector<std::vector<Vec3>> posed_skins(std::span<const WornGarment* const> outfit, Jobs& jobs) {
+    std::vector<std::vector<Vec3>> skins;
+    for (const WornGarment* garment : outfit)
+        skins.push_back(garment->wearer().posed(garment->finished().pose(), jobs));
+    return skins;
+}
+
+}  // namespace
+
+std::vector<SurfaceCrossing> find_crossings(std::span<const WornGarment* const> outfit, Jobs& jobs) {
+    using With = SurfaceCrossing::With;
+    check(outfit);
+    const std::vector<std::vector<Vec3>> skins = posed_skins(outfit, jobs);
+    std::vector<SurfaceCrossing> surfaces;
+    for (uint32_t i = 0; i < outfit.size(); ++i) {
+        surfaces.push_back({With::itself, i, i, 0, {}});
+        surfaces.push_back({With::skin, i, i, 0, {}});
+        for (uint32_t k = i + 1; k < outfit.size(); ++k) surfaces.push_back({With::garment, i, k, 0, {}});
+    }
+    parallel_for(jobs, uint32_t(surfaces.size()), [&](uint32_t at) {
+        SurfaceCrossing& s = surfaces[at];
+        const MeshView mesh = mesh_of(*outfit[s.garment]);
+        const std::vector<TrianglePair> pairs =
+            s.with == With::itself ? crossed_triangles(mesh.positions, mesh.indices)
+            : s.with == With::skin
+                ? crossed_triangles(mesh, {skins[s.garment], outfit[s.garment]->wearer().indices()})
+                : crossed_triangles(mesh, mesh_of(*outfit[s.other]));
+        s.pair_count = uint32_t(pairs.size());
+        if (!pairs.empty()) s.first = *std::min_element(pairs.begin(), pairs.end());
+    });
+    std::erase_if(surfaces, [](const SurfaceCrossing& s) { return s.pair_count == 0; });
+    return surfaces;
+}
+
+}  // namespace vfit

@@ -1,0 +1,29 @@
+// Refuses a garment in a size in which it would have to stretch by more than its fabric gives.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "cloth/cloth.h"
+#include "cloth/garment/dress.h"
+#include "outfit/garment_fit.h"
+#include "outfit/wearable_garment.h"
+
+namespace vfit {
+
+/// A garment in a size, on a body.
+struct SizedGarment {
+    const WearableGarment& garment;
+    const std::string& label;
+    const Dress& dress;
+    std::span<const Vec2> cut;  // of that size, one place an index
+};
+
+/// Before it is simulated. VFIT_ERROR_NOT_WEARABLE, naming the girth at which it does not close.
+void check_closes(const SizedGarment& sized, std::span<const GirthLevel> levels);
+
+/// Of a garment with lengths of its own, after its cloth came to them. VFIT_ERROR_NOT_WEARABLE where the line
+/// through the crotch, a tenth of the cloth, or a neck or armhole is stretched too far.
+void check_stretch(const SizedGarment& sized, const Cloth& cloth);
+
+}  // namespace vfit

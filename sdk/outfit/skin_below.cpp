@@ -1,0 +1,49 @@
+#include "outfit/skin_below.h"
+
+#include <cmath>
+
+#include "cloth/garment/carried.h"
+
+namespace vfit {
+
+std::vector<uint8_t> below_garment(const DressBody& body, std::span<const Vec3> garment, ArmsMet arms) {
+    constexpr float kAbove_m = 0.1f, kBelow_m = 0.25f;
+    float low = INFINITY, high = -INFINITY;
+    for (const Vec3& p : garment) low = std::min(low, p.y), high = std::max(high, p.y);
+    const auto passes = [&](BodyPart part) {
+        if (part == BodyPart::kLeftHand || part == BodyPart::kRightHand) return !arms.hands;
+        return (part == BodyPart::kLeftForearm || part == BodyPart::kRightForearm) && !arms.forearms;
+    };
+    const auto counts = [&](size_t v) {
+        const float y = body.positions[v].y;
+        const bool level = y > low - kBelow_m && y < high + kAbove_m;
+        if (body.parts.empty()) return level;
+        const BodyPart part = body.parts[v];
+        if (passes(part)) return false;
+        return level || is_arm(part);
+    };
+    std::vector<uint8_t> below(body.positions.size());
+    for (size_t v = 0; v < below.size(); ++v) below[v] = counts(v);
+    return below;
+}
+
+SkinBelow skin_below(const DressBody& body, std::span<const Vec3> wrapped, std::span<const uint8_t> below) {
+    Carried carried;
+    std::vector<uint32_t> indices;
+    constexpr uint32_t kNone = UINT32_MAX;
+    std::vector<uint32_t> place_of(body.positions.size(), kNone);
+    for (size_t i = 0; i + 2 < body.indices.size(); i += 3) {
+        const uint32_t* v = &body.indices[i];
+        if (!below[v[0]] || !below[v[1]] || !below[v[2]]) continue;
+        for (int k = 0; k < 3; ++k) {
+            if (place_of[v[k]] == kNone) {
+                place_of[v[k]] = uint32_t(carried.rest.size());
+                carried.add(wrapped[v[k]], body.skin_bones[v[k]], body.skin_weights[v[k]]);
+            }
+            indices.push_back(place_of[v[k]]);
+        }
+    }
+    return {carried.skin(), std::move(indices)};
+}
+
+}  // namespace vfit

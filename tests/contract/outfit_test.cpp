@@ -1,0 +1,133 @@
+// Outfits: crossings of garments with themselves, the skin and each other; layers while they are stepped.
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "contract/support.h"
+
+namespace {
+
+constexpr float kOutfitStep_s = 1.0f / 60.0f;
+
+class OutfitTest : public contract::ContextTest {
+protected:
+    void SetUp() override {
+        ContextTest::SetUp();
+        avatar = make_avatar();
+        ASSERT_EQ(vfit_garment_open(context, "sundress", &garment), VFIT_OK) << contract::last_error();
+    }
+    vfit_avatar make_avatar() {
+        vfit_avatar_desc desc = vfit_avatar_desc_init();
+        desc.sex = VFIT_SEX_FEMALE;
+        vfit_avatar made{};
+        EXPECT_EQ(vfit_avatar_create_from_shape(context, &desc, nullptr, 0, 0, &made), VFIT_OK)
+            << contract::last_error();
+        return made;
+    }
+    vfit_cloth make(uint32_t flags = 0) {
+        vfit_cloth_desc desc = vfit_cloth_desc_init();
+        desc.flags = flags | VFIT_CLOTH_AWAKE;
+        vfit_cloth cloth{};
+        EXPECT_EQ(vfit_cloth_create(avatar, garment, &desc, &cloth), VFIT_OK) << contract::last_error();
+        return cloth;
+    }
+    static std::vector<vfit_crossing> check(const std::vector<vfit_cloth>& cloths) {
+        uint32_t count = 0;
+        EXPECT_EQ(vfit_outfit_check(cloths.data(), uint32_t(cloths.size()), nullptr, 0, &count), VFIT_OK)
+            << contract::last_error();
+        std::vector<vfit_crossing> out(count);
+        EXPECT_EQ(vfit_outfit_check(cloths.data(), uint32_t(cloths.size()), out.data(), sizeof(vfit_crossing),
+                                    &count),
+                  VFIT_OK)
+            << contract::last_error();
+        EXPECT_EQ(count, out.size());
+        return out;
+    }
+    static uint32_t triangles(vfit_frame frame) {
+        vfit_view view = vfit_view_init();
+        EXPECT_EQ(vfit_frame_view(frame, VFIT_STREAM_INDEX, &view), VFIT_OK) << contract::last_error();
+        vfit_frame_release(frame);
+        return view.width / 3;
+    }
+    vfit_avatar avatar{};
+    vfit_garment garment{};
+};
+
+TEST_F(OutfitTest, OneDressTwiceCrossesAndOneOverTheOtherDoesNot) {
+    const vfit_cloth inner = make(VFIT_CLOTH_SKIN), outer = make(VFIT_CLOTH_SKIN);
+    const auto twice = check({inner, outer});
+    ASSERT_EQ(twice.size(), 1u);
+    EXPECT_EQ(twice[0].struct_size, sizeof(vfit_crossing));
+    EXPECT_EQ(twice[0].kind, VFIT_CROSSING_CLOTH);
+    EXPECT_EQ(twice[0].cloth, 0u);
+    EXPECT_EQ(twice[0].other, 1u);
+    EXPECT_GT(twice[0].pair_count, 1000u);
+    vfit_frame frame{};
+    ASSERT_EQ(vfit_cloth_acquire(outer, &frame), VFIT_OK);
+    const uint32_t count = triangles(frame);
+    EXPECT_LT(twice[0].triangle, count);
+    EXPECT_LT(twice[0].other_triangle, count);
+
+    ASSERT_EQ(vfit_cloth_wear_over(outer, inner), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_cloth_reset(outer), VFIT_OK) << contract::last_error();
+    for (int i = 0; i < 60; ++i)
+        for (const vfit_cloth cloth : {inner, outer})
+            ASSERT_EQ(vfit_cloth_step(cloth, kOutfitStep_s), VFIT_OK) << contract::last_error();
+    for (const vfit_crossing& c : check({inner, outer})) EXPECT_EQ(c.kind, VFIT_CROSSING_SELF);
+}
+
+TEST_F(OutfitTest, AStepThatRunsIsNotWaitedFor) {
+    const vfit_cloth cloth = make(VFIT_CLOTH_SKIN), twin = make(VFIT_CLOTH_SKIN);
+    const auto before = check({cloth, twin});
+    ASSERT_EQ(vfit_cloth_begin_step(cloth, kOutfitStep_s), VFIT_OK) << contract::last_error();
+    const auto during = check({cloth, twin});
+    ASSERT_EQ(during.size(), before.size());
+    EXPECT_EQ(during[0].pair_count, before[0].pair_count);
+    ASSERT_EQ(vfit_cloth_end_step(cloth), VFIT_OK);
+    EXPECT_LT(check({cloth, twin})[0].pair_count, before[0].pair_count);
+}
+
+TEST_F(OutfitTest, WhileALayerStepsTheOuterOneIsRefusedAndStaysAsItIs) {
+    const vfit_cloth inner = make(), outer = make();
+    ASSERT_EQ(vfit_cloth_wear_over(outer, inner), VFIT_OK) << contract::last_error();
+    const auto hash = [&] {
+        uint64_t out = 0;
+        EXPECT_EQ(vfit_cloth_state_hash(outer, &out), VFIT_OK) << contract::last_error();
+        return out;
+    };
+    const uint64_t before = hash();
+    ASSERT_EQ(vfit_cloth_begin_step(inner, kOutfitStep_s), VFIT_OK) << contract::last_error();
+    EXPECT_EQ(vfit_cloth_step(outer, kOutfitStep_s), VFIT_ERROR_STATE);
+    EXPECT_EQ(vfit_cloth_begin_step(outer, kOutfitStep_s), VFIT_ERROR_STATE);
+    EXPECT_EQ(vfit_cloth_reset(outer), VFIT_ERROR_STATE);
+    EXPECT_EQ(vfit_cloth_set_size(outer, "M"), VFIT_ERROR_STATE);
+    EXPECT_EQ(hash(), before);
+    ASSERT_EQ(vfit_cloth_end_step(inner), VFIT_OK) << contract::last_error();
+    EXPECT_EQ(vfit_cloth_reset(outer), VFIT_OK) << contract::last_error();
+    EXPECT_EQ(vfit_cloth_step(outer, kOutfitStep_s), VFIT_OK) << contract::last_error();
+}
+
+TEST_F(OutfitTest, WhatIsNoOutfitIsRefused) {
+    const vfit_cloth a = make(), b = make();
+    uint32_t count = 7;
+    const auto refused = [&](std::vector<vfit_cloth> cloths, vfit_result code, const char* word) {
+        EXPECT_EQ(vfit_outfit_check(cloths.data(), uint32_t(cloths.size()), nullptr, 0, &count), code);
+        EXPECT_NE(contract::last_error().find(word), std::string::npos) << contract::last_error();
+    };
+    refused({a, b, a}, VFIT_ERROR_ARGUMENT, "cloths 0 and 2 are the same");
+    refused({a, {avatar.id}}, VFIT_ERROR_HANDLE, "");
+    refused(std::vector<vfit_cloth>(65, a), VFIT_ERROR_ARGUMENT, "cloth_count 65");
+    EXPECT_EQ(vfit_outfit_check(nullptr, 1, nullptr, 0, &count), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_outfit_check(&a, 0, nullptr, 0, &count), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_outfit_check(&a, 1, nullptr, 0, nullptr), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(count, 7u);
+    std::vector<vfit_crossing> none(1);
+    const vfit_cloth both[] = {a, b};
+    count = 0;
+    EXPECT_EQ(vfit_outfit_check(both, 2, none.data(), sizeof(vfit_crossing), &count), VFIT_ERROR_CAPACITY);
+    EXPECT_EQ(count, 1u);
+    avatar = make_avatar();
+    refused({a, make()}, VFIT_ERROR_ARGUMENT, "another avatar");
+}
+
+}  // namespace

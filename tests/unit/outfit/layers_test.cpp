@@ -1,0 +1,106 @@
+// Garments worn over each other: which may be, and that the outer one meets each layer where its last step
+// left it.
+#include <gtest/gtest.h>
+
+#include "cloth/crossings.h"
+#include "people.h"
+#include "unit/cloth/cloth_support.h"
+
+namespace vfit {
+namespace {
+
+using namespace test;
+
+class LayersTest : public testing::Test {
+protected:
+    std::unique_ptr<Jobs> jobs = Jobs::own(1);
+    const WearableGarment dress = wearable("sundress");
+    Person she{VFIT_SEX_FEMALE};
+
+    WearOptions on_skin() const {
+        WearOptions options;
+        options.on_skin = true;
+        return options;
+    }
+};
+
+TEST_F(LayersTest, NoneIsWornOverItselfInACircleOrOnAnotherBody) {
+    Person other(VFIT_SEX_FEMALE);
+    WornGarment a(dress, she.wearer, {}, *jobs), b(dress, she.wearer, {}, *jobs),
+        c(dress, she.wearer, {}, *jobs), strange(dress, other.wearer, {}, *jobs);
+    EXPECT_TRUE(a.wear_over(b));
+    EXPECT_TRUE(b.wear_over(c));
+    EXPECT_FALSE(a.wear_over(b)) << "twice is once";
+    EXPECT_EQ(a.layers().count(), 1u);
+    EXPECT_TRUE(a.layers().reach(c));
+    EXPECT_FALSE(a.layers().has(c));
+    EXPECT_EQ(error_of([&] { b.wear_over(a); }), "-2 inner is worn over cloth already");
+    EXPECT_EQ(error_of([&] { c.wear_over(a); }), "-2 inner is worn over cloth already") << "through b";
+    EXPECT_EQ(error_of([&] { c.wear_over(c); }), "-2 a cloth cannot be worn over itself");
+    EXPECT_EQ(error_of([&] { c.wear_over(strange); }), "-2 both cloths must be of the same avatar");
+    EXPECT_EQ(c.layers().count(), 0u);
+    EXPECT_TRUE(a.wear_over(c)) << "over both is no circle";
+    EXPECT_EQ(a.layers().count(), 2u);
+}
+
+TEST_F(LayersTest, ALayerIsSeenBeforeAStep) {
+    WornGarment inner(dress, she.wearer, {}, *jobs), outer(dress, she.wearer, {}, *jobs);
+    outer.wear_over(inner);
+    EXPECT_EQ(error_of([&] { step(outer); }).substr(0, 3), "-2 ");
+    outer.see_layer(0, inner.positions());
+    EXPECT_EQ(error_of([&] { step(outer); }), "");
+}
+
+/// The most crossings between both, of a body that moves aside by 3 cm a frame.
+size_t crossings(WornGarment& inner, WornGarment& outer, Person& wearer, bool inner_first) {
+    size_t max_count = 0;
+    for (int frame = 1; frame <= 10; ++frame) {
+        wearer.stand_at({0.03f * float(frame), 0.0f, 0.0f});
+        if (inner_first) step(inner);
+        outer.see_layer(0, inner.positions());
+        step(outer);
+        if (!inner_first) step(inner);
+        max_count = std::max(max_count, crossed_triangles({outer.positions(), outer.dress().indices()},
+                                                          {inner.positions(), inner.dress().indices()})
+                                            .size());
+    }
+    return max_count;
+}
+
+TEST_F(LayersTest, SteppedInnerFirstTheyHardlyCross) {
+    size_t found[2];
+    for (const bool inner_first : {false, true}) {
+        she.stand_at({});
+        WornGarment inner(dress, she.wearer, on_skin(), *jobs), outer(dress, she.wearer, on_skin(), *jobs);
+        outer.wear_over(inner);
+        outer.see_layer(0, inner.positions());
+        outer.put_on();
+        for (int i = 0; i < 30; ++i) {
+            step(inner);
+            outer.see_layer(0, inner.positions());
+            step(outer);
+        }
+        found[inner_first] = crossings(inner, outer, she, inner_first);
+    }
+    EXPECT_LT(50 * found[true], found[false]);
+}
+
+TEST_F(LayersTest, PutOnItComesToLieOutsideOfItsLayer) {
+    WornGarment inner(dress, she.wearer, on_skin(), *jobs), outer(dress, she.wearer, on_skin(), *jobs);
+    outer.wear_over(inner);
+    outer.see_layer(0, inner.positions());
+    outer.put_on();
+    size_t outside = 0, count = 0;
+    for (size_t v = 0; v < inner.positions().size(); ++v) {
+        if (!inner.garment().simulated[v]) continue;
+        const auto off_axis = [&](const WornGarment& of) {
+            return std::hypot(of.positions()[v].x, of.positions()[v].z);
+        };
+        ++count;
+        outside += off_axis(outer) > off_axis(inner);
+    }
+    EXPECT_GT(double(outside), 0.95 * double(count));
+}
+
+}  // namespace
+}  // namespace vfit

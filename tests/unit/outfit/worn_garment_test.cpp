@@ -1,0 +1,174 @@
+// A worn garment: its steps on a body that moves, jumps of the body, changes of size and refusals.
+#include "outfit/worn_garment.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "people.h"
+#include "unit/cloth/cloth_support.h"
+
+namespace vfit {
+namespace {
+
+using namespace test;
+
+constexpr Vec3 kJumpWay(0.4f, 0.0f, 0.2f), kStepWay(0.02f, 0.0f, 0.0f);
+
+class WornGarmentTest : public testing::Test {
+protected:
+    std::unique_ptr<Jobs> jobs = Jobs::own(0);
+};
+
+/// The largest distance between the vertices of one and those of the other, moved by `way`.
+float distance_m(const WornGarment& a, const WornGarment& b, const Vec3& way = {}) {
+    float max_m = 0.0f;
+    for (size_t v = 0; v < a.positions().size(); ++v)
+        max_m = std::max(max_m, glm::length(a.positions()[v] + way - b.positions()[v]));
+    return max_m;
+}
+
+TEST_F(WornGarmentTest, AJumpOfTheBodyCarriesTheCloth) {
+    const WearableGarment dress = wearable("sundress");
+    Person moves(VFIT_SEX_FEMALE), stays(VFIT_SEX_FEMALE);
+    WornGarment jumps(dress, moves.wearer, {}, *jobs), hangs(dress, stays.wearer, {}, *jobs);
+    for (int i = 0; i < 10; ++i) step(jumps), step(hangs);
+    EXPECT_EQ(jumps.state_hash(), hangs.state_hash());
+    moves.stand_at(kJumpWay);
+    step(jumps), step(hangs);
+    EXPECT_LT(distance_m(hangs, jumps, kJumpWay), 1e-3f) << "far enough to be a jump";
+    moves.stand_at(kJumpWay + kStepWay);
+    jumps.teleport();
+    step(jumps, 0.0f);  // moves nothing, and the jump is still to come
+    EXPECT_LT(distance_m(hangs, jumps, kJumpWay), 1e-3f);
+    step(jumps), step(hangs);
+    EXPECT_LT(distance_m(hangs, jumps, kJumpWay + kStepWay), 1e-3f) << "declared to be one";
+    for (const Vec3& at : {kJumpWay, kJumpWay + kStepWay}) {
+        moves.stand_at(at);
+        step(jumps), step(hangs);
+    }
+    EXPECT_GT(distance_m(hangs, jumps, kJumpWay + kStepWay), 5e-3f)
+        << "a step like others: the cloth lags behind";
+}
+
+TEST_F(WornGarmentTest, BodyMotionIsFeltInTheGivenFraction) {
+    const WearableGarment dress = wearable("sundress");
+    Person moves(VFIT_SEX_FEMALE), stays(VFIT_SEX_FEMALE);
+    WearOptions options;
+    options.cloth.inertia = 0.0f;
+    WornGarment carried(dress, moves.wearer, options, *jobs), hangs(dress, stays.wearer, options, *jobs);
+    for (int i = 1; i <= 5; ++i) {
+        moves.stand_at(float(i) * kStepWay);
+        step(carried), step(hangs);
+    }
+    EXPECT_LT(distance_m(hangs, carried, 5.0f * kStepWay), 1e-3f);
+}
+
+TEST_F(WornGarmentTest, ARefusedSizeRollsBackCompletely) {
+    const WearableGarment vest = wearable("vest");
+    Person tall(VFIT_SEX_MALE, "height", 0.72f);
+    WearOptions options;
+    options.on_skin = true;
+    options.size = "XXL";
+    WornGarment refuses(vest, tall.wearer, options, *jobs), twin(vest, tall.wearer, options, *jobs);
+    const auto step_both = [&](const Vec3& place) {
+        tall.stand_at(place);
+        step(refuses), step(twin);
+    };
+    const auto expect_equal = [&](const char* when) {
+        EXPECT_EQ(refuses.state_hash(), twin.state_hash()) << when;
+        EXPECT_EQ(refuses.finished().positions(), twin.finished().positions()) << when;
+        EXPECT_EQ(refuses.tightness(), twin.tightness()) << when;
+        const auto a = refuses.fit(), b = twin.fit();
+        ASSERT_EQ(a.size(), b.size());
+        for (size_t i = 0; i < a.size(); ++i) {
+            EXPECT_EQ(a[i].girth.garment_m, b[i].girth.garment_m) << when;
+            EXPECT_EQ(a[i].verdict, b[i].verdict) << when;
+        }
+    };
+    for (int i = 1; i <= 5; ++i) step_both(float(i) * kStepWay);
+    step_both(kJumpWay);
+    tall.stand_at(kJumpWay + kStepWay);  // a pose that no step has seen
+    EXPECT_NE(error_of([&] { refuses.in_size("XS"); }).find("does not close in size XS: chest_girth_m"),
+              std::string::npos);
+    EXPECT_NE(error_of([&] { refuses.in_size("huge"); }).find("no size \"huge\""), std::string::npos);
+    WornGarment::Resized too_small = refuses.in_size("M");
+    const std::string why = error_of([&] { refuses.change_to(std::move(too_small)); });
+    EXPECT_NE(why.find("garment vest is too small in size M"), std::string::npos) << why;
+    expect_equal("after the refusal");
+    step_both(kJumpWay + kStepWay);
+    expect_equal("after a step: what the cloth felt of the jump before is known still");
+    step_both({});
+    expect_equal("after a jump");
+}
+
+TEST_F(WornGarmentTest, ASizeThatFitsIsWornFromHowTheOldOneHung) {
+    const WearableGarment dress = wearable("sundress_pattern");
+    Person she(VFIT_SEX_FEMALE);
+    WearOptions options;
+    options.size = "S";
+    WornGarment worn(dress, she.wearer, options, *jobs);
+    options.size = "XL";
+    WornGarment large(dress, she.wearer, options, *jobs);
+    const auto waist_m = [](const WornGarment& of) {
+        for (const auto& zone : of.fit())
+            if (zone.girth.key == "waist_girth_m") return zone.girth.garment_m;
+        return 0.0f;
+    };
+    const float small_m = waist_m(worn);
+    worn.change_to(worn.in_size("XL"));
+    for (int i = 0; i < 60; ++i) step(worn), step(large);
+    EXPECT_GT(waist_m(worn), small_m + 0.2f);
+    EXPECT_NEAR(waist_m(worn), waist_m(large), 0.02f);
+}
+
+TEST_F(WornGarmentTest, OneThatIsTooSmallIsNotWornUnlessAnyFitIs) {
+    const WearableGarment vest = wearable("vest");
+    Person tall(VFIT_SEX_MALE, "height", 0.72f);
+    for (const auto& [label, why] : {std::pair("XS", "does not close"), std::pair("M", "is too small")}) {
+        WearOptions options;
+        options.size = label;
+        EXPECT_NE(error_of([&] { WornGarment(vest, tall.wearer, options, *jobs); }).find(why),
+                  std::string::npos)
+            << label;
+        options.any_fit = true;
+        WornGarment worn(vest, tall.wearer, options, *jobs);
+        EXPECT_EQ(error_of([&] { worn.change_to(worn.in_size(label)); }), "");
+    }
+}
+
+TEST_F(WornGarmentTest, AStepIsReskinnedWithTheBody) {
+    const WearableGarment dress = wearable("sundress");
+    Person she(VFIT_SEX_FEMALE);
+    WearOptions options;
+    options.cloth.pressure = true;
+    WornGarment worn(dress, she.wearer, options, *jobs);
+    for (int i = 0; i < 5; ++i) step(worn);
+    const uint64_t before = worn.state_hash();
+    for (const Vec3& way : {Vec3(0.0f), kJumpWay, Vec3(0.0f)}) {
+        she.stand_at(way);
+        const auto [positions, normals] = worn.reskin();
+        for (size_t v = 0; v < positions.size(); ++v) {
+            ASSERT_LT(glm::length(positions[v] - way - worn.finished().positions()[v]), 1e-5f) << v;
+            ASSERT_LT(glm::length(normals[v] - worn.finished().normals()[v]), 1e-3f) << v;
+        }
+    }
+    EXPECT_EQ(worn.state_hash(), before);
+    EXPECT_EQ(worn.finished().pressure().size(), worn.positions().size());
+}
+
+TEST_F(WornGarmentTest, ItHidesSkinOfTheBodyThatWearsIt) {
+    const WearableGarment dress = wearable("sundress");
+    Person she(VFIT_SEX_FEMALE);
+    WornGarment worn(dress, she.wearer, {}, *jobs);
+    const std::vector<uint8_t> most = worn.hidden_skin(0.0f), less = worn.hidden_skin(0.05f);
+    ASSERT_EQ(most.size(), she.wearer.indices().size() / 3);
+    const auto count = [](const std::vector<uint8_t>& flags) {
+        return std::count(flags.begin(), flags.end(), uint8_t(1));
+    };
+    EXPECT_GT(count(less), 100);
+    EXPECT_GT(count(most), count(less));
+}
+
+}  // namespace
+}  // namespace vfit
