@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "body/mesh.h"
+#include "cloth/base/rigid_motion.h"
 #include "cloth/contact/mesh_lift.h"
 #include "cloth/contact/mesh_yield.h"
 #include "cloth/contact/triangle_contact.h"
-#include "cloth/rigid_motion.h"
 #include "cloth/solver/particle_solver.h"
 #include "core/clock.h"
 #include "core/error.h"
@@ -31,8 +31,8 @@ constexpr uint32_t kRunsOfAJob = 128;  // of particles: enough to outweigh the h
 // is so slow only for an instant, where it turns round; single vertices may tremble in a contact.
 constexpr float kStillMean_m_s = 0.002f, kStillMost_m_s = 0.05f, kStill_m = 2e-5f, kFallsAsleep_s = 0.5f;
 constexpr float kFinestVirtual_m = 0.001f;
-// Of the thickness, between a mesh's vertices or edges and the cloth: its own vertices keep all of it, so that
-// few of the others are in contact.
+// Of the thickness, between a mesh's vertices or edges and the cloth: its own vertices keep all of it, so
+// that few of the others are in contact.
 constexpr float kMeshShare = 0.5f;
 constexpr uint32_t kNoMesh = UINT32_MAX;
 constexpr float kMeshAround_m =
@@ -156,10 +156,10 @@ struct Cloth::State {
     std::vector<Vec3> positions;    // what callers read
     std::vector<Vec3> before, now;  // with own layers: the same at the begin of the step, carried along; and
                                     // what the step made of it
-    std::optional<TriangleGroups> groups;  // of the cloth
-    std::optional<TriangleContact> self;   // with own layers
-    bool self_is_placed = false;           // it knows where the cloth was placed anew
-    bool self_is_free = false;             // layers do not cross, which is proven
+    std::optional<TriangleGroups> groups;           // of the cloth
+    std::optional<TriangleContact> self;            // with own layers
+    bool self_is_placed = false;                    // it knows where the cloth was placed anew
+    bool self_is_free = false;                      // layers do not cross, which is proven
     std::optional<MeshLift> off_solids, off_cloth;  // made when there are such meshes
     std::optional<MeshYield> yield;
     // The same, found when they are asked for.
@@ -170,13 +170,13 @@ struct Cloth::State {
     std::vector<float> inverse_rest;        // of an edge, 1/m
     std::vector<float> inverse_edge_count;  // of a vertex; 0: none
     float step_ms = 0.0f;
-    float substep_ms = 0.0f;    // mean; 0: not known yet
-    float substep_s = 0.0f;     // the last one's length; 0: there was none
-    uint32_t substeps = 0;      // of the last step
-    ParticleSolver::Ways ways;  // of the vertices in the last step
-    float still_s = 0.0f;       // since the cloth last moved
-    float settles_s = 0.0f;     // so long it comes to rest from other lengths, or once it was put on
-    int haste = 1;              // steps in one, so long
+    float substep_ms = 0.0f;      // mean; 0: not known yet
+    float substep_s = 0.0f;       // the last one's length; 0: there was none
+    uint32_t substeps = 0;        // of the last step
+    ParticleSolver::Ways ways;    // of the vertices in the last step
+    float still_s = 0.0f;         // since the cloth last moved
+    float settles_s = 0.0f;       // so long it comes to rest from other lengths, or once it was put on
+    int haste = 1;                // steps in one, so long
     std::vector<Vec3> asleep_at;  // the targets at which it fell asleep; empty: it is awake
     float carried = 0.0f;         // fraction of the body's motion in the next step that moved the cloth
     bool sleeps_on = false;       // after it was moved so
@@ -331,7 +331,8 @@ uint32_t Cloth::add_mesh(size_t vertices, std::span<const uint32_t> indices, std
     state_->meshes.emplace_back(vertices, indices, counts, what);
     state_->mesh_places.emplace_back();
     state_->mesh_before.emplace_back();
-    state_->in_triangles.push_back(state_->self && what != MeshOf::solid ? state_->triangle_meshes++ : kNoMesh);
+    state_->in_triangles.push_back(state_->self && what != MeshOf::solid ? state_->triangle_meshes++
+                                                                         : kNoMesh);
     if (state_->in_triangles.back() != kNoMesh)
         state_->self->add_mesh(vertices, state_->meshes.back().indices(),
                                kMeshShare * state_->settings.thickness_m, what);
@@ -433,7 +434,9 @@ void Cloth::State::accept_mesh(size_t mesh, const Vec3& low, const Vec3& high) {
     if (in_triangles[mesh] == kNoMesh) return;
     const bool part = carried > 0.0f && carried < 1.0f && from.size() == to.size();
     self->move_mesh(in_triangles[mesh], to,
-                    part ? mesh_begin : carried > 0.0f ? to : std::span<const Vec3>());
+                    part             ? mesh_begin
+                    : carried > 0.0f ? to
+                                     : std::span<const Vec3>());
 }
 
 /// Targets begin the step as far on their way as the cloth was moved.

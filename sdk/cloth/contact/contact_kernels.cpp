@@ -8,17 +8,18 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "cloth/contact/nearest_on_triangle-inl.h"
-#include "cloth/solver/particle_registers-inl.h"
+#include "cloth/base/nearest_on_triangle-inl.h"
+#include "cloth/base/particle_registers-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace vfit {
 namespace HWY_NAMESPACE {
 
-constexpr float kRounding_m = 2e-5f;  // of a gap between places some metres from the origin
+constexpr float kRounding_m = 2e-5f;   // of a gap between places some metres from the origin
 constexpr float kTouching_m = -4e-6f;  // a gap of triangles that share a vertex
-constexpr float kCrossedEdges = 0.05f;  // sine of the angle from which on two edges have a normal of their own
-constexpr float kOn_m = 1e-6f;          // closer, a way has no direction
+constexpr float kCrossedEdges =
+    0.05f;                      // sine of the angle from which on two edges have a normal of their own
+constexpr float kOn_m = 1e-6f;  // closer, a way has no direction
 constexpr hn::FixedTag<uint32_t, kWide> kInts;
 
 template <typename Mask>
@@ -52,8 +53,8 @@ HWY_INLINE uint32_t MeetingBoxes(const MovingBoxes::Level& level, size_t from, c
 
 void FindMeetingMoving(const MovingBoxes& patches, uint32_t first, const Bounds& box, const Bounds& way,
                        float reach_m, std::vector<uint32_t>& out) {
-    constexpr size_t kMostLevels = 12;
-    uint32_t left[kMostLevels], base[kMostLevels];  // of each level: bits to visit, and the box of the lowest
+    constexpr size_t kMaxLevels = 12;
+    uint32_t left[kMaxLevels], base[kMaxLevels];  // of each level: bits to visit, and the box of the lowest
     size_t level = patches.levels.size() - 1;
     const auto enter = [&](size_t at, uint32_t from) HWY_ATTR {
         base[at] = from;
@@ -116,8 +117,8 @@ HWY_INLINE Points Higher(const Points& a, const Points& b) {
     return {hn::Max(a.x, b.x), hn::Max(a.y, b.y), hn::Max(a.z, b.z)};
 }
 
-void FindShape(const uint32_t (&corners)[3][kLanes], uint32_t count, const Particle* begin, const Particle* end,
-               PatchBoxes& boxes, PatchShape& out) {
+void FindShape(const uint32_t (&corners)[3][kLanes], uint32_t count, const Particle* begin,
+               const Particle* end, PatchBoxes& boxes, PatchShape& out) {
     const auto from = [begin](uint32_t index) HWY_ATTR { return begin + index; };
     const auto to = [end](uint32_t index) HWY_ATTR { return end + index; };
     out = PatchShape{};
@@ -157,8 +158,8 @@ void FindShape(const uint32_t (&corners)[3][kLanes], uint32_t count, const Parti
 /// Corners of two triangles at both ends, and how far they are apart.
 struct TwoTriangles {
     Points first_begin[3], second_begin[3], first[3], second[3];
-    V far_m, clear_m;  // gaps that make a pair far, and safe
-    V far, safe;       // the widest gap less these
+    V far_m, clear_m;  // gaps from which on a pair is apart, and safe
+    V apart, safe;     // the widest gap less these
 
     HWY_INLINE Points Normal(const Points* corners) const {
         return CrossProduct(Sub(corners[1], corners[0]), Sub(corners[2], corners[0]));
@@ -173,7 +174,8 @@ struct TwoTriangles {
         for (int side = 0; side < 2; ++side) {
             const Points *from = side ? second_begin : first_begin, *to = side ? second : first;
             for (int k = 0; k < 3; ++k) {
-                const V begin = Dot(n, from[k]), end = Dot(n, to[k]), next = hn::Sub(hn::Add(end, end), begin);
+                const V begin = Dot(n, from[k]), end = Dot(n, to[k]),
+                        next = hn::Sub(hn::Add(end, end), begin);
                 const V at[3] = {begin, end, next};
                 for (int t = 0; t < 3; ++t) {
                     low[t][side] = k ? hn::Min(low[t][side], at[t]) : at[t];
@@ -184,7 +186,7 @@ struct TwoTriangles {
         for (int side = 0; side < 2; ++side) {
             const auto gap = [&](int t) HWY_ATTR { return hn::Sub(low[t][side], high[t][1 - side]); };
             safe = hn::Max(safe, hn::Sub(hn::Min(gap(0), gap(1)), clear_m));
-            far = hn::Max(far, hn::Sub(hn::Min(gap(1), gap(2)), far_m));
+            apart = hn::Max(apart, hn::Sub(hn::Min(gap(1), gap(2)), far_m));
         }
     }
 };
@@ -210,7 +212,7 @@ void Classify(std::span<TrianglePairs> pairs, const Particle* begin, const Parti
             const auto share_one = hn::RebindMask(kTag, hn::Ne(shared, hn::Zero(kInts))),
                        share_two = hn::RebindMask(kTag, hn::Gt(shared, hn::Set(kInts, 1)));
             two.far_m = Set(reach_m);
-            two.far = two.safe = Set(-1.0f);
+            two.apart = two.safe = Set(-1.0f);
             two.clear_m = hn::IfThenElse(share_one, Set(kTouching_m), Set(kRounding_m));
             const Points first = two.Normal(two.first), second = two.Normal(two.second),
                          between = two.BetweenMiddles();
@@ -223,7 +225,7 @@ void Classify(std::span<TrianglePairs> pairs, const Particle* begin, const Parti
             two.Look(MulAdd(mean, hn::Neg(part), between));
             const V zero = hn::Zero(kTag);
             uncertain |= Bits(hn::AndNot(share_two, hn::Le(two.safe, zero))) << k;
-            close |= Bits(hn::AndNot(share_one, hn::Le(two.far, zero))) << k;
+            close |= Bits(hn::AndNot(share_one, hn::Le(two.apart, zero))) << k;
         }
         pair.uncertain = uint8_t(uncertain), pair.close = uint8_t(close);
     }
@@ -233,7 +235,8 @@ void Classify(std::span<TrianglePairs> pairs, const Particle* begin, const Parti
 struct OnEdges {
     V first, second;
 };
-HWY_INLINE OnEdges ClosestOnEdges(const Points& p, const Points& p_end, const Points& q, const Points& q_end) {
+HWY_INLINE OnEdges ClosestOnEdges(const Points& p, const Points& p_end, const Points& q,
+                                  const Points& q_end) {
     const V zero = hn::Zero(kTag), one = Set(1.0f), tiny = Set(1e-20f);
     const auto clamp = [&](V v) HWY_ATTR { return hn::Min(one, hn::Max(zero, v)); };
     const Points d1 = Sub(p_end, p), d2 = Sub(q_end, q), r = Sub(p, q);
@@ -242,11 +245,13 @@ HWY_INLINE OnEdges ClosestOnEdges(const Points& p, const Points& p_end, const Po
     const V denominator = hn::NegMulAdd(b, b, hn::Mul(a, e));
     const auto crossed = hn::Gt(denominator, hn::Mul(Set(1e-7f), hn::Mul(a, e)));
     const V s0 = hn::IfThenElse(
-        crossed, clamp(hn::Div(hn::NegMulAdd(c, e, hn::Mul(b, f)), hn::IfThenElse(crossed, denominator, one))),
+        crossed,
+        clamp(hn::Div(hn::NegMulAdd(c, e, hn::Mul(b, f)), hn::IfThenElse(crossed, denominator, one))),
         Set(0.5f));
     const V t0 = hn::Div(hn::MulAdd(b, s0, f), e);
     const V t = clamp(t0);
-    const V s = hn::IfThenElse(hn::Eq(t0, t), s0, clamp(hn::Div(hn::NegMulAdd(Set(1.0f), c, hn::Mul(b, t)), a)));
+    const V s =
+        hn::IfThenElse(hn::Eq(t0, t), s0, clamp(hn::Div(hn::NegMulAdd(Set(1.0f), c, hn::Mul(b, t)), a)));
     return {s, t};
 }
 
@@ -388,8 +393,8 @@ void SolveContacts(std::span<const ContactBatch> contacts, const ContactPush& pu
             if (hn::AllFalse(kTag, hn::Lt(distance, kept))) continue;
             const Points start = between(start_of);
             const V began = Dot(normal, start);
-            const V depth = hn::Max(
-                hn::Zero(kTag), hn::Sub(hn::Min(kept, hn::Add(began, Set(push.max_m))), distance));
+            const V depth =
+                hn::Max(hn::Zero(kTag), hn::Sub(hn::Min(kept, hn::Add(began, Set(push.max_m))), distance));
             const Points way = Sub(now, start), slide = MulAdd(normal, hn::Neg(Dot(way, normal)), way);
             const V length = hn::Sqrt(hn::Add(Dot(slide, slide), Set(kNoLength * kNoLength)));
             const V held = hn::Min(Set(1.0f), hn::Div(hn::Mul(Set(push.friction), depth), length));
@@ -438,8 +443,8 @@ void MovingBoxes::find_levels() {
         }
 }
 
-void find_meeting(const MovingBoxes& patches, uint32_t first, const Bounds& box, const Bounds& way, float reach_m,
-                  std::vector<uint32_t>& out) {
+void find_meeting(const MovingBoxes& patches, uint32_t first, const Bounds& box, const Bounds& way,
+                  float reach_m, std::vector<uint32_t>& out) {
     HWY_DYNAMIC_DISPATCH(FindMeetingMoving)(patches, first, box, way, reach_m, out);
 }
 PatchShape find_shape(const uint32_t (&corners)[3][kLanes], uint32_t count, const Particle* begin,

@@ -6,15 +6,15 @@
 #include <span>
 #include <vector>
 
+#include "cloth/base/particle.h"
 #include "cloth/contact/contact.h"
 #include "cloth/contact/surface_kernels.h"
-#include "cloth/solver/particle.h"
 #include "math/types.h"
 
 namespace vfit {
 
-/// Boxes about patches and the ways of their vertices, eight to a register; and of eight in a row each, level by
-/// level, up to one register.
+/// Boxes about patches and the ways of their vertices, eight to a register; and of eight in a row each, level
+/// by level, up to one register.
 struct MovingBoxes {
     struct Level {
         Boxes boxes, ways;
@@ -27,10 +27,10 @@ struct MovingBoxes {
     }
     void find_levels();  // once all patches are set
 };
-/// Adds the patches from `first` on that come within reach_m of a box, now, on the way from where they were, or on
-/// the same way again. Rising.
-void find_meeting(const MovingBoxes& patches, uint32_t first, const Bounds& box, const Bounds& way, float reach_m,
-                  std::vector<uint32_t>& out);
+/// Adds the patches from `first` on that come within reach_m of a box, now, on the way from where they were,
+/// or on the same way again. Rising.
+void find_meeting(const MovingBoxes& patches, uint32_t first, const Bounds& box, const Bounds& way,
+                  float reach_m, std::vector<uint32_t>& out);
 
 /// Boxes about the triangles of a patch; empty where there is none.
 struct alignas(32) PatchBoxes {
@@ -52,10 +52,11 @@ std::array<uint8_t, kLanes> meeting_triangles(const PatchBoxes& a, const PatchBo
 struct alignas(32) TrianglePairs {
     uint32_t first[3][kLanes], second[3][kLanes];
     uint8_t uncertain;  // bit k: no axis separates the two at both ends of their ways: they may have crossed
-    uint8_t close;      // bit k: no axis keeps the two further apart than reach_m, now or after the same way again
+    uint8_t
+        close;  // bit k: no axis keeps the two further apart than reach_m, now or after the same way again
 };
-/// Looks along four axes: both normals, the way between the middles, and that way within the mean plane. Of two
-/// that share a vertex, or two vertices, an axis need only touch; they are never close.
+/// Looks along four axes: both normals, the way between the middles, and that way within the mean plane. Of
+/// two that share a vertex, or two vertices, an axis need only touch; they are never close.
 void classify(std::span<TrianglePairs> pairs, const Particle* begin, const Particle* end, float reach_m);
 
 /// Eight pairs of primitives by the indices of their vertices, and their closest points.
@@ -66,13 +67,13 @@ struct alignas(32) PrimitivePairs {
     float distance_m[kLanes];
     float comes_m[kLanes];  // how much closer the two may be after the same way again
 };
-/// Of a vertex and the triangle of the other three, or of two edges. sideways: share of the way past each other
-/// that counts as well, as the direction between the two turns.
+/// Of a vertex and the triangle of the other three, or of two edges. sideways: share of the way past each
+/// other that counts as well, as the direction between the two turns.
 void find_closest(std::span<PrimitivePairs> pairs, bool edges, const Particle* begin, const Particle* end,
                   float sideways);
 
-/// Eight contacts of a vertex with a triangle, or of two edges: the sum of weights * places, along the normal, is
-/// kept at distance_m.
+/// Eight contacts of a vertex with a triangle, or of two edges: the sum of weights * places, along the
+/// normal, is kept at distance_m.
 struct alignas(32) ContactBatch {
     uint32_t at[4][kLanes];  // bytes from the first particle
     float inverse_mass[4][kLanes];
@@ -83,9 +84,9 @@ struct alignas(32) ContactBatch {
     float weight[4][kLanes];
     float gain[4][kLanes];  // how far each of the four moves, of what the distance lacks
 };
-/// Closest points and normals as particles lie now. The normal of a vertex above its triangle is the triangle's, of
-/// two crossed edges the one square to both: the way between the closest points turns with each rounding, and turns
-/// round where one goes through the other.
+/// Closest points and normals as particles lie now. The normal of a vertex above its triangle is the
+/// triangle's, of two crossed edges the one square to both: the way between the closest points turns with
+/// each rounding, and turns round where one goes through the other.
 void refresh_contacts(std::span<ContactBatch> contacts, bool edges, const Particle* particles);
 struct ContactPush {
     float max_m = 0.0f;  // by which a contact opens in a sub-step

@@ -7,13 +7,13 @@ namespace vfit {
 
 namespace {
 
-constexpr float kMargin_m = 0.001f;   // beyond the thickness, for what acceleration brings closer in a step
-constexpr float kSideways = 0.25f;    // of the way past each other: the normal may turn so far
-constexpr float kEdgeShare = 0.5f;    // of the thickness, between two edges
-constexpr float kFlatShare = 0.45f;   // of the shortest way along edges, which is longer than the straight one
+constexpr float kMargin_m = 0.001f;  // beyond the thickness, for what acceleration brings closer in a step
+constexpr float kSideways = 0.25f;   // of the way past each other: the normal may turn so far
+constexpr float kEdgeShare = 0.5f;   // of the thickness, between two edges
+constexpr float kFlatShare = 0.45f;  // of the shortest way along edges, which is longer than the straight one
 constexpr float kFlatReach = 1.0f / kFlatShare;
-constexpr float kAlongSide = 0.3f;    // cosine: beside that, a way does not tell on which side of a mesh one is
-constexpr float kOn_m = 1e-6f;        // closer, a way has no direction
+constexpr float kAlongSide = 0.3f;  // cosine: beside that, a way does not tell on which side of a mesh one is
+constexpr float kOn_m = 1e-6f;      // closer, a way has no direction
 
 Vec3 unit(const Vec3& v) { return v / std::max(glm::length(v), 1e-20f); }
 
@@ -77,7 +77,8 @@ void ContactList::fill(const Proximity& proximity, std::span<const Particle> beg
 }
 
 /// Vertices of the cloth and triangles of a mesh are left out: planes keep those apart (ContactMesh).
-void ContactList::add_candidates(const Proximity::Pair& pair, uint32_t surface, std::span<const Particle> end) {
+void ContactList::add_candidates(const Proximity::Pair& pair, uint32_t surface,
+                                 std::span<const Particle> end) {
     const bool own = surface == Proximity::kSelf;
     Vec3 outward(0.0f);
     if (!own) {
@@ -117,7 +118,8 @@ void ContactList::add(PairKind kind, const PrimitivePairs& pairs, size_t lane, c
     const bool edges = kind == PairKind::edge_edge;
     const float distance = pairs.distance_m[lane];
     if (distance < kOn_m) return;
-    const std::array<uint32_t, 4> v{pairs.at[0][lane], pairs.at[1][lane], pairs.at[2][lane], pairs.at[3][lane]};
+    const std::array<uint32_t, 4> v{pairs.at[0][lane], pairs.at[1][lane], pairs.at[2][lane],
+                                    pairs.at[3][lane]};
     const auto is_moved = [&](uint32_t vertex) { return inverse_mass_[vertex] > 0.0f; };
     const auto is_let_go = [&](uint32_t vertex) { return is_let_go_[vertex] != 0; };
     if (std::none_of(v.begin(), v.end(), is_moved)) return;

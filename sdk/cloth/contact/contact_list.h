@@ -18,11 +18,11 @@ namespace vfit {
 
 class ContactList {
 public:
-    /// thickness_m: kept between a vertex and a triangle of the cloth; two edges keep half of it. Parts of the
-    /// cloth that are closer than that where it lies flat are not held further apart.
+    /// thickness_m: kept between a vertex and a triangle of the cloth; two edges keep half of it. Parts of
+    /// the cloth that are closer than that where it lies flat are not held further apart.
     ContactList(std::shared_ptr<const Fabric> fabric, float thickness_m, Jobs* jobs = nullptr);
-    /// A mesh that the cloth stays outside of, whose vertices follow; keeps_m: between its vertices and the cloth's
-    /// triangles, and between edges.
+    /// A mesh that the cloth stays outside of, whose vertices follow; keeps_m: between its vertices and the
+    /// cloth's triangles, and between edges.
     void add_mesh(size_t vertices, float keeps_m);
 
     /// Pairs further apart than that now, and after the same way again, are no contacts.
@@ -38,10 +38,10 @@ public:
     void place_meshes(std::span<const Particle> begin, std::span<const Particle> end, float from, float to,
                       Particles& starts, Particles& places) const;
 
-    /// Contacts are refreshed in that many shares.
+    /// Contacts are refreshed in that many parts.
     uint32_t share_count() const { return kShares; }
-    /// Closest points and normals of a share of the contacts, as particles lie now. May run for several shares
-    /// at the same time.
+    /// Closest points and normals of one of these parts, as particles lie now. May run for several
+    /// parts at the same time.
     void refresh(const Particles& places, uint32_t share);
     void solve(const ContactPush& push, const Particles& starts, Particles& places) const;
     size_t size() const { return of_kind_[0].contacts.size() + of_kind_[1].contacts.size(); }
@@ -83,9 +83,9 @@ private:
     std::vector<float> keeps_m_;       // of each surface
     std::vector<float> inverse_mass_;  // of each vertex, meshes included
     FlatDistances flat_;
-    std::vector<uint8_t> is_let_go_;  // of each vertex
+    std::vector<uint8_t> is_let_go_;        // of each vertex
     std::array<Candidates, 2> candidates_;  // of each kind
-    std::vector<uint32_t> slots_;          // of a mesh's vertex: its particle, if its round is this one
+    std::vector<uint32_t> slots_;           // of a mesh's vertex: its particle, if its round is this one
     std::vector<uint32_t> slot_rounds_;
     uint32_t round_ = 0;
     std::vector<uint32_t> mesh_vertices_;  // of the particles beyond the fabric's

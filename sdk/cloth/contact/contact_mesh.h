@@ -9,11 +9,11 @@
 #include <span>
 #include <vector>
 
+#include "cloth/base/triangle_fans.h"
 #include "cloth/contact/mesh_of.h"
+#include "cloth/contact/run_planes.h"
 #include "cloth/contact/surface_kernels.h"
 #include "cloth/contact/triangle_groups.h"
-#include "cloth/solver/cloth_kernels.h"
-#include "cloth/triangle_fans.h"
 
 namespace vfit {
 

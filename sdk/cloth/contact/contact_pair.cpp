@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cloth/triangle_fans.h"
+#include "cloth/base/triangle_fans.h"
 
 namespace vfit {
 

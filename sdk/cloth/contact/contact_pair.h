@@ -25,8 +25,8 @@ struct ClosestPoints {
 ClosestPoints closest_points(PairKind kind, const std::array<Vec3, 4>& at);
 
 /// When the two first come closer than tolerance_m on linear ways, 0..1; none: they do not. Finds it among
-/// the times at which the four vertices lie in one plane (Provot 1997), and at the end. weights: of the closest
-/// points then.
+/// the times at which the four vertices lie in one plane (Provot 1997), and at the end. weights: of the
+/// closest points then.
 std::optional<float> first_touch(PairKind kind, const std::array<Vec3, 4>& from,
                                  const std::array<Vec3, 4>& to, float tolerance_m,
                                  std::array<float, 4>& weights);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "cloth/rigid_motion.h"
+#include "cloth/base/rigid_motion.h"
 
 namespace vfit {
 
@@ -131,7 +131,8 @@ void CrossingGuard::part(std::span<Particle> places, Proximity& proximity, Jobs&
         proximity.find(places, places, jobs);
         tangles_.clear();
         proximity.for_uncertain([&](const Proximity::Pair& pair, uint32_t surface) {
-            if (surface == Proximity::kSelf && cross_at(pair, places)) tangles_.emplace_back(pair.first->number, pair.second->number);
+            if (surface == Proximity::kSelf && cross_at(pair, places))
+                tangles_.emplace_back(pair.first->number, pair.second->number);
         });
         if (tangles_.empty()) return;
         untangle(places, kParts_m);
@@ -156,9 +157,8 @@ void CrossingGuard::find_hits(std::span<const Particle> begin, std::span<const P
             return;
         }
         if (cross_at(pair, end)) crossed_.emplace_back(pair.first, pair.second);
-        for_all_pairs(*pair.first, *pair.second, [&](PairKind kind, const std::array<uint32_t, 4>& v) {
-            test(kind, v, begin, end);
-        });
+        for_all_pairs(*pair.first, *pair.second,
+                      [&](PairKind kind, const std::array<uint32_t, 4>& v) { test(kind, v, begin, end); });
     });
     std::erase_if(crossed_, [&](const auto& pair) {
         const uint32_t *a = pair.first->vertex, *b = pair.second->vertex;
@@ -266,8 +266,8 @@ void CrossingGuard::move_zones(std::span<const Particle> begin, std::span<Partic
     }
 }
 
-/// As the rigid motion that is closest to what the step wanted. With fixed vertices it goes as they do on average, and
-/// does not turn about two or three of them.
+/// As the rigid motion that is closest to what the step wanted. With fixed vertices it goes as they do on
+/// average, and does not turn about two or three of them.
 void CrossingGuard::move_zone(std::span<const uint32_t> zone, std::span<const Particle> begin,
                               std::span<Particle> end) {
     Vec3 way(0.0f);

@@ -1,6 +1,7 @@
-// Keeps a cloth from crossing itself and meshes: the ways of all vertices through a step are certified by continuous
-// collision detection, and changed where two triangles would touch. First single contacts are projected; what
-// that does not solve moves as one, in rigid impact zones (Provot 1997; Bridson, Fedkiw, Anderson 2002).
+// Keeps a cloth from crossing itself and meshes: the ways of all vertices through a step are certified by
+// continuous collision detection, and changed where two triangles would touch. First single contacts are
+// projected; what that does not solve moves as one, in rigid impact zones (Provot 1997; Bridson, Fedkiw,
+// Anderson 2002).
 #pragma once
 
 #include <array>
@@ -21,13 +22,13 @@ class CrossingGuard {
 public:
     /// Vertices without a finite mass do not give way.
     explicit CrossingGuard(const FabricData& fabric);
-    /// Vertices of a mesh follow, which do not give way either. keeps: the cloth is kept from crossing it as far as
-    /// projections do.
+    /// Vertices of a mesh follow, which do not give way either. keeps: the cloth is kept from crossing it as
+    /// far as projections do.
     void add_mesh(size_t vertices, bool keeps);
 
     /// Changes `end` so that no triangles cross on linear ways from `begin`, except those that crossed at
-    /// `begin` already: those of the cloth are moved apart a little, those of a mesh are left to contact. True:
-    /// nothing crosses at the end, which is proven.
+    /// `begin` already: those of the cloth are moved apart a little, those of a mesh are left to contact.
+    /// True: nothing crosses at the end, which is proven.
     bool keep(std::span<const Particle> begin, std::span<Particle> end, Proximity& proximity, Jobs& jobs);
     /// Moves triangles that cross apart, at rest.
     void part(std::span<Particle> places, Proximity& proximity, Jobs& jobs);
@@ -67,14 +68,15 @@ private:
     std::vector<float> inverse_mass_;
     std::vector<uint32_t> indices_;
     std::vector<Hit> hits_;
-    std::vector<std::pair<const Proximity::Triangle*, const Proximity::Triangle*>> crossed_;  // at the end alone
-    std::vector<TrianglePair> tangles_;  // of the cloth at both ends, by their numbers
-    bool crosses_mesh_ = false;          // at both ends, or it was not kept from it
-    std::vector<uint8_t> keeps_{1};      // of each surface
+    std::vector<std::pair<const Proximity::Triangle*, const Proximity::Triangle*>>
+        crossed_;                                // at the end alone
+    std::vector<TrianglePair> tangles_;          // of the cloth at both ends, by their numbers
+    bool crosses_mesh_ = false;                  // at both ends, or it was not kept from it
+    std::vector<uint8_t> keeps_{1};              // of each surface
     std::vector<uint8_t> is_marked_, is_moved_;  // in this round, in all
     std::vector<uint32_t> moved_;
-    std::vector<Particle> wanted_;  // the end that the step made
-    std::vector<Vec3> found_at_;    // where the pairs were found
+    std::vector<Particle> wanted_;          // the end that the step made
+    std::vector<Vec3> found_at_;            // where the pairs were found
     std::vector<uint32_t> parent_, zoned_;  // of each vertex in a zone; those, zone by zone
     std::vector<uint32_t> numbers_;
     std::vector<Vec3> from_, to_;  // of a zone

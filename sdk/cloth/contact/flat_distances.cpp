@@ -110,8 +110,8 @@ FlatDistances::FlatDistances(const FabricData& fabric, float radius_m, Jobs* job
 float FlatDistances::between(uint32_t vertex, uint32_t other) const {
     const auto begin = neighbours_.begin() + std::ptrdiff_t(first_[vertex]),
                end = neighbours_.begin() + std::ptrdiff_t(first_[vertex + 1]);
-    const auto at = std::lower_bound(begin, end, other,
-                                     [](const Neighbour& n, uint32_t v) { return n.vertex < v; });
+    const auto at =
+        std::lower_bound(begin, end, other, [](const Neighbour& n, uint32_t v) { return n.vertex < v; });
     return at != end && at->vertex == other ? at->distance_m : INFINITY;
 }
 

@@ -23,7 +23,7 @@ private:
         uint32_t vertex;
         float distance_m;
     };
-    std::vector<uint32_t> first_;  // of each vertex
+    std::vector<uint32_t> first_;        // of each vertex
     std::vector<Neighbour> neighbours_;  // by rising vertices
 };
 

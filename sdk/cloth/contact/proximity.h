@@ -1,5 +1,5 @@
-// Pairs of triangles, of a cloth or of a cloth and a mesh, that come close to each other in a step, and which of
-// them may have crossed on the way.
+// Pairs of triangles, of a cloth or of a cloth and a mesh, that come close to each other in a step, and which
+// of them may have crossed on the way.
 #pragma once
 
 #include <bit>
@@ -21,7 +21,8 @@ public:
     /// Of the cloth's own triangles against each other; mesh k is surface k + 1.
     static constexpr uint32_t kSelf = 0;
 
-    /// reach_m: pairs of the cloth's own triangles that are further apart are not close; 0: none are looked at.
+    /// reach_m: pairs of the cloth's own triangles that are further apart are not close; 0: none are looked
+    /// at.
     Proximity(std::span<const Vec3> positions, std::span<const uint32_t> indices, float reach_m);
     /// Its vertices follow those of the cloth and of the meshes before. It is hidden.
     void add_mesh(size_t vertices, std::span<const uint32_t> indices, float reach_m);
@@ -34,8 +35,8 @@ public:
     /// Finds the pairs within reach between both ends of the step, and classifies them. Positions of all
     /// vertices. Does not allocate once it has met as many.
     void find(std::span<const Particle> begin, std::span<const Particle> end, Jobs& jobs);
-    /// Classifies anew the pairs with a marked vertex (one flag a vertex), as the vertices are now; all others
-    /// count as certain. Pairs stay those that were found.
+    /// Classifies anew the pairs with a marked vertex (one flag a vertex), as the vertices are now; all
+    /// others count as certain. Pairs stay those that were found.
     void find_uncertain_of(std::span<const uint8_t> marked, std::span<const Particle> begin,
                            std::span<const Particle> end, Jobs& jobs);
 

@@ -7,8 +7,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "cloth/contact/nearest_on_triangle-inl.h"
-#include "cloth/solver/particle_registers-inl.h"
+#include "cloth/base/nearest_on_triangle-inl.h"
+#include "cloth/base/particle_registers-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace vfit {

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "cloth/solver/particle.h"
-#include "cloth/triangle_fans.h"
+#include "cloth/base/particle.h"
+#include "cloth/base/triangle_fans.h"
 
 namespace vfit {
 

@@ -1,5 +1,5 @@
-// Contact between triangles: of a cloth with itself and with meshes. Contacts keep a step's layers apart, and what
-// would end up crossing all the same is set right once the step is over.
+// Contact between triangles: of a cloth with itself and with meshes. Contacts keep a step's layers apart, and
+// what would end up crossing all the same is set right once the step is over.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +18,8 @@ namespace vfit {
 
 class TriangleContact {
 public:
-    /// thickness_m: kept between the cloth's own layers; 0: they pass through each other. positions: one a vertex,
-    /// by which triangles are grouped.
+    /// thickness_m: kept between the cloth's own layers; 0: they pass through each other. positions: one a
+    /// vertex, by which triangles are grouped.
     TriangleContact(std::shared_ptr<const Fabric> fabric, float thickness_m, std::span<const Vec3> positions,
                     Jobs* jobs = nullptr);
 
@@ -63,7 +63,7 @@ private:
     Proximity proximity_;
     ContactList contacts_;
     CrossingGuard guard_;
-    std::vector<Particle> begin_, end_;    // of all vertices, in a step
+    std::vector<Particle> begin_, end_;     // of all vertices, in a step
     std::vector<uint32_t> first_vertices_;  // of the meshes, and the end
     std::vector<uint8_t> is_known_;         // where a mesh is
 };

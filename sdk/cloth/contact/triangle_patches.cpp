@@ -33,7 +33,8 @@ private:
     std::vector<uint32_t> first_, all_;
 };
 
-/// Divides at the median of the longest side, so that registers and blocks of them (powers of eight) are compact.
+/// Divides at the median of the longest side, so that registers and blocks of them (powers of eight) are
+/// compact.
 void sort_in_space(const std::vector<Vec3>& places, std::span<uint32_t> which) {
     if (which.size() <= kLanes) return;
     Bounds box;
@@ -51,7 +52,8 @@ void sort_in_space(const std::vector<Vec3>& places, std::span<uint32_t> which) {
     sort_in_space(places, which.subspan(middle));
 }
 
-/// Grows connected patches: each from the triangle that has the fewest neighbours left, by those closest to it.
+/// Grows connected patches: each from the triangle that has the fewest neighbours left, by those closest to
+/// it.
 class Growth {
 public:
     Growth(std::span<const Vec3> positions, std::span<const uint32_t> indices)
@@ -80,7 +82,8 @@ public:
         }
         sort_in_space(middles, patches);
         for (const uint32_t patch : patches) {
-            triangles.insert(triangles.end(), order_.begin() + begin_of(patch), order_.begin() + ends_[patch]);
+            triangles.insert(triangles.end(), order_.begin() + begin_of(patch),
+                             order_.begin() + ends_[patch]);
             ends.push_back(uint32_t(triangles.size()));
         }
     }
@@ -247,21 +250,23 @@ void TrianglePatches::find_pairs(const TrianglePatches& other, float reach_m, st
             for (const uint32_t q : share.meeting) {
                 if (own && are_adjacent(patch, q) && in_one_cone(patch, q)) continue;
                 const Bounds& way = other.patches_[q].way;
-                meet(patch, other, q, farther(p.way.low - way.high, p.way.high - way.low) + reach_m, share.pairs);
+                meet(patch, other, q, farther(p.way.low - way.high, p.way.high - way.low) + reach_m,
+                     share.pairs);
             }
         }
     });
     for (const Share& share : shares_) out.insert(out.end(), share.pairs.begin(), share.pairs.end());
 }
 
-void TrianglePatches::meet(uint32_t patch, const TrianglePatches& other, uint32_t of_other, const Vec3& margin,
-                           std::vector<Pair>& out) const {
+void TrianglePatches::meet(uint32_t patch, const TrianglePatches& other, uint32_t of_other,
+                           const Vec3& margin, std::vector<Pair>& out) const {
     const bool own = this == &other && patch == of_other;
     const uint32_t first = begin_of(patch), of_second = other.begin_of(of_other);
     const std::array<uint8_t, kLanes> all = meeting_triangles(boxes_[patch], other.boxes_[of_other], margin);
     for (uint32_t i = 0; i < ends_[patch] - first; ++i)
         for (uint32_t left = own ? all[i] & ~0u << (i + 1) : all[i]; left; left &= left - 1)
-            out.push_back({&triangles_[first + i], &other.triangles_[of_second + uint32_t(std::countr_zero(left))]});
+            out.push_back(
+                {&triangles_[first + i], &other.triangles_[of_second + uint32_t(std::countr_zero(left))]});
 }
 
 }  // namespace vfit

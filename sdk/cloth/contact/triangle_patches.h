@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "cloth/base/particle.h"
 #include "cloth/contact/contact.h"
 #include "cloth/contact/contact_kernels.h"
 #include "cloth/contact/surface_kernels.h"
-#include "cloth/solver/particle.h"
 #include "core/jobs.h"
 #include "math/types.h"
 
@@ -25,8 +25,8 @@ public:
         uint8_t own_vertices, own_edges;
     };
 
-    /// Three indices a triangle; positions by which triangles are grouped. first_vertex: of the surface in the
-    /// arrays of positions that follow.
+    /// Three indices a triangle; positions by which triangles are grouped. first_vertex: of the surface in
+    /// the arrays of positions that follow.
     TrianglePatches(std::span<const Vec3> positions, std::span<const uint32_t> indices,
                     uint32_t first_vertex = 0);
 
@@ -42,8 +42,8 @@ public:
     };
     /// Adds the pairs of triangles of this surface and of `other` whose boxes come within reach_m of each
     /// other between both ends, or would by moving on in the same way. On the same surface, adjacent patches
-    /// whose normals lie in one cone do not meet (Volino and Magnenat-Thalmann 1994). The order of the pairs is
-    /// the same for any number of threads.
+    /// whose normals lie in one cone do not meet (Volino and Magnenat-Thalmann 1994). The order of the pairs
+    /// is the same for any number of threads.
     void find_pairs(const TrianglePatches& other, float reach_m, std::vector<Pair>& out, Jobs& jobs);
 
 private:
@@ -67,7 +67,7 @@ private:
     std::vector<uint32_t> ends_;       // of patches in these
     std::vector<Corners> corners_;     // of each patch's triangles
     std::vector<PatchShape> patches_;
-    std::vector<PatchBoxes> boxes_;     // at the end
+    std::vector<PatchBoxes> boxes_;  // at the end
     MovingBoxes moving_;
     std::vector<uint32_t> first_adjacent_, adjacent_;  // patches that share a vertex with each, rising
     std::vector<Share> shares_;

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "cloth/base/particle.h"
 #include "cloth/contact/contact.h"
 #include "cloth/fabric/fabric.h"
-#include "cloth/solver/particle.h"
 
 namespace vfit {
 

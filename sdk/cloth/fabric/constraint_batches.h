@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "cloth/solver/particle.h"
+#include "cloth/base/particle.h"
 
 namespace vfit {
 

@@ -9,11 +9,11 @@
 #include <span>
 #include <vector>
 
+#include "cloth/base/triangle_fans.h"
 #include "cloth/fabric/distance_batches.h"
 #include "cloth/fabric/fabric_library.h"
 #include "cloth/fabric/hinge_batches.h"
 #include "cloth/fabric/particle_layout.h"
-#include "cloth/triangle_fans.h"
 #include "core/jobs.h"
 #include "math/types.h"
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "cloth/solver/particle.h"
+#include "cloth/base/particle.h"
 
 namespace vfit {
 

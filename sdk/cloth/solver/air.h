@@ -1,8 +1,8 @@
 // Drag and lift of the air on a cloth, once a step.
 #pragma once
 
+#include "cloth/base/particle.h"
 #include "cloth/fabric/fabric.h"
-#include "cloth/solver/particle.h"
 #include "math/types.h"
 
 namespace vfit {

@@ -7,7 +7,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "cloth/solver/particle_registers-inl.h"
+#include "cloth/base/particle_registers-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace vfit {

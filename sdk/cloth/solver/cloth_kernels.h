@@ -6,20 +6,13 @@
 #include <span>
 #include <vector>
 
+#include "cloth/base/particle.h"
 #include "cloth/contact/contact.h"
+#include "cloth/contact/run_planes.h"
 #include "cloth/fabric/distance_batches.h"
 #include "cloth/fabric/hinge_batches.h"
-#include "cloth/solver/particle.h"
 
 namespace vfit {
-
-/// Of particles that move.
-struct Moving {
-    Particle* places;
-    Particle* starts;      // at the begin of the sub-step
-    Particle* velocities;  // without constraints they end at starts + velocities * h
-    uint32_t count;        // a multiple of kLanes
-};
 
 /// The begin of the first sub-step of several. Half of the fall, then the whole way: free fall is exact.
 void predict(const Moving& moving, const Vec3& half_fall, float h);
@@ -63,27 +56,6 @@ struct alignas(32) RunBalls {
     float way_x[kLanes], way_y[kLanes], way_z[kLanes];  // to its end
     float radius_m[kLanes];                             // 0: none
     uint32_t run;                                       // in Moving
-};
-
-/// Of a run, by lanes: planes that its particles stay before.
-struct alignas(32) RunPlanes {
-    static constexpr float kNone = -1e9f;
-
-    float x[kLanes], y[kLanes], z[kLanes];              // a point of each at the begin of the step
-    float way_x[kLanes], way_y[kLanes], way_z[kLanes];  // to its end
-    float normal_x[kLanes], normal_y[kLanes], normal_z[kLanes], turn_x[kLanes], turn_y[kLanes],
-        turn_z[kLanes];
-    float thickness_m[kLanes];  // kept from the plane; kNone: there is none
-    uint32_t run;               // in Moving
-
-    void set(size_t lane, const Vec3& point, const Vec3& way, const Vec3& normal, const Vec3& turn,
-             float thickness) {
-        x[lane] = point.x, y[lane] = point.y, z[lane] = point.z;
-        way_x[lane] = way.x, way_y[lane] = way.y, way_z[lane] = way.z;
-        normal_x[lane] = normal.x, normal_y[lane] = normal.y, normal_z[lane] = normal.z;
-        turn_x[lane] = turn.x, turn_y[lane] = turn.y, turn_z[lane] = turn.z;
-        thickness_m[lane] = thickness;
-    }
 };
 
 /// The end of a sub-step, once distances are solved: tethers, limits, backstops, contacts; then velocities by

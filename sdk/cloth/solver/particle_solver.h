@@ -7,12 +7,12 @@
 #include <span>
 #include <vector>
 
+#include "cloth/base/rigid_motion.h"
 #include "cloth/contact/collider_motion.h"
 #include "cloth/contact/contact_mesh.h"
 #include "cloth/contact/triangle_contact.h"
 #include "cloth/contact/virtual_particles.h"
 #include "cloth/fabric/fabric.h"
-#include "cloth/rigid_motion.h"
 #include "cloth/solver/air.h"
 #include "cloth/solver/cloth_kernels.h"
 #include "core/jobs.h"

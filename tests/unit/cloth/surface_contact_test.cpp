@@ -7,9 +7,9 @@
 #include <random>
 
 #include "bench/drape_scenes.h"
+#include "cloth/base/triangle_fans.h"
 #include "cloth/contact/surface_kernels.h"
 #include "cloth/crossings.h"
-#include "cloth/triangle_fans.h"
 #include "cloth_support.h"
 #include "cloth_targets.h"
 #include "support/allocation_count.h"  // counted by cloth_test.cpp

@@ -44,8 +44,8 @@ TEST(ContactPair, NoPointsAreCloserThanTheClosest) {
         for (const PairKind kind : kKinds) {
             const auto at = random_four(random, 1.0f);
             const ClosestPoints closest = closest_points(kind, at);
-            EXPECT_NEAR(closest.weights[0] + closest.weights[1] + closest.weights[2] + closest.weights[3], 0.0f,
-                        1e-5f);
+            EXPECT_NEAR(closest.weights[0] + closest.weights[1] + closest.weights[2] + closest.weights[3],
+                        0.0f, 1e-5f);
             const float distance = glm::length(closest.way);
             for (float u = 0.0f; u <= 1.0f; u += 0.1f)
                 for (float v = 0.0f; v <= 1.0f; v += 0.1f) {
@@ -240,7 +240,8 @@ TEST(ContactKernels, AContactOpensAndKeepsTheMomentum) {
         std::mt19937 random(8);
         const float heights[kLanes] = {0.001f, -0.001f, 0.01f, 0.001f, 0.003f, 0.0f, 0.002f, 0.0039f};
         for (uint32_t lane = 0; lane < kLanes; ++lane) {
-            for (uint32_t k = 0; k < 4; ++k) contacts[0].at[k][lane] = (4 * lane + k) * uint32_t(sizeof(Particle));
+            for (uint32_t k = 0; k < 4; ++k)
+                contacts[0].at[k][lane] = (4 * lane + k) * uint32_t(sizeof(Particle));
             places[4 * lane].x = Vec3(0.005f, heights[lane], 0.005f);
             places[4 * lane + 1].x = Vec3(0), places[4 * lane + 2].x = Vec3(0, 0, 0.02f);
             places[4 * lane + 3].x = Vec3(0.02f, 0, 0);
@@ -260,7 +261,8 @@ TEST(ContactKernels, AContactOpensAndKeepsTheMomentum) {
                 at[k] = places[4 * lane + k].x;
                 momentum += (at[k] - starts[4 * lane + k].x) / (1.0f + float(k));
             }
-            EXPECT_NEAR(at[0].y - (0.5f * at[1].y + 0.25f * at[2].y + 0.25f * at[3].y), expected, 1e-5f) << lane;
+            EXPECT_NEAR(at[0].y - (0.5f * at[1].y + 0.25f * at[2].y + 0.25f * at[3].y), expected, 1e-5f)
+                << lane;
             EXPECT_LT(glm::length(momentum), 1e-6f);
         }
     });
@@ -363,13 +365,15 @@ TEST(CrossingGuard, NoWayOfTwoSheetsCrosses) {
         // Anything may happen: whole sheets pass each other, or single vertices go astray.
         const Vec3 way = random_point(random, 0.03f);
         for (size_t v = 0; v < now.positions.size(); ++v)
-            now.positions[v] += (v < now.of_one ? way : -way) + random_point(random, round % 2 ? 0.001f : 0.006f);
+            now.positions[v] +=
+                (v < now.of_one ? way : -way) + random_point(random, round % 2 ? 0.001f : 0.006f);
         GuardedStep step(before);
         const bool is_free = step.keep(before, now);
         changed += step.guard.moved().empty() ? 0 : 1;
         EXPECT_TRUE(is_free) << round;
         EXPECT_TRUE(now.crossed().empty()) << round;
-        // The sheets may not have changed sides either: the lower one is below the upper one where they overlap.
+        // The sheets may not have changed sides either: the lower one is below the upper one where they
+        // overlap.
         for (uint32_t v = 0; v < now.of_one; ++v) {
             const Vec3 &low = now.positions[v], &high = now.positions[now.of_one + v];
             if (glm::length(Vec2(low.x - high.x, low.z - high.z)) < 0.002f) {
@@ -394,7 +398,8 @@ TEST(CrossingGuard, WhatDoesNotCrossIsLeftAlone) {
 TEST(CrossingGuard, FixedVerticesStayAndWhatMeetsThemGivesWay) {
     const TwoSheets sheets(5, 0.02f, {0.003f, 0.004f, 0.004f});
     TwoSheets now = sheets;
-    for (uint32_t v = 0; v < now.of_one; ++v) now.positions[v].y += 0.02f;  // a fixed sheet lifts the other one
+    for (uint32_t v = 0; v < now.of_one; ++v)
+        now.positions[v].y += 0.02f;  // a fixed sheet lifts the other one
     GuardedStep step(sheets);
     for (uint32_t v = 0; v < now.of_one; ++v) step.data.inverse_mass[v] = 0.0f;
     step.guard = CrossingGuard(step.data);
@@ -441,7 +446,7 @@ TEST(CrossingGuard, LayersThatComeToTheirLengthsDoNotGoThroughEachOther) {
     const auto jobs = Jobs::own(0);
     for (const float ratio : {1.1f, 1.15f, 1.2f}) {
         const TwoSheets sheets(13, 0.02f, {0.007f, 0.006f, 0.006f});
-        std::vector<uint8_t> simulated(sheets.positions.size(), 1);  // but for their edges
+        std::vector<uint8_t> simulated(sheets.positions.size(), 1);  // except their edges
         for (uint32_t sheet = 0; sheet < 2; ++sheet)
             for (uint32_t i = 0; i < 13; ++i)
                 for (const uint32_t at : {i, 12 * 13 + i, 13 * i, 13 * i + 12})

@@ -6,7 +6,7 @@
 #define VFIT_CLOTH_NEAREST_ON_TRIANGLE_INL_H_
 #endif
 
-#include "cloth/solver/particle_registers-inl.h"
+#include "cloth/base/particle_registers-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace vfit {

@@ -1,4 +1,4 @@
-#include "cloth/rigid_motion.h"
+#include "cloth/base/rigid_motion.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "cloth/triangle_fans.h"
+#include "cloth/base/triangle_fans.h"
 
 namespace vfit {
 

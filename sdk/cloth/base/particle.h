@@ -38,4 +38,12 @@ struct WideAllocator {
 };
 using Particles = std::vector<Particle, WideAllocator<Particle>>;
 
+/// Of particles that move.
+struct Moving {
+    Particle* places;
+    Particle* starts;      // at the begin of the sub-step
+    Particle* velocities;  // without constraints they end at starts + velocities * h
+    uint32_t count;        // a multiple of kLanes
+};
+
 }  // namespace vfit

@@ -8,7 +8,7 @@
 
 #include <hwy/highway.h>
 
-#include "cloth/solver/particle.h"
+#include "cloth/base/particle.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace vfit {
