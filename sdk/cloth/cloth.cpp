@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <utility>
 
 #include "body/mesh.h"
 #include "cloth/base/rigid_motion.h"
@@ -158,6 +159,7 @@ struct Cloth::State {
                                     // what the step made of it
     std::optional<TriangleGroups> groups;           // of the cloth
     std::optional<TriangleContact> self;            // with own layers
+    bool is_deformed = false;              // it was carried by bones, which may have made layers cross
     bool self_is_placed = false;                    // it knows where the cloth was placed anew
     bool self_is_free = false;                      // layers do not cross, which is proven
     std::optional<MeshLift> off_solids, off_cloth;  // made when there are such meshes
@@ -456,6 +458,7 @@ void Cloth::carry_along(const CarriedAlong& by) {
     by.check(s.fabric->vertex_count());
     by.move(*s.fabric, s.solver);
     s.publish();
+    s.is_deformed = s.is_deformed || !by.rigid;
     s.carried = by.fraction;
     s.sleeps_on = by.keeps_rest(s.settings.gravity, s.settings.air);
 }
@@ -502,6 +505,7 @@ void Cloth::State::check_body(std::span<const Vec3> targets, std::span<const Col
 void Cloth::State::advance(float dt, int count, float damping, std::span<const Vec3> skinned_targets,
                            Jobs& jobs) {
     if (self) {
+        if (std::exchange(is_deformed, false)) part_layers(jobs);
         before = positions;
         if (!self_is_placed) self->place(positions, jobs);
         self_is_placed = true;
@@ -544,7 +548,9 @@ void Cloth::State::part_layers(Jobs& jobs) {
     if (!self) return;
     solver.copy_positions(now);
     self->part(now, jobs);
-    solver.place(now);
+    for (uint32_t v = 0; v < now.size(); ++v)
+        if (now[v] != positions[v])
+            solver.place(v, now[v], solver.velocities()[fabric->layout().particle_of[v]].x);
     self_is_placed = false;
     publish();
 }
