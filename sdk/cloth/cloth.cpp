@@ -146,7 +146,7 @@ struct Cloth::State {
     ParticleSolver solver;
     ColliderMotion colliders;
     std::vector<ContactMesh> meshes;
-    std::vector<uint32_t> in_triangles;  // their numbers in self, or kNoMesh
+    std::vector<uint32_t> in_triangles;  // their numbers in `triangles`, or kNoMesh
     uint32_t triangle_meshes = 0;
     std::vector<std::vector<Vec3>> mesh_places, mesh_before;  // that they go to, and come from
     std::vector<Vec3> mesh_begin;                             // where a part of that way is over
@@ -157,11 +157,11 @@ struct Cloth::State {
     std::vector<Vec3> positions;    // what callers read
     std::vector<Vec3> before, now;  // with own layers: the same at the begin of the step, carried along; and
                                     // what the step made of it
-    std::optional<TriangleGroups> groups;           // of the cloth
-    std::optional<TriangleContact> self;            // with own layers
-    bool is_deformed = false;              // it was carried by bones, which may have made layers cross
-    bool self_is_placed = false;                    // it knows where the cloth was placed anew
-    bool self_is_free = false;                      // layers do not cross, which is proven
+    std::optional<TriangleGroups> groups;      // of the cloth
+    std::optional<TriangleContact> triangles;  // with own layers
+    bool is_deformed = false;                  // it was carried by bones, which may have made layers cross
+    bool contacts_known = false;               // of where the cloth was placed
+    bool certified = false;                    // layers do not cross, which is proven
     std::optional<MeshLift> off_solids, off_cloth;  // made when there are such meshes
     std::optional<MeshYield> yield;
     // The same, found when they are asked for.
@@ -229,7 +229,7 @@ Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings
         for (uint32_t v : {e.a, e.b}) s.inverse_edge_count[v] += 1.0f;
     for (float& count : s.inverse_edge_count) count = count > 0.0f ? 1.0f / count : 0.0f;
     if (settings.self_thickness_m > 0.0f) {
-        s.self.emplace(fabric, settings.self_thickness_m, start.first(n), jobs);
+        s.triangles.emplace(fabric, settings.self_thickness_m, start.first(n), jobs);
         s.before.resize(n), s.now.resize(n);
     }
     reset(start);
@@ -249,11 +249,11 @@ Cloth Cloth::with_fabric(std::shared_ptr<const Fabric> fabric, Jobs* jobs) const
     o.colliders = s.colliders;
     o.meshes = s.meshes;
     o.in_triangles = s.in_triangles, o.triangle_meshes = s.triangle_meshes;
-    if (o.self)
+    if (o.triangles)
         for (size_t i = 0; i < s.meshes.size(); ++i)
             if (o.in_triangles[i] != kNoMesh)
-                o.self->add_mesh(s.meshes[i].vertex_count(), s.meshes[i].indices(),
-                                 kMeshShare * s.settings.thickness_m, s.meshes[i].what());
+                o.triangles->add_mesh(s.meshes[i].vertex_count(), s.meshes[i].indices(),
+                                      kMeshShare * s.settings.thickness_m, s.meshes[i].what());
     o.mesh_places = s.mesh_places;
     o.mesh_before = s.mesh_before;
     o.previous_targets = s.previous_targets;
@@ -276,8 +276,8 @@ void Cloth::State::reset(std::span<const Vec3> start) {
     colliders.forget();
     for (ContactMesh& mesh : meshes) mesh.forget();
     off_solids.reset(), off_cloth.reset(), yield.reset();  // what crossed did so elsewhere
-    self_is_placed = false;
-    if (self) self->forget_meshes();
+    contacts_known = certified = false;
+    if (triangles) triangles->forget_meshes();
     carried = 0.0f;
     wake();
     publish();
@@ -333,11 +333,11 @@ uint32_t Cloth::add_mesh(size_t vertices, std::span<const uint32_t> indices, std
     state_->meshes.emplace_back(vertices, indices, counts, what);
     state_->mesh_places.emplace_back();
     state_->mesh_before.emplace_back();
-    state_->in_triangles.push_back(state_->self && what != MeshOf::solid ? state_->triangle_meshes++
-                                                                         : kNoMesh);
+    state_->in_triangles.push_back(state_->triangles && what != MeshOf::solid ? state_->triangle_meshes++
+                                                                              : kNoMesh);
     if (state_->in_triangles.back() != kNoMesh)
-        state_->self->add_mesh(vertices, state_->meshes.back().indices(),
-                               kMeshShare * state_->settings.thickness_m, what);
+        state_->triangles->add_mesh(vertices, state_->meshes.back().indices(),
+                                    kMeshShare * state_->settings.thickness_m, what);
     state_->wake();
     return uint32_t(state_->meshes.size()) - 1;
 }
@@ -358,7 +358,7 @@ void Cloth::hide_mesh(uint32_t mesh) {
     state_->mesh_places[mesh].clear();
     state_->mesh_before[mesh].clear();
     state_->meshes[mesh].hide();
-    if (state_->in_triangles[mesh] != kNoMesh) state_->self->hide_mesh(state_->in_triangles[mesh]);
+    if (state_->in_triangles[mesh] != kNoMesh) state_->triangles->hide_mesh(state_->in_triangles[mesh]);
     state_->wake();
 }
 
@@ -435,10 +435,10 @@ void Cloth::State::accept_mesh(size_t mesh, const Vec3& low, const Vec3& high) {
     meshes[mesh].accept(to, low, high);
     if (in_triangles[mesh] == kNoMesh) return;
     const bool part = carried > 0.0f && carried < 1.0f && from.size() == to.size();
-    self->move_mesh(in_triangles[mesh], to,
-                    part             ? mesh_begin
-                    : carried > 0.0f ? to
-                                     : std::span<const Vec3>());
+    triangles->move_mesh(in_triangles[mesh], to,
+                         part             ? mesh_begin
+                         : carried > 0.0f ? to
+                                          : std::span<const Vec3>());
 }
 
 /// Targets begin the step as far on their way as the cloth was moved.
@@ -504,11 +504,11 @@ void Cloth::State::check_body(std::span<const Vec3> targets, std::span<const Col
 /// The colliders have been accepted.
 void Cloth::State::advance(float dt, int count, float damping, std::span<const Vec3> skinned_targets,
                            Jobs& jobs) {
-    if (self) {
+    if (triangles) {
         if (std::exchange(is_deformed, false)) part_layers(jobs);
         before = positions;
-        if (!self_is_placed) self->place(positions, jobs);
-        self_is_placed = true;
+        if (!contacts_known) triangles->place(positions, jobs);
+        contacts_known = true;
     }
     const std::span<const Vec3> targets = held_at(skinned_targets);
     if (!backstops_placed) {
@@ -526,7 +526,7 @@ void Cloth::State::advance(float dt, int count, float damping, std::span<const V
                                   kMaxDepenetration_m_s * h};
     solver.advance({dt, count, settings.gravity, settings.air, std::pow(1.0f - damping, h), contact,
                     settings.thickness_m, previous_targets, targets, colliders, meshes, lift_m, cloth_lift_m,
-                    self ? &*self : nullptr},
+                    triangles ? &*triangles : nullptr},
                    jobs);
     keep_layers(dt, jobs);
     publish();
@@ -535,7 +535,7 @@ void Cloth::State::advance(float dt, int count, float damping, std::span<const V
     std::copy(targets.begin(), targets.end(), previous_targets.begin());
     colliders.arrive();
     for (ContactMesh& mesh : meshes) mesh.arrive();
-    if (self) self->arrive();
+    if (triangles) triangles->arrive();
 }
 
 TriangleGroups& Cloth::State::triangles_now(std::span<const Vec3> places, Jobs& jobs) {
@@ -545,24 +545,24 @@ TriangleGroups& Cloth::State::triangles_now(std::span<const Vec3> places, Jobs& 
 }
 
 void Cloth::State::part_layers(Jobs& jobs) {
-    if (!self) return;
+    if (!triangles) return;
     solver.copy_positions(now);
-    self->part(now, jobs);
+    triangles->part(now, jobs);
     for (uint32_t v = 0; v < now.size(); ++v)
         if (now[v] != positions[v])
             solver.place(v, now[v], solver.velocities()[fabric->layout().particle_of[v]].x);
-    self_is_placed = false;
+    contacts_known = false;
     publish();
 }
 
 void Cloth::State::keep_layers(float dt, Jobs& jobs) {
-    if (!self) return;
+    if (!triangles) return;
     solver.copy_positions(now);
-    self_is_free = self->keep(before, now, jobs);
-    for (const uint32_t v : self->moved()) {
+    certified = triangles->keep(before, now, jobs);
+    for (const uint32_t v : triangles->moved()) {
         const uint32_t particle = fabric->layout().particle_of[v];
-        const Vec3 way = self->is_in_zone(v) ? now[v] - before[v] : now[v] - solver.places()[particle].x,
-                   velocity = self->is_in_zone(v) ? Vec3(0.0f) : solver.velocities()[particle].x;
+        const Vec3 way = triangles->is_in_zone(v) ? now[v] - before[v] : now[v] - solver.places()[particle].x,
+                   velocity = triangles->is_in_zone(v) ? Vec3(0.0f) : solver.velocities()[particle].x;
         solver.place(v, now[v], velocity + way / dt);
     }
 }
@@ -702,6 +702,7 @@ ClothStats Cloth::stats() const {
     out.constraint_count = s.fabric->constraint_count();
     out.step_ms = s.step_ms;
     out.substeps = s.substeps;
+    out.certified = s.certified;
     if (s.edge_strains.empty()) return out;
     // A histogram finds the percentile without sorting a copy.
     constexpr float kBin = 0.001f;

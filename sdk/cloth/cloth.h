@@ -62,8 +62,9 @@ struct ClothStats {
     float strain_mean = 0.0f;  // of the edges: mean of the magnitude
     float strain_p99 = 0.0f;   // 99th percentile, to 0.001
     float strain_max = 0.0f;
-    float step_ms = 0.0f;   // the last step
-    uint32_t substeps = 0;  // of the last step; 0: it slept
+    float step_ms = 0.0f;    // the last step
+    uint32_t substeps = 0;   // of the last step; 0: it slept
+    bool certified = false;  // with own layers: after the last step they do not cross, nor a garment below
 };
 
 class Cloth {
