@@ -40,7 +40,7 @@ HWY_INLINE uint32_t MeetingBoxes(const MovingBoxes::Level& level, size_t from, c
             // How much further apart the two were, or will be, than now.
             const V back = hn::Abs(hn::Sub(hn::LoadU(kTag, &level.ways.high[axis][at]), Set(way.low[axis]))),
                     forth = hn::Abs(hn::Sub(Set(way.high[axis]), hn::LoadU(kTag, &level.ways.low[axis][at])));
-            const V margin = hn::Add(hn::Max(back, forth), Set(reach_m));
+            const V margin = hn::Add(hn::Min(hn::Max(back, forth), Set(kMaxWay_m)), Set(reach_m));
             const V low = hn::Sub(hn::LoadU(kTag, &level.boxes.low[axis][at]), margin),
                     high = hn::Add(hn::LoadU(kTag, &level.boxes.high[axis][at]), margin);
             meets =
@@ -441,6 +441,15 @@ void MovingBoxes::find_levels() {
             }
             levels[i].boxes.set(at, box.low, box.high), levels[i].ways.set(at, way.low, way.high);
         }
+}
+
+Bounds MovingBoxes::way() const {
+    Bounds out;
+    for (size_t i = 0; i < levels.back().ways.low[0].size(); ++i) {
+        out.low = glm::min(out.low, levels.back().ways.low_of(i));
+        out.high = glm::max(out.high, levels.back().ways.high_of(i));
+    }
+    return out;
 }
 
 void find_meeting(const MovingBoxes& patches, uint32_t first, const Bounds& box, const Bounds& way,

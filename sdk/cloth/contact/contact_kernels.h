@@ -26,7 +26,12 @@ struct MovingBoxes {
         levels[0].boxes.set(i, box.low, box.high), levels[0].ways.set(i, way.low, way.high);
     }
     void find_levels();  // once all patches are set
+    Bounds way() const;  // of all
 };
+/// Ways past each other that are longer are looked at as if they were that long: cloth that is thrown about
+/// meets all of itself.
+inline constexpr float kMaxWay_m = 0.3f;
+
 /// Adds the patches from `first` on that come within reach_m of a box, now, on the way from where they were,
 /// or on the same way again. Rising.
 void find_meeting(const MovingBoxes& patches, uint32_t first, const Bounds& box, const Bounds& way,

@@ -112,7 +112,7 @@ bool CrossingGuard::keep(std::span<const Particle> begin, std::span<Particle> en
     if (!solved)
         for (const auto& [first, second] : crossed_)
             if (second->vertex[0] < cloth_vertices_) tangles_.emplace_back(first->number, second->number);
-    const bool is_free = solved && tangles_.empty() && !crosses_mesh_;
+    const bool is_free = solved && tangles_.empty() && !crosses_mesh_ && proximity.is_complete();
     if (!tangles_.empty()) untangle(end, kUntangles_m);
     return is_free;
 }

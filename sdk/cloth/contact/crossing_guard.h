@@ -47,7 +47,6 @@ private:
         Vec3 normal;                   // between the two at the begin
         float margin_m;                // that they are to keep along it
     };
-    using TrianglePlaces = std::array<Vec3, 3>;
     void find_hits(std::span<const Particle> begin, std::span<const Particle> end, const Proximity& proximity,
                    bool of_meshes);
     void test(PairKind kind, const std::array<uint32_t, 4>& vertices, std::span<const Particle> begin,

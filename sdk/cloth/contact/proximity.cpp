@@ -28,11 +28,15 @@ void Proximity::show_mesh(uint32_t mesh, std::span<const Vec3> positions) {
 
 void Proximity::find(std::span<const Particle> begin, std::span<const Particle> end, Jobs& jobs) {
     cloth_.move(begin, end, jobs);
-    only_marked_ = false;
+    only_marked_ = false, is_complete_ = true;
+    const Bounds own = cloth_.way();
     for (Surface& surface : surfaces_) {
         surface.all.pairs.clear();
         if (surface.is_shown) {
             if (surface.patches) surface.patches->move(begin, end, jobs);
+            const Bounds other = surface.patches ? surface.patches->way() : own;
+            const Vec3 way = glm::max(own.high - other.low, other.high - own.low);
+            is_complete_ = is_complete_ && std::max({way.x, way.y, way.z}) <= kMaxWay_m;
             cloth_.find_pairs(surface.patches ? *surface.patches : cloth_, surface.reach_m, surface.all.pairs,
                               jobs);
         }

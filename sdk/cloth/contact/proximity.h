@@ -40,6 +40,8 @@ public:
     void find_uncertain_of(std::span<const uint8_t> marked, std::span<const Particle> begin,
                            std::span<const Particle> end, Jobs& jobs);
 
+    /// False where something moves so fast past the cloth that pairs may have been missed (kMaxWay_m).
+    bool is_complete() const { return is_complete_; }
     /// Pairs that no axis separates at both ends of their ways, and the surface that the second is of.
     template <typename Body>
     void for_uncertain(Body&& body) const {
@@ -72,7 +74,7 @@ private:
     TrianglePatches cloth_;
     std::vector<Surface> surfaces_;
     size_t vertex_count_;
-    bool only_marked_ = false;
+    bool only_marked_ = false, is_complete_ = true;
 };
 
 template <typename Bits, typename Body>

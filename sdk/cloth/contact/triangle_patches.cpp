@@ -250,7 +250,8 @@ void TrianglePatches::find_pairs(const TrianglePatches& other, float reach_m, st
             for (const uint32_t q : share.meeting) {
                 if (own && are_adjacent(patch, q) && in_one_cone(patch, q)) continue;
                 const Bounds& way = other.patches_[q].way;
-                meet(patch, other, q, farther(p.way.low - way.high, p.way.high - way.low) + reach_m,
+                meet(patch, other, q,
+                     glm::min(farther(p.way.low - way.high, p.way.high - way.low), Vec3(kMaxWay_m)) + reach_m,
                      share.pairs);
             }
         }

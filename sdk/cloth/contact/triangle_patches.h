@@ -40,6 +40,8 @@ public:
 
         bool shares_vertex() const;
     };
+    /// Way of all vertices.
+    Bounds way() const { return moving_.way(); }
     /// Adds the pairs of triangles of this surface and of `other` whose boxes come within reach_m of each
     /// other between both ends, or would by moving on in the same way. On the same surface, adjacent patches
     /// whose normals lie in one cone do not meet (Volino and Magnenat-Thalmann 1994). The order of the pairs
