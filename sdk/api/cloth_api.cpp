@@ -294,6 +294,7 @@ struct ClothObject : ContextChild {
     void move_skin(std::span<const Mat4> matrices) {
         if (!skin) return;
         skin->skin.carry(matrices, skin_places, scratch.bones, *context->jobs);
+        avatar->avatar.creases().open(matrices, skin->creased, skin_places, *context->jobs);
         cloth.move_mesh(skin_mesh, skin_places);
     }
     /// Garments worn below, where their last step left them.
@@ -679,7 +680,7 @@ vfit_result vfit_cloth_create(vfit_avatar avatar_handle, vfit_garment garment_ha
             const std::vector<uint8_t> below =
                 below_garment(wearer, dress.rest(), {hands, (d.flags & VFIT_CLOTH_NO_HANDS) == 0});
             if (on_skin)
-                skin = skin_below(wearer, avatar->wrapped_rest(), below);
+                skin = skin_below(wearer, avatar->wrapped_rest(), below, avatar->avatar.creases());
             else
                 cover = cover_of(*avatar, wearer, below, hands, d.cover_m);
         }

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "avatar/skin.h"
+#include "avatar/creases.h"
 #include "body/collider.h"
 #include "cloth/garment/dress.h"
 
@@ -23,8 +23,11 @@ std::vector<uint8_t> below_garment(const DressBody& body, std::span<const Vec3> 
 struct SkinBelow {
     Skin skin;
     std::vector<uint32_t> indices;  // three a triangle
+    Creases::Mesh creased;          // the same vertices
 };
-SkinBelow skin_below(const DressBody& body, std::span<const Vec3> wrapped, std::span<const uint8_t> below);
+/// `creases` are those of the body.
+SkinBelow skin_below(const DressBody& body, std::span<const Vec3> wrapped, std::span<const uint8_t> below,
+                     const Creases& creases);
 
 /// Spheres and capsules beside the colliders of the body at rest, so many that none of its skin `below`, but
 /// for hands and feet, is further than tolerance_m outside of all. They stick out of the skin by no more than
