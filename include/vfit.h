@@ -797,7 +797,9 @@ enum {
                                        * bend or twist far keep their section. An engine that skins by
                                        * BONE_MATRIX shows the linear blend */
     VFIT_AVATAR_LIMBS_AS_POSED = 8    /* arms stay where the pose puts them; without, they are moved out of
-                                       * trunk, thighs and each other, with 2 cm of room for cloth */
+                                       * trunk, thighs and each other, with 2 cm of room for cloth, and where
+                                       * two parts of a body's skin press into each other, both give way:
+                                       * there POSITION differs from what BONE_MATRIX gives */
 };
 typedef struct vfit_avatar_desc {
     uint32_t struct_size, flags;

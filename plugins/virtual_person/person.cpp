@@ -36,6 +36,7 @@ Person::Person(vfit_context context, vfit_sex sex, uint32_t detail,
         values.push_back(v);
     }
     vfit_avatar_desc desc = vfit_avatar_desc_init();
+    desc.flags = VFIT_AVATAR_LIMBS_AS_POSED;  // the motion keeps its limbs clear; scans learn from plain skin
     desc.sex = sex;
     desc.detail = detail;
     check(vfit_avatar_create_from_shape(context, &desc, values.data(), sizeof(vfit_shape_value),

@@ -1,6 +1,7 @@
 #include "avatar/avatar.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/error.h"
 
@@ -46,7 +47,14 @@ Avatar::Avatar(AvatarSource source, const AvatarDesc& desc)
       skin_(split_skin(desc, rig_, rest_, skin_bones_, skin_weights_)),
       skinning_(desc.skinning),
       matrices_(rig_.bones().size()) {
-    if (desc.limbs_clear) limbs_clear_.emplace(rig_, rest_.positions, topology_->parts);
+    // The clothes of a character are skin too, and lie where the rule for bodies would not have them.
+    if (is_body_) creases_ = Creases(rig_, *topology_, rest_.positions, skin_bones_, skin_weights_);
+    if (desc.limbs_clear) {
+        limbs_clear_.emplace(rig_, rest_.positions, topology_->parts);
+        std::vector<uint32_t> all(rest_.positions.size());
+        std::iota(all.begin(), all.end(), 0u);
+        creased_ = creases_.mesh_of(all, rest_.positions);
+    }
     place_joints();
     measure_inner_spheres();
     const Mesh standing = measuring_mesh(kStaturePosture);
@@ -82,6 +90,7 @@ void Avatar::move(const Pose& pose) {
 
 void Avatar::skin(const SkinTarget& target, const Axes& axes, Jobs& jobs) {
     skin_.pose(matrices_, skinning_, axes, target, scratch_, jobs);
+    if (limbs_clear_) creases_.open(matrices_, creased_, target, axes, jobs);
 }
 
 void Avatar::pose(const Pose& pose, Jobs& jobs) {

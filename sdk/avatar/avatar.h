@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "avatar/avatar_source.h"
+#include "avatar/creases.h"
 #include "avatar/limbs_clear.h"
 #include "body/collider.h"
 #include "body/skeleton.h"
@@ -68,6 +69,8 @@ public:
     int64_t time_ns() const { return pose_.time_ns; }  // of the last pose
     /// The pose as it is shown: desc.limbs_clear may have moved the arms.
     const Pose& shown_pose() const { return pose_; }
+    /// Of its skin; desc.limbs_clear opens them in what skin() writes.
+    const Creases& creases() const { return creases_; }
 
     /// Proportions that motion is bound to: forward_kinematics(skeleton(), pose) gives the places of the
     /// posed avatar's bones.
@@ -144,6 +147,8 @@ private:
 
     SkinMethod skinning_;
     std::optional<LimbsClear> limbs_clear_;
+    Creases creases_;
+    Creases::Mesh creased_;  // the render vertices; empty without desc.limbs_clear
     Skin::Scratch scratch_;
     Pose pose_;  // arms as they are shown
     PosedSkeleton posed_;

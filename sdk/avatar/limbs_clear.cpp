@@ -17,7 +17,9 @@ constexpr float kBlend_m = 0.02f;  // over which two neighbouring bones share a 
 constexpr int kRounds = 8;         // of the chain; each is one pass over all contacts
 constexpr size_t kReach = 2;       // cells of an outline that a vertex speaks for, to either side
 constexpr float kAlongHand[] = {0.1f, kHandCentre, 1.0f,
-                                1.6f};  // from the wrist to the knuckles, and on to the fingers
+                                1.6f};          // from the wrist to the knuckles, and on to the fingers
+constexpr float kAlongThumb[] = {0.7f, 0.95f};  // from the wrist to its tip
+constexpr float kThumb_m = 0.01f;               // its radius
 // Of the upper arm only what is below the armpit: above, it is one with the trunk.
 constexpr float kAlongUpper[] = {0.65f, 0.8f, 1.0f}, kAlongLower[] = {0.25f, 0.5f, 0.75f};
 constexpr float kLeastOut_m = 1e-4f, kMinBone_m = 1e-3f;
@@ -181,14 +183,25 @@ void LimbsClear::learn_arm(const AvatarRig& rig, std::span<const Vec3> rest, std
                    lower = left ? BodyPart::kLeftForearm : BodyPart::kRightForearm,
                    hand = left ? BodyPart::kLeftHand : BodyPart::kRightHand;
     for (const float share : kAlongUpper)
-        arm.balls.push_back({share, 0.0f, 0.0f, radius(upper, shoulder, elbow, share)});
+        arm.balls.push_back({share, 0.0f, Vec3(0.0f), radius(upper, shoulder, elbow, share)});
     for (const float share : kAlongLower)
-        arm.balls.push_back({1.0f - share, share, 0.0f, radius(lower, elbow, wrist, share)});
+        arm.balls.push_back({1.0f - share, share, Vec3(0.0f), radius(lower, elbow, wrist, share)});
     arm.upper_radius_m = radius(upper, shoulder, elbow, 0.5f);
     arm.lower_radius_m = radius(lower, elbow, wrist, 0.5f);
     const Vec3 tail = wrist + arm.hand;
     const float palm_m = radius_about(rest, parts, hand, {wrist, tail}, kHandCentre, kPalm);
-    for (const float share : kAlongHand) arm.balls.push_back({0.0f, 1.0f, share, palm_m});
+    for (const float share : kAlongHand) arm.balls.push_back({0.0f, 1.0f, share * arm.hand, palm_m});
+    // The thumb stands off that line.
+    const Vec3 along = unit_or(arm.hand, Vec3(0, -1, 0));
+    Vec3 thumb(0.0f);
+    float furthest = 0.0f;
+    for (size_t v = 0; v < rest.size(); ++v) {
+        if (parts[v] != hand) continue;
+        const Vec3 from_wrist = rest[v] - wrist, off = from_wrist - dot(from_wrist, along) * along;
+        if (glm::length(off) > furthest) furthest = glm::length(off), thumb = from_wrist;
+    }
+    for (const float share : kAlongThumb)
+        arm.balls.push_back({0.0f, 1.0f, share * thumb, std::min(kThumb_m, palm_m)});
 }
 
 LimbsClear::Exit LimbsClear::exit_of(const Outline& o, std::span<const Mat4> matrices, const Vec3& p,
@@ -298,6 +311,7 @@ void LimbsClear::run(const PosedSkeleton& posed, std::span<const Mat4> matrices,
                      at(arm.lower),
                      at(arm.hand),
                      Mat3(hand) * arms_[i].hand,
+                     Mat3(hand),
                      glm::distance(at(arm.upper), at(arm.lower)),
                      glm::distance(at(arm.lower), at(arm.hand))};
     }

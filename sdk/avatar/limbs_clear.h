@@ -42,7 +42,7 @@ private:
     /// A ball of the arm: its centre is (1 - elbow - wrist) shoulder + elbow E + wrist W + offset.
     struct Ball {
         float elbow, wrist;
-        float along_hand;  // share of the way from the wrist to the knuckles, beyond the wrist
+        Vec3 offset;  // from the wrist, in the hand's rest
         float radius_m;
     };
     struct Arm {
@@ -54,10 +54,11 @@ private:
     /// An arm while it is moved.
     struct Chain {
         Vec3 shoulder, elbow, wrist, hand;  // hand: from the wrist to the knuckles
+        Mat3 turn;                          // of the hand, from its rest
         float upper_m, lower_m;
         Vec3 at(const Ball& ball) const {
             return (1.0f - ball.elbow - ball.wrist) * shoulder + ball.elbow * elbow + ball.wrist * wrist +
-                   ball.along_hand * hand;
+                   turn * ball.offset;
         }
         void move(float on_elbow, float on_wrist, const Vec3& by);
         void keep_lengths();

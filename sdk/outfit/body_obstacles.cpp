@@ -16,12 +16,13 @@ bool is_forearm(const Collider& c) {
 
 BodyObstacles::BodyObstacles(const Wearer& wearer, const Garment& garment, const Dress& dress,
                              const WearOptions& options)
-    : forearms_(options.hands || garment.has_sleeves()) {  // without its forearm a sleeve collapses
+    : creases_(wearer.avatar().creases()),
+      forearms_(options.hands || garment.has_sleeves()) {  // without its forearm a sleeve collapses
     if (!options.on_skin && options.cover_m <= 0.0f) return;
     const DressBody body = wearer.body();
     const std::vector<uint8_t> below = below_garment(body, dress.rest(), {forearms_, options.hands});
     if (options.on_skin) {
-        skin_ = skin_below(body, wearer.wrapped(), below);
+        skin_ = skin_below(body, wearer.wrapped(), below, creases_);
         return;
     }
     std::vector<Collider> colliders;
@@ -45,6 +46,7 @@ void BodyObstacles::select(std::span<const Mat4> matrices, std::vector<Collider>
 void BodyObstacles::move_skin(std::span<const Mat4> matrices, Cloth& cloth, Jobs& jobs) {
     if (!skin_) return;
     skin_->skin.carry(matrices, skin_positions_, scratch_, jobs);
+    creases_.open(matrices, skin_->creased, skin_positions_, jobs);
     cloth.move_mesh(skin_mesh_, skin_positions_);
 }
 

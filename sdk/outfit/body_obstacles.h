@@ -17,7 +17,7 @@ namespace vfit {
 
 class BodyObstacles {
 public:
-    /// Of that garment on the body at rest.
+    /// Of that garment on the body at rest. The wearer's avatar must outlive this.
     BodyObstacles(const Wearer& wearer, const Garment& garment, const Dress& dress,
                   const WearOptions& options);
 
@@ -29,6 +29,7 @@ public:
     void move_skin(std::span<const Mat4> matrices, Cloth& cloth, Jobs& jobs);
 
 private:
+    const Creases& creases_;
     bool forearms_;  // and hands; false: they pass through the cloth
     std::optional<SkinBelow> skin_;
     std::optional<SkinCover> cover_;

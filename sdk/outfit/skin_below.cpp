@@ -27,9 +27,10 @@ std::vector<uint8_t> below_garment(const DressBody& body, std::span<const Vec3> 
     return below;
 }
 
-SkinBelow skin_below(const DressBody& body, std::span<const Vec3> wrapped, std::span<const uint8_t> below) {
+SkinBelow skin_below(const DressBody& body, std::span<const Vec3> wrapped, std::span<const uint8_t> below,
+                     const Creases& creases) {
     Carried carried;
-    std::vector<uint32_t> indices;
+    std::vector<uint32_t> indices, vertices;
     constexpr uint32_t kNone = UINT32_MAX;
     std::vector<uint32_t> place_of(body.positions.size(), kNone);
     for (size_t i = 0; i + 2 < body.indices.size(); i += 3) {
@@ -38,12 +39,13 @@ SkinBelow skin_below(const DressBody& body, std::span<const Vec3> wrapped, std::
         for (int k = 0; k < 3; ++k) {
             if (place_of[v[k]] == kNone) {
                 place_of[v[k]] = uint32_t(carried.rest.size());
+                vertices.push_back(v[k]);
                 carried.add(wrapped[v[k]], body.skin_bones[v[k]], body.skin_weights[v[k]]);
             }
             indices.push_back(place_of[v[k]]);
         }
     }
-    return {carried.skin(), std::move(indices)};
+    return {carried.skin(), std::move(indices), creases.mesh_of(vertices, carried.rest)};
 }
 
 }  // namespace vfit

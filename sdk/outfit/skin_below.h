@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "avatar/creases.h"
 #include "avatar/skin.h"
 #include "cloth/garment/dress.h"
 
@@ -22,7 +23,10 @@ std::vector<uint8_t> below_garment(const DressBody& body, std::span<const Vec3> 
 struct SkinBelow {
     Skin skin;
     std::vector<uint32_t> indices;  // three a triangle
+    Creases::Mesh creased;          // the same vertices
 };
-SkinBelow skin_below(const DressBody& body, std::span<const Vec3> wrapped, std::span<const uint8_t> below);
+/// `creases` are those of the body.
+SkinBelow skin_below(const DressBody& body, std::span<const Vec3> wrapped, std::span<const uint8_t> below,
+                     const Creases& creases);
 
 }  // namespace vfit

@@ -54,5 +54,6 @@ void add_motion(Command& app);
 void add_contact_features(Command& app);
 void add_garments(Command& app);
 void add_layers(Command& app);
+void add_bodies(Command& app);
 
 }  // namespace vfit::tools

@@ -18,7 +18,6 @@
 #include "client/files.h"
 #include "client/output.h"
 #include "cloth/crossings.h"
-#include "measure/mesh_query.h"
 #include "picture/contact_sheet.h"
 #include "picture/dressed_picture.h"
 
@@ -105,7 +104,7 @@ double gap_mm(vfit_cloth cloth, const Welded& skin) {
     check(vfit_cloth_acquire(cloth, frame.out()));
     const auto positions = items_of<Vec3>(frame.get(), VFIT_STREAM_POSITION);
     const auto pressure = items_of<float>(frame.get(), VFIT_STREAM_PRESSURE);
-    const MeshQuery query(skin.positions, skin.indices);
+    const MeshQuery query = query_of(skin);
     Samples gaps;
     for (size_t i = 0; i < positions.size(); ++i)
         if (pressure[i] > 0.0f) gaps.add(1e3 * double(query.signed_distance(positions[i]) - kThickness_m));

@@ -35,6 +35,8 @@ Welded mesh_of(vfit_cloth cloth) {
     return weld(frame.get());
 }
 
+MeshQuery query_of(const Welded& mesh) { return MeshQuery(mesh.positions, mesh.indices); }
+
 CrossedTriangles crossings(const Welded& mesh) { return crossed_triangles(mesh.positions, mesh.indices); }
 CrossedTriangles crossings(const Welded& a, const Welded& b) {
     return crossed_triangles({a.positions, a.indices}, {b.positions, b.indices});

@@ -7,6 +7,7 @@
 
 #include "client/client.h"
 #include "math/types.h"
+#include "measure/mesh_query.h"
 
 namespace vfit::tools {
 
@@ -17,6 +18,8 @@ struct Welded {
 };
 Welded mesh_of(vfit_avatar avatar);
 Welded mesh_of(vfit_cloth cloth);
+/// Closest points and rays on it.
+MeshQuery query_of(const Welded& mesh);
 
 /// Pairs of triangles that cross: of one mesh, which share no vertex, or one of each mesh.
 using CrossedTriangles = std::vector<std::pair<uint32_t, uint32_t>>;

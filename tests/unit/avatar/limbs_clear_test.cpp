@@ -24,7 +24,10 @@ float gap_between(const Avatar& avatar, const std::vector<BodyPart>& of, const s
     for (size_t v = 0; v < avatar.topology().vertex_count; ++v) {
         if (std::find(of.begin(), of.end(), avatar.topology().parts[v]) == of.end()) continue;
         const auto nearest = query.closest(avatar.positions()[v]);
-        const bool inside = glm::dot(avatar.positions()[v] - nearest.point, nearest.normal) < 0.0f;
+        // The parts are open at their ends: further away than a limb is thick, the side says nothing.
+        constexpr float kLimb_m = 0.08f;
+        const bool inside = nearest.distance < kLimb_m &&
+                            glm::dot(avatar.positions()[v] - nearest.point, nearest.normal) < 0.0f;
         least = std::min(least, inside ? -nearest.distance : nearest.distance);
     }
     return least;

@@ -341,7 +341,8 @@ namespace Vfit
         /// keep their section. An engine that skins by BONE_MATRIX shows the linear blend</summary>
         DualQuaternions = 4,
         /// <summary>arms stay where the pose puts them; without, they are moved out of trunk, thighs and each
-        /// other, with 2 cm of room for cloth</summary>
+        /// other, with 2 cm of room for cloth, and where two parts of a body's skin press into each other,
+        /// both give way: there POSITION differs from what BONE_MATRIX gives</summary>
         LimbsAsPosed = 8,
     }
 
