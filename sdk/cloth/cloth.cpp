@@ -75,6 +75,8 @@ void check(const ClothSettings& s) {
     check_substeps(s.substeps);
     if (!finite(s.gravity)) fail(VFIT_ERROR_ARGUMENT, "gravity is not finite");
     if (!finite(s.friction) || s.friction < 0.0f) fail(VFIT_ERROR_ARGUMENT, "friction is ", s.friction);
+    if (!finite(s.self_friction) || s.self_friction < 0.0f)
+        fail(VFIT_ERROR_ARGUMENT, "friction between layers is ", s.self_friction);
     if (!finite(s.damping) || s.damping < 0.0f || s.damping > 1.0f)
         fail(VFIT_ERROR_ARGUMENT, "damping must be 0..1, is ", s.damping);
     if (!finite(s.thickness_m) || s.thickness_m < 0.0f)
@@ -526,7 +528,7 @@ void Cloth::State::advance(float dt, int count, float damping, std::span<const V
                                   kMaxDepenetration_m_s * h};
     solver.advance({dt, count, settings.gravity, settings.air, std::pow(1.0f - damping, h), contact,
                     settings.thickness_m, previous_targets, targets, colliders, meshes, lift_m, cloth_lift_m,
-                    triangles ? &*triangles : nullptr},
+                    triangles ? &*triangles : nullptr, settings.self_friction},
                    jobs);
     keep_layers(dt, jobs);
     publish();

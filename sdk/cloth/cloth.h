@@ -42,7 +42,9 @@ struct ClothSettings {
     bool follows_fixed = true;  // takes the rigid motion of the pinned vertices for the body's; else the
                                 // caller states it (carry_along)
     Air air;
-    float budget_ms = 0.0f;         // of a step; where it would take longer, sub-steps are left out. 0: none
+    float budget_ms = 0.0f;  // of a step; where it would take longer, sub-steps are left out. 0: none
+    float self_friction =
+        0.3f;  // static Coulomb coefficient between the cloth's own layers, and to those below
     float self_thickness_m = 0.0f;  // kept between the cloth's own layers; 0: they pass through each other
     float virtual_m =
         0.0f;  // points of triangles, no further from each other, meet colliders as vertices do; 0: none

@@ -125,7 +125,7 @@ void ParticleSolver::advance(const Step& step, Jobs& jobs) {
         const size_t with_meshes = fabric_->layout().count() + step.contacts->mesh_particle_count();
         if (places_.size() < with_meshes) places_.resize(with_meshes), starts_.resize(with_meshes);
     }
-    const ContactPush push{kParts_m_s * substep_s(step), step.contact.friction_static};
+    const ContactPush push{kParts_m_s * substep_s(step), step.contact_friction};
     run_phases(jobs, phases * uint32_t(step.substeps) + 1, parts, items, [&](uint32_t phase, uint32_t item) {
         const int substep = int(phase / phases);
         switch (cycle[phase % phases]) {

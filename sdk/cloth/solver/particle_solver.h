@@ -49,6 +49,7 @@ public:
         std::span<const float> lift_m,
             cloth_lift_m;  // off these, one a particle, of solids and of cloth below; may be empty
         TriangleContact* contacts = nullptr;
+        float contact_friction = 0.0f;  // of these
     };
     /// The box about all particles.
     void bounds(Vec3& low, Vec3& high) const;

@@ -70,6 +70,7 @@ private:
         ClothSettings settings;
         settings.substeps = how.substeps * fineness();
         settings.friction = cloth_.material->friction;
+        settings.self_friction = 0.0f;  // layers that hold each other would stay stretched
         settings.thickness_m = settings_.thickness_m;
         settings.self_thickness_m =
             keeps_layers_apart(cloth_, settings_.thickness_m) ? settings_.thickness_m : 0.0f;
