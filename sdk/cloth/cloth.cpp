@@ -159,11 +159,11 @@ struct Cloth::State {
     std::vector<Vec3> positions;    // what callers read
     std::vector<Vec3> before, now;  // with own layers: the same at the begin of the step, carried along; and
                                     // what the step made of it
-    std::optional<TriangleGroups> groups;      // of the cloth
-    std::optional<TriangleContact> triangles;  // with own layers
-    bool is_deformed = false;                  // it was carried by bones, which may have made layers cross
-    bool contacts_known = false;               // of where the cloth was placed
-    bool certified = false;                    // layers do not cross, which is proven
+    std::optional<TriangleGroups> groups;           // of the cloth
+    std::optional<TriangleContact> triangles;       // with own layers
+    bool is_deformed = false;                       // bones made it jump, which may have made layers cross
+    bool contacts_known = false;                    // of where the cloth was placed
+    bool certified = false;                         // layers do not cross, which is proven
     std::optional<MeshLift> off_solids, off_cloth;  // made when there are such meshes
     std::optional<MeshYield> yield;
     // The same, found when they are asked for.
@@ -460,7 +460,7 @@ void Cloth::carry_along(const CarriedAlong& by) {
     by.check(s.fabric->vertex_count());
     by.move(*s.fabric, s.solver);
     s.publish();
-    s.is_deformed = s.is_deformed || !by.rigid;
+    s.is_deformed = s.is_deformed || (by.fraction >= 1.0f && !by.rigid);
     s.carried = by.fraction;
     s.sleeps_on = by.keeps_rest(s.settings.gravity, s.settings.air);
 }
