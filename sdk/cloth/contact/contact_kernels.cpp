@@ -358,12 +358,14 @@ void RefreshContacts(std::span<ContactBatch> contacts, bool edges, const Particl
             normal = Choose(holds, Mul(square, hn::Div(hn::CopySign(one, towards), length)), normal);
             hn::Store(normal.x, kTag, c.normal[0] + k), hn::Store(normal.y, kTag, c.normal[1] + k);
             hn::Store(normal.z, kTag, c.normal[2] + k);
-            V share[4], sum = tiny;
+            V share[4], sum = tiny, lightest = zero;
             for (size_t i = 0; i < 4; ++i) {
-                share[i] = hn::Mul(weight[i], hn::Load(kTag, c.inverse_mass[i] + k));
+                const V inverse_mass = hn::Load(kTag, c.inverse_mass[i] + k);
+                lightest = hn::Max(lightest, inverse_mass);
+                share[i] = hn::Mul(weight[i], inverse_mass);
                 sum = hn::MulAdd(share[i], weight[i], sum);
             }
-            const V inverse = hn::Div(one, sum);
+            const V inverse = hn::Div(one, hn::Max(sum, hn::Mul(Set(kMinMobility), lightest)));
             for (size_t i = 0; i < 4; ++i) {
                 hn::Store(weight[i], kTag, c.weight[i] + k);
                 hn::Store(hn::Mul(share[i], inverse), kTag, c.gain[i] + k);

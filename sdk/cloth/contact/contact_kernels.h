@@ -77,6 +77,10 @@ struct alignas(32) PrimitivePairs {
 void find_closest(std::span<PrimitivePairs> pairs, bool edges, const Particle* begin, const Particle* end,
                   float sideways);
 
+/// Of the largest inverse mass of a contact: less is not taken for how easily its closest points move. Where
+/// only vertices with small weights can move, beside fixed ones, they would be thrown far.
+inline constexpr float kMinMobility = 0.05f;
+
 /// Eight contacts of a vertex with a triangle, or of two edges: the sum of weights * places, along the
 /// normal, is kept at distance_m.
 struct alignas(32) ContactBatch {

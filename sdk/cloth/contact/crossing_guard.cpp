@@ -211,11 +211,14 @@ void CrossingGuard::project(std::span<Particle> end) {
     for (int pass = 0; pass < kPasses; ++pass)
         for (const Hit& hit : hits_) {
             Vec3 between(0.0f);
-            float sum = 0.0f;
+            float sum = 0.0f, lightest = 0.0f;
             for (size_t k = 0; k < 4; ++k) {
+                const float inverse_mass = inverse_mass_[hit.vertices[k]];
                 between += hit.weights[k] * end[hit.vertices[k]].x;
-                sum += inverse_mass_[hit.vertices[k]] * hit.weights[k] * hit.weights[k];
+                sum += inverse_mass * hit.weights[k] * hit.weights[k];
+                lightest = std::max(lightest, inverse_mass);
             }
+            sum = std::max(sum, kMinMobility * lightest);
             const float depth = hit.margin_m - glm::dot(between, hit.normal);
             if (depth <= 0.0f || sum <= 0.0f) continue;
             for (size_t k = 0; k < 4; ++k) {

@@ -268,6 +268,30 @@ TEST(ContactKernels, AContactOpensAndKeepsTheMomentum) {
     });
 }
 
+TEST(ContactKernels, BesideFixedVerticesNothingIsThrown) {
+    on_each_target([] {
+        // The vertex is above the triangle's fixed corner; only the far corners, with weights of 1 %, move.
+        Particles places(5);
+        places[0].x = Vec3(0.0001f, 0.001f, 0.0001f);
+        places[2].x = Vec3(0, 0, 0.01f), places[3].x = Vec3(0.01f, 0, 0);
+        std::vector<ContactBatch> contacts(1);
+        for (uint32_t lane = 0; lane < kLanes; ++lane) {
+            for (uint32_t k = 0; k < 4; ++k) {
+                contacts[0].at[k][lane] = (lane == 0 ? k : 4) * uint32_t(sizeof(Particle));
+                contacts[0].inverse_mass[k][lane] = lane == 0 && k >= 2 ? 1000.0f : 0.0f;
+            }
+            for (int k = 0; k < 3; ++k) contacts[0].normal[k][lane] = k == 1 ? 1.0f : 0.0f;
+            contacts[0].distance_m[lane] = lane == 0 ? 0.004f : -1.0f;
+            contacts[0].side[lane] = 1.0f;
+        }
+        const Particles starts = places;
+        refresh_contacts(contacts, false, places.data());
+        solve_contacts(contacts, {0.002f, 0.0f}, starts.data(), places.data());
+        for (size_t i = 0; i < places.size(); ++i)
+            EXPECT_LT(glm::distance(places[i].x, starts[i].x), 0.01f) << i;
+    });
+}
+
 TEST(FlatDistances, AreTheShortestWaysAlongEdges) {
     Sheet sheet(12, 12, 0.02f);
     sheet.pin_top();
