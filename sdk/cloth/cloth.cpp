@@ -27,7 +27,6 @@ constexpr float kKineticShare = 0.84f;
 // How fast a vertex that is already inside a collider comes out: brisk against the fastest body (about the
 // speed of a walking foot), slow enough not to be shot away.
 constexpr float kMaxDepenetration_m_s = 3.0f;
-constexpr uint32_t kRunsOfAJob = 128;  // of particles: enough to outweigh the hand-over (about 10 us)
 // What has been slower than that for so long, on a body that moves less than that in a step, sleeps. A swing
 // is so slow only for an instant, where it turns round; single vertices may tremble in a contact.
 constexpr float kStillMean_m_s = 0.002f, kStillMost_m_s = 0.05f, kStill_m = 2e-5f, kFallsAsleep_s = 0.5f;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth/base/triangles_about.h"
 #include "math/finite.h"
 
 namespace vfit {
@@ -62,24 +63,6 @@ std::vector<uint32_t> along_morton_curve(const std::vector<Vec3>& places) {
     for (const auto& [code, i] : codes) out.push_back(i);
     return out;
 }
-
-/// Those about each vertex.
-class TrianglesAbout {
-public:
-    TrianglesAbout(size_t vertices, std::span<const uint32_t> indices)
-        : first_(vertices + 1, 0), all_(indices.size()) {
-        for (const uint32_t v : indices) ++first_[v + 1];
-        for (size_t v = 0; v < vertices; ++v) first_[v + 1] += first_[v];
-        std::vector<uint32_t> next(first_.begin(), first_.end() - 1);
-        for (uint32_t i = 0; i < indices.size(); ++i) all_[next[indices[i]]++] = i / 3;
-    }
-    std::span<const uint32_t> of(uint32_t vertex) const {
-        return {all_.data() + first_[vertex], first_[vertex + 1] - first_[vertex]};
-    }
-
-private:
-    std::vector<uint32_t> first_, all_;
-};
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "cloth/base/triangles_about.h"
 #include "math/finite.h"
 
 namespace vfit {
@@ -14,24 +15,6 @@ namespace {
 constexpr uint32_t kPatchesOfAJob = 64;
 // Normals of one cone, 75 degrees from its axis: beyond, a patch may fold onto itself.
 constexpr float kConeCosine = 0.26f;
-
-/// Triangles about each vertex.
-class TrianglesAbout {
-public:
-    TrianglesAbout(size_t vertices, std::span<const uint32_t> indices)
-        : first_(vertices + 1, 0), all_(indices.size()) {
-        for (const uint32_t v : indices) ++first_[v + 1];
-        std::partial_sum(first_.begin(), first_.end(), first_.begin());
-        std::vector<uint32_t> next(first_.begin(), first_.end() - 1);
-        for (uint32_t i = 0; i < indices.size(); ++i) all_[next[indices[i]]++] = i / 3;
-    }
-    std::span<const uint32_t> of(uint32_t vertex) const {
-        return {all_.data() + first_[vertex], first_[vertex + 1] - first_[vertex]};
-    }
-
-private:
-    std::vector<uint32_t> first_, all_;
-};
 
 /// Divides at the median of the longest side, so that registers and blocks of them (powers of eight) are
 /// compact.
