@@ -84,7 +84,7 @@ void Avatar::move(const Pose& pose) {
     rig_.pose(pose, posed_, matrices_);
     pose_ = pose;
     if (!limbs_clear_) return;
-    limbs_clear_->run(posed_, matrices_, pose_);
+    limbs_clear_->run(posed_, matrices_, arms_before_, pose_);
     rig_.pose(pose_, posed_, matrices_);
 }
 

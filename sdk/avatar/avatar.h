@@ -147,6 +147,7 @@ private:
 
     SkinMethod skinning_;
     std::optional<LimbsClear> limbs_clear_;
+    LimbsClear::Memory arms_before_;
     Creases creases_;
     Creases::Mesh creased_;  // the render vertices; empty without desc.limbs_clear
     Skin::Scratch scratch_;

@@ -13,9 +13,17 @@ namespace {
 
 constexpr float kRoom_m = 0.02f;  // between two limbs: for two layers of cloth at 4 mm, and the 8 mm by which
                                   // they span the skin's hollows and roundings
-constexpr float kBlend_m = 0.02f;  // over which two neighbouring bones share a place
-constexpr int kRounds = 8;         // of the chain; each is one pass over all contacts
-constexpr size_t kReach = 2;       // cells of an outline that a vertex speaks for, to either side
+constexpr float kBlend_m = 0.02f;                // over which two neighbouring bones share a place
+constexpr int kRounds = 8, kRoundsOnTheWay = 2;  // of the chain; each is one pass over all contacts
+constexpr float kStep_m = 0.03f;                 // of an arm on its path: less than its radius
+constexpr int kMaxSteps = 8;
+constexpr float kLongestStep = 1.5f;           // of one that is held back, to the others
+constexpr float kClose_m = 2.0f * kStep_m;     // two arms that are closer have sides
+constexpr float kFreeEnd = 0.98f;              // of forearm and hand: there, the other arm may pass
+constexpr int64_t kMaxPause_ns = 250'000'000;  // between two poses of a path
+// An arm that is held back so far and for so long goes to its place at once.
+constexpr float kHeldBack_m = 0.15f, kMaxHeld_s = 0.5f;
+constexpr size_t kReach = 2;  // cells of an outline that a vertex speaks for, to either side
 constexpr float kAlongHand[] = {0.1f, kHandCentre, 1.0f,
                                 1.6f};          // from the wrist to the knuckles, and on to the fingers
 constexpr float kAlongThumb[] = {0.7f, 0.95f};  // from the wrist to its tip
@@ -244,6 +252,23 @@ void LimbsClear::Chain::move(float on_elbow, float on_wrist, const Vec3& by) {
     wrist += by * (on_wrist / square);
 }
 
+/// Of the point that moves most.
+float LimbsClear::Chain::way_to(const Chain& other) const {
+    return std::max({glm::distance(elbow, other.elbow), glm::distance(wrist, other.wrist),
+                     glm::distance(wrist + hand, other.wrist + other.hand)});
+}
+
+void LimbsClear::Chain::go_to(const Chain& other, float share) {
+    if (share >= 1.0f) {
+        *this = other;
+        return;
+    }
+    elbow = glm::mix(elbow, other.elbow, share);
+    wrist = glm::mix(wrist, other.wrist, share);
+    hand = glm::mix(hand, other.hand, share);
+    keep_lengths();
+}
+
 void LimbsClear::Chain::keep_lengths() {
     elbow = shoulder + upper_m * unit_or(elbow - shoulder, Vec3(0, -1, 0));
     wrist = elbow + lower_m * unit_or(wrist - elbow, Vec3(0, -1, 0));
@@ -263,8 +288,8 @@ bool LimbsClear::clear_of_body(size_t arm, std::span<const Mat4> matrices, Chain
 }
 
 /// Capsules of one arm against those of the other. Where their axes nearly meet, the direction between them
-/// says little: the arm that is in front is kept in front.
-bool LimbsClear::clear_of_each_other(const Vec3& forward, Chain (&chains)[2]) const {
+/// says little: an arm stays on the side where it was, or in front if it is in front.
+bool LimbsClear::clear_of_each_other(const Vec3& forward, Vec3 (&sides)[2][2], Chain (&chains)[2]) const {
     bool moved = false;
     for (int of_left = 0; of_left < 2; ++of_left)
         for (int of_right = 0; of_right < 2; ++of_right) {
@@ -280,16 +305,28 @@ bool LimbsClear::clear_of_each_other(const Vec3& forward, Chain (&chains)[2]) co
             const float apart = radius(0, of_left) + radius(1, of_right) + kRoom_m;
             const Vec3 way = a.at(nearest.on_a) - b.at(nearest.on_b);
             const float distance = glm::length(way);
-            if (distance >= apart) continue;
-            const float in_front = dot(way, forward) < 0.0f ? -1.0f : 1.0f;
-            const Vec3 direction =
-                unit_or(way + forward * (in_front * std::max(0.0f, 0.5f * apart - distance)), forward);
-            const float depth = apart - dot(way, direction);
+            Vec3& side = sides[of_left][of_right];
+            if (distance >= apart + kClose_m) {
+                side = Vec3(0.0f);
+                continue;
+            }
+            const bool at_free_end =
+                (of_left && nearest.on_a > kFreeEnd) || (of_right && nearest.on_b > kFreeEnd);
+            const bool had_side = side != Vec3(0.0f),
+                       passed = had_side && !at_free_end && dot(way, side) < 0.0f;
+            if (!passed) {
+                const Vec3 beside = had_side && !at_free_end   ? side
+                                    : dot(way, forward) < 0.0f ? -forward
+                                                               : forward;
+                side = unit_or(way + beside * std::max(0.0f, 0.5f * apart - distance), beside);
+            }
+            const float depth = apart - dot(way, side);
+            if (depth <= 0.0f) continue;
             const auto push = [&](Chain& c, int lower, float share, float by) {
                 if (lower)
-                    c.move(1.0f - share, share, by * direction);
+                    c.move(1.0f - share, share, by * side);
                 else if (share > kMinLever)
-                    c.move(share, 0.0f, by * direction);
+                    c.move(share, 0.0f, by * side);
             };
             moved = true;
             push(chains[0], of_left, nearest.on_a, 0.5f * depth);
@@ -300,14 +337,25 @@ bool LimbsClear::clear_of_each_other(const Vec3& forward, Chain (&chains)[2]) co
     return moved;
 }
 
-void LimbsClear::run(const PosedSkeleton& posed, std::span<const Mat4> matrices, Pose& pose) const {
+void LimbsClear::clear(std::span<const Mat4> matrices, const Vec3& forward, int rounds, Vec3 (&sides)[2][2],
+                       Chain (&chains)[2]) const {
+    for (int round = 0; round < rounds; ++round) {
+        bool moved = false;
+        for (size_t i = 0; i < 2; ++i) moved |= clear_of_body(i, matrices, chains[i]);
+        moved |= clear_of_each_other(forward, sides, chains);
+        if (!moved) break;
+    }
+}
+
+void LimbsClear::run(const PosedSkeleton& posed, std::span<const Mat4> matrices, Memory& memory,
+                     Pose& pose) const {
     const auto at = [&](int bone) { return posed.position[size_t(bone)]; };
     const auto turn = [&](int bone) { return posed.rotation[size_t(bone)]; };
-    Chain chains[2];
+    Chain wanted[2];
     for (size_t i = 0; i < 2; ++i) {
         const ArmBones& arm = kArms[i];
         const Mat4& hand = matrices[size_t(arms_[i].hand_bone)];
-        chains[i] = {at(arm.upper),
+        wanted[i] = {at(arm.upper),
                      at(arm.lower),
                      at(arm.hand),
                      Mat3(hand) * arms_[i].hand,
@@ -315,12 +363,53 @@ void LimbsClear::run(const PosedSkeleton& posed, std::span<const Mat4> matrices,
                      glm::distance(at(arm.upper), at(arm.lower)),
                      glm::distance(at(arm.lower), at(arm.hand))};
     }
-    const Vec3 forward = turn(VFIT_BONE_CHEST) * Vec3(0, 0, 1);
-    for (int round = 0; round < kRounds; ++round) {
-        bool moved = false;
-        for (size_t i = 0; i < 2; ++i) moved |= clear_of_body(i, matrices, chains[i]);
-        moved |= clear_of_each_other(forward, chains);
-        if (!moved) break;
+    if (pose.time_ns != memory.now_.time_ns) memory.before_ = memory.now_;
+    Memory::State& now = memory.now_;
+    const Memory::State& before = memory.before_;
+    const int64_t pause_ns = pose.time_ns - before.time_ns;
+    const bool has_path =
+        before.is_known && pause_ns > 0 && pause_ns <= kMaxPause_ns && before.held_s < kMaxHeld_s;
+    const Quat chest = turn(VFIT_BONE_CHEST);
+    const Vec3 forward = chest * Vec3(0, 0, 1);
+    Chain chains[2] = {wanted[0], wanted[1]};
+    Vec3 sides[2][2]{};
+    int steps = 1;
+    float step_m = INFINITY;
+    if (has_path) {
+        float way_m = 0.0f;
+        for (size_t i = 0; i < 2; ++i) {
+            Chain& c = chains[i];
+            const Memory::Arm& arm = before.arms[i];
+            c.elbow = c.shoulder + chest * arm.elbow;
+            c.wrist = c.shoulder + chest * arm.wrist;
+            c.hand = chest * arm.hand;
+            c.keep_lengths();
+            way_m = std::max(way_m, c.way_to(wanted[i]));
+        }
+        steps = std::clamp(int(std::ceil(way_m / kStep_m)), 1, kMaxSteps);
+        step_m = kLongestStep * std::max(way_m / float(steps), kStep_m);
+        for (size_t l = 0; l < 2; ++l)
+            for (size_t r = 0; r < 2; ++r) sides[l][r] = chest * before.sides[l][r];
+    }
+    for (int left = steps; left > 0; --left) {
+        for (size_t i = 0; i < 2; ++i) {
+            const float way_m = chains[i].way_to(wanted[i]);
+            chains[i].go_to(wanted[i], std::min(1.0f / float(left), step_m / std::max(way_m, 1e-6f)));
+        }
+        clear(matrices, forward, left > 1 ? kRoundsOnTheWay : kRounds, sides, chains);
+    }
+    float held_m = 0.0f;
+    for (size_t i = 0; i < 2; ++i)
+        held_m = std::max({held_m, glm::distance(chains[i].elbow, wanted[i].elbow),
+                           glm::distance(chains[i].wrist, wanted[i].wrist)});
+    now = {pose.time_ns, true, {}, {}, 0.0f};
+    if (held_m > kHeldBack_m && has_path) now.held_s = before.held_s + 1e-9f * float(pause_ns);
+    const Quat to_chest = glm::conjugate(chest);
+    for (size_t i = 0; i < 2; ++i) {
+        const Chain& c = chains[i];
+        now.arms[i] = {to_chest * (c.elbow - c.shoulder), to_chest * (c.wrist - c.shoulder),
+                       to_chest * c.hand};
+        for (size_t k = 0; k < 2; ++k) now.sides[i][k] = to_chest * sides[i][k];
     }
     for (size_t i = 0; i < 2; ++i) {
         const ArmBones& arm = kArms[i];

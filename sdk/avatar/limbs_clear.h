@@ -3,6 +3,9 @@
 // position-based dynamics (Mueller et al. 2007) moves elbow and wrist until the capsules are clear of trunk,
 // thighs and the other arm, with room for cloth. The shoulder, the lengths and the hand's rotation in the
 // world stay.
+//
+// From one pose to the next, arms go along a path: an arm that is before another, or before the trunk, comes
+// behind it around the end of the hand, or around the trunk, and never through. Cloth could not follow.
 #pragma once
 
 #include <array>
@@ -18,9 +21,25 @@ public:
     /// Learns how thick trunk, thighs, arms and hands are from the rest mesh.
     LimbsClear(const AvatarRig& rig, std::span<const Vec3> rest, std::span<const BodyPart> parts);
 
+    /// Where the arms were in the last pose.
+    class Memory {
+        friend class LimbsClear;
+        struct Arm {
+            Vec3 elbow, wrist, hand;  // in the chest's frame: from the shoulder, and from the wrist
+        };
+        struct State {
+            int64_t time_ns = 0;
+            bool is_known = false;
+            Arm arms[2];
+            Vec3 sides[2][2]{};  // from the right arm's upper or lower bone to the left arm's, in the chest's
+                                 // frame; 0: not close
+            float held_s = 0.0f;  // since the arms were last near to where the pose had them
+        };
+        State before_, now_;  // of two times
+    };
     /// Turns arms where needed; an arm that is clear stays where it is, to the bit. `matrices` are those of
-    /// the pose. Does not allocate.
-    void run(const PosedSkeleton& posed, std::span<const Mat4> matrices, Pose& pose) const;
+    /// the pose. Poses whose times do not follow each other closely have no path. Does not allocate.
+    void run(const PosedSkeleton& posed, std::span<const Mat4> matrices, Memory& memory, Pose& pose) const;
 
 private:
     static constexpr int kLevels = 16, kAngles = 16;
@@ -62,6 +81,8 @@ private:
         }
         void move(float on_elbow, float on_wrist, const Vec3& by);
         void keep_lengths();
+        float way_to(const Chain& other) const;
+        void go_to(const Chain& other, float share);
     };
     void learn_arm(const AvatarRig& rig, std::span<const Vec3> rest, std::span<const BodyPart> parts,
                    size_t number);
@@ -69,7 +90,9 @@ private:
                  float side) const;
     /// One pass; true where something was moved.
     bool clear_of_body(size_t arm, std::span<const Mat4> matrices, Chain& chain) const;
-    bool clear_of_each_other(const Vec3& forward, Chain (&chains)[2]) const;
+    bool clear_of_each_other(const Vec3& forward, Vec3 (&sides)[2][2], Chain (&chains)[2]) const;
+    void clear(std::span<const Mat4> matrices, const Vec3& forward, int rounds, Vec3 (&sides)[2][2],
+               Chain (&chains)[2]) const;
 
     std::vector<Outline> outlines_;  // trunk, thighs
     std::array<Arm, 2> arms_;
