@@ -34,7 +34,7 @@ constexpr float kFinestVirtual_m = 0.001f;
 // Of the thickness, between a mesh's vertices or edges and the cloth: its own vertices keep all of it, so
 // that few of the others are in contact.
 constexpr float kMeshShare = 0.5f;
-constexpr uint32_t kNoMesh = UINT32_MAX;
+constexpr float kMinContactRate_hz = 60.0f;  // contacts with meshes are found as often as that, at least
 constexpr float kMeshAround_m =
     0.15f;  // about the cloth, in which meshes are looked for: a fast limb's way in a step
 constexpr float kLatest = 0.1f;           // weight of the last step in the mean time of a sub-step
@@ -49,9 +49,6 @@ struct PutOnPhase {
 };
 constexpr PutOnPhase kHang{15, 4}, kMove{40, 4}, kSettle{10, 8};
 constexpr float kPutOnDamping = 0.99f;
-constexpr uint32_t kLooksSettling = 16, kLooks = 64,
-                   kLooksOffCloth =
-                       16;  // steps in which all triangles have been looked at for crossing meshes
 // After a change of lengths: what falls into its new folds should hang still within a second. A coat is a
 // pendulum of 0.8 m, which no damping brings to rest faster than in 2 s; so its time runs twice as fast, in
 // steps as short as ever: cloth that is pulled up a leg went through it in longer ones.
@@ -147,23 +144,20 @@ struct Cloth::State {
     ParticleSolver solver;
     ColliderMotion colliders;
     std::vector<ContactMesh> meshes;
-    std::vector<uint32_t> in_triangles;  // their numbers in `triangles`, or kNoMesh
-    uint32_t triangle_meshes = 0;
-    std::vector<std::vector<Vec3>> mesh_places, mesh_before;  // that they go to, and come from
-    std::vector<Vec3> mesh_begin;                             // where a part of that way is over
-    std::vector<Vec3> held;              // targets, where fixed vertices are lifted off other cloth
-    std::vector<Vec3> previous_targets;  // one a vertex, then one a backstop: as held
-    bool backstops_placed = false;       // previous_targets holds the backstops as well
+    std::vector<std::vector<Vec3>> mesh_places;  // that they go to
+    std::vector<Vec3> held;                      // targets, where fixed vertices are lifted off other cloth
+    std::vector<Vec3> previous_targets;          // one a vertex, then one a backstop: as held
+    bool backstops_placed = false;               // previous_targets holds the backstops as well
 
     std::vector<Vec3> positions;    // what callers read
     std::vector<Vec3> before, now;  // with own layers: the same at the begin of the step, carried along; and
                                     // what the step made of it
-    std::optional<TriangleGroups> groups;           // of the cloth
-    std::optional<TriangleContact> triangles;       // with own layers
-    bool is_deformed = false;                       // bones made it jump, which may have made layers cross
-    bool contacts_known = false;                    // of where the cloth was placed
-    bool certified = false;                         // layers do not cross, which is proven
-    std::optional<MeshLift> off_solids, off_cloth;  // made when there are such meshes
+    std::optional<TriangleGroups> groups;      // of the cloth
+    std::optional<TriangleContact> triangles;  // with own layers
+    bool is_deformed = false;                  // bones made it jump, which may have made layers cross
+    bool contacts_known = false;               // of where the cloth was placed
+    bool certified = false;                    // layers do not cross, which is proven
+    std::optional<MeshLift> off_cloth;         // made when there are such meshes
     std::optional<MeshYield> yield;
     // The same, found when they are asked for.
     mutable std::vector<Vec3> normals;
@@ -188,7 +182,7 @@ struct Cloth::State {
     void wake() { asleep_at.clear(), still_s = 0.0f; }
     void follow_fixed(float dt, std::span<const Vec3> targets);
     void meet_body(std::span<const Vec3> targets, std::span<const Collider> limbs);
-    void accept_mesh(size_t mesh, const Vec3& low, const Vec3& high);
+    void look_at(const Interval& interval);
     void skip_targets(std::span<const Vec3> targets);
     float body_way() const;
     int affordable(int wanted) const;
@@ -196,11 +190,14 @@ struct Cloth::State {
     void check_body(std::span<const Vec3> targets, std::span<const Collider> colliders) const;
     void reset(std::span<const Vec3> start);
     void advance(float dt, int count, float damping, std::span<const Vec3> targets, Jobs& jobs);
+    void advance_interval(float dt, int count, float damping, const Interval& interval,
+                          std::span<const Vec3> targets, Jobs& jobs);
     void rest_if_still(float dt, std::span<const Vec3> held, std::span<const Vec3> targets);
     TriangleGroups& triangles_now(std::span<const Vec3> places, Jobs& jobs);
+    void meet_triangles(const ContactMesh& mesh);
     void part_layers(Jobs& jobs);
     void keep_layers(float dt, Jobs& jobs);
-    void lift_off_meshes(uint32_t steps, Jobs& jobs);
+    void lift_off_cloth(Jobs& jobs);
     void yield_to_cloth();
     void publish();
     void find_normals() const;
@@ -249,14 +246,8 @@ Cloth Cloth::with_fabric(std::shared_ptr<const Fabric> fabric, Jobs* jobs) const
     State& o = *out.state_;
     o.colliders = s.colliders;
     o.meshes = s.meshes;
-    o.in_triangles = s.in_triangles, o.triangle_meshes = s.triangle_meshes;
-    if (o.triangles)
-        for (size_t i = 0; i < s.meshes.size(); ++i)
-            if (o.in_triangles[i] != kNoMesh)
-                o.triangles->add_mesh(s.meshes[i].vertex_count(), s.meshes[i].indices(),
-                                      kMeshShare * s.settings.thickness_m, s.meshes[i].what());
+    for (const ContactMesh& mesh : o.meshes) o.meet_triangles(mesh);
     o.mesh_places = s.mesh_places;
-    o.mesh_before = s.mesh_before;
     o.previous_targets = s.previous_targets;
     o.backstops_placed = s.backstops_placed;
     return out;
@@ -276,7 +267,7 @@ void Cloth::State::reset(std::span<const Vec3> start) {
     solver.place(start);
     colliders.forget();
     for (ContactMesh& mesh : meshes) mesh.forget();
-    off_solids.reset(), off_cloth.reset(), yield.reset();  // what crossed did so elsewhere
+    off_cloth.reset(), yield.reset();  // what crossed did so elsewhere
     contacts_known = certified = false;
     if (triangles) triangles->forget_meshes();
     carried = 0.0f;
@@ -328,17 +319,17 @@ void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
 }
 
 uint32_t Cloth::add_mesh(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts,
-                         MeshOf what) {
+                         MeshOf what, const MeshFilter& filter) {
+    if (!filter.category.empty() &&
+        (filter.category.size() != vertices || filter.mask.size() != state_->fabric->vertex_count()))
+        fail(VFIT_ERROR_ARGUMENT, "a filter has ", filter.category.size(), " categories for a mesh of ",
+             vertices, " vertices, and ", filter.mask.size(), " masks for a cloth of ",
+             state_->fabric->vertex_count());
     if (!counts.empty() && counts.size() != vertices)
         fail(VFIT_ERROR_ARGUMENT, counts.size(), " flags for a mesh of ", vertices, " vertices");
-    state_->meshes.emplace_back(vertices, indices, counts, what);
+    state_->meshes.emplace_back(vertices, indices, counts, what, filter);
     state_->mesh_places.emplace_back();
-    state_->mesh_before.emplace_back();
-    state_->in_triangles.push_back(state_->triangles && what != MeshOf::solid ? state_->triangle_meshes++
-                                                                              : kNoMesh);
-    if (state_->in_triangles.back() != kNoMesh)
-        state_->triangles->add_mesh(vertices, state_->meshes.back().indices(),
-                                    kMeshShare * state_->settings.thickness_m, what);
+    state_->meet_triangles(state_->meshes.back());
     state_->wake();
     return uint32_t(state_->meshes.size()) - 1;
 }
@@ -350,16 +341,14 @@ void Cloth::move_mesh(uint32_t mesh, std::span<const Vec3> positions) {
         fail(VFIT_ERROR_ARGUMENT, positions.size(), " places for a mesh of ", s.meshes[mesh].vertex_count(),
              " vertices");
     if (s.mesh_places[mesh].empty()) s.wake();
-    std::swap(s.mesh_places[mesh], s.mesh_before[mesh]);
     s.mesh_places[mesh].assign(positions.begin(), positions.end());
 }
 
 void Cloth::hide_mesh(uint32_t mesh) {
     if (mesh >= state_->meshes.size()) fail(VFIT_ERROR_ARGUMENT, "there is no mesh ", mesh);
     state_->mesh_places[mesh].clear();
-    state_->mesh_before[mesh].clear();
     state_->meshes[mesh].hide();
-    if (state_->in_triangles[mesh] != kNoMesh) state_->triangles->hide_mesh(state_->in_triangles[mesh]);
+    if (state_->triangles) state_->triangles->hide_mesh(mesh);
     state_->wake();
 }
 
@@ -404,7 +393,7 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
     for (; done < times && s.asleep_at.empty(); ++done) {
         s.advance(dt, substeps, settles ? std::max(s.settings.damping, kSettlingDamping) : s.settings.damping,
                   skinned_targets, jobs);
-        s.lift_off_meshes(settles ? kLooksSettling : kLooks, jobs);
+        s.lift_off_cloth(jobs);
     }
     s.substeps = uint32_t(substeps * done);
     s.substep_s = dt / float(substeps);
@@ -415,31 +404,27 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
 
 void Cloth::State::meet_body(std::span<const Vec3> targets, std::span<const Collider> limbs) {
     colliders.accept(limbs, settings.thickness_m);
-    if (carried > 0.0f) skip_targets(targets), colliders.skip(carried);
-    if (!meshes.empty()) {
-        Vec3 low, high;
-        solver.bounds(low, high);
-        for (size_t i = 0; i < meshes.size(); ++i) accept_mesh(i, low - kMeshAround_m, high + kMeshAround_m);
+    for (size_t i = 0; i < meshes.size(); ++i) {
+        if (mesh_places[i].empty()) continue;
+        meshes[i].accept(mesh_places[i]);
+        if (carried > 0.0f) meshes[i].skip(carried);
+        if (triangles) triangles->move_mesh(uint32_t(i), mesh_places[i]);
+    }
+    if (carried > 0.0f) {
+        skip_targets(targets), colliders.skip(carried);
+        if (triangles) triangles->skip(carried);
     }
     carried = 0.0f;
+    look_at({});
 }
 
-void Cloth::State::accept_mesh(size_t mesh, const Vec3& low, const Vec3& high) {
-    const std::vector<Vec3>&from = mesh_before[mesh], &to = mesh_places[mesh];
-    if (to.empty()) return;
-    if (carried > 0.0f) meshes[mesh].forget();
-    if (carried > 0.0f && carried < 1.0f && from.size() == to.size()) {
-        mesh_begin.resize(to.size());
-        for (size_t i = 0; i < to.size(); ++i) mesh_begin[i] = glm::mix(from[i], to[i], carried);
-        meshes[mesh].accept(mesh_begin, low, high);
-    }
-    meshes[mesh].accept(to, low, high);
-    if (in_triangles[mesh] == kNoMesh) return;
-    const bool part = carried > 0.0f && carried < 1.0f && from.size() == to.size();
-    triangles->move_mesh(in_triangles[mesh], to,
-                         part             ? mesh_begin
-                         : carried > 0.0f ? to
-                                          : std::span<const Vec3>());
+void Cloth::State::look_at(const Interval& interval) {
+    colliders.look_at(interval);
+    if (meshes.empty()) return;
+    Vec3 low, high;
+    solver.bounds(low, high);
+    for (ContactMesh& mesh : meshes) mesh.look_at(interval, low - kMeshAround_m, high + kMeshAround_m);
+    if (triangles) triangles->look_at(interval);
 }
 
 /// Targets begin the step as far on their way as the cloth was moved.
@@ -502,47 +487,66 @@ void Cloth::State::check_body(std::span<const Vec3> targets, std::span<const Col
     check_colliders(colliders);
 }
 
-/// The colliders have been accepted.
+/// The body has been met.
 void Cloth::State::advance(float dt, int count, float damping, std::span<const Vec3> skinned_targets,
                            Jobs& jobs) {
-    if (triangles) {
-        if (std::exchange(is_deformed, false)) part_layers(jobs);
-        before = positions;
-        if (!contacts_known) triangles->place(positions, jobs);
-        contacts_known = true;
-    }
+    const int intervals =
+        meshes.empty() ? 1 : std::clamp(int(std::ceil(dt * kMinContactRate_hz - 1e-3f)), 1, count);
     const std::span<const Vec3> targets = held_at(skinned_targets);
     if (!backstops_placed) {
         const uint32_t vertices = fabric->vertex_count();
         std::copy(targets.begin() + vertices, targets.end(), previous_targets.begin() + vertices);
         backstops_placed = true;
     }
-    const float h = dt / float(count);
-    const auto lifts_of = [](const std::optional<MeshLift>& lift) {
-        return lift ? lift->particles() : std::span<const float>();
-    };
-    const std::span<const float> lift_m = lifts_of(off_solids),
-                                 cloth_lift_m = yield ? yield->particles() : lifts_of(off_cloth);
-    const ContactSettings contact{settings.friction, settings.friction * kKineticShare,
-                                  kMaxDepenetration_m_s * h};
-    solver.advance({dt, count, settings.gravity, settings.air, std::pow(1.0f - damping, h), contact,
-                    settings.thickness_m, previous_targets, targets, colliders, meshes, lift_m, cloth_lift_m,
-                    triangles ? &*triangles : nullptr, settings.self_friction},
-                   jobs);
-    keep_layers(dt, jobs);
-    publish();
-    yield_to_cloth();
-    rest_if_still(dt, targets, skinned_targets);
+    for (int i = 0; i < intervals; ++i) {
+        const int first = i * count / intervals, end = (i + 1) * count / intervals;
+        const Interval interval{float(first) / float(count), float(end) / float(count)};
+        if (intervals > 1) look_at(interval);
+        advance_interval(dt * float(end - first) / float(count), end - first, damping, interval, targets,
+                         jobs);
+        rest_if_still(dt * float(end - first) / float(count), targets, skinned_targets);
+    }
     std::copy(targets.begin(), targets.end(), previous_targets.begin());
     colliders.arrive();
     for (ContactMesh& mesh : meshes) mesh.arrive();
     if (triangles) triangles->arrive();
 }
 
+void Cloth::State::advance_interval(float dt, int count, float damping, const Interval& interval,
+                                    std::span<const Vec3> targets, Jobs& jobs) {
+    if (triangles) {
+        if (std::exchange(is_deformed, false)) part_layers(jobs);
+        before = positions;
+        if (!contacts_known) triangles->place(positions, jobs);
+        contacts_known = true;
+    }
+    const float h = dt / float(count);
+    std::span<const float> cloth_lift_m;
+    if (yield)
+        cloth_lift_m = yield->particles();
+    else if (off_cloth)
+        cloth_lift_m = off_cloth->particles();
+    const ContactSettings contact{settings.friction, settings.friction * kKineticShare,
+                                  kMaxDepenetration_m_s * h};
+    solver.advance({dt, count, settings.gravity, settings.air, std::pow(1.0f - damping, h), contact,
+                    settings.thickness_m, previous_targets, targets, interval, colliders, meshes,
+                    cloth_lift_m, triangles ? &*triangles : nullptr, settings.self_friction},
+                   jobs);
+    keep_layers(dt, jobs);
+    publish();
+    yield_to_cloth();
+}
+
 TriangleGroups& Cloth::State::triangles_now(std::span<const Vec3> places, Jobs& jobs) {
     if (!groups) groups.emplace(places, fabric->data().indices);
     groups->move(places, jobs);
     return *groups;
+}
+
+void Cloth::State::meet_triangles(const ContactMesh& mesh) {
+    if (!triangles) return;
+    triangles->add_mesh(mesh.vertex_count(), mesh.indices(), kMeshShare * settings.thickness_m, mesh.what(),
+                        mesh.filter());
 }
 
 void Cloth::State::part_layers(Jobs& jobs) {
@@ -568,18 +572,13 @@ void Cloth::State::keep_layers(float dt, Jobs& jobs) {
     }
 }
 
-void Cloth::State::lift_off_meshes(uint32_t steps, Jobs& jobs) {
-    if (meshes.empty() || !settings.clears_meshes) return;
-    triangles_now(positions, jobs);
-    const auto lift = [&](MeshOf what, std::optional<MeshLift>& off, uint32_t in_steps) {
-        if (std::none_of(meshes.begin(), meshes.end(),
-                         [&](const ContactMesh& mesh) { return mesh.what() == what; }))
-            return;
-        if (!off) off.emplace(fabric, what);
-        off->look(*groups, meshes, in_steps);
-    };
-    lift(MeshOf::solid, off_solids, steps);
-    lift(MeshOf::cloth, off_cloth, kLooksOffCloth);
+void Cloth::State::lift_off_cloth(Jobs& jobs) {
+    if (!settings.clears_meshes || std::none_of(meshes.begin(), meshes.end(), [](const ContactMesh& mesh) {
+            return mesh.what() == MeshOf::cloth;
+        }))
+        return;
+    if (!off_cloth) off_cloth.emplace(fabric);
+    off_cloth->look(triangles_now(positions, jobs), meshes);
 }
 
 void Cloth::State::yield_to_cloth() {

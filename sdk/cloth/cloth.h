@@ -116,7 +116,8 @@ public:
     /// from outside, flags of the vertices that count (empty: all). Returns its number. Where it is, is said
     /// before each step.
     uint32_t add_mesh(size_t vertices, std::span<const uint32_t> indices,
-                      std::span<const uint8_t> counts = {}, MeshOf what = MeshOf::solid);
+                      std::span<const uint8_t> counts = {}, MeshOf what = MeshOf::solid,
+                      const MeshFilter& filter = {});
     /// At the end of the next step, one a vertex. VFIT_ERROR_ARGUMENT for a wrong number or count.
     void move_mesh(uint32_t mesh, std::span<const Vec3> positions);
     /// It is not there until it is moved again.

@@ -12,6 +12,25 @@ bool is_forearm(const Collider& c) {
     return hand(c.joint) || hand(c.joint_b);
 }
 
+// A forearm and a hand meet their own sleeve alone: all other cloth meets that sleeve. In fingers, edges
+// would hook.
+enum Category : uint8_t {
+    kBody = 1,
+    kLeftForearm = 2,
+    kRightForearm = 4,
+    kLeftHand = kFirstMetByVertices,
+    kRightHand = kFirstMetByVertices << 1
+};
+uint8_t category_of(BodyPart part) {
+    switch (part) {
+        case BodyPart::kLeftForearm: return kLeftForearm;
+        case BodyPart::kRightForearm: return kRightForearm;
+        case BodyPart::kLeftHand: return kLeftHand;
+        case BodyPart::kRightHand: return kRightHand;
+        default: return kBody;
+    }
+}
+
 }  // namespace
 
 BodyObstacles::BodyObstacles(const Wearer& wearer, const Garment& garment, const Dress& dress,
@@ -20,9 +39,17 @@ BodyObstacles::BodyObstacles(const Wearer& wearer, const Garment& garment, const
       forearms_(options.hands || garment.has_sleeves()) {  // without its forearm a sleeve collapses
     if (!options.on_skin && options.cover_m <= 0.0f) return;
     const DressBody body = wearer.body();
-    const std::vector<uint8_t> below = below_garment(body, dress.rest(), {forearms_, options.hands});
+    const bool in_sleeves = options.on_skin && !options.hands && garment.has_sleeves();
+    const std::vector<uint8_t> below =
+        below_garment(body, dress.rest(), {forearms_, options.hands || in_sleeves});
     if (options.on_skin) {
         skin_ = skin_below(body, wearer.wrapped(), below, creases_);
+        if (!in_sleeves) return;
+        for (const uint32_t v : skin_->vertices) category_.push_back(category_of(body.parts[v]));
+        for (size_t v = 0; v < dress.rest().size(); ++v)
+            mask_.push_back(!garment.on_arm[v]         ? kBody
+                            : dress.rest()[v].x > 0.0f ? kBody | kLeftForearm | kLeftHand
+                                                       : kBody | kRightForearm | kRightHand);
         return;
     }
     std::vector<Collider> colliders;
@@ -32,7 +59,9 @@ BodyObstacles::BodyObstacles(const Wearer& wearer, const Garment& garment, const
 }
 
 void BodyObstacles::add_to(Cloth& cloth) {
-    if (skin_) skin_mesh_ = cloth.add_mesh(skin_->skin.vertex_count(), skin_->indices);
+    if (skin_)
+        skin_mesh_ =
+            cloth.add_mesh(skin_->skin.vertex_count(), skin_->indices, {}, MeshOf::solid, {category_, mask_});
 }
 
 void BodyObstacles::select(std::span<const Mat4> matrices, std::vector<Collider>& colliders, Jobs& jobs) {

@@ -32,6 +32,7 @@ private:
     const Creases& creases_;
     bool forearms_;  // and hands; false: they pass through the cloth
     std::optional<SkinBelow> skin_;
+    std::vector<uint8_t> category_, mask_;  // of the skin's vertices and the cloth's; empty: all meet all
     std::optional<SkinCover> cover_;
     uint32_t skin_mesh_ = 0;
     std::vector<Vec3> skin_positions_, cover_centers_;

@@ -45,7 +45,8 @@ SkinBelow skin_below(const DressBody& body, std::span<const Vec3> wrapped, std::
             indices.push_back(place_of[v[k]]);
         }
     }
-    return {carried.skin(), std::move(indices), creases.mesh_of(vertices, carried.rest)};
+    Creases::Mesh creased = creases.mesh_of(vertices, carried.rest);
+    return {carried.skin(), std::move(indices), std::move(creased), std::move(vertices)};
 }
 
 }  // namespace vfit

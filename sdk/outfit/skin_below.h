@@ -22,8 +22,9 @@ std::vector<uint8_t> below_garment(const DressBody& body, std::span<const Vec3> 
 /// The part of the collision proxy of the skin (wrapped_skin.h) that is below the garment.
 struct SkinBelow {
     Skin skin;
-    std::vector<uint32_t> indices;  // three a triangle
-    Creases::Mesh creased;          // the same vertices
+    std::vector<uint32_t> indices;   // three a triangle
+    Creases::Mesh creased;           // the same vertices
+    std::vector<uint32_t> vertices;  // of the body
 };
 /// `creases` are those of the body.
 SkinBelow skin_below(const DressBody& body, std::span<const Vec3> wrapped, std::span<const uint8_t> below,

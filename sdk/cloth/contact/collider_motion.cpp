@@ -3,6 +3,7 @@
 namespace vfit {
 
 void ColliderMotion::accept(std::span<const Collider> colliders, float thickness_m) {
+    interval_ = {};
     current_.resize(colliders.size());
     for (size_t i = 0; i < colliders.size(); ++i) current_[i] = capsule_of(colliders[i], thickness_m);
     same_ = previous_.size() == current_.size();
@@ -59,7 +60,8 @@ void ColliderMotion::sweep(float from, float to, std::vector<SweptCapsule>& out)
     out.reserve(current_.size());
     out.resize(needed_.size());
     for (size_t i = 0; i < needed_.size(); ++i)
-        out[i] = vfit::sweep(previous_[needed_[i]], current_[needed_[i]], from, to);
+        out[i] =
+            vfit::sweep(previous_[needed_[i]], current_[needed_[i]], interval_.at(from), interval_.at(to));
 }
 
 }  // namespace vfit

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "body/collider.h"
+#include "cloth/base/interval.h"
 #include "cloth/contact/contact.h"
 
 namespace vfit {
@@ -16,6 +17,8 @@ public:
     /// Where they are at the end of this step, in the same order each time, with that much more radius. Those
     /// that were not there before stand still. Does not allocate while their number stays.
     void accept(std::span<const Collider> colliders, float thickness_m);
+    /// sweep() means shares of that part of the step; of all of it after accept().
+    void look_at(const Interval& interval) { interval_ = interval; }
     /// The step has ended.
     void arrive() { std::swap(previous_, current_); }
     /// A fraction of their way in this step lies behind them when it begins; 1: they jump.
@@ -25,7 +28,7 @@ public:
     /// kind.
     float greatest_way() const;
 
-    /// Between two shares of the step; as many as count().
+    /// Between two shares of the interval; as many as count().
     void sweep(float from, float to, std::vector<SweptCapsule>& out) const;
     size_t count() const { return needed_.size(); }
 
@@ -33,6 +36,7 @@ private:
     bool is_end_of_another(uint32_t ball) const;
 
     std::vector<Capsule> previous_, current_;
+    Interval interval_;
     bool same_ = true;              // as in the last step, but for their places
     std::vector<uint32_t> needed_;  // that are not part of another
 };

@@ -94,6 +94,25 @@ void MeetingTriangles(const PatchBoxes& a, const PatchBoxes& b, const Vec3& marg
     }
 }
 
+void ClearBeforePlanes(const uint32_t (&corners)[3][kLanes], const Particle* at, const PatchBoxes& b,
+                       const Vec3& way, float reach_m, uint8_t* meeting) {
+    for (size_t k = 0; k < kLanes; k += kWide) {
+        const Points n = {hn::Load(kTag, b.normal[0] + k), hn::Load(kTag, b.normal[1] + k),
+                          hn::Load(kTag, b.normal[2] + k)};
+        const V comes = hn::MulAdd(hn::Abs(n.x), Set(way.x),
+                                   hn::MulAdd(hn::Abs(n.y), Set(way.y), hn::Mul(hn::Abs(n.z), Set(way.z))));
+        const V limit = hn::Add(hn::Load(kTag, b.offset + k), hn::Add(comes, Set(reach_m)));
+        for (size_t i = 0; i < kLanes; ++i) {
+            if (meeting[i] == 0) continue;
+            const V lowest =
+                hn::Min(Dot(n, Set(at[corners[0][i]].x)),
+                        hn::Min(Dot(n, Set(at[corners[1][i]].x)), Dot(n, Set(at[corners[2][i]].x))));
+            const uint32_t before = Bits(hn::Gt(lowest, limit)) << k;
+            meeting[i] = uint8_t(meeting[i] & ~before);
+        }
+    }
+}
+
 HWY_INLINE Points CrossProduct(const Points& a, const Points& b) {
     return {hn::NegMulAdd(a.z, b.y, hn::Mul(a.y, b.z)), hn::NegMulAdd(a.x, b.z, hn::Mul(a.z, b.x)),
             hn::NegMulAdd(a.y, b.x, hn::Mul(a.x, b.y))};
@@ -145,6 +164,11 @@ void FindShape(const uint32_t (&corners)[3][kLanes], uint32_t count, const Parti
         n[0] = CrossProduct(Sub(a[1], a[0]), Sub(a[2], a[0]));
         n[1] = CrossProduct(Sub(b[1], b[0]), Sub(b[2], b[0]));
         sum += Vec3(SumLanes(n[1].x), SumLanes(n[1].y), SumLanes(n[1].z));
+        const Points unit = Mul(n[1], hn::Div(Set(1.0f), hn::Max(hn::Sqrt(Dot(n[1], n[1])), Set(1e-20f))));
+        hn::Store(unit.x, kTag, boxes.normal[0] + k);
+        hn::Store(unit.y, kTag, boxes.normal[1] + k);
+        hn::Store(unit.z, kTag, boxes.normal[2] + k);
+        hn::Store(Dot(unit, b[0]), kTag, boxes.offset + k);
     }
     out.normal = sum / std::max(std::sqrt(sum.x * sum.x + sum.y * sum.y + sum.z * sum.z), 1e-20f);
     const Points mean = Set(out.normal);
@@ -417,6 +441,7 @@ HWY_EXPORT(FindMeetingMoving);
 HWY_EXPORT(FindClosest);
 HWY_EXPORT(FindShape);
 HWY_EXPORT(MeetingTriangles);
+HWY_EXPORT(ClearBeforePlanes);
 HWY_EXPORT(Classify);
 HWY_EXPORT(RefreshContacts);
 HWY_EXPORT(SolveContacts);
@@ -472,6 +497,10 @@ std::array<uint8_t, kLanes> meeting_triangles(const PatchBoxes& a, const PatchBo
     std::array<uint8_t, kLanes> out;
     HWY_DYNAMIC_DISPATCH(MeetingTriangles)(a, b, margin, out.data());
     return out;
+}
+void clear_before_planes(const uint32_t (&corners)[3][kLanes], const Particle* at, const PatchBoxes& b,
+                         const Vec3& way, float reach_m, std::array<uint8_t, kLanes>& meeting) {
+    HWY_DYNAMIC_DISPATCH(ClearBeforePlanes)(corners, at, b, way, reach_m, meeting.data());
 }
 void classify(std::span<TrianglePairs> pairs, const Particle* begin, const Particle* end, float reach_m) {
     HWY_DYNAMIC_DISPATCH(Classify)(pairs, begin, end, reach_m);

@@ -31,6 +31,8 @@ struct MovingBoxes {
 /// Ways past each other that are longer are looked at as if they were that long: cloth that is thrown about
 /// meets all of itself.
 inline constexpr float kMaxWay_m = 0.3f;
+/// The same past a solid, before which planes keep the vertices of fast cloth.
+inline constexpr float kMaxWayPastSolid_m = 0.008f;
 
 /// Adds the patches from `first` on that come within reach_m of a box, now, on the way from where they were,
 /// or on the same way again. Rising.
@@ -40,6 +42,7 @@ void find_meeting(const MovingBoxes& patches, uint32_t first, const Bounds& box,
 /// Boxes about the triangles of a patch; empty where there is none.
 struct alignas(32) PatchBoxes {
     float low[3][kLanes], high[3][kLanes];
+    float normal[3][kLanes], offset[kLanes];  // the plane of each triangle, of unit length
 };
 /// A patch over the motion of a step: boxes at its end.
 struct PatchShape {
@@ -52,6 +55,10 @@ PatchShape find_shape(const uint32_t (&corners)[3][kLanes], uint32_t count, cons
                       const Particle* end, PatchBoxes& boxes);
 /// Bit k of entry i: triangle k of b comes within `margin` of triangle i of a.
 std::array<uint8_t, kLanes> meeting_triangles(const PatchBoxes& a, const PatchBoxes& b, const Vec3& margin);
+/// Clears the bits of those where triangle i of a, by the indices of its corners, lies before the plane of
+/// triangle k by more than reach_m and what the two may come closer by (way, along each axis).
+void clear_before_planes(const uint32_t (&corners)[3][kLanes], const Particle* at, const PatchBoxes& b,
+                         const Vec3& way, float reach_m, std::array<uint8_t, kLanes>& meeting);
 
 /// Eight pairs of triangles by the indices of their corners, and what is known of them.
 struct alignas(32) TrianglePairs {

@@ -7,9 +7,10 @@ namespace vfit {
 
 namespace {
 
-constexpr float kMargin_m = 0.001f;  // beyond the thickness, for what acceleration brings closer in a step
-constexpr float kSideways = 0.25f;   // of the way past each other: the normal may turn so far
-constexpr float kEdgeShare = 0.5f;   // of the thickness, between two edges
+constexpr float kMargin_m = 0.001f;    // beyond the thickness, for what acceleration brings closer in a step
+constexpr float kSideways = 0.25f;     // of the way past each other: the normal may turn so far
+constexpr float kMaxComes_m = 0.004f;  // the same of a solid: planes keep what is faster before it
+constexpr float kEdgeShare = 0.5f;     // of the thickness, between two edges
 constexpr float kFlatShare = 0.45f;  // of the shortest way along edges, which is longer than the straight one
 constexpr float kFlatReach = 1.0f / kFlatShare;
 constexpr float kAlongSide = 0.3f;  // cosine: beside that, a way does not tell on which side of a mesh one is
@@ -36,13 +37,13 @@ void for_own_pairs(const Proximity::Triangle& a, const Proximity::Triangle& b, B
 
 ContactList::ContactList(std::shared_ptr<const Fabric> fabric, float thickness_m, Jobs* jobs)
     : fabric_(std::move(fabric)),
-      keeps_m_{thickness_m},
+      surfaces_{{thickness_m, MeshOf::cloth}},
       inverse_mass_(fabric_->data().inverse_mass),
       flat_(fabric_->data(), kFlatReach * thickness_m, jobs),
       is_let_go_(fabric_->vertex_count(), 0) {}
 
-void ContactList::add_mesh(size_t vertices, float keeps_m) {
-    keeps_m_.push_back(keeps_m);
+void ContactList::add_mesh(size_t vertices, float keeps_m, MeshOf what) {
+    surfaces_.push_back({keeps_m, what});
     inverse_mass_.resize(inverse_mass_.size() + vertices, 0.0f);
     is_let_go_.resize(inverse_mass_.size(), 0);
     slots_.resize(inverse_mass_.size(), 0);
@@ -52,8 +53,8 @@ void ContactList::add_mesh(size_t vertices, float keeps_m) {
 float ContactList::reach_m(float thickness_m) { return thickness_m + kMargin_m; }
 
 float ContactList::keeps_m(PairKind kind, uint32_t surface) const {
-    return kind == PairKind::edge_edge && surface == Proximity::kSelf ? kEdgeShare * keeps_m_[surface]
-                                                                      : keeps_m_[surface];
+    const float keeps_m = surfaces_[surface].keeps_m;
+    return kind == PairKind::edge_edge && surface == Proximity::kSelf ? kEdgeShare * keeps_m : keeps_m;
 }
 
 void ContactList::fill(const Proximity& proximity, std::span<const Particle> begin,
@@ -80,6 +81,8 @@ void ContactList::fill(const Proximity& proximity, std::span<const Particle> beg
 void ContactList::add_candidates(const Proximity::Pair& pair, uint32_t surface,
                                  std::span<const Particle> end) {
     const bool own = surface == Proximity::kSelf;
+    const auto is_fixed = [&](uint32_t v) { return inverse_mass_[v] == 0.0f; };
+    if (!own && std::all_of(pair.first->vertex, pair.first->vertex + 3, is_fixed)) return;
     Vec3 outward(0.0f);
     if (!own) {
         const uint32_t* v = pair.second->vertex;
@@ -107,8 +110,11 @@ void ContactList::Candidates::fill_up() {
 void ContactList::add(PairKind kind, const Candidates& of, std::span<const Particle> end) {
     for (size_t i = 0; i < of.count; ++i) {
         const PrimitivePairs& pairs = of.pairs[i / kLanes];
-        const float reach = reach_m(keeps_m(kind, of.sides[i].surface));
-        if (pairs.distance_m[i % kLanes] <= reach + pairs.comes_m[i % kLanes])
+        const uint32_t surface = of.sides[i].surface;
+        const float comes_m = surfaces_[surface].what == MeshOf::solid
+                                  ? std::min(pairs.comes_m[i % kLanes], kMaxComes_m)
+                                  : pairs.comes_m[i % kLanes];
+        if (pairs.distance_m[i % kLanes] <= reach_m(keeps_m(kind, surface)) + comes_m)
             add(kind, pairs, i % kLanes, of.sides[i], end);
     }
 }
@@ -130,9 +136,11 @@ void ContactList::add(PairKind kind, const PrimitivePairs& pairs, size_t lane, c
     if (kept_m <= 0.0f || distance > reach_m(kept_m) + pairs.comes_m[lane]) return;
     Vec3 normal = Vec3(pairs.way[0][lane], pairs.way[1][lane], pairs.way[2][lane]) / distance;
     if (side.surface != Proximity::kSelf) {
+        const bool of_solid = surfaces_[side.surface].what == MeshOf::solid;
         const float along = glm::dot(normal, side.way);
         if (std::abs(along) < kAlongSide) return;
-        if (along < 0.0f) normal = -normal;  // it is on the wrong side
+        if (along < 0.0f && of_solid) return;  // planes bring it out
+        if (along < 0.0f) normal = -normal;    // it is on the wrong side
     }
     Contact contact{v, normal, kept_m, 0.0f};
     if (!edges && std::max({pairs.weight[1][lane], pairs.weight[2][lane], pairs.weight[3][lane]}) < 0.0f) {

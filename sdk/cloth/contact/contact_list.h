@@ -11,6 +11,7 @@
 #include "cloth/contact/contact_kernels.h"
 #include "cloth/contact/contact_pair.h"
 #include "cloth/contact/flat_distances.h"
+#include "cloth/contact/mesh_of.h"
 #include "cloth/contact/proximity.h"
 #include "cloth/fabric/fabric.h"
 
@@ -23,7 +24,7 @@ public:
     ContactList(std::shared_ptr<const Fabric> fabric, float thickness_m, Jobs* jobs = nullptr);
     /// A mesh that the cloth stays outside of, whose vertices follow; keeps_m: between its vertices and the
     /// cloth's triangles, and between edges.
-    void add_mesh(size_t vertices, float keeps_m);
+    void add_mesh(size_t vertices, float keeps_m, MeshOf what);
 
     /// Pairs further apart than that now, and after the same way again, are no contacts.
     static float reach_m(float thickness_m);
@@ -80,7 +81,11 @@ private:
     void pack(OfKind& of);
 
     std::shared_ptr<const Fabric> fabric_;
-    std::vector<float> keeps_m_;       // of each surface
+    struct Surface {
+        float keeps_m;
+        MeshOf what;
+    };
+    std::vector<Surface> surfaces_;    // the cloth's own first
     std::vector<float> inverse_mass_;  // of each vertex, meshes included
     FlatDistances flat_;
     std::vector<uint8_t> is_let_go_;        // of each vertex

@@ -1,6 +1,7 @@
 #include "cloth/contact/contact_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "cloth/contact/contact_culling.h"
@@ -11,9 +12,10 @@ namespace vfit {
 
 namespace {
 
-constexpr float kFastest_m = 0.1f;  // further than that in a step, a mesh is not looked for
-constexpr float kRises_m = 0.001f;  // of what is lifted, in a step
-constexpr float kFaces_m = 0.002f;  // so far before each other lie the two sides of a hollow
+constexpr uint32_t kNobody = UINT32_MAX;
+constexpr float kFastest_m = 0.1f;      // further than that in a step, a mesh is not looked for
+constexpr float kRises_m = 0.001f;      // of what is lifted, in a step
+constexpr float kMetInside_m = 0.005f;  // deeper inside of a place, a particle has come from another
 constexpr float kCornerReach =
     0.6f;  // of an edge: so far off may the corner be by which a place of a triangle is found
 
@@ -38,18 +40,21 @@ Vec3 unit_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
     return length > 0.0f ? across / length : Vec3(0.0f);
 }
 
-/// Does each of two places lie before the plane at the other?
-bool face_each_other(const Vec3& a, const Vec3& normal_a, const Vec3& b, const Vec3& normal_b) {
-    return glm::dot(b - a, normal_a) > kFaces_m && glm::dot(a - b, normal_b) > kFaces_m;
-}
-
 }  // namespace
 
 ContactMesh::ContactMesh(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts,
-                         MeshOf what)
-    : vertex_count_(vertices), what_(what), indices_(counted(vertices, indices, counts)) {}
+                         MeshOf what, const MeshFilter& filter)
+    : vertex_count_(vertices),
+      what_(what),
+      category_(filter.category.begin(), filter.category.end()),
+      mask_(filter.mask.begin(), filter.mask.end()),
+      indices_(counted(vertices, indices, counts)) {}
 
-/// Along a Morton curve of cells of 8 mm: neighbours in space follow each other.
+bool ContactMesh::meets(uint32_t point, uint32_t cloth_vertex) const {
+    return category_.empty() || (category_[vertex_of_[point]] & mask_[cloth_vertex]) != 0;
+}
+
+/// By categories, along a Morton curve of cells of 8 mm: neighbours in space follow each other.
 void ContactMesh::order(std::span<const Vec3> positions) {
     Vec3 low(INFINITY);
     for (const Vec3& p : positions)
@@ -62,19 +67,23 @@ void ContactMesh::order(std::span<const Vec3> positions) {
     };
     std::vector<uint8_t> is_used(vertex_count_, 0);
     for (const uint32_t v : indices_) is_used[v] = 1;
-    std::vector<std::pair<uint32_t, uint32_t>> codes;
+    std::vector<std::array<uint32_t, 3>> codes;  // category, place on the curve, vertex
     for (uint32_t v = 0; v < vertex_count_; ++v) {
         if (!is_used[v]) continue;
         const Vec3 cell =
             finite(positions[v]) ? glm::clamp((positions[v] - low) * 128.0f, 0.0f, 1023.0f) : Vec3(0.0f);
-        codes.emplace_back(
-            spread(uint32_t(cell.x)) | spread(uint32_t(cell.y)) << 1 | spread(uint32_t(cell.z)) << 2, v);
+        codes.push_back(
+            {category_.empty() ? 0u : category_[v],
+             spread(uint32_t(cell.x)) | spread(uint32_t(cell.y)) << 1 | spread(uint32_t(cell.z)) << 2, v});
     }
     std::sort(codes.begin(), codes.end());
     std::vector<uint32_t> point_of(vertex_count_, 0), corners;
-    for (const auto& [code, v] : codes) {
-        point_of[v] = uint32_t(vertex_of_.size());
-        vertex_of_.push_back(v);
+    for (size_t i = 0; i < codes.size(); ++i) {
+        if (i > 0 && codes[i][0] != codes[i - 1][0])
+            while (vertex_of_.size() % kLanes != 0) vertex_of_.push_back(kNobody);
+        if (vertex_of_.size() % kLanes == 0) run_category_.push_back(uint8_t(codes[i][0]));
+        point_of[codes[i][2]] = uint32_t(vertex_of_.size());
+        vertex_of_.push_back(codes[i][2]);
     }
     for (uint32_t v : indices_) corners.push_back(point_of[v]);
     fans_ = TriangleFans(vertex_of_.size(), corners);
@@ -91,8 +100,8 @@ void ContactMesh::order(std::span<const Vec3> positions) {
         }
     const size_t runs = (vertex_of_.size() + kLanes - 1) / kLanes;
     places_.assign(runs * kLanes, Particle{Vec3(NAN)});
-    end_.resize(vertex_of_.size());
-    begin_.reserve(vertex_of_.size());
+    for (Particles* list : {&to_, &begin_, &end_}) list->resize(vertex_of_.size());
+    from_.reserve(vertex_of_.size());
     boxes_.resize(runs);
     ways_m_.assign(runs, 0.0f);
     edges_m_.assign(runs, 0.0f);
@@ -104,15 +113,30 @@ void ContactMesh::order(std::span<const Vec3> positions) {
             }
 }
 
-void ContactMesh::accept(std::span<const Vec3> positions, const Vec3& low, const Vec3& high) {
+void ContactMesh::accept(std::span<const Vec3> positions) {
     if (vertex_of_.empty() && !indices_.empty()) order(positions);
-    for (size_t i = 0; i < vertex_of_.size(); ++i) end_[i].x = positions[vertex_of_[i]];
-    if (begin_.size() != end_.size()) begin_ = end_;
-    greatest_way_ = 0.0f;
+    for (size_t i = 0; i < vertex_of_.size(); ++i)
+        if (vertex_of_[i] != kNobody) to_[i].x = positions[vertex_of_[i]];
+    if (from_.size() != to_.size()) from_ = to_;
+}
+
+void ContactMesh::skip(float fraction) {
+    for (size_t i = 0; i < from_.size(); ++i) from_[i].x = glm::mix(from_[i].x, to_[i].x, fraction);
+}
+
+void ContactMesh::look_at(const Interval& interval, const Vec3& low, const Vec3& high) {
+    if (from_.size() != to_.size()) return;  // hidden
+    for (size_t i = 0; i < to_.size(); ++i) {
+        const Vec3 &from = from_[i].x, way = to_[i].x - from;
+        begin_[i].x = from + way * interval.from;
+        end_[i].x = from + way * interval.to;
+    }
+    float greatest_m = 0.0f;
     for (size_t run = 0; run < ways_m_.size(); ++run) {
         Vec3 from(INFINITY), to(-INFINITY);
         float way2 = 0.0f;
         for (size_t i = run * kLanes; i < std::min((run + 1) * kLanes, vertex_of_.size()); ++i) {
+            if (vertex_of_[i] == kNobody) continue;
             const Vec3 &p = begin_[i].x, &q = end_[i].x;
             const bool inside = glm::all(glm::greaterThan(p, low)) && glm::all(glm::lessThan(p, high));
             places_[i].x = inside ? p : Vec3(NAN);
@@ -121,12 +145,13 @@ void ContactMesh::accept(std::span<const Vec3> positions, const Vec3& low, const
             from = glm::min(from, glm::min(p, q)), to = glm::max(to, glm::max(p, q));
             way2 = std::max(way2, glm::dot(way, way));
         }
+        greatest_m = std::max(greatest_m, std::sqrt(way2));
         ways_m_[run] = std::min(std::sqrt(way2), kFastest_m);
-        greatest_way_ = std::max(greatest_way_, std::sqrt(way2));
         const float reach = kCornerReach * edges_m_[run];
         boxes_.runs.set(run, from - reach, to + reach);
     }
     boxes_.find_blocks();
+    greatest_way_ = greatest_m / (interval.to - interval.from);
 }
 
 void ContactMesh::hide() {
@@ -155,12 +180,12 @@ ContactMesh::Place ContactMesh::place_of(const NearestOnFans& nearest, size_t la
 
 /// On the triangles about the points; where the nearest place is at another corner, about that one too.
 /// points: in the end those about which the places are.
-void ContactMesh::find_nearest(const Particle* run, uint32_t* points, NearestOnFans& out) const {
-    constexpr int kSteps = 2;
+void ContactMesh::find_nearest(const Particle* run, uint32_t* points, int max_steps,
+                               NearestOnFans& out) const {
     find_nearest_on_fans(run, points, fans_, begin_.data(), out);
     uint32_t at[kLanes];
     std::copy(points, points + kLanes, at);
-    for (int step = 0; step < kSteps; ++step) {
+    for (int step = 0; step < max_steps; ++step) {
         bool any = false;
         for (size_t lane = 0; lane < kLanes; ++lane) {
             uint32_t next = NearestOnFans::kNone;
@@ -239,14 +264,13 @@ float ContactMesh::reach_of(const Moving& moving, uint32_t first, float dt, floa
     }
     const float own = thickness_m + std::min(expected_way_m(dt * std::sqrt(speed2)), kFastest_m);
     find_meeting(boxes_, low - own, high + own, near);
-    if (near.empty()) return 0.0f;
     float way = 0.0f;
     for (uint32_t other : near) way = std::max(way, ways_m_[other]);
     return own + way;
 }
 
-/// False where the place holds nobody: too far off, or beyond a hem.
-bool ContactMesh::touch_at(const Place& place, const Vec3& particle, float reach, Touch& out) const {
+/// Nothing where the place keeps no particle: too far off, or beyond a hem.
+void ContactMesh::touch_at(const Place& place, const Vec3& particle, float reach, Touch& out) const {
     constexpr float kOnIt_m = 1e-5f;
     const Vec3 on = place.at(begin_), to = place.at(end_), off = particle - on;
     const float distance = glm::length(off);
@@ -254,108 +278,123 @@ bool ContactMesh::touch_at(const Place& place, const Vec3& particle, float reach
     const bool inside = glm::dot(off, outward) < 0.0f;
     // What hangs beyond a hem is on neither side of it: a coat's sleeve is not to be drawn to the armhole of
     // a dress.
-    if (inside && is_at_border(place)) return false;
-    if ((!inside && distance > reach) || !finite(on) || !finite(to)) return false;
+    if (inside && is_at_border(place)) return;
+    if ((!inside && distance > reach) || !finite(on) || !finite(to)) return;
     const Vec3 normal = distance > kOnIt_m ? (inside ? -off : off) / distance
                                            : outward / std::max(glm::length(outward), 1e-12f);
     const Vec3 turned = normal + place.normal(end_) - place.normal(begin_);
-    out = {on, to, normal, turned / std::max(glm::length(turned), 1e-12f) - normal};
-    return true;
+    out = {on,
+           to,
+           normal,
+           turned / std::max(glm::length(turned), 1e-12f) - normal,
+           place.corner[0],
+           inside ? -distance : distance};
 }
 
-/// Of particles that touched another place before, and still are near there. touches, points: of now, by
-/// lanes.
-void ContactMesh::add_other_sides(const Particle* run, float reach, const Touch* touches,
-                                  const uint32_t* points, float thickness_m, Touched* touched,
-                                  RunPlanes& out) const {
-    uint32_t other[kLanes];
-    bool any = false;
-    for (size_t lane = 0; lane < kLanes; ++lane) {
-        const auto may_face = [&](uint32_t before) {
-            return points[lane] != NearestOnFans::kNone && before != NearestOnFans::kNone &&
-                   glm::dot(begin_[before].x - touches[lane].on, touches[lane].normal) > kFaces_m;
-        };
-        const Touched before = touched[lane];
-        other[lane] = may_face(before.nearest) ? before.nearest
-                      : may_face(before.other) ? before.other
-                                               : NearestOnFans::kNone;
-        touched[lane] = {points[lane], NearestOnFans::kNone};
-        any |= other[lane] != NearestOnFans::kNone;
-    }
-    if (!any) return;
-    // Where a particle has gone along the plane, it says nothing any more: it would stop cloth on its way
-    // around a limb.
-    constexpr float kAside_m = 0.008f;
+/// The places that are nearest to a run's particles, on the way downhill from triangles about these points.
+void ContactMesh::touch(const Particle* run, const uint32_t* from, int max_steps, float reach,
+                        Touches& out) const {
+    uint32_t points[kLanes];
+    std::copy(from, from + kLanes, points);
+    for (Touch& touch : out.of) touch.point = NearestOnFans::kNone;
+    if (std::all_of(points, points + kLanes, [](uint32_t id) { return id == NearestOnFans::kNone; })) return;
     NearestOnFans nearest;
-    find_nearest_on_fans(run, other, fans_, begin_.data(),
-                         nearest);  // from there on down would lead to where it is nearest now
-    for (size_t lane = 0; lane < kLanes; ++lane) {
-        if (nearest.corners[lane] == NearestOnFans::kNone || nearest.distance2[lane] > reach * reach)
-            continue;
-        const Place place = place_of(nearest, lane, other[lane]);
-        Touch touch;
-        if (!touch_at(place, run[particle_at(lane)].x, reach, touch)) continue;
-        touch.normal = place.normal(begin_), touch.turn = place.normal(end_) - touch.normal;
-        const Vec3 off = run[particle_at(lane)].x - touch.on,
-                   aside = off - glm::dot(off, touch.normal) * touch.normal;
-        if (glm::dot(aside, aside) > kAside_m * kAside_m) continue;
-        if (!face_each_other(touches[lane].on, touches[lane].normal, touch.on, touch.normal)) continue;
-        touched[lane].other = other[lane];
-        out.set(lane, touch.on, touch.to - touch.on, touch.normal, touch.turn, thickness_m);
-    }
+    find_nearest(run, points, max_steps, nearest);
+    for (size_t lane = 0; lane < kLanes; ++lane)
+        if (nearest.corners[lane] != NearestOnFans::kNone)
+            touch_at(place_of(nearest, lane, points[lane]), run[particle_at(lane)].x, reach, out.of[lane]);
 }
 
-void ContactMesh::find_planes(const Moving& moving, float dt, float thickness_m,
-                              std::span<const float> lift_m, std::vector<uint32_t>& near,
+void ContactMesh::find_planes(const PartOfCloth& part, std::vector<uint32_t>& runs,
                               std::vector<Touched>& touched, std::vector<RunPlanes>& out) const {
+    const auto& [moving, vertex_of, lift_m, dt, thickness_m] = part;
+    constexpr uint32_t kNone = NearestOnFans::kNone;
+    constexpr int kStepsNearby = 2, kStepsAlong = 32;
     touched.resize(moving.count);
     for (uint32_t first = 0; first < moving.count; first += uint32_t(kLanes)) {
         const Particle* run = moving.places + first;
+        Touched* const known = &touched[first];
         float lift = 0.0f;
         if (!lift_m.empty())
             lift = std::max(lift, *std::max_element(&lift_m[first], &lift_m[first] + kLanes));
-        const float reach = reach_of(moving, first, dt, thickness_m + lift, near);
-        if (near.empty()) continue;
-        float edge = 0.0f;
-        for (uint32_t other : near) edge = std::max(edge, edges_m_[other]);
-        NearestOfRun nearest_points(reach + kCornerReach * edge);
-        find_nearest_in_runs(run, places_.data(), near, nearest_points);
-        uint32_t* points = nearest_points.id;
-        if (std::all_of(points, points + kLanes, [](uint32_t id) { return id == NearestOnFans::kNone; }))
-            continue;
-        NearestOnFans nearest;
-        find_nearest(run, points, nearest);
-        RunPlanes planes{}, others{};
-        planes.run = others.run = first / uint32_t(kLanes);
-        Touch touches[kLanes];
-        bool any = false;
-        for (size_t lane = 0; lane < kLanes; ++lane) {
-            planes.thickness_m[lane] = others.thickness_m[lane] = RunPlanes::kNone;
-            if (nearest.corners[lane] == NearestOnFans::kNone ||
-                !touch_at(place_of(nearest, lane, points[lane]), run[particle_at(lane)].x, reach,
-                          touches[lane])) {
-                points[lane] = NearestOnFans::kNone;
-                continue;
-            }
-            const Touch& touch = touches[lane];
-            any = true;
-            const float own_lift = lift_m.empty() ? 0.0f : lift_m[first + particle_at(lane)];
-            float keeps_m = thickness_m + own_lift;
-            // Lifted over a hollow at once, it would be thrown from one of its sides to the other.
-            if (own_lift > 0.0f)
-                keeps_m = std::min(
-                    keeps_m,
-                    std::max(thickness_m,
-                             glm::dot(run[particle_at(lane)].x - touch.on, touch.normal) + kRises_m));
-            planes.set(lane, touch.on, touch.to - touch.on, touch.normal, touch.turn, keeps_m);
+        const float reach = reach_of(moving, first, dt, thickness_m + lift, runs);
+        const auto is_met = [&](size_t lane, uint32_t point) {
+            const uint32_t v = vertex_of[first + particle_at(lane)];
+            return v == kNobody || meets(point, v);
+        };
+        if (!category_.empty()) {
+            uint8_t mask = 0;
+            for (size_t i = first; i < first + kLanes; ++i)
+                if (vertex_of[i] != kNobody) mask |= mask_[vertex_of[i]];
+            std::erase_if(runs, [&](uint32_t other) { return (run_category_[other] & mask) == 0; });
         }
-        if (any) out.push_back(planes);
-        if (what_ != MeshOf::solid) continue;
-        add_other_sides(run, reach, touches, points, thickness_m, &touched[first], others);
-        if (std::any_of(others.thickness_m, others.thickness_m + kLanes,
-                        [](float t) { return t != RunPlanes::kNone; }))
-            out.push_back(others);
+        const bool follows = what_ == MeshOf::solid &&
+                             std::any_of(known, known + kLanes, [](const Touched& t) { return t.any(); });
+        if (runs.empty() && !follows) continue;
+        Touches now, before[2];
+        float edge = 0.0f;
+        for (uint32_t other : runs) edge = std::max(edge, edges_m_[other]);
+        NearestOfRun nearest_points(reach + kCornerReach * edge);
+        find_nearest_in_runs(run, places_.data(), runs, nearest_points);
+        touch(run, nearest_points.id, kStepsNearby, reach, now);
+        if (follows)
+            for (size_t k = 0; k < 2; ++k) {
+                uint32_t points[kLanes];
+                for (size_t lane = 0; lane < kLanes; ++lane) points[lane] = known[lane].points[k];
+                touch(run, points, kStepsAlong, reach, before[k]);
+            }
+        RunPlanes planes[2]{};
+        bool any[2] = {false, false};
+        for (RunPlanes& p : planes) {
+            p.run = first / uint32_t(kLanes);
+            for (float& keeps : p.thickness_m) keeps = RunPlanes::kNone;
+        }
+        for (size_t lane = 0; lane < kLanes; ++lane) {
+            Touch chosen[2];
+            if (follows) chosen[0] = before[0].of[lane], chosen[1] = before[1].of[lane];
+            choose(now.of[lane], chosen);
+            for (size_t k = 0; k < 2; ++k) {
+                if (chosen[k].point != kNone && !is_met(lane, chosen[k].point)) chosen[k].point = kNone;
+                known[lane].points[k] = chosen[k].point;
+                if (chosen[k].point == kNone) continue;
+                any[k] = true;
+                const float own_lift = lift_m.empty() || k > 0 ? 0.0f : lift_m[first + particle_at(lane)];
+                float keeps_m = thickness_m + own_lift;
+                // Lifted over a hollow at once, it would be thrown from one of its sides to the other.
+                if (own_lift > 0.0f)
+                    keeps_m = std::min(keeps_m, std::max(thickness_m, chosen[k].before_m + kRises_m));
+                planes[k].set(lane, chosen[k].on, chosen[k].to - chosen[k].on, chosen[k].normal,
+                              chosen[k].turn, keeps_m);
+            }
+        }
+        for (size_t k = 0; k < 2; ++k)
+            if (any[k]) out.push_back(planes[k]);
     }
+}
+
+/// A contact stays where it slides to along the mesh, as long as the particle is within reach of that place,
+/// or inside. Another place is met from outside alone.
+void ContactMesh::choose(const Touch& now, Touch (&known)[2]) {
+    const auto is_there = [](const Touch& t) { return t.point != NearestOnFans::kNone; };
+    const auto is_same = [](const Touch& a, const Touch& b) {
+        constexpr float kSame_m = 0.01f, kSameSide = 0.5f;
+        return a.point == b.point ||
+               (glm::distance(a.on, b.on) < kSame_m && glm::dot(a.normal, b.normal) > kSameSide);
+    };
+    if (is_there(known[0]) && is_there(known[1]) && is_same(known[0], known[1])) known[1] = {};
+    if (!is_there(known[0])) std::swap(known[0], known[1]);
+    if (!is_there(now)) return;
+    if (!is_there(known[0])) {
+        known[0] = now;
+        return;
+    }
+    for (Touch& k : known)
+        if (is_there(k) && is_same(k, now)) return;
+    if (now.before_m < -kMetInside_m) return;
+    if (!is_there(known[1]))
+        known[1] = now;
+    else if (std::max(known[0].before_m, known[1].before_m) > now.before_m)
+        known[known[1].before_m > known[0].before_m] = now;
 }
 
 }  // namespace vfit

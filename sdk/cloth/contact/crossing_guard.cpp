@@ -61,8 +61,8 @@ CrossingGuard::CrossingGuard(const FabricData& fabric)
     for (const float inverse : inverse_mass_) is_fixed_.push_back(inverse == 0.0f);
 }
 
-void CrossingGuard::add_mesh(size_t vertices, bool keeps) {
-    keeps_.push_back(keeps);
+void CrossingGuard::add_mesh(size_t vertices, MeshOf what) {
+    surfaces_.push_back(what);
     const size_t count = inverse_mass_.size() + vertices;
     inverse_mass_.resize(count, 0.0f);
     is_marked_.resize(count, 0), is_moved_.resize(count, 0), is_fixed_.resize(count, 1);
@@ -143,8 +143,9 @@ void CrossingGuard::find_hits(std::span<const Particle> begin, std::span<const P
                               const Proximity& proximity, bool of_meshes) {
     hits_.clear(), crossed_.clear();
     proximity.for_uncertain([&](const Proximity::Pair& pair, uint32_t surface) {
+        if (surfaces_[surface] == MeshOf::solid) return;
         if (is_held(*pair.first) && is_held(*pair.second)) return;
-        if (surface != Proximity::kSelf && !(of_meshes && keeps_[surface])) {
+        if (surface != Proximity::kSelf && !(of_meshes && surfaces_[surface] == MeshOf::cloth)) {
             crosses_mesh_ = true;  // perhaps
             return;
         }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cloth/contact/contact_pair.h"
+#include "cloth/contact/mesh_of.h"
 #include "cloth/contact/proximity.h"
 #include "cloth/contact/triangle_groups.h"
 #include "cloth/contact/untangle.h"
@@ -22,9 +23,9 @@ class CrossingGuard {
 public:
     /// Vertices without a finite mass do not give way.
     explicit CrossingGuard(const FabricData& fabric);
-    /// Vertices of a mesh follow, which do not give way either. keeps: the cloth is kept from crossing it as
-    /// far as projections do.
-    void add_mesh(size_t vertices, bool keeps);
+    /// Vertices of a mesh follow, which do not give way either. The cloth is kept from crossing other cloth
+    /// as far as projections do; solids, and cloth that is coming, are left to contact.
+    void add_mesh(size_t vertices, MeshOf what);
 
     /// Changes `end` so that no triangles cross on linear ways from `begin`, except those that crossed at
     /// `begin` already: those of the cloth are moved apart a little, those of a mesh are left to contact.
@@ -68,11 +69,11 @@ private:
     std::vector<uint32_t> indices_;
     std::vector<Hit> hits_;
     std::vector<std::pair<const Proximity::Triangle*, const Proximity::Triangle*>>
-        crossed_;                                // at the end alone
-    std::vector<TrianglePair> tangles_;          // of the cloth at both ends, by their numbers
-    bool crosses_mesh_ = false;                  // at both ends, or it was not kept from it
-    std::vector<uint8_t> keeps_{1};              // of each surface
-    std::vector<uint8_t> is_marked_, is_moved_;  // in this round, in all
+        crossed_;                                  // at the end alone
+    std::vector<TrianglePair> tangles_;            // of the cloth at both ends, by their numbers
+    bool crosses_mesh_ = false;                    // at both ends, or it was not kept from it
+    std::vector<MeshOf> surfaces_{MeshOf::cloth};  // the cloth's own first
+    std::vector<uint8_t> is_marked_, is_moved_;    // in this round, in all
     std::vector<uint32_t> moved_;
     std::vector<Particle> wanted_;          // the end that the step made
     std::vector<Vec3> found_at_;            // where the pairs were found

@@ -1,9 +1,9 @@
-// How much further than others some vertices stay off meshes: contact keeps vertices off the skin, and where
-// it stands out between them, the triangle's three go outwards until it is clear. Off the skin that is of no
-// use where one of the three is fixed to it.
+// How much further than others some vertices stay off a garment below: contact keeps vertices off it, and
+// where it comes through between them, the triangle's three go outwards until it is clear.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -15,22 +15,18 @@ namespace vfit {
 
 class MeshLift {
 public:
-    /// Off meshes of that kind.
-    MeshLift(std::shared_ptr<const Fabric> fabric, MeshOf what);
+    explicit MeshLift(std::shared_ptr<const Fabric> fabric);
 
-    /// After a step: looks at some of the cloth's triangles, moved to where they are now, at all of them in
-    /// so many steps.
-    void look(const TriangleGroups& cloth, std::span<const ContactMesh> meshes, uint32_t steps);
+    /// After a step: looks at some of the cloth's triangles, moved to where they are now.
+    void look(const TriangleGroups& cloth, std::span<const ContactMesh> meshes);
     /// One a particle, metres.
     std::span<const float> particles() const { return lift_m_; }
     float of_vertex(uint32_t vertex) const { return lift_m_[fabric_->layout().particle_of[vertex]]; }
 
 private:
     void forget(std::span<const ContactMesh> meshes);
-    bool is_held(uint32_t triangle) const;
 
     std::shared_ptr<const Fabric> fabric_;
-    MeshOf what_;
     std::vector<float> lift_m_;
     std::vector<uint32_t> groups_, looked_again_;  // of triangles that crossed at the last look
     std::vector<uint32_t> crossed_, near_;         // room to work in

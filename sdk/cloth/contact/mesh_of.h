@@ -1,7 +1,8 @@
-// What kind of thing a contact mesh is.
+// What kind of thing a contact mesh is, and which cloth meets it.
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 namespace vfit {
 
@@ -9,5 +10,15 @@ namespace vfit {
 /// it. Cloth that is just coming out from below the other one pushes that along, and nobody minds where the
 /// two go through each other.
 enum class MeshOf : uint8_t { solid, cloth, coming_cloth };
+
+/// Which vertices of a cloth a mesh is there for: those whose mask has a bit of the mesh vertex' category.
+/// Empty: all meet all.
+/// From kFirstMetByVertices on, categories are met by vertices of the cloth alone, not by its edges and
+/// faces.
+inline constexpr uint8_t kFirstMetByVertices = 16;
+struct MeshFilter {
+    std::span<const uint8_t> category;  // one a vertex of the mesh
+    std::span<const uint8_t> mask;      // one a vertex of the cloth
+};
 
 }  // namespace vfit

@@ -10,9 +10,13 @@ Proximity::Proximity(std::span<const Vec3> positions, std::span<const uint32_t> 
     surfaces_.back().reach_m = reach_m;
 }
 
-void Proximity::add_mesh(size_t vertices, std::span<const uint32_t> indices, float reach_m) {
+void Proximity::add_mesh(size_t vertices, std::span<const uint32_t> indices, float reach_m, MeshOf what,
+                         const MeshFilter& filter) {
     Surface& surface = surfaces_.emplace_back();
-    surface.reach_m = reach_m, surface.is_shown = false;
+    surface.category.assign(filter.category.begin(), filter.category.end());
+    surface.mask.assign(filter.mask.begin(), filter.mask.end());
+    for (uint8_t& mask : surface.mask) mask &= kFirstMetByVertices - 1;
+    surface.reach_m = reach_m, surface.is_shown = false, surface.what = what;
     surface.first_vertex = uint32_t(vertex_count_);
     surface.indices.assign(indices.begin(), indices.end());
     vertex_count_ += vertices;
@@ -26,6 +30,14 @@ void Proximity::show_mesh(uint32_t mesh, std::span<const Vec3> positions) {
     surface.is_shown = true;
 }
 
+bool Proximity::Surface::meets(const Pair& pair) const {
+    uint8_t own = 0;
+    for (const uint32_t v : pair.first->vertex) own |= mask[v];
+    for (const uint32_t v : pair.second->vertex)
+        if ((own & category[v - first_vertex]) == 0) return false;
+    return true;
+}
+
 void Proximity::find(std::span<const Particle> begin, std::span<const Particle> end, Jobs& jobs) {
     cloth_.move(begin, end, jobs);
     only_marked_ = false, is_complete_ = true;
@@ -37,8 +49,13 @@ void Proximity::find(std::span<const Particle> begin, std::span<const Particle> 
             const Bounds other = surface.patches ? surface.patches->way() : own;
             const Vec3 way = glm::max(own.high - other.low, other.high - own.low);
             is_complete_ = is_complete_ && std::max({way.x, way.y, way.z}) <= kMaxWay_m;
-            cloth_.find_pairs(surface.patches ? *surface.patches : cloth_, surface.reach_m, surface.all.pairs,
-                              jobs);
+            if (surface.what == MeshOf::solid)
+                cloth_.find_pairs_with_solid(*surface.patches, end, surface.reach_m, surface.all.pairs, jobs);
+            else
+                cloth_.find_pairs(surface.patches ? *surface.patches : cloth_, surface.reach_m,
+                                  surface.all.pairs, jobs);
+            if (!surface.category.empty())
+                std::erase_if(surface.all.pairs, [&](const Pair& pair) { return !surface.meets(pair); });
         }
         classify_all(surface.all, begin, end, surface.reach_m, jobs);
     }

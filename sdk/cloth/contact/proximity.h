@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cloth/contact/contact_kernels.h"
+#include "cloth/contact/mesh_of.h"
 #include "cloth/contact/triangle_patches.h"
 #include "core/jobs.h"
 
@@ -25,7 +26,8 @@ public:
     /// at.
     Proximity(std::span<const Vec3> positions, std::span<const uint32_t> indices, float reach_m);
     /// Its vertices follow those of the cloth and of the meshes before. It is hidden.
-    void add_mesh(size_t vertices, std::span<const uint32_t> indices, float reach_m);
+    void add_mesh(size_t vertices, std::span<const uint32_t> indices, float reach_m, MeshOf what,
+                  const MeshFilter& filter = {});
     /// positions: by which its triangles are grouped, the first time.
     void show_mesh(uint32_t mesh, std::span<const Vec3> positions);
     /// It meets nothing.
@@ -61,10 +63,14 @@ private:
     struct Surface {
         float reach_m;
         bool is_shown;
+        MeshOf what = MeshOf::cloth;
         uint32_t first_vertex = 0;
         std::vector<uint32_t> indices;             // until it is shown
+        std::vector<uint8_t> category{}, mask{};   // of its vertices and the cloth's (MeshFilter)
         std::unique_ptr<TrianglePatches> patches;  // null: the cloth's
         Classified all, of_marked;
+
+        bool meets(const Pair& pair) const;
     };
     template <typename Bits, typename Body>
     void for_bits(bool of_marked, Bits&& bits, Body&& body) const;

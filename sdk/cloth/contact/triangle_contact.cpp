@@ -26,27 +26,35 @@ TriangleContact::TriangleContact(std::shared_ptr<const Fabric> fabric, float thi
       end_(cloth_vertices_),
       first_vertices_{uint32_t(cloth_vertices_)} {}
 
-void TriangleContact::add_mesh(size_t vertices, std::span<const uint32_t> indices, float keeps_m,
-                               MeshOf what) {
-    proximity_.add_mesh(vertices, indices, ContactList::reach_m(keeps_m));
-    contacts_.add_mesh(vertices, keeps_m);
-    guard_.add_mesh(vertices, what != MeshOf::coming_cloth);
+void TriangleContact::add_mesh(size_t vertices, std::span<const uint32_t> indices, float keeps_m, MeshOf what,
+                               const MeshFilter& filter) {
+    proximity_.add_mesh(vertices, indices, ContactList::reach_m(keeps_m), what, filter);
+    contacts_.add_mesh(vertices, keeps_m, what);
+    guard_.add_mesh(vertices, what);
     begin_.resize(begin_.size() + vertices), end_.resize(begin_.size());
+    from_.resize(from_.size() + vertices), to_.resize(from_.size());
     first_vertices_.push_back(uint32_t(begin_.size()));
     is_known_.push_back(0);
 }
 
-void TriangleContact::move_mesh(uint32_t mesh, std::span<const Vec3> end, std::span<const Vec3> begin) {
+void TriangleContact::move_mesh(uint32_t mesh, std::span<const Vec3> end) {
     proximity_.show_mesh(mesh, end);
-    if (begin.empty() && !is_known_[mesh]) begin = end;
+    const auto first = std::ptrdiff_t(first_vertices_[mesh] - cloth_vertices_);
+    if (!is_known_[mesh]) std::copy(end.begin(), end.end(), from_.begin() + first);
     is_known_[mesh] = 1;
-    copy(begin, std::span(begin_).subspan(first_vertices_[mesh]));
-    copy(end, std::span(end_).subspan(first_vertices_[mesh]));
+    std::copy(end.begin(), end.end(), to_.begin() + first);
 }
 
-void TriangleContact::arrive() {
-    std::copy(end_.begin() + std::ptrdiff_t(cloth_vertices_), end_.end(),
-              begin_.begin() + std::ptrdiff_t(cloth_vertices_));
+void TriangleContact::skip(float fraction) {
+    for (size_t i = 0; i < from_.size(); ++i) from_[i] = glm::mix(from_[i], to_[i], fraction);
+}
+
+void TriangleContact::look_at(const Interval& interval) {
+    for (size_t i = 0; i < from_.size(); ++i) {
+        const Vec3 way = to_[i] - from_[i];
+        begin_[cloth_vertices_ + i].x = from_[i] + way * interval.from;
+        end_[cloth_vertices_ + i].x = from_[i] + way * interval.to;
+    }
 }
 
 void TriangleContact::place(std::span<const Vec3> positions, Jobs& jobs) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "cloth/base/interval.h"
 #include "cloth/contact/contact_list.h"
 #include "cloth/contact/crossing_guard.h"
 #include "cloth/contact/mesh_of.h"
@@ -25,14 +26,19 @@ public:
 
     /// Triangles counter-clockwise from outside; keeps_m: between its vertices and the cloth's triangles, and
     /// between edges. It is hidden until it is moved.
-    void add_mesh(size_t vertices, std::span<const uint32_t> indices, float keeps_m, MeshOf what);
-    /// Where it goes in the next step, from where it went in the last, or from `begin`.
-    void move_mesh(uint32_t mesh, std::span<const Vec3> end, std::span<const Vec3> begin = {});
+    void add_mesh(size_t vertices, std::span<const uint32_t> indices, float keeps_m, MeshOf what,
+                  const MeshFilter& filter = {});
+    /// Where it goes in the next step, from where it went in the last.
+    void move_mesh(uint32_t mesh, std::span<const Vec3> end);
+    /// A fraction of the meshes' way in the next step lies behind them when it begins.
+    void skip(float fraction);
+    /// The next keep() is about that part of the step.
+    void look_at(const Interval& interval);
     void hide_mesh(uint32_t mesh) { proximity_.hide_mesh(mesh), is_known_[mesh] = 0; }
     /// Meshes were nowhere before: their next step begins where it ends.
     void forget_meshes() { std::fill(is_known_.begin(), is_known_.end(), uint8_t(0)); }
-    /// Meshes stay where they are.
-    void arrive();
+    /// The step has ended.
+    void arrive() { from_ = to_; }
 
     /// The cloth was placed there anew, at rest.
     void place(std::span<const Vec3> positions, Jobs& jobs);
@@ -63,7 +69,8 @@ private:
     Proximity proximity_;
     ContactList contacts_;
     CrossingGuard guard_;
-    std::vector<Particle> begin_, end_;     // of all vertices, in a step
+    std::vector<Vec3> from_, to_;           // of the meshes' vertices, in a step
+    std::vector<Particle> begin_, end_;     // of all vertices, in an interval
     std::vector<uint32_t> first_vertices_;  // of the meshes, and the end
     std::vector<uint8_t> is_known_;         // where a mesh is
 };

@@ -221,7 +221,18 @@ bool TrianglePatches::in_one_cone(uint32_t patch, uint32_t other) const {
 
 void TrianglePatches::find_pairs(const TrianglePatches& other, float reach_m, std::vector<Pair>& out,
                                  Jobs& jobs) {
+    find_pairs(other, nullptr, reach_m, out, jobs);
+}
+
+void TrianglePatches::find_pairs_with_solid(const TrianglePatches& solid, std::span<const Particle> end,
+                                            float reach_m, std::vector<Pair>& out, Jobs& jobs) {
+    find_pairs(solid, end.data(), reach_m, out, jobs);
+}
+
+void TrianglePatches::find_pairs(const TrianglePatches& other, const Particle* before_planes, float reach_m,
+                                 std::vector<Pair>& out, Jobs& jobs) {
     const bool own = this == &other;
+    const float max_way_m = before_planes ? kMaxWayPastSolid_m : kMaxWay_m;
     parallel_for(jobs, uint32_t(shares_.size()), [&](uint32_t number) {
         Share& share = shares_[number];
         share.pairs.clear();
@@ -234,19 +245,21 @@ void TrianglePatches::find_pairs(const TrianglePatches& other, float reach_m, st
                 if (own && are_adjacent(patch, q) && in_one_cone(patch, q)) continue;
                 const Bounds& way = other.patches_[q].way;
                 meet(patch, other, q,
-                     glm::min(farther(p.way.low - way.high, p.way.high - way.low), Vec3(kMaxWay_m)) + reach_m,
-                     share.pairs);
+                     glm::min(farther(p.way.low - way.high, p.way.high - way.low), Vec3(max_way_m)), reach_m,
+                     before_planes, share.pairs);
             }
         }
     });
     for (const Share& share : shares_) out.insert(out.end(), share.pairs.begin(), share.pairs.end());
 }
 
-void TrianglePatches::meet(uint32_t patch, const TrianglePatches& other, uint32_t of_other,
-                           const Vec3& margin, std::vector<Pair>& out) const {
+void TrianglePatches::meet(uint32_t patch, const TrianglePatches& other, uint32_t of_other, const Vec3& way,
+                           float reach_m, const Particle* before_planes, std::vector<Pair>& out) const {
     const bool own = this == &other && patch == of_other;
     const uint32_t first = begin_of(patch), of_second = other.begin_of(of_other);
-    const std::array<uint8_t, kLanes> all = meeting_triangles(boxes_[patch], other.boxes_[of_other], margin);
+    std::array<uint8_t, kLanes> all = meeting_triangles(boxes_[patch], other.boxes_[of_other], way + reach_m);
+    if (before_planes)
+        clear_before_planes(corners_[patch].at, before_planes, other.boxes_[of_other], way, reach_m, all);
     for (uint32_t i = 0; i < ends_[patch] - first; ++i)
         for (uint32_t left = own ? all[i] & ~0u << (i + 1) : all[i]; left; left &= left - 1)
             out.push_back(

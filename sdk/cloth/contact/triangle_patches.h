@@ -47,6 +47,9 @@ public:
     /// whose normals lie in one cone do not meet (Volino and Magnenat-Thalmann 1994). The order of the pairs
     /// is the same for any number of threads.
     void find_pairs(const TrianglePatches& other, float reach_m, std::vector<Pair>& out, Jobs& jobs);
+    /// The same for a solid: without triangles that lie before the other's plane. end: as for move().
+    void find_pairs_with_solid(const TrianglePatches& solid, std::span<const Particle> end, float reach_m,
+                               std::vector<Pair>& out, Jobs& jobs);
 
 private:
     struct Corners {
@@ -62,8 +65,10 @@ private:
     bool are_adjacent(uint32_t patch, uint32_t other) const;
     bool in_one_cone(uint32_t patch, uint32_t other) const;
     void move_patch(std::span<const Particle> begin, std::span<const Particle> end, uint32_t patch);
-    void meet(uint32_t patch, const TrianglePatches& other, uint32_t of_other, const Vec3& margin,
-              std::vector<Pair>& out) const;
+    void find_pairs(const TrianglePatches& other, const Particle* before_planes, float reach_m,
+                    std::vector<Pair>& out, Jobs& jobs);
+    void meet(uint32_t patch, const TrianglePatches& other, uint32_t of_other, const Vec3& way, float reach_m,
+              const Particle* before_planes, std::vector<Pair>& out) const;
 
     std::vector<Triangle> triangles_;  // patch by patch
     std::vector<uint32_t> ends_;       // of patches in these

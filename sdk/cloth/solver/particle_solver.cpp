@@ -28,6 +28,14 @@ float share(const ParticleSolver::Step& step, int substep) { return float(subste
 float substep_s(const ParticleSolver::Step& step) { return step.dt / float(step.substeps); }
 Vec3 half_fall(const ParticleSolver::Step& step) { return step.gravity * (0.5f * substep_s(step)); }
 
+struct Way {
+    Vec3 from, way;
+};
+Way way_of(const ParticleSolver::Step& step, uint32_t target) {
+    const Vec3 from = step.from[target], way = step.to[target] - from;
+    return {from + way * step.interval.from, way * (step.interval.to - step.interval.from)};
+}
+
 }  // namespace
 
 ParticleSolver::ParticleSolver(std::shared_ptr<const Fabric> fabric, const Options& options)
@@ -49,6 +57,7 @@ void ParticleSolver::place(std::span<const Vec3> vertices) {
     const ParticleLayout& layout = fabric_->layout();
     for (uint32_t i = 0; i < layout.count(); ++i)
         if (layout.vertex_of[i] != ParticleLayout::kNobody) places_[i].x = vertices[layout.vertex_of[i]];
+    for (Part& part : parts_) part.touched.clear();
     rest();
 }
 
@@ -190,16 +199,16 @@ void ParticleSolver::begin_part(const Step& step, uint32_t part) {
     place_fixed(step, part);
     const Moving m = moving(part);
     parts_[part].planes.clear();
-    const auto of_part = [&](std::span<const float> lift_m) {
-        return lift_m.empty() ? lift_m : lift_m.subspan(fabric_->layout().parts[part].begin);
-    };
-    const std::span<const float> off_solids_m = of_part(step.lift_m),
-                                 off_cloth_m = of_part(step.cloth_lift_m);
+    const ParticleLayout& layout = fabric_->layout();
+    const uint32_t begin = layout.parts[part].begin;
     parts_[part].touched.resize(step.meshes.size());
-    for (size_t i = 0; i < step.meshes.size(); ++i)
-        step.meshes[i].find_planes(m, step.dt, step.thickness_m,
-                                   step.meshes[i].what() == MeshOf::solid ? off_solids_m : off_cloth_m,
+    for (size_t i = 0; i < step.meshes.size(); ++i) {
+        const bool is_lifted = step.meshes[i].what() != MeshOf::solid && !step.cloth_lift_m.empty();
+        step.meshes[i].find_planes({m, std::span(layout.vertex_of).subspan(begin),
+                                    is_lifted ? step.cloth_lift_m.subspan(begin) : std::span<const float>(),
+                                    step.dt, step.thickness_m},
                                    parts_[part].near_runs, parts_[part].touched[i], parts_[part].planes);
+    }
     if (step.meshes.size() > 1)
         std::stable_sort(parts_[part].planes.begin(), parts_[part].planes.end(),
                          [](const RunPlanes& a, const RunPlanes& b) { return a.run < b.run; });
@@ -227,7 +236,7 @@ void ParticleSolver::place_balls(const Step& step, uint32_t part, std::span<cons
         RunBalls& ball = out[i];
         ball.run = runs[i].run - first_run;
         for (size_t k = 0; k < kLanes; ++k) {
-            const Vec3 from = step.from[runs[i].target[k]], way = step.to[runs[i].target[k]] - from;
+            const auto [from, way] = way_of(step, runs[i].target[k]);
             ball.x[k] = from.x, ball.y[k] = from.y, ball.z[k] = from.z;
             ball.way_x[k] = way.x, ball.way_y[k] = way.y, ball.way_z[k] = way.z;
             ball.radius_m[k] = runs[i].radius_m[k] > 0.0f ? runs[i].radius_m[k] + more_m : 0.0f;
@@ -242,8 +251,9 @@ void ParticleSolver::place_fixed(const Step& step, uint32_t part) {
     own.fixed.clear(), own.fixed_ways.clear();
     for (uint32_t i = p.moving_end; i < p.end && layout.vertex_of[i] != ParticleLayout::kNobody; ++i) {
         const uint32_t v = layout.vertex_of[i];
-        own.fixed.push_back(Particle{step.from[v]});
-        own.fixed_ways.push_back(Particle{step.to[v] - step.from[v]});
+        const auto [from, way] = way_of(step, v);
+        own.fixed.push_back(Particle{from});
+        own.fixed_ways.push_back(Particle{way});
     }
 }
 

@@ -43,11 +43,11 @@ public:
         float keep;  // of the speed, a sub-step
         ContactSettings contact;
         float thickness_m;               // of backstops; colliders have theirs
-        std::span<const Vec3> from, to;  // the fabric's targets at both ends of the step
+        std::span<const Vec3> from, to;  // the fabric's targets at both ends of a step
+        Interval interval;               // of that one, which this is about
         const ColliderMotion& colliders;
         std::span<const ContactMesh> meshes;
-        std::span<const float> lift_m,
-            cloth_lift_m;  // off these, one a particle, of solids and of cloth below; may be empty
+        std::span<const float> cloth_lift_m;  // off those that are cloth, one a particle; may be empty
         TriangleContact* contacts = nullptr;
         float contact_friction = 0.0f;  // of these
     };

@@ -157,5 +157,67 @@ TEST(LimbsClear, ArmsThatHangFreelyAreLeftAlone) {
     }
 }
 
+/// Forearms across the chest, one of them further in front than the other.
+Pose crossed(const Avatar& avatar, float left_further, int64_t time_ns) {
+    Pose pose;
+    pose.hips_position = avatar.skeleton().offset[VFIT_BONE_HIPS];
+    pose.time_ns = time_ns;
+    for (const float side : {1.0f, -1.0f}) {
+        const bool left = side > 0.0f;
+        pose.rotation[left ? VFIT_BONE_LEFT_UPPER_ARM : VFIT_BONE_RIGHT_UPPER_ARM] =
+            glm::angleAxis(-0.9f - side * left_further, Vec3(1, 0, 0)) *
+            glm::angleAxis(-side * 1.3f, Vec3(0, 0, 1)) * glm::angleAxis(1.4f, Vec3(1, 0, 0));
+        pose.rotation[left ? VFIT_BONE_LEFT_LOWER_ARM : VFIT_BONE_RIGHT_LOWER_ARM] =
+            glm::angleAxis(-side * 1.7f, Vec3(0, 1, 0));
+    }
+    return pose;
+}
+
+/// Way from the right forearm to the left one where they are closest.
+Vec3 way_between_forearms(const Avatar& avatar) {
+    const Body joints = avatar.joints();
+    const auto on = [&](int elbow, int hand, float share) {
+        return glm::mix(joints.at(elbow), joints.at(hand), share);
+    };
+    Vec3 shortest(1.0f);
+    for (int i = 0; i <= 40; ++i)
+        for (int k = 0; k <= 40; ++k) {
+            const Vec3 way = on(VFIT_JOINT_LEFT_ELBOW, VFIT_JOINT_LEFT_HAND, float(i) / 40.0f) -
+                             on(VFIT_JOINT_RIGHT_ELBOW, VFIT_JOINT_RIGHT_HAND, float(k) / 40.0f);
+            if (glm::length(way) < glm::length(shortest)) shortest = way;
+        }
+    return shortest;
+}
+
+TEST(LimbsClear, AnArmDoesNotPassThroughTheOther) {
+    constexpr int64_t kFrame_ns = 33'333'333;
+    AvatarDesc clear;
+    clear.limbs_clear = true;
+    Avatar kept = make_avatar(clear), fresh = make_avatar(clear);
+    int64_t time_ns = 0;
+    const auto pose = [&](float left_further) {
+        time_ns += kFrame_ns;
+        kept.move(crossed(kept, left_further, time_ns));
+        return way_between_forearms(kept);
+    };
+    const Vec3 before = pose(0.1f);
+    Vec3 last = before;
+    for (int frame = 0; frame < 30; ++frame) {
+        const Vec3 now = pose(-0.1f);
+        ASSERT_GT(glm::dot(now, last), 0.0f) << frame;
+        ASSERT_GT(glm::length(now), 0.06f) << frame;
+        last = now;
+    }
+    // Without a path there is no side to keep.
+    fresh.move(crossed(fresh, -0.1f, 0));
+    EXPECT_LT(glm::dot(way_between_forearms(fresh), before), 0.0f);
+    time_ns += 1'000'000'000;
+    EXPECT_LT(glm::dot(pose(-0.1f), before), 0.0f);
+    // The same pose again changes nothing.
+    const Vec3 once = way_between_forearms(kept);
+    kept.move(crossed(kept, -0.1f, time_ns));
+    EXPECT_EQ(way_between_forearms(kept), once);
+}
+
 }  // namespace
 }  // namespace vfit

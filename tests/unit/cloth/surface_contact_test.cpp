@@ -325,6 +325,34 @@ TEST(MeshContact, ClothThatIsDrawnIntoAHollowStaysOutOfBothSides) {
     EXPECT_LT(deepest_with(MeshOf::solid), 0.001f);
 }
 
+TEST(MeshContact, AFilterSaysWhichClothMeetsIt) {
+    const auto jobs = Jobs::own(0);
+    Sheet sheet(11, 11, 0.02f);
+    const BallMesh ball({0.1f, -0.06f, 0.1f}, 0.05f);
+    const std::vector<Vec3> start = lying(sheet, {});
+    const std::vector<uint8_t> category(ball.positions.size(), 2);
+    const auto lowest_after = [&](uint8_t mask) {
+        Cloth cloth(fabric(sheet.cook(cotton())), {}, start);
+        const std::vector<uint8_t> masks(start.size(), mask);
+        const uint32_t mesh =
+            cloth.add_mesh(ball.positions.size(), ball.indices, {}, MeshOf::solid, {category, masks});
+        for (int frame = 0; frame < 20; ++frame) {
+            cloth.move_mesh(mesh, ball.positions);
+            cloth.step(kFrame_s, start, {}, *jobs);
+        }
+        return cloth.positions()[sheet.at(5, 5)].y;
+    };
+    EXPECT_GT(lowest_after(2), -0.05f);
+    EXPECT_GT(lowest_after(3), -0.05f);
+    EXPECT_LT(lowest_after(1), -0.2f) << "it falls through";
+    Cloth cloth(fabric(sheet.cook(cotton())), {}, start);
+    EXPECT_NE(error_of([&] {
+                  cloth.add_mesh(ball.positions.size(), ball.indices, {}, MeshOf::solid,
+                                 {category, category});
+              }).find("masks for a cloth of 121"),
+              std::string::npos);
+}
+
 TEST(MeshContact, AMeshThatWasHiddenDoesNotComeFromWhereItWas) {
     const auto jobs = Jobs::own(0);
     Sheet sheet(21, 21, 0.02f);

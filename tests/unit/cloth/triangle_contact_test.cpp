@@ -212,7 +212,7 @@ TEST(Proximity, AMeshIsMetWhileItIsShown) {
     const std::vector<uint32_t> indices(sheets.indices.begin(),
                                         sheets.indices.begin() + std::ptrdiff_t(sheets.indices.size() / 2));
     Proximity proximity(all.first(sheets.of_one), indices, 0.0f);
-    proximity.add_mesh(sheets.of_one, indices, 0.004f);
+    proximity.add_mesh(sheets.of_one, indices, 0.004f, MeshOf::cloth);
     const std::vector<Particle> places = particles_of(all);
     const auto count = [&] {
         size_t close = 0;
