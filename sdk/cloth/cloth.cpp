@@ -391,6 +391,7 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
     if (affordable < times * wanted) times = 1;  // haste is what a budget spares first
     int done = 0;
     for (; done < times && s.asleep_at.empty(); ++done) {
+        if (done > 0) s.look_at({});  // the body stands where it arrived
         s.advance(dt, substeps, settles ? std::max(s.settings.damping, kSettlingDamping) : s.settings.damping,
                   skinned_targets, jobs);
         s.lift_off_cloth(jobs);
@@ -492,6 +493,7 @@ void Cloth::State::advance(float dt, int count, float damping, std::span<const V
                            Jobs& jobs) {
     const int intervals =
         meshes.empty() ? 1 : std::clamp(int(std::ceil(dt * kMinContactRate_hz - 1e-3f)), 1, count);
+    if (triangles && std::exchange(is_deformed, false)) part_layers(jobs);
     const std::span<const Vec3> targets = held_at(skinned_targets);
     if (!backstops_placed) {
         const uint32_t vertices = fabric->vertex_count();
@@ -515,7 +517,6 @@ void Cloth::State::advance(float dt, int count, float damping, std::span<const V
 void Cloth::State::advance_interval(float dt, int count, float damping, const Interval& interval,
                                     std::span<const Vec3> targets, Jobs& jobs) {
     if (triangles) {
-        if (std::exchange(is_deformed, false)) part_layers(jobs);
         before = positions;
         if (!contacts_known) triangles->place(positions, jobs);
         contacts_known = true;

@@ -20,7 +20,7 @@ public:
     /// sweep() means shares of that part of the step; of all of it after accept().
     void look_at(const Interval& interval) { interval_ = interval; }
     /// The step has ended.
-    void arrive() { std::swap(previous_, current_); }
+    void arrive() { previous_ = current_; }
     /// A fraction of their way in this step lies behind them when it begins; 1: they jump.
     void skip(float fraction);
     void forget() { previous_.clear(); }

@@ -243,10 +243,10 @@ void ContactMesh::find_crossed(const TriangleGroups& cloth, uint32_t group, std:
         const Bounds wide{box.low - reach, box.high + reach};
         for (uint32_t point = run * uint32_t(kLanes);
              point < std::min((run + 1) * uint32_t(kLanes), uint32_t(vertex_of_.size())); ++point) {
-            const Vec3& p = begin_[point].x;
+            const Vec3& p = end_[point].x;
             if (!wide.overlaps({p, p})) continue;
             for (const TriangleFans::Corners& c : fans_.of(point))
-                cloth.find_crossed(group, {{p, begin_[c.second].x, begin_[c.third].x}}, triangles);
+                cloth.find_crossed(group, {{p, end_[c.second].x, end_[c.third].x}}, triangles);
         }
     }
 }
@@ -322,10 +322,11 @@ void ContactMesh::find_planes(const PartOfCloth& part, std::vector<uint32_t>& ru
             const uint32_t v = vertex_of[first + particle_at(lane)];
             return v == kNobody || meets(point, v);
         };
+        uint8_t common = 255;
         if (!category_.empty()) {
             uint8_t mask = 0;
             for (size_t i = first; i < first + kLanes; ++i)
-                if (vertex_of[i] != kNobody) mask |= mask_[vertex_of[i]];
+                if (vertex_of[i] != kNobody) mask |= mask_[vertex_of[i]], common &= mask_[vertex_of[i]];
             std::erase_if(runs, [&](uint32_t other) { return (run_category_[other] & mask) == 0; });
         }
         const bool follows = what_ == MeshOf::solid &&
@@ -336,6 +337,16 @@ void ContactMesh::find_planes(const PartOfCloth& part, std::vector<uint32_t>& ru
         for (uint32_t other : runs) edge = std::max(edge, edges_m_[other]);
         NearestOfRun nearest_points(reach + kCornerReach * edge);
         find_nearest_in_runs(run, places_.data(), runs, nearest_points);
+        if (!category_.empty()) {
+            // Who is nearest to what it does not meet has the nearest of what all of the run meet.
+            std::erase_if(runs, [&](uint32_t other) { return (run_category_[other] & common) == 0; });
+            NearestOfRun met_points(reach + kCornerReach * edge);
+            find_nearest_in_runs(run, places_.data(), runs, met_points);
+            for (size_t lane = 0; lane < kLanes; ++lane) {
+                uint32_t& point = nearest_points.id[lane];
+                if (point != kNone && !is_met(lane, point)) point = met_points.id[lane];
+            }
+        }
         touch(run, nearest_points.id, kStepsNearby, reach, now);
         if (follows)
             for (size_t k = 0; k < 2; ++k) {
@@ -351,10 +362,14 @@ void ContactMesh::find_planes(const PartOfCloth& part, std::vector<uint32_t>& ru
         }
         for (size_t lane = 0; lane < kLanes; ++lane) {
             Touch chosen[2];
-            if (follows) chosen[0] = before[0].of[lane], chosen[1] = before[1].of[lane];
+            if (follows)
+                for (size_t k = 0; k < 2; ++k)
+                    if (const Touch& t = before[k].of[lane]; t.point != kNone && is_met(lane, t.point))
+                        chosen[k] = t;
             choose(now.of[lane], chosen);
+            if (chosen[0].point != kNone && !is_met(lane, chosen[0].point)) chosen[0] = {};
+            if (chosen[1].point != kNone && !is_met(lane, chosen[1].point)) chosen[1] = {};
             for (size_t k = 0; k < 2; ++k) {
-                if (chosen[k].point != kNone && !is_met(lane, chosen[k].point)) chosen[k].point = kNone;
                 known[lane].points[k] = chosen[k].point;
                 if (chosen[k].point == kNone) continue;
                 any[k] = true;

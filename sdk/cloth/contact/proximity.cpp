@@ -48,7 +48,8 @@ void Proximity::find(std::span<const Particle> begin, std::span<const Particle> 
             if (surface.patches) surface.patches->move(begin, end, jobs);
             const Bounds other = surface.patches ? surface.patches->way() : own;
             const Vec3 way = glm::max(own.high - other.low, other.high - own.low);
-            is_complete_ = is_complete_ && std::max({way.x, way.y, way.z}) <= kMaxWay_m;
+            if (surface.what != MeshOf::solid)
+                is_complete_ = is_complete_ && std::max({way.x, way.y, way.z}) <= kMaxWay_m;
             if (surface.what == MeshOf::solid)
                 cloth_.find_pairs_with_solid(*surface.patches, end, surface.reach_m, surface.all.pairs, jobs);
             else
