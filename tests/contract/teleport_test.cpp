@@ -181,7 +181,8 @@ TEST_F(TeleportTest, BothLayersOfAnOutfitAreCarried) {
     ASSERT_EQ(vfit_cloth_wear_over(outer, inner), VFIT_OK) << contract::last_error();
     step(inner, 30);
     ASSERT_EQ(vfit_cloth_reset(outer), VFIT_OK) << contract::last_error();
-    for (int i = 0; i < 90; ++i) step(inner), step(outer);
+    // A vest over a shirt comes to rest in 3 s: before, its strain still rises by itself.
+    for (int i = 0; i < 210; ++i) step(inner), step(outer);
     const float inner_m = own_way_m(inner), outer_m = own_way_m(outer);
     const std::vector<float> inner_before = positions(inner), outer_before = positions(outer);
     const float strain = stats(outer).strain_max;
