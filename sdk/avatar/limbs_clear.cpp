@@ -17,10 +17,10 @@ constexpr float kBlend_m = 0.02f;                // over which two neighbouring 
 constexpr int kRounds = 8, kRoundsOnTheWay = 2;  // of the chain; each is one pass over all contacts
 constexpr float kStep_m = 0.03f;                 // of an arm on its path: less than its radius
 constexpr int kMaxSteps = 8;
-constexpr float kLongestStep = 1.5f;           // of one that is held back, to the others
-constexpr float kClose_m = 2.0f * kStep_m;     // two arms that are closer have sides
-constexpr float kFreeEnd = 0.98f;              // of forearm and hand: there, the other arm may pass
-constexpr int64_t kMaxPause_ns = 250'000'000;  // between two poses of a path
+constexpr float kLongestStep = 1.5f;            // of one that is held back, to the others
+constexpr float kClose_m = 2.0f * kStep_m;      // two arms that are closer have sides
+constexpr float kFreeEnd = 0.98f;               // of forearm and hand: there, the other arm may pass
+constexpr uint64_t kMaxPause_ns = 250'000'000;  // between two poses of a path
 // An arm that is held back so far and for so long goes to its place at once.
 constexpr float kHeldBack_m = 0.15f, kMaxHeld_s = 0.5f;
 constexpr size_t kReach = 2;  // cells of an outline that a vertex speaks for, to either side
@@ -366,9 +366,10 @@ void LimbsClear::run(const PosedSkeleton& posed, std::span<const Mat4> matrices,
     if (pose.time_ns != memory.now_.time_ns) memory.before_ = memory.now_;
     Memory::State& now = memory.now_;
     const Memory::State& before = memory.before_;
-    const int64_t pause_ns = pose.time_ns - before.time_ns;
-    const bool has_path =
-        before.is_known && pause_ns > 0 && pause_ns <= kMaxPause_ns && before.held_s < kMaxHeld_s;
+    // Times are the host's: their difference may not fit.
+    const uint64_t pause_ns = uint64_t(pose.time_ns) - uint64_t(before.time_ns);
+    const bool has_path = before.is_known && pose.time_ns > before.time_ns && pause_ns <= kMaxPause_ns &&
+                          before.held_s < kMaxHeld_s;
     const Quat chest = turn(VFIT_BONE_CHEST);
     const Vec3 forward = chest * Vec3(0, 0, 1);
     Chain chains[2] = {wanted[0], wanted[1]};

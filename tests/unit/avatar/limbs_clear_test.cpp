@@ -213,6 +213,8 @@ TEST(LimbsClear, AnArmDoesNotPassThroughTheOther) {
     EXPECT_LT(glm::dot(way_between_forearms(fresh), before), 0.0f);
     time_ns += 1'000'000'000;
     EXPECT_LT(glm::dot(pose(-0.1f), before), 0.0f);
+    for (const int64_t odd_ns : {INT64_MAX, INT64_MIN, int64_t(0)}) kept.move(crossed(kept, -0.1f, odd_ns));
+    kept.move(crossed(kept, -0.1f, time_ns));
     // The same pose again changes nothing.
     const Vec3 once = way_between_forearms(kept);
     kept.move(crossed(kept, -0.1f, time_ns));

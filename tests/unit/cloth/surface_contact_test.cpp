@@ -325,6 +325,73 @@ TEST(MeshContact, ClothThatIsDrawnIntoAHollowStaysOutOfBothSides) {
     EXPECT_LT(deepest_with(MeshOf::solid), 0.001f);
 }
 
+TEST(ContactMesh, CrossesWhereItArrived) {
+    Sheet sheet(11, 11, 0.02f);
+    const std::vector<Vec3> places = lying(sheet, {});
+    TriangleGroups groups(places, sheet.indices);
+    const auto alone = Jobs::own(0);
+    groups.move(places, *alone);
+    BallMesh ball({0.1f, -0.1f, 0.1f}, 0.05f);
+    ContactMesh mesh(ball.positions.size(), ball.indices);
+    const auto crossed_after = [&](const Vec3& way) {
+        ball.move(way);
+        mesh.accept(ball.positions);
+        mesh.look_at({}, Vec3(-1.0f), Vec3(1.0f));
+        std::vector<uint32_t> near_runs, triangles;
+        for (uint32_t group = 0; group < groups.group_count(); ++group)
+            mesh.find_crossed(groups, group, near_runs, triangles);
+        mesh.arrive();
+        return triangles.size();
+    };
+    EXPECT_EQ(crossed_after(Vec3(0.0f)), 0u);
+    EXPECT_GT(crossed_after({0.0f, 0.09f, 0.0f}), 0u);
+    EXPECT_EQ(crossed_after({0.0f, -0.09f, 0.0f}), 0u);
+}
+
+/// A ball comes from below, with steps of 1/30 s: contacts are found in the middle of them as well.
+TEST(MeshContact, ALongStepFindsContactsAsOftenAsTwoShortOnes) {
+    const auto jobs = Jobs::own(0);
+    Sheet sheet(11, 11, 0.02f);
+    const std::vector<Vec3> start = lying(sheet, {});
+    const auto after = [&](int steps) {
+        BallMesh ball({0.1f, -0.06f, 0.1f}, 0.05f);
+        Cloth cloth(fabric(sheet.cook(cotton())), {}, start);
+        const uint32_t mesh = cloth.add_mesh(ball.positions.size(), ball.indices);
+        cloth.move_mesh(mesh, ball.positions);
+        cloth.step(kFrame_s, start, {}, *jobs);
+        for (int i = 0; i < 4; ++i)
+            for (int k = 0; k < steps; ++k) {
+                ball.move(Vec3(0.0f, 0.02f, 0.0f) / float(steps));
+                cloth.move_mesh(mesh, ball.positions);
+                cloth.step(2.0f * kFrame_s / float(steps), start, {}, *jobs);
+            }
+        return cloth.positions();
+    };
+    const std::vector<Vec3> one = after(1), two = after(2);
+    float most_m = 0.0f;
+    for (size_t v = 0; v < one.size(); ++v) most_m = std::max(most_m, glm::distance(one[v], two[v]));
+    EXPECT_LT(most_m, 1e-4f);
+}
+
+TEST(ColliderMotion, StandsStillOnceItHasArrived) {
+    ColliderMotion motion;
+    Collider ball;
+    ball.radius = 0.1f;
+    motion.accept(std::vector{ball}, 0.0f);
+    motion.arrive();
+    ball.center.x = 0.05f;
+    motion.accept(std::vector{ball}, 0.0f);
+    EXPECT_FLOAT_EQ(motion.greatest_way(), 0.05f);
+    motion.look_at({0.5f, 1.0f});
+    std::vector<SweptCapsule> swept;
+    motion.sweep(0.0f, 1.0f, swept);
+    ASSERT_EQ(swept.size(), 1u);
+    EXPECT_FLOAT_EQ(swept[0].from.a.x, 0.025f);
+    EXPECT_FLOAT_EQ(swept[0].to.a.x, 0.05f);
+    motion.arrive();
+    EXPECT_EQ(motion.greatest_way(), 0.0f) << "steps that follow without a new place go nowhere";
+}
+
 TEST(MeshContact, AFilterSaysWhichClothMeetsIt) {
     const auto jobs = Jobs::own(0);
     Sheet sheet(11, 11, 0.02f);
