@@ -205,6 +205,63 @@ TEST(Proximity, MissesNoPairThatCrossesOnTheWay) {
     }
 }
 
+TEST(TrianglePatches, OfASolidOnlyWhatLiesBeforeItsPlanesIsLeftOut) {
+    constexpr float kReach_m = 0.003f;
+    on_each_target([] {
+        const auto jobs = Jobs::own(0);
+        const RandomTriangles triangles(11);
+        const uint32_t half = RandomTriangles::kCount / 2;
+        std::vector<uint32_t> indices;
+        for (uint32_t i = 0; i < 3 * half; ++i) indices.push_back(i);
+        const std::vector<Vec3> places = places_of(triangles.end);
+        const std::span<const Vec3> of_all(places);
+        TrianglePatches cloth(of_all.first(3 * half), indices);
+        TrianglePatches solid(of_all.subspan(3 * half, 3 * half), indices, 3 * half);
+        cloth.move(triangles.end, triangles.end, *jobs), solid.move(triangles.end, triangles.end, *jobs);
+        std::vector<TrianglePatches::Pair> all, kept;
+        cloth.find_pairs(solid, kReach_m, all, *jobs);
+        cloth.find_pairs_with_solid(solid, triangles.end, kReach_m, kept, *jobs);
+        std::set<TrianglePair> left;
+        for (const auto& pair : kept) left.insert({pair.first->number, pair.second->number});
+        size_t dropped = 0;
+        for (const auto& [a, b] : all) {
+            const Vec3 *first = &places[b->vertex[0]],
+                       normal = glm::normalize(
+                           glm::cross(places[b->vertex[1]] - *first, places[b->vertex[2]] - *first));
+            float lowest_m = INFINITY;
+            for (const uint32_t v : a->vertex)
+                lowest_m = std::min(lowest_m, glm::dot(places[v] - *first, normal));
+            if (std::abs(lowest_m - kReach_m) < 1e-5f) continue;  // rounding decides
+            EXPECT_EQ(left.count({a->number, b->number}) == 0, lowest_m > kReach_m) << lowest_m;
+            dropped += lowest_m > kReach_m;
+        }
+        EXPECT_GT(dropped, 50u);
+        EXPECT_GT(kept.size(), 50u);
+    });
+}
+
+TEST(Proximity, TrianglesMeetWhatTheirMasksSay) {
+    const auto jobs = Jobs::own(0);
+    const TwoSheets sheets(6, 0.02f, {0.004f, 0.003f, 0.005f});
+    const std::span<const Vec3> all(sheets.positions);
+    const std::vector<uint32_t> indices(sheets.indices.begin(),
+                                        sheets.indices.begin() + std::ptrdiff_t(sheets.indices.size() / 2));
+    const std::vector<Particle> places = particles_of(all);
+    const auto close_with = [&](uint8_t category, uint8_t mask) {
+        const std::vector<uint8_t> categories(sheets.of_one, category), masks(sheets.of_one, mask);
+        Proximity proximity(all.first(sheets.of_one), indices, 0.0f);
+        proximity.add_mesh(sheets.of_one, indices, 0.004f, MeshOf::cloth, {categories, masks});
+        proximity.show_mesh(0, all.subspan(sheets.of_one));
+        proximity.find(places, places, *jobs);
+        size_t count = 0;
+        proximity.for_close([&](const Proximity::Pair&, uint32_t) { ++count; });
+        return count;
+    };
+    EXPECT_GT(close_with(1, 3), 50u);
+    EXPECT_EQ(close_with(4, 3), 0u);
+    EXPECT_EQ(close_with(kFirstMetByVertices, kFirstMetByVertices), 0u) << "by vertices alone";
+}
+
 TEST(Proximity, AMeshIsMetWhileItIsShown) {
     const auto jobs = Jobs::own(0);
     const TwoSheets sheets(6, 0.02f, {0.004f, 0.003f, 0.005f});
