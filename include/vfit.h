@@ -896,8 +896,11 @@ VFIT_API vfit_result vfit_avatar_unpack(vfit_context context, const vfit_avatar_
                                         uint32_t byte_count, char* size_label, uint32_t capacity,
                                         vfit_avatar* out);
 VFIT_API vfit_result vfit_avatar_destroy(vfit_avatar avatar); /* [any] */
+/* Arms go from the last pose to this one around each other and around the trunk, and never through, where
+ * pose.time_ns is later by at most 0.25 s; else they go there at once. Not so
+ * with VFIT_AVATAR_LIMBS_AS_POSED. [excl] */
 VFIT_API vfit_result vfit_avatar_pose(vfit_avatar avatar, const vfit_pose* pose, const vfit_bone* items,
-                                      uint32_t stride, uint32_t count); /* [excl] */
+                                      uint32_t stride, uint32_t count);
 /* The same, the skin written straight into the engine's memory (a mapped vertex buffer), each vertex as three
  * floats in the context's axes at the target's stride: no copy is made, and acquire gives the mesh of the
  * last vfit_avatar_pose. Bones, joints, colliders and cloth follow as with it. normals may be null. Bad

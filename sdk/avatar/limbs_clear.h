@@ -38,7 +38,8 @@ public:
         State before_, now_;  // of two times
     };
     /// Turns arms where needed; an arm that is clear stays where it is, to the bit. `matrices` are those of
-    /// the pose. Poses whose times do not follow each other closely have no path. Does not allocate.
+    /// the pose. Poses whose times do not follow each other closely have no path; a pose of the same time
+    /// again has the path of the first one. Does not allocate.
     void run(const PosedSkeleton& posed, std::span<const Mat4> matrices, Memory& memory, Pose& pose) const;
 
 private:

@@ -499,7 +499,9 @@ namespace Vfit
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_avatar_destroy(AvatarId avatar);
 
-        /// <summary>[excl]</summary>
+        /// <summary>Arms go from the last pose to this one around each other and around the trunk, and never
+        /// through, where pose.time_ns is later by at most 0.25 s; else they go there at once. Not so with
+        /// VFIT_AVATAR_LIMBS_AS_POSED. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_avatar_pose(AvatarId avatar, Pose* pose, Bone* items, uint stride,
             uint count);
