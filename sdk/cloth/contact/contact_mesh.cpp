@@ -338,7 +338,7 @@ void ContactMesh::find_planes(const PartOfCloth& part, std::vector<uint32_t>& ru
         NearestOfRun nearest_points(reach + kCornerReach * edge);
         find_nearest_in_runs(run, places_.data(), runs, nearest_points);
         if (!category_.empty()) {
-            // Who is nearest to what it does not meet has the nearest of what all of the run meet.
+            // A particle whose nearest point is filtered out takes the nearest that all of its run meet.
             std::erase_if(runs, [&](uint32_t other) { return (run_category_[other] & common) == 0; });
             NearestOfRun met_points(reach + kCornerReach * edge);
             find_nearest_in_runs(run, places_.data(), runs, met_points);
