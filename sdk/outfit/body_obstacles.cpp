@@ -12,15 +12,8 @@ bool is_forearm(const Collider& c) {
     return hand(c.joint) || hand(c.joint_b);
 }
 
-// A forearm and a hand meet their own sleeve alone: all other cloth meets that sleeve. In fingers, edges
-// would hook.
-enum Category : uint8_t {
-    kBody = 1,
-    kLeftForearm = 2,
-    kRightForearm = 4,
-    kLeftHand = kFirstMetByVertices,
-    kRightHand = kFirstMetByVertices << 1
-};
+// A forearm and a hand meet their own sleeve alone: all other cloth meets that sleeve.
+enum Category : uint8_t { kBody = 1, kLeftForearm = 2, kRightForearm = 4, kLeftHand = 8, kRightHand = 16 };
 uint8_t category_of(BodyPart part) {
     switch (part) {
         case BodyPart::kLeftForearm: return kLeftForearm;

@@ -19,12 +19,13 @@ struct ArmsMet {
 /// length below its hem, or on an arm that is an obstacle.
 std::vector<uint8_t> below_garment(const DressBody& body, std::span<const Vec3> garment, ArmsMet arms);
 
-/// The part of the collision proxy of the skin (wrapped_skin.h) that is below the garment.
+/// The part of the collision proxy of the skin (wrapped_skin.h) that is below the garment; hands are mittens
+/// (mitten.h).
 struct SkinBelow {
     Skin skin;
     std::vector<uint32_t> indices;   // three a triangle
     Creases::Mesh creased;           // the same vertices
-    std::vector<uint32_t> vertices;  // of the body
+    std::vector<uint32_t> vertices;  // of the body: those whose bones carry them
 };
 /// `creases` are those of the body.
 SkinBelow skin_below(const DressBody& body, std::span<const Vec3> wrapped, std::span<const uint8_t> below,

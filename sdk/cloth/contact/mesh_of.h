@@ -13,9 +13,6 @@ enum class MeshOf : uint8_t { solid, cloth, coming_cloth };
 
 /// Which vertices of a cloth a mesh is there for: those whose mask has a bit of the mesh vertex' category.
 /// Empty: all meet all.
-/// From kFirstMetByVertices on, categories are met by vertices of the cloth alone, not by its edges and
-/// faces.
-inline constexpr uint8_t kFirstMetByVertices = 16;
 struct MeshFilter {
     std::span<const uint8_t> category;  // one a vertex of the mesh
     std::span<const uint8_t> mask;      // one a vertex of the cloth

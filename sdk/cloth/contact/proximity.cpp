@@ -15,7 +15,6 @@ void Proximity::add_mesh(size_t vertices, std::span<const uint32_t> indices, flo
     Surface& surface = surfaces_.emplace_back();
     surface.category.assign(filter.category.begin(), filter.category.end());
     surface.mask.assign(filter.mask.begin(), filter.mask.end());
-    for (uint8_t& mask : surface.mask) mask &= kFirstMetByVertices - 1;
     surface.reach_m = reach_m, surface.is_shown = false, surface.what = what;
     surface.first_vertex = uint32_t(vertex_count_);
     surface.indices.assign(indices.begin(), indices.end());

@@ -11,6 +11,7 @@
 #include "outfit/skin_cover.h"
 #include "unit/cloth/cloth_support.h"
 #include "unit/cloth/post.h"
+#include "unit/outfit/people.h"
 
 namespace vfit {
 namespace {
@@ -69,6 +70,22 @@ TEST(SkinBelow, HandsMayPassWhileForearmsAreMet) {
     EXPECT_EQ(counted({true, true}), (std::vector<uint8_t>{1, 1, 1, 1}));
     EXPECT_EQ(counted({true, false}), (std::vector<uint8_t>{1, 0, 1, 0}));
     EXPECT_EQ(counted({false, false}), (std::vector<uint8_t>{0, 0, 0, 0}));
+}
+
+TEST(SkinBelow, HandsAreMittens) {
+    const Person man(VFIT_SEX_MALE);
+    const DressBody body = man.wearer.body();
+    const std::vector<uint8_t> all(body.positions.size(), 1);
+    const SkinBelow skin = skin_below(body, man.wearer.wrapped(), all, man.avatar.creases());
+    size_t hand = 0, own = 0;
+    for (const BodyPart part : body.parts) hand += part == BodyPart::kLeftHand;
+    std::vector<Vec3> places;
+    Skin::Scratch scratch;
+    skin.skin.carry(man.avatar.skinning_matrices(), places, scratch, *Jobs::own(0));
+    for (const uint32_t v : skin.vertices) own += body.parts[v] == BodyPart::kLeftHand;
+    EXPECT_LT(own, hand / 2) << "fewer vertices";
+    for (size_t v = 0; v < skin.vertices.size(); ++v)
+        if (body.parts[skin.vertices[v]] == BodyPart::kLeftHand) EXPECT_GT(places[v].x, 0.3f);
 }
 
 TEST(SkinCover, ItIsTheBodysOwnCollidersThatComeFirst) {
