@@ -56,9 +56,10 @@ void check(const FabricData& d) {
             !std::isfinite(b.radius_m))
             fail(VFIT_ERROR_DATA, "backstop of vertex ", b.vertex, " with radius ", b.radius_m, " m");
     for (const DistanceLimit& l : d.limits)
-        if (l.vertex >= n || d.inverse_mass[l.vertex] == 0.0f || !(l.distance_m > 0.0f) ||
+        if (l.vertex >= n || l.target >= n || d.inverse_mass[l.vertex] == 0.0f || !(l.distance_m > 0.0f) ||
             !std::isfinite(l.distance_m))
-            fail(VFIT_ERROR_DATA, "greatest distance of vertex ", l.vertex, ": ", l.distance_m, " m");
+            fail(VFIT_ERROR_DATA, "greatest distance of vertex ", l.vertex, " from target ", l.target, ": ",
+                 l.distance_m, " m");
 }
 
 }  // namespace
@@ -97,27 +98,26 @@ Fabric::Fabric(FabricData data, Jobs* jobs) : data_(std::move(data)) {
         tether_anchors_[at] = layout_.particle_in(layout_.part_of(particle), t.anchor);
         tether_lengths_[at] = t.length_m;
     }
-    backstop_runs_ = place_balls(data_.backstops, false);
-    std::vector<Backstop> limits;
-    for (const DistanceLimit& limit : data_.limits) limits.push_back({limit.vertex, limit.distance_m});
-    limit_runs_ = place_balls(limits, true);
+    std::vector<DistanceLimit> backstops;  // the targets of their centres follow those of the vertices
+    for (const Backstop& b : data_.backstops)
+        backstops.push_back({b.vertex, b.radius_m, vertex_count() + uint32_t(backstops.size())});
+    backstop_runs_ = place_balls(backstops);
+    limit_runs_ = place_balls(data_.limits);
     fans_ = make_fans();
 }
 
-/// at_vertices: their centres are the vertices' own targets, else those that follow them.
-std::vector<std::vector<BallRun>> Fabric::place_balls(std::span<const Backstop> balls,
-                                                      bool at_vertices) const {
+std::vector<std::vector<BallRun>> Fabric::place_balls(std::span<const DistanceLimit> balls) const {
     std::vector<std::vector<BallRun>> parts(layout_.parts.size());
-    for (uint32_t i = 0; i < balls.size(); ++i) {
-        const uint32_t particle = layout_.particle_of[balls[i].vertex], run = particle / uint32_t(kLanes);
+    for (const DistanceLimit& ball : balls) {
+        const uint32_t particle = layout_.particle_of[ball.vertex], run = particle / uint32_t(kLanes);
         std::vector<BallRun>& runs = parts[layout_.part_of(particle)];
         const size_t lane = lane_of(particle % kLanes);
         const auto place = std::find_if(runs.begin(), runs.end(), [&](const BallRun& r) {
             return r.run == run && r.radius_m[lane] == 0.0f;
         });
         BallRun& of = place != runs.end() ? *place : runs.emplace_back(BallRun{run, {}, {}});
-        of.target[lane] = at_vertices ? balls[i].vertex : vertex_count() + i;
-        of.radius_m[lane] = balls[i].radius_m;
+        of.target[lane] = ball.target;
+        of.radius_m[lane] = ball.distance_m;
     }
     for (auto& runs : parts)
         std::stable_sort(runs.begin(), runs.end(),

@@ -47,10 +47,11 @@ struct Backstop {
     float radius_m;
 };
 
-/// How far from its target a vertex may be.
+/// How far a vertex may be from a target: its own, or that of another vertex.
 struct DistanceLimit {
     uint32_t vertex;
     float distance_m;
+    uint32_t target = vertex;
 };
 
 /// Balls that particles of a run of kLanes stay out of, or in, by lanes.
@@ -107,7 +108,7 @@ public:
     const TriangleFans& fans() const { return fans_; }
 
 private:
-    std::vector<std::vector<BallRun>> place_balls(std::span<const Backstop> balls, bool at_vertices) const;
+    std::vector<std::vector<BallRun>> place_balls(std::span<const DistanceLimit> balls) const;
     TriangleFans make_fans() const;
 
     FabricData data_;

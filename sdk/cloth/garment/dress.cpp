@@ -76,6 +76,22 @@ Vec3 carried_to(const Vec3& place, const Vec3& shift) {
     return out;
 }
 
+/// A garment with lengths of its own is held where it lies, on shoulders or at the waist. There it slides on
+/// the skin as all of it does, but not far: pinned to the skin, it would stretch wherever the skin does, and
+/// give way to no obstacle.
+bool holds_loosely(const Garment& garment) { return garment.has_own_lengths(); }
+
+/// Keeps the vertices that hold the garment near their targets, and the others within reach of those by the
+/// way along the edges (long range attachment). Returns these ways.
+std::vector<Tether> hold(std::span<const uint32_t> held, FabricData& data) {
+    constexpr float kSlides_m = 0.01f;
+    std::vector<float> inverse_mass = data.inverse_mass;
+    for (const uint32_t v : held) inverse_mass[v] = 0.0f, data.limits.push_back({v, kSlides_m});
+    std::vector<Tether> tethers = cook_tethers(inverse_mass, data.edges);
+    for (const Tether& t : tethers) data.limits.push_back({t.vertex, t.length_m + kSlides_m, t.anchor});
+    return tethers;
+}
+
 /// Those that contact does not move, or not all of.
 std::vector<uint32_t> skinned_triangles(const Garment& garment) {
     std::vector<uint32_t> out;
@@ -94,6 +110,8 @@ Dress::Dress(const Garment& garment, const BoundGarment& bound, const FabricMate
     : indices_(garment.mesh.indices) {
     check(garment, bound, body);
     const uint32_t n = garment.vertex_count();
+    for (uint32_t v = 0; v < n; ++v)
+        if (!garment.simulated[v]) held_.push_back(v);
     // Both bodies stand in the same pose: what lies off the skin is carried as it is, so that ease and flare
     // stay what they were cut to.
     std::vector<std::array<float, 3>> shifts(n);
@@ -124,7 +142,10 @@ Dress::Dress(const Garment& garment, const BoundGarment& bound, const FabricMate
         carried_.add(ball.center, bones);
         backstops_.push_back({i, ball.radius_m});
     }
-    if (garment.has_own_lengths()) hems_ = limb_hems(indices_, bound.parts_below, garment.simulated, rest_);
+    if (garment.has_own_lengths()) {
+        hems_ = limb_hems(indices_, bound.parts_below, garment.simulated, rest_);
+        end_at_wrists(hems_, body, rest_);
+    }
     std::vector<uint8_t> of_hem(n, 0);
     for (const LimbHem& hem : hems_)
         for (const uint32_t v : hem.vertices) of_hem[v] = 1;
@@ -148,7 +169,7 @@ void Dress::skin() {
 void Dress::lift_over(const Dress& below, float thickness_m) {
     constexpr float kAside_m = 0.005f, kFarthest_m = 0.03f;
     const MeshQuery cloth(below.carried_from(), below.indices());
-    for (const uint32_t v : fabric_->kinematic_vertices()) {
+    for (const uint32_t v : held_) {
         Vec3& place = carried_.rest[v];
         const MeshQuery::Closest near = cloth.closest(place);
         const float above = glm::dot(place - near.point, near.normal);
@@ -182,12 +203,15 @@ std::shared_ptr<const Fabric> Dress::fabric_of(const Garment& garment, const Fab
     const TakenUp taken = take_up(hems_, indices_, garment.simulated, cut);
     if (taken_up) *taken_up = taken;
     const std::span<const Vec2> uvs = std::span(garment.mesh.uvs).first(garment.vertex_count());
-    FabricData data = cook_fabric({rest_, indices_, uvs, garment.simulated, size_ratio, cut}, material);
+    const std::vector<uint8_t> all(garment.vertex_count(), 1);
+    const std::vector<uint8_t>& simulated = holds_loosely(garment) ? all : garment.simulated;
+    FabricData data = cook_fabric({rest_, indices_, uvs, simulated, size_ratio, cut}, material);
     data.backstops = backstops_;
+    const std::vector<Tether> tethers = holds_loosely(garment) ? hold(held_, data) : data.tethers;
     for (uint32_t i = 0; i < garment.vertex_count(); ++i)
         if (!garment.most_way.empty() && garment.most_way[i] > 0.0f && garment.simulated[i])
             data.limits.push_back({i, garment.most_way[i]});
-    keep_hems(hems_, data);
+    keep_hems(hems_, tethers, data);
     return std::make_shared<const Fabric>(std::move(data), jobs);
 }
 

@@ -51,7 +51,9 @@ public:
     const std::vector<uint32_t>& indices() const { return indices_; }
     /// Where the bones carry it from: rest(), and what was lifted over garments below. One a garment vertex.
     std::span<const Vec3> carried_from() const { return std::span(carried_.rest).first(rest_.size()); }
-    /// What is fixed goes with the skin, as that of a garment worn below does: from now on so far off that
+    /// The vertices that hold it: on the shoulders, at the waist.
+    const std::vector<uint32_t>& held() const { return held_; }
+    /// What holds it goes with the skin, as that of a garment worn below does: from now on so far off that
     /// one, where the two lie on each other.
     void lift_over(const Dress& below, float thickness_m);
     /// The garment's vertices by the bones that carry them.
@@ -65,7 +67,7 @@ public:
     /// carry them: the garment's vertices, then the backstops' centres.
     void place(std::span<const Mat4> matrices, std::vector<Vec3>& targets, Scratch& scratch,
                Jobs& jobs) const;
-    /// The same of those alone that a step looks at: of vertices the fixed and the limited ones. All have
+    /// The same of those alone that a step looks at: of vertices the held and the limited ones. All have
     /// been placed before.
     void follow(std::span<const Mat4> matrices, std::vector<Vec3>& targets, Scratch& scratch,
                 Jobs& jobs) const;
@@ -74,6 +76,7 @@ private:
     std::shared_ptr<const Fabric> fabric_;
     std::vector<Vec3> rest_;
     std::vector<uint32_t> indices_;
+    std::vector<uint32_t> held_;
     std::vector<Backstop> backstops_;
     std::vector<LimbHem> hems_;
     TakenUp taken_up_;

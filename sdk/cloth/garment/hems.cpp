@@ -50,6 +50,14 @@ float mean_way(const std::vector<float>& ways, std::span<const uint32_t> vertice
     return count > 0 ? sum / float(count) : 0.0f;
 }
 
+struct Mean {
+    Vec3 sum{0.0f};
+    float count = 0.0f;
+
+    void add(const Vec3& p) { sum += p, count += 1.0f; }
+    Vec3 of() const { return sum / std::max(count, 1.0f); }
+};
+
 /// Of a triangle laid flat, the direction in which a value at its corners grows; zero: it is the same at all.
 Vec2 growth(const Vec2* corner, const float (&value)[3]) {
     const Vec2 p = corner[1] - corner[0], q = corner[2] - corner[0];
@@ -85,6 +93,35 @@ std::vector<LimbHem> limb_hems(std::span<const uint32_t> indices, std::span<cons
     return hems;
 }
 
+void end_at_wrists(std::span<LimbHem> hems, const BoundBody& body, std::span<const Vec3> carried) {
+    if (body.parts.empty()) return;
+    for (const auto& [forearm, hand] : {std::pair(BodyPart::kLeftForearm, BodyPart::kLeftHand),
+                                        std::pair(BodyPart::kRightForearm, BodyPart::kRightHand)}) {
+        Mean arm, wrist;
+        for (size_t v = 0; v < body.positions.size(); ++v)
+            if (body.parts[v] == forearm) arm.add(body.positions[v]);
+        for (size_t i = 0; i + 2 < body.indices.size(); i += 3) {
+            const uint32_t* t = &body.indices[i];
+            const auto is_of = [&](BodyPart part) {
+                return std::any_of(t, t + 3, [&](uint32_t v) { return body.parts[v] == part; });
+            };
+            if (is_of(forearm) && is_of(hand))
+                for (size_t k = 0; k < 3; ++k) wrist.add(body.positions[t[k]]);
+        }
+        if (arm.count == 0.0f || wrist.count == 0.0f) continue;
+        const Vec3 along = glm::normalize(wrist.of() - arm.of());
+        for (LimbHem& hem : hems) {
+            Mean middle;
+            for (const uint32_t v : hem.vertices) middle.add(carried[v]);
+            const bool is_its = hem.of_arm && middle.of().x * wrist.of().x > 0.0f;
+            const float past_m = glm::dot(middle.of() - wrist.of(), along);
+            if (!is_its || hem.way_m == 0.0f || past_m <= 0.0f) continue;
+            hem.past_wrist_m = past_m;
+            hem.way_m -= past_m + kFolds_m;
+        }
+    }
+}
+
 TakenUp take_up(std::span<const LimbHem> hems, std::span<const uint32_t> indices,
                 std::span<const uint8_t> simulated, std::vector<Vec2>& cut) {
     // So much of the way to the hem is of the limb: less than from the crotch or the armhole.
@@ -114,14 +151,14 @@ TakenUp take_up(std::span<const LimbHem> hems, std::span<const uint32_t> indices
     return taken;
 }
 
-void keep_hems(std::span<const LimbHem> hems, FabricData& fabric) {
+void keep_hems(std::span<const LimbHem> hems, std::span<const Tether> tethers, FabricData& fabric) {
     constexpr float kLonger = 1.01f, kNear_m = 0.02f;
     std::vector<float> ways(fabric.inverse_mass.size(), INFINITY);
-    for (const Tether& t : fabric.tethers) ways[t.vertex] = t.length_m;
+    for (const Tether& t : tethers) ways[t.vertex] = t.length_m;
     for (const LimbHem& hem : hems) {
         if (hem.way_m == 0.0f || mean_way(ways, hem.vertices) < kLonger * hem.way_m) continue;
         for (const uint32_t v : hem.vertices)
-            if (fabric.inverse_mass[v] > 0.0f) fabric.limits.push_back({v, kNear_m});
+            if (fabric.inverse_mass[v] > 0.0f) fabric.limits.push_back({v, kNear_m + hem.past_wrist_m});
     }
 }
 

@@ -8,6 +8,7 @@
 
 #include "body/body_model.h"
 #include "cloth/fabric/fabric.h"
+#include "cloth/garment/bound_garment.h"
 #include "math/types.h"
 
 namespace vfit {
@@ -15,14 +16,18 @@ namespace vfit {
 struct LimbHem {
     std::vector<uint32_t> vertices;
     bool of_arm = false;
-    float way_m = 0.0f;  // mean way along the cloth to them from what is fixed, where the garment lies on the
-                         // body; 0: there is none
+    float way_m = 0.0f;  // mean way along the cloth to them, or to the wrist, from what is fixed, where the
+                         // garment lies on the body; 0: there is none
+    float past_wrist_m = 0.0f;  // so far they lie beyond it
 };
 
 /// The borders of the garment that go around a forearm or a shank, a hand or a foot. part_below: of each
 /// vertex, the body's part that it lies on; simulated: flags; carried: the garment on the body.
 std::vector<LimbHem> limb_hems(std::span<const uint32_t> indices, std::span<const BodyPart> part_below,
                                std::span<const uint8_t> simulated, std::span<const Vec3> carried);
+
+/// Sleeves that are carried further than the wrist, onto the hand, end at the wrist.
+void end_at_wrists(std::span<LimbHem> hems, const BoundBody& body, std::span<const Vec3> carried);
 
 /// What hems went up by, at most.
 struct TakenUp {
@@ -36,7 +41,7 @@ TakenUp take_up(std::span<const LimbHem> hems, std::span<const uint32_t> indices
                 std::span<const uint8_t> simulated, std::vector<Vec2>& cut);
 
 /// A cuff does not slide over the hand and a hem does not slide under the foot: each vertex of hems to which
-/// the way from what is fixed is longer in the cloth than on the body stays near its place.
-void keep_hems(std::span<const LimbHem> hems, FabricData& fabric);
+/// the way from what is fixed (tethers) is longer in the cloth than on the body stays near its place.
+void keep_hems(std::span<const LimbHem> hems, std::span<const Tether> tethers, FabricData& fabric);
 
 }  // namespace vfit

@@ -49,9 +49,38 @@ TEST(Hems, HemsAreKeptWhereTheClothIsLongerThanTheLimb) {
     for (const float limb : {1.0f, 0.9f}) {
         const Sleeve sleeve(limb);
         FabricData fabric = sleeve.fabric(sleeve.tube.cut);
-        keep_hems(sleeve.hems, fabric);
+        keep_hems(sleeve.hems, fabric.tethers, fabric);
         EXPECT_EQ(fabric.limits.size(), limb < 1.0f ? 12u : 0u);
     }
+}
+
+TEST(Hems, ASleeveOnTheHandEndsAtTheWrist) {
+    const Sleeve sleeve(1.0f);  // down the Y axis, its hem at 0
+    constexpr float kWrist_m = 0.03f;
+    Tube limb{0.03f, 0.5f, 12, 50, 1.0f};
+    std::vector<BodyPart> parts;
+    for (Vec3& p : limb.positions) {
+        p.y -= 0.1f;
+        parts.push_back(p.y < kWrist_m ? BodyPart::kLeftHand : BodyPart::kLeftForearm);
+    }
+    std::vector<Vec3> carried = sleeve.tube.positions;
+    for (auto* of : {&carried, &limb.positions})
+        for (Vec3& p : *of) p.x += 0.3f;  // the left arm
+    const BoundBody body{limb.positions, limb.indices, {}, {}, parts};
+    std::vector<LimbHem> hems = sleeve.hems;
+    const float way_m = hems.at(0).way_m;
+    end_at_wrists(hems, body, carried);
+    EXPECT_NEAR(hems[0].past_wrist_m, kWrist_m, 0.006f);
+    std::vector<Vec2> cut = sleeve.tube.cut;
+    EXPECT_NEAR(take_up(hems, sleeve.tube.indices, sleeve.simulated, cut).sleeves_m, kWrist_m, 0.01f);
+    FabricData fabric = sleeve.fabric(sleeve.tube.cut);
+    keep_hems(hems, fabric.tethers, fabric);
+    ASSERT_EQ(fabric.limits.size(), 12u);
+    EXPECT_NEAR(fabric.limits[0].distance_m, 0.02f + kWrist_m, 0.006f) << "it may get there";
+    hems = sleeve.hems;
+    for (Vec3& p : carried) p.y += 0.1f;
+    end_at_wrists(hems, body, carried);
+    EXPECT_EQ(hems[0].way_m, way_m) << "a short sleeve stays as it is";
 }
 
 TEST(Hems, SleevesThatAreTooLongAreTakenUpAndKeepTheirGirth) {
