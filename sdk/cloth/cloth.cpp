@@ -35,6 +35,10 @@ constexpr float kFinestVirtual_m = 0.001f;
 // that few of the others are in contact.
 constexpr float kMeshShare = 0.5f;
 constexpr float kMinContactRate_hz = 60.0f;  // contacts with meshes are found as often as that, at least
+// A sub-step in which a limb goes further stretches the triangles that it pulls along: what they pull on
+// follows an edge a sub-step later. Contacts are found again on the way as well.
+constexpr float kSubstepWay_m = 0.004f, kIntervalWay_m = 0.02f;
+constexpr float kMostSubsteps = 4.0f;  // times those that the settings say
 constexpr float kMeshAround_m =
     0.15f;  // about the cloth, in which meshes are looked for: a fast limb's way in a step
 constexpr float kLatest = 0.1f;           // weight of the last step in the mean time of a sub-step
@@ -185,6 +189,8 @@ struct Cloth::State {
     void look_at(const Interval& interval);
     void skip_targets(std::span<const Vec3> targets);
     float body_way() const;
+    float way_within_body() const;
+    int substeps_for(float dt) const;
     int affordable(int wanted) const;
     std::span<const Vec3> held_at(std::span<const Vec3> targets);
     void check_body(std::span<const Vec3> targets, std::span<const Collider> colliders) const;
@@ -385,7 +391,7 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
     if (!s.asleep_at.empty()) s.wake();
     const bool settles = s.settles_s > 0.0f, is_first = s.settles_s == kSettles_s;
     if (settles) s.settles_s -= dt;
-    const int wanted = std::max(1, int(std::lround(dt * kSubstepRate_hz * float(s.settings.substeps))));
+    const int wanted = s.substeps_for(dt);
     int times = settles && !is_first ? s.haste : 1;  // the first picture is waited for
     const int affordable = s.affordable(times * wanted), substeps = std::min(wanted, affordable);
     if (affordable < times * wanted) times = 1;  // haste is what a budget spares first
@@ -477,6 +483,20 @@ bool Cloth::State::stays_asleep(std::span<const Vec3> targets) const {
     return !asleep_at.empty() && body_way() <= kStill_m && farthest(asleep_at, targets) <= kStill_m;
 }
 
+/// Of the parts of a solid against each other in this step, at most.
+float Cloth::State::way_within_body() const {
+    float most = 0.0f;
+    for (const ContactMesh& mesh : meshes)
+        if (mesh.what() == MeshOf::solid) most = std::max(most, mesh.way_within());
+    return most;
+}
+
+int Cloth::State::substeps_for(float dt) const {
+    const float own = dt * kSubstepRate_hz * float(settings.substeps);
+    return std::max(
+        1, int(std::lround(std::clamp(way_within_body() / kSubstepWay_m, own, kMostSubsteps * own))));
+}
+
 /// Of so many, those that are expected to be done within the budget; at least one.
 int Cloth::State::affordable(int wanted) const {
     if (settings.budget_ms == 0.0f || substep_ms == 0.0f) return wanted;
@@ -491,8 +511,8 @@ void Cloth::State::check_body(std::span<const Vec3> targets, std::span<const Col
 /// The body has been met.
 void Cloth::State::advance(float dt, int count, float damping, std::span<const Vec3> skinned_targets,
                            Jobs& jobs) {
-    const int intervals =
-        meshes.empty() ? 1 : std::clamp(int(std::ceil(dt * kMinContactRate_hz - 1e-3f)), 1, count);
+    const float parts = std::max(dt * kMinContactRate_hz - 1e-3f, way_within_body() / kIntervalWay_m);
+    const int intervals = meshes.empty() ? 1 : std::clamp(int(std::ceil(parts)), 1, count);
     if (triangles && std::exchange(is_deformed, false)) part_layers(jobs);
     const std::span<const Vec3> targets = held_at(skinned_targets);
     if (!backstops_placed) {

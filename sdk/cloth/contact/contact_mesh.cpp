@@ -132,6 +132,7 @@ void ContactMesh::look_at(const Interval& interval, const Vec3& low, const Vec3&
         end_[i].x = from + way * interval.to;
     }
     float greatest_m = 0.0f;
+    Vec3 low_way(INFINITY), high_way(-INFINITY);
     for (size_t run = 0; run < ways_m_.size(); ++run) {
         Vec3 from(INFINITY), to(-INFINITY);
         float way2 = 0.0f;
@@ -144,6 +145,7 @@ void ContactMesh::look_at(const Interval& interval, const Vec3& low, const Vec3&
             const Vec3 way = q - p;
             from = glm::min(from, glm::min(p, q)), to = glm::max(to, glm::max(p, q));
             way2 = std::max(way2, glm::dot(way, way));
+            low_way = glm::min(low_way, way), high_way = glm::max(high_way, way);
         }
         greatest_m = std::max(greatest_m, std::sqrt(way2));
         ways_m_[run] = std::min(std::sqrt(way2), kFastest_m);
@@ -152,11 +154,12 @@ void ContactMesh::look_at(const Interval& interval, const Vec3& low, const Vec3&
     }
     boxes_.find_blocks();
     greatest_way_ = greatest_m / (interval.to - interval.from);
+    way_within_ = greatest_m > 0.0f ? glm::length(high_way - low_way) / (interval.to - interval.from) : 0.0f;
 }
 
 void ContactMesh::hide() {
     forget();
-    greatest_way_ = 0.0f;
+    greatest_way_ = way_within_ = 0.0f;
     boxes_.resize(ways_m_.size());
 }
 

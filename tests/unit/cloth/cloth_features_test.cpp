@@ -176,6 +176,16 @@ TEST(ClothLimits, AVertexStaysAsNearToItsTargetAsItIsTold) {
               std::string::npos);
 }
 
+TEST(ClothLimits, AVertexStaysAsNearToTheTargetOfAnotherAsItIsTold) {
+    constexpr uint32_t kTwoRowsBelow = 30;
+    Hanging hanging({}, {{kTwoRowsBelow, 0.03f, 0}});
+    hanging.step(60);
+    EXPECT_LT(glm::distance(hanging.cloth->positions()[kTwoRowsBelow], hanging.targets[0]), 0.0301f);
+    FabricData data = hanging.sheet.cook(cotton());
+    data.limits = {{kTwoRowsBelow, 0.03f, 300}};
+    EXPECT_NE(test::error_of([&] { Fabric bad(data); }).find("from target 300"), std::string::npos);
+}
+
 TEST(ClothInertia, WhatIsNotFeltCarriesTheClothAlong) {
     const auto sway = [](float inertia) {
         ClothSettings settings;
@@ -314,6 +324,29 @@ TEST(ClothLengths, HasteIsWhatABudgetSparesFirst) {
     EXPECT_EQ(settle(0.0f), 16u) << "no budget";
     EXPECT_EQ(settle(1e4f), 16u);
     EXPECT_EQ(settle(1e-4f), 1u);
+}
+
+TEST(ClothBudget, WhatMovesFastTakesMoreSubsteps) {
+    ClothSettings settings;
+    settings.sleeps = false;
+    Hanging hanging(settings);
+    const Sheet wall{20, 15, 0.02f};
+    std::vector<Vec3> places = wall.positions;
+    for (Vec3& p : places) p.z -= 0.1f;
+    const uint32_t mesh = hanging.cloth->add_mesh(places.size(), wall.indices);
+    const auto substeps = [&](const Vec3& upper_way, const Vec3& lower_way) {
+        for (size_t v = 0; v < places.size(); ++v) places[v] += v < places.size() / 2 ? upper_way : lower_way;
+        hanging.cloth->move_mesh(mesh, places);
+        hanging.step(1);
+        return hanging.cloth->stats().substeps;
+    };
+    EXPECT_EQ(substeps({}, {}), 8u);
+    EXPECT_EQ(substeps({0.02f, 0, 0}, {}), 8u) << "2.5 mm a sub-step";
+    EXPECT_EQ(substeps({0.03f, 0, 0}, {-0.03f, 0, 0}), 15u) << "4 mm, one part against the other";
+    EXPECT_EQ(substeps({-0.05f, 0, 0}, {-0.05f, 0, 0}), 8u) << "the whole of it";
+    EXPECT_EQ(substeps({0.3f, 0, 0}, {}), 32u) << "no more than four times as many";
+    hanging.cloth->set_quality(8, 1e-4f);
+    EXPECT_EQ(substeps({-0.3f, 0, 0}, {}), 1u) << "nor than the budget allows";
 }
 
 TEST(ClothBudget, LessTimeIsFewerSubstepsAndNoMoreThanAsked) {
