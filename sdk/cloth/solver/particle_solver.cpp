@@ -206,7 +206,7 @@ void ParticleSolver::begin_part(const Step& step, uint32_t part) {
         const bool is_lifted = step.meshes[i].what() != MeshOf::solid && !step.cloth_lift_m.empty();
         step.meshes[i].find_planes({m, std::span(layout.vertex_of).subspan(begin),
                                     is_lifted ? step.cloth_lift_m.subspan(begin) : std::span<const float>(),
-                                    step.dt, step.thickness_m},
+                                    step.passes_solids, step.dt, step.thickness_m},
                                    parts_[part].near_runs, parts_[part].touched[i], parts_[part].planes);
     }
     if (step.meshes.size() > 1)

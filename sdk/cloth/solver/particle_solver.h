@@ -47,7 +47,8 @@ public:
         Interval interval;               // of that one, which this is about
         const ColliderMotion& colliders;
         std::span<const ContactMesh> meshes;
-        std::span<const float> cloth_lift_m;  // off those that are cloth, one a particle; may be empty
+        std::span<const float> cloth_lift_m;     // off those that are cloth, one a particle; may be empty
+        std::span<const uint8_t> passes_solids;  // flags of the vertices that meet no solid
         TriangleContact* contacts = nullptr;
         float contact_friction = 0.0f;  // of these
     };
