@@ -971,7 +971,8 @@ enum {
     VFIT_CLOTH_ANY_FIT = 16
 }; /* worn even where it would not close: stretched beyond what its fabric takes */
 typedef struct vfit_cloth_desc {
-    uint32_t struct_size, substeps; /* 0: 8 a 1/60 s */
+    uint32_t struct_size, substeps; /* 0: 8 a 1/60 s; on the skin up to four times as many in a step in
+                                     * which parts of the body move fast */
     float gravity[3];               /* in the context's axes and unit; all zero: 9.81 m/s2 down */
     float friction;                 /* 0: the fabric's; < 0: none */
     float damping;                  /* share of speed lost a second, 0: 0.5; < 0: none */
@@ -1019,7 +1020,7 @@ VFIT_API vfit_result vfit_cloth_reset(vfit_cloth cloth);
  * VFIT_ERROR_ARGUMENT where it has no such size, VFIT_ERROR_NOT_WEARABLE as with create, and nothing changes.
  * [excl] */
 VFIT_API vfit_result vfit_cloth_set_size(vfit_cloth cloth, const char* size_label);
-/* Fixed sub-steps inside; dt is clamped to 0.1 ms..0.1 s, 0 changes nothing. Reads the avatar: pose that
+/* Sub-steps inside; dt is clamped to 0.1 ms..0.1 s, 0 changes nothing. Reads the avatar: pose that
  * one first. begin hands the work to a worker and returns, end waits: between the two the engine renders.
  * To a host's job system such a step is one item. [excl] */
 VFIT_API vfit_result vfit_cloth_step(vfit_cloth cloth, float dt);
@@ -1038,9 +1039,9 @@ VFIT_API vfit_result vfit_cloth_carry(vfit_cloth cloth);
 VFIT_API vfit_result vfit_cloth_teleport(vfit_cloth cloth);
 /* Velocity of the air, in the context's axes and unit a second, from the next step on. [excl] */
 VFIT_API vfit_result vfit_cloth_set_wind(vfit_cloth cloth, const float wind[3]);
-/* Sub-steps a 1/60 s at most, and the time that a step may take: where more would take longer, fewer are done
- * (at least one), and then a state is no longer the same on each run. 0 sub-steps: 8; 0 ms: no budget. [excl]
- */
+/* Sub-steps a 1/60 s (vfit_cloth_desc), and the time that a step may take: where more would take longer,
+ * fewer are done (at least one), and then a state is no longer the same on each run. 0 sub-steps: 8; 0 ms: no
+ * budget. [excl] */
 VFIT_API vfit_result vfit_cloth_set_quality(vfit_cloth cloth, uint32_t substeps, float budget_ms);
 /* From now on cloth is worn over inner, a cloth of the same avatar, and stays outside of it by its thickness:
  * step inner first, each frame. vfit_cloth_reset then puts cloth on over it; without, inner is there at once,

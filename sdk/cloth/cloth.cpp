@@ -39,6 +39,7 @@ constexpr float kMinContactRate_hz = 60.0f;  // contacts with meshes are found a
 // follows an edge a sub-step later. Contacts are found again on the way as well.
 constexpr float kSubstepWay_m = 0.004f, kIntervalWay_m = 0.02f;
 constexpr float kMostSubsteps = 4.0f;  // times those that the settings say
+constexpr int kMinSubsteps = 4;        // from one look at contacts to the next
 constexpr float kTears2 = 4.0f;        // square of how many times its length a solid may stretch an edge to
 constexpr float kMeshAround_m =
     0.15f;  // about the cloth, in which meshes are looked for: a fast limb's way in a step
@@ -516,7 +517,8 @@ void Cloth::State::check_body(std::span<const Vec3> targets, std::span<const Col
 /// The body has been met.
 void Cloth::State::advance(float dt, int count, float damping, std::span<const Vec3> skinned_targets,
                            Jobs& jobs) {
-    const float parts = std::max(dt * kMinContactRate_hz - 1e-3f, way_within_body() / kIntervalWay_m);
+    const float by_way = std::min(way_within_body() / kIntervalWay_m, float(count / kMinSubsteps)),
+                parts = std::max(dt * kMinContactRate_hz - 1e-3f, by_way);
     const int intervals = meshes.empty() ? 1 : std::clamp(int(std::ceil(parts)), 1, count);
     if (triangles && std::exchange(is_deformed, false)) part_layers(jobs);
     const std::span<const Vec3> targets = held_at(skinned_targets);

@@ -609,9 +609,9 @@ namespace Vfit
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_set_size(ClothId cloth, byte* sizeLabel);
 
-        /// <summary>Fixed sub-steps inside; dt is clamped to 0.1 ms..0.1 s, 0 changes nothing. Reads the
-        /// avatar: pose that one first. begin hands the work to a worker and returns, end waits: between the
-        /// two the engine renders. To a host's job system such a step is one item. [excl]</summary>
+        /// <summary>Sub-steps inside; dt is clamped to 0.1 ms..0.1 s, 0 changes nothing. Reads the avatar:
+        /// pose that one first. begin hands the work to a worker and returns, end waits: between the two the
+        /// engine renders. To a host's job system such a step is one item. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_step(ClothId cloth, float dt);
 
@@ -643,8 +643,8 @@ namespace Vfit
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_set_wind(ClothId cloth, float* wind);
 
-        /// <summary>Sub-steps a 1/60 s at most, and the time that a step may take: where more would take
-        /// longer, fewer are done (at least one), and then a state is no longer the same on each run. 0
+        /// <summary>Sub-steps a 1/60 s (vfit_cloth_desc), and the time that a step may take: where more would
+        /// take longer, fewer are done (at least one), and then a state is no longer the same on each run. 0
         /// sub-steps: 8; 0 ms: no budget. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_set_quality(ClothId cloth, uint substeps, float budgetMs);
