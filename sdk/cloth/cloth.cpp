@@ -38,9 +38,9 @@ constexpr float kMinContactRate_hz = 60.0f;  // contacts with meshes are found a
 // A sub-step in which a limb goes further stretches the triangles that it pulls along: what they pull on
 // follows an edge a sub-step later. Contacts are found again on the way as well.
 constexpr float kSubstepWay_m = 0.004f, kIntervalWay_m = 0.02f;
-constexpr float kMostSubsteps = 4.0f;  // times those that the settings say
-constexpr int kMinSubsteps = 4;        // from one look at contacts to the next
-constexpr float kTears2 = 4.0f;        // square of how many times its length a solid may stretch an edge to
+constexpr float kMaxSubstepFactor = 4.0f;  // times those that the settings say
+constexpr int kMinSubsteps = 4;            // from one look at contacts to the next
+constexpr float kTears2 = 4.0f;  // square of how many times its length a solid may stretch an edge to
 constexpr float kMeshAround_m =
     0.15f;  // about the cloth, in which meshes are looked for: a fast limb's way in a step
 constexpr float kLatest = 0.1f;           // weight of the last step in the mean time of a sub-step
@@ -500,7 +500,7 @@ float Cloth::State::way_within_body() const {
 int Cloth::State::substeps_for(float dt) const {
     const float own = dt * kSubstepRate_hz * float(settings.substeps);
     return std::max(
-        1, int(std::lround(std::clamp(way_within_body() / kSubstepWay_m, own, kMostSubsteps * own))));
+        1, int(std::lround(std::clamp(way_within_body() / kSubstepWay_m, own, kMaxSubstepFactor * own))));
 }
 
 /// Of so many, those that are expected to be done within the budget; at least one.
