@@ -40,7 +40,9 @@ constexpr float kMinContactRate_hz = 60.0f;  // contacts with meshes are found a
 constexpr float kSubstepWay_m = 0.004f, kIntervalWay_m = 0.02f;
 constexpr float kMaxSubstepFactor = 4.0f;  // times those that the settings say
 constexpr int kMinSubsteps = 4;            // from one look at contacts to the next
-constexpr float kTears2 = 4.0f;  // square of how many times its length a solid may stretch an edge to
+// An edge that is longer than twice its length, with a solid between its ends that pushes them apart: cosine
+// of the ways in which it pushes.
+constexpr float kTears2 = 4.0f, kFacesAway = -0.5f;
 constexpr float kMeshAround_m =
     0.15f;  // about the cloth, in which meshes are looked for: a fast limb's way in a step
 constexpr float kLatest = 0.1f;           // weight of the last step in the mean time of a sub-step
@@ -628,9 +630,12 @@ void Cloth::State::find_passing() {
         return;
     std::fill(passes_solids.begin(), passes_solids.end(), uint8_t(0));
     const std::vector<uint32_t>& particle_of = fabric->layout().particle_of;
+    const std::span<const Particle> normals_of_solid = solver.solid_normals();
     for (const DistanceConstraint& e : fabric->data().edges) {
         const Vec3 way = solver.places()[particle_of[e.a]].x - solver.places()[particle_of[e.b]].x;
-        if (glm::dot(way, way) > kTears2 * e.rest_m * e.rest_m) passes_solids[e.a] = passes_solids[e.b] = 1;
+        if (glm::dot(way, way) <= kTears2 * e.rest_m * e.rest_m) continue;
+        const Vec3 &a = normals_of_solid[particle_of[e.a]].x, &b = normals_of_solid[particle_of[e.b]].x;
+        if (glm::dot(a, b) < kFacesAway) passes_solids[e.a] = passes_solids[e.b] = 1;
     }
 }
 
