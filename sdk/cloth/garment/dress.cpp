@@ -83,13 +83,21 @@ bool holds_loosely(const Garment& garment) { return garment.has_own_lengths(); }
 
 /// Keeps the vertices that hold the garment near their targets, and the others within reach of those by the
 /// way along the edges (long range attachment). Returns these ways.
-std::vector<Tether> hold(std::span<const uint32_t> held, FabricData& data) {
-    constexpr float kSlides_m = 0.01f;
+std::vector<Tether> hold(std::span<const uint32_t> held, float slides_m, FabricData& data) {
     std::vector<float> inverse_mass = data.inverse_mass;
-    for (const uint32_t v : held) inverse_mass[v] = 0.0f, data.limits.push_back({v, kSlides_m});
+    for (const uint32_t v : held) inverse_mass[v] = 0.0f, data.limits.push_back({v, slides_m});
     std::vector<Tether> tethers = cook_tethers(inverse_mass, data.edges);
-    for (const Tether& t : tethers) data.limits.push_back({t.vertex, t.length_m + kSlides_m, t.anchor});
+    for (const Tether& t : tethers) data.limits.push_back({t.vertex, t.length_m + slides_m, t.anchor});
     return tethers;
+}
+
+/// How far what holds a garment slides: a waistband grips, cloth on shoulders hardly.
+float slide_of(std::span<const uint32_t> held, std::span<const Vec3> rest, std::span<const Vec3> body) {
+    constexpr float kWaistband_m = 0.002f, kShoulders_m = 0.01f, kShoulderHeight = 0.7f;  // of the stature
+    float middle = 0.0f, top = 0.0f;
+    for (const uint32_t v : held) middle += rest[v].y / float(held.size());
+    for (const Vec3& p : body) top = std::max(top, p.y);
+    return middle < kShoulderHeight * top ? kWaistband_m : kShoulders_m;
 }
 
 /// Those that contact does not move, or not all of.
@@ -126,6 +134,7 @@ Dress::Dress(const Garment& garment, const BoundGarment& bound, const FabricMate
                           [&](uint32_t i) { push_out(body.skin, thickness_m, std::span(&rest_[i], 1)); });
     clear_skin({body.positions, body.indices, body.skin}, skinned_triangles(garment), rest_);
 
+    slides_m_ = slide_of(held_, rest_, body.positions);
     carried_ = bound.skin_below;
     carried_.rest = rest_;
     split_limb_weights(rest_, body.limbs, carried_.bones, carried_.weights);
@@ -207,7 +216,7 @@ std::shared_ptr<const Fabric> Dress::fabric_of(const Garment& garment, const Fab
     const std::vector<uint8_t>& simulated = holds_loosely(garment) ? all : garment.simulated;
     FabricData data = cook_fabric({rest_, indices_, uvs, simulated, size_ratio, cut}, material);
     data.backstops = backstops_;
-    const std::vector<Tether> tethers = holds_loosely(garment) ? hold(held_, data) : data.tethers;
+    const std::vector<Tether> tethers = holds_loosely(garment) ? hold(held_, slides_m_, data) : data.tethers;
     for (uint32_t i = 0; i < garment.vertex_count(); ++i)
         if (!garment.most_way.empty() && garment.most_way[i] > 0.0f && garment.simulated[i])
             data.limits.push_back({i, garment.most_way[i]});
