@@ -40,9 +40,6 @@ constexpr float kMinContactRate_hz = 60.0f;  // contacts with meshes are found a
 constexpr float kSubstepWay_m = 0.004f, kIntervalWay_m = 0.02f;
 constexpr float kMaxSubstepFactor = 4.0f;  // times those that the settings say
 constexpr int kMinSubsteps = 4;            // from one look at contacts to the next
-// An edge that is longer than twice its length, with a solid between its ends that pushes them apart: cosine
-// of the ways in which it pushes.
-constexpr float kTears2 = 4.0f, kFacesAway = -0.5f;
 constexpr float kMeshAround_m =
     0.15f;  // about the cloth, in which meshes are looked for: a fast limb's way in a step
 constexpr float kLatest = 0.1f;           // weight of the last step in the mean time of a sub-step
@@ -167,7 +164,6 @@ struct Cloth::State {
     bool certified = false;                    // layers do not cross, which is proven
     std::optional<MeshLift> off_cloth;         // made when there are such meshes
     std::optional<MeshYield> yield;
-    std::vector<uint8_t> passes_solids;  // of each vertex: no solid holds it in the next interval
     // The same, found when they are asked for.
     mutable std::vector<Vec3> normals;
     mutable std::vector<float> edge_strains, strains, pressures;
@@ -210,7 +206,6 @@ struct Cloth::State {
     void keep_layers(float dt, Jobs& jobs);
     void lift_off_cloth(Jobs& jobs);
     void yield_to_cloth();
-    void find_passing();
     void publish();
     void find_normals() const;
     void find_strains() const;
@@ -230,7 +225,6 @@ Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings
     s.held.reserve(fabric->target_count());
     s.asleep_at.reserve(fabric->target_count());
     s.strains.resize(n);
-    s.passes_solids.resize(n);
     s.pressures.resize(n);
     if (settings.pressure) s.forces.resize(n), s.pushes.resize(n);
     s.edge_strains.resize(data.edges.size());
@@ -276,7 +270,6 @@ void Cloth::reset(std::span<const Vec3> positions) {
 
 void Cloth::State::reset(std::span<const Vec3> start) {
     std::copy(start.begin(), start.end(), previous_targets.begin());
-    std::fill(passes_solids.begin(), passes_solids.end(), uint8_t(0));
     backstops_placed = start.size() == previous_targets.size();
     solver.place(start);
     colliders.forget();
@@ -560,9 +553,8 @@ void Cloth::State::advance_interval(float dt, int count, float damping, const In
                                   kMaxDepenetration_m_s * h};
     solver.advance({dt, count, settings.gravity, settings.air, std::pow(1.0f - damping, h), contact,
                     settings.thickness_m, previous_targets, targets, interval, colliders, meshes,
-                    cloth_lift_m, passes_solids, triangles ? &*triangles : nullptr, settings.self_friction},
+                    cloth_lift_m, triangles ? &*triangles : nullptr, settings.self_friction},
                    jobs);
-    find_passing();
     keep_layers(dt, jobs);
     publish();
     yield_to_cloth();
@@ -594,7 +586,7 @@ void Cloth::State::part_layers(Jobs& jobs) {
 void Cloth::State::keep_layers(float dt, Jobs& jobs) {
     if (!triangles) return;
     solver.copy_positions(now);
-    certified = triangles->keep(before, now, passes_solids, jobs);
+    certified = triangles->keep(before, now, jobs);
     for (const uint32_t v : triangles->moved()) {
         const uint32_t particle = fabric->layout().particle_of[v];
         const Vec3 way = triangles->is_in_zone(v) ? now[v] - before[v] : now[v] - solver.places()[particle].x,
@@ -620,23 +612,6 @@ void Cloth::State::yield_to_cloth() {
     if (!yield) yield.emplace(fabric);
     find_strains();
     yield->look(strains, off_cloth ? off_cloth->particles() : std::span<const float>());
-}
-
-/// Cloth does not tear: an edge that a solid holds apart, as a hand does that got between its ends, goes
-/// through the solid, and comes out of it on one side.
-void Cloth::State::find_passing() {
-    if (std::none_of(meshes.begin(), meshes.end(),
-                     [](const ContactMesh& mesh) { return mesh.what() == MeshOf::solid; }))
-        return;
-    std::fill(passes_solids.begin(), passes_solids.end(), uint8_t(0));
-    const std::vector<uint32_t>& particle_of = fabric->layout().particle_of;
-    const std::span<const Particle> normals_of_solid = solver.solid_normals();
-    for (const DistanceConstraint& e : fabric->data().edges) {
-        const Vec3 way = solver.places()[particle_of[e.a]].x - solver.places()[particle_of[e.b]].x;
-        if (glm::dot(way, way) <= kTears2 * e.rest_m * e.rest_m) continue;
-        const Vec3 &a = normals_of_solid[particle_of[e.a]].x, &b = normals_of_solid[particle_of[e.b]].x;
-        if (glm::dot(a, b) < kFacesAway) passes_solids[e.a] = passes_solids[e.b] = 1;
-    }
 }
 
 /// Fixed vertices go where the skin carries them, but for those through whose triangles other cloth goes:

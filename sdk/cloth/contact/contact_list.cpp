@@ -58,9 +58,7 @@ float ContactList::keeps_m(PairKind kind, uint32_t surface) const {
 }
 
 void ContactList::fill(const Proximity& proximity, std::span<const Particle> begin,
-                       std::span<const Particle> end, std::span<const uint32_t> let_go,
-                       std::span<const uint8_t> passes_solids) {
-    passes_solids_ = passes_solids;
+                       std::span<const Particle> end, std::span<const uint32_t> let_go) {
     for (OfKind& of : of_kind_) of.contacts.clear();
     for (Candidates& of : candidates_) of.count = 0, of.sides.clear();
     for (const uint32_t v : let_go) is_let_go_[v] = 1;
@@ -139,10 +137,6 @@ void ContactList::add(PairKind kind, const PrimitivePairs& pairs, size_t lane, c
     Vec3 normal = Vec3(pairs.way[0][lane], pairs.way[1][lane], pairs.way[2][lane]) / distance;
     if (side.surface != Proximity::kSelf) {
         const bool of_solid = surfaces_[side.surface].what == MeshOf::solid;
-        const auto passes = [&](uint32_t vertex) {
-            return vertex < passes_solids_.size() && passes_solids_[vertex] != 0;
-        };
-        if (of_solid && std::any_of(v.begin(), v.end(), passes)) return;
         const float along = glm::dot(normal, side.way);
         if (std::abs(along) < kAlongSide) return;
         if (along < 0.0f && of_solid) return;  // planes bring it out

@@ -29,10 +29,9 @@ public:
     /// Pairs further apart than that now, and after the same way again, are no contacts.
     static float reach_m(float thickness_m);
     /// Contacts of the step that follows one with these ends. let_go: vertices of triangles that cross; where
-    /// two of them meet there is no contact. passes_solids: flags of the cloth's vertices that meet no solid;
-    /// empty: all do. Does not allocate once it has met as many.
+    /// two of them meet there is no contact. Does not allocate once it has met as many.
     void fill(const Proximity& proximity, std::span<const Particle> begin, std::span<const Particle> end,
-              std::span<const uint32_t> let_go, std::span<const uint8_t> passes_solids);
+              std::span<const uint32_t> let_go);
 
     /// Particles beyond the fabric's that stand for vertices of meshes.
     size_t mesh_particle_count() const { return mesh_vertices_.size(); }
@@ -89,10 +88,9 @@ private:
     std::vector<Surface> surfaces_;    // the cloth's own first
     std::vector<float> inverse_mass_;  // of each vertex, meshes included
     FlatDistances flat_;
-    std::vector<uint8_t> is_let_go_;          // of each vertex
-    std::span<const uint8_t> passes_solids_;  // while contacts are found
-    std::array<Candidates, 2> candidates_;    // of each kind
-    std::vector<uint32_t> slots_;             // of a mesh's vertex: its particle, if its round is this one
+    std::vector<uint8_t> is_let_go_;        // of each vertex
+    std::array<Candidates, 2> candidates_;  // of each kind
+    std::vector<uint32_t> slots_;           // of a mesh's vertex: its particle, if its round is this one
     std::vector<uint32_t> slot_rounds_;
     uint32_t round_ = 0;
     std::vector<uint32_t> mesh_vertices_;  // of the particles beyond the fabric's

@@ -310,7 +310,7 @@ void ContactMesh::touch(const Particle* run, const uint32_t* from, int max_steps
 
 void ContactMesh::find_planes(const PartOfCloth& part, std::vector<uint32_t>& runs,
                               std::vector<Touched>& touched, std::vector<RunPlanes>& out) const {
-    const auto& [moving, vertex_of, lift_m, passes_solids, dt, thickness_m] = part;
+    const auto& [moving, vertex_of, lift_m, dt, thickness_m] = part;
     constexpr uint32_t kNone = NearestOnFans::kNone;
     constexpr int kStepsNearby = 2, kStepsAlong = 32;
     touched.resize(moving.count);
@@ -364,11 +364,6 @@ void ContactMesh::find_planes(const PartOfCloth& part, std::vector<uint32_t>& ru
             for (float& keeps : p.thickness_m) keeps = RunPlanes::kNone;
         }
         for (size_t lane = 0; lane < kLanes; ++lane) {
-            if (const uint32_t v = vertex_of[first + particle_at(lane)];
-                what_ == MeshOf::solid && v != kNobody && !passes_solids.empty() && passes_solids[v]) {
-                known[lane] = {};
-                continue;
-            }
             Touch chosen[2];
             if (follows)
                 for (size_t k = 0; k < 2; ++k)

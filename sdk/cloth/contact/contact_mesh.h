@@ -55,10 +55,9 @@ public:
     /// A part of a cloth at the begin of an interval.
     struct PartOfCloth {
         Moving moving;
-        std::span<const uint32_t> vertex_of;     // of each particle
-        std::span<const float> lift_m;           // what each keeps beyond the thickness, or may go below it
-                                                 // (negative); empty: nothing
-        std::span<const uint8_t> passes_solids;  // flags of the cloth's vertices that meet no solid
+        std::span<const uint32_t> vertex_of;  // of each particle
+        std::span<const float> lift_m;        // what each keeps beyond the thickness, or may go below it
+                                              // (negative); empty: nothing
         float dt, thickness_m;
     };
     /// Planes for runs of particles, by rising runs. Those of a run that meets nothing are left out. May run

@@ -61,7 +61,7 @@ void TriangleContact::place(std::span<const Vec3> positions, Jobs& jobs) {
     copy(positions, end_);
     copy(positions, begin_);
     proximity_.find(end_, end_, jobs);
-    contacts_.fill(proximity_, end_, end_, {}, {});
+    contacts_.fill(proximity_, end_, end_, {});
 }
 
 void TriangleContact::part(std::span<Vec3> positions, Jobs& jobs) {
@@ -70,11 +70,10 @@ void TriangleContact::part(std::span<Vec3> positions, Jobs& jobs) {
     copy(end_, positions);
 }
 
-bool TriangleContact::keep(std::span<const Vec3> begin, std::span<Vec3> end,
-                           std::span<const uint8_t> passes_solids, Jobs& jobs) {
+bool TriangleContact::keep(std::span<const Vec3> begin, std::span<Vec3> end, Jobs& jobs) {
     copy(begin, begin_), copy(end, end_);
     const bool is_free = guard_.keep(begin_, end_, proximity_, jobs);
-    contacts_.fill(proximity_, begin_, end_, guard_.tangled(), passes_solids);
+    contacts_.fill(proximity_, begin_, end_, guard_.tangled());
     if (!guard_.moved().empty()) copy(end_, end);
     return is_free;
 }

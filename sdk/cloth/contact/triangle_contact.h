@@ -46,10 +46,8 @@ public:
     void part(std::span<Vec3> positions, Jobs& jobs);
 
     /// After a step: changes its `end` so that nothing crosses which did not at its begin, and finds the
-    /// contacts of the next step. passes_solids: flags of the vertices that meet no solid in it. True: the
-    /// cloth crosses neither itself nor a mesh, which is proven.
-    bool keep(std::span<const Vec3> begin, std::span<Vec3> end, std::span<const uint8_t> passes_solids,
-              Jobs& jobs);
+    /// contacts of the next step. True: the cloth crosses neither itself nor a mesh, which is proven.
+    bool keep(std::span<const Vec3> begin, std::span<Vec3> end, Jobs& jobs);
     /// Vertices that keep() moved; is_in_zone: as one with others, whose velocity is their way.
     std::span<const uint32_t> moved() const { return guard_.moved(); }
     bool is_in_zone(uint32_t vertex) const { return guard_.is_in_zone(vertex); }

@@ -42,7 +42,7 @@ ParticleSolver::ParticleSolver(std::shared_ptr<const Fabric> fabric, const Optio
     : fabric_(std::move(fabric)) {
     if (options.virtual_m > 0.0f) virtual_ = std::make_unique<VirtualParticles>(*fabric_, options.virtual_m);
     const ParticleLayout& layout = fabric_->layout();
-    for (Particles* list : {&places_, &starts_, &velocities_, &solid_normals_}) list->resize(layout.count());
+    for (Particles* list : {&places_, &starts_, &velocities_}) list->resize(layout.count());
     if (options.with_pushes) pushed_.resize(layout.count());
     for (uint32_t i = 0; i < layout.group_count(); ++i) {
         Gains& gains = gains_.emplace_back();
@@ -202,14 +202,12 @@ void ParticleSolver::begin_part(const Step& step, uint32_t part) {
     const ParticleLayout& layout = fabric_->layout();
     const uint32_t begin = layout.parts[part].begin;
     parts_[part].touched.resize(step.meshes.size());
-    std::fill_n(solid_normals_.begin() + begin, m.count, Particle());
     for (size_t i = 0; i < step.meshes.size(); ++i) {
         const bool is_lifted = step.meshes[i].what() != MeshOf::solid && !step.cloth_lift_m.empty();
         step.meshes[i].find_planes({m, std::span(layout.vertex_of).subspan(begin),
                                     is_lifted ? step.cloth_lift_m.subspan(begin) : std::span<const float>(),
-                                    step.passes_solids, step.dt, step.thickness_m},
+                                    step.dt, step.thickness_m},
                                    parts_[part].near_runs, parts_[part].touched[i], parts_[part].planes);
-        if (step.meshes[i].what() == MeshOf::solid) note_solid(part);
     }
     if (step.meshes.size() > 1)
         std::stable_sort(parts_[part].planes.begin(), parts_[part].planes.end(),
@@ -218,17 +216,6 @@ void ParticleSolver::begin_part(const Step& step, uint32_t part) {
     reserve(near, m.count, swept_step_.size());
     cull({m.places, m.count}, {m.velocities, m.count}, step.dt, swept_step_, near);
     predict(m, half_fall(step), substep_s(step));
-}
-
-void ParticleSolver::note_solid(uint32_t part) {
-    const uint32_t begin = fabric_->layout().parts[part].begin;
-    for (const RunPlanes& planes : parts_[part].planes)
-        for (size_t lane = 0; lane < kLanes; ++lane) {
-            if (planes.thickness_m[lane] == RunPlanes::kNone) continue;
-            Vec3& normal = solid_normals_[begin + planes.run * kLanes + particle_at(lane)].x;
-            if (normal == Vec3(0.0f))
-                normal = Vec3(planes.normal_x[lane], planes.normal_y[lane], planes.normal_z[lane]);
-        }
 }
 
 /// Particles that only fill up the last run lie with the first of it, so that it stays small.

@@ -47,13 +47,10 @@ public:
         Interval interval;               // of that one, which this is about
         const ColliderMotion& colliders;
         std::span<const ContactMesh> meshes;
-        std::span<const float> cloth_lift_m;     // off those that are cloth, one a particle; may be empty
-        std::span<const uint8_t> passes_solids;  // flags of the vertices that meet no solid
+        std::span<const float> cloth_lift_m;  // off those that are cloth, one a particle; may be empty
         TriangleContact* contacts = nullptr;
         float contact_friction = 0.0f;  // of these
     };
-    /// Which way a solid mesh pushes each particle in the interval that ended, unit length; 0: none does.
-    std::span<const Particle> solid_normals() const { return solid_normals_; }
     /// The box about all particles.
     void bounds(Vec3& low, Vec3& high) const;
 
@@ -86,7 +83,6 @@ private:
     };
     Moving moving(uint32_t part);
     void set_gains(float h, int substeps);
-    void note_solid(uint32_t part);
     void begin_part(const Step& step, uint32_t part);
     void place_balls(const Step& step, uint32_t part, std::span<const BallRun> runs, float more_m,
                      std::vector<RunBalls>& out) const;
@@ -99,11 +95,10 @@ private:
     std::shared_ptr<const Fabric> fabric_;
     Particles places_, starts_, velocities_;  // in the fabric's layout
     Particles pushed_;                        // by contacts in this step; empty: nobody asks
-    Particles solid_normals_;
-    std::vector<Gains> gains_;    // of its groups
-    float gains_h_ = 0.0f;        // the sub-step that they are for,
-    bool may_alternate_ = false;  // and whether a step has an even number of them
-    int bend_every_ = 1;          // so many sub-steps
+    std::vector<Gains> gains_;                // of its groups
+    float gains_h_ = 0.0f;                    // the sub-step that they are for,
+    bool may_alternate_ = false;              // and whether a step has an even number of them
+    int bend_every_ = 1;                      // so many sub-steps
     std::vector<Part> parts_;
     std::unique_ptr<VirtualParticles> virtual_;
     std::vector<SweptCapsule> swept_step_,

@@ -7,7 +7,6 @@
 
 #include "cloth/contact/virtual_particles.h"
 #include "cloth_support.h"
-#include "tube.h"
 
 namespace vfit {
 namespace {
@@ -185,37 +184,6 @@ TEST(ClothLimits, AVertexStaysAsNearToTheTargetOfAnotherAsItIsTold) {
     FabricData data = hanging.sheet.cook(cotton());
     data.limits = {{kTwoRowsBelow, 0.03f, 300}};
     EXPECT_NE(test::error_of([&] { Fabric bad(data); }).find("from target 300"), std::string::npos);
-}
-
-TEST(ClothTears, AnEdgeThatASolidHoldsApartGoesThroughIt) {
-    // A post stands between two columns of a curtain, whose edges go through it.
-    Tube post{0.02f, 0.8f, 16, 40, 1.0f};
-    Sheet sheet{20, 15, 0.02f};
-    sheet.pin_top();
-    const float middle = 0.5f * (sheet.positions[sheet.at(0, 7)].x + sheet.positions[sheet.at(0, 8)].x);
-    const float top = sheet.positions[0].y;
-    for (Vec3& p : post.positions) p += Vec3(middle, top - 0.85f, sheet.positions[0].z);
-    std::vector<Vec3> start = sheet.positions;
-    for (uint32_t row = 1; row < sheet.rows; ++row)
-        for (uint32_t column = 0; column < 15; ++column)
-            start[sheet.at(row, column)].x += column < 8 ? -0.02f : 0.02f;
-    for (const float self_thickness_m : {0.0f, 0.004f}) {
-        ClothSettings settings;
-        settings.self_thickness_m = self_thickness_m;
-        Cloth cloth(fabric(sheet.cook(cotton())), settings, start);
-        const uint32_t mesh = cloth.add_mesh(post.positions.size(), post.indices);
-        const auto jobs = Jobs::own(0);
-        EXPECT_GT(cloth.stats().strain_max, 1.9f);
-        for (int i = 0; i < 60; ++i) {
-            cloth.move_mesh(mesh, post.positions);
-            cloth.step(kFrame_s, sheet.positions, {}, *jobs);
-        }
-        EXPECT_LT(cloth.stats().strain_max, 1.0f);
-        for (const Vec3& p : cloth.positions()) {
-            const float off_m = glm::length(Vec2(p.x - middle, p.z - sheet.positions[0].z));
-            EXPECT_TRUE(p.y > top - 0.06f || off_m > 0.0195f) << off_m;
-        }
-    }
 }
 
 TEST(ClothInertia, WhatIsNotFeltCarriesTheClothAlong) {
