@@ -93,7 +93,7 @@ std::vector<Tether> hold(std::span<const uint32_t> held, float slides_m, FabricD
 
 /// How far what holds a garment slides: a waistband grips, cloth on shoulders hardly.
 float slide_of(std::span<const uint32_t> held, std::span<const Vec3> rest, std::span<const Vec3> body) {
-    constexpr float kWaistband_m = 0.002f, kShoulders_m = 0.01f, kShoulderHeight = 0.7f;  // of the stature
+    constexpr float kWaistband_m = 0.002f, kShoulders_m = 0.005f, kShoulderHeight = 0.7f;  // of the stature
     float middle = 0.0f, top = 0.0f;
     for (const uint32_t v : held) middle += rest[v].y / float(held.size());
     for (const Vec3& p : body) top = std::max(top, p.y);
