@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "people.h"
@@ -26,6 +27,25 @@ float distance_m(const WornGarment& a, const WornGarment& b, const Vec3& way = {
     for (size_t v = 0; v < a.positions().size(); ++v)
         max_m = std::max(max_m, glm::length(a.positions()[v] + way - b.positions()[v]));
     return max_m;
+}
+
+TEST_F(WornGarmentTest, IsHeldNearShouldersOrWaistAndPinnedNowhere) {
+    const Person man(VFIT_SEX_MALE);
+    for (const auto& [name, slides_m] : {std::pair("shirt_men", 0.005f), std::pair("pants_men", 0.002f)}) {
+        const WearableGarment garment = wearable(name);
+        const Dress dress(garment.garment(), garment.bound(0, *jobs), garment.material(), man.wearer.body());
+        EXPECT_TRUE(dress.fabric()->kinematic_vertices().empty()) << name;
+        std::vector<uint8_t> is_held(dress.rest().size(), 0), is_tied(is_held);
+        for (const uint32_t v : dress.held()) is_held[v] = 1;
+        EXPECT_GT(dress.held().size(), 20u) << name;
+        for (const DistanceLimit& limit : dress.fabric()->data().limits) {
+            if (!is_held[limit.target]) continue;  // a hem
+            is_tied[limit.vertex] = 1;
+            const bool holds = is_held[limit.vertex] != 0;
+            EXPECT_TRUE(holds ? limit.distance_m == slides_m : limit.distance_m > slides_m) << name;
+        }
+        EXPECT_EQ(std::count(is_tied.begin(), is_tied.end(), 0), 0) << name;
+    }
 }
 
 TEST_F(WornGarmentTest, AJumpOfTheBodyCarriesTheCloth) {
