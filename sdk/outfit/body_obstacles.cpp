@@ -36,7 +36,7 @@ BodyObstacles::BodyObstacles(const Wearer& wearer, const Garment& garment, const
     const std::vector<uint8_t> below =
         below_garment(body, dress.rest(), {forearms_, options.hands || in_sleeves});
     if (options.on_skin) {
-        skin_ = skin_below(body, wearer.wrapped(), below, creases_);
+        skin_ = skin_below(body, wearer.contact_skin(), below, creases_);
         if (!in_sleeves) return;
         for (const uint32_t v : skin_->vertices) category_.push_back(category_of(body.parts[v]));
         for (size_t v = 0; v < dress.rest().size(); ++v)

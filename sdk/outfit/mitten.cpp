@@ -69,10 +69,14 @@ Mitten mitten_around(std::span<const Vec3> hand, const Vec3& to_forearm) {
                 out.indices.insert(out.indices.end(), {a, b, tip});
         }
     for (const Vec3& place : out.places) {
-        const auto nearest = std::min_element(hand.begin(), hand.end(), [&](const Vec3& a, const Vec3& b) {
-            return glm::distance(a, place) < glm::distance(b, place);
-        });
-        out.goes_with.push_back(uint32_t(nearest - hand.begin()));
+        uint32_t nearest = 0;
+        float least2 = INFINITY;
+        for (uint32_t i = 0; i < hand.size(); ++i) {
+            const Vec3 way = hand[i] - place;
+            const float way2 = glm::dot(way, way);
+            if (way2 < least2) least2 = way2, nearest = i;
+        }
+        out.goes_with.push_back(nearest);
     }
     return out;
 }

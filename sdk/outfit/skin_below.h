@@ -7,6 +7,7 @@
 #include "avatar/creases.h"
 #include "avatar/skin.h"
 #include "cloth/garment/dress.h"
+#include "outfit/contact_skin.h"
 
 namespace vfit {
 
@@ -19,8 +20,7 @@ struct ArmsMet {
 /// length below its hem, or on an arm that is an obstacle.
 std::vector<uint8_t> below_garment(const DressBody& body, std::span<const Vec3> garment, ArmsMet arms);
 
-/// The part of the collision proxy of the skin (wrapped_skin.h) that is below the garment; hands are mittens
-/// (mitten.h).
+/// The part of the collision proxy of the body that is below the garment.
 struct SkinBelow {
     Skin skin;
     std::vector<uint32_t> indices;   // three a triangle
@@ -28,7 +28,7 @@ struct SkinBelow {
     std::vector<uint32_t> vertices;  // of the body: those whose bones carry them
 };
 /// `creases` are those of the body.
-SkinBelow skin_below(const DressBody& body, std::span<const Vec3> wrapped, std::span<const uint8_t> below,
+SkinBelow skin_below(const DressBody& body, const ContactSkin& skin, std::span<const uint8_t> below,
                      const Creases& creases);
 
 }  // namespace vfit

@@ -1,7 +1,6 @@
 #include "outfit/wearer.h"
 
 #include "avatar/avatar_measures.h"
-#include "outfit/wrapped_skin.h"
 
 namespace vfit {
 
@@ -14,9 +13,9 @@ const MeshQuery& Wearer::skin() const {
     return *skin_;
 }
 
-const std::vector<Vec3>& Wearer::wrapped() const {
-    std::call_once(has_wrapped_, [&] { wrapped_ = wrapped_skin(positions(), indices()); });
-    return wrapped_;
+const ContactSkin& Wearer::contact_skin() const {
+    std::call_once(has_contact_skin_, [&] { contact_skin_ = vfit::contact_skin(body()); });
+    return contact_skin_;
 }
 
 std::vector<Vec3> Wearer::posed(std::span<const Mat4> pose, Jobs& jobs) const {

@@ -12,6 +12,7 @@
 #include "cloth/garment/dress.h"
 #include "measure/measurement.h"
 #include "measure/mesh_query.h"
+#include "outfit/contact_skin.h"
 #include "outfit/garment_fit.h"
 
 namespace vfit {
@@ -32,8 +33,7 @@ public:
     std::span<const Vec3> positions() const;
     const std::vector<uint32_t>& indices() const { return avatar_.topology().indices; }
     const MeshQuery& skin() const;
-    /// The collision proxy of the skin (wrapped_skin.h).
-    const std::vector<Vec3>& wrapped() const;
+    const ContactSkin& contact_skin() const;
     /// The skin in a pose (skinning matrices, one a rig bone), linearly blended, world space.
     std::vector<Vec3> posed(std::span<const Mat4> pose, Jobs& jobs) const;
     /// The same body as a garment is bound to it. Refers to this and to the avatar.
@@ -48,9 +48,9 @@ private:
     const Avatar& avatar_;
     const vfit_sex sex_;
     const uint32_t detail_;
-    mutable std::once_flag has_skin_, has_wrapped_, has_skinning_;
+    mutable std::once_flag has_skin_, has_contact_skin_, has_skinning_;
     mutable std::optional<MeshQuery> skin_;
-    mutable std::vector<Vec3> wrapped_;
+    mutable ContactSkin contact_skin_;
     mutable std::optional<Skin> skinning_;
     mutable std::mutex measures_mutex_;
     mutable std::vector<Measurement> measures_;

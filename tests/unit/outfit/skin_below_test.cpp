@@ -76,7 +76,7 @@ TEST(SkinBelow, HandsAreMittens) {
     const Person man(VFIT_SEX_MALE);
     const DressBody body = man.wearer.body();
     const std::vector<uint8_t> all(body.positions.size(), 1);
-    const SkinBelow skin = skin_below(body, man.wearer.wrapped(), all, man.avatar.creases());
+    const SkinBelow skin = skin_below(body, man.wearer.contact_skin(), all, man.avatar.creases());
     size_t hand = 0, own = 0;
     for (const BodyPart part : body.parts) hand += part == BodyPart::kLeftHand;
     std::vector<Vec3> places;
