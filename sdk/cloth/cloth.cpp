@@ -213,7 +213,11 @@ struct Cloth::State {
 };
 
 Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings, std::span<const Vec3> start,
-             Jobs* jobs) {
+             Jobs* jobs)
+    : Cloth(std::move(fabric), settings, start, nullptr, jobs) {}
+
+Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings, std::span<const Vec3> start,
+             const TriangleContact* like, Jobs* jobs) {
     if (!fabric) fail(VFIT_ERROR_ARGUMENT, "a cloth needs a fabric");
     check(settings);
     state_ = std::make_unique<State>(fabric, settings);
@@ -234,7 +238,10 @@ Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings
         for (uint32_t v : {e.a, e.b}) s.inverse_edge_count[v] += 1.0f;
     for (float& count : s.inverse_edge_count) count = count > 0.0f ? 1.0f / count : 0.0f;
     if (settings.self_thickness_m > 0.0f) {
-        s.triangles.emplace(fabric, settings.self_thickness_m, start.first(n), jobs);
+        if (like)
+            s.triangles.emplace(*like, fabric, jobs);
+        else
+            s.triangles.emplace(fabric, settings.self_thickness_m, start.first(n), jobs);
         s.before.resize(n), s.now.resize(n);
     }
     reset(start);
@@ -249,11 +256,10 @@ Cloth Cloth::with_fabric(std::shared_ptr<const Fabric> fabric, Jobs* jobs) const
     if (!fabric || fabric->vertex_count() != s.fabric->vertex_count() ||
         fabric->target_count() != s.fabric->target_count())
         fail(VFIT_ERROR_ARGUMENT, "another fabric of a cloth must have as many vertices and targets");
-    Cloth out(std::move(fabric), s.settings, s.positions, jobs);
+    Cloth out(fabric, s.settings, s.positions, s.triangles ? &*s.triangles : nullptr, jobs);
     State& o = *out.state_;
     o.colliders = s.colliders;
     o.meshes = s.meshes;
-    for (const ContactMesh& mesh : o.meshes) o.meet_triangles(mesh);
     o.mesh_places = s.mesh_places;
     o.previous_targets = s.previous_targets;
     o.backstops_placed = s.backstops_placed;
@@ -307,8 +313,8 @@ void Cloth::put_on(const BodyOnItsWay& body, Jobs& jobs) {
 void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
     // The shorter a step, the softer is all that gives way in it (XPBD): at first cloth moves by a millimetre
     // or so between two looks at what it may meet, itself included.
-    constexpr int kSteps = 14, kSubsteps = 4;
-    constexpr float kShortest_s = 1.5e-4f, kLongest_s = 1.0f / 120.0f, kStopped = 1.0f;
+    constexpr int kSteps = 8, kSubsteps = 10;
+    constexpr float kShortest_s = 1.5e-4f, kLongest_s = 1.0f / 60.0f, kStopped = 1.0f;
     State& s = *state_;
     s.settles_s = kSettles_s, s.haste = kSettlingHaste;
     s.part_layers(jobs);

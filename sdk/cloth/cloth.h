@@ -19,6 +19,8 @@
 
 namespace vfit {
 
+class TriangleContact;
+
 inline constexpr float kMaxStep_s = 0.1f;   // a longer step is clamped (vfit_cloth_step)
 inline constexpr float kMinStep_s = 1e-4f;  // a shorter one too: a body that moves in no time has no speed
 
@@ -143,6 +145,8 @@ public:
     const Fabric& fabric() const;
 
 private:
+    Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings, std::span<const Vec3> start,
+          const TriangleContact* like, Jobs* jobs);
     struct State;
     std::unique_ptr<State> state_;
 };

@@ -31,7 +31,7 @@ HWY_INLINE uint32_t Bits(Mask mask) {
 
 /// A bit for each of the eight boxes from there on.
 HWY_INLINE uint32_t MeetingBoxes(const MovingBoxes::Level& level, size_t from, const Bounds& box,
-                                 const Bounds& way, float reach_m) {
+                                 const Bounds& way, float reach_m, float max_way_m) {
     uint32_t bits = 0;
     for (size_t k = 0; k < kLanes; k += kWide) {
         const size_t at = from + k;
@@ -40,7 +40,7 @@ HWY_INLINE uint32_t MeetingBoxes(const MovingBoxes::Level& level, size_t from, c
             // How much further apart the two were, or will be, than now.
             const V back = hn::Abs(hn::Sub(hn::LoadU(kTag, &level.ways.high[axis][at]), Set(way.low[axis]))),
                     forth = hn::Abs(hn::Sub(Set(way.high[axis]), hn::LoadU(kTag, &level.ways.low[axis][at])));
-            const V margin = hn::Add(hn::Min(hn::Max(back, forth), Set(kMaxWay_m)), Set(reach_m));
+            const V margin = hn::Add(hn::Min(hn::Max(back, forth), Set(max_way_m)), Set(reach_m));
             const V low = hn::Sub(hn::LoadU(kTag, &level.boxes.low[axis][at]), margin),
                     high = hn::Add(hn::LoadU(kTag, &level.boxes.high[axis][at]), margin);
             meets =
@@ -52,13 +52,13 @@ HWY_INLINE uint32_t MeetingBoxes(const MovingBoxes::Level& level, size_t from, c
 }
 
 void FindMeetingMoving(const MovingBoxes& patches, uint32_t first, const Bounds& box, const Bounds& way,
-                       float reach_m, std::vector<uint32_t>& out) {
+                       float reach_m, float max_way_m, std::vector<uint32_t>& out) {
     constexpr size_t kMaxLevels = 12;
     uint32_t left[kMaxLevels], base[kMaxLevels];  // of each level: bits to visit, and the box of the lowest
     size_t level = patches.levels.size() - 1;
     const auto enter = [&](size_t at, uint32_t from) HWY_ATTR {
         base[at] = from;
-        left[at] = MeetingBoxes(patches.levels[at], from, box, way, reach_m);
+        left[at] = MeetingBoxes(patches.levels[at], from, box, way, reach_m, max_way_m);
         // Boxes before the first one's are done.
         const uint32_t begin = first >> (3 * at);
         if (begin > from) left[at] &= begin - from < kLanes ? ~0u << (begin - from) : 0u;
@@ -179,7 +179,8 @@ void FindShape(const uint32_t (&corners)[3][kLanes], uint32_t count, const Parti
     out.min_cosine = MinLane(cosine);
 }
 
-/// Corners of two triangles at both ends, and how far they are apart.
+/// Corners of two triangles at both ends, and how far they are apart. kCertifies: `safe` is found.
+template <bool kCertifies>
 struct TwoTriangles {
     Points first_begin[3], second_begin[3], first[3], second[3];
     V far_m, clear_m;  // gaps from which on a pair is apart, and safe
@@ -194,6 +195,7 @@ struct TwoTriangles {
     HWY_INLINE void Look(const Points& axis) {
         const V inverse = hn::Div(Set(1.0f), hn::Sqrt(hn::Add(Dot(axis, axis), Set(1e-30f))));
         const Points n = Mul(axis, inverse);
+        constexpr int kFirst = kCertifies ? 0 : 1;
         V low[3][2], high[3][2];  // begin, end, and the same way again; first, second
         for (int side = 0; side < 2; ++side) {
             const Points *from = side ? second_begin : first_begin, *to = side ? second : first;
@@ -201,7 +203,7 @@ struct TwoTriangles {
                 const V begin = Dot(n, from[k]), end = Dot(n, to[k]),
                         next = hn::Sub(hn::Add(end, end), begin);
                 const V at[3] = {begin, end, next};
-                for (int t = 0; t < 3; ++t) {
+                for (int t = kFirst; t < 3; ++t) {
                     low[t][side] = k ? hn::Min(low[t][side], at[t]) : at[t];
                     high[t][side] = k ? hn::Max(high[t][side], at[t]) : at[t];
                 }
@@ -209,19 +211,21 @@ struct TwoTriangles {
         }
         for (int side = 0; side < 2; ++side) {
             const auto gap = [&](int t) HWY_ATTR { return hn::Sub(low[t][side], high[t][1 - side]); };
-            safe = hn::Max(safe, hn::Sub(hn::Min(gap(0), gap(1)), clear_m));
+            if constexpr (kCertifies) safe = hn::Max(safe, hn::Sub(hn::Min(gap(0), gap(1)), clear_m));
             apart = hn::Max(apart, hn::Sub(hn::Min(gap(1), gap(2)), far_m));
         }
     }
 };
 
-void Classify(std::span<TrianglePairs> pairs, const Particle* begin, const Particle* end, float reach_m) {
+template <bool kCertifies>
+HWY_INLINE void ClassifyAs(std::span<TrianglePairs> pairs, const Particle* begin, const Particle* end,
+                           float reach_m) {
     const auto from = [begin](uint32_t index) HWY_ATTR { return begin + index; };
     const auto to = [end](uint32_t index) HWY_ATTR { return end + index; };
     for (TrianglePairs& pair : pairs) {
         uint32_t uncertain = 0, close = 0;
         for (size_t k = 0; k < kLanes; k += kWide) {
-            TwoTriangles two;
+            TwoTriangles<kCertifies> two;
             auto shared = hn::Zero(kInts);
             for (size_t i = 0; i < 3; ++i) {
                 two.first_begin[i] = Columns(Gather(from, pair.first[i] + k));
@@ -248,11 +252,19 @@ void Classify(std::span<TrianglePairs> pairs, const Particle* begin, const Parti
             const V part = hn::Div(Dot(mean, between), hn::Add(Dot(mean, mean), Set(1e-30f)));
             two.Look(MulAdd(mean, hn::Neg(part), between));
             const V zero = hn::Zero(kTag);
-            uncertain |= Bits(hn::AndNot(share_two, hn::Le(two.safe, zero))) << k;
+            if constexpr (kCertifies) uncertain |= Bits(hn::AndNot(share_two, hn::Le(two.safe, zero))) << k;
             close |= Bits(hn::AndNot(share_one, hn::Le(two.apart, zero))) << k;
         }
         pair.uncertain = uint8_t(uncertain), pair.close = uint8_t(close);
     }
+}
+
+void Classify(std::span<TrianglePairs> pairs, const Particle* begin, const Particle* end, float reach_m,
+              bool certifies) {
+    if (certifies)
+        ClassifyAs<true>(pairs, begin, end, reach_m);
+    else
+        ClassifyAs<false>(pairs, begin, end, reach_m);
 }
 
 /// Where on each of two edges they are closest (Ericson 2004, 5.1.9).
@@ -480,8 +492,8 @@ Bounds MovingBoxes::way() const {
 }
 
 void find_meeting(const MovingBoxes& patches, uint32_t first, const Bounds& box, const Bounds& way,
-                  float reach_m, std::vector<uint32_t>& out) {
-    HWY_DYNAMIC_DISPATCH(FindMeetingMoving)(patches, first, box, way, reach_m, out);
+                  float reach_m, float max_way_m, std::vector<uint32_t>& out) {
+    HWY_DYNAMIC_DISPATCH(FindMeetingMoving)(patches, first, box, way, reach_m, max_way_m, out);
 }
 PatchShape find_shape(const uint32_t (&corners)[3][kLanes], uint32_t count, const Particle* begin,
                       const Particle* end, PatchBoxes& boxes) {
@@ -502,8 +514,9 @@ void clear_before_planes(const uint32_t (&corners)[3][kLanes], const Particle* a
                          const Vec3& way, float reach_m, std::array<uint8_t, kLanes>& meeting) {
     HWY_DYNAMIC_DISPATCH(ClearBeforePlanes)(corners, at, b, way, reach_m, meeting.data());
 }
-void classify(std::span<TrianglePairs> pairs, const Particle* begin, const Particle* end, float reach_m) {
-    HWY_DYNAMIC_DISPATCH(Classify)(pairs, begin, end, reach_m);
+void classify(std::span<TrianglePairs> pairs, const Particle* begin, const Particle* end, float reach_m,
+              bool certifies) {
+    HWY_DYNAMIC_DISPATCH(Classify)(pairs, begin, end, reach_m, certifies);
 }
 void refresh_contacts(std::span<ContactBatch> contacts, bool edges, const Particle* particles) {
     HWY_DYNAMIC_DISPATCH(RefreshContacts)(contacts, edges, particles);

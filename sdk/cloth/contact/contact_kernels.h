@@ -32,12 +32,12 @@ struct MovingBoxes {
 /// meets all of itself.
 inline constexpr float kMaxWay_m = 0.3f;
 /// The same past a solid, before which planes keep the vertices of fast cloth.
-inline constexpr float kMaxWayPastSolid_m = 0.008f;
+inline constexpr float kMaxWayPastSolid_m = 0.004f;
 
 /// Adds the patches from `first` on that come within reach_m of a box, now, on the way from where they were,
-/// or on the same way again. Rising.
+/// or on the same way again, of max_way_m at most. Rising.
 void find_meeting(const MovingBoxes& patches, uint32_t first, const Bounds& box, const Bounds& way,
-                  float reach_m, std::vector<uint32_t>& out);
+                  float reach_m, float max_way_m, std::vector<uint32_t>& out);
 
 /// Boxes about the triangles of a patch; empty where there is none.
 struct alignas(32) PatchBoxes {
@@ -68,8 +68,10 @@ struct alignas(32) TrianglePairs {
         close;  // bit k: no axis keeps the two further apart than reach_m, now or after the same way again
 };
 /// Looks along four axes: both normals, the way between the middles, and that way within the mean plane. Of
-/// two that share a vertex, or two vertices, an axis need only touch; they are never close.
-void classify(std::span<TrianglePairs> pairs, const Particle* begin, const Particle* end, float reach_m);
+/// two that share a vertex, or two vertices, an axis need only touch; they are never close. certifies: else
+/// none is called uncertain, which takes a third less.
+void classify(std::span<TrianglePairs> pairs, const Particle* begin, const Particle* end, float reach_m,
+              bool certifies);
 
 /// Eight pairs of primitives by the indices of their vertices, and their closest points.
 struct alignas(32) PrimitivePairs {

@@ -7,10 +7,9 @@ namespace vfit {
 
 namespace {
 
-constexpr float kMargin_m = 0.001f;    // beyond the thickness, for what acceleration brings closer in a step
-constexpr float kSideways = 0.25f;     // of the way past each other: the normal may turn so far
-constexpr float kMaxComes_m = 0.004f;  // the same of a solid: planes keep what is faster before it
-constexpr float kEdgeShare = 0.5f;     // of the thickness, between two edges
+constexpr float kMargin_m = 0.001f;  // beyond the thickness, for what acceleration brings closer in a step
+constexpr float kSideways = 0.25f;   // of the way past each other: the normal may turn so far
+constexpr float kEdgeShare = 0.5f;   // of the thickness, between two edges
 constexpr float kFlatShare = 0.45f;  // of the shortest way along edges, which is longer than the straight one
 constexpr float kFlatReach = 1.0f / kFlatShare;
 constexpr float kAlongSide = 0.3f;  // cosine: beside that, a way does not tell on which side of a mesh one is
@@ -112,7 +111,7 @@ void ContactList::add(PairKind kind, const Candidates& of, std::span<const Parti
         const PrimitivePairs& pairs = of.pairs[i / kLanes];
         const uint32_t surface = of.sides[i].surface;
         const float comes_m = surfaces_[surface].what == MeshOf::solid
-                                  ? std::min(pairs.comes_m[i % kLanes], kMaxComes_m)
+                                  ? std::min(pairs.comes_m[i % kLanes], kMaxWayPastSolid_m)
                                   : pairs.comes_m[i % kLanes];
         if (pairs.distance_m[i % kLanes] <= reach_m(keeps_m(kind, surface)) + comes_m)
             add(kind, pairs, i % kLanes, of.sides[i], end);

@@ -354,8 +354,17 @@ void ContactMesh::find_planes(const PartOfCloth& part, std::vector<uint32_t>& ru
         if (follows)
             for (size_t k = 0; k < 2; ++k) {
                 uint32_t points[kLanes];
-                for (size_t lane = 0; lane < kLanes; ++lane) points[lane] = known[lane].points[k];
+                uint8_t same = 0;  // as found from the nearest point: there is nowhere else to go
+                for (size_t lane = 0; lane < kLanes; ++lane) {
+                    points[lane] = known[lane].points[k];
+                    if (points[lane] == kNone ||
+                        (points[lane] != nearest_points.id[lane] && points[lane] != now.of[lane].point))
+                        continue;
+                    points[lane] = kNone, same |= uint8_t(1u << lane);
+                }
                 touch(run, points, kStepsAlong, reach, before[k]);
+                for (size_t lane = 0; lane < kLanes; ++lane)
+                    if (same >> lane & 1) before[k].of[lane] = now.of[lane];
             }
         RunPlanes planes[2]{};
         bool any[2] = {false, false};

@@ -143,7 +143,6 @@ void CrossingGuard::find_hits(std::span<const Particle> begin, std::span<const P
                               const Proximity& proximity, bool of_meshes) {
     hits_.clear(), crossed_.clear();
     proximity.for_uncertain([&](const Proximity::Pair& pair, uint32_t surface) {
-        if (surfaces_[surface] == MeshOf::solid) return;
         if (is_held(*pair.first) && is_held(*pair.second)) return;
         if (surface != Proximity::kSelf && !(of_meshes && surfaces_[surface] == MeshOf::cloth)) {
             crosses_mesh_ = true;  // perhaps

@@ -10,6 +10,11 @@ Proximity::Proximity(std::span<const Vec3> positions, std::span<const uint32_t> 
     surfaces_.back().reach_m = reach_m;
 }
 
+Proximity::Proximity(const Proximity& other)
+    : cloth_(other.cloth_), surfaces_(other.surfaces_), vertex_count_(other.vertex_count_) {
+    for (Surface& surface : surfaces_) surface.all = {}, surface.of_marked = {};  // of the other's triangles
+}
+
 void Proximity::add_mesh(size_t vertices, std::span<const uint32_t> indices, float reach_m, MeshOf what,
                          const MeshFilter& filter) {
     Surface& surface = surfaces_.emplace_back();
@@ -23,8 +28,7 @@ void Proximity::add_mesh(size_t vertices, std::span<const uint32_t> indices, flo
 
 void Proximity::show_mesh(uint32_t mesh, std::span<const Vec3> positions) {
     Surface& surface = surfaces_[mesh + 1];
-    if (!surface.patches)
-        surface.patches = std::make_unique<TrianglePatches>(positions, surface.indices, surface.first_vertex);
+    if (!surface.patches) surface.patches.emplace(positions, surface.indices, surface.first_vertex);
     surface.indices.clear();
     surface.is_shown = true;
 }
@@ -57,7 +61,7 @@ void Proximity::find(std::span<const Particle> begin, std::span<const Particle> 
             if (!surface.category.empty())
                 std::erase_if(surface.all.pairs, [&](const Pair& pair) { return !surface.meets(pair); });
         }
-        classify_all(surface.all, begin, end, surface.reach_m, jobs);
+        classify_all(surface.all, surface, begin, end, jobs);
     }
 }
 
@@ -68,15 +72,16 @@ void Proximity::find_uncertain_of(std::span<const uint8_t> marked, std::span<con
     };
     only_marked_ = true;
     for (Surface& surface : surfaces_) {
-        surface.of_marked.pairs.clear();
+        surface.of_marked.pairs.clear(), surface.of_marked.batches.clear();
+        if (surface.what == MeshOf::solid) continue;
         for (const Pair& pair : surface.all.pairs)
             if (has_marked(pair.first) || has_marked(pair.second)) surface.of_marked.pairs.push_back(pair);
-        classify_all(surface.of_marked, begin, end, surface.reach_m, jobs);
+        classify_all(surface.of_marked, surface, begin, end, jobs);
     }
 }
 
-void Proximity::classify_all(Classified& of, std::span<const Particle> begin, std::span<const Particle> end,
-                             float reach_m, Jobs& jobs) {
+void Proximity::classify_all(Classified& of, const Surface& surface, std::span<const Particle> begin,
+                             std::span<const Particle> end, Jobs& jobs) {
     constexpr uint32_t kBatchesOfAJob = 256;
     of.batches.resize((of.pairs.size() + kLanes - 1) / kLanes);
     const auto count = uint32_t(of.batches.size());
@@ -90,7 +95,8 @@ void Proximity::classify_all(Classified& of, std::span<const Particle> begin, st
                     of.batches[i].second[corner][k] = pair.second->vertex[corner];
                 }
             }
-        classify(std::span(of.batches).subspan(first, last - first), begin.data(), end.data(), reach_m);
+        classify(std::span(of.batches).subspan(first, last - first), begin.data(), end.data(),
+                 surface.reach_m, surface.what != MeshOf::solid);
     });
     if (const size_t in_last = of.pairs.size() % kLanes; in_last != 0) {
         of.batches.back().uncertain &= uint8_t((1u << in_last) - 1);

@@ -4,7 +4,7 @@
 
 #include <bit>
 #include <cstdint>
-#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,6 +25,11 @@ public:
     /// reach_m: pairs of the cloth's own triangles that are further apart are not close; 0: none are looked
     /// at.
     Proximity(std::span<const Vec3> positions, std::span<const uint32_t> indices, float reach_m);
+    /// The same surfaces, no pairs.
+    Proximity(const Proximity& other);
+    Proximity& operator=(const Proximity&) = delete;
+    Proximity(Proximity&&) = default;
+    Proximity& operator=(Proximity&&) = default;
     /// Its vertices follow those of the cloth and of the meshes before. It is hidden.
     void add_mesh(size_t vertices, std::span<const uint32_t> indices, float reach_m, MeshOf what,
                   const MeshFilter& filter = {});
@@ -44,7 +49,8 @@ public:
 
     /// False where something moves so fast past the cloth that pairs may have been missed (kMaxWay_m).
     bool is_complete() const { return is_complete_; }
-    /// Pairs that no axis separates at both ends of their ways, and the surface that the second is of.
+    /// Pairs that no axis separates at both ends of their ways, and the surface that the second is of: none
+    /// of a solid.
     template <typename Body>
     void for_uncertain(Body&& body) const {
         for_bits(only_marked_, [](const TrianglePairs& pairs) { return pairs.uncertain; }, body);
@@ -65,17 +71,17 @@ private:
         bool is_shown;
         MeshOf what = MeshOf::cloth;
         uint32_t first_vertex = 0;
-        std::vector<uint32_t> indices;             // until it is shown
-        std::vector<uint8_t> category{}, mask{};   // of its vertices and the cloth's (MeshFilter)
-        std::unique_ptr<TrianglePatches> patches;  // null: the cloth's
+        std::vector<uint32_t> indices;            // until it is shown
+        std::vector<uint8_t> category{}, mask{};  // of its vertices and the cloth's (MeshFilter)
+        std::optional<TrianglePatches> patches;   // none: the cloth's
         Classified all, of_marked;
 
         bool meets(const Pair& pair) const;
     };
     template <typename Bits, typename Body>
     void for_bits(bool of_marked, Bits&& bits, Body&& body) const;
-    static void classify_all(Classified& of, std::span<const Particle> begin, std::span<const Particle> end,
-                             float reach_m, Jobs& jobs);
+    static void classify_all(Classified& of, const Surface& surface, std::span<const Particle> begin,
+                             std::span<const Particle> end, Jobs& jobs);
 
     TrianglePatches cloth_;
     std::vector<Surface> surfaces_;

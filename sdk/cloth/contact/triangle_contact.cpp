@@ -19,29 +19,46 @@ float reach_m(float thickness_m) { return thickness_m > 0.0f ? ContactList::reac
 TriangleContact::TriangleContact(std::shared_ptr<const Fabric> fabric, float thickness_m,
                                  std::span<const Vec3> positions, Jobs* jobs)
     : cloth_vertices_(fabric->vertex_count()),
+      thickness_m_(thickness_m),
       proximity_(positions, fabric->data().indices, reach_m(thickness_m)),
       contacts_(fabric, thickness_m, jobs),
       guard_(fabric->data()),
       begin_(cloth_vertices_),
+      end_(cloth_vertices_) {}
+
+TriangleContact::TriangleContact(const TriangleContact& other, std::shared_ptr<const Fabric> fabric,
+                                 Jobs* jobs)
+    : cloth_vertices_(other.cloth_vertices_),
+      thickness_m_(other.thickness_m_),
+      proximity_(other.proximity_),
+      contacts_(fabric, thickness_m_, jobs),
+      guard_(fabric->data()),
+      begin_(cloth_vertices_),
       end_(cloth_vertices_),
-      first_vertices_{uint32_t(cloth_vertices_)} {}
+      meshes_(other.meshes_) {
+    for (uint32_t i = 0; i < meshes_.size(); ++i) make_room_for(meshes_[i]), hide_mesh(i);
+}
 
 void TriangleContact::add_mesh(size_t vertices, std::span<const uint32_t> indices, float keeps_m, MeshOf what,
                                const MeshFilter& filter) {
     proximity_.add_mesh(vertices, indices, ContactList::reach_m(keeps_m), what, filter);
-    contacts_.add_mesh(vertices, keeps_m, what);
-    guard_.add_mesh(vertices, what);
-    begin_.resize(begin_.size() + vertices), end_.resize(begin_.size());
-    from_.resize(from_.size() + vertices), to_.resize(from_.size());
-    first_vertices_.push_back(uint32_t(begin_.size()));
-    is_known_.push_back(0);
+    meshes_.push_back({begin_.size(), vertices, keeps_m, what});
+    make_room_for(meshes_.back());
 }
 
-void TriangleContact::move_mesh(uint32_t mesh, std::span<const Vec3> end) {
-    proximity_.show_mesh(mesh, end);
-    const auto first = std::ptrdiff_t(first_vertices_[mesh] - cloth_vertices_);
-    if (!is_known_[mesh]) std::copy(end.begin(), end.end(), from_.begin() + first);
-    is_known_[mesh] = 1;
+void TriangleContact::make_room_for(const Mesh& mesh) {
+    contacts_.add_mesh(mesh.vertices, mesh.keeps_m, mesh.what);
+    guard_.add_mesh(mesh.vertices, mesh.what);
+    begin_.resize(mesh.first_vertex + mesh.vertices), end_.resize(begin_.size());
+    from_.resize(begin_.size() - cloth_vertices_), to_.resize(from_.size());
+}
+
+void TriangleContact::move_mesh(uint32_t number, std::span<const Vec3> end) {
+    Mesh& mesh = meshes_[number];
+    proximity_.show_mesh(number, end);
+    const auto first = std::ptrdiff_t(mesh.first_vertex - cloth_vertices_);
+    if (!mesh.is_known) std::copy(end.begin(), end.end(), from_.begin() + first);
+    mesh.is_known = true;
     std::copy(end.begin(), end.end(), to_.begin() + first);
 }
 

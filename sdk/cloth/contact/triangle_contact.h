@@ -2,7 +2,6 @@
 // what would end up crossing all the same is set right once the step is over.
 #pragma once
 
-#include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
@@ -23,6 +22,8 @@ public:
     /// vertex, by which triangles are grouped.
     TriangleContact(std::shared_ptr<const Fabric> fabric, float thickness_m, std::span<const Vec3> positions,
                     Jobs* jobs = nullptr);
+    /// Of another fabric with the same triangles, among the same meshes, which are hidden.
+    TriangleContact(const TriangleContact& other, std::shared_ptr<const Fabric> fabric, Jobs* jobs = nullptr);
 
     /// Triangles counter-clockwise from outside; keeps_m: between its vertices and the cloth's triangles, and
     /// between edges. It is hidden until it is moved.
@@ -34,9 +35,11 @@ public:
     void skip(float fraction);
     /// The next keep() is about that part of the step.
     void look_at(const Interval& interval);
-    void hide_mesh(uint32_t mesh) { proximity_.hide_mesh(mesh), is_known_[mesh] = 0; }
+    void hide_mesh(uint32_t mesh) { proximity_.hide_mesh(mesh), meshes_[mesh].is_known = false; }
     /// Meshes were nowhere before: their next step begins where it ends.
-    void forget_meshes() { std::fill(is_known_.begin(), is_known_.end(), uint8_t(0)); }
+    void forget_meshes() {
+        for (Mesh& mesh : meshes_) mesh.is_known = false;
+    }
     /// The step has ended.
     void arrive() { from_ = to_; }
 
@@ -65,14 +68,22 @@ public:
     }
 
 private:
+    struct Mesh {
+        size_t first_vertex, vertices;
+        float keeps_m;
+        MeshOf what;
+        bool is_known = false;  // where it is
+    };
+    void make_room_for(const Mesh& mesh);
+
     size_t cloth_vertices_;
+    float thickness_m_;
     Proximity proximity_;
     ContactList contacts_;
     CrossingGuard guard_;
-    std::vector<Vec3> from_, to_;           // of the meshes' vertices, in a step
-    std::vector<Particle> begin_, end_;     // of all vertices, in an interval
-    std::vector<uint32_t> first_vertices_;  // of the meshes, and the end
-    std::vector<uint8_t> is_known_;         // where a mesh is
+    std::vector<Vec3> from_, to_;        // of the meshes' vertices, in a step
+    std::vector<Particle> begin_, end_;  // of all vertices, in an interval
+    std::vector<Mesh> meshes_;
 };
 
 }  // namespace vfit

@@ -75,11 +75,8 @@ private:
     uint32_t begin_of(uint32_t patch) const { return patch == 0 ? 0 : ends_[patch - 1]; }
     /// A free triangle beside the patches so far: between them no islands are left.
     uint32_t border_seed(uint32_t otherwise) {
-        while (!border_.empty()) {
-            const uint32_t t = border_.front();
-            if (!is_taken_[t]) return t;
-            border_.erase(border_.begin());
-        }
+        while (border_seen_ < border_.size())
+            if (const uint32_t t = border_[border_seen_++]; !is_taken_[t]) return t;
         return otherwise;
     }
     void grow(uint32_t seed) {
@@ -110,6 +107,7 @@ private:
     std::vector<Vec3> middles_;
     std::vector<uint8_t> is_taken_;
     std::vector<uint32_t> border_, order_, ends_;
+    size_t border_seen_ = 0;
 };
 
 /// Cosine of the sum of two angles; -1 where it may be more than 180 degrees.
@@ -149,7 +147,7 @@ TrianglePatches::TrianglePatches(std::span<const Vec3> positions, std::span<cons
     }
     shares_.resize((ends_.size() + kPatchesOfAJob - 1) / kPatchesOfAJob);
     list_owners(first_vertex + positions.size());
-    list_adjacent(first_vertex + positions.size());
+    if (first_vertex == 0) list_adjacent(positions.size());
 }
 
 void TrianglePatches::list_owners(size_t vertices) {
@@ -169,18 +167,17 @@ void TrianglePatches::list_owners(size_t vertices) {
 }
 
 void TrianglePatches::list_adjacent(size_t vertices) {
-    std::vector<std::vector<uint32_t>> of_vertex(vertices);
+    std::vector<uint32_t> corners, patch_of(triangles_.size());
+    for (const Triangle& t : triangles_) corners.insert(corners.end(), t.vertex, t.vertex + 3);
+    const TrianglesAbout about(vertices, corners);
     const auto count = uint32_t(ends_.size());
     for (uint32_t patch = 0; patch < count; ++patch)
-        for (uint32_t t = begin_of(patch); t < ends_[patch]; ++t)
-            for (const uint32_t v : triangles_[t].vertex)
-                if (of_vertex[v].empty() || of_vertex[v].back() != patch) of_vertex[v].push_back(patch);
+        std::fill(patch_of.begin() + begin_of(patch), patch_of.begin() + ends_[patch], patch);
     first_adjacent_.assign(1, 0);
     for (uint32_t patch = 0; patch < count; ++patch) {
         const auto first = std::ptrdiff_t(adjacent_.size());
-        for (uint32_t t = begin_of(patch); t < ends_[patch]; ++t)
-            for (const uint32_t v : triangles_[t].vertex)
-                adjacent_.insert(adjacent_.end(), of_vertex[v].begin(), of_vertex[v].end());
+        for (uint32_t i = 3 * begin_of(patch); i < 3 * ends_[patch]; ++i)
+            for (const uint32_t other : about.of(corners[i])) adjacent_.push_back(patch_of[other]);
         std::sort(adjacent_.begin() + first, adjacent_.end());
         adjacent_.erase(std::unique(adjacent_.begin() + first, adjacent_.end()), adjacent_.end());
         first_adjacent_.push_back(uint32_t(adjacent_.size()));
@@ -240,7 +237,7 @@ void TrianglePatches::find_pairs(const TrianglePatches& other, const Particle* b
         for (uint32_t patch = number * kPatchesOfAJob; patch < last; ++patch) {
             const PatchShape& p = patches_[patch];
             share.meeting.clear();
-            find_meeting(other.moving_, own ? patch : 0, p.box, p.way, reach_m, share.meeting);
+            find_meeting(other.moving_, own ? patch : 0, p.box, p.way, reach_m, max_way_m, share.meeting);
             for (const uint32_t q : share.meeting) {
                 if (own && are_adjacent(patch, q) && in_one_cone(patch, q)) continue;
                 const Bounds& way = other.patches_[q].way;

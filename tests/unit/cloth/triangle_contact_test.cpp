@@ -167,7 +167,7 @@ TEST(ContactKernels, WhatCrossesOnTheWayIsUncertain) {
                     pairs[other / kLanes].first[k][other % kLanes] = 3 * first + k;
                     pairs[other / kLanes].second[k][other % kLanes] = 3 * other + k;
                 }
-            classify(pairs, triangles.begin.data(), triangles.end.data(), 0.005f);
+            classify(pairs, triangles.begin.data(), triangles.end.data(), 0.005f, true);
             for (uint32_t other = 0; other < RandomTriangles::kCount; ++other) {
                 if (other == first) continue;
                 const bool uncertain = pairs[other / kLanes].uncertain >> (other % kLanes) & 1;
