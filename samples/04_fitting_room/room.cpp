@@ -233,7 +233,7 @@ void Room::put_on() {
     stepping_ = false;
     vfit_cloth_desc desc = vfit_cloth_desc_init();
     constexpr float kBudget_ms = 10.0f;  // a slow machine gets fewer sub-steps, not fewer pictures
-    desc.flags = VFIT_CLOTH_SKIN | VFIT_CLOTH_NO_HANDS;
+    desc.flags = VFIT_CLOTH_SKIN;
     desc.budget_ms = kBudget_ms;
     if (size() != kMadeToMeasure) desc.size_label = size().c_str();
     check(vfit_cloth_create(avatar_.get(), piece.garment.get(), &desc, cloth_.out()));

@@ -12,8 +12,15 @@ bool is_forearm(const Collider& c) {
     return hand(c.joint) || hand(c.joint_b);
 }
 
-// A forearm and a hand meet their own sleeve alone: all other cloth meets that sleeve.
-enum Category : uint8_t { kBody = 1, kLeftForearm = 2, kRightForearm = 4, kLeftHand = 8, kRightHand = 16 };
+// A sleeve meets the forearm and the hand that are in it, not those of the other arm.
+enum Category : uint8_t {
+    kBody = 1,
+    kLeftForearm = 2,
+    kRightForearm = 4,
+    kLeftHand = 8,
+    kRightHand = 16,
+    kAll = 31
+};
 uint8_t category_of(BodyPart part) {
     switch (part) {
         case BodyPart::kLeftForearm: return kLeftForearm;
@@ -32,7 +39,7 @@ BodyObstacles::BodyObstacles(const Wearer& wearer, const Garment& garment, const
       forearms_(options.hands || garment.has_sleeves()) {  // without its forearm a sleeve collapses
     if (!options.on_skin && options.cover_m <= 0.0f) return;
     const DressBody body = wearer.body();
-    const bool in_sleeves = options.on_skin && !options.hands && garment.has_sleeves();
+    const bool in_sleeves = options.on_skin && garment.has_sleeves();
     const std::vector<uint8_t> below =
         below_garment(body, dress.rest(), {forearms_, options.hands || in_sleeves});
     if (options.on_skin) {
@@ -40,7 +47,7 @@ BodyObstacles::BodyObstacles(const Wearer& wearer, const Garment& garment, const
         if (!in_sleeves) return;
         for (const uint32_t v : skin_->vertices) category_.push_back(category_of(body.parts[v]));
         for (size_t v = 0; v < dress.rest().size(); ++v)
-            mask_.push_back(!garment.on_arm[v]         ? kBody
+            mask_.push_back(!garment.on_arm[v]         ? (options.hands ? kAll : kBody)
                             : dress.rest()[v].x > 0.0f ? kBody | kLeftForearm | kLeftHand
                                                        : kBody | kRightForearm | kRightHand);
         return;

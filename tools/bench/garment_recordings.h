@@ -10,7 +10,7 @@ struct RecordingsOptions {
     std::string garment;       // one, or an outfit "A+B"; empty: every bundled garment
     std::string recording;     // part of a name; empty: all
     std::string pictures;      // folder for a sheet of each recording; empty: none
-    bool hands = false;        // push the garments, as with vfit fit --hands
+    bool hands = true;         // push the garments, as with vfit fit --hands
     bool own_tracker = false;  // instead of the recording's joints
     float carry_speed_m_s = 0.0f, carry_way_m = 0.0f;  // of vfit_cloth_desc
     int substeps = 0;                                  // 0: the library's default

@@ -386,7 +386,8 @@ void add_garments(Command& app) {
     command.add_option("--recording", real->recording, "With --recordings: those whose name holds this");
     command.add_flag("--own-tracker", real->own_tracker,
                      "With --recordings: joints by vfit instead of the recording's");
-    command.add_flag("--hands", real->hands, "With --recordings: hands push the garments");
+    command.add_flag("--hands,!--no-hands", real->hands,
+                     "With --recordings: hands push the garments (default)");
     command.add_option("--substeps", real->substeps, "With --recordings: sub-steps per 1/60 s")
         .within(1, 256);
     auto jumps = std::make_shared<JumpsOptions>();

@@ -18,7 +18,7 @@ struct FittingOptions {
     ScanOptions scan;
     uint32_t detail = 0;
     uint32_t substeps = 0;    // of the cloth per 1/60 s; 0: the library's default
-    bool hands = false;       // forearms and hands push the garment
+    bool hands = true;        // forearms and hands push the garment
     uint32_t max_frames = 0;  // of the moving part; 0: all
 };
 

@@ -326,7 +326,8 @@ void add_fit(Command& app) {
     command.add_option("--detail", o->fitting.detail, "Level of detail of the avatar: 0, 1 or 2")
         .within(0, 2);
     command.add_option("--out", o->out, "Folder for the results");
-    command.add_flag("--hands", o->fitting.hands, "Let forearms and hands push the garment");
+    command.add_flag("--hands,!--no-hands", o->fitting.hands,
+                     "Forearms and hands push the garments (default), or pass through all but their sleeves");
     command.add_flag("--draft", o->draft, "Small, grainy pictures in a tenth of the time");
     command.add_flag("--json", o->json, "Print the result as JSON");
     add_track_options(command, o->track);

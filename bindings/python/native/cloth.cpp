@@ -205,7 +205,8 @@ void bind_cloth(py::module_& m) {
                 "pressure"_a = false, "cover_m"_a = 0.0f, "virtual_m"_a = 0.0f, "any_fit"_a = false,
                 "carry_speed_m_s"_a = 0.0f, "carry_way_m"_a = 0.0f,
                 "size None: made to the avatar. substeps 0: 8 a 1/60 s. hands False: forearms and hands pass "
-                "through the garment. skin True: kept out of the avatar's skin itself, not of its spheres "
+                "through all but their own sleeve. skin True: kept out of the avatar's skin itself, not of "
+                "its spheres "
                 "and capsules. "
                 "drag and lift: of the air, about 1. inertia: share of the body's own motion that the cloth "
                 "feels. "

@@ -76,13 +76,9 @@ Vec3 carried_to(const Vec3& place, const Vec3& shift) {
     return out;
 }
 
-/// A garment with lengths of its own is held where it lies, on shoulders or at the waist. There it slides on
-/// the skin as all of it does, but not far: pinned to the skin, it would stretch wherever the skin does, and
-/// give way to no obstacle.
-bool holds_loosely(const Garment& garment) { return garment.has_own_lengths(); }
-
 /// Keeps the vertices that hold the garment near their targets, and the others within reach of those by the
-/// way along the edges (long range attachment). Returns these ways.
+/// way along the edges (long range attachment). Returns these ways. They slide on the skin as all cloth does,
+/// but not far: pinned to it, they would stretch wherever the skin does, and give way to no obstacle.
 std::vector<Tether> hold(std::span<const uint32_t> held, float slides_m, FabricData& data) {
     std::vector<float> inverse_mass = data.inverse_mass;
     for (const uint32_t v : held) inverse_mass[v] = 0.0f, data.limits.push_back({v, slides_m});
@@ -212,11 +208,10 @@ std::shared_ptr<const Fabric> Dress::fabric_of(const Garment& garment, const Fab
     const TakenUp taken = take_up(hems_, indices_, garment.simulated, cut);
     if (taken_up) *taken_up = taken;
     const std::span<const Vec2> uvs = std::span(garment.mesh.uvs).first(garment.vertex_count());
-    const std::vector<uint8_t> all(garment.vertex_count(), 1);
-    const std::vector<uint8_t>& simulated = holds_loosely(garment) ? all : garment.simulated;
+    const std::vector<uint8_t> simulated(garment.vertex_count(), 1);
     FabricData data = cook_fabric({rest_, indices_, uvs, simulated, size_ratio, cut}, material);
     data.backstops = backstops_;
-    const std::vector<Tether> tethers = holds_loosely(garment) ? hold(held_, slides_m_, data) : data.tethers;
+    const std::vector<Tether> tethers = hold(held_, slides_m_, data);
     for (uint32_t i = 0; i < garment.vertex_count(); ++i)
         if (!garment.most_way.empty() && garment.most_way[i] > 0.0f && garment.simulated[i])
             data.limits.push_back({i, garment.most_way[i]});

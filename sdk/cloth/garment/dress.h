@@ -77,7 +77,7 @@ private:
     std::vector<Vec3> rest_;
     std::vector<uint32_t> indices_;
     std::vector<uint32_t> held_;
-    float slides_m_ = 0.0f;  // these, in a garment with lengths of its own
+    float slides_m_ = 0.0f;  // these, on the skin
     std::vector<Backstop> backstops_;
     std::vector<LimbHem> hems_;
     TakenUp taken_up_;

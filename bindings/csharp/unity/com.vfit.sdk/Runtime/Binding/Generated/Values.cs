@@ -359,8 +359,8 @@ namespace Vfit
     public enum ClothFlags : uint
     {
         None = 0,
-        /// <summary>hands and forearms pass through: a hand beside the thigh catches a skirt. On the skin,
-        /// they meet their own sleeve. On spheres and capsules, garments with sleeves keep both</summary>
+        /// <summary>hands and forearms pass through all but their own sleeve. Without it, they meet all but
+        /// the other arm's sleeve. On spheres and capsules, garments with sleeves always keep both</summary>
         NoHands = 1,
         /// <summary>kept out of the avatar's skin itself, not of its spheres and capsules: closer, and
         /// slower</summary>
