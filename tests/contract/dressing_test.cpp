@@ -233,7 +233,7 @@ TEST_F(DressingTest, ClothStepsAndItsStateIsHashed) {
     EXPECT_NE(vfit_frame_view(frame, VFIT_STREAM_PRESSURE, &view), VFIT_OK);
     vfit_cloth_stats stats = vfit_cloth_stats_init();
     ASSERT_EQ(vfit_cloth_describe(cloth, &stats), VFIT_OK);
-    EXPECT_EQ(stats.simulated_count, 3096u);
+    EXPECT_EQ(stats.simulated_count, 4144u);
     EXPECT_EQ(stats.vertex_count, view.width);
 }
 
