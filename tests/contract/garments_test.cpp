@@ -291,7 +291,7 @@ TEST_F(GarmentsTest, TellTheirParts) {
 
 TEST_F(GarmentsTest, HandsPassWhereTheyAreToldTo) {
     const vfit_avatar avatar = body();
-    for (const char* name : {"shirt_men", "sundress_pattern"}) {
+    for (const char* name : {"shirt_men", "sundress_pattern", "duster"}) {
         const vfit_garment garment = open(name);
         uint64_t hashes[2];
         for (const uint32_t flag : {0u, uint32_t(VFIT_CLOTH_NO_HANDS)}) {

@@ -340,15 +340,19 @@ void ContactMesh::find_planes(const PartOfCloth& part, std::vector<uint32_t>& ru
         for (uint32_t other : runs) edge = std::max(edge, edges_m_[other]);
         NearestOfRun nearest_points(reach + kCornerReach * edge);
         find_nearest_in_runs(run, places_.data(), runs, nearest_points);
-        if (!category_.empty()) {
+        const auto is_filtered_out = [&](size_t lane) {
+            return nearest_points.id[lane] != kNone && !is_met(lane, nearest_points.id[lane]);
+        };
+        bool any_filtered_out = false;
+        for (size_t lane = 0; lane < kLanes && !category_.empty(); ++lane)
+            any_filtered_out = any_filtered_out || is_filtered_out(lane);
+        if (any_filtered_out) {
             // A particle whose nearest point is filtered out takes the nearest that all of its run meet.
             std::erase_if(runs, [&](uint32_t other) { return (run_category_[other] & common) == 0; });
             NearestOfRun met_points(reach + kCornerReach * edge);
             find_nearest_in_runs(run, places_.data(), runs, met_points);
-            for (size_t lane = 0; lane < kLanes; ++lane) {
-                uint32_t& point = nearest_points.id[lane];
-                if (point != kNone && !is_met(lane, point)) point = met_points.id[lane];
-            }
+            for (size_t lane = 0; lane < kLanes; ++lane)
+                if (is_filtered_out(lane)) nearest_points.id[lane] = met_points.id[lane];
         }
         touch(run, nearest_points.id, kStepsNearby, reach, now);
         if (follows)

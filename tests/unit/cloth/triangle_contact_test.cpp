@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <random>
 #include <set>
 
@@ -167,7 +168,13 @@ TEST(ContactKernels, WhatCrossesOnTheWayIsUncertain) {
                     pairs[other / kLanes].first[k][other % kLanes] = 3 * first + k;
                     pairs[other / kLanes].second[k][other % kLanes] = 3 * other + k;
                 }
+            std::vector<TrianglePairs> not_certified = pairs;
             classify(pairs, triangles.begin.data(), triangles.end.data(), 0.005f, true);
+            classify(not_certified, triangles.begin.data(), triangles.end.data(), 0.005f, false);
+            for (size_t i = 0; i < pairs.size(); ++i) {
+                EXPECT_EQ(not_certified[i].close, pairs[i].close);
+                EXPECT_EQ(not_certified[i].uncertain, 0);
+            }
             for (uint32_t other = 0; other < RandomTriangles::kCount; ++other) {
                 if (other == first) continue;
                 const bool uncertain = pairs[other / kLanes].uncertain >> (other % kLanes) & 1;
@@ -203,6 +210,29 @@ TEST(Proximity, MissesNoPairThatCrossesOnTheWay) {
                 }
         EXPECT_GT(crossed, 100u);
     }
+}
+
+TEST(Proximity, ACopyFindsTheSamePairsOfItsOwn) {
+    const RandomTriangles triangles(7);
+    std::vector<uint32_t> indices;
+    for (uint32_t i = 0; i < 3 * RandomTriangles::kCount; ++i) indices.push_back(i);
+    const auto jobs = Jobs::own(0);
+    auto first = std::make_unique<Proximity>(places_of(triangles.begin), indices, 0.004f);
+    first->find(triangles.begin, triangles.end, *jobs);
+    const auto close = [](const Proximity& proximity) {
+        std::set<TrianglePair> pairs;
+        proximity.for_close([&](const Proximity::Pair& pair, uint32_t) {
+            pairs.insert({pair.first->number, pair.second->number});
+        });
+        return pairs;
+    };
+    const std::set<TrianglePair> found = close(*first);
+    Proximity copy(*first);
+    first.reset();
+    EXPECT_TRUE(close(copy).empty()) << "none before it looked";
+    copy.find(triangles.begin, triangles.end, *jobs);
+    EXPECT_EQ(close(copy), found);
+    EXPECT_GT(found.size(), 100u);
 }
 
 TEST(TrianglePatches, OfASolidOnlyWhatLiesBeforeItsPlanesIsLeftOut) {
