@@ -666,7 +666,7 @@ class Contract(unittest.TestCase):
             for name in result["pictures"] + ["avatar.glb"]:
                 self.assertGreater((out / name).stat().st_size, 1000, name)
             self.assertIn("contact_sheet.png", result["pictures"])
-            self.assertEqual(result["cloth"]["simulated"], 3096)
+            self.assertEqual(result["cloth"]["simulated"], 4144)
             glb = (out / "avatar.glb").read_bytes()
             self.assertEqual(struct.unpack("<4sII", glb[:12]), (b"glTF", 2, len(glb)))
 
