@@ -641,11 +641,12 @@ class Cloth(_Closable):
         carry_way_m: float = 0.0,
     ) -> None:
         """hands False: forearms and hands pass through all but their own sleeve. skin True: kept out of the
-        avatar's skin itself. self_thickness_m: kept between the cloth's own layers. pressure True: frames have
-        pressure, in Pa. cover_m: more spheres and capsules, until no skin below the garment is so far outside
-        of all. virtual_m: points of triangles so near each other meet the body too: for coarse meshes. any_fit True: worn even where it would not close; else NotWearableError. carry_speed_m_s,
-        carry_way_m: a body that moves faster or further in a step jumps, and the cloth feels nothing of it;
-        0: 6 and 0.06, below 0: no limit."""
+        avatar's skin itself. self_thickness_m: kept between the cloth's own layers. pressure True:
+        frames have pressure, in Pa. cover_m: more spheres and capsules, until no skin below the
+        garment is so far outside of all. virtual_m: points of triangles so near each other meet the
+        body too: for coarse meshes. any_fit True: worn even where it would not close; else
+        NotWearableError. carry_speed_m_s, carry_way_m: a body that moves faster or further in a step
+        jumps, and the cloth feels nothing of it; 0: 6 and 0.06, below 0: no limit."""
     def teleport(self) -> None:
         """The avatar's pose at the next step is a jump from the last one: the cloth is carried along."""
     def set_wind(self, wind: Tuple[float, float, float]) -> None: ...
