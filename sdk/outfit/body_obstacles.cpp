@@ -12,25 +12,6 @@ bool is_forearm(const Collider& c) {
     return hand(c.joint) || hand(c.joint_b);
 }
 
-// A sleeve meets the forearm and the hand that are in it, not those of the other arm.
-enum Category : uint8_t {
-    kBody = 1,
-    kLeftForearm = 2,
-    kRightForearm = 4,
-    kLeftHand = 8,
-    kRightHand = 16,
-    kAll = 31
-};
-uint8_t category_of(BodyPart part) {
-    switch (part) {
-        case BodyPart::kLeftForearm: return kLeftForearm;
-        case BodyPart::kRightForearm: return kRightForearm;
-        case BodyPart::kLeftHand: return kLeftHand;
-        case BodyPart::kRightHand: return kRightHand;
-        default: return kBody;
-    }
-}
-
 }  // namespace
 
 BodyObstacles::BodyObstacles(const Wearer& wearer, const Garment& garment, const Dress& dress,
@@ -45,11 +26,9 @@ BodyObstacles::BodyObstacles(const Wearer& wearer, const Garment& garment, const
     if (options.on_skin) {
         skin_ = skin_below(body, wearer.contact_skin(), below, creases_);
         if (!in_sleeves) return;
-        for (const uint32_t v : skin_->vertices) category_.push_back(category_of(body.parts[v]));
-        for (size_t v = 0; v < dress.rest().size(); ++v)
-            mask_.push_back(!garment.on_arm[v]         ? (options.hands ? kAll : kBody)
-                            : dress.rest()[v].x > 0.0f ? kBody | kLeftForearm | kLeftHand
-                                                       : kBody | kRightForearm | kRightHand);
+        std::vector<BodyPart> parts;
+        for (const uint32_t v : skin_->vertices) parts.push_back(body.parts[v]);
+        arms_ = arm_filter(parts, garment, dress.rest(), options.hands);
         return;
     }
     std::vector<Collider> colliders;
@@ -61,7 +40,7 @@ BodyObstacles::BodyObstacles(const Wearer& wearer, const Garment& garment, const
 void BodyObstacles::add_to(Cloth& cloth) {
     if (skin_)
         skin_mesh_ =
-            cloth.add_mesh(skin_->skin.vertex_count(), skin_->indices, {}, MeshOf::solid, {category_, mask_});
+            cloth.add_mesh(skin_->skin.vertex_count(), skin_->indices, {}, MeshOf::solid, arms_.filter());
 }
 
 void BodyObstacles::select(std::span<const Mat4> matrices, std::vector<Collider>& colliders, Jobs& jobs) {

@@ -8,6 +8,7 @@
 #include "body/collider.h"
 #include "cloth/cloth.h"
 #include "cloth/garment/dress.h"
+#include "outfit/arm_filter.h"
 #include "outfit/skin_below.h"
 #include "outfit/skin_cover.h"
 #include "outfit/wear_options.h"
@@ -32,7 +33,7 @@ private:
     const Creases& creases_;
     bool forearms_;  // and hands; false: they pass through the cloth
     std::optional<SkinBelow> skin_;
-    std::vector<uint8_t> category_, mask_;  // of the skin's vertices and the cloth's; empty: all meet all
+    ArmFilter arms_;  // empty: all meet all
     std::optional<SkinCover> cover_;
     uint32_t skin_mesh_ = 0;
     std::vector<Vec3> skin_positions_, cover_centers_;

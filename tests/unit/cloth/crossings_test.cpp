@@ -179,6 +179,26 @@ TEST(TriangleContact, ClothOfLargeTrianglesStaysOverASmallBump) {
     }
 }
 
+TEST(TriangleContact, InOtherLengthsItMeetsTheSameMeshes) {
+    const auto jobs = Jobs::own(0);
+    const BumpyGround ground;
+    const Sheet sheet(9, 9, 0.025f);
+    const std::vector<Vec3> start = over_ground(sheet, 0.02f);
+    ClothSettings settings;
+    settings.sleeps = false;
+    settings.self_thickness_m = 0.004f;
+    const auto cotton_sheet = fabric(sheet.cook(cotton()));
+    Cloth first(cotton_sheet, settings, start);
+    const uint32_t mesh = first.add_mesh(ground.positions.size(), ground.indices);
+    Cloth second = first.with_fabric(cotton_sheet);
+    for (int frame = 0; frame < 120; ++frame) {
+        second.move_mesh(mesh, ground.positions);
+        second.step(kFrame_s, start, {}, *jobs);
+        EXPECT_EQ(ground.crossed(second, sheet), 0u) << frame;
+    }
+    for (const Vec3& p : second.positions()) EXPECT_LT(p.y, 0.019f) << "it fell on the ground";
+}
+
 TEST(MeshLift, WhatIsFixedRisesOffClothBelowAndGoesWithTheSkin) {
     const auto jobs = Jobs::own(0);
     const BumpyGround ground;

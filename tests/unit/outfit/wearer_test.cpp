@@ -91,6 +91,22 @@ TEST_F(BodyObstaclesTest, HandsPassThroughWithTheirForearmsExceptWithSleeves) {
     EXPECT_EQ(colliders("duster", options), size_t(kColliderCount));
 }
 
+TEST(ArmFilter, ASleeveMeetsTheArmInItAndOtherClothBothOrNone) {
+    const std::vector<BodyPart> skin{BodyPart::kTorso, BodyPart::kLeftForearm, BodyPart::kLeftHand,
+                                     BodyPart::kRightForearm, BodyPart::kRightHand};
+    Garment garment;
+    garment.on_arm = {0, 1, 1};
+    const std::vector<Vec3> rest{{0.1f, 1, 0}, {0.4f, 1, 0}, {-0.4f, 1, 0}};  // trunk, left and right sleeve
+    for (const bool hands : {false, true}) {
+        const ArmFilter filter = arm_filter(skin, garment, rest, hands);
+        const std::vector<std::vector<int>> expected{
+            {1, hands, hands, hands, hands}, {1, 1, 1, 0, 0}, {1, 0, 0, 1, 1}};
+        for (size_t v = 0; v < rest.size(); ++v)
+            for (size_t s = 0; s < skin.size(); ++s)
+                EXPECT_EQ((filter.mask[v] & filter.category[s]) != 0, expected[v][s] != 0) << v << " " << s;
+    }
+}
+
 TEST_F(BodyObstaclesTest, TheSkinReplacesCollidersAndACoverAddsSome) {
     WearOptions options;
     options.cover_m = 0.01f;
