@@ -7,6 +7,10 @@
 #include <embree3/rtcore.h>
 #endif
 
+#if VFIT_EMBREE_USES_TBB
+#include <tbb/task_arena.h>
+#endif
+
 #include <array>
 #include <cmath>
 #include <limits>
@@ -62,6 +66,20 @@ void check_device(RTCDevice device) {
              "Embree failed with error ", static_cast<int>(error));
 }
 
+/// Builds on the caller's thread alone. Embree would start threads of TBB, beside those that the host gives
+/// vfit to run on, and nobody waits for their end when the process exits.
+void commit(RTCScene scene) {
+#if VFIT_EMBREE_USES_TBB
+    tbb::task_arena caller(1);
+    caller.execute([scene] { rtcCommitScene(scene); });
+#else
+    rtcCommitScene(scene);
+#endif
+}
+
+/// Embree's own tasks take the number of threads from the device; TBB's would be bounded for the whole process.
+constexpr const char* kDeviceSettings = VFIT_EMBREE_USES_TBB ? nullptr : "threads=1";
+
 }  // namespace
 
 struct MeshQuery::Scene {
@@ -97,7 +115,7 @@ MeshQuery::MeshQuery(std::span<const Vec3> positions, std::span<const uint32_t> 
     s.positions.resize(positions.size() + kEmbreePadding, Vec3(0.0f));
     s.indices.assign(indices.begin(), indices.end());
 
-    s.device.reset(rtcNewDevice(nullptr));
+    s.device.reset(rtcNewDevice(kDeviceSettings));
     if (!s.device) fail(VFIT_ERROR_UNKNOWN, "Embree failed to start");
     s.geometry.reset(rtcNewGeometry(s.device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
     s.scene.reset(rtcNewScene(s.device.get()));
@@ -114,7 +132,7 @@ MeshQuery::MeshQuery(std::span<const Vec3> positions, std::span<const uint32_t> 
     rtcSetSceneFlags(s.scene.get(),
                      static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC));
     rtcAttachGeometry(s.scene.get(), s.geometry.get());
-    rtcCommitScene(s.scene.get());
+    commit(s.scene.get());
     check_device(s.device.get());
 }
 
@@ -130,7 +148,7 @@ void MeshQuery::update(std::span<const Vec3> positions) {
     std::copy(positions.begin(), positions.end(), s.positions.begin());
     rtcUpdateGeometryBuffer(s.geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0);
     rtcCommitGeometry(s.geometry.get());
-    rtcCommitScene(s.scene.get());
+    commit(s.scene.get());
     check_device(s.device.get());
 }
 

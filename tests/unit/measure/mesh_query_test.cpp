@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <random>
 
@@ -198,6 +199,19 @@ TEST(MeshQuery, SurvivesBeingMoved) {
     const MeshQuery b = std::move(a);
     EXPECT_NEAR(b.closest(Vec3(0.0f)).distance, 0.5f, 1e-2f);
 }
+
+#ifdef __linux__
+TEST(MeshQuery, StartsNoThreads) {
+    const auto threads = [] {
+        const std::filesystem::directory_iterator tasks("/proc/self/task");
+        return std::distance(begin(tasks), end(tasks));
+    };
+    const auto before = threads();
+    MeshQuery q = query(ellipsoid(Vec3(0.5f), 200, 400));  // 160,000 triangles are enough work to share
+    q.update(q.positions());
+    EXPECT_EQ(threads(), before);
+}
+#endif
 
 TEST(MeshQuery, RefusesBrokenMeshes) {
     const std::vector<Vec3> good = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
