@@ -365,6 +365,16 @@ void Cloth::hide_mesh(uint32_t mesh) {
     state_->wake();
 }
 
+void Cloth::set_mesh_mask(uint32_t mesh, std::span<const uint8_t> mask) {
+    if (mesh >= state_->meshes.size()) fail(VFIT_ERROR_ARGUMENT, "there is no mesh ", mesh);
+    if (mask.size() != state_->meshes[mesh].filter().mask.size())
+        fail(VFIT_ERROR_ARGUMENT, mask.size(), " masks instead of ",
+             state_->meshes[mesh].filter().mask.size());
+    state_->meshes[mesh].set_mask(mask);
+    if (state_->triangles) state_->triangles->set_mask(mesh, mask);
+    state_->wake();
+}
+
 void Cloth::set_air(const Air& air) {
     check(air);
     if (air.wind_m_s != state_->settings.air.wind_m_s || air.drag != state_->settings.air.drag ||
@@ -700,6 +710,10 @@ const std::vector<Vec3>& Cloth::normals() const {
 const std::vector<float>& Cloth::strain() const {
     state_->find_strains();
     return state_->strains;
+}
+const std::vector<float>& Cloth::edge_strain() const {
+    state_->find_strains();
+    return state_->edge_strains;
 }
 const std::vector<float>& Cloth::pressure() const {
     if (state_->settings.pressure) state_->find_pressures();

@@ -124,6 +124,8 @@ public:
     void move_mesh(uint32_t mesh, std::span<const Vec3> positions);
     /// It is not there until it is moved again.
     void hide_mesh(uint32_t mesh);
+    /// From the next step on, of a mesh that has a filter. One a vertex of the cloth.
+    void set_mesh_mask(uint32_t mesh, std::span<const uint8_t> mask);
 
     /// From the next step on.
     void set_air(const Air& air);
@@ -133,6 +135,8 @@ public:
     const std::vector<Vec3>& normals() const;
     /// Mean strain of the edges at each vertex; 0: unstretched.
     const std::vector<float>& strain() const;
+    /// Of each of the fabric's edges.
+    const std::vector<float>& edge_strain() const;
     /// Of the body (and what else is met) against each vertex as it lies, Pa: what the threads and the weight
     /// of who is touched pull with against it, over the flat cloth's area. 0 for vertices that are moved by
     /// their targets, and without settings.pressure.

@@ -4,17 +4,13 @@ namespace vfit {
 
 namespace {
 
-enum Category : uint8_t { kBody = 1, kLeftForearm = 2, kRightForearm = 4, kLeftHand = 8, kRightHand = 16 };
-constexpr uint8_t kLeftArm = kLeftForearm | kLeftHand, kRightArm = kRightForearm | kRightHand;
+constexpr uint8_t kBody = 1, kLeft = ArmFilter::category_of(Arm::left),
+                  kRight = ArmFilter::category_of(Arm::right);
 
 uint8_t category_of(BodyPart part) {
-    switch (part) {
-        case BodyPart::kLeftForearm: return kLeftForearm;
-        case BodyPart::kRightForearm: return kRightForearm;
-        case BodyPart::kLeftHand: return kLeftHand;
-        case BodyPart::kRightHand: return kRightHand;
-        default: return kBody;
-    }
+    if (part == BodyPart::kLeftForearm || part == BodyPart::kLeftHand) return kLeft;
+    if (part == BodyPart::kRightForearm || part == BodyPart::kRightHand) return kRight;
+    return kBody;
 }
 
 }  // namespace
@@ -24,8 +20,8 @@ ArmFilter arm_filter(std::span<const BodyPart> skin, const Garment& garment, std
     ArmFilter out;
     for (const BodyPart part : skin) out.category.push_back(category_of(part));
     for (size_t v = 0; v < rest.size(); ++v) {
-        uint8_t arms = hands ? kLeftArm | kRightArm : 0;
-        if (garment.on_arm[v]) arms = rest[v].x > 0.0f ? kLeftArm : kRightArm;
+        uint8_t arms = hands ? kLeft | kRight : 0;
+        if (!garment.on_arm.empty() && garment.on_arm[v]) arms = rest[v].x > 0.0f ? kLeft : kRight;
         out.mask.push_back(uint8_t(kBody | arms));
     }
     return out;

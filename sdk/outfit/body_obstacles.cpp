@@ -25,10 +25,10 @@ BodyObstacles::BodyObstacles(const Wearer& wearer, const Garment& garment, const
         below_garment(body, dress.rest(), {forearms_, options.hands || in_sleeves});
     if (options.on_skin) {
         skin_ = skin_below(body, wearer.contact_skin(), below, creases_);
-        if (!in_sleeves) return;
+        if (body.parts.empty() || (!in_sleeves && !options.hands)) return;
         std::vector<BodyPart> parts;
         for (const uint32_t v : skin_->vertices) parts.push_back(body.parts[v]);
-        arms_ = arm_filter(parts, garment, dress.rest(), options.hands);
+        arms_.emplace(arm_filter(parts, garment, dress.rest(), options.hands), skin_->indices);
         return;
     }
     std::vector<Collider> colliders;
@@ -39,8 +39,8 @@ BodyObstacles::BodyObstacles(const Wearer& wearer, const Garment& garment, const
 
 void BodyObstacles::add_to(Cloth& cloth) {
     if (skin_)
-        skin_mesh_ =
-            cloth.add_mesh(skin_->skin.vertex_count(), skin_->indices, {}, MeshOf::solid, arms_.filter());
+        skin_mesh_ = cloth.add_mesh(skin_->skin.vertex_count(), skin_->indices, {}, MeshOf::solid,
+                                    arms_ ? arms_->filter() : MeshFilter());
 }
 
 void BodyObstacles::select(std::span<const Mat4> matrices, std::vector<Collider>& colliders, Jobs& jobs) {
@@ -56,6 +56,10 @@ void BodyObstacles::move_skin(std::span<const Mat4> matrices, Cloth& cloth, Jobs
     skin_->skin.carry(matrices, skin_positions_, scratch_, jobs);
     creases_.open(matrices, skin_->creased, skin_positions_, jobs);
     cloth.move_mesh(skin_mesh_, skin_positions_);
+}
+
+void BodyObstacles::let_arms_pass(Cloth& cloth, float dt, Jobs& jobs) {
+    if (arms_ && arms_->look(cloth, skin_positions_, dt, jobs)) cloth.set_mesh_mask(skin_mesh_, arms_->mask());
 }
 
 }  // namespace vfit

@@ -8,7 +8,7 @@
 #include "body/collider.h"
 #include "cloth/cloth.h"
 #include "cloth/garment/dress.h"
-#include "outfit/arm_filter.h"
+#include "outfit/passing_arms.h"
 #include "outfit/skin_below.h"
 #include "outfit/skin_cover.h"
 #include "outfit/wear_options.h"
@@ -28,12 +28,14 @@ public:
     void select(std::span<const Mat4> matrices, std::vector<Collider>& colliders, Jobs& jobs);
     /// Moves the skin's mesh with these skinning matrices, one a rig bone.
     void move_skin(std::span<const Mat4> matrices, Cloth& cloth, Jobs& jobs);
+    /// After a step of dt.
+    void let_arms_pass(Cloth& cloth, float dt, Jobs& jobs);
 
 private:
     const Creases& creases_;
     bool forearms_;  // and hands; false: they pass through the cloth
     std::optional<SkinBelow> skin_;
-    ArmFilter arms_;  // empty: all meet all
+    std::optional<PassingArms> arms_;  // none: all meet all
     std::optional<SkinCover> cover_;
     uint32_t skin_mesh_ = 0;
     std::vector<Vec3> skin_positions_, cover_centers_;

@@ -30,6 +30,7 @@ public:
     std::span<const uint32_t> indices() const { return indices_; }
     MeshOf what() const { return what_; }
     MeshFilter filter() const { return {category_, mask_}; }
+    void set_mask(std::span<const uint8_t> mask) { mask_.assign(mask.begin(), mask.end()); }
     /// Where its vertices are at the end of this step.
     void accept(std::span<const Vec3> positions);
     /// A fraction of their way in this step lies behind them when it begins.

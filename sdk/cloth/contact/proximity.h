@@ -35,6 +35,10 @@ public:
                   const MeshFilter& filter = {});
     /// positions: by which its triangles are grouped, the first time.
     void show_mesh(uint32_t mesh, std::span<const Vec3> positions);
+    /// Of its filter, from the next find() on.
+    void set_mask(uint32_t mesh, std::span<const uint8_t> mask) {
+        surfaces_[mesh + 1].mask.assign(mask.begin(), mask.end());
+    }
     /// It meets nothing.
     void hide_mesh(uint32_t mesh) { surfaces_[mesh + 1].is_shown = false; }
     size_t vertex_count() const { return vertex_count_; }

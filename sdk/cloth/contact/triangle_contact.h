@@ -29,6 +29,7 @@ public:
     /// between edges. It is hidden until it is moved.
     void add_mesh(size_t vertices, std::span<const uint32_t> indices, float keeps_m, MeshOf what,
                   const MeshFilter& filter = {});
+    void set_mask(uint32_t mesh, std::span<const uint8_t> mask) { proximity_.set_mask(mesh, mask); }
     /// Where it goes in the next step, from where it went in the last.
     void move_mesh(uint32_t mesh, std::span<const Vec3> end);
     /// A fraction of the meshes' way in the next step lies behind them when it begins.

@@ -1,0 +1,85 @@
+#include "outfit/passing_arms.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace vfit {
+
+namespace {
+
+constexpr float kHeld = 0.6f;       // strain of an edge that nothing but an arm beside it explains
+constexpr float kBeside_m = 0.02f;  // between that edge and points of the arm
+constexpr float kShortest_s = 0.3f;
+
+}  // namespace
+
+PassingArms::PassingArms(ArmFilter filter, std::span<const uint32_t> indices)
+    : filter_(std::move(filter)), mask_(filter_.mask) {
+    for (const Arm arm : kArms) {
+        OfArm& of = of_[size_t(arm)];
+        const auto is_of_arm = [&](uint32_t v) { return filter_.category[v] == ArmFilter::category_of(arm); };
+        for (uint32_t v = 0; v < filter_.category.size(); ++v)
+            if (is_of_arm(v)) of.points.push_back(v);
+        for (size_t i = 0; i + 2 < indices.size(); i += 3)
+            if (std::all_of(&indices[i], &indices[i] + 3, is_of_arm))
+                of.indices.insert(of.indices.end(), &indices[i], &indices[i] + 3);
+    }
+}
+
+bool PassingArms::meets(uint32_t vertex, Arm arm) const {
+    return (filter_.mask[vertex] & ArmFilter::category_of(arm)) != 0;
+}
+
+bool PassingArms::look(const Cloth& cloth, std::span<const Vec3> skin, float dt, Jobs& jobs) {
+    bool changes = false;
+    for (const Arm arm : kArms) {
+        OfArm& of = of_[size_t(arm)];
+        of.for_s = of.passes ? of.for_s + dt : 0.0f;
+        const bool turns = of.passes ? of.for_s >= kShortest_s && is_free(cloth, skin, arm, jobs)
+                                     : is_held(cloth, skin, arm);
+        if (!turns) continue;
+        of.passes = !of.passes, of.for_s = 0.0f;
+        changes = true;
+    }
+    if (!changes) return false;
+    mask_ = filter_.mask;
+    for (const Arm arm : kArms) {
+        if (!passes(arm)) continue;
+        for (uint8_t& mask : mask_)
+            if (mask & ArmFilter::category_of(arm == Arm::left ? Arm::right : Arm::left))  // a sleeve meets one
+                mask &= uint8_t(~ArmFilter::category_of(arm));
+    }
+    return true;
+}
+
+bool PassingArms::is_held(const Cloth& cloth, std::span<const Vec3> skin, Arm arm) const {
+    const std::vector<DistanceConstraint>& edges = cloth.fabric().data().edges;
+    const std::vector<float>& strains = cloth.edge_strain();
+    const std::vector<Vec3>& places = cloth.positions();
+    for (size_t i = 0; i < edges.size(); ++i) {
+        if (strains[i] <= kHeld || !meets(edges[i].a, arm)) continue;
+        const Vec3 &a = places[edges[i].a], &b = places[edges[i].b];
+        for (const uint32_t v : of_[size_t(arm)].points) {
+            const float along = glm::clamp(glm::dot(skin[v] - a, b - a) / glm::dot(b - a, b - a), 0.0f, 1.0f);
+            if (glm::distance(skin[v], glm::mix(a, b, along)) < kBeside_m) return true;
+        }
+    }
+    return false;
+}
+
+bool PassingArms::is_free(const Cloth& cloth, std::span<const Vec3> skin, Arm arm, Jobs& jobs) {
+    OfArm& of = of_[size_t(arm)];
+    if (!of.triangles) of.triangles.emplace(skin, of.indices);
+    if (!cloth_) cloth_.emplace(cloth.positions(), cloth.fabric().data().indices);
+    of.triangles->move(skin, jobs);
+    cloth_->move(cloth.positions(), jobs);
+    crossed_.clear();
+    cloth_->find_crossings(*of.triangles, crossed_, jobs);
+    return std::none_of(crossed_.begin(), crossed_.end(), [&](const TrianglePair& pair) {
+        const uint32_t* corners = &cloth.fabric().data().indices[3 * size_t(pair.first)];
+        return std::any_of(corners, corners + 3, [&](uint32_t v) { return meets(v, arm); });
+    });
+}
+
+}  // namespace vfit

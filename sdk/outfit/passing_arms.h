@@ -1,0 +1,49 @@
+// Arms that go through a garment for a while. A hand hooks behind a hem or pinches cloth against a thigh, and
+// what it holds would be stretched without end; so the whole arm passes until it is free of the cloth again.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cloth/cloth.h"
+#include "cloth/contact/triangle_groups.h"
+#include "core/jobs.h"
+#include "outfit/arm_filter.h"
+
+namespace vfit {
+
+class PassingArms {
+public:
+    /// indices: triangles of the skin that has that filter.
+    PassingArms(ArmFilter filter, std::span<const uint32_t> indices);
+
+    MeshFilter filter() const { return filter_.filter(); }
+    /// After a step of dt, in which the skin went to these places. True: another mask is to be met from the
+    /// next step on.
+    bool look(const Cloth& cloth, std::span<const Vec3> skin, float dt, Jobs& jobs);
+    /// One a vertex of the cloth. A sleeve always meets the arm in it.
+    std::span<const uint8_t> mask() const { return mask_; }
+    bool passes(Arm arm) const { return of_[size_t(arm)].passes; }
+
+private:
+    struct OfArm {
+        std::vector<uint32_t> points, indices;  // of the skin
+        std::optional<TriangleGroups> triangles;
+        bool passes = false;
+        float for_s = 0.0f;
+    };
+    bool meets(uint32_t vertex, Arm arm) const;
+    bool is_held(const Cloth& cloth, std::span<const Vec3> skin, Arm arm) const;
+    bool is_free(const Cloth& cloth, std::span<const Vec3> skin, Arm arm, Jobs& jobs);
+
+    ArmFilter filter_;
+    std::vector<uint8_t> mask_;
+    std::array<OfArm, kArms.size()> of_;
+    std::optional<TriangleGroups> cloth_;
+    std::vector<TrianglePair> crossed_;
+};
+
+}  // namespace vfit
