@@ -196,9 +196,10 @@ struct Cloth::State {
     std::span<const Vec3> held_at(std::span<const Vec3> targets);
     void check_body(std::span<const Vec3> targets, std::span<const Collider> colliders) const;
     void reset(std::span<const Vec3> start);
-    void advance(float dt, int count, float damping, std::span<const Vec3> targets, Jobs& jobs);
+    void advance(float dt, int count, float damping, std::span<const Vec3> targets, Jobs& jobs,
+                 const IntervalEnded& interval_ended = {});
     void advance_interval(float dt, int count, float damping, const Interval& interval,
-                          std::span<const Vec3> targets, Jobs& jobs);
+                          std::span<const Vec3> targets, Jobs& jobs, const IntervalEnded& interval_ended);
     void rest_if_still(float dt, std::span<const Vec3> held, std::span<const Vec3> targets);
     TriangleGroups& triangles_now(std::span<const Vec3> places, Jobs& jobs);
     void meet_triangles(const ContactMesh& mesh);
@@ -391,7 +392,7 @@ void Cloth::set_quality(uint32_t substeps, float budget_ms) {
 }
 
 void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<const Collider> colliders,
-                 Jobs& jobs) {
+                 Jobs& jobs, const IntervalEnded& interval_ended) {
     State& s = *state_;
     if (!finite(dt) || dt < 0.0f) fail(VFIT_ERROR_ARGUMENT, "the step is ", dt, " s long");
     s.check_body(skinned_targets, colliders);
@@ -416,7 +417,7 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
     for (; done < times && s.asleep_at.empty(); ++done) {
         if (done > 0) s.look_at({});  // the body stands where it arrived
         s.advance(dt, substeps, settles ? std::max(s.settings.damping, kSettlingDamping) : s.settings.damping,
-                  skinned_targets, jobs);
+                  skinned_targets, jobs, interval_ended);
         s.lift_off_cloth(jobs);
     }
     s.substeps = uint32_t(substeps * done);
@@ -527,7 +528,7 @@ void Cloth::State::check_body(std::span<const Vec3> targets, std::span<const Col
 
 /// The body has been met.
 void Cloth::State::advance(float dt, int count, float damping, std::span<const Vec3> skinned_targets,
-                           Jobs& jobs) {
+                           Jobs& jobs, const IntervalEnded& interval_ended) {
     const float by_way = std::min(way_within_body() / kIntervalWay_m, float(count / kMinSubsteps)),
                 parts = std::max(dt * kMinContactRate_hz - 1e-3f, by_way);
     const int intervals = meshes.empty() ? 1 : std::clamp(int(std::ceil(parts)), 1, count);
@@ -542,8 +543,8 @@ void Cloth::State::advance(float dt, int count, float damping, std::span<const V
         const int first = i * count / intervals, end = (i + 1) * count / intervals;
         const Interval interval{float(first) / float(count), float(end) / float(count)};
         if (intervals > 1) look_at(interval);
-        advance_interval(dt * float(end - first) / float(count), end - first, damping, interval, targets,
-                         jobs);
+        advance_interval(dt * float(end - first) / float(count), end - first, damping, interval, targets, jobs,
+                         interval_ended);
         rest_if_still(dt * float(end - first) / float(count), targets, skinned_targets);
     }
     std::copy(targets.begin(), targets.end(), previous_targets.begin());
@@ -553,7 +554,8 @@ void Cloth::State::advance(float dt, int count, float damping, std::span<const V
 }
 
 void Cloth::State::advance_interval(float dt, int count, float damping, const Interval& interval,
-                                    std::span<const Vec3> targets, Jobs& jobs) {
+                                    std::span<const Vec3> targets, Jobs& jobs,
+                                    const IntervalEnded& interval_ended) {
     if (triangles) {
         before = positions;
         if (!contacts_known) triangles->place(positions, jobs);
@@ -571,8 +573,16 @@ void Cloth::State::advance_interval(float dt, int count, float damping, const In
                     settings.thickness_m, previous_targets, targets, interval, colliders, meshes,
                     cloth_lift_m, triangles ? &*triangles : nullptr, settings.self_friction},
                    jobs);
-    keep_layers(dt, jobs);
     publish();
+    if (interval_ended) interval_ended(interval.to, dt);
+    if (triangles) {
+        keep_layers(dt, jobs);
+        if (!triangles->moved().empty()) {
+            const ParticleSolver::Ways solved = ways;
+            publish();
+            ways = {std::max(solved.greatest_m, ways.greatest_m), std::max(solved.rms_m, ways.rms_m)};
+        }
+    }
     yield_to_cloth();
 }
 
@@ -600,8 +610,7 @@ void Cloth::State::part_layers(Jobs& jobs) {
 }
 
 void Cloth::State::keep_layers(float dt, Jobs& jobs) {
-    if (!triangles) return;
-    solver.copy_positions(now);
+    now = positions;
     certified = triangles->keep(before, now, jobs);
     for (const uint32_t v : triangles->moved()) {
         const uint32_t particle = fabric->layout().particle_of[v];

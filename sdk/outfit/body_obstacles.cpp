@@ -1,5 +1,7 @@
 #include "outfit/body_obstacles.h"
 
+#include <utility>
+
 namespace vfit {
 
 namespace {
@@ -53,13 +55,17 @@ void BodyObstacles::select(std::span<const Mat4> matrices, std::vector<Collider>
 
 void BodyObstacles::move_skin(std::span<const Mat4> matrices, Cloth& cloth, Jobs& jobs) {
     if (!skin_) return;
+    std::swap(skin_before_, skin_positions_);
     skin_->skin.carry(matrices, skin_positions_, scratch_, jobs);
     creases_.open(matrices, skin_->creased, skin_positions_, jobs);
     cloth.move_mesh(skin_mesh_, skin_positions_);
 }
 
-void BodyObstacles::let_arms_pass(Cloth& cloth, float dt, Jobs& jobs) {
-    if (arms_ && arms_->look(cloth, skin_positions_, dt, jobs)) cloth.set_mesh_mask(skin_mesh_, arms_->mask());
+void BodyObstacles::let_arms_pass(Cloth& cloth, float share, float dt, Jobs& jobs) {
+    if (!arms_) return;
+    const bool is_first = skin_before_.empty();
+    if (arms_->look(cloth, {is_first ? skin_positions_ : skin_before_, skin_positions_, share}, dt, jobs))
+        cloth.set_mesh_mask(skin_mesh_, arms_->mask());
 }
 
 }  // namespace vfit

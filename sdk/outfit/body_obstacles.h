@@ -28,8 +28,8 @@ public:
     void select(std::span<const Mat4> matrices, std::vector<Collider>& colliders, Jobs& jobs);
     /// Moves the skin's mesh with these skinning matrices, one a rig bone.
     void move_skin(std::span<const Mat4> matrices, Cloth& cloth, Jobs& jobs);
-    /// After a step of dt.
-    void let_arms_pass(Cloth& cloth, float dt, Jobs& jobs);
+    /// With that share of the step behind the cloth, dt after the last time.
+    void let_arms_pass(Cloth& cloth, float share, float dt, Jobs& jobs);
 
 private:
     const Creases& creases_;
@@ -38,7 +38,7 @@ private:
     std::optional<PassingArms> arms_;  // none: all meet all
     std::optional<SkinCover> cover_;
     uint32_t skin_mesh_ = 0;
-    std::vector<Vec3> skin_positions_, cover_centers_;
+    std::vector<Vec3> skin_before_, skin_positions_, cover_centers_;
     Skin::Scratch scratch_;
 };
 

@@ -27,42 +27,45 @@ PassingArms::PassingArms(ArmFilter filter, std::span<const uint32_t> indices)
     }
 }
 
-bool PassingArms::meets(uint32_t vertex, Arm arm) const {
-    return (filter_.mask[vertex] & ArmFilter::category_of(arm)) != 0;
+/// It meets one arm, and other cloth both or none.
+bool PassingArms::is_sleeve(uint32_t vertex) const {
+    const auto meets = [&](Arm arm) { return (filter_.mask[vertex] & ArmFilter::category_of(arm)) != 0; };
+    return meets(Arm::left) != meets(Arm::right);
 }
 
-bool PassingArms::look(const Cloth& cloth, std::span<const Vec3> skin, float dt, Jobs& jobs) {
+bool PassingArms::look(const Cloth& cloth, const MovingSkin& skin, float dt, Jobs& jobs) {
     bool changes = false;
     for (const Arm arm : kArms) {
         OfArm& of = of_[size_t(arm)];
         of.for_s = of.passes ? of.for_s + dt : 0.0f;
-        const bool turns = of.passes ? of.for_s >= kShortest_s && is_free(cloth, skin, arm, jobs)
+        const bool turns = of.passes ? of.for_s >= kShortest_s && skin.share == 1.0f &&
+                                           is_free(cloth, skin.to, arm, jobs)
                                      : is_held(cloth, skin, arm);
         if (!turns) continue;
         of.passes = !of.passes, of.for_s = 0.0f;
         changes = true;
     }
     if (!changes) return false;
-    mask_ = filter_.mask;
-    for (const Arm arm : kArms) {
-        if (!passes(arm)) continue;
-        for (uint8_t& mask : mask_)
-            if (mask & ArmFilter::category_of(arm == Arm::left ? Arm::right : Arm::left))  // a sleeve meets one
-                mask &= uint8_t(~ArmFilter::category_of(arm));
-    }
+    uint8_t passing = 0;
+    for (const Arm arm : kArms)
+        if (passes(arm)) passing |= ArmFilter::category_of(arm);
+    for (size_t v = 0; v < mask_.size(); ++v)
+        mask_[v] = is_sleeve(uint32_t(v)) ? filter_.mask[v] : uint8_t(filter_.mask[v] & ~passing);
     return true;
 }
 
-bool PassingArms::is_held(const Cloth& cloth, std::span<const Vec3> skin, Arm arm) const {
+bool PassingArms::is_held(const Cloth& cloth, const MovingSkin& skin, Arm arm) const {
     const std::vector<DistanceConstraint>& edges = cloth.fabric().data().edges;
     const std::vector<float>& strains = cloth.edge_strain();
     const std::vector<Vec3>& places = cloth.positions();
     for (size_t i = 0; i < edges.size(); ++i) {
-        if (strains[i] <= kHeld || !meets(edges[i].a, arm)) continue;
+        if (strains[i] <= kHeld || is_sleeve(edges[i].a)) continue;
         const Vec3 &a = places[edges[i].a], &b = places[edges[i].b];
         for (const uint32_t v : of_[size_t(arm)].points) {
-            const float along = glm::clamp(glm::dot(skin[v] - a, b - a) / glm::dot(b - a, b - a), 0.0f, 1.0f);
-            if (glm::distance(skin[v], glm::mix(a, b, along)) < kBeside_m) return true;
+            const Vec3 point = skin.at(v);
+            const float along =
+                glm::clamp(glm::dot(point - a, b - a) / glm::dot(b - a, b - a), 0.0f, 1.0f);
+            if (glm::distance(point, glm::mix(a, b, along)) < kBeside_m) return true;
         }
     }
     return false;
@@ -78,7 +81,7 @@ bool PassingArms::is_free(const Cloth& cloth, std::span<const Vec3> skin, Arm ar
     cloth_->find_crossings(*of.triangles, crossed_, jobs);
     return std::none_of(crossed_.begin(), crossed_.end(), [&](const TrianglePair& pair) {
         const uint32_t* corners = &cloth.fabric().data().indices[3 * size_t(pair.first)];
-        return std::any_of(corners, corners + 3, [&](uint32_t v) { return meets(v, arm); });
+        return std::any_of(corners, corners + 3, [&](uint32_t v) { return !is_sleeve(v); });
     });
 }
 

@@ -21,9 +21,14 @@ public:
     PassingArms(ArmFilter filter, std::span<const uint32_t> indices);
 
     MeshFilter filter() const { return filter_.filter(); }
-    /// After a step of dt, in which the skin went to these places. True: another mask is to be met from the
-    /// next step on.
-    bool look(const Cloth& cloth, std::span<const Vec3> skin, float dt, Jobs& jobs);
+    /// On its way in a step, of which that share is over.
+    struct MovingSkin {
+        std::span<const Vec3> from, to;
+        float share;
+        Vec3 at(uint32_t v) const { return glm::mix(from[v], to[v], share); }
+    };
+    /// dt after the last time. True: another mask is to be met from now on.
+    bool look(const Cloth& cloth, const MovingSkin& skin, float dt, Jobs& jobs);
     /// One a vertex of the cloth. A sleeve always meets the arm in it.
     std::span<const uint8_t> mask() const { return mask_; }
     bool passes(Arm arm) const { return of_[size_t(arm)].passes; }
@@ -35,8 +40,8 @@ private:
         bool passes = false;
         float for_s = 0.0f;
     };
-    bool meets(uint32_t vertex, Arm arm) const;
-    bool is_held(const Cloth& cloth, std::span<const Vec3> skin, Arm arm) const;
+    bool is_sleeve(uint32_t vertex) const;
+    bool is_held(const Cloth& cloth, const MovingSkin& skin, Arm arm) const;
     bool is_free(const Cloth& cloth, std::span<const Vec3> skin, Arm arm, Jobs& jobs);
 
     ArmFilter filter_;

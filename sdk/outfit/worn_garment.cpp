@@ -99,8 +99,8 @@ void WornGarment::begin_step(float dt) {
 
 void WornGarment::step() {
     if (dt_ > 0.0f) carry_along(carried_);
-    cloth_.step(dt_, targets_, colliders_, jobs_);
-    obstacles_.let_arms_pass(cloth_, dt_, jobs_);
+    cloth_.step(dt_, targets_, colliders_, jobs_,
+                [this](float share, float dt) { obstacles_.let_arms_pass(cloth_, share, dt, jobs_); });
 }
 
 void WornGarment::carry_along(float fraction) {
