@@ -543,8 +543,8 @@ void Cloth::State::advance(float dt, int count, float damping, std::span<const V
         const int first = i * count / intervals, end = (i + 1) * count / intervals;
         const Interval interval{float(first) / float(count), float(end) / float(count)};
         if (intervals > 1) look_at(interval);
-        advance_interval(dt * float(end - first) / float(count), end - first, damping, interval, targets, jobs,
-                         interval_ended);
+        advance_interval(dt * float(end - first) / float(count), end - first, damping, interval, targets,
+                         jobs, interval_ended);
         rest_if_still(dt * float(end - first) / float(count), targets, skinned_targets);
     }
     std::copy(targets.begin(), targets.end(), previous_targets.begin());

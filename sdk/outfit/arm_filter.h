@@ -26,8 +26,8 @@ struct ArmFilter {
 };
 
 /// A sleeve meets the arm that is in it, not the other one. All other cloth meets both; without `hands` it
-/// meets neither. skin: the body part of each vertex of the skin. rest: the garment on the body at rest, whose
-/// left is +x; one a vertex.
+/// meets neither. skin: the body part of each vertex of the skin. rest: the garment on the body at rest,
+/// whose left is +x; one a vertex.
 ArmFilter arm_filter(std::span<const BodyPart> skin, const Garment& garment, std::span<const Vec3> rest,
                      bool hands);
 

@@ -38,9 +38,9 @@ bool PassingArms::look(const Cloth& cloth, const MovingSkin& skin, float dt, Job
     for (const Arm arm : kArms) {
         OfArm& of = of_[size_t(arm)];
         of.for_s = of.passes ? of.for_s + dt : 0.0f;
-        const bool turns = of.passes ? of.for_s >= kShortest_s && skin.share == 1.0f &&
-                                           is_free(cloth, skin.to, arm, jobs)
-                                     : is_held(cloth, skin, arm);
+        const bool turns =
+            of.passes ? of.for_s >= kShortest_s && skin.share == 1.0f && is_free(cloth, skin.to, arm, jobs)
+                      : is_held(cloth, skin, arm);
         if (!turns) continue;
         of.passes = !of.passes, of.for_s = 0.0f;
         changes = true;
@@ -63,8 +63,7 @@ bool PassingArms::is_held(const Cloth& cloth, const MovingSkin& skin, Arm arm) c
         const Vec3 &a = places[edges[i].a], &b = places[edges[i].b];
         for (const uint32_t v : of_[size_t(arm)].points) {
             const Vec3 point = skin.at(v);
-            const float along =
-                glm::clamp(glm::dot(point - a, b - a) / glm::dot(b - a, b - a), 0.0f, 1.0f);
+            const float along = glm::clamp(glm::dot(point - a, b - a) / glm::dot(b - a, b - a), 0.0f, 1.0f);
             if (glm::distance(point, glm::mix(a, b, along)) < kBeside_m) return true;
         }
     }
