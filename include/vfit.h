@@ -962,8 +962,9 @@ VFIT_API uint32_t vfit_garment_size_label(vfit_garment garment, uint32_t index, 
                                           uint32_t capacity);
 enum {
     VFIT_CLOTH_NO_HANDS = 1, /* hands and forearms pass through all but their own sleeve. Without it, they
-                              * meet all but the other arm's sleeve. On spheres and capsules, garments with
-                              * sleeves always keep both */
+                              * meet all but the other arm's sleeve; on the skin, an arm that stretches cloth
+                              * beyond 1.6 times its length passes until it is free of it. On spheres and
+                              * capsules, garments with sleeves always keep both */
     VFIT_CLOTH_SKIN = 2,     /* kept out of the avatar's skin itself, not of its spheres and capsules: closer,
                               * and slower */
     VFIT_CLOTH_AWAKE = 4,    /* stepped even where cloth and body have lain still for half a second */

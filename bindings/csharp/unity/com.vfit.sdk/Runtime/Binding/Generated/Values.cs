@@ -360,7 +360,9 @@ namespace Vfit
     {
         None = 0,
         /// <summary>hands and forearms pass through all but their own sleeve. Without it, they meet all but
-        /// the other arm's sleeve. On spheres and capsules, garments with sleeves always keep both</summary>
+        /// the other arm's sleeve; on the skin, an arm that stretches cloth beyond 1.6 times its length
+        /// passes until it is free of it. On spheres and capsules, garments with sleeves always keep
+        /// both</summary>
         NoHands = 1,
         /// <summary>kept out of the avatar's skin itself, not of its spheres and capsules: closer, and
         /// slower</summary>
