@@ -67,7 +67,7 @@ void check_device(RTCDevice device) {
 }
 
 /// Builds on the caller's thread alone. Embree would start threads of TBB, beside those that the host gives
-/// vfit to run on, and nobody waits for their end when the process exits.
+/// vfit to run on, and nothing waits for their end when the process exits.
 void commit(RTCScene scene) {
 #if VFIT_EMBREE_USES_TBB
     tbb::task_arena caller(1);
@@ -77,7 +77,8 @@ void commit(RTCScene scene) {
 #endif
 }
 
-/// Embree's own tasks take the number of threads from the device; TBB's would be bounded for the whole process.
+/// Embree's own tasks take the number of threads from the device; TBB's would be bounded for the whole
+/// process.
 constexpr const char* kDeviceSettings = VFIT_EMBREE_USES_TBB ? nullptr : "threads=1";
 
 }  // namespace

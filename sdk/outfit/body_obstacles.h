@@ -28,7 +28,7 @@ public:
     void select(std::span<const Mat4> matrices, std::vector<Collider>& colliders, Jobs& jobs);
     /// Moves the skin's mesh with these skinning matrices, one a rig bone.
     void move_skin(std::span<const Mat4> matrices, Cloth& cloth, Jobs& jobs);
-    /// With that share of the step behind the cloth, dt after the last time.
+    /// With that fraction of the step behind the cloth, dt after the last time.
     void let_arms_pass(Cloth& cloth, float share, float dt, Jobs& jobs);
 
 private:

@@ -21,7 +21,7 @@ public:
     PassingArms(ArmFilter filter, std::span<const uint32_t> indices);
 
     MeshFilter filter() const { return filter_.filter(); }
-    /// On its way in a step, of which that share is over.
+    /// On its way in a step, of which that fraction is over.
     struct MovingSkin {
         std::span<const Vec3> from, to;
         float share;

@@ -1,5 +1,6 @@
-// Looks for leaks when the last test has ended. At the process's exit, where AddressSanitizer looks by itself,
-// threads that libraries share (TBB's, for OpenCV) are just ending, and it reads their storage while it goes.
+// Looks for leaks when the last test has ended. At the process's exit, where AddressSanitizer looks by
+// itself, threads that libraries share (TBB's, for OpenCV) are just ending, and it reads their storage while
+// it goes.
 #include <gtest/gtest.h>
 #include <sanitizer/lsan_interface.h>
 
