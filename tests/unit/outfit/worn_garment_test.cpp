@@ -72,6 +72,26 @@ TEST_F(WornGarmentTest, AJumpOfTheBodyCarriesTheCloth) {
         << "a step like others: the cloth lags behind";
 }
 
+TEST_F(WornGarmentTest, SpeedThatIsGainedFromStepToStepIsNoJump) {
+    const WearableGarment dress = wearable("sundress");
+    WearOptions options;
+    options.cloth.carry_way_m = INFINITY;  // speed alone
+    const float step_m = 0.7f * kCarrySpeed_m_s / 60.0f;
+    for (const bool at_once : {true, false}) {
+        Person moves(VFIT_SEX_FEMALE), stays(VFIT_SEX_FEMALE);
+        WornGarment worn(dress, moves.wearer, options, *jobs), hangs(dress, stays.wearer, options, *jobs);
+        for (int i = 0; i < 10; ++i) step(worn), step(hangs);
+        if (!at_once) moves.stand_at({step_m, 0, 0}), step(worn), step(hangs);
+        const float before_m = distance_m(hangs, worn, Vec3(at_once ? 0.0f : step_m, 0, 0));
+        const Vec3 end((at_once ? 2.0f : 3.0f) * step_m, 0, 0);
+        moves.stand_at(end), step(worn), step(hangs);
+        if (at_once)
+            EXPECT_LT(distance_m(hangs, worn, end), 2e-3f) << "carried";
+        else
+            EXPECT_GT(distance_m(hangs, worn, end), before_m + 0.5f * step_m) << "it lags behind";
+    }
+}
+
 TEST_F(WornGarmentTest, BodyMotionIsFeltInTheGivenFraction) {
     const WearableGarment dress = wearable("sundress");
     Person moves(VFIT_SEX_FEMALE), stays(VFIT_SEX_FEMALE);

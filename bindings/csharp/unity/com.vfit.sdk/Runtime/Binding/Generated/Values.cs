@@ -1215,10 +1215,10 @@ namespace Vfit
         /// further from the next, 65,536 at most; 0.001..0.1; 0: none. For meshes coarser than a
         /// wrist</summary>
         public float VirtualM;
-        /// <summary>a step in which the bones move any part of the garment faster,</summary>
+        /// <summary>a step in which the fastest part of the garment, as the bones move it, gains</summary>
         public float CarrySpeedMS;
-        /// <summary>or all of it further, is a jump, as after vfit_cloth_teleport. 0: 6, and 0.06; &lt; 0: no
-        /// limit</summary>
+        /// <summary>more speed on the step before, or all of it goes further, is a jump, as after
+        /// vfit_cloth_teleport. 0: 6, and 0.06; &lt; 0: no limit</summary>
         public float CarryWayM;
     }
 
