@@ -68,4 +68,10 @@ void BodyObstacles::let_arms_pass(Cloth& cloth, float share, float dt, Jobs& job
         cloth.set_mesh_mask(skin_mesh_, arms_->mask());
 }
 
+void BodyObstacles::meet_arms(Cloth& cloth) {
+    if (!arms_) return;
+    arms_->meet_again();
+    cloth.set_mesh_mask(skin_mesh_, arms_->mask());
+}
+
 }  // namespace vfit

@@ -30,6 +30,8 @@ public:
     void move_skin(std::span<const Mat4> matrices, Cloth& cloth, Jobs& jobs);
     /// With that fraction of the step behind the cloth, dt after the last time.
     void let_arms_pass(Cloth& cloth, float share, float dt, Jobs& jobs);
+    /// Arms that passed meet the cloth, before it is put on.
+    void meet_arms(Cloth& cloth);
 
 private:
     const Creases& creases_;

@@ -27,10 +27,19 @@ PassingArms::PassingArms(ArmFilter filter, std::span<const uint32_t> indices)
     }
 }
 
+/// Unless it passes.
+bool PassingArms::meets(uint32_t vertex, Arm arm) const {
+    return (filter_.mask[vertex] & ArmFilter::category_of(arm)) != 0;
+}
+
 /// It meets one arm, and other cloth both or none.
 bool PassingArms::is_sleeve(uint32_t vertex) const {
-    const auto meets = [&](Arm arm) { return (filter_.mask[vertex] & ArmFilter::category_of(arm)) != 0; };
-    return meets(Arm::left) != meets(Arm::right);
+    return meets(vertex, Arm::left) != meets(vertex, Arm::right);
+}
+
+void PassingArms::meet_again() {
+    for (OfArm& of : of_) of.passes = false;
+    mask_ = filter_.mask;
 }
 
 bool PassingArms::look(const Cloth& cloth, const MovingSkin& skin, float dt, Jobs& jobs) {
@@ -59,7 +68,7 @@ bool PassingArms::is_held(const Cloth& cloth, const MovingSkin& skin, Arm arm) c
     const std::vector<float>& strains = cloth.edge_strain();
     const std::vector<Vec3>& places = cloth.positions();
     for (size_t i = 0; i < edges.size(); ++i) {
-        if (strains[i] <= kHeld || is_sleeve(edges[i].a)) continue;
+        if (strains[i] <= kHeld || !meets(edges[i].a, arm) || is_sleeve(edges[i].a)) continue;
         const Vec3 &a = places[edges[i].a], &b = places[edges[i].b];
         for (const uint32_t v : of_[size_t(arm)].points) {
             const Vec3 point = skin.at(v);

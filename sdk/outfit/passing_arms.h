@@ -29,6 +29,8 @@ public:
     };
     /// dt after the last time. True: another mask is to be met from now on.
     bool look(const Cloth& cloth, const MovingSkin& skin, float dt, Jobs& jobs);
+    /// Both arms are met from now on: the cloth was put on anew.
+    void meet_again();
     /// One a vertex of the cloth. A sleeve always meets the arm in it.
     std::span<const uint8_t> mask() const { return mask_; }
     bool passes(Arm arm) const { return of_[size_t(arm)].passes; }
@@ -40,6 +42,7 @@ private:
         bool passes = false;
         float for_s = 0.0f;
     };
+    bool meets(uint32_t vertex, Arm arm) const;
     bool is_sleeve(uint32_t vertex) const;
     bool is_held(const Cloth& cloth, const MovingSkin& skin, Arm arm) const;
     bool is_free(const Cloth& cloth, std::span<const Vec3> skin, Arm arm, Jobs& jobs);

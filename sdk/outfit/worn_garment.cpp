@@ -126,6 +126,7 @@ void WornGarment::put_on() {
     stand();
     std::vector<Mat4> matrices(avatar_pose().size());
     layers_.hide(cloth_);
+    obstacles_.meet_arms(cloth_);
     cloth_.put_on(
         [&](float share, std::vector<Vec3>& targets, std::vector<Collider>& colliders) {
             wearer_.avatar().while_dressing(share, matrices, colliders);

@@ -106,6 +106,26 @@ TEST_F(PassingArmsTest, MeetsItAgainOnceItIsFree) {
     EXPECT_GT(middle_z(), 0.02f);
 }
 
+TEST_F(PassingArmsTest, MeetsClothThatIsPutOnAnew) {
+    go_to(kBeyond_m, 10);
+    ASSERT_TRUE(arms_.passes(Arm::left));
+    ASSERT_NE(arms_.mask()[0], kOther);
+    arms_.meet_again();
+    EXPECT_FALSE(arms_.passes(Arm::left));
+    for (const uint8_t mask : arms_.mask()) ASSERT_EQ(mask, kOther);
+}
+
+class ArmOfNoHandsTest : public PassingArmsTest {
+protected:
+    ArmOfNoHandsTest() : PassingArmsTest(1) {}
+};
+
+TEST_F(ArmOfNoHandsTest, ThatMeetsNothingHoldsNothing) {
+    go_to(kBeyond_m, 10);
+    EXPECT_FALSE(arms_.passes(Arm::left));
+    EXPECT_LT(most_, 0.1f);
+}
+
 class ArmInSleeveTest : public PassingArmsTest {
 protected:
     ArmInSleeveTest() : PassingArmsTest(kSleeve) {}
