@@ -1273,6 +1273,14 @@ class RealRecordings(unittest.TestCase):
                 self.assertEqual(len(frames), len(list((recording / "depth").glob("*.png"))))
                 self.assertTrue(all(math.isfinite(x) for f in frames for x in numbers(f)))
 
+    def test_a_hand_that_hooks_behind_a_skirt_lets_it_go(self):
+        recording = next(r for r in RECORDINGS if "s1_walking" in r.name)
+        with tempfile.TemporaryDirectory() as folder:
+            dressed = ("--garment", "sundress", "--sex", "f")
+            result = document(self, "fit", recording, *dressed, "--draft", "--out", folder, "--json")
+        self.assertLess(result["worst_strain"]["strain"], 1.0, "held by the hand it comes to 4 or more")
+        self.assertFalse(result["torn"])
+
     def test_a_cut_picture_ends_with_its_name(self):
         with tempfile.TemporaryDirectory() as folder:
             copy = pathlib.Path(folder) / "rec"
