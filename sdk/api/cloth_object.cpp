@@ -1,8 +1,31 @@
 #include "api/cloth_object.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace vfit::api {
+
+/// A step's access to the props. Those that were destroyed are met no longer.
+class ClothObject::ReadingProps {
+public:
+    explicit ReadingProps(ClothObject& cloth) : readings_(cloth.prop_readings_) {
+        std::erase_if(cloth.props_, [&](const Ref<PropObject>& prop) {
+            return prop->is_destroyed && cloth.worn.pass(prop->prop);
+        });
+        try {
+            for (const Ref<PropObject>& prop : cloth.props_) readings_.emplace_back(prop->access, "prop");
+        } catch (...) {
+            readings_.clear();
+            throw;
+        }
+    }
+    ~ReadingProps() { readings_.clear(); }
+    ReadingProps(const ReadingProps&) = delete;
+    ReadingProps& operator=(const ReadingProps&) = delete;
+
+private:
+    std::vector<Reading>& readings_;
+};
 
 ClothObject::ClothObject(Ref<AvatarObject> avatar_object, Ref<GarmentObject> garment_object,
                          const WearOptions& options)
@@ -31,6 +54,7 @@ void ClothObject::begin_step(float dt) {
     if (stepping_) fail(VFIT_ERROR_STATE, "a step has begun already: end it first");
     if (!std::isfinite(dt) || dt < 0.0f) fail(VFIT_ERROR_ARGUMENT, "dt ", dt, " is no time");
     const Reading reading = read_avatar();
+    const ReadingProps props(*this);
     next_ = output.begin();
     see_layers();
     worn.begin_step(dt);
@@ -88,6 +112,21 @@ void ClothObject::reskin() {
     const Reading reading = read_avatar();
     Ref<Frame> frame = output.begin();
     publish(worn.reskin(), avatar->avatar.time_ns(), std::move(frame));
+}
+
+void ClothObject::meet(const Ref<PropObject>& prop) {
+    constexpr size_t kMostProps = 64;
+    require_no_step();
+    if (prop->context != context) fail(VFIT_ERROR_HANDLE, "cloth and prop belong to different contexts");
+    if (props_.size() == kMostProps && std::find(props_.begin(), props_.end(), prop) == props_.end())
+        fail(VFIT_ERROR_CAPACITY, "the cloth meets ", kMostProps, " props already");
+    props_.reserve(props_.size() + 1), prop_readings_.reserve(props_.size() + 1);
+    if (worn.meet(prop->prop)) props_.push_back(prop);
+}
+
+void ClothObject::pass(const Ref<PropObject>& prop) {
+    require_no_step();
+    if (worn.pass(prop->prop)) std::erase(props_, prop);
 }
 
 /// Where the last step of each layer left it.

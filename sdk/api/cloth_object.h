@@ -6,6 +6,7 @@
 #include "api/avatar_object.h"
 #include "api/garment_object.h"
 #include "api/mesh_frame.h"
+#include "api/prop_object.h"
 #include "core/jobs.h"
 #include "outfit/worn_garment.h"
 
@@ -38,6 +39,8 @@ struct ClothObject : ContextChild {
     /// Publishes the last finished step in the pose that the avatar has now.
     void reskin();
     void wear_over(const Ref<ClothObject>& inner);
+    void meet(const Ref<PropObject>& prop);
+    void pass(const Ref<PropObject>& prop);
 
     /// To one value a vertex that is drawn, of one a simulated vertex: copies have that of theirs.
     template <typename T, typename Convert>
@@ -49,11 +52,14 @@ struct ClothObject : ContextChild {
 private:
     Reading read_avatar() { return {avatar->access, "avatar"}; }
     void see_layers();
+    class ReadingProps;
     void read_below(const ClothObject& end, std::vector<Reading>& readings) const;
     void publish_step();
     void publish(const FinishedStep::Reskinned& mesh, int64_t time_ns, Ref<Frame> frame);
 
     std::vector<Ref<ClothObject>> below_;  // the layers of `worn`
+    std::vector<Ref<PropObject>> props_;   // that `worn` meets
+    std::vector<Reading> prop_readings_;   // room for those of a call
     bool stepping_ = false;                // between start_step and finish_step
     Ref<Frame> next_;                      // of the step that has begun
     Jobs::Later later_;

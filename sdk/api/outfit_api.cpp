@@ -19,12 +19,13 @@ vfit_crossing crossing_of(const SurfaceCrossing& found) {
     vfit_crossing out{};
     out.kind = found.with == With::itself ? VFIT_CROSSING_SELF
                : found.with == With::skin ? VFIT_CROSSING_SKIN
+               : found.with == With::prop ? VFIT_CROSSING_PROP
                                           : VFIT_CROSSING_CLOTH;
     out.cloth = found.garment;
     out.other = found.other;
     out.pair_count = found.pair_count;
     out.triangle = found.first.first;
-    out.other_triangle = found.first.second;
+    out.other_triangle = found.with == With::prop ? 0 : found.first.second;  // which the host did not give
     return out;
 }
 

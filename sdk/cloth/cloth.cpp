@@ -190,7 +190,7 @@ struct Cloth::State {
     void look_at(const Interval& interval);
     void skip_targets(std::span<const Vec3> targets);
     float body_way() const;
-    float way_within_body() const;
+    float way_within_solids() const;
     int substeps_for(float dt) const;
     int affordable(int wanted) const;
     std::span<const Vec3> held_at(std::span<const Vec3> targets);
@@ -203,6 +203,7 @@ struct Cloth::State {
     void rest_if_still(float dt, std::span<const Vec3> held, std::span<const Vec3> targets);
     TriangleGroups& triangles_now(std::span<const Vec3> places, Jobs& jobs);
     void meet_triangles(const ContactMesh& mesh);
+    void find_triangles();
     void part_layers(Jobs& jobs);
     void keep_layers(float dt, Jobs& jobs);
     void lift_off_cloth(Jobs& jobs);
@@ -238,13 +239,11 @@ Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings
     for (const DistanceConstraint& e : data.edges)
         for (uint32_t v : {e.a, e.b}) s.inverse_edge_count[v] += 1.0f;
     for (float& count : s.inverse_edge_count) count = count > 0.0f ? 1.0f / count : 0.0f;
-    if (settings.self_thickness_m > 0.0f) {
-        if (like)
-            s.triangles.emplace(*like, fabric, jobs);
-        else
-            s.triangles.emplace(fabric, settings.self_thickness_m, start.first(n), jobs);
-        s.before.resize(n), s.now.resize(n);
-    }
+    if (like)
+        s.triangles.emplace(*like, fabric, jobs);
+    else if (settings.self_thickness_m > 0.0f)
+        s.triangles.emplace(fabric, settings.self_thickness_m, start.first(n), jobs);
+    if (s.triangles) s.before.resize(n), s.now.resize(n);
     reset(start);
 }
 
@@ -346,6 +345,20 @@ uint32_t Cloth::add_mesh(size_t vertices, std::span<const uint32_t> indices, std
     state_->meet_triangles(state_->meshes.back());
     state_->wake();
     return uint32_t(state_->meshes.size()) - 1;
+}
+
+void Cloth::replace_mesh(uint32_t mesh, size_t vertices, std::span<const uint32_t> indices, MeshOf what) {
+    State& s = *state_;
+    if (mesh >= s.meshes.size()) fail(VFIT_ERROR_ARGUMENT, "there is no mesh ", mesh);
+    s.meshes[mesh] = ContactMesh(vertices, indices, {}, what);
+    s.mesh_places[mesh].clear();
+    s.solver.forget_mesh(mesh);
+    if (s.triangles) s.find_triangles();
+    s.wake();
+}
+
+void Cloth::meet_edges() {
+    if (!state_->triangles) state_->find_triangles();
 }
 
 void Cloth::move_mesh(uint32_t mesh, std::span<const Vec3> positions) {
@@ -501,18 +514,20 @@ bool Cloth::State::stays_asleep(std::span<const Vec3> targets) const {
     return !asleep_at.empty() && body_way() <= kStill_m && farthest(asleep_at, targets) <= kStill_m;
 }
 
-/// Of the parts of a solid against each other in this step, at most.
-float Cloth::State::way_within_body() const {
-    float most = 0.0f;
+/// Of the parts of solids against each other in this step, at most: what all of them go together is none.
+float Cloth::State::way_within_solids() const {
+    Bounds ways;
     for (const ContactMesh& mesh : meshes)
-        if (mesh.what() == MeshOf::solid) most = std::max(most, mesh.way_within());
-    return most;
+        if (!is_cloth(mesh.what())) ways.add(mesh.ways());
+    if (ways.low.x > ways.high.x) return 0.0f;  // no solid is near
+    if (colliders.count() > 0) ways.add(colliders.ways());
+    return glm::length(ways.high - ways.low);
 }
 
 int Cloth::State::substeps_for(float dt) const {
     const float own = dt * kSubstepRate_hz * float(settings.substeps);
     return std::max(
-        1, int(std::lround(std::clamp(way_within_body() / kSubstepWay_m, own, kMaxSubstepFactor * own))));
+        1, int(std::lround(std::clamp(way_within_solids() / kSubstepWay_m, own, kMaxSubstepFactor * own))));
 }
 
 /// Of so many, those that are expected to be done within the budget; at least one.
@@ -529,7 +544,7 @@ void Cloth::State::check_body(std::span<const Vec3> targets, std::span<const Col
 /// The body has been met.
 void Cloth::State::advance(float dt, int count, float damping, std::span<const Vec3> skinned_targets,
                            Jobs& jobs, const IntervalEnded& interval_ended) {
-    const float by_way = std::min(way_within_body() / kIntervalWay_m, float(count / kMinSubsteps)),
+    const float by_way = std::min(way_within_solids() / kIntervalWay_m, float(count / kMinSubsteps)),
                 parts = std::max(dt * kMinContactRate_hz - 1e-3f, by_way);
     const int intervals = meshes.empty() ? 1 : std::clamp(int(std::ceil(parts)), 1, count);
     if (triangles && std::exchange(is_deformed, false)) part_layers(jobs);
@@ -598,6 +613,18 @@ void Cloth::State::meet_triangles(const ContactMesh& mesh) {
                         mesh.filter());
 }
 
+/// Anew, of the meshes as they are.
+void Cloth::State::find_triangles() {
+    before.resize(positions.size()), now.resize(positions.size());
+    triangles.emplace(fabric, settings.self_thickness_m, positions);
+    for (uint32_t i = 0; i < meshes.size(); ++i) {
+        meet_triangles(meshes[i]);
+        if (!mesh_places[i].empty()) triangles->move_mesh(i, mesh_places[i]);
+    }
+    triangles->arrive();
+    contacts_known = certified = false;
+}
+
 void Cloth::State::part_layers(Jobs& jobs) {
     if (!triangles) return;
     solver.copy_positions(now);
@@ -611,7 +638,7 @@ void Cloth::State::part_layers(Jobs& jobs) {
 
 void Cloth::State::keep_layers(float dt, Jobs& jobs) {
     now = positions;
-    certified = triangles->keep(before, now, jobs);
+    certified = triangles->keep(before, now, jobs) && settings.self_thickness_m > 0.0f;
     for (const uint32_t v : triangles->moved()) {
         const uint32_t particle = fabric->layout().particle_of[v];
         const Vec3 way = triangles->is_in_zone(v) ? now[v] - before[v] : now[v] - solver.places()[particle].x,
@@ -630,9 +657,8 @@ void Cloth::State::lift_off_cloth(Jobs& jobs) {
 }
 
 void Cloth::State::yield_to_cloth() {
-    if (!settings.yields || std::none_of(meshes.begin(), meshes.end(), [](const ContactMesh& mesh) {
-            return mesh.what() != MeshOf::solid;
-        }))
+    if (!settings.yields || std::none_of(meshes.begin(), meshes.end(),
+                                         [](const ContactMesh& mesh) { return is_cloth(mesh.what()); }))
         return;
     if (!yield) yield.emplace(fabric);
     find_strains();

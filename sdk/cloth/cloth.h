@@ -123,6 +123,10 @@ public:
     uint32_t add_mesh(size_t vertices, std::span<const uint32_t> indices,
                       std::span<const uint8_t> counts = {}, MeshOf what = MeshOf::solid,
                       const MeshFilter& filter = {});
+    /// Another one in the place of a mesh, hidden until it is moved.
+    void replace_mesh(uint32_t mesh, size_t vertices, std::span<const uint32_t> indices, MeshOf what);
+    /// From now on edges meet those of meshes, as they do with own layers. Without, vertices alone meet them.
+    void meet_edges();
     /// At the end of the next step, one a vertex. VFIT_ERROR_ARGUMENT for a wrong number or count.
     void move_mesh(uint32_t mesh, std::span<const Vec3> positions);
     /// It is not there until it is moved again.

@@ -21,7 +21,8 @@ enum class Kind : uint8_t {
     avatar,
     garment,
     cloth,
-    recorder
+    recorder,
+    prop
 };
 
 const char* kind_name(Kind kind);

@@ -21,6 +21,13 @@ MeshView mesh_of(const WornGarment& garment) {
     return {garment.finished().positions(), garment.dress().indices()};
 }
 
+/// Without triangles where it was not there yet in that step.
+MeshView prop_of(const WornGarment& garment, size_t prop) {
+    const PropsMet& props = garment.props();
+    if (props.positions(prop).empty()) return {};
+    return {props.positions(prop), props.indices(prop)};
+}
+
 /// Posed for each garment: cloths may have been stepped in different poses.
 std::vector<std::vector<Vec3>> posed_skins(std::span<const WornGarment* const> outfit, Jobs& jobs) {
     std::vector<std::vector<Vec3>> skins;
@@ -40,15 +47,23 @@ std::vector<SurfaceCrossing> find_crossings(std::span<const WornGarment* const> 
         surfaces.push_back({With::itself, i, i, 0, {}});
         surfaces.push_back({With::skin, i, i, 0, {}});
         for (uint32_t k = i + 1; k < outfit.size(); ++k) surfaces.push_back({With::garment, i, k, 0, {}});
+        for (uint32_t k = 0; k < outfit[i]->props().count(); ++k)
+            surfaces.push_back({With::prop, i, k, 0, {}});
     }
     parallel_for(jobs, uint32_t(surfaces.size()), [&](uint32_t at) {
         SurfaceCrossing& s = surfaces[at];
         const MeshView mesh = mesh_of(*outfit[s.garment]);
-        const std::vector<TrianglePair> pairs =
-            s.with == With::itself ? crossed_triangles(mesh.positions, mesh.indices)
-            : s.with == With::skin
-                ? crossed_triangles(mesh, {skins[s.garment], outfit[s.garment]->wearer().indices()})
-                : crossed_triangles(mesh, mesh_of(*outfit[s.other]));
+        const auto pairs_of = [&]() -> std::vector<TrianglePair> {
+            switch (s.with) {
+                case With::itself: return crossed_triangles(mesh.positions, mesh.indices);
+                case With::skin:
+                    return crossed_triangles(mesh, {skins[s.garment], outfit[s.garment]->wearer().indices()});
+                case With::garment: return crossed_triangles(mesh, mesh_of(*outfit[s.other]));
+                case With::prop: return crossed_triangles(mesh, prop_of(*outfit[s.garment], s.other));
+            }
+            return {};
+        };
+        const std::vector<TrianglePair> pairs = pairs_of();
         s.pair_count = uint32_t(pairs.size());
         if (!pairs.empty()) s.first = *std::min_element(pairs.begin(), pairs.end());
     });

@@ -13,17 +13,18 @@ namespace vfit {
 
 /// Two surfaces of which triangles cross.
 struct SurfaceCrossing {
-    enum class With : uint8_t { itself, skin, garment };
+    enum class With : uint8_t { itself, skin, garment, prop };
     With with;
-    uint32_t garment, other;  // numbers in the outfit; other: of With::garment, else as garment
+    uint32_t garment, other;  // numbers in the outfit; other: of With::garment or among the garment's props,
+                              // else as garment
     uint32_t pair_count;      // of triangles
     TrianglePair first;       // a triangle of the garment, one of the other surface
 };
 
 /// Of the last finished steps. Every pair of triangles is tested, except pairs that share a vertex: an empty
-/// list proves that none cross. By garment: with itself, with the skin, with later garments. The skin is that
-/// of the pose of the garment's step. VFIT_ERROR_ARGUMENT where a garment is named twice, or garments are
-/// worn by several bodies.
+/// list proves that none cross. By garment: with itself, with the skin, with later garments, with its props.
+/// The skin is that of the pose of the garment's step. VFIT_ERROR_ARGUMENT where a garment is named twice, or
+/// garments are worn by several bodies.
 std::vector<SurfaceCrossing> find_crossings(std::span<const WornGarment* const> outfit, Jobs& jobs);
 
 }  // namespace vfit

@@ -87,6 +87,7 @@ void WornGarment::begin_step(float dt) {
     obstacles_.select(avatar_pose(), colliders_, jobs_);
     obstacles_.move_skin(avatar_pose(), cloth_, jobs_);
     layers_.move(cloth_);
+    props_.move(avatar_pose().front(), dt, cloth_);
     time_ns_ = avatar.time_ns();
     dt_ = dt;
     if (dt == 0.0f) return;  // the cloth stays where the step before left it
@@ -126,6 +127,7 @@ void WornGarment::put_on() {
     stand();
     std::vector<Mat4> matrices(avatar_pose().size());
     layers_.hide(cloth_);
+    props_.hide(cloth_);
     obstacles_.meet_arms(cloth_);
     cloth_.put_on(
         [&](float share, std::vector<Vec3>& targets, std::vector<Collider>& colliders) {
@@ -209,6 +211,11 @@ void WornGarment::set_wind(const Vec3& wind_m_s) {
 
 FinishedStep::Reskinned WornGarment::reskin() {
     return finished_.reskin(dress_.carry(), avatar_pose(), jobs_);
+}
+
+void WornGarment::keep_step() {
+    finished_.keep(cloth_, pose_, time_ns_, settings_.pressure);
+    props_.keep_step();
 }
 
 UnposedGarment WornGarment::unposed(std::span<const Vec3> positions) const {

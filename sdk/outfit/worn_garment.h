@@ -14,6 +14,7 @@
 #include "outfit/finished_step.h"
 #include "outfit/garment_fit.h"
 #include "outfit/layers_below.h"
+#include "outfit/props_met.h"
 #include "outfit/size_choice.h"
 #include "outfit/wear_options.h"
 #include "outfit/wearable_garment.h"
@@ -40,7 +41,13 @@ public:
     /// A layer has been stepped to there, one position a vertex: before each step, put_on and change_to.
     void see_layer(size_t layer, std::span<const Vec3> positions) { layers_.see(layer, positions); }
 
-    /// Takes the avatar's pose and the layers, dt after those of the last step. 0: nothing moves.
+    /// From the next step on this stays outside of a prop, which must outlive that. False: it did so before.
+    bool meet(const Prop& prop) { return props_.add(prop, cloth_); }
+    /// No longer. False: it did not.
+    bool pass(const Prop& prop) { return props_.remove(prop, cloth_); }
+    const PropsMet& props() const { return props_; }
+
+    /// Takes the avatar's pose, the props and the layers, dt after those of the last step. 0: nothing moves.
     void begin_step(float dt);
     void step();
     void end_step() { keep_step(); }
@@ -108,7 +115,7 @@ private:
     void start_with_legs_apart();
     void come_to_lengths(bool is_new);
     void let_layers_grow();
-    void keep_step() { finished_.keep(cloth_, pose_, time_ns_, settings_.pressure); }
+    void keep_step();
     UnposedGarment unposed(std::span<const Vec3> positions) const;
 
     const WearableGarment& garment_;
@@ -124,6 +131,7 @@ private:
     BodyJump body_;
     BodyObstacles obstacles_;
     LayersBelow layers_;
+    PropsMet props_;
     Dress::Scratch scratch_;
     std::vector<Vec3> targets_;
     std::vector<Collider> colliders_;

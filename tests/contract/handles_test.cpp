@@ -24,6 +24,7 @@ vfit_cloth cloth_out;
 vfit_garment garment_out;
 vfit_size_chart chart_out;
 vfit_recorder recorder_out;
+vfit_prop prop_out;
 uint32_t count;
 uint64_t changes;
 int64_t time_ns;
@@ -162,6 +163,25 @@ std::vector<Call> calls() {
          }},
         {"cloth_set_quality", [](uint64_t h) { return vfit_cloth_set_quality({h}, 8, 0.0f); }},
         {"cloth_wear_over", [](uint64_t h) { return vfit_cloth_wear_over({h}, {h}); }},
+        {"prop_create",
+         [](uint64_t h) {
+             vfit_prop_desc d = vfit_prop_desc_init();
+             d.size[0] = 0.1f;
+             return vfit_prop_create({h}, &d, &prop_out);
+         }},
+        {"prop_destroy", [](uint64_t h) { return vfit_prop_destroy({h}); }},
+        {"prop_move",
+         [](uint64_t h) {
+             static constexpr float kAt[4] = {0.0f, 0.0f, 0.0f, 1.0f};
+             return vfit_prop_move({h}, kAt, kAt);
+         }},
+        {"prop_deform",
+         [](uint64_t h) {
+             static constexpr float kAt[3] = {0.0f, 0.0f, 0.0f};
+             return vfit_prop_deform({h}, kAt, 1);
+         }},
+        {"cloth_add_prop", [](uint64_t h) { return vfit_cloth_add_prop({h}, {h}); }},
+        {"cloth_remove_prop", [](uint64_t h) { return vfit_cloth_remove_prop({h}, {h}); }},
         {"cloth_hide_skin",
          [](uint64_t h) {
              static uint8_t hidden[1];

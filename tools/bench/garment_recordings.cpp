@@ -4,8 +4,10 @@
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
+#include <optional>
 
 #include "bench/bench.h"
+#include "bench/carried_props.h"
 #include "bench/limb_cover.h"
 #include "bench/targets.h"
 #include "bench/welded.h"
@@ -26,8 +28,9 @@ constexpr float kAround = 0.5f;  // turns about a limb: fewer are none
 
 /// The worst of all frames of one garment on one recording.
 struct Worst {
-    size_t frames = 0, with_skin = 0, with_self = 0, with_layers = 0, off_limb = 0;  // frames that have any
-    size_t skin_pairs = 0, self_pairs = 0;                                           // in the worst frame
+    size_t frames = 0, with_skin = 0, with_self = 0, with_layers = 0, with_props = 0,
+           off_limb = 0;                    // frames that have any
+    size_t skin_pairs = 0, self_pairs = 0;  // in the worst frame
     float strain_max = 0.0f, strain_p99 = 0.0f;
     double at_s = 0.0;  // of strain_max
 };
@@ -42,7 +45,7 @@ public:
     WornOutfit& outfit() { return outfit_; }
     const std::vector<RenderMesh>& worst_meshes() const { return worst_meshes_; }
 
-    void look(const Welded& skin, double time_s, bool pictures) {
+    void look(const Welded& skin, double time_s, bool pictures, bool props) {
         std::vector<Welded> layers;
         for (const vfit_cloth cloth : outfit_.cloths()) layers.push_back(mesh_of(cloth));
         std::vector<std::vector<float>> turns;
@@ -58,6 +61,7 @@ public:
         }
         worst_.with_skin += with_skin > 0, worst_.with_self += with_self > 0;
         worst_.with_layers += with_layers > 0;
+        if (props) worst_.with_props += prop_crossings(outfit_.cloths()) > 0;
         worst_.skin_pairs = std::max(worst_.skin_pairs, with_skin);
         worst_.self_pairs = std::max(worst_.self_pairs, with_self);
         bool off = false;
@@ -89,6 +93,7 @@ Json json_of(const Worst& w) {
             {"frames_crossing_skin", w.with_skin},
             {"frames_crossing_self", w.with_self},
             {"frames_crossing_layers", w.with_layers},
+            {"frames_crossing_props", w.with_props},
             {"frames_off_limb", w.off_limb},
             {"skin_pairs_worst", w.skin_pairs},
             {"self_pairs_worst", w.self_pairs},
@@ -103,7 +108,8 @@ void say(const std::string& recording, const std::string& garment, const Worst& 
               << " at " << w.at_s << " s, p99 " << w.strain_p99 << "; frames " << std::setw(3) << w.frames
               << ": skin " << std::setw(3) << w.with_skin << " (" << w.skin_pairs << ") self " << std::setw(3)
               << w.with_self << " (" << w.self_pairs << ") layers " << std::setw(3) << w.with_layers
-              << " off limb " << std::setw(3) << w.off_limb << std::endl;
+              << " props " << std::setw(3) << w.with_props << " off limb " << std::setw(3) << w.off_limb
+              << std::endl;
 }
 
 std::vector<std::filesystem::path> recordings_in(const RecordingsOptions& options) {
@@ -123,7 +129,7 @@ void judge_recordings(const RecordingsOptions& options) {
     if (!options.pictures.empty()) create_folder(options.pictures);
     Json rows = Json::array();
     Samples strain_max, strain_p99;
-    size_t skin = 0, self = 0, layers = 0, off = 0, frames = 0;
+    size_t skin = 0, self = 0, layers = 0, props = 0, off = 0, frames = 0;
     for (const auto& path : recordings_in(options)) {
         const Context context = open_context();
         const std::vector<std::string> names = options.garment.empty()
@@ -145,15 +151,21 @@ void judge_recordings(const RecordingsOptions& options) {
             desc.carry_speed_m_s = options.carry_speed_m_s, desc.carry_way_m = options.carry_way_m;
             judges.push_back(std::make_unique<WornJudge>(context.get(), fitting.avatar(), name, desc));
         }
+        std::optional<CarriedProps> carried;
+        if (options.props) {
+            carried.emplace(context.get());
+            for (const auto& judge : judges) carried->add_to(judge->outfit().cloths());
+        }
         double last_s = -1.0;
         fitting.play([&](vfit_frame, double time_s) {
             const Welded skin_now = mesh_of(fitting.avatar());
+            if (carried) carried->move(fitting.avatar(), time_s);
             for (const auto& judge : judges) {
                 if (last_s < 0.0)
                     judge->outfit().reset();
                 else
                     judge->outfit().step(float(time_s - last_s));
-                judge->look(skin_now, time_s, !options.pictures.empty());
+                judge->look(skin_now, time_s, !options.pictures.empty(), options.props);
             }
             last_s = time_s;
             return true;
@@ -167,7 +179,7 @@ void judge_recordings(const RecordingsOptions& options) {
             rows.push_back(std::move(row));
             if (!options.json) say(recording, judge->names(), w);
             frames += w.frames, skin += w.with_skin, self += w.with_self, layers += w.with_layers;
-            off += w.off_limb;
+            props += w.with_props, off += w.off_limb;
             strain_max.add(w.strain_max), strain_p99.add(w.strain_p99);
             if (judge->worst_meshes().empty()) continue;
             constexpr PortraitStyle kStyle{300, 450, 1};
@@ -196,6 +208,8 @@ void judge_recordings(const RecordingsOptions& options) {
     targets.judge("frames in which cloth crosses the skin", double(skin), Aim::exactly, 0.0);
     targets.judge("frames in which cloth crosses itself", double(self), Aim::exactly, 0.0);
     targets.judge("frames in which layers cross", double(layers), Aim::exactly, 0.0);
+    if (options.props)
+        targets.judge("frames in which cloth crosses a prop", double(props), Aim::exactly, 0.0);
     targets.judge("frames with a sleeve or leg off its limb", double(off), Aim::exactly, 0.0);
     targets.judge("strain_max, worst", strain_max.quantile(1.0), Aim::at_most, 0.6, 2);
     targets.judge("strain_p99, worst", strain_p99.quantile(1.0), Aim::at_most, 0.2, 2);

@@ -12,6 +12,7 @@ struct RecordingsOptions {
     std::string pictures;      // folder for a sheet of each recording; empty: none
     bool hands = true;         // push the garments, as with vfit fit --hands
     bool own_tracker = false;  // instead of the recording's joints
+    bool props = false;        // a scabbard, a backpack and a ball that circles (vfit's own)
     float carry_speed_m_s = 0.0f, carry_way_m = 0.0f;  // of vfit_cloth_desc
     int substeps = 0;                                  // 0: the library's default
     bool json = false;

@@ -388,6 +388,8 @@ void add_garments(Command& app) {
                      "With --recordings: joints by vfit instead of the recording's");
     command.add_flag("--hands,!--no-hands", real->hands,
                      "With --recordings: hands push the garments (default)");
+    command.add_flag("--props", real->props,
+                     "With --recordings: a scabbard at the hip, a backpack, and a ball that circles");
     command.add_option("--substeps", real->substeps, "With --recordings: sub-steps per 1/60 s")
         .within(1, 256);
     auto jumps = std::make_shared<JumpsOptions>();

@@ -1,4 +1,5 @@
 // The whole chain on a recording: scan, size, avatar, motion, cloth, buffers.
+using System;
 using System.IO;
 using System.Linq;
 using NUnit.Framework;
@@ -101,6 +102,46 @@ namespace Vfit.Tests
                 Assert.That(Cloth.CheckOutfit(inner).Select(c => c.Kind), Has.No.Member(CrossingKind.Cloth));
                 Assert.Throws<VfitException>(() => Cloth.CheckOutfit());
                 Assert.Throws<VfitException>(() => Cloth.CheckOutfit(inner, inner));
+            }
+        }
+
+        [Test]
+        public void ClothStaysOutsideOfProps()
+        {
+            using (Avatar avatar = Support.MakeAvatar(Context))
+            using (Garment garment = Garment.Open(Context, "sundress"))
+            using (var cloth = new Cloth(avatar, garment))
+            using (Prop ball = Prop.Sphere(Context, 0.2f))
+            using (Prop box = Prop.Box(Context, new Float3(0.1f, 0.1f, 0.1f)))
+            using (Prop rod = Prop.Capsule(Context, 0.02f, 0.3f))
+            {
+                cloth.Step(1 / 60f);
+                ulong alone = cloth.StateHash();
+                foreach (Prop prop in new[] { ball, box, rod })
+                {
+                    prop.Move(new Float3(0.3f, 0.6f, 0), new Float4(0, 0, 0, 1));
+                    cloth.AddProp(prop);
+                }
+                cloth.RemoveProp(rod);
+                for (int i = 0; i < 30; i++) cloth.Step(1 / 60f);
+                Assert.AreNotEqual(alone, cloth.StateHash());
+                Assert.That(Cloth.CheckOutfit(cloth).Select(c => c.Kind), Has.No.Member(CrossingKind.Prop));
+
+                var corners = new[]
+                {
+                    new Float3(0, 0, 0), new Float3(0.1f, 0, 0), new Float3(0, 0.1f, 0), new Float3(0, 0, 0.1f)
+                };
+                var outside = new uint[] { 0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3 };
+                var inside = new uint[] { 0, 1, 2, 0, 3, 1, 1, 3, 2, 2, 3, 0 };
+                using (Prop mesh = Prop.Mesh(Context, corners, outside))
+                {
+                    mesh.Deform(corners);
+                    Assert.Throws<VfitException>(() => mesh.Deform(new Float3[3]));
+                }
+                Assert.Throws<VfitException>(() => Prop.Mesh(Context, corners, inside));
+                Assert.Throws<ArgumentNullException>(() => Prop.Mesh(Context, null, outside));
+                ball.Dispose();
+                cloth.Step(1 / 60f);
             }
         }
 

@@ -1,6 +1,7 @@
 // Garment and Cloth: a garment on an avatar, simulated.
 #include <array>
 #include <limits>
+#include <set>
 
 #include "avatar.h"
 #include "context.h"
@@ -15,11 +16,50 @@ public:
     using Owned::Owned;
 };
 
+class Prop : public Owned<vfit_prop, vfit_prop_destroy> {
+public:
+    using Owned::Owned;
+};
+
 class Cloth : public Owned<vfit_cloth, vfit_cloth_destroy> {
 public:
     using Owned::Owned;
     vfit_avatar wearer{};
+    std::set<std::shared_ptr<Prop>> props;  // are there as long as it meets them
 };
+
+using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
+using Indices = py::array_t<uint32_t, py::array::c_style | py::array::forcecast>;
+
+std::shared_ptr<Prop> create_prop(const Context& context, const vfit_prop_desc& desc) {
+    vfit_prop handle{};
+    run([&, h = context.handle()] { return vfit_prop_create(h, &desc, &handle); });
+    return make<Prop>(context.core(), handle);
+}
+
+std::shared_ptr<Prop> create_shape(const Context& context, vfit_prop_shape shape,
+                                   const std::array<float, 3>& size) {
+    vfit_prop_desc desc = vfit_prop_desc_init();
+    desc.shape = shape;
+    std::copy(size.begin(), size.end(), desc.size);
+    return create_prop(context, desc);
+}
+
+uint32_t rows_of_three(const py::array& values, const char* name) {
+    if (values.ndim() != 2 || values.shape(1) != 3)
+        throw py::value_error(std::string(name) + " must have the shape (n, 3)");
+    return uint32_t(values.shape(0));
+}
+
+std::shared_ptr<Prop> create_mesh(const Context& context, const Floats& positions, const Indices& triangles) {
+    vfit_prop_desc desc = vfit_prop_desc_init();
+    desc.shape = VFIT_PROP_MESH;
+    desc.vertex_count = rows_of_three(positions, "positions");
+    desc.positions = positions.data();
+    desc.index_count = 3 * rows_of_three(triangles, "triangles");
+    desc.indices = triangles.data();
+    return create_prop(context, desc);
+}
 
 std::shared_ptr<Garment> open(const Context& context, const std::string& name) {
     vfit_garment handle{};
@@ -165,7 +205,8 @@ py::list outfit_check(const std::vector<std::shared_ptr<Cloth>>& cloths) {
     std::vector<vfit_cloth> handles;
     for (const auto& cloth : cloths) handles.push_back(cloth->get());
     const auto n = uint32_t(handles.size());
-    uint32_t count = n * (n + 3) / 2;  // one for each pair of surfaces
+    constexpr uint32_t kProps = 64;                 // of a cloth, at most
+    uint32_t count = n * (n + 3) / 2 + n * kProps;  // one for each pair of surfaces
     std::vector<vfit_crossing> items(count);
     run([&] { return vfit_outfit_check(handles.data(), n, items.data(), sizeof(vfit_crossing), &count); });
     py::list out;
@@ -173,6 +214,7 @@ py::list outfit_check(const std::vector<std::shared_ptr<Cloth>>& cloths) {
         const vfit_crossing& c = items[i];
         const char* kind = c.kind == VFIT_CROSSING_SELF   ? "self"
                            : c.kind == VFIT_CROSSING_SKIN ? "skin"
+                           : c.kind == VFIT_CROSSING_PROP ? "prop"
                                                           : "cloth";
         out.append(value("Crossing", kind, c.cloth, c.other, c.pair_count, c.triangle, c.other_triangle));
     }
@@ -193,6 +235,46 @@ void bind_cloth(py::module_& m) {
             .def_static("load", &load, "context"_a, "json"_a, "A garment of your own, as JSON text.")
             .def_property_readonly("info", &info)
             .def_property_readonly("parts", &parts, "Triangles by their look."));
+    closable(
+        py::class_<Prop, std::shared_ptr<Prop>>(
+            m, "Prop", "A solid beside a body that cloth stays outside of: a chair, a weapon, a bag, hair.")
+            .def_static(
+                "sphere",
+                [](const Context& c, float radius) {
+                    return create_shape(c, VFIT_PROP_SPHERE, {radius, 0.0f, 0.0f});
+                },
+                "context"_a, "radius"_a)
+            .def_static(
+                "capsule",
+                [](const Context& c, float radius, float half_length) {
+                    return create_shape(c, VFIT_PROP_CAPSULE, {radius, half_length, 0.0f});
+                },
+                "context"_a, "radius"_a, "half_length"_a,
+                "half_length: from the middle to each of the two centres, along the up axis.")
+            .def_static(
+                "box",
+                [](const Context& c, const std::array<float, 3>& half) {
+                    return create_shape(c, VFIT_PROP_BOX, half);
+                },
+                "context"_a, "half"_a, "half: of each edge.")
+            .def_static("mesh", &create_mesh, "context"_a, "positions"_a, "triangles"_a,
+                        "positions: (n, 3). triangles: (m, 3), wound as those of a frame.")
+            .def(
+                "move",
+                [](const Prop& p, const std::array<float, 3>& position,
+                   const std::array<float, 4>& rotation) {
+                    run([&, h = p.get()] { return vfit_prop_move(h, position.data(), rotation.data()); });
+                },
+                "position"_a, "rotation"_a = std::array<float, 4>{0.0f, 0.0f, 0.0f, 1.0f},
+                "Where it is at the end of the next step. rotation: xyzw.")
+            .def(
+                "deform",
+                [](const Prop& p, const Floats& positions) {
+                    const uint32_t count = rows_of_three(positions, "positions");
+                    const float* data = positions.data();
+                    run([=, h = p.get()] { return vfit_prop_deform(h, data, count); });
+                },
+                "positions"_a, "The vertices of a mesh, in its own frame: (n, 3)."));
     closable(
         py::class_<Cloth, std::shared_ptr<Cloth>>(m, "Cloth",
                                                   "A garment on an avatar. Pose the avatar first, then step.")
@@ -240,6 +322,20 @@ void bind_cloth(py::module_& m) {
                 },
                 "size"_a = py::none(),
                 "Another size of the garment, from how it hangs now; None: made to the avatar.")
+            .def(
+                "add_prop",
+                [](Cloth& c, const std::shared_ptr<Prop>& prop) {
+                    run([h = c.get(), p = prop->get()] { return vfit_cloth_add_prop(h, p); });
+                    c.props.insert(prop);
+                },
+                "prop"_a, "Stays outside of that prop from the next step on.")
+            .def(
+                "remove_prop",
+                [](Cloth& c, const std::shared_ptr<Prop>& prop) {
+                    run([h = c.get(), p = prop->get()] { return vfit_cloth_remove_prop(h, p); });
+                    c.props.erase(prop);
+                },
+                "prop"_a)
             .def("fit", &fit, "How it sits, by girths of the trunk.")
             .def("fit_map", &fit_map, "One value a vertex: above 0 tight, below 0 loose.")
             .def(

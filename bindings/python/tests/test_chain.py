@@ -321,6 +321,49 @@ def test_an_outfit_is_tested_for_crossings(ctx):
             vfit.outfit_check(bad)
 
 
+def test_cloth_stays_outside_of_props(ctx):
+    avatar = vfit.Avatar.from_shape(ctx, sex="f")
+    cloth = vfit.Cloth(avatar, vfit.Garment.open(ctx, "sundress"), sleeps=False)
+
+    def hem_reaches():
+        positions = cloth.acquire().positions
+        return positions[(positions[:, 1] > 0.45) & (positions[:, 1] < 0.65), 0].max()
+
+    for _ in range(30):
+        cloth.step()
+    free = hem_reaches()
+    corners = 0.1 * (np.stack(np.meshgrid(*[[-1, 1]] * 3), -1).reshape(-1, 3))
+    hull = [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1]]
+    hull += [[2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]]
+    p, q, r = corners[hull].transpose(1, 0, 2)
+    inward = np.einsum("ni,ni->n", np.cross(q - p, r - p), p + q + r) < 0
+    hull = np.array([t[::-1] if turn else t for t, turn in zip(hull, inward)])
+    ball, box = vfit.Prop.sphere(ctx, 0.11), vfit.Prop.mesh(ctx, corners, hull)
+    for prop in ball, box, vfit.Prop.capsule(ctx, 0.02, 0.3), vfit.Prop.box(ctx, (0.1, 0.1, 0.1)):
+        prop.move((5.0, 0.0, 0.0))
+        cloth.add_prop(prop)
+    for i in range(60):
+        ball.move((free + 0.3 - 0.005 * i, 0.55, 0.0))
+        cloth.step()
+        assert all(c.kind != "prop" for c in vfit.outfit_check([cloth]))
+    assert hem_reaches() < free - 0.05
+    cloth.remove_prop(ball)
+    box.deform(2.0 * corners)
+    for _ in range(60):
+        cloth.step()
+    assert abs(hem_reaches() - free) < 0.03
+    with pytest.raises(vfit.DataError, match="clockwise"):
+        vfit.Prop.mesh(ctx, corners, hull[:, ::-1])
+    with pytest.raises(ValueError, match="shape"):
+        vfit.Prop.mesh(ctx, corners.ravel(), hull)
+    with pytest.raises(vfit.ArgumentError):
+        box.deform(corners[:5])
+    box.close()
+    cloth.step()
+    with pytest.raises(vfit.HandleError):
+        cloth.add_prop(box)
+
+
 def test_a_cloth_goes_with_its_avatar(ctx):
     avatar = vfit.Avatar.from_shape(ctx, {"weight": 0.6}, sex="m")
     assert "weight" in ctx.shape_values()

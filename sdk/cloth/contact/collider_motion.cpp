@@ -56,6 +56,15 @@ float ColliderMotion::greatest_way() const {
     return most;
 }
 
+Bounds ColliderMotion::ways() const {
+    Bounds ways;
+    for (size_t i = 0; i < current_.size(); ++i) {
+        ways.add(current_[i].a - previous_[i].a);
+        ways.add(current_[i].b - previous_[i].b);
+    }
+    return ways;
+}
+
 void ColliderMotion::sweep(float from, float to, std::vector<SweptCapsule>& out) const {
     out.reserve(current_.size());
     out.resize(needed_.size());

@@ -27,6 +27,8 @@ public:
     /// How far any of them went in this step, at most; infinite where one appeared, vanished or changed its
     /// kind.
     float greatest_way() const;
+    /// Of their centres in this step.
+    Bounds ways() const;
 
     /// Between two shares of the interval; as many as count().
     void sweep(float from, float to, std::vector<SweptCapsule>& out) const;

@@ -18,6 +18,7 @@ struct Bounds {
         low = glm::min(low, p);
         high = glm::max(high, p);
     }
+    void add(const Bounds& o) { low = glm::min(low, o.low), high = glm::max(high, o.high); }
     bool overlaps(const Bounds& o) const {
         return low.x <= o.high.x && o.low.x <= high.x && low.y <= o.high.y && o.low.y <= high.y &&
                low.z <= o.high.z && o.low.z <= high.z;

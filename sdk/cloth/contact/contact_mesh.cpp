@@ -131,8 +131,9 @@ void ContactMesh::look_at(const Interval& interval, const Vec3& low, const Vec3&
         begin_[i].x = from + way * interval.from;
         end_[i].x = from + way * interval.to;
     }
+    const float share = interval.to - interval.from;
     float greatest_m = 0.0f;
-    Vec3 low_way(INFINITY), high_way(-INFINITY);
+    ways_ = {};
     for (size_t run = 0; run < ways_m_.size(); ++run) {
         Vec3 from(INFINITY), to(-INFINITY);
         float way2 = 0.0f;
@@ -145,7 +146,7 @@ void ContactMesh::look_at(const Interval& interval, const Vec3& low, const Vec3&
             const Vec3 way = q - p;
             from = glm::min(from, glm::min(p, q)), to = glm::max(to, glm::max(p, q));
             way2 = std::max(way2, glm::dot(way, way));
-            low_way = glm::min(low_way, way), high_way = glm::max(high_way, way);
+            ways_.add(way / share);
         }
         greatest_m = std::max(greatest_m, std::sqrt(way2));
         ways_m_[run] = std::min(std::sqrt(way2), kFastest_m);
@@ -153,13 +154,13 @@ void ContactMesh::look_at(const Interval& interval, const Vec3& low, const Vec3&
         boxes_.runs.set(run, from - reach, to + reach);
     }
     boxes_.find_blocks();
-    greatest_way_ = greatest_m / (interval.to - interval.from);
-    way_within_ = greatest_m > 0.0f ? glm::length(high_way - low_way) / (interval.to - interval.from) : 0.0f;
+    greatest_way_ = greatest_m / share;
 }
 
 void ContactMesh::hide() {
     forget();
-    greatest_way_ = way_within_ = 0.0f;
+    greatest_way_ = 0.0f;
+    ways_ = {};
     boxes_.resize(ways_m_.size());
 }
 
@@ -332,8 +333,8 @@ void ContactMesh::find_planes(const PartOfCloth& part, std::vector<uint32_t>& ru
                 if (vertex_of[i] != kNobody) mask |= mask_[vertex_of[i]], common &= mask_[vertex_of[i]];
             std::erase_if(runs, [&](uint32_t other) { return (run_category_[other] & mask) == 0; });
         }
-        const bool follows = what_ == MeshOf::solid &&
-                             std::any_of(known, known + kLanes, [](const Touched& t) { return t.any(); });
+        const bool follows =
+            !is_cloth(what_) && std::any_of(known, known + kLanes, [](const Touched& t) { return t.any(); });
         if (runs.empty() && !follows) continue;
         Touches now, before[2];
         float edge = 0.0f;

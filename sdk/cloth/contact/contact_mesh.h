@@ -45,8 +45,8 @@ public:
         if (!from_.empty()) from_ = to_;
     }
     float greatest_way() const { return greatest_way_; }  // in the step
-    /// Of its vertices against each other, at most: what all of them go together is none.
-    float way_within() const { return way_within_; }
+    /// Of its vertices, in the step.
+    const Bounds& ways() const { return ways_; }
 
     /// Points of the mesh about which the places lie that a particle is in contact with.
     struct Touched {
@@ -106,7 +106,8 @@ private:
     MeshOf what_;
     std::vector<uint8_t> category_, mask_;  // of a vertex of the mesh, and of the cloth; empty: all meet all
     std::vector<uint32_t> indices_;         // of vertices
-    float greatest_way_ = 0.0f, way_within_ = 0.0f;
+    float greatest_way_ = 0.0f;
+    Bounds ways_;
     // Its vertices that have triangles as points, in runs of kLanes that lie together.
     std::vector<uint32_t> vertex_of_;    // kNobody fills a run up, so that each is of one category
     std::vector<uint8_t> run_category_;  // with a filter

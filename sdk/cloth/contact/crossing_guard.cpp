@@ -144,7 +144,7 @@ void CrossingGuard::find_hits(std::span<const Particle> begin, std::span<const P
     hits_.clear(), crossed_.clear();
     proximity.for_uncertain([&](const Proximity::Pair& pair, uint32_t surface) {
         if (is_held(*pair.first) && is_held(*pair.second)) return;
-        if (surface != Proximity::kSelf && !(of_meshes && surfaces_[surface] == MeshOf::cloth)) {
+        if (surface != Proximity::kSelf && !(of_meshes && is_guarded(surfaces_[surface]))) {
             crosses_mesh_ = true;  // perhaps
             return;
         }

@@ -18,6 +18,7 @@ struct alignas(32) RunPlanes {
         turn_z[kLanes];
     float thickness_m[kLanes];  // kept from the plane; kNone: there is none
     uint32_t run;               // in Moving
+    uint32_t order;             // in which planes were found
 
     void set(size_t lane, const Vec3& point, const Vec3& way, const Vec3& normal, const Vec3& turn,
              float thickness) {

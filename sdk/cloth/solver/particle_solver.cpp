@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "cloth/contact/contact_culling.h"
 #include "core/phases.h"
@@ -65,6 +66,11 @@ void ParticleSolver::place(uint32_t vertex, const Vec3& at, const Vec3& velocity
     const uint32_t particle = fabric_->layout().particle_of[vertex];
     places_[particle].x = at;
     velocities_[particle].x = velocity;
+}
+
+void ParticleSolver::forget_mesh(size_t mesh) {
+    for (Part& part : parts_)
+        if (mesh < part.touched.size()) part.touched[mesh].clear();
 }
 
 void ParticleSolver::rest() { std::fill(velocities_.begin(), velocities_.end(), Particle()); }
@@ -203,15 +209,20 @@ void ParticleSolver::begin_part(const Step& step, uint32_t part) {
     const uint32_t begin = layout.parts[part].begin;
     parts_[part].touched.resize(step.meshes.size());
     for (size_t i = 0; i < step.meshes.size(); ++i) {
-        const bool is_lifted = step.meshes[i].what() != MeshOf::solid && !step.cloth_lift_m.empty();
+        const bool is_lifted = is_cloth(step.meshes[i].what()) && !step.cloth_lift_m.empty();
         step.meshes[i].find_planes({m, std::span(layout.vertex_of).subspan(begin),
                                     is_lifted ? step.cloth_lift_m.subspan(begin) : std::span<const float>(),
                                     step.dt, step.thickness_m},
                                    parts_[part].near_runs, parts_[part].touched[i], parts_[part].planes);
     }
-    if (step.meshes.size() > 1)
-        std::stable_sort(parts_[part].planes.begin(), parts_[part].planes.end(),
-                         [](const RunPlanes& a, const RunPlanes& b) { return a.run < b.run; });
+    if (step.meshes.size() > 1) {
+        // Stable, without the room that std::stable_sort allocates.
+        std::vector<RunPlanes>& planes = parts_[part].planes;
+        for (uint32_t i = 0; i < planes.size(); ++i) planes[i].order = i;
+        std::sort(planes.begin(), planes.end(), [](const RunPlanes& a, const RunPlanes& b) {
+            return std::pair(a.run, a.order) < std::pair(b.run, b.order);
+        });
+    }
     NearColliders& near = parts_[part].near;
     reserve(near, m.count, swept_step_.size());
     cull({m.places, m.count}, {m.velocities, m.count}, step.dt, swept_step_, near);

@@ -32,6 +32,8 @@ public:
     void rest();
     /// One vertex is there and moves so.
     void place(uint32_t vertex, const Vec3& at, const Vec3& velocity);
+    /// Mesh of that number is another one from now on.
+    void forget_mesh(size_t mesh);
     /// As the cloth lies and moves.
     void carry(const RigidMotion& motion);
 

@@ -610,6 +610,27 @@ class Garment(_Closable):
     @property
     def parts(self) -> List[GarmentPart]: ...
 
+class Prop(_Closable):
+    """A solid beside a body that cloth stays outside of: a chair, a weapon, a bag, hair."""
+
+    @staticmethod
+    def sphere(context: Context, radius: float) -> Prop: ...
+    @staticmethod
+    def capsule(context: Context, radius: float, half_length: float) -> Prop:
+        """half_length: from the middle to each of the two centres, along the up axis."""
+    @staticmethod
+    def box(context: Context, half: Tuple[float, float, float]) -> Prop:
+        """half: of each edge."""
+    @staticmethod
+    def mesh(context: Context, positions: NDArray[np.float32], triangles: NDArray[np.uint32]) -> Prop:
+        """positions: (n, 3). triangles: (m, 3), wound as those of a frame."""
+    def move(
+        self, position: Tuple[float, float, float], rotation: Tuple[float, float, float, float] = ...
+    ) -> None:
+        """Where it is at the end of the next step. rotation: xyzw."""
+    def deform(self, positions: NDArray[np.float32]) -> None:
+        """The vertices of a mesh, in its own frame: (n, 3)."""
+
 class Cloth(_Closable):
     """A garment on an avatar. Pose the avatar first, then step."""
 
@@ -653,6 +674,9 @@ class Cloth(_Closable):
     def set_quality(self, substeps: int = 0, budget_ms: float = 0.0) -> None: ...
     def set_size(self, size: Optional[str] = None) -> None:
         """Another size of the garment, from how it hangs now; None: made to the avatar."""
+    def add_prop(self, prop: Prop) -> None:
+        """Stays outside of that prop from the next step on."""
+    def remove_prop(self, prop: Prop) -> None: ...
     def fit(self) -> List[FitZone]:
         """How it sits, by girths of the trunk: let it come to rest first."""
     def fit_map(self) -> NDArray[np.float32]:

@@ -361,9 +361,9 @@ class FitZone(NamedTuple):
 class Crossing(NamedTuple):
     """Two surfaces of an outfit of which triangles cross."""
 
-    kind: str  #: "self", "skin" or "cloth": what the cloth crosses
+    kind: str  #: "self", "skin", "cloth" or "prop": what the cloth crosses
     cloth: int  #: index in the list
-    other: int  #: index of the other cloth; else as cloth
+    other: int  #: index of the other cloth; number of the prop among the cloth's; else as cloth
     pair_count: int  #: pairs of triangles that cross
     triangle: int  #: of the first pair: one of the cloth's triangles
     other_triangle: int  #: one of the cloth's own, of the avatar's, or of the other cloth's, by kind

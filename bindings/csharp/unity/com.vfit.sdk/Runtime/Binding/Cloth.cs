@@ -1,5 +1,6 @@
 // Cloth: a garment on an avatar, stepped once a rendered frame.
 using System;
+using System.Collections.Generic;
 
 namespace Vfit
 {
@@ -9,6 +10,8 @@ namespace Vfit
 
         /// <summary>The cloth below this one, or null; the reference keeps it from collection.</summary>
         public Cloth Inner { get; private set; }
+
+        private readonly HashSet<Prop> props = new HashSet<Prop>();  // kept from collection
 
         /// <summary>sizeLabel: null is made to the avatar.</summary>
         public Cloth(
@@ -103,15 +106,30 @@ namespace Vfit
             Inner = inner;
         }
 
+        /// <summary>Stays outside of that prop from the next step on.</summary>
+        public void AddProp(Prop prop)
+        {
+            Calls.ClothAddProp(Handle, Prop.Of(prop, "prop"));
+            props.Add(prop);
+        }
+
+        public void RemoveProp(Prop prop)
+        {
+            Calls.ClothRemoveProp(Handle, Prop.Of(prop, "prop"));
+            props.Remove(prop);
+        }
+
         /// <summary>
         /// Tests the last finished steps of an outfit, 1 to 64 cloths of one avatar, for triangles that
-        /// cross: of a garment with itself, with the skin, with another one. Empty: none do.
+        /// cross: of a garment with itself, with the skin, with another one, with a prop. Empty: none do.
         /// </summary>
         public static Crossing[] CheckOutfit(params Cloth[] cloths)
         {
             if (cloths == null) throw new ArgumentNullException("cloths");
             int counted = Math.Min(cloths.Length, 64);
-            var found = new Crossing[counted * (counted + 3) / 2];  // one for each pair of surfaces
+            const int props = 64;  // of a cloth, at most
+            // One for each pair of surfaces.
+            var found = new Crossing[counted * (counted + 3) / 2 + counted * props];
             var ids = new ClothId[cloths.Length];
             var held = new bool[cloths.Length];
             try

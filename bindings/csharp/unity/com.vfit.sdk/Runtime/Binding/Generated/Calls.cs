@@ -2813,6 +2813,104 @@ namespace Vfit
             }
         }
 
+        internal static Result PropCreate(ContextHandle context, PropDesc* desc, PropHandle @out)
+        {
+            bool contextHeld = false;
+            var outId = new PropId();
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_prop_create(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), desc, &outId));
+                @out.Put(outId.Value);
+                return result;
+            }
+            finally
+            {
+                if (contextHeld) context.DangerousRelease();
+            }
+        }
+
+        internal static Result PropDestroy(PropHandle prop)
+        {
+            bool propHeld = false;
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_prop_destroy(
+                    new PropId(VfitHandle.Hold(prop, ref propHeld))));
+                return result;
+            }
+            finally
+            {
+                if (propHeld) prop.DangerousRelease();
+            }
+        }
+
+        internal static Result PropMove(PropHandle prop, float* position, float* rotation)
+        {
+            bool propHeld = false;
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_prop_move(
+                    new PropId(VfitHandle.Hold(prop, ref propHeld)), position, rotation));
+                return result;
+            }
+            finally
+            {
+                if (propHeld) prop.DangerousRelease();
+            }
+        }
+
+        internal static Result PropDeform(PropHandle prop, float* positions, uint vertexCount)
+        {
+            bool propHeld = false;
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_prop_deform(
+                    new PropId(VfitHandle.Hold(prop, ref propHeld)), positions, vertexCount));
+                return result;
+            }
+            finally
+            {
+                if (propHeld) prop.DangerousRelease();
+            }
+        }
+
+        internal static Result ClothAddProp(ClothHandle cloth, PropHandle prop)
+        {
+            bool clothHeld = false;
+            bool propHeld = false;
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_cloth_add_prop(
+                    new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), new PropId(VfitHandle.Hold(prop,
+                    ref propHeld))));
+                return result;
+            }
+            finally
+            {
+                if (clothHeld) cloth.DangerousRelease();
+                if (propHeld) prop.DangerousRelease();
+            }
+        }
+
+        internal static Result ClothRemoveProp(ClothHandle cloth, PropHandle prop)
+        {
+            bool clothHeld = false;
+            bool propHeld = false;
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_cloth_remove_prop(
+                    new ClothId(VfitHandle.Hold(cloth, ref clothHeld)), new PropId(VfitHandle.Hold(prop,
+                    ref propHeld))));
+                return result;
+            }
+            finally
+            {
+                if (clothHeld) cloth.DangerousRelease();
+                if (propHeld) prop.DangerousRelease();
+            }
+        }
+
         internal static Result ClothHideSkin(ClothHandle cloth, float marginM, byte* triangles, uint count)
         {
             bool clothHeld = false;
@@ -3052,5 +3150,11 @@ namespace Vfit
     {
         internal RecorderHandle(VfitHandle parent) : base(parent) { }
         internal override Result End(ulong id) { return Native.vfit_recorder_destroy(new RecorderId(id)); }
+    }
+
+    public sealed partial class PropHandle : VfitHandle
+    {
+        internal PropHandle(VfitHandle parent) : base(parent) { }
+        internal override Result End(ulong id) { return Native.vfit_prop_destroy(new PropId(id)); }
     }
 }

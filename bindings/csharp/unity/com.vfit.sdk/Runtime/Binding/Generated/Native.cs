@@ -657,6 +657,35 @@ namespace Vfit
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_wear_over(ClothId cloth, ClothId inner);
 
+        /// <summary>Its frame is at the origin until it is moved. VFIT_ERROR_DATA for a mesh without
+        /// triangles, with a wrong index, or inside out. [any]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_prop_create(ContextId context, PropDesc* desc, PropId* @out);
+
+        /// <summary>cloth meets it no longer [any]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_prop_destroy(PropId prop);
+
+        /// <summary>Where its frame is at the end of the next step of each cloth that meets it: call it
+        /// before that step. rotation: xyzw. [excl]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_prop_move(PropId prop, float* position, float* rotation);
+
+        /// <summary>The same for the vertices of a MESH, in its own frame: three numbers for each of
+        /// vertex_count. [excl]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_prop_deform(PropId prop, float* positions, uint vertexCount);
+
+        /// <summary>From the next step on, cloth meets that prop of its context; and no longer. Each cloth
+        /// that shall meet a prop is told so. To add what is there and to remove what is not changes nothing.
+        /// At most 64 a cloth. Adding takes as long as some ten steps. VFIT_ERROR_STATE while a step runs.
+        /// [excl] on cloth</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_cloth_add_prop(ClothId cloth, PropId prop);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_cloth_remove_prop(ClothId cloth, PropId prop);
+
         /// <summary>Skin that this garment alone hides from all who do not look up under it by more than 45
         /// degrees: triangles[i] becomes 1 for those triangles of the avatar's INDEX, and stays what it was
         /// for the others, so that garments add up. Leave them out of what you draw. Found on the body at
@@ -694,12 +723,12 @@ namespace Vfit
         internal static extern Result vfit_cloth_state_hash(ClothId cloth, ulong* @out);
 
         /// <summary>Tests the last finished steps of an outfit, 1 to 64 cloths of one avatar, for triangles
-        /// that cross: of each garment with itself, with the skin in the pose of that step, and with each
-        /// later garment of the list. Every pair of triangles that share no vertex is tested: an empty list
-        /// proves that none cross. At most n (n + 3) / 2 items for n cloths: with room for these, one call is
-        /// enough. VFIT_ERROR_ARGUMENT where a cloth is listed twice or is of another avatar. While a step
-        /// runs, the one before it is tested. Cost: about eight steps of these cloths. [read] on each
-        /// cloth</summary>
+        /// that cross: of each garment with itself, with the skin in the pose of that step, with each later
+        /// garment of the list, and with its props where they were in that step. Every pair of triangles that
+        /// share no vertex is tested: an empty list proves that none cross. At most n (n + 3) / 2 items for n
+        /// cloths, and one for each prop of each: with room for these, one call is enough.
+        /// VFIT_ERROR_ARGUMENT where a cloth is listed twice or is of another avatar. While a step runs, the
+        /// one before it is tested. Cost: about eight steps of these cloths. [read] on each cloth</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_outfit_check(ClothId* cloths, uint clothCount, Crossing* items,
             uint stride, uint* count);

@@ -375,6 +375,18 @@ namespace Vfit
         AnyFit = 16,
     }
 
+    /// <summary>A prop: a solid that the host puts beside a body, such as a chair, a weapon, a bag or
+    /// hair. Cloth stays outside of it by its thickness, and meets its edges too. What a prop touches at
+    /// once gives way: it comes in as a point that grows to its size within 0.25 s, also after
+    /// vfit_cloth_reset, and where it moves by more than 0.5 m against the body within a step.</summary>
+    public enum PropShape : int
+    {
+        Sphere = 0,
+        Capsule = 1,
+        Box = 2,
+        Mesh = 3,
+    }
+
     /// <summary>How a garment sits at one girth of the trunk. RIGHT: the body's girth is nearer to that
     /// which the size is made for than to another size's; of a garment that tells of none: it closes by
     /// less than 3 % of stretch and has less than 12 cm of ease.</summary>
@@ -394,6 +406,8 @@ namespace Vfit
         Skin = 1,
         /// <summary>the garment and another of the list</summary>
         Cloth = 2,
+        /// <summary>the garment and a prop that it meets</summary>
+        Prop = 3,
     }
 
     [StructLayout(LayoutKind.Sequential, Size = 8)]
@@ -471,6 +485,13 @@ namespace Vfit
     {
         internal ulong Value;
         internal RecorderId(ulong value) { Value = value; }
+    }
+
+    [StructLayout(LayoutKind.Sequential, Size = 8)]
+    internal struct PropId
+    {
+        internal ulong Value;
+        internal PropId(ulong value) { Value = value; }
     }
 
     [StructLayout(LayoutKind.Sequential, Size = 72)]
@@ -1243,6 +1264,21 @@ namespace Vfit
         public float LegsTakenUpM;
     }
 
+    [StructLayout(LayoutKind.Sequential, Size = 48)]
+    public unsafe partial struct PropDesc
+    {
+        internal uint StructSize;
+        public PropShape Shape;
+        /// <summary>in the context's axes and unit. SPHERE: radius. CAPSULE: radius, and half the way between
+        /// its two centres, which lie along the up axis. BOX: half of each edge. 1 mm to 10 m</summary>
+        public Float3 Size;
+        public uint VertexCount;
+        internal float* positions;
+        internal uint* indices;
+        public uint IndexCount;
+        internal uint Reserved;
+    }
+
     [StructLayout(LayoutKind.Sequential, Size = 80)]
     public unsafe partial struct FitZone
     {
@@ -1277,13 +1313,15 @@ namespace Vfit
         public CrossingKind Kind;
         /// <summary>index in cloths</summary>
         public uint Cloth;
-        /// <summary>of CLOTH: index of the other one; else as cloth</summary>
+        /// <summary>of CLOTH: index of the other one; of PROP: its number among the cloth's props, in the
+        /// order in which they were added; else as cloth</summary>
         public uint Other;
         /// <summary>pairs of triangles that cross</summary>
         public uint PairCount;
         /// <summary>of the first pair: number in the INDEX stream of cloth</summary>
         public uint Triangle;
-        /// <summary>number in the INDEX stream of cloth, of the avatar, or of other, by kind</summary>
+        /// <summary>number in the INDEX stream of cloth, of the avatar, or of other, by kind; of PROP:
+        /// 0</summary>
         public uint OtherTriangle;
         internal uint Reserved;
     }
