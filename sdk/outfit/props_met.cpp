@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "cloth/contact/contact.h"
+
 namespace vfit {
 
 namespace {
@@ -24,7 +26,7 @@ bool PropsMet::add(const Prop& prop, Cloth& cloth) {
         free_meshes_.pop_back();
     }
     cloth.meet_edges();
-    met_.push_back({&prop, mesh, 0.0f, Vec3(0.0f), {}, {}});
+    met_.push_back({&prop, mesh, 0.0f, 0, Vec3(0.0f), {}, {}});
     return true;
 }
 
@@ -43,12 +45,13 @@ void PropsMet::move(const Mat4& root, float dt, Cloth& cloth) {
         const Vec3 from_body(to_body * Vec4(met.prop->center(), 1.0f));
         if (met.size > 0.0f && glm::distance(from_body, met.from_body) > kLeap_m) come_in_anew(met, cloth);
         met.from_body = from_body;
+        if (met.size == 0.0f) begin_to_grow(met, cloth);
         met.size = std::min(1.0f, met.size + dt / kGrows_s);
         if (met.size == 0.0f) continue;
         const std::vector<Vec3>& whole = met.prop->positions();
         met.places.resize(whole.size());
         for (size_t i = 0; i < whole.size(); ++i)
-            met.places[i] = met.size < 1.0f ? glm::mix(met.prop->center(), whole[i], met.size) : whole[i];
+            met.places[i] = met.size < 1.0f ? glm::mix(whole[met.from], whole[i], met.size) : whole[i];
         cloth.move_mesh(met.mesh, met.places);
     }
 }
@@ -60,6 +63,16 @@ void PropsMet::hide(Cloth& cloth) {
 void PropsMet::come_in_anew(Met& met, Cloth& cloth) {
     met.size = 0.0f;
     cloth.hide_mesh(met.mesh);
+}
+
+void PropsMet::begin_to_grow(Met& met, const Cloth& cloth) {
+    Bounds garment;
+    for (const Vec3& p : cloth.positions()) garment.add(p);
+    const Vec3 middle = 0.5f * (garment.low + garment.high);
+    const std::vector<Vec3>& whole = met.prop->positions();
+    float most = -1.0f;
+    for (uint32_t i = 0; i < whole.size(); ++i)
+        if (const float far = glm::distance(whole[i], middle); far > most) most = far, met.from = i;
 }
 
 void PropsMet::keep_step() {

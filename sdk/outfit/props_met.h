@@ -1,5 +1,5 @@
-// The props that one garment stays outside of. A prop comes in as a point that grows: whatever it meets is
-// pushed aside, and nothing ends up inside of it.
+// The props that one garment stays outside of. A prop comes in as a point that grows, from where it lies
+// farthest from the garment: whatever it meets is pushed aside, and nothing ends up inside of it.
 #pragma once
 
 #include <cstdint>
@@ -35,11 +35,13 @@ private:
     struct Met {
         const Prop* prop;
         uint32_t mesh;
-        float size = 0.0f;     // 0..1, about its center
+        float size = 0.0f;     // 0..1
+        uint32_t from = 0;     // the vertex that it grows from
         Vec3 from_body{0.0f};  // its center, as the body's root carries it
         std::vector<Vec3> places, kept;
     };
-    void come_in_anew(Met& met, Cloth& cloth);
+    static void come_in_anew(Met& met, Cloth& cloth);
+    static void begin_to_grow(Met& met, const Cloth& cloth);
 
     std::vector<Met> met_;
     std::vector<uint32_t> free_meshes_;

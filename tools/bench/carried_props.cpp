@@ -56,9 +56,9 @@ void CarriedProps::move(vfit_avatar avatar, double time_s) {
     const Frame3 hips(at[VFIT_JOINT_LEFT_HIP], at[VFIT_JOINT_RIGHT_HIP], at[VFIT_JOINT_TORSO]),
         chest(at[VFIT_JOINT_LEFT_SHOULDER], at[VFIT_JOINT_RIGHT_SHOULDER],
               2.0f * at[VFIT_JOINT_NECK] - at[VFIT_JOINT_TORSO]);
-    // Beside the left hip, its lower end behind.
+    // Behind the left hip, its lower end further back.
     const Mat3 tilted = hips.axes * Mat3(glm::mat3_cast(glm::angleAxis(0.5f, Vec3(1.0f, 0.0f, 0.0f))));
-    move_to(scabbard_.get(), hips.at + hips.axes * Vec3(0.21f, -0.12f, -0.1f), tilted);
+    move_to(scabbard_.get(), hips.at + hips.axes * Vec3(0.17f, -0.12f, -0.2f), tilted);
     move_to(backpack_.get(), chest.at + chest.axes * Vec3(0.0f, -0.2f, -0.24f), chest.axes);
     // About the knees, 1.6 m/s.
     const float angle = kTurn_rad * 0.6f * float(time_s);

@@ -133,7 +133,7 @@ struct FallingSheet {
 };
 
 TEST(PropsMet, ASheetThatFallsOnABoxDoesNotMeetItWithVerticesAlone) {
-    FallingSheet fall(0.3f);
+    FallingSheet fall(0.7f);
     Prop box(box_mesh(Vec3(0.1f)));
     box.move(Vec3(0.003f, 0.1f, 0.007f), glm::angleAxis(0.6f, Vec3(0.0f, 1.0f, 0.0f)));
     PropsMet props;
@@ -186,7 +186,7 @@ TEST(PropsMet, WhatComesInsideOfTheClothPushesItOut) {
 }
 
 TEST(PropsMet, AMeshIsUsedAgainForAnotherProp) {
-    FallingSheet fall(0.3f);
+    FallingSheet fall(0.7f);
     PropsMet props;
     Prop first(sphere_mesh(0.05f)), last(box_mesh(Vec3(0.1f)));
     for (int i = 0; i < 20; ++i) {
