@@ -991,9 +991,9 @@ typedef struct vfit_cloth_desc {
     float virtual_m; /* points of triangles meet spheres and capsules as vertices do: so many that none is
                       * further from the next, 65,536 at most; 0.001..0.1; 0: none. For meshes coarser
                       * than a wrist */
-    float carry_speed_m_s; /* a step in which the fastest part of the garment, as the bones move it, gains */
-    float carry_way_m;     /* more speed on the step before, or all of it goes further, is a jump, as after
-                            * vfit_cloth_teleport. 0: 6, and 0.06; < 0: no limit */
+    float carry_speed_m_s; /* a step in which the garment, as the bones move it, or a limb of it against the */
+    float carry_way_m;     /* rest, gains more speed on the step before, or all of it goes further, is a jump,
+                            * as after vfit_cloth_teleport. 0: 6, and 0.06; < 0: no limit */
 } vfit_cloth_desc;
 typedef struct vfit_cloth_stats {
     uint32_t struct_size, vertex_count, simulated_count, constraint_count;

@@ -490,13 +490,13 @@ void Cloth::carry_along(const CarriedAlong& by) {
 /// The body's motion as the rigid one that fits the pinned vertices; velocities only turn.
 void Cloth::State::follow_fixed(float dt, std::span<const Vec3> targets) {
     const std::vector<uint32_t>& fixed = fabric->kinematic_vertices();
-    BodyWay way{INFINITY, 0.0f};
+    BodyWay way{INFINITY, 0.0f, 0.0f};
     for (const uint32_t v : fixed) {
         const float own_m = glm::distance(previous_targets[v], targets[v]);
-        way = {std::min(way.min_m, own_m), std::max(way.max_m, own_m)};
+        way = {std::min(way.min_m, own_m), std::max(way.whole_m, own_m), 0.0f};
     }
     const float unfelt = settings.is_jump(way, dt) ? 1.0f : 1.0f - settings.inertia;
-    if (unfelt == 0.0f || fixed.empty() || (!asleep_at.empty() && way.max_m <= kStill_m)) return;
+    if (unfelt == 0.0f || fixed.empty() || (!asleep_at.empty() && way.whole_m <= kStill_m)) return;
     solver.carry(fit_rigid_motion(fixed, previous_targets, targets).part(unfelt));
     publish();
     carried = unfelt;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_inverse.hpp>
+#include <numeric>
 
+#include "cloth/base/rigid_motion.h"
 #include "core/error.h"
 
 namespace vfit {
@@ -50,6 +52,9 @@ void BodyJump::find_outermost(std::span<const Vec3> rest) {
         for (const auto& side : {of_bone.low, of_bone.high})
             for (int k = 0; k < 3; ++k)
                 if (side[k] != kNoVertex) outermost_.push_back({side[k], rest[side[k]]});
+    all_outermost_.resize(outermost_.size());
+    std::iota(all_outermost_.begin(), all_outermost_.end(), 0u);
+    from_.reserve(outermost_.size()), to_.reserve(outermost_.size());
 }
 
 void BodyJump::stand(std::span<const Mat4> pose) {
@@ -67,11 +72,20 @@ void BodyJump::move_to(std::span<const Mat4> pose, float dt) {
     now_.assign(pose.begin(), pose.end());
     earlier_dt_ = dt_, dt_ = dt;
     earlier_felt_ = felt_, felt_ = 1.0f;
-    way_ = {outermost_.empty() ? 0.0f : INFINITY, 0.0f};
+    way_ = {};
+    if (outermost_.empty()) return;
+    from_.clear(), to_.clear();
     for (const Sample& s : outermost_) {
-        const float own_m = glm::distance(moved(carry_->blended(s.vertex, before_), s.rest),
-                                          moved(carry_->blended(s.vertex, now_), s.rest));
-        way_ = {std::min(way_.min_m, own_m), std::max(way_.max_m, own_m)};
+        from_.push_back(moved(carry_->blended(s.vertex, before_), s.rest));
+        to_.push_back(moved(carry_->blended(s.vertex, now_), s.rest));
+    }
+    const RigidMotion whole = fit_rigid_motion(all_outermost_, from_, to_);
+    way_.min_m = INFINITY;
+    for (size_t i = 0; i < from_.size(); ++i) {
+        const Vec3 with_all = whole.point(from_[i]);
+        way_.min_m = std::min(way_.min_m, glm::distance(from_[i], to_[i]));
+        way_.whole_m = std::max(way_.whole_m, glm::distance(from_[i], with_all));
+        way_.limb_m = std::max(way_.limb_m, glm::distance(with_all, to_[i]));
     }
 }
 

@@ -50,7 +50,9 @@ private:
         uint32_t vertex;
         Vec3 rest;
     };
-    std::vector<Sample> outermost_;  // extreme vertices along each axis, for each heaviest bone
+    std::vector<Sample> outermost_;        // extreme vertices along each axis, for each heaviest bone
+    std::vector<uint32_t> all_outermost_;  // their numbers
+    std::vector<Vec3> from_, to_;          // where they go in the step
     std::vector<Mat4> earlier_, before_, now_;
     float earlier_dt_ = 0.0f, dt_ = 0.0f;      // from earlier to before, from before to now
     BodyWay way_;                              // in dt_

@@ -77,7 +77,7 @@ void WornGarment::stand() {
     pose_.assign(avatar_pose().begin(), avatar_pose().end());
     body_.stand(pose_);
     jumps_ = false;
-    speed_m_s_ = 0.0f;
+    speed_m_s_ = limb_speed_m_s_ = 0.0f;
 }
 
 void WornGarment::begin_step(float dt) {
@@ -96,9 +96,11 @@ void WornGarment::begin_step(float dt) {
     body_.move_to(pose_, simulated_s);
     // A limb that swings gains its speed from step to step: what is compared is beyond that of the last one.
     BodyWay gained = body_.way();
-    gained.max_m -= speed_m_s_ * simulated_s;
+    gained.whole_m -= speed_m_s_ * simulated_s;
+    gained.limb_m -= limb_speed_m_s_ * simulated_s;
     const bool is_jump = jumps_ || settings_.is_jump(gained, simulated_s);
-    speed_m_s_ = is_jump ? 0.0f : body_.way().max_m / simulated_s;
+    speed_m_s_ = is_jump ? 0.0f : body_.way().whole_m / simulated_s;
+    limb_speed_m_s_ = is_jump ? 0.0f : body_.way().limb_m / simulated_s;
     carried_ = is_jump ? 1.0f : 1.0f - settings_.inertia;
     jumps_ = false;
 }

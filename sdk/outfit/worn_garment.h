@@ -137,8 +137,9 @@ private:
     std::vector<Collider> colliders_;
     Cloth cloth_;
 
-    bool jumps_ = false;      // in the next step, however slow it is
-    float speed_m_s_ = 0.0f;  // of the part of the body that is fastest, in the last step; 0: it jumped
+    bool jumps_ = false;                              // in the next step, however slow it is
+    float speed_m_s_ = 0.0f, limb_speed_m_s_ = 0.0f;  // of the body, and of its fastest limb, in the last
+                                                      // step; 0: it jumped
     // Of the step that has begun, or of the last one.
     float dt_ = 0.0f;
     float carried_ = 0.0f;    // fraction of the body's motion that the cloth does not feel

@@ -8,13 +8,14 @@
 #include "bench/targets.h"
 #include "bench/welded.h"
 #include "client/assets.h"
+#include "client/outfit.h"
 #include "client/output.h"
 
 namespace vfit::tools {
 
 namespace {
 
-constexpr float kFrame_s = 1.0f / 60.0f, kOwnLayers_m = 0.004f;
+constexpr float kFrame_s = 1.0f / 60.0f;
 constexpr int kFramesToRest = 60;
 
 struct Outfit {

@@ -23,8 +23,7 @@ namespace vfit::tools {
 namespace {
 
 constexpr double kSettled_s = 1.0;  // figures are of what comes later
-constexpr float kOwnLayers_m = 0.004f;
-constexpr float kAround = 0.5f;  // turns about a limb: fewer are none
+constexpr float kAround = 0.5f;     // turns about a limb: fewer are none
 
 /// The worst of all frames of one garment on one recording.
 struct Worst {

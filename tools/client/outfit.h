@@ -18,6 +18,9 @@ public:
 /// Cloth whose longest edge exceeds twice its rest length has torn: a picture of it shows no fit.
 constexpr float kMaxPlausibleStrain = 1.0f;
 
+/// Between a garment's own layers: then they do not cross, and its edges meet the skin's.
+constexpr float kOwnLayers_m = 0.004f;
+
 struct Layer {
     std::string name;  // as it was asked for: a name or a path
     vfit_garment_info info = vfit_garment_info_init();

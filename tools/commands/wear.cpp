@@ -16,7 +16,7 @@ namespace vfit::tools {
 namespace {
 
 constexpr PortraitStyle kFine{420, 640, 3}, kDraft{280, 420, 1};
-constexpr float kFrame_s = 1.0f / 60.0f, kOwnLayers_m = 0.004f;
+constexpr float kFrame_s = 1.0f / 60.0f;
 constexpr int kFramesToRest = 90;
 constexpr uint32_t kSubsteps = 32;      // of 1/60 s: with few, cloth sags
 constexpr size_t kLongestCaption = 36;  // characters that fit below a picture
