@@ -991,9 +991,9 @@ typedef struct vfit_cloth_desc {
     float virtual_m; /* points of triangles meet spheres and capsules as vertices do: so many that none is
                       * further from the next, 65,536 at most; 0.001..0.1; 0: none. For meshes coarser
                       * than a wrist */
-    float carry_speed_m_s; /* a step in which the garment, as the bones move it, or a limb of it against the */
-    float carry_way_m;     /* rest, gains more speed on the step before, or all of it goes further, is a jump,
-                            * as after vfit_cloth_teleport. 0: 6, and 0.06; < 0: no limit */
+    float carry_speed_m_s; /* a step in which the garment, as the bones move it, or a limb of it against */
+    float carry_way_m;     /* the rest, gains more speed on the step before, or all of it goes further, is a
+                            * jump, as after vfit_cloth_teleport. 0: 6, and 0.06; < 0: no limit */
 } vfit_cloth_desc;
 typedef struct vfit_cloth_stats {
     uint32_t struct_size, vertex_count, simulated_count, constraint_count;
@@ -1083,7 +1083,7 @@ VFIT_API vfit_result vfit_prop_move(vfit_prop prop, const float position[3], con
 VFIT_API vfit_result vfit_prop_deform(vfit_prop prop, const float* positions, uint32_t vertex_count);
 /* From the next step on, cloth meets that prop of its context; and no longer. Each cloth that shall meet a
  * prop is told so. To add what is there and to remove what is not changes nothing. At most 64 a cloth. Adding
- * takes as long as some ten steps. VFIT_ERROR_STATE while a step runs. [excl] on cloth */
+ * takes as long as about ten steps. VFIT_ERROR_STATE while a step runs. [excl] on cloth */
 VFIT_API vfit_result vfit_cloth_add_prop(vfit_cloth cloth, vfit_prop prop);
 VFIT_API vfit_result vfit_cloth_remove_prop(vfit_cloth cloth, vfit_prop prop);
 /* Skin that this garment alone hides from all who do not look up under it by more than 45 degrees:

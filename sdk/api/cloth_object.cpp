@@ -115,11 +115,11 @@ void ClothObject::reskin() {
 }
 
 void ClothObject::meet(const Ref<PropObject>& prop) {
-    constexpr size_t kMostProps = 64;
+    constexpr size_t kMaxProps = 64;
     require_no_step();
     if (prop->context != context) fail(VFIT_ERROR_HANDLE, "cloth and prop belong to different contexts");
-    if (props_.size() == kMostProps && std::find(props_.begin(), props_.end(), prop) == props_.end())
-        fail(VFIT_ERROR_CAPACITY, "the cloth meets ", kMostProps, " props already");
+    if (props_.size() == kMaxProps && std::find(props_.begin(), props_.end(), prop) == props_.end())
+        fail(VFIT_ERROR_CAPACITY, "the cloth meets ", kMaxProps, " props already");
     props_.reserve(props_.size() + 1), prop_readings_.reserve(props_.size() + 1);
     if (worn.meet(prop->prop)) props_.push_back(prop);
 }

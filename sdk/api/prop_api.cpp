@@ -41,13 +41,13 @@ float checked_size(float size_m, const char* what) {
 Mesh given_mesh(const vfit_prop_desc& desc, const Axes& axes) {
     check_pointer(desc.positions, "desc.positions");
     check_pointer(desc.indices, "desc.indices");
-    if (desc.vertex_count > PropMesh::kMostVertices)
+    if (desc.vertex_count > PropMesh::kMaxVertices)
         fail(VFIT_ERROR_ARGUMENT, "desc.vertex_count ", desc.vertex_count, " is more than ",
-             PropMesh::kMostVertices);
-    constexpr uint32_t kMostIndices = 1u << 20;
-    if (desc.index_count % 3 != 0 || desc.index_count > kMostIndices)
+             PropMesh::kMaxVertices);
+    constexpr uint32_t kMaxIndices = 1u << 20;
+    if (desc.index_count % 3 != 0 || desc.index_count > kMaxIndices)
         fail(VFIT_ERROR_ARGUMENT, "desc.index_count ", desc.index_count,
-             " is not a multiple of 3, or more than ", kMostIndices);
+             " is not a multiple of 3, or more than ", kMaxIndices);
     Mesh mesh;
     read_points(desc.positions, desc.vertex_count, axes, mesh.positions);
     mesh.indices.assign(desc.indices, desc.indices + desc.index_count);
@@ -114,9 +114,9 @@ vfit_result vfit_prop_deform(vfit_prop handle, const float* positions, uint32_t 
     return guard([&] {
         Use<PropObject, Mode::exclusive> prop(handle.id);
         check_pointer(positions, "positions");
-        if (vertex_count > PropMesh::kMostVertices)
+        if (vertex_count > PropMesh::kMaxVertices)
             fail(VFIT_ERROR_ARGUMENT, "vertex_count ", vertex_count, " is more than ",
-                 PropMesh::kMostVertices);
+                 PropMesh::kMaxVertices);
         read_points(positions, vertex_count, prop->context->axes, prop->given);
         prop->prop.deform(prop->given);
         return VFIT_OK;

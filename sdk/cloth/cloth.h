@@ -42,7 +42,7 @@ struct ClothSettings {
         1.0f;  // share of the body's own motion that the cloth feels; the rest carries it along, 0..1
     float carry_speed_m_s = kCarrySpeed_m_s;  // a body that moves faster as a whole, or one of whose limbs
                                               // does against that, jumps: the cloth feels nothing of it
-    float carry_way_m = kCarryWay_m;  // the same where all parts move further in one step
+    float carry_way_m = kCarryWay_m;          // the same where all parts move further in one step
     bool follows_fixed = true;  // takes the rigid motion of the pinned vertices for the body's; else the
                                 // caller states it (carry_along)
     Air air;

@@ -15,9 +15,9 @@ namespace {
 
 constexpr float kHalfTurn = 3.14159265f;
 constexpr float kLongest_m = 0.03f,
-                kParts = 40.0f;         // edges of a prop; of a large one, that part of its extent
-constexpr float kFlat_m = 0.00025f;     // round shapes have edges no deeper below them,
-constexpr int kFewest = 3, kMost = 45;  // in that many parts of a quarter turn
+                kParts = 40.0f;               // edges of a prop; of a large one, that part of its extent
+constexpr float kFlat_m = 0.00025f;           // round shapes have edges no deeper below them,
+constexpr int kMinParts = 3, kMaxParts = 45;  // in that many parts of a quarter turn
 
 float longest_edge_m(float extent_m) { return std::max(kLongest_m, extent_m / kParts); }
 
@@ -39,9 +39,9 @@ bool split_long_edges(float longest_m, std::vector<Vec3>& positions, std::vector
         const auto [at, is_new] = middle_of.try_emplace(uint64_t(std::min(a, b)) << 32 | std::max(a, b),
                                                         uint32_t(positions.size()));
         if (is_new) {
-            if (positions.size() == PropMesh::kMostVertices)
+            if (positions.size() == PropMesh::kMaxVertices)
                 fail(VFIT_ERROR_DATA, "a prop's edges are too long for its size: split, it has more than ",
-                     PropMesh::kMostVertices, " vertices");
+                     PropMesh::kMaxVertices, " vertices");
             positions.push_back(0.5f * (positions[a] + positions[b]));
             if (middles) middles->push_back({a, b});
         }
@@ -116,8 +116,8 @@ Mesh revolve(std::span<const Vec2> rings, int around) {
 
 PropMesh::PropMesh(std::span<const Vec3> given, std::span<const uint32_t> indices)
     : given_count_(given.size()) {
-    if (given.size() > kMostVertices)
-        fail(VFIT_ERROR_DATA, "a prop has ", given.size(), " vertices, more than ", kMostVertices);
+    if (given.size() > kMaxVertices)
+        fail(VFIT_ERROR_DATA, "a prop has ", given.size(), " vertices, more than ", kMaxVertices);
     std::map<std::tuple<float, float, float>, uint32_t> at;
     std::vector<uint32_t> one_of(given.size());
     std::vector<Vec3> positions;
@@ -154,7 +154,7 @@ Mesh sphere_mesh(float radius_m) { return capsule_mesh(radius_m, 0.0f); }
 
 Mesh capsule_mesh(float radius_m, float half_m) {
     const float turn = std::acos(1.0f - std::min(kFlat_m / radius_m, 1.0f));
-    const int quarter = std::clamp(int(std::ceil(0.5f * kHalfTurn / (2.0f * turn))), kFewest, kMost);
+    const int quarter = std::clamp(int(std::ceil(0.5f * kHalfTurn / (2.0f * turn))), kMinParts, kMaxParts);
     std::vector<Vec2> rings;
     for (const float side : {-1.0f, 1.0f})
         for (int i = 0; i <= quarter; ++i) {

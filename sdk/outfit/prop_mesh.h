@@ -14,11 +14,11 @@ namespace vfit {
 
 class PropMesh {
 public:
-    static constexpr size_t kMostVertices = 1u << 16;
+    static constexpr size_t kMaxVertices = 1u << 16;
 
     /// Of a mesh given in its own frame, three indices a triangle. Vertices at the same place become one.
     /// VFIT_ERROR_DATA where indices name no vertex, where nothing is left, where a closed surface is
-    /// clockwise from outside, or where there are more than kMostVertices.
+    /// clockwise from outside, or where there are more than kMaxVertices.
     PropMesh(std::span<const Vec3> given, std::span<const uint32_t> indices);
 
     size_t given_count() const { return given_count_; }

@@ -72,7 +72,7 @@ void PropsMet::begin_to_grow(Met& met, const Cloth& cloth) {
     const std::vector<Vec3>& whole = met.prop->positions();
     float most = -1.0f;
     for (uint32_t i = 0; i < whole.size(); ++i)
-        if (const float far = glm::distance(whole[i], middle); far > most) most = far, met.from = i;
+        if (const float way = glm::distance(whole[i], middle); way > most) most = way, met.from = i;
 }
 
 void PropsMet::keep_step() {

@@ -381,6 +381,16 @@ OFFSET(vfit_cloth_stats, sleeves_taken_up_m, 40);
 OFFSET(vfit_cloth_stats, legs_taken_up_m, 44);
 SIZE(vfit_cloth_stats, 48);
 
+OFFSET(vfit_prop_desc, struct_size, 0);
+OFFSET(vfit_prop_desc, shape, 4);
+OFFSET(vfit_prop_desc, size, 8);
+OFFSET(vfit_prop_desc, vertex_count, 20);
+OFFSET(vfit_prop_desc, positions, 24);
+OFFSET(vfit_prop_desc, indices, 32);
+OFFSET(vfit_prop_desc, index_count, 40);
+OFFSET(vfit_prop_desc, reserved, 44);
+SIZE(vfit_prop_desc, 48);
+
 OFFSET(vfit_fit_zone, struct_size, 0);
 OFFSET(vfit_fit_zone, fit, 4);
 OFFSET(vfit_fit_zone, body_m, 8);

@@ -195,10 +195,11 @@ TEST_F(PropTest, BadInputIsRefusedByName) {
     EXPECT_EQ(vfit_prop_create(context, nullptr, nullptr), VFIT_ERROR_ARGUMENT);
 
     const vfit_prop ball = make_prop(VFIT_PROP_SPHERE, 0.1f);
-    const float at[3] = {0, 0, 0}, nowhere[3] = {0, kNaN, 0}, far[3] = {0, 0, 1e9f}, zero[4] = {0, 0, 0, 0};
+    const float at[3] = {0, 0, 0}, nowhere[3] = {0, kNaN, 0}, beyond[3] = {0, 0, 1e9f},
+                zero[4] = {0, 0, 0, 0};
     EXPECT_EQ(vfit_prop_move(ball, at, kUpright), VFIT_OK);
     EXPECT_EQ(vfit_prop_move(ball, nowhere, kUpright), VFIT_ERROR_ARGUMENT);
-    EXPECT_EQ(vfit_prop_move(ball, far, kUpright), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_prop_move(ball, beyond, kUpright), VFIT_ERROR_ARGUMENT);
     EXPECT_EQ(vfit_prop_move(ball, at, zero), VFIT_ERROR_ARGUMENT);
     EXPECT_EQ(vfit_prop_move(ball, nullptr, kUpright), VFIT_ERROR_ARGUMENT);
     EXPECT_EQ(vfit_prop_move(ball, at, nullptr), VFIT_ERROR_ARGUMENT);

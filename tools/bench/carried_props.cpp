@@ -2,8 +2,8 @@
 
 #include <array>
 #include <cmath>
-
-#include "math/types.h"
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 namespace vfit::tools {
 
@@ -20,18 +20,19 @@ vfit_prop_desc desc_of(vfit_prop_shape shape, float x, float y = 0.0f, float z =
 
 /// A part of the trunk: x to the person's left, y up the spine, z forward.
 struct Frame3 {
-    Vec3 at;
-    Mat3 axes;
+    glm::vec3 at;
+    glm::mat3 axes;
 
-    Frame3(const Vec3& left, const Vec3& right, const Vec3& above) : at(0.5f * (left + right)) {
-        const Vec3 x = glm::normalize(left - right), up = above - at;
-        const Vec3 y = glm::normalize(up - glm::dot(up, x) * x);
-        axes = Mat3(x, y, glm::cross(x, y));
+    Frame3(const glm::vec3& left, const glm::vec3& right, const glm::vec3& above)
+        : at(0.5f * (left + right)) {
+        const glm::vec3 x = glm::normalize(left - right), up = above - at;
+        const glm::vec3 y = glm::normalize(up - glm::dot(up, x) * x);
+        axes = glm::mat3(x, y, glm::cross(x, y));
     }
 };
 
-void move_to(vfit_prop prop, const Vec3& at, const Mat3& axes) {
-    const Quat turn = glm::quat_cast(axes);
+void move_to(vfit_prop prop, const glm::vec3& at, const glm::mat3& axes) {
+    const glm::quat turn = glm::quat_cast(axes);
     const float rotation[4] = {turn.x, turn.y, turn.z, turn.w};
     check(vfit_prop_move(prop, &at.x, rotation));
 }
@@ -48,7 +49,7 @@ CarriedProps::CarriedProps(vfit_context context) {
 }
 
 void CarriedProps::move(vfit_avatar avatar, double time_s) {
-    std::array<Vec3, VFIT_JOINT_COUNT> at{};
+    std::array<glm::vec3, VFIT_JOINT_COUNT> at{};
     for (const vfit_joint& j : list<vfit_joint>([&](auto* items, uint32_t stride, uint32_t* count) {
              return vfit_avatar_joints(avatar, items, stride, count);
          }))
@@ -57,13 +58,14 @@ void CarriedProps::move(vfit_avatar avatar, double time_s) {
         chest(at[VFIT_JOINT_LEFT_SHOULDER], at[VFIT_JOINT_RIGHT_SHOULDER],
               2.0f * at[VFIT_JOINT_NECK] - at[VFIT_JOINT_TORSO]);
     // Behind the left hip, its lower end further back.
-    const Mat3 tilted = hips.axes * Mat3(glm::mat3_cast(glm::angleAxis(0.5f, Vec3(1.0f, 0.0f, 0.0f))));
-    move_to(scabbard_.get(), hips.at + hips.axes * Vec3(0.17f, -0.12f, -0.2f), tilted);
-    move_to(backpack_.get(), chest.at + chest.axes * Vec3(0.0f, -0.2f, -0.24f), chest.axes);
+    const glm::mat3 tilted =
+        hips.axes * glm::mat3(glm::mat3_cast(glm::angleAxis(0.5f, glm::vec3(1.0f, 0.0f, 0.0f))));
+    move_to(scabbard_.get(), hips.at + hips.axes * glm::vec3(0.17f, -0.12f, -0.2f), tilted);
+    move_to(backpack_.get(), chest.at + chest.axes * glm::vec3(0.0f, -0.2f, -0.24f), chest.axes);
     // About the knees, 1.6 m/s.
     const float angle = kTurn_rad * 0.6f * float(time_s);
-    const Vec3 around(std::cos(angle), 0.0f, std::sin(angle));
-    move_to(ball_.get(), hips.at + 0.42f * around + Vec3(0.0f, -0.4f, 0.0f), Mat3(1.0f));
+    const glm::vec3 around(std::cos(angle), 0.0f, std::sin(angle));
+    move_to(ball_.get(), hips.at + 0.42f * around + glm::vec3(0.0f, -0.4f, 0.0f), glm::mat3(1.0f));
 }
 
 void CarriedProps::add_to(std::span<const vfit_cloth> cloths) const {

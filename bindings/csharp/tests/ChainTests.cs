@@ -129,7 +129,8 @@ namespace Vfit.Tests
 
                 var corners = new[]
                 {
-                    new Float3(0, 0, 0), new Float3(0.1f, 0, 0), new Float3(0, 0.1f, 0), new Float3(0, 0, 0.1f)
+                    new Float3(0, 0, 0), new Float3(0.1f, 0, 0), new Float3(0, 0.1f, 0),
+                    new Float3(0, 0, 0.1f)
                 };
                 var outside = new uint[] { 0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3 };
                 var inside = new uint[] { 0, 1, 2, 0, 3, 1, 1, 3, 2, 2, 3, 0 };

@@ -1236,10 +1236,10 @@ namespace Vfit
         /// further from the next, 65,536 at most; 0.001..0.1; 0: none. For meshes coarser than a
         /// wrist</summary>
         public float VirtualM;
-        /// <summary>a step in which the fastest part of the garment, as the bones move it, gains</summary>
+        /// <summary>a step in which the garment, as the bones move it, or a limb of it against</summary>
         public float CarrySpeedMS;
-        /// <summary>more speed on the step before, or all of it goes further, is a jump, as after
-        /// vfit_cloth_teleport. 0: 6, and 0.06; &lt; 0: no limit</summary>
+        /// <summary>the rest, gains more speed on the step before, or all of it goes further, is a jump, as
+        /// after vfit_cloth_teleport. 0: 6, and 0.06; &lt; 0: no limit</summary>
         public float CarryWayM;
     }
 
