@@ -1052,38 +1052,39 @@ VFIT_API vfit_result vfit_cloth_set_quality(vfit_cloth cloth, uint32_t substeps,
  * worn below inner already. [excl] */
 VFIT_API vfit_result vfit_cloth_wear_over(vfit_cloth cloth, vfit_cloth inner);
 /* A prop: a solid that the host puts beside a body, such as a chair, a weapon, a bag or hair. Cloth stays
- * outside of it by its thickness, and meets its edges too. What a prop touches at once gives way: it comes in
- * as a point that grows to its size within 0.25 s, also after vfit_cloth_reset, and where it moves by more
- * than 0.5 m against the body within a step. */
+ * outside of it by its thickness, and meets its edges too. A prop comes in as a point that grows to its size
+ * within 0.25 s and pushes cloth aside, also after vfit_cloth_reset, and where it moves by more than 0.3 m
+ * against the body within a step. */
 typedef int32_t vfit_prop_shape;
 enum { VFIT_PROP_SPHERE = 0, VFIT_PROP_CAPSULE = 1, VFIT_PROP_BOX = 2, VFIT_PROP_MESH = 3 };
 typedef struct vfit_prop_desc {
     uint32_t struct_size;
     vfit_prop_shape shape;
-    float
-        size[3]; /* in the context's axes and unit. SPHERE: radius. CAPSULE: radius, and half the way between
-                  * its two centres, which lie along the up axis. BOX: half of each edge. 1 mm to 10 m */
-    uint32_t vertex_count;
-    const float* positions; /* MESH: three a vertex, in the prop's own frame; copied. 65,536 vertices at most,
-                             * also once edges longer than 3 cm (and 1/40 of its extent) are split */
-    const uint32_t* indices; /* MESH: three a triangle, wound as the INDEX that the context writes. A surface
-                              * that is not closed is met from its front, and passed from behind */
-    uint32_t index_count, reserved;
+    float size[3];           /* context's axes and unit, 1 mm to 10 m. SPHERE: radius. CAPSULE: radius, and
+                              * half the way between its two centres, which lie along the up axis. BOX: half
+                              * of each edge */
+    uint32_t vertex_count;   /* 65,536 at most, also once edges longer than 3 cm (and 1/40 of its extent) are
+                              * split: then VFIT_ERROR_DATA */
+    const float* positions;  /* MESH: three a vertex, in the prop's own frame; copied */
+    const uint32_t* indices; /* MESH: three a triangle, wound as the INDEX that the context writes; copied. A
+                              * surface that is not closed is met from its front, and passed from behind */
+    uint32_t index_count, reserved; /* 1,048,575 at most */
 } vfit_prop_desc;
 VFIT_STRUCT(vfit_prop_desc)
 /* Its frame is at the origin until it is moved. VFIT_ERROR_DATA for a mesh without triangles, with a wrong
  * index, or inside out. */
 VFIT_API vfit_result vfit_prop_create(vfit_context context, const vfit_prop_desc* desc,
                                       vfit_prop* out);  /* [any] */
-VFIT_API vfit_result vfit_prop_destroy(vfit_prop prop); /* cloth meets it no longer [any] */
-/* Where its frame is at the end of the next step of each cloth that meets it: call it before that step.
- * rotation: xyzw. [excl] */
+VFIT_API vfit_result vfit_prop_destroy(vfit_prop prop); /* no step that begins later meets it [any] */
+/* Where its frame is at the end of the next step of each cloth that meets it: call it before that step
+ * begins. While it is called, no other thread may begin such a step (VFIT_ERROR_BUSY). rotation: xyzw. [excl]
+ */
 VFIT_API vfit_result vfit_prop_move(vfit_prop prop, const float position[3], const float rotation[4]);
 /* The same for the vertices of a MESH, in its own frame: three numbers for each of vertex_count. [excl] */
 VFIT_API vfit_result vfit_prop_deform(vfit_prop prop, const float* positions, uint32_t vertex_count);
 /* From the next step on, cloth meets that prop of its context; and no longer. Each cloth that shall meet a
  * prop is told so. To add what is there and to remove what is not changes nothing. At most 64 a cloth. Adding
- * takes as long as about ten steps. VFIT_ERROR_STATE while a step runs. [excl] on cloth */
+ * takes as long as about ten steps. VFIT_ERROR_STATE while a step runs. [excl] on cloth, [read] on prop */
 VFIT_API vfit_result vfit_cloth_add_prop(vfit_cloth cloth, vfit_prop prop);
 VFIT_API vfit_result vfit_cloth_remove_prop(vfit_cloth cloth, vfit_prop prop);
 /* Skin that this garment alone hides from all who do not look up under it by more than 45 degrees:
@@ -1138,8 +1139,8 @@ typedef struct vfit_crossing {
     uint32_t struct_size;
     vfit_crossing_kind kind;
     uint32_t cloth;          /* index in cloths */
-    uint32_t other;          /* of CLOTH: index of the other one; of PROP: its number among the cloth's
-                              * props, in the order in which they were added; else as cloth */
+    uint32_t other;          /* of CLOTH: index of the other one; of PROP: its number among the props
+                              * of cloth in that step, in the order in which they were added; else as cloth */
     uint32_t pair_count;     /* pairs of triangles that cross */
     uint32_t triangle;       /* of the first pair: number in the INDEX stream of cloth */
     uint32_t other_triangle; /* number in the INDEX stream of cloth, of the avatar, or of other, by kind; of

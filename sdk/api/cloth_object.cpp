@@ -5,13 +5,11 @@
 
 namespace vfit::api {
 
-/// A step's access to the props. Those that were destroyed are met no longer.
+/// A step's access to the props.
 class ClothObject::ReadingProps {
 public:
     explicit ReadingProps(ClothObject& cloth) : readings_(cloth.prop_readings_) {
-        std::erase_if(cloth.props_, [&](const Ref<PropObject>& prop) {
-            return prop->is_destroyed && cloth.worn.pass(prop->prop);
-        });
+        cloth.drop_destroyed_props();
         try {
             for (const Ref<PropObject>& prop : cloth.props_) readings_.emplace_back(prop->access, "prop");
         } catch (...) {
@@ -117,11 +115,17 @@ void ClothObject::reskin() {
 void ClothObject::meet(const Ref<PropObject>& prop) {
     constexpr size_t kMaxProps = 64;
     require_no_step();
+    drop_destroyed_props();
     if (prop->context != context) fail(VFIT_ERROR_HANDLE, "cloth and prop belong to different contexts");
     if (props_.size() == kMaxProps && std::find(props_.begin(), props_.end(), prop) == props_.end())
         fail(VFIT_ERROR_CAPACITY, "the cloth meets ", kMaxProps, " props already");
     props_.reserve(props_.size() + 1), prop_readings_.reserve(props_.size() + 1);
     if (worn.meet(prop->prop)) props_.push_back(prop);
+}
+
+void ClothObject::drop_destroyed_props() {
+    std::erase_if(props_,
+                  [&](const Ref<PropObject>& prop) { return prop->is_destroyed && worn.pass(prop->prop); });
 }
 
 void ClothObject::pass(const Ref<PropObject>& prop) {

@@ -150,15 +150,16 @@ struct Cloth::State {
     ColliderMotion colliders;
     std::vector<ContactMesh> meshes;
     std::vector<std::vector<Vec3>> mesh_places;  // that they go to
+    std::vector<std::vector<Vec3>> mesh_starts;  // that they come from; empty: where they were
     std::vector<Vec3> held;                      // targets, where fixed vertices are lifted off other cloth
     std::vector<Vec3> previous_targets;          // one a vertex, then one a backstop: as held
     bool backstops_placed = false;               // previous_targets holds the backstops as well
 
     std::vector<Vec3> positions;    // what callers read
-    std::vector<Vec3> before, now;  // with own layers: the same at the begin of the step, carried along; and
+    std::vector<Vec3> before, now;  // with triangles: the same at the begin of the step, carried along; and
                                     // what the step made of it
     std::optional<TriangleGroups> groups;      // of the cloth
-    std::optional<TriangleContact> triangles;  // with own layers
+    std::optional<TriangleContact> triangles;  // with own layers or props
     bool is_deformed = false;                  // bones made it jump, which may have made layers cross
     bool contacts_known = false;               // of where the cloth was placed
     bool certified = false;                    // layers do not cross, which is proven
@@ -195,6 +196,7 @@ struct Cloth::State {
     int affordable(int wanted) const;
     std::span<const Vec3> held_at(std::span<const Vec3> targets);
     void check_body(std::span<const Vec3> targets, std::span<const Collider> colliders) const;
+    void check_mesh(uint32_t mesh, std::span<const Vec3> positions) const;
     void reset(std::span<const Vec3> start);
     void advance(float dt, int count, float damping, std::span<const Vec3> targets, Jobs& jobs,
                  const IntervalEnded& interval_ended = {});
@@ -261,6 +263,7 @@ Cloth Cloth::with_fabric(std::shared_ptr<const Fabric> fabric, Jobs* jobs) const
     o.colliders = s.colliders;
     o.meshes = s.meshes;
     o.mesh_places = s.mesh_places;
+    o.mesh_starts.resize(s.mesh_starts.size());
     o.previous_targets = s.previous_targets;
     o.backstops_placed = s.backstops_placed;
     return out;
@@ -341,7 +344,7 @@ uint32_t Cloth::add_mesh(size_t vertices, std::span<const uint32_t> indices, std
     if (!counts.empty() && counts.size() != vertices)
         fail(VFIT_ERROR_ARGUMENT, counts.size(), " flags for a mesh of ", vertices, " vertices");
     state_->meshes.emplace_back(vertices, indices, counts, what, filter);
-    state_->mesh_places.emplace_back();
+    state_->mesh_places.emplace_back(), state_->mesh_starts.emplace_back();
     state_->meet_triangles(state_->meshes.back());
     state_->wake();
     return uint32_t(state_->meshes.size()) - 1;
@@ -351,7 +354,7 @@ void Cloth::replace_mesh(uint32_t mesh, size_t vertices, std::span<const uint32_
     State& s = *state_;
     if (mesh >= s.meshes.size()) fail(VFIT_ERROR_ARGUMENT, "there is no mesh ", mesh);
     s.meshes[mesh] = ContactMesh(vertices, indices, {}, what);
-    s.mesh_places[mesh].clear();
+    s.mesh_places[mesh].clear(), s.mesh_starts[mesh].clear();
     s.solver.forget_mesh(mesh);
     if (s.triangles) s.find_triangles();
     s.wake();
@@ -361,19 +364,27 @@ void Cloth::meet_edges() {
     if (!state_->triangles) state_->find_triangles();
 }
 
-void Cloth::move_mesh(uint32_t mesh, std::span<const Vec3> positions) {
+void Cloth::shape_mesh(uint32_t mesh, std::span<const Vec3> positions) {
     State& s = *state_;
-    if (mesh >= s.meshes.size()) fail(VFIT_ERROR_ARGUMENT, "there is no mesh ", mesh);
-    if (positions.size() != s.meshes[mesh].vertex_count())
-        fail(VFIT_ERROR_ARGUMENT, positions.size(), " places for a mesh of ", s.meshes[mesh].vertex_count(),
-             " vertices");
+    s.check_mesh(mesh, positions);
+    s.meshes[mesh].accept(positions);
+    if (s.triangles) s.triangles->move_mesh(mesh, positions);
+    hide_mesh(mesh);
+}
+
+void Cloth::move_mesh(uint32_t mesh, std::span<const Vec3> positions, std::span<const Vec3> start) {
+    State& s = *state_;
+    s.check_mesh(mesh, positions);
+    if (!start.empty()) s.check_mesh(mesh, start);
     if (s.mesh_places[mesh].empty()) s.wake();
     s.mesh_places[mesh].assign(positions.begin(), positions.end());
+    s.mesh_starts[mesh].assign(start.begin(), start.end());
 }
 
 void Cloth::hide_mesh(uint32_t mesh) {
     if (mesh >= state_->meshes.size()) fail(VFIT_ERROR_ARGUMENT, "there is no mesh ", mesh);
-    state_->mesh_places[mesh].clear();
+    state_->mesh_places[mesh].clear(), state_->mesh_starts[mesh].clear();
+    state_->solver.forget_mesh(mesh);
     state_->meshes[mesh].hide();
     if (state_->triangles) state_->triangles->hide_mesh(mesh);
     state_->wake();
@@ -451,6 +462,12 @@ void Cloth::State::meet_body(std::span<const Vec3> targets, std::span<const Coll
     if (carried > 0.0f) {
         skip_targets(targets), colliders.skip(carried);
         if (triangles) triangles->skip(carried);
+    }
+    for (uint32_t i = 0; i < meshes.size(); ++i) {
+        if (mesh_starts[i].empty()) continue;
+        meshes[i].start_at(mesh_starts[i]);
+        if (triangles) triangles->start_mesh(i, mesh_starts[i]);
+        mesh_starts[i].clear();
     }
     carried = 0.0f;
     look_at({});
@@ -539,6 +556,13 @@ int Cloth::State::affordable(int wanted) const {
 void Cloth::State::check_body(std::span<const Vec3> targets, std::span<const Collider> colliders) const {
     check_points(targets, fabric->target_count(), "skinned targets");
     check_colliders(colliders);
+}
+
+void Cloth::State::check_mesh(uint32_t mesh, std::span<const Vec3> positions) const {
+    if (mesh >= meshes.size()) fail(VFIT_ERROR_ARGUMENT, "there is no mesh ", mesh);
+    if (positions.size() != meshes[mesh].vertex_count())
+        fail(VFIT_ERROR_ARGUMENT, positions.size(), " places for a mesh of ", meshes[mesh].vertex_count(),
+             " vertices");
 }
 
 /// The body has been met.

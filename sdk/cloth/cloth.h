@@ -127,10 +127,15 @@ public:
                       const MeshFilter& filter = {});
     /// Another one in the place of a mesh, hidden until it is moved.
     void replace_mesh(uint32_t mesh, size_t vertices, std::span<const uint32_t> indices, MeshOf what);
+    /// Before a mesh is moved the first time: its shape, by which its triangles are grouped, where it does
+    /// not have it then.
+    void shape_mesh(uint32_t mesh, std::span<const Vec3> positions);
     /// From now on edges meet those of meshes, as they do with own layers. Without, vertices alone meet them.
     void meet_edges();
     /// At the end of the next step, one a vertex. VFIT_ERROR_ARGUMENT for a wrong number or count.
-    void move_mesh(uint32_t mesh, std::span<const Vec3> positions);
+    /// start: where it begins that step, whatever fraction of its way carry_along() leaves behind it; empty:
+    /// where it was.
+    void move_mesh(uint32_t mesh, std::span<const Vec3> positions, std::span<const Vec3> start = {});
     /// It is not there until it is moved again.
     void hide_mesh(uint32_t mesh);
     /// From the next step on, of a mesh that has a filter. One a vertex of the cloth.

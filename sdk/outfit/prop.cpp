@@ -25,12 +25,7 @@ void Prop::deform(std::span<const Vec3> given) {
 void Prop::place() {
     const Mat3 turn = glm::mat3_cast(rotation_);
     positions_.resize(own_.size());
-    Vec3 sum(0.0f);
-    for (size_t i = 0; i < own_.size(); ++i) {
-        positions_[i] = turn * own_[i] + position_;
-        sum += positions_[i];
-    }
-    center_ = sum / float(own_.size());
+    for (size_t i = 0; i < own_.size(); ++i) positions_[i] = turn * own_[i] + position_;
 }
 
 }  // namespace vfit

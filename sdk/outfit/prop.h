@@ -24,8 +24,6 @@ public:
     size_t vertex_count() const { return mesh_.vertex_count(); }
     /// World space.
     const std::vector<Vec3>& positions() const { return positions_; }
-    /// The mean of these.
-    const Vec3& center() const { return center_; }
 
 private:
     void place();
@@ -35,7 +33,6 @@ private:
     Vec3 position_{0.0f};
     Quat rotation_{1.0f, 0.0f, 0.0f, 0.0f};
     std::vector<Vec3> positions_;
-    Vec3 center_{0.0f};
 };
 
 }  // namespace vfit

@@ -136,7 +136,8 @@ PropMesh::PropMesh(std::span<const Vec3> given, std::span<const uint32_t> indice
         if (a != b && b != c && c != a) indices_.insert(indices_.end(), {a, b, c});
     }
     if (indices_.empty()) fail(VFIT_ERROR_DATA, "a prop has no triangle");
-    if (enclosed_volume(positions, indices_) < 0.0)
+    constexpr double kNone = 1e-6;  // of a cube: a surface with two equal sides encloses nothing
+    if (enclosed_volume(positions, indices_) < -kNone * std::pow(double(extent_m(positions)), 3.0))
         fail(VFIT_ERROR_DATA, "a prop's triangles are clockwise seen from outside");
     const float longest_m = longest_edge_m(extent_m(positions));
     while (split_long_edges(longest_m, positions, indices_, &middles_)) {

@@ -9,7 +9,27 @@ namespace vfit {
 namespace {
 
 constexpr float kGrows_s = 0.25f;
-constexpr float kLeap_m = 0.5f;  // in a step: no hand and no ball is so fast
+constexpr float kLeap_m = 0.3f;  // in a step: what is faster is not swept (kMaxWay_m)
+constexpr float kNear_m = 0.3f;  // to the garment, where leaps matter
+
+Vec3 moved(const Mat4& m, const Vec3& p) { return Vec3(m * Vec4(p, 1.0f)); }
+
+/// What a garment may meet.
+Bounds about(const Cloth& cloth) {
+    Bounds out;
+    for (const Vec3& p : cloth.positions()) out.add(p);
+    out.low -= kNear_m, out.high += kNear_m;
+    return out;
+}
+
+/// Against a body that moves so, where the prop is near the garment.
+bool leaps(std::span<const Vec3> before, std::span<const Vec3> now, const Mat4& body, const Bounds& near_m) {
+    for (size_t i = 0; i < now.size(); ++i) {
+        if (!near_m.overlaps({now[i], now[i]}) && !near_m.overlaps({before[i], before[i]})) continue;
+        if (glm::distance(moved(body, before[i]), now[i]) > kLeap_m) return true;
+    }
+    return false;
+}
 
 }  // namespace
 
@@ -17,6 +37,7 @@ bool PropsMet::add(const Prop& prop, Cloth& cloth) {
     if (std::any_of(met_.begin(), met_.end(), [&](const Met& met) { return met.prop == &prop; }))
         return false;
     met_.reserve(met_.size() + 1), free_meshes_.reserve(met_.size() + 1);
+    cloth.meet_edges();
     uint32_t mesh;
     if (free_meshes_.empty()) {
         mesh = cloth.add_mesh(prop.vertex_count(), prop.indices(), {}, MeshOf::prop);
@@ -25,8 +46,8 @@ bool PropsMet::add(const Prop& prop, Cloth& cloth) {
         cloth.replace_mesh(mesh, prop.vertex_count(), prop.indices(), MeshOf::prop);
         free_meshes_.pop_back();
     }
-    cloth.meet_edges();
-    met_.push_back({&prop, mesh, 0.0f, 0, Vec3(0.0f), {}, {}});
+    cloth.shape_mesh(mesh, prop.positions());
+    met_.push_back({&prop, mesh, 0.0f, 0, {}, {}, {}, {}});
     return true;
 }
 
@@ -39,21 +60,30 @@ bool PropsMet::remove(const Prop& prop, Cloth& cloth) {
     return true;
 }
 
-void PropsMet::move(const Mat4& root, float dt, Cloth& cloth) {
-    const Mat4 to_body = glm::inverse(root);
+void PropsMet::move(const RootMotion& body, float dt, Cloth& cloth) {
+    if (met_.empty()) return;
+    const Bounds garment = about(cloth);
+    const Mat4 motion = body.now * glm::inverse(body.before);
     for (Met& met : met_) {
-        const Vec3 from_body(to_body * Vec4(met.prop->center(), 1.0f));
-        if (met.size > 0.0f && glm::distance(from_body, met.from_body) > kLeap_m) come_in_anew(met, cloth);
-        met.from_body = from_body;
-        if (met.size == 0.0f) begin_to_grow(met, cloth);
-        met.size = std::min(1.0f, met.size + dt / kGrows_s);
-        if (met.size == 0.0f) continue;
         const std::vector<Vec3>& whole = met.prop->positions();
-        met.places.resize(whole.size());
+        if (met.size > 0.0f && leaps(met.whole, whole, motion, garment)) come_in_anew(met, cloth);
+        if (met.size == 0.0f) begin_to_grow(met, cloth);
+        find_starts(body, met);
+        met.whole = whole;
+        met.size = std::min(1.0f, met.size + dt / kGrows_s);
         for (size_t i = 0; i < whole.size(); ++i)
             met.places[i] = met.size < 1.0f ? glm::mix(whole[met.from], whole[i], met.size) : whole[i];
-        cloth.move_mesh(met.mesh, met.places);
+        cloth.move_mesh(met.mesh, met.places, met.starts);
     }
+}
+
+/// Where it was, as the fraction of the body's motion moves it that the cloth moves by: the two are to each
+/// other as they were.
+void PropsMet::find_starts(const RootMotion& body, Met& met) const {
+    met.starts = met.places;
+    if (body.carried == 0.0f) return;
+    const Mat4 motion = body.now * glm::inverse(body.before);
+    for (Vec3& p : met.starts) p = glm::mix(p, moved(motion, p), body.carried);
 }
 
 void PropsMet::hide(Cloth& cloth) {
@@ -65,6 +95,7 @@ void PropsMet::come_in_anew(Met& met, Cloth& cloth) {
     cloth.hide_mesh(met.mesh);
 }
 
+/// All of it at one vertex.
 void PropsMet::begin_to_grow(Met& met, const Cloth& cloth) {
     Bounds garment;
     for (const Vec3& p : cloth.positions()) garment.add(p);
@@ -73,11 +104,14 @@ void PropsMet::begin_to_grow(Met& met, const Cloth& cloth) {
     float most = -1.0f;
     for (uint32_t i = 0; i < whole.size(); ++i)
         if (const float way = glm::distance(whole[i], middle); way > most) most = way, met.from = i;
+    met.places.assign(whole.size(), whole[met.from]);
 }
 
 void PropsMet::keep_step() {
-    for (Met& met : met_)
+    for (Met& met : met_) {
+        met.kept.clear();
         if (met.size > 0.0f) met.kept = met.places;
+    }
 }
 
 }  // namespace vfit

@@ -12,22 +12,29 @@
 
 namespace vfit {
 
+/// The body's motion in a step, as that of its root.
+struct RootMotion {
+    Mat4 before, now;      // skinning matrices
+    float carried = 0.0f;  // the fraction of it that moves the cloth at once
+};
+
 class PropsMet {
 public:
     /// From the next step on; prop must outlive its removal. False: it was there.
     bool add(const Prop& prop, Cloth& cloth);
     /// False: it was not there.
     bool remove(const Prop& prop, Cloth& cloth);
-    /// Before a step of dt: takes where the props are. root: of the body, which moves at once with what it
-    /// carries; a prop that leaps against it comes in anew.
-    void move(const Mat4& root, float dt, Cloth& cloth);
+    /// Before a step of dt, 0 < dt <= kMaxStep_s: takes where the props are. What the body's motion moves at
+    /// once, it moves past them: that way is swept as well. A prop that leaps against the body, near the
+    /// garment, comes in anew.
+    void move(const RootMotion& body, float dt, Cloth& cloth);
     /// None is there until move().
     void hide(Cloth& cloth);
     /// The step has ended.
     void keep_step();
 
     size_t count() const { return met_.size(); }
-    /// Triangles of the last step that has ended; no positions: there was none.
+    /// Triangles of the last step that has ended; no positions: it was not there.
     std::span<const Vec3> positions(size_t prop) const { return met_[prop].kept; }
     const std::vector<uint32_t>& indices(size_t prop) const { return met_[prop].prop->indices(); }
 
@@ -35,13 +42,14 @@ private:
     struct Met {
         const Prop* prop;
         uint32_t mesh;
-        float size = 0.0f;     // 0..1
-        uint32_t from = 0;     // the vertex that it grows from
-        Vec3 from_body{0.0f};  // its center, as the body's root carries it
-        std::vector<Vec3> places, kept;
+        float size = 0.0f;        // 0..1
+        uint32_t from = 0;        // the vertex that it grows from
+        std::vector<Vec3> whole;  // in the last step
+        std::vector<Vec3> places, starts, kept;
     };
     static void come_in_anew(Met& met, Cloth& cloth);
     static void begin_to_grow(Met& met, const Cloth& cloth);
+    void find_starts(const RootMotion& body, Met& met) const;
 
     std::vector<Met> met_;
     std::vector<uint32_t> free_meshes_;

@@ -87,10 +87,10 @@ void WornGarment::begin_step(float dt) {
     obstacles_.select(avatar_pose(), colliders_, jobs_);
     obstacles_.move_skin(avatar_pose(), cloth_, jobs_);
     layers_.move(cloth_);
-    props_.move(avatar_pose().front(), dt, cloth_);
     time_ns_ = avatar.time_ns();
     dt_ = dt;
     if (dt == 0.0f) return;  // the cloth stays where the step before left it
+    const Mat4 root_before = pose_.front();
     pose_.assign(avatar_pose().begin(), avatar_pose().end());
     const float simulated_s = std::clamp(dt, kMinStep_s, kMaxStep_s);
     body_.move_to(pose_, simulated_s);
@@ -103,6 +103,7 @@ void WornGarment::begin_step(float dt) {
     limb_speed_m_s_ = is_jump ? 0.0f : body_.way().limb_m / simulated_s;
     carried_ = is_jump ? 1.0f : 1.0f - settings_.inertia;
     jumps_ = false;
+    props_.move({root_before, pose_.front(), carried_}, simulated_s, cloth_);
 }
 
 void WornGarment::step() {

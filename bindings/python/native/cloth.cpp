@@ -328,14 +328,14 @@ void bind_cloth(py::module_& m) {
                     run([h = c.get(), p = prop->get()] { return vfit_cloth_add_prop(h, p); });
                     c.props.insert(prop);
                 },
-                "prop"_a, "Stays outside of that prop from the next step on.")
+                py::arg("prop").none(false), "Stays outside of that prop from the next step on.")
             .def(
                 "remove_prop",
                 [](Cloth& c, const std::shared_ptr<Prop>& prop) {
                     run([h = c.get(), p = prop->get()] { return vfit_cloth_remove_prop(h, p); });
                     c.props.erase(prop);
                 },
-                "prop"_a)
+                py::arg("prop").none(false))
             .def("fit", &fit, "How it sits, by girths of the trunk.")
             .def("fit_map", &fit_map, "One value a vertex: above 0 tight, below 0 loose.")
             .def(

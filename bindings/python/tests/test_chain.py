@@ -354,6 +354,9 @@ def test_cloth_stays_outside_of_props(ctx):
     assert abs(hem_reaches() - free) < 0.03
     with pytest.raises(vfit.DataError, match="clockwise"):
         vfit.Prop.mesh(ctx, corners, hull[:, ::-1])
+    for call in cloth.add_prop, cloth.remove_prop:
+        with pytest.raises(TypeError):
+            call(None)
     with pytest.raises(ValueError, match="shape"):
         vfit.Prop.mesh(ctx, corners.ravel(), hull)
     with pytest.raises(vfit.ArgumentError):

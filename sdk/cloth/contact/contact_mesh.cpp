@@ -104,7 +104,11 @@ void ContactMesh::order(std::span<const Vec3> positions) {
     from_.reserve(vertex_of_.size());
     boxes_.resize(runs);
     ways_m_.assign(runs, 0.0f);
-    edges_m_.assign(runs, 0.0f);
+    find_edges(positions);
+}
+
+void ContactMesh::find_edges(std::span<const Vec3> positions) {
+    edges_m_.assign(ways_m_.size(), 0.0f);
     for (uint32_t i = 0; i < vertex_of_.size(); ++i)
         for (const TriangleFans::Corners& c : fans_.of(i))
             for (uint32_t other : {c.second, c.third}) {
@@ -114,7 +118,10 @@ void ContactMesh::order(std::span<const Vec3> positions) {
 }
 
 void ContactMesh::accept(std::span<const Vec3> positions) {
-    if (vertex_of_.empty() && !indices_.empty()) order(positions);
+    if (vertex_of_.empty() && !indices_.empty())
+        order(positions);
+    else if (what_ == MeshOf::prop)  // it grows, or is deformed
+        find_edges(positions);
     for (size_t i = 0; i < vertex_of_.size(); ++i)
         if (vertex_of_[i] != kNobody) to_[i].x = positions[vertex_of_[i]];
     if (from_.size() != to_.size()) from_ = to_;
@@ -122,6 +129,11 @@ void ContactMesh::accept(std::span<const Vec3> positions) {
 
 void ContactMesh::skip(float fraction) {
     for (size_t i = 0; i < from_.size(); ++i) from_[i].x = glm::mix(from_[i].x, to_[i].x, fraction);
+}
+
+void ContactMesh::start_at(std::span<const Vec3> positions) {
+    for (size_t i = 0; i < vertex_of_.size(); ++i)
+        if (vertex_of_[i] != kNobody) from_[i].x = positions[vertex_of_[i]];
 }
 
 void ContactMesh::look_at(const Interval& interval, const Vec3& low, const Vec3& high) {
@@ -140,7 +152,11 @@ void ContactMesh::look_at(const Interval& interval, const Vec3& low, const Vec3&
         for (size_t i = run * kLanes; i < std::min((run + 1) * kLanes, vertex_of_.size()); ++i) {
             if (vertex_of_[i] == kNobody) continue;
             const Vec3 &p = begin_[i].x, &q = end_[i].x;
-            const bool inside = glm::all(glm::greaterThan(p, low)) && glm::all(glm::lessThan(p, high));
+            const auto is_inside = [&](const Vec3& nearest) {
+                return glm::all(glm::greaterThan(nearest, low)) && glm::all(glm::lessThan(nearest, high));
+            };
+            // A prop may come from further away within the interval.
+            const bool inside = is_inside(p) || (what_ == MeshOf::prop && is_inside(q));
             places_[i].x = inside ? p : Vec3(NAN);
             if (!inside) continue;
             const Vec3 way = q - p;

@@ -35,6 +35,8 @@ public:
     void accept(std::span<const Vec3> positions);
     /// A fraction of their way in this step lies behind them when it begins.
     void skip(float fraction);
+    /// After accept(): where they begin the step.
+    void start_at(std::span<const Vec3> positions);
     /// What follows is about that part of the step; the mesh is looked for within a box.
     void look_at(const Interval& interval, const Vec3& low, const Vec3& high);
     /// They were nowhere before: the next step begins where it ends.
@@ -81,6 +83,7 @@ private:
         uint32_t nearest_corner() const;
     };
     void order(std::span<const Vec3> positions);
+    void find_edges(std::span<const Vec3> positions);
     float reach_of(const Moving& moving, uint32_t first, float dt, float thickness_m,
                    std::vector<uint32_t>& near) const;
     void find_nearest(const Particle* run, uint32_t* points, int max_steps, NearestOnFans& out) const;

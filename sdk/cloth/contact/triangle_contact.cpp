@@ -62,6 +62,11 @@ void TriangleContact::move_mesh(uint32_t number, std::span<const Vec3> end) {
     std::copy(end.begin(), end.end(), to_.begin() + first);
 }
 
+void TriangleContact::start_mesh(uint32_t number, std::span<const Vec3> positions) {
+    const auto first = std::ptrdiff_t(meshes_[number].first_vertex - cloth_vertices_);
+    std::copy(positions.begin(), positions.end(), from_.begin() + first);
+}
+
 void TriangleContact::skip(float fraction) {
     for (size_t i = 0; i < from_.size(); ++i) from_[i] = glm::mix(from_[i], to_[i], fraction);
 }

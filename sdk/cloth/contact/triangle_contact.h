@@ -32,6 +32,8 @@ public:
     void set_mask(uint32_t mesh, std::span<const uint8_t> mask) { proximity_.set_mask(mesh, mask); }
     /// Where it goes in the next step, from where it went in the last.
     void move_mesh(uint32_t mesh, std::span<const Vec3> end);
+    /// After move_mesh() and skip(): where it begins the next step.
+    void start_mesh(uint32_t mesh, std::span<const Vec3> positions);
     /// A fraction of the meshes' way in the next step lies behind them when it begins.
     void skip(float fraction);
     /// The next keep() is about that part of the step.

@@ -662,12 +662,13 @@ namespace Vfit
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_prop_create(ContextId context, PropDesc* desc, PropId* @out);
 
-        /// <summary>cloth meets it no longer [any]</summary>
+        /// <summary>no step that begins later meets it [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_prop_destroy(PropId prop);
 
         /// <summary>Where its frame is at the end of the next step of each cloth that meets it: call it
-        /// before that step. rotation: xyzw. [excl]</summary>
+        /// before that step begins. While it is called, no other thread may begin such a step
+        /// (VFIT_ERROR_BUSY). rotation: xyzw. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_prop_move(PropId prop, float* position, float* rotation);
 
@@ -679,7 +680,7 @@ namespace Vfit
         /// <summary>From the next step on, cloth meets that prop of its context; and no longer. Each cloth
         /// that shall meet a prop is told so. To add what is there and to remove what is not changes nothing.
         /// At most 64 a cloth. Adding takes as long as about ten steps. VFIT_ERROR_STATE while a step runs.
-        /// [excl] on cloth</summary>
+        /// [excl] on cloth, [read] on prop</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_add_prop(ClothId cloth, PropId prop);
 

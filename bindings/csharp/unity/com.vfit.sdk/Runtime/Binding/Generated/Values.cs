@@ -376,9 +376,9 @@ namespace Vfit
     }
 
     /// <summary>A prop: a solid that the host puts beside a body, such as a chair, a weapon, a bag or
-    /// hair. Cloth stays outside of it by its thickness, and meets its edges too. What a prop touches at
-    /// once gives way: it comes in as a point that grows to its size within 0.25 s, also after
-    /// vfit_cloth_reset, and where it moves by more than 0.5 m against the body within a step.</summary>
+    /// hair. Cloth stays outside of it by its thickness, and meets its edges too. A prop comes in as a
+    /// point that grows to its size within 0.25 s and pushes cloth aside, also after vfit_cloth_reset,
+    /// and where it moves by more than 0.3 m against the body within a step.</summary>
     public enum PropShape : int
     {
         Sphere = 0,
@@ -1269,12 +1269,15 @@ namespace Vfit
     {
         internal uint StructSize;
         public PropShape Shape;
-        /// <summary>in the context's axes and unit. SPHERE: radius. CAPSULE: radius, and half the way between
-        /// its two centres, which lie along the up axis. BOX: half of each edge. 1 mm to 10 m</summary>
+        /// <summary>context's axes and unit, 1 mm to 10 m. SPHERE: radius. CAPSULE: radius, and half the way
+        /// between its two centres, which lie along the up axis. BOX: half of each edge</summary>
         public Float3 Size;
+        /// <summary>65,536 at most, also once edges longer than 3 cm (and 1/40 of its extent) are split: then
+        /// VFIT_ERROR_DATA</summary>
         public uint VertexCount;
         internal float* positions;
         internal uint* indices;
+        /// <summary>1,048,575 at most</summary>
         public uint IndexCount;
         internal uint Reserved;
     }
@@ -1313,8 +1316,8 @@ namespace Vfit
         public CrossingKind Kind;
         /// <summary>index in cloths</summary>
         public uint Cloth;
-        /// <summary>of CLOTH: index of the other one; of PROP: its number among the cloth's props, in the
-        /// order in which they were added; else as cloth</summary>
+        /// <summary>of CLOTH: index of the other one; of PROP: its number among the props of cloth in that
+        /// step, in the order in which they were added; else as cloth</summary>
         public uint Other;
         /// <summary>pairs of triangles that cross</summary>
         public uint PairCount;
