@@ -346,12 +346,13 @@ def test_cloth_stays_outside_of_props(ctx):
         ball.move((free + 0.3 - 0.005 * i, 0.55, 0.0))
         cloth.step()
         assert all(c.kind != "prop" for c in vfit.outfit_check([cloth]))
-    assert hem_reaches() < free - 0.02
+    pushed = hem_reaches()
+    assert pushed < free - 0.02
     cloth.remove_prop(ball)
     box.deform(2.0 * corners)
     for _ in range(60):
         cloth.step()
-    assert abs(hem_reaches() - free) < 0.03
+    assert hem_reaches() > pushed + 0.02
     with pytest.raises(vfit.DataError, match="clockwise"):
         vfit.Prop.mesh(ctx, corners, hull[:, ::-1])
     for call in cloth.add_prop, cloth.remove_prop:
