@@ -1083,8 +1083,8 @@ VFIT_API vfit_result vfit_prop_move(vfit_prop prop, const float position[3], con
 /* The same for the vertices of a MESH, in its own frame: three numbers for each of vertex_count. [excl] */
 VFIT_API vfit_result vfit_prop_deform(vfit_prop prop, const float* positions, uint32_t vertex_count);
 /* From the next step on, cloth meets that prop of its context; and no longer. Each cloth that shall meet a
- * prop is told so. To add what is there and to remove what is not changes nothing. At most 64 a cloth. Adding
- * takes as long as about ten steps. VFIT_ERROR_STATE while a step runs. [excl] on cloth, [read] on prop */
+ * prop is told so. To add what is there and to remove what is not changes nothing. At most 64 a cloth. Cost
+ * of adding: about ten steps. VFIT_ERROR_STATE while a step runs. [excl] on cloth, [read] on prop */
 VFIT_API vfit_result vfit_cloth_add_prop(vfit_cloth cloth, vfit_prop prop);
 VFIT_API vfit_result vfit_cloth_remove_prop(vfit_cloth cloth, vfit_prop prop);
 /* Skin that this garment alone hides from all who do not look up under it by more than 45 degrees:

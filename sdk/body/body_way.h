@@ -3,8 +3,8 @@
 
 namespace vfit {
 
-/// Displacements of the parts of the body that carry cloth: the least of all, the greatest of the body as a
-/// whole, which moves as one, and the greatest of a limb against that.
+/// Displacements of the parts of the body that carry cloth: the least; the greatest by the rigid motion that
+/// fits all parts best; the greatest relative to that motion.
 struct BodyWay {
     float min_m = 0.0f, whole_m = 0.0f, limb_m = 0.0f;
 };

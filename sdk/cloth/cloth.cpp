@@ -531,7 +531,8 @@ bool Cloth::State::stays_asleep(std::span<const Vec3> targets) const {
     return !asleep_at.empty() && body_way() <= kStill_m && farthest(asleep_at, targets) <= kStill_m;
 }
 
-/// Of the parts of solids against each other in this step, at most: what all of them go together is none.
+/// Greatest displacement of two parts of solids against each other in this step. A common translation does
+/// not count.
 float Cloth::State::way_within_solids() const {
     Bounds ways;
     for (const ContactMesh& mesh : meshes)
@@ -637,7 +638,7 @@ void Cloth::State::meet_triangles(const ContactMesh& mesh) {
                         mesh.filter());
 }
 
-/// Anew, of the meshes as they are.
+/// Builds the triangle contact again for the present meshes.
 void Cloth::State::find_triangles() {
     before.resize(positions.size()), now.resize(positions.size());
     triangles.emplace(fabric, settings.self_thickness_m, positions);

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "cloth/contact/contact.h"
-
 namespace vfit {
 
 namespace {
@@ -14,19 +12,19 @@ constexpr float kNear_m = 0.3f;  // to the garment, where leaps matter
 
 Vec3 moved(const Mat4& m, const Vec3& p) { return Vec3(m * Vec4(p, 1.0f)); }
 
-/// What a garment may meet.
-Bounds about(const Cloth& cloth) {
+Bounds bounds_of(const Cloth& cloth) {
     Bounds out;
     for (const Vec3& p : cloth.positions()) out.add(p);
-    out.low -= kNear_m, out.high += kNear_m;
     return out;
 }
 
-/// Against a body that moves so, where the prop is near the garment.
-bool leaps(std::span<const Vec3> before, std::span<const Vec3> now, const Mat4& body, const Bounds& near_m) {
+/// Some vertex moves too far relative to the body, and its way leads past the garment.
+bool leaps(std::span<const Vec3> before, std::span<const Vec3> now, const Mat4& motion, Bounds garment) {
+    garment.low -= kNear_m, garment.high += kNear_m;
     for (size_t i = 0; i < now.size(); ++i) {
-        if (!near_m.overlaps({now[i], now[i]}) && !near_m.overlaps({before[i], before[i]})) continue;
-        if (glm::distance(moved(body, before[i]), now[i]) > kLeap_m) return true;
+        Bounds way;
+        way.add(before[i]), way.add(now[i]);
+        if (garment.overlaps(way) && glm::distance(moved(motion, before[i]), now[i]) > kLeap_m) return true;
     }
     return false;
 }
@@ -62,28 +60,22 @@ bool PropsMet::remove(const Prop& prop, Cloth& cloth) {
 
 void PropsMet::move(const RootMotion& body, float dt, Cloth& cloth) {
     if (met_.empty()) return;
-    const Bounds garment = about(cloth);
+    const Bounds garment = bounds_of(cloth);
     const Mat4 motion = body.now * glm::inverse(body.before);
     for (Met& met : met_) {
         const std::vector<Vec3>& whole = met.prop->positions();
         if (met.size > 0.0f && leaps(met.whole, whole, motion, garment)) come_in_anew(met, cloth);
-        if (met.size == 0.0f) begin_to_grow(met, cloth);
-        find_starts(body, met);
+        if (met.size == 0.0f) begin_to_grow(met, garment);
+        // Cloth that moves with the body at once takes the prop's start along: their distance stays.
+        met.starts = met.places;
+        if (body.carried > 0.0f)
+            for (Vec3& p : met.starts) p = glm::mix(p, moved(motion, p), body.carried);
         met.whole = whole;
         met.size = std::min(1.0f, met.size + dt / kGrows_s);
         for (size_t i = 0; i < whole.size(); ++i)
             met.places[i] = met.size < 1.0f ? glm::mix(whole[met.from], whole[i], met.size) : whole[i];
         cloth.move_mesh(met.mesh, met.places, met.starts);
     }
-}
-
-/// Where it was, as the fraction of the body's motion moves it that the cloth moves by: the two are to each
-/// other as they were.
-void PropsMet::find_starts(const RootMotion& body, Met& met) const {
-    met.starts = met.places;
-    if (body.carried == 0.0f) return;
-    const Mat4 motion = body.now * glm::inverse(body.before);
-    for (Vec3& p : met.starts) p = glm::mix(p, moved(motion, p), body.carried);
 }
 
 void PropsMet::hide(Cloth& cloth) {
@@ -96,9 +88,7 @@ void PropsMet::come_in_anew(Met& met, Cloth& cloth) {
 }
 
 /// All of it at one vertex.
-void PropsMet::begin_to_grow(Met& met, const Cloth& cloth) {
-    Bounds garment;
-    for (const Vec3& p : cloth.positions()) garment.add(p);
+void PropsMet::begin_to_grow(Met& met, const Bounds& garment) {
     const Vec3 middle = 0.5f * (garment.low + garment.high);
     const std::vector<Vec3>& whole = met.prop->positions();
     float most = -1.0f;

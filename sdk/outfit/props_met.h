@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cloth/cloth.h"
+#include "cloth/contact/contact.h"
 #include "math/types.h"
 #include "outfit/prop.h"
 
@@ -24,9 +25,9 @@ public:
     bool add(const Prop& prop, Cloth& cloth);
     /// False: it was not there.
     bool remove(const Prop& prop, Cloth& cloth);
-    /// Before a step of dt, 0 < dt <= kMaxStep_s: takes where the props are. What the body's motion moves at
-    /// once, it moves past them: that way is swept as well. A prop that leaps against the body, near the
-    /// garment, comes in anew.
+    /// Before a step of dt, 0 < dt <= kMaxStep_s: takes the places of the props. Motion of the body that
+    /// moves the cloth at once is swept against them as well. A prop that leaps relative to the body, past
+    /// the garment, comes in anew.
     void move(const RootMotion& body, float dt, Cloth& cloth);
     /// None is there until move().
     void hide(Cloth& cloth);
@@ -48,8 +49,7 @@ private:
         std::vector<Vec3> places, starts, kept;
     };
     static void come_in_anew(Met& met, Cloth& cloth);
-    static void begin_to_grow(Met& met, const Cloth& cloth);
-    void find_starts(const RootMotion& body, Met& met) const;
+    static void begin_to_grow(Met& met, const Bounds& garment);
 
     std::vector<Met> met_;
     std::vector<uint32_t> free_meshes_;

@@ -23,8 +23,8 @@ class CrossingGuard {
 public:
     /// Vertices without a finite mass do not give way.
     explicit CrossingGuard(const FabricData& fabric);
-    /// Vertices of a mesh follow, which do not give way either. The cloth is kept from crossing those
-    /// that are guarded as far as projections do; the others are left to contact.
+    /// Vertices of a mesh follow, which do not give way either. Crossings with guarded
+    /// meshes are repaired by projections alone; other meshes are left to contact.
     void add_mesh(size_t vertices, MeshOf what);
 
     /// Changes `end` so that no triangles cross on linear ways from `begin`, except those that crossed at

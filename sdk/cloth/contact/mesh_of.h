@@ -6,14 +6,14 @@
 
 namespace vfit {
 
-/// A solid keeps its hollows; the folds of a cloth come and go, and what was faced in them would hold on to
-/// it. A prop is a solid with sharp edges, of which the cloth is kept as it is of cloth; of a skin that
-/// pinches it, it would tear. Cloth that is just coming out from below the other one pushes that along, and
-/// nobody minds where the two go through each other.
+/// solid: the skin. Contacts are followed from step to step, also in its hollows. Crossings are not repaired:
+/// a skin that pinches the cloth would tear it. prop: a solid with sharp edges; crossings are repaired.
+/// cloth: an inner garment. Its folds come and go, so contacts are not followed; crossings are repaired.
+/// coming_cloth: an inner garment that grows and pushes the outer one along; crossings are not repaired.
 enum class MeshOf : uint8_t { solid, prop, cloth, coming_cloth };
 
 inline bool is_cloth(MeshOf what) { return what == MeshOf::cloth || what == MeshOf::coming_cloth; }
-/// What ends a step through the cloth is set right (CrossingGuard).
+/// Crossings at the end of a step are repaired (CrossingGuard).
 inline bool is_guarded(MeshOf what) { return what == MeshOf::cloth || what == MeshOf::prop; }
 
 /// Which vertices of a cloth a mesh is there for: those whose mask has a bit of the mesh vertex' category.

@@ -193,6 +193,37 @@ TEST(PropsMet, WhatComesInsideOfTheClothPushesItOut) {
     EXPECT_LT(glm::distance(before, fall.middle()), 0.02f);
 }
 
+TEST(PropsMet, APropThatLeapsFromOneSideToTheOtherSweepsNothing) {
+    FallingSheet fall(0.7f), alone(0.7f);
+    Prop ball(sphere_mesh(0.1f));
+    PropsMet props, none;
+    ball.move(Vec3(-1.5f, 0.6f, 0.0f), Quat(1, 0, 0, 0));
+    props.add(ball, *fall.cloth);
+    for (int i = 0; i < 24; ++i) {
+        if (i == 8) ball.move(Vec3(1.5f, 0.6f, 0.0f), Quat(1, 0, 0, 0));
+        fall.step(props), alone.step(none);
+        ASSERT_LT(glm::distance(fall.middle(), alone.middle()), 0.01f) << i;
+    }
+}
+
+TEST(PropsMet, ADeformedPropTakesTheClothAlong) {
+    FallingSheet fall(0.4f);
+    Mesh shape = box_mesh({0.5f, 0.1f, 0.5f});
+    Prop box(shape);
+    PropsMet props;
+    props.add(box, *fall.cloth);
+    for (int i = 0; i < 60; ++i) fall.step(props);
+    EXPECT_NEAR(fall.middle().y, 0.104f, 0.005f);
+    for (int i = 0; i < 30; ++i) {
+        for (Vec3& p : shape.positions)
+            if (p.y > 0.0f) p.y = 0.1f + 0.01f * float(i + 1);
+        box.deform(shape.positions);
+        fall.step(props);
+        ASSERT_EQ(fall.crossings(props), 0u) << i;
+    }
+    EXPECT_GT(fall.middle().y, 0.4f);
+}
+
 TEST(PropsMet, ClothThatLiesOnAPropFallsOnceThatIsRemoved) {
     FallingSheet fall(0.7f);
     Prop box(box_mesh({0.5f, 0.05f, 0.5f}));

@@ -679,8 +679,8 @@ namespace Vfit
 
         /// <summary>From the next step on, cloth meets that prop of its context; and no longer. Each cloth
         /// that shall meet a prop is told so. To add what is there and to remove what is not changes nothing.
-        /// At most 64 a cloth. Adding takes as long as about ten steps. VFIT_ERROR_STATE while a step runs.
-        /// [excl] on cloth, [read] on prop</summary>
+        /// At most 64 a cloth. Cost of adding: about ten steps. VFIT_ERROR_STATE while a step runs. [excl] on
+        /// cloth, [read] on prop</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_add_prop(ClothId cloth, PropId prop);
 
