@@ -260,11 +260,15 @@ TEST_F(PropTest, BadInputIsRefusedByName) {
     EXPECT_EQ(vfit_prop_deform(ball, nullptr, 4), VFIT_ERROR_ARGUMENT);
 
     const vfit_cloth cloth = make();
-    for (int i = 0; i < 64; ++i)
+    const vfit_prop first = make_prop(VFIT_PROP_BOX, 0.01f, 0.01f, 0.01f);
+    ASSERT_EQ(vfit_cloth_add_prop(cloth, first), VFIT_OK) << contract::last_error();
+    for (int i = 0; i < 63; ++i)
         ASSERT_EQ(vfit_cloth_add_prop(cloth, make_prop(VFIT_PROP_BOX, 0.01f, 0.01f, 0.01f)), VFIT_OK)
             << contract::last_error();
     EXPECT_EQ(vfit_cloth_add_prop(cloth, ball), VFIT_ERROR_CAPACITY);
     step(cloth, 2);
+    EXPECT_EQ(vfit_prop_destroy(first), VFIT_OK);
+    EXPECT_EQ(vfit_cloth_add_prop(cloth, ball), VFIT_OK) << "a destroyed prop leaves its place at once";
 
     vfit_context other{};
     const vfit_context_desc plain = contract::context_desc();
