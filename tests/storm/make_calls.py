@@ -88,6 +88,9 @@ class Writer:
                 direction = "in" if v.const else "out"
                 take(f"s.list_{direction}<{v.type}>()", ["items", "stride", "count"])
                 continue
+            elif v.type == "float" and v.const and following and following.name == "vertex_count":
+                take("s.points_in()", ["positions", "count"])
+                continue
             elif v.type in self.ranges and v.pointer and following and following.name == "count":
                 take(f"s.plain_list_out<{v.type}>()", ["items", "count"])
                 continue
@@ -112,9 +115,9 @@ class Writer:
                 drawn = f"s.struct_in<{v.type}>()" if v.const else f"s.struct_out<{v.type}>()"
             elif v.type == "char":
                 drawn = f"s.text(\"{v.name}\")"
-            elif v.pointer and v.const and v.type == "float":
-                drawn = "s.vector()"
-            elif v.pointer and (v.type in CELLS or v.type in self.ranges):
+            elif v.pointer and v.const and v.type == "float" and v.length:
+                drawn = f"s.vector({v.length})"
+            elif v.pointer and not v.const and (v.type in CELLS or v.type in self.ranges):
                 drawn = f"s.cell<{v.type}>()"
             elif v.type in self.ranges:
                 low, high = self.ranges[v.type]

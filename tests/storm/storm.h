@@ -257,11 +257,27 @@ public:
 
     // ---- numbers
 
-    const float* vector() {
+    /// A place or direction; four values are a rotation.
+    const float* vector(uint32_t length) {
         if (one_in(12)) return nullptr;
-        float* values = static_cast<float*>(block(3 * sizeof(float)));
-        for (int i = 0; i < 3; ++i) values[i] = one_in(2) ? 0.0f : number();
+        float* values = static_cast<float*>(block(length * sizeof(float)));
+        for (uint32_t i = 0; i < length; ++i) values[i] = i == 3 ? 1.0f : 0.0f;
+        if (!one_in(4))
+            for (uint32_t i = 0; i < length; ++i)
+                if (one_in(2)) values[i] = number();
         return values;
+    }
+    struct PointsIn {
+        const float* positions;
+        uint32_t count;
+    };
+    PointsIn points_in() {
+        const uint32_t count = one_in(2) ? 4 : below(32);
+        if (one_in(20)) return {nullptr, count};
+        float* values = static_cast<float*>(block(count * 3 * sizeof(float)));
+        const bool is_wild = one_in(4);
+        for (uint32_t i = 0; i < count * 3; ++i) values[i] = is_wild ? number() : 0.01f * float(below(20));
+        return {values, one_in(40) ? 0xFFFFFFFF : count};
     }
     template <typename T>
     T* cell() {

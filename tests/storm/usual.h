@@ -60,6 +60,11 @@ inline void usual(Storm& s, vfit_target& target, uint32_t) {
 
 inline void usual(Storm& s, vfit_avatar_desc& desc, uint32_t) { desc.sex = int32_t(s.below(3)); }
 
+inline void usual(Storm& s, vfit_prop_desc& desc, uint32_t) {
+    desc.shape = int32_t(s.below(4));
+    for (float& size : desc.size) size = 0.1f;
+}
+
 // ---- what is kept to
 
 inline void quiet(void* user, vfit_log_level, const char* message) {
@@ -96,6 +101,22 @@ inline void restrain(Storm& s, vfit_scan_desc& desc) {
 inline void restrain(Storm& s, vfit_cloth_desc& desc) {
     if (!s.one_in(20)) desc.cover_m = desc.virtual_m = 0.0f;
     if (desc.substeps > 16 && !s.one_in(50)) desc.substeps = 2;
+}
+
+/// A tetrahedron, at times with a hole, a wrong index or a wild vertex.
+inline void restrain(Storm& s, vfit_prop_desc& desc) {
+    static const float kPositions[] = {0, 0, 0, 0.2f, 0, 0, 0, 0.2f, 0, 0, 0, 0.2f};
+    static const uint32_t kIndices[] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+    float* positions = static_cast<float*>(s.block(sizeof kPositions));
+    uint32_t* indices = static_cast<uint32_t*>(s.block(sizeof kIndices));
+    std::memcpy(positions, kPositions, sizeof kPositions);
+    std::memcpy(indices, kIndices, sizeof kIndices);
+    if (s.one_in(8)) positions[s.below(12)] = s.number();
+    if (s.one_in(8)) indices[s.below(12)] = s.below(6);
+    desc.positions = s.one_in(12) ? nullptr : positions;
+    desc.indices = s.one_in(12) ? nullptr : indices;
+    desc.vertex_count = s.one_in(40) ? 0xFFFFFFFF : s.one_in(8) ? s.below(5) : 4;
+    desc.index_count = s.one_in(40) ? 0xFFFFFFFF : s.one_in(8) ? s.below(13) : 12;
 }
 
 inline void restrain(Storm& s, vfit_target& target) {
