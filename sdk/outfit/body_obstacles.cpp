@@ -18,7 +18,8 @@ bool is_forearm(const Collider& c) {
 
 BodyObstacles::BodyObstacles(const Wearer& wearer, const Garment& garment, const Dress& dress,
                              const WearOptions& options)
-    : creases_(wearer.avatar().creases()),
+    : wearer_(wearer),
+      creases_(wearer.avatar().creases()),
       forearms_(options.hands || garment.has_sleeves()) {  // without its forearm a sleeve collapses
     if (!options.on_skin && options.cover_m <= 0.0f) return;
     const DressBody body = wearer.body();
@@ -59,6 +60,15 @@ void BodyObstacles::move_skin(std::span<const Mat4> matrices, Cloth& cloth, Jobs
     skin_->skin.carry(matrices, skin_positions_, scratch_, jobs);
     creases_.open(matrices, skin_->creased, skin_positions_, jobs);
     cloth.move_mesh(skin_mesh_, skin_positions_);
+}
+
+PosedBody& BodyObstacles::posed(std::span<const Mat4> matrices, std::span<const Collider> colliders) {
+    if (!posed_ && skin_)
+        posed_.emplace(wearer_.body(), wearer_.contact_skin(), creases_);
+    else if (!posed_)
+        posed_.emplace(creases_);
+    posed_->see(matrices, colliders);
+    return *posed_;
 }
 
 void BodyObstacles::let_arms_pass(Cloth& cloth, float share, float dt, Jobs& jobs) {

@@ -1,16 +1,15 @@
 #include "outfit/passing_arms.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
+
+#include "outfit/held_cloth.h"
 
 namespace vfit {
 
 namespace {
 
-constexpr float kHeld = 0.6f;       // strain of an edge that nothing but an arm beside it explains
-constexpr float kBeside_m = 0.02f;  // between that edge and points of the arm
-constexpr float kShortest_s = 0.3f;
+constexpr float kHeld = 0.6f;  // strain
 
 }  // namespace
 
@@ -48,7 +47,7 @@ bool PassingArms::look(const Cloth& cloth, const MovingSkin& skin, float dt, Job
         OfArm& of = of_[size_t(arm)];
         of.for_s = of.passes ? of.for_s + dt : 0.0f;
         const bool turns =
-            of.passes ? of.for_s >= kShortest_s && skin.share == 1.0f && is_free(cloth, skin.to, arm, jobs)
+            of.passes ? of.for_s >= kPasses_s && skin.share == 1.0f && is_free(cloth, skin.to, arm, jobs)
                       : is_held(cloth, skin, arm);
         if (!turns) continue;
         of.passes = !of.passes, of.for_s = 0.0f;
@@ -64,19 +63,10 @@ bool PassingArms::look(const Cloth& cloth, const MovingSkin& skin, float dt, Job
 }
 
 bool PassingArms::is_held(const Cloth& cloth, const MovingSkin& skin, Arm arm) const {
-    const std::vector<DistanceConstraint>& edges = cloth.fabric().data().edges;
-    const std::vector<float>& strains = cloth.edge_strain();
-    const std::vector<Vec3>& places = cloth.positions();
-    for (size_t i = 0; i < edges.size(); ++i) {
-        if (strains[i] <= kHeld || !meets(edges[i].a, arm) || is_sleeve(edges[i].a)) continue;
-        const Vec3 &a = places[edges[i].a], &b = places[edges[i].b];
-        for (const uint32_t v : of_[size_t(arm)].points) {
-            const Vec3 point = skin.at(v);
-            const float along = glm::clamp(glm::dot(point - a, b - a) / glm::dot(b - a, b - a), 0.0f, 1.0f);
-            if (glm::distance(point, glm::mix(a, b, along)) < kBeside_m) return true;
-        }
-    }
-    return false;
+    const std::vector<uint32_t>& points = of_[size_t(arm)].points;
+    return held_strain(
+               cloth, kHeld, points.size(), [&](size_t i) { return skin.at(points[i]); },
+               [&](uint32_t v) { return meets(v, arm) && !is_sleeve(v); }) > 0.0f;
 }
 
 bool PassingArms::is_free(const Cloth& cloth, std::span<const Vec3> skin, Arm arm, Jobs& jobs) {

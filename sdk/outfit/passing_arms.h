@@ -1,5 +1,5 @@
-// Arms that go through a garment for a while. A hand hooks behind a hem or pinches cloth against a thigh, and
-// what it holds would be stretched without end; so the whole arm passes until it is free of the cloth again.
+// Arms that go through a garment for a while (held_cloth.h). A hand hooks behind a hem or pinches cloth
+// against a thigh; so the whole arm passes until it is free of the cloth again.
 #pragma once
 
 #include <array>

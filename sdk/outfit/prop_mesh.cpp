@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <tuple>
 #include <unordered_map>
 
@@ -15,7 +16,8 @@ namespace {
 
 constexpr float kHalfTurn = 3.14159265f;
 constexpr float kLongest_m = 0.03f,
-                kParts = 40.0f;               // edges of a prop; of a large one, that part of its extent
+                kParts = 40.0f;  // edges of a prop; of a large one, that part of its extent
+constexpr float kShell_m = 0.004f;
 constexpr float kFlat_m = 0.00025f;           // round shapes have edges no deeper below them,
 constexpr int kMinParts = 3, kMaxParts = 45;  // in that many parts of a quarter turn
 
@@ -69,22 +71,92 @@ bool split_long_edges(float longest_m, std::vector<Vec3>& positions, std::vector
     return !middle_of.empty();
 }
 
-/// Of a closed surface; 0 where an edge has not one triangle on either side.
+/// Edges by how many more triangles run along them from the first vertex to the second than back.
+using Edges = std::map<std::pair<uint32_t, uint32_t>, int>;
+Edges open_edges(std::span<const uint32_t> indices) {
+    Edges sides;
+    for (size_t i = 0; i < indices.size(); ++i) {
+        const uint32_t a = indices[i], b = indices[i % 3 == 2 ? i - 2 : i + 1];
+        sides[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
+    }
+    Edges out;
+    for (const auto& [edge, more] : sides) {
+        if (more > 0) out[edge] = more;
+        if (more < 0) out[{edge.second, edge.first}] = -more;
+    }
+    return out;
+}
+
+/// Of those with two faces, one: between them is nothing.
+std::vector<uint32_t> without_backs(std::span<const uint32_t> indices) {
+    std::map<std::array<uint32_t, 3>, int> known;  // the smallest vertex first
+    std::vector<uint32_t> out;
+    for (size_t t = 0; t < indices.size(); t += 3) {
+        std::array<uint32_t, 3> face{indices[t], indices[t + 1], indices[t + 2]};
+        std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
+        if (known.contains({face[0], face[2], face[1]})) continue;
+        known[face] = 1;
+        out.insert(out.end(), face.begin(), face.end());
+    }
+    return out;
+}
+
+/// What hangs together, surface by surface.
+std::vector<std::vector<uint32_t>> surfaces_of(size_t vertices, std::span<const uint32_t> indices) {
+    std::vector<uint32_t> first(vertices);  // of the surface, once followed to the end
+    std::iota(first.begin(), first.end(), 0u);
+    const auto surface_of = [&](uint32_t v) {
+        while (first[v] != v) v = first[v] = first[first[v]];
+        return v;
+    };
+    for (size_t i = 0; i < indices.size(); ++i)
+        first[surface_of(indices[i])] = surface_of(indices[i / 3 * 3]);
+    std::vector<std::vector<uint32_t>> out;
+    std::map<uint32_t, size_t> number_of;
+    for (size_t t = 0; t < indices.size(); t += 3) {
+        const auto [at, is_new] = number_of.try_emplace(surface_of(indices[t]), out.size());
+        if (is_new) out.emplace_back();
+        out[at->second].insert(out[at->second].end(), &indices[t], &indices[t] + 3);
+    }
+    return out;
+}
+
+/// The rims of a surface's holes, as its triangles run along them. (At each vertex as many open edges end as
+/// begin, so that each way along them leads back.)
+std::vector<std::vector<uint32_t>> rims_of(std::span<const uint32_t> surface) {
+    Edges open = open_edges(surface);
+    std::vector<std::vector<uint32_t>> out;
+    while (!open.empty()) {
+        std::vector<uint32_t>& rim = out.emplace_back();
+        uint32_t v = open.begin()->first.first;
+        for (auto edge = open.begin(); edge != open.end() && edge->first.first == v;
+             edge = open.lower_bound({v, 0})) {
+            rim.push_back(v);
+            v = edge->first.second;
+            if (--edge->second == 0) open.erase(edge);
+        }
+    }
+    return out;
+}
+
+Vec3 middle_of(std::span<const Vec3> positions, std::span<const uint32_t> vertices) {
+    Vec3 sum(0.0f);
+    for (const uint32_t v : vertices) sum += positions[v];
+    return sum / float(vertices.size());
+}
+
+float area(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return 0.5f * glm::length(glm::cross(b - a, c - a));
+}
+
 double enclosed_volume(std::span<const Vec3> positions, std::span<const uint32_t> indices) {
-    std::map<std::pair<uint32_t, uint32_t>, int> sides;
     double volume = 0.0;
     for (size_t t = 0; t < indices.size(); t += 3) {
-        for (size_t k = 0; k < 3; ++k) {
-            const uint32_t a = indices[t + k], b = indices[t + (k + 1) % 3];
-            sides[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
-        }
         const glm::dvec3 a = positions[indices[t]], b = positions[indices[t + 1]],
                          c = positions[indices[t + 2]];
         volume += glm::dot(a, glm::cross(b, c)) / 6.0;
     }
-    const bool is_closed =
-        std::all_of(sides.begin(), sides.end(), [](const auto& side) { return side.second == 0; });
-    return is_closed ? volume : 0.0;
+    return volume;
 }
 
 /// Turned about y: rings from the lower pole to the upper one.
@@ -136,19 +208,81 @@ PropMesh::PropMesh(std::span<const Vec3> given, std::span<const uint32_t> indice
         if (a != b && b != c && c != a) indices_.insert(indices_.end(), {a, b, c});
     }
     if (indices_.empty()) fail(VFIT_ERROR_DATA, "a prop has no triangle");
-    constexpr double kNone = 1e-6;  // of a cube: a surface with two equal sides encloses nothing
-    if (enclosed_volume(positions, indices_) < -kNone * std::pow(double(extent_m(positions)), 3.0))
-        fail(VFIT_ERROR_DATA, "a prop's triangles are clockwise seen from outside");
+    indices_ = without_backs(indices_);
+    fill_holes(positions);
     const float longest_m = longest_edge_m(extent_m(positions));
     while (split_long_edges(longest_m, positions, indices_, &middles_)) {
     }
+    back_shells(positions.size());
+}
+
+void PropMesh::fill_holes(std::vector<Vec3>& positions) {
+    constexpr float kSmall = 0.25f;  // all holes of a surface, beside its area
+    constexpr double kNone = 1e-6;   // volume, of a cube
+    const double cube = std::pow(double(extent_m(positions)), 3.0);
+    double volume = 0.0;
+    std::vector<uint32_t> fans;
+    for (const std::vector<uint32_t>& surface : surfaces_of(positions.size(), indices_)) {
+        float own_area = 0.0f, hole_area = 0.0f;
+        for (size_t t = 0; t < surface.size(); t += 3)
+            own_area += area(positions[surface[t]], positions[surface[t + 1]], positions[surface[t + 2]]);
+        std::vector<uint32_t> filled = surface;
+        const std::vector<std::vector<uint32_t>> rims = rims_of(surface);
+        for (size_t hole = 0; hole < rims.size(); ++hole) {
+            const Vec3 middle = middle_of(positions, rims[hole]);
+            for (size_t i = 0; i < rims[hole].size(); ++i) {
+                const uint32_t a = rims[hole][i], b = rims[hole][(i + 1) % rims[hole].size()];
+                hole_area += area(positions[a], positions[b], middle);
+                filled.insert(filled.end(), {b, a, uint32_t(positions.size() + hole)});
+            }
+        }
+        if (hole_area > kSmall * own_area) continue;
+        for (const std::vector<uint32_t>& rim : rims) positions.push_back(middle_of(positions, rim));
+        rims_.insert(rims_.end(), rims.begin(), rims.end());
+        volume += enclosed_volume(positions, filled);
+        fans.insert(fans.end(), filled.begin() + std::ptrdiff_t(surface.size()), filled.end());
+    }
+    if (volume < -kNone * cube) fail(VFIT_ERROR_DATA, "a prop's triangles are clockwise seen from outside");
+    indices_.insert(indices_.end(), fans.begin(), fans.end());
+}
+
+void PropMesh::back_shells(size_t vertices) {
+    for (const std::vector<uint32_t>& surface : surfaces_of(vertices, indices_))
+        if (!open_edges(surface).empty()) fronts_.insert(fronts_.end(), surface.begin(), surface.end());
+    std::vector<uint32_t> back_of(vertices, 0);
+    for (const uint32_t v : fronts_)
+        if (back_of[v] == 0) back_of[v] = uint32_t(vertices + backed_.size()), backed_.push_back(v);
+    for (size_t t = 0; t < fronts_.size(); t += 3)
+        indices_.insert(indices_.end(),
+                        {back_of[fronts_[t]], back_of[fronts_[t + 2]], back_of[fronts_[t + 1]]});
+    for (const auto& [edge, more] : open_edges(fronts_))
+        for (int i = 0; i < more; ++i) {
+            const auto [a, b] = edge;
+            indices_.insert(indices_.end(), {b, a, back_of[a], b, back_of[a], back_of[b]});
+        }
+    if (vertex_count() > kMaxVertices)
+        fail(VFIT_ERROR_DATA, "a prop that is not closed has ", vertex_count(),
+             " vertices with its back, more than ", kMaxVertices);
 }
 
 void PropMesh::place(std::span<const Vec3> given, std::vector<Vec3>& out) const {
     out.resize(vertex_count());
     for (size_t i = 0; i < kept_.size(); ++i) out[i] = given[kept_[i]];
+    for (size_t i = 0; i < rims_.size(); ++i) out[kept_.size() + i] = middle_of(out, rims_[i]);
     for (size_t i = 0; i < middles_.size(); ++i)
-        out[kept_.size() + i] = 0.5f * (out[middles_[i][0]] + out[middles_[i][1]]);
+        out[kept_.size() + rims_.size() + i] = 0.5f * (out[middles_[i][0]] + out[middles_[i][1]]);
+    if (backed_.empty()) return;
+    std::vector<Vec3> normals(front_count(), Vec3(0.0f));
+    for (size_t t = 0; t < fronts_.size(); t += 3) {
+        const Vec3& a = out[fronts_[t]];
+        const Vec3 normal = glm::cross(out[fronts_[t + 1]] - a, out[fronts_[t + 2]] - a);
+        for (size_t k = 0; k < 3; ++k) normals[fronts_[t + k]] += normal;
+    }
+    for (size_t i = 0; i < backed_.size(); ++i) {
+        const Vec3& normal = normals[backed_[i]];
+        out[normals.size() + i] =
+            out[backed_[i]] - normal * (kShell_m / std::max(glm::length(normal), 1e-12f));
+    }
 }
 
 Mesh sphere_mesh(float radius_m) { return capsule_mesh(radius_m, 0.0f); }

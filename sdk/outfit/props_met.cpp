@@ -7,8 +7,10 @@ namespace vfit {
 namespace {
 
 constexpr float kGrows_s = 0.25f;
-constexpr float kLeap_m = 0.3f;  // in a step: what is faster is not swept (kMaxWay_m)
-constexpr float kNear_m = 0.3f;  // to the garment, where leaps matter
+constexpr float kLeap_m = 0.3f;     // in a step: what is faster is not swept (kMaxWay_m)
+constexpr float kHeld = 1.0f;       // strain: cloth at twice its length is torn
+constexpr float kExcess_s = 0.02f;  // of strain above that, summed up over time: a blow leaves less
+constexpr float kNear_m = 0.3f;     // to the garment, where leaps matter
 
 Vec3 moved(const Mat4& m, const Vec3& p) { return Vec3(m * Vec4(p, 1.0f)); }
 
@@ -18,13 +20,17 @@ Bounds bounds_of(const Cloth& cloth) {
     return out;
 }
 
-/// Some vertex moves too far relative to the body, and its way leads past the garment.
-bool leaps(std::span<const Vec3> before, std::span<const Vec3> now, const Mat4& motion, Bounds garment) {
+Bounds widened(Bounds garment) {
     garment.low -= kNear_m, garment.high += kNear_m;
+    return garment;
+}
+
+/// Some vertex moves too far relative to the body, and its way leads past the garment.
+bool leaps(std::span<const Vec3> before, std::span<const Vec3> now, const Mat4& motion, const Bounds& near) {
     for (size_t i = 0; i < now.size(); ++i) {
         Bounds way;
         way.add(before[i]), way.add(now[i]);
-        if (garment.overlaps(way) && glm::distance(moved(motion, before[i]), now[i]) > kLeap_m) return true;
+        if (near.overlaps(way) && glm::distance(moved(motion, before[i]), now[i]) > kLeap_m) return true;
     }
     return false;
 }
@@ -45,7 +51,7 @@ bool PropsMet::add(const Prop& prop, Cloth& cloth) {
         free_meshes_.pop_back();
     }
     cloth.shape_mesh(mesh, prop.positions());
-    met_.push_back({&prop, mesh, 0.0f, 0, {}, {}, {}, {}});
+    met_.push_back({&prop, mesh, 0.0f, 0, {}, {}, {}, {}, {}});
     return true;
 }
 
@@ -58,19 +64,22 @@ bool PropsMet::remove(const Prop& prop, Cloth& cloth) {
     return true;
 }
 
-void PropsMet::move(const RootMotion& body, float dt, Cloth& cloth) {
+void PropsMet::move(const BodyBeside& body, float dt, Cloth& cloth, Jobs& jobs) {
     if (met_.empty()) return;
-    const Bounds garment = bounds_of(cloth);
-    const Mat4 motion = body.now * glm::inverse(body.before);
+    const Bounds garment = bounds_of(cloth), near = widened(garment);
+    const Mat4 motion = body.motion.now * glm::inverse(body.motion.before);
     for (Met& met : met_) {
-        const std::vector<Vec3>& whole = met.prop->positions();
-        if (met.size > 0.0f && leaps(met.whole, whole, motion, garment)) come_in_anew(met, cloth);
+        std::swap(met.whole, met.last_whole);
+        std::vector<Vec3>& whole = met.whole;
+        whole = met.prop->positions();
+        body.posed.push_out(body.room_m, near, whole, jobs);
+        if (met.passes) continue;
+        if (met.size > 0.0f && leaps(met.last_whole, whole, motion, near)) come_in_anew(met, cloth);
         if (met.size == 0.0f) begin_to_grow(met, garment);
         // Cloth that moves with the body at once takes the prop's start along: their distance stays.
         met.starts = met.places;
-        if (body.carried > 0.0f)
-            for (Vec3& p : met.starts) p = glm::mix(p, moved(motion, p), body.carried);
-        met.whole = whole;
+        if (const float carried = body.motion.carried; carried > 0.0f)
+            for (Vec3& p : met.starts) p = glm::mix(p, moved(motion, p), carried);
         met.size = std::min(1.0f, met.size + dt / kGrows_s);
         for (size_t i = 0; i < whole.size(); ++i)
             met.places[i] = met.size < 1.0f ? glm::mix(whole[met.from], whole[i], met.size) : whole[i];
@@ -78,8 +87,35 @@ void PropsMet::move(const RootMotion& body, float dt, Cloth& cloth) {
     }
 }
 
+void PropsMet::let_pass(Cloth& cloth, float share, float dt) {
+    for (Met& met : met_) {
+        met.for_s += dt;
+        if (met.passes && met.for_s >= met.passes_s) {
+            met.passes = false, met.for_s = 0.0f;
+            continue;
+        }
+        const float strain = met.passes || met.size == 0.0f ? 0.0f : held_by(met, cloth, share);
+        met.excess_s = strain > kHeld ? met.excess_s + (strain - kHeld) * dt : 0.0f;
+        if (met.excess_s > kExcess_s) {
+            met.passes_s = met.for_s < met.passes_s ? 2.0f * met.passes_s : kPasses_s;
+            met.passes = true, met.for_s = 0.0f;
+            come_in_anew(met, cloth);
+        }
+    }
+}
+
+float PropsMet::held_by(const Met& met, const Cloth& cloth, float share) {
+    return held_strain(
+        cloth, kHeld, met.places.size(),
+        [&](size_t i) { return glm::mix(met.starts[i], met.places[i], share); },
+        [](uint32_t) { return true; });
+}
+
 void PropsMet::hide(Cloth& cloth) {
-    for (Met& met : met_) come_in_anew(met, cloth);
+    for (Met& met : met_) {
+        met.passes = false;
+        come_in_anew(met, cloth);
+    }
 }
 
 void PropsMet::come_in_anew(Met& met, Cloth& cloth) {
@@ -90,7 +126,7 @@ void PropsMet::come_in_anew(Met& met, Cloth& cloth) {
 /// All of it at one vertex.
 void PropsMet::begin_to_grow(Met& met, const Bounds& garment) {
     const Vec3 middle = 0.5f * (garment.low + garment.high);
-    const std::vector<Vec3>& whole = met.prop->positions();
+    const std::vector<Vec3>& whole = met.whole;
     float most = -1.0f;
     for (uint32_t i = 0; i < whole.size(); ++i)
         if (const float way = glm::distance(whole[i], middle); way > most) most = way, met.from = i;
@@ -100,7 +136,10 @@ void PropsMet::begin_to_grow(Met& met, const Bounds& garment) {
 void PropsMet::keep_step() {
     for (Met& met : met_) {
         met.kept.clear();
-        if (met.size > 0.0f) met.kept = met.places;
+        if (met.passes)
+            met.kept = met.whole;
+        else if (met.size > 0.0f)
+            met.kept = met.places;
     }
 }
 

@@ -103,13 +103,24 @@ void WornGarment::begin_step(float dt) {
     limb_speed_m_s_ = is_jump ? 0.0f : body_.way().limb_m / simulated_s;
     carried_ = is_jump ? 1.0f : 1.0f - settings_.inertia;
     jumps_ = false;
-    props_.move({root_before, pose_.front(), carried_}, simulated_s, cloth_);
+    if (props_.count() > 0)
+        props_.move(
+            {{root_before, pose_.front(), carried_}, obstacles_.posed(pose_, colliders_), room_for_cloth_m()},
+            simulated_s, cloth_, jobs_);
+}
+
+/// Between the body and a prop.
+float WornGarment::room_for_cloth_m() const {
+    constexpr float kSides = 3.0f;  // thicknesses: one to the body, one to the prop, one to spare
+    return (kSides + float(layers_.count())) * settings_.thickness_m;
 }
 
 void WornGarment::step() {
     if (dt_ > 0.0f) carry_along(carried_);
-    cloth_.step(dt_, targets_, colliders_, jobs_,
-                [this](float share, float dt) { obstacles_.let_arms_pass(cloth_, share, dt, jobs_); });
+    cloth_.step(dt_, targets_, colliders_, jobs_, [this](float share, float dt) {
+        obstacles_.let_arms_pass(cloth_, share, dt, jobs_);
+        props_.let_pass(cloth_, share, dt);
+    });
 }
 
 void WornGarment::carry_along(float fraction) {

@@ -110,6 +110,7 @@ private:
     void place_on_the_way(std::span<const Mat4> matrices, std::vector<Vec3>& targets,
                           std::vector<Collider>& colliders);
     void stand();
+    float room_for_cloth_m() const;
     void carry_along(float fraction);
     void jump_to_pose();
     void start_with_legs_apart();

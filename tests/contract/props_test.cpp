@@ -133,6 +133,40 @@ TEST_F(PropTest, APropThatIsThereAtOnceComesThroughNoCloth) {
     EXPECT_EQ(crossed_props(cloth), 0u);
 }
 
+TEST_F(PropTest, APropThatIsDraggedAlongTheThighsTearsNothing) {
+    vfit_cloth_desc desc = vfit_cloth_desc_init();
+    desc.flags = VFIT_CLOTH_SKIN | VFIT_CLOTH_AWAKE;
+    desc.self_thickness_m = 0.004f;
+    vfit_cloth cloth{};
+    ASSERT_EQ(vfit_cloth_create(avatar, garment, &desc, &cloth), VFIT_OK) << contract::last_error();
+    const auto strain = [&] {
+        vfit_cloth_stats stats = vfit_cloth_stats_init();
+        EXPECT_EQ(vfit_cloth_describe(cloth, &stats), VFIT_OK);
+        return stats.strain_max;
+    };
+    step(cloth, 20);
+    const vfit_prop ball = make_prop(VFIT_PROP_SPHERE, 0.15f);
+    ASSERT_EQ(vfit_cloth_add_prop(cloth, ball), VFIT_OK);
+    float most = 0.0f;
+    int crossing = 0;
+    for (int i = 0; i < 90; ++i) {
+        // Round both thighs, 4 cm into them in the end.
+        const float angle = 0.12f * float(i), away = 0.42f - 0.003f * float(std::min(i, 60));
+        move(ball, away * std::sin(angle), 0.6f, away * std::cos(angle));
+        step(cloth);
+        most = std::max(most, strain());
+        crossing += !check(cloth).empty();
+    }
+    EXPECT_LT(most, 2.5f) << "without a way out, 7";
+    EXPECT_GT(crossing, 0) << "what passes through the cloth is named";
+    move(ball, 0.0f, 0.6f, 5.0f);
+    step(cloth, 60);
+    EXPECT_LT(strain(), 0.6f);
+    EXPECT_TRUE(check(cloth).empty());
+    vfit_cloth_destroy(cloth);
+    vfit_prop_destroy(ball);
+}
+
 TEST_F(PropTest, ADestroyedPropIsMetNoLonger) {
     const vfit_cloth cloth = make(), twin = make(), third = make();
     const vfit_prop ball = make_prop(VFIT_PROP_SPHERE, 0.2f);

@@ -11,6 +11,7 @@
 #include "bench/bench.h"
 #include "bench/garment_ease.h"
 #include "bench/garment_jumps.h"
+#include "bench/garment_pushed.h"
 #include "bench/garment_recordings.h"
 #include "bench/targets.h"
 #include "bench/welded.h"
@@ -405,6 +406,9 @@ void add_garments(Command& app) {
         "With --jumps, --recordings: in metres, what goes further in a step is a jump; below 0: no limit");
     command.add_flag("--spheres", jumps->spheres,
                      "With --jumps: on spheres and capsules instead of the skin");
+    auto pushed = std::make_shared<PushedOptions>();
+    command.add_option("--props-of", pushed->folder,
+                       "Folder of glTF files: judge a garment that their meshes are pushed against");
     command.add_option("--folder", o->folder, "Of cooked garments (default: those of the build)");
     command.add_option("--garment", o->garment, "One garment");
     command.add_option("--size", o->size, "One size");
@@ -417,10 +421,14 @@ void add_garments(Command& app) {
     command.add_option("--pictures", o->pictures, "Folder for a sheet of pictures of each body");
     command.add_flag("--quick", o->quick, "One size of each");
     command.add_flag("--json", o->json, "Print JSON");
-    command.callback([o, real, jumps, with_jumps] {
+    command.callback([o, real, jumps, with_jumps, pushed] {
         if (*with_jumps) {
             jumps->garment = o->garment, jumps->json = o->json;
             return judge_jumps(*jumps);
+        }
+        if (!pushed->folder.empty()) {
+            pushed->garment = o->garment, pushed->json = o->json;
+            return judge_pushed(*pushed);
         }
         if (real->folder.empty()) return judge_garments(*o);
         real->carry_speed_m_s = jumps->carry_speed_m_s, real->carry_way_m = jumps->carry_way_m;

@@ -37,6 +37,13 @@ public:
     /// Adds the pairs of a triangle of this mesh and one of the other that cross.
     void find_crossings(const TriangleGroups& other, std::vector<TrianglePair>& out, Jobs& jobs);
 
+    struct Closest {
+        Vec3 point, normal;  // of its triangle
+        float distance;      // negative behind the surface, which is closed
+    };
+    /// The point of the surface that is closest to p. Does not allocate.
+    Closest closest(const Vec3& p) const;
+
     uint32_t group_count() const { return uint32_t(normals_.size()); }
     Bounds box_of(uint32_t group) const { return {groups_.runs.low_of(group), groups_.runs.high_of(group)}; }
     /// Adds the triangles of a group that cross that one.
@@ -61,6 +68,8 @@ private:
     void list_beside(size_t vertices);
     bool are_beside(uint32_t group, uint32_t other) const;
     bool face_one_way(uint32_t group, uint32_t other) const;
+    struct Search;
+    void search_block(uint32_t block, Search& search) const;
     void meet(uint32_t group, const TriangleGroups& other, uint32_t of_other,
               std::vector<TrianglePair>& out) const;
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "cloth/crossings.h"
 #include "outfit/props_met.h"
@@ -82,6 +83,56 @@ TEST(PropMesh, VerticesAtOnePlaceAreOneAndMiddlesFollowTheirEnds) {
               std::to_string(VFIT_ERROR_ARGUMENT));
 }
 
+/// Each edge has a triangle on either side.
+bool is_closed(std::span<const uint32_t> indices) {
+    std::map<std::pair<uint32_t, uint32_t>, int> sides;
+    for (size_t i = 0; i < indices.size(); ++i) {
+        const uint32_t a = indices[i], b = indices[i % 3 == 2 ? i - 2 : i + 1];
+        sides[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
+    }
+    return std::all_of(sides.begin(), sides.end(), [](const auto& side) { return side.second == 0; });
+}
+
+TEST(PropMesh, SmallHolesAreFilled) {
+    Mesh box = box_mesh(Vec3(0.1f));
+    box.indices.resize(box.indices.size() - 6);  // a sixth
+    Prop open(box);
+    EXPECT_TRUE(is_closed(open.indices()));
+    EXPECT_NEAR(volume(open.positions(), open.indices()), 0.008, 1e-5);
+    for (Vec3& p : box.positions) p *= 2.0f;
+    open.deform(box.positions);
+    EXPECT_NEAR(volume(open.positions(), open.indices()), 0.064, 1e-4);
+    std::swap(box.indices[1], box.indices[2]);  // one triangle looks the other way: no rim is simple
+    EXPECT_TRUE(is_closed(Prop(box).indices()));
+}
+
+TEST(PropMesh, WhatIsOpenBecomesAShell) {
+    constexpr float kThick_m = 0.004f;
+    Mesh card;
+    card.positions = {{0, 0, 0}, {0.2f, 0, 0}, {0.2f, 0.3f, 0}, {0, 0.3f, 0}};
+    card.indices = {0, 1, 2, 0, 2, 3};
+    const Prop one(card);
+    EXPECT_TRUE(is_closed(one.indices()));
+    EXPECT_NEAR(volume(one.positions(), one.indices()), 0.2 * 0.3 * kThick_m, 1e-6);
+    float low = 1.0f, high = -1.0f;
+    for (const Vec3& p : one.positions()) low = std::min(low, p.z), high = std::max(high, p.z);
+    EXPECT_NEAR(low, -kThick_m, 1e-6f);
+    EXPECT_NEAR(high, 0.0f, 1e-6f);
+    // With a back of its own, it is the same card.
+    card.indices.insert(card.indices.end(), {0, 2, 1, 0, 3, 2});
+    const Prop two(card);
+    EXPECT_EQ(two.indices(), one.indices());
+    // A pipe stays one: its ends are larger than its side. Beside it, a box is closed as it was.
+    Mesh pipe = box_mesh(Vec3(0.1f));
+    pipe.indices.resize(12);
+    const Mesh box = box_mesh(Vec3(0.05f));
+    for (const uint32_t i : box.indices) pipe.indices.push_back(uint32_t(pipe.positions.size()) + i);
+    for (const Vec3& p : box.positions) pipe.positions.push_back(p + Vec3(1.0f, 0.0f, 0.0f));
+    const Prop both(pipe);
+    EXPECT_TRUE(is_closed(both.indices()));
+    EXPECT_NEAR(volume(both.positions(), both.indices()), 0.001 + 2 * 0.04 * kThick_m, 2e-5);
+}
+
 TEST(PropMesh, WhatIsNoSolidIsRefused) {
     const auto refused = [](Mesh mesh) { return error_of([&] { Prop prop(mesh); }); };
     Mesh box = box_mesh(Vec3(0.1f));
@@ -116,6 +167,9 @@ struct FallingSheet {
     Sheet sheet{31, 31, 0.02f};
     std::vector<Vec3> places;
     std::optional<Cloth> cloth;
+    std::vector<Collider> body;
+    Creases creases;
+    PosedBody posed{creases};
 
     explicit FallingSheet(float height) {
         for (const Vec3& p : sheet.positions) places.emplace_back(p.x - 0.3f, height, -p.y - 0.3f);
@@ -125,8 +179,10 @@ struct FallingSheet {
                       places);
     }
     void step(PropsMet& props) {
-        props.move({Mat4(1.0f), Mat4(1.0f), 0.0f}, kFrame_s, *cloth);
-        cloth->step(kFrame_s, places, {}, *jobs);
+        posed.see({}, body);
+        props.move({{Mat4(1.0f), Mat4(1.0f), 0.0f}, posed, 0.012f}, kFrame_s, *cloth, *jobs);
+        cloth->step(kFrame_s, places, body, *jobs,
+                    [&](float share, float dt) { props.let_pass(*cloth, share, dt); });
         props.keep_step();
     }
     size_t crossings(const PropsMet& props) const {
@@ -204,6 +260,29 @@ TEST(PropsMet, APropThatLeapsFromOneSideToTheOtherSweepsNothing) {
         fall.step(props), alone.step(none);
         ASSERT_LT(glm::distance(fall.middle(), alone.middle()), 0.01f) << i;
     }
+}
+
+TEST(PropsMet, BetweenTheBodyAndAPropThatGoesIntoItIsRoomForCloth) {
+    FallingSheet fall(0.35f);
+    Collider trunk;
+    trunk.radius = 0.3f;
+    fall.body = {trunk};
+    Prop ball(sphere_mesh(0.1f));
+    PropsMet props;
+    props.add(ball, *fall.cloth);
+    size_t most = 0;
+    float strain = 0.0f;
+    for (int i = 0; i < 150; ++i) {
+        ball.move(Vec3(0.02f, std::max(0.33f, 0.5f - 0.003f * float(i)), 0.0f), Quat(1, 0, 0, 0));
+        fall.step(props);
+        most = std::max(most, fall.crossings(props)),
+        strain = std::max(strain, fall.cloth->stats().strain_max);
+    }
+    EXPECT_EQ(most, 0u);
+    EXPECT_LT(strain, 0.3f);
+    const float away = glm::length(fall.middle());
+    EXPECT_GT(away, 0.302f);
+    EXPECT_LT(away, 0.312f) << "on the body, below the ball's place";
 }
 
 TEST(PropsMet, ADeformedPropTakesTheClothAlong) {

@@ -1,0 +1,176 @@
+#include "bench/garment_pushed.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "avatar/gltf_document.h"
+#include "bench/carried_props.h"
+#include "bench/targets.h"
+#include "client/assets.h"
+#include "client/outfit.h"
+#include "client/output.h"
+
+namespace vfit::tools {
+
+namespace {
+
+constexpr float kFrame_s = 1.0f / 60.0f;
+constexpr float kExtent_m = 0.3f;   // of each prop
+constexpr float kHeight_m = 0.6f;   // about the thighs
+constexpr float kTurn_rad = 0.12f;  // a frame, about the body and about itself
+constexpr float kFrom_m = 0.45f;    // from the body's axis
+constexpr int kFramesToRest = 20, kFramesIn = 60, kFrames = 90, kFramesAfter = 60;
+
+/// How near the middle of a prop comes.
+struct Way {
+    const char* name;
+    float to_m;
+};
+constexpr Way kWays[] = {{"brushed", 0.34f}, {"pressed", 0.24f}};
+
+struct Mesh {
+    std::string name;
+    std::vector<float> positions;
+    std::vector<uint32_t> indices;
+};
+
+/// One a part of each mesh, its longest side kExtent_m, about the origin.
+std::vector<Mesh> meshes_of(const std::filesystem::path& file) {
+    std::vector<Mesh> out;
+    const GltfDocument document(file.string());
+    for (const tinygltf::Mesh& mesh : document.model().meshes)
+        for (const tinygltf::Primitive& part : mesh.primitives) {
+            const auto position = part.attributes.find("POSITION");
+            if (position == part.attributes.end() || part.indices < 0) continue;
+            Mesh& own = out.emplace_back();
+            own.name = file.stem().string() + " " + mesh.name;
+            own.positions = document.numbers(position->second, 3, "POSITION");
+            own.indices = document.integers(part.indices, 1, "indices");
+            float low[3], high[3], extent = 0.0f;
+            for (size_t axis = 0; axis < 3; ++axis) {
+                low[axis] = INFINITY, high[axis] = -INFINITY;
+                for (size_t i = axis; i < own.positions.size(); i += 3)
+                    low[axis] = std::min(low[axis], own.positions[i]),
+                    high[axis] = std::max(high[axis], own.positions[i]);
+                extent = std::max(extent, high[axis] - low[axis]);
+            }
+            for (size_t i = 0; i < own.positions.size(); ++i)
+                own.positions[i] =
+                    (own.positions[i] - 0.5f * (low[i % 3] + high[i % 3])) * (kExtent_m / extent);
+        }
+    return out;
+}
+
+struct Outcome {
+    int crossing = 0;  // frames of kFrames
+    float strain_max = 0.0f, strain_after = 0.0f;
+};
+
+class PushJudge {
+public:
+    PushJudge(vfit_context context, const std::string& names) : context_(context) {
+        const std::vector<Garment> garments = open_outfit(context, names);
+        vfit_garment_info info = vfit_garment_info_init();
+        check(vfit_garment_describe(garments.front().get(), &info));
+        vfit_avatar_desc body = vfit_avatar_desc_init();
+        body.sex = info.body_sex;
+        check(vfit_avatar_create_from_shape(context, &body, nullptr, 0, 0, avatar_.out()));
+        vfit_cloth_desc desc = vfit_cloth_desc_init();
+        desc.flags = VFIT_CLOTH_SKIN;
+        desc.self_thickness_m = kOwnLayers_m;
+        outfit_.emplace(context, avatar_.get(), names, desc);
+    }
+
+    /// It circles the body, nearer and nearer, then it is taken away.
+    Outcome of(const Mesh& mesh, float to_m) {
+        vfit_prop_desc desc = vfit_prop_desc_init();
+        desc.shape = VFIT_PROP_MESH;
+        desc.positions = mesh.positions.data(), desc.vertex_count = uint32_t(mesh.positions.size() / 3);
+        desc.indices = mesh.indices.data(), desc.index_count = uint32_t(mesh.indices.size());
+        Handle<vfit_prop, vfit_prop_destroy> prop;
+        check(vfit_prop_create(context_, &desc, prop.out()));
+        outfit_->reset();
+        step(kFramesToRest);
+        for (const vfit_cloth cloth : outfit_->cloths()) check(vfit_cloth_add_prop(cloth, prop.get()));
+        Outcome out;
+        for (int frame = 0; frame < kFrames; ++frame) {
+            const float angle = kTurn_rad * float(frame);
+            const float away_m = kFrom_m + (to_m - kFrom_m) * std::min(float(frame) / float(kFramesIn), 1.0f);
+            const float position[3] = {away_m * std::sin(angle), kHeight_m, away_m * std::cos(angle)};
+            const float rotation[4] = {0.0f, std::sin(0.5f * angle), 0.0f, std::cos(0.5f * angle)};
+            check(vfit_prop_move(prop.get(), position, rotation));
+            step(1);
+            out.crossing += prop_crossings(outfit_->cloths()) > 0;
+            out.strain_max = std::max(out.strain_max, strain_max());
+        }
+        for (const vfit_cloth cloth : outfit_->cloths()) check(vfit_cloth_remove_prop(cloth, prop.get()));
+        step(kFramesAfter);
+        out.strain_after = strain_max();
+        return out;
+    }
+
+private:
+    void step(int frames) {
+        for (int i = 0; i < frames; ++i) outfit_->step(kFrame_s);
+    }
+    float strain_max() const {
+        float most = 0.0f;
+        for (const vfit_cloth cloth : outfit_->cloths()) {
+            vfit_cloth_stats stats = vfit_cloth_stats_init();
+            check(vfit_cloth_describe(cloth, &stats));
+            most = std::max(most, stats.strain_max);
+        }
+        return most;
+    }
+
+    vfit_context context_;
+    Avatar avatar_;
+    std::optional<WornOutfit> outfit_;
+};
+
+}  // namespace
+
+void judge_pushed(const PushedOptions& options) {
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(options.folder))
+        if (entry.path().extension() == ".glb" || entry.path().extension() == ".gltf")
+            files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    if (files.empty()) throw Failure(options.folder + " holds no .glb or .gltf file");
+    const Context context = open_context();
+    PushJudge judge(context.get(), options.garment.empty() ? "sundress" : options.garment);
+    Targets targets(options.json);
+    Json rows = Json::array();
+    for (const Way& way : kWays) {
+        int frames = 0, crossing = 0;
+        float strain = 0.0f, after = 0.0f;
+        for (const std::filesystem::path& file : files)
+            for (const Mesh& mesh : meshes_of(file)) {
+                const Outcome o = judge.of(mesh, way.to_m);
+                frames += kFrames, crossing += o.crossing;
+                strain = std::max(strain, o.strain_max), after = std::max(after, o.strain_after);
+                rows.push_back({{"mesh", mesh.name},
+                                {"way", way.name},
+                                {"frames", kFrames},
+                                {"frames_crossing", o.crossing},
+                                {"strain_max", o.strain_max},
+                                {"strain_max_after", o.strain_after}});
+                if (!options.json)
+                    std::printf("%-44s %s: frames crossing %2d of %d, strain max %.2f, a second after %.2f\n",
+                                mesh.name.c_str(), way.name, o.crossing, kFrames, double(o.strain_max),
+                                double(o.strain_after));
+            }
+        const std::string name = std::string(way.name) + ": ";
+        targets.judge(name + "frames of " + std::to_string(frames) + " in which cloth crosses the prop",
+                      crossing, Aim::exactly, 0);
+        targets.judge(name + "strain_max", strain, Aim::at_most, 0.6, 2);
+        targets.judge(name + "strain_max a second after it has gone", after, Aim::at_most, 0.6, 2);
+    }
+    if (options.json) print_document({{"rows", rows}, {"targets", targets.json()}});
+}
+
+}  // namespace vfit::tools
