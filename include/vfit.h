@@ -1054,7 +1054,8 @@ VFIT_API vfit_result vfit_cloth_wear_over(vfit_cloth cloth, vfit_cloth inner);
 /* A prop: a solid that the host puts beside a body, such as a chair, a weapon, a bag or hair. Cloth stays
  * outside of it by its thickness, and meets its edges too. A prop comes in as a point that grows to its size
  * within 0.25 s and pushes cloth aside, also after vfit_cloth_reset, and where it moves by more than 0.3 m
- * against the body within a step. */
+ * against the body within a step. Where it reaches into the body, cloth meets it outside of that, with room
+ * for the cloth between them. One that stretches cloth to twice its length passes through it for a while. */
 typedef int32_t vfit_prop_shape;
 enum { VFIT_PROP_SPHERE = 0, VFIT_PROP_CAPSULE = 1, VFIT_PROP_BOX = 2, VFIT_PROP_MESH = 3 };
 typedef struct vfit_prop_desc {
@@ -1066,8 +1067,8 @@ typedef struct vfit_prop_desc {
     uint32_t vertex_count;   /* 65,536 at most, also once edges longer than 3 cm (and 1/40 of its extent) are
                               * split: then VFIT_ERROR_DATA */
     const float* positions;  /* MESH: three a vertex, in the prop's own frame; copied */
-    const uint32_t* indices; /* MESH: three a triangle, wound as the INDEX that the context writes; copied. A
-                              * surface that is not closed is met from its front, and passed from behind */
+    const uint32_t* indices; /* MESH: three a triangle, wound as the INDEX that the context writes; copied.
+                              * Small holes are filled. What is open otherwise is a shell 4 mm thick */
     uint32_t index_count, reserved; /* 1,048,575 at most */
 } vfit_prop_desc;
 VFIT_STRUCT(vfit_prop_desc)
@@ -1150,11 +1151,11 @@ typedef struct vfit_crossing {
 VFIT_STRUCT(vfit_crossing)
 /* Tests the last finished steps of an outfit, 1 to 64 cloths of one avatar, for triangles that cross: of each
  * garment with itself, with the skin in the pose of that step, with each later garment of the list, and with
- * its props where they were in that step. Every pair of triangles that share no vertex is tested: an empty
- * list proves that none cross. At most n (n + 3) / 2 items for n cloths, and one for each prop of each: with
- * room for these, one call is enough. VFIT_ERROR_ARGUMENT where a cloth is listed twice or is of another
- * avatar. While a step runs, the one before it is tested. Cost: about eight steps of these cloths. [read] on
- * each cloth */
+ * its props as it met them in that step, also those that it let pass. Every pair of triangles that share no
+ * vertex is tested: an empty list proves that none cross. At most n (n + 3) / 2 items for n cloths, and one
+ * for each prop of each: with room for these, one call is enough. VFIT_ERROR_ARGUMENT where a cloth is listed
+ * twice or is of another avatar. While a step runs, the one before it is tested. Cost: about eight steps of
+ * these cloths. [read] on each cloth */
 VFIT_API vfit_result vfit_outfit_check(const vfit_cloth* cloths, uint32_t cloth_count, vfit_crossing* items,
                                        uint32_t stride, uint32_t* count);
 #endif

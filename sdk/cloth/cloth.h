@@ -114,7 +114,7 @@ public:
     /// for a wrong count or a dt that is negative or not finite. Does not allocate while the number of
     /// colliders stays. The result is the same for any number of threads, unless there is a budget.
     /// interval_ended: before contacts are looked for again, dt after the last time and with that fraction of
-    /// the step behind it. May set masks.
+    /// the step behind it. May set masks and hide meshes.
     using IntervalEnded = std::function<void(float share, float dt)>;
     void step(float dt, std::span<const Vec3> skinned_targets, std::span<const Collider> colliders,
               Jobs& jobs, const IntervalEnded& interval_ended = {});

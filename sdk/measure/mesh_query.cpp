@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "core/error.h"
+#include "math/closest_point.h"
 #include "math/finite.h"
-#include "measure/closest_point.h"
 
 namespace vfit {
 

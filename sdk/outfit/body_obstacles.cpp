@@ -18,8 +18,7 @@ bool is_forearm(const Collider& c) {
 
 BodyObstacles::BodyObstacles(const Wearer& wearer, const Garment& garment, const Dress& dress,
                              const WearOptions& options)
-    : wearer_(wearer),
-      creases_(wearer.avatar().creases()),
+    : creases_(wearer.avatar().creases()),
       forearms_(options.hands || garment.has_sleeves()) {  // without its forearm a sleeve collapses
     if (!options.on_skin && options.cover_m <= 0.0f) return;
     const DressBody body = wearer.body();
@@ -62,12 +61,10 @@ void BodyObstacles::move_skin(std::span<const Mat4> matrices, Cloth& cloth, Jobs
     cloth.move_mesh(skin_mesh_, skin_positions_);
 }
 
-PosedBody& BodyObstacles::posed(std::span<const Mat4> matrices, std::span<const Collider> colliders) {
-    if (!posed_ && skin_)
-        posed_.emplace(wearer_.body(), wearer_.contact_skin(), creases_);
-    else if (!posed_)
-        posed_.emplace(creases_);
-    posed_->see(matrices, colliders);
+PosedBody& BodyObstacles::posed(std::span<const Collider> colliders) {
+    if (!posed_)
+        posed_.emplace(skin_ ? std::span<const uint32_t>(skin_->indices) : std::span<const uint32_t>());
+    posed_->see(skin_positions_, colliders);
     return *posed_;
 }
 

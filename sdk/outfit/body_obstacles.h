@@ -29,16 +29,15 @@ public:
     void select(std::span<const Mat4> matrices, std::vector<Collider>& colliders, Jobs& jobs);
     /// Moves the skin's mesh with these skinning matrices, one a rig bone.
     void move_skin(std::span<const Mat4> matrices, Cloth& cloth, Jobs& jobs);
-    /// The body as a solid, in the pose of these skinning matrices and selected colliders. Valid until the
-    /// next call, while they are.
-    PosedBody& posed(std::span<const Mat4> matrices, std::span<const Collider> colliders);
+    /// The body as a solid, as the skin was moved last, or of selected colliders. Valid until one of them
+    /// changes.
+    PosedBody& posed(std::span<const Collider> colliders);
     /// With that fraction of the step behind the cloth, dt after the last time.
     void let_arms_pass(Cloth& cloth, float share, float dt, Jobs& jobs);
     /// Arms that passed meet the cloth, before it is put on.
     void meet_arms(Cloth& cloth);
 
 private:
-    const Wearer& wearer_;
     const Creases& creases_;
     bool forearms_;                   // and hands; false: they pass through the cloth
     std::optional<PosedBody> posed_;  // made when first asked for

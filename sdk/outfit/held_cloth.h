@@ -1,4 +1,4 @@
-// Cloth that an obstacle holds: it is stretched beside it as nothing else explains. Who holds cloth passes
+// Cloth that an obstacle holds: it is stretched beside it as nothing else explains. What holds cloth passes
 // through it for a while: what is held would be stretched without end.
 #pragma once
 

@@ -20,17 +20,15 @@ Bounds bounds_of(const Cloth& cloth) {
     return out;
 }
 
-Bounds widened(Bounds garment) {
-    garment.low -= kNear_m, garment.high += kNear_m;
-    return garment;
-}
+Bounds widened(const Bounds& box, float by_m) { return {box.low - by_m, box.high + by_m}; }
 
 /// Some vertex moves too far relative to the body, and its way leads past the garment.
-bool leaps(std::span<const Vec3> before, std::span<const Vec3> now, const Mat4& motion, const Bounds& near) {
+bool leaps(std::span<const Vec3> before, std::span<const Vec3> now, const Mat4& motion,
+           const Bounds& around) {
     for (size_t i = 0; i < now.size(); ++i) {
         Bounds way;
         way.add(before[i]), way.add(now[i]);
-        if (near.overlaps(way) && glm::distance(moved(motion, before[i]), now[i]) > kLeap_m) return true;
+        if (around.overlaps(way) && glm::distance(moved(motion, before[i]), now[i]) > kLeap_m) return true;
     }
     return false;
 }
@@ -66,15 +64,15 @@ bool PropsMet::remove(const Prop& prop, Cloth& cloth) {
 
 void PropsMet::move(const BodyBeside& body, float dt, Cloth& cloth, Jobs& jobs) {
     if (met_.empty()) return;
-    const Bounds garment = bounds_of(cloth), near = widened(garment);
+    const Bounds garment = bounds_of(cloth), around = widened(garment, kNear_m),
+                 where_cloth_is = widened(garment, body.room_m);
     const Mat4 motion = body.motion.now * glm::inverse(body.motion.before);
     for (Met& met : met_) {
-        std::swap(met.whole, met.last_whole);
-        std::vector<Vec3>& whole = met.whole;
-        whole = met.prop->positions();
-        body.posed.push_out(body.room_m, near, whole, jobs);
+        std::swap(met.whole.at, met.last_whole);
+        body.posed.move(met.prop->positions(), body.room_m, where_cloth_is, met.whole, jobs);
+        const std::vector<Vec3>& whole = met.whole.at;
         if (met.passes) continue;
-        if (met.size > 0.0f && leaps(met.last_whole, whole, motion, near)) come_in_anew(met, cloth);
+        if (met.size > 0.0f && leaps(met.last_whole, whole, motion, around)) come_in_anew(met, cloth);
         if (met.size == 0.0f) begin_to_grow(met, garment);
         // Cloth that moves with the body at once takes the prop's start along: their distance stays.
         met.starts = met.places;
@@ -120,13 +118,14 @@ void PropsMet::hide(Cloth& cloth) {
 
 void PropsMet::come_in_anew(Met& met, Cloth& cloth) {
     met.size = 0.0f;
+    met.whole.before.clear();
     cloth.hide_mesh(met.mesh);
 }
 
 /// All of it at one vertex.
 void PropsMet::begin_to_grow(Met& met, const Bounds& garment) {
     const Vec3 middle = 0.5f * (garment.low + garment.high);
-    const std::vector<Vec3>& whole = met.whole;
+    const std::vector<Vec3>& whole = met.whole.at;
     float most = -1.0f;
     for (uint32_t i = 0; i < whole.size(); ++i)
         if (const float way = glm::distance(whole[i], middle); way > most) most = way, met.from = i;
@@ -137,7 +136,7 @@ void PropsMet::keep_step() {
     for (Met& met : met_) {
         met.kept.clear();
         if (met.passes)
-            met.kept = met.whole;
+            met.kept = met.whole.at;
         else if (met.size > 0.0f)
             met.kept = met.places;
     }

@@ -58,9 +58,10 @@ private:
     struct Met {
         const Prop* prop;
         uint32_t mesh;
-        float size = 0.0f;                    // 0..1
-        uint32_t from = 0;                    // the vertex that it grows from
-        std::vector<Vec3> whole, last_whole;  // out of the body; in the last step
+        float size = 0.0f;  // 0..1
+        uint32_t from = 0;  // the vertex that it grows from
+        PosedBody::Points whole;
+        std::vector<Vec3> last_whole;  // moved out, in the last step
         std::vector<Vec3> places, starts, kept;
         bool passes = false;
         float excess_s = 0.0f;              // of the strain of what it holds, summed up over time

@@ -105,7 +105,7 @@ void WornGarment::begin_step(float dt) {
     jumps_ = false;
     if (props_.count() > 0)
         props_.move(
-            {{root_before, pose_.front(), carried_}, obstacles_.posed(pose_, colliders_), room_for_cloth_m()},
+            {{root_before, pose_.front(), carried_}, obstacles_.posed(colliders_), room_for_cloth_m()},
             simulated_s, cloth_, jobs_);
 }
 

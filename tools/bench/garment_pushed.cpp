@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <optional>
 #include <vector>
 
-#include "avatar/gltf_document.h"
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#include <tiny_gltf.h>
+
 #include "bench/carried_props.h"
 #include "bench/targets.h"
 #include "client/assets.h"
@@ -38,29 +42,68 @@ struct Mesh {
     std::vector<uint32_t> indices;
 };
 
-/// One a part of each mesh, its longest side kExtent_m, about the origin.
+tinygltf::Model model_of(const std::filesystem::path& file) {
+    tinygltf::TinyGLTF reader;
+    const auto no_picture = [](tinygltf::Image*, const int, std::string*, std::string*, int, int,
+                               const unsigned char*, int, void*) { return true; };
+    reader.SetImageLoader(no_picture, nullptr);
+    tinygltf::Model model;
+    std::string error, warning;
+    const bool is_read = file.extension() == ".glb"
+                             ? reader.LoadBinaryFromFile(&model, &error, &warning, file.string())
+                             : reader.LoadASCIIFromFile(&model, &error, &warning, file.string());
+    if (!is_read) throw Failure(file.string() + ": " + error);
+    return model;
+}
+
+/// Calls put with the first byte of each row.
+template <typename Put>
+void for_rows(const tinygltf::Model& model, int number, Put&& put) {
+    const tinygltf::Accessor& accessor = model.accessors.at(size_t(number));
+    const tinygltf::BufferView& view = model.bufferViews.at(size_t(accessor.bufferView));
+    const std::vector<unsigned char>& bytes = model.buffers.at(size_t(view.buffer)).data;
+    const size_t first = view.byteOffset + accessor.byteOffset, stride = size_t(accessor.ByteStride(view));
+    if (first + stride * accessor.count > bytes.size() + stride)
+        throw Failure("an accessor ends beyond its buffer");
+    for (size_t i = 0; i < accessor.count; ++i) put(&bytes[first + i * stride], accessor.componentType);
+}
+
+uint32_t index_at(const unsigned char* row, int type) {
+    uint32_t value = 0;
+    std::memcpy(&value, row, size_t(tinygltf::GetComponentSizeInBytes(uint32_t(type))));  // little-endian
+    return value;
+}
+
+/// Its longest side becomes kExtent_m, its middle the origin.
+void fit_size(std::vector<float>& positions) {
+    float low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (size_t i = 0; i < positions.size(); ++i) {
+        low[i % 3] = std::min(low[i % 3], positions[i]);
+        high[i % 3] = std::max(high[i % 3], positions[i]);
+    }
+    const float extent = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+    for (size_t i = 0; i < positions.size(); ++i)
+        positions[i] = (positions[i] - 0.5f * (low[i % 3] + high[i % 3])) * (kExtent_m / extent);
+}
+
+/// One a part of each mesh.
 std::vector<Mesh> meshes_of(const std::filesystem::path& file) {
     std::vector<Mesh> out;
-    const GltfDocument document(file.string());
-    for (const tinygltf::Mesh& mesh : document.model().meshes)
+    const tinygltf::Model model = model_of(file);
+    for (const tinygltf::Mesh& mesh : model.meshes)
         for (const tinygltf::Primitive& part : mesh.primitives) {
             const auto position = part.attributes.find("POSITION");
             if (position == part.attributes.end() || part.indices < 0) continue;
             Mesh& own = out.emplace_back();
             own.name = file.stem().string() + " " + mesh.name;
-            own.positions = document.numbers(position->second, 3, "POSITION");
-            own.indices = document.integers(part.indices, 1, "indices");
-            float low[3], high[3], extent = 0.0f;
-            for (size_t axis = 0; axis < 3; ++axis) {
-                low[axis] = INFINITY, high[axis] = -INFINITY;
-                for (size_t i = axis; i < own.positions.size(); i += 3)
-                    low[axis] = std::min(low[axis], own.positions[i]),
-                    high[axis] = std::max(high[axis], own.positions[i]);
-                extent = std::max(extent, high[axis] - low[axis]);
-            }
-            for (size_t i = 0; i < own.positions.size(); ++i)
-                own.positions[i] =
-                    (own.positions[i] - 0.5f * (low[i % 3] + high[i % 3])) * (kExtent_m / extent);
+            for_rows(model, position->second, [&](const unsigned char* row, int) {
+                float at[3];
+                std::memcpy(at, row, sizeof at);
+                own.positions.insert(own.positions.end(), at, at + 3);
+            });
+            for_rows(model, part.indices,
+                     [&](const unsigned char* row, int type) { own.indices.push_back(index_at(row, type)); });
+            fit_size(own.positions);
         }
     return out;
 }

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "cloth/base/triangles_about.h"
+#include "math/closest_point.h"
 #include "math/finite.h"
-#include "measure/closest_point.h"
 
 namespace vfit {
 
@@ -167,25 +167,26 @@ void TriangleGroups::move_groups(std::span<const Vec3> positions, uint32_t begin
 
 struct TriangleGroups::Search {
     Vec3 p;
-    Closest best{Vec3(0.0f), Vec3(0.0f), INFINITY};  // its distance is that of either side
-    float upright = 0.0f;                            // cosine between its normal and the way to p
+    float reach_m;  // to the closest so far
+    Closest best{Vec3(0.0f), Vec3(0.0f), INFINITY, 0};
+    float upright = 0.0f;  // cosine between its normal and the way to p
 
     bool is_within(const Vec3& low, const Vec3& high) const {
         const Vec3 off = glm::max(glm::max(low - p, p - high), Vec3(0.0f));
-        return glm::dot(off, off) <= best.distance * best.distance;
+        return glm::dot(off, off) <= reach_m * reach_m;
     }
     /// Over an edge, several triangles are equally near: which side p is on, tells the one that faces it
     /// most.
-    void look_at(const Corners& t) {
+    void look_at(const Corners& t, uint32_t triangle) {
         constexpr float kEqual = 1e-4f;  // of the distance
         const Vec3 point = closest_point({t.at[0], t.at[1], t.at[2]}, p).position, way = p - point;
         const float distance = glm::length(way);
-        if (distance > best.distance) return;
+        if (distance > reach_m) return;
         const Vec3 across = glm::cross(t.at[1] - t.at[0], t.at[2] - t.at[0]),
                    normal = across / std::max(glm::length(across), 1e-20f);
         const float cosine = glm::dot(way, normal) / std::max(distance, 1e-20f);
         if (distance > (1.0f - kEqual) * best.distance && std::abs(cosine) <= std::abs(upright)) return;
-        best = {point, normal, distance}, upright = cosine;
+        best = {point, normal, distance, triangle}, upright = cosine, reach_m = distance;
     }
 };
 
@@ -194,23 +195,29 @@ void TriangleGroups::search_block(uint32_t block, Search& search) const {
          group < std::min((block + 1) * uint32_t(kLanes), group_count()); ++group) {
         if (!search.is_within(groups_.runs.low_of(group), groups_.runs.high_of(group))) continue;
         for (uint32_t t = begin_of(group); t < ends_[group]; ++t)
-            if (search.is_within(boxes_[t].low, boxes_[t].high)) search.look_at(corners_[t]);
+            if (search.is_within(boxes_[t].low, boxes_[t].high))
+                search.look_at(corners_[t], triangles_[t].number);
     }
 }
 
-TriangleGroups::Closest TriangleGroups::closest(const Vec3& p) const {
+TriangleGroups::Closest TriangleGroups::closest(const Vec3& p, float reach_m) const {
     const auto blocks = uint32_t((group_count() + kLanes - 1) / kLanes);
+    Search search{p, reach_m};
+    const auto is_within = [&](uint32_t block) {
+        return search.is_within(groups_.blocks.low_of(block), groups_.blocks.high_of(block));
+    };
+    // The first one makes the reach of the others short.
     uint32_t first = 0;
     float least = INFINITY;
     for (uint32_t block = 0; block < blocks; ++block) {
+        if (!is_within(block)) continue;
         const Vec3 middle = 0.5f * (groups_.blocks.low_of(block) + groups_.blocks.high_of(block));
         if (const float away = glm::distance(p, middle); away < least) least = away, first = block;
     }
-    Search search{p};
+    if (!std::isfinite(least)) return search.best;
     search_block(first, search);
     for (uint32_t block = 0; block < blocks; ++block)
-        if (block != first && search.is_within(groups_.blocks.low_of(block), groups_.blocks.high_of(block)))
-            search_block(block, search);
+        if (block != first && is_within(block)) search_block(block, search);
     if (search.upright < 0.0f) search.best.distance = -search.best.distance;
     return search.best;
 }

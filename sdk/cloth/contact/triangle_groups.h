@@ -39,10 +39,11 @@ public:
 
     struct Closest {
         Vec3 point, normal;  // of its triangle
-        float distance;      // negative behind the surface, which is closed
+        float distance;      // negative behind the surface; infinite: there is none within the reach
+        uint32_t triangle;
     };
     /// The point of the surface that is closest to p. Does not allocate.
-    Closest closest(const Vec3& p) const;
+    Closest closest(const Vec3& p, float reach_m) const;
 
     uint32_t group_count() const { return uint32_t(normals_.size()); }
     Bounds box_of(uint32_t group) const { return {groups_.runs.low_of(group), groups_.runs.high_of(group)}; }

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "core/error.h"
-#include "measure/closest_point.h"
+#include "math/closest_point.h"
 #include "unit/measure/mesh_shapes.h"
 
 namespace vfit {

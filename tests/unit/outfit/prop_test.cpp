@@ -168,8 +168,7 @@ struct FallingSheet {
     std::vector<Vec3> places;
     std::optional<Cloth> cloth;
     std::vector<Collider> body;
-    Creases creases;
-    PosedBody posed{creases};
+    PosedBody posed{{}};
 
     explicit FallingSheet(float height) {
         for (const Vec3& p : sheet.positions) places.emplace_back(p.x - 0.3f, height, -p.y - 0.3f);

@@ -725,11 +725,12 @@ namespace Vfit
 
         /// <summary>Tests the last finished steps of an outfit, 1 to 64 cloths of one avatar, for triangles
         /// that cross: of each garment with itself, with the skin in the pose of that step, with each later
-        /// garment of the list, and with its props where they were in that step. Every pair of triangles that
-        /// share no vertex is tested: an empty list proves that none cross. At most n (n + 3) / 2 items for n
-        /// cloths, and one for each prop of each: with room for these, one call is enough.
-        /// VFIT_ERROR_ARGUMENT where a cloth is listed twice or is of another avatar. While a step runs, the
-        /// one before it is tested. Cost: about eight steps of these cloths. [read] on each cloth</summary>
+        /// garment of the list, and with its props as it met them in that step, also those that it let pass.
+        /// Every pair of triangles that share no vertex is tested: an empty list proves that none cross. At
+        /// most n (n + 3) / 2 items for n cloths, and one for each prop of each: with room for these, one
+        /// call is enough. VFIT_ERROR_ARGUMENT where a cloth is listed twice or is of another avatar. While a
+        /// step runs, the one before it is tested. Cost: about eight steps of these cloths. [read] on each
+        /// cloth</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_outfit_check(ClothId* cloths, uint clothCount, Crossing* items,
             uint stride, uint* count);

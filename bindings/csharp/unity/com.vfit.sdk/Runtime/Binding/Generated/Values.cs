@@ -378,7 +378,9 @@ namespace Vfit
     /// <summary>A prop: a solid that the host puts beside a body, such as a chair, a weapon, a bag or
     /// hair. Cloth stays outside of it by its thickness, and meets its edges too. A prop comes in as a
     /// point that grows to its size within 0.25 s and pushes cloth aside, also after vfit_cloth_reset,
-    /// and where it moves by more than 0.3 m against the body within a step.</summary>
+    /// and where it moves by more than 0.3 m against the body within a step. Where it reaches into the
+    /// body, cloth meets it outside of that, with room for the cloth between them. One that stretches
+    /// cloth to twice its length passes through it for a while.</summary>
     public enum PropShape : int
     {
         Sphere = 0,
