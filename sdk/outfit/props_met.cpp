@@ -1,6 +1,7 @@
 #include "outfit/props_met.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vfit {
 
@@ -10,6 +11,7 @@ constexpr float kGrows_s = 0.25f;
 constexpr float kLeap_m = 0.3f;     // in a step: what is faster is not swept (kMaxWay_m)
 constexpr float kHeld = 1.0f;       // strain: cloth at twice its length is torn
 constexpr float kExcess_s = 0.02f;  // of strain above that, summed up over time: a blow leaves less
+constexpr float kLongest_s = 5.0f;  // that it passes
 constexpr float kNear_m = 0.3f;     // to the garment, where leaps matter
 
 Vec3 moved(const Mat4& m, const Vec3& p) { return Vec3(m * Vec4(p, 1.0f)); }
@@ -95,7 +97,7 @@ void PropsMet::let_pass(Cloth& cloth, float share, float dt) {
         const float strain = met.passes || met.size == 0.0f ? 0.0f : held_by(met, cloth, share);
         met.excess_s = strain > kHeld ? met.excess_s + (strain - kHeld) * dt : 0.0f;
         if (met.excess_s > kExcess_s) {
-            met.passes_s = met.for_s < met.passes_s ? 2.0f * met.passes_s : kPasses_s;
+            met.passes_s = met.for_s < met.passes_s ? std::min(2.0f * met.passes_s, kLongest_s) : kPasses_s;
             met.passes = true, met.for_s = 0.0f;
             come_in_anew(met, cloth);
         }
@@ -111,7 +113,7 @@ float PropsMet::held_by(const Met& met, const Cloth& cloth, float share) {
 
 void PropsMet::hide(Cloth& cloth) {
     for (Met& met : met_) {
-        met.passes = false;
+        met.passes = false, met.for_s = INFINITY;
         come_in_anew(met, cloth);
     }
 }

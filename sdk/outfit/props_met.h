@@ -2,6 +2,7 @@
 // farthest from the garment: whatever it meets is pushed aside, and nothing ends up inside of it.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -64,9 +65,9 @@ private:
         std::vector<Vec3> last_whole;  // moved out, in the last step
         std::vector<Vec3> places, starts, kept;
         bool passes = false;
-        float excess_s = 0.0f;              // of the strain of what it holds, summed up over time
-        float for_s = 0.0f;                 // that it passes, or not
-        float passes_s = 0.5f * kPasses_s;  // that it passed the last time
+        float excess_s = 0.0f;       // of the strain of what it holds, summed up over time
+        float for_s = INFINITY;      // that it passes, or not
+        float passes_s = kPasses_s;  // that it passed the last time
     };
     static float held_by(const Met& met, const Cloth& cloth, float share);
     static void come_in_anew(Met& met, Cloth& cloth);

@@ -178,7 +178,7 @@ struct TriangleGroups::Search {
     /// Over an edge, several triangles are equally near: which side p is on, tells the one that faces it
     /// most.
     void look_at(const Corners& t, uint32_t triangle) {
-        constexpr float kEqual = 1e-4f;  // of the distance
+        constexpr float kEqual = 1e-5f;  // of the distance
         const Vec3 point = closest_point({t.at[0], t.at[1], t.at[2]}, p).position, way = p - point;
         const float distance = glm::length(way);
         if (distance > reach_m) return;
