@@ -149,13 +149,13 @@ TEST_F(PropTest, APropThatIsDraggedAlongTheThighsTearsNothing) {
     ASSERT_EQ(vfit_cloth_add_prop(cloth, ball), VFIT_OK);
     float most = 0.0f;
     int crossing = 0;
-    for (int i = 0; i < 90; ++i) {
+    for (int i = 0; i < 75; ++i) {
         // Round both thighs, 4 cm into them in the end.
         const float angle = 0.12f * float(i), away = 0.42f - 0.003f * float(std::min(i, 60));
         move(ball, away * std::sin(angle), 0.6f, away * std::cos(angle));
         step(cloth);
         most = std::max(most, strain());
-        crossing += !check(cloth).empty();
+        if (i % 8 == 0) crossing += !check(cloth).empty();
     }
     EXPECT_LT(most, 2.5f) << "without a way out, 7";
     EXPECT_GT(crossing, 0) << "what passes through the cloth is named";
