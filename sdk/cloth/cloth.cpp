@@ -390,6 +390,10 @@ void Cloth::hide_mesh(uint32_t mesh) {
     state_->wake();
 }
 
+bool Cloth::crosses_mesh(uint32_t mesh) const {
+    return state_->triangles && state_->triangles->crosses_mesh(mesh);
+}
+
 void Cloth::set_mesh_mask(uint32_t mesh, std::span<const uint8_t> mask) {
     if (mesh >= state_->meshes.size()) fail(VFIT_ERROR_ARGUMENT, "there is no mesh ", mesh);
     if (mask.size() != state_->meshes[mesh].filter().mask.size())

@@ -136,6 +136,8 @@ public:
     /// start: where it begins that step, whatever fraction of its way carry_along() leaves behind it; empty:
     /// where it was.
     void move_mesh(uint32_t mesh, std::span<const Vec3> positions, std::span<const Vec3> start = {});
+    /// At both ends of the last look at contacts, the cloth crossed that prop.
+    bool crosses_mesh(uint32_t mesh) const;
     /// It is not there until it is moved again.
     void hide_mesh(uint32_t mesh);
     /// From the next step on, of a mesh that has a filter. One a vertex of the cloth.

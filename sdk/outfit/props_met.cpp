@@ -8,8 +8,9 @@ namespace vfit {
 namespace {
 
 constexpr float kGrows_s = 0.25f;
-constexpr float kLeap_m = 0.3f;     // in a step: what is faster is not swept (kMaxWay_m)
-constexpr float kHeld = 1.0f;       // strain: cloth at twice its length is torn
+constexpr float kLeap_m = 0.3f;  // in a step: what is faster is not swept (kMaxWay_m)
+constexpr float kHeld = 0.6f;    // strain: together with a crossing, it has no way out
+constexpr float kTorn = 1.0f;
 constexpr float kExcess_s = 0.02f;  // of strain above that, summed up over time: a blow leaves less
 constexpr float kLongest_s = 5.0f;  // that it passes
 constexpr float kNear_m = 0.3f;     // to the garment, where leaps matter
@@ -95,8 +96,8 @@ void PropsMet::let_pass(Cloth& cloth, float share, float dt) {
             continue;
         }
         const float strain = met.passes || met.size == 0.0f ? 0.0f : held_by(met, cloth, share);
-        met.excess_s = strain > kHeld ? met.excess_s + (strain - kHeld) * dt : 0.0f;
-        if (met.excess_s > kExcess_s) {
+        met.excess_s = strain > kTorn ? met.excess_s + (strain - kTorn) * dt : 0.0f;
+        if (met.excess_s > kExcess_s || (strain > 0.0f && cloth.crosses_mesh(met.mesh))) {
             met.passes_s = met.for_s < met.passes_s ? std::min(2.0f * met.passes_s, kLongest_s) : kPasses_s;
             met.passes = true, met.for_s = 0.0f;
             come_in_anew(met, cloth);

@@ -56,22 +56,36 @@ tinygltf::Model model_of(const std::filesystem::path& file) {
     return model;
 }
 
-/// Calls put with the first byte of each row.
-template <typename Put>
-void for_rows(const tinygltf::Model& model, int number, Put&& put) {
+template <typename T>
+float as_float(const unsigned char* bytes) {
+    T value;
+    std::memcpy(&value, bytes, sizeof value);
+    return float(value);
+}
+
+/// Of one accessor, row by row. Normalised integers are left as they are: the size is changed anyway.
+std::vector<float> numbers_of(const tinygltf::Model& model, int number) {
     const tinygltf::Accessor& accessor = model.accessors.at(size_t(number));
     const tinygltf::BufferView& view = model.bufferViews.at(size_t(accessor.bufferView));
     const std::vector<unsigned char>& bytes = model.buffers.at(size_t(view.buffer)).data;
-    const size_t first = view.byteOffset + accessor.byteOffset, stride = size_t(accessor.ByteStride(view));
-    if (first + stride * accessor.count > bytes.size() + stride)
-        throw Failure("an accessor ends beyond its buffer");
-    for (size_t i = 0; i < accessor.count; ++i) put(&bytes[first + i * stride], accessor.componentType);
-}
-
-uint32_t index_at(const unsigned char* row, int type) {
-    uint32_t value = 0;
-    std::memcpy(&value, row, size_t(tinygltf::GetComponentSizeInBytes(uint32_t(type))));  // little-endian
-    return value;
+    const auto columns = size_t(tinygltf::GetNumComponentsInType(uint32_t(accessor.type))),
+               size = size_t(tinygltf::GetComponentSizeInBytes(uint32_t(accessor.componentType))),
+               first = view.byteOffset + accessor.byteOffset, stride = size_t(accessor.ByteStride(view));
+    if (accessor.count == 0 || first + (accessor.count - 1) * stride + columns * size > bytes.size())
+        throw Failure("a glTF accessor ends beyond its buffer");
+    std::vector<float> out;
+    for (size_t i = 0; i < accessor.count * columns; ++i) {
+        const unsigned char* at = &bytes[first + i / columns * stride + i % columns * size];
+        switch (accessor.componentType) {
+            case TINYGLTF_COMPONENT_TYPE_BYTE: out.push_back(as_float<int8_t>(at)); break;
+            case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: out.push_back(as_float<uint8_t>(at)); break;
+            case TINYGLTF_COMPONENT_TYPE_SHORT: out.push_back(as_float<int16_t>(at)); break;
+            case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: out.push_back(as_float<uint16_t>(at)); break;
+            case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: out.push_back(as_float<uint32_t>(at)); break;
+            default: out.push_back(as_float<float>(at));
+        }
+    }
+    return out;
 }
 
 /// Its longest side becomes kExtent_m, its middle the origin.
@@ -96,13 +110,8 @@ std::vector<Mesh> meshes_of(const std::filesystem::path& file) {
             if (position == part.attributes.end() || part.indices < 0) continue;
             Mesh& own = out.emplace_back();
             own.name = file.stem().string() + " " + mesh.name;
-            for_rows(model, position->second, [&](const unsigned char* row, int) {
-                float at[3];
-                std::memcpy(at, row, sizeof at);
-                own.positions.insert(own.positions.end(), at, at + 3);
-            });
-            for_rows(model, part.indices,
-                     [&](const unsigned char* row, int type) { own.indices.push_back(index_at(row, type)); });
+            own.positions = numbers_of(model, position->second);
+            for (const float index : numbers_of(model, part.indices)) own.indices.push_back(uint32_t(index));
             fit_size(own.positions);
         }
     return out;

@@ -62,7 +62,7 @@ CrossingGuard::CrossingGuard(const FabricData& fabric)
 }
 
 void CrossingGuard::add_mesh(size_t vertices, MeshOf what) {
-    surfaces_.push_back(what);
+    surfaces_.push_back(what), crosses_.push_back(0);
     const size_t count = inverse_mass_.size() + vertices;
     inverse_mass_.resize(count, 0.0f);
     is_marked_.resize(count, 0), is_moved_.resize(count, 0), is_fixed_.resize(count, 1);
@@ -76,6 +76,7 @@ bool CrossingGuard::keep(std::span<const Particle> begin, std::span<Particle> en
     for (const uint32_t v : moved_) is_moved_[v] = 0;
     zoned_.clear(), moved_.clear(), tangles_.clear(), tangled_ = {};
     zones_grow_ = crosses_mesh_ = false;
+    std::fill(crosses_.begin(), crosses_.end(), uint8_t(0));
     proximity.find(begin, end, jobs);
     bool solved = false;
     for (int round = 0; round < kRounds; ++round) {
@@ -153,7 +154,7 @@ void CrossingGuard::find_hits(std::span<const Particle> begin, std::span<const P
             if (surface == Proximity::kSelf)
                 tangles_.emplace_back(pair.first->number, pair.second->number);
             else
-                crosses_mesh_ = true;
+                crosses_mesh_ = true, crosses_[surface] = 1;
             return;
         }
         if (cross_at(pair, end)) crossed_.emplace_back(pair.first, pair.second);

@@ -37,6 +37,8 @@ public:
     /// Vertices that the last call moved, and whether as part of a zone: then their velocity is its.
     std::span<const uint32_t> moved() const { return moved_; }
     bool is_in_zone(uint32_t vertex) const { return parent_[vertex] != kNone; }
+    /// In the last call, a triangle of the cloth crossed one of that guarded mesh at both ends.
+    bool crosses_mesh(uint32_t mesh) const { return crosses_[mesh + 1] != 0; }
     /// Vertices of triangles that crossed at the begin, and still do.
     std::span<const uint32_t> tangled() const { return tangled_; }
 
@@ -73,6 +75,7 @@ private:
     std::vector<TrianglePair> tangles_;            // of the cloth at both ends, by their numbers
     bool crosses_mesh_ = false;                    // at both ends, or it was not kept from it
     std::vector<MeshOf> surfaces_{MeshOf::cloth};  // the cloth's own first
+    std::vector<uint8_t> crosses_{0};              // one a surface: at both ends
     std::vector<uint8_t> is_marked_, is_moved_;    // in this round, in all
     std::vector<uint32_t> moved_;
     std::vector<Particle> wanted_;          // the end that the step made

@@ -54,6 +54,8 @@ public:
     /// After a step: changes its `end` so that nothing crosses which did not at its begin, and finds the
     /// contacts of the next step. True: the cloth crosses neither itself nor a mesh, which is proven.
     bool keep(std::span<const Vec3> begin, std::span<Vec3> end, Jobs& jobs);
+    /// Before and after the last keep(), the cloth crossed that mesh, which is guarded.
+    bool crosses_mesh(uint32_t mesh) const { return guard_.crosses_mesh(mesh); }
     /// Vertices that keep() moved; is_in_zone: as one with others, whose velocity is their way.
     std::span<const uint32_t> moved() const { return guard_.moved(); }
     bool is_in_zone(uint32_t vertex) const { return guard_.is_in_zone(vertex); }
