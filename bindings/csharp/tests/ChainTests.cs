@@ -119,7 +119,7 @@ namespace Vfit.Tests
                 ulong alone = cloth.StateHash();
                 foreach (Prop prop in new[] { ball, box, rod })
                 {
-                    prop.Move(new Float3(0.3f, 0.6f, 0), new Float4(0, 0, 0, 1));
+                    prop.Move(new Float3(0.4f, 0.6f, 0), new Float4(0, 0, 0, 1));
                     cloth.AddProp(prop);
                 }
                 cloth.RemoveProp(rod);
