@@ -1,5 +1,5 @@
-// Cloth that an obstacle holds: it is stretched beside it as nothing else explains. What holds cloth passes
-// through it for a while: what is held would be stretched without end.
+// Cloth that is stretched beside an obstacle, which hooks it or pinches it against the body. Such an obstacle
+// passes through the cloth for a while: otherwise the cloth would be stretched without end.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// The body in a pose as the solid that a garment is worn on. What the host puts beside the body is moved out
-// of it, with room for cloth: else the cloth between the two could be on neither's outside.
+// The body in a pose as the solid that a garment is worn on. Props are moved out of it, with room for cloth:
+// otherwise no place between the two would be outside of both.
 #pragma once
 
 #include <cstdint>

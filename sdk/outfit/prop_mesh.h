@@ -1,7 +1,7 @@
-// The closed surface of a prop: of a shape, or of the host's mesh. What is found by its nearest vertex must
-// not lie far from all of them, so triangles are split until no edge is long. A surface with small
-// holes is closed by fans about their middles; what is open otherwise, such as a cape or a card of hair,
-// becomes a shell: it gets a back, and a rim that joins both.
+// The closed surface of a prop: of a shape, or of the host's mesh. Contact finds a triangle by its nearest
+// vertex, so triangles are split until no edge is long. A surface with small holes is closed by fans about
+// their middles. What is open otherwise, such as a cape or a card of hair, becomes a shell: it gets a back,
+// and a rim that joins both.
 #pragma once
 
 #include <array>

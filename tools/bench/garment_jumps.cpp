@@ -91,13 +91,8 @@ struct Outcome {
 
 class JumpJudge {
 public:
-    JumpJudge(vfit_context context, const std::string& names, const JumpsOptions& options) {
-        const std::vector<Garment> garments = open_outfit(context, names);
-        vfit_garment_info info = vfit_garment_info_init();
-        check(vfit_garment_describe(garments.front().get(), &info));
-        vfit_avatar_desc body = vfit_avatar_desc_init();
-        body.sex = info.body_sex;
-        check(vfit_avatar_create_from_shape(context, &body, nullptr, 0, 0, avatar_.out()));
+    JumpJudge(vfit_context context, const std::string& names, const JumpsOptions& options)
+        : avatar_(default_wearer(context, names)) {
         stand_at(avatar_.get(), {});
         vfit_cloth_desc desc = vfit_cloth_desc_init();
         desc.flags = options.spheres ? 0 : VFIT_CLOTH_SKIN;

@@ -43,6 +43,17 @@ std::vector<Garment> open_outfit(vfit_context context, const std::string& names)
     return out;
 }
 
+Avatar default_wearer(vfit_context context, const std::string& names) {
+    const std::vector<Garment> garments = open_outfit(context, names);
+    vfit_garment_info info = vfit_garment_info_init();
+    check(vfit_garment_describe(garments.front().get(), &info));
+    vfit_avatar_desc body = vfit_avatar_desc_init();
+    body.sex = info.body_sex;
+    Avatar avatar;
+    check(vfit_avatar_create_from_shape(context, &body, nullptr, 0, 0, avatar.out()));
+    return avatar;
+}
+
 WornOutfit::WornOutfit(vfit_context context, vfit_avatar avatar, const std::string& names,
                        const vfit_cloth_desc& desc) {
     std::vector<Garment> garments = open_outfit(context, names);

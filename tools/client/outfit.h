@@ -72,6 +72,9 @@ std::string default_outfit(vfit_sex sex);
 /// Opens the garments of "A+B"; a failure names the one that cannot be opened.
 std::vector<Garment> open_outfit(vfit_context context, const std::string& names);
 
+/// The default body of the sex that the first garment of "A+B" is made for.
+Avatar default_wearer(vfit_context context, const std::string& names);
+
 /// Splits "a+b" at `separator`.
 std::vector<std::string> split(const std::string& text, char separator);
 
