@@ -167,6 +167,47 @@ TEST_F(PropTest, APropThatIsDraggedAlongTheThighsTearsNothing) {
     vfit_prop_destroy(ball);
 }
 
+TEST_F(PropTest, ABoardThatStaysPressedIntoBothThighsLeavesClothBetween) {
+    vfit_cloth_desc desc = vfit_cloth_desc_init();
+    desc.flags = VFIT_CLOTH_SKIN | VFIT_CLOTH_AWAKE;
+    desc.self_thickness_m = 0.004f;
+    vfit_cloth cloth{};
+    ASSERT_EQ(vfit_cloth_create(avatar, garment, &desc, &cloth), VFIT_OK) << contract::last_error();
+    const vfit_prop board = make_prop(VFIT_PROP_BOX, 0.18f, 0.03f, 0.2f);
+    move(board, 0.0f, 0.62f, -0.6f);
+    ASSERT_EQ(vfit_cloth_add_prop(cloth, board), VFIT_OK);
+    // From behind, 4 cm into them.
+    for (int i = 0; i < 120; ++i) {
+        move(board, 0.0f, 0.62f, -0.6f + 0.35f * std::min(float(i) / 80.0f, 1.0f));
+        step(cloth);
+        if (i % 10 == 9) {
+            ASSERT_TRUE(check(cloth).empty()) << i;
+        }
+    }
+    vfit_cloth_stats stats = vfit_cloth_stats_init();
+    ASSERT_EQ(vfit_cloth_describe(cloth, &stats), VFIT_OK);
+    EXPECT_LT(stats.strain_max, 0.6f);
+    vfit_cloth_destroy(cloth);
+    vfit_prop_destroy(board);
+}
+
+TEST_F(PropTest, AnotherSizeMeetsTheSameProps) {
+    const vfit_cloth cloth = make();
+    const vfit_prop ball = make_prop(VFIT_PROP_SPHERE, 0.15f);
+    move(ball, 0.0f, 0.5f, 0.3f);
+    ASSERT_EQ(vfit_cloth_add_prop(cloth, ball), VFIT_OK);
+    step(cloth, 30);
+    for (const char* size : {"L", "S"}) {
+        ASSERT_EQ(vfit_cloth_set_size(cloth, size), VFIT_OK) << contract::last_error();
+        for (int i = 0; i < 20; ++i) {
+            step(cloth);
+            for (const vfit_crossing& c : check(cloth)) ASSERT_NE(c.kind, VFIT_CROSSING_PROP) << size << i;
+        }
+    }
+    vfit_cloth_destroy(cloth);
+    vfit_prop_destroy(ball);
+}
+
 TEST_F(PropTest, ADestroyedPropIsMetNoLonger) {
     const vfit_cloth cloth = make(), twin = make(), third = make();
     const vfit_prop ball = make_prop(VFIT_PROP_SPHERE, 0.2f);
