@@ -42,6 +42,7 @@ struct Mesh {
     std::vector<uint32_t> indices;
 };
 
+/// Fails where the file cannot be read, as one that is compressed by an extension.
 tinygltf::Model model_of(const std::filesystem::path& file) {
     tinygltf::TinyGLTF reader;
     const auto no_picture = [](tinygltf::Image*, const int, std::string*, std::string*, int, int,
