@@ -151,12 +151,12 @@ Dress::Dress(const Garment& garment, const BoundGarment& bound, const FabricMate
         hems_ = limb_hems(indices_, bound.parts_below, garment.simulated, rest_);
         end_at_wrists(hems_, body, rest_);
     }
-    std::vector<uint8_t> of_hem(n, 0);
+    std::vector<uint8_t> keeps_hem(n, 0);
     for (const LimbHem& hem : hems_)
-        for (const uint32_t v : hem.vertices) of_hem[v] = 1;
+        for (const LimbHem::UpTheLimb& up : hem.up) keeps_hem[up.vertex] = 1;
     for (uint32_t i = 0; i < carried_.rest.size(); ++i) {
         const bool limited =
-            i < n && ((!garment.most_way.empty() && garment.most_way[i] > 0.0f) || of_hem[i]);
+            i < n && ((!garment.most_way.empty() && garment.most_way[i] > 0.0f) || keeps_hem[i]);
         if (i >= n || !garment.simulated[i] || limited) followed_.push_back(i);
     }
     fabric_ = fabric_of(garment, material, size_ratio, size, &taken_up_, jobs);

@@ -58,6 +58,36 @@ struct Mean {
     Vec3 of() const { return sum / std::max(count, 1.0f); }
 };
 
+/// What lies up the limb from a hem: the nearest vertices of the garment to where its own would be, a palm's
+/// breadth further up. Itself, where there are none.
+std::vector<LimbHem::UpTheLimb> up_the_limb(std::span<const uint32_t> hem,
+                                            std::span<const uint8_t> is_of_limb,
+                                            std::span<const Vec3> carried) {
+    constexpr float kUp_m = 0.1f, kAside_m = 0.04f;
+    Mean middle, above;
+    for (const uint32_t v : hem) middle.add(carried[v]);
+    std::vector<uint32_t> around;
+    for (uint32_t v = 0; v < carried.size(); ++v) {
+        const bool on_its_side = carried[v].x * middle.of().x >= 0.0f;
+        const float away_m = glm::distance(carried[v], middle.of());
+        if (!is_of_limb[v] || !on_its_side || std::abs(away_m - kUp_m) > kAside_m) continue;
+        around.push_back(v), above.add(carried[v]);
+    }
+    std::vector<LimbHem::UpTheLimb> out;
+    for (const uint32_t v : hem) {
+        LimbHem::UpTheLimb up{v, 0.0f};
+        if (above.count > 0.0f) {
+            const Vec3 place = carried[v] + kUp_m * glm::normalize(above.of() - middle.of());
+            up.vertex = *std::min_element(around.begin(), around.end(), [&](uint32_t a, uint32_t b) {
+                return glm::distance(carried[a], place) < glm::distance(carried[b], place);
+            });
+            up.distance_m = glm::distance(carried[up.vertex], carried[v]);
+        }
+        out.push_back(up);
+    }
+    return out;
+}
+
 /// Of a triangle laid flat, the direction in which a value at its corners grows; zero: it is the same at all.
 Vec2 growth(const Vec2* corner, const float (&value)[3]) {
     const Vec2 p = corner[1] - corner[0], q = corner[2] - corner[0];
@@ -89,7 +119,13 @@ std::vector<LimbHem> limb_hems(std::span<const uint32_t> indices, std::span<cons
         ways_from(inverse_mass, sides_of(indices, [&](uint32_t i) {
                       return glm::length(carried[indices[i]] - carried[indices[next_corner(i)]]);
                   }));
-    for (LimbHem& hem : hems) hem.way_m = mean_way(ways, hem.vertices);
+    std::vector<uint8_t> of_arm, of_leg;
+    for (const BodyPart part : part_below)
+        of_arm.push_back(at_end_of_arm(part)), of_leg.push_back(at_end_of_leg(part));
+    for (LimbHem& hem : hems) {
+        hem.way_m = mean_way(ways, hem.vertices);
+        hem.up = up_the_limb(hem.vertices, hem.of_arm ? of_arm : of_leg, carried);
+    }
     return hems;
 }
 
@@ -152,13 +188,15 @@ TakenUp take_up(std::span<const LimbHem> hems, std::span<const uint32_t> indices
 }
 
 void keep_hems(std::span<const LimbHem> hems, std::span<const Tether> tethers, FabricData& fabric) {
-    constexpr float kLonger = 1.01f, kNear_m = 0.02f;
+    constexpr float kLonger = 1.01f, kFurther_m = 0.02f;
     std::vector<float> ways(fabric.inverse_mass.size(), INFINITY);
     for (const Tether& t : tethers) ways[t.vertex] = t.length_m;
     for (const LimbHem& hem : hems) {
         if (hem.way_m == 0.0f || mean_way(ways, hem.vertices) < kLonger * hem.way_m) continue;
-        for (const uint32_t v : hem.vertices)
-            if (fabric.inverse_mass[v] > 0.0f) fabric.limits.push_back({v, kNear_m + hem.past_wrist_m});
+        for (size_t i = 0; i < hem.vertices.size(); ++i)
+            if (const uint32_t v = hem.vertices[i]; fabric.inverse_mass[v] > 0.0f)
+                fabric.limits.push_back(
+                    {v, hem.up[i].distance_m + kFurther_m + hem.past_wrist_m, hem.up[i].vertex});
     }
 }
 

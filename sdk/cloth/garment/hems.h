@@ -19,6 +19,12 @@ struct LimbHem {
     float way_m = 0.0f;  // mean way along the cloth to them, or to the wrist, from what is fixed, where the
                          // garment lies on the body; 0: there is none
     float past_wrist_m = 0.0f;  // so far they lie beyond it
+    /// One a vertex: the garment's vertex that lies up the limb from it, and how far.
+    struct UpTheLimb {
+        uint32_t vertex;
+        float distance_m;
+    };
+    std::vector<UpTheLimb> up;
 };
 
 /// The borders of the garment that go around a forearm or a shank, a hand or a foot. part_below: of each
@@ -41,7 +47,8 @@ TakenUp take_up(std::span<const LimbHem> hems, std::span<const uint32_t> indices
                 std::span<const uint8_t> simulated, std::vector<Vec2>& cut);
 
 /// A cuff does not slide over the hand and a hem does not slide under the foot: each vertex of hems to which
-/// the way from what is fixed (tethers) is longer in the cloth than on the body stays near its place.
+/// the way from what is fixed (tethers) is longer in the cloth than on the body stays within reach of a place
+/// up the limb. So it may ride up, as it does where an arm is raised or a knee is bent.
 void keep_hems(std::span<const LimbHem> hems, std::span<const Tether> tethers, FabricData& fabric);
 
 }  // namespace vfit

@@ -341,10 +341,11 @@ TEST(ClothBudget, WhatMovesFastTakesMoreSubsteps) {
         return hanging.cloth->stats().substeps;
     };
     EXPECT_EQ(substeps({}, {}), 8u);
-    EXPECT_EQ(substeps({0.02f, 0, 0}, {}), 8u) << "2.5 mm a sub-step";
-    EXPECT_EQ(substeps({0.03f, 0, 0}, {-0.03f, 0, 0}), 15u) << "4 mm, one part against the other";
+    EXPECT_EQ(substeps({0.006f, 0, 0}, {}), 8u) << "0.75 mm a sub-step";
+    EXPECT_EQ(substeps({0.02f, 0, 0}, {}), 20u) << "1 mm";
+    EXPECT_EQ(substeps({0.01f, 0, 0}, {-0.01f, 0, 0}), 20u) << "1 mm, one part against the other";
     EXPECT_EQ(substeps({-0.05f, 0, 0}, {-0.05f, 0, 0}), 8u) << "the whole of it";
-    EXPECT_EQ(substeps({0.3f, 0, 0}, {}), 32u) << "no more than four times as many";
+    EXPECT_EQ(substeps({0.3f, 0, 0}, {}), 64u) << "no more than eight times as many";
     hanging.cloth->set_quality(8, 1e-4f);
     EXPECT_EQ(substeps({-0.3f, 0, 0}, {}), 1u) << "nor than the budget allows";
 }
