@@ -22,7 +22,6 @@ constexpr int kFramesToRest = 90, kFramesAfter = 60;
 constexpr int kFramesOfSlowWay = 90;  // in which the same limb goes there without a leap
 constexpr float kAllowed = 1.2f;      // of strain_max at rest
 constexpr float kFloor = 0.02f;       // of strain, added to it: half of the solver's noise at 8 sub-steps
-constexpr float kAround = 0.5f;       // turns about a limb: fewer are none
 constexpr float kRadians = kPi / 180.0f;
 
 /// Where the body stands, beside how it stands at first.
@@ -146,7 +145,7 @@ private:
         Outcome out{name, after.strain_max, kAllowed * reference + kFloor, 0};
         for (size_t layer = 0; layer < rest.turns.size(); ++layer)
             for (size_t limb = 0; limb < rest.turns[layer].size(); ++limb)
-                out.off_limbs += rest.turns[layer][limb] > kAround && after.turns[layer][limb] < kAround;
+                out.off_limbs += is_off_limb(rest.turns[layer][limb], after.turns[layer][limb]);
         return out;
     }
 

@@ -23,7 +23,6 @@ namespace vfit::tools {
 namespace {
 
 constexpr double kSettled_s = 1.0;  // figures are of what comes later
-constexpr float kAround = 0.5f;     // turns about a limb: fewer are none
 
 /// The worst of all frames of one garment on one recording.
 struct Worst {
@@ -72,7 +71,7 @@ public:
         bool off = false;
         for (size_t i = 0; i < layers.size(); ++i)
             for (size_t k = 0; k < turns[i].size(); ++k)
-                off = off || (covered_[i][k] > kAround && turns[i][k] < kAround);
+                off = off || is_off_limb(covered_[i][k], turns[i][k]);
         worst_.off_limb += off;
         step_ms_.push_back(0.0f);
         for (const vfit_cloth cloth : outfit_.cloths()) {

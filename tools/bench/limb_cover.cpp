@@ -64,4 +64,9 @@ std::vector<float> turns_around_limbs(vfit_avatar avatar, const Welded& garment)
     return out;
 }
 
+bool is_off_limb(float before, float now) {
+    constexpr float kClosed = 1e-3f;  // a closed line goes around a whole number of times
+    return before > 0.5f && std::abs(before - std::round(before)) < kClosed && now < 0.5f;
+}
+
 }  // namespace vfit::tools

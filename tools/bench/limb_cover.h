@@ -19,4 +19,8 @@ const std::vector<LimbPlace>& limb_places();
 /// Of each of limb_places(), how often the garment goes around it: 0 is not at all, 1 once.
 std::vector<float> turns_around_limbs(vfit_avatar avatar, const Welded& garment);
 
+/// Of turns around a limb before and now: what closed around it does so no longer. A coat that is open in
+/// front closes around neither leg.
+bool is_off_limb(float before, float now);
+
 }  // namespace vfit::tools
