@@ -973,7 +973,7 @@ enum {
     VFIT_CLOTH_ANY_FIT = 16
 }; /* worn even where it would not close: stretched beyond what its fabric takes */
 typedef struct vfit_cloth_desc {
-    uint32_t struct_size, substeps; /* 0: 8 a 1/60 s; on the skin up to four times as many in a step in
+    uint32_t struct_size, substeps; /* 0: 8 a 1/60 s; on the skin up to eight times as many in a step in
                                      * which parts of the body move fast */
     float gravity[3];               /* in the context's axes and unit; all zero: 9.81 m/s2 down */
     float friction;                 /* 0: the fabric's; < 0: none */

@@ -87,13 +87,17 @@ std::vector<Tether> hold(std::span<const uint32_t> held, float slides_m, FabricD
     return tethers;
 }
 
-/// How far what holds a garment slides: a waistband grips, cloth on shoulders hardly.
-float slide_of(std::span<const uint32_t> held, std::span<const Vec3> rest, std::span<const Vec3> body) {
-    constexpr float kWaistband_m = 0.002f, kShoulders_m = 0.005f, kShoulderHeight = 0.7f;  // of the stature
+/// How far what holds a garment slides: a waistband grips, and cloth on shoulders hardly slides, but where a
+/// sleeve pulls it after an arm that is raised.
+float slide_of(const Garment& garment, std::span<const uint32_t> held, std::span<const Vec3> rest,
+               std::span<const Vec3> body) {
+    constexpr float kWaistband_m = 0.002f, kShoulders_m = 0.005f, kWithSleeves_m = 0.01f,
+                    kShoulderHeight = 0.7f;  // of the stature
     float middle = 0.0f, top = 0.0f;
     for (const uint32_t v : held) middle += rest[v].y / float(held.size());
     for (const Vec3& p : body) top = std::max(top, p.y);
-    return middle < kShoulderHeight * top ? kWaistband_m : kShoulders_m;
+    if (middle < kShoulderHeight * top) return kWaistband_m;
+    return garment.has_sleeves() ? kWithSleeves_m : kShoulders_m;
 }
 
 /// Those that contact does not move, or not all of.
@@ -130,7 +134,7 @@ Dress::Dress(const Garment& garment, const BoundGarment& bound, const FabricMate
                           [&](uint32_t i) { push_out(body.skin, thickness_m, std::span(&rest_[i], 1)); });
     clear_skin({body.positions, body.indices, body.skin}, skinned_triangles(garment), rest_);
 
-    slides_m_ = slide_of(held_, rest_, body.positions);
+    slides_m_ = slide_of(garment, held_, rest_, body.positions);
     carried_ = bound.skin_below;
     carried_.rest = rest_;
     split_limb_weights(rest_, body.limbs, carried_.bones, carried_.weights);

@@ -1204,7 +1204,7 @@ namespace Vfit
     public unsafe partial struct ClothDesc
     {
         internal uint StructSize;
-        /// <summary>0: 8 a 1/60 s; on the skin up to four times as many in a step in which parts of the body
+        /// <summary>0: 8 a 1/60 s; on the skin up to eight times as many in a step in which parts of the body
         /// move fast</summary>
         public uint Substeps;
         /// <summary>in the context's axes and unit; all zero: 9.81 m/s2 down</summary>
