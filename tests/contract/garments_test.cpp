@@ -325,6 +325,51 @@ TEST_F(GarmentsTest, HandsPassWhereTheyAreToldTo) {
     }
 }
 
+TEST_F(GarmentsTest, AHandThatSwingsBesideASkirtDoesNotGoThrough) {
+    const vfit_avatar avatar = body();
+    vfit_cloth cloth{};
+    int64_t time_ns = 0;
+    const auto swing = [&](float angle) {
+        vfit_pose pose = vfit_pose_init();
+        pose.time_ns = time_ns += 16'666'667;
+        std::array<vfit_bone, 3> bones;
+        bones.fill(vfit_bone_init());
+        bones[0].bone = VFIT_BONE_HIPS, bones[0].rotation[3] = 1.0f, bones[0].position[1] = 0.9f;
+        for (size_t side = 0; side < 2; ++side) {
+            const float sign = side == 0 ? -1.0f : 1.0f, down = 0.5f * sign * 1.35f,
+                        half = 0.5f * sign * angle;
+            bones[1 + side].bone = side == 0 ? VFIT_BONE_LEFT_UPPER_ARM : VFIT_BONE_RIGHT_UPPER_ARM;
+            float* q = bones[1 + side].rotation;  // about X, of an arm that was turned down about Z
+            q[0] = std::sin(half) * std::cos(down), q[1] = -std::sin(half) * std::sin(down);
+            q[2] = std::cos(half) * std::sin(down), q[3] = std::cos(half) * std::cos(down);
+        }
+        ASSERT_EQ(vfit_avatar_pose(avatar, &pose, bones.data(), sizeof bones[0], 3), VFIT_OK)
+            << contract::last_error();
+    };
+    swing(0.0f);
+    vfit_cloth_desc desc = vfit_cloth_desc_init();
+    desc.flags = VFIT_CLOTH_SKIN, desc.self_thickness_m = 0.004f;
+    ASSERT_EQ(vfit_cloth_create(avatar, open("sundress"), &desc, &cloth), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_cloth_reset(cloth), VFIT_OK) << contract::last_error();
+    float strain = 0.0f;
+    uint32_t pairs = 0;
+    for (int i = 0; i < 100; ++i) {
+        swing(0.6f * std::sin(0.16f * float(i)));  // both hands, up to 3.5 m/s
+        ASSERT_EQ(vfit_cloth_step(cloth, kGarmentStep_s), VFIT_OK) << contract::last_error();
+        vfit_cloth_stats stats = vfit_cloth_stats_init();
+        ASSERT_EQ(vfit_cloth_describe(cloth, &stats), VFIT_OK);
+        strain = std::max(strain, stats.strain_max);
+        if (i % 4 != 0) continue;
+        std::array<vfit_crossing, 4> crossings;
+        crossings.fill(vfit_crossing_init());
+        uint32_t count = uint32_t(crossings.size());
+        ASSERT_EQ(vfit_outfit_check(&cloth, 1, crossings.data(), sizeof(vfit_crossing), &count), VFIT_OK);
+        for (uint32_t k = 0; k < std::min(count, 4u); ++k) pairs = std::max(pairs, crossings[k].pair_count);
+    }
+    EXPECT_LT(strain, 0.6f);
+    EXPECT_LT(pairs, 30u) << "an arm that passes crosses more";
+}
+
 TEST_F(GarmentsTest, OnSpheresSleevesKeepForearmsAndHands) {
     const vfit_avatar avatar = body();
     for (const auto& [name, same] : {std::pair("shirt_men", true), std::pair("sundress_pattern", false)}) {
