@@ -301,8 +301,7 @@ TEST_F(GarmentsTest, HandsPassWhereTheyAreToldTo) {
             bones[0].bone = VFIT_BONE_HIPS, bones[0].rotation[3] = 1.0f, bones[0].position[1] = 0.9f;
             for (int side = 0; side < 2; ++side) {
                 bones[1 + side].bone = side == 0 ? VFIT_BONE_LEFT_UPPER_ARM : VFIT_BONE_RIGHT_UPPER_ARM;
-                bones[1 + side].rotation[2] = side == 0 ? -0.72f : 0.72f,
-                          bones[1 + side].rotation[3] = 0.694f;
+                bones[1 + side].rotation[2] = side == 0 ? -0.7f : 0.7f, bones[1 + side].rotation[3] = 0.714f;
             }
             ASSERT_EQ(vfit_avatar_pose(avatar, &pose, bones, sizeof bones[0], 1), VFIT_OK)
                 << contract::last_error();
