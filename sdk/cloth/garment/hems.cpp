@@ -58,8 +58,8 @@ struct Mean {
     Vec3 of() const { return sum / std::max(count, 1.0f); }
 };
 
-/// What lies up the limb from a hem: the nearest vertices of the garment to where its own would be, a palm's
-/// breadth further up. Itself, where there are none.
+/// Of each vertex of a hem, the vertex of the garment that lies a palm's breadth up the limb from it. Itself,
+/// where there is none.
 std::vector<LimbHem::UpTheLimb> up_the_limb(std::span<const uint32_t> hem,
                                             std::span<const uint8_t> is_of_limb,
                                             std::span<const Vec3> carried) {

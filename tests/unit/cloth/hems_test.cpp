@@ -60,9 +60,7 @@ TEST(Hems, AHemRidesUpButDoesNotSlideOff) {
     keep_hems(sleeve.hems, fabric.tethers, fabric);
     ASSERT_FALSE(fabric.limits.empty());
     for (const DistanceLimit& limit : fabric.limits) {
-        const auto carried = [&](uint32_t v) {
-            return Vec3(1.0f, 0.9f, 1.0f) * sleeve.tube.positions[v];
-        };
+        const auto carried = [&](uint32_t v) { return Vec3(1.0f, 0.9f, 1.0f) * sleeve.tube.positions[v]; };
         const Vec3 hem = carried(limit.vertex), from = carried(limit.target);
         const auto may_be_at = [&](float up_m) {
             return glm::distance(hem + Vec3(0.0f, up_m, 0.0f), from) <= limit.distance_m;
