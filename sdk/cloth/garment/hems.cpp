@@ -58,31 +58,23 @@ struct Mean {
     Vec3 of() const { return sum / std::max(count, 1.0f); }
 };
 
-/// Of each vertex of a hem, the vertex of the garment that lies a palm's breadth up the limb from it. Itself,
-/// where there is none.
-std::vector<LimbHem::UpTheLimb> up_the_limb(std::span<const uint32_t> hem,
-                                            std::span<const uint8_t> is_of_limb,
-                                            std::span<const Vec3> carried) {
-    constexpr float kUp_m = 0.1f, kAside_m = 0.04f;
-    Mean middle, above;
-    for (const uint32_t v : hem) middle.add(carried[v]);
-    std::vector<uint32_t> around;
-    for (uint32_t v = 0; v < carried.size(); ++v) {
-        const bool on_its_side = carried[v].x * middle.of().x >= 0.0f;
-        const float away_m = glm::distance(carried[v], middle.of());
-        if (!is_of_limb[v] || !on_its_side || std::abs(away_m - kUp_m) > kAside_m) continue;
-        around.push_back(v), above.add(carried[v]);
-    }
+/// Of each vertex of a hem, the nearest vertex of those that lie a palm's breadth away from the hem along the
+/// cloth. Itself, where the sleeve or leg is shorter than that.
+std::vector<LimbHem::UpTheLimb> up_the_limb(std::span<const uint32_t> hem, std::span<const Vec3> carried,
+                                            const std::vector<DistanceConstraint>& sides) {
+    constexpr float kUp_m = 0.09f, kWide_m = 0.03f;
+    std::vector<float> is_not_hem(carried.size(), 1.0f);
+    for (const uint32_t v : hem) is_not_hem[v] = 0.0f;
+    const std::vector<float> ways = ways_from(is_not_hem, sides);
+    std::vector<uint32_t> band;
+    for (uint32_t v = 0; v < carried.size(); ++v)
+        if (ways[v] >= kUp_m && ways[v] <= kUp_m + kWide_m) band.push_back(v);
     std::vector<LimbHem::UpTheLimb> out;
     for (const uint32_t v : hem) {
-        LimbHem::UpTheLimb up{v, 0.0f};
-        if (above.count > 0.0f) {
-            const Vec3 place = carried[v] + kUp_m * glm::normalize(above.of() - middle.of());
-            up.vertex = *std::min_element(around.begin(), around.end(), [&](uint32_t a, uint32_t b) {
-                return glm::distance(carried[a], place) < glm::distance(carried[b], place);
-            });
-            up.distance_m = glm::distance(carried[up.vertex], carried[v]);
-        }
+        LimbHem::UpTheLimb up{v, band.empty() ? 0.0f : INFINITY};
+        for (const uint32_t other : band)
+            if (const float away_m = glm::distance(carried[v], carried[other]); away_m < up.distance_m)
+                up = {other, away_m};
         out.push_back(up);
     }
     return out;
@@ -115,16 +107,13 @@ std::vector<LimbHem> limb_hems(std::span<const uint32_t> indices, std::span<cons
     }
     if (hems.empty()) return hems;
     const std::vector<float> inverse_mass(simulated.begin(), simulated.end());
-    const auto ways =
-        ways_from(inverse_mass, sides_of(indices, [&](uint32_t i) {
-                      return glm::length(carried[indices[i]] - carried[indices[next_corner(i)]]);
-                  }));
-    std::vector<uint8_t> of_arm, of_leg;
-    for (const BodyPart part : part_below)
-        of_arm.push_back(at_end_of_arm(part)), of_leg.push_back(at_end_of_leg(part));
+    const auto sides = sides_of(indices, [&](uint32_t i) {
+        return glm::length(carried[indices[i]] - carried[indices[next_corner(i)]]);
+    });
+    const auto ways = ways_from(inverse_mass, sides);
     for (LimbHem& hem : hems) {
         hem.way_m = mean_way(ways, hem.vertices);
-        hem.up = up_the_limb(hem.vertices, hem.of_arm ? of_arm : of_leg, carried);
+        hem.up = up_the_limb(hem.vertices, carried, sides);
     }
     return hems;
 }

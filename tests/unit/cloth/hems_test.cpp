@@ -27,11 +27,11 @@ TEST(Hems, HemsAreTheBordersAtTheEndsOfLimbs) {
 
 /// A sleeve that hangs on its upper border, on a limb that is shorter by some share.
 struct Sleeve {
-    Tube tube{0.05f, 0.4f, 12, 10, 1.0f};
+    Tube tube;
     std::vector<uint8_t> simulated = std::vector<uint8_t>(tube.positions.size(), 1);
     std::vector<LimbHem> hems;
 
-    explicit Sleeve(float limb) {
+    explicit Sleeve(float limb, float radius_m = 0.05f) : tube(radius_m, 0.4f, 12, 10, 1.0f) {
         for (uint32_t v = 120; v < 132; ++v) simulated[v] = 0;
         std::vector<Vec3> carried = tube.positions;
         for (Vec3& p : carried) p.y *= limb;
@@ -55,21 +55,40 @@ TEST(Hems, HemsAreKeptWhereTheClothIsLongerThanTheLimb) {
 }
 
 TEST(Hems, AHemRidesUpButDoesNotSlideOff) {
-    const Sleeve sleeve(0.9f);  // down the Y axis
-    FabricData fabric = sleeve.fabric(sleeve.tube.cut);
-    keep_hems(sleeve.hems, fabric.tethers, fabric);
-    ASSERT_FALSE(fabric.limits.empty());
-    for (const DistanceLimit& limit : fabric.limits) {
-        const auto carried = [&](uint32_t v) { return Vec3(1.0f, 0.9f, 1.0f) * sleeve.tube.positions[v]; };
-        const Vec3 hem = carried(limit.vertex), from = carried(limit.target);
-        const auto may_be_at = [&](float up_m) {
-            return glm::distance(hem + Vec3(0.0f, up_m, 0.0f), from) <= limit.distance_m;
-        };
-        EXPECT_NEAR(from.y - hem.y, 0.1f, 0.03f);
-        EXPECT_TRUE(may_be_at(0.15f)) << limit.vertex;
-        EXPECT_TRUE(may_be_at(-0.015f)) << limit.vertex;
-        EXPECT_FALSE(may_be_at(-0.03f)) << limit.vertex;
+    for (const float radius_m : {0.03f, 0.05f, 0.13f, 0.3f}) {
+        const Sleeve sleeve(0.9f, radius_m);  // down the Y axis
+        FabricData fabric = sleeve.fabric(sleeve.tube.cut);
+        keep_hems(sleeve.hems, fabric.tethers, fabric);
+        ASSERT_EQ(fabric.limits.size(), 12u) << radius_m;
+        for (const DistanceLimit& limit : fabric.limits) {
+            const auto carried = [&](uint32_t v) {
+                return Vec3(1.0f, 0.9f, 1.0f) * sleeve.tube.positions[v];
+            };
+            const Vec3 hem = carried(limit.vertex), from = carried(limit.target);
+            const auto may_be_at = [&](float up_m) {
+                return glm::distance(hem + Vec3(0.0f, up_m, 0.0f), from) <= limit.distance_m;
+            };
+            EXPECT_NEAR(from.y - hem.y, 0.1f, 0.03f) << radius_m;
+            EXPECT_TRUE(may_be_at(0.15f)) << radius_m;
+            EXPECT_TRUE(may_be_at(-0.015f)) << radius_m;
+            EXPECT_FALSE(may_be_at(-0.03f)) << radius_m;
+        }
     }
+}
+
+TEST(Hems, AHemOfAShortSleeveStaysNearItsPlace) {
+    const Tube tube(0.05f, 0.06f, 12, 3, 1.0f);
+    std::vector<uint8_t> simulated(tube.positions.size(), 1);
+    for (uint32_t v = 36; v < 48; ++v) simulated[v] = 0;
+    const auto hems =
+        limb_hems(tube.indices, std::vector<BodyPart>(tube.positions.size(), BodyPart::kLeftForearm),
+                  simulated, tube.positions);
+    ASSERT_FALSE(hems.empty());
+    for (const LimbHem& hem : hems)
+        for (size_t i = 0; i < hem.vertices.size(); ++i) {
+            EXPECT_EQ(hem.up[i].vertex, hem.vertices[i]);
+            EXPECT_EQ(hem.up[i].distance_m, 0.0f);
+        }
 }
 
 TEST(Hems, ASleeveOnTheHandEndsAtTheWrist) {
