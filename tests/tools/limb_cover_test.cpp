@@ -8,7 +8,7 @@
 namespace vfit::tools {
 namespace {
 
-std::vector<float> turns_of(const char* name) {
+std::vector<LimbCover> cover_by(const char* name) {
     const Context context = open_context();
     vfit_avatar_desc body = vfit_avatar_desc_init();
     body.sex = VFIT_SEX_MALE;
@@ -18,20 +18,39 @@ std::vector<float> turns_of(const char* name) {
     const Garment garment = open_garment(context.get(), name);
     Cloth cloth;
     check(vfit_cloth_create(avatar.get(), garment.get(), nullptr, cloth.out()));
-    return turns_around_limbs(avatar.get(), mesh_of(cloth.get()));
+    return cover_of_limbs(avatar.get(), mesh_of(cloth.get()));
 }
 
 TEST(LimbCover, AShirtGoesAroundArmsAndTrousersAroundLegs) {
-    const std::vector<float> shirt = turns_of("shirt_men"), trousers = turns_of("pants_men");
+    const std::vector<LimbCover> shirt = cover_by("shirt_men"), trousers = cover_by("pants_men");
     ASSERT_EQ(shirt.size(), limb_places().size());
     ASSERT_EQ(trousers.size(), limb_places().size());
     // The plane through a limb may leave the trunk's cloth at a hem: an open line counts as part of a turn.
     constexpr float kOpen = 0.15f;
     for (size_t i = 0; i < limb_places().size(); ++i) {
         const bool of_arm = limb_places()[i].from <= VFIT_JOINT_RIGHT_ELBOW;
-        EXPECT_NEAR(shirt[i], of_arm ? 1.0f : 0.0f, kOpen) << i;
-        EXPECT_NEAR(trousers[i], of_arm ? 0.0f : 1.0f, kOpen) << i;
+        EXPECT_NEAR(shirt[i].turns, of_arm ? 1.0f : 0.0f, kOpen) << i;
+        EXPECT_NEAR(trousers[i].turns, of_arm ? 0.0f : 1.0f, kOpen) << i;
+        EXPECT_EQ(shirt[i].stays, of_arm) << i;
+        EXPECT_EQ(trousers[i].stays, !of_arm) << i;
     }
+}
+
+TEST(LimbCover, ASkirtIsToStayAroundLegsAndACoatThatIsOpenInFrontAroundArms) {
+    const std::vector<LimbCover> coat = cover_by("duster"), skirt = cover_by("sundress");
+    for (size_t i = 0; i < limb_places().size(); ++i) {
+        const bool of_arm = limb_places()[i].from <= VFIT_JOINT_RIGHT_ELBOW;
+        EXPECT_EQ(coat[i].stays, of_arm) << i;
+        if (limb_places()[i].from == VFIT_JOINT_LEFT_HIP || limb_places()[i].from == VFIT_JOINT_RIGHT_HIP)
+            EXPECT_TRUE(skirt[i].stays) << i;
+    }
+}
+
+TEST(LimbCover, WhatIsToStayAroundALimbMayBeOffIt) {
+    EXPECT_TRUE(is_off_limb({1.0f, true}, {0.2f, false}));
+    EXPECT_TRUE(is_off_limb({1.1f, true}, {0.2f, false})) << "with part of another line";
+    EXPECT_FALSE(is_off_limb({1.0f, true}, {0.9f, false})) << "its hem is there";
+    EXPECT_FALSE(is_off_limb({0.99f, false}, {0.2f, false})) << "a front that opened";
 }
 
 }  // namespace

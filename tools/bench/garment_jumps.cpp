@@ -76,8 +76,8 @@ void stand_at(vfit_avatar avatar, const Stance& stance) {
 }
 
 struct Look {
-    float strain_max = 0.0f;                  // of all layers
-    std::vector<std::vector<float>> turns{};  // about each limb, of each layer
+    float strain_max = 0.0f;                       // of all layers
+    std::vector<std::vector<LimbCover>> covers{};  // of each limb, by each layer
 };
 
 /// What a case left, a second after it.
@@ -137,15 +137,15 @@ private:
             vfit_cloth_stats stats = vfit_cloth_stats_init();
             check(vfit_cloth_describe(cloth, &stats));
             out.strain_max = std::max(out.strain_max, stats.strain_max);
-            out.turns.push_back(turns_around_limbs(avatar_.get(), mesh_of(cloth)));
+            out.covers.push_back(cover_of_limbs(avatar_.get(), mesh_of(cloth)));
         }
         return out;
     }
     static Outcome outcome(const std::string& name, const Look& rest, const Look& after, float reference) {
         Outcome out{name, after.strain_max, kAllowed * reference + kFloor, 0};
-        for (size_t layer = 0; layer < rest.turns.size(); ++layer)
-            for (size_t limb = 0; limb < rest.turns[layer].size(); ++limb)
-                out.off_limbs += is_off_limb(rest.turns[layer][limb], after.turns[layer][limb]);
+        for (size_t layer = 0; layer < rest.covers.size(); ++layer)
+            for (size_t limb = 0; limb < rest.covers[layer].size(); ++limb)
+                out.off_limbs += is_off_limb(rest.covers[layer][limb], after.covers[layer][limb]);
         return out;
     }
 

@@ -48,9 +48,9 @@ public:
     void look(const Welded& skin, double time_s, bool pictures, bool props) {
         std::vector<Welded> layers;
         for (const vfit_cloth cloth : outfit_.cloths()) layers.push_back(mesh_of(cloth));
-        std::vector<std::vector<float>> turns;
-        for (const Welded& layer : layers) turns.push_back(turns_around_limbs(avatar_, layer));
-        if (covered_.empty()) covered_ = turns, hidden_ = hidden_skin(skin.indices.size() / 3);
+        std::vector<std::vector<LimbCover>> covers;
+        for (const Welded& layer : layers) covers.push_back(cover_of_limbs(avatar_, layer));
+        if (put_on_.empty()) put_on_ = covers, hidden_ = hidden_skin(skin.indices.size() / 3);
         if (time_s < kSettled_s) return;
         ++worst_.frames;
         size_t with_skin = 0, with_self = 0, with_layers = 0;
@@ -70,8 +70,8 @@ public:
         worst_.self_pairs = std::max(worst_.self_pairs, with_self);
         bool off = false;
         for (size_t i = 0; i < layers.size(); ++i)
-            for (size_t k = 0; k < turns[i].size(); ++k)
-                off = off || is_off_limb(covered_[i][k], turns[i][k]);
+            for (size_t k = 0; k < covers[i].size(); ++k)
+                off = off || is_off_limb(put_on_[i][k], covers[i][k]);
         worst_.off_limb += off;
         step_ms_.push_back(0.0f);
         for (const vfit_cloth cloth : outfit_.cloths()) {
@@ -99,7 +99,7 @@ private:
     Worst worst_;
     std::vector<uint8_t> hidden_;  // triangles of the skin, by the outfit
     std::vector<float> step_ms_;
-    std::vector<std::vector<float>> covered_;  // of each layer, as it was put on
+    std::vector<std::vector<LimbCover>> put_on_;  // of each layer
     std::vector<RenderMesh> worst_meshes_;
 };
 

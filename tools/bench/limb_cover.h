@@ -16,11 +16,15 @@ struct LimbPlace {
 /// that a sleeve may ride up.
 const std::vector<LimbPlace>& limb_places();
 
-/// Of each of limb_places(), how often the garment goes around it: 0 is not at all, 1 once.
-std::vector<float> turns_around_limbs(vfit_avatar avatar, const Welded& garment);
+/// How a garment goes around a limb at one of limb_places().
+struct LimbCover {
+    float turns = 0.0f;  // 0: not at all, 1: once; lines that end at a hem count as part of a turn
+    bool stays = false;  // it is to stay there: what goes around an arm, or closes around a leg. The skirt of
+                         // a coat that is open in front may leave a leg.
+};
+std::vector<LimbCover> cover_of_limbs(vfit_avatar avatar, const Welded& garment);
 
-/// Of turns around a limb before and now: what closed around it does so no longer. A coat that is open in
-/// front closes around neither leg.
-bool is_off_limb(float before, float now);
+/// What was to stay around the limb does not go around it any longer.
+bool is_off_limb(const LimbCover& before, const LimbCover& now);
 
 }  // namespace vfit::tools
