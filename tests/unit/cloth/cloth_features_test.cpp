@@ -326,6 +326,25 @@ TEST(ClothLengths, HasteIsWhatABudgetSparesFirst) {
     EXPECT_EQ(settle(1e-4f), 1u);
 }
 
+TEST(ClothBudget, APropMayGoFurtherInASubstepThanALimb) {
+    ClothSettings settings;
+    settings.sleeps = false;
+    Hanging hanging(settings);
+    const Sheet wall{20, 15, 0.02f};
+    std::vector<Vec3> places = wall.positions;
+    for (Vec3& p : places) p.z -= 0.1f;
+    const uint32_t mesh = hanging.cloth->add_mesh(places.size(), wall.indices, {}, MeshOf::prop);
+    const auto substeps = [&](float way_m) {
+        for (size_t v = 0; v < places.size() / 2; ++v) places[v].x += way_m;
+        hanging.cloth->move_mesh(mesh, places);
+        hanging.step(1);
+        return hanging.cloth->stats().substeps;
+    };
+    EXPECT_EQ(substeps(0.0f), 8u);
+    EXPECT_EQ(substeps(0.03f), 8u) << "3.75 mm a sub-step";
+    EXPECT_EQ(substeps(0.04f), 10u) << "4 mm";
+}
+
 TEST(ClothBudget, WhatMovesFastTakesMoreSubsteps) {
     ClothSettings settings;
     settings.sleeps = false;
