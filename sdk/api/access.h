@@ -52,6 +52,18 @@ private:
     Access* access_;
 };
 
+/// The same of an [excl] call.
+class Alone {
+public:
+    Alone(Access& access, const char* what) : access_(access) { access.begin_exclusive(what); }
+    Alone(const Alone&) = delete;
+    Alone& operator=(const Alone&) = delete;
+    ~Alone() { access_.end_exclusive(); }
+
+private:
+    Access& access_;
+};
+
 /// Base of the objects behind handles, but for frames.
 class ContextChild : public Object {
 public:

@@ -96,6 +96,15 @@ void AvatarObject::pose_into(const Pose& pose, const SkinTarget& target) {
     avatar.skin(target, context->axes, *context->jobs);
 }
 
+AvatarObject::SkinBelow AvatarObject::skin_below(std::span<WornGarment* const> outfit) {
+    Profile::Scope time(context->profile, Stage::avatar);
+    Ref<Frame> frame = posed.begin();
+    const OutfitSkin::Drawn skin = outfit_skin_.below(outfit, *context->jobs);
+    posed.fill(*frame, skin.positions, skin.normals, context->axes, skin.time_ns);
+    add_matrices(*frame, skin.pose);
+    return {frame, skin.crossing_pairs};
+}
+
 const std::vector<Measurement>& AvatarObject::measures() const {
     if (!is_body())
         fail(VFIT_ERROR_UNSUPPORTED, "a character from a file has no body that could be measured");

@@ -6,6 +6,7 @@
 #include "avatar/character.h"
 #include "avatar/packed_body.h"
 #include "measure/measurement.h"
+#include "outfit/outfit_skin.h"
 #include "outfit/wearer.h"
 
 namespace vfit::api {
@@ -37,10 +38,17 @@ struct AvatarObject : ContextChild {
     void pose(const Pose& pose);
     /// Poses the avatar and writes its skin into the host's memory; the published mesh stays as it was.
     void pose_into(const Pose& pose, const SkinTarget& target);
+    struct SkinBelow {
+        Ref<Frame> frame;
+        uint32_t crossing_pairs;  // of triangles that still cross
+    };
+    /// The skin below an outfit of this avatar.
+    SkinBelow skin_below(std::span<WornGarment* const> outfit);
     /// Tape measures of its own body; taken when first asked for.
     const std::vector<Measurement>& measures() const;
 
 private:
+    OutfitSkin outfit_skin_{avatar};
     void make_outputs();
     void add_matrices(Frame& frame, std::span<const Mat4> matrices) const;
 };

@@ -89,8 +89,13 @@ void Avatar::move(const Pose& pose) {
 }
 
 void Avatar::skin(const SkinTarget& target, const Axes& axes, Jobs& jobs) {
-    skin_.pose(matrices_, skinning_, axes, target, scratch_, jobs);
-    if (limbs_clear_) creases_.open(matrices_, creased_, target, axes, jobs);
+    skin_in(matrices_, target, axes, scratch_, jobs);
+}
+
+void Avatar::skin_in(std::span<const Mat4> matrices, const SkinTarget& target, const Axes& axes,
+                     Skin::Scratch& scratch, Jobs& jobs) const {
+    skin_.pose(matrices, skinning_, axes, target, scratch, jobs);
+    if (limbs_clear_) creases_.open(matrices, creased_, target, axes, jobs);
 }
 
 void Avatar::pose(const Pose& pose, Jobs& jobs) {

@@ -64,6 +64,9 @@ public:
     /// The skin of the last pose, render vertices, written into the host's memory in its axes. Does not
     /// allocate after the first call.
     void skin(const SkinTarget& target, const Axes& axes, Jobs& jobs);
+    /// The same in another pose (skinning matrices, one a rig bone). scratch: the caller's own.
+    void skin_in(std::span<const Mat4> matrices, const SkinTarget& target, const Axes& axes,
+                 Skin::Scratch& scratch, Jobs& jobs) const;
     /// Both: moves, then writes positions() and normals().
     void pose(const Pose& pose, Jobs& jobs);
     int64_t time_ns() const { return pose_.time_ns; }  // of the last pose

@@ -9,7 +9,7 @@ void FinishedStep::keep(const Cloth& cloth, std::span<const Mat4> pose, int64_t 
     if (with_pressure) pressure_ = cloth.pressure();
     pose_.assign(pose.begin(), pose.end());
     time_ns_ = time_ns;
-    is_unposed_ = false;
+    is_unposed_ = is_reskinned_ = false;
 }
 
 Carry::Unposed FinishedStep::unposed(const Carry& carry, Jobs& jobs) const {
@@ -18,12 +18,21 @@ Carry::Unposed FinishedStep::unposed(const Carry& carry, Jobs& jobs) const {
     return out;
 }
 
-FinishedStep::Reskinned FinishedStep::reskin(const Carry& carry, std::span<const Mat4> pose, Jobs& jobs) {
+FinishedStep::Shown FinishedStep::shown() const {
+    if (is_reskinned_) return {reskinned_positions_, reskinned_pose_, reskinned_time_ns_};
+    return {positions_, pose_, time_ns_};
+}
+
+FinishedStep::Reskinned FinishedStep::reskin(const Carry& carry, std::span<const Mat4> pose, int64_t time_ns,
+                                             Jobs& jobs) {
     if (!is_unposed_) carry.take_out(pose_, positions_, normals_, unposed_, jobs);
     is_unposed_ = true;
     reskinned_positions_.resize(carry.vertex_count());
     reskinned_normals_.resize(carry.vertex_count());
     carry.put_in(pose, unposed_, reskinned_positions_, reskinned_normals_, jobs);
+    reskinned_pose_.assign(pose.begin(), pose.end());
+    reskinned_time_ns_ = time_ns;
+    is_reskinned_ = true;
     return {reskinned_positions_, reskinned_normals_};
 }
 

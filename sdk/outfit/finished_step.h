@@ -31,7 +31,15 @@ public:
     struct Reskinned {
         const std::vector<Vec3>&positions, &normals;
     };
-    Reskinned reskin(const Carry& carry, std::span<const Mat4> pose, Jobs& jobs);
+    Reskinned reskin(const Carry& carry, std::span<const Mat4> pose, int64_t time_ns, Jobs& jobs);
+
+    /// The step, or the same cloth in the pose that it was reskinned to since.
+    struct Shown {
+        const std::vector<Vec3>& positions;
+        std::span<const Mat4> pose;
+        int64_t time_ns;
+    };
+    Shown shown() const;
 
 private:
     std::vector<Vec3> positions_, normals_;
@@ -41,6 +49,9 @@ private:
     Carry::Unposed unposed_;  // made when first reskinned
     bool is_unposed_ = false;
     std::vector<Vec3> reskinned_positions_, reskinned_normals_;
+    std::vector<Mat4> reskinned_pose_;
+    int64_t reskinned_time_ns_ = 0;
+    bool is_reskinned_ = false;  // since the step
 };
 
 }  // namespace vfit

@@ -2,20 +2,9 @@
 
 #include <algorithm>
 
-#include "core/error.h"
-
 namespace vfit {
 
 namespace {
-
-void check(std::span<const WornGarment* const> outfit) {
-    for (size_t i = 0; i < outfit.size(); ++i) {
-        if (&outfit[i]->wearer() != &outfit[0]->wearer())
-            fail(VFIT_ERROR_ARGUMENT, "cloth ", i, " is of another avatar than cloth 0");
-        for (size_t k = 0; k < i; ++k)
-            if (outfit[k] == outfit[i]) fail(VFIT_ERROR_ARGUMENT, "cloths ", k, " and ", i, " are the same");
-    }
-}
 
 MeshView mesh_of(const WornGarment& garment) {
     return {garment.finished().positions(), garment.dress().indices()};
@@ -40,7 +29,6 @@ std::vector<std::vector<Vec3>> posed_skins(std::span<const WornGarment* const> o
 
 std::vector<SurfaceCrossing> find_crossings(std::span<const WornGarment* const> outfit, Jobs& jobs) {
     using With = SurfaceCrossing::With;
-    check(outfit);
     const std::vector<std::vector<Vec3>> skins = posed_skins(outfit, jobs);
     std::vector<SurfaceCrossing> surfaces;
     for (uint32_t i = 0; i < outfit.size(); ++i) {

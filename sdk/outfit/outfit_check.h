@@ -23,8 +23,7 @@ struct SurfaceCrossing {
 
 /// Of the last finished steps. Every pair of triangles is tested, except pairs that share a vertex: an empty
 /// list proves that none cross. By garment: with itself, with the skin, with later garments, with its props.
-/// The skin is that of the pose of the garment's step. VFIT_ERROR_ARGUMENT where a garment is named twice, or
-/// garments are worn by several bodies.
+/// The skin is that of the pose of the garment's step. All are worn by one body, and none is named twice.
 std::vector<SurfaceCrossing> find_crossings(std::span<const WornGarment* const> outfit, Jobs& jobs);
 
 }  // namespace vfit

@@ -224,7 +224,14 @@ void WornGarment::set_wind(const Vec3& wind_m_s) {
 }
 
 FinishedStep::Reskinned WornGarment::reskin() {
-    return finished_.reskin(dress_.carry(), avatar_pose(), jobs_);
+    return finished_.reskin(dress_.carry(), avatar_pose(), wearer_.avatar().time_ns(), jobs_);
+}
+
+PressingCloth WornGarment::shown_surface() {
+    const MeshView mesh{finished_.shown().positions, dress_.indices()};
+    if (!surface_) surface_.emplace(mesh.positions, mesh.indices);
+    surface_->move(mesh.positions, jobs_);
+    return {mesh, &*surface_};
 }
 
 void WornGarment::keep_step() {

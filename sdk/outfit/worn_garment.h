@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "outfit/layers_below.h"
 #include "outfit/props_met.h"
 #include "outfit/size_choice.h"
+#include "outfit/skin_press.h"
 #include "outfit/wear_options.h"
 #include "outfit/wearable_garment.h"
 #include "outfit/wearer.h"
@@ -80,6 +82,8 @@ public:
     const FinishedStep& finished() const { return finished_; }
     /// The last finished step, in the avatar's pose.
     FinishedStep::Reskinned reskin();
+    /// The mesh as it is shown, to press skin below it. Valid until the next step or reskin().
+    PressingCloth shown_surface();
 
     /// How the last finished step sits at a girth of the trunk, less what it sags by.
     struct ZoneFit {
@@ -147,6 +151,7 @@ private:
     std::vector<Mat4> pose_;  // skinning matrices
     int64_t time_ns_ = 0;
     FinishedStep finished_;
+    std::optional<TriangleGroups> surface_;  // made when first asked for
 };
 
 }  // namespace vfit

@@ -1,4 +1,5 @@
 // Outfits: crossings of garments with themselves, the skin and each other; layers while they are stepped.
+#include <array>
 #include <cstring>
 #include <limits>
 #include <vector>
@@ -48,6 +49,15 @@ protected:
         EXPECT_EQ(vfit_frame_view(frame, VFIT_STREAM_INDEX, &view), VFIT_OK) << contract::last_error();
         vfit_frame_release(frame);
         return view.width / 3;
+    }
+    void stand_at(float x) {
+        vfit_pose pose = vfit_pose_init();
+        vfit_bone hips = vfit_bone_init();
+        hips.bone = VFIT_BONE_HIPS;
+        hips.position[0] = x, hips.position[1] = 0.95f;
+        hips.rotation[3] = 1.0f;
+        ASSERT_EQ(vfit_avatar_pose(avatar, &pose, &hips, sizeof hips, 1), VFIT_OK)
+            << contract::last_error();
     }
     vfit_avatar avatar{};
     vfit_garment garment{};
@@ -107,12 +117,79 @@ TEST_F(OutfitTest, WhileALayerStepsTheOuterOneIsRefusedAndStaysAsItIs) {
     EXPECT_EQ(vfit_cloth_step(outer, kOutfitStep_s), VFIT_OK) << contract::last_error();
 }
 
+TEST_F(OutfitTest, TheSkinBelowAnOutfitIsTheAvatarsMeshInThePoseOfTheStep) {
+    const vfit_cloth cloth = make(VFIT_CLOTH_SKIN);
+    ASSERT_EQ(vfit_cloth_step(cloth, kOutfitStep_s), VFIT_OK) << contract::last_error();
+    vfit_frame own{}, below{}, later{};
+    ASSERT_EQ(vfit_avatar_acquire(avatar, &own), VFIT_OK);
+    uint32_t crossing = 7;
+    ASSERT_EQ(vfit_outfit_skin(&cloth, 1, &below, &crossing), VFIT_OK) << contract::last_error();
+    EXPECT_EQ(crossing, 0u);
+    const auto streams = [](vfit_frame frame) {
+        std::array<vfit_stream, 32> items{};
+        uint32_t count = uint32_t(items.size());
+        EXPECT_EQ(vfit_frame_streams(frame, items.data(), &count), VFIT_OK);
+        return std::vector<vfit_stream>(items.begin(), items.begin() + count);
+    };
+    EXPECT_EQ(streams(below), streams(own));
+    for (const vfit_stream stream : streams(own)) {
+        vfit_view a = vfit_view_init(), b = vfit_view_init();
+        ASSERT_EQ(vfit_frame_view(own, stream, &a), VFIT_OK);
+        ASSERT_EQ(vfit_frame_view(below, stream, &b), VFIT_OK);
+        ASSERT_EQ(a.row_stride, b.row_stride);
+        EXPECT_EQ(std::memcmp(a.data, b.data, a.row_stride), 0) << "stream " << stream;
+    }
+    // The avatar moves on, the cloth does not.
+    ASSERT_NO_FATAL_FAILURE(stand_at(2.0f));
+    ASSERT_EQ(vfit_outfit_skin(&cloth, 1, &later, nullptr), VFIT_OK) << contract::last_error();
+    const auto first = [](vfit_frame frame) {
+        vfit_view view = vfit_view_init();
+        EXPECT_EQ(vfit_frame_view(frame, VFIT_STREAM_POSITION, &view), VFIT_OK);
+        return static_cast<const float*>(view.data)[0];
+    };
+    EXPECT_EQ(first(later), first(below));
+    vfit_frame_release(later);
+    ASSERT_EQ(vfit_cloth_carry(cloth), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_outfit_skin(&cloth, 1, &later, nullptr), VFIT_OK) << contract::last_error();
+    vfit_frame shown{};
+    ASSERT_EQ(vfit_avatar_acquire(avatar, &shown), VFIT_OK);
+    EXPECT_EQ(first(later), first(shown));
+    for (const vfit_frame frame : {own, below, later, shown}) vfit_frame_release(frame);
+}
+
+TEST_F(OutfitTest, WhileAStepRunsTheSkinIsThatOfTheOneBefore) {
+    const vfit_cloth cloth = make(VFIT_CLOTH_SKIN);
+    ASSERT_EQ(vfit_cloth_begin_step(cloth, kOutfitStep_s), VFIT_OK) << contract::last_error();
+    vfit_frame frame{};
+    EXPECT_EQ(vfit_outfit_skin(&cloth, 1, &frame, nullptr), VFIT_OK) << contract::last_error();
+    vfit_frame_release(frame);
+    EXPECT_EQ(vfit_cloth_end_step(cloth), VFIT_OK);
+}
+
+TEST_F(OutfitTest, SkinBelowAnOutfitUsesTheFramesOfTheAvatar) {
+    const vfit_cloth cloth = make();
+    std::vector<vfit_frame> held(16);
+    size_t count = 0;
+    while (count < held.size() && vfit_outfit_skin(&cloth, 1, &held[count], nullptr) == VFIT_OK) ++count;
+    ASSERT_GT(count, 2u);
+    ASSERT_LT(count, held.size());
+    EXPECT_EQ(vfit_outfit_skin(&cloth, 1, &held[count], nullptr), VFIT_ERROR_BUSY);
+    EXPECT_EQ(held[count].id, 0u);
+    vfit_frame_release(held[0]);
+    EXPECT_EQ(vfit_outfit_skin(&cloth, 1, &held[0], nullptr), VFIT_OK) << contract::last_error();
+    for (size_t i = 0; i < count; ++i) vfit_frame_release(held[i]);
+}
+
 TEST_F(OutfitTest, WhatIsNoOutfitIsRefused) {
     const vfit_cloth a = make(), b = make();
     uint32_t count = 7;
     const auto refused = [&](std::vector<vfit_cloth> cloths, vfit_result code, const char* word) {
         EXPECT_EQ(vfit_outfit_check(cloths.data(), uint32_t(cloths.size()), nullptr, 0, &count), code);
         EXPECT_NE(contract::last_error().find(word), std::string::npos) << contract::last_error();
+        vfit_frame frame{7};
+        EXPECT_EQ(vfit_outfit_skin(cloths.data(), uint32_t(cloths.size()), &frame, nullptr), code);
+        EXPECT_NE(contract::last_error().find(word), std::string::npos) << contract::last_error();
+        EXPECT_EQ(frame.id, 0u);
     };
     refused({a, b, a}, VFIT_ERROR_ARGUMENT, "cloths 0 and 2 are the same");
     refused({a, {avatar.id}}, VFIT_ERROR_HANDLE, "");
@@ -121,6 +198,10 @@ TEST_F(OutfitTest, WhatIsNoOutfitIsRefused) {
     EXPECT_EQ(vfit_outfit_check(&a, 0, nullptr, 0, &count), VFIT_ERROR_ARGUMENT);
     EXPECT_EQ(vfit_outfit_check(&a, 1, nullptr, 0, nullptr), VFIT_ERROR_ARGUMENT);
     EXPECT_EQ(count, 7u);
+    vfit_frame frame{};
+    EXPECT_EQ(vfit_outfit_skin(nullptr, 1, &frame, nullptr), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_outfit_skin(&a, 0, &frame, nullptr), VFIT_ERROR_ARGUMENT);
+    EXPECT_EQ(vfit_outfit_skin(&a, 1, nullptr, nullptr), VFIT_ERROR_ARGUMENT);
     std::vector<vfit_crossing> none(1);
     const vfit_cloth both[] = {a, b};
     count = 0;

@@ -26,7 +26,7 @@ constexpr double kSettled_s = 1.0;  // figures are of what comes later
 
 /// The worst of all frames of one garment on one recording.
 struct Worst {
-    size_t frames = 0, with_skin = 0, with_seen_skin = 0, with_self = 0, with_layers = 0, with_props = 0,
+    size_t frames = 0, with_skin = 0, with_seen_skin = 0, with_drawn_skin = 0, with_self = 0, with_layers = 0, with_props = 0,
            off_limb = 0;                    // frames that have any
     size_t skin_pairs = 0, self_pairs = 0;  // in the worst frame
     float strain_max = 0.0f, strain_p99 = 0.0f;
@@ -44,6 +44,8 @@ public:
     const std::vector<RenderMesh>& worst_meshes() const { return worst_meshes_; }
     /// Of all cloths of the outfit, each step.
     const std::vector<float>& step_ms() const { return step_ms_; }
+    /// Of vfit_outfit_skin(), each frame.
+    const std::vector<float>& skin_ms() const { return skin_ms_; }
 
     void look(const Welded& skin, double time_s, bool pictures, bool props) {
         std::vector<Welded> layers;
@@ -54,16 +56,18 @@ public:
         if (time_s < kSettled_s) return;
         ++worst_.frames;
         size_t with_skin = 0, with_self = 0, with_layers = 0;
-        bool with_seen_skin = false;
+        bool with_seen_skin = false, with_drawn_skin = false;
+        const Welded drawn_skin = skin_below(outfit_.cloths(), &skin_ms_.emplace_back());
         for (size_t i = 0; i < layers.size(); ++i) {
             const CrossedTriangles of_skin = crossings(layers[i], skin);
             with_skin += of_skin.size();
             for (const auto& [of_cloth, triangle] : of_skin) with_seen_skin |= !hidden_[triangle];
+            with_drawn_skin |= !crossings(layers[i], drawn_skin).empty();
             with_self += crossings(layers[i]).size();
             for (size_t k = 0; k < i; ++k) with_layers += crossings(layers[i], layers[k]).size();
         }
         worst_.with_skin += with_skin > 0, worst_.with_self += with_self > 0;
-        worst_.with_seen_skin += with_seen_skin;
+        worst_.with_seen_skin += with_seen_skin, worst_.with_drawn_skin += with_drawn_skin;
         worst_.with_layers += with_layers > 0;
         if (props) worst_.with_props += prop_crossings(outfit_.cloths()) > 0;
         worst_.skin_pairs = std::max(worst_.skin_pairs, with_skin);
@@ -98,7 +102,7 @@ private:
     WornOutfit outfit_;
     Worst worst_;
     std::vector<uint8_t> hidden_;  // triangles of the skin, by the outfit
-    std::vector<float> step_ms_;
+    std::vector<float> step_ms_, skin_ms_;
     std::vector<std::vector<LimbCover>> put_on_;  // of each layer
     std::vector<RenderMesh> worst_meshes_;
 };
@@ -107,6 +111,7 @@ Json json_of(const Worst& w) {
     return {{"frames", w.frames},
             {"frames_crossing_skin", w.with_skin},
             {"frames_crossing_seen_skin", w.with_seen_skin},
+            {"frames_crossing_drawn_skin", w.with_drawn_skin},
             {"frames_crossing_self", w.with_self},
             {"frames_crossing_layers", w.with_layers},
             {"frames_crossing_props", w.with_props},
@@ -123,7 +128,7 @@ void say(const std::string& recording, const std::string& garment, const Worst& 
               << std::fixed << std::setprecision(2) << " strain max " << std::setw(6) << w.strain_max
               << " at " << w.at_s << " s, p99 " << w.strain_p99 << "; frames " << std::setw(3) << w.frames
               << ": skin " << std::setw(3) << w.with_skin << " (" << w.skin_pairs << ") seen " << std::setw(3)
-              << w.with_seen_skin << " self " << std::setw(3) << w.with_self << " (" << w.self_pairs
+              << w.with_seen_skin << " drawn " << std::setw(3) << w.with_drawn_skin << " self " << std::setw(3) << w.with_self << " (" << w.self_pairs
               << ") layers " << std::setw(3) << w.with_layers << " props " << std::setw(3) << w.with_props
               << " off limb " << std::setw(3) << w.off_limb << std::endl;
 }
@@ -144,8 +149,8 @@ std::vector<std::filesystem::path> recordings_in(const RecordingsOptions& option
 void judge_recordings(const RecordingsOptions& options) {
     if (!options.pictures.empty()) create_folder(options.pictures);
     Json rows = Json::array();
-    Samples strain_max, strain_p99, step_ms;
-    size_t skin = 0, seen_skin = 0, self = 0, layers = 0, props = 0, off = 0, frames = 0;
+    Samples strain_max, strain_p99, step_ms, skin_ms;
+    size_t skin = 0, seen_skin = 0, drawn_skin = 0, self = 0, layers = 0, props = 0, off = 0, frames = 0;
     for (const auto& path : recordings_in(options)) {
         const Context context = open_context();
         const std::vector<std::string> names = options.garment.empty()
@@ -195,8 +200,9 @@ void judge_recordings(const RecordingsOptions& options) {
             rows.push_back(std::move(row));
             if (!options.json) say(recording, judge->names(), w);
             frames += w.frames, skin += w.with_skin, self += w.with_self, layers += w.with_layers;
-            props += w.with_props, off += w.off_limb, seen_skin += w.with_seen_skin;
+            props += w.with_props, off += w.off_limb, seen_skin += w.with_seen_skin, drawn_skin += w.with_drawn_skin;
             for (const float ms : judge->step_ms()) step_ms.add(ms);
+            for (const float ms : judge->skin_ms()) skin_ms.add(ms);
             strain_max.add(w.strain_max), strain_p99.add(w.strain_p99);
             if (judge->worst_meshes().empty()) continue;
             constexpr PortraitStyle kStyle{300, 450, 1};
@@ -222,9 +228,12 @@ void judge_recordings(const RecordingsOptions& options) {
         std::cout << "\n"
                   << rows.size() << " garments on recordings, " << frames << " frames after " << kSettled_s
                   << " s; a step of " << std::setprecision(1) << step_ms.quantile(0.5)
-                  << " ms, 95 of 100 at most " << step_ms.quantile(0.95) << " ms\n";
+                  << " ms, 95 of 100 at most " << step_ms.quantile(0.95) << " ms; the skin below an outfit "
+                  << skin_ms.quantile(0.5) << " ms, 95 of 100 at most " << skin_ms.quantile(0.95) << " ms\n";
     targets.judge("frames in which cloth crosses the skin", double(skin), Aim::exactly, 0.0);
     targets.judge("frames in which it crosses skin that vfit_cloth_hide_skin() leaves", double(seen_skin),
+                  Aim::exactly, 0.0);
+    targets.judge("frames in which it crosses skin as vfit_outfit_skin() draws it", double(drawn_skin),
                   Aim::exactly, 0.0);
     targets.judge("frames in which cloth crosses itself", double(self), Aim::exactly, 0.0);
     targets.judge("frames in which layers cross", double(layers), Aim::exactly, 0.0);
@@ -237,7 +246,7 @@ void judge_recordings(const RecordingsOptions& options) {
     targets.judge("strain_p99, median", strain_p99.quantile(0.5), Aim::at_most, 0.2, 2);
     if (options.json)
         print_document(
-            {{"rows", rows}, {"frames", frames}, {"step_ms", step_ms.json()}, {"targets", targets.json()}});
+            {{"rows", rows}, {"frames", frames}, {"step_ms", step_ms.json()}, {"skin_ms", skin_ms.json()}, {"targets", targets.json()}});
 }
 
 }  // namespace vfit::tools

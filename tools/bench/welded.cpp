@@ -3,6 +3,7 @@
 #include <map>
 #include <tuple>
 
+#include "bench/bench.h"
 #include "cloth/crossings.h"
 
 namespace vfit::tools {
@@ -32,6 +33,14 @@ Welded mesh_of(vfit_avatar avatar) {
 Welded mesh_of(vfit_cloth cloth) {
     Frame frame;
     check(vfit_cloth_acquire(cloth, frame.out()));
+    return weld(frame.get());
+}
+
+Welded skin_below(std::span<const vfit_cloth> outfit, float* took_ms) {
+    Frame frame;
+    const Timer timer;
+    check(vfit_outfit_skin(outfit.data(), uint32_t(outfit.size()), frame.out(), nullptr));
+    *took_ms = float(timer.ms());
     return weld(frame.get());
 }
 

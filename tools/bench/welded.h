@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct Welded {
 };
 Welded mesh_of(vfit_avatar avatar);
 Welded mesh_of(vfit_cloth cloth);
+/// The skin as it is drawn below an outfit; took_ms: to make it.
+Welded skin_below(std::span<const vfit_cloth> outfit, float* took_ms);
 /// Closest points and rays on it.
 MeshQuery query_of(const Welded& mesh);
 

@@ -68,10 +68,12 @@ void paint(vfit_garment garment, RenderMesh& mesh) {
 }  // namespace
 
 std::vector<RenderMesh> dressed_meshes(vfit_avatar avatar, std::span<const DrawnCloth> cloths, FitMap map) {
+    std::vector<vfit_cloth> outfit;
+    for (const DrawnCloth& drawn : cloths) outfit.push_back(drawn.cloth);
     Frame body_frame;
-    check(vfit_avatar_acquire(avatar, body_frame.out()));
+    check(outfit.empty() ? vfit_avatar_acquire(avatar, body_frame.out())
+                         : vfit_outfit_skin(outfit.data(), uint32_t(outfit.size()), body_frame.out(), nullptr));
     std::vector<RenderMesh> meshes{mesh_of(body_frame.get(), kSkin)};
-    std::vector<vfit_cloth> hiding;
     for (const DrawnCloth& drawn : cloths) {
         Frame cloth_frame;
         check(vfit_cloth_acquire(drawn.cloth, cloth_frame.out()));
@@ -83,9 +85,8 @@ std::vector<RenderMesh> dressed_meshes(vfit_avatar avatar, std::span<const Drawn
             mesh.vertex_colors = colors_of(drawn.cloth, cloth_frame.get(), map);
         }
         meshes.push_back(std::move(mesh));
-        hiding.push_back(drawn.cloth);
     }
-    if (!hiding.empty()) meshes[0].indices = seen_triangles(avatar, hiding);
+    if (!outfit.empty()) meshes[0].indices = seen_triangles(avatar, outfit);
     return meshes;
 }
 

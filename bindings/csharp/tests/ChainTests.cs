@@ -106,6 +106,25 @@ namespace Vfit.Tests
         }
 
         [Test]
+        public void TheSkinBelowAnOutfitIsTheAvatarsMesh()
+        {
+            using (Avatar avatar = Support.MakeAvatar(Context))
+            using (Garment garment = Garment.Open(Context, "sundress"))
+            using (var cloth = new Cloth(avatar, garment))
+            using (var own = new Frame())
+            using (var skin = new Frame())
+            {
+                cloth.Step(1 / 60f);
+                avatar.Acquire(own);
+                Assert.AreEqual(0u, Cloth.AcquireSkin(skin, cloth));
+                Assert.AreEqual(own.View(StreamKind.Position).Width, skin.View(StreamKind.Position).Width);
+                Assert.Throws<VfitException>(() => Cloth.AcquireSkin(skin));
+                Assert.Throws<VfitException>(() => Cloth.AcquireSkin(skin, cloth, cloth));
+                Assert.Throws<ArgumentNullException>(() => Cloth.AcquireSkin(skin, cloth, null));
+            }
+        }
+
+        [Test]
         public void ClothStaysOutsideOfProps()
         {
             using (Avatar avatar = Support.MakeAvatar(Context))

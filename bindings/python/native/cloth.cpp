@@ -201,9 +201,14 @@ py::array_t<float> fit_map(const Cloth& cloth) {
     return out;
 }
 
-py::list outfit_check(const std::vector<std::shared_ptr<Cloth>>& cloths) {
+std::vector<vfit_cloth> handles_of(const std::vector<std::shared_ptr<Cloth>>& cloths) {
     std::vector<vfit_cloth> handles;
     for (const auto& cloth : cloths) handles.push_back(cloth->get());
+    return handles;
+}
+
+py::list outfit_check(const std::vector<std::shared_ptr<Cloth>>& cloths) {
+    const std::vector<vfit_cloth> handles = handles_of(cloths);
     const auto n = uint32_t(handles.size());
     constexpr uint32_t kProps = 64;                 // of a cloth, at most
     uint32_t count = n * (n + 3) / 2 + n * kProps;  // one for each pair of surfaces
@@ -221,6 +226,14 @@ py::list outfit_check(const std::vector<std::shared_ptr<Cloth>>& cloths) {
     return out;
 }
 
+py::tuple outfit_skin(const std::vector<std::shared_ptr<Cloth>>& cloths) {
+    const std::vector<vfit_cloth> handles = handles_of(cloths);
+    vfit_frame frame{};
+    uint32_t pairs = 0;
+    run([&] { return vfit_outfit_skin(handles.data(), uint32_t(handles.size()), &frame, &pairs); });
+    return py::make_tuple(std::make_unique<Frame>(cloths.front()->core(), frame), pairs);
+}
+
 constexpr float kStep_s = 1.0f / 60.0f;
 
 }  // namespace
@@ -228,6 +241,9 @@ constexpr float kStep_s = 1.0f / 60.0f;
 void bind_cloth(py::module_& m) {
     m.def("outfit_check", &outfit_check, "cloths"_a,
           "Pairs of surfaces of an outfit that cross after its last steps; empty: none do.");
+    m.def("outfit_skin", &outfit_skin, "cloths"_a,
+          "The avatar's mesh to draw below an outfit: skin gives way where it would come through a garment. And how "
+          "many pairs of triangles still cross.");
     closable(
         py::class_<Garment, std::shared_ptr<Garment>>(m, "Garment",
                                                       "A garment that can be worn (docs/garments.md).")

@@ -317,8 +317,21 @@ def test_an_outfit_is_tested_for_crossings(ctx):
     assert twice.pair_count > 100 and twice.triangle < triangles and twice.other_triangle < triangles
     assert ("cloth", 0, 1) not in {(c.kind, c.cloth, c.other) for c in vfit.outfit_check([inner])}
     for bad in [], [inner, inner]:
-        with pytest.raises(vfit.ArgumentError):
-            vfit.outfit_check(bad)
+        for call in vfit.outfit_check, vfit.outfit_skin:
+            with pytest.raises(vfit.ArgumentError):
+                call(bad)
+
+
+def test_skin_below_an_outfit_is_the_avatars_mesh(ctx):
+    avatar = vfit.Avatar.from_shape(ctx, sex="f")
+    cloth = vfit.Cloth(avatar, vfit.Garment.open(ctx, "sundress"), skin=True)
+    cloth.step()
+    skin, crossing = vfit.outfit_skin([cloth])
+    own = avatar.acquire()
+    assert crossing == 0
+    assert np.array_equal(skin.triangles, own.triangles)
+    assert skin.positions.shape == own.positions.shape
+    assert np.abs(skin.positions - own.positions).max() <= 0.021
 
 
 def test_cloth_stays_outside_of_props(ctx):

@@ -272,6 +272,13 @@ void TriangleGroups::find_crossed(uint32_t group, const Corners& other,
         if (boxes_[i].overlaps(box) && cross(corners_[i], other)) triangles.push_back(triangles_[i].number);
 }
 
+void TriangleGroups::find_crossed(const Corners& other, std::vector<uint32_t>& near,
+                                  std::vector<uint32_t>& triangles) const {
+    const Bounds box = bounds_of(other);
+    find_meeting(groups_, box.low, box.high, near);
+    for (const uint32_t group : near) find_crossed(group, other, triangles);
+}
+
 void TriangleGroups::meet(uint32_t group, const TriangleGroups& other, uint32_t of_other,
                           std::vector<TrianglePair>& out) const {
     const bool own = this == &other;

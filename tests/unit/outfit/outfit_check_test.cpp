@@ -93,15 +93,5 @@ TEST_F(OutfitCheckTest, TheSkinIsThatOfTheStepAndNotOfThePoseSince) {
     }
 }
 
-TEST_F(OutfitCheckTest, GarmentsAreOfOneBodyAndEachIsListedOnce) {
-    const Person other(VFIT_SEX_FEMALE);
-    const WornGarment a(dress, she.wearer, {}, *jobs), strange(dress, other.wearer, {}, *jobs);
-    const WornGarment* const twice[] = {&a, &a};
-    const WornGarment* const two_bodies[] = {&a, &strange};
-    EXPECT_EQ(error_of([&] { find_crossings(twice, *jobs); }), "-2 cloths 0 and 1 are the same");
-    EXPECT_EQ(error_of([&] { find_crossings(two_bodies, *jobs); }),
-              "-2 cloth 1 is of another avatar than cloth 0");
-}
-
 }  // namespace
 }  // namespace vfit

@@ -41,6 +41,7 @@ from ._vfit import (
     info,
     merge_measurements,
     outfit_check,
+    outfit_skin,
     read_measurements,
     write_measurements,
 )
@@ -171,6 +172,7 @@ __all__ = [
     "info",
     "merge_measurements",
     "outfit_check",
+    "outfit_skin",
     "read_measurements",
     "write_measurements",
 ]

@@ -130,21 +130,57 @@ namespace Vfit
             const int props = 64;  // of a cloth, at most
             // One for each pair of surfaces.
             var found = new Crossing[counted * (counted + 3) / 2 + counted * props];
-            var ids = new ClothId[cloths.Length];
-            var held = new bool[cloths.Length];
+            ClothId* ids = stackalloc ClothId[MostOfOutfit];
+            bool* held = stackalloc bool[MostOfOutfit];
             try
             {
-                for (int i = 0; i < ids.Length; i++)
-                    ids[i] = new ClothId(VfitHandle.Hold(Of(cloths[i], "cloths"), ref held[i]));
-                fixed (ClothId* first = ids)
-                    Array.Resize(ref found, Calls.OutfitCheck(first, (uint)ids.Length, found));
+                Hold(cloths, ids, held);
+                Array.Resize(ref found, Calls.OutfitCheck(ids, (uint)cloths.Length, found));
             }
             finally
             {
-                for (int i = 0; i < held.Length; i++)
-                    if (held[i]) cloths[i].Handle.DangerousRelease();
+                Release(cloths, held);
             }
             return found;
+        }
+
+        /// <summary>
+        /// The avatar's mesh to draw below an outfit, 1 to 64 cloths of one avatar, as they are shown: skin
+        /// gives way where it would come through a garment.
+        /// </summary>
+        /// <returns>Pairs of triangles that still cross; 0: none do.</returns>
+        public static uint AcquireSkin(Frame into, params Cloth[] cloths)
+        {
+            if (cloths == null) throw new ArgumentNullException("cloths");
+            ClothId* ids = stackalloc ClothId[MostOfOutfit];
+            bool* held = stackalloc bool[MostOfOutfit];
+            try
+            {
+                Hold(cloths, ids, held);
+                uint crossing;
+                Calls.OutfitSkin(ids, (uint)cloths.Length, Frame.Of(into, "into"), &crossing);
+                return crossing;
+            }
+            finally
+            {
+                Release(cloths, held);
+            }
+        }
+
+        // Cloths that the library refuses to look at are not held.
+        const int MostOfOutfit = 64;
+
+        static void Hold(Cloth[] cloths, ClothId* ids, bool* held)
+        {
+            for (int i = 0; i < Math.Min(cloths.Length, MostOfOutfit); i++) held[i] = false;
+            for (int i = 0; i < Math.Min(cloths.Length, MostOfOutfit); i++)
+                ids[i] = new ClothId(VfitHandle.Hold(Of(cloths[i], "cloths"), ref held[i]));
+        }
+
+        static void Release(Cloth[] cloths, bool* held)
+        {
+            for (int i = 0; i < Math.Min(cloths.Length, MostOfOutfit); i++)
+                if (held[i]) cloths[i].Handle.DangerousRelease();
         }
 
         /// <summary>

@@ -3084,6 +3084,16 @@ namespace Vfit
                 (uint)sizeof(Crossing), &listed);
             return (int)listed;
         }
+
+        internal static Result OutfitSkin(ClothId* cloths, uint clothCount, FrameHandle @out,
+            uint* crossingPairs)
+        {
+            var outId = new FrameId();
+            Result result = VfitException.Check(Native.vfit_outfit_skin(
+                cloths, clothCount, &outId, crossingPairs));
+            @out.Put(outId.Value);
+            return result;
+        }
     }
 
     public sealed partial class ContextHandle : VfitHandle
