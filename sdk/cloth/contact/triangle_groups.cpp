@@ -111,6 +111,7 @@ TriangleGroups::TriangleGroups(std::span<const Vec3> positions, std::span<const 
     corners_.resize(count);
     boxes_.resize(count);
     normals_.resize(ends_.size());
+    slabs_.resize(ends_.size());
     groups_.resize(ends_.size());
     list_beside(positions.size());
     constexpr uint32_t kShare = 64;  // groups
@@ -151,6 +152,7 @@ void TriangleGroups::move(std::span<const Vec3> positions, Jobs& jobs) {
 void TriangleGroups::move_groups(std::span<const Vec3> positions, uint32_t begin, uint32_t end) {
     for (uint32_t group = begin; group < end; ++group) {
         Bounds box, normals;
+        Vec3 sum(0.0f);
         for (uint32_t t = begin_of(group); t < ends_[group]; ++t) {
             const auto& vertex = triangles_[t].vertex;
             const auto& at =
@@ -159,10 +161,26 @@ void TriangleGroups::move_groups(std::span<const Vec3> positions, uint32_t begin
             box.add(boxes_[t].low), box.add(boxes_[t].high);
             const Vec3 across = glm::cross(at[1] - at[0], at[2] - at[0]);
             normals.add(across / std::max(glm::length(across), 1e-20f));
+            sum += across;
         }
+        Slab slab{sum / std::max(glm::length(sum), 1e-20f), INFINITY, -INFINITY};
+        for (uint32_t t = begin_of(group); t < ends_[group]; ++t)
+            for (const Vec3& p : corners_[t].at) {
+                const float height = glm::dot(p, slab.normal);
+                slab.low = std::min(slab.low, height), slab.high = std::max(slab.high, height);
+            }
+        slabs_[group] = slab;
         groups_.runs.set(group, box.low, box.high);
         normals_[group] = normals;
     }
+}
+
+bool TriangleGroups::Slab::is_clear_of(const Corners& t) const {
+    constexpr float kClear = 1e-6f;  // of the distance from the origin: what rounding may bring
+    const float a = glm::dot(t.at[0], normal), b = glm::dot(t.at[1], normal), c = glm::dot(t.at[2], normal);
+    const Vec3 size = glm::abs(t.at[0]);
+    const float clear = kClear * (1.0f + size.x + size.y + size.z);
+    return std::min({a, b, c}) > high + clear || std::max({a, b, c}) < low - clear;
 }
 
 struct TriangleGroups::Search {
@@ -268,6 +286,7 @@ void TriangleGroups::find_crossed(uint32_t group, const Corners& other,
                                   std::vector<uint32_t>& triangles) const {
     const Bounds box = bounds_of(other);
     if (!box.overlaps(box_of(group))) return;
+    if (slabs_[group].is_clear_of(other)) return;
     for (uint32_t i = begin_of(group); i < ends_[group]; ++i)
         if (boxes_[i].overlaps(box) && cross(corners_[i], other)) triangles.push_back(triangles_[i].number);
 }
@@ -284,7 +303,7 @@ void TriangleGroups::meet(uint32_t group, const TriangleGroups& other, uint32_t 
     const bool own = this == &other;
     const Bounds near{other.groups_.runs.low_of(of_other), other.groups_.runs.high_of(of_other)};
     for (uint32_t i = begin_of(group); i < ends_[group]; ++i) {
-        if (!boxes_[i].overlaps(near)) continue;
+        if (!boxes_[i].overlaps(near) || other.slabs_[of_other].is_clear_of(corners_[i])) continue;
         const uint32_t* u = triangles_[i].vertex;
         for (uint32_t k = own && group == of_other ? i + 1 : other.begin_of(of_other);
              k < other.ends_[of_other]; ++k) {

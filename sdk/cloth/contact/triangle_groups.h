@@ -59,6 +59,12 @@ private:
         uint32_t vertex[3];
         uint32_t number;  // in the mesh
     };
+    /// Between two planes: thinner than a box where a group is nearly flat.
+    struct Slab {
+        Vec3 normal;
+        float low, high;
+        bool is_clear_of(const Corners& t) const;
+    };
     uint32_t begin_of(uint32_t group) const { return group == 0 ? 0 : ends_[group - 1]; }
     struct Share {
         std::vector<uint32_t> near;  // groups that one meets
@@ -83,6 +89,7 @@ private:
     std::vector<Bounds> boxes_;        // of these
     RunBoxes groups_;
     std::vector<Bounds> normals_;                  // of groups, as long as their triangles are large
+    std::vector<Slab> slabs_;                      // of groups
     std::vector<uint32_t> first_beside_, beside_;  // of each group, those that share a vertex with it, rising
     std::vector<Share> shares_;                    // of the work
 };
