@@ -111,8 +111,8 @@ namespace Vfit.Tests
             using (Avatar avatar = Support.MakeAvatar(Context))
             using (Garment garment = Garment.Open(Context, "sundress"))
             using (var cloth = new Cloth(avatar, garment))
-            using (var own = new Frame())
-            using (var skin = new Frame())
+            using (var own = new Frame(Context))
+            using (var skin = new Frame(Context))
             {
                 cloth.Step(1 / 60f);
                 avatar.Acquire(own);
