@@ -88,8 +88,10 @@ void Worn::step(float dt) {
 }
 
 std::vector<RenderMesh> Worn::meshes() const {
+    std::vector<vfit_cloth> cloths;
+    for (const Piece& piece : pieces_) cloths.push_back(piece.cloth.get());
     Frame body;
-    check(vfit_avatar_acquire(avatar_, body.out()));
+    check(vfit_outfit_skin(cloths.data(), uint32_t(cloths.size()), body.out(), nullptr));
     std::vector<RenderMesh> out{mesh_of(body.get())};
     out[0].indices = seen_skin_;
     out[0].color = kSkin;
