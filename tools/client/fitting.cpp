@@ -82,6 +82,11 @@ void Fitting::pose_avatar() {
 void Fitting::play(const std::function<bool(vfit_frame, double)>& on_frame) {
     Source source(context_, options_.source);
     const Tracker tracker = open_tracker(context_, options_.scan.track);
+    // Arms do not go on from where the scan left them: how long ago that was depends on the machine.
+    vfit_pose pose = vfit_pose_init();
+    const auto bones = bones_of(motion_.get(), pose);
+    pose.time_ns = 0;
+    set_pose(avatar_.get(), pose, bones);
     check(vfit_motion_reset(motion_.get()));
     int64_t first_ns = 0, last_ns = 0;
     double cloth_time = 0.0;
