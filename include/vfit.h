@@ -1159,13 +1159,13 @@ VFIT_STRUCT(vfit_crossing)
 VFIT_API vfit_result vfit_outfit_check(const vfit_cloth* cloths, uint32_t cloth_count, vfit_crossing* items,
                                        uint32_t stride, uint32_t* count);
 /* The skin to draw below an outfit, 1 to 64 cloths of one avatar: a frame with the streams of
- * vfit_avatar_acquire, in the pose in which the first cloth is shown, that of its last finished step or of the
- * last vfit_cloth_carry since. Where the skin would come through a garment as vfit_cloth_acquire gives it, it
- * gives way inwards, as flesh does, until no triangles cross. A patch that would have to give way by more than
- * 2 cm, as that of an arm that goes through the garment, stays. Normals stay. crossing_pairs (may be null):
- * pairs of a triangle of that skin and one of a garment that still cross; 0 proves that there are none.
- * VFIT_ERROR_ARGUMENT as with vfit_outfit_check; VFIT_ERROR_BUSY also where the host holds all frames of the
- * avatar. [excl] on each cloth and on the avatar; a step may run */
+ * vfit_avatar_acquire, in the pose in which the first cloth is shown, that of its last finished step or of
+ * the last vfit_cloth_carry since. Where the skin would come through a garment as vfit_cloth_acquire gives
+ * it, it gives way inwards, as flesh does, until no triangles cross. A patch that would have to give way by
+ * more than 2 cm, as that of an arm that goes through the garment, stays. Normals stay. crossing_pairs (may
+ * be null): pairs of a triangle of that skin and one of a garment that still cross; 0 proves that there are
+ * none. VFIT_ERROR_ARGUMENT as with vfit_outfit_check; VFIT_ERROR_BUSY also where the host holds all frames
+ * of the avatar. [excl] on each cloth and on the avatar; a step may run */
 VFIT_API vfit_result vfit_outfit_skin(const vfit_cloth* cloths, uint32_t cloth_count, vfit_frame* out,
                                       uint32_t* crossing_pairs);
 #endif

@@ -5,8 +5,7 @@ namespace vfit {
 OutfitSkin::Drawn OutfitSkin::below(std::span<WornGarment* const> outfit, Jobs& jobs) {
     const BodyTopology& topology = avatar_.topology();
     const std::vector<Vec3>& rest = avatar_.rest().positions;
-    if (!press_)
-        press_.emplace(std::span(rest).first(topology.vertex_count), topology.indices);
+    if (!press_) press_.emplace(std::span(rest).first(topology.vertex_count), topology.indices);
     positions_.resize(rest.size()), normals_.resize(rest.size());
     SkinTarget target;
     target.positions = positions_.data(), target.normals = normals_.data();

@@ -7,10 +7,10 @@ namespace vfit {
 
 namespace {
 
-constexpr float kClear_m = 0.001f;     // below the cloth
-constexpr float kMaxDepth_m = 0.02f;   // what flesh gives way by at most
-constexpr float kMaxStep_m = 0.005f;   // of a round: planes of triangles that stand on the skin reach far
-constexpr float kMinCosine = 0.35f;    // between normals of skin and cloth, for the way to the plane
+constexpr float kClear_m = 0.001f;    // below the cloth
+constexpr float kMaxDepth_m = 0.02f;  // what flesh gives way by at most
+constexpr float kMaxStep_m = 0.005f;  // of a round: planes of triangles that stand on the skin reach far
+constexpr float kMinCosine = 0.35f;   // between normals of skin and cloth, for the way to the plane
 constexpr int kMaxRounds = 20;
 
 }  // namespace

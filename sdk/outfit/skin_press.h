@@ -30,9 +30,9 @@ public:
     SkinPress(std::span<const Vec3> rest, std::span<const uint32_t> indices);
 
     struct Result {
-        uint32_t pressed;    // vertices
-        float deepest_m;     // of these
-        uint32_t left_pairs; // of triangles that still cross
+        uint32_t pressed;     // vertices
+        float deepest_m;      // of these
+        uint32_t left_pairs;  // of triangles that still cross
     };
     /// Moves positions, world space. normals: unit, outwards. A patch of skin that would have to give way by
     /// more than 2 cm, as that of an arm that goes through the cloth, stays where it was. The same for any

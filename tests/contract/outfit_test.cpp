@@ -56,8 +56,7 @@ protected:
         hips.bone = VFIT_BONE_HIPS;
         hips.position[0] = x, hips.position[1] = 0.95f;
         hips.rotation[3] = 1.0f;
-        ASSERT_EQ(vfit_avatar_pose(avatar, &pose, &hips, sizeof hips, 1), VFIT_OK)
-            << contract::last_error();
+        ASSERT_EQ(vfit_avatar_pose(avatar, &pose, &hips, sizeof hips, 1), VFIT_OK) << contract::last_error();
     }
     vfit_avatar avatar{};
     vfit_garment garment{};

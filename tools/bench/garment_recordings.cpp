@@ -26,7 +26,8 @@ constexpr double kSettled_s = 1.0;  // figures are of what comes later
 
 /// The worst of all frames of one garment on one recording.
 struct Worst {
-    size_t frames = 0, with_skin = 0, with_seen_skin = 0, with_drawn_skin = 0, with_self = 0, with_layers = 0, with_props = 0,
+    size_t frames = 0, with_skin = 0, with_seen_skin = 0, with_drawn_skin = 0, with_self = 0, with_layers = 0,
+           with_props = 0,
            off_limb = 0;                    // frames that have any
     size_t skin_pairs = 0, self_pairs = 0;  // in the worst frame
     float strain_max = 0.0f, strain_p99 = 0.0f;
@@ -128,9 +129,10 @@ void say(const std::string& recording, const std::string& garment, const Worst& 
               << std::fixed << std::setprecision(2) << " strain max " << std::setw(6) << w.strain_max
               << " at " << w.at_s << " s, p99 " << w.strain_p99 << "; frames " << std::setw(3) << w.frames
               << ": skin " << std::setw(3) << w.with_skin << " (" << w.skin_pairs << ") seen " << std::setw(3)
-              << w.with_seen_skin << " drawn " << std::setw(3) << w.with_drawn_skin << " self " << std::setw(3) << w.with_self << " (" << w.self_pairs
-              << ") layers " << std::setw(3) << w.with_layers << " props " << std::setw(3) << w.with_props
-              << " off limb " << std::setw(3) << w.off_limb << std::endl;
+              << w.with_seen_skin << " drawn " << std::setw(3) << w.with_drawn_skin << " self "
+              << std::setw(3) << w.with_self << " (" << w.self_pairs << ") layers " << std::setw(3)
+              << w.with_layers << " props " << std::setw(3) << w.with_props << " off limb " << std::setw(3)
+              << w.off_limb << std::endl;
 }
 
 std::vector<std::filesystem::path> recordings_in(const RecordingsOptions& options) {
@@ -200,7 +202,8 @@ void judge_recordings(const RecordingsOptions& options) {
             rows.push_back(std::move(row));
             if (!options.json) say(recording, judge->names(), w);
             frames += w.frames, skin += w.with_skin, self += w.with_self, layers += w.with_layers;
-            props += w.with_props, off += w.off_limb, seen_skin += w.with_seen_skin, drawn_skin += w.with_drawn_skin;
+            props += w.with_props, off += w.off_limb, seen_skin += w.with_seen_skin,
+                drawn_skin += w.with_drawn_skin;
             for (const float ms : judge->step_ms()) step_ms.add(ms);
             for (const float ms : judge->skin_ms()) skin_ms.add(ms);
             strain_max.add(w.strain_max), strain_p99.add(w.strain_p99);
@@ -245,8 +248,11 @@ void judge_recordings(const RecordingsOptions& options) {
     targets.judge("strain_max, median", strain_max.quantile(0.5), Aim::at_most, 0.6, 2);
     targets.judge("strain_p99, median", strain_p99.quantile(0.5), Aim::at_most, 0.2, 2);
     if (options.json)
-        print_document(
-            {{"rows", rows}, {"frames", frames}, {"step_ms", step_ms.json()}, {"skin_ms", skin_ms.json()}, {"targets", targets.json()}});
+        print_document({{"rows", rows},
+                        {"frames", frames},
+                        {"step_ms", step_ms.json()},
+                        {"skin_ms", skin_ms.json()},
+                        {"targets", targets.json()}});
 }
 
 }  // namespace vfit::tools

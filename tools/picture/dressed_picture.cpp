@@ -71,8 +71,9 @@ std::vector<RenderMesh> dressed_meshes(vfit_avatar avatar, std::span<const Drawn
     std::vector<vfit_cloth> outfit;
     for (const DrawnCloth& drawn : cloths) outfit.push_back(drawn.cloth);
     Frame body_frame;
-    check(outfit.empty() ? vfit_avatar_acquire(avatar, body_frame.out())
-                         : vfit_outfit_skin(outfit.data(), uint32_t(outfit.size()), body_frame.out(), nullptr));
+    check(outfit.empty()
+              ? vfit_avatar_acquire(avatar, body_frame.out())
+              : vfit_outfit_skin(outfit.data(), uint32_t(outfit.size()), body_frame.out(), nullptr));
     std::vector<RenderMesh> meshes{mesh_of(body_frame.get(), kSkin)};
     for (const DrawnCloth& drawn : cloths) {
         Frame cloth_frame;

@@ -242,8 +242,8 @@ void bind_cloth(py::module_& m) {
     m.def("outfit_check", &outfit_check, "cloths"_a,
           "Pairs of surfaces of an outfit that cross after its last steps; empty: none do.");
     m.def("outfit_skin", &outfit_skin, "cloths"_a,
-          "The avatar's mesh to draw below an outfit: skin gives way where it would come through a garment. And how "
-          "many pairs of triangles still cross.");
+          "The avatar's mesh to draw below an outfit: skin gives way where it would come through a garment. "
+          "And how many pairs of triangles still cross.");
     closable(
         py::class_<Garment, std::shared_ptr<Garment>>(m, "Garment",
                                                       "A garment that can be worn (docs/garments.md).")

@@ -291,19 +291,19 @@ void TriangleGroups::find_crossed(uint32_t group, const Corners& other,
         if (boxes_[i].overlaps(box) && cross(corners_[i], other)) triangles.push_back(triangles_[i].number);
 }
 
-void TriangleGroups::find_crossed(const Corners& other, std::vector<uint32_t>& near,
+void TriangleGroups::find_crossed(const Corners& other, std::vector<uint32_t>& met,
                                   std::vector<uint32_t>& triangles) const {
     const Bounds box = bounds_of(other);
-    find_meeting(groups_, box.low, box.high, near);
-    for (const uint32_t group : near) find_crossed(group, other, triangles);
+    find_meeting(groups_, box.low, box.high, met);
+    for (const uint32_t group : met) find_crossed(group, other, triangles);
 }
 
 void TriangleGroups::meet(uint32_t group, const TriangleGroups& other, uint32_t of_other,
                           std::vector<TrianglePair>& out) const {
     const bool own = this == &other;
-    const Bounds near{other.groups_.runs.low_of(of_other), other.groups_.runs.high_of(of_other)};
+    const Bounds reach{other.groups_.runs.low_of(of_other), other.groups_.runs.high_of(of_other)};
     for (uint32_t i = begin_of(group); i < ends_[group]; ++i) {
-        if (!boxes_[i].overlaps(near) || other.slabs_[of_other].is_clear_of(corners_[i])) continue;
+        if (!boxes_[i].overlaps(reach) || other.slabs_[of_other].is_clear_of(corners_[i])) continue;
         const uint32_t* u = triangles_[i].vertex;
         for (uint32_t k = own && group == of_other ? i + 1 : other.begin_of(of_other);
              k < other.ends_[of_other]; ++k) {

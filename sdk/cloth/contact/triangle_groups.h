@@ -49,8 +49,8 @@ public:
     Bounds box_of(uint32_t group) const { return {groups_.runs.low_of(group), groups_.runs.high_of(group)}; }
     /// Adds the triangles of a group that cross that one.
     void find_crossed(uint32_t group, const Corners& other, std::vector<uint32_t>& triangles) const;
-    /// Adds all triangles that cross that one. near: scratch.
-    void find_crossed(const Corners& other, std::vector<uint32_t>& near,
+    /// Adds all triangles that cross that one. met: scratch.
+    void find_crossed(const Corners& other, std::vector<uint32_t>& met,
                       std::vector<uint32_t>& triangles) const;
 
 private:

@@ -699,5 +699,5 @@ def outfit_check(cloths: Sequence[Cloth]) -> List[Crossing]:
     """Tests the last steps of cloths of one avatar for triangles that cross. Empty: none do."""
 
 def outfit_skin(cloths: Sequence[Cloth]) -> Tuple[Frame, int]:
-    """The avatar's mesh to draw below an outfit: skin gives way where it would come through a garment. And how
-    many pairs of triangles still cross."""
+    """The avatar's mesh to draw below an outfit: skin gives way where it would come through a garment.
+    And how many pairs of triangles still cross."""

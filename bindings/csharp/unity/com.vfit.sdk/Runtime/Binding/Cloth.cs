@@ -130,8 +130,8 @@ namespace Vfit
             const int props = 64;  // of a cloth, at most
             // One for each pair of surfaces.
             var found = new Crossing[counted * (counted + 3) / 2 + counted * props];
-            ClothId* ids = stackalloc ClothId[MostOfOutfit];
-            bool* held = stackalloc bool[MostOfOutfit];
+            ClothId* ids = stackalloc ClothId[MaxCloths];
+            bool* held = stackalloc bool[MaxCloths];
             try
             {
                 Hold(cloths, ids, held);
@@ -152,8 +152,8 @@ namespace Vfit
         public static uint AcquireSkin(Frame into, params Cloth[] cloths)
         {
             if (cloths == null) throw new ArgumentNullException("cloths");
-            ClothId* ids = stackalloc ClothId[MostOfOutfit];
-            bool* held = stackalloc bool[MostOfOutfit];
+            ClothId* ids = stackalloc ClothId[MaxCloths];
+            bool* held = stackalloc bool[MaxCloths];
             try
             {
                 Hold(cloths, ids, held);
@@ -168,18 +168,18 @@ namespace Vfit
         }
 
         // Cloths that the library refuses to look at are not held.
-        const int MostOfOutfit = 64;
+        const int MaxCloths = 64;
 
         static void Hold(Cloth[] cloths, ClothId* ids, bool* held)
         {
-            for (int i = 0; i < Math.Min(cloths.Length, MostOfOutfit); i++) held[i] = false;
-            for (int i = 0; i < Math.Min(cloths.Length, MostOfOutfit); i++)
+            for (int i = 0; i < Math.Min(cloths.Length, MaxCloths); i++) held[i] = false;
+            for (int i = 0; i < Math.Min(cloths.Length, MaxCloths); i++)
                 ids[i] = new ClothId(VfitHandle.Hold(Of(cloths[i], "cloths"), ref held[i]));
         }
 
         static void Release(Cloth[] cloths, bool* held)
         {
-            for (int i = 0; i < Math.Min(cloths.Length, MostOfOutfit); i++)
+            for (int i = 0; i < Math.Min(cloths.Length, MaxCloths); i++)
                 if (held[i]) cloths[i].Handle.DangerousRelease();
         }
 
