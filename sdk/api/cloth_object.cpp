@@ -109,7 +109,8 @@ void ClothObject::change_size(const char* label) {
 void ClothObject::reskin() {
     const Reading reading = read_avatar();
     Ref<Frame> frame = output.begin();
-    publish(worn.reskin(), worn.finished().shown().time_ns, std::move(frame));
+    const FinishedStep::Reskinned mesh = worn.reskin();
+    publish(mesh, worn.finished().shown().time_ns, std::move(frame));
 }
 
 void ClothObject::meet(const Ref<PropObject>& prop) {
