@@ -25,8 +25,8 @@
 namespace vfit {
 
 /// One thread at a time. While a call lasts, the avatar must not be posed; a step alone, between begin_step
-/// and end_step, takes nothing from outside and may run on another thread. Until then, finished(), reskin()
-/// and teleport() may be called beside it, and nothing else.
+/// and end_step, takes nothing from outside and may run on another thread. Until then, finished(), reskin(),
+/// shown_surface() and teleport() may be called beside it, and nothing else.
 class WornGarment {
 public:
     /// In the avatar's pose, as its bones carry it, at once. VFIT_ERROR_NOT_WEARABLE for a size that is too
