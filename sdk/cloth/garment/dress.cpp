@@ -169,6 +169,7 @@ Dress::Dress(const Garment& garment, const BoundGarment& bound, const FabricMate
 
 void Dress::skin() {
     skin_.emplace(carried_.skin());
+    held_shape_ = HeldShape(held_, indices_, carried_from());
     if (followed_.empty()) return;
     Carried followed;
     for (const uint32_t i : followed_) followed.add(carried_.rest[i], carried_.bones[i], carried_.weights[i]);
@@ -233,6 +234,7 @@ void Dress::follow(std::span<const Mat4> matrices, std::vector<Vec3>& targets, S
     if (!followed_skin_) return;
     followed_skin_->carry(matrices, scratch.places, scratch.bones, jobs);
     for (size_t i = 0; i < followed_.size(); ++i) targets[followed_[i]] = scratch.places[i];
+    held_shape_.keep_lengths(targets);
 }
 
 }  // namespace vfit

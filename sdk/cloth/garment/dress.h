@@ -15,6 +15,7 @@
 #include "cloth/garment/bound_garment.h"
 #include "cloth/garment/carry.h"
 #include "cloth/garment/garment.h"
+#include "cloth/garment/held_shape.h"
 #include "cloth/garment/hems.h"
 #include "math/types.h"
 
@@ -77,6 +78,7 @@ private:
     std::vector<Vec3> rest_;
     std::vector<uint32_t> indices_;
     std::vector<uint32_t> held_;
+    HeldShape held_shape_;   // of these
     float slides_m_ = 0.0f;  // these, on the skin
     std::vector<Backstop> backstops_;
     std::vector<LimbHem> hems_;

@@ -49,6 +49,35 @@ TEST_F(WornGarmentTest, IsHeldNearShouldersOrWaistAndPinnedNowhere) {
     }
 }
 
+/// The longest edge between two vertices that hold it, as a share of its length on the body at rest.
+float stretch_of_held(const Dress& dress, const std::vector<Vec3>& places) {
+    std::vector<uint8_t> holds(dress.rest().size(), 0);
+    for (const uint32_t v : dress.held()) holds[v] = 1;
+    float longest = 0.0f;
+    for (const DistanceConstraint& e : dress.fabric()->data().edges)
+        if (holds[e.a] && holds[e.b])
+            longest = std::max(longest, glm::distance(places[e.a], places[e.b]) /
+                                            glm::distance(dress.rest()[e.a], dress.rest()[e.b]));
+    return longest;
+}
+
+TEST_F(WornGarmentTest, WhatHoldsItStretchesLessThanTheSkin) {
+    Person woman(VFIT_SEX_FEMALE);
+    const WearableGarment garment = wearable("sundress");
+    const Dress dress(garment.garment(), garment.bound(0, *jobs), garment.material(), woman.wearer.body());
+    Pose raised;
+    raised.hips_position = woman.avatar.skeleton().offset[VFIT_BONE_HIPS];
+    raised.rotation[VFIT_BONE_LEFT_UPPER_ARM] = glm::angleAxis(1.2f, Vec3(0, 0, 1));
+    woman.avatar.move(raised);
+    std::vector<Vec3> places;
+    Dress::Scratch scratch;
+    dress.place(woman.avatar.skinning_matrices(), places, scratch, *jobs);
+    const float of_skin = stretch_of_held(dress, places);
+    dress.follow(woman.avatar.skinning_matrices(), places, scratch, *jobs);
+    EXPECT_GT(of_skin, 1.35f);
+    EXPECT_LT(stretch_of_held(dress, places), 1.25f) << "of the skin " << of_skin;
+}
+
 TEST_F(WornGarmentTest, AJumpOfTheBodyCarriesTheCloth) {
     const WearableGarment dress = wearable("sundress");
     Person moves(VFIT_SEX_FEMALE), stays(VFIT_SEX_FEMALE);

@@ -1,0 +1,83 @@
+// What holds a garment, on skin that stretches.
+#include "cloth/garment/held_shape.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace vfit {
+namespace {
+
+constexpr uint32_t kColumns = 10;
+
+/// Two rows of squares of 2 cm, along x.
+struct Strip {
+    std::vector<Vec3> rest;
+    std::vector<uint32_t> indices, all;
+
+    Strip() {
+        for (uint32_t row = 0; row < 3; ++row)
+            for (uint32_t column = 0; column < kColumns; ++column)
+                rest.push_back(0.02f * Vec3(float(column), float(row), 0.0f));
+        for (uint32_t row = 0; row < 2; ++row)
+            for (uint32_t column = 0; column + 1 < kColumns; ++column) {
+                const uint32_t v = row * kColumns + column, up = v + kColumns;
+                for (const uint32_t corner : {v, v + 1, up, up, v + 1, up + 1}) indices.push_back(corner);
+            }
+        all.resize(rest.size());
+        std::iota(all.begin(), all.end(), 0u);
+    }
+    std::vector<Vec3> stretched(float by) const {
+        std::vector<Vec3> out = rest;
+        for (Vec3& p : out) p.x *= by;
+        return out;
+    }
+    float longest(const std::vector<Vec3>& places) const {
+        float out = 0.0f;
+        for (size_t i = 0; i < indices.size(); ++i) {
+            const uint32_t a = indices[i], b = indices[i % 3 == 2 ? i - 2 : i + 1];
+            out = std::max(out, glm::distance(places[a], places[b]) / glm::distance(rest[a], rest[b]));
+        }
+        return out;
+    }
+};
+
+Vec3 centre_of(const std::vector<Vec3>& places) {
+    return std::accumulate(places.begin(), places.end(), Vec3(0.0f)) / float(places.size());
+}
+
+TEST(HeldShape, StretchesLessThanTheSkinAndStaysWhereItIs) {
+    const Strip strip;
+    const HeldShape shape(strip.all, strip.indices, strip.rest);
+    std::vector<Vec3> places = strip.stretched(1.6f);
+    const Vec3 centre = centre_of(places);
+    ASSERT_GT(strip.longest(places), 1.55f);
+    shape.keep_lengths(places);
+    EXPECT_LT(strip.longest(places), 1.25f);
+    EXPECT_LT(glm::distance(centre_of(places), centre), 1e-4f);
+}
+
+TEST(HeldShape, StaysToTheBitWhereTheSkinStretchesLittleOrGetsShorter) {
+    const Strip strip;
+    const HeldShape shape(strip.all, strip.indices, strip.rest);
+    for (const float by : {0.5f, 1.0f, 1.15f}) {
+        std::vector<Vec3> places = strip.stretched(by);
+        shape.keep_lengths(places);
+        EXPECT_EQ(places, strip.stretched(by)) << by;
+    }
+}
+
+TEST(HeldShape, MovesNothingButWhatHolds) {
+    const Strip strip;
+    const std::vector<uint32_t> held(strip.all.begin(), strip.all.begin() + kColumns);
+    const HeldShape shape(held, strip.indices, strip.rest);
+    const std::vector<Vec3> before = strip.stretched(1.6f);
+    std::vector<Vec3> places = before;
+    shape.keep_lengths(places);
+    EXPECT_NE(places[0], before[0]);
+    EXPECT_TRUE(std::equal(before.begin() + kColumns, before.end(), places.begin() + kColumns));
+}
+
+}  // namespace
+}  // namespace vfit
