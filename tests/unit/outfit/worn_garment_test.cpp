@@ -49,7 +49,7 @@ TEST_F(WornGarmentTest, IsHeldNearShouldersOrWaistAndPinnedNowhere) {
     }
 }
 
-/// The longest edge between two vertices that hold it, as a share of its length on the body at rest.
+/// The longest edge between two vertices that hold it, as a fraction of its length on the body at rest.
 float stretch_of_held(const Dress& dress, const std::vector<Vec3>& places) {
     std::vector<uint8_t> holds(dress.rest().size(), 0);
     for (const uint32_t v : dress.held()) holds[v] = 1;
