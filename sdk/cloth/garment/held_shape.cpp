@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace vfit {
 
 namespace {
 
-// At 1.05 cloth is stretched less, but its places are further from the skin that they lie on, and more skin
-// comes through.
-constexpr float kLongest = 1.2f;  // times the length at rest
+constexpr float kLongest = 1.1f;  // times the length at rest
 constexpr int kPasses = 30;
 
 }  // namespace
@@ -19,14 +18,23 @@ HeldShape::HeldShape(std::span<const uint32_t> held, std::span<const uint32_t> i
                      std::span<const Vec3> rest) {
     std::vector<uint8_t> holds(rest.size());
     for (const uint32_t v : held) holds[v] = 1;
-    std::vector<std::pair<uint32_t, uint32_t>> pairs;
-    for (size_t i = 0; i < indices.size(); ++i) {
-        const uint32_t a = indices[i], b = indices[i % 3 == 2 ? i - 2 : i + 1];
-        if (holds[a] && holds[b]) pairs.push_back(std::minmax(a, b));
+    std::map<std::pair<uint32_t, uint32_t>, int> triangles_at;  // an edge
+    for (size_t i = 0; i + 2 < indices.size(); i += 3) {
+        const uint32_t* v = &indices[i];
+        if (!holds[v[0]] || !holds[v[1]] || !holds[v[2]]) continue;
+        for (size_t k = 0; k < 3; ++k) ++triangles_at[std::minmax(v[k], v[(k + 1) % 3])];
     }
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-    for (const auto& [a, b] : pairs) edges_.push_back({a, b, kLongest * glm::distance(rest[a], rest[b])});
+    enum : uint8_t { outside, inside, border };
+    std::vector<uint8_t> lies(rest.size(), outside);
+    for (const auto& [edge, triangles] : triangles_at)
+        for (const uint32_t v : {edge.first, edge.second})
+            lies[v] = std::max(lies[v], uint8_t(triangles == 1 ? border : inside));
+    const auto is_inside = [&](uint32_t v) { return lies[v] == inside; };
+    if (2 * std::count_if(held.begin(), held.end(), is_inside) < std::ptrdiff_t(held.size()))
+        return;  // a band
+    for (const auto& [edge, triangles] : triangles_at)
+        edges_.push_back(
+            {edge.first, edge.second, kLongest * glm::distance(rest[edge.first], rest[edge.second])});
 }
 
 /// Position-based dynamics (Mueller et al. 2007), edge by edge.

@@ -1,5 +1,9 @@
 // HeldShape: what holds a garment goes with the skin, but does not stretch as far as skin does. Above a
-// raised arm the skin of the model gets longer by more than half; cloth that followed it would be torn.
+// raised arm the skin of the model gets up to twice as long; cloth that followed it would be torn.
+//
+// That is so of an area, as a bodice that lies on the skin. A band, as on shoulders or at the waist, stays
+// where the skin carries it: the cloth beside it gives way, and a band that is drawn aside pulls on its
+// sleeves.
 #pragma once
 
 #include <cstdint>
