@@ -57,7 +57,7 @@ protected:
         };
         std::vector<vfit_bone> bones = {turned(VFIT_BONE_HIPS, 0, 0.0f),
                                         turned(VFIT_BONE_LEFT_UPPER_LEG, 0, -0.85f),
-                                        turned(VFIT_BONE_RIGHT_UPPER_LEG, 0, 0.6f),
+                                        turned(VFIT_BONE_RIGHT_UPPER_LEG, 0, 0.75f),
                                         turned(VFIT_BONE_RIGHT_LOWER_LEG, 0, 0.4f),
                                         turned(VFIT_BONE_LEFT_UPPER_ARM, 2, -1.3f),
                                         turned(VFIT_BONE_RIGHT_UPPER_ARM, 2, 1.3f)};

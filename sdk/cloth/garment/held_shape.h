@@ -21,8 +21,8 @@ public:
     /// held: vertices; indices: three a triangle; rest: one a vertex.
     HeldShape(std::span<const uint32_t> held, std::span<const uint32_t> indices, std::span<const Vec3> rest);
 
-    /// Draws together what the skin carries further apart than cloth goes. places: one a vertex of the
-    /// garment; of these, only those that hold it move. Does not allocate.
+    /// Draws towards each other what the skin carries further apart than cloth goes. places: one a vertex of
+    /// the garment; of these, only those that hold it move. Does not allocate.
     void keep_lengths(std::span<Vec3> places) const;
 
 private:
