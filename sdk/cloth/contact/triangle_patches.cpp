@@ -135,11 +135,13 @@ TrianglePatches::TrianglePatches(std::span<const Vec3> positions, std::span<cons
                                first_vertex + indices[3 * t + 2]},
                               t,
                               0,
+                              0,
                               0});
     patches_.resize(ends_.size());
     boxes_.resize(ends_.size());
     moving_.resize(ends_.size());
     for (uint32_t patch = 0; patch < ends_.size(); ++patch) {
+        for (uint32_t t = begin_of(patch); t < ends_[patch]; ++t) triangles_[t].patch = patch;
         Corners& corners = corners_.emplace_back();
         for (uint32_t k = 0; k < 3; ++k)
             for (uint32_t i = 0; i < kLanes; ++i)
@@ -198,6 +200,17 @@ void TrianglePatches::move(std::span<const Particle> begin, std::span<const Part
     moving_.find_levels();
 }
 
+void TrianglePatches::move_marked(std::span<const uint8_t> marked, std::span<const Particle> begin,
+                                  std::span<const Particle> end, std::vector<uint32_t>& moved) {
+    moved.clear();
+    for (const Triangle& t : triangles_)
+        if ((marked[t.vertex[0]] || marked[t.vertex[1]] || marked[t.vertex[2]]) &&
+            (moved.empty() || moved.back() != t.patch))
+            moved.push_back(t.patch);
+    for (const uint32_t patch : moved) move_patch(begin, end, patch);
+    moving_.find_levels();
+}
+
 void TrianglePatches::move_patch(std::span<const Particle> begin, std::span<const Particle> end,
                                  uint32_t patch) {
     patches_[patch] = find_shape(corners_[patch].at, ends_[patch] - begin_of(patch), begin.data(), end.data(),
@@ -216,47 +229,58 @@ bool TrianglePatches::in_one_cone(uint32_t patch, uint32_t other) const {
            cosine_of_sum(glm::dot(b.normal, axis) / length, b.min_cosine) > kConeCosine;
 }
 
-void TrianglePatches::find_pairs(const TrianglePatches& other, float reach_m, std::vector<Pair>& out,
-                                 Jobs& jobs) {
-    find_pairs(other, nullptr, reach_m, out, jobs);
-}
-
-void TrianglePatches::find_pairs_with_solid(const TrianglePatches& solid, std::span<const Particle> end,
-                                            float reach_m, std::vector<Pair>& out, Jobs& jobs) {
-    find_pairs(solid, end.data(), reach_m, out, jobs);
-}
-
 void TrianglePatches::find_pairs(const TrianglePatches& other, const Particle* before_planes, float reach_m,
                                  std::vector<Pair>& out, Jobs& jobs) {
     const bool own = this == &other;
-    const float max_way_m = before_planes ? kMaxWayPastSolid_m : kMaxWay_m;
     parallel_for(jobs, uint32_t(shares_.size()), [&](uint32_t number) {
         Share& share = shares_[number];
         share.pairs.clear();
         const auto last = std::min((number + 1) * kPatchesOfAJob, uint32_t(ends_.size()));
         for (uint32_t patch = number * kPatchesOfAJob; patch < last; ++patch) {
-            const PatchShape& p = patches_[patch];
-            share.meeting.clear();
-            find_meeting(other.moving_, own ? patch : 0, p.box, p.way, reach_m, max_way_m, share.meeting);
-            for (const uint32_t q : share.meeting) {
-                if (own && are_adjacent(patch, q) && in_one_cone(patch, q)) continue;
-                const Bounds& way = other.patches_[q].way;
-                meet(patch, other, q,
-                     glm::min(farther(p.way.low - way.high, p.way.high - way.low), Vec3(max_way_m)), reach_m,
-                     before_planes, share.pairs);
-            }
+            find_meeting_patches(patch, other, own ? patch : 0, before_planes, reach_m, share.meeting);
+            for (const uint32_t q : share.meeting) meet(patch, other, q, before_planes, reach_m, share.pairs);
         }
     });
     for (const Share& share : shares_) out.insert(out.end(), share.pairs.begin(), share.pairs.end());
 }
 
-void TrianglePatches::meet(uint32_t patch, const TrianglePatches& other, uint32_t of_other, const Vec3& way,
-                           float reach_m, const Particle* before_planes, std::vector<Pair>& out) const {
+void TrianglePatches::find_pairs_of(std::span<const uint32_t> patches, const TrianglePatches& other,
+                                    std::span<const Particle> solid_end, float reach_m,
+                                    std::vector<Pair>& out) {
+    const Particle* before_planes = solid_end.empty() ? nullptr : solid_end.data();
+    std::vector<uint32_t>& meeting = shares_.front().meeting;
+    for (const uint32_t patch : patches) {
+        find_meeting_patches(patch, other, 0, before_planes, reach_m, meeting);
+        for (const uint32_t q : meeting) {
+            if (this != &other || q >= patch)
+                meet(patch, other, q, before_planes, reach_m, out);
+            else if (!std::binary_search(patches.begin(), patches.end(), q))
+                meet(q, other, patch, before_planes, reach_m, out);
+        }
+    }
+}
+
+void TrianglePatches::find_meeting_patches(uint32_t patch, const TrianglePatches& other, uint32_t first,
+                                           const Particle* before_planes, float reach_m,
+                                           std::vector<uint32_t>& out) const {
+    out.clear();
+    find_meeting(other.moving_, first, patches_[patch].box, patches_[patch].way, reach_m,
+                 before_planes ? kMaxWayPastSolid_m : kMaxWay_m, out);
+    if (this == &other)
+        std::erase_if(out, [&](uint32_t q) { return are_adjacent(patch, q) && in_one_cone(patch, q); });
+}
+
+void TrianglePatches::meet(uint32_t patch, const TrianglePatches& other, uint32_t of_other,
+                           const Particle* before_planes, float reach_m, std::vector<Pair>& out) const {
     const bool own = this == &other && patch == of_other;
+    const Bounds &way = patches_[patch].way, &other_way = other.patches_[of_other].way;
+    const Vec3 past = glm::min(farther(way.low - other_way.high, way.high - other_way.low),
+                               Vec3(before_planes ? kMaxWayPastSolid_m : kMaxWay_m));
     const uint32_t first = begin_of(patch), of_second = other.begin_of(of_other);
-    std::array<uint8_t, kLanes> all = meeting_triangles(boxes_[patch], other.boxes_[of_other], way + reach_m);
+    std::array<uint8_t, kLanes> all =
+        meeting_triangles(boxes_[patch], other.boxes_[of_other], past + reach_m);
     if (before_planes)
-        clear_before_planes(corners_[patch].at, before_planes, other.boxes_[of_other], way, reach_m, all);
+        clear_before_planes(corners_[patch].at, before_planes, other.boxes_[of_other], past, reach_m, all);
     for (uint32_t i = 0; i < ends_[patch] - first; ++i)
         for (uint32_t left = own ? all[i] & ~0u << (i + 1) : all[i]; left; left &= left - 1)
             out.push_back(
