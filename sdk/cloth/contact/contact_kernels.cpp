@@ -94,20 +94,26 @@ void MeetingTriangles(const PatchBoxes& a, const PatchBoxes& b, const Vec3& marg
     }
 }
 
-void ClearBeforePlanes(const uint32_t (&corners)[3][kLanes], const Particle* at, const PatchBoxes& b,
-                       const Vec3& way, float reach_m, uint8_t* meeting) {
+void ClearBeforePlanes(const uint32_t (&corners)[3][kLanes], const Particle* begin, const Particle* end,
+                       const PatchBoxes& b, const Bounds& way, float reach_m, float max_way_m,
+                       uint8_t* meeting) {
+    const Vec3 middle = 0.5f * (way.low + way.high), half = 0.5f * (way.high - way.low);
     for (size_t k = 0; k < kLanes; k += kWide) {
         const Points n = {hn::Load(kTag, b.normal[0] + k), hn::Load(kTag, b.normal[1] + k),
                           hn::Load(kTag, b.normal[2] + k)};
-        const V comes = hn::MulAdd(hn::Abs(n.x), Set(way.x),
-                                   hn::MulAdd(hn::Abs(n.y), Set(way.y), hn::Mul(hn::Abs(n.z), Set(way.z))));
-        const V limit = hn::Add(hn::Load(kTag, b.offset + k), hn::Add(comes, Set(reach_m)));
+        const V offset = hn::Add(hn::Load(kTag, b.offset + k), Set(reach_m));
+        const V plane_comes = hn::Add(Dot(n, Set(middle)),
+                                      Dot({hn::Abs(n.x), hn::Abs(n.y), hn::Abs(n.z)}, Set(half)));
         for (size_t i = 0; i < kLanes; ++i) {
             if (meeting[i] == 0) continue;
-            const V lowest =
-                hn::Min(Dot(n, Set(at[corners[0][i]].x)),
-                        hn::Min(Dot(n, Set(at[corners[1][i]].x)), Dot(n, Set(at[corners[2][i]].x))));
-            const uint32_t before = Bits(hn::Gt(lowest, limit)) << k;
+            V lowest = Set(INFINITY), goes = Set(INFINITY);
+            for (size_t corner = 0; corner < 3; ++corner) {
+                const Vec3 &from = begin[corners[corner][i]].x, &to = end[corners[corner][i]].x;
+                lowest = hn::Min(lowest, Dot(n, Set(to)));
+                goes = hn::Min(goes, Dot(n, Set(to - from)));
+            }
+            const V comes = hn::Min(hn::Max(hn::Sub(plane_comes, goes), hn::Zero(kTag)), Set(max_way_m));
+            const uint32_t before = Bits(hn::Gt(lowest, hn::Add(offset, comes))) << k;
             meeting[i] = uint8_t(meeting[i] & ~before);
         }
     }
@@ -510,9 +516,11 @@ std::array<uint8_t, kLanes> meeting_triangles(const PatchBoxes& a, const PatchBo
     HWY_DYNAMIC_DISPATCH(MeetingTriangles)(a, b, margin, out.data());
     return out;
 }
-void clear_before_planes(const uint32_t (&corners)[3][kLanes], const Particle* at, const PatchBoxes& b,
-                         const Vec3& way, float reach_m, std::array<uint8_t, kLanes>& meeting) {
-    HWY_DYNAMIC_DISPATCH(ClearBeforePlanes)(corners, at, b, way, reach_m, meeting.data());
+void clear_before_planes(const uint32_t (&corners)[3][kLanes], const Particle* begin, const Particle* end,
+                         const PatchBoxes& b, const Bounds& way, float reach_m, float max_way_m,
+                         std::array<uint8_t, kLanes>& meeting) {
+    HWY_DYNAMIC_DISPATCH(ClearBeforePlanes)
+    (corners, begin, end, b, way, reach_m, max_way_m, meeting.data());
 }
 void classify(std::span<TrianglePairs> pairs, const Particle* begin, const Particle* end, float reach_m,
               bool certifies) {

@@ -103,7 +103,6 @@ bool CrossingGuard::keep(std::span<const Particle> begin, std::span<Particle> en
         find_pairs_again(begin, end, proximity);
         proximity.find_uncertain_of(is_marked_, begin, end, jobs);
     }
-    proximity.classify_again(begin, end, jobs);
     if (!tangles_.empty()) keep_tangles_of(end);
     if (!solved)
         for (const auto& [first, second] : crossed_)

@@ -229,7 +229,7 @@ bool TrianglePatches::in_one_cone(uint32_t patch, uint32_t other) const {
            cosine_of_sum(glm::dot(b.normal, axis) / length, b.min_cosine) > kConeCosine;
 }
 
-void TrianglePatches::find_pairs(const TrianglePatches& other, const Particle* before_planes, float reach_m,
+void TrianglePatches::find_pairs(const TrianglePatches& other, float reach_m, const Ends* of_solid,
                                  std::vector<Pair>& out, Jobs& jobs) {
     const bool own = this == &other;
     parallel_for(jobs, uint32_t(shares_.size()), [&](uint32_t number) {
@@ -237,50 +237,50 @@ void TrianglePatches::find_pairs(const TrianglePatches& other, const Particle* b
         share.pairs.clear();
         const auto last = std::min((number + 1) * kPatchesOfAJob, uint32_t(ends_.size()));
         for (uint32_t patch = number * kPatchesOfAJob; patch < last; ++patch) {
-            find_meeting_patches(patch, other, own ? patch : 0, before_planes, reach_m, share.meeting);
-            for (const uint32_t q : share.meeting) meet(patch, other, q, before_planes, reach_m, share.pairs);
+            find_meeting_patches(patch, other, own ? patch : 0, reach_m,
+                                 of_solid ? kMaxWayPastSolid_m : kMaxWay_m, share.meeting);
+            for (const uint32_t q : share.meeting) meet(patch, other, q, reach_m, of_solid, share.pairs);
         }
     });
     for (const Share& share : shares_) out.insert(out.end(), share.pairs.begin(), share.pairs.end());
 }
 
 void TrianglePatches::find_pairs_of(std::span<const uint32_t> patches, const TrianglePatches& other,
-                                    std::span<const Particle> solid_end, float reach_m,
-                                    std::vector<Pair>& out) {
-    const Particle* before_planes = solid_end.empty() ? nullptr : solid_end.data();
+                                    float reach_m, std::vector<Pair>& out) {
     std::vector<uint32_t>& meeting = shares_.front().meeting;
     for (const uint32_t patch : patches) {
-        find_meeting_patches(patch, other, 0, before_planes, reach_m, meeting);
+        find_meeting_patches(patch, other, 0, reach_m, kMaxWay_m, meeting);
         for (const uint32_t q : meeting) {
             if (this != &other || q >= patch)
-                meet(patch, other, q, before_planes, reach_m, out);
+                meet(patch, other, q, reach_m, nullptr, out);
             else if (!std::binary_search(patches.begin(), patches.end(), q))
-                meet(q, other, patch, before_planes, reach_m, out);
+                meet(q, other, patch, reach_m, nullptr, out);
         }
     }
 }
 
 void TrianglePatches::find_meeting_patches(uint32_t patch, const TrianglePatches& other, uint32_t first,
-                                           const Particle* before_planes, float reach_m,
+                                           float reach_m, float max_way_m,
                                            std::vector<uint32_t>& out) const {
     out.clear();
-    find_meeting(other.moving_, first, patches_[patch].box, patches_[patch].way, reach_m,
-                 before_planes ? kMaxWayPastSolid_m : kMaxWay_m, out);
+    find_meeting(other.moving_, first, patches_[patch].box, patches_[patch].way, reach_m, max_way_m, out);
     if (this == &other)
         std::erase_if(out, [&](uint32_t q) { return are_adjacent(patch, q) && in_one_cone(patch, q); });
 }
 
-void TrianglePatches::meet(uint32_t patch, const TrianglePatches& other, uint32_t of_other,
-                           const Particle* before_planes, float reach_m, std::vector<Pair>& out) const {
+void TrianglePatches::meet(uint32_t patch, const TrianglePatches& other, uint32_t of_other, float reach_m,
+                           const Ends* of_solid, std::vector<Pair>& out) const {
     const bool own = this == &other && patch == of_other;
+    const float max_way_m = of_solid ? kMaxWayPastSolid_m : kMaxWay_m;
     const Bounds &way = patches_[patch].way, &other_way = other.patches_[of_other].way;
-    const Vec3 past = glm::min(farther(way.low - other_way.high, way.high - other_way.low),
-                               Vec3(before_planes ? kMaxWayPastSolid_m : kMaxWay_m));
+    const Vec3 past =
+        glm::min(farther(way.low - other_way.high, way.high - other_way.low), Vec3(max_way_m));
     const uint32_t first = begin_of(patch), of_second = other.begin_of(of_other);
     std::array<uint8_t, kLanes> all =
         meeting_triangles(boxes_[patch], other.boxes_[of_other], past + reach_m);
-    if (before_planes)
-        clear_before_planes(corners_[patch].at, before_planes, other.boxes_[of_other], past, reach_m, all);
+    if (of_solid)
+        clear_before_planes(corners_[patch].at, of_solid->begin, of_solid->end, other.boxes_[of_other],
+                            other_way, reach_m, max_way_m, all);
     for (uint32_t i = 0; i < ends_[patch] - first; ++i)
         for (uint32_t left = own ? all[i] & ~0u << (i + 1) : all[i]; left; left &= left - 1)
             out.push_back(

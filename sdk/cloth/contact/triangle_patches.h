@@ -51,17 +51,20 @@ public:
     /// whose normals lie in one cone do not meet (Volino and Magnenat-Thalmann 1994). The order of the pairs
     /// is the same for any number of threads.
     void find_pairs(const TrianglePatches& other, float reach_m, std::vector<Pair>& out, Jobs& jobs) {
-        find_pairs(other, nullptr, reach_m, out, jobs);
+        find_pairs(other, reach_m, nullptr, out, jobs);
     }
-    /// The same for a solid: without triangles that lie before the other's plane. end: as for move().
-    void find_pairs_with_solid(const TrianglePatches& solid, std::span<const Particle> end, float reach_m,
-                               std::vector<Pair>& out, Jobs& jobs) {
-        find_pairs(solid, end.data(), reach_m, out, jobs);
+    /// The same for a solid: without triangles that lie before the other's plane, now and after the same way
+    /// again. begin, end: as for move().
+    void find_pairs_with_solid(const TrianglePatches& solid, std::span<const Particle> begin,
+                               std::span<const Particle> end, float reach_m, std::vector<Pair>& out,
+                               Jobs& jobs) {
+        const Ends ends{begin.data(), end.data()};
+        find_pairs(solid, reach_m, &ends, out, jobs);
     }
-    /// Those pairs alone of which a triangle belongs to one of these patches of this surface, rising.
-    /// solid_end: as end for a solid; empty: the other is none.
-    void find_pairs_of(std::span<const uint32_t> patches, const TrianglePatches& other,
-                       std::span<const Particle> solid_end, float reach_m, std::vector<Pair>& out);
+    /// As find_pairs(): those pairs alone of which a triangle is of one of these patches of this surface,
+    /// rising.
+    void find_pairs_of(std::span<const uint32_t> patches, const TrianglePatches& other, float reach_m,
+                       std::vector<Pair>& out);
 
 private:
     struct Corners {
@@ -77,13 +80,16 @@ private:
     bool are_adjacent(uint32_t patch, uint32_t other) const;
     bool in_one_cone(uint32_t patch, uint32_t other) const;
     void move_patch(std::span<const Particle> begin, std::span<const Particle> end, uint32_t patch);
-    void find_pairs(const TrianglePatches& other, const Particle* before_planes, float reach_m,
-                    std::vector<Pair>& out, Jobs& jobs);
-    /// With patches of the other from `first` on.
-    void find_meeting_patches(uint32_t patch, const TrianglePatches& other, uint32_t first,
-                              const Particle* before_planes, float reach_m, std::vector<uint32_t>& out) const;
-    void meet(uint32_t patch, const TrianglePatches& other, uint32_t of_other, const Particle* before_planes,
-              float reach_m, std::vector<Pair>& out) const;
+    struct Ends {
+        const Particle *begin, *end;
+    };
+    void find_pairs(const TrianglePatches& other, float reach_m, const Ends* of_solid, std::vector<Pair>& out,
+                    Jobs& jobs);
+    /// Patches of the other from `first` on.
+    void find_meeting_patches(uint32_t patch, const TrianglePatches& other, uint32_t first, float reach_m,
+                              float max_way_m, std::vector<uint32_t>& out) const;
+    void meet(uint32_t patch, const TrianglePatches& other, uint32_t of_other, float reach_m,
+              const Ends* of_solid, std::vector<Pair>& out) const;
 
     std::vector<Triangle> triangles_;  // patch by patch
     std::vector<uint32_t> ends_;       // of patches in these
