@@ -102,8 +102,8 @@ void ClearBeforePlanes(const uint32_t (&corners)[3][kLanes], const Particle* beg
         const Points n = {hn::Load(kTag, b.normal[0] + k), hn::Load(kTag, b.normal[1] + k),
                           hn::Load(kTag, b.normal[2] + k)};
         const V offset = hn::Add(hn::Load(kTag, b.offset + k), Set(reach_m));
-        const V plane_comes = hn::Add(Dot(n, Set(middle)),
-                                      Dot({hn::Abs(n.x), hn::Abs(n.y), hn::Abs(n.z)}, Set(half)));
+        const V plane_comes =
+            hn::Add(Dot(n, Set(middle)), Dot({hn::Abs(n.x), hn::Abs(n.y), hn::Abs(n.z)}, Set(half)));
         for (size_t i = 0; i < kLanes; ++i) {
             if (meeting[i] == 0) continue;
             V lowest = Set(INFINITY), goes = Set(INFINITY);

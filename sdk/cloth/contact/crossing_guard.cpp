@@ -134,8 +134,9 @@ void CrossingGuard::keep_tangles_of(std::span<const Particle> end) {
         const uint32_t* v = &indices_[3 * number];
         return Corners{{end[v[0]].x, end[v[1]].x, end[v[2]].x}};
     };
-    std::erase_if(tangles_,
-                  [&](const TrianglePair& pair) { return !cross(triangle(pair.first), triangle(pair.second)); });
+    std::erase_if(tangles_, [&](const TrianglePair& pair) {
+        return !cross(triangle(pair.first), triangle(pair.second));
+    });
 }
 
 void CrossingGuard::untangle(std::span<Particle> places, float step_m) {

@@ -35,16 +35,33 @@ void sort_in_space(const std::vector<Vec3>& places, std::span<uint32_t> which) {
     sort_in_space(places, which.subspan(middle));
 }
 
+std::vector<Vec3> middles_of(std::span<const Vec3> positions, std::span<const uint32_t> indices) {
+    std::vector<Vec3> middles;
+    for (size_t i = 0; i + 2 < indices.size(); i += 3) {
+        const Vec3 sum = positions[indices[i]] + positions[indices[i + 1]] + positions[indices[i + 2]];
+        middles.push_back(finite(sum) ? sum / 3.0f : Vec3(0.0f));
+    }
+    return middles;
+}
+
+/// Triangles that lie together, eight a patch.
+void group_in_space(std::span<const Vec3> positions, std::span<const uint32_t> indices,
+                    std::vector<uint32_t>& triangles, std::vector<uint32_t>& ends) {
+    triangles.resize(indices.size() / 3);
+    std::iota(triangles.begin(), triangles.end(), 0u);
+    sort_in_space(middles_of(positions, indices), triangles);
+    for (size_t end = 0; end < triangles.size();) {
+        end = std::min(end + kLanes, triangles.size());
+        ends.push_back(uint32_t(end));
+    }
+}
+
 /// Grows connected patches: each from the triangle that has the fewest neighbours left, by those closest to
 /// it.
 class Growth {
 public:
     Growth(std::span<const Vec3> positions, std::span<const uint32_t> indices)
-        : indices_(indices), about_(positions.size(), indices) {
-        for (size_t i = 0; i + 2 < indices.size(); i += 3) {
-            const Vec3 sum = positions[indices[i]] + positions[indices[i + 1]] + positions[indices[i + 2]];
-            middles_.push_back(finite(sum) ? sum / 3.0f : Vec3(0.0f));
-        }
+        : indices_(indices), about_(positions.size(), indices), middles_(middles_of(positions, indices)) {
         is_taken_.assign(middles_.size(), 0);
         border_.assign(1, 0);
         for (uint32_t next = 0; next < middles_.size();) {
@@ -128,8 +145,12 @@ bool TrianglePatches::Pair::shares_vertex() const {
 
 TrianglePatches::TrianglePatches(std::span<const Vec3> positions, std::span<const uint32_t> indices,
                                  uint32_t first_vertex) {
+    const bool meets_itself = first_vertex == 0;
     std::vector<uint32_t> order;
-    Growth(positions, indices).list(order, ends_);
+    if (meets_itself)
+        Growth(positions, indices).list(order, ends_);
+    else
+        group_in_space(positions, indices, order, ends_);
     for (const uint32_t t : order)
         triangles_.push_back({{first_vertex + indices[3 * t], first_vertex + indices[3 * t + 1],
                                first_vertex + indices[3 * t + 2]},
@@ -149,23 +170,31 @@ TrianglePatches::TrianglePatches(std::span<const Vec3> positions, std::span<cons
     }
     shares_.resize((ends_.size() + kPatchesOfAJob - 1) / kPatchesOfAJob);
     list_owners(first_vertex + positions.size());
-    if (first_vertex == 0) list_adjacent(positions.size());
+    if (meets_itself) list_adjacent(positions.size());
 }
 
 void TrianglePatches::list_owners(size_t vertices) {
     std::vector<uint8_t> seen(vertices, 0);
-    std::vector<std::pair<uint64_t, uint32_t>> edges;  // and where it is: 4 * triangle + side
-    for (uint32_t t = 0; t < triangles_.size(); ++t)
+    std::vector<uint32_t> ends(vertices, 0);  // of the edges that are filed under each vertex, the lower one
+    const auto edge = [](const Triangle& t, uint32_t k) {
+        return std::minmax(t.vertex[k], t.vertex[(k + 1) % 3]);
+    };
+    for (const Triangle& t : triangles_)
+        for (uint32_t k = 0; k < 3; ++k) ++ends[edge(t, k).first];
+    std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), 0u);
+    const std::vector<uint32_t> begins = ends;
+    std::vector<uint32_t> higher(3 * triangles_.size());
+    for (Triangle& t : triangles_)
         for (uint32_t k = 0; k < 3; ++k) {
-            const uint32_t a = triangles_[t].vertex[k], b = triangles_[t].vertex[(k + 1) % 3];
-            if (!seen[a]) triangles_[t].own_vertices |= uint8_t(1u << k);
-            seen[a] = 1;
-            edges.emplace_back(uint64_t(std::min(a, b)) << 32 | std::max(a, b), 4 * t + k);
+            if (!seen[t.vertex[k]]) t.own_vertices |= uint8_t(1u << k);
+            seen[t.vertex[k]] = 1;
+            const auto [low, high] = edge(t, k);
+            const auto filed = higher.begin() + begins[low], end = higher.begin() + ends[low];
+            if (std::find(filed, end, high) != end) continue;
+            t.own_edges |= uint8_t(1u << k);
+            *end = high;
+            ++ends[low];
         }
-    std::sort(edges.begin(), edges.end());
-    for (size_t i = 0; i < edges.size(); ++i)
-        if (i == 0 || edges[i].first != edges[i - 1].first)
-            triangles_[edges[i].second / 4].own_edges |= uint8_t(1u << edges[i].second % 4);
 }
 
 void TrianglePatches::list_adjacent(size_t vertices) {
@@ -260,8 +289,7 @@ void TrianglePatches::find_pairs_of(std::span<const uint32_t> patches, const Tri
 }
 
 void TrianglePatches::find_meeting_patches(uint32_t patch, const TrianglePatches& other, uint32_t first,
-                                           float reach_m, float max_way_m,
-                                           std::vector<uint32_t>& out) const {
+                                           float reach_m, float max_way_m, std::vector<uint32_t>& out) const {
     out.clear();
     find_meeting(other.moving_, first, patches_[patch].box, patches_[patch].way, reach_m, max_way_m, out);
     if (this == &other)
@@ -273,8 +301,7 @@ void TrianglePatches::meet(uint32_t patch, const TrianglePatches& other, uint32_
     const bool own = this == &other && patch == of_other;
     const float max_way_m = of_solid ? kMaxWayPastSolid_m : kMaxWay_m;
     const Bounds &way = patches_[patch].way, &other_way = other.patches_[of_other].way;
-    const Vec3 past =
-        glm::min(farther(way.low - other_way.high, way.high - other_way.low), Vec3(max_way_m));
+    const Vec3 past = glm::min(farther(way.low - other_way.high, way.high - other_way.low), Vec3(max_way_m));
     const uint32_t first = begin_of(patch), of_second = other.begin_of(of_other);
     std::array<uint8_t, kLanes> all =
         meeting_triangles(boxes_[patch], other.boxes_[of_other], past + reach_m);

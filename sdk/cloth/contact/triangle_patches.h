@@ -27,7 +27,7 @@ public:
     };
 
     /// Three indices a triangle; positions by which triangles are grouped. first_vertex: of the surface in
-    /// the arrays of positions that follow.
+    /// the arrays of positions that follow; beyond 0, of a mesh, which does not meet itself.
     TrianglePatches(std::span<const Vec3> positions, std::span<const uint32_t> indices,
                     uint32_t first_vertex = 0);
 
