@@ -1,8 +1,10 @@
 #include "cloth/fabric/constraint_batches.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <deque>
-#include <iterator>
+#include <utility>
 
 namespace vfit {
 
@@ -15,36 +17,68 @@ constexpr size_t kApart = 4;
 
 using Batch = std::vector<Bond>;
 
-bool shares(const Bond& x, const Bond& y) {
-    for (uint32_t a : x.particles)
-        for (uint32_t b : y.particles)
-            if (a == b) return true;
-    return false;
+uint32_t particle_count(const std::vector<Bond>& bonds) {
+    uint32_t count = 0;
+    for (const Bond& bond : bonds)
+        for (const uint32_t p : bond.particles) count = std::max(count, p + 1);
+    return count;
 }
-bool shares(const Batch& x, const Bond& j) {
-    return std::any_of(x.begin(), x.end(), [&](const Bond& o) { return shares(o, j); });
-}
+
+/// Batches that are being filled, oldest first, by slots.
+class OpenBatches {
+public:
+    explicit OpenBatches(uint32_t particles) : slots_of_(particles, 0) {}
+
+    size_t count() const { return order_.size(); }
+    /// The oldest one without a particle of the bond; none: count().
+    size_t place_for(const Bond& bond) const {
+        uint32_t taken = 0;
+        for (const uint32_t p : bond.particles) taken |= slots_of_[p];
+        size_t at = 0;
+        while (at < order_.size() && (taken >> order_[at] & 1)) ++at;
+        return at;
+    }
+    void open() {
+        const auto slot = uint32_t(std::countr_one(used_));
+        used_ |= 1u << slot;
+        order_.push_back(slot);
+    }
+    void add(size_t at, const Bond& bond) {
+        for (const uint32_t p : bond.particles) slots_of_[p] |= 1u << order_[at];
+        batches_[order_[at]].push_back(bond);
+    }
+    bool is_full(size_t at) const { return batches_[order_[at]].size() == kLanes; }
+    Batch close(size_t at) {
+        const uint32_t slot = order_[at];
+        order_.erase(order_.begin() + std::ptrdiff_t(at));
+        used_ &= ~(1u << slot);
+        for (const Bond& bond : batches_[slot])
+            for (const uint32_t p : bond.particles) slots_of_[p] &= ~(1u << slot);
+        return std::exchange(batches_[slot], {});
+    }
+
+private:
+    std::vector<uint32_t> slots_of_;  // of each particle: bit s, the batch in slot s has it
+    std::array<Batch, kOpen> batches_;
+    std::vector<uint32_t> order_;  // slots
+    uint32_t used_ = 0;
+};
 
 std::vector<Batch> fill(const std::vector<Bond>& bonds) {
     std::vector<Batch> done;
-    std::deque<Batch> open;
+    OpenBatches open(particle_count(bonds));
     for (const Bond& bond : bonds) {
-        const auto place =
-            std::find_if(open.begin(), open.end(), [&](const Batch& b) { return !shares(b, bond); });
-        if (place == open.end()) {
-            if (open.size() == kOpen) {
-                done.push_back(std::move(open.front()));
-                open.pop_front();
-            }
-            open.push_back({bond});
+        const size_t at = open.place_for(bond);
+        if (at == open.count()) {
+            if (at == kOpen) done.push_back(open.close(0));
+            open.open();
+            open.add(open.count() - 1, bond);
             continue;
         }
-        place->push_back(bond);
-        if (place->size() < kLanes) continue;
-        done.push_back(std::move(*place));
-        open.erase(place);
+        open.add(at, bond);
+        if (open.is_full(at)) done.push_back(open.close(at));
     }
-    std::move(open.begin(), open.end(), std::back_inserter(done));
+    while (open.count() > 0) done.push_back(open.close(0));
     return done;
 }
 
