@@ -144,10 +144,9 @@ bool TrianglePatches::Pair::shares_vertex() const {
 }
 
 TrianglePatches::TrianglePatches(std::span<const Vec3> positions, std::span<const uint32_t> indices,
-                                 uint32_t first_vertex) {
-    const bool meets_itself = first_vertex == 0;
+                                 uint32_t first_vertex, Grouping grouping) {
     std::vector<uint32_t> order;
-    if (meets_itself)
+    if (grouping == Grouping::connected)
         Growth(positions, indices).list(order, ends_);
     else
         group_in_space(positions, indices, order, ends_);
@@ -170,7 +169,7 @@ TrianglePatches::TrianglePatches(std::span<const Vec3> positions, std::span<cons
     }
     shares_.resize((ends_.size() + kPatchesOfAJob - 1) / kPatchesOfAJob);
     list_owners(first_vertex + positions.size());
-    if (meets_itself) list_adjacent(positions.size());
+    if (first_vertex == 0) list_adjacent(positions.size());
 }
 
 void TrianglePatches::list_owners(size_t vertices) {

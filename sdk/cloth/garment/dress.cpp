@@ -25,9 +25,8 @@ struct BodyBall {
     Vec3 center;
     float radius_m;
 };
-BodyBall ball_below(const MeshQuery& skin, const Vec3& p) {
+BodyBall ball_below(const MeshQuery& skin, const Vec3& p, const MeshQuery::Closest& closest) {
     constexpr float kSmallest_m = 0.02f, kLargest_m = 0.1f;
-    const MeshQuery::Closest closest = skin.closest(p);
     const Vec3 inward = closest.distance > 1e-6f ? (closest.point - p) / closest.distance : -closest.normal;
     const auto far_side = skin.cast(closest.point + inward * 1e-3f, inward, 2.0f * kLargest_m);
     const float radius = far_side ? std::max(kSmallest_m, 0.5f * far_side->distance) : kLargest_m;
@@ -145,9 +144,10 @@ Dress::Dress(const Garment& garment, const BoundGarment& bound, const FabricMate
     for (uint32_t i = 0; i < n; ++i) {
         if (!garment.backstop[i] || !garment.simulated[i]) continue;
         if (!bindable) bindable.emplace(body.positions, triangles);
-        const BodyBall ball = ball_below(*bindable, rest_[i]);
+        const MeshQuery::Closest closest = bindable->closest(rest_[i]);
+        const BodyBall ball = ball_below(*bindable, rest_[i], closest);
         std::vector<float> bones(bone_count);
-        Binding::of(bindable->closest(rest_[i]), triangles).add_bones(body, bones);
+        Binding::of(closest, triangles).add_bones(body, bones);
         carried_.add(ball.center, bones);
         backstops_.push_back({i, ball.radius_m});
     }
