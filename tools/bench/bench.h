@@ -30,6 +30,7 @@ class Samples {
 public:
     void add(double ms) { values_.push_back(ms); }
     bool empty() const { return values_.empty(); }
+    size_t size() const { return values_.size(); }
     double quantile(double q) const;
     /// {"median", "p95", "n"}
     Json json() const;

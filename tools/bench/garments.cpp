@@ -117,10 +117,55 @@ std::vector<vfit_fit_zone> fit_of(vfit_cloth cloth) {
         [&](auto* items, uint32_t stride, uint32_t* n) { return vfit_cloth_fit(cloth, items, stride, n); });
 }
 
+/// What crosses in a frame, and how far it is stretched.
+struct Look {
+    size_t with_skin, with_self;
+    float strain_p99;
+};
+Look look_at(vfit_cloth cloth, const Welded& skin) {
+    const Welded mesh = mesh_of(cloth);
+    vfit_cloth_stats stats = vfit_cloth_stats_init();
+    check(vfit_cloth_describe(cloth, &stats));
+    return {crossed_triangles({mesh.positions, mesh.indices}, {skin.positions, skin.indices}).size(),
+            crossed_triangles(mesh.positions, mesh.indices).size(), stats.strain_p99};
+}
+/// With the skin as it is drawn below the cloth.
+uint32_t crossings_drawn(vfit_cloth cloth) {
+    Frame frame;
+    uint32_t crossings = 0;
+    check(vfit_outfit_skin(&cloth, 1, frame.out(), &crossings));
+    return crossings;
+}
+
+/// First frames: of garments that were put on, or changed to another size.
+struct FirstFrames {
+    size_t with_skin = 0, with_drawn = 0, with_self = 0;
+    Samples ms, strain_p99;
+
+    void add(double took_ms, vfit_cloth cloth, const Welded& skin) {
+        const Look look = look_at(cloth, skin);
+        ms.add(took_ms), strain_p99.add(look.strain_p99);
+        with_skin += look.with_skin > 0, with_self += look.with_self > 0;
+        with_drawn += crossings_drawn(cloth) > 0;
+    }
+    void judge(const std::string& what, double target_ms, Targets& targets) const {
+        targets.judge(what + ": to the first frame, median", ms.quantile(0.5), Aim::at_most, target_ms, 0,
+                      " ms");
+        targets.judge("  the same, 95 %", ms.quantile(0.95), Aim::at_most, target_ms, 0, " ms");
+        targets.judge("  first frames, of " + std::to_string(ms.size()) +
+                          ", that cross the skin as vfit_outfit_skin() draws it",
+                      double(with_drawn), Aim::exactly, 0.0);
+        targets.judge("  that cross the skin as it is posed", double(with_skin), Aim::exactly, 0.0);
+        targets.judge("  that cross themselves", double(with_self), Aim::exactly, 0.0);
+        targets.judge("  strain p99 in them, worst", strain_p99.quantile(1.0), Aim::at_most, 0.3, 2);
+    }
+};
+
 struct Tally {
     size_t worn = 0, refused = 0, with_skin = 0, with_self = 0;
     size_t skin_crossings = 0, self_crossings = 0;
-    Samples gaps_mm, dress_ms, size_ms, moving_mm, step_ms;
+    FirstFrames dressed, resized;
+    Samples gaps_mm, moving_mm, step_ms;
     std::vector<std::string> crossed;
 };
 
@@ -149,8 +194,8 @@ public:
             }
             check(made);
             check(vfit_cloth_step(cloth.get(), kFrame_s));
-            tally_.dress_ms.add(timer.ms());
             row["dress_ms"] = timer.ms();
+            tally_.dressed.add(row["dress_ms"], cloth.get(), skin);
             judge(cloth.get(), skin, row);
             if (!options_.pictures.empty()) draw(avatar, cloth.get(), skin, row);
             say(row);
@@ -160,7 +205,8 @@ public:
     }
 
     /// From each size to the next, on one cloth.
-    void change_sizes(vfit_avatar avatar, vfit_garment garment, const std::vector<std::string>& labels) {
+    void change_sizes(vfit_avatar avatar, const Welded& skin, vfit_garment garment,
+                      const std::vector<std::string>& labels) {
         vfit_cloth_desc desc = vfit_cloth_desc_init();
         desc.flags = VFIT_CLOTH_SKIN | VFIT_CLOTH_ANY_FIT;
         desc.self_thickness_m = kThickness_m;
@@ -172,7 +218,7 @@ public:
             const Timer timer;
             check(vfit_cloth_set_size(cloth.get(), label.c_str()));
             check(vfit_cloth_step(cloth.get(), kFrame_s));
-            tally_.size_ms.add(timer.ms());
+            tally_.resized.add(timer.ms(), cloth.get(), skin);
             settle(cloth.get(), 59);
             const auto before = places(cloth.get());
             settle(cloth.get(), 1);
@@ -199,16 +245,13 @@ public:
 private:
     void judge(vfit_cloth cloth, const Welded& skin, Json& row) {
         settle(cloth, kFramesToRest);
-        const Welded mesh = mesh_of(cloth);
-        const size_t with_skin =
-            crossed_triangles({mesh.positions, mesh.indices}, {skin.positions, skin.indices}).size();
-        const size_t with_self = crossed_triangles(mesh.positions, mesh.indices).size();
+        const Look look = look_at(cloth, skin);
         vfit_cloth_stats stats = vfit_cloth_stats_init();
         check(vfit_cloth_describe(cloth, &stats));
-        row["skin_crossings"] = with_skin;
-        row["self_crossings"] = with_self;
+        row["skin_crossings"] = look.with_skin;
+        row["self_crossings"] = look.with_self;
         row["gap_mm"] = gap_mm(cloth, skin);
-        row["strain_p99"] = stats.strain_p99;
+        row["strain_p99"] = look.strain_p99;
         row["step_ms"] = stats.step_ms;
         Json zones = Json::object();
         for (const vfit_fit_zone& z : fit_of(cloth))
@@ -222,8 +265,8 @@ private:
                             {"pressure_pa", z.pressure_pa}};
         row["fit"] = zones;
         ++tally_.worn;
-        tally_.with_skin += with_skin > 0, tally_.with_self += with_self > 0;
-        tally_.skin_crossings += with_skin, tally_.self_crossings += with_self;
+        tally_.with_skin += look.with_skin > 0, tally_.with_self += look.with_self > 0;
+        tally_.skin_crossings += look.with_skin, tally_.self_crossings += look.with_self;
         tally_.gaps_mm.add(row["gap_mm"].get<double>());
         tally_.step_ms.add(stats.step_ms);
     }
@@ -339,7 +382,7 @@ void judge_garments(const Options& options) {
             for (Json& row : judge.wear(avatar.get(), kind.name, skin, garment.get(), name, labels))
                 rows.push_back(std::move(row));
             if (kind.shape.empty() && labels.size() > 1)
-                judge.change_sizes(avatar.get(), garment.get(), labels_of(garment.get()));
+                judge.change_sizes(avatar.get(), skin, garment.get(), labels_of(garment.get()));
         }
         judge.write_sheet(kind.name);
     }
@@ -352,11 +395,9 @@ void judge_garments(const Options& options) {
     targets.judge("drapes that cross themselves", double(tally.with_self), Aim::exactly, 0.0);
     targets.judge("gap beyond the thickness where it touches, worst median", tally.gaps_mm.quantile(1.0),
                   Aim::at_most, 3.0, 1, " mm");
-    targets.judge("garment put on, to the first frame, 95 %", tally.dress_ms.quantile(0.95), Aim::at_most,
-                  100.0, 0, " ms");
-    if (!tally.size_ms.empty()) {
-        targets.judge("size changed, to the first frame, 95 %", tally.size_ms.quantile(0.95), Aim::at_most,
-                      100.0, 0, " ms");
+    tally.dressed.judge("garment put on", 50.0, targets);
+    if (!tally.moving_mm.empty()) {
+        tally.resized.judge("size changed", 30.0, targets);
         targets.judge("moving a second later, a frame, 99 of 100 vertices, 95 %",
                       tally.moving_mm.quantile(0.95), Aim::at_most, 1.0, 2, " mm");
     }
@@ -369,8 +410,8 @@ void judge_garments(const Options& options) {
                         {"not_wearable", tally.refused},
                         {"skin_crossings", tally.skin_crossings},
                         {"self_crossings", tally.self_crossings},
-                        {"dress_ms", tally.dress_ms.json()},
-                        {"size_ms", tally.size_ms.json()},
+                        {"dress_ms", tally.dressed.ms.json()},
+                        {"size_ms", tally.resized.ms.json()},
                         {"step_ms", tally.step_ms.json()},
                         {"gap_mm", tally.gaps_mm.json()}});
 }
