@@ -94,26 +94,25 @@ void MeetingTriangles(const PatchBoxes& a, const PatchBoxes& b, const Vec3& marg
     }
 }
 
-void ClearBeforePlanes(const uint32_t (&corners)[3][kLanes], const Particle* begin, const Particle* end,
-                       const PatchBoxes& b, const Bounds& way, float reach_m, float max_way_m,
-                       uint8_t* meeting) {
-    const Vec3 middle = 0.5f * (way.low + way.high), half = 0.5f * (way.high - way.low);
+/// The least of n * way, of any way within the bounds.
+HWY_INLINE V LeastAlong(const Points& n, const Bounds& ways) {
+    const Vec3 middle = 0.5f * (ways.low + ways.high), half = 0.5f * (ways.high - ways.low);
+    return hn::Sub(Dot(n, Set(middle)), Dot({hn::Abs(n.x), hn::Abs(n.y), hn::Abs(n.z)}, Set(half)));
+}
+
+void ClearBeforePlanes(const uint32_t (&corners)[3][kLanes], const Particle* at, const PatchBoxes& b,
+                       const Bounds& past, float reach_m, float max_way_m, uint8_t* meeting) {
     for (size_t k = 0; k < kLanes; k += kWide) {
         const Points n = {hn::Load(kTag, b.normal[0] + k), hn::Load(kTag, b.normal[1] + k),
                           hn::Load(kTag, b.normal[2] + k)};
-        const V offset = hn::Add(hn::Load(kTag, b.offset + k), Set(reach_m));
-        const V plane_comes =
-            hn::Add(Dot(n, Set(middle)), Dot({hn::Abs(n.x), hn::Abs(n.y), hn::Abs(n.z)}, Set(half)));
+        const V comes = hn::Min(hn::Max(hn::Neg(LeastAlong(n, past)), hn::Zero(kTag)), Set(max_way_m));
+        const V limit = hn::Add(hn::Load(kTag, b.offset + k), hn::Add(comes, Set(reach_m)));
         for (size_t i = 0; i < kLanes; ++i) {
             if (meeting[i] == 0) continue;
-            V lowest = Set(INFINITY), goes = Set(INFINITY);
-            for (size_t corner = 0; corner < 3; ++corner) {
-                const Vec3 &from = begin[corners[corner][i]].x, &to = end[corners[corner][i]].x;
-                lowest = hn::Min(lowest, Dot(n, Set(to)));
-                goes = hn::Min(goes, Dot(n, Set(to - from)));
-            }
-            const V comes = hn::Min(hn::Max(hn::Sub(plane_comes, goes), hn::Zero(kTag)), Set(max_way_m));
-            const uint32_t before = Bits(hn::Gt(lowest, hn::Add(offset, comes))) << k;
+            const V lowest =
+                hn::Min(Dot(n, Set(at[corners[0][i]].x)),
+                        hn::Min(Dot(n, Set(at[corners[1][i]].x)), Dot(n, Set(at[corners[2][i]].x))));
+            const uint32_t before = Bits(hn::Gt(lowest, limit)) << k;
             meeting[i] = uint8_t(meeting[i] & ~before);
         }
     }
@@ -516,11 +515,10 @@ std::array<uint8_t, kLanes> meeting_triangles(const PatchBoxes& a, const PatchBo
     HWY_DYNAMIC_DISPATCH(MeetingTriangles)(a, b, margin, out.data());
     return out;
 }
-void clear_before_planes(const uint32_t (&corners)[3][kLanes], const Particle* begin, const Particle* end,
-                         const PatchBoxes& b, const Bounds& way, float reach_m, float max_way_m,
+void clear_before_planes(const uint32_t (&corners)[3][kLanes], const Particle* at, const PatchBoxes& b,
+                         const Bounds& past, float reach_m, float max_way_m,
                          std::array<uint8_t, kLanes>& meeting) {
-    HWY_DYNAMIC_DISPATCH(ClearBeforePlanes)
-    (corners, begin, end, b, way, reach_m, max_way_m, meeting.data());
+    HWY_DYNAMIC_DISPATCH(ClearBeforePlanes)(corners, at, b, past, reach_m, max_way_m, meeting.data());
 }
 void classify(std::span<TrianglePairs> pairs, const Particle* begin, const Particle* end, float reach_m,
               bool certifies) {

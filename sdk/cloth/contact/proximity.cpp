@@ -102,8 +102,7 @@ void Proximity::find_close(std::span<const Particle> begin, std::span<const Part
             surface.all.pairs.clear();
             if (surface.is_shown) {
                 surface.patches->move(begin, end, jobs);
-                cloth_.find_pairs_with_solid(*surface.patches, begin, end, surface.reach_m, surface.all.pairs,
-                                             jobs);
+                cloth_.find_pairs_with_solid(*surface.patches, end, surface.reach_m, surface.all.pairs, jobs);
                 filter(surface, 0);
             }
         } else if (are_classified_) {

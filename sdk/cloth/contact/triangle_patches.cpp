@@ -257,7 +257,7 @@ bool TrianglePatches::in_one_cone(uint32_t patch, uint32_t other) const {
            cosine_of_sum(glm::dot(b.normal, axis) / length, b.min_cosine) > kConeCosine;
 }
 
-void TrianglePatches::find_pairs(const TrianglePatches& other, float reach_m, const Ends* of_solid,
+void TrianglePatches::find_pairs(const TrianglePatches& other, float reach_m, const Particle* of_solid,
                                  std::vector<Pair>& out, Jobs& jobs) {
     const bool own = this == &other;
     parallel_for(jobs, uint32_t(shares_.size()), [&](uint32_t number) {
@@ -296,17 +296,17 @@ void TrianglePatches::find_meeting_patches(uint32_t patch, const TrianglePatches
 }
 
 void TrianglePatches::meet(uint32_t patch, const TrianglePatches& other, uint32_t of_other, float reach_m,
-                           const Ends* of_solid, std::vector<Pair>& out) const {
+                           const Particle* of_solid, std::vector<Pair>& out) const {
     const bool own = this == &other && patch == of_other;
     const float max_way_m = of_solid ? kMaxWayPastSolid_m : kMaxWay_m;
-    const Bounds &way = patches_[patch].way, &other_way = other.patches_[of_other].way;
-    const Vec3 past = glm::min(farther(way.low - other_way.high, way.high - other_way.low), Vec3(max_way_m));
+    const Bounds &way = patches_[patch].way, &other_way = other.patches_[of_other].way,
+                 past{way.low - other_way.high, way.high - other_way.low};
+    const Vec3 margin = glm::min(farther(past.low, past.high), Vec3(max_way_m)) + reach_m;
     const uint32_t first = begin_of(patch), of_second = other.begin_of(of_other);
-    std::array<uint8_t, kLanes> all =
-        meeting_triangles(boxes_[patch], other.boxes_[of_other], past + reach_m);
+    std::array<uint8_t, kLanes> all = meeting_triangles(boxes_[patch], other.boxes_[of_other], margin);
     if (of_solid)
-        clear_before_planes(corners_[patch].at, of_solid->begin, of_solid->end, other.boxes_[of_other],
-                            other_way, reach_m, max_way_m, all);
+        clear_before_planes(corners_[patch].at, of_solid, other.boxes_[of_other], past, reach_m, max_way_m,
+                            all);
     for (uint32_t i = 0; i < ends_[patch] - first; ++i)
         for (uint32_t left = own ? all[i] & ~0u << (i + 1) : all[i]; left; left &= left - 1)
             out.push_back(

@@ -57,12 +57,10 @@ public:
         find_pairs(other, reach_m, nullptr, out, jobs);
     }
     /// The same for a solid: without triangles that lie before the other's plane, now and after the same way
-    /// again. begin, end: as for move().
-    void find_pairs_with_solid(const TrianglePatches& solid, std::span<const Particle> begin,
-                               std::span<const Particle> end, float reach_m, std::vector<Pair>& out,
-                               Jobs& jobs) {
-        const Ends ends{begin.data(), end.data()};
-        find_pairs(solid, reach_m, &ends, out, jobs);
+    /// again. end: as for move().
+    void find_pairs_with_solid(const TrianglePatches& solid, std::span<const Particle> end, float reach_m,
+                               std::vector<Pair>& out, Jobs& jobs) {
+        find_pairs(solid, reach_m, end.data(), out, jobs);
     }
     /// As find_pairs(): those pairs alone of which a triangle is of one of these patches of this surface,
     /// rising.
@@ -83,16 +81,14 @@ private:
     bool are_adjacent(uint32_t patch, uint32_t other) const;
     bool in_one_cone(uint32_t patch, uint32_t other) const;
     void move_patch(std::span<const Particle> begin, std::span<const Particle> end, uint32_t patch);
-    struct Ends {
-        const Particle *begin, *end;
-    };
-    void find_pairs(const TrianglePatches& other, float reach_m, const Ends* of_solid, std::vector<Pair>& out,
-                    Jobs& jobs);
+    /// of_solid: places at the end, where the other is a solid.
+    void find_pairs(const TrianglePatches& other, float reach_m, const Particle* of_solid,
+                    std::vector<Pair>& out, Jobs& jobs);
     /// Patches of the other from `first` on.
     void find_meeting_patches(uint32_t patch, const TrianglePatches& other, uint32_t first, float reach_m,
                               float max_way_m, std::vector<uint32_t>& out) const;
     void meet(uint32_t patch, const TrianglePatches& other, uint32_t of_other, float reach_m,
-              const Ends* of_solid, std::vector<Pair>& out) const;
+              const Particle* of_solid, std::vector<Pair>& out) const;
 
     std::vector<Triangle> triangles_;  // patch by patch
     std::vector<uint32_t> ends_;       // of patches in these

@@ -289,7 +289,7 @@ TEST(TrianglePatches, OfASolidOnlyWhatLiesBeforeItsPlanesIsLeftOut) {
         cloth.move(triangles.end, triangles.end, *jobs), solid.move(triangles.end, triangles.end, *jobs);
         std::vector<TrianglePatches::Pair> all, kept;
         cloth.find_pairs(solid, kReach_m, all, *jobs);
-        cloth.find_pairs_with_solid(solid, triangles.end, triangles.end, kReach_m, kept, *jobs);
+        cloth.find_pairs_with_solid(solid, triangles.end, kReach_m, kept, *jobs);
         std::set<TrianglePair> left;
         for (const auto& pair : kept) left.insert({pair.first->number, pair.second->number});
         size_t dropped = 0;
