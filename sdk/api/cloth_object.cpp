@@ -138,17 +138,31 @@ void ClothObject::pass(const Ref<PropObject>& prop) {
 void ClothObject::see_layers() {
     for (size_t i = 0; i < below_.size(); ++i) {
         const Reading reading(below_[i]->access, "cloth below");
-        if (below_[i]->stepping_) fail(VFIT_ERROR_STATE, "a step of the cloth below has begun: end it first");
-        worn.see_layer(i, below_[i]->worn.positions());
+        worn.see_layer(i, below_[i]->stepped());
     }
+}
+
+/// The vertices of a cloth below another one.
+const std::vector<Vec3>& ClothObject::stepped() const {
+    if (stepping_) fail(VFIT_ERROR_STATE, "a step of the cloth below has begun: end it first");
+    return worn.positions();
 }
 
 void ClothObject::wear_over(const Ref<ClothObject>& inner) {
     require_no_step();
     std::vector<Reading> readings;
     inner->read_below(*this, readings);
+    const Reading reading = read_avatar();
+    see_layers();
+    const std::vector<Vec3>& lies = inner->stepped();
     below_.reserve(below_.size() + 1);
-    if (worn.wear_over(inner->worn)) below_.push_back(inner);
+    Ref<Frame> next = output.begin();
+    if (!worn.wear_over(inner->worn)) return;
+    below_.push_back(inner);
+    worn.see_layer(below_.size() - 1, lies);
+    worn.let_last_layer_grow();
+    next_ = std::move(next);
+    publish_step();
 }
 
 /// Of all layers down to `end`, which the caller has for itself: other threads may dress them.

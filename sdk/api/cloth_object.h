@@ -52,6 +52,7 @@ struct ClothObject : ContextChild {
 private:
     Reading read_avatar() { return {avatar->access, "avatar"}; }
     void see_layers();
+    const std::vector<Vec3>& stepped() const;
     void drop_destroyed_props();
     class ReadingProps;
     void read_below(const ClothObject& end, std::vector<Reading>& readings) const;

@@ -29,10 +29,12 @@ public:
     void move(Cloth& cloth) const;
     void hide(Cloth& cloth) const;
 
-    /// While the garment is put on, each layer grows from the bones (axes: one a rig bone) to where it was
-    /// seen last: `fraction` of the way, from 0 to 1. Grown from the skin, a skirt would come out of two
-    /// legs, between which the garment hangs.
-    void start_to_grow(std::span<const BoneAxis> axes);
+    /// Layers from the `first` on grow from the bones (axes: one a rig bone) to where they were seen last:
+    /// `fraction` of the way, from 0 to 1; those before are there. Grown from the skin, a skirt would come
+    /// out of two legs, between which the garment hangs.
+    void start_to_grow(std::span<const BoneAxis> axes, size_t first);
+    /// Up to which fraction what grows lies inside of a cloth with these triangles.
+    float inside(std::span<const Vec3> positions, std::span<const uint32_t> indices, Jobs& jobs);
     void grow(float fraction, Cloth& cloth);
     void end_growth(Cloth& cloth) const;
 
@@ -45,7 +47,9 @@ private:
         std::vector<Vec3> seen;
         std::vector<Vec3> on_bones;  // the vertices of `seen`, each within the bones that carry it
     };
+    std::span<const Layer> growing() const { return std::span(layers_).subspan(first_growing_); }
     std::vector<Layer> layers_;
+    size_t first_growing_ = 0;
     std::vector<Vec3> places_;
 };
 

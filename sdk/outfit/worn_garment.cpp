@@ -137,6 +137,7 @@ void WornGarment::jump_to_pose() {
 }
 
 void WornGarment::put_on() {
+    constexpr int kSettles = 10;  // frames, over layers
     time_ns_ = wearer_.avatar().time_ns();
     stand();
     std::vector<Mat4> matrices(avatar_pose().size());
@@ -149,19 +150,21 @@ void WornGarment::put_on() {
             place_on_the_way(matrices, targets, colliders);
         },
         jobs_);
-    if (layers_.count() > 0) let_layers_grow();
+    if (layers_.count() > 0) let_layers_grow(0, kSettles);
     keep_step();
 }
 
-/// The layers are there in the pose alone. They grow and push the cloth outwards as a whole: were they there
-/// at once, parts of it would be inside of them and parts outside.
-void WornGarment::let_layers_grow() {
-    constexpr int kGrows = 40, kSettles = 10;  // frames
+/// Layers from the `first` on, which are there in the avatar's pose alone. They grow and push the cloth
+/// outwards as a whole: were they there at once, parts of it would be inside of them and parts outside.
+void WornGarment::let_layers_grow(size_t first, int settles) {
+    constexpr int kGrows = 20;  // frames
     wearer_.avatar().colliders(colliders_);
     obstacles_.select(avatar_pose(), colliders_, jobs_);
+    obstacles_.move_skin(avatar_pose(), cloth_, jobs_);
     place_in_pose();
-    layers_.start_to_grow(wearer_.avatar().bone_axes(avatar_pose()));
-    for (int frame = 1; frame <= kGrows + kSettles; ++frame) {
+    layers_.start_to_grow(wearer_.avatar().bone_axes(avatar_pose()), first);
+    const float inside = layers_.inside(cloth_.positions(), dress_.indices(), jobs_);
+    for (int frame = 1 + int(inside * float(kGrows)); frame <= kGrows + settles; ++frame) {
         if (frame <= kGrows)
             layers_.grow(float(frame) / float(kGrows), cloth_);
         else
@@ -169,6 +172,15 @@ void WornGarment::let_layers_grow() {
         cloth_.step(1.0f / 60.0f, targets_, colliders_, jobs_);
         if (frame == kGrows) layers_.end_growth(cloth_);
     }
+}
+
+void WornGarment::let_last_layer_grow() {
+    constexpr int kSettles = 2;
+    jump_to_pose();
+    time_ns_ = wearer_.avatar().time_ns();
+    stand();
+    let_layers_grow(layers_.count() - 1, kSettles);
+    keep_step();
 }
 
 void WornGarment::start_with_legs_apart() {

@@ -39,6 +39,8 @@ public:
     /// it did so before. VFIT_ERROR_ARGUMENT where inner is this, or is worn over this. Nothing may change
     /// inner and the layers below it meanwhile.
     bool wear_over(const WornGarment& inner);
+    /// After wear_over() and see_layer(): pushes this out of that layer, in the avatar's pose.
+    void let_last_layer_grow();
     const LayersBelow& layers() const { return layers_; }
     /// A layer has been stepped to there, one position a vertex: before each step, put_on and change_to.
     void see_layer(size_t layer, std::span<const Vec3> positions) { layers_.see(layer, positions); }
@@ -119,7 +121,7 @@ private:
     void jump_to_pose();
     void start_with_legs_apart();
     void come_to_lengths(bool is_new);
-    void let_layers_grow();
+    void let_layers_grow(size_t first, int settles);
     void keep_step();
     UnposedGarment unposed(std::span<const Vec3> positions) const;
 

@@ -25,9 +25,10 @@ protected:
             << contract::last_error();
         return made;
     }
-    vfit_cloth make(uint32_t flags = 0) {
+    vfit_cloth make(uint32_t flags = 0, float self_thickness_m = 0.0f) {
         vfit_cloth_desc desc = vfit_cloth_desc_init();
         desc.flags = flags | VFIT_CLOTH_AWAKE;
+        desc.self_thickness_m = self_thickness_m;
         vfit_cloth cloth{};
         EXPECT_EQ(vfit_cloth_create(avatar, garment, &desc, &cloth), VFIT_OK) << contract::last_error();
         return cloth;
@@ -85,6 +86,23 @@ TEST_F(OutfitTest, OneDressTwiceCrossesAndOneOverTheOtherDoesNot) {
     for (const vfit_crossing& c : check({inner, outer})) EXPECT_EQ(c.kind, VFIT_CROSSING_SELF);
 }
 
+TEST_F(OutfitTest, OneDressPutOnOverTheOtherLiesOutsideOfItAtOnce) {
+    const vfit_cloth inner = make(VFIT_CLOTH_SKIN, 0.004f), outer = make(VFIT_CLOTH_SKIN, 0.004f);
+    ASSERT_EQ(vfit_cloth_step(inner, kOutfitStep_s), VFIT_OK);
+    ASSERT_EQ(vfit_cloth_step(outer, kOutfitStep_s), VFIT_OK);
+    vfit_frame before{}, after{};
+    ASSERT_EQ(vfit_cloth_acquire(outer, &before), VFIT_OK);
+    ASSERT_EQ(vfit_cloth_wear_over(outer, inner), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_cloth_acquire(outer, &after), VFIT_OK);
+    EXPECT_NE(before.id, after.id) << "it has moved";
+    for (int i = 0; i < 30; ++i) {
+        for (const vfit_crossing& c : check({inner, outer})) EXPECT_NE(c.kind, VFIT_CROSSING_CLOTH) << i;
+        for (const vfit_cloth cloth : {inner, outer})
+            ASSERT_EQ(vfit_cloth_step(cloth, kOutfitStep_s), VFIT_OK) << contract::last_error();
+    }
+    for (const vfit_frame frame : {before, after}) ASSERT_EQ(vfit_frame_release(frame), VFIT_OK);
+}
+
 TEST_F(OutfitTest, AStepThatRunsIsNotWaitedFor) {
     const vfit_cloth cloth = make(VFIT_CLOTH_SKIN), twin = make(VFIT_CLOTH_SKIN);
     const auto before = check({cloth, twin});
@@ -110,6 +128,9 @@ TEST_F(OutfitTest, WhileALayerStepsTheOuterOneIsRefusedAndStaysAsItIs) {
     EXPECT_EQ(vfit_cloth_begin_step(outer, kOutfitStep_s), VFIT_ERROR_STATE);
     EXPECT_EQ(vfit_cloth_reset(outer), VFIT_ERROR_STATE);
     EXPECT_EQ(vfit_cloth_set_size(outer, "M"), VFIT_ERROR_STATE);
+    const vfit_cloth second = make();
+    EXPECT_EQ(vfit_cloth_wear_over(outer, second), VFIT_ERROR_STATE) << "the first one below is on its way";
+    EXPECT_EQ(vfit_cloth_wear_over(second, inner), VFIT_ERROR_STATE);
     EXPECT_EQ(hash(), before);
     ASSERT_EQ(vfit_cloth_end_step(inner), VFIT_OK) << contract::last_error();
     EXPECT_EQ(vfit_cloth_reset(outer), VFIT_OK) << contract::last_error();

@@ -67,8 +67,6 @@ WornOutfit::WornOutfit(vfit_context context, vfit_avatar avatar, const std::stri
         if (made == VFIT_ERROR_NOT_WEARABLE) throw NotWearable(last_error());
         check(made);
         for (const Layer& inner : layers_) check(vfit_cloth_wear_over(layer.cloth.get(), inner.cloth.get()));
-        // A layer on top of others is put on from outside of them.
-        if (!layers_.empty()) check(vfit_cloth_reset(layer.cloth.get()));
         layers_.push_back(std::move(layer));
     }
 }

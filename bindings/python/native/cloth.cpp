@@ -359,7 +359,9 @@ void bind_cloth(py::module_& m) {
                 [](const Cloth& c, const Cloth& inner) {
                     run([h = c.get(), i = inner.get()] { return vfit_cloth_wear_over(h, i); });
                 },
-                "inner"_a, "Stays outside of that cloth from now on; step the inner one first.")
+                "inner"_a,
+                "Puts this on over that cloth, and stays outside of it from now on; step the inner one "
+                "first.")
             .def(
                 "hide_skin", &hide_skin, "margin_m"_a = 0.0f, "hidden"_a = py::none(),
                 "One True a triangle of the avatar's that this garment hides: leave it out of what you draw. "
