@@ -121,6 +121,7 @@ private:
     void jump_to_pose();
     void start_with_legs_apart();
     void come_to_lengths(bool is_new);
+    void check_lengths(const std::string& label, std::span<const Vec2> cut);
     void let_layers_grow(size_t first, int settles);
     void keep_step();
     UnposedGarment unposed(std::span<const Vec3> positions) const;
