@@ -28,10 +28,7 @@ void Proximity::add_mesh(size_t vertices, std::span<const uint32_t> indices, flo
 
 void Proximity::show_mesh(uint32_t mesh, std::span<const Vec3> positions) {
     Surface& surface = surfaces_[mesh + 1];
-    if (!surface.patches)
-        surface.patches.emplace(positions, surface.indices, surface.first_vertex,
-                                surface.what == MeshOf::solid ? TrianglePatches::Grouping::in_space
-                                                              : TrianglePatches::Grouping::connected);
+    if (!surface.patches) surface.patches.emplace(positions, surface.indices, surface.first_vertex);
     surface.indices.clear();
     surface.is_shown = true;
 }

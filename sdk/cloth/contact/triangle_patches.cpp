@@ -44,18 +44,6 @@ std::vector<Vec3> middles_of(std::span<const Vec3> positions, std::span<const ui
     return middles;
 }
 
-/// Triangles that lie together, eight a patch.
-void group_in_space(std::span<const Vec3> positions, std::span<const uint32_t> indices,
-                    std::vector<uint32_t>& triangles, std::vector<uint32_t>& ends) {
-    triangles.resize(indices.size() / 3);
-    std::iota(triangles.begin(), triangles.end(), 0u);
-    sort_in_space(middles_of(positions, indices), triangles);
-    for (size_t end = 0; end < triangles.size();) {
-        end = std::min(end + kLanes, triangles.size());
-        ends.push_back(uint32_t(end));
-    }
-}
-
 /// Grows connected patches: each from the triangle that has the fewest neighbours left, by those closest to
 /// it.
 class Growth {
@@ -144,12 +132,9 @@ bool TrianglePatches::Pair::shares_vertex() const {
 }
 
 TrianglePatches::TrianglePatches(std::span<const Vec3> positions, std::span<const uint32_t> indices,
-                                 uint32_t first_vertex, Grouping grouping) {
+                                 uint32_t first_vertex) {
     std::vector<uint32_t> order;
-    if (grouping == Grouping::connected)
-        Growth(positions, indices).list(order, ends_);
-    else
-        group_in_space(positions, indices, order, ends_);
+    Growth(positions, indices).list(order, ends_);
     for (const uint32_t t : order)
         triangles_.push_back({{first_vertex + indices[3 * t], first_vertex + indices[3 * t + 1],
                                first_vertex + indices[3 * t + 2]},

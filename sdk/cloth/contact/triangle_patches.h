@@ -26,13 +26,10 @@ public:
         uint8_t own_vertices, own_edges;
     };
 
-    /// connected: patches grow from triangle to triangle. in_space: they are found in a tenth of the time,
-    /// for a skin of many thousand triangles.
-    enum class Grouping { connected, in_space };
     /// Three indices a triangle; positions by which triangles are grouped. first_vertex: of the surface in
-    /// the arrays of positions that follow; beyond 0, of a mesh, which does not meet itself.
+    /// the arrays of positions that follow.
     TrianglePatches(std::span<const Vec3> positions, std::span<const uint32_t> indices,
-                    uint32_t first_vertex = 0, Grouping grouping = Grouping::connected);
+                    uint32_t first_vertex = 0);
 
     /// Where the vertices are at both ends of the step. Does not allocate.
     void move(std::span<const Particle> begin, std::span<const Particle> end, Jobs& jobs);
