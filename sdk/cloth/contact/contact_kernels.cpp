@@ -95,7 +95,7 @@ void MeetingTriangles(const PatchBoxes& a, const PatchBoxes& b, const Vec3& marg
 }
 
 /// The least of n * way, of any way within the bounds.
-HWY_INLINE V LeastAlong(const Points& n, const Bounds& ways) {
+HWY_INLINE V MinAlong(const Points& n, const Bounds& ways) {
     const Vec3 middle = 0.5f * (ways.low + ways.high), half = 0.5f * (ways.high - ways.low);
     return hn::Sub(Dot(n, Set(middle)), Dot({hn::Abs(n.x), hn::Abs(n.y), hn::Abs(n.z)}, Set(half)));
 }
@@ -105,7 +105,7 @@ void ClearBeforePlanes(const uint32_t (&corners)[3][kLanes], const Particle* at,
     for (size_t k = 0; k < kLanes; k += kWide) {
         const Points n = {hn::Load(kTag, b.normal[0] + k), hn::Load(kTag, b.normal[1] + k),
                           hn::Load(kTag, b.normal[2] + k)};
-        const V comes = hn::Min(hn::Max(hn::Neg(LeastAlong(n, past)), hn::Zero(kTag)), Set(max_way_m));
+        const V comes = hn::Min(hn::Max(hn::Neg(MinAlong(n, past)), hn::Zero(kTag)), Set(max_way_m));
         const V limit = hn::Add(hn::Load(kTag, b.offset + k), hn::Add(comes, Set(reach_m)));
         for (size_t i = 0; i < kLanes; ++i) {
             if (meeting[i] == 0) continue;

@@ -99,7 +99,9 @@ namespace Vfit
             Calls.ClothSetQuality(Handle, (uint)substeps, budgetMs);
         }
 
-        /// <summary>Puts this on over inner, and stays outside of it from now on: step that one first, each frame.</summary>
+        /// <summary>
+        /// Puts this on over inner, and stays outside of it from now on: step that one first, each frame.
+        /// </summary>
         public void WearOver(Cloth inner)
         {
             Calls.ClothWearOver(Handle, Of(inner, "inner"));
