@@ -137,7 +137,6 @@ void WornGarment::jump_to_pose() {
 }
 
 void WornGarment::put_on() {
-    constexpr int kSettles = 10;  // frames, over layers
     time_ns_ = wearer_.avatar().time_ns();
     stand();
     std::vector<Mat4> matrices(avatar_pose().size());
@@ -150,36 +149,34 @@ void WornGarment::put_on() {
             place_on_the_way(matrices, targets, colliders);
         },
         jobs_);
-    if (layers_.count() > 0) let_layers_grow(0, kSettles);
+    if (layers_.count() > 0) let_layers_grow(0, {40, 10});
     keep_step();
 }
 
 /// Layers from the `first` on, which are there in the avatar's pose alone. They grow and push the cloth
 /// outwards as a whole: were they there at once, parts of it would be inside of them and parts outside.
-void WornGarment::let_layers_grow(size_t first, int settles) {
-    constexpr int kGrows = 20;  // frames
+void WornGarment::let_layers_grow(size_t first, const GrowthFrames& frames) {
     wearer_.avatar().colliders(colliders_);
     obstacles_.select(avatar_pose(), colliders_, jobs_);
     obstacles_.move_skin(avatar_pose(), cloth_, jobs_);
     place_in_pose();
     layers_.start_to_grow(wearer_.avatar().bone_axes(avatar_pose()), first);
     const float inside = layers_.inside(cloth_.positions(), dress_.indices(), jobs_);
-    for (int frame = 1 + int(inside * float(kGrows)); frame <= kGrows + settles; ++frame) {
-        if (frame <= kGrows)
-            layers_.grow(float(frame) / float(kGrows), cloth_);
+    for (int frame = 1 + int(inside * float(frames.grow)); frame <= frames.grow + frames.settle; ++frame) {
+        if (frame <= frames.grow)
+            layers_.grow(float(frame) / float(frames.grow), cloth_);
         else
             layers_.move(cloth_);
         cloth_.step(1.0f / 60.0f, targets_, colliders_, jobs_);
-        if (frame == kGrows) layers_.end_growth(cloth_);
+        if (frame == frames.grow) layers_.end_growth(cloth_);
     }
 }
 
 void WornGarment::let_last_layer_grow() {
-    constexpr int kSettles = 2;
     jump_to_pose();
     time_ns_ = wearer_.avatar().time_ns();
     stand();
-    let_layers_grow(layers_.count() - 1, kSettles);
+    let_layers_grow(layers_.count() - 1, {20, 2});  // it is waited for
     keep_step();
 }
 

@@ -122,7 +122,10 @@ private:
     void start_with_legs_apart();
     void come_to_lengths(bool is_new);
     void check_lengths(const std::string& label, std::span<const Vec2> cut);
-    void let_layers_grow(size_t first, int settles);
+    struct GrowthFrames {
+        int grow, settle;  // of 1/60 s
+    };
+    void let_layers_grow(size_t first, const GrowthFrames& frames);
     void keep_step();
     UnposedGarment unposed(std::span<const Vec3> positions) const;
 
