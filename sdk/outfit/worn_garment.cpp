@@ -37,7 +37,7 @@ WornGarment::WornGarment(const WearableGarment& garment, const Wearer& wearer, c
         start_with_legs_apart();
         come_to_lengths(true);
     }
-    if (size.own && !any_fit_) check_lengths(*size_, cut_);
+    if (size.own && !any_fit_) check_stretch({garment_, *size_, dress_, cut_}, cloth_);
     keep_step();
 }
 
@@ -200,17 +200,6 @@ void WornGarment::come_to_lengths(bool is_new) {
         jobs_);
 }
 
-/// What seems too small may only be slow to slide to where it has room: it gets as much time again.
-void WornGarment::check_lengths(const std::string& label, std::span<const Vec2> cut) {
-    const SizedGarment sized{garment_, label, dress_, cut};
-    try {
-        return check_stretch(sized, cloth_);
-    } catch (const Error&) {
-        come_to_lengths(false);
-    }
-    check_stretch(sized, cloth_);
-}
-
 WornGarment::Resized WornGarment::in_size(const SizeLabel& label) const {
     const SizeChoice size = choose_size(garment(), label, wearer_);
     std::vector<Vec2> cut = closing_cut(label, size);
@@ -227,7 +216,8 @@ void WornGarment::change_to(Resized resized) {
     try {
         jump_to_pose();
         come_to_lengths(false);
-        if (resized.has_own_lengths && !any_fit_) check_lengths(*resized.label, cut_);
+        if (resized.has_own_lengths && !any_fit_)
+            check_stretch({garment_, *resized.label, dress_, cut_}, cloth_);
     } catch (...) {
         cloth_ = std::move(resized.cloth);
         cut_ = std::move(resized.cut);
