@@ -1048,7 +1048,7 @@ VFIT_API vfit_result vfit_cloth_set_quality(vfit_cloth cloth, uint32_t substeps,
 /* From now on cloth is worn over inner, a cloth of the same avatar, and stays outside of it by its thickness:
  * step inner first, each frame. Within this call inner grows from within the body to where its last step left
  * it and pushes cloth outwards, in the pose that the avatar has now; acquire then gives that state. Takes as
- * long as about 20 steps. Where cloth is too tight for what is below, it lets that through rather than tear.
+ * long as 20 to 40 steps. Where cloth is too tight for what is below, it lets that through rather than tear.
  * An inner one that gets destroyed stays where it was. VFIT_ERROR_ARGUMENT where cloth is worn below inner
  * already, VFIT_ERROR_STATE while a step of inner or of another layer below runs. [excl] */
 VFIT_API vfit_result vfit_cloth_wear_over(vfit_cloth cloth, vfit_cloth inner);
