@@ -1,5 +1,6 @@
 // The avatar while a garment is put on. Put on in the pose, a skirt would start between two legs that step,
-// or around a hand; on a body that stands straight and then moves into the pose it is pushed to its place.
+// or around a hand; on a body that stands straight and then moves into the pose it is pushed to its place. Arms
+// and legs stand apart at first: where limbs touch, the cloth that they carry would begin crossed.
 #include "avatar/avatar.h"
 
 namespace vfit {
@@ -8,10 +9,13 @@ namespace {
 
 constexpr float kArmsOutRad =
     0.9f;  // of the upper arms below the T-pose: clear of the trunk and of a flared skirt
+constexpr float kLegsOutRad = 0.15f;  // of each leg: the legs of wide trousers are clear of each other
 
 Quat straight(int bone) {
     const float turn = bone == VFIT_BONE_LEFT_UPPER_ARM    ? -kArmsOutRad
                        : bone == VFIT_BONE_RIGHT_UPPER_ARM ? kArmsOutRad
+                       : bone == VFIT_BONE_LEFT_UPPER_LEG  ? kLegsOutRad
+                       : bone == VFIT_BONE_RIGHT_UPPER_LEG ? -kLegsOutRad
                                                            : 0.0f;
     return glm::angleAxis(turn, Vec3(0, 0, 1));
 }

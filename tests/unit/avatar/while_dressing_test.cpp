@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "body_fixture.h"
 
@@ -61,13 +62,16 @@ TEST(BoneAxes, RunFromJointToJointOfThePosedBody) {
     FAIL() << "no thigh";
 }
 
-TEST(WhileDressing, BeginsUprightOverTheHipsWithTheArmsOut) {
+TEST(WhileDressing, BeginsUprightOverTheHipsWithArmsAndLegsApart) {
     const Avatar avatar = striding();
     const Dressed begin(avatar, 0.0f);
     const Vec3 left(std::cos(0.8f), 0, -std::sin(0.8f));  // of the turned hips
-    for (const auto& [hip, foot] : {std::pair(VFIT_JOINT_LEFT_HIP, VFIT_JOINT_LEFT_FOOT),
-                                    std::pair(VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_RIGHT_FOOT)})
-        EXPECT_GT(glm::normalize(begin.at(hip) - begin.at(foot)).y, 0.999f);
+    for (const auto& [hip, foot, outwards] : {std::tuple(VFIT_JOINT_LEFT_HIP, VFIT_JOINT_LEFT_FOOT, left),
+                                              std::tuple(VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_RIGHT_FOOT, -left)}) {
+        const Vec3 along = glm::normalize(begin.at(foot) - begin.at(hip));
+        EXPECT_LT(along.y, -0.98f);
+        EXPECT_NEAR(glm::dot(along, outwards), 0.15f, 0.04f);
+    }
     EXPECT_GT(glm::dot(begin.at(VFIT_JOINT_LEFT_HAND) - begin.at(VFIT_JOINT_LEFT_SHOULDER), left), 0.25f);
     EXPECT_LT(glm::dot(begin.at(VFIT_JOINT_RIGHT_HAND) - begin.at(VFIT_JOINT_RIGHT_SHOULDER), left), -0.25f);
     const Vec3 hips = 0.5f * (begin.at(VFIT_JOINT_LEFT_HIP) + begin.at(VFIT_JOINT_RIGHT_HIP));
