@@ -1,6 +1,6 @@
 // The avatar while a garment is put on. Put on in the pose, a skirt would start between two legs that step,
-// or around a hand; on a body that stands straight and then moves into the pose it is pushed to its place. Arms
-// and legs stand apart at first: where limbs touch, the cloth that they carry would begin crossed.
+// or around a hand; on a body that stands straight and then moves into the pose it is pushed to its place.
+// Arms and legs stand apart at first: where limbs touch, the cloth that they carry would begin crossed.
 #include "avatar/avatar.h"
 
 namespace vfit {

@@ -66,8 +66,9 @@ TEST(WhileDressing, BeginsUprightOverTheHipsWithArmsAndLegsApart) {
     const Avatar avatar = striding();
     const Dressed begin(avatar, 0.0f);
     const Vec3 left(std::cos(0.8f), 0, -std::sin(0.8f));  // of the turned hips
-    for (const auto& [hip, foot, outwards] : {std::tuple(VFIT_JOINT_LEFT_HIP, VFIT_JOINT_LEFT_FOOT, left),
-                                              std::tuple(VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_RIGHT_FOOT, -left)}) {
+    for (const auto& [hip, foot, outwards] :
+         {std::tuple(VFIT_JOINT_LEFT_HIP, VFIT_JOINT_LEFT_FOOT, left),
+          std::tuple(VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_RIGHT_FOOT, -left)}) {
         const Vec3 along = glm::normalize(begin.at(foot) - begin.at(hip));
         EXPECT_LT(along.y, -0.98f);
         EXPECT_NEAR(glm::dot(along, outwards), 0.15f, 0.04f);
