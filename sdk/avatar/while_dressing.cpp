@@ -9,7 +9,7 @@ namespace {
 
 constexpr float kArmsOutRad =
     0.9f;  // of the upper arms below the T-pose: clear of the trunk and of a flared skirt
-constexpr float kLegsOutRad = 0.15f;  // of each leg: the legs of wide trousers are clear of each other
+constexpr float kLegsOutRad = 0.12f;  // of each leg: the legs of wide trousers are clear of each other
 
 Quat straight(int bone) {
     const float turn = bone == VFIT_BONE_LEFT_UPPER_ARM    ? -kArmsOutRad

@@ -71,7 +71,7 @@ TEST(WhileDressing, BeginsUprightOverTheHipsWithArmsAndLegsApart) {
           std::tuple(VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_RIGHT_FOOT, -left)}) {
         const Vec3 along = glm::normalize(begin.at(foot) - begin.at(hip));
         EXPECT_LT(along.y, -0.98f);
-        EXPECT_NEAR(glm::dot(along, outwards), 0.15f, 0.04f);
+        EXPECT_NEAR(glm::dot(along, outwards), 0.12f, 0.03f);
     }
     EXPECT_GT(glm::dot(begin.at(VFIT_JOINT_LEFT_HAND) - begin.at(VFIT_JOINT_LEFT_SHOULDER), left), 0.25f);
     EXPECT_LT(glm::dot(begin.at(VFIT_JOINT_RIGHT_HAND) - begin.at(VFIT_JOINT_RIGHT_SHOULDER), left), -0.25f);
