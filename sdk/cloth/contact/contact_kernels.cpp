@@ -94,13 +94,18 @@ void MeetingTriangles(const PatchBoxes& a, const PatchBoxes& b, const Vec3& marg
     }
 }
 
+/// The least of n * way, of any way within the bounds.
+HWY_INLINE V MinAlong(const Points& n, const Bounds& ways) {
+    const Vec3 middle = 0.5f * (ways.low + ways.high), half = 0.5f * (ways.high - ways.low);
+    return hn::Sub(Dot(n, Set(middle)), Dot({hn::Abs(n.x), hn::Abs(n.y), hn::Abs(n.z)}, Set(half)));
+}
+
 void ClearBeforePlanes(const uint32_t (&corners)[3][kLanes], const Particle* at, const PatchBoxes& b,
-                       const Vec3& way, float reach_m, uint8_t* meeting) {
+                       const Bounds& past, float reach_m, float max_way_m, uint8_t* meeting) {
     for (size_t k = 0; k < kLanes; k += kWide) {
         const Points n = {hn::Load(kTag, b.normal[0] + k), hn::Load(kTag, b.normal[1] + k),
                           hn::Load(kTag, b.normal[2] + k)};
-        const V comes = hn::MulAdd(hn::Abs(n.x), Set(way.x),
-                                   hn::MulAdd(hn::Abs(n.y), Set(way.y), hn::Mul(hn::Abs(n.z), Set(way.z))));
+        const V comes = hn::Min(hn::Max(hn::Neg(MinAlong(n, past)), hn::Zero(kTag)), Set(max_way_m));
         const V limit = hn::Add(hn::Load(kTag, b.offset + k), hn::Add(comes, Set(reach_m)));
         for (size_t i = 0; i < kLanes; ++i) {
             if (meeting[i] == 0) continue;
@@ -511,8 +516,9 @@ std::array<uint8_t, kLanes> meeting_triangles(const PatchBoxes& a, const PatchBo
     return out;
 }
 void clear_before_planes(const uint32_t (&corners)[3][kLanes], const Particle* at, const PatchBoxes& b,
-                         const Vec3& way, float reach_m, std::array<uint8_t, kLanes>& meeting) {
-    HWY_DYNAMIC_DISPATCH(ClearBeforePlanes)(corners, at, b, way, reach_m, meeting.data());
+                         const Bounds& past, float reach_m, float max_way_m,
+                         std::array<uint8_t, kLanes>& meeting) {
+    HWY_DYNAMIC_DISPATCH(ClearBeforePlanes)(corners, at, b, past, reach_m, max_way_m, meeting.data());
 }
 void classify(std::span<TrianglePairs> pairs, const Particle* begin, const Particle* end, float reach_m,
               bool certifies) {

@@ -56,9 +56,11 @@ PatchShape find_shape(const uint32_t (&corners)[3][kLanes], uint32_t count, cons
 /// Bit k of entry i: triangle k of b comes within `margin` of triangle i of a.
 std::array<uint8_t, kLanes> meeting_triangles(const PatchBoxes& a, const PatchBoxes& b, const Vec3& margin);
 /// Clears the bits of those where triangle i of a, by the indices of its corners, lies before the plane of
-/// triangle k by more than reach_m and what the two may come closer by (way, along each axis).
+/// triangle k by more than reach_m and what the two come closer by on the same way again, which is max_way_m
+/// at most. past: ways of the corners of a less those of b.
 void clear_before_planes(const uint32_t (&corners)[3][kLanes], const Particle* at, const PatchBoxes& b,
-                         const Vec3& way, float reach_m, std::array<uint8_t, kLanes>& meeting);
+                         const Bounds& past, float reach_m, float max_way_m,
+                         std::array<uint8_t, kLanes>& meeting);
 
 /// Eight pairs of triangles by the indices of their corners, and what is known of them.
 struct alignas(32) TrianglePairs {

@@ -53,6 +53,7 @@ CrossingGuard::CrossingGuard(const FabricData& fabric)
       indices_(fabric.indices),
       is_marked_(fabric.inverse_mass.size(), 0),
       is_moved_(is_marked_),
+      is_beyond_(is_marked_),
       wanted_(fabric.inverse_mass.size()),
       found_at_(fabric.inverse_mass.size()),
       parent_(fabric.inverse_mass.size(), kNone),
@@ -65,7 +66,8 @@ void CrossingGuard::add_mesh(size_t vertices, MeshOf what) {
     surfaces_.push_back(what), crosses_.push_back(0);
     const size_t count = inverse_mass_.size() + vertices;
     inverse_mass_.resize(count, 0.0f);
-    is_marked_.resize(count, 0), is_moved_.resize(count, 0), is_fixed_.resize(count, 1);
+    is_marked_.resize(count, 0), is_moved_.resize(count, 0), is_beyond_.resize(count, 0);
+    is_fixed_.resize(count, 1);
     wanted_.resize(count), found_at_.resize(count), places_.resize(count);
     parent_.resize(count, kNone);
 }
@@ -98,24 +100,43 @@ bool CrossingGuard::keep(std::span<const Particle> begin, std::span<Particle> en
         } else {
             take_back(begin, end);
         }
-        // Pairs were found with a margin, which vertices that have moved may have used up.
-        const bool is_beyond = std::any_of(moved_.begin(), moved_.end(), [&](uint32_t v) {
-            return glm::distance(found_at_[v], end[v].x) > 0.5f * kMaxKept_m;
-        });
-        if (is_beyond) {
-            proximity.find(begin, end, jobs);
-            for (size_t v = 0; v < end.size(); ++v) found_at_[v] = end[v].x;
-            tangles_.clear();
-        } else {
-            proximity.find_uncertain_of(is_marked_, begin, end, jobs);
-        }
+        find_pairs_again(begin, end, proximity);
+        proximity.find_uncertain_of(is_marked_, begin, end, jobs);
     }
+    if (!tangles_.empty()) keep_tangles_of(end);
     if (!solved)
         for (const auto& [first, second] : crossed_)
             if (second->vertex[0] < cloth_vertices_) tangles_.emplace_back(first->number, second->number);
     const bool is_free = solved && tangles_.empty() && !crosses_mesh_ && proximity.is_complete();
     if (!tangles_.empty()) untangle(end, kUntangles_m);
     return is_free;
+}
+
+/// Pairs were found with a margin, which vertices that have moved may have used up.
+void CrossingGuard::find_pairs_again(std::span<const Particle> begin, std::span<const Particle> end,
+                                     Proximity& proximity) {
+    bool is_any = false;
+    for (const uint32_t v : moved_) {
+        is_beyond_[v] = glm::distance(found_at_[v], end[v].x) > 0.5f * kMaxKept_m;
+        if (!is_beyond_[v]) continue;
+        found_at_[v] = end[v].x;
+        is_any = true;
+    }
+    if (is_any) proximity.find_again(is_beyond_, begin, end);
+    for (const uint32_t v : moved_) is_beyond_[v] = 0;
+}
+
+/// Each once, and only those that did not end on the way.
+void CrossingGuard::keep_tangles_of(std::span<const Particle> end) {
+    std::sort(tangles_.begin(), tangles_.end());
+    tangles_.erase(std::unique(tangles_.begin(), tangles_.end()), tangles_.end());
+    const auto triangle = [&](uint32_t number) {
+        const uint32_t* v = &indices_[3 * number];
+        return Corners{{end[v[0]].x, end[v[1]].x, end[v[2]].x}};
+    };
+    std::erase_if(tangles_, [&](const TrianglePair& pair) {
+        return !cross(triangle(pair.first), triangle(pair.second));
+    });
 }
 
 void CrossingGuard::untangle(std::span<Particle> places, float step_m) {

@@ -63,6 +63,9 @@ private:
     void move_zones(std::span<const Particle> begin, std::span<Particle> end);
     void move_zone(std::span<const uint32_t> zone, std::span<const Particle> begin, std::span<Particle> end);
     void take_back(std::span<const Particle> begin, std::span<Particle> end);
+    void find_pairs_again(std::span<const Particle> begin, std::span<const Particle> end,
+                          Proximity& proximity);
+    void keep_tangles_of(std::span<const Particle> end);
     void mark(uint32_t vertex);
     void untangle(std::span<Particle> places, float step_m);
 
@@ -77,6 +80,7 @@ private:
     std::vector<MeshOf> surfaces_{MeshOf::cloth};  // the cloth's own first
     std::vector<uint8_t> crosses_{0};              // one a surface: at both ends
     std::vector<uint8_t> is_marked_, is_moved_;    // in this round, in all
+    std::vector<uint8_t> is_beyond_;               // of what found_at_ allows for
     std::vector<uint32_t> moved_;
     std::vector<Particle> wanted_;          // the end that the step made
     std::vector<Vec3> found_at_;            // where the pairs were found

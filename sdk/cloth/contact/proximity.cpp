@@ -43,26 +43,71 @@ bool Proximity::Surface::meets(const Pair& pair) const {
 
 void Proximity::find(std::span<const Particle> begin, std::span<const Particle> end, Jobs& jobs) {
     cloth_.move(begin, end, jobs);
-    only_marked_ = false, is_complete_ = true;
-    const Bounds own = cloth_.way();
+    only_marked_ = false, is_complete_ = are_classified_ = true;
     for (Surface& surface : surfaces_) {
+        if (surface.what == MeshOf::solid) continue;
         surface.all.pairs.clear();
         if (surface.is_shown) {
             if (surface.patches) surface.patches->move(begin, end, jobs);
-            const Bounds other = surface.patches ? surface.patches->way() : own;
-            const Vec3 way = glm::max(own.high - other.low, other.high - own.low);
-            if (surface.what != MeshOf::solid)
-                is_complete_ = is_complete_ && std::max({way.x, way.y, way.z}) <= kMaxWay_m;
-            if (surface.what == MeshOf::solid)
-                cloth_.find_pairs_with_solid(*surface.patches, end, surface.reach_m, surface.all.pairs, jobs);
-            else
-                cloth_.find_pairs(surface.patches ? *surface.patches : cloth_, surface.reach_m,
-                                  surface.all.pairs, jobs);
-            if (!surface.category.empty())
-                std::erase_if(surface.all.pairs, [&](const Pair& pair) { return !surface.meets(pair); });
+            look_for_missed(surface);
+            cloth_.find_pairs(surface.patches ? *surface.patches : cloth_, surface.reach_m, surface.all.pairs,
+                              jobs);
+            filter(surface, 0);
         }
         classify_all(surface.all, surface, begin, end, jobs);
     }
+}
+
+/// Does what moves past that surface move so fast that pairs may be missed?
+void Proximity::look_for_missed(const Surface& surface) {
+    const Bounds own = cloth_.way(), other = surface.patches ? surface.patches->way() : own;
+    const Vec3 way = glm::max(own.high - other.low, other.high - own.low);
+    is_complete_ = is_complete_ && std::max({way.x, way.y, way.z}) <= kMaxWay_m;
+}
+
+void Proximity::filter(Surface& surface, size_t first) {
+    if (surface.category.empty()) return;
+    std::vector<Pair>& pairs = surface.all.pairs;
+    pairs.erase(std::remove_if(pairs.begin() + std::ptrdiff_t(first), pairs.end(),
+                               [&](const Pair& pair) { return !surface.meets(pair); }),
+                pairs.end());
+}
+
+void Proximity::find_again(std::span<const uint8_t> marked, std::span<const Particle> begin,
+                           std::span<const Particle> end) {
+    cloth_.move_marked(marked, begin, end, moved_);
+    const auto is_moved = [&](const Triangle* t) {
+        return std::binary_search(moved_.begin(), moved_.end(), t->patch);
+    };
+    for (Surface& surface : surfaces_) {
+        if (surface.what == MeshOf::solid || !surface.is_shown) continue;
+        std::vector<Pair>& pairs = surface.all.pairs;
+        std::erase_if(pairs, [&](const Pair& pair) {
+            return is_moved(pair.first) || (!surface.patches && is_moved(pair.second));
+        });
+        const size_t kept = pairs.size();
+        cloth_.find_pairs_of(moved_, surface.patches ? *surface.patches : cloth_, surface.reach_m, pairs);
+        filter(surface, kept);
+        look_for_missed(surface);
+    }
+    are_classified_ = false;
+}
+
+void Proximity::find_close(std::span<const Particle> begin, std::span<const Particle> end, Jobs& jobs) {
+    for (Surface& surface : surfaces_) {
+        if (surface.what == MeshOf::solid) {
+            surface.all.pairs.clear();
+            if (surface.is_shown) {
+                surface.patches->move(begin, end, jobs);
+                cloth_.find_pairs_with_solid(*surface.patches, end, surface.reach_m, surface.all.pairs, jobs);
+                filter(surface, 0);
+            }
+        } else if (are_classified_) {
+            continue;
+        }
+        classify_all(surface.all, surface, begin, end, jobs);
+    }
+    are_classified_ = true;
 }
 
 void Proximity::find_uncertain_of(std::span<const uint8_t> marked, std::span<const Particle> begin,

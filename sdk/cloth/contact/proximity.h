@@ -43,9 +43,15 @@ public:
     void hide_mesh(uint32_t mesh) { surfaces_[mesh + 1].is_shown = false; }
     size_t vertex_count() const { return vertex_count_; }
 
-    /// Finds the pairs within reach between both ends of the step, and classifies them. Positions of all
-    /// vertices. Does not allocate once it has met as many.
+    /// Finds the pairs within reach between both ends of the step, and classifies them; those with a solid
+    /// are left to find_close(). Positions of all vertices. Does not allocate once it has met as many.
     void find(std::span<const Particle> begin, std::span<const Particle> end, Jobs& jobs);
+    /// Marked vertices of the cloth (one flag a vertex) went elsewhere since: finds the pairs of the patches
+    /// about them again.
+    void find_again(std::span<const uint8_t> marked, std::span<const Particle> begin,
+                    std::span<const Particle> end);
+    /// Before for_close(), after find() and all of find_again().
+    void find_close(std::span<const Particle> begin, std::span<const Particle> end, Jobs& jobs);
     /// Classifies anew the pairs with a marked vertex (one flag a vertex), as the vertices are now; all
     /// others count as certain. Pairs stay those that were found.
     void find_uncertain_of(std::span<const uint8_t> marked, std::span<const Particle> begin,
@@ -84,13 +90,17 @@ private:
     };
     template <typename Bits, typename Body>
     void for_bits(bool of_marked, Bits&& bits, Body&& body) const;
+    void look_for_missed(const Surface& surface);
+    /// Removes those from `first` on that its filter leaves out.
+    static void filter(Surface& surface, size_t first);
     static void classify_all(Classified& of, const Surface& surface, std::span<const Particle> begin,
                              std::span<const Particle> end, Jobs& jobs);
 
     TrianglePatches cloth_;
     std::vector<Surface> surfaces_;
     size_t vertex_count_;
-    bool only_marked_ = false, is_complete_ = true;
+    std::vector<uint32_t> moved_;  // patches of the cloth
+    bool only_marked_ = false, is_complete_ = true, are_classified_ = true;
 };
 
 template <typename Bits, typename Body>

@@ -83,6 +83,7 @@ void TriangleContact::place(std::span<const Vec3> positions, Jobs& jobs) {
     copy(positions, end_);
     copy(positions, begin_);
     proximity_.find(end_, end_, jobs);
+    proximity_.find_close(end_, end_, jobs);
     contacts_.fill(proximity_, end_, end_, {});
 }
 
@@ -95,6 +96,7 @@ void TriangleContact::part(std::span<Vec3> positions, Jobs& jobs) {
 bool TriangleContact::keep(std::span<const Vec3> begin, std::span<Vec3> end, Jobs& jobs) {
     copy(begin, begin_), copy(end, end_);
     const bool is_free = guard_.keep(begin_, end_, proximity_, jobs);
+    proximity_.find_close(begin_, end_, jobs);
     contacts_.fill(proximity_, begin_, end_, guard_.tangled());
     if (!guard_.moved().empty()) copy(end_, end);
     return is_free;

@@ -35,16 +35,21 @@ void sort_in_space(const std::vector<Vec3>& places, std::span<uint32_t> which) {
     sort_in_space(places, which.subspan(middle));
 }
 
+std::vector<Vec3> middles_of(std::span<const Vec3> positions, std::span<const uint32_t> indices) {
+    std::vector<Vec3> middles;
+    for (size_t i = 0; i + 2 < indices.size(); i += 3) {
+        const Vec3 sum = positions[indices[i]] + positions[indices[i + 1]] + positions[indices[i + 2]];
+        middles.push_back(finite(sum) ? sum / 3.0f : Vec3(0.0f));
+    }
+    return middles;
+}
+
 /// Grows connected patches: each from the triangle that has the fewest neighbours left, by those closest to
 /// it.
 class Growth {
 public:
     Growth(std::span<const Vec3> positions, std::span<const uint32_t> indices)
-        : indices_(indices), about_(positions.size(), indices) {
-        for (size_t i = 0; i + 2 < indices.size(); i += 3) {
-            const Vec3 sum = positions[indices[i]] + positions[indices[i + 1]] + positions[indices[i + 2]];
-            middles_.push_back(finite(sum) ? sum / 3.0f : Vec3(0.0f));
-        }
+        : indices_(indices), about_(positions.size(), indices), middles_(middles_of(positions, indices)) {
         is_taken_.assign(middles_.size(), 0);
         border_.assign(1, 0);
         for (uint32_t next = 0; next < middles_.size();) {
@@ -135,11 +140,13 @@ TrianglePatches::TrianglePatches(std::span<const Vec3> positions, std::span<cons
                                first_vertex + indices[3 * t + 2]},
                               t,
                               0,
+                              0,
                               0});
     patches_.resize(ends_.size());
     boxes_.resize(ends_.size());
     moving_.resize(ends_.size());
     for (uint32_t patch = 0; patch < ends_.size(); ++patch) {
+        for (uint32_t t = begin_of(patch); t < ends_[patch]; ++t) triangles_[t].patch = patch;
         Corners& corners = corners_.emplace_back();
         for (uint32_t k = 0; k < 3; ++k)
             for (uint32_t i = 0; i < kLanes; ++i)
@@ -152,18 +159,26 @@ TrianglePatches::TrianglePatches(std::span<const Vec3> positions, std::span<cons
 
 void TrianglePatches::list_owners(size_t vertices) {
     std::vector<uint8_t> seen(vertices, 0);
-    std::vector<std::pair<uint64_t, uint32_t>> edges;  // and where it is: 4 * triangle + side
-    for (uint32_t t = 0; t < triangles_.size(); ++t)
+    std::vector<uint32_t> ends(vertices, 0);  // of the edges that are filed under each vertex, the lower one
+    const auto edge = [](const Triangle& t, uint32_t k) {
+        return std::minmax(t.vertex[k], t.vertex[(k + 1) % 3]);
+    };
+    for (const Triangle& t : triangles_)
+        for (uint32_t k = 0; k < 3; ++k) ++ends[edge(t, k).first];
+    std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), 0u);
+    const std::vector<uint32_t> begins = ends;
+    std::vector<uint32_t> higher(3 * triangles_.size());
+    for (Triangle& t : triangles_)
         for (uint32_t k = 0; k < 3; ++k) {
-            const uint32_t a = triangles_[t].vertex[k], b = triangles_[t].vertex[(k + 1) % 3];
-            if (!seen[a]) triangles_[t].own_vertices |= uint8_t(1u << k);
-            seen[a] = 1;
-            edges.emplace_back(uint64_t(std::min(a, b)) << 32 | std::max(a, b), 4 * t + k);
+            if (!seen[t.vertex[k]]) t.own_vertices |= uint8_t(1u << k);
+            seen[t.vertex[k]] = 1;
+            const auto [low, high] = edge(t, k);
+            const auto filed = higher.begin() + begins[low], end = higher.begin() + ends[low];
+            if (std::find(filed, end, high) != end) continue;
+            t.own_edges |= uint8_t(1u << k);
+            *end = high;
+            ++ends[low];
         }
-    std::sort(edges.begin(), edges.end());
-    for (size_t i = 0; i < edges.size(); ++i)
-        if (i == 0 || edges[i].first != edges[i - 1].first)
-            triangles_[edges[i].second / 4].own_edges |= uint8_t(1u << edges[i].second % 4);
 }
 
 void TrianglePatches::list_adjacent(size_t vertices) {
@@ -198,6 +213,17 @@ void TrianglePatches::move(std::span<const Particle> begin, std::span<const Part
     moving_.find_levels();
 }
 
+void TrianglePatches::move_marked(std::span<const uint8_t> marked, std::span<const Particle> begin,
+                                  std::span<const Particle> end, std::vector<uint32_t>& moved) {
+    moved.clear();
+    for (const Triangle& t : triangles_)
+        if ((marked[t.vertex[0]] || marked[t.vertex[1]] || marked[t.vertex[2]]) &&
+            (moved.empty() || moved.back() != t.patch))
+            moved.push_back(t.patch);
+    for (const uint32_t patch : moved) move_patch(begin, end, patch);
+    moving_.find_levels();
+}
+
 void TrianglePatches::move_patch(std::span<const Particle> begin, std::span<const Particle> end,
                                  uint32_t patch) {
     patches_[patch] = find_shape(corners_[patch].at, ends_[patch] - begin_of(patch), begin.data(), end.data(),
@@ -216,47 +242,56 @@ bool TrianglePatches::in_one_cone(uint32_t patch, uint32_t other) const {
            cosine_of_sum(glm::dot(b.normal, axis) / length, b.min_cosine) > kConeCosine;
 }
 
-void TrianglePatches::find_pairs(const TrianglePatches& other, float reach_m, std::vector<Pair>& out,
-                                 Jobs& jobs) {
-    find_pairs(other, nullptr, reach_m, out, jobs);
-}
-
-void TrianglePatches::find_pairs_with_solid(const TrianglePatches& solid, std::span<const Particle> end,
-                                            float reach_m, std::vector<Pair>& out, Jobs& jobs) {
-    find_pairs(solid, end.data(), reach_m, out, jobs);
-}
-
-void TrianglePatches::find_pairs(const TrianglePatches& other, const Particle* before_planes, float reach_m,
+void TrianglePatches::find_pairs(const TrianglePatches& other, float reach_m, const Particle* of_solid,
                                  std::vector<Pair>& out, Jobs& jobs) {
     const bool own = this == &other;
-    const float max_way_m = before_planes ? kMaxWayPastSolid_m : kMaxWay_m;
     parallel_for(jobs, uint32_t(shares_.size()), [&](uint32_t number) {
         Share& share = shares_[number];
         share.pairs.clear();
         const auto last = std::min((number + 1) * kPatchesOfAJob, uint32_t(ends_.size()));
         for (uint32_t patch = number * kPatchesOfAJob; patch < last; ++patch) {
-            const PatchShape& p = patches_[patch];
-            share.meeting.clear();
-            find_meeting(other.moving_, own ? patch : 0, p.box, p.way, reach_m, max_way_m, share.meeting);
-            for (const uint32_t q : share.meeting) {
-                if (own && are_adjacent(patch, q) && in_one_cone(patch, q)) continue;
-                const Bounds& way = other.patches_[q].way;
-                meet(patch, other, q,
-                     glm::min(farther(p.way.low - way.high, p.way.high - way.low), Vec3(max_way_m)), reach_m,
-                     before_planes, share.pairs);
-            }
+            find_meeting_patches(patch, other, own ? patch : 0, reach_m,
+                                 of_solid ? kMaxWayPastSolid_m : kMaxWay_m, share.meeting);
+            for (const uint32_t q : share.meeting) meet(patch, other, q, reach_m, of_solid, share.pairs);
         }
     });
     for (const Share& share : shares_) out.insert(out.end(), share.pairs.begin(), share.pairs.end());
 }
 
-void TrianglePatches::meet(uint32_t patch, const TrianglePatches& other, uint32_t of_other, const Vec3& way,
-                           float reach_m, const Particle* before_planes, std::vector<Pair>& out) const {
+void TrianglePatches::find_pairs_of(std::span<const uint32_t> patches, const TrianglePatches& other,
+                                    float reach_m, std::vector<Pair>& out) {
+    std::vector<uint32_t>& meeting = shares_.front().meeting;
+    for (const uint32_t patch : patches) {
+        find_meeting_patches(patch, other, 0, reach_m, kMaxWay_m, meeting);
+        for (const uint32_t q : meeting) {
+            if (this != &other || q >= patch)
+                meet(patch, other, q, reach_m, nullptr, out);
+            else if (!std::binary_search(patches.begin(), patches.end(), q))
+                meet(q, other, patch, reach_m, nullptr, out);
+        }
+    }
+}
+
+void TrianglePatches::find_meeting_patches(uint32_t patch, const TrianglePatches& other, uint32_t first,
+                                           float reach_m, float max_way_m, std::vector<uint32_t>& out) const {
+    out.clear();
+    find_meeting(other.moving_, first, patches_[patch].box, patches_[patch].way, reach_m, max_way_m, out);
+    if (this == &other)
+        std::erase_if(out, [&](uint32_t q) { return are_adjacent(patch, q) && in_one_cone(patch, q); });
+}
+
+void TrianglePatches::meet(uint32_t patch, const TrianglePatches& other, uint32_t of_other, float reach_m,
+                           const Particle* of_solid, std::vector<Pair>& out) const {
     const bool own = this == &other && patch == of_other;
+    const float max_way_m = of_solid ? kMaxWayPastSolid_m : kMaxWay_m;
+    const Bounds &way = patches_[patch].way, &other_way = other.patches_[of_other].way,
+                 past{way.low - other_way.high, way.high - other_way.low};
+    const Vec3 margin = glm::min(farther(past.low, past.high), Vec3(max_way_m)) + reach_m;
     const uint32_t first = begin_of(patch), of_second = other.begin_of(of_other);
-    std::array<uint8_t, kLanes> all = meeting_triangles(boxes_[patch], other.boxes_[of_other], way + reach_m);
-    if (before_planes)
-        clear_before_planes(corners_[patch].at, before_planes, other.boxes_[of_other], way, reach_m, all);
+    std::array<uint8_t, kLanes> all = meeting_triangles(boxes_[patch], other.boxes_[of_other], margin);
+    if (of_solid)
+        clear_before_planes(corners_[patch].at, of_solid, other.boxes_[of_other], past, reach_m, max_way_m,
+                            all);
     for (uint32_t i = 0; i < ends_[patch] - first; ++i)
         for (uint32_t left = own ? all[i] & ~0u << (i + 1) : all[i]; left; left &= left - 1)
             out.push_back(

@@ -235,6 +235,45 @@ TEST(Proximity, ACopyFindsTheSamePairsOfItsOwn) {
     EXPECT_GT(found.size(), 100u);
 }
 
+/// Pairs that a step finds: those within reach, and those that may have crossed.
+struct FoundPairs {
+    std::set<TrianglePair> close, uncertain;
+
+    explicit FoundPairs(const Proximity& proximity) {
+        proximity.for_close([&](const Proximity::Pair& pair, uint32_t) { close.insert(numbers(pair)); });
+        proximity.for_uncertain(
+            [&](const Proximity::Pair& pair, uint32_t) { uncertain.insert(numbers(pair)); });
+    }
+    static TrianglePair numbers(const Proximity::Pair& pair) {
+        return std::minmax(pair.first->number, pair.second->number);
+    }
+};
+
+TEST(Proximity, FindsPairsAgainAboutWhatWentElsewhere) {
+    const RandomTriangles triangles(7);
+    std::vector<uint32_t> indices;
+    for (uint32_t i = 0; i < 3 * RandomTriangles::kCount; ++i) indices.push_back(i);
+    const auto jobs = Jobs::own(0);
+    const std::vector<Vec3> places = places_of(triangles.begin);
+    Proximity proximity(places, indices, 0.004f), fresh(places, indices, 0.004f);
+    proximity.find(triangles.begin, triangles.end, *jobs);
+    const FoundPairs before(proximity);
+    std::vector<Particle> end = triangles.end;
+    std::vector<uint8_t> marked(end.size(), 0);
+    for (uint32_t t = 0; t < RandomTriangles::kCount; t += 20)
+        for (uint32_t k = 0; k < 3; ++k) end[3 * t + k].x += Vec3(0.03f, 0, 0), marked[3 * t + k] = 1;
+    proximity.find_again(marked, triangles.begin, end);
+    proximity.find_close(triangles.begin, end, *jobs);
+    fresh.find(triangles.begin, end, *jobs);
+    const FoundPairs again(proximity), all(fresh);
+    EXPECT_EQ(again.close, all.close);
+    EXPECT_EQ(again.uncertain, all.uncertain);
+    EXPECT_NE(again.close, before.close);
+    size_t count = 0;
+    proximity.for_close([&](const Proximity::Pair&, uint32_t) { ++count; });
+    EXPECT_EQ(count, again.close.size()) << "each once";
+}
+
 TEST(TrianglePatches, OfASolidOnlyWhatLiesBeforeItsPlanesIsLeftOut) {
     constexpr float kReach_m = 0.003f;
     on_each_target([] {
