@@ -85,25 +85,19 @@ TEST_F(WornGarmentTest, ABodiceStretchesLessThanTheSkinAndABandOnShouldersGoesWi
     }
 }
 
-/// Wide legs cross each other where thighs touch, and what crosses at the start may never come apart. The
-/// duster's armholes cross themselves on heavy bodies, as it is bound to them.
-TEST_F(WornGarmentTest, WhatIsPutOnDoesNotCrossItselfAtFirst) {
-    for (const auto& [sex, weight] : {std::pair(VFIT_SEX_MALE, 0.6f), std::pair(VFIT_SEX_MALE, 1.1f),
-                                      std::pair(VFIT_SEX_FEMALE, 0.5f), std::pair(VFIT_SEX_FEMALE, 1.15f)}) {
+/// Wide legs that begin through each other, where thighs touch, stay so.
+TEST_F(WornGarmentTest, WhatIsPutOnDoesNotCrossItself) {
+    WearOptions options;
+    options.cloth.self_thickness_m = 0.004f;
+    options.on_skin = true;
+    for (const auto& [sex, weight] : {std::pair(VFIT_SEX_MALE, 1.1f), std::pair(VFIT_SEX_FEMALE, 1.15f)}) {
         const Person person(sex, "weight", weight);
-        std::vector<Mat4> matrices(person.avatar.skinning_matrices().size());
-        std::vector<Collider> colliders;
-        person.avatar.while_dressing(0.0f, matrices, colliders);
-        for (const char* name : {"martial_pants", "pants_men", "jeans_women", "flight_suit", "vest",
-                                 "martial_jacket", "shirt_men", "sundress", "sundress_pattern"}) {
+        for (const char* name : {"martial_pants", "pants_men", "flight_suit"}) {
             const WearableGarment garment = wearable(name);
-            const Dress dress(garment.garment(), garment.bound(0, *jobs), garment.material(),
-                              person.wearer.body());
-            std::vector<Vec3> places;
-            Dress::Scratch scratch;
-            dress.place(matrices, places, scratch, *jobs);
-            places.resize(dress.rest().size());
-            EXPECT_EQ(crossed_triangles(places, dress.indices()).size(), 0u) << name << " " << weight;
+            WornGarment worn(garment, person.wearer, options, *jobs);
+            worn.put_on();
+            EXPECT_EQ(crossed_triangles(worn.positions(), worn.dress().indices()).size(), 0u)
+                << name << " " << weight;
         }
     }
 }
