@@ -1,7 +1,9 @@
 #include "outfit/size_check.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -13,41 +15,41 @@ namespace {
 /// To a tenth, for messages.
 float rounded(float value) { return std::round(value * 10.0f) / 10.0f; }
 
-void check_crotch(const SizedGarment& sized, const Cloth& cloth) {
-    const WearableGarment& garment = sized.garment;
+template <typename... Rest>
+TooSmall too_small_by(float beyond, const SizedGarment& sized, const Rest&... rest) {
+    return {beyond, text("garment ", sized.garment.garment().name, " is too small in size ", sized.label,
+                         ": ", rest...)};
+}
+
+TooSmall at_crotch(const SizedGarment& sized, const Cloth& cloth) {
     const CrotchLine crotch =
         crotch_line({sized.dress.rest(), sized.dress.indices(), sized.cut, {}, {}}, cloth.positions());
-    const float gives = std::max(kCrotchGives, garment.material().most_strain);
-    if (crotch.strain > gives)
-        fail(VFIT_ERROR_NOT_WEARABLE, "garment ", garment.garment().name, " is too small in size ",
-             sized.label, ": its ", rounded(crotch.garment_m * 100.0f),
-             " cm from front to back through the crotch would be stretched by ",
-             rounded(crotch.strain * 100.0f), " %; ", garment.garment().fabric, " stretches by at most ",
-             rounded(gives * 100.0f), " % there");
+    const float gives = std::max(kCrotchGives, sized.garment.material().most_strain);
+    return too_small_by(crotch.strain - gives, sized, "its ", rounded(crotch.garment_m * 100.0f),
+                        " cm from front to back through the crotch would be stretched by ",
+                        rounded(crotch.strain * 100.0f), " %; ", sized.garment.garment().fabric,
+                        " stretches by at most ", rounded(gives * 100.0f), " % there");
 }
 
-void check_tenth(const SizedGarment& sized, const Cloth& cloth) {
-    const WearableGarment& garment = sized.garment;
-    const float strain = most_strained(cloth.strain()), most = kDrawn * garment.material().most_strain;
-    if (strain > most)
-        fail(VFIT_ERROR_NOT_WEARABLE, "garment ", garment.garment().name, " is too small in size ",
-             sized.label, ": a tenth of it would be stretched by more than ", rounded(strain * 100.0f),
-             " %; ", garment.garment().fabric, " stretches by at most ", rounded(most * 100.0f), " %");
+TooSmall in_a_tenth(const SizedGarment& sized, const Cloth& cloth) {
+    const float strain = most_strained(cloth.strain()), most = kDrawn * sized.garment.material().most_strain;
+    return too_small_by(strain - most, sized, "a tenth of it would be stretched by more than ",
+                        rounded(strain * 100.0f), " %; ", sized.garment.garment().fabric,
+                        " stretches by at most ", rounded(most * 100.0f), " %");
 }
 
-void check_openings(const SizedGarment& sized, const Cloth& cloth) {
-    const WearableGarment& garment = sized.garment;
-    std::vector<uint8_t> counts = garment.garment().simulated;
+TooSmall at_an_opening(const SizedGarment& sized, const Cloth& cloth) {
+    const Garment& garment = sized.garment.garment();
+    std::vector<uint8_t> counts = garment.simulated;
     for (const LimbHem& hem : sized.dress.hems())
         for (const uint32_t v : hem.vertices) counts[v] = 0;
-    const Opening opening = tightest_opening(
-        {cloth.positions(), sized.dress.indices(), sized.cut, garment.garment().on_arm, {}}, counts);
-    const float gives = std::max(kOpeningGives, garment.material().most_strain);
-    if (opening.strain > gives)
-        fail(VFIT_ERROR_NOT_WEARABLE, "garment ", garment.garment().name, " is too small in size ",
-             sized.label, ": its opening of ", opening.garment_m * 100.0f, " cm at ",
-             opening.middle.y * 100.0f, " cm of height would be stretched by ", opening.strain * 100.0f,
-             " %; ", garment.garment().fabric, " gives ", gives * 100.0f, " % there");
+    const Opening opening =
+        tightest_opening({cloth.positions(), sized.dress.indices(), sized.cut, garment.on_arm, {}}, counts);
+    const float gives = std::max(kOpeningGives, sized.garment.material().most_strain);
+    return too_small_by(opening.strain - gives, sized, "its opening of ", rounded(opening.garment_m * 100.0f),
+                        " cm at ", rounded(opening.middle.y * 100.0f), " cm of height would be stretched by ",
+                        rounded(opening.strain * 100.0f), " %; ", garment.fabric, " gives ",
+                        rounded(gives * 100.0f), " % there");
 }
 
 }  // namespace
@@ -65,10 +67,12 @@ void check_closes(const SizedGarment& sized, std::span<const GirthLevel> levels)
          rounded(most * 100.0f), " %");
 }
 
-void check_stretch(const SizedGarment& sized, const Cloth& cloth) {
-    check_crotch(sized, cloth);
-    check_tenth(sized, cloth);
-    check_openings(sized, cloth);
+std::optional<TooSmall> too_small(const SizedGarment& sized, const Cloth& cloth) {
+    std::optional<TooSmall> worst;
+    for (TooSmall& small :
+         std::array{at_crotch(sized, cloth), in_a_tenth(sized, cloth), at_an_opening(sized, cloth)})
+        if (small.beyond > (worst ? worst->beyond : 0.0f)) worst = std::move(small);
+    return worst;
 }
 
 }  // namespace vfit

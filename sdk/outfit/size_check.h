@@ -1,6 +1,7 @@
 // Refuses a garment in a size in which it would have to stretch by more than its fabric gives.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -22,8 +23,12 @@ struct SizedGarment {
 /// Before it is simulated. VFIT_ERROR_NOT_WEARABLE, naming the girth at which it does not close.
 void check_closes(const SizedGarment& sized, std::span<const GirthLevel> levels);
 
-/// Of a garment with lengths of its own, after its cloth came to them. VFIT_ERROR_NOT_WEARABLE where the line
-/// through the crotch, a tenth of the cloth, or a neck or armhole is stretched too far.
-void check_stretch(const SizedGarment& sized, const Cloth& cloth);
+struct TooSmall {
+    float beyond;     // strain, more than is given there
+    std::string why;  // a message
+};
+/// Of a garment with lengths of its own, after its cloth came to them: where the line through the crotch, a
+/// tenth of the cloth, or a neck or armhole is stretched too far; of several the one that is furthest beyond.
+std::optional<TooSmall> too_small(const SizedGarment& sized, const Cloth& cloth);
 
 }  // namespace vfit

@@ -121,6 +121,7 @@ private:
     void jump_to_pose();
     void start_with_legs_apart();
     void come_to_lengths(bool is_new);
+    void check_stretch(const std::string& label, std::span<const Vec2> cut);
     struct GrowthFrames {
         int grow, settle;  // of 1/60 s
     };
