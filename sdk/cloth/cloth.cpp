@@ -318,8 +318,8 @@ void Cloth::put_on(const BodyOnItsWay& body, Jobs& jobs) {
 
 void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
     // The shorter a step, the softer is all that gives way in it (XPBD): at first cloth moves by a millimetre
-    // or so between two looks at what it may meet, itself included.
-    constexpr int kSteps = 8, kSubsteps = 10;
+    // or so between two looks at what it may meet, itself included. The last look takes it out of the skin.
+    constexpr int kSteps = 5, kGrowing = 4, kSubsteps = 10;
     constexpr float kShortest_s = 1.5e-4f, kLongest_s = 1.0f / 60.0f, kStopped = 1.0f;
     State& s = *state_;
     s.settles_s = kSettles_s, s.haste = kSettlingHaste;
@@ -327,11 +327,12 @@ void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
     std::vector<Vec3> targets;
     std::vector<Collider> colliders;
     for (int i = 0; i < kSteps; ++i) {
-        body(float(i) / float(kSteps - 1), targets, colliders);
+        const float grown = std::min(1.0f, float(i) / float(kGrowing - 1));
+        body(grown, targets, colliders);
         s.check_body(targets, colliders);
         s.meet_body(targets, colliders);
-        const float dt = kShortest_s * std::pow(kLongest_s / kShortest_s, float(i) / float(kSteps - 1));
-        s.advance(dt, kSubsteps, kStopped, targets, jobs);
+        s.advance(kShortest_s * std::pow(kLongest_s / kShortest_s, grown), kSubsteps, kStopped, targets,
+                  jobs);
     }
     s.solver.rest();
     s.wake();
