@@ -19,11 +19,12 @@ constexpr float kStep_m = 0.03f;                 // of an arm on its path: less 
 constexpr int kMaxSteps = 8;
 constexpr float kLongestStep = 1.5f;            // of one that is held back, to the others
 constexpr float kClose_m = 2.0f * kStep_m;      // two arms that are closer have sides
-constexpr float kFreeEnd = 0.98f;               // of forearm and hand: there, the other arm may pass
+constexpr float kFreeEnd = 0.95f;               // of a hand: there, the other arm may pass
 constexpr uint64_t kMaxPause_ns = 250'000'000;  // between two poses of a path
 // An arm that is held back so far and for so long goes to its place at once.
 constexpr float kHeldBack_m = 0.15f, kMaxHeld_s = 0.5f;
-constexpr size_t kReach = 2;  // cells of an outline that a vertex speaks for, to either side
+constexpr size_t kReach = 2;         // cells of an outline that a vertex speaks for, to either side
+constexpr float kFingertips = 1.6f;  // from the wrist, times the way to the knuckles
 constexpr float kAlongHand[] = {0.1f, kHandCentre, 1.0f,
                                 1.6f};          // from the wrist to the knuckles, and on to the fingers
 constexpr float kAlongThumb[] = {0.7f, 0.95f};  // from the wrist to its tip
@@ -35,6 +36,7 @@ constexpr float kMinLever = 0.4f;  // of the upper arm: nearer to the shoulder, 
 // Quantile of a limb's radii. Of a hand's, fingers and thumb are the larger ones: the palm is meant, from the
 // side.
 constexpr float kRound = 0.5f, kPalm = 0.25f;
+constexpr float kHandSize = 0.75f;  // quantile of the ways off a hand's line
 
 struct ArmBones {
     int upper, lower, hand;
@@ -59,6 +61,7 @@ struct NearestOfSegments {
     float on_a, on_b;
 };
 /// Ericson, Real-Time Collision Detection, 5.1.9.
+template <typename Segment>
 NearestOfSegments nearest_of(const Segment& a, const Segment& b) {
     const Vec3 d1 = a.to - a.from, d2 = b.to - b.from, r = a.from - b.from;
     const float l1 = std::max(dot(d1, d1), 1e-8f), l2 = std::max(dot(d2, d2), 1e-8f), f = dot(d2, r),
@@ -67,6 +70,13 @@ NearestOfSegments nearest_of(const Segment& a, const Segment& b) {
     const float t = std::clamp((along * s + f) / l2, 0.0f, 1.0f);
     s = std::clamp((along * t - c) / l1, 0.0f, 1.0f);
     return {s, t};
+}
+
+float quantile_of(std::vector<float>& values, float quantile) {
+    if (values.empty()) return 0.0f;
+    const auto rank = size_t(quantile * float(values.size() - 1));
+    std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(rank), values.end());
+    return values[rank];
 }
 
 /// Quantile of the distance from the axis of the part's skin within a tenth of the bone's length.
@@ -80,10 +90,7 @@ float radius_about(std::span<const Vec3> rest, std::span<const BodyPart> parts, 
         const float along = dot(rest[v] - axis.from, way) / std::max(dot(way, way), 1e-8f);
         if (std::abs(along - share) < kAlong) off.push_back(glm::distance(rest[v], axis.at(along)));
     }
-    if (off.empty()) return 0.0f;
-    const auto rank = size_t(quantile * float(off.size() - 1));
-    std::nth_element(off.begin(), off.begin() + std::ptrdiff_t(rank), off.end());
-    return off[rank];
+    return quantile_of(off, quantile);
 }
 
 }  // namespace
@@ -194,8 +201,13 @@ void LimbsClear::learn_arm(const AvatarRig& rig, std::span<const Vec3> rest, std
         arm.balls.push_back({share, 0.0f, Vec3(0.0f), radius(upper, shoulder, elbow, share)});
     for (const float share : kAlongLower)
         arm.balls.push_back({1.0f - share, share, Vec3(0.0f), radius(lower, elbow, wrist, share)});
-    arm.upper_radius_m = radius(upper, shoulder, elbow, 0.5f);
-    arm.lower_radius_m = radius(lower, elbow, wrist, 0.5f);
+    constexpr float kFrom = 0.2f, kTo = 0.9f;  // between which the skin of a bone is its alone
+    const auto taper = [&](BodyPart part, const Vec3& from, const Vec3& to) {
+        const float near_m = radius(part, from, to, kFrom), far_m = radius(part, from, to, kTo),
+                    slope_m = (far_m - near_m) / (kTo - kFrom);
+        return Arm::Taper{near_m - kFrom * slope_m, far_m + (1.0f - kTo) * slope_m};
+    };
+    arm.tapers[0] = taper(upper, shoulder, elbow), arm.tapers[1] = taper(lower, elbow, wrist);
     const Vec3 tail = wrist + arm.hand;
     const float palm_m = radius_about(rest, parts, hand, {wrist, tail}, kHandCentre, kPalm);
     for (const float share : kAlongHand) arm.balls.push_back({0.0f, 1.0f, share * arm.hand, palm_m});
@@ -208,6 +220,16 @@ void LimbsClear::learn_arm(const AvatarRig& rig, std::span<const Vec3> rest, std
         const Vec3 from_wrist = rest[v] - wrist, off = from_wrist - dot(from_wrist, along) * along;
         if (glm::length(off) > furthest) furthest = glm::length(off), thumb = from_wrist;
     }
+    const Vec3 off_line = thumb - dot(thumb, along) * along;
+    arm.across = unit_or(off_line, arm.across);
+    std::vector<float> wide, thick;
+    for (size_t v = 0; v < rest.size(); ++v) {
+        if (parts[v] != hand) continue;
+        const Vec3 off = rest[v] - wrist;
+        wide.push_back(std::abs(dot(off, arm.across)));
+        thick.push_back(std::abs(dot(off, glm::cross(along, arm.across))));
+    }
+    arm.wide_m = quantile_of(wide, kHandSize), arm.thick_m = quantile_of(thick, kHandSize);
     for (const float share : kAlongThumb)
         arm.balls.push_back({0.0f, 1.0f, share * thumb, std::min(kThumb_m, palm_m)});
 }
@@ -252,6 +274,22 @@ void LimbsClear::Chain::move(float on_elbow, float on_wrist, const Vec3& by) {
     wrist += by * (on_wrist / square);
 }
 
+LimbsClear::Chain::Line LimbsClear::Chain::line_of(int part) const {
+    if (part == 0) return {shoulder, elbow};
+    if (part == 1) return {elbow, wrist};
+    return {wrist, wrist + kFingertips * hand};
+}
+
+/// What is at that share of the part.
+void LimbsClear::Chain::push(int part, float share, const Vec3& by) {
+    if (part == 2)
+        move(0.0f, 1.0f, by);
+    else if (part == 1)
+        move(1.0f - share, share, by);
+    else if (share > kMinLever)
+        move(share, 0.0f, by);
+}
+
 /// Of the point that moves most.
 float LimbsClear::Chain::way_to(const Chain& other) const {
     return std::max({glm::distance(elbow, other.elbow), glm::distance(wrist, other.wrist),
@@ -289,29 +327,24 @@ bool LimbsClear::clear_of_body(size_t arm, std::span<const Mat4> matrices, Chain
 
 /// Capsules of one arm against those of the other. Where their axes nearly meet, the direction between them
 /// says little: an arm stays on the side where it was, or in front if it is in front.
-bool LimbsClear::clear_of_each_other(const Vec3& forward, Vec3 (&sides)[2][2], Chain (&chains)[2]) const {
+bool LimbsClear::clear_of_each_other(const Vec3& forward, Sides& sides, Chain (&chains)[2]) const {
     bool moved = false;
-    for (int of_left = 0; of_left < 2; ++of_left)
-        for (int of_right = 0; of_right < 2; ++of_right) {
-            const auto bone = [&](size_t arm, int lower) {
-                const Chain& c = chains[arm];
-                return lower ? Segment{c.elbow, c.wrist + c.hand} : Segment{c.shoulder, c.elbow};
-            };
-            const Segment a = bone(0, of_left), b = bone(1, of_right);
+    for (int of_left = 0; of_left < kParts; ++of_left)
+        for (int of_right = 0; of_right < kParts; ++of_right) {
+            const Chain::Line a = chains[0].line_of(of_left), b = chains[1].line_of(of_right);
             const NearestOfSegments nearest = nearest_of(a, b);
-            const auto radius = [&](size_t arm, int lower) {
-                return lower ? arms_[arm].lower_radius_m : arms_[arm].upper_radius_m;
-            };
-            const float apart = radius(0, of_left) + radius(1, of_right) + kRoom_m;
             const Vec3 way = a.at(nearest.on_a) - b.at(nearest.on_b);
             const float distance = glm::length(way);
-            Vec3& side = sides[of_left][of_right];
+            Vec3& side = sides[size_t(of_left)][size_t(of_right)];
+            const Vec3 direction = unit_or(way, forward);
+            const float apart = radius_m(0, chains[0], of_left, nearest.on_a, direction) +
+                                radius_m(1, chains[1], of_right, nearest.on_b, direction) + kRoom_m;
             if (distance >= apart + kClose_m) {
                 side = Vec3(0.0f);
                 continue;
             }
             const bool at_free_end =
-                (of_left && nearest.on_a > kFreeEnd) || (of_right && nearest.on_b > kFreeEnd);
+                (of_left == 2 && nearest.on_a > kFreeEnd) || (of_right == 2 && nearest.on_b > kFreeEnd);
             const bool had_side = side != Vec3(0.0f),
                        passed = had_side && !at_free_end && dot(way, side) < 0.0f;
             if (!passed) {
@@ -322,22 +355,25 @@ bool LimbsClear::clear_of_each_other(const Vec3& forward, Vec3 (&sides)[2][2], C
             }
             const float depth = apart - dot(way, side);
             if (depth <= 0.0f) continue;
-            const auto push = [&](Chain& c, int lower, float share, float by) {
-                if (lower)
-                    c.move(1.0f - share, share, by * side);
-                else if (share > kMinLever)
-                    c.move(share, 0.0f, by * side);
-            };
             moved = true;
-            push(chains[0], of_left, nearest.on_a, 0.5f * depth);
-            push(chains[1], of_right, nearest.on_b, -0.5f * depth);
+            chains[0].push(of_left, nearest.on_a, 0.5f * depth * side);
+            chains[1].push(of_right, nearest.on_b, -0.5f * depth * side);
         }
     if (moved)
         for (Chain& chain : chains) chain.keep_lengths();
     return moved;
 }
 
-void LimbsClear::clear(std::span<const Mat4> matrices, const Vec3& forward, int rounds, Vec3 (&sides)[2][2],
+/// At that share of the part, towards the other arm. A hand is flat.
+float LimbsClear::radius_m(size_t arm, const Chain& chain, int part, float share,
+                           const Vec3& direction) const {
+    const Arm& of = arms_[arm];
+    if (part < 2) return glm::mix(of.tapers[part].from_m, of.tapers[part].to_m, share);
+    const float across = dot(direction, chain.turn * of.across);
+    return std::hypot(across * of.wide_m, std::sqrt(std::max(0.0f, 1.0f - across * across)) * of.thick_m);
+}
+
+void LimbsClear::clear(std::span<const Mat4> matrices, const Vec3& forward, int rounds, Sides& sides,
                        Chain (&chains)[2]) const {
     for (int round = 0; round < rounds; ++round) {
         bool moved = false;
@@ -373,7 +409,7 @@ void LimbsClear::run(const PosedSkeleton& posed, std::span<const Mat4> matrices,
     const Quat chest = turn(VFIT_BONE_CHEST);
     const Vec3 forward = chest * Vec3(0, 0, 1);
     Chain chains[2] = {wanted[0], wanted[1]};
-    Vec3 sides[2][2]{};
+    Sides sides{};
     int steps = 1;
     float step_m = INFINITY;
     if (has_path) {
@@ -389,8 +425,8 @@ void LimbsClear::run(const PosedSkeleton& posed, std::span<const Mat4> matrices,
         }
         steps = std::clamp(int(std::ceil(way_m / kStep_m)), 1, kMaxSteps);
         step_m = kLongestStep * std::max(way_m / float(steps), kStep_m);
-        for (size_t l = 0; l < 2; ++l)
-            for (size_t r = 0; r < 2; ++r) sides[l][r] = chest * before.sides[l][r];
+        for (size_t l = 0; l < kParts; ++l)
+            for (size_t r = 0; r < kParts; ++r) sides[l][r] = chest * before.sides[l][r];
     }
     for (int left = steps; left > 0; --left) {
         for (size_t i = 0; i < 2; ++i) {
@@ -410,8 +446,9 @@ void LimbsClear::run(const PosedSkeleton& posed, std::span<const Mat4> matrices,
         const Chain& c = chains[i];
         now.arms[i] = {to_chest * (c.elbow - c.shoulder), to_chest * (c.wrist - c.shoulder),
                        to_chest * c.hand};
-        for (size_t k = 0; k < 2; ++k) now.sides[i][k] = to_chest * sides[i][k];
     }
+    for (size_t l = 0; l < kParts; ++l)
+        for (size_t r = 0; r < kParts; ++r) now.sides[l][r] = to_chest * sides[l][r];
     for (size_t i = 0; i < 2; ++i) {
         const ArmBones& arm = kArms[i];
         const Vec3 shoulder = at(arm.upper), elbow = at(arm.lower), wrist = at(arm.hand);

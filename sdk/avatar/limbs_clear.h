@@ -17,6 +17,10 @@
 namespace vfit {
 
 class LimbsClear {
+    static constexpr int kParts = 3;  // of an arm: upper arm, forearm, hand
+    /// From a part of the right arm to one of the left, unit vectors; 0: they are not close.
+    using Sides = std::array<std::array<Vec3, kParts>, kParts>;
+
 public:
     /// Learns how thick trunk, thighs, arms and hands are from the rest mesh.
     LimbsClear(const AvatarRig& rig, std::span<const Vec3> rest, std::span<const BodyPart> parts);
@@ -31,8 +35,7 @@ public:
             int64_t time_ns = 0;
             bool is_known = false;
             Arm arms[2];
-            Vec3 sides[2][2]{};  // from the right arm's upper or lower bone to the left arm's, in the chest's
-                                 // frame; 0: not close
+            Sides sides{};        // in the chest's frame
             float held_s = 0.0f;  // since the arms were last near to where the pose had them
         };
         State before_, now_;  // of two times
@@ -68,7 +71,12 @@ private:
     struct Arm {
         int hand_bone = 0;
         Vec3 hand{0.0f};  // rest: from the wrist to the knuckles
-        float upper_radius_m = 0.0f, lower_radius_m = 0.0f;
+        struct Taper {
+            float from_m, to_m;  // radii
+        };
+        Taper tapers[2]{};                    // of upper arm and forearm
+        Vec3 across{1.0f, 0.0f, 0.0f};        // of the hand, rest: a unit vector towards the thumb's side
+        float wide_m = 0.0f, thick_m = 0.0f;  // of the hand, from its line
         std::vector<Ball> balls;
     };
     /// An arm while it is moved.
@@ -80,7 +88,13 @@ private:
             return (1.0f - ball.elbow - ball.wrist) * shoulder + ball.elbow * elbow + ball.wrist * wrist +
                    turn * ball.offset;
         }
+        struct Line {
+            Vec3 from, to;
+            Vec3 at(float share) const { return glm::mix(from, to, share); }
+        };
+        Line line_of(int part) const;
         void move(float on_elbow, float on_wrist, const Vec3& by);
+        void push(int part, float share, const Vec3& by);
         void keep_lengths();
         float way_to(const Chain& other) const;
         void go_to(const Chain& other, float share);
@@ -91,9 +105,10 @@ private:
                  float side) const;
     /// One pass; true where something was moved.
     bool clear_of_body(size_t arm, std::span<const Mat4> matrices, Chain& chain) const;
-    bool clear_of_each_other(const Vec3& forward, Vec3 (&sides)[2][2], Chain (&chains)[2]) const;
-    void clear(std::span<const Mat4> matrices, const Vec3& forward, int rounds, Vec3 (&sides)[2][2],
+    bool clear_of_each_other(const Vec3& forward, Sides& sides, Chain (&chains)[2]) const;
+    void clear(std::span<const Mat4> matrices, const Vec3& forward, int rounds, Sides& sides,
                Chain (&chains)[2]) const;
+    float radius_m(size_t arm, const Chain& chain, int part, float share, const Vec3& direction) const;
 
     std::vector<Outline> outlines_;  // trunk, thighs
     std::array<Arm, 2> arms_;
