@@ -36,7 +36,7 @@ constexpr float kMinLever = 0.4f;  // of the upper arm: nearer to the shoulder, 
 // Quantile of a limb's radii. Of a hand's, fingers and thumb are the larger ones: the palm is meant, from the
 // side.
 constexpr float kRound = 0.5f, kPalm = 0.25f;
-constexpr float kHandSize = 0.75f;  // quantile of the ways off a hand's line
+constexpr float kHandSize = 0.9f;  // quantile of the ways off a hand's line
 
 struct ArmBones {
     int upper, lower, hand;
@@ -47,6 +47,8 @@ constexpr ArmBones kArms[2] = {
     {VFIT_BONE_RIGHT_UPPER_ARM, VFIT_BONE_RIGHT_LOWER_ARM, VFIT_BONE_RIGHT_HAND, -1.0f}};
 
 using glm::dot;
+
+enum Part { kUpper, kForearm, kHand };
 
 Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
     const float length = glm::length(v);
@@ -275,16 +277,16 @@ void LimbsClear::Chain::move(float on_elbow, float on_wrist, const Vec3& by) {
 }
 
 LimbsClear::Chain::Line LimbsClear::Chain::line_of(int part) const {
-    if (part == 0) return {shoulder, elbow};
-    if (part == 1) return {elbow, wrist};
+    if (part == kUpper) return {shoulder, elbow};
+    if (part == kForearm) return {elbow, wrist};
     return {wrist, wrist + kFingertips * hand};
 }
 
 /// What is at that share of the part.
 void LimbsClear::Chain::push(int part, float share, const Vec3& by) {
-    if (part == 2)
+    if (part == kHand)
         move(0.0f, 1.0f, by);
-    else if (part == 1)
+    else if (part == kForearm)
         move(1.0f - share, share, by);
     else if (share > kMinLever)
         move(share, 0.0f, by);
@@ -325,39 +327,60 @@ bool LimbsClear::clear_of_body(size_t arm, std::span<const Mat4> matrices, Chain
     return moved;
 }
 
+LimbsClear::Meeting LimbsClear::meeting_of(int left, int right, const Vec3& otherwise,
+                                           const Chain (&chains)[2]) const {
+    const Chain::Line a = chains[0].line_of(left), b = chains[1].line_of(right);
+    const NearestOfSegments nearest = nearest_of(a, b);
+    const Vec3 way = a.at(nearest.on_a) - b.at(nearest.on_b), direction = unit_or(way, otherwise);
+    return {left,
+            right,
+            nearest.on_a,
+            nearest.on_b,
+            way,
+            radius_m(0, chains[0], left, nearest.on_a, direction) +
+                radius_m(1, chains[1], right, nearest.on_b, direction) + kRoom_m,
+            (left == kHand && nearest.on_a > kFreeEnd) || (right == kHand && nearest.on_b > kFreeEnd)};
+}
+
 /// Capsules of one arm against those of the other. Where their axes nearly meet, the direction between them
-/// says little: an arm stays on the side where it was, or in front if it is in front.
+/// says little: an arm stays on the side where it was, or in front if it is in front. Forearm and hand are on
+/// one side.
 bool LimbsClear::clear_of_each_other(const Vec3& forward, Sides& sides, Chain (&chains)[2]) const {
+    constexpr std::array<std::array<int, 2>, 2> kPartsOf = {{{0, 0}, {1, 2}}};  // first, last
     bool moved = false;
-    for (int of_left = 0; of_left < kParts; ++of_left)
-        for (int of_right = 0; of_right < kParts; ++of_right) {
-            const Chain::Line a = chains[0].line_of(of_left), b = chains[1].line_of(of_right);
-            const NearestOfSegments nearest = nearest_of(a, b);
-            const Vec3 way = a.at(nearest.on_a) - b.at(nearest.on_b);
-            const float distance = glm::length(way);
-            Vec3& side = sides[size_t(of_left)][size_t(of_right)];
-            const Vec3 direction = unit_or(way, forward);
-            const float apart = radius_m(0, chains[0], of_left, nearest.on_a, direction) +
-                                radius_m(1, chains[1], of_right, nearest.on_b, direction) + kRoom_m;
-            if (distance >= apart + kClose_m) {
+    for (size_t of_left = 0; of_left < 2; ++of_left)
+        for (size_t of_right = 0; of_right < 2; ++of_right) {
+            Vec3& side = sides[of_left][of_right];
+            std::array<Meeting, 4> meetings;
+            size_t count = 0, closest = 0;
+            const auto gap_m = [&](size_t i) { return glm::length(meetings[i].way) - meetings[i].apart_m; };
+            for (int left = kPartsOf[of_left][0]; left <= kPartsOf[of_left][1]; ++left)
+                for (int right = kPartsOf[of_right][0]; right <= kPartsOf[of_right][1]; ++right) {
+                    meetings[count] = meeting_of(left, right, forward, chains);
+                    if (gap_m(count) < gap_m(closest)) closest = count;
+                    ++count;
+                }
+            if (gap_m(closest) >= kClose_m) {
                 side = Vec3(0.0f);
                 continue;
             }
-            const bool at_free_end =
-                (of_left == 2 && nearest.on_a > kFreeEnd) || (of_right == 2 && nearest.on_b > kFreeEnd);
-            const bool had_side = side != Vec3(0.0f),
-                       passed = had_side && !at_free_end && dot(way, side) < 0.0f;
-            if (!passed) {
-                const Vec3 beside = had_side && !at_free_end   ? side
-                                    : dot(way, forward) < 0.0f ? -forward
-                                                               : forward;
-                side = unit_or(way + beside * std::max(0.0f, 0.5f * apart - distance), beside);
+            const auto towards = [&](const Meeting& m, const Vec3& beside) {
+                return unit_or(m.way + beside * std::max(0.0f, 0.5f * m.apart_m - glm::length(m.way)),
+                               beside);
+            };
+            const Meeting& first = meetings[closest];
+            const bool keeps = side != Vec3(0.0f) && !first.at_free_end;
+            if (!keeps || dot(first.way, side) >= 0.0f)
+                side = towards(first, keeps ? side : dot(first.way, forward) < 0.0f ? -forward : forward);
+            for (size_t i = 0; i < count; ++i) {
+                const Meeting m = meeting_of(meetings[i].left, meetings[i].right, forward, chains);
+                const Vec3 out = dot(m.way, side) >= 0.0f ? towards(m, side) : side;
+                const float depth = m.apart_m - dot(m.way, out);
+                if (glm::length(m.way) >= m.apart_m || depth <= 0.0f) continue;
+                moved = true;
+                chains[0].push(m.left, m.on_left, 0.5f * depth * out);
+                chains[1].push(m.right, m.on_right, -0.5f * depth * out);
             }
-            const float depth = apart - dot(way, side);
-            if (depth <= 0.0f) continue;
-            moved = true;
-            chains[0].push(of_left, nearest.on_a, 0.5f * depth * side);
-            chains[1].push(of_right, nearest.on_b, -0.5f * depth * side);
         }
     if (moved)
         for (Chain& chain : chains) chain.keep_lengths();
@@ -368,7 +391,7 @@ bool LimbsClear::clear_of_each_other(const Vec3& forward, Sides& sides, Chain (&
 float LimbsClear::radius_m(size_t arm, const Chain& chain, int part, float share,
                            const Vec3& direction) const {
     const Arm& of = arms_[arm];
-    if (part < 2) return glm::mix(of.tapers[part].from_m, of.tapers[part].to_m, share);
+    if (part != kHand) return glm::mix(of.tapers[part].from_m, of.tapers[part].to_m, share);
     const float across = dot(direction, chain.turn * of.across);
     return std::hypot(across * of.wide_m, std::sqrt(std::max(0.0f, 1.0f - across * across)) * of.thick_m);
 }
@@ -425,8 +448,8 @@ void LimbsClear::run(const PosedSkeleton& posed, std::span<const Mat4> matrices,
         }
         steps = std::clamp(int(std::ceil(way_m / kStep_m)), 1, kMaxSteps);
         step_m = kLongestStep * std::max(way_m / float(steps), kStep_m);
-        for (size_t l = 0; l < kParts; ++l)
-            for (size_t r = 0; r < kParts; ++r) sides[l][r] = chest * before.sides[l][r];
+        for (size_t l = 0; l < 2; ++l)
+            for (size_t r = 0; r < 2; ++r) sides[l][r] = chest * before.sides[l][r];
     }
     for (int left = steps; left > 0; --left) {
         for (size_t i = 0; i < 2; ++i) {
@@ -447,8 +470,8 @@ void LimbsClear::run(const PosedSkeleton& posed, std::span<const Mat4> matrices,
         now.arms[i] = {to_chest * (c.elbow - c.shoulder), to_chest * (c.wrist - c.shoulder),
                        to_chest * c.hand};
     }
-    for (size_t l = 0; l < kParts; ++l)
-        for (size_t r = 0; r < kParts; ++r) now.sides[l][r] = to_chest * sides[l][r];
+    for (size_t l = 0; l < 2; ++l)
+        for (size_t r = 0; r < 2; ++r) now.sides[l][r] = to_chest * sides[l][r];
     for (size_t i = 0; i < 2; ++i) {
         const ArmBones& arm = kArms[i];
         const Vec3 shoulder = at(arm.upper), elbow = at(arm.lower), wrist = at(arm.hand);

@@ -17,9 +17,9 @@
 namespace vfit {
 
 class LimbsClear {
-    static constexpr int kParts = 3;  // of an arm: upper arm, forearm, hand
-    /// From a part of the right arm to one of the left, unit vectors; 0: they are not close.
-    using Sides = std::array<std::array<Vec3, kParts>, kParts>;
+    /// From the right arm's upper arm, or its forearm and hand, to those of the left: unit vectors; 0: they
+    /// are not close.
+    using Sides = std::array<std::array<Vec3, 2>, 2>;
 
 public:
     /// Learns how thick trunk, thighs, arms and hands are from the rest mesh.
@@ -106,6 +106,14 @@ private:
     /// One pass; true where something was moved.
     bool clear_of_body(size_t arm, std::span<const Mat4> matrices, Chain& chain) const;
     bool clear_of_each_other(const Vec3& forward, Sides& sides, Chain (&chains)[2]) const;
+    struct Meeting {
+        int left, right;  // parts of the arms: upper arm, forearm, hand
+        float on_left, on_right;
+        Vec3 way;       // from the right one to the left one
+        float apart_m;  // that they are to be
+        bool at_free_end;
+    };
+    Meeting meeting_of(int left, int right, const Vec3& otherwise, const Chain (&chains)[2]) const;
     void clear(std::span<const Mat4> matrices, const Vec3& forward, int rounds, Sides& sides,
                Chain (&chains)[2]) const;
     float radius_m(size_t arm, const Chain& chain, int part, float share, const Vec3& direction) const;
