@@ -26,7 +26,7 @@ constexpr float kHeldBack_m = 0.15f, kMaxHeld_s = 0.5f;
 constexpr size_t kReach = 2;         // cells of an outline that a vertex speaks for, to either side
 constexpr float kFingertips = 1.6f;  // from the wrist, times the way to the knuckles
 constexpr float kAlongHand[] = {0.1f, kHandCentre, 1.0f,
-                                1.6f};          // from the wrist to the knuckles, and on to the fingers
+                                kFingertips};   // from the wrist to the knuckles, and on to the fingers
 constexpr float kAlongThumb[] = {0.7f, 0.95f};  // from the wrist to its tip
 constexpr float kThumb_m = 0.01f;               // its radius
 // Of the upper arm only what is below the armpit: above, it is one with the trunk.
