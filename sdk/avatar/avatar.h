@@ -109,7 +109,8 @@ public:
     std::vector<BoneAxis> bone_axes(std::span<const Mat4> matrices) const;
 
     /// Skinning matrices (one a rig bone) and colliders of a body that gets dressed: that share of the way
-    /// from standing straight, arms and legs apart (0), to the pose (1). The hips are where the pose has them.
+    /// from standing straight, arms and legs apart (0), to the pose (1). The hips are where the pose has
+    /// them.
     void while_dressing(float share, std::span<Mat4> matrices, std::vector<Collider>& out) const;
 
     /// The same of a body in the pose, but for its legs: those are that share of the way from where they

@@ -282,7 +282,7 @@ LimbsClear::Chain::Line LimbsClear::Chain::line_of(int part) const {
     return {wrist, wrist + kFingertips * hand};
 }
 
-/// What is at that share of the part.
+/// What is so far along the part.
 void LimbsClear::Chain::push(int part, float share, const Vec3& by) {
     if (part == kHand)
         move(0.0f, 1.0f, by);
@@ -387,7 +387,7 @@ bool LimbsClear::clear_of_each_other(const Vec3& forward, Sides& sides, Chain (&
     return moved;
 }
 
-/// At that share of the part, towards the other arm. A hand is flat.
+/// So far along the part, towards the other arm. A hand is flat.
 float LimbsClear::radius_m(size_t arm, const Chain& chain, int part, float share,
                            const Vec3& direction) const {
     const Arm& of = arms_[arm];
