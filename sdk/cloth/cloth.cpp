@@ -318,8 +318,8 @@ void Cloth::put_on(const BodyOnItsWay& body, Jobs& jobs) {
 
 void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
     // The shorter a step, the softer is all that gives way in it (XPBD): at first cloth moves by a millimetre
-    // or so between two looks at what it may meet, itself included. The last look takes it out of the skin.
-    constexpr int kSteps = 5, kGrowing = 4, kSubsteps = 10;
+    // or so between two looks at what it may meet, itself included. The last two take it out of the skin.
+    constexpr int kSteps = 6, kGrowing = 4, kSubsteps = 10;
     constexpr float kShortest_s = 1.5e-4f, kLongest_s = 1.0f / 60.0f, kStopped = 1.0f;
     State& s = *state_;
     s.settles_s = kSettles_s, s.haste = kSettlingHaste;
