@@ -55,16 +55,11 @@ Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
     return length > 1e-9f ? v / length : otherwise;
 }
 
-struct Segment {
-    Vec3 from, to;
-    Vec3 at(float share) const { return glm::mix(from, to, share); }
-};
 struct NearestOfSegments {
     float on_a, on_b;
 };
 /// Ericson, Real-Time Collision Detection, 5.1.9.
-template <typename Segment>
-NearestOfSegments nearest_of(const Segment& a, const Segment& b) {
+NearestOfSegments nearest_of(const LimbSegment& a, const LimbSegment& b) {
     const Vec3 d1 = a.to - a.from, d2 = b.to - b.from, r = a.from - b.from;
     const float l1 = std::max(dot(d1, d1), 1e-8f), l2 = std::max(dot(d2, d2), 1e-8f), f = dot(d2, r),
                 c = dot(d1, r), along = dot(d1, d2), square = l1 * l2 - along * along;
@@ -83,7 +78,7 @@ float quantile_of(std::vector<float>& values, float quantile) {
 
 /// Quantile of the distance from the axis of the part's skin within a tenth of the bone's length.
 float radius_about(std::span<const Vec3> rest, std::span<const BodyPart> parts, BodyPart part,
-                   const Segment& axis, float share, float quantile) {
+                   const LimbSegment& axis, float share, float quantile) {
     constexpr float kAlong = 0.1f;
     const Vec3 way = axis.to - axis.from;
     std::vector<float> off;
@@ -276,7 +271,7 @@ void LimbsClear::Chain::move(float on_elbow, float on_wrist, const Vec3& by) {
     wrist += by * (on_wrist / square);
 }
 
-LimbsClear::Chain::Line LimbsClear::Chain::line_of(int part) const {
+LimbSegment LimbsClear::Chain::segment_of(int part) const {
     if (part == kUpper) return {shoulder, elbow};
     if (part == kForearm) return {elbow, wrist};
     return {wrist, wrist + kFingertips * hand};
@@ -329,7 +324,7 @@ bool LimbsClear::clear_of_body(size_t arm, std::span<const Mat4> matrices, Chain
 
 LimbsClear::Meeting LimbsClear::meeting_of(int left, int right, const Vec3& otherwise,
                                            const Chain (&chains)[2]) const {
-    const Chain::Line a = chains[0].line_of(left), b = chains[1].line_of(right);
+    const LimbSegment a = chains[0].segment_of(left), b = chains[1].segment_of(right);
     const NearestOfSegments nearest = nearest_of(a, b);
     const Vec3 way = a.at(nearest.on_a) - b.at(nearest.on_b), direction = unit_or(way, otherwise);
     return {left,
@@ -346,7 +341,8 @@ LimbsClear::Meeting LimbsClear::meeting_of(int left, int right, const Vec3& othe
 /// says little: an arm stays on the side where it was, or in front if it is in front. Forearm and hand are on
 /// one side.
 bool LimbsClear::clear_of_each_other(const Vec3& forward, Sides& sides, Chain (&chains)[2]) const {
-    constexpr std::array<std::array<int, 2>, 2> kPartsOf = {{{0, 0}, {1, 2}}};  // first, last
+    constexpr std::array<std::array<int, 2>, 2> kPartsOf = {
+        {{kUpper, kUpper}, {kForearm, kHand}}};  // first, last
     bool moved = false;
     for (size_t of_left = 0; of_left < 2; ++of_left)
         for (size_t of_right = 0; of_right < 2; ++of_right) {

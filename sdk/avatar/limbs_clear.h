@@ -16,6 +16,11 @@
 
 namespace vfit {
 
+struct LimbSegment {
+    Vec3 from, to;
+    Vec3 at(float share) const { return glm::mix(from, to, share); }
+};
+
 class LimbsClear {
     /// From the right arm's upper arm, or its forearm and hand, to those of the left: unit vectors; 0: they
     /// are not close.
@@ -88,11 +93,7 @@ private:
             return (1.0f - ball.elbow - ball.wrist) * shoulder + ball.elbow * elbow + ball.wrist * wrist +
                    turn * ball.offset;
         }
-        struct Line {
-            Vec3 from, to;
-            Vec3 at(float share) const { return glm::mix(from, to, share); }
-        };
-        Line line_of(int part) const;
+        LimbSegment segment_of(int part) const;
         void move(float on_elbow, float on_wrist, const Vec3& by);
         void push(int part, float share, const Vec3& by);
         void keep_lengths();

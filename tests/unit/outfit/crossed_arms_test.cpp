@@ -1,6 +1,8 @@
 // Arms that are crossed before the chest, by an exact test of triangles.
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "cloth/crossings.h"
 #include "people.h"
 
@@ -37,22 +39,44 @@ Pose crossed(const Avatar& avatar, float further, float bend, float twist) {
     return pose;
 }
 
-TEST(CrossedArms, HandsAndForearmsStayOutOfEachOther) {
-    AvatarDesc desc{VFIT_SEX_MALE};
-    desc.limbs_clear = true;
-    Avatar avatar(body_model(), desc, body_model()->default_shape(VFIT_SEX_MALE), Vec2(1.0f));
-    const auto jobs = Jobs::own(0);
-    const auto left = triangles_of(avatar, {BodyPart::kLeftForearm, BodyPart::kLeftHand}),
-               right = triangles_of(avatar, {BodyPart::kRightForearm, BodyPart::kRightHand});
+class CrossedArms : public testing::TestWithParam<vfit_sex> {
+protected:
+    static AvatarDesc desc() {
+        AvatarDesc out{GetParam()};
+        out.limbs_clear = true;
+        return out;
+    }
+    size_t crossings(float further, float bend, float twist) {
+        avatar.pose(crossed(avatar, further, bend, twist), *jobs);
+        return crossed_triangles({avatar.positions(), left}, {avatar.positions(), right}).size();
+    }
+    Avatar avatar{body_model(), desc(), body_model()->default_shape(GetParam()), Vec2(1.0f)};
+    std::unique_ptr<Jobs> jobs = Jobs::own(0);
+    std::vector<uint32_t> left = triangles_of(avatar, {BodyPart::kLeftForearm, BodyPart::kLeftHand}),
+                          right = triangles_of(avatar, {BodyPart::kRightForearm, BodyPart::kRightHand});
+};
+
+/// The man's poses are those by which the size of a hand was chosen (kHandSize).
+TEST_P(CrossedArms, HandsAndForearmsStayOutOfEachOther) {
     for (const float further : {-0.1f, -0.02f, 0.02f, 0.1f})
         for (const float bend : {1.0f, 1.2f, 1.4f, 1.55f, 1.7f, 1.9f})
-            for (const float twist : {-0.8f, 0.0f, 0.8f, 1.57f}) {
-                avatar.pose(crossed(avatar, further, bend, twist), *jobs);
-                EXPECT_EQ(crossed_triangles({avatar.positions(), left}, {avatar.positions(), right}).size(),
-                          0u)
-                    << further << " " << bend << " " << twist;
-            }
+            for (const float twist : {-0.8f, 0.0f, 0.8f, 1.57f})
+                EXPECT_EQ(crossings(further, bend, twist), 0u) << further << " " << bend << " " << twist;
 }
+
+/// By which nothing was chosen.
+TEST_P(CrossedArms, InRandomPosesTheyHardlyCross) {
+    std::mt19937 random(20261127);
+    std::uniform_real_distribution<float> further(-0.15f, 0.15f), bend(0.9f, 2.0f), twist(-1.6f, 1.6f);
+    int poses = 0;
+    for (int i = 0; i < 200; ++i) {
+        const float a = further(random), b = bend(random), c = twist(random);
+        poses += crossings(a, b, c) > 0;
+    }
+    EXPECT_LE(poses, GetParam() == VFIT_SEX_MALE ? 6 : 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, CrossedArms, testing::Values(VFIT_SEX_MALE, VFIT_SEX_FEMALE));
 
 }  // namespace
 }  // namespace vfit
