@@ -158,9 +158,9 @@ void ClothObject::wear_over(const Ref<ClothObject>& inner) {
     below_.reserve(below_.size() + 1);
     Ref<Frame> next = output.begin();
     if (!worn.wear_over(inner->worn)) return;
+    worn.see_layer(below_.size(), lies);
+    worn.come_outside_of_last_layer();
     below_.push_back(inner);
-    worn.see_layer(below_.size() - 1, lies);
-    worn.let_last_layer_grow();
     next_ = std::move(next);
     publish_step();
 }

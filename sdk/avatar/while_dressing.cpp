@@ -7,8 +7,9 @@ namespace vfit {
 
 namespace {
 
-constexpr float kArmsOutRad =
-    0.9f;  // of the upper arms below the T-pose: clear of the trunk and of a flared skirt
+// Of the upper arms below the T-pose: clear of the trunk and of a flared skirt, also where that goes past
+// another.
+constexpr float kArmsOutRad = 0.4f;
 constexpr float kLegsOutRad = 0.12f;  // of each leg: the legs of wide trousers are clear of each other
 
 Quat straight(int bone) {

@@ -9,8 +9,6 @@
 
 #include "body/mesh.h"
 #include "cloth/base/rigid_motion.h"
-#include "cloth/contact/mesh_lift.h"
-#include "cloth/contact/mesh_yield.h"
 #include "cloth/contact/triangle_contact.h"
 #include "cloth/solver/particle_solver.h"
 #include "core/clock.h"
@@ -30,6 +28,9 @@ constexpr float kMaxDepenetration_m_s = 3.0f;
 // What has been slower than that for so long, on a body that moves less than that in a step, sleeps. A swing
 // is so slow only for an instant, where it turns round; single vertices may tremble in a contact.
 constexpr float kStillMean_m_s = 0.002f, kStillMost_m_s = 0.05f, kStill_m = 2e-5f, kFallsAsleep_s = 0.5f;
+// Mean strain of a vertex's threads: beyond the first it gives way to cloth below, until it falls to the
+// second.
+constexpr float kTorn = 0.5f, kWhole = 0.25f;
 constexpr float kFinestVirtual_m = 0.001f;
 // Of the thickness, between a mesh's vertices or edges and the cloth: its own vertices keep all of it, so
 // that few of the others are in contact.
@@ -153,20 +154,17 @@ struct Cloth::State {
     std::vector<ContactMesh> meshes;
     std::vector<std::vector<Vec3>> mesh_places;  // that they go to
     std::vector<std::vector<Vec3>> mesh_starts;  // that they come from; empty: where they were
-    std::vector<Vec3> held;                      // targets, where fixed vertices are lifted off other cloth
-    std::vector<Vec3> previous_targets;          // one a vertex, then one a backstop: as held
+    std::vector<Vec3> previous_targets;          // one a vertex, then one a backstop
     bool backstops_placed = false;               // previous_targets holds the backstops as well
+    std::vector<float> limits_wider_m;           // one a vertex; empty: by nothing
 
     std::vector<Vec3> positions;    // what callers read
     std::vector<Vec3> before, now;  // with triangles: the same at the begin of the step, carried along; and
                                     // what the step made of it
-    std::optional<TriangleGroups> groups;      // of the cloth
     std::optional<TriangleContact> triangles;  // with own layers or props
     bool is_deformed = false;                  // bones made it jump, which may have made layers cross
     bool contacts_known = false;               // of where the cloth was placed
     bool certified = false;                    // layers do not cross, which is proven
-    std::optional<MeshLift> off_cloth;         // made when there are such meshes
-    std::optional<MeshYield> yield;
     // The same, found when they are asked for.
     mutable std::vector<Vec3> normals;
     mutable std::vector<float> edge_strains, strains, pressures;
@@ -197,7 +195,6 @@ struct Cloth::State {
     float way_within(Solids which) const;
     int substeps_for(float dt) const;
     int affordable(int wanted) const;
-    std::span<const Vec3> held_at(std::span<const Vec3> targets);
     void check_body(std::span<const Vec3> targets, std::span<const Collider> colliders) const;
     void check_mesh(uint32_t mesh, std::span<const Vec3> positions) const;
     void reset(std::span<const Vec3> start);
@@ -205,14 +202,12 @@ struct Cloth::State {
                  const IntervalEnded& interval_ended = {});
     void advance_interval(float dt, int count, float damping, const Interval& interval,
                           std::span<const Vec3> targets, Jobs& jobs, const IntervalEnded& interval_ended);
-    void rest_if_still(float dt, std::span<const Vec3> held, std::span<const Vec3> targets);
-    TriangleGroups& triangles_now(std::span<const Vec3> places, Jobs& jobs);
+    void rest_if_still(float dt, std::span<const Vec3> targets);
     void meet_triangles(const ContactMesh& mesh);
     void find_triangles();
     void part_layers(Jobs& jobs);
     void keep_layers(float dt, Jobs& jobs);
-    void lift_off_cloth(Jobs& jobs);
-    void yield_to_cloth();
+    void give_way();
     void publish();
     void find_normals() const;
     void find_strains() const;
@@ -233,7 +228,6 @@ Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings
     const FabricData& data = fabric->data();
     s.positions.resize(n);
     s.previous_targets.resize(fabric->target_count());
-    s.held.reserve(fabric->target_count());
     s.asleep_at.reserve(fabric->target_count());
     s.strains.resize(n);
     s.pressures.resize(n);
@@ -269,6 +263,8 @@ Cloth Cloth::with_fabric(std::shared_ptr<const Fabric> fabric, Jobs* jobs) const
     o.mesh_starts.resize(s.mesh_starts.size());
     o.previous_targets = s.previous_targets;
     o.backstops_placed = s.backstops_placed;
+    o.limits_wider_m = s.limits_wider_m;
+    o.solver.widen_limits(o.limits_wider_m);
     return out;
 }
 
@@ -286,21 +282,22 @@ void Cloth::State::reset(std::span<const Vec3> start) {
     solver.place(start);
     colliders.forget();
     for (ContactMesh& mesh : meshes) mesh.forget();
-    off_cloth.reset(), yield.reset();  // what crossed did so elsewhere
     contacts_known = certified = false;
     if (triangles) triangles->forget_meshes();
+    for (uint32_t v = 0; triangles && v < fabric->vertex_count(); ++v) triangles->give_way(v, false);
     carried = 0.0f;
     wake();
     publish();
 }
 
-void Cloth::put_on(const BodyOnItsWay& body, Jobs& jobs) {
+void Cloth::put_on(std::span<const Vec3> start, const BodyOnItsWay& body, Jobs& jobs) {
     State& s = *state_;
     std::vector<Vec3> targets;
     std::vector<Collider> colliders;
     body(0.0f, targets, colliders);
     s.check_body(targets, colliders);
-    s.reset(targets);
+    reset(start);
+    s.meet_body(targets, colliders);
     s.part_layers(jobs);
     const auto frame = [&](const PutOnPhase& phase, float share) {
         body(share, targets, colliders);
@@ -316,6 +313,25 @@ void Cloth::put_on(const BodyOnItsWay& body, Jobs& jobs) {
     s.wake();
 }
 
+void Cloth::go_to(std::span<const Vec3> positions, Jobs& jobs) {
+    constexpr int kParts = 10;  // of the way
+    State& s = *state_;
+    std::vector<Vec3> places(positions.begin(), positions.end());
+    if (s.triangles && s.settings.self_thickness_m > 0.0f) {
+        for (uint32_t i = 0; i < s.meshes.size(); ++i) s.triangles->hide_mesh(i);
+        s.before = s.positions;
+        s.triangles->place(s.before, jobs);
+        for (int i = 0; i < kParts; ++i) {
+            for (size_t v = 0; v < s.now.size(); ++v)
+                s.now[v] = glm::mix(s.before[v], positions[v], 1.0f / float(kParts - i));
+            s.triangles->keep(s.before, s.now, jobs);
+            s.before = s.now;
+        }
+        std::copy(s.before.begin(), s.before.end(), places.begin());
+    }
+    reset(places);
+}
+
 void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
     // The shorter a step, the softer is all that gives way in it (XPBD): at first cloth moves by a millimetre
     // or so between two looks at what it may meet, itself included. The last two take it out of the skin.
@@ -323,7 +339,6 @@ void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
     constexpr float kShortest_s = 1.5e-4f, kLongest_s = 1.0f / 60.0f, kStopped = 1.0f;
     State& s = *state_;
     s.settles_s = kSettles_s, s.haste = kSettlingHaste;
-    s.part_layers(jobs);
     std::vector<Vec3> targets;
     std::vector<Collider> colliders;
     for (int i = 0; i < kSteps; ++i) {
@@ -331,6 +346,7 @@ void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
         body(grown, targets, colliders);
         s.check_body(targets, colliders);
         s.meet_body(targets, colliders);
+        if (i == 0) s.part_layers(jobs);
         s.advance(kShortest_s * std::pow(kLongest_s / kShortest_s, grown), kSubsteps, kStopped, targets,
                   jobs);
     }
@@ -349,7 +365,10 @@ uint32_t Cloth::add_mesh(size_t vertices, std::span<const uint32_t> indices, std
         fail(VFIT_ERROR_ARGUMENT, counts.size(), " flags for a mesh of ", vertices, " vertices");
     state_->meshes.emplace_back(vertices, indices, counts, what, filter);
     state_->mesh_places.emplace_back(), state_->mesh_starts.emplace_back();
-    state_->meet_triangles(state_->meshes.back());
+    if (what == MeshOf::cloth && !state_->triangles)
+        state_->find_triangles();
+    else
+        state_->meet_triangles(state_->meshes.back());
     state_->wake();
     return uint32_t(state_->meshes.size()) - 1;
 }
@@ -408,6 +427,15 @@ void Cloth::set_mesh_mask(uint32_t mesh, std::span<const uint8_t> mask) {
     state_->wake();
 }
 
+void Cloth::widen_limits(std::span<const float> by_m) {
+    if (by_m.size() != state_->fabric->vertex_count())
+        fail(VFIT_ERROR_ARGUMENT, "limits of ", by_m.size(), " vertices instead of ",
+             state_->fabric->vertex_count());
+    state_->limits_wider_m.assign(by_m.begin(), by_m.end());
+    state_->solver.widen_limits(by_m);
+    state_->wake();
+}
+
 void Cloth::set_air(const Air& air) {
     check(air);
     if (air.wind_m_s != state_->settings.air.wind_m_s || air.drag != state_->settings.air.drag ||
@@ -450,7 +478,7 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
         if (done > 0) s.look_at({});  // the body stands where it arrived
         s.advance(dt, substeps, settles ? std::max(s.settings.damping, kSettlingDamping) : s.settings.damping,
                   skinned_targets, jobs, interval_ended);
-        s.lift_off_cloth(jobs);
+        if (!settles) s.give_way();
     }
     s.substeps = uint32_t(substeps * done);
     s.substep_s = dt / float(substeps);
@@ -509,6 +537,7 @@ void Cloth::carry_along(const CarriedAlong& by) {
     s.publish();
     s.is_deformed = s.is_deformed || (by.fraction >= 1.0f && !by.rigid);
     s.carried = by.fraction;
+    if (by.fraction >= 1.0f) s.contacts_known = false;  // their normals do not turn with it
     s.sleeps_on = by.keeps_rest(s.settings.gravity, s.settings.air);
 }
 
@@ -577,13 +606,12 @@ void Cloth::State::check_mesh(uint32_t mesh, std::span<const Vec3> positions) co
 }
 
 /// The body has been met.
-void Cloth::State::advance(float dt, int count, float damping, std::span<const Vec3> skinned_targets,
-                           Jobs& jobs, const IntervalEnded& interval_ended) {
+void Cloth::State::advance(float dt, int count, float damping, std::span<const Vec3> targets, Jobs& jobs,
+                           const IntervalEnded& interval_ended) {
     const float by_way = std::min(way_within(Solids::all) / kIntervalWay_m, float(count / kMinSubsteps)),
                 parts = std::max(dt * kMinContactRate_hz - 1e-3f, by_way);
     const int intervals = meshes.empty() ? 1 : std::clamp(int(std::ceil(parts)), 1, count);
     if (triangles && std::exchange(is_deformed, false)) part_layers(jobs);
-    const std::span<const Vec3> targets = held_at(skinned_targets);
     if (!backstops_placed) {
         const uint32_t vertices = fabric->vertex_count();
         std::copy(targets.begin() + vertices, targets.end(), previous_targets.begin() + vertices);
@@ -595,7 +623,7 @@ void Cloth::State::advance(float dt, int count, float damping, std::span<const V
         if (intervals > 1) look_at(interval);
         advance_interval(dt * float(end - first) / float(count), end - first, damping, interval, targets,
                          jobs, interval_ended);
-        rest_if_still(dt * float(end - first) / float(count), targets, skinned_targets);
+        rest_if_still(dt * float(end - first) / float(count), targets);
     }
     std::copy(targets.begin(), targets.end(), previous_targets.begin());
     colliders.arrive();
@@ -612,16 +640,11 @@ void Cloth::State::advance_interval(float dt, int count, float damping, const In
         contacts_known = true;
     }
     const float h = dt / float(count);
-    std::span<const float> cloth_lift_m;
-    if (yield)
-        cloth_lift_m = yield->particles();
-    else if (off_cloth)
-        cloth_lift_m = off_cloth->particles();
     const ContactSettings contact{settings.friction, settings.friction * kKineticShare,
                                   kMaxDepenetration_m_s * h};
     solver.advance({dt, count, settings.gravity, settings.air, std::pow(1.0f - damping, h), contact,
                     settings.thickness_m, previous_targets, targets, interval, colliders, meshes,
-                    cloth_lift_m, triangles ? &*triangles : nullptr, settings.self_friction},
+                    triangles ? &*triangles : nullptr, settings.self_friction},
                    jobs);
     publish();
     if (interval_ended) interval_ended(interval.to, dt);
@@ -633,19 +656,13 @@ void Cloth::State::advance_interval(float dt, int count, float damping, const In
             ways = {std::max(solved.greatest_m, ways.greatest_m), std::max(solved.rms_m, ways.rms_m)};
         }
     }
-    yield_to_cloth();
-}
-
-TriangleGroups& Cloth::State::triangles_now(std::span<const Vec3> places, Jobs& jobs) {
-    if (!groups) groups.emplace(places, fabric->data().indices);
-    groups->move(places, jobs);
-    return *groups;
 }
 
 void Cloth::State::meet_triangles(const ContactMesh& mesh) {
     if (!triangles) return;
-    triangles->add_mesh(mesh.vertex_count(), mesh.indices(), kMeshShare * settings.thickness_m, mesh.what(),
-                        mesh.filter());
+    triangles->add_mesh(mesh.vertex_count(), mesh.indices(),
+                        (mesh.what() == MeshOf::cloth ? 1.0f : kMeshShare) * settings.thickness_m,
+                        mesh.what(), mesh.filter());
 }
 
 /// Builds the triangle contact again for the present meshes.
@@ -682,40 +699,21 @@ void Cloth::State::keep_layers(float dt, Jobs& jobs) {
     }
 }
 
-void Cloth::State::lift_off_cloth(Jobs& jobs) {
-    if (!settings.clears_meshes || std::none_of(meshes.begin(), meshes.end(), [](const ContactMesh& mesh) {
-            return mesh.what() == MeshOf::cloth;
-        }))
+/// What is too tight for the cloth below lets it through rather than tear.
+void Cloth::State::give_way() {
+    if (std::none_of(meshes.begin(), meshes.end(),
+                     [](const ContactMesh& mesh) { return mesh.what() == MeshOf::cloth; }))
         return;
-    if (!off_cloth) off_cloth.emplace(fabric);
-    off_cloth->look(triangles_now(positions, jobs), meshes);
-}
-
-void Cloth::State::yield_to_cloth() {
-    if (!settings.yields || std::none_of(meshes.begin(), meshes.end(),
-                                         [](const ContactMesh& mesh) { return is_cloth(mesh.what()); }))
-        return;
-    if (!yield) yield.emplace(fabric);
     find_strains();
-    yield->look(strains, off_cloth ? off_cloth->particles() : std::span<const float>());
+    for (uint32_t v = 0; v < strains.size(); ++v) {
+        if (strains[v] > kTorn) triangles->give_way(v, true);
+        if (strains[v] < kWhole) triangles->give_way(v, false);
+    }
 }
 
-/// Fixed vertices go where the skin carries them, but for those through whose triangles other cloth goes:
-/// they are lifted as others are.
-std::span<const Vec3> Cloth::State::held_at(std::span<const Vec3> targets) {
-    if (!off_cloth) return targets;
-    const std::vector<uint32_t>& fixed = fabric->kinematic_vertices();
-    if (std::none_of(fixed.begin(), fixed.end(), [&](uint32_t v) { return off_cloth->of_vertex(v) > 0.0f; }))
-        return targets;
-    find_normals();
-    held.assign(targets.begin(), targets.end());
-    for (const uint32_t v : fixed) held[v] += off_cloth->of_vertex(v) * normals[v];
-    return held;
-}
-
-void Cloth::State::rest_if_still(float dt, std::span<const Vec3> held, std::span<const Vec3> targets) {
+void Cloth::State::rest_if_still(float dt, std::span<const Vec3> targets) {
     const bool still = ways.rms_m <= kStillMean_m_s * dt && ways.greatest_m <= kStillMost_m_s * dt &&
-                       body_way() <= kStill_m && farthest(previous_targets, held) <= kStill_m;
+                       body_way() <= kStill_m && farthest(previous_targets, targets) <= kStill_m;
     still_s = still ? still_s + dt : 0.0f;
     if (!settings.sleeps || still_s < kFallsAsleep_s) return;
     // Their velocities stay: by them contact knows who is drawn to the body how fast, when it wakes.

@@ -53,10 +53,7 @@ struct ClothSettings {
     float virtual_m =
         0.0f;  // points of triangles, no further from each other, meet colliders as vertices do; 0: none
     bool pressure = false;  // how the body presses against each vertex is found
-    bool yields = true;     // to cloth below, rather than tear
-    bool clears_meshes =
-        true;            // where a mesh stands out between vertices, they go further off it than thickness_m
-    bool sleeps = true;  // a cloth that lies still, on a body that does, is not stepped
+    bool sleeps = true;     // a cloth that lies still, on a body that does, is not stepped
 
     bool is_jump(const BodyWay& way, float dt) const {
         return std::max(way.whole_m, way.limb_m) > carry_speed_m_s * dt || way.min_m > carry_way_m;
@@ -94,9 +91,13 @@ public:
         std::function<void(float share, std::vector<Vec3>& targets, std::vector<Collider>& colliders)>;
 
     /// Put on a body that first stands as at share 0 and then goes to 1: what it meets pushes the cloth
-    /// aside, instead of ending up inside of it. Ends at rest. The number of sub-steps is always the same,
-    /// whatever the settings.
-    void put_on(const BodyOnItsWay& body, Jobs& jobs);
+    /// aside, instead of ending up inside of it. start: as for reset. Ends at rest. The number of sub-steps
+    /// is always the same, whatever the settings.
+    void put_on(std::span<const Vec3> start, const BodyOnItsWay& body, Jobs& jobs);
+
+    /// There at once, at rest, but not through its own layers: where these would cross, not all of the way.
+    /// positions: as for reset.
+    void go_to(std::span<const Vec3> positions, Jobs& jobs);
 
     /// From a shape that was stretched over the body at share 0 to the cloth's own lengths on the body at
     /// share 1, without the speed that giving way at once would leave. Own layers that go through each other
@@ -119,9 +120,10 @@ public:
     void step(float dt, std::span<const Vec3> skinned_targets, std::span<const Collider> colliders,
               Jobs& jobs, const IntervalEnded& interval_ended = {});
 
-    /// A mesh that the cloth stays outside of (its skin, a garment worn below): triangles counter-clockwise
-    /// from outside, flags of the vertices that count (empty: all). Returns its number. Where it is, is said
-    /// before each step.
+    /// A solid that the cloth stays outside of (its skin), or another garment that it does not cross:
+    /// triangles counter-clockwise from outside, flags of the vertices that count (empty: all). Returns its
+    /// number. Where it is, is said before each step. Edges meet those of a garment, and from then on those
+    /// of all meshes (meet_edges).
     uint32_t add_mesh(size_t vertices, std::span<const uint32_t> indices,
                       std::span<const uint8_t> counts = {}, MeshOf what = MeshOf::solid,
                       const MeshFilter& filter = {});
@@ -142,6 +144,10 @@ public:
     void hide_mesh(uint32_t mesh);
     /// From the next step on, of a mesh that has a filter. One a vertex of the cloth.
     void set_mesh_mask(uint32_t mesh, std::span<const uint8_t> mask);
+
+    /// From the next step on: the fabric's limits are wider by that, one a vertex. What is worn over other
+    /// garments is held further off the body than these limits were made for.
+    void widen_limits(std::span<const float> by_m);
 
     /// From the next step on.
     void set_air(const Air& air);

@@ -1,4 +1,5 @@
-// The layers below a garment: garments that it is worn over, as meshes that its cloth stays outside of.
+// The layers below a garment: garments that it is worn over, as meshes that its cloth does not
+// cross.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +8,9 @@
 
 #include "avatar/rig.h"
 #include "cloth/cloth.h"
+#include "cloth/garment/carry.h"
 #include "math/types.h"
-#include "outfit/grown_below.h"
+#include "outfit/outside_layers.h"
 
 namespace vfit {
 
@@ -18,6 +20,8 @@ class LayersBelow {
 public:
     /// The next layer. inner must outlive this.
     void add(const WornGarment& inner, Cloth& cloth);
+    void remove_last(Cloth& cloth);
+    const WornGarment& last() const { return *layers_.back().garment; }
     size_t count() const { return layers_.size(); }
     bool has(const WornGarment& garment) const;
     /// The garment is one of the layers, or below one of them.
@@ -26,31 +30,26 @@ public:
     /// A layer has been stepped to there, one position a vertex. Does not allocate after the first call.
     void see(size_t layer, std::span<const Vec3> positions);
     /// The meshes of all layers, to where they were seen last.
-    void move(Cloth& cloth) const;
-    void hide(Cloth& cloth) const;
+    void move(Cloth& cloth);
+    /// Takes the pose in which they were seen out of them (skinning matrices, one a rig bone), and moves the
+    /// meshes into others.
+    void take_out(std::span<const Mat4> pose, Jobs& jobs);
+    void put_in(std::span<const Mat4> pose, Cloth& cloth, Jobs& jobs);
 
-    /// Layers from the `first` on grow from the bones (axes: one a rig bone) to where they were seen last:
-    /// `fraction` of the way, from 0 to 1; those before are there. Grown from the skin, a skirt would come
-    /// out of two legs, between which the garment hangs.
-    void start_to_grow(std::span<const BoneAxis> axes, size_t first);
-    /// Up to which fraction what grows lies inside of a cloth with these triangles.
-    float inside(std::span<const Vec3> positions, std::span<const uint32_t> indices, Jobs& jobs);
-    void grow(float fraction, Cloth& cloth);
-    void end_growth(Cloth& cloth) const;
+    /// A cloth, outside of the layers from the `first` on, as the meshes were moved last. axes: one a rig
+    /// bone.
+    std::vector<Vec3> outside(size_t first, std::span<const BoneAxis> axes, const AboutBones& cloth,
+                              float clearance_m) const;
 
 private:
     struct Layer {
         const WornGarment* garment;
         uint32_t mesh;
-        GrownBelow grown;
-        uint32_t grown_mesh;
-        std::vector<Vec3> seen;
-        std::vector<Vec3> on_bones;  // the vertices of `seen`, each within the bones that carry it
+        std::vector<Vec3> seen, moved;
+        Carry::Unposed unposed;
     };
-    std::span<const Layer> growing() const { return std::span(layers_).subspan(first_growing_); }
     std::vector<Layer> layers_;
-    size_t first_growing_ = 0;
-    std::vector<Vec3> places_;
+    std::vector<Vec3> normals_;  // room to work in
 };
 
 }  // namespace vfit

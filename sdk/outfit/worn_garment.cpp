@@ -137,47 +137,84 @@ void WornGarment::jump_to_pose() {
     body_.stand(avatar_pose());
 }
 
+/// Layers are carried by the bones from the pose, in which they hang, to the start and back.
 void WornGarment::put_on() {
     time_ns_ = wearer_.avatar().time_ns();
     stand();
     std::vector<Mat4> matrices(avatar_pose().size());
-    layers_.hide(cloth_);
     props_.hide(cloth_);
     obstacles_.meet_arms(cloth_);
-    cloth_.put_on(
-        [&](float share, std::vector<Vec3>& targets, std::vector<Collider>& colliders) {
-            wearer_.avatar().while_dressing(share, matrices, colliders);
-            place_on_the_way(matrices, targets, colliders);
-        },
-        jobs_);
-    if (layers_.count() > 0) let_layers_grow(0, {40, 10});
+    layers_.take_out(avatar_pose(), jobs_);
+    wearer_.avatar().while_dressing(0.0f, matrices, colliders_);
+    dress_.place(matrices, targets_, scratch_, jobs_);
+    layers_.put_in(matrices, cloth_, jobs_);
+    const auto body = [&](float share, std::vector<Vec3>& targets, std::vector<Collider>& colliders) {
+        wearer_.avatar().while_dressing(share, matrices, colliders);
+        place_on_the_way(matrices, targets, colliders);
+        layers_.put_in(matrices, cloth_, jobs_);
+    };
+    if (layers_.count() > 0) {
+        cloth_.reset(targets_);
+        held_off_m_.assign(cloth_.positions().size(), 0.0f);
+        move_outside(targets_, matrices, 0);
+        hold_further_off(targets_);
+        cloth_.go_to(targets_, jobs_);
+        cloth_.come_to_lengths([&](float, auto& targets, auto& colliders) { body(0.0f, targets, colliders); },
+                               jobs_);
+        std::copy(cloth_.positions().begin(), cloth_.positions().end(), targets_.begin());
+    }
+    cloth_.put_on(targets_, body, jobs_);
     keep_step();
 }
 
-/// Layers from the `first` on, which are there in the avatar's pose alone. They grow and push the cloth
-/// outwards as a whole: were they there at once, parts of it would be inside of them and parts outside.
-void WornGarment::let_layers_grow(size_t first, const GrowthFrames& frames) {
-    wearer_.avatar().colliders(colliders_);
-    obstacles_.select(avatar_pose(), colliders_, jobs_);
-    obstacles_.move_skin(avatar_pose(), cloth_, jobs_);
-    place_in_pose();
-    layers_.start_to_grow(wearer_.avatar().bone_axes(avatar_pose()), first);
-    const float inside = layers_.inside(cloth_.positions(), dress_.indices(), jobs_);
-    for (int frame = 1 + int(inside * float(frames.grow)); frame <= frames.grow + frames.settle; ++frame) {
-        if (frame <= frames.grow)
-            layers_.grow(float(frame) / float(frames.grow), cloth_);
-        else
-            layers_.move(cloth_);
-        cloth_.step(1.0f / 60.0f, targets_, colliders_, jobs_);
-        if (frame == frames.grow) layers_.end_growth(cloth_);
-    }
+/// Past the layers from the `first` on, as the meshes were moved last.
+void WornGarment::move_outside(std::vector<Vec3>& places, std::span<const Mat4> matrices, size_t first) {
+    constexpr float kClear = 2.0f;  // thicknesses
+    if (first == layers_.count()) return;
+    const std::span<const Vec3> vertices = std::span(places).first(dress_.carry().vertex_count());
+    const std::vector<BoneAxis> axes = wearer_.avatar().bone_axes(matrices);
+    const std::vector<Vec3> on_bones = dress_.carry().on_axes(axes, vertices);
+    const std::vector<Vec3> outside =
+        layers_.outside(first, axes, {vertices, dress_.indices(), on_bones}, kClear * settings_.thickness_m);
+    std::copy(outside.begin(), outside.end(), places.begin());
 }
 
-void WornGarment::let_last_layer_grow() {
+/// A layer that reaches far beyond it would have to be pressed together, which a layer below never is.
+void WornGarment::check_reach(std::span<const Vec3> outside) {
+    constexpr float kFar_m = 0.08f;
+    std::vector<float> ways_m;
+    for (size_t v = 0; v < cloth_.positions().size(); ++v)
+        ways_m.push_back(glm::distance(outside[v], cloth_.positions()[v]));
+    const auto tenth = ways_m.begin() + std::ptrdiff_t(ways_m.size() * 9 / 10);
+    std::nth_element(ways_m.begin(), tenth, ways_m.end());
+    if (*tenth <= kFar_m) return;
+    const std::string below = layers_.last().garment().name;
+    layers_.remove_last(cloth_);
+    fail(VFIT_ERROR_NOT_WEARABLE, "garment ", garment().name, " does not fit over ", below,
+         ", which reaches beyond a tenth of it by more than ", std::lround(*tenth * 100.0f), " cm");
+}
+
+/// By as far as layers move it off the body.
+void WornGarment::hold_further_off(std::span<const Vec3> outside) {
+    held_off_m_.resize(cloth_.positions().size());
+    for (size_t v = 0; v < held_off_m_.size(); ++v)
+        held_off_m_[v] += glm::distance(outside[v], cloth_.positions()[v]);
+    cloth_.widen_limits(held_off_m_);
+}
+
+/// It may go through that layer: past it at once, and from there to its own lengths.
+void WornGarment::come_outside_of_last_layer() {
     jump_to_pose();
     time_ns_ = wearer_.avatar().time_ns();
     stand();
-    let_layers_grow(layers_.count() - 1, {20, 2});  // it is waited for
+    place_in_pose();
+    layers_.move(cloth_);
+    std::copy(cloth_.positions().begin(), cloth_.positions().end(), targets_.begin());
+    move_outside(targets_, avatar_pose(), layers_.count() - 1);
+    check_reach(targets_);
+    hold_further_off(targets_);
+    cloth_.go_to(targets_, jobs_);
+    come_to_lengths(false);
     keep_step();
 }
 

@@ -35,12 +35,14 @@ public:
     WornGarment(const WornGarment&) = delete;
     WornGarment& operator=(const WornGarment&) = delete;
 
-    /// From now on this stays outside of inner, a garment of the same wearer, which must outlive this. False:
+    /// From now on this does not cross inner, a garment of the same wearer, which must outlive this. False:
     /// it did so before. VFIT_ERROR_ARGUMENT where inner is this, or is worn over this. Nothing may change
     /// inner and the layers below it meanwhile.
     bool wear_over(const WornGarment& inner);
-    /// After wear_over() and see_layer(): pushes this out of that layer, in the avatar's pose.
-    void let_last_layer_grow();
+    /// After wear_over() and see_layer(): out of that layer, which may go through this, in the avatar's pose.
+    /// VFIT_ERROR_NOT_WEARABLE where that reaches too far beyond it: then this is carried into the pose, and
+    /// not worn over it.
+    void come_outside_of_last_layer();
     const LayersBelow& layers() const { return layers_; }
     /// A layer has been stepped to there, one position a vertex: before each step, put_on and change_to.
     void see_layer(size_t layer, std::span<const Vec3> positions) { layers_.see(layer, positions); }
@@ -58,8 +60,7 @@ public:
     /// The next step of more than 0 s is a jump, however slow it is.
     void teleport() { jumps_ = true; }
 
-    /// On a body that stands straight, without layers, and goes into the avatar's pose; then the layers grow
-    /// below. Ends at rest.
+    /// On a body that stands straight, outside of the layers, and goes into the avatar's pose. Ends at rest.
     void put_on();
 
     /// The same garment in another size, not worn yet.
@@ -122,10 +123,9 @@ private:
     void start_with_legs_apart();
     void come_to_lengths(bool is_new);
     void check_stretch(const std::string& label, std::span<const Vec2> cut);
-    struct GrowthFrames {
-        int grow, settle;  // of 1/60 s
-    };
-    void let_layers_grow(size_t first, const GrowthFrames& frames);
+    void check_reach(std::span<const Vec3> outside);
+    void hold_further_off(std::span<const Vec3> outside);
+    void move_outside(std::vector<Vec3>& places, std::span<const Mat4> matrices, size_t first);
     void keep_step();
     UnposedGarment unposed(std::span<const Vec3> positions) const;
 
@@ -142,6 +142,7 @@ private:
     BodyJump body_;
     BodyObstacles obstacles_;
     LayersBelow layers_;
+    std::vector<float> held_off_m_;  // by layers, off the body; one a vertex, empty: there are none
     PropsMet props_;
     Dress::Scratch scratch_;
     std::vector<Vec3> targets_;

@@ -183,8 +183,8 @@ TEST_F(ClothOptionsTest, ADressOverADressStaysOutsideOfIt) {
 }
 
 /// A coat that reaches below the hem of a dress wider than the legs is not caught inside of the dress: then,
-/// edges were stretched by 500 % and more. Measured over sizes S to XXL: 0.18 on 99 of 100 edges. A single
-/// edge depends on how the garments were cooked: 0.42 in the coat with GCC 12, 2.65 with GCC 14.
+/// edges were stretched by 500 % and more. On 99 of 100 edges it is stretched as on the body alone: 0.20 in
+/// S.
 TEST_F(ClothOptionsTest, ACoatOverAWideDressOfItsSizeIsNotCaughtInside) {
     const char* names[] = {"sundress_pattern", "duster"};
     vfit_garment garments[2]{};
@@ -199,18 +199,19 @@ TEST_F(ClothOptionsTest, ACoatOverAWideDressOfItsSizeIsNotCaughtInside) {
         for (int i = 0; i < 2; ++i) {
             ASSERT_EQ(vfit_cloth_create(avatar, garments[i], &desc, &worn[i]), VFIT_OK)
                 << contract::last_error();
-            if (i == 1) {
-                ASSERT_EQ(vfit_cloth_wear_over(worn[1], worn[0]), VFIT_OK);
-                ASSERT_EQ(vfit_cloth_reset(worn[1]), VFIT_OK) << contract::last_error();
-            }
             for (int frame = 0; frame < 60; ++frame) ASSERT_EQ(vfit_cloth_step(worn[i], kFrame_s), VFIT_OK);
         }
-        for (int i = 0; i < 2; ++i) {
-            vfit_cloth_stats stats = vfit_cloth_stats_init();
-            ASSERT_EQ(vfit_cloth_describe(worn[i], &stats), VFIT_OK);
-            EXPECT_LT(stats.strain_max, 3.0f) << names[i] << " in " << size;
-            EXPECT_LT(stats.strain_p99, 0.2f) << names[i] << " in " << size;
-        }
+        vfit_cloth_stats alone = vfit_cloth_stats_init(), over = vfit_cloth_stats_init();
+        const auto put_on = [&](vfit_cloth_stats& stats) {
+            ASSERT_EQ(vfit_cloth_reset(worn[1]), VFIT_OK) << contract::last_error();
+            for (int frame = 0; frame < 60; ++frame) ASSERT_EQ(vfit_cloth_step(worn[1], kFrame_s), VFIT_OK);
+            ASSERT_EQ(vfit_cloth_describe(worn[1], &stats), VFIT_OK);
+        };
+        put_on(alone);
+        ASSERT_EQ(vfit_cloth_wear_over(worn[1], worn[0]), VFIT_OK);
+        put_on(over);
+        EXPECT_LT(over.strain_max, 1.0f) << size;
+        EXPECT_LE(over.strain_p99, std::max(0.2f, alone.strain_p99)) << size;
         for (const vfit_cloth cloth : {worn[1], worn[0]}) ASSERT_EQ(vfit_cloth_destroy(cloth), VFIT_OK);
     }
 }

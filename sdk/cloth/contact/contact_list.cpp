@@ -7,7 +7,9 @@ namespace vfit {
 
 namespace {
 
-constexpr float kMargin_m = 0.001f;  // beyond the thickness, for what acceleration brings closer in a step
+// Beyond the thickness, for what acceleration brings closer in a step. Another garment does not give way, so
+// that what is tight about it comes faster: with 1 mm a standing vest trembled over a shirt.
+constexpr float kMargin_m = 0.001f, kOtherMargin_m = 0.002f;
 constexpr float kSideways = 0.25f;   // of the way past each other: the normal may turn so far
 constexpr float kEdgeShare = 0.5f;   // of the thickness, between two edges
 constexpr float kFlatShare = 0.45f;  // of the shortest way along edges, which is longer than the straight one
@@ -38,29 +40,36 @@ ContactList::ContactList(std::shared_ptr<const Fabric> fabric, float thickness_m
     : fabric_(std::move(fabric)),
       surfaces_{{thickness_m, MeshOf::cloth}},
       inverse_mass_(fabric_->data().inverse_mass),
-      flat_(fabric_->data(), kFlatReach * thickness_m, jobs),
-      is_let_go_(fabric_->vertex_count(), 0) {}
+      flat_(fabric_->data(), kFlatReach * thickness_m, jobs) {}
 
 void ContactList::add_mesh(size_t vertices, float keeps_m, MeshOf what) {
     surfaces_.push_back({keeps_m, what});
     inverse_mass_.resize(inverse_mass_.size() + vertices, 0.0f);
-    is_let_go_.resize(inverse_mass_.size(), 0);
     slots_.resize(inverse_mass_.size(), 0);
     slot_rounds_.resize(inverse_mass_.size(), 0);
 }
 
-float ContactList::reach_m(float thickness_m) { return thickness_m + kMargin_m; }
+float ContactList::reach_m(float keeps_m) { return keeps_m + kMargin_m; }
+float ContactList::reach_of_mesh_m(float keeps_m, MeshOf what) {
+    return what == MeshOf::cloth ? keeps_m + kOtherMargin_m : reach_m(keeps_m);
+}
+
+bool ContactList::reaches(float distance_m, float kept_m, uint32_t surface) const {
+    return distance_m <=
+           (surface == Proximity::kSelf ? reach_m(kept_m) : reach_of_mesh_m(kept_m, surfaces_[surface].what));
+}
 
 float ContactList::keeps_m(PairKind kind, uint32_t surface) const {
     const float keeps_m = surfaces_[surface].keeps_m;
-    return kind == PairKind::edge_edge && surface == Proximity::kSelf ? kEdgeShare * keeps_m : keeps_m;
+    const bool of_cloth = surfaces_[surface].what == MeshOf::cloth;
+    return kind == PairKind::edge_edge && of_cloth ? kEdgeShare * keeps_m : keeps_m;
 }
 
 void ContactList::fill(const Proximity& proximity, std::span<const Particle> begin,
-                       std::span<const Particle> end, std::span<const uint32_t> let_go) {
+                       std::span<const Particle> end, std::span<const uint8_t> let_go) {
+    let_go_ = let_go;
     for (OfKind& of : of_kind_) of.contacts.clear();
     for (Candidates& of : candidates_) of.count = 0, of.sides.clear();
-    for (const uint32_t v : let_go) is_let_go_[v] = 1;
     proximity.for_close(
         [&](const Proximity::Pair& pair, uint32_t surface) { add_candidates(pair, surface, end); });
     for (const PairKind kind : {PairKind::vertex_face, PairKind::edge_edge}) {
@@ -70,27 +79,27 @@ void ContactList::fill(const Proximity& proximity, std::span<const Particle> beg
                      begin.data(), end.data(), kSideways);
         add(kind, of, end);
     }
-    for (const uint32_t v : let_go) is_let_go_[v] = 0;
     ++round_;
     mesh_vertices_.clear();
     for (OfKind& of : of_kind_) pack(of);
 }
 
-/// Vertices of the cloth and triangles of a mesh are left out: planes keep those apart (ContactMesh).
+/// Vertices of the cloth and triangles of a solid are left out: planes keep those apart (ContactMesh).
 void ContactList::add_candidates(const Proximity::Pair& pair, uint32_t surface,
                                  std::span<const Particle> end) {
-    const bool own = surface == Proximity::kSelf;
     const auto is_fixed = [&](uint32_t v) { return inverse_mass_[v] == 0.0f; };
-    if (!own && std::all_of(pair.first->vertex, pair.first->vertex + 3, is_fixed)) return;
+    const bool of_cloth = surfaces_[surface].what == MeshOf::cloth;
+    if (surface != Proximity::kSelf && std::all_of(pair.first->vertex, pair.first->vertex + 3, is_fixed))
+        return;
     Vec3 outward(0.0f);
-    if (!own) {
+    if (surface != Proximity::kSelf) {
         const uint32_t* v = pair.second->vertex;
         outward = unit(glm::cross(end[v[1]].x - end[v[0]].x, end[v[2]].x - end[v[0]].x));
     }
     for_own_pairs(*pair.first, *pair.second, [&](PairKind kind, const std::array<uint32_t, 4>& v) {
-        if (own) return candidates_[size_t(kind)].add(v, {});
-        if (kind == PairKind::edge_edge) return candidates_[1].add(v, {outward, surface});
-        if (v[0] >= fabric_->vertex_count()) candidates_[0].add(v, {-outward, surface});
+        const bool of_first = v[0] < fabric_->vertex_count();
+        if (of_cloth || kind == PairKind::edge_edge || !of_first)
+            candidates_[size_t(kind)].add(v, {of_first ? outward : -outward, surface});
     });
 }
 
@@ -113,7 +122,7 @@ void ContactList::add(PairKind kind, const Candidates& of, std::span<const Parti
         const float comes_m = surfaces_[surface].what == MeshOf::solid
                                   ? std::min(pairs.comes_m[i % kLanes], kMaxWayPastSolid_m)
                                   : pairs.comes_m[i % kLanes];
-        if (pairs.distance_m[i % kLanes] <= reach_m(keeps_m(kind, surface)) + comes_m)
+        if (reaches(pairs.distance_m[i % kLanes] - comes_m, keeps_m(kind, surface), surface))
             add(kind, pairs, i % kLanes, of.sides[i], end);
     }
 }
@@ -126,15 +135,22 @@ void ContactList::add(PairKind kind, const PrimitivePairs& pairs, size_t lane, c
     const std::array<uint32_t, 4> v{pairs.at[0][lane], pairs.at[1][lane], pairs.at[2][lane],
                                     pairs.at[3][lane]};
     const auto is_moved = [&](uint32_t vertex) { return inverse_mass_[vertex] > 0.0f; };
-    const auto is_let_go = [&](uint32_t vertex) { return is_let_go_[vertex] != 0; };
+    const uint8_t let_go = side.surface == Proximity::kSelf ? kOfItself : kOfMeshes;
+    const auto is_let_go = [&](uint32_t vertex) { return (let_go_[vertex] & let_go) != 0; };
     if (std::none_of(v.begin(), v.end(), is_moved)) return;
     const auto second = v.begin() + (edges ? 2 : 1);
-    if (std::any_of(v.begin(), second, is_let_go) && std::any_of(second, v.end(), is_let_go)) return;
+    const bool crosses = !let_go_.empty() && std::any_of(v.begin(), second, is_let_go) &&
+                         std::any_of(second, v.end(), is_let_go);
+    if (crosses && side.surface == Proximity::kSelf) return;
+    if (!let_go_.empty() && surfaces_[side.surface].what == MeshOf::cloth &&
+        side.surface != Proximity::kSelf &&
+        std::any_of(v.begin(), v.end(), [&](uint32_t vertex) { return (let_go_[vertex] & kGivesWay) != 0; }))
+        return;
     float kept_m = keeps_m(kind, side.surface);
     if (side.surface == Proximity::kSelf) kept_m = std::min(kept_m, flat_limit_m(kind, v));
-    if (kept_m <= 0.0f || distance > reach_m(kept_m) + pairs.comes_m[lane]) return;
+    if (kept_m <= 0.0f || !reaches(distance - pairs.comes_m[lane], kept_m, side.surface)) return;
     Vec3 normal = Vec3(pairs.way[0][lane], pairs.way[1][lane], pairs.way[2][lane]) / distance;
-    if (side.surface != Proximity::kSelf) {
+    if (surfaces_[side.surface].what != MeshOf::cloth || crosses) {
         const bool of_solid = surfaces_[side.surface].what == MeshOf::solid;
         const float along = glm::dot(normal, side.way);
         if (std::abs(along) < kAlongSide) return;

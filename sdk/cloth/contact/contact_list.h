@@ -22,16 +22,18 @@ public:
     /// thickness_m: kept between a vertex and a triangle of the cloth; two edges keep half of it. Parts of
     /// the cloth that are closer than that where it lies flat are not held further apart.
     ContactList(std::shared_ptr<const Fabric> fabric, float thickness_m, Jobs* jobs = nullptr);
-    /// A mesh that the cloth stays outside of, whose vertices follow; keeps_m: between its vertices and the
-    /// cloth's triangles, and between edges.
+    /// A mesh, whose vertices follow. keeps_m: of a solid, between its vertices and the cloth's triangles,
+    /// and between edges; of cloth, as thickness_m.
     void add_mesh(size_t vertices, float keeps_m, MeshOf what);
 
     /// Pairs further apart than that now, and after the same way again, are no contacts.
-    static float reach_m(float thickness_m);
-    /// Contacts of the step that follows one with these ends. let_go: vertices of triangles that cross; where
-    /// two of them meet there is no contact. Does not allocate once it has met as many.
+    static float reach_m(float keeps_m);
+    static float reach_of_mesh_m(float keeps_m, MeshOf what);
+    /// Contacts of the step that follows one with these ends. let_go: vertices of triangles that cross
+    /// (LetGo, one a vertex, or empty); where two of them meet there is no contact. Does not allocate once it
+    /// has met as many.
     void fill(const Proximity& proximity, std::span<const Particle> begin, std::span<const Particle> end,
-              std::span<const uint32_t> let_go);
+              std::span<const uint8_t> let_go);
 
     /// Particles beyond the fabric's that stand for vertices of meshes.
     size_t mesh_particle_count() const { return mesh_vertices_.size(); }
@@ -58,9 +60,9 @@ private:
         std::vector<Contact> contacts;
         std::vector<ContactBatch> batches;
     };
-    /// Which way the first of two primitives has to lie from the second.
+    /// Which way the first of two primitives lies outside of the second.
     struct Side {
-        Vec3 way{0.0f};  // unit length; 0: the way it does
+        Vec3 way{0.0f};  // unit length; 0: there is no outside
         uint32_t surface = 0;
     };
     struct Candidates {
@@ -76,6 +78,7 @@ private:
              std::span<const Particle> end);
     void add_candidates(const Proximity::Pair& pair, uint32_t surface, std::span<const Particle> end);
     float keeps_m(PairKind kind, uint32_t surface) const;
+    bool reaches(float distance_m, float kept_m, uint32_t surface) const;
     uint32_t particle_of(uint32_t vertex);
     float flat_limit_m(PairKind kind, const std::array<uint32_t, 4>& vertices) const;
     void pack(OfKind& of);
@@ -88,7 +91,7 @@ private:
     std::vector<Surface> surfaces_;    // the cloth's own first
     std::vector<float> inverse_mass_;  // of each vertex, meshes included
     FlatDistances flat_;
-    std::vector<uint8_t> is_let_go_;        // of each vertex
+    std::span<const uint8_t> let_go_;       // while it is filled
     std::array<Candidates, 2> candidates_;  // of each kind
     std::vector<uint32_t> slots_;           // of a mesh's vertex: its particle, if its round is this one
     std::vector<uint32_t> slot_rounds_;

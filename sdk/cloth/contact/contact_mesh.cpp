@@ -14,7 +14,6 @@ namespace {
 
 constexpr uint32_t kNobody = UINT32_MAX;
 constexpr float kFastest_m = 0.1f;      // further than that in a step, a mesh is not looked for
-constexpr float kRises_m = 0.001f;      // of what is lifted, in a step
 constexpr float kMetInside_m = 0.005f;  // deeper inside of a place, a particle has come from another
 constexpr float kCornerReach =
     0.6f;  // of an edge: so far off may the corner be by which a place of a triangle is found
@@ -253,24 +252,6 @@ bool ContactMesh::is_at_border(const Place& place) const {
     return !inside && border;
 }
 
-void ContactMesh::find_crossed(const TriangleGroups& cloth, uint32_t group, std::vector<uint32_t>& near,
-                               std::vector<uint32_t>& triangles) const {
-    const Bounds box = cloth.box_of(group);
-    find_meeting(boxes_, box.low, box.high, near);
-    for (const uint32_t run : near) {
-        const float reach =
-            kCornerReach * edges_m_[run];  // a triangle comes into the box by a corner no further off
-        const Bounds wide{box.low - reach, box.high + reach};
-        for (uint32_t point = run * uint32_t(kLanes);
-             point < std::min((run + 1) * uint32_t(kLanes), uint32_t(vertex_of_.size())); ++point) {
-            const Vec3& p = end_[point].x;
-            if (!wide.overlaps({p, p})) continue;
-            for (const TriangleFans::Corners& c : fans_.of(point))
-                cloth.find_crossed(group, {{p, end_[c.second].x, end_[c.third].x}}, triangles);
-        }
-    }
-}
-
 /// Fills near with the mesh's runs that a run of particles may meet; how near they have to be. 0: there is
 /// none.
 float ContactMesh::reach_of(const Moving& moving, uint32_t first, float dt, float thickness_m,
@@ -327,17 +308,14 @@ void ContactMesh::touch(const Particle* run, const uint32_t* from, int max_steps
 
 void ContactMesh::find_planes(const PartOfCloth& part, std::vector<uint32_t>& runs,
                               std::vector<Touched>& touched, std::vector<RunPlanes>& out) const {
-    const auto& [moving, vertex_of, lift_m, dt, thickness_m] = part;
+    const auto& [moving, vertex_of, dt, thickness_m] = part;
     constexpr uint32_t kNone = NearestOnFans::kNone;
     constexpr int kStepsNearby = 2, kStepsAlong = 32;
     touched.resize(moving.count);
     for (uint32_t first = 0; first < moving.count; first += uint32_t(kLanes)) {
         const Particle* run = moving.places + first;
         Touched* const known = &touched[first];
-        float lift = 0.0f;
-        if (!lift_m.empty())
-            lift = std::max(lift, *std::max_element(&lift_m[first], &lift_m[first] + kLanes));
-        const float reach = reach_of(moving, first, dt, thickness_m + lift, runs);
+        const float reach = reach_of(moving, first, dt, thickness_m, runs);
         const auto is_met = [&](size_t lane, uint32_t point) {
             const uint32_t v = vertex_of[first + particle_at(lane)];
             return v == kNobody || meets(point, v);
@@ -349,8 +327,7 @@ void ContactMesh::find_planes(const PartOfCloth& part, std::vector<uint32_t>& ru
                 if (vertex_of[i] != kNobody) mask |= mask_[vertex_of[i]], common &= mask_[vertex_of[i]];
             std::erase_if(runs, [&](uint32_t other) { return (run_category_[other] & mask) == 0; });
         }
-        const bool follows =
-            !is_cloth(what_) && std::any_of(known, known + kLanes, [](const Touched& t) { return t.any(); });
+        const bool follows = std::any_of(known, known + kLanes, [](const Touched& t) { return t.any(); });
         if (runs.empty() && !follows) continue;
         Touches now, before[2];
         float edge = 0.0f;
@@ -406,13 +383,8 @@ void ContactMesh::find_planes(const PartOfCloth& part, std::vector<uint32_t>& ru
                 known[lane].points[k] = chosen[k].point;
                 if (chosen[k].point == kNone) continue;
                 any[k] = true;
-                const float own_lift = lift_m.empty() || k > 0 ? 0.0f : lift_m[first + particle_at(lane)];
-                float keeps_m = thickness_m + own_lift;
-                // Lifted over a hollow at once, it would be thrown from one of its sides to the other.
-                if (own_lift > 0.0f)
-                    keeps_m = std::min(keeps_m, std::max(thickness_m, chosen[k].before_m + kRises_m));
                 planes[k].set(lane, chosen[k].on, chosen[k].to - chosen[k].on, chosen[k].normal,
-                              chosen[k].turn, keeps_m);
+                              chosen[k].turn, thickness_m);
             }
         }
         for (size_t k = 0; k < 2; ++k)

@@ -1,7 +1,7 @@
-// Contact with a moving mesh: the skin, or a garment that is worn below. Once a step, each particle that is
-// near the mesh gets the plane that touches it at the nearest point, and stays before that plane, as it
-// moves, through the sub-steps. Its contact slides along the mesh from step to step: in a hollow, as between
-// arm and chest, it stays in contact with the side where it was, and with the other one that it meets.
+// Contact with a moving solid: the skin, or a prop. Once a step, each particle that is near the mesh gets the
+// plane that touches it at the nearest point, and stays before that plane, as it moves, through the
+// sub-steps. Its contact slides along the mesh from step to step: in a hollow, as between arm and chest, it
+// stays in contact with the side where it was, and with the other one that it meets.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 #include "cloth/base/interval.h"
 #include "cloth/base/triangle_fans.h"
+#include "cloth/contact/contact.h"
 #include "cloth/contact/mesh_of.h"
 #include "cloth/contact/run_planes.h"
 #include "cloth/contact/surface_kernels.h"
-#include "cloth/contact/triangle_groups.h"
 
 namespace vfit {
 
@@ -59,8 +59,6 @@ public:
     struct PartOfCloth {
         Moving moving;
         std::span<const uint32_t> vertex_of;  // of each particle
-        std::span<const float> lift_m;        // what each keeps beyond the thickness, or may go below it
-                                              // (negative); empty: nothing
         float dt, thickness_m;
     };
     /// Planes for runs of particles, by rising runs. Those of a run that meets nothing are left out. May run
@@ -68,9 +66,6 @@ public:
     /// one a particle; empty at first.
     void find_planes(const PartOfCloth& part, std::vector<uint32_t>& runs, std::vector<Touched>& touched,
                      std::vector<RunPlanes>& out) const;
-    /// Adds those of the triangles of one of the cloth's groups that go through the mesh where it arrived.
-    void find_crossed(const TriangleGroups& cloth, uint32_t group, std::vector<uint32_t>& near,
-                      std::vector<uint32_t>& triangles) const;
 
 private:
     /// A place on a triangle.

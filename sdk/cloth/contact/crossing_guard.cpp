@@ -58,16 +58,21 @@ CrossingGuard::CrossingGuard(const FabricData& fabric)
       found_at_(fabric.inverse_mass.size()),
       parent_(fabric.inverse_mass.size(), kNone),
       places_(fabric.inverse_mass.size()),
-      untangle_(fabric.inverse_mass.size()) {
+      outwards_(fabric.inverse_mass.size(), Vec3(0.0f)),
+      let_go_(fabric.inverse_mass.size(), 0) {
     for (const float inverse : inverse_mass_) is_fixed_.push_back(inverse == 0.0f);
 }
 
-void CrossingGuard::add_mesh(size_t vertices, MeshOf what) {
-    surfaces_.push_back(what), crosses_.push_back(0);
+void CrossingGuard::add_mesh(size_t vertices, std::span<const uint32_t> indices, MeshOf what) {
+    const auto first = uint32_t(inverse_mass_.size());
+    surfaces_.push_back({what, first, uint32_t(indices_.size() / 3)});
+    meets_cloth_ = meets_cloth_ || what == MeshOf::cloth;
+    if (what == MeshOf::cloth)
+        for (const uint32_t v : indices) indices_.push_back(first + v);
     const size_t count = inverse_mass_.size() + vertices;
     inverse_mass_.resize(count, 0.0f);
     is_marked_.resize(count, 0), is_moved_.resize(count, 0), is_beyond_.resize(count, 0);
-    is_fixed_.resize(count, 1);
+    is_fixed_.resize(count, 1), let_go_.resize(count, 0);
     wanted_.resize(count), found_at_.resize(count), places_.resize(count);
     parent_.resize(count, kNone);
 }
@@ -76,16 +81,18 @@ bool CrossingGuard::keep(std::span<const Particle> begin, std::span<Particle> en
                          Jobs& jobs) {
     for (const uint32_t v : zoned_) parent_[v] = kNone;
     for (const uint32_t v : moved_) is_moved_[v] = 0;
-    zoned_.clear(), moved_.clear(), tangles_.clear(), tangled_ = {};
+    zoned_.clear(), moved_.clear();
+    if (meets_cloth_) untangle_own(end, kUntangles_m), come_outwards(end, kUntangles_m);
+    forget();
     zones_grow_ = crosses_mesh_ = false;
-    std::fill(crosses_.begin(), crosses_.end(), uint8_t(0));
+    for (Surface& surface : surfaces_) surface.is_crossed = false;
     proximity.find(begin, end, jobs);
     bool solved = false;
     for (int round = 0; round < kRounds; ++round) {
         find_hits(begin, end, proximity, round < kProjections);
         solved = hits_.empty() && crossed_.empty();
         if (solved) break;
-        if (moved_.empty()) {
+        if (round == 0) {
             std::copy(end.begin(), end.end(), wanted_.begin());
             for (size_t v = 0; v < end.size(); ++v) found_at_[v] = end[v].x;
         }
@@ -106,9 +113,22 @@ bool CrossingGuard::keep(std::span<const Particle> begin, std::span<Particle> en
     if (!tangles_.empty()) keep_tangles_of(end);
     if (!solved)
         for (const auto& [first, second] : crossed_)
-            if (second->vertex[0] < cloth_vertices_) tangles_.emplace_back(first->number, second->number);
+            if (surface_of(*second).what == MeshOf::cloth)
+                tangles_.emplace_back(number_of(*first), number_of(*second));
     const bool is_free = solved && tangles_.empty() && !crosses_mesh_ && proximity.is_complete();
-    if (!tangles_.empty()) untangle(end, kUntangles_m);
+    sort_tangles();
+    if (!meets_cloth_) untangle_own(end, kUntangles_m);
+    for (const uint32_t v : tangled_) let_go_[v] &= kGivesWay;
+    tangled_.clear();
+    for (const auto& [first, second] : tangles_) {
+        const uint8_t of = is_own({first, second}) ? kOfItself : kOfMeshes;
+        for (const uint32_t triangle : {first, second})
+            for (uint32_t k = 0; k < 3; ++k) {
+                const uint32_t v = indices_[3 * triangle + k];
+                if ((let_go_[v] & ~kGivesWay) == 0) tangled_.push_back(v);
+                let_go_[v] |= of;
+            }
+    }
     return is_free;
 }
 
@@ -139,26 +159,78 @@ void CrossingGuard::keep_tangles_of(std::span<const Particle> end) {
     });
 }
 
-void CrossingGuard::untangle(std::span<Particle> places, float step_m) {
+const CrossingGuard::Surface& CrossingGuard::surface_of(const Proximity::Triangle& t) const {
+    const auto next = std::upper_bound(
+        surfaces_.begin(), surfaces_.end(), t.vertex[0],
+        [](uint32_t vertex, const Surface& surface) { return vertex < surface.first_vertex; });
+    return *std::prev(next);
+}
+
+uint32_t CrossingGuard::number_of(const Proximity::Triangle& t) const {
+    return surface_of(t).first_triangle + t.number;
+}
+
+/// Own layers, neither of which is outside, by the line along which they cross.
+void CrossingGuard::untangle_own(std::span<Particle> places, float step_m) {
+    if (own_tangles().empty()) return;
     for (size_t v = 0; v < places.size(); ++v) places_[v] = places[v].x;
-    tangled_ = untangle_.move(tangles_, indices_, is_fixed_, step_m, places_);
-    for (const uint32_t v : tangled_) {
+    for (const uint32_t v : untangle_.move(own_tangles(), indices_, is_fixed_, step_m, places_)) {
         places[v].x = places_[v];
         mark(v);
     }
 }
 
-void CrossingGuard::part(std::span<Particle> places, Proximity& proximity, Jobs& jobs) {
-    for (int round = 0; round < kRoundsToPart; ++round) {
-        proximity.find(places, places, jobs);
-        tangles_.clear();
-        proximity.for_uncertain([&](const Proximity::Pair& pair, uint32_t surface) {
-            if (surface == Proximity::kSelf && cross_at(pair, places))
-                tangles_.emplace_back(pair.first->number, pair.second->number);
-        });
-        if (tangles_.empty()) return;
-        untangle(places, kParts_m);
+/// Off another garment. A line from one border to another is nowhere shorter, so it goes outwards.
+void CrossingGuard::come_outwards(std::span<Particle> places, float step_m) {
+    for (const auto& [first, second] : other_tangles()) {
+        const uint32_t* t = &indices_[3 * second];
+        const Vec3 across = glm::cross(places[t[1]].x - places[t[0]].x, places[t[2]].x - places[t[0]].x),
+                   normal = across / std::max(glm::length(across), 1e-20f);
+        for (uint32_t k = 0; k < 3; ++k) outwards_[indices_[3 * first + k]] += normal;
     }
+    for (const auto& [first, second] : other_tangles())
+        for (uint32_t k = 0; k < 3; ++k) {
+            const uint32_t v = indices_[3 * first + k];
+            const float length = glm::length(outwards_[v]);
+            if (length > 0.0f && !is_fixed_[v]) places[v].x += outwards_[v] * (step_m / length), mark(v);
+            outwards_[v] = Vec3(0.0f);
+        }
+}
+
+/// Those of the cloth with itself first.
+void CrossingGuard::sort_tangles() {
+    own_tangles_ = size_t(std::partition(tangles_.begin(), tangles_.end(),
+                                         [&](const TrianglePair& pair) { return is_own(pair); }) -
+                          tangles_.begin());
+}
+
+bool CrossingGuard::is_own(const TrianglePair& pair) const {
+    return indices_[3 * pair.second] < cloth_vertices_;
+}
+
+/// Among other garments each round is guarded: what comes outwards would go through own layers.
+void CrossingGuard::part(std::span<Particle> places, Proximity& proximity, Jobs& jobs) {
+    forget();
+    for (int round = 0; round < kRoundsToPart; ++round) {
+        if (meets_cloth_) {
+            parts_from_.assign(places.begin(), places.end());
+            keep(parts_from_, places, proximity, jobs);
+        } else {
+            find_tangles(places, proximity, jobs);
+            untangle_own(places, kParts_m);
+        }
+        if (tangles_.empty()) return;
+    }
+}
+
+void CrossingGuard::find_tangles(std::span<const Particle> places, Proximity& proximity, Jobs& jobs) {
+    proximity.find(places, places, jobs);
+    forget();
+    proximity.for_uncertain([&](const Proximity::Pair& pair, uint32_t surface) {
+        if (surfaces_[surface].what == MeshOf::cloth && cross_at(pair, places))
+            tangles_.emplace_back(number_of(*pair.first), number_of(*pair.second));
+    });
+    sort_tangles();
 }
 
 void CrossingGuard::find_hits(std::span<const Particle> begin, std::span<const Particle> end,
@@ -166,16 +238,25 @@ void CrossingGuard::find_hits(std::span<const Particle> begin, std::span<const P
     hits_.clear(), crossed_.clear();
     proximity.for_uncertain([&](const Proximity::Pair& pair, uint32_t surface) {
         if (is_held(*pair.first) && is_held(*pair.second)) return;
-        if (surface != Proximity::kSelf && !(of_meshes && is_guarded(surfaces_[surface]))) {
+        if (surface != Proximity::kSelf && !(of_meshes && is_guarded(surfaces_[surface].what))) {
             crosses_mesh_ = true;  // perhaps
+            return;
+        }
+        const bool of_other_cloth = surface != Proximity::kSelf && surfaces_[surface].what == MeshOf::cloth;
+        if (of_other_cloth && any_let_go(*pair.first, kGivesWay)) {
+            crosses_mesh_ = true;  // perhaps
+            return;
+        }
+        if (of_other_cloth && any_let_go(*pair.first, kOfMeshes) && any_let_go(*pair.second, kOfMeshes)) {
+            if (cross_at(pair, end)) tangles_.emplace_back(number_of(*pair.first), number_of(*pair.second));
             return;
         }
         if (cross_at(pair, begin)) {
             if (!cross_at(pair, end)) return;
-            if (surface == Proximity::kSelf)
-                tangles_.emplace_back(pair.first->number, pair.second->number);
+            if (surfaces_[surface].what == MeshOf::cloth)
+                tangles_.emplace_back(number_of(*pair.first), number_of(*pair.second));
             else
-                crosses_mesh_ = true, crosses_[surface] = 1;
+                crosses_mesh_ = surfaces_[surface].is_crossed = true;
             return;
         }
         if (cross_at(pair, end)) crossed_.emplace_back(pair.first, pair.second);
@@ -186,6 +267,10 @@ void CrossingGuard::find_hits(std::span<const Particle> begin, std::span<const P
         const uint32_t *a = pair.first->vertex, *b = pair.second->vertex;
         return in_one_zone(std::array{a[0], a[1], a[2], b[0], b[1], b[2]});
     });
+}
+
+bool CrossingGuard::any_let_go(const Proximity::Triangle& t, uint8_t bits) const {
+    return std::any_of(t.vertex, t.vertex + 3, [&](uint32_t v) { return (let_go_[v] & bits) != 0; });
 }
 
 bool CrossingGuard::is_held(const Proximity::Triangle& t) const {

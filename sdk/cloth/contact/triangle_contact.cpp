@@ -41,14 +41,14 @@ TriangleContact::TriangleContact(const TriangleContact& other, std::shared_ptr<c
 
 void TriangleContact::add_mesh(size_t vertices, std::span<const uint32_t> indices, float keeps_m, MeshOf what,
                                const MeshFilter& filter) {
-    proximity_.add_mesh(vertices, indices, ContactList::reach_m(keeps_m), what, filter);
-    meshes_.push_back({begin_.size(), vertices, keeps_m, what});
+    proximity_.add_mesh(vertices, indices, ContactList::reach_of_mesh_m(keeps_m, what), what, filter);
+    meshes_.push_back({begin_.size(), vertices, {indices.begin(), indices.end()}, keeps_m, what});
     make_room_for(meshes_.back());
 }
 
 void TriangleContact::make_room_for(const Mesh& mesh) {
     contacts_.add_mesh(mesh.vertices, mesh.keeps_m, mesh.what);
-    guard_.add_mesh(mesh.vertices, mesh.what);
+    guard_.add_mesh(mesh.vertices, mesh.indices, mesh.what);
     begin_.resize(mesh.first_vertex + mesh.vertices), end_.resize(begin_.size());
     from_.resize(begin_.size() - cloth_vertices_), to_.resize(from_.size());
 }
@@ -82,6 +82,7 @@ void TriangleContact::look_at(const Interval& interval) {
 void TriangleContact::place(std::span<const Vec3> positions, Jobs& jobs) {
     copy(positions, end_);
     copy(positions, begin_);
+    guard_.forget();
     proximity_.find(end_, end_, jobs);
     proximity_.find_close(end_, end_, jobs);
     contacts_.fill(proximity_, end_, end_, {});
@@ -97,7 +98,7 @@ bool TriangleContact::keep(std::span<const Vec3> begin, std::span<Vec3> end, Job
     copy(begin, begin_), copy(end, end_);
     const bool is_free = guard_.keep(begin_, end_, proximity_, jobs);
     proximity_.find_close(begin_, end_, jobs);
-    contacts_.fill(proximity_, begin_, end_, guard_.tangled());
+    contacts_.fill(proximity_, begin_, end_, guard_.let_go());
     if (!guard_.moved().empty()) copy(end_, end);
     return is_free;
 }

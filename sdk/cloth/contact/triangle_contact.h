@@ -25,8 +25,7 @@ public:
     /// Of another fabric with the same triangles, among the same meshes, which are hidden.
     TriangleContact(const TriangleContact& other, std::shared_ptr<const Fabric> fabric, Jobs* jobs = nullptr);
 
-    /// Triangles counter-clockwise from outside; keeps_m: between its vertices and the cloth's triangles, and
-    /// between edges. It is hidden until it is moved.
+    /// Triangles counter-clockwise from outside; keeps_m: as ContactList. It is hidden until it is moved.
     void add_mesh(size_t vertices, std::span<const uint32_t> indices, float keeps_m, MeshOf what,
                   const MeshFilter& filter = {});
     void set_mask(uint32_t mesh, std::span<const uint8_t> mask) { proximity_.set_mask(mesh, mask); }
@@ -48,7 +47,7 @@ public:
 
     /// The cloth was placed there anew, at rest.
     void place(std::span<const Vec3> positions, Jobs& jobs);
-    /// Moves triangles of the cloth that cross each other apart.
+    /// After look_at(): moves triangles of the cloth that cross each other, or a mesh of cloth, apart.
     void part(std::span<Vec3> positions, Jobs& jobs);
 
     /// After a step: changes its `end` so that nothing crosses which did not at its begin, and finds the
@@ -56,6 +55,8 @@ public:
     bool keep(std::span<const Vec3> begin, std::span<Vec3> end, Jobs& jobs);
     /// Before and after the last keep(), the cloth crossed that mesh, which is guarded.
     bool crosses_mesh(uint32_t mesh) const { return guard_.crosses_mesh(mesh); }
+    /// After keep(): that vertex lets meshes of cloth through from now on, or no longer does.
+    void give_way(uint32_t vertex, bool gives) { guard_.give_way(vertex, gives); }
     /// Vertices that keep() moved; is_in_zone: as one with others, whose velocity is their way.
     std::span<const uint32_t> moved() const { return guard_.moved(); }
     bool is_in_zone(uint32_t vertex) const { return guard_.is_in_zone(vertex); }
@@ -75,6 +76,7 @@ public:
 private:
     struct Mesh {
         size_t first_vertex, vertices;
+        std::vector<uint32_t> indices;
         float keeps_m;
         MeshOf what;
         bool is_known = false;  // where it is

@@ -15,6 +15,7 @@ std::span<const uint32_t> Untangle::move(std::span<const TrianglePair> crossed,
                                          std::span<const uint32_t> indices, std::span<const uint8_t> is_fixed,
                                          float step_m, std::span<Vec3> places) {
     vertices_.clear();
+    ways_.resize(places.size(), Vec3(0.0f));
     for (const auto& [a, b] : crossed) {
         const uint32_t first[3] = {indices[3 * a], indices[3 * a + 1], indices[3 * a + 2]},
                        second[3] = {indices[3 * b], indices[3 * b + 1], indices[3 * b + 2]};

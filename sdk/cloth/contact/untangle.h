@@ -13,8 +13,6 @@ namespace vfit {
 
 class Untangle {
 public:
-    explicit Untangle(size_t vertices) : ways_(vertices, Vec3(0.0f)) {}
-
     /// Moves the vertices of triangles that cross, but the fixed ones, by step_m at most. indices: three a
     /// triangle, counter-clockwise. Returns the vertices of those triangles. Does not allocate once it has
     /// met as many.

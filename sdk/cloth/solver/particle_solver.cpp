@@ -73,6 +73,15 @@ void ParticleSolver::forget_mesh(size_t mesh) {
         if (mesh < part.touched.size()) part.touched[mesh].clear();
 }
 
+void ParticleSolver::widen_limits(std::span<const float> by_m) {
+    const ParticleLayout& layout = fabric_->layout();
+    limits_wider_m_.assign(by_m.empty() ? 0 : layout.count(), 0.0f);
+    for (size_t v = 0; v < by_m.size(); ++v) {
+        const uint32_t particle = layout.particle_of[v];
+        limits_wider_m_[particle / kLanes * kLanes + lane_of(particle % kLanes)] = by_m[v];
+    }
+}
+
 void ParticleSolver::rest() { std::fill(velocities_.begin(), velocities_.end(), Particle()); }
 
 void ParticleSolver::carry(const RigidMotion& motion) {
@@ -200,8 +209,17 @@ void ParticleSolver::solve_group(int substep, uint32_t group) {
 }
 
 void ParticleSolver::begin_part(const Step& step, uint32_t part) {
-    place_balls(step, part, fabric_->backstop_runs()[part], step.thickness_m, parts_[part].backstops);
-    place_balls(step, part, fabric_->limit_runs()[part], 0.0f, parts_[part].limits);
+    place_balls(
+        step, part, fabric_->backstop_runs()[part],
+        [&](const BallRun& ball, size_t lane) { return ball.radius_m[lane] + step.thickness_m; },
+        parts_[part].backstops);
+    place_balls(
+        step, part, fabric_->limit_runs()[part],
+        [&](const BallRun& ball, size_t lane) {
+            const float wider_m = limits_wider_m_.empty() ? 0.0f : limits_wider_m_[ball.run * kLanes + lane];
+            return ball.radius_m[lane] + wider_m;
+        },
+        parts_[part].limits);
     place_fixed(step, part);
     const Moving m = moving(part);
     parts_[part].planes.clear();
@@ -209,10 +227,8 @@ void ParticleSolver::begin_part(const Step& step, uint32_t part) {
     const uint32_t begin = layout.parts[part].begin;
     parts_[part].touched.resize(step.meshes.size());
     for (size_t i = 0; i < step.meshes.size(); ++i) {
-        const bool is_lifted = is_cloth(step.meshes[i].what()) && !step.cloth_lift_m.empty();
-        step.meshes[i].find_planes({m, std::span(layout.vertex_of).subspan(begin),
-                                    is_lifted ? step.cloth_lift_m.subspan(begin) : std::span<const float>(),
-                                    step.dt, step.thickness_m},
+        if (step.meshes[i].what() == MeshOf::cloth) continue;  // met as own layers are
+        step.meshes[i].find_planes({m, std::span(layout.vertex_of).subspan(begin), step.dt, step.thickness_m},
                                    parts_[part].near_runs, parts_[part].touched[i], parts_[part].planes);
     }
     if (step.meshes.size() > 1) {
@@ -239,8 +255,9 @@ void ParticleSolver::fill_up(uint32_t part) {
     }
 }
 
-void ParticleSolver::place_balls(const Step& step, uint32_t part, std::span<const BallRun> runs, float more_m,
-                                 std::vector<RunBalls>& out) const {
+template <typename Radius>
+void ParticleSolver::place_balls(const Step& step, uint32_t part, std::span<const BallRun> runs,
+                                 const Radius& radius_m, std::vector<RunBalls>& out) const {
     const uint32_t first_run = fabric_->layout().parts[part].begin / uint32_t(kLanes);
     out.resize(runs.size());
     for (size_t i = 0; i < runs.size(); ++i) {
@@ -250,7 +267,7 @@ void ParticleSolver::place_balls(const Step& step, uint32_t part, std::span<cons
             const auto [from, way] = way_of(step, runs[i].target[k]);
             ball.x[k] = from.x, ball.y[k] = from.y, ball.z[k] = from.z;
             ball.way_x[k] = way.x, ball.way_y[k] = way.y, ball.way_z[k] = way.z;
-            ball.radius_m[k] = runs[i].radius_m[k] > 0.0f ? runs[i].radius_m[k] + more_m : 0.0f;
+            ball.radius_m[k] = runs[i].radius_m[k] > 0.0f ? radius_m(runs[i], k) : 0.0f;
         }
     }
 }

@@ -34,6 +34,8 @@ public:
     void place(uint32_t vertex, const Vec3& at, const Vec3& velocity);
     /// Mesh of that number is another one from now on.
     void forget_mesh(size_t mesh);
+    /// FabricData::limits are wider by that, one a vertex; empty: by nothing.
+    void widen_limits(std::span<const float> by_m);
     /// As the cloth lies and moves.
     void carry(const RigidMotion& motion);
 
@@ -49,7 +51,6 @@ public:
         Interval interval;               // of that one, which this is about
         const ColliderMotion& colliders;
         std::span<const ContactMesh> meshes;
-        std::span<const float> cloth_lift_m;  // off those that are cloth, one a particle; may be empty
         TriangleContact* contacts = nullptr;
         float contact_friction = 0.0f;  // of these
     };
@@ -86,7 +87,8 @@ private:
     Moving moving(uint32_t part);
     void set_gains(float h, int substeps);
     void begin_part(const Step& step, uint32_t part);
-    void place_balls(const Step& step, uint32_t part, std::span<const BallRun> runs, float more_m,
+    template <typename Radius>
+    void place_balls(const Step& step, uint32_t part, std::span<const BallRun> runs, const Radius& radius_m,
                      std::vector<RunBalls>& out) const;
     void place_fixed(const Step& step, uint32_t part);
     void begin_substep(const Step& step, int substep, uint32_t part);
@@ -97,6 +99,7 @@ private:
     std::shared_ptr<const Fabric> fabric_;
     Particles places_, starts_, velocities_;  // in the fabric's layout
     Particles pushed_;                        // by contacts in this step; empty: nobody asks
+    std::vector<float> limits_wider_m_;       // in the lanes of runs; empty: by nothing
     std::vector<Gains> gains_;                // of its groups
     float gains_h_ = 0.0f;                    // the sub-step that they are for,
     bool may_alternate_ = false;              // and whether a step has an even number of them

@@ -91,8 +91,8 @@ private:
         settings.gravity = Vec3(0.0f);
         settings.damping = 0.99999f;
         settings.friction = 0.0f;
+        settings.sleeps = false;
         settings.thickness_m = settings_.thickness_m;
-        settings.clears_meshes = settings.sleeps = false;
         for (float limit = widest_seam(places); limit > kSewn_m;) {
             limit = std::max(limit - kStage_m, kSewn_m);
             const bool last = limit == kSewn_m;

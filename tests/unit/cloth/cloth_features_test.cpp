@@ -186,6 +186,30 @@ TEST(ClothLimits, AVertexStaysAsNearToTheTargetOfAnotherAsItIsTold) {
     EXPECT_NE(test::error_of([&] { Fabric bad(data); }).find("from target 300"), std::string::npos);
 }
 
+TEST(ClothLimits, WidenedTheyHoldItFurtherOff) {
+    std::vector<DistanceLimit> limits;
+    for (uint32_t v = 15; v < 20 * 15; ++v) limits.push_back({v, 0.01f});
+    Hanging hanging({}, limits);
+    hanging.cloth->set_air({Vec3(0, 0, 8.0f), 1.0f, 0.0f});
+    const auto farthest = [&](const Cloth& cloth) {
+        float max_m = 0.0f;
+        for (const DistanceLimit& limit : limits)
+            max_m = std::max(max_m,
+                             glm::distance(cloth.positions()[limit.vertex], hanging.targets[limit.vertex]));
+        return max_m;
+    };
+    hanging.cloth->widen_limits(std::vector<float>(300, 0.02f));
+    hanging.step(120);
+    EXPECT_NEAR(farthest(*hanging.cloth), 0.03f, 1e-4f);
+    FabricData data = hanging.sheet.cook(cotton());
+    data.limits = limits;
+    *hanging.cloth = hanging.cloth->with_fabric(fabric(std::move(data)));
+    hanging.step(60);
+    EXPECT_NEAR(farthest(*hanging.cloth), 0.03f, 1e-4f) << "of another fabric too";
+    EXPECT_EQ(test::error_of([&] { hanging.cloth->widen_limits(std::vector<float>(299)); }).substr(0, 3),
+              "-2 ");
+}
+
 TEST(ClothInertia, WhatIsNotFeltCarriesTheClothAlong) {
     const auto sway = [](float inertia) {
         ClothSettings settings;

@@ -117,7 +117,7 @@ TEST(Cloth, PutOnGoesTheWholeWayAndEndsAtRest) {
         settings.substeps = substeps;
         Cloth cloth(curtain.data, settings, curtain.sheet.positions);
         shares.clear();
-        cloth.put_on(body, *jobs);
+        cloth.put_on(curtain.sheet.positions, body, *jobs);
         EXPECT_EQ(shares.front(), 0.0f);
         EXPECT_EQ(shares.back(), 1.0f);
         EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
@@ -139,7 +139,8 @@ TEST(Cloth, PutOnRefusesABodyThatIsNotFinite) {
         targets = curtain.sheet.positions;
         targets[3].x = INFINITY;
     };
-    EXPECT_EQ(error_of([&] { cloth.put_on(body, *jobs); }), "-11 skinned targets 3 is not finite");
+    EXPECT_EQ(error_of([&] { cloth.put_on(curtain.sheet.positions, body, *jobs); }),
+              "-11 skinned targets 3 is not finite");
     EXPECT_EQ(cloth.state_hash(), begin);
 }
 

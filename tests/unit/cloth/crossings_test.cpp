@@ -86,7 +86,7 @@ TEST(Untangle, AVertexThatPokesThroughGoesBack) {
     sheets.positions[12].y = 0.009f;  // the middle of the lower one
     auto pairs = sheets.crossed();
     ASSERT_FALSE(pairs.empty());
-    Untangle untangle(sheets.positions.size());
+    Untangle untangle;
     const std::vector<uint8_t> fixed(sheets.positions.size(), 0);
     int round = 0;
     for (; round < 40 && !pairs.empty(); ++round) {
@@ -102,7 +102,7 @@ TEST(Untangle, WhatIsFixedStays) {
     TwoSheets sheets(5, 0.02f, {0.007f, 0.004f, 0.006f});
     sheets.positions[12].y = 0.009f;
     const std::vector<Vec3> before = sheets.positions;
-    Untangle untangle(sheets.positions.size());
+    Untangle untangle;
     untangle.move(sheets.crossed(), sheets.indices, std::vector<uint8_t>(before.size(), 1), 0.001f,
                   sheets.positions);
     EXPECT_EQ(sheets.positions, before);
@@ -199,57 +199,12 @@ TEST(TriangleContact, InOtherLengthsItMeetsTheSameMeshes) {
     for (const Vec3& p : second.positions()) EXPECT_LT(p.y, 0.019f) << "it fell on the ground";
 }
 
-TEST(MeshLift, WhatIsFixedRisesOffClothBelowAndGoesWithTheSkin) {
-    const auto jobs = Jobs::own(0);
-    const BumpyGround ground;
-    Sheet sheet(9, 9, 0.025f);
-    for (uint32_t r = 0; r < 7; ++r)
-        for (uint32_t c = 0; c < 9; ++c) sheet.simulated[sheet.at(r, c)] = 0;
-    const std::vector<Vec3> start = over_ground(sheet, 0.004f);
-    for (const MeshOf what : {MeshOf::cloth, MeshOf::solid}) {
-        Cloth cloth(fabric(sheet.cook(cotton())), {}, start);
-        ASSERT_GT(ground.crossed(cloth, sheet), 0u);
-        const uint32_t mesh = cloth.add_mesh(ground.positions.size(), ground.indices, {}, what);
-        for (int frame = 0; frame < 60; ++frame) {
-            cloth.move_mesh(mesh, ground.positions);
-            cloth.step(kFrame_s, start, {}, *jobs);
-        }
-        if (what == MeshOf::cloth) {
-            EXPECT_EQ(ground.crossed(cloth, sheet), 0u);
-            for (uint32_t v = 0; v < sheet.at(7, 0); ++v) EXPECT_LT(cloth.positions()[v].y, 0.02f) << v;
-            cloth.reset(start);
-            cloth.hide_mesh(mesh);
-            cloth.step(kFrame_s, start, {}, *jobs);
-        }
-        for (uint32_t v = 0; v < sheet.at(7, 0); ++v) EXPECT_EQ(cloth.positions()[v], start[v]) << v;
-    }
-}
-
-TEST(MeshLift, WhatIsHeldInTheSkinByAFixedVertexDoesNotRise) {
-    const auto jobs = Jobs::own(0);
-    const BumpyGround ground;
-    Sheet sheet(9, 9, 0.025f);
-    for (uint32_t r = 0; r < 5; ++r)
-        for (uint32_t c = 0; c < 9; ++c)
-            sheet.simulated[sheet.at(r, c)] = 0;  // the bump is below the triangles next to them
-    const std::vector<Vec3> start = over_ground(sheet, 0.004f);
-    Cloth cloth(fabric(sheet.cook(cotton())), {}, start);
-    ASSERT_GT(ground.crossed(cloth, sheet), 0u);
-    const uint32_t mesh = cloth.add_mesh(ground.positions.size(), ground.indices);
-    for (int frame = 0; frame < 120; ++frame) {
-        cloth.move_mesh(mesh, ground.positions);
-        cloth.step(kFrame_s, start, {}, *jobs);
-    }
-    for (uint32_t c = 0; c < 9; ++c)
-        EXPECT_LT(cloth.positions()[sheet.at(5, c)].y, 0.006f) << "a hem beside it would have teeth";
-}
-
-TEST(MeshLift, OffOtherClothItIsAsHighAsAFold) {
+/// A fold of the ground goes through cloth that lies on it.
+TEST(TriangleContact, WhatCrossesOtherClothIsMovedApart) {
     const auto jobs = Jobs::own(0);
     const BumpyGround fold(2.0f);  // 16 mm over the sheet
     Sheet sheet(9, 9, 0.025f);
-    sheet.simulated.assign(sheet.positions.size(), 0);
-    sheet.simulated.back() = 1;
+    sheet.pin_top();
     const std::vector<Vec3> start = over_ground(sheet, 0.004f);
     Cloth cloth(fabric(sheet.cook(cotton())), {}, start);
     ASSERT_GT(fold.crossed(cloth, sheet), 0u);
@@ -261,20 +216,26 @@ TEST(MeshLift, OffOtherClothItIsAsHighAsAFold) {
     EXPECT_EQ(fold.crossed(cloth, sheet), 0u);
 }
 
-TEST(MeshLift, WhatComesOutFromBelowPushesAndLiftsNothing) {
+TEST(TriangleContact, ItGoesToOtherPlacesButNotThroughItself) {
     const auto jobs = Jobs::own(0);
-    const BumpyGround ground;
-    Sheet sheet(9, 9, 0.025f);
-    sheet.simulated.assign(sheet.positions.size(), 0);
-    sheet.simulated.back() = 1;
-    const std::vector<Vec3> start = over_ground(sheet, 0.004f);
-    Cloth cloth(fabric(sheet.cook(cotton())), {}, start);
-    const uint32_t mesh = cloth.add_mesh(ground.positions.size(), ground.indices, {}, MeshOf::coming_cloth);
-    for (int frame = 0; frame < 60; ++frame) {
-        cloth.move_mesh(mesh, ground.positions);
-        cloth.step(kFrame_s, start, {}, *jobs);
-    }
-    for (uint32_t v = 0; v + 1 < start.size(); ++v) EXPECT_EQ(cloth.positions()[v], start[v]) << v;
+    const TwoSheets sheets(8, 0.02f, {0.004f, 0.005f, 0.005f});
+    TwoSheets wanted = sheets;
+    for (Vec3& place : wanted.positions) place.x += 0.05f;
+    for (const uint32_t v : {27u, 28u, 35u, 36u})
+        wanted.positions[sheets.of_one + v].y -= 0.012f;  // the upper one, through the lower
+    ASSERT_GT(wanted.crossed().size(), 0u);
+    ClothSettings settings;
+    settings.self_thickness_m = 0.004f;
+    Cloth cloth(fabric(sheets.fabric()), settings, sheets.positions);
+    cloth.go_to(wanted.positions, *jobs);
+    TwoSheets now = sheets;
+    now.positions = cloth.positions();
+    EXPECT_EQ(now.crossed().size(), 0u);
+    for (const size_t corner : {0u, 7u, sheets.of_one, sheets.of_one + 7u})
+        EXPECT_LT(glm::distance(now.positions[corner], wanted.positions[corner]), 1e-5f) << corner;
+    cloth.reset(wanted.positions);
+    now.positions = cloth.positions();
+    EXPECT_GT(now.crossed().size(), 0u) << "reset does";
 }
 
 TEST(Borders, OfTwoSheetsAreTwoClosedLines) {

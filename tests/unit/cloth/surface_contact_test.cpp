@@ -302,7 +302,7 @@ TEST(MeshContact, ClothThatIsDrawnIntoAHollowStaysOutOfBothSides) {
         std::vector<Vec3> targets;
         for (const Vec3& p : sheet.positions) targets.emplace_back(p.x, p.y + 0.035f, 0.0f);
         ClothSettings settings;
-        settings.sleeps = settings.yields = false;
+        settings.sleeps = false;
         settings.friction = 0.0f;
         Cloth cloth(fabric(sheet.cook(cotton())), settings, targets);
         const uint32_t mesh = cloth.add_mesh(groove.size(), indices, {}, what);
@@ -321,31 +321,7 @@ TEST(MeshContact, ClothThatIsDrawnIntoAHollowStaysOutOfBothSides) {
         }
         return deepest;
     };
-    EXPECT_GT(deepest_with(MeshOf::cloth), 0.002f) << "the scene would show it";
     EXPECT_LT(deepest_with(MeshOf::solid), 0.001f);
-}
-
-TEST(ContactMesh, CrossesWhereItArrived) {
-    Sheet sheet(11, 11, 0.02f);
-    const std::vector<Vec3> places = lying(sheet, {});
-    TriangleGroups groups(places, sheet.indices);
-    const auto alone = Jobs::own(0);
-    groups.move(places, *alone);
-    BallMesh ball({0.1f, -0.1f, 0.1f}, 0.05f);
-    ContactMesh mesh(ball.positions.size(), ball.indices);
-    const auto crossed_after = [&](const Vec3& way) {
-        ball.move(way);
-        mesh.accept(ball.positions);
-        mesh.look_at({}, Vec3(-1.0f), Vec3(1.0f));
-        std::vector<uint32_t> near_runs, triangles;
-        for (uint32_t group = 0; group < groups.group_count(); ++group)
-            mesh.find_crossed(groups, group, near_runs, triangles);
-        mesh.arrive();
-        return triangles.size();
-    };
-    EXPECT_EQ(crossed_after(Vec3(0.0f)), 0u);
-    EXPECT_GT(crossed_after({0.0f, 0.09f, 0.0f}), 0u);
-    EXPECT_EQ(crossed_after({0.0f, -0.09f, 0.0f}), 0u);
 }
 
 /// A ball comes from below, with steps of 1/30 s: contacts are found in the middle of them as well.
@@ -463,7 +439,7 @@ TEST(MeshContact, WhatHangsBelowAHemIsNotDrawnUpToIt) {
     }
 }
 
-TEST(MeshContact, WhereAHemComesThroughTheClothGoesOutwards) {
+TEST(MeshContact, WhereAHemComesThroughTheyAreMovedApart) {
     const auto jobs = Jobs::own(0);
     Sheet curtain(21, 21, 0.02f);
     curtain.pin_top();
@@ -471,19 +447,17 @@ TEST(MeshContact, WhereAHemComesThroughTheClothGoesOutwards) {
     Sheet inner(11, 21, 0.02f);
     for (Vec3& p : inner.positions) p += Vec3(0.0f, -0.008f, -0.006f);
     for (uint32_t c = 0; c < 21; ++c) inner.positions[inner.at(10, c)].z += 0.012f;
-    for (const bool clears : {false, true}) {
-        ClothSettings settings;
-        settings.clears_meshes = clears;
-        Cloth cloth(fabric(curtain.cook(cotton())), settings, curtain.positions);
-        const uint32_t mesh = cloth.add_mesh(inner.positions.size(), inner.indices, {}, MeshOf::cloth);
-        for (int frame = 0; frame < 120; ++frame) {
-            cloth.move_mesh(mesh, inner.positions);
-            cloth.step(kFrame_s, curtain.positions, {}, *jobs);
-        }
-        EXPECT_EQ(
-            crossed_triangles({cloth.positions(), curtain.indices}, {inner.positions, inner.indices}).empty(),
-            clears);
+    const auto crossed = [&](const std::vector<Vec3>& places) {
+        return crossed_triangles({places, curtain.indices}, {inner.positions, inner.indices}).size();
+    };
+    ASSERT_GT(crossed(curtain.positions), 0u);
+    Cloth cloth(fabric(curtain.cook(cotton())), {}, curtain.positions);
+    const uint32_t mesh = cloth.add_mesh(inner.positions.size(), inner.indices, {}, MeshOf::cloth);
+    for (int frame = 0; frame < 120; ++frame) {
+        cloth.move_mesh(mesh, inner.positions);
+        cloth.step(kFrame_s, curtain.positions, {}, *jobs);
     }
+    EXPECT_EQ(crossed(cloth.positions()), 0u);
 }
 
 /// Three sheets, one above the other, fall on a ball.

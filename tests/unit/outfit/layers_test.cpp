@@ -102,5 +102,49 @@ TEST_F(LayersTest, PutOnItComesToLieOutsideOfItsLayer) {
     EXPECT_GT(double(outside), 0.95 * double(count));
 }
 
+size_t crossings_of(const WornGarment& inner, const WornGarment& outer) {
+    return crossed_triangles({outer.positions(), outer.dress().indices()},
+                             {inner.positions(), inner.dress().indices()})
+        .size();
+}
+
+/// A wide hem below a coat: both stand there for a second, from several folds of the inner one.
+TEST_F(LayersTest, ACoatOverAWideDressNeverCrossesIt) {
+    const WearableGarment wide = wearable("sundress_pattern"), coat = wearable("duster");
+    WearOptions options = on_skin();
+    options.size = "XL";
+    options.cloth.self_thickness_m = 0.004f;
+    for (const int frames : {0, 15}) {
+        WornGarment inner(wide, she.wearer, options, *jobs), outer(coat, she.wearer, options, *jobs);
+        for (int i = 0; i < frames; ++i) step(inner);
+        outer.wear_over(inner);
+        outer.see_layer(0, inner.positions());
+        outer.come_outside_of_last_layer();
+        EXPECT_EQ(crossings_of(inner, outer), 0u) << frames;
+        for (int i = 0; i < 60; ++i) {
+            step(inner);
+            outer.see_layer(0, inner.positions());
+            step(outer);
+            if (i % 10 == 9) {
+                EXPECT_EQ(crossings_of(inner, outer), 0u) << frames << ", " << i;
+            }
+        }
+        EXPECT_LT(outer.stats().strain_max, 0.6f);
+    }
+}
+
+TEST_F(LayersTest, WhatReachesFarBeyondIsRefused) {
+    const WearableGarment wide = wearable("sundress_pattern"), jeans = wearable("jeans_women");
+    WornGarment inner(wide, she.wearer, on_skin(), *jobs), outer(jeans, she.wearer, on_skin(), *jobs);
+    outer.wear_over(inner);
+    outer.see_layer(0, inner.positions());
+    const std::string error = error_of([&] { outer.come_outside_of_last_layer(); });
+    EXPECT_NE(error.find("jeans_women does not fit over sundress_pattern"), std::string::npos) << error;
+    EXPECT_EQ(outer.layers().count(), 0u);
+    step(outer);
+    EXPECT_LT(outer.stats().strain_max, 0.6f);
+    EXPECT_TRUE(outer.wear_over(inner)) << "again";
+}
+
 }  // namespace
 }  // namespace vfit

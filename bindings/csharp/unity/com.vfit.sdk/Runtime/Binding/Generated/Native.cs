@@ -649,13 +649,14 @@ namespace Vfit
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_set_quality(ClothId cloth, uint substeps, float budgetMs);
 
-        /// <summary>From now on cloth is worn over inner, a cloth of the same avatar, and stays outside of it
-        /// by its thickness: step inner first, each frame. Within this call inner grows from within the body
-        /// to where its last step left it and pushes cloth outwards, in the pose that the avatar has now;
-        /// acquire then gives that state. Takes as long as 20 to 40 steps. Where cloth is too tight for what
-        /// is below, it lets that through rather than tear. An inner one that gets destroyed stays where it
-        /// was. VFIT_ERROR_ARGUMENT where cloth is worn below inner already, VFIT_ERROR_STATE while a step of
-        /// inner or of another layer below runs. [excl]</summary>
+        /// <summary>From now on cloth is worn over inner, a cloth of the same avatar, and does not cross it:
+        /// step inner first, each frame. Within this call cloth goes outside of where the last step of inner
+        /// left that, in the pose that the avatar has now; acquire then gives that state. Takes as long as 6
+        /// to 12 steps. Where cloth is too tight for what is below, it lets that through rather than tear. An
+        /// inner one that gets destroyed stays where it was. VFIT_ERROR_NOT_WEARABLE where inner reaches far
+        /// beyond cloth (a wide skirt below trousers): cloth is then carried into the pose, and not worn over
+        /// inner. VFIT_ERROR_ARGUMENT where cloth is worn below inner already, VFIT_ERROR_STATE while a step
+        /// of inner or of another layer below runs. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_wear_over(ClothId cloth, ClothId inner);
 
