@@ -82,13 +82,6 @@ Avatar make_body(vfit_context context, const BodyKind& kind) {
     return avatar;
 }
 
-/// The way of 99 of 100 vertices, in millimetres, at most.
-double ways_mm(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-    Samples ways;
-    for (size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-        ways.add(1e3 * double(glm::length(a[i] - b[i])));
-    return ways.quantile(0.99);
-}
 std::vector<Vec3> places(vfit_cloth cloth) {
     Frame frame;
     check(vfit_cloth_acquire(cloth, frame.out()));

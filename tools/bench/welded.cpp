@@ -1,5 +1,7 @@
 #include "bench/welded.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -49,6 +51,16 @@ MeshQuery query_of(const Welded& mesh) { return MeshQuery(mesh.positions, mesh.i
 CrossedTriangles crossings(const Welded& mesh) { return crossed_triangles(mesh.positions, mesh.indices); }
 CrossedTriangles crossings(const Welded& a, const Welded& b) {
     return crossed_triangles({a.positions, a.indices}, {b.positions, b.indices});
+}
+
+double ways_mm(std::span<const Vec3> from, std::span<const Vec3> to) {
+    std::vector<float> ways_m;
+    for (size_t i = 0; i < std::min(from.size(), to.size()); ++i)
+        ways_m.push_back(glm::distance(from[i], to[i]));
+    if (ways_m.empty()) return 0.0;
+    const auto last = ways_m.begin() + std::lround(0.99 * double(ways_m.size() - 1));
+    std::nth_element(ways_m.begin(), last, ways_m.end());
+    return 1e3 * double(*last);
 }
 
 }  // namespace vfit::tools

@@ -29,4 +29,7 @@ using CrossedTriangles = std::vector<std::pair<uint32_t, uint32_t>>;
 CrossedTriangles crossings(const Welded& mesh);
 CrossedTriangles crossings(const Welded& a, const Welded& b);
 
+/// The way of 99 of 100 vertices, in millimetres, at most.
+double ways_mm(std::span<const Vec3> from, std::span<const Vec3> to);
+
 }  // namespace vfit::tools
