@@ -41,12 +41,16 @@ size_t crossed(const Welded& outer, const Welded& inner) {
 struct Added {
     Samples ms;
     size_t crossed = 0;  // of these frames
+    Samples max_strain;  // in them
 };
 
 void wear_over(const Cloth& cloth, const std::vector<Cloth>& worn, Added& added) {
     const Timer timer;
     for (const Cloth& inner : worn) check(vfit_cloth_wear_over(cloth.get(), inner.get()));
     added.ms.add(timer.ms());
+    vfit_cloth_stats stats = vfit_cloth_stats_init();
+    check(vfit_cloth_describe(cloth.get(), &stats));
+    added.max_strain.add(stats.strain_max);
     const Welded outer = mesh_of(cloth.get());
     added.crossed += std::any_of(worn.begin(), worn.end(), [&](const Cloth& inner) {
         return crossed(outer, mesh_of(inner.get())) > 0;
@@ -133,6 +137,8 @@ void judge_layers(bool json) {
                   60.0, 0, " ms");
     targets.judge("  the same, 95 %", added.ms.quantile(0.95), Aim::at_most, 60.0, 0, " ms");
     targets.judge("  first frames in which it crosses one below", double(added.crossed), Aim::exactly, 0.0);
+    targets.judge("  greatest stretch of a thread in them", added.max_strain.quantile(1.0), Aim::at_most, 0.6,
+                  2);
     targets.judge("greatest stretch of a thread of an outer layer", most.quantile(1.0), Aim::at_most, 3.0, 2);
     targets.judge("stretch of 99 in 100 threads, worst", p99.quantile(1.0), Aim::at_most, 0.3, 2);
     targets.judge("triangles of an outer layer that one below goes through, median",

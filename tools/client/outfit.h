@@ -42,12 +42,14 @@ public:
     void reset();
     void step(float seconds);
 
-    /// The largest strain of any edge since the last reset: 1 is twice the rest length.
+    /// The largest strain of any edge since the last reset or forget_worst(): 1 is twice the rest length.
     struct Worst {
         float strain = 0.0f, time_s = 0.0f;
         std::string garment;
     };
     const Worst& worst() const { return worst_; }
+    /// From now on worst() is of what comes.
+    void forget_worst() { worst_ = {}; }
     /// Empty, or a sentence on the largest strain, where it exceeds kMaxPlausibleStrain.
     static std::string warning_of(const Worst& worst);
     std::string warning() const { return warning_of(worst_); }

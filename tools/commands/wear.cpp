@@ -68,6 +68,8 @@ public:
 
     void settle() {
         for (int i = 0; i < kFramesToRest; ++i) outfit_->step(kFrame_s);
+        outfit_->forget_worst();  // drawn is how it lies, not how it came there
+        outfit_->step(kFrame_s);
     }
 
     std::string warning() const { return outfit_->warning(); }
