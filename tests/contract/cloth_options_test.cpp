@@ -212,6 +212,10 @@ TEST_F(ClothOptionsTest, ACoatOverAWideDressOfItsSizeIsNotCaughtInside) {
         put_on(over);
         EXPECT_LT(over.strain_max, 1.0f) << size;
         EXPECT_LE(over.strain_p99, std::max(0.2f, alone.strain_p99)) << size;
+        vfit_cloth_stats below = vfit_cloth_stats_init();
+        ASSERT_EQ(vfit_cloth_describe(worn[0], &below), VFIT_OK);
+        EXPECT_LT(below.strain_max, 3.0f) << size;
+        EXPECT_LT(below.strain_p99, 0.2f) << size;
         for (const vfit_cloth cloth : {worn[1], worn[0]}) ASSERT_EQ(vfit_cloth_destroy(cloth), VFIT_OK);
     }
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cloth/crossings.h"
+#include "measure/mesh_query.h"
 #include "people.h"
 #include "unit/cloth/cloth_support.h"
 
@@ -131,6 +132,26 @@ TEST_F(LayersTest, ACoatOverAWideDressNeverCrossesIt) {
         }
         EXPECT_LT(outer.stats().strain_max, 0.6f);
     }
+}
+
+/// Held as close to the body as without a shirt, it was pulled into that in each step.
+TEST_F(LayersTest, ATightVestKeepsItsDistanceFromTheShirt) {
+    Person he{VFIT_SEX_MALE};
+    WornGarment shirt(wearable("shirt_men"), he.wearer, {}, *jobs),
+        vest(wearable("vest"), he.wearer, {}, *jobs);
+    for (int i = 0; i < 30; ++i) step(shirt);
+    vest.wear_over(shirt);
+    vest.see_layer(0, shirt.positions());
+    vest.put_on();
+    for (int i = 0; i < 60; ++i) {
+        step(shirt);
+        vest.see_layer(0, shirt.positions());
+        step(vest);
+    }
+    const MeshQuery below(shirt.positions(), shirt.dress().indices());
+    size_t pulled_in = 0;
+    for (const Vec3& place : vest.positions()) pulled_in += below.closest(place).distance < 0.002f;
+    EXPECT_LT(pulled_in, 4u) << "12 with limits for the body alone";
 }
 
 TEST_F(LayersTest, WhatReachesFarBeyondIsRefused) {
