@@ -27,6 +27,7 @@ struct AvatarObject : ContextChild {
     bool is_body() const { return !body.shape.empty(); }
     MeshOutput posed, rest;
     std::array<float, kPaperJointCount> radii{};  // that set_collider_radii was told
+    std::mutex cloth_sets;                        // guards which of its cloths are worn over each other
     float relative_sigma = 0.0f;  // of measures of its body as the person's whom it was made of; 0: unknown
 
     /// As the avatar's own, and kept for packets.

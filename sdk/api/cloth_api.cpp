@@ -46,9 +46,7 @@ vfit_result vfit_cloth_reset(vfit_cloth handle) {
 vfit_result vfit_cloth_step(vfit_cloth handle, float dt) {
     return guard([&] {
         Use<ClothObject, Mode::exclusive> cloth(handle.id);
-        cloth->begin_step(dt);
-        cloth->step();
-        cloth->end_step();
+        cloth->step(dt);
         return VFIT_OK;
     });
 }
@@ -65,7 +63,6 @@ vfit_result vfit_cloth_end_step(vfit_cloth handle) {
     return guard([&] {
         Use<ClothObject, Mode::exclusive> cloth(handle.id);
         cloth->finish_step();
-        cloth->end_step();
         return VFIT_OK;
     });
 }
@@ -98,8 +95,7 @@ vfit_result vfit_cloth_set_wind(vfit_cloth handle, const float wind[3]) {
     return guard([&] {
         Use<ClothObject, Mode::exclusive> cloth(handle.id);
         check_pointer(wind, "wind");
-        cloth->require_no_step();
-        cloth->worn.set_wind(cloth->context->axes.point_in({wind[0], wind[1], wind[2]}));
+        cloth->set_wind(cloth->context->axes.point_in({wind[0], wind[1], wind[2]}));
         return VFIT_OK;
     });
 }
@@ -107,10 +103,9 @@ vfit_result vfit_cloth_set_wind(vfit_cloth handle, const float wind[3]) {
 vfit_result vfit_cloth_set_quality(vfit_cloth handle, uint32_t substeps, float budget_ms) {
     return guard([&] {
         Use<ClothObject, Mode::exclusive> cloth(handle.id);
-        cloth->require_no_step();
         if (substeps > kMaxSubsteps)
             fail(VFIT_ERROR_ARGUMENT, "substeps ", substeps, " is more than ", kMaxSubsteps);
-        cloth->worn.set_quality(substeps ? substeps : ClothSettings().substeps, budget_ms);
+        cloth->set_quality(substeps ? substeps : ClothSettings().substeps, budget_ms);
         return VFIT_OK;
     });
 }
@@ -118,9 +113,8 @@ vfit_result vfit_cloth_set_quality(vfit_cloth handle, uint32_t substeps, float b
 vfit_result vfit_cloth_wear_over(vfit_cloth handle, vfit_cloth inner_handle) {
     return guard([&] {
         Use<ClothObject, Mode::exclusive> cloth(handle.id);
-        cloth->require_no_step();
         if (handle.id == inner_handle.id) fail(VFIT_ERROR_ARGUMENT, "a cloth cannot be worn over itself");
-        Use<ClothObject, Mode::read> inner(inner_handle.id);
+        Use<ClothObject, Mode::any> inner(inner_handle.id);
         cloth->wear_over(inner.ref());
         return VFIT_OK;
     });

@@ -5,67 +5,91 @@
 
 namespace vfit::api {
 
-/// A step's access to the props.
-class ClothObject::ReadingProps {
-public:
-    explicit ReadingProps(ClothObject& cloth) : readings_(cloth.prop_readings_) {
-        cloth.drop_destroyed_props();
-        try {
-            for (const Ref<PropObject>& prop : cloth.props_) readings_.emplace_back(prop->access, "prop");
-        } catch (...) {
-            readings_.clear();
-            throw;
-        }
-    }
-    ~ReadingProps() { readings_.clear(); }
-    ReadingProps(const ReadingProps&) = delete;
-    ReadingProps& operator=(const ReadingProps&) = delete;
-
-private:
-    std::vector<Reading>& readings_;
-};
-
 ClothObject::ClothObject(Ref<AvatarObject> avatar_object, Ref<GarmentObject> garment_object,
                          const WearOptions& options)
     : ContextChild(avatar_object->context),
       avatar(std::move(avatar_object)),
       garment(std::move(garment_object)),
       worn(garment->wearable, avatar->wearer, options, *context->jobs),
-      output(*context) {
+      output(*context),
+      set_(std::make_shared<ClothSet>(context)) {
     output.topology().set_indices(worn.garment().drawn_indices(), context->axes);
     output.topology().set_uvs(worn.garment().mesh.uvs, context->axes);
     next_ = output.begin();
     publish_step();
-    later_.task = [](void* self, uint32_t) { static_cast<ClothObject*>(self)->step(); };
-    later_.data = this;
 }
 
+/// No call uses it any more; a step on another thread may.
 ClothObject::~ClothObject() {
-    try {
-        if (stepping_) finish_step();
-    } catch (...) {
-        // The step failed, and no call of the host is left to report it.
-    }
+    set_->wait();
+    if (has_begun_) --set_->begun;
 }
 
-void ClothObject::begin_step(float dt) {
-    if (stepping_) fail(VFIT_ERROR_STATE, "a step has begun already: end it first");
+void ClothObject::handle_died() {
+    Ref<ClothObject> self;  // let go of after the lock
+    const std::lock_guard lock(avatar->cloth_sets);
+    is_unnamed_ = true;
+    for (Ref<ClothObject>& cloth : set_->cloths)
+        if (cloth.get() == this) std::swap(self, cloth);
+    std::erase(set_->cloths, nullptr);
+}
+
+namespace {
+
+void check_dt(float dt) {
     if (!std::isfinite(dt) || dt < 0.0f) fail(VFIT_ERROR_ARGUMENT, "dt ", dt, " is no time");
-    const Reading reading = read_avatar();
-    const ReadingProps props(*this);
-    next_ = output.begin();
-    see_layers();
-    worn.begin_step(dt);
 }
 
-void ClothObject::step() {
-    Profile::Scope time(context->profile, Stage::cloth);
-    worn.step();
+}  // namespace
+
+void ClothObject::require_settled() {
+    if (set_->is_stepping() && set_->begun == 0) {
+        ClothsOfCall all(*this);
+        set_->finish_step();
+        all.end_step();
+    }
+    require_no_step();
 }
 
-void ClothObject::end_step() {
-    worn.end_step();
-    publish_step();
+void ClothObject::step(float dt) {
+    check_dt(dt);
+    if (has_begun_) fail(VFIT_ERROR_STATE, "a step has begun already: end it first");
+    require_settled();
+    if (std::exchange(is_stepped_, false)) return;
+    ClothsOfCall all(*this);
+    all.begin_step(dt);
+    {
+        Profile::Scope time(context->profile, Stage::cloth);
+        all.worn().step();
+    }
+    all.end_step();
+    for (const Ref<ClothObject>& cloth : all.cloths())
+        cloth->is_stepped_ = dt > 0.0f && cloth.get() != this, cloth->is_put_on_ = false;
+}
+
+void ClothObject::start_step(float dt) {
+    check_dt(dt);
+    if (has_begun_) fail(VFIT_ERROR_STATE, "a step has begun already: end it first");
+    if (!std::exchange(is_stepped_, false)) {
+        require_settled();
+        ClothsOfCall all(*this);
+        all.begin_step(dt);
+        set_->start_step(all.worn());
+        for (const Ref<ClothObject>& cloth : all.cloths())
+            cloth->is_stepped_ = cloth.get() != this, cloth->is_put_on_ = false;
+    }
+    has_begun_ = true;
+    ++set_->begun;
+}
+
+void ClothObject::finish_step() {
+    if (!has_begun_) fail(VFIT_ERROR_STATE, "no step has begun");
+    ClothsOfCall all(*this);
+    has_begun_ = false;
+    --set_->begun;
+    if (!set_->is_stepping()) return;  // a call on another cloth ended it
+    set_->finish_step();
+    all.end_step();
 }
 
 void ClothObject::publish_step() {
@@ -73,37 +97,54 @@ void ClothObject::publish_step() {
     publish({finished.positions(), finished.normals()}, finished.time_ns(), std::move(next_));
 }
 
-void ClothObject::start_step(float dt) {
-    begin_step(dt);
-    stepping_ = true;
-    context->jobs->begin(later_);
-}
-
-void ClothObject::finish_step() {
-    if (!stepping_) fail(VFIT_ERROR_STATE, "no step has begun");
-    stepping_ = false;
-    context->jobs->end(later_);
-}
-
-void ClothObject::require_no_step() const {
-    if (stepping_) fail(VFIT_ERROR_STATE, "a step is running: end it first");
-}
-
 void ClothObject::put_on() {
-    require_no_step();
+    require_settled();
     const Reading reading = read_avatar();
-    next_ = output.begin();
-    see_layers();
-    worn.put_on();
-    publish_step();
+    if (std::exchange(is_put_on_, false) && worn.stands_in_pose()) return;
+    ClothsOfCall all(*this);
+    const ClothsOfCall::ReadingProps props(all);
+    all.begin_frames();
+    all.worn().put_on();
+    all.publish();
+    for (const Ref<ClothObject>& cloth : all.cloths())
+        cloth->is_put_on_ = cloth.get() != this, cloth->is_stepped_ = false;
 }
 
 void ClothObject::change_size(const char* label) {
-    require_no_step();
+    require_settled();
+    ClothsOfCall all(*this);
+    const ClothsOfCall::ReadingProps props(all);
+    WornTogether together = all.worn();
     WornGarment::Resized resized = worn.in_size(label ? SizeLabel(label) : SizeLabel());
     const Reading reading = read_avatar();
-    see_layers();
-    worn.change_to(std::move(resized));
+    together.change_to(worn, std::move(resized));
+    for (const Ref<ClothObject>& cloth : all.cloths()) cloth->is_put_on_ = false;
+}
+
+void ClothObject::set_wind(const Vec3& wind_m_s) {
+    require_settled();
+    const ClothsOfCall all(*this);
+    for (const Ref<ClothObject>& cloth : all.cloths()) cloth->worn.set_wind(wind_m_s);
+}
+
+void ClothObject::set_quality(uint32_t substeps, float budget_ms) {
+    require_settled();
+    const ClothsOfCall all(*this);
+    for (const Ref<ClothObject>& cloth : all.cloths()) cloth->worn.set_quality(substeps, budget_ms);
+}
+
+void ClothObject::wear_over(const Ref<ClothObject>& inner) {
+    require_settled();
+    if (inner->avatar != avatar) fail(VFIT_ERROR_ARGUMENT, "both cloths must be of the same avatar");
+    ClothsOfCall all(*this, inner.get());
+    inner->require_no_step();
+    const Reading reading = read_avatar();
+    const ClothsOfCall::ReadingProps props(all);
+    all.begin_frames();
+    if (!all.worn().wear_over(worn, inner->worn)) return;
+    all.unite();
+    all.publish();
+    for (const Ref<ClothObject>& cloth : all.cloths()) cloth->is_put_on_ = cloth->is_stepped_ = false;
 }
 
 void ClothObject::reskin() {
@@ -115,7 +156,8 @@ void ClothObject::reskin() {
 
 void ClothObject::meet(const Ref<PropObject>& prop) {
     constexpr size_t kMaxProps = 64;
-    require_no_step();
+    require_settled();
+    const ClothsOfCall all(*this);
     drop_destroyed_props();
     if (prop->context != context) fail(VFIT_ERROR_HANDLE, "cloth and prop belong to different contexts");
     if (props_.size() == kMaxProps && std::find(props_.begin(), props_.end(), prop) == props_.end())
@@ -130,48 +172,9 @@ void ClothObject::drop_destroyed_props() {
 }
 
 void ClothObject::pass(const Ref<PropObject>& prop) {
-    require_no_step();
+    require_settled();
+    const ClothsOfCall all(*this);
     if (worn.pass(prop->prop)) std::erase(props_, prop);
-}
-
-/// Where the last step of each layer left it.
-void ClothObject::see_layers() {
-    for (size_t i = 0; i < below_.size(); ++i) {
-        const Reading reading(below_[i]->access, "cloth below");
-        worn.see_layer(i, below_[i]->stepped());
-    }
-}
-
-/// The vertices of a cloth below another one.
-const std::vector<Vec3>& ClothObject::stepped() const {
-    if (stepping_) fail(VFIT_ERROR_STATE, "a step of the cloth below has begun: end it first");
-    return worn.positions();
-}
-
-void ClothObject::wear_over(const Ref<ClothObject>& inner) {
-    require_no_step();
-    std::vector<Reading> readings;
-    inner->read_below(*this, readings);
-    const Reading reading = read_avatar();
-    see_layers();
-    const std::vector<Vec3>& lies = inner->stepped();
-    below_.reserve(below_.size() + 1);
-    Ref<Frame> next = output.begin();
-    if (!worn.wear_over(inner->worn)) return;
-    worn.see_layer(below_.size(), lies);
-    worn.come_outside_of_last_layer();
-    below_.push_back(inner);
-    next_ = std::move(next);
-    publish_step();
-}
-
-/// Of all layers down to `end`, which the caller has for itself: other threads may dress them.
-void ClothObject::read_below(const ClothObject& end, std::vector<Reading>& readings) const {
-    for (const Ref<ClothObject>& layer : below_) {
-        if (layer.get() == &end) continue;
-        readings.emplace_back(layer->access, "cloth below");
-        layer->read_below(end, readings);
-    }
 }
 
 void ClothObject::publish(const FinishedStep::Reskinned& mesh, int64_t time_ns, Ref<Frame> frame) {

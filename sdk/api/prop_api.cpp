@@ -88,8 +88,6 @@ vfit_result vfit_prop_create(vfit_context handle, const vfit_prop_desc* desc, vf
 
 vfit_result vfit_prop_destroy(vfit_prop prop) {
     return guard([&] {
-        if (prop.id == 0) return VFIT_OK;
-        Use<PropObject, Mode::any>(prop.id)->is_destroyed = true;
         destroy<PropObject>(prop.id);
         return VFIT_OK;
     });

@@ -17,6 +17,7 @@ struct PropObject : ContextChild {
     Prop prop;
     std::vector<Vec3> given;  // room for what the host gives
     std::atomic<bool> is_destroyed{false};
+    void handle_died() override { is_destroyed = true; }
 };
 
 }  // namespace vfit::api

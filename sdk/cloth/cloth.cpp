@@ -28,9 +28,6 @@ constexpr float kMaxDepenetration_m_s = 3.0f;
 // What has been slower than that for so long, on a body that moves less than that in a step, sleeps. A swing
 // is so slow only for an instant, where it turns round; single vertices may tremble in a contact.
 constexpr float kStillMean_m_s = 0.002f, kStillMost_m_s = 0.05f, kStill_m = 2e-5f, kFallsAsleep_s = 0.5f;
-// Mean strain of a vertex's threads: beyond the first it gives way to cloth below, until it falls to the
-// second.
-constexpr float kTorn = 0.5f, kWhole = 0.25f;
 constexpr float kFinestVirtual_m = 0.001f;
 // Of the thickness, between a mesh's vertices or edges and the cloth: its own vertices keep all of it, so
 // that few of the others are in contact.
@@ -143,14 +140,32 @@ uint64_t hash(uint64_t state, const Vec3& v) {
 
 }  // namespace
 
+ClothSettings ClothSettings::joined(std::span<const ClothSettings> of_pieces) {
+    ClothSettings out = of_pieces.back();
+    for (const ClothSettings& of : of_pieces) {
+        out.substeps = std::max(out.substeps, of.substeps);
+        out.thickness_m = std::max(out.thickness_m, of.thickness_m);
+        out.pressure = out.pressure || of.pressure;
+        out.sleeps = out.sleeps && of.sleeps;
+    }
+    return out;
+}
+
 struct Cloth::State {
-    State(std::shared_ptr<const Fabric> f, const ClothSettings& s)
-        : fabric(f), settings(s), solver(std::move(f), {s.virtual_m, s.pressure}) {}
+    State(std::shared_ptr<const Fabric> f, std::span<const ClothSettings> of)
+        : fabric(f),
+          settings(ClothSettings::joined(of)),
+          of_pieces(of.begin(), of.end()),
+          solver(std::move(f), {settings.virtual_m, settings.pressure}) {}
 
     std::shared_ptr<const Fabric> fabric;
-    ClothSettings settings;
+    ClothSettings settings;  // of all
+    std::vector<ClothSettings> of_pieces;
     ParticleSolver solver;
     ColliderMotion colliders;
+    std::vector<std::pair<size_t, size_t>> passing;       // pieces, through each other
+    std::vector<uint32_t> collider_ends;                  // of each piece; empty: each meets all
+    std::vector<ParticleSolver::PartContact> contact_of;  // of each part of the layout
     std::vector<ContactMesh> meshes;
     std::vector<std::vector<Vec3>> mesh_places;  // that they go to
     std::vector<std::vector<Vec3>> mesh_starts;  // that they come from; empty: where they were
@@ -204,10 +219,11 @@ struct Cloth::State {
                           std::span<const Vec3> targets, Jobs& jobs, const IntervalEnded& interval_ended);
     void rest_if_still(float dt, std::span<const Vec3> targets);
     void meet_triangles(const ContactMesh& mesh);
+    LayerThickness layer_thickness() const;
     void find_triangles();
     void part_layers(Jobs& jobs);
     void keep_layers(float dt, Jobs& jobs);
-    void give_way();
+    void find_contact_of_parts(float h);
     void publish();
     void find_normals() const;
     void find_strains() const;
@@ -216,13 +232,16 @@ struct Cloth::State {
 
 Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings, std::span<const Vec3> start,
              Jobs* jobs)
-    : Cloth(std::move(fabric), settings, start, nullptr, jobs) {}
+    : Cloth(std::move(fabric), std::span(&settings, 1), start, nullptr, jobs) {}
 
-Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings, std::span<const Vec3> start,
-             const TriangleContact* like, Jobs* jobs) {
+Cloth::Cloth(std::shared_ptr<const Fabric> fabric, std::span<const ClothSettings> of_pieces,
+             std::span<const Vec3> start, const TriangleContact* like, Jobs* jobs) {
     if (!fabric) fail(VFIT_ERROR_ARGUMENT, "a cloth needs a fabric");
-    check(settings);
-    state_ = std::make_unique<State>(fabric, settings);
+    if (of_pieces.size() != fabric->pieces().size())
+        fail(VFIT_ERROR_ARGUMENT, of_pieces.size(), " settings for a fabric of ", fabric->pieces().size(),
+             " pieces");
+    for (const ClothSettings& settings : of_pieces) check(settings);
+    state_ = std::make_unique<State>(fabric, of_pieces);
     State& s = *state_;
     const uint32_t n = fabric->vertex_count();
     const FabricData& data = fabric->data();
@@ -231,7 +250,7 @@ Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings
     s.asleep_at.reserve(fabric->target_count());
     s.strains.resize(n);
     s.pressures.resize(n);
-    if (settings.pressure) s.forces.resize(n), s.pushes.resize(n);
+    if (s.settings.pressure) s.forces.resize(n), s.pushes.resize(n);
     s.edge_strains.resize(data.edges.size());
     s.inverse_edge_count.resize(n);
     for (const DistanceConstraint& e : data.edges) s.inverse_rest.push_back(1.0f / e.rest_m);
@@ -240,8 +259,8 @@ Cloth::Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings
     for (float& count : s.inverse_edge_count) count = count > 0.0f ? 1.0f / count : 0.0f;
     if (like)
         s.triangles.emplace(*like, fabric, jobs);
-    else if (settings.self_thickness_m > 0.0f)
-        s.triangles.emplace(fabric, settings.self_thickness_m, start.first(n), jobs);
+    else if (const LayerThickness thickness = s.layer_thickness(); thickness.reach_m() > 0.0f)
+        s.triangles.emplace(fabric, thickness, start.first(n), jobs);
     if (s.triangles) s.before.resize(n), s.now.resize(n);
     reset(start);
 }
@@ -255,9 +274,12 @@ Cloth Cloth::with_fabric(std::shared_ptr<const Fabric> fabric, Jobs* jobs) const
     if (!fabric || fabric->vertex_count() != s.fabric->vertex_count() ||
         fabric->target_count() != s.fabric->target_count())
         fail(VFIT_ERROR_ARGUMENT, "another fabric of a cloth must have as many vertices and targets");
-    Cloth out(fabric, s.settings, s.positions, s.triangles ? &*s.triangles : nullptr, jobs);
+    Cloth out(fabric, s.of_pieces, s.positions, s.triangles ? &*s.triangles : nullptr, jobs);
     State& o = *out.state_;
+    o.settings = s.settings;
     o.colliders = s.colliders;
+    o.collider_ends = s.collider_ends;
+    o.passing = s.passing;
     o.meshes = s.meshes;
     o.mesh_places = s.mesh_places;
     o.mesh_starts.resize(s.mesh_starts.size());
@@ -284,10 +306,22 @@ void Cloth::State::reset(std::span<const Vec3> start) {
     for (ContactMesh& mesh : meshes) mesh.forget();
     contacts_known = certified = false;
     if (triangles) triangles->forget_meshes();
-    for (uint32_t v = 0; triangles && v < fabric->vertex_count(); ++v) triangles->give_way(v, false);
     carried = 0.0f;
     wake();
     publish();
+}
+
+std::vector<Vec3> Cloth::velocities() const {
+    std::vector<Vec3> out;
+    for (const uint32_t particle : state_->fabric->layout().particle_of)
+        out.push_back(state_->solver.velocities()[particle].x);
+    return out;
+}
+
+void Cloth::set_velocities(std::span<const Vec3> velocities) {
+    check_points(velocities, state_->fabric->vertex_count(), "velocities");
+    for (uint32_t v = 0; v < velocities.size(); ++v)
+        state_->solver.place(v, state_->positions[v], velocities[v]);
 }
 
 void Cloth::put_on(std::span<const Vec3> start, const BodyOnItsWay& body, Jobs& jobs) {
@@ -317,9 +351,11 @@ void Cloth::go_to(std::span<const Vec3> positions, Jobs& jobs) {
     constexpr int kParts = 10;  // of the way
     State& s = *state_;
     std::vector<Vec3> places(positions.begin(), positions.end());
-    if (s.triangles && s.settings.self_thickness_m > 0.0f) {
+    if (s.triangles && s.layer_thickness().reach_m() > 0.0f) {
         for (uint32_t i = 0; i < s.meshes.size(); ++i) s.triangles->hide_mesh(i);
+        s.triangles->pass_each_other(true);
         s.before = s.positions;
+        s.triangles->part(s.before, jobs);
         s.triangles->place(s.before, jobs);
         for (int i = 0; i < kParts; ++i) {
             for (size_t v = 0; v < s.now.size(); ++v)
@@ -327,6 +363,7 @@ void Cloth::go_to(std::span<const Vec3> positions, Jobs& jobs) {
             s.triangles->keep(s.before, s.now, jobs);
             s.before = s.now;
         }
+        s.triangles->pass_each_other(false);
         std::copy(s.before.begin(), s.before.end(), places.begin());
     }
     reset(places);
@@ -365,22 +402,37 @@ uint32_t Cloth::add_mesh(size_t vertices, std::span<const uint32_t> indices, std
         fail(VFIT_ERROR_ARGUMENT, counts.size(), " flags for a mesh of ", vertices, " vertices");
     state_->meshes.emplace_back(vertices, indices, counts, what, filter);
     state_->mesh_places.emplace_back(), state_->mesh_starts.emplace_back();
-    if (what == MeshOf::cloth && !state_->triangles)
-        state_->find_triangles();
-    else
-        state_->meet_triangles(state_->meshes.back());
+    state_->meet_triangles(state_->meshes.back());
     state_->wake();
     return uint32_t(state_->meshes.size()) - 1;
 }
 
-void Cloth::replace_mesh(uint32_t mesh, size_t vertices, std::span<const uint32_t> indices, MeshOf what) {
+void Cloth::replace_mesh(uint32_t mesh, size_t vertices, std::span<const uint32_t> indices, MeshOf what,
+                         const MeshFilter& filter) {
     State& s = *state_;
     if (mesh >= s.meshes.size()) fail(VFIT_ERROR_ARGUMENT, "there is no mesh ", mesh);
-    s.meshes[mesh] = ContactMesh(vertices, indices, {}, what);
+    s.meshes[mesh] = ContactMesh(vertices, indices, {}, what, filter);
     s.mesh_places[mesh].clear(), s.mesh_starts[mesh].clear();
     s.solver.forget_mesh(mesh);
     if (s.triangles) s.find_triangles();
     s.wake();
+}
+
+void Cloth::set_passing(size_t piece, size_t other, bool passing) {
+    State& s = *state_;
+    const size_t pieces = s.of_pieces.size();
+    if (piece >= pieces || other >= pieces)
+        fail(VFIT_ERROR_ARGUMENT, "there are ", pieces, " pieces, not ", piece, " and ", other);
+    std::erase(s.passing, std::pair(piece, other));
+    if (passing) s.passing.emplace_back(piece, other);
+    if (s.triangles) s.triangles->set_passing(piece, other, passing);
+}
+
+void Cloth::set_collider_ends(std::span<const uint32_t> of_pieces) {
+    if (!of_pieces.empty() && of_pieces.size() != state_->fabric->pieces().size())
+        fail(VFIT_ERROR_ARGUMENT, of_pieces.size(), " ends of colliders for a fabric of ",
+             state_->fabric->pieces().size(), " pieces");
+    state_->collider_ends.assign(of_pieces.begin(), of_pieces.end());
 }
 
 void Cloth::meet_edges() {
@@ -417,13 +469,14 @@ bool Cloth::crosses_mesh(uint32_t mesh) const {
     return state_->triangles && state_->triangles->crosses_mesh(mesh);
 }
 
-void Cloth::set_mesh_mask(uint32_t mesh, std::span<const uint8_t> mask) {
+void Cloth::set_mesh_mask(uint32_t mesh, std::span<const uint8_t> mask, size_t piece) {
     if (mesh >= state_->meshes.size()) fail(VFIT_ERROR_ARGUMENT, "there is no mesh ", mesh);
-    if (mask.size() != state_->meshes[mesh].filter().mask.size())
-        fail(VFIT_ERROR_ARGUMENT, mask.size(), " masks instead of ",
-             state_->meshes[mesh].filter().mask.size());
-    state_->meshes[mesh].set_mask(mask);
-    if (state_->triangles) state_->triangles->set_mask(mesh, mask);
+    const Fabric::Range vertices = state_->fabric->pieces().at(piece).vertices;
+    const bool has_filter = !state_->meshes[mesh].filter().mask.empty();
+    if (!has_filter || mask.size() != vertices.count())
+        fail(VFIT_ERROR_ARGUMENT, mask.size(), " masks instead of ", has_filter ? vertices.count() : 0);
+    state_->meshes[mesh].set_mask(mask, vertices.begin);
+    if (state_->triangles) state_->triangles->set_mask(mesh, mask, vertices.begin);
     state_->wake();
 }
 
@@ -443,6 +496,8 @@ void Cloth::set_air(const Air& air) {
         state_->wake();
     state_->settings.air = air;
 }
+
+const Air& Cloth::air() const { return state_->settings.air; }
 
 void Cloth::set_quality(uint32_t substeps, float budget_ms) {
     check_substeps(substeps);
@@ -478,7 +533,6 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
         if (done > 0) s.look_at({});  // the body stands where it arrived
         s.advance(dt, substeps, settles ? std::max(s.settings.damping, kSettlingDamping) : s.settings.damping,
                   skinned_targets, jobs, interval_ended);
-        if (!settles) s.give_way();
     }
     s.substeps = uint32_t(substeps * done);
     s.substep_s = dt / float(substeps);
@@ -640,9 +694,8 @@ void Cloth::State::advance_interval(float dt, int count, float damping, const In
         contacts_known = true;
     }
     const float h = dt / float(count);
-    const ContactSettings contact{settings.friction, settings.friction * kKineticShare,
-                                  kMaxDepenetration_m_s * h};
-    solver.advance({dt, count, settings.gravity, settings.air, std::pow(1.0f - damping, h), contact,
+    find_contact_of_parts(h);
+    solver.advance({dt, count, settings.gravity, settings.air, std::pow(1.0f - damping, h), contact_of,
                     settings.thickness_m, previous_targets, targets, interval, colliders, meshes,
                     triangles ? &*triangles : nullptr, settings.self_friction},
                    jobs);
@@ -658,17 +711,39 @@ void Cloth::State::advance_interval(float dt, int count, float damping, const In
     }
 }
 
+void Cloth::State::find_contact_of_parts(float h) {
+    const std::vector<Fabric::Piece>& pieces = fabric->pieces();
+    contact_of.clear();
+    for (size_t i = 0; i < pieces.size(); ++i) {
+        const float friction = of_pieces[i].friction;
+        const bool all = collider_ends.empty();
+        const size_t first = all || i == 0 ? 0 : colliders.count_before(collider_ends[i - 1]),
+                     end = all ? colliders.count() : colliders.count_before(collider_ends[i]);
+        contact_of.resize(pieces[i].parts.end,
+                          {{friction, friction * kKineticShare, kMaxDepenetration_m_s * h},
+                           uint32_t(first),
+                           uint32_t(end)});
+    }
+}
+
+LayerThickness Cloth::State::layer_thickness() const {
+    LayerThickness out;
+    for (const ClothSettings& of : of_pieces) out.own_m.push_back(of.self_thickness_m);
+    if (of_pieces.size() > 1) out.between_m = settings.thickness_m;
+    return out;
+}
+
 void Cloth::State::meet_triangles(const ContactMesh& mesh) {
     if (!triangles) return;
-    triangles->add_mesh(mesh.vertex_count(), mesh.indices(),
-                        (mesh.what() == MeshOf::cloth ? 1.0f : kMeshShare) * settings.thickness_m,
-                        mesh.what(), mesh.filter());
+    triangles->add_mesh(mesh.vertex_count(), mesh.indices(), kMeshShare * settings.thickness_m, mesh.what(),
+                        mesh.filter());
 }
 
 /// Builds the triangle contact again for the present meshes.
 void Cloth::State::find_triangles() {
     before.resize(positions.size()), now.resize(positions.size());
-    triangles.emplace(fabric, settings.self_thickness_m, positions);
+    triangles.emplace(fabric, layer_thickness(), positions);
+    for (const auto& [piece, other] : passing) triangles->set_passing(piece, other, true);
     for (uint32_t i = 0; i < meshes.size(); ++i) {
         meet_triangles(meshes[i]);
         if (!mesh_places[i].empty()) triangles->move_mesh(i, mesh_places[i]);
@@ -690,24 +765,14 @@ void Cloth::State::part_layers(Jobs& jobs) {
 
 void Cloth::State::keep_layers(float dt, Jobs& jobs) {
     now = positions;
-    certified = triangles->keep(before, now, jobs) && settings.self_thickness_m > 0.0f;
+    const bool has_layers = std::all_of(of_pieces.begin(), of_pieces.end(),
+                                        [](const ClothSettings& of) { return of.self_thickness_m > 0.0f; });
+    certified = triangles->keep(before, now, jobs) && has_layers;
     for (const uint32_t v : triangles->moved()) {
         const uint32_t particle = fabric->layout().particle_of[v];
         const Vec3 way = triangles->is_in_zone(v) ? now[v] - before[v] : now[v] - solver.places()[particle].x,
                    velocity = triangles->is_in_zone(v) ? Vec3(0.0f) : solver.velocities()[particle].x;
         solver.place(v, now[v], velocity + way / dt);
-    }
-}
-
-/// What is too tight for the cloth below lets it through rather than tear.
-void Cloth::State::give_way() {
-    if (std::none_of(meshes.begin(), meshes.end(),
-                     [](const ContactMesh& mesh) { return mesh.what() == MeshOf::cloth; }))
-        return;
-    find_strains();
-    for (uint32_t v = 0; v < strains.size(); ++v) {
-        if (strains[v] > kTorn) triangles->give_way(v, true);
-        if (strains[v] < kWhole) triangles->give_way(v, false);
     }
 }
 
@@ -759,15 +824,16 @@ void Cloth::State::find_pressures() const {
         forces[e.b] -= pull;
     }
     solver.copy_pushes(pushes);
-    for (size_t v = 0; v < pressures.size(); ++v) {
-        const float push = glm::length(pushes[v]);
-        pressures[v] = 0.0f;
-        if (!(push > 0.0f) || data.inverse_mass[v] == 0.0f) continue;
-        const Vec3 force = forces[v] + settings.gravity / data.inverse_mass[v];
-        const float against = -glm::dot(force, pushes[v]) / push;
-        pressures[v] =
-            std::max(0.0f, against) * data.inverse_mass[v] * data.density_kg_m2;  // mass over density is area
-    }
+    for (const Fabric::Piece& piece : fabric->pieces())
+        for (uint32_t v = piece.vertices.begin; v < piece.vertices.end; ++v) {
+            const float push = glm::length(pushes[v]);
+            pressures[v] = 0.0f;
+            if (!(push > 0.0f) || data.inverse_mass[v] == 0.0f) continue;
+            const Vec3 force = forces[v] + settings.gravity / data.inverse_mass[v];
+            const float against = -glm::dot(force, pushes[v]) / push;
+            // Mass over density is area.
+            pressures[v] = std::max(0.0f, against) * data.inverse_mass[v] * piece.density_kg_m2;
+        }
 }
 
 const std::vector<Vec3>& Cloth::positions() const { return state_->positions; }
@@ -793,41 +859,54 @@ float Cloth::substep_s() const {
 }
 const Fabric& Cloth::fabric() const { return *state_->fabric; }
 
-uint64_t Cloth::state_hash() const {
+uint64_t Cloth::state_hash(size_t piece) const {
+    const Fabric::Piece& of = state_->fabric->pieces().at(piece);
     uint64_t out = 0xcbf29ce484222325ull;
-    for (const Vec3& place : state_->positions) out = hash(out, place);
+    for (const Vec3& place : of.vertices.of(state_->positions)) out = hash(out, place);
     const ParticleLayout& layout = state_->fabric->layout();
-    for (const ParticleLayout::Part& part : layout.parts)
+    for (const ParticleLayout::Part& part : of.parts.of(layout.parts))
         for (uint32_t i = part.begin; i < part.moving_end; ++i)
             if (layout.vertex_of[i] != ParticleLayout::kNobody)
                 out = hash(out, state_->solver.velocities()[i].x);
     return out;
 }
 
-ClothStats Cloth::stats() const {
+ClothStats Cloth::stats(size_t piece) const {
     const State& s = *state_;
+    const Fabric::Piece& of = s.fabric->pieces().at(piece);
+    const FabricData& data = s.fabric->data();
     s.find_strains();
     ClothStats out;
-    out.vertex_count = s.fabric->vertex_count();
-    out.simulated_count = s.fabric->simulated_count();
-    out.constraint_count = s.fabric->constraint_count();
+    const auto count_of_piece = [&](const auto& constraints, const auto& first_of) {
+        return uint32_t(std::count_if(constraints.begin(), constraints.end(), [&](const auto& c) {
+            return first_of(c) >= of.vertices.begin && first_of(c) < of.vertices.end;
+        }));
+    };
+    const std::span<const float> inverse_mass = of.vertices.of(data.inverse_mass);
+    out.vertex_count = of.vertices.count();
+    out.simulated_count =
+        uint32_t(std::count_if(inverse_mass.begin(), inverse_mass.end(), [](float m) { return m > 0.0f; }));
+    out.constraint_count = of.edges.count() +
+                           count_of_piece(data.bends, [](const DistanceConstraint& c) { return c.a; }) +
+                           count_of_piece(data.hinges, [](const Hinge& h) { return h.vertices[0]; });
     out.step_ms = s.step_ms;
     out.substeps = s.substeps;
     out.certified = s.certified;
-    if (s.edge_strains.empty()) return out;
+    const std::span<const float> strains = of.edges.of(s.edge_strains);
+    if (strains.empty()) return out;
     // A histogram finds the percentile without sorting a copy.
     constexpr float kBin = 0.001f;
     constexpr int kBins = 2000, kZero = 1000;
     std::array<uint32_t, kBins> histogram{};
     double sum = 0.0;
-    for (float strain : s.edge_strains) {
+    for (float strain : strains) {
         sum += std::abs(strain);
         out.strain_max = std::max(out.strain_max, strain);
         const float bin = std::floor(strain / kBin) + kZero;
         ++histogram[bin > 0.0f ? size_t(std::min(bin, float(kBins - 1))) : 0];
     }
-    out.strain_mean = float(sum / double(s.edge_strains.size()));
-    const auto rank = uint64_t(0.99 * double(s.edge_strains.size()));
+    out.strain_mean = float(sum / double(strains.size()));
+    const auto rank = uint64_t(0.99 * double(strains.size()));
     uint64_t below = 0;
     int bin = 0;
     while (bin < kBins - 1 && (below += histogram[size_t(bin)]) <= rank) ++bin;

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "body/body_way.h"
@@ -58,6 +59,10 @@ struct ClothSettings {
     bool is_jump(const BodyWay& way, float dt) const {
         return std::max(way.whole_m, way.limb_m) > carry_speed_m_s * dt || way.min_m > carry_way_m;
     }
+    /// Of several pieces that are one cloth. Each keeps its own friction and self_thickness_m. Thickness and
+    /// sub-steps are those of the piece that has most; it sleeps where all may, and has pressure where one
+    /// does; the rest is as of the last one, which is worn over the others.
+    static ClothSettings joined(std::span<const ClothSettings> of_pieces);
 };
 
 struct ClothStats {
@@ -67,7 +72,7 @@ struct ClothStats {
     float strain_max = 0.0f;
     float step_ms = 0.0f;    // the last step
     uint32_t substeps = 0;   // of the last step; 0: it slept
-    bool certified = false;  // with own layers: after the last step they do not cross, nor a garment below
+    bool certified = false;  // with own layers: after the last step none cross, which is proven
 };
 
 class Cloth {
@@ -75,6 +80,12 @@ public:
     /// start: as for reset.
     Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings, std::span<const Vec3> start,
           Jobs* jobs = nullptr);
+    /// Settings of each of the fabric's pieces. These do not cross each other: they meet as own layers do, a
+    /// thickness_m apart.
+    static Cloth of_pieces(std::shared_ptr<const Fabric> fabric, std::span<const ClothSettings> settings,
+                           std::span<const Vec3> start, Jobs* jobs = nullptr) {
+        return Cloth(std::move(fabric), settings, start, nullptr, jobs);
+    }
     ~Cloth();
     Cloth(Cloth&&) noexcept;
     Cloth& operator=(Cloth&&) noexcept;
@@ -85,6 +96,9 @@ public:
 
     /// At rest at these places: one a vertex, or the fabric's target_count() as Dress::skin gives them.
     void reset(std::span<const Vec3> positions);
+    /// One a vertex, m/s.
+    std::vector<Vec3> velocities() const;
+    void set_velocities(std::span<const Vec3> velocities);
 
     /// Fills skinned targets and colliders, as for step, of a body at that share of its way into a pose.
     using BodyOnItsWay =
@@ -95,13 +109,14 @@ public:
     /// is always the same, whatever the settings.
     void put_on(std::span<const Vec3> start, const BodyOnItsWay& body, Jobs& jobs);
 
-    /// There at once, at rest, but not through its own layers: where these would cross, not all of the way.
-    /// positions: as for reset.
+    /// There at once, at rest, through other pieces but not through its own layers: where these would cross,
+    /// not all of the way. positions: as for reset.
     void go_to(std::span<const Vec3> positions, Jobs& jobs);
 
     /// From a shape that was stretched over the body at share 0 to the cloth's own lengths on the body at
-    /// share 1, without the speed that giving way at once would leave. Own layers that go through each other
-    /// at share 0, as they may after it was carried to another body, are moved apart first. Ends at rest.
+    /// share 1, without the speed that giving way at once would leave. Layers that cross at share 0, as they
+    /// may after it was carried to another body, are moved apart first: of two pieces the later one outwards.
+    /// Ends at rest.
     void come_to_lengths(const BodyOnItsWay& body, Jobs& jobs);
 
     /// Before a step or come_to_lengths. Moves the cloth at once. Colliders, meshes and targets begin that
@@ -120,15 +135,20 @@ public:
     void step(float dt, std::span<const Vec3> skinned_targets, std::span<const Collider> colliders,
               Jobs& jobs, const IntervalEnded& interval_ended = {});
 
-    /// A solid that the cloth stays outside of (its skin), or another garment that it does not cross:
-    /// triangles counter-clockwise from outside, flags of the vertices that count (empty: all). Returns its
-    /// number. Where it is, is said before each step. Edges meet those of a garment, and from then on those
-    /// of all meshes (meet_edges).
+    /// From the next step on, these two pieces pass through each other, or no longer do.
+    void set_passing(size_t piece, size_t other, bool passing);
+    /// From the next step on, each piece meets the colliders up to its end alone, from where those of the
+    /// piece before end. Empty: each meets all.
+    void set_collider_ends(std::span<const uint32_t> of_pieces);
+
+    /// A solid that the cloth stays outside of, as its skin: triangles counter-clockwise from outside, flags
+    /// of the vertices that count (empty: all). Returns its number. Where it is, is said before each step.
     uint32_t add_mesh(size_t vertices, std::span<const uint32_t> indices,
                       std::span<const uint8_t> counts = {}, MeshOf what = MeshOf::solid,
                       const MeshFilter& filter = {});
     /// Another one in the place of a mesh, hidden until it is moved.
-    void replace_mesh(uint32_t mesh, size_t vertices, std::span<const uint32_t> indices, MeshOf what);
+    void replace_mesh(uint32_t mesh, size_t vertices, std::span<const uint32_t> indices, MeshOf what,
+                      const MeshFilter& filter = {});
     /// Before a mesh is moved the first time: its shape, by which its triangles are grouped, where it does
     /// not have it then.
     void shape_mesh(uint32_t mesh, std::span<const Vec3> positions);
@@ -142,8 +162,8 @@ public:
     bool crosses_mesh(uint32_t mesh) const;
     /// It is not there until it is moved again.
     void hide_mesh(uint32_t mesh);
-    /// From the next step on, of a mesh that has a filter. One a vertex of the cloth.
-    void set_mesh_mask(uint32_t mesh, std::span<const uint8_t> mask);
+    /// From the next step on, of a mesh that has a filter. One a vertex of the piece.
+    void set_mesh_mask(uint32_t mesh, std::span<const uint8_t> mask, size_t piece = 0);
 
     /// From the next step on: the fabric's limits are wider by that, one a vertex. What is worn over other
     /// garments is held further off the body than these limits were made for.
@@ -151,6 +171,7 @@ public:
 
     /// From the next step on.
     void set_air(const Air& air);
+    const Air& air() const;
     void set_quality(uint32_t substeps, float budget_ms);
 
     const std::vector<Vec3>& positions() const;
@@ -163,16 +184,16 @@ public:
     /// of who is touched pull with against it, over the flat cloth's area. 0 for vertices that are moved by
     /// their targets, and without settings.pressure.
     const std::vector<float>& pressure() const;
-    /// Of positions and velocities, bit by bit.
-    uint64_t state_hash() const;
-    ClothStats stats() const;
+    /// Of positions and velocities of a piece, bit by bit.
+    uint64_t state_hash(size_t piece = 0) const;
+    ClothStats stats(size_t piece = 0) const;
     /// Length of the last sub-step; before the first step that of the settings.
     float substep_s() const;
     const Fabric& fabric() const;
 
 private:
-    Cloth(std::shared_ptr<const Fabric> fabric, const ClothSettings& settings, std::span<const Vec3> start,
-          const TriangleContact* like, Jobs* jobs);
+    Cloth(std::shared_ptr<const Fabric> fabric, std::span<const ClothSettings> of_pieces,
+          std::span<const Vec3> start, const TriangleContact* like, Jobs* jobs);
     struct State;
     std::unique_ptr<State> state_;
 };

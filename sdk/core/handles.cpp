@@ -150,6 +150,7 @@ void Handles::destroy(uint64_t id, Kind kind) {
         state_->live(id, kind);
         state_->remove(unpack(id).slot, gone);
     }
+    for (const Ref<Object>& object : gone) object->handle_died();
     for (Ref<Object>& object : gone) object = nullptr;
 }
 

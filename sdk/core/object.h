@@ -20,6 +20,9 @@ public:
             const_cast<Object*>(this)->unreferenced();
     }
 
+    /// Its last handle has died; calls that were inside before may go on.
+    virtual void handle_died() {}
+
 protected:
     virtual ~Object() = default;
     /// The last reference has gone. Pooled objects return to their pool here instead.

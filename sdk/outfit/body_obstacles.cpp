@@ -39,9 +39,9 @@ BodyObstacles::BodyObstacles(const Wearer& wearer, const Garment& garment, const
     cover_.emplace(body, below, colliders, options.cover_m);
 }
 
-void BodyObstacles::add_to(Cloth& cloth) {
+void BodyObstacles::add_to(ClothPiece cloth) {
     if (skin_)
-        skin_mesh_ = cloth.add_mesh(skin_->skin.vertex_count(), skin_->indices, {}, MeshOf::solid,
+        skin_mesh_ = cloth.add_mesh(skin_->skin.vertex_count(), skin_->indices, MeshOf::solid,
                                     arms_ ? arms_->filter() : MeshFilter());
 }
 
@@ -53,7 +53,7 @@ void BodyObstacles::select(std::span<const Mat4> matrices, std::vector<Collider>
     if (cover_) cover_->append(matrices, colliders, scratch_, cover_centers_, jobs);
 }
 
-void BodyObstacles::move_skin(std::span<const Mat4> matrices, Cloth& cloth, Jobs& jobs) {
+void BodyObstacles::move_skin(std::span<const Mat4> matrices, ClothPiece cloth, Jobs& jobs) {
     if (!skin_) return;
     std::swap(skin_before_, skin_positions_);
     skin_->skin.carry(matrices, skin_positions_, scratch_, jobs);
@@ -68,14 +68,14 @@ PosedBody& BodyObstacles::posed(std::span<const Collider> colliders) {
     return *posed_;
 }
 
-void BodyObstacles::let_arms_pass(Cloth& cloth, float share, float dt, Jobs& jobs) {
+void BodyObstacles::let_arms_pass(ClothPiece cloth, float share, float dt, Jobs& jobs) {
     if (!arms_) return;
     const bool is_first = skin_before_.empty();
     if (arms_->look(cloth, {is_first ? skin_positions_ : skin_before_, skin_positions_, share}, dt, jobs))
         cloth.set_mesh_mask(skin_mesh_, arms_->mask());
 }
 
-void BodyObstacles::meet_arms(Cloth& cloth) {
+void BodyObstacles::meet_arms(ClothPiece cloth) {
     if (!arms_) return;
     arms_->meet_again();
     cloth.set_mesh_mask(skin_mesh_, arms_->mask());

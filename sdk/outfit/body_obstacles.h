@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "body/collider.h"
-#include "cloth/cloth.h"
 #include "cloth/garment/dress.h"
+#include "outfit/cloth_piece.h"
 #include "outfit/passing_arms.h"
 #include "outfit/posed_body.h"
 #include "outfit/skin_below.h"
@@ -23,19 +23,19 @@ public:
     BodyObstacles(const Wearer& wearer, const Garment& garment, const Dress& dress,
                   const WearOptions& options);
 
-    /// Adds the skin's mesh to the cloth, where the skin is the obstacle. Once, before all others.
-    void add_to(Cloth& cloth);
+    /// Adds the skin's mesh to the cloth, where the skin is the obstacle.
+    void add_to(ClothPiece cloth);
     /// From all colliders of the posed avatar to those that the cloth meets.
     void select(std::span<const Mat4> matrices, std::vector<Collider>& colliders, Jobs& jobs);
     /// Moves the skin's mesh with these skinning matrices, one a rig bone.
-    void move_skin(std::span<const Mat4> matrices, Cloth& cloth, Jobs& jobs);
+    void move_skin(std::span<const Mat4> matrices, ClothPiece cloth, Jobs& jobs);
     /// The body as a solid, as the skin was moved last, or of selected colliders. Valid until one of them
     /// changes.
     PosedBody& posed(std::span<const Collider> colliders);
     /// With that fraction of the step behind the cloth, dt after the last time.
-    void let_arms_pass(Cloth& cloth, float share, float dt, Jobs& jobs);
+    void let_arms_pass(ClothPiece cloth, float share, float dt, Jobs& jobs);
     /// Arms that passed meet the cloth, before it is put on.
-    void meet_arms(Cloth& cloth);
+    void meet_arms(ClothPiece cloth);
 
 private:
     const Creases& creases_;

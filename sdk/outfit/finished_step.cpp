@@ -2,11 +2,13 @@
 
 namespace vfit {
 
-void FinishedStep::keep(const Cloth& cloth, std::span<const Mat4> pose, int64_t time_ns, bool with_pressure) {
-    positions_ = cloth.positions();
-    normals_ = cloth.normals();
-    strain_ = cloth.strain();
-    if (with_pressure) pressure_ = cloth.pressure();
+void FinishedStep::keep(const ClothPiece& cloth, std::span<const Mat4> pose, int64_t time_ns,
+                        bool with_pressure) {
+    const auto copy = [](auto values, auto& to) { to.assign(values.begin(), values.end()); };
+    copy(cloth.positions(), positions_);
+    copy(cloth.normals(), normals_);
+    copy(cloth.strain(), strain_);
+    if (with_pressure) copy(cloth.pressure(), pressure_);
     pose_.assign(pose.begin(), pose.end());
     time_ns_ = time_ns;
     is_unposed_ = is_reskinned_ = false;

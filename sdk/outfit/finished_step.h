@@ -5,17 +5,17 @@
 #include <span>
 #include <vector>
 
-#include "cloth/cloth.h"
 #include "cloth/garment/carry.h"
 #include "core/jobs.h"
 #include "math/types.h"
+#include "outfit/cloth_piece.h"
 
 namespace vfit {
 
 class FinishedStep {
 public:
     /// Of that pose (skinning matrices, one a rig bone). Does not allocate after the first call.
-    void keep(const Cloth& cloth, std::span<const Mat4> pose, int64_t time_ns, bool with_pressure);
+    void keep(const ClothPiece& cloth, std::span<const Mat4> pose, int64_t time_ns, bool with_pressure);
 
     const std::vector<Vec3>& positions() const { return positions_; }
     const std::vector<Vec3>& normals() const { return normals_; }

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "cloth/cloth.h"
 #include "math/types.h"
+#include "outfit/cloth_piece.h"
 
 namespace vfit {
 
@@ -16,15 +16,16 @@ inline constexpr float kPasses_s = 0.3f;  // at least
 /// The largest strain above `held` of an edge beside an obstacle; 0: it holds none. point(i) is where one of
 /// that many points of the obstacle is; counts(v): it meets that vertex.
 template <typename Point, typename Counts>
-float held_strain(const Cloth& cloth, float held, size_t points, Point&& point, Counts&& counts) {
+float held_strain(const ClothPiece& cloth, float held, size_t points, Point&& point, Counts&& counts) {
     constexpr float kBeside_m = 0.02f;  // between the edge and a point
-    const std::vector<DistanceConstraint>& edges = cloth.fabric().data().edges;
-    const std::vector<float>& strains = cloth.edge_strain();
-    const std::vector<Vec3>& places = cloth.positions();
+    const std::span<const float> strains = cloth.edge_strain();
+    const std::span<const Vec3> places = cloth.positions();
     float most = 0.0f;
-    for (size_t i = 0; i < edges.size(); ++i) {
-        if (strains[i] <= std::max(held, most) || !counts(edges[i].a)) continue;
-        const Vec3 &a = places[edges[i].a], &b = places[edges[i].b];
+    for (size_t i = 0; i < strains.size(); ++i) {
+        if (strains[i] <= std::max(held, most)) continue;
+        const ClothPiece::Edge edge = cloth.edge(i);
+        if (!counts(edge.a)) continue;
+        const Vec3 &a = places[edge.a], &b = places[edge.b];
         for (size_t k = 0; k < points; ++k) {
             const Vec3 p = point(k);
             const float along = glm::clamp(glm::dot(p - a, b - a) / glm::dot(b - a, b - a), 0.0f, 1.0f);

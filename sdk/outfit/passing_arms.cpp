@@ -41,7 +41,7 @@ void PassingArms::meet_again() {
     mask_ = filter_.mask;
 }
 
-bool PassingArms::look(const Cloth& cloth, const MovingSkin& skin, float dt, Jobs& jobs) {
+bool PassingArms::look(const ClothPiece& cloth, const MovingSkin& skin, float dt, Jobs& jobs) {
     bool changes = false;
     for (const Arm arm : kArms) {
         OfArm& of = of_[size_t(arm)];
@@ -62,23 +62,23 @@ bool PassingArms::look(const Cloth& cloth, const MovingSkin& skin, float dt, Job
     return true;
 }
 
-bool PassingArms::is_held(const Cloth& cloth, const MovingSkin& skin, Arm arm) const {
+bool PassingArms::is_held(const ClothPiece& cloth, const MovingSkin& skin, Arm arm) const {
     const std::vector<uint32_t>& points = of_[size_t(arm)].points;
     return held_strain(
                cloth, kHeld, points.size(), [&](size_t i) { return skin.at(points[i]); },
                [&](uint32_t v) { return meets(v, arm) && !is_sleeve(v); }) > 0.0f;
 }
 
-bool PassingArms::is_free(const Cloth& cloth, std::span<const Vec3> skin, Arm arm, Jobs& jobs) {
+bool PassingArms::is_free(const ClothPiece& cloth, std::span<const Vec3> skin, Arm arm, Jobs& jobs) {
     OfArm& of = of_[size_t(arm)];
     if (!of.triangles) of.triangles.emplace(skin, of.indices);
-    if (!cloth_) cloth_.emplace(cloth.positions(), cloth.fabric().data().indices);
+    if (!cloth_) cloth_indices_ = cloth.indices(), cloth_.emplace(cloth.positions(), cloth_indices_);
     of.triangles->move(skin, jobs);
     cloth_->move(cloth.positions(), jobs);
     crossed_.clear();
     cloth_->find_crossings(*of.triangles, crossed_, jobs);
     return std::none_of(crossed_.begin(), crossed_.end(), [&](const TrianglePair& pair) {
-        const uint32_t* corners = &cloth.fabric().data().indices[3 * size_t(pair.first)];
+        const uint32_t* corners = &cloth_indices_[3 * size_t(pair.first)];
         return std::any_of(corners, corners + 3, [&](uint32_t v) { return !is_sleeve(v); });
     });
 }

@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "cloth/cloth.h"
 #include "cloth/contact/triangle_groups.h"
 #include "core/jobs.h"
 #include "outfit/arm_filter.h"
+#include "outfit/cloth_piece.h"
 
 namespace vfit {
 
@@ -20,7 +20,8 @@ public:
     /// indices: triangles of the skin that has that filter.
     PassingArms(ArmFilter filter, std::span<const uint32_t> indices);
 
-    MeshFilter filter() const { return filter_.filter(); }
+    /// As it is now.
+    MeshFilter filter() const { return {filter_.category, mask_}; }
     /// On its way in a step, of which that fraction is over.
     struct MovingSkin {
         std::span<const Vec3> from, to;
@@ -28,7 +29,7 @@ public:
         Vec3 at(uint32_t v) const { return glm::mix(from[v], to[v], share); }
     };
     /// dt after the last time. True: another mask is to be met from now on.
-    bool look(const Cloth& cloth, const MovingSkin& skin, float dt, Jobs& jobs);
+    bool look(const ClothPiece& cloth, const MovingSkin& skin, float dt, Jobs& jobs);
     /// Both arms are met from now on: the cloth was put on anew.
     void meet_again();
     /// One a vertex of the cloth. A sleeve always meets the arm in it.
@@ -44,12 +45,13 @@ private:
     };
     bool meets(uint32_t vertex, Arm arm) const;
     bool is_sleeve(uint32_t vertex) const;
-    bool is_held(const Cloth& cloth, const MovingSkin& skin, Arm arm) const;
-    bool is_free(const Cloth& cloth, std::span<const Vec3> skin, Arm arm, Jobs& jobs);
+    bool is_held(const ClothPiece& cloth, const MovingSkin& skin, Arm arm) const;
+    bool is_free(const ClothPiece& cloth, std::span<const Vec3> skin, Arm arm, Jobs& jobs);
 
     ArmFilter filter_;
     std::vector<uint8_t> mask_;
     std::array<OfArm, kArms.size()> of_;
+    std::vector<uint32_t> cloth_indices_;
     std::optional<TriangleGroups> cloth_;
     std::vector<TrianglePair> crossed_;
 };

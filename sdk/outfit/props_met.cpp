@@ -17,7 +17,7 @@ constexpr float kNear_m = 0.3f;     // to the garment, where leaps matter
 
 Vec3 moved(const Mat4& m, const Vec3& p) { return Vec3(m * Vec4(p, 1.0f)); }
 
-Bounds bounds_of(const Cloth& cloth) {
+Bounds bounds_of(const ClothPiece& cloth) {
     Bounds out;
     for (const Vec3& p : cloth.positions()) out.add(p);
     return out;
@@ -38,14 +38,14 @@ bool leaps(std::span<const Vec3> before, std::span<const Vec3> now, const Mat4& 
 
 }  // namespace
 
-bool PropsMet::add(const Prop& prop, Cloth& cloth) {
+bool PropsMet::add(const Prop& prop, ClothPiece cloth) {
     if (std::any_of(met_.begin(), met_.end(), [&](const Met& met) { return met.prop == &prop; }))
         return false;
     met_.reserve(met_.size() + 1), free_meshes_.reserve(met_.size() + 1);
     cloth.meet_edges();
     uint32_t mesh;
     if (free_meshes_.empty()) {
-        mesh = cloth.add_mesh(prop.vertex_count(), prop.indices(), {}, MeshOf::prop);
+        mesh = cloth.add_mesh(prop.vertex_count(), prop.indices(), MeshOf::prop);
     } else {
         mesh = free_meshes_.back();
         cloth.replace_mesh(mesh, prop.vertex_count(), prop.indices(), MeshOf::prop);
@@ -56,7 +56,16 @@ bool PropsMet::add(const Prop& prop, Cloth& cloth) {
     return true;
 }
 
-bool PropsMet::remove(const Prop& prop, Cloth& cloth) {
+void PropsMet::add_to(ClothPiece cloth) {
+    free_meshes_.clear();
+    if (!met_.empty()) cloth.meet_edges();
+    for (Met& met : met_) {
+        met.mesh = cloth.add_mesh(met.prop->vertex_count(), met.prop->indices(), MeshOf::prop);
+        cloth.shape_mesh(met.mesh, met.prop->positions());
+    }
+}
+
+bool PropsMet::remove(const Prop& prop, ClothPiece cloth) {
     const auto met = std::find_if(met_.begin(), met_.end(), [&](const Met& m) { return m.prop == &prop; });
     if (met == met_.end()) return false;
     cloth.hide_mesh(met->mesh);
@@ -65,7 +74,7 @@ bool PropsMet::remove(const Prop& prop, Cloth& cloth) {
     return true;
 }
 
-void PropsMet::move(const BodyBeside& body, float dt, Cloth& cloth, Jobs& jobs) {
+void PropsMet::move(const BodyBeside& body, float dt, ClothPiece cloth, Jobs& jobs) {
     if (met_.empty()) return;
     const Bounds garment = bounds_of(cloth), around = widened(garment, kNear_m),
                  where_cloth_is = widened(garment, body.room_m);
@@ -88,7 +97,7 @@ void PropsMet::move(const BodyBeside& body, float dt, Cloth& cloth, Jobs& jobs) 
     }
 }
 
-void PropsMet::let_pass(Cloth& cloth, float share, float dt) {
+void PropsMet::let_pass(ClothPiece cloth, float share, float dt) {
     for (Met& met : met_) {
         met.for_s += dt;
         if (met.passes && met.for_s >= met.passes_s) {
@@ -105,21 +114,21 @@ void PropsMet::let_pass(Cloth& cloth, float share, float dt) {
     }
 }
 
-float PropsMet::held_by(const Met& met, const Cloth& cloth, float share) {
+float PropsMet::held_by(const Met& met, const ClothPiece& cloth, float share) {
     return held_strain(
         cloth, kHeld, met.places.size(),
         [&](size_t i) { return glm::mix(met.starts[i], met.places[i], share); },
         [](uint32_t) { return true; });
 }
 
-void PropsMet::hide(Cloth& cloth) {
+void PropsMet::hide(ClothPiece cloth) {
     for (Met& met : met_) {
         met.passes = false, met.for_s = INFINITY;
         come_in_anew(met, cloth);
     }
 }
 
-void PropsMet::come_in_anew(Met& met, Cloth& cloth) {
+void PropsMet::come_in_anew(Met& met, ClothPiece cloth) {
     met.size = 0.0f;
     met.whole.before.clear();
     cloth.hide_mesh(met.mesh);

@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "cloth/cloth.h"
 #include "cloth/contact/contact.h"
 #include "core/jobs.h"
 #include "math/types.h"
+#include "outfit/cloth_piece.h"
 #include "outfit/held_cloth.h"
 #include "outfit/posed_body.h"
 #include "outfit/prop.h"
@@ -33,19 +33,21 @@ struct BodyBeside {
 class PropsMet {
 public:
     /// From the next step on; prop must outlive its removal. False: it was there.
-    bool add(const Prop& prop, Cloth& cloth);
+    bool add(const Prop& prop, ClothPiece cloth);
+    /// The garment has another cloth from now on.
+    void add_to(ClothPiece cloth);
     /// False: it was not there.
-    bool remove(const Prop& prop, Cloth& cloth);
+    bool remove(const Prop& prop, ClothPiece cloth);
     /// Before a step of dt, 0 < dt <= kMaxStep_s: takes the places of the props, moved out of the body.
     /// Motion of the body that moves the cloth at once is swept against them as well. A prop that leaps
     /// relative to the body, past the garment, comes in anew.
-    void move(const BodyBeside& body, float dt, Cloth& cloth, Jobs& jobs);
+    void move(const BodyBeside& body, float dt, ClothPiece cloth, Jobs& jobs);
     /// A prop that holds cloth passes through it for a while, and then comes in anew (held_cloth.h). Where it
     /// soon holds cloth again, it passes twice as long. With that fraction of the step behind the cloth, dt
     /// after the last time.
-    void let_pass(Cloth& cloth, float share, float dt);
+    void let_pass(ClothPiece cloth, float share, float dt);
     /// None is there until move().
-    void hide(Cloth& cloth);
+    void hide(ClothPiece cloth);
     /// The step has ended.
     void keep_step();
 
@@ -69,8 +71,8 @@ private:
         float for_s = INFINITY;      // that it passes, or not
         float passes_s = kPasses_s;  // that it passed the last time
     };
-    static float held_by(const Met& met, const Cloth& cloth, float share);
-    static void come_in_anew(Met& met, Cloth& cloth);
+    static float held_by(const Met& met, const ClothPiece& cloth, float share);
+    static void come_in_anew(Met& met, ClothPiece cloth);
     static void begin_to_grow(Met& met, const Bounds& garment);
 
     std::vector<Met> met_;

@@ -21,7 +21,7 @@ TooSmall too_small_by(float beyond, const SizedGarment& sized, const Rest&... re
                          ": ", rest...)};
 }
 
-TooSmall at_crotch(const SizedGarment& sized, const Cloth& cloth) {
+TooSmall at_crotch(const SizedGarment& sized, const ClothPiece& cloth) {
     const CrotchLine crotch =
         crotch_line({sized.dress.rest(), sized.dress.indices(), sized.cut, {}, {}}, cloth.positions());
     const float gives = std::max(kCrotchGives, sized.garment.material().most_strain);
@@ -31,14 +31,14 @@ TooSmall at_crotch(const SizedGarment& sized, const Cloth& cloth) {
                         " stretches by at most ", rounded(gives * 100.0f), " % there");
 }
 
-TooSmall in_a_tenth(const SizedGarment& sized, const Cloth& cloth) {
+TooSmall in_a_tenth(const SizedGarment& sized, const ClothPiece& cloth) {
     const float strain = most_strained(cloth.strain()), most = kDrawn * sized.garment.material().most_strain;
     return too_small_by(strain - most, sized, "a tenth of it would be stretched by more than ",
                         rounded(strain * 100.0f), " %; ", sized.garment.garment().fabric,
                         " stretches by at most ", rounded(most * 100.0f), " %");
 }
 
-TooSmall at_an_opening(const SizedGarment& sized, const Cloth& cloth) {
+TooSmall at_an_opening(const SizedGarment& sized, const ClothPiece& cloth) {
     const Garment& garment = sized.garment.garment();
     std::vector<uint8_t> counts = garment.simulated;
     for (const LimbHem& hem : sized.dress.hems())
@@ -67,7 +67,7 @@ void check_closes(const SizedGarment& sized, std::span<const GirthLevel> levels)
          rounded(most * 100.0f), " %");
 }
 
-std::optional<TooSmall> too_small(const SizedGarment& sized, const Cloth& cloth) {
+std::optional<TooSmall> too_small(const SizedGarment& sized, const ClothPiece& cloth) {
     std::optional<TooSmall> worst;
     for (TooSmall& small :
          std::array{at_crotch(sized, cloth), in_a_tenth(sized, cloth), at_an_opening(sized, cloth)})

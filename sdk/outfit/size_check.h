@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
-#include "cloth/cloth.h"
 #include "cloth/garment/dress.h"
+#include "outfit/cloth_piece.h"
 #include "outfit/garment_fit.h"
 #include "outfit/wearable_garment.h"
 
@@ -29,6 +29,6 @@ struct TooSmall {
 };
 /// Of a garment with lengths of its own, after its cloth came to them: where the line through the crotch, a
 /// tenth of the cloth, or a neck or armhole is stretched too far; of several the one that is furthest beyond.
-std::optional<TooSmall> too_small(const SizedGarment& sized, const Cloth& cloth);
+std::optional<TooSmall> too_small(const SizedGarment& sized, const ClothPiece& cloth);
 
 }  // namespace vfit

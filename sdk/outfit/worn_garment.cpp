@@ -8,6 +8,7 @@
 #include "outfit/hidden_skin.h"
 #include "outfit/sag.h"
 #include "outfit/size_check.h"
+#include "outfit/worn_together.h"
 
 namespace vfit {
 
@@ -29,16 +30,17 @@ WornGarment::WornGarment(const WearableGarment& garment, const Wearer& wearer, c
       cut_(closing_cut(size_, size)),
       body_(dress_.carry(), dress_.rest()),
       obstacles_(wearer, garment.garment(), dress_, options),
-      cloth_(dress_.fabric(), settings_, place_in_pose(), &jobs) {
+      held_off_m_(dress_.rest().size(), 0.0f),
+      cloth_(std::make_shared<WornCloth>(std::vector{dress_.fabric()}, std::span(&settings_, 1),
+                                         place_in_pose(), jobs)) {
     time_ns_ = wearer.avatar().time_ns();
     stand();
-    obstacles_.add_to(cloth_);
+    obstacles_.add_to(piece());
+    WornGarment* const alone[] = {this};
+    WornTogether together(alone);
     // In a pose with closed legs, the bones carry the fronts of a coat through each other.
-    if (size.own || settings_.self_thickness_m > 0.0f) {
-        start_with_legs_apart();
-        come_to_lengths(true);
-    }
-    if (size.own && !any_fit_) check_stretch(*size_, cut_);
+    if (size.own || settings_.self_thickness_m > 0.0f) together.start_with_legs_apart();
+    if (size.own && !any_fit_) together.check_stretch(*this);
     keep_step();
 }
 
@@ -49,14 +51,10 @@ std::vector<Vec2> WornGarment::closing_cut(const SizeLabel& label, const SizeCho
     return cut;
 }
 
-bool WornGarment::wear_over(const WornGarment& inner) {
-    if (&inner == this) fail(VFIT_ERROR_ARGUMENT, "a cloth cannot be worn over itself");
-    if (&inner.wearer_ != &wearer_) fail(VFIT_ERROR_ARGUMENT, "both cloths must be of the same avatar");
-    if (inner.layers_.reach(*this)) fail(VFIT_ERROR_ARGUMENT, "inner is worn over cloth already");
-    if (layers_.has(inner)) return false;
-    dress_.lift_over(inner.dress_, settings_.thickness_m);
-    layers_.add(inner, cloth_);
-    return true;
+bool WornGarment::reaches(const WornGarment& below) const {
+    return std::any_of(below_.begin(), below_.end(), [&](const WornGarment* garment) {
+        return garment == &below || garment->reaches(below);
+    });
 }
 
 /// All vertices where the bones carry them.
@@ -65,12 +63,11 @@ const std::vector<Vec3>& WornGarment::place_in_pose() {
     return targets_;
 }
 
-/// The same for a body on its way into a pose, whose colliders are given.
-void WornGarment::place_on_the_way(std::span<const Mat4> matrices, std::vector<Vec3>& targets,
-                                   std::vector<Collider>& colliders) {
-    obstacles_.select(matrices, colliders, jobs_);
-    obstacles_.move_skin(matrices, cloth_, jobs_);
-    dress_.place(matrices, targets, scratch_, jobs_);
+/// The same for a body on its way into a pose, all of whose colliders are in colliders_.
+void WornGarment::place_on_the_way(std::span<const Mat4> matrices) {
+    obstacles_.select(matrices, colliders_, jobs_);
+    obstacles_.move_skin(matrices, piece(), jobs_);
+    dress_.place(matrices, targets_, scratch_, jobs_);
 }
 
 /// The body is in the avatar's pose, and did not move there.
@@ -81,17 +78,17 @@ void WornGarment::stand() {
     speed_m_s_ = limb_speed_m_s_ = 0.0f;
 }
 
-void WornGarment::begin_step(float dt) {
+/// dt after that of the last step; true: it jumped there.
+bool WornGarment::take_pose(float dt) {
     const Avatar& avatar = wearer_.avatar();
     dress_.follow(avatar_pose(), targets_, scratch_, jobs_);
     avatar.colliders(colliders_);
     obstacles_.select(avatar_pose(), colliders_, jobs_);
-    obstacles_.move_skin(avatar_pose(), cloth_, jobs_);
-    layers_.move(cloth_);
+    obstacles_.move_skin(avatar_pose(), piece(), jobs_);
     time_ns_ = avatar.time_ns();
     dt_ = dt;
-    if (dt == 0.0f) return;  // the cloth stays where the step before left it
-    const Mat4 root_before = pose_.front();
+    if (dt == 0.0f) return false;  // the cloth stays where the step before left it
+    root_before_ = pose_.front();
     pose_.assign(avatar_pose().begin(), avatar_pose().end());
     const float simulated_s = std::clamp(dt, kMinStep_s, kMaxStep_s);
     body_.move_to(pose_, simulated_s);
@@ -102,152 +99,35 @@ void WornGarment::begin_step(float dt) {
     const bool is_jump = jumps_ || settings_.is_jump(gained, simulated_s);
     speed_m_s_ = is_jump ? 0.0f : body_.way().whole_m / simulated_s;
     limb_speed_m_s_ = is_jump ? 0.0f : body_.way().limb_m / simulated_s;
-    carried_ = is_jump ? 1.0f : 1.0f - settings_.inertia;
     jumps_ = false;
-    if (props_.count() > 0)
-        props_.move(
-            {{root_before, pose_.front(), carried_}, obstacles_.posed(colliders_), room_for_cloth_m()},
-            simulated_s, cloth_, jobs_);
+    return is_jump;
+}
+
+void WornGarment::meet_props() {
+    if (dt_ == 0.0f || props_.count() == 0) return;
+    props_.move({{root_before_, pose_.front(), carried_}, obstacles_.posed(colliders_), room_for_cloth_m()},
+                std::clamp(dt_, kMinStep_s, kMaxStep_s), piece(), jobs_);
 }
 
 /// Between the body and a prop.
 float WornGarment::room_for_cloth_m() const {
     constexpr float kSides = 3.0f;  // thicknesses: one to the body, one to the prop, one to spare
-    return (kSides + float(layers_.count())) * settings_.thickness_m;
+    return (kSides + float(below_.size())) * settings_.thickness_m;
 }
 
-void WornGarment::step() {
-    if (dt_ > 0.0f) carry_along(carried_);
-    cloth_.step(dt_, targets_, colliders_, jobs_, [this](float share, float dt) {
-        obstacles_.let_arms_pass(cloth_, share, dt, jobs_);
-        props_.let_pass(cloth_, share, dt);
+/// Those alone that are worn. Where one was destroyed there may be another one, which does not share the
+/// cloth.
+void WornGarment::keep_below(std::span<WornGarment* const> worn) {
+    const size_t gone = std::erase_if(below_, [&](const WornGarment* below) {
+        return std::find(worn.begin(), worn.end(), below) == worn.end() || !shares_cloth_with(*below);
     });
+    if (gone > 0 && below_.empty()) std::fill(held_off_m_.begin(), held_off_m_.end(), 0.0f);
 }
 
-void WornGarment::carry_along(float fraction) {
-    if (!body_.moves() || (fraction == 0.0f && !body_.follows_jump())) return;
-    body_.carry(cloth_.positions(), fraction, jobs_);
-    cloth_.carry_along({fraction, body_.places(), body_.turns(), body_.speeds(), body_.is_rigid()});
-}
-
-/// From the pose of the last step.
-void WornGarment::jump_to_pose() {
-    body_.move_to(avatar_pose(), kMaxStep_s);
-    carry_along(1.0f);
-    body_.stand(avatar_pose());
-}
-
-/// Layers are carried by the bones from the pose, in which they hang, to the start and back.
-void WornGarment::put_on() {
-    time_ns_ = wearer_.avatar().time_ns();
-    stand();
-    std::vector<Mat4> matrices(avatar_pose().size());
-    props_.hide(cloth_);
-    obstacles_.meet_arms(cloth_);
-    layers_.take_out(avatar_pose(), jobs_);
-    wearer_.avatar().while_dressing(0.0f, matrices, colliders_);
-    dress_.place(matrices, targets_, scratch_, jobs_);
-    layers_.put_in(matrices, cloth_, jobs_);
-    const auto body = [&](float share, std::vector<Vec3>& targets, std::vector<Collider>& colliders) {
-        wearer_.avatar().while_dressing(share, matrices, colliders);
-        place_on_the_way(matrices, targets, colliders);
-        layers_.put_in(matrices, cloth_, jobs_);
-    };
-    if (layers_.count() > 0) {
-        cloth_.reset(targets_);
-        held_off_m_.assign(cloth_.positions().size(), 0.0f);
-        move_outside(targets_, matrices, 0);
-        hold_further_off(targets_);
-        cloth_.go_to(targets_, jobs_);
-        cloth_.come_to_lengths([&](float, auto& targets, auto& colliders) { body(0.0f, targets, colliders); },
-                               jobs_);
-        std::copy(cloth_.positions().begin(), cloth_.positions().end(), targets_.begin());
-    }
-    cloth_.put_on(targets_, body, jobs_);
-    keep_step();
-}
-
-/// Past the layers from the `first` on, as the meshes were moved last.
-void WornGarment::move_outside(std::vector<Vec3>& places, std::span<const Mat4> matrices, size_t first) {
-    constexpr float kClear = 2.0f;  // thicknesses
-    if (first == layers_.count()) return;
-    const std::span<const Vec3> vertices = std::span(places).first(dress_.carry().vertex_count());
-    const std::vector<BoneAxis> axes = wearer_.avatar().bone_axes(matrices);
-    const std::vector<Vec3> on_bones = dress_.carry().on_axes(axes, vertices);
-    const std::vector<Vec3> outside =
-        layers_.outside(first, axes, {vertices, dress_.indices(), on_bones}, kClear * settings_.thickness_m);
-    std::copy(outside.begin(), outside.end(), places.begin());
-}
-
-/// A layer that reaches far beyond it would have to be pressed together, which a layer below never is.
-void WornGarment::check_reach(std::span<const Vec3> outside) {
-    constexpr float kFar_m = 0.08f;
-    std::vector<float> ways_m;
-    for (size_t v = 0; v < cloth_.positions().size(); ++v)
-        ways_m.push_back(glm::distance(outside[v], cloth_.positions()[v]));
-    const auto tenth = ways_m.begin() + std::ptrdiff_t(ways_m.size() * 9 / 10);
-    std::nth_element(ways_m.begin(), tenth, ways_m.end());
-    if (*tenth <= kFar_m) return;
-    const std::string below = layers_.last().garment().name;
-    layers_.remove_last(cloth_);
-    fail(VFIT_ERROR_NOT_WEARABLE, "garment ", garment().name, " does not fit over ", below,
-         ", which reaches beyond a tenth of it by more than ", std::lround(*tenth * 100.0f), " cm");
-}
-
-/// By as far as layers move it off the body.
+/// By as far as garments below move it off the body.
 void WornGarment::hold_further_off(std::span<const Vec3> outside) {
-    held_off_m_.resize(cloth_.positions().size());
     for (size_t v = 0; v < held_off_m_.size(); ++v)
-        held_off_m_[v] += glm::distance(outside[v], cloth_.positions()[v]);
-    cloth_.widen_limits(held_off_m_);
-}
-
-/// It may go through that layer: past it at once, and from there to its own lengths.
-void WornGarment::come_outside_of_last_layer() {
-    jump_to_pose();
-    time_ns_ = wearer_.avatar().time_ns();
-    stand();
-    place_in_pose();
-    layers_.move(cloth_);
-    std::copy(cloth_.positions().begin(), cloth_.positions().end(), targets_.begin());
-    move_outside(targets_, avatar_pose(), layers_.count() - 1);
-    check_reach(targets_);
-    hold_further_off(targets_);
-    cloth_.go_to(targets_, jobs_);
-    come_to_lengths(false);
-    keep_step();
-}
-
-void WornGarment::start_with_legs_apart() {
-    std::vector<Mat4> matrices(avatar_pose().size());
-    wearer_.avatar().while_closing_legs(0.0f, matrices, colliders_);
-    dress_.place(matrices, targets_, scratch_, jobs_);
-    cloth_.reset(targets_);
-}
-
-/// From how the bones carried it, or from another size, in the avatar's pose. A cloth that is new starts
-/// around legs that stand apart.
-void WornGarment::come_to_lengths(bool is_new) {
-    layers_.move(cloth_);
-    std::vector<Mat4> matrices(avatar_pose().size());
-    cloth_.come_to_lengths(
-        [&](float share, std::vector<Vec3>& targets, std::vector<Collider>& colliders) {
-            wearer_.avatar().while_closing_legs(is_new ? share : 1.0f, matrices, colliders);
-            place_on_the_way(matrices, targets, colliders);
-        },
-        jobs_);
-}
-
-/// Cloth is slow to slide to where it has room. It is too small only where it hardly slides any further.
-void WornGarment::check_stretch(const std::string& label, std::span<const Vec2> cut) {
-    constexpr float kSlides = 0.9f;
-    constexpr int kPasses = 8;
-    float before = INFINITY;
-    for (int pass = 0; const auto small = too_small({garment_, label, dress_, cut}, cloth_); ++pass) {
-        if (small->beyond > kSlides * before || pass == kPasses) fail(VFIT_ERROR_NOT_WEARABLE, small->why);
-        before = small->beyond;
-        come_to_lengths(false);
-    }
+        held_off_m_[v] += glm::distance(outside[v], positions()[v]);
 }
 
 WornGarment::Resized WornGarment::in_size(const SizeLabel& label) const {
@@ -256,29 +136,27 @@ WornGarment::Resized WornGarment::in_size(const SizeLabel& label) const {
     TakenUp taken_up;
     const auto fabric =
         dress_.fabric_of(garment(), garment_.material(), size.ratio, size.own, &taken_up, &jobs_);
-    return {label, size.own != nullptr, std::move(cut), taken_up, cloth_.with_fabric(fabric, &jobs_)};
-}
-
-void WornGarment::change_to(Resized resized) {
-    const BodyJump body = body_;
-    std::swap(cloth_, resized.cloth);
-    std::swap(cut_, resized.cut);
-    try {
-        jump_to_pose();
-        come_to_lengths(false);
-        if (resized.has_own_lengths && !any_fit_) check_stretch(*resized.label, cut_);
-    } catch (...) {
-        cloth_ = std::move(resized.cloth);
-        cut_ = std::move(resized.cut);
-        body_ = body;
-        throw;
-    }
-    taken_up_ = resized.taken_up;
-    size_ = std::move(resized.label);
+    auto fabrics = cloth_->fabrics;
+    fabrics[piece_] = fabric;
+    return {label,          size.own != nullptr,
+            std::move(cut), taken_up,
+            fabric,         cloth_->cloth.with_fabric(WornCloth::joined(fabrics), &jobs_)};
 }
 
 void WornGarment::set_wind(const Vec3& wind_m_s) {
-    cloth_.set_air({wind_m_s, settings_.air.drag, settings_.air.lift});
+    Air air = cloth_->cloth.air();
+    settings_.air.wind_m_s = air.wind_m_s = wind_m_s;
+    cloth_->cloth.set_air(air);
+}
+
+void WornGarment::set_quality(uint32_t substeps, float budget_ms) {
+    settings_.substeps = substeps, settings_.budget_ms = budget_ms;
+    cloth_->cloth.set_quality(substeps, budget_ms);
+}
+
+bool WornGarment::stands_in_pose() const {
+    const std::span<const Mat4> now = avatar_pose();
+    return std::equal(now.begin(), now.end(), finished_.pose().begin(), finished_.pose().end());
 }
 
 FinishedStep::Reskinned WornGarment::reskin() {
@@ -293,7 +171,7 @@ PressingCloth WornGarment::shown_surface() {
 }
 
 void WornGarment::keep_step() {
-    finished_.keep(cloth_, pose_, time_ns_, settings_.pressure);
+    finished_.keep(piece(), pose_, time_ns_, settings_.pressure);
     props_.keep_step();
 }
 
@@ -305,7 +183,7 @@ std::vector<WornGarment::ZoneFit> WornGarment::fit() const {
     const Carry::Unposed worn = finished_.unposed(dress_.carry(), jobs_);
     const float gravity_m_s2 = std::max(0.0f, -settings_.gravity.y);
     const std::vector<Vec3> raised =
-        without_sag(unposed(worn.positions), garment().simulated, {gravity_m_s2, cloth_.substep_s()});
+        without_sag(unposed(worn.positions), garment().simulated, {gravity_m_s2, cloth_->cloth.substep_s()});
     std::vector<ZoneFit> zones;
     for (const GirthFit& girth : fit_of(unposed(raised), wearer_.girth_levels()))
         zones.push_back({girth, judge_fit(garment(), size_.value_or(""), girth)});
@@ -314,7 +192,7 @@ std::vector<WornGarment::ZoneFit> WornGarment::fit() const {
 
 std::vector<float> WornGarment::tightness() const {
     const Carry::Unposed worn = finished_.unposed(dress_.carry(), jobs_);
-    return tightness_of(unposed(worn.positions), cloth_.strain(), garment_.material().most_strain,
+    return tightness_of(unposed(worn.positions), piece().strain(), garment_.material().most_strain,
                         wearer_.skin());
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "contract/support.h"
+#include "support/allocation_count.h"  // counted by carry_test.cpp
 
 namespace {
 
@@ -114,27 +115,125 @@ TEST_F(OutfitTest, AStepThatRunsIsNotWaitedFor) {
     EXPECT_LT(check({cloth, twin})[0].pair_count, before[0].pair_count);
 }
 
-TEST_F(OutfitTest, WhileALayerStepsTheOuterOneIsRefusedAndStaysAsItIs) {
-    const vfit_cloth inner = make(), outer = make();
+TEST_F(OutfitTest, WhileTheyStepNothingElseIsDoneWithThem) {
+    const vfit_cloth inner = make(), outer = make(), second = make();
     ASSERT_EQ(vfit_cloth_wear_over(outer, inner), VFIT_OK) << contract::last_error();
-    const auto hash = [&] {
-        uint64_t out = 0;
-        EXPECT_EQ(vfit_cloth_state_hash(outer, &out), VFIT_OK) << contract::last_error();
-        return out;
-    };
-    const uint64_t before = hash();
     ASSERT_EQ(vfit_cloth_begin_step(inner, kOutfitStep_s), VFIT_OK) << contract::last_error();
+    const float no_wind[3] = {};
+    uint64_t hash = 0;
     EXPECT_EQ(vfit_cloth_step(outer, kOutfitStep_s), VFIT_ERROR_STATE);
-    EXPECT_EQ(vfit_cloth_begin_step(outer, kOutfitStep_s), VFIT_ERROR_STATE);
     EXPECT_EQ(vfit_cloth_reset(outer), VFIT_ERROR_STATE);
     EXPECT_EQ(vfit_cloth_set_size(outer, "M"), VFIT_ERROR_STATE);
-    const vfit_cloth second = make();
-    EXPECT_EQ(vfit_cloth_wear_over(outer, second), VFIT_ERROR_STATE) << "the first one below is on its way";
+    EXPECT_EQ(vfit_cloth_set_wind(outer, no_wind), VFIT_ERROR_STATE);
+    EXPECT_EQ(vfit_cloth_set_quality(outer, 8, 0.0f), VFIT_ERROR_STATE);
+    EXPECT_EQ(vfit_cloth_state_hash(outer, &hash), VFIT_ERROR_STATE);
+    EXPECT_EQ(vfit_cloth_wear_over(outer, second), VFIT_ERROR_STATE);
     EXPECT_EQ(vfit_cloth_wear_over(second, inner), VFIT_ERROR_STATE);
-    EXPECT_EQ(hash(), before);
+    EXPECT_EQ(vfit_cloth_end_step(outer), VFIT_ERROR_STATE) << "it has not begun";
     ASSERT_EQ(vfit_cloth_end_step(inner), VFIT_OK) << contract::last_error();
-    EXPECT_EQ(vfit_cloth_reset(outer), VFIT_OK) << contract::last_error();
     EXPECT_EQ(vfit_cloth_step(outer, kOutfitStep_s), VFIT_OK) << contract::last_error();
+    EXPECT_EQ(vfit_cloth_reset(outer), VFIT_OK) << contract::last_error();
+}
+
+TEST_F(OutfitTest, WornOverEachOtherTheyAreOneStepInAnyOrder) {
+    const vfit_cloth inner = make(VFIT_CLOTH_AWAKE), outer = make(VFIT_CLOTH_AWAKE);
+    ASSERT_EQ(vfit_cloth_wear_over(outer, inner), VFIT_OK) << contract::last_error();
+    const auto hashes = [&] {
+        std::array<uint64_t, 2> out{};
+        EXPECT_EQ(vfit_cloth_state_hash(inner, &out[0]), VFIT_OK) << contract::last_error();
+        EXPECT_EQ(vfit_cloth_state_hash(outer, &out[1]), VFIT_OK) << contract::last_error();
+        return out;
+    };
+    for (const bool inner_first : {true, false}) {
+        const vfit_cloth first = inner_first ? inner : outer, then = inner_first ? outer : inner;
+        const auto before = hashes();
+        ASSERT_EQ(vfit_cloth_step(first, kOutfitStep_s), VFIT_OK) << contract::last_error();
+        const auto stepped = hashes();
+        EXPECT_NE(stepped[0], before[0]);
+        EXPECT_NE(stepped[1], before[1]);
+        vfit_frame frame{}, same{};
+        ASSERT_EQ(vfit_cloth_acquire(then, &frame), VFIT_OK);
+        ASSERT_EQ(vfit_cloth_step(then, kOutfitStep_s), VFIT_OK) << contract::last_error();
+        EXPECT_EQ(hashes(), stepped) << "it was stepped already";
+        ASSERT_EQ(vfit_cloth_acquire(then, &same), VFIT_OK);
+        EXPECT_EQ(frame.id == same.id || vfit_frame_release(frame) == VFIT_OK, true);
+        vfit_frame_release(same);
+    }
+    // The same of steps that run beside the host, ended in any order.
+    for (const bool inner_first : {true, false}) {
+        const auto before = hashes();
+        for (const vfit_cloth cloth : {inner, outer})
+            ASSERT_EQ(vfit_cloth_begin_step(cloth, kOutfitStep_s), VFIT_OK) << contract::last_error();
+        EXPECT_EQ(vfit_cloth_begin_step(outer, kOutfitStep_s), VFIT_ERROR_STATE);
+        for (const vfit_cloth cloth : {inner_first ? inner : outer, inner_first ? outer : inner})
+            ASSERT_EQ(vfit_cloth_end_step(cloth), VFIT_OK) << contract::last_error();
+        EXPECT_NE(hashes(), before);
+    }
+    // Stepped alone, each step is one of both.
+    for (int i = 0; i < 3; ++i) {
+        const auto before = hashes();
+        ASSERT_EQ(vfit_cloth_step(outer, kOutfitStep_s), VFIT_OK) << contract::last_error();
+        EXPECT_NE(hashes()[0], before[0]) << i;
+    }
+}
+
+TEST_F(OutfitTest, AnotherIsPutOnBeforeAllHaveEndedTheirStep) {
+    const vfit_cloth inner = make(VFIT_CLOTH_AWAKE), outer = make(VFIT_CLOTH_AWAKE),
+                     last = make(VFIT_CLOTH_AWAKE);
+    ASSERT_EQ(vfit_cloth_wear_over(outer, inner), VFIT_OK) << contract::last_error();
+    for (const vfit_cloth cloth : {inner, outer})
+        ASSERT_EQ(vfit_cloth_begin_step(cloth, kOutfitStep_s), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_cloth_end_step(inner), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_cloth_wear_over(last, outer), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_cloth_end_step(outer), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_cloth_begin_step(last, kOutfitStep_s), VFIT_OK) << contract::last_error();
+    EXPECT_EQ(vfit_cloth_set_quality(inner, 8, 0.0f), VFIT_ERROR_STATE) << "its step has not been ended";
+    ASSERT_EQ(vfit_cloth_end_step(last), VFIT_OK) << contract::last_error();
+}
+
+TEST_F(OutfitTest, AStepOfNoTimeIsNotThatOfTheOthers) {
+    const vfit_cloth inner = make(VFIT_CLOTH_AWAKE), outer = make(VFIT_CLOTH_AWAKE);
+    ASSERT_EQ(vfit_cloth_wear_over(outer, inner), VFIT_OK) << contract::last_error();
+    uint64_t before = 0, after = 0;
+    ASSERT_EQ(vfit_cloth_state_hash(outer, &before), VFIT_OK);
+    ASSERT_EQ(vfit_cloth_step(inner, 0.0f), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_cloth_step(outer, kOutfitStep_s), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_cloth_state_hash(outer, &after), VFIT_OK);
+    EXPECT_NE(after, before);
+}
+
+TEST_F(OutfitTest, StepsOfClothsThatAreWornTogetherDoNotAllocate) {
+    const vfit_cloth inner = make(VFIT_CLOTH_SKIN | VFIT_CLOTH_AWAKE, 0.004f),
+                     outer = make(VFIT_CLOTH_SKIN | VFIT_CLOTH_AWAKE, 0.004f);
+    ASSERT_EQ(vfit_cloth_wear_over(outer, inner), VFIT_OK) << contract::last_error();
+    const auto step = [&] {
+        for (const vfit_cloth cloth : {inner, outer}) vfit_cloth_step(cloth, kOutfitStep_s);
+        for (const vfit_cloth cloth : {inner, outer}) vfit_cloth_begin_step(cloth, kOutfitStep_s);
+        for (const vfit_cloth cloth : {inner, outer}) vfit_cloth_end_step(cloth);
+    };
+    for (int i = 0; i < 20; ++i) step();
+    const uint64_t before = vfit::test::allocations;
+    for (int i = 0; i < 4; ++i) step();
+    EXPECT_EQ(vfit::test::allocations - before, 0u);
+}
+
+TEST_F(OutfitTest, WhatIsDestroyedIsWornNoLonger) {
+    const vfit_cloth inner = make(VFIT_CLOTH_AWAKE), middle = make(VFIT_CLOTH_AWAKE),
+                     outer = make(VFIT_CLOTH_AWAKE);
+    ASSERT_EQ(vfit_cloth_wear_over(middle, inner), VFIT_OK) << contract::last_error();
+    for (const vfit_cloth below : {inner, middle})
+        ASSERT_EQ(vfit_cloth_wear_over(outer, below), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_cloth_step(outer, kOutfitStep_s), VFIT_OK);
+    ASSERT_EQ(vfit_cloth_destroy(middle), VFIT_OK);
+    for (int i = 0; i < 3; ++i)
+        for (const vfit_cloth cloth : {inner, outer})
+            ASSERT_EQ(vfit_cloth_step(cloth, kOutfitStep_s), VFIT_OK) << contract::last_error();
+    for (const vfit_crossing& c : check({inner, outer})) EXPECT_NE(c.kind, VFIT_CROSSING_CLOTH);
+    // While a step of both runs.
+    ASSERT_EQ(vfit_cloth_begin_step(inner, kOutfitStep_s), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_cloth_destroy(inner), VFIT_OK);
+    ASSERT_EQ(vfit_cloth_step(outer, kOutfitStep_s), VFIT_OK) << contract::last_error();
+    ASSERT_EQ(vfit_cloth_step(outer, kOutfitStep_s), VFIT_OK) << contract::last_error();
 }
 
 TEST_F(OutfitTest, TheSkinBelowAnOutfitIsTheAvatarsMeshInThePoseOfTheStep) {

@@ -1,6 +1,7 @@
 // The colliders' way from the last step to this one.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -33,6 +34,10 @@ public:
     /// Between two shares of the interval; as many as count().
     void sweep(float from, float to, std::vector<SweptCapsule>& out) const;
     size_t count() const { return needed_.size(); }
+    /// Of these, those of the colliders before that one.
+    size_t count_before(uint32_t collider) const {
+        return size_t(std::lower_bound(needed_.begin(), needed_.end(), collider) - needed_.begin());
+    }
 
 private:
     bool is_end_of_another(uint32_t ball) const;

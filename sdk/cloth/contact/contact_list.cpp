@@ -7,9 +7,9 @@ namespace vfit {
 
 namespace {
 
-// Beyond the thickness, for what acceleration brings closer in a step. Another garment does not give way, so
-// that what is tight about it comes faster: with 1 mm a standing vest trembled over a shirt.
-constexpr float kMargin_m = 0.001f, kOtherMargin_m = 0.002f;
+// Beyond the thickness, for what acceleration brings closer in a step. Two garments are held apart by what
+// holds each of them to the body, and come closer faster: with 1 mm a standing vest trembles over a shirt.
+constexpr float kMargin_m = 0.001f, kMarginBetween_m = 0.002f;
 constexpr float kSideways = 0.25f;   // of the way past each other: the normal may turn so far
 constexpr float kEdgeShare = 0.5f;   // of the thickness, between two edges
 constexpr float kFlatShare = 0.45f;  // of the shortest way along edges, which is longer than the straight one
@@ -18,6 +18,10 @@ constexpr float kAlongSide = 0.3f;  // cosine: beside that, a way does not tell 
 constexpr float kOn_m = 1e-6f;      // closer, a way has no direction
 
 Vec3 unit(const Vec3& v) { return v / std::max(glm::length(v), 1e-20f); }
+
+std::array<uint32_t, 4> vertices_of(const PrimitivePairs& pairs, size_t lane) {
+    return {pairs.at[0][lane], pairs.at[1][lane], pairs.at[2][lane], pairs.at[3][lane]};
+}
 
 template <typename Body>
 void for_own_pairs(const Proximity::Triangle& a, const Proximity::Triangle& b, Body&& body) {
@@ -36,38 +40,45 @@ void for_own_pairs(const Proximity::Triangle& a, const Proximity::Triangle& b, B
 
 }  // namespace
 
-ContactList::ContactList(std::shared_ptr<const Fabric> fabric, float thickness_m, Jobs* jobs)
+ContactList::ContactList(std::shared_ptr<const Fabric> fabric, const LayerThickness& thickness, Jobs* jobs)
     : fabric_(std::move(fabric)),
-      surfaces_{{thickness_m, MeshOf::cloth}},
+      thickness_(thickness),
+      piece_of_(fabric_->piece_of()),
       inverse_mass_(fabric_->data().inverse_mass),
-      flat_(fabric_->data(), kFlatReach * thickness_m, jobs) {}
+      flat_(fabric_->data(), kFlatReach * *std::max_element(thickness.own_m.begin(), thickness.own_m.end()),
+            jobs) {}
 
 void ContactList::add_mesh(size_t vertices, float keeps_m, MeshOf what) {
-    surfaces_.push_back({keeps_m, what});
+    meshes_.push_back({keeps_m, what});
     inverse_mass_.resize(inverse_mass_.size() + vertices, 0.0f);
     slots_.resize(inverse_mass_.size(), 0);
     slot_rounds_.resize(inverse_mass_.size(), 0);
 }
 
 float ContactList::reach_m(float keeps_m) { return keeps_m + kMargin_m; }
-float ContactList::reach_of_mesh_m(float keeps_m, MeshOf what) {
-    return what == MeshOf::cloth ? keeps_m + kOtherMargin_m : reach_m(keeps_m);
+
+float LayerThickness::reach_m() const {
+    const float most_m = *std::max_element(own_m.begin(), own_m.end());
+    return std::max(most_m > 0.0f ? most_m + kMargin_m : 0.0f,
+                    between_m > 0.0f ? between_m + kMarginBetween_m : 0.0f);
 }
 
-bool ContactList::reaches(float distance_m, float kept_m, uint32_t surface) const {
-    return distance_m <=
-           (surface == Proximity::kSelf ? reach_m(kept_m) : reach_of_mesh_m(kept_m, surfaces_[surface].what));
+bool ContactList::reaches(float distance_m, float kept_m, const std::array<uint32_t, 4>& v,
+                          uint32_t surface) const {
+    const bool between = surface == Proximity::kSelf && piece_of_[v[0]] != piece_of_[v[3]];
+    return distance_m <= kept_m + (between ? kMarginBetween_m : kMargin_m);
 }
 
-float ContactList::keeps_m(PairKind kind, uint32_t surface) const {
-    const float keeps_m = surfaces_[surface].keeps_m;
-    const bool of_cloth = surfaces_[surface].what == MeshOf::cloth;
-    return kind == PairKind::edge_edge && of_cloth ? kEdgeShare * keeps_m : keeps_m;
+float ContactList::keeps_m(PairKind kind, const std::array<uint32_t, 4>& v, uint32_t surface) const {
+    if (surface != Proximity::kSelf) return meshes_[surface - 1].keeps_m;
+    const uint8_t piece = piece_of_[v[0]];
+    const float keeps_m = piece == piece_of_[v[3]] ? thickness_.own_m[piece] : thickness_.between_m;
+    return kind == PairKind::edge_edge ? kEdgeShare * keeps_m : keeps_m;
 }
 
 void ContactList::fill(const Proximity& proximity, std::span<const Particle> begin,
-                       std::span<const Particle> end, std::span<const uint8_t> let_go) {
-    let_go_ = let_go;
+                       std::span<const Particle> end, std::span<const uint8_t> tangled) {
+    tangled_ = tangled;
     for (OfKind& of : of_kind_) of.contacts.clear();
     for (Candidates& of : candidates_) of.count = 0, of.sides.clear();
     proximity.for_close(
@@ -88,16 +99,22 @@ void ContactList::fill(const Proximity& proximity, std::span<const Particle> beg
 void ContactList::add_candidates(const Proximity::Pair& pair, uint32_t surface,
                                  std::span<const Particle> end) {
     const auto is_fixed = [&](uint32_t v) { return inverse_mass_[v] == 0.0f; };
-    const bool of_cloth = surfaces_[surface].what == MeshOf::cloth;
+    const bool of_cloth = surface == Proximity::kSelf;
     if (surface != Proximity::kSelf && std::all_of(pair.first->vertex, pair.first->vertex + 3, is_fixed))
         return;
+    // Outwards of a mesh, or of the earlier one of two pieces.
+    const auto normal_of = [&](const Proximity::Triangle& t) {
+        const uint32_t* v = t.vertex;
+        return unit(glm::cross(end[v[1]].x - end[v[0]].x, end[v[2]].x - end[v[0]].x));
+    };
     Vec3 outward(0.0f);
-    if (surface != Proximity::kSelf) {
-        const uint32_t* v = pair.second->vertex;
-        outward = unit(glm::cross(end[v[1]].x - end[v[0]].x, end[v[2]].x - end[v[0]].x));
-    }
+    const uint32_t first = pair.first->vertex[0], second = pair.second->vertex[0];
+    if (!of_cloth || piece_of_[second] < piece_of_[first])
+        outward = normal_of(*pair.second);
+    else if (piece_of_[first] < piece_of_[second])
+        outward = -normal_of(*pair.first);
     for_own_pairs(*pair.first, *pair.second, [&](PairKind kind, const std::array<uint32_t, 4>& v) {
-        const bool of_first = v[0] < fabric_->vertex_count();
+        const bool of_first = of_cloth ? piece_of_[v[0]] == piece_of_[first] : v[0] < fabric_->vertex_count();
         if (of_cloth || kind == PairKind::edge_edge || !of_first)
             candidates_[size_t(kind)].add(v, {of_first ? outward : -outward, surface});
     });
@@ -119,11 +136,12 @@ void ContactList::add(PairKind kind, const Candidates& of, std::span<const Parti
     for (size_t i = 0; i < of.count; ++i) {
         const PrimitivePairs& pairs = of.pairs[i / kLanes];
         const uint32_t surface = of.sides[i].surface;
-        const float comes_m = surfaces_[surface].what == MeshOf::solid
-                                  ? std::min(pairs.comes_m[i % kLanes], kMaxWayPastSolid_m)
-                                  : pairs.comes_m[i % kLanes];
-        if (reaches(pairs.distance_m[i % kLanes] - comes_m, keeps_m(kind, surface), surface))
-            add(kind, pairs, i % kLanes, of.sides[i], end);
+        const size_t lane = i % kLanes;
+        const float comes_m =
+            is_solid(surface) ? std::min(pairs.comes_m[lane], kMaxWayPastSolid_m) : pairs.comes_m[lane];
+        const std::array<uint32_t, 4> v = vertices_of(pairs, lane);
+        if (reaches(pairs.distance_m[lane] - comes_m, keeps_m(kind, v, surface), v, surface))
+            add(kind, pairs, lane, of.sides[i], end);
     }
 }
 
@@ -132,30 +150,24 @@ void ContactList::add(PairKind kind, const PrimitivePairs& pairs, size_t lane, c
     const bool edges = kind == PairKind::edge_edge;
     const float distance = pairs.distance_m[lane];
     if (distance < kOn_m) return;
-    const std::array<uint32_t, 4> v{pairs.at[0][lane], pairs.at[1][lane], pairs.at[2][lane],
-                                    pairs.at[3][lane]};
+    const std::array<uint32_t, 4> v = vertices_of(pairs, lane);
     const auto is_moved = [&](uint32_t vertex) { return inverse_mass_[vertex] > 0.0f; };
-    const uint8_t let_go = side.surface == Proximity::kSelf ? kOfItself : kOfMeshes;
-    const auto is_let_go = [&](uint32_t vertex) { return (let_go_[vertex] & let_go) != 0; };
     if (std::none_of(v.begin(), v.end(), is_moved)) return;
+    const bool is_own = side.surface == Proximity::kSelf;
     const auto second = v.begin() + (edges ? 2 : 1);
-    const bool crosses = !let_go_.empty() && std::any_of(v.begin(), second, is_let_go) &&
-                         std::any_of(second, v.end(), is_let_go);
-    if (crosses && side.surface == Proximity::kSelf) return;
-    if (!let_go_.empty() && surfaces_[side.surface].what == MeshOf::cloth &&
-        side.surface != Proximity::kSelf &&
-        std::any_of(v.begin(), v.end(), [&](uint32_t vertex) { return (let_go_[vertex] & kGivesWay) != 0; }))
-        return;
-    float kept_m = keeps_m(kind, side.surface);
-    if (side.surface == Proximity::kSelf) kept_m = std::min(kept_m, flat_limit_m(kind, v));
-    if (kept_m <= 0.0f || !reaches(distance - pairs.comes_m[lane], kept_m, side.surface)) return;
+    const auto is_tangled = [&](uint32_t vertex) { return tangled_[vertex] != 0; };
+    const bool crosses = is_own && !tangled_.empty() && std::any_of(v.begin(), second, is_tangled) &&
+                         std::any_of(second, v.end(), is_tangled);
+    if (crosses && piece_of_[v[0]] == piece_of_[v[3]]) return;
+    float kept_m = keeps_m(kind, v, side.surface);
+    if (is_own) kept_m = std::min(kept_m, flat_limit_m(kind, v));
+    if (kept_m <= 0.0f || !reaches(distance - pairs.comes_m[lane], kept_m, v, side.surface)) return;
     Vec3 normal = Vec3(pairs.way[0][lane], pairs.way[1][lane], pairs.way[2][lane]) / distance;
-    if (surfaces_[side.surface].what != MeshOf::cloth || crosses) {
-        const bool of_solid = surfaces_[side.surface].what == MeshOf::solid;
+    if (!is_own || crosses) {
         const float along = glm::dot(normal, side.way);
         if (std::abs(along) < kAlongSide) return;
-        if (along < 0.0f && of_solid) return;  // planes bring it out
-        if (along < 0.0f) normal = -normal;    // it is on the wrong side
+        if (along < 0.0f && is_solid(side.surface)) return;  // planes bring it out
+        if (along < 0.0f) normal = -normal;                  // it is on the wrong side
     }
     Contact contact{v, normal, kept_m, 0.0f};
     if (!edges && std::max({pairs.weight[1][lane], pairs.weight[2][lane], pairs.weight[3][lane]}) < 0.0f) {

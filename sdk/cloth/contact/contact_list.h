@@ -2,6 +2,7 @@
 // close at its begin or expected to become so.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -17,23 +18,29 @@
 
 namespace vfit {
 
+/// Kept between a vertex and a triangle of the cloth; two edges keep half of it.
+struct LayerThickness {
+    std::vector<float> own_m;  // within each piece of the fabric; 0: it passes through itself
+    float between_m = 0.0f;    // pieces; 0: these pass through each other
+
+    /// Triangles further apart than that now, and after the same way again, have no contact; 0: none has.
+    float reach_m() const;
+};
+
 class ContactList {
 public:
-    /// thickness_m: kept between a vertex and a triangle of the cloth; two edges keep half of it. Parts of
-    /// the cloth that are closer than that where it lies flat are not held further apart.
-    ContactList(std::shared_ptr<const Fabric> fabric, float thickness_m, Jobs* jobs = nullptr);
-    /// A mesh, whose vertices follow. keeps_m: of a solid, between its vertices and the cloth's triangles,
-    /// and between edges; of cloth, as thickness_m.
+    /// Parts of the cloth that are closer than its thickness where it lies flat are not held further apart.
+    ContactList(std::shared_ptr<const Fabric> fabric, const LayerThickness& thickness, Jobs* jobs = nullptr);
+    /// A solid, whose vertices follow. keeps_m: between these and the cloth's triangles, and between edges.
     void add_mesh(size_t vertices, float keeps_m, MeshOf what);
 
     /// Pairs further apart than that now, and after the same way again, are no contacts.
     static float reach_m(float keeps_m);
-    static float reach_of_mesh_m(float keeps_m, MeshOf what);
-    /// Contacts of the step that follows one with these ends. let_go: vertices of triangles that cross
-    /// (LetGo, one a vertex, or empty); where two of them meet there is no contact. Does not allocate once it
-    /// has met as many.
+    /// Contacts of the step that follows one with these ends. tangled: flags of vertices whose triangles
+    /// cross, or empty; where two of them meet there is no contact, or of two pieces one that moves the later
+    /// one outwards. Does not allocate once it has met as many.
     void fill(const Proximity& proximity, std::span<const Particle> begin, std::span<const Particle> end,
-              std::span<const uint8_t> let_go);
+              std::span<const uint8_t> tangled);
 
     /// Particles beyond the fabric's that stand for vertices of meshes.
     size_t mesh_particle_count() const { return mesh_vertices_.size(); }
@@ -77,21 +84,27 @@ private:
     void add(PairKind kind, const PrimitivePairs& pairs, size_t lane, const Side& side,
              std::span<const Particle> end);
     void add_candidates(const Proximity::Pair& pair, uint32_t surface, std::span<const Particle> end);
-    float keeps_m(PairKind kind, uint32_t surface) const;
-    bool reaches(float distance_m, float kept_m, uint32_t surface) const;
+    bool reaches(float distance_m, float kept_m, const std::array<uint32_t, 4>& vertices,
+                 uint32_t surface) const;
+    float keeps_m(PairKind kind, const std::array<uint32_t, 4>& vertices, uint32_t surface) const;
     uint32_t particle_of(uint32_t vertex);
     float flat_limit_m(PairKind kind, const std::array<uint32_t, 4>& vertices) const;
     void pack(OfKind& of);
 
     std::shared_ptr<const Fabric> fabric_;
+    LayerThickness thickness_;
+    std::vector<uint8_t> piece_of_;  // of each vertex of the cloth
     struct Surface {
         float keeps_m;
         MeshOf what;
     };
-    std::vector<Surface> surfaces_;    // the cloth's own first
+    std::vector<Surface> meshes_;
+    bool is_solid(uint32_t surface) const {
+        return surface != Proximity::kSelf && meshes_[surface - 1].what == MeshOf::solid;
+    }
     std::vector<float> inverse_mass_;  // of each vertex, meshes included
     FlatDistances flat_;
-    std::span<const uint8_t> let_go_;       // while it is filled
+    std::span<const uint8_t> tangled_;      // while it is filled
     std::array<Candidates, 2> candidates_;  // of each kind
     std::vector<uint32_t> slots_;           // of a mesh's vertex: its particle, if its round is this one
     std::vector<uint32_t> slot_rounds_;

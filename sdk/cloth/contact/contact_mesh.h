@@ -4,6 +4,7 @@
 // stays in contact with the side where it was, and with the other one that it meets.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -30,7 +31,10 @@ public:
     std::span<const uint32_t> indices() const { return indices_; }
     MeshOf what() const { return what_; }
     MeshFilter filter() const { return {category_, mask_}; }
-    void set_mask(std::span<const uint8_t> mask) { mask_.assign(mask.begin(), mask.end()); }
+    /// Of the cloth's vertices from `first` on.
+    void set_mask(std::span<const uint8_t> mask, uint32_t first) {
+        std::copy(mask.begin(), mask.end(), mask_.begin() + first);
+    }
     /// Where its vertices are at the end of this step.
     void accept(std::span<const Vec3> positions);
     /// A fraction of their way in this step lies behind them when it begins.

@@ -47,32 +47,30 @@ bool cross_at(const Proximity::Pair& pair, std::span<const Particle> at) {
 
 }  // namespace
 
-CrossingGuard::CrossingGuard(const FabricData& fabric)
-    : cloth_vertices_(uint32_t(fabric.inverse_mass.size())),
-      inverse_mass_(fabric.inverse_mass),
-      indices_(fabric.indices),
-      is_marked_(fabric.inverse_mass.size(), 0),
+CrossingGuard::CrossingGuard(const Fabric& fabric)
+    : cloth_vertices_(fabric.vertex_count()),
+      inverse_mass_(fabric.data().inverse_mass),
+      indices_(fabric.data().indices),
+      piece_of_(fabric.piece_of()),
+      has_pieces_(fabric.pieces().size() > 1),
+      is_marked_(cloth_vertices_, 0),
       is_moved_(is_marked_),
       is_beyond_(is_marked_),
-      wanted_(fabric.inverse_mass.size()),
-      found_at_(fabric.inverse_mass.size()),
-      parent_(fabric.inverse_mass.size(), kNone),
-      places_(fabric.inverse_mass.size()),
-      outwards_(fabric.inverse_mass.size(), Vec3(0.0f)),
-      let_go_(fabric.inverse_mass.size(), 0) {
+      wanted_(cloth_vertices_),
+      found_at_(cloth_vertices_),
+      parent_(cloth_vertices_, kNone),
+      places_(cloth_vertices_),
+      outwards_(cloth_vertices_, Vec3(0.0f)),
+      is_tangled_(cloth_vertices_, 0) {
     for (const float inverse : inverse_mass_) is_fixed_.push_back(inverse == 0.0f);
 }
 
-void CrossingGuard::add_mesh(size_t vertices, std::span<const uint32_t> indices, MeshOf what) {
-    const auto first = uint32_t(inverse_mass_.size());
-    surfaces_.push_back({what, first, uint32_t(indices_.size() / 3)});
-    meets_cloth_ = meets_cloth_ || what == MeshOf::cloth;
-    if (what == MeshOf::cloth)
-        for (const uint32_t v : indices) indices_.push_back(first + v);
+void CrossingGuard::add_mesh(size_t vertices, MeshOf what) {
+    meshes_.push_back({what});
     const size_t count = inverse_mass_.size() + vertices;
     inverse_mass_.resize(count, 0.0f);
     is_marked_.resize(count, 0), is_moved_.resize(count, 0), is_beyond_.resize(count, 0);
-    is_fixed_.resize(count, 1), let_go_.resize(count, 0);
+    is_fixed_.resize(count, 1);
     wanted_.resize(count), found_at_.resize(count), places_.resize(count);
     parent_.resize(count, kNone);
 }
@@ -82,10 +80,10 @@ bool CrossingGuard::keep(std::span<const Particle> begin, std::span<Particle> en
     for (const uint32_t v : zoned_) parent_[v] = kNone;
     for (const uint32_t v : moved_) is_moved_[v] = 0;
     zoned_.clear(), moved_.clear();
-    if (meets_cloth_) untangle_own(end, kUntangles_m), come_outwards(end, kUntangles_m);
+    if (has_pieces_) untangle(end, kUntangles_m), come_outwards(end, kUntangles_m);
     forget();
     zones_grow_ = crosses_mesh_ = false;
-    for (Surface& surface : surfaces_) surface.is_crossed = false;
+    for (Mesh& mesh : meshes_) mesh.is_crossed = false;
     proximity.find(begin, end, jobs);
     bool solved = false;
     for (int round = 0; round < kRounds; ++round) {
@@ -113,22 +111,19 @@ bool CrossingGuard::keep(std::span<const Particle> begin, std::span<Particle> en
     if (!tangles_.empty()) keep_tangles_of(end);
     if (!solved)
         for (const auto& [first, second] : crossed_)
-            if (surface_of(*second).what == MeshOf::cloth)
-                tangles_.emplace_back(number_of(*first), number_of(*second));
+            if (is_of_cloth(*second)) tangles_.emplace_back(first->number, second->number);
     const bool is_free = solved && tangles_.empty() && !crosses_mesh_ && proximity.is_complete();
     sort_tangles();
-    if (!meets_cloth_) untangle_own(end, kUntangles_m);
-    for (const uint32_t v : tangled_) let_go_[v] &= kGivesWay;
+    if (!has_pieces_) untangle(end, kUntangles_m);
+    for (const uint32_t v : tangled_) is_tangled_[v] = 0;
     tangled_.clear();
-    for (const auto& [first, second] : tangles_) {
-        const uint8_t of = is_own({first, second}) ? kOfItself : kOfMeshes;
+    for (const auto& [first, second] : tangles_)
         for (const uint32_t triangle : {first, second})
             for (uint32_t k = 0; k < 3; ++k) {
                 const uint32_t v = indices_[3 * triangle + k];
-                if ((let_go_[v] & ~kGivesWay) == 0) tangled_.push_back(v);
-                let_go_[v] |= of;
+                if (!is_tangled_[v]) tangled_.push_back(v);
+                is_tangled_[v] = 1;
             }
-    }
     return is_free;
 }
 
@@ -159,19 +154,8 @@ void CrossingGuard::keep_tangles_of(std::span<const Particle> end) {
     });
 }
 
-const CrossingGuard::Surface& CrossingGuard::surface_of(const Proximity::Triangle& t) const {
-    const auto next = std::upper_bound(
-        surfaces_.begin(), surfaces_.end(), t.vertex[0],
-        [](uint32_t vertex, const Surface& surface) { return vertex < surface.first_vertex; });
-    return *std::prev(next);
-}
-
-uint32_t CrossingGuard::number_of(const Proximity::Triangle& t) const {
-    return surface_of(t).first_triangle + t.number;
-}
-
-/// Own layers, neither of which is outside, by the line along which they cross.
-void CrossingGuard::untangle_own(std::span<Particle> places, float step_m) {
+/// Layers of a piece, neither of which is outside, by the line along which they cross.
+void CrossingGuard::untangle(std::span<Particle> places, float step_m) {
     if (own_tangles().empty()) return;
     for (size_t v = 0; v < places.size(); ++v) places_[v] = places[v].x;
     for (const uint32_t v : untangle_.move(own_tangles(), indices_, is_fixed_, step_m, places_)) {
@@ -180,44 +164,45 @@ void CrossingGuard::untangle_own(std::span<Particle> places, float step_m) {
     }
 }
 
-/// Off another garment. A line from one border to another is nowhere shorter, so it goes outwards.
+/// The later of two pieces, off the earlier one. A line from one border to another is nowhere shorter.
 void CrossingGuard::come_outwards(std::span<Particle> places, float step_m) {
-    for (const auto& [first, second] : other_tangles()) {
-        const uint32_t* t = &indices_[3 * second];
+    const auto sorted = [&](const TrianglePair& pair) {
+        const auto [a, b] = pair;
+        return piece_of(a) < piece_of(b) ? std::pair(a, b) : std::pair(b, a);
+    };
+    for (const TrianglePair& pair : other_tangles()) {
+        const auto [below, above] = sorted(pair);
+        const uint32_t* t = &indices_[3 * below];
         const Vec3 across = glm::cross(places[t[1]].x - places[t[0]].x, places[t[2]].x - places[t[0]].x),
                    normal = across / std::max(glm::length(across), 1e-20f);
-        for (uint32_t k = 0; k < 3; ++k) outwards_[indices_[3 * first + k]] += normal;
+        for (uint32_t k = 0; k < 3; ++k) outwards_[indices_[3 * above + k]] += normal;
     }
-    for (const auto& [first, second] : other_tangles())
+    for (const TrianglePair& pair : other_tangles())
         for (uint32_t k = 0; k < 3; ++k) {
-            const uint32_t v = indices_[3 * first + k];
+            const uint32_t v = indices_[3 * sorted(pair).second + k];
             const float length = glm::length(outwards_[v]);
             if (length > 0.0f && !is_fixed_[v]) places[v].x += outwards_[v] * (step_m / length), mark(v);
             outwards_[v] = Vec3(0.0f);
         }
 }
 
-/// Those of the cloth with itself first.
+/// Those of a piece with itself first.
 void CrossingGuard::sort_tangles() {
-    own_tangles_ = size_t(std::partition(tangles_.begin(), tangles_.end(),
-                                         [&](const TrianglePair& pair) { return is_own(pair); }) -
-                          tangles_.begin());
+    own_tangles_ = size_t(
+        std::partition(tangles_.begin(), tangles_.end(),
+                       [&](const TrianglePair& p) { return piece_of(p.first) == piece_of(p.second); }) -
+        tangles_.begin());
 }
 
-bool CrossingGuard::is_own(const TrianglePair& pair) const {
-    return indices_[3 * pair.second] < cloth_vertices_;
-}
-
-/// Among other garments each round is guarded: what comes outwards would go through own layers.
-void CrossingGuard::part(std::span<Particle> places, Proximity& proximity, Jobs& jobs) {
+void CrossingGuard::part(std::span<Particle> places, bool guarded, Proximity& proximity, Jobs& jobs) {
     forget();
     for (int round = 0; round < kRoundsToPart; ++round) {
-        if (meets_cloth_) {
+        if (guarded) {
             parts_from_.assign(places.begin(), places.end());
             keep(parts_from_, places, proximity, jobs);
         } else {
             find_tangles(places, proximity, jobs);
-            untangle_own(places, kParts_m);
+            untangle(places, kParts_m);
         }
         if (tangles_.empty()) return;
     }
@@ -227,8 +212,8 @@ void CrossingGuard::find_tangles(std::span<const Particle> places, Proximity& pr
     proximity.find(places, places, jobs);
     forget();
     proximity.for_uncertain([&](const Proximity::Pair& pair, uint32_t surface) {
-        if (surfaces_[surface].what == MeshOf::cloth && cross_at(pair, places))
-            tangles_.emplace_back(number_of(*pair.first), number_of(*pair.second));
+        if (surface == Proximity::kSelf && cross_at(pair, places))
+            tangles_.emplace_back(pair.first->number, pair.second->number);
     });
     sort_tangles();
 }
@@ -238,25 +223,21 @@ void CrossingGuard::find_hits(std::span<const Particle> begin, std::span<const P
     hits_.clear(), crossed_.clear();
     proximity.for_uncertain([&](const Proximity::Pair& pair, uint32_t surface) {
         if (is_held(*pair.first) && is_held(*pair.second)) return;
-        if (surface != Proximity::kSelf && !(of_meshes && is_guarded(surfaces_[surface].what))) {
+        const bool is_own = surface == Proximity::kSelf;
+        if (!is_own && !(of_meshes && meshes_[surface - 1].what == MeshOf::prop)) {
             crosses_mesh_ = true;  // perhaps
             return;
         }
-        const bool of_other_cloth = surface != Proximity::kSelf && surfaces_[surface].what == MeshOf::cloth;
-        if (of_other_cloth && any_let_go(*pair.first, kGivesWay)) {
-            crosses_mesh_ = true;  // perhaps
-            return;
-        }
-        if (of_other_cloth && any_let_go(*pair.first, kOfMeshes) && any_let_go(*pair.second, kOfMeshes)) {
-            if (cross_at(pair, end)) tangles_.emplace_back(number_of(*pair.first), number_of(*pair.second));
+        if (is_own && may_pass(pair)) {
+            if (cross_at(pair, end)) tangles_.emplace_back(pair.first->number, pair.second->number);
             return;
         }
         if (cross_at(pair, begin)) {
             if (!cross_at(pair, end)) return;
-            if (surfaces_[surface].what == MeshOf::cloth)
-                tangles_.emplace_back(number_of(*pair.first), number_of(*pair.second));
+            if (is_own)
+                tangles_.emplace_back(pair.first->number, pair.second->number);
             else
-                crosses_mesh_ = surfaces_[surface].is_crossed = true;
+                crosses_mesh_ = meshes_[surface - 1].is_crossed = true;
             return;
         }
         if (cross_at(pair, end)) crossed_.emplace_back(pair.first, pair.second);
@@ -269,8 +250,14 @@ void CrossingGuard::find_hits(std::span<const Particle> begin, std::span<const P
     });
 }
 
-bool CrossingGuard::any_let_go(const Proximity::Triangle& t, uint8_t bits) const {
-    return std::any_of(t.vertex, t.vertex + 3, [&](uint32_t v) { return (let_go_[v] & bits) != 0; });
+/// Where two pieces cross, the line along which they do moves on as one of them comes outwards.
+bool CrossingGuard::may_pass(const Proximity::Pair& pair) const {
+    const auto is_tangled = [&](uint32_t v) { return is_tangled_[v] != 0; };
+    const auto any_tangled = [&](const Proximity::Triangle& t) {
+        return std::any_of(t.vertex, t.vertex + 3, is_tangled);
+    };
+    return piece_of_[pair.first->vertex[0]] != piece_of_[pair.second->vertex[0]] &&
+           any_tangled(*pair.first) && any_tangled(*pair.second);
 }
 
 bool CrossingGuard::is_held(const Proximity::Triangle& t) const {

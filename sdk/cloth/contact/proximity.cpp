@@ -1,17 +1,23 @@
 #include "cloth/contact/proximity.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace vfit {
 
-Proximity::Proximity(std::span<const Vec3> positions, std::span<const uint32_t> indices, float reach_m)
-    : cloth_(positions, indices), vertex_count_(positions.size()) {
+Proximity::Proximity(std::span<const Vec3> positions, std::span<const uint32_t> indices, float reach_m,
+                     std::vector<uint8_t> piece_of)
+    : cloth_(positions, indices), piece_of_(std::move(piece_of)), vertex_count_(positions.size()) {
     surfaces_.emplace_back().is_shown = reach_m > 0.0f;
     surfaces_.back().reach_m = reach_m;
 }
 
 Proximity::Proximity(const Proximity& other)
-    : cloth_(other.cloth_), surfaces_(other.surfaces_), vertex_count_(other.vertex_count_) {
+    : cloth_(other.cloth_),
+      piece_of_(other.piece_of_),
+      passes_(other.passes_),
+      surfaces_(other.surfaces_),
+      vertex_count_(other.vertex_count_) {
     for (Surface& surface : surfaces_) surface.all = {}, surface.of_marked = {};  // of the other's triangles
 }
 
@@ -65,12 +71,18 @@ void Proximity::look_for_missed(const Surface& surface) {
     is_complete_ = is_complete_ && std::max({way.x, way.y, way.z}) <= kMaxWay_m;
 }
 
-void Proximity::filter(Surface& surface, size_t first) {
-    if (surface.category.empty()) return;
+void Proximity::filter(Surface& surface, size_t first) const {
+    if (surface.what ? surface.category.empty() : piece_of_.empty()) return;
     std::vector<Pair>& pairs = surface.all.pairs;
-    pairs.erase(std::remove_if(pairs.begin() + std::ptrdiff_t(first), pairs.end(),
-                               [&](const Pair& pair) { return !surface.meets(pair); }),
-                pairs.end());
+    const auto is_left_out = [&](const Pair& pair) {
+        return surface.what ? !surface.meets(pair) : !pieces_meet(pair);
+    };
+    pairs.erase(std::remove_if(pairs.begin() + std::ptrdiff_t(first), pairs.end(), is_left_out), pairs.end());
+}
+
+bool Proximity::pieces_meet(const Pair& pair) const {
+    const uint8_t piece = piece_of_[pair.first->vertex[0]], other = piece_of_[pair.second->vertex[0]];
+    return (passes_[piece] >> other & 1) == 0 && !(all_pass_ && piece != other);
 }
 
 void Proximity::find_again(std::span<const uint8_t> marked, std::span<const Particle> begin,

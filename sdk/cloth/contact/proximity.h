@@ -2,10 +2,13 @@
 // of them may have crossed on the way.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "cloth/contact/contact_kernels.h"
@@ -23,8 +26,9 @@ public:
     static constexpr uint32_t kSelf = 0;
 
     /// reach_m: pairs of the cloth's own triangles that are further apart are not close; 0: none are looked
-    /// at.
-    Proximity(std::span<const Vec3> positions, std::span<const uint32_t> indices, float reach_m);
+    /// at. piece_of: one a vertex, where the cloth has several pieces; else empty.
+    Proximity(std::span<const Vec3> positions, std::span<const uint32_t> indices, float reach_m,
+              std::vector<uint8_t> piece_of = {});
     /// The same surfaces, no pairs.
     Proximity(const Proximity& other);
     Proximity& operator=(const Proximity&) = delete;
@@ -35,10 +39,17 @@ public:
                   const MeshFilter& filter = {});
     /// positions: by which its triangles are grouped, the first time.
     void show_mesh(uint32_t mesh, std::span<const Vec3> positions);
-    /// Of its filter, from the next find() on.
-    void set_mask(uint32_t mesh, std::span<const uint8_t> mask) {
-        surfaces_[mesh + 1].mask.assign(mask.begin(), mask.end());
+    /// Of its filter, from the next find() on; of the cloth's vertices from `first` on.
+    void set_mask(uint32_t mesh, std::span<const uint8_t> mask, uint32_t first) {
+        std::copy(mask.begin(), mask.end(), surfaces_[mesh + 1].mask.begin() + first);
     }
+    /// From the next find() on, these two pieces (or the one) pass through each other, or no longer do.
+    void set_passing(size_t piece, size_t other, bool passing) {
+        for (const auto& [a, b] : {std::pair(piece, other), std::pair(other, piece)})
+            passes_[a] = (passes_[a] & ~(uint64_t(1) << b)) | uint64_t(passing) << b;
+    }
+    /// Whether all of several do.
+    void pass_each_other(bool they_do) { all_pass_ = they_do; }
     /// It meets nothing.
     void hide_mesh(uint32_t mesh) { surfaces_[mesh + 1].is_shown = false; }
     size_t vertex_count() const { return vertex_count_; }
@@ -79,11 +90,11 @@ private:
     struct Surface {
         float reach_m;
         bool is_shown;
-        MeshOf what = MeshOf::cloth;
+        std::optional<MeshOf> what{};  // none: the cloth's
         uint32_t first_vertex = 0;
         std::vector<uint32_t> indices;            // until it is shown
         std::vector<uint8_t> category{}, mask{};  // of its vertices and the cloth's (MeshFilter)
-        std::optional<TrianglePatches> patches;   // none: the cloth's
+        std::optional<TrianglePatches> patches;   // none: the cloth's, or it was not shown yet
         Classified all, of_marked;
 
         bool meets(const Pair& pair) const;
@@ -91,12 +102,16 @@ private:
     template <typename Bits, typename Body>
     void for_bits(bool of_marked, Bits&& bits, Body&& body) const;
     void look_for_missed(const Surface& surface);
-    /// Removes those from `first` on that its filter leaves out.
-    static void filter(Surface& surface, size_t first);
+    /// Removes those from `first` on that its filter, or the pieces, leave out.
+    void filter(Surface& surface, size_t first) const;
+    bool pieces_meet(const Pair& pair) const;
     static void classify_all(Classified& of, const Surface& surface, std::span<const Particle> begin,
                              std::span<const Particle> end, Jobs& jobs);
 
     TrianglePatches cloth_;
+    std::vector<uint8_t> piece_of_;      // of each vertex; empty: there is one piece
+    std::array<uint64_t, 64> passes_{};  // of each piece: bit k, piece k passes through it
+    bool all_pass_ = false;              // through each other
     std::vector<Surface> surfaces_;
     size_t vertex_count_;
     std::vector<uint32_t> moved_;  // patches of the cloth

@@ -12,27 +12,31 @@ void copy(std::span<const Vec3> from, std::span<Particle> to) {
 void copy(std::span<const Particle> from, std::span<Vec3> to) {
     for (size_t v = 0; v < to.size(); ++v) to[v] = from[v].x;
 }
-float reach_m(float thickness_m) { return thickness_m > 0.0f ? ContactList::reach_m(thickness_m) : 0.0f; }
+bool has_pieces(const Fabric& fabric) { return fabric.pieces().size() > 1; }
 
 }  // namespace
 
-TriangleContact::TriangleContact(std::shared_ptr<const Fabric> fabric, float thickness_m,
+TriangleContact::TriangleContact(std::shared_ptr<const Fabric> fabric, const LayerThickness& thickness,
                                  std::span<const Vec3> positions, Jobs* jobs)
     : cloth_vertices_(fabric->vertex_count()),
-      thickness_m_(thickness_m),
-      proximity_(positions, fabric->data().indices, reach_m(thickness_m)),
-      contacts_(fabric, thickness_m, jobs),
-      guard_(fabric->data()),
+      thickness_(thickness),
+      proximity_(positions, fabric->data().indices, thickness.reach_m(),
+                 has_pieces(*fabric) ? fabric->piece_of() : std::vector<uint8_t>()),
+      contacts_(fabric, thickness, jobs),
+      guard_(*fabric),
       begin_(cloth_vertices_),
-      end_(cloth_vertices_) {}
+      end_(cloth_vertices_) {
+    for (size_t piece = 0; has_pieces(*fabric) && piece < thickness_.own_m.size(); ++piece)
+        if (thickness_.own_m[piece] <= 0.0f) set_passing(piece, piece, true);
+}
 
 TriangleContact::TriangleContact(const TriangleContact& other, std::shared_ptr<const Fabric> fabric,
                                  Jobs* jobs)
     : cloth_vertices_(other.cloth_vertices_),
-      thickness_m_(other.thickness_m_),
+      thickness_(other.thickness_),
       proximity_(other.proximity_),
-      contacts_(fabric, thickness_m_, jobs),
-      guard_(fabric->data()),
+      contacts_(fabric, thickness_, jobs),
+      guard_(*fabric),
       begin_(cloth_vertices_),
       end_(cloth_vertices_),
       meshes_(other.meshes_) {
@@ -41,14 +45,14 @@ TriangleContact::TriangleContact(const TriangleContact& other, std::shared_ptr<c
 
 void TriangleContact::add_mesh(size_t vertices, std::span<const uint32_t> indices, float keeps_m, MeshOf what,
                                const MeshFilter& filter) {
-    proximity_.add_mesh(vertices, indices, ContactList::reach_of_mesh_m(keeps_m, what), what, filter);
-    meshes_.push_back({begin_.size(), vertices, {indices.begin(), indices.end()}, keeps_m, what});
+    proximity_.add_mesh(vertices, indices, ContactList::reach_m(keeps_m), what, filter);
+    meshes_.push_back({begin_.size(), vertices, keeps_m, what});
     make_room_for(meshes_.back());
 }
 
 void TriangleContact::make_room_for(const Mesh& mesh) {
     contacts_.add_mesh(mesh.vertices, mesh.keeps_m, mesh.what);
-    guard_.add_mesh(mesh.vertices, mesh.indices, mesh.what);
+    guard_.add_mesh(mesh.vertices, mesh.what);
     begin_.resize(mesh.first_vertex + mesh.vertices), end_.resize(begin_.size());
     from_.resize(begin_.size() - cloth_vertices_), to_.resize(from_.size());
 }
@@ -90,7 +94,7 @@ void TriangleContact::place(std::span<const Vec3> positions, Jobs& jobs) {
 
 void TriangleContact::part(std::span<Vec3> positions, Jobs& jobs) {
     copy(positions, end_);
-    guard_.part(end_, proximity_, jobs);
+    guard_.part(end_, pieces_meet_, proximity_, jobs);
     copy(end_, positions);
 }
 
@@ -98,7 +102,7 @@ bool TriangleContact::keep(std::span<const Vec3> begin, std::span<Vec3> end, Job
     copy(begin, begin_), copy(end, end_);
     const bool is_free = guard_.keep(begin_, end_, proximity_, jobs);
     proximity_.find_close(begin_, end_, jobs);
-    contacts_.fill(proximity_, begin_, end_, guard_.let_go());
+    contacts_.fill(proximity_, begin_, end_, guard_.tangled());
     if (!guard_.moved().empty()) copy(end_, end);
     return is_free;
 }

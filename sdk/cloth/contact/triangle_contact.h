@@ -18,17 +18,27 @@ namespace vfit {
 
 class TriangleContact {
 public:
-    /// thickness_m: kept between the cloth's own layers; 0: they pass through each other. positions: one a
-    /// vertex, by which triangles are grouped.
-    TriangleContact(std::shared_ptr<const Fabric> fabric, float thickness_m, std::span<const Vec3> positions,
-                    Jobs* jobs = nullptr);
+    /// positions: one a vertex, by which triangles are grouped.
+    TriangleContact(std::shared_ptr<const Fabric> fabric, const LayerThickness& thickness,
+                    std::span<const Vec3> positions, Jobs* jobs = nullptr);
     /// Of another fabric with the same triangles, among the same meshes, which are hidden.
     TriangleContact(const TriangleContact& other, std::shared_ptr<const Fabric> fabric, Jobs* jobs = nullptr);
 
+    /// From the next keep() on, these two pieces of the cloth pass through each other, or no longer do.
+    void set_passing(size_t piece, size_t other, bool passing) {
+        proximity_.set_passing(piece, other, passing);
+    }
+    /// Whether all of them do.
+    void pass_each_other(bool they_do) {
+        pieces_meet_ = !they_do && thickness_.own_m.size() > 1;
+        proximity_.pass_each_other(they_do);
+    }
     /// Triangles counter-clockwise from outside; keeps_m: as ContactList. It is hidden until it is moved.
     void add_mesh(size_t vertices, std::span<const uint32_t> indices, float keeps_m, MeshOf what,
                   const MeshFilter& filter = {});
-    void set_mask(uint32_t mesh, std::span<const uint8_t> mask) { proximity_.set_mask(mesh, mask); }
+    void set_mask(uint32_t mesh, std::span<const uint8_t> mask, uint32_t first) {
+        proximity_.set_mask(mesh, mask, first);
+    }
     /// Where it goes in the next step, from where it went in the last.
     void move_mesh(uint32_t mesh, std::span<const Vec3> end);
     /// After move_mesh() and skip(): where it begins the next step.
@@ -47,7 +57,8 @@ public:
 
     /// The cloth was placed there anew, at rest.
     void place(std::span<const Vec3> positions, Jobs& jobs);
-    /// After look_at(): moves triangles of the cloth that cross each other, or a mesh of cloth, apart.
+    /// After look_at(): moves triangles of the cloth that cross each other apart. Of two pieces the later one
+    /// goes outwards.
     void part(std::span<Vec3> positions, Jobs& jobs);
 
     /// After a step: changes its `end` so that nothing crosses which did not at its begin, and finds the
@@ -55,8 +66,6 @@ public:
     bool keep(std::span<const Vec3> begin, std::span<Vec3> end, Jobs& jobs);
     /// Before and after the last keep(), the cloth crossed that mesh, which is guarded.
     bool crosses_mesh(uint32_t mesh) const { return guard_.crosses_mesh(mesh); }
-    /// After keep(): that vertex lets meshes of cloth through from now on, or no longer does.
-    void give_way(uint32_t vertex, bool gives) { guard_.give_way(vertex, gives); }
     /// Vertices that keep() moved; is_in_zone: as one with others, whose velocity is their way.
     std::span<const uint32_t> moved() const { return guard_.moved(); }
     bool is_in_zone(uint32_t vertex) const { return guard_.is_in_zone(vertex); }
@@ -76,7 +85,6 @@ public:
 private:
     struct Mesh {
         size_t first_vertex, vertices;
-        std::vector<uint32_t> indices;
         float keeps_m;
         MeshOf what;
         bool is_known = false;  // where it is
@@ -84,7 +92,8 @@ private:
     void make_room_for(const Mesh& mesh);
 
     size_t cloth_vertices_;
-    float thickness_m_;
+    LayerThickness thickness_;
+    bool pieces_meet_ = thickness_.own_m.size() > 1;
     Proximity proximity_;
     ContactList contacts_;
     CrossingGuard guard_;

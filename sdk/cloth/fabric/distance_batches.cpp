@@ -34,6 +34,12 @@ DistanceBatches pack(std::vector<Bond> joints, std::span<const DistanceConstrain
 
 }  // namespace
 
+DistanceBatches moved(DistanceBatches batches, uint32_t bytes) {
+    for (DistanceBatch& batch : batches.joints)
+        for (size_t k = 0; k < kLanes; ++k) batch.a[k] += bytes, batch.b[k] += bytes;
+    return batches;
+}
+
 std::vector<DistanceBatches> make_batches(std::span<const DistanceConstraint> list,
                                           std::span<const float> inverse_mass, const ParticleLayout& layout) {
     std::vector<std::vector<Bond>> groups(layout.group_count());

@@ -30,6 +30,9 @@ struct DistanceBatches {
     std::vector<BatchMasses> masses;
 };
 
+/// The same of particles that lie so many bytes further on.
+DistanceBatches moved(DistanceBatches batches, uint32_t bytes);
+
 /// Those of each group of the layout. Constraints between two vertices that cannot move are left out.
 std::vector<DistanceBatches> make_batches(std::span<const DistanceConstraint> list,
                                           std::span<const float> inverse_mass, const ParticleLayout& layout);

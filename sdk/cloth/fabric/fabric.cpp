@@ -104,6 +104,104 @@ Fabric::Fabric(FabricData data, Jobs* jobs) : data_(std::move(data)) {
     backstop_runs_ = place_balls(backstops);
     limit_runs_ = place_balls(data_.limits);
     fans_ = make_fans();
+    pieces_.push_back({{0, vertex_count()},
+                       {0, uint32_t(data_.indices.size())},
+                       {0, uint32_t(data_.edges.size())},
+                       {0, uint32_t(data_.backstops.size())},
+                       {0, uint32_t(layout_.parts.size())},
+                       data_.density_kg_m2});
+}
+
+Fabric::Fabric(std::vector<std::shared_ptr<const Fabric>> pieces) {
+    if (pieces.empty() || pieces.size() > kMaxPieces)
+        fail(VFIT_ERROR_ARGUMENT, "a cloth of ", pieces.size(), " pieces; there may be 1 to ", kMaxPieces);
+    for (const auto& piece : pieces) append(*piece);
+    append_batches(pieces);
+    fans_ = make_fans();
+}
+
+std::vector<uint8_t> Fabric::piece_of() const {
+    std::vector<uint8_t> out;
+    for (size_t i = 0; i < pieces_.size(); ++i) out.resize(pieces_[i].vertices.end, uint8_t(i));
+    return out;
+}
+
+/// All but the batches, which are sorted by groups.
+void Fabric::append(const Fabric& piece) {
+    const FabricData& data = piece.data_;
+    const uint32_t vertex = vertex_count(), index = uint32_t(data_.indices.size()),
+                   edge = uint32_t(data_.edges.size()), backstop = uint32_t(data_.backstops.size()),
+                   particle = layout_.count(), part = uint32_t(layout_.parts.size());
+    pieces_.push_back({{vertex, vertex + piece.vertex_count()},
+                       {index, index + uint32_t(data.indices.size())},
+                       {edge, edge + uint32_t(data.edges.size())},
+                       {backstop, backstop + uint32_t(data.backstops.size())},
+                       {part, part + uint32_t(piece.layout_.parts.size())},
+                       data.density_kg_m2});
+    const auto add = [](auto& to, const auto& from, const auto& moved) {
+        for (auto item : from) moved(item), to.push_back(item);
+    };
+    const auto keep = [](auto&) {};
+    const auto number = [&](uint32_t& v) { v += vertex; };
+    const auto joint = [&](DistanceConstraint& c) { c.a += vertex, c.b += vertex; };
+    add(data_.inverse_mass, data.inverse_mass, keep);
+    add(data_.indices, data.indices, number);
+    add(data_.edges, data.edges, joint);
+    add(data_.bends, data.bends, joint);
+    add(data_.hinges, data.hinges, [&](Hinge& h) {
+        for (uint32_t& v : h.vertices) v += vertex;
+    });
+    add(data_.tethers, data.tethers, [&](Tether& t) { t.vertex += vertex, t.anchor += vertex; });
+    add(data_.backstops, data.backstops, [&](Backstop& b) { b.vertex += vertex; });
+    add(data_.limits, data.limits, [&](DistanceLimit& l) { l.vertex += vertex, l.target += vertex; });
+    add(kinematic_, piece.kinematic_, number);
+
+    const ParticleLayout& layout = piece.layout_;
+    add(layout_.vertex_of, layout.vertex_of, [&](uint32_t& v) {
+        if (v != ParticleLayout::kNobody) v += vertex;
+    });
+    add(layout_.particle_of, layout.particle_of, [&](uint32_t& p) { p += particle; });
+    add(layout_.parts, layout.parts,
+        [&](ParticleLayout::Part& p) { p.begin += particle, p.moving_end += particle, p.end += particle; });
+    add(tether_anchors_, piece.tether_anchors_, [&](uint32_t& p) { p += particle; });
+    tether_anchors_.resize(layout_.count());  // none of the spares has one
+    add(tether_lengths_, piece.tether_lengths_, keep);
+    tether_lengths_.resize(layout_.count(), kNoTether_m);
+}
+
+void Fabric::append_batches(const std::vector<std::shared_ptr<const Fabric>>& pieces) {
+    const auto add_groups = [&](bool cuts) {
+        for (size_t i = 0; i < pieces.size(); ++i) {
+            const Fabric& piece = *pieces[i];
+            const size_t parts = piece.layout_.parts.size();
+            const uint32_t bytes = uint32_t(layout_.parts[pieces_[i].parts.begin].begin * sizeof(Particle));
+            if (cuts && i > 0)  // between two pieces there is nothing
+                bends_.emplace_back(), edges_.emplace_back(), hinges_.emplace_back();
+            for (size_t group = cuts ? parts : 0; group < (cuts ? 2 * parts - 1 : parts); ++group) {
+                bends_.push_back(moved(piece.bends_[group], bytes));
+                edges_.push_back(moved(piece.edges_[group], bytes));
+                hinges_.push_back(moved(piece.hinges_[group], bytes));
+            }
+        }
+    };
+    add_groups(false), add_groups(true);
+    for (size_t i = 0; i < pieces.size(); ++i) {
+        const Piece& of = pieces_[i];
+        const uint32_t run = layout_.parts[of.parts.begin].begin / uint32_t(kLanes),
+                       own_vertices = of.vertices.count(), centre = vertex_count() + of.backstops.begin;
+        const auto add_runs = [&](auto& to, const auto& from) {
+            for (std::vector<BallRun> runs : from) {
+                for (BallRun& ball : runs) {
+                    ball.run += run;
+                    for (uint32_t& target : ball.target)
+                        target += target < own_vertices ? of.vertices.begin : centre - own_vertices;
+                }
+                to.push_back(std::move(runs));
+            }
+        };
+        add_runs(backstop_runs_, pieces[i]->backstop_runs_);
+        add_runs(limit_runs_, pieces[i]->limit_runs_);
+    }
 }
 
 std::vector<std::vector<BallRun>> Fabric::place_balls(std::span<const DistanceLimit> balls) const {

@@ -81,10 +81,33 @@ public:
     /// Fails with VFIT_ERROR_DATA, naming the constraint, where the data do not fit together. jobs: may share
     /// the work.
     explicit Fabric(FabricData data, Jobs* jobs = nullptr);
+    /// Several that are simulated as one: garments that are worn together. Each is laid out as it is alone,
+    /// so that it moves as it does alone while it meets none of the others. None of them is one of several
+    /// itself.
+    explicit Fabric(std::vector<std::shared_ptr<const Fabric>> pieces);
+
+    /// What one of the pieces has of all. One made of data is a single piece.
+    struct Range {
+        uint32_t begin = 0, end = 0;
+        uint32_t count() const { return end - begin; }
+        template <typename T>
+        std::span<const T> of(const std::vector<T>& all) const {
+            return std::span(all).subspan(begin, count());
+        }
+    };
+    struct Piece {
+        Range vertices, indices, edges, backstops, parts;
+        float density_kg_m2;
+    };
+    const std::vector<Piece>& pieces() const { return pieces_; }
+    /// One a vertex. No more than kMaxPieces, VFIT_ERROR_ARGUMENT.
+    static constexpr size_t kMaxPieces = 64;
+    std::vector<uint8_t> piece_of() const;
 
     uint32_t vertex_count() const { return uint32_t(data_.inverse_mass.size()); }
     uint32_t simulated_count() const { return vertex_count() - uint32_t(kinematic_.size()); }
-    /// Places that a step wants: one a vertex, then the centre of each backstop.
+    /// Places that a step wants: one a vertex, then the centre of each backstop. Of several pieces all of
+    /// their vertices come first.
     uint32_t target_count() const { return vertex_count() + uint32_t(data_.backstops.size()); }
     /// Edges, bends and hinges.
     uint32_t constraint_count() const {
@@ -111,7 +134,11 @@ private:
     std::vector<std::vector<BallRun>> place_balls(std::span<const DistanceLimit> balls) const;
     TriangleFans make_fans() const;
 
+    void append(const Fabric& piece);
+    void append_batches(const std::vector<std::shared_ptr<const Fabric>>& pieces);
+
     FabricData data_;
+    std::vector<Piece> pieces_;
     std::vector<uint32_t> kinematic_;
     ParticleLayout layout_;
     std::vector<DistanceBatches> bends_, edges_;

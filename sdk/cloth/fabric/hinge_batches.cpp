@@ -36,6 +36,13 @@ void add_batches(std::vector<Bond> bonds, std::span<const Hinge> list, std::span
 
 }  // namespace
 
+HingeBatches moved(HingeBatches batches, uint32_t bytes) {
+    for (HingeBatch& batch : batches.hinges)
+        for (auto& particles : batch.at)
+            for (uint32_t& at : particles) at += bytes;
+    return batches;
+}
+
 /// Stiff ones in batches of their own: the soft ones have to push less often.
 std::vector<HingeBatches> make_hinge_batches(std::span<const Hinge> list, std::span<const float> inverse_mass,
                                              const ParticleLayout& layout) {

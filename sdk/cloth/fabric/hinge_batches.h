@@ -31,6 +31,9 @@ struct HingeBatches {
     std::vector<HingeMasses> masses;
 };
 
+/// The same of particles that lie so many bytes further on.
+HingeBatches moved(HingeBatches batches, uint32_t bytes);
+
 /// Those of each group of the layout.
 std::vector<HingeBatches> make_hinge_batches(std::span<const Hinge> list, std::span<const float> inverse_mass,
                                              const ParticleLayout& layout);

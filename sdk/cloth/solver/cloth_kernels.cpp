@@ -365,8 +365,8 @@ HWY_INLINE bool PullBack(const SubstepEnd& end, size_t at, Points& p) {
 void EndSubstep(const SubstepEnd& given) {
     const SubstepEnd end = given;
     const Moving& m = end.moving;
-    const NearColliders& near = *end.near;
-    const size_t words = near.words();
+    const NearColliders& met = *end.may_meet;
+    const size_t words = met.words();
     const V rate = Set(1.0f / end.h), keep = Set(end.keep), h = Set(end.h);
     const RunBalls* backstops = end.backstops.data();
     const RunBalls* const no_backstop = backstops + end.backstops.size();
@@ -375,10 +375,10 @@ void EndSubstep(const SubstepEnd& given) {
     const RunBalls* limits = end.limits.data();
     const RunBalls* const no_limit = limits + end.limits.size();
     for (size_t run = 0; run < m.count / kLanes; ++run) {
-        const uint64_t* bits = near.bits.data() + run * words;
+        const uint64_t* bits = met.bits.data() + run * words;
         uint64_t any = 0;
         for (size_t word = 0; word < words; ++word) any |= bits[word];
-        const V reach2 = Set(near.radii_m[run] * near.radii_m[run]);
+        const V reach2 = Set(met.radii_m[run] * met.radii_m[run]);
         const RunBalls *const own_backstops = backstops, *const own_limits = limits;
         while (backstops != no_backstop && backstops->run == run) ++backstops;
         while (limits != no_limit && limits->run == run) ++limits;
@@ -391,7 +391,7 @@ void EndSubstep(const SubstepEnd& given) {
             Points p = Columns(place);
             bool moved = PullBack(end, at + k, p);
             for (const RunBalls* b = own_limits; b != limits; ++b, moved = true) KeepIn(end, *b, k, p);
-            const Points off = Sub(p, {Set(near.x[run]), Set(near.y[run]), Set(near.z[run])});
+            const Points off = Sub(p, {Set(met.x[run]), Set(met.y[run]), Set(met.z[run])});
             const bool strayed = !hn::AllTrue(kTag, hn::Le(Dot(off, off), reach2));
             if (any != 0 || own_backstops != backstops || own_planes != planes || HWY_UNLIKELY(strayed)) {
                 const Points from = Columns(start), free = p;

@@ -72,7 +72,7 @@ struct SubstepEnd {
     std::span<const RunPlanes> planes;            // by rising runs
     float from, to;                               // shares of the step
     std::span<const SweptCapsule> colliders;
-    const NearColliders* near;  // a run that has left its ball is tried against all
+    const NearColliders* may_meet;  // a run that has left its ball is tried against all
     ContactSettings contact;
     Vec3 half_fall;
     float h, keep;

@@ -172,7 +172,7 @@ void ParticleSolver::advance(const Step& step, Jobs& jobs) {
                 return;
             case Phase::solve_contacts: return step.contacts->solve(push, starts_, places_);
             case Phase::virtual_particles:
-                return virtual_->solve(swept_, step.contact, starts_, places_, pushed_);
+                return virtual_->solve(swept_, step.contact_of[0].settings, starts_, places_, pushed_);
         }
     });
 }
@@ -226,11 +226,9 @@ void ParticleSolver::begin_part(const Step& step, uint32_t part) {
     const ParticleLayout& layout = fabric_->layout();
     const uint32_t begin = layout.parts[part].begin;
     parts_[part].touched.resize(step.meshes.size());
-    for (size_t i = 0; i < step.meshes.size(); ++i) {
-        if (step.meshes[i].what() == MeshOf::cloth) continue;  // met as own layers are
+    for (size_t i = 0; i < step.meshes.size(); ++i)
         step.meshes[i].find_planes({m, std::span(layout.vertex_of).subspan(begin), step.dt, step.thickness_m},
                                    parts_[part].near_runs, parts_[part].touched[i], parts_[part].planes);
-    }
     if (step.meshes.size() > 1) {
         // Stable, without the room that std::stable_sort allocates.
         std::vector<RunPlanes>& planes = parts_[part].planes;
@@ -239,9 +237,9 @@ void ParticleSolver::begin_part(const Step& step, uint32_t part) {
             return std::pair(a.run, a.order) < std::pair(b.run, b.order);
         });
     }
-    NearColliders& near = parts_[part].near;
-    reserve(near, m.count, swept_step_.size());
-    cull({m.places, m.count}, {m.velocities, m.count}, step.dt, swept_step_, near);
+    const std::span<const SweptCapsule> colliders = step.colliders_of(part, swept_step_);
+    reserve(parts_[part].may_meet, m.count, colliders.size());
+    cull({m.places, m.count}, {m.velocities, m.count}, step.dt, colliders, parts_[part].may_meet);
     predict(m, half_fall(step), substep_s(step));
 }
 
@@ -309,9 +307,9 @@ void ParticleSolver::end_part(const Step& step, int substep, uint32_t part) {
     end.planes = parts_[part].planes;
     end.from = share(step, substep);
     end.to = share(step, substep + 1);
-    end.colliders = swept_;
-    end.near = &parts_[part].near;
-    end.contact = step.contact;
+    end.colliders = step.colliders_of(part, swept_);
+    end.may_meet = &parts_[part].may_meet;
+    end.contact = step.contact_of[part].settings;
     end.half_fall = half_fall(step);
     end.h = substep_s(step);
     end.keep = step.keep;

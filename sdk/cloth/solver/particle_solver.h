@@ -39,20 +39,30 @@ public:
     /// As the cloth lies and moves.
     void carry(const RigidMotion& motion);
 
+    /// What a part of the layout meets its obstacles with, and which of the colliders.
+    struct PartContact {
+        ContactSettings settings;
+        uint32_t first_collider, end_collider;
+    };
     struct Step {
         float dt;
         int substeps;
         Vec3 gravity;
         Air air;
-        float keep;  // of the speed, a sub-step
-        ContactSettings contact;
-        float thickness_m;               // of backstops; colliders have theirs
-        std::span<const Vec3> from, to;  // the fabric's targets at both ends of a step
-        Interval interval;               // of that one, which this is about
+        float keep;                               // of the speed, a sub-step
+        std::span<const PartContact> contact_of;  // one a part
+        float thickness_m;                        // of backstops; colliders have theirs
+        std::span<const Vec3> from, to;           // the fabric's targets at both ends of a step
+        Interval interval;                        // of that one, which this is about
         const ColliderMotion& colliders;
         std::span<const ContactMesh> meshes;
         TriangleContact* contacts = nullptr;
         float contact_friction = 0.0f;  // of these
+
+        std::span<const SweptCapsule> colliders_of(uint32_t part, std::span<const SweptCapsule> all) const {
+            return all.subspan(contact_of[part].first_collider,
+                               contact_of[part].end_collider - contact_of[part].first_collider);
+        }
     };
     /// The box about all particles.
     void bounds(Vec3& low, Vec3& high) const;
@@ -77,7 +87,7 @@ private:
         std::vector<HingeGains> hinges;
     };
     struct Part {
-        NearColliders near;
+        NearColliders may_meet;
         std::vector<RunBalls> backstops, limits;
         std::vector<RunPlanes> planes;
         Particles fixed, fixed_ways;  // copies of the fixed vertices at the begin of the step, and to its end

@@ -28,18 +28,18 @@ void expect_near(const Vec3& a, const Vec3& b, float tolerance, size_t i) {
 struct End {
     std::vector<uint32_t> anchors;
     std::vector<float> tethers;
-    NearColliders near;
+    NearColliders met;
     SubstepEnd job{};
 
     End(Particles& places, Particles& starts, Particles& velocities, size_t moving)
         : anchors(moving, uint32_t(places.size() - 1)), tethers(moving, 1e9f) {
-        reserve(near, moving, 0);
-        cull({places.data(), moving}, {velocities.data(), moving}, 1.0f, {}, near);
+        reserve(met, moving, 0);
+        cull({places.data(), moving}, {velocities.data(), moving}, 1.0f, {}, met);
         job.moving = {places.data(), starts.data(), velocities.data(), uint32_t(moving)};
         job.anchors = places.data();
         job.anchor_index = anchors;
         job.tether_m = tethers;
-        job.near = &near;
+        job.may_meet = &met;
         job.from = 0.0f;
         job.to = 1.0f;
         job.h = 1.0f / 480.0f;
@@ -254,7 +254,7 @@ TEST(ClothKernels, BackstopsAreBallsThatMove) {
 struct ContactScene {
     std::vector<SweptCapsule> colliders;
     Particles places, starts, velocities;
-    NearColliders near;
+    NearColliders met;
     ContactSettings settings{0.3f, 0.25f, 0.002f};
 
     explicit ContactScene(uint32_t seed, float travel_m) {
@@ -278,8 +278,8 @@ struct ContactScene {
             places.push_back(Particle{start + random_point(random, travel_m)});
             velocities.push_back(Particle{});
         }
-        reserve(near, places.size(), colliders.size());
-        cull(starts, velocities, 1.0f / 60.0f, colliders, near);
+        reserve(met, places.size(), colliders.size());
+        cull(starts, velocities, 1.0f / 60.0f, colliders, met);
     }
 };
 
@@ -289,7 +289,7 @@ TEST(ClothKernels, CullingLeavesOutNothingThatCanTouch) {
         for (size_t i = 0; i < scene.starts.size(); ++i)
             for (size_t c = 0; c < scene.colliders.size(); ++c)
                 if (may_touch(scene.colliders[c], scene.starts[i].x, 0.0f)) {
-                    EXPECT_TRUE(scene.near.bits[i / kLanes * scene.near.words() + c / 64] >> (c % 64) & 1)
+                    EXPECT_TRUE(scene.met.bits[i / kLanes * scene.met.words() + c / 64] >> (c % 64) & 1)
                         << i << " " << c;
                 }
     });
@@ -307,7 +307,7 @@ TEST(ClothKernels, ContactsAreThoseOfOneParticleAtATime) {
             const size_t moving = scene.places.size();
             scene.places.emplace_back();
             End end(scene.places, scene.starts, scene.velocities, moving);
-            end.job.near = &scene.near;
+            end.job.may_meet = &scene.met;
             end.job.colliders = scene.colliders;
             end.job.contact = scene.settings;
             end_substep(end.job);

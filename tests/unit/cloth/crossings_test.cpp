@@ -199,23 +199,6 @@ TEST(TriangleContact, InOtherLengthsItMeetsTheSameMeshes) {
     for (const Vec3& p : second.positions()) EXPECT_LT(p.y, 0.019f) << "it fell on the ground";
 }
 
-/// A fold of the ground goes through cloth that lies on it.
-TEST(TriangleContact, WhatCrossesOtherClothIsMovedApart) {
-    const auto jobs = Jobs::own(0);
-    const BumpyGround fold(2.0f);  // 16 mm over the sheet
-    Sheet sheet(9, 9, 0.025f);
-    sheet.pin_top();
-    const std::vector<Vec3> start = over_ground(sheet, 0.004f);
-    Cloth cloth(fabric(sheet.cook(cotton())), {}, start);
-    ASSERT_GT(fold.crossed(cloth, sheet), 0u);
-    const uint32_t mesh = cloth.add_mesh(fold.positions.size(), fold.indices, {}, MeshOf::cloth);
-    for (int frame = 0; frame < 60; ++frame) {
-        cloth.move_mesh(mesh, fold.positions);
-        cloth.step(kFrame_s, start, {}, *jobs);
-    }
-    EXPECT_EQ(fold.crossed(cloth, sheet), 0u);
-}
-
 TEST(TriangleContact, ItGoesToOtherPlacesButNotThroughItself) {
     const auto jobs = Jobs::own(0);
     const TwoSheets sheets(8, 0.02f, {0.004f, 0.005f, 0.005f});

@@ -235,7 +235,7 @@ TEST(MeshContact, WhatDoesNotFitIsRefusedAndWhatIsNotFiniteIsLeftOut) {
     for (const Vec3& p : cloth.positions()) EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));
 }
 
-TEST(MeshContact, WhatIsTooTightForTheClothBelowLetsItThroughAndIsReleased) {
+TEST(MeshContact, SkinIsNeverLetThroughATautStrip) {
     // A strip pinned at both ends, and a ball of 5 cm radius that comes up through it. A strip that stays in
     // front of the ball is at least as long as a taut line from pin to pin around it: two tangents and an
     // arc.
@@ -244,36 +244,26 @@ TEST(MeshContact, WhatIsTooTightForTheClothBelowLetsItThroughAndIsReleased) {
                 wrapped = kPi - std::atan2(kHalf_m, kRise_m) - std::acos(kRadius_m / away);
     const float taut_m = 2.0f * (std::sqrt(away * away - kRadius_m * kRadius_m) + kRadius_m * wrapped);
     const auto jobs = Jobs::own(0);
-    struct Strained {
-        float length_m, most;
-    };
-    const auto strained_over = [&](MeshOf what) {
-        Sheet sheet(9, 9, 0.015f);
-        sheet.pin_top();
-        for (uint32_t c = 0; c < 9; ++c) sheet.simulated[sheet.at(8, c)] = 0;
-        Cloth cloth(fabric(sheet.cook(cotton())), {}, sheet.positions);
-        const Vec3 middle = sheet.positions[sheet.at(4, 4)];
-        BallMesh ball(middle, kRadius_m);
-        const uint32_t mesh = cloth.add_mesh(ball.positions.size(), ball.indices, {}, what);
-        Strained out{0.0f, 0.0f};
-        for (int frame = 0; frame < 240; ++frame) {
-            const float z = std::min(0.0f, -0.1f + 0.001f * float(frame)) + kRise_m;
-            cloth.move_mesh(mesh, BallMesh(middle + Vec3(0, 0, z), kRadius_m).positions);
-            cloth.step(kFrame_s, sheet.positions, {}, *jobs);
-            if (frame < 120) continue;  // the ball stands still since a third of a second
-            float length_m = 0.0f;
-            for (uint32_t r = 0; r + 1 < 9; ++r)
-                length_m +=
-                    glm::distance(cloth.positions()[sheet.at(r, 4)], cloth.positions()[sheet.at(r + 1, 4)]);
-            out.length_m = std::max(out.length_m, length_m);
-            out.most = std::max(out.most, *std::max_element(cloth.strain().begin(), cloth.strain().end()));
-        }
-        return out;
-    };
-    EXPECT_GT(strained_over(MeshOf::solid).length_m, taut_m) << "skin is never let through";
-    const Strained released = strained_over(MeshOf::cloth);
-    EXPECT_LT(released.length_m, 1.1f * 2.0f * kHalf_m) << "as long as it is cut, to a tenth";
-    EXPECT_LT(released.most, 0.15f);
+    Sheet sheet(9, 9, 0.015f);
+    sheet.pin_top();
+    for (uint32_t c = 0; c < 9; ++c) sheet.simulated[sheet.at(8, c)] = 0;
+    Cloth cloth(fabric(sheet.cook(cotton())), {}, sheet.positions);
+    const Vec3 middle = sheet.positions[sheet.at(4, 4)];
+    BallMesh ball(middle, kRadius_m);
+    const uint32_t mesh = cloth.add_mesh(ball.positions.size(), ball.indices);
+    float most_m = 0.0f;
+    for (int frame = 0; frame < 240; ++frame) {
+        const float z = std::min(0.0f, -0.1f + 0.001f * float(frame)) + kRise_m;
+        cloth.move_mesh(mesh, BallMesh(middle + Vec3(0, 0, z), kRadius_m).positions);
+        cloth.step(kFrame_s, sheet.positions, {}, *jobs);
+        if (frame < 120) continue;  // the ball stands still since a third of a second
+        float length_m = 0.0f;
+        for (uint32_t r = 0; r + 1 < 9; ++r)
+            length_m +=
+                glm::distance(cloth.positions()[sheet.at(r, 4)], cloth.positions()[sheet.at(r + 1, 4)]);
+        most_m = std::max(most_m, length_m);
+    }
+    EXPECT_GT(most_m, taut_m);
 }
 
 TEST(MeshContact, ClothThatIsDrawnIntoAHollowStaysOutOfBothSides) {
@@ -437,27 +427,6 @@ TEST(MeshContact, WhatHangsBelowAHemIsNotDrawnUpToIt) {
             EXPECT_NEAR(cloth.positions()[curtain.at(r, c)].y, curtain.positions[curtain.at(r, c)].y, 0.006f)
                 << r;
     }
-}
-
-TEST(MeshContact, WhereAHemComesThroughTheyAreMovedApart) {
-    const auto jobs = Jobs::own(0);
-    Sheet curtain(21, 21, 0.02f);
-    curtain.pin_top();
-    // Worn below, half as long, and its hem turned up through what is to hang outside of it.
-    Sheet inner(11, 21, 0.02f);
-    for (Vec3& p : inner.positions) p += Vec3(0.0f, -0.008f, -0.006f);
-    for (uint32_t c = 0; c < 21; ++c) inner.positions[inner.at(10, c)].z += 0.012f;
-    const auto crossed = [&](const std::vector<Vec3>& places) {
-        return crossed_triangles({places, curtain.indices}, {inner.positions, inner.indices}).size();
-    };
-    ASSERT_GT(crossed(curtain.positions), 0u);
-    Cloth cloth(fabric(curtain.cook(cotton())), {}, curtain.positions);
-    const uint32_t mesh = cloth.add_mesh(inner.positions.size(), inner.indices, {}, MeshOf::cloth);
-    for (int frame = 0; frame < 120; ++frame) {
-        cloth.move_mesh(mesh, inner.positions);
-        cloth.step(kFrame_s, curtain.positions, {}, *jobs);
-    }
-    EXPECT_EQ(crossed(cloth.positions()), 0u);
 }
 
 /// Three sheets, one above the other, fall on a ball.

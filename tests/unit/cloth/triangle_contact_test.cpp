@@ -319,7 +319,7 @@ TEST(Proximity, TrianglesMeetWhatTheirMasksSay) {
     const auto close_with = [&](uint8_t category, uint8_t mask) {
         const std::vector<uint8_t> categories(sheets.of_one, category), masks(sheets.of_one, mask);
         Proximity proximity(all.first(sheets.of_one), indices, 0.0f);
-        proximity.add_mesh(sheets.of_one, indices, 0.004f, MeshOf::cloth, {categories, masks});
+        proximity.add_mesh(sheets.of_one, indices, 0.004f, MeshOf::prop, {categories, masks});
         proximity.show_mesh(0, all.subspan(sheets.of_one));
         proximity.find(places, places, *jobs);
         size_t count = 0;
@@ -337,7 +337,7 @@ TEST(Proximity, AMeshIsMetWhileItIsShown) {
     const std::vector<uint32_t> indices(sheets.indices.begin(),
                                         sheets.indices.begin() + std::ptrdiff_t(sheets.indices.size() / 2));
     Proximity proximity(all.first(sheets.of_one), indices, 0.0f);
-    proximity.add_mesh(sheets.of_one, indices, 0.004f, MeshOf::cloth);
+    proximity.add_mesh(sheets.of_one, indices, 0.004f, MeshOf::prop);
     const std::vector<Particle> places = particles_of(all);
     const auto count = [&] {
         size_t close = 0;
@@ -455,7 +455,7 @@ TEST(FlatDistances, AreTheShortestWaysAlongEdges) {
 /// A guard and what it needs, over one step of two sheets.
 struct GuardedStep {
     explicit GuardedStep(const TwoSheets& sheets)
-        : data(sheets.fabric()), guard(data), proximity(sheets.positions, sheets.indices, 0.005f) {}
+        : data(sheets.fabric()), guard(Fabric(data)), proximity(sheets.positions, sheets.indices, 0.005f) {}
     bool keep(const TwoSheets& before, TwoSheets& now) {
         std::vector<Particle> end = particles_of(now.positions);
         const bool is_free = guard.keep(particles_of(before.positions), end, proximity, *jobs);
@@ -477,7 +477,7 @@ TEST(CrossingGuard, LayersThatBeginCrossedAreParted) {
     GuardedStep step(sheets);
     std::vector<Particle> places = particles_of(sheets.positions);
     const std::vector<Vec3> before = sheets.positions;
-    step.guard.part(places, step.proximity, *step.jobs);
+    step.guard.part(places, false, step.proximity, *step.jobs);
     sheets.positions = places_of(places);
     EXPECT_EQ(sheets.crossed().size(), 0u);
     for (size_t v = 0; v < before.size(); ++v) EXPECT_LT(glm::length(sheets.positions[v] - before[v]), 0.03f);
@@ -551,7 +551,7 @@ TEST(CrossingGuard, FixedVerticesStayAndWhatMeetsThemGivesWay) {
         now.positions[v].y += 0.02f;  // a fixed sheet lifts the other one
     GuardedStep step(sheets);
     for (uint32_t v = 0; v < now.of_one; ++v) step.data.inverse_mass[v] = 0.0f;
-    step.guard = CrossingGuard(step.data);
+    step.guard = CrossingGuard(Fabric(step.data));
     const std::vector<Vec3> wanted = now.positions;
     EXPECT_TRUE(step.keep(sheets, now));
     EXPECT_TRUE(now.crossed().empty());

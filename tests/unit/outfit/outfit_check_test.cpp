@@ -66,14 +66,9 @@ TEST_F(OutfitCheckTest, AnOutfitWithoutCrossingsIsEmptyOfThem) {
     WornGarment inner(dress, she.wearer, options, *jobs), outer(dress, she.wearer, options, *jobs);
     const WornGarment* const outfit[] = {&inner, &outer};
     const size_t before = count(outfit, With::garment);
-    outer.wear_over(inner);
-    outer.see_layer(0, inner.positions());
-    outer.put_on();
-    for (int i = 0; i < 60; ++i) {
-        step(inner);
-        outer.see_layer(0, inner.positions());
-        step(outer);
-    }
+    together(inner, outer).wear_over(outer, inner);
+    together(inner, outer).put_on();
+    for (int i = 0; i < 60; ++i) step(together(inner, outer));
     EXPECT_GT(before, 1000u) << "twice in the same place";
     EXPECT_TRUE(find_crossings(outfit, *jobs).empty());
 }

@@ -60,7 +60,7 @@ protected:
         if (from_.empty()) from_ = to_;
         cloth_->move_mesh(mesh_, to_);
         cloth_->step(kFrame_s, sheet_.positions, {}, *jobs_, [this](float share, float dt) {
-            if (arms_.look(*cloth_, {from_, to_, share}, dt, *jobs_))
+            if (arms_.look({*cloth_, 0}, {from_, to_, share}, dt, *jobs_))
                 cloth_->set_mesh_mask(mesh_, arms_.mask());
         });
         most_ = std::max(most_, cloth_->stats().strain_max);

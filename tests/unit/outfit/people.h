@@ -10,6 +10,7 @@
 #include "outfit/wearable_garment.h"
 #include "outfit/wearer.h"
 #include "outfit/worn_garment.h"
+#include "outfit/worn_together.h"
 
 namespace vfit::test {
 
@@ -50,10 +51,24 @@ inline WearableGarment wearable(const std::string& name) {
     return WearableGarment(std::move(garment), material, body_model());
 }
 
-inline void step(WornGarment& worn, float dt = 1.0f / 60.0f) {
-    worn.begin_step(dt);
-    worn.step();
-    worn.end_step();
+inline void step(WornTogether together, float dt = 1.0f / 60.0f) {
+    together.begin_step(dt);
+    together.step();
+    together.end_step();
+}
+
+/// A garment that is worn alone.
+inline WornTogether alone(WornGarment& worn) {
+    WornGarment* const garments[] = {&worn};
+    return WornTogether(garments);
+}
+inline void step(WornGarment& worn, float dt = 1.0f / 60.0f) { step(alone(worn), dt); }
+
+/// All garments of one outfit.
+template <typename... Garments>
+WornTogether together(Garments&... worn) {
+    WornGarment* const garments[] = {&worn...};
+    return WornTogether(garments);
 }
 
 }  // namespace vfit::test

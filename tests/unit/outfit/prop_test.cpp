@@ -179,9 +179,9 @@ struct FallingSheet {
     }
     void step(PropsMet& props) {
         posed.see({}, body);
-        props.move({{Mat4(1.0f), Mat4(1.0f), 0.0f}, posed, 0.012f}, kFrame_s, *cloth, *jobs);
+        props.move({{Mat4(1.0f), Mat4(1.0f), 0.0f}, posed, 0.012f}, kFrame_s, {*cloth, 0}, *jobs);
         cloth->step(kFrame_s, places, body, *jobs,
-                    [&](float share, float dt) { props.let_pass(*cloth, share, dt); });
+                    [&](float share, float dt) { props.let_pass({*cloth, 0}, share, dt); });
         props.keep_step();
     }
     size_t crossings(const PropsMet& props) const {
@@ -200,8 +200,8 @@ TEST(PropsMet, ASheetThatFallsOnABoxDoesNotMeetItWithVerticesAlone) {
     Prop box(box_mesh(Vec3(0.1f)));
     box.move(Vec3(0.003f, 0.1f, 0.007f), glm::angleAxis(0.6f, Vec3(0.0f, 1.0f, 0.0f)));
     PropsMet props;
-    EXPECT_TRUE(props.add(box, *fall.cloth));
-    EXPECT_FALSE(props.add(box, *fall.cloth));
+    EXPECT_TRUE(props.add(box, {*fall.cloth, 0}));
+    EXPECT_FALSE(props.add(box, {*fall.cloth, 0}));
     size_t most = 0;
     for (int i = 0; i < 120; ++i) fall.step(props), most = std::max(most, fall.crossings(props));
     EXPECT_EQ(most, 0u);
@@ -215,7 +215,7 @@ TEST(PropsMet, AThinRodThatIsSwungIntoASheetTakesItAlong) {
     const Quat lying = glm::angleAxis(1.5707963f, Vec3(0.0f, 0.0f, 1.0f));
     PropsMet props;
     rod.move(Vec3(0.0f, 0.1f, 0.001f), lying);
-    props.add(rod, *fall.cloth);
+    props.add(rod, {*fall.cloth, 0});
     size_t most = 0;
     for (int i = 0; i < 60; ++i) {
         const float t = float(i) * kFrame_s;
@@ -231,12 +231,12 @@ TEST(PropsMet, WhatComesInsideOfTheClothPushesItOut) {
     FallingSheet fall(0.3f);
     Prop floor(box_mesh({1.0f, 0.05f, 1.0f})), ball(sphere_mesh(0.1f));
     PropsMet props;
-    props.add(floor, *fall.cloth);
+    props.add(floor, {*fall.cloth, 0});
     floor.move(Vec3(0.0f, -0.05f, 0.0f), Quat(1, 0, 0, 0));
     for (int i = 0; i < 60; ++i) fall.step(props);
     EXPECT_NEAR(fall.middle().y, 0.004f, 0.004f) << "it lies on the floor";
     ball.move(Vec3(0.0f, -0.01f, 0.0f), Quat(1, 0, 0, 0));
-    props.add(ball, *fall.cloth);
+    props.add(ball, {*fall.cloth, 0});
     for (int i = 0; i < 60; ++i) fall.step(props);
     EXPECT_EQ(fall.crossings(props), 0u);
     EXPECT_NEAR(fall.middle().y, 0.094f, 0.01f);
@@ -254,7 +254,7 @@ TEST(PropsMet, APropThatLeapsFromOneSideToTheOtherSweepsNothing) {
         Prop ball(sphere_mesh(0.1f));
         PropsMet props, none;
         ball.move(Vec3(-aside_m, 0.6f, 0.0f), Quat(1, 0, 0, 0));
-        props.add(ball, *fall.cloth);
+        props.add(ball, {*fall.cloth, 0});
         for (int i = 0; i < 24; ++i) {
             if (i == 8) ball.move(Vec3(aside_m, 0.6f, 0.0f), Quat(1, 0, 0, 0));
             fall.step(props), alone.step(none);
@@ -270,7 +270,7 @@ TEST(PropsMet, BetweenTheBodyAndAPropThatGoesIntoItIsRoomForCloth) {
     fall.body = {trunk};
     Prop ball(sphere_mesh(0.1f));
     PropsMet props;
-    props.add(ball, *fall.cloth);
+    props.add(ball, {*fall.cloth, 0});
     size_t most = 0;
     float strain = 0.0f;
     for (int i = 0; i < 150; ++i) {
@@ -291,7 +291,7 @@ TEST(PropsMet, ADeformedPropTakesTheClothAlong) {
     Mesh shape = box_mesh({0.5f, 0.1f, 0.5f});
     Prop box(shape);
     PropsMet props;
-    props.add(box, *fall.cloth);
+    props.add(box, {*fall.cloth, 0});
     for (int i = 0; i < 60; ++i) fall.step(props);
     EXPECT_NEAR(fall.middle().y, 0.104f, 0.005f);
     for (int i = 0; i < 30; ++i) {
@@ -309,7 +309,7 @@ TEST(PropsMet, ClothThatLiesOnAPropFallsOnceThatIsRemoved) {
     Prop box(box_mesh({0.5f, 0.05f, 0.5f}));
     box.move(Vec3(0.0f, 0.05f, 0.0f), Quat(1, 0, 0, 0));
     PropsMet props;
-    props.add(box, *fall.cloth);
+    props.add(box, {*fall.cloth, 0});
     for (int i = 0; i < 120; ++i) fall.step(props);
     // Above the middle of its triangles too, it keeps its thickness.
     std::vector<float> heights;
@@ -320,7 +320,7 @@ TEST(PropsMet, ClothThatLiesOnAPropFallsOnceThatIsRemoved) {
     EXPECT_GT(heights.front(), 0.1030f);
     EXPECT_NEAR(heights[heights.size() / 2], 0.104f, 0.001f);
     const float before = fall.middle().y;
-    props.remove(box, *fall.cloth);
+    props.remove(box, {*fall.cloth, 0});
     for (int i = 0; i < 20; ++i) fall.step(props);
     EXPECT_LT(fall.middle().y, before - 0.3f);
 }
@@ -330,14 +330,14 @@ TEST(PropsMet, AMeshIsUsedAgainForAnotherProp) {
     PropsMet props;
     Prop first(sphere_mesh(0.05f)), last(box_mesh(Vec3(0.1f)));
     for (int i = 0; i < 20; ++i) {
-        ASSERT_TRUE(props.add(first, *fall.cloth));
+        ASSERT_TRUE(props.add(first, {*fall.cloth, 0}));
         fall.step(props);
-        ASSERT_TRUE(props.remove(first, *fall.cloth));
-        ASSERT_FALSE(props.remove(first, *fall.cloth));
+        ASSERT_TRUE(props.remove(first, {*fall.cloth, 0}));
+        ASSERT_FALSE(props.remove(first, {*fall.cloth, 0}));
     }
     EXPECT_EQ(fall.cloth->add_mesh(3, std::vector<uint32_t>{0, 1, 2}), 1u) << "one mesh served them all";
     fall.cloth->reset(fall.places);
-    props.add(last, *fall.cloth);
+    props.add(last, {*fall.cloth, 0});
     last.move(Vec3(0.0f, 0.1f, 0.0f), Quat(1, 0, 0, 0));
     for (int i = 0; i < 60; ++i) fall.step(props);
     EXPECT_NEAR(fall.middle().y, 0.204f, 0.01f);

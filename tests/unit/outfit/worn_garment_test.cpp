@@ -95,7 +95,7 @@ TEST_F(WornGarmentTest, WhatIsPutOnDoesNotCrossItself) {
         for (const char* name : {"martial_pants", "pants_men", "flight_suit"}) {
             const WearableGarment garment = wearable(name);
             WornGarment worn(garment, person.wearer, options, *jobs);
-            worn.put_on();
+            alone(worn).put_on();
             EXPECT_EQ(crossed_triangles(worn.positions(), worn.dress().indices()).size(), 0u)
                 << name << " " << weight;
         }
@@ -188,7 +188,7 @@ TEST_F(WornGarmentTest, ARefusedSizeRollsBackCompletely) {
               std::string::npos);
     EXPECT_NE(error_of([&] { refuses.in_size("huge"); }).find("no size \"huge\""), std::string::npos);
     WornGarment::Resized too_small = refuses.in_size("M");
-    const std::string why = error_of([&] { refuses.change_to(std::move(too_small)); });
+    const std::string why = error_of([&] { alone(refuses).change_to(refuses, std::move(too_small)); });
     EXPECT_NE(why.find("garment vest is too small in size M"), std::string::npos) << why;
     expect_equal("after the refusal");
     step_both(kJumpWay + kStepWay);
@@ -211,7 +211,7 @@ TEST_F(WornGarmentTest, ASizeThatFitsIsWornFromHowTheOldOneHung) {
         return 0.0f;
     };
     const float small_m = waist_m(worn);
-    worn.change_to(worn.in_size("XL"));
+    alone(worn).change_to(worn, worn.in_size("XL"));
     for (int i = 0; i < 60; ++i) step(worn), step(large);
     EXPECT_GT(waist_m(worn), small_m + 0.2f);
     EXPECT_NEAR(waist_m(worn), waist_m(large), 0.02f);
@@ -228,7 +228,7 @@ TEST_F(WornGarmentTest, OneThatIsTooSmallIsNotWornUnlessAnyFitIs) {
             << label;
         options.any_fit = true;
         WornGarment worn(vest, tall.wearer, options, *jobs);
-        EXPECT_EQ(error_of([&] { worn.change_to(worn.in_size(label)); }), "");
+        EXPECT_EQ(error_of([&] { alone(worn).change_to(worn, worn.in_size(label)); }), "");
     }
 }
 

@@ -681,7 +681,10 @@ class Cloth(_Closable):
         """How it sits, by girths of the trunk: let it come to rest first."""
     def fit_map(self) -> NDArray[np.float32]:
         """One value a vertex: above 0 tight, below 0 loose."""
-    def wear_over(self, inner: Cloth) -> None: ...
+    def wear_over(self, inner: Cloth) -> None:
+        """From now on the two push each other and do not cross. The first one that is stepped in a frame
+        steps both; the step of the other then finds its own done. Keep inner: closed, it is worn no
+        longer."""
     def hide_skin(
         self, margin_m: float = 0.0, hidden: Optional[NDArray[np.bool_]] = None
     ) -> NDArray[np.bool_]:

@@ -100,7 +100,8 @@ namespace Vfit
         }
 
         /// <summary>
-        /// Puts this on over inner, and stays outside of it from now on: step that one first, each frame.
+        /// Puts this on over inner: from now on the two push each other and do not cross. The first one that
+        /// is stepped in a frame steps both; the step of the other then finds its own done.
         /// </summary>
         public void WearOver(Cloth inner)
         {

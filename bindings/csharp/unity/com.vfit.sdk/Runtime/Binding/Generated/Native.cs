@@ -649,14 +649,21 @@ namespace Vfit
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_set_quality(ClothId cloth, uint substeps, float budgetMs);
 
-        /// <summary>From now on cloth is worn over inner, a cloth of the same avatar, and does not cross it:
-        /// step inner first, each frame. Within this call cloth goes outside of where the last step of inner
-        /// left that, in the pose that the avatar has now; acquire then gives that state. Takes as long as 6
-        /// to 12 steps. Where cloth is too tight for what is below, it lets that through rather than tear. An
-        /// inner one that gets destroyed stays where it was. VFIT_ERROR_NOT_WEARABLE where inner reaches far
-        /// beyond cloth (a wide skirt below trousers): cloth is then carried into the pose, and not worn over
-        /// inner. VFIT_ERROR_ARGUMENT where cloth is worn below inner already, VFIT_ERROR_STATE while a step
-        /// of inner or of another layer below runs. [excl]</summary>
+        /// <summary>From now on cloth is worn over inner, a cloth of the same avatar: the two push each other
+        /// by their mass and do not cross. Within this call cloth goes outside of where the last step of
+        /// inner left that, in the pose that the avatar has now; acquire then gives that state, of both.
+        /// Takes as long as 6 to 12 steps. Cloths that are worn over each other, through others too, are
+        /// simulated as one: the first of them to be stepped in a frame steps all of them, and the steps of
+        /// the others, in any order, then find theirs done. So does vfit_cloth_reset, in one pose. Wind's
+        /// velocity, quality and budget are of all of them, step_ms and substeps too. Of what their descs
+        /// say, all have the largest thickness_m, which is kept between them as well, most substeps and least
+        /// inertia; none sleeps where one is AWAKE, and a jump for one is a jump for all; size, the other
+        /// flags, friction, self_thickness_m and cover_m stay each one's own; the rest is the outermost's. A
+        /// call that is [excl] on one is so on all of them. One that gets destroyed is worn no longer. At
+        /// most 64. VFIT_ERROR_NOT_WEARABLE where inner reaches far beyond cloth (a wide skirt below
+        /// trousers): both are then carried into the pose, and cloth is not worn over inner.
+        /// VFIT_ERROR_ARGUMENT where cloth is worn below inner already, VFIT_ERROR_STATE while a step of
+        /// either runs. [excl] on both</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_cloth_wear_over(ClothId cloth, ClothId inner);
 
