@@ -121,7 +121,10 @@ void WornGarment::keep_below(std::span<WornGarment* const> worn) {
     const size_t gone = std::erase_if(below_, [&](const WornGarment* below) {
         return std::find(worn.begin(), worn.end(), below) == worn.end() || !shares_cloth_with(*below);
     });
-    if (gone > 0 && below_.empty()) std::fill(held_off_m_.begin(), held_off_m_.end(), 0.0f);
+    if (gone == 0) return;
+    if (below_.empty()) std::fill(held_off_m_.begin(), held_off_m_.end(), 0.0f);
+    dress_.lie_on_skin();
+    for (const WornGarment* below : below_) dress_.lift_over(below->dress_, settings_.thickness_m);
 }
 
 /// By as far as garments below move it off the body.

@@ -190,6 +190,11 @@ void Dress::lift_over(const Dress& below, float thickness_m) {
     skin();
 }
 
+void Dress::lie_on_skin() {
+    std::copy(rest_.begin(), rest_.end(), carried_.rest.begin());
+    skin();
+}
+
 std::vector<Vec2> Dress::cut(const Garment& garment, float size_ratio, const GarmentSize* size) const {
     if (garment.has_own_lengths()) return cut_of(garment, rest_, size);
     // As cook_fabric has it of a shape in space.

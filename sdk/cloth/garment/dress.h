@@ -57,6 +57,8 @@ public:
     /// What holds it goes with the skin, as that of a garment worn below does: from now on so far off that
     /// one, where the two lie on each other.
     void lift_over(const Dress& below, float thickness_m);
+    /// What was lifted lies on the skin again.
+    void lie_on_skin();
     /// The garment's vertices by the bones that carry them.
     const Carry& carry() const { return *carry_; }
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cloth/crossings.h"
-#include "measure/mesh_query.h"
+#include "outfit/outfit_check.h"
 #include "people.h"
 #include "unit/cloth/cloth_support.h"
 
@@ -20,6 +20,13 @@ protected:
     WearOptions on_skin() const {
         WearOptions options;
         options.on_skin = true;
+        return options;
+    }
+    /// A size on the skin, with layers of its own.
+    WearOptions in_size(const char* label) const {
+        WearOptions options = on_skin();
+        options.size = label;
+        options.cloth.self_thickness_m = 0.004f;
         return options;
     }
 };
@@ -83,9 +90,7 @@ TEST_F(LayersTest, PutOnItComesToLieOutsideOfItsLayer) {
 /// A wide hem below a coat: both stand there for a second, from several folds of the inner one.
 TEST_F(LayersTest, ACoatOverAWideDressNeverCrossesIt) {
     const WearableGarment wide = wearable("sundress_pattern"), coat = wearable("duster");
-    WearOptions options = on_skin();
-    options.size = "XL";
-    options.cloth.self_thickness_m = 0.004f;
+    const WearOptions options = in_size("XL");
     for (const int frames : {0, 15}) {
         WornGarment inner(wide, she.wearer, options, *jobs), outer(coat, she.wearer, options, *jobs);
         for (int i = 0; i < frames; ++i) step(inner);
@@ -140,6 +145,73 @@ TEST_F(LayersTest, OneThatIsMissingIsWornNoLonger) {
     step(alone(outer));
 }
 
+TEST_F(LayersTest, WhatIsLeftGoesOnAsFast) {
+    WornGarment outer(dress, she.wearer, on_skin(), *jobs);
+    {
+        WornGarment inner(dress, she.wearer, on_skin(), *jobs);
+        together(inner, outer).wear_over(outer, inner);
+        for (int i = 1; i <= 20; ++i) {
+            she.stand_at({0.01f * float(i), 0.0f, 0.0f});
+            step(together(inner, outer));
+        }
+    }
+    const std::vector<Vec3> all = outer.piece().whole().velocities();
+    const std::vector<Vec3> before(all.end() - std::ptrdiff_t(outer.positions().size()), all.end());
+    const WornTogether left = alone(outer);
+    EXPECT_EQ(outer.piece().whole().velocities(), before);
+    float sum = 0.0f;
+    for (const Vec3& velocity : before) sum += velocity.x;
+    EXPECT_GT(sum / float(before.size()), 0.2f) << "of a body at 0.6 m/s, damped while it settles";
+}
+
+TEST_F(LayersTest, OneWhereAnotherWasDestroyedIsNotTakenForIt) {
+    WornGarment outer(dress, she.wearer, on_skin(), *jobs);
+    std::optional<WornGarment> inner;
+    for (int i = 0; i < 2; ++i) {
+        inner.emplace(dress, she.wearer, on_skin(), *jobs);  // in the same place each time
+        EXPECT_TRUE(together(*inner, outer).wear_over(outer, *inner)) << i;
+        EXPECT_TRUE(outer.shares_cloth_with(*inner)) << i;
+        EXPECT_EQ(crossings_of(*inner, outer), 0u) << i;
+    }
+}
+
+TEST_F(LayersTest, WithoutAShirtAVestIsWornAsIfThereHadBeenNone) {
+    Person he{VFIT_SEX_MALE};
+    const WearableGarment shirts = wearable("shirt_men"), vests = wearable("vest");
+    WornGarment vest(vests, he.wearer, on_skin(), *jobs), twin(vests, he.wearer, on_skin(), *jobs);
+    {
+        WornGarment shirt(shirts, he.wearer, on_skin(), *jobs);
+        together(shirt, vest).wear_over(vest, shirt);
+        step(together(shirt, vest));
+    }
+    for (WornGarment* worn : {&vest, &twin}) {
+        alone(*worn).put_on();
+        for (int i = 0; i < 10; ++i) step(*worn);
+    }
+    float most_m = 0.0f;
+    for (size_t v = 0; v < vest.positions().size(); ++v)
+        most_m = std::max(most_m, glm::distance(vest.positions()[v], twin.positions()[v]));
+    EXPECT_LT(most_m, 0.001f);
+}
+
+TEST_F(LayersTest, WhatMetAPropMeetsItWithAnotherGarmentOverIt) {
+    WornGarment inner(dress, she.wearer, on_skin(), *jobs), outer(dress, she.wearer, on_skin(), *jobs);
+    Prop ball(sphere_mesh(0.1f));
+    ball.move({0.0f, 1.0f, 0.6f}, Quat(1, 0, 0, 0));
+    inner.meet(ball);
+    step(inner);
+    together(inner, outer).wear_over(outer, inner);
+    outer.meet(ball);
+    const WornGarment* const outfit[] = {&inner, &outer};
+    for (int frame = 0; frame < 40; ++frame) {
+        ball.move({0.0f, 0.75f, 0.6f - 0.008f * float(frame)}, Quat(1, 0, 0, 0));
+        step(together(inner, outer));
+    }
+    for (const SurfaceCrossing& crossing : find_crossings(outfit, *jobs))
+        EXPECT_NE(crossing.with, SurfaceCrossing::With::prop) << crossing.garment;
+    EXPECT_FALSE(inner.props().positions(0).empty()) << "it is there";
+}
+
 TEST_F(LayersTest, GarmentsThatAreNotWornOverEachOtherPassThroughEachOther) {
     WornGarment inner(dress, she.wearer, on_skin(), *jobs), one(dress, she.wearer, on_skin(), *jobs),
         other(dress, she.wearer, on_skin(), *jobs);
@@ -157,9 +229,7 @@ TEST_F(LayersTest, GarmentsThatAreNotWornOverEachOtherPassThroughEachOther) {
 
 TEST_F(LayersTest, AnInnerGarmentChangesItsSize) {
     const WearableGarment wide = wearable("sundress_pattern"), coat = wearable("duster");
-    WearOptions options = on_skin();
-    options.size = "M";
-    options.cloth.self_thickness_m = 0.004f;
+    const WearOptions options = in_size("M");
     WornGarment inner(wide, she.wearer, options, *jobs), outer(coat, she.wearer, options, *jobs);
     together(inner, outer).wear_over(outer, inner);
     for (int i = 0; i < 30; ++i) step(together(inner, outer));
