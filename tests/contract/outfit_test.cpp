@@ -1,7 +1,10 @@
 // Outfits: crossings of garments with themselves, the skin and each other; layers while they are stepped.
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <cstring>
 #include <limits>
+#include <thread>
 #include <vector>
 
 #include "contract/support.h"
@@ -215,6 +218,69 @@ TEST_F(OutfitTest, StepsOfClothsThatAreWornTogetherDoNotAllocate) {
     const uint64_t before = vfit::test::allocations;
     for (int i = 0; i < 4; ++i) step();
     EXPECT_EQ(vfit::test::allocations - before, 0u);
+}
+
+TEST_F(OutfitTest, StepsBesideTheHostAreProfiledAndOneOfAnOutfitIsOne) {
+    const auto calls = [&] {
+        std::array<vfit_profile, 32> items{};
+        uint32_t count = uint32_t(items.size());
+        EXPECT_EQ(vfit_profile_list(context, items.data(), sizeof(vfit_profile), &count), VFIT_OK);
+        for (uint32_t i = 0; i < count; ++i)
+            if (std::strcmp(items[i].stage, "cloth") == 0) return items[i].calls;
+        return 0u;
+    };
+    const vfit_cloth inner = make(VFIT_CLOTH_AWAKE), outer = make(VFIT_CLOTH_AWAKE);
+    ASSERT_EQ(vfit_cloth_wear_over(outer, inner), VFIT_OK) << contract::last_error();
+    const uint32_t before = calls();
+    for (const vfit_cloth cloth : {inner, outer}) ASSERT_EQ(vfit_cloth_step(cloth, kOutfitStep_s), VFIT_OK);
+    EXPECT_EQ(calls(), before + 1);
+    for (const vfit_cloth cloth : {inner, outer})
+        ASSERT_EQ(vfit_cloth_begin_step(cloth, kOutfitStep_s), VFIT_OK);
+    for (const vfit_cloth cloth : {inner, outer}) ASSERT_EQ(vfit_cloth_end_step(cloth), VFIT_OK);
+    EXPECT_EQ(calls(), before + 2);
+}
+
+TEST_F(OutfitTest, ThreadsStepAndDestroyClothsThatAreWornTogether) {
+    constexpr size_t kInner = 5;
+    const vfit_cloth outer = make(VFIT_CLOTH_AWAKE);
+    std::vector<vfit_cloth> all;
+    for (size_t i = 0; i < kInner; ++i) all.push_back(make(VFIT_CLOTH_AWAKE));
+    std::atomic<size_t> now{0};
+    ASSERT_EQ(vfit_cloth_wear_over(outer, all[0]), VFIT_OK) << contract::last_error();
+    std::atomic<bool> ends{false};
+    std::atomic<int> strange{0}, steps{0};
+    const auto succeeds = [&](vfit_result result) {
+        if (result != VFIT_OK && result != VFIT_ERROR_BUSY && result != VFIT_ERROR_STATE &&
+            result != VFIT_ERROR_HANDLE)
+            ++strange;
+        return result == VFIT_OK;
+    };
+    const auto pause = [] { std::this_thread::sleep_for(std::chrono::milliseconds(2)); };
+    const auto step = [&](bool of_inner) {
+        while (!ends) {
+            const vfit_cloth cloth = of_inner ? all[now] : outer;
+            steps += succeeds(vfit_cloth_step(cloth, kOutfitStep_s));
+            if (succeeds(vfit_cloth_begin_step(cloth, kOutfitStep_s))) {
+                pause();
+                succeeds(vfit_cloth_end_step(cloth));
+            }
+            pause();
+        }
+    };
+    std::thread first(step, false), second(step, true);
+    for (size_t next = 1; next < kInner; ++next) {
+        for (int tries = 0; tries < 500 && !succeeds(vfit_cloth_wear_over(outer, all[next])); ++tries)
+            std::this_thread::yield();
+        EXPECT_EQ(vfit_cloth_destroy(all[now.exchange(next)]), VFIT_OK);
+        pause();
+    }
+    ends = true;
+    first.join(), second.join();
+    EXPECT_EQ(strange, 0);
+    EXPECT_GT(steps, 0);
+    vfit_cloth_end_step(outer);  // if its end was refused while it was busy
+    vfit_cloth_step(outer, kOutfitStep_s);
+    EXPECT_EQ(vfit_cloth_step(outer, kOutfitStep_s), VFIT_OK) << contract::last_error();
 }
 
 TEST_F(OutfitTest, WhatIsDestroyedIsWornNoLonger) {

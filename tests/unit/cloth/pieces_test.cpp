@@ -62,18 +62,19 @@ TEST(ClothPieces, ApartEachMovesAsItDoesAlone) {
     settings[0].friction = 0.1f, settings[1].friction = 0.8f;
     // A ball that each rubs against.
     const Collider first_ball = sphere({0.16f, -0.2f, 0.06f}, 0.05f),
-                   second_ball = sphere({2.18f, -0.12f, 0.06f}, 0.05f);
+                   second_ball = sphere({2.18f, -0.12f, 0.06f}, 0.05f),
+                   across_the_first = sphere({0.1f, -0.25f, 0.02f}, 0.05f);  // which meets the second alone
     Cloth first(fabrics[0], settings[0], curtain.positions), second(fabrics[1], settings[1], far_off),
         whole = Cloth::of_pieces(std::make_shared<const Fabric>(fabrics), settings,
                                  both(curtain.positions, far_off));
-    const uint32_t ends[] = {1, 2};
+    const uint32_t ends[] = {1, 3};
     whole.set_collider_ends(ends);
     for (int frame = 0; frame < 40; ++frame) {
         const Vec3 way(0.0f, 0.0f, -0.003f * float(frame));
-        Collider balls[] = {first_ball, second_ball};
+        Collider balls[] = {first_ball, second_ball, across_the_first};
         for (Collider& ball : balls) ball.center += way;
         first.step(kFrame_s, curtain.positions, std::span(balls).first(1), *jobs);
-        second.step(kFrame_s, far_off, std::span(balls).last(1), *jobs);
+        second.step(kFrame_s, far_off, std::span(balls).last(2), *jobs);
         whole.step(kFrame_s, both(curtain.positions, far_off), balls, *jobs);
     }
     EXPECT_EQ(of_piece(whole, 0), first.positions());
