@@ -874,21 +874,11 @@ uint64_t Cloth::state_hash(size_t piece) const {
 ClothStats Cloth::stats(size_t piece) const {
     const State& s = *state_;
     const Fabric::Piece& of = s.fabric->pieces().at(piece);
-    const FabricData& data = s.fabric->data();
     s.find_strains();
     ClothStats out;
-    const auto count_of_piece = [&](const auto& constraints, const auto& first_of) {
-        return uint32_t(std::count_if(constraints.begin(), constraints.end(), [&](const auto& c) {
-            return first_of(c) >= of.vertices.begin && first_of(c) < of.vertices.end;
-        }));
-    };
-    const std::span<const float> inverse_mass = of.vertices.of(data.inverse_mass);
     out.vertex_count = of.vertices.count();
-    out.simulated_count =
-        uint32_t(std::count_if(inverse_mass.begin(), inverse_mass.end(), [](float m) { return m > 0.0f; }));
-    out.constraint_count = of.edges.count() +
-                           count_of_piece(data.bends, [](const DistanceConstraint& c) { return c.a; }) +
-                           count_of_piece(data.hinges, [](const Hinge& h) { return h.vertices[0]; });
+    out.simulated_count = of.simulated_count;
+    out.constraint_count = of.constraint_count;
     out.step_ms = s.step_ms;
     out.substeps = s.substeps;
     out.certified = s.certified;

@@ -109,6 +109,8 @@ Fabric::Fabric(FabricData data, Jobs* jobs) : data_(std::move(data)) {
                        {0, uint32_t(data_.edges.size())},
                        {0, uint32_t(data_.backstops.size())},
                        {0, uint32_t(layout_.parts.size())},
+                       simulated_count(),
+                       uint32_t(data_.edges.size() + data_.bends.size() + data_.hinges.size()),
                        data_.density_kg_m2});
 }
 
@@ -137,6 +139,8 @@ void Fabric::append(const Fabric& piece) {
                        {edge, edge + uint32_t(data.edges.size())},
                        {backstop, backstop + uint32_t(data.backstops.size())},
                        {part, part + uint32_t(piece.layout_.parts.size())},
+                       piece.pieces_[0].simulated_count,
+                       piece.pieces_[0].constraint_count,
                        data.density_kg_m2});
     const auto add = [](auto& to, const auto& from, const auto& moved) {
         for (auto item : from) moved(item), to.push_back(item);

@@ -97,6 +97,7 @@ public:
     };
     struct Piece {
         Range vertices, indices, edges, backstops, parts;
+        uint32_t simulated_count, constraint_count;  // edges, bends and hinges
         float density_kg_m2;
     };
     const std::vector<Piece>& pieces() const { return pieces_; }
@@ -109,10 +110,6 @@ public:
     /// Places that a step wants: one a vertex, then the centre of each backstop. Of several pieces all of
     /// their vertices come first.
     uint32_t target_count() const { return vertex_count() + uint32_t(data_.backstops.size()); }
-    /// Edges, bends and hinges.
-    uint32_t constraint_count() const {
-        return uint32_t(data_.edges.size() + data_.bends.size() + data_.hinges.size());
-    }
     const FabricData& data() const { return data_; }
     const std::vector<uint32_t>& kinematic_vertices() const { return kinematic_; }
 
