@@ -25,6 +25,7 @@ constexpr float kKineticShare = 0.84f;
 // How fast a vertex that is already inside a collider comes out: brisk against the fastest body (about the
 // speed of a walking foot), slow enough not to be shot away.
 constexpr float kMaxDepenetration_m_s = 3.0f;
+constexpr float kShortens_m_s = 0.12f;  // an edge that is longer than it may be
 // What has been slower than that for so long, on a body that moves less than that in a step, sleeps. A swing
 // is so slow only for an instant, where it turns round; single vertices may tremble in a contact.
 constexpr float kStillMean_m_s = 0.002f, kStillMost_m_s = 0.05f, kStill_m = 2e-5f, kFallsAsleep_s = 0.5f;
@@ -767,7 +768,7 @@ void Cloth::State::keep_layers(float dt, Jobs& jobs) {
     now = positions;
     const bool has_layers = std::all_of(of_pieces.begin(), of_pieces.end(),
                                         [](const ClothSettings& of) { return of.self_thickness_m > 0.0f; });
-    certified = triangles->keep(before, now, jobs) && has_layers;
+    certified = triangles->keep(before, now, jobs, kShortens_m_s * dt) && has_layers;
     for (const uint32_t v : triangles->moved()) {
         const uint32_t particle = fabric->layout().particle_of[v];
         const Vec3 way = triangles->is_in_zone(v) ? now[v] - before[v] : now[v] - solver.places()[particle].x,

@@ -47,8 +47,9 @@ bool cross_at(const Proximity::Pair& pair, std::span<const Particle> at) {
 
 }  // namespace
 
-CrossingGuard::CrossingGuard(const Fabric& fabric)
+CrossingGuard::CrossingGuard(const Fabric& fabric, std::span<const float> own_m)
     : cloth_vertices_(fabric.vertex_count()),
+      length_limit_(fabric, own_m),
       inverse_mass_(fabric.data().inverse_mass),
       indices_(fabric.data().indices),
       piece_of_(fabric.piece_of()),
@@ -76,7 +77,7 @@ void CrossingGuard::add_mesh(size_t vertices, MeshOf what) {
 }
 
 bool CrossingGuard::keep(std::span<const Particle> begin, std::span<Particle> end, Proximity& proximity,
-                         Jobs& jobs) {
+                         Jobs& jobs, std::optional<float> shortens_m) {
     for (const uint32_t v : zoned_) parent_[v] = kNone;
     for (const uint32_t v : moved_) is_moved_[v] = 0;
     zoned_.clear(), moved_.clear();
@@ -84,6 +85,7 @@ bool CrossingGuard::keep(std::span<const Particle> begin, std::span<Particle> en
     forget();
     zones_grow_ = crosses_mesh_ = false;
     for (Mesh& mesh : meshes_) mesh.is_crossed = false;
+    if (shortens_m) mark(length_limit_.keep(begin, end, *shortens_m));
     proximity.find(begin, end, jobs);
     bool solved = false;
     for (int round = 0; round < kRounds; ++round) {
@@ -98,6 +100,7 @@ bool CrossingGuard::keep(std::span<const Particle> begin, std::span<Particle> en
         if (hits_.empty()) round = std::max(round, kProjections);
         if (round < kProjections) {
             project(end);
+            if (shortens_m) mark(length_limit_.keep_about(moved_, begin, end, *shortens_m));
         } else if (round < kZones) {
             zones_grow_ = true;
             unite_hits();
@@ -298,6 +301,9 @@ void CrossingGuard::mark(uint32_t v) {
     is_marked_[v] = 1;
     if (!is_moved_[v]) moved_.push_back(v);
     is_moved_[v] = 1;
+}
+void CrossingGuard::mark(std::span<const uint32_t> vertices) {
+    for (const uint32_t v : vertices) mark(v);
 }
 
 /// Gauss-Seidel over the hits: each pair gets its margin back.

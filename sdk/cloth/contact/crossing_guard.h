@@ -6,11 +6,13 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "cloth/contact/contact_pair.h"
+#include "cloth/contact/length_limit.h"
 #include "cloth/contact/mesh_of.h"
 #include "cloth/contact/proximity.h"
 #include "cloth/contact/triangle_groups.h"
@@ -21,8 +23,8 @@ namespace vfit {
 
 class CrossingGuard {
 public:
-    /// Vertices without a finite mass do not give way.
-    explicit CrossingGuard(const Fabric& fabric);
+    /// Vertices without a finite mass do not give way. own_m: as of LengthLimit.
+    explicit CrossingGuard(const Fabric& fabric, std::span<const float> own_m = {});
     /// Vertices of a mesh follow, which do not give way either. Crossings
     /// with props are repaired by projections alone; those with solids are left to contact.
     void add_mesh(size_t vertices, MeshOf what);
@@ -30,7 +32,10 @@ public:
     /// Changes `end` so that no triangles cross on linear ways from `begin`, except those that crossed at
     /// `begin` already: those of cloth are moved apart a little, those of a mesh are left to contact.
     /// True: nothing crosses at the end, which is proven.
-    bool keep(std::span<const Particle> begin, std::span<Particle> end, Proximity& proximity, Jobs& jobs);
+    /// shortens_m: by so much an edge that is longer than its limit gets shorter. Without it edges have no
+    /// limit.
+    bool keep(std::span<const Particle> begin, std::span<Particle> end, Proximity& proximity, Jobs& jobs,
+              std::optional<float> shortens_m = {});
     /// The cloth was placed anew: what crossed did so elsewhere.
     void forget() { tangles_.clear(), own_tangles_ = 0; }
     /// Moves triangles of the cloth that cross apart, at rest. guarded: not through other layers meanwhile.
@@ -75,6 +80,7 @@ private:
     void keep_tangles_of(std::span<const Particle> end);
     bool is_of_cloth(const Proximity::Triangle& t) const { return t.vertex[0] < cloth_vertices_; }
     void mark(uint32_t vertex);
+    void mark(std::span<const uint32_t> vertices);
     void find_tangles(std::span<const Particle> places, Proximity& proximity, Jobs& jobs);
     void untangle(std::span<Particle> places, float step_m);
     void come_outwards(std::span<Particle> places, float step_m);
@@ -85,6 +91,7 @@ private:
     uint8_t piece_of(uint32_t triangle) const { return piece_of_[indices_[3 * triangle]]; }
 
     uint32_t cloth_vertices_;
+    LengthLimit length_limit_;
     std::vector<float> inverse_mass_;
     std::vector<uint32_t> indices_;  // of the cloth's triangles
     std::vector<uint8_t> piece_of_;  // of the cloth's vertices

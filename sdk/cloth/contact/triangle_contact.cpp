@@ -23,7 +23,7 @@ TriangleContact::TriangleContact(std::shared_ptr<const Fabric> fabric, const Lay
       proximity_(positions, fabric->data().indices, thickness.reach_m(),
                  has_pieces(*fabric) ? fabric->piece_of() : std::vector<uint8_t>()),
       contacts_(fabric, thickness, jobs),
-      guard_(*fabric),
+      guard_(*fabric, thickness_.own_m),
       begin_(cloth_vertices_),
       end_(cloth_vertices_) {
     for (size_t piece = 0; has_pieces(*fabric) && piece < thickness_.own_m.size(); ++piece)
@@ -36,7 +36,7 @@ TriangleContact::TriangleContact(const TriangleContact& other, std::shared_ptr<c
       thickness_(other.thickness_),
       proximity_(other.proximity_),
       contacts_(fabric, thickness_, jobs),
-      guard_(*fabric),
+      guard_(*fabric, thickness_.own_m),
       begin_(cloth_vertices_),
       end_(cloth_vertices_),
       meshes_(other.meshes_) {
@@ -98,9 +98,10 @@ void TriangleContact::part(std::span<Vec3> positions, Jobs& jobs) {
     copy(end_, positions);
 }
 
-bool TriangleContact::keep(std::span<const Vec3> begin, std::span<Vec3> end, Jobs& jobs) {
+bool TriangleContact::keep(std::span<const Vec3> begin, std::span<Vec3> end, Jobs& jobs,
+                           std::optional<float> shortens_m) {
     copy(begin, begin_), copy(end, end_);
-    const bool is_free = guard_.keep(begin_, end_, proximity_, jobs);
+    const bool is_free = guard_.keep(begin_, end_, proximity_, jobs, shortens_m);
     proximity_.find_close(begin_, end_, jobs);
     contacts_.fill(proximity_, begin_, end_, guard_.tangled());
     if (!guard_.moved().empty()) copy(end_, end);

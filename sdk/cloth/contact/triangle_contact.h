@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -63,7 +64,9 @@ public:
 
     /// After a step: changes its `end` so that nothing crosses which did not at its begin, and finds the
     /// contacts of the next step. True: the cloth crosses neither itself nor a mesh, which is proven.
-    bool keep(std::span<const Vec3> begin, std::span<Vec3> end, Jobs& jobs);
+    /// shortens_m: as of CrossingGuard.
+    bool keep(std::span<const Vec3> begin, std::span<Vec3> end, Jobs& jobs,
+              std::optional<float> shortens_m = {});
     /// Before and after the last keep(), the cloth crossed that mesh, which is guarded.
     bool crosses_mesh(uint32_t mesh) const { return guard_.crosses_mesh(mesh); }
     /// Vertices that keep() moved; is_in_zone: as one with others, whose velocity is their way.

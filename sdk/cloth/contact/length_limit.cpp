@@ -1,0 +1,101 @@
+#include "cloth/contact/length_limit.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace vfit {
+
+namespace {
+
+constexpr float kStretch = 0.5f;  // times its length at rest, by which an edge is longer at most
+constexpr int kPasses = 10;
+
+}  // namespace
+
+LengthLimit::LengthLimit(const Fabric& fabric, std::span<const float> own_m)
+    : first_(fabric.vertex_count() + 1, 0) {
+    const std::vector<float>& inverse_mass = fabric.data().inverse_mass;
+    for (size_t piece = 0; piece < fabric.pieces().size(); ++piece) {
+        if (!own_m.empty() && own_m[piece] <= 0.0f) continue;
+        for (const DistanceConstraint& e : fabric.pieces()[piece].edges.of(fabric.data().edges)) {
+            const float a = inverse_mass[e.a], b = inverse_mass[e.b];
+            if (a + b == 0.0f) continue;
+            edges_.push_back({e.a, e.b, (1.0f + kStretch) * e.rest_m, a / (a + b), b / (a + b)});
+            ++first_[e.a + 1], ++first_[e.b + 1];
+        }
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    edges_at_.resize(2 * edges_.size());
+    std::vector<uint32_t> next(first_.begin(), first_.end() - 1);
+    for (uint32_t i = 0; i < edges_.size(); ++i)
+        for (const uint32_t v : {edges_[i].a, edges_[i].b}) edges_at_[next[v]++] = i;
+    is_next_.resize(edges_.size(), 0), is_moved_.resize(fabric.vertex_count(), 0);
+    pass_.reserve(edges_.size()), next_.reserve(edges_.size()), moved_.reserve(fabric.vertex_count());
+}
+
+std::span<const uint32_t> LengthLimit::keep(std::span<const Particle> begin, std::span<Particle> end,
+                                            float step_m) {
+    forget_moved();
+    for (uint32_t i = 0; i < edges_.size(); ++i)
+        if (glm::distance(end[edges_[i].a].x, end[edges_[i].b].x) > edges_[i].most_m)
+            next_.push_back(i), is_next_[i] = 1;
+    return run(begin, end, step_m);
+}
+
+std::span<const uint32_t> LengthLimit::keep_about(std::span<const uint32_t> vertices,
+                                                  std::span<const Particle> begin, std::span<Particle> end,
+                                                  float step_m) {
+    forget_moved();
+    for (const uint32_t v : vertices) look_about(v);
+    return run(begin, end, step_m);
+}
+
+std::span<const uint32_t> LengthLimit::run(std::span<const Particle> begin, std::span<Particle> end,
+                                           float step_m) {
+    for (int pass = 0; pass < kPasses && !next_.empty(); ++pass) {
+        std::swap(pass_, next_);
+        next_.clear();
+        for (const uint32_t i : pass_) is_next_[i] = 0;
+        for (const uint32_t i : pass_)
+            if (shorten(edges_[i], begin, end, step_m)) mark(edges_[i].a), mark(edges_[i].b);
+    }
+    for (const uint32_t i : next_) is_next_[i] = 0;
+    next_.clear();
+    return moved_;
+}
+
+bool LengthLimit::shorten(const Edge& edge, std::span<const Particle> begin, std::span<Particle> end,
+                          float step_m) const {
+    const Vec3 way = end[edge.b].x - end[edge.a].x;
+    const float length_m = glm::length(way);
+    if (length_m <= edge.most_m) return false;
+    const float before_m = glm::distance(begin[edge.a].x, begin[edge.b].x),
+                limit_m = std::max(edge.most_m, before_m - step_m);
+    if (length_m <= limit_m) return false;
+    const Vec3 shorter = way * (1.0f - limit_m / length_m);
+    end[edge.a].x += edge.share_a * shorter;
+    end[edge.b].x -= edge.share_b * shorter;
+    return true;
+}
+
+void LengthLimit::forget_moved() {
+    for (const uint32_t v : moved_) is_moved_[v] = 0;
+    moved_.clear();
+}
+
+void LengthLimit::mark(uint32_t vertex) {
+    if (!is_moved_[vertex]) moved_.push_back(vertex);
+    is_moved_[vertex] = 1;
+    look_about(vertex);
+}
+
+void LengthLimit::look_about(uint32_t vertex) {
+    for (uint32_t i = first_[vertex]; i < first_[vertex + 1]; ++i) {
+        const uint32_t edge = edges_at_[i];
+        if (!is_next_[edge]) next_.push_back(edge);
+        is_next_[edge] = 1;
+    }
+}
+
+}  // namespace vfit

@@ -1,0 +1,48 @@
+// Edges have a greatest length. Where a body leaves cloth less room than it needs, since limbs pinch it or
+// the way around them is longer than it is, contact with the skin gives way, and not the cloth.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cloth/base/particle.h"
+#include "cloth/fabric/fabric.h"
+
+namespace vfit {
+
+class LengthLimit {
+public:
+    /// own_m: thickness of the own layers of each piece, as in LayerThickness. Pieces that do not meet
+    /// themselves have no limit. Empty: all have.
+    explicit LengthLimit(const Fabric& fabric, std::span<const float> own_m = {});
+
+    /// Gauss-Seidel over the edges that are too long at `end`, until none is, or for some passes. An edge
+    /// that was too long at `begin` already gets shorter by step_m. Returns the vertices that moved, once
+    /// each, until the next call.
+    std::span<const uint32_t> keep(std::span<const Particle> begin, std::span<Particle> end, float step_m);
+    /// The same of edges at these vertices, and at those that move.
+    std::span<const uint32_t> keep_about(std::span<const uint32_t> vertices, std::span<const Particle> begin,
+                                         std::span<Particle> end, float step_m);
+
+private:
+    struct Edge {
+        uint32_t a, b;
+        float most_m;
+        float share_a, share_b;  // of the correction
+    };
+    std::span<const uint32_t> run(std::span<const Particle> begin, std::span<Particle> end, float step_m);
+    bool shorten(const Edge& edge, std::span<const Particle> begin, std::span<Particle> end,
+                 float step_m) const;
+    void forget_moved();
+    void mark(uint32_t vertex);
+    void look_about(uint32_t vertex);
+
+    std::vector<Edge> edges_;
+    std::vector<uint32_t> first_, edges_at_;  // by vertex
+    std::vector<uint32_t> pass_, next_;       // edges of this pass over them, and of the next one
+    std::vector<uint32_t> moved_;
+    std::vector<uint8_t> is_next_, is_moved_;
+};
+
+}  // namespace vfit
