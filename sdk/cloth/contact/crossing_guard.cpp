@@ -47,9 +47,9 @@ bool cross_at(const Proximity::Pair& pair, std::span<const Particle> at) {
 
 }  // namespace
 
-CrossingGuard::CrossingGuard(const Fabric& fabric, std::span<const float> own_m)
+CrossingGuard::CrossingGuard(const Fabric& fabric)
     : cloth_vertices_(fabric.vertex_count()),
-      length_limit_(fabric, own_m),
+      length_limit_(fabric),
       inverse_mass_(fabric.data().inverse_mass),
       indices_(fabric.data().indices),
       piece_of_(fabric.piece_of()),

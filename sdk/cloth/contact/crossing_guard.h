@@ -23,8 +23,8 @@ namespace vfit {
 
 class CrossingGuard {
 public:
-    /// Vertices without a finite mass do not give way. own_m: as of LengthLimit.
-    explicit CrossingGuard(const Fabric& fabric, std::span<const float> own_m = {});
+    /// Vertices without a finite mass do not give way.
+    explicit CrossingGuard(const Fabric& fabric);
     /// Vertices of a mesh follow, which do not give way either. Crossings
     /// with props are repaired by projections alone; those with solids are left to contact.
     void add_mesh(size_t vertices, MeshOf what);

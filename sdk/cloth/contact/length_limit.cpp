@@ -13,17 +13,13 @@ constexpr int kPasses = 10;
 
 }  // namespace
 
-LengthLimit::LengthLimit(const Fabric& fabric, std::span<const float> own_m)
-    : first_(fabric.vertex_count() + 1, 0) {
+LengthLimit::LengthLimit(const Fabric& fabric) : first_(fabric.vertex_count() + 1, 0) {
     const std::vector<float>& inverse_mass = fabric.data().inverse_mass;
-    for (size_t piece = 0; piece < fabric.pieces().size(); ++piece) {
-        if (!own_m.empty() && own_m[piece] <= 0.0f) continue;
-        for (const DistanceConstraint& e : fabric.pieces()[piece].edges.of(fabric.data().edges)) {
-            const float a = inverse_mass[e.a], b = inverse_mass[e.b];
-            if (a + b == 0.0f) continue;
-            edges_.push_back({e.a, e.b, (1.0f + kStretch) * e.rest_m, a / (a + b), b / (a + b)});
-            ++first_[e.a + 1], ++first_[e.b + 1];
-        }
+    for (const DistanceConstraint& e : fabric.data().edges) {
+        const float a = inverse_mass[e.a], b = inverse_mass[e.b];
+        if (a + b == 0.0f) continue;
+        edges_.push_back({e.a, e.b, (1.0f + kStretch) * e.rest_m, a / (a + b), b / (a + b)});
+        ++first_[e.a + 1], ++first_[e.b + 1];
     }
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     edges_at_.resize(2 * edges_.size());

@@ -13,9 +13,7 @@ namespace vfit {
 
 class LengthLimit {
 public:
-    /// own_m: thickness of the own layers of each piece, as in LayerThickness. Pieces that do not meet
-    /// themselves have no limit. Empty: all have.
-    explicit LengthLimit(const Fabric& fabric, std::span<const float> own_m = {});
+    explicit LengthLimit(const Fabric& fabric);
 
     /// Gauss-Seidel over the edges that are too long at `end`, until none is, or for some passes. An edge
     /// that was too long at `begin` already gets shorter by step_m. Returns the vertices that moved, once

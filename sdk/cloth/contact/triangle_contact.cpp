@@ -23,7 +23,7 @@ TriangleContact::TriangleContact(std::shared_ptr<const Fabric> fabric, const Lay
       proximity_(positions, fabric->data().indices, thickness.reach_m(),
                  has_pieces(*fabric) ? fabric->piece_of() : std::vector<uint8_t>()),
       contacts_(fabric, thickness, jobs),
-      guard_(*fabric, thickness_.own_m),
+      guard_(*fabric),
       begin_(cloth_vertices_),
       end_(cloth_vertices_) {
     for (size_t piece = 0; has_pieces(*fabric) && piece < thickness_.own_m.size(); ++piece)
@@ -36,7 +36,7 @@ TriangleContact::TriangleContact(const TriangleContact& other, std::shared_ptr<c
       thickness_(other.thickness_),
       proximity_(other.proximity_),
       contacts_(fabric, thickness_, jobs),
-      guard_(*fabric, thickness_.own_m),
+      guard_(*fabric),
       begin_(cloth_vertices_),
       end_(cloth_vertices_),
       meshes_(other.meshes_) {

@@ -98,7 +98,7 @@ TEST(ClothPieces, BackstopsAndLimitsKeepTheirTargets) {
     FabricData data = sheet.cook(cotton());
     data.backstops.push_back({sheet.at(6, 4), 0.03f});
     data.limits.push_back({sheet.at(8, 0), 0.01f});
-    data.limits.push_back({sheet.at(7, 0), 0.02f, sheet.at(8, 8)});
+    data.limits.push_back({sheet.at(7, 0), 0.02f, sheet.at(8, 1)});
     const Fabrics fabrics{fabric(data), fabric(data)};
     const std::vector<Vec3> aside = moved(sheet.positions, {0.0f, 1.0f, 2.0f});
     const auto target = [&](const std::vector<Vec3>& places) {
@@ -116,6 +116,8 @@ TEST(ClothPieces, BackstopsAndLimitsKeepTheirTargets) {
     }
     EXPECT_EQ(of_piece(whole, 1), alone.positions());
     EXPECT_NE(alone.positions()[sheet.at(6, 4)].z, 2.0f) << "it is pushed";
+    EXPECT_LT(glm::distance(alone.positions()[sheet.at(7, 0)], aside[sheet.at(8, 1)]), 0.022f)
+        << "it is drawn";
 }
 
 /// The lower one hangs by its border, the upper one falls onto it.
