@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "cloth/contact/length_limit.h"
 #include "outfit/held_cloth.h"
 
 namespace vfit {
 
 namespace {
 
-constexpr float kHeld = 0.6f;  // strain
+constexpr float kHeld = LengthLimit::kMaxStrain;
 
 }  // namespace
 

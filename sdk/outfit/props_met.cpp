@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth/contact/length_limit.h"
+
 namespace vfit {
 
 namespace {
 
 constexpr float kGrows_s = 0.25f;
-constexpr float kLeap_m = 0.3f;  // in a step: what is faster is not swept (kMaxWay_m)
-constexpr float kHeld = 0.6f;    // strain: together with a crossing, it has no way out
+constexpr float kLeap_m = 0.3f;                   // in a step: what is faster is not swept (kMaxWay_m)
+constexpr float kHeld = LengthLimit::kMaxStrain;  // together with a crossing: it has no way out
 constexpr float kTorn = 1.0f;
 constexpr float kExcess_s = 0.02f;  // of strain above that, summed up over time: a blow leaves less
 constexpr float kLongest_s = 5.0f;  // that it passes

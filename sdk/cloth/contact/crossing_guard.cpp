@@ -56,6 +56,7 @@ CrossingGuard::CrossingGuard(const Fabric& fabric)
       has_pieces_(fabric.pieces().size() > 1),
       is_marked_(cloth_vertices_, 0),
       is_moved_(is_marked_),
+      is_zoned_(is_marked_),
       is_beyond_(is_marked_),
       wanted_(cloth_vertices_),
       found_at_(cloth_vertices_),
@@ -70,7 +71,8 @@ void CrossingGuard::add_mesh(size_t vertices, MeshOf what) {
     meshes_.push_back({what});
     const size_t count = inverse_mass_.size() + vertices;
     inverse_mass_.resize(count, 0.0f);
-    is_marked_.resize(count, 0), is_moved_.resize(count, 0), is_beyond_.resize(count, 0);
+    for (std::vector<uint8_t>* flags : {&is_marked_, &is_moved_, &is_zoned_, &is_beyond_})
+        flags->resize(count, 0);
     is_fixed_.resize(count, 1);
     wanted_.resize(count), found_at_.resize(count), places_.resize(count);
     parent_.resize(count, kNone);
@@ -78,7 +80,7 @@ void CrossingGuard::add_mesh(size_t vertices, MeshOf what) {
 
 bool CrossingGuard::keep(std::span<const Particle> begin, std::span<Particle> end, Proximity& proximity,
                          Jobs& jobs, std::optional<float> shortens_m) {
-    for (const uint32_t v : zoned_) parent_[v] = kNone;
+    for (const uint32_t v : zoned_) parent_[v] = kNone, is_zoned_[v] = 0;
     for (const uint32_t v : moved_) is_moved_[v] = 0;
     zoned_.clear(), moved_.clear();
     if (has_pieces_) untangle(end, kUntangles_m), come_outwards(end, kUntangles_m);
@@ -100,7 +102,6 @@ bool CrossingGuard::keep(std::span<const Particle> begin, std::span<Particle> en
         if (hits_.empty()) round = std::max(round, kProjections);
         if (round < kProjections) {
             project(end);
-            if (shortens_m) mark(length_limit_.keep_about(moved_, begin, end, *shortens_m));
         } else if (round < kZones) {
             zones_grow_ = true;
             unite_hits();
@@ -108,6 +109,7 @@ bool CrossingGuard::keep(std::span<const Particle> begin, std::span<Particle> en
         } else {
             take_back(begin, end);
         }
+        if (shortens_m) mark(length_limit_.keep_about(moved_, is_zoned_, begin, end, *shortens_m));
         find_pairs_again(begin, end, proximity);
         proximity.find_uncertain_of(is_marked_, begin, end, jobs);
     }
@@ -339,6 +341,7 @@ void CrossingGuard::unite(uint32_t a, uint32_t b) {
     for (const uint32_t v : {a, b}) {
         if (parent_[v] != kNone) continue;
         parent_[v] = v;
+        is_zoned_[v] = 1;
         zoned_.push_back(v);
     }
     const uint32_t x = root(a), y = root(b);

@@ -104,6 +104,7 @@ private:
     bool crosses_mesh_ = false;          // at both ends, or it was not kept from it
     std::vector<Mesh> meshes_;
     std::vector<uint8_t> is_marked_, is_moved_;  // in this round, in all
+    std::vector<uint8_t> is_zoned_;              // in a zone of any size
     std::vector<uint8_t> is_beyond_;             // of what found_at_ allows for
     std::vector<uint32_t> moved_;
     std::vector<Particle> wanted_;          // the end that the step made

@@ -8,7 +8,6 @@ namespace vfit {
 
 namespace {
 
-constexpr float kStretch = 0.5f;  // times its length at rest, by which an edge is longer at most
 constexpr int kPasses = 10;
 
 }  // namespace
@@ -18,7 +17,7 @@ LengthLimit::LengthLimit(const Fabric& fabric) : first_(fabric.vertex_count() + 
     for (const DistanceConstraint& e : fabric.data().edges) {
         const float a = inverse_mass[e.a], b = inverse_mass[e.b];
         if (a + b == 0.0f) continue;
-        edges_.push_back({e.a, e.b, (1.0f + kStretch) * e.rest_m, a / (a + b), b / (a + b)});
+        edges_.push_back({e.a, e.b, (1.0f + kMaxStrain) * e.rest_m, a / (a + b), b / (a + b)});
         ++first_[e.a + 1], ++first_[e.b + 1];
     }
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
@@ -36,43 +35,45 @@ std::span<const uint32_t> LengthLimit::keep(std::span<const Particle> begin, std
     for (uint32_t i = 0; i < edges_.size(); ++i)
         if (glm::distance(end[edges_[i].a].x, end[edges_[i].b].x) > edges_[i].most_m)
             next_.push_back(i), is_next_[i] = 1;
-    return run(begin, end, step_m);
+    return run({begin, end, {}, step_m});
 }
 
 std::span<const uint32_t> LengthLimit::keep_about(std::span<const uint32_t> vertices,
+                                                  std::span<const uint8_t> stays,
                                                   std::span<const Particle> begin, std::span<Particle> end,
                                                   float step_m) {
     forget_moved();
     for (const uint32_t v : vertices) look_about(v);
-    return run(begin, end, step_m);
+    return run({begin, end, stays, step_m});
 }
 
-std::span<const uint32_t> LengthLimit::run(std::span<const Particle> begin, std::span<Particle> end,
-                                           float step_m) {
+std::span<const uint32_t> LengthLimit::run(const Step& step) {
     for (int pass = 0; pass < kPasses && !next_.empty(); ++pass) {
         std::swap(pass_, next_);
         next_.clear();
         for (const uint32_t i : pass_) is_next_[i] = 0;
-        for (const uint32_t i : pass_)
-            if (shorten(edges_[i], begin, end, step_m)) mark(edges_[i].a), mark(edges_[i].b);
+        for (const uint32_t i : pass_) shorten(edges_[i], step);
     }
     for (const uint32_t i : next_) is_next_[i] = 0;
     next_.clear();
     return moved_;
 }
 
-bool LengthLimit::shorten(const Edge& edge, std::span<const Particle> begin, std::span<Particle> end,
-                          float step_m) const {
-    const Vec3 way = end[edge.b].x - end[edge.a].x;
-    const float length_m = glm::length(way);
-    if (length_m <= edge.most_m) return false;
-    const float before_m = glm::distance(begin[edge.a].x, begin[edge.b].x),
-                limit_m = std::max(edge.most_m, before_m - step_m);
-    if (length_m <= limit_m) return false;
-    const Vec3 shorter = way * (1.0f - limit_m / length_m);
-    end[edge.a].x += edge.share_a * shorter;
-    end[edge.b].x -= edge.share_b * shorter;
-    return true;
+void LengthLimit::shorten(const Edge& edge, const Step& step) {
+    Vec3 &a = step.end[edge.a].x, &b = step.end[edge.b].x;
+    const float length_m = glm::distance(a, b);
+    if (length_m <= edge.most_m) return;
+    const float before_m = glm::distance(step.begin[edge.a].x, step.begin[edge.b].x),
+                limit_m = std::max(edge.most_m, before_m - step.shortens_m);
+    if (length_m <= limit_m) return;
+    const auto stays = [&](uint32_t v) { return !step.stays.empty() && step.stays[v] != 0; };
+    const float share_a = stays(edge.a) ? 0.0f : edge.share_a, share_b = stays(edge.b) ? 0.0f : edge.share_b;
+    if (share_a + share_b == 0.0f) return;
+    const Vec3 shorter = (b - a) * ((1.0f - limit_m / length_m) / (share_a + share_b));
+    a += share_a * shorter;
+    b -= share_b * shorter;
+    if (share_a > 0.0f) mark(edge.a);
+    if (share_b > 0.0f) mark(edge.b);
 }
 
 void LengthLimit::forget_moved() {

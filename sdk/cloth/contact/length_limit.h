@@ -13,15 +13,17 @@ namespace vfit {
 
 class LengthLimit {
 public:
+    static constexpr float kMaxStrain = 0.5f;  // of an edge
     explicit LengthLimit(const Fabric& fabric);
 
     /// Gauss-Seidel over the edges that are too long at `end`, until none is, or for some passes. An edge
     /// that was too long at `begin` already gets shorter by step_m. Returns the vertices that moved, once
     /// each, until the next call.
     std::span<const uint32_t> keep(std::span<const Particle> begin, std::span<Particle> end, float step_m);
-    /// The same of edges at these vertices, and at those that move.
-    std::span<const uint32_t> keep_about(std::span<const uint32_t> vertices, std::span<const Particle> begin,
-                                         std::span<Particle> end, float step_m);
+    /// The same of edges at these vertices, and at those that move. Flagged vertices stay where they are.
+    std::span<const uint32_t> keep_about(std::span<const uint32_t> vertices, std::span<const uint8_t> stays,
+                                         std::span<const Particle> begin, std::span<Particle> end,
+                                         float step_m);
 
 private:
     struct Edge {
@@ -29,9 +31,14 @@ private:
         float most_m;
         float share_a, share_b;  // of the correction
     };
-    std::span<const uint32_t> run(std::span<const Particle> begin, std::span<Particle> end, float step_m);
-    bool shorten(const Edge& edge, std::span<const Particle> begin, std::span<Particle> end,
-                 float step_m) const;
+    struct Step {
+        std::span<const Particle> begin;
+        std::span<Particle> end;
+        std::span<const uint8_t> stays;  // empty: none
+        float shortens_m;
+    };
+    std::span<const uint32_t> run(const Step& step);
+    void shorten(const Edge& edge, const Step& step);
     void forget_moved();
     void mark(uint32_t vertex);
     void look_about(uint32_t vertex);

@@ -97,9 +97,26 @@ TEST(LengthLimit, ChangesAreLookedAtAboutGivenVerticesAlone) {
     Pulled pulled(0.06f);
     LengthLimit limit{Fabric(pulled.data)};
     EXPECT_TRUE(
-        limit.keep_about(std::vector{pulled.sheet.at(0, 0)}, pulled.begin, pulled.end, kStep_m).empty());
-    EXPECT_FALSE(limit.keep_about(std::vector{pulled.vertex}, pulled.begin, pulled.end, kStep_m).empty());
+        limit.keep_about(std::vector{pulled.sheet.at(0, 0)}, {}, pulled.begin, pulled.end, kStep_m).empty());
+    EXPECT_FALSE(limit.keep_about(std::vector{pulled.vertex}, {}, pulled.begin, pulled.end, kStep_m).empty());
     EXPECT_LT(pulled.strain(), 0.505f);
+}
+
+TEST(LengthLimit, FlaggedVerticesStay) {
+    Pulled pulled(0.06f);
+    std::vector<uint8_t> stays(pulled.end.size(), 0);
+    stays[pulled.vertex] = stays[pulled.sheet.at(4, 3)] = 1;
+    const std::vector<Particle> before = pulled.end;
+    LengthLimit limit{Fabric(pulled.data)};
+    const auto moved = limit.keep_about(std::vector{pulled.vertex}, stays, pulled.begin, pulled.end, kStep_m);
+    for (const uint32_t v : {pulled.vertex, pulled.sheet.at(4, 3)}) {
+        EXPECT_EQ(pulled.end[v].x, before[v].x);
+        EXPECT_EQ(std::count(moved.begin(), moved.end(), v), 0);
+    }
+    for (const DistanceConstraint& e : pulled.data.edges)
+        if (!stays[e.a] || !stays[e.b]) {
+            EXPECT_LT(glm::distance(pulled.end[e.a].x, pulled.end[e.b].x), 1.52f * e.rest_m);
+        }
 }
 
 TEST(LengthLimit, WhatTheGuardMovesApartIsNotTorn) {
