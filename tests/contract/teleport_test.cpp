@@ -186,9 +186,14 @@ TEST_F(TeleportTest, BothLayersOfAnOutfitAreCarried) {
     ASSERT_EQ(vfit_cloth_reset(outer), VFIT_OK) << contract::last_error();
     // A vest over a shirt comes to rest in 3 s: before, its strain still rises by itself.
     for (int i = 0; i < 210; ++i) step(inner), step(outer);
-    const std::vector<float> inner_lay = positions(inner), outer_lay = positions(outer);
-    step(inner), step(outer);
-    const float inner_m = own_way_m(inner_lay, inner), outer_m = own_way_m(outer_lay, outer);
+    // They tremble: the largest way of eight frames.
+    float inner_m = 0.0f, outer_m = 0.0f;
+    for (int i = 0; i < 8; ++i) {
+        const std::vector<float> inner_lay = positions(inner), outer_lay = positions(outer);
+        step(inner), step(outer);
+        inner_m = std::max(inner_m, own_way_m(inner_lay, inner));
+        outer_m = std::max(outer_m, own_way_m(outer_lay, outer));
+    }
     const std::vector<float> inner_before = positions(inner), outer_before = positions(outer);
     const float strain = stats(outer).strain_max;
     pose(2.0f, 0.7f);

@@ -32,8 +32,7 @@ public:
     /// Changes `end` so that no triangles cross on linear ways from `begin`, except those that crossed at
     /// `begin` already: those of cloth are moved apart a little, those of a mesh are left to contact.
     /// True: nothing crosses at the end, which is proven.
-    /// shortens_m: by so much an edge that is longer than its limit gets shorter. Without it edges have no
-    /// limit.
+    /// shortens_m: as of LengthLimit; without it edges have no limit.
     bool keep(std::span<const Particle> begin, std::span<Particle> end, Proximity& proximity, Jobs& jobs,
               std::optional<float> shortens_m = {});
     /// The cloth was placed anew: what crossed did so elsewhere.

@@ -30,21 +30,21 @@ LengthLimit::LengthLimit(const Fabric& fabric) : first_(fabric.vertex_count() + 
 }
 
 std::span<const uint32_t> LengthLimit::keep(std::span<const Particle> begin, std::span<Particle> end,
-                                            float step_m) {
+                                            float shortens_m) {
     forget_moved();
     for (uint32_t i = 0; i < edges_.size(); ++i)
         if (glm::distance(end[edges_[i].a].x, end[edges_[i].b].x) > edges_[i].most_m)
             next_.push_back(i), is_next_[i] = 1;
-    return run({begin, end, {}, step_m});
+    return run({begin, end, {}, shortens_m});
 }
 
 std::span<const uint32_t> LengthLimit::keep_about(std::span<const uint32_t> vertices,
                                                   std::span<const uint8_t> stays,
                                                   std::span<const Particle> begin, std::span<Particle> end,
-                                                  float step_m) {
+                                                  float shortens_m) {
     forget_moved();
     for (const uint32_t v : vertices) look_about(v);
-    return run({begin, end, stays, step_m});
+    return run({begin, end, stays, shortens_m});
 }
 
 std::span<const uint32_t> LengthLimit::run(const Step& step) {

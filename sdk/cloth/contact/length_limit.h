@@ -17,13 +17,14 @@ public:
     explicit LengthLimit(const Fabric& fabric);
 
     /// Gauss-Seidel over the edges that are too long at `end`, until none is, or for some passes. An edge
-    /// that was too long at `begin` already gets shorter by step_m. Returns the vertices that moved, once
+    /// that was too long at `begin` already gets shorter by shortens_m. Returns the vertices that moved, once
     /// each, until the next call.
-    std::span<const uint32_t> keep(std::span<const Particle> begin, std::span<Particle> end, float step_m);
+    std::span<const uint32_t> keep(std::span<const Particle> begin, std::span<Particle> end,
+                                   float shortens_m);
     /// The same of edges at these vertices, and at those that move. Flagged vertices stay where they are.
     std::span<const uint32_t> keep_about(std::span<const uint32_t> vertices, std::span<const uint8_t> stays,
                                          std::span<const Particle> begin, std::span<Particle> end,
-                                         float step_m);
+                                         float shortens_m);
 
 private:
     struct Edge {
