@@ -197,6 +197,7 @@ struct Cloth::State {
     float settles_s = 0.0f;       // so long it comes to rest from other lengths, or once it was put on
     int haste = 1;                // steps in one, so long
     std::vector<Vec3> asleep_at;  // the targets at which it fell asleep; empty: it is awake
+    bool limits_lengths = true;   // not while it is put on: it would be drawn through the body
     float carried = 0.0f;         // fraction of the body's motion in the next step that moved the cloth
     bool sleeps_on = false;       // after it was moved so
 
@@ -332,6 +333,7 @@ void Cloth::put_on(std::span<const Vec3> start, const BodyOnItsWay& body, Jobs& 
     body(0.0f, targets, colliders);
     s.check_body(targets, colliders);
     reset(start);
+    s.limits_lengths = false;
     s.meet_body(targets, colliders);
     s.part_layers(jobs);
     const auto frame = [&](const PutOnPhase& phase, float share) {
@@ -377,6 +379,7 @@ void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
     constexpr float kShortest_s = 1.5e-4f, kLongest_s = 1.0f / 60.0f, kStopped = 1.0f;
     State& s = *state_;
     s.settles_s = kSettles_s, s.haste = kSettlingHaste;
+    s.limits_lengths = true;
     std::vector<Vec3> targets;
     std::vector<Collider> colliders;
     for (int i = 0; i < kSteps; ++i) {
@@ -515,6 +518,7 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
     if (dt == 0.0f) return;
     const Stopwatch watch;
     dt = std::clamp(dt, kMinStep_s, kMaxStep_s);
+    s.limits_lengths = true;
     if (s.settings.follows_fixed) s.follow_fixed(dt, skinned_targets);
     s.meet_body(skinned_targets, colliders);
     if (s.stays_asleep(skinned_targets)) {
@@ -768,7 +772,9 @@ void Cloth::State::keep_layers(float dt, Jobs& jobs) {
     now = positions;
     const bool has_layers = std::all_of(of_pieces.begin(), of_pieces.end(),
                                         [](const ClothSettings& of) { return of.self_thickness_m > 0.0f; });
-    certified = triangles->keep(before, now, jobs, kShortens_m_s * dt) && has_layers;
+    certified = triangles->keep(before, now, jobs,
+                                limits_lengths ? std::optional(kShortens_m_s * dt) : std::nullopt) &&
+                has_layers;
     for (const uint32_t v : triangles->moved()) {
         const uint32_t particle = fabric->layout().particle_of[v];
         const Vec3 way = triangles->is_in_zone(v) ? now[v] - before[v] : now[v] - solver.places()[particle].x,
