@@ -29,6 +29,16 @@ float greatest_strain(const std::vector<DistanceConstraint>& edges, const std::v
     return most;
 }
 
+FabricData with_edges(const TwoSheets& sheets) {
+    FabricData data = sheets.fabric();
+    for (size_t i = 0; i < sheets.indices.size(); ++i) {
+        const uint32_t a = sheets.indices[i], b = sheets.indices[i % 3 == 2 ? i - 2 : i + 1];
+        const float rest_m = glm::distance(sheets.positions[a], sheets.positions[b]);
+        if (a < b) data.edges.push_back({a, b, rest_m, 0.0f});
+    }
+    return data;
+}
+
 /// A sheet of 2 cm squares, one vertex of which is pulled out of it.
 struct Pulled {
     Sheet sheet{9, 9, 0.02f};
@@ -126,12 +136,7 @@ TEST(LengthLimit, WhatTheGuardMovesApartIsNotTorn) {
     float with = 0.0f, without = 0.0f;
     for (int round = 0; round < 30; ++round) {
         const TwoSheets sheets(7, 0.005f, {0.0015f, 0.003f, 0.002f});
-        FabricData data = sheets.fabric();
-        for (size_t i = 0; i < sheets.indices.size(); ++i) {
-            const uint32_t a = sheets.indices[i], b = sheets.indices[i % 3 == 2 ? i - 2 : i + 1];
-            if (a < b)
-                data.edges.push_back({a, b, glm::distance(sheets.positions[a], sheets.positions[b]), 0.0f});
-        }
+        const FabricData data = with_edges(sheets);
         std::vector<Particle> wanted = particles_of(sheets.positions);
         for (size_t v = 0; v < wanted.size(); ++v)
             wanted[v].x.y += (v < sheets.of_one ? 0.006f : -0.006f) + up_to(random);
@@ -153,27 +158,81 @@ TEST(LengthLimit, WhatTheGuardMovesApartIsNotTorn) {
     EXPECT_LT(with, 0.55f);
 }
 
+TEST(LengthLimit, ZonesStayAsOneAndTheirNeighboursFollow) {
+    const auto jobs = Jobs::own(0);
+    std::mt19937 random(9);
+    std::uniform_real_distribution<float> up_to(-0.004f, 0.004f);
+    size_t with_zones = 0;
+    for (int round = 0; round < 40; ++round) {
+        // Whole sheets pass each other.
+        const TwoSheets sheets(7, 0.01f, {0.003f, 0.003f, 0.004f});
+        const FabricData data = with_edges(sheets);
+        const std::vector<Particle> begin = particles_of(sheets.positions);
+        std::vector<Particle> end = begin;
+        for (size_t v = 0; v < end.size(); ++v)
+            end[v].x +=
+                Vec3(up_to(random), (v < sheets.of_one ? 0.05f : -0.05f) + up_to(random), up_to(random));
+        CrossingGuard guard{Fabric(data)};
+        Proximity proximity(sheets.positions, sheets.indices, 0.005f);
+        EXPECT_TRUE(guard.keep(begin, end, proximity, *jobs, kStep_m)) << round;
+        for (const uint32_t v : guard.moved()) with_zones += guard.is_in_zone(v) ? 1 : 0;
+        for (const DistanceConstraint& e : data.edges) {
+            const float strain = glm::distance(end[e.a].x, end[e.b].x) / e.rest_m - 1.0f;
+            EXPECT_LT(strain, 0.55f);
+            if (guard.is_in_zone(e.a) && guard.is_in_zone(e.b)) {
+                EXPECT_NEAR(strain, 0.0f, 1e-3f) << "a zone is rigid";
+            }
+        }
+    }
+    EXPECT_GT(with_zones, 100u) << "the scene would show it";
+}
+
+/// A sheet in a frame of 28 cm.
+struct Framed {
+    Sheet sheet{15, 15, 0.02f};
+    ClothSettings settings;
+
+    explicit Framed(float self_thickness_m) {
+        for (uint32_t i = 0; i < 15; ++i)
+            for (const uint32_t v : {sheet.at(0, i), sheet.at(14, i), sheet.at(i, 0), sheet.at(i, 14)})
+                sheet.simulated[v] = 0;
+        settings.self_thickness_m = self_thickness_m;
+    }
+    Cloth cloth() const { return {fabric(sheet.cook(cotton())), settings, sheet.positions}; }
+    static Collider ball(float z) { return sphere({0.14f, -0.14f, z}, 0.08f); }
+};
+
 TEST(LengthLimit, AClothGivesWayToABodyThatLeavesItNoRoom) {
     const auto jobs = Jobs::own(0);
-    Sheet sheet(15, 15, 0.02f);
-    for (uint32_t i = 0; i < 15; ++i)
-        for (const uint32_t v : {sheet.at(0, i), sheet.at(14, i), sheet.at(i, 0), sheet.at(i, 14)})
-            sheet.simulated[v] = 0;
     const auto strain_of = [&](float self_thickness_m) {
-        ClothSettings settings;
-        settings.self_thickness_m = self_thickness_m;
-        Cloth cloth(fabric(sheet.cook(cotton())), settings, sheet.positions);
+        const Framed framed(self_thickness_m);
+        Cloth cloth = framed.cloth();
         float strain = 0.0f;
         for (int i = 0; i <= 60; ++i) {
-            // A ball of 8 cm goes through the frame, which is 28 cm wide.
-            const std::vector<Collider> ball{sphere({0.14f, -0.14f, -0.1f + 0.01f * float(i)}, 0.08f)};
-            cloth.step(kFrame_s, sheet.positions, ball, *jobs);
+            const std::vector<Collider> ball{Framed::ball(-0.1f + 0.01f * float(i))};
+            cloth.step(kFrame_s, framed.sheet.positions, ball, *jobs);
             strain = std::max(strain, cloth.stats().strain_max);
         }
         return strain;
     };
     EXPECT_GT(strain_of(0.0f), 1.0f) << "the scene would show it";
     EXPECT_LT(strain_of(0.004f), 0.6f);
+}
+
+TEST(LengthLimit, ABodyIsNotPassedThroughWhileAClothIsPutOn) {
+    const auto jobs = Jobs::own(0);
+    const Framed framed(0.004f);
+    Cloth cloth = framed.cloth();
+    constexpr float kFrom_m = -0.1f, kTo_m = 0.04f;
+    cloth.put_on(
+        framed.sheet.positions,
+        [&](float share, std::vector<Vec3>& targets, std::vector<Collider>& colliders) {
+            targets = framed.sheet.positions;
+            colliders = {Framed::ball(glm::mix(kFrom_m, kTo_m, share))};
+        },
+        *jobs);
+    EXPECT_GT(cloth.stats().strain_max, 0.6f) << "the scene would show it";
+    EXPECT_GT(cloth.positions()[framed.sheet.at(7, 7)].z, kTo_m + 0.06f) << "it lies in front of the ball";
 }
 
 }  // namespace
