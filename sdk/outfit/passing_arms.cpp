@@ -3,16 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "cloth/contact/length_limit.h"
 #include "outfit/held_cloth.h"
 
 namespace vfit {
-
-namespace {
-
-constexpr float kHeld = LengthLimit::kMaxStrain;
-
-}  // namespace
 
 PassingArms::PassingArms(ArmFilter filter, std::span<const uint32_t> indices)
     : filter_(std::move(filter)), mask_(filter_.mask) {
@@ -49,7 +42,7 @@ bool PassingArms::look(const ClothPiece& cloth, const MovingSkin& skin, float dt
         of.for_s = of.passes ? of.for_s + dt : 0.0f;
         const bool turns =
             of.passes ? of.for_s >= kPasses_s && skin.share == 1.0f && is_free(cloth, skin.to, arm, jobs)
-                      : is_held(cloth, skin, arm);
+                      : holds(cloth, skin, arm);
         if (!turns) continue;
         of.passes = !of.passes, of.for_s = 0.0f;
         changes = true;
@@ -63,11 +56,11 @@ bool PassingArms::look(const ClothPiece& cloth, const MovingSkin& skin, float dt
     return true;
 }
 
-bool PassingArms::is_held(const ClothPiece& cloth, const MovingSkin& skin, Arm arm) const {
+bool PassingArms::holds(const ClothPiece& cloth, const MovingSkin& skin, Arm arm) const {
     const std::vector<uint32_t>& points = of_[size_t(arm)].points;
-    return held_strain(
-               cloth, kHeld, points.size(), [&](size_t i) { return skin.at(points[i]); },
-               [&](uint32_t v) { return meets(v, arm) && !is_sleeve(v); }) > 0.0f;
+    return is_held(
+        cloth, points.size(), [&](size_t i) { return skin.at(points[i]); },
+        [&](uint32_t v) { return meets(v, arm) && !is_sleeve(v); });
 }
 
 bool PassingArms::is_free(const ClothPiece& cloth, std::span<const Vec3> skin, Arm arm, Jobs& jobs) {

@@ -45,7 +45,7 @@ private:
     };
     bool meets(uint32_t vertex, Arm arm) const;
     bool is_sleeve(uint32_t vertex) const;
-    bool is_held(const ClothPiece& cloth, const MovingSkin& skin, Arm arm) const;
+    bool holds(const ClothPiece& cloth, const MovingSkin& skin, Arm arm) const;
     bool is_free(const ClothPiece& cloth, std::span<const Vec3> skin, Arm arm, Jobs& jobs);
 
     ArmFilter filter_;

@@ -3,17 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cloth/contact/length_limit.h"
-
 namespace vfit {
 
 namespace {
 
 constexpr float kGrows_s = 0.25f;
-constexpr float kLeap_m = 0.3f;                   // in a step: what is faster is not swept (kMaxWay_m)
-constexpr float kHeld = LengthLimit::kMaxStrain;  // together with a crossing: it has no way out
-constexpr float kTorn = 1.0f;
-constexpr float kExcess_s = 0.02f;  // of strain above that, summed up over time: a blow leaves less
+constexpr float kLeap_m = 0.3f;     // in a step: what is faster is not swept (kMaxWay_m)
 constexpr float kLongest_s = 5.0f;  // that it passes
 constexpr float kNear_m = 0.3f;     // to the garment, where leaps matter
 
@@ -106,9 +101,8 @@ void PropsMet::let_pass(ClothPiece cloth, float share, float dt) {
             met.passes = false, met.for_s = 0.0f;
             continue;
         }
-        const float strain = met.passes || met.size == 0.0f ? 0.0f : held_by(met, cloth, share);
-        met.excess_s = strain > kTorn ? met.excess_s + (strain - kTorn) * dt : 0.0f;
-        if (met.excess_s > kExcess_s || (strain > 0.0f && cloth.crosses_mesh(met.mesh))) {
+        // What it holds and crosses has no way out.
+        if (!met.passes && met.size > 0.0f && cloth.crosses_mesh(met.mesh) && holds(met, cloth, share)) {
             met.passes_s = met.for_s < met.passes_s ? std::min(2.0f * met.passes_s, kLongest_s) : kPasses_s;
             met.passes = true, met.for_s = 0.0f;
             come_in_anew(met, cloth);
@@ -116,10 +110,9 @@ void PropsMet::let_pass(ClothPiece cloth, float share, float dt) {
     }
 }
 
-float PropsMet::held_by(const Met& met, const ClothPiece& cloth, float share) {
-    return held_strain(
-        cloth, kHeld, met.places.size(),
-        [&](size_t i) { return glm::mix(met.starts[i], met.places[i], share); },
+bool PropsMet::holds(const Met& met, const ClothPiece& cloth, float share) {
+    return is_held(
+        cloth, met.places.size(), [&](size_t i) { return glm::mix(met.starts[i], met.places[i], share); },
         [](uint32_t) { return true; });
 }
 

@@ -67,11 +67,10 @@ private:
         std::vector<Vec3> last_whole;  // moved out, in the last step
         std::vector<Vec3> places, starts, kept;
         bool passes = false;
-        float excess_s = 0.0f;       // of the strain of what it holds, summed up over time
         float for_s = INFINITY;      // that it passes, or not
         float passes_s = kPasses_s;  // that it passed the last time
     };
-    static float held_by(const Met& met, const ClothPiece& cloth, float share);
+    static bool holds(const Met& met, const ClothPiece& cloth, float share);
     static void come_in_anew(Met& met, ClothPiece cloth);
     static void begin_to_grow(Met& met, const Bounds& garment);
 
