@@ -13,15 +13,16 @@ namespace vfit {
 
 inline constexpr float kPasses_s = 0.3f;  // at least
 
-/// An edge beside an obstacle would get longer than it may be: the obstacle holds the cloth. point(i) is
-/// where one of that many points of the obstacle is; counts(v): it meets that vertex.
+/// An edge beside an obstacle would get clearly longer than it may be: the obstacle holds the cloth. point(i)
+/// is where one of that many points of the obstacle is; counts(v): it meets that vertex.
 template <typename Point, typename Counts>
 bool is_held(const ClothPiece& cloth, size_t points, Point&& point, Counts&& counts) {
     constexpr float kBeside_m = 0.02f;  // between the edge and a point
+    constexpr float kHeld = LengthLimit::kMaxStrain + 0.1f;
     const std::span<const float> strains = cloth.edge_strain();
     const std::span<const Vec3> places = cloth.positions();
     for (size_t i = 0; i < strains.size(); ++i) {
-        if (strains[i] <= LengthLimit::kMaxStrain) continue;
+        if (strains[i] <= kHeld) continue;
         const ClothPiece::Edge edge = cloth.edge(i);
         if (!counts(edge.a)) continue;
         const Vec3 &a = places[edge.a], &b = places[edge.b];
