@@ -1063,7 +1063,8 @@ VFIT_API vfit_result vfit_cloth_wear_over(vfit_cloth cloth, vfit_cloth inner);
  * outside of it by its thickness, and meets its edges too. A prop comes in as a point that grows to its size
  * within 0.25 s and pushes cloth aside, also after vfit_cloth_reset, and where it moves by more than 0.3 m
  * against the body within a step. Where it reaches into the body, cloth meets it outside of that, with room
- * for the cloth between them. One that stretches cloth to twice its length passes through it for a while. */
+ * for the cloth between them. One that crosses cloth and stretches it to more than 1.6 times its length
+ * passes through it for a while. */
 typedef int32_t vfit_prop_shape;
 enum { VFIT_PROP_SPHERE = 0, VFIT_PROP_CAPSULE = 1, VFIT_PROP_BOX = 2, VFIT_PROP_MESH = 3 };
 typedef struct vfit_prop_desc {

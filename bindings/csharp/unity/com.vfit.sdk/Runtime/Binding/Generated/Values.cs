@@ -379,8 +379,8 @@ namespace Vfit
     /// hair. Cloth stays outside of it by its thickness, and meets its edges too. A prop comes in as a
     /// point that grows to its size within 0.25 s and pushes cloth aside, also after vfit_cloth_reset,
     /// and where it moves by more than 0.3 m against the body within a step. Where it reaches into the
-    /// body, cloth meets it outside of that, with room for the cloth between them. One that stretches
-    /// cloth to twice its length passes through it for a while.</summary>
+    /// body, cloth meets it outside of that, with room for the cloth between them. One that crosses cloth
+    /// and stretches it to more than 1.6 times its length passes through it for a while.</summary>
     public enum PropShape : int
     {
         Sphere = 0,
