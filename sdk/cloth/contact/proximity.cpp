@@ -39,6 +39,12 @@ void Proximity::show_mesh(uint32_t mesh, std::span<const Vec3> positions) {
     surface.is_shown = true;
 }
 
+void Proximity::hide_mesh(uint32_t mesh) {
+    Surface& surface = surfaces_[mesh + 1];
+    surface.is_shown = false;
+    for (Classified* of : {&surface.all, &surface.of_marked}) of->pairs.clear(), of->batches.clear();
+}
+
 bool Proximity::Surface::meets(const Pair& pair) const {
     uint8_t own = 0;
     for (const uint32_t v : pair.first->vertex) own |= mask[v];

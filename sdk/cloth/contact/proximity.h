@@ -50,8 +50,8 @@ public:
     }
     /// Whether all of several do.
     void pass_each_other(bool they_do) { all_pass_ = they_do; }
-    /// It meets nothing.
-    void hide_mesh(uint32_t mesh) { surfaces_[mesh + 1].is_shown = false; }
+    /// It meets nothing, and its pairs are forgotten.
+    void hide_mesh(uint32_t mesh);
     size_t vertex_count() const { return vertex_count_; }
 
     /// Finds the pairs within reach between both ends of the step, and classifies them; those with a solid

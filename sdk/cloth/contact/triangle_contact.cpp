@@ -66,6 +66,12 @@ void TriangleContact::move_mesh(uint32_t number, std::span<const Vec3> end) {
     std::copy(end.begin(), end.end(), to_.begin() + first);
 }
 
+void TriangleContact::hide_mesh(uint32_t number) {
+    proximity_.hide_mesh(number);
+    if (meshes_[number].is_known) contacts_.fill(proximity_, begin_, end_, guard_.tangled());
+    meshes_[number].is_known = false;
+}
+
 void TriangleContact::start_mesh(uint32_t number, std::span<const Vec3> positions) {
     const auto first = std::ptrdiff_t(meshes_[number].first_vertex - cloth_vertices_);
     std::copy(positions.begin(), positions.end(), from_.begin() + first);

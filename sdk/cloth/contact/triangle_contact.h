@@ -48,7 +48,8 @@ public:
     void skip(float fraction);
     /// The next keep() is about that part of the step.
     void look_at(const Interval& interval);
-    void hide_mesh(uint32_t mesh) { proximity_.hide_mesh(mesh), meshes_[mesh].is_known = false; }
+    /// What was in contact with it no longer is: it may show up elsewhere in the next step.
+    void hide_mesh(uint32_t mesh);
     /// Meshes were nowhere before: their next step begins where it ends.
     void forget_meshes() {
         for (Mesh& mesh : meshes_) mesh.is_known = false;

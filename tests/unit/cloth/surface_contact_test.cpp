@@ -407,6 +407,33 @@ TEST(MeshContact, AMeshThatWasHiddenDoesNotComeFromWhereItWas) {
     }
 }
 
+TEST(MeshContact, WhatTouchedAMeshThatIsElsewhereAtOnceStays) {
+    const auto jobs = Jobs::own(0);
+    Sheet sheet(21, 21, 0.02f);
+    sheet.pin_top();
+    for (const bool away : {false, true}) {
+        BallMesh ball({0.2f, -0.2f, 0.107f}, 0.1f);
+        Cloth cloth(fabric(sheet.cook(cotton())), {}, sheet.positions);
+        cloth.meet_edges();
+        const uint32_t mesh = cloth.add_mesh(ball.positions.size(), ball.indices, {}, MeshOf::prop);
+        const auto step = [&] {
+            cloth.move_mesh(mesh, ball.positions);
+            cloth.step(kFrame_s, sheet.positions, {}, *jobs);
+        };
+        for (int i = 0; i < 10; ++i) step(), ball.move({0, 0, -0.005f});
+        const Vec3 before = cloth.positions()[sheet.at(10, 10)];
+        EXPECT_LT(before.z, -0.03f) << "they touch";
+        if (away) cloth.hide_mesh(mesh);
+        ball.move({away ? 5.0f : 0.0f, 0.04f, -0.04f});
+        step();
+        const float way_m = glm::distance(cloth.positions()[sheet.at(10, 10)], before);
+        if (away)
+            EXPECT_LT(way_m, 0.01f);
+        else
+            EXPECT_GT(way_m, 0.02f) << "the scene would show it";
+    }
+}
+
 TEST(MeshContact, WhatHangsBelowAHemIsNotDrawnUpToIt) {
     const auto jobs = Jobs::own(0);
     Sheet curtain(21, 21, 0.02f);
