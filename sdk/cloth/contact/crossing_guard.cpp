@@ -169,22 +169,21 @@ void CrossingGuard::untangle(std::span<Particle> places, float step_m) {
     }
 }
 
-/// The later of two pieces, off the earlier one. A line from one border to another is nowhere shorter.
+/// The later of two pieces, off the earlier one: towards its own outside, since the earlier one may have folds
+/// that face elsewhere. A line from one border to another is nowhere shorter.
 void CrossingGuard::come_outwards(std::span<Particle> places, float step_m) {
-    const auto sorted = [&](const TrianglePair& pair) {
-        const auto [a, b] = pair;
-        return piece_of(a) < piece_of(b) ? std::pair(a, b) : std::pair(b, a);
+    const auto above = [&](const TrianglePair& pair) {
+        return &indices_[3 * (piece_of(pair.first) < piece_of(pair.second) ? pair.second : pair.first)];
     };
     for (const TrianglePair& pair : other_tangles()) {
-        const auto [below, above] = sorted(pair);
-        const uint32_t* t = &indices_[3 * below];
+        const uint32_t* t = above(pair);
         const Vec3 across = glm::cross(places[t[1]].x - places[t[0]].x, places[t[2]].x - places[t[0]].x),
                    normal = across / std::max(glm::length(across), 1e-20f);
-        for (uint32_t k = 0; k < 3; ++k) outwards_[indices_[3 * above + k]] += normal;
+        for (uint32_t k = 0; k < 3; ++k) outwards_[t[k]] += normal;
     }
     for (const TrianglePair& pair : other_tangles())
         for (uint32_t k = 0; k < 3; ++k) {
-            const uint32_t v = indices_[3 * sorted(pair).second + k];
+            const uint32_t v = above(pair)[k];
             const float length = glm::length(outwards_[v]);
             if (length > 0.0f && !is_fixed_[v]) places[v].x += outwards_[v] * (step_m / length), mark(v);
             outwards_[v] = Vec3(0.0f);

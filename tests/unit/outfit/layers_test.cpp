@@ -91,7 +91,7 @@ TEST_F(LayersTest, PutOnItComesToLieOutsideOfItsLayer) {
 TEST_F(LayersTest, ACoatOverAWideDressNeverCrossesIt) {
     const WearableGarment wide = wearable("sundress_pattern"), coat = wearable("duster");
     const WearOptions options = in_size("XL");
-    for (const int frames : {0, 15}) {
+    for (const int frames : {0, 4, 6, 15}) {
         WornGarment inner(wide, she.wearer, options, *jobs), outer(coat, she.wearer, options, *jobs);
         for (int i = 0; i < frames; ++i) step(inner);
         together(inner, outer).wear_over(outer, inner);
