@@ -25,7 +25,7 @@ constexpr float kKineticShare = 0.84f;
 // How fast a vertex that is already inside a collider comes out: brisk against the fastest body (about the
 // speed of a walking foot), slow enough not to be shot away.
 constexpr float kMaxDepenetration_m_s = 3.0f;
-constexpr float kShortens_m_s = 0.12f;  // an edge that is longer than it may be
+constexpr float kShortens_m_s = 0.03f;  // an edge that is longer than it may be
 // What has been slower than that for so long, on a body that moves less than that in a step, sleeps. A swing
 // is so slow only for an instant, where it turns round; single vertices may tremble in a contact.
 constexpr float kStillMean_m_s = 0.002f, kStillMost_m_s = 0.05f, kStill_m = 2e-5f, kFallsAsleep_s = 0.5f;
@@ -79,6 +79,8 @@ void check(const ClothSettings& s) {
     if (!finite(s.friction) || s.friction < 0.0f) fail(VFIT_ERROR_ARGUMENT, "friction is ", s.friction);
     if (!finite(s.self_friction) || s.self_friction < 0.0f)
         fail(VFIT_ERROR_ARGUMENT, "friction between layers is ", s.self_friction);
+    if (!(s.limits_pull_m_s2 >= 0.0f))  // may be infinite
+        fail(VFIT_ERROR_ARGUMENT, "distance limits pull by ", s.limits_pull_m_s2, " m/s2");
     if (!finite(s.damping) || s.damping < 0.0f || s.damping > 1.0f)
         fail(VFIT_ERROR_ARGUMENT, "damping must be 0..1, is ", s.damping);
     if (!finite(s.thickness_m) || s.thickness_m < 0.0f)
@@ -198,8 +200,9 @@ struct Cloth::State {
     int haste = 1;                // steps in one, so long
     std::vector<Vec3> asleep_at;  // the targets at which it fell asleep; empty: it is awake
     bool limits_lengths = true;   // not while it is put on: it would be drawn through the body
-    float carried = 0.0f;         // fraction of the body's motion in the next step that moved the cloth
-    bool sleeps_on = false;       // after it was moved so
+    float limits_pull_m_s2 = std::numeric_limits<float>::infinity();  // of these steps
+    float carried = 0.0f;    // fraction of the body's motion in the next step that moved the cloth
+    bool sleeps_on = false;  // after it was moved so
 
     bool stays_asleep(std::span<const Vec3> targets) const;
     void wake() { asleep_at.clear(), still_s = 0.0f; }
@@ -333,7 +336,7 @@ void Cloth::put_on(std::span<const Vec3> start, const BodyOnItsWay& body, Jobs& 
     body(0.0f, targets, colliders);
     s.check_body(targets, colliders);
     reset(start);
-    s.limits_lengths = false;
+    s.limits_lengths = false, s.limits_pull_m_s2 = s.settings.limits_pull_m_s2;
     s.meet_body(targets, colliders);
     s.part_layers(jobs);
     const auto frame = [&](const PutOnPhase& phase, float share) {
@@ -379,7 +382,8 @@ void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
     constexpr float kShortest_s = 1.5e-4f, kLongest_s = 1.0f / 60.0f, kStopped = 1.0f;
     State& s = *state_;
     s.settles_s = kSettles_s, s.haste = kSettlingHaste;
-    s.limits_lengths = true;
+    // In steps so short, what is not held firmly goes with the lengths.
+    s.limits_lengths = true, s.limits_pull_m_s2 = std::numeric_limits<float>::infinity();
     std::vector<Vec3> targets;
     std::vector<Collider> colliders;
     for (int i = 0; i < kSteps; ++i) {
@@ -518,7 +522,7 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
     if (dt == 0.0f) return;
     const Stopwatch watch;
     dt = std::clamp(dt, kMinStep_s, kMaxStep_s);
-    s.limits_lengths = true;
+    s.limits_lengths = true, s.limits_pull_m_s2 = s.settings.limits_pull_m_s2;
     if (s.settings.follows_fixed) s.follow_fixed(dt, skinned_targets);
     s.meet_body(skinned_targets, colliders);
     if (s.stays_asleep(skinned_targets)) {
@@ -701,8 +705,8 @@ void Cloth::State::advance_interval(float dt, int count, float damping, const In
     const float h = dt / float(count);
     find_contact_of_parts(h);
     solver.advance({dt, count, settings.gravity, settings.air, std::pow(1.0f - damping, h), contact_of,
-                    settings.thickness_m, previous_targets, targets, interval, colliders, meshes,
-                    triangles ? &*triangles : nullptr, settings.self_friction},
+                    settings.thickness_m, limits_pull_m_s2, previous_targets, targets, interval, colliders,
+                    meshes, triangles ? &*triangles : nullptr, settings.self_friction},
                    jobs);
     publish();
     if (interval_ended) interval_ended(interval.to, dt);
@@ -773,7 +777,8 @@ void Cloth::State::keep_layers(float dt, Jobs& jobs) {
     const bool has_layers = std::all_of(of_pieces.begin(), of_pieces.end(),
                                         [](const ClothSettings& of) { return of.self_thickness_m > 0.0f; });
     certified = triangles->keep(before, now, jobs,
-                                limits_lengths ? std::optional(kShortens_m_s * dt) : std::nullopt) &&
+                                limits_lengths && settings.limits_lengths ? std::optional(kShortens_m_s * dt)
+                                                                          : std::nullopt) &&
                 has_layers;
     for (const uint32_t v : triangles->moved()) {
         const uint32_t particle = fabric->layout().particle_of[v];

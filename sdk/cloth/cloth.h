@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <utility>
@@ -53,8 +54,11 @@ struct ClothSettings {
     float self_thickness_m = 0.0f;  // kept between the cloth's own layers; 0: they pass through each other
     float virtual_m =
         0.0f;  // points of triangles, no further from each other, meet colliders as vertices do; 0: none
-    bool pressure = false;  // how the body presses against each vertex is found
-    bool sleeps = true;     // a cloth that lies still, on a body that does, is not stepped
+    bool pressure = false;       // how the body presses against each vertex is found
+    bool limits_lengths = true;  // with own layers or props: edges have a greatest length, save where the
+                                 // cloth is put on
+    float limits_pull_m_s2 = std::numeric_limits<float>::infinity();  // of distance limits, at most
+    bool sleeps = true;  // a cloth that lies still, on a body that does, is not stepped
 
     bool is_jump(const BodyWay& way, float dt) const {
         return std::max(way.whole_m, way.limb_m) > carry_speed_m_s * dt || way.min_m > carry_way_m;

@@ -18,7 +18,7 @@ inline constexpr float kPasses_s = 0.3f;  // at least
 template <typename Point, typename Counts>
 bool is_held(const ClothPiece& cloth, size_t points, Point&& point, Counts&& counts) {
     constexpr float kBeside_m = 0.02f;  // between the edge and a point
-    constexpr float kHeld = LengthLimit::kMaxStrain + 0.1f;
+    constexpr float kHeld = LengthLimit::kMaxContactStrain + 0.1f;
     const std::span<const float> strains = cloth.edge_strain();
     const std::span<const Vec3> places = cloth.positions();
     for (size_t i = 0; i < strains.size(); ++i) {

@@ -169,8 +169,8 @@ void CrossingGuard::untangle(std::span<Particle> places, float step_m) {
     }
 }
 
-/// The later of two pieces, off the earlier one: towards its own outside, since the earlier one may have folds
-/// that face elsewhere. A line from one border to another is nowhere shorter.
+/// The later of two pieces, off the earlier one: towards its own outside, since the earlier one may have
+/// folds that face elsewhere. A line from one border to another is nowhere shorter.
 void CrossingGuard::come_outwards(std::span<Particle> places, float step_m) {
     const auto above = [&](const TrianglePair& pair) {
         return &indices_[3 * (piece_of(pair.first) < piece_of(pair.second) ? pair.second : pair.first)];

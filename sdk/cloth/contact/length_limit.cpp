@@ -8,7 +8,7 @@ namespace vfit {
 
 namespace {
 
-constexpr int kPasses = 10;
+constexpr int kPasses = 30;
 
 }  // namespace
 
@@ -17,7 +17,7 @@ LengthLimit::LengthLimit(const Fabric& fabric) : first_(fabric.vertex_count() + 
     for (const DistanceConstraint& e : fabric.data().edges) {
         const float a = inverse_mass[e.a], b = inverse_mass[e.b];
         if (a + b == 0.0f) continue;
-        edges_.push_back({e.a, e.b, (1.0f + kMaxStrain) * e.rest_m, a / (a + b), b / (a + b)});
+        edges_.push_back({e.a, e.b, e.rest_m, a / (a + b), b / (a + b)});
         ++first_[e.a + 1], ++first_[e.b + 1];
     }
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
@@ -32,10 +32,11 @@ LengthLimit::LengthLimit(const Fabric& fabric) : first_(fabric.vertex_count() + 
 std::span<const uint32_t> LengthLimit::keep(std::span<const Particle> begin, std::span<Particle> end,
                                             float shortens_m) {
     forget_moved();
+    const Step step{begin, end, {}, 1.0f + kMaxStrain, shortens_m};
     for (uint32_t i = 0; i < edges_.size(); ++i)
-        if (glm::distance(end[edges_[i].a].x, end[edges_[i].b].x) > edges_[i].most_m)
+        if (glm::distance(end[edges_[i].a].x, end[edges_[i].b].x) > step.most_lengths * edges_[i].rest_m)
             next_.push_back(i), is_next_[i] = 1;
-    return run({begin, end, {}, shortens_m});
+    return run(step);
 }
 
 std::span<const uint32_t> LengthLimit::keep_about(std::span<const uint32_t> vertices,
@@ -44,7 +45,7 @@ std::span<const uint32_t> LengthLimit::keep_about(std::span<const uint32_t> vert
                                                   float shortens_m) {
     forget_moved();
     for (const uint32_t v : vertices) look_about(v);
-    return run({begin, end, stays, shortens_m});
+    return run({begin, end, stays, 1.0f + kMaxContactStrain, shortens_m});
 }
 
 std::span<const uint32_t> LengthLimit::run(const Step& step) {
@@ -61,10 +62,10 @@ std::span<const uint32_t> LengthLimit::run(const Step& step) {
 
 void LengthLimit::shorten(const Edge& edge, const Step& step) {
     Vec3 &a = step.end[edge.a].x, &b = step.end[edge.b].x;
-    const float length_m = glm::distance(a, b);
-    if (length_m <= edge.most_m) return;
+    const float length_m = glm::distance(a, b), most_m = step.most_lengths * edge.rest_m;
+    if (length_m <= most_m) return;
     const float before_m = glm::distance(step.begin[edge.a].x, step.begin[edge.b].x),
-                limit_m = std::max(edge.most_m, before_m - step.shortens_m);
+                limit_m = std::max(most_m, before_m - step.shortens_m);
     if (length_m <= limit_m) return;
     const auto stays = [&](uint32_t v) { return !step.stays.empty() && step.stays[v] != 0; };
     const float share_a = stays(edge.a) ? 0.0f : edge.share_a, share_b = stays(edge.b) ? 0.0f : edge.share_b;

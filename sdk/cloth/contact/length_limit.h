@@ -1,5 +1,6 @@
 // Edges have a greatest length. Where a body leaves cloth less room than it needs, since limbs pinch it or
-// the way around them is longer than it is, contact with the skin gives way, and not the cloth.
+// the way around them is longer than it is, contact with the skin gives way, and not the cloth. Contact of
+// triangles comes after that: it may stretch edges again, up to another length.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,8 @@ namespace vfit {
 
 class LengthLimit {
 public:
-    static constexpr float kMaxStrain = 0.5f;  // of an edge
+    static constexpr float kMaxStrain = 0.18f;        // of an edge
+    static constexpr float kMaxContactStrain = 0.5f;  // that contact leaves
     explicit LengthLimit(const Fabric& fabric);
 
     /// Gauss-Seidel over the edges that are too long at `end`, until none is, or for some passes. An edge
@@ -21,7 +23,8 @@ public:
     /// each, until the next call.
     std::span<const uint32_t> keep(std::span<const Particle> begin, std::span<Particle> end,
                                    float shortens_m);
-    /// The same of edges at these vertices, and at those that move. Flagged vertices stay where they are.
+    /// After contact: the same by its limit, of edges at these vertices, and at those that move. Flagged
+    /// vertices stay where they are.
     std::span<const uint32_t> keep_about(std::span<const uint32_t> vertices, std::span<const uint8_t> stays,
                                          std::span<const Particle> begin, std::span<Particle> end,
                                          float shortens_m);
@@ -29,13 +32,14 @@ public:
 private:
     struct Edge {
         uint32_t a, b;
-        float most_m;
+        float rest_m;
         float share_a, share_b;  // of the correction
     };
     struct Step {
         std::span<const Particle> begin;
         std::span<Particle> end;
         std::span<const uint8_t> stays;  // empty: none
+        float most_lengths;              // at rest
         float shortens_m;
     };
     std::span<const uint32_t> run(const Step& step);

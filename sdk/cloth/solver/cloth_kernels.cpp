@@ -293,16 +293,16 @@ HWY_INLINE Points CenterAt(const RunBalls& balls, size_t k, float share) {
                   {hn::Load(kTag, balls.x + k), hn::Load(kTag, balls.y + k), hn::Load(kTag, balls.z + k)});
 }
 
-/// Back to the balls' surface, as by a tether.
+/// Towards the balls' surface.
 HWY_INLINE void KeepIn(const SubstepEnd& end, const RunBalls& balls, size_t k, Points& p) {
     const V radius = hn::Load(kTag, balls.radius_m + k);
     const Points way = Sub(p, CenterAt(balls, k, end.to));
     const V length2 = Dot(way, way);
     const auto beyond = hn::And(hn::Gt(radius, Set(0.0f)), hn::Gt(length2, hn::Mul(radius, radius)));
-    p = MulAdd(way,
-               hn::IfThenElseZero(
-                   beyond, hn::Sub(hn::Div(radius, hn::Max(hn::Sqrt(length2), Set(kNoLength))), Set(1.0f))),
-               p);
+    const V length = hn::Max(hn::Sqrt(length2), Set(kNoLength));
+    const V back = hn::Max(hn::Sub(hn::Div(radius, length), Set(1.0f)),
+                           hn::Neg(hn::Div(Set(end.limits_pull_m), length)));
+    p = MulAdd(way, hn::IfThenElseZero(beyond, back), p);
 }
 
 /// Out of the balls, as out of colliders.

@@ -76,6 +76,7 @@ struct SubstepEnd {
     ContactSettings contact;
     Vec3 half_fall;
     float h, keep;
+    float limits_pull_m;  // a particle by at most
     bool last;
     Particle* pushed;  // as moving: what contacts move each by is added; null: nobody asks
 };

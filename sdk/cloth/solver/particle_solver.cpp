@@ -312,6 +312,7 @@ void ParticleSolver::end_part(const Step& step, int substep, uint32_t part) {
     end.contact = step.contact_of[part].settings;
     end.half_fall = half_fall(step);
     end.h = substep_s(step);
+    end.limits_pull_m = step.limits_pull_m_s2 * end.h * end.h;
     end.keep = step.keep;
     end.last = substep + 1 == step.substeps;
     end.pushed = pushed_.empty() ? nullptr : &pushed_[p.begin];

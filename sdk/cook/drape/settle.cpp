@@ -75,6 +75,7 @@ private:
         settings.self_thickness_m =
             keeps_layers_apart(cloth_, settings_.thickness_m) ? settings_.thickness_m : 0.0f;
         settings.damping = 0.95f;
+        settings.limits_lengths = false;  // as while it is put on
         std::vector<Vec3> targets = places;
         Cloth cloth(std::make_shared<const Fabric>(std::move(data)), settings, places);
         const uint32_t skin = cloth.add_mesh(body_.positions.size(), body_.indices,
