@@ -25,7 +25,7 @@ constexpr float kKineticShare = 0.84f;
 // How fast a vertex that is already inside a collider comes out: brisk against the fastest body (about the
 // speed of a walking foot), slow enough not to be shot away.
 constexpr float kMaxDepenetration_m_s = 3.0f;
-constexpr float kShortens_m_s = 0.03f;  // an edge that is longer than it may be
+constexpr float kShortens_m_s = 0.12f;  // an edge that is longer than it may be
 // What has been slower than that for so long, on a body that moves less than that in a step, sleeps. A swing
 // is so slow only for an instant, where it turns round; single vertices may tremble in a contact.
 constexpr float kStillMean_m_s = 0.002f, kStillMost_m_s = 0.05f, kStill_m = 2e-5f, kFallsAsleep_s = 0.5f;
@@ -199,6 +199,7 @@ struct Cloth::State {
     float settles_s = 0.0f;       // so long it comes to rest from other lengths, or once it was put on
     int haste = 1;                // steps in one, so long
     std::vector<Vec3> asleep_at;  // the targets at which it fell asleep; empty: it is awake
+    bool lengths_are_new = true;  // it was put on, or came to its lengths
     bool limits_lengths = true;   // not while it is put on: it would be drawn through the body
     float limits_pull_m_s2 = std::numeric_limits<float>::infinity();  // of these steps
     float carried = 0.0f;    // fraction of the body's motion in the next step that moved the cloth
@@ -309,7 +310,7 @@ void Cloth::State::reset(std::span<const Vec3> start) {
     solver.place(start);
     colliders.forget();
     for (ContactMesh& mesh : meshes) mesh.forget();
-    contacts_known = certified = false;
+    contacts_known = certified = false, lengths_are_new = true;
     if (triangles) triangles->forget_meshes();
     carried = 0.0f;
     wake();
@@ -397,6 +398,7 @@ void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
     }
     s.solver.rest();
     s.wake();
+    s.lengths_are_new = true;
 }
 
 uint32_t Cloth::add_mesh(size_t vertices, std::span<const uint32_t> indices, std::span<const uint8_t> counts,
@@ -531,6 +533,7 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
         return;
     }
     if (!s.asleep_at.empty()) s.wake();
+    if (s.triangles && std::exchange(s.lengths_are_new, false)) s.triangles->accept_lengths(s.positions);
     const bool settles = s.settles_s > 0.0f, is_first = s.settles_s == kSettles_s;
     if (settles) s.settles_s -= dt;
     const int wanted = s.substeps_for(dt);
@@ -758,7 +761,7 @@ void Cloth::State::find_triangles() {
         if (!mesh_places[i].empty()) triangles->move_mesh(i, mesh_places[i]);
     }
     triangles->arrive();
-    contacts_known = certified = false;
+    contacts_known = certified = false, lengths_are_new = true;
 }
 
 void Cloth::State::part_layers(Jobs& jobs) {

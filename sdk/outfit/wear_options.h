@@ -23,9 +23,9 @@ struct WearOptions {
 
     /// Of a cloth of that material.
     ClothSettings settings_of(const FabricMaterial& material) const {
-        // Forty times the weight. Where the body leaves the cloth no other way, as in a squat, a waistband
+        // Twenty times the weight. Where the body leaves the cloth no other way, as in a squat, a waistband
         // is drawn off its place: held without end, the cloth would be stretched, or drawn through the skin.
-        constexpr float kGrip_m_s2 = 400.0f;
+        constexpr float kGrip_m_s2 = 200.0f;
         ClothSettings settings = cloth;
         settings.limits_pull_m_s2 = kGrip_m_s2;
         settings.friction = friction.value_or(material.friction);

@@ -35,6 +35,7 @@ public:
     /// shortens_m: as of LengthLimit; without it edges have no limit.
     bool keep(std::span<const Particle> begin, std::span<Particle> end, Proximity& proximity, Jobs& jobs,
               std::optional<float> shortens_m = {});
+    void accept_lengths(std::span<const Particle> at) { length_limit_.accept(at); }
     /// The cloth was placed anew: what crossed did so elsewhere.
     void forget() { tangles_.clear(), own_tangles_ = 0; }
     /// Moves triangles of the cloth that cross apart, at rest. guarded: not through other layers meanwhile.

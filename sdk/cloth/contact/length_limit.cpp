@@ -9,6 +9,8 @@ namespace vfit {
 namespace {
 
 constexpr int kPasses = 30;
+constexpr float kMost = 1.0f + LengthLimit::kMaxStrain,
+                kMostOfContact = 1.0f + LengthLimit::kMaxContactStrain;
 
 }  // namespace
 
@@ -17,7 +19,7 @@ LengthLimit::LengthLimit(const Fabric& fabric) : first_(fabric.vertex_count() + 
     for (const DistanceConstraint& e : fabric.data().edges) {
         const float a = inverse_mass[e.a], b = inverse_mass[e.b];
         if (a + b == 0.0f) continue;
-        edges_.push_back({e.a, e.b, e.rest_m, a / (a + b), b / (a + b)});
+        edges_.push_back({e.a, e.b, e.rest_m, kMost * e.rest_m, a / (a + b), b / (a + b)});
         ++first_[e.a + 1], ++first_[e.b + 1];
     }
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
@@ -29,14 +31,21 @@ LengthLimit::LengthLimit(const Fabric& fabric) : first_(fabric.vertex_count() + 
     pass_.reserve(edges_.size()), next_.reserve(edges_.size()), moved_.reserve(fabric.vertex_count());
 }
 
+void LengthLimit::accept(std::span<const Particle> at) {
+    for (Edge& edge : edges_)
+        edge.most_m = std::max(kMost * edge.rest_m, glm::distance(at[edge.a].x, at[edge.b].x));
+}
+
 std::span<const uint32_t> LengthLimit::keep(std::span<const Particle> begin, std::span<Particle> end,
                                             float shortens_m) {
     forget_moved();
-    const Step step{begin, end, {}, 1.0f + kMaxStrain, shortens_m};
-    for (uint32_t i = 0; i < edges_.size(); ++i)
-        if (glm::distance(end[edges_[i].a].x, end[edges_[i].b].x) > step.most_lengths * edges_[i].rest_m)
-            next_.push_back(i), is_next_[i] = 1;
-    return run(step);
+    for (uint32_t i = 0; i < edges_.size(); ++i) {
+        Edge& edge = edges_[i];
+        if (const float least_m = kMost * edge.rest_m; edge.most_m > least_m)
+            edge.most_m = std::clamp(glm::distance(begin[edge.a].x, begin[edge.b].x), least_m, edge.most_m);
+        if (glm::distance(end[edge.a].x, end[edge.b].x) > edge.most_m) next_.push_back(i), is_next_[i] = 1;
+    }
+    return run({begin, end, {}, shortens_m, false});
 }
 
 std::span<const uint32_t> LengthLimit::keep_about(std::span<const uint32_t> vertices,
@@ -45,7 +54,7 @@ std::span<const uint32_t> LengthLimit::keep_about(std::span<const uint32_t> vert
                                                   float shortens_m) {
     forget_moved();
     for (const uint32_t v : vertices) look_about(v);
-    return run({begin, end, stays, 1.0f + kMaxContactStrain, shortens_m});
+    return run({begin, end, stays, shortens_m, true});
 }
 
 std::span<const uint32_t> LengthLimit::run(const Step& step) {
@@ -62,7 +71,9 @@ std::span<const uint32_t> LengthLimit::run(const Step& step) {
 
 void LengthLimit::shorten(const Edge& edge, const Step& step) {
     Vec3 &a = step.end[edge.a].x, &b = step.end[edge.b].x;
-    const float length_m = glm::distance(a, b), most_m = step.most_lengths * edge.rest_m;
+    const float length_m = glm::distance(a, b),
+                most_m =
+                    step.after_contact ? std::max(edge.most_m, kMostOfContact * edge.rest_m) : edge.most_m;
     if (length_m <= most_m) return;
     const float before_m = glm::distance(step.begin[edge.a].x, step.begin[edge.b].x),
                 limit_m = std::max(most_m, before_m - step.shortens_m);

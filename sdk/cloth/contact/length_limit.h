@@ -18,6 +18,10 @@ public:
     static constexpr float kMaxContactStrain = 0.5f;  // that contact leaves
     explicit LengthLimit(const Fabric& fabric);
 
+    /// Edges may be as long as there, as where a cloth was put on a body that is too wide for it, until they
+    /// get shorter.
+    void accept(std::span<const Particle> at);
+
     /// Gauss-Seidel over the edges that are too long at `end`, until none is, or for some passes. An edge
     /// that was too long at `begin` already gets shorter by shortens_m. Returns the vertices that moved, once
     /// each, until the next call.
@@ -32,15 +36,15 @@ public:
 private:
     struct Edge {
         uint32_t a, b;
-        float rest_m;
+        float rest_m, most_m;
         float share_a, share_b;  // of the correction
     };
     struct Step {
         std::span<const Particle> begin;
         std::span<Particle> end;
         std::span<const uint8_t> stays;  // empty: none
-        float most_lengths;              // at rest
         float shortens_m;
+        bool after_contact;
     };
     std::span<const uint32_t> run(const Step& step);
     void shorten(const Edge& edge, const Step& step);

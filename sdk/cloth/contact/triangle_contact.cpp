@@ -104,6 +104,11 @@ void TriangleContact::part(std::span<Vec3> positions, Jobs& jobs) {
     copy(end_, positions);
 }
 
+void TriangleContact::accept_lengths(std::span<const Vec3> positions) {
+    copy(positions, begin_);
+    guard_.accept_lengths(begin_);
+}
+
 bool TriangleContact::keep(std::span<const Vec3> begin, std::span<Vec3> end, Jobs& jobs,
                            std::optional<float> shortens_m) {
     copy(begin, begin_), copy(end, end_);

@@ -63,6 +63,8 @@ public:
     /// goes outwards.
     void part(std::span<Vec3> positions, Jobs& jobs);
 
+    /// Edges may be as long as there, until they get shorter.
+    void accept_lengths(std::span<const Vec3> positions);
     /// After a step: changes its `end` so that nothing crosses which did not at its begin, and finds the
     /// contacts of the next step. True: the cloth crosses neither itself nor a mesh, which is proven.
     /// shortens_m: as of CrossingGuard.

@@ -103,6 +103,26 @@ TEST(LengthLimit, WhatWasTooLongBeforeGetsShorterByTheStep) {
     EXPECT_NEAR(length(), before_m - kStep_m, 2e-4f);
 }
 
+TEST(LengthLimit, WhatWasPutOnLongerStaysSoUntilItGetsShorter) {
+    Pulled pulled(0.04f);
+    LengthLimit limit{Fabric(pulled.data)};
+    limit.accept(pulled.end);
+    const float accepted = pulled.strain();
+    ASSERT_GT(accepted, 0.5f);
+    pulled.begin = pulled.end;
+    EXPECT_TRUE(limit.keep(pulled.begin, pulled.end, kStep_m).empty());
+    pulled.end[pulled.vertex].x.z += 0.01f;
+    EXPECT_FALSE(limit.keep(pulled.begin, pulled.end, kStep_m).empty());
+    EXPECT_NEAR(pulled.strain(), accepted, 0.01f);
+
+    pulled.begin = particles_of(pulled.sheet.positions);
+    pulled.end = pulled.begin;
+    EXPECT_TRUE(limit.keep(pulled.begin, pulled.end, kStep_m).empty());
+    pulled.end[pulled.vertex].x.z += 0.04f;
+    limit.keep(pulled.begin, pulled.end, kStep_m);
+    EXPECT_LT(pulled.strain(), LengthLimit::kMaxStrain + 0.005f);
+}
+
 TEST(LengthLimit, AfterContactChangesAreLookedAtAboutGivenVerticesAlone) {
     Pulled pulled(0.06f);
     LengthLimit limit{Fabric(pulled.data)};
