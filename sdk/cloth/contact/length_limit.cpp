@@ -19,7 +19,7 @@ LengthLimit::LengthLimit(const Fabric& fabric) : first_(fabric.vertex_count() + 
     for (const DistanceConstraint& e : fabric.data().edges) {
         const float a = inverse_mass[e.a], b = inverse_mass[e.b];
         if (a + b == 0.0f) continue;
-        edges_.push_back({e.a, e.b, e.rest_m, kMost * e.rest_m, a / (a + b), b / (a + b)});
+        edges_.push_back({e.a, e.b, e.rest_m, kMostOfContact * e.rest_m, a / (a + b), b / (a + b)});
         ++first_[e.a + 1], ++first_[e.b + 1];
     }
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
@@ -32,6 +32,7 @@ LengthLimit::LengthLimit(const Fabric& fabric) : first_(fabric.vertex_count() + 
 }
 
 void LengthLimit::accept(std::span<const Particle> at) {
+    is_accepted_ = true;
     for (Edge& edge : edges_)
         edge.most_m = std::max(kMost * edge.rest_m, glm::distance(at[edge.a].x, at[edge.b].x));
 }
@@ -41,7 +42,7 @@ std::span<const uint32_t> LengthLimit::keep(std::span<const Particle> begin, std
     forget_moved();
     for (uint32_t i = 0; i < edges_.size(); ++i) {
         Edge& edge = edges_[i];
-        if (const float least_m = kMost * edge.rest_m; edge.most_m > least_m)
+        if (const float least_m = kMost * edge.rest_m; is_accepted_ && edge.most_m > least_m)
             edge.most_m = std::clamp(glm::distance(begin[edge.a].x, begin[edge.b].x), least_m, edge.most_m);
         if (glm::distance(end[edge.a].x, end[edge.b].x) > edge.most_m) next_.push_back(i), is_next_[i] = 1;
     }

@@ -18,8 +18,8 @@ public:
     static constexpr float kMaxContactStrain = 0.5f;  // that contact leaves
     explicit LengthLimit(const Fabric& fabric);
 
-    /// Edges may be as long as there, as where a cloth was put on a body that is too wide for it, until they
-    /// get shorter.
+    /// The cloth is put on there: an edge that is beyond kMaxStrain, since the body is too wide for it, may
+    /// be as long until it gets shorter. Before that, kMaxContactStrain is the only limit.
     void accept(std::span<const Particle> at);
 
     /// Gauss-Seidel over the edges that are too long at `end`, until none is, or for some passes. An edge
@@ -52,6 +52,7 @@ private:
     void mark(uint32_t vertex);
     void look_about(uint32_t vertex);
 
+    bool is_accepted_ = false;
     std::vector<Edge> edges_;
     std::vector<uint32_t> first_, edges_at_;  // by vertex
     std::vector<uint32_t> pass_, next_;       // edges of this pass over them, and of the next one

@@ -58,6 +58,7 @@ TEST(LengthLimit, EdgesThatAreTooLongComeBackToTheirLimit) {
     Pulled pulled(0.06f);
     ASSERT_GT(pulled.strain(), 1.0f);
     LengthLimit limit{Fabric(pulled.data)};
+    limit.accept(pulled.begin);
     const auto moved = limit.keep(pulled.begin, pulled.end, kStep_m);
     EXPECT_LT(pulled.strain(), LengthLimit::kMaxStrain + 0.005f);
     std::vector<uint32_t> vertices(moved.begin(), moved.end());
@@ -77,6 +78,7 @@ TEST(LengthLimit, WithinTheLimitNothingMoves) {
     ASSERT_GT(pulled.strain(), 0.15f);
     const std::vector<Particle> before = pulled.end;
     LengthLimit limit{Fabric(pulled.data)};
+    limit.accept(pulled.begin);
     EXPECT_TRUE(limit.keep(pulled.begin, pulled.end, kStep_m).empty());
     for (size_t v = 0; v < before.size(); ++v) EXPECT_EQ(pulled.end[v].x, before[v].x);
 }
@@ -85,6 +87,7 @@ TEST(LengthLimit, WhatIsPinnedStaysAndTheRestFollows) {
     Pulled pulled(0.03f, true);
     const Vec3 at = pulled.end[pulled.vertex].x;
     LengthLimit limit{Fabric(pulled.data)};
+    limit.accept(pulled.begin);
     limit.keep(pulled.begin, pulled.end, kStep_m);
     EXPECT_EQ(pulled.end[pulled.vertex].x, at);
     EXPECT_LT(pulled.strain(), LengthLimit::kMaxStrain + 0.01f);
@@ -101,6 +104,14 @@ TEST(LengthLimit, WhatWasTooLongBeforeGetsShorterByTheStep) {
     LengthLimit limit{Fabric(pulled.data)};
     limit.keep(pulled.begin, pulled.end, kStep_m);
     EXPECT_NEAR(length(), before_m - kStep_m, 2e-4f);
+}
+
+TEST(LengthLimit, WhileItIsPutOnContactsLimitAloneHolds) {
+    Pulled pulled(0.06f);
+    LengthLimit limit{Fabric(pulled.data)};
+    limit.keep(pulled.begin, pulled.end, kStep_m);
+    EXPECT_LT(pulled.strain(), LengthLimit::kMaxContactStrain + 0.005f);
+    EXPECT_GT(pulled.strain(), LengthLimit::kMaxContactStrain - 0.05f);
 }
 
 TEST(LengthLimit, WhatWasPutOnLongerStaysSoUntilItGetsShorter) {
