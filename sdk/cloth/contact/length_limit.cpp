@@ -9,8 +9,8 @@ namespace vfit {
 namespace {
 
 constexpr int kPasses = 30;
-constexpr float kMost = 1.0f + LengthLimit::kMaxStrain,
-                kMostOfContact = 1.0f + LengthLimit::kMaxContactStrain;
+constexpr float kMaxLengths = 1.0f + LengthLimit::kMaxStrain,
+                kMaxContactLengths = 1.0f + LengthLimit::kMaxContactStrain;
 
 }  // namespace
 
@@ -19,7 +19,7 @@ LengthLimit::LengthLimit(const Fabric& fabric) : first_(fabric.vertex_count() + 
     for (const DistanceConstraint& e : fabric.data().edges) {
         const float a = inverse_mass[e.a], b = inverse_mass[e.b];
         if (a + b == 0.0f) continue;
-        edges_.push_back({e.a, e.b, e.rest_m, kMostOfContact * e.rest_m, a / (a + b), b / (a + b)});
+        edges_.push_back({e.a, e.b, e.rest_m, kMaxContactLengths * e.rest_m, a / (a + b), b / (a + b)});
         ++first_[e.a + 1], ++first_[e.b + 1];
     }
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
@@ -34,7 +34,7 @@ LengthLimit::LengthLimit(const Fabric& fabric) : first_(fabric.vertex_count() + 
 void LengthLimit::accept(std::span<const Particle> at) {
     is_accepted_ = true;
     for (Edge& edge : edges_)
-        edge.most_m = std::max(kMost * edge.rest_m, glm::distance(at[edge.a].x, at[edge.b].x));
+        edge.most_m = std::max(kMaxLengths * edge.rest_m, glm::distance(at[edge.a].x, at[edge.b].x));
 }
 
 std::span<const uint32_t> LengthLimit::keep(std::span<const Particle> begin, std::span<Particle> end,
@@ -42,8 +42,8 @@ std::span<const uint32_t> LengthLimit::keep(std::span<const Particle> begin, std
     forget_moved();
     for (uint32_t i = 0; i < edges_.size(); ++i) {
         Edge& edge = edges_[i];
-        if (const float least_m = kMost * edge.rest_m; is_accepted_ && edge.most_m > least_m)
-            edge.most_m = std::clamp(glm::distance(begin[edge.a].x, begin[edge.b].x), least_m, edge.most_m);
+        if (const float lowest_m = kMaxLengths * edge.rest_m; is_accepted_ && edge.most_m > lowest_m)
+            edge.most_m = std::clamp(glm::distance(begin[edge.a].x, begin[edge.b].x), lowest_m, edge.most_m);
         if (glm::distance(end[edge.a].x, end[edge.b].x) > edge.most_m) next_.push_back(i), is_next_[i] = 1;
     }
     return run({begin, end, {}, shortens_m, false});
@@ -73,8 +73,8 @@ std::span<const uint32_t> LengthLimit::run(const Step& step) {
 void LengthLimit::shorten(const Edge& edge, const Step& step) {
     Vec3 &a = step.end[edge.a].x, &b = step.end[edge.b].x;
     const float length_m = glm::distance(a, b),
-                most_m =
-                    step.after_contact ? std::max(edge.most_m, kMostOfContact * edge.rest_m) : edge.most_m;
+                most_m = step.after_contact ? std::max(edge.most_m, kMaxContactLengths * edge.rest_m)
+                                            : edge.most_m;
     if (length_m <= most_m) return;
     const float before_m = glm::distance(step.begin[edge.a].x, step.begin[edge.b].x),
                 limit_m = std::max(most_m, before_m - step.shortens_m);
