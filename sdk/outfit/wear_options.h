@@ -23,9 +23,10 @@ struct WearOptions {
 
     /// Of a cloth of that material.
     ClothSettings settings_of(const FabricMaterial& material) const {
-        // Twenty times the weight. Where the body leaves the cloth no other way, as in a squat, a waistband
-        // is drawn off its place: held without end, the cloth would be stretched, or drawn through the skin.
-        constexpr float kGrip_m_s2 = 200.0f;
+        // Seventy times the weight: a waistband carries all that hangs below it. Where the body leaves the
+        // cloth no other way, as in a squat, a waistband is drawn off its place: held without end, the cloth
+        // would be stretched, or drawn through the skin.
+        constexpr float kGrip_m_s2 = 700.0f;
         ClothSettings settings = cloth;
         settings.limits_pull_m_s2 = kGrip_m_s2;
         settings.friction = friction.value_or(material.friction);

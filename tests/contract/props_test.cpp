@@ -101,7 +101,7 @@ TEST_F(PropTest, ABallThatRollsIntoASkirtPushesItAsideAndItComesBack) {
         const vfit_prop ball = make_prop(VFIT_PROP_SPHERE, 0.11f);
         ASSERT_EQ(vfit_cloth_add_prop(cloth, ball), VFIT_OK) << contract::last_error();
         uint32_t crossed = 0;
-        for (int i = 0; i < 40; ++i) {
+        for (int i = 0; i < 44; ++i) {
             move(ball, free + 0.2f - 0.005f * float(i), 0.55f, 0.0f);
             step(cloth);
             if (i % 6 == 0) crossed += crossed_props(cloth);
