@@ -50,6 +50,46 @@ TEST_F(WornGarmentTest, IsHeldNearShouldersOrWaistAndPinnedNowhere) {
     }
 }
 
+TEST_F(WornGarmentTest, InASquatTheWaistbandGivesWayAndComesBack) {
+    Person man(VFIT_SEX_MALE);
+    const WearableGarment trousers = wearable("pants_men");
+    WearOptions options;
+    options.on_skin = true;
+    options.cloth.self_thickness_m = 0.004f;
+    WornGarment worn(trousers, man.wearer, options, *jobs);
+    const Dress dress(trousers.garment(), trousers.bound(0, *jobs), trousers.material(), man.wearer.body());
+    const auto bent = [&](float share) {
+        Pose pose;
+        const Vec3 hips = man.avatar.skeleton().offset[VFIT_BONE_HIPS];
+        pose.hips_position = hips;
+        for (const vfit_bone_id leg : {VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_RIGHT_UPPER_LEG})
+            pose.rotation[leg] = glm::angleAxis(-2.0f * share, Vec3(1, 0, 0));
+        for (const vfit_bone_id leg : {VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_RIGHT_LOWER_LEG})
+            pose.rotation[leg] = glm::angleAxis(2.2f * share, Vec3(1, 0, 0));
+        man.avatar.move(pose);
+    };
+    const auto waist = [&] {
+        std::vector<Vec3> out;
+        for (const uint32_t v : dress.held()) out.push_back(worn.positions()[v]);
+        return out;
+    };
+    const auto way_m = [](const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+        float max_m = 0.0f;
+        for (size_t i = 0; i < a.size(); ++i) max_m = std::max(max_m, glm::distance(a[i], b[i]));
+        return max_m;
+    };
+    for (int i = 0; i < 60; ++i) step(worn);
+    const std::vector<Vec3> standing = waist();
+    for (int i = 1; i <= 60; ++i) bent(float(i) / 60.0f), step(worn);
+    for (int i = 0; i < 30; ++i) step(worn);
+    const std::vector<Vec3> squatting = waist();
+    EXPECT_GT(way_m(standing, squatting), 0.015f) << "the trousers are too short there";
+    EXPECT_LT(worn.stats().strain_p99, 0.2f);
+    for (int i = 59; i >= 0; --i) bent(float(i) / 60.0f), step(worn);
+    for (int i = 0; i < 60; ++i) step(worn);
+    EXPECT_LT(way_m(standing, waist()), 0.005f);
+}
+
 /// The longest edge between two vertices that hold it, as a fraction of its length on the body at rest.
 float stretch_of_held(const Dress& dress, const std::vector<Vec3>& places) {
     std::vector<uint8_t> holds(dress.rest().size(), 0);
