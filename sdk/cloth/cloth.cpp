@@ -79,8 +79,6 @@ void check(const ClothSettings& s) {
     if (!finite(s.friction) || s.friction < 0.0f) fail(VFIT_ERROR_ARGUMENT, "friction is ", s.friction);
     if (!finite(s.self_friction) || s.self_friction < 0.0f)
         fail(VFIT_ERROR_ARGUMENT, "friction between layers is ", s.self_friction);
-    if (!(s.limits_pull_m_s2 >= 0.0f))  // may be infinite
-        fail(VFIT_ERROR_ARGUMENT, "distance limits pull by ", s.limits_pull_m_s2, " m/s2");
     if (!finite(s.damping) || s.damping < 0.0f || s.damping > 1.0f)
         fail(VFIT_ERROR_ARGUMENT, "damping must be 0..1, is ", s.damping);
     if (!finite(s.thickness_m) || s.thickness_m < 0.0f)
@@ -201,9 +199,9 @@ struct Cloth::State {
     std::vector<Vec3> asleep_at;  // the targets at which it fell asleep; empty: it is awake
     bool lengths_are_new = true;  // it was put on, or came to its lengths
     bool limits_lengths = true;   // not while it is put on: it would be drawn through the body
-    float limits_pull_m_s2 = std::numeric_limits<float>::infinity();  // of these steps
-    float carried = 0.0f;    // fraction of the body's motion in the next step that moved the cloth
-    bool sleeps_on = false;  // after it was moved so
+    bool limits_give_way = true;  // as the fabric says, in these steps
+    float carried = 0.0f;         // fraction of the body's motion in the next step that moved the cloth
+    bool sleeps_on = false;       // after it was moved so
 
     bool stays_asleep(std::span<const Vec3> targets) const;
     void wake() { asleep_at.clear(), still_s = 0.0f; }
@@ -337,7 +335,7 @@ void Cloth::put_on(std::span<const Vec3> start, const BodyOnItsWay& body, Jobs& 
     body(0.0f, targets, colliders);
     s.check_body(targets, colliders);
     reset(start);
-    s.limits_lengths = false, s.limits_pull_m_s2 = s.settings.limits_pull_m_s2;
+    s.limits_lengths = false, s.limits_give_way = true;
     s.meet_body(targets, colliders);
     s.part_layers(jobs);
     const auto frame = [&](const PutOnPhase& phase, float share) {
@@ -384,7 +382,7 @@ void Cloth::come_to_lengths(const BodyOnItsWay& body, Jobs& jobs) {
     State& s = *state_;
     s.settles_s = kSettles_s, s.haste = kSettlingHaste;
     // In steps so short, what is not held firmly goes with the lengths.
-    s.limits_lengths = true, s.limits_pull_m_s2 = std::numeric_limits<float>::infinity();
+    s.limits_lengths = true, s.limits_give_way = false;
     std::vector<Vec3> targets;
     std::vector<Collider> colliders;
     for (int i = 0; i < kSteps; ++i) {
@@ -524,7 +522,7 @@ void Cloth::step(float dt, std::span<const Vec3> skinned_targets, std::span<cons
     if (dt == 0.0f) return;
     const Stopwatch watch;
     dt = std::clamp(dt, kMinStep_s, kMaxStep_s);
-    s.limits_lengths = true, s.limits_pull_m_s2 = s.settings.limits_pull_m_s2;
+    s.limits_lengths = true, s.limits_give_way = true;
     if (s.settings.follows_fixed) s.follow_fixed(dt, skinned_targets);
     s.meet_body(skinned_targets, colliders);
     if (s.stays_asleep(skinned_targets)) {
@@ -708,7 +706,7 @@ void Cloth::State::advance_interval(float dt, int count, float damping, const In
     const float h = dt / float(count);
     find_contact_of_parts(h);
     solver.advance({dt, count, settings.gravity, settings.air, std::pow(1.0f - damping, h), contact_of,
-                    settings.thickness_m, limits_pull_m_s2, previous_targets, targets, interval, colliders,
+                    settings.thickness_m, limits_give_way, previous_targets, targets, interval, colliders,
                     meshes, triangles ? &*triangles : nullptr, settings.self_friction},
                    jobs);
     publish();

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <span>
 #include <utility>
@@ -57,8 +56,7 @@ struct ClothSettings {
     bool pressure = false;       // how the body presses against each vertex is found
     bool limits_lengths = true;  // with own layers or props: edges have a greatest length, save where the
                                  // cloth is put on
-    float limits_pull_m_s2 = std::numeric_limits<float>::infinity();  // of distance limits, at most
-    bool sleeps = true;  // a cloth that lies still, on a body that does, is not stepped
+    bool sleeps = true;          // a cloth that lies still, on a body that does, is not stepped
 
     bool is_jump(const BodyWay& way, float dt) const {
         return std::max(way.whole_m, way.limb_m) > carry_speed_m_s * dt || way.min_m > carry_way_m;

@@ -19,16 +19,11 @@ struct WearOptions {
     bool on_skin = false;  // kept out of the skin itself, not of spheres and capsules
     float cover_m = 0.0f;  // further spheres and capsules until no skin is further outside of them; 0: none
     std::optional<float> friction;  // null: the fabric's
-    ClothSettings cloth;            // except friction, follows_fixed and limits_pull_m_s2
+    ClothSettings cloth;            // except friction and follows_fixed
 
     /// Of a cloth of that material.
     ClothSettings settings_of(const FabricMaterial& material) const {
-        // Seventy times the weight: a waistband carries all that hangs below it. Where the body leaves the
-        // cloth no other way, as in a squat, a waistband is drawn off its place: held without end, the cloth
-        // would be stretched, or drawn through the skin.
-        constexpr float kGrip_m_s2 = 700.0f;
         ClothSettings settings = cloth;
-        settings.limits_pull_m_s2 = kGrip_m_s2;
         settings.friction = friction.value_or(material.friction);
         settings.follows_fixed = false;  // a worn garment states the motion of the body
         return settings;

@@ -60,6 +60,8 @@ void check(const FabricData& d) {
             !std::isfinite(l.distance_m))
             fail(VFIT_ERROR_DATA, "greatest distance of vertex ", l.vertex, " from target ", l.target, ": ",
                  l.distance_m, " m");
+        else if (!(l.pull_m_s2 >= 0.0f))  // may be infinite
+            fail(VFIT_ERROR_DATA, "distance limit of vertex ", l.vertex, " pulls by ", l.pull_m_s2, " m/s2");
 }
 
 }  // namespace
@@ -217,9 +219,10 @@ std::vector<std::vector<BallRun>> Fabric::place_balls(std::span<const DistanceLi
         const auto place = std::find_if(runs.begin(), runs.end(), [&](const BallRun& r) {
             return r.run == run && r.radius_m[lane] == 0.0f;
         });
-        BallRun& of = place != runs.end() ? *place : runs.emplace_back(BallRun{run, {}, {}});
+        BallRun& of = place != runs.end() ? *place : runs.emplace_back(BallRun{run, {}, {}, {}});
         of.target[lane] = ball.target;
         of.radius_m[lane] = ball.distance_m;
+        of.pull_m_s2[lane] = ball.pull_m_s2;
     }
     for (auto& runs : parts)
         std::stable_sort(runs.begin(), runs.end(),

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -52,6 +53,7 @@ struct DistanceLimit {
     uint32_t vertex;
     float distance_m;
     uint32_t target = vertex;
+    float pull_m_s2 = std::numeric_limits<float>::infinity();  // at most
 };
 
 /// Balls that particles of a run of kLanes stay out of, or in, by lanes.
@@ -59,6 +61,7 @@ struct BallRun {
     uint32_t run;
     uint32_t target[kLanes];  // index of its centre
     float radius_m[kLanes];   // 0: none
+    float pull_m_s2[kLanes];  // into it, at most
 };
 
 /// What a fabric is made of as explicit data, in any order.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "cloth/garment/clear_skin.h"
 #include "cloth/garment/cut.h"
@@ -78,11 +79,22 @@ Vec3 carried_to(const Vec3& place, const Vec3& shift) {
 /// Keeps the vertices that hold the garment near their targets, and the others within reach of those by the
 /// way along the edges (long range attachment). Returns these ways. They slide on the skin as all cloth does,
 /// but not far: pinned to it, they would stretch wherever the skin does, and give way to no obstacle.
+///
+/// Both pull by limited forces. Where the body leaves the cloth no other way, as in a squat, a waistband is
+/// drawn off its place: held without end, the cloth would be stretched, or drawn through the skin. What holds
+/// carries the whole garment, whatever part of it that is; what hangs is helped to carry itself.
 std::vector<Tether> hold(std::span<const uint32_t> held, float slides_m, FabricData& data) {
+    constexpr float kGravity_m_s2 = 9.81f;
+    constexpr float kHeld = 2.0f, kHanging = 3.0f;  // times the weight that hangs there
     std::vector<float> inverse_mass = data.inverse_mass;
-    for (const uint32_t v : held) inverse_mass[v] = 0.0f, data.limits.push_back({v, slides_m});
+    float all_kg = 0.0f, held_kg = 0.0f;
+    for (const float inverse : inverse_mass) all_kg += 1.0f / inverse;
+    for (const uint32_t v : held) held_kg += 1.0f / std::exchange(inverse_mass[v], 0.0f);
+    const float pull_m_s2 = kHeld * kGravity_m_s2 * all_kg / held_kg;
+    for (const uint32_t v : held) data.limits.push_back({v, slides_m, v, pull_m_s2});
     std::vector<Tether> tethers = cook_tethers(inverse_mass, data.edges);
-    for (const Tether& t : tethers) data.limits.push_back({t.vertex, t.length_m + slides_m, t.anchor});
+    for (const Tether& t : tethers)
+        data.limits.push_back({t.vertex, t.length_m + slides_m, t.anchor, kHanging * kGravity_m_s2});
     return tethers;
 }
 

@@ -301,7 +301,7 @@ HWY_INLINE void KeepIn(const SubstepEnd& end, const RunBalls& balls, size_t k, P
     const auto beyond = hn::And(hn::Gt(radius, Set(0.0f)), hn::Gt(length2, hn::Mul(radius, radius)));
     const V length = hn::Max(hn::Sqrt(length2), Set(kNoLength));
     const V back = hn::Max(hn::Sub(hn::Div(radius, length), Set(1.0f)),
-                           hn::Neg(hn::Div(Set(end.limits_pull_m), length)));
+                           hn::Neg(hn::Div(hn::Load(kTag, balls.pull_m + k), length)));
     p = MulAdd(way, hn::IfThenElseZero(beyond, back), p);
 }
 

@@ -55,6 +55,7 @@ struct alignas(32) RunBalls {
     float x[kLanes], y[kLanes], z[kLanes];              // centres at the begin of the step
     float way_x[kLanes], way_y[kLanes], way_z[kLanes];  // to its end
     float radius_m[kLanes];                             // 0: none
+    float pull_m[kLanes];                               // into it, a sub-step, at most
     uint32_t run;                                       // in Moving
 };
 
@@ -76,7 +77,6 @@ struct SubstepEnd {
     ContactSettings contact;
     Vec3 half_fall;
     float h, keep;
-    float limits_pull_m;  // a particle by at most
     bool last;
     Particle* pushed;  // as moving: what contacts move each by is added; null: nobody asks
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "cloth/contact/contact_culling.h"
@@ -257,6 +258,7 @@ template <typename Radius>
 void ParticleSolver::place_balls(const Step& step, uint32_t part, std::span<const BallRun> runs,
                                  const Radius& radius_m, std::vector<RunBalls>& out) const {
     const uint32_t first_run = fabric_->layout().parts[part].begin / uint32_t(kLanes);
+    const float h = substep_s(step);
     out.resize(runs.size());
     for (size_t i = 0; i < runs.size(); ++i) {
         RunBalls& ball = out[i];
@@ -266,6 +268,8 @@ void ParticleSolver::place_balls(const Step& step, uint32_t part, std::span<cons
             ball.x[k] = from.x, ball.y[k] = from.y, ball.z[k] = from.z;
             ball.way_x[k] = way.x, ball.way_y[k] = way.y, ball.way_z[k] = way.z;
             ball.radius_m[k] = runs[i].radius_m[k] > 0.0f ? radius_m(runs[i], k) : 0.0f;
+            ball.pull_m[k] =
+                step.limits_give_way ? runs[i].pull_m_s2[k] * h * h : std::numeric_limits<float>::infinity();
         }
     }
 }
@@ -312,7 +316,6 @@ void ParticleSolver::end_part(const Step& step, int substep, uint32_t part) {
     end.contact = step.contact_of[part].settings;
     end.half_fall = half_fall(step);
     end.h = substep_s(step);
-    end.limits_pull_m = step.limits_pull_m_s2 * end.h * end.h;
     end.keep = step.keep;
     end.last = substep + 1 == step.substeps;
     end.pushed = pushed_.empty() ? nullptr : &pushed_[p.begin];

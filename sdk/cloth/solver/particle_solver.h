@@ -52,7 +52,7 @@ public:
         float keep;                               // of the speed, a sub-step
         std::span<const PartContact> contact_of;  // one a part
         float thickness_m;                        // of backstops; colliders have theirs
-        float limits_pull_m_s2;                   // of distance limits, at most
+        bool limits_give_way;                     // pull by no more than the fabric says
         std::span<const Vec3> from, to;           // the fabric's targets at both ends of a step
         Interval interval;                        // of that one, which this is about
         const ColliderMotion& colliders;
