@@ -58,6 +58,7 @@ CrossingGuard::CrossingGuard(const Fabric& fabric)
       is_moved_(is_marked_),
       is_zoned_(is_marked_),
       is_beyond_(is_marked_),
+      goes_back_(is_marked_),
       wanted_(cloth_vertices_),
       found_at_(cloth_vertices_),
       parent_(cloth_vertices_, kNone),
@@ -71,7 +72,7 @@ void CrossingGuard::add_mesh(size_t vertices, MeshOf what) {
     meshes_.push_back({what});
     const size_t count = inverse_mass_.size() + vertices;
     inverse_mass_.resize(count, 0.0f);
-    for (std::vector<uint8_t>* flags : {&is_marked_, &is_moved_, &is_zoned_, &is_beyond_})
+    for (std::vector<uint8_t>* flags : {&is_marked_, &is_moved_, &is_zoned_, &is_beyond_, &goes_back_})
         flags->resize(count, 0);
     is_fixed_.resize(count, 1);
     wanted_.resize(count), found_at_.resize(count), places_.resize(count);
@@ -110,6 +111,10 @@ bool CrossingGuard::keep(std::span<const Particle> begin, std::span<Particle> en
             take_back(begin, end);
         }
         if (shortens_m) mark(length_limit_.keep_about(moved_, is_zoned_, begin, end, *shortens_m));
+        // Those that cross are looked at again, whether they were moved or not.
+        for (const auto& [first, second] : crossed_)
+            for (const Proximity::Triangle* t : {first, second})
+                for (const uint32_t v : t->vertex) is_marked_[v] = 1;
         find_pairs_again(begin, end, proximity);
         proximity.find_uncertain_of(is_marked_, begin, end, jobs);
     }
@@ -396,19 +401,14 @@ void CrossingGuard::move_zone(std::span<const uint32_t> zone, std::span<const Pa
     }
 }
 
-/// What still crosses stays where it was.
+/// Zones in which something still crosses stay where they were: parts of them would cross the others.
 void CrossingGuard::take_back(std::span<const Particle> begin, std::span<Particle> end) {
-    const auto back = [&](uint32_t v) {
-        if (is_fixed_[v]) return;
-        unite(v, v);
-        end[v].x = begin[v].x;
-        mark(v);
-    };
-    for (const Hit& hit : hits_)
-        for (const uint32_t v : hit.vertices) back(v);
-    for (const auto& [first, second] : crossed_)
-        for (const Proximity::Triangle* t : {first, second})
-            for (const uint32_t v : t->vertex) back(v);
+    unite_hits();
+    for (const Hit& hit : hits_) goes_back_[root(hit.vertices[0])] = 1;
+    for (const auto& [first, second] : crossed_) goes_back_[root(first->vertex[0])] = 1;
+    for (const uint32_t v : zoned_)
+        if (!is_fixed_[v] && goes_back_[root(v)]) end[v].x = begin[v].x, mark(v);
+    for (const uint32_t v : zoned_) goes_back_[v] = 0;
 }
 
 }  // namespace vfit

@@ -106,6 +106,7 @@ private:
     std::vector<uint8_t> is_marked_, is_moved_;  // in this round, in all
     std::vector<uint8_t> is_zoned_;              // in a zone of any size
     std::vector<uint8_t> is_beyond_;             // of what found_at_ allows for
+    std::vector<uint8_t> goes_back_;             // the zone of that root
     std::vector<uint32_t> moved_;
     std::vector<Particle> wanted_;          // the end that the step made
     std::vector<Vec3> found_at_;            // where the pairs were found

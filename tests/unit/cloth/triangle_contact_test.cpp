@@ -533,6 +533,26 @@ TEST(CrossingGuard, NoWayOfTwoSheetsCrosses) {
     EXPECT_GT(changed, 20u) << "the scene would show it";
 }
 
+TEST(CrossingGuard, NoStepOfCrumpledClothCrosses) {
+    std::mt19937 random(4);
+    const TwoSheets flat(9, 0.02f, {0.003f, 0.004f, 0.004f});
+    TwoSheets before = flat;
+    size_t changed = 0;
+    for (int i = 0; i < 100; ++i) {
+        if (i % 10 == 0) before = flat;
+        // All is squeezed to a point, and vertices go astray.
+        TwoSheets now = before;
+        const Vec3 middle = random_point(random, 0.1f) + Vec3(0.08f, 0.0f, 0.08f);
+        for (Vec3& p : now.positions) p += 0.1f * (middle - p) + random_point(random, 0.004f);
+        changed += now.crossed().empty() ? 0 : 1;
+        GuardedStep step(before);
+        EXPECT_TRUE(step.keep(before, now)) << i;
+        ASSERT_TRUE(now.crossed().empty()) << i;
+        before = now;
+    }
+    EXPECT_GT(changed, 50u) << "the scene would show it";
+}
+
 TEST(CrossingGuard, WhatDoesNotCrossIsLeftAlone) {
     const TwoSheets sheets(5, 0.02f, {0.0f, 0.01f, 0.0f});
     TwoSheets now = sheets;
