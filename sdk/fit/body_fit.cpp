@@ -33,7 +33,8 @@ constexpr float kWideRobust_m = 0.10f;
 constexpr float kBetter = 0.97f;  // of the cost: the other start has to win by this
 // Of frames that follow each other within half a second: who turns or steps farther was cut, not moving.
 constexpr float kCutTurn_rad = 0.6f, kCutStep_m = 0.3f;
-constexpr float kAgree_m = 0.10f;  // from the last frame's joints: the network says nothing else
+constexpr float kTurnedAbout_rad = 1.0f;  // from the last frame, by the joints: the person faces elsewhere
+constexpr float kAgree_m = 0.10f;         // from the last frame's joints: the network says nothing else
 
 bool good(const FitScore& score) { return score.iou >= kGoodIou && score.median_m <= kGoodMedian_m; }
 
@@ -79,6 +80,10 @@ FitShape standard_deviations(const FitShapeMatrix& matrix) {
         out[column] = float(std::sqrt(squares));
     }
     return out;
+}
+
+float turned_rad(const FitState& a, const FitState& b) {
+    return angle_of(a.rotation[VFIT_BONE_HIPS] * glm::conjugate(b.rotation[VFIT_BONE_HIPS]));
 }
 
 }  // namespace
@@ -196,7 +201,10 @@ bool BodyFit::find_start(const BodyFitInput& input, bool follow, FitState& state
         out_.from_last = from_last;
         started = true;
     };
-    if (follow) {
+    FitState afresh;
+    const bool can_start = start_from_joints(input.joints, afresh);
+    // Seen from a side, the outline is as good with left and right exchanged: joints decide.
+    if (follow && !(can_start && turned_rad(afresh, last_) > kTurnedAbout_rad)) {
         consider(last_, true);
         if (!good(out_.start_score) || !agrees_with(input.joints)) {
             FitState reached = last_;
@@ -204,8 +212,7 @@ bool BodyFit::find_start(const BodyFitInput& input, bool follow, FitState& state
             consider(reached, false);
         }
     }
-    FitState afresh;
-    if ((!started || !good(out_.start_score)) && start_from_joints(input.joints, afresh)) {
+    if (can_start && (!started || !good(out_.start_score))) {
         reach_for_joints(input.joints, kReachStepsAtFirst, afresh);
         consider(afresh, false);
     }
@@ -223,8 +230,7 @@ bool BodyFit::agrees_with(const FitJoints& joints) const {
 /// Whether the person stands so differently from the last frame's that the two do not follow each other: a
 /// recording that was cut, or another one. Nothing of the last pose then holds.
 bool BodyFit::is_cut(const FitState& state) const {
-    const Quat turn = state.rotation[VFIT_BONE_HIPS] * glm::conjugate(last_.rotation[VFIT_BONE_HIPS]);
-    return angle_of(turn) > kCutTurn_rad || glm::distance(state.hips, last_.hips) > kCutStep_m;
+    return turned_rad(state, last_) > kCutTurn_rad || glm::distance(state.hips, last_.hips) > kCutStep_m;
 }
 
 /// From `state` as it was drawn.

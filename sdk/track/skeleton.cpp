@@ -9,10 +9,13 @@ namespace vfit {
 namespace {
 
 constexpr float kLeastHeat =
-    -14.0f;                    // logit below the highest: all cells of a map together then weigh under 0.001
-constexpr float kKeep = 0.9f;  // of the doubt, a frame
+    -14.0f;  // logit below the highest: all cells of a map together then weigh under 0.001
+// Of the facing, frame by frame.
+constexpr float kScale_m = 0.3f,
+                kScaleShare = 0.5f;   // of distances summed over joints, by which sides are told
+constexpr float kLeast = 1e-4f;       // probability that they are told wrongly, and of the other
+constexpr float kWeight = 0.35f;      // of the network's answer: those of frames in a row are alike
 constexpr float kAnswerLimit = 3.0f;  // one frame's logit counts no more
-constexpr float kTurnAbout = 18.0f;   // doubt at which the decision falls: nine frames of firm answers
 
 /// The first cell whose middle may lie within `reach` of `place`, and the one after the last.
 std::pair<int, int> cells_within(float place, float reach) {
@@ -26,6 +29,8 @@ void exchange_sides(SeenJoints& joints) {
         if (const int other = mirrored_joint(j); other > j)
             std::swap(joints[size_t(j)], joints[size_t(other)]);
 }
+
+float probability_of(float log_odds) { return 1.0f / (1.0f + std::exp(-log_odds)); }
 
 /// Sum over paired joints of the distance between the same joint in both.
 float distance_between(const SeenJoints& a, const SeenJoints& b) {
@@ -78,30 +83,21 @@ void read_maps(const JointMaps& maps, const CropView& view, const Camera& camera
 }
 
 void Facing::apply(float away_logit, SeenJoints& joints) {
-    const float answer = std::clamp(away_logit, -kAnswerLimit, kAnswerLimit);
-    if (!known_) {
-        away_ = answer > 0.0f;
-        known_ = true;
-        if (away_) exchange_sides(joints);
-        last_ = joints;
-        return;
+    if (known_) {
+        SeenJoints other = joints;
+        exchange_sides(other);
+        const float same_m = distance_between(joints, last_), exchanged_m = distance_between(other, last_);
+        const float scale_m = kScale_m + kScaleShare * std::min(same_m, exchanged_m);
+        const float stays =
+            std::clamp(probability_of((exchanged_m - same_m) / scale_m), kLeast, 1.0f - kLeast);
+        const float was = probability_of(log_odds_);
+        const float is = stays * was + (1.0f - stays) * (1.0f - was);
+        log_odds_ = std::log(is / (1.0f - is));
     }
-    if (away_) exchange_sides(joints);
-    // Turned past the side view: the same limbs now stand on the other side of the image.
-    SeenJoints other = joints;
-    exchange_sides(other);
-    if (distance_between(other, last_) < 0.6f * distance_between(joints, last_)) {
-        away_ = !away_;
-        doubt_ = 0.0f;
-        joints = other;
-    }
-    doubt_ = std::max(0.0f, kKeep * doubt_ + (away_ ? -answer : answer));
-    if (doubt_ > kTurnAbout) {
-        away_ = !away_;
-        doubt_ = 0.0f;
-        exchange_sides(joints);
-    }
+    known_ = true;
+    if (!std::isnan(away_logit)) log_odds_ += kWeight * std::clamp(away_logit, -kAnswerLimit, kAnswerLimit);
     last_ = joints;
+    if (away()) exchange_sides(joints);
 }
 
 }  // namespace vfit

@@ -22,21 +22,23 @@ inline constexpr float kNear_m = 0.10f;
 
 void read_maps(const JointMaps& maps, const CropView& view, const Camera& camera, SeenJoints& out);
 
-/// Decides, frame by frame, whether the person's left is the image's right or left. Front and back look alike
-/// in depth, and one frame's answer may be wrong: the sides that carry on the last frame's joints stand until
-/// the network has disagreed for a while.
+/// Decides, frame by frame, whether the person's left is the image's right or left: the probability that they
+/// face away. From frame to frame it stays, or becomes that of the opposite where joints carry on the last
+/// frame's with left and right exchanged, as in a turn past the side view. Where they carry on neither, as
+/// after a cut, it is open again. The network's answer is then added to it; front and back look alike in
+/// depth, and one frame's answer may be wrong.
 class Facing {
 public:
     /// Exchanges left and right in `joints` where the person faces away.
     void apply(float away_logit, SeenJoints& joints);
-    bool away() const { return away_; }
+    bool away() const { return log_odds_ > 0.0f; }
     /// The decision as it stands; of somebody new what the network says.
-    bool away(float away_logit) const { return known_ ? away_ : away_logit > 0.0f; }
+    bool away(float away_logit) const { return known_ ? away() : away_logit > 0.0f; }
 
 private:
-    bool known_ = false, away_ = false;
-    float doubt_ = 0.0f;  // evidence against the present decision, summed with decay
-    SeenJoints last_{};
+    bool known_ = false;
+    float log_odds_ = 0.0f;  // that the person faces away
+    SeenJoints last_{};      // as if they faced the sensor
 };
 
 }  // namespace vfit

@@ -86,8 +86,8 @@ TEST(Facing, OneWrongAnswerDoesNotTurnAnybody) {
 
 TEST(Facing, FirmAnswersTurnThemInAThirdOfASecond) {
     Facing facing;
-    SeenJoints joints = standing();
-    facing.apply(-3.0f, joints);
+    SeenJoints joints;
+    for (int i = 0; i < 30; ++i) joints = standing(), facing.apply(-3.0f, joints);
     int frame = 0;
     do {
         joints = standing();
@@ -95,6 +95,24 @@ TEST(Facing, FirmAnswersTurnThemInAThirdOfASecond) {
     } while (joints[VFIT_JOINT_LEFT_HAND].position.x > 0.0f && ++frame < 100);
     EXPECT_GE(frame, 5);
     EXPECT_LE(frame, 10);
+    EXPECT_TRUE(facing.away());
+}
+
+TEST(Facing, AfterACutTheNextAnswerCounts) {
+    Facing facing;
+    SeenJoints joints;
+    for (int i = 0; i < 30; ++i) joints = standing(), facing.apply(-3.0f, joints);
+    joints = standing();
+    for (SeenJoint& joint : joints) joint.position.z += 1.0f;
+    facing.apply(1.0f, joints);
+    EXPECT_TRUE(facing.away());
+}
+
+TEST(Facing, AnAnswerThatIsNoNumberDoesNotCount) {
+    Facing facing;
+    SeenJoints joints = standing();
+    facing.apply(2.0f, joints);
+    joints = standing(), facing.apply(std::numeric_limits<float>::quiet_NaN(), joints);
     EXPECT_TRUE(facing.away());
 }
 
