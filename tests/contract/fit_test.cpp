@@ -26,6 +26,47 @@ protected:
         return length != 0.0f;
     }
 
+    /// Frames of a virtual person through the tracker, one after the other in time. Returns in how many of
+    /// them their left shoulder is nearer to the true right one.
+    int exchanged_in(vfit_tracker tracker, const std::string& options, int64_t& time_ns) {
+        vfit_sensor sensor{};
+        const std::string uri =
+            "virtual:sensor=kinect_v1&motion=wave&body=20106&seed=6&clothing=0.02"
+            "&distance=2.9&floor=unknown&" +
+            options;
+        EXPECT_EQ(vfit_sensor_open(context, uri.c_str(), &sensor), VFIT_OK) << contract::last_error();
+        EXPECT_EQ(vfit_sensor_start(sensor), VFIT_OK);
+        int exchanged = 0;
+        for (vfit_frame frame{}; vfit_sensor_acquire(sensor, -1, &frame) == VFIT_OK;) {
+            const vfit_stream stream = VFIT_STREAM_DEPTH;
+            vfit_view depth = vfit_view_init();
+            vfit_intrinsics intrinsics = vfit_intrinsics_init();
+            EXPECT_EQ(vfit_frame_view(frame, stream, &depth), VFIT_OK);
+            EXPECT_EQ(vfit_frame_intrinsics(frame, &intrinsics), VFIT_OK);
+            vfit_frame_desc desc = vfit_frame_desc_init();
+            desc.count = 1, desc.streams = &stream, desc.views = &depth, desc.intrinsics = &intrinsics;
+            desc.time_ns = time_ns += 33'333'333;
+            vfit_frame later{}, tracked{};
+            EXPECT_EQ(vfit_frame_create(context, &desc, &later), VFIT_OK) << contract::last_error();
+            EXPECT_EQ(vfit_tracker_update(tracker, later, &tracked), VFIT_OK) << contract::last_error();
+            vfit_body body = vfit_body_init();
+            uint32_t count = 1;
+            EXPECT_EQ(vfit_frame_bodies(tracked, &body, sizeof body, &count), VFIT_OK);
+            if (const auto joints = contract::joints_of(tracked, body.body_id); !joints.empty()) {
+                const auto truth = contract::joints_of(frame, 1);
+                const auto off_m = [&](int of_truth) {
+                    const float *a = joints[VFIT_JOINT_LEFT_SHOULDER].position,
+                                *b = truth[size_t(of_truth)].position;
+                    return std::hypot(a[0] - b[0], a[2] - b[2]);
+                };
+                exchanged += off_m(VFIT_JOINT_RIGHT_SHOULDER) < off_m(VFIT_JOINT_LEFT_SHOULDER);
+            }
+            for (const vfit_frame f : {tracked, later, frame}) EXPECT_EQ(vfit_frame_release(f), VFIT_OK);
+        }
+        EXPECT_EQ(vfit_sensor_close(sensor), VFIT_OK);
+        return exchanged;
+    }
+
     Outcome run(vfit_track_fit fit, int people) {
         Outcome out;
         vfit_sensor sensor{};
@@ -87,4 +128,15 @@ TEST_F(FitTest, IsOfTheActivePersonOrOfEverybody) {
     ASSERT_EQ(active.rotations.size(), 2u);
     for (const auto& [id, rotated] : active.rotations) EXPECT_EQ(rotated, id == active.active) << id;
     for (const auto& [id, rotated] : all.rotations) EXPECT_TRUE(rotated) << id;
+}
+
+TEST_F(FitTest, AfterACutToASideViewLeftIsLeft) {
+    vfit_tracker_desc desc = vfit_tracker_desc_init();
+    desc.joints = desc.user_map = VFIT_TRACK_BUILT_IN;
+    vfit_tracker tracker{};
+    ASSERT_EQ(vfit_tracker_create(context, &desc, &tracker), VFIT_OK);
+    int64_t time_ns = 1;
+    EXPECT_EQ(exchanged_in(tracker, "facing=0&frames=20", time_ns), 0);
+    EXPECT_LE(exchanged_in(tracker, "facing=86&frames=10", time_ns), 1);
+    EXPECT_EQ(vfit_tracker_destroy(tracker), VFIT_OK);
 }
