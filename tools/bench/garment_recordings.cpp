@@ -74,7 +74,6 @@ public:
         std::vector<std::vector<LimbCover>> covers;
         for (const Welded& layer : layers) covers.push_back(cover_of_limbs(avatar_, layer));
         if (put_on_.empty()) put_on_ = covers, hidden_ = hidden_skin(skin.mesh().indices.size() / 3);
-        for (auto& l : layers) fprintf(stderr, "SELFT %.2f %zu\n", time_s, crossings(l).size());
         if (time_s < kSettled_s) return;
         ++worst_.frames;
         size_t with_skin = 0, with_self = 0, with_layers = 0;
