@@ -826,7 +826,8 @@ typedef struct vfit_rig_bone {
 } vfit_rig_bone;
 /* A character of yours: a skinned humanoid from a glTF 2.0 (.glb, .gltf) or VRM 0 or 1 file. */
 typedef struct vfit_character_desc {
-    uint32_t struct_size, reserved;
+    uint32_t struct_size;
+    float scale;       /* metres in a unit of the file; 0: 1, as glTF says */
     const char* path;  /* or null and */
     const void* bytes; /* the whole file in memory; needed during the call alone */
     uint64_t byte_count;

@@ -198,16 +198,20 @@ vfit_result vfit_avatar_create_from_scan(vfit_context handle, const vfit_avatar_
 vfit_result vfit_avatar_load(vfit_context handle, const vfit_avatar_desc* desc,
                              const vfit_character_desc* character, vfit_avatar* out) {
     return guard([&] {
+        constexpr float kLeastScale = 1e-5f;
         check_pointer(out, "out");
         out->id = 0;
         UseContext<Mode::any> context(handle);
         AvatarDesc d = avatar_desc(desc);
         const vfit_character_desc c = read(character, "character");
+        if (c.scale != 0.0f && !(c.scale >= kLeastScale && c.scale <= 1.0f / kLeastScale))
+            fail(VFIT_ERROR_ARGUMENT, "character: a scale of ", c.scale, " m in a unit of the file");
         if (!c.path == !c.bytes) fail(VFIT_ERROR_ARGUMENT, "character: either path or bytes must be given");
         const GltfDocument document =
             c.path ? GltfDocument(std::string(c.path))
                    : GltfDocument({static_cast<const std::byte*>(c.bytes), size_t(c.byte_count)});
-        Character loaded = load_character(document, c.bone_map ? c.bone_map : "");
+        Character loaded =
+            load_character(document, c.bone_map ? c.bone_map : "", c.scale == 0.0f ? 1.0f : c.scale);
         for (const std::string& note : loaded.notes)
             context->log.info(c.path ? c.path : "character", ": ", note);
         publish(*context, make<AvatarObject>(context.ref(), d, std::move(loaded)), out);

@@ -36,11 +36,7 @@ bool speaks_of(const std::string& name, std::initializer_list<const char*> words
 CharacterRig make_character_rig(const GltfDocument& document, const HumanoidMap& map, const Mat4& from_file) {
     std::vector<bool> used(document.model().nodes.size(), false);
     for (const tinygltf::Skin& skin : document.model().skins)
-        for (const int joint : skin.joints) {
-            if (joint < 0 || size_t(joint) >= used.size())
-                fail(VFIT_ERROR_DATA, "skin ", skin.name, " names node ", joint, ", which is not there");
-            used[size_t(joint)] = true;
-        }
+        for (const int joint : skin.joints) used[size_t(joint)] = true;
     std::vector<int> humanoid(used.size(), -1);
     for (int b = 0; b < kBoneCount; ++b)
         if (const int node = map.node[size_t(b)]; node >= 0) {
@@ -52,10 +48,10 @@ CharacterRig make_character_rig(const GltfDocument& document, const HumanoidMap&
         }
     CharacterRig rig;
     rig.of_node.assign(used.size(), -1);
-    for (const int node : document.nodes_in_order()) {
+    for (const int node : map.tree.nodes()) {
         if (!used[size_t(node)]) continue;
-        int parent = document.parent(node);
-        while (parent >= 0 && rig.of_node[size_t(parent)] < 0) parent = document.parent(parent);
+        int parent = map.tree.parent(node);
+        while (parent >= 0 && rig.of_node[size_t(parent)] < 0) parent = map.tree.parent(parent);
         const Mat4 world = from_file * document.node_worlds()[size_t(node)];
         AvatarBone bone;
         bone.name = document.node_name(node);
@@ -477,13 +473,13 @@ std::string vrm_name(const GltfDocument& document) {
 
 }  // namespace
 
-Character load_character(const GltfDocument& document, const std::string& own_map) {
+Character load_character(const GltfDocument& document, const std::string& own_map, float scale) {
     if (document.model().skins.empty()) fail(VFIT_ERROR_DATA, "the file has no skinned mesh");
     const HumanoidMap map = find_humanoid(document, own_map);
     Character out;
     out.kind = map.kind;
     out.name = vrm_name(document);
-    out.from_file = upright_from_file(document, map);
+    out.from_file = glm::scale(Mat4(1.0f), Vec3(scale)) * upright_from_file(document, map);
     CharacterRig rig = make_character_rig(document, map, out.from_file);
     Gatherer(document, rig, out.from_file, out).run();
     if (!document.model().animations.empty()) out.notes.push_back("animations are ignored");
@@ -494,7 +490,7 @@ Character load_character(const GltfDocument& document, const std::string& own_ma
     const float stature = high.y - low.y;
     if (!(stature >= kLeastStature_m && stature <= kMostStature_m))
         fail(VFIT_ERROR_DATA, "the character is ", stature, " m tall; glTF counts in metres, and ",
-             kLeastStature_m, " to ", kMostStature_m, " m can be posed");
+             kLeastStature_m, " to ", kMostStature_m, " m can be posed; give its scale");
     Vec3 shift(0.0f, -low.y, 0.0f);
     for (const int leg : {VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_RIGHT_UPPER_LEG}) {
         const Vec3 at = rig.bones[size_t(rig.of_node[size_t(map.node[size_t(leg)])])].rest_head;

@@ -32,7 +32,8 @@ struct Character {
 };
 
 /// Morph targets and animations are ignored; meshes without a skin hang on the bone that they are attached
-/// to. Own map: see find_humanoid. VFIT_ERROR_DATA or VFIT_ERROR_UNSUPPORTED with the cause.
-Character load_character(const GltfDocument& document, const std::string& own_map);
+/// to. Own map: see find_humanoid. scale: metres in a unit of the file. VFIT_ERROR_DATA or
+/// VFIT_ERROR_UNSUPPORTED with the cause.
+Character load_character(const GltfDocument& document, const std::string& own_map, float scale = 1.0f);
 
 }  // namespace vfit

@@ -41,6 +41,7 @@ constexpr NamedBone kNames[] = {
     {"elbow", VFIT_BONE_LEFT_LOWER_ARM},
     {"hand", VFIT_BONE_LEFT_HAND},
     {"wrist", VFIT_BONE_LEFT_HAND},
+    {"palm", VFIT_BONE_LEFT_HAND},
     {"upperleg", VFIT_BONE_LEFT_UPPER_LEG},
     {"upleg", VFIT_BONE_LEFT_UPPER_LEG},
     {"thigh", VFIT_BONE_LEFT_UPPER_LEG},
@@ -78,7 +79,8 @@ std::vector<std::string> words_of(const std::string& name) {
 }
 
 bool is_prefix(const std::string& word) {
-    for (const char* known : {"j", "bip", "mixamorig", "def", "c", "cc", "base", "bone", "jnt", "rig"})
+    for (const char* known : {"j", "bip", "mixamorig", "def", "c", "cc", "base", "bone", "jnt", "joint",
+                              "rig", "skeleton", "armature"})
         if (word == known) return true;
     return false;
 }
@@ -153,27 +155,78 @@ void read_own(const GltfDocument& document, const std::string& json, HumanoidMap
 }
 
 void read_names(const GltfDocument& document, HumanoidMap& map) {
-    for (const int node : document.nodes_in_order()) {
+    for (const int node : map.tree.nodes()) {
         const int bone = bone_of_name(document.node_name(node));
         // Of several segments the one next to the root is the bone.
         if (bone >= 0 && bone != VFIT_BONE_SPINE && map.node[size_t(bone)] < 0) map.node[size_t(bone)] = node;
     }
-    // The trunk by its place: what lies between hips and neck, or head.
-    const int top = map.node[VFIT_BONE_NECK] >= 0 ? map.node[VFIT_BONE_NECK] : map.node[VFIT_BONE_HEAD];
-    if (map.node[VFIT_BONE_SPINE] >= 0 || top < 0) return;
-    std::vector<int> chain;
-    int node = document.parent(top);
-    for (; node >= 0 && node != map.node[VFIT_BONE_HIPS]; node = document.parent(node))
-        chain.insert(chain.begin(), node);
-    if (node < 0 || chain.empty()) return;
-    map.node[VFIT_BONE_SPINE] = chain.front();
-    if (chain.size() > 1) map.node[VFIT_BONE_CHEST] = chain[chain.size() > 2 ? chain.size() / 2 : 1];
-    if (chain.size() > 2) map.node[VFIT_BONE_UPPER_CHEST] = chain.back();
 }
 
-bool is_above(const GltfDocument& document, int node, int ancestor) {
-    while (node >= 0 && node != ancestor) node = document.parent(node);
-    return node == ancestor;
+/// Limbs and head whose names say nothing: each bone is the main child of the one above it.
+void find_limbs(HumanoidMap& map) {
+    const auto at = [&](int bone) -> int& { return map.node[size_t(bone)]; };
+    const auto below = [&](int bone, int above) {
+        if (at(bone) < 0 && at(above) >= 0) at(bone) = map.tree.main_child(at(above));
+    };
+    for (const bool right : {false, true}) {
+        const auto of_side = [&](int left) { return right ? of_right(left) : left; };
+        const int upper_leg = of_side(VFIT_BONE_LEFT_UPPER_LEG),
+                  lower_leg = of_side(VFIT_BONE_LEFT_LOWER_LEG), foot = of_side(VFIT_BONE_LEFT_FOOT),
+                  upper_arm = of_side(VFIT_BONE_LEFT_UPPER_ARM),
+                  lower_arm = of_side(VFIT_BONE_LEFT_LOWER_ARM);
+        // All of a leg may be called so.
+        if (at(upper_leg) < 0 && at(foot) < 0) std::swap(at(upper_leg), at(lower_leg));
+        below(lower_leg, upper_leg), below(foot, lower_leg);
+        below(lower_arm, upper_arm), below(of_side(VFIT_BONE_LEFT_HAND), lower_arm);
+    }
+    below(VFIT_BONE_HEAD, VFIT_BONE_NECK);
+}
+
+/// By what lies between: hips are what trunk and legs have in common, the spine is between hips and neck.
+void find_trunk(HumanoidMap& map) {
+    const auto at = [&](int bone) -> int& { return map.node[size_t(bone)]; };
+    const HumanoidTree& tree = map.tree;
+    const int top = at(VFIT_BONE_NECK) >= 0 ? at(VFIT_BONE_NECK) : at(VFIT_BONE_HEAD),
+              left = at(VFIT_BONE_LEFT_UPPER_LEG), right = at(VFIT_BONE_RIGHT_UPPER_LEG);
+    int& hips = at(VFIT_BONE_HIPS);
+    const auto hips_are_above = [&](int node) { return hips >= 0 && tree.is_above(hips, node); };
+    if (top < 0) return;
+    if (left >= 0 && right >= 0 && !(hips_are_above(left) && hips_are_above(right) && hips_are_above(top)))
+        hips = tree.common(tree.common(left, right), top);
+    if (!hips_are_above(top) || at(VFIT_BONE_SPINE) >= 0) return;
+    std::vector<int> chain;
+    for (int node = tree.parent(top); node >= 0 && node != hips; node = tree.parent(node))
+        chain.insert(chain.begin(), node);
+    if (chain.empty()) return;
+    at(VFIT_BONE_SPINE) = chain.front();
+    if (chain.size() > 1) at(VFIT_BONE_CHEST) = chain[chain.size() > 2 ? chain.size() / 2 : 1];
+    if (chain.size() > 2) at(VFIT_BONE_UPPER_CHEST) = chain.back();
+}
+
+/// Feet and hands that hang on the ground or on the hips go with leg and arm, and a palm of several nodes
+/// with the one that is the hand.
+void hang_ends(const GltfDocument& document, HumanoidMap& map) {
+    for (const int end :
+         {VFIT_BONE_LEFT_FOOT, VFIT_BONE_RIGHT_FOOT, VFIT_BONE_LEFT_HAND, VFIT_BONE_RIGHT_HAND}) {
+        const int node = map.node[size_t(end)], limb = map.node[size_t(bone_parent(end))];
+        if (node < 0 || limb < 0 || map.tree.is_above(node, limb)) continue;
+        if (!map.tree.is_above(limb, node)) map.tree.hang(node, limb);
+        for (const int other : std::vector<int>(map.tree.nodes()))
+            if (other != node && map.tree.parent(other) == map.tree.parent(node) &&
+                bone_of_name(document.node_name(other)) == end)
+                map.tree.hang(other, node);
+    }
+}
+
+/// A bone map as far as it is known.
+std::string to_fill_in(const GltfDocument& document, const HumanoidMap& map) {
+    Json out = Json::object();
+    for (int b = 0; b < kBoneCount; ++b)
+        if (const int node = map.node[size_t(b)]; node >= 0)
+            out[bone_name(b)] = document.node_name(node);
+        else if (!is_optional_bone(b))
+            out[bone_name(b)] = "";
+    return out.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 void check(const GltfDocument& document, const HumanoidMap& map) {
@@ -182,14 +235,15 @@ void check(const GltfDocument& document, const HumanoidMap& map) {
         if (map.node[size_t(b)] < 0 && !is_optional_bone(b))
             missing += (missing.empty() ? "" : ", ") + std::string(bone_name(b));
     if (!missing.empty())
-        fail(VFIT_ERROR_DATA, "the character has no bone for ", missing, "; name its nodes in a bone map");
+        fail(VFIT_ERROR_DATA, "the character has no bone for ", missing, "; name its nodes in a bone map:\n",
+             to_fill_in(document, map), "\nIts nodes:\n", map.tree.text(document));
     for (int b = 1; b < kBoneCount; ++b) {
         const int node = map.node[size_t(b)];
         if (node < 0) continue;
         int above = bone_parent(b);
         while (map.node[size_t(above)] < 0) above = bone_parent(above);
         const int parent = map.node[size_t(above)];
-        if (node == parent || !is_above(document, node, parent))
+        if (node == parent || !map.tree.is_above(parent, node))
             fail(VFIT_ERROR_DATA, "the bone ", bone_name(b), " (node \"", document.node_name(node),
                  "\") does not hang on ", bone_name(above), " (\"", document.node_name(parent), "\")");
     }
@@ -219,6 +273,7 @@ int bone_of_name(const std::string& name) {
 
 HumanoidMap find_humanoid(const GltfDocument& document, const std::string& own_map) {
     HumanoidMap map;
+    map.tree = HumanoidTree(document);
     if (const tinygltf::Value* vrm = extension(document, "VRMC_vrm")) {
         map.kind = CharacterKind::vrm1;
         read_vrm1(document, member(member(vrm, "humanoid"), "humanBones"), map);
@@ -227,7 +282,12 @@ HumanoidMap find_humanoid(const GltfDocument& document, const std::string& own_m
         read_vrm0(document, member(member(vrm, "humanoid"), "humanBones"), map);
     }
     if (!own_map.empty()) read_own(document, own_map, map);
-    if (map.kind == CharacterKind::gltf) read_names(document, map);
+    if (map.kind == CharacterKind::gltf) {
+        read_names(document, map);
+        find_limbs(map);
+        find_trunk(map);
+        hang_ends(document, map);
+    }
     check(document, map);
     return map;
 }

@@ -19,6 +19,7 @@ namespace {
 
 struct Options {
     std::string file, bone_map, rig, motion, out, picture, sex;
+    float scale = 1.0f;
     uint32_t frames = 0;
     bool json = false;
 };
@@ -37,6 +38,7 @@ Avatar load(vfit_context context, const Options& options) {
     desc.path = options.file.c_str();
     const std::string map = options.bone_map.empty() ? std::string() : read_text(options.bone_map);
     if (!map.empty()) desc.bone_map = map.c_str();
+    desc.scale = options.scale;
     Avatar avatar;
     check(vfit_avatar_load(context, nullptr, &desc, avatar.out()));
     return avatar;
@@ -148,6 +150,7 @@ void add_character(Command& app) {
         app.add_subcommand("character", "Look at a character's file, move it, or write vfit's body as one");
     auto o = std::make_shared<Options>();
     command.add_option("file", o->file, "glTF or VRM file of a skinned humanoid");
+    command.add_option("--scale", o->scale, "Metres in a unit of the file (default: 1)").positive();
     command.add_option("--bone-map", o->bone_map, "JSON file {\"hips\": \"name of a node\", ...}");
     command.add_option("--motion", o->motion,
                        "Recording folder or sensor URI whose person moves the character");

@@ -80,9 +80,10 @@ void set_pose(const Avatar& avatar, const py::object& given) {
 
 /// An own character from a path or from the bytes of a file.
 std::shared_ptr<Avatar> load(const Context& context, const py::object& file, const py::object& bone_map,
-                             bool paper, bool single, bool dual, bool limbs_as_posed) {
+                             float scale, bool paper, bool single, bool dual, bool limbs_as_posed) {
     const vfit_avatar_desc desc = desc_in(py::none(), 0, paper, single, dual, limbs_as_posed);
     vfit_character_desc character = vfit_character_desc_init();
+    character.scale = scale;
     std::string path, bytes, map;
     if (py::isinstance<py::bytes>(file)) {
         bytes = file.cast<std::string>();
@@ -229,8 +230,8 @@ void bind_avatar(py::module_& m) {
                         "single_bones"_a = false, "dual_quaternions"_a = false, "limbs_as_posed"_a = false,
                         "A body by its shape values; see shape_values().")
             .def_static("load", &load, "context"_a, "file"_a, py::kw_only(), "bone_map"_a = py::none(),
-                        "paper_colliders"_a = false, "single_bones"_a = false, "dual_quaternions"_a = false,
-                        "limbs_as_posed"_a = false,
+                        "scale"_a = 1.0f, "paper_colliders"_a = false, "single_bones"_a = false,
+                        "dual_quaternions"_a = false, "limbs_as_posed"_a = false,
                         "A character of yours: glTF 2.0 or VRM, a path or the file's bytes.")
             .def_static("unpack", &unpack, "context"_a, "packet"_a, py::kw_only(), "detail"_a = 0,
                         "paper_colliders"_a = false, "single_bones"_a = false, "dual_quaternions"_a = false,

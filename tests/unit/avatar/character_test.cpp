@@ -11,6 +11,7 @@
 #include "avatar/gltf_document.h"
 #include "avatar/humanoid_map.h"
 #include "core/error.h"
+#include "support/shared_folder.h"
 #include "support/tiny_character.h"
 
 namespace vfit {
@@ -79,6 +80,101 @@ void expect_error(const TinyCharacter& tiny, const char* word, vfit_result code 
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), code) << error.what();
         EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    }
+}
+
+/// The name of the bone's node, and of that of the bone it hangs on in the rig.
+std::pair<std::string, std::string> hung(const Character& character, int bone) {
+    for (const AvatarBone& b : character.source.bones)
+        if (b.bone == bone)
+            return {b.name, b.parent < 0 ? "" : character.source.bones[size_t(b.parent)].name};
+    return {};
+}
+
+TEST(Character, BonesAreFoundByTheirPlacesWhereNamesSayNothing) {
+    TinyCharacter tiny;
+    const char* names[] = {"Skeleton_torso_joint_1", "torso_joint_2",   "neck_joint_1",  "arm_joint_L__4_",
+                           "arm_joint_L__3_",        "arm_joint_L__2_", "arm_joint_R",   "arm_joint_R__2_",
+                           "arm_joint_R__3_",        "leg_joint_L_1",   "leg_joint_L_2", "leg_joint_L_3",
+                           "leg_joint_R_1",          "leg_joint_R_2",   "leg_joint_R_3"};
+    for (size_t i = 0; i < std::size(names); ++i) tiny.json["nodes"][i]["name"] = names[i];
+    // The neck has a joint of its own above it, which is the head.
+    tiny.json["nodes"][2]["children"] = {16};
+    tiny.json["nodes"].push_back({{"name", "neck_joint_2"}, {"translation", {0, 0.1, 0}}});
+    tiny.json["skins"][0]["joints"][14] = 16;
+    tiny.json["skins"][0]["joints"].push_back(14);
+    tiny.json["skins"][0].erase("inverseBindMatrices");
+    const Character character = load(tiny);
+    EXPECT_EQ(hung(character, VFIT_BONE_HIPS).first, "Skeleton_torso_joint_1");
+    EXPECT_EQ(hung(character, VFIT_BONE_SPINE).first, "torso_joint_2");
+    EXPECT_EQ(hung(character, VFIT_BONE_HEAD).first, "neck_joint_2");
+    EXPECT_EQ(hung(character, VFIT_BONE_LEFT_UPPER_ARM).first, "arm_joint_L__4_");
+    EXPECT_EQ(hung(character, VFIT_BONE_LEFT_HAND).first, "arm_joint_L__2_");
+    EXPECT_EQ(hung(character, VFIT_BONE_RIGHT_LOWER_ARM).first, "arm_joint_R__2_");
+    EXPECT_EQ(hung(character, VFIT_BONE_LEFT_UPPER_LEG).first, "leg_joint_L_1");
+    EXPECT_EQ(hung(character, VFIT_BONE_RIGHT_FOOT).first, "leg_joint_R_3");
+}
+
+TEST(Character, HipsAreWhatTrunkAndLegsHaveInCommon) {
+    TinyCharacter tiny;
+    tiny.json["nodes"][0]["name"] = "Root", tiny.json["nodes"][1]["name"] = "Hips";
+    const Character character = load(tiny);
+    EXPECT_EQ(hung(character, VFIT_BONE_HIPS).first, "Root");
+    EXPECT_EQ(hung(character, VFIT_BONE_SPINE).first, "Hips");
+}
+
+TEST(Character, AFootThatHangsOnTheGroundGoesWithTheLeg) {
+    TinyCharacter tiny;
+    tiny.json["nodes"][10].erase("children");
+    tiny.json["nodes"][0]["children"].push_back(11);
+    tiny.json["nodes"][11]["translation"] = {0.1, -0.87, 0};
+    const Character character = load(tiny);
+    EXPECT_EQ(hung(character, VFIT_BONE_LEFT_FOOT),
+              std::pair(std::string("leftFoot"), std::string("leftLowerLeg")));
+    Avatar avatar(character.source, AvatarDesc());
+    Pose pose;
+    pose.hips_position = avatar.skeleton().offset[VFIT_BONE_HIPS];
+    const Vec3 before = avatar.joints().at(VFIT_JOINT_LEFT_FOOT);
+    pose.rotation[VFIT_BONE_LEFT_UPPER_LEG] = glm::angleAxis(-0.5f * kPi, Vec3(1, 0, 0));
+    avatar.pose(pose, *Jobs::own(0));
+    EXPECT_GT(avatar.joints().at(VFIT_JOINT_LEFT_FOOT).y, before.y + 0.5f) << "the leg is raised";
+}
+
+TEST(Character, WhereBonesMissTheTreeAndAMapToFillInAreTold) {
+    TinyCharacter tiny;
+    for (const size_t leg : {9, 10, 11}) tiny.json["nodes"][leg]["name"] = "stick";
+    expect_error(tiny, "no bone for leftUpperLeg, leftLowerLeg, leftFoot");
+    expect_error(tiny, "\"leftUpperLeg\": \"\"");
+    expect_error(tiny, "\"rightUpperLeg\": \"rightUpperLeg\"");
+    expect_error(tiny, "\n    stick\n");
+}
+
+TEST(Character, ScaleIsMetresInAUnitOfTheFile) {
+    const Character as_it_is = load(TinyCharacter());
+    const Character twice = load_character(GltfDocument(TinyCharacter().glb()), "", 2.0f);
+    for (size_t v = 0; v < as_it_is.source.rest.positions.size(); ++v)
+        EXPECT_LT(glm::distance(twice.source.rest.positions[v], 2.0f * as_it_is.source.rest.positions[v]),
+                  1e-4f);
+    EXPECT_THROW(load_character(GltfDocument(TinyCharacter().glb()), "", 3.0f), Error) << "too tall";
+}
+
+TEST(Character, ThoseOfOtherMakersAreKnown) {
+    const std::string folder = test::shared_data("field/characters");
+    if (folder.empty()) GTEST_SKIP() << "no shared/data/field/characters";
+    struct Case {
+        const char* file;
+        float scale;
+        const char *hips, *left_hand, *right_foot;
+    };
+    for (const Case& c :
+         {Case{"CesiumMan.glb", 1.0f, "Skeleton_torso_joint_1", "Skeleton_arm_joint_L__2_", "leg_joint_R_3"},
+          Case{"RobotExpressive.glb", 0.4f, "Body", "Palm2.L", "Foot.R"},
+          Case{"q_modular_women_Suit.glb", 1.0f, "Root", "Hand.L", "Foot.R"},
+          Case{"q_single_knight_pack_KnightCharacter.glb", 0.3f, "Body", "Palm.L", "Foot.R"}}) {
+        const Character character = load_character(GltfDocument(folder + "/" + c.file), "", c.scale);
+        EXPECT_EQ(hung(character, VFIT_BONE_HIPS).first, c.hips) << c.file;
+        EXPECT_EQ(hung(character, VFIT_BONE_LEFT_HAND).first, c.left_hand) << c.file;
+        EXPECT_EQ(hung(character, VFIT_BONE_RIGHT_FOOT).first, c.right_foot) << c.file;
     }
 }
 

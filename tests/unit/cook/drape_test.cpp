@@ -2,8 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
 #include <set>
 
 #include "cloth/crossings.h"
@@ -12,6 +10,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "pattern_support.h"
+#include "support/shared_folder.h"
 
 namespace vfit {
 namespace {
@@ -106,18 +105,11 @@ TEST_F(Cooking, SizesShareTheMeshAndHaveTheirOwnLengths) {
     EXPECT_THROW(cook_pattern(*model, other, 0, fabrics, {}, *jobs), Error);
 }
 
-/// What is shared between people who work on vfit, or empty.
-std::string shared_folder() {
-    const char* told = std::getenv("VFIT_SHARED");
-    const std::string folder = told ? told : VFIT_SOURCE_DIR "/../shared";
-    return std::filesystem::exists(folder + "/data/patterns") ? folder : "";
-}
-
 TEST_F(Cooking, ASpecificationThatTellsOfNobodyIsTriedOnBoth) {
-    const std::string shared = shared_folder();
+    const std::string shared = test::shared_data("patterns");
     if (shared.empty()) GTEST_SKIP() << "no shared/data/patterns";
     CookRequest request;
-    request.path = shared + "/data/patterns/sundress_f/sundress_f_specification.json";
+    request.path = shared + "/sundress_f/sundress_f_specification.json";
     EXPECT_EQ(cook_file(*model, fabrics, request, *jobs).garment.body_sex, VFIT_SEX_FEMALE);
 }
 
@@ -157,12 +149,12 @@ TEST_F(Cooking, DrapesEveryShippedDesign) {
 }
 
 TEST_F(Cooking, DrapesRealSpecifications) {
-    const std::string shared = shared_folder();
+    const std::string shared = test::shared_data("patterns");
     if (shared.empty()) GTEST_SKIP() << "no shared/data/patterns";
     for (const auto& [name, sex, hangs_on] : {std::tuple("sundress_f", VFIT_SEX_FEMALE, HangsOn::shoulders),
                                               std::tuple("jeans_m", VFIT_SEX_MALE, HangsOn::waist)}) {
         CookRequest request;
-        request.path = shared + "/data/patterns/" + name + "/" + name + "_specification.json";
+        request.path = shared + "/" + name + "/" + name + "_specification.json";
         request.sex = sex;
         const CookedGarment cooked = cook_file(*model, fabrics, request, *jobs);
         EXPECT_EQ(cooked.garment.name, name);

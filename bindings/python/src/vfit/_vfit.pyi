@@ -530,12 +530,14 @@ class Avatar(_Closable):
         file: Union[_Path, bytes],
         *,
         bone_map: Optional[Mapping[str, str]] = None,
+        scale: float = 1.0,
         paper_colliders: bool = False,
         single_bones: bool = False,
         dual_quaternions: bool = False,
         limbs_as_posed: bool = False,
     ) -> Avatar:
-        """A character of yours, glTF 2.0 or VRM. bone_map: {"hips": "name of a node", ...}."""
+        """A character of yours, glTF 2.0 or VRM. bone_map: {"hips": "name of a node", ...}. scale: metres in a
+        unit of the file."""
     @staticmethod
     def unpack(
         context: Context,

@@ -1087,7 +1087,8 @@ namespace Vfit
     public unsafe partial struct CharacterDesc
     {
         internal uint StructSize;
-        internal uint Reserved;
+        /// <summary>metres in a unit of the file; 0: 1, as glTF says</summary>
+        public float Scale;
         internal byte* path;
         internal void* bytes;
         public ulong ByteCount;
