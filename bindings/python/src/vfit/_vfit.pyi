@@ -536,8 +536,8 @@ class Avatar(_Closable):
         dual_quaternions: bool = False,
         limbs_as_posed: bool = False,
     ) -> Avatar:
-        """A character of yours, glTF 2.0 or VRM. bone_map: {"hips": "name of a node", ...}. scale: metres in a
-        unit of the file."""
+        """A character of yours, glTF 2.0 or VRM. bone_map: {"hips": "name of a node", ...}. scale: metres
+        in a unit of the file."""
     @staticmethod
     def unpack(
         context: Context,
