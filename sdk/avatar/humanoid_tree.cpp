@@ -13,7 +13,8 @@ HumanoidTree::HumanoidTree(const GltfDocument& document) {
         for (int node : skin.joints) {
             if (node < 0 || size_t(node) >= is_bone.size())
                 fail(VFIT_ERROR_DATA, "skin ", skin.name, " names node ", node, ", which is not there");
-            for (; node >= 0 && !is_bone[size_t(node)]; node = document.parent(node)) is_bone[size_t(node)] = 1;
+            for (; node >= 0 && !is_bone[size_t(node)]; node = document.parent(node))
+                is_bone[size_t(node)] = 1;
         }
     parents_.assign(is_bone.size(), -1);
     for (const int node : document.nodes_in_order())
@@ -34,7 +35,8 @@ int HumanoidTree::common(int a, int b) const {
 int HumanoidTree::main_child(int node) const {
     int best = -1;
     for (const int child : nodes_)
-        if (parent(child) == node && (best < 0 || height_[size_t(child)] > height_[size_t(best)])) best = child;
+        if (parent(child) == node && (best < 0 || height_[size_t(child)] > height_[size_t(best)]))
+            best = child;
     return best;
 }
 
