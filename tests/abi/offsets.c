@@ -300,7 +300,7 @@ OFFSET(vfit_rig_bone, reserved, 92);
 SIZE(vfit_rig_bone, 96);
 
 OFFSET(vfit_character_desc, struct_size, 0);
-OFFSET(vfit_character_desc, reserved, 4);
+OFFSET(vfit_character_desc, scale, 4);
 OFFSET(vfit_character_desc, path, 8);
 OFFSET(vfit_character_desc, bytes, 16);
 OFFSET(vfit_character_desc, byte_count, 24);
