@@ -27,31 +27,11 @@ constexpr double kSettled_s = 1.0;  // figures are of what comes later
 /// The worst of all frames of one garment on one recording.
 struct Worst {
     // frames that have any
-    size_t frames = 0, with_skin = 0, with_seen_skin = 0, with_drawn_skin = 0, with_open_skin = 0,
-           with_self = 0, with_layers = 0, with_props = 0, off_limb = 0;
+    size_t frames = 0, with_skin = 0, with_seen_skin = 0, with_drawn_skin = 0, with_self = 0, with_layers = 0,
+           with_props = 0, off_limb = 0;
     size_t skin_pairs = 0, self_pairs = 0;  // in the worst frame
     float strain_max = 0.0f, strain_p99 = 0.0f;
     double at_s = 0.0;  // of strain_max
-};
-
-/// The skin in one frame, and its creases: armpits, groins, the skin between thighs.
-class FrameSkin {
-public:
-    explicit FrameSkin(vfit_avatar avatar) : mesh_(mesh_of(avatar)), query_(query_of(mesh_)) {}
-
-    const Welded& mesh() const { return mesh_; }
-    /// Other skin lies less than 2 cm outside of that triangle.
-    bool in_crease(uint32_t triangle) const {
-        constexpr float kCrease_m = 0.02f, kOff_m = 1e-4f;
-        const uint32_t* v = &mesh_.indices[3 * triangle];
-        const Vec3 &a = mesh_.positions[v[0]], &b = mesh_.positions[v[1]], &c = mesh_.positions[v[2]];
-        const Vec3 normal = glm::normalize(glm::cross(b - a, c - a));
-        return query_.cast((a + b + c) / 3.0f + kOff_m * normal, normal, kCrease_m).has_value();
-    }
-
-private:
-    Welded mesh_;
-    MeshQuery query_;
 };
 
 class WornJudge {
@@ -68,31 +48,27 @@ public:
     /// Of vfit_outfit_skin(), each frame.
     const std::vector<float>& skin_ms() const { return skin_ms_; }
 
-    void look(const FrameSkin& skin, double time_s, bool pictures, bool props) {
+    void look(const Welded& skin, double time_s, bool pictures, bool props) {
         std::vector<Welded> layers;
         for (const vfit_cloth cloth : outfit_.cloths()) layers.push_back(mesh_of(cloth));
         std::vector<std::vector<LimbCover>> covers;
         for (const Welded& layer : layers) covers.push_back(cover_of_limbs(avatar_, layer));
-        if (put_on_.empty()) put_on_ = covers, hidden_ = hidden_skin(skin.mesh().indices.size() / 3);
+        if (put_on_.empty()) put_on_ = covers, hidden_ = hidden_skin(skin.indices.size() / 3);
         if (time_s < kSettled_s) return;
         ++worst_.frames;
         size_t with_skin = 0, with_self = 0, with_layers = 0;
-        bool with_seen_skin = false, with_drawn_skin = false, with_open_skin = false;
+        bool with_seen_skin = false, with_drawn_skin = false;
         const Welded drawn_skin = skin_below(outfit_.cloths(), &skin_ms_.emplace_back());
         for (size_t i = 0; i < layers.size(); ++i) {
-            const CrossedTriangles of_skin = crossings(layers[i], skin.mesh());
+            const CrossedTriangles of_skin = crossings(layers[i], skin);
             with_skin += of_skin.size();
-            for (const auto& [of_cloth, triangle] : of_skin) {
-                with_seen_skin |= !hidden_[triangle];
-                with_open_skin |= !skin.in_crease(triangle);
-            }
+            for (const auto& [of_cloth, triangle] : of_skin) with_seen_skin |= !hidden_[triangle];
             with_drawn_skin |= !crossings(layers[i], drawn_skin).empty();
             with_self += crossings(layers[i]).size();
             for (size_t k = 0; k < i; ++k) with_layers += crossings(layers[i], layers[k]).size();
         }
         worst_.with_skin += with_skin > 0, worst_.with_self += with_self > 0;
         worst_.with_seen_skin += with_seen_skin, worst_.with_drawn_skin += with_drawn_skin;
-        worst_.with_open_skin += with_open_skin;
         worst_.with_layers += with_layers > 0;
         if (props) worst_.with_props += prop_crossings(outfit_.cloths()) > 0;
         worst_.skin_pairs = std::max(worst_.skin_pairs, with_skin);
@@ -137,7 +113,6 @@ Json json_of(const Worst& w) {
             {"frames_crossing_skin", w.with_skin},
             {"frames_crossing_seen_skin", w.with_seen_skin},
             {"frames_crossing_drawn_skin", w.with_drawn_skin},
-            {"frames_crossing_open_skin", w.with_open_skin},
             {"frames_crossing_self", w.with_self},
             {"frames_crossing_layers", w.with_layers},
             {"frames_crossing_props", w.with_props},
@@ -154,10 +129,10 @@ void say(const std::string& recording, const std::string& garment, const Worst& 
               << std::fixed << std::setprecision(2) << " strain max " << std::setw(6) << w.strain_max
               << " at " << w.at_s << " s, p99 " << w.strain_p99 << "; frames " << std::setw(3) << w.frames
               << ": skin " << std::setw(3) << w.with_skin << " (" << w.skin_pairs << ") seen " << std::setw(3)
-              << w.with_seen_skin << " drawn " << std::setw(3) << w.with_drawn_skin << " open "
-              << std::setw(3) << w.with_open_skin << " self " << std::setw(3) << w.with_self << " ("
-              << w.self_pairs << ") layers " << std::setw(3) << w.with_layers << " props " << std::setw(3)
-              << w.with_props << " off limb " << std::setw(3) << w.off_limb << std::endl;
+              << w.with_seen_skin << " drawn " << std::setw(3) << w.with_drawn_skin << " self "
+              << std::setw(3) << w.with_self << " (" << w.self_pairs << ") layers " << std::setw(3)
+              << w.with_layers << " props " << std::setw(3) << w.with_props << " off limb " << std::setw(3)
+              << w.off_limb << std::endl;
 }
 
 std::vector<std::filesystem::path> recordings_in(const RecordingsOptions& options) {
@@ -200,7 +175,7 @@ std::vector<std::unique_ptr<WornJudge>> judge_recording(vfit_context context,
     }
     double last_s = -1.0;
     fitting.play([&](vfit_frame, double time_s) {
-        const FrameSkin skin(fitting.avatar());
+        const Welded skin = mesh_of(fitting.avatar());
         if (carried) carried->move(fitting.avatar(), time_s);
         for (const auto& judge : judges) {
             if (last_s < 0.0)
@@ -222,7 +197,7 @@ void judge_recordings(const RecordingsOptions& options) {
     Json rows = Json::array();
     Samples strain_max, strain_p99, step_ms, skin_ms;
     size_t skin = 0, seen_skin = 0, drawn_skin = 0, self = 0, layers = 0, props = 0, off = 0, frames = 0,
-           open_skin = 0, refused = 0;  // refused: recordings
+           refused = 0;  // recordings
     for (const auto& path : recordings_in(options)) {
         const std::string recording = path.filename().string();
         const Context context = open_context();
@@ -243,7 +218,7 @@ void judge_recordings(const RecordingsOptions& options) {
             if (!options.json) say(recording, judge->names(), w);
             frames += w.frames, skin += w.with_skin, self += w.with_self, layers += w.with_layers;
             props += w.with_props, off += w.off_limb, seen_skin += w.with_seen_skin,
-                drawn_skin += w.with_drawn_skin, open_skin += w.with_open_skin;
+                drawn_skin += w.with_drawn_skin;
             for (const float ms : judge->step_ms()) step_ms.add(ms);
             for (const float ms : judge->skin_ms()) skin_ms.add(ms);
             strain_max.add(w.strain_max), strain_p99.add(w.strain_p99);
@@ -280,7 +255,6 @@ void judge_recordings(const RecordingsOptions& options) {
                   Aim::exactly, 0.0);
     targets.judge("frames in which it crosses skin as vfit_outfit_skin() draws it", double(drawn_skin),
                   Aim::exactly, 0.0);
-    targets.judge("frames in which it crosses skin outside of creases", double(open_skin), Aim::exactly, 0.0);
     targets.judge("frames in which cloth crosses itself", double(self), Aim::exactly, 0.0);
     targets.judge("frames in which layers cross", double(layers), Aim::exactly, 0.0);
     if (options.props)
