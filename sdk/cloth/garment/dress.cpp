@@ -85,7 +85,7 @@ Vec3 carried_to(const Vec3& place, const Vec3& shift) {
 /// carries the whole garment, whatever part of it that is; what hangs is helped to carry itself.
 std::vector<Tether> hold(std::span<const uint32_t> held, float slides_m, FabricData& data) {
     constexpr float kGravity_m_s2 = 9.81f;
-    constexpr float kHeld = 2.0f, kHanging = 3.0f;  // times the weight that hangs there
+    constexpr float kHeld = 2.0f, kHanging = 6.0f;  // times the weight that hangs there
     std::vector<float> inverse_mass = data.inverse_mass;
     float all_kg = 0.0f, held_kg = 0.0f;
     for (const float inverse : inverse_mass) all_kg += 1.0f / inverse;
