@@ -30,6 +30,10 @@ constexpr float kLimitSlackRad = 0.025f;  // 1.4 degrees
 // Over a longer time a trend foretells nothing.
 constexpr float kMostPredictionS = 0.2f;
 
+// Nobody knows what somebody did who was out of sight for longer: a glide from where they were would be made
+// up.
+constexpr double kLongestGap_s = 2.0;
+
 // A joint further from the origin, or a rotation with larger numbers, is a broken reading: its square would
 // soon be infinite, and one such body would stay in the filters for good.
 constexpr float kFarthestM = 1e4f, kLongestQuaternion = 1e3f;
@@ -292,7 +296,9 @@ bool Motion::step(const Body* body, int64_t now_ns) {
     State& s = *state_;
     if (body) {
         validate(*body);
-        if (s.has_body && (body->id != s.body_id || body->time_ns < s.body_ns)) s.reset();
+        if (s.has_body && (body->id != s.body_id || body->time_ns < s.body_ns ||
+                           seconds_between(s.body_ns, body->time_ns) > kLongestGap_s))
+            s.reset();
         if (!s.has_body || body->time_ns != s.body_ns) s.take(*body);
     }
     if (!s.has_body) return false;

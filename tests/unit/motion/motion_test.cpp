@@ -173,6 +173,24 @@ TEST(Motion, StartsAnewWithAnotherPersonAndWhenTimeGoesBack) {
     }
 }
 
+TEST(Motion, StartsAnewAfterALongGapAndGlidesOverAShortOne) {
+    for (const int gap : {30, 270}) {  // frames
+        Motion motion{MotionSettings{}};
+        for (int f = 0; f < 30; ++f) {
+            const Body body = standing(frame_ns(f));
+            motion.step(&body, body.time_ns);
+        }
+        for (int f = 30; f < 30 + gap; ++f) motion.step(nullptr, frame_ns(f));
+        Body moved = standing(frame_ns(30 + gap));
+        for (Joint& joint : moved.joints) joint.position.x += 1.5f;
+        motion.step(&moved, moved.time_ns);
+        if (gap > 60)
+            EXPECT_NEAR(motion.pose().hips_position.x, 1.5f, 1e-4f);
+        else
+            EXPECT_LT(motion.pose().hips_position.x, 0.5f);
+    }
+}
+
 /// Somebody who walks on the spot, lifting one foot after the other.
 Body stepping(const Skeleton& skeleton, int frame, int64_t time_ns) {
     Pose pose;
