@@ -30,8 +30,7 @@ constexpr float kLimitSlackRad = 0.025f;  // 1.4 degrees
 // Over a longer time a trend foretells nothing.
 constexpr float kMostPredictionS = 0.2f;
 
-// Nobody knows what somebody did who was out of sight for longer: a glide from where they were would be made
-// up.
+// A person who was out of sight for longer may have gone anywhere: they start where they are found.
 constexpr double kLongestGap_s = 2.0;
 
 // A joint further from the origin, or a rotation with larger numbers, is a broken reading: its square would
