@@ -273,7 +273,6 @@ int bone_of_name(const std::string& name) {
 
 HumanoidMap find_humanoid(const GltfDocument& document, const std::string& own_map) {
     HumanoidMap map;
-    map.tree = HumanoidTree(document);
     if (const tinygltf::Value* vrm = extension(document, "VRMC_vrm")) {
         map.kind = CharacterKind::vrm1;
         read_vrm1(document, member(member(vrm, "humanoid"), "humanBones"), map);
@@ -282,6 +281,7 @@ HumanoidMap find_humanoid(const GltfDocument& document, const std::string& own_m
         read_vrm0(document, member(member(vrm, "humanoid"), "humanBones"), map);
     }
     if (!own_map.empty()) read_own(document, own_map, map);
+    map.tree = HumanoidTree(document, map.node);
     if (map.kind == CharacterKind::gltf) {
         read_names(document, map);
         find_limbs(map);

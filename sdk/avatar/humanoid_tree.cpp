@@ -6,16 +6,19 @@
 
 namespace vfit {
 
-HumanoidTree::HumanoidTree(const GltfDocument& document) {
+HumanoidTree::HumanoidTree(const GltfDocument& document, std::span<const int> more) {
     const tinygltf::Model& model = document.model();
     std::vector<uint8_t> is_bone(model.nodes.size(), 0);
+    const auto add = [&](int node) {
+        for (; node >= 0 && !is_bone[size_t(node)]; node = document.parent(node)) is_bone[size_t(node)] = 1;
+    };
     for (const tinygltf::Skin& skin : model.skins)
-        for (int node : skin.joints) {
+        for (const int node : skin.joints) {
             if (node < 0 || size_t(node) >= is_bone.size())
                 fail(VFIT_ERROR_DATA, "skin ", skin.name, " names node ", node, ", which is not there");
-            for (; node >= 0 && !is_bone[size_t(node)]; node = document.parent(node))
-                is_bone[size_t(node)] = 1;
+            add(node);
         }
+    for (const int node : more) add(node);
     parents_.assign(is_bone.size(), -1);
     for (const int node : document.nodes_in_order())
         if (is_bone[size_t(node)]) nodes_.push_back(node), parents_[size_t(node)] = document.parent(node);
@@ -47,9 +50,12 @@ void HumanoidTree::hang(int node, int parent) {
 
 /// Parents first, and otherwise as they were.
 void HumanoidTree::sort() {
-    std::vector<int> depth(parents_.size(), 0);
-    for (const int node : nodes_)
-        for (int above = parent(node); above >= 0; above = parent(above)) ++depth[size_t(node)];
+    std::vector<int> depth(parents_.size(), -1), way;
+    for (const int node : nodes_) {
+        for (int at = node; at >= 0 && depth[size_t(at)] < 0; at = parent(at)) way.push_back(at);
+        for (; !way.empty(); way.pop_back())
+            depth[size_t(way.back())] = parent(way.back()) < 0 ? 0 : depth[size_t(parent(way.back()))] + 1;
+    }
     std::stable_sort(nodes_.begin(), nodes_.end(),
                      [&](int a, int b) { return depth[size_t(a)] < depth[size_t(b)]; });
     height_.assign(parents_.size(), 0);

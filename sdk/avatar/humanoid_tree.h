@@ -2,6 +2,7 @@
 // rigs hang a foot on the ground, as a target of inverse kinematics, and not on the leg.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,8 @@ namespace vfit {
 class HumanoidTree {
 public:
     HumanoidTree() = default;
-    /// Of the nodes that skins name, and of those above them.
-    explicit HumanoidTree(const GltfDocument& document);
+    /// Of the nodes that skins name, of `more` nodes (-1: none), and of those above them.
+    HumanoidTree(const GltfDocument& document, std::span<const int> more);
 
     /// Parents before children.
     const std::vector<int>& nodes() const { return nodes_; }

@@ -140,6 +140,15 @@ TEST(Character, AFootThatHangsOnTheGroundGoesWithTheLeg) {
     EXPECT_GT(avatar.joints().at(VFIT_JOINT_LEFT_FOOT).y, before.y + 0.5f) << "the leg is raised";
 }
 
+TEST(Character, ABoneThatNoSkinUsesIsOneWhereAMapNamesIt) {
+    TinyCharacter tiny;
+    tiny.json["nodes"][11]["children"] = {16};
+    tiny.json["nodes"].push_back({{"name", "tip"}, {"translation", {0, 0, 0.1}}});
+    EXPECT_EQ(hung(load(tiny), VFIT_BONE_LEFT_TOES).first, "");
+    EXPECT_EQ(hung(load(tiny, R"({"leftToes": "tip"})"), VFIT_BONE_LEFT_TOES),
+              std::pair(std::string("tip"), std::string("leftFoot")));
+}
+
 TEST(Character, WhereBonesMissTheTreeAndAMapToFillInAreTold) {
     TinyCharacter tiny;
     for (const size_t leg : {9, 10, 11}) tiny.json["nodes"][leg]["name"] = "stick";
