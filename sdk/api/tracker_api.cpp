@@ -7,6 +7,7 @@
 #include "api/guard.h"
 #include "fit/people_fit.h"
 #include "frame/camera_struct.h"
+#include "frame/depth_check.h"
 #include "frame/floor.h"
 #include "track/active_person.h"
 #include "track/match_bodies.h"
@@ -39,6 +40,7 @@ struct TrackerObject : ContextChild {
     vfit_track_fit fit = VFIT_FIT_AUTO;
     std::shared_future<std::shared_ptr<const FitModel>> fit_model;
     std::unique_ptr<PeopleFit> fits;  // made for the first person
+    bool depth_is_right = false;      // a frame had readings that can be depths
 
     /// The frame is complete as far as it goes.
     void choose_active(Frame& tracked) {
@@ -60,6 +62,7 @@ struct TrackerObject : ContextChild {
     /// Finds the bodies in the images of `base`.
     void see(const Ref<Frame>& base, Frame& tracked) {
         DepthImage image = base->depth_image();
+        depth_is_right = depth_is_right || check_depth(image);
         const bool own_map = makes_map(image);
         if (!own_map && !image.users)
             fail(VFIT_ERROR_UNSUPPORTED,
