@@ -10,9 +10,9 @@ namespace vfit {
 
 namespace {
 
-constexpr float kWidest = 150.0f;                    // degrees
+constexpr float kWidest = 150.0f;                         // degrees
 constexpr float kFarthest_m = 12.0f, kNearest_m = 0.05f;  // medians
-constexpr uint16_t kNoDisparity = 2047;              // of a Kinect v1: 11 bits
+constexpr uint16_t kNoDisparity = 2047;                   // of a Kinect v1: 11 bits
 constexpr size_t kSamples = 20'000;
 constexpr float kFewest = 0.01f, kManyOfOne = 0.03f;  // shares of the samples
 
@@ -24,7 +24,8 @@ float field_of_view(uint32_t pixels, float focal_px) {
 
 bool check_depth(const DepthImage& image) {
     const Camera& camera = image.camera;
-    const float across = field_of_view(camera.width, camera.fx), down = field_of_view(camera.height, camera.fy);
+    const float across = field_of_view(camera.width, camera.fx),
+                down = field_of_view(camera.height, camera.fy);
     if (across > kWidest || down > kWidest)
         fail(VFIT_ERROR_DATA, "the intrinsics say a field of view of ", std::lround(across), " by ",
              std::lround(down), " degrees: focal lengths of ", camera.fx, " and ", camera.fy,
