@@ -541,7 +541,9 @@ VFIT_API vfit_result vfit_tracker_destroy(vfit_tracker tracker); /* [any] */
  * that the tracker sees in it. Where it looks for people by itself *tracked has a user map of its own, with
  * the ids of its source's bodies where those are taken.
  * VFIT_ERROR_PLUGIN where the tracker has to find joints and the network module is not installed;
- * VFIT_ERROR_IO or VFIT_ERROR_DATA, naming the file, where weights or body data cannot be read. [excl] */
+ * VFIT_ERROR_IO or VFIT_ERROR_DATA, naming the file, where weights or body data cannot be read.
+ * VFIT_ERROR_DATA with the cause where the first depth that it looks into can be none: a wrong unit, raw
+ * disparities, impossible intrinsics. [excl] */
 VFIT_API vfit_result vfit_tracker_update(vfit_tracker tracker, vfit_frame frame, vfit_frame* tracked);
 /* The host's own middleware in place of the built-in tracker, one call a body; frame may be a *tracked
  * of the call before, to add a second body. A joint that is not finite gives VFIT_ERROR_DATA. Positions are

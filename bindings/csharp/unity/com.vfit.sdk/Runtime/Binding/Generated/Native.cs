@@ -255,7 +255,9 @@ namespace Vfit
         /// supplies, or those that the tracker sees in it. Where it looks for people by itself *tracked has a
         /// user map of its own, with the ids of its source's bodies where those are taken. VFIT_ERROR_PLUGIN
         /// where the tracker has to find joints and the network module is not installed; VFIT_ERROR_IO or
-        /// VFIT_ERROR_DATA, naming the file, where weights or body data cannot be read. [excl]</summary>
+        /// VFIT_ERROR_DATA, naming the file, where weights or body data cannot be read. VFIT_ERROR_DATA with
+        /// the cause where the first depth that it looks into can be none: a wrong unit, raw disparities,
+        /// impossible intrinsics. [excl]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_tracker_update(TrackerId tracker, FrameId frame, FrameId* tracked);
 
