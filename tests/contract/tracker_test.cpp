@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "contract/support.h"
+#include "support/tiny_character.h"
 
 using contract::ContextTest;
 using contract::HostImage;
@@ -269,4 +270,47 @@ TEST_F(TrackerTest, AMapOfItsOwnHasTheIdsOfTheSourcesBodies) {
         vfit_frame_release(frame);
     }
     EXPECT_EQ(vfit_sensor_close(sensor), VFIT_OK);
+}
+
+TEST_F(TrackerTest, ADepthUnitThatIsWrongIsNamed) {
+    vfit_tracker_desc desc = vfit_tracker_desc_init();
+    desc.joints = desc.user_map = VFIT_TRACK_BUILT_IN;
+    const vfit_tracker tracker = make_tracker(desc);
+    vfit_camera camera = vfit_camera_init();
+    camera.depth_unit_m = 0.01f;
+    vfit_frame_desc wrong = image.desc();
+    wrong.camera = &camera, wrong.time_ns = kFrame_ns;
+    vfit_frame frame{}, tracked{};
+    ASSERT_EQ(vfit_frame_create(context, &wrong, &frame), VFIT_OK) << contract::last_error();
+    EXPECT_EQ(vfit_tracker_update(tracker, frame, &tracked), VFIT_ERROR_DATA);
+    EXPECT_NE(contract::last_error().find("median is 30 m"), std::string::npos) << contract::last_error();
+    EXPECT_EQ(tracked.id, 0u);
+    EXPECT_EQ(vfit_frame_release(frame), VFIT_OK);
+    frame = make_frame(2 * kFrame_ns);
+    EXPECT_EQ(vfit_tracker_update(tracker, frame, &tracked), VFIT_OK) << contract::last_error();
+    EXPECT_EQ(vfit_frame_release(tracked), VFIT_OK);
+    EXPECT_EQ(vfit_frame_release(frame), VFIT_OK);
+}
+
+TEST_F(ContextTest, ACharacterIsScaledAndAScaleThatIsNoneIsRefused) {
+    const std::vector<std::byte> file = vfit::TinyCharacter().glb();
+    vfit_character_desc desc = vfit_character_desc_init();
+    desc.bytes = file.data(), desc.byte_count = file.size();
+    float stature_m[2] = {};
+    for (const bool twice : {false, true}) {
+        desc.scale = twice ? 2.0f : 0.0f;
+        vfit_avatar avatar{};
+        ASSERT_EQ(vfit_avatar_load(context, nullptr, &desc, &avatar), VFIT_OK) << contract::last_error();
+        vfit_character_info info = vfit_character_info_init();
+        EXPECT_EQ(vfit_avatar_describe(avatar, &info), VFIT_OK);
+        stature_m[twice] = info.stature_m;
+        EXPECT_EQ(vfit_avatar_destroy(avatar), VFIT_OK);
+    }
+    EXPECT_NEAR(stature_m[1], 2.0f * stature_m[0], 1e-3f);
+    for (const float scale : {NAN, INFINITY, -1.0f, 1e-9f}) {
+        desc.scale = scale;
+        vfit_avatar avatar{};
+        EXPECT_EQ(vfit_avatar_load(context, nullptr, &desc, &avatar), VFIT_ERROR_ARGUMENT) << scale;
+        EXPECT_EQ(avatar.id, 0u);
+    }
 }

@@ -80,9 +80,9 @@ Vec3 carried_to(const Vec3& place, const Vec3& shift) {
 /// way along the edges (long range attachment). Returns these ways. They slide on the skin as all cloth does,
 /// but not far: pinned to it, they would stretch wherever the skin does, and give way to no obstacle.
 ///
-/// Both pull by limited forces. Where the body leaves the cloth no other way, as in a squat, a waistband is
-/// drawn off its place: held without end, the cloth would be stretched, or drawn through the skin. What holds
-/// carries the whole garment, whatever part of it that is; what hangs is helped to carry itself.
+/// Both pull by limited forces: without a limit, the cloth would be stretched or drawn through the skin where
+/// the body leaves it too little way, as in a squat. The held vertices carry the whole garment, however few
+/// they are; the others are helped to carry themselves.
 std::vector<Tether> hold(std::span<const uint32_t> held, float slides_m, FabricData& data) {
     constexpr float kGravity_m_s2 = 9.81f;
     constexpr float kHeld = 2.0f, kHanging = 6.0f;  // times the weight that hangs there
