@@ -80,7 +80,7 @@ std::vector<std::string> words_of(const std::string& name) {
 
 bool is_prefix(const std::string& word) {
     for (const char* known : {"j", "bip", "mixamorig", "def", "c", "cc", "base", "bone", "jnt", "joint",
-                              "rig", "skeleton", "armature"})
+                              "rig", "skeleton", "armature", "bind"})
         if (word == known) return true;
     return false;
 }
@@ -252,7 +252,7 @@ void check(const GltfDocument& document, const HumanoidMap& map) {
 }  // namespace
 
 int bone_of_name(const std::string& name) {
-    std::string joined;
+    std::string joined, reversed;  // "armUpper" is an upper arm
     bool left = false, right = false;
     for (const std::string& word : words_of(name)) {
         if (word == "l" || word == "left")
@@ -260,10 +260,10 @@ int bone_of_name(const std::string& name) {
         else if (word == "r" || word == "right")
             right = true;
         else if (!is_prefix(word))
-            joined += word;
+            joined += word, reversed = word + reversed;
     }
     for (const NamedBone& known : kNames) {
-        if (joined != known.name) continue;
+        if (joined != known.name && reversed != known.name) continue;
         if (known.bone < VFIT_BONE_LEFT_SHOULDER) return left || right ? -1 : known.bone;
         if (left == right) return -1;
         return left ? known.bone : of_right(known.bone);

@@ -40,7 +40,16 @@ Avatar load(vfit_context context, const Options& options) {
     if (!map.empty()) desc.bone_map = map.c_str();
     desc.scale = options.scale;
     Avatar avatar;
-    check(vfit_avatar_load(context, nullptr, &desc, avatar.out()));
+    try {
+        check(vfit_avatar_load(context, nullptr, &desc, avatar.out()));
+    } catch (const Failure& failure) {
+        // A bone map to fill in and the tree of nodes, for a file of their own; the cause is the first line.
+        const std::string all = failure.what();
+        const size_t end = all.find('\n');
+        if (end == std::string::npos) throw;
+        std::cout << all.substr(end + 1);
+        throw Failure(all.substr(0, end));
+    }
     return avatar;
 }
 

@@ -30,7 +30,8 @@ TEST(HumanoidMap, KnowsTheNamesThatCommonToolsGive) {
           Case{"DEF-upper_arm.R", VFIT_BONE_RIGHT_UPPER_ARM}, Case{"lowerleg01.L", VFIT_BONE_LEFT_LOWER_LEG},
           Case{"Left shoulder", VFIT_BONE_LEFT_SHOULDER}, Case{"RightHand", VFIT_BONE_RIGHT_HAND},
           Case{"ball_r", VFIT_BONE_RIGHT_TOES}, Case{"Head", VFIT_BONE_HEAD}, Case{"pelvis", VFIT_BONE_HIPS},
-          Case{"J_Bip_C_Hips", VFIT_BONE_HIPS},
+          Case{"J_Bip_C_Hips", VFIT_BONE_HIPS}, Case{"L_armUpper0001_bind_JNT", VFIT_BONE_LEFT_UPPER_ARM},
+          Case{"R_legLower0001_bind_JNT", VFIT_BONE_RIGHT_LOWER_LEG},
           // Not these:
           Case{"HeadTop_End", -1}, Case{"LeftHandThumb1", -1}, Case{"upperarm_twist_01_l", -1},
           Case{"Hand", -1}, Case{"LeftHead", -1}, Case{"", -1}, Case{"arm_l_r", -1}})
