@@ -654,6 +654,19 @@ class Contract(unittest.TestCase):
             self.assertNotIn("uri", content["buffers"][0])
             view = content["bufferViews"][content["images"][0]["bufferView"]]
             self.assertEqual(buffer[view.get("byteOffset", 0) :][: view["byteLength"]], texture)
+            unnamed = pathlib.Path(folder) / "unnamed.glb"
+            self.assertEqual(
+                run("character", "--rig", "mixamo", "--sex", "m", "--out", unnamed).returncode, 0
+            )
+            unnamed.write_bytes(
+                unnamed.read_bytes().replace(b"LeftUpLeg", b"Something").replace(b"LeftLeg", b"Another")
+            )
+            self.check_failure(run("character", unnamed), "no bone for leftUpperLeg", "--nodes")
+            told = run("character", unnamed, "--nodes")
+            self.assertEqual(told.returncode, 0, told.stderr)
+            end = told.stdout.index("Its nodes:")
+            self.assertEqual(json.loads(told.stdout[:end])["leftUpperLeg"], "")
+            self.assertIn("Something\n", told.stdout[end:])
         self.check_failure(run("character", "/no/character.vrm"), "/no/character.vrm", "cannot be read")
         self.check_failure(run("character"), "file")
         self.assertEqual(run("character", "--rig", "sausage", "--out", "x.glb").returncode, 2)

@@ -20,6 +20,7 @@ namespace {
 struct Options {
     std::string file, bone_map, rig, motion, out, picture, sex;
     float scale = 1.0f;
+    bool nodes = false;
     uint32_t frames = 0;
     bool json = false;
 };
@@ -43,12 +44,12 @@ Avatar load(vfit_context context, const Options& options) {
     try {
         check(vfit_avatar_load(context, nullptr, &desc, avatar.out()));
     } catch (const Failure& failure) {
-        // A bone map to fill in and the tree of nodes, for a file of their own; the cause is the first line.
+        // The first line is the cause; a bone map to fill in and the tree of nodes follow.
         const std::string all = failure.what();
         const size_t end = all.find('\n');
         if (end == std::string::npos) throw;
+        if (!options.nodes) throw Failure(all.substr(0, end) + " --nodes prints one to fill in");
         std::cout << all.substr(end + 1);
-        throw Failure(all.substr(0, end));
     }
     return avatar;
 }
@@ -139,6 +140,7 @@ void character(const Options& options) {
     }
     if (options.file.empty()) throw Failure("no character: give a file, or --rig to write one");
     const Avatar avatar = load(context.get(), options);
+    if (!avatar.get().id) return;
     const Json about = report(avatar.get());
     if (!options.motion.empty()) {
         CharacterAnimation animation(avatar.get(), options.file);
@@ -161,6 +163,8 @@ void add_character(Command& app) {
     command.add_option("file", o->file, "glTF or VRM file of a skinned humanoid");
     command.add_option("--scale", o->scale, "Metres in a unit of the file (default: 1)").positive();
     command.add_option("--bone-map", o->bone_map, "JSON file {\"hips\": \"name of a node\", ...}");
+    command.add_flag("--nodes", o->nodes,
+                     "Where bones are not found: print a bone map to fill in, and the nodes");
     command.add_option("--motion", o->motion,
                        "Recording folder or sensor URI whose person moves the character");
     command.add_option("--frames", o->frames, "Frames of it (default: all)");
