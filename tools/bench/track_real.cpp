@@ -350,14 +350,10 @@ Json judge_real(const std::string& folder, const JudgeOptions& options, Targets&
                         {"longest_swap", run.longest_swap},
                         {"jumps", run.jumps},
                         {"raw", errors_of({run}, Whose::kEverybody, none, 0, Which::kAll).json()}});
-    const Json report = {{"update_ms", times.json()},
-                         {"raw", raw.json()},
-                         {"offset", off.json()},
-                         {"lead_frames", definition.lead},
-                         {"offset_lead", lead.json()},
-                         {"offset_lead_on_body", best.json()},
-                         {"on_surface", surface.json()},
-                         {"recordings", rows}};
+    const Json report = {{"update_ms", times.json()},    {"raw", raw.json()},
+                         {"offset", off.json()},         {"lead_frames", definition.lead},
+                         {"offset_lead", lead.json()},   {"offset_lead_on_body", best.json()},
+                         {"on_surface", surface.json()}, {"recordings", rows}};
     if (!options.quiet) print(runs, raw, off, lead, best, surface, definition, times);
     judge_errors(runs, raw, off, lead, best, targets);
     return report;
