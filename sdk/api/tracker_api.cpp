@@ -11,16 +11,15 @@
 #include "frame/floor.h"
 #include "track/active_person.h"
 #include "track/match_bodies.h"
-#include "track/people_map.h"
+#include "track/perception.h"
 #include "track/steady_bodies.h"
-#include "track/tracker.h"
 
 using namespace vfit;
 using namespace vfit::api;
 
 namespace {
 
-constexpr size_t kMaxBodies = 8;  // of one frame
+constexpr size_t kMaxBodies = Perception::kMaxBodies;  // of one frame
 
 struct TrackerObject : ContextChild {
     static constexpr Kind kKind = Kind::tracker;
@@ -28,10 +27,7 @@ struct TrackerObject : ContextChild {
 
     Camera floor;  // its floor_state says whose: GIVEN by the description, ESTIMATED from the first body
     vfit_track_source joints = VFIT_TRACK_AUTO, user_map = VFIT_TRACK_AUTO;
-    std::unique_ptr<Tracker> own;  // made when first needed, as are people
-    std::unique_ptr<PeopleMap> people;
-    std::vector<TrackTarget> targets;
-    uint8_t* map = nullptr;  // of the frame that is being made
+    std::unique_ptr<Perception> own;  // made when first needed
     std::vector<Body> in_camera;
     ActivePerson active;
     vfit_joint_filter filter = VFIT_FILTER_AUTO;
@@ -67,26 +63,12 @@ struct TrackerObject : ContextChild {
         if (!own_map && !image.users)
             fail(VFIT_ERROR_UNSUPPORTED,
                  "the frame's source supplies no user map, and the tracker was told to make none");
-        if (!own)
-            own = std::make_unique<Tracker>(
-                std::make_unique<JointNetwork>(context->module_path("vfit_joint_network"),
-                                               context->data_dir + "/networks/joints.onnx"),
-                filter != VFIT_FILTER_OFF);
         tracked.base = base;
         tracked.time_ns = base->time_ns;
         place(image.camera);
-        if (own_map)
-            map_people(image, tracked);
-        else
-            find_targets(image, kMaxBodies, targets);
-        own->run(image, base->time_ns, targets, tracked.bodies, hints);
-        if (own_map)
-            for (const TrackTarget& target : targets)
-                if (own->surely_no_person(target.id)) people->reject(target.id);
-        if (!tracked.bodies.empty() && nobody_knows_the_floor(image.camera))
-            estimate_floor(floor, tracked.bodies.front());
+        perception().run(image, base->time_ns, own_map ? add_map(image, tracked) : nullptr, hints,
+                         tracked.bodies);
         tracked.camera = image.camera;
-        place(tracked.camera);
         in_camera = tracked.bodies;
         for (Body& body : tracked.bodies) body = to_world(body, tracked.camera);
         if (fit != VFIT_FIT_OFF) fit_bodies(image, tracked);
@@ -99,6 +81,7 @@ struct TrackerObject : ContextChild {
         choose_active(tracked);
         for (size_t i = 0; i < in_camera.size(); ++i) {
             if (fit == VFIT_FIT_AUTO && in_camera[i].id != tracked.active->id) continue;
+            const auto targets = own->targets();
             const auto target = std::find_if(targets.begin(), targets.end(),
                                              [&](const TrackTarget& t) { return t.id == in_camera[i].id; });
             fits->run(image, target == targets.end() ? PixelBox{} : target->box, in_camera[i]);
@@ -111,26 +94,25 @@ struct TrackerObject : ContextChild {
         DepthImage image = base.depth_image();
         if (!makes_map(image)) return;
         place(image.camera);
-        const auto found = run_people(image, tracked);
+        uint8_t* const map = add_map(image, tracked);
+        const auto found = perception().map_people(image, tracked.time_ns, map);
         in_camera.clear();
         for (const Body& body : tracked.bodies) in_camera.push_back(to_camera(body, tracked.camera));
         number_by_bodies(in_camera, image.camera, found, map);
     }
-    std::span<const PersonRegion> run_people(const DepthImage& image, Frame& tracked) {
-        if (!people) people = std::make_unique<PeopleMap>();
-        map = static_cast<uint8_t*>(
+    uint8_t* add_map(const DepthImage& image, Frame& tracked) {
+        return static_cast<uint8_t*>(
             tracked.add_stream(VFIT_STREAM_USER_MAP, VFIT_FORMAT_U8, image.width(), image.height()));
-        return people->run(image, tracked.time_ns, map);
     }
-    /// Gives `tracked` a user map, and `image` that map and the floor that was found.
-    void map_people(DepthImage& image, Frame& tracked) {
-        targets.clear();
-        for (const PersonRegion& region : run_people(image, tracked))
-            if (targets.size() < kMaxBodies)
-                targets.push_back({region.id, region.box,
-                                   region.out_of_view ? uint32_t(VFIT_BODY_PARTLY_OUT_OF_VIEW) : 0u});
-        image.users = map;
-        image.camera = people->camera();
+    Perception& perception() {
+        if (!own)
+            own = std::make_unique<Perception>(
+                [this] {
+                    return std::make_shared<JointNetwork>(context->module_path("vfit_joint_network"),
+                                                          context->data_dir + "/networks/joints.onnx");
+                },
+                filter != VFIT_FILTER_OFF);
+        return *own;
     }
 };
 
@@ -258,7 +240,6 @@ vfit_result vfit_tracker_reset(vfit_tracker handle) {
         if (tracker->floor.floor_state != VFIT_FLOOR_GIVEN) tracker->floor = Camera{};
         if (tracker->own) tracker->own->reset();
         if (tracker->fits) tracker->fits->reset();
-        if (tracker->people) tracker->people->reset();
         tracker->active.reset();
         tracker->steady.reset();
         tracker->hints.clear();

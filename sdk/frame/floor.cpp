@@ -23,15 +23,25 @@ Body carried(const Body& body, const Mat4& m) {
 
 }  // namespace
 
-bool estimate_floor(Camera& camera, const Body& body) {
-    float lowest = -1e9f;  // camera y points down
-    for (const int foot : {VFIT_JOINT_LEFT_FOOT, VFIT_JOINT_RIGHT_FOOT})
-        if (body.has(foot)) lowest = std::max(lowest, body.at(foot).y + kAnkleHeight);
-    for (const int toes : {VFIT_JOINT_LEFT_TOES, VFIT_JOINT_RIGHT_TOES})
-        if (body.has(toes)) lowest = std::max(lowest, body.at(toes).y + kToesHeight);
+std::optional<Vec3> lowest_sole(const Body& body, const Vec3& up) {
+    std::optional<Vec3> sole;
+    const auto take = [&](int joint, float above_m) {
+        if (!body.has(joint)) return;
+        const Vec3 below = body.at(joint) - above_m * up;
+        if (!sole || glm::dot(below, up) < glm::dot(*sole, up)) sole = below;
+    };
+    take(VFIT_JOINT_LEFT_FOOT, kAnkleHeight), take(VFIT_JOINT_RIGHT_FOOT, kAnkleHeight);
+    take(VFIT_JOINT_LEFT_TOES, kToesHeight), take(VFIT_JOINT_RIGHT_TOES, kToesHeight);
     // A camera below the feet is no camera in a room: such joints say nothing about the floor.
-    if (lowest <= 0.0f) return false;
-    set_floor(camera, lowest, 0.0f, 0.0f, VFIT_FLOOR_ESTIMATED);
+    if (sole && glm::dot(*sole, up) >= 0.0f) sole.reset();
+    return sole;
+}
+
+bool estimate_floor(Camera& camera, const Body& body) {
+    const Vec3 up(0, -1, 0);
+    const auto sole = lowest_sole(body, up);
+    if (!sole) return false;
+    set_floor(camera, -glm::dot(*sole, up), 0.0f, 0.0f, VFIT_FLOOR_ESTIMATED);
     return true;
 }
 

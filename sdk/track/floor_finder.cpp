@@ -17,7 +17,8 @@ constexpr float kBelow_m = 0.10f;  // a table has readings below it, a floor has
 
 // Where a camera for people can stand and look.
 constexpr float kLowest_m = 0.1f, kHighest_m = 4.0f;
-constexpr float kMostTilt_rad = 50.0f * kPi / 180.0f, kMostRoll_rad = 20.0f * kPi / 180.0f;
+constexpr float kMostTilt_rad = 50.0f * kPi / 180.0f,
+                kMostRoll_rad = 40.0f * kPi / 180.0f;  // from what is taken for up
 
 constexpr uint32_t kTries = 400;        // finds a floor of 5 % of the samples in 99 of 100 frames
 constexpr int kWindow = 12;             // samples: the three of a try lie on one surface more often than not
@@ -33,13 +34,6 @@ constexpr uint32_t kLeastRest = 4,
 constexpr uint32_t kLookAgain = 4;  // frames, while a floor is seen
 constexpr float kBetter = 1.5f;
 
-// What stands on a floor: a person, from a child to a tall man with the arms up (ANSUR II: stature to 2.0 m).
-constexpr float kStandsBelow_m = 0.2f, kShortest_m = 0.9f, kTallest_m = 2.4f, kWidest_m = 1.2f;
-constexpr float kSameThing_m = 0.25f;  // between neighbouring samples, 4 cells apart
-constexpr uint32_t kThing = 20;        // samples
-
-const Vec3 kUps[] = {{0, -1, 0}, {1, 0, 0}, {-1, 0, 0}};  // landscape, portrait both ways
-
 bool plausible(const Vec3& plane, const Vec3& up) {
     const float length = glm::length(plane);
     if (!(length > 1.0f / kHighest_m && length < 1.0f / kLowest_m)) return false;
@@ -47,11 +41,6 @@ bool plausible(const Vec3& plane, const Vec3& up) {
     if (std::abs(normal.z) > std::sin(kMostTilt_rad)) return false;
     const float along = normal.x * up.x + normal.y * up.y, across = normal.x * up.y - normal.y * up.x;
     return std::abs(std::atan2(across, along)) < kMostRoll_rad;
-}
-
-bool plausible(const Vec3& plane) {
-    return std::any_of(std::begin(kUps), std::end(kUps),
-                       [&](const Vec3& up) { return plausible(plane, up); });
 }
 
 }  // namespace
@@ -99,8 +88,7 @@ uint32_t FloorFinder::random(uint32_t below) {
 void FloorFinder::take_samples(const DepthGrid& grid, uint32_t turn) {
     columns_ = std::max(1u, grid.width() / kSampleStep);
     rows_ = std::max(1u, grid.height() / kSampleStep);
-    for (auto* v : {&x_, &y_, &inverse_, &height_}) v->resize(size_t(columns_) * rows_);
-    pending_.resize(size_t(columns_) * rows_);
+    for (auto* v : {&x_, &y_, &inverse_}) v->resize(size_t(columns_) * rows_);
     for (uint32_t y = 0; y < rows_; ++y) {
         const uint32_t cy = std::min(y * kSampleStep + turn % kSampleStep, grid.height() - 1);
         const float* const depth = grid.depth().data() + size_t(cy) * grid.width();
@@ -179,73 +167,8 @@ FloorFinder::Fit FloorFinder::search(const Vec3& up, uint32_t tries) {
     return best;
 }
 
-// How many things of a person's size stand on the plane: tells a floor from a side wall, which is a floor to
-// a camera on its side.
-uint32_t FloorFinder::standing(const Plane& plane) {
-    const float d = 1.0f / glm::length(plane), noise = kSigmas * kInverseDepthSigma * d;
-    Camera camera;
-    camera.floor_normal = -plane * d;
-    camera.floor_distance_m = d;
-    const Vec3 right = Vec3(glm::transpose(camera.world_from_camera())[0]);
-    for (size_t i = 0; i < inverse_.size(); ++i) {
-        const Sample s = sample(i);
-        const float h = d * (s.inverse - plane.x * s.x - plane.y * s.y - plane.z);
-        const bool off = s.inverse > 0.0f && h > 2.0f * (kUneven_m * s.inverse + noise);
-        height_[i] = off ? h / s.inverse : -1.0f;
-    }
-    uint32_t count = 0;
-    for (size_t start = 0; start < inverse_.size(); ++start) {
-        if (height_[start] < 0.0f) continue;
-        uint32_t things = 0, waiting = 0;
-        float low = 1e9f, high = 0.0f, left = 1e9f, far_right = -1e9f;
-        const auto take = [&](size_t i) {
-            low = std::min(low, height_[i]);
-            high = std::max(high, height_[i]);
-            const Sample s = sample(i);
-            const float x = (right.x * s.x + right.y * s.y + right.z) / s.inverse;
-            left = std::min(left, x);
-            far_right = std::max(far_right, x);
-            height_[i] = -1.0f;
-            pending_[waiting++] = uint32_t(i);
-            ++things;
-        };
-        take(start);
-        while (waiting > 0) {
-            const uint32_t i = pending_[--waiting];
-            const uint32_t x = i % columns_, y = i / columns_;
-            const float z = 1.0f / inverse_[i];
-            const auto visit = [&](size_t n) {
-                if (height_[n] >= 0.0f && std::abs(1.0f / inverse_[n] - z) < kSameThing_m) take(n);
-            };
-            if (x > 0) visit(i - 1);
-            if (x + 1 < columns_) visit(i + 1);
-            if (y > 0) visit(i - columns_);
-            if (y + 1 < rows_) visit(i + columns_);
-        }
-        count += things >= kThing && low < kStandsBelow_m && high > kShortest_m && high < kTallest_m &&
-                 far_right - left < kWidest_m;
-    }
-    return count;
-}
-
-FloorFinder::Fit FloorFinder::choose() {
-    Fit best;
-    uint32_t most = 0;
-    for (const Vec3& up : kUps) {
-        const Fit fit = search(up, kTries);
-        if (!fit.valid()) continue;
-        const uint32_t things = standing(fit.plane);
-        const bool landscape = up.y != 0.0f;
-        if ((landscape && !best.valid()) || things > most) {
-            best = fit;
-            most = things;
-        }
-    }
-    return best;
-}
-
 // All cells instead of a sixteenth: the first image has to be right already.
-void FloorFinder::fit_whole(const DepthGrid& grid) {
+void FloorFinder::fit_whole(const DepthGrid& grid, const Vec3& up) {
     for (int pass = 0; pass < 3; ++pass) {
         sums_ = {};
         for (uint32_t turn = 0; turn < kSampleStep * kSampleStep; ++turn) {
@@ -253,22 +176,15 @@ void FloorFinder::fit_whole(const DepthGrid& grid) {
             gather(plane_, kUneven_m, sums_);
         }
         Plane refined;
-        if (sums_.solve(refined) && plausible(refined) && score(refined) > 0.0f) plane_ = refined;
+        if (sums_.solve(refined) && plausible(refined, up) && score(refined) > 0.0f) plane_ = refined;
     }
 }
 
-bool FloorFinder::worth_a_search(bool seen) {
+bool FloorFinder::worth_a_search(const Vec3& up, bool seen) {
     if (frames_ == 1) return true;
     if (frames_ < next_search_ || (seen && frames_ % kLookAgain != 0)) return false;
-    // A floor that is seen says which side is up; else landscape every other time.
-    const Vec3* up = &kUps[frames_ % 2 == 0 ? 0 : 1 + frames_ / 2 % 2];
-    if (seen)
-        for (const Vec3& other : kUps)
-            if (plausible(plane_, other)) up = &other;
-    const Fit hint = search(*up, kFewTries);
-    if (!hint.valid()) return false;
-    // To a camera on its side a wall is a floor, but nobody stands on it.
-    return seen ? hint.score > kBetter * score(plane_) : up->y != 0.0f || standing(hint.plane) > 0;
+    const Fit hint = search(up, kFewTries);
+    return hint.valid() && (!seen || hint.score > kBetter * score(plane_));
 }
 
 bool FloorFinder::run(const DepthGrid& grid, Camera& camera) {
@@ -278,24 +194,26 @@ bool FloorFinder::run(const DepthGrid& grid, Camera& camera) {
         return score(-camera.floor_normal / camera.floor_distance_m) > 0.0f;
     }
 
+    const Vec3 up = camera.floor_normal;
+    found_ = found_ && plausible(plane_, up);
     bool seen = false;
     if (found_) {
         Sums now = sums_;
         now.decay(kMemory);
         seen = gather(plane_, kUneven_m, now) >= kFewest && score(plane_) > 0.0f;
         Plane refined;
-        if (seen && now.solve(refined) && plausible(refined) && score(refined) > 0.0f) {
+        if (seen && now.solve(refined) && plausible(refined, up) && score(refined) > 0.0f) {
             plane_ = refined;
             sums_ = now;
         }
     }
-    if (worth_a_search(seen)) {
-        const Fit fit = choose();
+    if (worth_a_search(up, seen)) {
+        const Fit fit = search(up, kTries);
         next_search_ = frames_ + rest_;
         rest_ = fit.valid() ? kLeastRest : std::min(2 * rest_, kMostRest);
         if (fit.valid() && (!seen || fit.score > kBetter * score(plane_))) {
             plane_ = fit.plane;
-            fit_whole(grid);
+            fit_whole(grid, up);
             found_ = seen = true;
         }
     }

@@ -25,9 +25,10 @@ inline float floor_cut_m(float floor_distance_m, float z) {
 
 class FloorFinder {
 public:
-    /// Looks for the floor in this frame. Once found, sets the camera's floor (VFIT_FLOOR_ESTIMATED) in every
-    /// call and refines it over the frames; a camera whose floor is VFIT_FLOOR_GIVEN is left alone. True
-    /// where the floor was seen in this frame. Does not allocate after its first run.
+    /// Looks for the floor in this frame, where camera.floor_normal says which side is up, give or take 40
+    /// degrees of roll. Once found, sets the camera's floor (VFIT_FLOOR_ESTIMATED) in every call and refines it
+    /// over the frames; a camera whose floor is VFIT_FLOOR_GIVEN is left alone. True where the floor was seen in
+    /// this frame. Does not allocate after its first run.
     bool run(const DepthGrid& grid, Camera& camera);
 
     /// A floor is known, though perhaps out of sight now.
@@ -54,24 +55,20 @@ private:
     };
 
     void take_samples(const DepthGrid& grid, uint32_t turn);
-    void fit_whole(const DepthGrid& grid);
+    void fit_whole(const DepthGrid& grid, const Vec3& up);
     Sample sample(size_t i) const { return {x_[i], y_[i], inverse_[i]}; }
     Fit search(const Vec3& up, uint32_t tries);
-    Fit choose();
-    bool worth_a_search(bool seen);
+    bool worth_a_search(const Vec3& up, bool seen);
     float score(const Plane& plane) const;
-    uint32_t standing(const Plane& plane);
     size_t gather(const Plane& plane, float slack_m, Sums& sums) const;
     uint32_t random(uint32_t below);
 
     std::vector<float> x_, y_, inverse_;  // of the samples
-    std::vector<float> height_;           // of a coarse picture of the scene above a plane
-    std::vector<uint32_t> pending_;
     Sums sums_;
     Plane plane_{0.0f};
     bool found_ = false;
     uint32_t frames_ = 0, next_search_ = 0, rest_ = 1;
-    uint32_t columns_ = 0, rows_ = 0;  // of the coarse picture
+    uint32_t columns_ = 0, rows_ = 0;  // of the samples
     uint64_t seed_ = 0;
 };
 

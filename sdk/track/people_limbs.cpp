@@ -111,7 +111,7 @@ void PeopleMap::attach_fragments() {
 // The floor cut takes the soles with it. Around feet the mean height of 3 x 3 cells, which is less noisy than
 // the single one, tells them from the floor.
 void PeopleMap::grow_feet() {
-    if (!floor_seen_ && !floor_.found()) return;
+    if (!floor_seen_ && !floor_->found()) return;
     const int width = int(grid_.width()), height = int(grid_.height());
     const Vec3 n = camera_.floor_normal;
     const float d = camera_.floor_distance_m;

@@ -19,18 +19,29 @@ constexpr float kMostBorder = 0.08f;  // of the image, that a sensor leaves with
 }  // namespace
 
 void PeopleMap::reset() {
-    floor_.reset();
+    for (FloorFinder& floor : floors_) floor.reset();
     background_.reset();
-    identity_.reset();
-    std::fill(last_slots_.begin(), last_slots_.end(), uint8_t(0));
+    forget_people();
     filled_ = {};
     time_ns_ = 0;
+}
+
+void PeopleMap::forget_people() {
+    identity_.reset();
+    std::fill(last_slots_.begin(), last_slots_.end(), uint8_t(0));
+}
+
+void PeopleMap::doubt_floor() {
+    floor_->reset();
+    background_.reset();
 }
 
 void PeopleMap::look(const DepthImage& image) {
     grid_.run(image);
     camera_ = image.camera;
-    floor_seen_ = floor_.run(grid_, camera_);
+    const Vec3& up = camera_.floor_normal;
+    floor_ = &floors_[std::abs(up.y) >= std::abs(up.x) ? (up.y < 0 ? 0 : 2) : (up.x < 0 ? 1 : 3)];
+    floor_seen_ = floor_->run(grid_, camera_);
     if (columns_ == grid_.width() && wanted_.size() == grid_.cells()) return;
     columns_ = grid_.width();
     for (auto* v : {&wanted_, &slots_, &last_slots_, &labels_}) v->assign(grid_.cells(), 0);
@@ -66,7 +77,7 @@ void PeopleMap::find_view() {
 
 void PeopleMap::cut_floor_and_background() {
     background_.fit(grid_);
-    const bool floor = floor_seen_ || floor_.found();
+    const bool floor = floor_seen_ || floor_->found();
     const Vec3 n = camera_.floor_normal;
     const float d = camera_.floor_distance_m;
     // Above the floor cut, which is linear in z: z slope + d > floor_cut_m(d, z). Without a floor all is

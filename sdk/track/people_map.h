@@ -54,7 +54,7 @@ class PeopleMap {
 public:
     explicit PeopleMap(const PeopleMapOptions& options = {}) : options_(options) {}
 
-    /// Labels people: one byte a pixel of `users` (0: nobody, else the person's id). The regions stay valid
+    /// Labels people, who stand as image.camera.floor_normal says: one byte a pixel of `users` (0: nobody, else the person's id). The regions stay valid
     /// until the next run. Does not allocate while images are no larger than the largest before.
     std::span<const PersonRegion> run(const DepthImage& image, int64_t time_ns, uint8_t* users);
 
@@ -62,7 +62,13 @@ public:
     const Camera& camera() const { return camera_; }
     /// The floor was seen in the last frame.
     bool floor_seen() const { return floor_seen_; }
+    /// It was found, and may be out of sight.
+    bool floor_found() const { return floor_->found(); }
 
+    /// Forgets people, but not what does not move.
+    void forget_people();
+    /// The floor that was found is no floor: it is looked for anew.
+    void doubt_floor();
     /// Nobody is in view.
     void learn_background(const DepthImage& image);
     /// That region of the last run was no person: it becomes background. Numbers that nobody has are ignored.
@@ -117,7 +123,8 @@ private:
     uint32_t columns_ = 0;                  // of the last grid
     std::array<int, 4> filled_{}, view_{};  // cells: ever filled by the sensor, taken for its view
     DepthGrid grid_;
-    FloorFinder floor_;
+    std::array<FloorFinder, 4> floors_;  // by the image side that is up
+    FloorFinder* floor_ = &floors_[0];
     BackgroundModel background_;
     Components components_;
     Splitter splitter_;

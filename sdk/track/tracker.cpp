@@ -15,6 +15,13 @@ constexpr float kLeastBelief = -0.5f;  // logit
 constexpr float kSurelyNot = -2.5f;    // logit: one in twelve
 constexpr uint32_t kSureAfter = 15;    // frames in a row: who walks in or is being hidden shows an arm alone
 
+/// The image's own up where the camera looks straight down.
+Vec2 image_up(const Vec3& up) {
+    const Vec2 flat(up.x, up.y);
+    const float length = glm::length(flat);
+    return length < 0.2f ? Vec2(0, -1) : flat / length;
+}
+
 }  // namespace
 
 void find_targets(const DepthImage& image, size_t most, std::vector<TrackTarget>& out) {
@@ -49,10 +56,7 @@ void Tracker::run(const DepthImage& image, int64_t time_ns, std::span<const Trac
     std::erase_if(people_, [&](const auto& entry) {
         return time_ns < entry.second.seen_ns || seconds_between(entry.second.seen_ns, time_ns) > kForget_s;
     });
-    Vec2 up(image.camera.floor_normal.x, image.camera.floor_normal.y);
-    // Nobody knows the floor, or the camera looks straight down: the image's own up.
-    const float length = glm::length(up);
-    up = image.camera.floor_state == VFIT_FLOOR_DEFAULT || length < 0.2f ? Vec2(0, -1) : up / length;
+    const Vec2 up = image_up(image.camera.floor_normal);
     for (const TrackTarget& target : targets) {
         Body body;
         if (see(image, time_ns, target, up, people_[target.id], body)) out.push_back(body);
@@ -78,6 +82,19 @@ void Tracker::give_hints(const DepthImage& image, std::span<const TrackTarget> t
         hint.person = owner;
         if (owner) hints_.push_back(hint);
     }
+}
+
+bool Tracker::turn(const DepthImage& image, const TrackTarget& target, const Vec3& up,
+                   Level::Answers& person) {
+    crop_.resize(size_t(CropView::kPixels) * CropView::kPixels);
+    CropView view;
+    for (int k = 0; k < Level::kTurns; ++k) {
+        const Vec2 way = image_up(Level::turned(up, k));
+        if (!cropper_.run(image, uint8_t(target.id), target.box, way, view, crop_.data())) return false;
+        network_->run(crop_.data(), maps_);
+        person[size_t(k)] = maps_.person;
+    }
+    return true;
 }
 
 bool Tracker::surely_no_person(uint32_t id) const {

@@ -10,6 +10,7 @@
 #include "track/joint_hints.h"
 #include "track/joint_network.h"
 #include "track/joint_steady.h"
+#include "track/level.h"
 #include "track/skeleton.h"
 
 namespace vfit {
@@ -34,6 +35,8 @@ public:
     /// kForget_s is forgotten: whoever gets that id then starts afresh.
     void run(const DepthImage& image, int64_t time_ns, std::span<const TrackTarget> targets,
              std::vector<Body>& out, std::span<const JointHint> hints = {});
+    /// What the network says to the target as it is seen with `up`, and with it turned further.
+    bool turn(const DepthImage& image, const TrackTarget& target, const Vec3& up, Level::Answers& person);
     /// The network has said for a while that this target is something else.
     bool surely_no_person(uint32_t id) const;
     /// Forgets everybody.

@@ -1,0 +1,56 @@
+// Which way is up where no sensor tells: people stand upright, and the network knows an upright person from
+// one who lies on the side or stands on the head. Cameras hang under ceilings, stand on their sides, and often
+// see no floor.
+#pragma once
+
+#include <array>
+
+#include "frame/body.h"
+#include "frame/camera.h"
+
+namespace vfit {
+
+class Level {
+public:
+    /// Turns of 45 degrees about the line of sight.
+    static constexpr int kTurns = 8;
+    using Answers = std::array<float, kTurns>;
+    static Vec3 turned(const Vec3& up, int turns);
+
+    /// Up in camera space, to try on the next image.
+    const Vec3& up() const { return up_; }
+    /// People have confirmed it.
+    bool sure() const { return agreed_ >= kSure; }
+
+    /// up() is none but a try.
+    bool tries_another() const { return up_ != best_; }
+
+    /// Nobody was found with up(). Until sure, another way is tried every third time.
+    void miss(int64_t time_ns);
+    /// The network's answers (logits: it is a person) to somebody turned by up() and `k` times 45 degrees more;
+    /// of every second one only where a floor is seen, which tells the rest. False where another way than up()
+    /// is right, which is tried next.
+    bool compare(const Answers& person, bool floor_seen);
+    /// A body in camera space was found.
+    void see(const Body& body, int64_t time_ns);
+    /// Up of a floor that is seen.
+    void follow(const Vec3& floor_normal);
+    void reset() { *this = {}; }
+
+    /// Puts the floor where people have stood: upright on the soles of their feet. Leaves it open until
+    /// somebody was seen.
+    void place(Camera& camera) const;
+
+private:
+    static constexpr int kSure = 5;  // images that agree
+
+    Vec3 up_{0, -1, 0}, best_{0, -1, 0};
+    int agreed_ = 0;
+    uint32_t misses_ = 0;
+    int64_t seen_ns_ = 0;
+    uint32_t stood_ = 0;  // images with somebody who stands upright, up to kEnough
+    Vec3 axis_{0.0f}, sole_{0.0f};  // means: from the feet to the neck; of the lowest sole
+    bool has_sole_ = false;
+};
+
+}  // namespace vfit

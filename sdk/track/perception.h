@@ -1,0 +1,46 @@
+// vfit's own tracker, from a depth image to bodies: user map, joints, and which way is up where no sensor tells.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "track/people_map.h"
+#include "track/tracker.h"
+
+namespace vfit {
+
+class Perception {
+public:
+    static constexpr size_t kMaxBodies = 8;  // of one image
+
+    using LoadNetwork = std::function<std::shared_ptr<JointNetwork>()>;
+
+    /// load: called when joints are first looked for. steady: joints are filtered over time.
+    Perception(LoadNetwork load, bool steady) : load_(std::move(load)), steady_(steady) {}
+
+    /// Bodies of the image, in camera space. `map`: written with the people that are found; null: image.users is
+    /// taken. Sets image.users and the floor of image.camera, unless that is VFIT_FLOOR_GIVEN.
+    void run(DepthImage& image, int64_t time_ns, uint8_t* map, std::span<const JointHint> hints,
+             std::vector<Body>& bodies);
+    /// The user map alone, for bodies that another tracker has found.
+    std::span<const PersonRegion> map_people(const DepthImage& image, int64_t time_ns, uint8_t* map);
+    /// The people that run() has looked at.
+    std::span<const TrackTarget> targets() const { return targets_; }
+    void reset();
+
+private:
+    void find_people(DepthImage& image, int64_t time_ns, uint8_t* map);
+    bool stands_upright(const DepthImage& image, const Body& body);
+
+    LoadNetwork load_;
+    bool steady_;
+    std::unique_ptr<Tracker> tracker_;
+    std::unique_ptr<PeopleMap> people_;
+    Level level_;
+    Camera reported_;  // the last camera with which somebody was found
+    std::vector<TrackTarget> targets_;
+};
+
+}  // namespace vfit
