@@ -11,33 +11,47 @@ namespace vfit {
 namespace {
 
 constexpr double kDoubt_s = 2.0;         // without anybody, after which up is doubted
-constexpr float kBetter = 1.0f;         // logit by which another way has to be better
-constexpr float kPerson = 3.0f;          // logit: upright people have 7 to 18, on their side below 6
+// Logits. Upright people have 7 to 18, those on their side or head below 7, and 4 less than upright ones.
+constexpr float kPerson = 5.0f, kBetter = 3.0f;
+constexpr uint32_t kAtFirst = 10, kNowAndThen = 15;  // images: all ways are tried on each; on one of so many
 constexpr uint32_t kEnough = 60;         // images: two seconds
-constexpr float kStraightLeg = 0.985f;   // hip to foot over thigh and shank: 160 degrees
-constexpr float kStraightTrunk = 0.966f;  // cosine of 15 degrees between legs and trunk
-constexpr float kStride_m = 0.4f;
+constexpr float kLegs = 0.9f;            // hip to foot over thigh and shank: nobody sits with such legs
+constexpr float kStride_m = 0.5f;
+constexpr float kPressure = 0.35f;       // from the ankle to the ball of the foot: Winter 1995, 4 to 5 cm
 
-/// From the feet to the neck of somebody who stands upright; zero where the body does not say.
-Vec3 axis_of(const Body& b) {
-    constexpr std::array<int, 7> needed = {VFIT_JOINT_NECK,      VFIT_JOINT_LEFT_HIP,   VFIT_JOINT_RIGHT_HIP,
-                                           VFIT_JOINT_LEFT_KNEE, VFIT_JOINT_RIGHT_KNEE, VFIT_JOINT_LEFT_FOOT,
-                                           VFIT_JOINT_RIGHT_FOOT};
-    for (const int j : needed)
-        if (b.joints[size_t(j)].state != VFIT_JOINT_MEASURED) return Vec3(0.0f);
-    const auto straight = [&](int hip, int knee, int foot) {
-        return glm::length(b.at(hip) - b.at(foot)) >
-               kStraightLeg * (glm::length(b.at(hip) - b.at(knee)) + glm::length(b.at(knee) - b.at(foot)));
+/// The way from the feet up to the centre of mass, zero where the body does not say. Whoever stands is in
+/// balance: whatever the posture, their centre of mass is above the middle of the pressure below their feet.
+Vec3 balance_of(const Body& b) {
+    // Shares of mass: Winter 2009, table 4.1, each at a place between two joints.
+    struct Part {
+        int from, to;
+        float along, mass;
     };
-    if (!straight(VFIT_JOINT_LEFT_HIP, VFIT_JOINT_LEFT_KNEE, VFIT_JOINT_LEFT_FOOT) ||
-        !straight(VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_RIGHT_KNEE, VFIT_JOINT_RIGHT_FOOT) ||
-        glm::length(b.at(VFIT_JOINT_LEFT_FOOT) - b.at(VFIT_JOINT_RIGHT_FOOT)) > kStride_m)
+    constexpr Part kParts[] = {{VFIT_JOINT_PELVIS, VFIT_JOINT_NECK, 0.5f, 0.497f},
+                               {VFIT_JOINT_NECK, VFIT_JOINT_HEAD, 1.0f, 0.081f},
+                               {VFIT_JOINT_LEFT_SHOULDER, VFIT_JOINT_LEFT_HAND, 0.5f, 0.05f},
+                               {VFIT_JOINT_RIGHT_SHOULDER, VFIT_JOINT_RIGHT_HAND, 0.5f, 0.05f},
+                               {VFIT_JOINT_LEFT_HIP, VFIT_JOINT_LEFT_KNEE, 0.43f, 0.1f},
+                               {VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_RIGHT_KNEE, 0.43f, 0.1f},
+                               {VFIT_JOINT_LEFT_KNEE, VFIT_JOINT_LEFT_FOOT, 0.6f, 0.061f},
+                               {VFIT_JOINT_RIGHT_KNEE, VFIT_JOINT_RIGHT_FOOT, 0.6f, 0.061f}};
+    Vec3 centre(0.0f), below(0.0f);
+    for (const Part& part : kParts) {
+        if (!b.has(part.from) || !b.has(part.to)) return Vec3(0.0f);
+        centre += part.mass * glm::mix(b.at(part.from), b.at(part.to), part.along);
+    }
+    const auto leg = [&](int hip, int knee, int foot, int toes) {
+        below += 0.5f * glm::mix(b.at(foot), b.at(toes), kPressure);
+        return b.joints[size_t(foot)].state == VFIT_JOINT_MEASURED && b.has(toes) &&
+               glm::length(b.at(hip) - b.at(foot)) >
+                   kLegs * (glm::length(b.at(hip) - b.at(knee)) + glm::length(b.at(knee) - b.at(foot)));
+    };
+    const bool left = leg(VFIT_JOINT_LEFT_HIP, VFIT_JOINT_LEFT_KNEE, VFIT_JOINT_LEFT_FOOT, VFIT_JOINT_LEFT_TOES),
+               right = leg(VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_RIGHT_KNEE, VFIT_JOINT_RIGHT_FOOT,
+                           VFIT_JOINT_RIGHT_TOES);
+    if (!left || !right || glm::length(b.at(VFIT_JOINT_LEFT_FOOT) - b.at(VFIT_JOINT_RIGHT_FOOT)) > kStride_m)
         return Vec3(0.0f);
-    const Vec3 feet = 0.5f * (b.at(VFIT_JOINT_LEFT_FOOT) + b.at(VFIT_JOINT_RIGHT_FOOT)),
-               hips = 0.5f * (b.at(VFIT_JOINT_LEFT_HIP) + b.at(VFIT_JOINT_RIGHT_HIP)),
-               legs = hips - feet, trunk = b.at(VFIT_JOINT_NECK) - hips;
-    if (glm::dot(legs, trunk) < kStraightTrunk * glm::length(legs) * glm::length(trunk)) return Vec3(0.0f);
-    return glm::normalize(legs + trunk);
+    return glm::normalize(centre - below);
 }
 
 }  // namespace
@@ -48,31 +62,33 @@ Vec3 Level::turned(const Vec3& up, int turns) {
     return {c * up.x - s * up.y, s * up.x + c * up.y, up.z};
 }
 
-void Level::miss(int64_t time_ns) {
+bool Level::miss(int64_t time_ns) {
     if (sure()) {
-        if (seconds_between(seen_ns_, time_ns) < kDoubt_s) return;
-        agreed_ = 0;
+        if (seconds_between(seen_ns_, time_ns) < kDoubt_s) return false;
+        agreed_ = 0, misses_ = 0;
     }
-    constexpr int others[] = {kTurns / 4, -kTurns / 4, kTurns / 2};
-    up_ = ++misses_ % 3 != 0 ? best_ : turned(best_, others[misses_ / 3 % std::size(others)]);
+    const bool all = misses_ < kAtFirst || misses_ % kNowAndThen == 0;
+    way_ = all && way_ < kTurns ? way_ + 1 : 0;
+    up_ = turned(best_, way_);
+    misses_ += way_ == 0;
+    return way_ != 0;
 }
 
-bool Level::compare(const Answers& person, bool floor_seen) {
-    int best = 0;
-    for (int k = 0; k < kTurns; k += floor_seen ? 2 : 1)
-        if (person[size_t(k)] > person[size_t(best)]) best = k;
-    const bool turn = person[size_t(best)] > std::max(kPerson, person[0] + kBetter);
-    if (turn || up_ != best_) agreed_ = 0, stood_ = 0, has_sole_ = false;
-    if (turn) up_ = turned(up_, best);
-    best_ = up_;
+bool Level::compare(const Answers& person) {
+    const auto best = std::max_element(person.begin(), person.end());
+    const bool turn = *best > std::max(kPerson, person[0] + kBetter);
+    if (turn || (way_ % kTurns != 0 && person[0] > kPerson)) {
+        up_ = best_ = turned(up_, int(best - person.begin()));
+        way_ = 0, agreed_ = 0, stood_ = 0, has_sole_ = false;
+    }
     agreed_ += !turn && person[0] > kPerson;
-    return !turn;
+    return !turn && way_ % kTurns == 0;
 }
 
 void Level::see(const Body& body, int64_t time_ns) {
     seen_ns_ = time_ns;
     if (stood_ >= kEnough) return;
-    const Vec3 axis = axis_of(body);
+    const Vec3 axis = balance_of(body);
     const bool stands = axis != Vec3(0.0f) && glm::dot(axis, up_) > 0.5f;
     if (has_sole_ && !stands) return;
     const auto sole = lowest_sole(body, up_);

@@ -12,8 +12,8 @@ namespace vfit {
 
 class Level {
 public:
-    /// Turns of 45 degrees about the line of sight.
-    static constexpr int kTurns = 8;
+    /// Quarter turns about the line of sight.
+    static constexpr int kTurns = 4;
     using Answers = std::array<float, kTurns>;
     static Vec3 turned(const Vec3& up, int turns);
 
@@ -22,15 +22,12 @@ public:
     /// People have confirmed it.
     bool sure() const { return agreed_ >= kSure; }
 
-    /// up() is none but a try.
-    bool tries_another() const { return up_ != best_; }
-
-    /// Nobody was found with up(). Until sure, another way is tried every third time.
-    void miss(int64_t time_ns);
-    /// The network's answers (logits: it is a person) to somebody turned by up() and `k` times 45 degrees more;
-    /// of every second one only where a floor is seen, which tells the rest. False where another way than up()
-    /// is right, which is tried next.
-    bool compare(const Answers& person, bool floor_seen);
+    /// Nobody was found with up(). True where another way is to be tried on the same image; after the last one
+    /// up() is what it was at first.
+    bool miss(int64_t time_ns);
+    /// The network's answers (logits: it is a person) to somebody turned by up() and `k` quarters more. False
+    /// where that is no person as seen with up(); where another way is right, up() is that from now on.
+    bool compare(const Answers& person);
     /// A body in camera space was found.
     void see(const Body& body, int64_t time_ns);
     /// Up of a floor that is seen.
@@ -46,7 +43,8 @@ private:
 
     Vec3 up_{0, -1, 0}, best_{0, -1, 0};
     int agreed_ = 0;
-    uint32_t misses_ = 0;
+    int way_ = 0;          // that is tried
+    uint32_t misses_ = 0;  // images in a row, while not sure
     int64_t seen_ns_ = 0;
     uint32_t stood_ = 0;  // images with somebody who stands upright, up to kEnough
     Vec3 axis_{0.0f}, sole_{0.0f};  // means: from the feet to the neck; of the lowest sole

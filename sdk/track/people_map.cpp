@@ -196,7 +196,7 @@ void PeopleMap::report(const DepthImage& image, int64_t time_ns, uint8_t* users)
 
 std::span<const PersonRegion> PeopleMap::run(const DepthImage& image, int64_t time_ns, uint8_t* users) {
     look(image);
-    ++frames_;
+    frames_ += time_ns != time_ns_ || frames_ == 0;
     find_view();
     cut_floor_and_background();
     components_.run(grid_, wanted_.data(), kFewestCells);

@@ -1,22 +1,13 @@
 #include "track/perception.h"
 
+#include <algorithm>
+
 namespace vfit {
-
-namespace {
-
-void take_floor(Camera& camera, const Camera& from) {
-    camera.floor_state = from.floor_state;
-    camera.floor_normal = from.floor_normal;
-    camera.floor_distance_m = from.floor_distance_m;
-}
-
-}  // namespace
 
 void Perception::reset() {
     if (tracker_) tracker_->reset();
     if (people_) people_->reset();
     level_.reset();
-    reported_ = {};
 }
 
 std::span<const PersonRegion> Perception::map_people(const DepthImage& image, int64_t time_ns, uint8_t* map) {
@@ -40,45 +31,48 @@ void Perception::find_people(DepthImage& image, int64_t time_ns, uint8_t* map) {
 
 bool Perception::stands_upright(const DepthImage& image, const Body& body) {
     if (level_.sure()) return true;
+    const auto target = std::find_if(targets_.begin(), targets_.end(),
+                                     [&](const TrackTarget& t) { return t.id == body.id; });
     Level::Answers answers;
-    for (const TrackTarget& target : targets_)
-        if (target.id == body.id)
-            return !tracker_->turn(image, target, image.camera.floor_normal, answers) ||
-                   level_.compare(answers, people_ && people_->floor_seen());
-    return true;
+    return target == targets_.end() || !tracker_->turn(image, *target, image.camera.floor_normal, answers) ||
+           level_.compare(answers);
 }
 
-void Perception::run(DepthImage& image, int64_t time_ns, uint8_t* map, std::span<const JointHint> hints,
-                     std::vector<Body>& bodies) {
-    if (!tracker_) tracker_ = std::make_unique<Tracker>(load_(), steady_);
-    const bool told = image.camera.floor_state != VFIT_FLOOR_DEFAULT;
-    if (!told) level_.place(image.camera);
+bool Perception::look(DepthImage& image, int64_t time_ns, uint8_t* map, std::span<const JointHint> hints,
+                      std::vector<Body>& bodies) {
     find_people(image, time_ns, map);
     tracker_->run(image, time_ns, targets_, bodies, hints);
     if (map)
         for (const TrackTarget& target : targets_)
             if (tracker_->surely_no_person(target.id)) people_->reject(target.id);
-    if (told) return;
-    const bool floor_found = people_ && people_->floor_found();
-    if (!bodies.empty() && !stands_upright(image, bodies.front())) bodies.clear();
-    if (bodies.empty()) {
-        const bool tried = level_.tries_another();
-        const Vec3 up = level_.up();
-        level_.miss(time_ns);
-        if (people_ && level_.up() != up) people_->forget_people();
-        if (tried)
-            take_floor(image.camera, reported_);
-        else
-            reported_ = image.camera;
+    return !bodies.empty();
+}
+
+void Perception::run(DepthImage& image, int64_t time_ns, uint8_t* map, std::span<const JointHint> hints,
+                     std::vector<Body>& bodies) {
+    if (!tracker_) tracker_ = std::make_unique<Tracker>(load_(), steady_);
+    if (image.camera.floor_state != VFIT_FLOOR_DEFAULT) {  // up is known
+        look(image, time_ns, map, hints, bodies);
         return;
     }
-    if (floor_found) {
+    const Camera unknown = image.camera;
+    bool found = false;
+    for (bool again = true; again && !found;) {
+        image.camera = unknown;
+        level_.place(image.camera);
+        const Vec3 up = level_.up();
+        found = look(image, time_ns, map, hints, bodies) && stands_upright(image, bodies.front());
+        again = !found && (level_.up() != up || level_.miss(time_ns));
+        if (again && people_) people_->forget_people();
+    }
+    if (!found) {
+        bodies.clear();
+    } else if (people_ && people_->floor_found()) {
         level_.follow(image.camera.floor_normal);
     } else {
         level_.see(bodies.front(), time_ns);
         level_.place(image.camera);
     }
-    reported_ = image.camera;
 }
 
 }  // namespace vfit

@@ -32,6 +32,9 @@ public:
 
 private:
     void find_people(DepthImage& image, int64_t time_ns, uint8_t* map);
+    /// Looks for people who stand as image.camera says.
+    bool look(DepthImage& image, int64_t time_ns, uint8_t* map, std::span<const JointHint> hints,
+              std::vector<Body>& bodies);
     bool stands_upright(const DepthImage& image, const Body& body);
 
     LoadNetwork load_;
@@ -39,7 +42,6 @@ private:
     std::unique_ptr<Tracker> tracker_;
     std::unique_ptr<PeopleMap> people_;
     Level level_;
-    Camera reported_;  // the last camera with which somebody was found
     std::vector<TrackTarget> targets_;
 };
 
