@@ -25,6 +25,7 @@ constexpr int kWindow = 12;             // samples: the three of a try lie on on
 constexpr float kFewestShare = 0.012f;  // of the image: a strip below the feet
 constexpr uint32_t kFewest = 40;        // samples
 constexpr float kMostBelow = 0.3f;      // readings below the plane per reading on it
+constexpr uint32_t kBlock = 4;          // samples: what a shiny floor shows of itself lies so close together
 constexpr double kMemory = 0.9;         // of the last frame's sums: a third of a second at 30 Hz
 // After the first frame: this many tries now and then, so that no frame takes longer than others, until they
 // show that a whole search is worth it. While a floor is seen, a better one may come into view.
@@ -117,8 +118,32 @@ float FloorFinder::score(const Plane& plane) const {
         below += valid & int32_t(h < -(band + kBelow_m * inverse));
     }
     const float fewest = std::max(float(kFewest), kFewestShare * float(inverse_.size()));
-    if (float(on) < fewest || float(below) > kMostBelow * float(on)) return 0.0f;
+    if (float(on) < fewest) return 0.0f;
+    if (float(below) > kMostBelow * float(on)) below = below_beside(plane);
+    if (float(below) > kMostBelow * float(on)) return 0.0f;
     return float(on) - float(below);
+}
+
+// A shiny floor shows the room mirrored below it, among its own readings: those are no evidence against it.
+// What is seen below a table is seen beside it.
+int32_t FloorFinder::below_beside(const Plane& plane) const {
+    const float d = 1.0f / glm::length(plane), noise = kSigmas * kInverseDepthSigma * d;
+    int32_t count = 0;
+    for (uint32_t top = 0; top < rows_; top += kBlock)
+        for (uint32_t left = 0; left < columns_; left += kBlock) {
+            int32_t on = 0, below = 0;
+            for (uint32_t y = top; y < std::min(top + kBlock, rows_); ++y)
+                for (uint32_t x = left; x < std::min(left + kBlock, columns_); ++x) {
+                    const Sample s = sample(size_t(y) * columns_ + x);
+                    if (s.inverse <= 0.0f) continue;
+                    const float h = d * (s.inverse - plane.x * s.x - plane.y * s.y - plane.z);
+                    const float band = kUneven_m * s.inverse + noise;
+                    on += std::abs(h) < band;
+                    below += h < -(band + kBelow_m * s.inverse);
+                }
+            if (on == 0) count += below;
+        }
+    return count;
 }
 
 size_t FloorFinder::gather(const Plane& plane, float slack_m, Sums& sums) const {

@@ -16,6 +16,8 @@ constexpr float kScale_m = 0.3f,
 constexpr float kLeast = 1e-4f;       // probability that they are told wrongly, and of the other
 constexpr float kWeight = 0.35f;      // of the network's answer: those of frames in a row are alike
 constexpr float kAnswerLimit = 3.0f;  // one frame's logit counts no more
+constexpr float kToes = 3.0f;         // logit of toes that point straight behind
+constexpr float kSeenFoot = 0.15f;    // confidence
 
 /// The first cell whose middle may lie within `reach` of `place`, and the one after the last.
 std::pair<int, int> cells_within(float place, float reach) {
@@ -39,6 +41,24 @@ float distance_between(const SeenJoints& a, const SeenJoints& b) {
         if (mirrored_joint(j) != j)
             sum += std::min(0.3f, glm::length(a[size_t(j)].position - b[size_t(j)].position));
     return sum;
+}
+
+/// Cosine of the angle between the feet and where somebody with these sides faces; 0 where no foot says.
+float toes_ahead(const SeenJoints& joints, const Vec3& up) {
+    const auto at = [&](int joint) { return joints[size_t(joint)].position; };
+    const Vec3 left = at(VFIT_JOINT_LEFT_SHOULDER) - at(VFIT_JOINT_RIGHT_SHOULDER) + at(VFIT_JOINT_LEFT_HIP) -
+                      at(VFIT_JOINT_RIGHT_HIP);
+    Vec3 feet(0.0f);
+    const auto add = [&](int foot, int toes) {
+        if (joints[size_t(foot)].confidence > kSeenFoot && joints[size_t(toes)].confidence > kSeenFoot)
+            feet += at(toes) - at(foot);
+    };
+    add(VFIT_JOINT_LEFT_FOOT, VFIT_JOINT_LEFT_TOES);
+    add(VFIT_JOINT_RIGHT_FOOT, VFIT_JOINT_RIGHT_TOES);
+    const Vec3 ahead = glm::cross(left, up);
+    feet -= glm::dot(feet, up) * up;
+    const float lengths = glm::length(feet) * glm::length(ahead);
+    return lengths > 1e-6f ? glm::dot(feet, ahead) / lengths : 0.0f;
 }
 
 }  // namespace
@@ -82,7 +102,8 @@ void read_maps(const JointMaps& maps, const CropView& view, const Camera& camera
     }
 }
 
-void Facing::apply(float away_logit, SeenJoints& joints) {
+void Facing::apply(float away_logit, const Vec3& up, SeenJoints& joints) {
+    const float toes = -kToes * toes_ahead(joints, up);
     if (known_) {
         SeenJoints other = joints;
         exchange_sides(other);
@@ -95,6 +116,7 @@ void Facing::apply(float away_logit, SeenJoints& joints) {
         log_odds_ = std::log(is / (1.0f - is));
     }
     known_ = true;
+    log_odds_ += kWeight * toes;
     if (!std::isnan(away_logit)) log_odds_ += kWeight * std::clamp(away_logit, -kAnswerLimit, kAnswerLimit);
     last_ = joints;
     if (away()) exchange_sides(joints);

@@ -29,8 +29,8 @@ void read_maps(const JointMaps& maps, const CropView& view, const Camera& camera
 /// depth, and one frame's answer may be wrong.
 class Facing {
 public:
-    /// Exchanges left and right in `joints` where the person faces away.
-    void apply(float away_logit, SeenJoints& joints);
+    /// Exchanges left and right in `joints` where the person faces away. up: in the joints' space.
+    void apply(float away_logit, const Vec3& up, SeenJoints& joints);
     bool away() const { return log_odds_ > 0.0f; }
     /// The decision as it stands; of somebody new what the network says.
     bool away(float away_logit) const { return known_ ? away() : away_logit > 0.0f; }

@@ -117,7 +117,7 @@ bool Tracker::see(const DepthImage& image, int64_t time_ns, const TrackTarget& t
     apply_hints(hints_of_one_, view, person.facing.away(maps_.away), maps_);
     SeenJoints joints;
     read_maps(maps_, view, image.camera, joints);
-    person.facing.apply(maps_.away, joints);
+    person.facing.apply(maps_.away, image.camera.floor_normal, joints);
     if (steady_) person.steady.run(time_ns, joints);
     person.seen_ns = time_ns;
     ++person.frames;

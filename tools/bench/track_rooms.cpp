@@ -20,7 +20,7 @@ constexpr uint32_t kJudgedFrom = 30;            // two seconds to look around
 constexpr uint32_t kWrongFloor = 2 * kRate_hz;  // frames in a row
 constexpr double kFound = 0.9, kJoints = 0.8;   // of the judged frames; of their joints within 15 cm
 constexpr float kFloorOff_rad = 10.0f * kPi / 180.0f, kFloorOff_m = 0.2f;
-constexpr float kRadian = kPi / 180.0f;
+constexpr float kRadian = kPi / 180.0f, kTrunk_m = 0.95f;
 
 struct Range {
     float low, high;
@@ -29,28 +29,28 @@ struct Range {
 /// How a camera stands, and what is special about the room.
 struct Kind {
     const char* name;
-    Range height_m, tilt_deg, roll_deg;  // roll to either side
+    Range height_m, tilt_deg, roll_deg;  // tilt from where the trunk is in the middle; roll to either side
     FloorLook floor = FloorLook::kMatt;
     bool wall_beside = false, cut_away = false, starts_close = false;
     float closer_m = 0.0f;
 };
 
 constexpr Kind kKinds[] = {
-    {"level", {0.8f, 1.4f}, {-3, 8}, {0, 4}},
-    {"low, looks up", {0.25f, 0.6f}, {-12, 0}, {0, 4}},
-    {"high, looks down", {1.7f, 2.2f}, {15, 28}, {0, 4}},
-    {"below the ceiling, rolled", {2.2f, 2.6f}, {28, 40}, {10, 35}},
-    {"rolled", {0.9f, 1.8f}, {0, 15}, {15, 35}},
-    {"on its side", {0.9f, 1.6f}, {0, 15}, {86, 94}},
-    {"upside down", {1.0f, 2.3f}, {0, 20}, {175, 185}},
-    {"black floor", {0.3f, 1.4f}, {-5, 8}, {0, 4}, FloorLook::kBlack},
-    {"shiny floor", {0.6f, 1.6f}, {0, 15}, {0, 4}, FloorLook::kShiny},
-    {"a wall close to one side", {0.6f, 1.6f}, {-5, 10}, {0, 4}, FloorLook::kMatt, true},
-    {"no floor in view", {1.2f, 1.5f}, {-8, -2}, {0, 4}, FloorLook::kMatt, false, false, false, 0.9f},
-    {"background cut away", {0.8f, 1.6f}, {-3, 10}, {0, 4}, FloorLook::kMatt, false, true},
-    {"cut away, on its side", {0.8f, 1.6f}, {-3, 10}, {86, 94}, FloorLook::kMatt, false, true},
-    {"cut away, upside down", {0.8f, 1.6f}, {-3, 10}, {175, 185}, FloorLook::kMatt, false, true},
-    {"somebody close at first", {0.8f, 1.5f}, {-3, 8}, {0, 4}, FloorLook::kMatt, false, false, true},
+    {"level", {0.8f, 1.4f}, {-5, 5}, {0, 4}},
+    {"low, looks up", {0.25f, 0.6f}, {-3, 7}, {0, 4}},
+    {"high, looks down", {1.7f, 2.2f}, {-5, 5}, {0, 4}},
+    {"below the ceiling, rolled", {2.2f, 2.6f}, {-5, 5}, {10, 35}},
+    {"rolled", {0.9f, 1.8f}, {-5, 5}, {15, 35}},
+    {"on its side", {0.9f, 1.6f}, {-5, 5}, {86, 94}},
+    {"upside down", {1.0f, 2.3f}, {-5, 5}, {175, 185}},
+    {"black floor", {0.3f, 1.4f}, {-5, 5}, {0, 4}, FloorLook::kBlack},
+    {"shiny floor", {0.6f, 1.6f}, {-5, 5}, {0, 4}, FloorLook::kShiny},
+    {"a wall close to one side", {0.6f, 1.6f}, {-5, 5}, {0, 4}, FloorLook::kMatt, true},
+    {"no floor in view", {1.2f, 1.5f}, {-14, -9}, {0, 4}, FloorLook::kMatt, false, false, false, 0.9f},
+    {"background cut away", {0.8f, 1.6f}, {-5, 5}, {0, 4}, FloorLook::kMatt, false, true},
+    {"cut away, on its side", {0.8f, 1.6f}, {-5, 5}, {86, 94}, FloorLook::kMatt, false, true},
+    {"cut away, upside down", {0.8f, 1.6f}, {-5, 5}, {175, 185}, FloorLook::kMatt, false, true},
+    {"somebody close at first", {0.8f, 1.5f}, {-5, 5}, {0, 4}, FloorLook::kMatt, false, false, true},
 };
 constexpr const char* kMotions[] = {"sway", "wave", "forward", "reach", "squat"};
 
@@ -96,11 +96,9 @@ Stage stage_of(uint32_t number, uint32_t seed) {
     s.kind = &kKinds[number % std::size(kKinds)];
     s.time_of_flight = number / std::size(kKinds) % 2;
     s.height_m = draw.from(s.kind->height_m);
-    s.tilt_rad = draw.from(s.kind->tilt_deg) * kRadian;
     s.roll_rad = draw.from(s.kind->roll_deg) * kRadian * (draw.one_in(2) ? 1.0f : -1.0f);
     s.distance_m = draw.from({2.4f, 3.1f}) - s.kind->closer_m;
-    if (s.tilt_rad > 12 * kRadian)  // the trunk in the middle of the picture
-        s.distance_m = std::clamp((s.height_m - 0.95f) / std::tan(s.tilt_rad), 2.0f, 3.1f);
+    s.tilt_rad = std::atan((s.height_m - kTrunk_m) / s.distance_m) + draw.from(s.kind->tilt_deg) * kRadian;
     const auto person = [&](float distance_m, uint32_t frames) {
         std::ostringstream uri;
         uri << "virtual:sensor=" << (s.time_of_flight ? "tof" : "kinect_v1")

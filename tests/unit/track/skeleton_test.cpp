@@ -79,7 +79,7 @@ TEST(Facing, OneWrongAnswerDoesNotTurnAnybody) {
     Facing facing;
     for (int frame = 0; frame < 100; ++frame) {
         SeenJoints joints = standing();
-        facing.apply(frame % 7 == 3 ? 3.0f : -2.0f, joints);
+        facing.apply(frame % 7 == 3 ? 3.0f : -2.0f, Vec3(0, -1, 0), joints);
         ASSERT_GT(joints[VFIT_JOINT_LEFT_HAND].position.x, 0.0f) << frame;
     }
 }
@@ -87,11 +87,11 @@ TEST(Facing, OneWrongAnswerDoesNotTurnAnybody) {
 TEST(Facing, FirmAnswersTurnThemInAThirdOfASecond) {
     Facing facing;
     SeenJoints joints;
-    for (int i = 0; i < 30; ++i) joints = standing(), facing.apply(-3.0f, joints);
+    for (int i = 0; i < 30; ++i) joints = standing(), facing.apply(-3.0f, Vec3(0, -1, 0), joints);
     int frame = 0;
     do {
         joints = standing();
-        facing.apply(3.0f, joints);
+        facing.apply(3.0f, Vec3(0, -1, 0), joints);
     } while (joints[VFIT_JOINT_LEFT_HAND].position.x > 0.0f && ++frame < 100);
     EXPECT_GE(frame, 5);
     EXPECT_LE(frame, 10);
@@ -101,28 +101,28 @@ TEST(Facing, FirmAnswersTurnThemInAThirdOfASecond) {
 TEST(Facing, AfterACutTheNextAnswerCounts) {
     Facing facing;
     SeenJoints joints;
-    for (int i = 0; i < 30; ++i) joints = standing(), facing.apply(-3.0f, joints);
+    for (int i = 0; i < 30; ++i) joints = standing(), facing.apply(-3.0f, Vec3(0, -1, 0), joints);
     joints = standing();
     for (SeenJoint& joint : joints) joint.position.z += 1.0f;
-    facing.apply(1.0f, joints);
+    facing.apply(1.0f, Vec3(0, -1, 0), joints);
     EXPECT_TRUE(facing.away());
 }
 
 TEST(Facing, AnAnswerThatIsNoNumberDoesNotCount) {
     Facing facing;
     SeenJoints joints = standing();
-    facing.apply(2.0f, joints);
-    joints = standing(), facing.apply(std::numeric_limits<float>::quiet_NaN(), joints);
+    facing.apply(2.0f, Vec3(0, -1, 0), joints);
+    joints = standing(), facing.apply(std::numeric_limits<float>::quiet_NaN(), Vec3(0, -1, 0), joints);
     EXPECT_TRUE(facing.away());
 }
 
 TEST(Facing, WhoTurnsPastTheSideViewKeepsTheirLeft) {
     Facing facing;
     SeenJoints joints = standing();
-    facing.apply(-3.0f, joints);
+    facing.apply(-3.0f, Vec3(0, -1, 0), joints);
     // At the side view the same limbs take the labels of the other side.
     joints = exchanged(standing());
-    facing.apply(0.0f, joints);
+    facing.apply(0.0f, Vec3(0, -1, 0), joints);
     EXPECT_TRUE(facing.away());
     EXPECT_GT(joints[VFIT_JOINT_LEFT_HAND].position.x, 0.0f);
 }
