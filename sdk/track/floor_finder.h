@@ -26,9 +26,9 @@ inline float floor_cut_m(float floor_distance_m, float z) {
 class FloorFinder {
 public:
     /// Looks for the floor in this frame, where camera.floor_normal says which side is up, give or take 40
-    /// degrees of roll. Once found, sets the camera's floor (VFIT_FLOOR_ESTIMATED) in every call and refines it
-    /// over the frames; a camera whose floor is VFIT_FLOOR_GIVEN is left alone. True where the floor was seen in
-    /// this frame. Does not allocate after its first run.
+    /// degrees of roll. Once found, sets the camera's floor (VFIT_FLOOR_ESTIMATED) in every call and refines
+    /// it over the frames; a camera whose floor is VFIT_FLOOR_GIVEN is left alone. True where the floor was
+    /// seen in this frame. Does not allocate after its first run.
     bool run(const DepthGrid& grid, Camera& camera);
 
     /// A floor is known, though perhaps out of sight now.

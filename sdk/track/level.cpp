@@ -10,14 +10,14 @@ namespace vfit {
 
 namespace {
 
-constexpr double kDoubt_s = 2.0;         // without anybody, after which up is doubted
+constexpr double kDoubt_s = 2.0;  // without anybody, after which up is doubted
 // Logits. Upright people have 7 to 18, those on their side or head below 7, and 4 less than upright ones.
 constexpr float kPerson = 5.0f, kBetter = 3.0f;
 constexpr uint32_t kAtFirst = 10, kNowAndThen = 15;  // images: all ways are tried on each; on one of so many
-constexpr uint32_t kEnough = 60;         // images: two seconds
-constexpr float kLegs = 0.9f;            // hip to foot over thigh and shank: nobody sits with such legs
+constexpr uint32_t kEnough = 60;                     // images: two seconds
+constexpr float kLegs = 0.9f;  // hip to foot over thigh and shank: nobody sits with such legs
 constexpr float kStride_m = 0.5f;
-constexpr float kPressure = 0.35f;       // from the ankle to the ball of the foot: Winter 1995, 4 to 5 cm
+constexpr float kPressure = 0.35f;  // from the ankle to the ball of the foot: Winter 1995, 4 to 5 cm
 
 /// The way from the feet up to the centre of mass, zero where the body does not say. Whoever stands is in
 /// balance: whatever the posture, their centre of mass is above the middle of the pressure below their feet.
@@ -46,7 +46,8 @@ Vec3 balance_of(const Body& b) {
                glm::length(b.at(hip) - b.at(foot)) >
                    kLegs * (glm::length(b.at(hip) - b.at(knee)) + glm::length(b.at(knee) - b.at(foot)));
     };
-    const bool left = leg(VFIT_JOINT_LEFT_HIP, VFIT_JOINT_LEFT_KNEE, VFIT_JOINT_LEFT_FOOT, VFIT_JOINT_LEFT_TOES),
+    const bool left =
+                   leg(VFIT_JOINT_LEFT_HIP, VFIT_JOINT_LEFT_KNEE, VFIT_JOINT_LEFT_FOOT, VFIT_JOINT_LEFT_TOES),
                right = leg(VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_RIGHT_KNEE, VFIT_JOINT_RIGHT_FOOT,
                            VFIT_JOINT_RIGHT_TOES);
     if (!left || !right || glm::length(b.at(VFIT_JOINT_LEFT_FOOT) - b.at(VFIT_JOINT_RIGHT_FOOT)) > kStride_m)

@@ -54,8 +54,9 @@ class PeopleMap {
 public:
     explicit PeopleMap(const PeopleMapOptions& options = {}) : options_(options) {}
 
-    /// Labels people, who stand as image.camera.floor_normal says: one byte a pixel of `users` (0: nobody, else the person's id). The regions stay valid
-    /// until the next run. Does not allocate while images are no larger than the largest before.
+    /// Labels people, who stand as image.camera.floor_normal says: one byte a pixel of `users` (0: nobody,
+    /// else the person's id). The regions stay valid until the next run. Does not allocate while images are
+    /// no larger than the largest before.
     std::span<const PersonRegion> run(const DepthImage& image, int64_t time_ns, uint8_t* users);
 
     /// The image's camera with the floor, given or found (floor_state); the space of the regions' centres.

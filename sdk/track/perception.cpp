@@ -23,16 +23,16 @@ void Perception::find_people(DepthImage& image, int64_t time_ns, uint8_t* map) {
     targets_.clear();
     for (const PersonRegion& region : map_people(image, time_ns, map))
         if (targets_.size() < kMaxBodies)
-            targets_.push_back({region.id, region.box,
-                                region.out_of_view ? uint32_t(VFIT_BODY_PARTLY_OUT_OF_VIEW) : 0u});
+            targets_.push_back(
+                {region.id, region.box, region.out_of_view ? uint32_t(VFIT_BODY_PARTLY_OUT_OF_VIEW) : 0u});
     image.users = map;
     image.camera = people_->camera();
 }
 
 bool Perception::stands_upright(const DepthImage& image, const Body& body) {
     if (level_.sure()) return true;
-    const auto target = std::find_if(targets_.begin(), targets_.end(),
-                                     [&](const TrackTarget& t) { return t.id == body.id; });
+    const auto target =
+        std::find_if(targets_.begin(), targets_.end(), [&](const TrackTarget& t) { return t.id == body.id; });
     Level::Answers answers;
     return target == targets_.end() || !tracker_->turn(image, *target, image.camera.floor_normal, answers) ||
            level_.compare(answers);

@@ -1,4 +1,5 @@
-// vfit's own tracker, from a depth image to bodies: user map, joints, and which way is up where no sensor tells.
+// vfit's own tracker, from a depth image to bodies: user map, joints, and which way is up where no sensor
+// tells.
 #pragma once
 
 #include <functional>
@@ -20,8 +21,8 @@ public:
     /// load: called when joints are first looked for. steady: joints are filtered over time.
     Perception(LoadNetwork load, bool steady) : load_(std::move(load)), steady_(steady) {}
 
-    /// Bodies of the image, in camera space. `map`: written with the people that are found; null: image.users is
-    /// taken. Sets image.users and the floor of image.camera, unless that is VFIT_FLOOR_GIVEN.
+    /// Bodies of the image, in camera space. `map`: written with the people that are found; null: image.users
+    /// is taken. Sets image.users and the floor of image.camera, unless that is VFIT_FLOOR_GIVEN.
     void run(DepthImage& image, int64_t time_ns, uint8_t* map, std::span<const JointHint> hints,
              std::vector<Body>& bodies);
     /// The user map alone, for bodies that another tracker has found.

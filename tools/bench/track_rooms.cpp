@@ -278,7 +278,8 @@ Json judge_rooms(const JudgeOptions& options, Targets& targets) {
     if (!options.quiet) {
         std::cout
             << "\nSYNTHETIC: " << kRooms << " virtual rooms, seed " << options.seed
-            << "; found: a body in 90 % of the frames after 2 s, with 80 % of its joints in\nview within 15 cm\n"
+            << "; found: a body in 90 % of the frames after 2 s, with 80 % of its joints in\nview within 15 "
+               "cm\n"
             << "  camera or room              rooms   found   wrong floor for 2 s   mAP@10 cm where found\n";
         for (size_t k = 0; k < rows.size(); ++k)
             std::cout << "  " << std::left << std::setw(28) << kKinds[k].name << std::right << std::setw(5)

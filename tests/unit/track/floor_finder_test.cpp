@@ -50,7 +50,8 @@ INSTANTIATE_TEST_SUITE_P(Stands, FloorOfCamera,
                                            Stand{1.0f, 0, 90}, Stand{1.4f, 12, -90}, Stand{0.8f, -5, 86},
                                            Stand{0.4f, -12, 0}, Stand{0.4f, 30, 0}, Stand{1.0f, 30, 0},
                                            Stand{2.2f, 30, 0}, Stand{2.2f, 15, 0}, Stand{0.4f, -20, 90},
-                                           Stand{2.2f, 30, 90}, Stand{1.2f, 30, -90}));
+                                           Stand{2.2f, 30, 90}, Stand{1.2f, 30, -90}, Stand{2.3f, 30, 33},
+                                           Stand{1.2f, 5, -35}, Stand{1.5f, 10, 180}, Stand{2.2f, 25, 150}));
 
 TEST(FloorFinder, ACameraThatLooksUpSeesNone) {
     for (const float roll : {0.0f, 90.0f}) {
@@ -81,6 +82,46 @@ TEST(FloorFinder, DoesNotTakeATableForTheFloorBelowIt) {
     Camera camera;
     ASSERT_TRUE(find(scene, camera));
     EXPECT_NEAR(camera.floor_distance_m, 1.5f, 0.03f);
+}
+
+TEST(FloorFinder, SeesAShinyFloorAmongTheMirroredRoom) {
+    RoomScene scene;
+    scene.stand(1.3f, 10, 0);
+    scene.render();
+    Camera camera = scene.camera;
+    for (size_t i = 0; i < scene.depth.size(); ++i) {
+        if (scene.depth[i] == 0) continue;
+        const auto u = float(i % camera.width), v = float(i / camera.width);
+        const Vec3 p = camera.unproject(u, v, float(scene.depth[i]) * camera.depth_unit_m);
+        if (std::abs(glm::dot(camera.floor_normal, p) + camera.floor_distance_m) > 0.02f) continue;
+        // One reading in four is of the floor, the next of a wall that is mirrored 1 m below it.
+        const float lower = (camera.floor_distance_m + 1.0f) / camera.floor_distance_m;
+        if (i % 4 != 0) scene.depth[i] = i % 4 == 1 ? uint16_t(float(scene.depth[i]) * lower) : uint16_t(0);
+    }
+    const DepthImage image = scene.bare();
+    DepthGrid grid;
+    grid.run(image);
+    camera = image.camera;
+    FloorFinder finder;
+    ASSERT_TRUE(finder.run(grid, camera));
+    EXPECT_NEAR(camera.floor_distance_m, 1.3f, 0.03f);
+    EXPECT_LT(degrees_off(camera, scene.camera), 1.0);
+}
+
+TEST(FloorFinder, LetsAFloorGoWhenAnotherSideIsUp) {
+    RoomScene scene;
+    scene.side_x = 1.2f;
+    scene.render();
+    DepthImage image = scene.bare();
+    DepthGrid grid;
+    grid.run(image);
+    FloorFinder finder;
+    ASSERT_TRUE(finder.run(grid, image.camera));
+    image.camera.floor_state = VFIT_FLOOR_DEFAULT;
+    image.camera.floor_normal = Vec3(0, 1, 0);
+    EXPECT_FALSE(finder.run(grid, image.camera));
+    EXPECT_FALSE(finder.found());
+    EXPECT_EQ(image.camera.floor_state, VFIT_FLOOR_DEFAULT);
 }
 
 TEST(FloorFinder, LeavesAFloorAloneThatIsGiven) {

@@ -46,10 +46,13 @@ struct RoomScene {
     }
 
     /// The image as a tracker gets it: without user map, and without floor.
+    /// Of the camera no more is known than which side of its image is up.
     DepthImage bare() const {
         DepthImage image{depth.data(), nullptr, camera};
         image.camera.floor_state = VFIT_FLOOR_DEFAULT;
-        image.camera.floor_normal = Vec3(0, -1, 0);
+        const Vec3 up = camera.floor_normal;
+        image.camera.floor_normal =
+            std::abs(up.y) >= std::abs(up.x) ? Vec3(0, up.y < 0 ? -1 : 1, 0) : Vec3(up.x < 0 ? -1 : 1, 0, 0);
         image.camera.floor_distance_m = 1.0f;
         return image;
     }
