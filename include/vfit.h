@@ -325,7 +325,7 @@ typedef struct vfit_intrinsics {
 typedef int32_t vfit_floor_state;
 enum {
     VFIT_FLOOR_DEFAULT = 0,   /* nobody knows: level camera, 1 m above the floor */
-    VFIT_FLOOR_ESTIMATED = 1, /* level camera, height from the first body's feet */
+    VFIT_FLOOR_ESTIMATED = 1, /* seen in the depth image; else below the first body's feet */
     VFIT_FLOOR_GIVEN = 2
 }; /* by the sensor, the recording or the host */
 typedef struct vfit_camera { /* where the camera stands */
@@ -369,7 +369,8 @@ VFIT_API vfit_result vfit_frame_intrinsics(vfit_frame frame, vfit_intrinsics* ou
 VFIT_API vfit_result vfit_frame_camera(vfit_frame frame, vfit_camera* out);                 /* [any] */
 /* What the source says beside the pixels, one JSON document a key: "measures" (ground truth of a virtual
  * person, {"stature_m": ...}), "contacts" ({"left": 0, "right": 1}), "index" (the number of a recorded
- * frame), "bodies" (true: the source tells its bodies, also when nobody is in view). *length is the whole
+ * frame), "bodies" (true: the source tells its bodies, also when nobody is in view); and of a frame in which
+ * the built-in tracker found no body, "nobody" ("nothing is within 5 m", ...: why). *length is the whole
  * text's; no such key: VFIT_NOT_READY. [any] */
 VFIT_API vfit_result vfit_frame_meta(vfit_frame frame, const char* key, char* buffer, uint32_t capacity,
                                      uint32_t* length);

@@ -14,6 +14,7 @@ constexpr uint32_t kFewestCells = 6;    // a finger at 3 m
 constexpr float kLeastSeen_m2 = 0.05f;  // of somebody known: head and a shoulder
 // Seen of two people in two places who were taken for one.
 constexpr float kWhole_m2 = 0.2f, kTwoApart_m = 0.35f;
+constexpr double kFewShare = 0.002;   // of the image: less than a head at 5 m
 constexpr float kMostBorder = 0.08f;  // of the image, that a sensor leaves without readings
 
 }  // namespace
@@ -219,6 +220,20 @@ std::span<const PersonRegion> PeopleMap::run(const DepthImage& image, int64_t ti
               last_depth_.begin());
     time_ns_ = time_ns;
     return regions_;
+}
+
+Nobody PeopleMap::why_nobody() const {
+    size_t readings = 0, close = 0, wanted = 0;
+    for (size_t i = 0; i < grid_.cells(); ++i) {
+        const float z = grid_.depth()[i];
+        readings += z > 0.0f, close += z > 0.0f && z < options_.farthest_m, wanted += wanted_[i] != 0;
+    }
+    const auto few = [&](size_t cells) { return double(cells) < kFewShare * double(grid_.cells()); };
+    return few(readings)      ? Nobody::kNoReadings
+           : few(close)       ? Nobody::kTooFar
+           : few(wanted)      ? Nobody::kBackgroundOnly
+           : regions_.empty() ? Nobody::kNoShape
+                              : Nobody::kNoPerson;
 }
 
 void PeopleMap::learn_background(const DepthImage& image) {

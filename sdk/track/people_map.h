@@ -45,6 +45,15 @@ struct PersonRegion {
     uint32_t out_of_view = 0;  // OutOfView
 };
 
+/// Why an image shows nobody.
+enum class Nobody {
+    kNoReadings,      // the sensor saw nothing
+    kTooFar,          // nothing within PeopleMapOptions::farthest_m
+    kBackgroundOnly,  // nothing but the floor and what does not move
+    kNoShape,         // what is there is no person by its measures
+    kNoPerson,        // or the network says so
+};
+
 struct PeopleMapOptions {
     float farthest_m = 5.0f;  // people beyond are not looked for
     bool learn_background = true;
@@ -61,6 +70,8 @@ public:
 
     /// The image's camera with the floor, given or found (floor_state); the space of the regions' centres.
     const Camera& camera() const { return camera_; }
+    /// Why the last run has found nobody.
+    Nobody why_nobody() const;
     /// The floor was seen in the last frame.
     bool floor_seen() const { return floor_seen_; }
     /// It was found, and may be out of sight.

@@ -10,12 +10,29 @@ void Perception::reset() {
     level_.reset();
 }
 
+const char* text_of(Nobody why) {
+    switch (why) {
+        case Nobody::kNoReadings: return "the depth image has no readings";
+        case Nobody::kTooFar: return "nothing is within 5 m";
+        case Nobody::kBackgroundOnly: return "there is nothing but floor and background";
+        case Nobody::kNoShape: return "nothing in view has the size and shape of a person";
+        case Nobody::kNoPerson: return "what is in view does not look like a person";
+    }
+    return "";
+}
+
+Nobody Perception::why_nobody() const {
+    if (mapped_) return people_->why_nobody();
+    return targets_.empty() ? Nobody::kBackgroundOnly : Nobody::kNoPerson;
+}
+
 std::span<const PersonRegion> Perception::map_people(const DepthImage& image, int64_t time_ns, uint8_t* map) {
     if (!people_) people_ = std::make_unique<PeopleMap>();
     return people_->run(image, time_ns, map);
 }
 
 void Perception::find_people(DepthImage& image, int64_t time_ns, uint8_t* map) {
+    mapped_ = map != nullptr;
     if (!map) {
         find_targets(image, kMaxBodies, targets_);
         return;

@@ -12,6 +12,9 @@
 
 namespace vfit {
 
+/// For people to read.
+const char* text_of(Nobody why);
+
 class Perception {
 public:
     static constexpr size_t kMaxBodies = 8;  // of one image
@@ -27,6 +30,8 @@ public:
              std::vector<Body>& bodies);
     /// The user map alone, for bodies that another tracker has found.
     std::span<const PersonRegion> map_people(const DepthImage& image, int64_t time_ns, uint8_t* map);
+    /// Why the last run found no body. Of a user map that was given, no more than whether it has people.
+    Nobody why_nobody() const;
     /// The people that run() has looked at.
     std::span<const TrackTarget> targets() const { return targets_; }
     void reset();
@@ -44,6 +49,7 @@ private:
     std::unique_ptr<PeopleMap> people_;
     Level level_;
     std::vector<TrackTarget> targets_;
+    bool mapped_ = false;  // the last image's people are from people_
 };
 
 }  // namespace vfit

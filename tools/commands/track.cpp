@@ -1,7 +1,10 @@
 // vfit track: the bodies of each frame, as JSON lines in the recording's camera space, and as pictures.
 #include <chrono>
+#include <cmath>
 #include <filesystem>
+#include <iomanip>
 #include <iostream>
+#include <sstream>
 
 #include "client/files.h"
 #include "client/output.h"
@@ -63,9 +66,40 @@ Json bodies_json(vfit_frame frame) {
     return out;
 }
 
+constexpr const char* kFloorStates[] = {"unknown", "estimated", "given"};
+
+Json floor_json(const vfit_camera& camera) {
+    constexpr double kDegree = 3.14159265358979 / 180.0;
+    return {{"state", kFloorStates[camera.floor_state]},
+            {"height_m", camera.height_m},
+            {"tilt_deg", double(camera.tilt_rad) / kDegree},
+            {"roll_deg", double(camera.roll_rad) / kDegree}};
+}
+
+/// Why the tracker found no body; null where it has not looked.
+Json why_nobody(vfit_frame tracked) {
+    char text[256];
+    const bool said = vfit_frame_meta(tracked, "nobody", text, sizeof text, nullptr) == VFIT_OK;
+    return said ? Json::parse(text) : Json();
+}
+
+std::string floor_text(const vfit_camera& camera) {
+    const Json floor = floor_json(camera);
+    std::ostringstream text;
+    text << "floor " << floor["state"].get<std::string>();
+    if (camera.floor_state != VFIT_FLOOR_DEFAULT)
+        text << std::fixed << std::setprecision(2) << ", camera " << camera.height_m << " m above it, tilt "
+             << std::lround(floor["tilt_deg"].get<double>()) << ", roll "
+             << std::lround(floor["roll_deg"].get<double>()) << " degrees";
+    return text.str();
+}
+
 void print(const Options& options, uint32_t index, vfit_frame tracked, const Json& bodies, double ms) {
+    const vfit_camera camera = camera_of(tracked);
+    const Json why = bodies.empty() ? why_nobody(tracked) : Json();
     if (options.json) {
-        Json line = {{"frame", index}, {"bodies", bodies}};
+        Json line = {{"frame", index}, {"bodies", bodies}, {"floor", floor_json(camera)}};
+        if (!why.is_null()) line["nobody"] = why;
         if (options.track.asked) line["active"] = active_body(tracked);
         line["ms"] = ms;
         print_line(line);
@@ -73,6 +107,8 @@ void print(const Options& options, uint32_t index, vfit_frame tracked, const Jso
     }
     std::cout << "frame " << index << ": " << bodies.size() << (bodies.size() == 1 ? " body" : " bodies");
     if (options.track.asked) std::cout << ", active " << active_body(tracked);
+    std::cout << "; " << floor_text(camera);
+    if (!why.is_null()) std::cout << "; " << why.get<std::string>();
     std::cout << "\n";
 }
 
