@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/clock.h"
+#include "frame/floor.h"
 #include "track/user_map.h"
 
 namespace vfit {
@@ -40,8 +41,8 @@ void PeopleMap::doubt_floor() {
 void PeopleMap::look(const DepthImage& image) {
     grid_.run(image);
     camera_ = image.camera;
-    const Vec3& up = camera_.floor_normal;
-    floor_ = &floors_[std::abs(up.y) >= std::abs(up.x) ? (up.y < 0 ? 0 : 2) : (up.x < 0 ? 1 : 3)];
+    const Vec3 up = side_up(camera_.floor_normal);
+    floor_ = &floors_[up.y < 0 ? 0 : up.y > 0 ? 2 : up.x < 0 ? 1 : 3];
     floor_seen_ = floor_->run(grid_, camera_);
     if (columns_ == grid_.width() && wanted_.size() == grid_.cells()) return;
     columns_ = grid_.width();

@@ -2,7 +2,15 @@
 
 #include <algorithm>
 
+#include "core/clock.h"
+
 namespace vfit {
+
+namespace {
+
+constexpr double kFloorKept_s = 2.0;
+
+}  // namespace
 
 void Perception::reset() {
     if (tracker_) tracker_->reset();
@@ -82,6 +90,11 @@ void Perception::run(DepthImage& image, int64_t time_ns, uint8_t* map, std::span
         again = !found && (level_.up() != up || level_.miss(time_ns));
         if (again && people_) people_->forget_people();
     }
+    // A floor that is out of sight stays as long as people stand on it.
+    if (found || !people_ || !people_->floor_found() || people_->floor_seen())
+        floor_ns_ = time_ns;
+    else if (seconds_between(floor_ns_, time_ns) > kFloorKept_s)
+        people_->doubt_floor();
     if (!found) {
         bodies.clear();
     } else if (people_ && people_->floor_found()) {

@@ -49,6 +49,7 @@ private:
     std::unique_ptr<PeopleMap> people_;
     Level level_;
     std::vector<TrackTarget> targets_;
+    int64_t floor_ns_ = 0;  // when the floor was seen or somebody stood on it
     bool mapped_ = false;  // the last image's people are from people_
 };
 

@@ -139,6 +139,18 @@ TEST_F(CameraStandTest, ARealWomanBeforeACameraOnItsSideIsFoundInTheFirstImage) 
     EXPECT_EQ(vfit_sensor_close(sensor), VFIT_OK);
 }
 
+TEST_F(CameraStandTest, AFloorThatIsOutOfSightIsGivenUpWhenNobodyStandsOnIt) {
+    ASSERT_EQ(after(8, 0).camera.floor_state, VFIT_FLOOR_ESTIMATED);
+    const std::vector<uint16_t> board(640 * 480, 1000);
+    Outcome last;
+    for (int i = 0; i < 45; ++i) last = update(board, 640, 480, 594.0f);
+    EXPECT_EQ(last.camera.floor_state, VFIT_FLOOR_ESTIMATED);
+    EXPECT_NEAR(last.camera.height_m, 1.0f, 0.05f);
+    for (int i = 0; i < 30; ++i) last = update(board, 640, 480, 594.0f);
+    EXPECT_EQ(last.camera.floor_state, VFIT_FLOOR_DEFAULT);
+    EXPECT_EQ(after(8, 0).bodies, 1u);
+}
+
 TEST_F(CameraStandTest, SaysWhyNobodyIsFound) {
     constexpr uint32_t kWidth = 320, kHeight = 240;
     std::vector<uint16_t> depth(kWidth * kHeight, 0);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "frame/depth_image.h"
+#include "frame/floor.h"
 
 namespace vfit::testing {
 
@@ -50,9 +51,7 @@ struct RoomScene {
     DepthImage bare() const {
         DepthImage image{depth.data(), nullptr, camera};
         image.camera.floor_state = VFIT_FLOOR_DEFAULT;
-        const Vec3 up = camera.floor_normal;
-        image.camera.floor_normal =
-            std::abs(up.y) >= std::abs(up.x) ? Vec3(0, up.y < 0 ? -1 : 1, 0) : Vec3(up.x < 0 ? -1 : 1, 0, 0);
+        image.camera.floor_normal = side_up(camera.floor_normal);
         image.camera.floor_distance_m = 1.0f;
         return image;
     }
