@@ -27,7 +27,7 @@ struct Entry {
 constexpr double kMostWhole = 9.0e15;  // below 2^53: a double holds it exactly
 constexpr Entry kEntries[] = {
     {"sensor", Kind::kSensor, "kinect_v1", 0, 0,
-     "Depth camera that is played: kinect_v1, kinect_v1_320, azure, tof, ideal"},
+     "Depth camera that is played: kinect_v1, kinect_v1_320, azure, azure_binned, tof, ideal"},
     {"mode", Kind::kSensor, "kinect_v1", 0, 0,
      "The same as sensor, by the name that every sensor of vfit has for it"},
     {"motion", Kind::kMotion, "scan", 0, 0,

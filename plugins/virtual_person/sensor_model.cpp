@@ -11,7 +11,7 @@ namespace {
 
 // Intrinsics of calibrated units, distortion removed (images are rectified). kinect_v1_320 is the same camera
 // with 2 x 2 pixels as one. Ranges are the makers': Kinect v1 default mode, Kinect v2, Azure Kinect narrow
-// field of view unbinned.
+// field of view unbinned and binned, which is 2 x 2 pixels as one too.
 constexpr SensorModel kModels[] = {
     {"kinect_v1", DepthPrinciple::kStructuredLight, 640, 480, 594.21434f, 591.04054f, 339.30781f, 242.73914f,
      0.8f, 4.0f, 0.075f},
@@ -19,6 +19,8 @@ constexpr SensorModel kModels[] = {
      121.11957f, 0.8f, 4.0f, 0.075f},
     {"azure", DepthPrinciple::kTimeOfFlight, 640, 576, 503.92764f, 503.97873f, 332.06427f, 325.88062f, 0.5f,
      3.86f, 0.0f},
+    {"azure_binned", DepthPrinciple::kTimeOfFlight, 320, 288, 251.96382f, 251.989365f, 165.782135f,
+     162.69031f, 0.5f, 5.46f, 0.0f},
     {"tof", DepthPrinciple::kTimeOfFlight, 512, 424, 365.456f, 365.456f, 254.878f, 205.395f, 0.5f, 4.5f,
      0.0f},
     {"ideal", DepthPrinciple::kIdeal, 640, 480, 594.21434f, 591.04054f, 339.30781f, 242.73914f, 0.1f, 65.0f,

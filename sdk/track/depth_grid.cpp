@@ -1,6 +1,7 @@
 #include "track/depth_grid.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -12,6 +13,11 @@ namespace {
 // units: 7 sigma at 3 m, written so that whole rows can be done in 16-bit lanes.
 constexpr int kDepthShift = 5;
 constexpr uint16_t kFewUnits = 10;
+
+// Of the noise that is measured: every so many rows, in units of depth_sigma_m.
+constexpr uint32_t kNoiseRows = 8, kNoiseBins = 128, kFewestTriples = 500;
+constexpr float kMostSpread = 4.0f;
+constexpr float kQuantile = 0.75f, kQuantileSpread = 1.15f;  // |x| of a normal distribution
 
 /// One row of cells, out of kStride image rows. Arithmetic stays in 16 bits so that compilers use vectors.
 template <uint32_t kStride>
@@ -72,6 +78,28 @@ void DepthGrid::rays(const Camera& camera) {
     cell_side_ = float(stride_) / camera.fx;
 }
 
+// Three neighbours on a smooth surface: their second difference has sqrt(6) times the spread of one. Edges
+// have large ones, and so a quantile is taken that they do not reach.
+void DepthGrid::measure_noise() {
+    std::array<uint32_t, kNoiseBins> bins{};
+    uint32_t count = 0;
+    for (uint32_t y = kNoiseRows / 2; y < height_; y += kNoiseRows) {
+        const float* const z = depth_.data() + size_t(y) * width_;
+        for (uint32_t x = 1; x + 1 < width_; ++x) {
+            if (z[x - 1] == 0.0f || z[x] == 0.0f || z[x + 1] == 0.0f) continue;
+            const float spread = std::abs(z[x - 1] - 2.0f * z[x] + z[x + 1]) / (2.45f * depth_sigma_m(z[x]));
+            if (spread >= kMostSpread) continue;  // an edge
+            ++bins[size_t(spread * (float(kNoiseBins) / kMostSpread))];
+            ++count;
+        }
+    }
+    noise_ = 1.0f;
+    if (count < kFewestTriples) return;
+    uint32_t bin = 0;
+    for (uint32_t below = bins[0]; float(below) < kQuantile * float(count); below += bins[bin]) ++bin;
+    noise_ = std::min(1.0f, float(bin + 1) * (kMostSpread / float(kNoiseBins)) / kQuantileSpread);
+}
+
 void DepthGrid::run(const DepthImage& image) {
     stride_ = 1;
     const auto next = [](uint32_t stride) { return stride < 4 ? stride + 1 : stride * 2; };
@@ -116,6 +144,7 @@ void DepthGrid::run(const DepthImage& image) {
             out[x] = nearest_[x] == 65535 ? 0.0f : z;
         }
     }
+    measure_noise();
 }
 
 }  // namespace vfit

@@ -55,14 +55,18 @@ public:
         const float z = depth_[size_t(y) * width_ + x];
         return {ray_x_[x] * z, ray_y_[y] * z, z};
     }
+    /// Spread of a cell's depth at z metres, as this image shows it: at most depth_sigma_m.
+    float sigma_m(float z) const { return noise_ * depth_sigma_m(z); }
     /// Square metres that a cell at depth z covers.
     float area_m2(float z) const { return cell_area_ * z * z; }
     float cell_m(float z) const { return cell_side_ * z; }
 
 private:
     void rays(const Camera& camera);
+    void measure_noise();
     uint32_t width_ = 0, height_ = 0, stride_ = 1;
     float cell_area_ = 0.0f, cell_side_ = 0.0f;
+    float noise_ = 1.0f;  // of depth_sigma_m
     std::vector<float> depth_, ray_x_, ray_y_;
     std::vector<uint16_t> nearest_, extra_, count_;  // of one row of cells
 };

@@ -55,7 +55,7 @@ enum class Nobody {
 };
 
 struct PeopleMapOptions {
-    float farthest_m = 5.0f;  // people beyond are not looked for
+    float farthest_m = 6.0f;  // people beyond are not looked for
     bool learn_background = true;
 };
 

@@ -21,7 +21,7 @@ void Perception::reset() {
 const char* text_of(Nobody why) {
     switch (why) {
         case Nobody::kNoReadings: return "the depth image has no readings";
-        case Nobody::kTooFar: return "nothing is within 5 m";
+        case Nobody::kTooFar: return "nothing is within 6 m";
         case Nobody::kBackgroundOnly: return "there is nothing but floor and background";
         case Nobody::kNoShape: return "nothing in view has the size and shape of a person";
         case Nobody::kNoPerson: return "what is in view does not look like a person";

@@ -50,7 +50,7 @@ private:
     Level level_;
     std::vector<TrackTarget> targets_;
     int64_t floor_ns_ = 0;  // when the floor was seen or somebody stood on it
-    bool mapped_ = false;  // the last image's people are from people_
+    bool mapped_ = false;   // the last image's people are from people_
 };
 
 }  // namespace vfit

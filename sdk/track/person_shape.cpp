@@ -137,6 +137,7 @@ Shape ShapeMeter::finish() {
     const Vec3 mean = sum_ / total;
     s.centre = origin_ + mean;
     s.depth_m /= total;
+    s.sigma_m = grid_.sigma_m(s.depth_m);
     std::array<double, 6> m = products_;
     for (double& v : m) v /= total;
     m[0] -= double(mean.x) * mean.x;
@@ -181,8 +182,7 @@ Shape ShapeMeter::finish() {
 }
 
 bool is_flat(const Shape& s) {
-    return s.flatness_m < kFlatNoise * std::hypot(kFlat_m, depth_sigma_m(s.depth_m)) &&
-           s.area_m2 > kFlatArea_m2;
+    return s.flatness_m < kFlatNoise * std::hypot(kFlat_m, s.sigma_m) && s.area_m2 > kFlatArea_m2;
 }
 
 bool looks_like_person(const Shape& s, bool floor_known, bool feet_hidden) {

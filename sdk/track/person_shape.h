@@ -30,6 +30,7 @@ struct Shape {
     float trunk_width_m = 0.0f;  // 15th to 85th: arms held out are left out
     float thickness_m = 0.0f;    // 5th to 95th percentile along the view
     float flatness_m = 0.0f;     // standard deviation from the best plane
+    float sigma_m = 0.0f;        // of a reading, at that depth
     float top_area_m2 = 0.0f;    // of the uppermost 20 cm: a head's 0.03 m2, a box's more
     float leg_width_m = 0.0f;    // mean breadth seen from 20 to 60 cm above the floor
     uint32_t out_of_view = 0;

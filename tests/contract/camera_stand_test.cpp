@@ -164,7 +164,7 @@ TEST_F(CameraStandTest, SaysWhyNobodyIsFound) {
     };
     EXPECT_EQ(see(1), "\"the depth image has no readings\"");
     std::fill(depth.begin(), depth.end(), uint16_t(7000));
-    EXPECT_EQ(see(1), "\"nothing is within 5 m\"");
+    EXPECT_EQ(see(1), "\"nothing is within 6 m\"");
     std::fill(depth.begin(), depth.end(), uint16_t(3000));
     EXPECT_EQ(see(60), "\"there is nothing but floor and background\"");
     for (uint32_t y = 40; y < 80; ++y)

@@ -27,6 +27,7 @@ void run(const Options& o) {
     if (wants(o, "joints")) report["synthetic"]["joints"] = judge_virtual(o.people, targets);
     if (wants(o, "facing")) report["synthetic"]["facing"] = judge_facing(o.people, targets);
     if (wants(o, "rooms")) report["synthetic"]["rooms"] = judge_rooms(o.people, targets);
+    if (wants(o, "distance")) report["synthetic"]["distance"] = judge_distance(o.people, targets);
     if (wants(o, "events")) report["synthetic"]["events"] = judge_events(o.people, targets);
     if (!o.scenes.empty() && wants(o, "stills"))
         report["real"]["stills"] = judge_stills(o.scenes, o.people.quiet, targets);
@@ -60,7 +61,7 @@ void add_track(Command& app) {
     command.add_option("--seed", o->people.seed, "Of bodies, rooms and noise").within(1, 1'000'000);
     command.add_flag("--long", o->people.long_run, "Each motion with both sensors and three people");
     command.add_option("--only", o->only, "One part")
-        .one_of({"time", "joints", "facing", "rooms", "events", "stills", "recordings"});
+        .one_of({"time", "joints", "facing", "rooms", "distance", "events", "stills", "recordings"});
     command
         .add_option_function(
             "--fit",

@@ -27,6 +27,8 @@ Json judge_virtual(const JudgeOptions& options, Targets& targets);
 Json judge_facing(const JudgeOptions& options, Targets& targets);
 /// SYNTHETIC: cameras that stand in many ways, in rooms of many kinds: whether person and floor are found.
 Json judge_rooms(const JudgeOptions& options, Targets& targets);
+/// SYNTHETIC: how far away people are found.
+Json judge_distance(const JudgeOptions& options, Targets& targets);
 /// SYNTHETIC: people who come, go and are hidden, and rooms without anybody.
 Json judge_events(const JudgeOptions& options, Targets& targets);
 /// SYNTHETIC: time of the whole tracker a frame, and from a frame's time stamp to the pose.
