@@ -162,7 +162,7 @@ namespace Vfit
     {
         /// <summary>nobody knows: level camera, 1 m above the floor</summary>
         Default = 0,
-        /// <summary>level camera, height from the first body's feet</summary>
+        /// <summary>seen in the depth image; else below the first body's feet</summary>
         Estimated = 1,
         /// <summary>by the sensor, the recording or the host</summary>
         Given = 2,
