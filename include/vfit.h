@@ -778,6 +778,12 @@ VFIT_API vfit_result vfit_motion_bind(vfit_motion motion, vfit_avatar avatar);
  * pose holds. [excl] */
 VFIT_API vfit_result vfit_motion_step(vfit_motion motion, vfit_frame tracked, uint32_t body_id,
                                       int64_t now_ns);
+/* The same with a body that no frame carries: the joints of any middleware, without a camera, in world space.
+ * body.time_ns is the time of the reading; time_ns, now_ns and VFIT_NOT_READY as above. VFIT_NOT_READY also
+ * where the joints do not place the trunk. VFIT_ERROR_ARGUMENT with VFIT_BODY_CAMERA_SPACE: without a frame
+ * there is no camera. [excl] */
+VFIT_API vfit_result vfit_motion_step_body(vfit_motion motion, const vfit_body* body, const vfit_joint* items,
+                                           uint32_t stride, uint32_t count, int64_t now_ns);
 VFIT_API vfit_result vfit_motion_pose(vfit_motion motion, vfit_pose* pose, vfit_bone* items, uint32_t stride,
                                       uint32_t* count); /* [read] */
 /* A pose for the network, at most 120 bytes: rotations to 0.1 degrees, the hips to 0.1 mm, contacts, time.
@@ -789,6 +795,31 @@ VFIT_API vfit_result vfit_pose_pack(vfit_context context, const vfit_pose* pose,
                                     uint32_t stride, uint32_t count, void* bytes, uint32_t* byte_count);
 VFIT_API vfit_result vfit_pose_unpack(vfit_context context, const void* bytes, uint32_t byte_count,
                                       vfit_pose* pose, vfit_bone* items, uint32_t stride, uint32_t* count);
+/* A pose as one packet of Open Sound Control 1.0, at most 2,048 bytes, for the host to send by UDP; vfit
+ * opens no socket. docs/motion.md has ports and receivers. */
+typedef int32_t vfit_osc;
+enum {
+    VFIT_OSC_VMC = 0,   /* VMC protocol: /VMC/Ext/OK, T (pose.time_ns in seconds), Root/Pos (the origin), and
+                         * Bone/Pos of all bones by the names of Unity's HumanBodyBones */
+    VFIT_OSC_VRCHAT = 1 /* VRChat's OSC trackers: 1 hips, 2 chest, 3 and 4 feet, 5 and 6 knees, 7 and 8
+                         * elbows, left before right, and the head */
+};
+/* Both are written in Unity's frame (metre, Y up, left-handed, facing +Z), whatever the axes of the context
+ * and not mirrored. items: all bones, as vfit_motion_pose gives them; VFIT_ERROR_DATA where one is missing,
+ * or where they have no offsets, as those of vfit_pose_unpack. bytes null sets *byte_count to what is needed.
+ * Does not allocate. [any] */
+VFIT_API vfit_result vfit_pose_osc(vfit_context context, const vfit_pose* pose, const vfit_bone* items,
+                                   uint32_t stride, uint32_t count, vfit_osc kind, void* bytes,
+                                   uint32_t* byte_count);
+/* A motion as the text of a BVH file: centimetres, Y up, right-handed, whatever the axes of the context.
+ * items: VFIT_BONE_COUNT bones for each pose, as vfit_motion_pose gives them, pose after pose. The skeleton
+ * is that of the last pose, whose lengths are the best known. BVH has one frame time: frame k shows the
+ * motion at the time of the first pose plus k * frame_time_s (0: 1/30 s), between two poses interpolated.
+ * VFIT_ERROR_DATA where times do not increase. text null sets *capacity to what is needed, the end included.
+ * [any] */
+VFIT_API vfit_result vfit_pose_bvh(vfit_context context, const vfit_pose* poses, uint32_t pose_stride,
+                                   uint32_t pose_count, const vfit_bone* items, uint32_t stride,
+                                   uint32_t count, float frame_time_s, char* text, uint32_t* capacity);
 /* The filtered joints behind the pose, feet corrected. [read] */
 VFIT_API vfit_result vfit_motion_joints(vfit_motion motion, vfit_joint* items, uint32_t stride,
                                         uint32_t* count);

@@ -1,5 +1,6 @@
 #include "api/bodies.h"
 
+#include <array>
 #include <cmath>
 
 #include "math/finite.h"
@@ -105,6 +106,32 @@ Pose pose_in(const vfit_pose& in, const Items<vfit_bone>& bones, const Axes& axe
     }
     if (!hips) fail(VFIT_ERROR_DATA, "the pose has no hips bone");
     return pose;
+}
+
+Skeleton skeleton_in(const Items<vfit_bone>& bones, const Axes& axes) {
+    Skeleton skeleton;
+    std::array<bool, kBoneCount> listed{};
+    bool any = false;
+    for (uint32_t i = 0; i < bones.size(); ++i) {
+        const vfit_bone b = bones[i];
+        if (!bone_name(b.bone)) fail(VFIT_ERROR_ARGUMENT, "bone ", b.bone, " is not one of VFIT_BONE_*");
+        const int bone = axes.bone_out(b.bone);
+        const Vec3 offset = axes.point_in(Vec3(b.position[0], b.position[1], b.position[2]));
+        if (!finite(offset))
+            fail(VFIT_ERROR_DATA, "the offset of bone ", bone_name(b.bone), " is not finite");
+        listed[static_cast<size_t>(bone)] = true;
+        skeleton.offset[static_cast<size_t>(bone)] = offset;
+        any = any || (bone != VFIT_BONE_HIPS && offset != Vec3(0.0f));
+    }
+    for (int bone = 0; bone < kBoneCount; ++bone)
+        if (!listed[static_cast<size_t>(bone)])
+            fail(VFIT_ERROR_DATA, "bone ", bone_name(axes.bone_out(bone)),
+                 " is missing: wanted are all bones, as vfit_motion_pose gives them");
+    if (!any)
+        fail(VFIT_ERROR_DATA,
+             "the bones have no offsets from their parents: a pose of vfit_pose_unpack has none, one of "
+             "vfit_motion_pose has");
+    return skeleton;
 }
 
 vfit_pose pose_out(const Pose& pose, const Axes& axes) {

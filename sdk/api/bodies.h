@@ -21,6 +21,9 @@ Body body_in(const vfit_body& body, const Items<vfit_joint>& joints, const Axes&
 
 /// A pose of the host: bones that are not listed rest. Fails with VFIT_ERROR_DATA, naming the bone.
 Pose pose_in(const vfit_pose& pose, const Items<vfit_bone>& bones, const Axes& axes);
+/// The proportions that the bones of a pose tell. Fails with VFIT_ERROR_DATA where a bone is not listed, or
+/// where all offsets are zero, as after vfit_pose_unpack.
+Skeleton skeleton_in(const Items<vfit_bone>& bones, const Axes& axes);
 vfit_pose pose_out(const Pose& pose, const Axes& axes);
 vfit_result write_bones(const Pose& pose, const Skeleton& skeleton, const Axes& axes, vfit_bone* items,
                         uint32_t stride, uint32_t* count);

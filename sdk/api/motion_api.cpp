@@ -3,6 +3,8 @@
 #include "api/bodies.h"
 #include "api/guard.h"
 #include "body/packed_pose.h"
+#include "body/pose_bvh.h"
+#include "body/pose_osc.h"
 #include "motion/motion.h"
 
 using namespace vfit;
@@ -104,6 +106,23 @@ vfit_result vfit_motion_step(vfit_motion handle, vfit_frame tracked, uint32_t bo
     });
 }
 
+vfit_result vfit_motion_step_body(vfit_motion handle, const vfit_body* body, const vfit_joint* items,
+                                  uint32_t stride, uint32_t count, int64_t now_ns) {
+    return guard([&]() -> vfit_result {
+        Use<MotionObject, Mode::exclusive> motion(handle.id);
+        Profile::Scope time(motion->context->profile, Stage::motion);
+        const vfit_body given = read(body, "body");
+        if (given.flags & VFIT_BODY_CAMERA_SPACE)
+            fail(VFIT_ERROR_ARGUMENT, "body ", given.body_id,
+                 " is in camera space, and without a frame there is no camera: give world space, or use "
+                 "vfit_tracker_submit");
+        const Body in =
+            body_in(given, Items<vfit_joint>(items, stride, count, "items"), motion->context->axes);
+        motion->seen = motion->motion.step(&in, now_ns);
+        return motion->seen ? VFIT_OK : VFIT_NOT_READY;
+    });
+}
+
 vfit_result vfit_motion_pose(vfit_motion handle, vfit_pose* pose, vfit_bone* items, uint32_t stride,
                              uint32_t* count) {
     return guard([&] {
@@ -133,6 +152,47 @@ vfit_result vfit_pose_pack(vfit_context handle, const vfit_pose* pose, const vfi
         const auto packed = pack_pose(
             pose_in(read(pose, "pose"), Items<vfit_bone>(items, stride, count, "items"), context->axes));
         return write_bytes(packed.data(), packed.size(), bytes, byte_count);
+    });
+}
+
+vfit_result vfit_pose_osc(vfit_context handle, const vfit_pose* pose, const vfit_bone* items, uint32_t stride,
+                          uint32_t count, vfit_osc kind, void* bytes, uint32_t* byte_count) {
+    return guard([&] {
+        UseContext<Mode::any> context(handle);
+        check_enum(kind, VFIT_OSC_VRCHAT, "kind");
+        const Items<vfit_bone> bones(items, stride, count, "items");
+        const Pose in = pose_in(read(pose, "pose"), bones, context->axes);
+        const Skeleton skeleton = skeleton_in(bones, context->axes);
+        const OscPacket packet =
+            kind == VFIT_OSC_VMC ? vmc_packet(skeleton, in) : vrchat_packet(skeleton, in);
+        return write_bytes(packet.bytes.data(), packet.size, bytes, byte_count);
+    });
+}
+
+vfit_result vfit_pose_bvh(vfit_context handle, const vfit_pose* poses, uint32_t pose_stride,
+                          uint32_t pose_count, const vfit_bone* items, uint32_t stride, uint32_t count,
+                          float frame_time_s, char* text, uint32_t* capacity) {
+    return guard([&] {
+        UseContext<Mode::any> context(handle);
+        check_pointer(capacity, "capacity");
+        const Items<vfit_pose> infos(poses, pose_stride, pose_count, "poses");
+        if (pose_count == 0) fail(VFIT_ERROR_ARGUMENT, "a motion without a pose");
+        if (uint64_t(count) != uint64_t(pose_count) * VFIT_BONE_COUNT)
+            fail(VFIT_ERROR_ARGUMENT, "count ", count, ": ", pose_count, " poses have ",
+                 uint64_t(pose_count) * VFIT_BONE_COUNT, " bones");
+        check_pointer(items, "items");
+        const auto bones_of = [&](size_t i) {
+            const auto* first = reinterpret_cast<const unsigned char*>(items) + i * VFIT_BONE_COUNT * stride;
+            return Items<vfit_bone>(reinterpret_cast<const vfit_bone*>(first), stride, VFIT_BONE_COUNT,
+                                    "items");
+        };
+        const auto pose = [&](size_t i) {
+            return pose_in(infos[static_cast<uint32_t>(i)], bones_of(i), context->axes);
+        };
+        constexpr double kDefaultFrame_s = 1.0 / 30.0;
+        const double frame_s = frame_time_s == 0.0f ? kDefaultFrame_s : double(frame_time_s);
+        const Skeleton skeleton = skeleton_in(bones_of(pose_count - 1), context->axes);
+        return write_whole_text(bvh_text(skeleton, pose_count, pose, frame_s), text, capacity);
     });
 }
 

@@ -141,6 +141,18 @@ inline vfit_result write_bytes(const void* from, size_t count, void* to, uint32_
     return VFIT_OK;
 }
 
+/// The same for a text, whose end counts too.
+inline vfit_result write_whole_text(const std::string& from, char* to, uint32_t* capacity) {
+    check_pointer(capacity, "capacity");
+    if (from.size() >= UINT32_MAX) fail(VFIT_ERROR_CAPACITY, "a text of ", from.size(), " bytes");
+    const uint32_t given = *capacity, need = static_cast<uint32_t>(from.size()) + 1;
+    *capacity = need;
+    if (!to) return VFIT_OK;
+    if (given < need) fail(VFIT_ERROR_CAPACITY, "capacity ", given, ": the text has ", need, " bytes");
+    std::memcpy(to, from.c_str(), need);
+    return VFIT_OK;
+}
+
 /// Text into a fixed field of a struct.
 template <size_t N>
 void set_text(char (&field)[N], const std::string& text) {

@@ -116,6 +116,8 @@ std::vector<Call> calls() {
         {"motion_reset", [](uint64_t h) { return vfit_motion_reset({h}); }},
         {"motion_bind", [](uint64_t h) { return vfit_motion_bind({h}, {h}); }},
         {"motion_step", [](uint64_t h) { return vfit_motion_step({h}, {}, 1, 0); }},
+        {"motion_step_body",
+         [](uint64_t h) { return vfit_motion_step_body({h}, nullptr, nullptr, 0, 0, 0); }},
         {"motion_pose", [](uint64_t h) { return vfit_motion_pose({h}, &pose, nullptr, 0, &count); }},
         {"motion_joints", [](uint64_t h) { return vfit_motion_joints({h}, nullptr, 0, &count); }},
         {"shape_list", [](uint64_t h) { return vfit_shape_list({h}, nullptr, 0, &count); }},
@@ -137,6 +139,12 @@ std::vector<Call> calls() {
          [](uint64_t h) { return vfit_avatar_unpack({h}, nullptr, "x", 1, nullptr, 0, &avatar_out); }},
         {"pose_pack", [](uint64_t h) { return vfit_pose_pack({h}, &pose, nullptr, 0, 0, nullptr, &count); }},
         {"pose_unpack", [](uint64_t h) { return vfit_pose_unpack({h}, "x", 1, &pose, nullptr, 0, &count); }},
+        {"pose_osc",
+         [](uint64_t h) { return vfit_pose_osc({h}, &pose, nullptr, 0, 0, VFIT_OSC_VMC, nullptr, &count); }},
+        {"pose_bvh",
+         [](uint64_t h) {
+             return vfit_pose_bvh({h}, &pose, sizeof pose, 1, nullptr, 0, 0, 0.0f, nullptr, &count);
+         }},
         {"avatar_colliders", [](uint64_t h) { return vfit_avatar_colliders({h}, nullptr, 0, &count); }},
         {"avatar_joints", [](uint64_t h) { return vfit_avatar_joints({h}, nullptr, 0, &count); }},
         {"avatar_rig", [](uint64_t h) { return vfit_avatar_rig({h}, nullptr, 0, &count); }},

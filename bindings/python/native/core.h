@@ -236,6 +236,7 @@ void bind_scan(py::module_& m);
 void bind_size(py::module_& m);
 void bind_avatar(py::module_& m);
 void bind_motion(py::module_& m);
+void bind_pose_formats(py::module_& m);
 void bind_cloth(py::module_& m);
 
 }  // namespace vfit_python

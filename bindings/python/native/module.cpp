@@ -46,6 +46,7 @@ PYBIND11_MODULE(_vfit, m) {
     bind_size(m);
     bind_avatar(m);
     bind_motion(m);
+    bind_pose_formats(m);
     bind_cloth(m);
     py::module_::import("atexit").attr("register")(py::cpp_function(&Core::close_all));
 }

@@ -68,6 +68,22 @@ bool step(const Motion& motion, const Frame* frame, const std::optional<uint32_t
     return run([&, m = motion.get()] { return vfit_motion_step(m, handle, body, now); }) == VFIT_OK;
 }
 
+bool step_joints(const Motion& motion, const py::object& joints, const std::optional<int64_t>& time_ns,
+                 const std::optional<int64_t>& now_ns) {
+    const std::vector<vfit_joint> items = joints_in(joints);
+    vfit_body body = vfit_body_init();
+    body.body_id = 1;
+    if (time_ns)
+        body.time_ns = *time_ns;
+    else
+        check(vfit_context_time(motion.core()->handle(), &body.time_ns));
+    const int64_t now = now_ns.value_or(body.time_ns);
+    return run([&, m = motion.get()] {
+               return vfit_motion_step_body(m, &body, items.data(), sizeof(vfit_joint),
+                                            static_cast<uint32_t>(items.size()), now);
+           }) == VFIT_OK;
+}
+
 py::object pose(const Motion& motion) {
     vfit_pose pose = vfit_pose_init();
     const auto bones = list<vfit_bone>([&, m = motion.get()](auto* items, uint32_t stride, uint32_t* n) {
@@ -141,6 +157,9 @@ void bind_motion(py::module_& m) {
                      "avatar"_a, "Plants the feet with the avatar's proportions.")
                  .def("step", &step, "frame"_a = py::none(), "body_id"_a = py::none(),
                       "now_ns"_a = py::none(), "True where the body was there. No frame: predicts to now_ns.")
+                 .def("step_joints", &step_joints, "joints"_a, "time_ns"_a = py::none(),
+                      "now_ns"_a = py::none(),
+                      "Joints of yours in world space, without a frame. True where they place the trunk.")
                  .def("pose", &pose)
                  .def("joints", &joints, "The filtered joints behind the pose.")
                  .def("reset", [](const Motion& o) { check(vfit_motion_reset(o.get())); }));

@@ -6,6 +6,7 @@ from types import TracebackType
 from typing import (
     Any,
     Final,
+    Iterable,
     Iterator,
     List,
     Literal,
@@ -278,6 +279,10 @@ class Context(_Closable):
     def pack_pose(self, pose: Pose) -> bytes:
         """A pose for the network, at most 120 bytes."""
     def unpack_pose(self, packet: bytes) -> Pose: ...
+    def pose_osc(self, pose: Pose, kind: str = "vmc") -> bytes:
+        """A pose as one UDP packet of Open Sound Control: 'vmc' or 'vrchat' (docs/motion.md)."""
+    def pose_bvh(self, poses: Iterable[Pose], frame_time_s: float = 0.0) -> str:
+        """Poses in order of time as the text of a BVH file. frame_time_s 0: 1/30 s."""
     def stats(self) -> ContextStats: ...
     def profile(self) -> dict[str, StageTime]: ...
     def reset_profile(self) -> None: ...
@@ -598,6 +603,13 @@ class Motion(_Closable):
         self, frame: Optional[Frame] = None, body_id: Optional[int] = None, now_ns: Optional[int] = None
     ) -> bool:
         """True where the body was there. No frame: predicts to now_ns."""
+    def step_joints(
+        self,
+        joints: _JointsIn,
+        time_ns: Optional[int] = None,
+        now_ns: Optional[int] = None,
+    ) -> bool:
+        """Joints of yours in world space, without a frame. True where they place the trunk."""
     def pose(self) -> Pose: ...
     def joints(self) -> Joints: ...
     def reset(self) -> None: ...

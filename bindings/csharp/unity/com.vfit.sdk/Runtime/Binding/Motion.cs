@@ -39,6 +39,18 @@ namespace Vfit
             return Calls.MotionStep(Handle, tracked == null ? null : tracked.Handle, bodyId, nowNs);
         }
 
+        /// <summary>
+        /// Joints of your own in world space, without a frame. NotReady: they do not place the trunk.
+        /// </summary>
+        public Result Step(Body body, Joint[] joints, int count, long nowNs)
+        {
+            Arrays.Check(joints, count, "joints");
+            body.StructSize = (uint)sizeof(Body);
+            fixed (Joint* items = joints)
+                return Calls.MotionStepBody(
+                    Handle, &body, items, (uint)sizeof(Joint), (uint)count, nowNs);
+        }
+
         /// <summary>Filtered and smoothed; ErrorState before the first body.</summary>
         public void Pose(BodyPose into)
         {

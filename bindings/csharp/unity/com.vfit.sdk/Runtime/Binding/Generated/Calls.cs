@@ -1702,6 +1702,23 @@ namespace Vfit
             }
         }
 
+        internal static Result MotionStepBody(MotionHandle motion, Body* body, Joint* items, uint stride,
+            uint count, long nowNs)
+        {
+            bool motionHeld = false;
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_motion_step_body(
+                    new MotionId(VfitHandle.Hold(motion, ref motionHeld)), body, items, stride, count,
+                    nowNs));
+                return result;
+            }
+            finally
+            {
+                if (motionHeld) motion.DangerousRelease();
+            }
+        }
+
         internal static Result MotionPose(MotionHandle motion, Pose* pose, Bone* items, uint stride,
             uint* count)
         {
@@ -1817,6 +1834,40 @@ namespace Vfit
             else fixed (Bone* first = into) PoseUnpack(context, bytes, byteCount, pose, first,
                 (uint)sizeof(Bone), &listed);
             return (int)listed;
+        }
+
+        internal static Result PoseOsc(ContextHandle context, Pose* pose, Bone* items, uint stride,
+            uint count, Osc kind, void* bytes, uint* byteCount)
+        {
+            bool contextHeld = false;
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_pose_osc(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), pose, items, stride, count,
+                    kind, bytes, byteCount));
+                return result;
+            }
+            finally
+            {
+                if (contextHeld) context.DangerousRelease();
+            }
+        }
+
+        internal static Result PoseBvh(ContextHandle context, Pose* poses, uint poseStride, uint poseCount,
+            Bone* items, uint stride, uint count, float frameTimeS, byte* text, uint* capacity)
+        {
+            bool contextHeld = false;
+            try
+            {
+                Result result = VfitException.Check(Native.vfit_pose_bvh(
+                    new ContextId(VfitHandle.Hold(context, ref contextHeld)), poses, poseStride, poseCount,
+                    items, stride, count, frameTimeS, text, capacity));
+                return result;
+            }
+            finally
+            {
+                if (contextHeld) context.DangerousRelease();
+            }
         }
 
         internal static Result MotionJoints(MotionHandle motion, Joint* items, uint stride, uint* count)

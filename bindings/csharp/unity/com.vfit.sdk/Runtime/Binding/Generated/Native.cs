@@ -417,6 +417,15 @@ namespace Vfit
         internal static extern Result vfit_motion_step(MotionId motion, FrameId tracked, uint bodyId,
             long nowNs);
 
+        /// <summary>The same with a body that no frame carries: the joints of any middleware, without a
+        /// camera, in world space. body.time_ns is the time of the reading; time_ns, now_ns and
+        /// VFIT_NOT_READY as above. VFIT_NOT_READY also where the joints do not place the trunk.
+        /// VFIT_ERROR_ARGUMENT with VFIT_BODY_CAMERA_SPACE: without a frame there is no camera.
+        /// [excl]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_motion_step_body(MotionId motion, Body* body, Joint* items,
+            uint stride, uint count, long nowNs);
+
         /// <summary>[read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_motion_pose(MotionId motion, Pose* pose, Bone* items, uint stride,
@@ -434,6 +443,25 @@ namespace Vfit
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_pose_unpack(ContextId context, void* bytes, uint byteCount,
             Pose* pose, Bone* items, uint stride, uint* count);
+
+        /// <summary>Both are written in Unity's frame (metre, Y up, left-handed, facing +Z), whatever the
+        /// axes of the context and not mirrored. items: all bones, as vfit_motion_pose gives them;
+        /// VFIT_ERROR_DATA where one is missing, or where they have no offsets, as those of vfit_pose_unpack.
+        /// bytes null sets *byte_count to what is needed. Does not allocate. [any]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_pose_osc(ContextId context, Pose* pose, Bone* items, uint stride,
+            uint count, Osc kind, void* bytes, uint* byteCount);
+
+        /// <summary>A motion as the text of a BVH file: centimetres, Y up, right-handed, whatever the axes of
+        /// the context. items: VFIT_BONE_COUNT bones for each pose, as vfit_motion_pose gives them, pose
+        /// after pose. The skeleton is that of the last pose, whose lengths are the best known. BVH has one
+        /// frame time: frame k shows the motion at the time of the first pose plus k * frame_time_s (0: 1/30
+        /// s), between two poses interpolated. VFIT_ERROR_DATA where times do not increase. text null sets
+        /// *capacity to what is needed, the end included. [any]</summary>
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vfit_pose_bvh(ContextId context, Pose* poses, uint poseStride,
+            uint poseCount, Bone* items, uint stride, uint count, float frameTimeS, byte* text,
+            uint* capacity);
 
         /// <summary>The filtered joints behind the pose, feet corrected. [read]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]

@@ -329,6 +329,18 @@ namespace Vfit
         Thresholds = 1,
     }
 
+    /// <summary>A pose as one packet of Open Sound Control 1.0, at most 2,048 bytes, for the host to send
+    /// by UDP; vfit opens no socket. docs/motion.md has ports and receivers.</summary>
+    public enum Osc : int
+    {
+        /// <summary>VMC protocol: /VMC/Ext/OK, T (pose.time_ns in seconds), Root/Pos (the origin), and
+        /// Bone/Pos of all bones by the names of Unity's HumanBodyBones</summary>
+        Vmc = 0,
+        /// <summary>VRChat's OSC trackers: 1 hips, 2 chest, 3 and 4 feet, 5 and 6 knees, 7 and 8 elbows, left
+        /// before right, and the head</summary>
+        Vrchat = 1,
+    }
+
     [Flags]
     public enum AvatarFlags : uint
     {
