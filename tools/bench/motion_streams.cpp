@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include <zlib.h>
 
 #include "client/client.h"
+#include "client/joint_file.h"
 
 namespace vfit::tools {
 
@@ -17,37 +17,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr float kAnkleHeightM = 0.08f;
 constexpr double kUiPrmdRateHz = 30.0;
 constexpr float kRad = kPi / 180.0f;
-
-// What each of the Kinect v2's 25 joints is here, or -1: both its NECK (middle) and the finger tips have no
-// counterpart.
-constexpr int kKinect2Joints[25] = {VFIT_JOINT_PELVIS,
-                                    VFIT_JOINT_TORSO,
-                                    -1,
-                                    VFIT_JOINT_HEAD,
-                                    VFIT_JOINT_LEFT_SHOULDER,
-                                    VFIT_JOINT_LEFT_ELBOW,
-                                    VFIT_JOINT_LEFT_WRIST,
-                                    VFIT_JOINT_LEFT_HAND,
-                                    VFIT_JOINT_RIGHT_SHOULDER,
-                                    VFIT_JOINT_RIGHT_ELBOW,
-                                    VFIT_JOINT_RIGHT_WRIST,
-                                    VFIT_JOINT_RIGHT_HAND,
-                                    VFIT_JOINT_LEFT_HIP,
-                                    VFIT_JOINT_LEFT_KNEE,
-                                    VFIT_JOINT_LEFT_FOOT,
-                                    VFIT_JOINT_LEFT_TOES,
-                                    VFIT_JOINT_RIGHT_HIP,
-                                    VFIT_JOINT_RIGHT_KNEE,
-                                    VFIT_JOINT_RIGHT_FOOT,
-                                    VFIT_JOINT_RIGHT_TOES,
-                                    VFIT_JOINT_NECK,
-                                    -1,
-                                    -1,
-                                    -1,
-                                    -1};
 
 // ui_prmd: waist, spine, chest, neck, head, its tip, then collar, upper arm, forearm, hand of the left and
 // the right, upper leg, lower leg, foot, toes of the left and the right. A segment's place is the joint that
@@ -94,40 +65,15 @@ std::vector<std::vector<float>> read_gz(const fs::path& file) {
     return rows;
 }
 
-void put_on_floor(std::vector<Body>& bodies) {
-    float lowest = 1e9f;
-    for (const Body& body : bodies)
-        for (const int ankle : {VFIT_JOINT_LEFT_FOOT, VFIT_JOINT_RIGHT_FOOT})
-            if (body.has(ankle)) lowest = std::min(lowest, body.at(ankle).y);
-    if (lowest > 1e8f) return;
-    for (Body& body : bodies)
-        for (Joint& joint : body.joints) joint.position.y += kAnkleHeightM - lowest;
-}
-
-JointStream read_kinect2(const fs::path& file) {
-    JointStream stream{"kinect2 " + file.stem().string(), {}};
-    std::ifstream in(file);
-    std::string line;
-    while (std::getline(in, line)) {
-        if (line.empty()) continue;
+JointStream stream_of(const std::string& name, const std::vector<JointRow>& rows) {
+    JointStream stream{name, {}};
+    for (const JointRow& row : rows) {
         Body body;
         body.id = 1;
-        // The tick count is longer than a float is exact.
-        body.time_ns = std::stoll(line) * 100;
-        const std::vector<float> row = numbers_of(line, file.string());
-        if (row.size() < 1 + 25 * 4) throw Failure(file.string() + ": a row of fewer than 25 joints");
-        for (size_t j = 0; j < 25; ++j) {
-            if (kKinect2Joints[j] < 0) continue;
-            const float* v = &row[1 + 4 * j];
-            const int state = int(v[3]);
-            if (state < 1) continue;
-            // Camera space has the person's left at -X and looks along +Z: turned about Y.
-            body.set(kKinect2Joints[j], {-v[0], v[1], -v[2]},
-                     state > 1 ? VFIT_JOINT_MEASURED : VFIT_JOINT_INFERRED);
-        }
+        body.time_ns = row.time_ns;
+        for (const vfit_joint& joint : row.joints) body.joints[size_t(joint.joint)] = joint_in(joint);
         stream.bodies.push_back(body);
     }
-    put_on_floor(stream.bodies);
     return stream;
 }
 
@@ -138,20 +84,19 @@ Quat rotation_of(const float* degrees) {
 }
 
 /// Forward kinematics of local offsets and rotations.
-Body ui_prmd_body(const std::vector<float>& offsets, const std::vector<float>& degrees) {
+JointRow ui_prmd_row(const std::vector<float>& offsets, const std::vector<float>& degrees) {
     std::array<Vec3, kUiPrmdCount> place;
     std::array<Quat, kUiPrmdCount> turn;
-    Body body;
-    body.id = 1;
+    JointRow row;
     for (size_t j = 0; j < kUiPrmdCount; ++j) {
         const Vec3 offset = 0.01f * Vec3(offsets[3 * j], offsets[3 * j + 1], offsets[3 * j + 2]);
         const Quat local = rotation_of(&degrees[3 * j]);
         const int parent = kUiPrmdParents[j];
         place[j] = parent < 0 ? offset : place[size_t(parent)] + turn[size_t(parent)] * offset;
         turn[j] = parent < 0 ? local : turn[size_t(parent)] * local;
-        if (kUiPrmdJoints[j] >= 0) body.set(kUiPrmdJoints[j], place[j]);
+        if (kUiPrmdJoints[j] >= 0) add_joint(row, kUiPrmdJoints[j], place[j].x, place[j].y, place[j].z);
     }
-    return body;
+    return row;
 }
 
 std::vector<fs::path> files_in(const fs::path& folder, const std::string& ending) {
@@ -172,7 +117,7 @@ std::string episode_of(const fs::path& file) {
 std::vector<JointStream> kinect2_streams(const std::string& shared) {
     std::vector<JointStream> streams;
     for (const fs::path& file : files_in(fs::path(shared) / "data/kinect2_joints", ".csv"))
-        streams.push_back(read_kinect2(file));
+        streams.push_back(stream_of("kinect2 " + file.stem().string(), read_joint_file(file.string())));
     return streams;
 }
 
@@ -182,16 +127,15 @@ std::vector<JointStream> ui_prmd_streams(const std::string& shared) {
         std::string angles = file.string();
         angles.replace(angles.size() - 16, 16, "angles.txt.gz");
         const auto offsets = read_gz(file), degrees = read_gz(angles);
-        JointStream stream{episode_of(file), {}};
+        std::vector<JointRow> rows;
         for (size_t f = 0; f < std::min(offsets.size(), degrees.size()); ++f) {
             if (offsets[f].size() < 3 * kUiPrmdCount || degrees[f].size() < 3 * kUiPrmdCount)
                 throw Failure(file.string() + ": a row of fewer than 22 joints");
-            Body body = ui_prmd_body(offsets[f], degrees[f]);
-            body.time_ns = int64_t(std::llround(1e9 * double(f) / kUiPrmdRateHz));
-            stream.bodies.push_back(body);
+            rows.push_back(ui_prmd_row(offsets[f], degrees[f]));
+            rows.back().time_ns = int64_t(std::llround(1e9 * double(f) / kUiPrmdRateHz));
         }
-        put_on_floor(stream.bodies);
-        streams.push_back(std::move(stream));
+        put_on_floor(rows);
+        streams.push_back(stream_of(episode_of(file), rows));
     }
     return streams;
 }

@@ -1,8 +1,11 @@
-// vfit motion: the clean pose of each frame, as JSON lines; joints and root in the recording's camera space.
+// vfit motion: the clean pose of each frame, as JSON lines, and to other programs. Joints and root are in the
+// recording's camera space; of joints without pictures in world space.
 #include <chrono>
 #include <iostream>
 
+#include "client/joint_file.h"
 #include "client/output.h"
+#include "client/pose_outputs.h"
 #include "client/progress.h"
 #include "commands/commands.h"
 
@@ -13,7 +16,9 @@ namespace {
 struct Options {
     std::string source;
     bool raw = false, json = false;
+    uint32_t frames = 0;  // 0: all
     TrackOptions track;
+    PoseOutputOptions outputs;
 };
 
 struct Step {
@@ -48,50 +53,137 @@ Json step_json(const Step& step, const vfit_camera& camera, uint32_t index, doub
             {"ms", ms}};
 }
 
-void motion(const Options& options) {
-    const Context context = open_context();
-    Source source(context.get(), options.source);
-    const Tracker tracker = open_tracker(context.get(), options.track);
-    vfit_motion_desc desc = vfit_motion_desc_init();
-    if (options.raw)
-        desc.flags =
-            VFIT_MOTION_NO_FILTER | VFIT_MOTION_NO_LIMITS | VFIT_MOTION_NO_SMOOTHING | VFIT_MOTION_NO_FEET;
-    Motion motion;
-    check(vfit_motion_create(context.get(), &desc, motion.out()));
-    Progress progress("frames", true);
-    while (const auto frame = source.next()) {
-        Frame tracked;
-        check(vfit_tracker_update(tracker.get(), frame->get(), tracked.out()));
-        const vfit_view depth = view_of(tracked.get(), VFIT_STREAM_DEPTH);
+/// The motion stage, and where its poses go.
+class Player {
+public:
+    Player(vfit_context context, const Options& options)
+        : options_(options), outputs_(context, options.outputs), progress_("frames", true) {
+        vfit_motion_desc desc = vfit_motion_desc_init();
+        if (options.raw)
+            desc.flags = VFIT_MOTION_NO_FILTER | VFIT_MOTION_NO_LIMITS | VFIT_MOTION_NO_SMOOTHING |
+                         VFIT_MOTION_NO_FEET;
+        check(vfit_motion_create(context, &desc, motion_.out()));
+    }
+
+    /// One frame: step(motion) steps the stage and tells whether the person was there.
+    template <typename StepMotion>
+    void play(StepMotion&& step_motion, const vfit_camera& camera) {
         const auto start = std::chrono::steady_clock::now();
-        const vfit_result result =
-            check(vfit_motion_step(motion.get(), tracked.get(), active_body(tracked.get()), depth.time_ns));
+        const vfit_result result = check(step_motion(motion_.get()));
         const double ms =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-        const uint32_t index = source.taken() - 1;
-        progress.at(source.taken(), 0);
+        const uint32_t index = taken_++;
+        progress_.at(taken_, 0);
         if (result == VFIT_NOT_READY) {
-            if (!options.json) std::cout << "frame " << index << ": no person\n";
-            continue;
+            if (!options_.json) std::cout << "frame " << index << ": no person\n";
+            return;
         }
-        const Step step = read_step(motion.get());
-        if (options.json)
-            print_line(step_json(step, camera_of(tracked.get()), index, ms));
+        const Step step = read_step(motion_.get());
+        outputs_.take(step.pose, step.bones);
+        if (options_.json)
+            print_line(step_json(step, camera, index, ms));
         else
             std::cout << "frame " << index << ": contacts "
                       << (step.pose.contact_flags & VFIT_CONTACT_LEFT ? "L" : "-")
                       << (step.pose.contact_flags & VFIT_CONTACT_RIGHT ? "R" : "-") << "\n";
+        ++seen_;
     }
+
+    bool wants_more() const { return options_.frames == 0 || taken_ < options_.frames; }
+    uint32_t seen() const { return seen_; }
+    void finish() { outputs_.finish(); }
+
+private:
+    const Options& options_;
+    PoseOutputs outputs_;
+    Progress progress_;
+    Motion motion_;
+    uint32_t taken_ = 0, seen_ = 0;
+};
+
+void play_source(vfit_context context, const Options& options) {
+    Source source(context, options.source);
+    const Tracker tracker = open_tracker(context, options.track);
+    Player player(context, options);
+    while (player.wants_more()) {
+        const auto frame = source.next();
+        if (!frame) break;
+        Frame tracked;
+        check(vfit_tracker_update(tracker.get(), frame->get(), tracked.out()));
+        const vfit_view depth = view_of(tracked.get(), VFIT_STREAM_DEPTH);
+        const uint32_t body = active_body(tracked.get());
+        player.play(
+            [&](vfit_motion motion) { return vfit_motion_step(motion, tracked.get(), body, depth.time_ns); },
+            camera_of(tracked.get()));
+    }
+    player.finish();
+}
+
+/// The axes of the world itself, in place of a camera's.
+vfit_camera world_axes() {
+    vfit_camera camera = vfit_camera_init();
+    for (int i = 0; i < 4; ++i) camera.world_from_camera[5 * i] = 1.0f;
+    return camera;
+}
+
+vfit_result step_row(vfit_motion motion, const JointRow& row) {
+    if (row.joints.empty()) {
+        check(vfit_motion_step(motion, vfit_frame{}, 0, row.time_ns));
+        return VFIT_NOT_READY;
+    }
+    vfit_body body = vfit_body_init();
+    body.body_id = 1;
+    body.time_ns = row.time_ns;
+    return vfit_motion_step_body(motion, &body, row.joints.data(), sizeof(vfit_joint),
+                                 uint32_t(row.joints.size()), row.time_ns);
+}
+
+void play_joints(vfit_context context, const Options& options) {
+    if (options.track.asked)
+        throw WrongUsage(options.source +
+                         " holds the joints of one person: nobody can be chosen with --active");
+    const std::vector<JointRow> rows = read_joint_file(options.source);
+    const vfit_camera world = world_axes();
+    Player player(context, options);
+    for (size_t i = 0; i < rows.size() && player.wants_more(); ++i)
+        player.play([&](vfit_motion motion) { return step_row(motion, rows[i]); }, world);
+    if (player.seen() == 0)
+        throw Failure(options.source +
+                      ": in no row can the trunk be placed: wanted are both shoulders, or NECK with PELVIS, "
+                      "TORSO or both hips");
+    player.finish();
+}
+
+void motion(const Options& options) {
+    const Context context = open_context();
+    if (is_joint_file(options.source))
+        play_joints(context.get(), options);
+    else
+        play_source(context.get(), options);
+}
+
+void add_outputs(Command& command, PoseOutputOptions& o) {
+    command.add_option("--bvh", o.bvh, "Write the motion as a BVH file, in centimetres");
+    command.add_option("--bvh-rate", o.bvh_rate_hz, "Frames per second of that file (30)").within(1, 1000);
+    command
+        .add_option("--vmc", o.vmc, "HOST:PORT: send each pose by the VMC protocol (receivers' port: 39539)")
+        .check(address_fault);
+    command.add_option("--vrchat", o.vrchat, "HOST:PORT: send VRChat's OSC trackers (its port: 9000)")
+        .check(address_fault);
 }
 
 }  // namespace
 
 void add_motion(Command& app) {
-    Command command = app.add_subcommand("motion", "Print the clean pose of each frame");
+    Command command = app.add_subcommand("motion", "Print the clean pose of each frame, or send it");
     auto o = std::make_shared<Options>();
-    command.add_option("source", o->source, "Recording folder or sensor URI").required();
+    command
+        .add_option("source", o->source, "Recording folder, sensor URI, or a file of joints (docs/motion.md)")
+        .required();
     command.add_flag("--raw", o->raw, "Without filter, limits, smoothing and foot planting");
     command.add_flag("--json", o->json, "Print JSON lines");
+    command.add_option("--frames", o->frames, "Stop after so many frames").positive();
+    add_outputs(command, o->outputs);
     add_track_options(command, o->track);
     command.callback([o] { motion(*o); });
 }
