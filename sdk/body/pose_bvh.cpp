@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kCentimetres = 100.0;
 constexpr double kDegrees = 180.0 / 3.14159265358979323846;
-constexpr double kLeastFrame_s = 1e-3, kMostFrame_s = 10.0;
-constexpr int64_t kMostFrames = 1'000'000;
+constexpr double kMinFrame_s = 1e-3, kMaxFrame_s = 10.0;
+constexpr int64_t kMaxFrames = 1'000'000;
 // A last pose this much before its frame still makes one: rounding of the time stamps.
 constexpr double kSlack_ns = 1000.0;
 
@@ -157,13 +157,13 @@ uint64_t length_ns(size_t pose_count, const std::function<Pose(size_t)>& pose) {
 std::string bvh_text(const Skeleton& skeleton, size_t pose_count, const std::function<Pose(size_t)>& pose,
                      double frame_time_s) {
     if (pose_count == 0) fail(VFIT_ERROR_ARGUMENT, "a motion without a pose");
-    if (!(frame_time_s >= kLeastFrame_s && frame_time_s <= kMostFrame_s))
-        fail(VFIT_ERROR_ARGUMENT, "frame_time_s ", frame_time_s, " is not in ", kLeastFrame_s, "..",
-             kMostFrame_s);
+    if (!(frame_time_s >= kMinFrame_s && frame_time_s <= kMaxFrame_s))
+        fail(VFIT_ERROR_ARGUMENT, "frame_time_s ", frame_time_s, " is not in ", kMinFrame_s, "..",
+             kMaxFrame_s);
     const double frame_ns = 1e9 * frame_time_s;
     const double frames = std::floor((double(length_ns(pose_count, pose)) + kSlack_ns) / frame_ns) + 1.0;
-    if (frames > double(kMostFrames))
-        fail(VFIT_ERROR_ARGUMENT, "a motion of ", frames, " frames; at most ", kMostFrames, " are written");
+    if (frames > double(kMaxFrames))
+        fail(VFIT_ERROR_ARGUMENT, "a motion of ", frames, " frames; at most ", kMaxFrames, " are written");
     Text out;
     write_hierarchy(out, skeleton);
     out.line(0, "MOTION");

@@ -12,7 +12,7 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 
 // Below this cosine of the middle angle the outer two turn about one axis: rounding of the quaternion (1e-7)
 // would move each of them by more than 0.06 degrees.
-constexpr double kLeastCosine = 1e-4;
+constexpr double kMinCosine = 1e-4;
 
 /// Rows and columns of the rotation matrix.
 struct Rows {
@@ -37,7 +37,7 @@ EulerAngles euler_yxz(const Quat& q) {
     const Rows r(q);
     const double cosine = std::hypot(r.at(0, 2), r.at(2, 2));
     const double x = std::atan2(-r.at(1, 2), cosine);
-    if (cosine < kLeastCosine) return {x, std::atan2(-r.at(2, 0), r.at(0, 0)), 0.0};
+    if (cosine < kMinCosine) return {x, std::atan2(-r.at(2, 0), r.at(0, 0)), 0.0};
     return {x, std::atan2(r.at(0, 2), r.at(2, 2)), std::atan2(r.at(1, 0), r.at(1, 1))};
 }
 
@@ -45,7 +45,7 @@ EulerAngles euler_zxy(const Quat& q, const EulerAngles& before) {
     const Rows r(q);
     const double cosine = std::hypot(r.at(0, 1), r.at(1, 1));
     const double x = std::atan2(r.at(2, 1), cosine);
-    if (cosine < kLeastCosine) {
+    if (cosine < kMinCosine) {
         // y stays, z takes the rest: R depends on z + y alone where x is a quarter turn, on z - y where it is
         // minus one.
         const double both = std::atan2(r.at(1, 0), r.at(0, 0));

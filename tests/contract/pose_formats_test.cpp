@@ -73,7 +73,7 @@ Places places_of(const std::vector<vfit_bone>& bones) {
     return chained(local);
 }
 
-/// Somebody of usual proportions in the T-pose.
+/// A person of usual proportions in the T-pose.
 std::vector<vfit_bone> t_pose() {
     constexpr float kOffsets[VFIT_BONE_COUNT][3] = {
         {0.2f, 0.95f, -2.0f}, {0, 0.12f, 0},     {0, 0.12f, 0},      {0, 0.13f, 0},  {0, 0.12f, 0},
@@ -324,7 +324,7 @@ TEST_F(PoseFormats, PacketsAndFilesAreTheSameFromAnyAxes) {
         }
 }
 
-TEST_F(PoseFormats, PosesThatNobodyCouldShowAreRefused) {
+TEST_F(PoseFormats, IncompletePosesAreRefused) {
     for (const vfit_osc kind : {VFIT_OSC_VMC, VFIT_OSC_VRCHAT}) {
         std::vector<vfit_bone> missing = t_pose(), broken = t_pose(), bare = t_pose(), endless = t_pose();
         missing.erase(missing.begin() + VFIT_BONE_LEFT_FOOT);

@@ -18,13 +18,13 @@ constexpr size_t kProbeBytes = 4096;
 
 // Between the outermost joints of a person: less is no person in metres, more than the span of raised arms is
 // none either.
-constexpr double kLeastSpan_m = 0.1, kMostSpan_m = 3.0;
+constexpr double kMinSpan_m = 0.1, kMaxSpan_m = 3.0;
 // A span of more than this is one in millimetres rather than in centimetres.
 constexpr double kMillimetreSpan = 300.0;
 // Joints that lie deeper are not on a floor at 0: no foot would stand.
 constexpr double kDeepest_m = -0.3;
 // Cameras give 1 to 1000 rows a second.
-constexpr double kLeastStep_s = 1e-3, kMostStep_s = 1.0;
+constexpr double kMinStep_s = 1e-3, kMaxStep_s = 1.0;
 
 const char* const kWanted =
     "a line \"time_s,HEAD_x,HEAD_y,HEAD_z,...\" with the names of joints, or rows of the Kinect v2 (ticks, "
@@ -63,11 +63,11 @@ void check_lengths(const std::vector<JointRow>& rows, const std::string& path) {
         if (row.joints.size() > 1) spans.push_back(span_of(row));
     if (spans.empty()) throw Failure(path + ": no row has two joints that are seen");
     const double span = middle_of(spans);
-    if (span >= kLeastSpan_m && span <= kMostSpan_m) return;
+    if (span >= kMinSpan_m && span <= kMaxSpan_m) return;
     throw Failure(path + ": the joints of a row lie " + short_number(span) +
                   " apart (median), which is no person in metres" +
                   (span > kMillimetreSpan ? ": are these millimetres?"
-                   : span > kMostSpan_m   ? ": are these centimetres?"
+                   : span > kMaxSpan_m    ? ": are these centimetres?"
                                           : ""));
 }
 
@@ -90,9 +90,9 @@ void check_times(const std::vector<JointRow>& rows, const std::string& path) {
         steps.push_back(1e-9 * double(rows[i].time_ns - rows[i - 1].time_ns));
     if (steps.empty()) return;
     const double step = middle_of(steps);
-    if (step >= kLeastStep_s && step <= kMostStep_s) return;
+    if (step >= kMinStep_s && step <= kMaxStep_s) return;
     throw Failure(path + ": rows are " + short_number(step) + " s apart (median); known are " +
-                  short_number(kLeastStep_s) + " to " + short_number(kMostStep_s) +
+                  short_number(kMinStep_s) + " to " + short_number(kMaxStep_s) +
                   " s: is the time in another unit?");
 }
 

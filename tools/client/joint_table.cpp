@@ -103,9 +103,9 @@ std::vector<JointRow> read_joint_table(CsvRows& rows) {
     while (rows.next()) {
         rows.check_size(width);
         JointRow row;
-        constexpr double kMostTime_s = 9e9;  // what nanoseconds in 64 bits hold
+        constexpr double kMaxTime_s = 9e9;  // what nanoseconds in 64 bits hold
         const double time_s = rows.number(0);
-        if (std::abs(time_s) > kMostTime_s) rows.fail(0, "is no time in seconds");
+        if (std::abs(time_s) > kMaxTime_s) rows.fail(0, "is no time in seconds");
         row.time_ns = std::llround(1e9 * time_s);
         for (const Columns& columns : joints) read_joint(rows, columns, row);
         if (!out.empty() && row.time_ns <= out.back().time_ns)

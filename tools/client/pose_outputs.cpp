@@ -56,7 +56,7 @@ void PoseOutputs::take(const vfit_pose& pose, const std::vector<vfit_bone>& bone
 
 void PoseOutputs::finish() {
     if (options_.bvh.empty()) return;
-    if (poses_.empty()) throw Failure(options_.bvh + ": not written, as nobody was seen");
+    if (poses_.empty()) throw Failure(options_.bvh + ": not written, as no person was seen");
     const auto write = [&](char* text, uint32_t* capacity) {
         return vfit_pose_bvh(context_, poses_.data(), sizeof(vfit_pose), uint32_t(poses_.size()),
                              bones_.data(), sizeof(vfit_bone), uint32_t(bones_.size()),

@@ -140,8 +140,7 @@ vfit_result step_row(vfit_motion motion, const JointRow& row) {
 
 void play_joints(vfit_context context, const Options& options) {
     if (options.track.asked)
-        throw WrongUsage(options.source +
-                         " holds the joints of one person: nobody can be chosen with --active");
+        throw WrongUsage(options.source + " holds the joints of one person: --active has no choice");
     const std::vector<JointRow> rows = read_joint_file(options.source);
     const vfit_camera world = world_axes();
     Player player(context, options);

@@ -59,8 +59,8 @@ namespace Vfit
         }
 
         /// <summary>
-        /// One UDP packet of Open Sound Control: writes at most 2,048 bytes and returns how many. All bones are
-        /// needed, as Motion.Pose gives them.
+        /// One UDP packet of Open Sound Control: writes at most 2,048 bytes and returns how many. All bones
+        /// are needed, as Motion.Pose gives them.
         /// </summary>
         public int WriteOsc(Context context, Osc kind, byte[] into)
         {
@@ -79,8 +79,8 @@ namespace Vfit
         }
 
         /// <summary>
-        /// A motion as the text of a BVH file. All bones of each pose are needed; times increase. frameTimeS 0:
-        /// 1/30 s.
+        /// A motion as the text of a BVH file. All bones of each pose are needed; times increase.
+        /// frameTimeS 0: 1/30 s.
         /// </summary>
         public static string Bvh(Context context, BodyPose[] motion, float frameTimeS = 0)
         {
@@ -91,7 +91,8 @@ namespace Vfit
             {
                 if (motion[i] == null) throw new ArgumentNullException("motion[" + i + "]");
                 if (motion[i].Count != Counts.BoneCount)
-                    throw new ArgumentException("motion[" + i + "] has " + motion[i].Count + " bones", "motion");
+                    throw new ArgumentException(
+                        "motion[" + i + "] has " + motion[i].Count + " bones", "motion");
                 infos[i] = motion[i].Header();
                 Array.Copy(motion[i].Bones, 0, all, i * Counts.BoneCount, Counts.BoneCount);
             }
