@@ -13,6 +13,7 @@ import math
 import os
 import pathlib
 import shutil
+import socket
 import statistics
 import struct
 import subprocess
@@ -93,6 +94,93 @@ def numbers(value):
             yield from numbers(v)
     elif isinstance(value, (int, float)) and not isinstance(value, bool):
         yield value
+
+
+def osc_messages(packet):
+    """Address -> arguments, or a list of them for bones, of a bundle of Open Sound Control 1.0."""
+
+    def text(at):
+        end = packet.index(b"\0", at)
+        return packet[at:end].decode(), at + (end - at) // 4 * 4 + 4
+
+    assert packet[:16] == b"#bundle\0" + struct.pack(">Q", 1)
+    messages, at = {}, 16
+    while at < len(packet):
+        (size,) = struct.unpack_from(">I", packet, at)
+        end = at + 4 + size
+        address, at = text(at + 4)
+        types, at = text(at)
+        values = []
+        for kind in types[1:]:
+            if kind == "s":
+                value, at = text(at)
+            else:
+                (value,) = struct.unpack_from(">" + kind, packet, at)
+                at += 4
+            values.append(value)
+        assert at == end, address
+        if address.endswith("/Bone/Pos"):
+            messages.setdefault(address, {})[values[0]] = values[1:]
+        else:
+            messages[address] = values
+    return messages
+
+
+class UdpReceiver:
+    """Keeps what a program sends to a port of this machine, with the time at which it came."""
+
+    def __enter__(self):
+        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.socket.bind(("127.0.0.1", 0))
+        self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 20)
+        self.address = f"127.0.0.1:{self.socket.getsockname()[1]}"
+        return self
+
+    def __exit__(self, *_):
+        self.socket.close()
+
+    def packets(self, count):
+        self.socket.settimeout(10)
+        return [osc_messages(self.socket.recv(65536)) for _ in range(count)]
+
+
+def bvh_file(path):
+    """Frame time, names of the joints in order, channel values of each frame."""
+    head, motion = path.read_text().split("MOTION\n")
+    names = [line.split()[1] for line in head.splitlines() if "JOINT" in line or "ROOT" in line]
+    first, second, *rows = motion.splitlines()
+    frames = [[float(v) for v in row.split()] for row in rows]
+    assert first == f"Frames: {len(frames)}"
+    assert all(len(row) == 3 + 3 * len(names) for row in frames)
+    return float(second.removeprefix("Frame Time: ")), names, frames
+
+
+def joint_table(rows, unit=1.0):
+    """vfit's own table of [{joint: (x, y, z)}, ...] at 30 Hz."""
+    joints = list(rows[0])
+    head = ["time_s", *(f"{j}_{axis}" for j in joints for axis in "xyz")]
+    lines = [",".join(head)]
+    for i, row in enumerate(rows):
+        lines.append(",".join(str(v) for v in (i / 30, *(unit * x for j in joints for x in row[j]))))
+    return "\n".join(lines) + "\n"
+
+
+def swaying(count):
+    """A person who stands before the camera and sways to their left."""
+    places = {
+        "HEAD": (0, 1.6), "NECK": (0, 1.42), "TORSO": (0, 1.15),
+        "LEFT_SHOULDER": (0.18, 1.38), "RIGHT_SHOULDER": (-0.18, 1.38),
+        "LEFT_ELBOW": (0.22, 1.1), "RIGHT_ELBOW": (-0.22, 1.1),
+        "LEFT_HAND": (0.24, 0.85), "RIGHT_HAND": (-0.24, 0.85),
+        "LEFT_HIP": (0.09, 0.9), "RIGHT_HIP": (-0.09, 0.9),
+        "LEFT_KNEE": (0.1, 0.5), "RIGHT_KNEE": (-0.1, 0.5),
+        "LEFT_FOOT": (0.1, 0.08), "RIGHT_FOOT": (-0.1, 0.08),
+    }  # fmt: skip
+    # The feet stay.
+    share = {"LEFT_FOOT": 0, "RIGHT_FOOT": 0, "LEFT_KNEE": 0.5, "RIGHT_KNEE": 0.5}
+    return [
+        {j: (x + 0.003 * i * share.get(j, 1), y, -2.0) for j, (x, y) in places.items()} for i in range(count)
+    ]
 
 
 class Contract(unittest.TestCase):
@@ -373,6 +461,99 @@ class Contract(unittest.TestCase):
         self.assertTrue(all(math.isfinite(x) for f in frames for x in numbers(f)))
         raw = lines(self, "motion", VIRTUAL, "--raw", "--json")
         self.assertNotEqual(raw[30]["joints"], frames[30]["joints"])
+
+    def test_joints_without_pictures_move_as_those_of_a_recording(self):
+        with tempfile.TemporaryDirectory() as folder:
+            table = pathlib.Path(folder) / "joints.csv"
+            table.write_text(joint_table(swaying(40)))
+            frames = lines(self, "motion", table, "--json")
+            self.assertEqual([f["frame"] for f in frames], list(range(40)))
+            self.assertEqual(set(frames[9]), {"frame", "joints", "bones", "root", "contacts", "ms"})
+            for q in frames[9]["bones"].values():
+                self.assertAlmostEqual(sum(x * x for x in q), 1, places=3)
+            last = frames[-1]
+            for joint, at in swaying(40)[-1].items():  # the world, not a camera's space
+                self.assertLess(math.dist(last["joints"][joint][:3], at), 0.05, joint)
+            self.assertLess(math.dist(last["root"], (0.117, 0.9, -2.0)), 0.05)
+            self.assertEqual(len(lines(self, "motion", table, "--json", "--frames", "7")), 7)
+
+    @unittest.skipUnless((SHARED / "data" / "kinect2_joints").is_dir(), f"no Kinect v2 streams at {SHARED}")
+    def test_real_streams_of_a_kinect_v2_are_moved(self):
+        for path in sorted((SHARED / "data" / "kinect2_joints").glob("*.csv")):
+            rows = path.read_text().splitlines()
+            frames = lines(self, "motion", path, "--json")
+            self.assertEqual(len(frames), len(rows), path)
+            self.assertTrue(all(math.isfinite(x) for f in frames for x in numbers(f)), path)
+
+    def test_poses_are_sent_by_vmc_as_they_are_printed_and_at_their_pace(self):
+        with tempfile.TemporaryDirectory() as folder, UdpReceiver() as receiver:
+            table = pathlib.Path(folder) / "joints.csv"
+            table.write_text(joint_table(swaying(31)))
+            start = time.monotonic()
+            frames = lines(self, "motion", table, "--json", "--vmc", receiver.address)
+            self.assertGreater(time.monotonic() - start, 1.0, "31 poses at 30 Hz take a second")
+            for i, (frame, told) in enumerate(zip(frames, receiver.packets(len(frames)))):
+                self.assertEqual(told["/VMC/Ext/OK"], [1])
+                self.assertAlmostEqual(told["/VMC/Ext/T"][0], i / 30, places=4)
+                self.assertEqual(told["/VMC/Ext/Root/Pos"], ["root", 0, 0, 0, 0, 0, 0, 1])
+                bones = told["/VMC/Ext/Bone/Pos"]
+                self.assertEqual(set(bones), {name[0].upper() + name[1:] for name in frame["bones"]})
+                for name, (x, y, z, w) in frame["bones"].items():
+                    for got, wanted in zip(bones[name[0].upper() + name[1:]][3:], (x, -y, -z, w)):
+                        self.assertAlmostEqual(got, wanted, places=6)
+                x, y, z = frame["root"]
+                self.assertLess(math.dist(bones["Hips"][:3], (-x, y, z)), 1e-5)
+
+    def test_poses_of_a_sensor_are_sent_to_vrchat(self):
+        with UdpReceiver() as receiver:
+            source = VIRTUAL.replace("60", "12")
+            self.assertEqual(len(lines(self, "motion", source, "--json", "--vrchat", receiver.address)), 12)
+            for told in receiver.packets(12):
+                names = [*map(str, range(1, 9)), "head"]
+                wanted = {
+                    f"/tracking/trackers/{n}/{what}" for n in names for what in ("position", "rotation")
+                }
+                self.assertEqual(set(told), wanted)
+                left, right = (told[f"/tracking/trackers/{n}/position"] for n in (3, 4))
+                self.assertLess(left[0], right[0], "the left is at -X in Unity")
+                self.assertGreater(told["/tracking/trackers/head/position"][1], 1.2)
+
+    def test_a_motion_is_written_as_bvh(self):
+        with tempfile.TemporaryDirectory() as folder:
+            table, path = pathlib.Path(folder) / "joints.csv", pathlib.Path(folder) / "motion.bvh"
+            table.write_text(joint_table(swaying(31)))
+            path.write_text("what was there before")
+            printed = lines(self, "motion", table, "--json", "--bvh", path)
+            step_s, names, frames = bvh_file(path)
+            self.assertAlmostEqual(step_s, 1 / 30, places=6)
+            self.assertEqual((len(frames), len(names)), (31, 22))
+            for row, frame in zip(frames, printed):
+                for got, wanted in zip(row[:3], frame["root"]):
+                    self.assertAlmostEqual(got, 100 * wanted, delta=0.01)
+            run("motion", table, "--bvh", path, "--bvh-rate", "60")
+            self.assertEqual(len(bvh_file(path)[2]), 61)
+
+    def test_what_cannot_be_sent_or_read_as_joints_is_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            table = pathlib.Path(folder) / "joints.csv"
+            for text, words in (
+                ("", ("empty", "time_s")),
+                ("a,b\n", ("line 1", "'a'", "Kinect v2")),
+                (joint_table(swaying(9)).replace("NECK_y", "NOSE_y"), ("line 1", "'NOSE_y'", "LEFT_ELBOW")),
+                (joint_table(swaying(9))[:-9], ("line 10", "columns")),
+                (joint_table(swaying(9), unit=1000), ("millimetres?",)),
+                (joint_table([{"HEAD": (0, 1.6, -2), "LEFT_HAND": (0.3, 1.0, -2)}] * 9), ("trunk", "PELVIS")),
+            ):
+                table.write_text(text)
+                self.check_failure(run("motion", table, "--json"), str(table), *words)
+            table.write_text(joint_table(swaying(9)))
+            self.check_failure(run("motion", table, "--bvh", f"{folder}/no/such.bvh"), "no/such.bvh")
+            self.check_failure(run("motion", table, "--vmc", "no-such-host.invalid:39539"), "no-such-host")
+            for address in ("localhost", "localhost:0", "localhost:65536", ":9000", "localhost:vmc"):
+                done = run("motion", table, "--vmc", address)
+                self.assertEqual(done.returncode, 2, address)
+                self.assertIn(f"'{address}'", done.stderr)
+            self.assertEqual(run("motion", table, "--active", "1").returncode, 2)
 
     def test_a_recording_of_a_sensor_measures_as_the_sensor_does(self):
         with tempfile.TemporaryDirectory() as folder:
