@@ -2,6 +2,7 @@
 using System;
 using System.IO;
 using System.Linq;
+using System.Text;
 using NUnit.Framework;
 
 namespace Vfit.Tests
@@ -252,6 +253,62 @@ namespace Vfit.Tests
                     Assert.AreEqual(avatar.Describe().VertexCount, unpacked.Describe().VertexCount);
                 }
             }
+        }
+
+        [Test]
+        public void JointsAloneMoveTheStageAndPosesGoToOtherPrograms()
+        {
+            var joints = new[]
+            {
+                Seen(JointId.LeftShoulder, 0.2f, 1.4f), Seen(JointId.RightShoulder, -0.2f, 1.4f),
+                Seen(JointId.LeftHip, 0.1f, 0.9f), Seen(JointId.RightHip, -0.1f, 0.9f)
+            };
+            using (var motion = new Motion(Context))
+            {
+                var poses = new[] { new BodyPose(), new BodyPose() };
+                for (int i = 0; i < 2; i++)
+                {
+                    var body = new Body { BodyId = 1, TimeNs = 100000000L * (i + 1) };
+                    Assert.AreEqual(Result.Ok, motion.Step(body, joints, joints.Length, body.TimeNs));
+                    motion.Pose(poses[i]);
+                }
+                Assert.AreEqual(
+                    Result.NotReady, motion.Step(new Body { BodyId = 2, TimeNs = 9 }, joints, 1, 9));
+
+                var packet = new byte[2048];
+                foreach (Osc kind in new[] { Osc.Vmc, Osc.Vrchat })
+                {
+                    int length = poses[1].WriteOsc(Context, kind, packet);
+                    Assert.That(length, Is.InRange(1000, 2048));
+                    Assert.AreEqual("#bundle", Encoding.ASCII.GetString(packet, 0, 7));
+                    string wanted = kind == Osc.Vmc ? "LeftUpperArm" : "/tracking/trackers/head/position";
+                    Assert.IsTrue(Encoding.ASCII.GetString(packet, 0, length).Contains(wanted));
+                }
+                Assert.AreEqual(
+                    Result.ErrorCapacity,
+                    Support.CodeOf(() => poses[1].WriteOsc(Context, Osc.Vmc, new byte[0])));
+                Assert.AreEqual(
+                    Result.ErrorData,
+                    Support.CodeOf(
+                        () => BodyPose.Rest(new Float3(0, 1, 0)).WriteOsc(Context, Osc.Vmc, packet)));
+
+                string text = BodyPose.Bvh(Context, poses, 0.05f);
+                Assert.IsTrue(text.StartsWith("HIERARCHY\nROOT Hips\n"));
+                Assert.IsTrue(text.Contains("\nFrames: 3\n"));
+                Assert.AreEqual(
+                    Result.ErrorData,
+                    Support.CodeOf(() => BodyPose.Bvh(Context, new[] { poses[1], poses[0] })));
+                Assert.AreEqual(
+                    Result.ErrorArgument, Support.CodeOf(() => BodyPose.Bvh(Context, new BodyPose[0])));
+            }
+        }
+
+        private static Joint Seen(JointId id, float x, float y)
+        {
+            return new Joint
+            {
+                Id = id, State = JointState.Measured, Confidence = 1, Position = new Float3(x, y, -2)
+            };
         }
 
         [Test]
