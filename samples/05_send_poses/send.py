@@ -25,7 +25,7 @@ with vfit.Context() as ctx, socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as 
     first_ns, start = 0, 0.0
     for frame in ctx.open(options.source):
         if not motion.step(tracker.update(frame)):
-            continue  # nobody is in view: the receiver's avatar keeps its pose
+            continue  # no person in view: the receiver's avatar keeps its pose
         pose = motion.pose()
         if not poses:
             first_ns, start = pose.time_ns, time.monotonic()

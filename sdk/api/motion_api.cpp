@@ -1,4 +1,6 @@
 // vfit.h, part "motion".
+#include <cmath>
+
 #include "api/avatar_object.h"
 #include "api/bodies.h"
 #include "api/guard.h"
@@ -45,6 +47,13 @@ MotionSettings motion_settings(const vfit_motion_desc& d) {
     s.rotation_divisor = setting(d.rotation_divisor, s.rotation_divisor);
     s.rotation_divisor_switched = setting(d.rotation_divisor_switched, s.rotation_divisor_switched);
     return s;
+}
+
+/// 0 is 1/30 s. The float that is nearest to one part of a second means exactly that.
+double frame_time(float given_s) {
+    constexpr double kDefaultRate_hz = 30.0;
+    const double rate_hz = given_s == 0.0f ? kDefaultRate_hz : std::round(1.0 / double(given_s));
+    return given_s == 0.0f || given_s == float(1.0 / rate_hz) ? 1.0 / rate_hz : double(given_s);
 }
 
 void require_pose(const MotionObject& motion) {
@@ -189,8 +198,7 @@ vfit_result vfit_pose_bvh(vfit_context handle, const vfit_pose* poses, uint32_t 
         const auto pose = [&](size_t i) {
             return pose_in(infos[static_cast<uint32_t>(i)], bones_of(i), context->axes);
         };
-        constexpr double kDefaultFrame_s = 1.0 / 30.0;
-        const double frame_s = frame_time_s == 0.0f ? kDefaultFrame_s : double(frame_time_s);
+        const double frame_s = frame_time(frame_time_s);
         const Skeleton skeleton = skeleton_in(bones_of(pose_count - 1), context->axes);
         return write_whole_text(bvh_text(skeleton, pose_count, pose, frame_s), text, capacity);
     });

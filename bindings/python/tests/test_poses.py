@@ -1,4 +1,4 @@
-"""Joints alone go in; poses go out to other programs, which are stood in for by python-osc and a reader of BVH."""
+"""Joints alone go in; poses go out. python-osc and a reader of BVH stand in for the other programs."""
 
 import socket
 import subprocess
