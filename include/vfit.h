@@ -813,10 +813,10 @@ VFIT_API vfit_result vfit_pose_osc(vfit_context context, const vfit_pose* pose, 
                                    uint32_t* byte_count);
 /* A motion as the text of a BVH file: centimetres, Y up, right-handed, whatever the axes of the context.
  * items: VFIT_BONE_COUNT bones for each pose, as vfit_motion_pose gives them, pose after pose. The skeleton
- * is that of the last pose, whose lengths are the best known. BVH has one frame time: frame k shows the
- * motion at the time of the first pose plus k * frame_time_s (0: 1/30 s), between two poses interpolated.
- * VFIT_ERROR_DATA where times do not increase. text null sets *capacity to what is needed, the end included.
- * [any] */
+ * is that of the last pose, whose lengths are the best known; in the other poses the hips give way so that
+ * the feet stay. BVH has one frame time: frame k shows the motion at the time of the first pose plus k *
+ * frame_time_s (0: 1/30 s), between two poses interpolated. VFIT_ERROR_DATA where times do not increase. text
+ * null sets *capacity to what is needed, the end included. [any] */
 VFIT_API vfit_result vfit_pose_bvh(vfit_context context, const vfit_pose* poses, uint32_t pose_stride,
                                    uint32_t pose_count, const vfit_bone* items, uint32_t stride,
                                    uint32_t count, float frame_time_s, char* text, uint32_t* capacity);

@@ -196,11 +196,11 @@ vfit_result vfit_pose_bvh(vfit_context handle, const vfit_pose* poses, uint32_t 
                                     "items");
         };
         const auto pose = [&](size_t i) {
-            return pose_in(infos[static_cast<uint32_t>(i)], bones_of(i), context->axes);
+            const Items<vfit_bone> bones = bones_of(i);
+            return BvhPose{pose_in(infos[static_cast<uint32_t>(i)], bones, context->axes),
+                           skeleton_in(bones, context->axes)};
         };
-        const double frame_s = frame_time(frame_time_s);
-        const Skeleton skeleton = skeleton_in(bones_of(pose_count - 1), context->axes);
-        return write_whole_text(bvh_text(skeleton, pose_count, pose, frame_s), text, capacity);
+        return write_whole_text(bvh_text(pose_count, pose, frame_time(frame_time_s)), text, capacity);
     });
 }
 

@@ -99,6 +99,15 @@ Pose between(const Pose& a, const Pose& b, float share) {
     return out;
 }
 
+Pose on_skeleton(const BvhPose& given, const Skeleton& skeleton) {
+    Pose pose = given.pose;
+    const PosedSkeleton was = forward_kinematics(given.skeleton, pose),
+                        is = forward_kinematics(skeleton, pose);
+    for (const size_t foot : {VFIT_BONE_LEFT_FOOT, VFIT_BONE_RIGHT_FOOT})
+        pose.hips_position += 0.5f * (was.position[foot] - is.position[foot]);
+    return pose;
+}
+
 /// From one time stamp to a later one; between any two it fits without a sign.
 uint64_t span_ns(int64_t from_ns, int64_t to_ns) { return uint64_t(to_ns) - uint64_t(from_ns); }
 
@@ -154,12 +163,13 @@ uint64_t length_ns(size_t pose_count, const std::function<Pose(size_t)>& pose) {
 
 }  // namespace
 
-std::string bvh_text(const Skeleton& skeleton, size_t pose_count, const std::function<Pose(size_t)>& pose,
-                     double frame_time_s) {
+std::string bvh_text(size_t pose_count, const std::function<BvhPose(size_t)>& given, double frame_time_s) {
     if (pose_count == 0) fail(VFIT_ERROR_ARGUMENT, "a motion without a pose");
     if (!(frame_time_s >= kMinFrame_s && frame_time_s <= kMaxFrame_s))
         fail(VFIT_ERROR_ARGUMENT, "frame_time_s ", frame_time_s, " is not in ", kMinFrame_s, "..",
              kMaxFrame_s);
+    const Skeleton skeleton = given(pose_count - 1).skeleton;
+    const std::function<Pose(size_t)> pose = [&](size_t i) { return on_skeleton(given(i), skeleton); };
     const double frame_ns = 1e9 * frame_time_s;
     const double frames = std::floor((double(length_ns(pose_count, pose)) + kSlack_ns) / frame_ns) + 1.0;
     if (frames > double(kMaxFrames))

@@ -414,11 +414,23 @@ TEST_F(PoseFormats, AMotionIsResampledByTime) {
     EXPECT_EQ(Bvh(bvh({5}, {t_pose()})).frame_count, 1u);
 }
 
-TEST_F(PoseFormats, TheSkeletonOfAFileIsThatOfTheLastPose) {
+TEST_F(PoseFormats, TheSkeletonOfAFileIsThatOfTheLastPoseAndTheFeetStay) {
     std::vector<vfit_bone> first = t_pose(), last = t_pose();
+    turn(first[VFIT_BONE_LEFT_UPPER_LEG], 0, -40.0);
+    turn(first[VFIT_BONE_RIGHT_UPPER_LEG], 0, -40.0);
     last[VFIT_BONE_LEFT_LOWER_ARM].position[0] = 0.31f;
+    for (const size_t knee : {VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_RIGHT_LOWER_LEG})
+        last[knee].position[1] = -0.45f;
     const Bvh file(bvh({0, 40'000'000}, {first, last}));
     EXPECT_NEAR(file.joints[VFIT_BONE_LEFT_LOWER_ARM].offset[0], 31.0, 1e-3);
+    EXPECT_NEAR(file.joints[VFIT_BONE_LEFT_LOWER_LEG].offset[1], -45.0, 1e-3);
+    const Places wanted = places_of(first);
+    const auto got = file.places(0);
+    for (const size_t foot : {VFIT_BONE_LEFT_FOOT, VFIT_BONE_RIGHT_FOOT}) {
+        Point centimetres = wanted[foot].position;
+        for (double& v : centimetres) v *= 100.0;
+        EXPECT_LT(distance(got.at(kHumanBodyBones[foot]).position, centimetres), 0.01) << foot;
+    }
 }
 
 TEST_F(PoseFormats, MotionsThatAreNoneAreRefused) {

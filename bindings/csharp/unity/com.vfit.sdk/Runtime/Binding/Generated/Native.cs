@@ -454,10 +454,11 @@ namespace Vfit
 
         /// <summary>A motion as the text of a BVH file: centimetres, Y up, right-handed, whatever the axes of
         /// the context. items: VFIT_BONE_COUNT bones for each pose, as vfit_motion_pose gives them, pose
-        /// after pose. The skeleton is that of the last pose, whose lengths are the best known. BVH has one
-        /// frame time: frame k shows the motion at the time of the first pose plus k * frame_time_s (0: 1/30
-        /// s), between two poses interpolated. VFIT_ERROR_DATA where times do not increase. text null sets
-        /// *capacity to what is needed, the end included. [any]</summary>
+        /// after pose. The skeleton is that of the last pose, whose lengths are the best known; in the other
+        /// poses the hips give way so that the feet stay. BVH has one frame time: frame k shows the motion at
+        /// the time of the first pose plus k * frame_time_s (0: 1/30 s), between two poses interpolated.
+        /// VFIT_ERROR_DATA where times do not increase. text null sets *capacity to what is needed, the end
+        /// included. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_pose_bvh(ContextId context, Pose* poses, uint poseStride,
             uint poseCount, Bone* items, uint stride, uint count, float frameTimeS, byte* text,
