@@ -553,7 +553,14 @@ class Contract(unittest.TestCase):
                 done = run("motion", table, "--vmc", address)
                 self.assertEqual(done.returncode, 2, address)
                 self.assertIn(f"'{address}'", done.stderr)
-            self.assertEqual(run("motion", table, "--active", "1").returncode, 2)
+            for option in (("--active", "1"), ("--joints", "tracked"), ("--user-map", "tracked")):
+                self.assertEqual(run("motion", table, *option).returncode, 2, option)
+            table.write_text(
+                joint_table(swaying(9)).replace("LEFT_SHOULDER", "LEFT_TOES").replace("NECK", "CHEST")
+            )
+            unseen = pathlib.Path(folder) / "unseen.bvh"
+            self.check_failure(run("motion", table, "--json", "--bvh", unseen), "trunk")
+            self.assertFalse(unseen.exists(), "no empty file is left")
 
     def test_a_recording_of_a_sensor_measures_as_the_sensor_does(self):
         with tempfile.TemporaryDirectory() as folder:

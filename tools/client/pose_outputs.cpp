@@ -1,5 +1,6 @@
 #include "client/pose_outputs.h"
 
+#include <filesystem>
 #include <fstream>
 #include <thread>
 
@@ -11,9 +12,12 @@ namespace {
 
 constexpr uint32_t kPacketBytes = 2048;  // vfit.h: a packet is no larger
 
+/// The file is left as it is until the motion is known.
 void check_writable(const std::string& path) {
-    // Kept as it is until the motion is known.
+    std::error_code error;
+    const bool was_there = std::filesystem::exists(path, error);
     if (!std::ofstream(path, std::ios::binary | std::ios::app)) throw Failure(path + ": cannot be written");
+    if (!was_there) std::filesystem::remove(path, error);
 }
 
 }  // namespace

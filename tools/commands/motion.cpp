@@ -139,8 +139,10 @@ vfit_result step_row(vfit_motion motion, const JointRow& row) {
 }
 
 void play_joints(vfit_context context, const Options& options) {
-    if (options.track.asked)
-        throw WrongUsage(options.source + " holds the joints of one person: --active has no choice");
+    const TrackOptions& track = options.track;
+    if (track.asked || track.joints != VFIT_TRACK_AUTO || track.user_map != VFIT_TRACK_AUTO)
+        throw WrongUsage(options.source +
+                         " holds the joints of one person: --joints, --user-map and --active have no choice");
     const std::vector<JointRow> rows = read_joint_file(options.source);
     const vfit_camera world = world_axes();
     Player player(context, options);
