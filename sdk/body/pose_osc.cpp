@@ -62,10 +62,6 @@ void begin_tracker(OscWriter& out, const char* name, std::string_view what) {
 OscPacket vmc_packet(const Skeleton& skeleton, const Pose& pose) {
     OscPacket packet;
     OscWriter out(packet.bytes);
-    out.begin("/VMC/Ext/OK", "i");
-    out.put(int32_t(1));  // loaded: bones follow
-    out.begin("/VMC/Ext/T", "f");
-    out.put(float(1e-9 * double(pose.time_ns)));
     // The root stays at the origin on the floor: the hips carry the person.
     put_transform(out, "/VMC/Ext/Root/Pos", "root", Vec3(0.0f), Quat(1, 0, 0, 0));
     for (int b = 0; b < kBoneCount; ++b) {
@@ -73,6 +69,11 @@ OscPacket vmc_packet(const Skeleton& skeleton, const Pose& pose) {
         const Vec3& position = b == VFIT_BONE_HIPS ? pose.hips_position : skeleton.offset[i];
         put_transform(out, "/VMC/Ext/Bone/Pos", human_bone_name(b).view(), position, pose.rotation[i]);
     }
+    // Behind the bones, as the protocol's own samples have it: some receivers show the pose when these come.
+    out.begin("/VMC/Ext/OK", "i");
+    out.put(int32_t(1));  // loaded: bones are sent
+    out.begin("/VMC/Ext/T", "f");
+    out.put(float(1e-9 * double(pose.time_ns)));
     packet.size = out.finish();
     return packet;
 }

@@ -210,13 +210,13 @@ TEST_F(PoseFormats, AVmcReceiverPutsEveryBoneWhereThePoseHasIt) {
         const std::vector<vfit_bone> bones = random_pose(seed);
         const std::vector<OscMessage> messages = osc(bones, VFIT_OSC_VMC, 2'500'000'000);
         ASSERT_EQ(messages.size(), 3 + VFIT_BONE_COUNT);
-        EXPECT_EQ(messages[0].address, "/VMC/Ext/OK");
-        EXPECT_EQ(messages[0].ints, std::vector<int32_t>{1});
-        EXPECT_EQ(messages[1].address, "/VMC/Ext/T");
-        EXPECT_FLOAT_EQ(messages[1].floats.at(0), 2.5f);
-        EXPECT_EQ(messages[2].address, "/VMC/Ext/Root/Pos");
-        EXPECT_EQ(messages[2].texts.at(0), "root");
-        for (size_t i = 0; i < 7; ++i) EXPECT_EQ(messages[2].floats.at(i), i == 6 ? 1.0f : 0.0f);
+        EXPECT_EQ(messages[0].address, "/VMC/Ext/Root/Pos");
+        EXPECT_EQ(messages[0].texts.at(0), "root");
+        for (size_t i = 0; i < 7; ++i) EXPECT_EQ(messages[0].floats.at(i), i == 6 ? 1.0f : 0.0f);
+        EXPECT_EQ(messages[23].address, "/VMC/Ext/OK");
+        EXPECT_EQ(messages[23].ints, std::vector<int32_t>{1});
+        EXPECT_EQ(messages[24].address, "/VMC/Ext/T");
+        EXPECT_FLOAT_EQ(messages[24].floats.at(0), 2.5f);
         const Places got = vmc_places(messages), wanted = places_of(bones);
         ASSERT_EQ(got.size(), wanted.size());
         for (size_t b = 0; b < got.size(); ++b) {
@@ -412,6 +412,7 @@ TEST_F(PoseFormats, AMotionIsResampledByTime) {
         EXPECT_LT(difference(file.places(f).at("Head").rotation, about('Y', 90.0 * t)), 1e-5) << f;
     }
     EXPECT_EQ(Bvh(bvh({5}, {t_pose()})).frame_count, 1u);
+    EXPECT_EQ(Bvh(bvh({5}, {t_pose()}, 1.0f / 30.0f)).frame_time_s, 0.03333333) << "1.0f / 30.0f means a thirtieth";
 }
 
 TEST_F(PoseFormats, TheSkeletonOfAFileIsThatOfTheLastPoseAndTheFeetStay) {
