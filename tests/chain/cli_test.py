@@ -477,6 +477,29 @@ class Contract(unittest.TestCase):
             self.assertLess(math.dist(last["root"], (0.117, 0.9, -2.0)), 0.05)
             self.assertEqual(len(lines(self, "motion", table, "--json", "--frames", "7")), 7)
 
+    def test_joints_are_taken_while_they_are_written(self):
+        head, *rows = joint_table(swaying(9)).splitlines(keepends=True)
+        args = [VFIT, "motion", "-", "--json"]
+        with subprocess.Popen(
+            args, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        ) as program:
+            program.stdin.write(head)
+            for i, row in enumerate(rows):
+                program.stdin.write(row)
+                program.stdin.flush()
+                self.assertEqual(json.loads(program.stdout.readline())["frame"], i)
+            program.stdin.write("0.4,1,2\n")
+            program.stdin.close()
+            self.assertRegex(program.stderr.read(), r"standard input, line 11: 3 columns")
+        self.assertEqual(program.returncode, 1)
+        for text, words in (
+            ("", ("standard input", "empty")),
+            ("1,2\n", ("standard input, line 1", "'1'", "time_s")),
+            (joint_table(swaying(9), unit=1000), ("standard input", "millimetres?")),
+        ):
+            done = subprocess.run(args, input=text, capture_output=True, text=True, timeout=60)
+            self.check_failure(done, *words)
+
     @unittest.skipUnless((SHARED / "data" / "kinect2_joints").is_dir(), f"no Kinect v2 streams at {SHARED}")
     def test_real_streams_of_a_kinect_v2_are_moved(self):
         for path in sorted((SHARED / "data" / "kinect2_joints").glob("*.csv")):

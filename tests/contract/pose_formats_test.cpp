@@ -412,7 +412,8 @@ TEST_F(PoseFormats, AMotionIsResampledByTime) {
         EXPECT_LT(difference(file.places(f).at("Head").rotation, about('Y', 90.0 * t)), 1e-5) << f;
     }
     EXPECT_EQ(Bvh(bvh({5}, {t_pose()})).frame_count, 1u);
-    EXPECT_EQ(Bvh(bvh({5}, {t_pose()}, 1.0f / 30.0f)).frame_time_s, 0.03333333) << "1.0f / 30.0f means a thirtieth";
+    EXPECT_EQ(Bvh(bvh({5}, {t_pose()}, 1.0f / 30.0f)).frame_time_s, 0.03333333)
+        << "1.0f / 30.0f means a thirtieth";
 }
 
 TEST_F(PoseFormats, TheSkeletonOfAFileIsThatOfTheLastPoseAndTheFeetStay) {

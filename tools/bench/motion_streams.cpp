@@ -10,6 +10,7 @@
 
 #include "client/client.h"
 #include "client/joint_file.h"
+#include "client/joint_row.h"
 
 namespace vfit::tools {
 

@@ -24,17 +24,14 @@ bool parse(std::string_view text, T& value) {
 
 }  // namespace
 
-CsvRows::CsvRows(std::string_view text, std::string file) : rest_(text), file_(std::move(file)) {
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-    if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
-}
+CsvRows::CsvRows(std::istream& in, std::string file) : in_(in), file_(std::move(file)) {}
 
 bool CsvRows::next() {
-    while (!rest_.empty()) {
-        const size_t end = rest_.find('\n');
-        std::string_view line = trimmed(rest_.substr(0, end));
-        rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
-        ++line_;
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    while (std::getline(in_, text_)) {
+        std::string_view line = text_;
+        if (++line_ == 1 && line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
+        line = trimmed(line);
         if (line.empty()) continue;
         cells_.clear();
         for (size_t comma = 0; comma != std::string_view::npos;) {
@@ -44,6 +41,7 @@ bool CsvRows::next() {
         }
         return true;
     }
+    if (in_.bad()) throw Failure(file_ + ": cannot be read");
     return false;
 }
 

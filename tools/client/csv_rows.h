@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <istream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,12 +12,14 @@ namespace vfit::tools {
 
 class CsvRows {
 public:
-    /// text must outlive the rows; file is its name in messages.
-    CsvRows(std::string_view text, std::string file);
+    /// A row is read when it is asked for, so that a stream may still be written. file is its name in
+    /// messages.
+    CsvRows(std::istream& in, std::string file);
 
     /// The next row that is not empty; false at the end.
     bool next();
     size_t size() const { return cells_.size(); }
+    /// Until the next row.
     std::string_view cell(size_t column) const { return cells_[column]; }
     /// Cells of a row that must have `wanted` of them.
     void check_size(size_t wanted) const;
@@ -29,8 +32,8 @@ public:
     [[noreturn]] void fail(size_t column, const std::string& fault) const;
 
 private:
-    std::string_view rest_;
-    std::string file_;
+    std::istream& in_;
+    std::string file_, text_;  // text_: the row
     size_t line_ = 0;
     std::vector<std::string_view> cells_;
 };

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "client/joint_file.h"
+#include "client/live_joints.h"
 #include "client/output.h"
 #include "client/pose_outputs.h"
 #include "client/progress.h"
@@ -138,16 +139,13 @@ vfit_result step_row(vfit_motion motion, const JointRow& row) {
                                  uint32_t(row.joints.size()), row.time_ns);
 }
 
-void play_joints(vfit_context context, const Options& options) {
-    const TrackOptions& track = options.track;
-    if (track.asked || track.joints != VFIT_TRACK_AUTO || track.user_map != VFIT_TRACK_AUTO)
-        throw WrongUsage(options.source +
-                         " holds the joints of one person: --joints, --user-map and --active have no choice");
-    const std::vector<JointRow> rows = read_joint_file(options.source);
+/// next(row) gives row after row; false: there is none.
+template <typename Next>
+void play_joints(vfit_context context, const Options& options, Next&& next) {
     const vfit_camera world = world_axes();
     Player player(context, options);
-    for (size_t i = 0; i < rows.size() && player.wants_more(); ++i)
-        player.play([&](vfit_motion motion) { return step_row(motion, rows[i]); }, world);
+    for (JointRow row; player.wants_more() && next(row);)
+        player.play([&](vfit_motion motion) { return step_row(motion, row); }, world);
     if (player.seen() == 0)
         throw Failure(options.source +
                       ": in no row can the trunk be placed: wanted are both shoulders, or NECK with PELVIS, "
@@ -155,12 +153,31 @@ void play_joints(vfit_context context, const Options& options) {
     player.finish();
 }
 
+void play_joint_file(vfit_context context, const Options& options) {
+    const std::vector<JointRow> rows = read_joint_file(options.source);
+    auto at = rows.begin();
+    play_joints(context, options, [&](JointRow& row) {
+        if (at == rows.end()) return false;
+        row = *at++;
+        return true;
+    });
+}
+
+void check_track_options(const Options& options) {
+    const TrackOptions& track = options.track;
+    if (track.asked || track.joints != VFIT_TRACK_AUTO || track.user_map != VFIT_TRACK_AUTO)
+        throw WrongUsage(options.source +
+                         " holds the joints of one person: --joints, --user-map and --active have no choice");
+}
+
 void motion(const Options& options) {
     const Context context = open_context();
-    if (is_joint_file(options.source))
-        play_joints(context.get(), options);
-    else
-        play_source(context.get(), options);
+    const bool live = options.source == "-";
+    if (!live && !is_joint_file(options.source)) return play_source(context.get(), options);
+    check_track_options(options);
+    if (!live) return play_joint_file(context.get(), options);
+    LiveJoints joints(std::cin);
+    play_joints(context.get(), options, [&](JointRow& row) { return joints.next(row); });
 }
 
 void add_outputs(Command& command, PoseOutputOptions& o) {
@@ -179,7 +196,8 @@ void add_motion(Command& app) {
     Command command = app.add_subcommand("motion", "Print the clean pose of each frame, or send it");
     auto o = std::make_shared<Options>();
     command
-        .add_option("source", o->source, "Recording folder, sensor URI, or a file of joints (docs/motion.md)")
+        .add_option("source", o->source,
+                    "Recording folder, sensor URI, file of joints, or - for joints from standard input")
         .required();
     command.add_flag("--raw", o->raw, "Without filter, limits, smoothing and foot planting");
     command.add_flag("--json", o->json, "Print JSON lines");
