@@ -1,6 +1,7 @@
 // A strict reader of BVH, and where a frame puts the joints: what other programs make of a file.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <sstream>
