@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <random>
 
 #include "client/client.h"
 
@@ -191,6 +192,36 @@ TEST_F(JointFile, AnotherUnitIsNamed) {
 
 TEST_F(JointFile, APersonBelowTheFloorIsNamed) {
     expect_words(fault(table("0,0,0.3,2,1,0,-0.6,2\n0.03,0,0.3,2,1,0,-0.6,2\n")), {"-0.6", "floor"});
+}
+
+TEST_F(JointFile, DamagedFilesGiveUsableRowsOrAFault) {
+    const std::string whole[] = {table("0,0.1,1.6,-2,0.9,0.2,0.9,-2\n0.03,0.1,1.6,-2,0.4,,,\n"), kinect2()};
+    constexpr std::string_view kBytes = "0123456789.,-+einfa\n\r \0\xff";
+    std::mt19937 bits(1);
+    size_t read_ones = 0, faults = 0;
+    for (int run = 0; run < 1000; ++run) {
+        std::string text = whole[run % 2];
+        for (size_t n = 1 + bits() % 2; n > 0 && !text.empty(); --n) {
+            const size_t at = bits() % text.size();
+            if (bits() % 3 == 0)
+                text.erase(at, bits() % 40);
+            else
+                text[at] = kBytes[bits() % kBytes.size()];
+        }
+        try {
+            const auto rows = read(text);
+            ++read_ones;
+            for (size_t i = 0; i < rows.size(); ++i) {
+                ASSERT_TRUE(i == 0 || rows[i].time_ns > rows[i - 1].time_ns) << text;
+                for (const vfit_joint& joint : rows[i].joints)
+                    for (const float v : joint.position) ASSERT_TRUE(std::isfinite(v)) << text;
+            }
+        } catch (const Failure&) {
+            ++faults;
+        }
+    }
+    EXPECT_GT(read_ones, 100u);
+    EXPECT_GT(faults, 100u);
 }
 
 TEST_F(JointFile, OnlyFilesOfTextAreTakenForJoints) {
