@@ -57,6 +57,12 @@ public:
         return *it;
     }
     double number(const char* key, double low, double high) const { return checked(at(key), key, low, high); }
+    /// false where it is missing.
+    bool flag(const char* key) const {
+        if (!has(key)) return false;
+        if (!at(key).is_boolean()) refuse(key, "is neither true nor false");
+        return at(key).get<bool>();
+    }
     double positive(const char* key, double high) const {
         const double x = number(key, 0.0, high);
         if (x == 0.0) refuse(key, "must be greater than 0");
@@ -112,8 +118,13 @@ void read_floor(const Fields& fields, const std::string& file, vfit_camera& came
         set_floor(camera, normal, floor.positive("distance_m", kHighest));
     } else if (fields.has("camera_height_m") && fields.has("tilt_deg")) {
         const double tilt = fields.number("tilt_deg", -90.0, 90.0) * kPi / 180.0;
-        set_floor(camera, {0.0, -std::cos(tilt), -std::sin(tilt)},
+        const double roll =
+            fields.has("roll_deg") ? fields.number("roll_deg", -180.0, 180.0) * kPi / 180.0 : 0.0;
+        set_floor(camera,
+                  {-std::cos(tilt) * std::sin(roll), -std::cos(tilt) * std::cos(roll), -std::sin(tilt)},
                   fields.positive("camera_height_m", kHighest));
+    } else if (fields.has("roll_deg")) {
+        fields.refuse("roll_deg", "tells the floor only together with \"camera_height_m\" and \"tilt_deg\"");
     }
 }
 
@@ -145,9 +156,11 @@ CameraFile read_camera_file(const std::filesystem::path& path) {
     out.camera.depth_unit_m = static_cast<float>(fields.positive("depth_unit_m", 1.0));
     if (in.fx <= 0 || in.fy <= 0 || out.camera.depth_unit_m <= 0)
         fail(VFIT_ERROR_DATA, file, ": a focal length or \"depth_unit_m\" is too small");
-    if (fields.has("segmented")) {
-        if (!fields.at("segmented").is_boolean()) fields.refuse("segmented", "is neither true nor false");
-        out.segmented = fields.at("segmented").get<bool>();
+    out.segmented = fields.flag("segmented");
+    out.mirrored = fields.flag("mirrored");
+    if (out.mirrored) {
+        in.cx = float(in.width - 1) - in.cx;
+        in.distortion[3] = -in.distortion[3];  // p2 is across
     }
     read_floor(fields, file, out.camera);
     return out;

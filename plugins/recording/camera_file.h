@@ -14,6 +14,7 @@ struct CameraFile {
     vfit_camera camera{};
     double fps = 30.0;
     bool segmented = false;
+    bool mirrored = false;  // the images are; intrinsics and camera are those of images turned back
 };
 
 /// Fails with VFIT_ERROR_DATA naming the field, with VFIT_ERROR_VERSION for a version of the future.

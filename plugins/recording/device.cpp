@@ -163,15 +163,30 @@ void* Device::pixels(vfit_frame handle, vfit_stream kind, uint32_t& row_stride) 
     return out;
 }
 
+namespace {
+
+/// Left for right.
+template <typename Pixel>
+void mirror(void* pixels, const vfit_intrinsics& image, uint32_t row_stride) {
+    for (uint32_t y = 0; y < image.height; ++y) {
+        auto* row = reinterpret_cast<Pixel*>(static_cast<uint8_t*>(pixels) + size_t(y) * row_stride);
+        std::reverse(row, row + image.width);
+    }
+}
+
+}  // namespace
+
 void Device::fill(vfit_frame handle, uint32_t frame) {
     const vfit_intrinsics& in = folder_.camera.intrinsics;
     uint32_t row_stride = 0;
     void* depth = pixels(handle, VFIT_STREAM_DEPTH, row_stride);
     png_.read_grey16(folder_.picture("depth", frame), in.width, in.height, depth, row_stride);
+    if (folder_.camera.mirrored) mirror<uint16_t>(depth, in, row_stride);
     if (has_user_map()) fill_user_map(handle, frame);
     if (folder_.has_color) {
         void* color = pixels(handle, VFIT_STREAM_COLOR, row_stride);
         png_.read_rgba8(folder_.picture("color", frame), in.width, in.height, color, row_stride);
+        if (folder_.camera.mirrored) mirror<uint32_t>(color, in, row_stride);
     }
     check(host_.frame_intrinsics(host_.self, handle, &in), "the intrinsics", frame);
     check(host_.frame_camera(host_.self, handle, &folder_.camera.camera), "the camera", frame);
@@ -184,8 +199,10 @@ void Device::fill_user_map(vfit_frame handle, uint32_t frame) {
     uint32_t row_stride = 0, depth_stride = 0;
     auto* users = static_cast<uint8_t*>(pixels(handle, VFIT_STREAM_USER_MAP, row_stride));
     const auto* depth = static_cast<const uint8_t*>(pixels(handle, VFIT_STREAM_DEPTH, depth_stride));
-    if (folder_.has_mask)
+    if (folder_.has_mask) {
         png_.read_grey8(folder_.picture("mask", frame), in.width, in.height, users, row_stride);
+        if (folder_.camera.mirrored) mirror<uint8_t>(users, in, row_stride);
+    }
     for (uint32_t y = 0; y < in.height; ++y) {
         uint8_t* row = users + size_t(y) * row_stride;
         const auto* depth_row = reinterpret_cast<const uint16_t*>(depth + size_t(y) * depth_stride);

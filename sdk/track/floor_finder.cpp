@@ -24,6 +24,7 @@ constexpr uint32_t kTries = 400;        // finds a floor of 5 % of the samples i
 constexpr int kWindow = 12;             // samples: the three of a try lie on one surface more often than not
 constexpr float kFewestShare = 0.012f;  // of the image: a strip below the feet
 constexpr uint32_t kFewest = 40;        // samples
+constexpr float kNarrowest_m = 1.2f;    // a table's corner or a person's back is smaller
 constexpr float kMostBelow = 0.3f;      // readings below the plane per reading on it
 constexpr uint32_t kBlock = 4;          // samples: what a shiny floor shows of itself lies so close together
 constexpr double kMemory = 0.9;         // of the last frame's sums: a third of a second at 30 Hz
@@ -124,6 +125,23 @@ float FloorFinder::score(const Plane& plane) const {
     return float(on) - float(below);
 }
 
+// How wide what is seen of the plane is, the way it is wider: four times the deviation from its middle.
+float FloorFinder::extent_m(const Plane& plane) const {
+    const float d = 1.0f / glm::length(plane), noise = kSigmas * kInverseDepthSigma * d;
+    const Plane a = plane * d;
+    float count = 0.0f;
+    Vec3 sum(0.0f), squares(0.0f);
+    for (size_t i = 0; i < inverse_.size(); ++i) {
+        const float inverse = inverse_[i], h = d * inverse - a.x * x_[i] - a.y * y_[i] - a.z;
+        if (inverse <= 0.0f || std::abs(h) > kUneven_m * inverse + noise) continue;
+        const Vec3 p = Vec3(x_[i], y_[i], 1.0f) / inverse;
+        sum += p, squares += p * p, count += 1.0f;
+    }
+    if (count == 0.0f) return 0.0f;
+    const Vec3 mean = sum / count, variance = squares / count - mean * mean;
+    return 4.0f * std::sqrt(std::max(0.0f, variance.x + variance.y + variance.z));
+}
+
 // A shiny floor shows the room mirrored below it, among its own readings: those are no evidence against it.
 // What is seen below a table is seen beside it.
 int32_t FloorFinder::below_beside(const Plane& plane) const {
@@ -179,7 +197,7 @@ FloorFinder::Fit FloorFinder::search(const Vec3& up, uint32_t tries) {
         Plane plane;
         if (!whole || !sums.solve(plane) || !plausible(plane, up)) continue;
         const float points = score(plane);
-        if (points > best.score) best = {plane, points};
+        if (points > best.score && extent_m(plane) > kNarrowest_m) best = {plane, points};
     }
     for (const float slack : {2.0f * kUneven_m, kUneven_m, kUneven_m}) {
         Sums sums;

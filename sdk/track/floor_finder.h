@@ -60,6 +60,7 @@ private:
     Fit search(const Vec3& up, uint32_t tries);
     bool worth_a_search(const Vec3& up, bool seen);
     float score(const Plane& plane) const;
+    float extent_m(const Plane& plane) const;
     int32_t below_beside(const Plane& plane) const;
     size_t gather(const Plane& plane, float slack_m, Sums& sums) const;
     uint32_t random(uint32_t below);

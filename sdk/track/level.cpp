@@ -13,6 +13,7 @@ namespace {
 constexpr double kDoubt_s = 2.0;  // without anybody, after which up is doubted
 // Logits. Upright people have 7 to 18, those on their side or head below 7, and 4 less than upright ones.
 constexpr float kPerson = 5.0f, kBetter = 3.0f;
+constexpr float kPartly = 2.0f;  // of somebody who is partly out of view, if no other way comes near
 constexpr uint32_t kAtFirst = 10, kNowAndThen = 15;  // images: all ways are tried on each; on one of so many
 constexpr uint32_t kEnough = 60;                     // images: two seconds
 constexpr float kLegs = 0.9f;  // hip to foot over thigh and shank: nobody sits with such legs
@@ -78,8 +79,11 @@ bool Level::miss(int64_t time_ns) {
 bool Level::compare(const Answers& person) {
     const auto best = std::max_element(person.begin(), person.end());
     const bool turn = *best > std::max(kPerson, person[0] + kBetter);
-    if (turn || (way_ % kTurns != 0 && person[0] > kPerson)) {
-        up_ = best_ = turned(up_, int(best - person.begin()));
+    const float others = *std::max_element(person.begin() + 1, person.end());
+    const bool is_up =
+        !turn && (person[0] > kPerson || (person[0] > kPartly && person[0] > others + kBetter));
+    if (turn || (is_up && way_ % kTurns != 0)) {
+        up_ = best_ = turned(up_, turn ? int(best - person.begin()) : 0);
         way_ = 0, agreed_ = 0, stood_ = 0, has_sole_ = false;
     }
     agreed_ += !turn && person[0] > kPerson;

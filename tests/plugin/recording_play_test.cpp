@@ -45,6 +45,39 @@ TEST_F(RecordingTest, APlainPathIsEnough) {
     sensor->close();
 }
 
+TEST_F(RecordingTest, MirroredImagesAreTurnedBack) {
+    record(1);
+    edit("camera.json", "\"fx\"", "\"mirrored\": true, \"fx\"");
+    edit("camera.json", "\"cx\": 15.5", "\"cx\": 14.5");
+    const Replay replay = play();
+    ASSERT_EQ(replay.frames.size(), 1u) << replay.message;
+    const DepthImage image = replay.frames[0]->depth_image();
+    for (uint32_t y = 0; y < kHeight; ++y)
+        for (uint32_t x = 0; x < kWidth; ++x)
+            ASSERT_EQ(image.depth[y * kWidth + x], depth_at(0, y * kWidth + kWidth - 1 - x));
+    EXPECT_FLOAT_EQ(image.camera.cx, float(kWidth - 1) - 14.5f);
+    edit("camera.json", "\"mirrored\": true", "\"mirrored\": 1");
+    EXPECT_TRUE(play().says("\"mirrored\" is neither true nor false"));
+}
+
+TEST_F(RecordingTest, ACameraMayBeRolled) {
+    record(1);
+    const std::string all = read("camera.json");
+    const size_t at = all.find("\"floor\"");
+    ASSERT_NE(at, std::string::npos);
+    const std::string before = all.substr(0, at), after = "}";
+    write("camera.json", before + R"("camera_height_m": 2.2, "tilt_deg": 30, "roll_deg": -25)" + after);
+    const Replay replay = play();
+    ASSERT_EQ(replay.frames.size(), 1u) << replay.message;
+    const Camera& camera = replay.frames[0]->camera;
+    EXPECT_EQ(camera.floor_state, VFIT_FLOOR_GIVEN);
+    EXPECT_NEAR(camera.floor_distance_m, 2.2f, 1e-5f);
+    EXPECT_NEAR(camera.tilt_rad(), 30.0f * kPi / 180.0f, 1e-5f);
+    EXPECT_NEAR(camera.roll_rad(), -25.0f * kPi / 180.0f, 1e-5f);
+    write("camera.json", before + R"("roll_deg": -25)" + after);
+    EXPECT_TRUE(play().says("roll_deg")) << play().message;
+}
+
 TEST_F(RecordingTest, StartAndCountChooseFrames) {
     record(9);
     const Replay replay = play([](Sensor& sensor) {

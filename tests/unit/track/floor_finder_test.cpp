@@ -108,6 +108,15 @@ TEST(FloorFinder, SeesAShinyFloorAmongTheMirroredRoom) {
     EXPECT_LT(degrees_off(camera, scene.camera), 1.0);
 }
 
+TEST(FloorFinder, ATableTopIsNoFloorWhereNoFloorIsInView) {
+    RoomScene scene;
+    scene.floor = false;
+    scene.stand(1.4f, 15, 0);
+    scene.things.push_back({{-0.4f, 0.0f, -2.0f}, {0.2f, 0.7f, -1.4f}});
+    Camera camera;
+    EXPECT_FALSE(find(scene, camera));
+}
+
 TEST(FloorFinder, LetsAFloorGoWhenAnotherSideIsUp) {
     RoomScene scene;
     scene.side_x = 1.2f;

@@ -59,6 +59,14 @@ TEST(Level, AWeakAnswerTurnsNothing) {
     EXPECT_FALSE(level.sure());
 }
 
+TEST(Level, AWeakAnswerThatStandsAloneIsBelievedOnAnotherTry) {
+    Level level;
+    level.miss(1), level.miss(1);  // the second of the other ways: upside down
+    EXPECT_FALSE(level.compare({2.5f, 0.0f, 1.0f, -3.0f}));
+    EXPECT_TRUE(level.compare({2.5f, -1.0f, -2.0f, -3.0f}));
+    EXPECT_LT(degrees_between(level.up(), Vec3(0, 1, 0)), 0.1);
+}
+
 TEST(Level, TriesEachSideOnceAndComesBack) {
     Level level;
     std::array<int, 4> tried{};
