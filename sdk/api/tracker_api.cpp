@@ -29,7 +29,7 @@ struct TrackerObject : ContextChild {
     vfit_track_source joints = VFIT_TRACK_AUTO, user_map = VFIT_TRACK_AUTO;
     std::unique_ptr<Perception> own;  // made when first needed
     std::vector<Body> in_camera;
-    std::string why_nobody;  // as JSON
+    std::string why_absent;  // as JSON
     ActivePerson active;
     vfit_joint_filter filter = VFIT_FILTER_AUTO;
     SteadyBodies steady;           // joints that are not the tracker's own
@@ -70,16 +70,16 @@ struct TrackerObject : ContextChild {
         perception().run(image, base->time_ns, own_map ? add_map(image, tracked) : nullptr, hints,
                          tracked.bodies);
         tracked.camera = image.camera;
-        if (tracked.bodies.empty()) say_why_nobody(tracked);
+        if (tracked.bodies.empty()) say_why_absent(tracked);
         in_camera = tracked.bodies;
         for (Body& body : tracked.bodies) body = to_world(body, tracked.camera);
         if (fit != VFIT_FIT_OFF) fit_bodies(image, tracked);
     }
-    void say_why_nobody(Frame& tracked) {
-        static const std::string key = "nobody";
-        why_nobody = '"';
-        why_nobody.append(text_of(own->why_nobody())).append(1, '"');
-        tracked.set_meta(key, why_nobody);
+    void say_why_absent(Frame& tracked) {
+        static const std::string key = "no_person";
+        why_absent = '"';
+        why_absent.append(text_of(own->why_absent())).append(1, '"');
+        tracked.set_meta(key, why_absent);
     }
     /// Moves bodies, as they are in_camera, to those that are fitted to the image.
     void fit_bodies(const DepthImage& image, Frame& tracked) {

@@ -31,6 +31,11 @@ Mat4 Camera::camera_from_world() const {
 
 float Camera::tilt_rad() const { return std::asin(glm::clamp(-floor_normal.z, -1.0f, 1.0f)); }
 
+Vec3 Camera::side_up() const {
+    const Vec3& n = floor_normal;
+    return std::abs(n.y) >= std::abs(n.x) ? Vec3(0, n.y > 0 ? 1 : -1, 0) : Vec3(n.x > 0 ? 1 : -1, 0, 0);
+}
+
 float Camera::roll_rad() const { return std::atan2(-floor_normal.x, -floor_normal.y); }
 
 namespace {

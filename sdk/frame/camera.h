@@ -28,6 +28,8 @@ struct Camera {
 
     float camera_height_m() const { return floor_distance_m; }
     float tilt_rad() const;  // > 0: looks down
+    /// The side of the image that is up: the image axis nearest to the floor's normal.
+    Vec3 side_up() const;
     float roll_rad() const;  // > 0: turned clockwise as the camera sees
 };
 

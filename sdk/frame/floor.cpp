@@ -1,7 +1,5 @@
 #include "frame/floor.h"
 
-#include <cmath>
-
 namespace vfit {
 
 namespace {
@@ -43,10 +41,6 @@ bool estimate_floor(Camera& camera, const Body& body) {
     if (!sole) return false;
     set_floor(camera, -glm::dot(*sole, up), 0.0f, 0.0f, VFIT_FLOOR_ESTIMATED);
     return true;
-}
-
-Vec3 side_up(const Vec3& up) {
-    return std::abs(up.y) >= std::abs(up.x) ? Vec3(0, up.y > 0 ? 1 : -1, 0) : Vec3(up.x > 0 ? 1 : -1, 0, 0);
 }
 
 Body to_world(const Body& body, const Camera& camera) { return carried(body, camera.world_from_camera()); }

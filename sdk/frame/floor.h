@@ -15,9 +15,6 @@ std::optional<Vec3> lowest_sole(const Body& body, const Vec3& up);
 /// False, and nothing changed, where no foot is seen below the camera.
 bool estimate_floor(Camera& camera, const Body& body);
 
-/// The side of the image that is up: the image axis nearest to the floor's normal, in camera space.
-Vec3 side_up(const Vec3& floor_normal);
-
 /// The body's positions and rotations carried from camera space to world space by the camera's floor.
 Body to_world(const Body& camera_space, const Camera& camera);
 /// And back.

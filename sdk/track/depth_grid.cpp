@@ -16,7 +16,7 @@ constexpr uint16_t kFewUnits = 10;
 
 // Of the noise that is measured: every so many rows, in units of depth_sigma_m.
 constexpr uint32_t kNoiseRows = 8, kNoiseBins = 128, kFewestTriples = 500;
-constexpr float kMostSpread = 4.0f;
+constexpr float kMaxSpread = 4.0f;
 constexpr float kQuantile = 0.75f, kQuantileSpread = 1.15f;  // |x| of a normal distribution
 
 /// One row of cells, out of kStride image rows. Arithmetic stays in 16 bits so that compilers use vectors.
@@ -88,8 +88,8 @@ void DepthGrid::measure_noise() {
         for (uint32_t x = 1; x + 1 < width_; ++x) {
             if (z[x - 1] == 0.0f || z[x] == 0.0f || z[x + 1] == 0.0f) continue;
             const float spread = std::abs(z[x - 1] - 2.0f * z[x] + z[x + 1]) / (2.45f * depth_sigma_m(z[x]));
-            if (spread >= kMostSpread) continue;  // an edge
-            ++bins[size_t(spread * (float(kNoiseBins) / kMostSpread))];
+            if (spread >= kMaxSpread) continue;  // an edge
+            ++bins[size_t(spread * (float(kNoiseBins) / kMaxSpread))];
             ++count;
         }
     }
@@ -97,7 +97,7 @@ void DepthGrid::measure_noise() {
     if (count < kFewestTriples) return;
     uint32_t bin = 0;
     for (uint32_t below = bins[0]; float(below) < kQuantile * float(count); below += bins[bin]) ++bin;
-    noise_ = std::min(1.0f, float(bin + 1) * (kMostSpread / float(kNoiseBins)) / kQuantileSpread);
+    noise_ = std::min(1.0f, float(bin + 1) * (kMaxSpread / float(kNoiseBins)) / kQuantileSpread);
 }
 
 void DepthGrid::run(const DepthImage& image) {

@@ -10,18 +10,19 @@ namespace vfit {
 
 namespace {
 
-constexpr double kDoubt_s = 2.0;  // without anybody, after which up is doubted
+constexpr double kDoubt_s = 2.0;  // without a person, after which up is doubted
 // Logits. Upright people have 7 to 18, those on their side or head below 7, and 4 less than upright ones.
 constexpr float kPerson = 5.0f, kBetter = 3.0f;
-constexpr float kPartly = 2.0f;  // of somebody who is partly out of view, if no other way comes near
+constexpr float kPartly = 2.0f;  // of a person who is partly out of view, if no other way comes near
 constexpr uint32_t kAtFirst = 10, kNowAndThen = 15;  // images: all ways are tried on each; on one of so many
 constexpr uint32_t kEnough = 60;                     // images: two seconds
-constexpr float kLegs = 0.9f;  // hip to foot over thigh and shank: nobody sits with such legs
+constexpr float kLegs = 0.9f;                        // hip to foot over thigh and shank: who sits has others
 constexpr float kStride_m = 0.5f;
 constexpr float kPressure = 0.35f;  // from the ankle to the ball of the foot: Winter 1995, 4 to 5 cm
 
-/// The way from the feet up to the centre of mass, zero where the body does not say. Whoever stands is in
-/// balance: whatever the posture, their centre of mass is above the middle of the pressure below their feet.
+/// The way from the feet up to the centre of mass, zero where the body does not say. A person who stands is
+/// in balance: whatever the posture, their centre of mass is above the middle of the pressure below their
+/// feet.
 Vec3 balance_of(const Body& b) {
     // Shares of mass: Winter 2009, table 4.1, each at a place between two joints.
     struct Part {

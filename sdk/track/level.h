@@ -22,10 +22,10 @@ public:
     /// People have confirmed it.
     bool sure() const { return agreed_ >= kSure; }
 
-    /// Nobody was found with up(). True where another way is to be tried on the same image; after the last
+    /// No person was found with up(). True where another way is to be tried on the same image; after the last
     /// one up() is what it was at first.
     bool miss(int64_t time_ns);
-    /// The network's answers (logits: it is a person) to somebody turned by up() and `k` quarters more. False
+    /// The network's answers (logits: it is a person) to a person turned by up() and `k` quarters more. False
     /// where that is no person as seen with up(); where another way is right, up() is that from now on.
     bool compare(const Answers& person);
     /// A body in camera space was found.
@@ -35,7 +35,7 @@ public:
     void reset() { *this = {}; }
 
     /// Puts the floor where people have stood: upright on the soles of their feet. Leaves it open until
-    /// somebody was seen.
+    /// a person was seen.
     void place(Camera& camera) const;
 
 private:
@@ -46,7 +46,7 @@ private:
     int way_ = 0;          // that is tried
     uint32_t misses_ = 0;  // images in a row, while not sure
     int64_t seen_ns_ = 0;
-    uint32_t stood_ = 0;            // images with somebody who stands upright, up to kEnough
+    uint32_t stood_ = 0;            // images with a person who stands upright, up to kEnough
     Vec3 axis_{0.0f}, sole_{0.0f};  // means: from the feet to the neck; of the lowest sole
     bool has_sole_ = false;
 };

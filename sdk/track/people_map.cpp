@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/clock.h"
-#include "frame/floor.h"
 #include "track/user_map.h"
 
 namespace vfit {
@@ -41,7 +40,7 @@ void PeopleMap::doubt_floor() {
 void PeopleMap::look(const DepthImage& image) {
     grid_.run(image);
     camera_ = image.camera;
-    const Vec3 up = side_up(camera_.floor_normal);
+    const Vec3 up = camera_.side_up();
     floor_ = &floors_[up.y < 0 ? 0 : up.y > 0 ? 2 : up.x < 0 ? 1 : 3];
     floor_seen_ = floor_->run(grid_, camera_);
     if (columns_ == grid_.width() && wanted_.size() == grid_.cells()) return;
@@ -223,18 +222,18 @@ std::span<const PersonRegion> PeopleMap::run(const DepthImage& image, int64_t ti
     return regions_;
 }
 
-Nobody PeopleMap::why_nobody() const {
+Absence PeopleMap::why_absent() const {
     size_t readings = 0, close = 0, wanted = 0;
     for (size_t i = 0; i < grid_.cells(); ++i) {
         const float z = grid_.depth()[i];
         readings += z > 0.0f, close += z > 0.0f && z < options_.farthest_m, wanted += wanted_[i] != 0;
     }
     const auto few = [&](size_t cells) { return double(cells) < kFewShare * double(grid_.cells()); };
-    return few(readings)      ? Nobody::kNoReadings
-           : few(close)       ? Nobody::kTooFar
-           : few(wanted)      ? Nobody::kBackgroundOnly
-           : regions_.empty() ? Nobody::kNoShape
-                              : Nobody::kNoPerson;
+    return few(readings)      ? Absence::kNoReadings
+           : few(close)       ? Absence::kTooFar
+           : few(wanted)      ? Absence::kBackgroundOnly
+           : regions_.empty() ? Absence::kNoShape
+                              : Absence::kNoPerson;
 }
 
 void PeopleMap::learn_background(const DepthImage& image) {

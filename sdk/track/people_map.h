@@ -45,8 +45,8 @@ struct PersonRegion {
     uint32_t out_of_view = 0;  // OutOfView
 };
 
-/// Why an image shows nobody.
-enum class Nobody {
+/// Why an image shows no person.
+enum class Absence {
     kNoReadings,      // the sensor saw nothing
     kTooFar,          // nothing within PeopleMapOptions::farthest_m
     kBackgroundOnly,  // nothing but the floor and what does not move
@@ -63,15 +63,15 @@ class PeopleMap {
 public:
     explicit PeopleMap(const PeopleMapOptions& options = {}) : options_(options) {}
 
-    /// Labels people, who stand as image.camera.floor_normal says: one byte a pixel of `users` (0: nobody,
+    /// Labels people, who stand as image.camera.floor_normal says: one byte a pixel of `users` (0: none,
     /// else the person's id). The regions stay valid until the next run. Does not allocate while images are
     /// no larger than the largest before.
     std::span<const PersonRegion> run(const DepthImage& image, int64_t time_ns, uint8_t* users);
 
     /// The image's camera with the floor, given or found (floor_state); the space of the regions' centres.
     const Camera& camera() const { return camera_; }
-    /// Why the last run has found nobody.
-    Nobody why_nobody() const;
+    /// Why the last run has found no person.
+    Absence why_absent() const;
     /// The floor was seen in the last frame.
     bool floor_seen() const { return floor_seen_; }
     /// It was found, and may be out of sight.

@@ -18,20 +18,20 @@ void Perception::reset() {
     level_.reset();
 }
 
-const char* text_of(Nobody why) {
+const char* text_of(Absence why) {
     switch (why) {
-        case Nobody::kNoReadings: return "the depth image has no readings";
-        case Nobody::kTooFar: return "nothing is within 6 m";
-        case Nobody::kBackgroundOnly: return "there is nothing but floor and background";
-        case Nobody::kNoShape: return "nothing in view has the size and shape of a person";
-        case Nobody::kNoPerson: return "what is in view does not look like a person";
+        case Absence::kNoReadings: return "the depth image has no readings";
+        case Absence::kTooFar: return "nothing is within 6 m";
+        case Absence::kBackgroundOnly: return "there is nothing but floor and background";
+        case Absence::kNoShape: return "nothing in view has the size and shape of a person";
+        case Absence::kNoPerson: return "what is in view does not look like a person";
     }
     return "";
 }
 
-Nobody Perception::why_nobody() const {
-    if (mapped_) return people_->why_nobody();
-    return targets_.empty() ? Nobody::kBackgroundOnly : Nobody::kNoPerson;
+Absence Perception::why_absent() const {
+    if (mapped_) return people_->why_absent();
+    return targets_.empty() ? Absence::kBackgroundOnly : Absence::kNoPerson;
 }
 
 std::span<const PersonRegion> Perception::map_people(const DepthImage& image, int64_t time_ns, uint8_t* map) {

@@ -13,7 +13,7 @@
 namespace vfit {
 
 /// For people to read.
-const char* text_of(Nobody why);
+const char* text_of(Absence why);
 
 class Perception {
 public:
@@ -31,7 +31,7 @@ public:
     /// The user map alone, for bodies that another tracker has found.
     std::span<const PersonRegion> map_people(const DepthImage& image, int64_t time_ns, uint8_t* map);
     /// Why the last run found no body. Of a user map that was given, no more than whether it has people.
-    Nobody why_nobody() const;
+    Absence why_absent() const;
     /// The people that run() has looked at.
     std::span<const TrackTarget> targets() const { return targets_; }
     void reset();
@@ -49,7 +49,7 @@ private:
     std::unique_ptr<PeopleMap> people_;
     Level level_;
     std::vector<TrackTarget> targets_;
-    int64_t floor_ns_ = 0;  // when the floor was seen or somebody stood on it
+    int64_t floor_ns_ = 0;  // when the floor was seen or a person stood on it
     bool mapped_ = false;   // the last image's people are from people_
 };
 

@@ -43,7 +43,7 @@ float distance_between(const SeenJoints& a, const SeenJoints& b) {
     return sum;
 }
 
-/// Cosine of the angle between the feet and where somebody with these sides faces; 0 where no foot says.
+/// Cosine of the angle between the feet and where a person with these sides faces; 0 where no foot says.
 float toes_ahead(const SeenJoints& joints, const Vec3& up) {
     const auto at = [&](int joint) { return joints[size_t(joint)].position; };
     const Vec3 left = at(VFIT_JOINT_LEFT_SHOULDER) - at(VFIT_JOINT_RIGHT_SHOULDER) + at(VFIT_JOINT_LEFT_HIP) -

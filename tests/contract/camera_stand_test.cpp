@@ -1,4 +1,4 @@
-// Cameras that stand on their sides or hang upside down, and images in which nobody is: what the built-in
+// Cameras that stand on their sides or hang upside down, and images without a person: what the built-in
 // tracker says of them.
 #include <cmath>
 
@@ -23,7 +23,7 @@ protected:
     struct Outcome {
         uint32_t bodies = 0;
         vfit_camera camera = vfit_camera_init();
-        std::string nobody;  // "": not said
+        std::string absence;  // "": not said
         std::vector<vfit_joint> joints;
     };
 
@@ -37,7 +37,7 @@ protected:
         if (out.bodies) out.joints = contract::joints_of(tracked, body.body_id);
         EXPECT_EQ(vfit_frame_camera(tracked, &out.camera), VFIT_OK);
         char text[256];
-        if (vfit_frame_meta(tracked, "nobody", text, sizeof text, nullptr) == VFIT_OK) out.nobody = text;
+        if (vfit_frame_meta(tracked, "no_person", text, sizeof text, nullptr) == VFIT_OK) out.absence = text;
         EXPECT_EQ(vfit_frame_release(tracked), VFIT_OK);
         return out;
     }
@@ -110,7 +110,7 @@ TEST_F(CameraStandTest, PeopleShowWhichSideOfTheImageIsUp) {
         ASSERT_EQ(vfit_tracker_reset(tracker), VFIT_OK);
         const Outcome seen = after(8, quarters);
         ASSERT_EQ(seen.bodies, 1u) << quarters;
-        EXPECT_EQ(seen.nobody, "");
+        EXPECT_EQ(seen.absence, "");
         EXPECT_EQ(seen.camera.floor_state, VFIT_FLOOR_ESTIMATED);
         EXPECT_NEAR(seen.camera.height_m, 1.0f, 0.05f) << quarters;
         const float off =
@@ -129,7 +129,7 @@ TEST_F(CameraStandTest, ARealWomanBeforeACameraOnItsSideIsFoundInTheFirstImage) 
     int frames = 0;
     for (vfit_frame frame{}; vfit_sensor_acquire(sensor, -1, &frame) == VFIT_OK; ++frames) {
         const Outcome seen = update(frame);
-        ASSERT_EQ(seen.bodies, 1u) << frames << ": " << seen.nobody;
+        ASSERT_EQ(seen.bodies, 1u) << frames << ": " << seen.absence;
         EXPECT_NEAR(std::abs(seen.camera.roll_rad), 1.5708f, 0.26f);
         const float stature = seen.joints[VFIT_JOINT_HEAD].position[1];
         EXPECT_TRUE(stature > 1.3f && stature < 1.8f) << stature;
@@ -139,7 +139,7 @@ TEST_F(CameraStandTest, ARealWomanBeforeACameraOnItsSideIsFoundInTheFirstImage) 
     EXPECT_EQ(vfit_sensor_close(sensor), VFIT_OK);
 }
 
-TEST_F(CameraStandTest, AFloorThatIsOutOfSightIsGivenUpWhenNobodyStandsOnIt) {
+TEST_F(CameraStandTest, AFloorThatIsOutOfSightIsGivenUpWhenNoPersonStandsOnIt) {
     ASSERT_EQ(after(8, 0).camera.floor_state, VFIT_FLOOR_ESTIMATED);
     const std::vector<uint16_t> board(640 * 480, 1000);
     Outcome last;
@@ -151,7 +151,7 @@ TEST_F(CameraStandTest, AFloorThatIsOutOfSightIsGivenUpWhenNobodyStandsOnIt) {
     EXPECT_EQ(after(8, 0).bodies, 1u);
 }
 
-TEST_F(CameraStandTest, SaysWhyNobodyIsFound) {
+TEST_F(CameraStandTest, SaysWhyNoPersonIsFound) {
     constexpr uint32_t kWidth = 320, kHeight = 240;
     std::vector<uint16_t> depth(kWidth * kHeight, 0);
     const auto see = [&](int images) {
@@ -160,7 +160,7 @@ TEST_F(CameraStandTest, SaysWhyNobodyIsFound) {
             out = update(depth, kWidth, kHeight, 290.0f);
             EXPECT_EQ(out.bodies, 0u);
         }
-        return out.nobody;
+        return out.absence;
     };
     EXPECT_EQ(see(1), "\"the depth image has no readings\"");
     std::fill(depth.begin(), depth.end(), uint16_t(7000));

@@ -50,7 +50,7 @@ constexpr Kind kKinds[] = {
     {"background cut away", {0.8f, 1.6f}, {-5, 5}, {0, 4}, FloorLook::kMatt, false, true},
     {"cut away, on its side", {0.8f, 1.6f}, {-5, 5}, {86, 94}, FloorLook::kMatt, false, true},
     {"cut away, upside down", {0.8f, 1.6f}, {-5, 5}, {175, 185}, FloorLook::kMatt, false, true},
-    {"somebody close at first", {0.8f, 1.5f}, {-5, 5}, {0, 4}, FloorLook::kMatt, false, false, true},
+    {"a person close at first", {0.8f, 1.5f}, {-5, 5}, {0, 4}, FloorLook::kMatt, false, false, true},
 };
 constexpr const char* kMotions[] = {"sway", "wave", "forward", "reach", "squat"};
 

@@ -16,7 +16,6 @@
 
 #include "bench/bench.h"
 #include "bench/user_map_scenes.h"
-#include "frame/floor.h"
 #include "track/people_map.h"
 
 namespace vfit::tools {
@@ -154,7 +153,7 @@ Figures play(const Scene& scene, const Options& o) {
         image.depth = shot.depth.data();
         image.camera = shot.camera;
         image.camera.floor_state = VFIT_FLOOR_DEFAULT;
-        image.camera.floor_normal = side_up(shot.camera.floor_normal);  // people tell (track/level.h)
+        image.camera.floor_normal = shot.camera.side_up();  // people tell (track/level.h)
         image.camera.floor_distance_m = 1.0f;
         users.resize(shot.depth.size());
         const std::clock_t start = std::clock();  // of the processor: other programs do not count

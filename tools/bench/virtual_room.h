@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "frame/camera.h"
+#include "bench/frames.h"
 
 namespace vfit::tools {
 

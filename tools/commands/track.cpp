@@ -77,9 +77,9 @@ Json floor_json(const vfit_camera& camera) {
 }
 
 /// Why the tracker found no body; null where it has not looked.
-Json why_nobody(vfit_frame tracked) {
+Json why_absent(vfit_frame tracked) {
     char text[256];
-    const bool said = vfit_frame_meta(tracked, "nobody", text, sizeof text, nullptr) == VFIT_OK;
+    const bool said = vfit_frame_meta(tracked, "no_person", text, sizeof text, nullptr) == VFIT_OK;
     return said ? Json::parse(text) : Json();
 }
 
@@ -96,10 +96,10 @@ std::string floor_text(const vfit_camera& camera) {
 
 void print(const Options& options, uint32_t index, vfit_frame tracked, const Json& bodies, double ms) {
     const vfit_camera camera = camera_of(tracked);
-    const Json why = bodies.empty() ? why_nobody(tracked) : Json();
+    const Json why = bodies.empty() ? why_absent(tracked) : Json();
     if (options.json) {
         Json line = {{"frame", index}, {"bodies", bodies}, {"floor", floor_json(camera)}};
-        if (!why.is_null()) line["nobody"] = why;
+        if (!why.is_null()) line["no_person"] = why;
         if (options.track.asked) line["active"] = active_body(tracked);
         line["ms"] = ms;
         print_line(line);

@@ -80,7 +80,7 @@ TEST(Level, TriesEachSideOnceAndComesBack) {
     EXPECT_EQ(level.up(), Vec3(0, -1, 0));
 }
 
-TEST(Level, OnceSureOnlySecondsWithoutAnybodyRaiseDoubt) {
+TEST(Level, OnceSureOnlySecondsWithoutAPersonRaiseDoubt) {
     Level level;
     for (int i = 0; i < 10; ++i) EXPECT_TRUE(level.compare(kUpright));
     ASSERT_TRUE(level.sure());
@@ -91,7 +91,7 @@ TEST(Level, OnceSureOnlySecondsWithoutAnybodyRaiseDoubt) {
     EXPECT_FALSE(level.sure());
 }
 
-TEST(Level, FloorLiesBelowWhoeverIsInBalance) {
+TEST(Level, FloorLiesBelowAPersonInBalance) {
     for (const float lean : {0.0f, 0.15f, 0.3f})
         for (const float roll : {0.0f, 20.0f, -35.0f, 180.0f}) {
             Camera truth;

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "frame/depth_image.h"
-#include "frame/floor.h"
 
 namespace vfit::testing {
 
@@ -51,7 +50,7 @@ struct RoomScene {
     DepthImage bare() const {
         DepthImage image{depth.data(), nullptr, camera};
         image.camera.floor_state = VFIT_FLOOR_DEFAULT;
-        image.camera.floor_normal = side_up(camera.floor_normal);
+        image.camera.floor_normal = camera.side_up();
         image.camera.floor_distance_m = 1.0f;
         return image;
     }

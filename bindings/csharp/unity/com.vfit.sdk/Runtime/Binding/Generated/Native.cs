@@ -146,9 +146,9 @@ namespace Vfit
 
         /// <summary>What the source says beside the pixels, one JSON document a key: "measures" (ground truth
         /// of a virtual person, {"stature_m": ...}), "contacts" ({"left": 0, "right": 1}), "index" (the
-        /// number of a recorded frame), "bodies" (true: the source tells its bodies, also when nobody is in
-        /// view); and of a frame in which the built-in tracker found no body, "nobody" ("nothing is within 6
-        /// m", ...: why). *length is the whole text's; no such key: VFIT_NOT_READY. [any]</summary>
+        /// number of a recorded frame), "bodies" (true: the source tells its bodies, also when no person is
+        /// in view); and of a frame in which the built-in tracker found no body, "no_person" ("nothing is
+        /// within 6 m", ...: why). *length is the whole text's; no such key: VFIT_NOT_READY. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_frame_meta(FrameId frame, byte* key, byte* buffer, uint capacity,
             uint* length);
