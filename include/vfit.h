@@ -369,9 +369,9 @@ VFIT_API vfit_result vfit_frame_intrinsics(vfit_frame frame, vfit_intrinsics* ou
 VFIT_API vfit_result vfit_frame_camera(vfit_frame frame, vfit_camera* out);                 /* [any] */
 /* What the source says beside the pixels, one JSON document a key: "measures" (ground truth of a virtual
  * person, {"stature_m": ...}), "contacts" ({"left": 0, "right": 1}), "index" (the number of a recorded
- * frame), "bodies" (true: the source tells its bodies, also when no person is in view); and of a frame in which
- * the built-in tracker found no body, "no_person" ("nothing is within 6 m", ...: why). *length is the whole
- * text's; no such key: VFIT_NOT_READY. [any] */
+ * frame), "bodies" (true: the source tells its bodies, also when no person is in view); and of a frame in
+ * which the built-in tracker found no body, "no_person" ("nothing is within 6 m", ...: why). *length is the
+ * whole text's; no such key: VFIT_NOT_READY. [any] */
 VFIT_API vfit_result vfit_frame_meta(vfit_frame frame, const char* key, char* buffer, uint32_t capacity,
                                      uint32_t* length);
 /* Copies into memory of the engine (mapped vertex buffer, NativeArray) at its own format and stride;
