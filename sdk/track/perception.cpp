@@ -9,6 +9,7 @@ namespace vfit {
 namespace {
 
 constexpr double kFloorKept_s = 2.0;
+constexpr int kMaxTries = 2 * Level::kTurns;  // of one image
 
 }  // namespace
 
@@ -82,7 +83,9 @@ void Perception::run(DepthImage& image, int64_t time_ns, uint8_t* map, std::span
     }
     const Camera unknown = image.camera;
     bool found = false;
-    for (bool again = true; again && !found;) {
+    // Two people who are turned against each other, as in a mirror on the floor, could go on for ever.
+    int tries = 0;
+    for (bool again = true; again && !found && tries < kMaxTries; ++tries) {
         image.camera = unknown;
         level_.place(image.camera);
         const Vec3 up = level_.up();
