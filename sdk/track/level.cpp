@@ -67,11 +67,16 @@ Vec3 Level::turned(const Vec3& up, int turns) {
 
 bool Level::miss(int64_t time_ns) {
     if (sure()) {
-        if (seconds_between(seen_ns_, time_ns) < kDoubt_s) return false;
-        agreed_ = 0, misses_ = 0;
+        const bool restarted = time_ns < seen_ns_;
+        if (!restarted && seconds_between(seen_ns_, time_ns) < kDoubt_s) return false;
+        agreed_ = 0, misses_ = 0, stood_ = 0;  // the camera may have been moved
     }
-    const bool all = misses_ < kAtFirst || misses_ % kNowAndThen == 0;
-    way_ = all && way_ < kTurns ? way_ + 1 : 0;
+    if (way_ == 0) {
+        all_ = weak_now_ || misses_ < kAtFirst || misses_ % kNowAndThen == 0;
+        if (!weak_now_) weak_ = 0;
+        weak_now_ = false;
+    }
+    way_ = all_ && way_ < kTurns ? way_ + 1 : 0;
     up_ = turned(best_, way_);
     misses_ += way_ == 0;
     return way_ != 0;
@@ -85,10 +90,19 @@ bool Level::compare(const Answers& person) {
         !turn && (person[0] > kPerson || (person[0] > kPartly && person[0] > others + kBetter));
     if (turn || (is_up && way_ % kTurns != 0)) {
         up_ = best_ = turned(up_, turn ? int(best - person.begin()) : 0);
-        way_ = 0, agreed_ = 0, stood_ = 0, has_sole_ = false;
+        agreed_ = 0, stood_ = 0, has_sole_ = false;
     }
     agreed_ += !turn && person[0] > kPerson;
-    return !turn && way_ % kTurns == 0;
+    if (turn || is_up) {
+        way_ = 0;
+        return is_up;
+    }
+    // Another way may show a person better. If none does, a weak answer has to do.
+    weak_now_ = way_ == 0 && weak_ < kAtFirst;
+    if (weak_now_ || way_ % kTurns != 0) return false;
+    ++weak_;
+    way_ = 0;
+    return true;
 }
 
 void Level::see(const Body& body, int64_t time_ns) {

@@ -1,6 +1,5 @@
-// Which way is up where no sensor tells: people stand upright, and the network knows an upright person from
-// one who lies on the side or stands on the head. Cameras hang under ceilings, stand on their sides, and
-// often see no floor.
+// Which way is up where no sensor tells. Many cameras are mounted on their side or upside down, and many see
+// no floor. People stand upright, and the network's answer is highest for a crop that shows them upright.
 #pragma once
 
 #include <array>
@@ -43,8 +42,11 @@ private:
 
     Vec3 up_{0, -1, 0}, best_{0, -1, 0};
     int agreed_ = 0;
-    int way_ = 0;          // that is tried
-    uint32_t misses_ = 0;  // images in a row, while not sure
+    int way_ = 0;            // that is tried
+    bool all_ = false;       // each way is tried on this image
+    bool weak_now_ = false;  // the answer to the first way was weak
+    uint32_t misses_ = 0;    // images in a row, while not sure
+    uint32_t weak_ = 0;      // images of a person with weak answers for every way
     int64_t seen_ns_ = 0;
     uint32_t stood_ = 0;            // images with a person who stands upright, up to kEnough
     Vec3 axis_{0.0f}, sole_{0.0f};  // means: from the feet to the neck; of the lowest sole

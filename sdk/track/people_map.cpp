@@ -25,6 +25,7 @@ void PeopleMap::reset() {
     forget_people();
     filled_ = {};
     time_ns_ = 0;
+    frames_ = 0;
 }
 
 void PeopleMap::forget_people() {

@@ -96,7 +96,7 @@ void Perception::run(DepthImage& image, int64_t time_ns, uint8_t* map, std::span
     // A floor that is out of sight stays as long as people stand on it.
     if (found || !people_ || !people_->floor_found() || people_->floor_seen())
         floor_ns_ = time_ns;
-    else if (seconds_between(floor_ns_, time_ns) > kFloorKept_s)
+    else if (time_ns < floor_ns_ || seconds_between(floor_ns_, time_ns) > kFloorKept_s)
         people_->doubt_floor();
     if (!found) {
         bodies.clear();

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "track/components.h"
 #include "track/user_map.h"
 
@@ -35,6 +37,23 @@ TEST(DepthGrid, IsAsFineAsTheImageAllowsAndNoWiderThanItsLimit) {
         const Vec3 p = grid.point(0, 0);
         EXPECT_NEAR(picture.camera.project(p).x, 0.5f * float(grid.stride() - 1), 1e-3f);
     }
+}
+
+TEST(DepthGrid, MeasuresTheNoiseOfItsSensor) {
+    DepthGrid grid;
+    std::mt19937 random(1);
+    for (const float sigma_mm : {4.0f, 12.0f, 200.0f}) {
+        Picture picture(320, 240, 0);
+        std::normal_distribution<float> noise(3500.0f, sigma_mm);
+        for (uint16_t& depth : picture.depth) depth = uint16_t(noise(random));
+        for (uint32_t y = 0; y < 240; ++y)  // an edge is no noise
+            for (uint32_t x = 100; x < 140; ++x) picture.at(x, y) = uint16_t(picture.at(x, y) - 1500);
+        grid.run(picture.view());
+        const float wanted_m = std::min(0.001f * sigma_mm, depth_sigma_m(3.5f));
+        EXPECT_NEAR(grid.sigma_m(3.5f), wanted_m, 0.25f * wanted_m) << sigma_mm;
+    }
+    grid.run(Picture(320, 240, 0).view());  // without readings nothing is known
+    EXPECT_EQ(grid.sigma_m(3.5f), depth_sigma_m(3.5f));
 }
 
 TEST(DepthGrid, IsNeverEmptyHoweverThinTheImage) {

@@ -98,6 +98,21 @@ TEST(Facing, FirmAnswersTurnThemInAThirdOfASecond) {
     EXPECT_TRUE(facing.away());
 }
 
+TEST(Facing, ToesSayWhereThePersonFaces) {
+    for (const float ahead : {-1.0f, 1.0f}) {
+        Facing facing;
+        for (int i = 0; i < 3; ++i) {
+            SeenJoints joints = standing();
+            for (const int foot : {VFIT_JOINT_LEFT_FOOT, VFIT_JOINT_RIGHT_FOOT}) {
+                const int toes = foot == VFIT_JOINT_LEFT_FOOT ? VFIT_JOINT_LEFT_TOES : VFIT_JOINT_RIGHT_TOES;
+                joints[size_t(toes)].position = joints[size_t(foot)].position + Vec3(0, 0, -0.13f * ahead);
+            }
+            facing.apply(0.0f, Vec3(0, -1, 0), joints);
+        }
+        EXPECT_EQ(facing.away(), ahead < 0.0f) << ahead;
+    }
+}
+
 TEST(Facing, AfterACutTheNextAnswerCounts) {
     Facing facing;
     SeenJoints joints;
