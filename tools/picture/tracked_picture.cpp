@@ -149,19 +149,28 @@ void draw_joint(Canvas& canvas, float x, float y, float radius, bool measured, c
 }
 
 /// The id on a round label, above the highest joint; with a ring where it is the active person's.
-void draw_id(Canvas& canvas, const JointPixels& at, uint32_t id, bool active) {
-    float x = 0.0f, y = 1e9f;
+void draw_id(Canvas& canvas, const JointPixels& at, const vfit_camera& camera, uint32_t id, bool active) {
+    // Up in the picture of a camera that stands in any way; of one that looks straight down, the picture's
+    // own.
+    float up_x = camera.floor_normal[0], up_y = camera.floor_normal[1];
+    const float length = std::hypot(up_x, up_y);
+    if (length < 0.2f)
+        up_x = 0.0f, up_y = -1.0f;
+    else
+        up_x /= length, up_y /= length;
+    float x = 0.0f, y = 0.0f, highest = -1e9f;
     for (const auto& p : at)
-        if (p && p->y < y) x = p->x, y = p->y;
-    if (y > 1e8f) return;
+        if (p && p->x * up_x + p->y * up_y > highest) x = p->x, y = p->y, highest = p->x * up_x + p->y * up_y;
+    if (highest == -1e9f) return;
     const auto& head = at[VFIT_JOINT_HEAD];
     const float above = 0.17f * (head ? head->per_metre : 0.0f);  // the top of the head and some air
     const std::string text = std::to_string(id);
     const Pen pen(canvas);
     const int height = pen.letters(), width = Canvas::text_width(text, height);
     const float radius = pen.label();
-    x = std::clamp(x, 2.0f * radius, float(canvas.width()) - 2.0f * radius);
-    y = std::max(y - above - radius, radius + 2.0f);
+    const float away = above + radius, room = radius + 2.0f;
+    x = std::clamp(x + up_x * away, 2.0f * radius, float(canvas.width()) - 2.0f * radius);
+    y = std::clamp(y + up_y * away, room, float(canvas.height()) - room);
     canvas.disc(x, y, radius + 2.0f, kDark);
     canvas.disc(x, y, radius, person_color(id));
     if (active) canvas.ring(x, y, radius + 2.0f * pen.unit, pen.line(), kBone);
@@ -184,7 +193,7 @@ void draw_person(Canvas& canvas, vfit_frame frame, uint32_t id, bool active, int
         if (on_a_bone[size_t(j.joint)])
             draw_joint(canvas, at[size_t(j.joint)]->x, at[size_t(j.joint)]->y, pen.dot(),
                        measured[size_t(j.joint)], person_color(id));
-    draw_id(canvas, at, id, active);
+    draw_id(canvas, at, camera_of(frame), id, active);
 }
 
 /// The caption, and what the dots mean.
