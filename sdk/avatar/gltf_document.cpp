@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "avatar/gltf_compression.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
@@ -96,10 +97,12 @@ std::string_view text_of(std::span<const std::byte> bytes, bool binary) {
 
 bool starts_with(const std::string& text, const char* start) { return text.rfind(start, 0) == 0; }
 
-/// Extensions that say nothing about where vertices are.
-bool is_harmless(const std::string& extension) {
-    for (const char* known : {"KHR_materials_", "KHR_texture_", "KHR_lights_", "KHR_xmp", "EXT_texture_",
-                              "MSFT_texture_", "EXT_lights_", "VRM", "KHR_mesh_quantization"})
+/// Extensions that are read, or say nothing about where vertices are.
+bool is_known(const std::string& extension) {
+    for (const char* known :
+         {"KHR_materials_", "KHR_texture_", "KHR_lights_", "KHR_xmp", "EXT_texture_", "MSFT_texture_",
+          "EXT_lights_", "VRM", "KHR_mesh_quantization", "KHR_draco_mesh_compression",
+          "EXT_meshopt_compression"})
         if (starts_with(extension, known)) return true;
     return false;
 }
@@ -166,10 +169,12 @@ void GltfDocument::parse(std::span<const std::byte> bytes, const std::string& fo
     if (!folder.empty()) own.folder = std::filesystem::absolute(folder).lexically_normal();
     loader.SetFsCallbacks(callbacks_of(own));
     std::string error, warning;
-    const auto size = static_cast<unsigned int>(bytes.size());
     const bool binary = std::memcmp(bytes.data(), "glTF", 4) == 0;
     if (nests_deeper(text_of(bytes, binary), kDeepest))
         fail(VFIT_ERROR_DATA, "no glTF file: its text is nested deeper than ", kDeepest, " levels");
+    const std::vector<std::byte> readable = with_stand_ins(bytes, text_of(bytes, binary), binary);
+    if (!readable.empty()) bytes = readable;
+    const auto size = static_cast<unsigned int>(bytes.size());
     bool read = false;
     try {
         read = binary ? loader.LoadBinaryFromMemory(&model_, &error, &warning,
@@ -189,14 +194,15 @@ void GltfDocument::parse(std::span<const std::byte> bytes, const std::string& fo
     if (!starts_with(model_.asset.version, "2"))
         fail(VFIT_ERROR_UNSUPPORTED, "glTF version ", model_.asset.version, "; 2.0 can be read");
     check_extensions();
+    decompress(model_);
     place_nodes();
 }
 
 void GltfDocument::check_extensions() const {
     for (const std::string& extension : model_.extensionsRequired)
-        if (!is_harmless(extension))
+        if (!is_known(extension))
             fail(VFIT_ERROR_UNSUPPORTED, "the file requires ", extension,
-                 ", which is not supported: export it without compression and extensions");
+                 ", which is not supported: export it without that extension");
 }
 
 void GltfDocument::place_nodes() {

@@ -314,8 +314,8 @@ TEST_F(Characters, ThatCannotBePosedAreRefusedWithTheReason) {
                                for (auto& n : m.nodes) n.skin = -1;
                            }),
                    VFIT_ERROR_DATA, "no skinned mesh");
-    expect_refused(changed("mixamo", [](auto& m) { m.extensionsRequired = {"KHR_draco_mesh_compression"}; }),
-                   VFIT_ERROR_UNSUPPORTED, "KHR_draco_mesh_compression");
+    expect_refused(changed("mixamo", [](auto& m) { m.extensionsRequired = {"EXT_mesh_gpu_instancing"}; }),
+                   VFIT_ERROR_UNSUPPORTED, "EXT_mesh_gpu_instancing");
     const std::string renamed =
         changed("mixamo", [&](auto& m) { node_named(m, "mixamorig:LeftArm").name = "Ast 7"; });
     expect_refused(renamed, VFIT_ERROR_DATA, "leftUpperArm");
