@@ -33,6 +33,38 @@ bool speaks_of(const std::string& name, std::initializer_list<const char*> words
                        [&](const char* word) { return low.find(word) != std::string::npos; });
 }
 
+/// Of a bone's axes, which may have any length, and may be sheared by scales above it.
+Quat rotation_of(Mat3 axes, const std::string& name) {
+    for (int c = 0; c < 3; ++c) {
+        const float length = glm::length(axes[c]);
+        if (length < 1e-12f) fail(VFIT_ERROR_DATA, "the bone \"", name, "\" is scaled to nothing");
+        axes[c] /= length;
+    }
+    if (glm::determinant(axes) < 0.0f)
+        fail(VFIT_ERROR_UNSUPPORTED, "the bone \"", name, "\" is mirrored by a negative scale");
+    // Right angles again: the first axis stays, the second one stays in its plane with the first.
+    axes[1] -= glm::dot(axes[0], axes[1]) * axes[0];
+    const float length = glm::length(axes[1]);
+    if (length < 1e-3f) fail(VFIT_ERROR_DATA, "the bone \"", name, "\" is scaled to a plane");
+    axes[1] /= length;
+    axes[2] = glm::cross(axes[0], axes[1]);
+    return glm::normalize(glm::quat_cast(axes));
+}
+
+/// The first bone that turns below a scale with another share along each axis; -1: there is none.
+int sheared_bone(const GltfDocument& document, const CharacterRig& rig) {
+    constexpr float kRounding = 1e-3f;  // of files that were written with single precision
+    for (size_t i = 0; i < rig.bones.size(); ++i) {
+        const int above = document.parent(rig.bones[i].node);
+        if (above < 0) continue;
+        const Mat3 axes(document.node_worlds()[size_t(above)]);
+        const Vec3 lengths(glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]));
+        const float longest = std::max({lengths.x, lengths.y, lengths.z});
+        if (std::min({lengths.x, lengths.y, lengths.z}) < (1.0f - kRounding) * longest) return int(i);
+    }
+    return -1;
+}
+
 CharacterRig make_character_rig(const GltfDocument& document, const HumanoidMap& map, const Mat4& from_file) {
     std::vector<bool> used(document.model().nodes.size(), false);
     for (const tinygltf::Skin& skin : document.model().skins)
@@ -58,15 +90,7 @@ CharacterRig make_character_rig(const GltfDocument& document, const HumanoidMap&
         bone.parent = parent < 0 ? -1 : rig.of_node[size_t(parent)];
         bone.bone = humanoid[size_t(node)];
         bone.rest_head = bone.rest_tail = Vec3(world[3]);
-        Mat3 axes(world);
-        for (int c = 0; c < 3; ++c) {
-            const float length = glm::length(axes[c]);
-            if (length < 1e-12f) fail(VFIT_ERROR_DATA, "the bone \"", bone.name, "\" is scaled to nothing");
-            axes[c] /= length;
-        }
-        if (glm::determinant(axes) < 0.0f)
-            fail(VFIT_ERROR_UNSUPPORTED, "the bone \"", bone.name, "\" is mirrored by a negative scale");
-        bone.rest_rotation = glm::normalize(glm::quat_cast(axes));
+        bone.rest_rotation = rotation_of(Mat3(world), bone.name);
         bone.node = node;
         bone.is_twist = bone.bone < 0 && speaks_of(bone.name, {"twist", "roll"});
         rig.of_node[size_t(node)] = int(rig.bones.size());
@@ -482,6 +506,10 @@ Character load_character(const GltfDocument& document, const std::string& own_ma
     out.from_file = glm::scale(Mat4(1.0f), Vec3(scale)) * upright_from_file(document, map);
     CharacterRig rig = make_character_rig(document, map, out.from_file);
     Gatherer(document, rig, out.from_file, out).run();
+    if (const int bone = sheared_bone(document, rig); bone >= 0)
+        out.notes.push_back(text("the bone \"", rig.bones[size_t(bone)].name,
+                                 "\" hangs below a scale that differs along its axes: the skin keeps its "
+                                 "form at rest here, but an engine that turns the file's own nodes shears it"));
     if (!document.model().animations.empty()) out.notes.push_back("animations are ignored");
 
     Mesh& rest = out.source.rest;

@@ -125,6 +125,7 @@ void draw(vfit_avatar avatar, const std::string& path) {
     RenderView view;
     view.target = 0.5f * (low + high);
     view.eye = view.target + glm::vec3(0.8f, 0.25f, 2.4f) * (high.y - low.y);
+    step_back_to_show({mesh}, view);
     render({mesh}, view).write_png(path);
 }
 

@@ -120,6 +120,7 @@ Canvas draw_dressed(const std::vector<RenderMesh>& meshes, const glm::vec3& cent
     view.eye = {kDistance * std::sin(yaw), kEyeHeight, kDistance * std::cos(yaw)};
     view.target = {0.0f, kTargetHeight, 0.0f};
     view.fov_y_rad = 0.43f;
+    step_back_to_show(moved, view);
     return render(moved, view);
 }
 

@@ -1,5 +1,6 @@
 #include "picture/render.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <thread>
@@ -129,6 +130,16 @@ public:
         return glm::normalize(forward_ + right_ * ((x - half_width_) * s) - up_ * ((y - half_height_) * s));
     }
     const vec3& eye() const { return eye_; }
+    /// How much closer the eye may come along its line of sight before the point leaves the picture; below
+    /// zero: how far it has to step back.
+    float room(const vec3& point) const {
+        constexpr float kMargin = 0.04f;  // of the picture, on each side
+        const vec3 to_point = point - eye_;
+        const float s = (1.0f - 2.0f * kMargin) * tangent_ / half_height_;
+        const float across = std::abs(glm::dot(to_point, right_)) / (s * half_width_);
+        const float along = std::abs(glm::dot(to_point, up_)) / (s * half_height_);
+        return glm::dot(to_point, forward_) - std::max(across, along);
+    }
 
 private:
     vec3 eye_, forward_, right_, up_;
@@ -147,6 +158,14 @@ vec3 trace(const Scene& scene, const RenderView& view, const vec3& eye, const ve
 }
 
 }  // namespace
+
+void step_back_to_show(const std::vector<RenderMesh>& meshes, RenderView& view) {
+    const Camera camera(view);
+    float room = 0.0f;
+    for (const RenderMesh& mesh : meshes)
+        for (const vec3& p : mesh.positions) room = std::min(room, camera.room(p));
+    view.eye += room * glm::normalize(view.target - view.eye);
+}
 
 Canvas render(const std::vector<RenderMesh>& meshes, const RenderView& view) {
     const Scene scene(meshes);
