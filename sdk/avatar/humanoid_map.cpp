@@ -16,7 +16,7 @@ struct NamedBone {
     int bone;          // of the left where it has a side
 };
 
-// Unity, VRoid, Mixamo, Unreal, 3ds Max Biped, Rigify, MakeHuman.
+// Unity, VRoid, Mixamo, Unreal, 3ds Max Biped, Source, Rigify, MakeHuman, Daz, Reallusion, SMPL, CMU.
 constexpr NamedBone kNames[] = {
     {"hips", VFIT_BONE_HIPS},
     {"hip", VFIT_BONE_HIPS},
@@ -35,6 +35,7 @@ constexpr NamedBone kNames[] = {
     {"collarbone", VFIT_BONE_LEFT_SHOULDER},
     {"upperarm", VFIT_BONE_LEFT_UPPER_ARM},
     {"uparm", VFIT_BONE_LEFT_UPPER_ARM},
+    {"shldr", VFIT_BONE_LEFT_UPPER_ARM},
     {"arm", VFIT_BONE_LEFT_UPPER_ARM},
     {"lowerarm", VFIT_BONE_LEFT_LOWER_ARM},
     {"forearm", VFIT_BONE_LEFT_LOWER_ARM},
@@ -58,7 +59,7 @@ constexpr NamedBone kNames[] = {
     {"ball", VFIT_BONE_LEFT_TOES},
 };
 
-/// "mixamorig:LeftUpLeg" to {"left", "up", "leg"}; numbers are dropped.
+/// "mixamorig:LeftUpLeg" to {"left", "up", "leg"}, "LShoulder" to {"l", "shoulder"}; numbers are dropped.
 std::vector<std::string> words_of(const std::string& name) {
     std::vector<std::string> words;
     std::string word;
@@ -67,10 +68,13 @@ std::vector<std::string> words_of(const std::string& name) {
         word.clear();
     };
     const size_t colon = name.rfind(':');
+    const std::string own = colon == std::string::npos ? name : name.substr(colon + 1);
     bool was_lower = false;
-    for (const char c : colon == std::string::npos ? name : name.substr(colon + 1)) {
-        const auto u = static_cast<unsigned char>(c);
-        if (!std::isalpha(u) || (std::isupper(u) && was_lower)) finish();
+    for (size_t i = 0; i < own.size(); ++i) {
+        const auto u = static_cast<unsigned char>(own[i]);
+        const bool begins_word =
+            was_lower || (i + 1 < own.size() && std::islower(static_cast<unsigned char>(own[i + 1])));
+        if (!std::isalpha(u) || (std::isupper(u) && begins_word)) finish();
         was_lower = std::islower(u) != 0;
         if (std::isalpha(u)) word += char(std::tolower(u));
     }
@@ -80,7 +84,7 @@ std::vector<std::string> words_of(const std::string& name) {
 
 bool is_prefix(const std::string& word) {
     for (const char* known : {"j", "bip", "mixamorig", "def", "c", "cc", "base", "bone", "jnt", "joint",
-                              "rig", "skeleton", "armature", "bind"})
+                              "rig", "skeleton", "armature", "bind", "valve", "biped", "character", "bend"})
         if (word == known) return true;
     return false;
 }
@@ -162,6 +166,30 @@ void read_names(const GltfDocument& document, HumanoidMap& map) {
     }
 }
 
+/// Rigs whose names are those of joints: the one above an elbow is the upper arm, whatever it is called, and
+/// so is that above a knee the thigh. Where both sides hang on it, it is of the trunk.
+void find_upper_limbs(HumanoidMap& map) {
+    const auto at = [&](int bone) -> int& { return map.node[size_t(bone)]; };
+    struct Limb {
+        int upper, lower, end, other_lower, shoulder;
+    };
+    for (const Limb& limb :
+         {Limb{VFIT_BONE_LEFT_UPPER_ARM, VFIT_BONE_LEFT_LOWER_ARM, VFIT_BONE_LEFT_HAND,
+               VFIT_BONE_RIGHT_LOWER_ARM, VFIT_BONE_LEFT_SHOULDER},
+          Limb{VFIT_BONE_RIGHT_UPPER_ARM, VFIT_BONE_RIGHT_LOWER_ARM, VFIT_BONE_RIGHT_HAND,
+               VFIT_BONE_LEFT_LOWER_ARM, VFIT_BONE_RIGHT_SHOULDER},
+          Limb{VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_LEFT_FOOT,
+               VFIT_BONE_RIGHT_LOWER_LEG, -1},
+          Limb{VFIT_BONE_RIGHT_UPPER_LEG, VFIT_BONE_RIGHT_LOWER_LEG, VFIT_BONE_RIGHT_FOOT,
+               VFIT_BONE_LEFT_LOWER_LEG, -1}}) {
+        if (at(limb.upper) >= 0 || at(limb.lower) < 0 || at(limb.end) < 0) continue;
+        const int node = map.tree.parent(at(limb.lower)), other = at(limb.other_lower);
+        if (node < 0 || (other >= 0 && map.tree.is_above(node, other))) continue;
+        at(limb.upper) = node;
+        if (limb.shoulder >= 0 && at(limb.shoulder) == node) at(limb.shoulder) = -1;
+    }
+}
+
 /// Limbs and head whose names say nothing: each bone is the main child of the one above it.
 void find_limbs(HumanoidMap& map) {
     const auto at = [&](int bone) -> int& { return map.node[size_t(bone)]; };
@@ -182,6 +210,20 @@ void find_limbs(HumanoidMap& map) {
     below(VFIT_BONE_HEAD, VFIT_BONE_NECK);
 }
 
+/// Where neither neck nor head is named: what goes on from where the arms meet, up to the first fork or end.
+void find_head(HumanoidMap& map) {
+    const auto at = [&](int bone) -> int& { return map.node[size_t(bone)]; };
+    const std::array arms = {at(VFIT_BONE_LEFT_UPPER_ARM), at(VFIT_BONE_RIGHT_UPPER_ARM)};
+    if (at(VFIT_BONE_NECK) >= 0 || at(VFIT_BONE_HEAD) >= 0 || arms[0] < 0 || arms[1] < 0) return;
+    int node = map.tree.common(arms[0], arms[1]);
+    if (node >= 0) node = map.tree.main_child(node, arms);
+    if (node < 0) return;
+    const int first = node;
+    while (map.tree.child_count(node) == 1) node = map.tree.main_child(node);
+    at(VFIT_BONE_HEAD) = node;
+    if (node != first) at(VFIT_BONE_NECK) = first;
+}
+
 /// By what lies between: hips are what trunk and legs have in common, the spine is between hips and neck.
 void find_trunk(HumanoidMap& map) {
     const auto at = [&](int bone) -> int& { return map.node[size_t(bone)]; };
@@ -197,6 +239,10 @@ void find_trunk(HumanoidMap& map) {
     std::vector<int> chain;
     for (int node = tree.parent(top); node >= 0 && node != hips; node = tree.parent(node))
         chain.insert(chain.begin(), node);
+    // The trunk ends where the arms meet; what follows is the neck.
+    const int arm = at(VFIT_BONE_LEFT_UPPER_ARM);
+    for (; !chain.empty() && arm >= 0 && !tree.is_above(chain.back(), arm); chain.pop_back())
+        if (top == at(VFIT_BONE_HEAD)) at(VFIT_BONE_NECK) = chain.back();
     if (chain.empty()) return;
     at(VFIT_BONE_SPINE) = chain.front();
     if (chain.size() > 1) at(VFIT_BONE_CHEST) = chain[chain.size() > 2 ? chain.size() / 2 : 1];
@@ -284,7 +330,9 @@ HumanoidMap find_humanoid(const GltfDocument& document, const std::string& own_m
     map.tree = HumanoidTree(document, map.node);
     if (map.kind == CharacterKind::gltf) {
         read_names(document, map);
+        find_upper_limbs(map);
         find_limbs(map);
+        find_head(map);
         find_trunk(map);
         hang_ends(document, map);
     }

@@ -35,12 +35,19 @@ int HumanoidTree::common(int a, int b) const {
     return a;
 }
 
-int HumanoidTree::main_child(int node) const {
+int HumanoidTree::main_child(int node) const { return main_child(node, {}); }
+
+int HumanoidTree::main_child(int node, std::span<const int> beside) const {
     int best = -1;
     for (const int child : nodes_)
-        if (parent(child) == node && (best < 0 || height_[size_t(child)] > height_[size_t(best)]))
+        if (parent(child) == node && (best < 0 || height_[size_t(child)] > height_[size_t(best)]) &&
+            std::none_of(beside.begin(), beside.end(), [&](int other) { return is_above(child, other); }))
             best = child;
     return best;
+}
+
+size_t HumanoidTree::child_count(int node) const {
+    return size_t(std::count_if(nodes_.begin(), nodes_.end(), [&](int n) { return parent(n) == node; }));
 }
 
 void HumanoidTree::hang(int node, int parent) {

@@ -26,6 +26,9 @@ public:
     int common(int a, int b) const;
     /// Of a node's children the one with the longest chain of nodes below it; -1: it has none.
     int main_child(int node) const;
+    /// The same of those that are above none of these.
+    int main_child(int node, std::span<const int> beside) const;
+    size_t child_count(int node) const;
     /// From now on the node, and all below it, hangs on `parent`, which is not below it.
     void hang(int node, int parent);
 

@@ -116,7 +116,6 @@ TEST_F(JointFile, WhatIsNoStreamOfJointsIsToldWhatIsWanted) {
     expect_words(fault(""), {"empty", "time_s"});
     expect_words(fault("\n \n"), {"empty"});
     expect_words(fault("hello, world\n"), {"line 1", "'hello'", "time_s", "Kinect v2"});
-    expect_words(fault("HIERARCHY\nROOT Hips\n"), {"BVH", "virtual:bvh="});
     expect_words(fault("1,2,3\n"), {"line 1", "has 3", "101 columns"});
     expect_words(fault("TIME_S,HEAD_x,HEAD_y,HEAD_z\n"), {"'TIME_S'"});
     expect_words(fault(kHeader), {"no row"});

@@ -28,8 +28,6 @@ std::vector<JointRow> read_table(CsvRows& rows) {
 std::vector<JointRow> read_rows(CsvRows& rows) {
     if (is_joint_table(rows)) return read_table(rows);
     if (is_kinect2(rows)) return read_kinect2(rows);
-    if (rows.cell(0) == "HIERARCHY")
-        rows.fail("this is a BVH file; the virtual person plays those of CMU: virtual:bvh=PATH");
     rows.fail("no known stream of joints: wanted is " + std::string(kWanted) + "; this line has " +
               std::to_string(rows.size()) + " and begins with '" + std::string(rows.cell(0).substr(0, 40)) +
               "'");

@@ -3,6 +3,9 @@
 #include <chrono>
 #include <iostream>
 
+#include "client/bvh_file.h"
+#include "client/bvh_joints.h"
+#include "client/files.h"
 #include "client/joint_file.h"
 #include "client/live_joints.h"
 #include "client/output.h"
@@ -15,7 +18,8 @@ namespace vfit::tools {
 namespace {
 
 struct Options {
-    std::string source;
+    std::string source, bone_map;
+    float scale = 0.0f;  // 0: not given
     bool raw = false, json = false;
     uint32_t frames = 0;  // 0: all
     TrackOptions track;
@@ -154,7 +158,12 @@ void play_joints(vfit_context context, const Options& options, Next&& next) {
 }
 
 void play_joint_file(vfit_context context, const Options& options) {
-    const std::vector<JointRow> rows = read_joint_file(options.source);
+    const std::vector<JointRow> rows =
+        is_bvh_file(options.source)
+            ? read_bvh_joints(
+                  context, options.source,
+                  {options.bone_map.empty() ? std::string() : read_text(options.bone_map), options.scale})
+            : read_joint_file(options.source);
     auto at = rows.begin();
     play_joints(context, options, [&](JointRow& row) {
         if (at == rows.end()) return false;
@@ -173,6 +182,8 @@ void check_track_options(const Options& options) {
 void motion(const Options& options) {
     const Context context = open_context();
     const bool live = options.source == "-";
+    if ((options.scale > 0.0f || !options.bone_map.empty()) && (live || !is_bvh_file(options.source)))
+        throw WrongUsage(options.source + " is no BVH file: --scale and --bone-map are for these");
     if (!live && !is_joint_file(options.source)) return play_source(context.get(), options);
     check_track_options(options);
     if (!live) return play_joint_file(context.get(), options);
@@ -197,11 +208,15 @@ void add_motion(Command& app) {
     auto o = std::make_shared<Options>();
     command
         .add_option("source", o->source,
-                    "Recording folder, sensor URI, file of joints, or - for joints from standard input")
+                    "Recording folder, sensor URI, file of joints, BVH file, or - for joints from standard input")
         .required();
     command.add_flag("--raw", o->raw, "Without filter, limits, smoothing and foot planting");
     command.add_flag("--json", o->json, "Print JSON lines");
     command.add_option("--frames", o->frames, "Stop after so many frames").positive();
+    command.add_option("--scale", o->scale, "Of a BVH file: metres in a unit of it (default: by the stature)")
+        .positive();
+    command.add_option("--bone-map", o->bone_map,
+                       "Of a BVH file: JSON file {\"hips\": \"name of a joint\", ...}");
     add_outputs(command, o->outputs);
     add_track_options(command, o->track);
     command.callback([o] { motion(*o); });

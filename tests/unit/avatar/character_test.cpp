@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <random>
 
 #include "avatar/avatar.h"
@@ -32,9 +33,14 @@ TEST(HumanoidMap, KnowsTheNamesThatCommonToolsGive) {
           Case{"ball_r", VFIT_BONE_RIGHT_TOES}, Case{"Head", VFIT_BONE_HEAD}, Case{"pelvis", VFIT_BONE_HIPS},
           Case{"J_Bip_C_Hips", VFIT_BONE_HIPS}, Case{"L_armUpper0001_bind_JNT", VFIT_BONE_LEFT_UPPER_ARM},
           Case{"R_legLower0001_bind_JNT", VFIT_BONE_RIGHT_LOWER_LEG},
+          Case{"ValveBiped.Bip01_R_Forearm", VFIT_BONE_RIGHT_LOWER_ARM},
+          Case{"Bip001 L Clavicle", VFIT_BONE_LEFT_SHOULDER}, Case{"lThighBend", VFIT_BONE_LEFT_UPPER_LEG},
+          Case{"rShldrBend", VFIT_BONE_RIGHT_UPPER_ARM}, Case{"lForeArm", VFIT_BONE_LEFT_LOWER_ARM},
+          Case{"CC_Base_L_Upperarm", VFIT_BONE_LEFT_UPPER_ARM}, Case{"LShoulder", VFIT_BONE_LEFT_SHOULDER},
+          Case{"Character1_RightUpLeg", VFIT_BONE_RIGHT_UPPER_LEG}, Case{"wrist.R", VFIT_BONE_RIGHT_HAND},
           // Not these:
           Case{"HeadTop_End", -1}, Case{"LeftHandThumb1", -1}, Case{"upperarm_twist_01_l", -1},
-          Case{"Hand", -1}, Case{"LeftHead", -1}, Case{"", -1}, Case{"arm_l_r", -1}})
+          Case{"LHipJoint", -1}, Case{"Hand", -1}, Case{"LeftHead", -1}, Case{"", -1}, Case{"arm_l_r", -1}})
         EXPECT_EQ(bone_of_name(c.name), c.bone) << c.name;
 }
 
@@ -114,6 +120,173 @@ TEST(Character, BonesAreFoundByTheirPlacesWhereNamesSayNothing) {
     EXPECT_EQ(hung(character, VFIT_BONE_RIGHT_LOWER_ARM).first, "arm_joint_R__2_");
     EXPECT_EQ(hung(character, VFIT_BONE_LEFT_UPPER_LEG).first, "leg_joint_L_1");
     EXPECT_EQ(hung(character, VFIT_BONE_RIGHT_FOOT).first, "leg_joint_R_3");
+}
+
+/// A skeleton of nodes alone, and which of them are bones.
+class NamedRig {
+public:
+    explicit NamedRig(std::initializer_list<std::pair<const char*, const char*>> nodes) {
+        nlohmann::json json;
+        json["asset"]["version"] = "2.0";
+        std::map<std::string, size_t> index;
+        for (const auto& [name, parent] : nodes) {
+            index[name] = json["nodes"].size();
+            json["nodes"].push_back({{"name", name}});
+            json["skins"][0]["joints"].push_back(index[name]);
+            if (*parent) json["nodes"][index.at(parent)]["children"].push_back(index[name]);
+        }
+        const std::string text = json.dump();
+        const GltfDocument document(std::as_bytes(std::span(text.data(), text.size())));
+        const HumanoidMap map = find_humanoid(document, "");
+        for (size_t b = 0; b < size_t(kBoneCount); ++b)
+            if (map.node[b] >= 0) names_[b] = document.node_name(map.node[b]);
+    }
+    const std::string& operator[](int bone) const { return names_[size_t(bone)]; }
+
+private:
+    std::array<std::string, kBoneCount> names_;
+};
+
+TEST(HumanoidMap, OfJointsTheOneAboveAnElbowIsTheUpperArm) {
+    // SMPL.
+    const NamedRig rig({{"Pelvis", ""},
+                        {"L_Hip", "Pelvis"},
+                        {"L_Knee", "L_Hip"},
+                        {"L_Ankle", "L_Knee"},
+                        {"L_Foot", "L_Ankle"},
+                        {"R_Hip", "Pelvis"},
+                        {"R_Knee", "R_Hip"},
+                        {"R_Ankle", "R_Knee"},
+                        {"R_Foot", "R_Ankle"},
+                        {"Spine1", "Pelvis"},
+                        {"Spine2", "Spine1"},
+                        {"Spine3", "Spine2"},
+                        {"Neck", "Spine3"},
+                        {"Head", "Neck"},
+                        {"L_Collar", "Spine3"},
+                        {"L_Shoulder", "L_Collar"},
+                        {"L_Elbow", "L_Shoulder"},
+                        {"L_Wrist", "L_Elbow"},
+                        {"L_Hand", "L_Wrist"},
+                        // And a side without a collar bone, as Kinect's.
+                        {"ShoulderRight", "Spine3"},
+                        {"ElbowRight", "ShoulderRight"},
+                        {"WristRight", "ElbowRight"}});
+    EXPECT_EQ(rig[VFIT_BONE_LEFT_SHOULDER], "L_Collar");
+    EXPECT_EQ(rig[VFIT_BONE_LEFT_UPPER_ARM], "L_Shoulder");
+    EXPECT_EQ(rig[VFIT_BONE_LEFT_HAND], "L_Wrist");
+    EXPECT_EQ(rig[VFIT_BONE_RIGHT_SHOULDER], "");
+    EXPECT_EQ(rig[VFIT_BONE_RIGHT_UPPER_ARM], "ShoulderRight");
+    EXPECT_EQ(rig[VFIT_BONE_LEFT_UPPER_LEG], "L_Hip");
+    EXPECT_EQ(rig[VFIT_BONE_RIGHT_FOOT], "R_Ankle");
+    EXPECT_EQ(rig[VFIT_BONE_HIPS], "Pelvis");
+    EXPECT_EQ(rig[VFIT_BONE_SPINE], "Spine1");
+}
+
+TEST(HumanoidMap, AHeadThatIsCalledSpineIsFoundAboveTheArms) {
+    // Rigify's deforming bones.
+    const NamedRig rig({{"DEF-spine", ""},
+                        {"DEF-pelvis.L", "DEF-spine"},
+                        {"DEF-thigh.L", "DEF-spine"},
+                        {"DEF-thigh.L.001", "DEF-thigh.L"},
+                        {"DEF-shin.L", "DEF-thigh.L.001"},
+                        {"DEF-foot.L", "DEF-shin.L"},
+                        {"DEF-thigh.R", "DEF-spine"},
+                        {"DEF-shin.R", "DEF-thigh.R"},
+                        {"DEF-foot.R", "DEF-shin.R"},
+                        {"DEF-spine.001", "DEF-spine"},
+                        {"DEF-spine.002", "DEF-spine.001"},
+                        {"DEF-spine.003", "DEF-spine.002"},
+                        {"DEF-breast.L", "DEF-spine.003"},
+                        {"DEF-shoulder.L", "DEF-spine.003"},
+                        {"DEF-upper_arm.L", "DEF-shoulder.L"},
+                        {"DEF-upper_arm.L.001", "DEF-upper_arm.L"},
+                        {"DEF-forearm.L", "DEF-upper_arm.L.001"},
+                        {"DEF-hand.L", "DEF-forearm.L"},
+                        {"DEF-shoulder.R", "DEF-spine.003"},
+                        {"DEF-upper_arm.R", "DEF-shoulder.R"},
+                        {"DEF-forearm.R", "DEF-upper_arm.R"},
+                        {"DEF-hand.R", "DEF-forearm.R"},
+                        {"DEF-spine.004", "DEF-spine.003"},
+                        {"DEF-spine.005", "DEF-spine.004"},
+                        {"DEF-spine.006", "DEF-spine.005"},
+                        {"DEF-jaw", "DEF-spine.006"},
+                        {"DEF-eye.L", "DEF-spine.006"}});
+    EXPECT_EQ(rig[VFIT_BONE_HEAD], "DEF-spine.006");
+    EXPECT_EQ(rig[VFIT_BONE_NECK], "DEF-spine.004");
+    EXPECT_EQ(rig[VFIT_BONE_UPPER_CHEST], "DEF-spine.003");
+    EXPECT_EQ(rig[VFIT_BONE_SPINE], "DEF-spine.001");
+    EXPECT_EQ(rig[VFIT_BONE_HIPS], "DEF-spine");
+    EXPECT_EQ(rig[VFIT_BONE_LEFT_UPPER_ARM], "DEF-upper_arm.L");
+    EXPECT_EQ(rig[VFIT_BONE_LEFT_UPPER_LEG], "DEF-thigh.L");
+}
+
+TEST(HumanoidMap, BonesThatBendAndTwistInHalvesAreOneLimb) {
+    // Daz Genesis 8.
+    const NamedRig rig({{"hip", ""},
+                        {"pelvis", "hip"},
+                        {"lThighBend", "pelvis"},
+                        {"lThighTwist", "lThighBend"},
+                        {"lShin", "lThighTwist"},
+                        {"lFoot", "lShin"},
+                        {"lToe", "lFoot"},
+                        {"rThighBend", "pelvis"},
+                        {"rThighTwist", "rThighBend"},
+                        {"rShin", "rThighTwist"},
+                        {"rFoot", "rShin"},
+                        {"abdomenLower", "hip"},
+                        {"abdomenUpper", "abdomenLower"},
+                        {"chestLower", "abdomenUpper"},
+                        {"chestUpper", "chestLower"},
+                        {"lCollar", "chestUpper"},
+                        {"lShldrBend", "lCollar"},
+                        {"lShldrTwist", "lShldrBend"},
+                        {"lForearmBend", "lShldrTwist"},
+                        {"lForearmTwist", "lForearmBend"},
+                        {"lHand", "lForearmTwist"},
+                        {"rCollar", "chestUpper"},
+                        {"rShldrBend", "rCollar"},
+                        {"rForearmBend", "rShldrBend"},
+                        {"rHand", "rForearmBend"},
+                        {"neckLower", "chestUpper"},
+                        {"neckUpper", "neckLower"},
+                        {"head", "neckUpper"}});
+    EXPECT_EQ(rig[VFIT_BONE_HIPS], "hip");
+    EXPECT_EQ(rig[VFIT_BONE_SPINE], "abdomenLower");
+    EXPECT_EQ(rig[VFIT_BONE_LEFT_UPPER_LEG], "lThighBend");
+    EXPECT_EQ(rig[VFIT_BONE_RIGHT_LOWER_LEG], "rShin");
+    EXPECT_EQ(rig[VFIT_BONE_LEFT_SHOULDER], "lCollar");
+    EXPECT_EQ(rig[VFIT_BONE_LEFT_UPPER_ARM], "lShldrBend");
+    EXPECT_EQ(rig[VFIT_BONE_LEFT_LOWER_ARM], "lForearmBend");
+    EXPECT_EQ(rig[VFIT_BONE_HEAD], "head");
+    EXPECT_EQ(rig[VFIT_BONE_NECK], "neckLower");
+    EXPECT_EQ(rig[VFIT_BONE_UPPER_CHEST], "chestUpper");
+}
+
+TEST(Character, AScaleThatDiffersAlongItsAxesIsSaidAndShearsNothing) {
+    EXPECT_TRUE(load(TinyCharacter()).notes.empty());
+    TinyCharacter tiny;
+    // The spine is scaled: all above it stands and turns below that scale.
+    tiny.json["nodes"][1]["scale"] = {1, 1.3, 1};
+    tiny.json["nodes"][3]["rotation"] = {0, 0, std::sin(0.2), std::cos(0.2)};
+    const Character character = load(tiny);
+    ASSERT_FALSE(character.notes.empty());
+    EXPECT_NE(character.notes.back().find("differs along its axes"), std::string::npos);
+    for (const AvatarBone& bone : character.source.bones)
+        EXPECT_NEAR(glm::length(bone.rest_rotation), 1.0f, 1e-5f) << bone.name;
+    // Turned, the forearm is as long as it stands at rest.
+    Avatar avatar(character.source, AvatarDesc());
+    Pose pose;
+    pose.hips_position = avatar.skeleton().offset[VFIT_BONE_HIPS];
+    avatar.pose(pose, *Jobs::own(0));
+    const auto length = [&] {
+        return glm::distance(avatar.joints().at(VFIT_JOINT_LEFT_ELBOW),
+                             avatar.joints().at(VFIT_JOINT_LEFT_WRIST));
+    };
+    const float straight = length();
+    pose.rotation[VFIT_BONE_LEFT_UPPER_ARM] = glm::angleAxis(-0.5f * kPi, Vec3(0, 0, 1));
+    avatar.pose(pose, *Jobs::own(0));
+    EXPECT_NEAR(length(), straight, 1e-4f);
 }
 
 TEST(Character, HipsAreWhatTrunkAndLegsHaveInCommon) {
