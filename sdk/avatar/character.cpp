@@ -18,6 +18,7 @@ namespace {
 constexpr size_t kMostVertices = size_t(4) << 20, kMostIndices = 6 * kMostVertices;
 constexpr float kLeastStature_m = 0.3f, kMostStature_m = 4.0f;
 constexpr float kLeastWeight = 1e-4f;
+constexpr float kSamePlace_m = 1e-3f;
 
 /// The file's nodes as rig bones: those that a skin names, and the humanoid ones.
 struct CharacterRig {
@@ -466,8 +467,16 @@ void find_tails(AvatarSource& source) {
             Vec3 sum(0.0f), middle(0.0f);
             int count = 0;
             bool has_middle = false;
-            for (const AvatarBone& child : source.bones) {
-                if (child.parent != int(i)) continue;
+            // Bones that start where the hand does are parts of it.
+            std::vector<uint8_t> is_palm(source.bones.size(), 0);
+            is_palm[i] = 1;
+            for (size_t c = i + 1; c < source.bones.size(); ++c) {
+                const AvatarBone& child = source.bones[c];
+                if (child.parent < 0 || !is_palm[size_t(child.parent)]) continue;
+                if (glm::distance(child.rest_head, bone.rest_head) < kSamePlace_m) {
+                    is_palm[c] = 1;
+                    continue;
+                }
                 sum += child.rest_head;
                 ++count;
                 if (!speaks_of(child.name, {"middle", "finger3"})) continue;
@@ -507,9 +516,10 @@ Character load_character(const GltfDocument& document, const std::string& own_ma
     CharacterRig rig = make_character_rig(document, map, out.from_file);
     Gatherer(document, rig, out.from_file, out).run();
     if (const int bone = sheared_bone(document, rig); bone >= 0)
-        out.notes.push_back(text("the bone \"", rig.bones[size_t(bone)].name,
-                                 "\" hangs below a scale that differs along its axes: the skin keeps its "
-                                 "form at rest here, but an engine that turns the file's own nodes shears it"));
+        out.notes.push_back(
+            text("the bone \"", rig.bones[size_t(bone)].name,
+                 "\" hangs below a scale that differs along its axes: the skin keeps its "
+                 "form at rest here, but an engine that turns the file's own nodes shears it"));
     if (!document.model().animations.empty()) out.notes.push_back("animations are ignored");
 
     Mesh& rest = out.source.rest;

@@ -99,10 +99,9 @@ bool starts_with(const std::string& text, const char* start) { return text.rfind
 
 /// Extensions that are read, or say nothing about where vertices are.
 bool is_known(const std::string& extension) {
-    for (const char* known :
-         {"KHR_materials_", "KHR_texture_", "KHR_lights_", "KHR_xmp", "EXT_texture_", "MSFT_texture_",
-          "EXT_lights_", "VRM", "KHR_mesh_quantization", "KHR_draco_mesh_compression",
-          "EXT_meshopt_compression"})
+    for (const char* known : {"KHR_materials_", "KHR_texture_", "KHR_lights_", "KHR_xmp", "EXT_texture_",
+                              "MSFT_texture_", "EXT_lights_", "VRM", "KHR_mesh_quantization",
+                              "KHR_draco_mesh_compression", "EXT_meshopt_compression"})
         if (starts_with(extension, known)) return true;
     return false;
 }

@@ -42,10 +42,10 @@ void check_counts(std::span<const unsigned char> bytes, size_t index_count, size
     const bool is_sequential = header.encoder_method == draco::MESH_SEQUENTIAL_ENCODING;
     uint8_t traversal = 0;
     uint32_t vertices = 0, faces = 0;
-    const bool read = is_sequential ? draco::DecodeVarint(&faces, &buffer) &&
-                                          draco::DecodeVarint(&vertices, &buffer)
-                                    : buffer.Decode(&traversal) && draco::DecodeVarint(&vertices, &buffer) &&
-                                          draco::DecodeVarint(&faces, &buffer);
+    const bool read = is_sequential
+                          ? draco::DecodeVarint(&faces, &buffer) && draco::DecodeVarint(&vertices, &buffer)
+                          : buffer.Decode(&traversal) && draco::DecodeVarint(&vertices, &buffer) &&
+                                draco::DecodeVarint(&faces, &buffer);
     if (!read) damaged(what, "it is cut");
     if (3 * size_t(faces) != index_count)
         damaged(what, text("it has ", faces, " triangles, the file says ", index_count, " indices"));

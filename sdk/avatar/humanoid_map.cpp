@@ -173,15 +173,14 @@ void find_upper_limbs(HumanoidMap& map) {
     struct Limb {
         int upper, lower, end, other_lower, shoulder;
     };
-    for (const Limb& limb :
-         {Limb{VFIT_BONE_LEFT_UPPER_ARM, VFIT_BONE_LEFT_LOWER_ARM, VFIT_BONE_LEFT_HAND,
-               VFIT_BONE_RIGHT_LOWER_ARM, VFIT_BONE_LEFT_SHOULDER},
-          Limb{VFIT_BONE_RIGHT_UPPER_ARM, VFIT_BONE_RIGHT_LOWER_ARM, VFIT_BONE_RIGHT_HAND,
-               VFIT_BONE_LEFT_LOWER_ARM, VFIT_BONE_RIGHT_SHOULDER},
-          Limb{VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_LEFT_FOOT,
-               VFIT_BONE_RIGHT_LOWER_LEG, -1},
-          Limb{VFIT_BONE_RIGHT_UPPER_LEG, VFIT_BONE_RIGHT_LOWER_LEG, VFIT_BONE_RIGHT_FOOT,
-               VFIT_BONE_LEFT_LOWER_LEG, -1}}) {
+    for (const Limb& limb : {Limb{VFIT_BONE_LEFT_UPPER_ARM, VFIT_BONE_LEFT_LOWER_ARM, VFIT_BONE_LEFT_HAND,
+                                  VFIT_BONE_RIGHT_LOWER_ARM, VFIT_BONE_LEFT_SHOULDER},
+                             Limb{VFIT_BONE_RIGHT_UPPER_ARM, VFIT_BONE_RIGHT_LOWER_ARM, VFIT_BONE_RIGHT_HAND,
+                                  VFIT_BONE_LEFT_LOWER_ARM, VFIT_BONE_RIGHT_SHOULDER},
+                             Limb{VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_LEFT_FOOT,
+                                  VFIT_BONE_RIGHT_LOWER_LEG, -1},
+                             Limb{VFIT_BONE_RIGHT_UPPER_LEG, VFIT_BONE_RIGHT_LOWER_LEG, VFIT_BONE_RIGHT_FOOT,
+                                  VFIT_BONE_LEFT_LOWER_LEG, -1}}) {
         if (at(limb.upper) >= 0 || at(limb.lower) < 0 || at(limb.end) < 0) continue;
         const int node = map.tree.parent(at(limb.lower)), other = at(limb.other_lower);
         if (node < 0 || (other >= 0 && map.tree.is_above(node, other))) continue;

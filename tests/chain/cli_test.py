@@ -553,6 +553,29 @@ class Contract(unittest.TestCase):
             for row, frame in zip(frames, printed):  # the legs of the last frame, which are 1 cm longer
                 self.assertLess(math.dist(row[:3], [100 * v for v in frame["root"]]), 1.5)
             self.assertLess(math.dist(frames[-1][:3], [100 * v for v in printed[-1]["root"]]), 0.01)
+            again = lines(self, "motion", path, "--json")
+            self.assertEqual(len(again), 31)
+            for bone, q in printed[-1]["bones"].items():
+                if bone.endswith(("Foot", "Toes")):  # a BVH file ends at the ankle's own end
+                    continue
+                dot = abs(sum(a * b for a, b in zip(q, again[-1]["bones"][bone])))
+                self.assertGreater(dot, math.cos(math.radians(2.5)), bone)
+            half = lines(self, "motion", path, "--json", "--scale", "0.005")
+            self.assertAlmostEqual(half[-1]["root"][0], again[-1]["root"][0] / 2, delta=0.02)
+            text = path.read_text()
+            for bad, words in (
+                (text[:-20], ("the file ends", "frame 30 of 31")),
+                (text.replace("Left", "Steuerbord"), ("leftUpperLeg", "bone map", "--nodes")),
+                (text.replace("Frame Time: 0", "Frame Time: nan0"), ("frame time", "nan0")),
+            ):
+                path.write_text(bad)
+                self.check_failure(run("motion", path, "--json"), str(path), *words)
+            path.write_text(text.replace("Left", "Steuerbord"))
+            told = run("motion", path, "--nodes")
+            self.assertEqual(told.returncode, 0, told.stderr)
+            self.assertIn("\n      SteuerbordLowerLeg\n", told.stdout)
+            self.assertEqual(json.loads(told.stdout.split("Its nodes")[0])["leftUpperLeg"], "")
+            self.assertEqual(run("motion", table, "--scale", "1").returncode, 2)
             run("motion", table, "--bvh", path, "--bvh-rate", "60")
             self.assertEqual(len(bvh_file(path)[2]), 61)
 

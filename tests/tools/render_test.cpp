@@ -11,7 +11,8 @@ RenderMesh bar(const glm::vec3& from, const glm::vec3& to) {
     RenderMesh mesh;
     mesh.color = {1.0f, 0.1f, 0.1f};
     for (const glm::vec3& end : {from, to})
-        for (const glm::vec3 side : {glm::vec3(0, 0.1f, 0), glm::vec3(0, 0, 0.1f), glm::vec3(0, -0.1f, -0.1f)})
+        for (const glm::vec3 side :
+             {glm::vec3(0, 0.1f, 0), glm::vec3(0, 0, 0.1f), glm::vec3(0, -0.1f, -0.1f)})
             mesh.positions.push_back(end + side), mesh.normals.push_back(glm::normalize(side));
     for (const uint32_t i : {0u, 1u, 3u, 1u, 4u, 3u, 1u, 2u, 4u, 2u, 5u, 4u, 2u, 0u, 5u, 0u, 3u, 5u})
         mesh.indices.push_back(i);

@@ -4,9 +4,11 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <concepts>
 #include <fstream>
 #include <glm/gtc/matrix_transform.hpp>
 #include <iomanip>
+#include <limits>
 
 #include "client/client.h"
 #include "client/files.h"
@@ -24,9 +26,11 @@ struct ChannelName {
     const char* name;
     Channel channel;
 };
-constexpr ChannelName kChannels[] = {{"xposition", Channel::x},      {"yposition", Channel::y},
-                                     {"zposition", Channel::z},      {"xrotation", Channel::turn_x},
-                                     {"yrotation", Channel::turn_y}, {"zrotation", Channel::turn_z}};
+constexpr ChannelName kChannels[] = {{"Xposition", Channel::x},      {"Yposition", Channel::y},
+                                     {"Zposition", Channel::z},      {"Xrotation", Channel::turn_x},
+                                     {"Yrotation", Channel::turn_y}, {"Zrotation", Channel::turn_z}};
+
+std::string name_of(Channel channel) { return kChannels[size_t(channel)].name; }
 
 std::string lower(std::string_view word) {
     std::string out(word);
@@ -66,19 +70,24 @@ public:
         const std::string_view word = next();
         if (lower(word) != lower(wanted)) fail(found(word) + " where " + wanted + " is due");
     }
-    float number(const std::string& what) {
+    double number(const std::string& what) {
+        return number([&] { return what; });
+    }
+    /// what() is asked where there is a fault alone: there may be millions of numbers.
+    template <typename What>
+    double number(const What& what)
+        requires std::invocable<What>
+    {
         const std::string_view word = next();
-        if (word.empty()) fail("the file ends where " + what + " is due");
-        float value = 0.0f;
+        if (word.empty()) fail("the file ends where " + what() + " is due");
+        double value = 0.0;
         const char* start = word.data() + (word[0] == '+' ? 1 : 0);
         const auto [end, error] = std::from_chars(start, word.data() + word.size(), value);
-        if (error == std::errc::result_out_of_range && end == word.data() + word.size()) {
-            // Too small for a float is as good as zero; too large is not.
-            if (std::abs(std::strtod(std::string(word).c_str(), nullptr)) < 1.0) return 0.0f;
-        } else if (error == std::errc() && end == word.data() + word.size() && std::isfinite(value)) {
-            return value;
-        }
-        fail(what + " is '" + std::string(word.substr(0, 40)) + "', no finite number");
+        const bool fits =
+            std::abs(value) <= double(std::numeric_limits<float>::max());  // not a number does not
+        if (error != std::errc() || end != word.data() + word.size() || !fits)
+            fail(what() + " is '" + std::string(word.substr(0, 40)) + "', no finite number");
+        return value;
     }
     size_t whole(const std::string& what, size_t max) {
         const std::string_view word = next();
@@ -108,7 +117,8 @@ private:
 
 void read_offset(Words& words, BvhJoint& joint) {
     words.expect("OFFSET");
-    for (int axis = 0; axis < 3; ++axis) joint.offset[axis] = words.number("an offset of " + joint.name);
+    for (int axis = 0; axis < 3; ++axis)
+        joint.offset[axis] = float(words.number("an offset of " + joint.name));
 }
 
 void read_channels(Words& words, BvhFile& file, BvhJoint& joint) {
@@ -118,10 +128,11 @@ void read_channels(Words& words, BvhFile& file, BvhJoint& joint) {
     for (size_t c = 0; c < count; ++c) {
         const std::string_view word = words.next();
         const auto known = std::find_if(std::begin(kChannels), std::end(kChannels),
-                                        [&](const ChannelName& n) { return n.name == lower(word); });
+                                        [&](const ChannelName& n) { return lower(n.name) == lower(word); });
         if (known == std::end(kChannels))
-            words.fail(Words::found(word) + " is no channel; known are Xposition to Zposition and Xrotation "
-                                            "to Zrotation");
+            words.fail(Words::found(word) +
+                       " is no channel; known are Xposition to Zposition and Xrotation "
+                       "to Zrotation");
         joint.channels.push_back(known->channel);
     }
     file.values_per_frame += count;
@@ -131,14 +142,15 @@ void read_channels(Words& words, BvhFile& file, BvhJoint& joint) {
 void read_tree(Words& words, BvhFile& file) {
     std::vector<int> open;  // the joints whose brackets are open
     do {
-        const std::string word = lower(words.next());
+        const std::string_view found = words.next();
+        const std::string word = lower(found);
         if (word == "}" && !open.empty()) {
             open.pop_back();
             continue;
         }
         const bool is_end = word == "end", is_root = word == "root";
         if (is_root ? !open.empty() : (!is_end && word != "joint") || open.empty())
-            words.fail(Words::found(word) + " where " + (open.empty() ? "ROOT" : "JOINT, End Site or }") +
+            words.fail(Words::found(found) + " where " + (open.empty() ? "ROOT" : "JOINT, End Site or }") +
                        " is due");
         if (file.joints.size() >= kMaxJoints)
             words.fail("more than " + std::to_string(kMaxJoints) + " joints");
@@ -166,14 +178,15 @@ void read_motion(Words& words, BvhFile& file) {
     if (file.values_per_frame == 0) words.fail("no joint has a channel");
     words.expect("Frame");
     words.expect("Time:");
-    file.frame_time_s = double(words.number("the frame time"));
+    file.frame_time_s = words.number("the frame time");
     if (!(file.frame_time_s > 0.0)) words.fail("the frame time is not above 0");
     for (size_t f = 0; f < file.frame_count; ++f) {
         for (const BvhJoint& joint : file.joints)
             for (size_t c = 0; c < joint.channels.size(); ++c)
-                file.values.push_back(words.number("channel " + std::to_string(c + 1) + " of " + joint.name +
-                                                   " in frame " + std::to_string(f) + " of " +
-                                                   std::to_string(file.frame_count)));
+                file.values.push_back(float(words.number([&] {
+                    return name_of(joint.channels[c]) + " of " + joint.name + " in frame " +
+                           std::to_string(f) + " of " + std::to_string(file.frame_count);
+                })));
     }
     if (const std::string_view more = words.next(); !more.empty())
         words.fail("more values than " + std::to_string(file.frame_count) + " frames of " +

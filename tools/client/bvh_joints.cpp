@@ -25,9 +25,10 @@ constexpr float kUnits_m[] = {1.0f, 0.01f, 0.001f, 0.0254f, 0.0254f / 0.45f};
 float guessed_scale(const std::string& path, float height) {
     for (const float unit : kUnits_m)
         if (height * unit >= kMinStature_m && height * unit <= kMaxStature_m) return unit;
-    throw Failure(path + ": the skeleton is " + std::to_string(height) +
-                  " units tall, which is no person in metres, centimetres, millimetres, inches or CMU's units; "
-                  "give --scale, metres in a unit of the file");
+    throw Failure(
+        path + ": the skeleton is " + std::to_string(height) +
+        " units tall, which is no person in metres, centimetres, millimetres, inches or CMU's units; "
+        "give --scale, metres in a unit of the file");
 }
 
 /// The skeleton at rest as a character's file: a small tetrahedron at each joint, carried by it.
@@ -35,8 +36,9 @@ class SkeletonGlb {
 public:
     SkeletonGlb(const BvhFile& file, bool is_z_up, float size) {
         const std::vector<vec3> places = file.rest();
+        const size_t count = places.size();
         json_["asset"]["version"] = "2.0";
-        for (size_t j = 0; j < file.joints.size(); ++j) {
+        for (size_t j = 0; j < count; ++j) {
             const BvhJoint& joint = file.joints[j];
             json_["nodes"].push_back({{"name", joint.name}, {"translation", list_of(joint.offset)}});
             if (joint.parent >= 0) json_["nodes"][size_t(joint.parent)]["children"].push_back(j);
@@ -47,13 +49,12 @@ public:
             // The end of a bone is a part of it: of the head, the crown.
             add_tetrahedron(places[j], joint.is_end ? joint.parent : int(j), size);
         }
-        const size_t count = file.joints.size();
         json_["nodes"].push_back({{"mesh", 0}, {"skin", 0}});
-        Json root = {{"children", {0, count}}};
         const float half = std::sqrt(0.5f);
-        if (is_z_up) root["rotation"] = {-half, 0, 0, half};
-        json_["nodes"].push_back(root);
-        json_["scenes"] = Json::array({{{"nodes", {count + 1}}}});
+        if (is_z_up)
+            json_["nodes"].push_back(
+                {{"name", "Z up"}, {"children", {0}}, {"rotation", {-half, 0, 0, half}}});
+        json_["scenes"] = Json::array({{{"nodes", {is_z_up ? count + 1 : 0, count}}}});
         Json& part = json_["meshes"][0]["primitives"][0];
         const size_t vertices = positions_.size() / 3;
         part["attributes"]["POSITION"] = add(positions_, "VEC3", 5126, vertices);
@@ -96,8 +97,7 @@ private:
     size_t add(const std::vector<T>& items, const char* type, int component, size_t count) {
         while (binary_.size() % 4) binary_ += '\0';
         const size_t size = items.size() * sizeof(T);
-        json_["bufferViews"].push_back(
-            {{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", size}});
+        json_["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", size}});
         json_["accessors"].push_back({{"bufferView", json_["bufferViews"].size() - 1},
                                       {"componentType", component},
                                       {"count", count},
@@ -158,7 +158,18 @@ struct Anchor {
     vec3 place;  // from the carrier's own place, at rest
 };
 
-std::vector<Anchor> anchors_of(vfit_avatar avatar, const std::vector<vec3>& rest, const mat4& file_from_world) {
+/// The joint or end that hangs on this one and stands the longest way from it; -1: there is none.
+int tip_of(const BvhFile& file, size_t joint) {
+    int tip = -1;
+    for (size_t j = 0; j < file.joints.size(); ++j)
+        if (file.joints[j].parent == int(joint) &&
+            (tip < 0 || glm::length(file.joints[j].offset) > glm::length(file.joints[size_t(tip)].offset)))
+            tip = int(j);
+    return tip;
+}
+
+std::vector<Anchor> anchors_of(vfit_avatar avatar, const BvhFile& file, const mat4& file_from_world) {
+    const std::vector<vec3> rest = file.rest();
     vfit_character_info info = vfit_character_info_init();
     check(vfit_avatar_describe(avatar, &info));
     const mat4 world_from_rest = glm::inverse(glm::make_mat4(info.from_file));
@@ -179,7 +190,14 @@ std::vector<Anchor> anchors_of(vfit_avatar avatar, const std::vector<vec3>& rest
         const auto carrier = size_t(rig_of_bone[size_t(bone)]);
         const glm::vec4 posed(glm::make_vec3(joint.position), 1.0f);
         const glm::vec4 at = file_from_world * world_from_rest * glm::inverse(matrices[carrier]) * posed;
-        anchors.push_back({joint.joint, size_t(rig[carrier].node), vec3(at) - rest[size_t(rig[carrier].node)]});
+        Anchor anchor = {joint.joint, size_t(rig[carrier].node), vec3(at)};
+        anchor.place -= rest[anchor.carrier];
+        // Toes without a bone are where the foot ends.
+        const bool is_toes = joint.joint == VFIT_JOINT_LEFT_TOES || joint.joint == VFIT_JOINT_RIGHT_TOES;
+        if (const int tip = tip_of(file, anchor.carrier);
+            is_toes && bone != kCarriers[size_t(joint.joint)] && tip >= 0)
+            anchor.place = file.joints[size_t(tip)].offset;
+        anchors.push_back(anchor);
     }
     return anchors;
 }
@@ -216,7 +234,7 @@ std::vector<JointRow> read_bvh_joints(vfit_context context, const std::string& p
 
     mat4 upright(1.0f);
     if (z_up) upright = glm::mat4_cast(glm::angleAxis(-0.5f * 3.14159265f, vec3(1, 0, 0)));
-    const std::vector<Anchor> anchors = anchors_of(avatar.get(), rest, glm::inverse(upright));
+    const std::vector<Anchor> anchors = anchors_of(avatar.get(), file, glm::inverse(upright));
     std::vector<JointRow> rows(file.frame_count);
     for (size_t f = 0; f < rows.size(); ++f) {
         rows[f].time_ns = std::llround(1e9 * file.frame_time_s * double(f));

@@ -14,9 +14,10 @@ struct BvhOptions {
     float scale = 0.0f;    // metres in a unit of the file; 0: guessed by the stature
 };
 
-/// In world space, metres; the lowest ankle of the motion stands on the floor. Throws Failure, which opens with
-/// the file's name; where a bone is found nowhere, it lists the file's joints as a tree and a bone map to fill
-/// in.
-std::vector<JointRow> read_bvh_joints(vfit_context context, const std::string& path, const BvhOptions& options);
+/// In world space, metres; the lowest ankle of the motion stands on the floor. Throws Failure, which opens
+/// with the file's name; where a bone is found nowhere, it lists the file's joints as a tree and a bone map
+/// to fill in.
+std::vector<JointRow> read_bvh_joints(vfit_context context, const std::string& path,
+                                      const BvhOptions& options);
 
 }  // namespace vfit::tools

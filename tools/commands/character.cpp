@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "client/files.h"
+#include "client/missing_bones.h"
 #include "client/output.h"
 #include "client/people.h"
 #include "client/progress.h"
@@ -44,12 +45,7 @@ Avatar load(vfit_context context, const Options& options) {
     try {
         check(vfit_avatar_load(context, nullptr, &desc, avatar.out()));
     } catch (const Failure& failure) {
-        // The first line is the cause; a bone map to fill in and the tree of nodes follow.
-        const std::string all = failure.what();
-        const size_t end = all.find('\n');
-        if (end == std::string::npos) throw;
-        if (!options.nodes) throw Failure(all.substr(0, end) + " --nodes prints one to fill in");
-        std::cout << all.substr(end + 1);
+        report_missing_bones(failure, options.nodes);
     }
     return avatar;
 }

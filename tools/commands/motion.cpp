@@ -8,6 +8,7 @@
 #include "client/files.h"
 #include "client/joint_file.h"
 #include "client/live_joints.h"
+#include "client/missing_bones.h"
 #include "client/output.h"
 #include "client/pose_outputs.h"
 #include "client/progress.h"
@@ -20,7 +21,7 @@ namespace {
 struct Options {
     std::string source, bone_map;
     float scale = 0.0f;  // 0: not given
-    bool raw = false, json = false;
+    bool raw = false, json = false, nodes = false;
     uint32_t frames = 0;  // 0: all
     TrackOptions track;
     PoseOutputOptions outputs;
@@ -157,13 +158,22 @@ void play_joints(vfit_context context, const Options& options, Next&& next) {
     player.finish();
 }
 
+/// Empty where the file's nodes are printed instead.
+std::vector<JointRow> read_bvh_rows(vfit_context context, const Options& options) {
+    const std::string map = options.bone_map.empty() ? std::string() : read_text(options.bone_map);
+    try {
+        return read_bvh_joints(context, options.source, {map, options.scale});
+    } catch (const Failure& failure) {
+        report_missing_bones(failure, options.nodes);
+        return {};
+    }
+}
+
 void play_joint_file(vfit_context context, const Options& options) {
+    const bool is_bvh = is_bvh_file(options.source);
     const std::vector<JointRow> rows =
-        is_bvh_file(options.source)
-            ? read_bvh_joints(
-                  context, options.source,
-                  {options.bone_map.empty() ? std::string() : read_text(options.bone_map), options.scale})
-            : read_joint_file(options.source);
+        is_bvh ? read_bvh_rows(context, options) : read_joint_file(options.source);
+    if (rows.empty()) return;
     auto at = rows.begin();
     play_joints(context, options, [&](JointRow& row) {
         if (at == rows.end()) return false;
@@ -182,8 +192,9 @@ void check_track_options(const Options& options) {
 void motion(const Options& options) {
     const Context context = open_context();
     const bool live = options.source == "-";
-    if ((options.scale > 0.0f || !options.bone_map.empty()) && (live || !is_bvh_file(options.source)))
-        throw WrongUsage(options.source + " is no BVH file: --scale and --bone-map are for these");
+    const bool for_bvh = options.scale > 0.0f || !options.bone_map.empty() || options.nodes;
+    if (for_bvh && (live || !is_bvh_file(options.source)))
+        throw WrongUsage(options.source + " is no BVH file: --scale, --bone-map and --nodes are for these");
     if (!live && !is_joint_file(options.source)) return play_source(context.get(), options);
     check_track_options(options);
     if (!live) return play_joint_file(context.get(), options);
@@ -207,8 +218,9 @@ void add_motion(Command& app) {
     Command command = app.add_subcommand("motion", "Print the clean pose of each frame, or send it");
     auto o = std::make_shared<Options>();
     command
-        .add_option("source", o->source,
-                    "Recording folder, sensor URI, file of joints, BVH file, or - for joints from standard input")
+        .add_option(
+            "source", o->source,
+            "Recording folder, sensor URI, file of joints, BVH file, or - for joints from standard input")
         .required();
     command.add_flag("--raw", o->raw, "Without filter, limits, smoothing and foot planting");
     command.add_flag("--json", o->json, "Print JSON lines");
@@ -217,6 +229,8 @@ void add_motion(Command& app) {
         .positive();
     command.add_option("--bone-map", o->bone_map,
                        "Of a BVH file: JSON file {\"hips\": \"name of a joint\", ...}");
+    command.add_flag("--nodes", o->nodes,
+                     "Where bones of a BVH file are not found: print a bone map to fill in, and the nodes");
     add_outputs(command, o->outputs);
     add_track_options(command, o->track);
     command.callback([o] { motion(*o); });

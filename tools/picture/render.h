@@ -27,7 +27,8 @@ struct RenderView {
     bool floor = true;
 };
 
-/// Moves the eye away from the target, along its own line of sight, until all vertices are inside the picture.
+/// Moves the eye away from the target, along its own line of sight, until all vertices are inside the
+/// picture.
 void step_back_to_show(const std::vector<RenderMesh>& meshes, RenderView& view);
 
 Canvas render(const std::vector<RenderMesh>& meshes, const RenderView& view);

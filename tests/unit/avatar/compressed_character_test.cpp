@@ -339,8 +339,7 @@ TinyCharacter packed_by_draco(DracoWay way) {
     draco::Encoder encoder;
     encoder.SetEncodingMethod(way == DracoWay::sequential ? draco::MESH_SEQUENTIAL_ENCODING
                                                           : draco::MESH_EDGEBREAKER_ENCODING);
-    if (way == DracoWay::quantized)
-        encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, 14);
+    if (way == DracoWay::quantized) encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, 14);
     draco::EncoderBuffer buffer;
     draco::Mesh mesh;
     fill(mesh, tiny);
