@@ -14,6 +14,7 @@
 #include "client/files.h"
 #include "export/character.h"
 #include "export/character_animation.h"
+#include "export/compressed_gltf.h"
 #include "export/glb_writer.h"
 
 namespace vfit::tools {
@@ -446,6 +447,58 @@ TEST_F(Characters, AreNoBodiesToMeasurePackOrDress) {
     count = 64;
     ASSERT_EQ(vfit_avatar_colliders(avatar.get(), colliders.data(), sizeof(vfit_collider), &count), VFIT_OK);
     for (uint32_t i = 0; i < count; ++i) EXPECT_GT(colliders[i].radius, 0.005f) << i;
+}
+
+/// A GLB of that text and eight bytes.
+std::string glb_of(const std::string& text) {
+    std::string out = "glTF";
+    const auto number = [&](size_t n) {
+        for (int i = 0; i < 4; ++i) out += char(n >> (8 * i));
+    };
+    const std::string padded = text + std::string((4 - text.size() % 4) % 4, ' ');
+    number(2), number(28 + padded.size() + 8), number(padded.size());
+    out += "JSON" + padded;
+    number(8);
+    return out + std::string("BIN\0", 4) + "01234567";
+}
+
+TEST(CompressedGltf, PassesThroughTinygltfAsItIs) {
+    const std::string meshopt = R"({"buffer":0,"byteOffset":0,"byteLength":4,"byteStride":12,"count":8,)"
+                                R"("mode":"ATTRIBUTES"})";
+    const std::string file = glb_of(
+        R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":8},{"byteLength":96,"extensions":)"
+        R"({"EXT_meshopt_compression":{"fallback":true}}}],"bufferViews":[{"buffer":1,"byteLength":96,)"
+        R"("extensions":{"EXT_meshopt_compression":)" +
+        meshopt +
+        R"(}},{"buffer":0,"byteOffset":4,"byteLength":4}],"accessors":[{"bufferView":0,"componentType":5126,)"
+        R"("count":8,"type":"VEC3"},{"componentType":5123,"count":3,"type":"SCALAR"}],"meshes":)"
+        R"([{"primitives":[{"attributes":{"POSITION":0},"indices":1,"extensions":)"
+        R"({"KHR_draco_mesh_compression":{"bufferView":1,"attributes":{"POSITION":0}}}}]}]})");
+    const std::string readable = with_stand_ins(file);
+    GlbWriter writer(read_model(readable));
+    const std::vector<glm::vec3> places(3, glm::vec3(1.0f));
+    writer.add_vectors(places, true);
+    for (tinygltf::Buffer& buffer : writer.model().buffers) buffer.uri.clear();
+    const std::string written = with_compressed_data(writer.bytes("a.glb"), file);
+    const auto json = [](const std::string& glb) {
+        uint32_t size = 0;
+        std::memcpy(&size, glb.data() + 12, 4);
+        return Json::parse(glb.substr(20, size));
+    };
+    const Json before = json(file), after = json(written);
+    uint32_t size = 0;
+    std::memcpy(&size, written.data() + 8, 4);
+    EXPECT_EQ(size, written.size());
+    EXPECT_EQ(after["buffers"][1], before["buffers"][1]);
+    EXPECT_EQ(after["bufferViews"][0], before["bufferViews"][0]);
+    EXPECT_FALSE(after["accessors"][1].contains("bufferView"));
+    EXPECT_EQ(after["meshes"][0]["primitives"][0]["extensions"],
+              before["meshes"][0]["primitives"][0]["extensions"]);
+    EXPECT_EQ(after["accessors"].size(), 3u);
+    EXPECT_NE(written.find("01234567"), std::string::npos) << "compressed bytes stay in their place";
+    const std::string plain = glb_of(R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":8}]})");
+    EXPECT_EQ(with_stand_ins(plain), plain);
+    EXPECT_EQ(with_compressed_data(plain, plain), plain);
 }
 
 }  // namespace

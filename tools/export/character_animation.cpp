@@ -5,6 +5,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "client/files.h"
+#include "export/compressed_gltf.h"
 #include "export/glb_writer.h"
 
 namespace vfit::tools {
@@ -23,7 +24,7 @@ bool keep_picture(tinygltf::Image* image, int, std::string*, std::string*, int, 
 }
 
 tinygltf::Model read_model(const std::string& path) {
-    const std::string bytes = read_text(path);
+    const std::string bytes = with_stand_ins(read_text(path));
     tinygltf::TinyGLTF loader;
     loader.SetImageLoader(keep_picture, nullptr);
     tinygltf::Model model;
@@ -175,7 +176,7 @@ void CharacterAnimation::write(const std::string& path) const {
     }
     model.animations = {animation};
     take_in(writer);
-    writer.save(path);
+    write_text(path, with_compressed_data(writer.bytes(path), read_text(file_)));
 }
 
 }  // namespace vfit::tools

@@ -105,13 +105,15 @@ int GlbWriter::add_node(tinygltf::Node node) {
     return static_cast<int>(model_.nodes.size()) - 1;
 }
 
-void GlbWriter::save(const std::string& path) {
+std::string GlbWriter::bytes(const std::string& path) {
     // Through memory: of a file that cannot be written tinygltf says nothing.
     tinygltf::TinyGLTF gltf;
     std::ostringstream bytes;
     if (!gltf.WriteGltfSceneToStream(&model_, bytes, false, true)) throw Failure(path + ": cannot be made");
-    write_text(path, bytes.str());
+    return bytes.str();
 }
+
+void GlbWriter::save(const std::string& path) { write_text(path, bytes(path)); }
 
 void add_channel(tinygltf::Animation& animation, int node, const char* path, int times, int output) {
     tinygltf::AnimationSampler sampler;

@@ -37,6 +37,8 @@ public:
     /// Bytes that no accessor reads (a picture); the buffer view's index.
     int add_view(const unsigned char* bytes, size_t count, int target);
 
+    /// The file; its name is for errors alone.
+    std::string bytes(const std::string& path);
     void save(const std::string& path);
 
 private:
