@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "avatar/humanoid_map.h"
+#include "avatar/rest_posture.h"
 #include "core/error.h"
 
 namespace vfit {
@@ -66,7 +67,8 @@ int sheared_bone(const GltfDocument& document, const CharacterRig& rig) {
     return -1;
 }
 
-CharacterRig make_character_rig(const GltfDocument& document, const HumanoidMap& map, const Mat4& from_file) {
+CharacterRig make_character_rig(const GltfDocument& document, const HumanoidMap& map,
+                                const std::vector<Mat4>& worlds, const Mat4& from_file) {
     std::vector<bool> used(document.model().nodes.size(), false);
     for (const tinygltf::Skin& skin : document.model().skins)
         for (const int joint : skin.joints) used[size_t(joint)] = true;
@@ -85,7 +87,7 @@ CharacterRig make_character_rig(const GltfDocument& document, const HumanoidMap&
         if (!used[size_t(node)]) continue;
         int parent = map.tree.parent(node);
         while (parent >= 0 && rig.of_node[size_t(parent)] < 0) parent = map.tree.parent(parent);
-        const Mat4 world = from_file * document.node_worlds()[size_t(node)];
+        const Mat4 world = from_file * worlds[size_t(node)];
         AvatarBone bone;
         bone.name = document.node_name(node);
         bone.parent = parent < 0 ? -1 : rig.of_node[size_t(parent)];
@@ -101,10 +103,8 @@ CharacterRig make_character_rig(const GltfDocument& document, const HumanoidMap&
 }
 
 /// Upright along +Y, to be turned about Y so that its left is on +X.
-Mat4 upright_from_file(const GltfDocument& document, const HumanoidMap& map) {
-    const auto place = [&](int bone) {
-        return Vec3(document.node_worlds()[size_t(map.node[size_t(bone)])][3]);
-    };
+Mat4 upright_from_file(const std::vector<Mat4>& worlds, const HumanoidMap& map) {
+    const auto place = [&](int bone) { return Vec3(worlds[size_t(map.node[size_t(bone)])][3]); };
     const Vec3 up = place(VFIT_BONE_HEAD) - place(VFIT_BONE_HIPS);
     const Vec3 left = place(VFIT_BONE_LEFT_UPPER_LEG) - place(VFIT_BONE_RIGHT_UPPER_LEG);
     if (glm::length(up) < 1e-3f || up.y < 0.7f * glm::length(up))
@@ -151,8 +151,9 @@ private:
 /// Gathers the meshes of all nodes into one.
 class Gatherer {
 public:
-    Gatherer(const GltfDocument& document, const CharacterRig& rig, const Mat4& from_file, Character& out)
-        : document_(document), rig_(rig), from_file_(from_file), out_(out) {}
+    Gatherer(const GltfDocument& document, const CharacterRig& rig, const std::vector<Mat4>& worlds,
+             const Mat4& from_file, Character& out)
+        : document_(document), rig_(rig), worlds_(worlds), from_file_(from_file), out_(out) {}
 
     void run() {
         for (const int node : document_.nodes_in_order())
@@ -216,7 +217,7 @@ private:
         joints_.clear();
         for (size_t j = 0; j < binds.size(); ++j)
             joints_.push_back({rig_.of_node[size_t(skin.joints[j])],
-                               from_file_ * document_.node_worlds()[size_t(skin.joints[j])] * binds[j]});
+                               from_file_ * worlds_[size_t(skin.joints[j])] * binds[j]});
     }
 
     void add_primitive(const tinygltf::Primitive& p, const std::string& mesh, const std::string& what,
@@ -293,7 +294,7 @@ private:
             if (bones.back().size() != 4 * count || weights.back().size() != 4 * count)
                 fail(VFIT_ERROR_DATA, what, ": ", joint_name, " has another count than POSITION");
         }
-        const Mat4 fixed = from_file_ * document_.node_worlds()[size_t(node)];
+        const Mat4 fixed = from_file_ * worlds_[size_t(node)];
         any_uv_ = any_uv_ || !uvs.empty();
         missing_normals_ = missing_normals_ || normals.empty();
         Mesh& rest = out_.source.rest;
@@ -349,6 +350,7 @@ private:
     };
     const GltfDocument& document_;
     const CharacterRig& rig_;
+    const std::vector<Mat4>& worlds_;  // of the file's nodes, at rest
     const Mat4 from_file_;
     Character& out_;
     std::vector<BoundJoint> joints_;
@@ -511,10 +513,11 @@ Character load_character(const GltfDocument& document, const std::string& own_ma
     const HumanoidMap map = find_humanoid(document, own_map);
     Character out;
     out.kind = map.kind;
+    const std::vector<Mat4> worlds = rest_posture(document, map);
     out.name = vrm_name(document);
-    out.from_file = glm::scale(Mat4(1.0f), Vec3(scale)) * upright_from_file(document, map);
-    CharacterRig rig = make_character_rig(document, map, out.from_file);
-    Gatherer(document, rig, out.from_file, out).run();
+    out.from_file = glm::scale(Mat4(1.0f), Vec3(scale)) * upright_from_file(worlds, map);
+    CharacterRig rig = make_character_rig(document, map, worlds, out.from_file);
+    Gatherer(document, rig, worlds, out.from_file, out).run();
     if (const int bone = sheared_bone(document, rig); bone >= 0)
         out.notes.push_back(
             text("the bone \"", rig.bones[size_t(bone)].name,
