@@ -26,11 +26,10 @@ std::optional<float> bend_of_legs(const std::vector<Mat4>& worlds, const Humanoi
     const Vec3 trunk = place(VFIT_BONE_HEAD) - place(VFIT_BONE_HIPS);
     if (!(trunk.y > 0.7f * glm::length(trunk))) return std::nullopt;
     float sum = 0.0f;
-    for (const auto& [upper, lower] :
-         {std::pair{VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_LEFT_LOWER_LEG},
-          std::pair{VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_LEFT_FOOT},
-          std::pair{VFIT_BONE_RIGHT_UPPER_LEG, VFIT_BONE_RIGHT_LOWER_LEG},
-          std::pair{VFIT_BONE_RIGHT_LOWER_LEG, VFIT_BONE_RIGHT_FOOT}}) {
+    for (const auto& [upper, lower] : {std::pair{VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_LEFT_LOWER_LEG},
+                                       std::pair{VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_LEFT_FOOT},
+                                       std::pair{VFIT_BONE_RIGHT_UPPER_LEG, VFIT_BONE_RIGHT_LOWER_LEG},
+                                       std::pair{VFIT_BONE_RIGHT_LOWER_LEG, VFIT_BONE_RIGHT_FOOT}}) {
         const Vec3 way = place(lower) - place(upper);
         const float length = glm::length(way);
         if (!(length > 0.0f)) return std::nullopt;
@@ -69,9 +68,8 @@ std::optional<std::vector<Mat4>> bound_posture(const GltfDocument& document, boo
             if (!is_usable(binds.back())) return std::nullopt;
         }
         // Where a skin before has placed a joint, this one stands with it.
-        // The size is that which the first joint gives it.
-        const float size =
-            std::cbrt(std::abs(glm::determinant(Mat3(shown[size_t(joints[0])] * binds[0]))));
+        // As large as the first joint shows it.
+        const float size = std::cbrt(std::abs(glm::determinant(Mat3(shown[size_t(joints[0])] * binds[0]))));
         Mat4 world_from_mesh(size * (turned ? turn_of_mesh(document, int(s)) : Mat3(1.0f)));
         for (size_t j = 0; j < joints.size(); ++j)
             if (const auto& placed = bound[size_t(joints[j])]) {
