@@ -3,7 +3,9 @@
 # process each would call into the other.
 find_package(TinyGLTF REQUIRED)
 set(vfit_tinygltf_source ${CMAKE_BINARY_DIR}/generated/tinygltf.cpp)
-file(CONFIGURE OUTPUT ${vfit_tinygltf_source} CONTENT "#define TINYGLTF_IMPLEMENTATION
+file(CONFIGURE OUTPUT ${vfit_tinygltf_source} CONTENT "#include <nlohmann/json.hpp>
+#define TINYGLTF_IMPLEMENTATION
+#define TINYGLTF_NO_INCLUDE_JSON
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #include <tiny_gltf.h>

@@ -86,6 +86,20 @@ Callbacks callbacks_of(OwnFolder& own) {
     return callbacks;
 }
 
+/// tinygltf does not count the eight bytes before a chunk.
+void check_glb(std::span<const std::byte> bytes) {
+    const auto number = [&](size_t at) {
+        uint32_t value = 0;
+        std::memcpy(&value, bytes.data() + at, sizeof value);
+        return size_t(value);
+    };
+    const size_t size = number(8), text_end = 20 + number(12);
+    if (size > bytes.size())
+        fail(VFIT_ERROR_DATA, "no readable glTF file: it is cut, ", bytes.size(), " bytes of ", size);
+    if (text_end > size || (text_end + 8 <= size && number(text_end) > size - text_end - 8))
+        fail(VFIT_ERROR_DATA, "no readable glTF file: a chunk reaches beyond its end");
+}
+
 /// The JSON of a GLB, or the whole file.
 std::string_view text_of(std::span<const std::byte> bytes, bool binary) {
     const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -169,6 +183,7 @@ void GltfDocument::parse(std::span<const std::byte> bytes, const std::string& fo
     loader.SetFsCallbacks(callbacks_of(own));
     std::string error, warning;
     const bool binary = std::memcmp(bytes.data(), "glTF", 4) == 0;
+    if (binary) check_glb(bytes);
     if (nests_deeper(text_of(bytes, binary), kDeepest))
         fail(VFIT_ERROR_DATA, "no glTF file: its text is nested deeper than ", kDeepest, " levels");
     const std::vector<std::byte> readable = with_stand_ins(bytes, text_of(bytes, binary), binary);

@@ -516,6 +516,28 @@ TEST(Character, AskedForTooMuchIsRefusedAtOnce) {
     }
 }
 
+TEST(Character, AChunkThatReachesBeyondTheFileIsRefused) {
+    const std::vector<std::byte> good = TinyCharacter().glb();
+    const auto refused = [](std::vector<std::byte> bad, const char* word) {
+        try {
+            const GltfDocument document(bad);
+            ADD_FAILURE() << "accepted: " << word;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), VFIT_ERROR_DATA);
+            EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+        }
+    };
+    const auto with = [&](size_t at, uint32_t value, size_t cut) {
+        std::vector<std::byte> bad(good.begin(), good.end() - long(cut));
+        std::memcpy(bad.data() + at, &value, 4);
+        return bad;
+    };
+    refused(with(8, uint32_t(good.size()), 1), "it is cut");
+    // By the eight bytes before the chunk.
+    refused(with(8, uint32_t(good.size()) - 4, 4), "beyond its end");
+    refused(with(12, uint32_t(good.size()), 0), "beyond its end");
+}
+
 TEST(Character, DamageNeverReadsBeyondTheFile) {
     const std::vector<std::byte> good = TinyCharacter().glb();
     uint32_t text_size = 0;
