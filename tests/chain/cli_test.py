@@ -562,6 +562,17 @@ class Contract(unittest.TestCase):
                 self.assertGreater(dot, math.cos(math.radians(2.5)), bone)
             half = lines(self, "motion", path, "--json", "--scale", "0.005")
             self.assertAlmostEqual(half[-1]["root"][0], again[-1]["root"][0] / 2, delta=0.02)
+            body, moved = pathlib.Path(folder) / "body.vrm", pathlib.Path(folder) / "moved.vrm"
+            self.assertEqual(run("character", "--rig", "vrm1", "--out", body).returncode, 0)
+            for source in (path, table):
+                done = run("character", body, "--motion", source, "--frames", 5, "--out", moved)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                glb = moved.read_bytes()
+                document_size = struct.unpack_from("<I", glb, 12)[0]
+                gltf = json.loads(glb[20 : 20 + document_size])
+                times = gltf["accessors"][gltf["animations"][0]["samplers"][0]["input"]]
+                self.assertEqual(times["count"], 5)
+                self.assertAlmostEqual(times["max"][0], 4 / 30, places=3)
             text = path.read_text()
             for bad, words in (
                 (text[:-20], ("the file ends", "frame 30 of 31")),

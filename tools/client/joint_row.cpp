@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "client/client.h"
+
 namespace vfit::tools {
 
 namespace {
@@ -19,6 +21,18 @@ void add_joint(JointRow& row, vfit_joint_id joint, float x, float y, float z, vf
     j.confidence = confidence;
     j.position[0] = x, j.position[1] = y, j.position[2] = z;
     row.joints.push_back(j);
+}
+
+vfit_result step_row(vfit_motion motion, const JointRow& row) {
+    if (row.joints.empty()) {
+        check(vfit_motion_step(motion, vfit_frame{}, 0, row.time_ns));
+        return VFIT_NOT_READY;
+    }
+    vfit_body body = vfit_body_init();
+    body.body_id = 1;
+    body.time_ns = row.time_ns;
+    return vfit_motion_step_body(motion, &body, row.joints.data(), sizeof(vfit_joint),
+                                 uint32_t(row.joints.size()), row.time_ns);
 }
 
 void put_on_floor(std::vector<JointRow>& rows) {

@@ -132,18 +132,6 @@ vfit_camera world_axes() {
     return camera;
 }
 
-vfit_result step_row(vfit_motion motion, const JointRow& row) {
-    if (row.joints.empty()) {
-        check(vfit_motion_step(motion, vfit_frame{}, 0, row.time_ns));
-        return VFIT_NOT_READY;
-    }
-    vfit_body body = vfit_body_init();
-    body.body_id = 1;
-    body.time_ns = row.time_ns;
-    return vfit_motion_step_body(motion, &body, row.joints.data(), sizeof(vfit_joint),
-                                 uint32_t(row.joints.size()), row.time_ns);
-}
-
 /// next(row) gives row after row; false: there is none.
 template <typename Next>
 void play_joints(vfit_context context, const Options& options, Next&& next) {
