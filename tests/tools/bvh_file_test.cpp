@@ -48,10 +48,13 @@ protected:
 struct Person {
     float unit_m = 0.01f;
     bool is_z_up = false;
+    bool root_turns_up = false;  // it is so at rest alone
+    bool lies = false;           // at rest, along X; the root turns it up
     bool has_left_leg = true;
 
     std::string offset(float x, float y, float z) const {
         if (is_z_up) std::swap(y, z), y = -y;
+        if (lies) std::swap(x, y), y = -y;
         std::string out = " OFFSET";
         for (const float v : {x, y, z}) out += " " + std::to_string(v / unit_m);
         return out + "\n";
@@ -81,9 +84,9 @@ struct Person {
     }
     /// The hips 0.95 m above the floor; the left arm turned about the axis that points forward.
     std::string standing(float arm_deg) const {
-        std::string row =
-            is_z_up ? "0 0 " + std::to_string(0.95f / unit_m) : "0 " + std::to_string(0.95f / unit_m) + " 0";
-        row += " 0 0 0";
+        const std::string height = std::to_string(0.95f / unit_m);
+        std::string row = is_z_up && !root_turns_up ? "0 0 " + height : "0 " + height + " 0";
+        row += lies ? " 90 0 0" : root_turns_up ? " 0 -90 0" : " 0 0 0";
         const int joints = has_left_leg ? 15 : 12;
         for (int j = 0; j < joints; ++j)
             row += j != 3 ? " 0 0 0"
@@ -120,11 +123,13 @@ TEST_F(Bvh, ChannelsTurnInTheOrderOfTheFile) {
 }
 
 TEST_F(Bvh, JointsAreWhereTheBonesBringThemInAnyUnitAndAxes) {
-    Person inches, z_up, cmu;
+    Person inches, z_up, cmu, turned_up, lying;
+    turned_up.is_z_up = turned_up.root_turns_up = true;
+    lying.lies = true;
     inches.unit_m = 0.0254f;
     z_up.is_z_up = true, z_up.unit_m = 1.0f;
     cmu.unit_m = 0.0254f / 0.45f;
-    for (const Person& person : {Person(), inches, z_up, cmu}) {
+    for (const Person& person : {Person(), inches, z_up, cmu, turned_up, lying}) {
         const std::vector<JointRow> rows = joints(person.file());
         ASSERT_EQ(rows.size(), 3u);
         EXPECT_EQ(rows[2].time_ns, 80'000'000);
