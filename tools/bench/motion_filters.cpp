@@ -3,8 +3,8 @@
 #include <cmath>
 #include <iomanip>
 #include <iostream>
-#include <random>
 
+#include "bench/motion_noise.h"
 #include "bench/motion_parts.h"
 #include "motion/position_filter.h"
 
@@ -13,7 +13,6 @@ namespace vfit::tools {
 namespace {
 
 constexpr double kRateHz = 30.0;
-constexpr float kNoiseM = 0.01f, kOutlierM = 0.08f, kOutlierShare = 0.01f;
 constexpr float kSwingM = 0.15f, kSwingHz = 0.5f;  // 30 cm from end to end
 constexpr int kSeconds = 60, kWarmUp = 30, kSeeds = 20;
 
@@ -49,23 +48,6 @@ std::vector<NamedFilter> filters() {
             {"One Euro, 1 Hz, beta 1", false, one_euro(1.0f, 1.0f)},
             {"One Euro, 0.3 Hz, beta 3", false, one_euro(0.3f, 3.0f)}};
 }
-
-/// White noise on each axis, and now and then a reading that lies 8 cm off.
-class NoisySensor {
-public:
-    explicit NoisySensor(uint32_t seed) : engine_(seed) {}
-    Vec3 operator()(const Vec3& truth) {
-        Vec3 v = truth + kNoiseM * gauss();
-        if (uniform_(engine_) < kOutlierShare) v += kOutlierM * glm::normalize(gauss());
-        return v;
-    }
-
-private:
-    Vec3 gauss() { return {normal_(engine_), normal_(engine_), normal_(engine_)}; }
-    std::mt19937 engine_;
-    std::normal_distribution<float> normal_{0.0f, 1.0f};
-    std::uniform_real_distribution<float> uniform_{0.0f, 1.0f};
-};
 
 std::vector<Vec3> run(const NamedFilter& filter, const std::vector<Vec3>& readings) {
     if (filter.raw) return readings;
