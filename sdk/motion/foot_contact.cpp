@@ -35,14 +35,16 @@ constexpr float kLevelFallTimeS = 0.1f, kLevelRise = 0.02f;  // s, m/s
 constexpr float kUnevenM = 0.03f;
 constexpr float kPauseS = 0.5f;  // a longer pause between bodies says nothing about speed
 
+constexpr int kAnkles[2] = {VFIT_JOINT_LEFT_FOOT, VFIT_JOINT_RIGHT_FOOT};
+
 float share(float dt_s, float time_s) { return 1.0f - std::exp(-dt_s / time_s); }
 
 }  // namespace
 
 void FootContact::reset() { *this = FootContact(); }
 
-float FootContact::ankle_level(float otherwise) const {
-    float level = otherwise;
+float FootContact::lowest_level() const {
+    float level = 0.0f;
     bool any = false;
     for (const Foot& foot : feet_)
         if (foot.known) {
@@ -93,10 +95,19 @@ void FootContact::keep_one_down(bool stands[2]) const {
         stands[feet_[0].planted ? 0 : 1] = true;
 }
 
+void FootContact::find_floor(const Body& body, float dt_s) {
+    float sum = 0.0f, count = 0.0f;
+    for (size_t side = 0; side < 2; ++side)
+        if (feet_[side].planted && body.has(kAnkles[side])) {
+            sum += body.at(kAnkles[side]).y;
+            count += 1.0f;
+        }
+    if (count > 0.0f) standing_.update(sum / count, dt_s);
+}
+
 void FootContact::update(const Body& body, vfit_contact_rule rule) {
     const float dt_s = static_cast<float>(seconds_between(time_ns_, body.time_ns));
     const bool pause = !started_ || dt_s > kPauseS || dt_s <= 0.0f;
-    constexpr int kAnkles[2] = {VFIT_JOINT_LEFT_FOOT, VFIT_JOINT_RIGHT_FOOT};
     features_.update(body);
     bool stands[2];
     for (int side = 0; side < 2; ++side) {
@@ -132,9 +143,10 @@ void FootContact::update(const Body& body, vfit_contact_rule rule) {
         feet_[side].planted = stands[side];
     }
     // A foot held up for long must not become the floor: its level stays near the lower one.
-    const float lowest = ankle_level(0.0f);
+    const float lowest = lowest_level();
     for (Foot& foot : feet_)
         if (foot.known) foot.level = std::min(foot.level, lowest + kUnevenM);
+    find_floor(body, pause ? 0.0f : dt_s);
     started_ = true;
     time_ns_ = body.time_ns;
 }

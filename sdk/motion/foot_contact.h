@@ -7,6 +7,7 @@
 
 #include "frame/body.h"
 #include "motion/contact_features.h"
+#include "motion/standing_level.h"
 #include "vfit.h"
 
 namespace vfit {
@@ -22,8 +23,8 @@ public:
     /// A foot was planted by the last update (the paper's constraintSwitched).
     bool switched() const { return switched_; }
 
-    /// Height of a standing ankle as the sensor reports it: the lowest seen lately. `otherwise` before any.
-    float ankle_level(float otherwise) const;
+    /// Height of a standing ankle as the sensor reports it. `otherwise` before any.
+    float ankle_level(float otherwise) const { return standing_.value(otherwise); }
 
 private:
     struct Foot {
@@ -39,8 +40,11 @@ private:
     bool by_thresholds(Foot& foot, float dt_s) const;
     bool by_network(Foot& foot, int side) const;
     void keep_one_down(bool stands[2]) const;
+    float lowest_level() const;
+    void find_floor(const Body& body, float dt_s);
 
     std::array<Foot, 2> feet_;
+    StandingLevel standing_;
     ContactFeatures features_;
     int64_t time_ns_ = 0;
     bool started_ = false, switched_ = false;

@@ -8,8 +8,8 @@ namespace vfit {
 namespace {
 
 // Time constants of the glide: a foot that touches down stands within two frames; one that is free returns to
-// where it is tracked in a few steps of a frame. A foot that came to stand beside the floor goes there
-// unseen, two millimetres a frame.
+// where it is tracked in a few steps of a frame. While the floor is still sought, a standing foot
+// follows it by two millimetres a frame.
 constexpr float kStopS = 0.0065f, kReleaseS = 0.05f, kSettleSpeed = 0.06f;
 // No step is shorter in time and as short in space: a foot that is so soon tracked where it stood never left.
 constexpr float kNoStepS = 0.3f, kNoStepM = 0.03f;
@@ -40,7 +40,7 @@ Vec3 FootPin::update(const Vec3& tracked, bool planted, float floor_y, float dt_
         const bool never_left =
             stood_s_ > 0.0f && free_s_ < kNoStepS && glm::length(tracked - tracked_there_) < kNoStepM;
         if (!never_left) {
-            place_ = shown;
+            place_ = {shown.x, floor_y, shown.z};
             stood_s_ = 0.0f;
         }
         glide_ = Glide(shown - place_, known_ ? at_most(shown_velocity, kFastest) : Vec3(0.0f));
