@@ -20,6 +20,9 @@ constexpr float kLeastLevel =
     0.1f;  // of the toes' direction: a foot that points up or down points nowhere ahead
 constexpr float kMostRoll = 0.1f;     // rad, of the pelvis
 constexpr float kLeastHipsM = 0.02f;  // apart, seen from above
+// A free foot so low has the height at which its ankle was seen: it meets the floor when the tracked foot does. One
+// so high is where the tracked posture puts it.
+constexpr float kNearFloorM = 0.05f, kOffFloorM = 0.2f;
 constexpr int kRootPasses = 12;       // two legs at the end of their reach pull the root in turns
 constexpr float kReachedM = 2e-6f;    // at 0.05 mm, a straight knee still trembles
 
@@ -66,12 +69,12 @@ Quat FootPlanter::level_hips(Leg legs[2], const Vec3& root, float& lift_m) const
         sum += vote.weight() * (vote.rise_m() - (hip.y - was));
         weights += vote.weight();
     }
-    lift_m = sum / std::max(weights, 1.0f);
+    lift_m = sum / weights;
     return roll;
 }
 
 /// The root's whole shift: its lift, and what legs at the end of their reach pull.
-Vec3 FootPlanter::pull_root(const Leg legs[2], const bool planted[2], float lift_m, float dt_s) {
+Vec3 FootPlanter::pull_root(const Leg legs[2], const Seen seen[2], float lift_m, float dt_s) {
     const Vec3 lift(0.0f, lift_m, 0.0f);
     pull_.fade(kPullS, dt_s);
     Vec3 shift = lift + pull_.value();
@@ -79,7 +82,7 @@ Vec3 FootPlanter::pull_root(const Leg legs[2], const bool planted[2], float lift
     for (int pass = 0; pass < kRootPasses; ++pass) {
         bool reached = true;
         for (int side = 0; side < 2; ++side) {
-            if (!planted[side]) continue;
+            if (!seen[side].planted) continue;
             const Vec3& place = feet_[at(side)].shown;
             const Vec3 residual =
                 place - legs[side].solve(legs[side].hip + shift, place, kSoftness).end;  // Alg. 6, line 10
@@ -95,9 +98,9 @@ Vec3 FootPlanter::pull_root(const Leg legs[2], const bool planted[2], float lift
 }
 
 /// One leg under its shifted hip: as it is planted, as it comes free, as it swings.
-void FootPlanter::move_leg(Foot& foot, Leg& leg, const Leg& tracked, bool planted, bool released,
-                           float dt_s) {
-    if (planted) {
+void FootPlanter::move_leg(Foot& foot, Leg& leg, const Leg& tracked, const Seen& seen, float floor_m,
+                           bool released, float dt_s) {
+    if (seen.planted) {
         Leg stood = leg;
         stood.reach(leg.hip, foot.shown, 0.0f);
         foot.back.stand(stood, dt_s);
@@ -109,11 +112,15 @@ void FootPlanter::move_leg(Foot& foot, Leg& leg, const Leg& tracked, bool plante
     }
     foot.back.swing(leg, dt_s);
     foot.shown = leg.ankle;
-    foot.pin.showed(leg.ankle);
+    if (seen.known) {
+        const float near = 1.0f - glm::smoothstep(kNearFloorM, kOffFloorM, seen.ankle_m - floor_m);
+        foot.shown.y += near * (std::max(seen.ankle_m, floor_m) - leg.ankle.y);
+    }
+    foot.pin.showed(foot.shown);
 }
 
 void FootPlanter::apply(const Skeleton& skeleton, const RestPose& rest, const RangeOfMotion& rom,
-                        const bool planted[2], const Vec3 drags[2], float dt_s, Pose& pose) {
+                        const Seen seen[2], float dt_s, Pose& pose) {
     const PosedSkeleton posed = forward_kinematics(skeleton, pose);
     const Leg tracked[2] = {Leg(0, rest, posed), Leg(1, rest, posed)};
     Leg legs[2] = {tracked[0], tracked[1]};
@@ -122,25 +129,26 @@ void FootPlanter::apply(const Skeleton& skeleton, const RestPose& rest, const Ra
     pose.foot_correction_m = 0;
     for (int side = 0; side < 2; ++side) {
         Foot& foot = feet_[at(side)];
-        released[side] = foot.pin.planted() && !planted[side];
-        foot.pin.move(drags[side]);
-        const Vec3 place = foot.pin.update(tracked[side].ankle, planted[side], skeleton.ankle_height, dt_s);
+        const bool planted = seen[side].planted;
+        released[side] = foot.pin.planted() && !planted;
+        foot.pin.move(seen[side].drag);
+        const Vec3 place = foot.pin.update(tracked[side].ankle, planted, skeleton.ankle_height, dt_s);
         foot.back.turn(legs[side], dt_s);
-        if (!planted[side]) continue;
-        foot.shown = place;
-        foot.vote.stand(tracked[side].hip, foot.shown, tracked[side].length(), dt_s);
-        pose.contacts |= side == 0 ? VFIT_CONTACT_LEFT : VFIT_CONTACT_RIGHT;
-        pose.foot_correction_m = std::max(pose.foot_correction_m, glm::length(foot.pin.offset()));
-    }
-    for (int side = 0; side < 2; ++side) {
-        const int other = 1 - side;
-        if (!planted[side])
-            feet_[at(side)].vote.swing(planted[other] ? feet_[at(other)].vote.change_m() : 0.0f, dt_s);
+        if (planted) {
+            foot.shown = place;
+            foot.vote.stand(tracked[side].hip, foot.shown, tracked[side].length(), dt_s);
+            pose.contacts |= side == 0 ? VFIT_CONTACT_LEFT : VFIT_CONTACT_RIGHT;
+            pose.foot_correction_m = std::max(pose.foot_correction_m, glm::length(foot.pin.offset()));
+        } else if (seen[side].known) {
+            foot.vote.swing(seen[side].ankle_m - tracked[side].ankle.y, dt_s);
+        } else {
+            foot.vote.swing_unseen(dt_s);
+        }
     }
 
     float lift_m = 0.0f;
     const Quat roll = level_hips(legs, pose.hips_position, lift_m);
-    const Vec3 shift = pull_root(legs, planted, lift_m, dt_s);
+    const Vec3 shift = pull_root(legs, seen, lift_m, dt_s);
     // What stands on the pelvis does not turn with it.
     const Quat hips = glm::normalize(roll * posed.rotation[VFIT_BONE_HIPS]);
     pose.rotation[VFIT_BONE_HIPS] = hips;
@@ -152,9 +160,9 @@ void FootPlanter::apply(const Skeleton& skeleton, const RestPose& rest, const Ra
         Foot& foot = feet_[at(side)];
         Leg& leg = legs[side];
         leg.move_hip(shift);
-        move_leg(foot, leg, tracked[side], planted[side], released[side], dt_s);
+        move_leg(foot, leg, tracked[side], seen[side], skeleton.ankle_height, released[side], dt_s);
         leg.reach(leg.hip, foot.shown, kSoftness);
-        if (planted[side]) leg.foot = with_heel_off(leg, side, rest, rom);
+        if (seen[side].planted) leg.foot = with_heel_off(leg, side, rest, rom);
         foot.back.turn_foot(leg, dt_s);
         leg.put(hips, pose);
     }

@@ -22,10 +22,17 @@ class FootPlanter {
 public:
     void reset() { *this = FootPlanter(); }
 
+    /// Of one foot, as tracked.
+    struct Seen {
+        bool planted = false;
+        bool known = false;    // its ankle is seen now
+        float ankle_m = 0.0f;  // that height, of the character's ankle
+        Vec3 drag{0.0f};       // how far the person slid it since the last call while it stood
+    };
+
     /// Changes the legs and the root of `pose` and fills its contacts, root_correction and foot_correction_m.
-    /// `drags`: how far the person slid each planted foot since the last call.
-    void apply(const Skeleton& skeleton, const RestPose& rest, const RangeOfMotion& rom,
-               const bool planted[2], const Vec3 drags[2], float dt_s, Pose& pose);
+    void apply(const Skeleton& skeleton, const RestPose& rest, const RangeOfMotion& rom, const Seen seen[2],
+               float dt_s, Pose& pose);
 
     /// Where joint limits have since taken the legs off their places, the root gives way and the legs follow
     /// again.
@@ -40,9 +47,10 @@ private:
     };
 
     Quat level_hips(Leg legs[2], const Vec3& root, float& lift_m) const;
-    Vec3 pull_root(const Leg legs[2], const bool planted[2], float lift_m, float dt_s);
+    Vec3 pull_root(const Leg legs[2], const Seen seen[2], float lift_m, float dt_s);
 
-    static void move_leg(Foot& foot, Leg& leg, const Leg& tracked, bool planted, bool released, float dt_s);
+    static void move_leg(Foot& foot, Leg& leg, const Leg& tracked, const Seen& seen, float floor_m, bool released,
+                         float dt_s);
 
     std::array<Foot, 2> feet_;
     Glide pull_;  // of the root, beside its lift; fades when no leg needs it

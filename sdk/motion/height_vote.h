@@ -10,19 +10,20 @@ class HeightVote {
 public:
     /// Of a foot that stands: how far up its hip must go so that the leg, `length_m` long, reaches `target`.
     void stand(const Vec3& hip, const Vec3& target, float length_m, float dt_s);
-    /// Of one that is free: what it said last, ever more quietly, and `change_m` of what the other foot says.
-    void swing(float change_m, float dt_s);
+    /// Of one that is free, quietly: how far up it must go so that it is where its joint was seen.
+    void swing(float rise_m, float dt_s) { say(false, rise_m, dt_s); }
+    /// Of one that is free and not seen: what it said last.
+    void swing_unseen(float dt_s) { say(false, target_m_, dt_s); }
 
     float rise_m() const { return rise_m_; }
     float weight() const { return weight_; }
-    float change_m() const { return change_m_; }  // of rise_m() in the last step
 
 private:
-    void gain(float weight, float dt_s);
+    void say(bool stands, float rise_m, float dt_s);
 
     bool known_ = false, stands_ = false;
-    float rise_m_ = 0.0f, change_m_ = 0.0f, weight_ = 0.0f;
-    float jump_m_ = 0.0f, stood_s_ = 0.0f;  // at the touchdown, from what it says then to what it said before
+    float target_m_ = 0.0f, rise_m_ = 0.0f, weight_ = 0.0f;
+    float jump_m_ = 0.0f, since_s_ = 0.0f;  // at touchdown and release, from what it says then to what it said before
 };
 
 }  // namespace vfit

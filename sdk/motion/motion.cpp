@@ -165,7 +165,7 @@ struct Motion::State {
     bool enabled(uint32_t no_flag) const { return (settings.flags & no_flag) == 0; }
     void take(const Body& body);
     void adopt_person();
-    Vec3 hip_middle(const Trunk& trunk) const;
+    float on_character(float height_m) const;
     bool update_pose(float dt_s);
     void reset();
 };
@@ -216,14 +216,13 @@ void Motion::State::adopt_person() {
     rest = RestPose(skeleton);
 }
 
-/// The midpoint of the character's hip joints: as the person's in the plane, its height above the standing
-/// ankle scaled by leg length, so that other legs stand on the same floor.
-Vec3 Motion::State::hip_middle(const Trunk& trunk) const {
+/// A height of the person's on the character: above the standing ankle scaled by leg length, so that other legs
+/// stand on the same floor.
+float Motion::State::on_character(float height_m) const {
     const RestPose person_rest(person.skeleton());
     const float ratio = bound ? rest.leg_m() / person_rest.leg_m() : 1.0f;
     const float ankle = contact.ankle_level(person.skeleton().ankle_height);
-    return {trunk.hip_middle.x, skeleton.ankle_height + ratio * (trunk.hip_middle.y - ankle),
-            trunk.hip_middle.z};
+    return skeleton.ankle_height + ratio * (height_m - ankle);
 }
 
 bool Motion::State::update_pose(float dt_s) {
@@ -249,16 +248,24 @@ bool Motion::State::update_pose(float dt_s) {
     const BoneRotations before = pose.rotation;
     pose.time_ns = now_ns;
     pose.rotation = local;
-    pose.hips_position = hip_middle(trunk) - world[VFIT_BONE_HIPS] * rest.hip_middle;
+    const Vec3 hip_middle(trunk.hip_middle.x, on_character(trunk.hip_middle.y), trunk.hip_middle.z);
+    pose.hips_position = hip_middle - world[VFIT_BONE_HIPS] * rest.hip_middle;
     pose.contacts = 0;
     pose.root_correction = Vec3(0.0f);
     pose.foot_correction_m = 0.0f;
     if (feet) {
+        FootPlanter::Seen seen_feet[2];
+        for (int side = 0; side < 2; ++side) {
+            const Joint& ankle = joints.joints[at(VFIT_JOINT_LEFT_FOOT + side)];
+            seen_feet[side].planted = planted[side];
+            seen_feet[side].known = ankle.state == VFIT_JOINT_MEASURED;
+            seen_feet[side].ankle_m = on_character(ankle.position.y);
+        }
         const Vec3 fronts[2] = {world[VFIT_BONE_LEFT_UPPER_LEG] * Vec3(0, 0, 1),
                                 world[VFIT_BONE_RIGHT_UPPER_LEG] * Vec3(0, 0, 1)};
         joint_feet.apply(planted, fronts, contact.ankle_level(skeleton.ankle_height), dt_s, joints);
-        const Vec3 drags[2] = {joint_feet.drag(0), joint_feet.drag(1)};
-        planter.apply(skeleton, rest, settings.range_of_motion, planted, drags, dt_s, pose);
+        for (int side = 0; side < 2; ++side) seen_feet[side].drag = joint_feet.drag(side);
+        planter.apply(skeleton, rest, settings.range_of_motion, seen_feet, dt_s, pose);
     }
     // What smoothing and planting have bent too far; a foot that stands is held as long as it can be.
     if (enabled(VFIT_MOTION_NO_LIMITS) &&

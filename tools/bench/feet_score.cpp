@@ -35,6 +35,13 @@ double angle_between(const Vec3& a, const Vec3& b) {
     return std::atan2(double(glm::length(glm::cross(a, b))), double(glm::dot(a, b)));
 }
 
+/// Flexion.
+double knee_of(const Body& body, int side) {
+    const Vec3& knee = body.at(VFIT_JOINT_LEFT_KNEE + side);
+    return angle_between(knee - body.at(VFIT_JOINT_LEFT_HIP + side),
+                         body.at(VFIT_JOINT_LEFT_FOOT + side) - knee);
+}
+
 bool found_near(const std::vector<char>& flags, size_t i) {
     for (size_t k = i > kNear ? i - kNear : 0; k <= std::min(flags.size() - 1, i + kNear); ++k)
         if (flags[k]) return true;
@@ -86,7 +93,8 @@ void score_contacts(const PersonStream& stream, const std::vector<Shown>& shown,
         ++score.contact_frames;
         score.skating += double(glm::length(Vec2(moved.x, moved.z))) / kFrame_s > kSkating;
         score.moving += double(glm::length(moved)) / kFrame_s > kSkating;
-        score.knees_rad.push_back(shown[i].knee_rad[side]);
+        score.knee_errors_rad.push_back(
+            std::abs(shown[i].knee_rad[side] - knee_of(stream.frames[i].truth, int(side))));
     }
 }
 
@@ -188,7 +196,7 @@ void FeetScore::merge(const FeetScore& s) {
     contact_frames += s.contact_frames, skating += s.skating, moving += s.moving;
     for (auto [a, b] : {std::pair{&slides_m, &s.slides_m}, std::pair{&drifts_m, &s.drifts_m},
                         std::pair{&jump_heights, &s.jump_heights}, std::pair{&pops, &s.pops},
-                        std::pair{&true_turning, &s.true_turning}, std::pair{&knees_rad, &s.knees_rad}})
+                        std::pair{&true_turning, &s.true_turning}, std::pair{&knee_errors_rad, &s.knee_errors_rad}})
         a->insert(a->end(), b->begin(), b->end());
 }
 

@@ -40,7 +40,7 @@ struct FeetScore {
     std::vector<double> slides_m, drifts_m;  // of each contact: along the floor, and in space
     std::vector<double> pops, true_turning;  // rad/s^2
     std::vector<double> jump_heights;        // share of the truth's
-    std::vector<double> knees_rad;           // flexion of legs whose foot stands
+    std::vector<double> knee_errors_rad;     // of legs whose foot stands
 
     void merge(const FeetScore& other);
     double skating_percent() const;

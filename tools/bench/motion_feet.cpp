@@ -26,7 +26,7 @@ void print_head(const std::string& first) {
     std::cout
         << "  " << std::left << std::setw(16) << first << std::right
         << "lifted: P       R      F1  planted F1  slides, %  moves, %  drift, mm: p50     p95  jump: least"
-           "  p50    pop\n";
+           "  p50    pop  knees, deg: p50  p95\n";
 }
 
 void print(const std::string& name, const FeetScore& s) {
@@ -37,7 +37,7 @@ void print(const std::string& name, const FeetScore& s) {
               << s.moving_percent() << std::setprecision(1) << std::setw(15)
               << 1e3 * quantile(s.drifts_m, 0.5) << std::setw(8) << 1e3 * quantile(s.drifts_m, 0.95)
               << std::setprecision(2) << std::setw(13) << quantile(s.jump_heights, 0.0) << std::setw(5)
-              << quantile(s.jump_heights, 0.5) << std::setw(7) << s.worst_pop() << "\n";
+              << quantile(s.jump_heights, 0.5) << std::setw(7) << s.worst_pop() << std::setprecision(1) << std::setw(17) << kDegrees * quantile(s.knee_errors_rad, 0.5) << std::setw(5) << kDegrees * quantile(s.knee_errors_rad, 0.95) << "\n";
 }
 
 /// Planted feet stand still in all three axes.
@@ -59,8 +59,8 @@ void judge_contacts(const std::string& name, const FeetScore& s, double lifted, 
 Json judge_standing(Targets& t) {
     const std::vector<PersonStream> ideal{straight_stand(kFrames)};
     const FeetScore clean = score_all(ideal), noisy = score_all(with_noisy_joints(ideal));
-    const double clean_deg = kDegrees * quantile(clean.knees_rad, 0.5);
-    const double noisy_deg = kDegrees * quantile(noisy.knees_rad, 0.5);
+    const double clean_deg = kDegrees * quantile(clean.knee_errors_rad, 0.5);
+    const double noisy_deg = kDegrees * quantile(noisy.knee_errors_rad, 0.5);
     t.judge("SYNTHETIC, standing straight, ideal joints: knees bent by, median", clean_deg, Aim::at_most, 5.0,
             1, " deg");
     t.judge("SYNTHETIC, standing straight, noisy ideal joints: knees bent by, median", noisy_deg,
