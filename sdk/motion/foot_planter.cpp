@@ -10,9 +10,12 @@ namespace vfit {
 
 namespace {
 
-// The root takes what this costs, a centimetre at most. (At a contact's switch 0.2 % turns knees harder, 3 %
-// lowers whoever stands straight: vfit-bench motion --only feet.)
-constexpr float kSoftness = 0.01f;
+// What a leg that moves keeps of its length, so that its knee does not snap where it comes to full stretch; the
+// root takes what this costs, a centimetre at most. A leg that rests needs none, and stands as straight as it is.
+// (At a contact's switch 0.2 % turns knees harder: vfit-bench motion --only feet.)
+constexpr float kReserve = 0.01f;
+constexpr float kRestingSpeed = 0.05f, kMovingSpeed = 0.25f;  // m/s, of the hip over a foot that stands
+constexpr float kVelocityS = 0.1f, kReserveS = 0.15f;         // low-pass of that, and of the reserve
 constexpr float kHeldM = 1e-3f;  // closer is close enough for a foot that limits have moved
 constexpr float kPullS = 0.1f;   // in a few of these a pull that no leg needs has gone
 constexpr float kHeelStaysM = 0.05f, kHeelRisesM = 0.2f;  // the hip ahead of the ankle
@@ -55,6 +58,18 @@ Quat with_heel_off(const Leg& leg, int side, const RestPose& rest, const RangeOf
 
 }  // namespace
 
+void FootPlanter::keep_reserve(Foot& foot, const Vec3& hip, bool planted, float dt_s) {
+    const bool first = foot.hip == Vec3(0.0f);
+    if (!first && dt_s > 0.0f) {
+        const Vec3 velocity = (hip - foot.hip) / dt_s;
+        foot.hip_velocity += (velocity - foot.hip_velocity) * (1.0f - std::exp(-dt_s / kVelocityS));
+    }
+    foot.hip = hip;
+    const float share =
+        planted ? glm::smoothstep(kRestingSpeed, kMovingSpeed, glm::length(foot.hip_velocity)) : 1.0f;
+    foot.reserve += (share * kReserve - foot.reserve) * (first ? 1.0f : 1.0f - std::exp(-dt_s / kReserveS));
+}
+
 /// Rolls the hips about the root by what the feet's votes differ in; the rest of the votes lifts the root.
 Quat FootPlanter::level_hips(Leg legs[2], const Vec3& root, float& lift_m) const {
     const HeightVote& left = feet_[0].vote;
@@ -85,7 +100,7 @@ Vec3 FootPlanter::pull_root(const Leg legs[2], const Seen seen[2], float lift_m,
             if (!seen[side].planted) continue;
             const Vec3& place = feet_[at(side)].shown;
             const Vec3 residual =
-                place - legs[side].solve(legs[side].hip + shift, place, kSoftness).end;  // Alg. 6, line 10
+                place - legs[side].solve(legs[side].hip + shift, place, feet_[at(side)].reserve).end;  // Alg. 6, line 10
             if (glm::length(residual) < kReachedM) continue;
             shift += residual;
             pulled = true;
@@ -134,6 +149,7 @@ void FootPlanter::apply(const Skeleton& skeleton, const RestPose& rest, const Ra
         foot.pin.move(seen[side].drag);
         const Vec3 place = foot.pin.update(tracked[side].ankle, planted, skeleton.ankle_height, dt_s);
         foot.back.turn(legs[side], dt_s);
+        keep_reserve(foot, tracked[side].hip, planted, dt_s);
         if (planted) {
             foot.shown = place;
             foot.vote.stand(tracked[side].hip, foot.shown, tracked[side].length(), dt_s);
@@ -161,7 +177,7 @@ void FootPlanter::apply(const Skeleton& skeleton, const RestPose& rest, const Ra
         Leg& leg = legs[side];
         leg.move_hip(shift);
         move_leg(foot, leg, tracked[side], seen[side], skeleton.ankle_height, released[side], dt_s);
-        leg.reach(leg.hip, foot.shown, kSoftness);
+        leg.reach(leg.hip, foot.shown, foot.reserve);
         if (seen[side].planted) leg.foot = with_heel_off(leg, side, rest, rom);
         foot.back.turn_foot(leg, dt_s);
         leg.put(hips, pose);
@@ -185,7 +201,7 @@ void FootPlanter::hold(const Skeleton& skeleton, const RestPose& rest, const boo
     for (int side = 0; side < 2; ++side) {
         if (!planted[side]) continue;
         Leg leg(side, rest, posed);
-        leg.reach(leg.hip + shift, feet_[at(side)].shown, kSoftness);
+        leg.reach(leg.hip + shift, feet_[at(side)].shown, feet_[at(side)].reserve);
         leg.put(posed.rotation[VFIT_BONE_HIPS], pose);
     }
     pose.hips_position += shift;

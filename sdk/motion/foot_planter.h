@@ -44,8 +44,11 @@ private:
         HeightVote vote;
         LegReturn back;
         Vec3 shown{0.0f};  // where the last apply() put the ankle
+        Vec3 hip{0.0f}, hip_velocity{0.0f};  // tracked, low-passed
+        float reserve = 0.0f;                // of the leg's length
     };
 
+    static void keep_reserve(Foot& foot, const Vec3& hip, bool planted, float dt_s);
     Quat level_hips(Leg legs[2], const Vec3& root, float& lift_m) const;
     Vec3 pull_root(const Leg legs[2], const Seen seen[2], float lift_m, float dt_s);
 
