@@ -11,6 +11,7 @@ namespace {
 // where it is tracked in a few steps of a frame. While the floor is still sought, a standing foot
 // follows it by two millimetres a frame.
 constexpr float kStopS = 0.0065f, kReleaseS = 0.05f, kSettleSpeed = 0.06f;
+constexpr float kFloorSlackM = 0.003f;  // a foot stays where it stands while the floor is found to be so close
 // No step is shorter in time and as short in space: a foot that is so soon tracked where it stood never left.
 constexpr float kNoStepS = 0.3f, kNoStepM = 0.03f;
 constexpr float kMeanS = 1.0f;       // of the tracked place of a foot that stands
@@ -33,8 +34,11 @@ Vec3 FootPin::update(const Vec3& tracked, bool planted, float floor_y, float dt_
     }
     tracked_ = tracked;
     const Vec3 shown_velocity = glide_.velocity() + (planted_ ? Vec3(0.0f) : tracked_velocity_);
-    if (planted || planted_)
-        place_.y += std::clamp(floor_y - place_.y, -kSettleSpeed * dt_s, kSettleSpeed * dt_s);
+    if (planted_) {
+        const float off = floor_y - place_.y;
+        const float beyond = off - std::clamp(off, -kFloorSlackM, kFloorSlackM);
+        place_.y += std::clamp(beyond, -kSettleSpeed * dt_s, kSettleSpeed * dt_s);
+    }
     if (planted && !planted_) {
         const Vec3 shown = tracked + glide_.value();
         const bool never_left =

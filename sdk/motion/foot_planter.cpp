@@ -98,9 +98,9 @@ Vec3 FootPlanter::pull_root(const Leg legs[2], const Seen seen[2], float lift_m,
         bool reached = true;
         for (int side = 0; side < 2; ++side) {
             if (!seen[side].planted) continue;
-            const Vec3& place = feet_[at(side)].shown;
+            const Foot& foot = feet_[at(side)];
             const Vec3 residual =
-                place - legs[side].solve(legs[side].hip + shift, place, feet_[at(side)].reserve).end;  // Alg. 6, line 10
+                foot.shown - legs[side].solve(legs[side].hip + shift, foot.shown, foot.reserve).end;  // Alg. 6, 10
             if (glm::length(residual) < kReachedM) continue;
             shift += residual;
             pulled = true;
@@ -128,8 +128,8 @@ void FootPlanter::move_leg(Foot& foot, Leg& leg, const Leg& tracked, const Seen&
     foot.back.swing(leg, dt_s);
     foot.shown = leg.ankle;
     if (seen.known) {
-        const float near = 1.0f - glm::smoothstep(kNearFloorM, kOffFloorM, seen.ankle_m - floor_m);
-        foot.shown.y += near * (std::max(seen.ankle_m, floor_m) - leg.ankle.y);
+        const float share = 1.0f - glm::smoothstep(kNearFloorM, kOffFloorM, seen.ankle_m - floor_m);
+        foot.shown.y += share * (std::max(seen.ankle_m, floor_m) - leg.ankle.y);
     }
     foot.pin.showed(foot.shown);
 }

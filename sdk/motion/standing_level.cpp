@@ -7,8 +7,10 @@ namespace vfit {
 
 namespace {
 
-constexpr float kFindS = 1.0f;     // of standing, whose mean is the first level
-constexpr float kMeanS = 10.0f;    // time constant after that: trackers err by where in the room a foot stands
+constexpr float kFindS = 1.0f;  // of standing, after which the level is found
+// Time constant of the mean, a share of the time stood so far: what a tracker reports before it has settled is
+// forgotten with the fourth power of time.
+constexpr float kMeanShare = 0.25f, kShortestMeanS = 0.1f, kLongestMeanS = 3.0f;
 constexpr float kUnseen = 0.006f;  // m/s, 0.2 mm in a frame of 30 Hz
 // A reading that lies farther off is an error of its joint and counts as no more than this.
 constexpr float kMostM = 0.03f;
@@ -27,11 +29,12 @@ void StandingLevel::update(float height_m, float dt_s) {
         return;
     }
     stood_s_ += dt_s;
-    const float off = std::clamp(off_m, -kMostM, kMostM);
+    const float mean_s = std::clamp(kMeanShare * stood_s_, kShortestMeanS, kLongestMeanS);
+    const float gain = std::min(1.0f, dt_s / mean_s);
     if (stood_s_ < kFindS)
-        level_m_ += off * dt_s / (stood_s_ + dt_s);
+        level_m_ += gain * off_m;
     else
-        level_m_ += std::clamp(off * std::min(1.0f, dt_s / kMeanS), -kUnseen * dt_s, kUnseen * dt_s);
+        level_m_ += std::clamp(gain * std::clamp(off_m, -kMostM, kMostM), -kUnseen * dt_s, kUnseen * dt_s);
 }
 
 }  // namespace vfit

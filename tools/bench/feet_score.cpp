@@ -105,6 +105,7 @@ void score_pops(const PersonStream& stream, const std::vector<Shown>& shown, Fee
         for (size_t k = i - 1; k <= i + 1; ++k)
             switches = switches || shown[k].planted != shown[k - 1].planted;
         for (const int bone : kTurning) {
+            if (!stream.frames[i].truth.joints[size_t(joint_of_bone(bone))].has_rotation) continue;
             const auto b = size_t(bone);
             const auto truly = [&](size_t k) {
                 return stream.frames[k].truth.joints[size_t(joint_of_bone(bone))].rotation;
@@ -202,7 +203,10 @@ void FeetScore::merge(const FeetScore& s) {
 
 double FeetScore::skating_percent() const { return percent(skating, contact_frames); }
 double FeetScore::moving_percent() const { return percent(moving, contact_frames); }
-double FeetScore::worst_pop() const { return quantile(pops, 1.0) / quantile(true_turning, 0.99); }
+double FeetScore::worst_pop() const {
+    const double truly = quantile(true_turning, 0.99);
+    return truly > 0.0 ? quantile(pops, 1.0) / truly : NAN;
+}
 
 FeetScore score_feet(const PersonStream& stream, const std::vector<Shown>& shown) {
     FeetScore score;

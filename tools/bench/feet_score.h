@@ -45,7 +45,8 @@ struct FeetScore {
     void merge(const FeetScore& other);
     double skating_percent() const;
     double moving_percent() const;
-    /// The largest angular acceleration at a switch over the 99th percentile of the true motion.
+    /// The largest angular acceleration at a switch over the 99th percentile of the true motion; no number where the truth has
+    /// no rotations.
     double worst_pop() const;
 };
 

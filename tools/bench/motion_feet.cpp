@@ -8,6 +8,7 @@
 #include "bench/feet_score.h"
 #include "bench/motion_parts.h"
 #include "bench/motion_people.h"
+#include "bench/puppets.h"
 
 namespace vfit::tools {
 
@@ -16,10 +17,17 @@ namespace {
 constexpr uint32_t kPeople = 3, kFrames = 330;
 constexpr double kDegrees = 180.0 / 3.14159265358979;
 
-FeetScore score_all(const std::vector<PersonStream>& streams) {
-    FeetScore score;
-    for (const PersonStream& stream : streams) score.merge(score_feet(stream, show_motion(stream)));
-    return score;
+using ScoresByMotion = std::map<std::string, FeetScore>;
+
+/// The scores of each motion, and of all.
+FeetScore score_all(const std::vector<PersonStream>& streams, ScoresByMotion* by_motion = nullptr) {
+    FeetScore all;
+    for (const PersonStream& stream : streams) {
+        const FeetScore score = score_feet(stream, show_motion(stream));
+        all.merge(score);
+        if (by_motion) (*by_motion)[stream.motion].merge(score);
+    }
+    return all;
 }
 
 void print_head(const std::string& first) {
@@ -91,12 +99,8 @@ Json judge_feet(const MotionJudge& judge) {
     FeetScore all[2];
     double pop = 0;
     for (const bool noisy : {false, true}) {
-        std::map<std::string, FeetScore> by_motion;
-        for (const PersonStream& stream : noisy ? with_noisy_joints(tracked) : tracked) {
-            const FeetScore score = score_feet(stream, show_motion(stream));
-            by_motion[stream.motion].merge(score);
-            all[noisy].merge(score);
-        }
+        ScoresByMotion by_motion;
+        all[noisy] = score_all(noisy ? with_noisy_joints(tracked) : tracked, &by_motion);
         if (!judge.quiet) {
             print_head(noisy ? "noisy ideal" : "tracked");
             for (const auto& [name, score] : by_motion) print(name, score);
@@ -121,6 +125,21 @@ Json judge_feet(const MotionJudge& judge) {
     t.judge("SYNTHETIC, noisy ideal joints: a jump's height, median share of the truth",
             quantile(all[1].jump_heights, 0.5), Aim::at_least, 0.9, 2);
     const Json standing = judge_standing(t);
+    {
+        ScoresByMotion by_motion;
+        const std::vector<PersonStream> clean = puppets(kPeople);
+        const FeetScore exact = score_all(clean), noisy = score_all(with_noisy_joints(clean), &by_motion);
+        if (!judge.quiet) {
+            print_head("puppets, noisy");
+            for (const auto& [name, score] : by_motion) print(name, score);
+            print("all", noisy);
+            print("without noise", exact);
+        }
+        judge_contacts("puppets, noisy ideal joints", noisy, 0.93, 0.98, t);
+        judge_stillness("puppets, noisy ideal joints", noisy, t);
+        judge_contacts("puppets, ideal joints", exact, 0.93, 0.98, t);
+        judge_stillness("puppets, ideal joints", exact, t);
+    }
     if (!captured.empty()) {
         const FeetScore seen = score_all(captured), noisy = score_all(with_noisy_joints(captured));
         if (!judge.quiet) {
