@@ -95,14 +95,22 @@ void FootContact::keep_one_down(bool stands[2]) const {
         stands[feet_[0].planted ? 0 : 1] = true;
 }
 
+/// By the ankles that stand, but for one that is higher than a whole foot's can be: that foot is on its ball. In
+/// the first body by the lowest.
 void FootContact::find_floor(const Body& body, float dt_s) {
+    float lowest = INFINITY;
+    for (size_t side = 0; side < 2; ++side)
+        if (feet_[side].planted && body.has(kAnkles[side]))
+            lowest = std::min(lowest, body.at(kAnkles[side]).y);
+    if (lowest == INFINITY) return;
+    const float uneven_m = started_ ? kUnevenM : 0.0f;
     float sum = 0.0f, count = 0.0f;
     for (size_t side = 0; side < 2; ++side)
-        if (feet_[side].planted && body.has(kAnkles[side])) {
+        if (feet_[side].planted && body.has(kAnkles[side]) && body.at(kAnkles[side]).y <= lowest + uneven_m) {
             sum += body.at(kAnkles[side]).y;
             count += 1.0f;
         }
-    if (count > 0.0f) standing_.update(sum / count, dt_s);
+    standing_.update(sum / count, dt_s);
 }
 
 void FootContact::update(const Body& body, vfit_contact_rule rule) {

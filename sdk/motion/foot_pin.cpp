@@ -8,9 +8,13 @@ namespace vfit {
 namespace {
 
 // Time constants of the glide: a foot that touches down stands within two frames; one that is free returns to
-// where it is tracked in a few steps of a frame. While the floor is still sought, a standing foot
-// follows it by two millimetres a frame.
-constexpr float kStopS = 0.0065f, kReleaseS = 0.05f, kSettleSpeed = 0.06f;
+// where it is tracked in a few steps of a frame.
+constexpr float kStopS = 0.0065f, kReleaseS = 0.05f;
+// With which a standing foot takes its height: of the floor while that is sought, and of a heel that rises.
+constexpr float kHeightS = 0.05f;
+// Above the floor, the ankle of a whole foot on it is seen so high at most, and that of a foot on its ball from
+// the second on.
+constexpr float kWholeFootM = 0.05f, kBallOfFootM = 0.1f;
 constexpr float kFloorSlackM = 0.003f;  // a foot stays where it stands while the floor is found to be so close
 // No step is shorter in time and as short in space: a foot that is so soon tracked where it stood never left.
 constexpr float kNoStepS = 0.3f, kNoStepM = 0.03f;
@@ -25,7 +29,12 @@ Vec3 at_most(const Vec3& velocity, float fastest) {
 
 }  // namespace
 
-Vec3 FootPin::update(const Vec3& tracked, bool planted, float floor_y, float dt_s) {
+float standing_height(float ankle_m, float level_m) {
+    const float above = ankle_m - level_m;
+    return level_m + above * glm::smoothstep(kWholeFootM, kBallOfFootM, above);
+}
+
+Vec3 FootPin::update(const Vec3& tracked, bool planted, float stand_y, float dt_s) {
     drag_ = Vec3(0.0f);
     if (!known_) tracked_ = tracked;
     if (dt_s > 0.0f) {
@@ -35,19 +44,19 @@ Vec3 FootPin::update(const Vec3& tracked, bool planted, float floor_y, float dt_
     tracked_ = tracked;
     const Vec3 shown_velocity = glide_.velocity() + (planted_ ? Vec3(0.0f) : tracked_velocity_);
     if (planted_) {
-        const float off = floor_y - place_.y;
+        const float off = stand_y - place_.y;
         const float beyond = off - std::clamp(off, -kFloorSlackM, kFloorSlackM);
-        place_.y += std::clamp(beyond, -kSettleSpeed * dt_s, kSettleSpeed * dt_s);
+        place_.y += beyond * (1.0f - std::exp(-dt_s / kHeightS));
     }
     if (planted && !planted_) {
         const Vec3 shown = tracked + glide_.value();
         const bool never_left =
             stood_s_ > 0.0f && free_s_ < kNoStepS && glm::length(tracked - tracked_there_) < kNoStepM;
         if (!never_left) {
-            place_ = {shown.x, floor_y, shown.z};
+            place_ = {shown.x, stand_y, shown.z};
             stood_s_ = 0.0f;
         }
-        glide_ = Glide(shown - place_, known_ ? at_most(shown_velocity, kFastest) : Vec3(0.0f));
+        glide_ = known_ ? Glide(shown - place_, at_most(shown_velocity, kFastest)) : Glide();
     } else if (!planted && planted_) {
         // It moves off as it is tracked to move.
         glide_ = Glide(glide_.value() + place_ - tracked);

@@ -7,14 +7,18 @@
 
 namespace vfit {
 
+/// At which a planted foot stands whose ankle is seen at `ankle_m`: `level_m`, that of the floor, for a whole
+/// foot, and where it is seen for one on its ball.
+float standing_height(float ankle_m, float level_m);
+
 class FootPin {
 public:
     /// A planted foot that is tracked further than `leash_m` from its place is dragged along.
     explicit FootPin(float leash_m) : leash_m_(leash_m) {}
 
     /// The place to show for a foot tracked at `tracked`. While planted it stands where it came down, or
-    /// where it stood before if it never left, at the height `floor_y`.
-    Vec3 update(const Vec3& tracked, bool planted, float floor_y, float dt_s);
+    /// where it stood before if it never left, at the height `stand_y`.
+    Vec3 update(const Vec3& tracked, bool planted, float stand_y, float dt_s);
 
     /// A foot that is free was shown at `place` after all.
     void showed(const Vec3& place) { glide_ = Glide(place - tracked_); }

@@ -10,11 +10,11 @@ namespace vfit {
 
 namespace {
 
-// What a leg that moves keeps of its length, so that its knee does not snap where it comes to full stretch; the
-// root takes what this costs, a centimetre at most. A leg that rests needs none, and stands as straight as it is.
-// (At a contact's switch 0.2 % turns knees harder: vfit-bench motion --only feet.)
-constexpr float kReserve = 0.01f;
-constexpr float kRestingSpeed = 0.05f, kMovingSpeed = 0.25f;  // m/s, of the hip over a foot that stands
+// What a leg keeps of its length, so that its knee does not snap where it comes to full stretch: 1 % (16 degrees)
+// while it moves, 0.1 % (5 degrees) while it rests and should look straight. The root takes what this costs, a
+// centimetre at most. (At a contact's switch 0.2 % turns knees harder: vfit-bench motion --only feet.)
+constexpr float kReserve = 0.01f, kRestingReserve = 0.001f;
+constexpr float kRestingSpeed = 0.05f, kMovingSpeed = 0.25f;  // m/s, of the hip over the ankle
 constexpr float kVelocityS = 0.1f, kReserveS = 0.15f;         // low-pass of that, and of the reserve
 constexpr float kHeldM = 1e-3f;  // closer is close enough for a foot that limits have moved
 constexpr float kPullS = 0.1f;   // in a few of these a pull that no leg needs has gone
@@ -23,9 +23,6 @@ constexpr float kLeastLevel =
     0.1f;  // of the toes' direction: a foot that points up or down points nowhere ahead
 constexpr float kMostRoll = 0.1f;     // rad, of the pelvis
 constexpr float kLeastHipsM = 0.02f;  // apart, seen from above
-// A free foot so low has the height at which its ankle was seen: it meets the floor when the tracked foot does. One
-// so high is where the tracked posture puts it.
-constexpr float kNearFloorM = 0.05f, kOffFloorM = 0.2f;
 constexpr int kRootPasses = 12;       // two legs at the end of their reach pull the root in turns
 constexpr float kReachedM = 2e-6f;    // at 0.05 mm, a straight knee still trembles
 
@@ -58,33 +55,29 @@ Quat with_heel_off(const Leg& leg, int side, const RestPose& rest, const RangeOf
 
 }  // namespace
 
-void FootPlanter::keep_reserve(Foot& foot, const Vec3& hip, bool planted, float dt_s) {
-    const bool first = foot.hip == Vec3(0.0f);
-    if (!first && dt_s > 0.0f) {
-        const Vec3 velocity = (hip - foot.hip) / dt_s;
-        foot.hip_velocity += (velocity - foot.hip_velocity) * (1.0f - std::exp(-dt_s / kVelocityS));
+void FootPlanter::keep_reserve(Foot& foot, const Leg& tracked, bool planted, float dt_s) {
+    const Vec3 way = tracked.hip - (planted ? Vec3(0.0f) : tracked.ankle);
+    const bool first = foot.way == Vec3(0.0f);
+    if (dt_s > 0.0f && !first && planted == foot.pin.planted()) {
+        const Vec3 velocity = (way - foot.way) / dt_s;
+        foot.velocity += (velocity - foot.velocity) * (1.0f - std::exp(-dt_s / kVelocityS));
     }
-    foot.hip = hip;
-    const float share =
-        planted ? glm::smoothstep(kRestingSpeed, kMovingSpeed, glm::length(foot.hip_velocity)) : 1.0f;
-    foot.reserve += (share * kReserve - foot.reserve) * (first ? 1.0f : 1.0f - std::exp(-dt_s / kReserveS));
+    foot.way = way;
+    const float share = glm::smoothstep(kRestingSpeed, kMovingSpeed, glm::length(foot.velocity));
+    const float reserve = glm::mix(kRestingReserve, kReserve, share);
+    foot.reserve += (reserve - foot.reserve) * (first ? 1.0f : 1.0f - std::exp(-dt_s / kReserveS));
 }
 
-/// Rolls the hips about the root by what the feet's votes differ in; the rest of the votes lifts the root.
+/// Rolls the hips about the root as the feet say; `lift_m`: how far up the root goes after that.
 Quat FootPlanter::level_hips(Leg legs[2], const Vec3& root, float& lift_m) const {
-    const HeightVote& left = feet_[0].vote;
-    const HeightVote& right = feet_[1].vote;
-    const Quat roll = pelvis_roll(legs, left.weight() * right.weight() * (left.rise_m() - right.rise_m()));
-    float sum = 0.0f, weights = 0.0f;
+    const Quat roll = pelvis_roll(legs, height_.slope_m());
+    lift_m = height_.lift_m();
     for (int side = 0; side < 2; ++side) {
         const Vec3& hip = legs[side].hip;
         const float was = hip.y;
         legs[side].move_hip(root + roll * (hip - root) - hip);
-        const HeightVote& vote = feet_[at(side)].vote;
-        sum += vote.weight() * (vote.rise_m() - (hip.y - was));
-        weights += vote.weight();
+        lift_m -= 0.5f * (hip.y - was);
     }
-    lift_m = sum / weights;
     return roll;
 }
 
@@ -113,9 +106,9 @@ Vec3 FootPlanter::pull_root(const Leg legs[2], const Seen seen[2], float lift_m,
 }
 
 /// One leg under its shifted hip: as it is planted, as it comes free, as it swings.
-void FootPlanter::move_leg(Foot& foot, Leg& leg, const Leg& tracked, const Seen& seen, float floor_m,
-                           bool released, float dt_s) {
-    if (seen.planted) {
+void FootPlanter::move_leg(Foot& foot, Leg& leg, const Leg& tracked, bool planted, bool released,
+                           float dt_s) {
+    if (planted) {
         Leg stood = leg;
         stood.reach(leg.hip, foot.shown, 0.0f);
         foot.back.stand(stood, dt_s);
@@ -127,10 +120,6 @@ void FootPlanter::move_leg(Foot& foot, Leg& leg, const Leg& tracked, const Seen&
     }
     foot.back.swing(leg, dt_s);
     foot.shown = leg.ankle;
-    if (seen.known) {
-        const float share = 1.0f - glm::smoothstep(kNearFloorM, kOffFloorM, seen.ankle_m - floor_m);
-        foot.shown.y += share * (std::max(seen.ankle_m, floor_m) - leg.ankle.y);
-    }
     foot.pin.showed(foot.shown);
 }
 
@@ -139,7 +128,8 @@ void FootPlanter::apply(const Skeleton& skeleton, const RestPose& rest, const Ra
     const PosedSkeleton posed = forward_kinematics(skeleton, pose);
     const Leg tracked[2] = {Leg(0, rest, posed), Leg(1, rest, posed)};
     Leg legs[2] = {tracked[0], tracked[1]};
-    bool released[2];
+    bool released[2], stands[2];
+    HeightVote votes[2];
     pose.contacts = 0;
     pose.foot_correction_m = 0;
     for (int side = 0; side < 2; ++side) {
@@ -147,20 +137,22 @@ void FootPlanter::apply(const Skeleton& skeleton, const RestPose& rest, const Ra
         const bool planted = seen[side].planted;
         released[side] = foot.pin.planted() && !planted;
         foot.pin.move(seen[side].drag);
-        const Vec3 place = foot.pin.update(tracked[side].ankle, planted, skeleton.ankle_height, dt_s);
+        keep_reserve(foot, tracked[side], planted, dt_s);
+        const float floor_m = skeleton.ankle_height;
+        const float stand_y = seen[side].known ? standing_height(seen[side].ankle_m, floor_m) : floor_m;
+        const Vec3 place = foot.pin.update(tracked[side].ankle, planted, stand_y, dt_s);
         foot.back.turn(legs[side], dt_s);
-        keep_reserve(foot, tracked[side].hip, planted, dt_s);
         if (planted) {
             foot.shown = place;
-            foot.vote.stand(tracked[side].hip, foot.shown, tracked[side].length(), dt_s);
+            votes[side] = standing_vote(tracked[side], foot.shown);
             pose.contacts |= side == 0 ? VFIT_CONTACT_LEFT : VFIT_CONTACT_RIGHT;
             pose.foot_correction_m = std::max(pose.foot_correction_m, glm::length(foot.pin.offset()));
         } else if (seen[side].known) {
-            foot.vote.swing(seen[side].ankle_m - tracked[side].ankle.y, dt_s);
-        } else {
-            foot.vote.swing_unseen(dt_s);
+            votes[side] = free_vote(seen[side].ankle_m - tracked[side].ankle.y);
         }
+        stands[side] = planted;
     }
+    height_.update(votes, stands, dt_s);
 
     float lift_m = 0.0f;
     const Quat roll = level_hips(legs, pose.hips_position, lift_m);
@@ -176,7 +168,7 @@ void FootPlanter::apply(const Skeleton& skeleton, const RestPose& rest, const Ra
         Foot& foot = feet_[at(side)];
         Leg& leg = legs[side];
         leg.move_hip(shift);
-        move_leg(foot, leg, tracked[side], seen[side], skeleton.ankle_height, released[side], dt_s);
+        move_leg(foot, leg, tracked[side], seen[side].planted, released[side], dt_s);
         leg.reach(leg.hip, foot.shown, foot.reserve);
         if (seen[side].planted) leg.foot = with_heel_off(leg, side, rest, rom);
         foot.back.turn_foot(leg, dt_s);

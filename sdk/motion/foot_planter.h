@@ -8,9 +8,9 @@
 #include "body/range_of_motion.h"
 #include "motion/foot_pin.h"
 #include "motion/glide.h"
-#include "motion/height_vote.h"
 #include "motion/leg_return.h"
 #include "motion/rest_pose.h"
+#include "motion/root_height.h"
 
 namespace vfit {
 
@@ -41,21 +41,21 @@ public:
 private:
     struct Foot {
         FootPin pin{kCharacterLeashM};
-        HeightVote vote;
         LegReturn back;
         Vec3 shown{0.0f};  // where the last apply() put the ankle
-        Vec3 hip{0.0f}, hip_velocity{0.0f};  // tracked, low-passed
-        float reserve = 0.0f;                // of the leg's length
+        // Of the tracked hip, over where the foot stands or over the tracked ankle; low-passed.
+        Vec3 way{0.0f}, velocity{0.0f};
+        float reserve = 0.0f;  // of the leg's length
     };
 
-    static void keep_reserve(Foot& foot, const Vec3& hip, bool planted, float dt_s);
+    static void keep_reserve(Foot& foot, const Leg& tracked, bool planted, float dt_s);
     Quat level_hips(Leg legs[2], const Vec3& root, float& lift_m) const;
     Vec3 pull_root(const Leg legs[2], const Seen seen[2], float lift_m, float dt_s);
 
-    static void move_leg(Foot& foot, Leg& leg, const Leg& tracked, const Seen& seen, float floor_m, bool released,
-                         float dt_s);
+    static void move_leg(Foot& foot, Leg& leg, const Leg& tracked, bool planted, bool released, float dt_s);
 
     std::array<Foot, 2> feet_;
+    RootHeight height_;
     Glide pull_;  // of the root, beside its lift; fades when no leg needs it
 };
 

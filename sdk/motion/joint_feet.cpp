@@ -12,7 +12,7 @@ void JointFeet::apply(const bool planted[2], const Vec3 knee_fronts[2], float an
         if (!body.has(ankle)) continue;
         FootPin& pin = pins_[static_cast<size_t>(side)];
         const Vec3 tracked = body.at(ankle);
-        const Vec3 shown = pin.update(tracked, planted[side], ankle_level, dt_s);
+        const Vec3 shown = pin.update(tracked, planted[side], standing_height(tracked.y, ankle_level), dt_s);
         if (pin.offset() == Vec3(0.0f)) continue;
         body.joints[static_cast<size_t>(ankle)].position = shown;
         if (body.has(toes)) body.joints[static_cast<size_t>(toes)].position += pin.offset();

@@ -69,5 +69,33 @@ TEST(FootPin, TheLeashDragsAPlaceThatIsFarFromWhereTheFootIsTracked) {
     EXPECT_NEAR(pin.drag().x, 0.25f, 1e-3f);
 }
 
+TEST(FootPin, AWholeFootStandsOnTheFloorAndOneOnItsBallWhereItsAnkleIsSeen) {
+    for (const float noise_m : {-0.1f, -0.02f, 0.0f, 0.01f, 0.04f})
+        EXPECT_FLOAT_EQ(standing_height(kFloor + noise_m, kFloor), kFloor) << noise_m;
+    EXPECT_FLOAT_EQ(standing_height(kFloor + 0.12f, kFloor), kFloor + 0.12f);
+    float before = kFloor;
+    for (float above = 0.0f; above < 0.12f; above += 0.002f) {
+        const float height = standing_height(kFloor + above, kFloor);
+        EXPECT_GE(height, before) << "a heel that rises is shown to rise";
+        before = height;
+    }
+}
+
+TEST(FootPin, TheFirstFootIsShownWhereItStandsAtOnce) {
+    FootPin pin(0.15f);
+    EXPECT_NEAR(pin.update({0, kFloor + 0.02f, 0}, true, kFloor, kFrameS).y, kFloor, 1e-6f);
+}
+
+TEST(FootPin, AFootOnItsBallRisesAndComesDownWithItsHeel) {
+    FootPin pin(0.15f);
+    for (int i = 0; i < 30; ++i) pin.update({0, kFloor, 0}, true, kFloor, kFrameS);
+    Vec3 shown(0.0f);
+    for (const float heel_m : {0.12f, 0.0f}) {
+        const float stand = standing_height(kFloor + heel_m, kFloor);
+        for (int i = 0; i < 30; ++i) shown = pin.update({0, kFloor + heel_m, 0}, true, stand, kFrameS);
+        EXPECT_NEAR(shown.y, kFloor + heel_m, 0.0035f);
+    }
+}
+
 }  // namespace
 }  // namespace vfit

@@ -32,9 +32,10 @@ struct Scene {
         return pose;
     }
     PosedSkeleton step(Pose pose, bool left) {
-        const bool planted[2] = {left, true};
-        const Vec3 drags[2] = {Vec3(0.0f), Vec3(0.0f)};
-        planter.apply(skeleton, rest, RangeOfMotion::natural(), planted, drags, kFrame, pose);
+        FootPlanter::Seen seen[2];
+        seen[0].planted = left;
+        seen[1].planted = true;
+        planter.apply(skeleton, rest, RangeOfMotion::natural(), seen, kFrame, pose);
         return forward_kinematics(skeleton, pose);
     }
 };

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 #include <vector>
 
 #include "synthetic_walk.h"
@@ -182,13 +183,37 @@ TEST(FootSkate, ReportsHowFarItMovedTheFootAndTheRoot) {
             0.04f * std::sin(static_cast<float>(f) * 0.1f);  // slow: both feet slide along
         const Body body = testing::joints_of(skeleton, pose, frame_ns(f));
         const Step step = take(motion, &body, body.time_ns);
-        EXPECT_EQ(step.contacts, 3u);
+        EXPECT_EQ(step.contacts, 3u) << f;
         EXPECT_NEAR(motion.pose().foot_correction_m, std::abs(pose.hips_position.x), 2e-3f);
         EXPECT_LT(level_distance(step.feet[0], {0.1f, 0, -0.01f}), 0.002f);
         largest = std::max(largest, glm::length(motion.pose().root_correction));
     }
     EXPECT_GT(largest, 1e-5f);  // straight legs reach aside only if the root gives way
     EXPECT_LT(largest, 0.02f);
+}
+
+TEST(FootSkate, PlantedFeetStandStillInSpaceUnderNoiseAndOutliers) {
+    const Skeleton person = testing::test_skeleton();
+    Pose pose;
+    pose.hips_position = person.offset[VFIT_BONE_HIPS];
+    std::mt19937 engine(5);
+    std::normal_distribution<float> noise(0.0f, 0.01f);
+    Motion motion = make(0, nullptr);
+    Step before{};
+    for (int f = 0; f < 300; ++f) {
+        Body body = testing::joints_of(person, pose, frame_ns(f));
+        for (Joint& joint : body.joints)
+            if (joint.seen()) joint.position += Vec3(noise(engine), noise(engine), noise(engine));
+        // Now and then a foot is reported 4 cm lower.
+        if (f % 40 == 20) body.joints[VFIT_JOINT_LEFT_FOOT].position.y -= 0.04f;
+        const Step now = take(motion, &body, body.time_ns);
+        for (int side = 0; f > 45 && side < 2; ++side) {
+            EXPECT_TRUE(now.contacts & kContact[side]) << f;
+            EXPECT_LT(glm::distance(now.feet[side], before.feet[side]), 0.00025f) << f;
+            EXPECT_LT(glm::distance(now.joints[side], before.joints[side]), 0.00025f) << f;
+        }
+        before = now;
+    }
 }
 
 }  // namespace
