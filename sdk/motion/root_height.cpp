@@ -10,7 +10,7 @@ namespace {
 constexpr float kKneeSd = 0.09f;      // rad, of a tracked knee
 constexpr float kLengthSdM = 0.004f;  // of a leg, beside that
 constexpr float kSlopeSdM = 0.03f;    // of one hip above the other
-constexpr float kJumpS = 0.1f;        // in a few of these the root follows other feet
+constexpr float kJumpS = 0.05f;       // in a few of these the root follows other feet
 
 float square(float x) { return x * x; }
 
