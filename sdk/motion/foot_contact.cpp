@@ -95,8 +95,8 @@ void FootContact::keep_one_down(bool stands[2]) const {
         stands[feet_[0].planted ? 0 : 1] = true;
 }
 
-/// By the ankles that stand, but for one that is higher than a whole foot's can be: that foot is on its ball. In
-/// the first body by the lowest.
+/// By the ankles that stand, without one that is higher than that of a whole foot: its foot is on its ball.
+/// In the first body by the lowest.
 void FootContact::find_floor(const Body& body, float dt_s) {
     float lowest = INFINITY;
     for (size_t side = 0; side < 2; ++side)

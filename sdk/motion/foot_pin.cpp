@@ -12,10 +12,11 @@ namespace {
 constexpr float kStopS = 0.0065f, kReleaseS = 0.05f;
 // With which a standing foot takes its height: of the floor while that is sought, and of a heel that rises.
 constexpr float kHeightS = 0.05f;
-// Above the floor, the ankle of a whole foot on it is seen so high at most, and that of a foot on its ball from
-// the second on.
+// Above the floor, the ankle of a whole foot on it is seen so high at most, and that of a foot on its ball
+// from the second on.
 constexpr float kWholeFootM = 0.05f, kBallOfFootM = 0.1f;
-constexpr float kFloorSlackM = 0.003f;  // a foot stays where it stands while the floor is found to be so close
+constexpr float kFloorSlackM =
+    0.003f;  // a foot stays where it stands while the floor is found to be so close
 // No step is shorter in time and as short in space: a foot that is so soon tracked where it stood never left.
 constexpr float kNoStepS = 0.3f, kNoStepM = 0.03f;
 constexpr float kMeanS = 1.0f;       // of the tracked place of a foot that stands

@@ -10,9 +10,10 @@ namespace vfit {
 
 namespace {
 
-// What a leg keeps of its length, so that its knee does not snap where it comes to full stretch: 1 % (16 degrees)
-// while it moves, 0.1 % (5 degrees) while it rests and should look straight. The root takes what this costs, a
-// centimetre at most. (At a contact's switch 0.2 % turns knees harder: vfit-bench motion --only feet.)
+// What a leg keeps of its length, so that its knee does not snap where it comes to full stretch: 1 % (16
+// degrees) while it moves, 0.1 % (5 degrees) while it rests and should look straight. The root takes what
+// this costs, a centimetre at most. (At a contact's switch 0.2 % turns knees harder: vfit-bench motion --only
+// feet.)
 constexpr float kReserve = 0.01f, kRestingReserve = 0.001f;
 constexpr float kRestingSpeed = 0.05f, kMovingSpeed = 0.25f;  // m/s, of the hip over the ankle
 constexpr float kVelocityS = 0.1f, kReserveS = 0.15f;         // low-pass of that, and of the reserve
@@ -93,7 +94,8 @@ Vec3 FootPlanter::pull_root(const Leg legs[2], const Seen seen[2], float lift_m,
             if (!seen[side].planted) continue;
             const Foot& foot = feet_[at(side)];
             const Vec3 residual =
-                foot.shown - legs[side].solve(legs[side].hip + shift, foot.shown, foot.reserve).end;  // Alg. 6, 10
+                foot.shown -
+                legs[side].solve(legs[side].hip + shift, foot.shown, foot.reserve).end;  // Alg. 6, 10
             if (glm::length(residual) < kReachedM) continue;
             shift += residual;
             pulled = true;

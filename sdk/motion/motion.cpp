@@ -216,8 +216,8 @@ void Motion::State::adopt_person() {
     rest = RestPose(skeleton);
 }
 
-/// A height of the person's on the character: above the standing ankle scaled by leg length, so that other legs
-/// stand on the same floor.
+/// A height of the person's on the character: above the standing ankle scaled by leg length, so that other
+/// legs stand on the same floor.
 float Motion::State::on_character(float height_m) const {
     const RestPose person_rest(person.skeleton());
     const float ratio = bound ? rest.leg_m() / person_rest.leg_m() : 1.0f;

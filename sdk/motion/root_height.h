@@ -1,6 +1,6 @@
-// How high the root is and how the pelvis is rolled, which nobody sees: as both legs are as long as their knees,
-// which everybody sees, were tracked. A leg says its length the more surely the straighter it is: near full
-// stretch 17 degrees of the knee are a centimetre, at a right angle 9.
+// The height of the root and the roll of the pelvis. No sensor sees them, but it sees the knees: both legs
+// are to be as long as tracked. A leg tells its length the more surely the straighter it is: near full
+// stretch 17 degrees of the knee are a centimetre, at a right angle 2 are.
 #pragma once
 
 #include "motion/glide.h"
@@ -11,7 +11,7 @@ namespace vfit {
 /// What one foot says.
 struct HeightVote {
     float rise_m = 0.0f;  // how far up its hip must go
-    float sd_m = 1e3f;   // how surely
+    float sd_m = 1e3f;    // how surely
 };
 
 /// So that the tracked leg, as long as it is, reaches `target`, where its foot stands.

@@ -1,5 +1,5 @@
-// The height of a standing ankle: one for the whole floor, found in the first second of standing and corrected
-// after that more slowly than is seen.
+// The height of a standing ankle: one for the whole floor, found in the first second of standing and
+// corrected after that more slowly than is seen.
 #pragma once
 
 namespace vfit {

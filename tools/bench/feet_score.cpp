@@ -6,7 +6,6 @@
 
 #include "body/joint_bones.h"
 #include "client/client.h"
-#include "math/quaternion.h"
 #include "motion/motion.h"
 
 namespace vfit::tools {
@@ -14,7 +13,7 @@ namespace vfit::tools {
 namespace {
 
 constexpr size_t kWarmUp = 30;
-constexpr size_t kNear = 1;         // frames: a contact may be seen so much earlier or later
+constexpr size_t kNear = 1;         // frames: a contact may be seen one frame earlier or later
 constexpr size_t kSettle = 2;       // frames after a touchdown that may move
 constexpr double kSkating = 0.025;  // m/s
 constexpr double kFrame_s = 1.0 / 30.0;
@@ -51,7 +50,12 @@ bool found_near(const std::vector<char>& flags, size_t i) {
 /// Of the turn from a to b to c, rad/s^2.
 double angular_acceleration(const Quat& a, const Quat& b, const Quat& c) {
     const auto turn = [](const Quat& from, const Quat& to) {
-        return rotation_vector(to * glm::conjugate(from));
+        Quat q = to * glm::conjugate(from);
+        if (q.w < 0) q = -q;
+        const float angle = 2.0f * std::acos(std::min(1.0f, q.w));
+        const Vec3 axis(q.x, q.y, q.z);
+        const float length = glm::length(axis);
+        return length > 1e-7f ? axis * (angle / length) : Vec3(0.0f);
     };
     return double(glm::length(turn(b, c) - turn(a, b))) / (kFrame_s * kFrame_s);
 }
@@ -195,9 +199,10 @@ double F1::value() const {
 void FeetScore::merge(const FeetScore& s) {
     lifted.merge(s.lifted), planted.merge(s.planted);
     contact_frames += s.contact_frames, skating += s.skating, moving += s.moving;
-    for (auto [a, b] : {std::pair{&slides_m, &s.slides_m}, std::pair{&drifts_m, &s.drifts_m},
-                        std::pair{&jump_heights, &s.jump_heights}, std::pair{&pops, &s.pops},
-                        std::pair{&true_turning, &s.true_turning}, std::pair{&knee_errors_rad, &s.knee_errors_rad}})
+    for (auto [a, b] :
+         {std::pair{&slides_m, &s.slides_m}, std::pair{&drifts_m, &s.drifts_m},
+          std::pair{&jump_heights, &s.jump_heights}, std::pair{&pops, &s.pops},
+          std::pair{&true_turning, &s.true_turning}, std::pair{&knee_errors_rad, &s.knee_errors_rad}})
         a->insert(a->end(), b->begin(), b->end());
 }
 

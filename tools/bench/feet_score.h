@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "bench/motion_people.h"
-#include "body/skeleton.h"
 
 namespace vfit::tools {
 
@@ -16,7 +15,7 @@ struct Shown {
     std::array<bool, 2> planted{};
     std::array<Vec3, 2> ankle{};
     std::array<double, 2> knee_rad{};  // flexion
-    std::array<Quat, kBoneCount> world;
+    std::array<Quat, VFIT_BONE_COUNT> world;
 };
 
 /// Plays the tracked bodies of a stream through a stage of default settings.
@@ -45,8 +44,8 @@ struct FeetScore {
     void merge(const FeetScore& other);
     double skating_percent() const;
     double moving_percent() const;
-    /// The largest angular acceleration at a switch over the 99th percentile of the true motion; no number where the truth has
-    /// no rotations.
+    /// The largest angular acceleration at a switch over the 99th percentile of the true motion; no number
+    /// where the truth has no rotations.
     double worst_pop() const;
 };
 

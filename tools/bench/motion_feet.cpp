@@ -45,7 +45,9 @@ void print(const std::string& name, const FeetScore& s) {
               << s.moving_percent() << std::setprecision(1) << std::setw(15)
               << 1e3 * quantile(s.drifts_m, 0.5) << std::setw(8) << 1e3 * quantile(s.drifts_m, 0.95)
               << std::setprecision(2) << std::setw(13) << quantile(s.jump_heights, 0.0) << std::setw(5)
-              << quantile(s.jump_heights, 0.5) << std::setw(7) << s.worst_pop() << std::setprecision(1) << std::setw(17) << kDegrees * quantile(s.knee_errors_rad, 0.5) << std::setw(5) << kDegrees * quantile(s.knee_errors_rad, 0.95) << "\n";
+              << quantile(s.jump_heights, 0.5) << std::setw(7) << s.worst_pop() << std::setprecision(1)
+              << std::setw(17) << kDegrees * quantile(s.knee_errors_rad, 0.5) << std::setw(5)
+              << kDegrees * quantile(s.knee_errors_rad, 0.95) << "\n";
 }
 
 /// Planted feet stand still in all three axes.
@@ -63,9 +65,9 @@ void judge_contacts(const std::string& name, const FeetScore& s, double lifted, 
             planted, 3);
 }
 
-/// Knees of who stands straight, and how still their feet are.
+/// Knees of a person who stands straight, and how still the feet are.
 Json judge_standing(Targets& t) {
-    const std::vector<PersonStream> ideal{straight_stand(kFrames)};
+    const std::vector<PersonStream> ideal{straight_puppet()};
     const FeetScore clean = score_all(ideal), noisy = score_all(with_noisy_joints(ideal));
     const double clean_deg = kDegrees * quantile(clean.knee_errors_rad, 0.5);
     const double noisy_deg = kDegrees * quantile(noisy.knee_errors_rad, 0.5);

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "math/types.h"
+#include "bench/motion_streams.h"
 
 namespace vfit::tools {
 

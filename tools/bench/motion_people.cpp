@@ -1,15 +1,11 @@
 #include "bench/motion_people.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include "bench/motion_noise.h"
 #include "bench/track_play.h"
-#include "body/joint_bones.h"
-#include "body/skeleton.h"
 #include "client/people.h"
-#include "motion/motion.h"
 
 namespace vfit::tools {
 
@@ -33,27 +29,6 @@ std::array<bool, 2> contacts_of(vfit_frame frame) {
     check(vfit_frame_meta(frame, "contacts", text, sizeof text, nullptr));
     const Json json = Json::parse(text);
     return {json.at("left").get<int>() != 0, json.at("right").get<int>() != 0};
-}
-
-/// The joints of a posed character, with the rotations of their bones.
-Body body_in(const Skeleton& skeleton, const Pose& pose) {
-    const PosedSkeleton posed = forward_kinematics(skeleton, pose);
-    Body body;
-    body.id = 1;
-    for (int j = 0; j < kJointCount; ++j) {
-        const JointPlace& place = kJointPlaces[size_t(j)];
-        const auto bone = size_t(place.bone);
-        Vec3 at = posed.position[bone];
-        for (size_t child = bone + 1; place.along > 0.0f && child < size_t(kBoneCount); ++child)
-            if (bone_parent(int(child)) == place.bone) {
-                at = glm::mix(at, posed.position[child], place.along);
-                break;
-            }
-        body.set(j, at);
-        body.joints[size_t(j)].rotation = posed.rotation[bone];
-        body.joints[size_t(j)].has_rotation = true;
-    }
-    return body;
 }
 
 }  // namespace
@@ -100,31 +75,6 @@ std::vector<PersonStream> captured_walks(const std::string& shared, uint32_t fra
             {"captured", person_on_feet("virtual:sensor=kinect_v1&distance=2.9&clothing=0.02&body=711&bvh=" +
                                         file + "&frames=" + std::to_string(frames))});
     return streams;
-}
-
-PersonStream straight_stand(uint32_t frames) {
-    constexpr float kSwayRad = 0.01f, kSwayHz = 0.3f;
-    const vfit::Motion motion{MotionSettings()};
-    const Skeleton& skeleton = motion.skeleton();
-    const Vec3 ankles(0.0f, skeleton.ankle_height, 0.0f);
-    PersonStream stream{"stand", {}};
-    for (uint32_t i = 0; i < frames; ++i) {
-        PersonFrame frame;
-        const auto t_s = float(i) / 30.0f;
-        const Quat sway =
-            glm::angleAxis(kSwayRad * std::sin(2.0f * kPi * kSwayHz * t_s), Vec3(1.0f, 0.0f, 0.0f));
-        Pose pose;
-        pose.hips_position = ankles + sway * (skeleton.offset[VFIT_BONE_HIPS] - ankles);
-        pose.rotation[VFIT_BONE_HIPS] = sway;
-        for (const int foot : {VFIT_BONE_LEFT_FOOT, VFIT_BONE_RIGHT_FOOT})
-            pose.rotation[size_t(foot)] = glm::conjugate(sway);
-        frame.truth = body_in(skeleton, pose);
-        frame.truth.time_ns = int64_t(std::llround(1e9 * double(i) / 30.0));
-        frame.tracked = frame.truth;
-        frame.planted = {true, true};
-        stream.frames.push_back(frame);
-    }
-    return stream;
 }
 
 std::vector<PersonStream> with_noisy_joints(const std::vector<PersonStream>& streams) {

@@ -28,9 +28,6 @@ std::vector<PersonStream> people_on_their_feet(uint32_t people, uint32_t frames)
 /// The same with the captured walks of data/cmu_bvh, which are no scripts; empty without the shared folder.
 std::vector<PersonStream> captured_walks(const std::string& shared, uint32_t frames);
 
-/// Who stands with straight legs and sways over the ankles; the tracked joints are the true ones.
-PersonStream straight_stand(uint32_t frames);
-
 /// The same people by ideal joints in the place of the tracker's: the truth without rotations, under the
 /// noise of NoisySensor.
 std::vector<PersonStream> with_noisy_joints(const std::vector<PersonStream>& streams);

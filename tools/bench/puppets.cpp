@@ -4,14 +4,13 @@
 #include <cmath>
 #include <random>
 
-#include "math/two_bone_ik.h"
-
 namespace vfit::tools {
 
 namespace {
 
 constexpr double kRateHz = 30.0;
 constexpr float kGravity = 9.81f;
+constexpr float kStillM = 0.005f;  // an ankle so close to its place stands: a foot begins to roll unseen
 // Of a puppet 1 m high in the hips, metres.
 constexpr float kThigh = 0.46f, kShank = 0.45f, kAnkle = 0.08f, kHipHalf = 0.09f;
 constexpr Vec3 kBall(0.0f, -0.06f, 0.13f), kHeel(0.0f, -0.08f, -0.05f);  // from the ankle
@@ -31,6 +30,16 @@ float bump(float s) {
 Quat about_y(float angle) { return glm::angleAxis(angle, Vec3(0, 1, 0)); }
 Quat pitched(float yaw, float pitch) { return about_y(yaw) * glm::angleAxis(pitch, Vec3(1, 0, 0)); }
 
+/// On the circle where thigh and shank meet, to the front.
+Vec3 knee_between(const Vec3& hip, const Vec3& ankle, const Vec3& front) {
+    const Vec3 way = ankle - hip;
+    const float d = std::min(glm::length(way), kThigh + kShank);
+    const Vec3 down = glm::normalize(way);
+    const float along = (kThigh * kThigh - kShank * kShank + d * d) / (2.0f * d);
+    const Vec3 ahead = glm::normalize(front - glm::dot(front, down) * down);
+    return hip + along * down + std::sqrt(std::max(0.0f, kThigh * kThigh - along * along)) * ahead;
+}
+
 struct Place {
     Vec2 at{0.0f};  // of the ankle
     float yaw = 0.0f;
@@ -42,7 +51,7 @@ struct Move {
     float lift_s = 0, land_s = 0;
     Place to;
     float clearance_m = 0.04f;
-    float push_s = 0.1f, push_rad = 0.5f;      // on the ball
+    float push_s = 0.1f, push_rad = 0.5f;       // on the ball
     float strike_s = 0.06f, strike_rad = 0.2f;  // on the heel
     Vec2 reach{0.0f};                           // out and back again on the way: a kick
 };
@@ -55,7 +64,7 @@ struct Hop {
 struct Ankle {
     Vec3 at{0.0f};
     Quat turn{1, 0, 0, 0};
-    bool planted = true;
+    float off_m = 0.0f;  // from where it stood or will stand, the nearer
 };
 
 struct Puppet {
@@ -63,6 +72,7 @@ struct Puppet {
     std::vector<Move> moves;
     std::vector<Hop> hops;
     float length_s = 20.0f, squat_m = 0.0f, squat_hz = 0.25f, size = 1.0f;
+    float most_reach = 0.985f;  // of a leg's length
 
     Ankle ankle(int foot, float t) const;
     float flight(float t) const;
@@ -89,7 +99,6 @@ Ankle Puppet::ankle(int foot, float t) const {
         const auto over = [&](const Place& p, const Vec3& point, float pitch) {
             return flat(p) + about_y(p.yaw) * point - pitched(p.yaw, pitch) * point;
         };
-        out.planted = false;
         if (t < air) {
             const float pitch = move.push_rad * glide_to((t - move.lift_s) / move.push_s);
             out.at = over(from, kBall, pitch), out.turn = pitched(from.yaw, pitch);
@@ -98,16 +107,18 @@ Ankle Puppet::ankle(int foot, float t) const {
             const Vec3 a = over(from, kBall, move.push_rad), b = over(move.to, kHeel, -move.strike_rad);
             out.at = glm::mix(a, b, g) +
                      bump(s) * (Vec3(move.reach.x, 0.0f, move.reach.y) + Vec3(0.0f, move.clearance_m, 0.0f));
-            out.turn = pitched(glm::mix(from.yaw, move.to.yaw, g), glm::mix(move.push_rad, -move.strike_rad, g));
+            out.turn =
+                pitched(glm::mix(from.yaw, move.to.yaw, g), glm::mix(move.push_rad, -move.strike_rad, g));
         } else {
             const float pitch = -move.strike_rad * (1.0f - glide_to((t - strike) / move.strike_s));
             out.at = over(move.to, kHeel, pitch), out.turn = pitched(move.to.yaw, pitch);
         }
+        out.off_m = std::min(glm::distance(out.at, flat(from)), glm::distance(out.at, flat(move.to)));
         break;
     }
     const float up = flight(t);
-    if (up > 0.0f) out.planted = false;
     out.at.y += up;
+    out.off_m += up;
     return out;
 }
 
@@ -149,8 +160,10 @@ Vec3 Puppet::pelvis(float t) const {
         float y = 10.0f;
         for (const int foot : {0, 1}) {
             const Ankle a = ankle(foot, at_s);
-            const float length = 0.985f * (kThigh + kShank);
-            const float aside = glm::length(Vec2(a.at.x - m.x, a.at.z - m.y)) - kHipHalf;
+            const float length = most_reach * (kThigh + kShank);
+            const Vec3 hip =
+                Vec3(m.x, 0.0f, m.y) + about_y(heading(at_s)) * Vec3(foot == 0 ? kHipHalf : -kHipHalf, 0, 0);
+            const float aside = glm::length(Vec2(a.at.x - hip.x, a.at.z - hip.z));
             const float up = flight(at_s);
             y = std::min(y, a.at.y - up + std::sqrt(std::max(0.04f, length * length - aside * aside)));
         }
@@ -160,7 +173,8 @@ Vec3 Puppet::pelvis(float t) const {
     for (int k = -2; k <= 2; ++k) y += reach(t + 0.04f * float(k)) / 5.0f;
     y -= squat_m * (0.5f - 0.5f * std::cos(2.0f * kPi * squat_hz * t));
     for (const Hop& hop : hops) {  // knees give way before take-off and after landing
-        const float before = (t - hop.start_s + 0.5f) / 0.5f, after = (t - hop.start_s - hop.flight_s()) / 0.4f;
+        const float before = (t - hop.start_s + 0.5f) / 0.5f,
+                    after = (t - hop.start_s - hop.flight_s()) / 0.4f;
         if (before > 0.0f && before < 1.0f) y -= 0.12f * bump(before);
         if (after > 0.0f && after < 1.0f) y -= 0.10f * bump(after);
     }
@@ -188,12 +202,11 @@ PersonFrame Puppet::frame(float t) const {
         const Ankle foot = ankle(side, t);
         const Vec3 hip = root + turn * Vec3(kHipHalf * x, 0, 0);
         const Vec3 front = turn * Vec3(0, 0, 1) + foot.turn * Vec3(0, 0, 1);
-        const TwoBoneSolution leg = solve_two_bone(hip, kThigh, kShank, foot.at, front, 0.0f);
         put(VFIT_JOINT_LEFT_HIP + side, hip);
-        put(VFIT_JOINT_LEFT_KNEE + side, leg.middle);
-        put(VFIT_JOINT_LEFT_FOOT + side, leg.end);
-        put(VFIT_JOINT_LEFT_TOES + side, leg.end + foot.turn * kBall);
-        out.planted[size_t(side)] = foot.planted;
+        put(VFIT_JOINT_LEFT_KNEE + side, knee_between(hip, foot.at, front));
+        put(VFIT_JOINT_LEFT_FOOT + side, foot.at);
+        put(VFIT_JOINT_LEFT_TOES + side, foot.at + foot.turn * kBall);
+        out.planted[size_t(side)] = foot.off_m < kStillM;
     }
     body.id = 1;
     return out;
@@ -205,7 +218,8 @@ public:
     explicit Author(uint32_t seed) : engine_(seed) {
         puppet_.size = uniform(0.85f, 1.1f);
         const float half = uniform(0.08f, 0.14f);
-        for (const int foot : {0, 1}) puppet_.start[foot] = place_[foot] = {{foot == 0 ? half : -half, 0.0f}, 0.0f};
+        for (const int foot : {0, 1})
+            puppet_.start[foot] = place_[foot] = {{foot == 0 ? half : -half, 0.0f}, 0.0f};
         half_ = half;
     }
     float uniform(float a, float b) { return std::uniform_real_distribution<float>(a, b)(engine_); }
@@ -280,8 +294,8 @@ void march(Author& a) {
 void lunge(Author& a) {
     for (int foot = 0; !a.done(); foot = 1 - foot) {
         const Place home = a.place(foot);
-        const float far = a.uniform(0.35f, 0.6f);
-        a.step(foot, {home.at + Vec2(0.0f, far), 0.0f}, a.uniform(0.5f, 0.7f));
+        const float length = a.uniform(0.35f, 0.6f);
+        a.step(foot, {home.at + Vec2(0.0f, length), 0.0f}, a.uniform(0.5f, 0.7f));
         a.wait(a.uniform(0.4f, 1.2f));
         a.step(foot, home, a.uniform(0.5f, 0.8f)).strike_rad = 0.0f;
         a.wait(a.uniform(0.2f, 0.6f));
@@ -318,28 +332,39 @@ void kick(Author& a) {
 
 void squat(Author& a) { a.squat(a.uniform(0.15f, 0.4f)); }
 
+PersonStream play(const char* name, const Puppet& puppet) {
+    PersonStream stream{name, {}};
+    const auto frames = size_t(double(puppet.length_s) * kRateHz);
+    for (size_t k = 0; k < frames; ++k) {
+        PersonFrame frame = puppet.frame(float(double(k) / kRateHz));
+        frame.truth.time_ns = int64_t(std::llround(1e9 * double(k) / kRateHz));
+        frame.tracked = frame.truth;
+        stream.frames.push_back(frame);
+    }
+    return stream;
+}
+
 }  // namespace
+
+PersonStream straight_puppet() {
+    Puppet puppet;
+    for (const int foot : {0, 1}) puppet.start[foot].at.x = foot == 0 ? kHipHalf : -kHipHalf;
+    puppet.most_reach = 1.0f;
+    return play("stand", puppet);
+}
 
 std::vector<PersonStream> puppets(uint32_t count) {
     constexpr struct {
         const char* name;
         void (*write)(Author&);
-    } kPlays[] = {{"stroll", stroll}, {"aside", aside}, {"march", march}, {"lunge", lunge},
-                  {"jump", hop},      {"pivot", pivot}, {"kick", kick},   {"squat", squat}};
+    } kScripts[] = {{"stroll", stroll}, {"aside", aside}, {"march", march}, {"lunge", lunge},
+                    {"jump", hop},      {"pivot", pivot}, {"kick", kick},   {"squat", squat}};
     std::vector<PersonStream> streams;
     for (uint32_t i = 0; i < count; ++i)
-        for (const auto& play : kPlays) {
-            Author author(9000 + 100 * i + uint32_t(&play - kPlays));
-            play.write(author);
-            PersonStream stream{play.name, {}};
-            const auto frames = size_t(double(author.puppet().length_s) * kRateHz);
-            for (size_t k = 0; k < frames; ++k) {
-                PersonFrame frame = author.puppet().frame(float(double(k) / kRateHz));
-                frame.truth.time_ns = int64_t(std::llround(1e9 * double(k) / kRateHz));
-                frame.tracked = frame.truth;
-                stream.frames.push_back(frame);
-            }
-            streams.push_back(std::move(stream));
+        for (const auto& script : kScripts) {
+            Author author(9000 + 100 * i + uint32_t(&script - kScripts));
+            script.write(author);
+            streams.push_back(play(script.name, author.puppet()));
         }
     return streams;
 }
