@@ -275,8 +275,9 @@ TEST(Character, AScaleThatDiffersAlongItsAxesIsSaidAndShearsNothing) {
     // The arm's own axes are sheared; a rotation keeps the first.
     const Vec3 first = glm::normalize(Vec3(std::cos(0.4f), 1.3f * std::sin(0.4f), 0));
     for (const AvatarBone& bone : character.source.bones)
-        if (bone.bone == VFIT_BONE_LEFT_UPPER_ARM)
+        if (bone.bone == VFIT_BONE_LEFT_UPPER_ARM) {
             EXPECT_LT(glm::distance(bone.rest_rotation * Vec3(1, 0, 0), first), 1e-5f);
+        }
     // Turned, the forearm is as long as it stands at rest.
     Avatar avatar(character.source, AvatarDesc());
     Pose pose;
@@ -356,8 +357,9 @@ TEST(Character, AHandEndsAtItsFingersAlsoBelowABoneThatStartsWhereItDoes) {
     for (const size_t node : {16, 17}) tiny.json["skins"][0]["joints"].push_back(node);
     tiny.json["skins"][0].erase("inverseBindMatrices");
     for (const AvatarBone& bone : load(tiny).source.bones)
-        if (bone.bone == VFIT_BONE_LEFT_HAND)
+        if (bone.bone == VFIT_BONE_LEFT_HAND) {
             EXPECT_LT(glm::distance(bone.rest_tail, bone.rest_head + Vec3(0.1f, 0, 0)), 1e-4f);
+        }
 }
 
 TEST(Character, ABoneThatNoSkinUsesIsOneWhereAMapNamesIt) {
