@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "track/people_map.h"
+#include "track/scene_plane.h"
 
 namespace vfit {
 
@@ -14,6 +15,11 @@ constexpr float kInFront_m = 0.7f, kBehind_m = 0.4f;
 constexpr float kSeenThrough_m = 0.08f;  // behind: may be the scene, seen between the legs
 constexpr float kAside_m = 0.9f;         // from the person's middle, on the floor
 constexpr float kBeside_m = 0.05f;       // hardly a step in depth
+// A patch of the scene: how far around it the plane is looked for, what a wall is uneven by, and how much of
+// what is seen there lies on the plane.
+constexpr uint32_t kFewestPlane = 12;  // cells
+constexpr float kAround_m = 0.3f, kUneven_m = 0.01f, kPlaneSigmas = 3.0f, kOnPlane = 0.5f;
+constexpr float kLowPart_m = 0.15f;  // feet lie on the plane of the floor
 constexpr int kFragmentGap = 4;          // cells
 
 // Parts of one person, the one above the other.
@@ -26,7 +32,7 @@ constexpr int kSoleSteps = 4;
 }  // namespace
 
 // A patch of wall between the legs: beside the person the same depth goes on.
-bool PeopleMap::part_of_scene(const Shape& s) const {
+bool PeopleMap::beside_scene(const Shape& s) const {
     const int width = int(grid_.width()), height = int(grid_.height());
     const int x = (s.x0 + s.x1) / 2, y = (s.y0 + s.y1) / 2;
     const auto goes_on = [&](int fx, int fy, int dx, int dy) {
@@ -40,6 +46,56 @@ bool PeopleMap::part_of_scene(const Shape& s) const {
     };
     return goes_on(s.x0 - 1, y, -1, 0) || goes_on(s.x1, y, 1, 0) || goes_on(x, s.y0 - 1, 0, -1) ||
            goes_on(x, s.y1, 0, 1);
+}
+
+// A patch of wall that is seen between limbs: the plane through it goes on around it. Edges have readings that
+// are mixed from person and wall, so that the cells next to it need not be of either.
+bool PeopleMap::part_of_scene(const Piece& piece) {
+    const int width = int(grid_.width()), height = int(grid_.height());
+    const Shape& s = piece.shape;
+    if (s.cells < kFewestPlane || s.high_m < kLowPart_m) return false;
+    mark(piece.cells, kOwn);
+    ScenePlane plane;
+    grid_.for_each(piece.cells, [&](uint32_t cell, uint32_t x, uint32_t y) {
+        plane.add(float(x), float(y), grid_.depth()[cell]);
+    });
+    const float tolerance = kPlaneSigmas * std::hypot(kUneven_m, grid_.sigma_m(s.depth_m));
+    const int reach = int(kAround_m / grid_.cell_m(s.depth_m));
+    bool goes_on = plane.fit();
+    // What lies on the plane of a small patch tells the plane better than the patch does.
+    for (int turn = 0; turn < 2 && goes_on; ++turn) {
+        ScenePlane wider = plane;
+        uint32_t on = 0, beyond = 0;
+        for (int y = std::max(0, s.y0 - reach); y < std::min(height, s.y1 + reach); ++y)
+            for (int x = std::max(0, s.x0 - reach); x < std::min(width, s.x1 + reach); ++x) {
+                const size_t i = size_t(y * width + x);
+                const float z = grid_.depth()[i];
+                if (labels_[i] || z == 0.0f) continue;
+                const float behind = z - plane.depth(float(x), float(y));
+                if (std::abs(behind) < tolerance) ++on, wider.add(float(x), float(y), z);
+                beyond += behind >= tolerance;
+            }
+        goes_on = on >= kFewestPlane && float(on) > kOnPlane * float(on + beyond) && wider.fit();
+        plane = wider;
+    }
+    unmark(piece.cells, kOwn);
+    return goes_on;
+}
+
+// What is taken for parts of people because it is seen where they were, and is a patch of the scene behind them.
+void PeopleMap::drop_scene() {
+    for (Piece& p : pieces_) {
+        if (p.slot >= Identity::kMost || !behind_person(p, p.slot) || !part_of_scene(p)) continue;
+        for (const uint32_t cell : p.cells) slots_[cell] = 0;
+        p.slot = kThing;
+    }
+}
+
+bool PeopleMap::behind_person(const Piece& part, uint32_t slot) const {
+    const Piece* largest = nullptr;
+    for (const Piece& p : pieces_)
+        if (p.slot == slot && (!largest || p.shape.area_m2 > largest->shape.area_m2)) largest = &p;
+    return largest && &part != largest && part.shape.depth_m > largest->shape.depth_m + kSeenThrough_m;
 }
 
 // Head and shoulders over a box that is carried, legs below a table: what stands in the same place, where the
@@ -62,6 +118,9 @@ uint32_t PeopleMap::above_or_below(const Shape& part) const {
 // A hand before the trunk, a head above a dark collar: what lies beside a person in the image and near them
 // in space is theirs.
 void PeopleMap::attach_fragments() {
+    for (const Piece& p : pieces_)
+        if (p.slot < Identity::kMost || p.slot == kFragment) mark(p.cells, kTracked);
+    drop_scene();
     const int width = int(grid_.width()), height = int(grid_.height());
     for (Piece& p : pieces_) {
         p.home = Identity::kMost;
@@ -87,7 +146,7 @@ void PeopleMap::attach_fragments() {
                 visit(x, y + k);
             }
         }
-        if (behind_sum > kSeenThrough_m * neighbours && part_of_scene(p.shape)) continue;
+        if (behind_sum > kSeenThrough_m * neighbours && (beside_scene(p.shape) || part_of_scene(p))) continue;
         float most = 0.0f;
         for (uint32_t slot = 0; slot < Identity::kMost; ++slot) {
             if (votes[slot + 1] <= most) continue;
@@ -101,8 +160,10 @@ void PeopleMap::attach_fragments() {
         const bool part = p.slot == kThing && p.shape.area_m2 < kMostPart_m2;
         if (!part && !(p.slot == kFragment && p.home == Identity::kMost)) continue;
         p.home = above_or_below(p.shape);
+        if (p.home < Identity::kMost && behind_person(p, p.home) && part_of_scene(p)) p.home = Identity::kMost;
         if (p.home < Identity::kMost) p.slot = kFragment;
     }
+    for (const Piece& p : pieces_) unmark(p.cells, kTracked);
     for (const Piece& p : pieces_)
         if (p.slot == kFragment && p.home < Identity::kMost)
             for (const uint32_t cell : p.cells) slots_[cell] = uint8_t(p.home + 1);

@@ -114,7 +114,10 @@ private:
     uint32_t owner_of_part(const Piece& piece, const std::array<const Piece*, Identity::kMost>& largest,
                            int64_t time_ns);
     void attach_fragments();
-    bool part_of_scene(const Shape& shape) const;
+    void drop_scene();
+    bool behind_person(const Piece& part, uint32_t slot) const;
+    bool beside_scene(const Shape& shape) const;
+    bool part_of_scene(const Piece& piece);
     uint32_t above_or_below(const Shape& shape) const;
     void grow_feet();
     void report(const DepthImage& image, int64_t time_ns, uint8_t* users);
