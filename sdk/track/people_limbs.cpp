@@ -31,16 +31,19 @@ constexpr int kSoleSteps = 4;
 
 }  // namespace
 
-// A patch of wall between the legs: beside the person the same depth goes on.
+// A patch of wall between the legs: beside the person the same depth goes on. The floor is as deep as any leg.
 bool PeopleMap::beside_scene(const Shape& s) const {
     const int width = int(grid_.width()), height = int(grid_.height());
     const int x = (s.x0 + s.x1) / 2, y = (s.y0 + s.y1) / 2;
+    const bool floor = camera_.floor_state != VFIT_FLOOR_DEFAULT;
+    const ShapeMeter meter(grid_, camera_, {});
     const auto goes_on = [&](int fx, int fy, int dx, int dy) {
         for (; fx >= 0 && fy >= 0 && fx < width && fy < height; fx += dx, fy += dy) {
             const size_t i = size_t(fy * width + fx);
             const float z = grid_.depth()[i];
             if (slots_[i] || z == 0.0f) continue;
-            return std::abs(z - s.depth_m) < kBeside_m + same_surface_m(z);
+            if (floor && meter.world(uint32_t(fx), uint32_t(fy)).y < kLowPart_m) return false;
+            return std::abs(z - s.depth_m) < kBeside_m + kPlaneSigmas * grid_.sigma_m(z);
         }
         return false;
     };

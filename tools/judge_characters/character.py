@@ -15,6 +15,7 @@ JOINTS = ["HEAD", "NECK", "TORSO"] + [
     for joint in ("SHOULDER", "ELBOW", "HAND", "HIP", "KNEE", "FOOT")
     for side in ("LEFT", "RIGHT")
 ]
+TORSO_SHARE = 0.72  # of the way from the neck to the hips: where vfit's TORSO is, and the bone Spine
 PALM_M = 0.07  # from the wrist to vfit's HAND
 ANKLE = 0.045  # its height, of the stature
 
@@ -103,7 +104,8 @@ class Character:
         out = {"NECK": self.bone(world, "Neck")}
         out["HEAD"] = 0.5 * (self.bone(world, "Head") + self.crown_at(world))
         hips = 0.5 * (self.bone(world, "LeftUpLeg") + self.bone(world, "RightUpLeg"))
-        out["TORSO"] = 0.5 * (out["NECK"] + hips)
+        lumbar = out["NECK"] + TORSO_SHARE * (hips - out["NECK"])
+        out["TORSO"] = self.bone(world, "Spine") if "Spine" in self.node_of else lumbar
         for side in SIDES:
             for joint, bone in PAIRED.items():
                 out[f"{side.upper()}_{joint}"] = self.bone(world, side + bone)

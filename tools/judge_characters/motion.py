@@ -5,18 +5,25 @@ import numpy as np
 from glb import matrix_of
 
 SHORTEST_S = 0.5  # a shorter animation is a pose
-LONGEST_WALK_M = 1.0  # beyond which the way is taken out of a clip, and the person walks in place
 
 
 class Motion:
-    """World matrices of a character at the times of one clip, which is played again and again."""
+    """World matrices of a character at the times of one clip, which is played again and again. The way from its
+    start to its end is taken out, so that people walk in place and do not jump back where it starts anew."""
 
     def __init__(self, name, character, duration_s, world_at):
         self.name, self.character, self.duration_s, self._world_at = name, character, duration_s, world_at
+        ends = world_at(np.array([0.0, duration_s]))[:, character.node_of["Hips"], :3, 3]
+        self._way = (ends[1] - ends[0]) * [1, 0, 1]
 
     def world(self, times_s):
         times_s = np.asarray(times_s, float)
-        return self._world_at(times_s % self.duration_s if self.duration_s else np.zeros_like(times_s))
+        if not self.duration_s:
+            return self._world_at(np.zeros_like(times_s))
+        times_s = times_s % self.duration_s
+        world = self._world_at(times_s)
+        world[..., :3, 3] -= (times_s / self.duration_s)[:, None, None] * self._way
+        return world
 
 
 def still(character):
@@ -90,22 +97,13 @@ class Actor:
         self.turn = np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]]) * np.array([girth, 1, girth])[:, None]
         self.turn = self.turn / self.metre
         way = 0.5 * (joints["LEFT_HIP"] + joints["RIGHT_HIP"]) @ self.turn.T
-        self.way = self._ground(way)
+        self.way = np.repeat(way.mean(0, keepdims=True), len(way), 0)
         some = range(0, len(times_s), max(1, len(times_s) // 12))
         heights = [(self.character.skin(self.world[i]) @ self.turn.T)[:, 1] for i in some]
         low = min(y.min() for y in heights)
         self.way[:, 1] = low
         self.top_m = max(y.max() for y in heights) - low
         self.joint_points = {name: at @ self.turn.T - self.way for name, at in joints.items()}
-
-    @staticmethod
-    def _ground(way):
-        """Where the origin is in each frame: the mean of the way, or a point that walks along."""
-        out = np.repeat(way.mean(0, keepdims=True), len(way), 0)
-        if len(way) > 1 and np.linalg.norm((way[-1] - way[0])[[0, 2]]) > LONGEST_WALK_M:
-            steps = np.linspace(-0.5, 0.5, len(way))[:, None]
-            out = out + steps * (way[-1] - way[0])
-        return out
 
     def skin(self, frame):
         return self.character.skin(self.world[frame]) @ self.turn.T - self.way[frame]
