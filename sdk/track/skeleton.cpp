@@ -16,7 +16,7 @@ constexpr float kScale_m = 0.3f,
 constexpr float kLeast = 1e-4f;       // probability that they are told wrongly, and of the other
 constexpr float kWeight = 0.35f;      // of the network's answer: those of frames in a row are alike
 constexpr float kAnswerLimit = 3.0f;  // one frame's logit counts no more
-constexpr float kToes = 3.0f;         // logit of toes that point straight behind
+constexpr float kLegs = 3.0f;         // logit of toes that point straight behind
 constexpr float kSeenFoot = 0.15f;    // confidence
 
 /// The first cell whose middle may lie within `reach` of `place`, and the one after the last.
@@ -43,22 +43,34 @@ float distance_between(const SeenJoints& a, const SeenJoints& b) {
     return sum;
 }
 
-/// Cosine of the angle between the feet and where a person with these sides faces; 0 where no foot says.
-float toes_ahead(const SeenJoints& joints, const Vec3& up) {
+/// How surely legs like these are of a person who faces as the sides say, from 1 to -1 (legs of one who faces
+/// the other way); 0 where they do not say. Toes point ahead of the shank, whatever way that points, and knees
+/// bend back alone.
+float legs_agree(const SeenJoints& joints, const Vec3& up) {
     const auto at = [&](int joint) { return joints[size_t(joint)].position; };
     const Vec3 left = at(VFIT_JOINT_LEFT_SHOULDER) - at(VFIT_JOINT_RIGHT_SHOULDER) + at(VFIT_JOINT_LEFT_HIP) -
                       at(VFIT_JOINT_RIGHT_HIP);
-    Vec3 feet(0.0f);
-    const auto add = [&](int foot, int toes) {
-        if (joints[size_t(foot)].confidence > kSeenFoot && joints[size_t(toes)].confidence > kSeenFoot)
-            feet += at(toes) - at(foot);
+    float said = 0.0f, most = 0.0f;
+    const auto leg = [&](int hip, int knee, int foot, int toes) {
+        const auto seen = [&](int joint) { return joints[size_t(joint)].confidence > kSeenFoot; };
+        if (!seen(foot)) return;
+        const bool bends = seen(knee) && seen(hip);
+        const Vec3 shank = bends ? at(foot) - at(knee) : -up;
+        if (seen(toes)) {
+            const Vec3 way = at(toes) - at(foot);
+            said += glm::dot(glm::cross(shank, left), way) / (glm::length(shank) * glm::length(way) + 1e-6f);
+            most += glm::length(left);
+        }
+        if (bends) {
+            const Vec3 thigh = at(knee) - at(hip);
+            said += glm::dot(glm::cross(thigh, shank), left) /
+                    (glm::length(thigh) * glm::length(shank) + 1e-6f);
+        }
     };
-    add(VFIT_JOINT_LEFT_FOOT, VFIT_JOINT_LEFT_TOES);
-    add(VFIT_JOINT_RIGHT_FOOT, VFIT_JOINT_RIGHT_TOES);
-    const Vec3 ahead = glm::cross(left, up);
-    feet -= glm::dot(feet, up) * up;
-    const float lengths = glm::length(feet) * glm::length(ahead);
-    return lengths > 1e-6f ? glm::dot(feet, ahead) / lengths : 0.0f;
+    leg(VFIT_JOINT_LEFT_HIP, VFIT_JOINT_LEFT_KNEE, VFIT_JOINT_LEFT_FOOT, VFIT_JOINT_LEFT_TOES);
+    leg(VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_RIGHT_KNEE, VFIT_JOINT_RIGHT_FOOT, VFIT_JOINT_RIGHT_TOES);
+    most = std::max(most, glm::length(left));
+    return most > 1e-6f ? std::clamp(said / most, -1.0f, 1.0f) : 0.0f;
 }
 
 }  // namespace
@@ -103,7 +115,7 @@ void read_maps(const JointMaps& maps, const CropView& view, const Camera& camera
 }
 
 void Facing::apply(float away_logit, const Vec3& up, SeenJoints& joints) {
-    const float toes = -kToes * toes_ahead(joints, up);
+    const float legs = -kLegs * legs_agree(joints, up);
     if (known_) {
         SeenJoints other = joints;
         exchange_sides(other);
@@ -116,7 +128,7 @@ void Facing::apply(float away_logit, const Vec3& up, SeenJoints& joints) {
         log_odds_ = std::log(is / (1.0f - is));
     }
     known_ = true;
-    log_odds_ += kWeight * toes;
+    log_odds_ += kWeight * legs;
     if (!std::isnan(away_logit)) log_odds_ += kWeight * std::clamp(away_logit, -kAnswerLimit, kAnswerLimit);
     last_ = joints;
     if (away()) exchange_sides(joints);

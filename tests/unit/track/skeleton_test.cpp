@@ -113,6 +113,26 @@ TEST(Facing, ToesSayWhereThePersonFaces) {
     }
 }
 
+// Toes then point back, as those of somebody who faces the other way.
+TEST(Facing, WhoKneelsFacesAsTheKneesBend) {
+    for (const float ahead : {-1.0f, 1.0f}) {
+        Facing facing;
+        for (int i = 0; i < 3; ++i) {
+            SeenJoints joints = standing();
+            const auto leg = [&](int hip, int knee, int foot, int toes) {
+                const Vec3 at = joints[size_t(hip)].position;
+                joints[size_t(knee)].position = at + Vec3(0, 0.45f, 0);
+                joints[size_t(foot)].position = at + Vec3(0, 0.45f, 0.4f * ahead);
+                joints[size_t(toes)].position = at + Vec3(0, 0.48f, 0.52f * ahead);
+            };
+            leg(VFIT_JOINT_LEFT_HIP, VFIT_JOINT_LEFT_KNEE, VFIT_JOINT_LEFT_FOOT, VFIT_JOINT_LEFT_TOES);
+            leg(VFIT_JOINT_RIGHT_HIP, VFIT_JOINT_RIGHT_KNEE, VFIT_JOINT_RIGHT_FOOT, VFIT_JOINT_RIGHT_TOES);
+            facing.apply(0.0f, Vec3(0, -1, 0), joints);
+        }
+        EXPECT_EQ(facing.away(), ahead < 0.0f) << ahead;
+    }
+}
+
 TEST(Facing, AfterACutTheNextAnswerCounts) {
     Facing facing;
     SeenJoints joints;
