@@ -19,6 +19,8 @@ struct PersonTrack {
     uint32_t cells = 0;          // when last seen
     int64_t first_ns = 0, seen_ns = 0;
     bool seen = false;  // in the last frame
+    uint32_t part_of = 0;   // id of the person whose part they may be after all; 0: of none
+    int64_t alone_ns = 0;   // when what was split from them turned out to be a part of them
 };
 
 /// Between two points of the world, on the floor.
@@ -46,6 +48,7 @@ public:
     /// The person in that slot is seen there.
     void see(uint32_t slot, const Shape& shape, int64_t time_ns);
     void forget(uint32_t slot) { tracks_[slot] = {}; }
+    PersonTrack& change(uint32_t slot) { return tracks_[slot]; }
     void reset();
 
 private:

@@ -153,10 +153,44 @@ void PeopleMap::name_people(int64_t time_ns) {
         p.slot = slot;
         identity_.see(slot, p.shape, time_ns);
     }
+    name_wholes(time_ns);
     std::fill(slots_.begin(), slots_.end(), uint8_t(0));
     for (const Piece& p : pieces_)
         if (p.slot < Identity::kMost)
             for (const uint32_t cell : p.cells) slots_[cell] = uint8_t(p.slot + 1);
+}
+
+// Heads were found by their outlines alone: newcomers who were split from a larger piece may be a part of it.
+void PeopleMap::name_wholes(int64_t time_ns) {
+    for (const Piece& p : pieces_) {
+        if (!p.split || p.slot >= Identity::kMost || identity_.track(p.slot).first_ns != time_ns) continue;
+        const Piece* whole = nullptr;
+        for (const Piece& q : pieces_)
+            if (q.split == p.split && q.slot < Identity::kMost && q.shape.area_m2 > p.shape.area_m2 &&
+                (!whole || q.shape.area_m2 > whole->shape.area_m2))
+                whole = &q;
+        if (whole) identity_.change(p.slot).part_of = identity_.track(whole->slot).id;
+    }
+}
+
+uint32_t PeopleMap::slot_of(uint32_t id) const {
+    for (uint32_t slot = 0; slot < Identity::kMost; ++slot)
+        if (id && identity_.track(slot).id == id) return slot;
+    return Identity::kMost;
+}
+
+void PeopleMap::confirm(uint32_t id) {
+    if (const uint32_t slot = slot_of(id); slot < Identity::kMost) identity_.change(slot).part_of = 0;
+}
+
+void PeopleMap::rejoin(uint32_t id) {
+    const uint32_t slot = slot_of(id);
+    if (slot == Identity::kMost) return;
+    const uint32_t whole = slot_of(identity_.track(slot).part_of);
+    if (whole == Identity::kMost) return;
+    std::replace(last_slots_.begin(), last_slots_.end(), uint8_t(slot + 1), uint8_t(whole + 1));
+    identity_.change(whole).alone_ns = identity_.track(whole).seen_ns;
+    identity_.forget(slot);
 }
 
 void PeopleMap::report(const DepthImage& image, int64_t time_ns, uint8_t* users) {
@@ -189,6 +223,7 @@ void PeopleMap::report(const DepthImage& image, int64_t time_ns, uint8_t* users)
         r.width_m = shape.width_m;
         r.pixels = shape.cells * uint32_t(stride * stride);
         r.out_of_view = shape.out_of_view;
+        r.part_of = identity_.track(slot).part_of;
         regions_.push_back(r);
     }
     for_each_labelled(slots_, [&](size_t i) { labels_[i] = ids[slots_[i]]; });
@@ -243,16 +278,14 @@ void PeopleMap::learn_background(const DepthImage& image) {
 }
 
 void PeopleMap::reject(uint32_t id) {
-    if (id == 0) return;  // every free slot's
-    for (uint32_t slot = 0; slot < Identity::kMost; ++slot) {
-        if (identity_.track(slot).id != id) continue;
-        for (size_t i = 0; i < last_slots_.size(); ++i) {
-            if (last_slots_[i] != slot + 1) continue;
-            background_.add(grid_, i);
-            last_slots_[i] = 0;
-        }
-        identity_.forget(slot);
+    const uint32_t slot = slot_of(id);
+    if (slot == Identity::kMost) return;
+    for (size_t i = 0; i < last_slots_.size(); ++i) {
+        if (last_slots_[i] != slot + 1) continue;
+        background_.add(grid_, i);
+        last_slots_[i] = 0;
     }
+    identity_.forget(slot);
 }
 
 }  // namespace vfit

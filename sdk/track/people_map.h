@@ -43,6 +43,7 @@ struct PersonRegion {
     float width_m = 0.0f;   // 5th to 95th percentile across the view
     uint32_t pixels = 0;    // of the cells that are theirs
     uint32_t out_of_view = 0;  // OutOfView
+    uint32_t part_of = 0;      // id of the person whom they were split from, until confirm() or rejoin()
 };
 
 /// Why an image shows no person.
@@ -85,6 +86,11 @@ public:
     void learn_background(const DepthImage& image);
     /// That region of the last run was no person: it becomes background. Numbers that nobody has are ignored.
     void reject(uint32_t id);
+    /// That region of the last run is a person of their own.
+    void confirm(uint32_t id);
+    /// It is a part of the person whom it was split from: from the next run on. That person is not split again
+    /// for a while.
+    void rejoin(uint32_t id);
     /// Forgets people, floor and background.
     void reset();
 
@@ -95,6 +101,7 @@ private:
         Shape shape;
         uint32_t slot = 0;  // of Identity; kNew, kFragment or kThing
         uint32_t home = 0;  // slot that a fragment goes to
+        uint32_t split = 0;  // pieces with one number were split by heads; 0: was not
     };
     static constexpr uint32_t kNew = 1000, kFragment = 1001, kThing = 1002;
 
@@ -111,6 +118,8 @@ private:
     void classify_new(std::span<const uint32_t> cells, const Shape& shape);
     void add_piece(std::span<const uint32_t> cells, const Shape& shape, uint32_t slot);
     void name_people(int64_t time_ns);
+    void name_wholes(int64_t time_ns);
+    uint32_t slot_of(uint32_t id) const;
     uint32_t owner_of_part(const Piece& piece, const std::array<const Piece*, Identity::kMost>& largest,
                            int64_t time_ns);
     void attach_fragments();
@@ -151,6 +160,7 @@ private:
     std::vector<uint32_t> pool_;      // cells of split components
     size_t pool_used_ = 0;
     std::vector<Piece> pieces_;
+    uint32_t splits_ = 0, split_ = 0;  // of this image; that is under way
     std::vector<PersonRegion> regions_;
 };
 

@@ -30,6 +30,7 @@ constexpr uint32_t kTwoTurn = 5;       // frames
 constexpr float kTwoWide_m = 0.55f;    // of two side by side; one with hanging arms is 0.45 to 0.6 m wide
 constexpr uint32_t kFewestRim = 12;    // cells
 constexpr float kYoung_s = 1.0f;       // until then who has been found is still doubted
+constexpr float kAlone_s = 2.0f;       // until a person is split anew who turned out to be one
 constexpr float kSplitArea_m2 = 0.3f;  // below, nobody stands in front of anything
 constexpr float kHeadReach_m = 1.1f;   // along the surface from the axis to the hands or feet
 
@@ -67,7 +68,7 @@ bool PeopleMap::person_like(std::span<const uint32_t> cells, const Shape& shape)
 }
 
 void PeopleMap::add_piece(std::span<const uint32_t> cells, const Shape& shape, uint32_t slot) {
-    if (!cells.empty() && pieces_.size() < pieces_.capacity()) pieces_.push_back({cells, shape, slot, 0});
+    if (!cells.empty() && pieces_.size() < pieces_.capacity()) pieces_.push_back({cells, shape, slot, 0, split_});
 }
 
 void PeopleMap::mark(std::span<const uint32_t> cells, Mark m) {
@@ -175,13 +176,16 @@ void PeopleMap::add_person(std::span<const uint32_t> cells, uint32_t slot) {
     const Shape shape = measure(cells);
     // A wedge of wall between arm and trunk can pass for a person, until the arm moves and more of the wall
     // is seen.
-    const bool young =
-        seconds_between(identity_.track(slot).first_ns, identity_.track(slot).seen_ns) < kYoung_s;
+    const PersonTrack& person = identity_.track(slot);
+    const bool young = seconds_between(person.first_ns, person.seen_ns) < kYoung_s;
     if (young && (is_flat(shape) || surface_goes_on(cells))) {
         add_piece(cells, shape, kThing);
         return;
     }
-    const bool two = shape.width_m > kTwoWide_m && shape.area_m2 > kTwo_m2 && frames_ % kTwoTurn == 1;
+    const bool alone =
+        person.alone_ns && seconds_between(person.alone_ns, person.seen_ns) < kAlone_s;  // was looked at
+    const bool two =
+        shape.width_m > kTwoWide_m && shape.area_m2 > kTwo_m2 && frames_ % kTwoTurn == 1 && !alone;
     if (!two || !split_by_heads(cells, 2, slot)) add_piece(cells, shape, slot);
 }
 
@@ -204,6 +208,7 @@ bool PeopleMap::split_by_heads(std::span<const uint32_t> cells, uint8_t fewest, 
     }
     std::array<std::span<const uint32_t>, Splitter::kMostSeeds + 1> kept;
     for (uint8_t k = 1; k <= heads; ++k) mark(kept[k] = keep(splitter_.piece(k)), kBelowHead);
+    split_ = ++splits_;
     for (uint8_t k = 1; k <= heads; ++k) {
         if (kept[k].empty()) continue;
         if (k == keeper)
@@ -211,6 +216,7 @@ bool PeopleMap::split_by_heads(std::span<const uint32_t> cells, uint8_t fewest, 
         else
             classify_new(kept[k], measure(kept[k]));
     }
+    split_ = 0;
     for (uint8_t k = 1; k <= heads; ++k) unmark(kept[k], kBelowHead);
     return true;
 }
@@ -256,6 +262,7 @@ void PeopleMap::sort_component(std::span<const uint32_t> cells) {
 
 void PeopleMap::sort_components() {
     pieces_.clear();
+    splits_ = 0;
     pool_used_ = 0;
     for (size_t i = 0; i < components_.size(); ++i) sort_component(components_.cells(i));
 }

@@ -9,6 +9,9 @@ namespace vfit {
 namespace {
 
 constexpr double kFloorKept_s = 2.0;
+// Logits of what was split from a person: people who stand half behind others have 3.5 and more, arms and legs
+// below 3.
+constexpr float kPerson = 5.0f, kPart = 3.0f;
 constexpr int kMaxTries = 2 * Level::kTurns;  // of one image
 
 }  // namespace
@@ -50,7 +53,8 @@ void Perception::find_people(DepthImage& image, int64_t time_ns, uint8_t* map) {
     for (const PersonRegion& region : map_people(image, time_ns, map))
         if (targets_.size() < kMaxBodies)
             targets_.push_back(
-                {region.id, region.box, region.out_of_view ? uint32_t(VFIT_BODY_PARTLY_OUT_OF_VIEW) : 0u});
+                {region.id, region.box, region.out_of_view ? uint32_t(VFIT_BODY_PARTLY_OUT_OF_VIEW) : 0u,
+                 region.part_of});
     image.users = map;
     image.camera = people_->camera();
 }
@@ -64,9 +68,29 @@ bool Perception::stands_upright(const DepthImage& image, const Body& body) {
            level_.compare(answers);
 }
 
+/// Outlines show two heads on many who raise a shoulder or carry a bag: the network tells whether what was split
+/// from a person is one. True where it is none, and the map is to be drawn again.
+bool Perception::rejoin_parts(const DepthImage& image) {
+    bool rejoined = false;
+    for (const TrackTarget& target : targets_) {
+        if (!target.part_of) continue;
+        const float answer = tracker_->answer(image, target, image.camera.floor_normal);
+        if (answer > kPerson) people_->confirm(target.id);
+        if (answer > kPart) continue;
+        people_->rejoin(target.id);
+        rejoined = true;
+    }
+    return rejoined;
+}
+
 bool Perception::look(DepthImage& image, int64_t time_ns, uint8_t* map, std::span<const JointHint> hints,
                       std::vector<Body>& bodies) {
+    const Camera unknown = image.camera;
     find_people(image, time_ns, map);
+    if (map && rejoin_parts(image)) {
+        image.camera = unknown;
+        find_people(image, time_ns, map);
+    }
     tracker_->run(image, time_ns, targets_, bodies, hints);
     if (map)
         for (const TrackTarget& target : targets_)

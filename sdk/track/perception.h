@@ -37,6 +37,7 @@ public:
     void reset();
 
 private:
+    bool rejoin_parts(const DepthImage& image);
     void find_people(DepthImage& image, int64_t time_ns, uint8_t* map);
     /// Looks for people who stand as image.camera says.
     bool look(DepthImage& image, int64_t time_ns, uint8_t* map, std::span<const JointHint> hints,

@@ -97,6 +97,15 @@ bool Tracker::turn(const DepthImage& image, const TrackTarget& target, const Vec
     return true;
 }
 
+float Tracker::answer(const DepthImage& image, const TrackTarget& target, const Vec3& up) {
+    crop_.resize(size_t(CropView::kPixels) * CropView::kPixels);
+    CropView view;
+    if (!cropper_.run(image, uint8_t(target.id), target.box, image_up(up), view, crop_.data()))
+        return kSurelyNot;
+    network_->run(crop_.data(), maps_);
+    return maps_.person;
+}
+
 bool Tracker::surely_no_person(uint32_t id) const {
     const auto found = people_.find(id);
     return found != people_.end() && found->second.doubts >= kSureAfter;

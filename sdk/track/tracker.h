@@ -19,7 +19,8 @@ namespace vfit {
 struct TrackTarget {
     uint32_t id = 0;
     PixelBox box;        // empty: anywhere in the image
-    uint32_t flags = 0;  // VFIT_BODY_*
+    uint32_t flags = 0;    // VFIT_BODY_*
+    uint32_t part_of = 0;  // id of the person whose part they may be
 };
 
 /// The people of a user map with enough pixels to be tracked, largest first, at most `most`.
@@ -37,6 +38,8 @@ public:
              std::vector<Body>& out, std::span<const JointHint> hints = {});
     /// What the network says to the target as it is seen with `up`, and with it turned further.
     bool turn(const DepthImage& image, const TrackTarget& target, const Vec3& up, Level::Answers& person);
+    /// The network's answer (logit: it is a person) to the target alone; surely not where too little is seen.
+    float answer(const DepthImage& image, const TrackTarget& target, const Vec3& up);
     /// The network has said for a while that this target is something else.
     bool surely_no_person(uint32_t id) const;
     /// Forgets everybody.
