@@ -43,7 +43,7 @@ bool PeopleMap::beside_scene(const Shape& s) const {
             const float z = grid_.depth()[i];
             if (slots_[i] || z == 0.0f) continue;
             if (floor && meter.world(uint32_t(fx), uint32_t(fy)).y < kLowPart_m) return false;
-            return std::abs(z - s.depth_m) < kBeside_m + kPlaneSigmas * grid_.sigma_m(z);
+            return std::abs(z - s.depth_m) < kBeside_m + same_surface_m(z);
         }
         return false;
     };
