@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "people_player.h"
@@ -281,6 +282,62 @@ TEST(PeopleMap, WhatIsRejectedDoesNotComeBack) {
     ASSERT_EQ(regions.size(), 1u);
     people.map.reject(regions[0].id);
     for (int i = 0; i < 5; ++i) EXPECT_EQ(people.see(scene).size(), 0u);
+}
+
+/// The second of two who touch in the first image, who may be a part of the first.
+PersonRegion part_of_two(std::span<const PersonRegion> regions) {
+    for (const PersonRegion& region : regions)
+        if (region.part_of) return region;
+    return {};
+}
+
+TEST(PeopleMap, APartThatIsNoPersonGoesBackToTheWhole) {
+    RoomScene scene;
+    scene.people = {standing_person(-0.29f, -2.8f), standing_person(0.29f, -2.82f)};
+    People people;
+    const PersonRegion part = part_of_two(people.see(scene));
+    ASSERT_NE(part.id, 0u);
+    people.map.rejoin(part.id);
+    for (int i = 0; i < 30; ++i) {
+        const auto regions = people.see(scene);
+        ASSERT_EQ(regions.size(), 1u) << i;
+        EXPECT_EQ(regions[0].id, part.part_of);
+        EXPECT_GT(people.recall(scene, 1), 0.9);
+        EXPECT_EQ(people.label_of(scene, 2), part.part_of);
+        EXPECT_GT(people.recall(scene, 2), 0.9);
+    }
+    for (int i = 0; i < 60; ++i) people.see(scene);
+    EXPECT_EQ(people.see(scene).size(), 2u);  // it is looked at anew
+}
+
+TEST(PeopleMap, WhoIsConfirmedIsNoPart) {
+    RoomScene scene;
+    scene.people = {standing_person(-0.29f, -2.8f), standing_person(0.29f, -2.82f)};
+    People people;
+    const PersonRegion part = part_of_two(people.see(scene));
+    ASSERT_NE(part.id, 0u);
+    people.map.confirm(part.id);
+    const auto regions = people.see(scene);
+    ASSERT_EQ(regions.size(), 2u);
+    EXPECT_EQ(part_of_two(regions).id, 0u);
+    people.map.rejoin(part.id);  // of nobody
+    EXPECT_EQ(people.see(scene).size(), 2u);
+}
+
+TEST(PeopleMap, AWallBetweenArmAndTrunkIsNotThePersons) {
+    RoomScene scene;
+    scene.wall_z = -3.15f;
+    scene.people.resize(1);
+    People people;
+    for (int i = 0; i < 60; ++i) {  // elbows swing back, almost to the wall
+        const float swing = std::sin(0.4f * float(i));
+        scene.people[0] = placed(
+            testing::upper_body() + testing::standing_legs() +
+                testing::arms({0.40f + 0.05f * swing, 1.15f, -0.12f + 0.08f * swing}, {0.16f, 0.98f, 0.02f}),
+            0.0f, -2.8f);
+        people.see(scene);
+        if (i >= 5) { ASSERT_GT(people.iou(scene), 0.93) << i; }
+    }
 }
 
 TEST(PeopleMap, RejectingNobodyChangesNothing) {
