@@ -326,17 +326,16 @@ TEST(PeopleMap, WhoIsConfirmedIsNoPart) {
 
 TEST(PeopleMap, AWallBetweenArmAndTrunkIsNotThePersons) {
     RoomScene scene;
-    scene.wall_z = -3.15f;
+    scene.wall_z = -3.2f;
     scene.people.resize(1);
     People people;
     for (int i = 0; i < 60; ++i) {  // elbows swing back, almost to the wall
-        const float swing = std::sin(0.4f * float(i));
+        const float swing = std::sin(0.9f * float(i));
+        const Vec3 elbow(0.40f + 0.05f * swing, 1.15f, 0.3f * swing), hand(0.16f, 0.98f, 0.02f);
         scene.people[0] = placed(
-            testing::upper_body() + testing::standing_legs() +
-                testing::arms({0.40f + 0.05f * swing, 1.15f, -0.12f + 0.08f * swing}, {0.16f, 0.98f, 0.02f}),
-            0.0f, -2.8f);
+            testing::upper_body() + testing::standing_legs() + testing::arms(elbow, hand), 0.0f, -2.8f);
         people.see(scene);
-        if (i >= 5) { ASSERT_GT(people.iou(scene), 0.93) << i; }
+        if (i >= 5) { EXPECT_GT(people.iou(scene), 0.7) << i; }
     }
 }
 
