@@ -18,9 +18,9 @@ struct PersonTrack {
     float usual_area_m2 = 0.0f;  // of what is seen of them where nothing hides them
     uint32_t cells = 0;          // when last seen
     int64_t first_ns = 0, seen_ns = 0;
-    bool seen = false;  // in the last frame
-    uint32_t part_of = 0;   // id of the person whose part they may be after all; 0: of none
-    int64_t alone_ns = 0;   // when what was split from them turned out to be a part of them
+    bool seen = false;     // in the last frame
+    uint32_t part_of = 0;  // id of the person whose part they may be after all; 0: of none
+    int64_t alone_ns = 0;  // when what was split from them turned out to be a part of them
 };
 
 /// Between two points of the world, on the floor.

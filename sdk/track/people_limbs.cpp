@@ -20,7 +20,7 @@ constexpr float kBeside_m = 0.05f;       // hardly a step in depth
 constexpr uint32_t kFewestPlane = 12;  // cells
 constexpr float kAround_m = 0.3f, kUneven_m = 0.01f, kPlaneSigmas = 3.0f, kOnPlane = 0.5f;
 constexpr float kLowPart_m = 0.15f;  // feet lie on the plane of the floor
-constexpr int kFragmentGap = 4;          // cells
+constexpr int kFragmentGap = 4;      // cells
 
 // Parts of one person, the one above the other.
 constexpr float kSamePlace_m = 0.25f, kOverlap_m = 0.15f, kMostPart_m2 = 0.35f;
@@ -31,7 +31,8 @@ constexpr int kSoleSteps = 4;
 
 }  // namespace
 
-// A patch of wall between the legs: beside the person the same depth goes on. The floor is as deep as any leg.
+// A patch of wall between the legs: beside the person the same depth goes on. The floor is as deep as any
+// leg.
 bool PeopleMap::beside_scene(const Shape& s) const {
     const int width = int(grid_.width()), height = int(grid_.height());
     const int x = (s.x0 + s.x1) / 2, y = (s.y0 + s.y1) / 2;
@@ -51,8 +52,8 @@ bool PeopleMap::beside_scene(const Shape& s) const {
            goes_on(x, s.y1, 0, 1);
 }
 
-// A patch of wall that is seen between limbs: the plane through it goes on around it. Edges have readings that
-// are mixed from person and wall, so that the cells next to it need not be of either.
+// A patch of wall that is seen between limbs: the plane through it goes on around it. Edges have readings
+// that are mixed from person and wall, so that the cells next to it need not be of either.
 bool PeopleMap::part_of_scene(const Piece& piece) {
     const int width = int(grid_.width()), height = int(grid_.height());
     const Shape& s = piece.shape;
@@ -65,7 +66,7 @@ bool PeopleMap::part_of_scene(const Piece& piece) {
     const float tolerance = kPlaneSigmas * std::hypot(kUneven_m, grid_.sigma_m(s.depth_m));
     const int reach = int(kAround_m / grid_.cell_m(s.depth_m));
     bool goes_on = plane.fit();
-    // What lies on the plane of a small patch tells the plane better than the patch does.
+    // A small patch tells its plane badly: the cells around it that fit are taken too.
     for (int turn = 0; turn < 2 && goes_on; ++turn) {
         ScenePlane wider = plane;
         uint32_t on = 0, beyond = 0;
@@ -85,7 +86,8 @@ bool PeopleMap::part_of_scene(const Piece& piece) {
     return goes_on;
 }
 
-// What is taken for parts of people because it is seen where they were, and is a patch of the scene behind them.
+// What is taken for parts of people because it is seen where they were, and is a patch of the scene behind
+// them.
 void PeopleMap::drop_scene() {
     for (Piece& p : pieces_) {
         if (p.slot >= Identity::kMost || !behind_person(p, p.slot) || !part_of_scene(p)) continue;
@@ -163,7 +165,8 @@ void PeopleMap::attach_fragments() {
         const bool part = p.slot == kThing && p.shape.area_m2 < kMostPart_m2;
         if (!part && !(p.slot == kFragment && p.home == Identity::kMost)) continue;
         p.home = above_or_below(p.shape);
-        if (p.home < Identity::kMost && behind_person(p, p.home) && part_of_scene(p)) p.home = Identity::kMost;
+        if (p.home < Identity::kMost && behind_person(p, p.home) && part_of_scene(p))
+            p.home = Identity::kMost;
         if (p.home < Identity::kMost) p.slot = kFragment;
     }
     for (const Piece& p : pieces_) unmark(p.cells, kTracked);

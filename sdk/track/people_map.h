@@ -88,8 +88,8 @@ public:
     void reject(uint32_t id);
     /// That region of the last run is a person of their own.
     void confirm(uint32_t id);
-    /// It is a part of the person whom it was split from: from the next run on. That person is not split again
-    /// for a while.
+    /// It is a part of the person whom it was split from: from the next run on. That person is not split
+    /// again for a while.
     void rejoin(uint32_t id);
     /// Forgets people, floor and background.
     void reset();
@@ -99,8 +99,8 @@ private:
     struct Piece {
         std::span<const uint32_t> cells;
         Shape shape;
-        uint32_t slot = 0;  // of Identity; kNew, kFragment or kThing
-        uint32_t home = 0;  // slot that a fragment goes to
+        uint32_t slot = 0;   // of Identity; kNew, kFragment or kThing
+        uint32_t home = 0;   // slot that a fragment goes to
         uint32_t split = 0;  // pieces with one number were split by heads; 0: was not
     };
     static constexpr uint32_t kNew = 1000, kFragment = 1001, kThing = 1002;

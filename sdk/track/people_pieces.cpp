@@ -68,7 +68,8 @@ bool PeopleMap::person_like(std::span<const uint32_t> cells, const Shape& shape)
 }
 
 void PeopleMap::add_piece(std::span<const uint32_t> cells, const Shape& shape, uint32_t slot) {
-    if (!cells.empty() && pieces_.size() < pieces_.capacity()) pieces_.push_back({cells, shape, slot, 0, split_});
+    if (!cells.empty() && pieces_.size() < pieces_.capacity())
+        pieces_.push_back({cells, shape, slot, 0, split_});
 }
 
 void PeopleMap::mark(std::span<const uint32_t> cells, Mark m) {

@@ -9,8 +9,8 @@ namespace vfit {
 namespace {
 
 constexpr double kFloorKept_s = 2.0;
-// Logits of what was split from a person: people who stand half behind others have 3.5 and more, arms and legs
-// below 3.
+// Logits of what was split from a person: people who stand half behind others have 3.5 and more, arms and
+// legs below 3.
 constexpr float kPerson = 5.0f, kPart = 3.0f;
 constexpr int kMaxTries = 2 * Level::kTurns;  // of one image
 
@@ -52,9 +52,9 @@ void Perception::find_people(DepthImage& image, int64_t time_ns, uint8_t* map) {
     targets_.clear();
     for (const PersonRegion& region : map_people(image, time_ns, map))
         if (targets_.size() < kMaxBodies)
-            targets_.push_back(
-                {region.id, region.box, region.out_of_view ? uint32_t(VFIT_BODY_PARTLY_OUT_OF_VIEW) : 0u,
-                 region.part_of});
+            targets_.push_back({region.id, region.box,
+                                region.out_of_view ? uint32_t(VFIT_BODY_PARTLY_OUT_OF_VIEW) : 0u,
+                                region.part_of});
     image.users = map;
     image.camera = people_->camera();
 }
@@ -68,8 +68,8 @@ bool Perception::stands_upright(const DepthImage& image, const Body& body) {
            level_.compare(answers);
 }
 
-/// Outlines show two heads on many who raise a shoulder or carry a bag: the network tells whether what was split
-/// from a person is one. True where it is none, and the map is to be drawn again.
+/// Outlines show two heads on many who raise a shoulder or carry a bag: the network tells whether what was
+/// split from a person is one. True where it is none, and the map is to be drawn again.
 bool Perception::rejoin_parts(const DepthImage& image) {
     bool rejoined = false;
     for (const TrackTarget& target : targets_) {

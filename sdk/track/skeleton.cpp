@@ -44,8 +44,8 @@ float distance_between(const SeenJoints& a, const SeenJoints& b) {
 }
 
 /// How surely legs like these are of a person who faces as the sides say, from 1 to -1 (legs of one who faces
-/// the other way); 0 where they do not say. Toes point ahead of the shank, whatever way that points, and knees
-/// bend back alone.
+/// the other way); 0 where they do not say. Toes point ahead of the shank, whatever way that points, and
+/// knees bend back alone.
 float legs_agree(const SeenJoints& joints, const Vec3& up) {
     const auto at = [&](int joint) { return joints[size_t(joint)].position; };
     const Vec3 left = at(VFIT_JOINT_LEFT_SHOULDER) - at(VFIT_JOINT_RIGHT_SHOULDER) + at(VFIT_JOINT_LEFT_HIP) -
@@ -63,8 +63,8 @@ float legs_agree(const SeenJoints& joints, const Vec3& up) {
         }
         if (bends) {
             const Vec3 thigh = at(knee) - at(hip);
-            said += glm::dot(glm::cross(thigh, shank), left) /
-                    (glm::length(thigh) * glm::length(shank) + 1e-6f);
+            said +=
+                glm::dot(glm::cross(thigh, shank), left) / (glm::length(thigh) * glm::length(shank) + 1e-6f);
         }
     };
     leg(VFIT_JOINT_LEFT_HIP, VFIT_JOINT_LEFT_KNEE, VFIT_JOINT_LEFT_FOOT, VFIT_JOINT_LEFT_TOES);

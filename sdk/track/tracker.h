@@ -18,7 +18,7 @@ namespace vfit {
 /// One person of the user map.
 struct TrackTarget {
     uint32_t id = 0;
-    PixelBox box;        // empty: anywhere in the image
+    PixelBox box;          // empty: anywhere in the image
     uint32_t flags = 0;    // VFIT_BODY_*
     uint32_t part_of = 0;  // id of the person whose part they may be
 };

@@ -83,7 +83,9 @@ def nodes_of(prefix, size):
         start = BONES[parent][1] if parent else (0, 0, 0)
         own = [size * (a - b) for a, b in zip(place, start)]
         children = [i for i, other in enumerate(NAMES) if BONES[other][0] == name]
-        nodes.append({"name": prefix + name, "translation": own, **({"children": children} if children else {})})
+        nodes.append(
+            {"name": prefix + name, "translation": own, **({"children": children} if children else {})}
+        )
     return nodes
 
 
@@ -158,7 +160,9 @@ class Reader(unittest.TestCase):
         character = Character(glb)
         self.assertAlmostEqual(character.points[:, 1].max(), 1.85, 6)
         self.assertTrue(np.all(character.weights[:, 0] == 1.0))
-        np.testing.assert_allclose(character.skin(still(character).world([0])[0]), character.points, atol=1e-6)
+        np.testing.assert_allclose(
+            character.skin(still(character).world([0])[0]), character.points, atol=1e-6
+        )
 
     def test_a_cut_file_and_a_missing_bone_are_named(self):
         with self.assertRaisesRegex(BadFile, "man: is no readable"):
@@ -199,7 +203,10 @@ class Motions(unittest.TestCase):
         skin = actor.skin(0)
         self.assertAlmostEqual(skin[:, 1].min(), 0.0, 6)
         joints = actor.joints(0)
-        tall, wide = joints["NECK"][1] - joints["LEFT_KNEE"][1], joints["LEFT_HIP"][0] - joints["RIGHT_HIP"][0]
+        tall, wide = (
+            joints["NECK"][1] - joints["LEFT_KNEE"][1],
+            joints["LEFT_HIP"][0] - joints["RIGHT_HIP"][0],
+        )
         # From ankle to crown the bones are 1.72 m long, which is 95.5 % of a stature; from knee to neck 1 m.
         self.assertAlmostEqual(tall, 1.5 * 0.955 / 1.72, 6)
         self.assertAlmostEqual(wide / tall, 1.2 * 0.2 / 1.0, 6)

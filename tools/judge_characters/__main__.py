@@ -112,7 +112,8 @@ def report(recordings, offsets_of):
     for name in sorted({r.character for r in recordings}):
         own = [r for r in recordings if r.character == name]
         f, after = summary(own, every), summary(own, every, offsets)["map"]
-        print(f"  {name:24}{f['frames']:8}{f['missed']:9}{f['wrong']:7}{f['flips']:7}{f['map']:8.3f}{after:8.3f}")
+        counts = f"{f['frames']:8}{f['missed']:9}{f['wrong']:7}{f['flips']:7}"
+        print(f"  {name:24}{counts}{f['map']:8.3f}{after:8.3f}")
     print("\n  joint             raw mm    mAP  offset mm    mAP   the offset to the left, up, ahead (mm)")
     others = [r for r in recordings if r.character != offsets_of] or recordings
     for name, raw, raw_map, moved, moved_map, offset in joint_table(others, offsets):

@@ -70,7 +70,7 @@ class Character:
         self.weights /= np.maximum(self.weights.sum(1, keepdims=True), 1e-9)
 
     def _find_crown(self):
-        """The top of the head in the frame of its bone: of HeadTop_End, or of the skin that the head moves."""
+        """The crown in the frame of the bone Head: of HeadTop_End, or of the skin that the head moves."""
         g = self.glb
         world = g.world_matrices(g.translation, g.rotation, g.scale)
         head = self.node_of["Head"]
@@ -120,8 +120,8 @@ class Character:
 
     def stature(self, world):
         """In the file's units: the bones from a foot to the crown, straightened, over the ankle's height."""
-        chain = [self.bone(world, "LeftUpLeg") + self.bone(world, "RightUpLeg")]
-        chain = [0.5 * chain[0], self.bone(world, "Neck"), self.crown_at(world)]
+        hips = 0.5 * (self.bone(world, "LeftUpLeg") + self.bone(world, "RightUpLeg"))
+        chain = [hips, self.bone(world, "Neck"), self.crown_at(world)]
         length = sum(np.linalg.norm(b - a, axis=-1) for a, b in zip(chain, chain[1:]))
         for a, b in (("UpLeg", "Leg"), ("Leg", "Foot")):
             for side in SIDES:

@@ -112,9 +112,7 @@ class Glb:
         kind, width = np.dtype(COMPONENTS[a["componentType"]]), WIDTHS[a["type"]]
         start = view.get("byteOffset", 0) + a.get("byteOffset", 0)
         stride = view.get("byteStride") or kind.itemsize * width
-        values = np.ndarray(
-            (a["count"], width), kind, self.binary, start, strides=(stride, kind.itemsize)
-        )
+        values = np.ndarray((a["count"], width), kind, self.binary, start, strides=(stride, kind.itemsize))
         if not a.get("normalized"):
             return values
         return np.maximum(values / np.iinfo(kind).max, -1.0)

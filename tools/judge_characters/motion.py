@@ -8,8 +8,9 @@ SHORTEST_S = 0.5  # a shorter animation is a pose
 
 
 class Motion:
-    """World matrices of a character at the times of one clip, which is played again and again. The way from its
-    start to its end is taken out, so that people walk in place and do not jump back where it starts anew."""
+    """World matrices of a character at the times of one clip, which is played again and again. The way from
+    its start to its end is taken out, so that people walk in place and do not jump back where it starts
+    anew."""
 
     def __init__(self, name, character, duration_s, world_at):
         self.name, self.character, self.duration_s, self._world_at = name, character, duration_s, world_at
@@ -45,8 +46,8 @@ def own_motions(character):
 
 def carried_motion(name, character, clip, rest):
     """The clip (a Glb with an animation) on another skeleton. `rest` has the clip's bones in the T-pose, as
-    the character's nodes are. Bones turn in the world as they do in the clip; hips move by as much, scaled by
-    their height."""
+    the character's nodes are. Bones turn in world space as they do in the clip; hips move by as much, scaled
+    by their height."""
     g = character.glb
     pairs = {
         i: (clip.names.index(n), rest.names.index(n))

@@ -34,7 +34,7 @@ class Camera:
         return (points - np.array([0, self.height_m, 0])) @ self.rotation.T
 
     def rays(self):
-        """Directions (height, width, 3) in the world with one metre along the optical axis."""
+        """Directions (height, width, 3) in world space with one metre along the optical axis."""
         u, v = np.meshgrid(np.arange(self.width), np.arange(self.height))
         seen = np.stack([(u - self.cx) / self.focal, (v - self.cy) / self.focal, np.ones_like(u)], -1)
         return seen @ self.rotation

@@ -28,7 +28,7 @@ class Person:
 
 
 class Scene:
-    """One recording: a motion and, of each frame, the heading in degrees (0: facing the camera) and a label."""
+    """One recording: a motion and, of each frame, the heading in degrees (0: to the camera) and a label."""
 
     def __init__(self, kind, name, person, motion, headings_deg, labels):
         self.kind, self.name, self.person, self.motion = kind, f"{kind}-{name}", person, motion
@@ -80,9 +80,7 @@ def scenes_of(people, clips_of_each):
         rest, rng = _resting(person), person.rng("scenes")
         way = 1 if i % 2 else -1
         turn = way * np.arange(TURN_FRAMES) * 360 / TURN_FRAMES
-        out.append(
-            Scene("turn", person.name, person, rest[i % len(rest)], turn, ["turn"] * TURN_FRAMES)
-        )
+        out.append(Scene("turn", person.name, person, rest[i % len(rest)], turn, ["turn"] * TURN_FRAMES))
         off = i % 20 - 10  # from the view exactly from a side
         headings = [deg + (off if label == "side" else 0) for label, deg in CUTS for _ in range(CUT_FRAMES)]
         labels = [label for label, _ in CUTS for _ in range(CUT_FRAMES)]

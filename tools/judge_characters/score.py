@@ -113,7 +113,7 @@ def summary(recordings, choose, offsets=None):
 
 
 def joint_table(recordings, offsets):
-    """Of each joint: its name, raw and with offsets (median error in metres, within 10 cm), and the offset."""
+    """Of each joint: name, raw and with offsets (median error in metres, within 10 cm), and the offset."""
     found = np.concatenate([r.found for r in recordings])
     truth = np.concatenate([r.truth for r in recordings])
     moved = found + carried(offsets, found)

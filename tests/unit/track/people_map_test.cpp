@@ -320,7 +320,7 @@ TEST(PeopleMap, WhoIsConfirmedIsNoPart) {
     const auto regions = people.see(scene);
     ASSERT_EQ(regions.size(), 2u);
     EXPECT_EQ(part_of_two(regions).id, 0u);
-    people.map.rejoin(part.id);  // of nobody
+    people.map.rejoin(part.id);  // has no such part
     EXPECT_EQ(people.see(scene).size(), 2u);
 }
 
@@ -335,7 +335,9 @@ TEST(PeopleMap, AWallBetweenArmAndTrunkIsNotThePersons) {
         scene.people[0] = placed(
             testing::upper_body() + testing::standing_legs() + testing::arms(elbow, hand), 0.0f, -2.8f);
         people.see(scene);
-        if (i >= 5) { EXPECT_GT(people.iou(scene), 0.7) << i; }
+        if (i >= 5) {
+            EXPECT_GT(people.iou(scene), 0.7) << i;
+        }
     }
 }
 

@@ -113,7 +113,7 @@ TEST(Facing, ToesSayWhereThePersonFaces) {
     }
 }
 
-// Toes then point back, as those of somebody who faces the other way.
+// Toes then point back, as those of a person who stands and faces the other way.
 TEST(Facing, WhoKneelsFacesAsTheKneesBend) {
     for (const float ahead : {-1.0f, 1.0f}) {
         Facing facing;
