@@ -48,6 +48,32 @@ def test_images_that_follow_each_other_keep_the_person(ctx):
     assert 1.2 < height[-1] < 1.9, "world space: metres above the floor"
 
 
+def carpet(frame):
+    """The depth image with a rolled carpet that leans on the person's arm, with a top like a head."""
+    fx, fy, cx, cy = tuple(frame.intrinsics)[:4]
+    z = np.median(frame.depth[frame.users == 1]) / 1000
+    feet = np.nonzero(frame.users == 1)[0].max()
+    v, u = np.indices(frame.depth.shape)
+    aside, height = (u - cx) / fx * z - 0.38, (feet - v) / fy * z
+    depth = frame.depth.astype(float)
+    depth[depth == 0] = 65535
+    for radius, low, high in ((0.12, 0.02, 1.35), (0.06, 1.35, 1.6)):
+        front = 1000 * (z - np.sqrt(np.maximum(radius**2 - aside**2, 0)))
+        on = (np.abs(aside) < radius) & (height > low) & (height < high) & (front < depth)
+        depth[on] = front[on]
+    return np.where(depth == 65535, 0, depth).astype(np.uint16)
+
+
+def test_two_heads_in_the_outline_are_two_people_only_where_the_network_sees_two(ctx):
+    tracker = vfit.Tracker(ctx)
+    source = "virtual:motion=sway&sex=f&sensor=kinect_v1_320&seed=3&distance=2.8&floor=unknown&tilt=0"
+    for frame in ctx.open(source, frames=8):
+        tracked = tracker.track(carpet(frame), tuple(frame.intrinsics)[:4], time_ns=frame.time_ns)
+        assert [body.id for body in tracked.bodies()] == [1]
+        person = tracked.users[frame.users == 1]
+        assert (person == 1).mean() > 0.9
+
+
 def test_a_map_of_ones_own_is_taken(ctx):
     frame = next(ctx.open(SOURCE))
     tracked = vfit.Tracker(ctx).track(
