@@ -8,7 +8,8 @@ namespace vfit {
 
 namespace {
 constexpr uint32_t kNone = ~0u;
-}
+constexpr float kBend = 6.0f;  // of a second difference, which has sqrt(6) times the spread of a reading
+}  // namespace
 
 uint32_t Components::root(uint32_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];  // path halving
@@ -42,13 +43,24 @@ void Components::run(const DepthGrid& grid, const uint8_t* wanted, uint32_t fewe
             }
             list_[listed++] = i;
             count_[i] = 0;
-            const float same = same_surface_m(z[i]);
-            const auto joined = [&](uint32_t j) { return wanted[j] && std::abs(z[j] - z[i]) < same; };
+            const float same = grid.same_surface_m(z[i]);
+            const float loose = same_surface_m(z[i]), bend = kBend * grid.sigma_m(z[i]);
+            // Or as a slanting wall goes on, evenly over three steps; from a body to what is behind there are
+            // no such three. by: from cell to cell; room: of them before i.
+            const auto joined = [&](uint32_t j, uint32_t by, uint32_t room) {
+                if (!wanted[j]) return false;
+                const float step = z[i] - z[j];
+                if (std::abs(step) < same) return true;
+                if (std::abs(step) >= loose || j != i - by || room < 3) return false;
+                const uint32_t b = j - by, a = b - by;
+                return wanted[a] && wanted[b] && std::abs(step - (z[j] - z[b])) < bend &&
+                       std::abs(step - (z[b] - z[a])) < bend;
+            };
             // A cell without a reading is stepped over.
             const uint32_t left = x > 0 && z[i - 1] > 0.0f ? i - 1 : x > 1 ? i - 2 : kNone;
             const uint32_t above = y > 0 && z[i - width] > 0.0f ? i - width : y > 1 ? i - 2 * width : kNone;
-            parent_[i] = left != kNone && joined(left) ? parent_[left] : i;
-            if (above != kNone && joined(above) && parent_[above] != parent_[i]) join(i, above);
+            parent_[i] = left != kNone && joined(left, 1, x) ? parent_[left] : i;
+            if (above != kNone && joined(above, width, y) && parent_[above] != parent_[i]) join(i, above);
         }
     }
 

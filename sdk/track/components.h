@@ -12,8 +12,8 @@ namespace vfit {
 class Components {
 public:
     /// Splits the cells with wanted[i] != 0. Cells are neighbours where no more than one cell without a
-    /// reading lies between them in a row or column and their depths differ by less than same_surface_m.
-    /// Components of fewer cells than that are dropped.
+    /// reading lies between them in a row or column and their depths differ by less than same_surface_m, or
+    /// go on evenly. Components of fewer cells than that are dropped.
     void run(const DepthGrid& grid, const uint8_t* wanted, uint32_t fewest_cells);
 
     size_t size() const { return starts_.empty() ? 0 : starts_.size() - 1; }

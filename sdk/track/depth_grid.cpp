@@ -17,6 +17,9 @@ constexpr uint16_t kFewUnits = 10;
 // Of the noise that is measured: every so many rows, in units of depth_sigma_m.
 constexpr uint32_t kNoiseRows = 8, kNoiseBins = 128, kFewestTriples = 500;
 constexpr float kMaxSpread = 4.0f;
+// Of three in a straight line: above, the noise is less than the sensor's steps, which hide it
+// (1 / (sqrt(2 pi) sqrt(6)) of a normal distribution has the spread of one step).
+constexpr float kStepped = 0.16f, kStraight_m = 1e-4f;
 constexpr float kQuantile = 0.75f, kQuantileSpread = 1.15f;  // |x| of a normal distribution
 
 /// One row of cells, out of kStride image rows. Arithmetic stays in 16 bits so that compilers use vectors.
@@ -82,19 +85,21 @@ void DepthGrid::rays(const Camera& camera) {
 // have large ones, and so a quantile is taken that they do not reach.
 void DepthGrid::measure_noise() {
     std::array<uint32_t, kNoiseBins> bins{};
-    uint32_t count = 0;
+    uint32_t count = 0, straight = 0;
     for (uint32_t y = kNoiseRows / 2; y < height_; y += kNoiseRows) {
         const float* const z = depth_.data() + size_t(y) * width_;
         for (uint32_t x = 1; x + 1 < width_; ++x) {
             if (z[x - 1] == 0.0f || z[x] == 0.0f || z[x + 1] == 0.0f) continue;
-            const float spread = std::abs(z[x - 1] - 2.0f * z[x] + z[x + 1]) / (2.45f * depth_sigma_m(z[x]));
+            const float bend = std::abs(z[x - 1] - 2.0f * z[x] + z[x + 1]);
+            const float spread = bend / (2.45f * depth_sigma_m(z[x]));
             if (spread >= kMaxSpread) continue;  // an edge
             ++bins[size_t(spread * (float(kNoiseBins) / kMaxSpread))];
             ++count;
+            straight += bend < kStraight_m;
         }
     }
     noise_ = 1.0f;
-    if (count < kFewestTriples) return;
+    if (count < kFewestTriples || float(straight) > kStepped * float(count)) return;
     uint32_t bin = 0;
     for (uint32_t below = bins[0]; float(below) < kQuantile * float(count); below += bins[bin]) ++bin;
     noise_ = std::min(1.0f, float(bin + 1) * (kMaxSpread / float(kNoiseBins)) / kQuantileSpread);

@@ -2,6 +2,7 @@
 // of 1, 2, ... pixels, so that the grid is at most about 360 cells wide and costs the same for every camera.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -57,11 +58,18 @@ public:
     }
     /// Spread of a cell's depth at z metres, as this image shows it: at most depth_sigma_m.
     float sigma_m(float z) const { return noise_ * depth_sigma_m(z); }
+    /// Two neighbouring cells are of one surface where their depths differ by less: five sigma of noise, and
+    /// what a surface as oblique as a body's flank climbs in one cell.
+    float same_surface_m(float z) const {
+        return std::min(kClimb_m, kSteepest * cell_m(z)) + 5.0f * sigma_m(z);
+    }
     /// Square metres that a cell at depth z covers.
     float area_m2(float z) const { return cell_area_ * z * z; }
     float cell_m(float z) const { return cell_side_ * z; }
 
 private:
+    static constexpr float kClimb_m = 0.03f;
+    static constexpr float kSteepest = 3.0f;  // tan 72 degrees: steeper surfaces send back next to nothing
     void rays(const Camera& camera);
     void measure_noise();
     uint32_t width_ = 0, height_ = 0, stride_ = 1;

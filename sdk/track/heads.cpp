@@ -135,7 +135,7 @@ bool HeadFinder::has_shoulders(int axis, float top) const {
     return left >= least && right >= least;
 }
 
-bool HeadFinder::has_body(int axis, float top) const {
+bool HeadFinder::has_body(int axis, float top, bool half_seen) const {
     float trunk = 0.0f;
     for (int slice = std::min(int(top / kSlice_m), kSlices) - 1; slice >= 0; --slice) {
         float area = 0.0f;
@@ -144,11 +144,12 @@ bool HeadFinder::has_body(int axis, float top) const {
         if (area < kLeastSlice_m * kSlice_m) break;
         trunk += kSlice_m;
     }
-    const float wanted = std::max(kLeastTrunk_m, 0.75f * (top - std::max(0.0f, lowest_m_)));
+    const float wanted =
+        half_seen ? kLeastTrunk_m : std::max(kLeastTrunk_m, 0.75f * (top - std::max(0.0f, lowest_m_)));
     return trunk >= wanted || trunk >= 0.9f * top - 0.3f;
 }
 
-std::span<const Head> HeadFinder::run(std::span<const Vec4> points) {
+std::span<const Head> HeadFinder::run(std::span<const Vec4> points, bool half_seen) {
     count_ = 0;
     if (points.empty()) return {};
     project(points);
@@ -163,7 +164,7 @@ std::span<const Head> HeadFinder::run(std::span<const Vec4> points) {
         Head head;
         head.top_m = top_[size_t(peak)];
         const int axis = middle_of_crown(peak);
-        if (!has_shoulders(axis, head.top_m) || !has_body(axis, head.top_m)) continue;
+        if (!has_shoulders(axis, head.top_m) || !has_body(axis, head.top_m, half_seen)) continue;
         if (!may_be_separate(axis, head.top_m)) continue;
         const float face_m2 = look(points, axis, head);
         if (!separate(axis, head, face_m2)) continue;

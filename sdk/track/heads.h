@@ -21,8 +21,8 @@ public:
     static constexpr size_t kMost = 8;
 
     /// Each point carries the square metres that it stands for in w. Highest heads come first; valid until
-    /// the next run.
-    std::span<const Head> run(std::span<const Vec4> points);
+    /// the next run. half_seen: of the bodies no more than head and trunk need be seen.
+    std::span<const Head> run(std::span<const Vec4> points, bool half_seen = false);
 
 private:
     static constexpr int kColumns = 128, kSlices = 26;
@@ -36,7 +36,7 @@ private:
     float valley(int from, int to) const;
     bool separate(int axis, const Head& head, float area_m2) const;
     bool has_shoulders(int axis, float top) const;
-    bool has_body(int axis, float top) const;
+    bool has_body(int axis, float top, bool half_seen) const;
     float filled(int column, int slice) const { return filled_[size_t(column * kSlices + slice)]; }
 
     std::array<float, kColumns> top_{}, top_z_{};     // highest point

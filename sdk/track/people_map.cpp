@@ -22,6 +22,7 @@ constexpr float kMostBorder = 0.08f;  // of the image, that a sensor leaves with
 void PeopleMap::reset() {
     for (FloorFinder& floor : floors_) floor.reset();
     background_.reset();
+    life_.reset();
     forget_people();
     filled_ = {};
     time_ns_ = 0;
@@ -48,9 +49,11 @@ void PeopleMap::look(const DepthImage& image) {
     columns_ = grid_.width();
     for (auto* v : {&wanted_, &slots_, &last_slots_, &labels_}) v->assign(grid_.cells(), 0);
     last_depth_.assign(grid_.cells(), 0.0f);
-    pool_.resize(2 * size_t(grid_.cells()));  // a component may be split by tracks, and its parts by heads
+    // A component may be rid of tables or split by tracks, and its parts be split by heads.
+    pool_.resize(3 * size_t(grid_.cells()));
     frontier_.resize(grid_.cells());
     splitter_.fit(grid_);
+    life_.fit(grid_);
     pieces_.reserve(grid_.cells() / kFewestCells + 1);
     regions_.reserve(Identity::kMost);
     filled_ = {};
@@ -193,6 +196,12 @@ void PeopleMap::rejoin(uint32_t id) {
     identity_.forget(slot);
 }
 
+void PeopleMap::look_for_life(float dt_s) {
+    std::array<uint32_t, LifeSigns::kSlots> ids{};
+    for (uint32_t slot = 0; slot < Identity::kMost; ++slot) ids[slot] = identity_.track(slot).id;
+    life_.see(grid_, slots_, ids, dt_s);
+}
+
 void PeopleMap::report(const DepthImage& image, int64_t time_ns, uint8_t* users) {
     const bool floor = camera_.floor_state != VFIT_FLOOR_DEFAULT;
     regions_.clear();
@@ -224,6 +233,7 @@ void PeopleMap::report(const DepthImage& image, int64_t time_ns, uint8_t* users)
         r.pixels = shape.cells * uint32_t(stride * stride);
         r.out_of_view = shape.out_of_view;
         r.part_of = identity_.track(slot).part_of;
+        r.lifeless_s = life_.lifeless_s(slot);
         regions_.push_back(r);
     }
     for_each_labelled(slots_, [&](size_t i) { labels_[i] = ids[slots_[i]]; });
@@ -242,11 +252,10 @@ std::span<const PersonRegion> PeopleMap::run(const DepthImage& image, int64_t ti
     name_people(time_ns);
     attach_fragments();
     grow_feet();
+    const float passed_s = time_ns_ == 0 ? 0.0f : std::max(0.0f, float(seconds_between(time_ns_, time_ns)));
+    look_for_life(passed_s);
     report(image, time_ns, users);
-    if (options_.learn_background) {
-        const float dt_s = std::clamp(float(seconds_between(time_ns_, time_ns)), 0.0f, 0.1f);
-        background_.learn(grid_, slots_.data(), time_ns_ == 0 ? 0.0f : dt_s);
-    }
+    if (options_.learn_background) background_.learn(grid_, slots_.data(), std::min(passed_s, 0.1f));
     // A fragment is anybody's again in the next image: it may be the first that is seen of somebody else.
     for (const Piece& p : pieces_)
         if (p.slot == kFragment)

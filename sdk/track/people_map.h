@@ -16,6 +16,7 @@
 #include "track/depth_filter.h"
 #include "track/floor_finder.h"
 #include "track/identity.h"
+#include "track/life_signs.h"
 #include "track/person_shape.h"
 #include "track/splitter.h"
 
@@ -44,6 +45,7 @@ struct PersonRegion {
     uint32_t pixels = 0;    // of the cells that are theirs
     uint32_t out_of_view = 0;  // OutOfView
     uint32_t part_of = 0;      // id of the person whom they were split from, until confirm() or rejoin()
+    float lifeless_s = 0.0f;   // for how long it has rested without a sign of life
 };
 
 /// Why an image shows no person.
@@ -113,6 +115,8 @@ private:
     void split_by_tracks(std::span<const uint32_t> cells, std::span<const uint32_t> slots, float farthest_m);
     bool disputed(uint32_t cell, uint32_t column, uint32_t row) const;
     bool split_by_heads(std::span<const uint32_t> cells, uint8_t fewest, uint32_t slot = kNew);
+    /// The same without level surfaces that are large; they are background from then on.
+    std::span<const uint32_t> without_tables(std::span<const uint32_t> cells);
     void add_person(std::span<const uint32_t> cells, uint32_t slot);
     std::span<const uint32_t> keep(std::span<const uint32_t> cells);
     void classify_new(std::span<const uint32_t> cells, const Shape& shape);
@@ -120,6 +124,7 @@ private:
     void name_people(int64_t time_ns);
     void name_wholes(int64_t time_ns);
     uint32_t slot_of(uint32_t id) const;
+    void look_for_life(float dt_s);
     uint32_t owner_of_part(const Piece& piece, const std::array<const Piece*, Identity::kMost>& largest,
                            int64_t time_ns);
     void attach_fragments();
@@ -153,6 +158,7 @@ private:
     Components components_;
     Splitter splitter_;
     Identity identity_;
+    LifeSigns life_;
     std::vector<uint8_t> wanted_, slots_, last_slots_;  // by cell; slots count from 1
     std::vector<uint8_t> labels_;                       // ids by cell, in the end; until then Marks
     std::vector<float> last_depth_;

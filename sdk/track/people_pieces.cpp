@@ -12,6 +12,7 @@ namespace vfit {
 namespace {
 
 constexpr float kLowerEnd_m = 0.15f;   // where it is looked what is below
+constexpr int kBelowCells = 3;         // and how far: beyond an outline without readings
 constexpr float kFloorBelow_m = 0.3f;  // feet do not stand on what is higher
 constexpr float kFragment_m2 = 0.12f;  // a forearm and hand, or a shank, seen by themselves
 constexpr float kSamePlace_m = 0.2f;   // along the view, from frame to frame: 6 m/s at 30 Hz
@@ -36,29 +37,32 @@ constexpr float kHeadReach_m = 1.1f;   // along the surface from the axis to the
 
 }  // namespace
 
-// Below the lower end something stands that is nearer, or the person is at a piece of furniture that is
-// known.
+// Below the lower end something stands that is nearer, or nothing sends back light (black trousers), or the
+// person is at a piece of furniture that is known. Where the scene is seen there are no feet.
 bool PeopleMap::feet_hidden(std::span<const uint32_t> cells, const Shape& shape) const {
     const ShapeMeter meter(grid_, camera_, {});
     const int down = meter.down();
     const int width = int(grid_.width());
-    uint32_t nearer = 0, farther = 0;
+    uint32_t nearer = 0, farther = 0, dark = 0;
     grid_.for_each(cells, [&](uint32_t cell, uint32_t x, uint32_t y) {
         if (meter.world(x, y).y > shape.low_m + kLowerEnd_m) return;
-        const float z = grid_.depth()[cell], same = same_surface_m(z);
-        for (int k = 1; k <= 3; ++k) {
+        const float z = grid_.depth()[cell], same = grid_.same_surface_m(z);
+        for (int k = 1; k <= kBelowCells; ++k) {
             const int next = int(cell) + k * down;
             if (next < 0 || next >= int(grid_.cells())) break;
             if (std::abs(down) == 1 && next / width != int(y)) break;
             const float other = grid_.depth()[size_t(next)];
-            if (other == 0.0f) continue;
+            if (other == 0.0f) {
+                dark += k == kBelowCells;
+                continue;
+            }
             nearer += other < z - same ||
                       (!wanted_[size_t(next)] && other < z + same && shape.low_m > kFloorBelow_m);
             farther += other > z + same;
             break;
         }
     });
-    return nearer > farther && nearer >= 6;
+    return nearer + dark > farther && nearer + dark >= 6;
 }
 
 bool PeopleMap::person_like(std::span<const uint32_t> cells, const Shape& shape) const {
@@ -92,7 +96,7 @@ bool PeopleMap::surface_goes_on(std::span<const uint32_t> cells) {
     uint32_t joined = 0, farther = 0;
     grid_.for_each(cells, [&](uint32_t cell, uint32_t x, uint32_t y) {
         if (floor && meter.world(x, y).y < kLowerEnd_m) return;  // feet join the floor
-        const float z = depth[cell], same = same_surface_m(z);
+        const float z = depth[cell], same = grid_.same_surface_m(z);
         const auto look = [&](uint32_t next) {
             if (labels_[next] || depth[next] == 0.0f) return;
             joined += std::abs(depth[next] - z) < same;
@@ -119,7 +123,7 @@ void PeopleMap::classify_new(std::span<const uint32_t> cells, const Shape& shape
 bool PeopleMap::disputed(uint32_t cell, uint32_t column, uint32_t row) const {
     const int width = int(grid_.width()), height = int(grid_.height());
     const int x = int(column), y = int(row);
-    const float z = grid_.depth()[cell], same = same_surface_m(z);
+    const float z = grid_.depth()[cell], same = grid_.same_surface_m(z);
     const int reach = std::max(1, int(kBorder_m / grid_.cell_m(z)));
     const auto other = [&](int nx, int ny) {
         if (nx < 0 || ny < 0 || nx >= width || ny >= height) return false;
@@ -193,7 +197,7 @@ void PeopleMap::add_person(std::span<const uint32_t> cells, uint32_t slot) {
 // slot: whose component it was until now; the largest share of their last place keeps their number.
 bool PeopleMap::split_by_heads(std::span<const uint32_t> cells, uint8_t fewest, uint32_t slot) {
     splitter_.begin(grid_, cells);
-    const uint8_t heads = splitter_.seed_heads(ShapeMeter(grid_, camera_, {}));
+    const uint8_t heads = splitter_.seed_heads(ShapeMeter(grid_, camera_, {}), fewest == 1);
     if (heads < fewest) return false;
     splitter_.grow(kHeadReach_m);
     uint8_t keeper = 0;
@@ -257,8 +261,12 @@ void PeopleMap::sort_component(std::span<const uint32_t> cells) {
     const Shape shape = measure(cells);
     const bool whole = shape.area_m2 < kSplitArea_m2 || person_like(cells, shape);
     const bool one = whole && shape.width_m < kTwoWide_m;
-    if (one || is_flat(shape) || frames_ % kTwoTurn != 1 || !split_by_heads(cells, whole ? 2 : 1))
-        classify_new(cells, shape);
+    if (!one && !is_flat(shape) && frames_ % kTwoTurn == 1) {
+        const auto standing = without_tables(cells);
+        const bool two = whole && standing.size() == cells.size();
+        if (split_by_heads(standing, two ? 2 : 1)) return;
+    }
+    classify_new(cells, shape);
 }
 
 void PeopleMap::sort_components() {

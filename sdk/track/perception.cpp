@@ -12,6 +12,7 @@ constexpr double kFloorKept_s = 2.0;
 // Logits of what was split from a person: people who stand half behind others have 3.5 and more, arms and
 // legs below 3.
 constexpr float kPerson = 5.0f, kPart = 3.0f;
+constexpr float kThing_s = 2.0f;              // without a sign of life, after which it becomes background
 constexpr int kMaxTries = 2 * Level::kTurns;  // of one image
 
 }  // namespace
@@ -54,7 +55,7 @@ void Perception::find_people(DepthImage& image, int64_t time_ns, uint8_t* map) {
         if (targets_.size() < kMaxBodies)
             targets_.push_back({region.id, region.box,
                                 region.out_of_view ? uint32_t(VFIT_BODY_PARTLY_OUT_OF_VIEW) : 0u,
-                                region.part_of});
+                                region.part_of, region.lifeless_s});
     image.users = map;
     image.camera = people_->camera();
 }
@@ -94,7 +95,8 @@ bool Perception::look(DepthImage& image, int64_t time_ns, uint8_t* map, std::spa
     tracker_->run(image, time_ns, targets_, bodies, hints);
     if (map)
         for (const TrackTarget& target : targets_)
-            if (tracker_->surely_no_person(target.id)) people_->reject(target.id);
+            if (tracker_->surely_no_person(target.id) || target.lifeless_s > kThing_s)
+                people_->reject(target.id);
     return !bodies.empty();
 }
 
@@ -114,7 +116,10 @@ void Perception::run(DepthImage& image, int64_t time_ns, uint8_t* map, std::span
         level_.place(image.camera);
         const Vec3 up = level_.up();
         found = look(image, time_ns, map, hints, bodies) && stands_upright(image, bodies.front());
-        again = !found && (level_.up() != up || level_.miss(time_ns));
+        // What rests without life was seen well enough to be doubted: no other way up shows it better.
+        const bool things = std::any_of(targets_.begin(), targets_.end(),
+                                        [](const TrackTarget& t) { return t.lifeless_s > 0.0f; });
+        again = !found && !things && (level_.up() != up || level_.miss(time_ns));
         if (again && people_) people_->forget_people();
     }
     // A floor that is out of sight stays as long as people stand on it.

@@ -19,7 +19,7 @@ constexpr float kLegsFrom_m = 0.2f, kLegsTo_m = 0.6f;
 // the side, 1 m2 a heavy one from the front; a part of a person is no less than head and shoulders.
 constexpr float kShortest_m = 0.9f, kTallest_m = 2.35f;
 constexpr float kFeetBelow_m = 0.35f;
-constexpr float kLeastArea_m2 = 0.12f, kLeastPart_m2 = 0.085f, kLeastBehind_m2 = 0.2f, kMostArea_m2 = 1.5f;
+constexpr float kLeastArea_m2 = 0.12f, kLeastPart_m2 = 0.085f, kLeastBehind_m2 = 0.15f, kMostArea_m2 = 1.5f;
 constexpr float kLeastPart_m = 0.4f;
 constexpr float kWidestTrunk_m = 0.85f, kNarrowest_m = 0.14f, kThickest_m = 1.1f;
 constexpr float kFlat_m = 0.014f;      // a trunk's front alone bends by more than 3 cm

@@ -55,7 +55,8 @@ void Splitter::leave_queue(uint32_t cell) {
 void Splitter::offer(uint32_t cell, uint32_t x, uint32_t y, float farthest_m) {
     const uint32_t width = grid_->width(), height = grid_->height();
     const float* const depth = grid_->depth().data();
-    const float z = depth[cell], same = same_surface_m(z), noise = depth_sigma_m(z), side = grid_->cell_m(z);
+    const float z = depth[cell], same = grid_->same_surface_m(z), noise = grid_->sigma_m(z),
+                side = grid_->cell_m(z);
     const auto visit = [&](uint32_t to, float way) {
         if (owner_[to] == kOutside || effort_[to] <= effort_[cell]) return;
         const float step = std::abs(depth[to] - z), path = path_m_[cell] + way;
@@ -111,12 +112,12 @@ std::span<const uint32_t> Splitter::piece(uint8_t number) const {
     return {sorted_.data() + starts_[number], starts_[number + 1u] - starts_[number]};
 }
 
-uint8_t Splitter::seed_heads(const ShapeMeter& meter) {
+uint8_t Splitter::seed_heads(const ShapeMeter& meter, bool half_seen) {
     size_t count = 0;
     grid_->for_each(cells_, [&](uint32_t cell, uint32_t x, uint32_t y) {
         points_[count++] = Vec4(meter.world(x, y), grid_->area_m2(grid_->depth()[cell]));
     });
-    const auto heads = finder_.run({points_.data(), count});
+    const auto heads = finder_.run({points_.data(), count}, half_seen);
     static_assert(HeadFinder::kMost <= kMostSeeds);
     for (size_t i = 0; i < count; ++i) {
         // Of two heads, the one behind the other, the nearer to the axis.

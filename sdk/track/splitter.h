@@ -32,7 +32,7 @@ public:
 
     /// Seeds below the heads of people who stand side by side or before something. Returns their number; 0:
     /// none looks like a head on a body.
-    uint8_t seed_heads(const ShapeMeter& meter);
+    uint8_t seed_heads(const ShapeMeter& meter, bool half_seen = false);
 
 private:
     void queue(uint32_t cell, uint32_t effort);

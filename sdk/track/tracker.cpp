@@ -131,7 +131,7 @@ bool Tracker::see(const DepthImage& image, int64_t time_ns, const TrackTarget& t
     person.seen_ns = time_ns;
     ++person.frames;
     person.doubts = person.belief < kSurelyNot ? person.doubts + 1 : 0;
-    if (person.belief < kLeastBelief) return false;
+    if (person.belief < kLeastBelief || target.lifeless_s > 0.0f) return false;
 
     out.id = target.id;
     out.time_ns = time_ns;

@@ -18,9 +18,10 @@ namespace vfit {
 /// One person of the user map.
 struct TrackTarget {
     uint32_t id = 0;
-    PixelBox box;          // empty: anywhere in the image
-    uint32_t flags = 0;    // VFIT_BODY_*
-    uint32_t part_of = 0;  // id of the person whose part they may be
+    PixelBox box;             // empty: anywhere in the image
+    uint32_t flags = 0;       // VFIT_BODY_*
+    uint32_t part_of = 0;     // id of the person whose part they may be
+    float lifeless_s = 0.0f;  // for how long it has rested without a sign of life; above 0 it has no body
 };
 
 /// The people of a user map with enough pixels to be tracked, largest first, at most `most`.

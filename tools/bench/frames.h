@@ -19,6 +19,10 @@ void copy_pixels(const vfit_view& view, std::vector<T>& out) {
         std::memcpy(out.data() + size_t(y) * view.width, row_of<T>(view, y), view.width * sizeof(T));
 }
 
+/// A frame of millimetres from a camera of the host that knows its lens and no floor.
+Frame make_depth_frame(vfit_context context, const Camera& camera, const std::vector<uint16_t>& depth,
+                       int64_t time_ns);
+
 /// Depth and user map of a frame, copied.
 struct FrameImage {
     explicit FrameImage(vfit_frame frame);

@@ -27,6 +27,9 @@ void run(const Options& o) {
     if (wants(o, "joints")) report["synthetic"]["joints"] = judge_virtual(o.people, targets);
     if (wants(o, "facing")) report["synthetic"]["facing"] = judge_facing(o.people, targets);
     if (wants(o, "rooms")) report["synthetic"]["rooms"] = judge_rooms(o.people, targets);
+    if (wants(o, "furniture")) report["synthetic"]["furniture"] = judge_furniture(o.people, targets);
+    if (wants(o, "walls")) report["synthetic"]["walls"] = judge_walls(o.people, targets);
+    if (wants(o, "half-seen")) report["synthetic"]["half_seen"] = judge_half_seen(o.people, targets);
     if (wants(o, "distance")) report["synthetic"]["distance"] = judge_distance(o.people, targets);
     if (wants(o, "events")) report["synthetic"]["events"] = judge_events(o.people, targets);
     if (!o.scenes.empty() && wants(o, "stills"))
@@ -61,7 +64,8 @@ void add_track(Command& app) {
     command.add_option("--seed", o->people.seed, "Of bodies, rooms and noise").within(1, 1'000'000);
     command.add_flag("--long", o->people.long_run, "Each motion with both sensors and three people");
     command.add_option("--only", o->only, "One part")
-        .one_of({"time", "joints", "facing", "rooms", "distance", "events", "stills", "recordings"});
+        .one_of({"time", "joints", "facing", "rooms", "furniture", "walls", "half-seen", "distance", "events",
+                 "stills", "recordings"});
     command
         .add_option_function(
             "--fit",

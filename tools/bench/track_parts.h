@@ -27,6 +27,12 @@ Json judge_virtual(const JudgeOptions& options, Targets& targets);
 Json judge_facing(const JudgeOptions& options, Targets& targets);
 /// SYNTHETIC: cameras that stand in many ways, in rooms of many kinds: whether person and floor are found.
 Json judge_rooms(const JudgeOptions& options, Targets& targets);
+/// SYNTHETIC: things that move into a room and are no people, and people who stand still.
+Json judge_furniture(const JudgeOptions& options, Targets& targets);
+/// SYNTHETIC: people with their back close to a wall.
+Json judge_walls(const JudgeOptions& options, Targets& targets);
+/// SYNTHETIC: people of whom a half is seen.
+Json judge_half_seen(const JudgeOptions& options, Targets& targets);
 /// SYNTHETIC: how far away people are found.
 Json judge_distance(const JudgeOptions& options, Targets& targets);
 /// SYNTHETIC: people who come, go and are hidden, and rooms without anybody.

@@ -191,31 +191,12 @@ private:
                     from >= 0 && image.users[size_t(from)] ? image.depth[size_t(from)] : uint16_t(0);
                 depth_[i] = person && (!wall || person < wall) ? person : wall;
             }
-        const Frame given = make(camera);
+        time_ns_ += 1'000'000'000 / kRate_hz;
+        const Frame given = make_depth_frame(context_.get(), camera, depth_, time_ns_);
         Frame tracked;
         check(vfit_tracker_update(tracker_.get(), given.get(), tracked.out()));
         const Joints truth = roll_.turn(truth_of(frame));
         if (judged) judge(tracked.get(), truth, camera, index);
-    }
-
-    /// A camera of the host that knows no floor.
-    Frame make(const Camera& camera) {
-        vfit_view view = vfit_view_init();
-        view.data = depth_.data();
-        view.width = camera.width, view.height = camera.height;
-        view.row_stride = camera.width * 2;
-        view.format = VFIT_FORMAT_U16;
-        vfit_intrinsics intrinsics = vfit_intrinsics_init();
-        intrinsics.width = camera.width, intrinsics.height = camera.height;
-        intrinsics.fx = camera.fx, intrinsics.fy = camera.fy;
-        intrinsics.cx = camera.cx, intrinsics.cy = camera.cy;
-        const vfit_stream stream = VFIT_STREAM_DEPTH;
-        vfit_frame_desc desc = vfit_frame_desc_init();
-        desc.count = 1, desc.streams = &stream, desc.views = &view;
-        desc.intrinsics = &intrinsics, desc.time_ns = time_ns_ += 1'000'000'000 / kRate_hz;
-        Frame frame;
-        check(vfit_frame_create(context_.get(), &desc, frame.out()));
-        return frame;
     }
 
     void judge(vfit_frame tracked, const Joints& truth, const Camera& camera, uint32_t index) {

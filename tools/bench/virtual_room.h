@@ -21,11 +21,20 @@ struct VirtualRoom {
     struct Box {
         Vec3 low, high;
     };
+    /// Turned in any way.
+    struct Solid {
+        enum class Shape { kBox, kEllipsoid } shape;
+        Vec3 centre;
+        Mat3 half_axes;  // columns, at right angles to each other
+    };
     FloorLook floor = FloorLook::kMatt;
     std::vector<Wall> walls;
     std::vector<Box> boxes;
+    std::vector<Solid> solids;
     bool empty = false;  // the background was cut away
 
+    /// What a sensor of that kind says to a surface at z metres.
+    static float reading(float z, bool time_of_flight, std::mt19937& random);
     /// Depth in metres, with the noise of a time-of-flight or structured-light sensor; 0: no reading.
     void render(const Camera& camera, bool time_of_flight, std::mt19937& random,
                 std::vector<float>& depth_m) const;

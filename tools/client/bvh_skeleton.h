@@ -10,8 +10,8 @@
 
 namespace vfit::tools {
 
-/// A GLB of the joints as they stand in `worlds`, upright along Y or along Z, with a small tetrahedron of that
-/// size at each, carried by it.
+/// A GLB of the joints as they stand in `worlds`, upright along Y or along Z, with a small tetrahedron of
+/// that size at each, carried by it.
 std::string skeleton_glb(const BvhFile& file, const std::vector<glm::mat4>& worlds, bool is_z_up, float size);
 
 }  // namespace vfit::tools

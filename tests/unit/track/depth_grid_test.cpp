@@ -56,6 +56,40 @@ TEST(DepthGrid, MeasuresTheNoiseOfItsSensor) {
     EXPECT_EQ(grid.sigma_m(3.5f), depth_sigma_m(3.5f));
 }
 
+TEST(DepthGrid, JoinsSurfacesByTheNoiseThatItSees) {
+    std::mt19937 random(1);
+    std::normal_distribution<float> noise(0.0f, 2.0f);  // mm: a time-of-flight camera
+    Picture fine(320, 240, 0), stepped(320, 240, 3000);
+    for (uint16_t& d : fine.depth) d = uint16_t(std::lround(3000.0f + noise(random)));
+    DepthGrid grid;
+    grid.run(fine.view());
+    EXPECT_LT(grid.same_surface_m(3.0f), 0.045f);
+    // Steps hide the noise: it may be as large as that of the worst sensor.
+    grid.run(stepped.view());
+    EXPECT_GT(grid.same_surface_m(3.0f), 0.08f);
+}
+
+TEST(Components, AWallThatSlantsAwayIsOne) {
+    std::mt19937 random(1);
+    std::normal_distribution<float> noise(0.0f, 2.0f);
+    Picture picture(320, 240, 0);
+    for (uint32_t y = 0; y < 240; ++y)
+        for (uint32_t x = 0; x < 320; ++x) {
+            // From 2.5 m on every cell is 6 cm behind the last.
+            const float z = 2500.0f + (x < 40 ? 60.0f * float(x) : 2400.0f);
+            picture.at(x, y) = uint16_t(std::lround(z + noise(random)));
+        }
+    DepthGrid grid;
+    grid.run(picture.view());
+    ASSERT_LT(grid.same_surface_m(3.0f), 0.05f);
+    const std::vector<uint8_t> wanted(grid.cells(), 1);
+    Components components;
+    components.run(grid, wanted.data(), 240);
+    size_t most = 0;
+    for (size_t i = 0; i < components.size(); ++i) most = std::max(most, components.cells(i).size());
+    EXPECT_GT(most, 300u * 240u);
+}
+
 TEST(DepthGrid, IsNeverEmptyHoweverThinTheImage) {
     for (const auto& [width, height] :
          {std::pair{16384u, 1u}, {16384u, 2u}, {1000u, 2u}, {1u, 1u}, {1u, 3000u}, {721u, 5u}}) {

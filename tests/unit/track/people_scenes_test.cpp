@@ -74,6 +74,38 @@ TEST(HardScene, BehindALowTableThatHidesTheFeet) {
     EXPECT_GT(people.iou(scene), 0.9);
 }
 
+TEST(HardScene, AtATableThatTouchesTheTrunk) {
+    RoomScene scene;
+    scene.stand(1.4f, 8, 0);
+    scene.things = {{{-0.8f, 0.70f, -2.34f}, {0.8f, 0.74f, -1.6f}},  // trunk to -2.35 m
+                    {{-0.78f, 0.0f, -1.65f}, {-0.73f, 0.70f, -1.6f}},
+                    {{0.73f, 0.0f, -1.65f}, {0.78f, 0.70f, -1.6f}}};
+    scene.people.push_back(standing_person(0.0f, -2.5f));
+    People people;
+    for (int i = 0; i < 5; ++i) ASSERT_EQ(people.see(scene).size(), 1u) << i;
+    EXPECT_GT(people.recall(scene), 0.6) << "the upper body";
+    EXPECT_GT(people.iou(scene), 0.6) << "without the table";
+}
+
+TEST(HardScene, InTrousersThatSendBackNoLight) {
+    RoomScene scene;
+    scene.people.push_back(standing_person(0.1f, -2.6f));
+    People people;
+    for (int i = 1; i < 10; ++i) {
+        scene.render(uint32_t(i));
+        people.users.resize(scene.depth.size());
+        const Mat4 world = scene.camera.world_from_camera();
+        for (uint32_t v = 0; v < scene.camera.height; ++v)
+            for (uint32_t u = 0; u < scene.camera.width; ++u) {
+                const size_t k = size_t(v) * scene.camera.width + u;
+                const float z = float(scene.depth[k]) * scene.camera.depth_unit_m;
+                const float y = transform_point(world, scene.camera.unproject(float(u), float(v), z)).y;
+                if (scene.truth[k] && y < 0.9f) scene.depth[k] = 0;
+            }
+        ASSERT_EQ(people.map.run(scene.bare(), i * kFrame_ns, people.users.data()).size(), 1u) << i;
+    }
+}
+
 TEST(HardScene, WithABoxInTheArms) {
     RoomScene scene;
     scene.people.push_back(reaching_person(0.0f, -2.6f, {0.2f, 1.0f, 0.35f}));
