@@ -43,8 +43,11 @@ class Scene:
         camera, at, room = _place(rng, actor.top_m)
         recording = Recording(folder, camera, self.labels)
         towards = np.degrees(np.arctan2(at[0], -at[2]))  # so that heading 0 faces the camera
+        stand = at
         for frame, heading in enumerate(self.headings_deg):
             turn = _about_up(heading - towards)
+            if self.motion.duration_s == 0:
+                at = stand + _sway(frame / FPS)
             skin = actor.skin(frame) @ turn.T + at
             depth = see(skin, actor.character.faces, camera, room)
             joints = {n: camera.to_camera(p @ turn.T + at) for n, p in actor.joints(frame).items()}
@@ -55,6 +58,11 @@ class Scene:
 def _about_up(degrees):
     c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
     return np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
+
+
+def _sway(time_s):
+    """Of a person who holds a pose: a few millimetres aside and ahead. A tracker takes statues for furniture."""
+    return np.array([0.004 * np.sin(2.1 * time_s), 0, 0.006 * np.sin(1.4 * time_s + 1)])
 
 
 def _place(rng, top_m):
