@@ -61,7 +61,7 @@ def _about_up(degrees):
 
 
 def _sway(time_s):
-    """Of a person who holds a pose: a few millimetres aside and ahead. A tracker takes statues for furniture."""
+    """Of a person who holds a pose, a few millimetres aside and ahead: what never moves is furniture."""
     return np.array([0.004 * np.sin(2.1 * time_s), 0, 0.006 * np.sin(1.4 * time_s + 1)])
 
 
