@@ -26,12 +26,12 @@ void PeopleMap::reset() {
     forget_people();
     filled_ = {};
     time_ns_ = 0;
-    frames_ = 0;
 }
 
 void PeopleMap::forget_people() {
     identity_.reset();
     std::fill(last_slots_.begin(), last_slots_.end(), uint8_t(0));
+    frames_ = 0;  // those who touch are told apart at once, as in the first image
 }
 
 void PeopleMap::doubt_floor() {

@@ -60,6 +60,13 @@ void Perception::find_people(DepthImage& image, int64_t time_ns, uint8_t* map) {
     image.camera = people_->camera();
 }
 
+/// The one whom the network knows best: a person who is half out of view tells little about up.
+const Body& Perception::surest(std::span<const Body> bodies) const {
+    return *std::max_element(bodies.begin(), bodies.end(), [&](const Body& a, const Body& b) {
+        return tracker_->belief(a.id) < tracker_->belief(b.id);
+    });
+}
+
 bool Perception::stands_upright(const DepthImage& image, const Body& body) {
     if (level_.sure()) return true;
     const auto target =
@@ -115,7 +122,7 @@ void Perception::run(DepthImage& image, int64_t time_ns, uint8_t* map, std::span
         image.camera = unknown;
         level_.place(image.camera);
         const Vec3 up = level_.up();
-        found = look(image, time_ns, map, hints, bodies) && stands_upright(image, bodies.front());
+        found = look(image, time_ns, map, hints, bodies) && stands_upright(image, surest(bodies));
         // What rests without life was seen well enough to be doubted: no other way up shows it better.
         const bool things = std::any_of(targets_.begin(), targets_.end(),
                                         [](const TrackTarget& t) { return t.lifeless_s > 0.0f; });
@@ -132,7 +139,7 @@ void Perception::run(DepthImage& image, int64_t time_ns, uint8_t* map, std::span
     } else if (people_ && people_->floor_found()) {
         level_.follow(image.camera.floor_normal);
     } else {
-        level_.see(bodies.front(), time_ns);
+        level_.see(surest(bodies), time_ns);
         level_.place(image.camera);
     }
 }

@@ -42,6 +42,7 @@ private:
     /// Looks for people who stand as image.camera says.
     bool look(DepthImage& image, int64_t time_ns, uint8_t* map, std::span<const JointHint> hints,
               std::vector<Body>& bodies);
+    const Body& surest(std::span<const Body> bodies) const;
     bool stands_upright(const DepthImage& image, const Body& body);
 
     LoadNetwork load_;

@@ -106,6 +106,11 @@ float Tracker::answer(const DepthImage& image, const TrackTarget& target, const 
     return maps_.person;
 }
 
+float Tracker::belief(uint32_t id) const {
+    const auto found = people_.find(id);
+    return found == people_.end() ? kSurelyNot : found->second.belief;
+}
+
 bool Tracker::surely_no_person(uint32_t id) const {
     const auto found = people_.find(id);
     return found != people_.end() && found->second.doubts >= kSureAfter;

@@ -41,6 +41,8 @@ public:
     bool turn(const DepthImage& image, const TrackTarget& target, const Vec3& up, Level::Answers& person);
     /// The network's answer (logit: it is a person) to the target alone; surely not where too little is seen.
     float answer(const DepthImage& image, const TrackTarget& target, const Vec3& up);
+    /// The network's answer that this target is a person, a mean of the last images; a logit.
+    float belief(uint32_t id) const;
     /// The network has said for a while that this target is something else.
     bool surely_no_person(uint32_t id) const;
     /// Forgets everybody.
