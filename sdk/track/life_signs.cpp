@@ -15,6 +15,7 @@ constexpr uint32_t kFewestCells = 48;  // of a block
 constexpr uint32_t kFewestBlocks = 4;
 constexpr float kSteadyShare = 0.6f;                   // of the cells: fewer, and it moves about
 constexpr float kSmallest_m = 0.0005f;                 // movement, root of its power; sensors drift by less
+constexpr float kSameImage_m = 1e-5f;                  // noise; less than this is of rounding sums
 constexpr float kMedian = 1.386f;                      // of the sum of two squared normal deviates
 constexpr float kCommon = 3.3f, kSurelyCommon = 8.0f;  // of the noise: 1 in 100, none
 constexpr float kSure = 2.5f, kSurer = 6.0f;  // standard deviations of a ratio; of what has been lifeless
@@ -179,7 +180,7 @@ void LifeSigns::judge(uint32_t slot) {
     const bool rests =
         count >= kFewestBlocks && float(cells_[slot].steady) >= kSteadyShare * float(cells_[slot].all);
     // A picture that is shown again and again has no noise, and says nothing.
-    if (rests && median(slot, &Power::fast) <= 0.0f) return;
+    if (rests && median(slot, &Power::fast) < kSameImage_m * kSameImage_m) return;
     const bool stirred = !rests || stirs(slot, person.lifeless);
     if (rests && stirred) person.alive_s = std::min(person.alive_s + kBin_s, kMaxPatience_s);
     const bool lives = stirred && (!person.lifeless || person.stirred);
