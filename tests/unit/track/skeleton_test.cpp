@@ -133,6 +133,23 @@ TEST(Facing, WhoKneelsFacesAsTheKneesBend) {
     }
 }
 
+TEST(Facing, KneesThatBendSayItWhereNoToesAreSeen) {
+    for (const float ahead : {-1.0f, 1.0f}) {
+        Facing facing;
+        for (int i = 0; i < 3; ++i) {
+            SeenJoints joints = standing();
+            for (const int side : {0, 1}) {
+                const Vec3 hip = joints[size_t(VFIT_JOINT_LEFT_HIP + side)].position;
+                joints[size_t(VFIT_JOINT_LEFT_KNEE + side)].position = hip + Vec3(0, 0.3f, -0.3f * ahead);
+                joints[size_t(VFIT_JOINT_LEFT_FOOT + side)].position = hip + Vec3(0, 0.7f, 0.0f);
+                joints[size_t(VFIT_JOINT_LEFT_TOES + side)].confidence = 0.0f;
+            }
+            facing.apply(0.0f, Vec3(0, -1, 0), joints);
+        }
+        EXPECT_EQ(facing.away(), ahead < 0.0f) << ahead;
+    }
+}
+
 TEST(Facing, AfterACutTheNextAnswerCounts) {
     Facing facing;
     SeenJoints joints;
