@@ -368,10 +368,11 @@ VFIT_API vfit_result vfit_frame_view(vfit_frame frame, vfit_stream stream, vfit_
 VFIT_API vfit_result vfit_frame_intrinsics(vfit_frame frame, vfit_intrinsics* out);         /* [any] */
 VFIT_API vfit_result vfit_frame_camera(vfit_frame frame, vfit_camera* out);                 /* [any] */
 /* What the source says beside the pixels, one JSON document a key: "measures" (ground truth of a virtual
- * person, {"stature_m": ...}), "contacts" ({"left": 0, "right": 1}), "index" (the number of a recorded
- * frame), "bodies" (true: the source tells its bodies, also when no person is in view); and of a frame in
- * which the built-in tracker found no body, "no_person" ("nothing is within 6 m", ...: why). *length is the
- * whole text's; no such key: VFIT_NOT_READY. [any] */
+ * person, {"stature_m": ...}), "contacts" (of feet, {"left": 0, "right": 1}: 0 free, 1 the whole foot stands,
+ * 2 only its heel or ball does), "index" (the number of a recorded frame), "bodies" (true: the source tells
+ * its bodies, also when no person is in view); and of a frame in which the built-in tracker found no body,
+ * "no_person" ("nothing is within 6 m", ...: why). *length is the whole text's; no such key:
+ * VFIT_NOT_READY. [any] */
 VFIT_API vfit_result vfit_frame_meta(vfit_frame frame, const char* key, char* buffer, uint32_t capacity,
                                      uint32_t* length);
 /* Copies into memory of the engine (mapped vertex buffer, NativeArray) at its own format and stride;
@@ -727,7 +728,14 @@ typedef struct vfit_bone {
     float rotation[4], position[3];
     uint32_t reserved;
 } vfit_bone;
-enum { VFIT_CONTACT_LEFT = 1, VFIT_CONTACT_RIGHT = 2 };
+/* The whole foot stands; or it rolls: its heel stands at the start of a step's contact, its ball at the end.
+ */
+enum {
+    VFIT_CONTACT_LEFT = 1,
+    VFIT_CONTACT_RIGHT = 2,
+    VFIT_CONTACT_LEFT_ROLLS = 4,
+    VFIT_CONTACT_RIGHT_ROLLS = 8
+};
 typedef struct vfit_pose {
     uint32_t struct_size, contact_flags;
     int64_t time_ns;

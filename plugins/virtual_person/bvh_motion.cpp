@@ -229,6 +229,7 @@ private:
                 set_leg(pose.rotation, side, world[VFIT_BONE_HIPS],
                         reach_ankle(leg, hip, f.ankle[i], knee_forward), f.rotation[i], toes);
                 pose.contact[size_t(side)] = f.planted[i] != 0;
+                pose.rolls[size_t(side)] = f.rolls[i] != 0;
             }
         }
         return poses;
@@ -262,7 +263,11 @@ public:
         pose.hips = a.hips + (b.hips - a.hips) * s;
         for (size_t k = 0; k < pose.rotation.size(); ++k)
             pose.rotation[k] = glm::slerp(a.rotation[k], b.rotation[k], s);
-        for (size_t side = 0; side < 2; ++side) pose.contact[side] = a.contact[side] && b.contact[side];
+        for (size_t side = 0; side < 2; ++side) {
+            pose.contact[side] = a.contact[side] && b.contact[side];
+            pose.rolls[side] = !pose.contact[side] && (a.contact[side] || a.rolls[side]) &&
+                               (b.contact[side] || b.rolls[side]);
+        }
         return pose;
     }
 

@@ -15,6 +15,7 @@ constexpr float kLimitBlend_m = 0.012f;
 // one degree in three).
 constexpr float kScapulaStart_deg = 60.0f, kScapulaShare = 1.0f / 3.0f;
 
+constexpr float kHeel = 0.4f;  // behind the ankle, of the ball's distance before it
 // Of the hip joints above the seat of one who sits (trochanterion height, sitting: 0.08 to 0.1 m).
 constexpr float kHipOverSeat_m = 0.09f;
 
@@ -40,6 +41,14 @@ struct LegBones {
 constexpr LegBones kLegBones[2] = {
     {VFIT_BONE_LEFT_UPPER_LEG, VFIT_BONE_LEFT_LOWER_LEG, VFIT_BONE_LEFT_FOOT, VFIT_BONE_LEFT_TOES},
     {VFIT_BONE_RIGHT_UPPER_LEG, VFIT_BONE_RIGHT_LOWER_LEG, VFIT_BONE_RIGHT_FOOT, VFIT_BONE_RIGHT_TOES}};
+
+/// How far the ankle moves where the foot turns over its ball, or over its heel.
+Vec3 rolled(const FootState& foot, float ankle_height_m, float ball_m) {
+    const float ahead_m = foot.heel_rad > 0.0f ? ball_m : -kHeel * ball_m;
+    const Quat yaw = glm::angleAxis(foot.yaw_rad, Vec3(0, 1, 0));
+    const Vec3 point(0.0f, -ankle_height_m, ahead_m);
+    return yaw * (point - glm::angleAxis(foot.heel_rad, Vec3(1, 0, 0)) * point);
+}
 
 }  // namespace
 
@@ -96,6 +105,7 @@ BonePose solve(const Proportions& proportions, const Figure& figure) {
                                      (1.0f - std::cos(foot.heel_rad)) * proportions.ankle_height_m
                                : 0.0f;
         ankle[i] = Vec3(foot.place.x, proportions.ankle_height_m + foot.lift_m + rise, foot.place.y);
+        if (foot.over_a_point) ankle[i] += rolled(foot, proportions.ankle_height_m, ball) - Vec3(0, rise, 0);
         hip[i] = pose.hips + pelvis * leg.hip;
         const float reach = standing_reach_m(leg);
         const float aside = glm::length(Vec2(ankle[i].x - hip[i].x, ankle[i].z - hip[i].z));
@@ -117,7 +127,7 @@ BonePose solve(const Proportions& proportions, const Figure& figure) {
         hip[i].y += pose.hips.y;
         const LegPose leg = reach_ankle(proportions.leg[i], hip[i], ankle[i], forward);
         set_leg(pose.rotation, side, pelvis, leg, foot_world, foot.heel_rad > 0.0f ? yaw : foot_world);
-        pose.contact[i] = foot.planted;
+        pose.contact[i] = foot.planted, pose.rolls[i] = foot.rolls;
     }
     return pose;
 }

@@ -11,11 +11,13 @@ namespace vfit::virtual_person {
 
 /// Where a foot is. Floor coordinates are (x, z).
 struct FootState {
-    Vec2 place{0, 0};    // of the ankle
-    float yaw_rad = 0;   // 0: toes to +Z
-    float lift_m = 0;    // of the sole above the floor
-    float heel_rad = 0;  // > 0: heel up, over the ball of the foot; < 0: toes up
-    bool planted = true;
+    Vec2 place{0, 0};           // of the ankle
+    float yaw_rad = 0;          // 0: toes to +Z
+    float lift_m = 0;           // of the sole above the floor
+    float heel_rad = 0;         // > 0: heel up, over the ball of the foot; < 0: toes up
+    bool planted = true;        // the whole sole stands
+    bool rolls = false;         // only ball or heel does
+    bool over_a_point = false;  // ball or heel are where the flat foot at `place` has them
 };
 
 /// What a motion says about one instant.
@@ -35,7 +37,8 @@ struct Figure {
 struct BonePose {
     Vec3 hips{0, 1, 0};
     std::array<Quat, VFIT_BONE_COUNT> rotation;
-    std::array<bool, 2> contact{true, true};
+    std::array<bool, 2> contact{true, true};  // the whole sole stands
+    std::array<bool, 2> rolls{false, false};  // only heel or ball does
 };
 
 BonePose solve(const Proportions& proportions, const Figure& figure);

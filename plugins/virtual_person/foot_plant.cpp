@@ -12,6 +12,7 @@ namespace {
 // A standing foot is slower than a slow walk's swing by ten, and stays within the roll of the foot of the
 // floor.
 constexpr float kStill_m_s = 0.20f, kLow_m = 0.04f;
+constexpr float kRolls_m_s = 0.35f;  // the ankle over a heel that stands, the joint over a ball that does
 constexpr double kShortestContact_s = 0.10, kShortestGap_s = 0.05;
 constexpr double kFade_s = 0.20;
 
@@ -64,6 +65,11 @@ void find_contacts(FootTrack& foot, double frame_time_s) {
         foot.planted[i] = speed(foot.ankle, i, frame_time_s) < kStill_m_s &&
                           speed(foot.ball, i, frame_time_s) < kStill_m_s &&
                           foot.ankle[i].y < ankle_low + kLow_m && foot.ball[i].y < ball_low + kLow_m;
+    foot.rolls.assign(n, 0);
+    for (size_t i = 0; i < n; ++i)
+        foot.rolls[i] =
+            (speed(foot.ankle, i, frame_time_s) < kRolls_m_s && foot.ankle[i].y < ankle_low + kLow_m) ||
+            (speed(foot.ball, i, frame_time_s) < kRolls_m_s && foot.ball[i].y < ball_low + kLow_m);
     const std::vector<Span> found = spans_of(foot.planted);
     for (size_t k = 1; k < found.size(); ++k)
         if (double(found[k].begin - found[k - 1].end) * frame_time_s < kShortestGap_s)
@@ -73,6 +79,7 @@ void find_contacts(FootTrack& foot, double frame_time_s) {
         if (double(s.end - s.begin) * frame_time_s < kShortestContact_s)
             std::fill(foot.planted.begin() + std::ptrdiff_t(s.begin),
                       foot.planted.begin() + std::ptrdiff_t(s.end), char{0});
+    for (size_t i = 0; i < n; ++i) foot.rolls[i] = foot.rolls[i] && !foot.planted[i];
 }
 
 void plant(FootTrack& foot, double frame_time_s, float ankle_height_m) {

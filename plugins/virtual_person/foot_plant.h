@@ -13,10 +13,12 @@ namespace vfit::virtual_person {
 struct FootTrack {
     std::vector<Vec3> ankle, ball;  // world, metres
     std::vector<Quat> rotation;     // world
-    std::vector<char> planted;      // output
+    std::vector<char> planted;      // output: the whole sole stands
+    std::vector<char> rolls;        // output: only ball or heel does
 };
 
-/// Contacts of one foot: ankle and ball slow and low. Floor heights are those of its own lowest frames.
+/// Contacts of one foot: ankle and ball slow and low, or one of them. Floor heights are those of its own
+/// lowest frames.
 void find_contacts(FootTrack& foot, double frame_time_s);
 
 /// Replaces ankle and rotation as said above.

@@ -13,27 +13,34 @@ namespace {
 
 struct NamedScript {
     const char* name;
-    Script (*make)();
+    Script (*make)(uint64_t seed);
 };
-constexpr NamedScript kScripts[] = {{"scan", [] { return scan_script(); }},
-                                    {"side", [] { return side_script(); }},
-                                    {"sway", sway_script},
-                                    {"turn", turn_script},
-                                    {"walk", walk_script},
-                                    {"wave", wave_script},
-                                    {"reach", reach_script},
-                                    {"squat", squat_script},
-                                    {"demo", demo_script},
-                                    {"cross", cross_script},
-                                    {"clap", clap_script},
-                                    {"forward", forward_script},
-                                    {"sit", sit_script},
-                                    {"spin", spin_script},
-                                    {"jog", jog_script},
-                                    {"visit", visit_script},
-                                    {"jump", jump_script},
-                                    {"step", step_script},
-                                    {"balance", balance_script}};
+/// A script that is the same for every seed.
+template <Script (*make)()>
+Script same(uint64_t) {
+    return make();
+}
+constexpr NamedScript kScripts[] = {{"scan", [](uint64_t) { return scan_script(); }},
+                                    {"side", [](uint64_t) { return side_script(); }},
+                                    {"sway", same<sway_script>},
+                                    {"turn", same<turn_script>},
+                                    {"walk", same<walk_script>},
+                                    {"wave", same<wave_script>},
+                                    {"reach", same<reach_script>},
+                                    {"squat", same<squat_script>},
+                                    {"demo", same<demo_script>},
+                                    {"cross", same<cross_script>},
+                                    {"clap", same<clap_script>},
+                                    {"forward", same<forward_script>},
+                                    {"sit", same<sit_script>},
+                                    {"spin", same<spin_script>},
+                                    {"jog", same<jog_script>},
+                                    {"visit", same<visit_script>},
+                                    {"jump", same<jump_script>},
+                                    {"step", same<step_script>},
+                                    {"balance", same<balance_script>},
+                                    {"stride", stride_script},
+                                    {"shuffle", shuffle_script}};
 
 // All frequencies below are multiples of 0.01 Hz: after this time they are where they began. Without it a
 // float of seconds is too coarse for a frame after some days.
@@ -98,7 +105,7 @@ std::unique_ptr<Motion> make_scripted_motion(const std::string& name, const Prop
         return std::make_unique<ScriptedMotion>(
             name == "scan" ? scan_script(arms_deg) : side_script(arms_deg), proportions, seed);
     for (const NamedScript& s : kScripts)
-        if (name == s.name) return std::make_unique<ScriptedMotion>(s.make(), proportions, seed);
+        if (name == s.name) return std::make_unique<ScriptedMotion>(s.make(seed), proportions, seed);
     fail(VFIT_ERROR_ARGUMENT, "virtual: unknown motion '", name, "'; known are ", motion_names());
 }
 

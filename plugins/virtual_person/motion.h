@@ -42,6 +42,8 @@ Script visit_script();
 Script jump_script();
 Script step_script();
 Script balance_script();
+Script stride_script(uint64_t seed);
+Script shuffle_script(uint64_t seed);
 
 /// "scan, sway, turn, ...", for messages.
 std::string motion_names();

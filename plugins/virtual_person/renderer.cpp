@@ -105,10 +105,12 @@ const std::vector<SeenBody>& Renderer::bodies() {
 }
 
 const char* Renderer::contacts_json() const {
-    static constexpr const char* kTexts[2][2] = {
-        {R"({"left": 0, "right": 0})", R"({"left": 0, "right": 1})"},
-        {R"({"left": 1, "right": 0})", R"({"left": 1, "right": 1})"}};
-    return kTexts[pose_.contact[kLeft]][pose_.contact[kRight]];
+    static constexpr const char* kTexts[3][3] = {
+        {R"({"left": 0, "right": 0})", R"({"left": 0, "right": 1})", R"({"left": 0, "right": 2})"},
+        {R"({"left": 1, "right": 0})", R"({"left": 1, "right": 1})", R"({"left": 1, "right": 2})"},
+        {R"({"left": 2, "right": 0})", R"({"left": 2, "right": 1})", R"({"left": 2, "right": 2})"}};
+    const auto state = [&](size_t side) { return pose_.contact[side] ? 1 : pose_.rolls[side] ? 2 : 0; };
+    return kTexts[state(kLeft)][state(kRight)];
 }
 
 }  // namespace vfit::virtual_person

@@ -25,6 +25,22 @@ float ease(float s) {
 
 float hump(float s) { return s <= 0.0f || s >= 1.0f ? 0.0f : 0.5f - 0.5f * std::cos(2.0f * kPi * s); }
 
+namespace {
+
+/// Over the ball, through the air, down on the heel. `hold`: from where.
+void roll(const Step& step, float t, Foothold& hold, FootState& state) {
+    const float off = step.lift_s + step.roll_s, on = step.land_s - step.strike_s;
+    const float s = std::clamp((t - off) / (on - off), 0.0f, 1.0f);
+    state.over_a_point = true, state.rolls = t < off || t > on;
+    state.heel_rad = t < off  ? step.heel_rad * ease((t - step.lift_s) / step.roll_s)
+                     : t < on ? step.heel_rad + (-step.strike_rad - step.heel_rad) * ease(s)
+                              : -step.strike_rad * (1.0f - ease((t - on) / step.strike_s));
+    state.lift_m = step.clearance_m * hump(s);
+    hold = mix(hold, step.to, ease(s));
+}
+
+}  // namespace
+
 std::array<Foothold, 2> stand(const Vec2& centre, float heading, float apart_m) {
     const Vec2 left(std::cos(heading), -std::sin(heading));
     return {Foothold{centre + left * (apart_m / 2), heading + kToeOut_rad},
@@ -43,11 +59,15 @@ FootState StepPlan::foot(int side, float t) const {
             hold = step.to;
             continue;
         }
+        state.planted = false;
+        if (step.roll_s > 0.0f) {
+            roll(step, t, hold, state);
+            break;
+        }
         const float s = (t - step.lift_s) / (step.land_s - step.lift_s);
         hold = mix(hold, step.to, ease((s - 0.15f) / 0.85f));  // the heel comes up before the foot moves on
         state.heel_rad = step.heel_rad * hump(s / 0.75f);
         state.lift_m = step.clearance_m * hump(s);
-        state.planted = false;
         break;
     }
     state.place = hold.place;

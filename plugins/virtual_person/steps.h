@@ -1,5 +1,5 @@
-// A plan of footsteps: where each foot stands from when to when. Between landing and lifting a foot does not
-// move at all; that is the ground truth of the contacts.
+// A plan of footsteps: where each foot stands from when to when. Between landing and lifting the whole sole
+// stands and does not move at all; that is the ground truth of the contacts.
 #pragma once
 
 #include <array>
@@ -20,6 +20,9 @@ struct Step {
     Foothold to;
     float clearance_m = 0.03f;  // of the sole in mid swing
     float heel_rad = 0.35f;     // how far the heel comes up first
+    // A foot that rolls: after lift_s on its ball, before land_s on its heel with the toes up; 0: it does
+    // not.
+    float roll_s = 0, strike_s = 0, strike_rad = 0;
 };
 
 class StepPlan {

@@ -145,10 +145,11 @@ namespace Vfit
         internal static extern Result vfit_frame_camera(FrameId frame, Camera* @out);
 
         /// <summary>What the source says beside the pixels, one JSON document a key: "measures" (ground truth
-        /// of a virtual person, {"stature_m": ...}), "contacts" ({"left": 0, "right": 1}), "index" (the
-        /// number of a recorded frame), "bodies" (true: the source tells its bodies, also when no person is
-        /// in view); and of a frame in which the built-in tracker found no body, "no_person" ("nothing is
-        /// within 6 m", ...: why). *length is the whole text's; no such key: VFIT_NOT_READY. [any]</summary>
+        /// of a virtual person, {"stature_m": ...}), "contacts" (of feet, {"left": 0, "right": 1}: 0 free, 1
+        /// the whole foot stands, 2 only its heel or ball does), "index" (the number of a recorded frame),
+        /// "bodies" (true: the source tells its bodies, also when no person is in view); and of a frame in
+        /// which the built-in tracker found no body, "no_person" ("nothing is within 6 m", ...: why). *length
+        /// is the whole text's; no such key: VFIT_NOT_READY. [any]</summary>
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vfit_frame_meta(FrameId frame, byte* key, byte* buffer, uint capacity,
             uint* length);
