@@ -68,8 +68,8 @@ bool ContactsFile::next() {
     if (!csv_.next()) return false;
     frame_ = rising_frame(csv_, frame_);
     const int64_t left = csv_.integer(1, 0), right = csv_.integer(2, 0);
-    if (left > 1 || right > 1) csv_.refuse("a contact is 0 or 1");
-    contacts_ = {left == 1, right == 1};
+    if (left > 2 || right > 2) csv_.refuse("a contact is 0, 1 or 2");
+    contacts_ = {int(left), int(right)};
     return true;
 }
 

@@ -23,8 +23,9 @@ private:
     int64_t frame_ = -1, time_ns_ = 0;
 };
 
+/// As "contacts" of a frame's metadata: 0 free, 1 the whole foot stands, 2 only heel or ball does.
 struct Contacts {
-    bool left = false, right = false;
+    int left = 0, right = 0;
 };
 
 class ContactsFile {

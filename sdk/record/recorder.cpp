@@ -49,10 +49,14 @@ Json object_from(const std::string& json, const char* key) {
     return value;
 }
 
-bool is_set(const Json& object, const char* key) {
+/// 0 free, 1 the whole foot stands, 2 only heel or ball does.
+int contact_of(const Json& object, const char* key) {
     const auto value = object.find(key);
-    if (value != object.end() && value->is_boolean()) return value->get<bool>();
-    if (value != object.end() && value->is_number()) return value->get<double>() != 0.0;
+    if (value != object.end() && value->is_boolean()) return value->get<bool>() ? 1 : 0;
+    if (value != object.end() && value->is_number()) {
+        const double state = value->get<double>();
+        return state == 0.0 ? 0 : state == 2.0 ? 2 : 1;
+    }
     fail(VFIT_ERROR_DATA, "the frame's \"contacts\" says nothing about \"", key, "\"");
 }
 
@@ -172,8 +176,10 @@ Recorder::Truth Recorder::read_truth(const Frame& frame) const {
     Truth truth;
     if (const std::string* json = frame.meta("contacts")) {
         const Json contacts = object_from(*json, "contacts");
-        truth.contacts = is_set(contacts, "left") ? ",1" : ",0";
-        truth.contacts += is_set(contacts, "right") ? ",1" : ",0";
+        for (const char* side : {"left", "right"}) {
+            truth.contacts += ',';
+            truth.contacts += std::to_string(contact_of(contacts, side));
+        }
     }
     const std::string* json = has_measures_ ? nullptr : frame.meta("measures");
     if (json) truth.measures = json_text(object_from(*json, "measures"), 1) + "\n";

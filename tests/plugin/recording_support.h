@@ -44,7 +44,7 @@ inline Ref<Frame> synthetic_frame(uint32_t number, uint32_t width = kWidth, uint
     body.set(VFIT_JOINT_HEAD, {0.01f * float(number), -0.5f, 2.5f}, VFIT_JOINT_MEASURED, 0.5f);
     body.set(VFIT_JOINT_LEFT_FOOT, {0.1f, 1.0f, 2.6f});
     frame->bodies = {to_world(body, c)};
-    frame->set_meta("contacts", number % 2 ? R"({"left": 1, "right": 0})" : R"({"left": 0, "right": 1})");
+    frame->set_meta("contacts", number % 2 ? R"({"left": 1, "right": 2})" : R"({"left": 0, "right": 1})");
     frame->set_meta("measures", R"({"stature_m":1.75})");
     return frame;
 }

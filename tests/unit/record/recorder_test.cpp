@@ -240,13 +240,13 @@ TEST_F(RecorderTest, TimeStampsContactsAndMeasuresGoToTheirFiles) {
     Recorder recorder(path(), {});
     for (uint16_t i = 0; i < 2; ++i) {
         const auto frame = frame_of(i);
-        const char* const contacts[] = {R"({"left": 1, "right": 0})", R"({"left": false, "right": true})"};
+        const char* const contacts[] = {R"({"left": 1, "right": 2})", R"({"left": false, "right": true})"};
         frame->set_meta("contacts", contacts[i]);
         frame->set_meta("measures", R"({"stature_m": 1.8})");
         recorder.write(*frame);
     }
     EXPECT_EQ(text("timestamps.csv"), "frame,time_ns\n0,1000\n1,1001\n");
-    EXPECT_EQ(text("contacts.csv"), "frame,left,right\n0,1,0\n1,0,1\n");
+    EXPECT_EQ(text("contacts.csv"), "frame,left,right\n0,1,2\n1,0,1\n");
     EXPECT_EQ(json("measures.json")["stature_m"], 1.8);
 }
 
