@@ -15,7 +15,7 @@ def fold(module):
         fold(child)
     if (
         isinstance(module, torch.nn.Sequential)
-        and len(module) == 3
+        and len(module) > 1
         and isinstance(module[1], torch.nn.BatchNorm2d)
     ):
         module[0] = fuse_conv_bn_eval(module[0], module[1])

@@ -44,6 +44,20 @@ def convolution(inputs, outputs, stride=1, size=3):
     )
 
 
+class Deeper(nn.Module):
+    """One convolution more, beside a way past it. It starts as no change, so that a trained network can grow."""
+
+    def __init__(self, channels):
+        super().__init__()
+        self.more = nn.Sequential(
+            nn.Conv2d(channels, channels, 3, padding=1, bias=False), nn.BatchNorm2d(channels)
+        )
+        nn.init.zeros_(self.more[1].weight)
+
+    def forward(self, x):
+        return torch.relu(x + self.more(x))
+
+
 class Network(nn.Module):
     """[n, 1, 128, 128] -> maps [n, 2 * COUNT, 32, 32] (heat logits, then depth) and logits [n, 2]:
     faces away, is a person."""
@@ -53,11 +67,11 @@ class Network(nn.Module):
         a, b, c, d = stages
         self.stem = convolution(1, 16, 2, 5)  # 64
         self.at32 = nn.Sequential(convolution(16, a, 2), convolution(a, a))
-        self.at16 = nn.Sequential(convolution(a, b, 2), convolution(b, b))
-        self.at8 = nn.Sequential(convolution(b, c, 2), convolution(c, c))
-        self.at4 = nn.Sequential(convolution(c, d, 2), convolution(d, d))
-        self.up8, self.mix8 = nn.Conv2d(d, c, 1), convolution(c, c)
-        self.up16, self.mix16 = nn.Conv2d(c, b, 1), convolution(b, b)
+        self.at16 = nn.Sequential(convolution(a, b, 2), convolution(b, b), Deeper(b))
+        self.at8 = nn.Sequential(convolution(b, c, 2), convolution(c, c), Deeper(c))
+        self.at4 = nn.Sequential(convolution(c, d, 2), convolution(d, d), Deeper(d), Deeper(d))
+        self.up8, self.mix8, self.more8 = nn.Conv2d(d, c, 1), convolution(c, c), Deeper(c)
+        self.up16, self.mix16, self.more16 = nn.Conv2d(c, b, 1), convolution(b, b), Deeper(b)
         self.up32, self.skip32, self.mix32 = (
             nn.Conv2d(b, fine, 1),
             nn.Conv2d(a, fine, 1),
@@ -75,8 +89,8 @@ class Network(nn.Module):
         def double(x):
             return nn.functional.interpolate(x, scale_factor=2, mode="nearest")
 
-        y8 = self.mix8(x8 + double(self.up8(x4)))
-        y16 = self.mix16(x16 + double(self.up16(y8)))
+        y8 = self.more8(self.mix8(x8 + double(self.up8(x4))))
+        y16 = self.more16(self.mix16(x16 + double(self.up16(y8))))
         y32 = self.mix32(self.skip32(x32) + double(self.up32(y16)))
         return self.maps(y32), self.answers(nn.functional.avg_pool2d(x4, 4).flatten(1))
 

@@ -11,7 +11,7 @@ from network import Network
 def from_onnx(path, crops):
     """export.py folds batch norms into the convolutions before them. Here each norm gets back the spread that
     its convolution has on `crops` [n, 1, CROP, CROP], and such a scale and shift that the network says what
-    the file says."""
+    the file says. A convolution that the file does not have yet starts as no change."""
     weights = {
         w.name: torch.from_numpy(numpy_helper.to_array(w).copy())
         for w in onnx.load(str(path)).graph.initializer
@@ -34,7 +34,7 @@ def from_onnx(path, crops):
     hooks = [
         module[1].register_forward_pre_hook(give_back(name))
         for name, module in network.named_modules()
-        if isinstance(module, torch.nn.Sequential) and len(module) == 3
+        if f"{name}.0.bias" in weights
     ]
     network.eval()(crops)
     for hook in hooks:

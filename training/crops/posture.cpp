@@ -55,12 +55,13 @@ private:
     Quat& rotation(int bone) { return pose_.rotation[static_cast<size_t>(bone)]; }
 
     void usual_legs() {
-        switch (random_.pick({0.38f, 0.27f, 0.14f, 0.11f, 0.10f})) {
+        switch (random_.pick({0.34f, 0.25f, 0.13f, 0.11f, 0.10f, 0.07f})) {
             case 0: standing(); break;
             case 1: walking(); break;
             case 2: squat(); break;
             case 3: one_leg_free(); break;
-            default: sitting(); break;
+            case 4: sitting(); break;
+            default: kneeling(); break;
         }
     }
 
@@ -85,18 +86,20 @@ private:
 
     void standing() {
         const float apart = std::max(-3.0f, random_.normal(2.5f, 4.0f));
-        rotation(VFIT_BONE_HIPS) = about_z(spread(random_, 0, 2)) * about_x(spread(random_, 0, 3));
+        const float bow = random_.chance(0.12f) ? random_.between(8, 65) : 0.0f;
+        bend_ = bow * random_.between(0.2f, 0.8f);
+        rotation(VFIT_BONE_HIPS) = about_z(spread(random_, 0, 2)) * about_x(bow + spread(random_, 0, 3));
         for (const Side side : {kLeft, kRight}) {
             const float knee = std::abs(spread(random_, 2, 4));
-            leg(side, spread(random_, knee * 0.5f, 4), apart + spread(random_, 0, 2), spread(random_, 8, 8),
-                knee, 0);
+            leg(side, spread(random_, bow + knee * 0.5f, 4), apart + spread(random_, 0, 2),
+                spread(random_, 8, 8), knee, 0);
         }
-        if (random_.chance(0.15f)) wide_stance();
+        if (random_.chance(0.15f)) wide_stance(bow);
     }
 
-    void wide_stance() {
+    void wide_stance(float bow) {
         for (const Side side : {kLeft, kRight})
-            leg(side, spread(random_, 5, 6), random_.between(8, 25), random_.between(0, 30),
+            leg(side, bow + spread(random_, 5, 6), random_.between(8, 25), random_.between(0, 30),
                 random_.between(0, 15), 0);
     }
 
@@ -151,6 +154,25 @@ private:
                 knee, 0);
     }
 
+    /// On one knee or on both, upright or sitting on the heels.
+    void kneeling() {
+        const float lean = spread(random_, 5, 8);
+        const bool both = random_.chance(0.5f);
+        const Side ahead = random_.chance(0.5f) ? kLeft : kRight;
+        const float heels = both && random_.chance(0.5f) ? random_.between(0, 55) : spread(random_, 0, 5);
+        const float apart = random_.between(0, 15);
+        rotation(VFIT_BONE_HIPS) = about_x(lean);
+        for (const Side side : {kLeft, kRight}) {
+            if (!both && side == ahead)
+                leg(side, random_.between(60, 105) + lean, apart, spread(random_, 5, 8),
+                    random_.between(75, 115), 0);
+            else {
+                leg(side, lean + heels, apart, spread(random_, 0, 8), 90 + heels + spread(random_, 0, 8), 0);
+                rotation(kBones[side].foot) = about_x(random_.between(-10, 45));
+            }
+        }
+    }
+
     void any_legs() {
         rotation(VFIT_BONE_HIPS) = about_z(spread(random_, 0, 8)) * about_x(spread(random_, 4, 12));
         for (const Side side : {kLeft, kRight}) {
@@ -179,7 +201,7 @@ private:
     void usual_arms() {
         const Side busy = random_.chance(0.5f) ? kLeft : kRight;
         const Side other = busy == kLeft ? kRight : kLeft;
-        switch (random_.pick({0.13f, 0.21f, 0.14f, 0.10f, 0.11f, 0.06f, 0.09f, 0.06f, 0.05f, 0.05f})) {
+        switch (random_.pick({0.13f, 0.19f, 0.13f, 0.10f, 0.10f, 0.06f, 0.09f, 0.06f, 0.05f, 0.06f, 0.03f})) {
             case 0: hang(kLeft), hang(kRight); break;
             case 1: reach(busy), hang(other); break;
             case 2: clap(); break;
@@ -189,6 +211,7 @@ private:
             case 6: jog(); break;
             case 7: hands_on_self(); break;
             case 8: at_work(); break;
+            case 9: raise(kLeft), raise(kRight); break;
             default: any_arm(kLeft), any_arm(kRight); break;
         }
         for (const Side side : {kLeft, kRight})
@@ -213,6 +236,15 @@ private:
     void any_arm(Side side) {
         arm(side, random_.between(0, 165), random_.between(-35, 120), random_.between(0, 140),
             random_.between(-60, 80));
+    }
+
+    /// Up beside the head or above it: greeting, cheering, stretching.
+    void raise(Side side) {
+        if (random_.chance(0.2f))
+            hang(side);
+        else
+            arm(side, random_.between(100, 178), random_.between(-25, 35), random_.between(0, 110),
+                random_.between(-30, 90));
     }
 
     void jog() {

@@ -24,7 +24,9 @@ constexpr std::array<Sensor, 5> kSensors = {{{320, 240, 285.0f, Light::kStructur
                                              {640, 480, 385.0f, Light::kStructured, 0.10f},
                                              {640, 576, 505.0f, Light::kTimeOfFlight, 0.10f}}};
 
+/// One body in four has proportions that are rare in people and common in drawn characters.
 std::vector<float> random_shape(const BodyModel& model, Random& random) {
+    const float unlike = random.chance(0.25f) ? 2.0f : 1.0f;
     std::vector<float> shape = model.default_shape(VFIT_SEX_UNKNOWN);
     std::map<std::string, float> sides;  // left and right share their value
     for (size_t i = 0; i < shape.size(); ++i) {
@@ -35,14 +37,14 @@ std::vector<float> random_shape(const BodyModel& model, Random& random) {
         else if (p.key == "age")
             value = random.between(0.4f, 0.9f);
         else if (p.minimum >= 0.0f)
-            value = std::clamp(random.normal(0.5f, 0.2f), 0.05f, 1.0f);
+            value = std::clamp(random.normal(0.5f, 0.2f * unlike), 0.05f, 1.0f);
         else {
             const bool sided = p.key.size() > 2 && p.key[1] == '-';
             const std::string key = sided ? p.key.substr(2) : p.key;
             const auto known = sides.find(key);
             value = known != sides.end()
                         ? known->second
-                        : std::clamp(random.normal(usual_measure(p.key), 0.22f), -0.7f, 0.9f);
+                        : std::clamp(random.normal(usual_measure(p.key), 0.22f * unlike), -0.8f, 0.9f);
             sides[key] = value;
         }
         shape[i] = value;
@@ -74,9 +76,8 @@ void Sampler::make_person(uint64_t number) {
     const float stature = random.chance(0.08f) ? random.between(1.2f, 1.5f)
                                                : std::clamp(random.normal(1.70f, 0.1f), 1.45f, 2.05f);
     const float scale = stature / avatar_->stature();
-    if (std::abs(scale - 1.0f) > 0.02f)
-        avatar_ =
-            std::make_unique<Avatar>(model_, desc, shape, Vec2(scale * random.between(0.97f, 1.03f), scale));
+    const float breadth = std::clamp(random.normal(1.0f, 0.04f), 0.9f, 1.1f);
+    avatar_ = std::make_unique<Avatar>(model_, desc, shape, Vec2(scale * breadth, scale));
     outfit_ = std::make_unique<Outfit>(*avatar_, random);
 }
 

@@ -85,6 +85,8 @@ public:
         cut_feet();
         if (random_.chance(0.2f)) keep_floor();
         if (random_.chance(0.10f)) occlude();
+        if (random_.chance(0.05f)) lose_trousers();
+        if (random_.chance(0.05f)) behind_table();
         if (random_.chance(0.05f)) lose_piece();
         report(out);
     }
@@ -233,6 +235,30 @@ private:
         const int y0 = int(random_.between(0.2f, 1.1f) * float(height_)),
                   h = int(random_.between(0.1f, 0.6f) * float(height_));
         clear(x0, y0, x0 + w, y0 + h);
+    }
+
+    /// Black trousers give no reading, raggedly; shoes may.
+    void lose_trousers() {
+        const float waist = random_.between(0.5f, 1.1f), hem = random_.between(-0.1f, 0.2f);
+        const float kept = random_.chance(0.4f) ? random_.between(0.5f, 0.9f) : 9.0f;
+        const Corner a(random_);
+        for (int y = 0; y < height_; ++y)
+            for (int x = 0; x < width_; ++x) {
+                float& d = depth_[index(x, y)];
+                if (d <= 0.0f) continue;
+                const float ragged = 0.03f * middle().at(x + a.x, y + a.y);
+                const float level = height_above_floor(x, y, d) + ragged;
+                if (level < waist && level > hem && coarse().at(x + a.y, y + a.x) < kept) d = 0.0f;
+            }
+    }
+
+    /// What lies below the edge of a table, or of the image, is not seen.
+    void behind_table() {
+        const int edge = int(random_.between(0.3f, 0.65f) * float(height_));
+        const float slope = random_.between(-0.06f, 0.06f);
+        for (int y = edge - width_; y < height_; ++y)
+            for (int x = 0; x < width_; ++x)
+                if (y >= 0 && float(y) > float(edge) + slope * float(x)) depth_[index(x, y)] = 0.0f;
     }
 
     void lose_piece() {
