@@ -28,12 +28,16 @@ constexpr float kGoodIou = 0.70f, kGoodMedian_m = 0.04f;
 constexpr float kFrame_s = 1.0f / 30.0f;
 constexpr float kLongestStep_rad = 0.6f, kLongestStep_m = 0.3f;
 constexpr double kDamping = 1.0;  // rad^-2 and m^-2: for directions that nothing holds
-constexpr int kReachSteps = 3, kReachStepsAtFirst = 25;
+constexpr int kReachSteps = 3, kReachStepsAtFirst = 25, kReachStepsOfLimb = 8;
 constexpr float kWideRobust_m = 0.10f;
-constexpr float kBetter = 0.97f;  // of the cost: the other start has to win by this
+constexpr float kLimbRobust_m = 1.0f;  // of a limb's joints, which may be an arm's length away
+constexpr float kBetter = 0.97f;       // of the cost: the other start has to win by this
+// The same of a start with limbs where the network is sure to see them: a hand covers little of the picture.
+constexpr float kLimbBetter = 1.2f;
 // Of frames that follow each other within half a second: who turns or steps farther was cut, not moving.
 constexpr float kCutTurn_rad = 0.6f, kCutStep_m = 0.3f;
 constexpr float kTurnedAbout_rad = 1.0f;  // from the last frame, by the joints: the person faces elsewhere
+constexpr float kSure = 0.3f;             // confidence
 constexpr float kAgree_m = 0.10f;         // from the last frame's joints: the network says nothing else
 
 bool good(const FitScore& score) { return score.iou >= kGoodIou && score.median_m <= kGoodMedian_m; }
@@ -158,12 +162,13 @@ bool BodyFit::start_from_joints(const FitJoints& joints, FitState& state) const 
     return true;
 }
 
-void BodyFit::reach_for_joints(const FitJoints& joints, int steps, FitState& state) {
+void BodyFit::reach_for_joints(const FitJoints& joints, const FitWeights& weights, int steps,
+                               FitState& state) {
     const FitShapeMatrix hold = shape_hold();
     for (int i = 0; i < steps; ++i) {
         body_.place_bones(state);
         equations_.start(body_);
-        add_joint_rows(joints, body_, options_.weights, equations_);
+        add_joint_rows(joints, body_, weights, equations_);
         equations_.finish();
         add_pose_priors(state, equations_);
         std::array<double, kFitShapes> back;
@@ -192,9 +197,9 @@ FitScore BodyFit::score_of(const FitState& state) {
 /// the picture best, the later ones tried only where there is a reason.
 bool BodyFit::find_start(const BodyFitInput& input, bool follow, FitState& state) {
     bool started = false;
-    const auto consider = [&](const FitState& candidate, bool from_last) {
+    const auto consider = [&](const FitState& candidate, bool from_last, float better = kBetter) {
         const FitScore score = score_of(candidate);
-        drawn_ = !started || score.cost < kBetter * out_.start_score.cost;
+        drawn_ = !started || score.cost < better * out_.start_score.cost;
         if (!drawn_) return;
         state = candidate;
         out_.start_score = score;
@@ -206,23 +211,56 @@ bool BodyFit::find_start(const BodyFitInput& input, bool follow, FitState& state
     // Seen from a side, the outline is as good with left and right exchanged: joints decide.
     if (follow && !(can_start && turned_rad(afresh, last_) > kTurnedAbout_rad)) {
         consider(last_, true);
-        if (!good(out_.start_score) || !agrees_with(input.joints)) {
+        FitJoints wanted = input.joints;
+        const bool astray = limbs_astray(wanted);
+        if (good(out_.start_score) && astray) {
+            // One limb that lost its way, in a body that is right: the whole picture would hardly tell.
+            FitState mended = last_;
+            FitWeights weights = options_.weights;
+            weights.joint_robust_m = kLimbRobust_m;
+            reach_for_joints(wanted, weights, kReachStepsOfLimb, mended);
+            consider(mended, false, kLimbBetter);
+        } else if (!good(out_.start_score) || !agrees_with(input.joints)) {
             FitState reached = last_;
-            reach_for_joints(input.joints, kReachSteps, reached);
+            reach_for_joints(input.joints, options_.weights, kReachSteps, reached);
             consider(reached, false);
         }
     }
     if (can_start && (!started || !good(out_.start_score))) {
-        reach_for_joints(input.joints, kReachStepsAtFirst, afresh);
+        reach_for_joints(input.joints, options_.weights, kReachStepsAtFirst, afresh);
         consider(afresh, false);
     }
     return started;
 }
 
+/// Keeps of `joints` those of arms and legs of which the network is sure and sees somewhere else; the others
+/// become the body's own as it is placed. False where none is left, or where the trunk lies elsewhere, too.
+bool BodyFit::limbs_astray(FitJoints& joints) const {
+    constexpr std::array<std::array<int, 3>, 4> kLimbs = {
+        {{VFIT_JOINT_LEFT_ELBOW, VFIT_JOINT_LEFT_WRIST, VFIT_JOINT_LEFT_HAND},
+         {VFIT_JOINT_RIGHT_ELBOW, VFIT_JOINT_RIGHT_WRIST, VFIT_JOINT_RIGHT_HAND},
+         {VFIT_JOINT_LEFT_KNEE, VFIT_JOINT_LEFT_FOOT, VFIT_JOINT_LEFT_TOES},
+         {VFIT_JOINT_RIGHT_KNEE, VFIT_JOINT_RIGHT_FOOT, VFIT_JOINT_RIGHT_TOES}}};
+    const auto elsewhere = [&](int j) {
+        const FitJoint& joint = joints[size_t(j)];
+        return joint.confidence > kSure && glm::distance(joint.place, body_.joints()[size_t(j)]) > kAgree_m;
+    };
+    std::array<bool, kJointCount> free{};
+    bool any = false;
+    for (const auto& limb : kLimbs)
+        if (std::any_of(limb.begin(), limb.end(), elsewhere)) {
+            for (const int j : limb) free[size_t(j)] = true;
+            any = true;
+        }
+    for (int j = 0; j < kJointCount; ++j)
+        if (!free[size_t(j)]) joints[size_t(j)] = {body_.joints()[size_t(j)], 1.0f};
+    return any;
+}
+
 /// Whether every joint that the network is sure of lies near the body's as it is placed.
 bool BodyFit::agrees_with(const FitJoints& joints) const {
     for (size_t j = 0; j < size_t(kJointCount); ++j)
-        if (joints[j].confidence > 0.3f && glm::distance(joints[j].place, body_.joints()[j]) > kAgree_m)
+        if (joints[j].confidence > kSure && glm::distance(joints[j].place, body_.joints()[j]) > kAgree_m)
             return false;
     return true;
 }

@@ -67,8 +67,9 @@ public:
 
 private:
     bool start_from_joints(const FitJoints& joints, FitState& state) const;
-    void reach_for_joints(const FitJoints& joints, int steps, FitState& state);
+    void reach_for_joints(const FitJoints& joints, const FitWeights& weights, int steps, FitState& state);
     bool find_start(const BodyFitInput& input, bool follow, FitState& state);
+    bool limbs_astray(FitJoints& joints) const;
     bool agrees_with(const FitJoints& joints) const;
     bool is_cut(const FitState& state) const;
     bool step(const BodyFitInput& input, const FitState* last, float frames, float robust_m, FitState& state);
