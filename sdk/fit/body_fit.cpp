@@ -314,7 +314,7 @@ const BodyFitOutput& BodyFit::run(const BodyFitInput& input_as_given) {
     out_.state = BodyFitState::kNothing;
     out_.matched = 0;
     out_.score = out_.start_score = FitScore{};
-    out_.from_last = false;
+    out_.from_last = out_.cut = false;
     const double gap_s = seconds_between(last_ns_, input.time_ns);
     const float frames = float(gap_s) / kFrame_s;
     const bool follow = tracked_ && gap_s > 0.0 && gap_s < 0.5;
@@ -329,7 +329,8 @@ const BodyFitOutput& BodyFit::run(const BodyFitInput& input_as_given) {
         return out_;
     }
 
-    const bool follows = follow && !is_cut(state);
+    out_.cut = follow && is_cut(state);
+    const bool follows = follow && !out_.cut;
     const bool calm = follows && good(out_.start_score);
     const int steps = calm ? options_.steps : options_.steps_at_first;
     bool solved = true;

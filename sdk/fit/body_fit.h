@@ -35,6 +35,7 @@ struct BodyFitOutput {
     FitScore start_score;                         // of the start that was taken
     uint32_t matched = 0;                         // depth points in the last step
     bool from_last = false;                       // started from the last frame, not from the joints alone
+    bool cut = false;                             // stands so differently that this frame follows no other
 };
 
 struct BodyFitOptions {

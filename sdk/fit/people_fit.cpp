@@ -12,7 +12,7 @@ constexpr float kShareStep = 0.25f;  // a frame
 // A joint that was wrong comes back at this pace instead of in a leap; hands are seldom faster outside of
 // sports.
 constexpr float kFastest_m_s = 5.5f;
-constexpr double kGap_s = 0.2;  // after a longer one places are taken as they are
+constexpr double kGap_s = 0.2;  // after a longer one, or after a cut, places are taken as they are
 
 }  // namespace
 
@@ -25,7 +25,6 @@ void PeopleFit::run(const DepthImage& image, const PixelBox& box, Body& body) {
     Person& person = people_[body.id];
     if (is_new) person.fit = std::make_unique<BodyFit>(model_);
     const double passed_s = is_new ? 2.0 * kGap_s : seconds_between(person.seen_ns, body.time_ns);
-    const float farthest_m = passed_s < kGap_s ? kFastest_m_s * float(passed_s) : 1e9f;
     person.seen_ns = body.time_ns;
     BodyFitInput input;
     input.image = image;
@@ -36,6 +35,7 @@ void PeopleFit::run(const DepthImage& image, const PixelBox& box, Body& body) {
         if (body.has(j)) input.joints[size_t(j)] = {body.at(j), body.joints[size_t(j)].confidence};
     const BodyFitOutput& fit = person.fit->run(input);
     const bool good = fit.state == BodyFitState::kGood;
+    const float farthest_m = passed_s < kGap_s && !fit.cut ? kFastest_m_s * float(passed_s) : 1e9f;
     person.share =
         is_new && good ? 1.0f : std::clamp(person.share + (good ? kShareStep : -kShareStep), 0.0f, 1.0f);
     for (size_t j = 0; j < size_t(kJointCount); ++j) {
