@@ -728,14 +728,7 @@ typedef struct vfit_bone {
     float rotation[4], position[3];
     uint32_t reserved;
 } vfit_bone;
-/* The whole foot stands; or it rolls: its heel stands at the start of a step's contact, its ball at the end.
- */
-enum {
-    VFIT_CONTACT_LEFT = 1,
-    VFIT_CONTACT_RIGHT = 2,
-    VFIT_CONTACT_LEFT_ROLLS = 4,
-    VFIT_CONTACT_RIGHT_ROLLS = 8
-};
+enum { VFIT_CONTACT_LEFT = 1, VFIT_CONTACT_RIGHT = 2 };
 typedef struct vfit_pose {
     uint32_t struct_size, contact_flags;
     int64_t time_ns;

@@ -45,7 +45,7 @@ def convolution(inputs, outputs, stride=1, size=3):
 
 
 class Deeper(nn.Module):
-    """One convolution more, beside a way past it. It starts as no change, so that a trained network can grow."""
+    """One convolution more, beside a way past it. It starts as no change: a trained network can grow."""
 
     def __init__(self, channels):
         super().__init__()

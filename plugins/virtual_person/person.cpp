@@ -76,8 +76,6 @@ void Person::pose(const BonePose& pose, const Vec3& offset) {
     vfit_pose header = vfit_pose_init();
     if (pose.contact[kLeft]) header.contact_flags |= VFIT_CONTACT_LEFT;
     if (pose.contact[kRight]) header.contact_flags |= VFIT_CONTACT_RIGHT;
-    if (pose.rolls[kLeft]) header.contact_flags |= VFIT_CONTACT_LEFT_ROLLS;
-    if (pose.rolls[kRight]) header.contact_flags |= VFIT_CONTACT_RIGHT_ROLLS;
     check(vfit_avatar_pose(avatar_, &header, bones.data(), sizeof(vfit_bone), VFIT_BONE_COUNT),
           "vfit_avatar_pose");
 

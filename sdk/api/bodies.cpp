@@ -42,11 +42,9 @@ vfit_joint joint_out(int id, const Joint& joint, const Axes& axes) {
 }
 
 uint32_t contacts_seen(uint32_t contacts, const Axes& axes) {
-    constexpr uint32_t kLeft = VFIT_CONTACT_LEFT | VFIT_CONTACT_LEFT_ROLLS,
-                       kRight = VFIT_CONTACT_RIGHT | VFIT_CONTACT_RIGHT_ROLLS;
-    static_assert(kRight == kLeft << 1);
-    const uint32_t left = contacts & kLeft, right = contacts & kRight;
-    return axes.mirrored() ? left << 1 | right >> 1 : left | right;
+    const uint32_t left = contacts & VFIT_CONTACT_LEFT, right = contacts & VFIT_CONTACT_RIGHT;
+    if (!axes.mirrored()) return left | right;
+    return (left ? uint32_t(VFIT_CONTACT_RIGHT) : 0u) | (right ? uint32_t(VFIT_CONTACT_LEFT) : 0u);
 }
 
 }  // namespace

@@ -9,8 +9,8 @@ namespace vfit {
 
 namespace {
 
-constexpr uint64_t kPoseVersion = 2;
-constexpr int kPoseVersionBits = 8, kContactBits = 4, kTimeBits = 64, kHipsBits = 24, kLargestBits = 2,
+constexpr uint64_t kPoseVersion = 1;
+constexpr int kPoseVersionBits = 8, kContactBits = 2, kTimeBits = 64, kHipsBits = 24, kLargestBits = 2,
               kPartBits = 11;
 constexpr float kHipsStep_m = 1e-4f;
 constexpr int64_t kHipsMiddle = int64_t(1) << (kHipsBits - 1);

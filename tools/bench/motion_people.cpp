@@ -28,7 +28,8 @@ std::array<bool, 2> contacts_of(vfit_frame frame) {
     char text[128] = {};
     check(vfit_frame_meta(frame, "contacts", text, sizeof text, nullptr));
     const Json json = Json::parse(text);
-    return {json.at("left").get<int>() != 0, json.at("right").get<int>() != 0};
+    constexpr int kWholeFoot = 1;  // 2: its heel or ball alone, which rolls
+    return {json.at("left").get<int>() == kWholeFoot, json.at("right").get<int>() == kWholeFoot};
 }
 
 }  // namespace

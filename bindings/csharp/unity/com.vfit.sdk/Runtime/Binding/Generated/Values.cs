@@ -289,16 +289,12 @@ namespace Vfit
         Tight = 2,
     }
 
-    /// <summary>The whole foot stands; or it rolls: its heel stands at the start of a step's contact, its
-    /// ball at the end.</summary>
     [Flags]
     public enum ContactFlags : uint
     {
         None = 0,
         Left = 1,
         Right = 2,
-        LeftRolls = 4,
-        RightRolls = 8,
     }
 
     [Flags]
