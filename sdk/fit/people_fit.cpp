@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/clock.h"
+#include "frame/in_view.h"
 
 namespace vfit {
 
@@ -52,6 +53,7 @@ void PeopleFit::run(const DepthImage& image, const PixelBox& box, Body& body) {
             joint.position = person.places[j] + way * (farthest_m / length);
         person.places[j] = joint.position;
     }
+    limit_states(body, image.camera);
     for (size_t j = 0; j < size_t(kJointCount); ++j) person.told[j] = body.joints[j].seen();
 }
 

@@ -24,7 +24,7 @@ Body carried(const Body& body, const Mat4& m) {
 std::optional<Vec3> lowest_sole(const Body& body, const Vec3& up) {
     std::optional<Vec3> sole;
     const auto take = [&](int joint, float above_m) {
-        if (!body.has(joint)) return;
+        if (body.joints[size_t(joint)].state != VFIT_JOINT_MEASURED) return;
         const Vec3 below = body.at(joint) - above_m * up;
         if (!sole || glm::dot(below, up) < glm::dot(*sole, up)) sole = below;
     };

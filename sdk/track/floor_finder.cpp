@@ -25,6 +25,8 @@ constexpr int kWindow = 12;             // samples: the three of a try lie on on
 constexpr float kFewestShare = 0.012f;  // of the image: a strip below the feet
 constexpr uint32_t kFewest = 40;        // samples
 constexpr float kNarrowest_m = 1.2f;    // a table's corner or a person's back is smaller
+constexpr uint32_t kBeside = 2;         // samples
+constexpr float kLevel = 0.35f;         // of the neighbours: floors have 0.8 to 1, shiny ones half of it
 constexpr float kMostBelow = 0.3f;      // readings below the plane per reading on it
 constexpr uint32_t kBlock = 4;          // samples: what a shiny floor shows of itself lies so close together
 constexpr double kMemory = 0.9;         // of the last frame's sums: a third of a second at 30 Hz
@@ -125,19 +127,33 @@ float FloorFinder::score(const Plane& plane) const {
     return float(on) - float(below);
 }
 
-// How wide what is seen of the plane is, the way it is wider: four times the deviation from its middle.
+// How wide what is seen of the plane is, the way it is wider: four times the deviation from its middle. Where
+// a plane cuts through walls, strips of readings lie on it, but slope another way: across the strip their
+// neighbours leave the plane. On a floor, neighbours lie on it in every direction, among a shiny one's
+// mirrored readings, too.
 float FloorFinder::extent_m(const Plane& plane) const {
     const float d = 1.0f / glm::length(plane), noise = kSigmas * kInverseDepthSigma * d;
     const Plane a = plane * d;
     float count = 0.0f;
     Vec3 sum(0.0f), squares(0.0f);
-    for (size_t i = 0; i < inverse_.size(); ++i) {
-        const float inverse = inverse_[i], h = d * inverse - a.x * x_[i] - a.y * y_[i] - a.z;
-        if (inverse <= 0.0f || std::abs(h) > kUneven_m * inverse + noise) continue;
-        const Vec3 p = Vec3(x_[i], y_[i], 1.0f) / inverse;
-        sum += p, squares += p * p, count += 1.0f;
-    }
-    if (count == 0.0f) return 0.0f;
+    std::array<float, 2> beside{}, level{};  // neighbours along rows and columns: all; those that are level
+    const auto height = [&](size_t i) { return d * inverse_[i] - a.x * x_[i] - a.y * y_[i] - a.z; };
+    for (uint32_t y = 0; y < rows_; ++y)
+        for (uint32_t x = 0; x < columns_; ++x) {
+            const size_t i = size_t(y) * columns_ + x;
+            const float inverse = inverse_[i], h = height(i), band = kUneven_m * inverse + noise;
+            if (inverse <= 0.0f || std::abs(h) > band) continue;
+            const Vec3 p = Vec3(x_[i], y_[i], 1.0f) / inverse;
+            sum += p, squares += p * p, count += 1.0f;
+            const auto look = [&](size_t axis, size_t other) {
+                if (inverse_[other] <= 0.0f) return;
+                beside[axis] += 1.0f;
+                level[axis] += std::abs(height(other) - h) < band ? 1.0f : 0.0f;
+            };
+            if (x + kBeside < columns_) look(0, i + kBeside);
+            if (y + kBeside < rows_) look(1, i + size_t(kBeside) * columns_);
+        }
+    if (count == 0.0f || level[0] < kLevel * beside[0] || level[1] < kLevel * beside[1]) return 0.0f;
     const Vec3 mean = sum / count, variance = squares / count - mean * mean;
     return 4.0f * std::sqrt(std::max(0.0f, variance.x + variance.y + variance.z));
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/clock.h"
+#include "frame/in_view.h"
 
 namespace vfit {
 
@@ -145,6 +146,7 @@ bool Tracker::see(const DepthImage& image, int64_t time_ns, const TrackTarget& t
         const SeenJoint& seen = joints[size_t(j)];
         out.set(j, seen.position, joint_state_of(seen.confidence), seen.confidence);
     }
+    limit_states(out, image.camera);
     return true;
 }
 

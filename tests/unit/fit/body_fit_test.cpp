@@ -71,13 +71,33 @@ TEST(BodyFit, ACutFromFrontToSideIsFittedAsWellAtOnceAsAfterAWhile) {
         for (int i = 0; i < 5; ++i)
             fit.run(input_of(person.scene, person.scene.seen(0.02f, uint32_t(i)), i * kFrameNs));
         const int64_t gap_ns = late ? 2'000'000'000 : 3 * kFrameNs;
-        for (int i = 5; i < 8; ++i)
+        for (int i = 5; i < 8; ++i) {
             ends[late] = fit.run(input_of(side, side.seen(0.02f, uint32_t(i)), i * kFrameNs + gap_ns));
+            EXPECT_EQ(ends[late].cut, i == 5 && !late) << i;
+        }
         EXPECT_EQ(ends[late].state, BodyFitState::kGood);
         EXPECT_LT(mean_joint_error(ends[late], side), 0.03f) << (late ? "after two seconds" : "at once");
     }
     for (size_t i = 0; i < ends[0].pose.shape.size(); ++i)
         EXPECT_NEAR(ends[0].pose.shape[i], ends[1].pose.shape[i], 0.03f) << i;
+}
+
+TEST(BodyFit, AHandThatLostItsWayIsPutWhereTheNetworkSeesIt) {
+    Person person;
+    Pose raised = easy_pose(person.avatar.skeleton());
+    raised.rotation[VFIT_BONE_LEFT_UPPER_ARM] = glm::angleAxis(1.2f, Vec3(0, 0, 1));
+    raised.rotation[VFIT_BONE_LEFT_LOWER_ARM] = Quat(1, 0, 0, 0);
+    const FitScene scene = shoot(person.avatar, raised);
+    FitJoints at_the_head = scene.seen();
+    for (const int j : {VFIT_JOINT_LEFT_HAND, VFIT_JOINT_LEFT_WRIST})
+        at_the_head[size_t(j)].place = scene.joints.at(VFIT_JOINT_HEAD);
+    at_the_head[VFIT_JOINT_LEFT_ELBOW].place = scene.joints.at(VFIT_JOINT_LEFT_SHOULDER) + Vec3(0.2f, 0, 0);
+    BodyFit fit(fit_model());
+    for (int i = 0; i < 4; ++i) fit.run(input_of(scene, at_the_head, i * kFrameNs));
+    const BodyFitOutput* out = nullptr;
+    for (int i = 4; i < 8; ++i) out = &fit.run(input_of(scene, scene.seen(0.02f, uint32_t(i)), i * kFrameNs));
+    EXPECT_EQ(out->state, BodyFitState::kGood);
+    EXPECT_LT(glm::distance(out->joints[VFIT_JOINT_LEFT_HAND], scene.joints.at(VFIT_JOINT_LEFT_HAND)), 0.05f);
 }
 
 TEST(BodyFit, HolesDoItLittleHarm) {

@@ -82,6 +82,21 @@ TEST_F(PeopleFitTest, AJointThatWasWrongComesBackWithoutALeap) {
     EXPECT_GT(glm::distance(late, far), 0.5f) << "after a gap";
 }
 
+TEST_F(PeopleFitTest, AfterACutJointsAreTakenWhereTheyAre) {
+    Pose turned = easy_pose(avatar.skeleton());
+    turned.rotation[VFIT_BONE_HIPS] =
+        glm::angleAxis(0.5f * kPi, Vec3(0, 1, 0)) * turned.rotation[VFIT_BONE_HIPS];
+    turned.hips_position.x += 0.5f;
+    const FitScene other = shoot(avatar, turned);
+    for (int i = 1; i <= 4; ++i) {
+        Body body = seen_body(scene, 1, 0.02f, i * kFrameNs);
+        people.run(scene.image(), box(), body);
+    }
+    Body body = seen_body(other, 1, 0.02f, 5 * kFrameNs);
+    people.run(other.image(), {}, body);
+    EXPECT_LT(error_of(body, other), 0.05f);
+}
+
 TEST_F(PeopleFitTest, AFitThatGoesBadLetsGoOfTheJointsStepByStep) {
     Body seen = seen_body(scene, 1, 0.0f, kFrameNs);
     for (Joint& joint : seen.joints) joint.position.x += 0.04f;  // what the fit takes back

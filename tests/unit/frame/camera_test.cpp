@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "frame/floor.h"
+#include "frame/in_view.h"
 
 namespace vfit {
 namespace {
@@ -94,6 +95,39 @@ TEST(Floor, IsNotGuessedWithoutFeet) {
     body.set(VFIT_JOINT_HEAD, {0, 0, 2});
     EXPECT_FALSE(estimate_floor(c, body));
     EXPECT_EQ(c.floor_state, VFIT_FLOOR_DEFAULT);
+}
+
+TEST(Floor, IsNotGuessedFromFeetThatAreInferred) {
+    Camera c = kinect();
+    Body body;
+    body.set(VFIT_JOINT_LEFT_FOOT, {0.1f, 1.00f, 2.5f}, VFIT_JOINT_INFERRED, 0.4f);
+    EXPECT_FALSE(estimate_floor(c, body));
+    body.set(VFIT_JOINT_RIGHT_FOOT, {-0.1f, 0.80f, 2.3f});
+    ASSERT_TRUE(estimate_floor(c, body));
+    EXPECT_NEAR(c.camera_height_m(), 0.88f, 1e-4f);
+}
+
+TEST(InView, NoJointOutsideTheImageIsMeasured) {
+    const Camera c = kinect();
+    Body body;
+    const auto put = [&](int joint, float u, float v, vfit_joint_state state = VFIT_JOINT_MEASURED) {
+        body.set(joint, c.unproject(u, v, 2.0f), state);
+    };
+    put(VFIT_JOINT_PELVIS, 0.5f * float(c.width), 0.5f * float(c.height));
+    put(VFIT_JOINT_LEFT_HAND, -2.0f, 100.0f);
+    put(VFIT_JOINT_RIGHT_HAND, float(c.width) + 2.0f, 100.0f);
+    put(VFIT_JOINT_HEAD, 100.0f, -2.0f);
+    put(VFIT_JOINT_LEFT_FOOT, 100.0f, float(c.height) + 2.0f);
+    put(VFIT_JOINT_RIGHT_FOOT, 100.0f, float(c.height) - 2.0f);
+    body.set(VFIT_JOINT_LEFT_KNEE, {0, 0, -2});  // behind the camera
+    limit_states(body, c);
+    const auto state = [&](int joint) { return body.joints[size_t(joint)].state; };
+    for (const int joint : {VFIT_JOINT_PELVIS, VFIT_JOINT_RIGHT_FOOT})
+        EXPECT_EQ(state(joint), VFIT_JOINT_MEASURED) << joint_name(joint);
+    for (const int joint : {VFIT_JOINT_LEFT_HAND, VFIT_JOINT_RIGHT_HAND, VFIT_JOINT_HEAD,
+                            VFIT_JOINT_LEFT_FOOT, VFIT_JOINT_LEFT_KNEE})
+        EXPECT_EQ(state(joint), VFIT_JOINT_INFERRED) << joint_name(joint);
+    EXPECT_EQ(state(VFIT_JOINT_NECK), VFIT_JOINT_NOT_SEEN);
 }
 
 }  // namespace

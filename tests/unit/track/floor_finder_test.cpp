@@ -122,6 +122,26 @@ TEST(FloorFinder, ATableTopIsNoFloorWhereNoFloorIsInView) {
     EXPECT_FALSE(find(scene, camera));
 }
 
+TEST(FloorFinder, APlaneThatCutsThroughWallsIsNoFloor) {
+    // Strips of both walls, of a box and of the person lie on it.
+    std::mt19937 random(1);
+    const auto from = [&](float low, float high) {
+        return std::uniform_real_distribution<float>(low, high)(random);
+    };
+    for (int i = 0; i < 40; ++i) {
+        RoomScene scene;
+        scene.floor = false;
+        scene.wall_z = from(-4.5f, -2.5f);
+        scene.side_x = from(0.6f, 2.0f);
+        scene.stand(from(0.4f, 1.6f), from(-12, 8), from(-30, 30));
+        scene.people.push_back(standing_person(from(-0.4f, 0.4f), from(-2.4f, -1.4f)));
+        const float x = from(-1.5f, -0.6f), z = from(-2.5f, -1.5f);
+        scene.things.push_back({{x - 0.3f, 0, z - 0.3f}, {x + 0.3f, from(1.2f, 2.0f), z + 0.3f}});
+        Camera camera;
+        EXPECT_FALSE(find(scene, camera)) << i;
+    }
+}
+
 TEST(FloorFinder, LetsAFloorGoWhenAnotherSideIsUp) {
     RoomScene scene;
     scene.side_x = 1.2f;
