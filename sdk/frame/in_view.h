@@ -1,4 +1,4 @@
-// What of a body a camera can have measured.
+// Joints that a camera can have measured: those within its image.
 #pragma once
 
 #include "frame/body.h"

@@ -17,7 +17,8 @@ constexpr int kJoints[] = {VFIT_JOINT_LEFT_FOOT,  VFIT_JOINT_RIGHT_FOOT, VFIT_JO
 constexpr float kStep_s = 1.0f / 30.0f;
 constexpr float kFall_s = 0.1f, kRise = 0.02f;  // a level falls within this time and rises at that speed, m/s
 constexpr float kTrembleShare = 0.2f, kTrembleRate = 0.03f;
-constexpr float kLeastSpeed = 0.03f;   // m/s: slower is not told apart
+constexpr float kLeastSpeed = 0.03f;  // m/s: slower is not told apart
+constexpr float kMinMedianSpeed = 0.01f;
 constexpr float kHeightScale = 20.0f;  // 5 cm are 1
 constexpr float kPause_s = 0.5f;
 constexpr float kUnevenM = 0.03f;  // the feet of a person who stands may be reported at heights so far apart
@@ -55,8 +56,10 @@ void ContactFeatures::update(const Body& body) {
         known_[point] = true;
     }
     for (size_t side = 0; side < 2; ++side) {
-        // Without toes the ankle stands for them.
+        // Without toes the ankle stands for them, without a knee the middle of the leg.
         if (!known_[kToes + side]) now.at[kToes + side] = now.at[kAnkle + side];
+        if (!known_[kKnee + side])
+            now.at[kKnee + side] = 0.5f * (now.at[kHip + side] + now.at[kAnkle + side]);
         confidence_[side] = body.joints[static_cast<size_t>(kJoints[kAnkle + side])].confidence;
     }
     now.at[kPelvis] = 0.5f * (now.at[kHip] + now.at[kHip + 1]);
@@ -93,6 +96,13 @@ Vec3 ContactFeatures::place(int point, float ago_s) const {
         return glm::mix(newer.at[p], older.at[p], std::clamp(share, 0.0f, 1.0f));
     }
     return history_[(last_ + kHistory - (count_ - 1)) % kHistory].at[p];
+}
+
+/// Of three readings, 1/30 s apart, from `first` such steps ago on: a single one that is off has no say.
+Vec3 ContactFeatures::median_place(int point, int first) const {
+    const auto at = [&](int step) { return place(point, kStep_s * static_cast<float>(step)); };
+    const Vec3 a = at(first), b = at(first + 1), c = at(first + 2);
+    return glm::max(glm::min(a, b), glm::min(glm::max(a, b), c));
 }
 
 float ContactFeatures::hip_speed() const {
@@ -133,6 +143,19 @@ bool ContactFeatures::of(int side, std::span<float, kContactFeatureCount> out) c
         }
     }
     const auto s = static_cast<size_t>(side);
+    for (size_t k = 0; k < 3; ++k) {
+        const Vec3 now = median_place(points[k], 0), before = median_place(points[k], 3),
+                   long_before = median_place(points[k], 6);
+        const auto speed = [](const Vec3& from, const Vec3& to, int steps) {
+            const float m_s = glm::length(to - from) / (kStep_s * static_cast<float>(steps));
+            return std::log(std::min(m_s, 3.0f) + kMinMedianSpeed);
+        };
+        out[n++] = speed(before, now, 3);
+        out[n++] = speed(long_before, now, 6);
+        out[n++] = std::clamp((now.y - before.y) / (3.0f * kStep_s), -3.0f, 3.0f);
+        out[n++] = k < 2 ? std::clamp(kHeightScale * (now.y - lows_[2 * k + s].level), -2.0f, 8.0f)
+                         : speed(long_before, before, 3);
+    }
     out[n++] = std::clamp(kHeightScale * (at[3][0].y - lows_[1 - s].level), -2.0f, 8.0f);
     out[n++] = std::log(tremble_[s]);
     out[n++] = std::log(tremble_[1 - s]);

@@ -1,6 +1,7 @@
-// What tells whether a foot stands: how fast ankle, toes and knee moved over the last tenth of a second, how
-// high ankle and toes are over where they were lowest, how much this source's joints tremble. The same
-// numbers for either foot, so that one network serves both, and by time, so that any frame rate will do.
+// What tells whether a foot stands: how fast ankle, toes and knee moved over the last tenth of a second, and
+// their medians over the last third; how high ankle and toes are over where they were lowest, how much this
+// source's joints tremble. The same numbers for either foot, so that one network serves both, and by time, so
+// that any frame rate will do.
 #pragma once
 
 #include <array>
@@ -11,7 +12,7 @@
 
 namespace vfit {
 
-inline constexpr int kContactFeatureCount = 50;
+inline constexpr int kContactFeatureCount = 62;
 
 class ContactFeatures {
 public:
@@ -40,6 +41,7 @@ private:
         float level = 0.0f;
     };
     Vec3 place(int point, float ago_s) const;
+    Vec3 median_place(int point, int first) const;
     void follow(Low& low, float height, float dt_s);
 
     std::array<Sample, kHistory> history_{};  // newest at last_

@@ -101,7 +101,7 @@ float legs_agree(const SeenJoints& joints, const Vec3& up) {
 }  // namespace
 
 void read_maps(const JointMaps& maps, const CropView& view, const Camera& camera, SeenJoints& out) {
-    constexpr float near = kNear_m / (0.5f * CropView::kSide_m);
+    constexpr float reach = kNear_m / (0.5f * CropView::kSide_m);
     Heat heat;
     for (size_t j = 0; j < size_t(kJointCount); ++j) {
         const float* logits = maps.heat.data() + j * JointMaps::kCells;
@@ -118,8 +118,8 @@ void read_maps(const JointMaps& maps, const CropView& view, const Camera& camera
         Vec3 place(JointMaps::place_of(int(peak) % JointMaps::kSide),
                    JointMaps::place_of(int(peak) / JointMaps::kSide), depth[peak]);
         for (int step = 0; step < kShifts; ++step)
-            place = centre_within(heat, depth, place, 2.0f * near).place;
-        out[j] = {view.to_camera(camera, place), centre_within(heat, depth, place, near).heat / sum};
+            place = centre_within(heat, depth, place, 2.0f * reach).place;
+        out[j] = {view.to_camera(camera, place), centre_within(heat, depth, place, reach).heat / sum};
     }
 }
 

@@ -20,26 +20,29 @@ struct Options {
     uint32_t seed = 1, count = 20, frames = 240;
 };
 
-constexpr const char* kMotions[] = {"walk", "walk", "walk",  "step",  "step", "turn",
-                                    "turn", "jump", "jump",  "jog",   "spin", "balance",
-                                    "demo", "sway", "squat", "reach", "wave", "visit"};
+constexpr const char* kMotions[] = {"walk",  "walk",  "walk", "step",  "step",    "turn",   "turn",
+                                    "jump",  "jump",  "jog",  "spin",  "balance", "demo",   "sway",
+                                    "squat", "reach", "wave", "visit", "stride",  "stride", "stride"};
 constexpr const char* kSensors[] = {"kinect_v1", "kinect_v1_320", "azure", "tof"};
 constexpr size_t kWarmUp = 20;
 
-/// Everyday noise of a source: white, and a slow wander of each joint.
+/// Everyday noise of a source: white, a slow wander of each joint, and single readings far off.
 class Noise {
 public:
     explicit Noise(uint32_t seed) : engine_(seed) {
         std::uniform_real_distribution<float> u(0.0f, 1.0f);
-        white_m_ = 0.001f * std::exp(2.5f * u(engine_));  // 1 to 12 mm
-        wander_m_ = 0.012f * u(engine_);
-        keep_ = std::exp(-1.0f / (30.0f * (0.1f + 0.6f * u(engine_))));
+        white_m_ = 0.0001f * std::exp(4.8f * u(engine_));  // 0.1 to 12 mm
+        wander_m_ = 0.018f * u(engine_);
+        keep_ = std::exp(-1.0f / (30.0f * (0.1f + u(engine_))));
+        outliers_ = 0.02f * u(engine_);
+        outlier_m_ = 0.02f + 0.06f * u(engine_);
         for (Vec3& w : wander_) w = wander_m_ * gauss();
     }
     void add_to(Body& body) {
         for (size_t j = 0; j < body.joints.size(); ++j) {
             wander_[j] = keep_ * wander_[j] + std::sqrt(1.0f - keep_ * keep_) * wander_m_ * gauss();
-            body.joints[j].position += wander_[j] + white_m_ * gauss();
+            const bool outlier = std::uniform_real_distribution<float>()(engine_) < outliers_;
+            body.joints[j].position += wander_[j] + (outlier ? outlier_m_ : white_m_) * gauss();
         }
     }
 
@@ -50,7 +53,7 @@ private:
     }
     std::mt19937 engine_;
     std::normal_distribution<float> normal_{0.0f, 1.0f};
-    float white_m_, wander_m_, keep_;
+    float white_m_, wander_m_, keep_, outliers_, outlier_m_;
     std::array<Vec3, kJointCount> wander_{};
 };
 

@@ -10,9 +10,9 @@ import argparse
 
 import numpy as np
 
-FEATURES = 50
-HIDDEN = (32, 16)
-STEPS, BATCH, RATE = 20000, 2048, 0.004
+FEATURES = 62
+HIDDEN = (64, 32)
+STEPS, BATCH, RATE = 40000, 2048, 0.004
 UP, DOWN = 0.6, 0.4  # of the chance to stand: planted from the first on, free below the second
 
 
@@ -30,7 +30,11 @@ class Network:
     def __init__(self, rng, mean, deviation):
         self.mean, self.deviation = mean, deviation
         sizes = (FEATURES,) + HIDDEN + (1,)
-        self.layers = [[rng.normal(size=(a, b)) / np.sqrt(a), np.zeros(b)] for a, b in zip(sizes, sizes[1:])]
+        # Single precision throughout: tanh is six times as fast.
+        self.layers = [
+            [(rng.normal(size=(a, b)) / np.sqrt(a)).astype(np.float32), np.zeros(b, np.float32)]
+            for a, b in zip(sizes, sizes[1:])
+        ]
 
     def forward(self, x):
         """Activations of every layer; the last one is the logit."""
@@ -140,7 +144,7 @@ def main():
     mean, deviation = learnt[:, :FEATURES].mean(0), learnt[:, :FEATURES].std(0) + 1e-3
     network = Network(rng, mean, deviation)
     # A lifted foot is the rarer one.
-    weight = np.where(learnt[:, FEATURES] > 0.5, 1.0, 1.5)
+    weight = np.where(learnt[:, FEATURES] > 0.5, 1.0, 1.5).astype(np.float32)
     train(network, learnt[:, :FEATURES], learnt[:, FEATURES], weight, rng)
     judge("learnt from", network, learnt)
     judge("held out", network, rows[held])

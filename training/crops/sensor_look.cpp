@@ -252,7 +252,7 @@ private:
             }
     }
 
-    /// What lies below the edge of a table, or of the image, is not seen.
+    /// The part below the edge of a table, or of the image, is not seen.
     void behind_table() {
         const int edge = int(random_.between(0.3f, 0.65f) * float(height_));
         const float slope = random_.between(-0.06f, 0.06f);
