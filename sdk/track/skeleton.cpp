@@ -9,8 +9,7 @@ namespace vfit {
 namespace {
 
 constexpr float kLeastHeat =
-    -14.0f;                 // logit below the highest: all cells of a map together then weigh under 0.001
-constexpr int kShifts = 2;  // mean shift (Comaniciu and Meer 2002), from the highest cell on
+    -14.0f;  // logit below the highest: all cells of a map together then weigh under 0.001
 // Of the facing, frame by frame.
 constexpr float kScale_m = 0.3f,
                 kScaleShare = 0.5f;   // of distances summed over joints, by which sides are told
@@ -25,30 +24,6 @@ std::pair<int, int> cells_within(float place, float reach) {
     constexpr float half = 0.5f * JointMaps::kSide;
     return {int(std::max(0.0f, (place - reach + 1.0f) * half - 1.0f)),
             int(std::min(2.0f * half, (place + reach + 1.0f) * half + 1.0f))};
-}
-
-using Heat = std::array<float, JointMaps::kCells>;
-
-struct Centre {
-    Vec3 place{0.0f};
-    float heat = 0.0f;
-};
-
-Centre centre_within(const Heat& heat, const float* depth, const Vec3& middle, float reach) {
-    Centre centre;
-    const auto [y0, y1] = cells_within(middle.y, reach);
-    const auto [x0, x1] = cells_within(middle.x, reach);
-    for (int y = y0; y < y1; ++y)
-        for (int x = x0; x < x1; ++x) {
-            const size_t i = size_t(y * JointMaps::kSide + x);
-            const Vec3 at(JointMaps::place_of(x), JointMaps::place_of(y), depth[i]);
-            const float dx = at.x - middle.x, dy = at.y - middle.y;
-            if (heat[i] == 0.0f || dx * dx + dy * dy > reach * reach) continue;
-            centre.place += heat[i] * at;
-            centre.heat += heat[i];
-        }
-    if (centre.heat > 0.0f) centre.place /= centre.heat;
-    return centre;
 }
 
 void exchange_sides(SeenJoints& joints) {
@@ -101,25 +76,41 @@ float legs_agree(const SeenJoints& joints, const Vec3& up) {
 }  // namespace
 
 void read_maps(const JointMaps& maps, const CropView& view, const Camera& camera, SeenJoints& out) {
-    constexpr float reach = kNear_m / (0.5f * CropView::kSide_m);
-    Heat heat;
+    constexpr float near = kNear_m / (0.5f * CropView::kSide_m);
+    std::array<float, JointMaps::kCells> heat;
     for (size_t j = 0; j < size_t(kJointCount); ++j) {
         const float* logits = maps.heat.data() + j * JointMaps::kCells;
         const float* depth = maps.depth.data() + j * JointMaps::kCells;
-        const size_t peak = size_t(std::max_element(logits, logits + JointMaps::kCells) - logits);
-        const float highest = logits[peak];
+        const float highest = *std::max_element(logits, logits + JointMaps::kCells);
         float sum = 0.0f;
-        for (size_t i = 0; i < JointMaps::kCells; ++i) {
-            const float below = logits[i] - highest;
-            heat[i] = below >= kLeastHeat ? std::exp(below) : 0.0f;  // not a number: 0
-            sum += heat[i];
+        Vec3 place(0.0f);
+        for (int y = 0; y < JointMaps::kSide; ++y) {
+            float row = 0.0f;
+            for (int x = 0; x < JointMaps::kSide; ++x) {
+                const size_t i = size_t(y * JointMaps::kSide + x);
+                const float below = logits[i] - highest;
+                if (!(below >= kLeastHeat)) {  // or not a number
+                    heat[i] = 0.0f;
+                    continue;
+                }
+                const float h = heat[i] = std::exp(below);
+                row += h;
+                place.x += h * JointMaps::place_of(x);
+                place.z += h * depth[i];
+            }
+            place.y += row * JointMaps::place_of(y);
+            sum += row;
         }
-        // A hidden hand may be in front of the body or behind it. The mean of both is neither.
-        Vec3 place(JointMaps::place_of(int(peak) % JointMaps::kSide),
-                   JointMaps::place_of(int(peak) / JointMaps::kSide), depth[peak]);
-        for (int step = 0; step < kShifts; ++step)
-            place = centre_within(heat, depth, place, 2.0f * reach).place;
-        out[j] = {view.to_camera(camera, place), centre_within(heat, depth, place, reach).heat / sum};
+        place /= sum;
+        float close = 0.0f;
+        const auto [y0, y1] = cells_within(place.y, near);
+        const auto [x0, x1] = cells_within(place.x, near);
+        for (int y = y0; y < y1; ++y)
+            for (int x = x0; x < x1; ++x) {
+                const float dx = JointMaps::place_of(x) - place.x, dy = JointMaps::place_of(y) - place.y;
+                if (dx * dx + dy * dy <= near * near) close += heat[size_t(y * JointMaps::kSide + x)];
+            }
+        out[j] = {view.to_camera(camera, place), close / sum};
     }
 }
 
