@@ -22,23 +22,11 @@ struct Errors {
 
 class HintsTest : public contract::ContextTest {
 protected:
-    /// The pixel of a joint in that frame's image.
     vfit_joint_hint hint_of(vfit_frame frame, const vfit_joint& joint) {
-        vfit_camera camera = vfit_camera_init();
-        vfit_intrinsics k = vfit_intrinsics_init();
-        EXPECT_EQ(vfit_frame_camera(frame, &camera), VFIT_OK);
-        EXPECT_EQ(vfit_frame_intrinsics(frame, &k), VFIT_OK);
-        const float* m = camera.world_from_camera;
-        float p[3];
-        for (int column = 0; column < 3; ++column) {
-            p[column] = 0.0f;
-            for (int row = 0; row < 3; ++row)
-                p[column] += m[4 * column + row] * (joint.position[row] - m[12 + row]);
-        }
+        const contract::Pixel at = contract::pixel_of(frame, joint);
         vfit_joint_hint hint = vfit_joint_hint_init();
         hint.joint = joint.joint;
-        hint.x = p[0] / p[2] * k.fx + k.cx;
-        hint.y = p[1] / p[2] * k.fy + k.cy;
+        hint.x = at.x, hint.y = at.y;
         return hint;
     }
     /// Somebody turns about, so that one arm after the other is behind the body; hints `off` pixels from the

@@ -14,7 +14,9 @@ constexpr int kSoon = 5;  // frames, a sixth of a second
 /// The source's truth about one frame and what the tracker made of it.
 struct Moment {
     bool in_view = false, whole = false;
-    int seen = 0;  // of the paper's 15 joints
+    int seen = 0;              // of the paper's 15 joints
+    int outside = 0;           // tracked joints whose place is outside the image
+    int measured_outside = 0;  // of these, MEASURED
     std::vector<vfit_body> tracked;
 };
 
@@ -44,15 +46,28 @@ protected:
         m.tracked = bodies(tracked);
         return m;
     }
+    void count_outside(vfit_frame tracked, Moment& m) {
+        vfit_intrinsics lens = vfit_intrinsics_init();
+        EXPECT_EQ(vfit_frame_intrinsics(tracked, &lens), VFIT_OK);
+        for (const vfit_body& body : m.tracked)
+            for (const vfit_joint& joint : contract::joints_of(tracked, body.body_id)) {
+                const contract::Pixel at = contract::pixel_of(tracked, joint);
+                if (at.x > -1 && at.y > -1 && at.x < float(lens.width) + 1 && at.y < float(lens.height) + 1)
+                    continue;
+                ++m.outside;
+                m.measured_outside += joint.state == VFIT_JOINT_MEASURED;
+            }
+    }
     /// Half the Kinect's resolution: what is tested here does not hang on it, and it takes a third of the
     /// time.
-    std::vector<Moment> watch(const std::string& options) {
+    std::vector<Moment> watch(const std::string& options, vfit_track_fit fit = VFIT_FIT_AUTO) {
         vfit_sensor sensor{};
-        const std::string uri = "virtual:sensor=kinect_v1_320&floor=unknown&distance=3&" + options;
+        const std::string uri = "virtual:sensor=kinect_v1_320&floor=unknown&" + options;
         EXPECT_EQ(vfit_sensor_open(context, uri.c_str(), &sensor), VFIT_OK) << contract::last_error();
         EXPECT_EQ(vfit_sensor_start(sensor), VFIT_OK) << contract::last_error();
         vfit_tracker_desc desc = vfit_tracker_desc_init();
         desc.joints = desc.user_map = VFIT_TRACK_BUILT_IN;
+        desc.fit = fit;
         vfit_tracker tracker{};
         EXPECT_EQ(vfit_tracker_create(context, &desc, &tracker), VFIT_OK) << contract::last_error();
         std::vector<Moment> moments;
@@ -63,6 +78,7 @@ protected:
                 break;
             }
             moments.push_back(moment_of(frame, tracked));
+            count_outside(tracked, moments.back());
             vfit_frame_release(tracked);
             vfit_frame_release(frame);
         }
@@ -92,7 +108,7 @@ bool somebody_tracked(const Moment& m) { return !m.tracked.empty(); }
 }  // namespace
 
 TEST_F(PeopleTest, AVisitorIsFoundKeepsTheIdAndIsGoneWhenGone) {
-    const auto moments = watch("motion=visit&frames=480&clothing=0.02&body=3");
+    const auto moments = watch("distance=3&motion=visit&frames=480&clothing=0.02&body=3");
     ASSERT_EQ(moments.size(), 480u);
     const size_t whole = first_where(moments, 0, [](const Moment& m) { return m.whole; });
     const size_t part = first_where(moments, whole, [](const Moment& m) { return !m.whole; });
@@ -106,8 +122,22 @@ TEST_F(PeopleTest, AVisitorIsFoundKeepsTheIdAndIsGoneWhenGone) {
     EXPECT_TRUE(moments.back().tracked.empty());
 }
 
+TEST_F(PeopleTest, NoJointOutsideTheImageIsMeasured) {
+    for (const vfit_track_fit fit : {VFIT_FIT_OFF, VFIT_FIT_AUTO}) {
+        int outside = 0, measured = 0;
+        for (int body = 1; body <= 3; ++body) {
+            const auto moments = watch(
+                "distance=1.6&camera_height=1.5&tilt=-4&motion=reach&frames=60&body=" + std::to_string(body),
+                fit);
+            for (const Moment& m : moments) outside += m.outside, measured += m.measured_outside;
+        }
+        EXPECT_GT(outside, 300) << "a person is seen to the knees";
+        EXPECT_EQ(measured, 0) << "of " << outside << ", fit " << fit;
+    }
+}
+
 TEST_F(PeopleTest, WhoWasHiddenForASecondIsFoundAgainSoonAfter) {
-    const auto moments = watch("motion=sway&occluder=3&frames=180&clothing=0.02&body=4");
+    const auto moments = watch("distance=3&motion=sway&occluder=3&frames=180&clothing=0.02&body=4");
     ASSERT_EQ(moments.size(), 180u);
     const size_t hidden = first_where(moments, 0, [](const Moment& m) { return m.seen == 0; });
     const size_t back = first_where(moments, hidden, [](const Moment& m) { return m.seen >= 8; });
@@ -123,6 +153,6 @@ TEST_F(PeopleTest, WhoWasHiddenForASecondIsFoundAgainSoonAfter) {
 
 TEST_F(PeopleTest, ARoomAChairAndACoatRackAreNobody) {
     for (const char* furniture : {"", "chair,rack"})
-        for (const Moment& m : watch(std::string("people=0&frames=60&furniture=") + furniture))
+        for (const Moment& m : watch(std::string("distance=3&people=0&frames=60&furniture=") + furniture))
             ASSERT_TRUE(m.tracked.empty()) << "furniture: " << furniture;
 }

@@ -93,6 +93,24 @@ inline std::vector<vfit_joint> joints_of(vfit_frame frame, uint32_t body) {
     return out;
 }
 
+struct Pixel {
+    float x, y;
+};
+
+/// Of a joint in that frame's image.
+inline Pixel pixel_of(vfit_frame frame, const vfit_joint& joint) {
+    vfit_camera camera = vfit_camera_init();
+    vfit_intrinsics lens = vfit_intrinsics_init();
+    EXPECT_EQ(vfit_frame_camera(frame, &camera), VFIT_OK) << last_error();
+    EXPECT_EQ(vfit_frame_intrinsics(frame, &lens), VFIT_OK) << last_error();
+    const float* to_world = camera.world_from_camera;  // rigid, by columns
+    float p[3] = {};
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            p[column] += to_world[4 * column + row] * (joint.position[row] - to_world[12 + row]);
+    return {p[0] / p[2] * lens.fx + lens.cx, p[1] / p[2] * lens.fy + lens.cy};
+}
+
 /// The paper's 15 joints of someone 1.7 m tall in a T-pose, world space, 2 m before the camera.
 inline std::vector<vfit_joint> standing_joints() {
     const float z = -2.0f;
