@@ -141,5 +141,55 @@ TEST(FootContact, TheNetworkTellsTheSameAtAnyFrameRate) {
     }
 }
 
+TEST(FootContact, ASingleReadingThatIsOffFreesNoFoot) {
+    for (const Vec3& off : {Vec3(0.08f, 0, 0), Vec3(0, 0.08f, 0), Vec3(0, 0, -0.08f)}) {
+        FootContact contact;
+        for (int i = 0; i < 60; ++i) {
+            Body body;
+            body.time_ns = testing::frame_ns(i, 30.0);
+            for (const bool left : {true, false}) {
+                const auto set = [&](int joint, const Vec3& p) {
+                    body.set(left ? joint : mirrored_joint(joint), {left ? p.x : -p.x, p.y, p.z});
+                };
+                set(VFIT_JOINT_LEFT_HIP, {0.1f, 0.9f, 0});
+                set(VFIT_JOINT_LEFT_KNEE, {0.1f, 0.5f, 0.02f});
+                set(VFIT_JOINT_LEFT_FOOT, {0.1f, 0.08f, 0});
+                set(VFIT_JOINT_LEFT_TOES, {0.1f, 0.02f, 0.13f});
+            }
+            if (i == 40) body.joints[VFIT_JOINT_LEFT_FOOT].position += off;
+            contact.update(body, VFIT_CONTACT_LEARNT);
+            if (i > 15) EXPECT_TRUE(contact.planted(0) && contact.planted(1)) << i << ", " << off.y;
+        }
+    }
+}
+
+TEST(FootContact, TheNetworkTakesAFootThatRollsForFree) {
+    // Push-off: the heel turns by 50 degrees about the ball, which stays where it is, in 0.3 s.
+    constexpr float kBall_m = 0.13f, kBallHeight_m = 0.02f, kAnkleHeight_m = 0.08f;
+    FootContact contact;
+    double free_from = 0;
+    for (int i = 0; i < 70; ++i) {
+        const double t = i / 30.0;
+        const float heel_rad = 50.0f * kPi / 180.0f * float(std::clamp((t - 2.0) / 0.3, 0.0, 1.0));
+        const float c = std::cos(heel_rad), s = std::sin(heel_rad), up = kAnkleHeight_m - kBallHeight_m;
+        Body body;
+        body.time_ns = testing::frame_ns(i, 30.0);
+        const Vec3 ankle(0.1f, kBallHeight_m + c * up + s * kBall_m, kBall_m - c * kBall_m + s * up);
+        body.set(VFIT_JOINT_LEFT_FOOT, ankle);
+        body.set(VFIT_JOINT_LEFT_TOES, {0.1f, kBallHeight_m, kBall_m});
+        body.set(VFIT_JOINT_LEFT_KNEE, ankle + Vec3(0.0f, 0.4f * c, 0.4f * s));
+        body.set(VFIT_JOINT_LEFT_HIP, {0.1f, 0.9f, 0.1f * heel_rad});
+        body.set(VFIT_JOINT_RIGHT_HIP, {-0.1f, 0.9f, 0.1f * heel_rad});
+        body.set(VFIT_JOINT_RIGHT_KNEE, {-0.1f, 0.5f, 0.3f});
+        body.set(VFIT_JOINT_RIGHT_FOOT, {-0.1f, kAnkleHeight_m, 0.35f});
+        body.set(VFIT_JOINT_RIGHT_TOES, {-0.1f, kBallHeight_m, 0.35f + kBall_m});
+        contact.update(body, VFIT_CONTACT_LEARNT);
+        EXPECT_TRUE(contact.planted(1)) << t;
+        if (t > 0.5 && t < 2.0) EXPECT_TRUE(contact.planted(0)) << t;
+        if (!contact.planted(0) && free_from == 0) free_from = t;
+    }
+    EXPECT_NEAR(free_from, 2.15, 0.1);
+}
+
 }  // namespace
 }  // namespace vfit
