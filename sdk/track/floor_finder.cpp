@@ -25,9 +25,10 @@ constexpr int kWindow = 12;             // samples: the three of a try lie on on
 constexpr float kFewestShare = 0.012f;  // of the image: a strip below the feet
 constexpr uint32_t kFewest = 40;        // samples
 constexpr float kNarrowest_m = 1.2f;    // a table's corner or a person's back is smaller
-constexpr uint32_t kBeside = 2;         // samples
+constexpr float kBeside_m = 0.1f;       // a plane that slopes another way is a band's height off there
+constexpr uint32_t kBeside = 2;         // samples, at least
 constexpr float kLevel = 0.35f;         // of the neighbours: floors have 0.8 to 1, shiny ones half of it
-constexpr float kMostBelow = 0.3f;      // readings below the plane per reading on it
+constexpr float kMostBelow = 0.05f;     // readings below the plane per reading on it: beside tables 0.06 to 0.4
 constexpr uint32_t kBlock = 4;          // samples: what a shiny floor shows of itself lies so close together
 constexpr double kMemory = 0.9;         // of the last frame's sums: a third of a second at 30 Hz
 // After the first frame: this many tries now and then, so that no frame takes longer than others, until they
@@ -138,11 +139,13 @@ float FloorFinder::extent_m(const Plane& plane) const {
     Vec3 sum(0.0f), squares(0.0f);
     std::array<float, 2> beside{}, level{};  // neighbours along rows and columns: all; those that are level
     const auto height = [&](size_t i) { return d * inverse_[i] - a.x * x_[i] - a.y * y_[i] - a.z; };
+    const float per_ray = float(columns_ - 1) / (x_[columns_ - 1] - x_[0]);  // samples per unit of ray
     for (uint32_t y = 0; y < rows_; ++y)
         for (uint32_t x = 0; x < columns_; ++x) {
             const size_t i = size_t(y) * columns_ + x;
             const float inverse = inverse_[i], h = height(i), band = kUneven_m * inverse + noise;
             if (inverse <= 0.0f || std::abs(h) > band) continue;
+            const uint32_t step = std::max(kBeside, uint32_t(kBeside_m * inverse * per_ray));
             const Vec3 p = Vec3(x_[i], y_[i], 1.0f) / inverse;
             sum += p, squares += p * p, count += 1.0f;
             const auto look = [&](size_t axis, size_t other) {
@@ -150,8 +153,8 @@ float FloorFinder::extent_m(const Plane& plane) const {
                 beside[axis] += 1.0f;
                 level[axis] += std::abs(height(other) - h) < band ? 1.0f : 0.0f;
             };
-            if (x + kBeside < columns_) look(0, i + kBeside);
-            if (y + kBeside < rows_) look(1, i + size_t(kBeside) * columns_);
+            if (x + step < columns_) look(0, i + step);
+            if (y + step < rows_) look(1, i + size_t(step) * columns_);
         }
     if (count == 0.0f || level[0] < kLevel * beside[0] || level[1] < kLevel * beside[1]) return 0.0f;
     const Vec3 mean = sum / count, variance = squares / count - mean * mean;

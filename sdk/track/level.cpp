@@ -105,6 +105,8 @@ bool Level::compare(const Answers& person) {
     return true;
 }
 
+void Level::keep(const Vec3& up) { up_ = best_ = up, way_ = 0; }
+
 void Level::see(const Body& body, int64_t time_ns) {
     seen_ns_ = time_ns;
     if (stood_ >= kEnough) return;

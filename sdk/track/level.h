@@ -27,6 +27,8 @@ public:
     /// The network's answers (logits: it is a person) to a person turned by up() and `k` quarters more. False
     /// where that is no person as seen with up(); where another way is right, up() is that from now on.
     bool compare(const Answers& person);
+    /// No way showed a person: up() is `up` again, as before the image.
+    void keep(const Vec3& up);
     /// A body in camera space was found.
     void see(const Body& body, int64_t time_ns);
     /// Up of a floor that is seen.

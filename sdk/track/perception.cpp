@@ -115,6 +115,8 @@ void Perception::run(DepthImage& image, int64_t time_ns, uint8_t* map, std::span
         return;
     }
     const Camera unknown = image.camera;
+    Camera first = unknown;  // as the way that was taken for up shows it
+    const Vec3 before = level_.up();
     bool found = false;
     // Two people who are turned against each other, as in a mirror on the floor, could go on for ever.
     int tries = 0;
@@ -123,6 +125,7 @@ void Perception::run(DepthImage& image, int64_t time_ns, uint8_t* map, std::span
         level_.place(image.camera);
         const Vec3 up = level_.up();
         found = look(image, time_ns, map, hints, bodies) && stands_upright(image, surest(bodies));
+        if (tries == 0) first = image.camera;
         // What rests without life was seen well enough to be doubted: no other way up shows it better.
         const bool things = std::any_of(targets_.begin(), targets_.end(),
                                         [](const TrackTarget& t) { return t.lifeless_s > 0.0f; });
@@ -136,6 +139,8 @@ void Perception::run(DepthImage& image, int64_t time_ns, uint8_t* map, std::span
         people_->doubt_floor();
     if (!found) {
         bodies.clear();
+        // Who turns out to be no person tells nothing about up.
+        level_.keep(before), image.camera = first;
     } else if (people_ && people_->floor_found()) {
         level_.follow(image.camera.floor_normal);
     } else {

@@ -1,5 +1,6 @@
 #include "clutter.h"
 
+#include "fittings.h"
 #include "solids.h"
 
 namespace vfit::training {
@@ -85,20 +86,36 @@ void add_anything(Random& random, Mesh& out) {
     }
 }
 
-}  // namespace
-
-void random_clutter(Random& random, Mesh& out) {
-    out.positions.clear(), out.indices.clear();
-    switch (random.below(6)) {
+void add_thing(Random& random, Mesh& out) {
+    switch (random.below(12)) {
         case 0: add_chair(random, out); break;
         case 1: add_rack(random, out); break;
         case 2: add_plant(random, out); break;
         case 3: add_pile(random, out); break;
         case 4: add_board(random, out); break;
-        default: add_anything(random, out);
+        case 5: add_anything(random, out); break;
+        default: random_fitting(random, out);
     }
-    const Quat turn = glm::angleAxis(random.between(0, 2 * kPi), Vec3(0, 1, 0));
-    for (Vec3& p : out.positions) p = turn * p;
+}
+
+}  // namespace
+
+void random_clutter(Random& random, Mesh& out) {
+    out.positions.clear(), out.indices.clear();
+    const uint32_t things = random.chance(0.7f) ? 1 : 2 + random.below(2);
+    for (uint32_t i = 0; i < things; ++i) {
+        const size_t first = out.positions.size();
+        add_thing(random, out);
+        const Quat turn = glm::angleAxis(random.between(0, 2 * kPi), Vec3(0, 1, 0));
+        const Vec3 beside = i == 0 ? Vec3(0) : Vec3(random.normal(0, 0.5f), 0, random.normal(0, 0.15f));
+        for (size_t k = first; k < out.positions.size(); ++k)
+            out.positions[k] = turn * out.positions[k] + beside;
+    }
+    if (random.chance(0.15f)) {  // under a sensor that hangs askew, or that was given a wrong way up
+        const Quat tilt =
+            glm::angleAxis(random.between(0.3f, kPi), glm::normalize(Vec3(random.normal(0, 0.5f), 0, 1)));
+        for (Vec3& p : out.positions) p = Vec3(0, 1, 0) + tilt * (p - Vec3(0, 1, 0));
+    }
 }
 
 }  // namespace vfit::training

@@ -1,5 +1,5 @@
-// Things that are no person but stand on the floor like one: chairs, racks with coats, boxes, plants,
-// columns.
+// What is no person: things that stand on the floor like one (chairs, racks with coats, boxes, plants) and
+// pieces of rooms.
 #pragma once
 
 #include "body/mesh.h"
@@ -7,7 +7,7 @@
 
 namespace vfit::training {
 
-/// On the floor about the world's origin, metres.
+/// One to three things on the floor about the world's origin, metres.
 void random_clutter(Random& random, Mesh& out);
 
 }  // namespace vfit::training

@@ -90,13 +90,17 @@ void Sampler::make(uint64_t index, Sample& out) {
 }
 
 bool Sampler::try_once(Random& random, Sample& out) {
-    const bool person = random.chance(0.93f);
+    const bool person = random.chance(0.86f);
     const float yaw = random_facing(random);
     const Sensor& sensor = kSensors[random.pick({kSensors[0].weight, kSensors[1].weight, kSensors[2].weight,
                                                  kSensors[3].weight, kSensors[4].weight})];
     const float distance = random.chance(0.8f) ? random.between(1.9f, 3.6f) : random.between(1.3f, 4.3f);
     const float height = random.chance(0.7f) ? random.between(0.6f, 1.3f) : random.between(0.2f, 2.2f);
-    const Vec3 place(random.normal(0, 0.12f) * distance, 0.0f, -distance);
+    const float across = 0.5f * float(sensor.width) / sensor.focal_px;
+    // Now and then on the edge of the image, things oftener than people.
+    const float beside = random.chance(person ? 0.06f : 0.35f) ? across * distance + random.normal(-0.1f, 0.2f)
+                                                               : random.normal(0, 0.12f) * distance;
+    const Vec3 place(random.chance(0.5f) ? beside : -beside, 0.0f, -distance);
     if (person)
         stand_person(yaw + std::atan2(place.x, distance), place, random);
     else {
@@ -109,12 +113,12 @@ bool Sampler::try_once(Random& random, Sample& out) {
     camera.fx = camera.fy = sensor.focal_px * random.between(0.97f, 1.03f);
     camera.cx = 0.5f * float(sensor.width - 1), camera.cy = 0.5f * float(sensor.height - 1);
     // Aimed at the person's middle, more or less; a wide miss cuts feet or head.
-    const float aim = 0.9f + random.normal(0, random.chance(0.1f) ? 0.45f : 0.1f);
+    const float aim = 0.9f + random.normal(0, random.chance(person ? 0.1f : 0.4f) ? 0.45f : 0.1f);
     const float portrait = random.chance(0.05f) ? (random.chance(0.5f) ? 90.0f : -90.0f) : 0.0f;
     const float roll = glm::radians(random.normal(portrait, 2.0f));
     set_floor(camera, height, std::atan2(height - aim, distance), roll, VFIT_FLOOR_GIVEN);
     if (!take_shot(mesh_, camera, 12, shot_)) return false;
-    look_real(shot_, sensor.light, distance + random.between(0.3f, 3.0f), random, real_);
+    look_real(shot_, sensor.light, distance + random.between(0.3f, 3.0f), person, random, real_);
 
     // What the tracker believes to be up is a little wrong.
     const Vec2 up = glm::normalize(Vec2(camera.floor_normal.x, camera.floor_normal.y));

@@ -75,7 +75,7 @@ public:
         scale_ = shot.camera.fx / 285.0f;
     }
 
-    void run(RealShot& out) {
+    void run(bool person, RealShot& out) {
         jitter();
         if (random_.chance(0.30f)) spread(true);
         if (random_.chance(0.15f)) spread(false);
@@ -84,9 +84,11 @@ public:
         if (light_ == Light::kTimeOfFlight && random_.chance(0.7f)) flying_pixels();
         cut_feet();
         if (random_.chance(0.2f)) keep_floor();
-        if (random_.chance(0.10f)) occlude();
+        if (random_.chance(0.05f)) keep_wall();
+        if (random_.chance(person ? 0.10f : 0.20f)) occlude();
         if (random_.chance(0.05f)) lose_trousers();
-        if (random_.chance(0.05f)) behind_table();
+        if (random_.chance(0.08f)) behind_table();
+        if (!person && random_.chance(0.5f)) cut_piece();
         if (random_.chance(0.05f)) lose_piece();
         report(out);
     }
@@ -261,6 +263,45 @@ private:
                 if (y >= 0 && float(y) > float(edge) + slope * float(x)) depth_[index(x, y)] = 0.0f;
     }
 
+    /// What a straight edge, or a ragged one, leaves of a thing.
+    void cut_piece() {
+        const int cuts = 1 + int(random_.below(2));
+        for (int i = 0; i < cuts; ++i) {
+            const float turn = random_.between(0, 2 * kPi), c = std::cos(turn), s = std::sin(turn);
+            const float edge = random_.between(-0.1f, 0.35f) * float(std::min(width_, height_));
+            const float ragged = random_.chance(0.5f) ? random_.between(0.0f, 8.0f) * scale_ : 0.0f;
+            const Corner a(random_);
+            for (int y = 0; y < height_; ++y)
+                for (int x = 0; x < width_; ++x) {
+                    const float along = c * (float(x) - 0.5f * float(width_)) +
+                                        s * (float(y) - 0.5f * float(height_)) +
+                                        ragged * middle().at(x + a.x, y + a.y);
+                    if (along > edge) depth_[index(x, y)] = 0.0f;
+                }
+        }
+    }
+
+    /// A wall close behind, of which a fringe beside the person was taken for them.
+    void keep_wall() {
+        float back = 0.0f;
+        for (const float d : depth_) back = std::max(back, d);
+        back += random_.between(-0.1f, 0.08f);
+        const float level = random_.between(-0.3f, 0.5f);
+        const int r = std::max(1, int(random_.between(2.0f, 12.0f) * scale_));
+        const Corner a(random_);
+        const std::vector<float> before = depth_;
+        for (int y = 0; y < height_; ++y)
+            for (int x = 0; x < width_; ++x) {
+                if (before[index(x, y)] > 0.0f || middle().at(x + a.x, y + a.y) < level) continue;
+                bool beside = false;
+                for (int dx = -r; dx <= r && !beside; dx += std::max(1, r / 2)) {
+                    const int sx = x + dx;
+                    beside = sx >= 0 && sx < width_ && before[index(sx, y)] > 0.0f;
+                }
+                if (beside) depth_[index(x, y)] = back;
+            }
+    }
+
     void lose_piece() {
         const int x = int(random_.below(uint32_t(width_))), y = int(random_.below(uint32_t(height_)));
         const int r = int(random_.between(3.0f, 14.0f) * scale_);
@@ -312,8 +353,8 @@ private:
 
 }  // namespace
 
-void look_real(const Shot& shot, Light light, float wall_m, Random& random, RealShot& out) {
-    Look(shot, light, wall_m, random).run(out);
+void look_real(const Shot& shot, Light light, float wall_m, bool person, Random& random, RealShot& out) {
+    Look(shot, light, wall_m, random).run(person, out);
 }
 
 }  // namespace vfit::training

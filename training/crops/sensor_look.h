@@ -22,7 +22,8 @@ struct RealShot {
     DepthImage image() const { return {depth_mm.data(), users.data(), camera}; }
 };
 
-/// `wall_m`: distance of the wall behind, along the optical axis.
-void look_real(const Shot& shot, Light light, float wall_m, Random& random, RealShot& out);
+/// `wall_m`: distance of the wall behind, along the optical axis. Things that are no `person` are often cut:
+/// by what stands before them, by the plane that a part of them lay in.
+void look_real(const Shot& shot, Light light, float wall_m, bool person, Random& random, RealShot& out);
 
 }  // namespace vfit::training

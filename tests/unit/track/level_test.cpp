@@ -51,6 +51,17 @@ TEST(Level, IsTheImagesOwnUntilPeopleShowAnother) {
     EXPECT_TRUE(level.compare(kUpright));
 }
 
+TEST(Level, WhoTurnsOutToBeNoPersonTellsNothing) {
+    Level level;
+    EXPECT_FALSE(level.compare(kOnTheHead));
+    ASSERT_LT(degrees_between(level.up(), Vec3(0, 1, 0)), 0.1);
+    level.miss(1);  // with that way up, no person is seen
+    level.keep(Vec3(0, -1, 0));
+    EXPECT_EQ(level.up(), Vec3(0, -1, 0));
+    ASSERT_TRUE(level.miss(2));
+    EXPECT_LT(degrees_between(level.up(), Vec3(1, 0, 0)), 0.1) << "the next way goes on from there";
+}
+
 TEST(Level, AWeakAnswerIsTakenWhenNoOtherWayIsBetter) {
     constexpr Level::Answers weak = {1.0f, 4.0f, -1.0f, 2.0f};
     Level level;
