@@ -152,11 +152,11 @@ TEST(FloorFinder, ALargeTableInFrontOfTheSensorIsNoFloor) {
     for (int i = 0; i < 40; ++i) {
         RoomScene scene;
         scene.floor = false;
-        scene.wall_z = from(-3.2f, -2.2f);
-        scene.stand(from(1.2f, 1.5f), from(15, 30), from(-8, 8));
-        const float edge = from(-1.5f, -1.1f), top = from(0.68f, 0.76f);
+        scene.wall_z = from(-2.8f, -2.2f);
+        scene.stand(from(1.2f, 1.5f), from(12, 24), from(-8, 8));
+        const float edge = from(-1.3f, -1.0f), top = from(0.68f, 0.76f);
         scene.things.push_back({{from(-1.2f, -0.8f), top - 0.04f, edge}, {from(0.3f, 1.2f), top, -0.4f}});
-        for (float x = -0.7f; x < 1.0f; x += 0.9f)  // chairs
+        for (float x = -0.7f; x < 1.0f; x += 1.0f)  // chairs
             scene.things.push_back({{x, 0, edge - 0.15f}, {x + 0.4f, from(0.8f, 1.0f), edge - 0.1f}});
         Camera camera;
         EXPECT_FALSE(find(scene, camera)) << i << ": " << camera.floor_distance_m;
