@@ -139,7 +139,7 @@ void Perception::run(DepthImage& image, int64_t time_ns, uint8_t* map, std::span
         people_->doubt_floor();
     if (!found) {
         bodies.clear();
-        // Who turns out to be no person tells nothing about up.
+        // A thing that was taken for a person for a moment tells nothing about up.
         level_.keep(before), image.camera = first;
     } else if (people_ && people_->floor_found()) {
         level_.follow(image.camera.floor_normal);

@@ -1,13 +1,10 @@
 #include "clutter.h"
 
-#include "fittings.h"
 #include "solids.h"
 
 namespace vfit::training {
 
 namespace {
-
-Mat3 size(float x, float y, float z) { return Mat3(x, 0, 0, 0, y, 0, 0, 0, z); }
 
 void add_chair(Random& random, Mesh& out) {
     const float seat = random.between(0.4f, 0.55f), half = random.between(0.2f, 0.3f),
@@ -94,7 +91,7 @@ void add_thing(Random& random, Mesh& out) {
         case 3: add_pile(random, out); break;
         case 4: add_board(random, out); break;
         case 5: add_anything(random, out); break;
-        default: random_fitting(random, out);
+        default: add_fitting(random, out);
     }
 }
 

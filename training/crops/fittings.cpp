@@ -1,14 +1,11 @@
-#include "fittings.h"
-
 #include <cmath>
 
+#include "clutter.h"
 #include "solids.h"
 
 namespace vfit::training {
 
 namespace {
-
-Mat3 size(float x, float y, float z) { return Mat3(x, 0, 0, 0, y, 0, 0, 0, z); }
 
 /// A sheet of cloth in folds.
 void add_curtain(Random& random, Mesh& out) {
@@ -28,7 +25,8 @@ void add_curtain(Random& random, Mesh& out) {
 
 /// A window or a door: a frame, bars, perhaps a leaf that stands open.
 void add_frame(Random& random, Mesh& out) {
-    const float half = random.between(0.25f, 0.7f), bottom = random.chance(0.5f) ? 0.0f : random.between(0.5f, 1),
+    const float half = random.between(0.25f, 0.7f),
+                bottom = random.chance(0.5f) ? 0.0f : random.between(0.5f, 1),
                 top = random.between(1.6f, 2.4f), bar = random.between(0.02f, 0.07f),
                 deep = random.between(0.02f, 0.12f), middle = 0.5f * (top + bottom);
     const float tall = 0.5f * (top - bottom);
@@ -130,8 +128,7 @@ void add_seat(Random& random, const Vec3& at, float turn, Mesh& out) {
     } else
         box({0, 0.6f * top + 0.4f * seat, -0.9f * half}, size(half, 0.4f * (top - seat), 0.02f));
     if (random.chance(0.3f))
-        for (const float x : {-1.0f, 1.0f})
-            box({x * half, seat + 0.2f, 0}, size(0.025f, 0.02f, half));
+        for (const float x : {-1.0f, 1.0f}) box({x * half, seat + 0.2f, 0}, size(0.025f, 0.02f, half));
 }
 
 void add_armchair(Random& random, Mesh& out) {
@@ -174,7 +171,7 @@ void add_table(Random& random, Mesh& out) {
 
 }  // namespace
 
-void random_fitting(Random& random, Mesh& out) {
+void add_fitting(Random& random, Mesh& out) {
     switch (random.below(8)) {
         case 0: add_curtain(random, out); break;
         case 1: add_frame(random, out); break;

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "body/usual_shape.h"
 #include "clutter.h"
 #include "posture.h"
+#include "solids.h"
 
 namespace vfit::training {
 
@@ -62,6 +64,43 @@ float random_facing(Random& random) {
     }
 }
 
+/// A board before the person, as of a desk or a counter. Of the board only its edge is left: the rest is a
+/// plane, which the user map leaves out.
+struct Desk {
+    float top_m, half_m, front_z, deep_m, panel_m, x;
+
+    Desk(const Vec3& person, Random& random)
+        : top_m(random.between(0.6f, 1.1f)),
+          half_m(random.between(0.4f, 1.0f)),
+          front_z(person.z + random.between(0.25f, 1.0f)),
+          deep_m(front_z - person.z - random.between(0.1f, 0.25f)),
+          panel_m(random.chance(0.5f) ? random.between(0.2f, 1.1f) : 0.0f),
+          x(person.x + random.normal(0, 0.2f)) {}
+
+    void add_edge(Random& random, Mesh& out) const {
+        const float half = random.between(0.008f, 0.025f);
+        add_box({x, top_m - half, front_z}, size(half_m, half, 0.01f), out);
+    }
+    /// Takes from the shot what the board and the panel below it hide.
+    void hide(Shot& shot) const {
+        const Mat4 to_world = shot.camera.world_from_camera();
+        const Vec3 eye(to_world[3]);
+        for (int v = 0; v < int(shot.camera.height); ++v)
+            for (int u = 0; u < int(shot.camera.width); ++u) {
+                float& depth = shot.depth_m[shot.index(u, v)];
+                if (depth <= 0.0f) continue;
+                const Vec3 p = transform_point(to_world, shot.camera.unproject(float(u), float(v), depth));
+                const auto at_z = [&](float z) { return glm::mix(eye, p, (z - eye.z) / (p.z - eye.z)); };
+                if (p.z > front_z - 0.02f) continue;
+                const Vec3 front = at_z(front_z), back = at_z(std::max(p.z, front_z - deep_m));
+                if (std::abs(front.x - x) > half_m) continue;
+                const bool through = (front.y - top_m) * (back.y - top_m) < 0.0f;
+                const bool panel = front.y < top_m && front.y > top_m - panel_m;
+                if (through || panel) depth = 0.0f;
+            }
+    }
+};
+
 }  // namespace
 
 void Sampler::make_person(uint64_t number) {
@@ -98,9 +137,12 @@ bool Sampler::try_once(Random& random, Sample& out) {
     const float height = random.chance(0.7f) ? random.between(0.6f, 1.3f) : random.between(0.2f, 2.2f);
     const float across = 0.5f * float(sensor.width) / sensor.focal_px;
     // Now and then on the edge of the image, things oftener than people.
-    const float beside = random.chance(person ? 0.06f : 0.35f) ? across * distance + random.normal(-0.1f, 0.2f)
-                                                               : random.normal(0, 0.12f) * distance;
+    const float beside = random.chance(person ? 0.06f : 0.35f)
+                             ? across * distance + random.normal(-0.1f, 0.2f)
+                             : random.normal(0, 0.12f) * distance;
     const Vec3 place(random.chance(0.5f) ? beside : -beside, 0.0f, -distance);
+    std::optional<Desk> desk;
+    if (person && random.chance(0.06f)) desk.emplace(place, random);
     if (person)
         stand_person(yaw + std::atan2(place.x, distance), place, random);
     else {
@@ -108,6 +150,7 @@ bool Sampler::try_once(Random& random, Sample& out) {
         for (Vec3& p : mesh_.positions) p += place;
     }
 
+    if (desk) desk->add_edge(random, mesh_);
     Camera camera;
     camera.width = sensor.width, camera.height = sensor.height;
     camera.fx = camera.fy = sensor.focal_px * random.between(0.97f, 1.03f);
@@ -118,6 +161,7 @@ bool Sampler::try_once(Random& random, Sample& out) {
     const float roll = glm::radians(random.normal(portrait, 2.0f));
     set_floor(camera, height, std::atan2(height - aim, distance), roll, VFIT_FLOOR_GIVEN);
     if (!take_shot(mesh_, camera, 12, shot_)) return false;
+    if (desk) desk->hide(shot_);
     look_real(shot_, sensor.light, distance + random.between(0.3f, 3.0f), person, random, real_);
 
     // What the tracker believes to be up is a little wrong.

@@ -7,6 +7,9 @@
 
 namespace vfit::training {
 
+/// Axes of a shape, from its middle.
+inline Mat3 size(float x, float y, float z) { return Mat3(x, 0, 0, 0, y, 0, 0, 0, z); }
+
 /// Side walls between rings of equal count.
 void add_tube(const std::vector<std::vector<Vec3>>& rings, Mesh& out);
 /// The unit sphere carried by `axes`.
