@@ -28,8 +28,8 @@ constexpr float kNarrowest_m = 1.2f;    // a table's corner or a person's back i
 constexpr float kBeside_m = 0.1f;       // a plane that slopes another way is a band's height off there
 constexpr uint32_t kBeside = 2;         // samples, at least
 constexpr float kLevel = 0.35f;         // of the neighbours: floors have 0.8 to 1, shiny ones half of it
-constexpr float kMostBelow = 0.08f;  // readings below the plane per reading on it: beside tables 0.14 to 0.3
-constexpr uint32_t kBlock = 6;       // samples: what a shiny floor shows of itself lies so close together
+constexpr float kMostBelow = 0.08f;  // readings below the plane per reading on it: beside tables 0.17 to 0.3
+constexpr uint32_t kBlock = 5;       // samples: what a shiny floor shows of itself lies so close together
 constexpr double kMemory = 0.9;      // of the last frame's sums: a third of a second at 30 Hz
 // After the first frame: this many tries now and then, so that no frame takes longer than others, until they
 // show that a whole search is worth it. While a floor is seen, a better one may come into view.
