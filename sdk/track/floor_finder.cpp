@@ -139,13 +139,16 @@ float FloorFinder::extent_m(const Plane& plane) const {
     Vec3 sum(0.0f), squares(0.0f);
     std::array<float, 2> beside{}, level{};  // neighbours along rows and columns: all; those that are level
     const auto height = [&](size_t i) { return d * inverse_[i] - a.x * x_[i] - a.y * y_[i] - a.z; };
-    const float per_ray = float(columns_ - 1) / (x_[columns_ - 1] - x_[0]);  // samples per unit of ray
+    // Samples per unit of ray. An image of one column has no neighbours.
+    const float per_ray = columns_ > 1 ? float(columns_ - 1) / (x_[columns_ - 1] - x_[0]) : 0.0f;
+    const auto farthest = float(columns_ + rows_);
     for (uint32_t y = 0; y < rows_; ++y)
         for (uint32_t x = 0; x < columns_; ++x) {
             const size_t i = size_t(y) * columns_ + x;
             const float inverse = inverse_[i], h = height(i), band = kUneven_m * inverse + noise;
             if (inverse <= 0.0f || std::abs(h) > band) continue;
-            const uint32_t step = std::max(kBeside, uint32_t(kBeside_m * inverse * per_ray));
+            const uint32_t step =
+                std::max(kBeside, uint32_t(std::min(farthest, kBeside_m * inverse * per_ray)));
             const Vec3 p = Vec3(x_[i], y_[i], 1.0f) / inverse;
             sum += p, squares += p * p, count += 1.0f;
             const auto look = [&](size_t axis, size_t other) {

@@ -2,6 +2,7 @@
 
 import importlib.util
 import json
+import math
 import os
 import subprocess
 import sys
@@ -50,8 +51,8 @@ def room(folder, floor):
     (folder / "camera.json").write_text(json.dumps({**text, **CAMERA}))
 
 
-def run(folder):
-    command = [sys.executable, "-B", TOOL, folder, "--vfit", VFIT, "--list"]
+def run(folder, vfit=VFIT):
+    command = [sys.executable, "-B", TOOL, folder, "--vfit", vfit, "--list"]
     return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 
@@ -96,10 +97,16 @@ class Tool(unittest.TestCase):
     def test_what_is_no_truth_is_named(self):
         done = run(self.folder)
         self.assertIn("no recording in it has a truth.json", done.stderr)
-        self.tell({"height_m": 1.0})
-        done = run(self.folder)
-        self.assertNotEqual(done.returncode, 0)
-        self.assertIn("truth.json: is no truth of a room", done.stderr)
+        for floor in ({"height_m": 1.0}, {**FLOOR, "height_m": math.nan}, {**FLOOR, "seen": "much"}, 7):
+            self.tell(floor)
+            done = run(self.folder)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertRegex(done.stderr, "^judge_rooms: .*truth.json: is no truth of a room")
+
+    def test_a_program_that_is_missing_is_named(self):
+        self.tell(FLOOR)
+        done = run(self.folder, "no_such_vfit")
+        self.assertRegex(done.stderr, "^judge_rooms: .*no_such_vfit")
 
 
 if __name__ == "__main__":

@@ -46,7 +46,10 @@ def verdict(said, truth):
 def track(vfit, recording):
     """What vfit prints of each image, without calibration, user map or joints of the recording's own."""
     command = [vfit, "track", recording, "--user-map", "tracked", "--joints", "tracked", "--json"]
-    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    try:
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    except OSError as error:
+        raise SystemExit(f"judge_rooms: {error}") from error
     if done.returncode:
         raise SystemExit(f"judge_rooms: {recording}: {done.stderr.strip()}")
     frames = [json.loads(line) for line in done.stdout.splitlines() if line.startswith('{"frame"')]
@@ -59,7 +62,9 @@ def read_truth(file):
     try:
         truth = json.loads(file.read_text())
         if truth["floor"] is not None:
-            up(truth["floor"]), float(truth["floor"]["height_m"]), float(truth["floor"]["seen"])
+            numbers = (*up(truth["floor"]), truth["floor"]["height_m"], truth["floor"]["seen"])
+            if not all(map(math.isfinite, numbers)):
+                raise ValueError("a number of the floor is not finite")
         return str(truth["maker"]), truth["floor"], int(truth["people"])
     except (ValueError, KeyError, TypeError) as error:
         raise SystemExit(f"judge_rooms: {file}: is no truth of a room: {error!r}") from error

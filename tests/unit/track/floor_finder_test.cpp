@@ -28,6 +28,14 @@ bool find(RoomScene& scene, Camera& camera) {
     return finder.run(grid, camera);
 }
 
+/// Numbers from `low` to `high`, the same ones every time.
+struct Draw {
+    std::mt19937 random{1};
+    float operator()(float low, float high) {
+        return std::uniform_real_distribution<float>(low, high)(random);
+    }
+};
+
 struct Stand {
     float height_m, tilt_deg, roll_deg;
 };
@@ -124,10 +132,7 @@ TEST(FloorFinder, ATableTopIsNoFloorWhereNoFloorIsInView) {
 
 TEST(FloorFinder, APlaneThatCutsThroughWallsIsNoFloor) {
     // Strips of both walls, of a box and of the person lie on it.
-    std::mt19937 random(1);
-    const auto from = [&](float low, float high) {
-        return std::uniform_real_distribution<float>(low, high)(random);
-    };
+    Draw from;
     for (int i = 0; i < 40; ++i) {
         RoomScene scene;
         scene.floor = false;
@@ -145,10 +150,7 @@ TEST(FloorFinder, APlaneThatCutsThroughWallsIsNoFloor) {
 TEST(FloorFinder, ALargeTableInFrontOfTheSensorIsNoFloor) {
     // It hides the floor. Beyond its edges the room goes on below it; planes that cut it at a slight angle
     // see nothing below them.
-    std::mt19937 random(1);
-    const auto from = [&](float low, float high) {
-        return std::uniform_real_distribution<float>(low, high)(random);
-    };
+    Draw from;
     for (int i = 0; i < 40; ++i) {
         RoomScene scene;
         scene.floor = false;
@@ -160,6 +162,18 @@ TEST(FloorFinder, ALargeTableInFrontOfTheSensorIsNoFloor) {
             scene.things.push_back({{x, 0, edge - 0.15f}, {x + 0.4f, from(0.8f, 1.0f), edge - 0.1f}});
         Camera camera;
         EXPECT_FALSE(find(scene, camera)) << i << ": " << camera.floor_distance_m;
+    }
+}
+
+TEST(FloorFinder, AnImageOfAFewColumnsOrRowsIsSearchedToo) {
+    for (const auto& [width, height] : {std::pair{1u, 240u}, {5u, 240u}, {320u, 1u}, {1u, 1u}, {320u, 5u}}) {
+        RoomScene scene;
+        scene.camera.width = width, scene.camera.height = height;
+        scene.camera.cx = 0.5f * float(width - 1), scene.camera.cy = 0.5f * float(height - 1);
+        scene.stand(1.0f, 20, 0);
+        Camera camera;
+        const bool found = find(scene, camera);
+        EXPECT_NEAR(camera.floor_distance_m, 1.0f, 0.1f) << width << "x" << height << " " << found;
     }
 }
 
