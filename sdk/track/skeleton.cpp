@@ -76,7 +76,7 @@ float legs_agree(const SeenJoints& joints, const Vec3& up) {
 }  // namespace
 
 void read_maps(const JointMaps& maps, const CropView& view, const Camera& camera, SeenJoints& out) {
-    constexpr float near = kNear_m / (0.5f * CropView::kSide_m);
+    constexpr float reach = kNear_m / (0.5f * CropView::kSide_m);
     std::array<float, JointMaps::kCells> heat;
     for (size_t j = 0; j < size_t(kJointCount); ++j) {
         const float* logits = maps.heat.data() + j * JointMaps::kCells;
@@ -103,12 +103,12 @@ void read_maps(const JointMaps& maps, const CropView& view, const Camera& camera
         }
         place /= sum;
         float close = 0.0f;
-        const auto [y0, y1] = cells_within(place.y, near);
-        const auto [x0, x1] = cells_within(place.x, near);
+        const auto [y0, y1] = cells_within(place.y, reach);
+        const auto [x0, x1] = cells_within(place.x, reach);
         for (int y = y0; y < y1; ++y)
             for (int x = x0; x < x1; ++x) {
                 const float dx = JointMaps::place_of(x) - place.x, dy = JointMaps::place_of(y) - place.y;
-                if (dx * dx + dy * dy <= near * near) close += heat[size_t(y * JointMaps::kSide + x)];
+                if (dx * dx + dy * dy <= reach * reach) close += heat[size_t(y * JointMaps::kSide + x)];
             }
         out[j] = {view.to_camera(camera, place), close / sum};
     }
