@@ -173,6 +173,45 @@ TEST_F(CameraStandTest, FiveRealPeopleAreFoundFromTheFirstImageOnWhateverSideIsU
     fs::remove_all(folder);
 }
 
+TEST_F(CameraStandTest, AChairTellsNothingAboutUp) {
+    // With another side up the chair is taken for a person for a moment, and then is none.
+    struct Box {
+        float low[3], high[3];  // x, height, distance in metres
+    };
+    constexpr Box kChairAndBench[] = {
+        {{-0.65f, 0.34f, 1.67f}, {-0.04f, 0.39f, 2.06f}}, {{-0.65f, 0.39f, 2.06f}, {-0.04f, 0.68f, 2.10f}},
+        {{-0.69f, 0.00f, 1.82f}, {-0.61f, 0.39f, 1.90f}}, {{-0.08f, 0.00f, 1.82f}, {0.00f, 0.39f, 1.90f}},
+        {{0.36f, 0.36f, 1.28f}, {1.04f, 0.41f, 1.81f}},   {{0.32f, 0.00f, 1.50f}, {0.40f, 0.41f, 1.58f}},
+        {{1.00f, 0.00f, 1.50f}, {1.08f, 0.41f, 1.58f}}};
+    constexpr uint32_t width = 320, height = 240;
+    constexpr float focal_px = 290.0f, eye[] = {0.0f, 0.478f, 0.0f}, wall_m = 3.89f, tilt_deg = 19.5f;
+    const float c = std::cos(tilt_deg / 57.29578f), s = std::sin(tilt_deg / 57.29578f);
+    std::vector<uint16_t> depth(size_t(width) * height);
+    for (uint32_t v = 0; v < height; ++v)
+        for (uint32_t u = 0; u < width; ++u) {
+            const float x = (float(u) - 159.5f) / focal_px, y = (float(v) - 119.5f) / focal_px;
+            const float ray[] = {x, -c * y - s, c - s * y};
+            float z = ray[2] > 0 ? wall_m / ray[2] : 9.0f;
+            if (ray[1] < 0) z = std::min(z, -eye[1] / ray[1]);
+            for (const Box& box : kChairAndBench) {
+                float in = 0.0f, out = 9.0f;
+                for (int k = 0; k < 3; ++k) {
+                    const float a = (box.low[k] - eye[k]) / ray[k], b = (box.high[k] - eye[k]) / ray[k];
+                    in = std::max(in, std::min(a, b)), out = std::min(out, std::max(a, b));
+                }
+                if (in < out) z = std::min(z, in);
+            }
+            depth[size_t(v) * width + u] = z < 7.0f ? uint16_t(std::lround(1000.0f * z)) : uint16_t(0);
+        }
+    for (int image = 0; image < 3; ++image) {
+        const Outcome seen = update(depth, width, height, focal_px);
+        EXPECT_EQ(seen.bodies, 0u) << image;
+        EXPECT_EQ(seen.camera.floor_state, VFIT_FLOOR_ESTIMATED) << image;
+        EXPECT_NEAR(seen.camera.height_m, eye[1], 0.02f) << image;
+        EXPECT_NEAR(seen.camera.tilt_rad * 57.29578f, tilt_deg, 1.0f) << image;
+    }
+}
+
 TEST_F(CameraStandTest, APersonFiveMetresBeforeATimeOfFlightCameraIsFound) {
     vfit_sensor sensor{};
     const char* uri =
