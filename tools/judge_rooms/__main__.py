@@ -98,12 +98,15 @@ def main():
         print(".", end="", file=sys.stderr, flush=True)
     print(file=sys.stderr)
     print(f"REAL: {len(files)} recordings of rooms; the floor of the first and the last image")
-    print(f"  {'maker':40}" + "".join(f"{kind:>15}" for kind in KINDS) + "   without a person, with a body")
+    width = max(map(len, floors))
+    print(
+        f"  {'maker':{width}}" + "".join(f"{kind:>15}" for kind in KINDS) + "   without a person, with a body"
+    )
     floors["all"] = sum(floors.values(), Counter())
     empty["all"], haunted["all"] = empty.total(), haunted.total()
     for maker, kinds in floors.items():
         print(
-            f"  {maker:40}"
+            f"  {maker:{width}}"
             + "".join(f"{kinds[kind]:15}" for kind in KINDS)
             + f"{haunted[maker]:15} of {empty[maker]}"
         )
