@@ -130,7 +130,9 @@ void Perception::run(DepthImage& image, int64_t time_ns, uint8_t* map, std::span
         const bool things = std::any_of(targets_.begin(), targets_.end(),
                                         [](const TrackTarget& t) { return t.lifeless_s > 0.0f; });
         again = !found && !things && (level_.up() != up || level_.miss(time_ns));
+        // What a wrong way up showed of people counts for nothing with another one.
         if (again && people_) people_->forget_people();
+        if (again) tracker_->reset();
     }
     // A floor that is out of sight stays as long as people stand on it.
     if (found || !people_ || !people_->floor_found() || people_->floor_seen())
