@@ -9,7 +9,7 @@ namespace {
 
 // How far a right hint lies from the joint as this network defines it; chosen, as are the shares below, so
 // that right hints help and wrong ones do little (tests/contract/hints_test.cpp).
-constexpr float kSigma_m = 0.05f;
+constexpr float kSigma_m = 0.045f;
 constexpr float kSigma = kSigma_m / (0.5f * CropView::kSide_m);  // in crop coordinates, from -1 to 1
 constexpr float kWrongHeat = 0.02f;  // share of cases in which the joint is not where the network's heat is
 constexpr float kSurest = 0.98f;     // no hint is certain
