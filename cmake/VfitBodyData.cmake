@@ -27,7 +27,7 @@ endif()
 
 set(vfit_body_binary ${CMAKE_BINARY_DIR}/lib/vfit_data/body.bin)
 set(vfit_body_reference ${CMAKE_BINARY_DIR}/tests/body_reference.bin)  # exact points, for the unit test
-set(vfit_body_scripts bake_body.py body_rig.py body_shapes.py makehuman_data.py)
+set(vfit_body_scripts bake_body.py body_rig.py body_sections.py body_shapes.py makehuman_data.py)
 list(TRANSFORM vfit_body_scripts PREPEND ${CMAKE_SOURCE_DIR}/scripts/)
 add_custom_command(OUTPUT ${vfit_body_binary} ${vfit_body_reference}
   COMMAND "${VFIT_BAKE_PYTHON}" -B ${CMAKE_SOURCE_DIR}/scripts/bake_body.py --cache "${VFIT_CACHE}"

@@ -923,7 +923,7 @@ VFIT_API vfit_result vfit_avatar_load(vfit_context context, const vfit_avatar_de
 VFIT_API vfit_result vfit_avatar_describe(vfit_avatar avatar, vfit_character_info* out); /* [read] */
 VFIT_API vfit_result vfit_avatar_parts(vfit_avatar avatar, vfit_avatar_part* items, uint32_t stride,
                                        uint32_t* count); /* [read] */
-/* A body and its clothing size for the network, at most 200 bytes: shape, scale, collider radii, a label of
+/* A body and its clothing size for the network, at most 240 bytes: shape, scale, collider radii, a label of
  * up to 19 bytes (may be null). bytes null sets *byte_count to what is needed. Of a character from a file:
  * VFIT_ERROR_UNSUPPORTED. The receiver gets the label as TEXT; a packet of another version of body or library
  * is VFIT_ERROR_VERSION, a damaged one VFIT_ERROR_DATA; desc.sex is the packet's. [read], [any] */

@@ -18,6 +18,7 @@ from pathlib import Path
 import numpy as np
 
 import body_rig
+import body_sections
 from body_shapes import ShapeSpace
 from makehuman_data import MakeHuman
 
@@ -91,7 +92,19 @@ class Body:
         self.ends = [end for bone in self.bones for end in (bone.head, bone.tail)]
         self.base = self.points(data.vertices)
         self.space = ShapeSpace(data, self.points)
+        self.space.add_sections(self.section_fields())
         self.space.set_default_stature(self.base, len(self.vertices))
+
+    def section_fields(self):
+        parts = np.array([body_rig.part_of(bone.name) for bone in self.bones])[self.skin_bones]
+        share = lambda name: ((parts == body_rig.part_of(name)) * self.skin_weights).sum(axis=1) / 65535
+        vertices = self.base[: len(self.vertices)]
+        torso = share("spine01")
+        crotch = vertices[torso > 0.5, 1].min()
+        neck_m = self.base[len(self.vertices) + 2 * [bone.name for bone in self.bones].index("neck01"), 1]
+        of_trunk = torso + share("upperleg01.L") + share("upperleg01.R")
+        for key, moved in body_sections.section_fields(vertices, of_trunk, crotch, neck_m):
+            yield key, np.concatenate([moved, np.zeros((len(self.ends), 3))])
 
     def points(self, field):
         ends = [sum(share * field[i] for i, share in end.items()) for end in self.ends]
@@ -239,7 +252,7 @@ def write_whole(path, content):
 def cache_key(arguments):
     folder = Path(__file__).resolve().parent
     digest = hashlib.sha256(WHEEL_SHA256.encode())
-    for name in ("bake_body.py", "body_rig.py", "body_shapes.py", "makehuman_data.py"):
+    for name in ("bake_body.py", "body_rig.py", "body_sections.py", "body_shapes.py", "makehuman_data.py"):
         digest.update((folder / name).read_bytes())
     digest.update(f"{arguments.shapes} {arguments.seed}".encode())
     return digest.hexdigest()[:16]

@@ -147,6 +147,13 @@ class ShapeSpace:
                     for anchor, path in ((0, low), (2, high)):
                         self._add([(self.index[key], anchor)], self.data.target(f"{folder}/{path}"))
 
+    def add_sections(self, fields):
+        """Sliders that move points by their value times a field: (key, displacement of the baked points)."""
+        for key, moved in fields:
+            self._add_parameter(Parameter(key, [0.0, 1.0], -1.0, 1.0, 0.0, 0.0))
+            self.terms.append(([(self.index[key], 1)], len(self.fields)))
+            self.fields.append(moved)
+
     def coefficients(self, values):
         """Of every field: the sum of its terms' products."""
         hats = [p.hats(v) for p, v in zip(self.parameters, values)]

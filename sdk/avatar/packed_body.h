@@ -18,7 +18,7 @@ struct PackedBody {
     std::string size_label;
 };
 
-inline constexpr size_t kMaxPackedBodyBytes = 200;
+inline constexpr size_t kMaxPackedBodyBytes = 240;
 inline constexpr size_t kMaxPackedLabel = 19;
 
 /// VFIT_ERROR_ARGUMENT for a longer label.

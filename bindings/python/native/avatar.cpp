@@ -236,7 +236,7 @@ void bind_avatar(py::module_& m) {
             .def_static("unpack", &unpack, "context"_a, "packet"_a, py::kw_only(), "detail"_a = 0,
                         "paper_colliders"_a = false, "single_bones"_a = false, "dual_quaternions"_a = false,
                         "limbs_as_posed"_a = false, "(avatar, size label) of what pack gave.")
-            .def("pack", &pack, "size_label"_a = "", "Body and size for the network, at most 200 bytes.")
+            .def("pack", &pack, "size_label"_a = "", "Body and size for the network, at most 240 bytes.")
             .def("describe", &describe)
             .def("parts", &parts, "Triangles by material.")
             .def("pose", &set_pose, "pose"_a)

@@ -556,7 +556,7 @@ class Avatar(_Closable):
     ) -> tuple[Avatar, str]:
         """The avatar and the size label of what pack gave."""
     def pack(self, size_label: str = "") -> bytes:
-        """Body and size for the network, at most 200 bytes."""
+        """Body and size for the network, at most 240 bytes."""
     def describe(self) -> CharacterInfo: ...
     def parts(self) -> list[AvatarPart]: ...
     def pose_into(self, pose: Pose, positions: np.ndarray, normals: Optional[np.ndarray] = None) -> None:

@@ -110,7 +110,7 @@ namespace Vfit
             Calls.AvatarAcquireRest(Handle, Frame.Of(into, "into"));
         }
 
-        /// <summary>The body and its size for the network, at most 200 bytes.</summary>
+        /// <summary>The body and its size for the network, at most 240 bytes.</summary>
         public byte[] Pack(string sizeLabel)
         {
             uint count = 0;

@@ -515,7 +515,7 @@ namespace Vfit
         internal static extern Result vfit_avatar_parts(AvatarId avatar, AvatarPart* items, uint stride,
             uint* count);
 
-        /// <summary>A body and its clothing size for the network, at most 200 bytes: shape, scale, collider
+        /// <summary>A body and its clothing size for the network, at most 240 bytes: shape, scale, collider
         /// radii, a label of up to 19 bytes (may be null). bytes null sets *byte_count to what is needed. Of
         /// a character from a file: VFIT_ERROR_UNSUPPORTED. The receiver gets the label as TEXT; a packet of
         /// another version of body or library is VFIT_ERROR_VERSION, a damaged one VFIT_ERROR_DATA; desc.sex
