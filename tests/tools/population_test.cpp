@@ -49,6 +49,55 @@ TEST(Anthropometry, ExpectsWhatOthersOfThoseMeasuresHave) {
     EXPECT_NEAR(std::sqrt(squares / n), 11.4, 1.0) << "regression of stature on cervicale height, women";
 }
 
+TEST(Anthropometry, MovesEveryMeasureWithTheMass) {
+    const Anthropometry survey(VFIT_SURVEY);
+    Random random(7);
+    const SurveyMeasures m = survey.draw(VFIT_SEX_MALE, random);
+    const SurveyMeasures heavier = survey.with_mass(VFIT_SEX_MALE, m, m["weightkg"] + 10.0);
+    EXPECT_NEAR(heavier["weightkg"], m["weightkg"] + 10.0, 1e-6);
+    EXPECT_NEAR(heavier["stature"], m["stature"], 1e-6);
+    // Regression of the survey's 4,082 men on mass and stature.
+    EXPECT_NEAR(heavier["waistcircumference"] - m["waistcircumference"], 82.0, 8.0);
+    EXPECT_NEAR(heavier["headbreadth"] - m["headbreadth"], 1.4, 0.7);
+}
+
+TEST(Anthropometry, KnowsHowGirthsScatterAboutBreadthAndDepth) {
+    const Anthropometry survey(VFIT_SURVEY);
+    // Of the survey's rows (BMI 18 to 35): 15.3 and 17.0, 17.6 and 14.7 mm.
+    EXPECT_NEAR(survey.scatter(VFIT_SEX_MALE, "waistcircumference", {"waistbreadth", "waistdepth"}), 15.3, 0.5);
+    EXPECT_NEAR(survey.scatter(VFIT_SEX_MALE, "buttockcircumference", {"hipbreadth", "buttockdepth"}), 17.0,
+                0.5);
+    EXPECT_NEAR(survey.scatter(VFIT_SEX_FEMALE, "waistcircumference", {"waistbreadth", "waistdepth"}), 17.6,
+                0.5);
+}
+
+TEST(BodyModel, HasSectionsOfOtherFormsAtTheSameBreadthAndDepth) {
+    const auto body = model();
+    std::vector<float> shape = body->default_shape(VFIT_SEX_MALE);
+    const auto measures = [&](const char* key, float value) {
+        shape[size_t(body->parameter(key))] = value;
+        const BodyMeasures out = measures_of(body, VFIT_SEX_MALE, shape, 0.601);
+        shape[size_t(body->parameter(key))] = 0.0f;
+        return out;
+    };
+    const BodyMeasures round = measures("section-belly-square", -1.0f),
+                       square = measures("section-belly-square", 1.0f),
+                       full = measures("section-belly-full", 1.0f);
+    EXPECT_GT(square.at("navel_girth_m") - round.at("navel_girth_m"), 0.03);
+    EXPECT_LT(std::abs(square.at("navel_breadth_m") - round.at("navel_breadth_m")), 0.01);
+    EXPECT_LT(std::abs(square.at("navel_depth_m") - round.at("navel_depth_m")), 0.01);
+    EXPECT_NEAR(square.at("stature_m"), round.at("stature_m"), 1e-6);
+    EXPECT_NEAR(square.at("neck_girth_m"), round.at("neck_girth_m"), 1e-6);
+    EXPECT_GT(full.at("navel_girth_m") - round.at("navel_girth_m"), 0.2);
+}
+
+TEST(Population, HasVeryHeavyPeople) {
+    Population population(model(), BodySpace::kReal, 9);
+    const PersonOfPopulation person = population.draw(21);
+    EXPECT_GT(person.bmi, 38.0);
+    EXPECT_GT(person.measures.at("navel_girth_m"), 1.15);
+}
+
 TEST(Population, GivesTheSamePersonForTheSameNumber) {
     Population population(model(), BodySpace::kInside, 3);
     const PersonOfPopulation one = population.draw(4), other = population.draw(6), again = population.draw(4);

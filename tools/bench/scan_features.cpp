@@ -56,7 +56,7 @@ Json rounded(const ScanFeatures& features) {
 
 void run(const Options& o) {
     const auto body = BodyModel::load(library_file("vfit_data/body.bin"));
-    Population population(body, o.space == "in" ? BodySpace::kInside : BodySpace::kOutside, o.seed);
+    Population population(body, body_space(o.space), o.seed);
     const auto model = std::make_shared<const FitModel>(*body);
     const Context context = open_context();
     std::ofstream file(o.out, std::ios::app);
@@ -94,8 +94,8 @@ void add_scan_features(Command& app) {
     command.add_option("--first", o->first, "Number of the first");
     command.add_option("--seed", o->seed, "Of the population");
     command.add_option("--scans", o->scans, "Scans of each, in other clothes").within(1, 100);
-    command.add_option("--space", o->space, "in: of the fit's own body space; out: beyond it")
-        .one_of({"in", "out"});
+    command.add_option("--space", o->space, "real: as real people differ; in: of the fit's own body space; out: beyond it")
+        .one_of({"real", "in", "out"});
     command.add_option("--out", o->out, "File of JSON lines that is added to").required();
     command.callback([o] { run(*o); });
 }

@@ -61,8 +61,8 @@ SurveyMeasures Anthropometry::draw(vfit_sex sex, Random& random) const {
     return {keys_, values};
 }
 
-double Anthropometry::expected(vfit_sex sex, const std::string& key, const SurveyMeasures& person,
-                               const std::vector<std::string>& others) const {
+std::vector<double> Anthropometry::weights(vfit_sex sex, const std::string& key,
+                                           const std::vector<std::string>& others) const {
     const People& p = people(sex);
     const int n = int(others.size());
     cv::Mat_<double> known(n, n), shared(n, 1), weights;
@@ -72,10 +72,34 @@ double Anthropometry::expected(vfit_sex sex, const std::string& key, const Surve
         for (int j = 0; j < n; ++j) known(i, j) = row[index(others[size_t(j)])];
     }
     cv::solve(known, shared, weights, cv::DECOMP_CHOLESKY);
+    return {weights.begin(), weights.end()};
+}
+
+double Anthropometry::expected(vfit_sex sex, const std::string& key, const SurveyMeasures& person,
+                               const std::vector<std::string>& others) const {
+    const People& p = people(sex);
+    const std::vector<double> weight = weights(sex, key, others);
     double value = p.mean[index(key)];
-    for (int i = 0; i < n; ++i)
-        value += weights(i) * (person[others[size_t(i)]] - p.mean[index(others[size_t(i)])]);
+    for (size_t i = 0; i < others.size(); ++i)
+        value += weight[i] * (person[others[i]] - p.mean[index(others[i])]);
     return value;
+}
+
+double Anthropometry::scatter(vfit_sex sex, const std::string& key,
+                              const std::vector<std::string>& others) const {
+    const auto& row = people(sex).covariance[index(key)];
+    const std::vector<double> weight = weights(sex, key, others);
+    double left = row[index(key)];
+    for (size_t i = 0; i < others.size(); ++i) left -= weight[i] * row[index(others[i])];
+    return std::sqrt(left);
+}
+
+SurveyMeasures Anthropometry::with_mass(vfit_sex sex, const SurveyMeasures& person, double mass_kg) const {
+    std::vector<double> values = person.values();
+    const double more = mass_kg - person["weightkg"];
+    for (size_t i = 0; i < values.size(); ++i)
+        values[i] += more * weights(sex, keys_[i], {"weightkg", "stature"})[0];
+    return {keys_, values};
 }
 
 }  // namespace vfit::tools

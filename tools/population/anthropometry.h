@@ -17,6 +17,7 @@ public:
     SurveyMeasures(const std::vector<std::string>& keys, std::vector<double> values)
         : keys_(&keys), values_(std::move(values)) {}
     double operator[](const std::string& key) const;
+    const std::vector<double>& values() const { return values_; }
     double bmi() const { return (*this)["weightkg"] / ((*this)["stature"] * (*this)["stature"] * 1e-6); }
 
 private:
@@ -34,6 +35,11 @@ public:
     double expected(vfit_sex sex, const std::string& key, const SurveyMeasures& person,
                     const std::vector<std::string>& others) const;
 
+    /// That person at another body mass: every measure moves with it as it does among people of one stature.
+    SurveyMeasures with_mass(vfit_sex sex, const SurveyMeasures& person, double mass_kg) const;
+    /// Standard deviation of what is left of a measure when the others are known, millimetres.
+    double scatter(vfit_sex sex, const std::string& key, const std::vector<std::string>& others) const;
+
 private:
     using Matrix = std::vector<std::vector<double>>;
     struct People {
@@ -42,6 +48,9 @@ private:
     };
     const People& people(vfit_sex sex) const { return people_[sex == VFIT_SEX_MALE ? 1 : 0]; }
     size_t index(const std::string& key) const;
+    /// Of the regression of a measure on others.
+    std::vector<double> weights(vfit_sex sex, const std::string& key,
+                                const std::vector<std::string>& others) const;
     static Matrix factor_of(const Matrix& covariance);
 
     std::vector<std::string> keys_;

@@ -1,6 +1,7 @@
 #include "population/body_with_measures.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "avatar/avatar_measures.h"
 #include "core/error.h"
@@ -11,12 +12,15 @@ namespace vfit::tools {
 
 namespace {
 
-constexpr int kSteps = 10;
+constexpr int kSteps = 24;
 constexpr double kProbe = 0.25;        // of a value's spread, for its slope
 constexpr double kNavelShare = 0.601;  // of stature (ANSUR II)
 constexpr double kFarthestStep = 1.5;  // spreads: as far as slopes hold
 constexpr double kMargin = 1e-3;       // inside a value's range, so that its text is as well
+constexpr double kShortestStep = 0.3;  // spreads, after which slopes are looked at anew
 constexpr double kStill = 0.01;        // spreads: then it has come to rest
+constexpr double kGain = 0.98;         // of the cost: a step that gains less comes to rest too
+constexpr double kGood = 2.0;          // squared tolerances a measure: good enough
 // Bodies about which slopes are looked at: heavy ones gain more centimetres by the same change than slim
 // ones.
 constexpr float kAnchorWeights[] = {0.4f, 0.7f, 1.0f};
@@ -59,41 +63,61 @@ BodyMeasures measures_of(const std::shared_ptr<const BodyModel>& model, vfit_sex
     const Mesh mesh = avatar.measuring_mesh({}, &joints);
     const TapeMesh tape(
         {mesh.positions, mesh.indices, avatar.parts().first(mesh.positions.size()), joints, sex});
-    out["navel_girth_m"] = double(hull_perimeter(tape.trunk(float(navel_share * out["stature_m"])).points()));
+    const std::vector<Vec2> navel = tape.trunk(float(navel_share * out["stature_m"])).points();
+    out["navel_girth_m"] = double(hull_perimeter(navel));
+    out["navel_breadth_m"] = double(extent(navel).breadth());
+    out["navel_depth_m"] = double(extent(navel).depth());
     return out;
 }
 
 BodyWithMeasures::BodyWithMeasures(std::shared_ptr<const BodyModel> model, vfit_sex sex,
                                    std::vector<FreeShape> free, std::vector<std::string> keys)
-    : model_(std::move(model)), sex_(sex), free_(std::move(free)) {
+    : model_(std::move(model)), sex_(sex), free_(std::move(free)), keys_(std::move(keys)) {
     std::vector<float> shape = model_->default_shape(sex);
     for (const float weight : kAnchorWeights) {
         shape[size_t(model_->parameter("weight"))] = weight;
-        const BodyMeasures here = measures_of(model_, sex, shape, kNavelShare);
-        cv::Mat_<double> slopes(int(keys.size()), int(free_.size()));
-        for (size_t f = 0; f < free_.size(); ++f) {
-            std::vector<float> moved = shape;
-            const auto p = size_t(model_->parameter(free_[f].key));
-            const ShapeParameter& range = model_->parameters()[p];
-            const float step = float(kProbe * free_[f].spread);
-            moved[p] += moved[p] + step <= range.maximum ? step : -step;
-            const BodyMeasures there = measures_of(model_, sex, moved, kNavelShare);
-            for (size_t k = 0; k < keys.size(); ++k)
-                slopes(int(k), int(f)) = (there.at(keys[k]) - here.at(keys[k])) / double(moved[p] - shape[p]);
-        }
-        slopes_.push_back(slopes);
+        slopes_.push_back(slopes_about(shape, measures_of(model_, sex, shape, kNavelShare), kNavelShare));
     }
+}
+
+cv::Mat_<double> BodyWithMeasures::slopes_about(const std::vector<float>& shape, const BodyMeasures& here,
+                                                double navel_share) const {
+    cv::Mat_<double> slopes(int(keys_.size()), int(free_.size()));
+    for (size_t f = 0; f < free_.size(); ++f) {
+        std::vector<float> moved = shape;
+        const auto p = size_t(model_->parameter(free_[f].key));
+        const ShapeParameter& range = model_->parameters()[p];
+        const float step = float(kProbe * free_[f].spread);
+        moved[p] += moved[p] + step <= range.maximum ? step : -step;
+        const BodyMeasures there = measures_of(model_, sex_, moved, navel_share);
+        for (size_t k = 0; k < keys_.size(); ++k)
+            slopes(int(k), int(f)) = (there.at(keys_[k]) - here.at(keys_[k])) / double(moved[p] - shape[p]);
+    }
+    return slopes;
+}
+
+/// Squares of what is missed over its tolerance and of free values over their spread.
+double BodyWithMeasures::cost(const std::vector<WantedMeasure>& wanted, const BodyMeasures& measures,
+                              const std::vector<float>& shape) const {
+    double sum = 0.0;
+    for (const WantedMeasure& w : wanted) sum += std::pow((w.value_m - measures.at(w.key)) / w.tolerance_m, 2);
+    for (const FreeShape& f : free_)
+        sum += std::pow((double(shape[size_t(model_->parameter(f.key))]) - f.usual) / f.spread, 2);
+    return sum;
 }
 
 BodyMeasures BodyWithMeasures::solve(const std::vector<WantedMeasure>& wanted, double navel_share,
                                      std::vector<float>& shape) const {
     const int measures = int(wanted.size()), values = int(free_.size());
     BodyMeasures here = measures_of(model_, sex_, shape, navel_share);
+    double cost_here = cost(wanted, here, shape);
     const float weight = shape[size_t(model_->parameter("weight"))];
     const auto nearest =
         std::min_element(std::begin(kAnchorWeights), std::end(kAnchorWeights),
                          [&](float a, float b) { return std::abs(a - weight) < std::abs(b - weight); });
     cv::Mat_<double> slopes = slopes_[size_t(nearest - std::begin(kAnchorWeights))].clone();
+    double farthest = kFarthestStep;
+    bool fresh = false;  // the slopes are those of this very body
     for (int step = 0; step < kSteps; ++step) {
         cv::Mat_<double> system = cv::Mat_<double>::zeros(values, values),
                          right = cv::Mat_<double>::zeros(values, 1), least(values, 1), most(values, 1);
@@ -111,16 +135,18 @@ BodyMeasures BodyWithMeasures::solve(const std::vector<WantedMeasure>& wanted, d
             const double firmness = 1.0 / (one.spread * one.spread), now = double(shape[p]);
             system(f, f) += firmness;
             right(f) += firmness * (one.usual - now);
-            least(f) = std::max(double(range.minimum) + kMargin - now, -kFarthestStep * one.spread);
-            most(f) = std::min(double(range.maximum) - kMargin - now, kFarthestStep * one.spread);
+            least(f) = std::max(double(range.minimum) + kMargin - now, -farthest * one.spread);
+            most(f) = std::min(double(range.maximum) - kMargin - now, farthest * one.spread);
         }
         const cv::Mat_<double> change = solve_within(system, right, least, most);
+        std::vector<float> moved = shape;
         double longest = 0.0;
         for (int f = 0; f < values; ++f) {
-            shape[size_t(model_->parameter(free_[size_t(f)].key))] += float(change(f));
+            moved[size_t(model_->parameter(free_[size_t(f)].key))] += float(change(f));
             longest = std::max(longest, std::abs(change(f)) / free_[size_t(f)].spread);
         }
-        const BodyMeasures there = measures_of(model_, sex_, shape, navel_share);
+        const BodyMeasures there = measures_of(model_, sex_, moved, navel_share);
+        const double cost_there = cost(wanted, there, moved);
         // Broyden's update: the slopes now explain this step.
         const double squared = change.dot(change);
         for (int w = 0; squared > 1e-12 && w < measures; ++w) {
@@ -128,8 +154,18 @@ BodyMeasures BodyWithMeasures::solve(const std::vector<WantedMeasure>& wanted, d
             const double missed = there.at(key) - here.at(key) - slopes.row(w).dot(change.t());
             slopes.row(w) += missed / squared * change.t();
         }
-        here = there;
-        if (longest < kStill) break;
+        const bool better = cost_there < cost_here;
+        const bool resting = longest < kStill || (better && cost_there > kGain * cost_here);
+        if (better) here = there, shape = moved, cost_here = cost_there, fresh = false;
+        if (better && !resting) continue;
+        if (!better && farthest > kShortestStep) {
+            farthest *= 0.5;
+            continue;
+        }
+        // Slopes about another body lead no farther: those about this one are worth their time.
+        if (fresh || cost_here < kGood * measures) break;
+        slopes = slopes_about(shape, here, navel_share);
+        farthest = kFarthestStep, fresh = true;
     }
     return here;
 }

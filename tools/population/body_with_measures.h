@@ -15,7 +15,7 @@ namespace vfit::tools {
 
 /// A tape measure to come near to, as firmly as one over its tolerance.
 struct WantedMeasure {
-    std::string key;  // of measure_keys.h, or "navel_girth_m"
+    std::string key;  // of measure_keys.h, or one at the navel
     double value_m, tolerance_m;
 };
 
@@ -25,8 +25,8 @@ struct FreeShape {
     double usual, spread;
 };
 
-/// Every tape measure of the body, and the girth of the trunk at that share of its stature as
-/// "navel_girth_m".
+/// Every tape measure of the body, and the trunk's "navel_girth_m", "navel_breadth_m" and "navel_depth_m" at
+/// that share of its stature.
 using BodyMeasures = std::map<std::string, double>;
 BodyMeasures measures_of(const std::shared_ptr<const BodyModel>& model, vfit_sex sex,
                          const std::vector<float>& shape, double navel_share);
@@ -43,9 +43,15 @@ public:
                        std::vector<float>& shape) const;
 
 private:
+    cv::Mat_<double> slopes_about(const std::vector<float>& shape, const BodyMeasures& here,
+                                  double navel_share) const;
+    double cost(const std::vector<WantedMeasure>& wanted, const BodyMeasures& measures,
+                const std::vector<float>& shape) const;
+
     std::shared_ptr<const BodyModel> model_;
     vfit_sex sex_;
     std::vector<FreeShape> free_;
+    std::vector<std::string> keys_;
     std::vector<cv::Mat_<double>> slopes_;  // of a measure by a free value, about each weight
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iomanip>
 #include <locale>
+#include <span>
 #include <sstream>
 
 #include "core/error.h"
@@ -13,7 +14,10 @@ namespace vfit::tools {
 
 namespace {
 
-constexpr double kLeastBmi = 18.0, kMostBmi = 35.0, kLeastStature_mm = 1500.0, kMostStature_mm = 2000.0;
+constexpr double kLeastBmi = 18.0, kMostBmi = 35.0, kLeastStature_mm = 1450.0, kMostStature_mm = 2050.0;
+// Real people: wider than any nation's, so that each class of BMI has its share.
+constexpr double kSlimmest = 16.0, kHeaviest = 45.0, kMiddleBmi = 27.0, kBmiSpread = 0.24;  // of the logarithm
+constexpr float kYoungest = 0.45f, kOldest = 0.75f, kOldestReal = 0.88f;                   // of the age slider
 constexpr int kTries = 40;
 // A body one of whose sizes came out farther off than this from what was drawn: the space does not hold that
 // person.
@@ -35,40 +39,72 @@ constexpr SurveyRow kRows[] = {
     {"navel_girth_m", "waistcircumference", 1.0, 0.003},
     {"hip_girth_m", "buttockcircumference", 1.0, 0.003},
     {"neck_girth_m", "neckcircumference", 1.0, 0.008},
-    {"thigh_girth_m", "thighcircumference", 1.0, 0.004},
+    {"thigh_girth_m", "thighcircumference", 1.0, 0.015},
     {"upper_arm_girth_m", "bicepscircumferenceflexed", 0.93, 0.015},
     {"arm_length_m", "sleeveoutseam", 1.0, 0.003},
 };
-struct DepthRow {
+/// A breadth or depth of the trunk. Calipers press flesh, and the survey's chest breadth leaves out the muscles
+/// behind the armpits: `more` (women, men) times the survey's value is the body's, so that girth over the
+/// perimeter of the ellipse is 1.02 at the navel, 1.05 at the hip and 1.08 at the chest as on the model's bodies
+/// (survey: 1.06, 1.09, 1.17 for women and 1.24 for men).
+struct Reach {
     const char *measure, *survey;
+    std::array<double, 2> more;
 };
-constexpr DepthRow kDepths[] = {
-    {"chest_depth_m", "chestdepth"}, {"waist_depth_m", "waistdepth"}, {"hip_depth_m", "buttockdepth"}};
-constexpr double kDepthTolerance_m = 0.002;
-// What depths are expected from.
+constexpr Reach kDepths[] = {{"chest_depth_m", "chestdepth", {}},
+                             {"waist_depth_m", "waistdepth", {}},
+                             {"hip_depth_m", "buttockdepth", {}}};
+constexpr Reach kReaches[] = {{"chest_depth_m", "chestdepth", {1.01, 1.06}},
+                              {"navel_depth_m", "waistdepth", {1.034, 1.034}},
+                              {"hip_depth_m", "buttockdepth", {1.04, 1.04}},
+                              {"chest_breadth_m", "chestbreadth", {1.15, 1.19}},
+                              {"navel_breadth_m", "waistbreadth", {1.034, 1.034}},
+                              {"hip_breadth_m", "hipbreadth", {1.04, 1.04}}};
+constexpr double kReachTolerance_m = 0.002;
+// Calipers and tapes err too (about 10 mm of a girth's scatter of 15 to 24): how much of what differs from the
+// expected is the body's.
+constexpr double kOfTheBody = 0.8;
+// What depths and breadths are expected from.
 const std::vector<std::string> kOthers = {
     "stature",          "chestcircumference", "waistcircumference", "buttockcircumference",
     "bideltoidbreadth", "biacromialbreadth",  "neckcircumference",  "thighcircumference"};
 
-std::vector<FreeShape> free_shapes(bool with_depths) {
-    std::vector<FreeShape> free = {{"height", 0.5, 0.3}, {"weight", 0.6, 0.4}};
+constexpr const char* kLevels[] = {"hip", "belly", "waist", "chest"};
+std::string section(const char* level, const char* form) {
+    return std::string("section-") + level + "-" + form;
+}
+
+std::span<const Reach> reaches(BodySpace space) {
+    return space == BodySpace::kReal ? std::span<const Reach>(kReaches) : std::span<const Reach>(kDepths);
+}
+
+std::vector<FreeShape> free_shapes(BodySpace space, bool with_reaches) {
+    std::vector<FreeShape> free = {{"height", 0.5, 0.3}};
+    // The weight of real people follows their BMI: what it misses at the trunk, the sections' sliders fill.
+    if (space != BodySpace::kReal) free.push_back({"weight", 0.6, 0.4});
     for (const char* key : {"measure-upperarm-length", "measure-upperarm-circ", "measure-lowerarm-length",
                             "measure-upperleg-height", "measure-lowerleg-height", "measure-thigh-circ",
                             "measure-neck-circ", "measure-underbust-circ", "measure-shoulder-dist",
                             "measure-hips-circ", "measure-waist-circ", "measure-bust-circ"})
         free.push_back({key, 0.0, 0.35});
-    if (with_depths)
+    if (space == BodySpace::kReal)
+        for (const char* level : kLevels) {
+            free.push_back({section(level, "full"), 0.0, 0.15});
+            free.push_back({section(level, "front"), 0.0, 0.15});
+            if (with_reaches) free.push_back({section(level, "square"), 0.0, 0.5});
+        }
+    if (with_reaches)
         for (const char* key : {"torso-scale-depth", "torso-scale-horiz", "hip-scale-depth",
                                 "hip-scale-horiz", "stomach-pregnant", "stomach-tone", "buttocks-volume"})
             free.push_back({key, 0.0, 0.25});
     return free;
 }
 
-std::vector<std::string> wanted_keys(bool with_depths) {
+std::vector<std::string> wanted_keys(BodySpace space, bool with_reaches) {
     std::vector<std::string> keys;
     for (const SurveyRow& row : kRows) keys.push_back(row.measure);
-    if (with_depths)
-        for (const DepthRow& row : kDepths) keys.push_back(row.measure);
+    if (with_reaches)
+        for (const Reach& reach : reaches(space)) keys.push_back(reach.measure);
     return keys;
 }
 
@@ -91,13 +127,17 @@ constexpr const char* kLocal[] = {"torso-vshape",
 constexpr const char* kLocalPairs[] = {
     "-upperarm-shoulder-muscle", "-upperarm-muscle",      "-upperarm-fat",    "-upperleg-fat",
     "-upperleg-muscle",          "-upperleg-scale-depth", "-lowerleg-muscle", "-leg-valgus"};
-constexpr float kLocalSpread = 0.25f, kSidesDiffer = 0.05f;
+constexpr float kLocalSpread = 0.25f, kSidesDiffer = 0.05f, kSectionSpread = 0.3f;
 // Sliders inside the fit's space of which the survey says nothing.
 constexpr const char* kUnmeasured[] = {
     "measure-calf-circ",       "measure-knee-circ",       "measure-neck-height", "measure-napetowaist-dist",
     "measure-waisttohip-dist", "measure-frontchest-dist", "measure-ankle-circ",  "measure-wrist-circ"};
 
 }  // namespace
+
+BodySpace body_space(const std::string& name) {
+    return name == "in" ? BodySpace::kInside : name == "out" ? BodySpace::kOutside : BodySpace::kReal;
+}
 
 std::string PersonOfPopulation::options() const {
     std::ostringstream out;
@@ -120,7 +160,7 @@ std::vector<float> Population::random_shape(vfit_sex sex, Random& random) const 
         shape[p] = std::clamp(value, model_->parameters()[p].minimum, model_->parameters()[p].maximum);
     };
     set("gender", sex == VFIT_SEX_MALE ? 1.0f - 0.15f * random.unit() : 0.15f * random.unit());
-    set("age", random.between(0.45f, 0.75f));
+    set("age", random.between(kYoungest, space_ == BodySpace::kReal ? kOldestReal : kOldest));
     for (const char* key : {"muscle", "proportions", "cupsize", "firmness"}) {
         const auto p = size_t(model_->parameter(key));
         set(key, shape[p] + 0.15f * random.normal());
@@ -135,6 +175,10 @@ void Population::change_locally(Random& random, std::vector<float>& shape) const
         shape[p] = std::clamp(value, model_->parameters()[p].minimum, model_->parameters()[p].maximum);
     };
     for (const char* key : kLocal) set(key, kLocalSpread * random.normal());
+    if (space_ == BodySpace::kReal)
+        for (const char* level : kLevels)
+            for (const char* form : {"square-front", "square-left", "skew"})
+                set(section(level, form), kSectionSpread * random.normal());
     for (const char* key : kLocalPairs) {
         const float both = kLocalSpread * random.normal();
         for (const char* side : {"l", "r"})
@@ -142,18 +186,29 @@ void Population::change_locally(Random& random, std::vector<float>& shape) const
     }
 }
 
+const BodyWithMeasures& Population::solver(vfit_sex sex, bool with_reaches) {
+    auto& one = (with_reaches ? reaching_ : usual_)[sex == VFIT_SEX_MALE ? 1 : 0];
+    if (!one)
+        one.emplace(model_, sex, free_shapes(space_, with_reaches), wanted_keys(space_, with_reaches));
+    return *one;
+}
+
+SurveyMeasures Population::draw_measures(vfit_sex sex, Random& random) const {
+    const SurveyMeasures soldier = survey_.draw(sex, random);
+    if (space_ != BodySpace::kReal) return soldier;
+    const double bmi = kMiddleBmi * std::exp(kBmiSpread * double(random.normal()));
+    return survey_.with_mass(sex, soldier, bmi * std::pow(1e-3 * soldier["stature"], 2.0));
+}
+
 PersonOfPopulation Population::draw(uint32_t number) {
     Random random(seed_ * 1000003u + number);
     const vfit_sex sex = number % 2 ? VFIT_SEX_MALE : VFIT_SEX_FEMALE;
-    const auto solver = [&](bool with_depths) -> const BodyWithMeasures& {
-        auto& one = (with_depths ? deep_ : usual_)[sex == VFIT_SEX_MALE ? 1 : 0];
-        if (!one) one.emplace(model_, sex, free_shapes(with_depths), wanted_keys(with_depths));
-        return *one;
-    };
+    const bool is_real = space_ == BodySpace::kReal;
     for (int i = 0; i < kTries; ++i) {
-        const SurveyMeasures real = survey_.draw(sex, random);
+        const SurveyMeasures real = draw_measures(sex, random);
         std::vector<float> shape = random_shape(sex, random);
-        if (real.bmi() < kLeastBmi || real.bmi() > kMostBmi || real["stature"] < kLeastStature_mm ||
+        if (real.bmi() < (is_real ? kSlimmest : kLeastBmi) ||
+            real.bmi() > (is_real ? kHeaviest : kMostBmi) || real["stature"] < kLeastStature_mm ||
             real["stature"] > kMostStature_mm)
             continue;
         shape[size_t(model_->parameter("weight"))] =
@@ -164,14 +219,19 @@ PersonOfPopulation Population::draw(uint32_t number) {
             wanted.push_back({row.measure, row.share * real[row.survey] * 1e-3, row.tolerance_m});
         PersonOfPopulation out;
         try {
-            out.measures = solver(false).solve(wanted, navel_share, shape);
-            if (space_ == BodySpace::kOutside) {
+            out.measures = solver(sex, false).solve(wanted, navel_share, shape);
+            if (space_ != BodySpace::kInside) {
                 change_locally(random, shape);
-                for (const DepthRow& row : kDepths) {
-                    const double deeper = real[row.survey] / survey_.expected(sex, row.survey, real, kOthers);
-                    wanted.push_back({row.measure, out.measures[row.measure] * deeper, kDepthTolerance_m});
+                for (const Reach& reach : reaches(space_)) {
+                    const double value = real[reach.survey],
+                                 usual = survey_.expected(sex, reach.survey, real, kOthers);
+                    wanted.push_back({reach.measure,
+                                      is_real ? 1e-3 * reach.more[sex == VFIT_SEX_MALE ? 1 : 0] *
+                                                    (usual + kOfTheBody * (value - usual))
+                                              : out.measures[reach.measure] * value / usual,
+                                      kReachTolerance_m});
                 }
-                out.measures = solver(true).solve(wanted, navel_share, shape);
+                out.measures = solver(sex, true).solve(wanted, navel_share, shape);
             }
         } catch (const Error&) {
             continue;  // legs that never part and the like

@@ -18,7 +18,12 @@ enum class BodySpace {
                // made of
     kOutside,  // besides, depths that differ from what girths say as real people's do, and local changes of
                // the surface
+    kReal,     // BMI 16 to 45, ages to 80; at every level of the trunk girth, breadth and depth differ from
+               // each other as real people's do
 };
+
+/// "real", "in" or "out".
+BodySpace body_space(const std::string& name);
 
 struct PersonOfPopulation {
     vfit_sex sex = VFIT_SEX_UNKNOWN;
@@ -29,13 +34,16 @@ struct PersonOfPopulation {
     std::string options() const;
 };
 
-/// People by number, each the same whoever else is drawn. BMI 18 to 35, stature 1.50 to 2.00 m.
+/// People by number, each the same whoever else is drawn. Stature 1.45 to 2.05 m; BMI 18 to 35 but for kReal.
 class Population {
 public:
     Population(std::shared_ptr<const BodyModel> model, BodySpace space, uint32_t seed);
     PersonOfPopulation draw(uint32_t number);
+    const Anthropometry& survey() const { return survey_; }
 
 private:
+    SurveyMeasures draw_measures(vfit_sex sex, Random& random) const;
+    const BodyWithMeasures& solver(vfit_sex sex, bool with_reaches);
     std::vector<float> random_shape(vfit_sex sex, Random& random) const;
     void change_locally(Random& random, std::vector<float>& shape) const;
 
@@ -43,8 +51,8 @@ private:
     BodySpace space_;
     uint32_t seed_;
     Anthropometry survey_;
-    std::array<std::optional<BodyWithMeasures>, 2> usual_,
-        deep_;  // women, men, made when needed; deep_: with depths besides
+    // Women, men, made when needed; reaching_: with depths (and breadths) besides.
+    std::array<std::optional<BodyWithMeasures>, 2> usual_, reaching_;
 };
 
 }  // namespace vfit::tools
