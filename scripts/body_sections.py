@@ -1,25 +1,25 @@
 # SPDX-License-Identifier: Apache-2.0
 """Sliders for the form of the trunk's sections, beside MakeHuman's.
 
-MakeHuman's sliders make a trunk wider, deeper or fuller at a place, but a section of given breadth and depth
-always has much the same perimeter, and none is as full as a very heavy person's. Real perimeters scatter by 15
-to 24 mm about breadth and depth (ANSUR II). These sliders bend and fill sections by harmonics of the angle about
-the trunk's axis.
+MakeHuman's sliders make a trunk wider, deeper or fuller at a place, but a section of given breadth and
+depth always has much the same perimeter, and none is as full as a very heavy person's. Real perimeters
+scatter by 15 to 24 mm about breadth and depth (ANSUR II). These sliders bend and fill sections by harmonics
+of the angle about the trunk's axis.
 """
 
 import numpy as np
 
-# Heights of the sections, as fractions of the way from the crotch to the neck's root. A slider acts at its own
-# and fades out towards its neighbours.
+# Heights of the sections, as fractions of the way from the crotch to the neck's root. A slider acts at its
+# own and fades out towards its neighbours.
 LEVELS = {"hip": 0.14, "belly": 0.33, "waist": 0.5, "chest": 0.72}
 ENDS = (0.0, 1.0)
 
-# Metres of a slider at 1, and how it bends a section by the angle on the section's ellipse: 0 in front, a quarter
-# turn at the person's left.
+# Metres of a slider at 1, and how it bends a section by the angle on the section's ellipse: 0 in front, a
+# quarter turn at the person's left.
 FORMS = {
     "full": (0.06, lambda a: np.ones_like(a)),
     "front": (0.06, lambda a: 0.25 * (1.0 + np.cos(a)) ** 2),
-    # These leave front, back and sides where they are, `skew` but for the second order.
+    # These leave front, back and sides where they are, except that `skew` moves them by the second order.
     "square": (0.01, lambda a: 0.5 * (1.0 - np.cos(4.0 * a))),
     "square-front": (0.01, lambda a: 0.5 * (1.0 - np.cos(4.0 * a)) * np.cos(a)),
     "square-left": (0.01, lambda a: 0.5 * (1.0 - np.cos(4.0 * a)) * np.sin(a)),

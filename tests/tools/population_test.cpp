@@ -64,7 +64,8 @@ TEST(Anthropometry, MovesEveryMeasureWithTheMass) {
 TEST(Anthropometry, KnowsHowGirthsScatterAboutBreadthAndDepth) {
     const Anthropometry survey(VFIT_SURVEY);
     // Of the survey's rows (BMI 18 to 35): 15.3 and 17.0, 17.6 and 14.7 mm.
-    EXPECT_NEAR(survey.scatter(VFIT_SEX_MALE, "waistcircumference", {"waistbreadth", "waistdepth"}), 15.3, 0.5);
+    EXPECT_NEAR(survey.scatter(VFIT_SEX_MALE, "waistcircumference", {"waistbreadth", "waistdepth"}), 15.3,
+                0.5);
     EXPECT_NEAR(survey.scatter(VFIT_SEX_MALE, "buttockcircumference", {"hipbreadth", "buttockdepth"}), 17.0,
                 0.5);
     EXPECT_NEAR(survey.scatter(VFIT_SEX_FEMALE, "waistcircumference", {"waistbreadth", "waistdepth"}), 17.6,

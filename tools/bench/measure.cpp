@@ -6,15 +6,13 @@
 #include <iomanip>
 #include <iostream>
 #include <map>
-#include <sstream>
 
 #include "bench/bench.h"
-#include "bench/targets.h"
+#include "bench/measure_sets.h"
 #include "bench/track_play.h"
 #include "client/assets.h"
 #include "client/output.h"
 #include "client/people.h"
-#include "population/scan_scene.h"
 
 namespace vfit::tools {
 
@@ -26,76 +24,7 @@ struct Options {
     bool json = false, told_sex = false;
 };
 
-/// 95 % confidence of a share k of n (Wilson 1927).
-std::pair<double, double> confidence(double k, double n) {
-    if (n <= 0.0) return {0.0, 1.0};
-    constexpr double z = 1.96;
-    const double p = k / n, middle = (p + z * z / (2 * n)) / (1 + z * z / n),
-                 half = z / (1 + z * z / n) * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
-    return {middle - half, middle + half};
-}
-
-std::string between(std::pair<double, double> range) {
-    std::ostringstream out;
-    out << std::fixed << std::setprecision(2) << " (95 %: " << range.first << " to " << range.second << ")";
-    return out.str();
-}
-
-/// Errors of one measure over people.
-class Tally {
-public:
-    void add(double error, double sigma) {
-        sum_ += error, absolute_ += std::abs(error), squares_ += error * error, ++count_;
-        inside_ += std::abs(error) <= 1.645 * sigma;
-    }
-    double mean() const { return absolute_ / n(); }
-    /// Half of the 95 % confidence interval of mean().
-    double mean_confidence() const {
-        return 1.96 * std::sqrt(std::max(0.0, squares_ / n() - mean() * mean()) / n());
-    }
-    double bias() const { return sum_ / n(); }
-    double covered() const { return inside_ / n(); }
-    std::pair<double, double> covered_confidence() const { return confidence(inside_, count_); }
-    Json json() const {
-        return {{"mean_absolute", mean()}, {"bias", bias()}, {"covered", covered()}, {"n", count_}};
-    }
-
-private:
-    double n() const { return std::max(1u, count_); }
-    double sum_ = 0.0, absolute_ = 0.0, squares_ = 0.0;
-    uint32_t count_ = 0, inside_ = 0;
-};
-
-using Tallies = std::map<std::string, Tally>;
-
-/// Letters told against the truth.
-struct Letters {
-    uint32_t people = 0, exact = 0, within_one = 0, sure = 0, sure_right = 0;
-    double log_loss = 0.0;
-    std::map<int, uint32_t> chart_off;  // what a chart by true height and weight says: letters off the truth
-
-    /// Of the chart, were each of its answers given with the frequency of that miss: the best that it can be.
-    double chart_log_loss() const {
-        double sum = 0.0;
-        for (const auto& [off, n] : chart_off) sum -= n * std::log(double(n) / people);
-        return sum / std::max(1u, people);
-    }
-    double chart_exact() const { return chart_off.count(0) ? double(chart_off.at(0)) / people : 0.0; }
-};
-
-struct Set {
-    std::string name;
-    BodySpace space;
-    Dress dress;
-    // As a person whose clothes nobody tells of, and where the scan is told that they are tight.
-    Tallies front{}, both{}, front_told{}, both_told{}, paper{};
-    Letters letters{}, letters_told{};
-    Samples last_ms{};  // what is left to do when the capture ends
-    uint32_t scans = 0, failed = 0;
-    bool tight() const { return dress == Dress::kTight; }
-};
-
-void add(const std::vector<vfit_measurement>& measured, const BodyMeasures& truth, Tallies& out) {
+void add(const std::vector<vfit_measurement>& measured, const BodyMeasures& truth, MeasureTallies& out) {
     for (const vfit_measurement& m : measured)
         if (const auto t = truth.find(m.key); t != truth.end())
             out[m.key].add(double(m.value) - t->second, double(m.sigma));
@@ -110,7 +39,7 @@ vfit_measurement exactly(const char* key, const BodyMeasures& truth) {
 
 /// The letter of the chest's girth, told and true, and what a chart by height and weight says.
 void judge_size(vfit_context context, const PersonOfPopulation& person,
-                const std::vector<vfit_measurement>& measured, Letters& out) {
+                const std::vector<vfit_measurement>& measured, SizeLetters& out) {
     const bool man = person.sex == VFIT_SEX_MALE;
     const SizeChart chart = open_chart(context, man ? "en13402_men" : "en13402_women"),
                     by_weight = open_chart(context, man ? "height_weight_men" : "height_weight_women");
@@ -198,7 +127,20 @@ private:
     vfit_scan_state state_ = vfit_scan_state_init();
 };
 
-void scan(const PersonOfPopulation& person, const ScanScene& scene, bool told_sex, Set& set) {
+/// By sex, BMI, stature and sensor.
+std::vector<std::string> groups_of(const PersonOfPopulation& person, const ScanScene& scene) {
+    const double stature_m = person.measures.at("stature_m");
+    return {person.sex == VFIT_SEX_MALE ? "men" : "women",
+            person.bmi < 22.0   ? "BMI to 22"
+            : person.bmi < 30.0 ? "BMI 22 to 30"
+                                : "BMI over 30",
+            stature_m < 1.65   ? "stature to 1.65 m"
+            : stature_m < 1.78 ? "stature 1.65 to 1.78 m"
+                               : "stature over 1.78 m",
+            "by " + scene.sensor};
+}
+
+void scan(const PersonOfPopulation& person, const ScanScene& scene, bool told_sex, MeasureSet& set) {
     ScanOfPerson one(scene, told_sex ? person.sex : VFIT_SEX_UNKNOWN);
     ++set.scans;
     if (!one.front(person)) {
@@ -218,105 +160,11 @@ void scan(const PersonOfPopulation& person, const ScanScene& scene, bool told_se
     const auto both = measurements_of(one.fit()), told = measurements_of(one.told_tight());
     add(both, person.measures, set.both);
     add(told, person.measures, set.both_told);
+    if (set.is_real())
+        for (const std::string& group : groups_of(person, scene))
+            add(set.tight() ? told : both, person.measures, set.groups[group]);
     judge_size(one.context(), person, both, set.letters);
     judge_size(one.context(), person, told, set.letters_told);
-}
-
-void print(const Set& set) {
-    std::vector<std::pair<const char*, const Tallies*>> columns = {{"front", &set.front},
-                                                                   {"front and side", &set.both}};
-    if (set.tight())
-        columns.insert(columns.end(), {{"front, told tight", &set.front_told}, {"and side", &set.both_told}});
-    columns.push_back({"the paper's method", &set.paper});
-    std::cout << "\nSYNTHETIC, " << set.name << ": " << set.scans << " scans, " << set.failed
-              << " of them failed. Absolute error with 95 % confidence, bias, share within the 90 % "
-                 "interval; mm, kg\n"
-              << std::left << std::setw(24) << "";
-    for (const auto& [title, tallies] : columns) std::cout << std::setw(25) << (std::string("  ") + title);
-    std::cout << std::right << "\n";
-    for (const auto& [key, front] : set.front) {
-        const double unit = key == "body_mass_kg" ? 1.0 : 1000.0;
-        std::cout << "  " << std::left << std::setw(22) << key << std::right << std::fixed;
-        for (const auto& [title, tallies] : columns) {
-            const auto found = tallies->find(key);
-            if (found == tallies->end()) continue;
-            const Tally& t = found->second;
-            std::cout << std::setprecision(1) << std::setw(6) << unit * t.mean() << " +-" << std::setw(4)
-                      << unit * t.mean_confidence() << std::setw(6) << unit * t.bias() << std::setw(4)
-                      << std::setprecision(0) << 100 * t.covered() << " %";
-        }
-        std::cout << "\n";
-    }
-    const Letters& l = set.tight() ? set.letters_told : set.letters;
-    const double n = std::max(1u, l.people);
-    std::cout << std::setprecision(3) << "  size letter, front and side: exact " << l.exact / n
-              << between(confidence(l.exact, n)) << ", within one " << l.within_one / n
-              << between(confidence(l.within_one, n)) << ", log loss " << l.log_loss / n
-              << "\n  a chart by true height and weight: exact " << l.chart_exact()
-              << ", log loss (at its best) " << l.chart_log_loss() << "\n";
-}
-
-/// Targets by set: inside, outside, clothed. Where clothes are tight the scan is told so.
-void judge(const Set& set, size_t column, Targets& targets) {
-    const Tallies &front = set.tight() ? set.front_told : set.front,
-                  &both = set.tight() ? set.both_told : set.both;
-    if (front.count("stature_m") == 0 || both.count("stature_m") == 0) {
-        targets.judge(set.name + ": scans that came about", 0.0, Aim::at_least, 1.0, 0);
-        return;
-    }
-    const auto most = [&](const char* what, const Tallies& tallies, const char* key,
-                          std::array<double, 3> mm) {
-        targets.judge(set.name + ": " + key + ", " + what, 1000 * tallies.at(key).mean(), Aim::at_most,
-                      mm[column], 1, " mm");
-    };
-    const auto bias = [&](const Tallies& tallies, const char* key, double mm) {
-        targets.judge(set.name + ": " + key + ", bias", 1000 * std::abs(tallies.at(key).bias()), Aim::at_most,
-                      mm, 1, " mm");
-    };
-    most("front", front, "stature_m", {5, 6, 8});
-    bias(front, "stature_m", 4);
-    most("front", front, "shoulder_breadth_m", {10, 12, 14});
-    most("front", front, "chest_girth_m", {18, 24, 32});
-    most("front", front, "waist_girth_m", {18, 22, 32});
-    most("front", front, "hip_girth_m", {18, 18, 32});
-    for (const char* key : {"chest_girth_m", "waist_girth_m", "hip_girth_m"}) {
-        most("front and side", both, key, {10, 12, 22});
-        bias(both, key, 9);
-    }
-    most("front and side", both, "inside_leg_m", {10, 12, 14});
-    most("front and side", both, "arm_length_m", {10, 12, 14});
-    const Tally *least = nullptr, *largest = nullptr;
-    double sum = 0.0;
-    for (const auto& [key, t] : both) {
-        if (!least || t.covered() < least->covered()) least = &t;
-        if (!largest || t.covered() > largest->covered()) largest = &t;
-        sum += t.covered();
-    }
-    targets.judge(set.name + ": 90 % intervals cover, mean of measures", sum / double(both.size()),
-                  Aim::at_least, 0.85, 3);
-    targets.judge(set.name + ": the same, at most", sum / double(both.size()), Aim::at_most, 0.95, 3);
-    targets.judge(
-        set.name + ": 90 % intervals cover, least covered measure" + between(least->covered_confidence()),
-        least->covered(), Aim::at_least, 0.85, 3);
-    targets.judge(
-        set.name + ": 90 % intervals cover, most covered measure" + between(largest->covered_confidence()),
-        largest->covered(), Aim::at_most, 0.95, 3);
-    const Letters& l = set.tight() ? set.letters_told : set.letters;
-    const double n = std::max(1u, l.people);
-    if (column < 2) {
-        targets.judge(set.name + ": size letter exact" + between(confidence(l.exact, n)), l.exact / n,
-                      Aim::at_least, column == 0 ? 0.85 : 0.82, 3);
-        targets.judge(set.name + ": size letter within one", l.within_one / n, Aim::at_least, 0.995, 3);
-    } else if (l.sure > 0) {
-        const std::string what =
-            set.name + ": letters said with 0.7 to 0.9 are right" + between(confidence(l.sure_right, l.sure));
-        targets.judge(what + ", at least", double(l.sure_right) / l.sure, Aim::at_least, 0.7, 3);
-        targets.judge(what + ", at most", double(l.sure_right) / l.sure, Aim::at_most, 0.9, 3);
-        targets.judge(set.name + ": log loss beside the chart's", l.log_loss / n, Aim::at_most,
-                      l.chart_log_loss(), 3);
-    }
-    targets.judge(set.name + ": beyond the capture of the front view, median", set.last_ms.quantile(0.5),
-                  Aim::at_most, 60, 1, " ms");
 }
 
 /// The same people in the same clothes before the same camera, who come back and stand anew.
@@ -377,23 +225,24 @@ void repeat(const Options& o, const std::shared_ptr<const BodyModel>& body, cons
 
 void run(const Options& o) {
     const auto body = BodyModel::load(library_file("vfit_data/body.bin"));
-    std::vector<Set> sets = {{"in space", BodySpace::kInside, Dress::kTight},
-                             {"off space", BodySpace::kOutside, Dress::kTight},
-                             {"clothed", BodySpace::kOutside, Dress::kClothed}};
+    std::vector<MeasureSet> sets = {{"real", BodySpace::kReal, Dress::kTight},
+                                    {"real clothed", BodySpace::kReal, Dress::kClothed},
+                                    {"in space", BodySpace::kInside, Dress::kTight},
+                                    {"off space", BodySpace::kOutside, Dress::kTight},
+                                    {"clothed", BodySpace::kOutside, Dress::kClothed}};
     Targets targets(o.json);
     Json out = Json::array();
     const auto asked_for = [&](const std::string& name) { return name.rfind(o.only, 0) == 0; };
     std::unique_ptr<Population> population;
     BodySpace made = BodySpace::kInside;
-    for (size_t column = 0; column < sets.size(); ++column) {
-        Set& set = sets[column];
+    for (MeasureSet& set : sets) {
         if (!asked_for(set.name)) continue;
         if (!population || made != set.space)
             population = std::make_unique<Population>(body, made = set.space, o.seed);
-        for (uint32_t i = o.first; i < o.first + o.count; ++i)
-            scan(population->draw(i), ScanScene::draw(set.dress, o.seed * 104729u + i), o.told_sex, set);
+        for (uint32_t p = o.first; p < o.first + o.count; ++p)
+            scan(population->draw(p), ScanScene::draw(set.dress, o.seed * 104729u + p), o.told_sex, set);
         if (!o.json) print(set);
-        judge(set, column, targets);
+        judge(set, targets);
         const double n = std::max(1u, set.letters.people);
         Json one = {{"set", set.name},
                     {"scans", set.scans},
@@ -432,9 +281,10 @@ void add_measure(Command& app) {
         .within(3, 1000);
     command.add_option("--first", o->first, "Number of the first");
     command.add_option("--seed", o->seed, "Of the population; those of training are 1000 and above");
-    command.add_option("--only", o->only,
-                       "Sets whose name begins so: in space, off space, clothed, repeated (in space, off "
-                       "space, in clothes)");
+    command.add_option(
+        "--only", o->only,
+        "Sets whose name begins so: real, real clothed, in space, off space, clothed, repeated "
+        "(in space, off space, in clothes)");
     command.add_flag("--told-sex", o->told_sex, "Tell the scan the person's sex");
     command.add_flag("--json", o->json, "Print JSON");
     command.callback([o] { run(*o); });

@@ -27,13 +27,12 @@ struct Level {
     const char *name, *girth, *breadth, *depth;
     const char *survey_girth, *survey_breadth, *survey_depth;
 };
-constexpr Level kLevels[] = {
-    {"chest", "chest_girth_m", "chest_breadth_m", "chest_depth_m", "chestcircumference", "chestbreadth",
-     "chestdepth"},
-    {"waist at the navel", "navel_girth_m", "navel_breadth_m", "navel_depth_m", "waistcircumference",
-     "waistbreadth", "waistdepth"},
-    {"hip", "hip_girth_m", "hip_breadth_m", "hip_depth_m", "buttockcircumference", "hipbreadth",
-     "buttockdepth"}};
+constexpr Level kLevels[] = {{"chest", "chest_girth_m", "chest_breadth_m", "chest_depth_m",
+                              "chestcircumference", "chestbreadth", "chestdepth"},
+                             {"waist at the navel", "navel_girth_m", "navel_breadth_m", "navel_depth_m",
+                              "waistcircumference", "waistbreadth", "waistdepth"},
+                             {"hip", "hip_girth_m", "hip_breadth_m", "hip_depth_m", "buttockcircumference",
+                              "hipbreadth", "buttockdepth"}};
 constexpr uint32_t kEnough = 40;   // people for a scatter
 constexpr double kTape_mm = 10.0;  // of a survey's scatter, standard deviation, that tape and caliper make
 
@@ -42,8 +41,8 @@ double scatter_mm(const std::vector<PersonOfPopulation>& people, vfit_sex sex, c
     std::vector<cv::Vec4d> rows;
     for (const PersonOfPopulation& p : people)
         if (p.sex == sex)
-            rows.push_back({1.0, p.measures.at(level.breadth), p.measures.at(level.depth),
-                            p.measures.at(level.girth)});
+            rows.push_back(
+                {1.0, p.measures.at(level.breadth), p.measures.at(level.depth), p.measures.at(level.girth)});
     cv::Mat_<double> known(int(rows.size()), 3), girths(int(rows.size()), 1), line;
     for (int i = 0; i < int(rows.size()); ++i) {
         for (int k = 0; k < 3; ++k) known(i, k) = rows[size_t(i)][k];
@@ -111,7 +110,8 @@ void add_population(Command& app) {
     command.add_option("--seed", o->seed, "Of the population");
     command
         .add_option("--space", o->space,
-                    "real: as real people differ; in: of the fit's own body space; out: with depths and local changes "
+                    "real: as real people differ; in: of the fit's own body space; out: with depths and "
+                    "local changes "
                     "beyond it")
         .one_of({"real", "in", "out"});
     command.add_flag("--json", o->json, "Print JSON");

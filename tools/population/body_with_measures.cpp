@@ -20,7 +20,7 @@ constexpr double kMargin = 1e-3;       // inside a value's range, so that its te
 constexpr double kShortestStep = 0.3;  // spreads, after which slopes are looked at anew
 constexpr double kStill = 0.01;        // spreads: then it has come to rest
 constexpr double kGain = 0.98;         // of the cost: a step that gains less comes to rest too
-constexpr double kGood = 2.0;          // squared tolerances a measure: good enough
+constexpr double kGood = 8.0;          // squared tolerances a measure: good enough
 // Bodies about which slopes are looked at: heavy ones gain more centimetres by the same change than slim
 // ones.
 constexpr float kAnchorWeights[] = {0.4f, 0.7f, 1.0f};
@@ -100,7 +100,8 @@ cv::Mat_<double> BodyWithMeasures::slopes_about(const std::vector<float>& shape,
 double BodyWithMeasures::cost(const std::vector<WantedMeasure>& wanted, const BodyMeasures& measures,
                               const std::vector<float>& shape) const {
     double sum = 0.0;
-    for (const WantedMeasure& w : wanted) sum += std::pow((w.value_m - measures.at(w.key)) / w.tolerance_m, 2);
+    for (const WantedMeasure& w : wanted)
+        sum += std::pow((w.value_m - measures.at(w.key)) / w.tolerance_m, 2);
     for (const FreeShape& f : free_)
         sum += std::pow((double(shape[size_t(model_->parameter(f.key))]) - f.usual) / f.spread, 2);
     return sum;
@@ -117,7 +118,7 @@ BodyMeasures BodyWithMeasures::solve(const std::vector<WantedMeasure>& wanted, d
                          [&](float a, float b) { return std::abs(a - weight) < std::abs(b - weight); });
     cv::Mat_<double> slopes = slopes_[size_t(nearest - std::begin(kAnchorWeights))].clone();
     double farthest = kFarthestStep;
-    bool fresh = false;  // the slopes are those of this very body
+    bool anew = false;  // slopes have been looked at anew
     for (int step = 0; step < kSteps; ++step) {
         cv::Mat_<double> system = cv::Mat_<double>::zeros(values, values),
                          right = cv::Mat_<double>::zeros(values, 1), least(values, 1), most(values, 1);
@@ -156,16 +157,16 @@ BodyMeasures BodyWithMeasures::solve(const std::vector<WantedMeasure>& wanted, d
         }
         const bool better = cost_there < cost_here;
         const bool resting = longest < kStill || (better && cost_there > kGain * cost_here);
-        if (better) here = there, shape = moved, cost_here = cost_there, fresh = false;
+        if (better) here = there, shape = moved, cost_here = cost_there;
         if (better && !resting) continue;
         if (!better && farthest > kShortestStep) {
             farthest *= 0.5;
             continue;
         }
-        // Slopes about another body lead no farther: those about this one are worth their time.
-        if (fresh || cost_here < kGood * measures) break;
+        // Slopes about another body lead no farther: those about this one may be worth their time, once.
+        if (anew || cost_here < kGood * measures) break;
         slopes = slopes_about(shape, here, navel_share);
-        farthest = kFarthestStep, fresh = true;
+        farthest = kFarthestStep, anew = true;
     }
     return here;
 }

@@ -26,7 +26,7 @@ struct FreeShape {
 };
 
 /// Every tape measure of the body, and the trunk's "navel_girth_m", "navel_breadth_m" and "navel_depth_m" at
-/// that share of its stature.
+/// that fraction of its stature.
 using BodyMeasures = std::map<std::string, double>;
 BodyMeasures measures_of(const std::shared_ptr<const BodyModel>& model, vfit_sex sex,
                          const std::vector<float>& shape, double navel_share);

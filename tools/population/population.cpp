@@ -14,10 +14,23 @@ namespace vfit::tools {
 
 namespace {
 
-constexpr double kLeastBmi = 18.0, kMostBmi = 35.0, kLeastStature_mm = 1450.0, kMostStature_mm = 2050.0;
-// Real people: wider than any nation's, so that each class of BMI has its share.
-constexpr double kSlimmest = 16.0, kHeaviest = 45.0, kMiddleBmi = 27.0, kBmiSpread = 0.24;  // of the logarithm
-constexpr float kYoungest = 0.45f, kOldest = 0.75f, kOldestReal = 0.88f;                   // of the age slider
+/// Of the people of a population.
+struct Bounds {
+    double min_bmi, max_bmi, min_stature_mm, max_stature_mm;
+    float max_age;  // of the slider; 0.88: 80 years
+
+    bool hold(const SurveyMeasures& person) const {
+        return person.bmi() >= min_bmi && person.bmi() <= max_bmi && person["stature"] >= min_stature_mm &&
+               person["stature"] <= max_stature_mm;
+    }
+};
+constexpr Bounds kSoldiers = {18.0, 35.0, 1500.0, 2000.0, 0.75f}, kReal = {16.0, 45.0, 1450.0, 2050.0, 0.88f};
+constexpr float kYoungest = 0.45f;
+// Wider than in any nation, so that there are enough people of each class of BMI. Spread: of the logarithm.
+constexpr double kMiddleBmi = 27.0, kBmiSpread = 0.24;
+
+const Bounds& bounds(BodySpace space) { return space == BodySpace::kReal ? kReal : kSoldiers; }
+
 constexpr int kTries = 40;
 // A body one of whose sizes came out farther off than this from what was drawn: the space does not hold that
 // person.
@@ -43,10 +56,10 @@ constexpr SurveyRow kRows[] = {
     {"upper_arm_girth_m", "bicepscircumferenceflexed", 0.93, 0.015},
     {"arm_length_m", "sleeveoutseam", 1.0, 0.003},
 };
-/// A breadth or depth of the trunk. Calipers press flesh, and the survey's chest breadth leaves out the muscles
-/// behind the armpits: `more` (women, men) times the survey's value is the body's, so that girth over the
-/// perimeter of the ellipse is 1.02 at the navel, 1.05 at the hip and 1.08 at the chest as on the model's bodies
-/// (survey: 1.06, 1.09, 1.17 for women and 1.24 for men).
+/// A breadth or depth of the trunk. Calipers press flesh, and the survey's chest breadth leaves out the
+/// muscles behind the armpits: `more` (women, men) times the survey's value is the body's, so that girth over
+/// the perimeter of the ellipse is 1.02 at the navel, 1.05 at the hip and 1.08 at the chest as on the model's
+/// bodies (survey: 1.06, 1.09, 1.17 for women and 1.24 for men).
 struct Reach {
     const char *measure, *survey;
     std::array<double, 2> more;
@@ -54,16 +67,14 @@ struct Reach {
 constexpr Reach kDepths[] = {{"chest_depth_m", "chestdepth", {}},
                              {"waist_depth_m", "waistdepth", {}},
                              {"hip_depth_m", "buttockdepth", {}}};
-constexpr Reach kReaches[] = {{"chest_depth_m", "chestdepth", {1.01, 1.06}},
-                              {"navel_depth_m", "waistdepth", {1.034, 1.034}},
-                              {"hip_depth_m", "buttockdepth", {1.04, 1.04}},
-                              {"chest_breadth_m", "chestbreadth", {1.15, 1.19}},
-                              {"navel_breadth_m", "waistbreadth", {1.034, 1.034}},
-                              {"hip_breadth_m", "hipbreadth", {1.04, 1.04}}};
+constexpr Reach kReaches[] = {
+    {"chest_depth_m", "chestdepth", {1.01, 1.06}},       {"navel_depth_m", "waistdepth", {1.034, 1.034}},
+    {"hip_depth_m", "buttockdepth", {1.04, 1.04}},       {"chest_breadth_m", "chestbreadth", {1.15, 1.19}},
+    {"navel_breadth_m", "waistbreadth", {1.034, 1.034}}, {"hip_breadth_m", "hipbreadth", {1.04, 1.04}}};
 constexpr double kReachTolerance_m = 0.002;
-// Calipers and tapes err too (about 10 mm of a girth's scatter of 15 to 24): how much of what differs from the
-// expected is the body's.
-constexpr double kOfTheBody = 0.8;
+// Calipers and tapes err too (about 10 mm of a girth's scatter of 15 to 24): how much of what differs from
+// the expected is the body's (women, men). Chosen by the scatter that comes out (vfit-bench population).
+constexpr std::array<double, 2> kOfTheBody = {1.0, 0.8};
 // What depths and breadths are expected from.
 const std::vector<std::string> kOthers = {
     "stature",          "chestcircumference", "waistcircumference", "buttockcircumference",
@@ -160,7 +171,7 @@ std::vector<float> Population::random_shape(vfit_sex sex, Random& random) const 
         shape[p] = std::clamp(value, model_->parameters()[p].minimum, model_->parameters()[p].maximum);
     };
     set("gender", sex == VFIT_SEX_MALE ? 1.0f - 0.15f * random.unit() : 0.15f * random.unit());
-    set("age", random.between(kYoungest, space_ == BodySpace::kReal ? kOldestReal : kOldest));
+    set("age", random.between(kYoungest, bounds(space_).max_age));
     for (const char* key : {"muscle", "proportions", "cupsize", "firmness"}) {
         const auto p = size_t(model_->parameter(key));
         set(key, shape[p] + 0.15f * random.normal());
@@ -188,8 +199,7 @@ void Population::change_locally(Random& random, std::vector<float>& shape) const
 
 const BodyWithMeasures& Population::solver(vfit_sex sex, bool with_reaches) {
     auto& one = (with_reaches ? reaching_ : usual_)[sex == VFIT_SEX_MALE ? 1 : 0];
-    if (!one)
-        one.emplace(model_, sex, free_shapes(space_, with_reaches), wanted_keys(space_, with_reaches));
+    if (!one) one.emplace(model_, sex, free_shapes(space_, with_reaches), wanted_keys(space_, with_reaches));
     return *one;
 }
 
@@ -207,10 +217,7 @@ PersonOfPopulation Population::draw(uint32_t number) {
     for (int i = 0; i < kTries; ++i) {
         const SurveyMeasures real = draw_measures(sex, random);
         std::vector<float> shape = random_shape(sex, random);
-        if (real.bmi() < (is_real ? kSlimmest : kLeastBmi) ||
-            real.bmi() > (is_real ? kHeaviest : kMostBmi) || real["stature"] < kLeastStature_mm ||
-            real["stature"] > kMostStature_mm)
-            continue;
+        if (!bounds(space_).hold(real)) continue;
         shape[size_t(model_->parameter("weight"))] =
             std::clamp(float(0.5 + 0.05 * (real.bmi() - 22.0)), 0.3f, 1.1f);
         const double navel_share = real["waistheightomphalion"] / real["stature"];
@@ -219,17 +226,18 @@ PersonOfPopulation Population::draw(uint32_t number) {
             wanted.push_back({row.measure, row.share * real[row.survey] * 1e-3, row.tolerance_m});
         PersonOfPopulation out;
         try {
-            out.measures = solver(sex, false).solve(wanted, navel_share, shape);
+            if (!is_real) out.measures = solver(sex, false).solve(wanted, navel_share, shape);
             if (space_ != BodySpace::kInside) {
                 change_locally(random, shape);
                 for (const Reach& reach : reaches(space_)) {
                     const double value = real[reach.survey],
                                  usual = survey_.expected(sex, reach.survey, real, kOthers);
-                    wanted.push_back({reach.measure,
-                                      is_real ? 1e-3 * reach.more[sex == VFIT_SEX_MALE ? 1 : 0] *
-                                                    (usual + kOfTheBody * (value - usual))
-                                              : out.measures[reach.measure] * value / usual,
-                                      kReachTolerance_m});
+                    const size_t man = sex == VFIT_SEX_MALE ? 1 : 0;
+                    wanted.push_back(
+                        {reach.measure,
+                         is_real ? 1e-3 * reach.more[man] * (usual + kOfTheBody[man] * (value - usual))
+                                 : out.measures[reach.measure] * value / usual,
+                         kReachTolerance_m});
                 }
                 out.measures = solver(sex, true).solve(wanted, navel_share, shape);
             }

@@ -18,7 +18,7 @@ enum class BodySpace {
                // made of
     kOutside,  // besides, depths that differ from what girths say as real people's do, and local changes of
                // the surface
-    kReal,     // BMI 16 to 45, ages to 80; at every level of the trunk girth, breadth and depth differ from
+    kReal,     // ages to 80; at every level of the trunk girth, breadth and depth differ from
                // each other as real people's do
 };
 
@@ -34,7 +34,8 @@ struct PersonOfPopulation {
     std::string options() const;
 };
 
-/// People by number, each the same whoever else is drawn. Stature 1.45 to 2.05 m; BMI 18 to 35 but for kReal.
+/// People by number: a number gives the same person whatever was drawn before. BMI 18 to 35, stature 1.50 to
+/// 2.00 m; of kReal BMI 16 to 45, stature 1.45 to 2.05 m.
 class Population {
 public:
     Population(std::shared_ptr<const BodyModel> model, BodySpace space, uint32_t seed);
