@@ -245,7 +245,7 @@ namespace Vfit.Tests
                 Assert.AreEqual(Result.ErrorCapacity, Support.CodeOf(() => pose.Pack(Context, new byte[0])));
 
                 byte[] body = avatar.Pack("M");
-                Assert.That(body.Length, Is.InRange(1, 200));
+                Assert.That(body.Length, Is.InRange(1, 240));
                 string label;
                 using (Avatar unpacked = Avatar.Unpack(other, body, out label))
                 {
