@@ -160,7 +160,7 @@ void scan(const PersonOfPopulation& person, const ScanScene& scene, bool told_se
     const auto both = measurements_of(one.fit()), told = measurements_of(one.told_tight());
     add(both, person.measures, set.both);
     add(told, person.measures, set.both_told);
-    if (set.is_real())
+    if (set.is_varied())
         for (const std::string& group : groups_of(person, scene))
             add(set.tight() ? told : both, person.measures, set.groups[group]);
     judge_size(one.context(), person, both, set.letters);
@@ -225,8 +225,8 @@ void repeat(const Options& o, const std::shared_ptr<const BodyModel>& body, cons
 
 void run(const Options& o) {
     const auto body = BodyModel::load(library_file("vfit_data/body.bin"));
-    std::vector<MeasureSet> sets = {{"real", BodySpace::kReal, Dress::kTight},
-                                    {"real clothed", BodySpace::kReal, Dress::kClothed},
+    std::vector<MeasureSet> sets = {{"varied", BodySpace::kVaried, Dress::kTight},
+                                    {"varied clothed", BodySpace::kVaried, Dress::kClothed},
                                     {"in space", BodySpace::kInside, Dress::kTight},
                                     {"off space", BodySpace::kOutside, Dress::kTight},
                                     {"clothed", BodySpace::kOutside, Dress::kClothed}};
@@ -283,7 +283,7 @@ void add_measure(Command& app) {
     command.add_option("--seed", o->seed, "Of the population; those of training are 1000 and above");
     command.add_option(
         "--only", o->only,
-        "Sets whose name begins so: real, real clothed, in space, off space, clothed, repeated "
+        "Sets whose name begins so: varied, varied clothed, in space, off space, clothed, repeated "
         "(in space, off space, in clothes)");
     command.add_flag("--told-sex", o->told_sex, "Tell the scan the person's sex");
     command.add_flag("--json", o->json, "Print JSON");

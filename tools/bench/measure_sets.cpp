@@ -43,7 +43,7 @@ void print_groups(const MeasureSet& set) {
 }
 
 /// Targets by set: in space, off space, clothed. Where clothes are tight the scan is told so.
-void judge_eased(const MeasureSet& set, size_t column, Targets& targets) {
+void judge_narrow(const MeasureSet& set, size_t column, Targets& targets) {
     const MeasureTallies &front = set.tight() ? set.front_told : set.front,
                          &both = set.tight() ? set.both_told : set.both;
     if (front.count("stature_m") == 0 || both.count("stature_m") == 0) {
@@ -106,7 +106,7 @@ void judge_eased(const MeasureSet& set, size_t column, Targets& targets) {
 }
 
 /// Targets of people as real ones differ.
-void judge_real(const MeasureSet& set, Targets& targets) {
+void judge_varied(const MeasureSet& set, Targets& targets) {
     const MeasureTallies &front = set.tight() ? set.front_told : set.front,
                          &both = set.tight() ? set.both_told : set.both;
     if (front.count("stature_m") == 0 || both.count("stature_m") == 0) {
@@ -185,14 +185,14 @@ void print(const MeasureSet& set) {
               << between(confidence(l.within_one, n)) << ", log loss " << l.log_loss / n
               << "\n  a chart by true height and weight: exact " << l.chart_exact()
               << ", log loss (at its best) " << l.chart_log_loss() << "\n";
-    if (set.is_real()) print_groups(set);
+    if (set.is_varied()) print_groups(set);
 }
 
 void judge(const MeasureSet& set, Targets& targets) {
-    if (set.is_real())
-        judge_real(set, targets);
+    if (set.is_varied())
+        judge_varied(set, targets);
     else
-        judge_eased(set, set.space == BodySpace::kInside ? 0 : set.tight() ? 1 : 2, targets);
+        judge_narrow(set, set.space == BodySpace::kInside ? 0 : set.tight() ? 1 : 2, targets);
 }
 
 }  // namespace vfit::tools

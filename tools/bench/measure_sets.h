@@ -62,7 +62,7 @@ struct MeasureSet {
     std::string name;
     BodySpace space;
     Dress dress;
-    bool is_real() const { return space == BodySpace::kReal; }
+    bool is_varied() const { return space == BodySpace::kVaried; }
     // Of a scan that is told nothing of clothes, and of one that is told that they are tight.
     MeasureTallies front{}, both{}, front_told{}, both_told{}, paper{};
     std::map<std::string, MeasureTallies>

@@ -109,11 +109,11 @@ void add_population(Command& app) {
     command.add_option("--first", o->first, "Number of the first");
     command.add_option("--seed", o->seed, "Of the population");
     command
-        .add_option("--space", o->space,
-                    "real: as real people differ; in: of the fit's own body space; out: with depths and "
-                    "local changes "
-                    "beyond it")
-        .one_of({"real", "in", "out"});
+        .add_option(
+            "--space", o->space,
+            "varied: nearly as real people differ; in: of the fit's own body space; out: with depths and "
+            "local changes beyond it")
+        .one_of({"varied", "in", "out"});
     command.add_flag("--json", o->json, "Print JSON");
     command.callback([o] { run(*o); });
 }

@@ -96,8 +96,8 @@ void add_scan_features(Command& app) {
     command.add_option("--scans", o->scans, "Scans of each, in other clothes").within(1, 100);
     command
         .add_option("--space", o->space,
-                    "real: as real people differ; in: of the fit's own body space; out: beyond it")
-        .one_of({"real", "in", "out"});
+                    "varied: as real people differ; in: of the fit's own body space; out: beyond it")
+        .one_of({"varied", "in", "out"});
     command.add_option("--out", o->out, "File of JSON lines that is added to").required();
     command.callback([o] { run(*o); });
 }

@@ -24,12 +24,12 @@ struct Bounds {
                person["stature"] <= max_stature_mm;
     }
 };
-constexpr Bounds kSoldiers = {18.0, 35.0, 1500.0, 2000.0, 0.75f}, kReal = {16.0, 45.0, 1450.0, 2050.0, 0.88f};
+constexpr Bounds kNarrow = {18.0, 35.0, 1500.0, 2000.0, 0.75f}, kWide = {16.0, 45.0, 1450.0, 2050.0, 0.88f};
 constexpr float kYoungest = 0.45f;
 // Wider than in any nation, so that there are enough people of each class of BMI. Spread: of the logarithm.
 constexpr double kMiddleBmi = 27.0, kBmiSpread = 0.24;
 
-const Bounds& bounds(BodySpace space) { return space == BodySpace::kReal ? kReal : kSoldiers; }
+const Bounds& bounds(BodySpace space) { return space == BodySpace::kVaried ? kWide : kNarrow; }
 
 constexpr int kTries = 40;
 // A body one of whose sizes came out farther off than this from what was drawn: the space does not hold that
@@ -52,7 +52,7 @@ constexpr SurveyRow kRows[] = {
     {"navel_girth_m", "waistcircumference", 1.0, 0.003},
     {"hip_girth_m", "buttockcircumference", 1.0, 0.003},
     {"neck_girth_m", "neckcircumference", 1.0, 0.008},
-    {"thigh_girth_m", "thighcircumference", 1.0, 0.015},
+    {"thigh_girth_m", "thighcircumference", 1.0, 0.015},  // pursued closer, heavy thighs become balloons
     {"upper_arm_girth_m", "bicepscircumferenceflexed", 0.93, 0.015},
     {"arm_length_m", "sleeveoutseam", 1.0, 0.003},
 };
@@ -86,23 +86,23 @@ std::string section(const char* level, const char* form) {
 }
 
 std::span<const Reach> reaches(BodySpace space) {
-    return space == BodySpace::kReal ? std::span<const Reach>(kReaches) : std::span<const Reach>(kDepths);
+    return space == BodySpace::kVaried ? std::span<const Reach>(kReaches) : std::span<const Reach>(kDepths);
 }
 
 std::vector<FreeShape> free_shapes(BodySpace space, bool with_reaches) {
     std::vector<FreeShape> free = {{"height", 0.5, 0.3}};
-    // The weight of real people follows their BMI: what it misses at the trunk, the sections' sliders fill.
-    if (space != BodySpace::kReal) free.push_back({"weight", 0.6, 0.4});
+    // The weight of varied people follows their BMI: what it misses at the trunk, the sections' sliders fill.
+    if (space != BodySpace::kVaried) free.push_back({"weight", 0.6, 0.4});
     for (const char* key : {"measure-upperarm-length", "measure-upperarm-circ", "measure-lowerarm-length",
                             "measure-upperleg-height", "measure-lowerleg-height", "measure-thigh-circ",
                             "measure-neck-circ", "measure-underbust-circ", "measure-shoulder-dist",
                             "measure-hips-circ", "measure-waist-circ", "measure-bust-circ"})
         free.push_back({key, 0.0, 0.35});
-    if (space == BodySpace::kReal)
+    if (space == BodySpace::kVaried)
         for (const char* level : kLevels) {
             free.push_back({section(level, "full"), 0.0, 0.15});
             free.push_back({section(level, "front"), 0.0, 0.15});
-            if (with_reaches) free.push_back({section(level, "square"), 0.0, 0.5});
+            free.push_back({section(level, "square"), 0.0, 0.5});
         }
     if (with_reaches)
         for (const char* key : {"torso-scale-depth", "torso-scale-horiz", "hip-scale-depth",
@@ -147,7 +147,7 @@ constexpr const char* kUnmeasured[] = {
 }  // namespace
 
 BodySpace body_space(const std::string& name) {
-    return name == "in" ? BodySpace::kInside : name == "out" ? BodySpace::kOutside : BodySpace::kReal;
+    return name == "in" ? BodySpace::kInside : name == "out" ? BodySpace::kOutside : BodySpace::kVaried;
 }
 
 std::string PersonOfPopulation::options() const {
@@ -186,7 +186,7 @@ void Population::change_locally(Random& random, std::vector<float>& shape) const
         shape[p] = std::clamp(value, model_->parameters()[p].minimum, model_->parameters()[p].maximum);
     };
     for (const char* key : kLocal) set(key, kLocalSpread * random.normal());
-    if (space_ == BodySpace::kReal)
+    if (space_ == BodySpace::kVaried)
         for (const char* level : kLevels)
             for (const char* form : {"square-front", "square-left", "skew"})
                 set(section(level, form), kSectionSpread * random.normal());
@@ -205,7 +205,7 @@ const BodyWithMeasures& Population::solver(vfit_sex sex, bool with_reaches) {
 
 SurveyMeasures Population::draw_measures(vfit_sex sex, Random& random) const {
     const SurveyMeasures soldier = survey_.draw(sex, random);
-    if (space_ != BodySpace::kReal) return soldier;
+    if (space_ != BodySpace::kVaried) return soldier;
     const double bmi = kMiddleBmi * std::exp(kBmiSpread * double(random.normal()));
     return survey_.with_mass(sex, soldier, bmi * std::pow(1e-3 * soldier["stature"], 2.0));
 }
@@ -213,7 +213,7 @@ SurveyMeasures Population::draw_measures(vfit_sex sex, Random& random) const {
 PersonOfPopulation Population::draw(uint32_t number) {
     Random random(seed_ * 1000003u + number);
     const vfit_sex sex = number % 2 ? VFIT_SEX_MALE : VFIT_SEX_FEMALE;
-    const bool is_real = space_ == BodySpace::kReal;
+    const bool is_varied = space_ == BodySpace::kVaried;
     for (int i = 0; i < kTries; ++i) {
         const SurveyMeasures real = draw_measures(sex, random);
         std::vector<float> shape = random_shape(sex, random);
@@ -226,7 +226,7 @@ PersonOfPopulation Population::draw(uint32_t number) {
             wanted.push_back({row.measure, row.share * real[row.survey] * 1e-3, row.tolerance_m});
         PersonOfPopulation out;
         try {
-            if (!is_real) out.measures = solver(sex, false).solve(wanted, navel_share, shape);
+            if (!is_varied) out.measures = solver(sex, false).solve(wanted, navel_share, shape);
             if (space_ != BodySpace::kInside) {
                 change_locally(random, shape);
                 for (const Reach& reach : reaches(space_)) {
@@ -235,8 +235,8 @@ PersonOfPopulation Population::draw(uint32_t number) {
                     const size_t man = sex == VFIT_SEX_MALE ? 1 : 0;
                     wanted.push_back(
                         {reach.measure,
-                         is_real ? 1e-3 * reach.more[man] * (usual + kOfTheBody[man] * (value - usual))
-                                 : out.measures[reach.measure] * value / usual,
+                         is_varied ? 1e-3 * reach.more[man] * (usual + kOfTheBody[man] * (value - usual))
+                                   : out.measures[reach.measure] * value / usual,
                          kReachTolerance_m});
                 }
                 out.measures = solver(sex, true).solve(wanted, navel_share, shape);

@@ -18,11 +18,11 @@ enum class BodySpace {
                // made of
     kOutside,  // besides, depths that differ from what girths say as real people's do, and local changes of
                // the surface
-    kReal,     // ages to 80; at every level of the trunk girth, breadth and depth differ from
+    kVaried,   // ages to 80; at every level of the trunk girth, breadth and depth differ from
                // each other as real people's do
 };
 
-/// "real", "in" or "out".
+/// "varied", "in" or "out".
 BodySpace body_space(const std::string& name);
 
 struct PersonOfPopulation {
@@ -35,7 +35,7 @@ struct PersonOfPopulation {
 };
 
 /// People by number: a number gives the same person whatever was drawn before. BMI 18 to 35, stature 1.50 to
-/// 2.00 m; of kReal BMI 16 to 45, stature 1.45 to 2.05 m.
+/// 2.00 m; of kVaried BMI 16 to 45, stature 1.45 to 2.05 m.
 class Population {
 public:
     Population(std::shared_ptr<const BodyModel> model, BodySpace space, uint32_t seed);
@@ -52,7 +52,7 @@ private:
     BodySpace space_;
     uint32_t seed_;
     Anthropometry survey_;
-    // Women, men, made when needed; reaching_: with depths (and breadths) besides.
+    // Women, men, made when needed; reaching_: with depths besides, of varied people with breadths.
     std::array<std::optional<BodyWithMeasures>, 2> usual_, reaching_;
 };
 
