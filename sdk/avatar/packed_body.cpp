@@ -1,6 +1,7 @@
 #include "avatar/packed_body.h"
 
 #include "core/bits.h"
+#include "core/json.h"
 
 namespace vfit {
 
@@ -28,6 +29,7 @@ std::vector<uint8_t> pack_body(const BodyModel& model, const PackedBody& body) {
     if (body.size_label.size() > kMaxPackedLabel)
         fail(VFIT_ERROR_ARGUMENT, "the size label \"", body.size_label, "\" has more than ", kMaxPackedLabel,
              " bytes");
+    if (!is_utf8(body.size_label)) fail(VFIT_ERROR_ARGUMENT, "the size label is not UTF-8");
     const auto& parameters = model.parameters();
     const size_t bits = kVersionBits + kModelBits + kSexBits + 2 * kScaleBits +
                         kRadiusBits * size_t(kPaperJointCount) + kValueBits * parameters.size() + kLabelBits +
@@ -69,6 +71,8 @@ PackedBody unpack_body(const BodyModel& model, std::span<const uint8_t> bytes) {
     if (length > kMaxPackedLabel)
         fail(VFIT_ERROR_DATA, "the packed body's size label has ", length, " bytes");
     for (uint64_t i = 0; i < length; ++i) body.size_label += char(in.get(8));
+    // The label ends as a string of the host's language, which a byte of a damaged packet could break.
+    if (!is_utf8(body.size_label)) fail(VFIT_ERROR_DATA, "the packed body's size label is not UTF-8");
     return body;
 }
 

@@ -48,6 +48,15 @@ Json parse_json(std::span<const std::byte> text, const char* what) {
     return parse_json(std::string_view(reinterpret_cast<const char*>(text.data()), text.size()), what);
 }
 
+bool is_utf8(const std::string& text) {
+    try {
+        Json(text).dump();
+        return true;
+    } catch (const Json::type_error&) {
+        return false;
+    }
+}
+
 std::string json_text(const Json& value, int indent) { return value.dump(indent); }
 
 }  // namespace vfit

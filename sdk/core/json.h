@@ -19,6 +19,9 @@ Json parse_json(std::span<const std::byte> text, const char* what);
 /// Brackets within brackets, not counting quoted ones. For readers that parse JSON of their own.
 bool nests_deeper(std::string_view text, int levels);
 
+/// Without a byte that is none of UTF-8.
+bool is_utf8(const std::string& text);
+
 /// On one line, or with that many blanks a level.
 std::string json_text(const Json& value, int indent = -1);
 

@@ -213,6 +213,28 @@ TEST_F(PacketTest, BadBodyPacketsAreRefused) {
     EXPECT_EQ(unpacked(version), VFIT_ERROR_VERSION);
     EXPECT_EQ(unpacked(other), VFIT_ERROR_VERSION);
     EXPECT_NE(contract::last_error().find("another body model"), std::string::npos);
+
+    // A label that no string of a host's language takes.
+    EXPECT_EQ(vfit_avatar_pack(avatar, "L\xDC", nullptr, &count), VFIT_ERROR_ARGUMENT);
+    std::vector<uint8_t> labelled(240);
+    count = 240;
+    ASSERT_EQ(vfit_avatar_pack(avatar, "\xC3\x9C", labelled.data(), &count), VFIT_OK)
+        << contract::last_error();
+    labelled.resize(count);
+    EXPECT_EQ(unpacked(labelled), VFIT_OK) << contract::last_error();
+    EXPECT_EQ(vfit_avatar_destroy(out), VFIT_OK);
+    int refused = 0;  // of the label's last sixteen bits, each flipped
+    for (uint32_t bit = 8 * (count - 2); bit < 8 * count; ++bit) {
+        auto damaged = labelled;
+        damaged[bit / 8] = uint8_t(damaged[bit / 8] ^ (1u << bit % 8));
+        if (unpacked(damaged) == VFIT_OK) {
+            EXPECT_EQ(vfit_avatar_destroy(out), VFIT_OK);
+            continue;
+        }
+        EXPECT_NE(contract::last_error().find("UTF-8"), std::string::npos) << contract::last_error();
+        ++refused;
+    }
+    EXPECT_GE(refused, 3);  // a lead byte or its successor that is none
 }
 
 TEST_F(PacketTest, PosingIntoOwnMemoryGivesTheSameSkin) {
