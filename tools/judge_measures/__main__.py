@@ -1,0 +1,178 @@
+"""Judges the measures of bodies of other makers, drawn by a renderer of their own.
+
+    build/venv/bin/python tools/judge_measures FOLDER --vfit build/bin/vfit --work WORK
+
+FOLDER holds bare bodies (*.glb, bones named as Mixamo's); a file whose name begins with "female" is a
+woman's. docs/measuring.md has what is printed.
+"""
+
+import argparse
+import json
+import subprocess
+import sys
+import zlib
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "judge_characters"))
+
+from body import Tape, standing  # noqa: E402
+from character import Character  # noqa: E402
+from glb import BadFile, read_glb  # noqa: E402
+from motion import Actor  # noqa: E402
+from recording import FPS, Recording  # noqa: E402
+from renderer import Camera, room_depth, see, sense  # noqa: E402
+
+MEASURES = ("stature_m", "chest_girth_m", "waist_girth_m", "hip_girth_m")
+FRONT_FRAMES, SIDE_FRAMES, STILL_FRAMES = 45, 45, 20  # the tracker sees the room first
+GIRTHS, DEPTHS = (0.92, 1.0, 1.08, 1.18), (1.0, 0.95, 1.08)
+STATURES_M = {"f": (1.52, 1.60, 1.68, 1.76), "m": (1.65, 1.73, 1.81, 1.90)}
+SENSORS = [(512, 424, 366.0), (640, 480, 525.0)]  # Kinect v2; of the field of view of Kinect v1
+INTERVAL = 1.645
+
+
+class Person:
+    """A body at a stature, a girth (across and ahead) and a depth (ahead alone)."""
+
+    def __init__(self, path, number):
+        self.name = f"{path.stem}-{number:03}"
+        self.sex = "f" if path.stem.startswith("female") else "m"
+        self.character = Character(read_glb(path))
+        self.rng = np.random.default_rng(zlib.crc32(self.name.encode()))
+        self.stature_m = float(self.rng.choice(STATURES_M[self.sex]) + self.rng.uniform(-0.02, 0.02))
+        self.girth, self.depth = float(self.rng.choice(GIRTHS)), float(self.rng.choice(DEPTHS))
+
+    def actor(self, arms_out_deg, arms_ahead_deg, feet_apart_m=None):
+        metre = self.character.stature(_world(self.character)) / self.stature_m
+        motion = standing(self.character, arms_out_deg, arms_ahead_deg, feet_apart_m, metre)
+        actor = Actor(motion, np.zeros(1), self.stature_m, self.girth)
+        actor.turn = np.diag([1.0, 1.0, self.depth]) @ actor.turn
+        actor.way = actor.way * [1, 1, self.depth]
+        actor.joint_points = {n: p * [1, 1, self.depth] for n, p in actor.joint_points.items()}
+        return actor
+
+    def truth(self):
+        return Tape(self.actor(35.0, 0.0), self.sex).measures()
+
+    def record(self, folder):
+        """From the front, then from the side, with small movements."""
+        rng = self.rng
+        width, height, focal = SENSORS[rng.integers(len(SENSORS))]
+        camera_m, distance_m = rng.uniform(0.6, 1.6), rng.uniform(2.4, 3.1) + 0.35 * (focal > 500)
+        tilt = np.degrees(np.arctan2(camera_m - 0.5 * self.stature_m, distance_m)) + rng.uniform(-1.5, 1.5)
+        camera = Camera(width, height, focal, camera_m, tilt)
+        room = room_depth(camera, distance_m + rng.uniform(0.8, 1.6), rng.uniform(1.4, 2.2))
+        feet_m = rng.uniform(0.25, 0.35)
+        front = self.actor(rng.uniform(30, 43), 0.0, feet_m), rng.uniform(-8, 8)
+        side = self.actor(rng.uniform(6, 12), rng.uniform(30, 43), feet_m), 90 + rng.uniform(-8, 8)
+        views = [
+            (actor.skin(0), actor.joints(0), heading, frames)
+            for (actor, heading), frames in ((front, FRONT_FRAMES), (side, SIDE_FRAMES))
+        ]
+        views = [view for view in views for _ in range(view[-1])]
+        recording = Recording(folder, camera, ["empty"] * STILL_FRAMES + ["scan"] * len(views))
+        for _ in range(STILL_FRAMES):
+            recording.add(sense(room, focal, rng), front[0].joints(0))
+        for frame, (skin, joints, heading, _) in enumerate(views):
+            t = frame / FPS
+            turn = _about_up(heading + 0.7 * np.sin(1.1 * t))
+            at = np.array([0.004 * np.sin(2.1 * t), 0, 0.006 * np.sin(1.4 * t + 1) - distance_m])
+            depth = see(skin @ turn.T + at, self.character.faces, camera, room)
+            moved = {name: camera.to_camera(p @ turn.T + at) for name, p in joints.items()}
+            recording.add(sense(depth, focal, rng), moved)
+        recording.close()
+
+
+def _world(character):
+    g = character.glb
+    return g.world_matrices(g.translation, g.rotation, g.scale)[None]
+
+
+def _about_up(degrees):
+    c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    return np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
+
+
+def measured(vfit, folder, flags):
+    """What vfit tells of a recording: measures by key, or the reason why there are none."""
+    command = [
+        vfit,
+        "measure",
+        str(folder),
+        "--json",
+        "--joints",
+        "tracked",
+        "--user-map",
+        "tracked",
+        "--bare",
+    ]
+    done = subprocess.run(command + flags, capture_output=True, text=True)
+    if done.returncode:
+        return None, done.stderr.strip()
+    out = json.loads(done.stdout)
+    if out["method"] != "fit" or not out.get("side_frames"):
+        return None, "no side view: " + out.get("note", "")
+    return out["measurements"], ""
+
+
+def report(title, rows):
+    """`rows`: truth and told measures of each person."""
+    print(f"\n{title}: {len(rows)} people; mean absolute error with 95 % confidence, bias (mm), within 90 %")
+    figures = {}
+    for key in MEASURES:
+        error = np.array([1000 * (told[key]["value"] - truth[key]) for truth, told in rows])
+        sigma = np.array([1000 * told[key]["sigma"] for _, told in rows])
+        off, inside = np.abs(error), np.abs(error) <= INTERVAL * sigma
+        confidence = 1.96 * off.std() / np.sqrt(len(off))
+        print(
+            f"  {key:16}{off.mean():7.1f} +-{confidence:5.1f}{error.mean():8.1f}{100 * inside.mean():6.0f} %"
+        )
+        figures[key] = {"mean_mm": off.mean(), "bias_mm": error.mean(), "inside": float(inside.mean())}
+    return figures
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=Path, help="bare bodies (*.glb)")
+    parser.add_argument("--vfit", default="build/bin/vfit", help="the program (build/bin/vfit)")
+    parser.add_argument("--work", type=Path, required=True, help="recordings are kept there")
+    parser.add_argument("--people", type=int, default=48, help="how many (48)")
+    parser.add_argument("--list", action="store_true", help="a line for each person")
+    parser.add_argument("--json", type=Path, help="write the figures there")
+    options = parser.parse_args()
+    files = sorted(options.folder.glob("*.glb"))
+    if not files:
+        raise SystemExit(f"judge_measures: {options.folder}: holds no .glb")
+    told = {"told nothing": ([], []), "told tight": (["--tight"], [])}
+    for number in range(options.people):
+        try:
+            person = Person(files[number % len(files)], number)
+            truth = person.truth()
+            folder = options.work / person.name
+            if not (folder / "camera.json").exists():
+                person.record(folder)
+            (folder / "truth.json").write_text(json.dumps({"sex": person.sex, "measures": truth}))
+        except (BadFile, OSError) as error:
+            raise SystemExit(f"judge_measures: {error}") from None
+        for title, (flags, rows) in told.items():
+            measures, why = measured(options.vfit, folder, flags)
+            if measures is None:
+                print(f"{person.name}, {title}: {why}", file=sys.stderr)
+                continue
+            rows.append((truth, measures))
+            if options.list:
+                off = [round(1000 * (measures[key]["value"] - truth[key])) for key in MEASURES]
+                own = [round(1000 * truth[key]) for key in MEASURES]
+                print(f"  {person.name:14} {title:13} true {own} off {off} mm")
+        print(f"\rmeasured {number + 1} of {options.people}", end="", file=sys.stderr)
+    print(file=sys.stderr)
+    figures = {
+        title: report(f"BODIES OF OTHER MAKERS, {title}", rows) for title, (_, rows) in told.items() if rows
+    }
+    if options.json:
+        options.json.write_text(json.dumps(figures, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    main()
