@@ -24,6 +24,7 @@ void BodyScan::reset() {
     fit_.reset();
     residuals_.reset();
     profile_.reset();
+    outline_loss_.reset();
     wipe(sums_);
 }
 
@@ -41,6 +42,7 @@ ViewKind BodyScan::add(const DepthImage& image, const Body& body) {
     if (view == ViewKind::kOther) return view;
     residuals_.add(image, input.user, fit_);
     profile_.add(image, input.user, fit_, view);
+    outline_loss_.add(image, input.user);
     ++sums_.frames;
     sums_.distance_m += double(fit.pose.hips.z);
     const double turned = double(turned_rad(ahead)) - (view == ViewKind::kSide ? 0.5 * double(kPi) : 0.0);
@@ -111,15 +113,20 @@ ScanFeatures BodyScan::features(bool side) const {
     out[n++] = mean_of(sums_.turned_rad, ViewKind::kSide);
     out[n++] = mean_of(sums_.turned_squared, ViewKind::kSide);
     constexpr ViewKind kViews[] = {ViewKind::kFront, ViewKind::kSide};
+    // Outlines lie as much farther out as the sensor loses of them.
+    const float lost = outline_loss_px() * out[kPixelFeature] / kMillimetres;
     for (const ViewKind view : kViews)
         for (const Seen seen : {Seen::kFacing, Seen::kRim})
             for (const float mean : residuals_.means_m(view, seen, shape()))
-                out[n++] = counts(view) ? kCentimetres * mean : unseen;
+                out[n++] = counts(view) ? kCentimetres * (mean + (seen == Seen::kRim ? lost : 0.0f)) : unseen;
     for (const ViewKind view : kViews)
         for (int level = 0; level < TrunkProfile::kLevels; ++level) {
             const TrunkProfile::Reaches reaches = profile_.reaches_m(view, level);
             const size_t told = view == ViewKind::kFront ? TrunkProfile::kReachesFromFront : reaches.size();
-            for (size_t r = 0; r < told; ++r) out[n++] = counts(view) ? kCentimetres * reaches[r] : unseen;
+            for (size_t r = 0; r < told; ++r) {
+                const bool outline = r == TrunkProfile::kAhead || r == TrunkProfile::kBehind;
+                out[n++] = counts(view) ? kCentimetres * (reaches[r] + (outline ? lost : 0.0f)) : unseen;
+            }
         }
     for (const ViewKind view : kViews)
         for (int region = 0; region < SurfaceResiduals::kRegions; ++region)

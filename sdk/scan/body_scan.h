@@ -8,6 +8,7 @@
 
 #include "fit/body_fit.h"
 #include "frame/body.h"
+#include "scan/outline_loss.h"
 #include "scan/surface_residuals.h"
 #include "scan/trunk_profile.h"
 
@@ -23,6 +24,12 @@ inline constexpr size_t kScanFeatures =
     size_t(TrunkProfile::kLevels) * (TrunkProfile::kReachesFromFront + TrunkProfile::kReaches) +
     size_t(kViewKinds) * SurfaceResiduals::kRegions;
 using ScanFeatures = std::array<float, kScanFeatures>;
+/// Where some of them begin.
+inline constexpr size_t kCrownFeature = size_t(kFitShapes), kPixelFeature = kCrownFeature + 2;
+inline constexpr size_t kFrontReaches =
+    size_t(kFitShapes) + 6 + size_t(kViewKinds) * kSeenKinds * BodyZones::kCount;
+inline constexpr size_t kSideReaches =
+    kFrontReaches + size_t(TrunkProfile::kLevels) * TrunkProfile::kReachesFromFront;
 
 class BodyScan {
 public:
@@ -46,6 +53,8 @@ public:
     /// The shape of all frames together.
     const FitShape& shape() const { return fit_.output().pose.shape; }
     const BodyFitOutput& fit() const { return fit_.output(); }
+    /// What the sensor loses of outlines; features() has it added to all that is read off outlines.
+    float outline_loss_px() const { return outline_loss_.pixels(); }
 
 private:
     /// Of the highest point over the floor; 0 where the head is cut or nothing of it is seen.
@@ -55,6 +64,7 @@ private:
     BodyFit fit_;
     SurfaceResiduals residuals_;
     TrunkProfile profile_;
+    OutlineLoss outline_loss_;
     struct Sums {
         double crown_m = 0.0, distance_m = 0.0, pixel_m = 0.0;
         std::array<double, kViewKinds> turned_rad{}, turned_squared{};  // from the view

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -13,18 +14,19 @@ namespace vfit {
 
 namespace {
 
-constexpr int kVersion = 4;
+constexpr int kVersion = 5;
 constexpr float kFarthest = 5.0f;  // deviations: what lies farther tells no more
 // What of the body itself lies farther out than nearly all grown-ups' do, a child's crown say, is guessed at:
 // linear rules do not reach there.
-constexpr float kUsualReach = 3.0f;  // deviations
-constexpr float kBeyond = 4.0f;      // of a deviation beyond, squared
-constexpr size_t kCrown = size_t(kFitShapes);
+constexpr float kUsualReach = 3.0f;     // deviations
+constexpr float kBeyond = 4.0f;         // of a deviation beyond, squared
+constexpr float kEdge_px = 0.5f;        // a sensor's outlines, and so the crown, are known no better
 constexpr float kCrownApart_m = 0.03f;  // from stature, usually less: then the two contradict each other
 constexpr float kShortest_m = 0.001f, kLongest_m = 5.0f, kSmallestSigma_m = 1e-4f;
 constexpr float kLeastStrangeness = 0.01f;  // training/measures/train.py has the same
-constexpr float kUnseenScale = 1e30f;       // of a feature that a part does not look at
-constexpr float kMassScale = 100.0f;        // of these in kilograms
+constexpr float kMisread = 3.0f;  // of a stand-in's deviations: what is seen farther off is something else
+constexpr float kUnseenScale = 1e30f;  // of a feature that a part does not look at
+constexpr float kMassScale = 100.0f;   // of these in kilograms
 constexpr const char* kKinds[] = {"front", "front_and_side", "front_tight", "front_and_side_tight"};
 
 const Json& field(const Json& object, const char* name, std::string_view where) {
@@ -37,6 +39,14 @@ float number(const Json& value, const std::string& where) {
     const float v = value.is_number() ? value.get<float>() : std::nanf("");
     if (!std::isfinite(v)) fail(VFIT_ERROR_DATA, "measure model: ", where, " is not a number");
     return v;
+}
+
+/// NaN: not seen, or no measure that is.
+float seen_value(const SeenMeasures& seen, std::string_view key) {
+    return key == "stature_m"       ? seen.stature_m
+           : key == "waist_girth_m" ? seen.waist_girth_m
+           : key == "hip_girth_m"   ? seen.hip_girth_m
+                                    : std::nanf("");
 }
 
 /// Mean square: 1 among the scans that were learnt from, were all features seen.
@@ -136,10 +146,19 @@ MeasureModel MeasureModel::parse(std::string_view text) {
                 const std::string what = where + ", " + sex + ", " + key;
                 if (measure_index(key) < 0)
                     fail(VFIT_ERROR_DATA, "measure model: ", what, ": no such measure");
+                std::optional<StandIn> stand_in;
+                if (one.contains("stand_in")) {
+                    const Json& likely = one["stand_in"];
+                    stand_in = {{number(field(likely, "base", what), what),
+                                 of_features(likely, "weights", what, unit, 0.0f)},
+                                number(field(likely, "sigma", what), what),
+                                number(field(likely, "trust", what), what)};
+                }
                 rows->push_back(
                     {key,
                      field(one, "observed", what) == Json(true),
                      {number(field(one, "base", what), what), of_features(one, "weights", what, unit, 0.0f)},
+                     std::move(stand_in),
                      numbers(bends, key.c_str(), part.basis.size(), what, unit),
                      number(field(one, "log_sigma", what), what),
                      numbers(one, "sigma_weights", part.sigma_features.size() + 1, what)});
@@ -168,7 +187,8 @@ ScanFeatures MeasureModel::Part::standardised(const ScanFeatures& features) cons
 
 MeasureModel::Seen MeasureModel::Part::look(const ScanFeatures& features) const {
     const ScanFeatures x = standardised(features);
-    return {x, basis.near(x), doubt(features, x)};
+    return {seen_measures(features, false), seen_measures(features, true), x, basis.nearness(x),
+            doubt(features, x)};
 }
 
 float MeasureModel::Part::doubt(const ScanFeatures& features, const ScanFeatures& x) const {
@@ -179,7 +199,7 @@ float MeasureModel::Part::doubt(const ScanFeatures& features, const ScanFeatures
         if (farther > 0.0f) beyond += farther * farther;
     };
     for (size_t i = 0; i < size_t(kFitComponents); ++i) look(i);
-    look(kCrown);
+    look(kCrownFeature);
     float shape = 0.0f;
     for (size_t i = 0; i < size_t(kFitComponents); ++i)
         for (size_t j = 0; j < size_t(kFitComponents); ++j)
@@ -188,20 +208,28 @@ float MeasureModel::Part::doubt(const ScanFeatures& features, const ScanFeatures
     return std::sqrt(std::max(1.0f, stranger) * (1.0f + kBeyond * beyond));
 }
 
-std::vector<Measurement> MeasureModel::Part::measure(const std::vector<Row>& rows, const Seen& seen) const {
-    const auto& [x, near, doubt] = seen;
+std::vector<Measurement> MeasureModel::Part::measure(vfit_sex sex, const Seen& seen) const {
+    const bool female = sex == VFIT_SEX_FEMALE;
+    const auto& [x, nearness, doubt] = std::tie(seen.x, seen.nearness, seen.doubt);
     std::vector<Measurement> out;
-    for (const Row& row : rows) {
+    for (const Row& row : female ? female_rows : male_rows) {
         float log_sigma =
             row.log_sigma + row.sigma_weights.back() * std::log(strangeness(x) + kLeastStrangeness);
         for (size_t i = 0; i < sigma_features.size(); ++i)
             log_sigma += row.sigma_weights[i] * x[sigma_features[i]];
         const float unit = is_mass(row.key) ? kMassScale : 1.0f;
-        const float value =
-            row.value.of(x) + std::inner_product(near.begin(), near.end(), row.bends.begin(), 0.0f);
+        float value =
+            row.value.of(x) + std::inner_product(nearness.begin(), nearness.end(), row.bends.begin(), 0.0f);
+        float sigma = std::exp(log_sigma);
+        if (row.stand_in) {
+            const float likely = row.stand_in->likely.of(x),
+                        apart = seen_value(female ? seen.female : seen.male, row.key) - likely;
+            const bool is_seen = std::abs(apart) <= kMisread * row.stand_in->sigma;  // not where NaN
+            value += likely + (is_seen ? row.stand_in->trust * apart : 0.0f);
+            if (!is_seen) sigma = std::hypot(sigma, row.stand_in->sigma);
+        }
         out.push_back({row.key, std::clamp(value, unit * kShortest_m, unit * kLongest_m),
-                       std::clamp(doubt * std::exp(log_sigma), unit * kSmallestSigma_m, unit * kLongest_m),
-                       row.observed});
+                       std::clamp(doubt * sigma, unit * kSmallestSigma_m, unit * kLongest_m), row.observed});
     }
     return out;
 }
@@ -215,9 +243,10 @@ std::vector<Measurement> MeasureModel::measure(const ScanFeatures& features, Sca
                                                vfit_sex sex) const {
     std::vector<Measurement> out = measure_anybody(features, kind, sex);
     for (Measurement& m : out)
-        if (m.key == "stature_m" && !std::isnan(features[kCrown]))
-            m.sigma =
-                std::hypot(m.sigma, std::max(0.0f, std::abs(m.value - features[kCrown]) - kCrownApart_m));
+        if (m.key == "stature_m" && !std::isnan(features[kCrownFeature])) {
+            const float apart = std::max(0.0f, std::abs(m.value - features[kCrownFeature]) - kCrownApart_m);
+            m.sigma = std::hypot(m.sigma, apart, kEdge_px * 1e-3f * features[kPixelFeature]);
+        }
     return out;
 }
 
@@ -225,10 +254,10 @@ std::vector<Measurement> MeasureModel::measure_anybody(const ScanFeatures& featu
                                                        vfit_sex sex) const {
     const Part& learnt = part(kind);
     const Seen seen = learnt.look(features);
-    if (sex == VFIT_SEX_FEMALE) return learnt.measure(learnt.female_rows, seen);
-    const std::vector<Measurement> male = learnt.measure(learnt.male_rows, seen);
+    if (sex == VFIT_SEX_FEMALE) return learnt.measure(VFIT_SEX_FEMALE, seen);
+    const std::vector<Measurement> male = learnt.measure(VFIT_SEX_MALE, seen);
     if (sex == VFIT_SEX_MALE) return male;
-    const std::vector<Measurement> female = learnt.measure(learnt.female_rows, seen);
+    const std::vector<Measurement> female = learnt.measure(VFIT_SEX_FEMALE, seen);
     const float p = female_probability(features, kind);
     std::vector<Measurement> out;
     for (const Measurement& m : male) {

@@ -1,10 +1,12 @@
-// Measures learnt from scans of virtual people whose bodies are drawn from a survey of real ones: linear in
-// what the fitted body tells and bent by where the scan lies among theirs, a Gaussian process, with
-// deviations that follow how sure it can be (training/measures).
+// Measures of scans: what the camera plainly sees, and what that is off by, which is learnt from scans of
+// virtual people whose bodies are drawn from a survey of real ones: linear in what the fitted body tells and
+// bent by where the scan lies among theirs, a Gaussian process, with deviations that follow how sure it can
+// be (training/measures). Measures that no view shows are learnt whole.
 #pragma once
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "measure/measurement.h"
 #include "scan/body_scan.h"
 #include "scan/radial_basis.h"
+#include "scan/seen_measures.h"
 
 namespace vfit {
 
@@ -41,19 +44,28 @@ private:
         std::vector<float> weights;
         float of(const ScanFeatures& x) const;
     };
+    /// What all features make likely for a measure that is seen: it stands in where that is not seen or
+    /// misread.
+    struct StandIn {
+        Linear likely;       // metres
+        float sigma = 0.0f;  // of what is seen about it
+        float trust = 1.0f;  // in what is seen, 0 to 1
+    };
     struct Row {
         std::string key;
         bool observed = true;
-        Linear value;              // metres
-        std::vector<float> bends;  // and of each centre
+        Linear value;                     // metres, beside what is seen
+        std::optional<StandIn> stand_in;  // of a measure that is seen
+        std::vector<float> bends;         // and of each centre
         float log_sigma = 0.0f;
         std::vector<float>
             sigma_weights;  // of the part's sigma_features and, last, of how strange all of them are
     };
     /// A scan as a part looks at it.
     struct Seen {
-        ScanFeatures x;           // standardised
-        std::vector<float> near;  // to each centre, 1 at it
+        SeenMeasures male, female;    // as it is
+        ScanFeatures x;               // standardised
+        std::vector<float> nearness;  // to each centre, 1 at it
         float doubt = 1.0f;
     };
     /// What is learnt from one kind of scan.
@@ -72,7 +84,7 @@ private:
         Seen look(const ScanFeatures& features) const;
         /// How many times wider deviations are than among those that it has learnt from.
         float doubt(const ScanFeatures& features, const ScanFeatures& x) const;
-        std::vector<Measurement> measure(const std::vector<Row>& rows, const Seen& seen) const;
+        std::vector<Measurement> measure(vfit_sex sex, const Seen& seen) const;
     };
     MeasureModel() = default;
 

@@ -10,7 +10,7 @@ RadialBasis::RadialBasis(std::vector<float> directions, std::vector<float> centr
       centres_(std::move(centres)),
       dimensions_(directions_.size() / features) {}
 
-std::vector<float> RadialBasis::near(std::span<const float> features) const {
+std::vector<float> RadialBasis::nearness(std::span<const float> features) const {
     std::vector<float> place(dimensions_), out(size());
     for (size_t d = 0; d < dimensions_; ++d)
         place[d] = std::inner_product(features.begin(), features.end(),

@@ -16,7 +16,7 @@ public:
 
     size_t size() const { return dimensions_ ? centres_.size() / dimensions_ : 0; }
     /// Of every centre, 0 to 1.
-    std::vector<float> near(std::span<const float> features) const;
+    std::vector<float> nearness(std::span<const float> features) const;
 
 private:
     std::vector<float> directions_, centres_;

@@ -9,8 +9,6 @@ namespace vfit {
 
 namespace {
 
-// Of the way from between the hip joints to the neck's.
-constexpr float kLowest = -0.2f, kHighest = 0.82f;
 constexpr float kJump_m = 0.05f;    // from pixel to pixel: another part of the body begins
 constexpr float kWidest_m = 0.40f;  // from the spine
 constexpr int kGap = 2;             // pixels without a reading inside the person
@@ -46,7 +44,7 @@ void TrunkProfile::add(const DepthImage& image, uint8_t user, const BodyFit& fit
         return image.users[i] == user ? image.metres(i) : 0.0f;
     };
     for (int l = 0; l < kLevels; ++l) {
-        const Vec3 centre = hips + (kLowest + (kHighest - kLowest) * float(l) / float(kLevels - 1)) * spine;
+        const Vec3 centre = hips + along(l) * spine;
         if (centre.z < 0.5f) continue;
         const Vec2 at = camera.project(centre), along = camera.project(centre + 0.1f * spine) - at;
         const float length = glm::length(along);

@@ -15,6 +15,10 @@ namespace vfit {
 class TrunkProfile {
 public:
     static constexpr int kLevels = 24;
+    /// Where a level is on the way from between the hip joints (0) to the neck's joint (1).
+    static constexpr float along(int level) {
+        return kLowest + (kHighest - kLowest) * float(level) / float(kLevels - 1);
+    }
     /// What is read at a level, metres from the fitted spine: across the picture to the outline, and towards
     /// the camera where the spine is and at parts of the way to the outline. Seen from the side `ahead` is to
     /// the person's front and `behind` to the back; from the front both sides are one, ahead.
@@ -41,6 +45,7 @@ public:
     void reset();
 
 private:
+    static constexpr float kLowest = -0.2f, kHighest = 0.82f;
     struct Sum {
         double metres = 0.0;
         uint32_t count = 0;

@@ -100,7 +100,7 @@ TEST_F(ScanFitTest, MeasuresFromTheFrontAndTheSide) {
     EXPECT_GT(both.size(), 20u);
     for (const auto& [key, m] : both) {
         if (key == "body_mass_kg") continue;  // the virtual person has no scale
-        EXPECT_NEAR(m.value, number(truth, key), std::min(0.02f, 3.0f * m.sigma)) << key;
+        EXPECT_NEAR(m.value, number(truth, key), std::min(0.025f, 3.0f * m.sigma)) << key;
     }
     EXPECT_EQ(vfit_scan_reset(scan), VFIT_OK);
     EXPECT_EQ(vfit_scan_measure(scan, nullptr, sizeof(vfit_measurement), &count), VFIT_ERROR_STATE);
@@ -159,7 +159,7 @@ TEST_F(ScanFitTest, AnAvatarHasTheScannedBody) {
         << contract::last_error();
     EXPECT_NEAR(mine.value, tape.at("waist_girth_m").value, 0.01f);
     EXPECT_GT(mine.sigma, 0.005f) << "no surer than the scan";
-    EXPECT_LT(mine.sigma, 0.03f);
+    EXPECT_LT(mine.sigma, 0.04f);
     for (const vfit_avatar a : {avatar, usual}) EXPECT_EQ(vfit_avatar_destroy(a), VFIT_OK);
     for (const vfit_scan scan : {any, tight}) EXPECT_EQ(vfit_scan_destroy(scan), VFIT_OK);
 }

@@ -1,15 +1,19 @@
 // vfit-bench scan-features: what scans of virtual people tell, beside the truth, as JSON lines: what the
 // measures are learnt from (training/measures).
 #include <cmath>
+#include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iostream>
+#include <set>
 
 #include "bench/bench.h"
 #include "bench/frames.h"
 #include "bench/track_play.h"
+#include "client/files.h"
 #include "core/error.h"
 #include "population/scan_scene.h"
-#include "scan/body_scan.h"
+#include "scan/seen_measures.h"
 
 namespace vfit::tools {
 
@@ -17,7 +21,7 @@ namespace {
 
 struct Options {
     uint32_t count = 10, first = 0, seed = 1000, scans = 2;
-    std::string space = "in", out;
+    std::string space = "in", out, recordings;
 };
 
 /// The active person's joints in camera space.
@@ -33,7 +37,10 @@ Body body_of(vfit_frame frame, uint32_t id, const Camera& camera, int64_t time_n
     return body;
 }
 
-void play(const std::string& uri, vfit_context context, vfit_tracker tracker, BodyScan& scan) {
+/// Calls `kept` after each frame that was kept.
+void play(
+    const std::string& uri, vfit_context context, vfit_tracker tracker, BodyScan& scan,
+    const std::function<void()>& kept = [] {}) {
     Source source(context, uri);
     while (const auto frame = source.next()) {
         Frame tracked;
@@ -41,8 +48,9 @@ void play(const std::string& uri, vfit_context context, vfit_tracker tracker, Bo
         const auto bodies = bodies_of(tracked.get());
         if (bodies.empty()) continue;
         const FrameImage image(tracked.get());
-        scan.add(image.image(),
-                 body_of(tracked.get(), bodies.front().body_id, image.camera, bodies.front().time_ns));
+        const Body body =
+            body_of(tracked.get(), bodies.front().body_id, image.camera, bodies.front().time_ns);
+        if (scan.add(image.image(), body) != ViewKind::kOther) kept();
     }
 }
 
@@ -54,7 +62,55 @@ Json rounded(const ScanFeatures& features) {
     return out;
 }
 
+Json number_or_null(float value) { return std::isnan(value) ? Json() : Json(value); }
+
+/// What the camera plainly sees, of a person of that sex.
+Json seen(const ScanFeatures& features, bool female) {
+    const SeenMeasures m = seen_measures(features, female);
+    return {{"stature_m", number_or_null(m.stature_m)},
+            {"waist_girth_m", number_or_null(m.waist_girth_m)},
+            {"hip_girth_m", number_or_null(m.hip_girth_m)}};
+}
+
+/// Recordings of a person from the front and then from the side: folders with a truth.json, by their names.
+void run_recordings(const Options& o, std::ostream& out) {
+    const auto model = std::make_shared<const FitModel>(*BodyModel::load(library_file("vfit_data/body.bin")));
+    const Context context = open_context();
+    std::set<std::filesystem::path> folders;
+    for (const auto& entry : std::filesystem::directory_iterator(o.recordings))
+        if (std::filesystem::exists(entry.path() / "truth.json")) folders.insert(entry.path());
+    uint32_t number = 0;
+    for (const std::filesystem::path& folder : folders) {
+        const Json truth = Json::parse(read_text((folder / "truth.json").string()));
+        const Tracker tracker = open_own_tracker(context.get());
+        BodyScan scan(model);
+        const bool female = truth.at("sex") == "f";
+        Json front, seen_front;
+        play(folder.string(), context.get(), tracker.get(), scan, [&] {
+            if (scan.frames(ViewKind::kSide)) return;
+            front = rounded(scan.features(false)), seen_front = seen(scan.features(false), female);
+        });
+        const bool both = scan.frames(ViewKind::kFront) && scan.frames(ViewKind::kSide);
+        const Json line = {{"number", number++},
+                           {"space", "recording"},
+                           {"sex", truth.at("sex")},
+                           {"truth", truth.at("measures")},
+                           {"scene", {{"top_m", 0.0}, {"sleeves_m", 0.0}, {"trousers_m", 0.0}}},
+                           {"outline_loss_px", scan.outline_loss_px()},
+                           {"front", front},
+                           {"both", both ? rounded(scan.features(true)) : Json()},
+                           {"seen_front", seen_front},
+                           {"seen_both", both ? seen(scan.features(true), female) : Json()}};
+        out << line.dump() << std::endl;
+    }
+}
+
 void run(const Options& o) {
+    if (!o.recordings.empty()) {
+        std::ofstream file(o.out, std::ios::app);
+        if (!file) throw Failure(o.out + ": cannot be written");
+        return run_recordings(o, file);
+    }
     const auto body = BodyModel::load(library_file("vfit_data/body.bin"));
     Population population(body, body_space(o.space), o.seed);
     const auto model = std::make_shared<const FitModel>(*body);
@@ -75,10 +131,13 @@ void run(const Options& o) {
             play(scene.front_uri(person), context.get(), tracker.get(), scan);
             if (scan.frames(ViewKind::kFront) < scene.front_frames / 2) continue;
             line["scene"] = scene.json();
+            line["outline_loss_px"] = scan.outline_loss_px();
             line["front"] = rounded(scan.features(false));
+            line["seen_front"] = seen(scan.features(false), person.sex == VFIT_SEX_FEMALE);
             play(scene.side_uri(person), context.get(), tracker.get(), scan);
-            line["both"] =
-                scan.frames(ViewKind::kSide) < scene.side_frames / 2 ? Json() : rounded(scan.features(true));
+            const bool both = scan.frames(ViewKind::kSide) >= scene.side_frames / 2;
+            line["both"] = both ? rounded(scan.features(true)) : Json();
+            line["seen_both"] = both ? seen(scan.features(true), person.sex == VFIT_SEX_FEMALE) : Json();
             file << line.dump() << std::endl;
         }
     }
@@ -98,6 +157,9 @@ void add_scan_features(Command& app) {
         .add_option("--space", o->space,
                     "varied: as real people differ; in: of the fit's own body space; out: beyond it")
         .one_of({"varied", "in", "out"});
+    command.add_option("--recordings", o->recordings,
+                       "Instead of generated people: a folder of recordings with a truth.json each "
+                       "(tools/judge_measures)");
     command.add_option("--out", o->out, "File of JSON lines that is added to").required();
     command.callback([o] { run(*o); });
 }

@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Learns measures from scans of generated people (vfit-bench scan-features), writes the library's model.
 
-A tape measure is linear in the features of a scan, with weights that are partly the same and partly apart for
-each sex, plus a smooth function of where the scan lies among those that were learnt from: a Gaussian process
-(Rasmussen and Williams 2006, chapter 2) with the sum of both kernels, the second one by its values at some of
-the scans (their section 8.3.1). A person of unknown sex gets the mixture of both by a logistic regression.
+What the camera plainly sees (sdk/scan/seen_measures.h) is taken as it is, and what it is off by is learnt; of
+the other measures the whole is. What is learnt is linear in the features of a scan, with weights that are
+partly the same and partly apart for each sex, plus a smooth function of where the scan lies among those that
+were learnt from: a Gaussian process (Rasmussen and Williams 2006, chapter 2) with the sum of both kernels,
+the second one by its values at some of the scans (their section 8.3.1). A person of unknown sex gets the
+mixture of both by a logistic regression.
 Deviations follow the scan: a ridge regression of the logarithm of errors on people who were held out, scaled
 so that 90 % of those errors lie within 1.645 of them. Needs numpy alone.
 """
@@ -20,13 +22,10 @@ TOGETHER = 0.8  # how much of what the features tell is the same for both sexes
 CLOTHED = (
     0.1  # weight of a clothed scan for those in tight clothes: what the cloth adds is told to the regression
 )
-FIRM = 3.0  # of the ridge, for the body's own numbers, by a measure's variance
-FIRM_SURFACE = [
-    100.0,
-    300.0,
-    1000.0,
-    3000.0,
-]  # for its surface: each measure takes what serves people held out best
+FIRM = 0.3  # of the ridge, for the body's own numbers, by a measure's variance
+# For its surface: each measure takes what serves people held out best. A smaller one serves generated people
+# a little better, and bodies of other makers worse.
+FIRM_SURFACE = [1000.0, 3000.0]
 SMOOTH = 30.0  # variance of the smooth function
 CENTRES, DIRECTIONS = 1000, 40  # where it is known, and in how many directions of the features
 WIDTH = 1.2  # of a centre, squared, by the usual squared distance of two scans
@@ -34,6 +33,7 @@ LEVEL = 100.0  # variance of what a sex has in common
 JITTER = 1e-3  # of the kernel between centres: two that are alike say the same
 FARTHEST = 5.0  # deviations: sdk/scan/measure_model.cpp cuts there too
 # The order of sdk/scan/body_scan.h.
+CROWN = 13
 SHAPE = 10  # of the base: of the body itself, without clothes
 BASE, ZONES, PROFILE, REGIONS = 19, 2 * 2 * 171, 24 * (5 + 9), 2 * 3
 FEATURES = BASE + ZONES + PROFILE + REGIONS
@@ -68,6 +68,17 @@ SEEN_FROM_FRONT = {
     "biacromial_breadth_m",
 }
 NEVER_SEEN = {"body_mass_kg"}
+SEEN_AS_IT_IS = ("stature_m", "waist_girth_m", "hip_girth_m")  # sdk/scan/seen_measures.h
+# In girths that are seen, against what generated people make likely: nothing of it serves those best, all of
+# it bodies of other makers.
+TRUST = 0.75
+MISREAD = 3.0  # of a stand-in's deviations; sdk/scan/measure_model.cpp has the same
+# Metres: generated people make a stature likely to 5 mm, which no body of another maker keeps to.
+LEAST_DEVIATION = 0.017
+FEWEST_SEEN = 0.5  # of the scans: a measure that fewer see is learnt whole
+# So is one that errs by less than that on people held out, by what it does when it is taken as seen: loose
+# clothes hide a waist.
+WORTH_OF_SEEING = 1.0 / 1.2
 
 
 def cloth(row):
@@ -161,14 +172,45 @@ class Part:
         )
         self.logit = logistic(self.x[own], scans.female[own])
         self.usual_strangeness = float(np.quantile((self.x[own] ** 2).mean(1), 0.99))
-        self.mean_y = np.average(scans.truth, 0, self.weight)
-        self.y = scans.truth - self.mean_y
+        self.stature = scans.stature
+        self.learn_stand_in(scans.seen)
+        unexplained = scans.truth - self.seen_or_likely(scans.seen, self.x)
+        self.mean_y = np.average(unexplained, 0, self.weight)
+        self.y = unexplained - self.mean_y
         self.cloth = np.where(own[:, None], 0.0, scans.thickness)
         self.centres = Centres(self.x[:, self.used], scans.truth, self.weight)
         # Mahalanobis' distance of the fitted shape, as a share of that which one person of ten exceeds.
         shape = self.x[own][:, :SHAPE]
         precision = np.linalg.inv(shape.T @ shape / len(shape))
         self.shape_precision = precision / np.quantile(((shape @ precision) * shape).sum(1), 0.9)
+
+    def learn_stand_in(self, seen):
+        """For what a scan does not see though most do, or misreads: what all features make likely."""
+        firm = np.sqrt(np.where(np.flatnonzero(self.used) < BASE, FIRM, FIRM_SURFACE[0]))
+        self.stand_in = {}
+        for k in range(seen.shape[1]):
+            told = np.isfinite(seen[:, k])
+            if told.mean() < FEWEST_SEEN:
+                continue
+            x, y = self.x[told][:, self.used] / firm, seen[told, k : k + 1]
+            if k == self.stature:  # the crown is what is seen
+                x[:, np.flatnonzero(self.used) == CROWN] = 0.0
+            weights, base = ridge(x, y, self.weight[told], 1.0)
+            off = np.abs(y - base - x @ weights)
+            deviation = max(LEAST_DEVIATION, float(np.quantile(off, 0.9)) / 1.645)
+            self.stand_in[k] = weights[:, 0] / firm, float(base[0]), deviation
+
+    def trust(self, k):
+        return 1.0 if k == self.stature else TRUST
+
+    def seen_or_likely(self, seen, x):
+        """0 for measures that are learnt whole."""
+        out = np.zeros_like(seen)
+        for k, (weights, base, deviation) in self.stand_in.items():
+            likely = base + x[:, self.used] @ weights
+            misread = ~(np.abs(seen[:, k] - likely) <= MISREAD * deviation)
+            out[:, k] = likely + np.where(misread, 0.0, self.trust(k) * (seen[:, k] - likely))
+        return out
 
     def standard(self, features):
         """What was not seen is taken as the mean."""
@@ -196,21 +238,27 @@ class Part:
         sexes = [(shared + apart[:, None] * solved[(s + 1) * count :][:count], level[s]) for s in (0, 1)]
         return sexes, np.sqrt(SMOOTH) * self.centres.root @ smooth
 
-    def __call__(self, features, firm_surface):
+    def __call__(self, features, seen, firm_surface):
         x = self.standard(features)
         p = (1.0 / (1.0 + np.exp(-(x @ self.logit[:-1] + self.logit[-1]))))[:, None]
         sexes, smooth = self.ridges(firm_surface)
         female, male = (base + x[:, self.used] @ weights for weights, base in sexes)
-        return p * female + (1.0 - p) * male + self.centres.near(x[:, self.used]) @ smooth
+        bent = self.centres.near(x[:, self.used]) @ smooth
+        return self.seen_or_likely(seen, x) + p * female + (1.0 - p) * male + bent
 
 
 class Scans:
     def __init__(self, rows, view, keys):
         self.rows = [r for r in rows if r[view]]
+        self.stature = list(keys).index("stature_m")
         self.features = np.array(
             [[np.nan if value is None else value for value in r[view]] for r in self.rows]
         )  # null: not seen
         truth = np.array([[r["truth"].get(k, np.nan) for k in keys] for r in self.rows])
+        self.seen = np.array(
+            [[r["seen_" + view].get(k) if k in SEEN_AS_IT_IS else None for k in keys] for r in self.rows],
+            dtype=float,
+        )
         # A man has no underbust: the mean of women stands in, and is not written for men.
         self.truth = np.where(np.isnan(truth), np.nanmean(truth, 0), truth)
         self.female = np.array([float(r["sex"] == "f") for r in self.rows])
@@ -220,7 +268,8 @@ class Scans:
     def only(self, chosen):
         out = Scans.__new__(Scans)
         out.rows = [r for r, take in zip(self.rows, chosen) if take]
-        for name in ("features", "truth", "female", "number", "thickness"):
+        out.stature = self.stature
+        for name in ("features", "truth", "seen", "female", "number", "thickness"):
             setattr(out, name, getattr(self, name)[chosen])
         return out
 
@@ -233,8 +282,29 @@ def held_out(scans, own):
         out = scans.number % FOLDS == fold
         part = Part(scans.only(~out), own[~out])
         for i, firm in enumerate(FIRM_SURFACE):
-            told[i, out] = part(scans.features[out], firm)
+            told[i, out] = part(scans.features[out], scans.seen[out], firm)
     return told, np.argmin(np.abs(told - scans.truth)[:, own].mean(1), axis=0)
+
+
+def error_of(told, best, truth):
+    return told[best, :, np.arange(truth.shape[1])].T - truth
+
+
+def choose_seen(scans, own):
+    """Leaves in scans.seen what is worth it; what held_out says then."""
+    told, best = held_out(scans, own)
+    with_it = np.abs(error_of(told, best, scans.truth)[own]).mean(0)
+    seen = scans.seen.copy()
+    girths = [
+        k for k in range(seen.shape[1]) if k != scans.stature and np.isfinite(seen[:, k]).mean() > FEWEST_SEEN
+    ]
+    if not girths:
+        return told, best
+    scans.seen[:, girths] = np.nan
+    without = np.abs(error_of(*held_out(scans, own), scans.truth)[own]).mean(0)
+    kept = [k for k in girths if without[k] > WORTH_OF_SEEING * with_it[k]]
+    scans.seen[:, kept] = seen[:, kept]
+    return held_out(scans, own) if len(kept) < len(girths) else (told, best)
 
 
 class Sigma:
@@ -266,6 +336,7 @@ def whole(values, unit):
 
 
 SETS = {
+    "varied": lambda r: tight(r) and r["space"] == "varied",
     "in space": lambda r: tight(r) and r["space"] == "in",
     "off space": lambda r: tight(r) and r["space"] == "out",
     "clothed": lambda r: not tight(r),
@@ -276,17 +347,18 @@ def train(rows, kind, keys):
     view, only_tight = KINDS[kind]
     scans = Scans(rows, view, keys)
     own = np.array([tight(r) or not only_tight for r in scans.rows])
-    told, best = held_out(scans, own)
-    measures = np.arange(len(keys))
-    error = (told[best, :, measures].T - scans.truth)[own]
+    told, best = choose_seen(scans, own)
+    error = error_of(told, best, scans.truth)[own]
     part = Part(scans, own)
     rows, number = [r for r, take in zip(scans.rows, own) if take], scans.number[own]
     x = part.standard(scans.features[own])
     sigma = Sigma(x, error, np.array([r["space"] == "out" for r in rows]))
+    seen_keys = ", ".join(keys[k] for k in sorted(part.stand_in))
     inside = np.abs(error) <= 1.645 * sigma(x)
     print(
         f"\n{kind}: {len(rows)} scans of {len(set(zip(number, [r['space'] for r in rows])))} people, "
-        "held out: mean absolute error (mm, kg) and share within 90 % intervals"
+        "held out: mean absolute error (mm, kg) and fraction within 90 % intervals; seen as they are: "
+        + (seen_keys or "none")
     )
     chosen = {name: np.array([test(r) for r in rows]) for name, test in SETS.items()}
     for k, key in enumerate(keys):
@@ -333,6 +405,14 @@ def train(rows, kind, keys):
                 "log_sigma": float(sigma.base[k]),
                 "sigma_weights": digits(sigma.weights[:, k], 4),
             }
+            if k in part.stand_in:
+                weights, base, deviation = part.stand_in[k]
+                out[sex][key]["stand_in"] = {
+                    "base": base,
+                    "weights": whole(weights, UNIT),
+                    "sigma": deviation,
+                    "trust": part.trust(k),
+                }
     check_rounding(out, part, solved, best, keys, scans.features)
     return out
 
@@ -372,8 +452,8 @@ def main():
     parser.add_argument("--out", required=True, help="the model to write (assets/measures.json)")
     arguments = parser.parse_args()
     rows = read(arguments.scans)
-    keys = sorted({key for r in rows for key in r["truth"]} - {"navel_girth_m"})
-    model = {"format": "vfit-measure-model", "version": 4, "unit": UNIT, "unit_of_places": UNIT_OF_PLACES}
+    keys = sorted({key for r in rows for key in r["truth"] if not key.startswith("navel_")})
+    model = {"format": "vfit-measure-model", "version": 5, "unit": UNIT, "unit_of_places": UNIT_OF_PLACES}
     for kind in KINDS:
         model[kind] = train(rows, kind, keys)
     with open(arguments.out, "w") as file:

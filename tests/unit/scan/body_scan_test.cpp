@@ -13,8 +13,6 @@
 namespace vfit {
 namespace {
 
-constexpr size_t kCrownFeature = size_t(kFitShapes);
-
 int told(const ScanFeatures& f, ViewKind view) {
     const size_t first = kCrownFeature + 6 + size_t(view) * kSeenKinds * BodyZones::kCount;
     return int(std::count_if(f.begin() + std::ptrdiff_t(first),

@@ -59,7 +59,7 @@ Json small_model() {
          {{"stature_m", measure(1.6f, std::log(0.01f))}, {"underbust_girth_m", measure(0.8f, 0.0f)}}},
         {"male", {{"stature_m", measure(1.7f, std::log(0.01f))}}}};
     return {{"format", "vfit-measure-model"},
-            {"version", 4},
+            {"version", 5},
             {"unit", 1.0f},
             {"unit_of_places", 1.0f},
             {"front", part},
@@ -83,6 +83,32 @@ TEST(MeasureModel, IsLinearInWhatTheScanTells) {
     EXPECT_NEAR(male[0].sigma, 0.01f, 1e-5f);
     EXPECT_NEAR(model.measure(features(0.05f, 2.0f), ScanKind{}, VFIT_SEX_MALE)[0].sigma,
                 0.01f * std::exp(1.0f), 1e-4f);
+}
+
+TEST(MeasureModel, TakesWhatIsSeenAsItIs) {
+    Json json = small_model();
+    std::vector<float> by_shape = weights(0.0f);
+    by_shape[0] = 0.1f;
+    Json& stature = json["front"]["male"]["stature_m"];
+    stature["base"] = 0.02f, stature["weights"] = weights(0.0f);
+    stature["stand_in"] = {{"base", 1.7f}, {"weights", by_shape}, {"sigma", 0.03f}, {"trust", 1.0f}};
+    MeasureModel model = MeasureModel::parse(json_text(json));
+    const auto told = [&](float crown, float shape) {
+        ScanFeatures f = features(crown);
+        f[0] = shape;
+        return model.measure(f, {}, VFIT_SEX_MALE)[0];
+    };
+    EXPECT_NEAR(told(0.05f, 0.0f).value, 1.75f + 0.02f, 1e-5f);
+    EXPECT_NEAR(told(0.05f, 0.5f).value, 1.75f + 0.02f, 1e-5f) << "whatever the fitted body says";
+    EXPECT_NEAR(told(0.05f, 0.0f).sigma, 0.01f, 1e-3f);
+    const Measurement unseen = told(std::nanf(""), 1.0f), hat = told(0.5f, 1.0f);
+    EXPECT_NEAR(unseen.value, 1.8f + 0.02f, 1e-5f);
+    EXPECT_NEAR(unseen.sigma, std::hypot(0.01f, 0.03f), 1e-3f);
+    EXPECT_NEAR(hat.value, 1.8f + 0.02f, 1e-5f) << "what no such body can have is something else";
+    EXPECT_GT(hat.sigma, 0.03f);
+    stature["stand_in"]["trust"] = 0.5f;
+    model = MeasureModel::parse(json_text(json));
+    EXPECT_NEAR(told(0.05f, 0.0f).value, 1.725f + 0.02f, 1e-5f);
 }
 
 TEST(MeasureModel, IsBentByWhatItIsNear) {
@@ -226,6 +252,8 @@ TEST(MeasureModel, RefusesWhatIsNoModelAndNamesTheFault) {
     m = small_model(), m["front"]["male"] = {{"nose_m", m["front"]["male"]["stature_m"]}},
     refused(m, "nose_m");
     m = small_model(), m["front"]["male"] = Json::object(), refused(m, "male");
+    m = small_model(), m["front"]["male"]["stature_m"]["stand_in"] = {{"base", 1.7f}},
+    refused(m, "stature_m");
 }
 
 TEST(MeasureModel, TheOneThatComesWithTheLibraryIsRead) {
