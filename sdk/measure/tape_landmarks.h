@@ -17,6 +17,8 @@ float armpit_height(const TapeMesh& body);
 /// taken at the share of the way from the hip joints to the joint at the foot of the neck at which it lies
 /// in people. The narrowest level is another: it lies near the lowest rib, and stout bodies have none.
 float waist_height(const TapeMesh& body);
+/// That share; of an unknown sex the mean of both.
+float waist_share(vfit_sex sex);
 
 /// The bust point of the side: the middle of what stands out farthest before the straight line from the front
 /// of the rib arch to the front between the armpits; some two millimetres under the skin.

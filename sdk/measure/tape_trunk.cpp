@@ -82,12 +82,14 @@ float armpit_height(const TapeMesh& body) {
     return std::min(armpit_height(body, Side::kLeft), armpit_height(body, Side::kRight));
 }
 
+float waist_share(vfit_sex sex) {
+    return sex == VFIT_SEX_FEMALE ? kWaistShareWomen
+           : sex == VFIT_SEX_MALE ? kWaistShareMen
+                                  : 0.5f * (kWaistShareWomen + kWaistShareMen);
+}
+
 float waist_height(const TapeMesh& body) {
-    const vfit_sex sex = body.body().sex;
-    const float share = sex == VFIT_SEX_FEMALE ? kWaistShareWomen
-                        : sex == VFIT_SEX_MALE ? kWaistShareMen
-                                               : 0.5f * (kWaistShareWomen + kWaistShareMen);
-    return glm::mix(hip_joints_height(body), body.joint(VFIT_JOINT_NECK).y, share);
+    return glm::mix(hip_joints_height(body), body.joint(VFIT_JOINT_NECK).y, waist_share(body.body().sex));
 }
 
 /// The middle of what stands out most: where a breast does, it moves evenly with the body and does not leap

@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "measure/section.h"
+#include "measure/tape_landmarks.h"
 
 namespace vfit {
 
 namespace {
 
-// Of the way from the hip joints to the neck's joint, as the tape's (measure/tape_trunk.cpp).
-constexpr float kWaistWomen = 0.328f, kWaistMen = 0.308f;
+// Of the way from the hip joints to the neck's joint: the tape looks for the hip between the crotch and
+// halfway up to the waist.
 constexpr float kHipLowest = -0.12f, kHipHighest = 0.17f;
 constexpr int kWindow = 4;  // levels to either side from which the front's place is taken
 constexpr float kQuarters[] = {0.0f, 0.25f, 0.5f, 0.75f};
@@ -98,7 +99,7 @@ private:
 SeenMeasures seen_measures(const ScanFeatures& features, bool female) {
     const SectionSeen section(features);
     SeenMeasures out{features[kCrownFeature], std::nanf(""), std::nanf("")};
-    const float waist = female ? kWaistWomen : kWaistMen;
+    const float waist = waist_share(female ? VFIT_SEX_FEMALE : VFIT_SEX_MALE);
     for (int l = 0; l + 1 < TrunkProfile::kLevels; ++l) {
         const float low = TrunkProfile::along(l), high = TrunkProfile::along(l + 1);
         if (low <= waist && waist < high)

@@ -12,7 +12,7 @@ struct SeenMeasures {
     float stature_m, waist_girth_m, hip_girth_m;
 };
 
-/// `female`: the waist's level differs by sex (docs/measuring.md).
+/// `female`: the waist's level differs by sex (measure/tape_landmarks.h).
 SeenMeasures seen_measures(const ScanFeatures& features, bool female);
 
 }  // namespace vfit

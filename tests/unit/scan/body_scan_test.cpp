@@ -184,6 +184,36 @@ TEST(BodyScan, KeepsFrontAndSideApart) {
     EXPECT_THROW(scan.features(true), Error);
 }
 
+TEST(BodyScan, AnOutlineLiesWhereItIsWhateverTheSensorLosesOfIt) {
+    Avatar avatar(body_model(), {}, shape_of({}), Vec2(1.0f));
+    FitScene whole = standing_person(avatar);
+    for (size_t i = 0; i < whole.depth.size(); ++i)
+        if (!whole.users[i]) whole.depth[i] = 4000;  // a wall
+    FitScene lossy = whole;                          // without the pixels on either side of the outline
+    const int width = int(whole.camera.width);
+    for (int i = width; i + width < int(whole.users.size()); ++i)
+        for (const int beside : {i - 1, i + 1, i - width, i + width})
+            if (whole.users[size_t(i)] != whole.users[size_t(beside)])
+                lossy.depth[size_t(i)] = 0, lossy.users[size_t(i)] = 0;
+    const auto features = [&](const FitScene& scene, float loss_px) {
+        BodyScan scan(fit_model());
+        Body body = scene.joints;
+        for (int i = 0; i < 6; ++i) {
+            body.time_ns += 33333333;
+            EXPECT_EQ(scan.add(scene.image(), body), ViewKind::kFront);
+        }
+        EXPECT_NEAR(scan.outline_loss_px(), loss_px, 0.15f);
+        return scan.features(false);
+    };
+    const ScanFeatures a = features(whole, 0.0f), b = features(lossy, 1.0f);
+    const float pixel_cm = 0.1f * a[kPixelFeature];
+    for (const int level : {6, 9, 12, 15}) {
+        const size_t across =
+            kFrontReaches + size_t(level) * TrunkProfile::kReachesFromFront + TrunkProfile::kAhead;
+        EXPECT_NEAR(b[across], a[across], 0.35f * pixel_cm) << "level " << level;
+    }
+}
+
 TEST(BodyScan, TellsHowFarThePersonIsTurnedFromTheView) {
     Avatar avatar(body_model(), {}, shape_of({}), Vec2(1.0f));
     const auto features = [&](float from_front, float from_side) {
